@@ -1,0 +1,49 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+
+namespace vegetation_sim {
+
+// Same bits on every processor: only +, -, *, / and sqrt, which IEEE 754 fixes. The platform's own
+// sin, pow and friends differ between libraries and are not used for anything that is state.
+
+constexpr double PI = 3.14159265358979323846;
+
+struct SinCos {
+  double sin, cos;
+};
+
+/// Sine and cosine of `turns` full turns (1 turn = 2 pi). Error <= 2e-16 for |turns| < 2^52.
+SinCos sinCosTurns(double turns);
+
+/// Sine and cosine of an angle [rad]. Error <= 4e-16 * max(1, |angle|).
+SinCos sinCos(double angle);
+
+/// Angle of (x, y) in (-pi, pi] [rad]; 0 for (0, 0). Error <= 1e-15.
+double arcTangent(double y, double x);
+
+/// Cube root for x >= 0. Relative error <= 4e-16.
+double cubeRoot(double x);
+
+/// Clamp to [0, 1].
+inline double saturate(double x) { return std::min(1.0, std::max(0.0, x)); }
+
+/// 3x^2 - 2x^3 on [0, 1], flat outside: C1 (paper 1, section 4.3).
+inline double smoothStep(double x) {
+  const double u = saturate(x);
+  return u * u * (3.0 - 2.0 * u);
+}
+
+/// 6x^5 - 15x^4 + 10x^3 on [0, 1], flat outside: C2, what E1 needs of an envelope.
+inline double smootherStep(double x) {
+  const double u = saturate(x);
+  return u * u * u * (u * (6.0 * u - 15.0) + 10.0);
+}
+
+/// Bounded deviation: the identity up to `knee`, then C2 towards `limit`, which it never passes
+/// (E16). Odd in x. Requires 0 < knee < limit.
+double softLimit(double x, double knee, double limit);
+
+}  // namespace vegetation_sim

@@ -1,0 +1,37 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace vegetation_sim {
+
+/// Philox4x32-10: 128 random bits as a pure function of key and counter (Salmon, Moraes, Dror and
+/// Shaw, "Parallel random numbers: as easy as 1, 2, 3", SC 2011).
+std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter,
+                                    std::array<std::uint32_t, 2> key);
+
+/// Random numbers of one plant or part of it. Nothing is drawn in sequence: the value for an index
+/// is the same whoever asks, in whatever order, so levels of detail never change a neighbour.
+class Random {
+ public:
+  explicit Random(std::uint64_t key) : key_(key) {}
+
+  std::uint64_t key() const { return key_; }
+  /// 64 random bits for `index`.
+  std::uint64_t bits(std::uint64_t index) const;
+  /// Uniform in [0, 1).
+  double uniform(std::uint64_t index) const;
+  /// Uniform in [low, high).
+  double uniform(std::uint64_t index, double low, double high) const {
+    return low + (high - low) * uniform(index);
+  }
+  /// Independent generator for part number `index`.
+  Random child(std::uint64_t index) const;
+
+ private:
+  std::uint64_t key_;
+};
+
+}  // namespace vegetation_sim

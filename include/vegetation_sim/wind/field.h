@@ -1,0 +1,41 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "vegetation_sim/wind/instant.h"
+#include "vegetation_sim/wind/primitive.h"
+
+namespace vegetation_sim::wind {
+
+/// The wind law: velocity(x, t) as a pure function of primitives and seed. Immutable; everyone who
+/// holds the same primitives and seed computes the same air, to the bit.
+class Field {
+ public:
+  Field();
+  /// @throws InvalidInput listing all faults of all primitives (and equal ids).
+  explicit Field(std::vector<Primitive> primitives, std::uint64_t seed = 0);
+  ~Field();
+
+  const std::vector<Primitive>& primitives() const { return primitives_; }
+  std::uint64_t seed() const { return seed_; }
+
+  /// Air velocity [m/s], world, at position [m] and stamp.
+  Vec3 velocity(const Vec3& position, Nanoseconds stamp) const { return at(stamp).velocity(position); }
+
+  /// The field frozen at a stamp: what many positions share is computed once.
+  Instant at(Nanoseconds stamp) const;
+
+  std::uint64_t hash() const;
+
+ private:
+  struct Compiled;
+  std::vector<Primitive> primitives_;
+  std::uint64_t seed_{0};
+  std::vector<std::shared_ptr<const Compiled>> compiled_;  // shared: copies of a field are cheap
+};
+
+}  // namespace vegetation_sim::wind

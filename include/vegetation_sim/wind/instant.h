@@ -1,0 +1,52 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "vegetation_sim/common/vectors.h"
+#include "vegetation_sim/wind/primitive.h"
+
+namespace vegetation_sim::wind {
+
+/// A bounded primitive at one instant.
+struct Term {
+  Kind kind{Kind::DISK};
+  Vec3 centre{Vec3::Zero()};     ///< [m]
+  double radius{1.0};            ///< [m]
+  bool smooth{true};             ///< envelope: smootherStep of (r-d)/r, else (r-d)/r
+  /// Disk, gust: velocity in the middle, fade and sine included. Tornado, blast: unused. [m/s]
+  Vec3 amplitude{Vec3::Zero()};
+  Vec3 direction{Vec3::UnitX()};  ///< gust: horizontal unit vector along which the front moves
+  double rise{1.0}, plateau{0.0}, decay{1.0};      ///< gust: lengths [m]
+  double core{1.0};                                ///< tornado, blast: radius of the peak [m]
+  double speed{0.0};                               ///< tornado, blast: peak, fade included [m/s]
+  double inflow{0.0}, updraft{0.0};                ///< tornado: fractions
+  double peak{0.0};  ///< largest speed that the term reaches over its cycle, fade included [m/s]
+};
+
+/// One Fourier mode of the breeze: amplitude * cos(2 pi (wave . x + phase)).
+struct Mode {
+  Vec3 wave{Vec3::Zero()};       ///< [turns/m]
+  double phase{0.0};             ///< in [0, 1) [turns]
+  Vec3 amplitude{Vec3::Zero()};  ///< [m/s]
+};
+
+/// A wind field at one stamp, with all phases reduced in double precision.
+struct Instant {
+  Vec3 mean{Vec3::Zero()};  ///< sum of the breezes' means [m/s]
+  std::vector<Mode> modes;
+  std::vector<Term> terms;
+
+  /// Air velocity at a position [m/s], world. The reference for every faster path.
+  Vec3 velocity(const Vec3& position) const;
+  /// The same field with positions counted from `origin` [m], for kernels in single precision.
+  Instant relativeTo(const Vec3& origin) const;
+  /// Bound on the speed that any point within `reach` [m] (horizontally) of `position` meets over a
+  /// cycle of the primitives: what levels of detail go by, blind to momentary zeros of a sine.
+  double speedBound(const Vec3& position, double reach) const;
+  /// Number of primitives that can move anything within `reach` of `position`.
+  int influences(const Vec3& position, double reach) const;
+};
+
+}  // namespace vegetation_sim::wind
