@@ -1,0 +1,63 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "vegetation_sim/forest/pose.h"
+
+namespace vegetation_sim::forest {
+
+/// Poses of many branches, structure of arrays, in the tree's frame. Entries beyond `count` are
+/// scratch.
+struct BatchPoses {
+  int count{0};                       ///< branches that hold a pose
+  std::vector<float> x, y, z;         ///< [branches] base [m]
+  std::vector<float> qw, qx, qy, qz;  ///< [branches] orientation
+
+  Pose at(int branch) const;
+};
+
+/// Rest data of one tree, structure of arrays, in single precision; padded to the widest vector.
+struct BatchTree {
+  std::vector<std::int32_t> parent;  ///< -1: the ground
+  std::vector<float> h;              ///< along the parent [m]
+  std::vector<float> x, y, z;        ///< base at rest [m]
+  /// Swing: rest rotation in the parent (w x y z). Paper: cos, sin of theta / 2, of phi / 2.
+  std::vector<float> r0, r1, r2, r3;
+  std::vector<float> ax, ay, az, bx, by, bz;  ///< Response::first, second [rad s/m]
+  std::vector<Group> groups;
+  JointModel joint_model{JointModel::SWING};
+  Drag drag{Drag::LINEAR};
+  float reference_speed{8.f};
+};
+
+/// Forward kinematics of one tree in single precision, many branches of one group at a time, in the
+/// widest instruction set of the processor. The same bits on each of them: only + - * / sqrt, no
+/// fused operations. Within 1e-5 of the tree's height of poseBranches.
+class BatchPoser {
+ public:
+  explicit BatchPoser(const Tree& tree);
+
+  /// Poses the branches of the first `depths` recursion depths; those that carry no weight are
+  /// carried at rest by their parents. `wind` is relative to the tree's foot. No allocation once
+  /// `out` has been used for a tree of this size.
+  void pose(const wind::Instant& wind, const Weights& weights, int depths, BatchPoses& out) const;
+
+  int branchCount() const { return static_cast<int>(tree_.parent.size()) - PADDING; }
+  /// Bytes of permanent rest data per branch.
+  static constexpr int BYTES_PER_BRANCH = 15 * 4;
+  static constexpr int PADDING = 32;
+
+ private:
+  BatchTree tree_;
+};
+
+/// Instruction sets that BatchPoser can use here, best first ("AVX3", "AVX2", ...).
+std::vector<std::string> instructionSets();
+/// Restricts BatchPoser to one of them; empty: free choice. For tests and benches.
+void forceInstructionSet(const std::string& name);
+
+}  // namespace vegetation_sim::forest

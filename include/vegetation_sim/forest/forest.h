@@ -1,0 +1,94 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "vegetation_sim/forest/level_map.h"
+#include "vegetation_sim/wind/field.h"
+
+namespace vegetation_sim::forest {
+
+/// An eye that asked for detail.
+struct Viewer {
+  std::string id;
+  Eye eye;
+  Nanoseconds stamp{0};  ///< last heard
+};
+/// A viewer not heard for this long is forgotten.
+constexpr Nanoseconds VIEWER_LIFE = 3 * NANOSECONDS_PER_SECOND;
+
+/// What users tune while it runs.
+struct Settings {
+  double tolerance{1.0};  ///< error that a viewer may see [pixel]
+  int fixed_level{2};     ///< of every tree while nobody looks
+  int highest_level{MAX_DEPTHS};
+};
+void describe(FieldVisitor& visitor, Settings& settings);
+
+/// All that has memory in a forest: copy it to save, assign it to restore (N6).
+struct ForestMemory {
+  Nanoseconds stamp{0};
+  Settings settings;
+  wind::Field wind;
+  std::map<std::string, Viewer> viewers;
+  LevelMap levels;
+};
+
+/// The animated forest. Inputs take effect at the next tick; between ticks it does not change, and
+/// the poses of any stamp follow from layout, wind and levels. Not thread-safe.
+class Forest {
+ public:
+  /// @throws InvalidInput for a layout that check() refuses.
+  Forest(Layout layout, std::shared_ptr<const terrain::HeightMap> terrain, Settings settings);
+
+  const Layout& layout() const { return layout_; }
+  std::uint64_t layoutHash() const { return layout_hash_; }
+  const terrain::HeightMap& terrain() const { return *terrain_; }
+  const ForestMemory& memory() const { return memory_; }
+
+  void setWind(wind::Field wind) { memory_.wind = std::move(wind); }
+  void setViewer(const Viewer& viewer) { memory_.viewers[viewer.id] = viewer; }
+  void setSettings(const Settings& settings) { memory_.settings = settings; }
+  /// Other trees, same ids: levels start anew where the number of trees changed.
+  void setLayout(Layout layout, std::shared_ptr<const terrain::HeightMap> terrain);
+  void restore(ForestMemory memory) { memory_ = std::move(memory); }
+  /// As a fresh start; keeps layout, wind and settings.
+  void reset();
+
+  /// One tick: chooses the level of every tree from wind, viewers and tolerance.
+  void advance(Nanoseconds stamp);
+
+  /// Complete state, or what changed since the last update of either kind.
+  StateUpdate update(bool key_frame);
+  std::uint64_t hash() const;
+  /// Levels that changed at the last tick.
+  std::size_t changes() const { return changed_.size(); }
+
+ private:
+  struct Region {
+    Vec3 centre;
+    double reach;  // [m] around the centre, trees' own reach included
+    std::uint32_t first, count;
+  };
+  void measure();
+  void chooseRegion(const Region& region);
+  void chooseTree(std::uint32_t tree);
+  void aim(std::uint32_t tree, int level);
+
+  Layout layout_;
+  std::uint64_t layout_hash_{0};
+  std::shared_ptr<const terrain::HeightMap> terrain_;
+  std::vector<LevelTable> tables_;  // per species
+  double widest_{0.0}, tallest_{0.0}, largest_omission_{0.0};
+  std::vector<Region> regions_;
+  ForestMemory memory_;
+  wind::Instant now_;
+  std::vector<std::uint32_t> changed_;
+  std::uint32_t sequence_{0};
+};
+
+}  // namespace vegetation_sim::forest

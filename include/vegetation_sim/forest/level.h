@@ -1,0 +1,64 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "vegetation_sim/common/time.h"
+#include "vegetation_sim/forest/layout.h"
+
+namespace vegetation_sim::forest {
+
+/// Weight of the joints of each recursion depth, 0 (fixed at rest) to 1 (moves).
+using Weights = std::array<double, MAX_DEPTHS>;
+
+/// Level of one tree as a function of time (S1-21..S1-24). Joints of depth below `level` move.
+/// blend[d] is where depth d was at `since`; from there it rises to 1 where d < level and falls to
+/// 0 elsewhere, at constant speed, so a change of mind turns round wherever it stands.
+struct LevelState {
+  int level{0};
+  Nanoseconds since{0};
+  std::array<float, MAX_DEPTHS> blend{};  // float: as sent, so that replicas hold the same bits
+
+  /// Settled at a level for ever.
+  static LevelState settled(int level);
+};
+
+/// How far each depth is at `stamp`, before shaping: alpha of paper 1.
+std::array<double, MAX_DEPTHS> blendAt(const LevelState& state, Nanoseconds stamp,
+                                       double transition);
+/// Weights at `stamp`: alpha itself, or smoothStep(alpha), which starts and ends at rest.
+Weights weightsAt(const LevelState& state, Nanoseconds stamp, const MotionLaw& law);
+/// Starts a change to `level` at `stamp`; continuous at any time.
+void setLevel(LevelState& state, int level, Nanoseconds stamp, double transition);
+bool isSettled(const LevelState& state, Nanoseconds stamp, double transition);
+/// Number of depths that carry any weight.
+int movingDepths(const Weights& weights);
+
+/// What a level leaves out, measured on sample trees of a species: the largest displacement of any
+/// tip per wind speed if only depths below n move [m per m/s], for scale 1. Index n; falls to 0.
+struct LevelTable {
+  std::vector<double> omitted;
+  double height{1.0}, reach{1.0};  ///< largest of the samples [m]
+  std::vector<double> branches;    ///< mean number of joints below each depth
+};
+LevelTable measureLevels(const Species& species, const MotionLaw& law);
+
+/// An eye: where it is and how many pixels a metre at one metre takes.
+struct Eye {
+  Vec3 position{Vec3::Zero()};
+  double pixels_per_radian{1000.0};
+};
+/// Pixels that one metre takes at `distance`, at least `nearest` metres away.
+double pixelsPerMetre(const Eye& eye, double distance);
+
+/// Smallest level whose predicted error [pixel] holds the tolerance (S1-22, S1-40): 0 without wind
+/// or out of sight. `current` is kept while the error at the next lower level is above
+/// HYSTERESIS * tolerance, so that a level at its border does not flicker.
+int chooseLevel(const LevelTable& table, double scale, double speed, double pixels_per_metre,
+                double tolerance, int current);
+constexpr double HYSTERESIS = 0.7;
+
+}  // namespace vegetation_sim::forest

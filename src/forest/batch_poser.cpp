@@ -1,0 +1,181 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/forest/batch_poser.h"
+
+#include <algorithm>
+
+#include "forest/batch_wind.h"
+#include "vegetation_sim/common/math.h"
+
+// Vectors without arithmetic operators are left out; their processors take the plain target.
+#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "forest/batch_poser.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "forest/batch_joint-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace vegetation_sim::forest::HWY_NAMESPACE {
+
+HWY_INLINE Lanes load(const std::vector<float>& from, int i) {
+  return hn::LoadU(Tag(), from.data() + i);
+}
+
+HWY_INLINE void store(Lanes value, std::vector<float>& to, int i) {
+  hn::StoreU(value, Tag(), to.data() + i);
+}
+
+HWY_INLINE LanesQuat localRotation(const BatchTree& tree, const FloatWind& wind, float weight,
+                                   int i) {
+  const LanesQuat rest{load(tree.r0, i), load(tree.r1, i), load(tree.r2, i), load(tree.r3, i)};
+  Lanes a = hn::Zero(Tag()), b = a;
+  const bool swing = tree.joint_model == JointModel::SWING;
+  if (weight > 0.f) {
+    Lanes3 v = windAt(wind, {load(tree.x, i), load(tree.y, i), load(tree.z, i)});
+    a = load(tree.ax, i) * v.x + load(tree.ay, i) * v.y + load(tree.az, i) * v.z;
+    b = load(tree.bx, i) * v.x + load(tree.by, i) * v.y + load(tree.bz, i) * v.z;
+    if (tree.drag == Drag::QUADRATIC) {
+      const Lanes speed = hn::Sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
+      const Lanes factor = speed * all(1.f / tree.reference_speed);
+      a = a * factor;
+      b = b * factor;
+    }
+  } else if (swing) {
+    return rest;
+  }
+  return swing ? swingJoint(rest, a, b, all(weight)) : paperJoint(rest, a, b, all(weight));
+}
+
+HWY_INLINE void carry(const BatchTree& tree, const LanesQuat& local, int i, BatchPoses& out) {
+  const hn::RebindToSigned<Tag> index_tag;
+  const auto parent = hn::LoadU(index_tag, tree.parent.data() + i);
+  const auto gather = [&](const std::vector<float>& from) HWY_ATTR {
+    return hn::GatherIndex(Tag(), from.data(), parent);
+  };
+  const LanesQuat q{gather(out.qw), gather(out.qx), gather(out.qy), gather(out.qz)};
+  const Lanes h = load(tree.h, i), two = all(2.f);
+  store(gather(out.x) + h * (two * (q.x * q.z + q.w * q.y)), out.x, i);
+  store(gather(out.y) + h * (two * (q.y * q.z - q.w * q.x)), out.y, i);
+  store(gather(out.z) + h * (all(1.f) - two * (q.x * q.x + q.y * q.y)), out.z, i);
+  const LanesQuat world = multiply(q, local);
+  store(world.w, out.qw, i);
+  store(world.x, out.qx, i);
+  store(world.y, out.qy, i);
+  store(world.z, out.qz, i);
+}
+
+// The last vector of a group runs over into the next one, which is written after it.
+void poseGroup(const BatchTree& tree, const FloatWind& wind, const Group& group, float weight,
+               BatchPoses& out) {
+  const int step = static_cast<int>(hn::Lanes(Tag()));
+  for (int i = group.begin; i < group.end; i += step)
+    carry(tree, localRotation(tree, wind, weight, i), i, out);
+}
+
+}  // namespace vegetation_sim::forest::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace vegetation_sim::forest {
+
+HWY_EXPORT(poseGroup);
+
+Pose BatchPoses::at(int branch) const {
+  const auto i = static_cast<std::size_t>(branch);
+  return {Vec3(x[i], y[i], z[i]), Quat{qw[i], qx[i], qy[i], qz[i]}};
+}
+
+namespace {
+
+float narrow(double x) { return static_cast<float>(x); }
+
+void setRest(const Branch& branch, JointModel model, std::size_t i, BatchTree& out) {
+  Quat rest = restRotation(branch.theta, branch.phi);
+  if (model == JointModel::PAPER) {
+    const SinCos t = sinCos(0.5 * branch.theta), p = sinCos(0.5 * branch.phi);
+    rest = {t.cos, t.sin, p.cos, p.sin};
+  }
+  out.r0[i] = narrow(rest.w);
+  out.r1[i] = narrow(rest.x);
+  out.r2[i] = narrow(rest.y);
+  out.r3[i] = narrow(rest.z);
+}
+
+void resize(std::size_t n, std::initializer_list<std::vector<float>*> arrays) {
+  for (std::vector<float>* array : arrays)
+    if (array->size() != n) array->assign(n, 0.f);
+}
+
+void setGround(std::size_t slot, BatchPoses& out) {
+  out.x[slot] = out.y[slot] = out.z[slot] = 0.f;
+  out.qw[slot] = 1.f;
+  out.qx[slot] = out.qy[slot] = out.qz[slot] = 0.f;
+}
+
+}  // namespace
+
+BatchPoser::BatchPoser(const Tree& tree) {
+  const std::size_t n = tree.skeleton.branches.size(), size = n + PADDING;
+  BatchTree& t = tree_;
+  // The ground stands in the last slot, which no vector of the last group reaches.
+  t.parent.assign(size, static_cast<std::int32_t>(size - 1));
+  resize(size, {&t.h, &t.x, &t.y, &t.z, &t.r0, &t.r1, &t.r2, &t.r3});
+  resize(size, {&t.ax, &t.ay, &t.az, &t.bx, &t.by, &t.bz});
+  for (std::size_t i = 0; i < n; ++i) {
+    const Branch& branch = tree.skeleton.branches[i];
+    const Response& response = tree.response[i];
+    if (branch.parent >= 0) t.parent[i] = branch.parent;
+    t.h[i] = narrow(branch.h);
+    t.x[i] = narrow(branch.rest.position.x());
+    t.y[i] = narrow(branch.rest.position.y());
+    t.z[i] = narrow(branch.rest.position.z());
+    setRest(branch, tree.joint_model, i, t);
+    t.ax[i] = narrow(response.first.x());
+    t.ay[i] = narrow(response.first.y());
+    t.az[i] = narrow(response.first.z());
+    t.bx[i] = narrow(response.second.x());
+    t.by[i] = narrow(response.second.y());
+    t.bz[i] = narrow(response.second.z());
+  }
+  t.groups = tree.skeleton.groups;
+  t.joint_model = tree.joint_model;
+  t.drag = tree.drag;
+  t.reference_speed = narrow(tree.reference_speed);
+}
+
+void BatchPoser::pose(const wind::Instant& wind, const Weights& weights, int depths,
+                      BatchPoses& out) const {
+  const std::size_t size = tree_.parent.size();
+  resize(size, {&out.x, &out.y, &out.z, &out.qw, &out.qx, &out.qy, &out.qz});
+  setGround(size - 1, out);
+  const FloatWind narrowed(wind);
+  out.count = 0;
+  for (const Group& group : tree_.groups) {
+    if (group.depth >= depths) break;
+    const auto depth = static_cast<std::size_t>(group.depth);
+    HWY_DYNAMIC_DISPATCH(poseGroup)(tree_, narrowed, group, narrow(weights[depth]), out);
+    out.count = group.end;
+  }
+}
+
+std::vector<std::string> instructionSets() {
+  std::vector<std::string> out;
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets())
+    out.emplace_back(hwy::TargetName(target));
+  return out;
+}
+
+void forceInstructionSet(const std::string& name) {
+  hwy::SetSupportedTargetsForTest(0);  // 0: whatever the processor has
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets())
+    if (name == hwy::TargetName(target)) {
+      hwy::SetSupportedTargetsForTest(target);
+      break;
+    }
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
+}  // namespace vegetation_sim::forest
+#endif

@@ -1,0 +1,36 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "vegetation_sim/wind/instant.h"
+
+namespace vegetation_sim::forest {
+
+/// wind::Term in single precision.
+struct FloatTerm {
+  wind::Kind kind;
+  bool smooth;
+  float x, y, z, inverse_radius;
+  float vx, vy, vz;        // amplitude
+  float nx, ny;            // gust: direction
+  float rise, plateau, decay, radius;  // rise and decay inverted
+  float inverse_core, speed, inflow, updraft;
+};
+
+/// wind::Mode in single precision: wave and phase in turns.
+struct FloatMode {
+  float wx, wy, wz, phase, vx, vy, vz;
+};
+
+/// wind::Instant in single precision.
+struct FloatWind {
+  explicit FloatWind(const wind::Instant& wind);
+  float vx, vy, vz;
+  std::vector<FloatMode> modes;
+  std::vector<FloatTerm> terms;
+};
+
+}  // namespace vegetation_sim::forest

@@ -1,0 +1,170 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/forest/forest.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "vegetation_sim/common/math.h"
+
+namespace vegetation_sim::forest {
+namespace {
+
+constexpr double LARGEST_SCALE = 1.3;  // of trees in tiles, seedInTile
+
+// Pixels per metre of the eye that sees a disc best: the finest wins.
+double finestView(const std::map<std::string, Viewer>& viewers, const Vec3& centre, double reach) {
+  double out = 0.0;
+  for (const auto& entry : viewers) {
+    const Eye& eye = entry.second.eye;
+    const double distance = length(eye.position - centre) - reach;
+    out = std::max(out, pixelsPerMetre(eye, distance));
+  }
+  return out;
+}
+
+}  // namespace
+
+void describe(FieldVisitor& v, Settings& s) {
+  v.number("tolerance", s.tolerance, "pixel", {0.01, 1000.0});
+  v.integer("fixed_level", s.fixed_level, "", {0, MAX_DEPTHS});
+  v.integer("highest_level", s.highest_level, "", {0, MAX_DEPTHS});
+}
+
+Forest::Forest(Layout layout, std::shared_ptr<const terrain::HeightMap> terrain,
+               Settings settings) {
+  memory_.settings = settings;
+  setLayout(std::move(layout), std::move(terrain));
+}
+
+void Forest::setLayout(Layout layout, std::shared_ptr<const terrain::HeightMap> terrain) {
+  Faults faults;
+  check(layout, faults);
+  faults.throwIfAny();
+  const bool same_trees = layout.treeCount() == layout_.treeCount();
+  layout_ = std::move(layout);
+  layout_hash_ = layout_.hash();
+  terrain_ = std::move(terrain);
+  measure();
+  if (!same_trees) reset();
+}
+
+void Forest::reset() {
+  memory_.viewers.clear();
+  memory_.levels.reset(std::min(memory_.settings.fixed_level, memory_.settings.highest_level));
+  memory_.stamp = 0;
+  changed_.clear();
+  sequence_ = 0;
+}
+
+void Forest::measure() {
+  tables_.clear();
+  widest_ = tallest_ = largest_omission_ = 0.0;
+  for (const Species& species : layout_.species) {
+    tables_.push_back(measureLevels(species, layout_.motion));
+    widest_ = std::max(widest_, tables_.back().reach);
+    tallest_ = std::max(tallest_, tables_.back().height);
+    largest_omission_ = std::max(largest_omission_, tables_.back().omitted[0]);
+  }
+  regions_.clear();
+  for (std::uint32_t i = 0; i < layout_.trees.size(); ++i)
+    regions_.push_back({footOf(layout_.trees[i], *terrain_),
+                        layout_.trees[i].scale * (widest_ + tallest_), i, 1});
+  for (const Tile& tile : layout_.tiles) {
+    const double half = 0.5 * tile.size;
+    const Vec3 centre(tile.x + half, tile.y + half,
+                      terrain_->height(tile.x + half, tile.y + half));
+    regions_.push_back({centre, half * 1.5 + LARGEST_SCALE * (widest_ + tallest_), tile.first_tree,
+                        tile.count});
+  }
+}
+
+void Forest::advance(Nanoseconds stamp) {
+  memory_.stamp = stamp;
+  changed_.clear();
+  for (auto it = memory_.viewers.begin(); it != memory_.viewers.end();)
+    it = stamp - it->second.stamp > VIEWER_LIFE ? memory_.viewers.erase(it) : std::next(it);
+  const Settings& settings = memory_.settings;
+  const bool watched = !memory_.viewers.empty();
+  const int base = watched ? 0 : std::min(settings.fixed_level, settings.highest_level);
+  memory_.levels.rebase(base, layout_.treeCount());
+  if (watched) {
+    now_ = memory_.wind.at(stamp);
+    for (const Region& region : regions_) chooseRegion(region);
+  } else {
+    // Copied: aim() changes the map.
+    std::vector<std::uint32_t> held;
+    for (const auto& entry : memory_.levels.held()) held.push_back(entry.first);
+    for (const std::uint32_t tree : held) aim(tree, base);
+  }
+  memory_.levels.prune(stamp, layout_.motion.transition);
+}
+
+// A whole tile at a time: where even its nearest, largest tree may stand still, no tree is looked at.
+void Forest::chooseRegion(const Region& region) {
+  const double speed = now_.speedBound(region.centre, region.reach);
+  const double view = finestView(memory_.viewers, region.centre, region.reach);
+  const double error = LARGEST_SCALE * largest_omission_ * speed * view;
+  const bool still = error <= HYSTERESIS * memory_.settings.tolerance && region.count > 1;
+  if (!still) {
+    for (std::uint32_t i = 0; i < region.count; ++i) chooseTree(region.first + i);
+    return;
+  }
+  std::vector<std::uint32_t> held;
+  const auto& all = memory_.levels.held();
+  for (auto it = all.lower_bound(region.first);
+       it != all.end() && it->first < region.first + region.count; ++it)
+    held.push_back(it->first);
+  for (const std::uint32_t tree : held) aim(tree, 0);
+}
+
+void Forest::chooseTree(std::uint32_t tree) {
+  const TreeSeed seed = seedOf(layout_, tree);
+  const LevelTable& table = tables_[seed.species];
+  const Vec3 foot = footOf(seed, *terrain_);
+  const double reach = seed.scale * table.reach;
+  const double speed = now_.speedBound(foot, reach);
+  const Vec3 middle = foot + Vec3(0.0, 0.0, 0.5 * seed.scale * table.height);
+  const double view = finestView(memory_.viewers, middle, reach);
+  const int level = chooseLevel(table, seed.scale, speed, view, memory_.settings.tolerance,
+                                memory_.levels.of(tree).level);
+  aim(tree, std::min(level, memory_.settings.highest_level));
+}
+
+void Forest::aim(std::uint32_t tree, int level) {
+  LevelState state = memory_.levels.of(tree);
+  if (state.level == level) return;
+  setLevel(state, level, memory_.stamp, layout_.motion.transition);
+  memory_.levels.set(tree, state);
+  changed_.push_back(tree);
+}
+
+std::uint64_t Forest::hash() const {
+  Hash out;
+  out.add(layout_hash_);
+  out.add(memory_.wind.hash());
+  Settings settings = memory_.settings;
+  FieldHasher hasher(out);
+  describe(hasher, settings);
+  memory_.levels.addTo(out, memory_.stamp, layout_.motion.transition);
+  return out.value();
+}
+
+StateUpdate Forest::update(bool key_frame) {
+  StateUpdate out;
+  out.stamp = memory_.stamp;
+  out.sequence = sequence_++;
+  out.key_frame = key_frame;
+  out.base_level = memory_.levels.base();
+  out.layout_hash = layout_hash_;
+  out.wind_hash = memory_.wind.hash();
+  out.hash = hash();
+  if (key_frame) {
+    for (const auto& [tree, state] : memory_.levels.held()) out.trees.push_back({tree, state});
+  } else {
+    for (const std::uint32_t tree : changed_) out.trees.push_back({tree, memory_.levels.of(tree)});
+  }
+  return out;
+}
+
+}  // namespace vegetation_sim::forest
