@@ -115,7 +115,8 @@ class Grower {
     out.theta = turn * GOLDEN_ANGLE + spread + 0.3 * vary(random, AZIMUTH);
     const double angle = r.angle_low + (r.angle_high - r.angle_low) * place +
                          r.angle_variation * vary(random, ANGLE);
-    out.phi = std::max(0.0, std::min(angle, largestAngle(species_, r.radius)));
+    const double widest = largestAngle(species_, out.base_radius / bearer_radius);
+    out.phi = std::max(0.0, std::min(angle, widest));
     out.key = random.key();
     return out;
   }

@@ -1,0 +1,37 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "vegetation_sim/forest/species.h"
+
+namespace vegetation_sim::forest {
+
+/// Levels of a tree's mesh, from a few triangles far away (0) to all of it (S1-03, S1-13).
+constexpr int GEOMETRY_LEVELS = 6;
+
+/// What one level draws: topology as well as shape is simplified (S1-08, S1-09).
+struct MeshDetail {
+  int depths{MAX_DEPTHS};     ///< recursion depths that are drawn
+  int trunk_sides{10};        ///< of the trunk's section; each depth has fewer, at least 3
+  double leaf_fraction{1.0};  ///< of the leaf clusters; the rest grow to cover the same area
+};
+MeshDetail meshDetail(int geometry_level);
+
+/// Level for a tree that is `height_px` pixels high; `current` (-1: none) is kept while the size is
+/// within 15 % of the border that it crossed.
+int geometryLevel(double height_px, int current);
+
+/// Global factor on projected sizes that steers the complexity of the next frame to a target
+/// (S1-14): g <- g (target / actual)^(1/2), damped and held in [1/64, 64].
+class ComplexityFeedback {
+ public:
+  double factor() const { return factor_; }
+  /// @param actual complexity of the last frame. @param target wanted, both in the same unit, > 0.
+  void update(double actual, double target);
+  void reset() { factor_ = 1.0; }
+
+ private:
+  double factor_{1.0};
+};
+
+}  // namespace vegetation_sim::forest

@@ -1,0 +1,142 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/forest/mesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "vegetation_sim/common/math.h"
+#include "vegetation_sim/common/random.h"
+
+namespace vegetation_sim::forest {
+namespace {
+
+constexpr int FEWEST_SIDES = 3;
+
+float narrow(double x) { return static_cast<float>(x); }
+
+class MeshBuilder {
+ public:
+  MeshBuilder(const Skeleton& skeleton, const Species& species, const MeshDetail& detail)
+      : skeleton_(skeleton), species_(species), detail_(detail) {}
+
+  TreeMesh build() {
+    for (std::size_t i = 0; i < skeleton_.branches.size(); ++i) {
+      const Branch& branch = skeleton_.branches[i];
+      if (branch.depth >= detail_.depths) break;
+      const bool first = branch.parent < 0 ||
+                         skeleton_.branches[static_cast<std::size_t>(branch.parent)].next !=
+                             static_cast<int>(i);
+      if (first) addLimb(static_cast<int>(i));
+    }
+    addLeaves();
+    return std::move(out_);
+  }
+
+ private:
+  const Branch& at(int i) const { return skeleton_.branches[static_cast<std::size_t>(i)]; }
+
+  // A tube along the limb: a ring at the base of each branch and one at the tip.
+  void addLimb(int first) {
+    const int sides = std::max(FEWEST_SIDES, detail_.trunk_sides - 2 * at(first).depth);
+    double along = 0.0;
+    int last = first;
+    for (int i = first; i >= 0; i = at(i).next) {
+      addRing(i, 0.0, at(i).base_radius, along, sides);
+      if (i != first) joinRings(sides);
+      along += at(i).length;
+      last = i;
+    }
+    addRing(last, at(last).length, at(last).tip_radius, along, sides);
+    joinRings(sides);
+  }
+
+  void addRing(int branch, double z, double radius, double along, int sides) {
+    const double roll = at(branch).roll;
+    for (int s = 0; s <= sides; ++s) {  // the first point twice, for the texture's seam
+      const SinCos a = sinCos(roll + 2.0 * PI * (s % sides) / sides);
+      BarkVertex v;
+      v.branch = branch;
+      v.local = {narrow(radius * a.cos), narrow(radius * a.sin), narrow(z)};
+      v.normal = {narrow(a.cos), narrow(a.sin), 0.f};
+      v.uv = {narrow(static_cast<double>(s) / sides), narrow(along)};
+      out_.bark.push_back(v);
+    }
+  }
+
+  void joinRings(int sides) {
+    const auto ring = static_cast<std::uint32_t>(sides) + 1;
+    const auto upper = static_cast<std::uint32_t>(out_.bark.size()) - ring, lower = upper - ring;
+    for (std::uint32_t s = 0; s + 1 < ring; ++s) {
+      const std::uint32_t a = lower + s, b = a + 1, c = upper + s, d = c + 1;
+      out_.triangles.insert(out_.triangles.end(), {a, b, d, a, d, c});
+    }
+  }
+
+  // Fewer clusters are a subset of more: a card is kept if its own number is below the fraction.
+  void addLeaves() {
+    const double growth = 1.0 / std::sqrt(std::max(detail_.leaf_fraction, 1e-3));
+    for (std::size_t i = 0; i < skeleton_.branches.size(); ++i) {
+      const Branch& branch = skeleton_.branches[i];
+      for (int l = 0; l < branch.leaves; ++l) {
+        const Random random = Random(branch.key).child(static_cast<std::uint64_t>(l));
+        if (random.uniform(0) >= detail_.leaf_fraction) continue;
+        out_.leaves.push_back(card(static_cast<int>(i), l, random, growth));
+      }
+    }
+  }
+
+  LeafCard card(int branch, int number, const Random& random, double growth) const {
+    const Branch& b = at(branch);
+    LeafCard out;
+    out.branch = branch;
+    const double f = (number + random.uniform(1)) / b.leaves;
+    out.local = {0.f, 0.f, narrow(b.length * f)};
+    const SinCos t = sinCos(0.5 * (2.399963229728653 * number + random.uniform(2, -0.6, 0.6)));
+    const SinCos p = sinCos(0.5 * random.uniform(3, 0.5, 1.3));
+    const SinCos r = sinCos(0.5 * random.uniform(4, -1.2, 1.2));
+    // About z to its side, down from the branch about x, then about its own midrib.
+    const Quat q = Quat{t.cos, 0.0, 0.0, t.sin} * Quat{p.cos, -p.sin, 0.0, 0.0} *
+                   Quat{SQRT_HALF, SQRT_HALF, 0.0, 0.0} * Quat{r.cos, 0.0, r.sin, 0.0};
+    out.rotation = {narrow(q.w), narrow(q.x), narrow(q.y), narrow(q.z)};
+    const double size = species_.leaf_size * random.uniform(5, 0.75, 1.25);
+    out.size = narrow(size * std::min(growth, 4.0));
+    out.shade = narrow(shadeAt(tipOf(b, b.rest), random.uniform(6)));
+    out.key = static_cast<std::uint32_t>(random.bits(7));
+    return out;
+  }
+
+  // Outer and upper leaves are young and light, those near the trunk old and dark.
+  double shadeAt(const Vec3& p, double noise) const {
+    const double out = std::sqrt(p.x() * p.x() + p.y() * p.y()) / std::max(skeleton_.reach, 0.1);
+    const double up = p.z() / std::max(skeleton_.height, 0.1);
+    return saturate(0.55 * out * out + 0.45 * up * up + 0.35 * (noise - 0.5));
+  }
+
+  static constexpr double SQRT_HALF = 0.70710678118654752440;
+
+  const Skeleton& skeleton_;
+  const Species& species_;
+  const MeshDetail& detail_;
+  TreeMesh out_;
+};
+
+}  // namespace
+
+TreeMesh buildMesh(const Skeleton& skeleton, const Species& species, const MeshDetail& detail) {
+  return MeshBuilder(skeleton, species, detail).build();
+}
+
+std::array<float, 2> leafFlutter(std::uint32_t key, double seconds, double wind_speed,
+                                 double largest) {
+  // Two incommensurate tones per axis: no visible repetition, and each has zero mean.
+  const double a = (key & 0xff) / 256.0, b = ((key >> 8) & 0xff) / 256.0;
+  const double rate = 1.2 + 1.1 * ((key >> 16) & 0xff) / 256.0;  // [Hz]
+  const double amplitude = largest * wind_speed / (wind_speed + 5.0);
+  const double t = seconds * rate;
+  return {narrow(amplitude * (0.6 * sinCosTurns(t + a).sin + 0.4 * sinCosTurns(1.618 * t + b).sin)),
+          narrow(0.6 * amplitude *
+                 (0.6 * sinCosTurns(0.79 * t + b).sin + 0.4 * sinCosTurns(1.27 * t + a).sin))};
+}
+
+}  // namespace vegetation_sim::forest

@@ -1,0 +1,51 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/forest/replica.h"
+
+namespace vegetation_sim::forest {
+
+void ForestReplica::setLayout(Layout layout, std::shared_ptr<const terrain::HeightMap> terrain) {
+  Faults faults;
+  check(layout, faults);
+  faults.throwIfAny();
+  layout_hash_ = layout.hash();
+  layout_ = std::make_shared<const Layout>(std::move(layout));
+  terrain_ = std::move(terrain);
+  in_sequence_ = false;
+  why_ = "no key frame since the layout";
+}
+
+bool ForestReplica::apply(const StateUpdate& update) {
+  if (!ready()) {
+    why_ = "no layout yet";
+    return false;
+  }
+  if (update.layout_hash != layout_hash_) {
+    why_ = "state belongs to another layout";
+    in_sequence_ = false;
+    return false;
+  }
+  if (!update.key_frame && !(in_sequence_ && update.sequence == sequence_ + 1)) {
+    if (in_sequence_) why_ = "messages were lost";
+    in_sequence_ = false;
+    return false;
+  }
+  if (update.key_frame)
+    levels_.reset(update.base_level);
+  else
+    levels_.rebase(update.base_level, layout_->treeCount());
+  for (const StateUpdate::Entry& entry : update.trees) levels_.set(entry.tree, entry.state);
+  levels_.prune(update.stamp, layout_->motion.transition);
+  in_sequence_ = true;
+  sequence_ = update.sequence;
+  stamp_ = update.stamp;
+  why_.clear();
+  return true;
+}
+
+std::vector<Pose> ForestReplica::pose(const Tree& tree, std::uint32_t id,
+                                      Nanoseconds stamp) const {
+  return poseBranches(tree, wind_.at(stamp).relativeTo(tree.foot), weights(id, stamp));
+}
+
+}  // namespace vegetation_sim::forest
