@@ -34,6 +34,8 @@ void YamlSection::fault(const std::string& name, const std::string& problem) {
   faults_->add(path_ + ": " + name + " " + problem);
 }
 
+void YamlSection::fault(const std::string& problem) { faults_->add(path_ + ": " + problem); }
+
 template <class T>
 bool YamlSection::read(const char* name, const char* type, T& value) {
   asked_.insert(name);

@@ -39,6 +39,8 @@ class YamlSection : public FieldVisitor {
 
   /// Adds an own fault about the value of `name`.
   void fault(const std::string& name, const std::string& problem);
+  /// Adds an own fault about the whole map.
+  void fault(const std::string& problem);
   /// Reports the keys that were never asked for.
   void finish();
 

@@ -19,6 +19,7 @@ struct Term {
   Vec3 amplitude{Vec3::Zero()};
   Vec3 direction{Vec3::UnitX()};  ///< gust: horizontal unit vector along which the front moves
   double rise{1.0}, plateau{0.0}, decay{1.0};      ///< gust: lengths [m]
+  double travel{0.0};  ///< gust: way of the front in the second that a bound looks ahead [m]
   double core{1.0};                                ///< tornado, blast: radius of the peak [m]
   double speed{0.0};                               ///< tornado, blast: peak, fade included [m/s]
   double inflow{0.0}, updraft{0.0};                ///< tornado: fractions
@@ -35,6 +36,7 @@ struct Mode {
 /// A wind field at one stamp, with all phases reduced in double precision.
 struct Instant {
   Vec3 mean{Vec3::Zero()};  ///< sum of the breezes' means [m/s]
+  int breezes{0};           ///< number of breezes that blow
   std::vector<Mode> modes;
   std::vector<Term> terms;
 

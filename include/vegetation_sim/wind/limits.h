@@ -1,0 +1,25 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+
+#include "vegetation_sim/wind/primitive.h"
+
+namespace vegetation_sim::wind {
+
+constexpr std::size_t MAX_PRIMITIVES =
+    256;  ///< in a field, ended ones that are still kept included
+constexpr std::size_t MAX_WAYPOINTS = 4096;  ///< of one primitive
+constexpr std::size_t MAX_NAME = 128;        ///< [characters]
+/// Last stamp that a ROS time can hold.
+constexpr Nanoseconds LAST_STAMP = 4294967295LL * NANOSECONDS_PER_SECOND;
+
+constexpr Range SPEEDS{-200.0, 200.0};  ///< [m/s] each component
+constexpr Range POSITIONS{-1e6, 1e6};   ///< [m] each component
+constexpr Range TURBULENCE{0.0, 1.0};   ///< rms / mean
+
+/// Declares every numeric field, used by its kind or not: for hashes.
+void describeAll(FieldVisitor& visitor, Primitive& p);
+
+}  // namespace vegetation_sim::wind

@@ -1,0 +1,107 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/wind/breeze.h"
+
+#include <array>
+#include <cmath>
+
+#include "vegetation_sim/common/hash.h"
+#include "vegetation_sim/common/math.h"
+#include "vegetation_sim/common/random.h"
+
+namespace vegetation_sim::wind {
+namespace {
+
+enum Draw : std::uint64_t { JITTER, PHASE, SIGN_LATERAL, SIGN_VERTICAL, ACROSS, UP, DRAWS };
+
+constexpr double WIDEST_DRAW = 10.0;  // scales, where the tails of Cauchy's distribution are cut
+
+struct Axes {
+  Vec3 along, across, up;
+};
+
+Axes axesOf(const Vec3& mean, double speed) {
+  const Vec3 along = mean / speed;
+  const double level = std::sqrt(along.x() * along.x() + along.y() * along.y());
+  const Vec3 across =
+      level > 1e-9 ? Vec3(-along.y() / level, along.x() / level, 0.0) : Vec3(Vec3::UnitY());
+  const Vec3 up(along.y() * across.z() - along.z() * across.y(),
+                along.z() * across.x() - along.x() * across.z(),
+                along.x() * across.y() - along.y() * across.x());
+  return {along, across, up};
+}
+
+/// Uniform u in [0, 1) to Cauchy's distribution of unit scale, whose characteristic function is the
+/// exponential that Davenport's coherence asks for.
+double cauchy(double u) {
+  const SinCos angle = sinCosTurns(0.5 * (u - 0.5));
+  const double limit = WIDEST_DRAW * angle.cos;
+  return std::min(limit, std::max(-limit, angle.sin)) / std::max(angle.cos, 1e-300);
+}
+
+/// Edges of the frequency bins [Hz], geometrically spaced.
+std::array<double, Breeze::MODES + 1> binEdges() {
+  static_assert(Breeze::MODES == 24, "the ratio below is the 24th root");
+  const double range = Breeze::HIGHEST_HZ / Breeze::LOWEST_HZ;
+  const double ratio = cubeRoot(std::sqrt(std::sqrt(std::sqrt(range))));
+  std::array<double, Breeze::MODES + 1> edges{};
+  edges[0] = Breeze::LOWEST_HZ;
+  for (std::size_t i = 1; i < edges.size(); ++i) edges[i] = edges[i - 1] * ratio;
+  return edges;
+}
+
+}  // namespace
+
+double vonKarmanDensity(double f, double sigma, double length_scale, double speed) {
+  const double n = f * length_scale / speed;
+  const double sixth = std::sqrt(cubeRoot(1.0 + 70.8 * n * n));
+  const double power = sixth * sixth * sixth * sixth * sixth;  // ^(5/6)
+  return sigma * sigma * 4.0 * (length_scale / speed) / power;
+}
+
+Breeze::Breeze(const Primitive& p, std::uint64_t seed) {
+  const double speed = length(p.velocity), sigma = p.turbulence * speed;
+  if (!(sigma > 0.0)) return;
+  const double carrier = std::max(speed, LEAST_CARRIER);
+  const Axes axes = axesOf(p.velocity, speed);
+  Hash name;
+  name.add(p.name);
+  const Random random = Random(seed).child(name.value());
+  const auto edges = binEdges();
+  std::array<double, MODES> variance{};
+  double total = 0.0;
+  for (std::size_t i = 0; i < MODES; ++i) {
+    const double centre = std::sqrt(edges[i] * edges[i + 1]);
+    variance[i] =
+        vonKarmanDensity(centre, 1.0, p.length_scale, carrier) * (edges[i + 1] - edges[i]);
+    total += variance[i];
+  }
+  for (std::size_t i = 0; i < MODES; ++i) {
+    const auto draw = [&](Draw which) { return random.uniform(i * DRAWS + which); };
+    const double f = edges[i] + draw(JITTER) * (edges[i + 1] - edges[i]);
+    const double size = sigma * std::sqrt(2.0 * variance[i] / total);
+    const double spread = DECAY * f / (2.0 * PI * carrier);  // of the wave vector [turns/m]
+    Wave wave;
+    wave.frequency = f;
+    wave.at_epoch.phase = draw(PHASE);
+    wave.at_epoch.wave = axes.along * (f / carrier) +
+                         axes.across * (spread * cauchy(draw(ACROSS))) +
+                         axes.up * (spread * cauchy(draw(UP)));
+    wave.at_epoch.amplitude =
+        size * (axes.along + axes.across * (draw(SIGN_LATERAL) < 0.5 ? -LATERAL : LATERAL) +
+                axes.up * (draw(SIGN_VERTICAL) < 0.5 ? -VERTICAL : VERTICAL));
+    waves_.push_back(wave);
+  }
+}
+
+void Breeze::addModes(double elapsed, double weight, std::vector<Mode>& modes) const {
+  for (const Wave& wave : waves_) {
+    Mode mode = wave.at_epoch;
+    const double turns = mode.phase - wave.frequency * elapsed;
+    mode.phase = turns - std::floor(turns);
+    mode.amplitude *= weight;
+    modes.push_back(mode);
+  }
+}
+
+}  // namespace vegetation_sim::wind

@@ -1,0 +1,138 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/wind/field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "vegetation_sim/common/math.h"
+#include "vegetation_sim/wind/breeze.h"
+#include "vegetation_sim/wind/fade.h"
+#include "vegetation_sim/wind/limits.h"
+#include "vegetation_sim/wind/trajectory.h"
+
+namespace vegetation_sim::wind {
+namespace {
+
+constexpr double GUST_MARGIN = 1.0;  // [s] how far a gust's front moves within a bound
+
+Vec3 levelDirection(const Vec3& v) {
+  const double size = std::sqrt(v.x() * v.x() + v.y() * v.y());
+  return size > 0.0 ? Vec3(v.x() / size, v.y() / size, 0.0) : Vec3(Vec3::UnitX());
+}
+
+void shapeDisk(const Primitive& p, double elapsed, double weight, Term& term) {
+  // The two parts of the phase are reduced apart: the first is large, the second exact.
+  const double turns = p.omega * elapsed / (2.0 * PI), psi = p.phase / (2.0 * PI);
+  const double sine = sinCosTurns(turns - std::floor(turns) + psi).sin;
+  term.smooth = p.envelope == 1;
+  term.amplitude = p.velocity * (weight * sine);
+  term.peak = weight * length(p.velocity);
+}
+
+void shapeGust(const Primitive& p, double elapsed, double weight, Term& term) {
+  double tau = elapsed;
+  if (p.repeat > 0.0) {
+    tau = elapsed - p.repeat * std::floor(elapsed / p.repeat);
+    weight *= ramp(tau, p.fade_in) * ramp(p.repeat - tau, p.fade_out);
+  }
+  term.direction = levelDirection(p.velocity);
+  term.centre += term.direction * (p.front_speed * tau);
+  term.amplitude = p.velocity * weight;
+  term.rise = p.rise_length;
+  term.plateau = p.plateau_length;
+  term.decay = p.decay_length;
+  term.travel = p.front_speed * GUST_MARGIN;
+  term.peak = weight * length(p.velocity);
+}
+
+void shapeEddy(const Primitive& p, double weight, Term& term) {
+  const bool tornado = term.kind == Kind::TORNADO;
+  term.core = p.core_radius;
+  term.speed = p.speed * weight;
+  term.inflow = tornado ? p.inflow : 0.0;
+  term.updraft = tornado ? p.updraft : 0.0;
+  term.peak = std::fabs(term.speed) *
+              std::sqrt(1.0 + term.inflow * term.inflow + term.updraft * term.updraft);
+}
+
+}  // namespace
+
+struct Field::Compiled {
+  Trajectory path;
+  Breeze breeze;
+};
+
+Field::Field() = default;
+Field::~Field() = default;
+
+Field::Field(std::vector<Primitive> primitives, std::uint64_t seed)
+    : primitives_(std::move(primitives)), seed_(seed) {
+  Faults faults;
+  if (primitives_.size() > MAX_PRIMITIVES)
+    faults.add("field has " + std::to_string(primitives_.size()) + " primitives, allowed are " +
+               std::to_string(MAX_PRIMITIVES));
+  std::set<std::uint32_t> ids;
+  for (const Primitive& p : primitives_) {
+    check(p, faults);
+    if (!ids.insert(p.id).second)
+      faults.add("primitive '" + p.name + "': id = " + std::to_string(p.id) + " is taken already");
+  }
+  faults.throwIfAny();
+  for (const Primitive& p : primitives_) {
+    const bool breeze = p.kind == static_cast<int>(Kind::BREEZE);
+    compiled_.push_back(std::make_shared<Compiled>(
+        Compiled{Trajectory(p.trajectory), breeze ? Breeze(p, seed_) : Breeze()}));
+  }
+}
+
+Instant Field::at(Nanoseconds stamp) const {
+  Instant instant;
+  for (std::size_t i = 0; i < primitives_.size(); ++i) {
+    const Primitive& p = primitives_[i];
+    const double weight = fade(p, stamp), elapsed = secondsBetween(p.epoch, stamp);
+    if (weight == 0.0) continue;
+    Term term;
+    term.kind = static_cast<Kind>(p.kind);
+    if (term.kind == Kind::BREEZE) {
+      ++instant.breezes;
+      instant.mean += p.velocity * weight;
+      compiled_[i]->breeze.addModes(elapsed, weight, instant.modes);
+      continue;
+    }
+    term.radius = p.radius;
+    term.centre = compiled_[i]->path.at(stamp);
+    if (p.orbit_radius > 0.0) {
+      const SinCos turn = sinCosTurns(elapsed / p.orbit_period);
+      term.centre += Vec3(turn.cos, turn.sin, 0.0) * p.orbit_radius;
+    }
+    if (term.kind == Kind::DISK) shapeDisk(p, elapsed, weight, term);
+    if (term.kind == Kind::GUST) shapeGust(p, elapsed, weight, term);
+    if (term.kind == Kind::TORNADO || term.kind == Kind::BLAST) shapeEddy(p, weight, term);
+    if (term.peak > 0.0) instant.terms.push_back(term);
+  }
+  return instant;
+}
+
+std::uint64_t Field::hash() const {
+  Hash hash;
+  hash.add(seed_);
+  hash.add(static_cast<std::uint64_t>(primitives_.size()));
+  FieldHasher hasher(hash);
+  for (Primitive p : primitives_) {
+    hash.add(static_cast<std::uint64_t>(p.id));
+    hash.add(p.name);
+    for (const Nanoseconds stamp : {p.epoch, p.t_on, p.t_off})
+      hash.add(static_cast<std::uint64_t>(stamp));
+    describeAll(hasher, p);
+    hash.add(static_cast<std::uint64_t>(p.trajectory.size()));
+    for (const Waypoint& point : p.trajectory) {
+      hash.add(static_cast<std::uint64_t>(point.stamp));
+      hash.add(point.position);
+    }
+  }
+  return hash.value();
+}
+
+}  // namespace vegetation_sim::wind

@@ -1,0 +1,45 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/wind/instant.h"
+
+#include <cmath>
+
+#include "vegetation_sim/common/math.h"
+#include "vegetation_sim/wind/laws.h"
+
+namespace vegetation_sim::wind {
+
+Vec3 Instant::velocity(const Vec3& position) const {
+  Vec3 sum = mean;
+  for (const Mode& mode : modes)
+    sum += mode.amplitude * sinCosTurns(dot(mode.wave, position) + mode.phase).cos;
+  for (const Term& term : terms) sum += velocityOf(term, position);
+  return sum;
+}
+
+Instant Instant::relativeTo(const Vec3& origin) const {
+  Instant moved = *this;
+  for (Term& term : moved.terms) term.centre -= origin;
+  for (Mode& mode : moved.modes) {
+    const double turns = mode.phase + dot(mode.wave, origin);
+    mode.phase = turns - std::floor(turns);
+  }
+  return moved;
+}
+
+double Instant::speedBound(const Vec3& position, double reach) const {
+  double variance = 0.0;
+  for (const Mode& mode : modes) variance += 0.5 * dot(mode.amplitude, mode.amplitude);
+  double bound = length(mean) + 3.0 * std::sqrt(variance);
+  for (const Term& term : terms) bound += boundOf(term, position, reach);
+  return bound;
+}
+
+int Instant::influences(const Vec3& position, double reach) const {
+  int count = breezes;
+  for (const Term& term : terms)
+    if (boundOf(term, position, reach) > 0.0) ++count;
+  return count;
+}
+
+}  // namespace vegetation_sim::wind

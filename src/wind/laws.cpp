@@ -1,0 +1,98 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/wind/laws.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "vegetation_sim/common/math.h"
+
+namespace vegetation_sim::wind {
+namespace {
+
+double horizontal(const Vec3& v) {
+  return std::sqrt(v.x() * v.x() + v.y() * v.y());
+}
+
+/// Eddy with a solid core: rises like the distance, peaks with 1 at the core radius, falls like
+/// 1/d.
+double coreProfile(double d, double core) {
+  const double rho = d / core;
+  return 2.0 * rho / (1.0 + rho * rho);
+}
+
+/// The same divided by the distance [1/m], finite and smooth in the middle.
+double coreProfilePerMetre(double d, double core) {
+  const double rho = d / core;
+  return 2.0 / (core * (1.0 + rho * rho));
+}
+
+double gustProfile(const Term& term, double behind) {
+  return smootherStep(behind / term.rise) *
+         (1.0 - smootherStep((behind - term.rise - term.plateau) / term.decay));
+}
+
+Vec3 gust(const Term& term, const Vec3& offset) {
+  const double ahead = offset.x() * term.direction.x() + offset.y() * term.direction.y();
+  const double beside = offset.y() * term.direction.x() - offset.x() * term.direction.y();
+  return term.amplitude * (gustProfile(term, -ahead) * envelope(term, std::fabs(beside)));
+}
+
+Vec3 tornado(const Term& term, const Vec3& offset) {
+  const double d = horizontal(offset);
+  if (d >= term.radius) return Vec3::Zero();
+  const double strength = term.speed * envelope(term, d);
+  const double turn = strength * coreProfilePerMetre(d, term.core), rho = d / term.core;
+  return {turn * (-offset.y() - term.inflow * offset.x()),
+          turn * (offset.x() - term.inflow * offset.y()),
+          term.updraft * strength / (1.0 + rho * rho)};
+}
+
+Vec3 blast(const Term& term, const Vec3& offset) {
+  const double d = length(offset);
+  if (d >= term.radius) return Vec3::Zero();
+  return offset * (term.speed * envelope(term, d) * coreProfilePerMetre(d, term.core));
+}
+
+double gustBound(const Term& term, const Vec3& offset, double reach) {
+  const double ahead = offset.x() * term.direction.x() + offset.y() * term.direction.y();
+  const double beside = offset.y() * term.direction.x() - offset.x() * term.direction.y();
+  // The profile has one hill, so its largest value on an interval is where that is nearest to it.
+  const double margin = reach + term.travel;
+  const double behind =
+      std::clamp(std::max(term.rise, -ahead - margin), -ahead - margin, -ahead + margin);
+  return term.peak * gustProfile(term, behind) *
+         envelope(term, std::max(0.0, std::fabs(beside) - reach));
+}
+
+}  // namespace
+
+double envelope(const Term& term, double d) {
+  const double u = (term.radius - d) / term.radius;
+  return term.smooth ? smootherStep(u) : std::max(0.0, u);
+}
+
+Vec3 velocityOf(const Term& term, const Vec3& position) {
+  const Vec3 offset = position - term.centre;
+  switch (term.kind) {
+    case Kind::GUST:
+      return gust(term, offset);
+    case Kind::TORNADO:
+      return tornado(term, offset);
+    case Kind::BLAST:
+      return blast(term, offset);
+    default:
+      return term.amplitude * envelope(term, horizontal(offset));  // S1-15
+  }
+}
+
+double boundOf(const Term& term, const Vec3& position, double reach) {
+  const Vec3 offset = position - term.centre;
+  if (term.kind == Kind::GUST) return gustBound(term, offset, reach);
+  const double d = std::max(0.0, horizontal(offset) - reach);
+  const double bound = term.peak * envelope(term, d);
+  if (term.kind == Kind::DISK || d <= term.core) return bound;
+  return bound * coreProfile(d, term.core);
+}
+
+}  // namespace vegetation_sim::wind

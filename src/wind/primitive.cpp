@@ -1,0 +1,138 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/wind/primitive.h"
+
+#include <cmath>
+
+#include "vegetation_sim/common/math.h"
+#include "vegetation_sim/wind/limits.h"
+
+namespace vegetation_sim::wind {
+namespace {
+
+bool isKind(const Primitive& p, std::initializer_list<Kind> kinds) {
+  for (const Kind kind : kinds)
+    if (p.kind == static_cast<int>(kind)) return true;
+  return false;
+}
+
+/// Sends fields that the kind does not use to a second visitor.
+struct Split {
+  FieldVisitor &used, &unused;
+  FieldVisitor& operator()(bool is_used) const { return is_used ? used : unused; }
+};
+
+void visit(const Split& split, Primitive& p) {
+  const bool disk = isKind(p, {Kind::DISK}), breeze = isKind(p, {Kind::BREEZE});
+  const bool gust = isKind(p, {Kind::GUST}), tornado = isKind(p, {Kind::TORNADO});
+  const bool centred = !breeze, radial = isKind(p, {Kind::TORNADO, Kind::BLAST});
+  split(true).choice("kind", p.kind, kindNames());
+  split(true).number("fade_in", p.fade_in, "s", {0.0, 600.0});
+  split(true).number("fade_out", p.fade_out, "s", {0.0, 600.0});
+  split(centred).number("orbit_radius", p.orbit_radius, "m", {0.0, 1e5});
+  split(centred).number("orbit_period", p.orbit_period, "s", {0.1, 1e6});
+  split(!radial).vector("velocity", p.velocity, "m/s", SPEEDS);
+  split(centred).number("radius", p.radius, "m", {0.01, 1e5});
+  split(disk).number("omega", p.omega, "rad/s", {0.0, 100.0});
+  split(disk).number("phase", p.phase, "rad", {-100.0, 100.0});
+  split(disk).choice("envelope", p.envelope, {"paper", "smooth"});
+  split(breeze).number("turbulence", p.turbulence, "", TURBULENCE);
+  split(breeze).number("length_scale", p.length_scale, "m", {1.0, 1000.0});
+  split(gust).number("front_speed", p.front_speed, "m/s", {0.0, 200.0});
+  split(gust).number("rise_length", p.rise_length, "m", {0.01, 1e4});
+  split(gust).number("plateau_length", p.plateau_length, "m", {0.0, 1e4});
+  split(gust).number("decay_length", p.decay_length, "m", {0.01, 1e4});
+  split(gust).number("repeat", p.repeat, "s", {0.0, 1e6});
+  split(radial).number("speed", p.speed, "m/s", SPEEDS);
+  split(radial).number("core_radius", p.core_radius, "m", {0.01, 1e4});
+  split(tornado).number("inflow", p.inflow, "", {-2.0, 2.0});
+  split(tornado).number("updraft", p.updraft, "", {-2.0, 2.0});
+}
+
+class Ignore : public FieldVisitor {
+ public:
+  void number(const char*, double&, const char*, Range) override {}
+  void integer(const char*, int&, const char*, Range) override {}
+  void vector(const char*, Vec3&, const char*, Range) override {}
+  void choice(const char*, int&, const std::vector<std::string>&) override {}
+};
+
+/// Fields that a kind does not use may hold anything but NaN and infinity.
+class FiniteChecker : public FieldChecker {
+ public:
+  using FieldChecker::FieldChecker;
+  void number(const char* name, double& value, const char* unit, Range range) override {
+    if (!std::isfinite(value)) FieldChecker::number(name, value, unit, range);
+  }
+  void choice(const char*, int&, const std::vector<std::string>&) override {}
+};
+
+std::string seconds(Nanoseconds stamp) {
+  return std::to_string(secondsBetween(0, stamp)) + " s";
+}
+
+void checkStamp(const std::string& name, Nanoseconds stamp, Faults& faults) {
+  if (stamp < 0 || stamp > LAST_STAMP)
+    faults.add(name + " = " + seconds(stamp) + " is outside 0 to " + seconds(LAST_STAMP));
+}
+
+void checkTrajectory(const std::string& context, const Primitive& p, Faults& faults) {
+  const auto& points = p.trajectory;
+  if (points.size() > MAX_WAYPOINTS)
+    return faults.add(context + "trajectory has " + std::to_string(points.size()) +
+                      " way points, allowed are " + std::to_string(MAX_WAYPOINTS));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::string point = context + "trajectory[" + std::to_string(i) + "]";
+    Vec3 position = points[i].position;
+    FieldChecker(point + ".", faults).vector("position", position, "m", POSITIONS);
+    checkStamp(point + ".stamp", points[i].stamp, faults);
+    if (i > 0 && points[i].stamp <= points[i - 1].stamp)
+      faults.add(point + ".stamp = " + seconds(points[i].stamp) + " is not after " +
+                 seconds(points[i - 1].stamp) + " of the point before");
+  }
+}
+
+void checkGust(const std::string& context, const Primitive& p, Faults& faults) {
+  if (p.velocity.x() == 0.0 && p.velocity.y() == 0.0)
+    faults.add(context + "velocity has no horizontal part, so the gust has no direction");
+  if (p.repeat > 0.0 && p.repeat < p.fade_in + p.fade_out)
+    faults.add(context + "repeat = " + std::to_string(p.repeat) +
+               " s is shorter than fade_in + fade_out = " + std::to_string(p.fade_in + p.fade_out) +
+               " s");
+}
+
+}  // namespace
+
+const std::vector<std::string>& kindNames() {
+  static const std::vector<std::string> NAMES = {"disk", "breeze", "gust", "tornado", "blast"};
+  return NAMES;
+}
+
+void describe(FieldVisitor& visitor, Primitive& p) {
+  Ignore ignore;
+  visit({visitor, ignore}, p);
+}
+
+void describeAll(FieldVisitor& visitor, Primitive& p) {
+  visit({visitor, visitor}, p);
+}
+
+void check(Primitive p, Faults& faults) {
+  if (p.name.empty()) faults.add("primitive " + std::to_string(p.id) + ": name is empty");
+  if (p.name.size() > MAX_NAME)
+    faults.add("primitive " + std::to_string(p.id) + ": name has " + std::to_string(p.name.size()) +
+               " characters, allowed are " + std::to_string(MAX_NAME));
+  const std::string context = "primitive '" + p.name.substr(0, MAX_NAME) + "': ";
+  FieldChecker used(context, faults);
+  FiniteChecker unused(context, faults);
+  visit({used, unused}, p);
+  checkStamp(context + "epoch", p.epoch, faults);
+  checkStamp(context + "t_on", p.t_on, faults);
+  checkStamp(context + "t_off", p.t_off, faults);
+  if (p.t_off != 0 && p.t_off <= p.t_on)
+    faults.add(context + "t_off = " + seconds(p.t_off) + " is not after t_on = " + seconds(p.t_on));
+  checkTrajectory(context, p, faults);
+  if (isKind(p, {Kind::GUST})) checkGust(context, p, faults);
+}
+
+}  // namespace vegetation_sim::wind

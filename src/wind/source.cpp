@@ -1,0 +1,29 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/wind/source.h"
+
+namespace vegetation_sim::wind {
+
+void check(const Source& source, Faults& faults) {
+  const Primitive& p = source.primitive;
+  check(p, faults);
+  if (source.attached_frame.empty()) return;
+  const std::string context =
+      "primitive '" + p.name + "': attached_frame = '" + source.attached_frame + "' ";
+  if (p.kind == static_cast<int>(Kind::BREEZE))
+    faults.add(context + "is given, but a breeze is everywhere");
+  if (!p.trajectory.empty()) faults.add(context + "and a trajectory are given, allowed is one");
+  if (source.attached_frame.front() == '/')
+    faults.add(context + "begins with '/', which tf2 does not allow");
+}
+
+Source startedAt(Source source, Nanoseconds start) {
+  Primitive& p = source.primitive;
+  p.epoch += start;
+  p.t_on += start;
+  if (p.t_off != 0) p.t_off += start;
+  for (Waypoint& point : p.trajectory) point.stamp += start;
+  return source;
+}
+
+}  // namespace vegetation_sim::wind
