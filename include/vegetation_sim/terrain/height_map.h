@@ -1,0 +1,73 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "vegetation_sim/common/fields.h"
+#include "vegetation_sim/common/vectors.h"
+#include "vegetation_sim/terrain/grey_image.h"
+
+namespace vegetation_sim::terrain {
+
+/// Keys of a terrain's YAML file beside `image`, the path of its picture, relative to that file.
+struct HeightMapLaw {
+  double resolution{1.0};     ///< Distance between neighbouring samples [m].
+  Vec3 origin{Vec3::Zero()};  ///< World position of the lower left sample, at height 0 [m].
+  double height_min{0.0};     ///< Height of black above the origin [m].
+  double height_max{1.0};     ///< Height of white above the origin [m].
+};
+
+void describe(FieldVisitor& visitor, HeightMapLaw& law);
+
+/// Box around a terrain in the world [m].
+struct Bounds {
+  double min_x, max_x, min_y, max_y, min_z, max_z;
+};
+
+/// Ground as a function of the place: a grid of heights with bilinear interpolation (S2-02), going
+/// on flat at the border's height beyond it. Samples stand on the grid's corners: an image of 257
+/// columns at 1 m covers 256 m. The picture's top row is north (largest y), as in map_server.
+/// Immutable: share it by pointer, read it from any thread. The same bits on every processor.
+class HeightMap {
+ public:
+  /// Flat ground at z = 0.
+  HeightMap() = default;
+  /// @throws InvalidInput with all faults of the law and the image.
+  HeightMap(const HeightMapLaw& law, GreyImage image);
+
+  /// Reads a YAML file and its picture; an empty name is flat ground. @throws InvalidInput naming
+  /// file, key, value and allowed range, all faults of the YAML at once.
+  static HeightMap load(const std::string& file);
+
+  bool isFlat() const { return image_.samples.empty(); }
+  /// Height of the ground at (x, y) [m]; for a coordinate that is no number, as at the border.
+  double height(double x, double y) const;
+  /// Upward unit normal of the facet at (x, y); vertical where a coordinate is beyond the border.
+  Vec3 normal(double x, double y) const;
+  /// Box around the samples; endless in x and y if flat.
+  Bounds bounds() const { return bounds_; }
+  /// Distance between samples [m]; 0 if flat.
+  double resolution() const { return isFlat() ? 0.0 : law_.resolution; }
+  /// Of all samples and the law.
+  std::uint64_t hash() const { return hash_; }
+
+ private:
+  struct Cell;
+  Cell cellAt(double x, double y) const;
+  double sample(int column, int row_from_south) const;
+
+  static constexpr double ENDLESS = std::numeric_limits<double>::infinity();
+
+  HeightMapLaw law_{};
+  GreyImage image_{};
+  double base_{0.0};   ///< Height of black in the world [m].
+  double scale_{0.0};  ///< Height of one grey level [m].
+  Bounds bounds_{-ENDLESS, ENDLESS, -ENDLESS, ENDLESS, 0.0, 0.0};
+  std::uint64_t hash_{0};
+};
+
+}  // namespace vegetation_sim::terrain

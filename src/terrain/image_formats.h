@@ -1,0 +1,21 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "vegetation_sim/terrain/grey_image.h"
+
+namespace vegetation_sim::terrain {
+
+/// Whether the bytes start as a PNG does.
+bool looksLikePng(const std::string& bytes);
+/// Whether the bytes start as a PGM does.
+bool looksLikePgm(const std::string& bytes);
+
+/// @throws InvalidInput
+GreyImage parsePng(const std::string& bytes, const std::string& name);
+/// @throws InvalidInput
+GreyImage parsePgm(const std::string& bytes, const std::string& name);
+
+}  // namespace vegetation_sim::terrain

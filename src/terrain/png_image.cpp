@@ -1,0 +1,110 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <png.h>
+
+#include <csetjmp>
+#include <cstring>
+
+#include "terrain/image_formats.h"
+#include "vegetation_sim/common/faults.h"
+
+// libpng's short interface would apply a gamma that the file names; a height map wants the samples
+// as they stand, so this is the long one. libpng leaves by longjmp, which skips destructors: the
+// functions that it may leave hold nothing that has one.
+
+namespace vegetation_sim::terrain {
+namespace {
+
+/// What libpng's callbacks see.
+struct Source {
+  const std::string& bytes;
+  std::size_t at{0};
+  char problem[128]{};
+};
+
+void readBytes(png_structp png, png_bytep to, std::size_t count) {
+  auto* source = static_cast<Source*>(png_get_io_ptr(png));
+  if (source->bytes.size() - source->at < count) png_error(png, "the file is cut short");
+  std::memcpy(to, source->bytes.data() + source->at, count);
+  source->at += count;
+}
+
+[[noreturn]] void onError(png_structp png, png_const_charp message) {
+  auto* source = static_cast<Source*>(png_get_error_ptr(png));
+  std::strncpy(source->problem, message, sizeof source->problem - 1);
+  png_longjmp(png, 1);
+}
+
+void onWarning(png_structp, png_const_charp) {}
+
+/// Owns libpng's two structures.
+class PngFile {
+ public:
+  explicit PngFile(Source& source) {
+    png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, &source, onError, onWarning);
+    if (png_) info_ = png_create_info_struct(png_);
+    if (png_) png_set_read_fn(png_, &source, readBytes);
+  }
+  ~PngFile() { png_destroy_read_struct(&png_, &info_, nullptr); }
+  PngFile(const PngFile&) = delete;
+  PngFile& operator=(const PngFile&) = delete;
+
+  bool readHeader() {
+    if (!png_ || !info_ || setjmp(png_jmpbuf(png_))) return false;
+    png_set_user_limits(png_, LONGEST_SIDE, LONGEST_SIDE);
+    png_read_info(png_, info_);
+    return true;
+  }
+
+  bool isGrey() const { return png_get_color_type(png_, info_) == PNG_COLOR_TYPE_GRAY; }
+  int columns() const { return static_cast<int>(png_get_image_width(png_, info_)); }
+  int rows() const { return static_cast<int>(png_get_image_height(png_, info_)); }
+  int bits() const { return png_get_bit_depth(png_, info_); }
+
+  /// @param rows one pointer a row, each to columns() samples of one byte, or two if bits() is 16.
+  bool readRows(png_bytep* rows) {
+    if (setjmp(png_jmpbuf(png_))) return false;
+    png_set_packing(png_);
+    png_read_image(png_, rows);
+    png_read_end(png_, nullptr);
+    return true;
+  }
+
+ private:
+  png_structp png_{nullptr};
+  png_infop info_{nullptr};
+};
+
+}  // namespace
+
+bool looksLikePng(const std::string& bytes) {
+  return bytes.size() >= 8 &&
+         png_sig_cmp(reinterpret_cast<png_const_bytep>(bytes.data()), 0, 8) == 0;
+}
+
+GreyImage parsePng(const std::string& bytes, const std::string& name) {
+  Source source{bytes};
+  PngFile png(source);
+  if (!png.readHeader()) throw InvalidInput(name + ": PNG image: " + source.problem);
+  if (!png.isGrey())
+    throw InvalidInput(name + ": PNG image is coloured or transparent; wanted is grey alone");
+
+  GreyImage out;
+  out.columns = png.columns();
+  out.rows = png.rows();
+  out.white = static_cast<std::uint16_t>((1u << png.bits()) - 1);
+  const std::size_t sample_bytes = png.bits() == 16 ? 2 : 1;
+  const std::size_t row_bytes = static_cast<std::size_t>(out.columns) * sample_bytes;
+  std::vector<png_byte> raw(row_bytes * static_cast<std::size_t>(out.rows));
+  std::vector<png_bytep> rows(static_cast<std::size_t>(out.rows));
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = raw.data() + i * row_bytes;
+  if (!png.readRows(rows.data())) throw InvalidInput(name + ": PNG image: " + source.problem);
+
+  out.samples.resize(raw.size() / sample_bytes);
+  for (std::size_t i = 0; i < out.samples.size(); ++i)
+    out.samples[i] =
+        sample_bytes == 1 ? raw[i] : static_cast<std::uint16_t>(raw[2 * i] << 8 | raw[2 * i + 1]);
+  return out;
+}
+
+}  // namespace vegetation_sim::terrain
