@@ -15,6 +15,7 @@
 namespace vegetation_sim::wind {
 namespace {
 
+constexpr double REPEAT_EDGE = 0.1;  // share of a repeated gust's cycle in which it fades, twice
 constexpr double GUST_MARGIN = 1.0;  // [s] how far a gust's front moves within a bound
 
 Vec3 levelDirection(const Vec3& v) {
@@ -35,7 +36,8 @@ void shapeGust(const Primitive& p, double elapsed, double weight, Term& term) {
   double tau = elapsed;
   if (p.repeat > 0.0) {
     tau = elapsed - p.repeat * std::floor(elapsed / p.repeat);
-    weight *= ramp(tau, p.fade_in) * ramp(p.repeat - tau, p.fade_out);
+    const double edge = REPEAT_EDGE * p.repeat;
+    weight *= ramp(tau, edge) * ramp(p.repeat - tau, edge);
   }
   term.direction = levelDirection(p.velocity);
   term.centre += term.direction * (p.front_speed * tau);

@@ -95,10 +95,6 @@ void checkTrajectory(const std::string& context, const Primitive& p, Faults& fau
 void checkGust(const std::string& context, const Primitive& p, Faults& faults) {
   if (p.velocity.x() == 0.0 && p.velocity.y() == 0.0)
     faults.add(context + "velocity has no horizontal part, so the gust has no direction");
-  if (p.repeat > 0.0 && p.repeat < p.fade_in + p.fade_out)
-    faults.add(context + "repeat = " + std::to_string(p.repeat) +
-               " s is shorter than fade_in + fade_out = " + std::to_string(p.fade_in + p.fade_out) +
-               " s");
 }
 
 }  // namespace

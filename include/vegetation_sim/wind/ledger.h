@@ -1,0 +1,71 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vegetation_sim/wind/field.h"
+
+namespace vegetation_sim::wind {
+
+/// The list of primitives behind a wind field, and the rules by which it is edited: nothing changes
+/// before `earliest`, the stamp from which on everyone can know; a successor fades in while its
+/// predecessor fades out, over the longer of the two times; only one such change of a source runs
+/// at a time, and one that has not begun gives way to a later edit. Every edit is checked as a
+/// whole and throws InvalidInput, with all faults, before anything has changed.
+class Ledger {
+ public:
+  /// How long an ended primitive is kept, so that late messages still see the past [ns].
+  static constexpr Nanoseconds KEEP_EDITED = 30 * NANOSECONDS_PER_SECOND;
+  static constexpr Nanoseconds KEEP_PIECES = 5 * NANOSECONDS_PER_SECOND;  ///< of a followed frame
+
+  explicit Ledger(std::uint64_t seed = 0) : field_({}, seed) {}
+
+  const Field& field() const { return field_; }
+
+  /// Adds sources whose past is nobody's: a scenario's, with their stamps as they are. Names are
+  /// unique.
+  void start(const std::vector<Primitive>& primitives);
+
+  /// Adds a source, or replaces the one of the same name. An epoch of 0 becomes the predecessor's
+  /// if that is of the same kind, else t_on; a t_on of 0 becomes `earliest`.
+  /// @return the new primitive, as published.
+  Primitive set(Primitive primitive, Nanoseconds earliest);
+
+  /// The same for the next piece of a followed frame: takes over within its own fade_in, however
+  /// long the piece before would fade out if left alone, and is kept more shortly.
+  Primitive follow(Primitive primitive, Nanoseconds earliest);
+
+  /// Ends the source of this name over its fade_out. @throws InvalidInput if there is none.
+  void remove(const std::string& name, Nanoseconds earliest);
+
+  /// Drops what ended long ago. @return whether anything was.
+  bool prune(Nanoseconds now);
+
+  /// Names of the sources that blow after `stamp`, in order of appearance.
+  std::vector<std::string> names(Nanoseconds stamp) const;
+  /// The last primitive of a name that has not ended by `stamp`, if any.
+  std::optional<Primitive> find(const std::string& name, Nanoseconds stamp) const;
+
+ private:
+  enum class Change { EDIT, PIECE };
+  struct Entry {
+    Primitive primitive;
+    Nanoseconds keep;
+  };
+  using Entries = std::vector<Entry>;
+
+  Primitive put(Primitive primitive, Nanoseconds earliest, Change change);
+  static Entry* latest(Entries& entries, const std::string& name);
+  static void dropPending(Entries& entries, const std::string& name, Nanoseconds earliest);
+  /// Rebuilds the field first, and adopts the entries if it accepts them.
+  void adopt(Entries entries, std::uint32_t next_id);
+
+  Entries entries_;
+  std::uint32_t next_id_{1};
+  Field field_;
+};
+
+}  // namespace vegetation_sim::wind
