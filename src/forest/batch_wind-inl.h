@@ -69,7 +69,7 @@ HWY_INLINE void addGust(const FloatTerm& t, Lanes dx, Lanes dy, Lanes3& v) {
   const Lanes rise = smootherStep(behind * all(t.rise));
   const Lanes past = behind - all(1.f / t.rise) - all(t.plateau);
   const Lanes decay = all(1.f) - smootherStep(past * all(t.decay));
-  const Lanes across = smootherStep((all(t.radius) - beside) * all(t.inverse_radius));
+  const Lanes across = envelope(t.smooth, all(1.f) - beside * all(t.inverse_radius));
   add(v, rise * decay * across, t.vx, t.vy, t.vz);
 }
 
@@ -82,11 +82,12 @@ HWY_INLINE Lanes vortex(const FloatTerm& t, Lanes d2) {
 HWY_INLINE void addTornado(const FloatTerm& t, Lanes dx, Lanes dy, Lanes3& v) {
   const Lanes d2 = dx * dx + dy * dy, d = hn::Sqrt(d2);
   const Lanes inside = all(1.f) - d * all(t.inverse_radius);
-  const Lanes swirl = all(t.speed) * vortex(t, d2) * smootherStep(inside);
-  const Lanes inflow = swirl * all(t.inflow);
+  const Lanes strength = all(t.speed) * smootherStep(inside);
+  const Lanes swirl = strength * vortex(t, d2), inflow = swirl * all(t.inflow);
+  const Lanes core = all(t.inverse_core);
   v.x = v.x - swirl * dy - inflow * dx;
   v.y = v.y + swirl * dx - inflow * dy;
-  v.z = v.z + swirl * all(t.updraft) * d;
+  v.z = v.z + strength * all(t.updraft) / (all(1.f) + d2 * core * core);
 }
 
 HWY_INLINE void addBlast(const FloatTerm& t, Lanes dx, Lanes dy, Lanes dz, Lanes3& v) {

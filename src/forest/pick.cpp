@@ -1,0 +1,101 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/forest/pick.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "vegetation_sim/common/math.h"
+
+namespace vegetation_sim::forest {
+namespace {
+
+// No tree of a species is larger than this many times its trunk: limbs reach at most as far as the
+// longest chain of lengths, which check() bounds through `length`.
+double sizeBound(const Species& species) {
+  double chain = 1.0, sum = 1.0;
+  for (std::size_t depth = 1; depth < species.limbs.size(); ++depth) {
+    const LimbRule& rule = species.limbs[depth];
+    chain *= rule.length * (1.0 + rule.length_variation);
+    sum += chain;
+  }
+  return species.height * (1.0 + species.height_variation) * sum;
+}
+
+struct Closest {
+  double on_ray, on_axis, distance;
+};
+
+// Nearest points of a ray (unit direction) and an axis of given length (unit direction).
+Closest nearest(const Vec3& origin, const Vec3& direction, const Vec3& base, const Vec3& axis,
+                double axis_length) {
+  const Vec3 between = base - origin;
+  const double b = dot(direction, axis), d = dot(direction, between), e = dot(axis, between);
+  const double denominator = 1.0 - b * b;
+  double s = denominator > 1e-12 ? (b * d - e) / denominator : 0.0;
+  s = std::clamp(s, 0.0, axis_length);
+  const double t = std::max(0.0, d + s * b);
+  s = std::clamp(t * b - e, 0.0, axis_length);
+  return {t, s, length(origin + t * direction - base - s * axis)};
+}
+
+// True if the ray passes within `reach` of a point.
+bool passes(const Ray& ray, const Vec3& direction, const Vec3& centre, double reach) {
+  const Vec3 offset = centre - ray.origin;
+  const double t = std::max(0.0, dot(offset, direction));
+  return length(offset - t * direction) <= reach;
+}
+
+}  // namespace
+
+std::optional<Picked> pickBranch(const Tree& tree, const std::vector<Pose>& poses, const Ray& ray) {
+  const Vec3 direction = ray.direction / length(ray.direction);
+  std::optional<Picked> best;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const Branch& branch = tree.skeleton.branches[i];
+    const Vec3 base = tree.foot + poses[i].position, axis = axisZ(poses[i].orientation);
+    const Closest hit = nearest(ray.origin, direction, base, axis, branch.length);
+    const double f = hit.on_axis / branch.length;
+    const double radius = branch.base_radius + (branch.tip_radius - branch.base_radius) * f;
+    if (hit.distance > radius + ray.tolerance) continue;
+    if (best && best->distance <= hit.on_ray) continue;
+    best = Picked{0, static_cast<int>(i), hit.on_axis, hit.on_ray,
+                  Vec3(base + hit.on_axis * axis)};
+  }
+  return best;
+}
+
+std::optional<Picked> pickTree(const Layout& layout, const terrain::HeightMap& terrain,
+                               const Ray& ray,
+                               const std::function<PosedTree(std::uint32_t)>& posed) {
+  const Vec3 direction = ray.direction / length(ray.direction);
+  std::optional<Picked> best;
+  const auto tryTree = [&](std::uint32_t id, const TreeSeed& seed) {
+    const double size = seed.scale * sizeBound(layout.species[seed.species]);
+    const Vec3 foot = footOf(seed, terrain);
+    if (!passes(ray, direction, foot, size + ray.tolerance)) return;
+    const PosedTree tree = posed(id);
+    std::optional<Picked> hit = pickBranch(*tree.tree, tree.poses, ray);
+    if (!hit || (best && best->distance <= hit->distance)) return;
+    hit->tree = id;
+    best = hit;
+  };
+  for (std::uint32_t i = 0; i < layout.trees.size(); ++i) tryTree(i, layout.trees[i]);
+  double largest = 0.0;
+  for (const Species& species : layout.species) largest = std::max(largest, sizeBound(species));
+  for (const Tile& tile : layout.tiles) {
+    const double x = tile.x + 0.5 * tile.size, y = tile.y + 0.5 * tile.size;
+    // Height of the ground inside the tile is unknown: a tall cylinder, tested in the plane.
+    const Vec3 flat(direction.x(), direction.y(), 0.0);
+    const double across = length(flat);
+    const double reach = 0.75 * tile.size + 1.3 * largest + ray.tolerance;
+    const Vec3 offset(x - ray.origin.x(), y - ray.origin.y(), 0.0);
+    const double t = across > 1e-9 ? std::max(0.0, dot(offset, flat) / (across * across)) : 0.0;
+    if (length(offset - t * flat) > reach) continue;
+    for (std::uint32_t i = 0; i < tile.count; ++i)
+      tryTree(tile.first_tree + i, seedInTile(tile, i));
+  }
+  return best;
+}
+
+}  // namespace vegetation_sim::forest

@@ -1,0 +1,255 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/ros/forest_conversions.h"
+
+#include <cmath>
+
+namespace vegetation_sim {
+namespace {
+
+constexpr std::size_t MOST_SPECIES = 256;
+
+int indexOf(const std::string& name, const std::string& word,
+            const std::vector<std::string>& names, Faults& faults) {
+  std::string allowed;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names[i] == word) return static_cast<int>(i);
+    allowed += (i ? ", " : "") + names[i];
+  }
+  faults.add("layout: " + name + " = '" + word + "' is none of " + allowed);
+  return 0;
+}
+
+const std::vector<std::string> JOINT_MODELS{"swing", "paper"};
+const std::vector<std::string> GAINS{"compliance", "paper"};
+const std::vector<std::string> DRAGS{"linear", "quadratic"};
+const std::vector<std::string> SHAPES{"smooth", "linear"};
+
+const std::string& nameOf(int index, const std::vector<std::string>& names) {
+  return names.at(static_cast<std::size_t>(index));
+}
+
+ForestTile toMsg(const forest::Tile& tile) {
+  ForestTile out;
+  out.first_tree = tile.first_tree;
+  out.count = tile.count;
+  out.seed = tile.seed;
+  out.x = tile.x;
+  out.y = tile.y;
+  out.size = tile.size;
+  out.mix = tile.mix;
+  return out;
+}
+
+forest::Tile fromMsg(const ForestTile& message) {
+  forest::Tile out;
+  out.first_tree = message.first_tree;
+  out.count = message.count;
+  out.seed = message.seed;
+  out.x = message.x;
+  out.y = message.y;
+  out.size = message.size;
+  out.mix = message.mix;
+  return out;
+}
+
+TreeState toMsg(const forest::StateUpdate::Entry& entry, Nanoseconds now) {
+  TreeState out;
+  out.tree = entry.tree;
+  out.level = static_cast<std::uint8_t>(entry.state.level);
+  out.since = toStamp(entry.state.since);
+  bool settled = entry.state.since <= now;
+  for (int d = 0; d < forest::MAX_DEPTHS; ++d)
+    settled = settled &&
+              entry.state.blend[static_cast<std::size_t>(d)] == (d < entry.state.level ? 1.f : 0.f);
+  if (!settled) out.blend.assign(entry.state.blend.begin(), entry.state.blend.end());
+  return out;
+}
+
+forest::StateUpdate::Entry fromMsg(const TreeState& message, Faults& faults) {
+  const std::string name = "state: tree " + std::to_string(message.tree);
+  forest::StateUpdate::Entry out;
+  out.tree = message.tree;
+  if (message.level > forest::MAX_DEPTHS) {
+    faults.add(name + ": level = " + std::to_string(message.level) + " is outside 0 to " +
+               std::to_string(forest::MAX_DEPTHS));
+    return out;
+  }
+  out.state = forest::LevelState::settled(message.level);
+  out.state.since = fromMsg(message.since);
+  if (message.blend.empty()) return out;
+  if (message.blend.size() != forest::MAX_DEPTHS) {
+    faults.add(name + ": blend has " + std::to_string(message.blend.size()) +
+               " entries, allowed are 0 or " + std::to_string(forest::MAX_DEPTHS));
+    return out;
+  }
+  for (std::size_t d = 0; d < forest::MAX_DEPTHS; ++d) {
+    const std::string fault = rangeFault(name + ": blend", message.blend[d], "", {0.0, 1.0});
+    if (!fault.empty()) faults.add(fault);
+    out.state.blend[d] = message.blend[d];
+  }
+  return out;
+}
+
+}  // namespace
+
+Nanoseconds fromMsg(const ros::Time& stamp) {
+  return static_cast<Nanoseconds>(stamp.sec) * NANOSECONDS_PER_SECOND + stamp.nsec;
+}
+
+ros::Time toStamp(Nanoseconds stamp) {
+  ros::Time out;
+  if (stamp <= 0) return out;
+  out.sec = static_cast<std::uint32_t>(stamp / NANOSECONDS_PER_SECOND);
+  out.nsec = static_cast<std::uint32_t>(stamp % NANOSECONDS_PER_SECOND);
+  return out;
+}
+
+TreeSeed toMsg(const forest::TreeSeed& seed) {
+  TreeSeed out;
+  out.seed = seed.seed;
+  out.species = seed.species;
+  out.position.x = seed.position.x();
+  out.position.y = seed.position.y();
+  out.position.z = seed.position.z();
+  out.yaw = seed.yaw;
+  out.scale = seed.scale;
+  return out;
+}
+
+forest::TreeSeed fromMsg(const TreeSeed& message) {
+  forest::TreeSeed out;
+  out.seed = message.seed;
+  out.species = message.species;
+  out.position = Vec3(message.position.x, message.position.y, message.position.z);
+  out.yaw = message.yaw;
+  out.scale = message.scale;
+  return out;
+}
+
+ForestLayout toMsg(const forest::Layout& layout) {
+  ForestLayout out;
+  out.hash = layout.hash();
+  for (const forest::Species& species : layout.species) {
+    Species message;
+    message.name = species.name;
+    message.rules = forest::writeSpecies(species);
+    out.species.push_back(message);
+  }
+  out.terrain = layout.terrain;
+  out.joint_model = nameOf(layout.motion.joint_model, JOINT_MODELS);
+  out.gain = nameOf(layout.motion.gain, GAINS);
+  out.drag = nameOf(layout.motion.drag, DRAGS);
+  out.transition = layout.motion.transition;
+  out.transition_shape = nameOf(layout.motion.transition_shape, SHAPES);
+  for (const forest::TreeSeed& seed : layout.trees) out.trees.push_back(toMsg(seed));
+  for (const forest::Tile& tile : layout.tiles) out.tiles.push_back(toMsg(tile));
+  return out;
+}
+
+forest::Layout fromMsg(const ForestLayout& message) {
+  Faults faults;
+  forest::Layout out;
+  if (message.species.size() > MOST_SPECIES)
+    throw InvalidInput("layout: " + std::to_string(message.species.size()) +
+                       " species, more than the " + std::to_string(MOST_SPECIES) + " allowed");
+  for (const Species& species : message.species) {
+    try {
+      out.species.push_back(forest::parseSpecies(species.rules, "species " + species.name));
+    } catch (const InvalidInput& error) {
+      faults.add(error.what());
+    }
+  }
+  out.terrain = message.terrain;
+  out.motion.joint_model = indexOf("joint_model", message.joint_model, JOINT_MODELS, faults);
+  out.motion.gain = indexOf("gain", message.gain, GAINS, faults);
+  out.motion.drag = indexOf("drag", message.drag, DRAGS, faults);
+  out.motion.transition = message.transition;
+  out.motion.transition_shape =
+      indexOf("transition_shape", message.transition_shape, SHAPES, faults);
+  for (const TreeSeed& seed : message.trees) out.trees.push_back(fromMsg(seed));
+  for (const ForestTile& tile : message.tiles) out.tiles.push_back(fromMsg(tile));
+  if (faults.empty()) check(out, faults);
+  faults.throwIfAny();
+  return out;
+}
+
+ForestState toMsg(const forest::StateUpdate& update) {
+  ForestState out;
+  out.header.stamp = toStamp(update.stamp);
+  out.sequence = update.sequence;
+  out.key_frame = update.key_frame;
+  out.base_level = static_cast<std::uint8_t>(update.base_level);
+  out.layout_hash = update.layout_hash;
+  out.wind_hash = update.wind_hash;
+  out.hash = update.hash;
+  out.trees.reserve(update.trees.size());
+  for (const auto& entry : update.trees) out.trees.push_back(toMsg(entry, update.stamp));
+  return out;
+}
+
+forest::StateUpdate fromMsg(const ForestState& message) {
+  Faults faults;
+  forest::StateUpdate out;
+  out.stamp = fromMsg(message.header.stamp);
+  out.sequence = message.sequence;
+  out.key_frame = message.key_frame;
+  out.base_level = message.base_level;
+  if (message.base_level > forest::MAX_DEPTHS)
+    faults.add("state: base_level = " + std::to_string(message.base_level) + " is outside 0 to " +
+               std::to_string(forest::MAX_DEPTHS));
+  out.layout_hash = message.layout_hash;
+  out.wind_hash = message.wind_hash;
+  out.hash = message.hash;
+  for (const TreeState& tree : message.trees) out.trees.push_back(fromMsg(tree, faults));
+  faults.throwIfAny();
+  return out;
+}
+
+geometry_msgs::Pose toMsg(const Vec3& foot, const Pose& pose) {
+  geometry_msgs::Pose out;
+  const Vec3 position = foot + pose.position;
+  out.position.x = position.x();
+  out.position.y = position.y();
+  out.position.z = position.z();
+  out.orientation.w = pose.orientation.w;
+  out.orientation.x = pose.orientation.x;
+  out.orientation.y = pose.orientation.y;
+  out.orientation.z = pose.orientation.z;
+  return out;
+}
+
+BranchTransforms toMsg(std::uint32_t tree, const Vec3& foot, const std::vector<Pose>& poses) {
+  BranchTransforms out;
+  out.tree = tree;
+  out.poses.reserve(poses.size());
+  for (const Pose& pose : poses) out.poses.push_back(toMsg(foot, pose));
+  return out;
+}
+
+forest::Viewer fromMsg(const Viewer& message) {
+  Faults faults;
+  const auto check_number = [&](const char* name, double value, const char* unit, Range range) {
+    const std::string fault = rangeFault(std::string("viewer: ") + name, value, unit, range);
+    if (!fault.empty()) faults.add(fault);
+  };
+  const auto& p = message.pose.position;
+  check_number("pose.position.x", p.x, "m", {-1e7, 1e7});
+  check_number("pose.position.y", p.y, "m", {-1e7, 1e7});
+  check_number("pose.position.z", p.z, "m", {-1e7, 1e7});
+  const auto& q = message.pose.orientation;
+  check_number("pose.orientation, its norm,",
+               std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z), "", {0.99, 1.01});
+  check_number("field_of_view", message.field_of_view, "rad", {0.01, 3.1});
+  check_number("height", message.height, "pixel", {1.0, 100000.0});
+  if (message.id.size() > 256) faults.add("viewer: id is longer than 256 characters");
+  faults.throwIfAny();
+  forest::Viewer out;
+  out.id = message.id;
+  out.stamp = fromMsg(message.header.stamp);
+  out.eye.position = Vec3(p.x, p.y, p.z);
+  out.eye.pixels_per_radian = 0.5 * message.height / std::tan(0.5 * message.field_of_view);
+  return out;
+}
+
+}  // namespace vegetation_sim

@@ -1,0 +1,203 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/forest/forest.h"
+
+#include <gtest/gtest.h>
+
+#include "forest/forest_fixture.h"
+#include "vegetation_sim/forest/replica.h"
+
+namespace vegetation_sim::forest {
+namespace {
+
+constexpr Nanoseconds START = 1700000000LL * NANOSECONDS_PER_SECOND;
+
+Viewer lookFrom(const Vec3& position, Nanoseconds stamp, const std::string& id = "eye") {
+  Viewer out;
+  out.id = id;
+  out.eye.position = position;
+  out.eye.pixels_per_radian = 1000.0;
+  out.stamp = stamp;
+  return out;
+}
+
+Forest makeForest(Layout layout = gridLayout(4, 10.0)) {
+  return Forest(std::move(layout), flatTerrain(), Settings());
+}
+
+void run(Forest& forest, Nanoseconds from, double for_seconds, const Viewer* viewer = nullptr) {
+  const TickGrid grid(30);
+  const std::int64_t first = grid.tickAt(from);
+  for (std::int64_t k = first; k < first + static_cast<std::int64_t>(30 * for_seconds); ++k) {
+    if (viewer && k % 15 == 0) {
+      Viewer fresh = *viewer;
+      fresh.stamp = grid.timeOf(k);
+      forest.setViewer(fresh);
+    }
+    forest.advance(grid.timeOf(k));
+  }
+}
+
+// N8: without a viewer every tree has the fixed level, and takes no memory for it.
+TEST(Forest, FixedLevelWithoutViewer) {
+  Forest forest = makeForest();
+  run(forest, START, 1.0);
+  EXPECT_EQ(forest.memory().levels.of(3).level, 2);
+  EXPECT_TRUE(forest.memory().levels.held().empty());
+}
+
+// S1-22, N8: two trees at different distances get different levels; moving the eye swaps them.
+TEST(Forest, LevelsFollowTheViewer) {
+  Layout layout = gridLayout(1, 1.0);
+  layout.trees.push_back(layout.trees[0]);
+  layout.trees[1].position = Vec3(400, 0, 0);
+  Forest forest = makeForest(layout);
+  forest.setWind(wind::Field({makeBreeze(1, Vec3(5, 0, 0))}));
+  const Viewer here = lookFrom(Vec3(-10, 0, 2), 0), there = lookFrom(Vec3(410, 0, 2), 0);
+  run(forest, START, 2.0, &here);
+  EXPECT_GT(forest.memory().levels.of(0).level, forest.memory().levels.of(1).level);
+  run(forest, START + seconds(2), 5.0, &there);
+  EXPECT_LT(forest.memory().levels.of(0).level, forest.memory().levels.of(1).level);
+}
+
+// N8: several viewers, the finest wins; a silent one is forgotten.
+TEST(Forest, FinestOfSeveralViewersWins) {
+  Forest forest = makeForest();
+  forest.setWind(wind::Field({makeBreeze(1, Vec3(5, 0, 0))}));
+  forest.setViewer(lookFrom(Vec3(5000, 0, 0), START, "far"));
+  forest.advance(START);
+  const int far_level = forest.memory().levels.of(0).level;
+  forest.setViewer(lookFrom(Vec3(5, 5, 2), START, "near"));
+  forest.advance(START + seconds(0.1));
+  EXPECT_GT(forest.memory().levels.of(0).level, far_level);
+  run(forest, START + seconds(4), 3.0);
+  EXPECT_TRUE(forest.memory().viewers.empty());
+}
+
+// S1-22, S1-40: level 0 where no wind reaches; the middle of a disc asks for more than its rim.
+TEST(Forest, LevelsFollowTheWind) {
+  Forest forest = makeForest(gridLayout(8, 20.0));
+  forest.setWind(wind::Field({makeDisk(1, Vec3(0, 0, 0), 60.0, Vec3(6, 0, 0))}));
+  forest.setViewer(lookFrom(Vec3(70, 70, 400), START));
+  forest.advance(START);
+  const auto level = [&](std::uint32_t x, std::uint32_t y) {
+    return forest.memory().levels.of(y * 8 + x).level;
+  };
+  EXPECT_EQ(level(7, 7), 0);
+  EXPECT_GT(level(0, 0), 0);
+  EXPECT_GE(level(0, 0), level(2, 0));
+}
+
+// N6: the same inputs give the same hashes; a saved and restored memory goes on alike.
+TEST(Forest, IsDeterministicAndRestores) {
+  Forest a = makeForest(), b = makeForest();
+  const wind::Field field({makeBreeze(1, Vec3(5, 0, 0))});
+  const Viewer eye = lookFrom(Vec3(-20, 10, 5), 0);
+  for (Forest* forest : {&a, &b}) forest->setWind(field);
+  run(a, START, 3.0, &eye);
+  run(b, START, 3.0, &eye);
+  EXPECT_EQ(a.hash(), b.hash());
+  const ForestMemory saved = a.memory();
+  run(a, START + seconds(3), 2.0);
+  const std::uint64_t later = a.hash();
+  EXPECT_NE(later, b.hash());
+  a.restore(saved);
+  EXPECT_EQ(a.hash(), b.hash());
+  run(a, START + seconds(3), 2.0);
+  EXPECT_EQ(a.hash(), later);
+}
+
+// Time going backwards: after reset() the forest is what a fresh start there would be.
+TEST(Forest, ResetEqualsAFreshStart) {
+  Forest used = makeForest(), fresh = makeForest();
+  const Viewer eye = lookFrom(Vec3(-20, 10, 5), 0);
+  used.setWind(wind::Field({makeBreeze(1, Vec3(5, 0, 0))}));
+  fresh.setWind(wind::Field({makeBreeze(1, Vec3(5, 0, 0))}));
+  run(used, START + seconds(10), 3.0, &eye);
+  used.reset();
+  run(used, START, 1.0, &eye);
+  run(fresh, START, 1.0, &eye);
+  EXPECT_EQ(used.hash(), fresh.hash());
+}
+
+TEST(Forest, HashSeesEveryPartOfTheState) {
+  Forest forest = makeForest();
+  forest.advance(START);
+  const std::uint64_t before = forest.hash();
+  Settings settings;
+  settings.tolerance = 2.0;
+  forest.setSettings(settings);
+  EXPECT_NE(forest.hash(), before);
+  forest.setSettings(Settings());
+  EXPECT_EQ(forest.hash(), before);
+  forest.setWind(wind::Field({makeBreeze(1, Vec3(5, 0, 0))}));
+  EXPECT_NE(forest.hash(), before);
+}
+
+// A replica that heard one key frame, or a key frame and the deltas, holds the same levels.
+TEST(Forest, ReplicaFollowsKeyFramesAndDeltas) {
+  Forest forest = makeForest();
+  const wind::Field field({makeBreeze(1, Vec3(5, 0, 0)), makeDisk(2, Vec3(9, 9, 0), 15, Vec3(4, 0, 0))});
+  forest.setWind(field);
+  ForestReplica steady, late;
+  for (ForestReplica* replica : {&steady, &late}) {
+    replica->setLayout(forest.layout(), flatTerrain());
+    replica->setWind(field);
+  }
+  const TickGrid grid(30);
+  for (int k = 0; k < 150; ++k) {
+    const Nanoseconds now = START + grid.timeOf(k);
+    if (k == 40 || k == 100) forest.setViewer(lookFrom(Vec3(-20, 0, 5), now));
+    if (k == 70) forest.setViewer(lookFrom(Vec3(60, 60, 5), now));
+    forest.advance(now);
+    const StateUpdate update = forest.update(k % 30 == 0);
+    EXPECT_TRUE(steady.apply(update)) << steady.why();
+    EXPECT_EQ(late.apply(k < 95 ? StateUpdate() : update), k >= 120) << k;
+    for (std::uint32_t id = 0; id < 16; ++id) {
+      EXPECT_EQ(steady.weights(id, now), weightsAt(forest.memory().levels.of(id), now,
+                                                   forest.layout().motion)) << k << " " << id;
+    }
+  }
+  EXPECT_EQ(late.weights(5, START + seconds(9)), steady.weights(5, START + seconds(9)));
+}
+
+TEST(Forest, ReplicaIgnoresAGapUntilTheNextKeyFrame) {
+  Forest forest = makeForest();
+  ForestReplica replica;
+  replica.setLayout(forest.layout(), flatTerrain());
+  forest.advance(START);
+  EXPECT_TRUE(replica.apply(forest.update(true)));
+  forest.update(false);
+  EXPECT_FALSE(replica.apply(forest.update(false)));
+  EXPECT_EQ(replica.why(), "messages were lost");
+  EXPECT_FALSE(replica.apply(forest.update(false)));
+  EXPECT_TRUE(replica.apply(forest.update(true)));
+}
+
+// A million trees as a law: kilobytes of layout, no memory per tree, far tiles not looked at.
+TEST(Forest, MillionTreesTakeNoMemoryEach) {
+  Layout layout = gridLayout(1, 1.0);
+  layout.trees.clear();
+  for (std::uint32_t i = 0; i < 1000; ++i) {
+    Tile tile;
+    tile.first_tree = i * 1000;
+    tile.count = 1000;
+    tile.seed = i;
+    tile.x = 200.0 * (i % 32);
+    tile.y = 200.0 * (i / 32);
+    tile.size = 200.0;
+    tile.mix = {1.f, 1.f, 1.f, 1.f};
+    layout.tiles.push_back(tile);
+  }
+  Forest forest = makeForest(layout);
+  EXPECT_EQ(forest.layout().treeCount(), 1000000u);
+  forest.setWind(wind::Field({makeBreeze(1, Vec3(5, 0, 0))}));
+  forest.advance(START);
+  EXPECT_TRUE(forest.memory().levels.held().empty());
+  const Tree once = growTree(forest.layout(), 765432, terrain::HeightMap());
+  EXPECT_EQ(once.skeleton.hash(),
+            growTree(forest.layout(), 765432, terrain::HeightMap()).skeleton.hash());
+}
+
+}  // namespace
+}  // namespace vegetation_sim::forest
