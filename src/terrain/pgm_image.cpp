@@ -1,5 +1,7 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+
 #include "terrain/image_formats.h"
 #include "vegetation_sim/common/faults.h"
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <png.h>
 
+#include <algorithm>
 #include <csetjmp>
 #include <cstring>
 
@@ -51,7 +52,6 @@ class PngFile {
 
   bool readHeader() {
     if (!png_ || !info_ || setjmp(png_jmpbuf(png_))) return false;
-    png_set_user_limits(png_, LONGEST_SIDE, LONGEST_SIDE);
     png_read_info(png_, info_);
     return true;
   }
@@ -86,6 +86,10 @@ GreyImage parsePng(const std::string& bytes, const std::string& name) {
   Source source{bytes};
   PngFile png(source);
   if (!png.readHeader()) throw InvalidInput(name + ": PNG image: " + source.problem);
+  if (std::max(png.columns(), png.rows()) > LONGEST_SIDE)
+    throw InvalidInput(name + ": PNG image of " + std::to_string(png.columns()) + " x " +
+                       std::to_string(png.rows()) + " pixels, more than " +
+                       std::to_string(LONGEST_SIDE) + " a side");
   if (!png.isGrey())
     throw InvalidInput(name + ": PNG image is coloured or transparent; wanted is grey alone");
 

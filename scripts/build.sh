@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+# Builds the package into build/ (or $BUILD), again only what changed.
+# usage: scripts/build.sh [--developer] [TARGET ...]
+#   --developer  warnings in our own code are errors
+set -euo pipefail
+. "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
+
+options=()
+if [ "${1:-}" = --developer ]; then
+  options=(-Dvegetation_sim_DEVELOPER=ON)
+  shift
+fi
+targets=()
+for target in "$@"; do targets+=(--target "$target"); done
+
+say "Building in $BUILD"
+if [ ! -e "$BUILD/CMakeCache.txt" ]; then
+  options+=(-G Ninja)
+  command -v ccache >/dev/null && options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+fi
+mkdir -p "$BUILD"
+cmake -S "$ROOT" -B "$BUILD" "${options[@]}" -DPYTHON_EXECUTABLE=/usr/bin/python3 \
+  -DCMAKE_EXPORT_COMPILE_COMMANDS=ON -DCMAKE_INSTALL_PREFIX="$BUILD/install" \
+  >"$BUILD/configure.log" 2>&1 || { tail -n 30 "$BUILD/configure.log" >&2; exit 1; }
+cmake --build "$BUILD" --parallel "$(nproc)" "${targets[@]}"

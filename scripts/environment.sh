@@ -1,0 +1,21 @@
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+# Read by the other scripts: where things are, and the system's own Python in front of any other.
+ROOT=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+BUILD=${BUILD:-$ROOT/build}
+export PATH=/usr/bin:/usr/sbin:/bin:$PATH
+
+say() { printf '== %s\n' "$*"; }
+
+fail() {
+  printf '%s: %s\n' "$(basename "$0")" "$*" >&2
+  exit 1
+}
+
+# The generated setup files read variables that may be unset.
+use_space() {
+  set +u
+  # shellcheck disable=SC1091
+  . "$1/setup.bash"
+  set -u
+}

@@ -1,0 +1,49 @@
+#!/usr/bin/env bash
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+# Installs what building, testing and the demo need on Debian 12, and only what is missing: nothing
+# is asked of the network if all is there. docs/dependencies.md says why each is needed.
+set -euo pipefail
+. "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
+
+PACKAGES=(
+  # compiling
+  catkin cmake g++ ninja-build python3-catkin-pkg ros-core-dev
+  libroscpp-dev libtf2-ros-dev libvisualization-msgs-dev libdiagnostic-updater-dev
+  libdynamic-reconfigure-config-init-mutex-dev python3-dynamic-reconfigure
+  libnodeletlib-dev pluginlib-dev librviz-dev qtbase5-dev
+  libeigen3-dev libhwy-dev libpng-dev libyaml-cpp-dev
+  # running
+  libnodeletlib-tools python3-roslaunch python3-rosnode python3-rosparam python3-rosservice
+  python3-rostopic rosbash rviz
+  # testing
+  googletest libbenchmark-dev librostest-dev python3-rosbag python3-rosmsg python3-rostest
+  catkin-lint clang-format clang-tidy
+  # a display of its own for the demo, and a picture of it
+  imagemagick libgl1-mesa-dri x11-utils xdotool xvfb
+)
+
+if ! command -v dpkg-query >/dev/null || ! grep -q '^VERSION_CODENAME=bookworm' /etc/os-release; then
+  say 'This is no Debian 12: install the dependencies with "rosdep install --from-paths . -i -y".'
+  exit 0
+fi
+
+missing=()
+for package in "${PACKAGES[@]}"; do
+  dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed ||
+    missing+=("$package")
+done
+if [ ${#missing[@]} -eq 0 ]; then
+  say 'All dependencies are installed.'
+  exit 0
+fi
+
+say "Installing ${missing[*]}"
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  command -v sudo >/dev/null || fail "needs root or sudo to install: ${missing[*]}"
+  as_root=(sudo)
+fi
+"${as_root[@]}" apt-get update -qq
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+  apt-get install -y -qq --no-install-recommends "${missing[@]}"
