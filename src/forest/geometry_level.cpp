@@ -14,14 +14,15 @@ struct Step {
   MeshDetail detail;
 };
 
-constexpr std::array<Step, GEOMETRY_LEVELS> STEPS{{{0.0, {1, 3, 0.03}},
-                                                   {40.0, {2, 3, 0.07}},
-                                                   {90.0, {2, 4, 0.15}},
-                                                   {180.0, {3, 5, 0.3}},
-                                                   {360.0, {4, 7, 0.6}},
-                                                   {720.0, {MAX_DEPTHS, 10, 1.0}}}};
+constexpr std::array<Step, GEOMETRY_LEVELS> STEPS{{{0.0, {1, 3, 1, 0.035}},
+                                                   {30.0, {1, 3, 2, 0.1}},
+                                                   {70.0, {2, 4, 2, 0.22}},
+                                                   {140.0, {2, 6, 4, 0.45}},
+                                                   {280.0, {3, 8, 6, 0.75}},
+                                                   {560.0, {MAX_DEPTHS, 11, 16, 1.0}}}};
 constexpr double BORDER = 0.15;  // hysteresis, fraction of the size
 constexpr double DEAD_BAND = 0.05;
+constexpr double LEAST_FACTOR = 1.0 / 64.0, LARGEST_FACTOR = 64.0;
 
 }  // namespace
 
@@ -43,8 +44,11 @@ int geometryLevel(double height_px, int current) {
 void ComplexityFeedback::update(double actual, double target) {
   const double ratio = target / std::max(actual, 1.0);
   if (std::fabs(ratio - 1.0) < DEAD_BAND) return;
-  const double step = std::clamp(std::sqrt(ratio), 0.8, 1.25);
-  factor_ = std::clamp(factor_ * step, 1.0 / 64.0, 64.0);
+  const bool above = ratio < 1.0;
+  exponent_ = above == was_above_ ? std::min(1.2 * exponent_, LARGEST_EXPONENT) : 0.5 * exponent_;
+  was_above_ = above;
+  const double step = std::pow(std::clamp(ratio, 0.5, 2.0), exponent_);
+  factor_ = std::clamp(factor_ * step, LEAST_FACTOR, LARGEST_FACTOR);
 }
 
 }  // namespace vegetation_sim::forest

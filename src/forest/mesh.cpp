@@ -3,6 +3,7 @@
 #include "vegetation_sim/forest/mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "vegetation_sim/common/math.h"
@@ -12,8 +13,24 @@ namespace vegetation_sim::forest {
 namespace {
 
 constexpr int FEWEST_SIDES = 3;
+constexpr double LARGEST_GROWTH = 4.0;              // of the leaf cards that stay at a low level
+constexpr double GOLDEN_ANGLE = 2.399963229728653;  // pi (3 - sqrt 5)
 
-float narrow(double x) { return static_cast<float>(x); }
+enum Draw : std::uint64_t { KEPT, PLACE, AZIMUTH, ANGLE, TURN, SIZE, SHADE, FLUTTER };
+
+// How clusters of one shape stand on their branch [rad].
+struct LeafHabit {
+  double least_angle, largest_angle;  // between the midrib and the branch
+  double turn;                        // +- about the midrib
+};
+constexpr std::array<LeafHabit, 4> HABITS{{{0.4, 1.3, 1.2},      // broad
+                                           {0.45, 0.9, 0.9},     // needle
+                                           {0.6, 1.5, 1.4},      // small
+                                           {0.15, 0.55, 1.4}}};  // long
+
+float narrow(double x) {
+  return static_cast<float>(x);
+}
 
 class MeshBuilder {
  public:
@@ -24,9 +41,9 @@ class MeshBuilder {
     for (std::size_t i = 0; i < skeleton_.branches.size(); ++i) {
       const Branch& branch = skeleton_.branches[i];
       if (branch.depth >= detail_.depths) break;
-      const bool first = branch.parent < 0 ||
-                         skeleton_.branches[static_cast<std::size_t>(branch.parent)].next !=
-                             static_cast<int>(i);
+      const bool first =
+          branch.parent < 0 ||
+          skeleton_.branches[static_cast<std::size_t>(branch.parent)].next != static_cast<int>(i);
       if (first) addLimb(static_cast<int>(i));
     }
     addLeaves();
@@ -36,18 +53,40 @@ class MeshBuilder {
  private:
   const Branch& at(int i) const { return skeleton_.branches[static_cast<std::size_t>(i)]; }
 
-  // A tube along the limb: a ring at the base of each branch and one at the tip.
+  // A tube along the limb: a ring at the base of each branch (of some where there are more than
+  // the detail allows sections) and one at the tip.
   void addLimb(int first) {
-    const int sides = std::max(FEWEST_SIDES, detail_.trunk_sides - 2 * at(first).depth);
+    const int sides = std::max(FEWEST_SIDES, detail_.trunk_sides - 3 * at(first).depth);
+    int segments = 0;
+    for (int i = first; i >= 0; i = at(i).next) ++segments;
+    const int sections = std::min(segments, std::max(1, detail_.sections));
     double along = 0.0;
     int last = first;
-    for (int i = first; i >= 0; i = at(i).next) {
-      addRing(i, 0.0, at(i).base_radius, along, sides);
-      if (i != first) joinRings(sides);
+    for (int i = first, s = 0; i >= 0; i = at(i).next, ++s) {
+      if (i == first) {
+        addFoot(i, sides);
+      } else if (s * sections / segments != (s - 1) * sections / segments) {
+        addRing(i, 0.0, at(i).base_radius, along, sides);
+        joinRings(sides);
+      }
       along += at(i).length;
       last = i;
     }
     addRing(last, at(last).length, at(last).tip_radius, along, sides);
+    joinRings(sides);
+  }
+
+  // The trunk stands in the ground, so that no slope shows its end, and flares above its roots.
+  void addFoot(int branch, int sides) {
+    const double radius = at(branch).base_radius;
+    if (at(branch).parent >= 0) return addRing(branch, 0.0, radius, 0.0, sides);
+    addRing(branch, -3.0 * radius, 1.9 * radius, -3.0 * radius, sides);
+    if (sides < 5) return;
+    addRing(branch, 0.0, 1.5 * radius, 0.0, sides);
+    joinRings(sides);
+    addRing(branch, 1.2 * radius, 1.12 * radius, 1.2 * radius, sides);
+    joinRings(sides);
+    addRing(branch, 3.0 * radius, radius, 3.0 * radius, sides);
     joinRings(sides);
   }
 
@@ -75,35 +114,57 @@ class MeshBuilder {
 
   // Fewer clusters are a subset of more: a card is kept if its own number is below the fraction.
   void addLeaves() {
-    const double growth = 1.0 / std::sqrt(std::max(detail_.leaf_fraction, 1e-3));
+    const double fraction = std::max(detail_.leaf_fraction, 1e-3);
+    const double growth = std::min(1.0 / std::sqrt(fraction), LARGEST_GROWTH);
     for (std::size_t i = 0; i < skeleton_.branches.size(); ++i) {
       const Branch& branch = skeleton_.branches[i];
       for (int l = 0; l < branch.leaves; ++l) {
         const Random random = Random(branch.key).child(static_cast<std::uint64_t>(l));
-        if (random.uniform(0) >= detail_.leaf_fraction) continue;
-        out_.leaves.push_back(card(static_cast<int>(i), l, random, growth));
+        if (random.uniform(KEPT) >= detail_.leaf_fraction) continue;
+        LeafCard leaf = card(static_cast<int>(i), l, random);
+        leaf.size = narrow(leaf.size * growth);
+        carryToDrawn(leaf);
+        out_.leaves.push_back(leaf);
       }
     }
   }
 
-  LeafCard card(int branch, int number, const Random& random, double growth) const {
+  LeafCard card(int branch, int number, const Random& random) const {
     const Branch& b = at(branch);
+    const LeafHabit& habit = HABITS[static_cast<std::size_t>(species_.leaf_shape)];
     LeafCard out;
     out.branch = branch;
-    const double f = (number + random.uniform(1)) / b.leaves;
+    const double f = (number + random.uniform(PLACE)) / b.leaves;
     out.local = {0.f, 0.f, narrow(b.length * f)};
-    const SinCos t = sinCos(0.5 * (2.399963229728653 * number + random.uniform(2, -0.6, 0.6)));
-    const SinCos p = sinCos(0.5 * random.uniform(3, 0.5, 1.3));
-    const SinCos r = sinCos(0.5 * random.uniform(4, -1.2, 1.2));
+    const SinCos t = sinCos(0.5 * (GOLDEN_ANGLE * number + random.uniform(AZIMUTH, -0.6, 0.6)));
+    const SinCos p = sinCos(0.5 * random.uniform(ANGLE, habit.least_angle, habit.largest_angle));
+    const SinCos r = sinCos(0.5 * random.uniform(TURN, -habit.turn, habit.turn));
     // About z to its side, down from the branch about x, then about its own midrib.
     const Quat q = Quat{t.cos, 0.0, 0.0, t.sin} * Quat{p.cos, -p.sin, 0.0, 0.0} *
                    Quat{SQRT_HALF, SQRT_HALF, 0.0, 0.0} * Quat{r.cos, 0.0, r.sin, 0.0};
     out.rotation = {narrow(q.w), narrow(q.x), narrow(q.y), narrow(q.z)};
-    const double size = species_.leaf_size * random.uniform(5, 0.75, 1.25);
-    out.size = narrow(size * std::min(growth, 4.0));
-    out.shade = narrow(shadeAt(tipOf(b, b.rest), random.uniform(6)));
-    out.key = static_cast<std::uint32_t>(random.bits(7));
+    out.size = narrow(species_.leaf_size * random.uniform(SIZE, 0.75, 1.25));
+    out.shade = narrow(shadeAt(tipOf(b, b.rest), random.uniform(SHADE)));
+    out.key = static_cast<std::uint32_t>(random.bits(FLUTTER));
     return out;
+  }
+
+  // A card on a branch that is not drawn is fixed to the nearest one below that is, where it was at
+  // rest: joints that no vertex needs are then not posed either (S1-09).
+  void carryToDrawn(LeafCard& leaf) const {
+    int bearer = leaf.branch;
+    while (at(bearer).depth >= detail_.depths) bearer = at(bearer).parent;
+    if (bearer == leaf.branch) return;
+    const Pose& from = at(leaf.branch).rest;
+    const Pose& to = at(bearer).rest;
+    const Quat back = conjugate(to.orientation);
+    const Vec3 place = from.position + static_cast<double>(leaf.local[2]) * axisZ(from.orientation);
+    const Vec3 local = rotate(back, place - to.position);
+    const Quat q = back * from.orientation *
+                   Quat{leaf.rotation[0], leaf.rotation[1], leaf.rotation[2], leaf.rotation[3]};
+    leaf.branch = bearer;
+    leaf.local = {narrow(local.x()), narrow(local.y()), narrow(local.z())};
+    leaf.rotation = {narrow(q.w), narrow(q.x), narrow(q.y), narrow(q.z)};
   }
 
   // Outer and upper leaves are young and light, those near the trunk old and dark.

@@ -11,9 +11,10 @@ constexpr int GEOMETRY_LEVELS = 6;
 
 /// What one level draws: topology as well as shape is simplified (S1-08, S1-09).
 struct MeshDetail {
-  int depths{MAX_DEPTHS};     ///< recursion depths that are drawn
+  int depths{MAX_DEPTHS};     ///< recursion depths whose bark is drawn
   int trunk_sides{10};        ///< of the trunk's section; each depth has fewer, at least 3
-  double leaf_fraction{1.0};  ///< of the leaf clusters; the rest grow to cover the same area
+  int sections{16};           ///< most tube sections of one limb
+  double leaf_fraction{1.0};  ///< of the leaf clusters; those that stay grow to cover for the rest
 };
 MeshDetail meshDetail(int geometry_level);
 
@@ -22,16 +23,21 @@ MeshDetail meshDetail(int geometry_level);
 int geometryLevel(double height_px, int current);
 
 /// Global factor on projected sizes that steers the complexity of the next frame to a target
-/// (S1-14): g <- g (target / actual)^(1/2), damped and held in [1/64, 64].
+/// (S1-14): g <- g (target / actual)^a. The exponent a is halved whenever the target is overshot
+/// and recovers while it is not, so that a complexity that can only jump does not swing for ever.
 class ComplexityFeedback {
  public:
   double factor() const { return factor_; }
   /// @param actual complexity of the last frame. @param target wanted, both in the same unit, > 0.
   void update(double actual, double target);
-  void reset() { factor_ = 1.0; }
+  void reset() { *this = ComplexityFeedback(); }
 
  private:
+  static constexpr double LARGEST_EXPONENT = 0.5;  // triangles grow about as the square of size
+
   double factor_{1.0};
+  double exponent_{LARGEST_EXPONENT};
+  bool was_above_{false};
 };
 
 }  // namespace vegetation_sim::forest
