@@ -64,8 +64,7 @@ SinCos sinCos(double angle) {
   constexpr double HALF_PI_3 = 2.02226624879595063154e-21;
   if (!(std::fabs(angle) < 1e6)) return sinCosTurns(angle / (2.0 * PI));
   const double quadrant = std::floor(angle * (2.0 / PI) + 0.5);
-  const double x =
-      ((angle - quadrant * HALF_PI_1) - quadrant * HALF_PI_2) - quadrant * HALF_PI_3;
+  const double x = ((angle - quadrant * HALF_PI_1) - quadrant * HALF_PI_2) - quadrant * HALF_PI_3;
   return fromQuadrant(x, static_cast<int>(static_cast<std::int64_t>(quadrant) & 3));
 }
 

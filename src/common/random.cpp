@@ -14,8 +14,8 @@ std::array<std::uint32_t, 4> split(std::uint64_t low, std::uint64_t high) {
 constexpr std::uint64_t NUMBERS = 0, CHILDREN = 1;
 
 std::uint64_t draw(std::uint64_t key, std::uint64_t index, std::uint64_t purpose) {
-  const auto out = philox(split(index, purpose), {static_cast<std::uint32_t>(key),
-                                                  static_cast<std::uint32_t>(key >> 32)});
+  const auto out = philox(split(index, purpose),
+                          {static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(key >> 32)});
   return out[0] | static_cast<std::uint64_t>(out[1]) << 32;
 }
 
@@ -33,12 +33,16 @@ std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> c,
   return c;
 }
 
-std::uint64_t Random::bits(std::uint64_t index) const { return draw(key_, index, NUMBERS); }
+std::uint64_t Random::bits(std::uint64_t index) const {
+  return draw(key_, index, NUMBERS);
+}
 
 double Random::uniform(std::uint64_t index) const {
   return static_cast<double>(bits(index) >> 11) * (1.0 / 9007199254740992.0);
 }
 
-Random Random::child(std::uint64_t index) const { return Random(draw(key_, index, CHILDREN)); }
+Random Random::child(std::uint64_t index) const {
+  return Random(draw(key_, index, CHILDREN));
+}
 
 }  // namespace vegetation_sim

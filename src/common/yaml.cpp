@@ -34,7 +34,9 @@ void YamlSection::fault(const std::string& name, const std::string& problem) {
   faults_->add(path_ + ": " + name + " " + problem);
 }
 
-void YamlSection::fault(const std::string& problem) { faults_->add(path_ + ": " + problem); }
+void YamlSection::fault(const std::string& problem) {
+  faults_->add(path_ + ": " + problem);
+}
 
 template <class T>
 bool YamlSection::read(const char* name, const char* type, T& value) {
@@ -77,8 +79,8 @@ void YamlSection::vector(const char* name, Vec3& value, const char* unit, Range 
     return fault(name, "has " + std::to_string(list.size()) + " numbers where 3 are wanted");
   const Vec3 read_value(list[0], list[1], list[2]);
   for (int i = 0; i < 3; ++i) {
-    const std::string problem = rangeFault(
-        path_ + ": " + name + "[" + std::to_string(i) + "]", read_value[i], unit, range);
+    const std::string problem =
+        rangeFault(path_ + ": " + name + "[" + std::to_string(i) + "]", read_value[i], unit, range);
     if (!problem.empty()) return faults_->add(problem);
   }
   value = read_value;
@@ -98,9 +100,13 @@ void YamlSection::choice(const char* name, int& value, const std::vector<std::st
   fault(name, "= '" + word + "' is none of " + allowed);
 }
 
-void YamlSection::text(const char* name, std::string& value) { read(name, "text", value); }
+void YamlSection::text(const char* name, std::string& value) {
+  read(name, "text", value);
+}
 
-void YamlSection::flag(const char* name, bool& value) { read(name, "true or false", value); }
+void YamlSection::flag(const char* name, bool& value) {
+  read(name, "true or false", value);
+}
 
 void YamlSection::seed(const char* name, std::uint64_t& value) {
   read(name, "a whole number from 0 to 2^64 - 1", value);
@@ -149,7 +155,8 @@ YAML::Node loadYamlFile(const std::string& file) {
   const auto size = std::filesystem::file_size(file, error);
   if (error) throw InvalidInput(file + ": cannot be read: " + error.message());
   if (size > LARGEST_FILE)
-    throw InvalidInput(file + ": " + std::to_string(size) + " bytes, more than the 4194304 allowed");
+    throw InvalidInput(file + ": " + std::to_string(size) +
+                       " bytes, more than the 4194304 allowed");
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
   text << in.rdbuf();

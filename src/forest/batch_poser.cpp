@@ -51,9 +51,8 @@ HWY_INLINE LanesQuat localRotation(const BatchTree& tree, const FloatWind& wind,
 HWY_INLINE void carry(const BatchTree& tree, const LanesQuat& local, int i, BatchPoses& out) {
   const hn::RebindToSigned<Tag> index_tag;
   const auto parent = hn::LoadU(index_tag, tree.parent.data() + i);
-  const auto gather = [&](const std::vector<float>& from) HWY_ATTR {
-    return hn::GatherIndex(Tag(), from.data(), parent);
-  };
+  const auto gather = [&](const std::vector<float>& from)
+                          HWY_ATTR { return hn::GatherIndex(Tag(), from.data(), parent); };
   const LanesQuat q{gather(out.qw), gather(out.qx), gather(out.qy), gather(out.qz)};
   const Lanes h = load(tree.h, i), two = all(2.f);
   store(gather(out.x) + h * (two * (q.x * q.z + q.w * q.y)), out.x, i);
@@ -89,7 +88,9 @@ Pose BatchPoses::at(int branch) const {
 
 namespace {
 
-float narrow(double x) { return static_cast<float>(x); }
+float narrow(double x) {
+  return static_cast<float>(x);
+}
 
 void setRest(const Branch& branch, JointModel model, std::size_t i, BatchTree& out) {
   Quat rest = restRotation(branch.theta, branch.phi);

@@ -24,16 +24,22 @@ struct Lanes3 {
   Lanes x, y, z;
 };
 
-HWY_INLINE Lanes all(float value) { return hn::Set(Tag(), value); }
+HWY_INLINE Lanes all(float value) {
+  return hn::Set(Tag(), value);
+}
 
-HWY_INLINE Lanes saturate(Lanes x) { return hn::Min(all(1.f), hn::Max(hn::Zero(Tag()), x)); }
+HWY_INLINE Lanes saturate(Lanes x) {
+  return hn::Min(all(1.f), hn::Max(hn::Zero(Tag()), x));
+}
 
 HWY_INLINE Lanes smootherStep(Lanes x) {
   const Lanes u = saturate(x);
   return u * u * u * (u * (all(6.f) * u - all(15.f)) + all(10.f));
 }
 
-HWY_INLINE Lanes envelope(bool smooth, Lanes x) { return smooth ? smootherStep(x) : saturate(x); }
+HWY_INLINE Lanes envelope(bool smooth, Lanes x) {
+  return smooth ? smootherStep(x) : saturate(x);
+}
 
 // cos(2 pi u): whole turns dropped, then sin(2 pi (1/4 - |u|)), Taylor to x^11 (error 6e-8).
 HWY_INLINE Lanes cosTurns(Lanes u) {

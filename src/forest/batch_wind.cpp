@@ -5,7 +5,9 @@
 namespace vegetation_sim::forest {
 namespace {
 
-float narrow(double x) { return static_cast<float>(x); }
+float narrow(double x) {
+  return static_cast<float>(x);
+}
 
 FloatTerm narrowed(const wind::Term& t) {
   FloatTerm out{};

@@ -14,8 +14,8 @@ struct FloatTerm {
   wind::Kind kind;
   bool smooth;
   float x, y, z, inverse_radius;
-  float vx, vy, vz;        // amplitude
-  float nx, ny;            // gust: direction
+  float vx, vy, vz;                    // amplitude
+  float nx, ny;                        // gust: direction
   float rise, plateau, decay, radius;  // rise and decay inverted
   float inverse_core, speed, inflow, updraft;
 };

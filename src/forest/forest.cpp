@@ -68,14 +68,13 @@ void Forest::measure() {
   }
   regions_.clear();
   for (std::uint32_t i = 0; i < layout_.trees.size(); ++i)
-    regions_.push_back({footOf(layout_.trees[i], *terrain_),
-                        layout_.trees[i].scale * (widest_ + tallest_), i, 1});
+    regions_.push_back(
+        {footOf(layout_.trees[i], *terrain_), layout_.trees[i].scale * (widest_ + tallest_), i, 1});
   for (const Tile& tile : layout_.tiles) {
     const double half = 0.5 * tile.size;
-    const Vec3 centre(tile.x + half, tile.y + half,
-                      terrain_->height(tile.x + half, tile.y + half));
-    regions_.push_back({centre, half * 1.5 + LARGEST_SCALE * (widest_ + tallest_), tile.first_tree,
-                        tile.count});
+    const Vec3 centre(tile.x + half, tile.y + half, terrain_->height(tile.x + half, tile.y + half));
+    regions_.push_back(
+        {centre, half * 1.5 + LARGEST_SCALE * (widest_ + tallest_), tile.first_tree, tile.count});
   }
 }
 
@@ -100,7 +99,8 @@ void Forest::advance(Nanoseconds stamp) {
   memory_.levels.prune(stamp, layout_.motion.transition);
 }
 
-// A whole tile at a time: where even its nearest, largest tree may stand still, no tree is looked at.
+// A whole tile at a time: where even its nearest, largest tree may stand still, no tree is looked
+// at.
 void Forest::chooseRegion(const Region& region) {
   const double speed = now_.speedBound(region.centre, region.reach);
   const double view = finestView(memory_.viewers, region.centre, region.reach);

@@ -22,8 +22,7 @@ void checkNumber(const std::string& name, double value, const char* unit, Range 
   if (!fault.empty()) faults.add(fault);
 }
 
-void checkSeed(const TreeSeed& seed, const std::string& name, std::size_t species,
-               Faults& faults) {
+void checkSeed(const TreeSeed& seed, const std::string& name, std::size_t species, Faults& faults) {
   if (seed.species >= species)
     faults.add(name + ": species = " + std::to_string(seed.species) + " is outside 0 to " +
                std::to_string(static_cast<long>(species) - 1));

@@ -20,7 +20,8 @@ void addTip(const Skeleton& skeleton, const std::vector<double>& bend, std::size
             std::vector<double>& omitted) {
   const Vec3 end = tipOf(skeleton.branches[tip], skeleton.branches[tip].rest);
   std::vector<double> by_depth(omitted.size(), 0.0);
-  for (int i = static_cast<int>(tip); i >= 0; i = skeleton.branches[static_cast<std::size_t>(i)].parent) {
+  for (int i = static_cast<int>(tip); i >= 0;
+       i = skeleton.branches[static_cast<std::size_t>(i)].parent) {
     const Branch& joint = skeleton.branches[static_cast<std::size_t>(i)];
     by_depth[static_cast<std::size_t>(joint.depth)] +=
         bend[static_cast<std::size_t>(i)] * length(end - joint.rest.position);
@@ -37,7 +38,8 @@ void addTip(const Skeleton& skeleton, const std::vector<double>& bend, std::size
 LevelState LevelState::settled(int level) {
   LevelState out;
   out.level = level;
-  for (int d = 0; d < MAX_DEPTHS; ++d) out.blend[static_cast<std::size_t>(d)] = d < level ? 1.f : 0.f;
+  for (int d = 0; d < MAX_DEPTHS; ++d)
+    out.blend[static_cast<std::size_t>(d)] = d < level ? 1.f : 0.f;
   return out;
 }
 

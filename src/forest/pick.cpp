@@ -59,8 +59,7 @@ std::optional<Picked> pickBranch(const Tree& tree, const std::vector<Pose>& pose
     const double radius = branch.base_radius + (branch.tip_radius - branch.base_radius) * f;
     if (hit.distance > radius + ray.tolerance) continue;
     if (best && best->distance <= hit.on_ray) continue;
-    best = Picked{0, static_cast<int>(i), hit.on_axis, hit.on_ray,
-                  Vec3(base + hit.on_axis * axis)};
+    best = Picked{0, static_cast<int>(i), hit.on_axis, hit.on_ray, Vec3(base + hit.on_axis * axis)};
   }
   return best;
 }

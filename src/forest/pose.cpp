@@ -24,8 +24,8 @@ std::vector<JointAngles> proceduralAngles(const Tree& tree, const wind::Instant&
     const Branch& branch = tree.skeleton.branches[i];
     const double weight = weights[static_cast<std::size_t>(branch.depth)];
     if (weight <= 0.0) continue;
-    const Vec3 velocity = effectiveVelocity(wind.velocity(branch.rest.position), tree.drag,
-                                            tree.reference_speed);
+    const Vec3 velocity =
+        effectiveVelocity(wind.velocity(branch.rest.position), tree.drag, tree.reference_speed);
     out[i] = deviation(tree.response[i], velocity, weight, tree.joint_model);
   }
   return out;

@@ -43,8 +43,7 @@ bool ForestReplica::apply(const StateUpdate& update) {
   return true;
 }
 
-std::vector<Pose> ForestReplica::pose(const Tree& tree, std::uint32_t id,
-                                      Nanoseconds stamp) const {
+std::vector<Pose> ForestReplica::pose(const Tree& tree, std::uint32_t id, Nanoseconds stamp) const {
   return poseBranches(tree, wind_.at(stamp).relativeTo(tree.foot), weights(id, stamp));
 }
 

@@ -73,8 +73,9 @@ std::vector<Response> windResponse(const Skeleton& skeleton, const Species& spec
       lever = levers[i] / jointStiffness(b, species);
     }
     const Vec3 parent_z =
-        b.parent < 0 ? Vec3(0.0, 0.0, 1.0)
-                     : axisZ(skeleton.branches[static_cast<std::size_t>(b.parent)].rest.orientation);
+        b.parent < 0
+            ? Vec3(0.0, 0.0, 1.0)
+            : axisZ(skeleton.branches[static_cast<std::size_t>(b.parent)].rest.orientation);
     // axis . (lever x v) = (axis x lever) . v
     out[i].first = cross(paper_joint ? parent_z : axisX(q), lever);
     out[i].second = cross(axisY(q), lever);

@@ -17,9 +17,9 @@ constexpr double GOLDEN_ANGLE = 2.399963229728653;  // pi (3 - sqrt 5)
 enum Draw : std::uint64_t { LENGTH, PLACE, AZIMUTH, ANGLE, COUNT, LEAVES, LEAN, TREE };
 
 struct Limb {
-  int bearer{-1};     // index among the limbs one depth below
-  int segment{0};     // of the bearer
-  double h{0.0};      // along that segment
+  int bearer{-1};  // index among the limbs one depth below
+  int segment{0};  // of the bearer
+  double h{0.0};   // along that segment
   double theta{0.0}, phi{0.0};
   double length{0.0}, base_radius{0.0}, tip_radius{0.0};
   std::uint64_t key{0};
@@ -68,8 +68,7 @@ class Grower {
   Limb trunk() const {
     const Random random = Random(seed_.seed).child(TREE);
     Limb out;
-    const double size =
-        seed_.scale * (1.0 + species_.height_variation * vary(random, LENGTH));
+    const double size = seed_.scale * (1.0 + species_.height_variation * vary(random, LENGTH));
     out.length = species_.height * size;
     out.base_radius = species_.trunk_radius * size;
     out.tip_radius = out.base_radius * rule(0).taper;
@@ -159,8 +158,9 @@ class Grower {
     const Random random(limb.key);
     double a = step * 2.0 * gradientNoise(random.bits(AZIMUTH), 0.37 + 0.61 * s);
     double b = step * 2.0 * gradientNoise(random.bits(ANGLE), 0.71 + 0.61 * s);
-    const Vec3 up(axisX(before.rest.orientation).z(), axisY(before.rest.orientation).z(),
-                  axisZ(before.rest.orientation).z());  // the sky in the frame of the segment before
+    const Vec3 up(
+        axisX(before.rest.orientation).z(), axisY(before.rest.orientation).z(),
+        axisZ(before.rest.orientation).z());  // the sky in the frame of the segment before
     const double across = std::sqrt(up.x() * up.x() + up.y() * up.y());
     if (across > 1e-9) {
       const double turn = r.rise / r.segments, left = arcTangent(across, up.z());

@@ -9,8 +9,8 @@ namespace {
 
 constexpr std::size_t MOST_SPECIES = 256;
 
-int indexOf(const std::string& name, const std::string& word,
-            const std::vector<std::string>& names, Faults& faults) {
+int indexOf(const std::string& name, const std::string& word, const std::vector<std::string>& names,
+            Faults& faults) {
   std::string allowed;
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (names[i] == word) return static_cast<int>(i);

@@ -85,13 +85,11 @@ TEST_P(BatchPoserOf, GivesTheSameBitsOnEveryInstructionSet) {
       BatchPoses other;
       poser.pose(wind, fullWeights(), MAX_DEPTHS, other);
       forceInstructionSet("");
-      EXPECT_TRUE(sameBits(first.x, other.x, first.count) &&
-                  sameBits(first.y, other.y, first.count) &&
-                  sameBits(first.z, other.z, first.count) &&
-                  sameBits(first.qw, other.qw, first.count) &&
-                  sameBits(first.qx, other.qx, first.count) &&
-                  sameBits(first.qy, other.qy, first.count) &&
-                  sameBits(first.qz, other.qz, first.count))
+      EXPECT_TRUE(
+          sameBits(first.x, other.x, first.count) && sameBits(first.y, other.y, first.count) &&
+          sameBits(first.z, other.z, first.count) && sameBits(first.qw, other.qw, first.count) &&
+          sameBits(first.qx, other.qx, first.count) && sameBits(first.qy, other.qy, first.count) &&
+          sameBits(first.qz, other.qz, first.count))
           << set << " tree " << id;
     }
   }

@@ -62,7 +62,9 @@ inline wind::Primitive makeBreeze(std::uint32_t id, const Vec3& velocity) {
   return out;
 }
 
-inline Nanoseconds seconds(double s) { return fromSeconds(s); }
+inline Nanoseconds seconds(double s) {
+  return fromSeconds(s);
+}
 
 inline Weights fullWeights() {
   Weights out;

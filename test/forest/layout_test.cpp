@@ -23,7 +23,9 @@ std::string faultsOf(const Layout& layout) {
 }
 
 // S1-05: what is permanent of a tree, as sent, is far below 1 kB.
-TEST(Layout, SeedIsSmall) { EXPECT_LT(sizeof(TreeSeed), 200u); }
+TEST(Layout, SeedIsSmall) {
+  EXPECT_LT(sizeof(TreeSeed), 200u);
+}
 
 TEST(Layout, TreesInATileAreAPureFunctionOfTheTile) {
   Tile tile;
@@ -102,8 +104,7 @@ TEST(Layout, HashSeesEveryField) {
   differs([](Layout& l) { l.terrain = "other"; });
 }
 
-class ScenarioFault
-    : public testing::TestWithParam<std::pair<const char*, const char*>> {};
+class ScenarioFault : public testing::TestWithParam<std::pair<const char*, const char*>> {};
 TEST_P(ScenarioFault, IsNamed) {
   Scenario scenario = Scenario::parse(GetParam().first, "bad.yaml");
   Faults faults;

@@ -12,8 +12,7 @@ namespace vegetation_sim::forest {
 namespace {
 
 PosedTree atRest(const Layout& layout, std::uint32_t id) {
-  const auto tree =
-      std::make_shared<const Tree>(growTree(layout, id, terrain::HeightMap()));
+  const auto tree = std::make_shared<const Tree>(growTree(layout, id, terrain::HeightMap()));
   return {tree, poseBranches(*tree, wind::Instant(), Weights{})};
 }
 
@@ -25,9 +24,9 @@ TEST(Pick, RayMeetsTheBranchItIsAimedAt) {
     const auto id = static_cast<std::uint32_t>(random.bits(3 * i) % 9);
     const PosedTree posed = atRest(layout, id);
     const std::size_t b = random.bits(3 * i + 1) % posed.poses.size();
-    const Vec3 target = posed.tree->foot + 0.5 * (posed.poses[b].position +
-                                                 tipOf(posed.tree->skeleton.branches[b],
-                                                       posed.poses[b]));
+    const Vec3 target =
+        posed.tree->foot +
+        0.5 * (posed.poses[b].position + tipOf(posed.tree->skeleton.branches[b], posed.poses[b]));
     Ray ray;
     ray.origin = Vec3(-20.0, 10.0 * random.uniform(3 * i + 2), 30.0);
     ray.direction = target - ray.origin;

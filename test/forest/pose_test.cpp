@@ -116,15 +116,16 @@ TEST(Pose, NoWindLeavesTheRestShape) {
       weights.fill(weight);
       const auto poses = poseBranches(tree, wind::Instant(), weights);
       for (std::size_t i = 0; i < poses.size(); ++i)
-        EXPECT_NEAR(length(poses[i].position - tree.skeleton.branches[i].rest.position), 0.0, 1e-12);
+        EXPECT_NEAR(length(poses[i].position - tree.skeleton.branches[i].rest.position), 0.0,
+                    1e-12);
     }
   }
 }
 
 TEST(Pose, BranchesKeepTheirLengthAndHoldTogether) {
   const Tree tree = growOne(2);
-  const auto poses = poseBranches(tree, blow({makeBreeze(1, Vec3(20, 5, 0))}, tree, 9.0),
-                                  fullWeights());
+  const auto poses =
+      poseBranches(tree, blow({makeBreeze(1, Vec3(20, 5, 0))}, tree, 9.0), fullWeights());
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const Branch& b = tree.skeleton.branches[i];
     const Quat& q = poses[i].orientation;

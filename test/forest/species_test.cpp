@@ -31,7 +31,8 @@ std::size_t count(const Species& species, int (*measure)(const Branch&)) {
   for (std::uint64_t i = 0; i < 8; ++i) {
     TreeSeed seed;
     seed.seed = i;
-    for (const Branch& b : grow(seed, species).branches) sum += static_cast<std::size_t>(measure(b));
+    for (const Branch& b : grow(seed, species).branches)
+      sum += static_cast<std::size_t>(measure(b));
   }
   return sum;
 }

@@ -18,8 +18,8 @@ struct Range {
 };
 
 /// A parameter structure declares each field once, in a free function
-/// `describe(FieldVisitor&, T&)`, with name, unit and range; reading, checking, writing, hashing and
-/// documentation visit that declaration, so they cannot disagree.
+/// `describe(FieldVisitor&, T&)`, with name, unit and range; reading, checking, writing, hashing
+/// and documentation visit that declaration, so they cannot disagree.
 class FieldVisitor {
  public:
   virtual ~FieldVisitor() = default;

@@ -28,7 +28,9 @@ double arcTangent(double y, double x);
 double cubeRoot(double x);
 
 /// Clamp to [0, 1].
-inline double saturate(double x) { return std::min(1.0, std::max(0.0, x)); }
+inline double saturate(double x) {
+  return std::min(1.0, std::max(0.0, x));
+}
 
 /// 3x^2 - 2x^3 on [0, 1], flat outside: C1 (paper 1, section 4.3).
 inline double smoothStep(double x) {

@@ -23,13 +23,14 @@ struct Pose {
 
 /// Rotation `a` after rotation `b`: the Hamilton product a b.
 inline Quat operator*(const Quat& a, const Quat& b) {
-  return {a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z,
-          a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
-          a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
-          a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
+  return {
+      a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
+      a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
 }
 
-inline Quat conjugate(const Quat& q) { return {q.w, -q.x, -q.y, -q.z}; }
+inline Quat conjugate(const Quat& q) {
+  return {q.w, -q.x, -q.y, -q.z};
+}
 
 inline Vec3 axisX(const Quat& q) {
   return {1.0 - 2.0 * (q.y * q.y + q.z * q.z), 2.0 * (q.x * q.y + q.w * q.z),
@@ -56,6 +57,8 @@ inline double dot(const Vec3& a, const Vec3& b) {
   return (a.x() * b.x() + a.y() * b.y()) + a.z() * b.z();
 }
 
-inline double length(const Vec3& a) { return std::sqrt(dot(a, a)); }
+inline double length(const Vec3& a) {
+  return std::sqrt(dot(a, a));
+}
 
 }  // namespace vegetation_sim

@@ -54,7 +54,8 @@ class YamlSection : public FieldVisitor {
   std::set<std::string> asked_;
 };
 
-/// Parses a file. @throws InvalidInput naming the file if it is missing, larger than 4 MiB or no YAML.
+/// Parses a file. @throws InvalidInput naming the file if it is missing, larger than 4 MiB or no
+/// YAML.
 YAML::Node loadYamlFile(const std::string& file);
 /// Parses text; `name` stands for it in the error. @throws InvalidInput
 YAML::Node parseYaml(const std::string& text, const std::string& name);

@@ -13,11 +13,11 @@ namespace vegetation_sim::forest {
 
 /// All that is permanent of one tree (S1-04).
 struct TreeSeed {
-  std::uint64_t seed{0};          ///< keys every random number of the tree
-  std::uint16_t species{0};       ///< index into Layout::species
-  Vec3 position{Vec3::Zero()};    ///< foot of the trunk, z above the terrain [m]
-  double yaw{0.0};                ///< [rad]
-  double scale{1.0};              ///< over the species' size, 0.05 to 20
+  std::uint64_t seed{0};        ///< keys every random number of the tree
+  std::uint16_t species{0};     ///< index into Layout::species
+  Vec3 position{Vec3::Zero()};  ///< foot of the trunk, z above the terrain [m]
+  double yaw{0.0};              ///< [rad]
+  double scale{1.0};            ///< over the species' size, 0.05 to 20
 };
 static_assert(sizeof(TreeSeed) < 1024, "S1-05: a unique tree takes less than 1 kB");
 
@@ -25,9 +25,9 @@ static_assert(sizeof(TreeSeed) < 1024, "S1-05: a unique tree takes less than 1 k
 struct Tile {
   std::uint32_t first_tree{0}, count{0};
   std::uint64_t seed{0};
-  double x{0.0}, y{0.0};     ///< south-west corner [m]
-  double size{10.0};         ///< edge [m]
-  std::vector<float> mix;    ///< relative weight of each species
+  double x{0.0}, y{0.0};   ///< south-west corner [m]
+  double size{10.0};       ///< edge [m]
+  std::vector<float> mix;  ///< relative weight of each species
 };
 
 /// `paper`: Rz(th) Ry(ph) of paper 1, fig. 1; `swing`: rest rotation, then an isotropic bend (E4).
@@ -52,7 +52,7 @@ void describe(FieldVisitor& visitor, MotionLaw& law);
 struct Layout {
   std::vector<Species> species;
   MotionLaw motion;
-  std::string terrain;  ///< file of the height map; empty: flat
+  std::string terrain;          ///< file of the height map; empty: flat
   std::vector<TreeSeed> trees;  ///< ids 0, 1, 2 ...
   std::vector<Tile> tiles;      ///< ids go on
 
@@ -60,7 +60,8 @@ struct Layout {
   std::uint64_t hash() const;
 };
 
-/// Adds a fault for whatever is wrong: ranges, unknown species, ids with gaps, more than 2^24 trees.
+/// Adds a fault for whatever is wrong: ranges, unknown species, ids with gaps, more than 2^24
+/// trees.
 void check(const Layout& layout, Faults& faults);
 
 /// The seed of a tree. @throws std::out_of_range for an unknown id.

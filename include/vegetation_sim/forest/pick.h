@@ -11,7 +11,7 @@
 namespace vegetation_sim::forest {
 
 struct Ray {
-  Vec3 origin{Vec3::Zero()};            ///< world [m]
+  Vec3 origin{Vec3::Zero()};             ///< world [m]
   Vec3 direction{Vec3(0.0, 0.0, -1.0)};  ///< any length but zero
   double tolerance{0.0};  ///< a branch is met within this distance of its surface [m]
 };
@@ -20,8 +20,8 @@ struct Ray {
 struct Picked {
   std::uint32_t tree{0};
   int branch{0};
-  double along{0.0};     ///< from the base of the branch [m]
-  double distance{0.0};  ///< from the ray's origin [m]
+  double along{0.0};         ///< from the base of the branch [m]
+  double distance{0.0};      ///< from the ray's origin [m]
   Vec3 point{Vec3::Zero()};  ///< on the axis of the branch, world [m]
 };
 

@@ -37,7 +37,8 @@ double jointStiffness(const Branch& branch, const Species& species);
 std::vector<Response> windResponse(const Skeleton& skeleton, const Species& species,
                                    const MotionLaw& law);
 
-/// Scale of the printed 1/m [kg rad s/m^2]: equation 1 swallows it with the unit of its force (E13).
+/// Scale of the printed 1/m [kg rad s/m^2]: equation 1 swallows it with the unit of its force
+/// (E13).
 constexpr double PAPER_GAIN = 0.02;
 
 /// Velocity that enters the response: v, or v |v| / v_ref for quadratic drag.

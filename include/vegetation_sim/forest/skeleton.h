@@ -24,11 +24,11 @@ struct Branch {
   double roll{0.0};         ///< turn about z that undoes the twist along the limb, for meshes [rad]
   int leaves{0};            ///< leaf clusters on it
   std::uint64_t key{0};     ///< of its random numbers
-  Pose rest;                ///< base at rest in the tree's frame: origin at the foot, axes as the world's
+  Pose rest;  ///< base at rest in the tree's frame: origin at the foot, axes as the world's
 };
 
-/// Branches of one depth and one place in their limbs: none is another's parent, so all can be posed
-/// at once. Their parents are in earlier groups.
+/// Branches of one depth and one place in their limbs: none is another's parent, so all can be
+/// posed at once. Their parents are in earlier groups.
 struct Group {
   int begin{0}, end{0}, depth{0};
 };

@@ -46,19 +46,19 @@ struct Species {
   double trunk_radius{0.15};      ///< at the ground, for `height` [m]
   double twig_radius{0.004};      ///< no wood is thinner [m]
   double lean{0.03};              ///< largest lean of the trunk [rad]
-  double angle_thin{1.4};   ///< largest angle to the bearer for a limb of no relative diameter [rad]
-  double angle_thick{0.35};  ///< the same for relative diameter 1 (S1-11) [rad]
-  double noise{1.0};              ///< amplitude of all growth noise; 0: the bare rules (S1-12)
-  double youngs_modulus{8e9};     ///< [Pa]
-  double density{900.0};          ///< [kg/m^3]
-  double drag_coefficient{1.0};   ///< of branches and leaf clusters
-  double reference_speed{8.0};    ///< wind at which linear drag equals quadratic drag [m/s]
-  double leaf_size{0.35};         ///< edge of a leaf cluster [m]
-  double leaf_area{0.02};         ///< drag area of a leaf cluster [m^2]
-  double flutter{0.25};           ///< largest turn of a leaf cluster in strong wind [rad]
-  int leaf_shape{0};              ///< LeafShape
-  Vec3 leaf_colour{Vec3(0.25, 0.45, 0.12)};       ///< sRGB, 0 to 1
-  Vec3 leaf_colour_young{Vec3(0.45, 0.6, 0.2)};   ///< outer leaves
+  double angle_thin{1.4};  ///< largest angle to the bearer for a limb of no relative diameter [rad]
+  double angle_thick{0.35};      ///< the same for relative diameter 1 (S1-11) [rad]
+  double noise{1.0};             ///< amplitude of all growth noise; 0: the bare rules (S1-12)
+  double youngs_modulus{8e9};    ///< [Pa]
+  double density{900.0};         ///< [kg/m^3]
+  double drag_coefficient{1.0};  ///< of branches and leaf clusters
+  double reference_speed{8.0};   ///< wind at which linear drag equals quadratic drag [m/s]
+  double leaf_size{0.35};        ///< edge of a leaf cluster [m]
+  double leaf_area{0.02};        ///< drag area of a leaf cluster [m^2]
+  double flutter{0.25};          ///< largest turn of a leaf cluster in strong wind [rad]
+  int leaf_shape{0};             ///< LeafShape
+  Vec3 leaf_colour{Vec3(0.25, 0.45, 0.12)};      ///< sRGB, 0 to 1
+  Vec3 leaf_colour_young{Vec3(0.45, 0.6, 0.2)};  ///< outer leaves
   Vec3 bark_colour{Vec3(0.32, 0.25, 0.18)};
   Vec3 twig_colour{Vec3(0.3, 0.24, 0.15)};
   std::vector<LimbRule> limbs{LimbRule{}};  ///< by recursion depth, trunk first

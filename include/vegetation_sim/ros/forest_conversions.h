@@ -31,13 +31,13 @@ ForestState toMsg(const forest::StateUpdate& update);
 forest::StateUpdate fromMsg(const ForestState& message);
 
 /// Poses of a tree in the world from poses in the tree's frame.
-BranchTransforms toMsg(std::uint32_t tree, const Vec3& foot,
-                       const std::vector<Pose>& poses);
+BranchTransforms toMsg(std::uint32_t tree, const Vec3& foot, const std::vector<Pose>& poses);
 
 geometry_msgs::Pose toMsg(const Vec3& foot, const Pose& pose);
 
 /// A viewer in the world frame (message's pose already transformed there).
-/// @throws InvalidInput for NaN, an unnormalised quaternion, a field of view or height out of range.
+/// @throws InvalidInput for NaN, an unnormalised quaternion, a field of view or height out of
+/// range.
 forest::Viewer fromMsg(const Viewer& message);
 
 }  // namespace vegetation_sim
