@@ -17,7 +17,7 @@ PACKAGES=(
   libnodeletlib-tools python3-roslaunch python3-rosnode python3-rosparam python3-rosservice
   python3-rostopic rosbash rviz
   # testing
-  googletest libbenchmark-dev librostest-dev python3-rosbag python3-rosmsg python3-rostest
+  libbenchmark-dev libgmock-dev librostest-dev python3-rosbag python3-rosmsg python3-rostest
   catkin-lint clang-format clang-tidy
   # a display of its own for the demo, and a picture of it
   imagemagick libgl1-mesa-dri x11-utils xdotool xvfb

@@ -52,7 +52,8 @@ SinCos fromQuadrant(double x, int quadrant) {
 }  // namespace
 
 SinCos sinCosTurns(double turns) {
-  const double fraction = turns - std::floor(turns);  // exact
+  // From the nearest whole turn, so that the difference is exact for small negative turns too.
+  const double fraction = turns - std::floor(turns + 0.5);
   const double quarter = std::floor(fraction * 4.0 + 0.5);
   return fromQuadrant((fraction - quarter * 0.25) * (2.0 * PI), static_cast<int>(quarter));
 }
@@ -92,7 +93,7 @@ double cubeRoot(double x) {
   bits = bits / 3 + 0x2A9F7893782DA1CEULL;  // a third of the exponent: within 5 %
   double r;
   std::memcpy(&r, &bits, sizeof r);
-  for (int i = 0; i < 5; ++i) r = (2.0 * r + x / (r * r)) * (1.0 / 3.0);
+  for (int i = 0; i < 5; ++i) r -= (r - x / (r * r)) * (1.0 / 3.0);
   return r;
 }
 
