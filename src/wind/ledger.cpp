@@ -81,14 +81,15 @@ Primitive Ledger::put(Primitive p, Nanoseconds earliest, Change change) {
   Entries entries = entries_;
   dropPending(entries, p.name, p.t_on);
   Entry* before = latest(entries, p.name);
+  std::optional<Nanoseconds> default_epoch;
   if (before != nullptr && !endsBy(before->primitive, p.t_on)) {
     Primitive& old = before->primitive;
     p.t_on = std::max(p.t_on, old.t_on + fromSeconds(old.fade_in));
     if (change == Change::EDIT) p.fade_in = std::max(p.fade_in, old.fade_out);
     end(old, p.t_on, p.fade_in);
-    if (p.epoch == 0 && p.kind == old.kind) p.epoch = old.epoch;
+    if (p.kind == old.kind) default_epoch = old.epoch;
   }
-  if (p.epoch == 0) p.epoch = p.t_on;
+  if (p.epoch == 0) p.epoch = default_epoch.value_or(p.t_on);
   p.id = next_id_;
   entries.push_back({p, change == Change::EDIT ? KEEP_EDITED : KEEP_PIECES});
   adopt(std::move(entries), next_id_ + 1);
