@@ -39,6 +39,7 @@ Forest::Forest(Layout layout, std::shared_ptr<const terrain::HeightMap> terrain,
 
 void Forest::setLayout(Layout layout, std::shared_ptr<const terrain::HeightMap> terrain) {
   Faults faults;
+  layout.terrain_hash = terrain->hash();
   check(layout, faults);
   faults.throwIfAny();
   const bool same_trees = layout.treeCount() == layout_.treeCount();

@@ -80,7 +80,7 @@ std::uint64_t Layout::hash() const {
   FieldHasher hasher(out);
   MotionLaw law = motion;
   describe(hasher, law);
-  out.add(terrain);
+  out.add(terrain_hash);  // what it is, not where this machine keeps it
   for (const TreeSeed& seed : trees) {
     out.add(seed.seed);
     out.add(static_cast<std::uint64_t>(seed.species));

@@ -7,6 +7,9 @@ namespace vegetation_sim::forest {
 void ForestReplica::setLayout(Layout layout, std::shared_ptr<const terrain::HeightMap> terrain) {
   Faults faults;
   check(layout, faults);
+  if (layout.terrain_hash != terrain->hash())
+    faults.add("layout: terrain = '" + layout.terrain + "' has other heights here than where it " +
+               "was made");
   faults.throwIfAny();
   layout_hash_ = layout.hash();
   layout_ = std::make_shared<const Layout>(std::move(layout));

@@ -137,6 +137,7 @@ ForestLayout toMsg(const forest::Layout& layout) {
     out.species.push_back(message);
   }
   out.terrain = layout.terrain;
+  out.terrain_hash = layout.terrain_hash;
   out.joint_model = nameOf(layout.motion.joint_model, JOINT_MODELS);
   out.gain = nameOf(layout.motion.gain, GAINS);
   out.drag = nameOf(layout.motion.drag, DRAGS);
@@ -161,6 +162,7 @@ forest::Layout fromMsg(const ForestLayout& message) {
     }
   }
   out.terrain = message.terrain;
+  out.terrain_hash = message.terrain_hash;
   out.motion.joint_model = indexOf("joint_model", message.joint_model, JOINT_MODELS, faults);
   out.motion.gain = indexOf("gain", message.gain, GAINS, faults);
   out.motion.drag = indexOf("drag", message.drag, DRAGS, faults);

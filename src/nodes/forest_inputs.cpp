@@ -1,0 +1,145 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/nodes/forest_inputs.h"
+
+#include "vegetation_sim/ros/forest_conversions.h"
+
+namespace vegetation_sim {
+namespace {
+
+constexpr std::size_t MOST_WAITING = 10000;  // a flood drops the oldest viewers
+constexpr std::size_t MOST_WINDS = 256;
+
+/// Copies fields out under their names, or in from them.
+class FieldCopier : public FieldVisitor {
+ public:
+  explicit FieldCopier(std::map<std::string, double>& values, bool out)
+      : values_(values), out_(out) {}
+  void number(const char* name, double& value, const char*, Range) override { copy(name, value); }
+  void integer(const char* name, int& value, const char*, Range) override {
+    double number_value = value;
+    copy(name, number_value);
+    value = static_cast<int>(number_value);
+  }
+  void vector(const char*, Vec3&, const char*, Range) override {}
+  void choice(const char*, int&, const std::vector<std::string>&) override {}
+
+ private:
+  void copy(const char* name, double& value) {
+    const auto found = values_.find(name);
+    if (out_)
+      values_[name] = value;
+    else if (found != values_.end())
+      value = found->second;
+  }
+  std::map<std::string, double>& values_;
+  bool out_;
+};
+
+}  // namespace
+
+void describe(FieldVisitor& v, ForestTuning& t) {
+  describe(v, t.settings);
+  describe(v, t.design);
+  v.number("transition", t.transition, "s", {0.01, 60.0});
+}
+
+void toEvent(const ForestTuning& tuning, ForestEvent& event) {
+  std::map<std::string, double> values;
+  FieldCopier copier(values, true);
+  ForestTuning copy = tuning;
+  describe(copier, copy);
+  event.kind = ForestEvent::SETTINGS;
+  for (const auto& [name, value] : values) {
+    event.names.push_back(name);
+    event.values.push_back(value);
+  }
+}
+
+ForestTuning tuningOf(const ForestEvent& event) {
+  if (event.names.size() != event.values.size())
+    throw InvalidInput("event: " + std::to_string(event.names.size()) + " names for " +
+                       std::to_string(event.values.size()) + " values");
+  ForestTuning out;
+  std::map<std::string, double> known, values;
+  FieldCopier reader(known, true);
+  describe(reader, out);
+  Faults faults;
+  for (std::size_t i = 0; i < event.names.size(); ++i) {
+    if (!known.count(event.names[i])) faults.add("event: " + event.names[i] + " is not known");
+    values[event.names[i]] = event.values[i];
+  }
+  FieldCopier writer(values, false);
+  describe(writer, out);
+  FieldChecker checker("event: ", faults);
+  describe(checker, out);
+  faults.throwIfAny();
+  return out;
+}
+
+void ForestInputs::addViewer(const Viewer& viewer_in_world) {
+  if (replay_) return;
+  ForestEvent event;
+  event.kind = ForestEvent::VIEWER;
+  event.viewer = viewer_in_world;
+  // Only the last word of each viewer counts at a tick.
+  for (ForestEvent& waiting : waiting_) {
+    if (waiting.kind != ForestEvent::VIEWER || waiting.viewer.id != viewer_in_world.id) continue;
+    waiting = event;
+    return;
+  }
+  if (waiting_.size() >= MOST_WAITING) waiting_.pop_front();
+  waiting_.push_back(event);
+}
+
+void ForestInputs::addTuning(const ForestTuning& tuning) {
+  if (replay_) return;
+  ForestEvent event;
+  toEvent(tuning, event);
+  waiting_.push_back(event);
+}
+
+void ForestInputs::addReset() {
+  if (replay_) return;
+  ForestEvent event;
+  event.kind = ForestEvent::RESET;
+  waiting_.push_back(event);
+}
+
+void ForestInputs::addWind(wind::Field wind) {
+  ForestEvent event;
+  event.kind = ForestEvent::WIND;
+  event.wind_hash = wind.hash();
+  if (winds_.emplace(event.wind_hash, std::move(wind)).second)
+    wind_order_.push_back(event.wind_hash);
+  if (wind_order_.size() > MOST_WINDS) {
+    winds_.erase(wind_order_.front());
+    wind_order_.pop_front();
+  }
+  if (!replay_) waiting_.push_back(event);
+}
+
+void ForestInputs::addEvent(const ForestEvent& event) {
+  if (!replay_) return;
+  if (waiting_.size() >= MOST_WAITING) waiting_.pop_front();
+  waiting_.push_back(event);
+}
+
+std::vector<ForestEvent> ForestInputs::take(Nanoseconds stamp) {
+  std::vector<ForestEvent> out;
+  while (!waiting_.empty()) {
+    if (replay_ && fromMsg(waiting_.front().header.stamp) > stamp) break;
+    out.push_back(std::move(waiting_.front()));
+    waiting_.pop_front();
+    out.back().header.stamp = toStamp(stamp);
+  }
+  return out;
+}
+
+std::optional<wind::Field> ForestInputs::windOf(const ForestEvent& event) const {
+  const auto found = winds_.find(event.wind_hash);
+  if (found == winds_.end()) return std::nullopt;
+  return found->second;
+}
+
+}  // namespace vegetation_sim

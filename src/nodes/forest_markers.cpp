@@ -1,0 +1,182 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/nodes/forest_markers.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "vegetation_sim/forest/skin.h"
+#include "vegetation_sim/ros/forest_conversions.h"
+
+namespace vegetation_sim {
+namespace {
+
+constexpr double SMALLEST_PX = 3.0;         // of a tree that is drawn
+constexpr double PIXELS_PER_RADIAN = 1000;  // of the middle of the forest, when nobody looks
+
+visualization_msgs::Marker makeList(const std::string& ns, int id) {
+  visualization_msgs::Marker out;
+  out.ns = ns;
+  out.id = id;
+  out.type = visualization_msgs::Marker::TRIANGLE_LIST;
+  out.action = visualization_msgs::Marker::ADD;
+  out.pose.orientation.w = 1.0;
+  out.scale.x = out.scale.y = out.scale.z = 1.0;
+  out.color.r = out.color.g = out.color.b = out.color.a = 1.f;
+  return out;
+}
+
+std_msgs::ColorRGBA colour(const Vec3& rgb) {
+  std_msgs::ColorRGBA out;
+  out.r = static_cast<float>(rgb.x());
+  out.g = static_cast<float>(rgb.y());
+  out.b = static_cast<float>(rgb.z());
+  out.a = 1.f;
+  return out;
+}
+
+geometry_msgs::Point pointAt(const std::vector<float>& xyz, std::size_t vertex) {
+  geometry_msgs::Point out;
+  out.x = xyz[3 * vertex];
+  out.y = xyz[3 * vertex + 1];
+  out.z = xyz[3 * vertex + 2];
+  return out;
+}
+
+Vec3 middleOf(const forest::Layout& layout) {
+  Vec3 sum = Vec3::Zero();
+  double count = 0.0;
+  for (const forest::TreeSeed& seed : layout.trees) {
+    sum += seed.position;
+    count += 1.0;
+  }
+  for (const forest::Tile& tile : layout.tiles) {
+    sum += static_cast<double>(tile.count) *
+           Vec3(tile.x + 0.5 * tile.size, tile.y + 0.5 * tile.size, 0.0);
+    count += tile.count;
+  }
+  return count > 0.0 ? Vec3(sum / count) : sum;
+}
+
+double finest(const std::vector<forest::Eye>& eyes, const Vec3& position, double reach) {
+  double out = 0.0;
+  for (const forest::Eye& eye : eyes)
+    out = std::max(out, forest::pixelsPerMetre(eye, length(eye.position - position) - reach));
+  return out;
+}
+
+}  // namespace
+
+ForestMarkers::ForestMarkers(int points)
+    : bark_points_(static_cast<std::size_t>(points) / 2 / 3 * 3),
+      leaf_points_(static_cast<std::size_t>(points) / 2 / 6 * 6),
+      bark_(makeList("bark", 0)),
+      leaves_(makeList("leaves", 1)) {}
+
+void ForestMarkers::reset() {
+  drawn_.clear();
+  feedback_.reset();
+}
+
+void ForestMarkers::chooseTrees(const forest::Forest& forest) {
+  std::vector<forest::Eye> eyes;
+  for (const auto& entry : forest.memory().viewers) eyes.push_back(entry.second.eye);
+  const forest::Layout& layout = forest.layout();
+  if (eyes.empty()) eyes.push_back({middleOf(layout), PIXELS_PER_RADIAN});
+  order_.clear();
+  const auto consider = [&](std::uint32_t id, const forest::TreeSeed& seed) {
+    const double view = finest(eyes, footOf(seed, forest.terrain()), 0.0);
+    const double height = seed.scale * layout.species[seed.species].height;
+    if (view * height >= SMALLEST_PX) order_.emplace_back(view * height, id);
+  };
+  for (std::uint32_t i = 0; i < layout.trees.size(); ++i) consider(i, layout.trees[i]);
+  for (const forest::Tile& tile : layout.tiles) {
+    const Vec3 middle(tile.x + 0.5 * tile.size, tile.y + 0.5 * tile.size, 0.0);
+    if (finest(eyes, middle, 0.75 * tile.size) * 10.0 < SMALLEST_PX) continue;
+    for (std::uint32_t i = 0; i < tile.count; ++i)
+      consider(tile.first_tree + i, seedInTile(tile, i));
+  }
+  std::sort(order_.begin(), order_.end(), std::greater<>());
+}
+
+void ForestMarkers::addTree(const forest::Forest& forest, forest::TreeCache& cache,
+                            std::uint32_t id, Nanoseconds stamp) {
+  const auto grown = cache.get(forest.layout(), forest.terrain(), id);
+  const forest::Species& species = forest.layout().species[grown->tree.seed.species];
+  const forest::TreeMesh& mesh = *drawn_[id].mesh;
+  wanted_ += mesh.triangles.size() + 6 * mesh.leaves.size();
+  if (bark_.points.size() + mesh.triangles.size() > bark_points_) return;
+  const wind::Instant wind = forest.memory().wind.at(stamp).relativeTo(grown->tree.foot);
+  const forest::Weights weights =
+      forest::weightsAt(forest.memory().levels.of(id), stamp, forest.layout().motion);
+  grown->poser.pose(wind, weights, forest::MAX_DEPTHS, poses_);
+  const std::array<float, 3> foot{static_cast<float>(grown->tree.foot.x()),
+                                  static_cast<float>(grown->tree.foot.y()),
+                                  static_cast<float>(grown->tree.foot.z())};
+  scratch_.resize(3 * mesh.bark.size());
+  skinBark(mesh, poses_, foot, scratch_.data());
+  for (const std::uint32_t vertex : mesh.triangles) {
+    bark_.points.push_back(pointAt(scratch_, vertex));
+    const auto branch = static_cast<std::size_t>(mesh.bark[vertex].branch);
+    const bool trunk = grown->tree.skeleton.branches[branch].depth == 0;
+    bark_.colors.push_back(colour(trunk ? species.bark_colour : species.twig_colour));
+  }
+  const double speed = length(wind.velocity(Vec3(0.0, 0.0, 0.5 * grown->tree.skeleton.height)));
+  const forest::Flutter flutter(static_cast<double>(stamp % (3600 * NANOSECONDS_PER_SECOND)) * 1e-9,
+                                speed, species.flutter);
+  scratch_.resize(12 * mesh.leaves.size());
+  skinLeaves(mesh, poses_, foot, flutter, scratch_.data());
+  for (std::size_t i = 0; i < mesh.leaves.size(); ++i) {
+    if (leaves_.points.size() + 6 > leaf_points_) return;
+    const double shade = mesh.leaves[i].shade;
+    const auto paint = colour(species.leaf_colour * (1.0 - shade) + species.leaf_colour_young * shade);
+    for (const std::uint32_t corner : forest::LEAF_TRIANGLES) {
+      leaves_.points.push_back(pointAt(scratch_, 4 * i + corner));
+      leaves_.colors.push_back(paint);
+    }
+  }
+}
+
+void ForestMarkers::finish(visualization_msgs::Marker& marker, std::size_t points,
+                           std::size_t& used) const {
+  used += marker.points.size();
+  marker.points.resize(points);
+  marker.colors.resize(points, colour(Vec3::Zero()));
+}
+
+visualization_msgs::MarkerArray ForestMarkers::build(const forest::Forest& forest,
+                                                     forest::TreeCache& cache,
+                                                     const std::string& frame_id,
+                                                     Nanoseconds stamp) {
+  chooseTrees(forest);
+  for (visualization_msgs::Marker* list : {&bark_, &leaves_}) {
+    list->points.clear();
+    list->colors.clear();
+    list->header.frame_id = frame_id;
+    list->header.stamp = ros::Time();  // the newest transform; keeps out of tf's waiting queue
+  }
+  wanted_ = used_ = 0;
+  std::map<std::uint32_t, Drawn> drawn;
+  for (const auto& [height_px, id] : order_) {
+    Drawn& entry = drawn[id] = drawn_[id];
+    const int level = forest::geometryLevel(height_px * feedback_.factor(), entry.level);
+    if (level != entry.level || !entry.mesh) {
+      const auto grown = cache.get(forest.layout(), forest.terrain(), id);
+      entry.level = level;
+      entry.mesh = std::make_shared<const forest::TreeMesh>(
+          buildMesh(grown->tree.skeleton, forest.layout().species[grown->tree.seed.species],
+                    forest::meshDetail(level)));
+    }
+    drawn_[id] = entry;
+    addTree(forest, cache, id, stamp);
+  }
+  drawn_ = std::move(drawn);
+  feedback_.update(static_cast<double>(wanted_), 0.85 * static_cast<double>(budget()));
+  finish(bark_, bark_points_, used_);
+  finish(leaves_, leaf_points_, used_);
+  visualization_msgs::MarkerArray out;
+  out.markers = {bark_, leaves_};
+  return out;
+}
+
+}  // namespace vegetation_sim
