@@ -1,0 +1,224 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/rviz/leaf_picture.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "vegetation_sim/common/math.h"
+
+namespace vegetation_sim::view {
+namespace {
+
+using forest::LeafShape;
+
+constexpr float ALPHA_LIMIT = 0.5f;
+constexpr Rgba TWIG{0.48f, 0.40f, 0.30f, 1.f};
+
+struct Spot {
+  float x, y;  // right, up; the foot is (0.5, 0), the tip's edge y = 1
+};
+
+/// Half the width of a leaf at t from its stalk (0) to its tip (1), for a leaf of length 1.
+float halfWidth(LeafShape shape, float t) {
+  const float round = std::sin(static_cast<float>(PI) * std::pow(t, 0.85f));
+  switch (shape) {
+    case LeafShape::BROAD:  // lobed
+      return 0.30f * round * (1.f + 0.22f * std::cos(4.5f * 2.f * static_cast<float>(PI) * t));
+    case LeafShape::SMALL:  // widest near the stalk
+      return 0.36f * std::sin(static_cast<float>(PI) * std::pow(t, 0.62f));
+    case LeafShape::LONG:
+      return 0.10f * round;
+    case LeafShape::NEEDLE:
+      break;
+  }
+  return 0.055f * (1.f - 0.6f * t);
+}
+
+class ClusterPainter {
+ public:
+  ClusterPainter(LeafShape shape, int edge)
+      : shape_(shape),
+        edge_(edge),
+        random_(0x1eaf + static_cast<std::uint64_t>(shape)),
+        out_(2 * edge, 2 * edge, {0.8f, 0.8f, 0.8f, 0.f}) {}
+
+  Picture paint() {
+    switch (shape_) {
+      case LeafShape::BROAD:
+        spray(7, 7, 0.33f, 0.20f, 0.85f);
+        break;
+      case LeafShape::NEEDLE:
+        needles();
+        break;
+      case LeafShape::SMALL:
+        spray(8, 7, 0.35f, 0.14f, 0.9f);
+        break;
+      case LeafShape::LONG:
+        strands();
+        break;
+    }
+    return halved(out_);  // painted at twice the size: smooth edges
+  }
+
+ private:
+  float draw(float low, float high) {
+    return static_cast<float>(random_.uniform(drawn_++, low, high));
+  }
+
+  // Side twigs along a stem, leaves along the side twigs, the last ones in front.
+  void spray(int twigs, int leaves, float twig_length, float leaf_length, float spread) {
+    stroke({0.5f, 0.f}, {0.5f, 0.7f}, 0.008f);
+    for (int i = 0; i < twigs; ++i) {
+      const float up = 0.06f + 0.60f * static_cast<float>(i) / static_cast<float>(twigs - 1);
+      const float side = i % 2 == 0 ? 1.f : -1.f;
+      const float angle = side * draw(0.55f, 1.f) * (1.25f - 0.9f * up);
+      const float reach = twig_length * (1.f - 0.45f * up) * draw(0.85f, 1.1f);
+      const Spot from{0.5f, up};
+      const Spot to{from.x + reach * std::sin(angle), from.y + reach * std::cos(angle)};
+      stroke(from, to, 0.006f);
+      for (int l = 0; l < leaves; ++l) {
+        const float f = (static_cast<float>(l) + draw(0.3f, 1.f)) / static_cast<float>(leaves);
+        const float turn = (l % 2 == 0 ? 1.f : -1.f) * draw(0.35f, 1.15f) * spread;
+        leaf({from.x + (to.x - from.x) * f, from.y + (to.y - from.y) * f}, angle + turn,
+             leaf_length * draw(0.75f, 1.1f));
+      }
+      leaf(to, angle, leaf_length);
+    }
+    for (int l = 0; l < 4; ++l)
+      leaf({0.5f, 0.67f}, draw(-0.8f, 0.8f), leaf_length * draw(0.8f, 1.f));
+  }
+
+  void needles() {
+    stroke({0.5f, 0.f}, {0.5f, 0.86f}, 0.011f);
+    tufts({0.5f, 0.04f}, {0.5f, 0.86f}, 0.f, 70);
+    for (int i = 0; i < 6; ++i) {
+      const float up = 0.12f + 0.095f * static_cast<float>(i);
+      const float angle = (i % 2 == 0 ? 1.f : -1.f) * draw(0.75f, 1.0f);
+      const float reach = 0.44f - 0.42f * up * up;
+      const Spot from{0.5f, up};
+      const Spot to{from.x + reach * std::sin(angle), from.y + reach * std::cos(angle)};
+      stroke(from, to, 0.008f);
+      tufts(from, to, angle, 48);
+    }
+  }
+
+  void tufts(const Spot& from, const Spot& to, float angle, int count) {
+    for (int i = 0; i < count; ++i) {
+      const float f = (static_cast<float>(i) + draw(0.f, 1.f)) / static_cast<float>(count);
+      const float turn = (i % 2 == 0 ? 1.f : -1.f) * draw(0.35f, 0.95f) * (1.f - 0.6f * f * f);
+      leaf({from.x + (to.x - from.x) * f, from.y + (to.y - from.y) * f}, angle + turn,
+           draw(0.10f, 0.155f));
+    }
+  }
+
+  void strands() {
+    strand(0.5f, 0.30f, 0.55f, 9);
+    strand(0.5f, -0.28f, 0.6f, 10);
+    strand(0.5f, 0.f, 0.88f, 15);
+  }
+
+  void strand(float foot, float angle, float reach, int steps) {
+    Spot at{foot, 0.f};
+    const float step = reach / static_cast<float>(steps);
+    for (int i = 0; i < steps; ++i) {
+      const Spot next{at.x + step * std::sin(angle), at.y + step * std::cos(angle)};
+      stroke(at, next, 0.005f);
+      for (const float side : {1.f, -1.f})
+        leaf(next, angle + side * draw(0.25f, 0.7f), std::min(draw(0.2f, 0.3f), 1.f - next.y));
+      angle += draw(-0.1f, 0.1f) - 0.04f * angle;
+      at = next;
+    }
+  }
+
+  void stroke(const Spot& from, const Spot& to, float width) {
+    const float dx = to.x - from.x, dy = to.y - from.y;
+    const float long2 = std::max(dx * dx + dy * dy, 1e-9f);
+    forBox(std::min(from.x, to.x) - width, std::max(from.x, to.x) + width,
+           std::min(from.y, to.y) - width, std::max(from.y, to.y) + width,
+           [&](float x, float y, int c, int r) {
+             const float f = std::clamp(((x - from.x) * dx + (y - from.y) * dy) / long2, 0.f, 1.f);
+             if (std::hypot(x - from.x - f * dx, y - from.y - f * dy) < width)
+               out_.blend(c, r, TWIG);
+           });
+  }
+
+  void leaf(const Spot& stalk, float angle, float size) {
+    const float ax = std::sin(angle), ay = std::cos(angle);
+    const float light = draw(0.68f, 1.f), tilt = draw(-0.12f, 0.12f);
+    const float warm = draw(-0.04f, 0.04f);
+    forBox(stalk.x - size, stalk.x + size, stalk.y - size, stalk.y + size,
+           [&](float x, float y, int c, int r) {
+             const float t = ((x - stalk.x) * ax + (y - stalk.y) * ay) / size;
+             const float s = ((x - stalk.x) * ay - (y - stalk.y) * ax) / size;
+             if (t < 0.f || t > 1.f) return;
+             const float half = halfWidth(shape_, t);
+             if (std::fabs(s) > half) return;
+             // Two halves that face the light differently, a pale midrib, darker towards the stalk.
+             float value = light * (0.86f + 0.14f * t) + (s > 0.f ? tilt : -tilt);
+             if (shape_ != LeafShape::NEEDLE && std::fabs(s) < 0.022f) value += 0.1f;
+             out_.blend(c, r, {value * (1.f + warm), value, value * (1.f - warm), 1.f});
+           });
+  }
+
+  // Calls draw(x, y, column, row) for each pixel of a box in the picture's own units.
+  template <class Draw>
+  void forBox(float left, float right, float low, float high, const Draw& draw) {
+    const auto n = static_cast<float>(out_.columns);
+    const int c1 = std::min(out_.columns - 1, static_cast<int>(right * n));
+    const int r1 = std::min(out_.rows - 1, static_cast<int>((1.f - low) * n));
+    for (int r = std::max(0, static_cast<int>((1.f - high) * n)); r <= r1; ++r)
+      for (int c = std::max(0, static_cast<int>(left * n)); c <= c1; ++c)
+        draw((static_cast<float>(c) + 0.5f) / n, 1.f - (static_cast<float>(r) + 0.5f) / n, c, r);
+  }
+
+  LeafShape shape_;
+  int edge_;
+  Random random_;
+  std::uint64_t drawn_{0};
+  Picture out_;
+};
+
+// Scales alpha so that the same fraction passes the test as in the full picture.
+void keepCoverage(double wanted, Picture& picture) {
+  std::vector<float> alphas;
+  for (const Rgba& pixel : picture.pixels) alphas.push_back(pixel[3]);
+  std::sort(alphas.begin(), alphas.end(), std::greater<>());
+  const auto rank = static_cast<std::size_t>(wanted * static_cast<double>(alphas.size()));
+  const float limit = std::max(alphas[std::min(rank, alphas.size() - 1)], 1e-3f);
+  for (Rgba& pixel : picture.pixels)
+    pixel[3] = std::min(1.f, pixel[3] * (ALPHA_LIMIT + 1.f / 255.f) / limit);
+}
+
+}  // namespace
+
+Picture leafPicture(forest::LeafShape shape, int edge) {
+  return ClusterPainter(shape, edge).paint();
+}
+
+double coverage(const Picture& picture) {
+  const auto passes = [](const Rgba& pixel) { return pixel[3] >= ALPHA_LIMIT; };
+  return static_cast<double>(std::count_if(picture.pixels.begin(), picture.pixels.end(), passes)) /
+         static_cast<double>(picture.pixels.size());
+}
+
+std::vector<Picture> leafAtlas(int edge) {
+  std::vector<Picture> out;
+  for (int shape = 0; shape < 4; ++shape) {
+    std::vector<Picture> cell = mipmaps(leafPicture(static_cast<LeafShape>(shape), edge), 4);
+    const double wanted = coverage(cell.front());
+    for (std::size_t level = 0; level < cell.size(); ++level) {
+      if (level > 0) keepCoverage(wanted, cell[level]);
+      const int side = cell[level].columns;
+      if (shape == 0) out.emplace_back(2 * side, 2 * side, Rgba{});
+      paste(cell[level], side * (shape % 2), side * (shape / 2), out[level]);
+    }
+  }
+  return out;
+}
+
+std::array<float, 2> leafAtlasCorner(int shape) {
+  return {0.5f * static_cast<float>(shape % 2), 0.5f * static_cast<float>(shape / 2)};
+}
+
+}  // namespace vegetation_sim::view
