@@ -29,7 +29,7 @@ const std::string& nameOf(int index, const std::vector<std::string>& names) {
   return names.at(static_cast<std::size_t>(index));
 }
 
-ForestTile toMsg(const forest::Tile& tile) {
+ForestTile tileToMsg(const forest::Tile& tile) {
   ForestTile out;
   out.first_tree = tile.first_tree;
   out.count = tile.count;
@@ -41,7 +41,7 @@ ForestTile toMsg(const forest::Tile& tile) {
   return out;
 }
 
-forest::Tile fromMsg(const ForestTile& message) {
+forest::Tile tileFromMsg(const ForestTile& message) {
   forest::Tile out;
   out.first_tree = message.first_tree;
   out.count = message.count;
@@ -53,7 +53,7 @@ forest::Tile fromMsg(const ForestTile& message) {
   return out;
 }
 
-TreeState toMsg(const forest::StateUpdate::Entry& entry, Nanoseconds now) {
+TreeState entryToMsg(const forest::StateUpdate::Entry& entry, Nanoseconds now) {
   TreeState out;
   out.tree = entry.tree;
   out.level = static_cast<std::uint8_t>(entry.state.level);
@@ -66,7 +66,7 @@ TreeState toMsg(const forest::StateUpdate::Entry& entry, Nanoseconds now) {
   return out;
 }
 
-forest::StateUpdate::Entry fromMsg(const TreeState& message, Faults& faults) {
+forest::StateUpdate::Entry entryFromMsg(const TreeState& message, Faults& faults) {
   const std::string name = "state: tree " + std::to_string(message.tree);
   forest::StateUpdate::Entry out;
   out.tree = message.tree;
@@ -76,7 +76,7 @@ forest::StateUpdate::Entry fromMsg(const TreeState& message, Faults& faults) {
     return out;
   }
   out.state = forest::LevelState::settled(message.level);
-  out.state.since = fromMsg(message.since);
+  out.state.since = vegetation_sim::fromMsg(message.since);
   if (message.blend.empty()) return out;
   if (message.blend.size() != forest::MAX_DEPTHS) {
     faults.add(name + ": blend has " + std::to_string(message.blend.size()) +
@@ -92,18 +92,6 @@ forest::StateUpdate::Entry fromMsg(const TreeState& message, Faults& faults) {
 }
 
 }  // namespace
-
-Nanoseconds fromMsg(const ros::Time& stamp) {
-  return static_cast<Nanoseconds>(stamp.sec) * NANOSECONDS_PER_SECOND + stamp.nsec;
-}
-
-ros::Time toStamp(Nanoseconds stamp) {
-  ros::Time out;
-  if (stamp <= 0) return out;
-  out.sec = static_cast<std::uint32_t>(stamp / NANOSECONDS_PER_SECOND);
-  out.nsec = static_cast<std::uint32_t>(stamp % NANOSECONDS_PER_SECOND);
-  return out;
-}
 
 TreeSeed toMsg(const forest::TreeSeed& seed) {
   TreeSeed out;
@@ -144,7 +132,7 @@ ForestLayout toMsg(const forest::Layout& layout) {
   out.transition = layout.motion.transition;
   out.transition_shape = nameOf(layout.motion.transition_shape, SHAPES);
   for (const forest::TreeSeed& seed : layout.trees) out.trees.push_back(toMsg(seed));
-  for (const forest::Tile& tile : layout.tiles) out.tiles.push_back(toMsg(tile));
+  for (const forest::Tile& tile : layout.tiles) out.tiles.push_back(tileToMsg(tile));
   return out;
 }
 
@@ -170,7 +158,7 @@ forest::Layout fromMsg(const ForestLayout& message) {
   out.motion.transition_shape =
       indexOf("transition_shape", message.transition_shape, SHAPES, faults);
   for (const TreeSeed& seed : message.trees) out.trees.push_back(fromMsg(seed));
-  for (const ForestTile& tile : message.tiles) out.tiles.push_back(fromMsg(tile));
+  for (const ForestTile& tile : message.tiles) out.tiles.push_back(tileFromMsg(tile));
   if (faults.empty()) check(out, faults);
   faults.throwIfAny();
   return out;
@@ -186,7 +174,7 @@ ForestState toMsg(const forest::StateUpdate& update) {
   out.wind_hash = update.wind_hash;
   out.hash = update.hash;
   out.trees.reserve(update.trees.size());
-  for (const auto& entry : update.trees) out.trees.push_back(toMsg(entry, update.stamp));
+  for (const auto& entry : update.trees) out.trees.push_back(entryToMsg(entry, update.stamp));
   return out;
 }
 
@@ -203,7 +191,7 @@ forest::StateUpdate fromMsg(const ForestState& message) {
   out.layout_hash = message.layout_hash;
   out.wind_hash = message.wind_hash;
   out.hash = message.hash;
-  for (const TreeState& tree : message.trees) out.trees.push_back(fromMsg(tree, faults));
+  for (const TreeState& tree : message.trees) out.trees.push_back(entryFromMsg(tree, faults));
   faults.throwIfAny();
   return out;
 }

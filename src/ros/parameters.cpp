@@ -26,13 +26,20 @@ double toNumber(XmlRpc::XmlRpcValue value) {
 
 }  // namespace
 
+Parameters::Parameters(const ros::NodeHandle& private_handle) : handle_(private_handle) {
+  allow("diagnostic_period");  // diagnostic_updater reads it
+}
+
+void Parameters::fault(const std::string& name, const std::string& problem) {
+  faults_.add(handle_.resolveName(name) + " " + problem);
+}
+
 bool Parameters::find(const char* name, XmlRpc::XmlRpcValue& value) {
   asked_.insert(name);
   return handle_.getParam(name, value);
 }
 
-void Parameters::wrongType(const char* name, const XmlRpc::XmlRpcValue& value,
-                           const char* wanted) {
+void Parameters::wrongType(const char* name, const XmlRpc::XmlRpcValue& value, const char* wanted) {
   faults_.add(handle_.resolveName(name) + " = " + shown(value) + " is not " + wanted);
 }
 
@@ -99,6 +106,19 @@ void Parameters::flag(const char* name, bool& value) {
   if (found.getType() != XmlRpc::XmlRpcValue::TypeBoolean)
     return wrongType(name, found, "true or false");
   value = static_cast<bool>(found);
+}
+
+void Parameters::seed(const char* name, std::uint64_t& value) {
+  XmlRpc::XmlRpcValue found;
+  if (!find(name, found)) return;
+  std::string digits = shown(found);
+  if (found.getType() == XmlRpc::XmlRpcValue::TypeString) digits = static_cast<std::string>(found);
+  std::istringstream in(digits);
+  std::uint64_t read;
+  if (!digits.empty() && digits.find_first_not_of("0123456789") == std::string::npos && in >> read)
+    value = read;
+  else
+    wrongType(name, found, "a whole number from 0 to 2^64 - 1");
 }
 
 void Parameters::integers(const char* name, std::vector<int>& values, Range range) {

@@ -11,12 +11,9 @@
 #include <vector>
 
 #include "vegetation_sim/forest/forest.h"
+#include "vegetation_sim/ros/stamps.h"
 
 namespace vegetation_sim {
-
-/// Stamps of messages as integers and back.
-Nanoseconds fromMsg(const ros::Time& stamp);
-ros::Time toStamp(Nanoseconds stamp);
 
 /// The header is left to the sender.
 ForestLayout toMsg(const forest::Layout& layout);

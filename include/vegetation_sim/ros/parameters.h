@@ -17,7 +17,7 @@ namespace vegetation_sim {
 /// that is absent leaves the default. Visits a `describe` function as well as single keys.
 class Parameters : public FieldVisitor {
  public:
-  explicit Parameters(const ros::NodeHandle& private_handle) : handle_(private_handle) {}
+  explicit Parameters(const ros::NodeHandle& private_handle);
 
   void number(const char* name, double& value, const char* unit, Range range) override;
   void integer(const char* name, int& value, const char* unit, Range range) override;
@@ -27,6 +27,13 @@ class Parameters : public FieldVisitor {
   void flag(const char* name, bool& value);
   void integers(const char* name, std::vector<int>& values, Range range);
 
+  /// A whole number from 0, or text of digits for what an XML-RPC integer cannot hold.
+  void seed(const char* name, std::uint64_t& value);
+
+  /// Makes a key legal that is read elsewhere.
+  void allow(const std::string& name) { asked_.insert(name); }
+  /// Adds an own fault about the value of `name`.
+  void fault(const std::string& name, const std::string& problem);
   Faults& faults() { return faults_; }
   /// @throws InvalidInput with all faults, unknown keys among them.
   void finish();

@@ -1,0 +1,95 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/nodes/wind_settings.h"
+
+#include <algorithm>
+
+#include "vegetation_sim/common/math.h"
+#include "vegetation_sim/common/scenario.h"
+#include "vegetation_sim/wind/limits.h"
+#include "vegetation_sim/wind/yaml.h"
+
+namespace vegetation_sim {
+namespace {
+
+wind::Source* findBreeze(std::vector<wind::Source>& sources) {
+  for (wind::Source& source : sources)
+    if (source.primitive.name == BreezeSettings::NAME) return &source;
+  return nullptr;
+}
+
+void readScenario(const std::string& file, WindSettings& settings) {
+  Scenario scenario = Scenario::load(file);
+  scenario.top().text("frame_id", settings.frame_id);
+  scenario.top().seed("seed", settings.seed);
+  YamlSection section = scenario.section("wind");
+  settings.sources = wind::readWind(section, settings.seed);
+  scenario.finish();
+}
+
+void readNumbers(Parameters& parameters, WindSettings& settings) {
+  parameters.text("frame_id", settings.frame_id);
+  parameters.seed("seed", settings.seed);
+  parameters.number("lead", settings.lead, "s", {0.0, 10.0});
+  parameters.number("attach_rate", settings.attach_rate, "Hz", {0.5, 10.0});
+  parameters.number("attach_horizon", settings.attach_horizon, "s", {0.5, 30.0});
+  parameters.number("markers_rate", settings.markers_rate, "Hz", {0.1, 60.0});
+  describe(parameters, settings.breeze);
+  if (settings.frame_id.empty() || settings.frame_id.front() == '/')
+    parameters.fault("frame_id", "= '" + settings.frame_id + "' is empty or begins with '/'");
+  const double least = 4.0 * std::max(settings.lead, 1.0 / settings.attach_rate);
+  if (settings.attach_horizon < least)
+    parameters.fault("attach_horizon", "= " + std::to_string(settings.attach_horizon) +
+                                           " s is less than 4 lead and 4 / attach_rate = " +
+                                           std::to_string(least) + " s");
+}
+
+}  // namespace
+
+void describe(FieldVisitor& visitor, BreezeSettings& breeze) {
+  visitor.number("breeze_speed", breeze.speed, "m/s", {0.0, wind::SPEEDS.high});
+  visitor.number("breeze_direction", breeze.direction, "rad", {-PI, PI});
+  visitor.number("breeze_turbulence", breeze.turbulence, "", wind::TURBULENCE);
+}
+
+wind::Primitive BreezeSettings::applyTo(wind::Primitive base) const {
+  const SinCos heading = sinCos(direction);
+  base.name = NAME;
+  base.kind = static_cast<int>(wind::Kind::BREEZE);
+  base.velocity.x() = speed * heading.cos;
+  base.velocity.y() = speed * heading.sin;
+  base.turbulence = turbulence;
+  return base;
+}
+
+BreezeSettings BreezeSettings::of(const wind::Primitive& p, double direction_in_a_calm) {
+  const double x = p.velocity.x(), y = p.velocity.y();
+  const bool calm = x == 0.0 && y == 0.0;
+  return {std::sqrt(x * x + y * y), calm ? direction_in_a_calm : arcTangent(y, x), p.turbulence};
+}
+
+WindSettings readWindSettings(const ros::NodeHandle& private_nh) {
+  WindSettings settings;
+  Parameters parameters(private_nh);
+  std::string scenario;
+  parameters.text("scenario", scenario);
+  if (!scenario.empty()) {
+    try {
+      readScenario(scenario, settings);
+    } catch (const InvalidInput& error) {
+      parameters.faults().add(error.what());
+    }
+  }
+  readNumbers(parameters, settings);
+  parameters.finish();
+  if (const wind::Source* own = findBreeze(settings.sources)) {
+    settings.breeze = BreezeSettings::of(own->primitive, settings.breeze.direction);
+  } else if (settings.breeze.speed > 0.0) {
+    wind::Primitive base;
+    base.velocity = Vec3::Zero();
+    settings.sources.push_back({settings.breeze.applyTo(base), ""});
+  }
+  return settings;
+}
+
+}  // namespace vegetation_sim
