@@ -63,8 +63,7 @@ std::vector<geometry_msgs::TransformStamped> branchTransforms(const BranchFrames
       geometry_msgs::TransformStamped transform;
       transform.header.stamp = toStamp(stamp);
       transform.header.frame_id = frame_id;
-      transform.child_frame_id =
-          "tree_" + std::to_string(id) + "/branch_" + std::to_string(branch);
+      transform.child_frame_id = "tree_" + std::to_string(id) + "/branch_" + std::to_string(branch);
       transform.transform.translation.x = pose.position.x;
       transform.transform.translation.y = pose.position.y;
       transform.transform.translation.z = pose.position.z;

@@ -129,7 +129,8 @@ void ForestMarkers::addTree(const forest::Forest& forest, forest::TreeCache& cac
   for (std::size_t i = 0; i < mesh.leaves.size(); ++i) {
     if (leaves_.points.size() + 6 > leaf_points_) return;
     const double shade = mesh.leaves[i].shade;
-    const auto paint = colour(species.leaf_colour * (1.0 - shade) + species.leaf_colour_young * shade);
+    const auto paint =
+        colour(species.leaf_colour * (1.0 - shade) + species.leaf_colour_young * shade);
     for (const std::uint32_t corner : forest::LEAF_TRIANGLES) {
       leaves_.points.push_back(pointAt(scratch_, 4 * i + corner));
       leaves_.colors.push_back(paint);

@@ -30,8 +30,8 @@ void describe(FieldVisitor& visitor, ForestTuning& tuning);
 void toEvent(const ForestTuning& tuning, ForestEvent& event);
 ForestTuning tuningOf(const ForestEvent& event);
 
-/// Inputs wait here for the next tick. Live, each becomes an event stamped with the tick at which it
-/// is applied; in a replay the recorded events are applied at their own ticks instead.
+/// Inputs wait here for the next tick. Live, each becomes an event stamped with the tick at which
+/// it is applied; in a replay the recorded events are applied at their own ticks instead.
 class ForestInputs {
  public:
   explicit ForestInputs(bool replay) : replay_(replay) {}

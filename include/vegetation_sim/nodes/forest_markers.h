@@ -16,8 +16,8 @@
 namespace vegetation_sim {
 
 /// The forest as two TRIANGLE_LISTs, bark (id 0) and leaves (id 1), of constant size: rviz updates
-/// such a list in place. Where the trees need more than the budget their geometry levels fall, by the
-/// feedback of S1-14; where they need less, degenerate triangles fill up.
+/// such a list in place. Where the trees need more than the budget their geometry levels fall, by
+/// the feedback of S1-14; where they need less, degenerate triangles fill up.
 class ForestMarkers {
  public:
   /// @param points most points of both lists together, at least 600.

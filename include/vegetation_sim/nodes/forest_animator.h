@@ -1,0 +1,100 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <dynamic_reconfigure/server.h>
+#include <ros/ros.h>
+#include <std_srvs/Trigger.h>
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_broadcaster.h>
+#include <tf2_ros/transform_listener.h>
+#include <vegetation_sim/ForestAnimatorConfig.h>
+#include <vegetation_sim/GetTree.h>
+#include <vegetation_sim/Pick.h>
+#include <vegetation_sim/SetTf.h>
+
+#include <memory>
+#include <string>
+
+#include "vegetation_sim/forest/pick.h"
+#include "vegetation_sim/nodes/branch_frames.h"
+#include "vegetation_sim/nodes/forest_inputs.h"
+#include "vegetation_sim/nodes/forest_markers.h"
+#include "vegetation_sim/nodes/forest_options.h"
+
+namespace vegetation_sim {
+
+/// The forest on ROS: runs forest::Forest on the tick grid of ROS time, publishes its layout, state
+/// and views, answers services. One thread calls everything. Program and nodelet are thin shells.
+class ForestAnimator {
+ public:
+  /// @throws InvalidInput for parameters or a scenario that are refused.
+  ForestAnimator(ros::NodeHandle handle, ros::NodeHandle private_handle);
+
+ private:
+  // Inputs.
+  void onWind(const WindField& message);
+  void onViewer(const Viewer& message);
+  void onEvent(const ForestEvent& message) { inputs_.addEvent(message); }
+  void onTuning(ForestAnimatorConfig& config);
+  void lookFromFrame();
+  void reject(const std::string& what, const std::string& why);
+
+  // Time.
+  void onTick(const ros::TimerEvent& event);
+  void restart();
+  void tick(std::int64_t tick);
+  void apply(const ForestEvent& event);
+  void adoptTuning(const ForestTuning& tuning);
+
+  // Outputs.
+  void publishLayout();
+  void sendFrames(const ros::TimerEvent& event);
+  void sendBranches(const ros::TimerEvent& event);
+  void sendMarkers(const ros::TimerEvent& event);
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
+
+  // Services.
+  bool onGetTree(GetTree::Request& request, GetTree::Response& response);
+  bool onPick(Pick::Request& request, Pick::Response& response);
+  bool onSetTf(SetTf::Request& request, SetTf::Response& response);
+  bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  forest::Ray rayOf(const Pick::Request& request) const;
+  Nanoseconds stampOf(const ros::Time& stamp) const;
+
+  ros::NodeHandle handle_, private_handle_;
+  ForestOptions options_;
+  ForestScene scene_;  // as loaded, before the designer's factors
+  ForestTuning tuning_;
+  ForestInputs inputs_;
+  TickGrid grid_;
+  std::unique_ptr<forest::Forest> forest_;
+  forest::TreeCache cache_;
+  BranchFrames frames_;
+  ForestMarkers markers_;
+
+  std::int64_t last_tick_{NEVER}, last_key_frame_{NEVER};
+  bool force_key_frame_{true};
+  bool tuning_shown_{false};  // the server has learnt the starting values
+  struct Counts {
+    std::uint64_t ticks{0}, dropped{0}, rejected{0}, state_bytes{0}, jumps{0};
+  } counts_;
+  std::string last_rejection_;
+
+  tf2_ros::Buffer tf_buffer_;
+  tf2_ros::TransformListener tf_listener_;
+  tf2_ros::TransformBroadcaster tf_broadcaster_;
+  ros::Publisher layout_publisher_, state_publisher_, branches_publisher_, markers_publisher_,
+      events_publisher_;
+  ros::Subscriber wind_subscriber_, viewer_subscriber_, events_subscriber_;
+  std::vector<ros::ServiceServer> services_;
+  std::vector<ros::Timer> timers_;
+  std::unique_ptr<dynamic_reconfigure::Server<ForestAnimatorConfig>> tuning_server_;
+  diagnostic_updater::Updater diagnostics_;
+  ros::WallTimer diagnostics_timer_;
+
+  static constexpr std::int64_t NEVER = INT64_MIN;
+};
+
+}  // namespace vegetation_sim

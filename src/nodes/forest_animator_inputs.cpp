@@ -1,0 +1,88 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <tf2/exceptions.h>
+
+#include "vegetation_sim/nodes/forest_animator.h"
+#include "vegetation_sim/ros/forest_conversions.h"
+#include "vegetation_sim/ros/wind_conversions.h"
+
+namespace vegetation_sim {
+namespace {
+
+ForestTuning fromConfig(const ForestAnimatorConfig& config) {
+  ForestTuning out;
+  out.settings = {config.tolerance, config.fixed_level, config.highest_level};
+  out.design = {config.size, config.children, config.leaves, config.angle, config.noise};
+  out.transition = config.transition;
+  return out;
+}
+
+Quat toQuat(const geometry_msgs::Quaternion& q) {
+  return {q.w, q.x, q.y, q.z};
+}
+
+// A pose in the frame that `transform` leads to.
+geometry_msgs::Pose moved(const geometry_msgs::Pose& pose, const geometry_msgs::Transform& by) {
+  const Vec3 offset(by.translation.x, by.translation.y, by.translation.z);
+  const Quat turn = toQuat(by.rotation);
+  Pose inner;
+  inner.position = rotate(turn, Vec3(pose.position.x, pose.position.y, pose.position.z));
+  inner.orientation = turn * toQuat(pose.orientation);
+  return toMsg(offset, inner);
+}
+
+}  // namespace
+
+void ForestAnimator::reject(const std::string& what, const std::string& why) {
+  ++counts_.rejected;
+  last_rejection_ = what + ": " + why;
+  ROS_WARN_THROTTLE(1.0, "forest_animator: refused %s: %s", what.c_str(), why.c_str());
+}
+
+void ForestAnimator::onWind(const WindField& message) {
+  if (message.header.frame_id != options_.frame_id)
+    return reject("wind", "frame_id = '" + message.header.frame_id + "' should be '" +
+                              options_.frame_id + "'");
+  try {
+    inputs_.addWind(fromMsg(message));
+  } catch (const InvalidInput& error) {
+    reject("wind", error.what());
+  }
+}
+
+void ForestAnimator::onViewer(const Viewer& message) {
+  Viewer in_world = message;
+  try {
+    fromMsg(message);  // checks it
+    if (!message.header.frame_id.empty() && message.header.frame_id != options_.frame_id) {
+      const auto transform =
+          tf_buffer_.lookupTransform(options_.frame_id, message.header.frame_id, ros::Time(0));
+      in_world.pose = moved(message.pose, transform.transform);
+    }
+    in_world.header.frame_id = options_.frame_id;
+    fromMsg(in_world);
+    inputs_.addViewer(in_world);
+  } catch (const InvalidInput& error) {
+    reject("viewer", error.what());
+  } catch (const tf2::TransformException& error) {
+    reject("viewer", error.what());
+  }
+}
+
+void ForestAnimator::lookFromFrame() {
+  Viewer viewer;
+  viewer.id = "tf:" + options_.viewer_frame;
+  viewer.header.frame_id = options_.viewer_frame;
+  viewer.pose.orientation.w = 1.0;
+  viewer.field_of_view = options_.viewer_field_of_view;
+  viewer.height = static_cast<std::uint32_t>(options_.viewer_height);
+  onViewer(viewer);
+}
+
+void ForestAnimator::onTuning(ForestAnimatorConfig& config) {
+  if (tuning_shown_) return inputs_.addTuning(fromConfig(config));
+  config.transition = tuning_.transition;  // may come from the scenario
+  tuning_shown_ = true;
+}
+
+}  // namespace vegetation_sim

@@ -1,0 +1,20 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <ros/ros.h>
+
+#include <cstdlib>
+
+#include "vegetation_sim/common/faults.h"
+#include "vegetation_sim/nodes/forest_animator.h"
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "forest_animator");
+  try {
+    vegetation_sim::ForestAnimator node(ros::NodeHandle(), ros::NodeHandle("~"));
+    ros::spin();
+    return EXIT_SUCCESS;
+  } catch (const std::exception& error) {
+    ROS_FATAL("forest_animator refuses to start:\n%s", error.what());
+    return EXIT_FAILURE;
+  }
+}

@@ -1,0 +1,66 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/nodes/forest_animator.h"
+#include "vegetation_sim/ros/forest_conversions.h"
+
+namespace vegetation_sim {
+
+void ForestAnimator::sendFrames(const ros::TimerEvent&) {
+  if (last_tick_ == NEVER || frames_.empty()) return;
+  tf_broadcaster_.sendTransform(
+      branchTransforms(frames_, *forest_, cache_, options_.frame_id, forest_->memory().stamp));
+}
+
+void ForestAnimator::sendBranches(const ros::TimerEvent&) {
+  if (last_tick_ == NEVER || branches_publisher_.getNumSubscribers() == 0) return;
+  const Nanoseconds stamp = forest_->memory().stamp;
+  std::size_t sent = 0;
+  for (const int id : options_.branches_trees) {
+    const auto tree = static_cast<std::uint32_t>(id);
+    const auto grown = cache_.get(forest_->layout(), forest_->terrain(), tree);
+    sent += grown->tree.skeleton.branches.size();
+    if (sent > static_cast<std::size_t>(options_.branches_budget)) {
+      ROS_WARN_THROTTLE(10.0, "forest_animator: branches_budget = %d ends at tree %d",
+                        options_.branches_budget, id);
+      return;
+    }
+    BranchTransforms message =
+        toMsg(tree, grown->tree.foot, posesOf(*forest_, grown->tree, tree, stamp));
+    message.header.stamp = toStamp(stamp);
+    message.header.frame_id = options_.frame_id;
+    branches_publisher_.publish(message);
+  }
+}
+
+void ForestAnimator::sendMarkers(const ros::TimerEvent&) {
+  if (last_tick_ == NEVER || markers_publisher_.getNumSubscribers() == 0) return;
+  markers_publisher_.publish(
+      markers_.build(*forest_, cache_, options_.frame_id, forest_->memory().stamp));
+}
+
+void ForestAnimator::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  using diagnostic_msgs::DiagnosticStatus;
+  if (last_tick_ == NEVER)
+    status.summary(DiagnosticStatus::WARN, "waiting for the clock");
+  else if (counts_.rejected > 0)
+    status.summary(DiagnosticStatus::WARN, "refused input: " + last_rejection_);
+  else
+    status.summary(DiagnosticStatus::OK, "running");
+  const auto& memory = forest_->memory();
+  status.add("Trees", forest_->layout().treeCount());
+  status.add("Trees not at the base level", memory.levels.held().size());
+  status.add("Base level", memory.levels.base());
+  status.add("Viewers", memory.viewers.size());
+  status.add("Ticks", counts_.ticks);
+  status.add("Ticks dropped", counts_.dropped);
+  status.add("Clock jumps back", counts_.jumps);
+  status.add("Inputs refused", counts_.rejected);
+  status.add("State sent [B]", counts_.state_bytes);
+  status.add("Grown branches held", cache_.branches());
+  status.add("tf frames", frames_.count());
+  status.add("tf budget [frames]", frames_.budget());
+  status.add("Marker points", markers_.points());
+  status.add("Marker budget [points]", markers_.budget());
+}
+
+}  // namespace vegetation_sim

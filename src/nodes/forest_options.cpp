@@ -1,0 +1,76 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/nodes/forest_options.h"
+
+#include <filesystem>
+
+#include "vegetation_sim/common/scenario.h"
+#include "vegetation_sim/ros/parameters.h"
+#include "vegetation_sim/ros/resources.h"
+
+namespace vegetation_sim {
+namespace {
+
+forest::Species defaultSpecies() {
+  forest::Species out;
+  out.name = "tree";
+  return out;
+}
+
+}  // namespace
+
+void describe(FieldVisitor& v, ForestOptions& o) {
+  v.integer("state_rate", o.state_rate, "Hz", {1, 240});
+  v.number("key_frame_period", o.key_frame_period, "s", {0.05, 60.0});
+  v.number("markers_rate", o.markers_rate, "Hz", {0.1, 60.0});
+  v.integer("marker_points", o.marker_points, "", {600, 3000000});
+  v.number("tf_rate", o.tf_rate, "Hz", {0.1, 240.0});
+  v.integer("tf_budget", o.tf_budget, "frames", {0, 10000});
+  v.number("branches_rate", o.branches_rate, "Hz", {0.1, 240.0});
+  v.integer("branches_budget", o.branches_budget, "branches", {0, 1000000});
+  v.integer("cache_budget", o.cache_budget, "branches", {1000, 20000000});
+  v.number("viewer_field_of_view", o.viewer_field_of_view, "rad", {0.01, 3.1});
+  v.integer("viewer_height", o.viewer_height, "pixel", {1, 100000});
+  v.number("replay_delay", o.replay_delay, "s", {0.0, 10.0});
+  describe(v, o.tuning);
+}
+
+ForestOptions loadForestOptions(const ros::NodeHandle& private_handle) {
+  ForestOptions out;
+  Parameters parameters(private_handle);
+  parameters.text("scenario", out.scenario);
+  parameters.text("frame_id", out.frame_id);
+  parameters.text("viewer_frame", out.viewer_frame);
+  parameters.flag("replay", out.replay);
+  parameters.integers("branches_trees", out.branches_trees, {0, 1 << 24});
+  describe(parameters, out);
+  if (out.frame_id.empty() || out.frame_id[0] == '/')
+    parameters.faults().add(private_handle.resolveName("frame_id") + " = '" + out.frame_id +
+                            "' is empty or starts with a slash");
+  parameters.finish();
+  return out;
+}
+
+ForestScene loadForestScene(const std::string& file) {
+  ForestScene out;
+  if (file.empty()) {
+    out.layout.species = {defaultSpecies()};
+    return out;
+  }
+  const std::string path = resolveFile(file);
+  Scenario scenario = Scenario::load(path);
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  std::uint64_t seed = 0;
+  std::string terrain;
+  scenario.top().text("frame_id", out.frame_id);
+  scenario.top().seed("seed", seed);
+  scenario.top().text("terrain", terrain);
+  out.layout = forest::readLayout(scenario.section("forest"), folder, seed, scenario.faults());
+  scenario.finish();
+  out.layout.terrain = resolveFile(terrain, folder);
+  out.terrain = loadTerrain(out.layout.terrain);
+  if (!terrain.empty() && terrain.find("://") != std::string::npos) out.layout.terrain = terrain;
+  return out;
+}
+
+}  // namespace vegetation_sim
