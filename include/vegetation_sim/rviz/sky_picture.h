@@ -22,8 +22,8 @@ struct Daylight {
 /// Daylight for the sun's azimuth (0 = east, counter-clockwise) and elevation [rad].
 Daylight daylightOf(double azimuth, double elevation);
 
-/// The sky over azimuth (columns: once around from east, counter-clockwise) and elevation (rows: the
-/// zenith on top, the horizon at the bottom), with soft clouds and far hills.
+/// The sky over azimuth (columns: once around from east, counter-clockwise) and elevation (rows:
+/// the zenith on top, the horizon at the bottom), with soft clouds and far hills.
 Picture skyPicture(const Daylight& light, int columns, int rows);
 /// Elevation [rad] of a row, v = 0 at the top to 1 at the bottom: finer towards the horizon.
 double skyElevation(double v);

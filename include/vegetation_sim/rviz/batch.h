@@ -1,0 +1,50 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <OgreHardwareVertexBuffer.h>
+#include <OgreSimpleRenderable.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "vegetation_sim/rviz/vertex_paint.h"
+
+namespace vegetation_sim::view {
+
+/// Some triangles that are drawn at once: positions that may change each frame, all else fixed.
+/// Attach it to a scene node; it leaves it when destroyed. Render thread only.
+class Batch : public Ogre::SimpleRenderable {
+ public:
+  /// @param name of the Ogre object, unique. @param material that exists.
+  Batch(const std::string& name, const std::string& material);
+  ~Batch() override;
+
+  /// New triangles. `positions` [3 per vertex], `triangles` [3 per triangle] indices. Nothing is
+  /// drawn where there is no triangle.
+  void build(const std::vector<float>& positions, const std::vector<VertexPaint>& paint,
+             const std::vector<std::uint32_t>& triangles, float margin);
+  /// Moves the vertices of build(); they may leave its bounding box by `margin` [m].
+  void move(const std::vector<float>& positions);
+  /// Changes colours, places and normals of build()'s vertices.
+  void paint(const std::vector<VertexPaint>& paint);
+
+  /// True if any camera has seen it since the last call.
+  bool takeSeen();
+  /// Which batches are drawn first: the nearest, so that they hide the others cheaply.
+  void setRank(int rank);
+
+  void _updateRenderQueue(Ogre::RenderQueue* queue) override;
+  Ogre::Real getBoundingRadius() const override;
+  Ogre::Real getSquaredViewDepth(const Ogre::Camera* camera) const override;
+
+ private:
+  void clear();
+  void setBox(const std::vector<float>& positions, float margin);
+
+  Ogre::HardwareVertexBufferSharedPtr positions_, paint_;
+  bool seen_{true};
+};
+
+}  // namespace vegetation_sim::view

@@ -1,0 +1,80 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "vegetation_sim/forest/light_grid.h"
+#include "vegetation_sim/forest/paint.h"
+#include "vegetation_sim/forest/replica.h"
+#include "vegetation_sim/forest/skin.h"
+#include "vegetation_sim/rviz/vertex_paint.h"
+
+namespace vegetation_sim::view {
+
+/// What the user chose about the look of trees.
+struct TreeLook {
+  bool leaves{true};
+  bool flutter{true};
+  bool colour_by_level{false};  ///< bark: moving joints red, those in transition green
+};
+
+/// One tree as it is drawn: its mesh at one level of detail, where the vertices are and how they
+/// are painted. No Ogre in it.
+class DrawnTree {
+ public:
+  /// Grows the tree. @param origin of all coordinates that it gives, in the layout's frame [m].
+  DrawnTree(const forest::ForestReplica& replica, std::uint32_t id, const Vec3& origin);
+
+  std::uint32_t id() const { return id_; }
+  const Vec3& foot() const { return tree_.foot; }  ///< layout's frame [m]
+  double height() const { return tree_.skeleton.height; }
+  double reach() const { return tree_.skeleton.reach; }
+  int level() const { return level_; }  ///< of geometry; -1: no mesh yet
+  std::size_t triangleCount() const { return mesh_.triangleCount(); }
+  const forest::Tree& tree() const { return tree_; }
+
+  /// Adds its leaves to a grid of light in the layout's frame.
+  void addTo(forest::LightGrid& light) const;
+  /// Builds the mesh of a geometry level, at rest.
+  void setLevel(int level, const forest::LightGrid& light, const TreeLook& look);
+  /// Moves the vertices to `stamp`. False if nothing has changed since the last call.
+  /// @param pixels_per_metre decides whether flutter can be seen.
+  bool move(const forest::ForestReplica& replica, Nanoseconds stamp, const wind::Instant& wind,
+            const TreeLook& look, double pixels_per_metre);
+  /// Paints the bark by what each joint does at `stamp`. False if nothing has changed.
+  bool paintLevels(const forest::ForestReplica& replica, Nanoseconds stamp, const TreeLook& look);
+
+  struct Part {
+    std::vector<float> positions;  ///< [3 per vertex], relative to the origin
+    std::vector<VertexPaint> paint;
+  };
+  const Part& bark() const { return bark_; }
+  const Part& leaves() const { return leaves_; }
+  const std::vector<std::uint32_t>& barkTriangles() const { return mesh_.triangles; }
+  /// [3 per triangle] indices into leaves(): the same pattern for every card.
+  std::size_t leafCards() const { return mesh_.leaves.size(); }
+
+ private:
+  void skin(const forest::Flutter& flutter);
+  void paintBark(const forest::LightGrid& light);
+  void paintLeaves(const forest::LightGrid& light);
+  Vec3 inLayout(const float* position) const;
+
+  std::uint32_t id_;
+  Vec3 origin_;
+  forest::Tree tree_;
+  forest::Species species_;
+  forest::TreePaint paint_;
+  forest::BatchPoser poser_;
+  forest::TreeMesh mesh_;
+  int level_{-1};
+  forest::BatchPoses poses_;
+  Part bark_, leaves_;
+  bool moved_{true};  // the last move() left it other than at rest
+  forest::Weights painted_{};
+  bool painted_by_level_{false};
+};
+
+}  // namespace vegetation_sim::view

@@ -1,0 +1,46 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <OgreSceneNode.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "vegetation_sim/rviz/batch.h"
+#include "vegetation_sim/rviz/drawn_tree.h"
+
+namespace vegetation_sim::view {
+
+/// Trees that stand together and are drawn with two batches, bark and leaves. Render thread only.
+class Grove {
+ public:
+  /// @param node whose frame is the trees' origin.
+  Grove(std::vector<DrawnTree*> trees, Ogre::SceneNode& node, const std::string& bark_material,
+        const std::string& leaf_material);
+
+  const std::vector<DrawnTree*>& trees() const { return trees_; }
+  /// Middle of the feet, layout's frame [m].
+  const Vec3& middle() const { return middle_; }
+
+  /// Takes the meshes of its trees, which have changed.
+  void rebuild();
+  /// Takes the positions of its trees, and their paint.
+  void takePositions();
+  void takePaint();
+  bool takeSeen();
+  void setRank(int rank);
+
+ private:
+  std::vector<DrawnTree*> trees_;
+  Vec3 middle_{Vec3::Zero()};
+  Batch bark_, leaves_;
+  bool built_{false};
+};
+
+/// Splits trees into groups of at most `most` that stand together: half by half, across the longer
+/// side each time.
+std::vector<std::vector<DrawnTree*>> splitByPlace(std::vector<DrawnTree*> trees, std::size_t most);
+
+}  // namespace vegetation_sim::view

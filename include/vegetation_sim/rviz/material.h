@@ -1,0 +1,47 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <OgreMaterial.h>
+
+#include <string>
+#include <vector>
+
+#include "vegetation_sim/rviz/sky_picture.h"
+
+namespace vegetation_sim::view {
+
+/// Air between the eye and what it sees.
+struct Haze {
+  float start{60.f}, end{420.f};  ///< [m] from nothing to most
+  float most{0.f};                ///< 0: none; 1: all is the haze's colour
+};
+
+/// Materials of plants and ground: a GLSL technique with our own daylight, and a fixed-function one
+/// for renderers without GLSL, which takes rviz's light. Gone with this object. Render thread only.
+class Material {
+ public:
+  enum class Kind { BARK, LEAVES, GROUND, SKY };
+
+  /// @param textures names: the picture; for the ground also its grain.
+  Material(Kind kind, const std::string& name, const std::vector<std::string>& textures);
+  ~Material();
+  Material(const Material&) = delete;
+  Material& operator=(const Material&) = delete;
+
+  const std::string& name() const { return name_; }
+  /// @param to_sun in the frame of the objects that carry the material.
+  void light(const Daylight& daylight, const Vec3& to_sun, const Haze& haze);
+
+ private:
+  void addShaded(const std::vector<std::string>& textures);
+  void addPlain(const std::vector<std::string>& textures);
+  void addTextures(Ogre::Pass& pass, const std::vector<std::string>& textures) const;
+
+  Kind kind_;
+  std::string name_;
+  Ogre::MaterialPtr material_;
+  std::vector<std::string> programs_;
+};
+
+}  // namespace vegetation_sim::view

@@ -1,0 +1,31 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "vegetation_sim/rviz/picture.h"
+
+namespace vegetation_sim::view {
+
+/// A texture in Ogre made of pictures, the first in full size, each other half as large; gone with
+/// this object. Render thread only.
+class Texture {
+ public:
+  /// @param name unique among Ogre's textures.
+  Texture(const std::string& name, const std::vector<Picture>& mipmaps);
+  ~Texture();
+  Texture(const Texture&) = delete;
+  Texture& operator=(const Texture&) = delete;
+
+  const std::string& name() const { return name_; }
+
+ private:
+  std::string name_;
+};
+
+/// Name that no other Ogre resource has.
+std::string uniqueName(const std::string& what);
+
+}  // namespace vegetation_sim::view

@@ -1,0 +1,178 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/rviz/drawn_tree.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "vegetation_sim/common/math.h"
+#include "vegetation_sim/rviz/bark_picture.h"
+#include "vegetation_sim/rviz/leaf_picture.h"
+
+namespace vegetation_sim::view {
+namespace {
+
+constexpr double LEAF_COVERAGE = 0.4;    // of a card
+constexpr double VISIBLE_FLUTTER = 0.4;  // [pixel]
+constexpr double BREATH = 0.15;          // [m/s] air that moves no leaf
+constexpr forest::Colour MOVES{0.86f, 0.22f, 0.12f}, CHANGES{0.25f, 0.72f, 0.20f};
+
+std::uint8_t byte(double x) {
+  return static_cast<std::uint8_t>(saturate(x) * 255.0 + 0.5);
+}
+
+void setColour(const forest::Colour& colour, VertexPaint& paint) {
+  for (std::size_t i = 0; i < 3; ++i) paint.colour[i] = byte(static_cast<double>(colour[i]));
+}
+
+void setNormal(const Vec3& normal, VertexPaint& paint) {
+  const Vec3 unit = normal / std::max(length(normal), 1e-9);
+  for (int i = 0; i < 3; ++i) paint.normal[i] = static_cast<float>(unit[i]);
+}
+
+double radiusOf(const forest::BarkVertex& vertex) {
+  return std::hypot(static_cast<double>(vertex.local[0]), static_cast<double>(vertex.local[1]));
+}
+
+}  // namespace
+
+DrawnTree::DrawnTree(const forest::ForestReplica& replica, std::uint32_t id, const Vec3& origin)
+    : id_(id),
+      origin_(origin),
+      tree_(replica.grow(id)),
+      species_(replica.layout().species.at(tree_.seed.species)),
+      paint_(species_, tree_.seed.seed),
+      poser_(tree_) {}
+
+void DrawnTree::addTo(forest::LightGrid& light) const {
+  const double area = LEAF_COVERAGE * species_.leaf_size * species_.leaf_size;
+  for (const forest::Branch& branch : tree_.skeleton.branches) {
+    if (branch.leaves == 0) continue;
+    const Vec3 tip = tipOf(branch, branch.rest);
+    light.addLeaf(tree_.foot + 0.5 * (branch.rest.position + tip), 0.5 * area * branch.leaves);
+    light.addLeaf(tree_.foot + tip, 0.5 * area * branch.leaves);
+  }
+}
+
+Vec3 DrawnTree::inLayout(const float* position) const {
+  return origin_ + Vec3(position[0], position[1], position[2]);
+}
+
+void DrawnTree::setLevel(int level, const forest::LightGrid& light, const TreeLook& look) {
+  level_ = level;
+  mesh_ = forest::buildMesh(tree_.skeleton, species_, forest::meshDetail(level));
+  if (!look.leaves) mesh_.leaves.clear();
+  bark_.positions.resize(3 * mesh_.bark.size());
+  leaves_.positions.resize(3 * forest::LEAF_CORNERS * mesh_.leaves.size());
+  poser_.pose(wind::Instant(), forest::Weights{}, forest::meshDetail(level).depths, poses_);
+  skin(forest::Flutter());
+  moved_ = true;
+  paintBark(light);
+  paintLeaves(light);
+}
+
+void DrawnTree::skin(const forest::Flutter& flutter) {
+  const Vec3 foot = tree_.foot - origin_;
+  const std::array<float, 3> at{static_cast<float>(foot.x()), static_cast<float>(foot.y()),
+                                static_cast<float>(foot.z())};
+  forest::skinBark(mesh_, poses_, at, bark_.positions.data());
+  forest::skinLeaves(mesh_, poses_, at, flutter, leaves_.positions.data());
+}
+
+bool DrawnTree::move(const forest::ForestReplica& replica, Nanoseconds stamp,
+                     const wind::Instant& wind, const TreeLook& look, double pixels_per_metre) {
+  if (level_ < 0) return false;
+  const forest::Weights weights = replica.weights(id_, stamp);
+  forest::Flutter flutter;
+  const double swing = species_.flutter * species_.leaf_size * pixels_per_metre;
+  bool moves = forest::movingDepths(weights) > 0;
+  if (look.flutter && swing > VISIBLE_FLUTTER && !mesh_.leaves.empty()) {
+    const double speed = length(wind.velocity(tree_.foot + Vec3(0.0, 0.0, 0.6 * height())));
+    if (speed > BREATH) {
+      flutter = forest::Flutter(secondsBetween(0, stamp), speed, species_.flutter);
+      moves = true;
+    }
+  }
+  if (!moves && !moved_) return false;
+  moved_ = moves;
+  poser_.pose(wind.relativeTo(tree_.foot), weights, forest::meshDetail(level_).depths, poses_);
+  skin(flutter);
+  return true;
+}
+
+void DrawnTree::paintBark(const forest::LightGrid& light) {
+  bark_.paint.resize(mesh_.bark.size());
+  std::vector<float> normals(3 * mesh_.bark.size());
+  forest::turnBarkNormals(mesh_, poses_, normals.data());
+  for (std::size_t i = 0; i < mesh_.bark.size(); ++i) {
+    const forest::BarkVertex& vertex = mesh_.bark[i];
+    VertexPaint& paint = bark_.paint[i];
+    const Vec3 at = inLayout(&bark_.positions[3 * i]);
+    setNormal(Vec3(normals[3 * i], normals[3 * i + 1], normals[3 * i + 2]), paint);
+    // Damp and darker at the foot.
+    const double above = saturate((at.z() - tree_.foot.z()) / (6.0 * species_.trunk_radius));
+    forest::Colour colour = paint_.bark(radiusOf(vertex));
+    for (float& part : colour) part *= static_cast<float>(0.6 + 0.4 * above);
+    setColour(colour, paint);
+    paint.colour[3] = byte(light.sun(at));
+    paint.place[0] = barkAtlasU(species_.leaf_shape, vertex.uv[0]);
+    paint.place[1] = vertex.uv[1] / BARK_PERIOD;
+    paint.place[2] = static_cast<float>(light.sky(at));
+  }
+  painted_by_level_ = false;
+}
+
+// Normals point out of the crown, so that it is shaded as one round body, not as so many cards.
+void DrawnTree::paintLeaves(const forest::LightGrid& light) {
+  leaves_.paint.resize(forest::LEAF_CORNERS * mesh_.leaves.size());
+  if (mesh_.leaves.empty()) return;
+  Vec3 middle = Vec3::Zero();
+  for (std::size_t i = 0; i < leaves_.positions.size(); i += 3)
+    middle += inLayout(&leaves_.positions[i]);
+  middle /= static_cast<double>(leaves_.positions.size() / 3);
+  const Vec3 extent(reach() + 0.1, reach() + 0.1, 0.5 * height() + 0.1);
+  const std::array<float, 2> corner = leafAtlasCorner(species_.leaf_shape);
+  for (std::size_t card = 0; card < mesh_.leaves.size(); ++card) {
+    const std::size_t first = forest::LEAF_CORNERS * card;
+    const Vec3 centre = 0.5 * (inLayout(&leaves_.positions[3 * first]) +
+                               inLayout(&leaves_.positions[3 * first + 6]));
+    const forest::Colour colour = paint_.leaf(mesh_.leaves[card]);
+    const double sun = light.sun(centre), sky = light.sky(centre);
+    for (std::size_t i = 0; i < forest::LEAF_CORNERS; ++i) {
+      VertexPaint& paint = leaves_.paint[first + i];
+      const Vec3 at = inLayout(&leaves_.positions[3 * (first + i)]);
+      const Vec3 out = (at - middle).cwiseQuotient(extent);
+      setNormal(out + 0.5 * (at - centre) / static_cast<double>(mesh_.leaves[card].size) +
+                    Vec3(0.0, 0.0, 0.25),
+                paint);
+      setColour(colour, paint);
+      paint.colour[3] = byte(sun);
+      paint.place[0] = corner[0] + 0.5f * forest::LEAF_UV[i][0];
+      paint.place[1] = corner[1] + 0.5f * forest::LEAF_UV[i][1];
+      paint.place[2] = static_cast<float>(sky);
+    }
+  }
+}
+
+bool DrawnTree::paintLevels(const forest::ForestReplica& replica, Nanoseconds stamp,
+                            const TreeLook& look) {
+  if (level_ < 0 || (!look.colour_by_level && !painted_by_level_)) return false;
+  forest::Weights weights{};
+  if (look.colour_by_level) weights = replica.weights(id_, stamp);
+  if (painted_by_level_ && look.colour_by_level && weights == painted_) return false;
+  for (std::size_t i = 0; i < mesh_.bark.size(); ++i) {
+    const forest::BarkVertex& vertex = mesh_.bark[i];
+    const int depth = tree_.skeleton.branches[static_cast<std::size_t>(vertex.branch)].depth;
+    const double weight = weights[static_cast<std::size_t>(depth)];
+    const bool rests = weight <= 0.0;
+    setColour(rests          ? paint_.bark(radiusOf(vertex))
+              : weight < 1.0 ? CHANGES
+                             : MOVES,
+              bark_.paint[i]);
+  }
+  painted_ = weights;
+  painted_by_level_ = look.colour_by_level;
+  return true;
+}
+
+}  // namespace vegetation_sim::view

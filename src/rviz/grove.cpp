@@ -1,0 +1,123 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/rviz/grove.h"
+
+#include <algorithm>
+
+#include "vegetation_sim/rviz/texture.h"
+
+namespace vegetation_sim::view {
+namespace {
+
+constexpr float SWAY = 0.25f;  // of a tree's height: how far wind takes its tips
+
+using PartOf = const DrawnTree::Part& (DrawnTree::*)() const;
+
+template <class T, class Get>
+std::vector<T> gathered(const std::vector<DrawnTree*>& trees, const Get& get) {
+  std::vector<T> out;
+  for (const DrawnTree* tree : trees) {
+    const std::vector<T>& part = get(*tree);
+    out.insert(out.end(), part.begin(), part.end());
+  }
+  return out;
+}
+
+std::vector<float> positionsOf(const std::vector<DrawnTree*>& trees, PartOf part) {
+  return gathered<float>(trees, [&](const DrawnTree& tree) -> const std::vector<float>& {
+    return (tree.*part)().positions;
+  });
+}
+
+std::vector<VertexPaint> paintOf(const std::vector<DrawnTree*>& trees, PartOf part) {
+  return gathered<VertexPaint>(trees, [&](const DrawnTree& t) -> const std::vector<VertexPaint>& {
+    return (t.*part)().paint;
+  });
+}
+
+std::vector<std::uint32_t> barkTriangles(const std::vector<DrawnTree*>& trees) {
+  std::vector<std::uint32_t> out;
+  std::uint32_t first = 0;
+  for (const DrawnTree* tree : trees) {
+    for (const std::uint32_t index : tree->barkTriangles()) out.push_back(first + index);
+    first += static_cast<std::uint32_t>(tree->bark().paint.size());
+  }
+  return out;
+}
+
+std::vector<std::uint32_t> leafTriangles(const std::vector<DrawnTree*>& trees) {
+  std::size_t cards = 0;
+  for (const DrawnTree* tree : trees) cards += tree->leafCards();
+  std::vector<std::uint32_t> out;
+  out.reserve(6 * cards);
+  for (std::uint32_t card = 0; card < cards; ++card)
+    for (const std::uint32_t corner : forest::LEAF_TRIANGLES)
+      out.push_back(forest::LEAF_CORNERS * card + corner);
+  return out;
+}
+
+}  // namespace
+
+Grove::Grove(std::vector<DrawnTree*> trees, Ogre::SceneNode& node, const std::string& bark_material,
+             const std::string& leaf_material)
+    : trees_(std::move(trees)),
+      bark_(uniqueName("bark"), bark_material),
+      leaves_(uniqueName("leaves"), leaf_material) {
+  for (const DrawnTree* tree : trees_) middle_ += tree->foot();
+  middle_ /= static_cast<double>(std::max<std::size_t>(trees_.size(), 1));
+  node.attachObject(&bark_);
+  node.attachObject(&leaves_);
+}
+
+void Grove::rebuild() {
+  double tallest = 0.0;
+  for (const DrawnTree* tree : trees_) tallest = std::max(tallest, tree->height());
+  const float margin = SWAY * static_cast<float>(tallest);
+  bark_.build(positionsOf(trees_, &DrawnTree::bark), paintOf(trees_, &DrawnTree::bark),
+              barkTriangles(trees_), margin);
+  leaves_.build(positionsOf(trees_, &DrawnTree::leaves), paintOf(trees_, &DrawnTree::leaves),
+                leafTriangles(trees_), margin);
+  built_ = true;
+}
+
+void Grove::takePositions() {
+  if (!built_) return;
+  bark_.move(positionsOf(trees_, &DrawnTree::bark));
+  leaves_.move(positionsOf(trees_, &DrawnTree::leaves));
+}
+
+void Grove::takePaint() {
+  if (built_) bark_.paint(paintOf(trees_, &DrawnTree::bark));
+}
+
+bool Grove::takeSeen() {
+  const bool bark = bark_.takeSeen(), leaves = leaves_.takeSeen();
+  return bark || leaves;
+}
+
+void Grove::setRank(int rank) {
+  bark_.setRank(rank);
+  leaves_.setRank(rank);
+}
+
+std::vector<std::vector<DrawnTree*>> splitByPlace(std::vector<DrawnTree*> trees, std::size_t most) {
+  if (trees.size() <= most) return {std::move(trees)};
+  Vec3 low = trees.front()->foot(), high = low;
+  for (const DrawnTree* tree : trees) {
+    low = low.cwiseMin(tree->foot());
+    high = high.cwiseMax(tree->foot());
+  }
+  const int side = high.x() - low.x() > high.y() - low.y() ? 0 : 1;
+  const auto half = trees.begin() + static_cast<std::ptrdiff_t>(trees.size() / 2);
+  std::nth_element(trees.begin(), half, trees.end(),
+                   [side](const DrawnTree* a, const DrawnTree* b) {
+                     return a->foot()[side] != b->foot()[side] ? a->foot()[side] < b->foot()[side]
+                                                               : a->id() < b->id();
+                   });
+  auto out = splitByPlace({trees.begin(), half}, most);
+  auto rest = splitByPlace({half, trees.end()}, most);
+  std::move(rest.begin(), rest.end(), std::back_inserter(out));
+  return out;
+}
+
+}  // namespace vegetation_sim::view

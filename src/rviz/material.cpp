@@ -1,0 +1,132 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/rviz/material.h"
+
+// Before Ogre's material headers, which only declare it.
+#include <OgreHighLevelGpuProgram.h>
+#include <OgreHighLevelGpuProgramManager.h>
+#include <OgreMaterialManager.h>
+#include <OgreTechnique.h>
+
+#include "rviz/shaders.h"
+
+namespace vegetation_sim::view {
+namespace {
+
+const char* const GROUP = "General";  // Ogre's default resource group
+
+Ogre::HighLevelGpuProgramPtr makeProgram(const std::string& name, const char* source,
+                                         Ogre::GpuProgramType type) {
+  Ogre::HighLevelGpuProgramPtr program =
+      Ogre::HighLevelGpuProgramManager::getSingleton().createProgram(name, GROUP, "glsl", type);
+  program->setSource(source);
+  return program;
+}
+
+void bindEye(Ogre::GpuProgramParameters& parameters) {
+  parameters.setNamedAutoConstant("world_view_projection",
+                                  Ogre::GpuProgramParameters::ACT_WORLDVIEWPROJ_MATRIX);
+  parameters.setNamedAutoConstant("eye",
+                                  Ogre::GpuProgramParameters::ACT_CAMERA_POSITION_OBJECT_SPACE);
+}
+
+Ogre::Vector4 narrow(const Rgba& c) {
+  return {c[0], c[1], c[2], c[3]};
+}
+
+}  // namespace
+
+Material::Material(Kind kind, const std::string& name, const std::vector<std::string>& textures)
+    : kind_(kind), name_(name) {
+  material_ = Ogre::MaterialManager::getSingleton().create(name, GROUP);
+  material_->setReceiveShadows(false);
+  material_->removeAllTechniques();
+  if (kind != Kind::SKY) addShaded(textures);
+  addPlain(textures);
+  material_->load();
+}
+
+Material::~Material() {
+  material_ = Ogre::MaterialPtr();
+  if (Ogre::MaterialManager::getSingletonPtr() == nullptr) return;
+  Ogre::MaterialManager::getSingleton().remove(name_);
+  for (const std::string& program : programs_)
+    Ogre::HighLevelGpuProgramManager::getSingleton().remove(program);
+}
+
+void Material::addTextures(Ogre::Pass& pass, const std::vector<std::string>& textures) const {
+  for (const std::string& texture : textures) {
+    Ogre::TextureUnitState* unit = pass.createTextureUnitState(texture);
+    // Mirrored, so that what does not repeat still shows no seam.
+    const bool repeats =
+        kind_ == Kind::BARK || kind_ == Kind::SKY || unit != pass.getTextureUnitState(0);
+    unit->setTextureAddressingMode(repeats ? Ogre::TextureUnitState::TAM_WRAP
+                                           : Ogre::TextureUnitState::TAM_CLAMP);
+    if (kind_ == Kind::BARK)
+      unit->setTextureAddressingMode(Ogre::TextureUnitState::TAM_CLAMP,
+                                     Ogre::TextureUnitState::TAM_MIRROR,
+                                     Ogre::TextureUnitState::TAM_CLAMP);
+    unit->setTextureFiltering(Ogre::FO_LINEAR, Ogre::FO_LINEAR, Ogre::FO_POINT);
+  }
+}
+
+void Material::addShaded(const std::vector<std::string>& textures) {
+  const bool ground = kind_ == Kind::GROUND;
+  programs_ = {name_ + "/vertex", name_ + "/fragment"};
+  const auto vertex =
+      makeProgram(programs_[0], ground ? GROUND_VERTEX : PLANT_VERTEX, Ogre::GPT_VERTEX_PROGRAM);
+  const auto fragment = makeProgram(programs_[1], ground ? GROUND_FRAGMENT : PLANT_FRAGMENT,
+                                    Ogre::GPT_FRAGMENT_PROGRAM);
+  Ogre::Pass* pass = material_->createTechnique()->createPass();
+  pass->setVertexProgram(programs_[0]);
+  pass->setFragmentProgram(programs_[1]);
+  pass->setFog(true, Ogre::FOG_NONE);  // haze is in the programs
+  bindEye(*pass->getVertexProgramParameters());
+  pass->getFragmentProgramParameters()->setNamedConstant("picture", 0);
+  if (ground) pass->getFragmentProgramParameters()->setNamedConstant("grain", 1);
+  if (kind_ == Kind::LEAVES) pass->setAlphaRejectSettings(Ogre::CMPF_GREATER_EQUAL, 128);
+  if (kind_ == Kind::LEAVES) pass->setCullingMode(Ogre::CULL_NONE);
+  addTextures(*pass, textures);
+}
+
+void Material::addPlain(const std::vector<std::string>& textures) {
+  Ogre::Pass* pass = material_->createTechnique()->createPass();
+  const bool plant = kind_ == Kind::BARK || kind_ == Kind::LEAVES;
+  pass->setLightingEnabled(plant);
+  if (plant) {
+    pass->setVertexColourTracking(Ogre::TVC_AMBIENT | Ogre::TVC_DIFFUSE);
+    pass->setSpecular(0.f, 0.f, 0.f, 0.f);
+  }
+  if (kind_ == Kind::LEAVES) pass->setAlphaRejectSettings(Ogre::CMPF_GREATER_EQUAL, 128);
+  if (kind_ == Kind::LEAVES || kind_ == Kind::SKY) pass->setCullingMode(Ogre::CULL_NONE);
+  if (kind_ == Kind::SKY) {
+    pass->setFog(true, Ogre::FOG_NONE);
+    pass->setDepthWriteEnabled(false);
+    pass->setDepthCheckEnabled(false);
+  }
+  addTextures(*pass, {textures.front()});
+  if (plant)  // vertex alpha is no transparency
+    pass->getTextureUnitState(0)->setAlphaOperation(Ogre::LBX_SOURCE1, Ogre::LBS_TEXTURE,
+                                                    Ogre::LBS_CURRENT);
+}
+
+void Material::light(const Daylight& daylight, const Vec3& to_sun, const Haze& haze) {
+  if (kind_ == Kind::SKY) return;
+  Ogre::Pass* pass = material_->getTechnique(0)->getPass(0);
+  Ogre::GpuProgramParameters& vertex = *pass->getVertexProgramParameters();
+  const float length = std::max(haze.end - haze.start, 1.f);
+  vertex.setNamedConstant("haze", Ogre::Vector4(haze.start, 1.f / length, haze.most, 0.f));
+  pass->getFragmentProgramParameters()->setNamedConstant("haze_colour", narrow(daylight.horizon));
+  if (kind_ == Kind::GROUND) return;
+  vertex.setNamedConstant(
+      "to_sun", Ogre::Vector4(static_cast<float>(to_sun.x()), static_cast<float>(to_sun.y()),
+                              static_cast<float>(to_sun.z()), 0.f));
+  vertex.setNamedConstant("sun", narrow(daylight.sun));
+  vertex.setNamedConstant("zenith_light", narrow(daylight.zenith_light));
+  vertex.setNamedConstant("ground_light", narrow(daylight.ground_light));
+  const bool leaves = kind_ == Kind::LEAVES;
+  vertex.setNamedConstant(
+      "leaf", leaves ? Ogre::Vector4(0.45f, 0.45f, 0.f, 0.f) : Ogre::Vector4(0.1f, 0.f, 0.f, 0.f));
+}
+
+}  // namespace vegetation_sim::view
