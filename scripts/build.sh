@@ -2,16 +2,24 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
 # Builds the package into build/ (or $BUILD), again only what changed.
-# usage: scripts/build.sh [--developer] [TARGET ...]
+# usage: scripts/build.sh [--developer | --sanitize] [TARGET ...]
 #   --developer  warnings in our own code are errors
+#   --sanitize   into build/sanitize, with the address and undefined behaviour sanitizers
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 
 options=()
-if [ "${1:-}" = --developer ]; then
-  options=(-Dvegetation_sim_DEVELOPER=ON)
-  shift
-fi
+case ${1:-} in
+  --developer)
+    options=(-Dvegetation_sim_DEVELOPER=ON)
+    shift
+    ;;
+  --sanitize)
+    BUILD=$BUILD/sanitize
+    options=(-DCMAKE_BUILD_TYPE=None "-DCMAKE_CXX_FLAGS=-O1 -g1 -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all")
+    shift
+    ;;
+esac
 targets=()
 for target in "$@"; do targets+=(--target "$target"); done
 

@@ -1,0 +1,39 @@
+#!/usr/bin/env python3
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Counts the test cases in the XML results under a folder.
+
+Prints each failed case with its message, each file's counts, and last "PASSED FAILED SKIPPED".
+"""
+import pathlib
+import sys
+import xml.etree.ElementTree as tree
+
+
+def read(path):
+    """Cases of one result file; a file that is no XML is one failed case."""
+    try:
+        return list(tree.parse(path).iter('testcase'))
+    except tree.ParseError as error:
+        case = tree.Element('testcase', {'name': str(error)})
+        tree.SubElement(case, 'failure')
+        return [case]
+
+
+def main():
+    total = [0, 0, 0]
+    for path in sorted(pathlib.Path(sys.argv[1]).rglob('*.xml')):
+        counts = [0, 0, 0]
+        for case in read(path):
+            problems = case.findall('failure') + case.findall('error')
+            skipped = case.find('skipped') is not None or case.get('status') == 'notrun'
+            counts[1 if problems else 2 if skipped else 0] += 1
+            for problem in problems:
+                print('FAILED  %s.%s\n%s' % (case.get('classname', path.stem), case.get('name'),
+                                             problem.get('message') or problem.text or ''))
+        print('%4d passed, %d failed, %d skipped  %s' % (*counts, path.stem))
+        total = [a + b for a, b in zip(total, counts)]
+    print(*total)
+
+
+main()

@@ -1,0 +1,123 @@
+#!/usr/bin/env bash
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+# Installs what is missing, builds, and shows a scenario in rviz.
+set -euo pipefail
+. "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
+
+usage() {
+  cat <<END
+usage: scripts/demo.sh [SCENARIO] [--headless] [--seconds N] [--screenshot FILE]
+  SCENARIO           one of: $(scenarios) (forest if none is given)
+  --headless         on a virtual display and a ROS master of its own; succeeds only if rviz shows a
+                     picture and no node dies
+  --seconds N        ends after N seconds (20 if headless, else when rviz is closed)
+  --screenshot FILE  picture of the rviz window at the end; with --headless
+END
+}
+
+scenarios() { (cd "$ROOT/config/scenarios" && ls -- *.yaml 2>/dev/null | sed 's/\.yaml$//' | paste -sd ' '); }
+
+refuse() {
+  printf 'demo.sh: %s\n' "$*" >&2
+  usage >&2
+  exit 2
+}
+
+parse() {
+  scenario= headless=false seconds= screenshot=
+  while [ $# -gt 0 ]; do
+    case $1 in
+      --headless) headless=true ;;
+      --seconds | --screenshot)
+        [ $# -ge 2 ] || refuse "$1 wants a value"
+        [ "$1" = --seconds ] && seconds=$2 || screenshot=$2
+        shift
+        ;;
+      -h | --help) usage; exit 0 ;;
+      -*) refuse "unknown option $1" ;;
+      *)
+        [ -z "$scenario" ] || refuse "a second scenario: $1"
+        scenario=$1
+        ;;
+    esac
+    shift
+  done
+  scenario=${scenario:-forest}
+  [ -e "$ROOT/config/scenarios/$scenario.yaml" ] || refuse "unknown scenario $scenario"
+  [[ $seconds =~ ^[0-9]*$ && ! $seconds =~ ^0+$ ]] || refuse "--seconds $seconds is no whole number above 0"
+  [ -z "$screenshot" ] || $headless || refuse '--screenshot goes with --headless'
+  $headless || [ -n "${DISPLAY:-}" ] || refuse 'there is no display; add --headless'
+  if [ -n "$screenshot" ]; then
+    screenshot=$(realpath -m -- "$screenshot")
+    [ -d "$(dirname "$screenshot")" ] || refuse "no folder for --screenshot $screenshot"
+  fi
+}
+
+rviz_config() {
+  local own=$ROOT/rviz/$scenario.rviz
+  [ -e "$own" ] && echo "$own" || echo "$ROOT/rviz/default.rviz"
+}
+
+# Rvizs window on the virtual display.
+rviz_window() { xdotool search --onlyvisible --name 'RViz$' | head -n 1 | grep .; }
+
+start_display() {
+  # The display says its number when it is ready.
+  Xvfb -displayfd 3 -screen 0 1280x900x24 +extension GLX -nolisten tcp \
+    3>"$WORK/display" >"$WORK/xvfb.log" 2>&1 &
+  display_pid=$!
+  local deadline=$((SECONDS + 30))
+  until [ -s "$WORK/display" ]; do
+    [ $SECONDS -lt $deadline ] && kill -0 $display_pid || fail "no virtual display: $(cat "$WORK/xvfb.log")"
+    sleep 0.1
+  done
+  DISPLAY=:$(cat "$WORK/display")
+  export DISPLAY LIBGL_ALWAYS_SOFTWARE=1 QT_QPA_PLATFORM=xcb
+  if [ -z "${XDG_RUNTIME_DIR:-}" ]; then
+    mkdir -m 700 "$WORK/runtime"
+    export XDG_RUNTIME_DIR=$WORK/runtime
+  fi
+}
+
+# A blank window, or one that shows menus alone, has few colours in its middle.
+check_picture() {
+  local colours
+  colours=$(convert "$1" -gravity center -crop 60%x60%+0+0 +repage -format %k info:)
+  [ "$colours" -ge 300 ] || give_up "the picture is blank: $colours colours in its middle"
+  say "Picture of $(identify -format '%w x %h' "$1") pixels, $colours colours in its middle"
+}
+
+run_headless() {
+  . "$ROOT/scripts/launching.sh"
+  display_pid=
+  trap 'stop_process "$launch_pid"; stop_process "$display_pid"; rm -rf "$WORK"' EXIT
+  trap 'exit 130' INT TERM
+  start_display
+  say "Showing $scenario on display $DISPLAY"
+  start_launch demo.launch scenario:="$scenario" rviz_config:="$(rviz_config)"
+  wait_until 120 'the rviz window' rviz_window
+  wait_until 60 'a message on forest/state' topic_flows /forest/state
+  say "Running for ${seconds:-20} s"
+  local deadline=$((SECONDS + ${seconds:-20}))
+  while [ $SECONDS -lt $deadline ]; do
+    check_launch
+    sleep 0.5
+  done
+  import -window "$(rviz_window)" "png:$WORK/picture.png"
+  check_launch
+  check_picture "$WORK/picture.png"
+  [ -z "$screenshot" ] || { cp "$WORK/picture.png" "$screenshot" && say "Wrote $screenshot"; }
+}
+
+parse "$@"
+"$ROOT/scripts/install_dependencies.sh"
+"$ROOT/scripts/build.sh"
+use_space "$BUILD/devel"
+if $headless; then
+  run_headless
+else
+  launch=(roslaunch vegetation_sim demo.launch scenario:="$scenario" rviz_config:="$(rviz_config)")
+  [ -z "$seconds" ] || launch=(timeout --foreground --preserve-status -s INT "$seconds" "${launch[@]}")
+  exec "${launch[@]}"
+fi

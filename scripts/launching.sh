@@ -1,0 +1,63 @@
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+# Read by the scripts that start a launch file: on a master of its own, and with nothing left behind.
+# Sets WORK, a temporary folder; LOG in it has all that the launch says.
+WORK=$(mktemp -d)
+LOG=$WORK/launch.log
+launch_pid=
+
+descendants() {
+  local child
+  for child in $(ps -o pid= --ppid "$1"); do
+    descendants "$child"
+    echo "$child"
+  done
+}
+
+# Ends a process as its user would, then by force, its children with it.
+stop_process() {
+  local pid=$1 family waited=0
+  [ -n "$pid" ] && kill -0 "$pid" 2>/dev/null || return 0
+  family=$(descendants "$pid")
+  kill -TERM "$pid" 2>/dev/null || true
+  while kill -0 "$pid" 2>/dev/null && [ $waited -lt 300 ]; do
+    sleep 0.1
+    waited=$((waited + 1))
+  done
+  # shellcheck disable=SC2086
+  kill -KILL "$pid" $family 2>/dev/null || true
+}
+
+# usage: start_launch FILE [ARGUMENT ...], with ROS already in the environment.
+start_launch() {
+  local port
+  port=$(python3 -c 'import socket; s = socket.socket(); s.bind(("", 0)); print(s.getsockname()[1])')
+  export ROS_MASTER_URI=http://localhost:$port ROS_HOSTNAME=localhost
+  export ROS_HOME=$WORK/ros ROS_LOG_DIR=$WORK/ros/log
+  roslaunch -p "$port" vegetation_sim "$@" >"$LOG" 2>&1 &
+  launch_pid=$!
+}
+
+# usage: wait_until SECONDS WHAT COMMAND ...: until the command succeeds; fails when the launch ends.
+wait_until() {
+  local deadline=$((SECONDS + $1)) what=$2
+  shift 2
+  until "$@" >/dev/null 2>&1; do
+    check_launch
+    [ $SECONDS -lt $deadline ] || give_up "$what did not happen in time"
+    sleep 0.2
+  done
+}
+
+topic_flows() { timeout 10 rostopic echo -n 1 --noarr "$1"; }
+
+# Every node still runs.
+check_launch() {
+  kill -0 "$launch_pid" 2>/dev/null || give_up 'the launch ended by itself'
+  ! grep -q 'has died\|REQUIRED process' "$LOG" || give_up 'a node died'
+}
+
+give_up() {
+  tail -n 40 "$LOG" >&2
+  fail "$*"
+}

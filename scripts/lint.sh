@@ -1,0 +1,65 @@
+#!/usr/bin/env bash
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+# Checks of the code that run nothing of it.
+# usage: scripts/lint.sh [format | tidy | catkin | layers | words | docs] ...; all if none is given
+set -euo pipefail
+. "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
+cd "$ROOT"
+
+code() { git ls-files 'include/*.h' 'src/*.h' 'src/*.cpp' 'test/*.h' 'test/*.cpp' 'bench/*.h' 'bench/*.cpp'; }
+
+# usage: none_match PATTERN PATH...: prints every line that matches, and fails if there is one.
+none_match() {
+  local pattern=$1
+  shift
+  ! git grep -nE "$pattern" -- "$@"
+}
+
+format() { code | xargs clang-format --dry-run -Werror; }
+
+# The core only: the headers of ROS would take many minutes.
+tidy() {
+  git ls-files src/{common,forest,terrain,wind}'/*.cpp' |
+    xargs -P "$(nproc)" -n 1 clang-tidy --quiet --extra-arg=-std=c++17 -p "$BUILD" 2>/dev/null
+}
+
+catkin() {
+  # A package is to stand in a folder of its own name.
+  local folder found
+  folder=$(mktemp -d)
+  ln -s "$ROOT" "$folder/vegetation_sim"
+  found=$(catkin_lint --offline --strict -W2 --quiet "$folder/vegetation_sim" 2>&1) || true
+  rm -r "$folder"
+  [ -z "$found" ] || { printf '%s\n' "$found"; return 1; }
+}
+
+# The core includes nothing of ROS, rviz or Qt.
+layers() {
+  none_match '#include [<"](ros/|tf2|rviz/|nodelet|pluginlib|dynamic_reconfigure|Q[A-Z]|[a-z_]+_(msgs|srvs)/|vegetation_sim/(ros|nodes|rviz)/)' \
+    {include/vegetation_sim,src}/{common,forest,terrain,wind} &&
+    none_match '#include [<"](rviz/|Q[A-Z]|vegetation_sim/(nodes|rviz)/)' {include/vegetation_sim,src}/ros
+}
+
+# No left-over, and in the core nothing whose bits differ between machines. What only chooses how
+# finely a picture is drawn may use the platform's mathematics.
+words() {
+  local code_of_core=({include/vegetation_sim,src}/{common,forest,terrain,wind}
+    ':!src/forest/geometry_level.cpp')
+  none_match '\b(std::)?(rand|srand|random_device|[a-z]+_distribution)\b *[(<{]' src include &&
+    none_match 'std::(sin|cos|tan|atan2?|exp|log|pow|cbrt|hypot)\(' "${code_of_core[@]}" &&
+    none_match 'unordered_(map|set)' "${code_of_core[@]}" &&
+    none_match '(Duration\([0-9.]+\)\.sleep|sleep_for|usleep|time\.sleep)' test &&
+    none_match 'DISABLED_|GTEST_SKIP|#if 0' test &&
+    none_match 'march=native' CMakeLists.txt cmake
+}
+
+docs() { python3 test/docs/check_docs.py; }
+
+[ $# -gt 0 ] || set -- format tidy catkin layers words docs
+for check in "$@"; do
+  case $check in
+    format | tidy | catkin | layers | words | docs) "$check" ;;
+    *) fail "unknown check $check" ;;
+  esac
+done

@@ -1,0 +1,72 @@
+#!/usr/bin/env bash
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+# Installs what is missing, builds with warnings as errors, and runs every test and check.
+# usage: scripts/test.sh [--lint | --sanitize]
+#   --lint      only the checks that run nothing
+#   --sanitize  only the core's tests under the address and undefined behaviour sanitizers
+# The last line counts test cases and checks; the exit code is 0 if none failed.
+set -euo pipefail
+. "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
+
+part=${1:-all}
+case $part in
+  all | --lint | --sanitize) ;;
+  *) fail "unknown option $part; known are --lint and --sanitize" ;;
+esac
+
+passed=0 failed=0 skipped=0
+failures=()
+
+# usage: check NAME COMMAND ...: one check, its output shown only if it fails.
+check() {
+  local name=$1 start=$SECONDS output
+  shift
+  if output=$("$@" 2>&1); then
+    passed=$((passed + 1))
+    printf 'ok      %s (%d s)\n' "$name" $((SECONDS - start))
+  else
+    failed=$((failed + 1))
+    failures+=("$name")
+    printf '%s\nFAILED  %s (%d s)\n' "$output" "$name" $((SECONDS - start))
+  fi
+}
+
+run_tests() {
+  say 'Unit tests and node tests'
+  rm -rf "$BUILD/test_results"
+  # One at a time: tests that run nodes want the machine for themselves. Failures are in the results.
+  cmake --build "$BUILD" --parallel 1 --target run_tests >"$BUILD/tests.log" 2>&1 || true
+  local counts
+  counts=$(python3 "$ROOT/scripts/count_tests.py" "$BUILD/test_results")
+  read -r ok bad left <<<"$(tail -n 1 <<<"$counts")"
+  head -n -1 <<<"$counts"
+  passed=$((passed + ok)) failed=$((failed + bad)) skipped=$((skipped + left))
+  [ "$bad" -eq 0 ] || failures+=("test cases, see $BUILD/tests.log")
+}
+
+lint() {
+  say 'Checks of the code'
+  local name
+  for name in format catkin layers words docs tidy; do check "lint $name" "$ROOT/scripts/lint.sh" $name; done
+}
+
+sanitize() {
+  say 'The core under sanitizers'
+  local folder folders=(common forest terrain wind)
+  check 'sanitizers: build' "$ROOT/scripts/build.sh" --sanitize "${folders[@]/%/_test}"
+  for folder in "${folders[@]}"; do
+    check "sanitizers: $folder" timeout 600 "$BUILD/sanitize/devel/lib/vegetation_sim/${folder}_test" --gtest_brief=1
+  done
+}
+
+"$ROOT/scripts/install_dependencies.sh"
+[ $part = --sanitize ] || "$ROOT/scripts/build.sh" --developer all tests
+[ $part != all ] || run_tests
+[ $part = --sanitize ] || lint
+[ $part = --lint ] || sanitize
+[ $part != all ] || check 'runs from the install space' "$ROOT/scripts/test_install.sh"
+
+[ $failed -eq 0 ] || printf 'FAILED  %s\n' "${failures[@]}"
+printf '%d passed, %d failed, %d skipped\n' $passed $failed $skipped
+[ $failed -eq 0 ] && [ $passed -gt 0 ]

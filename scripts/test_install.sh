@@ -1,0 +1,39 @@
+#!/usr/bin/env bash
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+# Installs the build into build/install and runs a scenario from there, as nodes and as nodelets.
+set -euo pipefail
+. "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
+
+INSTALLED=$BUILD/install
+rm -rf "$INSTALLED"
+cmake --install "$BUILD" >"$BUILD/install.log"
+
+# Start afresh: nothing of the build folder may be in the environment.
+if [ -z "${VEGETATION_SIM_CLEAN:-}" ]; then
+  exec env -i HOME="$HOME" PATH="$PATH" BUILD="$BUILD" VEGETATION_SIM_CLEAN=1 "$0"
+fi
+use_space "$INSTALLED"
+
+[ "$(rospack find vegetation_sim)" = "$INSTALLED/share/vegetation_sim" ] || fail 'rospack finds another copy'
+for host in nodelet rviz; do
+  description=$(rospack plugins --attrib=plugin "$host" | sed -n 's/^vegetation_sim //p')
+  [ -e "$description" ] || fail "no plugin description for $host"
+  for library in $(sed -n 's/.*<library path="\([^"]*\)".*/\1/p' "$description"); do
+    [ -e "$INSTALLED/$library.so" ] || [ -e "$INSTALLED/lib/$(basename "$library").so" ] ||
+      fail "$description names $library, which is not installed"
+  done
+done
+for file in "$INSTALLED"/lib/*.so "$INSTALLED"/lib/vegetation_sim/*; do
+  ! ldd "$file" | grep -E "not found|$BUILD/devel" || fail "$file lacks a library"
+done
+
+. "$ROOT/scripts/launching.sh"
+trap 'stop_process "$launch_pid"; rm -rf "$WORK"' EXIT
+for nodelets in false true; do
+  start_launch demo.launch scenario:=single_tree rviz:=false nodelets:=$nodelets
+  wait_until 60 'a message on wind' topic_flows /wind
+  wait_until 60 'a message on forest/state' topic_flows /forest/state
+  check_launch
+  stop_process "$launch_pid"
+done
