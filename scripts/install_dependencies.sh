@@ -20,7 +20,7 @@ PACKAGES=(
   libbenchmark-dev libgmock-dev librostest-dev python3-rosbag python3-rosmsg python3-rostest
   catkin-lint clang-format clang-tidy
   # a display of its own for the demo, and a picture of it
-  imagemagick libgl1-mesa-dri x11-utils xdotool xvfb
+  imagemagick libgl1-mesa-dri procps xdotool xvfb
 )
 
 if ! command -v dpkg-query >/dev/null || ! grep -q '^VERSION_CODENAME=bookworm' /etc/os-release; then
