@@ -44,12 +44,48 @@ void readNumbers(Parameters& parameters, WindSettings& settings) {
                                            std::to_string(least) + " s");
 }
 
+void addBreeze(WindSettings& settings) {
+  if (const wind::Source* own = findBreeze(settings.sources)) {
+    settings.breeze = BreezeSettings::of(own->primitive, settings.breeze.direction);
+  } else if (settings.breeze.speed > 0.0) {
+    wind::Primitive base;
+    base.velocity = Vec3::Zero();
+    settings.sources.push_back({settings.breeze.applyTo(base), ""});
+  }
+}
+
+void checkTogether(const WindSettings& settings, Faults& faults) {
+  std::size_t followed = 0;
+  for (const wind::Source& source : settings.sources) followed += !source.attached_frame.empty();
+  if (followed > WindSettings::MAX_FOLLOWED)
+    faults.add("scenario: " + std::to_string(followed) + " sources follow a frame, allowed are " +
+               std::to_string(WindSettings::MAX_FOLLOWED));
+  if (!faults.empty()) return;
+  try {
+    freshLedger(settings, NANOSECONDS_PER_SECOND);
+  } catch (const InvalidInput& error) {
+    faults.add(error.what());
+  }
+}
+
 }  // namespace
 
 void describe(FieldVisitor& visitor, BreezeSettings& breeze) {
   visitor.number("breeze_speed", breeze.speed, "m/s", {0.0, wind::SPEEDS.high});
   visitor.number("breeze_direction", breeze.direction, "rad", {-PI, PI});
   visitor.number("breeze_turbulence", breeze.turbulence, "", wind::TURBULENCE);
+}
+
+WindBroadcasterConfig toConfig(const BreezeSettings& breeze) {
+  WindBroadcasterConfig config = WindBroadcasterConfig::__getDefault__();
+  config.breeze_speed = breeze.speed;
+  config.breeze_direction = breeze.direction;
+  config.breeze_turbulence = breeze.turbulence;
+  return config;
+}
+
+BreezeSettings fromConfig(const WindBroadcasterConfig& config) {
+  return {config.breeze_speed, config.breeze_direction, config.breeze_turbulence};
 }
 
 wind::Primitive BreezeSettings::applyTo(wind::Primitive base) const {
@@ -68,6 +104,16 @@ BreezeSettings BreezeSettings::of(const wind::Primitive& p, double direction_in_
   return {std::sqrt(x * x + y * y), calm ? direction_in_a_calm : arcTangent(y, x), p.turbulence};
 }
 
+wind::Ledger freshLedger(const WindSettings& settings, Nanoseconds start) {
+  wind::Ledger ledger(settings.seed);
+  std::vector<wind::Primitive> primitives;
+  for (const wind::Source& source : settings.sources)
+    if (source.attached_frame.empty())
+      primitives.push_back(wind::startedAt(source, start).primitive);
+  ledger.start(primitives);
+  return ledger;
+}
+
 WindSettings readWindSettings(const ros::NodeHandle& private_nh) {
   WindSettings settings;
   Parameters parameters(private_nh);
@@ -81,14 +127,9 @@ WindSettings readWindSettings(const ros::NodeHandle& private_nh) {
     }
   }
   readNumbers(parameters, settings);
+  addBreeze(settings);
+  checkTogether(settings, parameters.faults());
   parameters.finish();
-  if (const wind::Source* own = findBreeze(settings.sources)) {
-    settings.breeze = BreezeSettings::of(own->primitive, settings.breeze.direction);
-  } else if (settings.breeze.speed > 0.0) {
-    wind::Primitive base;
-    base.velocity = Vec3::Zero();
-    settings.sources.push_back({settings.breeze.applyTo(base), ""});
-  }
   return settings;
 }
 

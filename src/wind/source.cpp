@@ -5,8 +5,12 @@
 namespace vegetation_sim::wind {
 
 void check(const Source& source, Faults& faults) {
+  check(source.primitive, faults);
+  checkFrame(source, faults);
+}
+
+void checkFrame(const Source& source, Faults& faults) {
   const Primitive& p = source.primitive;
-  check(p, faults);
   if (source.attached_frame.empty()) return;
   const std::string context =
       "primitive '" + p.name + "': attached_frame = '" + source.attached_frame + "' ";

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <ros/node_handle.h>
+#include <vegetation_sim/WindBroadcasterConfig.h>
 
 #include <string>
 #include <vector>
 
 #include "vegetation_sim/ros/parameters.h"
+#include "vegetation_sim/wind/ledger.h"
 #include "vegetation_sim/wind/source.h"
 
 namespace vegetation_sim {
@@ -24,12 +26,23 @@ struct BreezeSettings {
   wind::Primitive applyTo(wind::Primitive base) const;
   /// @param direction_in_a_calm kept where the speed is zero [rad].
   static BreezeSettings of(const wind::Primitive& primitive, double direction_in_a_calm);
+
+  bool operator==(const BreezeSettings& other) const {
+    return speed == other.speed && direction == other.direction && turbulence == other.turbulence;
+  }
+  bool operator!=(const BreezeSettings& other) const { return !(*this == other); }
 };
+
+WindBroadcasterConfig toConfig(const BreezeSettings& breeze);
+BreezeSettings fromConfig(const WindBroadcasterConfig& config);
 
 void describe(FieldVisitor& visitor, BreezeSettings& breeze);
 
 /// What a wind_broadcaster is started with.
 struct WindSettings {
+  /// Frames that may be followed at once: their pieces share the field's limit with all sources.
+  static constexpr std::size_t MAX_FOLLOWED = 4;
+
   std::string frame_id{"map"};        ///< world frame
   std::uint64_t seed{0};              ///< of the turbulence
   double lead{0.2};                   ///< how far ahead an edit takes effect [s]
@@ -44,5 +57,9 @@ struct WindSettings {
 /// but for its own source named "breeze", which wins over what dynamic_reconfigure left behind.
 /// @throws InvalidInput with all faults of both.
 WindSettings readWindSettings(const ros::NodeHandle& private_nh);
+
+/// The law of a fresh start at a stamp, but for the sources that follow a frame.
+/// @throws InvalidInput if the sources do not fit in one field.
+wind::Ledger freshLedger(const WindSettings& settings, Nanoseconds start);
 
 }  // namespace vegetation_sim

@@ -15,8 +15,11 @@ struct Source {
   std::string attached_frame;  ///< empty: not tied
 };
 
-/// All faults of one source: those of its primitive, and of what goes with a frame.
+/// All faults of one source: those of its primitive, and those of checkFrame().
 void check(const Source& source, Faults& faults);
+
+/// Faults of the frame, and of what does not go with one.
+void checkFrame(const Source& source, Faults& faults);
 
 /// The same source with all its stamps later by `start`. A t_off of 0 stays "for ever".
 Source startedAt(Source source, Nanoseconds start);
