@@ -14,10 +14,12 @@ PACKAGES=(
   libnodeletlib-dev pluginlib-dev librviz-dev qtbase5-dev
   libeigen3-dev libhwy-dev libpng-dev libyaml-cpp-dev
   # running
-  libnodeletlib-tools python3-roslaunch python3-rosnode python3-rosparam python3-rosservice
-  python3-rostopic rosbash rviz
-  # testing
-  libbenchmark-dev libgmock-dev librostest-dev python3-rosbag python3-rosmsg python3-rostest
+  libnodeletlib-tools rviz
+  # testing, and looking at topics
+  python3-rosbag python3-roslaunch python3-rosmsg python3-rosnode python3-rosparam
+  python3-rosservice python3-rostest python3-rostopic rosbash librostest-dev libgmock-dev
+  python3-diagnostic-msgs python3-geometry-msgs python3-std-srvs python3-tf2-msgs
+  python3-visualization-msgs
   catkin-lint clang-format clang-tidy
   # a display of its own for the demo, and a picture of it
   imagemagick libgl1-mesa-dri procps xdotool xvfb
