@@ -27,7 +27,7 @@ void shapeDisk(const Primitive& p, double elapsed, double weight, Term& term) {
   // The two parts of the phase are reduced apart: the first is large, the second exact.
   const double turns = p.omega * elapsed / (2.0 * PI), psi = p.phase / (2.0 * PI);
   const double sine = sinCosTurns(turns - std::floor(turns) + psi).sin;
-  term.smooth = p.envelope == 1;
+  term.smooth = p.envelope == 0;
   term.amplitude = p.velocity * (weight * sine);
   term.peak = weight * length(p.velocity);
 }

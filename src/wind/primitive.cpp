@@ -30,12 +30,12 @@ void visit(const Split& split, Primitive& p) {
   split(true).number("fade_in", p.fade_in, "s", {0.0, 600.0});
   split(true).number("fade_out", p.fade_out, "s", {0.0, 600.0});
   split(centred).number("orbit_radius", p.orbit_radius, "m", {0.0, 1e5});
-  split(centred).number("orbit_period", p.orbit_period, "s", {0.1, 1e6});
+  split(centred).number("orbit_period", p.orbit_period, "s", {0.0, 1e6});
   split(!radial).vector("velocity", p.velocity, "m/s", SPEEDS);
   split(centred).number("radius", p.radius, "m", {0.01, 1e5});
   split(disk).number("omega", p.omega, "rad/s", {0.0, 100.0});
   split(disk).number("phase", p.phase, "rad", {-100.0, 100.0});
-  split(disk).choice("envelope", p.envelope, {"paper", "smooth"});
+  split(disk).choice("envelope", p.envelope, {"smooth", "paper"});
   split(breeze).number("turbulence", p.turbulence, "", TURBULENCE);
   split(breeze).number("length_scale", p.length_scale, "m", {1.0, 1000.0});
   split(gust).number("front_speed", p.front_speed, "m/s", {0.0, 200.0});
@@ -92,6 +92,11 @@ void checkTrajectory(const std::string& context, const Primitive& p, Faults& fau
   }
 }
 
+void checkOrbit(const std::string& context, const Primitive& p, Faults& faults) {
+  if (p.orbit_radius > 0.0 && p.orbit_period >= 0.0 && p.orbit_period < SHORTEST_ORBIT)
+    faults.add(rangeFault(context + "orbit_period", p.orbit_period, "s", {SHORTEST_ORBIT, 1e6}));
+}
+
 void checkGust(const std::string& context, const Primitive& p, Faults& faults) {
   if (p.velocity.x() == 0.0 && p.velocity.y() == 0.0)
     faults.add(context + "velocity has no horizontal part, so the gust has no direction");
@@ -128,6 +133,7 @@ void check(Primitive p, Faults& faults) {
   if (p.t_off != 0 && p.t_off <= p.t_on)
     faults.add(context + "t_off = " + seconds(p.t_off) + " is not after t_on = " + seconds(p.t_on));
   checkTrajectory(context, p, faults);
+  if (!isKind(p, {Kind::BREEZE})) checkOrbit(context, p, faults);
   if (isKind(p, {Kind::GUST})) checkGust(context, p, faults);
 }
 

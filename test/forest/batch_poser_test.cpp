@@ -25,7 +25,7 @@ wind::Field everyKind() {
     out.push_back(p);
   }
   wind::Primitive paper = makeDisk(6, Vec3(-3, 2, 0), 20.0, Vec3(1, 1, 0.2));
-  paper.envelope = 0;
+  paper.envelope = 1;
   out.push_back(paper);
   return wind::Field(out, 5);
 }

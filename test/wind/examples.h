@@ -26,7 +26,7 @@ inline Primitive example(Kind kind, const std::string& name = "source") {
 /// The disk of the requirements' reference vector: r = 10 m, w = 2 rad/s, |F| = 5.
 inline Primitive printedDisk() {
   Primitive p = example(Kind::DISK);
-  p.envelope = 0;
+  p.envelope = 1;
   p.radius = 10.0;
   p.omega = 2.0;
   p.velocity = Vec3(5.0, 0.0, 0.0);

@@ -39,7 +39,7 @@ const std::vector<NumberCase> NUMBERS = {
     {"fade_in", Kind::DISK, [](Primitive& p) -> double& { return p.fade_in; }, 0.0, 600.0},
     {"fade_out", Kind::BREEZE, [](Primitive& p) -> double& { return p.fade_out; }, 0.0, 600.0},
     {"orbit_radius", Kind::GUST, [](Primitive& p) -> double& { return p.orbit_radius; }, 0.0, 1e5},
-    {"orbit_period", Kind::BLAST, [](Primitive& p) -> double& { return p.orbit_period; }, 0.1, 1e6},
+    {"orbit_period", Kind::BLAST, [](Primitive& p) -> double& { return p.orbit_period; }, 0.0, 1e6},
     {"velocity.x", Kind::DISK, [](Primitive& p) -> double& { return p.velocity.x(); }, -200.0,
      200.0},
     {"velocity.y", Kind::BREEZE, [](Primitive& p) -> double& { return p.velocity.y(); }, -200.0,
@@ -120,7 +120,7 @@ TEST(Check, RefusesAnUnknownKind) {
 TEST(Check, RefusesAnUnknownEnvelope) {
   Primitive p = example(Kind::DISK);
   p.envelope = 7;
-  EXPECT_EQ(faultsOf(p), "primitive 'source': envelope = 7 is none of 0 (paper), 1 (smooth)");
+  EXPECT_EQ(faultsOf(p), "primitive 'source': envelope = 7 is none of 0 (smooth), 1 (paper)");
 }
 
 TEST(Check, RefusesNamesThatAreEmptyOrEndless) {
@@ -160,6 +160,14 @@ TEST(Check, RefusesMoreWayPointsThanAllowed) {
   Primitive p = example(Kind::DISK);
   p.trajectory.resize(MAX_WAYPOINTS + 1);
   EXPECT_EQ(faultsOf(p), "primitive 'source': trajectory has 4097 way points, allowed are 4096");
+}
+
+TEST(Check, WantsAPeriodOnlyOfASourceThatOrbits) {
+  Primitive p = example(Kind::DISK);
+  p.orbit_period = 0.0;  // as in a message that a user left blank
+  EXPECT_EQ(faultsOf(p), "");
+  p.orbit_radius = 1.0;
+  EXPECT_EQ(faultsOf(p), "primitive 'source': orbit_period = 0 s is outside 0.1 to 1e+06 s");
 }
 
 TEST(Check, RefusesAGustWithoutDirection) {

@@ -15,6 +15,7 @@ constexpr std::size_t MAX_NAME = 128;        ///< [characters]
 /// Last stamp that a ROS time can hold.
 constexpr Nanoseconds LAST_STAMP = 4294967295LL * NANOSECONDS_PER_SECOND;
 
+constexpr double SHORTEST_ORBIT = 0.1;  ///< [s] a round takes at least
 constexpr Range SPEEDS{-200.0, 200.0};  ///< [m/s] each component
 constexpr Range POSITIONS{-1e6, 1e6};   ///< [m] each component
 constexpr Range TURBULENCE{0.0, 1.0};   ///< rms / mean

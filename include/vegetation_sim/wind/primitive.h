@@ -45,7 +45,7 @@ struct Primitive {
   double radius{10.0};                 ///< of influence; gust: half width; breeze: unused [m]
   double omega{2.0};                   ///< disk: pulsation [rad/s]
   double phase{0.0};                   ///< disk: phase psi [rad] (S1-16)
-  int envelope{1};  ///< disk: 0 = "paper", (r-d)/r as printed; 1 = "smooth", C2 (E1)
+  int envelope{0};  ///< disk: 0 = "smooth", C2 (E1); 1 = "paper", (r-d)/r as printed
   double turbulence{0.2};      ///< breeze: rms of the along-wind fluctuation / mean speed
   double length_scale{40.0};   ///< breeze: integral length of the turbulence [m]
   double front_speed{6.0};     ///< gust: speed at which the front moves along `velocity` [m/s]
