@@ -31,7 +31,8 @@ class DrawnTree {
   const Vec3& foot() const { return tree_.foot; }  ///< layout's frame [m]
   double height() const { return tree_.skeleton.height; }
   double reach() const { return tree_.skeleton.reach; }
-  int level() const { return level_; }  ///< of geometry; -1: no mesh yet
+  double leafSize() const { return species_.leaf_size; }  ///< edge of a cluster [m]
+  int level() const { return level_; }                    ///< of geometry; -1: no mesh yet
   std::size_t triangleCount() const { return mesh_.triangleCount(); }
   const forest::Tree& tree() const { return tree_; }
 

@@ -1,0 +1,74 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <rviz/display.h>
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "vegetation_sim/rviz/air.h"
+#include "vegetation_sim/rviz/forest_properties.h"
+#include "vegetation_sim/rviz/forest_source.h"
+#include "vegetation_sim/rviz/forest_visual.h"
+#include "vegetation_sim/rviz/ground_visual.h"
+#include "vegetation_sim/rviz/sky_visual.h"
+#include "vegetation_sim/rviz/viewer_publisher.h"
+
+namespace vegetation_sim {
+
+/// Rebuilds a forest from its layout, its wind and its state, and draws it as it stands at rviz's
+/// time. Tells the forest where the view looks from. Everything runs in rviz's render thread; while
+/// disabled it holds no subscription and no Ogre object.
+class ForestDisplay : public rviz::Display {
+  Q_OBJECT
+ public:
+  ForestDisplay();
+  ~ForestDisplay() override;
+
+  void update(float wall_dt, float ros_dt) override;
+  void reset() override;
+
+  /// What was drawn last.
+  view::ForestReport drawn() const;
+
+ protected:
+  void onInitialize() override;
+  void onEnable() override;
+  void onDisable() override;
+
+ private Q_SLOTS:
+  void updateTopics();
+  void updateLook();
+  void updateScenery();
+  void updateViewer();
+
+ private:
+  void start();
+  void stop();
+  bool placeInFixedFrame();
+  bool findView(view::View& view);
+  void watchTime(Nanoseconds stamp);
+  void updateAir();
+  void updateGround();
+  void publishViewer();
+  void showStatus(Nanoseconds stamp);
+  void show(rviz::StatusProperty::Level level, const std::string& name, const std::string& text);
+  void show(const std::string& name, const view::InputStatus& status);
+
+  std::unique_ptr<view::ForestProperties> properties_;
+  std::unique_ptr<view::ForestSource> source_;
+  std::unique_ptr<view::ForestVisual> forest_;
+  std::unique_ptr<view::GroundVisual> ground_;
+  std::unique_ptr<view::SkyVisual> sky_;
+  std::unique_ptr<view::Air> air_;
+  std::unique_ptr<view::ViewerPublisher> viewer_;
+  std::map<std::string, std::string> shown_;  // status texts, to change them only when they change
+  int layouts_{0};
+  const void* grounded_{nullptr};  // stock that the ground was made for
+  Nanoseconds last_stamp_{0};
+  double since_update_{0.0}, since_status_{1e9}, wall_{0.0};  // [s]
+};
+
+}  // namespace vegetation_sim

@@ -1,0 +1,74 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <OgreSceneNode.h>
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "vegetation_sim/rviz/grove.h"
+#include "vegetation_sim/rviz/material.h"
+#include "vegetation_sim/rviz/texture.h"
+#include "vegetation_sim/rviz/tree_stock.h"
+
+namespace vegetation_sim::view {
+
+/// What was drawn last.
+struct ForestReport {
+  std::size_t trees{0}, wanted{0};  ///< drawn, asked for
+  std::size_t triangles{0};         ///< of trees in the picture
+  std::size_t moving{0};            ///< trees that were moved
+  std::size_t waiting{0};           ///< trees whose geometry level is still to change
+  std::array<std::size_t, forest::GEOMETRY_LEVELS> per_level{};
+};
+
+/// The trees of a layout as Ogre shows them; all of it goes with this object. Render thread only.
+class ForestVisual {
+ public:
+  struct Options {
+    TreeLook look;
+    double target_triangles{130000.0};
+    std::size_t most_trees{1000};
+  };
+
+  /// @param parent node in the frame of the layout.
+  explicit ForestVisual(Ogre::SceneNode& parent);
+  ~ForestVisual();
+
+  /// Another layout, or other trees of it: grows them anew over the next updates.
+  void restart(const forest::ForestReplica& replica, const View& view, const Options& options);
+  /// Draws the forest of `stamp`. Work that cannot be done in time is left to later updates.
+  void update(const forest::ForestReplica& replica, Nanoseconds stamp, const View& view,
+              const Daylight& daylight, const Options& options);
+  /// The trees will be painted and built anew, as after a change of look.
+  void repaint();
+  void light(const Daylight& daylight, const Vec3& to_sun, const Haze& haze);
+
+  /// Set once all trees stand.
+  const TreeStock* stock() const { return stock_ && stock_->ready() ? stock_.get() : nullptr; }
+  const ForestReport& report() const { return report_; }
+
+ private:
+  void makeGroves();
+  void chooseLevels(const View& view, const Options& options);
+  void move(const forest::ForestReplica& replica, Nanoseconds stamp, const View& view,
+            const Options& options);
+  void measure(const View& view, const Options& options);
+
+  Ogre::SceneNode& parent_;
+  Ogre::SceneNode* node_;  // Ogre's; destroyed by us
+  Texture leaf_texture_, bark_texture_;
+  Material leaf_material_, bark_material_;
+  std::unique_ptr<TreeStock> stock_;
+  std::vector<std::unique_ptr<Grove>> groves_;
+  Vec3 selected_at_{Vec3::Zero()};  // eye when the trees were selected
+  bool selected_all_{true};
+  forest::ComplexityFeedback feedback_;
+  bool repaint_{false};
+  Nanoseconds moved_to_{-1};
+  ForestReport report_;
+};
+
+}  // namespace vegetation_sim::view

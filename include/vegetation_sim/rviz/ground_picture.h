@@ -1,0 +1,41 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "vegetation_sim/rviz/sky_picture.h"
+#include "vegetation_sim/rviz/tree_stock.h"
+#include "vegetation_sim/terrain/height_map.h"
+
+namespace vegetation_sim::view {
+
+/// Square of ground that gets a picture of its own, layout's frame [m].
+struct Plot {
+  double x{0.0}, y{0.0};  ///< south-west corner
+  double edge{64.0};
+};
+/// Square around the trees with room for their shadows.
+Plot plotAround(const Extent& extent);
+
+/// Grass and forest floor: colour of the ground without light.
+/// @param shelter 0: open, 1: under a closed canopy.
+Rgba groundColour(const Noise& noise, double x, double y, double shelter, const Rgba& tint);
+
+/// Light on open ground with this normal.
+Rgba openLight(const Daylight& daylight, const Vec3& normal);
+
+/// Part of the sun that leaves let through to each pixel of the plot: the trees' shadows, sharper
+/// than the grid of light. [edge x edge], south first.
+std::vector<float> shadowsOn(const Plot& plot, int edge, const TreeStock& stock,
+                             const terrain::HeightMap& terrain, const Vec3& to_sun);
+
+/// The plot from above, north on top, with its light.
+Picture groundPicture(const Plot& plot, int edge, const TreeStock& stock,
+                      const terrain::HeightMap& terrain, const Daylight& daylight,
+                      const Rgba& tint);
+
+/// Fine grain that repeats, mean one half.
+Picture grainPicture(int edge);
+
+}  // namespace vegetation_sim::view

@@ -1,0 +1,244 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/rviz/forest_display.h"
+
+#include <rviz/display_context.h>
+#include <rviz/frame_manager.h>
+#include <rviz/render_panel.h>
+#include <rviz/validate_floats.h>
+#include <rviz/view_controller.h>
+#include <rviz/view_manager.h>
+#include <unistd.h>
+
+#include <pluginlib/class_list_macros.hpp>
+
+#include "vegetation_sim/ros/stamps.h"
+
+namespace vegetation_sim {
+namespace {
+
+constexpr double STATUS_PERIOD = 0.5;                           // [s]
+constexpr Nanoseconds JUMP_BACK = NANOSECONDS_PER_SECOND / 10;  // less is jitter
+
+Vec3 widen(const Ogre::Vector3& v) {
+  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+}
+
+}  // namespace
+
+ForestDisplay::ForestDisplay() : properties_(std::make_unique<view::ForestProperties>(*this)) {}
+
+ForestDisplay::~ForestDisplay() {
+  stop();
+}
+
+void ForestDisplay::onInitialize() {}
+
+void ForestDisplay::onEnable() {
+  start();
+}
+
+void ForestDisplay::onDisable() {
+  stop();
+  clearStatuses();
+  shown_.clear();
+}
+
+void ForestDisplay::reset() {
+  rviz::Display::reset();
+  shown_.clear();
+  if (!isEnabled()) return;
+  stop();
+  start();
+}
+
+void ForestDisplay::start() {
+  try {
+    source_ = std::make_unique<view::ForestSource>(update_nh_, properties_->topics());
+    deleteStatus("Topics");
+  } catch (const ros::Exception& error) {
+    setStatusStd(rviz::StatusProperty::Error, "Topics", error.what());
+    return;
+  }
+  forest_ = std::make_unique<view::ForestVisual>(*scene_node_);
+  layouts_ = 0;
+  last_stamp_ = 0;
+  updateScenery();
+  updateViewer();
+}
+
+void ForestDisplay::stop() {
+  viewer_.reset();
+  air_.reset();
+  ground_.reset();
+  grounded_ = nullptr;
+  sky_.reset();
+  forest_.reset();
+  source_.reset();
+}
+
+void ForestDisplay::updateTopics() {
+  if (isEnabled() && initialized()) reset();
+}
+
+void ForestDisplay::updateLook() {
+  if (forest_) forest_->repaint();
+}
+
+void ForestDisplay::updateScenery() {
+  if (!forest_) return;
+  air_.reset();
+  sky_.reset();
+  ground_.reset();
+  grounded_ = nullptr;
+  updateAir();
+}
+
+void ForestDisplay::updateAir() {
+  const view::Daylight daylight = properties_->daylight();
+  const view::Haze haze = properties_->hazeValues();
+  if (properties_->haze())
+    air_ = std::make_unique<view::Air>(
+        *scene_manager_, context_->getViewManager()->getRenderPanel(), haze, daylight.horizon);
+  if (properties_->sky()) sky_ = std::make_unique<view::SkyVisual>(*scene_node_, daylight);
+  forest_->light(daylight, daylight.to_sun, haze);
+}
+
+void ForestDisplay::updateViewer() {
+  viewer_.reset();
+  if (!forest_ || !properties_->publishesViewer()) return;
+  const std::string id = "rviz_" + std::to_string(getpid()) + "_" + getNameStd();
+  try {
+    viewer_ = std::make_unique<view::ViewerPublisher>(update_nh_, properties_->viewerTopic(), id);
+    deleteStatus("Viewer");
+  } catch (const ros::Exception& error) {
+    setStatusStd(rviz::StatusProperty::Error, "Viewer", error.what());
+  }
+}
+
+void ForestDisplay::update(float wall_dt, float /*ros_dt*/) {
+  if (!source_ || !forest_) return;
+  const double dt = static_cast<double>(wall_dt);
+  wall_ += dt;
+  since_update_ += dt;
+  since_status_ += dt;
+  publishViewer();
+  if (since_update_ < 0.9 * properties_->updatePeriod()) return;
+  since_update_ = 0.0;
+  const auto stamp = static_cast<Nanoseconds>(context_->getFrameManager()->getTime().toNSec());
+  watchTime(stamp);
+  view::View view;
+  if (source_->replica().ready() && stamp > 0 && placeInFixedFrame() && findView(view)) {
+    if (layouts_ != source_->layouts()) {
+      layouts_ = source_->layouts();
+      forest_->restart(source_->replica(), view, properties_->options());
+    }
+    forest_->update(source_->replica(), stamp, view, properties_->daylight(),
+                    properties_->options());
+    updateGround();
+  }
+  if (since_status_ < STATUS_PERIOD) return;
+  since_status_ = 0.0;
+  showStatus(stamp);
+}
+
+void ForestDisplay::watchTime(Nanoseconds stamp) {
+  if (stamp + JUMP_BACK < last_stamp_) source_->forgetState();
+  last_stamp_ = stamp;
+}
+
+bool ForestDisplay::placeInFixedFrame() {
+  Ogre::Vector3 position;
+  Ogre::Quaternion orientation;
+  if (!context_->getFrameManager()->getTransform(source_->frame(), ros::Time(), position,
+                                                 orientation)) {
+    show(rviz::StatusProperty::Error, "Transform",
+         "No transform from " + source_->frame() + " to " + fixed_frame_.toStdString());
+    scene_node_->setVisible(false);
+    return false;
+  }
+  if (!rviz::validateFloats(position) || orientation.isNaN()) return false;
+  show(rviz::StatusProperty::Ok, "Transform", "OK");
+  scene_node_->setVisible(true);
+  scene_node_->setPosition(position);
+  scene_node_->setOrientation(orientation);
+  return true;
+}
+
+bool ForestDisplay::findView(view::View& view) {
+  rviz::ViewController* controller = context_->getViewManager()->getCurrent();
+  if (controller == nullptr || controller->getCamera() == nullptr) return false;
+  const Ogre::Camera& camera = *controller->getCamera();
+  const Ogre::Vector3 position = camera.getDerivedPosition();
+  if (!rviz::validateFloats(position)) return false;
+  const Ogre::Quaternion back = scene_node_->getOrientation().Inverse();
+  view.eye.position = widen(back * (position - scene_node_->getPosition()));
+  view.forward = widen(back * camera.getDerivedDirection());
+  const double half = 0.5 * static_cast<double>(camera.getFOVy().valueRadians());
+  const auto aspect = static_cast<double>(camera.getAspectRatio());
+  view.half_angle = std::atan(std::tan(half) * std::hypot(1.0, aspect));
+  const rviz::RenderPanel* panel = context_->getViewManager()->getRenderPanel();
+  const double height = panel != nullptr ? std::max(panel->height(), 1) : 900.0;
+  view.eye.pixels_per_radian = 0.5 * height / std::tan(half);
+  if (sky_) sky_->follow(back * (position - scene_node_->getPosition()));
+  return true;
+}
+
+void ForestDisplay::updateGround() {
+  const view::TreeStock* stock = forest_->stock();
+  if (stock == nullptr || !properties_->ground() || grounded_ == stock) return;
+  ground_.reset();
+  const view::Daylight daylight = properties_->daylight();
+  ground_ = std::make_unique<view::GroundVisual>(*scene_node_, *stock, source_->replica().terrain(),
+                                                 daylight, properties_->groundTint());
+  ground_->light(daylight, daylight.to_sun, properties_->hazeValues());
+  grounded_ = stock;
+}
+
+void ForestDisplay::publishViewer() {
+  rviz::ViewController* controller = context_->getViewManager()->getCurrent();
+  if (!viewer_ || controller == nullptr || controller->getCamera() == nullptr) return;
+  const rviz::RenderPanel* panel = context_->getViewManager()->getRenderPanel();
+  const int height = panel != nullptr ? panel->height() : 900;
+  viewer_->update(view::viewerOf(*controller->getCamera(), static_cast<unsigned>(height)),
+                  fixed_frame_.toStdString(), wall_);
+}
+
+view::ForestReport ForestDisplay::drawn() const {
+  return forest_ ? forest_->report() : view::ForestReport();
+}
+
+void ForestDisplay::showStatus(Nanoseconds stamp) {
+  show("Layout", source_->layoutStatus());
+  show("Wind", source_->windStatus());
+  show("State", source_->stateStatus());
+  if (stamp == 0)
+    show(rviz::StatusProperty::Warn, "Time", "Waiting for /clock: nothing is drawn");
+  else
+    show(rviz::StatusProperty::Ok, "Time", "OK");
+  const view::ForestReport report = drawn();
+  std::string text = std::to_string(report.trees) + " of " + std::to_string(report.wanted) +
+                     " trees, " + std::to_string(report.moving) + " moving; " +
+                     std::to_string(report.triangles) +
+                     " triangles in the picture; trees per level 0 to " +
+                     std::to_string(forest::GEOMETRY_LEVELS - 1) + ":";
+  for (const std::size_t count : report.per_level) text += " " + std::to_string(count);
+  show(report.trees > 0 ? rviz::StatusProperty::Ok : rviz::StatusProperty::Warn, "Drawn", text);
+}
+
+void ForestDisplay::show(rviz::StatusProperty::Level level, const std::string& name,
+                         const std::string& text) {
+  std::string& shown = shown_[name];
+  const std::string wanted = std::to_string(level) + text;
+  if (shown == wanted) return;
+  shown = wanted;
+  setStatusStd(level, name, text);
+}
+
+void ForestDisplay::show(const std::string& name, const view::InputStatus& status) {
+  show(status.good ? rviz::StatusProperty::Ok : rviz::StatusProperty::Warn, name, status.text);
+}
+
+}  // namespace vegetation_sim
+
+PLUGINLIB_EXPORT_CLASS(vegetation_sim::ForestDisplay, rviz::Display)

@@ -1,0 +1,160 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/rviz/forest_visual.h"
+
+#include <OgreSceneManager.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "vegetation_sim/rviz/bark_picture.h"
+#include "vegetation_sim/rviz/leaf_picture.h"
+
+namespace vegetation_sim::view {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int LEAF_EDGE = 256, BARK_EDGE = 512;  // [pixel]
+constexpr std::size_t TREES_PER_GROVE = 10;
+constexpr double GROW_TIME = 0.025, LEVEL_TIME = 0.010;  // [s] of one update
+constexpr double RESELECT = 25.0;  // [m] of the eye's way until other trees are the nearest
+
+double pixelsOf(const DrawnTree& tree, const View& view) {
+  const Vec3 middle = tree.foot() + Vec3(0.0, 0.0, 0.5 * tree.height());
+  return forest::pixelsPerMetre(view.eye, length(middle - view.eye.position) - tree.reach());
+}
+
+bool isSeen(const DrawnTree& tree, const View& view) {
+  return view.sees(tree.foot() + Vec3(0.0, 0.0, 0.5 * tree.height()),
+                   tree.reach() + 0.5 * tree.height());
+}
+
+}  // namespace
+
+ForestVisual::ForestVisual(Ogre::SceneNode& parent)
+    : parent_(parent),
+      node_(parent.createChildSceneNode()),
+      leaf_texture_(uniqueName("leaf_picture"), leafAtlas(LEAF_EDGE)),
+      bark_texture_(uniqueName("bark_picture"), mipmaps(barkAtlas(BARK_EDGE), 16)),
+      leaf_material_(Material::Kind::LEAVES, uniqueName("leaf_material"), {leaf_texture_.name()}),
+      bark_material_(Material::Kind::BARK, uniqueName("bark_material"), {bark_texture_.name()}) {}
+
+ForestVisual::~ForestVisual() {
+  groves_.clear();
+  node_->getCreator()->destroySceneNode(node_);
+}
+
+void ForestVisual::restart(const forest::ForestReplica& replica, const View& view,
+                           const Options& options) {
+  groves_.clear();
+  stock_ = std::make_unique<TreeStock>(
+      replica, nearestTrees(replica.layout(), view.eye.position, options.most_trees));
+  selected_at_ = view.eye.position;
+  selected_all_ = stock_->wanted() == replica.layout().treeCount();
+  report_ = ForestReport();
+  report_.wanted = stock_->wanted();
+  repaint_ = false;
+  const Vec3& origin = stock_->origin();
+  node_->setPosition(static_cast<float>(origin.x()), static_cast<float>(origin.y()),
+                     static_cast<float>(origin.z()));
+}
+
+void ForestVisual::repaint() {
+  repaint_ = true;
+}
+
+void ForestVisual::light(const Daylight& daylight, const Vec3& to_sun, const Haze& haze) {
+  leaf_material_.light(daylight, to_sun, haze);
+  bark_material_.light(daylight, to_sun, haze);
+}
+
+void ForestVisual::update(const forest::ForestReplica& replica, Nanoseconds stamp, const View& view,
+                          const Daylight& daylight, const Options& options) {
+  if (!stock_) return;
+  if (!selected_all_ && length(view.eye.position - selected_at_) > RESELECT)
+    restart(replica, view, options);
+  if (!stock_->ready()) {
+    if (!stock_->grow(replica, daylight.to_sun, GROW_TIME)) return;
+    makeGroves();
+  }
+  chooseLevels(view, options);
+  move(replica, stamp, view, options);
+  measure(view, options);
+}
+
+void ForestVisual::makeGroves() {
+  std::vector<DrawnTree*> trees;
+  for (const auto& tree : stock_->trees()) trees.push_back(tree.get());
+  if (trees.empty()) return;
+  for (auto& group : splitByPlace(std::move(trees), TREES_PER_GROVE))
+    groves_.push_back(std::make_unique<Grove>(std::move(group), *node_, bark_material_.name(),
+                                              leaf_material_.name()));
+  moved_to_ = -1;
+}
+
+// Near groves first: they are drawn first, and the first to get their level when time is short.
+void ForestVisual::chooseLevels(const View& view, const Options& options) {
+  const auto end = Clock::now() + std::chrono::duration<double>(LEVEL_TIME);
+  std::sort(groves_.begin(), groves_.end(), [&](const auto& a, const auto& b) {
+    return (a->middle() - view.eye.position).squaredNorm() <
+           (b->middle() - view.eye.position).squaredNorm();
+  });
+  report_.waiting = 0;
+  int rank = 0;
+  for (const auto& grove : groves_) {
+    grove->setRank(rank++);
+    bool changed = false;
+    for (DrawnTree* tree : grove->trees()) {
+      const double size = pixelsOf(*tree, view) * tree->height() * feedback_.factor();
+      const int level = forest::geometryLevel(size, tree->level());
+      if (level == tree->level() && !repaint_) continue;
+      if (!repaint_ && Clock::now() >= end) {
+        ++report_.waiting;
+        continue;
+      }
+      tree->setLevel(level, stock_->light(), options.look);
+      changed = true;
+    }
+    if (!changed) continue;
+    grove->rebuild();
+    moved_to_ = -1;
+  }
+  repaint_ = false;
+}
+
+// While time stands still nothing moves, and nothing is computed.
+void ForestVisual::move(const forest::ForestReplica& replica, Nanoseconds stamp, const View& view,
+                        const Options& options) {
+  if (stamp == moved_to_) return;
+  moved_to_ = stamp;
+  const wind::Instant wind = replica.wind().at(stamp);
+  report_.moving = 0;
+  for (const auto& grove : groves_) {
+    if (!grove->takeSeen()) continue;
+    bool moved = false, painted = false;
+    for (DrawnTree* tree : grove->trees()) {
+      const bool moves = tree->move(replica, stamp, wind, options.look, pixelsOf(*tree, view));
+      report_.moving += moves ? 1 : 0;
+      moved = moved || moves;
+      painted = tree->paintLevels(replica, stamp, options.look) || painted;
+    }
+    if (moved) grove->takePositions();
+    if (painted) grove->takePaint();
+  }
+}
+
+void ForestVisual::measure(const View& view, const Options& options) {
+  report_.trees = stock_->trees().size();
+  report_.triangles = 0;
+  report_.per_level.fill(0);
+  for (const auto& tree : stock_->trees()) {
+    if (tree->level() < 0) continue;
+    ++report_.per_level[static_cast<std::size_t>(tree->level())];
+    if (isSeen(*tree, view)) report_.triangles += tree->triangleCount();
+  }
+  if (report_.waiting == 0 && report_.triangles > 0)
+    feedback_.update(static_cast<double>(report_.triangles), options.target_triangles);
+}
+
+}  // namespace vegetation_sim::view
