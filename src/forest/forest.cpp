@@ -123,7 +123,7 @@ void Forest::chooseTree(std::uint32_t tree) {
   const TreeSeed seed = seedOf(layout_, tree);
   const LevelTable& table = tables_[seed.species];
   const Vec3 foot = footOf(seed, *terrain_);
-  const double reach = seed.scale * table.reach;
+  const double reach = 0.5 * seed.scale * table.reach;  // where most of its twigs are
   const double speed = now_.speedBound(foot, reach);
   const Vec3 middle = foot + Vec3(0.0, 0.0, 0.5 * seed.scale * table.height);
   const double view = finestView(memory_.viewers, middle, reach);

@@ -6,30 +6,36 @@
 #include <cmath>
 
 #include "vegetation_sim/common/math.h"
-#include "vegetation_sim/forest/response.h"
-#include "vegetation_sim/forest/skeleton.h"
+#include "vegetation_sim/forest/pose.h"
 
 namespace vegetation_sim::forest {
 namespace {
 
-constexpr int SAMPLES = 6;       // trees measured per species
-constexpr double NEAREST = 0.5;  // [m] closer than this nothing grows in the picture
+constexpr int SAMPLES = 6;        // trees measured per species
+constexpr int DIRECTIONS = 4;     // of the wind that each is measured in
+constexpr double PROBE = 0.5;     // [m/s] weak enough that no joint nears its limit
+constexpr double STRANGER = 1.1;  // trees that were not measured may move so much more
+constexpr double NEAREST = 0.5;   // [m] closer than this nothing grows in the picture
 
-// Adds to omitted[n] the displacement of one tip due to all joints of depth n or more.
-void addTip(const Skeleton& skeleton, const std::vector<double>& bend, std::size_t tip,
-            std::vector<double>& omitted) {
-  const Vec3 end = tipOf(skeleton.branches[tip], skeleton.branches[tip].rest);
-  std::vector<double> by_depth(omitted.size(), 0.0);
-  for (int i = static_cast<int>(tip); i >= 0;
-       i = skeleton.branches[static_cast<std::size_t>(i)].parent) {
-    const Branch& joint = skeleton.branches[static_cast<std::size_t>(i)];
-    by_depth[static_cast<std::size_t>(joint.depth)] +=
-        bend[static_cast<std::size_t>(i)] * length(end - joint.rest.position);
-  }
-  double sum = 0.0;
-  for (std::size_t n = omitted.size(); n-- > 0;) {
-    sum += by_depth[n];
-    omitted[n] = std::max(omitted[n], sum);
+// Raises omitted[n] to the largest displacement of a tip when the joints of depth n or more are
+// fixed, per wind speed.
+void measureTree(const Tree& tree, std::vector<double>& omitted) {
+  for (int direction = 0; direction < DIRECTIONS; ++direction) {
+    const SinCos a = sinCosTurns(static_cast<double>(direction) / (2 * DIRECTIONS));
+    wind::Instant wind;
+    wind.mean = Vec3(PROBE * a.cos, PROBE * a.sin, 0.0);
+    Weights weights;
+    weights.fill(1.0);
+    const std::vector<Pose> full = poseBranches(tree, wind, weights);
+    for (std::size_t n = omitted.size(); n-- > 0;) {
+      weights[n] = 0.0;
+      const std::vector<Pose> cut = poseBranches(tree, wind, weights);
+      for (std::size_t i = 0; i < full.size(); ++i) {
+        const Branch& branch = tree.skeleton.branches[i];
+        const double moved = length(tipOf(branch, full[i]) - tipOf(branch, cut[i]));
+        omitted[n] = std::max(omitted[n], STRANGER * moved / PROBE);
+      }
+    }
   }
 }
 
@@ -87,21 +93,17 @@ LevelTable measureLevels(const Species& species, const MotionLaw& law) {
   out.branches.assign(static_cast<std::size_t>(species.depths()) + 1, 0.0);
   out.height = out.reach = 0.0;
   for (int sample = 0; sample < SAMPLES; ++sample) {
-    TreeSeed seed;
-    seed.seed = static_cast<std::uint64_t>(sample) + 1;
-    const Skeleton skeleton = grow(seed, species);
-    const std::vector<Response> response = windResponse(skeleton, species, law);
-    std::vector<double> bend(response.size());
-    for (std::size_t i = 0; i < bend.size(); ++i)
-      bend[i] = std::sqrt(dot(response[i].first, response[i].first) +
-                          dot(response[i].second, response[i].second));
-    for (std::size_t i = 0; i < bend.size(); ++i)
-      if (skeleton.branches[i].next < 0) addTip(skeleton, bend, i, out.omitted);
-    for (int d = 0; d < skeleton.depths(); ++d)
+    Tree tree;
+    tree.seed.seed = static_cast<std::uint64_t>(sample) + 1;
+    tree.skeleton = grow(tree.seed, species);
+    tree.response = windResponse(tree.skeleton, species, law);
+    tree.joint_model = static_cast<JointModel>(law.joint_model);
+    measureTree(tree, out.omitted);
+    for (int d = 0; d < tree.skeleton.depths(); ++d)
       out.branches[static_cast<std::size_t>(d) + 1] +=
-          static_cast<double>(skeleton.depth_end[static_cast<std::size_t>(d)]) / SAMPLES;
-    out.height = std::max(out.height, skeleton.height);
-    out.reach = std::max(out.reach, skeleton.reach);
+          static_cast<double>(tree.skeleton.depth_end[static_cast<std::size_t>(d)]) / SAMPLES;
+    out.height = std::max(out.height, tree.skeleton.height);
+    out.reach = std::max(out.reach, tree.skeleton.reach);
   }
   out.omitted.push_back(0.0);
   return out;

@@ -110,6 +110,7 @@ class Grower {
     const double bearer_radius = radiusAt(bearer, f);
     out.base_radius = std::max(bearer_radius * r.radius, species_.twig_radius);
     out.tip_radius = std::max(out.base_radius * r.taper, species_.twig_radius);
+    out.length = std::min(out.length, species_.slenderness * out.base_radius);
     const double spread = 2.0 * PI * (i % r.whorl) / r.whorl;
     out.theta = turn * GOLDEN_ANGLE + spread + 0.3 * vary(random, AZIMUTH);
     const double angle = r.angle_low + (r.angle_high - r.angle_low) * place +

@@ -50,6 +50,7 @@ void describe(FieldVisitor& v, Species& s) {
   v.number("height_variation", s.height_variation, "", {0.0, 0.9});
   v.number("trunk_radius", s.trunk_radius, "m", {0.001, 5.0});
   v.number("twig_radius", s.twig_radius, "m", {1e-4, 1.0});
+  v.number("slenderness", s.slenderness, "", {5.0, 5000.0});
   v.number("lean", s.lean, "rad", {0.0, 1.0});
   v.number("angle_thin", s.angle_thin, "rad", {0.0, 2.8});
   v.number("angle_thick", s.angle_thick, "rad", {0.0, 2.8});

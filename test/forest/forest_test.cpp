@@ -78,7 +78,7 @@ TEST(Forest, FinestOfSeveralViewersWins) {
 TEST(Forest, LevelsFollowTheWind) {
   Forest forest = makeForest(gridLayout(8, 20.0));
   forest.setWind(wind::Field({makeDisk(1, Vec3(0, 0, 0), 60.0, Vec3(6, 0, 0))}));
-  forest.setViewer(lookFrom(Vec3(70, 70, 400), START));
+  forest.setViewer(lookFrom(Vec3(70, 70, 150), START));
   forest.advance(START);
   const auto level = [&](std::uint32_t x, std::uint32_t y) {
     return forest.memory().levels.of(y * 8 + x).level;

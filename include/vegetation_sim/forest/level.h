@@ -37,8 +37,9 @@ bool isSettled(const LevelState& state, Nanoseconds stamp, double transition);
 /// Number of depths that carry any weight.
 int movingDepths(const Weights& weights);
 
-/// What a level leaves out, measured on sample trees of a species: the largest displacement of any
-/// tip per wind speed if only depths below n move [m per m/s], for scale 1. Index n; falls to 0.
+/// What a level leaves out, measured on sample trees of a species in uniform wind from several
+/// sides: the largest displacement of any tip per wind speed if only depths below n move
+/// [m per m/s], for scale 1. Index n; falls to 0.
 struct LevelTable {
   std::vector<double> omitted;
   double height{1.0}, reach{1.0};  ///< largest of the samples [m]

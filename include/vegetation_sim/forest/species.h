@@ -45,13 +45,14 @@ struct Species {
   double height_variation{0.15};  ///< +- fraction
   double trunk_radius{0.15};      ///< at the ground, for `height` [m]
   double twig_radius{0.004};      ///< no wood is thinner [m]
+  double slenderness{90.0};       ///< no limb is longer than this many of its base radii
   double lean{0.03};              ///< largest lean of the trunk [rad]
   double angle_thin{1.4};  ///< largest angle to the bearer for a limb of no relative diameter [rad]
   double angle_thick{0.35};      ///< the same for relative diameter 1 (S1-11) [rad]
   double noise{1.0};             ///< amplitude of all growth noise; 0: the bare rules (S1-12)
   double youngs_modulus{8e9};    ///< [Pa]
   double density{900.0};         ///< [kg/m^3]
-  double drag_coefficient{1.0};  ///< of branches and leaf clusters
+  double drag_coefficient{0.3};  ///< of branches and leaves, sheltering included
   double reference_speed{8.0};   ///< wind at which linear drag equals quadratic drag [m/s]
   double leaf_size{0.35};        ///< edge of a leaf cluster [m]
   double leaf_area{0.02};        ///< drag area of a leaf cluster [m^2]

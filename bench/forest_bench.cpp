@@ -1,0 +1,291 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+// Measures procedural motion: cost per branch of the plain and the batched path against each other
+// and against the machine's memory, and what levels of detail save at what error (S1-41).
+// usage: forest_bench [ROUNDS]
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "forest/forest_fixture.h"
+#include "interleaved.h"
+#include "vegetation_sim/common/math.h"
+
+namespace vegetation_sim::forest {
+namespace {
+
+using bench::Candidate;
+
+struct Grove {
+  Layout layout;
+  std::vector<Tree> trees;
+  std::vector<BatchPoser> posers;
+  std::size_t branches{0};
+};
+
+Grove growGrove(Layout layout) {
+  Grove out;
+  out.layout = std::move(layout);
+  for (std::uint32_t id = 0; id < out.layout.treeCount(); ++id) {
+    out.trees.push_back(growTree(out.layout, id, terrain::HeightMap()));
+    out.posers.emplace_back(out.trees.back());
+    out.branches += out.trees.back().skeleton.branches.size();
+  }
+  return out;
+}
+
+/// Raises the number of children until every tree has at least `least` branches.
+Layout richLayout(int side, double spacing, std::size_t least) {
+  Layout out = gridLayout(side, spacing);
+  for (std::size_t s = 0; s < out.species.size(); ++s) {
+    const Species plain = out.species[s];
+    Design design;
+    for (std::size_t fewest = 0; fewest < least; design.children *= 1.05) {
+      out.species[s] = applyDesign(plain, design);
+      fewest = SIZE_MAX;
+      for (std::uint32_t id = static_cast<std::uint32_t>(s); id < out.treeCount(); id += 4)
+        fewest = std::min(fewest, grow(out.trees[id], out.species[s]).branches.size());
+    }
+  }
+  return out;
+}
+
+// ---- cost per branch -------------------------------------------------------------------------
+
+wind::Field fourDiscs(double extent) {
+  std::vector<wind::Primitive> out;
+  for (std::uint32_t i = 0; i < 4; ++i)
+    out.push_back(
+        makeDisk(i + 1, Vec3(0.3 * extent * i, 0.5 * extent, 0), extent, Vec3(3.0, 1.0 - i, 0)));
+  return wind::Field(out);
+}
+
+/// Bytes per second of a[i] = b[i] + s c[i] on arrays far larger than any cache.
+double memoryBandwidth() {
+  const std::size_t n = std::size_t{1} << 25;
+  std::vector<float> a(n, 0.f), b(n, 1.f), c(n, 2.f);
+  std::vector<Candidate> triad{{"triad", [&] {
+                                  for (std::size_t i = 0; i < n; ++i) a[i] = b[i] + 3.f * c[i];
+                                  asm volatile("" : : "r"(a.data()) : "memory");
+                                }}};
+  timeInterleaved(triad, 9);
+  return 3.0 * sizeof(float) * static_cast<double>(n) / triad[0].seconds;
+}
+
+double largestDifference(const Grove& grove, const wind::Instant& wind) {
+  double worst = 0.0;
+  BatchPoses fast;
+  for (std::size_t i = 0; i < grove.trees.size(); ++i) {
+    const Tree& tree = grove.trees[i];
+    const auto local = wind.relativeTo(tree.foot);
+    const auto plain = poseBranches(tree, local, fullWeights());
+    grove.posers[i].pose(local, fullWeights(), MAX_DEPTHS, fast);
+    for (std::size_t b = 0; b < plain.size(); ++b) {
+      const Branch& branch = tree.skeleton.branches[b];
+      const Vec3 error = tipOf(branch, plain[b]) - tipOf(branch, fast.at(static_cast<int>(b)));
+      worst = std::max(worst, length(error) / tree.skeleton.height);
+    }
+  }
+  return worst;
+}
+
+void benchPoses(int rounds) {
+  const Grove grove = growGrove(richLayout(7, 8.0, 2000));
+  const wind::Instant wind = fourDiscs(60.0).at(seconds(1.7e9 + 0.4));
+  std::vector<BatchPoses> poses(grove.trees.size());
+  std::vector<Candidate> candidates{{"plain double", [&] {
+                                       for (const Tree& tree : grove.trees)
+                                         poseBranches(tree, wind.relativeTo(tree.foot),
+                                                      fullWeights());
+                                     }}};
+  for (const std::string& set : instructionSets())
+    candidates.push_back({"batched " + set, [&, set] {
+                            forceInstructionSet(set);
+                            for (std::size_t i = 0; i < grove.trees.size(); ++i)
+                              grove.posers[i].pose(wind.relativeTo(grove.trees[i].foot),
+                                                   fullWeights(), MAX_DEPTHS, poses[i]);
+                            forceInstructionSet("");
+                          }});
+  timeInterleaved(candidates, rounds);
+  const double bandwidth = memoryBandwidth();
+  const double bytes = BatchPoser::BYTES_PER_BRANCH + 7 * sizeof(float);  // read, written
+  std::printf("Procedural pose, four winds, %zu branches in %zu trees\n", grove.branches,
+              grove.trees.size());
+  std::printf("memory: %.1f GB/s; a branch reads and writes %.0f bytes: floor %.2f ns\n",
+              bandwidth * 1e-9, bytes, bytes / bandwidth * 1e9);
+  std::printf("%-16s %12s %8s %18s\n", "path", "ns/branch", "ratio", "of bandwidth");
+  for (const Candidate& c : candidates) {
+    const double each = c.seconds / static_cast<double>(grove.branches);
+    std::printf("%-16s %12.2f %8.1f %17.0f%%\n", c.name.c_str(), each * 1e9,
+                candidates[0].seconds / c.seconds, 100.0 * bytes / each / bandwidth);
+  }
+  std::printf("largest difference of a tip: %.1e of the tree's height (bar 1e-5)\n\n",
+              largestDifference(grove, wind));
+}
+
+// ---- levels of detail -------------------------------------------------------------------------
+
+constexpr double FIELD_OF_VIEW = 0.8;  // vertical [rad]
+constexpr double PICTURE_HEIGHT = 900, PICTURE_WIDTH = 1280;
+
+struct Camera {
+  Eye eye;
+  Vec3 forward, left, up;
+  /// Pixel of a point; false if it is behind the camera or outside the picture.
+  bool project(const Vec3& point, double& x, double& y) const {
+    const Vec3 offset = point - eye.position;
+    const double depth = dot(offset, forward);
+    if (depth < 0.1) return false;
+    const double f = 0.5 * PICTURE_HEIGHT / std::tan(0.5 * FIELD_OF_VIEW);
+    x = -f * dot(offset, left) / depth;
+    y = -f * dot(offset, up) / depth;
+    return std::fabs(x) < 0.5 * PICTURE_WIDTH && std::fabs(y) < 0.5 * PICTURE_HEIGHT;
+  }
+};
+
+Camera edgeCamera(double extent) {
+  Camera out;
+  out.eye.position = Vec3(-12.0, 0.5 * extent, 3.0);
+  out.eye.pixels_per_radian = 0.5 * PICTURE_HEIGHT / std::tan(0.5 * FIELD_OF_VIEW);
+  out.forward = Vec3(1, 0, 0);
+  out.left = Vec3(0, 1, 0);
+  out.up = Vec3(0, 0, 1);
+  return out;
+}
+
+/// Three discs that cover about a third of the square.
+wind::Field threeDiscs(double extent) {
+  const double r = std::sqrt(extent * extent / 3.0 / 3.0 / PI);
+  return wind::Field({makeDisk(1, Vec3(0.2, 0.25, 0) * extent, r, Vec3(5, 1, 0)),
+                      makeDisk(2, Vec3(0.55, 0.7, 0) * extent, r, Vec3(4, -2, 0)),
+                      makeDisk(3, Vec3(0.85, 0.3, 0) * extent, r, Vec3(0, 5, 0))});
+}
+
+struct LevelError {
+  double pixels{0.0}, metres{0.0};
+};
+
+LevelError errorOfLevels(const Grove& grove, const Forest& forest, const Camera& camera,
+                         const wind::Instant& wind, Nanoseconds stamp) {
+  LevelError out;
+  for (std::uint32_t id = 0; id < grove.trees.size(); ++id) {
+    const Tree& tree = grove.trees[id];
+    const auto local = wind.relativeTo(tree.foot);
+    const auto full = poseBranches(tree, local, fullWeights());
+    const auto cut = poseBranches(
+        tree, local, weightsAt(forest.memory().levels.of(id), stamp, forest.layout().motion));
+    for (std::size_t b = 0; b < full.size(); ++b) {
+      const Vec3 a = tree.foot + tipOf(tree.skeleton.branches[b], full[b]);
+      const Vec3 c = tree.foot + tipOf(tree.skeleton.branches[b], cut[b]);
+      out.metres = std::max(out.metres, length(a - c));
+      double ax, ay, cx, cy;
+      if (camera.project(a, ax, ay) && camera.project(c, cx, cy))
+        out.pixels = std::max(out.pixels, std::hypot(ax - cx, ay - cy));
+    }
+  }
+  return out;
+}
+
+void settle(Forest& forest, const Camera& camera, const TickGrid& grid, std::int64_t first,
+            int ticks) {
+  for (std::int64_t k = first; k < first + ticks; ++k) {
+    Viewer viewer;
+    viewer.id = "camera";
+    viewer.eye = camera.eye;
+    viewer.stamp = grid.timeOf(k);
+    forest.setViewer(viewer);
+    forest.advance(grid.timeOf(k));
+  }
+}
+
+std::size_t poseAtLevels(const Grove& grove, const Forest& forest, const wind::Instant& wind,
+                         Nanoseconds stamp, BatchPoses& scratch) {
+  std::size_t posed = 0;
+  for (const auto& [id, state] : forest.memory().levels.held()) {
+    const Weights weights = weightsAt(state, stamp, forest.layout().motion);
+    const int depths = movingDepths(weights);
+    grove.posers[id].pose(wind.relativeTo(grove.trees[id].foot), weights, depths, scratch);
+    posed += static_cast<std::size_t>(scratch.count);
+  }
+  return posed;
+}
+
+void benchLevels(int rounds) {
+  const double spacing = 8.0, extent = 16 * spacing;
+  const Grove grove = growGrove(richLayout(16, spacing, 2000));
+  const Camera camera = edgeCamera(extent);
+  const TickGrid grid(30);
+  const std::int64_t start = grid.tickAt(seconds(1.7e9));
+  std::printf(
+      "256 trees, %zu branches, three discs over a third of them, camera at the edge, "
+      "1280 x 900\n",
+      grove.branches);
+  std::printf("%-22s %10s %12s %8s %14s %12s\n", "", "ms/frame", "branches", "ratio",
+              "error [pixel]", "error [m]");
+  for (const double tolerance : {1.0, 1.5, 2.0, 4.0}) {
+    Settings settings;
+    settings.tolerance = tolerance;
+    Forest forest(grove.layout, flatTerrain(), settings);
+    forest.setWind(threeDiscs(extent));
+    settle(forest, camera, grid, start, 90);
+    BatchPoses scratch;
+    std::size_t posed = 0;
+    std::int64_t tick = start + 90;
+    std::vector<Candidate> candidates{
+        {"all at full depth",
+         [&] {
+           const wind::Instant wind = forest.memory().wind.at(grid.timeOf(tick));
+           for (std::size_t i = 0; i < grove.trees.size(); ++i)
+             grove.posers[i].pose(wind.relativeTo(grove.trees[i].foot), fullWeights(), MAX_DEPTHS,
+                                  scratch);
+         }},
+        {"levels", [&] {
+           settle(forest, camera, grid, tick, 1);  // what choosing costs is part of it
+           const Nanoseconds stamp = grid.timeOf(tick++);
+           posed = poseAtLevels(grove, forest, forest.memory().wind.at(stamp), stamp, scratch);
+         }}};
+    timeInterleaved(candidates, rounds);
+    LevelError worst;
+    for (int i = 0; i < 20; ++i) {  // over two periods of the discs
+      const Nanoseconds stamp = grid.timeOf(tick + 11 * i);
+      const LevelError now =
+          errorOfLevels(grove, forest, camera, forest.memory().wind.at(stamp), stamp);
+      worst = {std::max(worst.pixels, now.pixels), std::max(worst.metres, now.metres)};
+    }
+    if (tolerance == 1.0)
+      std::printf("%-22s %10.3f %12zu %8.1f %14s %12s\n", "all at full depth",
+                  candidates[0].seconds * 1e3, grove.branches, 1.0, "0", "0");
+    std::printf("levels, %.1f pixel      %10.3f %12zu %8.1f %14.2f %12.3f\n", tolerance,
+                candidates[1].seconds * 1e3, posed, candidates[0].seconds / candidates[1].seconds,
+                worst.pixels, worst.metres);
+  }
+  std::printf("\n");
+}
+
+void benchGrowth(int rounds) {
+  const Layout layout = gridLayout(16, 8.0);
+  std::size_t branches = 0;
+  std::vector<Candidate> candidates{
+      {"grow", [&] {
+         branches = 0;
+         for (std::uint32_t id = 0; id < layout.treeCount(); ++id)
+           branches +=
+               grow(layout.trees[id], layout.species[layout.trees[id].species]).branches.size();
+       }}};
+  timeInterleaved(candidates, rounds);
+  std::printf("growing 256 trees, %zu branches, from their seeds: %.0f ns/branch, %.0f us/tree\n",
+              branches, candidates[0].seconds / static_cast<double>(branches) * 1e9,
+              candidates[0].seconds / 256 * 1e6);
+}
+
+}  // namespace
+}  // namespace vegetation_sim::forest
+
+int main(int argc, char** argv) {
+  const int rounds = argc > 1 ? std::max(1, std::atoi(argv[1])) : 15;
+  vegetation_sim::forest::benchPoses(rounds);
+  vegetation_sim::forest::benchLevels(rounds);
+  vegetation_sim::forest::benchGrowth(rounds);
+  return 0;
+}
