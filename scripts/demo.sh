@@ -59,7 +59,7 @@ rviz_config() {
   [ -e "$own" ] && echo "$own" || echo "$ROOT/rviz/default.rviz"
 }
 
-# Rvizs window on the virtual display.
+# The window of rviz on the virtual display.
 rviz_window() { xdotool search --onlyvisible --name 'RViz$' | head -n 1 | grep .; }
 
 start_display() {
@@ -84,7 +84,7 @@ start_display() {
 check_picture() {
   local colours
   colours=$(convert "$1" -gravity center -crop 60%x60%+0+0 +repage -format %k info:)
-  [ "$colours" -ge 300 ] || give_up "the picture is blank: $colours colours in its middle"
+  [ "$colours" -ge 200 ] || give_up "the picture is blank: $colours colours in its middle"
   say "Picture of $(identify -format '%w x %h' "$1") pixels, $colours colours in its middle"
 }
 

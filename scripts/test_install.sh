@@ -1,18 +1,21 @@
 #!/usr/bin/env bash
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs the build into build/install and runs a scenario from there, as nodes and as nodelets.
+# Installs the build, runs a scenario from there, as nodes and as nodelets, and removes it again.
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 
-INSTALLED=$BUILD/install
-rm -rf "$INSTALLED"
-cmake --install "$BUILD" >"$BUILD/install.log"
-
 # Start afresh: nothing of the build folder may be in the environment.
-if [ -z "${VEGETATION_SIM_CLEAN:-}" ]; then
-  exec env -i HOME="$HOME" PATH="$PATH" BUILD="$BUILD" VEGETATION_SIM_CLEAN=1 "$0"
+if [ "${1:-}" != --clean ]; then
+  exec env -i HOME="$HOME" PATH="$PATH" BUILD="$BUILD" "$0" --clean
 fi
+
+# Removed at the end: in the source tree, roslaunch would find every file a second time there.
+INSTALLED=$BUILD/install
+. "$ROOT/scripts/launching.sh"
+trap 'stop_process "$launch_pid"; rm -rf "$WORK" "$INSTALLED"' EXIT
+rm -rf "$INSTALLED"
+cmake --install "$BUILD" >"$WORK/install.log"
 use_space "$INSTALLED"
 
 [ "$(rospack find vegetation_sim)" = "$INSTALLED/share/vegetation_sim" ] || fail 'rospack finds another copy'
@@ -28,8 +31,6 @@ for file in "$INSTALLED"/lib/*.so "$INSTALLED"/lib/vegetation_sim/*; do
   ! ldd "$file" | grep -E "not found|$BUILD/devel" || fail "$file lacks a library"
 done
 
-. "$ROOT/scripts/launching.sh"
-trap 'stop_process "$launch_pid"; rm -rf "$WORK"' EXIT
 for nodelets in false true; do
   start_launch demo.launch scenario:=single_tree rviz:=false nodelets:=$nodelets
   wait_until 60 'a message on wind' topic_flows /wind
