@@ -9,8 +9,9 @@
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "forest_animator");
+  ros::NodeHandle handle, private_handle("~");  // out here, since the last one closes the log
   try {
-    vegetation_sim::ForestAnimator node(ros::NodeHandle(), ros::NodeHandle("~"));
+    vegetation_sim::ForestAnimator node(handle, private_handle);
     ros::spin();
     return EXIT_SUCCESS;
   } catch (const std::exception& error) {

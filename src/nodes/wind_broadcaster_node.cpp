@@ -8,8 +8,9 @@
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "wind_broadcaster");
+  ros::NodeHandle nh, private_nh("~");  // out here, since the last one closes the log
   try {
-    vegetation_sim::WindBroadcaster node(ros::NodeHandle(), ros::NodeHandle("~"));
+    vegetation_sim::WindBroadcaster node(nh, private_nh);
     ros::spin();
     return EXIT_SUCCESS;
   } catch (const std::exception& error) {

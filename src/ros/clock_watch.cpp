@@ -23,6 +23,7 @@ ClockWatch::ClockWatch(ros::NodeHandle nh, std::function<void(Nanoseconds)> begi
   poll_ = nh.createWallTimer(ros::WallDuration(POLL_PERIOD), [this](const ros::WallTimerEvent&) {
     see(fromMsg(ros::Time::now()));
   });
+  see(fromMsg(ros::Time::now()));
 }
 
 Nanoseconds ClockWatch::now() const {

@@ -16,7 +16,8 @@ namespace vegetation_sim {
 /// node's own queue, so that nothing is computed for a time that the node has not yet seen begin.
 class ClockWatch {
  public:
-  /// @param begin called with the time that begins: the first one, and any after a jump back.
+  /// @param begin called with the time that begins: the first one, and any after a jump back. In
+  /// the time of day already here.
   ClockWatch(ros::NodeHandle nh, std::function<void(Nanoseconds now)> begin);
 
   /// False until the first stamp that is not zero.

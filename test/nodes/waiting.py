@@ -1,0 +1,59 @@
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the tests of the nodes share: waiting for conditions, driving the clock."""
+import threading
+import time
+
+import rospy
+from rosgraph_msgs.msg import Clock
+
+DEADLINE = 30.0  # [s] of wall time; only a failing test takes it
+
+
+def wait_for(condition, what):
+    """Returns the first value of `condition()` that is true; fails after the deadline."""
+    pause = threading.Event()
+    end = time.monotonic() + DEADLINE
+    while time.monotonic() < end:
+        value = condition()
+        if value:
+            return value
+        pause.wait(0.01)
+    raise AssertionError('waited in vain for ' + what)
+
+
+class Latest:
+    """Keeps what a topic says."""
+
+    def __init__(self, topic, message_type):
+        self.count = 0
+        self.message = None
+        self._subscriber = rospy.Subscriber(topic, message_type, self._hear, queue_size=100)
+
+    def _hear(self, message):
+        self.message = message
+        self.count += 1
+
+
+class SimulatedClock:
+    """The clock of a test: time is what it says, and stands in between."""
+
+    def __init__(self):
+        self.now = rospy.Time(0)
+        self._publisher = rospy.Publisher('/clock', Clock, queue_size=1000, latch=True)
+
+    def wait_for_listeners(self, count):
+        wait_for(lambda: self._publisher.get_num_connections() >= count, 'listeners of /clock')
+
+    def set(self, stamp):
+        self.now = stamp
+        self._publisher.publish(Clock(clock=stamp))
+
+    def run(self, seconds, step=0.02, each=None):
+        """Lets time pass in steps, each of them at 20 times its own pace."""
+        pause = threading.Event()
+        for _ in range(int(round(seconds / step))):
+            self.set(self.now + rospy.Duration.from_sec(step))
+            if each:
+                each(self.now)
+            pause.wait(step / 20.0)

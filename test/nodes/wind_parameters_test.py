@@ -1,0 +1,119 @@
+#!/usr/bin/env python3
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""wind_broadcaster refuses to start with bad parameters, and says why, all at once."""
+import signal
+import subprocess
+import tempfile
+import unittest
+
+import roslib.packages
+import rospy
+import rostest
+from vegetation_sim.srv import GetWindField
+
+from waiting import wait_for
+
+NAN, INF = float('nan'), float('inf')
+
+# parameter, value, what the refusal says
+CASES = [
+    ('lead', 'soon', 'lead = soon is not a number'),
+    ('lead', -0.1, 'lead = -0.1 s is outside 0 to 10 s'),
+    ('lead', 10.5, 'lead = 10.5 s is outside 0 to 10 s'),
+    ('lead', NAN, 'lead = nan s is not finite'),
+    ('lead', INF, 'lead = inf s is not finite'),
+    ('attach_rate', 11.0, 'attach_rate = 11 Hz is outside 0.5 to 10 Hz'),
+    ('attach_rate', [5.0], 'attach_rate = '),
+    ('attach_horizon', 0.1, 'attach_horizon = 0.1 s is outside 0.5 to 30 s'),
+    ('attach_horizon', 0.6, 'is less than 4 lead and 4 / attach_rate = 0.8'),
+    ('markers_rate', 0, 'markers_rate = 0 Hz is outside 0.1 to 60 Hz'),
+    ('markers_rate', True, 'is not a number'),
+    ('seed', -3, 'seed = -3 is not a whole number from 0 to 2^64 - 1'),
+    ('seed', 'seven', 'seed = seven is not a whole number'),
+    ('frame_id', 7, 'frame_id = 7 is not text'),
+    ('frame_id', '', "frame_id = '' is empty"),
+    ('frame_id', '/map', "frame_id = '/map' is empty or begins with '/'"),
+    ('breeze_speed', 201.0, 'breeze_speed = 201 m/s is outside 0 to 200 m/s'),
+    ('breeze_speed', NAN, 'breeze_speed = nan m/s is not finite'),
+    ('breeze_direction', 4.0, 'breeze_direction = 4 rad is outside'),
+    ('breeze_turbulence', 1.5, 'breeze_turbulence = 1.5 is outside 0 to 1'),
+    ('scenario', 3, 'scenario = 3 is not text'),
+    ('scenario', '/nowhere/scene.yaml', '/nowhere/scene.yaml: cannot be read'),
+    ('sceanrio', 'x.yaml', 'sceanrio is not a known parameter; known are'),
+]
+
+# scenario, what the refusal says
+SCENARIOS = [
+    ('{winds: 3}', 'winds is not a known key'),
+    ('{wind: {primitives: [{name: a, kind: disk, radius: .nan}]}}',
+     'wind: primitives[0]: radius = nan m is not finite'),
+    ('{wind: {primitives: [{name: a, kind: disk, colour: red}]}}', 'colour is not a known key'),
+    ('{wind: {seed: many}}', "seed = 'many' is not a whole number"),
+    ('{wind: [1]}', 'a list where a map of keys is wanted'),
+    ('{wind', 'not YAML'),
+]
+
+
+class WindParameters(unittest.TestCase):
+    executable = roslib.packages.find_node('vegetation_sim', 'wind_broadcaster')[0]
+    names = iter('started_%d' % i for i in range(1000))
+
+    def refusal(self, parameters):
+        """Starts a node, which must end with an error; returns what it wrote."""
+        name = next(self.names)
+        rospy.set_param('/' + name, parameters)
+        done = subprocess.run([self.executable, '__name:=' + name], stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, text=True, timeout=60)
+        self.assertGreater(done.returncode, 0, parameters)
+        self.assertIn('refuses to start', done.stderr)
+        return done.stderr.replace('-nan', 'nan')
+
+    def test_each_bad_parameter_is_refused_by_name(self):
+        for name, value, text in CASES:
+            with self.subTest(name=name, value=value):
+                self.assertIn(text, self.refusal({name: value}))
+
+    def test_each_bad_scenario_is_refused_by_file_and_key(self):
+        for scenario, text in SCENARIOS:
+            with self.subTest(scenario=scenario), tempfile.NamedTemporaryFile('w') as file:
+                file.write(scenario)
+                file.flush()
+                refusal = self.refusal({'scenario': file.name})
+                self.assertIn(text, refusal)
+                self.assertIn(file.name, refusal)
+
+    def test_all_faults_are_told_at_once(self):
+        refusal = self.refusal({'lead': 99.0, 'markers_rate': 'often', 'sede': 3,
+                                'scenario': '/nowhere/scene.yaml'})
+        for text in ['lead = 99 s', 'markers_rate = often', 'sede is not a known parameter',
+                     '/nowhere/scene.yaml']:
+            self.assertIn(text, refusal)
+
+    def test_good_parameters_are_taken(self):
+        name = next(self.names)
+        rospy.set_param('/' + name, {'lead': 1, 'attach_horizon': 8, 'frame_id': 'odom',
+                                     'seed': '18446744073709551615', 'breeze_speed': 3.0})
+        node = subprocess.Popen([self.executable, '__name:=' + name])
+        try:
+            field = wait_for(lambda: self.field_of(name), 'the node').field
+        finally:
+            node.send_signal(signal.SIGINT)
+            self.assertEqual(node.wait(), 0)
+        self.assertEqual(field.header.frame_id, 'odom')
+        self.assertEqual(field.seed, 2 ** 64 - 1)
+        self.assertEqual([p.name for p in field.primitives], ['breeze'])
+        self.assertEqual(field.primitives[0].velocity.x, 3.0)
+
+    @staticmethod
+    def field_of(name):
+        try:
+            answer = rospy.ServiceProxy('/%s/get_field' % name, GetWindField)()
+            return answer if answer.success else None
+        except rospy.ServiceException:
+            return None
+
+
+if __name__ == '__main__':
+    rospy.init_node('wind_parameters_test')
+    rostest.rosrun('vegetation_sim', 'wind_parameters', WindParameters)
