@@ -42,11 +42,12 @@ HWY_INLINE Lanes cosine(Lanes u) {
   return c * u + all(1.f);
 }
 
-// Factor that bounds an angle of this size: 1 up to the knee (softLimit of common/math.h).
-HWY_INLINE Lanes limitFactor(Lanes magnitude) {
+// Factor that bounds an angle of this size squared: 1 up to the knee (softLimit of common/math.h).
+HWY_INLINE Lanes limitFactor(Lanes squared) {
   const Lanes knee = all(static_cast<float>(BEND_KNEE));
-  const auto over = magnitude > knee;
-  if (hn::AllFalse(Tag(), over)) return all(1.f);
+  const auto over = squared > knee * knee;
+  if (hn::AllFalse(Tag(), over)) return all(1.f);  // the usual case: no root, no division
+  const Lanes magnitude = hn::Sqrt(squared);
   const Lanes room = all(static_cast<float>(BEND_LIMIT - BEND_KNEE));
   const Lanes excess = (magnitude - knee) / room;
   const Lanes bounded = knee + room * (excess / hn::Sqrt(all(1.f) + excess * excess));
@@ -55,7 +56,7 @@ HWY_INLINE Lanes limitFactor(Lanes magnitude) {
 
 // Rest rotation, then a bend by (a, b) about the own x and y.
 HWY_INLINE LanesQuat swingJoint(const LanesQuat& rest, Lanes a, Lanes b, Lanes weight) {
-  const Lanes factor = weight * limitFactor(hn::Sqrt(a * a + b * b));
+  const Lanes factor = weight * limitFactor(a * a + b * b);
   a = a * factor;
   b = b * factor;
   const Lanes u = all(0.25f) * (a * a + b * b);
@@ -70,7 +71,7 @@ struct HalfAngle {
 
 // Half of a rest angle plus half of a bounded deviation.
 HWY_INLINE HalfAngle turned(Lanes cos0, Lanes sin0, Lanes angle, Lanes weight) {
-  const Lanes half = all(0.5f) * angle * (weight * limitFactor(hn::Abs(angle)));
+  const Lanes half = all(0.5f) * angle * (weight * limitFactor(angle * angle));
   const Lanes u = half * half, s = half * sinc(u), c = cosine(u);
   return {cos0 * c - sin0 * s, sin0 * c + cos0 * s};
 }

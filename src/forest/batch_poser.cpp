@@ -104,9 +104,10 @@ void setRest(const Branch& branch, JointModel model, std::size_t i, BatchTree& o
   out.r3[i] = narrow(rest.z);
 }
 
-void resize(std::size_t n, std::initializer_list<std::vector<float>*> arrays) {
+// Never shrinks: poses are reused for trees of all sizes.
+void grow(std::size_t n, std::initializer_list<std::vector<float>*> arrays) {
   for (std::vector<float>* array : arrays)
-    if (array->size() != n) array->assign(n, 0.f);
+    if (array->size() < n) array->resize(n);
 }
 
 void setGround(std::size_t slot, BatchPoses& out) {
@@ -122,8 +123,8 @@ BatchPoser::BatchPoser(const Tree& tree) {
   BatchTree& t = tree_;
   // The ground stands in the last slot, which no vector of the last group reaches.
   t.parent.assign(size, static_cast<std::int32_t>(size - 1));
-  resize(size, {&t.h, &t.x, &t.y, &t.z, &t.r0, &t.r1, &t.r2, &t.r3});
-  resize(size, {&t.ax, &t.ay, &t.az, &t.bx, &t.by, &t.bz});
+  grow(size, {&t.h, &t.x, &t.y, &t.z, &t.r0, &t.r1, &t.r2, &t.r3});
+  grow(size, {&t.ax, &t.ay, &t.az, &t.bx, &t.by, &t.bz});
   for (std::size_t i = 0; i < n; ++i) {
     const Branch& branch = tree.skeleton.branches[i];
     const Response& response = tree.response[i];
@@ -144,14 +145,15 @@ BatchPoser::BatchPoser(const Tree& tree) {
   t.joint_model = tree.joint_model;
   t.drag = tree.drag;
   t.reference_speed = narrow(tree.reference_speed);
+  t.reach = tree.skeleton.reach + 1e-3;  // farther than any base, rounding included
 }
 
 void BatchPoser::pose(const wind::Instant& wind, const Weights& weights, int depths,
                       BatchPoses& out) const {
   const std::size_t size = tree_.parent.size();
-  resize(size, {&out.x, &out.y, &out.z, &out.qw, &out.qx, &out.qy, &out.qz});
+  grow(size, {&out.x, &out.y, &out.z, &out.qw, &out.qx, &out.qy, &out.qz});
   setGround(size - 1, out);
-  const FloatWind narrowed(wind);
+  const FloatWind narrowed(wind, tree_.reach);
   out.count = 0;
   for (const Group& group : tree_.groups) {
     if (group.depth >= depths) break;

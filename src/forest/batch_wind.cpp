@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "forest/batch_wind.h"
 
+#include <cmath>
+
 namespace vegetation_sim::forest {
 namespace {
 
@@ -33,16 +35,27 @@ FloatTerm narrowed(const wind::Term& t) {
   return out;
 }
 
+// True if the term is exactly zero everywhere within `reach` of the origin.
+bool isAbsent(const wind::Term& t, double reach) {
+  const double x = -t.centre.x(), y = -t.centre.y();
+  if (t.kind != wind::Kind::GUST) return std::sqrt(x * x + y * y) > t.radius + reach;
+  const double behind = -(x * t.direction.x() + y * t.direction.y());
+  const double beside = y * t.direction.x() - x * t.direction.y();
+  return std::fabs(beside) > t.radius + reach || behind < -reach ||
+         behind > t.rise + t.plateau + t.decay + reach;
+}
+
 }  // namespace
 
-FloatWind::FloatWind(const wind::Instant& wind)
+FloatWind::FloatWind(const wind::Instant& wind, double reach)
     : vx(narrow(wind.mean.x())), vy(narrow(wind.mean.y())), vz(narrow(wind.mean.z())) {
   modes.reserve(wind.modes.size());
   for (const wind::Mode& m : wind.modes)
     modes.push_back({narrow(m.wave.x()), narrow(m.wave.y()), narrow(m.wave.z()), narrow(m.phase),
                      narrow(m.amplitude.x()), narrow(m.amplitude.y()), narrow(m.amplitude.z())});
   terms.reserve(wind.terms.size());
-  for (const wind::Term& t : wind.terms) terms.push_back(narrowed(t));
+  for (const wind::Term& t : wind.terms)
+    if (!isAbsent(t, reach)) terms.push_back(narrowed(t));
 }
 
 }  // namespace vegetation_sim::forest

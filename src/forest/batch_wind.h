@@ -27,7 +27,9 @@ struct FloatMode {
 
 /// wind::Instant in single precision.
 struct FloatWind {
-  explicit FloatWind(const wind::Instant& wind);
+  /// Leaves out the terms that cannot move anything within `reach` [m] (horizontally) of the
+  /// origin.
+  FloatWind(const wind::Instant& wind, double reach);
   float vx, vy, vz;
   std::vector<FloatMode> modes;
   std::vector<FloatTerm> terms;

@@ -17,6 +17,7 @@ double finestView(const std::map<std::string, Viewer>& viewers, const Vec3& cent
   double out = 0.0;
   for (const auto& entry : viewers) {
     const Eye& eye = entry.second.eye;
+    if (!sees(eye, centre, 2.0 * reach)) continue;  // twice: the whole tree, and a margin
     const double distance = length(eye.position - centre) - reach;
     out = std::max(out, pixelsPerMetre(eye, distance));
   }

@@ -4,10 +4,14 @@
 
 #include <cmath>
 
+#include "vegetation_sim/common/math.h"
+
 namespace vegetation_sim {
 namespace {
 
 constexpr std::size_t MOST_SPECIES = 256;
+constexpr double VIEW_ASPECT = 16.0 / 9.0;  // width of the picture over its height
+constexpr double VIEW_MARGIN = 0.15;        // [rad]
 
 int indexOf(const std::string& name, const std::string& word, const std::vector<std::string>& names,
             Faults& faults) {
@@ -238,7 +242,14 @@ forest::Viewer fromMsg(const Viewer& message) {
   out.id = message.id;
   out.stamp = fromMsg(message.header.stamp);
   out.eye.position = Vec3(p.x, p.y, p.z);
-  out.eye.pixels_per_radian = 0.5 * message.height / std::tan(0.5 * message.field_of_view);
+  const SinCos half = sinCos(0.5 * message.field_of_view);
+  out.eye.pixels_per_radian = 0.5 * message.height * half.cos / half.sin;
+  const Quat turn{q.w, q.x, q.y, q.z};
+  out.eye.forward = axisX(turn) / length(axisX(turn));
+  // The cone around the whole picture, whatever its width up to VIEW_ASPECT, and a margin for
+  // turning.
+  const double corner = half.sin * std::sqrt(1.0 + VIEW_ASPECT * VIEW_ASPECT);
+  out.eye.cone_cosine = sinCos(arcTangent(corner, half.cos) + VIEW_MARGIN).cos;
   return out;
 }
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "forest/forest_fixture.h"
+#include "forest/level_scene.h"
 #include "vegetation_sim/forest/replica.h"
 
 namespace vegetation_sim::forest {
@@ -46,7 +46,8 @@ TEST(Forest, FixedLevelWithoutViewer) {
   EXPECT_TRUE(forest.memory().levels.held().empty());
 }
 
-// S1-22, N8: two trees at different distances get different levels; moving the eye swaps them.
+// S1-01, S1-22, N8: two trees at different distances get different levels; moving the eye swaps
+// them.
 TEST(Forest, LevelsFollowTheViewer) {
   Layout layout = gridLayout(1, 1.0);
   layout.trees.push_back(layout.trees[0]);
@@ -58,6 +59,23 @@ TEST(Forest, LevelsFollowTheViewer) {
   EXPECT_GT(forest.memory().levels.of(0).level, forest.memory().levels.of(1).level);
   run(forest, START + seconds(2), 5.0, &there);
   EXPECT_LT(forest.memory().levels.of(0).level, forest.memory().levels.of(1).level);
+}
+
+// S1-40: what is out of sight stands still, and moves again when the eye turns to it.
+TEST(Forest, TreesOutOfSightStandStill) {
+  Forest forest = makeForest(gridLayout(2, 60.0));
+  forest.setWind(wind::Field({makeBreeze(1, Vec3(5, 0, 0))}));
+  Viewer eye = lookFrom(Vec3(30, 0, 2), START);
+  eye.eye.cone_cosine = 0.88;
+  forest.setViewer(eye);
+  forest.advance(START);
+  EXPECT_EQ(forest.memory().levels.of(0).level, 0);  // at x = 0, behind
+  EXPECT_GT(forest.memory().levels.of(1).level, 0);  // at x = 60, in front
+  eye.eye.forward = Vec3(-1, 0, 0);
+  forest.setViewer(eye);
+  forest.advance(START + seconds(0.1));
+  EXPECT_GT(forest.memory().levels.of(0).level, 0);
+  EXPECT_EQ(forest.memory().levels.of(1).level, 0);
 }
 
 // N8: several viewers, the finest wins; a silent one is forgotten.
@@ -174,6 +192,32 @@ TEST(Forest, ReplicaIgnoresAGapUntilTheNextKeyFrame) {
   EXPECT_EQ(replica.why(), "messages were lost");
   EXPECT_FALSE(replica.apply(forest.update(false)));
   EXPECT_TRUE(replica.apply(forest.update(true)));
+}
+
+// S1-41: levels pose at least 27 times fewer branches than the whole forest has, and no tip in the
+// picture is more than a pixel away from where it would be with all of them.
+TEST(Forest, LevelsSaveWorkAtAPixel) {
+  const double spacing = 8.0, extent = 16 * spacing;
+  const Grove grove = growGrove(richLayout(16, spacing, 2000));
+  Settings settings;
+  settings.tolerance = 1.5;
+  Forest forest(grove.layout, flatTerrain(), settings);
+  forest.setWind(threeDiscs(extent));
+  const Camera camera = edgeCamera(extent);
+  const TickGrid grid(30);
+  const std::int64_t start = grid.tickAt(START), ticks = 90;
+  settle(forest, camera, grid, start, ticks);
+  const Nanoseconds now = grid.timeOf(start + ticks);
+  BatchPoses scratch;
+  const std::size_t posed = poseAtLevels(grove, forest, forest.memory().wind.at(now), now, scratch);
+  EXPECT_GT(posed, 0u);
+  EXPECT_GT(grove.branches, 27 * posed);
+  for (int i = 0; i < 8; ++i) {
+    const Nanoseconds stamp = grid.timeOf(start + ticks + 11 * i);
+    const LevelError error =
+        errorOfLevels(grove, forest, camera, forest.memory().wind.at(stamp), stamp);
+    EXPECT_LE(error.pixels, 1.0) << i;
+  }
 }
 
 // A million trees as a law: kilobytes of layout, no memory per tree, far tiles not looked at.

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "forest/forest_fixture.h"
+#include "vegetation_sim/common/random.h"
 #include "vegetation_sim/forest/pose.h"
 
 namespace vegetation_sim::forest {
@@ -102,6 +103,28 @@ TEST(Level, ChoiceFollowsWindDistanceAndSize) {
   EXPECT_EQ(chooseLevel(table(), 1.0, 5.0, 30.0, 1.0, 0), 3);
   EXPECT_EQ(chooseLevel(table(), 2.0, 5.0, 3.0, 1.0, 0), 2);
   EXPECT_EQ(chooseLevel(table(), 1.0, 5.0, 30.0, 100.0, 0), 0);
+}
+
+// Against the angles themselves.
+TEST(Level, EyeSeesWhatIsInItsCone) {
+  const Random random(3);
+  int seen = 0;
+  for (std::uint64_t i = 0; i < 4000; ++i) {
+    Eye eye;
+    const double half = random.uniform(8 * i, 0.1, 3.0),
+                 radius = random.uniform(8 * i + 1, 0.1, 4.0);
+    eye.cone_cosine = std::cos(half);
+    const Vec3 centre(random.uniform(8 * i + 2, -9, 9), random.uniform(8 * i + 3, -9, 9),
+                      random.uniform(8 * i + 4, -9, 9));
+    const double distance = length(centre);
+    const double angle = std::acos(centre.x() / distance);
+    const bool expected =
+        distance <= radius || angle - std::asin(std::min(1.0, radius / distance)) <= half;
+    EXPECT_EQ(sees(eye, centre, radius), expected) << i;
+    seen += expected;
+  }
+  EXPECT_GT(seen, 1000);
+  EXPECT_LT(seen, 3800);
 }
 
 TEST(Level, BorderDoesNotFlicker) {

@@ -147,6 +147,16 @@ TEST(Response, AnglesAreBounded) {
   }
 }
 
+// S1-A1: bending only: no wind turns a swinging branch about its own axis.
+TEST(Response, SwingDoesNotTwist) {
+  Skeleton skeleton = poleSkeleton(0.7, 0.5);
+  const Branch& b = skeleton.branches[0];
+  const Quat bend =
+      conjugate(restRotation(b.theta, b.phi)) * jointRotation(b, {0.4, -0.3}, JointModel::SWING);
+  EXPECT_NEAR(bend.z, 0.0, 1e-15);
+  EXPECT_NEAR(2.0 * std::atan2(std::hypot(bend.x, bend.y), bend.w), 0.5, 1e-12);
+}
+
 TEST(Response, QuadraticDragMeetsLinearAtTheReferenceSpeed) {
   const Vec3 v(0.0, 8.0, 0.0);
   EXPECT_EQ(effectiveVelocity(v, Drag::QUADRATIC, 8.0), effectiveVelocity(v, Drag::LINEAR, 8.0));

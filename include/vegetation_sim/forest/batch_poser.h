@@ -32,6 +32,7 @@ struct BatchTree {
   JointModel joint_model{JointModel::SWING};
   Drag drag{Drag::LINEAR};
   float reference_speed{8.f};
+  double reach{0.0};  ///< farthest branch from the trunk's foot, horizontally [m]
 };
 
 /// Forward kinematics of one tree in single precision, many branches of one group at a time, in the

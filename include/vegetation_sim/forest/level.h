@@ -51,7 +51,11 @@ LevelTable measureLevels(const Species& species, const MotionLaw& law);
 struct Eye {
   Vec3 position{Vec3::Zero()};
   double pixels_per_radian{1000.0};
+  Vec3 forward{Vec3::UnitX()};  ///< unit
+  double cone_cosine{-1.0};     ///< of half the angle of the cone that it sees; -1: all round
 };
+/// True if the eye sees any of a ball.
+bool sees(const Eye& eye, const Vec3& centre, double radius);
 /// Pixels that one metre takes at `distance`, at least `nearest` metres away.
 double pixelsPerMetre(const Eye& eye, double distance);
 
