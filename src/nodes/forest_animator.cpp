@@ -12,8 +12,11 @@
 namespace vegetation_sim {
 namespace {
 
-// Later than this the ticks between are dropped and counted, not caught up.
-constexpr double LONGEST_CATCH_UP = 1.0;  // [s]
+// Later than this the ticks between are dropped and counted, not caught up. A simulated clock may
+// run many times faster than a moment's delay.
+constexpr double LONGEST_CATCH_UP = 1.0, LONGEST_CATCH_UP_SIMULATED = 10.0;  // [s]
+constexpr int LOOKS_PER_TICK = 4;  // timers are not aligned with the grid
+constexpr std::size_t MOST_VIEWERS = 32;
 
 forest::Layout designed(const forest::Layout& layout, const ForestTuning& tuning) {
   forest::Layout out = layout;
@@ -27,8 +30,7 @@ forest::Layout designed(const forest::Layout& layout, const ForestTuning& tuning
 ForestAnimator::ForestAnimator(ros::NodeHandle handle, ros::NodeHandle private_handle)
     : handle_(handle),
       private_handle_(private_handle),
-      options_(loadForestOptions(private_handle)),
-      scene_(loadForestScene(options_.scenario)),
+      options_(loadForestOptions(private_handle, scene_)),
       tuning_(options_.tuning),
       inputs_(options_.replay),
       grid_(options_.state_rate),
@@ -36,20 +38,27 @@ ForestAnimator::ForestAnimator(ros::NodeHandle handle, ros::NodeHandle private_h
       frames_(options_.tf_budget),
       markers_(options_.marker_points),
       tf_listener_(tf_buffer_),
-      diagnostics_(handle, private_handle) {
-  if (!private_handle_.hasParam("transition")) tuning_.transition = scene_.layout.motion.transition;
-  if (!private_handle_.hasParam("frame_id") && !scene_.frame_id.empty())
-    options_.frame_id = scene_.frame_id;
+      diagnostics_(handle, private_handle, private_handle.getNamespace().substr(1)) {
   forest_ = std::make_unique<forest::Forest>(designed(scene_.layout, tuning_), scene_.terrain,
                                              tuning_.settings);
-  for (const int tree : options_.branches_trees)
-    seedOf(forest_->layout(), static_cast<std::uint32_t>(tree));
-
   layout_publisher_ = handle_.advertise<ForestLayout>("forest/layout", 1, true);
-  state_publisher_ = handle_.advertise<ForestState>("forest/state", 60);
+  state_publisher_ = handle_.advertise<ForestState>("forest/state", 1000);
   branches_publisher_ = handle_.advertise<BranchTransforms>("forest/branches", 60);
   markers_publisher_ = handle_.advertise<visualization_msgs::MarkerArray>("forest/markers", 1);
   events_publisher_ = handle_.advertise<ForestEvent>("forest/events", 1000);
+  publishLayout();
+  diagnostics_.setHardwareID("none");
+  diagnostics_.add("forest", this, &ForestAnimator::diagnose);
+  // The server writes its values back to the parameters: they are the checked ones by then.
+  tuning_server_ =
+      std::make_unique<dynamic_reconfigure::Server<ForestAnimatorConfig>>(private_handle_);
+  tuning_server_->setCallback(
+      [this](ForestAnimatorConfig& config, std::uint32_t) { onTuning(config); });
+  listen();
+}
+
+// Last of all: the first callbacks of a nodelet may come while it is still being built.
+void ForestAnimator::listen() {
   wind_subscriber_ = handle_.subscribe("wind", 10, &ForestAnimator::onWind, this);
   if (options_.replay)
     events_subscriber_ = handle_.subscribe("forest/events", 1000, &ForestAnimator::onEvent, this);
@@ -60,33 +69,26 @@ ForestAnimator::ForestAnimator(ros::NodeHandle handle, ros::NodeHandle private_h
                private_handle_.advertiseService("pick", &ForestAnimator::onPick, this),
                private_handle_.advertiseService("set_tf", &ForestAnimator::onSetTf, this),
                private_handle_.advertiseService("reset", &ForestAnimator::onReset, this)};
-  // The server writes its values back to the parameters: they are the checked ones by then.
-  tuning_server_ =
-      std::make_unique<dynamic_reconfigure::Server<ForestAnimatorConfig>>(private_handle_);
-  tuning_server_->setCallback(
-      [this](ForestAnimatorConfig& config, std::uint32_t) { onTuning(config); });
   const auto every = [this](double rate, void (ForestAnimator::*call)(const ros::TimerEvent&)) {
     timers_.push_back(handle_.createTimer(ros::Duration(1.0 / rate), call, this));
   };
-  every(options_.state_rate, &ForestAnimator::onTick);
+  every(LOOKS_PER_TICK * options_.state_rate, &ForestAnimator::onTick);
   every(options_.tf_rate, &ForestAnimator::sendFrames);
   every(options_.branches_rate, &ForestAnimator::sendBranches);
   every(options_.markers_rate, &ForestAnimator::sendMarkers);
-  diagnostics_.setHardwareID("none");
-  diagnostics_.add("forest", this, &ForestAnimator::diagnose);
   diagnostics_timer_ = handle_.createWallTimer(
       ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); });
-  publishLayout();
 }
 
 void ForestAnimator::onTick(const ros::TimerEvent&) {
-  Nanoseconds now = fromMsg(ros::Time::now());
+  const Nanoseconds clock = fromMsg(ros::Time::now());
+  const Nanoseconds now = clock - (options_.replay ? fromSeconds(options_.replay_delay) : 0);
   if (now <= 0) return;  // no clock yet
-  if (options_.replay) now -= fromSeconds(options_.replay_delay);
   const std::int64_t due = grid_.tickAt(now);
-  if (last_tick_ != NEVER && due < last_tick_) restart();
+  if (last_tick_ != NEVER && due < last_tick_) restart(clock);
   if (last_tick_ == NEVER) last_tick_ = due - 1;
-  const auto longest = static_cast<std::int64_t>(LONGEST_CATCH_UP * grid_.rate());
+  const double catch_up = ros::Time::isSimTime() ? LONGEST_CATCH_UP_SIMULATED : LONGEST_CATCH_UP;
+  const auto longest = static_cast<std::int64_t>(catch_up * grid_.rate());
   if (due - last_tick_ > longest) {
     counts_.dropped += static_cast<std::uint64_t>(due - last_tick_ - 1);
     last_tick_ = due - 1;
@@ -96,13 +98,13 @@ void ForestAnimator::onTick(const ros::TimerEvent&) {
 }
 
 // Time went backwards: what a fresh start now would be, with the wind that is in force.
-void ForestAnimator::restart() {
+void ForestAnimator::restart(Nanoseconds now) {
   ROS_WARN("forest_animator: time went back; starting anew");
   ++counts_.jumps;
   forest_->reset();
-  if (!options_.replay) inputs_.clear();
+  inputs_.startAnew(now);
   tf_buffer_.clear();
-  last_tick_ = last_key_frame_ = NEVER;
+  last_tick_ = last_framed_tick_ = NEVER;
   force_key_frame_ = true;
   publishLayout();
 }
@@ -111,8 +113,12 @@ void ForestAnimator::tick(std::int64_t tick) {
   const Nanoseconds stamp = grid_.timeOf(tick);
   for (ForestEvent& event : inputs_.take(stamp)) {
     event.header.frame_id = options_.frame_id;
-    apply(event);
-    if (!options_.replay) events_publisher_.publish(event);
+    try {
+      apply(event);
+      if (!options_.replay) events_publisher_.publish(event);
+    } catch (const InvalidInput& error) {
+      reject("event", error.what());
+    }
   }
   forest_->advance(stamp);
   last_tick_ = tick;
@@ -131,15 +137,21 @@ void ForestAnimator::apply(const ForestEvent& event) {
     case ForestEvent::VIEWER: {
       forest::Viewer viewer = fromMsg(event.viewer);
       viewer.stamp = fromMsg(event.header.stamp);
+      const auto& known = forest_->memory().viewers;
+      if (known.size() >= MOST_VIEWERS && !known.count(viewer.id))
+        throw InvalidInput("viewer '" + viewer.id + "' is one more than the " +
+                           std::to_string(MOST_VIEWERS) + " allowed at once");
       forest_->setViewer(viewer);
       break;
     }
-    case ForestEvent::WIND:
-      if (const auto wind = inputs_.windOf(event))
-        forest_->setWind(*wind);
-      else
-        reject("event", "asks for a wind that was not heard");
+    case ForestEvent::WIND: {
+      const auto wind = inputs_.windOf(event);
+      if (!wind)
+        throw InvalidInput("wind_hash = " + std::to_string(event.wind_hash) +
+                           " is of no wind that was heard");
+      forest_->setWind(*wind);
       break;
+    }
     case ForestEvent::SETTINGS:
       adoptTuning(tuningOf(event));
       break;
@@ -148,17 +160,18 @@ void ForestAnimator::apply(const ForestEvent& event) {
       force_key_frame_ = true;
       break;
     default:
-      reject("event", "kind = " + std::to_string(event.kind) + " is outside 0 to 3");
+      throw InvalidInput("kind = " + std::to_string(event.kind) + " is outside 0 to 3");
   }
 }
 
 void ForestAnimator::adoptTuning(const ForestTuning& tuning) {
-  tuning_ = tuning;
-  forest_->setSettings(tuning.settings);
   forest::Layout layout = designed(scene_.layout, tuning);
   layout.terrain_hash = scene_.terrain->hash();
-  if (layout.hash() == forest_->layoutHash()) return;
-  forest_->setLayout(std::move(layout), scene_.terrain);
+  const bool same = layout.hash() == forest_->layoutHash();
+  if (!same) forest_->setLayout(std::move(layout), scene_.terrain);
+  forest_->setSettings(tuning.settings);
+  tuning_ = tuning;
+  if (same) return;
   cache_.clear();
   markers_.reset();
   force_key_frame_ = true;

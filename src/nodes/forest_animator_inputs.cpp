@@ -17,6 +17,14 @@ ForestTuning fromConfig(const ForestAnimatorConfig& config) {
   return out;
 }
 
+// The server's own clamp lets NaN pass.
+void check(ForestTuning tuning) {
+  Faults faults;
+  FieldChecker checker("", faults);
+  describe(checker, tuning);
+  faults.throwIfAny();
+}
+
 Quat toQuat(const geometry_msgs::Quaternion& q) {
   return {q.w, q.x, q.y, q.z};
 }
@@ -80,9 +88,20 @@ void ForestAnimator::lookFromFrame() {
 }
 
 void ForestAnimator::onTuning(ForestAnimatorConfig& config) {
-  if (tuning_shown_) return inputs_.addTuning(fromConfig(config));
-  config.transition = tuning_.transition;  // may come from the scenario
-  tuning_shown_ = true;
+  if (!shown_) {
+    config.transition = tuning_.transition;  // may come from the scenario
+    shown_ = config;
+    return;
+  }
+  try {
+    if (options_.replay) throw InvalidInput("a replay follows its recorded events only");
+    check(fromConfig(config));
+    inputs_.addTuning(fromConfig(config));
+    shown_ = config;
+  } catch (const InvalidInput& error) {
+    reject("settings", error.what());
+    config = *shown_;
+  }
 }
 
 }  // namespace vegetation_sim

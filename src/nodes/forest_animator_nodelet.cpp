@@ -9,13 +9,14 @@
 
 namespace vegetation_sim {
 
-/// forest_animator inside a nodelet manager.
+/// forest_animator inside a nodelet manager, which does not load it if it refuses to start.
 class ForestAnimatorNodelet : public nodelet::Nodelet {
   void onInit() override {
     try {
       node_ = std::make_unique<ForestAnimator>(getNodeHandle(), getPrivateNodeHandle());
     } catch (const std::exception& error) {
       NODELET_FATAL("forest_animator refuses to start:\n%s", error.what());
+      throw;
     }
   }
   std::unique_ptr<ForestAnimator> node_;

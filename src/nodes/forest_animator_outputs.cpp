@@ -6,7 +6,9 @@
 namespace vegetation_sim {
 
 void ForestAnimator::sendFrames(const ros::TimerEvent&) {
-  if (last_tick_ == NEVER || frames_.empty()) return;
+  // Every listener warns of a transform that comes twice.
+  if (last_tick_ == last_framed_tick_ || frames_.empty()) return;
+  last_framed_tick_ = last_tick_;
   tf_broadcaster_.sendTransform(
       branchTransforms(frames_, *forest_, cache_, options_.frame_id, forest_->memory().stamp));
 }

@@ -26,10 +26,21 @@ bool answer(Response& response, Body body) {
   return true;  // false would look like a dead service
 }
 
-void requireFinite(const char* name, double x, double y, double z) {
-  if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z))
-    throw InvalidInput(std::string(name) + " = (" + std::to_string(x) + ", " + std::to_string(y) +
-                       ", " + std::to_string(z) + ") is not finite");
+constexpr double SHORTEST_DIRECTION = 1e-9;
+
+forest::Ray checkedRay(const Pick::Request& request) {
+  const auto& o = request.origin;
+  const auto& d = request.direction;
+  forest::Ray ray{Vec3(o.x, o.y, o.z), Vec3(d.x, d.y, d.z), request.tolerance};
+  Faults faults;
+  FieldChecker checker("", faults);
+  checker.vector("origin", ray.origin, "m", {-1e7, 1e7});
+  checker.vector("direction", ray.direction, "", {-1e6, 1e6});
+  checker.number("tolerance", ray.tolerance, "m", {0.0, 10.0});
+  if (faults.empty() && length(ray.direction) < SHORTEST_DIRECTION)
+    faults.add("direction has no length; allowed is 1e-9 or more");
+  faults.throwIfAny();
+  return ray;
 }
 
 }  // namespace
@@ -65,14 +76,7 @@ bool ForestAnimator::onGetTree(GetTree::Request& request, GetTree::Response& res
 }
 
 forest::Ray ForestAnimator::rayOf(const Pick::Request& request) const {
-  const auto& o = request.origin;
-  const auto& d = request.direction;
-  requireFinite("origin", o.x, o.y, o.z);
-  requireFinite("direction", d.x, d.y, d.z);
-  const std::string fault = rangeFault("tolerance", request.tolerance, "m", {0.0, 10.0});
-  if (!fault.empty()) throw InvalidInput(fault);
-  forest::Ray ray{Vec3(o.x, o.y, o.z), Vec3(d.x, d.y, d.z), request.tolerance};
-  if (!(length(ray.direction) > 1e-9)) throw InvalidInput("direction has no length");
+  forest::Ray ray = checkedRay(request);
   const std::string& frame = request.header.frame_id;
   if (frame.empty() || frame == options_.frame_id) return ray;
   const auto by =

@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vegetation_sim/nodes/forest_inputs.h"
 
+#include <algorithm>
+
 #include "vegetation_sim/ros/forest_conversions.h"
 
 namespace vegetation_sim {
 namespace {
 
-constexpr std::size_t MOST_WAITING = 10000;  // a flood drops the oldest viewers
+constexpr std::size_t MOST_WAITING = 10000;
 constexpr std::size_t MOST_WINDS = 256;
 
 /// Copies fields out under their names, or in from them.
@@ -77,52 +79,62 @@ ForestTuning tuningOf(const ForestEvent& event) {
   return out;
 }
 
-void ForestInputs::addViewer(const Viewer& viewer_in_world) {
+// Only the last word of its kind, and of each viewer, counts at a tick.
+void ForestInputs::addLast(const ForestEvent& event) {
   if (replay_) return;
-  ForestEvent event;
-  event.kind = ForestEvent::VIEWER;
-  event.viewer = viewer_in_world;
-  // Only the last word of each viewer counts at a tick.
   for (ForestEvent& waiting : waiting_) {
-    if (waiting.kind != ForestEvent::VIEWER || waiting.viewer.id != viewer_in_world.id) continue;
+    if (waiting.kind != event.kind || waiting.viewer.id != event.viewer.id) continue;
     waiting = event;
     return;
   }
-  if (waiting_.size() >= MOST_WAITING) waiting_.pop_front();
-  waiting_.push_back(event);
+  if (waiting_.size() < MOST_WAITING) waiting_.push_back(event);
+}
+
+void ForestInputs::addViewer(const Viewer& viewer_in_world) {
+  ForestEvent event;
+  event.kind = ForestEvent::VIEWER;
+  event.viewer = viewer_in_world;
+  addLast(event);
 }
 
 void ForestInputs::addTuning(const ForestTuning& tuning) {
-  if (replay_) return;
   ForestEvent event;
   toEvent(tuning, event);
-  waiting_.push_back(event);
+  addLast(event);
 }
 
 void ForestInputs::addReset() {
-  if (replay_) return;
   ForestEvent event;
   event.kind = ForestEvent::RESET;
-  waiting_.push_back(event);
+  addLast(event);
 }
 
 void ForestInputs::addWind(wind::Field wind) {
   ForestEvent event;
   event.kind = ForestEvent::WIND;
   event.wind_hash = wind.hash();
-  if (winds_.emplace(event.wind_hash, std::move(wind)).second)
-    wind_order_.push_back(event.wind_hash);
+  wind_order_.erase(std::remove(wind_order_.begin(), wind_order_.end(), event.wind_hash),
+                    wind_order_.end());
+  wind_order_.push_back(event.wind_hash);
+  winds_[event.wind_hash] = std::move(wind);
   if (wind_order_.size() > MOST_WINDS) {
     winds_.erase(wind_order_.front());
     wind_order_.pop_front();
   }
-  if (!replay_) waiting_.push_back(event);
+  addLast(event);
 }
 
 void ForestInputs::addEvent(const ForestEvent& event) {
   if (!replay_) return;
   if (waiting_.size() >= MOST_WAITING) waiting_.pop_front();
   waiting_.push_back(event);
+}
+
+void ForestInputs::startAnew(Nanoseconds now) {
+  const auto outdated = [&](const ForestEvent& event) {
+    return replay_ ? fromMsg(event.header.stamp) > now : event.kind == ForestEvent::VIEWER;
+  };
+  waiting_.erase(std::remove_if(waiting_.begin(), waiting_.end(), outdated), waiting_.end());
 }
 
 std::vector<ForestEvent> ForestInputs::take(Nanoseconds stamp) {

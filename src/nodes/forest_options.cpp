@@ -17,6 +17,30 @@ forest::Species defaultSpecies() {
   return out;
 }
 
+void checkFrame(const char* name, const std::string& frame, Parameters& parameters) {
+  if (!frame.empty() && frame[0] == '/')
+    parameters.fault(name, "= '" + frame + "' begins with '/'");
+}
+
+void checkTrees(const ForestOptions& options, const ForestScene& scene, Parameters& parameters) {
+  const std::uint32_t count = scene.layout.treeCount();
+  for (const int tree : options.branches_trees)
+    if (static_cast<std::uint32_t>(tree) >= count)
+      parameters.fault("branches_trees", "= " + std::to_string(tree) + " is unknown; there are " +
+                                             std::to_string(count) + " trees, from 0");
+}
+
+// A parameter holds against what the scenario says.
+void readScene(ForestOptions& options, ForestScene& scene, Faults& faults) {
+  try {
+    scene = loadForestScene(options.scenario);
+    if (!scene.frame_id.empty()) options.frame_id = scene.frame_id;
+    options.tuning.transition = scene.layout.motion.transition;
+  } catch (const InvalidInput& error) {
+    faults.add(error.what());
+  }
+}
+
 }  // namespace
 
 void describe(FieldVisitor& v, ForestOptions& o) {
@@ -35,22 +59,6 @@ void describe(FieldVisitor& v, ForestOptions& o) {
   describe(v, o.tuning);
 }
 
-ForestOptions loadForestOptions(const ros::NodeHandle& private_handle) {
-  ForestOptions out;
-  Parameters parameters(private_handle);
-  parameters.text("scenario", out.scenario);
-  parameters.text("frame_id", out.frame_id);
-  parameters.text("viewer_frame", out.viewer_frame);
-  parameters.flag("replay", out.replay);
-  parameters.integers("branches_trees", out.branches_trees, {0, 1 << 24});
-  describe(parameters, out);
-  if (out.frame_id.empty() || out.frame_id[0] == '/')
-    parameters.faults().add(private_handle.resolveName("frame_id") + " = '" + out.frame_id +
-                            "' is empty or starts with a slash");
-  parameters.finish();
-  return out;
-}
-
 ForestScene loadForestScene(const std::string& file) {
   ForestScene out;
   if (file.empty()) {
@@ -66,10 +74,33 @@ ForestScene loadForestScene(const std::string& file) {
   scenario.top().seed("seed", seed);
   scenario.top().text("terrain", terrain);
   out.layout = forest::readLayout(scenario.section("forest"), folder, seed, scenario.faults());
+  try {
+    out.layout.terrain = resolveFile(terrain, folder);
+    out.terrain = loadTerrain(out.layout.terrain);
+  } catch (const InvalidInput& error) {
+    scenario.faults().add(path + ": terrain: " + error.what());
+  }
   scenario.finish();
-  out.layout.terrain = resolveFile(terrain, folder);
-  out.terrain = loadTerrain(out.layout.terrain);
-  if (!terrain.empty() && terrain.find("://") != std::string::npos) out.layout.terrain = terrain;
+  // A package's name holds on other machines too, a path does not.
+  if (terrain.find("://") != std::string::npos) out.layout.terrain = terrain;
+  return out;
+}
+
+ForestOptions loadForestOptions(const ros::NodeHandle& private_handle, ForestScene& scene) {
+  ForestOptions out;
+  Parameters parameters(private_handle);
+  parameters.text("scenario", out.scenario);
+  readScene(out, scene, parameters.faults());
+  parameters.text("frame_id", out.frame_id);
+  parameters.text("viewer_frame", out.viewer_frame);
+  parameters.flag("replay", out.replay);
+  parameters.integers("branches_trees", out.branches_trees, {0, 1 << 24});
+  describe(parameters, out);
+  if (out.frame_id.empty()) parameters.fault("frame_id", "= '' is empty");
+  checkFrame("frame_id", out.frame_id, parameters);
+  checkFrame("viewer_frame", out.viewer_frame, parameters);
+  if (parameters.faults().empty()) checkTrees(out, scene, parameters);
+  parameters.finish();
   return out;
 }
 

@@ -15,7 +15,9 @@
 #include <vegetation_sim/SetTf.h>
 
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "vegetation_sim/forest/pick.h"
 #include "vegetation_sim/nodes/branch_frames.h"
@@ -42,8 +44,9 @@ class ForestAnimator {
   void reject(const std::string& what, const std::string& why);
 
   // Time.
+  void listen();
   void onTick(const ros::TimerEvent& event);
-  void restart();
+  void restart(Nanoseconds now);
   void tick(std::int64_t tick);
   void apply(const ForestEvent& event);
   void adoptTuning(const ForestTuning& tuning);
@@ -64,8 +67,8 @@ class ForestAnimator {
   Nanoseconds stampOf(const ros::Time& stamp) const;
 
   ros::NodeHandle handle_, private_handle_;
-  ForestOptions options_;
   ForestScene scene_;  // as loaded, before the designer's factors
+  ForestOptions options_;
   ForestTuning tuning_;
   ForestInputs inputs_;
   TickGrid grid_;
@@ -74,9 +77,9 @@ class ForestAnimator {
   BranchFrames frames_;
   ForestMarkers markers_;
 
-  std::int64_t last_tick_{NEVER}, last_key_frame_{NEVER};
+  std::int64_t last_tick_{NEVER}, last_framed_tick_{NEVER};
   bool force_key_frame_{true};
-  bool tuning_shown_{false};  // the server has learnt the starting values
+  std::optional<ForestAnimatorConfig> shown_;  // what the server was told or took last
   struct Counts {
     std::uint64_t ticks{0}, dropped{0}, rejected{0}, state_bytes{0}, jumps{0};
   } counts_;

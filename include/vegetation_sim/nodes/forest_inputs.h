@@ -51,9 +51,12 @@ class ForestInputs {
   std::vector<ForestEvent> take(Nanoseconds stamp);
   /// The wind that an event adopts; none if it was never heard.
   std::optional<wind::Field> windOf(const ForestEvent& event) const;
-  void clear() { waiting_.clear(); }
+  /// Time went back to `now`: forgets the viewers that wait; in a replay, events stamped later.
+  void startAnew(Nanoseconds now);
 
  private:
+  void addLast(const ForestEvent& event);
+
   bool replay_;
   std::deque<ForestEvent> waiting_;
   std::map<std::uint64_t, wind::Field> winds_;  // by hash

@@ -36,16 +36,17 @@ struct ForestOptions {
 };
 void describe(FieldVisitor& visitor, ForestOptions& options);
 
-/// Reads and checks all private parameters. @throws InvalidInput with all faults.
-ForestOptions loadForestOptions(const ros::NodeHandle& private_handle);
-
 /// The layout of a scenario file, its terrain and its world frame.
 struct ForestScene {
   forest::Layout layout;
   std::shared_ptr<const terrain::HeightMap> terrain{std::make_shared<terrain::HeightMap>()};
   std::string frame_id;  ///< empty: not said
 };
-/// @throws InvalidInput with all faults of the file.
+/// An empty name gives no trees. @throws InvalidInput with all faults of the file.
 ForestScene loadForestScene(const std::string& file);
+
+/// Reads and checks all private parameters and the scenario that they name; where both say the same
+/// thing, the parameter holds. @throws InvalidInput with all faults of both.
+ForestOptions loadForestOptions(const ros::NodeHandle& private_handle, ForestScene& scene);
 
 }  // namespace vegetation_sim
