@@ -116,7 +116,7 @@ double curvature(double (*f)(double), double x, double h) {
   return (f(x + h) - 2.0 * f(x) + f(x - h)) / (h * h);
 }
 
-// E1: an envelope of forces needs two derivatives.
+// An envelope of forces needs two derivatives.
 TEST(SmootherStep, StartsAndEndsWithoutSlopeOrCurvature) {
   constexpr double H = 1e-4;
   for (const double x : {0.0, 1.0}) {

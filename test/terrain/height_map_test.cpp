@@ -42,7 +42,7 @@ TEST(HeightMap, WithoutAFileIsFlat) {
   EXPECT_TRUE(std::isinf(flat.bounds().max_x));
 }
 
-// S2-02: at a node its value, in a cell's middle the mean of four.
+// At a node its value, in a cell's middle the mean of four.
 TEST(HeightMap, IsExactAtNodesAndTheMeanOfFourAtCentres) {
   const HeightMap map = smallMap();
   EXPECT_NEAR(map.height(10.0, 20.0), metres(1), ROUNDING);

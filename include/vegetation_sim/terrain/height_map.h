@@ -28,7 +28,7 @@ struct Bounds {
   double min_x, max_x, min_y, max_y, min_z, max_z;
 };
 
-/// Ground as a function of the place: a grid of heights with bilinear interpolation (S2-02), going
+/// Ground as a function of the place: a grid of heights with bilinear interpolation, going
 /// on flat at the border's height beyond it. Samples stand on the grid's corners: an image of 257
 /// columns at 1 m covers 256 m. The picture's top row is north (largest y), as in map_server.
 /// Immutable: share it by pointer, read it from any thread. The same bits on every processor.
