@@ -48,16 +48,36 @@ HWY_INLINE LanesQuat localRotation(const BatchTree& tree, const FloatWind& wind,
   return swing ? swingJoint(rest, a, b, all(weight)) : paperJoint(rest, a, b, all(weight));
 }
 
-HWY_INLINE void carry(const BatchTree& tree, const LanesQuat& local, int i, BatchPoses& out) {
-  const hn::RebindToSigned<Tag> index_tag;
-  const auto parent = hn::LoadU(index_tag, tree.parent.data() + i);
+// Frames of the parents of branches i, i + 1, ...
+struct Parents {
+  Lanes x, y, z;
+  LanesQuat q;
+};
+
+HWY_INLINE Parents gatherParents(const BatchTree& tree, const BatchPoses& out, int i) {
+  const auto parent = hn::LoadU(hn::RebindToSigned<Tag>(), tree.parent.data() + i);
   const auto gather = [&](const std::vector<float>& from)
                           HWY_ATTR { return hn::GatherIndex(Tag(), from.data(), parent); };
-  const LanesQuat q{gather(out.qw), gather(out.qx), gather(out.qy), gather(out.qz)};
-  const Lanes h = load(tree.h, i), two = all(2.f);
-  store(gather(out.x) + h * (two * (q.x * q.z + q.w * q.y)), out.x, i);
-  store(gather(out.y) + h * (two * (q.y * q.z - q.w * q.x)), out.y, i);
-  store(gather(out.z) + h * (all(1.f) - two * (q.x * q.x + q.y * q.y)), out.z, i);
+  return {gather(out.x),
+          gather(out.y),
+          gather(out.z),
+          {gather(out.qw), gather(out.qx), gather(out.qy), gather(out.qz)}};
+}
+
+HWY_INLINE Parents loadParents(const BatchPoses& out, int parent) {
+  return {load(out.x, parent),
+          load(out.y, parent),
+          load(out.z, parent),
+          {load(out.qw, parent), load(out.qx, parent), load(out.qy, parent), load(out.qz, parent)}};
+}
+
+HWY_INLINE void carry(const Parents& parent, const LanesQuat& local, Lanes h, int i,
+                      BatchPoses& out) {
+  const LanesQuat& q = parent.q;
+  const Lanes two = all(2.f);
+  store(parent.x + h * (two * (q.x * q.z + q.w * q.y)), out.x, i);
+  store(parent.y + h * (two * (q.y * q.z - q.w * q.x)), out.y, i);
+  store(parent.z + h * (all(1.f) - two * (q.x * q.x + q.y * q.y)), out.z, i);
   const LanesQuat world = multiply(q, local);
   store(world.w, out.qw, i);
   store(world.x, out.qx, i);
@@ -65,12 +85,18 @@ HWY_INLINE void carry(const BatchTree& tree, const LanesQuat& local, int i, Batc
   store(world.z, out.qz, i);
 }
 
-// The last vector of a group runs over into the next one, which is written after it.
-void poseGroup(const BatchTree& tree, const FloatWind& wind, const Group& group, float weight,
+// The last vector of a group runs over into the next one, which is written after it. Where limbs go
+// on, parents stand side by side and need no gathering.
+void poseGroup(const BatchTree& tree, const FloatWind& wind, const BatchGroup& group, float weight,
                BatchPoses& out) {
   const int step = static_cast<int>(hn::Lanes(Tag()));
-  for (int i = group.begin; i < group.end; i += step)
-    carry(tree, localRotation(tree, wind, weight, i), i, out);
+  for (int i = group.begin; i < group.end; i += step) {
+    const LanesQuat local = localRotation(tree, wind, weight, i);
+    const Parents parents = group.first_parent >= 0
+                                ? loadParents(out, group.first_parent + i - group.begin)
+                                : gatherParents(tree, out, i);
+    carry(parents, local, load(tree.h, i), i, out);
+  }
 }
 
 }  // namespace vegetation_sim::forest::HWY_NAMESPACE
@@ -110,6 +136,17 @@ void grow(std::size_t n, std::initializer_list<std::vector<float>*> arrays) {
     if (array->size() < n) array->resize(n);
 }
 
+BatchGroup batchGroup(const Group& group, const std::vector<std::int32_t>& parent) {
+  BatchGroup out{group.begin, group.end, group.depth,
+                 parent[static_cast<std::size_t>(group.begin)]};
+  for (int i = group.begin; i < group.end; ++i)
+    if (parent[static_cast<std::size_t>(i)] != out.first_parent + i - group.begin)
+      out.first_parent = -1;
+  // The vector that starts at the ground's slot would run over the end.
+  if (group.begin == 0) out.first_parent = -1;
+  return out;
+}
+
 void setGround(std::size_t slot, BatchPoses& out) {
   out.x[slot] = out.y[slot] = out.z[slot] = 0.f;
   out.qw[slot] = 1.f;
@@ -141,7 +178,7 @@ BatchPoser::BatchPoser(const Tree& tree) {
     t.by[i] = narrow(response.second.y());
     t.bz[i] = narrow(response.second.z());
   }
-  t.groups = tree.skeleton.groups;
+  for (const Group& group : tree.skeleton.groups) t.groups.push_back(batchGroup(group, t.parent));
   t.joint_model = tree.joint_model;
   t.drag = tree.drag;
   t.reference_speed = narrow(tree.reference_speed);
@@ -155,7 +192,7 @@ void BatchPoser::pose(const wind::Instant& wind, const Weights& weights, int dep
   setGround(size - 1, out);
   const FloatWind narrowed(wind, tree_.reach);
   out.count = 0;
-  for (const Group& group : tree_.groups) {
+  for (const BatchGroup& group : tree_.groups) {
     if (group.depth >= depths) break;
     const auto depth = static_cast<std::size_t>(group.depth);
     HWY_DYNAMIC_DISPATCH(poseGroup)(tree_, narrowed, group, narrow(weights[depth]), out);

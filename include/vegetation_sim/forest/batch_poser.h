@@ -20,6 +20,12 @@ struct BatchPoses {
   Pose at(int branch) const;
 };
 
+/// Branches begin to end of one depth; first_parent: of `begin`, if the parents of all stand side by
+/// side, else -1.
+struct BatchGroup {
+  int begin{0}, end{0}, depth{0}, first_parent{-1};
+};
+
 /// Rest data of one tree, structure of arrays, in single precision; padded to the widest vector.
 struct BatchTree {
   std::vector<std::int32_t> parent;  ///< -1: the ground
@@ -28,7 +34,7 @@ struct BatchTree {
   /// Swing: rest rotation in the parent (w x y z). Paper: cos, sin of theta / 2, of phi / 2.
   std::vector<float> r0, r1, r2, r3;
   std::vector<float> ax, ay, az, bx, by, bz;  ///< Response::first, second [rad s/m]
-  std::vector<Group> groups;
+  std::vector<BatchGroup> groups;
   JointModel joint_model{JointModel::SWING};
   Drag drag{Drag::LINEAR};
   float reference_speed{8.f};
