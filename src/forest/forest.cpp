@@ -104,11 +104,11 @@ void Forest::advance(Nanoseconds stamp) {
 // A whole tile at a time: where even its nearest, largest tree may stand still, no tree is looked
 // at.
 void Forest::chooseRegion(const Region& region) {
+  if (region.count == 1) return chooseTree(region.first);
   const double speed = now_.speedBound(region.centre, region.reach);
   const double view = finestView(memory_.viewers, region.centre, region.reach);
   const double error = LARGEST_SCALE * largest_omission_ * speed * view;
-  const bool still = error <= HYSTERESIS * memory_.settings.tolerance && region.count > 1;
-  if (!still) {
+  if (error > HYSTERESIS * memory_.settings.tolerance) {
     for (std::uint32_t i = 0; i < region.count; ++i) chooseTree(region.first + i);
     return;
   }
