@@ -174,15 +174,6 @@ TEST(WindLaw, RemovesWithoutAStep) {  // N2
   EXPECT_NE(before.velocity(position, ends), after.velocity(position, ends));
 }
 
-TEST(WindField, OfAnotherVersionIsRefused) {  // N2
-  wind::Primitive p;
-  p.name = "a";
-  WindField message = toMsg(wind::Field({p}, 3), "map", 5);
-  EXPECT_EQ(fromMsg(message).hash(), message.hash);
-  message.hash ^= 1;
-  EXPECT_THROW(fromMsg(message), InvalidInput);
-}
-
 }  // namespace
 }  // namespace vegetation_sim
 

@@ -1,0 +1,185 @@
+#!/usr/bin/env python3
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""wind_broadcaster, as a node and as a nodelet, on a clock that waits, runs at 20 times its pace,
+stands, and goes back."""
+import math
+import signal
+import subprocess
+import unittest
+
+import roslib.packages
+import rospy
+import rostest
+from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import Point, TransformStamped
+from tf2_msgs.msg import TFMessage
+from vegetation_sim.msg import WindField, WindPrimitive
+from vegetation_sim.srv import GetWindField, SampleWind, SetWindPrimitive
+
+from waiting import Latest, SimulatedClock, wait_for
+
+NODE, NODELET = '/node/wind_broadcaster/', '/nodelet/wind_broadcaster/'
+START = rospy.Time(1000, 250000000)
+POINTS = [Point(x=3.0 * i, y=-2.0 * i, z=1.0) for i in range(6)]
+
+
+class Broadcaster:
+    """Client of one broadcaster."""
+
+    def __init__(self, prefix):
+        for name in ['get_field', 'sample', 'set_primitive']:
+            rospy.wait_for_service(prefix + name, timeout=30.0)
+        self.get = rospy.ServiceProxy(prefix + 'get_field', GetWindField)
+        self.sample = rospy.ServiceProxy(prefix + 'sample', SampleWind)
+        self.set = rospy.ServiceProxy(prefix + 'set_primitive', SetWindPrimitive)
+
+    def field_from(self, start):
+        """The field of a start at this stamp, once it is there."""
+        def found():
+            answer = self.get()
+            return answer.success and answer.field.primitives[0].epoch == start and answer.field
+        return wait_for(found, 'a start at %s' % start)
+
+    def now_is(self, stamp):
+        """Waits until the broadcaster has seen this stamp."""
+        wait_for(lambda: self.get().field.header.stamp == stamp, 'time %s' % stamp)
+
+
+class WindClock(unittest.TestCase):
+    # One story, in order of the names: a clock has only one life.
+    @classmethod
+    def setUpClass(cls):
+        cls.clock = SimulatedClock()
+        cls.topic = Latest('/node/wind', WindField)
+        cls.node, cls.nodelet = Broadcaster(NODE), Broadcaster(NODELET)
+        cls.both = [cls.node, cls.nodelet]
+        cls.clock.wait_for_listeners(3)  # the node, the manager, this test
+
+    def start_at(self, stamp):
+        """Makes the clock jump, and returns the common hash of the fields that start there."""
+        self.clock.set(stamp)
+        hashes = [b.field_from(stamp).hash for b in self.both]
+        self.assertEqual(hashes[0], hashes[1])
+        return hashes[0]
+
+    def test_1_waits_while_time_is_zero(self):
+        for broadcaster in self.both:
+            for answer in [broadcaster.get(), broadcaster.sample(POINTS, []),
+                           broadcaster.set(WindPrimitive())]:
+                self.assertFalse(answer.success)
+                self.assertEqual(answer.message, 'time has not begun, is /clock published?')
+        self.assertEqual(self.topic.count, 0)
+
+    def test_2_starts_with_the_first_stamp_alike_in_node_and_nodelet(self):
+        field_hash = self.start_at(START)
+        wait_for(lambda: self.topic.message, 'the field')
+        self.assertEqual(self.topic.message.hash, field_hash)
+        self.assertEqual(self.topic.message.header.stamp, START)
+        self.assertEqual(self.node.sample(POINTS, [START + rospy.Duration(7)]).velocities,
+                         self.nodelet.sample(POINTS, [START + rospy.Duration(7)]).velocities)
+
+    def test_3_runs_at_20_times_its_pace(self):
+        self.clock.run(10.0)
+        end = START + rospy.Duration(10)
+        for broadcaster in self.both:
+            broadcaster.now_is(end)
+            self.assertEqual(broadcaster.sample(POINTS, []).velocities,
+                             broadcaster.sample(POINTS, [end]).velocities)
+        self.assertNotEqual(self.node.sample(POINTS, []).velocities,
+                            self.node.sample(POINTS, [START]).velocities)
+
+    def test_4_moves_nothing_while_time_stands(self):
+        first = self.node.sample(POINTS, []).velocities
+        published = self.topic.count
+        for _ in range(100):
+            self.assertEqual(self.node.sample(POINTS, []).velocities, first)
+        self.assertEqual(self.topic.count, published)
+
+    def test_5_edits_take_effect_by_the_lead_in_simulated_time(self):
+        edit = WindPrimitive(name='disc', kind=WindPrimitive.DISK, radius=9.0, fade_in=1.0,
+                             fade_out=1.0, omega=2.0)
+        edit.velocity.x = 3.0
+        self.assertTrue(self.node.set(edit).success)
+        new = self.node.get().field.primitives[-1]
+        self.assertEqual(new.t_on, self.clock.now + rospy.Duration.from_sec(0.2))
+        self.assertNotEqual(self.node.get().field.hash, self.nodelet.get().field.hash)
+
+    def test_6_back_by_ten_seconds_is_a_fresh_start(self):
+        back = self.clock.now - rospy.Duration(10)
+        after = self.start_at(back)
+        wait_for(lambda: self.topic.message.hash == after, 'the new field on the topic')
+        self.assertEqual(after, self.hash_of_a_fresh_node(back))
+
+    def test_7_so_is_back_by_a_nanosecond(self):
+        self.clock.run(1.0)
+        now = self.clock.now
+        self.start_at(now - rospy.Duration(0, 1))
+
+    def test_8_blows_where_a_frame_goes_until_it_is_lost(self):
+        tf = rospy.Publisher('/tf', TFMessage, queue_size=100)
+        blast = WindPrimitive(name='rotor', kind=WindPrimitive.BLAST, radius=6.0, core_radius=1.0,
+                              speed=20.0, fade_in=0.5, fade_out=0.5, attached_frame='drone')
+        answer = self.node.set(blast)
+        self.assertTrue(answer.success, answer.message)
+        self.assertEqual(answer.message, 'blows once tf knows drone')
+        wait_for(lambda: tf.get_num_connections() > 0, 'a listener of /tf')
+        wait_for(lambda: self.downwash_after(0.5, tf) > 12.0, 'wind below the drone')
+        self.assertLess(self.pieces(), 40)
+
+        status = Latest('/diagnostics', DiagnosticArray)
+        self.clock.run(4.0)  # without the frame
+        self.node.now_is(self.clock.now)
+        self.assertLess(self.downwash(), 1e-9)
+        wait_for(lambda: self.warned(status.message, 'no tf of late for drone'), 'a warning')
+
+        self.clock.run(8.0)
+        wait_for(lambda: self.downwash_after(0.5, tf) > 12.0, 'the wind to come back')
+
+    def hash_of_a_fresh_node(self, stamp):
+        executable = roslib.packages.find_node('vegetation_sim', 'wind_broadcaster')[0]
+        rospy.set_param('/fresh/wind_broadcaster', {'scenario': rospy.get_param('~scenario')})
+        node = subprocess.Popen([executable, '__ns:=/fresh'])
+        try:
+            return Broadcaster('/fresh/wind_broadcaster/').field_from(stamp).hash
+        finally:
+            node.send_signal(signal.SIGINT)
+            self.assertEqual(node.wait(), 0)
+
+    @staticmethod
+    def drone(stamp):
+        """Flies a circle of 20 m at 5 m/s, 50 m east of everything else."""
+        angle = 0.25 * stamp.to_sec()
+        out = TransformStamped()
+        out.header.stamp = stamp
+        out.header.frame_id = 'map'
+        out.child_frame_id = 'drone'
+        out.transform.translation.x = 50.0 + 20.0 * math.cos(angle)
+        out.transform.translation.y = 20.0 * math.sin(angle)
+        out.transform.translation.z = 8.0
+        out.transform.rotation.w = 1.0
+        return out
+
+    def downwash_after(self, seconds, tf):
+        self.clock.run(seconds, each=lambda now: tf.publish(TFMessage([self.drone(now)])))
+        self.node.now_is(self.clock.now)
+        return self.downwash()
+
+    def downwash(self):
+        """Downward speed a core radius below the drone, less that of the nodelet, which has none."""
+        at = self.drone(self.clock.now).transform.translation
+        below = [Point(at.x, at.y, at.z - 1.0)]
+        air, rest = [b.sample(below, [self.clock.now]).velocities[0] for b in self.both]
+        return rest.z - air.z
+
+    def pieces(self):
+        return len([p for p in self.node.get().field.primitives if p.name == 'rotor'])
+
+    @staticmethod
+    def warned(message, text):
+        return message and any(text in s.message for s in message.status)
+
+
+if __name__ == '__main__':
+    rospy.init_node('wind_clock_test')
+    rostest.rosrun('vegetation_sim', 'wind_clock', WindClock)

@@ -1,0 +1,279 @@
+#!/usr/bin/env python3
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""wind_broadcaster's services, settings and markers: what is good works, what is bad is refused by
+name, counted, and changes nothing."""
+import math
+import unittest
+
+import rospy
+import rostest
+from diagnostic_msgs.msg import DiagnosticArray
+from dynamic_reconfigure.msg import Config, DoubleParameter
+from dynamic_reconfigure.srv import Reconfigure
+from geometry_msgs.msg import Point, PointStamped
+from std_srvs.srv import Trigger
+from vegetation_sim.msg import WindField, WindPrimitive
+from vegetation_sim.srv import (GetWindField, RemoveWindPrimitive, SampleWind, SampleWindRequest,
+                                SetWindPrimitive)
+from visualization_msgs.msg import MarkerArray
+
+from waiting import Latest, wait_for
+
+NODE = '/wind_broadcaster/'
+NAN, INF = float('nan'), float('inf')
+
+# field, kinds that use it, values outside its range
+NUMBERS = [
+    ('fade_in', [0, 1, 2, 3, 4], [-0.1, 601.0]),
+    ('fade_out', [0, 1, 2, 3, 4], [-0.1, 601.0]),
+    ('orbit_radius', [0, 2, 3, 4], [-1.0, 1.1e5]),
+    ('orbit_period', [0, 2, 3, 4], [-1.0, 1.1e6]),
+    ('repeat', [2], [-1.0, 1.1e6]),
+    ('radius', [0, 2, 3, 4], [0.0, 1.1e5]),
+    ('omega', [0], [-1.0, 101.0]),
+    ('phase', [0], [-101.0, 101.0]),
+    ('turbulence', [1], [-0.1, 1.1]),
+    ('length_scale', [1], [0.5, 1001.0]),
+    ('front_speed', [2], [-1.0, 201.0]),
+    ('rise_length', [2], [0.0, 1.1e4]),
+    ('plateau_length', [2], [-1.0, 1.1e4]),
+    ('decay_length', [2], [0.0, 1.1e4]),
+    ('speed', [3, 4], [-201.0, 201.0]),
+    ('core_radius', [3, 4], [0.0, 1.1e4]),
+    ('inflow', [3], [-2.1, 2.1]),
+    ('updraft', [3], [-2.1, 2.1]),
+]
+
+
+def primitive(kind=WindPrimitive.DISK, name='asked', **fields):
+    """A good request, but for the fields given."""
+    out = WindPrimitive(name=name, kind=kind, fade_in=0.5, fade_out=0.5, radius=8.0, omega=2.0,
+                        length_scale=30.0, front_speed=5.0, rise_length=3.0, decay_length=9.0,
+                        speed=7.0, core_radius=2.0)
+    out.velocity.x = 5.0
+    for field, value in fields.items():
+        setattr(out, field, value)
+    return out
+
+
+def service(name, kind):
+    rospy.wait_for_service(NODE + name, timeout=30.0)
+    return rospy.ServiceProxy(NODE + name, kind)
+
+
+class WindRequests(unittest.TestCase):
+    def setUp(self):
+        self.set = service('set_primitive', SetWindPrimitive)
+        self.remove = service('remove_primitive', RemoveWindPrimitive)
+        self.get = service('get_field', GetWindField)
+        self.sample = service('sample', SampleWind)
+        self.reset = service('reset', Trigger)
+        self.reconfigure = service('set_parameters', Reconfigure)
+        self.assertTrue(self.reset().success)
+
+    def field(self):
+        answer = self.get()
+        self.assertTrue(answer.success, answer.message)
+        return answer.field
+
+    def names(self):
+        return [p.name for p in self.field().primitives]
+
+    def last(self, name):
+        return [p for p in self.field().primitives if p.name == name][-1]
+
+    def assert_refused(self, answer, text, hash_before):
+        self.assertFalse(answer.success)
+        self.assertIn(text, answer.message.replace('-nan', 'nan'))
+        self.assertEqual(self.field().hash, hash_before)
+
+    def tune(self, **values):
+        config = Config(doubles=[DoubleParameter(k, v) for k, v in values.items()])
+        return {d.name: d.value for d in self.reconfigure(config).config.doubles}
+
+    def test_starts_with_the_scenario(self):
+        self.assertEqual(self.names(), ['breeze', 'disc', 'squall', 'whirl', 'fan'])
+        self.assertEqual(self.field().seed, 7)
+        self.assertEqual(self.field().header.frame_id, 'map')
+
+    def test_takes_one_of_each_kind(self):
+        for kind in range(5):
+            answer = self.set(primitive(kind, 'new_%d' % kind))
+            self.assertTrue(answer.success, answer.message)
+            self.assertEqual(self.last('new_%d' % kind).id, answer.id)
+            self.assertEqual(self.last('new_%d' % kind).kind, kind)
+
+    def test_refuses_each_bad_number_by_name(self):
+        before = self.field().hash
+        for name, kinds, outside in NUMBERS:
+            for value in outside + [NAN, INF, -INF]:
+                with self.subTest(name=name, value=value):
+                    answer = self.set(primitive(kinds[-1], **{name: value}))
+                    self.assert_refused(answer, "primitive 'asked': %s = " % name, before)
+
+    def test_refuses_each_bad_vector_by_name(self):
+        before = self.field().hash
+        for axis in 'xyz':
+            for value in [NAN, INF, -201.0]:
+                bad = primitive()
+                setattr(bad.velocity, axis, value)
+                self.assert_refused(self.set(bad), 'velocity.%s = ' % axis, before)
+                bad = primitive(trajectory=[PointStamped()])
+                setattr(bad.trajectory[0].point, axis, value * 1e5)
+                self.assert_refused(self.set(bad), 'trajectory[0].position.%s = ' % axis, before)
+
+    def test_refuses_what_makes_no_sense(self):
+        before = self.field().hash
+        point = PointStamped()
+        point.header.frame_id = 'odom'
+        for bad, text in [
+                (primitive(kind=9), 'kind = 9 is none of 0 (disk)'),
+                (primitive(envelope=9), 'envelope = 9 is none of'),
+                (primitive(name=''), 'name is empty'),
+                (primitive(t_on=rospy.Time(5)), 't_on = 5.000000 s is before'),
+                (primitive(t_off=rospy.Time(5)), 't_off = 5.000000 s is not after'),
+                (primitive(orbit_radius=2.0), 'orbit_period = 0 s is outside 0.1'),
+                (primitive(trajectory=[point]), "frame_id = 'odom' is not 'map' or empty"),
+                (primitive(trajectory=[PointStamped(), PointStamped()]), 'is not after'),
+                (primitive(trajectory=[PointStamped()] * 4097), 'has 4097 way points'),
+                (primitive(kind=1, attached_frame='drone'), 'but a breeze is everywhere'),
+                (primitive(trajectory=[PointStamped()], attached_frame='drone'), 'allowed is one'),
+                (primitive(attached_frame='/drone'), "begins with '/'")]:
+            with self.subTest(text=text):
+                self.assert_refused(self.set(bad), text, before)
+
+    def test_tells_all_faults_at_once(self):
+        answer = self.set(primitive(radius=NAN, omega=-1.0, t_on=rospy.Time(5), envelope=3,
+                                    attached_frame='/drone'))
+        for text in ['radius = ', 'omega = -1', 't_on = 5', 'envelope = 3', "begins with '/'"]:
+            self.assertIn(text, answer.message)
+
+    def test_follows_at_most_four_frames(self):
+        for i in range(4):
+            self.assertTrue(self.set(primitive(4, 'tied_%d' % i, attached_frame='drone')).success)
+        before = self.field().hash
+        self.assert_refused(self.set(primitive(4, 'tied_4', attached_frame='drone')),
+                            '4 frames are followed already, allowed are 4', before)
+        self.assertTrue(self.remove('tied_0').success)
+        self.assertTrue(self.set(primitive(4, 'tied_4', attached_frame='drone')).success)
+
+    def test_refuses_to_remove_what_is_not_there(self):
+        self.assert_refused(self.remove('fann'), "no source is named 'fann'; there is breeze, disc",
+                            self.field().hash)
+
+    def test_removes_one_or_all(self):
+        self.assertTrue(self.remove('fan').success)
+        self.assertGreater(self.last('fan').t_off, rospy.Time.now())
+        self.assertTrue(self.remove('').success)
+        self.assertTrue(all(p.t_off > rospy.Time(0) for p in self.field().primitives))
+
+    def test_refuses_bad_samples(self):
+        before = self.field().hash
+        many = [Point()] * 100001
+        for request, text in [
+                (SampleWindRequest(positions=[Point(), Point(x=NAN)]), 'positions[1].x = nan m'),
+                (SampleWindRequest(positions=[Point(z=2e6)]), 'positions[0].z = 2e+06 m'),
+                (SampleWindRequest(positions=many), 'allowed are 100000'),
+                (SampleWindRequest(positions=[Point()] * 3, stamps=[rospy.Time(1)] * 2),
+                 'stamps: 2 of them, allowed are 0, 1 or 3')]:
+            with self.subTest(text=text):
+                answer = self.sample(request)
+                self.assert_refused(answer, text, before)
+                self.assertEqual(answer.velocities, [])
+
+    def test_samples_at_one_stamp_for_all(self):
+        at = rospy.Time.now()
+        points = [Point(x=float(i)) for i in range(5)]
+        together = self.sample(points, [at]).velocities
+        self.assertEqual(together, self.sample(points, [at] * 5).velocities)
+        self.assertEqual(len(self.sample(points, []).velocities), 5)
+        self.assertEqual(self.sample([], []).velocities, [])
+
+    def test_counts_what_it_refuses(self):
+        heard = []
+        rospy.Subscriber('/diagnostics', DiagnosticArray, heard.append)
+
+        def status(key):
+            found = [v.value for a in heard[-1:] for s in a.status for v in s.values
+                     if v.key == key]
+            return found[0] if found else None
+
+        refused = int(wait_for(lambda: status('refused inputs'), 'diagnostics'))
+        self.set(primitive(radius=-1.0))
+        self.remove('fann')
+        wait_for(lambda: int(status('refused inputs')) == refused + 2, 'the count')
+        self.assertIn("remove_primitive: no source is named 'fann'", status('last refusal'))
+        self.assertEqual(status('hash'), str(self.field().hash))
+
+    def test_reconfigures_the_breeze(self):
+        self.assertEqual(self.tune(breeze_speed=6.0, breeze_direction=math.pi / 2)['breeze_speed'],
+                         6.0)
+        breeze = self.last('breeze')
+        self.assertAlmostEqual(breeze.velocity.x, 0.0)
+        self.assertAlmostEqual(breeze.velocity.y, 6.0)
+        self.assertEqual(breeze.turbulence, 0.25)
+        self.assertGreater(breeze.t_on, rospy.Time.now() - rospy.Duration(1))
+        self.assertEqual(breeze.epoch, self.field().primitives[0].epoch)
+
+    def test_reconfiguration_refuses_what_is_no_number_and_clamps_the_rest(self):
+        before = self.field().hash
+        for name in ['breeze_speed', 'breeze_direction', 'breeze_turbulence']:
+            value = rospy.get_param(NODE + name)
+            self.assertEqual(self.tune(**{name: NAN})[name], value)
+            self.assertEqual(self.field().hash, before)
+        self.assertEqual(self.tune(breeze_turbulence=7.0)['breeze_turbulence'], 1.0)
+
+    def test_shows_the_breeze_of_other_edits(self):
+        updates = Latest(NODE + 'parameter_updates', Config)
+        breeze = primitive(WindPrimitive.BREEZE, 'breeze', turbulence=0.5)
+        breeze.velocity.x, breeze.velocity.y = 0.0, 3.0
+        self.assertTrue(self.set(breeze).success)
+
+        def shown():
+            values = {d.name: d.value for d in updates.message.doubles} if updates.message else {}
+            return values.get('breeze_speed') == 3.0 and values['breeze_turbulence'] == 0.5
+
+        wait_for(shown, 'the breeze in parameter_updates')
+
+    def test_reset_is_a_fresh_start(self):
+        first = self.field()
+        self.set(primitive(name='extra'))
+        self.tune(breeze_speed=9.0)
+        before = rospy.Time.now()
+        self.assertTrue(self.reset().success)
+        after = self.field()
+        self.assertEqual([p.name for p in after.primitives], [p.name for p in first.primitives])
+        self.assertEqual([p.id for p in after.primitives], [1, 2, 3, 4, 5])
+        self.assertGreater(after.primitives[0].epoch, before)
+        self.assertAlmostEqual(rospy.get_param(NODE + 'breeze_speed'), math.sqrt(17.0))
+
+    def test_publishes_every_change(self):
+        heard = Latest('wind', WindField)
+        wait_for(lambda: heard.message, 'the latched field')
+        self.set(primitive(name='extra'))
+        wait_for(lambda: heard.message.hash == self.field().hash, 'the edited field')
+
+    def test_marks_every_source_where_it_is(self):
+        heard = Latest('wind/markers', MarkerArray)
+
+        def together():
+            return heard.message and {m.ns for m in heard.message.markers} >= {
+                'wind/direction', 'wind/influence', 'wind/disc', 'wind/front', 'wind/core'}
+
+        wait_for(together, 'markers of every kind')
+
+        def disc():
+            return [m.pose.position for m in heard.message.markers
+                    if m.ns == 'wind/disc' and m.id == 2][0]
+
+        first = disc()
+        self.assertAlmostEqual(math.hypot(first.x, first.y), 10.0)
+        wait_for(lambda: math.hypot(disc().x - first.x, disc().y - first.y) > 0.5, 'a disc to move')
+        self.assertTrue(all(m.header.frame_id == 'map' for m in heard.message.markers))
+        self.assertTrue(all(m.lifetime > rospy.Duration(0) for m in heard.message.markers))
+
+
+if __name__ == '__main__':
+    rospy.init_node('wind_requests_test')
+    rostest.rosrun('vegetation_sim', 'wind_requests', WindRequests)
