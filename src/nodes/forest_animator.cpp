@@ -38,7 +38,7 @@ ForestAnimator::ForestAnimator(ros::NodeHandle handle, ros::NodeHandle private_h
       frames_(options_.tf_budget),
       markers_(options_.marker_points),
       tf_listener_(tf_buffer_),
-      diagnostics_(handle, private_handle, private_handle.getNamespace().substr(1)) {
+      diagnostics_(handle, private_handle, private_handle.getNamespace()) {
   forest_ = std::make_unique<forest::Forest>(designed(scene_.layout, tuning_), scene_.terrain,
                                              tuning_.settings);
   layout_publisher_ = handle_.advertise<ForestLayout>("forest/layout", 1, true);

@@ -1,0 +1,142 @@
+#!/usr/bin/env python3
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""256 trees in wind: what forest_animator sends, how often and how much of it."""
+import io
+import unittest
+
+import rospy
+import rostest
+from diagnostic_msgs.msg import DiagnosticArray
+from tf2_msgs.msg import TFMessage
+from vegetation_sim.msg import BranchTransforms
+from visualization_msgs.msg import Marker, MarkerArray
+
+from forest_rig import RATE, Animator, Eye, Log, TickClock, time_of
+
+SECONDS = 10
+TREES, LEAST_BRANCHES = 256, 200
+MOST_BYTES = 100e3  # per second, of forest/state with nothing promoted
+TF_BUDGET, MARKER_POINTS = 60, 30000  # as in forest_state.test
+
+
+def size_of(message):
+    out = io.BytesIO()
+    message.serialize(out)
+    return len(out.getvalue())
+
+
+class ForestState(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.forest = Animator()
+        cls.clock = TickClock(1000 * RATE)
+        cls.clock.begin(cls.forest)
+        cls.eye = Eye()
+
+    def run_watched(self, seconds):
+        """An eye walks through the forest, so that levels change all the time."""
+        for half in range(2 * seconds):
+            self.eye.look(-60.0 + 3.0 * half, -10.0, 4.0, self.forest)
+            self.clock.run(RATE // 2, self.forest)
+
+    # S1-02: any (tree, branch) id is there; S1-41, N1: 200 branches each.
+    def test_every_branch_of_every_tree_can_be_asked_for(self):
+        self.assertIn('there are %d, from 0' % TREES, self.forest.refusal(tree=TREES))
+        for tree in range(TREES):
+            answer = self.forest.tree(tree)
+            count = len(answer.transforms.poses)
+            self.assertGreaterEqual(count, LEAST_BRANCHES, tree)
+            self.assertEqual(count, len(answer.parents))
+            self.assertTrue(self.forest.set_tf(tree, [0, count - 1], True).success)
+            self.assertTrue(self.forest.set_tf(tree, [0, count - 1], False).success)
+            self.assertIn('branch = %d is unknown' % count,
+                          self.forest.set_tf(tree, [count], True).message)
+
+    # 30 messages a second of the clock, one per tick, and few bytes.
+    def test_state_comes_at_its_rate_and_is_small(self):
+        before, tick = len(self.forest.state.messages), self.clock.tick
+        self.run_watched(SECONDS)
+        heard = self.forest.state.messages[before:]
+        self.assertEqual([m.header.stamp for m in heard],
+                         [time_of(tick + 1 + i) for i in range(RATE * SECONDS)])
+        self.assertEqual([m.sequence - heard[0].sequence for m in heard], list(range(len(heard))))
+        self.assertEqual(sum(m.key_frame for m in heard), SECONDS)
+        self.assertTrue(any(m.trees for m in heard if not m.key_frame), 'no level changed')
+        sizes = [size_of(m) for m in heard]
+        print('forest/state: %d messages, %.1f kB/s, largest %.1f kB; layout %.1f kB' % (
+            len(heard), sum(sizes) / SECONDS / 1e3, max(sizes) / 1e3,
+            size_of(self.forest.layout.messages[-1]) / 1e3))
+        self.assertLess(sum(sizes) / SECONDS, MOST_BYTES)
+
+    def test_frames_stay_within_their_budget(self):
+        count = len(self.forest.tree(7).transforms.poses)
+        self.assertGreater(count, TF_BUDGET)
+        tf = Log('/tf', TFMessage)
+        answer = self.forest.set_tf(7, list(range(TF_BUDGET)), True)
+        self.assertTrue(answer.success, answer.message)
+        self.assertEqual((answer.frames, answer.budget), (TF_BUDGET, TF_BUDGET))
+        for request in ((7, [], True), (8, [0], True)):
+            answer = self.forest.set_tf(*request)
+            self.assertFalse(answer.success)
+            self.assertRegex(answer.message,
+                             r'frames = \d+ would pass the budget of %d' % TF_BUDGET)
+            self.assertEqual(answer.frames, TF_BUDGET)
+        self.clock.run(RATE, self.forest)
+        tf.wait(lambda all: len(all) >= RATE - 1, 'a second of frames')
+        for message in tf.messages:
+            self.assertEqual([t.child_frame_id for t in message.transforms],
+                             ['tree_7/branch_%d' % i for i in range(TF_BUDGET)])
+        stamps = [m.transforms[0].header.stamp for m in tf.messages]
+        self.assertEqual(len(set(stamps)), len(stamps), 'a transform came twice')
+        pose = self.forest.tree(7, stamps[-1]).transforms.poses[20]
+        sent = tf.messages[-1].transforms[20].transform
+        self.assertEqual((pose.position.x, pose.orientation), (sent.translation.x, sent.rotation))
+        self.assertEqual(self.forest.set_tf(7, [], False).frames, 0)
+        tf.close()
+
+    # Stock markers: two lists of constant size, built only for a subscriber.
+    def test_markers_are_few_constant_and_only_on_demand(self):
+        diagnostics = Log('/diagnostics', DiagnosticArray)
+        self.run_watched(2)
+        self.assertEqual(self.marker_points(diagnostics), 0)
+        markers = Log('/forest/markers', MarkerArray)
+        self.run_watched(3)
+        markers.wait(lambda all: len(all) >= 10, 'markers')
+        for array in markers.messages:
+            self.assertEqual([(m.ns, m.id, m.type, m.action) for m in array.markers],
+                             [('bark', 0, Marker.TRIANGLE_LIST, Marker.ADD),
+                              ('leaves', 1, Marker.TRIANGLE_LIST, Marker.ADD)])
+            sizes = [len(m.points) for m in array.markers]
+            self.assertLessEqual(sum(sizes), MARKER_POINTS)
+            self.assertEqual(sizes, [len(m.points) for m in markers.messages[0].markers])
+            self.assertEqual(sizes, [len(m.colors) for m in array.markers])
+        self.assertGreater(self.marker_points(diagnostics), 0.5 * MARKER_POINTS)
+        markers.close()
+        diagnostics.close()
+
+    @staticmethod
+    def marker_points(diagnostics):
+        """Points in use, as the next diagnostics tell."""
+        seen = len(diagnostics.messages)
+        diagnostics.wait(
+            lambda all: any(s.name.startswith('forest_animator') for m in all[seen:]
+                            for s in m.status), 'diagnostics')
+        values = [v for m in diagnostics.messages[seen:] for s in m.status for v in s.values]
+        return [int(v.value) for v in values if v.key == 'Marker points'][-1]
+
+    # forest/branches: only the selected trees, equal to get_tree.
+    def test_branches_of_selected_trees_are_sent(self):
+        branches = Log('/forest/branches', BranchTransforms)
+        self.clock.run(RATE, self.forest)
+        branches.wait(lambda all: len(all) >= 10, 'branches')
+        self.assertEqual({m.tree for m in branches.messages}, {3, 200})
+        last = branches.messages[-1]
+        self.assertEqual(last.poses,
+                         self.forest.tree(last.tree, last.header.stamp).transforms.poses)
+        branches.close()
+
+
+if __name__ == '__main__':
+    rospy.init_node('forest_state_test')
+    rostest.rosrun('vegetation_sim', 'forest_state', ForestState)
