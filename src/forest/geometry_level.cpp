@@ -14,12 +14,12 @@ struct Step {
   MeshDetail detail;
 };
 
-constexpr std::array<Step, GEOMETRY_LEVELS> STEPS{{{0.0, {1, 3, 1, 0.035}},
-                                                   {30.0, {1, 3, 2, 0.1}},
-                                                   {70.0, {2, 4, 2, 0.22}},
-                                                   {140.0, {2, 6, 4, 0.45}},
-                                                   {280.0, {3, 8, 6, 0.75}},
-                                                   {560.0, {MAX_DEPTHS, 11, 16, 1.0}}}};
+constexpr std::array<Step, GEOMETRY_LEVELS> STEPS{{{0.0, {1, 3, 1, 0.025, 3.0, true}},
+                                                   {30.0, {1, 3, 2, 0.07, 2.0, true}},
+                                                   {70.0, {2, 4, 1, 0.16, 1.5, true}},
+                                                   {140.0, {2, 5, 3, 0.34, 1.25, true}},
+                                                   {280.0, {3, 7, 4, 0.65, 1.15, false}},
+                                                   {560.0, {MAX_DEPTHS, 11, 16, 1.0, 1.0, false}}}};
 constexpr double BORDER = 0.15;  // hysteresis, fraction of the size
 constexpr double DEAD_BAND = 0.05;
 constexpr double LEAST_FACTOR = 1.0 / 64.0, LARGEST_FACTOR = 64.0;

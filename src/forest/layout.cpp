@@ -129,11 +129,12 @@ TreeSeed seedInTile(const Tile& tile, std::uint32_t index) {
   const auto side = static_cast<std::uint32_t>(std::ceil(std::sqrt(std::max(1u, tile.count))));
   const double cell = tile.size / side;
   const Random random = Random(tile.seed).child(index);
+  const std::uint32_t column = index % side, row = index / side;
   TreeSeed out;
   out.seed = random.bits(GROWTH);
   out.species = pickSpecies(tile.mix, random.uniform(SPECIES));
-  out.position.x() = tile.x + cell * (index % side + random.uniform(X, 0.15, 0.85));
-  out.position.y() = tile.y + cell * (index / side + random.uniform(Y, 0.15, 0.85));
+  out.position.x() = tile.x + cell * (column + random.uniform(X, 0.15, 0.85));
+  out.position.y() = tile.y + cell * (row + random.uniform(Y, 0.15, 0.85));
   out.yaw = random.uniform(YAW, 0.0, 2.0 * PI);
   out.scale = random.uniform(SCALE, 0.7, 1.3);
   return out;

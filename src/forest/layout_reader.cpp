@@ -91,8 +91,9 @@ class LayoutReader {
     for (int i = 0; i < rows * columns; ++i) {
       tile.first_tree = out_.treeCount();
       tile.count = static_cast<std::uint32_t>(count);
-      tile.x = first.x + first.size * (i % columns);
-      tile.y = first.y + first.size * (i / columns);
+      const int column = i % columns, row = i / columns;
+      tile.x = first.x + first.size * column;
+      tile.y = first.y + first.size * row;
       tile.seed = Random(first.seed).bits(static_cast<std::uint64_t>(i));
       out_.tiles.push_back(tile);
     }

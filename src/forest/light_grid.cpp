@@ -53,8 +53,9 @@ LightGrid::LightGrid(const Vec3& low, const Vec3& high, double cell) : low_(low)
 void LightGrid::addLeaf(const Vec3& point, double area) {
   const Vec3 at = (point - low_) / cell_;
   if (!(at.minCoeff() >= 0.0)) return;
-  const auto x = static_cast<std::size_t>(at.x() + 0.5), y = static_cast<std::size_t>(at.y() + 0.5),
-             z = static_cast<std::size_t>(at.z() + 0.5);
+  const Vec3 nearest = at + Vec3::Constant(0.5);
+  const auto x = static_cast<std::size_t>(nearest.x()), y = static_cast<std::size_t>(nearest.y()),
+             z = static_cast<std::size_t>(nearest.z());
   if (x >= columns_ || y >= rows_ || z >= layers_) return;
   leaf_[index(x, y, z)] += static_cast<float>(area);
 }

@@ -13,8 +13,9 @@ namespace vegetation_sim::forest {
 namespace {
 
 constexpr int FEWEST_SIDES = 3;
-constexpr double LARGEST_GROWTH = 4.0;              // of the leaf cards that stay at a low level
 constexpr double GOLDEN_ANGLE = 2.399963229728653;  // pi (3 - sqrt 5)
+
+constexpr double LARGEST_PREFERENCE = 1.6;
 
 enum Draw : std::uint64_t { KEPT, PLACE, AZIMUTH, ANGLE, TURN, SIZE, SHADE, FLUTTER };
 
@@ -35,7 +36,14 @@ float narrow(double x) {
 class MeshBuilder {
  public:
   MeshBuilder(const Skeleton& skeleton, const Species& species, const MeshDetail& detail)
-      : skeleton_(skeleton), species_(species), detail_(detail) {}
+      : skeleton_(skeleton), species_(species), detail_(detail) {
+    double sum = 0.0, leaves = 1e-9;
+    for (const Branch& branch : skeleton.branches) {
+      sum += branch.leaves * branch.length;
+      leaves += branch.leaves;
+    }
+    mean_leafy_length_ = std::max(sum / leaves, 1e-3);
+  }
 
   TreeMesh build() {
     for (std::size_t i = 0; i < skeleton_.branches.size(); ++i) {
@@ -47,6 +55,7 @@ class MeshBuilder {
       if (first) addLimb(static_cast<int>(i));
     }
     addLeaves();
+    out_.boughs = detail_.boughs;
     return std::move(out_);
   }
 
@@ -114,15 +123,14 @@ class MeshBuilder {
 
   // Fewer clusters are a subset of more: a card is kept if its own number is below the fraction.
   void addLeaves() {
-    const double fraction = std::max(detail_.leaf_fraction, 1e-3);
-    const double growth = std::min(1.0 / std::sqrt(fraction), LARGEST_GROWTH);
     for (std::size_t i = 0; i < skeleton_.branches.size(); ++i) {
       const Branch& branch = skeleton_.branches[i];
       for (int l = 0; l < branch.leaves; ++l) {
         const Random random = Random(branch.key).child(static_cast<std::uint64_t>(l));
-        if (random.uniform(KEPT) >= detail_.leaf_fraction) continue;
+        // Cheap first: at low levels nearly all are left out.
+        if (random.uniform(KEPT) >= detail_.leaf_fraction * LARGEST_PREFERENCE) continue;
         LeafCard leaf = card(static_cast<int>(i), l, random);
-        leaf.size = narrow(leaf.size * growth);
+        if (random.uniform(KEPT) >= detail_.leaf_fraction * preference(leaf)) continue;
         carryToDrawn(leaf);
         out_.leaves.push_back(leaf);
       }
@@ -143,10 +151,19 @@ class MeshBuilder {
     const Quat q = Quat{t.cos, 0.0, 0.0, t.sin} * Quat{p.cos, -p.sin, 0.0, 0.0} *
                    Quat{SQRT_HALF, SQRT_HALF, 0.0, 0.0} * Quat{r.cos, 0.0, r.sin, 0.0};
     out.rotation = {narrow(q.w), narrow(q.x), narrow(q.y), narrow(q.z)};
-    out.size = narrow(species_.leaf_size * random.uniform(SIZE, 0.75, 1.25));
+    // Short branches, as at the tip of a cone, bear small clusters.
+    const double fit = std::clamp(std::sqrt(b.length / mean_leafy_length_), 0.5, 1.25);
+    out.size =
+        narrow(species_.leaf_size * detail_.leaf_growth * fit * random.uniform(SIZE, 0.8, 1.2));
     out.shade = narrow(shadeAt(tipOf(b, b.rest), random.uniform(SHADE)));
     out.key = static_cast<std::uint32_t>(random.bits(FLUTTER));
     return out;
+  }
+
+  // Leaves inside the crown are hidden by those outside: they are the first to be left out.
+  double preference(const LeafCard& leaf) const {
+    if (detail_.leaf_fraction >= 1.0) return LARGEST_PREFERENCE;
+    return std::min(LARGEST_PREFERENCE, 0.4 + 1.3 * static_cast<double>(leaf.shade));
   }
 
   // A card on a branch that is not drawn is fixed to the nearest one below that is, where it was at
@@ -171,7 +188,7 @@ class MeshBuilder {
   double shadeAt(const Vec3& p, double noise) const {
     const double out = std::sqrt(p.x() * p.x() + p.y() * p.y()) / std::max(skeleton_.reach, 0.1);
     const double up = p.z() / std::max(skeleton_.height, 0.1);
-    return saturate(0.55 * out * out + 0.45 * up * up + 0.35 * (noise - 0.5));
+    return saturate(0.55 * out * out + 0.45 * up * up + 0.16 * (noise - 0.5));
   }
 
   static constexpr double SQRT_HALF = 0.70710678118654752440;
@@ -179,6 +196,7 @@ class MeshBuilder {
   const Skeleton& skeleton_;
   const Species& species_;
   const MeshDetail& detail_;
+  double mean_leafy_length_{1.0};  // [m]
   TreeMesh out_;
 };
 

@@ -42,7 +42,7 @@ Colour TreePaint::bark(double radius) const {
 
 Colour TreePaint::leaf(const LeafCard& card) const {
   // The key's own bits: two clusters side by side are never quite alike.
-  const double own = 0.2 * (static_cast<double>(card.key & 0xffff) / 65536.0 - 0.5);
+  const double own = 0.1 * (static_cast<double>(card.key & 0xffff) / 65536.0 - 0.5);
   return mixColours(leaf_old_, leaf_young_, saturate(card.shade + own));
 }
 

@@ -69,7 +69,7 @@ std::optional<Picked> pickTree(const Layout& layout, const terrain::HeightMap& t
                                const std::function<PosedTree(std::uint32_t)>& posed) {
   const Vec3 direction = ray.direction / length(ray.direction);
   std::optional<Picked> best;
-  const auto tryTree = [&](std::uint32_t id, const TreeSeed& seed) {
+  const auto try_tree = [&](std::uint32_t id, const TreeSeed& seed) {
     const double size = seed.scale * sizeBound(layout.species[seed.species]);
     const Vec3 foot = footOf(seed, terrain);
     if (!passes(ray, direction, foot, size + ray.tolerance)) return;
@@ -79,7 +79,7 @@ std::optional<Picked> pickTree(const Layout& layout, const terrain::HeightMap& t
     hit->tree = id;
     best = hit;
   };
-  for (std::uint32_t i = 0; i < layout.trees.size(); ++i) tryTree(i, layout.trees[i]);
+  for (std::uint32_t i = 0; i < layout.trees.size(); ++i) try_tree(i, layout.trees[i]);
   double largest = 0.0;
   for (const Species& species : layout.species) largest = std::max(largest, sizeBound(species));
   for (const Tile& tile : layout.tiles) {
@@ -92,7 +92,7 @@ std::optional<Picked> pickTree(const Layout& layout, const terrain::HeightMap& t
     const double t = across > 1e-9 ? std::max(0.0, dot(offset, flat) / (across * across)) : 0.0;
     if (length(offset - t * flat) > reach) continue;
     for (std::uint32_t i = 0; i < tile.count; ++i)
-      tryTree(tile.first_tree + i, seedInTile(tile, i));
+      try_tree(tile.first_tree + i, seedInTile(tile, i));
   }
   return best;
 }

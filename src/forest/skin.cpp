@@ -110,7 +110,7 @@ void skinLeaves(const TreeMesh& mesh, const BatchPoses& poses, const std::array<
     std::array<float, 3> at = baseOf(poses, card.branch);
     for (std::size_t i = 0; i < 3; ++i) at[i] += foot[i] + along(axes, card.local, i);
     writeCard(card, at, axesOf(multiply(turn, card.rotation)), flutter.of(card.key), positions);
-    positions += 3 * LEAF_CORNERS;
+    positions += std::size_t{3} * LEAF_CORNERS;
   }
 }
 

@@ -63,17 +63,23 @@ void ForestAnimator::onViewer(const Viewer& message) {
   try {
     fromMsg(message);  // checks it
     if (!message.header.frame_id.empty() && message.header.frame_id != options_.frame_id) {
-      const auto transform =
-          tf_buffer_.lookupTransform(options_.frame_id, message.header.frame_id, ros::Time(0));
-      in_world.pose = moved(message.pose, transform.transform);
+      in_world.pose = moved(message.pose, toWorld(message.header.frame_id, ros::Time(0)));
     }
     in_world.header.frame_id = options_.frame_id;
     fromMsg(in_world);
     inputs_.addViewer(in_world);
   } catch (const InvalidInput& error) {
     reject("viewer", error.what());
+  }
+}
+
+geometry_msgs::Transform ForestAnimator::toWorld(const std::string& frame,
+                                                 const ros::Time& stamp) const {
+  try {
+    return tf_buffer_.lookupTransform(options_.frame_id, frame, stamp).transform;
   } catch (const tf2::TransformException& error) {
-    reject("viewer", error.what());
+    throw InvalidInput("frame_id = '" + frame + "' is not known in '" + options_.frame_id +
+                       "': " + error.what());
   }
 }
 

@@ -1,7 +1,5 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include <tf2/exceptions.h>
-
 #include <cmath>
 #include <stdexcept>
 
@@ -79,8 +77,7 @@ forest::Ray ForestAnimator::rayOf(const Pick::Request& request) const {
   forest::Ray ray = checkedRay(request);
   const std::string& frame = request.header.frame_id;
   if (frame.empty() || frame == options_.frame_id) return ray;
-  const auto by =
-      tf_buffer_.lookupTransform(options_.frame_id, frame, request.header.stamp).transform;
+  const geometry_msgs::Transform by = toWorld(frame, request.header.stamp);
   const Quat turn{by.rotation.w, by.rotation.x, by.rotation.y, by.rotation.z};
   ray.origin =
       rotate(turn, ray.origin) + Vec3(by.translation.x, by.translation.y, by.translation.z);

@@ -6,6 +6,7 @@
 
 #include "vegetation_sim/common/math.h"
 #include "vegetation_sim/common/scenario.h"
+#include "vegetation_sim/ros/resources.h"
 #include "vegetation_sim/wind/limits.h"
 #include "vegetation_sim/wind/yaml.h"
 
@@ -121,7 +122,7 @@ WindSettings readWindSettings(const ros::NodeHandle& private_nh) {
   parameters.text("scenario", scenario);
   if (!scenario.empty()) {
     try {
-      readScenario(scenario, settings);
+      readScenario(resolveFile(scenario), settings);
     } catch (const InvalidInput& error) {
       parameters.faults().add(error.what());
     }

@@ -97,6 +97,11 @@ void Batch::move(const std::vector<float>& positions) {
     positions_->writeData(0, sizeof(float) * positions.size(), positions.data(), true);
 }
 
+void Batch::reorder(const std::vector<std::uint32_t>& triangles) {
+  if (mRenderOp.indexData == nullptr) return;
+  mRenderOp.indexData->indexBuffer = indexBuffer(triangles, mRenderOp.vertexData->vertexCount);
+}
+
 void Batch::paint(const std::vector<VertexPaint>& paint) {
   if (paint_) paint_->writeData(0, sizeof(VertexPaint) * paint.size(), paint.data(), true);
 }
@@ -108,9 +113,8 @@ bool Batch::takeSeen() {
 }
 
 void Batch::setRank(int rank) {
-  constexpr int FIRST = 110, LAST = 400;  // after rviz's own, whose priority is 100
-  setRenderQueueGroupAndPriority(Ogre::RENDER_QUEUE_MAIN,
-                                 static_cast<Ogre::ushort>(std::min(FIRST + rank, LAST)));
+  setRenderQueueGroupAndPriority(Ogre::RENDER_QUEUE_3,
+                                 static_cast<Ogre::ushort>(std::min(rank, LAST_RANK)));
 }
 
 void Batch::_updateRenderQueue(Ogre::RenderQueue* queue) {

@@ -131,7 +131,6 @@ void DrawnTree::paintLeaves(const forest::LightGrid& light) {
     middle += inLayout(&leaves_.positions[i]);
   middle /= static_cast<double>(leaves_.positions.size() / 3);
   const Vec3 extent(reach() + 0.1, reach() + 0.1, 0.5 * height() + 0.1);
-  const std::array<float, 2> corner = leafAtlasCorner(species_.leaf_shape);
   for (std::size_t card = 0; card < mesh_.leaves.size(); ++card) {
     const std::size_t first = forest::LEAF_CORNERS * card;
     const Vec3 centre = 0.5 * (inLayout(&leaves_.positions[3 * first]) +
@@ -147,8 +146,9 @@ void DrawnTree::paintLeaves(const forest::LightGrid& light) {
                 paint);
       setColour(colour, paint);
       paint.colour[3] = byte(sun);
-      paint.place[0] = corner[0] + 0.5f * forest::LEAF_UV[i][0];
-      paint.place[1] = corner[1] + 0.5f * forest::LEAF_UV[i][1];
+      const std::array<float, 2> place =
+          leafAtlasPlace(species_.leaf_shape, mesh_.boughs, forest::LEAF_UV[i]);
+      std::copy(place.begin(), place.end(), paint.place);
       paint.place[2] = static_cast<float>(sky);
     }
   }

@@ -71,7 +71,7 @@ void ForestDisplay::stop() {
   viewer_.reset();
   air_.reset();
   ground_.reset();
-  grounded_ = nullptr;
+  grounded_ = -1;
   sky_.reset();
   forest_.reset();
   source_.reset();
@@ -90,7 +90,7 @@ void ForestDisplay::updateScenery() {
   air_.reset();
   sky_.reset();
   ground_.reset();
-  grounded_ = nullptr;
+  grounded_ = -1;
   updateAir();
 }
 
@@ -186,13 +186,13 @@ bool ForestDisplay::findView(view::View& view) {
 
 void ForestDisplay::updateGround() {
   const view::TreeStock* stock = forest_->stock();
-  if (stock == nullptr || !properties_->ground() || grounded_ == stock) return;
+  if (stock == nullptr || !properties_->ground() || grounded_ == forest_->restarts()) return;
   ground_.reset();
   const view::Daylight daylight = properties_->daylight();
   ground_ = std::make_unique<view::GroundVisual>(*scene_node_, *stock, source_->replica().terrain(),
                                                  daylight, properties_->groundTint());
   ground_->light(daylight, daylight.to_sun, properties_->hazeValues());
-  grounded_ = stock;
+  grounded_ = forest_->restarts();
 }
 
 void ForestDisplay::publishViewer() {
@@ -223,6 +223,7 @@ void ForestDisplay::showStatus(Nanoseconds stamp) {
                      " triangles in the picture; trees per level 0 to " +
                      std::to_string(forest::GEOMETRY_LEVELS - 1) + ":";
   for (const std::size_t count : report.per_level) text += " " + std::to_string(count);
+  ROS_DEBUG_STREAM(getNameStd() << ": " << text);
   show(report.trees > 0 ? rviz::StatusProperty::Ok : rviz::StatusProperty::Warn, "Drawn", text);
 }
 

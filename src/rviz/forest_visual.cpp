@@ -50,6 +50,7 @@ void ForestVisual::restart(const forest::ForestReplica& replica, const View& vie
   groves_.clear();
   stock_ = std::make_unique<TreeStock>(
       replica, nearestTrees(replica.layout(), view.eye.position, options.most_trees));
+  ++restarts_;
   selected_at_ = view.eye.position;
   selected_all_ = stock_->wanted() == replica.layout().treeCount();
   report_ = ForestReport();
@@ -90,7 +91,6 @@ void ForestVisual::makeGroves() {
   for (auto& group : splitByPlace(std::move(trees), TREES_PER_GROVE))
     groves_.push_back(std::make_unique<Grove>(std::move(group), *node_, bark_material_.name(),
                                               leaf_material_.name()));
-  moved_to_ = -1;
 }
 
 // Near groves first: they are drawn first, and the first to get their level when time is short.
@@ -116,9 +116,11 @@ void ForestVisual::chooseLevels(const View& view, const Options& options) {
       tree->setLevel(level, stock_->light(), options.look);
       changed = true;
     }
-    if (!changed) continue;
-    grove->rebuild();
-    moved_to_ = -1;
+    if (changed) {
+      grove->rebuild();
+      grove->moved_to = -1;
+    }
+    if (Clock::now() < end) grove->sortFor(view.eye.position);
   }
   repaint_ = false;
 }
@@ -126,12 +128,11 @@ void ForestVisual::chooseLevels(const View& view, const Options& options) {
 // While time stands still nothing moves, and nothing is computed.
 void ForestVisual::move(const forest::ForestReplica& replica, Nanoseconds stamp, const View& view,
                         const Options& options) {
-  if (stamp == moved_to_) return;
-  moved_to_ = stamp;
   const wind::Instant wind = replica.wind().at(stamp);
   report_.moving = 0;
   for (const auto& grove : groves_) {
-    if (!grove->takeSeen()) continue;
+    if (!grove->takeSeen() || grove->moved_to == stamp) continue;
+    grove->moved_to = stamp;
     bool moved = false, painted = false;
     for (DrawnTree* tree : grove->trees()) {
       const bool moves = tree->move(replica, stamp, wind, options.look, pixelsOf(*tree, view));

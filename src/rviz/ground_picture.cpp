@@ -15,8 +15,8 @@ constexpr std::uint64_t GROUND_SEED = 0x6a55;
 constexpr double ROOM = 14.0;        // [m] around the trees
 constexpr double BORDER = 0.12;      // of the plot's edge: where it fades to plain grass
 constexpr double LEAF_DEPTH = 0.55;  // optical depth of one leaf cluster, seen from the sun
-constexpr Rgba GRASS_DEEP{0.22f, 0.31f, 0.09f, 1.f}, GRASS_FRESH{0.36f, 0.44f, 0.13f, 1.f};
-constexpr Rgba GRASS_DRY{0.52f, 0.49f, 0.24f, 1.f};
+constexpr Rgba GRASS_DEEP{0.25f, 0.30f, 0.12f, 1.f}, GRASS_FRESH{0.37f, 0.41f, 0.17f, 1.f};
+constexpr Rgba GRASS_DRY{0.52f, 0.47f, 0.27f, 1.f};
 constexpr Rgba LITTER{0.33f, 0.25f, 0.15f, 1.f}, MOSS{0.20f, 0.26f, 0.09f, 1.f};
 
 float ramp(double low, double high, double x) {

@@ -91,7 +91,7 @@ void GroundVisual::add(const std::vector<float>& positions, const std::vector<Ve
                        const std::vector<std::uint32_t>& triangles, const std::string& material) {
   batches_.push_back(std::make_unique<Batch>(uniqueName("ground"), material));
   batches_.back()->build(positions, paint, triangles, 0.f);
-  batches_.back()->setRank(1000);  // last: most of it is hidden by trees
+  batches_.back()->setRank(Batch::LAST_RANK);  // most of it is hidden by trees
   node_->attachObject(batches_.back().get());
   triangles_ += triangles.size() / 3;
 }

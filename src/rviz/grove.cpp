@@ -45,14 +45,24 @@ std::vector<std::uint32_t> barkTriangles(const std::vector<DrawnTree*>& trees) {
   return out;
 }
 
-std::vector<std::uint32_t> leafTriangles(const std::vector<DrawnTree*>& trees) {
-  std::size_t cards = 0;
-  for (const DrawnTree* tree : trees) cards += tree->leafCards();
+// Triangles of all leaf cards, front to back for an eye in this place.
+std::vector<std::uint32_t> leafTriangles(const std::vector<DrawnTree*>& trees, const Vec3& eye) {
+  std::vector<std::pair<float, std::uint32_t>> cards;
+  for (const DrawnTree* tree : trees) {
+    const std::vector<float>& at = tree->leaves().positions;
+    const Vec3 from = eye - tree->origin();
+    for (std::size_t i = 0; i + 11 < at.size(); i += 12) {
+      const Vec3 corner(at[i], at[i + 1], at[i + 2]);
+      cards.emplace_back(static_cast<float>((corner - from).squaredNorm()),
+                         static_cast<std::uint32_t>(cards.size()));
+    }
+  }
+  std::sort(cards.begin(), cards.end());
   std::vector<std::uint32_t> out;
-  out.reserve(6 * cards);
-  for (std::uint32_t card = 0; card < cards; ++card)
+  out.reserve(6 * cards.size());
+  for (const auto& card : cards)
     for (const std::uint32_t corner : forest::LEAF_TRIANGLES)
-      out.push_back(forest::LEAF_CORNERS * card + corner);
+      out.push_back(forest::LEAF_CORNERS * card.second + corner);
   return out;
 }
 
@@ -76,7 +86,7 @@ void Grove::rebuild() {
   bark_.build(positionsOf(trees_, &DrawnTree::bark), paintOf(trees_, &DrawnTree::bark),
               barkTriangles(trees_), margin);
   leaves_.build(positionsOf(trees_, &DrawnTree::leaves), paintOf(trees_, &DrawnTree::leaves),
-                leafTriangles(trees_), margin);
+                leafTriangles(trees_, middle_ + 1000.0 * sorted_for_), margin);
   built_ = true;
 }
 
@@ -93,6 +103,15 @@ void Grove::takePaint() {
 bool Grove::takeSeen() {
   const bool bark = bark_.takeSeen(), leaves = leaves_.takeSeen();
   return bark || leaves;
+}
+
+bool Grove::sortFor(const Vec3& eye) {
+  constexpr double SAME = 0.97;  // cosine of about 14 degrees
+  const Vec3 direction = (eye - middle_) / std::max(length(eye - middle_), 1e-6);
+  if (!built_ || dot(direction, sorted_for_) > SAME) return false;
+  sorted_for_ = direction;
+  leaves_.reorder(leafTriangles(trees_, eye));
+  return true;
 }
 
 void Grove::setRank(int rank) {

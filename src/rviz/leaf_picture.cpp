@@ -37,95 +37,130 @@ float halfWidth(LeafShape shape, float t) {
 
 class ClusterPainter {
  public:
-  ClusterPainter(LeafShape shape, int edge)
+  ClusterPainter(LeafShape shape, bool bough, int edge)
       : shape_(shape),
-        edge_(edge),
+        bough_(bough),
         random_(0x1eaf + static_cast<std::uint64_t>(shape)),
         out_(2 * edge, 2 * edge, {0.8f, 0.8f, 0.8f, 0.f}) {}
 
   Picture paint() {
     switch (shape_) {
       case LeafShape::BROAD:
-        spray(7, 7, 0.33f, 0.20f, 0.85f);
+        bough_ ? sprays(0.082f) : spray({0.5f, 0.f}, 0.f, 0.7f, 7, 7, 0.20f);
         break;
       case LeafShape::NEEDLE:
-        needles();
+        bough_ ? needles(10, 0.07f, 55) : needles(6, 0.13f, 48);
         break;
       case LeafShape::SMALL:
-        spray(8, 7, 0.35f, 0.14f, 0.9f);
+        bough_ ? sprays(0.068f) : spray({0.5f, 0.f}, 0.f, 0.7f, 8, 7, 0.14f);
         break;
       case LeafShape::LONG:
-        strands();
+        bough_ ? curtain() : strands();
         break;
     }
     return halved(out_);  // painted at twice the size: smooth edges
   }
 
  private:
+  static Spot between(const Spot& a, const Spot& b, float f) {
+    return {a.x + (b.x - a.x) * f, a.y + (b.y - a.y) * f};
+  }
+
   float draw(float low, float high) {
     return static_cast<float>(random_.uniform(drawn_++, low, high));
   }
 
   // Side twigs along a stem, leaves along the side twigs, the last ones in front.
-  void spray(int twigs, int leaves, float twig_length, float leaf_length, float spread) {
-    stroke({0.5f, 0.f}, {0.5f, 0.7f}, 0.008f);
+  void spray(const Spot& foot, float lean, float stem, int twigs, int leaves, float leaf_length) {
+    const Spot tip{foot.x + stem * std::sin(lean), foot.y + stem * std::cos(lean)};
+    stroke(foot, tip, 0.008f * (bough_ ? 0.5f : 1.f));
     for (int i = 0; i < twigs; ++i) {
-      const float up = 0.06f + 0.60f * static_cast<float>(i) / static_cast<float>(twigs - 1);
-      const float side = i % 2 == 0 ? 1.f : -1.f;
-      const float angle = side * draw(0.55f, 1.f) * (1.25f - 0.9f * up);
-      const float reach = twig_length * (1.f - 0.45f * up) * draw(0.85f, 1.1f);
-      const Spot from{0.5f, up};
+      const float up = 0.09f + 0.86f * static_cast<float>(i) / static_cast<float>(twigs - 1);
+      const float angle =
+          lean + (i % 2 == 0 ? 1.f : -1.f) * draw(0.55f, 1.f) * (1.25f - 0.63f * up);
+      const float reach = 0.48f * stem * (1.f - 0.32f * up) * draw(0.85f, 1.1f);
+      const Spot from = between(foot, tip, up);
       const Spot to{from.x + reach * std::sin(angle), from.y + reach * std::cos(angle)};
-      stroke(from, to, 0.006f);
+      stroke(from, to, 0.006f * (bough_ ? 0.5f : 1.f));
       for (int l = 0; l < leaves; ++l) {
         const float f = (static_cast<float>(l) + draw(0.3f, 1.f)) / static_cast<float>(leaves);
-        const float turn = (l % 2 == 0 ? 1.f : -1.f) * draw(0.35f, 1.15f) * spread;
-        leaf({from.x + (to.x - from.x) * f, from.y + (to.y - from.y) * f}, angle + turn,
-             leaf_length * draw(0.75f, 1.1f));
+        const float turn = (l % 2 == 0 ? 1.f : -1.f) * draw(0.3f, 1.f);
+        leaf(between(from, to, f), angle + turn, leaf_length * draw(0.75f, 1.1f));
       }
       leaf(to, angle, leaf_length);
     }
     for (int l = 0; l < 4; ++l)
-      leaf({0.5f, 0.67f}, draw(-0.8f, 0.8f), leaf_length * draw(0.8f, 1.f));
+      leaf(between(foot, tip, 0.96f), lean + draw(-0.8f, 0.8f), leaf_length * draw(0.8f, 1.f));
   }
 
-  void needles() {
-    stroke({0.5f, 0.f}, {0.5f, 0.86f}, 0.011f);
-    tufts({0.5f, 0.04f}, {0.5f, 0.86f}, 0.f, 70);
-    for (int i = 0; i < 6; ++i) {
-      const float up = 0.12f + 0.095f * static_cast<float>(i);
-      const float angle = (i % 2 == 0 ? 1.f : -1.f) * draw(0.75f, 1.0f);
-      const float reach = 0.44f - 0.42f * up * up;
+  // Sprays to both sides of a stem and one at its end.
+  void sprays(float leaf_length) {
+    stroke({0.5f, 0.f}, {0.5f, 0.66f}, 0.007f);
+    for (int i = 0; i < 9; ++i) {
+      lightness_ = 0.55f + 0.05f * static_cast<float>(i);  // those behind are in the shade
+      const float up = 0.04f + 0.07f * static_cast<float>(i);
+      const float angle = (i % 2 == 0 ? 1.f : -1.f) * draw(0.6f, 1.15f) * (1.2f - 0.7f * up);
+      spray({0.5f, up}, angle, draw(0.32f, 0.5f) * (1.f - 0.3f * up), 6, 4, leaf_length);
+    }
+    spray({0.5f, 0.55f}, 0.f, 0.34f, 7, 4, leaf_length);
+  }
+
+  void needles(int twigs, float length, int count) {
+    const float thick = bough_ ? 0.5f : 1.f;
+    stroke({0.5f, 0.f}, {0.5f, 0.88f}, 0.011f * thick);
+    tufts({0.5f, 0.04f}, {0.5f, 0.88f}, 0.f, 3 * count / 2, length);
+    for (int i = 0; i < twigs; ++i) {
+      const float up = 0.06f + 0.66f * static_cast<float>(i) / static_cast<float>(twigs);
+      const float angle = (i % 2 == 0 ? 1.f : -1.f) * draw(0.75f, 1.f);
+      const float reach = 0.46f - 0.48f * up * up;
       const Spot from{0.5f, up};
       const Spot to{from.x + reach * std::sin(angle), from.y + reach * std::cos(angle)};
-      stroke(from, to, 0.008f);
-      tufts(from, to, angle, 48);
+      stroke(from, to, 0.008f * thick);
+      if (bough_) lightness_ = 0.6f + 0.04f * static_cast<float>(i);
+      tufts(from, to, angle, count, length);
+      if (!bough_) continue;
+      for (const float side : {0.6f, -0.6f}) {
+        const Spot fork = between(from, to, 0.4f);
+        const float own = 0.45f * reach;
+        const Spot end{fork.x + own * std::sin(angle + side),
+                       fork.y + own * std::cos(angle + side)};
+        tufts(fork, end, angle + side, count / 2, length);
+      }
     }
   }
 
-  void tufts(const Spot& from, const Spot& to, float angle, int count) {
+  void tufts(const Spot& from, const Spot& to, float angle, int count, float length) {
     for (int i = 0; i < count; ++i) {
       const float f = (static_cast<float>(i) + draw(0.f, 1.f)) / static_cast<float>(count);
       const float turn = (i % 2 == 0 ? 1.f : -1.f) * draw(0.35f, 0.95f) * (1.f - 0.6f * f * f);
-      leaf({from.x + (to.x - from.x) * f, from.y + (to.y - from.y) * f}, angle + turn,
-           draw(0.10f, 0.155f));
+      leaf(between(from, to, f), angle + turn, length * draw(0.75f, 1.2f));
     }
   }
 
   void strands() {
-    strand(0.5f, 0.30f, 0.55f, 9);
-    strand(0.5f, -0.28f, 0.6f, 10);
-    strand(0.5f, 0.f, 0.88f, 15);
+    strand({0.5f, 0.f}, 0.30f, 0.55f, 9);
+    strand({0.5f, 0.f}, -0.28f, 0.6f, 10);
+    strand({0.5f, 0.f}, 0.f, 0.88f, 15);
   }
 
-  void strand(float foot, float angle, float reach, int steps) {
-    Spot at{foot, 0.f};
+  // Many strands side by side that hang from the foot's edge.
+  void curtain() {
+    for (int i = 0; i < 13; ++i) {
+      lightness_ = 0.6f + 0.033f * static_cast<float>(i);
+      const float foot = 0.06f + 0.88f * (static_cast<float>((5 * i) % 13) + 0.5f) / 13.f;
+      strand({foot, draw(0.f, 0.16f)}, draw(-0.08f, 0.08f), draw(0.6f, 0.84f), 22);
+    }
+  }
+
+  void strand(const Spot& foot, float angle, float reach, int steps) {
+    Spot at = foot;
     const float step = reach / static_cast<float>(steps);
     for (int i = 0; i < steps; ++i) {
       const Spot next{at.x + step * std::sin(angle), at.y + step * std::cos(angle)};
       stroke(at, next, 0.005f);
       for (const float side : {1.f, -1.f})
-        leaf(next, angle + side * draw(0.25f, 0.7f), std::min(draw(0.2f, 0.3f), 1.f - next.y));
+        leaf(next, angle + side * draw(0.25f, 0.7f),
+             std::min(draw(0.2f, 0.3f) * (bough_ ? 0.42f : 1.f), 1.f - next.y));
       angle += draw(-0.1f, 0.1f) - 0.04f * angle;
       at = next;
     }
@@ -145,7 +180,7 @@ class ClusterPainter {
 
   void leaf(const Spot& stalk, float angle, float size) {
     const float ax = std::sin(angle), ay = std::cos(angle);
-    const float light = draw(0.68f, 1.f), tilt = draw(-0.12f, 0.12f);
+    const float light = lightness_ * draw(0.68f, 1.f), tilt = draw(-0.12f, 0.12f);
     const float warm = draw(-0.04f, 0.04f);
     forBox(stalk.x - size, stalk.x + size, stalk.y - size, stalk.y + size,
            [&](float x, float y, int c, int r) {
@@ -173,9 +208,10 @@ class ClusterPainter {
   }
 
   LeafShape shape_;
-  int edge_;
+  bool bough_;
   Random random_;
   std::uint64_t drawn_{0};
+  float lightness_{1.f};  // of the leaves that are painted now
   Picture out_;
 };
 
@@ -192,8 +228,8 @@ void keepCoverage(double wanted, Picture& picture) {
 
 }  // namespace
 
-Picture leafPicture(forest::LeafShape shape, int edge) {
-  return ClusterPainter(shape, edge).paint();
+Picture leafPicture(forest::LeafShape shape, bool bough, int edge) {
+  return ClusterPainter(shape, bough, edge).paint();
 }
 
 double coverage(const Picture& picture) {
@@ -204,21 +240,22 @@ double coverage(const Picture& picture) {
 
 std::vector<Picture> leafAtlas(int edge) {
   std::vector<Picture> out;
-  for (int shape = 0; shape < 4; ++shape) {
-    std::vector<Picture> cell = mipmaps(leafPicture(static_cast<LeafShape>(shape), edge), 4);
-    const double wanted = coverage(cell.front());
-    for (std::size_t level = 0; level < cell.size(); ++level) {
-      if (level > 0) keepCoverage(wanted, cell[level]);
-      const int side = cell[level].columns;
-      if (shape == 0) out.emplace_back(2 * side, 2 * side, Rgba{});
-      paste(cell[level], side * (shape % 2), side * (shape / 2), out[level]);
+  for (int cell = 0; cell < 8; ++cell) {
+    const auto shape = static_cast<LeafShape>(cell % 4);
+    std::vector<Picture> levels = mipmaps(leafPicture(shape, cell >= 4, edge), 4);
+    const double wanted = coverage(levels.front());
+    for (std::size_t level = 0; level < levels.size(); ++level) {
+      if (level > 0) keepCoverage(wanted, levels[level]);
+      const int side = levels[level].columns;
+      if (cell == 0) out.emplace_back(4 * side, 2 * side, Rgba{});
+      paste(levels[level], side * (cell % 4), side * (cell / 4), out[level]);
     }
   }
   return out;
 }
 
-std::array<float, 2> leafAtlasCorner(int shape) {
-  return {0.5f * static_cast<float>(shape % 2), 0.5f * static_cast<float>(shape / 2)};
+std::array<float, 2> leafAtlasPlace(int shape, bool bough, const std::array<float, 2>& uv) {
+  return {0.25f * (static_cast<float>(shape) + uv[0]), 0.5f * ((bough ? 1.f : 0.f) + uv[1])};
 }
 
 }  // namespace vegetation_sim::view

@@ -66,6 +66,7 @@ void Material::addTextures(Ogre::Pass& pass, const std::vector<std::string>& tex
       unit->setTextureAddressingMode(Ogre::TextureUnitState::TAM_CLAMP,
                                      Ogre::TextureUnitState::TAM_MIRROR,
                                      Ogre::TextureUnitState::TAM_CLAMP);
+    if (kind_ == Kind::LEAVES) unit->setTextureMipmapBias(-0.7f);  // crisp rather than round
     unit->setTextureFiltering(Ogre::FO_LINEAR, Ogre::FO_LINEAR, Ogre::FO_POINT);
   }
 }
@@ -102,7 +103,6 @@ void Material::addPlain(const std::vector<std::string>& textures) {
   if (kind_ == Kind::SKY) {
     pass->setFog(true, Ogre::FOG_NONE);
     pass->setDepthWriteEnabled(false);
-    pass->setDepthCheckEnabled(false);
   }
   addTextures(*pass, {textures.front()});
   if (plant)  // vertex alpha is no transparency
@@ -125,8 +125,8 @@ void Material::light(const Daylight& daylight, const Vec3& to_sun, const Haze& h
   vertex.setNamedConstant("zenith_light", narrow(daylight.zenith_light));
   vertex.setNamedConstant("ground_light", narrow(daylight.ground_light));
   const bool leaves = kind_ == Kind::LEAVES;
-  vertex.setNamedConstant(
-      "leaf", leaves ? Ogre::Vector4(0.45f, 0.45f, 0.f, 0.f) : Ogre::Vector4(0.1f, 0.f, 0.f, 0.f));
+  vertex.setNamedConstant("leaf", leaves ? Ogre::Vector4(0.45f, 0.5f, 0.4f, 0.f)
+                                         : Ogre::Vector4(0.1f, 0.f, 0.25f, 0.f));
 }
 
 }  // namespace vegetation_sim::view

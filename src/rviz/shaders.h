@@ -13,7 +13,7 @@ uniform vec4 eye;           // in the object's frame
 uniform vec4 to_sun;        // in the object's frame
 uniform vec4 sun, zenith_light, ground_light;
 uniform vec4 haze;          // start, 1 / length, most
-uniform vec4 leaf;          // x: light that wraps around, y: light that shines through
+uniform vec4 leaf;          // light that wraps around, shines through, is scattered inside
 varying vec4 light;         // w: haze
 varying vec2 place;
 void main() {
@@ -25,7 +25,7 @@ void main() {
   float through = leaf.y * (0.25 + against * against * against);
   vec3 direct = sun.rgb * gl_Color.a * (max(facing, 0.0) + through);
   vec3 around = mix(ground_light.rgb, zenith_light.rgb, 0.5 + 0.5 * gl_Normal.z);
-  light.rgb = gl_Color.rgb * (direct + around * gl_MultiTexCoord0.z);
+  light.rgb = gl_Color.rgb * (direct + around * (leaf.z + (1.0 - leaf.z) * gl_MultiTexCoord0.z));
   float f = clamp((far - haze.x) * haze.y, 0.0, 1.0);
   light.a = haze.z * f * (2.0 - f);
   place = gl_MultiTexCoord0.xy;

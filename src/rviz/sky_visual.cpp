@@ -13,7 +13,7 @@ namespace {
 
 constexpr int COLUMNS = 2048, ROWS = 512;  // of the picture
 constexpr int AROUND = 48, UP = 16;        // quads of the dome
-constexpr double RADIUS = 50.0;            // [m]; no matter, since depth is not looked at
+constexpr double RADIUS = 8000.0;          // [m] behind all else
 
 }  // namespace
 
@@ -43,7 +43,7 @@ SkyVisual::SkyVisual(Ogre::SceneNode& parent, const Daylight& daylight)
     }
   }
   dome_.build(positions, paint, triangles, 0.f);
-  dome_.setRenderQueueGroup(Ogre::RENDER_QUEUE_SKIES_EARLY);
+  dome_.setRenderQueueGroup(Ogre::RENDER_QUEUE_4);  // only where trees and ground left room
   node_->attachObject(&dome_);
 }
 

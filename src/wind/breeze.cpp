@@ -39,15 +39,31 @@ double cauchy(double u) {
   return angle.sin / angle.cos;
 }
 
+using Edges = std::array<double, Breeze::MODES + 1>;
+
 /// Edges of the frequency bins [Hz], geometrically spaced.
-std::array<double, Breeze::MODES + 1> binEdges() {
+Edges binEdges() {
   static_assert(Breeze::MODES == 24, "the ratio below is the 24th root");
   const double range = Breeze::HIGHEST_HZ / Breeze::LOWEST_HZ;
   const double ratio = cubeRoot(std::sqrt(std::sqrt(std::sqrt(range))));
-  std::array<double, Breeze::MODES + 1> edges{};
+  Edges edges{};
   edges[0] = Breeze::LOWEST_HZ;
   for (std::size_t i = 1; i < edges.size(); ++i) edges[i] = edges[i - 1] * ratio;
   return edges;
+}
+
+/// What each bin holds of the variance of the whole band; adds up to 1.
+std::array<double, Breeze::MODES> sharesOfVariance(const Edges& edges, double length_scale,
+                                                   double speed) {
+  std::array<double, Breeze::MODES> shares{};
+  double total = 0.0;
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    const double centre = std::sqrt(edges[i] * edges[i + 1]);
+    shares[i] = vonKarmanDensity(centre, 1.0, length_scale, speed) * (edges[i + 1] - edges[i]);
+    total += shares[i];
+  }
+  for (double& share : shares) share /= total;
+  return shares;
 }
 
 }  // namespace
@@ -68,18 +84,11 @@ Breeze::Breeze(const Primitive& p, std::uint64_t seed) {
   name.add(p.name);
   const Random random = Random(seed).child(name.value());
   const auto edges = binEdges();
-  std::array<double, MODES> variance{};
-  double total = 0.0;
-  for (std::size_t i = 0; i < MODES; ++i) {
-    const double centre = std::sqrt(edges[i] * edges[i + 1]);
-    variance[i] =
-        vonKarmanDensity(centre, 1.0, p.length_scale, carrier) * (edges[i + 1] - edges[i]);
-    total += variance[i];
-  }
+  const auto shares = sharesOfVariance(edges, p.length_scale, carrier);
   for (std::size_t i = 0; i < MODES; ++i) {
     const auto draw = [&](Draw which) { return random.uniform(i * DRAWS + which); };
     const double f = edges[i] + draw(JITTER) * (edges[i + 1] - edges[i]);
-    const double size = sigma * std::sqrt(2.0 * variance[i] / total);
+    const double size = sigma * std::sqrt(2.0 * shares[i]);
     const double spread = DECAY * f / (2.0 * PI * carrier);  // of the wave vector [turns/m]
     Wave wave;
     wave.frequency = f;

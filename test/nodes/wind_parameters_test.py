@@ -40,6 +40,7 @@ CASES = [
     ('breeze_turbulence', 1.5, 'breeze_turbulence = 1.5 is outside 0 to 1'),
     ('scenario', 3, 'scenario = 3 is not text'),
     ('scenario', '/nowhere/scene.yaml', '/nowhere/scene.yaml: cannot be read'),
+    ('scenario', 'package://vegetation_simm/scene.yaml', 'vegetation_simm'),
     ('sceanrio', 'x.yaml', 'sceanrio is not a known parameter; known are'),
 ]
 

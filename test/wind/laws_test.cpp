@@ -62,6 +62,19 @@ TEST(Disk, ReachesAPointAtThePredictedTime) {  // S1-17
   EXPECT_NE(length(field.velocity(tree, at(arrival + 0.01))), 0.0);
 }
 
+TEST(Disk, RunsCounterClockwiseOnItsOrbit) {  // S1-17
+  Primitive disk = printedDisk();
+  disk.radius = 1.0;
+  disk.orbit_radius = 10.0;
+  disk.orbit_period = 8.0;
+  disk.epoch = at(3.0);
+  disk.trajectory = {{0, Vec3(5.0, 5.0, 0.0)}};
+  const Field field({disk});
+  const double full = 5.0 * sinCos(2.0 * 2.0).sin;  // a quarter of a round after the epoch
+  EXPECT_NEAR(field.velocity(Vec3(5.0, 15.0, 0.0), at(5.0)).x(), full, 1e-9);
+  EXPECT_EQ(length(field.velocity(Vec3(15.0, 5.0, 0.0), at(5.0))), 0.0);
+}
+
 TEST(Disk, SmoothEnvelopeIsTheC2StepOfThePrintedOne) {  // S1-15, E1
   Primitive disk = printedDisk();
   disk.envelope = 0;

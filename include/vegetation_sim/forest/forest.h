@@ -50,7 +50,7 @@ class Forest {
   const terrain::HeightMap& terrain() const { return *terrain_; }
   const ForestMemory& memory() const { return memory_; }
 
-  void setWind(wind::Field wind) { memory_.wind = std::move(wind); }
+  void setWind(const wind::Field& wind) { memory_.wind = wind; }
   void setViewer(const Viewer& viewer) { memory_.viewers[viewer.id] = viewer; }
   void setSettings(const Settings& settings) { memory_.settings = settings; }
   /// Other trees, same ids: levels start anew where the number of trees changed.

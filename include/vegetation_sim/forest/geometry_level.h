@@ -14,7 +14,9 @@ struct MeshDetail {
   int depths{MAX_DEPTHS};     ///< recursion depths whose bark is drawn
   int trunk_sides{10};        ///< of the trunk's section; each depth has fewer, at least 3
   int sections{16};           ///< most tube sections of one limb
-  double leaf_fraction{1.0};  ///< of the leaf clusters; those that stay grow to cover for the rest
+  double leaf_fraction{1.0};  ///< of the leaf clusters, outer ones rather than inner ones
+  double leaf_growth{1.0};    ///< of the size of those that stay
+  bool boughs{false};         ///< a card shows a whole bough: more and smaller leaves
 };
 MeshDetail meshDetail(int geometry_level);
 

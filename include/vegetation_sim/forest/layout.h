@@ -52,10 +52,10 @@ void describe(FieldVisitor& visitor, MotionLaw& law);
 struct Layout {
   std::vector<Species> species;
   MotionLaw motion;
-  std::string terrain;          ///< file of the height map; empty: flat
+  std::string terrain;            ///< file of the height map; empty: flat
   std::uint64_t terrain_hash{0};  ///< of its samples, so that replicas know they stand on the same
-  std::vector<TreeSeed> trees;  ///< ids 0, 1, 2 ...
-  std::vector<Tile> tiles;      ///< ids go on
+  std::vector<TreeSeed> trees;    ///< ids 0, 1, 2 ...
+  std::vector<Tile> tiles;        ///< ids go on
 
   std::uint32_t treeCount() const;
   std::uint64_t hash() const;

@@ -33,8 +33,10 @@ struct LeafCard {
 /// so that they stay closed when the joint bends (S1-08), and leaf cards.
 struct TreeMesh {
   std::vector<BarkVertex> bark;
-  std::vector<std::uint32_t> triangles;  ///< [3 per triangle] indices into `bark`, seen from outside
+  std::vector<std::uint32_t>
+      triangles;  ///< [3 per triangle] indices into `bark`, seen from outside
   std::vector<LeafCard> leaves;
+  bool boughs{false};  ///< cards show whole boughs
 
   /// Two triangles per leaf card.
   std::size_t triangleCount() const { return triangles.size() / 3 + 2 * leaves.size(); }

@@ -17,7 +17,7 @@ class ForestReplica {
  public:
   /// @throws InvalidInput for a layout that check() refuses.
   void setLayout(Layout layout, std::shared_ptr<const terrain::HeightMap> terrain);
-  void setWind(wind::Field wind) { wind_ = std::move(wind); }
+  void setWind(const wind::Field& wind) { wind_ = wind; }
   /// Takes a key frame, or the delta that follows what is held. False: `trees` are ignored until
   /// the next key frame, because messages were lost or belong to another layout; why() says which.
   bool apply(const StateUpdate& update);

@@ -41,6 +41,8 @@ class ForestAnimator {
   void onEvent(const ForestEvent& message) { inputs_.addEvent(message); }
   void onTuning(ForestAnimatorConfig& config);
   void lookFromFrame();
+  /// @throws InvalidInput if tf does not lead from the frame to the world.
+  geometry_msgs::Transform toWorld(const std::string& frame, const ros::Time& stamp) const;
   void reject(const std::string& what, const std::string& why);
 
   // Time.

@@ -27,13 +27,17 @@ class Batch : public Ogre::SimpleRenderable {
              const std::vector<std::uint32_t>& triangles, float margin);
   /// Moves the vertices of build(); they may leave its bounding box by `margin` [m].
   void move(const std::vector<float>& positions);
+  /// Draws the triangles of build() in another order.
+  void reorder(const std::vector<std::uint32_t>& triangles);
   /// Changes colours, places and normals of build()'s vertices.
   void paint(const std::vector<VertexPaint>& paint);
 
   /// True if any camera has seen it since the last call.
   bool takeSeen();
-  /// Which batches are drawn first: the nearest, so that they hide the others cheaply.
+  /// Which batches are drawn first: the nearest, so that they hide the others cheaply. All of them
+  /// come before what rviz draws itself, so that its see-through things stay in front.
   void setRank(int rank);
+  static constexpr int LAST_RANK = 400;
 
   void _updateRenderQueue(Ogre::RenderQueue* queue) override;
   Ogre::Real getBoundingRadius() const override;

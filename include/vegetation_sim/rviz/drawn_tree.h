@@ -28,6 +28,7 @@ class DrawnTree {
   DrawnTree(const forest::ForestReplica& replica, std::uint32_t id, const Vec3& origin);
 
   std::uint32_t id() const { return id_; }
+  const Vec3& origin() const { return origin_; }
   const Vec3& foot() const { return tree_.foot; }  ///< layout's frame [m]
   double height() const { return tree_.skeleton.height; }
   double reach() const { return tree_.skeleton.reach; }
@@ -54,8 +55,6 @@ class DrawnTree {
   const Part& bark() const { return bark_; }
   const Part& leaves() const { return leaves_; }
   const std::vector<std::uint32_t>& barkTriangles() const { return mesh_.triangles; }
-  /// [3 per triangle] indices into leaves(): the same pattern for every card.
-  std::size_t leafCards() const { return mesh_.leaves.size(); }
 
  private:
   void skin(const forest::Flutter& flutter);

@@ -48,6 +48,8 @@ class ForestVisual {
 
   /// Set once all trees stand.
   const TreeStock* stock() const { return stock_ && stock_->ready() ? stock_.get() : nullptr; }
+  /// Counts restarts, each of which makes another stock.
+  int restarts() const { return restarts_; }
   const ForestReport& report() const { return report_; }
 
  private:
@@ -67,7 +69,7 @@ class ForestVisual {
   bool selected_all_{true};
   forest::ComplexityFeedback feedback_;
   bool repaint_{false};
-  Nanoseconds moved_to_{-1};
+  int restarts_{0};
   ForestReport report_;
 };
 

@@ -31,12 +31,19 @@ class Grove {
   void takePaint();
   bool takeSeen();
   void setRank(int rank);
+  /// Draws leaves front to back for this eye (layout's frame), as hidden ones cost little then.
+  /// False if the order for an eye in about this direction is there already.
+  bool sortFor(const Vec3& eye);
+
+  /// Stamp that its trees were moved to.
+  Nanoseconds moved_to{-1};
 
  private:
   std::vector<DrawnTree*> trees_;
   Vec3 middle_{Vec3::Zero()};
   Batch bark_, leaves_;
   bool built_{false};
+  Vec3 sorted_for_{Vec3::Zero()};  // direction to the eye
 };
 
 /// Splits trees into groups of at most `most` that stand together: half by half, across the longer

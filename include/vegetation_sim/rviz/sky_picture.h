@@ -11,8 +11,8 @@ namespace vegetation_sim::view {
 /// agree.
 struct Daylight {
   Vec3 to_sun{Vec3(0.5, -0.6, 0.62)};  ///< direction, unit
-  Rgba sun{1.32f, 1.16f, 0.86f, 1.f};  ///< light of the sun; above 1 is brighter than the paint
-  Rgba zenith_light{0.50f, 0.60f, 0.74f, 1.f};  ///< light of the sky from above
+  Rgba sun{1.46f, 1.28f, 0.96f, 1.f};  ///< light of the sun; above 1 is brighter than the paint
+  Rgba zenith_light{0.50f, 0.57f, 0.66f, 1.f};  ///< light of the sky from above
   Rgba ground_light{0.27f, 0.28f, 0.18f, 1.f};  ///< light that the ground throws back
   Rgba zenith{0.24f, 0.44f, 0.74f, 1.f};
   Rgba horizon{0.77f, 0.84f, 0.88f, 1.f};  ///< of the sky, and of the haze

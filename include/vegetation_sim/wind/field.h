@@ -24,7 +24,9 @@ class Field {
   std::uint64_t seed() const { return seed_; }
 
   /// Air velocity [m/s], world, at position [m] and stamp.
-  Vec3 velocity(const Vec3& position, Nanoseconds stamp) const { return at(stamp).velocity(position); }
+  Vec3 velocity(const Vec3& position, Nanoseconds stamp) const {
+    return at(stamp).velocity(position);
+  }
 
   /// The field frozen at a stamp: what many positions share is computed once.
   Instant at(Nanoseconds stamp) const;

@@ -12,17 +12,17 @@ namespace vegetation_sim::wind {
 /// A bounded primitive at one instant.
 struct Term {
   Kind kind{Kind::DISK};
-  Vec3 centre{Vec3::Zero()};     ///< [m]
-  double radius{1.0};            ///< [m]
-  bool smooth{true};             ///< envelope: smootherStep of (r-d)/r, else (r-d)/r
+  Vec3 centre{Vec3::Zero()};  ///< [m]
+  double radius{1.0};         ///< [m]
+  bool smooth{true};          ///< envelope: smootherStep of (r-d)/r, else (r-d)/r
   /// Disk, gust: velocity in the middle, fade and sine included. Tornado, blast: unused. [m/s]
   Vec3 amplitude{Vec3::Zero()};
   Vec3 direction{Vec3::UnitX()};  ///< gust: horizontal unit vector along which the front moves
-  double rise{1.0}, plateau{0.0}, decay{1.0};      ///< gust: lengths [m]
+  double rise{1.0}, plateau{0.0}, decay{1.0};  ///< gust: lengths [m]
   double travel{0.0};  ///< gust: way of the front in the second that a bound looks ahead [m]
-  double core{1.0};                                ///< tornado, blast: radius of the peak [m]
-  double speed{0.0};                               ///< tornado, blast: peak, fade included [m/s]
-  double inflow{0.0}, updraft{0.0};                ///< tornado: fractions
+  double core{1.0};    ///< tornado, blast: radius of the peak [m]
+  double speed{0.0};   ///< tornado, blast: peak, fade included [m/s]
+  double inflow{0.0}, updraft{0.0};  ///< tornado: fractions
   double peak{0.0};  ///< largest speed that the term reaches over its cycle, fade included [m/s]
 };
 

@@ -27,9 +27,9 @@ struct Waypoint {
 /// it never changes: an edit ends it and starts another a little ahead in time, so the past stays
 /// what it was. docs/wind.md has the law of each kind.
 struct Primitive {
-  std::uint32_t id{0};  ///< unique in a field
-  std::string name;     ///< handle of the user, shared by the successive edits of one source
-  int kind{0};          ///< Kind
+  std::uint32_t id{0};   ///< unique in a field
+  std::string name;      ///< handle of the user, shared by the successive edits of one source
+  int kind{0};           ///< Kind
   Nanoseconds epoch{0};  ///< zero of the phase, of the orbit and of `repeat`
   Nanoseconds t_on{0};   ///< start of the fade in
   Nanoseconds t_off{0};  ///< end of the fade out; 0 = for ever
@@ -45,17 +45,17 @@ struct Primitive {
   double radius{10.0};                 ///< of influence; gust: half width; breeze: unused [m]
   double omega{2.0};                   ///< disk: pulsation [rad/s]
   double phase{0.0};                   ///< disk: phase psi [rad] (S1-16)
-  int envelope{0};  ///< disk: 0 = "smooth", C2 (E1); 1 = "paper", (r-d)/r as printed
-  double turbulence{0.2};      ///< breeze: rms of the along-wind fluctuation / mean speed
-  double length_scale{40.0};   ///< breeze: integral length of the turbulence [m]
-  double front_speed{6.0};     ///< gust: speed at which the front moves along `velocity` [m/s]
-  double rise_length{5.0};     ///< gust: front from nothing to full [m]
-  double plateau_length{10.0}; ///< gust: full strength behind the front [m]
-  double decay_length{25.0};   ///< gust: from full to nothing behind the plateau [m]
-  double speed{10.0};          ///< tornado: peak tangential; blast: peak outflow [m/s]
-  double core_radius{2.0};     ///< tornado, blast: where the speed peaks [m]
-  double inflow{0.3};          ///< tornado: towards the axis / tangential
-  double updraft{0.2};         ///< tornado: upwards / tangential
+  int envelope{0};              ///< disk: 0 = "smooth", C2 (E1); 1 = "paper", (r-d)/r as printed
+  double turbulence{0.2};       ///< breeze: rms of the along-wind fluctuation / mean speed
+  double length_scale{40.0};    ///< breeze: integral length of the turbulence [m]
+  double front_speed{6.0};      ///< gust: speed at which the front moves along `velocity` [m/s]
+  double rise_length{5.0};      ///< gust: front from nothing to full [m]
+  double plateau_length{10.0};  ///< gust: full strength behind the front [m]
+  double decay_length{25.0};    ///< gust: from full to nothing behind the plateau [m]
+  double speed{10.0};           ///< tornado: peak tangential; blast: peak outflow [m/s]
+  double core_radius{2.0};      ///< tornado, blast: where the speed peaks [m]
+  double inflow{0.3};           ///< tornado: towards the axis / tangential
+  double updraft{0.2};          ///< tornado: upwards / tangential
 };
 
 /// Declares the numeric fields of `p` that its kind uses (not stamps, name or trajectory).
