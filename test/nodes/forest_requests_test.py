@@ -1,0 +1,209 @@
+#!/usr/bin/env python3
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Requests and messages that forest_animator refuses by name, and what it does not change then."""
+import copy
+import unittest
+
+import rospy
+import rostest
+from diagnostic_msgs.msg import DiagnosticArray
+from dynamic_reconfigure.client import Client
+from geometry_msgs.msg import Point, TransformStamped, Vector3
+from std_msgs.msg import Header
+from tf2_msgs.msg import TFMessage
+from vegetation_sim.msg import ForestEvent, Viewer, WindField
+
+from forest_rig import RATE, Animator, Eye, Log, TickClock, publisher
+from waiting import wait_for
+
+NAN, INF = float('nan'), float('inf')
+TREES = 17
+MOST_VIEWERS = 32
+DOWN = dict(direction=Vector3(0.0, 0.0, -1.0), tolerance=0.1)
+
+
+class ForestRequests(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.forest = Animator()
+        cls.clock = TickClock(1000 * RATE)
+        cls.clock.begin(cls.forest)
+        cls.wind = publisher('/wind', WindField)
+        cls.eye = Eye()
+        cls.diagnostics = Log('/diagnostics', DiagnosticArray)
+        wait_for(lambda: cls.wind.get_num_connections() > 0, 'readers of the wind')
+
+    # Nobody looks: the hash stays the same unless something was taken in.
+    def setUp(self):
+        self.clock.run(5 * RATE, self.forest)
+        self.hash = self.forest.state.messages[-1].hash
+        self.events = len(self.forest.events.messages)
+
+    def expect_unchanged(self):
+        self.clock.run(3, self.forest)
+        self.assertEqual(self.forest.state.messages[-1].hash, self.hash)
+        self.assertEqual(len(self.forest.events.messages), self.events)
+
+    def expect_refusal(self, *texts):
+        """Waits for diagnostics that tell of it."""
+        def tells(status):
+            message = status.message.replace('-nan', 'nan')
+            return all(text in message for text in texts)
+        self.diagnostics.wait(
+            lambda heard: any(tells(status) for m in heard for status in m.status), texts)
+
+    def test_get_tree_refuses_an_unknown_tree(self):
+        for tree in (TREES, 2 ** 32 - 1):
+            self.assertEqual(self.forest.refusal(tree=tree),
+                             'tree = %d is unknown; there are %d, from 0' % (tree, TREES))
+        self.expect_unchanged()
+
+    def test_pick_refuses_what_is_no_ray(self):
+        cases = [
+            (dict(DOWN, origin=Point(NAN, 0, 9)), 'origin.x = nan m is not finite'),
+            (dict(DOWN, origin=Point(0, 1e8, 9)), 'origin.y = 1e+08 m is outside -1e+07 to 1e+07'),
+            (dict(direction=Vector3(0, INF, 0)), 'direction.y = inf is not finite'),
+            (dict(), 'direction has no length'),
+            (dict(DOWN, tolerance=-0.1), 'tolerance = -0.1 m is outside 0 to 10 m'),
+            (dict(DOWN, tolerance=1e9), 'tolerance = 1e+09 m is outside 0 to 10 m'),
+            (dict(DOWN, tolerance=NAN), 'tolerance = nan m is not finite'),
+            (dict(DOWN, header=Header(frame_id='nowhere')), "frame_id = 'nowhere' is not known in 'map'"),
+            (dict(DOWN, origin=Point(0, 0, -9)), 'the ray meets no branch'),
+        ]
+        for request, text in cases:
+            with self.subTest(text=text):
+                answer = self.forest.pick(**request)
+                self.assertFalse(answer.success)
+                self.assertIn(text, answer.message.replace('-nan', 'nan'))
+        all_at_once = self.forest.pick(tolerance=-1.0, origin=Point(INF, 0, NAN)).message
+        for name in ('origin.x', 'origin.z', 'tolerance'):
+            self.assertIn(name, all_at_once)
+        self.expect_unchanged()
+
+    # S1-02: a branch is selected by a ray, in the world or in another frame.
+    def test_pick_finds_a_branch(self):
+        root = self.forest.tree(0).transforms.poses[0].position
+        straight = self.forest.pick(origin=Point(root.x, root.y, 90.0), **DOWN)
+        self.assertTrue(straight.success, straight.message)
+        self.assertEqual(straight.message, 'tree_0/branch_%d' % straight.branch)
+        self.assertGreater(straight.point.z, root.z)
+        frame = TransformStamped(child_frame_id='tool')
+        frame.header.frame_id = 'map'
+        frame.transform.translation.x, frame.transform.rotation.w = root.x, 1.0
+        frames = rospy.Publisher('/tf_static', TFMessage, queue_size=1, latch=True)
+        frames.publish([frame])
+        request = dict(DOWN, origin=Point(0.0, root.y, 90.0), header=Header(frame_id='tool'))
+        in_tool = wait_for(lambda: (lambda a: a.success and a)(self.forest.pick(**request)),
+                           'the frame tool')
+        self.assertEqual((in_tool.tree, in_tool.branch, in_tool.point),
+                         (straight.tree, straight.branch, straight.point))
+
+    def test_set_tf_refuses_and_keeps_what_is_sent(self):
+        self.assertEqual(self.forest.set_tf(1, [4, 5], True).frames, 2)
+        cases = [
+            ((TREES, [0], True), 'tree = 17 is unknown; there are 17, from 0'),
+            ((1, [6, 99999], True), 'branch = 99999 is unknown; tree 1 has '),
+            ((1, [99999], False), 'branch = 99999 is unknown'),
+            ((1, list(range(6, 15)), True), 'frames = 11 would pass the budget of 10'),
+            ((2, [], True), 'would pass the budget of 10'),
+        ]
+        for request, text in cases:
+            with self.subTest(text=text):
+                answer = self.forest.set_tf(*request)
+                self.assertFalse(answer.success)
+                self.assertIn(text, answer.message)
+                self.assertEqual(answer.frames, 2)
+        self.assertEqual(self.forest.set_tf(1, [], False).frames, 0)
+        self.expect_unchanged()
+
+    def test_a_bad_viewer_is_refused(self):
+        good = self.eye.message
+        cases = [
+            (dict(field_of_view=0.0), 'viewer: field_of_view = 0 rad is outside 0.01 to 3.1 rad'),
+            (dict(field_of_view=4.0), 'viewer: field_of_view = 4 rad is outside'),
+            (dict(height=0), 'viewer: height = 0 pixel is outside 1 to 100000 pixel'),
+            (dict(header=Header(frame_id='nowhere')), "viewer: frame_id = 'nowhere' is not known"),
+        ]
+        for fields, text in cases:
+            with self.subTest(text=text):
+                message = copy.deepcopy(good)
+                for name, value in fields.items():
+                    setattr(message, name, value)
+                self.eye.send(message, self.forest)
+                self.expect_refusal('refused input', text)
+        message = copy.deepcopy(good)
+        message.field_of_view = NAN
+        message.pose.position.y = NAN
+        message.pose.orientation.w = 2.0
+        message.id = 'x' * 300
+        self.eye.send(message, self.forest)
+        self.expect_refusal('pose.position.y', 'pose.orientation, its norm, = 2 is outside 0.99',
+                            'field_of_view', 'id is longer than 256 characters')
+        message = copy.deepcopy(good)
+        message.field_of_view = -1.0
+        message.pose.orientation.x = NAN
+        self.eye.send(message, self.forest)
+        self.expect_refusal('field_of_view = -1 rad', 'pose.orientation, its norm,', 'not finite')
+        self.expect_unchanged()
+        self.eye.look(-15, 0, 5, self.forest)
+        self.clock.run(3, self.forest)
+        self.assertNotEqual(self.forest.state.messages[-1].hash, self.hash)
+
+    def test_a_bad_wind_is_refused(self):
+        heard = Log('/wind', WindField)
+        good = heard.wait(lambda all: all and all[-1], 'the wind')
+        heard.close()
+        frame = copy.deepcopy(good)
+        frame.header.frame_id = 'odom'
+        nan = copy.deepcopy(good)
+        nan.primitives[1].velocity.x = NAN
+        nan.primitives[2].radius = -3.0
+        other = copy.deepcopy(good)
+        other.seed += 1
+        for message, texts in [
+                (frame, ["wind: frame_id = 'odom' should be 'map'"]),
+                (nan, ['velocity.x', 'not finite', 'radius = -3 m is outside 0.01 to 100000 m']),
+                (other, ['wind: hash = %d is not ' % good.hash])]:
+            self.wind.publish(message)
+            self.forest.settle()
+            self.expect_refusal('refused input', *texts)
+        self.expect_unchanged()
+
+    # dynamic_reconfigure clamps to the range; a NaN gets through its clamp, but not through ours.
+    def test_settings_that_are_no_numbers_are_refused(self):
+        server = Client('/forest_animator', timeout=30)
+        before = server.get_configuration()
+        shown = server.update_configuration({'tolerance': NAN, 'size': NAN})
+        self.assertEqual(shown, before)
+        self.expect_refusal('settings: tolerance', 'size', 'is not finite')
+        self.expect_unchanged()
+        server.close()
+
+    def test_floods_are_weathered(self):
+        heard = Log('/wind', WindField)
+        wind = heard.wait(lambda all: all and all[-1], 'the wind')
+        heard.close()
+        for _ in range(1000):
+            self.wind.publish(wind)
+        flood = copy.deepcopy(self.eye.message)
+        flood.pose.position.x = -15.0
+        for i in range(1000):
+            flood.id = 'flood' if i % 2 else 'flood %d' % i
+            self.eye.send(flood)
+        self.forest.settle()
+        self.clock.run(RATE, self.forest)
+        events = self.forest.events.messages[self.events:]
+        words = [(e.header.stamp, e.kind, e.viewer.id) for e in events]
+        self.assertEqual(len(words), len(set(words)), 'more than the last word at a tick')
+        viewers = {e.viewer.id for e in events if e.kind == ForestEvent.VIEWER}
+        self.assertLessEqual(len(viewers), MOST_VIEWERS)
+        if len(viewers) == MOST_VIEWERS:
+            self.expect_refusal('is one more than the %d allowed at once' % MOST_VIEWERS)
+        self.clock.run(5 * RATE, self.forest)
+        self.assertEqual(self.forest.state.messages[-1].hash, self.hash)
+
+
+if __name__ == '__main__':
+    rospy.init_node('forest_requests_test')
+    rostest.rosrun('vegetation_sim', 'forest_requests', ForestRequests)
