@@ -132,6 +132,23 @@ TEST(Breeze, IsNoWhiteNoise) {  // S1-W1
   EXPECT_LT(std::sqrt(change / static_cast<double>(air.size())), 0.25 * rmsOf(air));
 }
 
+TEST(Breeze, HasComponentsThatAreUncorrelatedOnAverage) {  // S2-20
+  Vec3 products = Vec3::Zero();  // along across, along up, across up; over rms
+  constexpr int SEEDS = 400;
+  for (std::uint64_t seed = 0; seed < SEEDS; ++seed) {
+    for (const Mode& mode : Field({breeze()}, seed).at(0).modes) {
+      const double along = 0.6 * mode.amplitude.x() + 0.8 * mode.amplitude.y();
+      const double across = -0.8 * mode.amplitude.x() + 0.6 * mode.amplitude.y();
+      const double up = mode.amplitude.z();
+      products += Vec3(along * across / Breeze::LATERAL, along * up / Breeze::VERTICAL,
+                       across * up / (Breeze::LATERAL * Breeze::VERTICAL)) /
+                  (2.0 * 2.25 * SEEDS);
+    }
+  }
+  // Random signs of modes that hold up to a fifth of the variance each: 0.4 / sqrt(400).
+  EXPECT_LT(products.cwiseAbs().maxCoeff(), 0.07) << products.transpose();
+}
+
 TEST(Breeze, CarriesItsGustsAlongWithTheMeanWind) {  // S2-20: frozen turbulence
   Primitive p = breeze();
   const Field field({p}, 9);

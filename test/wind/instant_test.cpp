@@ -119,6 +119,15 @@ TEST(Influences, CountsTheSourcesThatReach) {  // S1-40
   EXPECT_EQ(instant.influences(Vec3(25.0, 0.0, 0.0), 16.0), 3);
 }
 
+TEST(Influences, DoNotCountABreezeThatHasEnded) {  // S1-40
+  Primitive breeze = example(Kind::BREEZE);
+  breeze.t_off = at(2.0);
+  const Field field({breeze});
+  EXPECT_EQ(field.at(at(1.0)).influences(Vec3::Zero(), 1.0), 1);
+  EXPECT_EQ(field.at(at(2.0)).influences(Vec3::Zero(), 1.0), 0);
+  EXPECT_TRUE(field.at(at(2.0)).modes.empty());
+}
+
 TEST(Instant, LeavesOutWhatHasFadedAway) {  // S1-40
   Primitive disk = printedDisk();
   disk.t_on = at(1.0);
