@@ -14,11 +14,11 @@ struct Step {
   MeshDetail detail;
 };
 
-constexpr std::array<Step, GEOMETRY_LEVELS> STEPS{{{0.0, {1, 3, 1, 0.025, 3.0, true}},
-                                                   {30.0, {1, 3, 2, 0.07, 2.0, true}},
-                                                   {70.0, {2, 4, 1, 0.16, 1.5, true}},
-                                                   {140.0, {2, 5, 3, 0.34, 1.25, true}},
-                                                   {280.0, {3, 7, 4, 0.65, 1.15, false}},
+constexpr std::array<Step, GEOMETRY_LEVELS> STEPS{{{0.0, {1, 3, 1, 0.016, 3.4, true}},
+                                                   {30.0, {1, 3, 2, 0.045, 2.4, true}},
+                                                   {70.0, {2, 4, 1, 0.11, 1.8, true}},
+                                                   {140.0, {2, 6, 3, 0.24, 1.45, true}},
+                                                   {280.0, {3, 8, 4, 0.52, 1.2, true}},
                                                    {560.0, {MAX_DEPTHS, 11, 16, 1.0, 1.0, false}}}};
 constexpr double BORDER = 0.15;  // hysteresis, fraction of the size
 constexpr double DEAD_BAND = 0.05;

@@ -12,7 +12,7 @@
 namespace vegetation_sim::forest {
 namespace {
 
-constexpr double EXTINCTION = 0.5;  // of leaves that face all ways: half their area blocks
+constexpr double EXTINCTION = 0.4;  // leaves face all ways, and pass some light on
 constexpr double LOWEST_SUN =
     0.1;  // vertical part of a unit direction; below, shadows leave the grid
 

@@ -65,7 +65,7 @@ class MeshBuilder {
   // A tube along the limb: a ring at the base of each branch (of some where there are more than
   // the detail allows sections) and one at the tip.
   void addLimb(int first) {
-    const int sides = std::max(FEWEST_SIDES, detail_.trunk_sides - 3 * at(first).depth);
+    const int sides = std::max(FEWEST_SIDES, detail_.trunk_sides - 4 * at(first).depth);
     int segments = 0;
     for (int i = first; i >= 0; i = at(i).next) ++segments;
     const int sections = std::min(segments, std::max(1, detail_.sections));
@@ -152,7 +152,7 @@ class MeshBuilder {
                    Quat{SQRT_HALF, SQRT_HALF, 0.0, 0.0} * Quat{r.cos, 0.0, r.sin, 0.0};
     out.rotation = {narrow(q.w), narrow(q.x), narrow(q.y), narrow(q.z)};
     // Short branches, as at the tip of a cone, bear small clusters.
-    const double fit = std::clamp(std::sqrt(b.length / mean_leafy_length_), 0.5, 1.25);
+    const double fit = std::clamp(std::sqrt(b.length / mean_leafy_length_), 0.4, 1.25);
     out.size =
         narrow(species_.leaf_size * detail_.leaf_growth * fit * random.uniform(SIZE, 0.8, 1.2));
     out.shade = narrow(shadeAt(tipOf(b, b.rest), random.uniform(SHADE)));

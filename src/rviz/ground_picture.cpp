@@ -17,7 +17,7 @@ constexpr double BORDER = 0.12;      // of the plot's edge: where it fades to pl
 constexpr double LEAF_DEPTH = 0.55;  // optical depth of one leaf cluster, seen from the sun
 constexpr Rgba GRASS_DEEP{0.25f, 0.30f, 0.12f, 1.f}, GRASS_FRESH{0.37f, 0.41f, 0.17f, 1.f};
 constexpr Rgba GRASS_DRY{0.52f, 0.47f, 0.27f, 1.f};
-constexpr Rgba LITTER{0.33f, 0.25f, 0.15f, 1.f}, MOSS{0.20f, 0.26f, 0.09f, 1.f};
+constexpr Rgba LITTER{0.30f, 0.25f, 0.16f, 1.f}, MOSS{0.20f, 0.26f, 0.09f, 1.f};
 
 float ramp(double low, double high, double x) {
   return static_cast<float>(smoothStep((x - low) / (high - low)));
@@ -160,9 +160,22 @@ Picture grainPicture(int edge) {
   for (int r = 0; r < edge; ++r) {
     for (int c = 0; c < edge; ++c) {
       const float x = static_cast<float>(c) * unit, y = static_cast<float>(r) * unit;
-      const float value = 0.5f + 0.42f * (noise.smooth(x, y) - 0.5f) +
-                          0.22f * (noise.smooth(0.25f * x, 0.25f * y) - 0.5f);
+      const float value = 0.43f + 0.25f * (noise.smooth(x, y) - 0.5f) +
+                          0.25f * (noise.smooth(0.25f * x, 0.25f * y) - 0.5f);
       out.at(c, r) = {value, value, value, 1.f};
+    }
+  }
+  // Blades that lie every way, light on dark.
+  const Random random(GROUND_SEED);
+  const int blades = edge * edge / 60;
+  for (int i = 0; i < blades; ++i) {
+    const Random own = random.child(static_cast<std::uint64_t>(i));
+    const double angle = own.uniform(2, 0.0, 2.0 * PI), way = own.uniform(3, 0.01, 0.03) * edge;
+    const auto light = static_cast<float>(own.uniform(4, 0.3, 0.78));
+    for (double s = 0.0; s < way; s += 0.7) {
+      const int c = static_cast<int>(own.uniform(0) * edge + s * std::cos(angle)) & (edge - 1);
+      const int r = static_cast<int>(own.uniform(1) * edge + s * std::sin(angle)) & (edge - 1);
+      out.blend(c, r, {light, light, light, 0.55f});
     }
   }
   return out;

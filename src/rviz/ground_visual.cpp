@@ -11,7 +11,7 @@
 namespace vegetation_sim::view {
 namespace {
 
-constexpr int PICTURE_EDGE = 1024, GRAIN_EDGE = 256;  // [pixel]
+constexpr int PICTURE_EDGE = 1024, GRAIN_EDGE = 512;  // [pixel]
 constexpr int TILES = 4;                              // batches along an edge, each seen or not
 constexpr double CELL = 3.0;                          // [m] about
 constexpr int MOST_CELLS = 40;                        // along the edge of a tile

@@ -46,13 +46,13 @@ class ClusterPainter {
   Picture paint() {
     switch (shape_) {
       case LeafShape::BROAD:
-        bough_ ? sprays(0.082f) : spray({0.5f, 0.f}, 0.f, 0.7f, 7, 7, 0.20f);
+        bough_ ? sprays(0.082f) : spray({0.5f, 0.f}, 0.f, 0.76f, 9, 7, 0.135f);
         break;
       case LeafShape::NEEDLE:
         bough_ ? needles(10, 0.07f, 55) : needles(6, 0.13f, 48);
         break;
       case LeafShape::SMALL:
-        bough_ ? sprays(0.068f) : spray({0.5f, 0.f}, 0.f, 0.7f, 8, 7, 0.14f);
+        bough_ ? sprays(0.068f) : spray({0.5f, 0.f}, 0.f, 0.8f, 10, 7, 0.10f);
         break;
       case LeafShape::LONG:
         bough_ ? curtain() : strands();
@@ -138,9 +138,11 @@ class ClusterPainter {
   }
 
   void strands() {
-    strand({0.5f, 0.f}, 0.30f, 0.55f, 9);
-    strand({0.5f, 0.f}, -0.28f, 0.6f, 10);
-    strand({0.5f, 0.f}, 0.f, 0.88f, 15);
+    constexpr std::array<float, 5> LEANS{0.42f, -0.40f, 0.2f, -0.2f, 0.f};
+    for (std::size_t i = 0; i < LEANS.size(); ++i) {
+      lightness_ = 0.72f + 0.07f * static_cast<float>(i);
+      strand({0.5f, 0.f}, LEANS[i], 0.62f + 0.06f * static_cast<float>(i), 14);
+    }
   }
 
   // Many strands side by side that hang from the foot's edge.
@@ -160,7 +162,7 @@ class ClusterPainter {
       stroke(at, next, 0.005f);
       for (const float side : {1.f, -1.f})
         leaf(next, angle + side * draw(0.25f, 0.7f),
-             std::min(draw(0.2f, 0.3f) * (bough_ ? 0.42f : 1.f), 1.f - next.y));
+             std::min(draw(0.2f, 0.3f) * (bough_ ? 0.42f : 0.68f), 1.f - next.y));
       angle += draw(-0.1f, 0.1f) - 0.04f * angle;
       at = next;
     }
