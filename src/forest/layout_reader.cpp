@@ -24,7 +24,9 @@ class LayoutReader {
     for (YamlSection& tree : section_.sections("trees")) out_.trees.push_back(readTree(tree));
     for (YamlSection& tile : section_.sections("tiles")) readTile(tile);
     section_.finish();
-    if (faults_.empty()) check(out_, faults_);
+    Faults of_the_whole;
+    if (faults_.empty()) check(out_, of_the_whole);
+    for (const std::string& fault : of_the_whole.list()) section_.fault(fault);
     return std::move(out_);
   }
 

@@ -73,7 +73,10 @@ ForestScene loadForestScene(const std::string& file) {
   scenario.top().text("frame_id", out.frame_id);
   scenario.top().seed("seed", seed);
   scenario.top().text("terrain", terrain);
-  out.layout = forest::readLayout(scenario.section("forest"), folder, seed, scenario.faults());
+  if (scenario.has("forest"))
+    out.layout = forest::readLayout(scenario.section("forest"), folder, seed, scenario.faults());
+  else
+    out.layout.species = {defaultSpecies()};
   try {
     out.layout.terrain = resolveFile(terrain, folder);
     out.terrain = loadTerrain(out.layout.terrain);

@@ -42,7 +42,7 @@ struct ForestScene {
   std::shared_ptr<const terrain::HeightMap> terrain{std::make_shared<terrain::HeightMap>()};
   std::string frame_id;  ///< empty: not said
 };
-/// An empty name gives no trees. @throws InvalidInput with all faults of the file.
+/// No file or no `forest` in it gives no trees. @throws InvalidInput with all faults of the file.
 ForestScene loadForestScene(const std::string& file);
 
 /// Reads and checks all private parameters and the scenario that they name; where both say the same
