@@ -27,7 +27,9 @@ def main():
         for case in read(path):
             problems = case.findall('failure') + case.findall('error')
             skipped = case.find('skipped') is not None or case.get('status') == 'notrun'
-            counts[1 if problems else 2 if skipped else 0] += 1
+            # rostest's own case only says that its tests ran, which are counted in files of their own.
+            if problems or not path.stem.startswith('rostest-'):
+                counts[1 if problems else 2 if skipped else 0] += 1
             for problem in problems:
                 print('FAILED  %s.%s\n%s' % (case.get('classname', path.stem), case.get('name'),
                                              problem.get('message') or problem.text or ''))
