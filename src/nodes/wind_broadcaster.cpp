@@ -24,7 +24,7 @@ WindBroadcaster::WindBroadcaster(ros::NodeHandle nh, ros::NodeHandle private_nh)
       breeze_(settings_.breeze),
       field_publisher_(nh.advertise<WindField>("wind", 1, true)),
       marker_publisher_(nh.advertise<visualization_msgs::MarkerArray>("wind/markers", 1)),
-      diagnostics_(nh, private_nh, private_nh.getNamespace().substr(1)),
+      diagnostics_(nh, private_nh, private_nh.getNamespace()),
       reconfigure_(mutex_, private_nh),
       clock_(nh, [this](Nanoseconds now) { begin(now); }) {
   const Lock lock(mutex_);

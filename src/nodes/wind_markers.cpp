@@ -19,7 +19,8 @@ using wind::Kind;
 using wind::Term;
 
 constexpr int CORNERS = 48;            // of a ring
-constexpr double LINE = 0.08;          // [m] width
+constexpr double LINE = 0.15;          // [m] width
+constexpr double SHAFT = 0.4;          // [m] width of an arrow
 constexpr double BREEZE_HEIGHT = 8.0;  // [m] where the arrow of a breeze hangs
 constexpr double TORNADO_HEIGHT = 20.0;
 
@@ -56,9 +57,9 @@ class Painter {
     if (length(velocity) < 0.05) return;
     Marker& marker = add("direction", Marker::ARROW, 1.0);
     marker.points = {toPoint(from), toPoint(from + velocity)};
-    marker.scale.x = 0.2;
-    marker.scale.y = 0.45;
-    marker.scale.z = 0.6;
+    marker.scale.x = SHAFT;
+    marker.scale.y = 2.5 * SHAFT;
+    marker.scale.z = std::min(3.0 * SHAFT, 0.4 * length(velocity));
   }
   void solid(const char* part, std::int32_t type, const Vec3& centre, const Vec3& size,
              double alpha) {

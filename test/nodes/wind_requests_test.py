@@ -196,7 +196,7 @@ class WindRequests(unittest.TestCase):
 
         def status(key):
             found = [v.value for a in heard[-1:] for s in a.status for v in s.values
-                     if v.key == key]
+                     if s.name == 'wind_broadcaster: wind law' and v.key == key]
             return found[0] if found else None
 
         refused = int(wait_for(lambda: status('refused inputs'), 'diagnostics'))
