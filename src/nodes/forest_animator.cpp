@@ -12,10 +12,11 @@
 namespace vegetation_sim {
 namespace {
 
-// Later than this the ticks between are dropped and counted, not caught up. A simulated clock may
-// run many times faster than a moment's delay.
-constexpr double LONGEST_CATCH_UP = 1.0, LONGEST_CATCH_UP_SIMULATED = 10.0;  // [s]
-constexpr int LOOKS_PER_TICK = 4;  // timers are not aligned with the grid
+// Where the clock leaps farther than this, the ticks between are dropped and counted, not caught
+// up.
+constexpr double LONGEST_CATCH_UP = 1.0;  // [s]
+constexpr int LOOKS_PER_TICK = 4;         // the timer is not aligned with the grid
+constexpr unsigned CLOCK_QUEUE = 1000;    // a fast clock is followed message by message
 constexpr std::size_t MOST_VIEWERS = 32;
 
 forest::Layout designed(const forest::Layout& layout, const ForestTuning& tuning) {
@@ -59,12 +60,10 @@ ForestAnimator::ForestAnimator(ros::NodeHandle handle, ros::NodeHandle private_h
 
 // Last of all: the first callbacks of a nodelet may come while it is still being built.
 void ForestAnimator::listen() {
-  wind_subscriber_ = handle_.subscribe("wind", 10, &ForestAnimator::onWind, this);
-  if (options_.replay)
-    events_subscriber_ = handle_.subscribe("forest/events", 1000, &ForestAnimator::onEvent, this);
-  else
-    viewer_subscriber_ = handle_.subscribe("viewer", 10, &ForestAnimator::onViewer, this);
-
+  subscribers_ = {handle_.subscribe("wind", 10, &ForestAnimator::onWind, this)};
+  subscribers_.push_back(
+      options_.replay ? handle_.subscribe("forest/events", 1000, &ForestAnimator::onEvent, this)
+                      : handle_.subscribe("viewer", 10, &ForestAnimator::onViewer, this));
   services_ = {private_handle_.advertiseService("get_tree", &ForestAnimator::onGetTree, this),
                private_handle_.advertiseService("pick", &ForestAnimator::onPick, this),
                private_handle_.advertiseService("set_tf", &ForestAnimator::onSetTf, this),
@@ -72,7 +71,11 @@ void ForestAnimator::listen() {
   const auto every = [this](double rate, void (ForestAnimator::*call)(const ros::TimerEvent&)) {
     timers_.push_back(handle_.createTimer(ros::Duration(1.0 / rate), call, this));
   };
-  every(LOOKS_PER_TICK * options_.state_rate, &ForestAnimator::onTick);
+  if (ros::Time::isSimTime())
+    subscribers_.push_back(
+        handle_.subscribe("/clock", CLOCK_QUEUE, &ForestAnimator::onClock, this));
+  else
+    every(LOOKS_PER_TICK * options_.state_rate, &ForestAnimator::onTimer);
   every(options_.tf_rate, &ForestAnimator::sendFrames);
   every(options_.branches_rate, &ForestAnimator::sendBranches);
   every(options_.markers_rate, &ForestAnimator::sendMarkers);
@@ -80,15 +83,13 @@ void ForestAnimator::listen() {
       ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); });
 }
 
-void ForestAnimator::onTick(const ros::TimerEvent&) {
-  const Nanoseconds clock = fromMsg(ros::Time::now());
+void ForestAnimator::advanceTo(Nanoseconds clock) {
   const Nanoseconds now = clock - (options_.replay ? fromSeconds(options_.replay_delay) : 0);
   if (now <= 0) return;  // no clock yet
   const std::int64_t due = grid_.tickAt(now);
   if (last_tick_ != NEVER && due < last_tick_) restart(clock);
   if (last_tick_ == NEVER) last_tick_ = due - 1;
-  const double catch_up = ros::Time::isSimTime() ? LONGEST_CATCH_UP_SIMULATED : LONGEST_CATCH_UP;
-  const auto longest = static_cast<std::int64_t>(catch_up * grid_.rate());
+  const auto longest = static_cast<std::int64_t>(LONGEST_CATCH_UP * grid_.rate());
   if (due - last_tick_ > longest) {
     counts_.dropped += static_cast<std::uint64_t>(due - last_tick_ - 1);
     last_tick_ = due - 1;

@@ -10,6 +10,7 @@ import xmlrpc.client
 import roslib.packages
 import rosgraph
 import rospy
+from diagnostic_msgs.msg import DiagnosticArray
 from rosgraph_msgs.msg import Clock
 from vegetation_sim.msg import ForestEvent, ForestLayout, ForestState, Viewer, WindField
 from vegetation_sim.srv import GetTree, GetWindField, Pick, SetTf
@@ -17,6 +18,7 @@ from vegetation_sim.srv import GetTree, GetWindField, Pick, SetTf
 from waiting import DEADLINE, wait_for
 
 RATE = 30  # ticks [Hz]
+REMINDER = 0.5  # [s] of wall time
 # Publishers without a queue: a message is in the reader's socket before publish() returns.
 warnings.simplefilter('ignore', SyntaxWarning)
 
@@ -44,17 +46,20 @@ class Log:
             self.messages.append(message)
             self._heard.notify_all()
 
-    def wait(self, condition, what):
-        """Waits until `condition(messages)` is true; returns its value."""
-        with self._heard:
-            value = self._heard.wait_for(lambda: condition(self.messages), DEADLINE)
-        if not value:
-            raise AssertionError('waited in vain for %s on %s' % (what, self.topic))
-        return value
+    def wait(self, condition, what, remind=lambda: None):
+        """Waits until `condition(messages)` is true, and reminds now and then; returns its value."""
+        for _ in range(int(DEADLINE / REMINDER)):
+            with self._heard:
+                value = self._heard.wait_for(lambda: condition(self.messages), REMINDER)
+            if value:
+                return value
+            remind()
+        raise AssertionError('waited in vain for %s on %s' % (what, self.topic))
 
-    def wait_for_stamp(self, stamp):
-        """The newest message, once its stamp is not before `stamp`."""
-        return self.wait(lambda all: all and all[-1].header.stamp >= stamp and all[-1], str(stamp))
+    def wait_for_stamp(self, stamp, remind=lambda: None):
+        """The newest message, once it has this stamp."""
+        return self.wait(lambda all: all and all[-1].header.stamp == stamp and all[-1],
+                         str(stamp), remind)
 
     def connected(self):
         return self._subscriber.get_num_connections() > 0
@@ -108,6 +113,15 @@ class Animator:
         """Hash of the state by stamp."""
         return {m.header.stamp: m.hash for m in self.state.messages}
 
+    def diagnostics(self):
+        """The node's next diagnostics, by key."""
+        log = Log('/diagnostics', DiagnosticArray)
+        name = self.name.lstrip('/') + ': forest'
+        log.wait(lambda all: any(s.name == name for m in all for s in m.status), name)
+        log.close()
+        status = [s for m in log.messages for s in m.status if s.name == name][-1]
+        return {pair.key: int(pair.value) for pair in status.values}
+
     def close(self):
         for log in (self.layout, self.state, self.events):
             log.close()
@@ -126,22 +140,26 @@ class TickClock:
     def show(self, tick):
         """Shows the time of a tick without waiting for anything."""
         self.tick = tick
-        self._publisher.publish(
-            Clock(clock=time_of(tick, self.rate) + rospy.Duration(0.5 / self.rate)))
+        self.show_time(time_of(tick, self.rate) + rospy.Duration.from_sec(0.5 / self.rate))
+
+    def show_time(self, stamp):
+        self._publisher.publish(Clock(clock=stamp))
 
     def run(self, ticks, *animators):
-        """Goes on tick by tick, each only after every animator has sent its state."""
+        """Goes on tick by tick, each only after every animator has sent its state. Who was only
+        just about to listen gets the same time again."""
         for _ in range(ticks):
             self.show(self.tick + 1)
             for animator in animators:
-                animator.state.wait_for_stamp(time_of(self.tick, self.rate))
+                animator.state.wait_for_stamp(time_of(self.tick, self.rate),
+                                              lambda: self.show(self.tick))
 
     def run_until(self, condition, what, *animators):
-        for _ in range(20 * self.rate):
+        for _ in range(100 * self.rate):
             if condition():
                 return
             self.run(1, *animators)
-        raise AssertionError('20 s passed without ' + what)
+        raise AssertionError('100 s passed without ' + what)
 
     def begin(self, *animators):
         """Starts time, and goes on until every animator moves by the wind that is on the air."""
@@ -150,10 +168,9 @@ class TickClock:
             animator.wait_until_up('/wind')
         rospy.wait_for_service('/wind_broadcaster/get_field', DEADLINE)
         rospy.ServiceProxy('/wind_broadcaster/get_field', GetWindField)()  # so it is up entirely
-        wait_for(lambda: listens('/wind_broadcaster', '/clock'), 'wind_broadcaster to listen')
         wait_for(wind.connected, 'the wind')
         self.run(1, *animators)
-        wind.wait(len, 'a wind')
+        wind.wait(len, 'a wind', lambda: self.show(self.tick))
         for animator in animators:
             self.run_until(
                 lambda: animator.state.messages[-1].wind_hash == wind.messages[-1].hash,
@@ -207,13 +224,13 @@ def memory_of(node):
     return 1024 * int(line.split()[1])
 
 
-def start_animator(name, remappings=(), **parameters):
+def start_animator(name, remappings, **parameters):
     """Starts a forest_animator that the test ends itself."""
     rospy.set_param(name, parameters)
     executable = roslib.packages.find_node('vegetation_sim', 'forest_animator')[0]
     namespace, _, node = name.rpartition('/')
     return subprocess.Popen([executable, '__name:=' + node, '__ns:=' + (namespace or '/')] +
-                            ['%s:=%s' % pair for pair in remappings])
+                            ['%s:=%s' % pair for pair in remappings.items()])
 
 
 def stop(process, how=signal.SIGINT):

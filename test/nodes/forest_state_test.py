@@ -7,7 +7,6 @@ import unittest
 
 import rospy
 import rostest
-from diagnostic_msgs.msg import DiagnosticArray
 from tf2_msgs.msg import TFMessage
 from vegetation_sim.msg import BranchTransforms
 from visualization_msgs.msg import Marker, MarkerArray
@@ -72,6 +71,7 @@ class ForestState(unittest.TestCase):
     def test_frames_stay_within_their_budget(self):
         count = len(self.forest.tree(7).transforms.poses)
         self.assertGreater(count, TF_BUDGET)
+        self.clock.run(6 * RATE, self.forest)  # until no level changes any more
         tf = Log('/tf', TFMessage)
         answer = self.forest.set_tf(7, list(range(TF_BUDGET)), True)
         self.assertTrue(answer.success, answer.message)
@@ -82,8 +82,7 @@ class ForestState(unittest.TestCase):
             self.assertRegex(answer.message,
                              r'frames = \d+ would pass the budget of %d' % TF_BUDGET)
             self.assertEqual(answer.frames, TF_BUDGET)
-        self.clock.run(RATE, self.forest)
-        tf.wait(lambda all: len(all) >= RATE - 1, 'a second of frames')
+        self.clock.run_until(lambda: len(tf.messages) >= 10, 'frames', self.forest)
         for message in tf.messages:
             self.assertEqual([t.child_frame_id for t in message.transforms],
                              ['tree_7/branch_%d' % i for i in range(TF_BUDGET)])
@@ -97,12 +96,11 @@ class ForestState(unittest.TestCase):
 
     # Stock markers: two lists of constant size, built only for a subscriber.
     def test_markers_are_few_constant_and_only_on_demand(self):
-        diagnostics = Log('/diagnostics', DiagnosticArray)
         self.run_watched(2)
-        self.assertEqual(self.marker_points(diagnostics), 0)
+        self.assertEqual(self.forest.diagnostics()['Marker points'], 0)
         markers = Log('/forest/markers', MarkerArray)
-        self.run_watched(3)
-        markers.wait(lambda all: len(all) >= 10, 'markers')
+        while len(markers.messages) < 10:
+            self.run_watched(1)
         for array in markers.messages:
             self.assertEqual([(m.ns, m.id, m.type, m.action) for m in array.markers],
                              [('bark', 0, Marker.TRIANGLE_LIST, Marker.ADD),
@@ -111,25 +109,13 @@ class ForestState(unittest.TestCase):
             self.assertLessEqual(sum(sizes), MARKER_POINTS)
             self.assertEqual(sizes, [len(m.points) for m in markers.messages[0].markers])
             self.assertEqual(sizes, [len(m.colors) for m in array.markers])
-        self.assertGreater(self.marker_points(diagnostics), 0.5 * MARKER_POINTS)
+        self.assertGreater(self.forest.diagnostics()['Marker points'], 0.5 * MARKER_POINTS)
         markers.close()
-        diagnostics.close()
-
-    @staticmethod
-    def marker_points(diagnostics):
-        """Points in use, as the next diagnostics tell."""
-        seen = len(diagnostics.messages)
-        diagnostics.wait(
-            lambda all: any(s.name.startswith('forest_animator') for m in all[seen:]
-                            for s in m.status), 'diagnostics')
-        values = [v for m in diagnostics.messages[seen:] for s in m.status for v in s.values]
-        return [int(v.value) for v in values if v.key == 'Marker points'][-1]
 
     # forest/branches: only the selected trees, equal to get_tree.
     def test_branches_of_selected_trees_are_sent(self):
         branches = Log('/forest/branches', BranchTransforms)
-        self.clock.run(RATE, self.forest)
-        branches.wait(lambda all: len(all) >= 10, 'branches')
+        self.clock.run_until(lambda: len(branches.messages) >= 10, 'branches', self.forest)
         self.assertEqual({m.tree for m in branches.messages}, {3, 200})
         last = branches.messages[-1]
         self.assertEqual(last.poses,

@@ -5,6 +5,7 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <dynamic_reconfigure/server.h>
 #include <ros/ros.h>
+#include <rosgraph_msgs/Clock.h>
 #include <std_srvs/Trigger.h>
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_broadcaster.h>
@@ -24,6 +25,7 @@
 #include "vegetation_sim/nodes/forest_inputs.h"
 #include "vegetation_sim/nodes/forest_markers.h"
 #include "vegetation_sim/nodes/forest_options.h"
+#include "vegetation_sim/ros/stamps.h"
 
 namespace vegetation_sim {
 
@@ -47,7 +49,9 @@ class ForestAnimator {
 
   // Time.
   void listen();
-  void onTick(const ros::TimerEvent& event);
+  void onClock(const rosgraph_msgs::Clock& message) { advanceTo(fromMsg(message.clock)); }
+  void onTimer(const ros::TimerEvent&) { advanceTo(fromMsg(ros::Time::now())); }
+  void advanceTo(Nanoseconds clock);
   void restart(Nanoseconds now);
   void tick(std::int64_t tick);
   void apply(const ForestEvent& event);
@@ -92,7 +96,7 @@ class ForestAnimator {
   tf2_ros::TransformBroadcaster tf_broadcaster_;
   ros::Publisher layout_publisher_, state_publisher_, branches_publisher_, markers_publisher_,
       events_publisher_;
-  ros::Subscriber wind_subscriber_, viewer_subscriber_, events_subscriber_;
+  std::vector<ros::Subscriber> subscribers_;
   std::vector<ros::ServiceServer> services_;
   std::vector<ros::Timer> timers_;
   std::unique_ptr<dynamic_reconfigure::Server<ForestAnimatorConfig>> tuning_server_;
