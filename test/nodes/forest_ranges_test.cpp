@@ -1,0 +1,96 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+// What dynamic_reconfigure offers is what the node's own structures allow.
+#include <dynamic_reconfigure/Config.h>
+#include <gtest/gtest.h>
+#include <vegetation_sim/ForestAnimatorConfig.h>
+
+#include <map>
+#include <string>
+
+#include "vegetation_sim/nodes/forest_inputs.h"
+
+namespace vegetation_sim {
+namespace {
+
+using Values = std::map<std::string, double>;
+
+struct Declared : FieldVisitor {
+  Values defaults, low, high;
+
+  void number(const char* name, double& value, const char*, Range range) override {
+    defaults[name] = value;
+    low[name] = range.low;
+    high[name] = range.high;
+  }
+  void integer(const char* name, int& value, const char* unit, Range range) override {
+    double number_value = value;
+    number(name, number_value, unit, range);
+  }
+  void vector(const char* name, Vec3&, const char*, Range) override { ADD_FAILURE() << name; }
+  void choice(const char* name, int&, const std::vector<std::string>&) override {
+    ADD_FAILURE() << name;
+  }
+};
+
+Values offered(const ForestAnimatorConfig& config) {
+  dynamic_reconfigure::Config message;
+  config.__toMessage__(message);
+  Values out;
+  for (const auto& field : message.ints) out[field.name] = field.value;
+  for (const auto& field : message.doubles) out[field.name] = field.value;
+  return out;
+}
+
+TEST(ForestRanges, OfReconfigureAreThoseOfTheStructures) {  // S1-10, S1-45
+  ForestTuning tuning;
+  Declared declared;
+  describe(declared, tuning);
+  EXPECT_EQ(offered(ForestAnimatorConfig::__getMin__()), declared.low);
+  EXPECT_EQ(offered(ForestAnimatorConfig::__getMax__()), declared.high);
+  EXPECT_EQ(offered(ForestAnimatorConfig::__getDefault__()), declared.defaults);
+}
+
+TEST(ForestRanges, SettingsSurviveTheirEvent) {  // N6
+  ForestTuning tuning;
+  tuning.settings = {2.5, 4, 5};
+  tuning.design = {0.5, 1.5, 0.0, 1.25, 2.0};
+  tuning.transition = 7.0;
+  ForestEvent event;
+  toEvent(tuning, event);
+  ForestTuning back = tuningOf(event);
+  Declared sent, received;
+  describe(sent, tuning);
+  describe(received, back);
+  EXPECT_EQ(sent.defaults, received.defaults);
+  EXPECT_EQ(event.names.size(), sent.defaults.size());
+}
+
+TEST(ForestRanges, EventsOfBadSettingsAreRefused) {
+  ForestEvent event;
+  toEvent(ForestTuning(), event);
+  const auto refused = [](const ForestEvent& bad) {
+    try {
+      tuningOf(bad);
+    } catch (const InvalidInput& error) {
+      return std::string(error.what());
+    }
+    return std::string("taken");
+  };
+  ForestEvent unknown = event, range = event, count = event;
+  unknown.names[0] = "colour";
+  EXPECT_EQ(refused(unknown), "event: colour is not known");
+  range.values[range.names.size() - 1] = 1e9;
+  EXPECT_NE(refused(range).find("transition = 1e+09 s is outside 0.01 to 60 s"), std::string::npos)
+      << refused(range);
+  count.values.pop_back();
+  EXPECT_EQ(refused(count), "event: 9 names for 8 values");
+}
+
+}  // namespace
+}  // namespace vegetation_sim
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
