@@ -23,11 +23,12 @@ enum Draw : std::uint64_t { KEPT, PLACE, AZIMUTH, ANGLE, TURN, SIZE, SHADE, FLUT
 struct LeafHabit {
   double least_angle, largest_angle;  // between the midrib and the branch
   double turn;                        // +- about the midrib
+  bool hangs;                         // boughs hang straight down
 };
-constexpr std::array<LeafHabit, 4> HABITS{{{0.4, 1.3, 1.2},      // broad
-                                           {0.45, 0.9, 0.9},     // needle
-                                           {0.6, 1.5, 1.4},      // small
-                                           {0.15, 0.55, 1.4}}};  // long
+constexpr std::array<LeafHabit, 4> HABITS{{{0.4, 1.3, 1.2, false},     // broad
+                                           {0.45, 0.9, 0.9, false},    // needle
+                                           {0.6, 1.5, 1.4, false},     // small
+                                           {0.15, 0.55, 1.4, true}}};  // long
 
 float narrow(double x) {
   return static_cast<float>(x);
@@ -43,6 +44,9 @@ class MeshBuilder {
       leaves += branch.leaves;
     }
     mean_leafy_length_ = std::max(sum / leaves, 1e-3);
+    // A young tree has smaller clusters, though not in proportion.
+    if (!skeleton.branches.empty())
+      leaf_scale_ = std::sqrt(skeleton.branches[0].base_radius / species.trunk_radius);
   }
 
   TreeMesh build() {
@@ -147,17 +151,36 @@ class MeshBuilder {
     const SinCos t = sinCos(0.5 * (GOLDEN_ANGLE * number + random.uniform(AZIMUTH, -0.6, 0.6)));
     const SinCos p = sinCos(0.5 * random.uniform(ANGLE, habit.least_angle, habit.largest_angle));
     const SinCos r = sinCos(0.5 * random.uniform(TURN, -habit.turn, habit.turn));
+    if (detail_.boughs && habit.hangs) {
+      setRotation(conjugate(b.rest.orientation) * hanging(random), out);
+      return finished(b, random, out);
+    }
     // About z to its side, down from the branch about x, then about its own midrib.
     const Quat q = Quat{t.cos, 0.0, 0.0, t.sin} * Quat{p.cos, -p.sin, 0.0, 0.0} *
                    Quat{SQRT_HALF, SQRT_HALF, 0.0, 0.0} * Quat{r.cos, 0.0, r.sin, 0.0};
-    out.rotation = {narrow(q.w), narrow(q.x), narrow(q.y), narrow(q.z)};
+    setRotation(q, out);
+    return finished(b, random, out);
+  }
+
+  // In the tree's frame: midrib down, any way round.
+  static Quat hanging(const Random& random) {
+    const SinCos t = sinCos(0.5 * random.uniform(AZIMUTH, -PI, PI));
+    const SinCos p = sinCos(-0.25 * PI + 0.5 * random.uniform(ANGLE, -0.15, 0.15));
+    return Quat{t.cos, 0.0, 0.0, t.sin} * Quat{p.cos, p.sin, 0.0, 0.0};
+  }
+
+  static void setRotation(const Quat& q, LeafCard& leaf) {
+    leaf.rotation = {narrow(q.w), narrow(q.x), narrow(q.y), narrow(q.z)};
+  }
+
+  LeafCard finished(const Branch& b, const Random& random, LeafCard leaf) const {
     // Short branches, as at the tip of a cone, bear small clusters.
     const double fit = std::clamp(std::sqrt(b.length / mean_leafy_length_), 0.4, 1.25);
-    out.size =
-        narrow(species_.leaf_size * detail_.leaf_growth * fit * random.uniform(SIZE, 0.8, 1.2));
-    out.shade = narrow(shadeAt(tipOf(b, b.rest), random.uniform(SHADE)));
-    out.key = static_cast<std::uint32_t>(random.bits(FLUTTER));
-    return out;
+    leaf.size = narrow(species_.leaf_size * leaf_scale_ * detail_.leaf_growth * fit *
+                       random.uniform(SIZE, 0.8, 1.2));
+    leaf.shade = narrow(shadeAt(tipOf(b, b.rest), random.uniform(SHADE)));
+    leaf.key = static_cast<std::uint32_t>(random.bits(FLUTTER));
+    return leaf;
   }
 
   // Leaves inside the crown are hidden by those outside: they are the first to be left out.
@@ -181,7 +204,7 @@ class MeshBuilder {
                    Quat{leaf.rotation[0], leaf.rotation[1], leaf.rotation[2], leaf.rotation[3]};
     leaf.branch = bearer;
     leaf.local = {narrow(local.x()), narrow(local.y()), narrow(local.z())};
-    leaf.rotation = {narrow(q.w), narrow(q.x), narrow(q.y), narrow(q.z)};
+    setRotation(q, leaf);
   }
 
   // Outer and upper leaves are young and light, those near the trunk old and dark.
@@ -197,6 +220,7 @@ class MeshBuilder {
   const Species& species_;
   const MeshDetail& detail_;
   double mean_leafy_length_{1.0};  // [m]
+  double leaf_scale_{1.0};
   TreeMesh out_;
 };
 

@@ -81,6 +81,11 @@ void ForestDisplay::updateTopics() {
   if (isEnabled() && initialized()) reset();
 }
 
+// Grown anew: other trees, or other light among them.
+void ForestDisplay::updateTrees() {
+  layouts_ = 0;
+}
+
 void ForestDisplay::updateLook() {
   if (forest_) forest_->repaint();
 }

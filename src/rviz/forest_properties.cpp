@@ -62,10 +62,10 @@ void ForestProperties::addLook(rviz::Display& display) {
   triangles_->setMin(1000);
   triangles_->setMax(20000000);
   most_trees_ = new rviz::IntProperty("Most Trees", 1000, "The nearest so many trees are drawn.",
-                                      &display, SLOT(updateTopics()), &display);
+                                      &display, SLOT(updateTrees()), &display);
   most_trees_->setMin(1);
   most_trees_->setMax(20000);
-  leaves_ = new rviz::BoolProperty("Leaves", true, "Draw leaves.", &display, SLOT(updateLook()),
+  leaves_ = new rviz::BoolProperty("Leaves", true, "Draw leaves.", &display, SLOT(updateTrees()),
                                    &display);
   flutter_ = new rviz::BoolProperty("Flutter", true, "Leaves flutter where wind blows.", &display,
                                     SLOT(updateLook()), &display);

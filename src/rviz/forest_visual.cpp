@@ -76,7 +76,7 @@ void ForestVisual::update(const forest::ForestReplica& replica, Nanoseconds stam
   if (!selected_all_ && length(view.eye.position - selected_at_) > RESELECT)
     restart(replica, view, options);
   if (!stock_->ready()) {
-    if (!stock_->grow(replica, daylight.to_sun, GROW_TIME)) return;
+    if (!stock_->grow(replica, daylight.to_sun, options.look.leaves, GROW_TIME)) return;
     makeGroves();
   }
   chooseLevels(view, options);

@@ -111,7 +111,7 @@ std::vector<float> shadowsOn(const Plot& plot, int edge, const TreeStock& stock,
     for (const forest::Branch& branch : tree->tree().skeleton.branches) {
       const Vec3 base = tree->foot() + branch.rest.position;
       const Vec3 tip = tree->foot() + tipOf(branch, branch.rest);
-      for (int leaf = 0; leaf < branch.leaves; ++leaf)
+      for (int leaf = 0; stock.hasLeaves() && leaf < branch.leaves; ++leaf)
         painter.drop(base + (tip - base) * ((leaf + 0.8) / branch.leaves), radius, LEAF_DEPTH);
       if (branch.depth > 1) continue;
       const int steps = 1 + static_cast<int>(branch.length / 0.15);

@@ -75,7 +75,8 @@ Picture skyPicture(const Daylight& light, int columns, int rows) {
       colour = mix(colour, cloud_colour, CLOUD_OPACITY * cloud);
       const float far_hills = ridge(noise, static_cast<float>(c) / static_cast<float>(columns));
       const float over = smooth(far_hills - 0.003f, far_hills + 0.003f, up);
-      out.at(c, r) = mix(mix(light.horizon, light.zenith, 0.32f), colour, over);
+      const Rgba hill = mix(light.horizon, light.zenith, 0.36f * smooth(0.f, 0.04f, up));
+      out.at(c, r) = mix(hill, colour, over);
       out.at(c, r)[3] = 1.f;
     }
   }

@@ -91,18 +91,20 @@ TreeStock::TreeStock(const forest::ForestReplica& replica, std::vector<std::uint
   origin_.z() = replica.terrain().height(origin_.x(), origin_.y());
 }
 
-bool TreeStock::grow(const forest::ForestReplica& replica, const Vec3& to_sun, double seconds) {
+bool TreeStock::grow(const forest::ForestReplica& replica, const Vec3& to_sun, bool leaves,
+                     double seconds) {
   if (ready()) return true;
   const auto end = Clock::now() + std::chrono::duration<double>(seconds);
   while (trees_.size() < ids_.size()) {
     trees_.push_back(std::make_unique<DrawnTree>(replica, ids_[trees_.size()], origin_));
     if (Clock::now() >= end) return false;
   }
-  castLight(to_sun);
+  castLight(to_sun, leaves);
   return true;
 }
 
-void TreeStock::castLight(const Vec3& to_sun) {
+void TreeStock::castLight(const Vec3& to_sun, bool leaves) {
+  leaves_ = leaves;
   extent_ = {origin_, origin_ + Vec3(0.0, 0.0, 1.0)};
   for (const auto& tree : trees_) {
     const Vec3 around(tree->reach(), tree->reach(), 0.0), up(0.0, 0.0, tree->height());
@@ -112,7 +114,8 @@ void TreeStock::castLight(const Vec3& to_sun) {
   const Vec3 margin(MARGIN, MARGIN, 1.0);
   light_ =
       std::make_unique<forest::LightGrid>(extent_.low - margin, extent_.high + margin, LIGHT_CELL);
-  for (const auto& tree : trees_) tree->addTo(*light_);
+  if (leaves)
+    for (const auto& tree : trees_) tree->addTo(*light_);
   light_->cast(to_sun);
 }
 

@@ -40,6 +40,7 @@ class ForestDisplay : public rviz::Display {
 
  private Q_SLOTS:
   void updateTopics();
+  void updateTrees();
   void updateLook();
   void updateScenery();
   void updateViewer();

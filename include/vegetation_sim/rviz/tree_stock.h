@@ -35,24 +35,26 @@ class TreeStock {
   TreeStock(const forest::ForestReplica& replica, std::vector<std::uint32_t> ids);
 
   /// Grows trees for about `seconds`; when all stand, sends light through them.
-  /// @return true once all is there.
-  bool grow(const forest::ForestReplica& replica, const Vec3& to_sun, double seconds);
+  /// @param leaves whether they take light. @return true once all is there.
+  bool grow(const forest::ForestReplica& replica, const Vec3& to_sun, bool leaves, double seconds);
   bool ready() const { return light_ != nullptr; }
 
   std::size_t wanted() const { return ids_.size(); }
   const std::vector<std::unique_ptr<DrawnTree>>& trees() const { return trees_; }
   const Vec3& origin() const { return origin_; }
   const Extent& extent() const { return extent_; }
+  bool hasLeaves() const { return leaves_; }
   /// @pre ready()
   const forest::LightGrid& light() const { return *light_; }
 
  private:
-  void castLight(const Vec3& to_sun);
+  void castLight(const Vec3& to_sun, bool leaves);
 
   std::vector<std::uint32_t> ids_;
   Vec3 origin_;
   std::vector<std::unique_ptr<DrawnTree>> trees_;
   Extent extent_;
+  bool leaves_{true};
   std::unique_ptr<forest::LightGrid> light_;
 };
 
