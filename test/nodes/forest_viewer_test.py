@@ -1,0 +1,102 @@
+#!/usr/bin/env python3
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Who looks at the forest decides its levels (N8, S1-22)."""
+import unittest
+
+import rospy
+import rostest
+from dynamic_reconfigure.client import Client
+from geometry_msgs.msg import TransformStamped
+from tf2_msgs.msg import TFMessage
+
+from forest_rig import RATE, Animator, Eye, TickClock, publisher, time_of
+from waiting import wait_for
+
+WEST, EAST = 0, 7  # trees at x = 0 m and 960 m
+BESIDE_WEST, BESIDE_EAST, FAR = (-12.0, 0.0, 5.0), (945.0, 8.0, 5.0), (-400.0, 0.0, 5.0)
+FIXED_LEVEL = 2
+
+
+class ForestViewer(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.forest = Animator()
+        cls.filmed = Animator('/filmed/forest_animator', '/filmed/')
+        cls.all = cls.forest, cls.filmed
+        cls.clock = TickClock(1000 * RATE)
+        cls.clock.begin(*cls.all)
+        cls.eye = Eye()
+        cls.frames = publisher('/tf', TFMessage)
+        cls.server = Client('/forest_animator', timeout=30)
+        wait_for(lambda: cls.frames.get_num_connections() >= 2, 'readers of tf')
+
+    def setUp(self):
+        self.clock.run(6 * RATE, *self.all)  # until nobody looks and all have settled
+
+    def look(self, place, seconds=2, eye=None):
+        """For a while, as rviz would; ends with the levels of the two trees."""
+        for _ in range(seconds):
+            (eye or self.eye).look(*place, self.forest)
+            self.clock.run(RATE, *self.all)
+        return self.forest.level(WEST), self.forest.level(EAST)
+
+    def film(self, place):
+        """Puts the camera somewhere; returns when tf has it."""
+        frame = TransformStamped(child_frame_id='camera')
+        frame.header.frame_id, frame.header.stamp = 'map', time_of(self.clock.tick + 1)
+        move = frame.transform.translation
+        move.x, move.y, move.z = place
+        frame.transform.rotation.w = 1.0
+        self.frames.publish([frame])
+        events = self.filmed.events.messages
+
+        def seen():
+            return events and events[-1].viewer.pose.position.x == move.x
+        self.clock.run_until(seen, 'a camera', *self.all)
+        self.clock.run(2 * RATE, *self.all)
+
+    def test_levels_follow_the_viewer(self):
+        west, east = self.look(BESIDE_WEST)
+        self.assertGreater(west, east)
+        west, east = self.look(BESIDE_EAST)
+        self.assertLess(west, east)
+
+    def test_nobody_looks_and_every_tree_has_the_fixed_level(self):
+        self.look(BESIDE_WEST)
+        self.clock.run(6 * RATE, *self.all)
+        self.assertEqual({self.forest.level(tree) for tree in range(17)}, {FIXED_LEVEL})
+        last = [m for m in self.forest.state.messages if m.key_frame][-1]
+        self.assertEqual((last.base_level, len(last.trees)), (FIXED_LEVEL, 0))
+
+    def test_the_finest_of_several_viewers_wins(self):
+        far, _ = self.look(FAR)
+        other = Eye('other')
+        other.look(*BESIDE_WEST, self.forest)
+        both, _ = self.look(FAR)
+        self.assertGreater(both, far)
+        left, _ = self.look(FAR, 5)  # the other one is not heard any more
+        self.assertEqual(left, far)
+        other.close()
+
+    def test_a_frame_of_tf_is_a_viewer(self):
+        self.film(BESIDE_WEST)
+        self.assertGreater(self.filmed.level(WEST), self.filmed.level(EAST))
+        self.film(BESIDE_EAST)
+        self.assertLess(self.filmed.level(WEST), self.filmed.level(EAST))
+        self.assertEqual(self.forest.level(WEST), FIXED_LEVEL)  # the other node has no camera
+
+    def test_tolerance_and_highest_level_take_effect(self):
+        west, _ = self.look(BESIDE_WEST)
+        self.server.update_configuration({'tolerance': 300.0})
+        coarse, _ = self.look(BESIDE_WEST)
+        self.assertLess(coarse, west)
+        self.server.update_configuration({'tolerance': 1.0, 'highest_level': 1})
+        limited, _ = self.look(BESIDE_WEST)
+        self.assertEqual(limited, 1)
+        self.server.update_configuration({'highest_level': 6})
+
+
+if __name__ == '__main__':
+    rospy.init_node('forest_viewer_test')
+    rostest.rosrun('vegetation_sim', 'forest_viewer', ForestViewer)
