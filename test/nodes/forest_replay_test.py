@@ -1,0 +1,103 @@
+#!/usr/bin/env python3
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""A bag of topics replays the run: the same hash of the state at every tick (N6)."""
+import os
+import subprocess
+import tempfile
+import unittest
+
+import roslib.packages
+import rosnode
+import rospy
+import rostest
+from dynamic_reconfigure.client import Client
+from std_srvs.srv import Trigger
+from vegetation_sim.msg import WindPrimitive
+from vegetation_sim.srv import SetWindPrimitive
+
+from forest_rig import RATE, Animator, Eye, TickClock, listens, scene, start_animator, stop
+from waiting import wait_for
+
+SECONDS = 60
+TOPICS = ['/clock', '/wind', '/viewer', '/forest/layout', '/forest/state', '/forest/events']
+SPEED = 10  # of the replay over real time
+DELAY = 5.0  # [s] that events have to arrive in; half a second of real time
+
+
+class ForestReplay(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.bag = os.path.join(self.folder.name, 'forest.bag')
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def edit(self, second):
+        """What users do meanwhile."""
+        if second == 20:
+            self.server.update_configuration({'size': 0.9, 'transition': 0.4})
+        if second == 30:
+            self.assertTrue(rospy.ServiceProxy('/forest_animator/reset', Trigger)().success)
+        if second == 40:
+            blow = WindPrimitive(name='whirl_west', kind=WindPrimitive.DISK, radius=40.0, omega=3.0)
+            blow.velocity.x, blow.orbit_period = 6.0, 30.0
+            answer = rospy.ServiceProxy('/wind_broadcaster/set_primitive', SetWindPrimitive)(blow)
+            self.assertTrue(answer.success, answer.message)
+
+    def live_run(self):
+        """The forest with an eye that flies through it, recorded; its hashes by stamp."""
+        forest, clock, eye = Animator(), TickClock(1000 * RATE), Eye()
+        forest.wait_until_up('/wind', '/viewer')
+        self.server = Client('/forest_animator', timeout=30)
+        record = roslib.packages.find_node('rosbag', 'record')[0]
+        recorder = subprocess.Popen([record, '-q', '-O', self.bag, '__name:=recorder'] + TOPICS)
+        eye.look(-60.0, -10.0, 4.0, forest)
+        for topic in TOPICS:
+            wait_for(lambda: listens('/recorder', topic), 'the recorder of ' + topic)
+        clock.run(1, forest)
+        wait_for(lambda: os.path.exists(self.bag + '.active'), 'the recorder to begin')
+        for half in range(2 * SECONDS):
+            self.edit(half / 2)
+            eye.look(-60.0 + half, -10.0, 4.0, forest)
+            clock.run(RATE // 2, forest)
+        self.assertEqual(len(forest.state.messages), SECONDS * RATE + 1)
+        self.assertGreater(len({m.wind_hash for m in forest.state.messages}), 2)
+        self.assertEqual(len(forest.layout.messages), 2)
+        stop(recorder)
+        forest.close()
+        return forest.hashes(), clock
+
+    def replay(self, clock):
+        """Another node hears the bag's inputs only."""
+        process = start_animator('/replay/forest_animator', {}, scenario=scene('forest'),
+                                 replay=True, replay_delay=DELAY)
+        try:
+            forest = Animator('/replay/forest_animator', '/replay/')
+            forest.wait_until_up()
+            subprocess.run(['rosbag', 'play', '-q', '--clock', '-r', str(SPEED), '-d', '1', self.bag,
+                            '--topics', '/wind', '/forest/events', '/wind:=/replay/wind',
+                            '/forest/events:=/replay/forest/events'], check=True, timeout=120,
+                           stdout=subprocess.DEVNULL)
+            end = clock.tick
+            for tick in range(1, int(DELAY * RATE) + 1):  # the bag's clock ends before the delay
+                clock.show(end + tick)
+            forest.state.wait(lambda all: all and all[-1].header.stamp >= self.last, 'the end')
+            forest.close()
+            return forest.hashes()
+        finally:
+            stop(process)
+
+    def test_a_bag_replays_the_run(self):
+        live, clock = self.live_run()
+        self.last = max(live)
+        print('bag of %d s: %.2f MB' % (SECONDS, os.path.getsize(self.bag) / 1e6))
+        rosnode.kill_nodes(['/wind_broadcaster', '/forest_animator'])
+        again = self.replay(clock)
+        self.assertGreater(len(set(live.values())), SECONDS * RATE / 2, 'little happened')
+        self.assertEqual([s for s in sorted(live) if again.get(s) != live[s]], [])
+
+
+if __name__ == '__main__':
+    rospy.init_node('forest_replay_test')
+    rostest.rosrun('vegetation_sim', 'forest_replay', ForestReplay)
