@@ -76,16 +76,20 @@ class Animator:
         self.layout = Log(namespace + 'forest/layout', ForestLayout)
         self.state = Log(namespace + 'forest/state', ForestState)
         self.events = Log(namespace + 'forest/events', ForestEvent)
-        self._tree = rospy.ServiceProxy(name + '/get_tree', GetTree, persistent=True)
+        self.process = name  # node that it lives in: a manager's, of a nodelet
+        self.reconnect()
         self.pick = rospy.ServiceProxy(name + '/pick', Pick)
         self.set_tf = rospy.ServiceProxy(name + '/set_tf', SetTf)
+
+    def reconnect(self):
+        self._tree = rospy.ServiceProxy(self.name + '/get_tree', GetTree, persistent=True)
 
     def wait_until_up(self, *topics):
         """Until it listens to the clock and `topics`, and its first state will be heard here."""
         self._tree.wait_for_service(DEADLINE)
         self.settle()
         for topic in ('/clock',) + topics:
-            wait_for(lambda: listens(self.name, topic), '%s to listen to %s' % (self.name, topic))
+            wait_for(lambda: listens(self.process, topic), '%s to hear %s' % (self.name, topic))
         for log in (self.layout, self.state, self.events):
             wait_for(log.connected, log.topic)
 

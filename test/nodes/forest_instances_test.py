@@ -1,0 +1,120 @@
+#!/usr/bin/env python3
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""forest_animator as program and nodelet, several at once, reset and restarted (N6)."""
+import signal
+import subprocess
+import unittest
+
+import roslib.packages
+import rospy
+import rostest
+from std_srvs.srv import Trigger
+from vegetation_sim.msg import ForestEvent, ForestState
+
+from forest_rig import RATE, Animator, Eye, Log, TickClock, scene, start_animator, stop, time_of
+from waiting import wait_for
+
+RESTARTS = 5
+FIXED_LEVEL, OTHER_FIXED_LEVEL = 2, 3
+
+
+class ForestInstances(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.program = Animator()
+        cls.twin = Animator('/twin/forest_animator', '/twin/')
+        cls.other = Animator('/other/forest_animator', '/other/')
+        cls.other.state = Log('/other/levels', ForestState)  # remapped
+        for nodelet in (cls.twin, cls.other):
+            nodelet.process = '/manager'
+        cls.all = cls.program, cls.twin, cls.other
+        cls.clock = TickClock(1000 * RATE)
+        cls.clock.begin(*cls.all)
+        cls.eye = Eye(readers=2)
+
+    def run_watched(self, seconds, *animators):
+        for half in range(2 * seconds):
+            self.eye.look(-20.0 + 10.0 * half, 0.0, 5.0, self.program, self.twin)
+            self.clock.run(RATE // 2, *animators)
+
+    def settle(self):
+        self.clock.run(8 * RATE, *self.all)
+
+    # The nodelet says what the program says, to the bit.
+    def test_a_nodelet_is_the_twin_of_the_program(self):
+        self.settle()
+        start = self.clock.tick
+        self.run_watched(5, *self.all)
+        layouts = [a.layout.messages[-1] for a in (self.program, self.twin)]
+        self.assertEqual(layouts[0].hash, layouts[1].hash)
+        self.assertEqual(layouts[0].species, layouts[1].species)
+        expected, hashes = self.program.hashes(), self.twin.hashes()
+        stamps = [time_of(start + 1 + i) for i in range(5 * RATE)]
+        self.assertEqual([hashes[s] for s in stamps], [expected[s] for s in stamps])
+        self.assertGreater(len({hashes[s] for s in stamps}), RATE)
+        self.assertEqual(self.program.tree(3).transforms, self.twin.tree(3).transforms)
+
+    # Topics, services and settings of the one are not those of the other.
+    def test_instances_do_not_disturb_each_other(self):
+        self.settle()
+        before = self.other.state.messages[-1].hash
+        self.run_watched(3, *self.all)
+        self.twin.set_tf(0, [1, 2], True)
+        self.assertTrue(rospy.ServiceProxy('/twin/forest_animator/reset', Trigger)().success)
+        self.clock.run(5, *self.all)
+        self.assertEqual(self.other.state.messages[-1].hash, before)
+        self.assertEqual(self.other.level(0), OTHER_FIXED_LEVEL)
+        self.assertEqual(self.other.set_tf(0, [1], False).frames, 0)
+        self.assertEqual([e.kind for e in self.other.events.messages if e.kind != ForestEvent.WIND],
+                         [])
+
+    # After ~reset: what a fresh start is, from the next tick on.
+    def test_reset_starts_anew(self):
+        self.run_watched(3, *self.all)
+        self.assertNotEqual(self.program.level(0), FIXED_LEVEL)
+        self.program.set_tf(0, [1, 2], True)
+        tick, sequence = self.clock.tick, self.program.state.messages[-1].sequence
+        self.assertTrue(rospy.ServiceProxy('/forest_animator/reset', Trigger)().success)
+        self.assertEqual(self.program.state.messages[-1].sequence, sequence)
+        self.clock.run(1, *self.all)
+        state = self.program.state.messages[-1]
+        self.assertEqual((state.sequence, state.key_frame, state.base_level, state.trees),
+                         (0, True, FIXED_LEVEL, []))
+        event = self.program.events.wait_for_stamp(time_of(tick + 1))
+        self.assertEqual(event.kind, ForestEvent.RESET)
+        self.assertEqual(self.program.set_tf(0, [], False).frames, 0)
+
+    def test_a_nodelet_that_refuses_is_not_loaded(self):
+        rospy.set_param('/refused', {'tolerance': -1.0})
+        nodelet = roslib.packages.find_node('nodelet', 'nodelet')[0]
+        done = subprocess.run([nodelet, 'load', 'vegetation_sim/forest_animator', '/manager',
+                               '__name:=refused'], timeout=60, stderr=subprocess.DEVNULL)
+        self.assertNotEqual(done.returncode, 0)
+        self.clock.run(1, *self.all)  # the others go on
+
+    # Readers recover: layout again, then a key frame, then deltas without a gap.
+    def test_readers_survive_restarts(self):
+        reader = Animator('/mortal/forest_animator', '/mortal/')
+        for i in range(RESTARTS):
+            process = start_animator('/mortal/forest_animator', {'wind': '/wind'},
+                                     scenario=scene('grove'))
+            layouts = len(reader.layout.messages)
+            reader.wait_until_up('/wind')
+            first = len(reader.state.messages)
+            self.clock.run(10 + i, *self.all, reader)
+            reader.layout.wait(lambda all: len(all) > layouts, 'the layout')
+            self.assertEqual(reader.layout.messages[-1].hash, self.program.layout.messages[-1].hash)
+            heard = reader.state.messages[first:]
+            self.assertTrue(heard[0].key_frame)
+            self.assertEqual([m.sequence for m in heard], list(range(10 + i)))
+            self.assertEqual(reader.tree(4).skeleton_hash, self.program.tree(4).skeleton_hash)
+            stop(process, signal.SIGKILL if i % 2 else signal.SIGINT)
+            wait_for(lambda: not reader.state.connected(), 'the end of the node')
+            reader.reconnect()
+        reader.close()
+
+
+if __name__ == '__main__':
+    rospy.init_node('forest_instances_test')
+    rostest.rosrun('vegetation_sim', 'forest_instances', ForestInstances)
