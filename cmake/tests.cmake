@@ -1,5 +1,5 @@
-# One GoogleTest program a folder of test/; in test/nodes one rostest a *.test file, with the
-# GoogleTest programs (*_test.cpp) that these run.
+# One GoogleTest program a folder of test/; in test/nodes and test/rviz one rostest a *.test file,
+# with the GoogleTest programs (*_test.cpp in test/nodes, *_rostest.cpp in test/rviz) that these run.
 find_package(roslaunch REQUIRED)
 find_package(rostest REQUIRED)
 
@@ -33,6 +33,24 @@ foreach(source ${node_tests})
   set_test_options(${target})
   target_include_directories(${target} SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
   target_link_libraries(${target} ${PROJECT_NAME}_nodes ${catkin_LIBRARIES})
+  add_dependencies(tests ${target})
+  list(APPEND node_test_targets ${target})
+endforeach()
+file(GLOB sources CONFIGURE_DEPENDS test/rviz/*_test.cpp)
+catkin_add_gtest(rviz_test test/main.cpp ${sources})
+if(TARGET rviz_test)
+  set_test_options(rviz_test)
+  target_include_directories(rviz_test SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
+  target_link_libraries(rviz_test ${PROJECT_NAME}_rviz ${catkin_LIBRARIES})
+endif()
+file(GLOB rviz_rostests CONFIGURE_DEPENDS test/rviz/*_rostest.cpp)
+foreach(source ${rviz_rostests})
+  get_filename_component(target ${source} NAME_WE)
+  catkin_add_executable_with_gtest(${target} ${source} EXCLUDE_FROM_ALL)
+  set_test_options(${target})
+  target_compile_definitions(${target} PRIVATE QT_NO_KEYWORDS)
+  target_include_directories(${target} SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
+  target_link_libraries(${target} ${PROJECT_NAME}_rviz ${catkin_LIBRARIES})
   add_dependencies(tests ${target})
   list(APPEND node_test_targets ${target})
 endforeach()

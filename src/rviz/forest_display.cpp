@@ -102,6 +102,8 @@ void ForestDisplay::updateScenery() {
 void ForestDisplay::updateAir() {
   const view::Daylight daylight = properties_->daylight();
   const view::Haze haze = properties_->hazeValues();
+  if (length(daylight.to_sun - to_sun_) > 1e-6) updateTrees();  // their light has changed
+  to_sun_ = daylight.to_sun;
   if (properties_->haze())
     air_ = std::make_unique<view::Air>(
         *scene_manager_, context_->getViewManager()->getRenderPanel(), haze, daylight.horizon);

@@ -178,6 +178,10 @@ Picture grainPicture(int edge) {
       out.blend(c, r, {light, light, light, 0.55f});
     }
   }
+  float mean = 0.f;
+  for (const Rgba& pixel : out.pixels) mean += pixel[0] / static_cast<float>(out.pixels.size());
+  for (Rgba& pixel : out.pixels)
+    for (std::size_t i = 0; i < 3; ++i) pixel[i] *= 0.5f / mean;
   return out;
 }
 

@@ -35,7 +35,7 @@ Picture groundPicture(const Plot& plot, int edge, const TreeStock& stock,
                       const terrain::HeightMap& terrain, const Daylight& daylight,
                       const Rgba& tint);
 
-/// Fine grain that repeats, mean about one half. @param edge a power of two.
+/// Fine grain that repeats, mean one half. @param edge a power of two.
 Picture grainPicture(int edge);
 
 }  // namespace vegetation_sim::view

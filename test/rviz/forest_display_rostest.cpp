@@ -1,0 +1,248 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <OgreMaterialManager.h>
+#include <OgreTextureManager.h>
+#include <gtest/gtest.h>
+#include <rviz/properties/bool_property.h>
+#include <rviz/properties/float_property.h>
+#include <rviz/properties/int_property.h>
+#include <rviz/properties/property_tree_model.h>
+#include <rviz/view_controller.h>
+
+#include <cmath>
+#include <limits>
+
+#include "rviz/display_rig.h"
+
+namespace vegetation_sim {
+namespace {
+
+constexpr int TREES = 16;
+
+class ForestDisplayTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    rig.publishForest(forest::gridLayout(4, 9.0));
+    display = rig.addDisplay();
+    ASSERT_NE(display, nullptr) << "the plugin is not found or is another class";
+    rviz::ViewController* view = rig.manager().getViewManager()->getCurrent();
+    view->lookAt(13.f, 13.f, 4.f);
+  }
+
+  bool drawn() {
+    return rig.until(
+        [&] { return display->drawn().trees == TREES && display->drawn().waiting == 0; });
+  }
+  // The triangle count settles once the levels of detail have.
+  bool advanceUntil(const std::function<bool()>& done) {
+    return rig.until([&] {
+      rig.setTime(rig.now() + 0.02);
+      return done();
+    });
+  }
+
+  DisplayRig rig;
+  ForestDisplay* display{nullptr};
+};
+
+template <class T>
+std::vector<T*> propertiesOf(rviz::Property& parent) {
+  std::vector<T*> out;
+  for (int i = 0; i < parent.numChildren(); ++i) {
+    rviz::Property* child = parent.childAt(i);
+    if (auto* found = dynamic_cast<T*>(child)) out.push_back(found);
+    for (T* deeper : propertiesOf<T>(*child)) out.push_back(deeper);
+  }
+  return out;
+}
+
+std::size_t resources() {
+  std::size_t out = 0;
+  auto textures = Ogre::TextureManager::getSingleton().getResourceIterator();
+  for (; textures.hasMoreElements(); textures.moveNext()) ++out;
+  auto materials = Ogre::MaterialManager::getSingleton().getResourceIterator();
+  for (; materials.hasMoreElements(); materials.moveNext()) ++out;
+  return out;
+}
+
+// S2-16: trees are built on the fly from the layout, and seen.
+TEST_F(ForestDisplayTest, DrawsAForestWithGroundAndSky) {
+  ASSERT_TRUE(drawn());
+  ASSERT_TRUE(advanceUntil([&] { return display->drawn().moving == TREES; }));
+  rig.frames(3);
+  const Impression seen = rig.look();
+  EXPECT_GT(seen.green, 0.15);
+  EXPECT_GT(seen.blue, 0.05);
+  EXPECT_GT(seen.spread, 15.0);
+}
+
+TEST_F(ForestDisplayTest, NothingMovesWhileTheClockStands) {
+  ASSERT_TRUE(drawn());
+  ASSERT_TRUE(advanceUntil([&] { return display->drawn().moving == TREES; }));
+  ASSERT_TRUE(rig.until([&] { return display->drawn().moving == 0; }));
+  rig.frames(5);
+  const std::vector<std::uint8_t> before = rig.picture();
+  rig.frames(5);
+  EXPECT_EQ(rig.picture(), before);
+  rig.setTime(rig.now() + 0.5);
+  EXPECT_TRUE(rig.until([&] { return rig.picture() != before; }));
+}
+
+TEST_F(ForestDisplayTest, SurvivesTimeGoingBack) {
+  ASSERT_TRUE(drawn());
+  rig.setTime(10.0);
+  ASSERT_TRUE(rig.until([&] { return display->drawn().moving == 0; }));
+  rig.publishState();
+  EXPECT_TRUE(advanceUntil([&] { return display->drawn().moving == TREES; }));
+}
+
+// S1-14: the picture's complexity follows what the user asks for.
+TEST_F(ForestDisplayTest, KeepsToTheTriangles) {
+  ASSERT_TRUE(drawn());
+  for (const double target : {30000.0, 9000.0}) {
+    display->subProp("Triangles")->setValue(static_cast<int>(target));
+    EXPECT_TRUE(rig.until([&] {
+      return std::abs(static_cast<double>(display->drawn().triangles) / target - 1.0) < 0.1;
+    })) << display->drawn().triangles;
+  }
+}
+
+// N8: the pose of rviz's camera, x forward and z up, on change and at least each second.
+TEST_F(ForestDisplayTest, TellsWhereTheViewLooksFrom) {
+  std::vector<Viewer> heard;
+  const ros::Subscriber subscriber = rig.nodeHandle().subscribe<Viewer>(
+      "viewer", 100, [&](const Viewer::ConstPtr& message) { heard.push_back(*message); });
+  ASSERT_TRUE(rig.until([&] { return !heard.empty(); }));
+  const auto forwardOf = [](const Viewer& viewer) {
+    const auto& q = viewer.pose.orientation;
+    return axisX(Quat{q.w, q.x, q.y, q.z});
+  };
+  rig.manager().getViewManager()->getCurrent()->subProp("Yaw")->setValue(2.0);
+  EXPECT_TRUE(rig.until([&] {
+    const Ogre::Vector3 at = rig.camera().getDerivedPosition();
+    const Ogre::Vector3 to = rig.camera().getDerivedDirection();
+    const Viewer& last = heard.back();
+    const auto& p = last.pose.position;
+    return std::hypot(p.x - static_cast<double>(at.x), p.y - static_cast<double>(at.y)) < 0.02 &&
+           length(forwardOf(last) - Vec3(static_cast<double>(to.x), static_cast<double>(to.y),
+                                         static_cast<double>(to.z))) < 0.02;
+  }));
+  EXPECT_EQ(heard.back().header.frame_id, "map");
+  EXPECT_EQ(heard.back().height, 360u);
+  EXPECT_EQ(heard.back().id.rfind("rviz_", 0), 0u);
+  const std::size_t before = heard.size();
+  EXPECT_TRUE(rig.until([&] { return heard.size() >= before + 2; }, 10.0));  // still, yet heard
+}
+
+TEST_F(ForestDisplayTest, RefusesWhatCannotBeAndKeepsWhatItHas) {
+  ASSERT_TRUE(drawn());
+  ForestLayout layout = toMsg(forest::gridLayout(2, 9.0));
+  layout.header.frame_id = "map";
+  layout.trees[1].position.x = std::numeric_limits<double>::quiet_NaN();
+  rig.publish(layout);
+  ForestState stranger;
+  stranger.header.stamp.fromSec(rig.now());
+  stranger.key_frame = true;
+  stranger.layout_hash = 12345;
+  rig.publish(stranger);
+  WindField wind = toMsg(wind::Field({forest::makeBreeze(1, Vec3(3.0, 0.0, 0.0))}), "map", 0);
+  wind.primitives[0].velocity.x = std::numeric_limits<double>::infinity();
+  rig.publish(wind);
+  const auto refused = [&](const char* name) {
+    const auto all = propertiesOf<rviz::Property>(*display);
+    return std::any_of(all.begin(), all.end(), [&](rviz::Property* property) {
+      return property->getName() == name &&
+             property->getValue().toString().contains("is not finite", Qt::CaseInsensitive);
+    });
+  };
+  EXPECT_TRUE(rig.until([&] { return refused("Layout") && refused("Wind"); }));
+  EXPECT_EQ(display->drawn().trees, static_cast<std::size_t>(TREES));
+}
+
+TEST_F(ForestDisplayTest, FollowsALayoutThatChanges) {
+  ASSERT_TRUE(drawn());
+  rig.publishForest(forest::gridLayout(3, 9.0));
+  EXPECT_TRUE(rig.until([&] { return display->drawn().trees == 9; }));
+  rig.publishForest(forest::gridLayout(1, 9.0));
+  EXPECT_TRUE(rig.until([&] { return display->drawn().trees == 1; }));
+}
+
+TEST_F(ForestDisplayTest, EveryPropertyCanBeChanged) {
+  ASSERT_TRUE(drawn());
+  for (auto* flag : propertiesOf<rviz::BoolProperty>(*display)) {
+    flag->setBool(!flag->getBool());
+    rig.frames(2);
+    flag->setBool(!flag->getBool());
+    rig.frames(2);
+  }
+  for (auto* number : propertiesOf<rviz::FloatProperty>(*display)) {
+    const float value = number->getFloat();
+    for (const float other : {number->getMin(), value * 1.1f, value}) {
+      number->setFloat(other);
+      rig.frames(1);
+    }
+    EXPECT_FALSE(number->getDescription().isEmpty());
+  }
+  for (auto* number : propertiesOf<rviz::IntProperty>(*display)) {
+    const int value = number->getInt();
+    for (const int other : {number->getMin(), value + 1, value}) {
+      number->setInt(other);
+      rig.frames(1);
+    }
+  }
+  rig.publishState();
+  EXPECT_TRUE(drawn());
+}
+
+TEST_F(ForestDisplayTest, SettingsSurviveSaveAndLoad) {
+  display->subProp("Triangles")->setValue(54321);
+  display->subProp("Colour by Level")->setValue(true);
+  display->subProp("Haze")->subProp("End")->setValue(777.f);
+  display->subProp("Sky")->subProp("Sun Azimuth")->setValue(33.f);
+  rviz::Config saved;
+  display->save(saved);
+  ForestDisplay* other = rig.addDisplay();
+  other->load(saved);
+  rviz::Config again;
+  other->save(again);
+  for (auto it = saved.mapIterator(); it.isValid(); it.advance())
+    EXPECT_EQ(it.currentChild().getValue(), again.mapGetChild(it.currentKey()).getValue())
+        << it.currentKey().toStdString();
+  EXPECT_EQ(other->subProp("Haze")->subProp("End")->getValue().toFloat(), 777.f);
+  EXPECT_EQ(other->subProp("Triangles")->getValue().toInt(), 54321);
+  rig.remove(other);
+}
+
+TEST_F(ForestDisplayTest, LeavesNothingBehind) {
+  ASSERT_TRUE(drawn());
+  rig.remove(display);
+  display = nullptr;
+  Ogre::SceneManager& scene = *rig.manager().getSceneManager();
+  const std::size_t before = resources();
+  const auto nodes = scene.getRootSceneNode()->numChildren();
+  EXPECT_EQ(scene.getFogMode(), Ogre::FOG_NONE);
+  for (int i = 0; i < 20; ++i) {
+    ForestDisplay* another = rig.addDisplay();
+    ASSERT_NE(another, nullptr);
+    if (i % 4 == 0)
+      ASSERT_TRUE(rig.until([&] { return another->drawn().trees == TREES; }));
+    else
+      rig.frames(1);
+    if (i % 2 == 0) another->reset();
+    if (i % 3 == 0) another->setEnabled(false);
+    rig.remove(another);
+  }
+  EXPECT_EQ(resources(), before);
+  EXPECT_EQ(scene.getRootSceneNode()->numChildren(), nodes);
+  EXPECT_EQ(scene.getFogMode(), Ogre::FOG_NONE);
+}
+
+}  // namespace
+}  // namespace vegetation_sim
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "forest_display_test");
+  const QApplication application(argc, argv);
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,128 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/rviz/picture.h"
+
+#include <gtest/gtest.h>
+
+#include "vegetation_sim/rviz/bark_picture.h"
+#include "vegetation_sim/rviz/leaf_picture.h"
+#include "vegetation_sim/rviz/sky_picture.h"
+
+namespace vegetation_sim::view {
+namespace {
+
+using forest::LeafShape;
+
+float brightness(const Rgba& colour) {
+  return (colour[0] + colour[1] + colour[2]) / 3.f;
+}
+
+TEST(Picture, BlendsByAlpha) {
+  Picture picture(2, 1, {0.f, 0.f, 0.f, 1.f});
+  picture.blend(0, 0, {1.f, 1.f, 1.f, 0.25f});
+  picture.blend(5, -3, {1.f, 1.f, 1.f, 1.f});  // outside: nothing
+  EXPECT_FLOAT_EQ(picture.at(0, 0)[0], 0.25f);
+  EXPECT_FLOAT_EQ(picture.at(1, 0)[0], 0.f);
+  EXPECT_EQ(picture.bytes(), (std::vector<std::uint8_t>{64, 64, 64, 255, 0, 0, 0, 255}));
+}
+
+TEST(Picture, MipmapsHalveDownToOnePixelAndKeepTheMean) {
+  Picture picture(8, 4, {});
+  for (std::size_t i = 0; i < picture.pixels.size(); ++i) picture.pixels[i][0] = i % 2 ? 1.f : 0.f;
+  const std::vector<Picture> levels = mipmaps(picture);
+  EXPECT_EQ(levels.size(), 3u);
+  EXPECT_EQ(levels.back().rows, 1);
+  for (const Rgba& pixel : levels.back().pixels) EXPECT_FLOAT_EQ(pixel[0], 0.5f);
+}
+
+TEST(Noise, IsBoundedSmoothAndRepeats) {
+  const Noise noise(7);
+  for (float x = -100.f; x < 100.f; x += 0.37f) {
+    const float y = 0.61f * x;
+    EXPECT_GE(noise.fractal(x, y, 4), 0.f);
+    EXPECT_LE(noise.fractal(x, y, 4), 1.f);
+    // The steepest that the fade can be is 1.5 per unit.
+    EXPECT_NEAR(noise.smooth(x, y), noise.smooth(x + 0.01f, y), 0.0151f);
+    EXPECT_NEAR(noise.smooth(x, y), noise.smooth(x + Noise::PERIOD, y), 1e-4f);
+  }
+}
+
+TEST(LeafPicture, ShapesAreCardsWithHolesAndDifferFromEachOther) {
+  for (const bool bough : {false, true}) {
+    for (int a = 0; a < 4; ++a) {
+      const Picture picture = leafPicture(static_cast<LeafShape>(a), bough, 64);
+      EXPECT_GT(coverage(picture), 0.15) << a;
+      EXPECT_LT(coverage(picture), 0.8) << a;
+      for (int b = 0; b < a; ++b)
+        EXPECT_NE(picture.bytes(), leafPicture(static_cast<LeafShape>(b), bough, 64).bytes());
+    }
+  }
+}
+
+TEST(LeafAtlas, MipmapsKeepTheCoverage) {
+  const std::vector<Picture> levels = leafAtlas(128);
+  ASSERT_EQ(levels.size(), 6u);
+  for (const Picture& level : levels) {
+    EXPECT_EQ(level.columns, 2 * level.rows);
+    // One pixel of 32 x 16 is 0.2 %; ties in alpha may take a few.
+    EXPECT_NEAR(coverage(level), coverage(levels.front()), 0.04) << level.columns;
+  }
+}
+
+TEST(LeafAtlas, EachShapeHasItsCell) {
+  for (int shape = 0; shape < 4; ++shape) {
+    for (const bool bough : {false, true}) {
+      const auto place = leafAtlasPlace(shape, bough, {0.5f, 0.5f});
+      EXPECT_FLOAT_EQ(place[0], 0.125f + 0.25f * static_cast<float>(shape));
+      EXPECT_FLOAT_EQ(place[1], bough ? 0.75f : 0.25f);
+    }
+  }
+}
+
+TEST(BarkPicture, BirchIsPaleWithDarkLenticels) {
+  const Picture birch = barkPicture(LeafShape::SMALL, 64);
+  int pale = 0, dark = 0;
+  for (const Rgba& pixel : birch.pixels) {
+    pale += pixel[0] > 0.8f ? 1 : 0;
+    dark += pixel[0] < 0.5f ? 1 : 0;
+  }
+  EXPECT_GT(pale, 10 * 64 * 64 / 4);
+  EXPECT_GT(dark, 64 * 4 * 64 / 100);
+}
+
+TEST(BarkPicture, ClosesAroundTheTrunk) {
+  for (const LeafShape shape : {LeafShape::BROAD, LeafShape::NEEDLE, LeafShape::LONG}) {
+    const Picture picture = barkPicture(shape, 128);
+    double step = 0.0;
+    for (int r = 0; r < picture.rows; ++r)
+      step +=
+          std::abs(static_cast<double>(picture.at(0, r)[0] - picture.at(127, r)[0])) / picture.rows;
+    EXPECT_LT(step, 0.15);  // as between any two columns side by side
+  }
+}
+
+TEST(SkyPicture, IsHazyBelowBlueAboveAndBrightAroundTheSun) {
+  const Daylight light = daylightOf(1.5707963, 0.7);
+  const Picture sky = skyPicture(light, 128, 64);
+  double zenith = 0.0, horizon = 0.0;
+  for (int c = 0; c < sky.columns; ++c) {
+    zenith += static_cast<double>(sky.at(c, 0)[2] - sky.at(c, 0)[0]) / sky.columns;
+    horizon += static_cast<double>(sky.at(c, 60)[2] - sky.at(c, 60)[0]) / sky.columns;
+  }
+  EXPECT_GT(zenith, 0.2);
+  EXPECT_LT(horizon, 0.5 * zenith);
+  int row = 0;  // of the sun
+  while (skyElevation((row + 0.5) / sky.rows) > 0.7) ++row;
+  EXPECT_GT(brightness(sky.at(32, row)), brightness(sky.at(96, row)));
+}
+
+TEST(Daylight, TheSunStandsWhereItIsSetAndReddensWhenLow) {
+  const Daylight noon = daylightOf(0.0, 1.2), evening = daylightOf(0.0, 0.15);
+  EXPECT_NEAR(length(noon.to_sun), 1.0, 1e-12);
+  EXPECT_GT(noon.to_sun.x(), 0.0);
+  EXPECT_GT(noon.to_sun.z(), evening.to_sun.z());
+  EXPECT_GT(evening.sun[0] / evening.sun[2], noon.sun[0] / noon.sun[2]);
+}
+
+}  // namespace
+}  // namespace vegetation_sim::view
