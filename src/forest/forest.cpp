@@ -53,7 +53,8 @@ void Forest::setLayout(Layout layout, std::shared_ptr<const terrain::HeightMap> 
 
 void Forest::reset() {
   memory_.viewers.clear();
-  memory_.levels.reset(std::min(memory_.settings.fixed_level, memory_.settings.highest_level));
+  const int level = std::min(memory_.settings.fixed_level, memory_.settings.highest_level);
+  memory_.levels.reset(LevelState::settled(level));
   memory_.stamp = 0;
   changed_.clear();
   sequence_ = 0;
@@ -88,7 +89,8 @@ void Forest::advance(Nanoseconds stamp) {
   const Settings& settings = memory_.settings;
   const bool watched = !memory_.viewers.empty();
   const int base = watched ? 0 : std::min(settings.fixed_level, settings.highest_level);
-  memory_.levels.rebase(base, layout_.treeCount());
+  last_base_ = memory_.levels.base().level;
+  memory_.levels.rebase(base, stamp, layout_.motion.transition);
   if (watched) {
     now_ = memory_.wind.at(stamp);
     for (const Region& region : regions_) chooseRegion(region);
@@ -128,8 +130,10 @@ void Forest::chooseTree(std::uint32_t tree) {
   const double speed = now_.speedBound(foot, reach);
   const Vec3 middle = foot + Vec3(0.0, 0.0, 0.5 * seed.scale * table.height);
   const double view = finestView(memory_.viewers, middle, reach);
-  const int level = chooseLevel(table, seed.scale, speed, view, memory_.settings.tolerance,
-                                memory_.levels.of(tree).level);
+  const auto held = memory_.levels.held().find(tree);
+  const int current = held == memory_.levels.held().end() ? last_base_ : held->second.level;
+  const int level =
+      chooseLevel(table, seed.scale, speed, view, memory_.settings.tolerance, current);
   aim(tree, std::min(level, memory_.settings.highest_level));
 }
 
@@ -157,7 +161,7 @@ StateUpdate Forest::update(bool key_frame) {
   out.stamp = memory_.stamp;
   out.sequence = sequence_++;
   out.key_frame = key_frame;
-  out.base_level = memory_.levels.base();
+  out.base = memory_.levels.base();
   out.layout_hash = layout_hash_;
   out.wind_hash = memory_.wind.hash();
   out.hash = hash();

@@ -6,37 +6,40 @@ namespace vegetation_sim::forest {
 
 LevelState LevelMap::of(std::uint32_t tree) const {
   const auto found = held_.find(tree);
-  return found == held_.end() ? LevelState::settled(base_) : found->second;
+  return found == held_.end() ? base_ : found->second;
 }
 
-void LevelMap::reset(int base) {
+void LevelMap::reset(const LevelState& base) {
   base_ = base;
   held_.clear();
 }
 
-void LevelMap::rebase(int base, std::uint32_t count) {
-  if (base == base_) return;
-  const LevelState resting = LevelState::settled(base_);
-  for (std::uint32_t tree = 0; tree < count; ++tree) held_.emplace(tree, resting);
-  base_ = base;
-}
-
-bool LevelMap::resting(const LevelState& state, Nanoseconds stamp, double transition) const {
-  return state.level == base_ && isSettled(state, stamp, transition);
+void LevelMap::rebase(int level, Nanoseconds stamp, double transition) {
+  if (level != base_.level) setLevel(base_, level, stamp, transition);
 }
 
 void LevelMap::prune(Nanoseconds stamp, double transition) {
-  for (auto it = held_.begin(); it != held_.end();)
-    it = resting(it->second, stamp, transition) ? held_.erase(it) : std::next(it);
+  const bool base_settled = isSettled(base_, stamp, transition);
+  if (base_settled) base_ = LevelState::settled(base_.level);
+  for (auto it = held_.begin(); it != held_.end();) {
+    LevelState& state = it->second;
+    const bool settled = isSettled(state, stamp, transition);
+    if (settled) state = LevelState::settled(state.level);  // says the same in fewer bytes
+    it = settled && base_settled && state.level == base_.level ? held_.erase(it) : std::next(it);
+  }
 }
 
 void LevelMap::addTo(Hash& hash, Nanoseconds stamp, double transition) const {
-  hash.add(static_cast<std::uint64_t>(base_));
-  for (const auto& [tree, state] : held_) {
-    if (resting(state, stamp, transition)) continue;
-    hash.add(static_cast<std::uint64_t>(tree));
+  const auto add = [&](const LevelState& state) {
     hash.add(static_cast<std::uint64_t>(state.level));
     for (const double alpha : blendAt(state, stamp, transition)) hash.add(alpha);
+  };
+  add(base_);
+  const bool base_settled = isSettled(base_, stamp, transition);
+  for (const auto& [tree, state] : held_) {
+    if (base_settled && state.level == base_.level && isSettled(state, stamp, transition)) continue;
+    hash.add(static_cast<std::uint64_t>(tree));
+    add(state);
   }
 }
 

@@ -34,9 +34,9 @@ bool ForestReplica::apply(const StateUpdate& update) {
     return false;
   }
   if (update.key_frame)
-    levels_.reset(update.base_level);
+    levels_.reset(update.base);
   else
-    levels_.rebase(update.base_level, layout_->treeCount());
+    levels_.setBase(update.base);
   for (const StateUpdate::Entry& entry : update.trees) levels_.set(entry.tree, entry.state);
   levels_.prune(update.stamp, layout_->motion.transition);
   in_sequence_ = true;

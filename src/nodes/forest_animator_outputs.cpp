@@ -51,7 +51,7 @@ void ForestAnimator::diagnose(diagnostic_updater::DiagnosticStatusWrapper& statu
   const auto& memory = forest_->memory();
   status.add("Trees", forest_->layout().treeCount());
   status.add("Trees not at the base level", memory.levels.held().size());
-  status.add("Base level", memory.levels.base());
+  status.add("Base level", memory.levels.base().level);
   status.add("Viewers", memory.viewers.size());
   status.add("Ticks", counts_.ticks);
   status.add("Ticks dropped", counts_.dropped);

@@ -57,41 +57,42 @@ forest::Tile tileFromMsg(const ForestTile& message) {
   return out;
 }
 
+// A level that was settled when it was set needs no blend.
+std::vector<float> blendToMsg(const forest::LevelState& state, Nanoseconds now) {
+  if (state.since <= now && state.blend == forest::LevelState::settled(state.level).blend)
+    return {};
+  return {state.blend.begin(), state.blend.end()};
+}
+
+forest::LevelState levelFromMsg(const std::string& name, int level, const ros::Time& since,
+                                const std::vector<float>& blend, Faults& faults) {
+  if (level > forest::MAX_DEPTHS) {
+    faults.add(name + "level = " + std::to_string(level) + " is outside 0 to " +
+               std::to_string(forest::MAX_DEPTHS));
+    return {};
+  }
+  forest::LevelState out = forest::LevelState::settled(level);
+  out.since = fromMsg(since);
+  if (blend.empty()) return out;
+  if (blend.size() != forest::MAX_DEPTHS) {
+    faults.add(name + "blend has " + std::to_string(blend.size()) + " entries, allowed are 0 or " +
+               std::to_string(forest::MAX_DEPTHS));
+    return out;
+  }
+  for (std::size_t d = 0; d < forest::MAX_DEPTHS; ++d) {
+    const std::string fault = rangeFault(name + "blend", blend[d], "", {0.0, 1.0});
+    if (!fault.empty()) faults.add(fault);
+    out.blend[d] = blend[d];
+  }
+  return out;
+}
+
 TreeState entryToMsg(const forest::StateUpdate::Entry& entry, Nanoseconds now) {
   TreeState out;
   out.tree = entry.tree;
   out.level = static_cast<std::uint8_t>(entry.state.level);
   out.since = toStamp(entry.state.since);
-  bool settled = entry.state.since <= now;
-  for (int d = 0; d < forest::MAX_DEPTHS; ++d)
-    settled = settled &&
-              entry.state.blend[static_cast<std::size_t>(d)] == (d < entry.state.level ? 1.f : 0.f);
-  if (!settled) out.blend.assign(entry.state.blend.begin(), entry.state.blend.end());
-  return out;
-}
-
-forest::StateUpdate::Entry entryFromMsg(const TreeState& message, Faults& faults) {
-  const std::string name = "state: tree " + std::to_string(message.tree);
-  forest::StateUpdate::Entry out;
-  out.tree = message.tree;
-  if (message.level > forest::MAX_DEPTHS) {
-    faults.add(name + ": level = " + std::to_string(message.level) + " is outside 0 to " +
-               std::to_string(forest::MAX_DEPTHS));
-    return out;
-  }
-  out.state = forest::LevelState::settled(message.level);
-  out.state.since = vegetation_sim::fromMsg(message.since);
-  if (message.blend.empty()) return out;
-  if (message.blend.size() != forest::MAX_DEPTHS) {
-    faults.add(name + ": blend has " + std::to_string(message.blend.size()) +
-               " entries, allowed are 0 or " + std::to_string(forest::MAX_DEPTHS));
-    return out;
-  }
-  for (std::size_t d = 0; d < forest::MAX_DEPTHS; ++d) {
-    const std::string fault = rangeFault(name + ": blend", message.blend[d], "", {0.0, 1.0});
-    if (!fault.empty()) faults.add(fault);
-    out.state.blend[d] = message.blend[d];
-  }
+  out.blend = blendToMsg(entry.state, now);
   return out;
 }
 
@@ -173,7 +174,9 @@ ForestState toMsg(const forest::StateUpdate& update) {
   out.header.stamp = toStamp(update.stamp);
   out.sequence = update.sequence;
   out.key_frame = update.key_frame;
-  out.base_level = static_cast<std::uint8_t>(update.base_level);
+  out.base_level = static_cast<std::uint8_t>(update.base.level);
+  out.base_since = toStamp(update.base.since);
+  out.base_blend = blendToMsg(update.base, update.stamp);
   out.layout_hash = update.layout_hash;
   out.wind_hash = update.wind_hash;
   out.hash = update.hash;
@@ -188,14 +191,16 @@ forest::StateUpdate fromMsg(const ForestState& message) {
   out.stamp = fromMsg(message.header.stamp);
   out.sequence = message.sequence;
   out.key_frame = message.key_frame;
-  out.base_level = message.base_level;
-  if (message.base_level > forest::MAX_DEPTHS)
-    faults.add("state: base_level = " + std::to_string(message.base_level) + " is outside 0 to " +
-               std::to_string(forest::MAX_DEPTHS));
+  out.base = levelFromMsg("state: base_", message.base_level, message.base_since,
+                          message.base_blend, faults);
   out.layout_hash = message.layout_hash;
   out.wind_hash = message.wind_hash;
   out.hash = message.hash;
-  for (const TreeState& tree : message.trees) out.trees.push_back(entryFromMsg(tree, faults));
+  for (const TreeState& tree : message.trees) {
+    const std::string name = "state: tree " + std::to_string(tree.tree) + ": ";
+    out.trees.push_back(
+        {tree.tree, levelFromMsg(name, tree.level, tree.since, tree.blend, faults)});
+  }
   faults.throwIfAny();
   return out;
 }

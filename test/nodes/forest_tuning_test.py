@@ -117,7 +117,7 @@ class ForestTuning(unittest.TestCase):
 
         def settled():
             held = [m for m in self.forest.state.messages if m.key_frame][-1]
-            return held.header.stamp > time_of(start) and not held.trees
+            return held.header.stamp > time_of(start) and not held.trees and not held.base_blend
         self.clock.run_until(settled, 'a settled forest', self.forest)
         return self.clock.tick - start
 

@@ -87,6 +87,7 @@ class Forest {
   std::vector<Region> regions_;
   ForestMemory memory_;
   wind::Instant now_;
+  int last_base_{0};  // level of the trees that were not held before this tick
   std::vector<std::uint32_t> changed_;
   std::uint32_t sequence_{0};
 };

@@ -10,29 +10,29 @@
 
 namespace vegetation_sim::forest {
 
-/// Levels of all trees of a forest; only those that differ from the base take memory.
+/// Levels of all trees of a forest; only those that differ from the base take memory. The base too
+/// may be on its way from one level to another: a million trees change together for the price of
+/// one.
 class LevelMap {
  public:
-  int base() const { return base_; }
-  /// Level of a tree; a tree that is not held is settled at the base.
+  const LevelState& base() const { return base_; }
+  /// Level of a tree; one that is not held has the base's.
   LevelState of(std::uint32_t tree) const;
   const std::map<std::uint32_t, LevelState>& held() const { return held_; }
 
   void set(std::uint32_t tree, const LevelState& state) { held_[tree] = state; }
-  /// Drops every tree and gives all of them the base level.
-  void reset(int base);
-  /// Changes the base without changing any tree: the `count` trees that rested on the old one are
-  /// held from now on.
-  void rebase(int base, std::uint32_t count);
-  /// Forgets the trees that have settled at the base.
+  /// Drops every tree and gives all of them the base's level.
+  void reset(const LevelState& base);
+  void setBase(const LevelState& base) { base_ = base; }
+  /// Starts a change of the base to `level`; the trees that are held keep theirs.
+  void rebase(int level, Nanoseconds stamp, double transition);
+  /// Forgets the trees that have settled at the base, once it has settled itself.
   void prune(Nanoseconds stamp, double transition);
   /// Hash of levels at `stamp`, the same whether or not pruned.
   void addTo(Hash& hash, Nanoseconds stamp, double transition) const;
 
  private:
-  bool resting(const LevelState& state, Nanoseconds stamp, double transition) const;
-
-  int base_{0};
+  LevelState base_;
   std::map<std::uint32_t, LevelState> held_;
 };
 
@@ -41,7 +41,7 @@ struct StateUpdate {
   Nanoseconds stamp{0};
   std::uint32_t sequence{0};
   bool key_frame{true};
-  int base_level{0};
+  LevelState base;  ///< of every tree that is not listed
   std::uint64_t layout_hash{0}, wind_hash{0}, hash{0};
   struct Entry {
     std::uint32_t tree{0};
