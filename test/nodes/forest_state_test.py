@@ -83,13 +83,14 @@ class ForestState(unittest.TestCase):
                              r'frames = \d+ would pass the budget of %d' % TF_BUDGET)
             self.assertEqual(answer.frames, TF_BUDGET)
         self.clock.run_until(lambda: len(tf.messages) >= 10, 'frames', self.forest)
-        for message in tf.messages:
+        heard = list(tf.messages)
+        for message in heard:
             self.assertEqual([t.child_frame_id for t in message.transforms],
                              ['tree_7/branch_%d' % i for i in range(TF_BUDGET)])
-        stamps = [m.transforms[0].header.stamp for m in tf.messages]
+        stamps = [m.transforms[0].header.stamp for m in heard]
         self.assertEqual(len(set(stamps)), len(stamps), 'a transform came twice')
         pose = self.forest.tree(7, stamps[-1]).transforms.poses[20]
-        sent = tf.messages[-1].transforms[20].transform
+        sent = heard[-1].transforms[20].transform
         self.assertEqual((pose.position.x, pose.orientation), (sent.translation.x, sent.rotation))
         self.assertEqual(self.forest.set_tf(7, [], False).frames, 0)
         tf.close()
