@@ -63,7 +63,7 @@ void ForestDisplay::start() {
   forest_ = std::make_unique<view::ForestVisual>(*scene_node_);
   layouts_ = 0;
   last_stamp_ = 0;
-  updateScenery();
+  updateSun();
   updateViewer();
 }
 
@@ -90,25 +90,34 @@ void ForestDisplay::updateLook() {
   if (forest_) forest_->repaint();
 }
 
-void ForestDisplay::updateScenery() {
-  if (!forest_) return;
-  air_.reset();
-  sky_.reset();
+// Made anew at the next update.
+void ForestDisplay::updateGround() {
   ground_.reset();
   grounded_ = -1;
-  updateAir();
 }
 
-void ForestDisplay::updateAir() {
+void ForestDisplay::updateSky() {
+  sky_.reset();
+  if (forest_ && properties_->sky())
+    sky_ = std::make_unique<view::SkyVisual>(*scene_node_, properties_->daylight());
+}
+
+void ForestDisplay::updateSun() {
+  updateSky();
+  updateHaze();
+  updateTrees();
+}
+
+void ForestDisplay::updateHaze() {
+  air_.reset();
+  if (!forest_) return;
   const view::Daylight daylight = properties_->daylight();
   const view::Haze haze = properties_->hazeValues();
-  if (length(daylight.to_sun - to_sun_) > 1e-6) updateTrees();  // their light has changed
-  to_sun_ = daylight.to_sun;
   if (properties_->haze())
     air_ = std::make_unique<view::Air>(
         *scene_manager_, context_->getViewManager()->getRenderPanel(), haze, daylight.horizon);
-  if (properties_->sky()) sky_ = std::make_unique<view::SkyVisual>(*scene_node_, daylight);
   forest_->light(daylight, daylight.to_sun, haze);
+  if (ground_) ground_->light(daylight, daylight.to_sun, haze);
 }
 
 void ForestDisplay::updateViewer() {
@@ -142,7 +151,7 @@ void ForestDisplay::update(float wall_dt, float /*ros_dt*/) {
     }
     forest_->update(source_->replica(), stamp, view, properties_->daylight(),
                     properties_->options());
-    updateGround();
+    makeGround();
   }
   if (since_status_ < STATUS_PERIOD) return;
   since_status_ = 0.0;
@@ -191,7 +200,7 @@ bool ForestDisplay::findView(view::View& view) {
   return true;
 }
 
-void ForestDisplay::updateGround() {
+void ForestDisplay::makeGround() {
   const view::TreeStock* stock = forest_->stock();
   if (stock == nullptr || !properties_->ground() || grounded_ == forest_->restarts()) return;
   ground_.reset();

@@ -29,8 +29,8 @@ rviz::RosTopicProperty* topic(const char* name, const char* value, const char* h
 }
 
 rviz::FloatProperty* number(const char* name, float value, const char* help, float low, float high,
-                            rviz::Property* parent, rviz::Display& display) {
-  auto* out = new rviz::FloatProperty(name, value, help, parent, SLOT(updateScenery()), &display);
+                            rviz::Property* parent, const char* slot, rviz::Display& display) {
+  auto* out = new rviz::FloatProperty(name, value, help, parent, slot, &display);
   out->setMin(low);
   out->setMax(high);
   return out;
@@ -80,23 +80,24 @@ void ForestProperties::addLook(rviz::Display& display) {
 }
 
 void ForestProperties::addScenery(rviz::Display& display) {
-  const auto flag = [&](const char* name, const char* help) {
-    return new rviz::BoolProperty(name, true, help, &display, SLOT(updateScenery()), &display);
+  const auto flag = [&](const char* name, const char* help, const char* slot) {
+    return new rviz::BoolProperty(name, true, help, &display, slot, &display);
   };
-  ground_ = flag("Ground", "Draw the terrain with grass and forest floor.");
+  ground_ = flag("Ground", "Draw the terrain with grass and forest floor.", SLOT(updateGround()));
   ground_colour_ = new rviz::ColorProperty("Colour", GRASS, "Colour of grass.", ground_,
-                                           SLOT(updateScenery()), &display);
-  sky_ = flag("Sky", "Draw a sky with clouds.");
+                                           SLOT(updateGround()), &display);
+  sky_ = flag("Sky", "Draw a sky with clouds.", SLOT(updateSky()));
   azimuth_ = number("Sun Azimuth", 215.f, "Where the sun stands: 0 is east, 90 north [deg].",
-                    -360.f, 360.f, sky_, display);
+                    -360.f, 360.f, sky_, SLOT(updateSun()), display);
   elevation_ = number("Sun Elevation", 38.f, "Height of the sun over the horizon [deg].", 8.f, 90.f,
-                      sky_, display);
-  haze_ = flag("Haze", "Let far things fade into the air.");
-  haze_start_ = number("Start", 40.f, "Nearer things are clear [m].", 0.f, 10000.f, haze_, display);
+                      sky_, SLOT(updateSun()), display);
+  haze_ = flag("Haze", "Let far things fade into the air.", SLOT(updateHaze()));
+  haze_start_ = number("Start", 40.f, "Nearer things are clear [m].", 0.f, 10000.f, haze_,
+                       SLOT(updateHaze()), display);
   haze_end_ = number("End", 450.f, "Farther things have all of the haze [m].", 1.f, 100000.f, haze_,
-                     display);
+                     SLOT(updateHaze()), display);
   haze_most_ = number("Strength", 0.9f, "All of the haze: 1 hides what is behind.", 0.f, 1.f, haze_,
-                      display);
+                      SLOT(updateHaze()), display);
 }
 
 void ForestProperties::addViewer(rviz::Display& display) {

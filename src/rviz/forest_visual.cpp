@@ -25,6 +25,12 @@ double pixelsOf(const DrawnTree& tree, const View& view) {
   return forest::pixelsPerMetre(view.eye, length(middle - view.eye.position) - tree.reach());
 }
 
+// Painted once in a process.
+const std::vector<Picture>& sharedLeafAtlas() {
+  static const std::vector<Picture> atlas = leafAtlas(LEAF_EDGE);
+  return atlas;
+}
+
 bool isSeen(const DrawnTree& tree, const View& view) {
   return view.sees(tree.foot() + Vec3(0.0, 0.0, 0.5 * tree.height()),
                    tree.reach() + 0.5 * tree.height());
@@ -35,7 +41,7 @@ bool isSeen(const DrawnTree& tree, const View& view) {
 ForestVisual::ForestVisual(Ogre::SceneNode& parent)
     : parent_(parent),
       node_(parent.createChildSceneNode()),
-      leaf_texture_(uniqueName("leaf_picture"), leafAtlas(LEAF_EDGE)),
+      leaf_texture_(uniqueName("leaf_picture"), sharedLeafAtlas()),
       bark_texture_(uniqueName("bark_picture"), mipmaps(barkAtlas(BARK_EDGE), 16)),
       leaf_material_(Material::Kind::LEAVES, uniqueName("leaf_material"), {leaf_texture_.name()}),
       bark_material_(Material::Kind::BARK, uniqueName("bark_material"), {bark_texture_.name()}) {}

@@ -42,7 +42,10 @@ class ForestDisplay : public rviz::Display {
   void updateTopics();
   void updateTrees();
   void updateLook();
-  void updateScenery();
+  void updateGround();
+  void updateSky();
+  void updateSun();
+  void updateHaze();
   void updateViewer();
 
  private:
@@ -51,8 +54,7 @@ class ForestDisplay : public rviz::Display {
   bool placeInFixedFrame();
   bool findView(view::View& view);
   void watchTime(Nanoseconds stamp);
-  void updateAir();
-  void updateGround();
+  void makeGround();
   void publishViewer();
   void showStatus(Nanoseconds stamp);
   void show(rviz::StatusProperty::Level level, const std::string& name, const std::string& text);
@@ -68,7 +70,6 @@ class ForestDisplay : public rviz::Display {
   std::map<std::string, std::string> shown_;  // status texts, to change them only when they change
   int layouts_{0};
   int grounded_{-1};  // restart of the forest that the ground was made for
-  Vec3 to_sun_{Vec3::Zero()};
   Nanoseconds last_stamp_{0};
   double since_update_{0.0}, since_status_{1e9}, wall_{0.0};  // [s]
 };

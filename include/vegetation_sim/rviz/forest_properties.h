@@ -23,8 +23,8 @@ namespace vegetation_sim::view {
 /// the display, which owns them.
 class ForestProperties {
  public:
-  /// @param display with the slots updateTopics(), updateLook(), updateScenery() and
-  /// updateViewer().
+  /// @param display with the slots updateTopics(), updateTrees(), updateLook(), updateGround(),
+  /// updateSky(), updateSun(), updateHaze() and updateViewer().
   explicit ForestProperties(rviz::Display& display);
 
   ForestTopics topics() const;
