@@ -60,14 +60,14 @@ struct JointMotion {
 
 // Right Jacobian of the rotation vector w = (q, 0): I - b [w] + c [w]^2.
 JointMotion jointMotion(const Eigen::Vector2d& q, const Eigen::Vector2d& rate) {
-  const Vec3 w(q.x(), q.y(), 0.0), dw(rate.x(), rate.y(), 0.0);
+  const Vec3 w(q.x(), q.y(), 0.0), rate3(rate.x(), rate.y(), 0.0);
   const RotationSeries s = rotationSeries(std::sqrt(dot(w, w)));
-  const Matrix3 W = crossMatrix(w), dW = crossMatrix(dw);
-  const Matrix3 full = Matrix3::Identity() - s.b * W + s.c * W * W;
-  const double swept = dot(w, dw);  // angle times its rate
-  const Matrix3 change =
-      -s.db * swept * W - s.b * dW + s.dc * swept * W * W + s.c * (dW * W + W * dW);
-  return {full.leftCols<2>(), Vec3(change * dw)};
+  const Matrix3 cross = crossMatrix(w), cross_rate = crossMatrix(rate3);
+  const Matrix3 full = Matrix3::Identity() - s.b * cross + s.c * cross * cross;
+  const double swept = dot(w, rate3);  // angle times its rate
+  const Matrix3 change = -s.db * swept * cross - s.b * cross_rate + s.dc * swept * cross * cross +
+                         s.c * (cross_rate * cross + cross * cross_rate);
+  return {full.leftCols<2>(), Vec3(change * rate3)};
 }
 
 /// Articulated inertia about a joint: torque = a * spin' + b * acceleration,

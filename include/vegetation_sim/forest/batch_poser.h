@@ -20,8 +20,8 @@ struct BatchPoses {
   Pose at(int branch) const;
 };
 
-/// Branches begin to end of one depth; first_parent: of `begin`, if the parents of all stand side by
-/// side, else -1.
+/// Branches begin to end of one depth; first_parent: of `begin`, if the parents of all stand side
+/// by side, else -1.
 struct BatchGroup {
   int begin{0}, end{0}, depth{0}, first_parent{-1};
 };
