@@ -12,6 +12,8 @@ namespace vegetation_sim {
 namespace {
 
 constexpr double SMALLEST_PX = 3.0;         // of a tree that is drawn
+constexpr double LARGEST_SCALE = 1.3;       // of trees in tiles, seedInTile
+constexpr std::size_t LEAST_POINTS = 120;   // a tree in the budget; what is farther is not drawn
 constexpr double PIXELS_PER_RADIAN = 1000;  // of the middle of the forest, when nobody looks
 
 visualization_msgs::Marker makeList(const std::string& ns, int id) {
@@ -65,6 +67,23 @@ double finest(const std::vector<forest::Eye>& eyes, const Vec3& position, double
   return out;
 }
 
+/// Tiles with the largest height [pixel] that any tree of theirs may have, largest first.
+std::vector<std::pair<double, const forest::Tile*>> tilesInOrder(
+    const forest::Forest& forest, const std::vector<forest::Eye>& eyes) {
+  double tallest = 0.0;
+  for (const forest::Species& species : forest.layout().species)
+    tallest = std::max(tallest, LARGEST_SCALE * species.height);
+  std::vector<std::pair<double, const forest::Tile*>> out;
+  for (const forest::Tile& tile : forest.layout().tiles) {
+    const double x = tile.x + 0.5 * tile.size, y = tile.y + 0.5 * tile.size;
+    const Vec3 middle(x, y, forest.terrain().height(x, y));
+    out.emplace_back(tallest * finest(eyes, middle, 0.75 * tile.size), &tile);
+  }
+  std::stable_sort(out.begin(), out.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  return out;
+}
+
 }  // namespace
 
 ForestMarkers::ForestMarkers(int points)
@@ -90,13 +109,23 @@ void ForestMarkers::chooseTrees(const forest::Forest& forest) {
     if (view * height >= SMALLEST_PX) order_.emplace_back(view * height, id);
   };
   for (std::uint32_t i = 0; i < layout.trees.size(); ++i) consider(i, layout.trees[i]);
-  for (const forest::Tile& tile : layout.tiles) {
-    const Vec3 middle(tile.x + 0.5 * tile.size, tile.y + 0.5 * tile.size, 0.0);
-    if (finest(eyes, middle, 0.75 * tile.size) * 10.0 < SMALLEST_PX) continue;
-    for (std::uint32_t i = 0; i < tile.count; ++i)
-      consider(tile.first_tree + i, seedInTile(tile, i));
+  for (const auto& [largest, tile] : tilesInOrder(forest, eyes)) {
+    keepLargest(budget() / LEAST_POINTS);
+    if (largest < least_) break;
+    for (std::uint32_t i = 0; i < tile->count; ++i)
+      consider(tile->first_tree + i, seedInTile(*tile, i));
   }
+  keepLargest(budget() / LEAST_POINTS);
   std::sort(order_.begin(), order_.end(), std::greater<>());
+}
+
+void ForestMarkers::keepLargest(std::size_t count) {
+  least_ = SMALLEST_PX;
+  if (count == 0 || order_.size() <= count) return;
+  const auto last = order_.begin() + static_cast<std::ptrdiff_t>(count) - 1;
+  std::nth_element(order_.begin(), last, order_.end(), std::greater<>());
+  order_.resize(count);
+  least_ = order_.back().first;
 }
 
 void ForestMarkers::addTree(const forest::Forest& forest, forest::TreeCache& cache,

@@ -17,7 +17,8 @@ namespace vegetation_sim {
 
 /// The forest as two TRIANGLE_LISTs, bark (id 0) and leaves (id 1), of constant size: rviz updates
 /// such a list in place. Where the trees need more than the budget their geometry levels fall, by
-/// the feedback of S1-14; where they need less, degenerate triangles fill up.
+/// the feedback of S1-14, and the farthest are left out; where they need less, degenerate triangles
+/// fill up.
 class ForestMarkers {
  public:
   /// @param points most points of both lists together, at least 600.
@@ -38,6 +39,7 @@ class ForestMarkers {
     std::shared_ptr<const forest::TreeMesh> mesh;
   };
   void chooseTrees(const forest::Forest& forest);
+  void keepLargest(std::size_t count);
   void addTree(const forest::Forest& forest, forest::TreeCache& cache, std::uint32_t id,
                Nanoseconds stamp);
   void finish(visualization_msgs::Marker& marker, std::size_t points, std::size_t& used) const;
@@ -46,7 +48,8 @@ class ForestMarkers {
   std::size_t used_{0}, wanted_{0};
   forest::ComplexityFeedback feedback_;
   std::map<std::uint32_t, Drawn> drawn_;
-  std::vector<std::pair<double, std::uint32_t>> order_;  // pixels per metre, tree
+  std::vector<std::pair<double, std::uint32_t>> order_;  // height [pixel], tree
+  double least_{0.0};                                    // smaller trees are not drawn [pixel]
   visualization_msgs::Marker bark_, leaves_;
   forest::BatchPoses poses_;
   std::vector<float> scratch_;
