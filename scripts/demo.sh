@@ -95,7 +95,8 @@ run_headless() {
   trap 'exit 130' INT TERM
   start_display
   say "Showing $scenario on display $DISPLAY"
-  start_launch demo.launch scenario:="$scenario" rviz_config:="$(rviz_config)"
+  start_launch demo.launch scenario:="$scenario" rviz_config:="$(rviz_config)" \
+    rviz_args:=--disable-anti-aliasing
   wait_until 120 'the rviz window' rviz_window
   wait_until 60 'a message on forest/state' topic_flows /forest/state
   say "Running for ${seconds:-20} s"

@@ -151,7 +151,7 @@ class MeshBuilder {
     const SinCos t = sinCos(0.5 * (GOLDEN_ANGLE * number + random.uniform(AZIMUTH, -0.6, 0.6)));
     const SinCos p = sinCos(0.5 * random.uniform(ANGLE, habit.least_angle, habit.largest_angle));
     const SinCos r = sinCos(0.5 * random.uniform(TURN, -habit.turn, habit.turn));
-    if (detail_.boughs && habit.hangs) {
+    if (hangs()) {
       setRotation(conjugate(b.rest.orientation) * hanging(random), out);
       return finished(b, random, out);
     }
@@ -160,6 +160,18 @@ class MeshBuilder {
                    Quat{SQRT_HALF, SQRT_HALF, 0.0, 0.0} * Quat{r.cos, 0.0, r.sin, 0.0};
     setRotation(q, out);
     return finished(b, random, out);
+  }
+
+  // Far away, boughs that hang are drawn hanging straight down.
+  bool hangs() const {
+    return detail_.boughs && HABITS[static_cast<std::size_t>(species_.leaf_shape)].hangs;
+  }
+
+  // Where the limb of a branch leaves its bearer, at rest.
+  Vec3 sproutOf(int branch) const {
+    while (at(branch).parent >= 0 && at(at(branch).parent).next == branch)
+      branch = at(branch).parent;
+    return at(branch).rest.position;
   }
 
   // In the tree's frame: midrib down, any way round.
@@ -198,7 +210,8 @@ class MeshBuilder {
     const Pose& from = at(leaf.branch).rest;
     const Pose& to = at(bearer).rest;
     const Quat back = conjugate(to.orientation);
-    const Vec3 place = from.position + static_cast<double>(leaf.local[2]) * axisZ(from.orientation);
+    Vec3 place = from.position + static_cast<double>(leaf.local[2]) * axisZ(from.orientation);
+    if (hangs()) place += 0.5 * (sproutOf(leaf.branch) - place);  // not in mid-air
     const Vec3 local = rotate(back, place - to.position);
     const Quat q = back * from.orientation *
                    Quat{leaf.rotation[0], leaf.rotation[1], leaf.rotation[2], leaf.rotation[3]};
