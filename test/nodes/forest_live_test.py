@@ -1,0 +1,38 @@
+#!/usr/bin/env python3
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""forest_animator by the time of day."""
+import unittest
+
+import rospy
+import rostest
+from vegetation_sim.msg import ForestState, WindField
+
+from forest_rig import RATE, Eye, Log, time_of
+
+TICKS = 2 * RATE
+
+
+class ForestLive(unittest.TestCase):
+    # Two seconds of ticks on the grid of Unix time, none left out, none ahead of its time.
+    def test_state_comes_tick_by_tick(self):
+        wind = Log('/wind', WindField)
+        state = Log('/forest/state', ForestState)
+        eye = Eye()
+        field = wind.wait(lambda all: all and all[-1], 'the wind')
+        state.wait(lambda all: all and all[-1].wind_hash == field.hash, 'its adoption')
+        eye.look(-60.0, -10.0, 4.0)
+        first = len(state.messages)
+        state.wait(lambda all: len(all) >= first + TICKS, 'states')
+        self.assertGreaterEqual(rospy.Time.now(), state.messages[-1].header.stamp)
+        heard = state.messages[first:first + TICKS]
+        tick = int(round(heard[0].header.stamp.to_sec() * RATE))
+        self.assertEqual([m.header.stamp for m in heard],
+                         [time_of(tick + i) for i in range(TICKS)])
+        self.assertEqual([m.sequence - heard[0].sequence for m in heard], list(range(TICKS)))
+        self.assertTrue(any(m.trees for m in heard), 'nobody looked')
+
+
+if __name__ == '__main__':
+    rospy.init_node('forest_live_test')
+    rostest.rosrun('vegetation_sim', 'forest_live', ForestLive)
