@@ -39,7 +39,7 @@ class ForestState(unittest.TestCase):
             self.eye.look(-60.0 + 3.0 * half, -10.0, 4.0, self.forest)
             self.clock.run(RATE // 2, self.forest)
 
-    # S1-02: any (tree, branch) id is there; S1-41, N1: 200 branches each.
+    # S1-02: any (tree, branch) id is there, of 256 trees of at least 200 branches.
     def test_every_branch_of_every_tree_can_be_asked_for(self):
         self.assertIn('there are %d, from 0' % TREES, self.forest.refusal(tree=TREES))
         for tree in range(TREES):
