@@ -104,7 +104,7 @@ void benchLevels(int rounds) {
       grove.branches);
   std::printf("%-22s %10s %12s %8s %14s %12s\n", "", "ms/frame", "branches", "ratio",
               "error [pixel]", "error [m]");
-  for (const double tolerance : {1.0, 1.5, 2.0, 4.0}) {
+  for (const double tolerance : {1.0, 1.5, 1.75, 2.0, 4.0}) {
     Settings settings;
     settings.tolerance = tolerance;
     Forest forest(grove.layout, flatTerrain(), settings);
@@ -137,7 +137,7 @@ void benchLevels(int rounds) {
     if (tolerance == 1.0)
       std::printf("%-22s %10.3f %12zu %8.1f %14s %12s\n", "all at full depth",
                   candidates[0].seconds * 1e3, grove.branches, 1.0, "0", "0");
-    std::printf("levels, %.1f pixel      %10.3f %12zu %8.1f %14.2f %12.3f\n", tolerance,
+    std::printf("levels, %.2f pixel     %10.3f %12zu %8.1f %14.2f %12.3f\n", tolerance,
                 candidates[1].seconds * 1e3, posed, candidates[0].seconds / candidates[1].seconds,
                 worst.pixels, worst.metres);
   }

@@ -133,6 +133,10 @@ std::vector<YamlSection> YamlSection::sections(const char* name) {
 
 void YamlSection::finish() {
   if (!node_.IsMap()) return;
+  std::set<std::string> seen;
+  for (const auto& entry : node_)
+    if (entry.first.IsScalar() && !seen.insert(entry.first.Scalar()).second)
+      fault(entry.first.Scalar(), "stands there twice");
   for (const auto& entry : node_) {
     const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "(not a word)";
     if (asked_.count(key)) continue;

@@ -10,7 +10,7 @@
 namespace vegetation_sim::forest {
 namespace {
 
-constexpr double LARGEST_SCALE = 1.3;  // of trees in tiles, seedInTile
+constexpr double SMALLEST_SCALE = 0.7, LARGEST_SCALE = 1.3;  // of trees in tiles, seedInTile
 
 // Pixels per metre of the eye that sees a disc best: the finest wins.
 double finestView(const std::map<std::string, Viewer>& viewers, const Vec3& centre, double reach) {
@@ -44,6 +44,8 @@ void Forest::setLayout(Layout layout, std::shared_ptr<const terrain::HeightMap> 
   check(layout, faults);
   faults.throwIfAny();
   const bool same_trees = layout.treeCount() == layout_.treeCount();
+  // What is on its way goes on from where it is, at the new layout's pace.
+  memory_.levels.anchor(memory_.stamp, layout_.motion.transition);
   layout_ = std::move(layout);
   layout_hash_ = layout_.hash();
   terrain_ = std::move(terrain);
@@ -60,25 +62,37 @@ void Forest::reset() {
   sequence_ = 0;
 }
 
+void Forest::measureSpecies(std::size_t species, double scale) {
+  tables_[species].measure(layout_.species[species], layout_.motion, scale);
+  const LevelTable table = tables_[species].at(scale);
+  extent_ = std::max(extent_, table.reach + table.height);
+  largest_omission_ = std::max(largest_omission_, table.omitted[0]);
+  slowest_reference_ = std::min(slowest_reference_, layout_.species[species].reference_speed);
+}
+
 void Forest::measure() {
-  tables_.clear();
-  widest_ = tallest_ = largest_omission_ = 0.0;
-  for (const Species& species : layout_.species) {
-    tables_.push_back(measureLevels(species, layout_.motion));
-    widest_ = std::max(widest_, tables_.back().reach);
-    tallest_ = std::max(tallest_, tables_.back().height);
-    largest_omission_ = std::max(largest_omission_, tables_.back().omitted[0]);
-  }
+  tables_.assign(layout_.species.size(), LevelScales());
+  extent_ = largest_omission_ = 0.0;
+  slowest_reference_ = 1e9;
+  for (const TreeSeed& seed : layout_.trees) measureSpecies(seed.species, seed.scale);
+  for (std::size_t species = 0; species < tables_.size() && !layout_.tiles.empty(); ++species)
+    for (const double scale : {SMALLEST_SCALE, 1.0, LARGEST_SCALE}) measureSpecies(species, scale);
+  const terrain::Bounds bounds = terrain_->bounds();
+  const double relief = bounds.max_z - bounds.min_z;
   regions_.clear();
   for (std::uint32_t i = 0; i < layout_.trees.size(); ++i)
-    regions_.push_back(
-        {footOf(layout_.trees[i], *terrain_), layout_.trees[i].scale * (widest_ + tallest_), i, 1});
+    regions_.push_back({footOf(layout_.trees[i], *terrain_), extent_, i, 1});
   for (const Tile& tile : layout_.tiles) {
     const double half = 0.5 * tile.size;
     const Vec3 centre(tile.x + half, tile.y + half, terrain_->height(tile.x + half, tile.y + half));
-    regions_.push_back(
-        {centre, half * 1.5 + LARGEST_SCALE * (widest_ + tallest_), tile.first_tree, tile.count});
+    regions_.push_back({centre, half * 1.5 + relief + extent_, tile.first_tree, tile.count});
   }
+}
+
+// Speed that a bend is proportional to.
+double Forest::bendingSpeed(double speed, double reference_speed) const {
+  const bool linear = static_cast<Drag>(layout_.motion.drag) == Drag::LINEAR;
+  return linear ? speed : speed * speed / reference_speed;
 }
 
 void Forest::advance(Nanoseconds stamp) {
@@ -107,9 +121,10 @@ void Forest::advance(Nanoseconds stamp) {
 // at.
 void Forest::chooseRegion(const Region& region) {
   if (region.count == 1) return chooseTree(region.first);
-  const double speed = now_.speedBound(region.centre, region.reach);
+  const double speed =
+      bendingSpeed(now_.speedBound(region.centre, region.reach), slowest_reference_);
   const double view = finestView(memory_.viewers, region.centre, region.reach);
-  const double error = LARGEST_SCALE * largest_omission_ * speed * view;
+  const double error = largest_omission_ * speed * view;
   if (error > HYSTERESIS * memory_.settings.tolerance) {
     for (std::uint32_t i = 0; i < region.count; ++i) chooseTree(region.first + i);
     return;
@@ -124,16 +139,16 @@ void Forest::chooseRegion(const Region& region) {
 
 void Forest::chooseTree(std::uint32_t tree) {
   const TreeSeed seed = seedOf(layout_, tree);
-  const LevelTable& table = tables_[seed.species];
+  const LevelTable table = tables_[seed.species].at(seed.scale);
   const Vec3 foot = footOf(seed, *terrain_);
-  const double reach = 0.5 * seed.scale * table.reach;  // where most of its twigs are
-  const double speed = now_.speedBound(foot, reach);
-  const Vec3 middle = foot + Vec3(0.0, 0.0, 0.5 * seed.scale * table.height);
+  const double reach = 0.5 * table.reach;  // where most of its twigs are
+  const double speed =
+      bendingSpeed(now_.speedBound(foot, reach), layout_.species[seed.species].reference_speed);
+  const Vec3 middle = foot + Vec3(0.0, 0.0, 0.5 * table.height);
   const double view = finestView(memory_.viewers, middle, reach);
   const auto held = memory_.levels.held().find(tree);
   const int current = held == memory_.levels.held().end() ? last_base_ : held->second.level;
-  const int level =
-      chooseLevel(table, seed.scale, speed, view, memory_.settings.tolerance, current);
+  const int level = chooseLevel(table, speed, view, memory_.settings.tolerance, current);
   aim(tree, std::min(level, memory_.settings.highest_level));
 }
 

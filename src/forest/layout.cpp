@@ -3,6 +3,7 @@
 #include "vegetation_sim/forest/layout.h"
 
 #include <cmath>
+#include <set>
 #include <stdexcept>
 
 #include "vegetation_sim/common/math.h"
@@ -12,7 +13,6 @@ namespace vegetation_sim::forest {
 namespace {
 
 constexpr double FARTHEST = 1e7;  // [m]
-constexpr std::uint32_t MOST_TREES = 1u << 24;
 
 enum Draw : std::uint64_t { SPECIES, X, Y, YAW, SCALE, GROWTH };
 
@@ -102,7 +102,12 @@ std::uint64_t Layout::hash() const {
 
 void check(const Layout& layout, Faults& faults) {
   if (layout.species.empty()) faults.add("layout: species is empty");
-  for (const Species& species : layout.species) check(species, faults);
+  std::set<std::string> names;
+  for (const Species& species : layout.species) {
+    check(species, faults);
+    if (!names.insert(species.name).second)
+      faults.add("layout: species " + species.name + " stands there twice");
+  }
   MotionLaw law = layout.motion;
   FieldChecker checker("layout: ", faults);
   describe(checker, law);

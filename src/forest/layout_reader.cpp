@@ -10,6 +10,7 @@ namespace vegetation_sim::forest {
 namespace {
 
 constexpr Range ANYWHERE{-1e7, 1e7};
+constexpr int MOST_TILES = 65536;
 
 class LayoutReader {
  public:
@@ -89,6 +90,12 @@ class LayoutReader {
     section.integer("columns", columns, "", {1, 4096});
     tile.mix = readMix(section.section("mix"));
     section.finish();
+    const double tiles = static_cast<double>(rows) * columns;
+    if (tiles > MOST_TILES || tiles * count + out_.treeCount() > MOST_TREES)
+      return faults_.add(section.path() + ": " + std::to_string(rows) + " rows x " +
+                         std::to_string(columns) + " columns x " + std::to_string(count) +
+                         " trees pass the " + std::to_string(MOST_TILES) + " tiles or " +
+                         std::to_string(MOST_TREES) + " trees allowed");
     const Tile first = tile;
     for (int i = 0; i < rows * columns; ++i) {
       tile.first_tree = out_.treeCount();

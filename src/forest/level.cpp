@@ -17,9 +17,19 @@ constexpr double PROBE = 0.5;     // [m/s] weak enough that no joint nears its l
 constexpr double STRANGER = 1.1;  // trees that were not measured may move so much more
 constexpr double NEAREST = 0.5;   // [m] closer than this nothing grows in the picture
 
+// Scales of trees that are measured; a species' table at any other is interpolated.
+constexpr std::array<double, 11> GRID{0.05, 0.1, 0.2, 0.35, 0.6, 1.0, 1.6, 2.5, 4.0, 8.0, 20.0};
+
+// Last point of the grid at or below a scale that has one above it.
+std::size_t gridIndex(double scale) {
+  std::size_t i = 0;
+  while (i + 2 < GRID.size() && GRID[i + 1] <= scale) ++i;
+  return i;
+}
+
 // Raises omitted[n] to the largest displacement of a tip when the joints of depth n or more are
 // fixed, per wind speed.
-void measureTree(const Tree& tree, std::vector<double>& omitted) {
+void measureTree(const Tree& tree, LevelTable& table) {
   for (int direction = 0; direction < DIRECTIONS; ++direction) {
     const SinCos a = sinCosTurns(static_cast<double>(direction) / (2 * DIRECTIONS));
     wind::Instant wind;
@@ -27,13 +37,13 @@ void measureTree(const Tree& tree, std::vector<double>& omitted) {
     Weights weights;
     weights.fill(1.0);
     const std::vector<Pose> full = poseBranches(tree, wind, weights);
-    for (std::size_t n = omitted.size(); n-- > 0;) {
+    for (auto n = static_cast<std::size_t>(tree.skeleton.depths()); n-- > 0;) {
       weights[n] = 0.0;
       const std::vector<Pose> cut = poseBranches(tree, wind, weights);
       for (std::size_t i = 0; i < full.size(); ++i) {
         const Branch& branch = tree.skeleton.branches[i];
         const double moved = length(tipOf(branch, full[i]) - tipOf(branch, cut[i]));
-        omitted[n] = std::max(omitted[n], STRANGER * moved / PROBE);
+        table.omitted[n] = std::max(table.omitted[n], STRANGER * moved / PROBE);
       }
     }
   }
@@ -87,25 +97,38 @@ int movingDepths(const Weights& weights) {
   return out;
 }
 
-LevelTable measureLevels(const Species& species, const MotionLaw& law) {
+LevelTable measureLevels(const Species& species, const MotionLaw& law, double scale) {
   LevelTable out;
-  out.omitted.assign(static_cast<std::size_t>(species.depths()), 0.0);
-  out.branches.assign(static_cast<std::size_t>(species.depths()) + 1, 0.0);
   out.height = out.reach = 0.0;
   for (int sample = 0; sample < SAMPLES; ++sample) {
     Tree tree;
     tree.seed.seed = static_cast<std::uint64_t>(sample) + 1;
+    tree.seed.scale = scale;
     tree.skeleton = grow(tree.seed, species);
     tree.response = windResponse(tree.skeleton, species, law);
     tree.joint_model = static_cast<JointModel>(law.joint_model);
-    measureTree(tree, out.omitted);
-    for (int d = 0; d < tree.skeleton.depths(); ++d)
-      out.branches[static_cast<std::size_t>(d) + 1] +=
-          static_cast<double>(tree.skeleton.depth_end[static_cast<std::size_t>(d)]) / SAMPLES;
+    measureTree(tree, out);
     out.height = std::max(out.height, tree.skeleton.height);
     out.reach = std::max(out.reach, tree.skeleton.reach);
   }
-  out.omitted.push_back(0.0);
+  return out;
+}
+
+void LevelScales::measure(const Species& species, const MotionLaw& law, double scale) {
+  const std::size_t below = gridIndex(scale);
+  for (const std::size_t i : {below, below + 1})
+    if (!tables_.count(i)) tables_[i] = measureLevels(species, law, GRID[i]);
+}
+
+LevelTable LevelScales::at(double scale) const {
+  const std::size_t below = gridIndex(scale);
+  const LevelTable &a = tables_.at(below), &b = tables_.at(below + 1);
+  const double f = saturate((scale - GRID[below]) / (GRID[below + 1] - GRID[below]));
+  LevelTable out;
+  for (std::size_t n = 0; n < out.omitted.size(); ++n)
+    out.omitted[n] = a.omitted[n] + f * (b.omitted[n] - a.omitted[n]);
+  out.height = a.height + f * (b.height - a.height);
+  out.reach = a.reach + f * (b.reach - a.reach);
   return out;
 }
 
@@ -125,10 +148,10 @@ double pixelsPerMetre(const Eye& eye, double distance) {
   return eye.pixels_per_radian / std::max(distance, NEAREST);
 }
 
-int chooseLevel(const LevelTable& table, double scale, double speed, double pixels_per_metre,
-                double tolerance, int current) {
-  const int full = static_cast<int>(table.omitted.size()) - 1;
-  const double factor = scale * speed * pixels_per_metre;
+int chooseLevel(const LevelTable& table, double speed, double pixels_per_metre, double tolerance,
+                int current) {
+  const int full = MAX_DEPTHS;
+  const double factor = speed * pixels_per_metre;
   const auto error = [&](int level) {
     return factor * table.omitted[static_cast<std::size_t>(level)];
   };

@@ -18,6 +18,11 @@ void LevelMap::rebase(int level, Nanoseconds stamp, double transition) {
   if (level != base_.level) setLevel(base_, level, stamp, transition);
 }
 
+void LevelMap::anchor(Nanoseconds stamp, double transition) {
+  setLevel(base_, base_.level, stamp, transition);
+  for (auto& entry : held_) setLevel(entry.second, entry.second.level, stamp, transition);
+}
+
 void LevelMap::prune(Nanoseconds stamp, double transition) {
   const bool base_settled = isSettled(base_, stamp, transition);
   if (base_settled) base_ = LevelState::settled(base_.level);

@@ -131,9 +131,10 @@ Species applyDesign(const Species& species, const Design& design) {
   FieldClamper clamper;
   describe(clamper, out);
   for (LimbRule& rule : out.limbs) describe(clamper, rule);
-  // Thin out the last depth rather than refuse a slider.
+  // Thin out rather than refuse a slider; ends, since without laterals a trunk is left.
   const double limit = 0.8 * MAX_BRANCHES;
-  while (expectedBranches(out) > limit) out.limbs.back().children *= 0.9;
+  while (expectedBranches(out) > limit)
+    for (LimbRule& rule : out.limbs) rule.children *= 0.95;
   return out;
 }
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vegetation_sim/nodes/forest_inputs.h"
 
+#include <cmath>
+
 #include <algorithm>
 
 #include "vegetation_sim/ros/forest_conversions.h"
@@ -21,7 +23,8 @@ class FieldCopier : public FieldVisitor {
   void integer(const char* name, int& value, const char*, Range) override {
     double number_value = value;
     copy(name, number_value);
-    value = static_cast<int>(number_value);
+    const bool whole = std::fabs(number_value) < 1e9 && std::floor(number_value) == number_value;
+    value = whole ? static_cast<int>(number_value) : -1;  // below every range
   }
   void vector(const char*, Vec3&, const char*, Range) override {}
   void choice(const char*, int&, const std::vector<std::string>&) override {}

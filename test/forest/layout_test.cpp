@@ -129,6 +129,13 @@ INSTANTIATE_TEST_SUITE_P(
                   "position has 2 numbers where 3 are wanted"),
         std::pair("forest: {species: [{name: oak}], tiles: [{count: 99999999, mix: {oak: 1}}]}",
                   "count = 1e+08 is outside 0 to"),
+        std::pair(
+            "forest: {species: [{name: oak}], tiles: [{rows: 4096, columns: 4096, count: 1000,"
+            " mix: {oak: 1}}]}",
+            "4096 rows x 4096 columns x 1000 trees pass"),
+        std::pair("forest: {species: [{name: oak}], trees: [{species: oak, yaw: 1, yaw: 2}]}",
+                  "yaw stands there twice"),
+        std::pair("forest: {species: [{name: oak}, {name: oak}]}", "oak stands there twice"),
         std::pair("forest: {species: [{name: oak}], motion: {drag: cubic}}",
                   "drag = 'cubic' is none of linear, quadratic"),
         std::pair("forest: {species: oak}", "species = 'oak' is not a list")));

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 
 #include "forest/forest_fixture.h"
 #include "vegetation_sim/common/random.h"
@@ -96,13 +97,12 @@ LevelTable table() {
 
 // S1-22, S1-40: none without wind; finer with more wind, nearer eyes, larger trees.
 TEST(Level, ChoiceFollowsWindDistanceAndSize) {
-  EXPECT_EQ(chooseLevel(table(), 1.0, 0.0, 1e6, 1.0, 0), 0);
-  EXPECT_EQ(chooseLevel(table(), 1.0, 5.0, 0.0, 1.0, 0), 0);
-  EXPECT_EQ(chooseLevel(table(), 1.0, 5.0, 3.0, 1.0, 0), 1);
-  EXPECT_EQ(chooseLevel(table(), 1.0, 10.0, 3.0, 1.0, 0), 2);
-  EXPECT_EQ(chooseLevel(table(), 1.0, 5.0, 30.0, 1.0, 0), 3);
-  EXPECT_EQ(chooseLevel(table(), 2.0, 5.0, 3.0, 1.0, 0), 2);
-  EXPECT_EQ(chooseLevel(table(), 1.0, 5.0, 30.0, 100.0, 0), 0);
+  EXPECT_EQ(chooseLevel(table(), 0.0, 1e6, 1.0, 0), 0);
+  EXPECT_EQ(chooseLevel(table(), 5.0, 0.0, 1.0, 0), 0);
+  EXPECT_EQ(chooseLevel(table(), 5.0, 3.0, 1.0, 0), 1);
+  EXPECT_EQ(chooseLevel(table(), 10.0, 3.0, 1.0, 0), 2);
+  EXPECT_EQ(chooseLevel(table(), 5.0, 30.0, 1.0, 0), 3);
+  EXPECT_EQ(chooseLevel(table(), 5.0, 30.0, 100.0, 0), 0);
 }
 
 // Against the angles themselves.
@@ -132,7 +132,7 @@ TEST(Level, BorderDoesNotFlicker) {
   for (int i = 0; i < 200; ++i) {
     const double speed =
         5.0 * (1.0 + 0.1 * (i % 2 ? 1 : -1));  // error 0.9 and 1.1 of the tolerance
-    const int next = chooseLevel(table(), 1.0, speed, 4.0, 1.0, level);
+    const int next = chooseLevel(table(), speed, 4.0, 1.0, level);
     flips += next != level;
     level = next;
   }
@@ -140,14 +140,19 @@ TEST(Level, BorderDoesNotFlicker) {
 }
 
 // The table bounds what the levels leave out: measured on trees that it has not seen.
-class LevelTableOf : public testing::TestWithParam<int> {};
+// Species and scale.
+class LevelTableOf : public testing::TestWithParam<std::tuple<int, double>> {};
 TEST_P(LevelTableOf, PredictsTheOmittedMotion) {
-  const Layout layout = gridLayout(6, 10.0);
-  const Species& species = layout.species[static_cast<std::size_t>(GetParam())];
-  const LevelTable measured = measureLevels(species, layout.motion);
+  const auto [kind, scale] = GetParam();
+  Layout layout = gridLayout(4, 10.0);
+  const Species& species = layout.species[static_cast<std::size_t>(kind)];
+  LevelScales scales;
+  scales.measure(species, layout.motion, scale);
+  const LevelTable measured = scales.at(scale);
   wind::Instant steady;
-  steady.mean = Vec3(3, 0, 0);
-  for (std::uint32_t id = static_cast<std::uint32_t>(GetParam()); id < 36; id += 4) {
+  steady.mean = Vec3(1, 0, 0);
+  for (auto id = static_cast<std::uint32_t>(kind); id < 16; id += 4) {
+    layout.trees[id].scale = scale;
     const Tree tree = growTree(layout, id, terrain::HeightMap());
     const auto full = poseBranches(tree, steady, fullWeights());
     for (int level = 0; level < species.depths(); ++level) {
@@ -159,14 +164,16 @@ TEST_P(LevelTableOf, PredictsTheOmittedMotion) {
         const Branch& b = tree.skeleton.branches[i];
         worst = std::max(worst, length(tipOf(b, full[i]) - tipOf(b, cut[i])));
       }
-      const double predicted = 3.0 * measured.omitted[static_cast<std::size_t>(level)];
-      // The bound is of six sample trees; a stranger may exceed it a little, never by half.
+      const double predicted = measured.omitted[static_cast<std::size_t>(level)];
+      // Six sample trees speak for all; a stranger may exceed them a little, never by half.
       EXPECT_LT(worst, 1.5 * predicted) << id << " level " << level;
       EXPECT_GT(worst, 0.05 * predicted) << id << " level " << level;
     }
   }
 }
-INSTANTIATE_TEST_SUITE_P(Shipped, LevelTableOf, testing::Range(0, 4));
+INSTANTIATE_TEST_SUITE_P(Shipped, LevelTableOf,
+                         testing::Combine(testing::Range(0, 4),
+                                          testing::Values(0.28, 0.7, 1.0, 1.3, 2.2)));
 
 }  // namespace
 }  // namespace vegetation_sim::forest

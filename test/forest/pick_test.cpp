@@ -20,6 +20,7 @@ PosedTree atRest(const Layout& layout, std::uint32_t id) {
 TEST(Pick, RayMeetsTheBranchItIsAimedAt) {
   const Layout layout = gridLayout(3, 12.0);
   const Random random(4);
+  int exact = 0;
   for (std::uint64_t i = 0; i < 60; ++i) {
     const auto id = static_cast<std::uint32_t>(random.bits(3 * i) % 9);
     const PosedTree posed = atRest(layout, id);
@@ -36,8 +37,10 @@ TEST(Pick, RayMeetsTheBranchItIsAimedAt) {
     EXPECT_LE(hit->distance, length(ray.direction) + 1e-6);
     if (hit->tree == id && hit->branch == static_cast<int>(b)) {
       EXPECT_NEAR(length(hit->point - target), 0.0, 0.2);
+      ++exact;
     }
   }
+  EXPECT_GT(exact, 30);  // the others are hidden by branches in front
 }
 
 TEST(Pick, RayAtTheSkyMeetsNothing) {

@@ -71,6 +71,16 @@ TEST(Species, DesignNeverLeavesTheAllowedRanges) {
   }
 }
 
+// Even where the last depth is small.
+TEST(Species, DesignThinsOutWhateverDepthIsLarge) {
+  const Species wide = parseSpecies(
+      "{name: wide, limbs: [{segments: 4}, {children: 60, segments: 2}, {children: 60, segments: "
+      "4},"
+      " {children: 0.05}]}",
+      "wide");
+  EXPECT_LE(expectedBranches(applyDesign(wide, Design())), MAX_BRANCHES);
+}
+
 TEST(Species, FaultsNameKeyValueAndRange) {
   EXPECT_NE(faultOf("{name: a, height: -1}").find("height = -1 m is outside 0.1 to 100 m"),
             std::string::npos);

@@ -17,7 +17,10 @@ class InvalidInput : public std::runtime_error {
 /// All that is wrong with one input, so that a user mends it in one go.
 class Faults {
  public:
-  void add(std::string fault) { list_.push_back(std::move(fault)); }
+  /// Keeps the first hundred.
+  void add(std::string fault) {
+    if (list_.size() < 100) list_.push_back(std::move(fault));
+  }
   bool empty() const { return list_.empty(); }
   const std::vector<std::string>& list() const { return list_; }
   /// One fault a line.

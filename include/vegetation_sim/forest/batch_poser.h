@@ -49,8 +49,8 @@ class BatchPoser {
   explicit BatchPoser(const Tree& tree);
 
   /// Poses the branches of the first `depths` recursion depths; those that carry no weight are
-  /// carried at rest by their parents. `wind` is relative to the tree's foot. No allocation once
-  /// `out` has been used for a tree of this size.
+  /// carried at rest by their parents. `wind` is relative to the tree's foot. `out` keeps its
+  /// memory from call to call.
   void pose(const wind::Instant& wind, const Weights& weights, int depths, BatchPoses& out) const;
 
   int branchCount() const { return static_cast<int>(tree_.parent.size()) - PADDING; }

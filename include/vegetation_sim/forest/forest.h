@@ -75,6 +75,8 @@ class Forest {
     std::uint32_t first, count;
   };
   void measure();
+  void measureSpecies(std::size_t species, double scale);
+  double bendingSpeed(double speed, double reference_speed) const;
   void chooseRegion(const Region& region);
   void chooseTree(std::uint32_t tree);
   void aim(std::uint32_t tree, int level);
@@ -82,8 +84,10 @@ class Forest {
   Layout layout_;
   std::uint64_t layout_hash_{0};
   std::shared_ptr<const terrain::HeightMap> terrain_;
-  std::vector<LevelTable> tables_;  // per species
-  double widest_{0.0}, tallest_{0.0}, largest_omission_{0.0};
+  std::vector<LevelScales> tables_;  // per species
+  double extent_{0.0};               // height plus reach of the largest tree [m]
+  double largest_omission_{0.0};     // of any tree, all joints fixed [m per m/s]
+  double slowest_reference_{1.0};    // reference speed of any species [m/s]
   std::vector<Region> regions_;
   ForestMemory memory_;
   wind::Instant now_;

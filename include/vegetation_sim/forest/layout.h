@@ -38,6 +38,9 @@ enum class Gain : int { COMPLIANCE = 0, PAPER = 1 };
 enum class Drag : int { LINEAR = 0, QUADRATIC = 1 };
 enum class TransitionShape : int { SMOOTH = 0, LINEAR = 1 };
 
+/// Most trees of a layout.
+constexpr std::uint32_t MOST_TREES = 1u << 24;
+
 /// How every tree of a layout moves; part of the law that replicas share.
 struct MotionLaw {
   int joint_model{0};       ///< JointModel

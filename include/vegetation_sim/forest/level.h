@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "vegetation_sim/common/time.h"
@@ -37,15 +38,26 @@ bool isSettled(const LevelState& state, Nanoseconds stamp, double transition);
 /// Number of depths that carry any weight.
 int movingDepths(const Weights& weights);
 
-/// What a level leaves out, measured on sample trees of a species in uniform wind from several
-/// sides: the largest displacement of any tip per wind speed if only depths below n move
-/// [m per m/s], for scale 1. Index n; falls to 0.
+/// What a level leaves out, measured on sample trees of a species and scale in uniform wind from
+/// several sides: the largest displacement of any tip per wind speed if only depths below n move
+/// [m per m/s]. Index n; falls to 0.
 struct LevelTable {
-  std::vector<double> omitted;
+  std::array<double, MAX_DEPTHS + 1> omitted{};
   double height{1.0}, reach{1.0};  ///< largest of the samples [m]
-  std::vector<double> branches;    ///< mean number of joints below each depth
 };
-LevelTable measureLevels(const Species& species, const MotionLaw& law);
+LevelTable measureLevels(const Species& species, const MotionLaw& law, double scale);
+
+/// Level tables of one species over the scales that its trees have: leaves and twigs do not grow in
+/// proportion, so neither does the motion. Between measured scales, interpolated.
+class LevelScales {
+ public:
+  /// Makes at(scale) known.
+  void measure(const Species& species, const MotionLaw& law, double scale);
+  LevelTable at(double scale) const;
+
+ private:
+  std::map<std::size_t, LevelTable> tables_;  // by index into the grid of scales
+};
 
 /// An eye: where it is and how many pixels a metre at one metre takes.
 struct Eye {
@@ -62,8 +74,8 @@ double pixelsPerMetre(const Eye& eye, double distance);
 /// Smallest level whose predicted error [pixel] holds the tolerance (S1-22, S1-40): 0 without wind
 /// or out of sight. `current` is kept while the error at the next lower level is above
 /// HYSTERESIS * tolerance, so that a level at its border does not flicker.
-int chooseLevel(const LevelTable& table, double scale, double speed, double pixels_per_metre,
-                double tolerance, int current);
+int chooseLevel(const LevelTable& table, double speed, double pixels_per_metre, double tolerance,
+                int current);
 constexpr double HYSTERESIS = 0.7;
 
 }  // namespace vegetation_sim::forest

@@ -26,6 +26,8 @@ class LevelMap {
   void setBase(const LevelState& base) { base_ = base; }
   /// Starts a change of the base to `level`; the trees that are held keep theirs.
   void rebase(int level, Nanoseconds stamp, double transition);
+  /// Restarts every change from where it stands, so that its duration may change.
+  void anchor(Nanoseconds stamp, double transition);
   /// Forgets the trees that have settled at the base, once it has settled itself.
   void prune(Nanoseconds stamp, double transition);
   /// Hash of levels at `stamp`, the same whether or not pruned.
