@@ -20,7 +20,7 @@ struct Spot {
 };
 
 /// Half the width of a leaf at t from its stalk (0) to its tip (1), for a leaf of length 1.
-float halfWidth(LeafShape shape, float t) {
+float halfWidth(LeafShape shape, bool bough, float t) {
   const float round = std::sin(static_cast<float>(PI) * std::pow(t, 0.85f));
   switch (shape) {
     case LeafShape::BROAD:  // lobed
@@ -32,7 +32,7 @@ float halfWidth(LeafShape shape, float t) {
     case LeafShape::NEEDLE:
       break;
   }
-  return 0.055f * (1.f - 0.6f * t);
+  return (bough ? 0.1f : 0.055f) * (1.f - 0.6f * t);
 }
 
 class ClusterPainter {
@@ -189,7 +189,7 @@ class ClusterPainter {
              const float t = ((x - stalk.x) * ax + (y - stalk.y) * ay) / size;
              const float s = ((x - stalk.x) * ay - (y - stalk.y) * ax) / size;
              if (t < 0.f || t > 1.f) return;
-             const float half = halfWidth(shape_, t);
+             const float half = halfWidth(shape_, bough_, t);
              if (std::fabs(s) > half) return;
              // Two halves that face the light differently, a pale midrib, darker towards the stalk.
              float value = light * (0.86f + 0.14f * t) + (s > 0.f ? tilt : -tilt);
