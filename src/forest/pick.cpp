@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "vegetation_sim/common/math.h"
 
@@ -46,6 +48,28 @@ bool passes(const Ray& ray, const Vec3& direction, const Vec3& centre, double re
   return length(offset - t * direction) <= reach;
 }
 
+/// Distance at which a ray may first meet a tree [m], and the tree.
+using Candidate = std::pair<double, std::uint32_t>;
+
+void addCandidate(const Layout& layout, const terrain::HeightMap& terrain, const Ray& ray,
+                  std::uint32_t id, const TreeSeed& seed, std::vector<Candidate>& out) {
+  const Vec3 direction = ray.direction / length(ray.direction);
+  const double reach = seed.scale * sizeBound(layout.species[seed.species]) + ray.tolerance;
+  const Vec3 foot = footOf(seed, terrain);
+  if (passes(ray, direction, foot, reach))
+    out.emplace_back(std::max(0.0, dot(foot - ray.origin, direction) - reach), id);
+}
+
+// Heights inside the tile are unknown: a tall cylinder, tested in the plane.
+bool passesTile(const Ray& ray, const Vec3& direction, const Tile& tile, double tree_size) {
+  const double x = tile.x + 0.5 * tile.size, y = tile.y + 0.5 * tile.size;
+  const Vec3 flat(direction.x(), direction.y(), 0.0);
+  const double across = length(flat);
+  const Vec3 offset(x - ray.origin.x(), y - ray.origin.y(), 0.0);
+  const double t = across > 1e-9 ? std::max(0.0, dot(offset, flat) / (across * across)) : 0.0;
+  return length(offset - t * flat) <= 0.75 * tile.size + tree_size + ray.tolerance;
+}
+
 }  // namespace
 
 std::optional<Picked> pickBranch(const Tree& tree, const std::vector<Pose>& poses, const Ray& ray) {
@@ -68,31 +92,26 @@ std::optional<Picked> pickTree(const Layout& layout, const terrain::HeightMap& t
                                const Ray& ray,
                                const std::function<PosedTree(std::uint32_t)>& posed) {
   const Vec3 direction = ray.direction / length(ray.direction);
-  std::optional<Picked> best;
-  const auto try_tree = [&](std::uint32_t id, const TreeSeed& seed) {
-    const double size = seed.scale * sizeBound(layout.species[seed.species]);
-    const Vec3 foot = footOf(seed, terrain);
-    if (!passes(ray, direction, foot, size + ray.tolerance)) return;
-    const PosedTree tree = posed(id);
-    std::optional<Picked> hit = pickBranch(*tree.tree, tree.poses, ray);
-    if (!hit || (best && best->distance <= hit->distance)) return;
-    hit->tree = id;
-    best = hit;
-  };
-  for (std::uint32_t i = 0; i < layout.trees.size(); ++i) try_tree(i, layout.trees[i]);
+  std::vector<Candidate> candidates;
+  for (std::uint32_t i = 0; i < layout.trees.size(); ++i)
+    addCandidate(layout, terrain, ray, i, layout.trees[i], candidates);
   double largest = 0.0;
   for (const Species& species : layout.species) largest = std::max(largest, sizeBound(species));
   for (const Tile& tile : layout.tiles) {
-    const double x = tile.x + 0.5 * tile.size, y = tile.y + 0.5 * tile.size;
-    // Height of the ground inside the tile is unknown: a tall cylinder, tested in the plane.
-    const Vec3 flat(direction.x(), direction.y(), 0.0);
-    const double across = length(flat);
-    const double reach = 0.75 * tile.size + 1.3 * largest + ray.tolerance;
-    const Vec3 offset(x - ray.origin.x(), y - ray.origin.y(), 0.0);
-    const double t = across > 1e-9 ? std::max(0.0, dot(offset, flat) / (across * across)) : 0.0;
-    if (length(offset - t * flat) > reach) continue;
+    if (!passesTile(ray, direction, tile, 1.3 * largest)) continue;
     for (std::uint32_t i = 0; i < tile.count; ++i)
-      try_tree(tile.first_tree + i, seedInTile(tile, i));
+      addCandidate(layout, terrain, ray, tile.first_tree + i, seedInTile(tile, i), candidates);
+  }
+  // Nearest first: once a branch is met, trees that begin behind it need no growing.
+  std::sort(candidates.begin(), candidates.end());
+  std::optional<Picked> best;
+  for (const auto& [nearest_distance, id] : candidates) {
+    if (best && best->distance < nearest_distance) break;
+    const PosedTree tree = posed(id);
+    std::optional<Picked> hit = pickBranch(*tree.tree, tree.poses, ray);
+    if (!hit || (best && best->distance <= hit->distance)) continue;
+    hit->tree = id;
+    best = hit;
   }
   return best;
 }

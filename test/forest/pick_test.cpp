@@ -71,6 +71,21 @@ TEST(Pick, TreesInTilesAreFound) {
   EXPECT_EQ(hit->branch, 0);
 }
 
+TEST(Pick, TreesBehindTheHitAreNotGrown) {
+  Layout layout = gridLayout(12, 6.0);
+  Ray ray;
+  ray.origin = Vec3(-30.0, 0.0, 0.3);
+  ray.direction = Vec3(1.0, 0.0, 0.0);
+  int grown = 0;
+  const auto hit = pickTree(layout, terrain::HeightMap(), ray, [&](std::uint32_t tree) {
+    ++grown;
+    return atRest(layout, tree);
+  });
+  ASSERT_TRUE(hit);
+  EXPECT_EQ(hit->tree, 0u);
+  EXPECT_LT(grown, 100);  // of 144
+}
+
 // S1-04, S1-25 in spirit: grown trees are forgotten when others need the room.
 TEST(TreeCache, HoldsNoMoreThanItsCapacity) {
   const Layout layout = gridLayout(4, 10.0);
