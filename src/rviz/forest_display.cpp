@@ -202,13 +202,13 @@ bool ForestDisplay::findView(view::View& view) {
 
 void ForestDisplay::makeGround() {
   const view::TreeStock* stock = forest_->stock();
-  if (stock == nullptr || !properties_->ground() || grounded_ == forest_->restarts()) return;
+  if (stock == nullptr || !properties_->ground() || grounded_ == forest_->stocks()) return;
   ground_.reset();
   const view::Daylight daylight = properties_->daylight();
   ground_ = std::make_unique<view::GroundVisual>(*scene_node_, *stock, source_->replica().terrain(),
                                                  daylight, properties_->groundTint());
   ground_->light(daylight, daylight.to_sun, properties_->hazeValues());
-  grounded_ = forest_->restarts();
+  grounded_ = forest_->stocks();
 }
 
 void ForestDisplay::publishViewer() {

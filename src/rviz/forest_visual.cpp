@@ -17,7 +17,9 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int LEAF_EDGE = 256, BARK_EDGE = 512;  // [pixel]
 constexpr std::size_t TREES_PER_GROVE = 10;
-constexpr double GROW_TIME = 0.025, LEVEL_TIME = 0.010;  // [s] of one update
+// [s] of one update: growing while nothing is drawn and while something is; choosing levels while
+// trees have no mesh yet and later.
+constexpr double GROW_TIME = 0.025, SIDE_TIME = 0.006, FIRST_TIME = 0.06, LEVEL_TIME = 0.010;
 constexpr double RESELECT = 25.0;  // [m] of the eye's way until other trees are the nearest
 
 double pixelsOf(const DrawnTree& tree, const View& view) {
@@ -54,17 +56,35 @@ ForestVisual::~ForestVisual() {
 void ForestVisual::restart(const forest::ForestReplica& replica, const View& view,
                            const Options& options) {
   groves_.clear();
-  stock_ = std::make_unique<TreeStock>(
-      replica, nearestTrees(replica.layout(), view.eye.position, options.most_trees));
-  ++restarts_;
-  selected_at_ = view.eye.position;
-  selected_all_ = stock_->wanted() == replica.layout().treeCount();
+  stock_.reset();
   report_ = ForestReport();
-  report_.wanted = stock_->wanted();
   repaint_ = false;
+  select(replica, view, options);
+}
+
+void ForestVisual::select(const forest::ForestReplica& replica, const View& view,
+                          const Options& options) {
+  next_ = std::make_unique<TreeStock>(
+      replica, nearestTrees(replica.layout(), view.eye.position, options.most_trees));
+  selected_at_ = view.eye.position;
+  selected_all_ = next_->wanted() == replica.layout().treeCount();
+  report_.wanted = next_->wanted();
+}
+
+// The trees that have grown take the place of those drawn so far.
+void ForestVisual::adopt() {
+  groves_.clear();
+  stock_ = std::move(next_);
+  ++stocks_;
   const Vec3& origin = stock_->origin();
   node_->setPosition(static_cast<float>(origin.x()), static_cast<float>(origin.y()),
                      static_cast<float>(origin.z()));
+  std::vector<DrawnTree*> trees;
+  for (const auto& tree : stock_->trees()) trees.push_back(tree.get());
+  if (trees.empty()) return;
+  for (auto& group : splitByPlace(std::move(trees), TREES_PER_GROVE))
+    groves_.push_back(std::make_unique<Grove>(std::move(group), *node_, bark_material_.name(),
+                                              leaf_material_.name()));
 }
 
 void ForestVisual::repaint() {
@@ -78,30 +98,21 @@ void ForestVisual::light(const Daylight& daylight, const Vec3& to_sun, const Haz
 
 void ForestVisual::update(const forest::ForestReplica& replica, Nanoseconds stamp, const View& view,
                           const Daylight& daylight, const Options& options) {
+  const bool away = length(view.eye.position - selected_at_) > RESELECT;
+  if (stock_ && !next_ && !selected_all_ && away) select(replica, view, options);
+  if (next_ &&
+      next_->grow(replica, daylight.to_sun, options.look.leaves, stock_ ? SIDE_TIME : GROW_TIME))
+    adopt();
   if (!stock_) return;
-  if (!selected_all_ && length(view.eye.position - selected_at_) > RESELECT)
-    restart(replica, view, options);
-  if (!stock_->ready()) {
-    if (!stock_->grow(replica, daylight.to_sun, options.look.leaves, GROW_TIME)) return;
-    makeGroves();
-  }
   chooseLevels(view, options);
   move(replica, stamp, view, options);
   measure(view, options);
 }
 
-void ForestVisual::makeGroves() {
-  std::vector<DrawnTree*> trees;
-  for (const auto& tree : stock_->trees()) trees.push_back(tree.get());
-  if (trees.empty()) return;
-  for (auto& group : splitByPlace(std::move(trees), TREES_PER_GROVE))
-    groves_.push_back(std::make_unique<Grove>(std::move(group), *node_, bark_material_.name(),
-                                              leaf_material_.name()));
-}
-
 // Near groves first: they are drawn first, and the first to get their level when time is short.
 void ForestVisual::chooseLevels(const View& view, const Options& options) {
-  const auto end = Clock::now() + std::chrono::duration<double>(LEVEL_TIME);
+  const bool bare = report_.triangles == 0 || report_.waiting > groves_.size();
+  const auto end = Clock::now() + std::chrono::duration<double>(bare ? FIRST_TIME : LEVEL_TIME);
   std::sort(groves_.begin(), groves_.end(), [&](const auto& a, const auto& b) {
     return (a->middle() - view.eye.position).squaredNorm() <
            (b->middle() - view.eye.position).squaredNorm();

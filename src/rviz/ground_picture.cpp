@@ -15,6 +15,7 @@ constexpr std::uint64_t GROUND_SEED = 0x6a55;
 constexpr double ROOM = 14.0;        // [m] around the trees
 constexpr double BORDER = 0.12;      // of the plot's edge: where it fades to plain grass
 constexpr double LEAF_DEPTH = 0.55;  // optical depth of one leaf cluster, seen from the sun
+constexpr double THINNEST = 0.7;     // [pixel] radius of a shadow
 constexpr Rgba GRASS_DEEP{0.25f, 0.30f, 0.12f, 1.f}, GRASS_FRESH{0.37f, 0.41f, 0.17f, 1.f};
 constexpr Rgba GRASS_DRY{0.52f, 0.47f, 0.27f, 1.f};
 constexpr Rgba LITTER{0.30f, 0.25f, 0.16f, 1.f}, MOSS{0.20f, 0.26f, 0.09f, 1.f};
@@ -44,7 +45,8 @@ class ShadowPainter {
       at = at - (at.z() - terrain_.height(at.x(), at.y())) * slope_;
     const double pixel = plot_.edge / edge_;
     const double column = (at.x() - plot_.x) / pixel, row = (at.y() - plot_.y) / pixel;
-    const double reach = std::max(radius / pixel, 0.7);
+    const double reach = std::max(radius / pixel, THINNEST);
+    depth *= std::min(1.0, radius / pixel / THINNEST);  // what is thinner than a pixel is faint
     const int last_row = std::min(edge_ - 1, static_cast<int>(row + reach));
     const int last_column = std::min(edge_ - 1, static_cast<int>(column + reach));
     for (int r = std::max(0, static_cast<int>(row - reach)); r <= last_row; ++r) {
@@ -113,7 +115,7 @@ std::vector<float> shadowsOn(const Plot& plot, int edge, const TreeStock& stock,
       const Vec3 tip = tree->foot() + tipOf(branch, branch.rest);
       for (int leaf = 0; stock.hasLeaves() && leaf < branch.leaves; ++leaf)
         painter.drop(base + (tip - base) * ((leaf + 0.8) / branch.leaves), radius, LEAF_DEPTH);
-      if (branch.depth > 1) continue;
+      if (branch.depth > 1 && stock.hasLeaves()) continue;  // lost among the leaves'
       const int steps = 1 + static_cast<int>(branch.length / 0.15);
       for (int s = 0; s < steps; ++s)
         painter.drop(base + (tip - base) * (static_cast<double>(s) / steps), branch.base_radius,

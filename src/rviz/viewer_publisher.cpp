@@ -10,7 +10,7 @@
 namespace vegetation_sim::view {
 namespace {
 
-constexpr double SHORTEST = 0.1, LONGEST = 1.0;  // [s] between messages
+constexpr double SHORTEST = 0.1, LONGEST = 0.8;  // [s] between messages; a frame may come late
 constexpr double MOVED = 0.01;                   // [m]
 constexpr double TURNED = 0.0087;                // [rad]
 constexpr double ZOOMED = 0.002;                 // [rad]

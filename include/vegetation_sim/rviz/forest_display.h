@@ -69,7 +69,7 @@ class ForestDisplay : public rviz::Display {
   std::unique_ptr<view::ViewerPublisher> viewer_;
   std::map<std::string, std::string> shown_;  // status texts, to change them only when they change
   int layouts_{0};
-  int grounded_{-1};  // restart of the forest that the ground was made for
+  int grounded_{-1};  // stock of trees that the ground was made for
   Nanoseconds last_stamp_{0};
   double since_update_{0.0}, since_status_{1e9}, wall_{0.0};  // [s]
 };

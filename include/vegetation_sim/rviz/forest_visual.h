@@ -46,14 +46,15 @@ class ForestVisual {
   void repaint();
   void light(const Daylight& daylight, const Vec3& to_sun, const Haze& haze);
 
-  /// Set once all trees stand.
-  const TreeStock* stock() const { return stock_ && stock_->ready() ? stock_.get() : nullptr; }
-  /// Counts restarts, each of which makes another stock.
-  int restarts() const { return restarts_; }
+  /// The trees that are drawn; null until all of them stand.
+  const TreeStock* stock() const { return stock_.get(); }
+  /// Counts the stocks so far.
+  int stocks() const { return stocks_; }
   const ForestReport& report() const { return report_; }
 
  private:
-  void makeGroves();
+  void select(const forest::ForestReplica& replica, const View& view, const Options& options);
+  void adopt();
   void chooseLevels(const View& view, const Options& options);
   void move(const forest::ForestReplica& replica, Nanoseconds stamp, const View& view,
             const Options& options);
@@ -63,13 +64,13 @@ class ForestVisual {
   Ogre::SceneNode* node_;  // Ogre's; destroyed by us
   Texture leaf_texture_, bark_texture_;
   Material leaf_material_, bark_material_;
-  std::unique_ptr<TreeStock> stock_;
+  std::unique_ptr<TreeStock> stock_, next_;  // drawn; growing
   std::vector<std::unique_ptr<Grove>> groves_;
   Vec3 selected_at_{Vec3::Zero()};  // eye when the trees were selected
   bool selected_all_{true};
   forest::ComplexityFeedback feedback_;
   bool repaint_{false};
-  int restarts_{0};
+  int stocks_{0};
   ForestReport report_;
 };
 
