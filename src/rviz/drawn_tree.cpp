@@ -7,7 +7,7 @@
 
 #include "vegetation_sim/common/math.h"
 #include "vegetation_sim/rviz/bark_picture.h"
-#include "vegetation_sim/rviz/leaf_picture.h"
+#include "vegetation_sim/rviz/leaf_atlas.h"
 
 namespace vegetation_sim::view {
 namespace {

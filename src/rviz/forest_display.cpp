@@ -26,7 +26,8 @@ Vec3 widen(const Ogre::Vector3& v) {
 
 }  // namespace
 
-ForestDisplay::ForestDisplay() : properties_(std::make_unique<view::ForestProperties>(*this)) {}
+ForestDisplay::ForestDisplay()
+    : properties_(std::make_unique<view::ForestProperties>(*this)), board_(*this) {}
 
 ForestDisplay::~ForestDisplay() {
   stop();
@@ -41,12 +42,12 @@ void ForestDisplay::onEnable() {
 void ForestDisplay::onDisable() {
   stop();
   clearStatuses();
-  shown_.clear();
+  board_.forget();
 }
 
 void ForestDisplay::reset() {
   rviz::Display::reset();
-  shown_.clear();
+  board_.forget();
   if (!isEnabled()) return;
   stop();
   start();
@@ -168,13 +169,13 @@ bool ForestDisplay::placeInFixedFrame() {
   Ogre::Quaternion orientation;
   if (!context_->getFrameManager()->getTransform(source_->frame(), ros::Time(), position,
                                                  orientation)) {
-    show(rviz::StatusProperty::Error, "Transform",
-         "No transform from " + source_->frame() + " to " + fixed_frame_.toStdString());
+    board_.show(rviz::StatusProperty::Error, "Transform",
+                "No transform from " + source_->frame() + " to " + fixed_frame_.toStdString());
     scene_node_->setVisible(false);
     return false;
   }
   if (!rviz::validateFloats(position) || orientation.isNaN()) return false;
-  show(rviz::StatusProperty::Ok, "Transform", "OK");
+  board_.show(rviz::StatusProperty::Ok, "Transform", "OK");
   scene_node_->setVisible(true);
   scene_node_->setPosition(position);
   scene_node_->setOrientation(orientation);
@@ -225,35 +226,18 @@ view::ForestReport ForestDisplay::drawn() const {
 }
 
 void ForestDisplay::showStatus(Nanoseconds stamp) {
-  show("Layout", source_->layoutStatus());
-  show("Wind", source_->windStatus());
-  show("State", source_->stateStatus());
+  board_.show("Layout", source_->layoutStatus());
+  board_.show("Wind", source_->windStatus());
+  board_.show("State", source_->stateStatus());
   if (stamp == 0)
-    show(rviz::StatusProperty::Warn, "Time", "Waiting for /clock: nothing is drawn");
+    board_.show(rviz::StatusProperty::Warn, "Time", "Waiting for /clock: nothing is drawn");
   else
-    show(rviz::StatusProperty::Ok, "Time", "OK");
+    board_.show(rviz::StatusProperty::Ok, "Time", "OK");
   const view::ForestReport report = drawn();
-  std::string text = std::to_string(report.trees) + " of " + std::to_string(report.wanted) +
-                     " trees, " + std::to_string(report.moving) + " moving; " +
-                     std::to_string(report.triangles) +
-                     " triangles in the picture; trees per level 0 to " +
-                     std::to_string(forest::GEOMETRY_LEVELS - 1) + ":";
-  for (const std::size_t count : report.per_level) text += " " + std::to_string(count);
+  const std::string text = view::describe(report);
   ROS_DEBUG_STREAM(getNameStd() << ": " << text);
-  show(report.trees > 0 ? rviz::StatusProperty::Ok : rviz::StatusProperty::Warn, "Drawn", text);
-}
-
-void ForestDisplay::show(rviz::StatusProperty::Level level, const std::string& name,
-                         const std::string& text) {
-  std::string& shown = shown_[name];
-  const std::string wanted = std::to_string(level) + text;
-  if (shown == wanted) return;
-  shown = wanted;
-  setStatusStd(level, name, text);
-}
-
-void ForestDisplay::show(const std::string& name, const view::InputStatus& status) {
-  show(status.good ? rviz::StatusProperty::Ok : rviz::StatusProperty::Warn, name, status.text);
+  board_.show(report.trees > 0 ? rviz::StatusProperty::Ok : rviz::StatusProperty::Warn, "Drawn",
+              text);
 }
 
 }  // namespace vegetation_sim

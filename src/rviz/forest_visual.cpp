@@ -8,7 +8,7 @@
 #include <chrono>
 
 #include "vegetation_sim/rviz/bark_picture.h"
-#include "vegetation_sim/rviz/leaf_picture.h"
+#include "vegetation_sim/rviz/leaf_atlas.h"
 
 namespace vegetation_sim::view {
 namespace {

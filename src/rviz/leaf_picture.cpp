@@ -12,7 +12,6 @@ namespace {
 
 using forest::LeafShape;
 
-constexpr float ALPHA_LIMIT = 0.5f;
 constexpr Rgba TWIG{0.48f, 0.40f, 0.30f, 1.f};
 
 struct Spot {
@@ -217,17 +216,6 @@ class ClusterPainter {
   Picture out_;
 };
 
-// Scales alpha so that the same fraction passes the test as in the full picture.
-void keepCoverage(double wanted, Picture& picture) {
-  std::vector<float> alphas;
-  for (const Rgba& pixel : picture.pixels) alphas.push_back(pixel[3]);
-  std::sort(alphas.begin(), alphas.end(), std::greater<>());
-  const auto rank = static_cast<std::size_t>(wanted * static_cast<double>(alphas.size()));
-  const float limit = std::max(alphas[std::min(rank, alphas.size() - 1)], 1e-3f);
-  for (Rgba& pixel : picture.pixels)
-    pixel[3] = std::min(1.f, pixel[3] * (ALPHA_LIMIT + 1.f / 255.f) / limit);
-}
-
 }  // namespace
 
 Picture leafPicture(forest::LeafShape shape, bool bough, int edge) {
@@ -238,26 +226,6 @@ double coverage(const Picture& picture) {
   const auto passes = [](const Rgba& pixel) { return pixel[3] >= ALPHA_LIMIT; };
   return static_cast<double>(std::count_if(picture.pixels.begin(), picture.pixels.end(), passes)) /
          static_cast<double>(picture.pixels.size());
-}
-
-std::vector<Picture> leafAtlas(int edge) {
-  std::vector<Picture> out;
-  for (int cell = 0; cell < 8; ++cell) {
-    const auto shape = static_cast<LeafShape>(cell % 4);
-    std::vector<Picture> levels = mipmaps(leafPicture(shape, cell >= 4, edge), 4);
-    const double wanted = coverage(levels.front());
-    for (std::size_t level = 0; level < levels.size(); ++level) {
-      if (level > 0) keepCoverage(wanted, levels[level]);
-      const int side = levels[level].columns;
-      if (cell == 0) out.emplace_back(4 * side, 2 * side, Rgba{});
-      paste(levels[level], side * (cell % 4), side * (cell / 4), out[level]);
-    }
-  }
-  return out;
-}
-
-std::array<float, 2> leafAtlasPlace(int shape, bool bough, const std::array<float, 2>& uv) {
-  return {0.25f * (static_cast<float>(shape) + uv[0]), 0.5f * ((bough ? 1.f : 0.f) + uv[1])};
 }
 
 }  // namespace vegetation_sim::view

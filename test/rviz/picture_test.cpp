@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "vegetation_sim/rviz/bark_picture.h"
-#include "vegetation_sim/rviz/leaf_picture.h"
+#include "vegetation_sim/rviz/leaf_atlas.h"
 #include "vegetation_sim/rviz/sky_picture.h"
 
 namespace vegetation_sim::view {

@@ -4,7 +4,6 @@
 
 #include <rviz/display.h>
 
-#include <map>
 #include <memory>
 #include <string>
 
@@ -14,6 +13,7 @@
 #include "vegetation_sim/rviz/forest_visual.h"
 #include "vegetation_sim/rviz/ground_visual.h"
 #include "vegetation_sim/rviz/sky_visual.h"
+#include "vegetation_sim/rviz/status_board.h"
 #include "vegetation_sim/rviz/viewer_publisher.h"
 
 namespace vegetation_sim {
@@ -57,8 +57,6 @@ class ForestDisplay : public rviz::Display {
   void makeGround();
   void publishViewer();
   void showStatus(Nanoseconds stamp);
-  void show(rviz::StatusProperty::Level level, const std::string& name, const std::string& text);
-  void show(const std::string& name, const view::InputStatus& status);
 
   std::unique_ptr<view::ForestProperties> properties_;
   std::unique_ptr<view::ForestSource> source_;
@@ -67,7 +65,7 @@ class ForestDisplay : public rviz::Display {
   std::unique_ptr<view::SkyVisual> sky_;
   std::unique_ptr<view::Air> air_;
   std::unique_ptr<view::ViewerPublisher> viewer_;
-  std::map<std::string, std::string> shown_;  // status texts, to change them only when they change
+  view::StatusBoard board_;
   int layouts_{0};
   int grounded_{-1};  // stock of trees that the ground was made for
   Nanoseconds last_stamp_{0};

@@ -1,0 +1,30 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/rviz/status_board.h"
+
+namespace vegetation_sim::view {
+
+void StatusBoard::show(rviz::StatusProperty::Level level, const std::string& name,
+                       const std::string& text) {
+  std::string& shown = shown_[name];
+  const std::string wanted = std::to_string(level) + text;
+  if (shown == wanted) return;
+  shown = wanted;
+  display_.setStatusStd(level, name, text);
+}
+
+void StatusBoard::show(const std::string& name, const InputStatus& status) {
+  show(status.good ? rviz::StatusProperty::Ok : rviz::StatusProperty::Warn, name, status.text);
+}
+
+std::string describe(const ForestReport& report) {
+  std::string out = std::to_string(report.trees) + " of " + std::to_string(report.wanted) +
+                    " trees, " + std::to_string(report.moving) + " moving; " +
+                    std::to_string(report.triangles) +
+                    " triangles in the picture; trees per level 0 to " +
+                    std::to_string(forest::GEOMETRY_LEVELS - 1) + ":";
+  for (const std::size_t count : report.per_level) out += " " + std::to_string(count);
+  return out;
+}
+
+}  // namespace vegetation_sim::view
