@@ -160,7 +160,7 @@ class Foliage {
     const Vec3 along = place - sprout;
     const double way = length(along);
     place = sprout + 0.4 * along;
-    leaf.size = std::clamp(narrow(1.1 * way), leaf.size, 1.7f * leaf.size);
+    leaf.size = std::clamp(narrow(1.1 * way), leaf.size, 1.4f * leaf.size);
     if (habit_.hangs || way < 1e-3) return;
     turn = turnYTo(along / way) * aboutY(random.uniform(AZIMUTH, -PI, PI)) *
            aboutX(random.uniform(ANGLE, -0.8, 0.8));
