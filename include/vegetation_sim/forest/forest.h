@@ -7,7 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "vegetation_sim/forest/contact_model.h"
+#include "vegetation_sim/forest/interaction.h"
 #include "vegetation_sim/forest/level_map.h"
+#include "vegetation_sim/forest/physics_settings.h"
+#include "vegetation_sim/forest/promoted.h"
 #include "vegetation_sim/wind/field.h"
 
 namespace vegetation_sim::forest {
@@ -59,8 +63,39 @@ class Forest {
   /// As a fresh start; keeps layout, wind and settings.
   void reset();
 
-  /// One tick: chooses the level of every tree from wind, viewers and tolerance.
+  /// One tick: chooses the level of every tree from wind, viewers and tolerance; steps what is
+  /// physical.
   void advance(Nanoseconds stamp);
+
+  // What holds, pushes or touches branches. All of these throw InvalidInput naming thing, value and
+  // range, and then change nothing.
+  /// Takes hold; gives the id of the grab.
+  std::uint32_t addGrab(const Grab& grab);
+  /// Where the grab shall be at the next tick; renews its lease.
+  void moveGrab(std::uint32_t id, const Vec3& target);
+  void renewGrab(std::uint32_t id);
+  void release(std::uint32_t id);
+  void push(const Push& push);
+  void setBody(const Body& body);
+  void removeBody(const std::string& id);
+  void setPhysics(const PhysicsSettings& settings);
+  /// Who computes contacts; none: bodies touch nothing.
+  void setContactModel(std::shared_ptr<const ContactModel> model);
+
+  const PhysicsSettings& physicsSettings() const;
+  const std::map<std::uint32_t, Grab>& grabs() const;
+  const Bodies& bodies() const;
+  /// Grabs that ended by themselves at the last tick: their lease ran out.
+  const std::vector<Grab>& ended() const;
+  /// On the bodies that hold or touch branches, at the end of the last tick.
+  const std::vector<Reaction>& reactions() const;
+  PhysicsFigures physicsFigures() const;
+  /// Physical joints of a tree at the last tick; none: `branches` is empty.
+  PromotedTree promoted(std::uint32_t tree) const;
+  /// Trees that have physical joints, rising.
+  std::vector<std::uint32_t> physicalTrees() const;
+  /// Every branch in the tree's frame, physical ones included, double precision.
+  std::vector<Pose> pose(const Tree& tree, std::uint32_t id, Nanoseconds stamp) const;
 
   /// Complete state, or what changed since the last update of either kind.
   StateUpdate update(bool key_frame);
