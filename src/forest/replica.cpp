@@ -37,7 +37,15 @@ bool ForestReplica::apply(const StateUpdate& update) {
     levels_.reset(update.base);
   else
     levels_.setBase(update.base);
-  for (const StateUpdate::Entry& entry : update.trees) levels_.set(entry.tree, entry.state);
+  if (update.key_frame) promoted_.clear();
+  for (const StateUpdate::Entry& entry : update.trees) {
+    levels_.set(entry.tree, entry.state);
+    if (entry.promoted.empty())
+      promoted_.erase(entry.tree);
+    else
+      promoted_[entry.tree] = entry.promoted;
+  }
+  blend_ = update.blend;
   levels_.prune(update.stamp, layout_->motion.transition);
   in_sequence_ = true;
   sequence_ = update.sequence;
@@ -47,7 +55,20 @@ bool ForestReplica::apply(const StateUpdate& update) {
 }
 
 std::vector<Pose> ForestReplica::pose(const Tree& tree, std::uint32_t id, Nanoseconds stamp) const {
-  return poseBranches(tree, wind_.at(stamp).relativeTo(tree.foot), weights(id, stamp));
+  return poseBranches(tree, wind_.at(stamp).relativeTo(tree.foot), weights(id, stamp), promoted(id),
+                      stamp);
+}
+
+PromotedTree ForestReplica::promoted(std::uint32_t tree) const {
+  const auto found = promoted_.find(tree);
+  if (found == promoted_.end()) return {stamp_, blend_, {}};
+  return {stamp_, blend_, found->second};
+}
+
+std::vector<std::uint32_t> ForestReplica::physicalTrees() const {
+  std::vector<std::uint32_t> out;
+  for (const auto& entry : promoted_) out.push_back(entry.first);
+  return out;
 }
 
 }  // namespace vegetation_sim::forest

@@ -57,10 +57,12 @@ void describe(FieldVisitor& v, Species& s) {
   v.number("noise", s.noise, "", {0.0, 3.0});
   v.number("youngs_modulus", s.youngs_modulus, "Pa", {1e6, 1e12});
   v.number("density", s.density, "kg/m^3", {50.0, 3000.0});
+  v.number("damping_ratio", s.damping_ratio, "", {0.0, 2.0});
   v.number("drag_coefficient", s.drag_coefficient, "", {0.0, 5.0});
   v.number("reference_speed", s.reference_speed, "m/s", {0.1, 100.0});
   v.number("leaf_size", s.leaf_size, "m", {0.001, 5.0});
   v.number("leaf_area", s.leaf_area, "m^2", {0.0, 10.0});
+  v.number("leaf_mass", s.leaf_mass, "kg", {0.0, 10.0});
   v.number("flutter", s.flutter, "rad", {0.0, 1.5});
   v.choice("leaf_shape", s.leaf_shape, LEAF_SHAPES);
   v.vector("leaf_colour", s.leaf_colour, "", {0.0, 1.0});

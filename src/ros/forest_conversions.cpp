@@ -3,6 +3,7 @@
 #include "vegetation_sim/ros/forest_conversions.h"
 
 #include <cmath>
+#include <tuple>
 
 #include "vegetation_sim/common/math.h"
 
@@ -12,6 +13,8 @@ namespace {
 constexpr std::size_t MOST_SPECIES = 256;
 constexpr double VIEW_ASPECT = 16.0 / 9.0;  // width of the picture over its height
 constexpr double VIEW_MARGIN = 0.15;        // [rad]
+constexpr double LARGEST_BEND = 100.0;      // [rad]
+constexpr double LARGEST_RATE = 1e5;        // [rad/s]
 
 int indexOf(const std::string& name, const std::string& word, const std::vector<std::string>& names,
             Faults& faults) {
@@ -93,10 +96,56 @@ TreeState entryToMsg(const forest::StateUpdate::Entry& entry, Nanoseconds now) {
   out.level = static_cast<std::uint8_t>(entry.state.level);
   out.since = toStamp(entry.state.since);
   out.blend = blendToMsg(entry.state, now);
+  out.promoted.reserve(entry.promoted.size());
+  for (const forest::PromotedBranch& branch : entry.promoted) out.promoted.push_back(toMsg(branch));
+  return out;
+}
+
+std::vector<forest::PromotedBranch> promotedFromMsg(const std::string& name,
+                                                    const std::vector<PromotedBranch>& promoted,
+                                                    Faults& faults) {
+  std::vector<forest::PromotedBranch> out;
+  std::int64_t last = -1;
+  for (const PromotedBranch& branch : promoted) {
+    const std::string joint = name + "branch " + std::to_string(branch.branch) + ": ";
+    if (branch.branch <= last || branch.branch >= forest::MAX_BRANCHES)
+      faults.add(joint + "branch is not above the one before, or not below " +
+                 std::to_string(forest::MAX_BRANCHES));
+    last = branch.branch;
+    for (const auto& [field, value, range] :
+         {std::make_tuple("first", branch.first, LARGEST_BEND),
+          std::make_tuple("second", branch.second, LARGEST_BEND),
+          std::make_tuple("first_rate", branch.first_rate, LARGEST_RATE),
+          std::make_tuple("second_rate", branch.second_rate, LARGEST_RATE)}) {
+      const std::string fault = rangeFault(joint + field, value, "", {-range, range});
+      if (!fault.empty()) faults.add(fault);
+    }
+    out.push_back(fromMsg(branch));
+  }
   return out;
 }
 
 }  // namespace
+
+PromotedBranch toMsg(const forest::PromotedBranch& branch) {
+  PromotedBranch out;
+  out.branch = static_cast<std::uint32_t>(branch.branch);
+  out.first = branch.q.first;
+  out.second = branch.q.second;
+  out.first_rate = branch.rate.first;
+  out.second_rate = branch.rate.second;
+  if (branch.blend != forest::NEVER) out.blend = toStamp(branch.blend);
+  return out;
+}
+
+forest::PromotedBranch fromMsg(const PromotedBranch& message) {
+  forest::PromotedBranch out;
+  out.branch = static_cast<int>(message.branch);
+  out.q = {message.first, message.second};
+  out.rate = {message.first_rate, message.second_rate};
+  if (!message.blend.isZero()) out.blend = fromMsg(message.blend);
+  return out;
+}
 
 TreeSeed toMsg(const forest::TreeSeed& seed) {
   TreeSeed out;
@@ -177,6 +226,7 @@ ForestState toMsg(const forest::StateUpdate& update) {
   out.base_level = static_cast<std::uint8_t>(update.base.level);
   out.base_since = toStamp(update.base.since);
   out.base_blend = blendToMsg(update.base, update.stamp);
+  out.blend_time = update.blend;
   out.layout_hash = update.layout_hash;
   out.wind_hash = update.wind_hash;
   out.hash = update.hash;
@@ -193,13 +243,16 @@ forest::StateUpdate fromMsg(const ForestState& message) {
   out.key_frame = message.key_frame;
   out.base = levelFromMsg("state: base_", message.base_level, message.base_since,
                           message.base_blend, faults);
+  out.blend = message.blend_time;
+  const std::string blend_fault = rangeFault("state: blend_time", out.blend, "s", {0.0, 3600.0});
+  if (!blend_fault.empty()) faults.add(blend_fault);
   out.layout_hash = message.layout_hash;
   out.wind_hash = message.wind_hash;
   out.hash = message.hash;
   for (const TreeState& tree : message.trees) {
     const std::string name = "state: tree " + std::to_string(tree.tree) + ": ";
-    out.trees.push_back(
-        {tree.tree, levelFromMsg(name, tree.level, tree.since, tree.blend, faults)});
+    out.trees.push_back({tree.tree, levelFromMsg(name, tree.level, tree.since, tree.blend, faults),
+                         promotedFromMsg(name, tree.promoted, faults)});
   }
   faults.throwIfAny();
   return out;

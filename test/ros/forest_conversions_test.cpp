@@ -111,6 +111,42 @@ TEST(ForestConversions, ReturnAStateToTheBit) {  // S1-23, N6
   for (std::size_t i = 0; i < 2; ++i) expectEqual(back.trees[i].state, update.trees[i].state);
 }
 
+forest::PromotedBranch bent(int branch, Nanoseconds blend) {
+  return {branch, {0.1, -1.0 / 3.0}, {5.0 / 7.0, -1e-9}, blend};
+}
+
+TEST(ForestConversions, ReturnPhysicalBranchesToTheBit) {  // S1-34, S1-37
+  forest::StateUpdate update;
+  update.blend = 0.7;
+  update.trees = {{4, forest::LevelState::settled(2), {bent(3, forest::NEVER), bent(9, 1234567)}}};
+  const forest::StateUpdate back = fromMsg(toMsg(update));
+  EXPECT_EQ(back.blend, 0.7);
+  ASSERT_EQ(back.trees[0].promoted.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const forest::PromotedBranch &a = back.trees[0].promoted[i], &b = update.trees[0].promoted[i];
+    EXPECT_EQ(a.branch, b.branch);
+    EXPECT_EQ(a.q.first, b.q.first);
+    EXPECT_EQ(a.q.second, b.q.second);
+    EXPECT_EQ(a.rate.first, b.rate.first);
+    EXPECT_EQ(a.rate.second, b.rate.second);
+    EXPECT_EQ(a.blend, b.blend);
+  }
+}
+
+TEST(ForestConversions, RefusePhysicalBranchesThatCannotBe) {
+  forest::StateUpdate update;
+  update.trees = {{4, forest::LevelState::settled(2), {bent(3, 0), bent(3, 0), bent(20000, 0)}}};
+  ForestState message = toMsg(update);
+  message.blend_time = -1.0;
+  message.trees[0].promoted[0].first = NOT_A_NUMBER;
+  message.trees[0].promoted[1].second_rate = 1e9;
+  const std::string faults = errorOf([&] { fromMsg(message); });
+  for (const char* part :
+       {"blend_time = -1", "tree 4: branch 3: first", "second_rate = 1e+09 is outside",
+        "branch 3: branch is not above", "branch 20000: branch is not above"})
+    EXPECT_NE(faults.find(part), std::string::npos) << part << " in " << faults;
+}
+
 TEST(ForestConversions, SettledTreesAreSentWithoutBlends) {
   forest::StateUpdate update;
   update.base = forest::LevelState::settled(1);

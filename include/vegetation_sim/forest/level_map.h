@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "vegetation_sim/forest/level.h"
+#include "vegetation_sim/forest/promoted.h"
 
 namespace vegetation_sim::forest {
 
@@ -43,11 +44,13 @@ struct StateUpdate {
   Nanoseconds stamp{0};
   std::uint32_t sequence{0};
   bool key_frame{true};
-  LevelState base;  ///< of every tree that is not listed
+  LevelState base;    ///< of every tree that is not listed
+  double blend{1.5};  ///< duration of blends from physical to procedural [s]
   std::uint64_t layout_hash{0}, wind_hash{0}, hash{0};
   struct Entry {
     std::uint32_t tree{0};
     LevelState state;
+    std::vector<PromotedBranch> promoted{};  ///< by rising branch; none: all procedural
   };
   std::vector<Entry> trees;
 };

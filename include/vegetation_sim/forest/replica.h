@@ -6,7 +6,7 @@
 #include <string>
 
 #include "vegetation_sim/forest/level_map.h"
-#include "vegetation_sim/forest/pose.h"
+#include "vegetation_sim/forest/promoted.h"
 #include "vegetation_sim/wind/field.h"
 
 namespace vegetation_sim::forest {
@@ -35,7 +35,11 @@ class ForestReplica {
   Weights weights(std::uint32_t tree, Nanoseconds stamp) const {
     return weightsAt(levels_.of(tree), stamp, layout_->motion);
   }
-  /// Every branch in the tree's frame, double precision.
+  /// Physical joints of a tree at stamp(); none: `branches` is empty.
+  PromotedTree promoted(std::uint32_t tree) const;
+  /// Trees that have physical joints, rising.
+  std::vector<std::uint32_t> physicalTrees() const;
+  /// Every branch in the tree's frame, physical ones included, double precision.
   std::vector<Pose> pose(const Tree& tree, std::uint32_t id, Nanoseconds stamp) const;
 
  private:
@@ -44,6 +48,8 @@ class ForestReplica {
   std::uint64_t layout_hash_{0};
   wind::Field wind_;
   LevelMap levels_;
+  std::map<std::uint32_t, std::vector<PromotedBranch>> promoted_;
+  double blend_{1.5};
   bool in_sequence_{false};
   std::uint32_t sequence_{0};
   Nanoseconds stamp_{0};

@@ -52,10 +52,12 @@ struct Species {
   double noise{1.0};             ///< amplitude of all growth noise; 0: the bare rules (S1-12)
   double youngs_modulus{8e9};    ///< [Pa]
   double density{900.0};         ///< [kg/m^3]
+  double damping_ratio{0.1};     ///< of each joint against the inertia of all that it bears
   double drag_coefficient{0.3};  ///< of branches and leaves, sheltering included
   double reference_speed{8.0};   ///< wind at which linear drag equals quadratic drag [m/s]
   double leaf_size{0.35};        ///< edge of a leaf cluster [m]
   double leaf_area{0.02};        ///< drag area of a leaf cluster [m^2]
+  double leaf_mass{0.004};       ///< of a leaf cluster [kg]
   double flutter{0.25};          ///< largest turn of a leaf cluster in strong wind [rad]
   int leaf_shape{0};             ///< LeafShape
   Vec3 leaf_colour{Vec3(0.25, 0.45, 0.12)};      ///< sRGB, 0 to 1

@@ -23,6 +23,9 @@ forest::Layout fromMsg(const ForestLayout& message);
 TreeSeed toMsg(const forest::TreeSeed& seed);
 forest::TreeSeed fromMsg(const TreeSeed& message);
 
+PromotedBranch toMsg(const forest::PromotedBranch& branch);
+forest::PromotedBranch fromMsg(const PromotedBranch& message);
+
 ForestState toMsg(const forest::StateUpdate& update);
 /// @throws InvalidInput for a level, blend or stamp that cannot be.
 forest::StateUpdate fromMsg(const ForestState& message);
