@@ -9,20 +9,33 @@
 #include "vegetation_sim/forest/interaction.h"
 
 namespace vegetation_sim::physics {
+struct Contact;
 struct Kinematics;
-struct Loads;
 }  // namespace vegetation_sim::physics
 
 namespace vegetation_sim::forest {
 
 class Forest;
-class PhysicalPart;
+struct Skeleton;
 
 using Bodies = std::map<std::string, Body>;
 /// Branches by tree.
 using BranchesOfTrees = std::map<std::uint32_t, std::vector<int>>;
 
-/// How bodies touch trees. Without memory: what it needs between steps stands in bodies and parts.
+/// What is known of a branch near a body from one step to the next; state of the tree's part.
+struct Touch {
+  std::string body;
+  int branch{0};
+  Vec3 side{Vec3::Zero()};  ///< of the body on which the branch is: unit, the body's axes
+  double force{0.0};        ///< of the last step [N]
+};
+/// By body, then branch; rising.
+using Touches = std::vector<Touch>;
+
+/// How bodies touch trees. Without memory of its own.
+///
+/// A step of a tree with contacts: `findContacts` at its start; if there are any,
+/// `physics::stepWithContacts` instead of the stepper's own step; then `settle`.
 class ContactModel {
  public:
   virtual ~ContactModel() = default;
@@ -32,12 +45,23 @@ class ContactModel {
   virtual void findNear(const Forest& forest, const Bodies& bodies, Nanoseconds from,
                         Nanoseconds to, BranchesOfTrees& near) const = 0;
 
-  /// Adds what the bodies do to one tree's physical links during the step [from, to]. `kinematics`
-  /// and `loads` are per link, in the tree's frame (foot at the origin, axes as the world's).
-  /// `reactions`: one per contact; those of a tick's last step are kept.
-  virtual void addLoads(const PhysicalPart& part, const Bodies& bodies, Nanoseconds from,
-                        Nanoseconds to, const physics::Kinematics& kinematics,
-                        physics::Loads& loads, std::vector<Reaction>& reactions) const = 0;
+  /// The physical wood of one tree at the start of a step: link i is a branch. Poses in the tree's
+  /// frame (foot at the origin, axes as the world's).
+  struct Wood {
+    std::uint32_t tree{0};
+    Vec3 foot{Vec3::Zero()};           ///< world [m]
+    const std::vector<int>& branches;  ///< [links]
+    const Skeleton& skeleton;
+    const physics::Kinematics& start;  ///< [links]
+  };
+  /// Contacts that the step [from, to] has or may have. Touches that are over are dropped.
+  virtual std::vector<physics::Contact> findContacts(const Wood& wood, const Bodies& bodies,
+                                                     Nanoseconds from, Nanoseconds to,
+                                                     Touches& touches) const = 0;
+  /// After the step: keeps the forces; adds one reaction per contact that bears.
+  virtual void settle(const Wood& wood, const Bodies& bodies,
+                      const std::vector<physics::Contact>& contacts, Nanoseconds to,
+                      Touches& touches, std::vector<Reaction>& reactions) const = 0;
 };
 
 }  // namespace vegetation_sim::forest
