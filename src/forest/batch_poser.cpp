@@ -200,22 +200,5 @@ void BatchPoser::pose(const wind::Instant& wind, const Weights& weights, int dep
   }
 }
 
-std::vector<std::string> instructionSets() {
-  std::vector<std::string> out;
-  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets())
-    out.emplace_back(hwy::TargetName(target));
-  return out;
-}
-
-void forceInstructionSet(const std::string& name) {
-  hwy::SetSupportedTargetsForTest(0);  // 0: whatever the processor has
-  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets())
-    if (name == hwy::TargetName(target)) {
-      hwy::SetSupportedTargetsForTest(target);
-      break;
-    }
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-}
-
 }  // namespace vegetation_sim::forest
 #endif

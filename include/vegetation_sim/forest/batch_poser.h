@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "vegetation_sim/common/instruction_set.h"
 #include "vegetation_sim/forest/pose.h"
 
 namespace vegetation_sim::forest {
@@ -62,9 +63,7 @@ class BatchPoser {
   BatchTree tree_;
 };
 
-/// Instruction sets that BatchPoser can use here, best first ("AVX3", "AVX2", ...).
-std::vector<std::string> instructionSets();
-/// Restricts BatchPoser to one of them; empty: free choice. For tests and benches.
-void forceInstructionSet(const std::string& name);
+using vegetation_sim::forceInstructionSet;
+using vegetation_sim::instructionSets;
 
 }  // namespace vegetation_sim::forest
