@@ -12,18 +12,6 @@
 namespace vegetation_sim::forest {
 namespace {
 
-// No tree of a species is larger than this many times its trunk: limbs reach at most as far as the
-// longest chain of lengths, which check() bounds through `length`.
-double sizeBound(const Species& species) {
-  double chain = 1.0, sum = 1.0;
-  for (std::size_t depth = 1; depth < species.limbs.size(); ++depth) {
-    const LimbRule& rule = species.limbs[depth];
-    chain *= rule.length * (1.0 + rule.length_variation);
-    sum += chain;
-  }
-  return species.height * (1.0 + species.height_variation) * sum;
-}
-
 struct Closest {
   double on_ray, on_axis, distance;
 };
@@ -71,6 +59,16 @@ bool passesTile(const Ray& ray, const Vec3& direction, const Tile& tile, double 
 }
 
 }  // namespace
+
+double sizeBound(const Species& species) {
+  double chain = 1.0, sum = 1.0;
+  for (std::size_t depth = 1; depth < species.limbs.size(); ++depth) {
+    const LimbRule& rule = species.limbs[depth];
+    chain *= rule.length * (1.0 + rule.length_variation);
+    sum += chain;
+  }
+  return species.height * (1.0 + species.height_variation) * sum;
+}
 
 std::optional<Picked> pickBranch(const Tree& tree, const std::vector<Pose>& poses, const Ray& ray) {
   const Vec3 direction = ray.direction / length(ray.direction);

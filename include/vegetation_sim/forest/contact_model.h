@@ -27,6 +27,7 @@ struct Touch {
   std::string body;
   int branch{0};
   Vec3 side{Vec3::Zero()};  ///< of the body on which the branch is: unit, the body's axes
+  double gap{0.0};          ///< at the start of the last step [m]
   double force{0.0};        ///< of the last step [N]
 };
 /// By body, then branch; rising.
