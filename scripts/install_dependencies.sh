@@ -9,7 +9,7 @@ set -euo pipefail
 PACKAGES=(
   # compiling
   catkin cmake g++ ninja-build python3-catkin-pkg ros-core-dev
-  libroscpp-dev libtf2-ros-dev libvisualization-msgs-dev libdiagnostic-updater-dev
+  libroscpp-dev libtf2-ros-dev liburdf-dev libvisualization-msgs-dev libdiagnostic-updater-dev
   libdynamic-reconfigure-config-init-mutex-dev python3-dynamic-reconfigure
   libnodeletlib-dev pluginlib-dev librviz-dev qtbase5-dev
   libeigen3-dev libhwy-dev libpng-dev libyaml-cpp-dev
