@@ -24,6 +24,15 @@ double finestView(const std::map<std::string, Viewer>& viewers, const Vec3& cent
   return out;
 }
 
+void addTo(Hash& hash, const Viewer& viewer) {
+  hash.add(viewer.id);
+  hash.add(static_cast<std::uint64_t>(viewer.stamp));
+  hash.add(viewer.eye.position);
+  hash.add(viewer.eye.forward);
+  hash.add(viewer.eye.pixels_per_radian);
+  hash.add(viewer.eye.cone_cosine);
+}
+
 }  // namespace
 
 void describe(FieldVisitor& v, Settings& s) {
@@ -58,8 +67,8 @@ void Forest::reset() {
   const int level = std::min(memory_.settings.fixed_level, memory_.settings.highest_level);
   memory_.levels.reset(LevelState::settled(level));
   memory_.stamp = 0;
-  changed_.clear();
-  sequence_ = 0;
+  memory_.changed.clear();
+  memory_.sequence = 0;
 }
 
 void Forest::measureSpecies(std::size_t species, double scale) {
@@ -97,7 +106,6 @@ double Forest::bendingSpeed(double speed, double reference_speed) const {
 
 void Forest::advance(Nanoseconds stamp) {
   memory_.stamp = stamp;
-  changed_.clear();
   for (auto it = memory_.viewers.begin(); it != memory_.viewers.end();)
     it = stamp - it->second.stamp > VIEWER_LIFE ? memory_.viewers.erase(it) : std::next(it);
   const Settings& settings = memory_.settings;
@@ -157,7 +165,7 @@ void Forest::aim(std::uint32_t tree, int level) {
   if (state.level == level) return;
   setLevel(state, level, memory_.stamp, layout_.motion.transition);
   memory_.levels.set(tree, state);
-  changed_.push_back(tree);
+  memory_.changed.insert(tree);
 }
 
 std::uint64_t Forest::hash() const {
@@ -167,6 +175,7 @@ std::uint64_t Forest::hash() const {
   Settings settings = memory_.settings;
   FieldHasher hasher(out);
   describe(hasher, settings);
+  for (const auto& entry : memory_.viewers) addTo(out, entry.second);
   memory_.levels.addTo(out, memory_.stamp, layout_.motion.transition);
   return out.value();
 }
@@ -174,7 +183,7 @@ std::uint64_t Forest::hash() const {
 StateUpdate Forest::update(bool key_frame) {
   StateUpdate out;
   out.stamp = memory_.stamp;
-  out.sequence = sequence_++;
+  out.sequence = memory_.sequence++;
   out.key_frame = key_frame;
   out.base = memory_.levels.base();
   out.layout_hash = layout_hash_;
@@ -183,8 +192,10 @@ StateUpdate Forest::update(bool key_frame) {
   if (key_frame) {
     for (const auto& [tree, state] : memory_.levels.held()) out.trees.push_back({tree, state});
   } else {
-    for (const std::uint32_t tree : changed_) out.trees.push_back({tree, memory_.levels.of(tree)});
+    for (const std::uint32_t tree : memory_.changed)
+      out.trees.push_back({tree, memory_.levels.of(tree)});
   }
+  memory_.changed.clear();
   return out;
 }
 

@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <set>
+
 #include "forest/level_scene.h"
 #include "vegetation_sim/forest/replica.h"
 
@@ -106,6 +109,19 @@ TEST(Forest, LevelsFollowTheWind) {
   EXPECT_GT(level(0, 0), level(2, 1));
 }
 
+bool same(const LevelState& a, const LevelState& b) {
+  return a.level == b.level && a.since == b.since && a.blend == b.blend;
+}
+
+bool same(const StateUpdate& a, const StateUpdate& b) {
+  const auto alike = [](const StateUpdate::Entry& x, const StateUpdate::Entry& y) {
+    return x.tree == y.tree && same(x.state, y.state);
+  };
+  return a.stamp == b.stamp && a.sequence == b.sequence && a.key_frame == b.key_frame &&
+         a.hash == b.hash && a.wind_hash == b.wind_hash && same(a.base, b.base) &&
+         std::equal(a.trees.begin(), a.trees.end(), b.trees.begin(), b.trees.end(), alike);
+}
+
 // N6: the same inputs give the same hashes; a saved and restored memory goes on alike.
 TEST(Forest, IsDeterministicAndRestores) {
   Forest a = makeForest(), b = makeForest();
@@ -123,6 +139,40 @@ TEST(Forest, IsDeterministicAndRestores) {
   EXPECT_EQ(a.hash(), b.hash());
   run(a, START + seconds(3), 5.0);
   EXPECT_EQ(a.hash(), later);
+}
+
+// Every message of a forest that runs on with an eye in front of it.
+std::vector<StateUpdate> messages(Forest& forest, std::int64_t first, int count) {
+  const TickGrid grid(30);
+  std::vector<StateUpdate> out;
+  for (std::int64_t tick = first; tick < first + count; ++tick) {
+    if (tick % 15 == 0) forest.setViewer(lookFrom(Vec3(-20, 10, 5), grid.timeOf(tick)));
+    forest.advance(grid.timeOf(tick));
+    out.push_back(forest.update(tick % 30 == 0));
+  }
+  return out;
+}
+
+// N6: what is restored says what was said, message by message, and so does another forest that
+// takes the memory over.
+TEST(Forest, RestoredMemorySendsTheSameMessages) {
+  Forest forest = makeForest();
+  forest.setWind(wind::Field({makeBreeze(1, Vec3(5, 0, 0))}));
+  const std::int64_t start = TickGrid(30).tickAt(START);
+  messages(forest, start, 20);
+  forest.setViewer(lookFrom(Vec3(60, 60, 5), START));
+  forest.advance(TickGrid(30).timeOf(start + 20));  // its changes are not sent yet
+  const ForestMemory saved = forest.memory();
+  const StateUpdate unsent = forest.update(false);
+  EXPECT_FALSE(unsent.trees.empty());
+  const std::vector<StateUpdate> before = messages(forest, start + 21, 60);
+  Forest other = makeForest();
+  for (Forest* again : {&forest, &other}) {
+    again->restore(saved);
+    EXPECT_TRUE(same(again->update(false), unsent));
+    const std::vector<StateUpdate> after = messages(*again, start + 21, 60);
+    for (std::size_t i = 0; i < before.size(); ++i) EXPECT_TRUE(same(after[i], before[i])) << i;
+  }
 }
 
 // Time going backwards: after reset() the forest is what a fresh start there would be.
@@ -167,6 +217,20 @@ TEST(Forest, HashSeesEveryPartOfTheState) {
   EXPECT_EQ(forest.hash(), before);
   forest.setWind(wind::Field({makeBreeze(1, Vec3(5, 0, 0))}));
   EXPECT_NE(forest.hash(), before);
+  // Viewers: every field, since each has a say in levels to come.
+  std::set<std::uint64_t> seen{forest.hash()};
+  const Viewer eye = lookFrom(Vec3(-20, 10, 5), START);
+  std::vector<Viewer> eyes(7, eye);
+  eyes[1].stamp = START + 1;
+  eyes[2].eye.position.y() = 11;
+  eyes[3].eye.pixels_per_radian = 900.0;
+  eyes[4].eye.forward = Vec3::UnitY();
+  eyes[5].eye.cone_cosine = 0.5;
+  eyes[6].id = "other";
+  for (const Viewer& viewer : eyes) {
+    forest.setViewer(viewer);
+    EXPECT_TRUE(seen.insert(forest.hash()).second) << seen.size();
+  }
 }
 
 // A replica that heard one key frame, or a key frame and the deltas, holds the same levels.

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -33,13 +34,16 @@ struct Settings {
 };
 void describe(FieldVisitor& visitor, Settings& settings);
 
-/// All that has memory in a forest: copy it to save, assign it to restore (N6).
+/// All that has memory in a forest: copy it to save, assign it to restore (N6). What follows then
+/// is the same to the bit, messages included.
 struct ForestMemory {
   Nanoseconds stamp{0};
   Settings settings;
   wind::Field wind;
   std::map<std::string, Viewer> viewers;
   LevelMap levels;
+  std::set<std::uint32_t> changed;  ///< trees whose level changed since the last update
+  std::uint32_t sequence{0};        ///< of the next update
 };
 
 /// The animated forest. Inputs take effect at the next tick; between ticks it does not change, and
@@ -99,9 +103,9 @@ class Forest {
 
   /// Complete state, or what changed since the last update of either kind.
   StateUpdate update(bool key_frame);
+  /// Of all that what comes depends on, viewers included; not of how updates are numbered, so that
+  /// a latecomer's is the same.
   std::uint64_t hash() const;
-  /// Levels that changed at the last tick.
-  std::size_t changes() const { return changed_.size(); }
 
  private:
   struct Region {
@@ -127,8 +131,6 @@ class Forest {
   ForestMemory memory_;
   wind::Instant now_;
   int last_base_{0};  // level of the trees that were not held before this tick
-  std::vector<std::uint32_t> changed_;
-  std::uint32_t sequence_{0};
 };
 
 }  // namespace vegetation_sim::forest
