@@ -1,0 +1,156 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+// The other two passes: back to the roots with Featherstone's articulated inertias, spring, damper
+// and theta scheme in the joint-space inertia; and out again with the accelerations. Included once
+// per instruction set.
+
+#if defined(VEGETATION_SIM_PHYSICS_CHAIN_BACK_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef VEGETATION_SIM_PHYSICS_CHAIN_BACK_INL_H_
+#undef VEGETATION_SIM_PHYSICS_CHAIN_BACK_INL_H_
+#else
+#define VEGETATION_SIM_PHYSICS_CHAIN_BACK_INL_H_
+#endif
+
+#include "physics/chain_out-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace vegetation_sim::physics::HWY_NAMESPACE {
+
+// ---- back: articulated inertias ----------------------------------------------------------------
+
+/// torque = a spin' + b acceleration, force = b^T spin' + m acceleration, and the bias wrench; b by
+/// its columns.
+struct Articulated {
+  Symmetric a;
+  Lanes3 bx, by, bz;
+  Symmetric m;
+  Lanes3 torque, force;
+};
+
+HWY_INLINE Articulated nothing() {
+  const Lanes o = hn::Zero(Tag());
+  const Lanes3 o3{o, o, o};
+  const Symmetric o6{o, o, o, o, o, o};
+  return {o6, o3, o3, o3, o6, o3, o3};
+}
+
+// Adds the own body and what acts on it. Sums begin at +0, so that none is ever -0.
+HWY_INLINE void addBody(const Joints& at, Articulated& sum) {
+  const Lanes mass = load(at.constants, C_MASS);
+  const Lanes3 v = load3(at.work, W_MOMENT);
+  sum.a = sum.a + load6(at.work, W_INERTIA);
+  sum.bx = {sum.bx.x, sum.bx.y + v.z, sum.bx.z - v.y};
+  sum.by = {sum.by.x - v.z, sum.by.y, sum.by.z + v.x};
+  sum.bz = {sum.bz.x + v.y, sum.bz.y - v.x, sum.bz.z};
+  sum.m.xx = sum.m.xx + mass;
+  sum.m.yy = sum.m.yy + mass;
+  sum.m.zz = sum.m.zz + mass;
+  sum.torque = sum.torque + (load3(at.work, W_TORQUE) - load3(at.loads, L_TORQUE));
+  sum.force = sum.force + (load3(at.work, W_FORCE) - load3(at.loads, L_FORCE));
+}
+
+// To the parent's joint, `d` before the own.
+HWY_INLINE void shift(const Lanes3& d, Articulated& p) {
+  const Lanes3 x = p.bx, y = p.by, z = p.bz;  // old b
+  p.bx = x + cross(d, {p.m.xx, p.m.xy, p.m.xz});
+  p.by = y + cross(d, {p.m.xy, p.m.yy, p.m.yz});
+  p.bz = z + cross(d, {p.m.xz, p.m.yz, p.m.zz});
+  p.a.xx = p.a.xx + (d.y * (z.x + p.bz.x) - d.z * (y.x + p.by.x));
+  p.a.yy = p.a.yy + (d.z * (x.y + p.bx.y) - d.x * (z.y + p.bz.y));
+  p.a.zz = p.a.zz + (d.x * (y.z + p.by.z) - d.y * (x.z + p.bx.z));
+  p.a.xy = p.a.xy + (d.y * z.y - d.x * p.bz.x + d.z * (p.bx.x - y.y));
+  p.a.xz = p.a.xz + (d.x * p.by.x - d.z * y.z + d.y * (z.z - p.bx.x));
+  p.a.yz = p.a.yz + (d.z * x.z - d.y * p.bx.y + d.x * (p.by.y - z.z));
+  p.torque = p.torque + cross(d, p.force);
+}
+
+HWY_INLINE Lanes3 transposed(const Articulated& p, const Lanes3& v) {
+  return {dot(p.bx, v), dot(p.by, v), dot(p.bz, v)};
+}
+
+/// Takes the joint's freedom out of the inertia and bias of its body and all beyond, and moves what
+/// is left to the parent's joint.
+HWY_INLINE void inward(const Joints& at, Lanes step, Articulated& p) {
+  const Lanes3 first = load3(at.work, W_FIRST), second = load3(at.work, W_SECOND);
+  const Lanes rx = load(at.state, S_RATE), ry = load(at.state, S_RATE + 1);
+  const Lanes k = load(at.constants, C_STIFFNESS), nu = load(at.constants, C_DAMPING);
+  const Lanes ahead = load(at.state, S_THETA) * step, zero = hn::Zero(Tag());
+  const Lanes stiff = ahead * (ahead * k + nu);
+  addBody(at, p);
+  // Stiff is a lower bound of both pivots, rounding or not.
+  const Lanes3 a1 = p.a * first, b1 = transposed(p, first);
+  Lanes3 a2 = p.a * second, b2 = transposed(p, second);
+  const Lanes inverse1 = all(1.f) / (hn::Max(dot(first, a1), zero) + stiff);
+  const Lanes across = dot(first, a2), l = across * inverse1;
+  const Lanes inverse2 = all(1.f) / (hn::Max(dot(second, a2) - l * across, zero) + stiff);
+  a2 = a2 - l * a1;
+  b2 = b2 - l * b1;
+  const Lanes x = load(at.state, S_Q) + ahead * rx, y = load(at.state, S_Q + 1) + ahead * ry;
+  const Lanes u1 = load(at.loads, L_JOINT) - (k * x + nu * rx) - dot(first, p.torque);
+  const Lanes u2 = load(at.loads, L_JOINT + 1) - (k * y + nu * ry) - dot(second, p.torque) - l * u1;
+  const Lanes3 pa1 = inverse1 * a1, pa2 = inverse2 * a2, pb1 = inverse1 * b1, pb2 = inverse2 * b2;
+  p.a = without(p.a, pa1, a1, pa2, a2);
+  p.m = without(p.m, pb1, b1, pb2, b2);
+  p.bx = p.bx - b1.x * pa1 - b2.x * pa2;
+  p.by = p.by - b1.y * pa1 - b2.y * pa2;
+  p.bz = p.bz - b1.z * pa1 - b2.z * pa2;
+  p.torque = p.torque + u1 * pa1 + u2 * pa2;
+  p.force = p.force + u1 * pb1 + u2 * pb2;
+  shift(load3(at.work, W_ARM), p);
+  store3(a1, at.work, W_GAIN);
+  store3(b1, at.work, W_GAIN + 3);
+  store3(a2, at.work, W_GAIN + 6);
+  store3(b2, at.work, W_GAIN + 9);
+  store3({inverse1, inverse2, l}, at.work, W_INVERSE);
+  store(u1, at.work, W_DRIVE);
+  store(u2, at.work, W_DRIVE + 1);
+}
+
+// ---- out again: accelerations, and the step ----------------------------------------------------
+
+/// Accelerations that joints cause, of the spin and of the joint's place.
+struct Push {
+  Lanes3 spin, linear;
+};
+
+template <class Put>
+HWY_INLINE void eachRow(const Push& push, const Put& put) {
+  eachRow(push.spin, 0, put);
+  eachRow(push.linear, 3, put);
+}
+
+// Nothing smaller than this [rad, rad/s] lives on: a tree that comes to rest would slow down for
+// good on numbers below the smallest normal one.
+HWY_INLINE Lanes alive(Lanes value) {
+  return hn::IfThenElseZero(hn::Abs(value) > all(1e-18f), value);
+}
+
+/// Steps q and rate; `fastest` grows to the largest rate.
+HWY_INLINE Push settle(const Joints& at, const Push& parent, Lanes step, Lanes& fastest) {
+  Push out;
+  out.linear = parent.linear + cross(parent.spin, load3(at.work, W_ARM));
+  const auto drive = [&](int axis) HWY_ATTR {
+    const int gain = W_GAIN + 6 * axis;
+    return load(at.work, W_INVERSE + axis) *
+           (load(at.work, W_DRIVE + axis) - dot(load3(at.work, gain), parent.spin) -
+            dot(load3(at.work, gain + 3), out.linear));
+  };
+  const Lanes second = drive(1), first = drive(0) - load(at.work, W_COUPLING) * second;
+  out.spin = parent.spin + (first * load3(at.work, W_FIRST) + second * load3(at.work, W_SECOND));
+  const Lanes ahead = load(at.state, S_THETA) * step;
+  const auto advance = [&](int axis, Lanes acceleration) HWY_ATTR {
+    const Lanes q = load(at.state, S_Q + axis), rate = load(at.state, S_RATE + axis);
+    const Lanes next = alive(rate + step * acceleration);
+    store(alive(q + step * (rate + ahead * acceleration)), at.state, S_Q + axis);
+    store(next, at.state, S_RATE + axis);
+    fastest = hn::Max(fastest, hn::Abs(next));
+  };
+  advance(0, first);
+  advance(1, second);
+  return out;
+}
+
+}  // namespace vegetation_sim::physics::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // toggle

@@ -1,0 +1,166 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+// First pass of the articulated-body algorithm over a vector of joints, out to the twigs: geometry,
+// motion, rigid bodies, world axes, each about its own joint. The accelerations are split in those
+// that velocities and bases cause if no joint accelerated, summed here, and the rest: so no
+// articulated inertia meets a bias. Included once per instruction set.
+
+#if defined(VEGETATION_SIM_PHYSICS_CHAIN_OUT_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef VEGETATION_SIM_PHYSICS_CHAIN_OUT_INL_H_
+#undef VEGETATION_SIM_PHYSICS_CHAIN_OUT_INL_H_
+#else
+#define VEGETATION_SIM_PHYSICS_CHAIN_OUT_INL_H_
+#endif
+
+#include "physics/chain_lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace vegetation_sim::physics::HWY_NAMESPACE {
+
+/// Rows of the joints of one vector.
+struct Joints {
+  const float* constants;
+  float* state;
+  const float* loads;
+  float* work;
+};
+
+/// What a parent hands on, see F_TURN and following.
+struct Frame {
+  LanesQuat turn;
+  Lanes3 axis, spin, spin_rate, acceleration, axis_rate;
+};
+
+HWY_INLINE Frame loadFrame(const float* rows, int stride) {
+  return {{load(rows, F_TURN, stride), load(rows, F_TURN + 1, stride),
+           load(rows, F_TURN + 2, stride), load(rows, F_TURN + 3, stride)},
+          load3(rows, F_AXIS, stride),
+          load3(rows, F_SPIN, stride),
+          load3(rows, F_SPIN_RATE, stride),
+          load3(rows, F_ACCELERATION, stride),
+          load3(rows, F_AXIS_RATE, stride)};
+}
+
+// put(row, value) for each row.
+template <class Put>
+HWY_INLINE void eachRow(const Lanes3& v, int row, const Put& put) {
+  put(row, v.x);
+  put(row + 1, v.y);
+  put(row + 2, v.z);
+}
+
+template <class Put>
+HWY_INLINE void eachRow(const Frame& frame, const Put& put) {
+  put(F_TURN, frame.turn.w);
+  eachRow({frame.turn.x, frame.turn.y, frame.turn.z}, F_TURN + 1, put);
+  eachRow(frame.axis, F_AXIS, put);
+  eachRow(frame.spin, F_SPIN, put);
+  eachRow(frame.spin_rate, F_SPIN_RATE, put);
+  eachRow(frame.acceleration, F_ACCELERATION, put);
+  eachRow(frame.axis_rate, F_AXIS_RATE, put);
+}
+
+/// With it, for those who ask for the motion: place and velocity of the joint.
+struct Trace {
+  Lanes3 position, velocity;
+};
+
+HWY_INLINE Trace traceOf(const float* parent, int stride, const float* work) {
+  const Lanes3 arm = load3(work, W_ARM);
+  return {load3(parent, F_POSITION, stride) + arm,
+          load3(parent, F_VELOCITY, stride) + cross(load3(parent, F_SPIN, stride), arm)};
+}
+
+template <class Put>
+HWY_INLINE void eachRow(const Trace& trace, const Put& put) {
+  eachRow(trace.position, F_POSITION, put);
+  eachRow(trace.velocity, F_VELOCITY, put);
+}
+
+/// Writes rows that are `stride` floats apart.
+struct StoreRows {
+  float* rows;
+  int stride;
+  HWY_INLINE void operator()(int row, Lanes value) const { store(value, rows, row, stride); }
+};
+
+// Round bars with their centre on the own z, the usual case, need no rotation of a full inertia.
+HWY_INLINE void rigidBar(const Joints& at, const Frame& frame) {
+  const Lanes3& z = frame.axis;
+  const Lanes across = load(at.constants, C_INERTIA);
+  const Lanes excess = load(at.constants, C_INERTIA + 5) - across;
+  const Lanes moment = load(at.constants, C_MOMENT + 2), mass = load(at.constants, C_MASS);
+  const Lanes3 ez = excess * z, arm = moment * z;
+  store6({across + ez.x * z.x, ez.x * z.y, ez.x * z.z, across + ez.y * z.y, ez.y * z.z,
+          across + ez.z * z.z},
+         at.work, W_INERTIA);
+  store3(arm, at.work, W_MOMENT);
+  const Lanes3 turning =
+      dot(z, frame.spin_rate) * ez + (excess * dot(z, frame.spin)) * cross(frame.spin, z);
+  store3((across * frame.spin_rate + turning) + cross(arm, frame.acceleration), at.work, W_TORQUE);
+  store3(mass * frame.acceleration + moment * frame.axis_rate, at.work, W_FORCE);
+}
+
+HWY_INLINE void rigidBody(const Joints& at, const Axes& axes, const Frame& frame) {
+  const Symmetric inertia = turnedInertia(axes, load6(at.constants, C_INERTIA));
+  const Lanes3 arm = turned(axes, load3(at.constants, C_MOMENT));
+  const Lanes mass = load(at.constants, C_MASS);
+  store6(inertia, at.work, W_INERTIA);
+  store3(arm, at.work, W_MOMENT);
+  const Lanes3 torque = inertia * frame.spin_rate + cross(frame.spin, inertia * frame.spin);
+  const Lanes3 force = cross(frame.spin_rate, arm) + cross(frame.spin, cross(frame.spin, arm));
+  store3(torque + cross(arm, frame.acceleration), at.work, W_TORQUE);
+  store3(mass * frame.acceleration + force, at.work, W_FORCE);
+}
+
+/// Right Jacobian of the rotation vector (x, y, 0): leaves the joint's axes; returns spin and rate
+/// of spin that the joint adds while its rates are constant.
+struct JointSpin {
+  Lanes3 spin, rate;
+};
+
+HWY_INLINE JointSpin jointSpin(const Joints& at, const Axes& axes, const Swing& g, Lanes x, Lanes y,
+                               Lanes rx, Lanes ry) {
+  const Lanes3 p = (g.c * y) * axes.x - (g.c * x) * axes.y - g.b * axes.z;
+  const Lanes3 first = axes.x - y * p, second = axes.y + x * p;
+  store3(first, at.work, W_FIRST);
+  store3(second, at.work, W_SECOND);
+  const Lanes k = x * ry - y * rx, swept = x * rx + y * ry, e = g.dc * swept;
+  const Lanes3 rate = (k * (e * y + g.c * ry)) * axes.x - (k * (e * x + g.c * rx)) * axes.y -
+                      (k * (g.db * swept)) * axes.z;
+  return {rx * first + ry * second, rate};
+}
+
+/// Geometry at q + theta h rate; leaves the rigid bodies and their bias wrenches.
+HWY_INLINE Frame outward(const Joints& at, const Frame& parent, Lanes step, bool bars) {
+  const Lanes ahead = load(at.state, S_THETA) * step;
+  const Lanes rx = load(at.state, S_RATE), ry = load(at.state, S_RATE + 1);
+  const Lanes x = load(at.state, S_Q) + ahead * rx, y = load(at.state, S_Q + 1) + ahead * ry;
+  const Swing g = swingOf(x * x + y * y);
+  const Lanes qx = all(0.5f) * g.s * x, qy = all(0.5f) * g.s * y;
+  const LanesQuat r{load(at.constants, C_REST), load(at.constants, C_REST + 1),
+                    load(at.constants, C_REST + 2), load(at.constants, C_REST + 3)};
+  const LanesQuat local{r.w * g.w - r.x * qx - r.y * qy, r.w * qx + r.x * g.w - r.z * qy,
+                        r.w * qy + r.y * g.w + r.z * qx, r.z * g.w + r.x * qy - r.y * qx};
+  const Lanes h = load(at.constants, C_H);
+  Frame out;
+  out.turn = parent.turn * local;
+  const Axes axes = axesOf(out.turn);
+  const JointSpin joint = jointSpin(at, axes, g, x, y, rx, ry);
+  store3(h * parent.axis, at.work, W_ARM);
+  out.axis = axes.z;
+  out.spin = parent.spin + joint.spin;
+  out.spin_rate = parent.spin_rate + (joint.rate + cross(parent.spin, joint.spin));
+  out.acceleration = parent.acceleration + h * parent.axis_rate;
+  out.axis_rate = cross(out.spin_rate, axes.z) + cross(out.spin, cross(out.spin, axes.z));
+  if (bars)
+    rigidBar(at, out);
+  else
+    rigidBody(at, axes, out);
+  return out;
+}
+
+}  // namespace vegetation_sim::physics::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // toggle

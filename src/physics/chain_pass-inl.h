@@ -1,0 +1,146 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+// How values pass between a vector of parents and their children in the next level. Included once
+// per instruction set.
+
+#if defined(VEGETATION_SIM_PHYSICS_CHAIN_PASS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef VEGETATION_SIM_PHYSICS_CHAIN_PASS_INL_H_
+#undef VEGETATION_SIM_PHYSICS_CHAIN_PASS_INL_H_
+#else
+#define VEGETATION_SIM_PHYSICS_CHAIN_PASS_INL_H_
+#endif
+
+#include "physics/chain_back-inl.h"
+#include "physics/chain_levels.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace vegetation_sim::physics::HWY_NAMESPACE {
+
+using Places = hn::RebindToSigned<Tag>;
+
+HWY_INLINE int width() {
+  return static_cast<int>(hn::Lanes(Tag()));
+}
+
+// Which of the joints from `joint` on have a child in this brood.
+HWY_INLINE auto haveChild(const std::int32_t* first) {
+  const Places d;
+  return hn::LoadU(d, first) < hn::LoadU(d, first + 1);
+}
+
+// Writes what joints of a vector hand to their children of one rank. It runs over into what the
+// next vector writes, but not into the next brood.
+struct HandOn {
+  float* target;
+  int room;
+  int count;
+  bool whole;
+  hn::Vec<Places> order;
+
+  HWY_INLINE void operator()(int row, Lanes value) const {
+    const Tag d;
+    const Lanes sorted = hn::TableLookupLanes(value, hn::IndicesFromVec(d, order));
+    if (HWY_LIKELY(whole))
+      hn::StoreU(sorted, d, target + row * room);
+    else
+      hn::BlendedStore(sorted, hn::FirstN(d, static_cast<std::size_t>(count)), d,
+                       target + row * room);
+  }
+};
+
+// each(put): calls put(row, value) for what the parents from `parent` on hand to their children.
+template <class Each>
+HWY_INLINE void handOn(const Level& level, int parent, const Each& each, int room, float* to) {
+  for (const Brood& brood : level.broods) {
+    if (parent >= brood.parents) continue;
+    const std::int32_t* first = brood.first.data() + parent;
+    const int count = first[width()] - first[0];
+    if (count == 0) continue;
+    float* target = to + first[0];
+    if (count == width()) {
+      each(StoreRows{target, room});
+      continue;
+    }
+    const auto order = hn::Compress(hn::Iota(Places(), 0), haveChild(first));
+    each(HandOn{target, room, count, first[0] + width() <= brood.end, order});
+  }
+}
+
+// add(row, sum): the sum and what is added to it.
+template <class Add>
+HWY_INLINE void addTo(Lanes3& sum, int row, const Add& add) {
+  sum = {add(row, sum.x), add(row + 1, sum.y), add(row + 2, sum.z)};
+}
+
+template <class Add>
+HWY_INLINE void addTo(Symmetric& sum, int row, const Add& add) {
+  sum = {add(row, sum.xx),     add(row + 1, sum.xy), add(row + 2, sum.xz),
+         add(row + 3, sum.yy), add(row + 4, sum.yz), add(row + 5, sum.zz)};
+}
+
+template <class Add>
+HWY_INLINE void addTo(Articulated& sum, const Add& add) {
+  addTo(sum.a, P_A, add);
+  addTo(sum.bx, P_B, add);
+  addTo(sum.by, P_B + 3, add);
+  addTo(sum.bz, P_B + 6, add);
+  addTo(sum.m, P_M, add);
+  addTo(sum.torque, P_TORQUE, add);
+  addTo(sum.force, P_FORCE, add);
+}
+
+// Children of one rank of a vector of joints.
+struct Siblings {
+  const float* source;
+  hn::Vec<Places> places;
+  hn::Mask<Tag> present;
+
+  HWY_INLINE Lanes at(int offset) const {
+    const Tag d;
+    return hn::IfThenElseZero(present, hn::TableLookupLanes(hn::LoadU(d, source + offset),
+                                                            hn::IndicesFromVec(d, places)));
+  }
+};
+
+template <int RANKS>
+HWY_INLINE void addSiblings(const Siblings* of, int room, Articulated& sum) {
+  addTo(sum, [&](int row, Lanes value) HWY_ATTR {
+    for (int rank = 0; rank < RANKS; ++rank) value = value + of[rank].at(row * room);
+    return value;
+  });
+}
+
+// From children to parents, rank by rank; a few ranks at once, which spares going through memory.
+HWY_INLINE void gatherChildren(const Level& level, const float* from, int room, int parent,
+                               Articulated& sum) {
+  Siblings found[3];
+  int count = 0;
+  for (const Brood& brood : level.broods) {
+    if (parent >= brood.parents) continue;
+    const std::int32_t* first = brood.first.data() + parent;
+    if (first[width()] == first[0]) continue;
+    found[count].source = from + first[0];
+    found[count].places = hn::LoadU(Places(), first) - hn::Set(Places(), first[0]);
+    found[count].present = hn::RebindMask(Tag(), haveChild(first));
+    if (++count < 3) continue;
+    addSiblings<3>(found, room, sum);
+    count = 0;
+  }
+  if (count == 1) addSiblings<1>(found, room, sum);
+  if (count == 2) addSiblings<2>(found, room, sum);
+}
+
+HWY_INLINE void storeAll(const Articulated& a, float* rows, int room) {
+  store6(a.a, rows, P_A, room);
+  store3(a.bx, rows, P_B, room);
+  store3(a.by, rows, P_B + 3, room);
+  store3(a.bz, rows, P_B + 6, room);
+  store6(a.m, rows, P_M, room);
+  store3(a.torque, rows, P_TORQUE, room);
+  store3(a.force, rows, P_FORCE, room);
+}
+
+}  // namespace vegetation_sim::physics::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // toggle

@@ -1,0 +1,100 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace vegetation_sim::physics {
+
+/// Joints that the widest vector takes at once. Joints are stored in blocks of so many, one row per
+/// quantity, so that a narrower vector reads the same rows in parts and gives the same bits.
+constexpr int ROW = 16;
+
+/// Rows of ROW floats each, one after the other, on whole cache lines.
+class Rows {
+ public:
+  void assign(std::size_t count) { lines_.assign(count, Line()); }
+  bool empty() const { return lines_.empty(); }
+  std::size_t bytes() const { return lines_.capacity() * sizeof(Line); }
+  float* at(std::size_t row) { return reinterpret_cast<float*>(lines_.data()) + row * ROW; }
+  const float* at(std::size_t row) const {
+    return reinterpret_cast<const float*>(lines_.data()) + row * ROW;
+  }
+
+ private:
+  struct alignas(ROW * sizeof(float)) Line {
+    float lane[ROW] = {};
+  };
+  std::vector<Line> lines_;
+};
+
+/// Rows of what a joint is; the inertia is about the joint, own axes.
+enum : int {
+  C_H,
+  C_REST,                    // w x y z
+  C_MASS = C_REST + 4,       //
+  C_STIFFNESS,               //
+  C_DAMPING,                 //
+  C_MOMENT,                  // mass times centre
+  C_INERTIA = C_MOMENT + 3,  // xx xy xz yy yz zz
+  C_ROWS = C_INERTIA + 6
+};
+
+/// Rows of its state; theta is the tree's.
+enum : int { S_Q, S_RATE = S_Q + 2, S_THETA = S_RATE + 2, S_ROWS };
+
+/// Rows of what acts on it from outside.
+enum : int { L_FORCE, L_TORQUE = L_FORCE + 3, L_JOINT = L_TORQUE + 3, L_ROWS = L_JOINT + 2 };
+
+/// Rows that one step keeps between its passes; what the sweep down the tree leaves takes the place
+/// of the rigid body that it has used.
+enum : int {
+  W_FIRST,                 // joint axes, world
+  W_SECOND = W_FIRST + 3,  //
+  W_ARM = W_SECOND + 3,    // from the parent's joint
+  W_SWEPT = W_ARM + 3,     //
+  W_INERTIA = W_SWEPT,     // rigid body: xx xy xz yy yz zz
+  W_MOMENT = W_INERTIA + 6,
+  W_TORQUE = W_MOMENT + 3,
+  W_FORCE = W_TORQUE + 3,
+  W_GAIN = W_SWEPT,  // swept: torque and force gain of the first axis, then of the second
+  W_INVERSE = W_GAIN + 12,
+  W_COUPLING = W_INVERSE + 2,
+  W_DRIVE,
+  W_ROWS = W_DRIVE + 2
+};
+static_assert(W_FORCE + 3 <= W_ROWS, "the rigid body fits where the sweep writes");
+
+/// Rows that a parent hands to its children: orientation (w x y z), z axis, spin, and the
+/// accelerations that it would have if no joint accelerated: of spin, of joint, of z axis.
+enum : int {
+  F_TURN,
+  F_AXIS = F_TURN + 4,
+  F_SPIN = F_AXIS + 3,
+  F_SPIN_RATE = F_SPIN + 3,
+  F_ACCELERATION = F_SPIN_RATE + 3,
+  F_AXIS_RATE = F_ACCELERATION + 3,
+  F_POSITION = F_AXIS_RATE + 3,  // this and the next only where somebody asks for the motion
+  F_VELOCITY = F_POSITION + 3,
+  F_ROWS = F_VELOCITY + 3
+};
+
+/// Rows of an articulated inertia on its way to the parent: a (6), b (9, by columns), m (6),
+/// torque, force.
+enum : int {
+  P_A,
+  P_B = P_A + 6,
+  P_M = P_B + 9,
+  P_TORQUE = P_M + 6,
+  P_FORCE = P_TORQUE + 3,
+  P_ROWS = P_FORCE + 3
+};
+
+static_assert(int{F_ROWS} <= int{P_ROWS},
+              "what fits an articulated inertia fits all that is passed on");
+
+/// Rows of the accelerations on their way to the children: of spin, of the joint.
+enum : int { A_ROWS = 6 };
+
+}  // namespace vegetation_sim::physics

@@ -1,0 +1,144 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "physics/chain_sweep.h"
+
+#include <algorithm>
+
+// Vectors without arithmetic operators are left out; their processors take the plain target.
+#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "physics/chain_sweep.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "physics/chain_pass-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace vegetation_sim::physics::HWY_NAMESPACE {
+
+HWY_INLINE float* rowsOf(Rows& rows, int slot, int quantities) {
+  return rows.at(static_cast<std::size_t>(slot / ROW * quantities)) + slot % ROW;
+}
+
+HWY_INLINE Joints jointsAt(ChainStore& store, int slot) {
+  return {rowsOf(store.constants, slot, C_ROWS), rowsOf(store.state, slot, S_ROWS),
+          rowsOf(store.loads, slot, L_ROWS), rowsOf(store.work, slot, W_ROWS)};
+}
+
+// Anchors are few: one by one.
+const AnchorRows* addAnchors(const AnchorRows* next, const AnchorRows* end, int slot,
+                             Articulated& sum) {
+  for (; next != end && next->slot < slot + width(); ++next) {
+    alignas(64) float lanes[P_ROWS][ROW] = {};
+    for (int row = 0; row < P_ROWS; ++row) lanes[row][next->slot - slot] = next->value[row];
+    addTo(sum, [&](int row, Lanes value) HWY_ATTR { return value + hn::LoadU(Tag(), lanes[row]); });
+  }
+  return next;
+}
+
+// ---- sweeps ------------------------------------------------------------------------------------
+
+void loadBases(const ChainGroup& group, LevelRows& out) {
+  for (std::size_t i = 0; i < group.bases.size(); ++i)
+    for (int row = 0; row < F_ROWS; ++row)
+      out.data()[static_cast<std::size_t>(row * out.room) + i] = group.bases[i].value[row];
+}
+
+template <bool MOTION>
+HWY_INLINE void outGroupAs(const ChainGroup& group, Lanes step, ChainStore& store) {
+  float *received = store.first.data(), *handed = store.second.data();
+  const int room = store.first.room;
+  loadBases(group, store.first);
+  for (std::size_t l = 0; l < group.levels.size(); ++l) {
+    const Level& level = group.levels[l];
+    for (int i = 0; i < level.count; i += width()) {
+      const Joints at = jointsAt(store, level.begin + i);
+      const Frame frame = outward(at, loadFrame(received + i, room), step, group.bars[l]);
+      if constexpr (MOTION) {
+        const Trace trace = traceOf(received + i, room, at.work);
+        const auto each = [&](const auto& put) HWY_ATTR {
+          eachRow(frame, put);
+          eachRow(trace, put);
+        };
+        each(StoreRows{rowsOf(store.motion, level.begin + i, F_ROWS), ROW});
+        handOn(level, i, each, room, handed);
+      } else {
+        handOn(
+            level, i, [&](const auto& put) HWY_ATTR { eachRow(frame, put); }, room, handed);
+      }
+    }
+    std::swap(received, handed);
+  }
+}
+
+void outGroup(const ChainGroup& group, float step, ChainStore& store) {
+  if (store.motion.empty())
+    outGroupAs<false>(group, all(step), store);
+  else
+    outGroupAs<true>(group, all(step), store);
+}
+
+void inwardGroup(const ChainGroup& group, float h, ChainStore& store) {
+  const Lanes step = all(h);
+  const int room = store.first.room;
+  const AnchorRows *const begin = store.anchors.data(), *const end = begin + store.anchors.size();
+  float *own = store.first.data(), *received = store.second.data();
+  for (std::size_t l = group.levels.size(); l-- > 0;) {
+    const Level& level = group.levels[l];
+    const AnchorRows* next = std::lower_bound(
+        begin, end, level.begin, [](const AnchorRows& a, int slot) { return a.slot < slot; });
+    for (int i = 0; i < level.count; i += width()) {
+      Articulated sum = nothing();
+      gatherChildren(level, received, room, i, sum);
+      next = addAnchors(next, end, level.begin + i, sum);
+      inward(jointsAt(store, level.begin + i), step, sum);
+      storeAll(sum, own + i, room);
+    }
+    std::swap(own, received);
+  }
+}
+
+float settleGroup(const ChainGroup& group, float h, ChainStore& store) {
+  const Lanes step = all(h);
+  const int room = store.first.room;
+  float *received = store.first.data(), *handed = store.second.data();
+  Lanes fastest = hn::Zero(Tag());
+  for (int row = 0; row < A_ROWS; ++row)
+    std::fill_n(received + row * room, group.levels[0].count, 0.f);
+  for (const Level& level : group.levels) {
+    for (int i = 0; i < level.count; i += width()) {
+      const Push push =
+          settle(jointsAt(store, level.begin + i),
+                 {load3(received + i, 0, room), load3(received + i, 3, room)}, step, fastest);
+      handOn(
+          level, i, [&](const auto& put) HWY_ATTR { eachRow(push, put); }, room, handed);
+    }
+    std::swap(received, handed);
+  }
+  return hn::GetLane(hn::MaxOfLanes(Tag(), fastest));
+}
+
+float backGroup(const ChainGroup& group, float h, ChainStore& store) {
+  inwardGroup(group, h, store);
+  return settleGroup(group, h, store);
+}
+
+}  // namespace vegetation_sim::physics::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace vegetation_sim::physics {
+
+HWY_EXPORT(outGroup);
+HWY_EXPORT(backGroup);
+
+void sweepOut(const ChainGroup& group, float step, ChainStore& store) {
+  HWY_DYNAMIC_DISPATCH(outGroup)(group, step, store);
+}
+
+float sweepBack(const ChainGroup& group, float step, ChainStore& store) {
+  return HWY_DYNAMIC_DISPATCH(backGroup)(group, step, store);
+}
+
+}  // namespace vegetation_sim::physics
+#endif

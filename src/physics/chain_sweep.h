@@ -1,0 +1,58 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "physics/chain_levels.h"
+#include "physics/chain_rows.h"
+
+namespace vegetation_sim::physics {
+
+/// What an anchor adds to the articulated inertia and bias of the joint in `slot`.
+struct AnchorRows {
+  int slot{0};
+  float value[P_ROWS] = {};
+};
+
+/// What a root hangs on: F_ROWS numbers.
+struct BaseRows {
+  float value[F_ROWS] = {};
+};
+
+/// Trees that step together, small enough for the second-level cache unless one is larger.
+struct ChainGroup {
+  std::vector<Level> levels;
+  std::vector<char> bars;       ///< [levels] 1: nothing but round bars
+  std::vector<BaseRows> bases;  ///< of the first level's joints
+};
+
+/// Rows of one level, one array per quantity, with room for a vector that runs over the end.
+struct LevelRows {
+  int room{0};  ///< floats from one quantity to the next
+  Rows rows;
+
+  /// An odd number of lines, so that the arrays do not fall on the same lines of the cache.
+  void fit(int joints, int quantities) {
+    const int lines = ((joints + ROW - 1) / ROW + 1) | 1;
+    room = lines * ROW;
+    rows.assign(static_cast<std::size_t>(lines) * static_cast<std::size_t>(quantities));
+  }
+  float* data() { return rows.at(0); }
+  const float* data() const { return rows.at(0); }
+};
+
+/// All rows of a chain, and scratch of one group's level and its neighbour.
+struct ChainStore {
+  Rows constants, state, loads, work;
+  Rows motion;  ///< F_ROWS per block; empty unless somebody asks for it
+  LevelRows first, second;
+  std::vector<AnchorRows> anchors;  ///< sorted by slot
+};
+
+/// Geometry and rigid bodies of a group at q + theta h rate, h = `step`.
+void sweepOut(const ChainGroup& group, float step, ChainStore& store);
+/// Articulated inertias, accelerations, and the step. Returns the largest rate after it.
+float sweepBack(const ChainGroup& group, float step, ChainStore& store);
+
+}  // namespace vegetation_sim::physics
