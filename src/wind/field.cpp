@@ -91,6 +91,15 @@ Field::Field(std::vector<Primitive> primitives, std::uint64_t seed)
 
 Instant Field::at(Nanoseconds stamp) const {
   Instant instant;
+  at(stamp, instant);
+  return instant;
+}
+
+void Field::at(Nanoseconds stamp, Instant& instant) const {
+  instant.mean = Vec3::Zero();
+  instant.breezes = 0;
+  instant.modes.clear();
+  instant.terms.clear();
   for (std::size_t i = 0; i < primitives_.size(); ++i) {
     const Primitive& p = primitives_[i];
     const double weight = fade(p, stamp), elapsed = secondsBetween(p.epoch, stamp);
@@ -114,7 +123,6 @@ Instant Field::at(Nanoseconds stamp) const {
     if (term.kind == Kind::TORNADO || term.kind == Kind::BLAST) shapeEddy(p, weight, term);
     if (term.peak > 0.0) instant.terms.push_back(term);
   }
-  return instant;
 }
 
 std::uint64_t Field::hash() const {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 
+#include "vegetation_sim/common/faults.h"
 #include "vegetation_sim/common/time.h"
 #include "vegetation_sim/common/vectors.h"
 
@@ -68,6 +69,11 @@ struct Reaction {
   bool limited{false};        ///< the force is at its limit
   double penetration{0.0};    ///< contact: depth [m]
 };
+
+/// Adds a fault for whatever is wrong with the numbers of a grab or a push; the place on the tree is
+/// for checkPoint.
+void check(const Grab& grab, Faults& faults);
+void check(const Push& push, Faults& faults);
 
 /// What physics takes at the moment.
 struct PhysicsFigures {

@@ -30,6 +30,8 @@ class Field {
 
   /// The field frozen at a stamp: what many positions share is computed once.
   Instant at(Nanoseconds stamp) const;
+  /// The same into `out`, whose memory is kept from call to call.
+  void at(Nanoseconds stamp, Instant& out) const;
 
   std::uint64_t hash() const;
 

@@ -1,0 +1,64 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "vegetation_sim/forest/physics_settings.h"
+#include "vegetation_sim/forest/pose.h"
+#include "vegetation_sim/wind/field.h"
+
+namespace vegetation_sim::forest {
+
+/// Distance in time of the looks that rates and accelerations are differenced from: motion at
+/// w rad/s is told to (w LOOK)^2 / 6.
+constexpr Nanoseconds LOOK = NANOSECONDS_PER_SECOND / PHYSICS_RATE;
+
+/// The wind LOOK before a stamp, at it, and LOOK after, world; shared by all trees of a step.
+class WindWindow {
+ public:
+  /// Looks at `stamp`; keeps its memory from call to call.
+  void lookAt(const wind::Field& field, Nanoseconds stamp);
+  Nanoseconds stamp() const { return stamp_; }
+  const wind::Instant& now() const { return looks_[1]; }
+  const std::array<wind::Instant, 3>& looks() const { return looks_; }
+
+ private:
+  Nanoseconds stamp_{0};
+  std::array<wind::Instant, 3> looks_;
+};
+
+/// Procedural motion of a joint at a stamp by central differences of the pure function: bends
+/// [rad], rates [rad/s], accelerations [rad/s^2].
+struct JointCourse {
+  JointAngles q, rate, acceleration;
+};
+
+/// Procedural motion of one tree around a stamp: window and level's weights at its three looks.
+struct Course {
+  const Tree& tree;
+  const WindWindow& wind;
+  std::array<Weights, 3> weights;
+
+  Course(const Tree& tree_, const WindWindow& wind_, const LevelState& level, const MotionLaw& law);
+  /// Bends at look 0, 1 or 2.
+  JointAngles anglesAt(int branch, std::size_t look) const;
+  JointCourse at(int branch) const;
+};
+
+/// How a branch moves that is not physical itself but bears what is (S1-35), tree's frame.
+struct CarrierMotion {
+  Pose pose;
+  Vec3 spin{Vec3::Zero()};          ///< [rad/s]
+  Vec3 velocity{Vec3::Zero()};      ///< of its joint [m/s]
+  Vec3 spin_rate{Vec3::Zero()};     ///< [rad/s^2]
+  Vec3 acceleration{Vec3::Zero()};  ///< [m/s^2]
+};
+/// @param[in] carriers rising; with each branch all that bear it.
+/// @param[out] out [carriers]
+/// @param scratch [3 * carriers] poses, kept from call to call.
+void moveCarriers(const Course& course, const std::vector<int>& carriers,
+                  std::vector<Pose>& scratch, std::vector<CarrierMotion>& out);
+
+}  // namespace vegetation_sim::forest
