@@ -44,17 +44,15 @@ class ArticulatedBody {
                const ChainState& state, const Kinematics& kinematics, const Loads& loads,
                const std::vector<Vec2>& acceleration, std::vector<Vec2>& out);
 
-  /// How the links' joints accelerate, as accelerations() found last, world axes [rad/s^2],
-  /// [m/s^2].
-  const std::vector<Vec3>& spinRate() const { return spin_rate_; }
-  const std::vector<Vec3>& acceleration() const { return acceleration_; }
-
   /// Of a joint in world axes, and what its motion adds to accelerations by itself.
   struct Joint {
     Vec3 first, second;  // axes of the two bends
     Vec3 offset;         // from what it hangs on to the joint
     Vec3 spin_bias, linear_bias;
   };
+  /// Of the last accelerations() or torques(), per link.
+  const std::vector<Joint>& joints() const { return joints_; }
+
   /// Articulated inertia and bias: torque = a alpha + b acc + torque, force = b^T alpha + m acc +
   /// force, about the joint.
   struct Body {
