@@ -1,7 +1,7 @@
 # Libraries and programs. A folder's sources are its *.cpp files; in src/nodes, *_node.cpp is the
 # program of a node and *_nodelet.cpp its plugin.
 file(GLOB core_sources CONFIGURE_DEPENDS
-  src/common/*.cpp src/forest/*.cpp src/grass/*.cpp src/terrain/*.cpp src/wind/*.cpp)
+  src/common/*.cpp src/forest/*.cpp src/grass/*.cpp src/physics/*.cpp src/terrain/*.cpp src/wind/*.cpp)
 file(GLOB ros_sources CONFIGURE_DEPENDS src/ros/*.cpp)
 file(GLOB node_sources CONFIGURE_DEPENDS src/nodes/*.cpp)
 file(GLOB main_sources CONFIGURE_DEPENDS src/nodes/*_node.cpp)

@@ -1,0 +1,104 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/physics/integrator.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vegetation_sim::physics {
+namespace {
+
+using Angles = std::vector<Vec2>;
+
+// out = a + factor * b; out may be a.
+void addScaled(const Angles& a, double factor, const Angles& b, Angles& out) {
+  out.resize(a.size());
+  for (std::size_t i = 0; i < a.size(); ++i) out[i] = a[i] + factor * b[i];
+}
+
+}  // namespace
+
+double guardedTheta(const ChainState& state, double h, double theta) {
+  double fastest = 0.0;
+  for (const Vec2& rate : state.rate)
+    fastest = std::max({fastest, std::fabs(rate.x()), std::fabs(rate.y())});
+  return fastest * h > GUARD_TURN ? 1.0 : std::max(0.5, 0.9 * theta);
+}
+
+void ChainStepper::evaluate(const std::vector<Link>& links, const Surroundings& outside,
+                            double time, const ChainState& state, const Implicitness& implicitness,
+                            Angles& out) {
+  if (outside.bases) outside.bases(time, bases_);
+  if (!outside.bases) bases_.clear();
+  kinematicsOf(links, bases_, state, kinematics_);
+  loads_.clear(links.size());
+  if (outside.loads) outside.loads(kinematics_, time, loads_);
+  body_.accelerations(links, bases_, state, kinematics_, loads_, implicitness, out);
+}
+
+// Springs and loads where the joints will be after theta h at the present rates; what acceleration
+// adds to that is implicit.
+void ChainStepper::implicitStep(const std::vector<Link>& links, const Surroundings& outside,
+                                double time, double h, double theta, ChainState& state) {
+  addScaled(state.q, theta * h, state.rate, between_.q);
+  between_.rate = state.rate;
+  evaluate(links, outside, time + theta * h, between_, {theta * theta * h * h, theta * h},
+           acceleration_);
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    state.q[i] += h * (state.rate[i] + (theta * h) * acceleration_[i]);
+    state.rate[i] += h * acceleration_[i];
+  }
+}
+
+void ChainStepper::explicitStep(bool as_printed, const std::vector<Link>& links,
+                                const Surroundings& outside, double time, double h,
+                                ChainState& state) {
+  evaluate(links, outside, time, state, {}, acceleration_);
+  if (as_printed) addScaled(state.q, h, state.rate, state.q);
+  addScaled(state.rate, h, acceleration_, state.rate);
+  if (!as_printed) addScaled(state.q, h, state.rate, state.q);
+}
+
+void ChainStepper::rungeKuttaStep(const std::vector<Link>& links, const Surroundings& outside,
+                                  double time, double h, ChainState& state) {
+  constexpr double AHEAD[] = {0.0, 0.5, 0.5, 1.0};
+  for (int stage = 0; stage < 4; ++stage) {
+    Slope& slope = slopes_[stage];
+    between_ = state;
+    if (stage > 0) {
+      const double ahead = AHEAD[stage] * h;
+      addScaled(state.q, ahead, slopes_[stage - 1].rate, between_.q);
+      addScaled(state.rate, ahead, slopes_[stage - 1].acceleration, between_.rate);
+    }
+    slope.rate = between_.rate;
+    evaluate(links, outside, time + AHEAD[stage] * h, between_, {}, slope.acceleration);
+  }
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    const auto mean = [&](Angles Slope::*what) {
+      return Vec2(h / 6.0 *
+                  ((slopes_[0].*what)[i] + 2.0 * (slopes_[1].*what)[i] +
+                   2.0 * (slopes_[2].*what)[i] + (slopes_[3].*what)[i]));
+    };
+    state.q[i] += mean(&Slope::rate);
+    state.rate[i] += mean(&Slope::acceleration);
+  }
+}
+
+void ChainStepper::step(Integrator integrator, const std::vector<Link>& links,
+                        const Surroundings& outside, double time, double h, ChainState& state,
+                        double& theta) {
+  switch (integrator) {
+    case Integrator::MIDPOINT:
+      theta = guardedTheta(state, h, theta);
+      return implicitStep(links, outside, time, h, theta, state);
+    case Integrator::IMPLICIT_EULER:
+      return implicitStep(links, outside, time, h, 1.0, state);
+    case Integrator::SEMI_IMPLICIT_EULER:
+    case Integrator::EXPLICIT_EULER:
+      return explicitStep(integrator == Integrator::EXPLICIT_EULER, links, outside, time, h, state);
+    case Integrator::RUNGE_KUTTA_4:
+      return rungeKuttaStep(links, outside, time, h, state);
+  }
+}
+
+}  // namespace vegetation_sim::physics
