@@ -10,11 +10,6 @@
 namespace vegetation_sim::forest {
 namespace {
 
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(),
-          a.x() * b.y() - a.y() * b.x()};
-}
-
 Quat normalized(const Quat& q) {
   const double f = 1.0 / std::sqrt(q.w * q.w + q.x * q.x + (q.y * q.y + q.z * q.z));
   return {q.w * f, q.x * f, q.y * f, q.z * f};

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "vegetation_sim/common/fields.h"
-#include "vegetation_sim/common/vectors.h"
+#include "vegetation_sim/physics/articulated.h"
 
 namespace vegetation_sim::physics {
 
@@ -28,6 +28,48 @@ struct Contact {
   std::size_t touch{0};        ///< whatever the caller knows it by
   double force{0.0};           ///< on the link along the normal [N]: a guess, then what it was
   bool limited{false};         ///< the force was at its limit
+};
+
+/// Steps chains that touch bodies: the linearly implicit step of ChainStepper with a force per
+/// contact that pushes and never pulls. Which contacts press is found by trial, from the last
+/// step's forces on. Keeps scratch only.
+class ContactStepper {
+ public:
+  /// One step of `h` seconds from `time`. `theta`: 1/2 midpoint to 1 backward Euler, already
+  /// guarded. `contacts`: as at the start of the step; gives their forces.
+  void step(const std::vector<Link>& links, const Surroundings& outside, const ContactLaw& law,
+            double time, double h, double theta, ChainState& state, std::vector<Contact>& contacts);
+  /// Trials of the last step, and whether the last of them agreed with itself.
+  int trials() const { return trials_; }
+  bool agreed() const { return agreed_; }
+
+ private:
+  enum class Mode { FREE, PRESSING, LIMITED };
+  struct Point {
+    Mode mode{Mode::FREE};
+    Vec3 arm;
+    double speed;   // along the normal, relative to the body [m/s]
+    double wanted;  // the same at the end of the step, if it presses [m/s]
+  };
+  void look(const std::vector<Link>& links, const Surroundings& outside, double time, double h,
+            double theta, const ChainState& state);
+  void prepare(const ContactLaw& law, double h, double theta, const std::vector<Contact>& contacts);
+  void addAnchors(const ContactLaw& law, double h, double theta,
+                  const std::vector<Contact>& contacts);
+  void spread(const std::vector<Link>& links);
+  double forceOf(const ContactLaw& law, double h, const Point& point, const Contact& contact) const;
+  bool revise(const ContactLaw& law, double h, bool one_by_one, std::vector<Contact>& contacts);
+
+  ArticulatedBody body_;
+  std::vector<BaseMotion> bases_;
+  Kinematics kinematics_;
+  Loads loads_;
+  ChainState between_;
+  std::vector<Vec2> acceleration_;
+  std::vector<Vec3> turn_, move_;
+  std::vector<Point> points_;
+  int trials_{0};
+  bool agreed_{true};
 };
 
 }  // namespace vegetation_sim::physics

@@ -1,0 +1,41 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <mutex>
+
+#include "vegetation_sim/forest/contact_model.h"
+#include "vegetation_sim/forest/tree_cache.h"
+#include "vegetation_sim/physics/contact.h"
+
+namespace vegetation_sim::forest {
+
+/// Finds what bodies touch: over trees by their size, over branches by distance, then exactly, with
+/// both in motion (docs/contact.md). Keeps grown trees at hand; what it finds does not depend on
+/// which.
+class ContactFinder : public ContactModel {
+ public:
+  void findNear(const Forest& forest, const Bodies& bodies, Nanoseconds from, Nanoseconds to,
+                BranchesOfTrees& near) const override;
+  std::vector<physics::Contact> findContacts(const Wood& wood, const Bodies& bodies,
+                                             Nanoseconds from, Nanoseconds to,
+                                             Touches& touches) const override;
+  void settle(const Wood& wood, const Bodies& bodies, const std::vector<physics::Contact>& contacts,
+              Nanoseconds to, Touches& touches, std::vector<Reaction>& reactions) const override;
+
+ private:
+  mutable std::mutex mutex_;
+  mutable std::uint64_t layout_hash_{0};  // of the trees at hand
+  mutable TreeCache cache_{200000};       // [branches]
+};
+
+/// Ids of trees that may reach into a ball, rising. Cheap and generous: only sizes are looked at.
+std::vector<std::uint32_t> treesNear(const Layout& layout, const terrain::HeightMap& terrain,
+                                     const Vec3& centre, double radius);
+
+/// A branch that a body comes nearer to than this, plus twice the way of both in a tick, is made
+/// physical [m].
+constexpr double NEAR = 0.1;
+
+}  // namespace vegetation_sim::forest

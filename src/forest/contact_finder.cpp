@@ -1,0 +1,170 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/forest/contact_finder.h"
+
+#include <algorithm>
+
+#include "vegetation_sim/forest/contact_body.h"
+#include "vegetation_sim/physics/chain.h"
+
+namespace vegetation_sim::forest {
+namespace {
+
+using physics::Bar;
+using physics::Contact;
+using physics::Proximity;
+
+// What is this near is a contact even if it does not come nearer by its own speed: its springs may
+// drive it [m].
+constexpr double SKIN = 5e-3;
+// What was this near has a side that it keeps [m].
+constexpr double HELD = 1e-3;
+// A branch that is beyond the body by more than this has been passed through [m].
+constexpr double LOST = 5e-3;
+// The law looks at the gap half a step after the step's end.
+constexpr double LOOK_AHEAD = 1.5;  // [steps]
+
+// A body at the start of a step, in the tree's frame.
+struct Placed {
+  const Body& body;
+  Pose pose;
+  Quat to_body;
+  physics::RoundedBox shape;
+  double reach;
+
+  Vec3 velocity(const Vec3& point) const { return velocityAt(body, pose, point); }
+  Vec3 local(const Vec3& point) const { return rotate(to_body, Vec3(point - pose.position)); }
+};
+
+Placed place(const Body& body, const Vec3& foot, Nanoseconds from) {
+  Pose pose = poseAt(body, from);
+  pose.position -= foot;
+  const physics::RoundedBox shape = shapeOf(body);
+  return {body, pose, conjugate(pose.orientation), shape, shape.reach()};
+}
+
+Bar barOf(const Branch& branch, const Pose& pose) {
+  return {pose.position, axisZ(pose.orientation), branch.length, branch.base_radius,
+          branch.tip_radius};
+}
+
+double distanceTo(const Bar& bar, const Vec3& point) {
+  const double along = std::clamp(dot(point - bar.base, bar.axis), 0.0, bar.length);
+  return length(point - bar.at(along));
+}
+
+// One link beside one body.
+struct Pair {
+  Bar bar;                           // tree's frame
+  Vec3 base_velocity, tip_velocity;  // relative to the body there, tree's axes
+};
+
+Pair pairOf(const Placed& placed, const Bar& bar, const Vec3& velocity, const Vec3& spin) {
+  const Vec3 tip = bar.at(bar.length);
+  return {bar, velocity - placed.velocity(bar.base),
+          velocity + cross(spin, Vec3(bar.length * bar.axis)) - placed.velocity(tip)};
+}
+
+// Where they touch or shall touch first; none if they do not within the horizon.
+bool meet(const Placed& placed, const Pair& pair, const Touch* known, double horizon,
+          Proximity& out) {
+  const Bar local{placed.local(pair.bar.base), rotate(placed.to_body, pair.bar.axis),
+                  pair.bar.length, pair.bar.base_radius, pair.bar.tip_radius};
+  if (known && (known->force > 0.0 || known->gap < HELD)) {
+    const Proximity free = nearest(placed.shape, local);
+    if (dot(free.normal, known->side) < 0.0 && free.gap > LOST) return false;
+    out = nearest(placed.shape, local, known->side);
+    if (out.gap < SKIN) return true;
+  }
+  const physics::Meeting meeting =
+      sweep(placed.shape, local, rotate(placed.to_body, pair.base_velocity),
+            rotate(placed.to_body, pair.tip_velocity), horizon);
+  if (!meeting.met || meeting.time <= 0.0) {
+    out = nearest(placed.shape, local);
+    return out.gap < SKIN;
+  }
+  // How far they are apart now, along the normal that they shall have then.
+  out = meeting.there;
+  const double part = out.along / pair.bar.length;
+  const Vec3 velocity = (1.0 - part) * pair.base_velocity + part * pair.tip_velocity;
+  out.gap -= meeting.time * dot(rotate(placed.to_body, velocity), out.normal);
+  return true;
+}
+
+const Touch* find(const Touches& touches, const std::string& body, int branch) {
+  const auto before = [](const Touch& a, const std::pair<const std::string&, int>& b) {
+    return a.body != b.first ? a.body < b.first : a.branch < b.second;
+  };
+  const std::pair<const std::string&, int> key(body, branch);
+  const auto it = std::lower_bound(touches.begin(), touches.end(), key, before);
+  return it != touches.end() && it->body == body && it->branch == branch ? &*it : nullptr;
+}
+
+Contact contactOf(const Placed& placed, const Pair& pair, const Proximity& found) {
+  Contact out;
+  out.along = found.along;
+  out.normal = rotate(placed.pose.orientation, found.normal);
+  out.gap = found.gap;
+  const double radius = pair.bar.radiusAt(found.along);
+  out.surface = placed.velocity(pair.bar.at(found.along) - (radius + found.gap) * out.normal);
+  return out;
+}
+
+double fastestOf(const Pair& pair) {
+  return std::max(length(pair.base_velocity), length(pair.tip_velocity));
+}
+
+}  // namespace
+
+std::vector<Contact> ContactFinder::findContacts(const Wood& wood, const Bodies& bodies,
+                                                 Nanoseconds from, Nanoseconds to,
+                                                 Touches& touches) const {
+  const double horizon = LOOK_AHEAD * secondsBetween(from, to);
+  std::vector<Contact> out;
+  Touches kept;
+  for (const auto& entry : bodies) {
+    const Placed placed = place(entry.second, wood.foot, from);
+    for (std::size_t i = 0; i < wood.branches.size(); ++i) {
+      const Branch& branch = wood.skeleton.branches[static_cast<std::size_t>(wood.branches[i])];
+      const Bar bar = barOf(branch, wood.start.pose[i]);
+      const Pair pair = pairOf(placed, bar, wood.start.velocity[i], wood.start.spin[i]);
+      const double room = placed.reach + branch.base_radius + SKIN + horizon * fastestOf(pair);
+      if (distanceTo(bar, placed.pose.position) > room) continue;
+      const Touch* known = find(touches, entry.first, wood.branches[i]);
+      Proximity found;
+      if (!meet(placed, pair, known, horizon, found)) continue;
+      Contact contact = contactOf(placed, pair, found);
+      contact.link = static_cast<int>(i);
+      contact.touch = kept.size();
+      contact.force = known ? known->force : 0.0;
+      kept.push_back({entry.first, wood.branches[i], found.normal, found.gap, contact.force});
+      out.push_back(contact);
+    }
+  }
+  touches = std::move(kept);
+  return out;
+}
+
+void ContactFinder::settle(const Wood& wood, const Bodies& bodies,
+                           const std::vector<Contact>& contacts, Nanoseconds, Touches& touches,
+                           std::vector<Reaction>& reactions) const {
+  for (const Contact& contact : contacts) {
+    Touch& touch = touches[contact.touch];
+    touch.force = contact.force;
+    const auto body = bodies.find(touch.body);
+    if (contact.force <= 0.0 || body == bodies.end()) continue;
+    const Pose& pose = wood.start.pose[static_cast<std::size_t>(contact.link)];
+    Reaction reaction;
+    reaction.kind = Reaction::CONTACT;
+    reaction.body = touch.body;
+    reaction.frame = body->second.frame;
+    reaction.at = {wood.tree, touch.branch, contact.along};
+    reaction.point = wood.foot + pose.position + contact.along * axisZ(pose.orientation);
+    reaction.force = -contact.force * contact.normal;
+    reaction.limited = contact.limited;
+    reaction.penetration = std::max(0.0, -contact.gap);
+    reactions.push_back(reaction);
+  }
+}
+
+}  // namespace vegetation_sim::forest

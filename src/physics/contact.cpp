@@ -1,0 +1,150 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/physics/contact.h"
+
+#include <algorithm>
+
+namespace vegetation_sim::physics {
+namespace {
+
+constexpr int MOST_TRIALS = 24;
+// After these many trials contacts change their mind one at a time: no two can keep each other from
+// coming to rest.
+constexpr int JOINT_TRIALS = 6;
+// Forces that differ less are the same: rounding decides nothing [N].
+constexpr double SLACK = 1e-5;
+
+Symmetric3 along(const Vec3& n, double factor) {
+  return {factor * n.x() * n.x(), factor * n.y() * n.y(), factor * n.z() * n.z(),
+          factor * n.x() * n.y(), factor * n.x() * n.z(), factor * n.y() * n.z()};
+}
+
+}  // namespace
+
+void describe(FieldVisitor& v, ContactLaw& law) {
+  v.number("contact_stiffness", law.stiffness, "N/m", {1e3, 1e8});
+  v.number("contact_force_limit", law.force_limit, "N", {1.0, 1e6});
+  v.number("contact_push_speed", law.push_speed, "m/s", {0.01, 100.0});
+}
+
+// Geometry and loads at q + theta h rate, once for all trials.
+void ContactStepper::look(const std::vector<Link>& links, const Surroundings& outside, double time,
+                          double h, double theta, const ChainState& state) {
+  between_.rate = state.rate;
+  between_.q.resize(links.size());
+  for (std::size_t i = 0; i < links.size(); ++i)
+    for (int axis = 0; axis < 2; ++axis)
+      between_.q[i][axis] = state.q[i][axis] + theta * h * state.rate[i][axis];
+  if (outside.bases) outside.bases(time + theta * h, bases_);
+  if (!outside.bases) bases_.clear();
+  kinematicsOf(links, bases_, between_, kinematics_);
+  loads_.clear(links.size());
+  if (outside.loads) outside.loads(kinematics_, time + theta * h, loads_);
+}
+
+// The gap that follows speeds exactly is the one at (1 - theta) h after the step's start: its next
+// value is this one plus h times the speed at the end of the step.
+void ContactStepper::prepare(const ContactLaw& law, double h, double theta,
+                             const std::vector<Contact>& contacts) {
+  points_.assign(contacts.size(), Point());
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const Contact& contact = contacts[c];
+    const auto i = static_cast<std::size_t>(contact.link);
+    Point& p = points_[c];
+    p.arm = contact.along * axisZ(kinematics_.pose[i].orientation);
+    const Vec3 velocity = kinematics_.velocity[i] + cross(kinematics_.spin[i], p.arm);
+    p.speed = dot(contact.normal, velocity - contact.surface);
+    const double gap = contact.gap + (1.0 - theta) * h * p.speed;
+    p.wanted = std::min(-gap / h, law.push_speed);
+    if (contact.force >= law.force_limit)
+      p.mode = Mode::LIMITED;
+    else if (contact.force > 0.0 || p.speed < p.wanted)
+      p.mode = Mode::PRESSING;
+  }
+}
+
+// A contact that presses is a mass k h^2 that the step adds at the point, along the normal, and a
+// force that would give it the wanted speed.
+void ContactStepper::addAnchors(const ContactLaw& law, double h, double theta,
+                                const std::vector<Contact>& contacts) {
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const Point& p = points_[c];
+    if (p.mode == Mode::FREE) continue;
+    Anchor anchor;
+    anchor.link = contacts[c].link;
+    anchor.arm = p.arm;
+    const bool presses = p.mode == Mode::PRESSING;
+    const double force = presses ? law.stiffness * h * (p.wanted - p.speed) : law.force_limit;
+    anchor.force = force * contacts[c].normal;
+    if (presses) anchor.damping = along(contacts[c].normal, law.stiffness * h / theta);
+    loads_.anchors.push_back(anchor);
+  }
+}
+
+// What the joints' accelerations add to the velocities of the links, per second: what anchors feel.
+void ContactStepper::spread(const std::vector<Link>& links) {
+  turn_.resize(links.size());
+  move_.resize(links.size());
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    const ArticulatedBody::Joint& joint = body_.joints()[i];
+    const bool root = links[i].parent < 0;
+    const auto p = static_cast<std::size_t>(root ? 0 : links[i].parent);
+    turn_[i] = root ? Vec3(Vec3::Zero()) : turn_[p];
+    move_[i] = root ? Vec3(Vec3::Zero()) : Vec3(move_[p] + cross(turn_[p], joint.offset));
+    turn_[i] += acceleration_[i].x() * joint.first + acceleration_[i].y() * joint.second;
+  }
+}
+
+// Of the spring, for the motion that the last trial gave.
+double ContactStepper::forceOf(const ContactLaw& law, double h, const Point& p,
+                               const Contact& contact) const {
+  const auto i = static_cast<std::size_t>(contact.link);
+  const double speed = p.speed + h * dot(contact.normal, move_[i] + cross(turn_[i], p.arm));
+  return law.stiffness * h * (p.wanted - speed);
+}
+
+// True if nothing changed.
+bool ContactStepper::revise(const ContactLaw& law, double h, bool one_by_one,
+                            std::vector<Contact>& contacts) {
+  bool settled = true;
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    Point& p = points_[c];
+    const double force = forceOf(law, h, p, contacts[c]);
+    contacts[c].force = std::clamp(force, 0.0, law.force_limit);
+    contacts[c].limited = force >= law.force_limit;
+    Mode mode = p.mode;
+    if (force < -SLACK) mode = Mode::FREE;
+    if (force > law.force_limit + SLACK) mode = Mode::LIMITED;
+    if (force > SLACK && force < law.force_limit - SLACK) mode = Mode::PRESSING;
+    if (mode == p.mode || (one_by_one && !settled)) continue;
+    p.mode = mode;
+    settled = false;
+  }
+  return settled;
+}
+
+void ContactStepper::step(const std::vector<Link>& links, const Surroundings& outside,
+                          const ContactLaw& law, double time, double h, double theta,
+                          ChainState& state, std::vector<Contact>& contacts) {
+  look(links, outside, time, h, theta, state);
+  prepare(law, h, theta, contacts);
+  const std::size_t others = loads_.anchors.size();
+  agreed_ = false;
+  for (trials_ = 0; trials_ < MOST_TRIALS && !agreed_; ++trials_) {
+    loads_.anchors.resize(others);
+    addAnchors(law, h, theta, contacts);
+    body_.accelerations(links, bases_, between_, kinematics_, loads_,
+                        {theta * theta * h * h, theta * h}, acceleration_);
+    spread(links);
+    agreed_ = revise(law, h, trials_ >= JOINT_TRIALS, contacts);
+  }
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    for (int axis = 0; axis < 2; ++axis) {
+      const double change = h * acceleration_[i][axis];
+      state.q[i][axis] += h * (state.rate[i][axis] + theta * change);
+      state.rate[i][axis] += change;
+    }
+  }
+}
+
+}  // namespace vegetation_sim::physics

@@ -1,0 +1,202 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/physics/contact.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "vegetation_sim/physics/integrator.h"
+
+namespace vegetation_sim::physics {
+namespace {
+
+// A twig of 0.5 m and 1 cm diameter, upright, and a wall that comes along x:
+//
+//   wall ->|   |
+//          |   | twig
+//          |   |
+//              o
+Link twig() {
+  Link out;
+  out.length = 0.5;
+  out.mass = 0.035;
+  out.centre = Vec3(0.0, 0.0, 0.25);
+  const double across = out.mass * out.length * out.length / 3.0;
+  out.inertia = {across, across, 1e-6, 0.0, 0.0, 0.0};
+  out.stiffness = 8.0;
+  out.damping = 0.02;
+  return out;
+}
+
+struct Wall {
+  double place{-0.05}, speed{0.0};  // [m], [m/s]
+};
+
+/// One twig and one wall that meets its tip.
+class Meeting {
+ public:
+  explicit Meeting(const Link& link) : links_{link}, state_{{Vec2::Zero()}, {Vec2::Zero()}} {}
+
+  void step(double h, Wall& wall) {
+    kinematicsOf(links_, {}, state_, kinematics_);
+    Contact contact;
+    contact.along = links_[0].length;
+    contact.normal = Vec3::UnitX();
+    contact.gap = tip() - wall.place;
+    contact.surface = wall.speed * Vec3::UnitX();
+    contact.force = last_.force;
+    std::vector<Contact> contacts{contact};
+    theta_ = guardedTheta(state_, h, theta_);
+    stepper_.step(links_, {}, law, 0.0, h, theta_, state_, contacts);
+    last_ = contacts[0];
+    wall.place += h * wall.speed;
+    kinematicsOf(links_, {}, state_, kinematics_);
+  }
+  double tip() const { return links_[0].length * axisZ(kinematics_.pose[0].orientation).x(); }
+  const Contact& last() const { return last_; }
+  const ContactStepper& stepper() const { return stepper_; }
+
+  ContactLaw law;
+
+ private:
+  std::vector<Link> links_;
+  ChainState state_;
+  Kinematics kinematics_;
+  ContactStepper stepper_;
+  Contact last_;
+  double theta_{0.5};
+};
+
+// The twig bends until its spring balances the wall, and overlaps it by force / stiffness.
+TEST(Contact, PressedTwigComesToRestWhereForcesBalance) {
+  Meeting meeting(twig());
+  Wall wall{-0.02, 0.2};
+  const double h = 1.0 / 240.0;
+  for (int i = 0; i < 144; ++i) meeting.step(h, wall);
+  wall.speed = 0.0;
+  for (int i = 0; i < 480; ++i) meeting.step(h, wall);
+  const double angle = std::asin(meeting.tip() / 0.5);
+  const double force = 8.0 * angle / (0.5 * std::cos(angle));
+  EXPECT_NEAR(meeting.last().force, force, 1e-3 * force);
+  EXPECT_NEAR(wall.place - meeting.tip(), force / meeting.law.stiffness, 1e-8);
+}
+
+// Thirty thousand times apart in stiffness, at any step: no deeper than what the force asks for
+// (and what a tip loses on its arc in a step), and pressed without a break but for a bounce or two
+// of a few steps.
+TEST(Contact, NeitherSinksInNorRingsAtAnySpeedStepAndStiffness) {
+  for (const double speed : {0.1, 0.5, 1.0, 2.0, 3.0}) {
+    for (const double h : {1e-3, 1.0 / 240.0, 1.0 / 60.0}) {
+      for (const double stiffness : {1e5, 5e5, 1e8}) {
+        Meeting meeting(twig());
+        meeting.law.stiffness = stiffness;
+        Wall wall{-0.051, speed};
+        double deepest = 0.0, hardest = 0.0;
+        int breaks = 0;
+        bool touched = false;
+        while (wall.place < 0.3) {
+          meeting.step(h, wall);
+          deepest = std::max(deepest, wall.place - meeting.tip());
+          hardest = std::max(hardest, meeting.last().force);
+          touched = touched || meeting.last().force > 0.0;
+          breaks += touched && meeting.last().force == 0.0;
+          ASSERT_TRUE(meeting.stepper().agreed());
+        }
+        const double arc = speed * speed * h * h / 0.5;
+        EXPECT_LT(deepest, hardest / stiffness + arc + 1e-4)
+            << speed << " m/s, " << h << " s, " << stiffness << " N/m";
+        EXPECT_LE(breaks, 8) << speed << " m/s, " << h << " s, " << stiffness << " N/m";
+        EXPECT_GT(hardest, 0.0);
+      }
+    }
+  }
+}
+
+// A trunk answers with the limit and is overrun.
+TEST(Contact, ForceIsLimited) {
+  Link trunk = twig();
+  trunk.stiffness = 1e6;
+  trunk.mass = 500.0;
+  trunk.inertia = {40.0, 40.0, 1.0, 0.0, 0.0, 0.0};
+  Meeting meeting(trunk);
+  Wall wall{-0.02, 1.0};
+  double hardest = 0.0;
+  while (wall.place < 0.05) {
+    meeting.step(1.0 / 240.0, wall);
+    hardest = std::max(hardest, meeting.last().force);
+  }
+  EXPECT_EQ(hardest, meeting.law.force_limit);
+  EXPECT_TRUE(meeting.last().limited);
+  EXPECT_GT(wall.place - meeting.tip(), 0.045);
+}
+
+TEST(Contact, NeverPulls) {
+  Meeting meeting(twig());
+  Wall wall{0.0, 0.5};
+  for (int i = 0; i < 60; ++i) meeting.step(1.0 / 240.0, wall);
+  wall.speed = -5.0;
+  for (int i = 0; i < 240; ++i) {
+    meeting.step(1.0 / 240.0, wall);
+    EXPECT_GE(meeting.last().force, 0.0);
+    EXPECT_GE(meeting.tip(), wall.place - 1e-6);
+  }
+  EXPECT_EQ(meeting.last().force, 0.0);
+}
+
+// An overlap that is there from the start is undone at the stated speed, not at once.
+TEST(Contact, OverlapIsUndoneSlowly) {
+  Meeting meeting(twig());
+  Wall wall{0.1, 0.0};
+  double before = 0.0, fastest = 0.0;
+  const double h = 1.0 / 240.0;
+  for (int i = 0; i < 120; ++i) {
+    meeting.step(h, wall);
+    fastest = std::max(fastest, (meeting.tip() - before) / h);
+    before = meeting.tip();
+  }
+  EXPECT_NEAR(fastest, meeting.law.push_speed, 0.02);
+  EXPECT_NEAR(meeting.tip(), 0.1, 1e-3);
+}
+
+// Three links between walls on both sides: all contacts come to agree, and no wall is entered.
+TEST(Contact, ContactsOnBothSidesAgree) {
+  std::vector<Link> links{twig(), twig(), twig()};
+  links[1].parent = 0, links[1].h = 0.5;
+  links[2].parent = 1, links[2].h = 0.5;
+  ChainState state{std::vector<Vec2>(3, Vec2::Zero()), std::vector<Vec2>(3, Vec2::Zero())};
+  Kinematics k;
+  ContactStepper stepper;
+  std::vector<double> force(6, 0.0);
+  const double h = 1.0 / 240.0;
+  double deepest = 0.0;
+  for (int n = 0; n < 480; ++n) {
+    const double half = std::max(0.01, 0.06 - 0.1 * n * h), shift = 0.1 * std::sin(6.0 * n * h);
+    kinematicsOf(links, {}, state, k);
+    std::vector<Contact> contacts;
+    for (int link = 0; link < 3; ++link) {
+      for (const double side : {-1.0, 1.0}) {
+        Contact c;
+        c.link = link;
+        c.along = 0.5;
+        const auto i = static_cast<std::size_t>(link);
+        c.normal = -side * Vec3::UnitX();
+        const double x = k.pose[i].position.x() + 0.5 * axisZ(k.pose[i].orientation).x();
+        c.gap = half - side * (x - shift);
+        c.surface = Vec3(0.6 * std::cos(6.0 * n * h) - (half > 0.01 ? side * 0.1 : 0.0), 0.0, 0.0);
+        c.force = force[contacts.size()];
+        deepest = std::max(deepest, -c.gap);
+        contacts.push_back(c);
+      }
+    }
+    stepper.step(links, {}, ContactLaw(), 0.0, h, 1.0, state, contacts);
+    ASSERT_TRUE(stepper.agreed());
+    EXPECT_LE(stepper.trials(), 8);
+    for (std::size_t c = 0; c < 6; ++c) force[c] = contacts[c].force;
+  }
+  EXPECT_LT(deepest, 1e-3);
+}
+
+}  // namespace
+}  // namespace vegetation_sim::physics
