@@ -61,9 +61,10 @@ ForestAnimator::ForestAnimator(ros::NodeHandle handle, ros::NodeHandle private_h
 // Last of all: the first callbacks of a nodelet may come while it is still being built.
 void ForestAnimator::listen() {
   subscribers_ = {handle_.subscribe("wind", 10, &ForestAnimator::onWind, this)};
-  subscribers_.push_back(
-      options_.replay ? handle_.subscribe("forest/events", 1000, &ForestAnimator::onEvent, this)
-                      : handle_.subscribe("viewer", 10, &ForestAnimator::onViewer, this));
+  subscribers_.push_back(options_.replay
+                             ? handle_.subscribe("forest/events", ForestInputs::MOST_WAITING,
+                                                 &ForestAnimator::onEvent, this)
+                             : handle_.subscribe("viewer", 10, &ForestAnimator::onViewer, this));
   services_ = {private_handle_.advertiseService("get_tree", &ForestAnimator::onGetTree, this),
                private_handle_.advertiseService("pick", &ForestAnimator::onPick, this),
                private_handle_.advertiseService("set_tf", &ForestAnimator::onSetTf, this),
@@ -92,21 +93,28 @@ void ForestAnimator::advanceTo(Nanoseconds clock) {
   const auto longest = static_cast<std::int64_t>(LONGEST_CATCH_UP * grid_.rate());
   if (due - last_tick_ > longest) {
     counts_.dropped += static_cast<std::uint64_t>(due - last_tick_ - 1);
+    ROS_WARN_THROTTLE(1.0, "forest_animator: the clock leapt ahead; %lld ticks are dropped",
+                      static_cast<long long>(due - last_tick_ - 1));
     last_tick_ = due - 1;
   }
   if (due > last_tick_ && !options_.viewer_frame.empty()) lookFromFrame();
   while (last_tick_ < due) tick(last_tick_ + 1);
 }
 
-// Time went backwards: what a fresh start now would be, with the wind that is in force.
+// What a fresh start now would be, with the layout, wind and settings that are in force.
+void ForestAnimator::startAnew() {
+  forest_->reset();
+  frames_.clear();
+  force_key_frame_ = true;
+}
+
 void ForestAnimator::restart(Nanoseconds now) {
   ROS_WARN("forest_animator: time went back; starting anew");
   ++counts_.jumps;
-  forest_->reset();
+  startAnew();
   inputs_.startAnew(now);
   tf_buffer_.clear();
   last_tick_ = last_framed_tick_ = NEVER;
-  force_key_frame_ = true;
   publishLayout();
 }
 
@@ -121,6 +129,7 @@ void ForestAnimator::tick(std::int64_t tick) {
       reject("event", error.what());
     }
   }
+  noteLosses();
   forest_->advance(stamp);
   last_tick_ = tick;
   ++counts_.ticks;
@@ -131,6 +140,17 @@ void ForestAnimator::tick(std::int64_t tick) {
   counts_.state_bytes += ros::serialization::serializationLength(message);
   state_publisher_.publish(message);
   force_key_frame_ = false;
+}
+
+void ForestAnimator::noteLosses() {
+  const InputLosses& losses = inputs_.losses();
+  if (losses.late > counts_.inputs.late)
+    ROS_WARN_THROTTLE(1.0,
+                      "forest_animator: recorded events came after their tick, so this replay "
+                      "differs from its run; a larger replay_delay or a slower bag may help");
+  if (losses.lost > counts_.inputs.lost)
+    ROS_WARN_THROTTLE(1.0, "forest_animator: too many inputs at once; some are lost");
+  counts_.inputs = losses;
 }
 
 void ForestAnimator::apply(const ForestEvent& event) {
@@ -157,8 +177,7 @@ void ForestAnimator::apply(const ForestEvent& event) {
       adoptTuning(tuningOf(event));
       break;
     case ForestEvent::RESET:
-      forest_->reset();
-      force_key_frame_ = true;
+      startAnew();
       break;
     default:
       throw InvalidInput("kind = " + std::to_string(event.kind) + " is outside 0 to 3");

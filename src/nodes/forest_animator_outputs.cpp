@@ -40,14 +40,26 @@ void ForestAnimator::sendMarkers(const ros::TimerEvent&) {
       markers_.build(*forest_, cache_, options_.frame_id, forest_->memory().stamp));
 }
 
+// What has happened since the last report, and only that.
+void ForestAnimator::warnOfTrouble(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const auto warn = [&](std::uint64_t now, std::uint64_t before, const std::string& text) {
+    if (now > before)
+      status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN,
+                          std::to_string(now - before) + " " + text);
+  };
+  warn(counts_.rejected, reported_.rejected, "refused input: " + last_rejection_);
+  warn(counts_.dropped, reported_.dropped, "ticks dropped");
+  warn(counts_.jumps, reported_.jumps, "jumps back of the clock");
+  warn(counts_.inputs.lost, reported_.inputs.lost, "inputs lost, too many at once");
+  warn(counts_.inputs.late, reported_.inputs.late, "recorded events late, the replay differs");
+  reported_ = counts_;
+}
+
 void ForestAnimator::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   using diagnostic_msgs::DiagnosticStatus;
-  if (last_tick_ == NEVER)
-    status.summary(DiagnosticStatus::WARN, "waiting for the clock");
-  else if (counts_.rejected > 0)
-    status.summary(DiagnosticStatus::WARN, "refused input: " + last_rejection_);
-  else
-    status.summary(DiagnosticStatus::OK, "running");
+  status.summary(DiagnosticStatus::OK, "running");
+  if (last_tick_ == NEVER) status.summary(DiagnosticStatus::WARN, "waiting for the clock");
+  warnOfTrouble(status);
   const auto& memory = forest_->memory();
   status.add("Trees", forest_->layout().treeCount());
   status.add("Trees not at the base level", memory.levels.held().size());
@@ -57,6 +69,8 @@ void ForestAnimator::diagnose(diagnostic_updater::DiagnosticStatusWrapper& statu
   status.add("Ticks dropped", counts_.dropped);
   status.add("Clock jumps back", counts_.jumps);
   status.add("Inputs refused", counts_.rejected);
+  status.add("Inputs lost", counts_.inputs.lost);
+  status.add("Recorded events late", counts_.inputs.late);
   status.add("State sent [B]", counts_.state_bytes);
   status.add("Grown branches held", cache_.branches());
   status.add("tf frames", frames_.count());

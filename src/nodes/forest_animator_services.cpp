@@ -122,7 +122,6 @@ bool ForestAnimator::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Res
   return answer(response, [&]() -> std::string {
     if (options_.replay) throw InvalidInput("a replay is reset by its recorded events only");
     inputs_.addReset();
-    frames_.clear();
     return "takes effect at the next tick";
   });
 }

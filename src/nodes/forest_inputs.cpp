@@ -11,7 +11,6 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr std::size_t MOST_WAITING = 10000;
 constexpr std::size_t MOST_WINDS = 256;
 
 /// Copies fields out under their names, or in from them.
@@ -90,7 +89,10 @@ void ForestInputs::addLast(const ForestEvent& event) {
     waiting = event;
     return;
   }
-  if (waiting_.size() < MOST_WAITING) waiting_.push_back(event);
+  if (waiting_.size() < MOST_WAITING)
+    waiting_.push_back(event);
+  else
+    ++losses_.lost;
 }
 
 void ForestInputs::addViewer(const Viewer& viewer_in_world) {
@@ -129,7 +131,10 @@ void ForestInputs::addWind(wind::Field wind) {
 
 void ForestInputs::addEvent(const ForestEvent& event) {
   if (!replay_) return;
-  if (waiting_.size() >= MOST_WAITING) waiting_.pop_front();
+  if (waiting_.size() >= MOST_WAITING) {
+    waiting_.pop_front();
+    ++losses_.lost;
+  }
   waiting_.push_back(event);
 }
 
@@ -144,6 +149,7 @@ std::vector<ForestEvent> ForestInputs::take(Nanoseconds stamp) {
   std::vector<ForestEvent> out;
   while (!waiting_.empty()) {
     if (replay_ && fromMsg(waiting_.front().header.stamp) > stamp) break;
+    if (replay_ && fromMsg(waiting_.front().header.stamp) < stamp) ++losses_.late;
     out.push_back(std::move(waiting_.front()));
     waiting_.pop_front();
     out.back().header.stamp = toStamp(stamp);

@@ -53,8 +53,10 @@ class ForestAnimator {
   void onTimer(const ros::TimerEvent&) { advanceTo(fromMsg(ros::Time::now())); }
   void advanceTo(Nanoseconds clock);
   void restart(Nanoseconds now);
+  void startAnew();
   void tick(std::int64_t tick);
   void apply(const ForestEvent& event);
+  void noteLosses();
   void adoptTuning(const ForestTuning& tuning);
 
   // Outputs.
@@ -62,6 +64,7 @@ class ForestAnimator {
   void sendFrames(const ros::TimerEvent& event);
   void sendBranches(const ros::TimerEvent& event);
   void sendMarkers(const ros::TimerEvent& event);
+  void warnOfTrouble(diagnostic_updater::DiagnosticStatusWrapper& status);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   // Services.
@@ -88,7 +91,8 @@ class ForestAnimator {
   std::optional<ForestAnimatorConfig> shown_;  // what the server was told or took last
   struct Counts {
     std::uint64_t ticks{0}, dropped{0}, rejected{0}, state_bytes{0}, jumps{0};
-  } counts_;
+    InputLosses inputs;
+  } counts_, reported_;  // so far, and when diagnostics were last sent
   std::string last_rejection_;
 
   tf2_ros::Buffer tf_buffer_;

@@ -30,10 +30,18 @@ void describe(FieldVisitor& visitor, ForestTuning& tuning);
 void toEvent(const ForestTuning& tuning, ForestEvent& event);
 ForestTuning tuningOf(const ForestEvent& event);
 
+/// Inputs that did not do what they should.
+struct InputLosses {
+  std::uint64_t late{0};  ///< recorded events that came after the tick they are stamped with
+  std::uint64_t lost{0};  ///< inputs that found no room to wait
+};
+
 /// Inputs wait here for the next tick. Live, each becomes an event stamped with the tick at which
 /// it is applied; in a replay the recorded events are applied at their own ticks instead.
 class ForestInputs {
  public:
+  static constexpr std::size_t MOST_WAITING = 10000;
+
   explicit ForestInputs(bool replay) : replay_(replay) {}
 
   bool replay() const { return replay_; }
@@ -46,11 +54,13 @@ class ForestInputs {
   /// A recorded event; ignored live, since it is the node's own.
   void addEvent(const ForestEvent& event);
 
-  /// Events that take effect at the tick `stamp`, in order, stamped with it. Live events of winds
-  /// are only complete with windOf().
+  /// Events that take effect at the tick `stamp`, in order, stamped with it. A recorded event that
+  /// comes after its own tick is among them, and counted: from there on the replay differs. Live
+  /// events of winds are only complete with windOf().
   std::vector<ForestEvent> take(Nanoseconds stamp);
   /// The wind that an event adopts; none if it was never heard.
   std::optional<wind::Field> windOf(const ForestEvent& event) const;
+  const InputLosses& losses() const { return losses_; }
   /// Time went back to `now`: forgets the viewers that wait; in a replay, events stamped later.
   void startAnew(Nanoseconds now);
 
@@ -58,6 +68,7 @@ class ForestInputs {
   void addLast(const ForestEvent& event);
 
   bool replay_;
+  InputLosses losses_;
   std::deque<ForestEvent> waiting_;
   std::map<std::uint64_t, wind::Field> winds_;  // by hash
   std::deque<std::uint64_t> wind_order_;

@@ -1,0 +1,58 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/nodes/forest_inputs.h"
+
+#include <gtest/gtest.h>
+
+#include "vegetation_sim/ros/stamps.h"
+
+namespace vegetation_sim {
+namespace {
+
+constexpr Nanoseconds TICK = NANOSECONDS_PER_SECOND / 25;
+
+ForestEvent resetAt(std::int64_t tick) {
+  ForestEvent out;
+  out.kind = ForestEvent::RESET;
+  out.header.stamp = toStamp(tick * TICK);
+  return out;
+}
+
+// N6: at its own tick an event of a replay is in time, after it it is late, whatever the reason.
+TEST(ForestInputs, CountLateEventsOfAReplay) {
+  ForestInputs inputs(true);
+  for (const std::int64_t tick : {101, 102, 104}) inputs.addEvent(resetAt(tick));
+  EXPECT_TRUE(inputs.take(100 * TICK).empty());
+  EXPECT_EQ(inputs.take(101 * TICK).size(), 1u);
+  EXPECT_EQ(inputs.take(102 * TICK).size(), 1u);
+  EXPECT_EQ(inputs.losses().late, 0u);
+  inputs.addEvent(resetAt(99));
+  EXPECT_EQ(inputs.take(105 * TICK).size(), 2u);  // tick 104 was dropped; 99 came late
+  EXPECT_EQ(inputs.losses().late, 2u);
+  EXPECT_EQ(inputs.losses().lost, 0u);
+}
+
+TEST(ForestInputs, CountEventsThatFindNoRoom) {
+  ForestInputs inputs(true);
+  for (std::size_t i = 0; i < ForestInputs::MOST_WAITING + 3; ++i) inputs.addEvent(resetAt(7));
+  EXPECT_EQ(inputs.losses().lost, 3u);
+  EXPECT_EQ(inputs.take(7 * TICK).size(), ForestInputs::MOST_WAITING);
+}
+
+TEST(ForestInputs, CountViewersThatFindNoRoom) {
+  ForestInputs inputs(false);
+  Viewer viewer;
+  for (std::size_t i = 0; i < ForestInputs::MOST_WAITING + 2; ++i) {
+    viewer.id = std::to_string(i);
+    inputs.addViewer(viewer);
+  }
+  EXPECT_EQ(inputs.losses().lost, 2u);
+}
+
+}  // namespace
+}  // namespace vegetation_sim
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
