@@ -105,7 +105,7 @@ inline Surroundings gust(const std::vector<Link>& links, double strength) {
 }
 
 /// Chain, state and guard that step together.
-struct Run {
+struct Simulation {
   std::vector<Link> links;
   Integrator integrator{Integrator::MIDPOINT};
   ChainState state{atRest(links.size())};
