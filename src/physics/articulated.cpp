@@ -47,11 +47,7 @@ void addPointMass(Body& body, const Symmetric3& m, const Vec3& arm) {
   body.bx += Vec3(cx.x(), cy.x(), cz.x());
   body.by += Vec3(cx.y(), cy.y(), cz.y());
   body.bz += Vec3(cx.z(), cy.z(), cz.z());
-  // a += [arm x] m [arm x]^T, and row i of x [arm x]^T is arm x (row i of x).
-  const Vec3 ax = cross(arm, Vec3(cx.x(), cy.x(), cz.x())),
-             ay = cross(arm, Vec3(cx.y(), cy.y(), cz.y())),
-             az = cross(arm, Vec3(cx.z(), cy.z(), cz.z()));
-  add(body.a, 1.0, {ax.x(), ay.y(), az.z(), ax.y(), ax.z(), ay.z()});
+  add(body.a, 1.0, aboutJoint(m, arm));
   add(body.m, 1.0, m);
 }
 

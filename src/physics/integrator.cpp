@@ -25,15 +25,23 @@ double guardedTheta(const ChainState& state, double h, double theta) {
   return fastest * h > GUARD_TURN ? 1.0 : std::max(0.5, 0.9 * theta);
 }
 
-void ChainStepper::evaluate(const std::vector<Link>& links, const Surroundings& outside,
-                            double time, const ChainState& state, const Implicitness& implicitness,
-                            Angles& out) {
+void ChainStepper::look(const std::vector<Link>& links, const Surroundings& outside, double time,
+                        const ChainState& state) {
   if (outside.bases) outside.bases(time, bases_);
   if (!outside.bases) bases_.clear();
   kinematicsOf(links, bases_, state, kinematics_);
   loads_.clear(links.size());
   if (outside.loads) outside.loads(kinematics_, time, loads_);
-  body_.accelerations(links, bases_, state, kinematics_, loads_, implicitness, out);
+}
+
+void ChainStepper::evaluate(const std::vector<Link>& links, const Surroundings& outside,
+                            double time, const ChainState& state, const Implicitness& implicitness,
+                            Angles& out) {
+  look(links, outside, time, state);
+  if (dynamics_ == Dynamics::ARTICULATED)
+    return body_.accelerations(links, bases_, state, kinematics_, loads_, implicitness, out);
+  PaperBody& paper = dynamics_ == Dynamics::PAPER ? paper_ : printed_;
+  paper.accelerations(links, bases_, state, kinematics_, loads_, implicitness, out);
 }
 
 // Springs and loads where the joints will be after theta h at the present rates; what acceleration
@@ -84,9 +92,23 @@ void ChainStepper::rungeKuttaStep(const std::vector<Link>& links, const Surround
   }
 }
 
-void ChainStepper::step(Integrator integrator, const std::vector<Link>& links,
-                        const Surroundings& outside, double time, double h, ChainState& state,
-                        double& theta) {
+int ChainStepper::step(Integrator integrator, const std::vector<Link>& links,
+                       const Surroundings& outside, double time, double h, ChainState& state,
+                       double& theta) {
+  int parts = 1;
+  if (!isImplicit(integrator)) {
+    look(links, outside, time, state);
+    const ChainRates rates = guardRates(dynamics_, links, kinematics_, loads_.anchors);
+    parts = subSteps(guardLimit(integrator, rates), h);
+  }
+  for (int i = 0; i < parts; ++i)
+    stepAsIs(integrator, links, outside, time + i * (h / parts), h / parts, state, theta);
+  return parts;
+}
+
+void ChainStepper::stepAsIs(Integrator integrator, const std::vector<Link>& links,
+                            const Surroundings& outside, double time, double h, ChainState& state,
+                            double& theta) {
   switch (integrator) {
     case Integrator::MIDPOINT:
       theta = guardedTheta(state, h, theta);

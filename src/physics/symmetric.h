@@ -46,6 +46,16 @@ inline void addPair(Symmetric3& m, double s, const Vec3& u, const Vec3& v) {
   m.yz += t.y() * v.z() + t.z() * v.y();
 }
 
+/// [arm x] m [arm x]^T: the inertia about a joint of a mass `m` at `arm` from it.
+inline Symmetric3 aboutJoint(const Symmetric3& m, const Vec3& arm) {
+  const Vec3 cx = cross(arm, Vec3(m.xx, m.xy, m.xz)), cy = cross(arm, Vec3(m.xy, m.yy, m.yz)),
+             cz = cross(arm, Vec3(m.xz, m.yz, m.zz));
+  const Vec3 ax = cross(arm, Vec3(cx.x(), cy.x(), cz.x())),
+             ay = cross(arm, Vec3(cx.y(), cy.y(), cz.y())),
+             az = cross(arm, Vec3(cx.z(), cy.z(), cz.z()));
+  return {ax.x(), ay.y(), az.z(), ax.y(), ax.z(), ay.z()};
+}
+
 /// In other axes: x, y, z are the own axes in those.
 inline Symmetric3 turned(const Symmetric3& m, const Vec3& x, const Vec3& y, const Vec3& z) {
   Symmetric3 out;

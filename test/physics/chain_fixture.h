@@ -113,7 +113,7 @@ struct Simulation {
   ChainStepper stepper{};
 
   void step(const Surroundings& outside, double time, double h) {
-    stepper.step(integrator, links, outside, time, h, state, theta);
+    stepper.stepAsIs(integrator, links, outside, time, h, state, theta);
   }
   std::vector<Vec3> tips() const {
     const Kinematics k = kinematicsAt(links, state);

@@ -4,33 +4,36 @@
 
 #include <vector>
 
-#include "vegetation_sim/physics/articulated.h"
+#include "vegetation_sim/physics/stability.h"
 
 namespace vegetation_sim::physics {
-
-/// How a chain steps in time, from the most trusted to the one that only shows how it breaks.
-enum class Integrator : int {
-  MIDPOINT = 0,             ///< linearly implicit midpoint with a guard: second order (default)
-  IMPLICIT_EULER = 1,       ///< linearly implicit: first order, over-damped
-  SEMI_IMPLICIT_EULER = 2,  ///< stable for h^2 w^2 + 2 h c < 4 per joint (E12)
-  EXPLICIT_EULER = 3,       ///< as paper 1 prints it (S1-33)
-  RUNGE_KUTTA_4 = 4         ///< the reference: fourth order, explicit
-};
 
 /// Joints that turn farther than this in a step make the midpoint fall back to theta = 1 [rad].
 constexpr double GUARD_TURN = 0.2;
 
-/// Steps articulated chains; keeps scratch only, so one stepper serves many chains.
+/// Steps chains; keeps scratch only, so one stepper serves many chains.
 class ChainStepper {
  public:
+  /// Of the chains that follow; the full chain until told otherwise.
+  void setDynamics(Dynamics dynamics) { dynamics_ = dynamics; }
+
   /// One step of `h` seconds from `time`. `theta` belongs to the chain's state: 1/2 is the
   /// midpoint, 1 backward Euler, between is on the way back; others than MIDPOINT leave it alone.
-  void step(Integrator integrator, const std::vector<Link>& links, const Surroundings& outside,
-            double time, double h, ChainState& state, double& theta);
+  /// An explicit method runs in as many equal parts as its limit asks for (guardLimit), and not at
+  /// all beyond MOST_SUB_STEPS.
+  /// @return the parts; 0: refused, nothing has changed, take an implicit method.
+  int step(Integrator integrator, const std::vector<Link>& links, const Surroundings& outside,
+           double time, double h, ChainState& state, double& theta);
+  /// The same in one part whatever its limit, to measure where methods break.
+  void stepAsIs(Integrator integrator, const std::vector<Link>& links, const Surroundings& outside,
+                double time, double h, ChainState& state, double& theta);
 
  private:
   using Angles = std::vector<Vec2>;
 
+  /// Bases, kinematics and loads at a time and state.
+  void look(const std::vector<Link>& links, const Surroundings& outside, double time,
+            const ChainState& state);
   /// Accelerations at a time and state; leaves the kinematics in kinematics_.
   void evaluate(const std::vector<Link>& links, const Surroundings& outside, double time,
                 const ChainState& state, const Implicitness& implicitness, Angles& out);
@@ -41,7 +44,9 @@ class ChainStepper {
   void rungeKuttaStep(const std::vector<Link>& links, const Surroundings& outside, double time,
                       double h, ChainState& state);
 
+  Dynamics dynamics_{Dynamics::ARTICULATED};
   ArticulatedBody body_;
+  PaperBody paper_, printed_{PaperForm{true, true, true}};
   std::vector<BaseMotion> bases_;
   Kinematics kinematics_;
   Loads loads_;
