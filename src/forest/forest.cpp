@@ -59,7 +59,10 @@ void Forest::setLayout(Layout layout, std::shared_ptr<const terrain::HeightMap> 
   layout_hash_ = layout_.hash();
   terrain_ = std::move(terrain);
   measure();
-  if (!same_trees) reset();
+  if (!same_trees)
+    reset();
+  else
+    memory_.physics.clear();  // its wood may be another
 }
 
 void Forest::reset() {
@@ -67,6 +70,7 @@ void Forest::reset() {
   const int level = std::min(memory_.settings.fixed_level, memory_.settings.highest_level);
   memory_.levels.reset(LevelState::settled(level));
   memory_.stamp = 0;
+  memory_.physics.clear();
   memory_.changed.clear();
   memory_.sequence = 0;
 }
@@ -105,6 +109,7 @@ double Forest::bendingSpeed(double speed, double reference_speed) const {
 }
 
 void Forest::advance(Nanoseconds stamp) {
+  advancePhysics(stamp);
   memory_.stamp = stamp;
   for (auto it = memory_.viewers.begin(); it != memory_.viewers.end();)
     it = stamp - it->second.stamp > VIEWER_LIFE ? memory_.viewers.erase(it) : std::next(it);
@@ -177,6 +182,7 @@ std::uint64_t Forest::hash() const {
   describe(hasher, settings);
   for (const auto& entry : memory_.viewers) addTo(out, entry.second);
   memory_.levels.addTo(out, memory_.stamp, layout_.motion.transition);
+  memory_.physics.addTo(out);
   return out.value();
 }
 
@@ -189,12 +195,15 @@ StateUpdate Forest::update(bool key_frame) {
   out.layout_hash = layout_hash_;
   out.wind_hash = memory_.wind.hash();
   out.hash = hash();
-  if (key_frame) {
-    for (const auto& [tree, state] : memory_.levels.held()) out.trees.push_back({tree, state});
-  } else {
-    for (const std::uint32_t tree : memory_.changed)
-      out.trees.push_back({tree, memory_.levels.of(tree)});
-  }
+  out.blend = memory_.physics.settings().blend;
+  std::set<std::uint32_t> told;
+  if (key_frame)
+    for (const auto& entry : memory_.levels.held()) told.insert(entry.first);
+  else
+    told = memory_.changed;
+  for (const std::uint32_t tree : physicalTrees()) told.insert(tree);
+  for (const std::uint32_t tree : told)
+    out.trees.push_back({tree, memory_.levels.of(tree), promoted(tree).branches});
   memory_.changed.clear();
   return out;
 }

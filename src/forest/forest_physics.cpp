@@ -1,63 +1,57 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
+// What a forest asks of its physics.
 #include "vegetation_sim/forest/forest.h"
 
 namespace vegetation_sim::forest {
 
-std::uint32_t Forest::addGrab(const Grab&) {
-  throw InvalidInput("grab: not yet");
+Site Forest::site() const {
+  return {layout_, *terrain_, memory_.wind, memory_.levels, *this, contacts_.get()};
 }
-void Forest::moveGrab(std::uint32_t, const Vec3&) {
-  throw InvalidInput("grab: not yet");
-}
-void Forest::renewGrab(std::uint32_t) {
-  throw InvalidInput("grab: not yet");
-}
-void Forest::release(std::uint32_t) {
-  throw InvalidInput("grab: not yet");
-}
-void Forest::push(const Push&) {
-  throw InvalidInput("push: not yet");
-}
-void Forest::setBody(const Body&) {
-  throw InvalidInput("body: not yet");
-}
-void Forest::removeBody(const std::string&) {
-  throw InvalidInput("body: not yet");
-}
-void Forest::setPhysics(const PhysicsSettings&) {
-  throw InvalidInput("physics: not yet");
-}
-void Forest::setContactModel(std::shared_ptr<const ContactModel>) {}
 
-const PhysicsSettings& Forest::physicsSettings() const {
-  static const PhysicsSettings NONE;
-  return NONE;
+// Before the levels are chosen anew: those that hold now did so since the last tick.
+void Forest::advancePhysics(Nanoseconds stamp) {
+  for (const std::uint32_t tree : physicalTrees()) memory_.changed.insert(tree);
+  memory_.physics.advance(site(), memory_.stamp, stamp);
 }
-const std::map<std::uint32_t, Grab>& Forest::grabs() const {
-  static const std::map<std::uint32_t, Grab> NONE;
-  return NONE;
+
+std::uint32_t Forest::addGrab(const Grab& grab) {
+  return memory_.physics.addGrab(site(), grab);
 }
-const Bodies& Forest::bodies() const {
-  static const Bodies NONE;
-  return NONE;
+void Forest::moveGrab(std::uint32_t id, const Vec3& target) {
+  memory_.physics.moveGrab(id, target);
 }
-const std::vector<Grab>& Forest::ended() const {
-  static const std::vector<Grab> NONE;
-  return NONE;
+void Forest::renewGrab(std::uint32_t id) {
+  memory_.physics.renewGrab(id);
 }
-const std::vector<Reaction>& Forest::reactions() const {
-  static const std::vector<Reaction> NONE;
-  return NONE;
+void Forest::release(std::uint32_t id) {
+  memory_.physics.release(id);
 }
-PhysicsFigures Forest::physicsFigures() const {
-  return {};
+void Forest::push(const Push& push) {
+  memory_.physics.push(site(), push);
 }
-PromotedTree Forest::promoted(std::uint32_t) const {
-  return {};
+void Forest::setBody(const Body& body) {
+  memory_.physics.setBody(body);
 }
+void Forest::removeBody(const std::string& id) {
+  memory_.physics.removeBody(id);
+}
+void Forest::setPhysics(const PhysicsSettings& settings) {
+  memory_.physics.setSettings(settings, memory_.stamp);
+}
+
+PromotedTree Forest::promoted(std::uint32_t tree) const {
+  const double blend = memory_.physics.settings().blend;
+  const auto found = memory_.physics.parts().find(tree);
+  if (found == memory_.physics.parts().end()) return {memory_.stamp, blend, {}};
+  return found->second.promoted(memory_.stamp, blend);
+}
+
 std::vector<std::uint32_t> Forest::physicalTrees() const {
-  return {};
+  std::vector<std::uint32_t> out;
+  for (const auto& [tree, part] : memory_.physics.parts())
+    if (!part.empty()) out.push_back(tree);
+  return out;
 }
 
 std::vector<Pose> Forest::pose(const Tree& tree, std::uint32_t id, Nanoseconds stamp) const {

@@ -39,7 +39,10 @@ bool ForestReplica::apply(const StateUpdate& update) {
     levels_.setBase(update.base);
   if (update.key_frame) promoted_.clear();
   for (const StateUpdate::Entry& entry : update.trees) {
-    levels_.set(entry.tree, entry.state);
+    if (entry.state == update.base)
+      levels_.follow(entry.tree);  // told for its physical joints
+    else
+      levels_.set(entry.tree, entry.state);
     if (entry.promoted.empty())
       promoted_.erase(entry.tree);
     else

@@ -8,11 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "vegetation_sim/forest/contact_model.h"
-#include "vegetation_sim/forest/interaction.h"
+#include "vegetation_sim/forest/forest_physics.h"
 #include "vegetation_sim/forest/level_map.h"
-#include "vegetation_sim/forest/physics_settings.h"
-#include "vegetation_sim/forest/promoted.h"
 #include "vegetation_sim/wind/field.h"
 
 namespace vegetation_sim::forest {
@@ -42,7 +39,8 @@ struct ForestMemory {
   wind::Field wind;
   std::map<std::string, Viewer> viewers;
   LevelMap levels;
-  std::set<std::uint32_t> changed;  ///< trees whose level changed since the last update
+  ForestPhysics physics;
+  std::set<std::uint32_t> changed;  ///< trees to tell of in the next update
   std::uint32_t sequence{0};        ///< of the next update
 };
 
@@ -84,16 +82,16 @@ class Forest {
   void removeBody(const std::string& id);
   void setPhysics(const PhysicsSettings& settings);
   /// Who computes contacts; none: bodies touch nothing.
-  void setContactModel(std::shared_ptr<const ContactModel> model);
+  void setContactModel(std::shared_ptr<const ContactModel> model) { contacts_ = std::move(model); }
 
-  const PhysicsSettings& physicsSettings() const;
-  const std::map<std::uint32_t, Grab>& grabs() const;
-  const Bodies& bodies() const;
+  const PhysicsSettings& physicsSettings() const { return memory_.physics.settings(); }
+  const std::map<std::uint32_t, Grab>& grabs() const { return memory_.physics.grabs(); }
+  const Bodies& bodies() const { return memory_.physics.bodies(); }
   /// Grabs that ended by themselves at the last tick: their lease ran out.
-  const std::vector<Grab>& ended() const;
+  const std::vector<Grab>& ended() const { return memory_.physics.ended(); }
   /// On the bodies that hold or touch branches, at the end of the last tick.
-  const std::vector<Reaction>& reactions() const;
-  PhysicsFigures physicsFigures() const;
+  const std::vector<Reaction>& reactions() const { return memory_.physics.reactions(); }
+  PhysicsFigures physicsFigures() const { return memory_.physics.figures(); }
   /// Physical joints of a tree at the last tick; none: `branches` is empty.
   PromotedTree promoted(std::uint32_t tree) const;
   /// Trees that have physical joints, rising.
@@ -113,6 +111,8 @@ class Forest {
     double reach;  // [m] around the centre, trees' own reach included
     std::uint32_t first, count;
   };
+  Site site() const;
+  void advancePhysics(Nanoseconds stamp);
   void measure();
   void measureSpecies(std::size_t species, double scale);
   double bendingSpeed(double speed, double reference_speed) const;
@@ -128,6 +128,7 @@ class Forest {
   double largest_omission_{0.0};     // of any tree, all joints fixed [m per m/s]
   double slowest_reference_{1.0};    // reference speed of any species [m/s]
   std::vector<Region> regions_;
+  std::shared_ptr<const ContactModel> contacts_;
   ForestMemory memory_;
   wind::Instant now_;
   int last_base_{0};  // level of the trees that were not held before this tick

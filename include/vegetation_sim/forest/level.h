@@ -23,6 +23,9 @@ struct LevelState {
   Nanoseconds since{0};
   std::array<float, MAX_DEPTHS> blend{};  // float: as sent, so that replicas hold the same bits
 
+  bool operator==(const LevelState& other) const {
+    return level == other.level && since == other.since && blend == other.blend;
+  }
   /// Settled at a level for ever.
   static LevelState settled(int level);
 };

@@ -22,6 +22,8 @@ class LevelMap {
   const std::map<std::uint32_t, LevelState>& held() const { return held_; }
 
   void set(std::uint32_t tree, const LevelState& state) { held_[tree] = state; }
+  /// Gives a tree the base's level, now and later.
+  void follow(std::uint32_t tree) { held_.erase(tree); }
   /// Drops every tree and gives all of them the base's level.
   void reset(const LevelState& base);
   void setBase(const LevelState& base) { base_ = base; }

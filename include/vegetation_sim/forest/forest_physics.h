@@ -1,0 +1,99 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "vegetation_sim/forest/contact_model.h"
+#include "vegetation_sim/forest/interaction.h"
+#include "vegetation_sim/forest/level_map.h"
+#include "vegetation_sim/forest/physical_part.h"
+#include "vegetation_sim/terrain/height_map.h"
+#include "vegetation_sim/wind/field.h"
+
+namespace vegetation_sim::forest {
+
+/// The forest in which physics happens: nothing of it is kept.
+struct Site {
+  const Layout& layout;
+  const terrain::HeightMap& terrain;
+  const wind::Field& wind;
+  const LevelMap& levels;
+  const Forest& forest;
+  const ContactModel* contacts{nullptr};
+};
+
+/// What holds, pushes and touches the trees of a forest, and the parts of them that are physical
+/// for it. A value: copy it to save. Requests are checked first and change nothing if refused; they
+/// act from the last tick on.
+class ForestPhysics {
+ public:
+  std::uint32_t addGrab(const Site& at, Grab grab);
+  void moveGrab(std::uint32_t id, const Vec3& target);
+  void renewGrab(std::uint32_t id);
+  void release(std::uint32_t id);
+  void push(const Site& at, const Push& push);
+  void setBody(const Body& body);
+  void removeBody(const std::string& id);
+  void setSettings(const PhysicsSettings& settings, Nanoseconds now);
+  /// Drops grabs, pushes, bodies and all that is physical.
+  void clear();
+
+  /// Steps from the last tick to this one: ceil(PHYSICS_RATE * time) equal steps.
+  void advance(const Site& at, Nanoseconds from, Nanoseconds to);
+
+  const PhysicsSettings& settings() const { return settings_; }
+  const std::map<std::uint32_t, Grab>& grabs() const { return grabs_; }
+  const Bodies& bodies() const { return bodies_; }
+  const std::vector<Grab>& ended() const { return ended_; }
+  const std::vector<Reaction>& reactions() const { return reactions_; }
+  const std::map<std::uint32_t, PhysicalPart>& parts() const { return parts_; }
+  PhysicsFigures figures() const;
+  void addTo(Hash& hash) const;
+
+ private:
+  /// What a grab needs from one tick to the next.
+  struct Hold {
+    Vec3 target{Vec3::Zero()};  ///< at the last tick, world
+    bool renewed{true};         ///< since the last tick
+    double reach{0.0};          ///< its targets are no farther from the tree's foot [m]
+    Vec3 foot{Vec3::Zero()};    ///< of the tree [m]
+    Vec3 force{Vec3::Zero()};   ///< on the branch at the last tick [N]
+  };
+
+  PhysicalPart& partOf(const Site& at, std::uint32_t tree);
+  Air airOf(const Site& at, std::uint32_t tree) const;
+  void checkRoom(const std::string& what, std::uint32_t tree, int branch) const;
+  void endLeases(Nanoseconds stamp);
+  void choose(const Site& at, Nanoseconds from, Nanoseconds to);
+  void chooseIn(const Site& at, std::uint32_t tree, PhysicalPart& part,
+                const std::vector<int>& loaded, Nanoseconds stamp);
+  std::vector<BranchLoad> expectedLoads(std::uint32_t tree, const PhysicalPart& part) const;
+  void step(const Site& at, Nanoseconds from, Nanoseconds to, std::size_t k, std::size_t n);
+  void gather(std::uint32_t tree, const Vec3& foot, Nanoseconds from, Nanoseconds now,
+              Nanoseconds to);
+  void settle(const Site& at, Nanoseconds from, Nanoseconds to);
+  void react(const Site& at, std::uint32_t tree, const PhysicalPart& part, Nanoseconds from,
+             Nanoseconds to);
+  bool isLoaded(std::uint32_t tree) const;
+
+  PhysicsSettings settings_;
+  std::map<std::uint32_t, Grab> grabs_;
+  std::map<std::uint32_t, Hold> holds_;
+  std::vector<Push> pushes_;
+  Bodies bodies_;
+  std::map<std::uint32_t, PhysicalPart> parts_;
+  std::map<std::uint32_t, Touches> touches_;
+  std::map<std::uint32_t, std::vector<BranchLoad>> contact_loads_;  // of the last tick
+  std::vector<Grab> ended_;
+  std::vector<Reaction> reactions_;
+  std::uint32_t next_grab_{1};
+  Nanoseconds next_review_{0};
+  std::size_t steps_{0}, refused_{0}, skipped_{0};
+  PartLoads loads_;      // scratch
+  PartScratch scratch_;  // dropped with the last part
+};
+
+}  // namespace vegetation_sim::forest

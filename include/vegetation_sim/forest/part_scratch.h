@@ -1,0 +1,40 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "vegetation_sim/forest/procedural_motion.h"
+#include "vegetation_sim/physics/integrator.h"
+
+namespace vegetation_sim::forest {
+
+/// The air around a tree, as its level tells it.
+struct Air {
+  const wind::Field& field;
+  LevelState level;
+  const MotionLaw& law;
+};
+
+/// Memory that stepping needs and nothing else: what is in it between steps does not matter. One
+/// serves all the trees of a forest, so that a step allocates nothing.
+struct PartScratch {
+  WindWindow window;
+  physics::ChainStepper stepper;
+  physics::ArticulatedBody body;
+  std::vector<Pose> carrier_poses;
+  std::vector<CarrierMotion> carriers;
+  std::vector<physics::BaseMotion> bases;
+  physics::ChainState procedural;
+  std::vector<physics::Vec2> acceleration, torque;
+  physics::Kinematics kinematics;
+  physics::Loads loads;
+
+  /// Looks at a stamp, unless that is where it looks already.
+  const WindWindow& lookAt(const wind::Field& field, Nanoseconds stamp) {
+    if (window.stamp() != stamp) window.lookAt(field, stamp);
+    return window;
+  }
+};
+
+}  // namespace vegetation_sim::forest

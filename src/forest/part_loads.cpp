@@ -1,0 +1,193 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+// What acts on the physical part of a tree, and its step.
+#include <algorithm>
+
+#include "vegetation_sim/common/math.h"
+#include "vegetation_sim/forest/physical_part.h"
+
+namespace vegetation_sim::forest {
+namespace {
+
+// The air's drag takes at most half of a link's speed in a step, however light the link is.
+constexpr double STRONGEST_DRAG = 0.5 * PHYSICS_RATE;  // [1/s]
+
+Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(),
+          a.x() * b.y() - a.y() * b.x()};
+}
+
+physics::Symmetric3 uniform(double value) {
+  return {value, value, value, 0.0, 0.0, 0.0};
+}
+
+std::size_t index(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+void addForce(const Vec3& force, const Vec3& arm, physics::Wrench& wrench) {
+  wrench.force += force;
+  wrench.torque += cross(arm, force);
+}
+
+}  // namespace
+
+/// What the stepper asks for during one step.
+struct PhysicalPart::Step {
+  const PhysicalPart& part;
+  const Air& air;
+  const PartLoads& loads;
+  const PhysicsSettings& settings;
+  PartScratch& scratch;
+  Nanoseconds from;
+
+  Course courseAt(double time) const {
+    return {part.tree(), scratch.lookAt(air.field, from + fromSeconds(time)), air.level, air.law};
+  }
+  void bases(double time, std::vector<physics::BaseMotion>& out) const {
+    part.baseMotions(courseAt(time), scratch, out);
+  }
+  void load(const physics::Kinematics& kinematics, double time, physics::Loads& out) const {
+    const Course course = courseAt(time);
+    const Nanoseconds stamp = course.wind.stamp();
+    out.clear(part.links_.size());
+    part.addWind(course, kinematics, out);
+    part.addCompensation(course, settings, scratch, out);
+    part.addSprings(loads, stamp, kinematics, out);
+    part.addForces(loads, kinematics, out);
+  }
+};
+
+void PhysicalPart::step(const Air& air, const PartLoads& loads, const PhysicsSettings& settings,
+                        Nanoseconds from, Nanoseconds to, PartScratch& scratch) {
+  const Step context{*this, air, loads, settings, scratch, from};
+  const Step* step = &context;
+  physics::Surroundings outside;
+  outside.bases = [step](double time, std::vector<physics::BaseMotion>& out) {
+    step->bases(time, out);
+  };
+  outside.loads = [step](const physics::Kinematics& kinematics, double time, physics::Loads& out) {
+    step->load(kinematics, time, out);
+  };
+  scratch.stepper.step(static_cast<physics::Integrator>(settings.integrator), links_, outside, 0.0,
+                       secondsBetween(from, to), state_, theta_);
+}
+
+void PhysicalPart::kinematicsAt(const Air& air, Nanoseconds stamp, PartScratch& scratch,
+                                physics::Kinematics& out) const {
+  const Course course(*tree_, scratch.lookAt(air.field, stamp), air.level, air.law);
+  baseMotions(course, scratch, scratch.bases);
+  physics::kinematicsOf(links_, scratch.bases, state_, out);
+}
+
+// Base 0 is the ground; the carriers follow.
+void PhysicalPart::baseMotions(const Course& course, PartScratch& scratch,
+                               std::vector<physics::BaseMotion>& out) const {
+  out.resize(1 + carriers_.size());
+  out[0] = physics::BaseMotion();
+  if (carriers_.empty()) return;
+  moveCarriers(course, carriers_, scratch.carrier_poses, scratch.carriers);
+  for (std::size_t i = 0; i < carriers_.size(); ++i) {
+    const CarrierMotion& motion = scratch.carriers[i];
+    out[i + 1] = {motion.pose, motion.spin, motion.velocity, motion.spin_rate, motion.acceleration};
+  }
+}
+
+// Drag of each link with the wood that it carries, where it is and as it moves.
+void PhysicalPart::addWind(const Course& course, const physics::Kinematics& kinematics,
+                           physics::Loads& loads) const {
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    const Drag& drag = drags_[i];
+    if (drag.force <= 0.0) continue;
+    const Pose& pose = kinematics.pose[i];
+    const Vec3 arm = rotate(pose.orientation, drag.centre);
+    const Vec3 air = course.wind.now().velocity(tree_->foot + pose.position + arm);
+    const Vec3 own = kinematics.velocity[i] + cross(kinematics.spin[i], arm);
+    const double share = std::min(1.0, STRONGEST_DRAG * links_[i].mass / drag.force);
+    const Vec3 wind =
+        effectiveVelocity(Vec3(air - share * own), tree_->drag, tree_->reference_speed);
+    addForce(drag.force * wind, arm, loads.wrench[i]);
+  }
+}
+
+double PhysicalPart::compensationAt(std::size_t link, Nanoseconds stamp, double fade) const {
+  const PartJoint& joint = joints_[link];
+  if (fade <= 0.0) return 0.0;
+  const double progress = secondsBetween(joint.promoted, stamp) / fade;
+  return joint.compensation * (1.0 - smootherStep(progress));
+}
+
+// Joint torques that turn the real load into the one of the procedural motion: inverse dynamics of
+// that motion under the real load (E1), times what has not faded. `paper`: without what spring and
+// damper need, as printed (S1-26).
+void PhysicalPart::addCompensation(const Course& course, const PhysicsSettings& settings,
+                                   PartScratch& s, physics::Loads& loads) const {
+  const Nanoseconds stamp = course.wind.stamp();
+  bool any = false;
+  for (std::size_t i = 0; i < joints_.size() && !any; ++i)
+    any = compensationAt(i, stamp, settings.fade) > 0.0;
+  if (!any) return;
+  const std::size_t n = links_.size();
+  s.procedural.q.resize(n);
+  s.procedural.rate.resize(n);
+  s.acceleration.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const JointCourse at = course.at(branches_[i]);
+    s.procedural.q[i] = {at.q.first, at.q.second};
+    s.procedural.rate[i] = {at.rate.first, at.rate.second};
+    s.acceleration[i] = {at.acceleration.first, at.acceleration.second};
+  }
+  baseMotions(course, s, s.bases);
+  physics::kinematicsOf(links_, s.bases, s.procedural, s.kinematics);
+  s.loads.clear(n);
+  addWind(course, s.kinematics, s.loads);
+  s.body.torques(links_, s.bases, s.procedural, s.kinematics, s.loads, s.acceleration, s.torque);
+  const bool printed = static_cast<WindForcing>(settings.wind_forcing) == WindForcing::PAPER;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double share = compensationAt(i, stamp, settings.fade);
+    physics::Vec2 torque = s.torque[i];
+    if (printed)
+      torque -= links_[i].stiffness * s.procedural.q[i] + links_[i].damping * s.procedural.rate[i];
+    loads.joint_torque[i] += share * torque;
+  }
+}
+
+SpringForce forceOf(const PartSpring& spring, Nanoseconds stamp, const Vec3& point,
+                    const Vec3& velocity) {
+  const Vec3 target = spring.target + secondsBetween(spring.stamp, stamp) * spring.velocity;
+  SpringForce out;
+  out.force = spring.stiffness * (target - point) + spring.damping * (spring.velocity - velocity);
+  const double size = length(out.force);
+  if (size > spring.force_limit) out.scale = spring.force_limit / size;
+  out.force *= out.scale;
+  return out;
+}
+
+// At its limit a spring acts as a softer one that has the same force here: an implicit step cannot
+// overshoot, however light the branch.
+void PhysicalPart::addSprings(const PartLoads& loads, Nanoseconds stamp,
+                              const physics::Kinematics& kinematics, physics::Loads& out) const {
+  for (const PartSpring& spring : loads.springs) {
+    const int link = linkOf(spring.point.branch);
+    if (link < 0) continue;
+    const Pose& pose = kinematics.pose[index(link)];
+    const Vec3 arm = spring.point.along * axisZ(pose.orientation);
+    const Vec3 velocity =
+        kinematics.velocity[index(link)] + cross(kinematics.spin[index(link)], arm);
+    const SpringForce f = forceOf(spring, stamp, pose.position + arm, velocity);
+    out.anchors.push_back({link, arm, f.force, uniform(f.scale * spring.stiffness),
+                           uniform(f.scale * spring.damping)});
+  }
+}
+
+void PhysicalPart::addForces(const PartLoads& loads, const physics::Kinematics& kinematics,
+                             physics::Loads& out) const {
+  for (const BranchLoad& load : loads.forces) {
+    const int link = linkOf(load.branch);
+    if (link < 0) continue;
+    const Vec3 arm = load.along * axisZ(kinematics.pose[index(link)].orientation);
+    addForce(load.force, arm, out.wrench[index(link)]);
+  }
+}
+
+}  // namespace vegetation_sim::forest

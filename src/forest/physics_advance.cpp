@@ -1,0 +1,303 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/forest/forest_physics.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vegetation_sim::forest {
+namespace {
+
+/// How often is looked which branches a load needs.
+constexpr Nanoseconds REVIEW = NANOSECONDS_PER_SECOND / 10;
+/// Branches that are physical stay so down to this share of the tolerance (hysteresis).
+constexpr double KEEP = 0.5;
+
+// Equal steps in whole nanoseconds: no rounded time adds up.
+std::size_t stepsBetween(Nanoseconds from, Nanoseconds to) {
+  const Nanoseconds gap = to - from;
+  return static_cast<std::size_t>((gap * PHYSICS_RATE + NANOSECONDS_PER_SECOND - 1) /
+                                  NANOSECONDS_PER_SECOND);
+}
+
+Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(),
+          a.x() * b.y() - a.y() * b.x()};
+}
+
+Vec3 pointOn(const Pose& pose, double along) {
+  return pose.position + along * axisZ(pose.orientation);
+}
+
+}  // namespace
+
+void ForestPhysics::advance(const Site& at, Nanoseconds from, Nanoseconds to) {
+  ended_.clear();
+  reactions_.clear();
+  steps_ = 0;
+  scratch_.window = WindWindow();  // the wind may be another by now
+  endLeases(to);
+  if (parts_.empty() && grabs_.empty() && pushes_.empty() && bodies_.empty()) return;
+  const bool gap = to <= from || to - from > LONGEST_GAP;
+  if (gap && !parts_.empty()) ++skipped_;
+  const Nanoseconds start = gap ? to : from;
+  choose(at, start, to);
+  const std::size_t steps = parts_.empty() ? 0 : stepsBetween(start, to);
+  for (std::size_t k = 0; k < steps; ++k) step(at, start, to, k, steps);
+  steps_ = steps;
+  settle(at, start, to);
+}
+
+void ForestPhysics::endLeases(Nanoseconds stamp) {
+  for (auto it = grabs_.begin(); it != grabs_.end();) {
+    Grab& grab = it->second;
+    Hold& hold = holds_[grab.id];
+    if (hold.renewed) grab.renewed = stamp;
+    hold.renewed = false;
+    const bool over = grab.lease > 0.0 && secondsBetween(grab.renewed, stamp) > grab.lease;
+    if (!over) {
+      ++it;
+      continue;
+    }
+    ended_.push_back(grab);
+    holds_.erase(grab.id);
+    it = grabs_.erase(it);
+  }
+}
+
+void ForestPhysics::choose(const Site& at, Nanoseconds from, Nanoseconds to) {
+  BranchesOfTrees loaded;
+  if (at.contacts && !bodies_.empty()) at.contacts->findNear(at.forest, bodies_, from, to, loaded);
+  for (const auto& entry : grabs_) {
+    const BranchPoint& point = entry.second.point;
+    loaded[point.tree].push_back(point.branch);
+  }
+  for (const Push& push : pushes_)
+    if (push.until > from) loaded[push.point.tree].push_back(push.point.branch);
+  const bool review = from >= next_review_;
+  if (review) next_review_ = from + REVIEW, refused_ = 0;
+  for (auto& [tree, part] : parts_)
+    if (!loaded.count(tree)) part.letGo();
+  for (const auto& [tree, branches] : loaded) {
+    PhysicalPart& part = partOf(at, tree);
+    bool missing = false;
+    for (const int branch : branches) missing = missing || !part.holds(branch);
+    if (review || missing) chooseIn(at, tree, part, branches, from);
+  }
+}
+
+// Which branches of a tree its loads need, and that they are physical from now on.
+void ForestPhysics::chooseIn(const Site& at, std::uint32_t tree, PhysicalPart& part,
+                             const std::vector<int>& loaded, Nanoseconds stamp) {
+  const Skeleton& skeleton = part.tree().skeleton;
+  const bool by_depth = static_cast<Promotion>(settings_.promotion) == Promotion::DEPTH;
+  std::vector<double> score;
+  if (by_depth)
+    score = scoreByDepth(skeleton, loaded);
+  else
+    score = predictDeflection(skeleton, part.wood(), expectedLoads(tree, part));
+  for (const int branch : loaded) score[static_cast<std::size_t>(branch)] = LOADED;
+  std::vector<double> rank = score;  // what is physical already counts before what is not
+  for (const PartJoint& joint : part.joints()) {
+    double& held = rank[static_cast<std::size_t>(joint.branch)];
+    held = std::max(held, 0.5 * LOADED);
+  }
+  std::size_t others = 0;
+  for (const auto& [id, other] : parts_)
+    if (id != tree) others += other.joints().size();
+  const auto most = static_cast<std::size_t>(settings_.most_branches);
+  const double threshold = by_depth ? 0.0 : settings_.influence_tolerance;
+  const Selection selection = selectBranches(skeleton, rank, threshold, KEEP * threshold,
+                                             part.mask(), most > others ? most - others : 0);
+  const Course course(part.tree(), scratch_.lookAt(at.wind, stamp), at.levels.of(tree),
+                      at.layout.motion);
+  refused_ += selection.refused +
+              part.promote(selection.branches, score, KEEP * threshold, course, settings_);
+}
+
+// What the springs, pushes and bodies do to a tree now, or will as soon as they have pulled it to
+// their targets.
+std::vector<BranchLoad> ForestPhysics::expectedLoads(std::uint32_t tree,
+                                                     const PhysicalPart& part) const {
+  std::vector<BranchLoad> out;
+  for (const auto& [id, grab] : grabs_) {
+    if (grab.point.tree != tree) continue;
+    const Branch& b = part.tree().skeleton.branches[static_cast<std::size_t>(grab.point.branch)];
+    const Vec3 way = grab.target - part.tree().foot - pointOn(b.rest, grab.point.along);
+    const double distance = length(way);
+    Vec3 force = holds_.at(id).force;
+    if (distance > 1e-9) {
+      const Vec3 direction = way / distance;
+      const double give = compliance(part.tree().skeleton, part.wood(), grab.point.branch,
+                                     grab.point.along, direction);
+      const double pull = std::min(grab.force_limit, distance / (1.0 / grab.stiffness + give));
+      if (pull > length(force)) force = pull * direction;
+    }
+    out.push_back({grab.point.branch, grab.point.along, force});
+  }
+  for (const Push& push : pushes_)
+    if (push.point.tree == tree) out.push_back({push.point.branch, push.point.along, push.force});
+  const auto touches = contact_loads_.find(tree);
+  if (touches != contact_loads_.end())
+    out.insert(out.end(), touches->second.begin(), touches->second.end());
+  return out;
+}
+
+// Step number k of n between two ticks.
+void ForestPhysics::step(const Site& at, Nanoseconds from, Nanoseconds to, std::size_t k,
+                         std::size_t n) {
+  const auto stampOf = [&](std::size_t i) {
+    return from + (to - from) * static_cast<Nanoseconds>(i) / static_cast<Nanoseconds>(n);
+  };
+  for (auto& [tree, part] : parts_) {
+    if (part.empty()) continue;
+    gather(tree, part.tree().foot, from, stampOf(k), to);
+    part.step(airOf(at, tree), loads_, settings_, stampOf(k), stampOf(k + 1), scratch_);
+  }
+}
+
+// Springs and forces on a tree. Targets move in a straight line from tick to tick.
+void ForestPhysics::gather(std::uint32_t tree, const Vec3& foot, Nanoseconds from, Nanoseconds now,
+                           Nanoseconds to) {
+  loads_.springs.clear();
+  loads_.forces.clear();
+  const double seconds = secondsBetween(from, to);
+  for (const auto& [id, grab] : grabs_) {
+    if (grab.point.tree != tree) continue;
+    Vec3 velocity = Vec3::Zero();
+    if (seconds > 0.0) velocity = (grab.target - holds_.at(id).target) / seconds;
+    loads_.springs.push_back({grab.point, grab.target - foot, velocity, to, grab.stiffness,
+                              grab.damping, grab.force_limit});
+  }
+  for (const Push& push : pushes_)
+    if (push.point.tree == tree && push.until > now)
+      loads_.forces.push_back({push.point.branch, push.point.along, push.force});
+}
+
+// After the last step: what the bodies feel, and who may be procedural again.
+void ForestPhysics::settle(const Site& at, Nanoseconds from, Nanoseconds to) {
+  contact_loads_.clear();
+  for (auto& [tree, part] : parts_) {
+    react(at, tree, part, from, to);
+    part.demote(
+        Course(part.tree(), scratch_.lookAt(at.wind, to), at.levels.of(tree), at.layout.motion),
+        settings_);
+  }
+  for (auto& [id, hold] : holds_) hold.target = grabs_.at(id).target;
+  pushes_.erase(std::remove_if(pushes_.begin(), pushes_.end(),
+                               [&](const Push& push) { return push.until <= to; }),
+                pushes_.end());
+  for (auto it = parts_.begin(); it != parts_.end();)
+    it = it->second.empty() && !isLoaded(it->first) ? parts_.erase(it) : std::next(it);
+  if (!parts_.empty()) return;
+  scratch_ = PartScratch();
+  loads_ = PartLoads();
+}
+
+bool ForestPhysics::isLoaded(std::uint32_t tree) const {
+  for (const auto& entry : grabs_)
+    if (entry.second.point.tree == tree) return true;
+  return std::any_of(pushes_.begin(), pushes_.end(),
+                     [&](const Push& push) { return push.point.tree == tree; });
+}
+
+// Reactions of the springs on a tree, with the forces of the end of the tick.
+void ForestPhysics::react(const Site& at, std::uint32_t tree, const PhysicalPart& part,
+                          Nanoseconds from, Nanoseconds to) {
+  gather(tree, part.tree().foot, from, to, to);
+  if (loads_.springs.empty() || part.empty()) return;
+  physics::Kinematics& now = scratch_.kinematics;
+  part.kinematicsAt(airOf(at, tree), to, scratch_, now);
+  std::size_t spring = 0;
+  for (auto& [id, grab] : grabs_) {
+    if (grab.point.tree != tree) continue;
+    const PartSpring& held = loads_.springs[spring++];
+    const int found = part.linkOf(grab.point.branch);
+    if (found < 0) continue;
+    const auto link = static_cast<std::size_t>(found);
+    const Vec3 arm = grab.point.along * axisZ(now.pose[link].orientation);
+    const Vec3 point = now.pose[link].position + arm;
+    const SpringForce pull =
+        forceOf(held, to, point, now.velocity[link] + cross(now.spin[link], arm));
+    holds_[id].force = pull.force;
+    Reaction out;
+    out.grab = id;
+    out.frame = grab.frame;
+    out.at = grab.point;
+    out.point = part.tree().foot + point;
+    out.force = -pull.force;
+    out.limited = pull.scale < 1.0;
+    reactions_.push_back(out);
+  }
+}
+
+Air ForestPhysics::airOf(const Site& at, std::uint32_t tree) const {
+  return {at.wind, at.levels.of(tree), at.layout.motion};
+}
+
+PhysicsFigures ForestPhysics::figures() const {
+  PhysicsFigures out;
+  for (const auto& entry : parts_) {
+    const PhysicalPart& part = entry.second;
+    if (part.empty()) continue;
+    ++out.trees;
+    out.branches += part.joints().size();
+    out.blending += part.blending();
+    out.bytes += part.bytes();
+  }
+  out.steps = steps_;
+  out.refused = refused_;
+  out.skipped = skipped_;
+  for (const Reaction& reaction : reactions_) out.capped_forces += reaction.limited ? 1 : 0;
+  return out;
+}
+
+void ForestPhysics::addTo(Hash& hash) const {
+  PhysicsSettings settings = settings_;
+  FieldHasher hasher(hash);
+  describe(hasher, settings);
+  const auto add = [&](const BranchPoint& point) {
+    hash.add(static_cast<std::uint64_t>(point.tree));
+    hash.add(static_cast<std::uint64_t>(point.branch));
+    hash.add(point.along);
+  };
+  hash.add(static_cast<std::uint64_t>(next_grab_));
+  for (const auto& [id, grab] : grabs_) {
+    hash.add(static_cast<std::uint64_t>(id));
+    add(grab.point);
+    hash.add(grab.target);
+    hash.add(holds_.at(id).target);
+    for (const double v : {grab.stiffness, grab.damping, grab.force_limit, grab.lease}) hash.add(v);
+    hash.add(grab.frame);
+    hash.add(static_cast<std::uint64_t>(grab.renewed));
+  }
+  for (const Push& push : pushes_) {
+    add(push.point);
+    hash.add(push.force);
+    hash.add(static_cast<std::uint64_t>(push.until));
+  }
+  for (const auto& [id, body] : bodies_) {
+    hash.add(id);
+    hash.add(static_cast<std::uint64_t>(body.shape));
+    for (const Vec3& v : {body.size, body.pose.position, body.velocity, body.spin}) hash.add(v);
+    const Quat& q = body.pose.orientation;
+    for (const double v : {q.w, q.x, q.y, q.z}) hash.add(v);
+    hash.add(static_cast<std::uint64_t>(body.stamp));
+  }
+  for (const auto& [tree, part] : parts_) {
+    if (part.empty()) continue;
+    hash.add(static_cast<std::uint64_t>(tree));
+    part.addTo(hash);
+  }
+  for (const auto& [tree, touches] : touches_) {
+    for (const Touch& touch : touches) {
+      hash.add(static_cast<std::uint64_t>(tree));
+      hash.add(touch.body);
+      hash.add(static_cast<std::uint64_t>(touch.branch));
+      hash.add(touch.side);
+      hash.add(touch.force);
+    }
+  }
+}
+
+}  // namespace vegetation_sim::forest
