@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "vegetation_sim/common/math.h"
 #include "vegetation_sim/forest/contact_body.h"
 #include "vegetation_sim/physics/chain.h"
 
@@ -100,12 +101,20 @@ const Touch* find(const Touches& touches, const std::string& body, int branch) {
   return it != touches.end() && it->body == body && it->branch == branch ? &*it : nullptr;
 }
 
+// A branch that has got beyond the middle of the body is let through softly: the limit fades until
+// it is out on the far side.
+double shareOf(const Placed& placed, const Proximity& found, double radius) {
+  const double half = supportOf(placed.shape, found.normal) + radius;
+  return 1.0 - smootherStep(-found.gap / half - 1.0);
+}
+
 Contact contactOf(const Placed& placed, const Pair& pair, const Proximity& found) {
   Contact out;
   out.along = found.along;
   out.normal = rotate(placed.pose.orientation, found.normal);
   out.gap = found.gap;
   const double radius = pair.bar.radiusAt(found.along);
+  out.share = shareOf(placed, found, radius);
   out.surface = placed.velocity(pair.bar.at(found.along) - (radius + found.gap) * out.normal);
   return out;
 }

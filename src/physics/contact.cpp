@@ -24,6 +24,7 @@ Symmetric3 along(const Vec3& n, double factor) {
 void describe(FieldVisitor& v, ContactLaw& law) {
   v.number("contact_stiffness", law.stiffness, "N/m", {1e3, 1e8});
   v.number("contact_force_limit", law.force_limit, "N", {1.0, 1e6});
+  v.number("contact_force_rate", law.force_rate, "N/s", {10.0, 1e9});
   v.number("contact_push_speed", law.push_speed, "m/s", {0.01, 100.0});
 }
 
@@ -56,7 +57,8 @@ void ContactStepper::prepare(const ContactLaw& law, double h, double theta,
     p.speed = dot(contact.normal, velocity - contact.surface);
     const double gap = contact.gap + (1.0 - theta) * h * p.speed;
     p.wanted = std::min(-gap / h, law.push_speed);
-    if (contact.force >= law.force_limit)
+    p.limit = contact.share * std::min(law.force_limit, contact.force + h * law.force_rate);
+    if (contact.force >= p.limit)
       p.mode = Mode::LIMITED;
     else if (contact.force > 0.0 || p.speed < p.wanted)
       p.mode = Mode::PRESSING;
@@ -74,7 +76,7 @@ void ContactStepper::addAnchors(const ContactLaw& law, double h, double theta,
     anchor.link = contacts[c].link;
     anchor.arm = p.arm;
     const bool presses = p.mode == Mode::PRESSING;
-    const double force = presses ? law.stiffness * h * (p.wanted - p.speed) : law.force_limit;
+    const double force = presses ? law.stiffness * h * (p.wanted - p.speed) : p.limit;
     anchor.force = force * contacts[c].normal;
     if (presses) anchor.damping = along(contacts[c].normal, law.stiffness * h / theta);
     loads_.anchors.push_back(anchor);
@@ -110,12 +112,14 @@ bool ContactStepper::revise(const ContactLaw& law, double h, bool one_by_one,
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     Point& p = points_[c];
     const double force = forceOf(law, h, p, contacts[c]);
-    contacts[c].force = std::clamp(force, 0.0, law.force_limit);
-    contacts[c].limited = force >= law.force_limit;
+    contacts[c].force = std::clamp(force, 0.0, p.limit);
+    contacts[c].limited = force >= p.limit;
     Mode mode = p.mode;
-    if (force < -SLACK) mode = Mode::FREE;
-    if (force > law.force_limit + SLACK) mode = Mode::LIMITED;
-    if (force > SLACK && force < law.force_limit - SLACK) mode = Mode::PRESSING;
+    // Between the ends only by way of the spring: a leap over it may be answered by a leap back.
+    if (p.mode == Mode::PRESSING && force < -SLACK) mode = Mode::FREE;
+    if (p.mode == Mode::PRESSING && force > p.limit + SLACK) mode = Mode::LIMITED;
+    if (p.mode == Mode::FREE && force > SLACK) mode = Mode::PRESSING;
+    if (p.mode == Mode::LIMITED && force < p.limit - SLACK) mode = Mode::PRESSING;
     if (mode == p.mode || (one_by_one && !settled)) continue;
     p.mode = mode;
     settled = false;

@@ -21,12 +21,12 @@ Bar between(const Vec3& base, const Vec3& tip, const Bar& like) {
   return {base, span / span_length, span_length, like.base_radius, like.tip_radius};
 }
 
+}  // namespace
+
 double supportOf(const RoundedBox& box, const Vec3& side) {
   return std::fabs(side.x()) * box.half.x() + std::fabs(side.y()) * box.half.y() +
          std::fabs(side.z()) * box.half.z() + box.radius;
 }
-
-}  // namespace
 
 double signedDistance(const RoundedBox& box, const Vec3& point, Vec3& normal) {
   Vec3 beyond;

@@ -12,9 +12,10 @@ namespace vegetation_sim::physics {
 /// Force between a body and a branch: a spring on the overlap, taken at the end of the step, whose
 /// force is limited (docs/contact.md).
 struct ContactLaw {
-  double stiffness{5e5};      ///< [N/m]; no step is too long for it
-  double force_limit{500.0};  ///< per contact [N]
-  double push_speed{1.0};     ///< at which an overlap is undone at most [m/s]
+  double stiffness{5e5};       ///< [N/m]; no step is too long for it
+  double force_limit{2000.0};  ///< per contact [N]
+  double force_rate{1e5};      ///< at which the force of a contact rises at most [N/s]
+  double push_speed{1.0};      ///< at which an overlap is undone at most [m/s]
 };
 void describe(FieldVisitor& visitor, ContactLaw& law);
 
@@ -25,6 +26,7 @@ struct Contact {
   Vec3 normal{Vec3::UnitZ()};  ///< from body to link, unit, world axes
   double gap{0.0};             ///< between the surfaces, along the normal; negative: overlap [m]
   Vec3 surface{Vec3::Zero()};  ///< velocity of the body there, world [m/s]
+  double share{1.0};           ///< of the force limit that it may reach, 0 to 1
   std::size_t touch{0};        ///< whatever the caller knows it by
   double force{0.0};           ///< on the link along the normal [N]: a guess, then what it was
   bool limited{false};         ///< the force was at its limit
@@ -50,6 +52,7 @@ class ContactStepper {
     Vec3 arm;
     double speed;   // along the normal, relative to the body [m/s]
     double wanted;  // the same at the end of the step, if it presses [m/s]
+    double limit;   // of the force in this step [N]
   };
   void look(const std::vector<Link>& links, const Surroundings& outside, double time, double h,
             double theta, const ChainState& state);

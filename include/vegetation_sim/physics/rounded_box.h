@@ -20,6 +20,9 @@ struct RoundedBox {
   double thickness() const { return std::min(half.x(), std::min(half.y(), half.z())) + radius; }
 };
 
+/// How far a box reaches to one side (unit; the box's axes) [m].
+double supportOf(const RoundedBox& box, const Vec3& side);
+
 /// A tapered round bar: radius changes linearly from the first end to the other.
 struct Bar {
   Vec3 base{Vec3::Zero()}, axis{Vec3::UnitZ()};  ///< `axis` is unit [m]
