@@ -49,11 +49,10 @@ HWY_INLINE void outGroupAs(const ChainGroup& group, Lanes step, ChainStore& stor
   float *received = store.first.data(), *handed = store.second.data();
   const int room = store.first.room;
   loadBases(group, store.first);
-  for (std::size_t l = 0; l < group.levels.size(); ++l) {
-    const Level& level = group.levels[l];
+  for (const Level& level : group.levels) {
     for (int i = 0; i < level.count; i += width()) {
       const Joints at = jointsAt(store, level.begin + i);
-      const Frame frame = outward(at, loadFrame(received + i, room), step, group.bars[l]);
+      const Frame frame = outward(at, loadFrame(received + i, room), step, group.bars);
       if constexpr (MOTION) {
         const Trace trace = traceOf(received + i, room, at.work);
         const auto each = [&](const auto& put) HWY_ATTR {
@@ -72,10 +71,10 @@ HWY_INLINE void outGroupAs(const ChainGroup& group, Lanes step, ChainStore& stor
 }
 
 void outGroup(const ChainGroup& group, float step, ChainStore& store) {
-  if (store.motion.empty())
-    outGroupAs<false>(group, all(step), store);
-  else
+  if (store.trace)
     outGroupAs<true>(group, all(step), store);
+  else
+    outGroupAs<false>(group, all(step), store);
 }
 
 void inwardGroup(const ChainGroup& group, float h, ChainStore& store) {

@@ -4,27 +4,20 @@
 
 #include <vector>
 
+#include "physics/chain_fill.h"
 #include "physics/chain_levels.h"
 #include "physics/chain_rows.h"
 
 namespace vegetation_sim::physics {
 
-/// What an anchor adds to the articulated inertia and bias of the joint in `slot`.
-struct AnchorRows {
-  int slot{0};
-  float value[P_ROWS] = {};
-};
-
-/// What a root hangs on: F_ROWS numbers.
-struct BaseRows {
-  float value[F_ROWS] = {};
-};
-
 /// Trees that step together, small enough for the second-level cache unless one is larger.
 struct ChainGroup {
+  std::vector<std::size_t> trees;
   std::vector<Level> levels;
-  std::vector<char> bars;       ///< [levels] 1: nothing but round bars
   std::vector<BaseRows> bases;  ///< of the first level's joints
+  bool bars{true};              ///< nothing but round bars
+  bool calm{true};              ///< all trees at theta = 1/2
+  float fastest{0.f};           ///< rate of all [rad/s]
 };
 
 /// Rows of one level, one array per quantity, with room for a vector that runs over the end.
@@ -45,7 +38,8 @@ struct LevelRows {
 /// All rows of a chain, and scratch of one group's level and its neighbour.
 struct ChainStore {
   Rows constants, state, loads, work;
-  Rows motion;  ///< F_ROWS per block; empty unless somebody asks for it
+  Rows motion;        ///< F_ROWS per block
+  bool trace{false};  ///< somebody asks for the motion
   LevelRows first, second;
   std::vector<AnchorRows> anchors;  ///< sorted by slot
 };

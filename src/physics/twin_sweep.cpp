@@ -39,7 +39,7 @@ struct Part {
 };
 
 HWY_INLINE void outPart(const Part& part, Lanes step) {
-  const bool motion = !part.store.motion.empty();
+  const bool motion = part.store.trace;
   for (std::size_t i = 0; i < part.store.joints.size(); ++i) {
     const TwinJoint& joint = part.store.joints[i];
     const Joints at = part.joints(i);
@@ -76,11 +76,29 @@ HWY_INLINE Articulated sumOf(const Articulated& a, const Articulated& b) {
           a.m + b.m, a.torque + b.torque, a.force + b.force};
 }
 
+// Anchors are few: one by one. `next` is one past those of joints up to this one.
+HWY_INLINE const AnchorRows* addAnchors(const Part& part, const AnchorRows* next, std::size_t joint,
+                                        Articulated& sum) {
+  const int width = static_cast<int>(hn::Lanes(Tag()));
+  for (; next != part.store.anchors.data(); --next) {
+    const AnchorRows& anchor = next[-1];
+    if (static_cast<std::size_t>(anchor.slot / ROW) != joint) break;
+    const int lane = anchor.slot % ROW - part.lane;
+    if (lane < 0 || lane >= width) continue;
+    alignas(64) float lanes[P_ROWS][ROW] = {};
+    for (int row = 0; row < P_ROWS; ++row) lanes[row][lane] = anchor.value[row];
+    sum = sumOf(sum, loadAll(lanes[0]));
+  }
+  return next;
+}
+
 // The children's sum waits on the stack at their parent's depth; the last child begins it.
 HWY_INLINE void inwardPart(const Part& part, Lanes step) {
+  const AnchorRows* next = part.store.anchors.data() + part.store.anchors.size();
   for (std::size_t i = part.store.joints.size(); i-- > 0;) {
     const TwinJoint& joint = part.store.joints[i];
     Articulated sum = joint.leaf ? nothing() : loadAll(part.onStack(joint.depth));
+    next = addAnchors(part, next, i, sum);
     inward(part.joints(i), step, sum);
     if (joint.root >= 0) continue;
     float* below = part.onStack(joint.depth - 1);
@@ -99,6 +117,7 @@ HWY_INLINE void settlePart(const Part& part, Lanes step) {
     if (joint.leaf) continue;
     eachRow(push, StoreRows{part.onStack(joint.depth), ROW});
   }
+  hn::StoreU(fastest, Tag(), part.store.fastest + part.lane);
 }
 
 void outPack(int pack, float step, TwinStore& store) {

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "physics/chain_fill.h"
 #include "physics/chain_rows.h"
 
 namespace vegetation_sim::physics {
@@ -23,13 +24,16 @@ struct TwinStore {
   std::vector<TwinJoint> joints;
   int roots{0};
   Rows constants, state, loads, bases;
-  Rows work, motion;  ///< of one pack; motion is empty unless somebody asks for it
-  Rows stack;         ///< P_ROWS a depth
+  Rows work, motion;                ///< of one pack
+  Rows stack;                       ///< P_ROWS a depth
+  bool trace{false};                ///< somebody asks for the motion
+  std::vector<AnchorRows> anchors;  ///< of one pack; slot: joint * ROW + lane, sorted
+  float fastest[ROW] = {};          ///< [lanes] rates after the last step of a pack [rad/s]
 };
 
 /// Geometry and rigid bodies of a pack at q + theta h rate, h = `step`.
 void sweepPackOut(int pack, float step, TwinStore& store);
-/// Articulated inertias, accelerations, and the step.
+/// Articulated inertias, accelerations, and the step; leaves the rates in `fastest`.
 void sweepPackBack(int pack, float step, TwinStore& store);
 
 }  // namespace vegetation_sim::physics

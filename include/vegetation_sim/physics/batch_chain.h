@@ -1,0 +1,80 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "vegetation_sim/physics/chain.h"
+
+namespace vegetation_sim::physics {
+
+struct ChainGroup;
+struct ChainStore;
+
+/// The guarded linearly implicit midpoint (Stepper's default) of many links at once in single
+/// precision, in the widest instruction set of the processor: links of equal depth, of one tree or
+/// of several that step together, share vectors. The more links on a level, the better it pays;
+/// small trees belong in one BatchChain. The same bits on every instruction set: only + - * / sqrt,
+/// nothing fused, parents sum their children in one order; and whatever other trees there are.
+/// Takes links, bases, loads and anchors as the plain stepper does. One thread at a time.
+class BatchChain {
+ public:
+  /// Each tree has its own guard. Links as the plain stepper takes them; at rest, on the ground,
+  /// without load.
+  explicit BatchChain(const std::vector<std::vector<Link>>& trees);
+  explicit BatchChain(const std::vector<Link>& tree);
+  BatchChain(BatchChain&&) noexcept;
+  BatchChain& operator=(BatchChain&&) noexcept;
+  ~BatchChain();
+
+  int treeCount() const { return static_cast<int>(trees_.size()); }
+  void setState(int tree, const ChainState& state, double theta = 0.5);
+  ChainState state(int tree) const;
+  double theta(int tree) const { return trees_[static_cast<std::size_t>(tree)].theta; }
+  std::size_t bytes() const;
+
+  /// One step of `h` seconds from `time`; `around` per tree.
+  void step(const std::vector<Surroundings>& around, double time, double h);
+  void step(const Surroundings& around, double time, double h);
+
+  /// For callers that keep loads themselves: what acts from now on, without anchors, and a step
+  /// under it. `bases` may be empty: the ground.
+  void setBases(int tree, const std::vector<BaseMotion>& bases);
+  void setLoads(int tree, const Loads& loads);
+  void step(double h);
+
+ private:
+  struct Member {
+    std::size_t first{0}, count{0};  ///< its links, in slots_
+    std::size_t group{0};
+    double theta{0.5};
+    std::vector<int> base;   ///< [links] what the root of each hangs on
+    std::vector<int> roots;  ///< links
+    std::vector<BaseMotion> bases;
+    bool loaded{false};
+  };
+  Member& member(int tree) { return trees_[static_cast<std::size_t>(tree)]; }
+  void sortGroup(const std::vector<std::vector<Link>>& trees, std::size_t index);
+  void fill(const std::vector<std::vector<Link>>& trees);
+  void fillBases(const Member& member);
+  void fillLoads(const Loads& loads, Member& member);
+  BaseMotion baseOf(const Member& member, std::size_t link) const;
+  double fastestOf(const Member& member) const;
+  void setTheta(Member& member, double theta);
+  void guard(ChainGroup& group, double h);
+  void step(const Surroundings* around, double time, double h);
+  void stepWithin(const Surroundings* around, std::size_t count, double time, double h);
+  void askBases(const Surroundings& around, double time, Member& member);
+  void askLoads(const Surroundings& around, double time, double h, Member& member);
+
+  std::unique_ptr<ChainStore> store_;
+  std::vector<ChainGroup> groups_;
+  std::vector<Member> trees_;
+  std::vector<int> slots_;  ///< [links of all trees]
+  int slot_count_{0};
+  Kinematics kinematics_;
+  Loads loads_;
+};
+
+}  // namespace vegetation_sim::physics

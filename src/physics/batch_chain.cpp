@@ -1,0 +1,267 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/physics/batch_chain.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/chain_sweep.h"
+#include "vegetation_sim/common/faults.h"
+
+namespace vegetation_sim::physics {
+namespace {
+
+// Trees step together up to so many links, so that the second-level cache holds them.
+constexpr std::size_t GROUP_LINKS = 2048;
+
+std::size_t blockRow(int slot, int rows) {
+  return static_cast<std::size_t>(slot / ROW * rows);
+}
+
+float* laneOf(Rows& rows, int slot, int quantities) {
+  return rows.at(blockRow(slot, quantities)) + slot % ROW;
+}
+
+}  // namespace
+
+BatchChain::BatchChain(BatchChain&&) noexcept = default;
+BatchChain& BatchChain::operator=(BatchChain&&) noexcept = default;
+BatchChain::~BatchChain() = default;
+
+BatchChain::BatchChain(const std::vector<Link>& tree)
+    : BatchChain(std::vector<std::vector<Link>>{tree}) {}
+
+// Trees of bars alone take a shorter way; they do not share groups with others, so that the bits of
+// a tree do not depend on what else there is.
+BatchChain::BatchChain(const std::vector<std::vector<Link>>& trees)
+    : store_(std::make_unique<ChainStore>()), trees_(trees.size()) {
+  for (const bool bars : {true, false}) {
+    bool open = false;
+    std::size_t links = 0;
+    for (std::size_t t = 0; t < trees.size(); ++t) {
+      if (std::all_of(trees[t].begin(), trees[t].end(), isBar) != bars) continue;
+      if (!open || links + trees[t].size() > GROUP_LINKS) {
+        groups_.emplace_back();
+        groups_.back().bars = bars;
+        links = 0;
+        open = true;
+      }
+      links += trees[t].size();
+      groups_.back().trees.push_back(t);
+    }
+  }
+  int widest = 0;
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    sortGroup(trees, g);
+    for (const Level& level : groups_[g].levels) widest = std::max(widest, level.count);
+  }
+  store_->first.fit(widest, P_ROWS);
+  store_->second.fit(widest, P_ROWS);
+  fill(trees);
+}
+
+void BatchChain::sortGroup(const std::vector<std::vector<Link>>& trees, std::size_t index) {
+  ChainGroup& group = groups_[index];
+  std::vector<int> parents;
+  for (const std::size_t t : group.trees) {
+    Member& member = trees_[t];
+    const int offset = static_cast<int>(parents.size());
+    member.group = index;
+    member.first = slots_.size() + parents.size();
+    member.count = trees[t].size();
+    for (std::size_t i = 0; i < trees[t].size(); ++i) {
+      const Link& link = trees[t][i];
+      const bool root = link.parent < 0;
+      parents.push_back(root ? -1 : link.parent + offset);
+      member.base.push_back(root ? link.base : member.base[static_cast<std::size_t>(link.parent)]);
+      if (root) member.roots.push_back(static_cast<int>(i));
+    }
+  }
+  slot_count_ = sortIntoLevels(parents, slot_count_, group.levels, slots_);
+  group.bases.resize(group.levels.empty() ? 0 : static_cast<std::size_t>(group.levels[0].count));
+}
+
+void BatchChain::fill(const std::vector<std::vector<Link>>& trees) {
+  ChainStore& store = *store_;
+  const auto blocks = static_cast<std::size_t>(slot_count_ / ROW);
+  store.constants.assign(blocks * C_ROWS);
+  store.state.assign(blocks * S_ROWS);
+  store.loads.assign(blocks * L_ROWS);
+  store.work.assign(blocks * W_ROWS);
+  for (int slot = 0; slot < slot_count_; ++slot) {
+    fillNobody(laneOf(store.constants, slot, C_ROWS));
+    laneOf(store.state, slot, S_ROWS)[S_THETA * ROW] = 0.5f;
+  }
+  for (std::size_t t = 0; t < trees.size(); ++t) {
+    for (std::size_t i = 0; i < trees[t].size(); ++i)
+      fillLink(trees[t][i], laneOf(store.constants, slots_[trees_[t].first + i], C_ROWS));
+    fillBases(trees_[t]);
+  }
+}
+
+// ---- state -------------------------------------------------------------------------------------
+
+void BatchChain::setState(int tree, const ChainState& state, double theta) {
+  Member& member = this->member(tree);
+  for (std::size_t i = 0; i < member.count; ++i) {
+    float* rows = laneOf(store_->state, slots_[member.first + i], S_ROWS);
+    for (int axis = 0; axis < 2; ++axis) {
+      rows[(S_Q + axis) * ROW] = static_cast<float>(state.q[i][axis]);
+      rows[(S_RATE + axis) * ROW] = static_cast<float>(state.rate[i][axis]);
+    }
+  }
+  setTheta(member, theta);
+  groups_[member.group].calm = false;  // the guard looks for itself
+}
+
+ChainState BatchChain::state(int tree) const {
+  const Member& member = trees_[static_cast<std::size_t>(tree)];
+  ChainState out;
+  for (std::size_t i = 0; i < member.count; ++i) {
+    const float* rows = laneOf(store_->state, slots_[member.first + i], S_ROWS);
+    out.q.emplace_back(rows[S_Q * ROW], rows[(S_Q + 1) * ROW]);
+    out.rate.emplace_back(rows[S_RATE * ROW], rows[(S_RATE + 1) * ROW]);
+  }
+  return out;
+}
+
+std::size_t BatchChain::bytes() const {
+  const ChainStore& s = *store_;
+  std::size_t out = s.constants.bytes() + s.state.bytes() + s.loads.bytes() + s.work.bytes() +
+                    s.motion.bytes() + s.first.rows.bytes() + s.second.rows.bytes() +
+                    slots_.capacity() * sizeof(int);
+  for (const ChainGroup& group : groups_)
+    for (const Level& level : group.levels)
+      for (const Brood& brood : level.broods) out += brood.first.capacity() * sizeof(std::int32_t);
+  return out;
+}
+
+// ---- guard -------------------------------------------------------------------------------------
+
+double BatchChain::fastestOf(const Member& member) const {
+  float out = 0.f;
+  for (std::size_t i = 0; i < member.count; ++i) {
+    const float* rows = laneOf(store_->state, slots_[member.first + i], S_ROWS);
+    for (int axis = 0; axis < 2; ++axis)
+      out = std::max(out, std::fabs(rows[(S_RATE + axis) * ROW]));
+  }
+  return out;
+}
+
+void BatchChain::setTheta(Member& member, double theta) {
+  if (theta == member.theta) return;
+  member.theta = theta;
+  for (std::size_t i = 0; i < member.count; ++i)
+    laneOf(store_->state, slots_[member.first + i], S_ROWS)[S_THETA * ROW] =
+        static_cast<float>(theta);
+}
+
+// Trees are looked at one by one only where one of them may be fast, or was.
+void BatchChain::guard(ChainGroup& group, double h) {
+  if (group.calm && thetaFor(group.fastest, h, 0.5) == 0.5) return;
+  group.calm = true;
+  for (const std::size_t t : group.trees) {
+    setTheta(trees_[t], thetaFor(fastestOf(trees_[t]), h, trees_[t].theta));
+    group.calm = group.calm && trees_[t].theta == 0.5;
+  }
+}
+
+// ---- what acts ---------------------------------------------------------------------------------
+
+BaseMotion BatchChain::baseOf(const Member& member, std::size_t link) const {
+  const auto base = static_cast<std::size_t>(member.base[link]);
+  return base < member.bases.size() ? member.bases[base] : BaseMotion();
+}
+
+void BatchChain::fillBases(const Member& member) {
+  ChainGroup& group = groups_[member.group];
+  for (const int root : member.roots) {
+    const auto link = static_cast<std::size_t>(root);
+    const int place = slots_[member.first + link] - group.levels[0].begin;
+    group.bases[static_cast<std::size_t>(place)] = baseRows(baseOf(member, link));
+  }
+}
+
+void BatchChain::fillLoads(const Loads& loads, Member& member) {
+  for (std::size_t i = 0; i < member.count; ++i)
+    fillLoad(loads, i, laneOf(store_->loads, slots_[member.first + i], L_ROWS));
+  member.loaded = true;
+}
+
+void BatchChain::setBases(int tree, const std::vector<BaseMotion>& bases) {
+  member(tree).bases = bases;
+  fillBases(member(tree));
+}
+
+void BatchChain::setLoads(int tree, const Loads& loads) {
+  fillLoads(loads, member(tree));
+}
+
+void BatchChain::askLoads(const Surroundings& around, double time, double h, Member& member) {
+  loads_.clear(member.count);
+  if (around.loads) {
+    resize(kinematics_, member.count);
+    for (std::size_t i = 0; i < member.count; ++i)
+      readMotion(laneOf(store_->motion, slots_[member.first + i], F_ROWS), baseOf(member, i), i,
+                 kinematics_);
+    around.loads(kinematics_, time, loads_);
+  }
+  if (around.loads || member.loaded) fillLoads(loads_, member);
+  member.loaded = static_cast<bool>(around.loads);
+  for (const Anchor& anchor : loads_.anchors) {
+    const int slot = slots_[member.first + static_cast<std::size_t>(anchor.link)];
+    store_->anchors.push_back(anchorRows(anchor, slot, member.theta * h));
+  }
+}
+
+// ---- steps -------------------------------------------------------------------------------------
+
+void BatchChain::askBases(const Surroundings& around, double time, Member& member) {
+  member.bases.clear();
+  if (around.bases) around.bases(time, member.bases);
+  fillBases(member);
+}
+
+void BatchChain::step(const Surroundings* around, double time, double h) {
+  const auto step = static_cast<float>(h);
+  for (ChainGroup& group : groups_) {
+    if (group.levels.empty()) continue;
+    const auto at = [&](std::size_t t) { return time + trees_[t].theta * h; };
+    guard(group, h);
+    if (around)
+      for (const std::size_t t : group.trees) askBases(around[t], at(t), trees_[t]);
+    sweepOut(group, step, *store_);
+    store_->anchors.clear();
+    if (around)
+      for (const std::size_t t : group.trees) askLoads(around[t], at(t), h, trees_[t]);
+    std::stable_sort(store_->anchors.begin(), store_->anchors.end(),
+                     [](const AnchorRows& a, const AnchorRows& b) { return a.slot < b.slot; });
+    group.fastest = sweepBack(group, step, *store_);
+  }
+}
+
+void BatchChain::stepWithin(const Surroundings* around, std::size_t count, double time, double h) {
+  if (count != trees_.size())
+    throw InvalidInput("surroundings: " + std::to_string(count) + "; one for each of the " +
+                       std::to_string(trees_.size()) + " trees");
+  store_->trace = std::any_of(around, around + count,
+                              [](const Surroundings& s) { return static_cast<bool>(s.loads); });
+  if (store_->trace && store_->motion.empty())
+    store_->motion.assign(static_cast<std::size_t>(slot_count_ / ROW) * F_ROWS);
+  step(around, time, h);
+}
+
+void BatchChain::step(const std::vector<Surroundings>& around, double time, double h) {
+  stepWithin(around.data(), around.size(), time, h);
+}
+
+void BatchChain::step(const Surroundings& around, double time, double h) {
+  stepWithin(&around, 1, time, h);
+}
+
+void BatchChain::step(double h) {
+  store_->trace = false;
+  step(nullptr, 0.0, h);
+}
+
+}  // namespace vegetation_sim::physics

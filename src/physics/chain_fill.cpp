@@ -1,0 +1,132 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "physics/chain_fill.h"
+
+#include <algorithm>
+
+#include "vegetation_sim/physics/integrator.h"
+
+namespace vegetation_sim::physics {
+namespace {
+
+float narrow(double x) {
+  return static_cast<float>(x);
+}
+
+Vec3 crossed(const Vec3& a, const Vec3& b) {
+  return {a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(),
+          a.x() * b.y() - a.y() * b.x()};
+}
+
+void put(const Vec3& v, float* to, int stride = 1) {
+  for (int i = 0; i < 3; ++i) to[i * stride] = narrow(v[i]);
+}
+
+Vec3 read(const float* rows, int row) {
+  return {rows[row * ROW], rows[(row + 1) * ROW], rows[(row + 2) * ROW]};
+}
+
+}  // namespace
+
+BaseRows baseRows(const BaseMotion& base) {
+  const Quat& q = base.pose.orientation;
+  const Vec3 z = axisZ(q);
+  BaseRows out;
+  float* v = out.value;
+  v[F_TURN] = narrow(q.w);
+  put({q.x, q.y, q.z}, v + F_TURN + 1);
+  put(z, v + F_AXIS);
+  put(base.spin, v + F_SPIN);
+  put(base.spin_rate, v + F_SPIN_RATE);
+  put(base.acceleration, v + F_ACCELERATION);
+  put(Vec3(crossed(base.spin_rate, z) + crossed(base.spin, crossed(base.spin, z))),
+      v + F_AXIS_RATE);
+  put(base.velocity, v + F_VELOCITY);
+  return out;
+}
+
+bool isBar(const Link& link) {
+  const Symmetric3& i = link.inertia;
+  return link.centre.x() == 0.0 && link.centre.y() == 0.0 && i.xx == i.yy && i.xy == 0.0 &&
+         i.xz == 0.0 && i.yz == 0.0;
+}
+
+void fillLink(const Link& link, float* constants) {
+  const auto set = [&](int row, double value) { constants[row * ROW] = narrow(value); };
+  const Symmetric3& i = link.inertia;
+  set(C_H, link.h);
+  set(C_REST, link.rest.w);
+  set(C_REST + 1, link.rest.x);
+  set(C_REST + 2, link.rest.y);
+  set(C_REST + 3, link.rest.z);
+  set(C_MASS, link.mass);
+  set(C_STIFFNESS, link.stiffness);
+  set(C_DAMPING, link.damping);
+  put(Vec3(link.mass * link.centre), constants + C_MOMENT * ROW, ROW);
+  put({i.xx, i.xy, i.xz}, constants + C_INERTIA * ROW, ROW);
+  put({i.yy, i.yz, i.zz}, constants + (C_INERTIA + 3) * ROW, ROW);
+}
+
+void fillNobody(float* constants) {
+  Link nobody;
+  nobody.mass = 0.0;
+  nobody.inertia = Symmetric3();
+  fillLink(nobody, constants);
+}
+
+void fillLoad(const Loads& loads, std::size_t link, float* rows) {
+  const Wrench none;
+  const Wrench& wrench = link < loads.wrench.size() ? loads.wrench[link] : none;
+  put(wrench.force, rows + L_FORCE * ROW, ROW);
+  put(wrench.torque, rows + L_TORQUE * ROW, ROW);
+  for (int i = 0; i < 2; ++i)
+    rows[(L_JOINT + i) * ROW] =
+        link < loads.joint_torque.size() ? narrow(loads.joint_torque[link][i]) : 0.f;
+}
+
+// The force at the point is the anchor's less (theta^2 h^2 K + theta h C) times what accelerations
+// of the joints add to its own: a mass there, without bias.
+AnchorRows anchorRows(const Anchor& anchor, int slot, double ahead) {
+  const auto mass = [&](double k, double c) { return ahead * (ahead * k + c); };
+  const Symmetric3 &k = anchor.stiffness, &c = anchor.damping;
+  const double xx = mass(k.xx, c.xx), yy = mass(k.yy, c.yy), zz = mass(k.zz, c.zz),
+               xy = mass(k.xy, c.xy), xz = mass(k.xz, c.xz), yz = mass(k.yz, c.yz);
+  const Vec3 mx(xx, xy, xz), my(xy, yy, yz), mz(xz, yz, zz), arm = anchor.arm;
+  const Vec3 bx = crossed(arm, mx), by = crossed(arm, my), bz = crossed(arm, mz);
+  const Vec3 ax = crossed(arm, {bx.x(), by.x(), bz.x()}),
+             ay = crossed(arm, {bx.y(), by.y(), bz.y()}),
+             az = crossed(arm, {bx.z(), by.z(), bz.z()});
+  AnchorRows out;
+  out.slot = slot;
+  float* v = out.value;
+  put(ax, v + P_A);
+  put({ay.y(), ay.z(), az.z()}, v + P_A + 3);
+  put(bx, v + P_B);
+  put(by, v + P_B + 3);
+  put(bz, v + P_B + 6);
+  put({xx, xy, xz}, v + P_M);
+  put({yy, yz, zz}, v + P_M + 3);
+  put(Vec3(-crossed(arm, anchor.force)), v + P_TORQUE);
+  put(Vec3(-anchor.force), v + P_FORCE);
+  return out;
+}
+
+void readMotion(const float* motion, const BaseMotion& base, std::size_t link, Kinematics& out) {
+  out.pose[link].position = base.pose.position + read(motion, F_POSITION);
+  out.pose[link].orientation = {motion[F_TURN * ROW], motion[(F_TURN + 1) * ROW],
+                                motion[(F_TURN + 2) * ROW], motion[(F_TURN + 3) * ROW]};
+  out.spin[link] = read(motion, F_SPIN);
+  out.velocity[link] = read(motion, F_VELOCITY);
+}
+
+void resize(Kinematics& kinematics, std::size_t links) {
+  kinematics.pose.resize(links);
+  kinematics.spin.resize(links);
+  kinematics.velocity.resize(links);
+}
+
+double thetaFor(double fastest, double h, double theta) {
+  return fastest * h > GUARD_TURN ? 1.0 : std::max(0.5, 0.9 * theta);
+}
+
+}  // namespace vegetation_sim::physics
