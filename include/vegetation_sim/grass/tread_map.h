@@ -1,0 +1,119 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "vegetation_sim/common/time.h"
+#include "vegetation_sim/grass/blade_batch.h"
+#include "vegetation_sim/grass/tread_law.h"
+
+namespace vegetation_sim::grass {
+
+struct TreadSettings {
+  double spacing{0.05};        ///< wanted of the fine nodes; becomes a whole part of a tile [m]
+  double memory_cap{128e6};    ///< for trodden ground [bytes]
+  double longest_stroke{5.0};  ///< beyond, a source has jumped and leaves no track [m]
+  double top_speed{40.0};      ///< beyond, likewise [m/s]
+};
+void describe(FieldVisitor& visitor, TreadSettings& settings);
+
+/// Trodden grass at a node: tilt at `stamp`, from which it rises again.
+struct TreadNode {
+  float tilt{0.f};       ///< [rad]
+  float x{0.f}, y{0.f};  ///< unit direction in which the blades lie
+  float recovery{0.f};   ///< [s]
+  Nanoseconds stamp{0};
+};
+
+/// Nodes of a square of trodden ground.
+struct TreadBlock {
+  static constexpr int SIDE = 16;
+  std::vector<TreadNode> nodes =
+      std::vector<TreadNode>(SIDE * SIDE);  ///< row by row from the south
+  Nanoseconds until{0};                     ///< when the last of them has recovered
+};
+
+/// A source that is on the ground. Doses of the nodes within its reach add up as long as it stays
+/// near them: one pass.
+struct TreadSource {
+  Point position, along;
+  bool has_moved{false};  ///< `along` means something
+  Nanoseconds stamp{0};
+  int first_column{0}, first_row{0}, columns{0}, rows{0};  ///< of the window
+  std::vector<double> doses;                               ///< [rows x columns] [1/m^2]
+};
+
+/// What happened so far.
+struct TreadCounts {
+  std::uint64_t strokes{0};    ///< that were taken
+  std::uint64_t invalid{0};    ///< refused: not finite or back in time
+  std::uint64_t jumps{0};      ///< of a source, that left no track
+  std::uint64_t outside{0};    ///< strokes that touched no node of the map
+  std::uint64_t no_memory{0};  ///< nodes that the memory cap left untrodden
+};
+
+/// All that has memory, to be saved, restored and compared.
+struct TreadState {
+  std::map<std::pair<int, int>, TreadBlock> blocks;  ///< by row and column of blocks
+  std::map<std::uint32_t, TreadSource> sources;
+  TreadCounts counts;
+
+  std::uint64_t hash() const;
+};
+
+/// Trodden grass (paper 2, section 4.2; S2-21 to S2-28) on a fine grid that exists only where
+/// somebody trod (S2-W1). Nothing happens per frame: how far a node has recovered follows from its
+/// stamp. One thread at a time. Every value is the same on each processor.
+class TreadMap {
+ public:
+  /// @throws InvalidInput with all faults.
+  TreadMap(const MapLaw& law, const TreadSettings& settings);
+
+  /// Puts or moves a source: presses the segment from where it was to `position` [m], and the
+  /// ground under it. A place that is not finite, a jump or a stamp before the last leaves no track
+  /// and is counted. Requires a checked law. @return number of touched nodes.
+  int tread(std::uint32_t source, const TreadLaw& law, const Point& position, Nanoseconds stamp);
+  /// The source leaves the ground: its next tread() begins a new track.
+  void lift(std::uint32_t source) { state_.sources.erase(source); }
+
+  /// Tilt and direction of the nearest node at a stamp; nothing where it is untrodden.
+  TreadNode at(const Point& place, Nanoseconds stamp) const;
+  /// Fills the patch of a tile: cells 0 if it is untrodden. `out` keeps its memory.
+  void patch(int tile_column, int tile_row, Nanoseconds stamp, CrushPatch& out) const;
+
+  /// Frees ground that has recovered.
+  void prune(Nanoseconds stamp);
+  /// Forgets what is stamped after `stamp`: time went back.
+  void rewind(Nanoseconds stamp);
+  void clear();
+
+  const TreadState& state() const { return state_; }
+  void restore(TreadState state) { state_ = std::move(state); }
+  double spacing() const { return spacing_; }
+  std::size_t bytes() const;
+
+ private:
+  struct Stroke;
+  struct Box;
+  TreadBlock* blockAt(int row, int column, bool make);
+  int press(Stroke& stroke, const Point& from);
+  int pressBlock(Stroke& stroke, int block_row, int block_column, const Box& box);
+
+  MapLaw law_;
+  TreadSettings settings_;
+  int cells_;  ///< fine cells along a tile
+  double spacing_;
+  TreadState state_;
+};
+
+/// Tilt of a node at a stamp [rad]: theta0 (1 - smoothStep((t - t0) / T)); 0 before t0.
+float tiltAt(const TreadNode& node, Nanoseconds stamp);
+
+/// Below this tilt a node counts as untrodden [rad].
+constexpr float CRUNCHED = 0.0174533f;
+
+}  // namespace vegetation_sim::grass

@@ -1,0 +1,105 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/grass/tread_law.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace vegetation_sim::grass {
+namespace {
+
+// Integral of (square + s^2)^(-3/2) over s from lo to hi. With both ends on one side the difference
+// of the two terms is expanded, so that nothing cancels (E5).
+double integral(double lo, double hi, double square) {
+  const double r0 = std::sqrt(square + lo * lo), r1 = std::sqrt(square + hi * hi);
+  if (lo < 0.0 && hi > 0.0) return (hi * r0 - lo * r1) / (r0 * r1 * square);
+  const double both = std::fabs(hi) * r0 + std::fabs(lo) * r1;
+  return both > 0.0 ? (hi - lo) * std::fabs(hi + lo) / (r0 * r1 * both)
+                    : std::numeric_limits<double>::infinity();
+}
+
+double lengthOf(const Point& a, const Point& b) {
+  return std::sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y));
+}
+
+}  // namespace
+
+void describe(FieldVisitor& v, TreadLaw& law) {
+  v.number("radius", law.radius, "m", {0.005, 5.0});
+  v.number("reach", law.reach, "m", {0.01, 10.0});
+  v.number("softness", law.softness, "m", {0.001, 5.0});
+  v.number("load", law.load, "", {0.0, 10.0});
+  v.number("recovery", law.recovery, "s", {0.0, PERMANENT_RECOVERY});
+}
+
+void check(TreadLaw law, const std::string& context, Faults& faults) {
+  FieldChecker checker(context, faults);
+  describe(checker, law);
+  if (law.reach < 1.5 * law.radius)
+    faults.add(context + "reach = " + std::to_string(law.reach) +
+               " m is below 1.5 times radius = " + std::to_string(law.radius) + " m");
+}
+
+double treadField(const Point& p, const Point& p0, const Point& p1, double eps) {
+  const double c = lengthOf(p0, p1);
+  if (!(c > 0.0)) return 0.0;
+  const double tx = (p1.x - p0.x) / c, ty = (p1.y - p0.y) / c;
+  const double ax = p0.x - p.x, ay = p0.y - p.y;
+  const double s0 = ax * tx + ay * ty, d = ax * ty - ay * tx;
+  return integral(s0, s0 + c, d * d + eps * eps);
+}
+
+double treadFieldPrinted(const Point& p, const Point& p0, const Point& p1) {
+  const double c = lengthOf(p0, p1);
+  if (!(c > 0.0)) return 0.0;
+  const double tx = (p1.x - p0.x) / c, ty = (p1.y - p0.y) / c;
+  const double along = (p.x - p0.x) * tx + (p.y - p0.y) * ty;
+  const Point foot{p0.x + along * tx, p0.y + along * ty};
+  const double height = lengthOf(p, foot);
+  const double sine0 = -along / lengthOf(p, p0), sine1 = (c - along) / lengthOf(p, p1);
+  return (sine1 - sine0) / (height * height);
+}
+
+Point treadVector(const Point& p, const Point& p0, const Point& p1, double field) {
+  const double c = lengthOf(p0, p1);
+  if (!(c > SHORTEST_STROKE)) return {};
+  const double tx = (p1.x - p0.x) / c, ty = (p1.y - p0.y) / c;
+  const double side = (p.y - p0.y) * tx - (p.x - p0.x) * ty;
+  const double sign = side > NO_SIDE ? 1.0 : side < -NO_SIDE ? -1.0 : 0.0;
+  return {field * (tx - sign * ty), field * (ty + sign * tx)};
+}
+
+CompactField::CompactField(const Point& p0, const Point& p1, double reach, double softness)
+    : p0_(p0),
+      length_(lengthOf(p0, p1)),
+      square_reach_(reach * reach),
+      square_softness_(softness * softness) {
+  if (length_ > SHORTEST_STROKE)
+    along_ = {(p1.x - p0.x) / length_, (p1.y - p0.y) / length_};
+  else
+    length_ = 0.0;
+  const double end = square_reach_ + square_softness_;
+  edge_ = 1.0 / (end * std::sqrt(end));
+}
+
+CompactField::Sample CompactField::at(const Point& p) const {
+  const double ax = p0_.x - p.x, ay = p0_.y - p.y;
+  const double s0 = ax * along_.x + ay * along_.y, s1 = s0 + length_;
+  const double side = ax * along_.y - ay * along_.x, square = side * side;
+  const double beyond = std::max(0.0, std::max(s0, -s1));
+  Sample out{0.0, square + beyond * beyond, side};
+  if (out.square_distance >= square_reach_) return out;
+  const double half = std::sqrt(square_reach_ - square);
+  const double lo = std::max(s0, -half), hi = std::min(s1, half);
+  if (hi > lo) out.field = integral(lo, hi, square + square_softness_) - (hi - lo) * edge_;
+  return out;
+}
+
+double CompactField::ofEndlessTrack(double distance, double reach, double softness) {
+  return CompactField({-2.0 * reach, 0.0}, {2.0 * reach, 0.0}, reach, softness)
+      .at({0.0, distance})
+      .field;
+}
+
+}  // namespace vegetation_sim::grass
