@@ -8,8 +8,8 @@
 namespace vegetation_sim {
 namespace {
 
-const std::array<const char*, 6> KNOWN_KEYS = {"frame_id", "seed",   "terrain",
-                                               "wind",     "forest", "viewer"};
+const std::array<const char*, 7> KNOWN_KEYS = {"frame_id", "seed",    "terrain", "wind",
+                                               "forest",   "physics", "viewer"};
 
 bool isKnown(const std::string& key) {
   return std::find(KNOWN_KEYS.begin(), KNOWN_KEYS.end(), key) != KNOWN_KEYS.end();
@@ -33,8 +33,9 @@ void Scenario::finish() {
     for (const auto& entry : node_) {
       const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "(not a word)";
       if (!isKnown(key))
-        top_.fault(key,
-                   "is not a known key; known are frame_id, seed, terrain, wind, forest, viewer");
+        top_.fault(
+            key,
+            "is not a known key; known are frame_id, seed, terrain, wind, forest, physics, viewer");
     }
   }
   faults_->throwIfAny();

@@ -39,22 +39,36 @@ std::size_t BranchFrames::count() const {
   return out;
 }
 
-std::vector<Pose> posesOf(const forest::Forest& forest, const forest::Tree& tree, std::uint32_t id,
-                          Nanoseconds stamp) {
-  const auto& memory = forest.memory();
-  return forest::poseBranches(
-      tree, memory.wind.at(stamp).relativeTo(tree.foot),
-      forest::weightsAt(memory.levels.of(id), stamp, forest.layout().motion));
+BranchFrames::Wanted BranchFrames::withPhysical(
+    const forest::Forest& forest, const std::vector<forest::BranchPoint>& held) const {
+  std::map<std::uint32_t, std::set<std::uint32_t>> chosen;
+  for (const auto& [tree, branches] : wanted_)
+    chosen[tree].insert(branches.begin(), branches.end());
+  std::size_t room = budget_ - count();
+  const auto add = [&](std::uint32_t tree, int branch) {
+    if (room > 0 && chosen[tree].insert(static_cast<std::uint32_t>(branch)).second) --room;
+  };
+  for (const forest::BranchPoint& point : held) add(point.tree, point.branch);
+  for (const std::uint32_t tree : forest.physicalTrees())
+    for (const forest::PromotedBranch& branch : forest.promoted(tree).branches)
+      add(tree, branch.branch);
+  Wanted out;
+  for (const auto& [tree, branches] : chosen) out[tree].assign(branches.begin(), branches.end());
+  return out;
 }
 
-std::vector<geometry_msgs::TransformStamped> branchTransforms(const BranchFrames& frames,
+std::vector<Pose> posesOf(const forest::Forest& forest, const forest::Tree& tree, std::uint32_t id,
+                          Nanoseconds stamp) {
+  return forest.pose(tree, id, stamp);
+}
+
+std::vector<geometry_msgs::TransformStamped> branchTransforms(const BranchFrames::Wanted& wanted,
                                                               const forest::Forest& forest,
                                                               forest::TreeCache& cache,
                                                               const std::string& frame_id,
                                                               Nanoseconds stamp) {
   std::vector<geometry_msgs::TransformStamped> out;
-  out.reserve(frames.count());
-  for (const auto& [id, branches] : frames.wanted()) {
+  for (const auto& [id, branches] : wanted) {
     const auto grown = cache.get(forest.layout(), forest.terrain(), id);
     const std::vector<Pose> poses = posesOf(forest, grown->tree, id, stamp);
     for (const std::uint32_t branch : branches) {

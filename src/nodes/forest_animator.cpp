@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "vegetation_sim/ros/forest_conversions.h"
+#include "vegetation_sim/ros/grab_conversions.h"
 #include "vegetation_sim/ros/wind_conversions.h"
 
 namespace vegetation_sim {
@@ -42,11 +43,14 @@ ForestAnimator::ForestAnimator(ros::NodeHandle handle, ros::NodeHandle private_h
       diagnostics_(handle, private_handle, private_handle.getNamespace()) {
   forest_ = std::make_unique<forest::Forest>(designed(scene_.layout, tuning_), scene_.terrain,
                                              tuning_.settings);
+  forest_->setPhysics(scene_.physics);
+  desk_ = std::make_unique<GrabDesk>(GrabRoom{options_, *forest_, cache_, inputs_, tf_buffer_});
   layout_publisher_ = handle_.advertise<ForestLayout>("forest/layout", 1, true);
   state_publisher_ = handle_.advertise<ForestState>("forest/state", 1000);
   branches_publisher_ = handle_.advertise<BranchTransforms>("forest/branches", 60);
   markers_publisher_ = handle_.advertise<visualization_msgs::MarkerArray>("forest/markers", 1);
   events_publisher_ = handle_.advertise<ForestEvent>("forest/events", 1000);
+  wrenches_publisher_ = handle_.advertise<geometry_msgs::WrenchStamped>("forest/wrenches", 1000);
   publishLayout();
   diagnostics_.setHardwareID("none");
   diagnostics_.add("forest", this, &ForestAnimator::diagnose);
@@ -68,6 +72,10 @@ void ForestAnimator::listen() {
   services_ = {private_handle_.advertiseService("get_tree", &ForestAnimator::onGetTree, this),
                private_handle_.advertiseService("pick", &ForestAnimator::onPick, this),
                private_handle_.advertiseService("set_tf", &ForestAnimator::onSetTf, this),
+               private_handle_.advertiseService("grab", &ForestAnimator::onGrab, this),
+               private_handle_.advertiseService("move_grab", &ForestAnimator::onMoveGrab, this),
+               private_handle_.advertiseService("release", &ForestAnimator::onRelease, this),
+               private_handle_.advertiseService("apply_force", &ForestAnimator::onApplyForce, this),
                private_handle_.advertiseService("reset", &ForestAnimator::onReset, this)};
   const auto every = [this](double rate, void (ForestAnimator::*call)(const ros::TimerEvent&)) {
     timers_.push_back(handle_.createTimer(ros::Duration(1.0 / rate), call, this));
@@ -113,6 +121,7 @@ void ForestAnimator::restart(Nanoseconds now) {
   ++counts_.jumps;
   startAnew();
   inputs_.startAnew(now);
+  desk_->clear(true);
   tf_buffer_.clear();
   last_tick_ = last_framed_tick_ = NEVER;
   publishLayout();
@@ -120,10 +129,13 @@ void ForestAnimator::restart(Nanoseconds now) {
 
 void ForestAnimator::tick(std::int64_t tick) {
   const Nanoseconds stamp = grid_.timeOf(tick);
+  desk_->follow(stamp,
+                [this](const std::string& what, const std::string& why) { reject(what, why); });
   for (ForestEvent& event : inputs_.take(stamp)) {
     event.header.frame_id = options_.frame_id;
     try {
       apply(event);
+      desk_->adopt(event);
       if (!options_.replay) events_publisher_.publish(event);
     } catch (const InvalidInput& error) {
       reject("event", error.what());
@@ -139,6 +151,7 @@ void ForestAnimator::tick(std::int64_t tick) {
   message.header.frame_id = options_.frame_id;
   counts_.state_bytes += ros::serialization::serializationLength(message);
   state_publisher_.publish(message);
+  settleGrabs();
   force_key_frame_ = false;
 }
 
@@ -180,8 +193,43 @@ void ForestAnimator::apply(const ForestEvent& event) {
       startAnew();
       break;
     default:
-      throw InvalidInput("kind = " + std::to_string(event.kind) + " is outside 0 to 3");
+      applyInteraction(event);
   }
+}
+
+void ForestAnimator::applyInteraction(const ForestEvent& event) {
+  switch (event.kind) {
+    case ForestEvent::GRAB:
+      forest_->addGrab(fromMsg(event.grab));
+      break;
+    case ForestEvent::MOVE:
+      forest_->moveGrab(event.grab.id, fromMsg(event.grab.target));
+      break;
+    case ForestEvent::RELEASE:
+      forest_->release(event.grab.id);
+      break;
+    case ForestEvent::FORCE:
+      forest_->push(fromMsg(event.force, fromMsg(event.header.stamp)));
+      break;
+    case ForestEvent::BODY:
+      forest_->setBody(fromMsg(event.body));
+      break;
+    case ForestEvent::REMOVE_BODY:
+      forest_->removeBody(event.body.id);
+      break;
+    default:
+      throw InvalidInput("kind = " + std::to_string(event.kind) + " is outside 0 to 9");
+  }
+}
+
+void ForestAnimator::settleGrabs() {
+  for (const forest::Grab& grab : desk_->settle()) {
+    ++counts_.leases_ended;
+    ROS_WARN("forest_animator: grab %u ended: nobody moved or renewed it for its lease of %g s",
+             grab.id, grab.lease);
+  }
+  for (const geometry_msgs::WrenchStamped& wrench : desk_->wrenches())
+    wrenches_publisher_.publish(wrench);
 }
 
 void ForestAnimator::adoptTuning(const ForestTuning& tuning) {

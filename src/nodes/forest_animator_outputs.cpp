@@ -7,10 +7,15 @@ namespace vegetation_sim {
 
 void ForestAnimator::sendFrames(const ros::TimerEvent&) {
   // Every listener warns of a transform that comes twice.
-  if (last_tick_ == last_framed_tick_ || frames_.empty()) return;
+  if (last_tick_ == last_framed_tick_) return;
   last_framed_tick_ = last_tick_;
-  tf_broadcaster_.sendTransform(
-      branchTransforms(frames_, *forest_, cache_, options_.frame_id, forest_->memory().stamp));
+  const BranchFrames::Wanted wanted =
+      options_.tf_promoted ? frames_.withPhysical(*forest_, desk_->heldPoints()) : frames_.wanted();
+  frames_sent_ = 0;
+  for (const auto& entry : wanted) frames_sent_ += entry.second.size();
+  if (frames_sent_ > 0)
+    tf_broadcaster_.sendTransform(
+        branchTransforms(wanted, *forest_, cache_, options_.frame_id, forest_->memory().stamp));
 }
 
 void ForestAnimator::sendBranches(const ros::TimerEvent&) {
@@ -73,10 +78,27 @@ void ForestAnimator::diagnose(diagnostic_updater::DiagnosticStatusWrapper& statu
   status.add("Recorded events late", counts_.inputs.late);
   status.add("State sent [B]", counts_.state_bytes);
   status.add("Grown branches held", cache_.branches());
-  status.add("tf frames", frames_.count());
+  addPhysics(status);
+  status.add("tf frames", frames_sent_);
   status.add("tf budget [frames]", frames_.budget());
   status.add("Marker points", markers_.points());
   status.add("Marker budget [points]", markers_.budget());
+}
+
+void ForestAnimator::addPhysics(diagnostic_updater::DiagnosticStatusWrapper& status) const {
+  const forest::PhysicsFigures figures = forest_->physicsFigures();
+  status.add("Grabs", forest_->grabs().size());
+  status.add("Grabs whose frame is silent", desk_->silent());
+  status.add("Grabs ended by their lease", counts_.leases_ended);
+  status.add("Bodies", forest_->bodies().size());
+  status.add("Physical trees", figures.trees);
+  status.add("Physical branches", figures.branches);
+  status.add("Physical branches that blend back", figures.blending);
+  status.add("Branches kept procedural by the cap", figures.refused);
+  status.add("Physics memory [B]", figures.bytes);
+  status.add("Physics steps of the last tick", figures.steps);
+  status.add("Gaps in time not stepped through", figures.skipped);
+  status.add("Forces at their limit", figures.capped_forces);
 }
 
 }  // namespace vegetation_sim

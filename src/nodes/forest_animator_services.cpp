@@ -67,6 +67,9 @@ bool ForestAnimator::onGetTree(GetTree::Request& request, GetTree::Response& res
     }
     response.transforms =
         toMsg(request.tree, grown->tree.foot, posesOf(*forest_, grown->tree, request.tree, stamp));
+    for (const forest::PromotedBranch& branch : forest_->promoted(request.tree).branches)
+      response.physical.push_back(static_cast<std::uint32_t>(branch.branch));
+    response.grabs = desk_->grabsOf(request.tree);
     response.transforms.header.stamp = toStamp(stamp);
     response.transforms.header.frame_id = options_.frame_id;
     return std::to_string(skeleton.branches.size()) + " branches";
@@ -116,6 +119,22 @@ bool ForestAnimator::onSetTf(SetTf::Request& request, SetTf::Response& response)
   response.frames = static_cast<std::uint32_t>(frames_.count());
   response.budget = static_cast<std::uint32_t>(frames_.budget());
   return true;
+}
+
+bool ForestAnimator::onGrab(Grab::Request& request, Grab::Response& response) {
+  return answer(response, [&] { return desk_->grab(request, response); });
+}
+
+bool ForestAnimator::onMoveGrab(MoveGrab::Request& request, MoveGrab::Response& response) {
+  return answer(response, [&] { return desk_->move(request, response); });
+}
+
+bool ForestAnimator::onRelease(Release::Request& request, Release::Response& response) {
+  return answer(response, [&] { return desk_->release(request); });
+}
+
+bool ForestAnimator::onApplyForce(ApplyForce::Request& request, ApplyForce::Response& response) {
+  return answer(response, [&] { return desk_->push(request, response); });
 }
 
 bool ForestAnimator::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {

@@ -114,6 +114,29 @@ void ForestInputs::addReset() {
   addLast(event);
 }
 
+void ForestInputs::addInteraction(const ForestEvent& event) {
+  if (replay_) return;
+  if (event.kind == ForestEvent::MOVE || event.kind == ForestEvent::BODY)
+    for (ForestEvent& waiting : waiting_) {
+      if (waiting.kind != event.kind || waiting.header.stamp != event.header.stamp ||
+          waiting.grab.id != event.grab.id || waiting.body.id != event.body.id)
+        continue;
+      waiting = event;
+      return;
+    }
+  if (waiting_.size() >= MOST_WAITING)
+    throw InvalidInput(std::to_string(MOST_WAITING) + " requests wait for the next tick already");
+  waiting_.push_back(event);
+}
+
+void ForestInputs::forgetGrab(std::uint32_t id) {
+  const auto about = [&](const ForestEvent& event) {
+    return event.kind >= ForestEvent::GRAB && event.kind <= ForestEvent::RELEASE &&
+           event.grab.id == id;
+  };
+  waiting_.erase(std::remove_if(waiting_.begin(), waiting_.end(), about), waiting_.end());
+}
+
 void ForestInputs::addWind(wind::Field wind) {
   ForestEvent event;
   event.kind = ForestEvent::WIND;
@@ -140,20 +163,25 @@ void ForestInputs::addEvent(const ForestEvent& event) {
 
 void ForestInputs::startAnew(Nanoseconds now) {
   const auto outdated = [&](const ForestEvent& event) {
-    return replay_ ? fromMsg(event.header.stamp) > now : event.kind == ForestEvent::VIEWER;
+    if (replay_) return fromMsg(event.header.stamp) > now;
+    return event.kind == ForestEvent::VIEWER || event.kind >= ForestEvent::GRAB;
   };
   waiting_.erase(std::remove_if(waiting_.begin(), waiting_.end(), outdated), waiting_.end());
 }
 
 std::vector<ForestEvent> ForestInputs::take(Nanoseconds stamp) {
   std::vector<ForestEvent> out;
-  while (!waiting_.empty()) {
-    if (replay_ && fromMsg(waiting_.front().header.stamp) > stamp) break;
-    if (replay_ && fromMsg(waiting_.front().header.stamp) < stamp) ++losses_.late;
-    out.push_back(std::move(waiting_.front()));
-    waiting_.pop_front();
-    out.back().header.stamp = toStamp(stamp);
+  std::deque<ForestEvent> later;
+  for (ForestEvent& event : waiting_) {
+    if (fromMsg(event.header.stamp) > stamp) {
+      later.push_back(std::move(event));
+      continue;
+    }
+    if (replay_ && fromMsg(event.header.stamp) < stamp) ++losses_.late;
+    event.header.stamp = toStamp(stamp);
+    out.push_back(std::move(event));
   }
+  waiting_ = std::move(later);
   return out;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vegetation_sim/forest/narrow.h"
 #include "vegetation_sim/forest/skin.h"
 #include "vegetation_sim/ros/forest_conversions.h"
 
@@ -138,7 +139,10 @@ void ForestMarkers::addTree(const forest::Forest& forest, forest::TreeCache& cac
   const wind::Instant wind = forest.memory().wind.at(stamp).relativeTo(grown->tree.foot);
   const forest::Weights weights =
       forest::weightsAt(forest.memory().levels.of(id), stamp, forest.layout().motion);
-  grown->poser.pose(wind, weights, forest::MAX_DEPTHS, poses_);
+  if (forest.promoted(id).branches.empty())
+    grown->poser.pose(wind, weights, forest::MAX_DEPTHS, poses_);
+  else
+    narrow(forest.pose(grown->tree, id, stamp), poses_);
   const std::array<float, 3> foot{static_cast<float>(grown->tree.foot.x()),
                                   static_cast<float>(grown->tree.foot.y()),
                                   static_cast<float>(grown->tree.foot.z())};

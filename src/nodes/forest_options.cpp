@@ -55,6 +55,8 @@ void describe(FieldVisitor& v, ForestOptions& o) {
   v.integer("cache_budget", o.cache_budget, "branches", {1000, 20000000});
   v.number("viewer_field_of_view", o.viewer_field_of_view, "rad", {0.01, 3.1});
   v.integer("viewer_height", o.viewer_height, "pixel", {1, 100000});
+  v.number("grab_lease", o.grab_lease, "s", {0.1, 3600.0});
+  v.number("grab_distance", o.grab_distance, "m", {0.1, 1000.0});
   v.number("replay_delay", o.replay_delay, "s", {0.0, 10.0});
   describe(v, o.tuning);
 }
@@ -77,6 +79,11 @@ ForestScene loadForestScene(const std::string& file) {
     out.layout = forest::readLayout(scenario.section("forest"), folder, seed, scenario.faults());
   else
     out.layout.species = {defaultSpecies()};
+  if (scenario.has("physics")) {
+    YamlSection physics = scenario.section("physics");
+    describe(physics, out.physics);
+    physics.finish();
+  }
   try {
     out.layout.terrain = resolveFile(terrain, folder);
     out.terrain = loadTerrain(out.layout.terrain);
@@ -96,6 +103,7 @@ ForestOptions loadForestOptions(const ros::NodeHandle& private_handle, ForestSce
   readScene(out, scene, parameters.faults());
   parameters.text("frame_id", out.frame_id);
   parameters.text("viewer_frame", out.viewer_frame);
+  parameters.flag("tf_promoted", out.tf_promoted);
   parameters.flag("replay", out.replay);
   parameters.integers("branches_trees", out.branches_trees, {0, 1 << 24});
   describe(parameters, out);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "vegetation_sim/common/math.h"
+#include "vegetation_sim/forest/narrow.h"
 #include "vegetation_sim/rviz/bark_picture.h"
 #include "vegetation_sim/rviz/leaf_atlas.h"
 
@@ -93,9 +94,14 @@ bool DrawnTree::move(const forest::ForestReplica& replica, Nanoseconds stamp,
       moves = true;
     }
   }
+  const bool physical = !replica.promoted(id_).branches.empty();
+  moves = moves || physical;
   if (!moves && !moved_) return false;
   moved_ = moves;
-  poser_.pose(wind.relativeTo(tree_.foot), weights, forest::meshDetail(level_).depths, poses_);
+  if (physical)
+    narrow(replica.pose(tree_, id_, stamp), poses_);
+  else
+    poser_.pose(wind.relativeTo(tree_.foot), weights, forest::meshDetail(level_).depths, poses_);
   skin(flutter);
   return true;
 }

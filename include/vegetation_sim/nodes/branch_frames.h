@@ -26,12 +26,16 @@ class BranchFrames {
   std::size_t count() const;
   std::size_t budget() const { return budget_; }
   bool empty() const { return wanted_.empty(); }
-  /// Trees of which any branch is sent, with their branches in order.
-  const std::map<std::uint32_t, std::vector<std::uint32_t>>& wanted() const { return wanted_; }
+  /// Branches that are sent, by tree, in order.
+  using Wanted = std::map<std::uint32_t, std::vector<std::uint32_t>>;
+  const Wanted& wanted() const { return wanted_; }
+  /// And the branches that are held, then all that are physical, as far as the budget goes.
+  Wanted withPhysical(const forest::Forest& forest,
+                      const std::vector<forest::BranchPoint>& held) const;
 
  private:
   std::size_t budget_;
-  std::map<std::uint32_t, std::vector<std::uint32_t>> wanted_;
+  Wanted wanted_;
 };
 
 /// Poses of a tree at a stamp, tree's frame, by the double path.
@@ -39,7 +43,7 @@ std::vector<Pose> posesOf(const forest::Forest& forest, const forest::Tree& tree
                           Nanoseconds stamp);
 
 /// Transforms of every wanted branch at `stamp`, all to be sent at once.
-std::vector<geometry_msgs::TransformStamped> branchTransforms(const BranchFrames& frames,
+std::vector<geometry_msgs::TransformStamped> branchTransforms(const BranchFrames::Wanted& wanted,
                                                               const forest::Forest& forest,
                                                               forest::TreeCache& cache,
                                                               const std::string& frame_id,

@@ -10,9 +10,13 @@
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_broadcaster.h>
 #include <tf2_ros/transform_listener.h>
+#include <vegetation_sim/ApplyForce.h>
 #include <vegetation_sim/ForestAnimatorConfig.h>
 #include <vegetation_sim/GetTree.h>
+#include <vegetation_sim/Grab.h>
+#include <vegetation_sim/MoveGrab.h>
 #include <vegetation_sim/Pick.h>
+#include <vegetation_sim/Release.h>
 #include <vegetation_sim/SetTf.h>
 
 #include <memory>
@@ -25,6 +29,7 @@
 #include "vegetation_sim/nodes/forest_inputs.h"
 #include "vegetation_sim/nodes/forest_markers.h"
 #include "vegetation_sim/nodes/forest_options.h"
+#include "vegetation_sim/nodes/grab_desk.h"
 #include "vegetation_sim/ros/stamps.h"
 
 namespace vegetation_sim {
@@ -56,6 +61,8 @@ class ForestAnimator {
   void startAnew();
   void tick(std::int64_t tick);
   void apply(const ForestEvent& event);
+  void applyInteraction(const ForestEvent& event);
+  void settleGrabs();
   void noteLosses();
   void adoptTuning(const ForestTuning& tuning);
 
@@ -66,11 +73,16 @@ class ForestAnimator {
   void sendMarkers(const ros::TimerEvent& event);
   void warnOfTrouble(diagnostic_updater::DiagnosticStatusWrapper& status);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void addPhysics(diagnostic_updater::DiagnosticStatusWrapper& status) const;
 
   // Services.
   bool onGetTree(GetTree::Request& request, GetTree::Response& response);
   bool onPick(Pick::Request& request, Pick::Response& response);
   bool onSetTf(SetTf::Request& request, SetTf::Response& response);
+  bool onGrab(Grab::Request& request, Grab::Response& response);
+  bool onMoveGrab(MoveGrab::Request& request, MoveGrab::Response& response);
+  bool onRelease(Release::Request& request, Release::Response& response);
+  bool onApplyForce(ApplyForce::Request& request, ApplyForce::Response& response);
   bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   forest::Ray rayOf(const Pick::Request& request) const;
   Nanoseconds stampOf(const ros::Time& stamp) const;
@@ -87,10 +99,11 @@ class ForestAnimator {
   ForestMarkers markers_;
 
   std::int64_t last_tick_{NEVER}, last_framed_tick_{NEVER};
+  std::size_t frames_sent_{0};  // at the last round
   bool force_key_frame_{true};
   std::optional<ForestAnimatorConfig> shown_;  // what the server was told or took last
   struct Counts {
-    std::uint64_t ticks{0}, dropped{0}, rejected{0}, state_bytes{0}, jumps{0};
+    std::uint64_t ticks{0}, dropped{0}, rejected{0}, state_bytes{0}, jumps{0}, leases_ended{0};
     InputLosses inputs;
   } counts_, reported_;  // so far, and when diagnostics were last sent
   std::string last_rejection_;
@@ -98,8 +111,9 @@ class ForestAnimator {
   tf2_ros::Buffer tf_buffer_;
   tf2_ros::TransformListener tf_listener_;
   tf2_ros::TransformBroadcaster tf_broadcaster_;
+  std::unique_ptr<GrabDesk> desk_;
   ros::Publisher layout_publisher_, state_publisher_, branches_publisher_, markers_publisher_,
-      events_publisher_;
+      events_publisher_, wrenches_publisher_;
   std::vector<ros::Subscriber> subscribers_;
   std::vector<ros::ServiceServer> services_;
   std::vector<ros::Timer> timers_;

@@ -49,6 +49,11 @@ class ForestInputs {
   void addViewer(const Viewer& viewer_in_world);
   void addTuning(const ForestTuning& tuning);
   void addReset();
+  /// A grab, move, release, force or body; a stamp says when, zero: at the next tick. Of the moves
+  /// of one grab at one tick only the last counts. @throws InvalidInput if too many wait.
+  void addInteraction(const ForestEvent& event);
+  /// Forgets what waits about a grab.
+  void forgetGrab(std::uint32_t id);
   /// A checked wind; in a replay it is kept until an event asks for it.
   void addWind(wind::Field wind);
   /// A recorded event; ignored live, since it is the node's own.
@@ -61,7 +66,8 @@ class ForestInputs {
   /// The wind that an event adopts; none if it was never heard.
   std::optional<wind::Field> windOf(const ForestEvent& event) const;
   const InputLosses& losses() const { return losses_; }
-  /// Time went back to `now`: forgets the viewers that wait; in a replay, events stamped later.
+  /// Time went back to `now`: live, only settings, winds and resets still wait; in a replay, events
+  /// stamped later are forgotten.
   void startAnew(Nanoseconds now);
 
  private:

@@ -30,6 +30,9 @@ struct ForestOptions {
   std::string viewer_frame;          ///< tf frame (x forward) that looks; empty: none
   double viewer_field_of_view{0.8};  ///< [rad]
   int viewer_height{900};            ///< [pixel]
+  double grab_lease{5.0};            ///< of a grab that names none [s]
+  double grab_distance{10.0};        ///< farthest target from the point held [m]
+  bool tf_promoted{true};            ///< frames of physical branches, where tf_budget has room
   bool replay{false};                ///< recorded forest/events instead of live inputs
   double replay_delay{0.5};          ///< how far ticks stay behind the clock in a replay [s]
   ForestTuning tuning;               ///< starting values of what dynamic_reconfigure changes
@@ -39,6 +42,7 @@ void describe(FieldVisitor& visitor, ForestOptions& options);
 /// The layout of a scenario file, its terrain and its world frame.
 struct ForestScene {
   forest::Layout layout;
+  forest::PhysicsSettings physics;
   std::shared_ptr<const terrain::HeightMap> terrain{std::make_shared<terrain::HeightMap>()};
   std::string frame_id;  ///< empty: not said
 };

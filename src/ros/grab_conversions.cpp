@@ -1,0 +1,149 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/ros/grab_conversions.h"
+
+#include "vegetation_sim/common/fields.h"
+#include "vegetation_sim/forest/contact_body.h"
+#include "vegetation_sim/ros/stamps.h"
+
+namespace vegetation_sim {
+namespace {
+
+constexpr Range POSITIONS{-1e7, 1e7};  // [m]
+
+}  // namespace
+
+Vec3 fromMsg(const geometry_msgs::Point& point) {
+  return {point.x, point.y, point.z};
+}
+
+Vec3 fromMsg(const geometry_msgs::Vector3& vector) {
+  return {vector.x, vector.y, vector.z};
+}
+
+geometry_msgs::Point toPoint(const Vec3& point) {
+  geometry_msgs::Point out;
+  out.x = point.x();
+  out.y = point.y();
+  out.z = point.z();
+  return out;
+}
+
+geometry_msgs::Vector3 toVector(const Vec3& vector) {
+  geometry_msgs::Vector3 out;
+  out.x = vector.x();
+  out.y = vector.y();
+  out.z = vector.z();
+  return out;
+}
+
+Pose fromMsg(const geometry_msgs::Pose& pose) {
+  const geometry_msgs::Quaternion& q = pose.orientation;
+  return {fromMsg(pose.position), {q.w, q.x, q.y, q.z}};
+}
+
+geometry_msgs::Pose toMsg(const Pose& pose) {
+  geometry_msgs::Pose out;
+  out.position = toPoint(pose.position);
+  out.orientation.w = pose.orientation.w;
+  out.orientation.x = pose.orientation.x;
+  out.orientation.y = pose.orientation.y;
+  out.orientation.z = pose.orientation.z;
+  return out;
+}
+
+Pose fromMsg(const geometry_msgs::Transform& transform) {
+  const geometry_msgs::Quaternion& q = transform.rotation;
+  return {fromMsg(transform.translation), {q.w, q.x, q.y, q.z}};
+}
+
+Pose compose(const Pose& outer, const Pose& inner) {
+  return {transformed(outer, inner.position), outer.orientation * inner.orientation};
+}
+
+Pose inverse(const Pose& pose) {
+  const Quat back = conjugate(pose.orientation);
+  return {rotate(back, -pose.position), back};
+}
+
+Vec3 transformed(const Pose& frame, const Vec3& point) {
+  return frame.position + rotate(frame.orientation, point);
+}
+
+forest::Grab fromMsg(const BranchGrab& message) {
+  forest::Grab out;
+  out.id = message.id;
+  out.point = {message.tree, static_cast<int>(message.branch), message.along};
+  out.target = fromMsg(message.target);
+  out.stiffness = message.stiffness;
+  out.damping = message.damping;
+  out.force_limit = message.force_limit;
+  out.lease = message.lease;
+  out.frame = message.frame;
+  Faults faults;
+  FieldChecker checker("", faults);
+  checker.vector("target", out.target, "m", POSITIONS);
+  checker.number("along", out.point.along, "m", {0.0, 1e4});
+  checker.number("stiffness", out.stiffness, "N/m", {1.0, 1e6});
+  checker.number("damping", out.damping, "N s/m", {0.0, 1e5});
+  checker.number("force_limit", out.force_limit, "N", {0.01, 1e5});
+  checker.number("lease", out.lease, "s", {0.1, 3600.0});
+  faults.throwIfAny();
+  return out;
+}
+
+BranchGrab toMsg(const forest::Grab& grab) {
+  BranchGrab out;
+  out.id = grab.id;
+  out.tree = grab.point.tree;
+  out.branch = static_cast<std::uint32_t>(grab.point.branch);
+  out.along = grab.point.along;
+  out.target = toPoint(grab.target);
+  out.stiffness = grab.stiffness;
+  out.damping = grab.damping;
+  out.force_limit = grab.force_limit;
+  out.lease = grab.lease;
+  out.frame = grab.frame;
+  out.holder.orientation.w = 1.0;
+  return out;
+}
+
+forest::Push fromMsg(const BranchForce& message, Nanoseconds start) {
+  forest::Push out;
+  out.point = {message.tree, static_cast<int>(message.branch), message.along};
+  out.force = fromMsg(message.force);
+  double duration = message.duration;
+  Faults faults;
+  FieldChecker checker("", faults);
+  checker.vector("force", out.force, "N", {-1e5, 1e5});
+  checker.number("along", out.point.along, "m", {0.0, 1e4});
+  checker.number("duration", duration, "s", {0.001, 3600.0});
+  faults.throwIfAny();
+  out.until = start + fromSeconds(duration);
+  return out;
+}
+
+forest::Body fromMsg(const ForestBody& message) {
+  forest::Body out;
+  out.id = message.id;
+  out.frame = message.frame;
+  out.shape = message.shape;
+  out.size = fromMsg(message.size);
+  out.pose = fromMsg(message.pose);
+  out.velocity = fromMsg(message.twist.linear);
+  out.spin = fromMsg(message.twist.angular);
+  out.stamp = fromMsg(message.stamp);
+  Faults faults;
+  forest::check(out, faults);
+  faults.throwIfAny();
+  return out;
+}
+
+FramedWrench wrenchIn(const Pose& frame, const forest::Reaction& reaction) {
+  const Quat back = conjugate(frame.orientation);
+  const Vec3 lever = reaction.point - frame.position;
+  return {rotate(back, reaction.force),
+          rotate(back, reaction.torque + cross(lever, reaction.force))};
+}
+
+}  // namespace vegetation_sim
