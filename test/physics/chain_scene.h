@@ -1,0 +1,95 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+
+#include "physics/chain_fixture.h"
+#include "vegetation_sim/common/math.h"
+
+namespace vegetation_sim::physics {
+
+/// Damping of a tenth of the critical one, on the inertia of all that a joint carries if it hung
+/// straight: rough, but scaled as the right one.
+inline void damp(std::vector<Link>& links) {
+  std::vector<double> mass(links.size()), moment(links.size()), second(links.size());
+  for (std::size_t i = links.size(); i-- > 0;) {
+    const double h = links[i].h;
+    mass[i] += links[i].mass;
+    moment[i] += links[i].mass * links[i].centre.z();
+    second[i] += links[i].inertia.xx;
+    links[i].damping = 0.2 * std::sqrt(links[i].stiffness * second[i]);
+    if (links[i].parent < 0) continue;
+    const auto p = static_cast<std::size_t>(links[i].parent);
+    mass[p] += mass[i];
+    moment[p] += moment[i] + mass[i] * h;
+    second[p] += second[i] + 2.0 * h * moment[i] + mass[i] * h * h;
+  }
+}
+
+/// The family of numerics_trees.md: a fractal tree of `n` links, trunk radius 9 cm, tips 2 mm,
+/// length ~ r^(2/3), some 8 m high.
+inline std::vector<Link> fractalTree(int n, std::uint64_t seed) {
+  struct Share {
+    int parent, links;
+    double azimuth;
+  };
+  const Random random(seed);
+  std::vector<Link> out;
+  std::vector<Share> next{{-1, n, 0.0}};
+  for (std::size_t i = 0; i < next.size(); ++i) {
+    const Share share = next[i];
+    const double part = n > 1 ? static_cast<double>(share.links - 1) / (n - 1) : 1.0;
+    const double radius = 0.002 + 0.088 * std::sqrt(part);
+    const double length = 1.7 * std::cbrt(radius * radius / 0.0081);
+    const SinCos tilt = sinCos(share.parent < 0 ? 0.0 : 0.15 + 0.2 * random.uniform(4 * i, 0, 1)),
+                 turn = sinCos(share.azimuth);
+    const double h = share.parent < 0 ? 0.0 : out[static_cast<std::size_t>(share.parent)].length;
+    out.push_back(bar(share.parent, h, length, radius, 8e9, 900.0));
+    out.back().rest = {tilt.cos, tilt.sin * turn.cos, tilt.sin * turn.sin, 0.0};
+    const int rest = share.links - 1, own = static_cast<int>(i);
+    const int first =
+        rest < 3 ? rest : static_cast<int>(rest * random.uniform(4 * i + 1, 0.3, 0.7));
+    const double azimuth = random.uniform(4 * i + 2, 0.0, 2.0 * PI);
+    if (first > 0) next.push_back({own, first, azimuth});
+    if (rest - first > 0) next.push_back({own, rest - first, azimuth + PI});
+  }
+  damp(out);
+  return out;
+}
+
+inline double radiusOf(const Link& link) {
+  return std::sqrt(link.mass / (900.0 * PI * link.length));
+}
+
+/// The last link of at least 1 cm in radius, else the first.
+inline std::size_t thickEnough(const std::vector<Link>& links) {
+  std::size_t i = links.size() - 1;
+  while (i > 0 && radiusOf(links[i]) < 0.01) --i;
+  return i;
+}
+
+/// A gust of `speed` [m/s] for a second, felt by each link relative to its own motion, and a pull
+/// of `pull` [N] for a second at the tip of the last link of at least 1 cm in radius.
+inline Surroundings gustAndPull(const std::vector<Link>& links, double speed, double pull) {
+  Surroundings out;
+  out.loads = [&links, speed, pull](const Kinematics& k, double time, Loads& loads) {
+    const double swell = time < 1.0 ? sinCos(PI * time).sin : 0.0;
+    const Vec3 wind(speed * swell * swell, 0.2 * speed * swell * swell, 0.0);
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      const Vec3 arm = links[i].centre.z() * axisZ(k.pose[i].orientation);
+      const Vec3 velocity = k.velocity[i] + k.spin[i].cross(arm);
+      const Vec3 force = 12.0 * radiusOf(links[i]) * links[i].length * (wind - velocity);
+      loads.wrench[i] = {force, arm.cross(force)};
+    }
+    if (time >= 1.0) return;
+    const std::size_t pulled = thickEnough(links);
+    const Vec3 force(0.0, pull, 0.0);
+    const Vec3 arm = links[pulled].length * axisZ(k.pose[pulled].orientation);
+    loads.wrench[pulled].force += force;
+    loads.wrench[pulled].torque += arm.cross(force);
+  };
+  return out;
+}
+
+}  // namespace vegetation_sim::physics
