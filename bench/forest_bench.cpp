@@ -8,8 +8,8 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "bandwidth.h"
 #include "forest/level_scene.h"
-#include "interleaved.h"
 #include "vegetation_sim/common/math.h"
 
 namespace vegetation_sim::forest {
@@ -25,18 +25,6 @@ wind::Field fourDiscs(double extent) {
     out.push_back(
         makeDisk(i + 1, Vec3(0.3 * extent * i, 0.5 * extent, 0), extent, Vec3(3.0, 1.0 - i, 0)));
   return wind::Field(out);
-}
-
-/// Bytes per second of a[i] = b[i] + s c[i] on arrays far larger than any cache.
-double memoryBandwidth() {
-  const std::size_t n = std::size_t{1} << 25;
-  std::vector<float> a(n, 0.f), b(n, 1.f), c(n, 2.f);
-  std::vector<Candidate> triad{{"triad", [&] {
-                                  for (std::size_t i = 0; i < n; ++i) a[i] = b[i] + 3.f * c[i];
-                                  asm volatile("" : : "r"(a.data()) : "memory");
-                                }}};
-  timeInterleaved(triad, 9);
-  return 3.0 * sizeof(float) * static_cast<double>(n) / triad[0].seconds;
 }
 
 double largestDifference(const Grove& grove, const wind::Instant& wind) {
@@ -74,7 +62,7 @@ void benchPoses(int rounds) {
                             forceInstructionSet("");
                           }});
   timeInterleaved(candidates, rounds);
-  const double bandwidth = memoryBandwidth();
+  const double bandwidth = bench::memoryBandwidth();
   const double bytes = BatchPoser::BYTES_PER_BRANCH + 7 * sizeof(float);  // read, written
   std::printf("Procedural pose, four winds, %zu branches in %zu trees\n", grove.branches,
               grove.trees.size());

@@ -1,0 +1,141 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+// Measures a step of physical branches: the plain double stepper against the batched ones, over
+// links of equal depth and over trees of one topology, and each instruction set.
+// usage: chain_bench [ROUNDS]
+
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+
+#include "bandwidth.h"
+#include "physics/chain_scene.h"
+#include "vegetation_sim/common/instruction_set.h"
+#include "vegetation_sim/physics/batch_chain.h"
+#include "vegetation_sim/physics/twin_chains.h"
+
+namespace vegetation_sim::physics {
+namespace {
+
+using bench::Candidate;
+using Trees = std::vector<std::vector<Link>>;
+
+constexpr double STEP = 1.0 / 240.0;
+constexpr double STEPS_A_SECOND = 240.0;  // 60 Hz, four sub-steps
+// Floats that the three passes read and write a link, rows that stay in the cache left out.
+constexpr double BYTES = 4.0 * ((14 + 24) + (40 + 17) + (31 + 4));
+
+struct Path {
+  std::string name;
+  double links;                      ///< that one call steps
+  std::function<void(int)> advance;  ///< so many steps
+};
+
+template <class Batch>
+Path batched(const std::string& name, const Trees& trees) {
+  auto batch = std::make_shared<Batch>(trees);
+  double links = 0.0;
+  for (std::size_t t = 0; t < trees.size(); ++t) {
+    batch->setState(static_cast<int>(t), randomState(trees[t].size(), 0.02, 0.1, t));
+    links += static_cast<double>(trees[t].size());
+  }
+  return {name, links, [batch](int steps) {
+            for (int i = 0; i < steps; ++i) batch->step(STEP);
+          }};
+}
+
+template <class Batch>
+Path inWind(const std::string& name, std::shared_ptr<Trees> trees) {
+  Path out = batched<Batch>(name, *trees);
+  auto batch = std::make_shared<Batch>(*trees);
+  auto around = std::make_shared<std::vector<Surroundings>>();
+  for (const auto& tree : *trees) around->push_back(gustAndPull(tree, 18.0, 20.0));
+  out.advance = [batch, around, trees](int steps) {
+    for (int i = 0; i < steps; ++i) batch->step(*around, 0.3, STEP);
+  };
+  return out;
+}
+
+Path plain(const std::string& name, std::shared_ptr<Trees> trees, bool wind) {
+  auto run = std::make_shared<Simulation>(Simulation{trees->front()});
+  run->state = randomState(run->links.size(), 0.02, 0.1, 1);
+  const Surroundings around = wind ? gustAndPull(trees->front(), 18.0, 20.0) : Surroundings();
+  return {name, static_cast<double>(run->links.size()), [run, around, trees](int steps) {
+            for (int i = 0; i < steps; ++i) run->step(around, 0.3, STEP);
+          }};
+}
+
+/// Nanoseconds per link and step.
+std::vector<double> measure(const std::vector<Path>& paths, int rounds) {
+  std::vector<Candidate> candidates;
+  std::vector<double> updates;
+  for (const Path& path : paths) {
+    const int steps = std::max(1, static_cast<int>(2e5 / path.links));
+    candidates.push_back({path.name, [&path, steps] { path.advance(steps); }});
+    updates.push_back(steps * path.links);
+  }
+  timeInterleaved(candidates, rounds);
+  std::vector<double> out;
+  for (std::size_t i = 0; i < paths.size(); ++i)
+    out.push_back(1e9 * candidates[i].seconds / updates[i]);
+  return out;
+}
+
+void benchPaths(int rounds, double bandwidth) {
+  std::printf("%-34s %7s %9s %7s %11s %14s\n", "path", "links", "ns/link", "ratio", "of memory",
+              "links at 60 Hz");
+  for (const int n : {100, 1000, 10000}) {
+    const auto one = std::make_shared<Trees>(1, fractalTree(n, 3));
+    Trees several;
+    for (int links = 0; links < 4000; links += n)
+      several.push_back(fractalTree(n, static_cast<std::uint64_t>(3 + links)));
+    const std::vector<Path> paths{
+        plain("plain double", one, false),
+        batched<BatchChain>("equal depth, one tree", *one),
+        batched<BatchChain>("equal depth, trees together", several),
+        batched<TwinChains>("16 trees of one topology", Trees(16, one->front())),
+        plain("plain double, wind asked for", one, true),
+        inWind<BatchChain>("equal depth, wind asked for", one)};
+    const std::vector<double> cost = measure(paths, rounds);
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      const bool batch = paths[i].name.find("plain") != 0;
+      std::printf("%-34s %7.0f %9.2f %7.1f", paths[i].name.c_str(), paths[i].links, cost[i],
+                  cost[i < 4 ? 0 : 4] / cost[i]);
+      if (batch) std::printf(" %10.0f%%", 100.0 * BYTES / (1e-9 * cost[i] * bandwidth));
+      std::printf("%s %14.0f\n", batch ? "" : "            ", 1e9 / (STEPS_A_SECOND * cost[i]));
+    }
+  }
+}
+
+void benchInstructionSets(int rounds) {
+  std::printf("\n1000 links: %s", "equal depth / one topology [ns]\n");
+  std::vector<Path> paths;
+  const Trees tree(1, fractalTree(1000, 3)), twins(16, tree.front());
+  for (const std::string& set : instructionSets())
+    for (Path path : {batched<BatchChain>(set, tree), batched<TwinChains>(set, twins)}) {
+      const auto advance = path.advance;
+      path.advance = [set, advance](int steps) {
+        forceInstructionSet(set);
+        advance(steps);
+        forceInstructionSet("");
+      };
+      paths.push_back(path);
+    }
+  const std::vector<double> cost = measure(paths, rounds);
+  for (std::size_t i = 0; i < paths.size(); i += 2)
+    std::printf("%-10s %8.2f %8.2f\n", paths[i].name.c_str(), cost[i], cost[i + 1]);
+}
+
+}  // namespace
+}  // namespace vegetation_sim::physics
+
+int main(int argc, char** argv) {
+  const int rounds = argc > 1 ? std::atoi(argv[1]) : 15;
+  const double bandwidth = vegetation_sim::bench::memoryBandwidth();
+  std::printf("memory: %.1f GB/s; a link and step reads and writes %.0f bytes: %.1f ns\n",
+              1e-9 * bandwidth, vegetation_sim::physics::BYTES,
+              1e9 * vegetation_sim::physics::BYTES / bandwidth);
+  vegetation_sim::physics::benchPaths(rounds, bandwidth);
+  vegetation_sim::physics::benchInstructionSets(rounds);
+  return 0;
+}
