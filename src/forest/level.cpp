@@ -15,7 +15,6 @@ constexpr int SAMPLES = 6;        // trees measured per species
 constexpr int DIRECTIONS = 4;     // of the wind that each is measured in
 constexpr double PROBE = 0.5;     // [m/s] weak enough that no joint nears its limit
 constexpr double STRANGER = 1.1;  // trees that were not measured may move so much more
-constexpr double NEAREST = 0.5;   // [m] closer than this nothing grows in the picture
 
 // Scales of trees that are measured; a species' table at any other is interpolated.
 constexpr std::array<double, 11> GRID{0.05, 0.1, 0.2, 0.35, 0.6, 1.0, 1.6, 2.5, 4.0, 8.0, 20.0};
@@ -130,22 +129,6 @@ LevelTable LevelScales::at(double scale) const {
   out.height = a.height + f * (b.height - a.height);
   out.reach = a.reach + f * (b.reach - a.reach);
   return out;
-}
-
-bool sees(const Eye& eye, const Vec3& centre, double radius) {
-  if (eye.cone_cosine <= -1.0) return true;
-  const Vec3 offset = centre - eye.position;
-  const double distance = length(offset);
-  if (distance <= radius) return true;
-  // Cosine and sine of the cone's half angle plus the one that the ball itself takes.
-  const double c = eye.cone_cosine, s = std::sqrt(std::max(0.0, 1.0 - c * c));
-  const double ball_sine = radius / distance, ball_cosine = std::sqrt(1.0 - ball_sine * ball_sine);
-  if (s * ball_cosine + c * ball_sine < 0.0) return true;  // more than a half turn
-  return dot(offset, eye.forward) >= distance * (c * ball_cosine - s * ball_sine);
-}
-
-double pixelsPerMetre(const Eye& eye, double distance) {
-  return eye.pixels_per_radian / std::max(distance, NEAREST);
 }
 
 int chooseLevel(const LevelTable& table, double speed, double pixels_per_metre, double tolerance,

@@ -7,10 +7,16 @@
 #include <map>
 #include <vector>
 
+#include "vegetation_sim/common/eye.h"
 #include "vegetation_sim/common/time.h"
 #include "vegetation_sim/forest/layout.h"
 
 namespace vegetation_sim::forest {
+
+using vegetation_sim::Eye;
+using vegetation_sim::HYSTERESIS;
+using vegetation_sim::pixelsPerMetre;
+using vegetation_sim::sees;
 
 /// Weight of the joints of each recursion depth, 0 (fixed at rest) to 1 (moves).
 using Weights = std::array<double, MAX_DEPTHS>;
@@ -62,23 +68,10 @@ class LevelScales {
   std::map<std::size_t, LevelTable> tables_;  // by index into the grid of scales
 };
 
-/// An eye: where it is and how many pixels a metre at one metre takes.
-struct Eye {
-  Vec3 position{Vec3::Zero()};
-  double pixels_per_radian{1000.0};
-  Vec3 forward{Vec3::UnitX()};  ///< unit
-  double cone_cosine{-1.0};     ///< of half the angle of the cone that it sees; -1: all round
-};
-/// True if the eye sees any of a ball.
-bool sees(const Eye& eye, const Vec3& centre, double radius);
-/// Pixels that one metre takes at `distance`, at least `nearest` metres away.
-double pixelsPerMetre(const Eye& eye, double distance);
-
 /// Smallest level whose predicted error [pixel] holds the tolerance (S1-22, S1-40): 0 without wind
 /// or out of sight. `current` is kept while the error at the next lower level is above
 /// HYSTERESIS * tolerance, so that a level at its border does not flicker.
 int chooseLevel(const LevelTable& table, double speed, double pixels_per_metre, double tolerance,
                 int current);
-constexpr double HYSTERESIS = 0.7;
 
 }  // namespace vegetation_sim::forest
