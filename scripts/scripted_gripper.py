@@ -7,9 +7,9 @@ to forest/wrenches."""
 import math
 
 import rospy
-import tf2_ros
 from geometry_msgs.msg import Point, TransformStamped, WrenchStamped
 from std_msgs.msg import ColorRGBA
+from tf2_msgs.msg import TFMessage
 from vegetation_sim.srv import GetTree, Grab, Release
 from visualization_msgs.msg import Marker, MarkerArray
 
@@ -44,7 +44,7 @@ class ScriptedGripper:
         self.frame = rospy.get_param('~frame', 'gripper')
         self.world = rospy.get_param('~frame_id', 'map')
         self.tree = rospy.get_param('~tree', 0)
-        self.near = rospy.get_param('~near', [0.0, -2.0, 2.5])  # it takes a branch near to this [m]
+        self.near = rospy.get_param('~near', [-0.6, -0.8, 2.9])  # it takes a branch near to this [m]
         self.motion = rospy.get_param('~pull', [1.0, 0.0, 0.0])  # [m]
         self.away = rospy.get_param('~away', [0.0, -2.0, -0.6])  # where it waits, from the branch [m]
         self.force_limit = rospy.get_param('~force_limit', 300.0)  # [N]
@@ -52,7 +52,7 @@ class ScriptedGripper:
         self.get_tree = rospy.ServiceProxy(name + '/get_tree', GetTree)
         self.grab = rospy.ServiceProxy(name + '/grab', Grab)
         self.release = rospy.ServiceProxy(name + '/release', Release)
-        self.tf = tf2_ros.TransformBroadcaster()
+        self.tf = rospy.Publisher('/tf', TFMessage, queue_size=100)
         self.markers = rospy.Publisher('gripper/markers', MarkerArray, queue_size=1)
         self.step, self.since, self.grab_id = 0, None, None
         self.branch, self.held, self.place, self.wrench = None, None, None, None
@@ -71,7 +71,7 @@ class ScriptedGripper:
         best = None
         for i, pose in enumerate(tree.transforms.poses):
             middle = along_z(pose, 0.5 * tree.lengths[i])
-            if tree.depths[i] > 0 and math.dist(middle, self.near) < 1.0:
+            if tree.depths[i] > 0 and math.dist(middle, self.near) < 0.4:
                 if best is None or tree.radii[i] > tree.radii[best]:
                     best = i
         if best is None:
@@ -132,7 +132,7 @@ class ScriptedGripper:
         at = transform.transform.translation
         at.x, at.y, at.z = self.place
         transform.transform.rotation.w = 1.0
-        self.tf.sendTransform(transform)
+        self.tf.publish([transform])
 
     def draw(self, name, x):
         opening = {'close': 1.0 - x, 'pull': 0.0, 'hold': 0.0, 'open': x}.get(name, 1.0)

@@ -92,7 +92,10 @@ std::uint32_t ForestPhysics::addGrab(const Site& at, Grab grab) {
   if (faults.empty()) checkTarget(grab.target, grown.foot, reach, faults);
   faults.throwIfAny();
   checkRoom("grab", grab.point.tree, grab.point.branch);
-  grab.id = next_grab_++;
+  if (grab.id == 0) grab.id = next_grab_;
+  if (grabs_.count(grab.id))
+    throw InvalidInput("grab: id = " + count(grab.id) + " is in use, allowed is 0 for a new one");
+  next_grab_ = std::max(next_grab_, grab.id + 1);
   grabs_[grab.id] = grab;
   holds_[grab.id] = {grab.target, true, reach, grown.foot, Vec3(Vec3::Zero())};
   next_review_ = 0;

@@ -129,6 +129,10 @@ void ForestInputs::addInteraction(const ForestEvent& event) {
   waiting_.push_back(event);
 }
 
+void ForestInputs::addFirst(const ForestEvent& event) {
+  if (!replay_) waiting_.push_front(event);
+}
+
 void ForestInputs::forgetGrab(std::uint32_t id) {
   const auto about = [&](const ForestEvent& event) {
     return event.kind >= ForestEvent::GRAB && event.kind <= ForestEvent::RELEASE &&

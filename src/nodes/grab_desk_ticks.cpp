@@ -26,7 +26,7 @@ bool GrabDesk::followOne(Held& held, Nanoseconds stamp) {
   const Place place = placeOf(held.grab.tree, held.grab.branch, held.grab.along);
   checkDistance(place.point, fromMsg(event.grab.target));
   held.told = told;
-  room_.inputs.addInteraction(event);
+  room_.inputs.addFirst(event);
   return true;
 }
 

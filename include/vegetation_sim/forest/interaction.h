@@ -28,7 +28,7 @@ struct Grab {
   double force_limit{200.0};  ///< [N]
   std::string frame;          ///< of the body that holds; empty: nobody's, a point of the world
   double lease{0.0};          ///< ends this long after it was last moved or renewed; 0: never [s]
-  std::uint32_t id{0};        ///< given by the forest
+  std::uint32_t id{0};        ///< 0 when it is added: the forest gives one
   Nanoseconds renewed{0};     ///< kept by the forest
 };
 

@@ -52,6 +52,8 @@ class ForestInputs {
   /// A grab, move, release, force or body; a stamp says when, zero: at the next tick. Of the moves
   /// of one grab at one tick only the last counts. @throws InvalidInput if too many wait.
   void addInteraction(const ForestEvent& event);
+  /// The same, before all that waits: what a grab in force does by itself.
+  void addFirst(const ForestEvent& event);
   /// Forgets what waits about a grab.
   void forgetGrab(std::uint32_t id);
   /// A checked wind; in a replay it is kept until an event asks for it.
