@@ -81,6 +81,8 @@ std::vector<std::uint32_t> treesNear(const Layout& layout, const terrain::Height
 
 void ContactFinder::findNear(const Forest& forest, const Bodies& bodies, Nanoseconds from,
                              Nanoseconds to, BranchesOfTrees& near) const {
+  // Joints as printed have no physical motion.
+  if (static_cast<JointModel>(forest.layout().motion.joint_model) != JointModel::SWING) return;
   std::map<std::uint32_t, std::vector<Ball>> balls;
   for (const auto& entry : bodies) {
     const Ball ball = ballOf(entry.second, from, to);

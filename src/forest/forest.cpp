@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "vegetation_sim/common/math.h"
+#include "vegetation_sim/forest/contact_finder.h"
 
 namespace vegetation_sim::forest {
 namespace {
@@ -41,8 +42,8 @@ void describe(FieldVisitor& v, Settings& s) {
   v.integer("highest_level", s.highest_level, "", {0, MAX_DEPTHS});
 }
 
-Forest::Forest(Layout layout, std::shared_ptr<const terrain::HeightMap> terrain,
-               Settings settings) {
+Forest::Forest(Layout layout, std::shared_ptr<const terrain::HeightMap> terrain, Settings settings)
+    : contacts_(std::make_shared<ContactFinder>()) {
   memory_.settings = settings;
   setLayout(std::move(layout), std::move(terrain));
 }

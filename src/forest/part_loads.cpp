@@ -56,21 +56,32 @@ struct PhysicalPart::Step {
     part.addSprings(loads, stamp, kinematics, out);
     part.addForces(loads, kinematics, out);
   }
+  physics::Surroundings outside() const {
+    physics::Surroundings out;
+    out.bases = [this](double time, std::vector<physics::BaseMotion>& to) { bases(time, to); };
+    out.loads = [this](const physics::Kinematics& kinematics, double time, physics::Loads& to) {
+      load(kinematics, time, to);
+    };
+    return out;
+  }
 };
 
 void PhysicalPart::step(const Air& air, const PartLoads& loads, const PhysicsSettings& settings,
                         Nanoseconds from, Nanoseconds to, PartScratch& scratch) {
   const Step context{*this, air, loads, settings, scratch, from};
-  const Step* step = &context;
-  physics::Surroundings outside;
-  outside.bases = [step](double time, std::vector<physics::BaseMotion>& out) {
-    step->bases(time, out);
-  };
-  outside.loads = [step](const physics::Kinematics& kinematics, double time, physics::Loads& out) {
-    step->load(kinematics, time, out);
-  };
-  scratch.stepper.step(static_cast<physics::Integrator>(settings.integrator), links_, outside, 0.0,
-                       secondsBetween(from, to), state_, theta_);
+  scratch.stepper.step(static_cast<physics::Integrator>(settings.integrator), links_,
+                       context.outside(), 0.0, secondsBetween(from, to), state_, theta_);
+}
+
+void PhysicalPart::stepTouching(const Air& air, const PartLoads& loads,
+                                const PhysicsSettings& settings, Nanoseconds from, Nanoseconds to,
+                                PartScratch& scratch, std::vector<physics::Contact>& contacts) {
+  const Step context{*this, air, loads, settings, scratch, from};
+  const double h = secondsBetween(from, to);
+  theta_ = physics::guardedTheta(state_, h, theta_);
+  const bool euler = settings.integrator == static_cast<int>(physics::Integrator::IMPLICIT_EULER);
+  scratch.contact_stepper.step(links_, context.outside(), settings.contact, 0.0, h,
+                               euler ? 1.0 : theta_, state_, contacts);
 }
 
 void PhysicalPart::kinematicsAt(const Air& air, Nanoseconds stamp, PartScratch& scratch,

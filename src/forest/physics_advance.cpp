@@ -68,6 +68,10 @@ void ForestPhysics::endLeases(Nanoseconds stamp) {
 void ForestPhysics::choose(const Site& at, Nanoseconds from, Nanoseconds to) {
   BranchesOfTrees loaded;
   if (at.contacts && !bodies_.empty()) at.contacts->findNear(at.forest, bodies_, from, to, loaded);
+  near_.clear();
+  for (const auto& entry : loaded) near_.push_back(entry.first);
+  for (auto it = touches_.begin(); it != touches_.end();)
+    it = isNear(it->first) ? std::next(it) : touches_.erase(it);
   for (const auto& entry : grabs_) {
     const BranchPoint& point = entry.second.point;
     loaded[point.tree].push_back(point.branch);
@@ -152,7 +156,10 @@ void ForestPhysics::step(const Site& at, Nanoseconds from, Nanoseconds to, std::
   for (auto& [tree, part] : parts_) {
     if (part.empty()) continue;
     gather(tree, part.tree().foot, from, stampOf(k), to);
-    part.step(airOf(at, tree), loads_, settings_, stampOf(k), stampOf(k + 1), scratch_);
+    if (isNear(tree))
+      stepTouching(at, tree, part, stampOf(k), stampOf(k + 1));
+    else
+      part.step(airOf(at, tree), loads_, settings_, stampOf(k), stampOf(k + 1), scratch_);
   }
 }
 
@@ -176,7 +183,7 @@ void ForestPhysics::gather(std::uint32_t tree, const Vec3& foot, Nanoseconds fro
 
 // After the last step: what the bodies feel, and who may be procedural again.
 void ForestPhysics::settle(const Site& at, Nanoseconds from, Nanoseconds to) {
-  contact_loads_.clear();
+  reactToBodies(steps_);
   for (auto& [tree, part] : parts_) {
     react(at, tree, part, from, to);
     part.demote(
@@ -295,6 +302,7 @@ void ForestPhysics::addTo(Hash& hash) const {
       hash.add(touch.body);
       hash.add(static_cast<std::uint64_t>(touch.branch));
       hash.add(touch.side);
+      hash.add(touch.gap);
       hash.add(touch.force);
     }
   }

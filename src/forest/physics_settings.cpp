@@ -17,6 +17,7 @@ void describe(FieldVisitor& v, PhysicsSettings& s) {
   v.number("fade", s.fade, "s", {0.0, 3600.0});
   v.number("linger", s.linger, "s", {0.0, 3600.0});
   v.number("blend", s.blend, "s", {0.01, 60.0});
+  describe(v, s.contact);
 }
 
 }  // namespace vegetation_sim::forest

@@ -81,7 +81,7 @@ class Forest {
   void setBody(const Body& body);
   void removeBody(const std::string& id);
   void setPhysics(const PhysicsSettings& settings);
-  /// Who computes contacts; none: bodies touch nothing.
+  /// Who finds contacts, a ContactFinder at first; none: bodies touch nothing.
   void setContactModel(std::shared_ptr<const ContactModel> model) { contacts_ = std::move(model); }
 
   const PhysicsSettings& physicsSettings() const { return memory_.physics.settings(); }

@@ -72,6 +72,11 @@ class ForestPhysics {
                 const std::vector<int>& loaded, Nanoseconds stamp);
   std::vector<BranchLoad> expectedLoads(std::uint32_t tree, const PhysicalPart& part) const;
   void step(const Site& at, Nanoseconds from, Nanoseconds to, std::size_t k, std::size_t n);
+  bool isNear(std::uint32_t tree) const;
+  void stepTouching(const Site& at, std::uint32_t tree, PhysicalPart& part, Nanoseconds from,
+                    Nanoseconds to);
+  void addTouches(const std::vector<Reaction>& reactions);
+  void reactToBodies(std::size_t steps);
   void gather(std::uint32_t tree, const Vec3& foot, Nanoseconds from, Nanoseconds now,
               Nanoseconds to);
   void settle(const Site& at, Nanoseconds from, Nanoseconds to);
@@ -92,8 +97,10 @@ class ForestPhysics {
   std::uint32_t next_grab_{1};
   Nanoseconds next_review_{0};
   std::size_t steps_{0}, refused_{0}, skipped_{0};
-  PartLoads loads_;      // scratch
-  PartScratch scratch_;  // dropped with the last part
+  std::vector<std::uint32_t> near_;  // trees that bodies may touch in this tick, rising
+  std::vector<Reaction> touching_;   // of bodies in this tick: sums over its steps
+  PartLoads loads_;                  // scratch
+  PartScratch scratch_;              // dropped with the last part
 };
 
 }  // namespace vegetation_sim::forest

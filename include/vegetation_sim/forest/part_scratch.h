@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "vegetation_sim/forest/procedural_motion.h"
+#include "vegetation_sim/physics/contact.h"
 #include "vegetation_sim/physics/integrator.h"
 
 namespace vegetation_sim::forest {
@@ -29,6 +30,8 @@ struct PartScratch {
   std::vector<physics::Vec2> acceleration, torque;
   physics::Kinematics kinematics;
   physics::Loads loads;
+  physics::ContactStepper contact_stepper;
+  physics::Kinematics start;  // of a step with contacts
 
   /// Looks at a stamp, unless that is where it looks already.
   const WindWindow& lookAt(const wind::Field& field, Nanoseconds stamp) {

@@ -84,6 +84,11 @@ class PhysicalPart {
   /// One step.
   void step(const Air& air, const PartLoads& loads, const PhysicsSettings& settings,
             Nanoseconds from, Nanoseconds to, PartScratch& scratch);
+  /// One step of a part that touches bodies; gives the forces of `contacts`. An explicit method
+  /// cannot hold a contact, so this is always a linearly implicit one.
+  void stepTouching(const Air& air, const PartLoads& loads, const PhysicsSettings& settings,
+                    Nanoseconds from, Nanoseconds to, PartScratch& scratch,
+                    std::vector<physics::Contact>& contacts);
   /// Where the links are and how they move, tree's frame.
   void kinematicsAt(const Air& air, Nanoseconds stamp, PartScratch& scratch,
                     physics::Kinematics& out) const;

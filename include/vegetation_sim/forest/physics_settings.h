@@ -4,6 +4,7 @@
 
 #include "vegetation_sim/common/fields.h"
 #include "vegetation_sim/common/time.h"
+#include "vegetation_sim/physics/contact_law.h"
 
 namespace vegetation_sim::forest {
 
@@ -35,6 +36,7 @@ struct PhysicsSettings {
   double fade{0.5};                   ///< from the procedural load to the real one [s]
   double linger{4.0};                 ///< longest wait for a released branch to calm down [s]
   double blend{1.5};                  ///< from physical to procedural (S1-37) [s]
+  physics::ContactLaw contact;        ///< between bodies and branches
 };
 void describe(FieldVisitor& visitor, PhysicsSettings& settings);
 

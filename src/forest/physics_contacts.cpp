@@ -1,0 +1,60 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+// Steps of trees that bodies touch, and what the bodies feel.
+#include <algorithm>
+
+#include "vegetation_sim/forest/forest_physics.h"
+
+namespace vegetation_sim::forest {
+
+bool ForestPhysics::isNear(std::uint32_t tree) const {
+  return std::binary_search(near_.begin(), near_.end(), tree);
+}
+
+void ForestPhysics::stepTouching(const Site& at, std::uint32_t tree, PhysicalPart& part,
+                                 Nanoseconds from, Nanoseconds to) {
+  part.kinematicsAt(airOf(at, tree), from, scratch_, scratch_.start);
+  const ContactModel::Wood wood{tree, part.tree().foot, part.branches(), part.tree().skeleton,
+                                scratch_.start};
+  Touches& touches = touches_[tree];
+  std::vector<physics::Contact> contacts =
+      at.contacts->findContacts(wood, bodies_, from, to, touches);
+  if (contacts.empty()) return part.step(airOf(at, tree), loads_, settings_, from, to, scratch_);
+  part.stepTouching(airOf(at, tree), loads_, settings_, from, to, scratch_, contacts);
+  std::vector<Reaction> reactions;
+  at.contacts->settle(wood, bodies_, contacts, to, touches, reactions);
+  addTouches(reactions);
+}
+
+// One a body and branch: where it was last, the sum of its forces, its worst.
+void ForestPhysics::addTouches(const std::vector<Reaction>& reactions) {
+  for (const Reaction& reaction : reactions) {
+    const auto same = std::find_if(touching_.begin(), touching_.end(), [&](const Reaction& other) {
+      return other.at.tree == reaction.at.tree && other.at.branch == reaction.at.branch &&
+             other.body == reaction.body;
+    });
+    if (same == touching_.end()) {
+      touching_.push_back(reaction);
+      continue;
+    }
+    const Reaction before = *same;
+    *same = reaction;
+    same->force += before.force;
+    same->limited = before.limited || reaction.limited;
+    same->penetration = std::max(before.penetration, reaction.penetration);
+  }
+}
+
+// The mean force of the tick carries its whole impulse, however short a knock was.
+void ForestPhysics::reactToBodies(std::size_t steps) {
+  contact_loads_.clear();
+  for (Reaction& reaction : touching_) {
+    reaction.force /= static_cast<double>(steps);
+    contact_loads_[reaction.at.tree].push_back(
+        {reaction.at.branch, reaction.at.along, Vec3(-reaction.force)});
+    reactions_.push_back(reaction);
+  }
+  touching_.clear();
+}
+
+}  // namespace vegetation_sim::forest
