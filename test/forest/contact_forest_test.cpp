@@ -1,0 +1,160 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+// Bodies among the trees of a forest, from promotion to the end of all that is physical.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "forest/forest_fixture.h"
+#include "vegetation_sim/forest/contact_body.h"
+#include "vegetation_sim/forest/contact_finder.h"
+
+namespace vegetation_sim::forest {
+namespace {
+
+constexpr int TICKS = 60;  // [Hz]
+
+/// A birch in still air, and a capsule of 5 cm that is driven through its crown along x.
+class Drive {
+ public:
+  explicit Drive(double speed) : forest_(layout(), flatTerrain(), Settings()) {
+    body_.id = "arm";
+    body_.frame = "arm_link";
+    body_.shape = static_cast<int>(Shape::CAPSULE);
+    body_.size = Vec3(0.025, 0.0, 0.6);
+    body_.pose = {Vec3(-1.6, 0.3, 6.5), Quat{std::sqrt(0.5), std::sqrt(0.5), 0.0, 0.0}};
+    body_.velocity = Vec3(speed, 0.0, 0.0);
+    body_.stamp = stampOf(0);
+    tree_ = growTree(forest_.layout(), 0, forest_.terrain());
+    forest_.advance(stampOf(0));
+  }
+
+  static Layout layout() {
+    Layout out;
+    out.species = {shippedSpecies("birch")};
+    TreeSeed seed;
+    seed.seed = 7;
+    out.trees = {seed};
+    return out;
+  }
+
+  static Nanoseconds stampOf(std::int64_t tick) {
+    return 100 * NANOSECONDS_PER_SECOND + TickGrid(TICKS).timeOf(tick);
+  }
+  void tick() { forest_.advance(stampOf(++tick_)); }
+  /// One tick with the body where tf would tell it to be.
+  void driveOn() {
+    Body now = body_;
+    now.pose = poseAt(body_, stampOf(tick_ + 1));
+    now.stamp = stampOf(tick_ + 1);
+    forest_.setBody(now);
+    tick();
+  }
+  /// Deepest overlap of thin wood with the body at this tick [m].
+  double depth() const {
+    const Pose at = poseAt(body_, stampOf(tick_));
+    const std::vector<Pose> poses = forest_.pose(tree_, 0, stampOf(tick_));
+    double out = 0.0;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      const Branch& b = tree_.skeleton.branches[i];
+      const Quat turn = conjugate(at.orientation);
+      const physics::Bar bar{rotate(turn, Vec3(tree_.foot + poses[i].position - at.position)),
+                             rotate(turn, axisZ(poses[i].orientation)), b.length, b.base_radius,
+                             b.tip_radius};
+      const physics::Proximity found = nearest(shapeOf(body_), bar);
+      if (bar.radiusAt(found.along) < 0.01) out = std::max(out, -found.gap);
+    }
+    return out;
+  }
+
+  Forest& forest() { return forest_; }
+  const Body& body() const { return body_; }
+
+ private:
+  Forest forest_;
+  Tree tree_;
+  Body body_;
+  std::int64_t tick_{0};
+};
+
+// S1-32 is about hands; this is about arms: only what is near is physical, nothing thin is entered,
+// and after the drive and its blend nothing is held.
+TEST(ContactInAForest, BranchesGoAsideAndAllReturns) {
+  for (const double speed : {0.5, 3.0}) {
+    Drive drive(speed);
+    double deepest = 0.0;
+    std::size_t most = 0, reactions = 0;
+    for (int i = 0; i < 1.3 / speed * TICKS; ++i) {
+      drive.driveOn();
+      deepest = std::max(deepest, drive.depth());
+      most = std::max(most, drive.forest().physicsFigures().branches);
+      reactions += drive.forest().reactions().size();
+    }
+    EXPECT_LT(deepest, 0.005) << speed << " m/s";
+    EXPECT_GT(reactions, 10u) << speed << " m/s";
+    EXPECT_GT(most, 10u);
+    EXPECT_LT(most, 668u);  // of the whole tree
+    drive.forest().removeBody("arm");
+    for (int i = 0; i < 8 * TICKS; ++i) drive.tick();
+    EXPECT_EQ(drive.forest().physicsFigures().branches, 0u) << speed << " m/s";
+    EXPECT_TRUE(drive.forest().reactions().empty());
+  }
+}
+
+TEST(ContactInAForest, ReactionsTellBodyPlaceAndForce) {
+  Drive drive(0.5);
+  const Reaction* found = nullptr;
+  for (int i = 0; i < 200 && !found; ++i) {
+    drive.driveOn();
+    for (const Reaction& reaction : drive.forest().reactions())
+      if (length(reaction.force) > 1.0) found = &reaction;
+  }
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->kind, Reaction::CONTACT);
+  EXPECT_EQ(found->body, "arm");
+  EXPECT_EQ(found->frame, "arm_link");
+  EXPECT_EQ(found->grab, 0u);
+  EXPECT_EQ(found->at.tree, 0u);
+  EXPECT_LT(found->force.x(), 0.0);  // against the drive
+  EXPECT_FALSE(found->limited);
+}
+
+TEST(ContactInAForest, SavedInTheMiddleItGoesOnTheSame) {
+  Drive one(1.0), other(1.0);
+  for (int i = 0; i < 30; ++i) one.driveOn(), other.driveOn();
+  other.forest().restore(one.forest().memory());
+  for (int i = 0; i < 30; ++i) one.driveOn(), other.driveOn();
+  EXPECT_GT(one.forest().physicsFigures().branches, 0u);
+  EXPECT_EQ(one.forest().hash(), other.forest().hash());
+}
+
+TEST(ContactInAForest, BodyFarAwayWakesNoTree) {
+  Drive drive(0.5);
+  Body far = drive.body();
+  far.pose.position = Vec3(40.0, 0.0, 1.0);
+  drive.forest().setBody(far);
+  for (int i = 0; i < 10; ++i) drive.tick();
+  EXPECT_TRUE(drive.forest().physicalTrees().empty());
+}
+
+TEST(ContactInAForest, TreesNearABallAreFoundInTilesToo) {
+  Layout layout = gridLayout(4, 40.0);
+  Tile tile;
+  tile.first_tree = 16;
+  tile.count = 50;
+  tile.x = tile.y = 500.0;
+  tile.size = 100.0;
+  tile.mix = {1.0f, 1.0f, 1.0f, 1.0f};
+  layout.tiles = {tile};
+  const terrain::HeightMap flat;
+  EXPECT_TRUE(treesNear(layout, flat, Vec3(-300.0, 0.0, 0.0), 1.0).empty());
+  const auto near = treesNear(layout, flat, Vec3(40.0, 40.0, 1.0), 1.0);
+  EXPECT_TRUE(std::count(near.begin(), near.end(), 5u));
+  const Vec3 foot = footOf(seedInTile(tile, 17), flat);
+  const auto tiled = treesNear(layout, flat, foot, 1.0);
+  EXPECT_TRUE(std::count(tiled.begin(), tiled.end(), 33u));
+  EXPECT_TRUE(std::is_sorted(tiled.begin(), tiled.end()));
+}
+
+}  // namespace
+}  // namespace vegetation_sim::forest
