@@ -63,7 +63,7 @@ Nanoseconds WindBroadcaster::earliest() const {
   return clock_.now() + fromSeconds(settings_.lead);
 }
 
-std::uint32_t WindBroadcaster::apply(const wind::Source& source, Faults faults) {
+std::optional<wind::Primitive> WindBroadcaster::apply(const wind::Source& source, Faults faults) {
   wind::checkFrame(source, faults);
   wind::Ledger edited = ledger_;
   wind::Primitive filled;  // with the times that the request left open
@@ -75,12 +75,12 @@ std::uint32_t WindBroadcaster::apply(const wind::Source& source, Faults faults) 
   faults.throwIfAny();
   if (!source.attached_frame.empty()) {
     follower_.set({filled, source.attached_frame});
-    return 0;
+    return std::nullopt;
   }
   follower_.remove(filled.name);
   ledger_ = std::move(edited);
   publishField();
-  return filled.id;
+  return filled;
 }
 
 void WindBroadcaster::remove(const std::string& name) {

@@ -52,8 +52,13 @@ bool WindBroadcaster::setPrimitive(SetWindPrimitive::Request& request,
   return answer("set_primitive", response, [&] {
     Faults faults;
     const wind::Source source = sourceFromMsg(request.primitive, settings_.frame_id, faults);
-    response.id = apply(source, faults);
-    if (response.id == 0) response.message = "blows once tf knows " + source.attached_frame;
+    if (const auto published = apply(source, faults)) {
+      response.id = published->id;
+      response.t_on = toStamp(published->t_on);
+      response.message = "begins at " + std::to_string(secondsBetween(0, published->t_on)) + " s";
+    } else {
+      response.message = "blows once tf knows " + source.attached_frame;
+    }
     noteBreeze();
   });
 }

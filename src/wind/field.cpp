@@ -26,7 +26,8 @@ Vec3 levelDirection(const Vec3& v) {
 void shapeDisk(const Primitive& p, double elapsed, double weight, Term& term) {
   // The two parts of the phase are reduced apart: the first is large, the second exact.
   const double turns = p.omega * elapsed / (2.0 * PI), psi = p.phase / (2.0 * PI);
-  const double sine = sinCosTurns(turns - std::floor(turns) + psi).sin;
+  // Whole turns to the nearest one: just before the epoch nothing is lost against 1.
+  const double sine = sinCosTurns(turns - std::floor(turns + 0.5) + psi).sin;
   term.smooth = p.envelope == 0;
   term.amplitude = p.velocity * (weight * sine);
   term.peak = weight * length(p.velocity);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <set>
 
+#include "vegetation_sim/wind/limits.h"
+
 namespace vegetation_sim::wind {
 namespace {
 
@@ -69,6 +71,14 @@ Primitive Ledger::follow(Primitive p, Nanoseconds earliest) {
   return put(std::move(p), earliest, Change::PIECE);
 }
 
+Nanoseconds Ledger::freeFrom(const Primitive& old, Nanoseconds wanted, Faults& faults) {
+  const Nanoseconds begin = std::max(wanted, old.t_on + fromSeconds(old.fade_in));
+  if (begin - wanted > LONGEST_WAIT)
+    faults.add("primitive '" + old.name + "' is still fading in until " + seconds(begin) +
+               "; an edit waits for that at most " + seconds(LONGEST_WAIT));
+  return begin;
+}
+
 Primitive Ledger::put(Primitive p, Nanoseconds earliest, Change change) {
   Faults faults;
   if (p.t_on != 0 && p.t_on < earliest)
@@ -84,7 +94,8 @@ Primitive Ledger::put(Primitive p, Nanoseconds earliest, Change change) {
   std::optional<Nanoseconds> default_epoch;
   if (before != nullptr && !endsBy(before->primitive, p.t_on)) {
     Primitive& old = before->primitive;
-    p.t_on = std::max(p.t_on, old.t_on + fromSeconds(old.fade_in));
+    p.t_on = freeFrom(old, p.t_on, faults);
+    faults.throwIfAny();
     if (change == Change::EDIT) p.fade_in = std::max(p.fade_in, old.fade_out);
     end(old, p.t_on, p.fade_in);
     if (p.kind == old.kind) default_epoch = old.epoch;

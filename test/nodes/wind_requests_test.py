@@ -104,6 +104,20 @@ class WindRequests(unittest.TestCase):
             self.assertEqual(self.last('new_%d' % kind).id, answer.id)
             self.assertEqual(self.last('new_%d' % kind).kind, kind)
 
+    # N2: who asks knows from when on the wind is another one.
+    def test_says_when_an_edit_begins(self):
+        first = self.set(primitive(fade_in=20.0))
+        self.assertEqual(first.t_on, self.last('asked').t_on)
+        self.assertIn('begins at %.3f' % first.t_on.to_sec(), first.message)
+        second = self.set(primitive(fade_in=60.0))
+        self.assertEqual(second.t_on, first.t_on + rospy.Duration(20))
+        third = self.set(primitive(t_on=second.t_on + rospy.Duration(31)))
+        self.assertEqual(third.t_on, second.t_on + rospy.Duration(60))
+        self.assert_refused(self.set(primitive(t_on=second.t_on + rospy.Duration(29))),
+                            'an edit waits for that at most 30', self.field().hash)
+        tied = self.set(primitive(4, 'tied', attached_frame='drone'))
+        self.assertEqual((tied.id, tied.t_on), (0, rospy.Time()))
+
     def test_refuses_each_bad_number_by_name(self):
         before = self.field().hash
         for name, kinds, outside in NUMBERS:

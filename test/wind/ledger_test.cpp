@@ -88,6 +88,38 @@ TEST(Ledger, ManyQuickEditsNeverAddUpToMoreThanOneSource) {  // N2
   EXPECT_LT(ledger.field().primitives().size(), 20u);
 }
 
+// An edit waits for the fade-in before it, says so by its t_on, and never for long.
+TEST(Ledger, EditWaitsForTheChangeBeforeItWithinALimit) {  // N2
+  Ledger ledger = blowing();
+  Primitive slow = fading(Kind::DISK, "disk");
+  slow.fade_in = 100.0;
+  EXPECT_EQ(ledger.set(slow, at(50.0)).t_on, at(50.0));
+  const std::uint64_t hash = ledger.field().hash();
+  try {
+    ledger.set(fading(Kind::DISK, "disk"), at(119.9));
+    FAIL() << "took it";
+  } catch (const InvalidInput& error) {
+    EXPECT_STREQ(
+        error.what(),
+        "primitive 'disk' is still fading in until 150.000000 s; an edit waits for that at "
+        "most 30.000000 s");
+  }
+  EXPECT_EQ(ledger.field().hash(), hash);
+  EXPECT_EQ(ledger.set(fading(Kind::DISK, "disk"), at(120.0)).t_on, at(150.0));
+  EXPECT_EQ(ledger.set(fading(Kind::DISK, "disk"), at(150.0)).t_on, at(150.0));
+  for (double t = 45.0; t < 170.0; t += 0.1) EXPECT_NEAR(weightOf(ledger, "disk", t), 1.0, 1e-12);
+}
+
+// What is fading in can be ended at once.
+TEST(Ledger, RemovingNeverWaits) {
+  Ledger ledger = blowing();
+  Primitive slow = fading(Kind::DISK, "slow");
+  slow.fade_in = 100.0;
+  ledger.set(slow, at(50.0));
+  ledger.remove("slow", at(60.0));
+  EXPECT_EQ(weightOf(ledger, "slow", 61.0), 0.0);
+}
+
 TEST(Ledger, LaterEditReplacesOneThatHasNotBegun) {
   Ledger ledger = blowing();
   Primitive planned = fading(Kind::DISK, "disk");

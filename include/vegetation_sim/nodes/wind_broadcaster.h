@@ -14,6 +14,7 @@
 
 #include <boost/thread/recursive_mutex.hpp>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,7 +48,7 @@ class WindBroadcaster {
   void begin(Nanoseconds now);
   /// Edits the law, with the faults found so far. @return id, 0 for a frame that is to be followed.
   /// @throws InvalidInput with those and its own, before anything has changed.
-  std::uint32_t apply(const wind::Source& source, Faults faults = {});
+  std::optional<wind::Primitive> apply(const wind::Source& source, Faults faults = {});
   void remove(const std::string& name);
   void follow();
   void forget();

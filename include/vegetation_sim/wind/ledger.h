@@ -30,8 +30,10 @@ class Ledger {
   void start(const std::vector<Primitive>& primitives);
 
   /// Adds a source, or replaces the one of the same name. An epoch of 0 becomes the predecessor's
-  /// if that is of the same kind, else t_on; a t_on of 0 becomes `earliest`.
+  /// if that is of the same kind, else t_on; a t_on of 0 becomes `earliest`. While an earlier
+  /// change of the source is still fading in, t_on moves to its end.
   /// @return the new primitive, as published.
+  /// @throws InvalidInput too if it had to wait longer than LONGEST_WAIT.
   Primitive set(Primitive primitive, Nanoseconds earliest);
 
   /// The same for the next piece of a followed frame: takes over within its own fade_in, however
@@ -57,6 +59,8 @@ class Ledger {
   };
   using Entries = std::vector<Entry>;
 
+  /// When a source that has begun to fade in may be changed again. Faults name a wait too long.
+  static Nanoseconds freeFrom(const Primitive& old, Nanoseconds wanted, Faults& faults);
   Primitive put(Primitive primitive, Nanoseconds earliest, Change change);
   static Entry* latest(Entries& entries, const std::string& name);
   static void dropPending(Entries& entries, const std::string& name, Nanoseconds earliest);
