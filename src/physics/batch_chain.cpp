@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "physics/chain_sweep.h"
 #include "vegetation_sim/common/faults.h"
@@ -78,7 +79,16 @@ void BatchChain::sortGroup(const std::vector<std::vector<Link>>& trees, std::siz
     }
   }
   slot_count_ = sortIntoLevels(parents, slot_count_, group.levels, slots_);
+  for (const std::size_t t : group.trees) sortBySlot(trees_[t]);
   group.bases.resize(group.levels.empty() ? 0 : static_cast<std::size_t>(group.levels[0].count));
+}
+
+void BatchChain::sortBySlot(Member& member) {
+  member.by_slot.resize(member.count);
+  std::iota(member.by_slot.begin(), member.by_slot.end(), std::size_t{0});
+  const int* slots = slots_.data() + member.first;
+  std::sort(member.by_slot.begin(), member.by_slot.end(),
+            [slots](std::size_t a, std::size_t b) { return slots[a] < slots[b]; });
 }
 
 void BatchChain::fill(const std::vector<std::vector<Link>>& trees) {
@@ -168,9 +178,10 @@ void BatchChain::guard(ChainGroup& group, double h) {
 
 // ---- what acts ---------------------------------------------------------------------------------
 
-BaseMotion BatchChain::baseOf(const Member& member, std::size_t link) const {
+const BaseMotion& BatchChain::baseOf(const Member& member, std::size_t link) const {
+  static const BaseMotion GROUND;
   const auto base = static_cast<std::size_t>(member.base[link]);
-  return base < member.bases.size() ? member.bases[base] : BaseMotion();
+  return base < member.bases.size() ? member.bases[base] : GROUND;
 }
 
 void BatchChain::fillBases(const Member& member) {
@@ -183,7 +194,7 @@ void BatchChain::fillBases(const Member& member) {
 }
 
 void BatchChain::fillLoads(const Loads& loads, Member& member) {
-  for (std::size_t i = 0; i < member.count; ++i)
+  for (const std::size_t i : member.by_slot)
     fillLoad(loads, i, laneOf(store_->loads, slots_[member.first + i], L_ROWS));
   member.loaded = true;
 }
@@ -201,7 +212,7 @@ void BatchChain::askLoads(const Surroundings& around, double time, double h, Mem
   loads_.clear(member.count);
   if (around.loads) {
     resize(kinematics_, member.count);
-    for (std::size_t i = 0; i < member.count; ++i)
+    for (const std::size_t i : member.by_slot)
       readMotion(laneOf(store_->motion, slots_[member.first + i], F_ROWS), baseOf(member, i), i,
                  kinematics_);
     around.loads(kinematics_, time, loads_);

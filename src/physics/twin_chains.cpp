@@ -145,10 +145,11 @@ ChainState TwinChains::state(int tree) const {
 
 // ---- what acts ---------------------------------------------------------------------------------
 
-BaseMotion TwinChains::baseOf(int tree, int root) const {
+const BaseMotion& TwinChains::baseOf(int tree, int root) const {
+  static const BaseMotion GROUND;
   const auto t = static_cast<std::size_t>(tree);
   const auto base = static_cast<std::size_t>(root_base_[t][static_cast<std::size_t>(root)]);
-  return base < bases_[t].size() ? bases_[t][base] : BaseMotion();
+  return base < bases_[t].size() ? bases_[t][base] : GROUND;
 }
 
 void TwinChains::fillBases(int tree) {

@@ -49,17 +49,19 @@ class BatchChain {
     std::size_t first{0}, count{0};  ///< its links, in slots_
     std::size_t group{0};
     double theta{0.5};
-    std::vector<int> base;   ///< [links] what the root of each hangs on
-    std::vector<int> roots;  ///< links
+    std::vector<std::size_t> by_slot;  ///< links in the order in which rows hold them
+    std::vector<int> base;             ///< [links] what the root of each hangs on
+    std::vector<int> roots;            ///< links
     std::vector<BaseMotion> bases;
     bool loaded{false};
   };
   Member& member(int tree) { return trees_[static_cast<std::size_t>(tree)]; }
   void sortGroup(const std::vector<std::vector<Link>>& trees, std::size_t index);
   void fill(const std::vector<std::vector<Link>>& trees);
+  void sortBySlot(Member& member);
   void fillBases(const Member& member);
   void fillLoads(const Loads& loads, Member& member);
-  BaseMotion baseOf(const Member& member, std::size_t link) const;
+  const BaseMotion& baseOf(const Member& member, std::size_t link) const;
   double fastestOf(const Member& member) const;
   void setTheta(Member& member, double theta);
   void guard(ChainGroup& group, double h);

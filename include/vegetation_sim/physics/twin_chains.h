@@ -42,7 +42,7 @@ class TwinChains {
   void order(const std::vector<Link>& links);
   void fill(const std::vector<std::vector<Link>>& trees);
   void fillBases(int tree);
-  BaseMotion baseOf(int tree, int root) const;
+  const BaseMotion& baseOf(int tree, int root) const;
   void guard(int pack, double h);
   void step(const Surroundings* around, double time, double h);
   void ask(const Surroundings& around, double time, double h, int tree);
