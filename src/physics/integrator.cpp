@@ -92,15 +92,22 @@ void ChainStepper::rungeKuttaStep(const std::vector<Link>& links, const Surround
   }
 }
 
+int ChainStepper::partsOf(Integrator integrator, const std::vector<Link>& links,
+                          const Surroundings& outside, double time, double h,
+                          const ChainState& state) {
+  look(links, outside, time, state);
+  ChainRates rates = guardRates(dynamics_, links, kinematics_, loads_.anchors);
+  const int parts = subSteps(guardLimit(integrator, rates), h);
+  if (parts == 1 || dynamics_ != Dynamics::ARTICULATED) return parts;
+  rates = tighter(rates, estimatedRates(links, bases_, state, loads_.anchors));
+  return subSteps(guardLimit(integrator, rates), h);
+}
+
 int ChainStepper::step(Integrator integrator, const std::vector<Link>& links,
                        const Surroundings& outside, double time, double h, ChainState& state,
                        double& theta) {
-  int parts = 1;
-  if (!isImplicit(integrator)) {
-    look(links, outside, time, state);
-    const ChainRates rates = guardRates(dynamics_, links, kinematics_, loads_.anchors);
-    parts = subSteps(guardLimit(integrator, rates), h);
-  }
+  const int parts =
+      isImplicit(integrator) ? 1 : partsOf(integrator, links, outside, time, h, state);
   for (int i = 0; i < parts; ++i)
     stepAsIs(integrator, links, outside, time + i * (h / parts), h / parts, state, theta);
   return parts;

@@ -34,6 +34,8 @@ class ChainStepper {
   /// Bases, kinematics and loads at a time and state.
   void look(const std::vector<Link>& links, const Surroundings& outside, double time,
             const ChainState& state);
+  int partsOf(Integrator integrator, const std::vector<Link>& links, const Surroundings& outside,
+              double time, double h, const ChainState& state);
   /// Accelerations at a time and state; leaves the kinematics in kinematics_.
   void evaluate(const std::vector<Link>& links, const Surroundings& outside, double time,
                 const ChainState& state, const Implicitness& implicitness, Angles& out);

@@ -44,8 +44,16 @@ struct ChainRates {
 ChainRates guardRates(Dynamics dynamics, const std::vector<Link>& links,
                       const Kinematics& kinematics, const std::vector<Anchor>& anchors = {});
 
+/// The same by power iteration on the full chain, padded; no proof, but as tight as the chain
+/// allows, where the guard does not see that a link's whole sub-tree moves with it. O(N).
+ChainRates estimatedRates(const std::vector<Link>& links, const std::vector<BaseMotion>& bases,
+                          const ChainState& state, const std::vector<Anchor>& anchors);
+
 /// A step that is stable for sure while motion is small [s]; infinite for implicit methods.
 double guardLimit(Integrator integrator, const ChainRates& rates);
+
+/// The smaller of both, bound for bound.
+ChainRates tighter(const ChainRates& guard, const ChainRates& estimate);
 
 constexpr double GUARD_MARGIN = 0.9;  ///< of the guard's limit, for motion that is not small
 constexpr int MOST_SUB_STEPS = 64;    ///< beyond, an explicit method is refused
