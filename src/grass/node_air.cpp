@@ -1,0 +1,126 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/grass/node_air.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "vegetation_sim/common/math.h"
+#include "vegetation_sim/wind/laws.h"
+
+namespace vegetation_sim::grass {
+namespace {
+
+int bounded(double x) {
+  return static_cast<int>(std::min(1e9, std::max(-1e9, x)));
+}
+
+}  // namespace
+
+std::size_t NodeAir::indexOf(int column, int row) const {
+  return static_cast<std::size_t>(row - window_.first_row) * static_cast<std::size_t>(columns_) +
+         static_cast<std::size_t>(column - window_.first_column);
+}
+
+Vec3 NodeAir::placeOf(int column, int row) const {
+  const MapLaw& law = map_.law();
+  const double x = law.origin_x + law.resolution * column;
+  const double y = law.origin_y + law.resolution * row;
+  return {x, y, terrain_.height(x, y)};
+}
+
+// Nodes of the window within a box, both ends included.
+NodeAir::Span NodeAir::spanOf(double min_x, double max_x, double min_y, double max_y) const {
+  const MapLaw& law = map_.law();
+  const auto first = [&](double x, double origin) {
+    return bounded(std::ceil((x - origin) / law.resolution));
+  };
+  const auto last = [&](double x, double origin) {
+    return bounded(std::floor((x - origin) / law.resolution));
+  };
+  return {std::max(first(min_x, law.origin_x), window_.first_column),
+          std::min(last(max_x, law.origin_x), window_.last_column + 1),
+          std::max(first(min_y, law.origin_y), window_.first_row),
+          std::min(last(max_y, law.origin_y), window_.last_row + 1)};
+}
+
+// Box around what a primitive can move; a hair larger, so that rounding leaves no node out.
+NodeAir::Span NodeAir::maskOf(const wind::Term& term) const {
+  constexpr double HAIR = 1e-6;
+  const double x = term.centre.x(), y = term.centre.y(), r = term.radius + HAIR;
+  if (term.kind != wind::Kind::GUST) return spanOf(x - r, x + r, y - r, y + r);
+  // A strip behind the front, as wide as the gust.
+  const double length = term.rise + term.plateau + term.decay + HAIR;
+  const double back_x = -length * term.direction.x(), back_y = -length * term.direction.y();
+  const double side_x = r * std::fabs(term.direction.y()) + HAIR;
+  const double side_y = r * std::fabs(term.direction.x()) + HAIR;
+  return spanOf(x + std::min(0.0, back_x) - side_x, x + std::max(0.0, back_x) + side_x,
+                y + std::min(0.0, back_y) - side_y, y + std::max(0.0, back_y) + side_y);
+}
+
+void NodeAir::update(const wind::Instant& wind, const std::vector<ColourMask>& masks,
+                     const TileWindow& window) {
+  window_ = window;
+  columns_ = std::max(0, window.last_column - window.first_column + 2);
+  const int rows = std::max(0, window.last_row - window.first_row + 2);
+  if (window.last_column < window.first_column || window.last_row < window.first_row) columns_ = 0;
+  const std::size_t count = static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows);
+  touched_ = 0;
+  air_.assign(count, wind.mean);
+  tints_.assign(count, Tint());
+  if (count == 0) return;
+  if (!wind.modes.empty()) {
+    const wind::Instant breeze{wind.mean, wind.breezes, wind.modes, {}};
+    for (int row = window.first_row; row <= window.last_row + 1; ++row)
+      for (int column = window.first_column; column <= window.last_column + 1; ++column)
+        air_[indexOf(column, row)] = breeze.velocity(placeOf(column, row));
+  }
+  const auto forNodes = [&](const Span& span, auto&& visit) {
+    for (int row = span.first_row; row <= span.last_row; ++row)
+      for (int column = span.first_column; column <= span.last_column; ++column)
+        if (visit(indexOf(column, row), placeOf(column, row))) ++touched_;
+  };
+  for (const wind::Term& term : wind.terms)
+    forNodes(maskOf(term), [&](std::size_t i, const Vec3& place) {
+      const Vec3 air = velocityOf(term, place);
+      air_[i] += air;
+      return !air.isZero(0.0);
+    });
+  for (const ColourMask& mask : masks) {
+    const double r = mask.radius;
+    const Point& c = mask.centre;
+    forNodes(spanOf(c.x - r, c.x + r, c.y - r, c.y + r), [&](std::size_t i, const Vec3& place) {
+      const double dx = place.x() - c.x, dy = place.y() - c.y;
+      const double weight = mask.weight * smootherStep(1.0 - std::sqrt(dx * dx + dy * dy) / r);
+      tints_[i].weight += weight;
+      tints_[i].sum += weight * mask.colour;
+      return weight > 0.0;
+    });
+  }
+}
+
+double NodeAir::colourAt(int column, int row) const {
+  const Tint& tint = tints_[indexOf(column, row)];
+  return (map_.node(column, row).colour + tint.sum) / (1.0 + tint.weight);
+}
+
+void NodeAir::fill(Tile& tile, TileMotion& motion) const {
+  for (int corner = 0; corner < 4; ++corner) {
+    const auto k = static_cast<std::size_t>(corner);
+    const int column = tile.column + corner % 2, row = tile.row + corner / 2;
+    const Vec3 air = at(column, row);
+    motion.wind_x[k] = static_cast<float>(air.x());
+    motion.wind_y[k] = static_cast<float>(air.y());
+    tile.colour[k] = static_cast<float>(colourAt(column, row));
+  }
+}
+
+Point bendIn(const Vec3& air, double compliance) {
+  const double x = compliance * air.x(), y = compliance * air.y();
+  const double size = std::sqrt(x * x + y * y);
+  if (!(size > BEND_KNEE)) return {x, y};
+  const double factor = softLimit(size, BEND_KNEE, BEND_LIMIT) / size;
+  return {x * factor, y * factor};
+}
+
+}  // namespace vegetation_sim::grass
