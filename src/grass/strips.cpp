@@ -1,0 +1,140 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+// The drawing of tiles that are too far away for single blades.
+
+#include <algorithm>
+#include <cmath>
+
+#include "grass/blade_plain.h"
+#include "grass/mesh_writer.h"
+
+namespace vegetation_sim::grass {
+namespace {
+
+// Grass of a tile as one soft sheet: at each place what the middle of a blade would do.
+class Sheet {
+ public:
+  Sheet(const FeatureMap& map, const Tile& tile, const TileMotion& motion, double full_density,
+        const Vec3& origin)
+      : map_(map),
+        tile_(tile),
+        corner_(Vec3(tile.x, tile.y, tile.z) - origin),
+        full_density_(full_density),
+        density_(tile.density),
+        height_(tile.height),
+        colour_(tile.colour),
+        wind_x_(motion.wind_x),
+        wind_y_(motion.wind_y),
+        crush_(motion.crush && motion.crush->cells > 0 ? motion.crush : nullptr) {
+    for (int s = 0; s < tile.species_count; ++s)
+      compliance_ +=
+          double{tile.species[static_cast<std::size_t>(s)].compliance} / tile.species_count;
+  }
+
+  Vec3 groundAt(double u, double v) const {
+    const double size = double{tile_.size};
+    return corner_ + Vec3(u * size, v * size, groundHeight(u, v));
+  }
+
+  // Of the top of grass `height` high: leaned by wind and tread without growing.
+  Vec3 offsetAt(double u, double v, double height) const {
+    Point bend = bendIn(Vec3(wind_x_.at(u, v), wind_y_.at(u, v), 0.0), compliance_);
+    double tilt = 0.0, tx = 0.0, ty = 0.0;
+    if (crush_) {
+      const std::size_t i = nodeOf(u, v);
+      tilt = double{crush_->tilt[i]};
+      tx = double{crush_->tx[i]};
+      ty = double{crush_->ty[i]};
+    }
+    const double left = 0.5 * (1.0 - tilt / BEND_LIMIT);  // a chord leans half as far as its arc
+    const double x = tx + left * bend.x, y = ty + left * bend.y, lean = std::sqrt(x * x + y * y);
+    const SineCosine<double> turn = sineCosine(std::min(lean, BEND_LIMIT));
+    const double reach = lean > 0.0 ? height * turn.sin / lean : 0.0;
+    return {reach * x, reach * y, height * turn.cos};
+  }
+
+  double heightAt(double u, double v) const { return height_.at(u, v); }
+  double coverAt(double u, double v) const { return saturate(density_.at(u, v) / full_density_); }
+
+  Vec3 colourAt(double u, double v) const {
+    const double size = double{tile_.size};
+    Features f = map_.at(tile_.x + u * size, tile_.y + v * size);
+    f.colour = colour_.at(u, v);  // masks included
+    return meanColour(map_, f);
+  }
+
+ private:
+  std::size_t nodeOf(double u, double v) const {
+    const auto column = static_cast<std::size_t>(u * crush_->cells + 0.5);
+    const auto row = static_cast<std::size_t>(v * crush_->cells + 0.5);
+    return row * static_cast<std::size_t>(crush_->cells + 1) + column;
+  }
+
+  double groundHeight(double u, double v) const {
+    if (!tile_.sloped) return 0.0;
+    const int n = tile_.ground_cells;
+    const int column = std::min(static_cast<int>(u * n), n - 1);
+    const int row = std::min(static_cast<int>(v * n), n - 1);
+    const float* low = tile_.ground.data() + row * (n + 1) + column;
+    const float* high = low + n + 1;
+    const double p = u * n - column, q = v * n - row;
+    return (low[0] * (1 - p) + low[1] * p) * (1 - q) + (high[0] * (1 - p) + high[1] * p) * q;
+  }
+
+  const FeatureMap& map_;
+  const Tile& tile_;
+  Vec3 corner_;
+  double full_density_;
+  Bilinear<double> density_, height_, colour_, wind_x_, wind_y_;
+  const CrushPatch* crush_;
+  double compliance_{0.0};
+};
+
+}  // namespace
+
+void appendStrips(const FeatureMap& map, const Tile& tile, const TileMotion& motion, double grown,
+                  double full_density, GrassMesh& mesh) {
+  const Sheet sheet(map, tile, motion, full_density, mesh.origin);
+  const Point starts[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  for (int edge = 0; edge < 4; ++edge) {
+    const Point a = starts[edge], b = starts[(edge + 1) % 4];
+    std::uint32_t before = 0;
+    for (int k = 0; k <= STRIP_CELLS; ++k) {
+      const double s = static_cast<double>(k) / STRIP_CELLS;
+      const double u = a.x + s * (b.x - a.x), v = a.y + s * (b.y - a.y);
+      const Vec3 bottom = sheet.groundAt(u, v), colour = sheet.colourAt(u, v);
+      const Vec3 top = bottom + sheet.offsetAt(u, v, grown * sheet.heightAt(u, v));
+      const double along = s * double{tile.size} / PICTURE_WIDTH, cover = sheet.coverAt(u, v);
+      const auto first = addVertex(mesh, bottom, along, 0.0, colour, cover);
+      addVertex(mesh, top, along, 1.0, colour, cover);
+      if (k > 0) {
+        addTriangle(mesh, before, first, first + 1);
+        addTriangle(mesh, before, first + 1, before + 1);
+      }
+      before = first;
+    }
+  }
+}
+
+void appendLayers(const FeatureMap& map, const Tile& tile, const TileMotion& motion, int layers,
+                  double grown, double full_density, GrassMesh& mesh) {
+  const Sheet sheet(map, tile, motion, full_density, mesh.origin);
+  for (int layer = 1; layer <= layers; ++layer) {
+    const double share = static_cast<double>(layer) / layers;
+    const auto first = static_cast<std::uint32_t>(mesh.vertexCount());
+    for (int corner = 0; corner < 4; ++corner) {
+      const double u = corner % 2, v = corner / 2;
+      const Vec3 top = sheet.offsetAt(u, v, grown * sheet.heightAt(u, v));
+      // The bend of an arc grows with the square of the height.
+      const Vec3 place = sheet.groundAt(u, v) +
+                         Vec3(top.x() * share * share, top.y() * share * share, top.z() * share);
+      const double size = double{tile.size} / PICTURE_WIDTH;
+      addVertex(mesh, place, u * size, v * size, sheet.colourAt(u, v) * (0.45 + 0.55 * share),
+                sheet.coverAt(u, v) * (1.0 - 0.6 * share));
+    }
+    addTriangle(mesh, first, first + 1, first + 3);
+    addTriangle(mesh, first, first + 3, first + 2);
+  }
+}
+
+}  // namespace vegetation_sim::grass
