@@ -1,17 +1,24 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// Measures grass: blades per second, plain and batched, against what the memory takes.
+// Measures grass: blades per second, plain and batched, against what the memory takes; treading per
+// node and per frame of a crowd; frames of a square kilometre.
 // usage: grass_bench [ROUNDS]
 
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <memory>
 #include <vector>
 
 #include "interleaved.h"
 #include "vegetation_sim/common/instruction_set.h"
-#include "vegetation_sim/grass/blade_batch.h"
+#include "vegetation_sim/common/math.h"
+#include "vegetation_sim/common/random.h"
+#include "vegetation_sim/grass/geometry.h"
+#include "vegetation_sim/grass/meadow.h"
+#include "vegetation_sim/wind/field.h"
 
 namespace vegetation_sim::grass {
 namespace {
@@ -85,11 +92,167 @@ void benchBlades(int rounds) {
                 candidates[0].seconds / c.seconds);
 }
 
+// ---- treading --------------------------------------------------------------------------------
+
+constexpr Nanoseconds START = 1700000000 * NANOSECONDS_PER_SECOND;
+
+MapLaw lawOf(int tiles) {
+  MapLaw law;
+  law.columns = law.rows = tiles + 1;
+  return law;
+}
+
+// Walkers on circles of their own, 1.4 m/s, one step of 1/60 s a frame.
+struct Walkers {
+  int count;
+  double extent;
+  TreadLaw law;
+  int frame{0};
+  int run(TreadMap& map) {
+    int touched = 0;
+    const Nanoseconds stamp = START + fromSeconds(frame / 60.0);
+    for (int i = 0; i < count; ++i) {
+      const Random random(static_cast<std::uint64_t>(i));
+      const double angle = 1.4 / 3.0 * frame / 60.0 + random.uniform(2, 0.0, 6.0);
+      const SinCos turn = sinCos(angle);
+      const Point place{random.uniform(0, 5.0, extent - 5.0) + 3.0 * turn.cos,
+                        random.uniform(1, 5.0, extent - 5.0) + 3.0 * turn.sin};
+      touched += map.tread(static_cast<std::uint32_t>(i), law, place, stamp);
+    }
+    ++frame;
+    return touched;
+  }
+};
+
+void benchTreading(int rounds) {
+  std::printf("\nTreading, 1 000 walkers, 1.4 m/s, 60 frames a second\n");
+  std::printf("%-26s %10s %14s %14s %10s\n", "", "ms/frame", "nodes/frame", "ns/node", "MB");
+  for (const bool fine : {false, true}) {
+    TreadSettings settings;
+    settings.spacing = fine ? 0.05 : 0.25;
+    settings.memory_cap = 1e9;
+    TreadMap map(lawOf(100), settings);
+    Walkers walkers{1000, 200.0, TreadLaw()};
+    if (!fine) walkers.law.radius = 0.25, walkers.law.reach = 0.6;
+    int touched = 0;
+    for (int i = 0; i < 120; ++i) walkers.run(map);  // ground is down, memory is there
+    std::vector<Candidate> candidates{{"walk", [&] { touched = walkers.run(map); }}};
+    timeInterleaved(candidates, 10 * rounds);
+    std::printf("nodes %.2f m, reach %.2f m   %10.3f %14d %14.1f %10.1f\n", settings.spacing,
+                walkers.law.reach, candidates[0].seconds * 1e3, touched,
+                candidates[0].seconds / touched * 1e9, static_cast<double>(map.bytes()) * 1e-6);
+  }
+  // Nodes alone: long strokes, so that what a stroke costs by itself does not count.
+  TreadMap map(lawOf(100), TreadSettings());
+  TreadLaw wide;
+  wide.reach = 1.0;
+  wide.radius = 0.4;
+  int touched = 0, k = 0;
+  std::vector<Candidate> candidates{{"strokes", [&] {
+                                       touched = 0;
+                                       for (int i = 0; i < 40; ++i, ++k)
+                                         touched += map.tread(1, wide,
+                                                              {100.0 + (k % 2 ? 2.0 : -2.0), 100.0},
+                                                              START + fromSeconds(k));
+                                     }}};
+  timeInterleaved(candidates, 10 * rounds);
+  std::printf("%-26s %10s %14d %14.1f\n", "strokes of 4 m, 0.05 m", "", touched,
+              candidates[0].seconds / touched * 1e9);
+}
+
+// ---- a square kilometre -----------------------------------------------------------------------
+
+double megabytesInUse() {
+  std::ifstream status("/proc/self/statm");
+  double pages = 0.0, resident = 0.0;
+  status >> pages >> resident;
+  return resident * 4096e-6;
+}
+
+wind::Field breeze() {
+  wind::Primitive p;
+  p.id = 1;
+  p.name = "breeze";
+  p.kind = static_cast<int>(wind::Kind::BREEZE);
+  return wind::Field({p}, 3);
+}
+
+struct Frame {
+  double milliseconds{0.0};
+  std::size_t blades{0}, strips{0};
+};
+
+Frame drawFrame(Meadow& meadow, const wind::Field& wind, const Eye& eye, Nanoseconds stamp,
+                BladeBlock* blocks, GrassMesh& strips) {
+  const auto start = std::chrono::steady_clock::now();
+  Frame out;
+  meadow.setEyes({eye});
+  meadow.advance(stamp);
+  const auto views = meadow.viewOf(eye, stamp);
+  NodeAir air(meadow.map(), meadow.terrain());
+  air.update(wind.at(stamp), {}, Meadow::windowOf(views));
+  CrushPatch patch;
+  strips.clear();
+  strips.origin = eye.position;
+  for (const TileView& view : views) {
+    TileMotion motion;
+    const Tile tile = meadow.tileAt(view, air, stamp, patch, motion);
+    if (view.morph.blades) {
+      const int count = static_cast<int>(tile.blades * view.share);
+      poseBlades(tile, motion, count, blocks);
+      out.blades += static_cast<std::size_t>(count);
+    }
+    if (view.morph.strip > 0.0) {
+      appendStrips(meadow.map(), tile, motion, view.morph.strip, 1000.0, strips);
+      ++out.strips;
+    }
+  }
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+  out.milliseconds = spent.count() * 1e3;
+  return out;
+}
+
+void benchKilometre() {
+  MapInput input;
+  input.law.columns = input.law.rows = 501;
+  input.density.value = 1000.0;
+  MeadowSettings settings;
+  settings.most_blades = 3e5;
+  const double before = megabytesInUse();
+  Meadow meadow(std::make_shared<FeatureMap>(input), std::make_shared<terrain::HeightMap>(), 7,
+                settings, TreadSettings());
+  const wind::Field wind = breeze();
+  const Blocks blocks = makeBlocks(sizeof(BladeBlock) * blocksFor(8192));
+  GrassMesh strips;
+  std::vector<double> times;
+  std::size_t blades = 0, tiles = 0;
+  for (int k = 0; k < 300; ++k) {
+    Eye eye;
+    eye.position = Vec3(300.0 + 0.05 * k, 500.0, 1.6);  // 3 m/s at 60 frames a second
+    eye.cone_cosine = 0.8;
+    const Frame frame =
+        drawFrame(meadow, wind, eye, START + fromSeconds(k / 60.0), blocks.get(), strips);
+    if (k < 60) continue;
+    times.push_back(frame.milliseconds);
+    blades = std::max(blades, frame.blades);
+    tiles = std::max(tiles, frame.strips);
+  }
+  std::sort(times.begin(), times.end());
+  std::printf(
+      "\n1 km2 at 1 000 blades per m2, a viewer at 3 m/s, levels + wind + blades + strips\n");
+  std::printf("ms/frame: median %.2f, 99 %% %.2f, largest %.2f; %zu blades, %zu tiles of strips\n",
+              times[times.size() / 2], times[times.size() * 99 / 100], times.back(), blades, tiles);
+  std::printf("memory of the process %.0f MB more than before; state %.2f MB\n",
+              megabytesInUse() - before, static_cast<double>(meadow.bytes()) * 1e-6);
+}
+
 }  // namespace
 }  // namespace vegetation_sim::grass
 
 int main(int argc, char** argv) {
   const int rounds = argc > 1 ? std::max(1, std::atoi(argv[1])) : 15;
   vegetation_sim::grass::benchBlades(rounds);
+  vegetation_sim::grass::benchTreading(rounds);
+  vegetation_sim::grass::benchKilometre();
   return 0;
 }

@@ -1,0 +1,194 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/grass/meadow.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "common/error_text.h"
+#include "grass/grass_fixture.h"
+#include "vegetation_sim/wind/field.h"
+
+namespace vegetation_sim::grass {
+namespace {
+
+constexpr Nanoseconds START = 1700000000 * NANOSECONDS_PER_SECOND;
+
+Nanoseconds after(double seconds) {
+  return START + fromSeconds(seconds);
+}
+
+Eye eyeAt(double x, double y, double z) {
+  Eye eye;
+  eye.position = Vec3(x, y, z);
+  return eye;
+}
+
+class MeadowOf : public testing::Test {
+ protected:
+  static Meadow makeMeadow(double most_blades = 1e8) {
+    MapInput input;
+    input.law.columns = input.law.rows = 201;
+    input.density.value = 1000.0;
+    MeadowSettings settings;
+    settings.most_blades = most_blades;
+    return Meadow(std::make_shared<FeatureMap>(input), std::make_shared<terrain::HeightMap>(), 7,
+                  settings, TreadSettings());
+  }
+
+  static std::map<std::pair<int, int>, TileView> viewsOf(const Meadow& meadow, const Eye& eye,
+                                                         Nanoseconds stamp) {
+    std::map<std::pair<int, int>, TileView> out;
+    for (const TileView& view : meadow.viewOf(eye, stamp)) out[{view.row, view.column}] = view;
+    return out;
+  }
+
+  Meadow meadow_{makeMeadow()};
+};
+
+// S2-15: blades around the eye, strips in a ring about them, nothing but ground beyond.
+TEST_F(MeadowOf, ShowsBladesNearAndStripsFartherAway) {
+  const Eye eye = eyeAt(201.0, 201.0, 1.6);
+  meadow_.setEyes({eye});
+  meadow_.advance(START);
+  EXPECT_TRUE(meadow_.viewOf(eye, START).empty());  // all begin as ground
+  const auto views = viewsOf(meadow_, eye, after(2.0));
+  EXPECT_TRUE(views.at({100, 100}).morph.blades);
+  EXPECT_EQ(views.at({100, 100}).morph.slide, 0.0);
+  EXPECT_EQ(views.at({100, 100}).segments, LINKS);
+  EXPECT_FALSE(views.at({100, 125}).morph.blades);
+  EXPECT_EQ(views.at({100, 125}).morph.strip, 1.0);
+  EXPECT_EQ(views.count({100, 3}), 1u);  // 194 m
+  EXPECT_EQ(views.count({3, 3}), 0u);    // 274 m
+  EXPECT_LT(views.at({100, 108}).share, 1.0);
+}
+
+TEST_F(MeadowOf, WithoutAnEyeIsAllGround) {
+  meadow_.advance(START);
+  meadow_.advance(after(5.0));
+  EXPECT_TRUE(meadow_.memory().levels.empty());
+}
+
+TEST_F(MeadowOf, WithoutGrassIsAllGround) {
+  MapInput input;
+  input.density.value = 0.0;
+  Meadow bare(std::make_shared<FeatureMap>(input), std::make_shared<terrain::HeightMap>(), 7,
+              MeadowSettings(), TreadSettings());
+  bare.setEyes({eyeAt(50.0, 50.0, 1.6)});
+  bare.advance(START);
+  EXPECT_TRUE(bare.memory().levels.empty());
+}
+
+// S2-05: the blades of a tile are the same before and after a walk that took it out of sight.
+TEST_F(MeadowOf, ShowsTheSameBladesAfterLeavingAndComingBack) {
+  const Eye near = eyeAt(201.0, 201.0, 1.6), far = eyeAt(-60.0, -60.0, 1.6);
+  const auto bladesNow = [&](Nanoseconds stamp) {
+    NodeAir air(meadow_.map(), meadow_.terrain());
+    const auto views = meadow_.viewOf(near, stamp);
+    air.update(wind::Instant(), {}, Meadow::windowOf(views));
+    CrushPatch patch;
+    TileMotion motion;
+    const TileView view = viewsOf(meadow_, near, stamp).at({100, 100});
+    const Tile tile = meadow_.tileAt(view, air, stamp, patch, motion);
+    return posed(tile, motion, tile.blades);
+  };
+  meadow_.setEyes({near});
+  meadow_.advance(START);
+  const auto before = bladesNow(after(3.0));
+  meadow_.setEyes({far});
+  meadow_.advance(after(4.0));
+  meadow_.advance(after(8.0));
+  EXPECT_EQ(viewsOf(meadow_, near, after(8.0)).count({100, 100}), 0u);
+  meadow_.setEyes({near});
+  meadow_.advance(after(9.0));
+  const auto again = bladesNow(after(12.0));
+  ASSERT_EQ(before.size(), again.size());
+  for (std::size_t i = 0; i < before.size(); ++i)
+    for (int point = 0; point < POINTS; ++point)
+      for (int lane = 0; lane < BLOCK; ++lane)
+        ASSERT_EQ(before[i].x[point][lane], again[i].x[point][lane]);
+}
+
+// The number of blades stays within its budget wherever the eye is.
+TEST_F(MeadowOf, KeepsTheBudgetOfBlades) {
+  Meadow small = makeMeadow(50000.0);
+  const Eye eye = eyeAt(201.0, 201.0, 1.6);
+  small.setEyes({eye});
+  for (int k = 0; k < 60; ++k) small.advance(after(0.1 * k));
+  double blades = 0.0;
+  for (const TileView& view : small.viewOf(eye, after(6.0)))
+    if (view.morph.blades) blades += 4000.0 * view.share;
+  EXPECT_LT(blades, 75000.0);
+  EXPECT_GT(blades, 10000.0);
+}
+
+TEST_F(MeadowOf, LeavesOutWhatTheEyeDoesNotSee) {
+  Eye eye = eyeAt(201.0, 201.0, 1.6);
+  eye.cone_cosine = std::cos(0.5);
+  meadow_.setEyes({eye});
+  meadow_.advance(START);
+  const auto views = viewsOf(meadow_, eye, after(2.0));
+  EXPECT_EQ(views.count({100, 110}), 1u);
+  EXPECT_EQ(views.count({100, 90}), 0u);  // behind
+}
+
+// S2-W3: views tell from how steep they are seen.
+TEST_F(MeadowOf, KnowsFromHowSteepATileIsSeen) {
+  const Eye eye = eyeAt(201.0, 201.0, 30.0);
+  meadow_.setEyes({eye});
+  meadow_.advance(START);
+  const auto views = viewsOf(meadow_, eye, after(2.0));
+  EXPECT_EQ(layerWeight(views.at({100, 100}).elevation), 1.0);
+  EXPECT_EQ(layerWeight(views.at({100, 160}).elevation), 0.0);
+}
+
+// N6: one structure is all the state; restored, the run goes on to the bit.
+TEST_F(MeadowOf, GoesOnFromARestoredMemory) {
+  const auto step = [](Meadow& meadow, int k) {
+    const double x = 150.0 + 0.5 * k;
+    meadow.setEyes({eyeAt(x, 201.0, 1.6)});
+    meadow.tread().tread(1, TreadLaw(), {x, 201.0}, after(0.1 * k));
+    meadow.advance(after(0.1 * k));
+  };
+  for (int k = 0; k < 20; ++k) step(meadow_, k);
+  Meadow copy = makeMeadow();
+  copy.restore(meadow_.memory());
+  EXPECT_EQ(copy.memory().hash(), meadow_.memory().hash());
+  for (int k = 20; k < 30; ++k) {
+    step(meadow_, k);
+    step(copy, k);
+    ASSERT_EQ(copy.memory().hash(), meadow_.memory().hash()) << k;
+  }
+  const std::uint64_t before = meadow_.memory().hash();
+  step(meadow_, 31);
+  EXPECT_NE(meadow_.memory().hash(), before);
+}
+
+TEST_F(MeadowOf, StartsAnewWhenTimeGoesBack) {
+  const Eye eye = eyeAt(201.0, 201.0, 1.6);
+  meadow_.setEyes({eye});
+  meadow_.advance(after(10.0));
+  meadow_.tread().tread(1, TreadLaw(), {200.0, 200.0}, after(10.0));
+  meadow_.advance(after(20.0));
+  meadow_.advance(after(5.0));
+  EXPECT_EQ(meadow_.tread().at({200.0, 200.0}, after(11.0)).tilt, 0.f);
+  EXPECT_TRUE(meadow_.viewOf(eye, after(5.0)).empty());
+  EXPECT_FALSE(meadow_.viewOf(eye, after(6.0)).empty());
+}
+
+TEST_F(MeadowOf, RefusesBadSettingsByName) {
+  MeadowSettings settings;
+  settings.tolerance = -1.0;
+  settings.transition = std::nan("");
+  EXPECT_EQ(errorOf([&] {
+              Meadow meadow(std::make_shared<FeatureMap>(), std::make_shared<terrain::HeightMap>(),
+                            7, settings, TreadSettings());
+            }),
+            "meadow: tolerance = -1 pixel is outside 0.1 to 100 pixel\n"
+            "meadow: transition = nan s is not finite, allowed is 0 to 60 s");
+}
+
+}  // namespace
+}  // namespace vegetation_sim::grass
