@@ -15,12 +15,9 @@ namespace {
 // Trees step together up to so many links, so that the second-level cache holds them.
 constexpr std::size_t GROUP_LINKS = 2048;
 
-std::size_t blockRow(int slot, int rows) {
-  return static_cast<std::size_t>(slot / ROW * rows);
-}
-
-float* laneOf(Rows& rows, int slot, int quantities) {
-  return rows.at(blockRow(slot, quantities)) + slot % ROW;
+float* laneOf(Rows& rows, int slot, std::size_t quantities) {
+  const auto place = static_cast<std::size_t>(slot);
+  return rows.at(place / ROW * quantities) + place % ROW;
 }
 
 }  // namespace
@@ -213,8 +210,8 @@ void BatchChain::askLoads(const Surroundings& around, double time, double h, Mem
   if (around.loads) {
     resize(kinematics_, member.count);
     for (const std::size_t i : member.by_slot)
-      readMotion(laneOf(store_->motion, slots_[member.first + i], F_ROWS), baseOf(member, i), i,
-                 kinematics_);
+      readMotion(laneOf(store_->motion, slots_[member.first + i], M_ROWS),
+                 baseOf(member, i).pose.position, i, kinematics_);
     around.loads(kinematics_, time, loads_);
   }
   if (around.loads || member.loaded) fillLoads(loads_, member);
@@ -258,7 +255,7 @@ void BatchChain::stepWithin(const Surroundings* around, std::size_t count, doubl
   store_->trace = std::any_of(around, around + count,
                               [](const Surroundings& s) { return static_cast<bool>(s.loads); });
   if (store_->trace && store_->motion.empty())
-    store_->motion.assign(static_cast<std::size_t>(slot_count_ / ROW) * F_ROWS);
+    store_->motion.assign(static_cast<std::size_t>(slot_count_ / ROW) * M_ROWS);
   step(around, time, h);
 }
 

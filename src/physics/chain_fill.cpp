@@ -22,10 +22,6 @@ void put(const Vec3& v, float* to, int stride = 1) {
   for (int i = 0; i < 3; ++i) to[i * stride] = narrow(v[i]);
 }
 
-Vec3 read(const float* rows, int row) {
-  return {rows[row * ROW], rows[(row + 1) * ROW], rows[(row + 2) * ROW]};
-}
-
 }  // namespace
 
 BaseRows baseRows(const BaseMotion& base) {
@@ -74,16 +70,6 @@ void fillNobody(float* constants) {
   fillLink(nobody, constants);
 }
 
-void fillLoad(const Loads& loads, std::size_t link, float* rows) {
-  const Wrench none;
-  const Wrench& wrench = link < loads.wrench.size() ? loads.wrench[link] : none;
-  put(wrench.force, rows + L_FORCE * ROW, ROW);
-  put(wrench.torque, rows + L_TORQUE * ROW, ROW);
-  for (int i = 0; i < 2; ++i)
-    rows[(L_JOINT + i) * ROW] =
-        link < loads.joint_torque.size() ? narrow(loads.joint_torque[link][i]) : 0.f;
-}
-
 // The force at the point is the anchor's less (theta^2 h^2 K + theta h C) times what accelerations
 // of the joints add to its own: a mass there, without bias.
 AnchorRows anchorRows(const Anchor& anchor, int slot, double ahead) {
@@ -109,14 +95,6 @@ AnchorRows anchorRows(const Anchor& anchor, int slot, double ahead) {
   put(Vec3(-crossed(arm, anchor.force)), v + P_TORQUE);
   put(Vec3(-anchor.force), v + P_FORCE);
   return out;
-}
-
-void readMotion(const float* motion, const BaseMotion& base, std::size_t link, Kinematics& out) {
-  out.pose[link].position = base.pose.position + read(motion, F_POSITION);
-  out.pose[link].orientation = {motion[F_TURN * ROW], motion[(F_TURN + 1) * ROW],
-                                motion[(F_TURN + 2) * ROW], motion[(F_TURN + 3) * ROW]};
-  out.spin[link] = read(motion, F_SPIN);
-  out.velocity[link] = read(motion, F_VELOCITY);
 }
 
 void resize(Kinematics& kinematics, std::size_t links) {

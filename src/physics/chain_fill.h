@@ -20,7 +20,15 @@ bool isBar(const Link& link);
 void fillLink(const Link& link, float* constants);
 /// A lane without link: it never moves.
 void fillNobody(float* constants);
-void fillLoad(const Loads& loads, std::size_t link, float* rows);
+inline void fillLoad(const Loads& loads, std::size_t link, float* rows) {
+  const bool wrench = link < loads.wrench.size(), joint = link < loads.joint_torque.size();
+  for (int i = 0; i < 3; ++i) {
+    rows[(L_FORCE + i) * ROW] = wrench ? static_cast<float>(loads.wrench[link].force[i]) : 0.f;
+    rows[(L_TORQUE + i) * ROW] = wrench ? static_cast<float>(loads.wrench[link].torque[i]) : 0.f;
+  }
+  for (int i = 0; i < 2; ++i)
+    rows[(L_JOINT + i) * ROW] = joint ? static_cast<float>(loads.joint_torque[link][i]) : 0.f;
+}
 
 /// What an anchor adds to the articulated inertia and bias of the joint in `slot`.
 struct AnchorRows {
@@ -30,8 +38,16 @@ struct AnchorRows {
 /// `ahead` = theta h.
 AnchorRows anchorRows(const Anchor& anchor, int slot, double ahead);
 
-/// Adds a link to `out`; rows hold places relative to the base.
-void readMotion(const float* motion, const BaseMotion& base, std::size_t link, Kinematics& out);
+inline void readMotion(const float* motion, const Vec3& base, std::size_t link, Kinematics& out) {
+  const auto read = [motion](int row) {
+    return Vec3(motion[row * ROW], motion[(row + 1) * ROW], motion[(row + 2) * ROW]);
+  };
+  out.pose[link] = {base + read(M_POSITION),
+                    {motion[M_TURN * ROW], motion[(M_TURN + 1) * ROW], motion[(M_TURN + 2) * ROW],
+                     motion[(M_TURN + 3) * ROW]}};
+  out.spin[link] = read(M_SPIN);
+  out.velocity[link] = read(M_VELOCITY);
+}
 void resize(Kinematics& kinematics, std::size_t links);
 
 /// guardedTheta of a tree whose fastest rate is `fastest` [rad/s].

@@ -77,6 +77,14 @@ HWY_INLINE void eachRow(const Trace& trace, const Put& put) {
   eachRow(trace.velocity, F_VELOCITY, put);
 }
 
+HWY_INLINE void storeMotion(const Frame& frame, const Trace& trace, float* rows) {
+  store(frame.turn.w, rows, M_TURN);
+  store3({frame.turn.x, frame.turn.y, frame.turn.z}, rows, M_TURN + 1);
+  store3(frame.spin, rows, M_SPIN);
+  store3(trace.position, rows, M_POSITION);
+  store3(trace.velocity, rows, M_VELOCITY);
+}
+
 /// Writes rows that are `stride` floats apart.
 struct StoreRows {
   float* rows;

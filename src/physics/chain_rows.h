@@ -80,6 +80,16 @@ enum : int {
   F_ROWS = F_VELOCITY + 3
 };
 
+/// Rows of the motion of joints that somebody asked for: orientation (w x y z), spin; place and
+/// velocity relative to the base's place.
+enum : int {
+  M_TURN,
+  M_SPIN = M_TURN + 4,
+  M_POSITION = M_SPIN + 3,
+  M_VELOCITY = M_POSITION + 3,
+  M_ROWS = M_VELOCITY + 3
+};
+
 /// Rows of an articulated inertia on its way to the parent: a (6), b (9, by columns), m (6),
 /// torque, force.
 enum : int {

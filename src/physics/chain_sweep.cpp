@@ -55,11 +55,11 @@ HWY_INLINE void outGroupAs(const ChainGroup& group, Lanes step, ChainStore& stor
       const Frame frame = outward(at, loadFrame(received + i, room), step, group.bars);
       if constexpr (MOTION) {
         const Trace trace = traceOf(received + i, room, at.work);
-        const auto each = [&](const auto& put) HWY_ATTR {
+        const auto each = [&](const auto& put) HWY_ATTR __attribute__((always_inline)) {
           eachRow(frame, put);
           eachRow(trace, put);
         };
-        each(StoreRows{rowsOf(store.motion, level.begin + i, F_ROWS), ROW});
+        storeMotion(frame, trace, rowsOf(store.motion, level.begin + i, M_ROWS));
         handOn(level, i, each, room, handed);
       } else {
         handOn(

@@ -38,7 +38,7 @@ struct LevelRows {
 /// All rows of a chain, and scratch of one group's level and its neighbour.
 struct ChainStore {
   Rows constants, state, loads, work;
-  Rows motion;        ///< F_ROWS per block
+  Rows motion;        ///< M_ROWS per block
   bool trace{false};  ///< somebody asks for the motion
   LevelRows first, second;
   std::vector<AnchorRows> anchors;  ///< sorted by slot

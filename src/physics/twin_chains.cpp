@@ -175,13 +175,13 @@ void TwinChains::setLoads(int tree, const Loads& loads) {
 void TwinChains::ask(const Surroundings& around, double time, double h, int tree) {
   const auto t = static_cast<std::size_t>(tree);
   const auto motion = [&](std::size_t link) {
-    return laneOf(store_->motion, static_cast<std::size_t>(place_[link]), F_ROWS, tree);
+    return laneOf(store_->motion, static_cast<std::size_t>(place_[link]), M_ROWS, tree);
   };
   loads_.clear(links_);
   if (around.loads) {
     resize(kinematics_, links_);
     for (std::size_t i = 0; i < links_; ++i)
-      readMotion(motion(i), baseOf(tree, root_[i]), i, kinematics_);
+      readMotion(motion(i), baseOf(tree, root_[i]).pose.position, i, kinematics_);
     around.loads(kinematics_, time, loads_);
   }
   if (around.loads || loaded_[t]) setLoads(tree, loads_);
@@ -234,7 +234,7 @@ void TwinChains::step(const std::vector<Surroundings>& around, double time, doub
                        std::to_string(theta_.size()) + " trees");
   store_->trace = std::any_of(around.begin(), around.end(),
                               [](const Surroundings& s) { return static_cast<bool>(s.loads); });
-  if (store_->trace && store_->motion.empty()) store_->motion.assign(links_ * F_ROWS);
+  if (store_->trace && store_->motion.empty()) store_->motion.assign(links_ * M_ROWS);
   step(around.data(), time, h);
 }
 

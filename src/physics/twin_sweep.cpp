@@ -48,11 +48,9 @@ HWY_INLINE void outPart(const Part& part, Lanes step) {
     const StoreRows own{part.onStack(joint.depth), ROW};
     if (!joint.leaf) eachRow(frame, own);
     if (!motion) continue;
-    const StoreRows seen{rowsAt(part.store.motion, i, F_ROWS, part.lane), ROW};
     const Trace trace = traceOf(parent, ROW, at.work);
     eachRow(trace, own);
-    eachRow(frame, seen);
-    eachRow(trace, seen);
+    storeMotion(frame, trace, rowsAt(part.store.motion, i, M_ROWS, part.lane));
   }
 }
 
