@@ -31,7 +31,6 @@ struct Placed {
   Pose pose;
   Quat to_body;
   physics::RoundedBox shape;
-  double reach;
 
   Vec3 velocity(const Vec3& point) const { return velocityAt(body, pose, point); }
   Vec3 local(const Vec3& point) const { return rotate(to_body, Vec3(point - pose.position)); }
@@ -40,8 +39,7 @@ struct Placed {
 Placed place(const Body& body, const Vec3& foot, Nanoseconds from) {
   Pose pose = poseAt(body, from);
   pose.position -= foot;
-  const physics::RoundedBox shape = shapeOf(body);
-  return {body, pose, conjugate(pose.orientation), shape, shape.reach()};
+  return {body, pose, conjugate(pose.orientation), shapeOf(body)};
 }
 
 Bar barOf(const Branch& branch, const Pose& pose) {
@@ -49,9 +47,11 @@ Bar barOf(const Branch& branch, const Pose& pose) {
           branch.tip_radius};
 }
 
-double distanceTo(const Bar& bar, const Vec3& point) {
-  const double along = std::clamp(dot(point - bar.base, bar.axis), 0.0, bar.length);
-  return length(point - bar.at(along));
+// The gap between a body and a bar is no less: distance grows no faster than the way.
+double leastGap(const Placed& placed, const Bar& bar) {
+  Vec3 normal;
+  const double half = 0.5 * bar.length;
+  return signedDistance(placed.shape, placed.local(bar.at(half)), normal) - half - bar.base_radius;
 }
 
 // One link beside one body.
@@ -137,8 +137,7 @@ std::vector<Contact> ContactFinder::findContacts(const Wood& wood, const Bodies&
       const Branch& branch = wood.skeleton.branches[static_cast<std::size_t>(wood.branches[i])];
       const Bar bar = barOf(branch, wood.start.pose[i]);
       const Pair pair = pairOf(placed, bar, wood.start.velocity[i], wood.start.spin[i]);
-      const double room = placed.reach + branch.base_radius + SKIN + horizon * fastestOf(pair);
-      if (distanceTo(bar, placed.pose.position) > room) continue;
+      if (leastGap(placed, bar) > SKIN + horizon * fastestOf(pair)) continue;
       const Touch* known = find(touches, entry.first, wood.branches[i]);
       Proximity found;
       if (!meet(placed, pair, known, horizon, found)) continue;

@@ -91,11 +91,15 @@ void ContactFinder::findNear(const Forest& forest, const Bodies& bodies, Nanosec
       balls[tree].push_back(ball);
   }
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (layout_hash_ != forest.layoutHash()) cache_.clear();
+  if (layout_hash_ != forest.layoutHash()) trees_.clear();
   layout_hash_ = forest.layoutHash();
+  for (auto it = trees_.begin(); it != trees_.end();)
+    it = balls.count(it->first) ? std::next(it) : trees_.erase(it);
   for (const auto& [id, around] : balls) {
-    const auto grown = cache_.get(forest.layout(), forest.terrain(), id);
-    const Tree& tree = grown->tree;
+    std::shared_ptr<const Tree>& grown = trees_[id];
+    if (!grown)
+      grown = std::make_shared<const Tree>(growTree(forest.layout(), id, forest.terrain()));
+    const Tree& tree = *grown;
     const auto reached = [&](const Ball& b) { return mayReach(tree.skeleton, tree.foot, b); };
     if (std::none_of(around.begin(), around.end(), reached)) continue;
     const std::vector<Pose> poses = forest.pose(tree, id, from);

@@ -17,6 +17,11 @@ Pose worldPose(const geometry_msgs::Transform& frame, const Pose& in_frame) {
   return {Vec3(t.x, t.y, t.z) + rotate(turn, in_frame.position), turn * in_frame.orientation};
 }
 
+bool isSame(const Pose& a, const Pose& b) {
+  const Quat &p = a.orientation, &q = b.orientation;
+  return a.position == b.position && p.w == q.w && p.x == q.x && p.y == q.y && p.z == q.z;
+}
+
 bool isSound(const forest::Body& body) {
   Faults faults;
   check(body, faults);
@@ -43,8 +48,9 @@ bool RobotBodies::sample(Followed& followed, Nanoseconds now) {
   try {
     const auto found = buffer_.lookupTransform(frame_id_, body.frame, ros::Time(0));
     body.pose = worldPose(found.transform, followed.part.in_frame);
-    // What only static transforms connect has no stamp: it is there now.
+    // What only static transforms connect has no stamp: it is there now, and told once.
     const Nanoseconds stamp = fromMsg(found.header.stamp);
+    if (stamp == 0 && followed.last && isSame(followed.last->pose, body.pose)) return true;
     body.stamp = stamp == 0 ? now : stamp;
   } catch (const tf2::TransformException&) {
     return false;

@@ -2,18 +2,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <map>
 #include <memory>
 #include <mutex>
 
 #include "vegetation_sim/forest/contact_model.h"
-#include "vegetation_sim/forest/tree_cache.h"
+#include "vegetation_sim/forest/pose.h"
 #include "vegetation_sim/physics/contact.h"
 
 namespace vegetation_sim::forest {
 
 /// Finds what bodies touch: over trees by their size, over branches by distance, then exactly, with
-/// both in motion (docs/contact.md). Keeps grown trees at hand; what it finds does not depend on
-/// which.
+/// both in motion (docs/contact.md). Keeps the trees around bodies at hand, grown; what it finds
+/// does not depend on which.
 class ContactFinder : public ContactModel {
  public:
   void findNear(const Forest& forest, const Bodies& bodies, Nanoseconds from, Nanoseconds to,
@@ -25,9 +26,10 @@ class ContactFinder : public ContactModel {
               Nanoseconds to, Touches& touches, std::vector<Reaction>& reactions) const override;
 
  private:
+  using Trees = std::map<std::uint32_t, std::shared_ptr<const Tree>>;
   mutable std::mutex mutex_;
   mutable std::uint64_t layout_hash_{0};  // of the trees at hand
-  mutable TreeCache cache_{200000};       // [branches]
+  mutable Trees trees_;
 };
 
 /// Ids of trees that may reach into a ball, rising. Cheap and generous: only sizes are looked at.
