@@ -51,19 +51,27 @@ void addPointMass(Body& body, const Symmetric3& m, const Vec3& arm) {
   add(body.m, 1.0, m);
 }
 
-// Adds an articulated body whose joint is at `d` from the parent's.
+// Adds an articulated body whose joint is at `d` from the parent's: with b' = b + [d x] m,
+// a += child.a + [d x] b^T + b' [d x]^T, of which the upper half is enough.
 void addChild(const Body& child, const Vec3& d, Body& parent) {
-  // a += child.a + [d x] b^T + b [d x]^T + [d x] m [d x]^T, b += child.b + [d x] m.
+  const Symmetric3& m = child.m;
+  const Vec3 mx = cross(d, Vec3(m.xx, m.xy, m.xz)), my = cross(d, Vec3(m.xy, m.yy, m.yz)),
+             mz = cross(d, Vec3(m.xz, m.yz, m.zz));
+  const Vec3 bx = child.bx + Vec3(mx.x(), my.x(), mz.x()),
+             by = child.by + Vec3(mx.y(), my.y(), mz.y()),
+             bz = child.bz + Vec3(mx.z(), my.z(), mz.z());
   const Vec3 px = cross(d, child.bx), py = cross(d, child.by), pz = cross(d, child.bz);
-  Symmetric3 a = child.a;
-  add(a, 1.0,
-      {2.0 * px.x(), 2.0 * py.y(), 2.0 * pz.z(), px.y() + py.x(), px.z() + pz.x(),
-       py.z() + pz.y()});
-  add(parent.a, 1.0, a);
-  addPointMass(parent, child.m, d);
-  parent.bx += child.bx;
-  parent.by += child.by;
-  parent.bz += child.bz;
+  const Vec3 qx = cross(d, bx), qy = cross(d, by), qz = cross(d, bz);
+  parent.a.xx += child.a.xx + px.x() + qx.x();
+  parent.a.yy += child.a.yy + py.y() + qy.y();
+  parent.a.zz += child.a.zz + pz.z() + qz.z();
+  parent.a.xy += child.a.xy + py.x() + qx.y();
+  parent.a.xz += child.a.xz + pz.x() + qx.z();
+  parent.a.yz += child.a.yz + pz.y() + qy.z();
+  parent.bx += bx;
+  parent.by += by;
+  parent.bz += bz;
+  add(parent.m, 1.0, m);
   parent.torque += child.torque + cross(d, child.force);
   parent.force += child.force;
 }
@@ -158,13 +166,9 @@ void ArticulatedBody::sweepBack(const std::vector<Link>& links, const ChainState
     const Vec3 wa2 = gain.i12 * gain.a1 + gain.i22 * gain.a2;
     const Vec3 wb1 = gain.i11 * gain.b1 + gain.i12 * gain.b2;
     const Vec3 wb2 = gain.i12 * gain.b1 + gain.i22 * gain.b2;
-    Body passed = body;
-    addSquare(passed.a, -gain.i11, gain.a1);
-    addSquare(passed.a, -gain.i22, gain.a2);
-    addPair(passed.a, -gain.i12, gain.a1, gain.a2);
-    addSquare(passed.m, -gain.i11, gain.b1);
-    addSquare(passed.m, -gain.i22, gain.b2);
-    addPair(passed.m, -gain.i12, gain.b1, gain.b2);
+    Body& passed = body;  // needed no more as it is
+    subtractTwo(passed.a, wa1, gain.a1, wa2, gain.a2);
+    subtractTwo(passed.m, wb1, gain.b1, wb2, gain.b2);
     passed.bx -= wa1.x() * gain.b1 + wa2.x() * gain.b2;
     passed.by -= wa1.y() * gain.b1 + wa2.y() * gain.b2;
     passed.bz -= wa1.z() * gain.b1 + wa2.z() * gain.b2;

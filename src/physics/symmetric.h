@@ -35,6 +35,17 @@ inline void addSquare(Symmetric3& m, double s, const Vec3& u) {
   m.yz += t.y() * u.z();
 }
 
+/// m -= u1 v1^T + u2 v2^T, a sum that is symmetric.
+inline void subtractTwo(Symmetric3& m, const Vec3& u1, const Vec3& v1, const Vec3& u2,
+                        const Vec3& v2) {
+  m.xx -= u1.x() * v1.x() + u2.x() * v2.x();
+  m.yy -= u1.y() * v1.y() + u2.y() * v2.y();
+  m.zz -= u1.z() * v1.z() + u2.z() * v2.z();
+  m.xy -= u1.x() * v1.y() + u2.x() * v2.y();
+  m.xz -= u1.x() * v1.z() + u2.x() * v2.z();
+  m.yz -= u1.y() * v1.z() + u2.y() * v2.z();
+}
+
 /// m += s (u v^T + v u^T).
 inline void addPair(Symmetric3& m, double s, const Vec3& u, const Vec3& v) {
   const Vec3 t = s * u;
@@ -58,10 +69,9 @@ inline Symmetric3 aboutJoint(const Symmetric3& m, const Vec3& arm) {
 
 /// In other axes: x, y, z are the own axes in those.
 inline Symmetric3 turned(const Symmetric3& m, const Vec3& x, const Vec3& y, const Vec3& z) {
-  Symmetric3 out;
-  addSquare(out, m.xx, x);
-  addSquare(out, m.yy, y);
-  addSquare(out, m.zz, z);
+  Symmetric3 out = scaledIdentity(m.yy);  // x x^T + y y^T + z z^T is one
+  addSquare(out, m.xx - m.yy, x);
+  addSquare(out, m.zz - m.yy, z);
   if (m.xy != 0.0) addPair(out, m.xy, x, y);
   if (m.xz != 0.0) addPair(out, m.xz, x, z);
   if (m.yz != 0.0) addPair(out, m.yz, y, z);
