@@ -200,7 +200,9 @@ Frame drawFrame(Meadow& meadow, const wind::Field& wind, const Eye& eye, Nanosec
   meadow.advance(stamp);
   const auto views = meadow.viewOf(eye, stamp);
   NodeAir air(meadow.map(), meadow.terrain());
-  air.update(wind.at(stamp), {}, Meadow::windowOf(views));
+  std::vector<TilePlace> tiles;
+  for (const TileView& view : views) tiles.push_back({view.column, view.row});
+  air.update(wind.at(stamp), {}, Meadow::windowOf(views), &tiles);
   CrushPatch patch;
   strips.clear();
   strips.origin = eye.position;

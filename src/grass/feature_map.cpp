@@ -144,6 +144,16 @@ Features FeatureMap::node(int column, int row) const {
   return out;
 }
 
+TileMeans FeatureMap::meansOf(int tile_column, int tile_row) const {
+  TileMeans out;
+  for (int corner = 0; corner < 4; ++corner) {
+    const int column = tile_column + corner % 2, row = tile_row + corner / 2;
+    out.height += 0.25 * valueAt(input_.height, column, row);
+    out.density += 0.25 * valueAt(input_.density, column, row);
+  }
+  return out;
+}
+
 Features FeatureMap::at(double x, double y) const {
   const MapLaw& law = input_.law;
   const double u = (x - law.origin_x) / law.resolution, v = (y - law.origin_y) / law.resolution;
@@ -159,7 +169,8 @@ Features FeatureMap::at(double x, double y) const {
     out.density += weights[corner] * f.density;
     out.colour += weights[corner] * f.colour;
     out.shape += weights[corner] * f.shape;
-    for (std::size_t s = 0; s < out.mix.size(); ++s) out.mix[s] += weights[corner] * f.mix[s];
+    for (std::size_t s = 0; s < input_.species.size(); ++s)
+      out.mix[s] += weights[corner] * f.mix[s];
   }
   return out;
 }

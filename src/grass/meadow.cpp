@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 #include "vegetation_sim/common/hash.h"
 #include "vegetation_sim/common/math.h"
@@ -20,7 +21,7 @@ bool isBefore(const TileLevel& level, int row, int column) {
   return std::tie(level.row, level.column) < std::tie(row, column);
 }
 
-TileDetail detailOf(const Features& f) {
+TileDetail detailOf(const TileMeans& f) {
   return {1.0 / std::sqrt(std::max(f.density, 1e-6)), f.height};
 }
 
@@ -94,7 +95,7 @@ double Meadow::chooseRow(int row, std::vector<TileLevel>::const_iterator& old, N
     TileLevel level{row, column, {}};
     if (old != levels_.end() && old->row == row && old->column == column) level = *old++;
     const Vec3 centre = centreOf(row, column);
-    const Features f = map_->at(centre.x(), centre.y());
+    const TileMeans f = map_->meansOf(column, row);
     const TileDetail detail = detailOf(f);
     const double scale = scaleOf(centre);
     const bool bare = !(f.density > 0.0 && f.height > 0.0);
@@ -113,7 +114,7 @@ void Meadow::advance(Nanoseconds stamp) {
     levels_.clear();
     coarseness_ = 1.0;
   }
-  stamp_ = stamp;
+  const Nanoseconds before = std::exchange(stamp_, stamp);
   std::vector<TileLevel> next;
   next.reserve(levels_.size() + 64);
   auto old = levels_.cbegin();
@@ -128,7 +129,8 @@ void Meadow::advance(Nanoseconds stamp) {
   // Blades grow about as the inverse of the tolerance; half the way at a time cannot overshoot.
   const double wanted = coarseness_ * std::sqrt(blades / settings_.most_blades);
   coarseness_ = std::min(64.0, std::max(1.0, wanted));
-  tread_.prune(stamp);
+  // A look through all the trodden ground: once a second is enough.
+  if (stamp / NANOSECONDS_PER_SECOND != before / NANOSECONDS_PER_SECOND) tread_.prune(stamp);
 }
 
 std::vector<TileView> Meadow::viewOf(const Eye& eye, Nanoseconds stamp) const {
@@ -138,7 +140,7 @@ std::vector<TileView> Meadow::viewOf(const Eye& eye, Nanoseconds stamp) const {
     const double place = placeAt(level.rung, stamp, settings_.transition);
     if (!(place > 0.0)) continue;
     const Vec3 centre = centreOf(level.row, level.column);
-    const Features f = map_->at(centre.x(), centre.y());
+    const TileMeans f = map_->meansOf(level.column, level.row);
     if (!sees(eye, centre, 0.75 * size + map_->tallest())) continue;
     const Vec3 view = eye.position - centre;
     const double scale = pixelsPerMetre(eye, length(view) - 0.70710678 * size);

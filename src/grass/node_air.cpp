@@ -58,8 +58,16 @@ NodeAir::Span NodeAir::maskOf(const wind::Term& term) const {
                 y + std::min(0.0, back_y) - side_y, y + std::max(0.0, back_y) + side_y);
 }
 
+void NodeAir::want(const std::vector<TilePlace>* tiles) {
+  wanted_.assign(air_.size(), tiles ? 0 : 1);
+  if (!tiles) return;
+  for (const TilePlace& tile : *tiles)
+    for (int corner = 0; corner < 4; ++corner)
+      wanted_[indexOf(tile.column + corner % 2, tile.row + corner / 2)] = 1;
+}
+
 void NodeAir::update(const wind::Instant& wind, const std::vector<ColourMask>& masks,
-                     const TileWindow& window) {
+                     const TileWindow& window, const std::vector<TilePlace>* tiles) {
   window_ = window;
   columns_ = std::max(0, window.last_column - window.first_column + 2);
   const int rows = std::max(0, window.last_row - window.first_row + 2);
@@ -69,16 +77,20 @@ void NodeAir::update(const wind::Instant& wind, const std::vector<ColourMask>& m
   air_.assign(count, wind.mean);
   tints_.assign(count, Tint());
   if (count == 0) return;
+  want(tiles);
   if (!wind.modes.empty()) {
     const wind::Instant breeze{wind.mean, wind.breezes, wind.modes, {}};
     for (int row = window.first_row; row <= window.last_row + 1; ++row)
       for (int column = window.first_column; column <= window.last_column + 1; ++column)
-        air_[indexOf(column, row)] = breeze.velocity(placeOf(column, row));
+        if (const std::size_t i = indexOf(column, row); wanted_[i])
+          air_[i] = breeze.velocity(placeOf(column, row));
   }
   const auto forNodes = [&](const Span& span, auto&& visit) {
     for (int row = span.first_row; row <= span.last_row; ++row)
       for (int column = span.first_column; column <= span.last_column; ++column)
-        if (visit(indexOf(column, row), placeOf(column, row))) ++touched_;
+        if (const std::size_t i = indexOf(column, row);
+            wanted_[i] && visit(i, placeOf(column, row)))
+          ++touched_;
   };
   for (const wind::Term& term : wind.terms)
     forNodes(maskOf(term), [&](std::size_t i, const Vec3& place) {

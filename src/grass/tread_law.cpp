@@ -2,22 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vegetation_sim/grass/tread_law.h"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace vegetation_sim::grass {
 namespace {
-
-// Integral of (square + s^2)^(-3/2) over s from lo to hi. With both ends on one side the difference
-// of the two terms is expanded, so that nothing cancels (E5).
-double integral(double lo, double hi, double square) {
-  const double r0 = std::sqrt(square + lo * lo), r1 = std::sqrt(square + hi * hi);
-  if (lo < 0.0 && hi > 0.0) return (hi * r0 - lo * r1) / (r0 * r1 * square);
-  const double both = std::fabs(hi) * r0 + std::fabs(lo) * r1;
-  return both > 0.0 ? (hi - lo) * std::fabs(hi + lo) / (r0 * r1 * both)
-                    : std::numeric_limits<double>::infinity();
-}
 
 double lengthOf(const Point& a, const Point& b) {
   return std::sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y));
@@ -47,7 +35,7 @@ double treadField(const Point& p, const Point& p0, const Point& p1, double eps) 
   const double tx = (p1.x - p0.x) / c, ty = (p1.y - p0.y) / c;
   const double ax = p0.x - p.x, ay = p0.y - p.y;
   const double s0 = ax * tx + ay * ty, d = ax * ty - ay * tx;
-  return integral(s0, s0 + c, d * d + eps * eps);
+  return kernelIntegral(s0, s0 + c, d * d + eps * eps);
 }
 
 double treadFieldPrinted(const Point& p, const Point& p0, const Point& p1) {
@@ -83,23 +71,9 @@ CompactField::CompactField(const Point& p0, const Point& p1, double reach, doubl
   edge_ = 1.0 / (end * std::sqrt(end));
 }
 
-CompactField::Sample CompactField::at(const Point& p) const {
-  const double ax = p0_.x - p.x, ay = p0_.y - p.y;
-  const double s0 = ax * along_.x + ay * along_.y, s1 = s0 + length_;
-  const double side = ax * along_.y - ay * along_.x, square = side * side;
-  const double beyond = std::max(0.0, std::max(s0, -s1));
-  Sample out{0.0, square + beyond * beyond, side};
-  if (out.square_distance >= square_reach_) return out;
-  const double half = std::sqrt(square_reach_ - square);
-  const double lo = std::max(s0, -half), hi = std::min(s1, half);
-  if (hi > lo) out.field = integral(lo, hi, square + square_softness_) - (hi - lo) * edge_;
-  return out;
-}
-
 double CompactField::ofEndlessTrack(double distance, double reach, double softness) {
   return CompactField({-2.0 * reach, 0.0}, {2.0 * reach, 0.0}, reach, softness)
-      .at({0.0, distance})
-      .field;
+      .fieldAt(Point{0.0, distance});
 }
 
 }  // namespace vegetation_sim::grass

@@ -21,9 +21,8 @@ int blockOf(int node) {
 }
 static_assert(SIDE == 16, "blockOf");
 
-Nanoseconds recoveredAt(const TreadNode& node) {
-  if (node.recovery >= static_cast<float>(PERMANENT_RECOVERY)) return FOR_EVER;
-  return node.stamp + fromSeconds(double{node.recovery});
+Nanoseconds recoveredAt(Nanoseconds stamp, double recovery) {
+  return recovery >= PERMANENT_RECOVERY ? FOR_EVER : stamp + fromSeconds(recovery);
 }
 
 bool isFinite(const Point& p) {
@@ -54,7 +53,9 @@ struct TreadMap::Stroke {
       : law(l),
         field(from, fresh.position, l.reach, l.softness),
         full(CompactField::ofEndlessTrack(l.radius, l.reach, l.softness)),
+        enough(full / std::max(l.load, 1e-9)),
         square_reach(l.reach * l.reach),
+        latest(recoveredAt(fresh.stamp, static_cast<float>(l.recovery))),
         before(old),
         after(fresh) {
     const bool moves = field.length() > 0.0;
@@ -62,15 +63,17 @@ struct TreadMap::Stroke {
     after.along = moves ? field.along() : before.along;
   }
 
-  double addDose(int row, int column, const Point& p, double field_here);
+  double addDose(int row, int column, const Point& p, const CompactField::Place& place);
   float tiltOf(double dose, double square_distance) const;
-  void press(float tilt, const Point& p, double side, TreadBlock& block, TreadNode& node) const;
+  void press(float tilt, const Point& p, double side, TreadNode& node);
   void turn(const Point& p, double side, TreadNode& node) const;
 
   const TreadLaw& law;
   CompactField field;
-  double full;  ///< dose that crushes fully
+  double full;    ///< dose that crushes fully
+  double enough;  ///< likewise, of this load
   double square_reach;
+  Nanoseconds latest;  ///< when the last of the pressed nodes has recovered
   const TreadSource& before;
   TreadSource& after;
 };
@@ -85,8 +88,10 @@ double doseAt(const TreadSource& source, int row, int column) {
 
 }  // namespace
 
-double TreadMap::Stroke::addDose(int row, int column, const Point& p, double field_here) {
-  const double dose = doseAt(before, row, column) + field_here;
+double TreadMap::Stroke::addDose(int row, int column, const Point& p,
+                                 const CompactField::Place& place) {
+  double dose = doseAt(before, row, column);
+  if (dose < enough) dose += field.fieldAt(place);  // no dose crushes more than fully
   const double dx = p.x - after.position.x, dy = p.y - after.position.y;
   // What the source leaves behind begins a new pass when it comes back.
   if (dx * dx + dy * dy < square_reach)
@@ -107,14 +112,15 @@ float TreadMap::Stroke::tiltOf(double dose, double square_distance) const {
 
 // Against what is there the larger tilt counts (E15); only a node that had risen takes a new
 // direction (S2-27).
-void TreadMap::Stroke::press(float tilt, const Point& p, double side, TreadBlock& block,
-                             TreadNode& node) const {
+void TreadMap::Stroke::press(float tilt, const Point& p, double side, TreadNode& node) {
   const float now = tiltAt(node, after.stamp);
   if (now <= CRUNCHED) turn(p, side, node);
-  if (tilt >= now) node.recovery = static_cast<float>(law.recovery);
+  if (tilt >= now)
+    node.recovery = static_cast<float>(law.recovery);
+  else
+    latest = std::max(latest, recoveredAt(after.stamp, double{node.recovery}));
   node.tilt = std::max(now, tilt);
   node.stamp = after.stamp;
-  block.until = std::max(block.until, recoveredAt(node));
 }
 
 // sign(A.N) N + C, or outward under a foot that came straight down.
@@ -152,12 +158,21 @@ std::size_t TreadMap::bytes() const {
   return sum;
 }
 
+// Most strokes fall on the blocks of the ones before: a table in front of the tree.
 TreadBlock* TreadMap::blockAt(int row, int column, bool make) {
+  TreadBlock*& known = recent_.at(row, column);
+  if (known) return known;
   const auto found = state_.blocks.find({row, column});
-  if (found != state_.blocks.end()) return &found->second;
+  if (found != state_.blocks.end()) return known = &found->second;
   const double size = static_cast<double>((state_.blocks.size() + 1) * BLOCK_BYTES);
   if (!make || size > settings_.memory_cap) return nullptr;
-  return &state_.blocks[{row, column}];
+  return known = &state_.blocks[{row, column}];
+}
+
+bool TreadMap::isJump(const TreadSource& from, const Point& to, Nanoseconds stamp) const {
+  const double x = to.x - from.position.x, y = to.y - from.position.y;
+  const double way = std::sqrt(x * x + y * y), seconds = secondsBetween(from.stamp, stamp);
+  return way > settings_.longest_stroke || (seconds > 0.0 && way > settings_.top_speed * seconds);
 }
 
 int TreadMap::tread(std::uint32_t id, const TreadLaw& law, const Point& position,
@@ -168,20 +183,19 @@ int TreadMap::tread(std::uint32_t id, const TreadLaw& law, const Point& position
     ++state_.counts.invalid;
     return 0;
   }
-  TreadSource before = known ? std::move(found->second) : TreadSource();
-  Point from = known ? before.position : position;
-  const CompactField way(from, position, law.reach, law.softness);
-  const double seconds = secondsBetween(before.stamp, stamp);
-  if (known && (way.length() > settings_.longest_stroke ||
-                (seconds > 0.0 && way.length() > settings_.top_speed * seconds))) {
-    ++state_.counts.jumps;
-    before = TreadSource();
+  TreadSource& after = known ? found->second : state_.sources[id];
+  Point from = known ? after.position : position;
+  std::swap(before_, after);  // and reuses its memory
+  if (!known || isJump(before_, position, stamp)) {
+    if (known) ++state_.counts.jumps;
     from = position;
+    before_.columns = before_.rows = 0;
+    before_.has_moved = false;
+    before_.along = Point();
   }
-  TreadSource& after = state_.sources[id] = TreadSource();
   after.position = position;
   after.stamp = stamp;
-  Stroke stroke(law, from, before, after);
+  Stroke stroke(law, from, before_, after);
   const int touched = press(stroke, from);
   ++(touched > 0 ? state_.counts.strokes : state_.counts.outside);
   return touched;
@@ -220,11 +234,11 @@ int TreadMap::pressBlock(Stroke& stroke, int block_row, int block_column, const 
   for (int row = std::max(box.first_row, row0); row <= last_row; ++row)
     for (int column = std::max(box.first_column, column0); column <= last_column; ++column) {
       const Point p{law_.origin_x + column * spacing_, law_.origin_y + row * spacing_};
-      const CompactField::Sample sample = stroke.field.at(p);
-      if (sample.square_distance >= stroke.square_reach) continue;
+      const CompactField::Place place = stroke.field.placeOf(p);
+      if (place.square_distance >= stroke.square_reach) continue;
       ++touched;
-      const double dose = stroke.addDose(row, column, p, sample.field);
-      const float tilt = stroke.tiltOf(dose, sample.square_distance);
+      const double dose = stroke.addDose(row, column, p, place);
+      const float tilt = stroke.tiltOf(dose, place.square_distance);
       if (tilt < CRUNCHED) continue;
       if (!block && !full) {
         block = blockAt(block_row, block_column, true);
@@ -234,9 +248,10 @@ int TreadMap::pressBlock(Stroke& stroke, int block_row, int block_column, const 
         ++state_.counts.no_memory;
       else
         stroke.press(
-            tilt, p, sample.side, *block,
+            tilt, p, place.side,
             block->nodes[static_cast<std::size_t>((row - row0) * SIDE + column - column0)]);
     }
+  if (block) block->until = std::max(block->until, stroke.latest);
   return touched;
 }
 

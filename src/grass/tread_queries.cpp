@@ -61,11 +61,13 @@ void TreadMap::patch(int tile_column, int tile_row, Nanoseconds stamp, CrushPatc
 }
 
 void TreadMap::prune(Nanoseconds stamp) {
+  recent_.clear();
   for (auto entry = state_.blocks.begin(); entry != state_.blocks.end();)
     entry = entry->second.until <= stamp ? state_.blocks.erase(entry) : std::next(entry);
 }
 
 void TreadMap::rewind(Nanoseconds stamp) {
+  recent_.clear();
   for (auto& entry : state_.blocks)
     for (TreadNode& node : entry.second.nodes)
       if (node.stamp > stamp) node = TreadNode();
@@ -79,7 +81,12 @@ void TreadMap::rewind(Nanoseconds stamp) {
 }
 
 void TreadMap::clear() {
-  state_ = TreadState();
+  restore(TreadState());
+}
+
+void TreadMap::restore(TreadState state) {
+  recent_.clear();
+  state_ = std::move(state);
 }
 
 std::uint64_t TreadState::hash() const {

@@ -186,6 +186,23 @@ TEST(NodeAir, DownwashBendsOutwardAndMovesAlong) {
   }
 }
 
+// S2-17: a viewer's tiles may be all that is asked for; those get the same air.
+TEST(NodeAir, CanBeRestrictedToSomeTiles) {
+  const FeatureMap map;
+  const terrain::HeightMap flat;
+  NodeAir all(map, flat), some(map, flat);
+  const wind::Instant wind = everyKind().at(STAMP);
+  const std::vector<TilePlace> tiles{{14, 15}, {20, 11}};
+  all.update(wind, {}, {10, 20, 10, 20});
+  some.update(wind, {}, {10, 20, 10, 20}, &tiles);
+  for (const TilePlace& tile : tiles)
+    for (int corner = 0; corner < 4; ++corner) {
+      const int column = tile.column + corner % 2, row = tile.row + corner / 2;
+      EXPECT_EQ(some.at(column, row), all.at(column, row));
+    }
+  EXPECT_LE(some.touched(), 8 * 4);
+}
+
 TEST(NodeAir, FillsTheCornersOfATile) {
   const FeatureMap map;
   const terrain::HeightMap flat;

@@ -157,7 +157,7 @@ TEST(CompactField, IsTheIntegralOfItsKernelWithinItsReach) {
       if (square < reach * reach)
         sum += (std::pow(square + eps * eps, -1.5) - edge) * length / PIECES;
     }
-    const double field = CompactField(c.p0, c.p1, reach, eps).at(p).field;
+    const double field = CompactField(c.p0, c.p1, reach, eps).fieldAt(p);
     ASSERT_NEAR(field, sum, 1e-6 * (1.0 + sum)) << i;  // midpoints, and ends cut within a piece
   }
 }
@@ -165,13 +165,13 @@ TEST(CompactField, IsTheIntegralOfItsKernelWithinItsReach) {
 // S2-22: nothing from the reach on, and nothing jumps there.
 TEST(CompactField, EndsSmoothlyAtItsReach) {
   const CompactField field({0, 0}, {1, 0}, 0.5, 0.1);
-  EXPECT_EQ(field.at({0.5, 0.5}).field, 0.0);
-  EXPECT_EQ(field.at({1.51, 0.0}).field, 0.0);
-  EXPECT_NEAR(field.at({0.5, 0.4999}).field, 0.0, 1e-3);
-  EXPECT_NEAR(field.at({1.4999, 0.0}).field, 0.0, 1e-3);
-  double before = field.at({0.5, 0.0}).field;
+  EXPECT_EQ(field.fieldAt(Point{0.5, 0.5}), 0.0);
+  EXPECT_EQ(field.fieldAt(Point{1.51, 0.0}), 0.0);
+  EXPECT_NEAR(field.fieldAt(Point{0.5, 0.4999}), 0.0, 1e-3);
+  EXPECT_NEAR(field.fieldAt(Point{1.4999, 0.0}), 0.0, 1e-3);
+  double before = field.fieldAt(Point{0.5, 0.0});
   for (double y = 0.01; y <= 0.5; y += 0.01) {
-    const double now = field.at({0.5, y}).field;
+    const double now = field.fieldAt(Point{0.5, y});
     EXPECT_LT(now, before);
     before = now;
   }
@@ -180,11 +180,11 @@ TEST(CompactField, EndsSmoothlyAtItsReach) {
 // S2-23: the same 4 m in 1 to 16 384 parts.
 TEST(CompactField, IsTheSameInAnyNumberOfParts) {
   for (const Point p : {Point{1.3, 0.2}, Point{2.0, 0.0}, Point{0.1, -0.4}, Point{4.2, 0.1}}) {
-    const double whole = CompactField({0, 0}, {4, 0}, 0.6, 0.1).at(p).field;
+    const double whole = CompactField({0, 0}, {4, 0}, 0.6, 0.1).fieldAt(p);
     for (const int parts : {16, 1024, 16384}) {
       double sum = 0.0;
       for (int k = 0; k < parts; ++k)
-        sum += CompactField({4.0 * k / parts, 0}, {4.0 * (k + 1) / parts, 0}, 0.6, 0.1).at(p).field;
+        sum += CompactField({4.0 * k / parts, 0}, {4.0 * (k + 1) / parts, 0}, 0.6, 0.1).fieldAt(p);
       EXPECT_NEAR(sum / whole, 1.0, 1e-10) << parts;
     }
   }
@@ -192,11 +192,11 @@ TEST(CompactField, IsTheSameInAnyNumberOfParts) {
 
 TEST(CompactField, KnowsDistanceAndSide) {
   const CompactField field({0, 0}, {2, 0}, 0.5, 0.1);
-  EXPECT_EQ(field.at({1.0, 0.3}).side, 0.3);
-  EXPECT_EQ(field.at({1.0, -0.3}).side, -0.3);
-  EXPECT_NEAR(field.at({2.3, 0.4}).square_distance, 0.25, 1e-15);
-  EXPECT_NEAR(field.at({-0.3, 0.0}).square_distance, 0.09, 1e-15);
-  EXPECT_EQ(CompactField({1, 1}, {1, 1}, 0.5, 0.1).at({1, 1.2}).field, 0.0);
+  EXPECT_EQ(field.placeOf({1.0, 0.3}).side, 0.3);
+  EXPECT_EQ(field.placeOf({1.0, -0.3}).side, -0.3);
+  EXPECT_NEAR(field.placeOf({2.3, 0.4}).square_distance, 0.25, 1e-15);
+  EXPECT_NEAR(field.placeOf({-0.3, 0.0}).square_distance, 0.09, 1e-15);
+  EXPECT_EQ(CompactField({1, 1}, {1, 1}, 0.5, 0.1).fieldAt(Point{1, 1.2}), 0.0);
 }
 
 TEST(TreadLaw, RefusesBadValuesByName) {

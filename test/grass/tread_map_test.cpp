@@ -126,7 +126,7 @@ TEST_F(Treading, TouchesTheNodesWithinReachAndNoOthers) {
     int expected = 0;
     for (int row = 0; row <= 80; ++row)
       for (int column = 0; column <= 80; ++column)
-        if (field.at({0.25 * column, 0.25 * row}).square_distance < law.reach * law.reach)
+        if (field.placeOf({0.25 * column, 0.25 * row}).square_distance < law.reach * law.reach)
           ++expected;
     EXPECT_EQ(touched, expected) << i;
   }
@@ -143,7 +143,7 @@ int missedByFlood(double reach, int strokes) {
     const Point b{a.x + random.uniform(2, -1, 1), a.y + random.uniform(3, -1, 1)};
     const CompactField field(a, b, reach, 0.1);
     const auto inside = [&](int column, int row) {
-      return field.at({H * column, H * row}).square_distance < reach * reach;
+      return field.placeOf({H * column, H * row}).square_distance < reach * reach;
     };
     std::set<std::pair<int, int>> seen;
     std::vector<std::pair<int, int>> open{

@@ -56,6 +56,11 @@ struct Features {
   std::array<double, MAX_SPECIES> mix{};
 };
 
+/// Means of the four nodes of a tile.
+struct TileMeans {
+  double height{0.0}, density{0.0};  ///< [m], [blades/m^2]
+};
+
 /// A meadow as a continuous medium (paper 2, section 3.1): features at the nodes of a uniform grid,
 /// bilinear between them, nothing beyond the border. Immutable; read it from any thread.
 class FeatureMap {
@@ -77,6 +82,8 @@ class FeatureMap {
   Features node(int column, int row) const;
   /// Features at (x, y) [m]; density 0 beyond the border or for a coordinate that is no number.
   Features at(double x, double y) const;
+  /// What levels of detail go by. Requires a tile of the map.
+  TileMeans meansOf(int tile_column, int tile_row) const;
   /// Largest height of any blade of the map [m].
   double tallest() const { return tallest_; }
   std::uint64_t hash() const { return hash_; }

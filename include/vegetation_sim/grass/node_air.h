@@ -18,6 +18,11 @@ struct TileWindow {
   }
 };
 
+/// Column and row of a tile.
+struct TilePlace {
+  int column{0}, row{0};
+};
+
 /// A disc that colours the grass, strongest in its middle: a mown, dry or fertilised patch.
 struct ColourMask {
   Point centre{};      ///< [m]
@@ -36,8 +41,9 @@ class NodeAir {
 
   /// Evaluates the wind law at the nodes of a window: the sum is Instant::velocity on the ground,
   /// bit by bit, but a bounded primitive costs only the nodes that its mask covers (S2-17).
+  /// With `tiles`, nodes that are no corner of one of them are left without air.
   void update(const wind::Instant& wind, const std::vector<ColourMask>& masks,
-              const TileWindow& window);
+              const TileWindow& window, const std::vector<TilePlace>* tiles = nullptr);
 
   /// Air at a node of the window [m/s].
   Vec3 at(int column, int row) const { return air_[indexOf(column, row)]; }
@@ -59,6 +65,7 @@ class NodeAir {
   std::size_t indexOf(int column, int row) const;
   Vec3 placeOf(int column, int row) const;
   Span spanOf(double min_x, double max_x, double min_y, double max_y) const;
+  void want(const std::vector<TilePlace>* tiles);
   Span maskOf(const wind::Term& term) const;
 
   const FeatureMap& map_;
@@ -66,8 +73,9 @@ class NodeAir {
   TileWindow window_;
   int columns_{0};
   int touched_{0};
-  std::vector<Vec3> air_;    ///< [rows x columns] of nodes
-  std::vector<Tint> tints_;  ///< likewise
+  std::vector<std::uint8_t> wanted_;  ///< [rows x columns] of nodes
+  std::vector<Vec3> air_;             ///< [rows x columns] of nodes
+  std::vector<Tint> tints_;           ///< likewise
 };
 
 /// Bend of grass of this compliance [rad s/m] in this air [m/s], bounded (S2-W4, E16) [rad].

@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "vegetation_sim/common/fields.h"
 
 namespace vegetation_sim::grass {
@@ -30,6 +34,16 @@ constexpr double PERMANENT_RECOVERY = 1e9;
 /// length, infinite on the segment if eps = 0.
 double treadField(const Point& p, const Point& p0, const Point& p1, double eps);
 
+/// Integral of (square + s^2)^(-3/2) over s from lo to hi. With both ends on one side the
+/// difference of the two terms is expanded, so that nothing cancels (E5).
+inline double kernelIntegral(double lo, double hi, double square) {
+  const double r0 = std::sqrt(square + lo * lo), r1 = std::sqrt(square + hi * hi);
+  if (lo < 0.0 && hi > 0.0) return (hi * r0 - lo * r1) / (r0 * r1 * square);
+  const double both = std::fabs(hi) * r0 + std::fabs(lo) * r1;
+  return both > 0.0 ? (hi - lo) * std::fabs(hi + lo) / (r0 * r1 * both)
+                    : std::numeric_limits<double>::infinity();
+}
+
 /// The same as printed, sines taken as the formula reads: cancels near the line's extension.
 double treadFieldPrinted(const Point& p, const Point& p0, const Point& p1);
 
@@ -42,13 +56,28 @@ class CompactField {
  public:
   CompactField(const Point& p0, const Point& p1, double reach, double softness);
 
-  /// Field and distance from the segment of a point; both from the same products.
-  struct Sample {
-    double field;            ///< [1/m^2]; 0 from `reach` on
-    double square_distance;  ///< from the segment [m^2]
+  /// Where a point is beside the segment.
+  struct Place {
+    double start, end;       ///< ends of the segment, counted along it from the point [m]
     double side;             ///< of the track, left positive [m]
+    double square_distance;  ///< from the segment [m^2]
   };
-  Sample at(const Point& p) const;
+  Place placeOf(const Point& p) const {
+    const double ax = p0_.x - p.x, ay = p0_.y - p.y;
+    const double start = ax * along_.x + ay * along_.y, end = start + length_;
+    const double side = ax * along_.y - ay * along_.x;
+    const double beyond = std::max(0.0, std::max(start, -end));
+    return {start, end, side, side * side + beyond * beyond};
+  }
+  /// Field there [1/m^2]; 0 from `reach` on.
+  double fieldAt(const Place& place) const {
+    if (place.square_distance >= square_reach_) return 0.0;
+    const double square = place.side * place.side, half = std::sqrt(square_reach_ - square);
+    const double lo = std::max(place.start, -half), hi = std::min(place.end, half);
+    if (!(hi > lo)) return 0.0;
+    return kernelIntegral(lo, hi, square + square_softness_) - (hi - lo) * edge_;
+  }
+  double fieldAt(const Point& p) const { return fieldAt(placeOf(p)); }
   double length() const { return length_; }
   Point along() const { return along_; }
 

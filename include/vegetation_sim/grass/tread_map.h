@@ -65,6 +65,35 @@ struct TreadState {
   std::uint64_t hash() const;
 };
 
+/// Where blocks were found lately. Empty in a copy, since it points into one map's blocks.
+class RecentBlocks {
+ public:
+  RecentBlocks() = default;
+  RecentBlocks(const RecentBlocks&) {}
+  RecentBlocks& operator=(const RecentBlocks&) {
+    clear();
+    return *this;
+  }
+  /// Null if unknown; may be set.
+  TreadBlock*& at(int row, int column) {
+    if (entries_.empty()) entries_.resize(SIZE);
+    const auto mixed = static_cast<std::uint32_t>(row) * 0x9E3779B1U +
+                       static_cast<std::uint32_t>(column) * 0x85EBCA77U;
+    Entry& entry = entries_[mixed >> (32 - BITS)];
+    if (entry.row != row || entry.column != column) entry = {row, column, nullptr};
+    return entry.block;
+  }
+  void clear() { entries_.clear(); }
+
+ private:
+  static constexpr int BITS = 13, SIZE = 1 << BITS;
+  struct Entry {
+    int row{-1}, column{-1};
+    TreadBlock* block{nullptr};
+  };
+  std::vector<Entry> entries_;
+};
+
 /// Trodden grass (paper 2, section 4.2; S2-21 to S2-28) on a fine grid that exists only where
 /// somebody trod (S2-W1). Nothing happens per frame: how far a node has recovered follows from its
 /// stamp. One thread at a time. Every value is the same on each processor.
@@ -92,7 +121,7 @@ class TreadMap {
   void clear();
 
   const TreadState& state() const { return state_; }
-  void restore(TreadState state) { state_ = std::move(state); }
+  void restore(TreadState state);
   double spacing() const { return spacing_; }
   std::size_t bytes() const;
 
@@ -100,6 +129,7 @@ class TreadMap {
   struct Stroke;
   struct Box;
   TreadBlock* blockAt(int row, int column, bool make);
+  bool isJump(const TreadSource& from, const Point& to, Nanoseconds stamp) const;
   int press(Stroke& stroke, const Point& from);
   int pressBlock(Stroke& stroke, int block_row, int block_column, const Box& box);
 
@@ -108,6 +138,8 @@ class TreadMap {
   int cells_;  ///< fine cells along a tile
   double spacing_;
   TreadState state_;
+  RecentBlocks recent_;
+  TreadSource before_;  ///< scratch
 };
 
 /// Tilt of a node at a stamp [rad]: theta0 (1 - smoothStep((t - t0) / T)); 0 before t0.
