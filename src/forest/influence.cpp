@@ -88,6 +88,22 @@ void dropAboveGaps(const Skeleton& skeleton, std::vector<int>& wanted) {
                wanted.end());
 }
 
+// On the way from a branch to the ground, each joint counts with all those that count less: whoever
+// leaves out some of them misses their sum.
+void addUp(const Skeleton& skeleton, int branch, std::vector<double>& deflection) {
+  std::vector<int> way;
+  for (int i = branch; i >= 0; i = skeleton.branches[index(i)].parent) way.push_back(i);
+  std::sort(way.begin(), way.end(), [&](int a, int b) {
+    const double x = deflection[index(a)], y = deflection[index(b)];
+    return x != y ? x < y : a < b;
+  });
+  double sum = 0.0;
+  for (const int i : way) {
+    sum += deflection[index(i)];
+    deflection[index(i)] = sum;
+  }
+}
+
 }  // namespace
 
 std::vector<double> predictDeflection(const Skeleton& skeleton, const Wood& wood,
@@ -106,6 +122,7 @@ std::vector<double> predictDeflection(const Skeleton& skeleton, const Wood& wood
     const double inertial = length(bendOf(b, wood.stiffness[i], torque));
     out[i] = (length(bends[i]) + inertial) * wood.reach[i];
   }
+  for (const BranchLoad& load : loads) addUp(skeleton, load.branch, out);
   return out;
 }
 

@@ -69,8 +69,13 @@ struct PhysicalPart::Step {
 void PhysicalPart::step(const Air& air, const PartLoads& loads, const PhysicsSettings& settings,
                         Nanoseconds from, Nanoseconds to, PartScratch& scratch) {
   const Step context{*this, air, loads, settings, scratch, from};
-  scratch.stepper.step(static_cast<physics::Integrator>(settings.integrator), links_,
-                       context.outside(), 0.0, secondsBetween(from, to), state_, theta_);
+  const physics::Surroundings outside = context.outside();
+  const double h = secondsBetween(from, to);
+  scratch.stepper.setDynamics(static_cast<physics::Dynamics>(settings.dynamics));
+  const auto wanted = static_cast<physics::Integrator>(settings.integrator);
+  if (scratch.stepper.step(wanted, links_, outside, 0.0, h, state_, theta_) > 0) return;
+  ++scratch.replaced;  // beyond the bound of an explicit method
+  scratch.stepper.step(physics::Integrator::MIDPOINT, links_, outside, 0.0, h, state_, theta_);
 }
 
 void PhysicalPart::stepTouching(const Air& air, const PartLoads& loads,
@@ -137,7 +142,8 @@ void PhysicalPart::addCompensation(const Course& course, const PhysicsSettings& 
   bool any = false;
   for (std::size_t i = 0; i < joints_.size() && !any; ++i)
     any = compensationAt(i, stamp, settings.fade) > 0.0;
-  if (!any) return;
+  // Paper 1's dynamics have no inverse here: their branches meet the real load at once.
+  if (!any || settings.dynamics != 0) return;
   const std::size_t n = links_.size();
   s.procedural.q.resize(n);
   s.procedural.rate.resize(n);

@@ -35,6 +35,7 @@ void ForestPhysics::advance(const Site& at, Nanoseconds from, Nanoseconds to) {
   ended_.clear();
   reactions_.clear();
   steps_ = 0;
+  scratch_.replaced = 0;
   scratch_.window = WindWindow();  // the wind may be another by now
   endLeases(to);
   if (parts_.empty() && grabs_.empty() && pushes_.empty() && bodies_.empty()) return;
@@ -67,7 +68,7 @@ void ForestPhysics::endLeases(Nanoseconds stamp) {
 
 void ForestPhysics::choose(const Site& at, Nanoseconds from, Nanoseconds to) {
   BranchesOfTrees loaded;
-  if (at.contacts && !bodies_.empty()) at.contacts->findNear(at.forest, bodies_, from, to, loaded);
+  if (at.contacts) at.contacts->findNear(at.forest, bodies_, from, to, loaded);
   near_.clear();
   for (const auto& entry : loaded) near_.push_back(entry.first);
   for (auto it = touches_.begin(); it != touches_.end();)
@@ -255,6 +256,7 @@ PhysicsFigures ForestPhysics::figures() const {
   out.steps = steps_;
   out.refused = refused_;
   out.skipped = skipped_;
+  out.replaced = scratch_.replaced;
   for (const Reaction& reaction : reactions_) out.capped_forces += reaction.limited ? 1 : 0;
   return out;
 }

@@ -5,7 +5,7 @@
 namespace vegetation_sim::forest {
 
 void describe(FieldVisitor& v, PhysicsSettings& s) {
-  v.choice("dynamics", s.dynamics, {"articulated", "paper"});
+  v.choice("dynamics", s.dynamics, {"articulated", "paper", "paper_printed"});
   v.choice(
       "integrator", s.integrator,
       {"midpoint", "implicit_euler", "semi_implicit_euler", "explicit_euler", "runge_kutta_4"});

@@ -15,10 +15,11 @@ struct BranchLoad {
   Vec3 force{Vec3::Zero()};  ///< [N]
 };
 
-/// How far loads move the tree if a joint gives way and no other does, per joint [m]: its bend
-/// times the reach of what it bears (N12, S1-W8). On the way to the ground the bend is the static
-/// one, lever x force / k. Everywhere else, and there on top, it is what the wood's own inertia
-/// does when the loads come or go at once: the whole tree swings with u cos(w t), u the static
+/// How far loads move the tree by each joint [m]: its bend times the reach of what it bears (N12,
+/// S1-W8). On the way to the ground the bend is the static one, lever x force / k; there a joint
+/// counts with all that count less, so that leaving out those below a tolerance misplaces the
+/// loaded point by no more. Everywhere else, and there on top, it is what the wood's own inertia
+/// does when the loads come or go at once: the tree swings with u cos(w t), u the static
 /// displacement and w Rayleigh's frequency of that shape.
 std::vector<double> predictDeflection(const Skeleton& skeleton, const Wood& wood,
                                       const std::vector<BranchLoad>& loads);

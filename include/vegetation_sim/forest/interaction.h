@@ -70,8 +70,8 @@ struct Reaction {
   double penetration{0.0};    ///< contact: depth [m]
 };
 
-/// Adds a fault for whatever is wrong with the numbers of a grab or a push; the place on the tree is
-/// for checkPoint.
+/// Adds a fault for whatever is wrong with the numbers of a grab or a push; the place on the tree
+/// is for checkPoint.
 void check(const Grab& grab, Faults& faults);
 void check(const Push& push, Faults& faults);
 
@@ -84,7 +84,9 @@ struct PhysicsFigures {
   std::size_t steps{0};          ///< taken at the last tick
   std::size_t refused{0};        ///< branches that the cap of the last tick left procedural
   std::size_t capped_forces{0};  ///< grabs and contacts at their limit
-  std::size_t skipped{0};        ///< gaps in time that were not stepped through
+  std::size_t replaced{0};  ///< steps of a tree at the last tick, beyond the bound of an explicit
+                            ///< integrator, that midpoint took
+  std::size_t skipped{0};   ///< gaps in time that were not stepped through
 };
 
 }  // namespace vegetation_sim::forest

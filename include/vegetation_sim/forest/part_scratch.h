@@ -33,6 +33,8 @@ struct PartScratch {
   physics::ContactStepper contact_stepper;
   physics::Kinematics start;  // of a step with contacts
 
+  std::size_t replaced{0};  ///< steps of a tree that another integrator had to take
+
   /// Looks at a stamp, unless that is where it looks already.
   const WindWindow& lookAt(const wind::Field& field, Nanoseconds stamp) {
     if (window.stamp() != stamp) window.lookAt(field, stamp);

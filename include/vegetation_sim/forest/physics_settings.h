@@ -8,8 +8,6 @@
 
 namespace vegetation_sim::forest {
 
-/// `articulated`: the full chain. `paper`: paper 1, section 4.2, J ~ m I (no lever arms).
-enum class Dynamics : int { ARTICULATED = 0, PAPER = 1 };
 /// `beam`: k = E I / l, bar inertia (E13). `paper`: k ~ d^2 / l, m ~ l d^2.
 enum class Material : int { BEAM = 0, PAPER = 1 };
 /// What fades out after promotion: the torque that keeps the procedural motion (E1), or only its
@@ -26,7 +24,7 @@ constexpr Nanoseconds LONGEST_GAP = NANOSECONDS_PER_SECOND;
 
 /// How branches are physical, and which.
 struct PhysicsSettings {
-  int dynamics{0};                    ///< Dynamics
+  int dynamics{0};                    ///< physics::Dynamics
   int integrator{0};                  ///< physics::Integrator
   int material{0};                    ///< Material
   int wind_forcing{0};                ///< WindForcing
