@@ -132,6 +132,25 @@ TEST(Contact, ForceIsLimited) {
   EXPECT_GT(wall.place - meeting.tip(), 0.045);
 }
 
+// Continuous in time: halving the step halves how much the force can rise in one, even where a wall
+// at full speed meets a trunk.
+TEST(Contact, ForceRisesNoFasterThanTheLaw) {
+  for (const double h : {1.0 / 240.0, 1.0 / 480.0, 1.0 / 960.0}) {
+    Link trunk = twig();
+    trunk.mass = 500.0;
+    trunk.inertia = {40.0, 40.0, 1.0, 0.0, 0.0, 0.0};
+    Meeting meeting(trunk);
+    Wall wall{-0.02, 3.0};
+    double before = 0.0, rise = 0.0;
+    while (wall.place < 0.1) {
+      meeting.step(h, wall);
+      rise = std::max(rise, meeting.last().force - before);
+      before = meeting.last().force;
+    }
+    EXPECT_NEAR(rise, meeting.law.force_rate * h, 1e-6);
+  }
+}
+
 TEST(Contact, NeverPulls) {
   Meeting meeting(twig());
   Wall wall{0.0, 0.5};
