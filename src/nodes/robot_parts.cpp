@@ -143,9 +143,10 @@ void readRobot(const ros::NodeHandle& handle, Parameters& parameters, RobotParts
   parameters.text("robot_description", name);
   parameters.text("robot_frame_prefix", prefix);
   if (name.empty()) return;
-  // Looked for in the node's namespace and above it, as usual for a robot's description.
+  // Looked for beside the node and above it, as usual for a robot's description.
+  const ros::NodeHandle beside(ros::names::parentNamespace(handle.getNamespace()));
   std::string found;
-  if (!handle.searchParam(name, found) || !ros::param::get(found, urdf))
+  if (!beside.searchParam(name, found) || !ros::param::get(found, urdf))
     return parameters.fault("robot_description", "= '" + name + "' is no parameter of text");
   RobotParts robot = partsOfUrdf(urdf, prefix, parameters.faults());
   out.parts.insert(out.parts.end(), robot.parts.begin(), robot.parts.end());
