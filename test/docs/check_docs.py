@@ -126,7 +126,7 @@ def check_ranges():
     declared = {}
     for body in code.values():
         for name, bounds in re.findall(RANGE, body):
-            bounds = re.findall(r'[-\d.e]+', constants.get(bounds.split(':')[-1], bounds))
+            bounds = re.findall(r'-?[\d.]+(?:e[-+]?\d+)?', constants.get(bounds.split(':')[-1], bounds))
             if len(bounds) == 2:
                 declared.setdefault(name, set()).add(tuple(map(float, bounds)))
     for name, body in DOCS.items():
@@ -153,8 +153,18 @@ def check_rows():
                     faults.append('docs/papers.md: %s of %s does not exist' % (path, cells[1].strip()))
 
 
+def check_imports():
+    """What scripts and tests import of ROS is declared in package.xml."""
+    declared = set(re.findall(r'<\w*depend>(\w+)</', text('package.xml')))
+    for name in files(r'(scripts|test)/.*\.py'):
+        for module in re.findall(r'^(?:import|from) (\w+)', text(name), re.M):
+            ros = re.match(r'ros\w+|\w+_msgs|\w+_srvs|tf2?(_\w+)?|dynamic_reconfigure', module)
+            if ros and module not in declared:
+                faults.append('%s: imports %s, which package.xml does not name' % (name, module))
+
+
 for check in (check_declarations, check_messages, check_scenarios, check_links, check_words, check_ranges,
-              check_rows):
+              check_rows, check_imports):
     check()
 print('\n'.join(sorted(set(faults))))
 sys.exit(1 if faults else 0)
