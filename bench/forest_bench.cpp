@@ -92,7 +92,7 @@ void benchLevels(int rounds) {
       grove.branches);
   std::printf("%-22s %10s %12s %8s %14s %12s\n", "", "ms/frame", "branches", "ratio",
               "error [pixel]", "error [m]");
-  for (const double tolerance : {1.0, 1.5, 1.75, 2.0, 4.0}) {
+  for (const double tolerance : {0.5, 0.75, 1.0, 1.5, 2.0}) {
     Settings settings;
     settings.tolerance = tolerance;
     Forest forest(grove.layout, flatTerrain(), settings);
@@ -122,7 +122,7 @@ void benchLevels(int rounds) {
           errorOfLevels(grove, forest, camera, forest.memory().wind.at(stamp), stamp);
       worst = {std::max(worst.pixels, now.pixels), std::max(worst.metres, now.metres)};
     }
-    if (tolerance == 1.0)
+    if (tolerance == 0.5)
       std::printf("%-22s %10.3f %12zu %8.1f %14s %12s\n", "all at full depth",
                   candidates[0].seconds * 1e3, grove.branches, 1.0, "0", "0");
     std::printf("levels, %.2f pixel     %10.3f %12zu %8.1f %14.2f %12.3f\n", tolerance,

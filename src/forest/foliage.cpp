@@ -6,13 +6,13 @@
 #include <array>
 #include <cmath>
 
+#include "forest/golden_angle.h"
 #include "vegetation_sim/common/math.h"
 #include "vegetation_sim/common/random.h"
 
 namespace vegetation_sim::forest {
 namespace {
 
-constexpr double GOLDEN_ANGLE = 2.399963229728653;  // pi (3 - sqrt 5)
 constexpr double SQRT_HALF = 0.70710678118654752440;
 constexpr double LARGEST_PREFERENCE = 1.6;
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "physics/bend.h"
 #include "vegetation_sim/common/math.h"
 
 namespace vegetation_sim::forest {
@@ -33,13 +34,6 @@ std::vector<Vec3> subtreeLevers(const Skeleton& skeleton, const Species& species
     moment[static_cast<std::size_t>(b.parent)] += moment[i];
   }
   return lever;
-}
-
-Quat swing(double x, double y) {
-  const double angle = std::sqrt(x * x + y * y);
-  if (angle < 1e-12) return {1.0, 0.5 * x, 0.5 * y, 0.0};
-  const SinCos half = sinCos(0.5 * angle);
-  return {half.cos, half.sin * x / angle, half.sin * y / angle, 0.0};
 }
 
 }  // namespace
@@ -102,7 +96,8 @@ JointAngles deviation(const Response& response, const Vec3& velocity, double wei
 Quat jointRotation(const Branch& branch, const JointAngles& angles, JointModel model) {
   if (model == JointModel::PAPER)
     return restRotation(branch.theta + angles.first, branch.phi + angles.second);
-  return restRotation(branch.theta, branch.phi) * swing(angles.first, angles.second);
+  return restRotation(branch.theta, branch.phi) *
+         physics::bendRotation({angles.first, angles.second});
 }
 
 }  // namespace vegetation_sim::forest

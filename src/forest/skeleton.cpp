@@ -5,14 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "forest/golden_angle.h"
 #include "vegetation_sim/common/math.h"
 #include "vegetation_sim/common/noise.h"
 #include "vegetation_sim/common/random.h"
 
 namespace vegetation_sim::forest {
 namespace {
-
-constexpr double GOLDEN_ANGLE = 2.399963229728653;  // pi (3 - sqrt 5)
 
 enum Draw : std::uint64_t { LENGTH, PLACE, AZIMUTH, ANGLE, COUNT, LEAVES, LEAN, TREE };
 

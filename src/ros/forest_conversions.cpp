@@ -3,6 +3,7 @@
 #include "vegetation_sim/ros/forest_conversions.h"
 
 #include <cmath>
+#include <map>
 #include <tuple>
 
 #include "vegetation_sim/common/math.h"
@@ -16,8 +17,37 @@ constexpr double VIEW_MARGIN = 0.15;        // [rad]
 constexpr double LARGEST_BEND = 100.0;      // [rad]
 constexpr double LARGEST_RATE = 1e5;        // [rad/s]
 
-int indexOf(const std::string& name, const std::string& word, const std::vector<std::string>& names,
-            Faults& faults) {
+/// The words of a structure's choices, by field.
+class Choices : public FieldVisitor {
+ public:
+  void number(const char*, double&, const char*, Range) override {}
+  void integer(const char*, int&, const char*, Range) override {}
+  void vector(const char*, Vec3&, const char*, Range) override {}
+  void choice(const char* name, int&, const std::vector<std::string>& words) override {
+    words_[name] = words;
+  }
+  const std::vector<std::string>& of(const std::string& name) const { return words_.at(name); }
+
+ private:
+  std::map<std::string, std::vector<std::string>> words_;
+};
+
+const Choices& choicesOfMotion() {
+  static const Choices CHOICES = [] {
+    Choices out;
+    forest::MotionLaw law;
+    describe(out, law);
+    return out;
+  }();
+  return CHOICES;
+}
+
+const std::string& wordOf(const std::string& name, int index) {
+  return choicesOfMotion().of(name).at(static_cast<std::size_t>(index));
+}
+
+int indexOf(const std::string& name, const std::string& word, Faults& faults) {
+  const std::vector<std::string>& names = choicesOfMotion().of(name);
   std::string allowed;
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (names[i] == word) return static_cast<int>(i);
@@ -25,15 +55,6 @@ int indexOf(const std::string& name, const std::string& word, const std::vector<
   }
   faults.add("layout: " + name + " = '" + word + "' is none of " + allowed);
   return 0;
-}
-
-const std::vector<std::string> JOINT_MODELS{"swing", "paper"};
-const std::vector<std::string> GAINS{"compliance", "paper"};
-const std::vector<std::string> DRAGS{"linear", "quadratic"};
-const std::vector<std::string> SHAPES{"smooth", "linear"};
-
-const std::string& nameOf(int index, const std::vector<std::string>& names) {
-  return names.at(static_cast<std::size_t>(index));
 }
 
 ForestTile tileToMsg(const forest::Tile& tile) {
@@ -180,11 +201,11 @@ ForestLayout toMsg(const forest::Layout& layout) {
   }
   out.terrain = layout.terrain;
   out.terrain_hash = layout.terrain_hash;
-  out.joint_model = nameOf(layout.motion.joint_model, JOINT_MODELS);
-  out.gain = nameOf(layout.motion.gain, GAINS);
-  out.drag = nameOf(layout.motion.drag, DRAGS);
+  out.joint_model = wordOf("joint_model", layout.motion.joint_model);
+  out.gain = wordOf("gain", layout.motion.gain);
+  out.drag = wordOf("drag", layout.motion.drag);
   out.transition = layout.motion.transition;
-  out.transition_shape = nameOf(layout.motion.transition_shape, SHAPES);
+  out.transition_shape = wordOf("transition_shape", layout.motion.transition_shape);
   for (const forest::TreeSeed& seed : layout.trees) out.trees.push_back(toMsg(seed));
   for (const forest::Tile& tile : layout.tiles) out.tiles.push_back(tileToMsg(tile));
   return out;
@@ -205,12 +226,11 @@ forest::Layout fromMsg(const ForestLayout& message) {
   }
   out.terrain = message.terrain;
   out.terrain_hash = message.terrain_hash;
-  out.motion.joint_model = indexOf("joint_model", message.joint_model, JOINT_MODELS, faults);
-  out.motion.gain = indexOf("gain", message.gain, GAINS, faults);
-  out.motion.drag = indexOf("drag", message.drag, DRAGS, faults);
+  out.motion.joint_model = indexOf("joint_model", message.joint_model, faults);
+  out.motion.gain = indexOf("gain", message.gain, faults);
+  out.motion.drag = indexOf("drag", message.drag, faults);
   out.motion.transition = message.transition;
-  out.motion.transition_shape =
-      indexOf("transition_shape", message.transition_shape, SHAPES, faults);
+  out.motion.transition_shape = indexOf("transition_shape", message.transition_shape, faults);
   for (const TreeSeed& seed : message.trees) out.trees.push_back(fromMsg(seed));
   for (const ForestTile& tile : message.tiles) out.tiles.push_back(tileFromMsg(tile));
   if (faults.empty()) check(out, faults);

@@ -82,6 +82,7 @@ TEST_P(BatchPoserOf, GivesTheSameBitsOnEveryInstructionSet) {
     poser.pose(wind, fullWeights(), MAX_DEPTHS, first);
     for (const std::string& set : sets) {
       forceInstructionSet(set);
+      ASSERT_EQ(chosenInstructionSet(), set);
       BatchPoses other;
       poser.pose(wind, fullWeights(), MAX_DEPTHS, other);
       forceInstructionSet("");
@@ -116,9 +117,45 @@ TEST(BatchPoser, BoundsTheAnglesInAStorm) {
 // S1-21, S1-39: depths beyond the level are carried at rest, or not posed at all.
 TEST(BatchPoser, PosesOnlyTheDepthsAsked) {
   const Tree tree = growTree(gridLayout(2, 8.0), 0, terrain::HeightMap());
-  BatchPoses poses;
-  BatchPoser(tree).pose(wind::Instant(), Weights{}, 2, poses);
-  EXPECT_EQ(poses.count, tree.skeleton.depth_end[1]);
+  const auto wind =
+      wind::Field({makeBreeze(1, Vec3(6, 2, 0))}).at(seconds(1.7e9)).relativeTo(tree.foot);
+  const Weights weights{1.0, 1.0};  // of the two lowest depths only
+  BatchPoses all, some;
+  BatchPoser(tree).pose(wind, weights, MAX_DEPTHS, all);
+  BatchPoser(tree).pose(wind, weights, 2, some);
+  ASSERT_EQ(some.count, tree.skeleton.depth_end[1]);
+  ASSERT_EQ(all.count, static_cast<int>(tree.skeleton.branches.size()));
+  EXPECT_TRUE(sameBits(some.x, all.x, some.count) && sameBits(some.qw, all.qw, some.count));
+  double bent = 0.0, carried = 0.0;
+  for (int i = 1; i < all.count; ++i) {
+    const Branch& branch = tree.skeleton.branches[static_cast<std::size_t>(i)];
+    if (branch.parent < 0) continue;
+    const Pose parent = all.at(branch.parent), own = all.at(i);
+    const Quat turn = conjugate(parent.orientation) * own.orientation;
+    const Quat rest = restRotation(branch.theta, branch.phi);
+    const double away = length(axisZ(turn) - axisZ(rest));
+    (branch.depth < 2 ? bent : carried) = std::max(branch.depth < 2 ? bent : carried, away);
+  }
+  EXPECT_GT(bent, 0.003);
+  EXPECT_LT(carried, 1e-5);  // floats; on their own these joints bend by more than the lower ones
+  BatchPoses free;
+  BatchPoser(tree).pose(wind, fullWeights(), MAX_DEPTHS, free);
+  double moved = 0.0;
+  for (int i = some.count; i < all.count; ++i)
+    moved = std::max(moved, length(free.at(i).position - all.at(i).position));
+  EXPECT_GT(moved, 0.01);
+}
+
+// Every set that is offered can be forced, is then used, and an unknown one is refused.
+TEST(BatchPoser, UsesTheInstructionSetThatIsForced) {
+  for (const std::string& set : instructionSets()) {
+    forceInstructionSet(set);
+    EXPECT_EQ(chosenInstructionSet(), set);
+  }
+  forceInstructionSet("");
+  EXPECT_EQ(chosenInstructionSet(), instructionSets().front());
+  EXPECT_THROW(forceInstructionSet("AVX99"), InvalidInput);
+  EXPECT_EQ(chosenInstructionSet(), instructionSets().front());
 }
 
 }  // namespace

@@ -98,7 +98,7 @@ TEST(Forest, FinestOfSeveralViewersWins) {
 // S1-22, S1-40: level 0 where no wind reaches; the middle of a disc asks for more than its rim.
 TEST(Forest, LevelsFollowTheWind) {
   Forest forest = makeForest(gridLayout(8, 20.0));
-  forest.setWind(wind::Field({makeDisk(1, Vec3(0, 0, 0), 60.0, Vec3(6, 0, 0))}));
+  forest.setWind(wind::Field({makeDisk(1, Vec3(0, 0, 0), 60.0, Vec3(11, 0, 0))}));
   forest.setViewer(lookFrom(Vec3(70, 70, 150), START));
   forest.advance(START);
   const auto level = [&](std::uint32_t x, std::uint32_t y) {
@@ -275,14 +275,50 @@ TEST(Forest, ReplicaIgnoresAGapUntilTheNextKeyFrame) {
   EXPECT_TRUE(replica.apply(forest.update(true)));
 }
 
-// S1-41: levels pose at least 27 times fewer branches than the whole forest has, and no tip in the
-// picture is more than a pixel away from where it would be with all of them.
+// Largest error in the picture over two periods of the discs, levels having settled.
+double worstPixels(const Grove& grove, const Forest& forest, const Camera& camera,
+                   std::int64_t settled, int instants) {
+  const TickGrid grid(30);
+  double out = 0.0;
+  for (int i = 0; i < instants; ++i) {
+    const Nanoseconds stamp = grid.timeOf(settled + 11 * i);
+    out = std::max(
+        out, errorOfLevels(grove, forest, camera, forest.memory().wind.at(stamp), stamp).pixels);
+  }
+  return out;
+}
+
+// S1-40: the tolerance is the error that is seen: no tip in a picture is farther off than it says,
+// by more than a little, and not so much less that work is wasted.
+TEST(Forest, PredictedErrorIsTheMeasuredOne) {
+  const double spacing = 9.0, extent = 8 * spacing;
+  const Grove grove = growGrove(richLayout(8, spacing, 400));
+  const TickGrid grid(30);
+  const std::int64_t start = grid.tickAt(START);
+  for (const double tolerance : {0.5, 1.0, 2.0, 4.0}) {
+    Settings settings;
+    settings.tolerance = tolerance;
+    for (const double x : {-60.0, -25.0, -12.0}) {
+      Forest forest(grove.layout, flatTerrain(), settings);
+      forest.setWind(threeDiscs(extent));
+      Camera camera = edgeCamera(extent);
+      camera.eye.position.x() = x;
+      settle(forest, camera, grid, start, 90);
+      const double seen = worstPixels(grove, forest, camera, start + 90, 10);
+      std::printf("tolerance %.1f, eye at %.0f m: %.2f pixels\n", tolerance, x, seen);
+      EXPECT_LE(seen, 1.25 * tolerance) << tolerance << " " << x;
+      EXPECT_GE(seen, 0.25 * tolerance) << tolerance << " " << x;
+    }
+  }
+}
+
+// S1-41: at the tolerance that is the default, levels pose at least 27 times fewer branches than
+// the whole forest has, and no tip in the picture is more than a pixel away from where it would be
+// with all of them.
 TEST(Forest, LevelsSaveWorkAtAPixel) {
   const double spacing = 8.0, extent = 16 * spacing;
   const Grove grove = growGrove(richLayout(16, spacing, 2000));
-  Settings settings;
-  settings.tolerance = 1.5;
-  Forest forest(grove.layout, flatTerrain(), settings);
+  Forest forest(grove.layout, flatTerrain(), Settings());
   forest.setWind(threeDiscs(extent));
   const Camera camera = edgeCamera(extent);
   const TickGrid grid(30);
@@ -293,37 +329,24 @@ TEST(Forest, LevelsSaveWorkAtAPixel) {
   const std::size_t posed = poseAtLevels(grove, forest, forest.memory().wind.at(now), now, scratch);
   EXPECT_GT(posed, 0u);
   EXPECT_GT(grove.branches, 27 * posed);
-  for (int i = 0; i < 8; ++i) {
-    const Nanoseconds stamp = grid.timeOf(start + ticks + 11 * i);
-    const LevelError error =
-        errorOfLevels(grove, forest, camera, forest.memory().wind.at(stamp), stamp);
-    EXPECT_LE(error.pixels, 1.0) << i;
-  }
+  EXPECT_LE(worstPixels(grove, forest, camera, start + ticks, 20), 1.0);
 }
 
-// A million trees as a law: kilobytes of layout, no memory per tree, far tiles not looked at.
-TEST(Forest, MillionTreesTakeNoMemoryEach) {
+// Of a million trees, one grows again bit by bit.
+TEST(Forest, TreesOfTilesGrowAgainTheSame) {
   Layout layout = gridLayout(1, 1.0);
   layout.trees.clear();
-  for (std::uint32_t i = 0; i < 1000; ++i) {
-    Tile tile;
-    tile.first_tree = i * 1000;
-    tile.count = 1000;
-    tile.seed = i;
-    tile.x = 200.0 * (i % 32);
-    tile.y = 200.0 * (i / 32);
-    tile.size = 200.0;
-    tile.mix = {1.f, 1.f, 1.f, 1.f};
-    layout.tiles.push_back(tile);
-  }
-  Forest forest = makeForest(layout);
-  EXPECT_EQ(forest.layout().treeCount(), 1000000u);
-  forest.setWind(wind::Field({makeBreeze(1, Vec3(5, 0, 0))}));
-  forest.advance(START);
-  EXPECT_TRUE(forest.memory().levels.held().empty());
-  const Tree once = growTree(forest.layout(), 765432, terrain::HeightMap());
-  EXPECT_EQ(once.skeleton.hash(),
-            growTree(forest.layout(), 765432, terrain::HeightMap()).skeleton.hash());
+  Tile tile;
+  tile.count = 1000000;
+  tile.seed = 7;
+  tile.size = 5000.0;
+  tile.mix = {1.f, 1.f, 1.f, 1.f};
+  layout.tiles.push_back(tile);
+  const auto hash = [&](std::uint32_t id) {
+    return growTree(layout, id, terrain::HeightMap()).skeleton.hash();
+  };
+  EXPECT_EQ(hash(765432), hash(765432));
+  EXPECT_NE(hash(765432), hash(765436));
 }
 
 }  // namespace

@@ -63,6 +63,7 @@ class BatchPoser {
   BatchTree tree_;
 };
 
+using vegetation_sim::chosenInstructionSet;
 using vegetation_sim::forceInstructionSet;
 using vegetation_sim::instructionSets;
 
