@@ -126,7 +126,7 @@ def check_ranges():
     declared = {}
     for body in code.values():
         for name, bounds in re.findall(RANGE, body):
-            bounds = re.findall(r'-?[\d.]+(?:e[-+]?\d+)?', constants.get(bounds.split(':')[-1], bounds))
+            bounds = re.findall(r'-?\d[\d.]*(?:e-?\d+)?', constants.get(bounds.split(':')[-1], bounds))
             if len(bounds) == 2:
                 declared.setdefault(name, set()).add(tuple(map(float, bounds)))
     for name, body in DOCS.items():
