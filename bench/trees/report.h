@@ -1,0 +1,54 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "trees/work_precision.h"
+
+namespace vegetation_sim::bench {
+
+constexpr std::array<double, 2> TARGETS{1e-2, 1e-3};  ///< relative error of tips
+
+/// What one engine did with one tree and load.
+struct Row {
+  std::string engine;
+  bool peer{false}, fast{false};
+  std::array<Answer, TARGETS.size()> answers;
+  /// A step of one tree at each answer, mean of the loaded third and the free rest [s].
+  std::array<double, TARGETS.size()> step_seconds{};
+  std::vector<Point> points;
+
+  /// Processor time for a simulated second at TARGETS[k] [s].
+  double cost(std::size_t k) const { return answers[k].steps / INTERVAL * step_seconds[k]; }
+};
+
+/// One tree and load with all engines, and how well their references have converged.
+struct Cell {
+  std::string tree, load;
+  int branches{0};
+  double converged{0.0};
+  std::vector<Row> rows;
+};
+
+/// The best peer's cost over ours. `bound`: the peer's is one from below, so that the ratio is too.
+struct Ratio {
+  double value{0.0};
+  bool bound{false};
+  std::string peer;
+};
+/// Zero where there is no peer.
+Ratio ratioOf(const Cell& cell, const Row& own, std::size_t target);
+
+/// A table of the cell.
+void print(const Cell& cell);
+/// For each of ours: smallest and geometric mean of all ratios.
+void printSummary(const std::vector<Cell>& cells);
+/// One line a point and one line a target.
+void writeHead(std::FILE* file);
+void write(const Cell& cell, std::FILE* file);
+
+}  // namespace vegetation_sim::bench

@@ -1,0 +1,50 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "trees/work_precision.h"
+
+#include <cmath>
+#include <limits>
+
+namespace vegetation_sim::bench {
+
+const Point& Explorer::at(int steps) {
+  const auto known = points_.find(steps);
+  if (known != points_.end()) return known->second;
+  const Drive run = drive(engine_, reference_, steps, cap_);
+  Point point;
+  point.steps = steps;
+  point.instants = static_cast<int>(run.motion.size());
+  point.error =
+      run.broken ? std::numeric_limits<double>::infinity() : relativeError(run.motion, reference_);
+  per_step_ = run.seconds / (1.0 * steps * point.instants);
+  return points_.emplace(steps, point).first->second;
+}
+
+bool Explorer::affordable(int steps, double part) const {
+  return per_step_ * steps * INTERVALS <= part * cap_;
+}
+
+Answer Explorer::longestStep(double tolerance) {
+  int low = 0, high = 1;  // low fails
+  while (at(high).error > tolerance) {
+    low = high;
+    // Unstable runs end early, so that a step beyond the cap may still be looked at.
+    if (!affordable(low, std::isfinite(at(low).error) ? 1.0 : 4.0))
+      return {Answer::Kind::AT_LEAST, static_cast<double>(low)};
+    high = low < 4 ? low + 1 : low + (low + 1) / 3;
+  }
+  while (high - low > 1 && high > 1.05 * low) {
+    const bool cheap = affordable(high, 0.2);
+    if (!cheap && std::isfinite(at(low).error)) {
+      const double slope = std::log(at(low).error / at(high).error) / std::log(1.0 * low / high);
+      const double share = std::log(tolerance / at(high).error) / slope;
+      return {Answer::Kind::BETWEEN, high * std::exp(share)};
+    }
+    if (!cheap) return {Answer::Kind::AT_LEAST, static_cast<double>(low)};
+    const int middle = (low + high) / 2;
+    (at(middle).error > tolerance ? low : high) = middle;
+  }
+  return {Answer::Kind::FOUND, static_cast<double>(high)};
+}
+
+}  // namespace vegetation_sim::bench

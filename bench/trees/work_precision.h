@@ -1,0 +1,52 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "trees/engine.h"
+
+namespace vegetation_sim::bench {
+
+/// Error of one engine at one step.
+struct Point {
+  int steps{0};       ///< an interval
+  double error{0.0};  ///< infinite: unstable
+  int instants{0};    ///< that were compared; fewer than INTERVALS where time ran out
+};
+
+/// The longest step that holds a tolerance.
+struct Answer {
+  enum class Kind : int {
+    FOUND = 0,    ///< bisected
+    BETWEEN = 1,  ///< put on the line between two runs, which are too dear to refine
+    AT_LEAST = 2  ///< no run within the time cap holds it: fewer steps do not
+  };
+  Kind kind{Kind::FOUND};
+  double steps{0.0};  ///< an interval
+};
+
+/// Runs an engine against its reference and remembers.
+class Explorer {
+ public:
+  /// No run may take more than `cap` seconds of processor.
+  Explorer(Engine& engine, const Reference& reference, double cap)
+      : engine_(engine), reference_(reference), cap_(cap) {}
+
+  /// Shortens the step until `tolerance` holds, then bisects.
+  Answer longestStep(double tolerance);
+  const std::map<int, Point>& points() const { return points_; }
+
+ private:
+  const Point& at(int steps);
+  bool affordable(int steps, double part) const;
+
+  Engine& engine_;
+  const Reference& reference_;
+  double cap_, per_step_{0.0};
+  std::map<int, Point> points_;
+};
+
+}  // namespace vegetation_sim::bench
