@@ -26,7 +26,7 @@ PACKAGES=(
 )
 
 if ! command -v dpkg-query >/dev/null || ! grep -q '^VERSION_CODENAME=bookworm' /etc/os-release; then
-  say 'This is no Debian 12: install the dependencies with "rosdep install --from-paths . -i -y".'
+  say 'This is no Debian 12: docs/dependencies.md says how to install the dependencies here.'
   exit 0
 fi
 
