@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What acts on the physical part of a tree, and its step.
 #include <algorithm>
+#include <cmath>
 
 #include "vegetation_sim/common/math.h"
 #include "vegetation_sim/forest/physical_part.h"
@@ -73,9 +74,27 @@ void PhysicalPart::step(const Air& air, const PartLoads& loads, const PhysicsSet
   const double h = secondsBetween(from, to);
   scratch.stepper.setDynamics(static_cast<physics::Dynamics>(settings.dynamics));
   const auto wanted = static_cast<physics::Integrator>(settings.integrator);
-  if (scratch.stepper.step(wanted, links_, outside, 0.0, h, state_, theta_) > 0) return;
-  ++scratch.replaced;  // beyond the bound of an explicit method
-  scratch.stepper.step(physics::Integrator::MIDPOINT, links_, outside, 0.0, h, state_, theta_);
+  if (scratch.stepper.step(wanted, links_, outside, 0.0, h, state_, theta_) == 0) {
+    ++scratch.replaced;  // beyond the bound of an explicit method
+    scratch.stepper.step(physics::Integrator::MIDPOINT, links_, outside, 0.0, h, state_, theta_);
+  }
+  stopJoints();
+}
+
+// Whatever happens, angles stay where the chain and the messages hold: the printed dynamics flutter
+// without bound (E2), and a hand may wring a twig off.
+void PhysicalPart::stopJoints() {
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    physics::Vec2 &q = state_.q[i], &rate = state_.rate[i];
+    const double bend = std::sqrt(q.x() * q.x() + q.y() * q.y());
+    const double speed = std::sqrt(rate.x() * rate.x() + rate.y() * rate.y());
+    if (bend <= LARGEST_BEND && speed <= FASTEST_BEND) continue;  // false for NaN
+    const bool finite = std::isfinite(bend) && std::isfinite(speed);
+    if (!finite || bend > LARGEST_BEND) rate = {0.0, 0.0};
+    if (!finite) q = {0.0, 0.0};
+    if (finite && bend > LARGEST_BEND) q *= LARGEST_BEND / bend;
+    if (finite && bend <= LARGEST_BEND) rate *= FASTEST_BEND / speed;
+  }
 }
 
 void PhysicalPart::stepTouching(const Air& air, const PartLoads& loads,
@@ -87,6 +106,7 @@ void PhysicalPart::stepTouching(const Air& air, const PartLoads& loads,
   const bool euler = settings.integrator == static_cast<int>(physics::Integrator::IMPLICIT_EULER);
   scratch.contact_stepper.step(links_, context.outside(), settings.contact, 0.0, h,
                                euler ? 1.0 : theta_, state_, contacts);
+  stopJoints();
 }
 
 void PhysicalPart::kinematicsAt(const Air& air, Nanoseconds stamp, PartScratch& scratch,

@@ -103,6 +103,7 @@ class PhysicalPart {
     Vec3 centre;   // own axes [m]
   };
   struct Step;
+  void stopJoints();
   void rebuild(const std::vector<Joined>& joints);
   void findCarriers();
   physics::Link linkFor(std::size_t link, const Composite& body) const;
@@ -133,6 +134,9 @@ class PhysicalPart {
   physics::ChainState state_;
   double theta_{0.5};
 };
+
+/// No physical joint bends farther [rad] or faster [rad/s].
+constexpr double LARGEST_BEND = 3.0, FASTEST_BEND = 1e4;
 
 /// Force of a spring on its branch where the point is at `point` and moves with `velocity`; how
 /// much its law is scaled down to stay within its limit: 1 below it.

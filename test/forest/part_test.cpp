@@ -1,0 +1,303 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+// Physical parts of trees as state: the same again, the same elsewhere, and how near to the truth.
+#include "vegetation_sim/forest/physical_part.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <new>
+
+#include "forest/physics_scene.h"
+
+namespace {
+std::size_t allocations = 0;
+}
+
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* out = std::malloc(size > 0 ? size : 1)) return out;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+
+namespace vegetation_sim::forest {
+namespace {
+
+/// A pull sideways at a limb for one second, then the recoil; in wind.
+void pull(PhysicsRig& rig, double duration, const std::function<void()>& each = {}) {
+  Grab grab = rig.grabOf(rig.branchOfDepth(2));
+  const std::uint32_t id = rig.forest.addGrab(grab);
+  int ticks = 0;
+  rig.run(duration, [&] {
+    if (ticks++ < TICK_RATE) {
+      grab.target += Vec3(0.0, 0.3, -0.1) / TICK_RATE;
+      rig.forest.moveGrab(id, grab.target);
+    }
+    if (ticks == TICK_RATE) rig.forest.release(id);
+    if (each) each();
+  });
+}
+
+PhysicsRig windyRig(const PhysicsSettings& settings = {}) {
+  PhysicsRig out(settings);
+  out.forest.setWind(steadyWind(Vec3(3, 1, 0)));
+  out.run(0.3);
+  return out;
+}
+
+// N6: the same inputs give the same hash at every tick; a changed one does not.
+TEST(PhysicalPart, RepeatedRunsHaveTheSameHash) {
+  const auto hashes = [](double more) {
+    PhysicsRig rig = windyRig();
+    std::vector<std::uint64_t> out;
+    rig.touch(rig.twig(), more);
+    pull(rig, 3.0, [&] { out.push_back(rig.forest.hash()); });
+    return out;
+  };
+  const auto a = hashes(0.5), b = hashes(0.5), c = hashes(0.6);
+  EXPECT_EQ(a, b);
+  EXPECT_NE(a, c);
+}
+
+// N6: saved in the middle of a recoil, restored after other things have happened.
+TEST(PhysicalPart, RestoredForestGoesOnAsBefore) {
+  PhysicsRig rig = windyRig();
+  pull(rig, 1.5);
+  const ForestMemory saved = rig.forest.memory();
+  const std::int64_t tick = rig.tick;
+  std::vector<std::uint64_t> first, second;
+  rig.run(1.0, [&] { first.push_back(rig.forest.hash()); });
+  rig.touch(0, 1.0);
+  rig.run(0.5);
+  rig.forest.restore(saved);
+  rig.tick = tick;
+  rig.run(1.0, [&] { second.push_back(rig.forest.hash()); });
+  EXPECT_GT(rig.forest.physicsFigures().branches, 0u);
+  EXPECT_EQ(first, second);
+}
+
+// Whoever hears the messages has the same branches, from the first touch to the end of the blend.
+TEST(PhysicalPart, ReplicaPosesAreTheForests) {
+  PhysicsSettings settings;
+  settings.linger = 0.3;
+  PhysicsRig rig = windyRig(settings);
+  ForestReplica early, late;
+  for (ForestReplica* replica : {&early, &late}) {
+    replica->setLayout(rig.forest.layout(), flatTerrain());
+    replica->setWind(rig.forest.memory().wind);
+  }
+  ASSERT_TRUE(early.apply(rig.forest.update(true)));
+  int ticks = 0, blended = 0;
+  double worst = 0.0;
+  const auto compare = [&](const ForestReplica& replica) {
+    const auto ours = rig.forest.pose(rig.tree, 0, rig.now());
+    const auto theirs = replica.pose(rig.tree, 0, rig.now());
+    for (std::size_t i = 0; i < ours.size(); ++i)
+      worst = std::max(worst, length(ours[i].position - theirs[i].position));
+  };
+  pull(rig, 6.0, [&] {
+    blended += rig.forest.physicsFigures().blending > 0 ? 1 : 0;
+    const StateUpdate update = rig.forest.update(++ticks == 90);  // one key frame in mid-recoil
+    ASSERT_TRUE(early.apply(update));
+    compare(early);
+    if (ticks < 90) return;
+    ASSERT_TRUE(late.apply(update));
+    compare(late);
+  });
+  EXPECT_LT(worst, 1e-9);
+  EXPECT_GT(blended, 10);
+  EXPECT_TRUE(early.physicalTrees().empty());
+  EXPECT_TRUE(late.physicalTrees().empty());
+}
+
+// A leap of the clock is not stepped through, and nothing breaks.
+TEST(PhysicalPart, LongGapsAreNotSteppedThrough) {
+  PhysicsRig rig = windyRig();
+  pull(rig, 0.5);
+  rig.tick += 100 * TICK_RATE;
+  rig.advance();
+  EXPECT_EQ(rig.forest.physicsFigures().steps, 0u);
+  EXPECT_EQ(rig.forest.physicsFigures().skipped, 1u);
+  rig.run(1.0);
+  for (const PromotedBranch& b : rig.forest.promoted(0).branches)
+    EXPECT_LT(difference(b.rate, {}), 100.0);
+  rig.forest.reset();
+  EXPECT_EQ(rig.forest.physicsFigures().branches, 0u);
+  EXPECT_TRUE(rig.forest.grabs().empty());
+}
+
+// Steps are whole and equal: ceil(240 Hz * time).
+TEST(PhysicalPart, StepsAreAtLeast240AHertz) {
+  PhysicsRig rig = windyRig();
+  rig.touch(0, 10.0);
+  rig.advance();
+  EXPECT_EQ(rig.forest.physicsFigures().steps, 5u);  // a tick of 60 Hz is 16666667 ns now and then
+  const Nanoseconds stamp = rig.now();
+  rig.forest.advance(stamp + NANOSECONDS_PER_SECOND / 60);
+  EXPECT_EQ(rig.forest.physicsFigures().steps, 4u);
+  rig.forest.advance(stamp + NANOSECONDS_PER_SECOND / 60 + 1000);
+  EXPECT_EQ(rig.forest.physicsFigures().steps, 1u);
+  rig.forest.advance(stamp + NANOSECONDS_PER_SECOND / 60 + 1000 + NANOSECONDS_PER_SECOND);
+  EXPECT_EQ(rig.forest.physicsFigures().steps, 240u);
+}
+
+// Nothing is allocated in a step once one has run (S1-34: four numbers a branch are the state).
+TEST(PhysicalPart, StepsAllocateNothing) {
+  PhysicsRig rig = windyRig();
+  Grab grab = rig.grabOf(rig.branchOfDepth(2));
+  grab.target += Vec3(0.1, 0.1, 0.0);
+  rig.forest.addGrab(grab);
+  rig.run(0.2);
+  PhysicalPart part = rig.forest.memory().physics.parts().at(0);
+  PartScratch scratch;
+  PartLoads loads;
+  loads.springs.push_back({grab.point, grab.target, Vec3(Vec3::Zero()), rig.now(), 2000, 40, 200});
+  const Air air{rig.forest.memory().wind, rig.forest.memory().levels.of(0),
+                rig.forest.layout().motion};
+  const PhysicsSettings settings;
+  std::size_t before = 0;
+  for (int i = 0; i < 20; ++i) {
+    if (i == 3) before = allocations;
+    part.step(air, loads, settings, rig.now() + i * 4000000, rig.now() + (i + 1) * 4000000,
+              scratch);
+  }
+  EXPECT_GT(part.joints().size(), 1u);
+  EXPECT_EQ(allocations - before, 0u);
+  EXPECT_EQ(sizeof(part.state().q[0]) + sizeof(part.state().rate[0]), 4 * sizeof(double));
+}
+
+double rms(const std::vector<Vec3>& values) {
+  double sum = 0.0;
+  for (const Vec3& v : values) sum += dot(v, v);
+  return std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+std::vector<Vec3> tipsOf(const PhysicsRig& rig) {
+  const auto poses = rig.forest.pose(rig.tree, 0, rig.forest.memory().stamp);
+  std::vector<Vec3> out;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const Branch& b = rig.branches()[i];
+    out.push_back(tipOf(b, poses[i]) - tipOf(b, b.rest));
+  }
+  return out;
+}
+
+// E1, the default fade: once it is over, the tree is where full dynamics with the real load, a
+// quarter of the step and no hand-over at all have it.
+TEST(PhysicalPart, AfterTheFadeItIsFullDynamics) {
+  PhysicsSettings all;
+  all.promotion = static_cast<int>(Promotion::DEPTH);
+  PhysicsRig rig(all), reference(all);
+  PhysicsSettings at_once = all;
+  at_once.fade = 0.0;
+  reference.forest.setPhysics(at_once);
+  const wind::Field wind = steadyWind(Vec3(3, 1, 0));
+  rig.forest.setWind(wind);
+  reference.forest.setWind(wind);
+  reference.touch(reference.twig(), 60.0);
+  rig.run(5.0);
+  rig.touch(rig.twig(), 60.0);
+  Nanoseconds at = reference.now();
+  const auto follow = [&] {  // at 960 Hz
+    while (at < rig.now()) reference.forest.advance(at = std::min(at + 1041667, rig.now()));
+  };
+  follow();
+  double last = 1.0;
+  for (const double until : {0.0, 0.5, 1.0, 2.0, 4.0}) {
+    std::vector<Vec3> error, motion;
+    rig.run(until > 0.0 ? 0.5 : 0.1, [&] {
+      follow();
+      const auto a = tipsOf(rig), b = tipsOf(reference);
+      for (std::size_t i = 0; i < a.size(); ++i)
+        error.push_back(a[i] - b[i]), motion.push_back(b[i]);
+    });
+    last = rms(error) / rms(motion);
+    std::printf("up to %.1f s after promotion: %.1f %% off full dynamics\n",
+                secondsBetween(PHYSICS_START, rig.now()) - 5.0, 100.0 * last);
+    rig.run(until > 0.5 ? until / 4 : 0.0);
+  }
+  EXPECT_LT(last, 0.01);
+}
+
+struct Clustered {
+  double error{0.0};  ///< of the pulled tip over its motion, RMS
+  double metres{0.0};
+  std::size_t branches{0};
+};
+
+std::vector<Vec3> pulledTip(const PhysicsSettings& settings, bool all, std::size_t& branches) {
+  PhysicsRig rig(settings);
+  const int branch = rig.branchOfDepth(2);
+  if (all) rig.touch(rig.twig(), 9.0);
+  Push push;
+  push.point = {0, branch, rig.branches()[branch].length};
+  push.force = Vec3(0.0, 18.0, -9.0);
+  push.until = rig.now() + seconds(1.0);
+  rig.forest.push(push);
+  std::vector<Vec3> out;
+  const Vec3 rest = rig.tip(branch);
+  branches = 0;
+  rig.run(2.0, [&] {
+    out.push_back(rig.tip(branch) - rest);
+    branches = std::max(branches, rig.forest.physicsFigures().branches);
+  });
+  return out;
+}
+
+// S1-W9, N12: fewer branches cost less and are less right; the default is within a few per cent of
+// the tree fully physical.
+TEST(PhysicalPart, ClusteredErrorFallsWithTheBranchesThatArePhysical) {
+  PhysicsSettings settings;
+  settings.promotion = static_cast<int>(Promotion::DEPTH);
+  std::size_t everything = 0;
+  const auto truth = pulledTip(settings, true, everything);
+  settings.promotion = static_cast<int>(Promotion::INFLUENCE);
+  std::vector<Clustered> curve;
+  for (const double tolerance : {0.3, 0.1, 0.03, 0.01, 0.005, 0.002, 0.0005}) {
+    settings.influence_tolerance = tolerance;
+    Clustered point;
+    auto tip = pulledTip(settings, false, point.branches);
+    for (std::size_t i = 0; i < tip.size(); ++i) tip[i] -= truth[i];
+    point.metres = rms(tip);
+    point.error = point.metres / rms(truth);
+    std::printf("tolerance %6.4f m: %4zu of %zu branches, tip %.2f mm off = %.2f %%\n", tolerance,
+                point.branches, everything, 1e3 * point.metres, 100.0 * point.error);
+    curve.push_back(point);
+  }
+  EXPECT_LT(curve.back().error, 0.1 * curve.front().error);
+  EXPECT_GT(curve.back().branches, curve.front().branches);
+  EXPECT_LT(curve[4].metres, 0.005);  // the default tolerance holds
+  EXPECT_LT(curve[4].branches, everything / 2);
+}
+
+// S1-30, S1-33: whatever is chosen runs in a forest; what would break is run by the midpoint and
+// counted.
+TEST(PhysicalPart, EveryDynamicsAndIntegratorStaysBounded) {
+  std::size_t replaced = 0;
+  for (int dynamics = 0; dynamics < 3; ++dynamics) {
+    for (int integrator = 0; integrator < 5; ++integrator) {
+      PhysicsSettings settings;
+      settings.dynamics = dynamics;
+      settings.integrator = integrator;
+      PhysicsRig rig = windyRig(settings);
+      double largest = 0.0;
+      pull(rig, 1.5, [&] {
+        for (const PromotedBranch& b : rig.forest.promoted(0).branches)
+          largest = std::max(largest, difference(b.q, {}));
+        replaced += rig.forest.physicsFigures().replaced;
+      });
+      EXPECT_GT(largest, 1e-3) << dynamics << " " << integrator;
+      EXPECT_LE(largest, LARGEST_BEND + 1e-9) << dynamics << " " << integrator;
+    }
+  }
+  std::printf("%zu steps of explicit methods were run by the midpoint\n", replaced);
+}
+
+}  // namespace
+}  // namespace vegetation_sim::forest
