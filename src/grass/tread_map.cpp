@@ -47,12 +47,31 @@ struct TreadMap::Box {
   int first_column, last_column, first_row, last_row;
 };
 
-/// One segment being pressed: old doses in, new ones out.
+namespace {
+
+double doseAt(const TreadSource& source, int row, int column) {
+  const int r = row - source.first_row, c = column - source.first_column;
+  if (r < 0 || c < 0 || r >= source.rows || c >= source.columns) return 0.0;
+  return source.doses[static_cast<std::size_t>(r) * source.columns + c];
+}
+
+float tiltNow(const TreadNode& node, Nanoseconds stamp) {
+  if (!(node.tilt > 0.f) || stamp < node.stamp || !(node.recovery > 0.f)) return 0.f;
+  if (node.recovery >= static_cast<float>(PERMANENT_RECOVERY)) return node.tilt;
+  const double part = secondsBetween(node.stamp, stamp) / double{node.recovery};
+  return static_cast<float>(double{node.tilt} * (1.0 - smoothStep(part)));
+}
+
+}  // namespace
+
+/// One segment being pressed: old doses in, new ones out. Its functions are in the class so that
+/// the loop over the nodes is one piece of code.
 struct TreadMap::Stroke {
   Stroke(const TreadLaw& l, const Point& from, const TreadSource& old, TreadSource& fresh)
       : law(l),
         field(from, fresh.position, l.reach, l.softness),
         full(CompactField::ofEndlessTrack(l.radius, l.reach, l.softness)),
+        per_full(1.0 / full),
         enough(full / std::max(l.load, 1e-9)),
         square_reach(l.reach * l.reach),
         latest(recoveredAt(fresh.stamp, static_cast<float>(l.recovery))),
@@ -63,78 +82,70 @@ struct TreadMap::Stroke {
     after.along = moves ? field.along() : before.along;
   }
 
-  double addDose(int row, int column, const Point& p, const CompactField::Place& place);
-  float tiltOf(double dose, double square_distance) const;
-  void press(float tilt, const Point& p, double side, TreadNode& node);
-  void turn(const Point& p, double side, TreadNode& node) const;
+  double addDose(int row, int column, const Point& p, const CompactField::Place& place) {
+    double dose = doseAt(before, row, column);
+    if (dose < enough) dose += field.fieldAt(place);  // no dose crushes more than fully
+    const double dx = p.x - after.position.x, dy = p.y - after.position.y;
+    // What the source leaves behind begins a new pass when it comes back.
+    if (dx * dx + dy * dy < square_reach)
+      after.doses[static_cast<std::size_t>(row - after.first_row) * after.columns + column -
+                  after.first_column] = dose;
+    return dose;
+  }
+
+  // Of the dose within this pass, or of the print of the foot, which crushes even where it stands.
+  float tiltOf(double dose, double square_distance) const {
+    double part = dose * per_full;
+    if (dose < enough && square_distance < 2.25 * law.radius * law.radius) {
+      const double outside = std::sqrt(square_distance) - law.radius;
+      part = std::max(part, 1.0 - smoothStep(outside / (0.5 * law.radius)));
+    }
+    return static_cast<float>(BEND_LIMIT * std::min(1.0, law.load * part));
+  }
+
+  // True if the node was pressed so lately, and no more than now, that it is surely still down.
+  bool isFresh(const TreadNode& node, float tilt) const {
+    const Nanoseconds age = after.stamp - node.stamp;
+    return node.tilt > 2.f * CRUNCHED && node.tilt <= tilt && age >= 0 &&
+           static_cast<double>(age) * 1e-9 < 0.1 * double{node.recovery};
+  }
+
+  // Against what is there the larger tilt counts (E15); only a node that had risen takes a new
+  // direction (S2-27).
+  void press(float tilt, const Point& p, double side, TreadNode& node) {
+    const float now = isFresh(node, tilt) ? tilt : tiltNow(node, after.stamp);
+    if (now <= CRUNCHED) turn(p, side, node);
+    if (tilt >= now)
+      node.recovery = static_cast<float>(law.recovery);
+    else
+      latest = std::max(latest, recoveredAt(after.stamp, double{node.recovery}));
+    node.tilt = std::max(now, tilt);
+    node.stamp = after.stamp;
+  }
+
+  // sign(A.N) N + C, or outward under a foot that came straight down.
+  void turn(const Point& p, double side, TreadNode& node) const {
+    double x = p.x - after.position.x, y = p.y - after.position.y;
+    if (after.has_moved) {
+      const double sign = side > NO_SIDE ? 1.0 : side < -NO_SIDE ? -1.0 : 0.0;
+      x = after.along.x - sign * after.along.y;
+      y = after.along.y + sign * after.along.x;
+    }
+    const double size = std::sqrt(x * x + y * y);
+    node.x = size > NO_SIDE ? static_cast<float>(x / size) : 1.f;
+    node.y = size > NO_SIDE ? static_cast<float>(y / size) : 0.f;
+  }
 
   const TreadLaw& law;
   CompactField field;
-  double full;    ///< dose that crushes fully
-  double enough;  ///< likewise, of this load
+  double full;      ///< dose that crushes fully
+  double per_full;  ///< its inverse
+  double enough;    ///< likewise, of this load
   double square_reach;
   Nanoseconds latest;  ///< when the last of the pressed nodes has recovered
   const TreadSource& before;
   TreadSource& after;
 };
-
-namespace {
-
-double doseAt(const TreadSource& source, int row, int column) {
-  const int r = row - source.first_row, c = column - source.first_column;
-  if (r < 0 || c < 0 || r >= source.rows || c >= source.columns) return 0.0;
-  return source.doses[static_cast<std::size_t>(r) * source.columns + c];
-}
-
-}  // namespace
-
-double TreadMap::Stroke::addDose(int row, int column, const Point& p,
-                                 const CompactField::Place& place) {
-  double dose = doseAt(before, row, column);
-  if (dose < enough) dose += field.fieldAt(place);  // no dose crushes more than fully
-  const double dx = p.x - after.position.x, dy = p.y - after.position.y;
-  // What the source leaves behind begins a new pass when it comes back.
-  if (dx * dx + dy * dy < square_reach)
-    after.doses[static_cast<std::size_t>(row - after.first_row) * after.columns + column -
-                after.first_column] = dose;
-  return dose;
-}
-
-// Of the dose within this pass, or of the print of the foot, which crushes even where it stands.
-float TreadMap::Stroke::tiltOf(double dose, double square_distance) const {
-  double part = dose / full;
-  if (square_distance < 2.25 * law.radius * law.radius) {
-    const double outside = std::sqrt(square_distance) - law.radius;
-    part = std::max(part, 1.0 - smoothStep(outside / (0.5 * law.radius)));
-  }
-  return static_cast<float>(BEND_LIMIT * std::min(1.0, law.load * part));
-}
-
-// Against what is there the larger tilt counts (E15); only a node that had risen takes a new
-// direction (S2-27).
-void TreadMap::Stroke::press(float tilt, const Point& p, double side, TreadNode& node) {
-  const float now = tiltAt(node, after.stamp);
-  if (now <= CRUNCHED) turn(p, side, node);
-  if (tilt >= now)
-    node.recovery = static_cast<float>(law.recovery);
-  else
-    latest = std::max(latest, recoveredAt(after.stamp, double{node.recovery}));
-  node.tilt = std::max(now, tilt);
-  node.stamp = after.stamp;
-}
-
-// sign(A.N) N + C, or outward under a foot that came straight down.
-void TreadMap::Stroke::turn(const Point& p, double side, TreadNode& node) const {
-  double x = p.x - after.position.x, y = p.y - after.position.y;
-  if (after.has_moved) {
-    const double sign = side > NO_SIDE ? 1.0 : side < -NO_SIDE ? -1.0 : 0.0;
-    x = after.along.x - sign * after.along.y;
-    y = after.along.y + sign * after.along.x;
-  }
-  const double size = std::sqrt(x * x + y * y);
-  node.x = size > NO_SIDE ? static_cast<float>(x / size) : 1.f;
-  node.y = size > NO_SIDE ? static_cast<float>(y / size) : 0.f;
-}
 
 TreadMap::TreadMap(const MapLaw& law, const TreadSettings& settings)
     : law_(law), settings_(settings) {
@@ -231,8 +242,15 @@ int TreadMap::pressBlock(Stroke& stroke, int block_row, int block_column, const 
   const int row0 = block_row * SIDE, column0 = block_column * SIDE;
   const int last_row = std::min(box.last_row, row0 + SIDE - 1);
   const int last_column = std::min(box.last_column, column0 + SIDE - 1);
+  const int first_column = std::max(box.first_column, column0);
+  // Each source treads elsewhere: ask for its nodes at once, not one after the other.
+  if (block)
+    for (int row = std::max(box.first_row, row0); row <= last_row; ++row)
+      for (int column = first_column; column <= last_column; column += 2)
+        __builtin_prefetch(
+            &block->nodes[static_cast<std::size_t>((row - row0) * SIDE + column - column0)]);
   for (int row = std::max(box.first_row, row0); row <= last_row; ++row)
-    for (int column = std::max(box.first_column, column0); column <= last_column; ++column) {
+    for (int column = first_column; column <= last_column; ++column) {
       const Point p{law_.origin_x + column * spacing_, law_.origin_y + row * spacing_};
       const CompactField::Place place = stroke.field.placeOf(p);
       if (place.square_distance >= stroke.square_reach) continue;
@@ -256,10 +274,7 @@ int TreadMap::pressBlock(Stroke& stroke, int block_row, int block_column, const 
 }
 
 float tiltAt(const TreadNode& node, Nanoseconds stamp) {
-  if (!(node.tilt > 0.f) || stamp < node.stamp || !(node.recovery > 0.f)) return 0.f;
-  if (node.recovery >= static_cast<float>(PERMANENT_RECOVERY)) return node.tilt;
-  const double part = secondsBetween(node.stamp, stamp) / double{node.recovery};
-  return static_cast<float>(double{node.tilt} * (1.0 - smoothStep(part)));
+  return tiltNow(node, stamp);
 }
 
 }  // namespace vegetation_sim::grass

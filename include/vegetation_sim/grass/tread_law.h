@@ -72,8 +72,14 @@ class CompactField {
   /// Field there [1/m^2]; 0 from `reach` on.
   double fieldAt(const Place& place) const {
     if (place.square_distance >= square_reach_) return 0.0;
-    const double square = place.side * place.side, half = std::sqrt(square_reach_ - square);
-    const double lo = std::max(place.start, -half), hi = std::min(place.end, half);
+    const double square = place.side * place.side, room = square_reach_ - square;
+    double lo = place.start, hi = place.end;
+    // Both ends within reach, as in most short steps, need no cut.
+    if (lo * lo > room || hi * hi > room) {
+      const double half = std::sqrt(room);
+      lo = std::max(lo, -half);
+      hi = std::min(hi, half);
+    }
     if (!(hi > lo)) return 0.0;
     return kernelIntegral(lo, hi, square + square_softness_) - (hi - lo) * edge_;
   }
