@@ -3,7 +3,8 @@
 //
 // What a simulated second of a tree costs at equal accuracy, by our integrators and by the engines
 // of others. usage: physics_bench [--quick] [--branches N,..] [--trees NAME,..] [--loads gust,pull]
-//   [--engine PART] [--cap SECONDS] [--tolerance ERROR] [--rounds N] [--csv FILE] [--cache FOLDER]
+//   [--engines PART,..] [--cap SECONDS] [--tolerance ERROR] [--rounds N] [--csv FILE] [--cache
+//   FOLDER]
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
@@ -19,7 +20,8 @@ namespace {
 struct Options {
   std::vector<std::string> trees{"fractal", "oak"}, loads{"gust", "pull"};
   std::vector<std::string> branches{"100", "1000", "10000"};
-  std::string engine, csv, cache;
+  std::vector<std::string> engines;  ///< parts of names; none: all
+  std::string csv, cache;
   double cap{60.0};        ///< of one run [s]
   double tolerance{1e-8};  ///< of references
   int rounds{7};
@@ -50,8 +52,8 @@ Options readOptions(int argc, char** argv) {
       out.loads = split(value);
     else if (key == "--branches")
       out.branches = split(value);
-    else if (key == "--engine")
-      out.engine = value;
+    else if (key == "--engines")
+      out.engines = split(value);
     else if (key == "--csv")
       out.csv = value;
     else if (key == "--cache")
@@ -131,6 +133,8 @@ Cell measure(const TestTree& tree, const TestLoad& load, const std::vector<Rival
   out.branches = static_cast<int>(tree.links.size());
   Reference references[2];
   for (const Bend bend : {Bend::SWING, Bend::HINGES}) {
+    const auto bends_so = [&](const Rival& rival) { return rival.maker.bend == bend; };
+    if (std::none_of(rivals.begin(), rivals.end(), bends_so)) continue;
     Reference& reference = references[static_cast<int>(bend)];
     reference = referenceOf(tree, load, bend, options.tolerance, options.cap, options.cache);
     out.converged = std::max(out.converged, reference.converged);
@@ -152,10 +156,16 @@ Cell measure(const TestTree& tree, const TestLoad& load, const std::vector<Rival
   return out;
 }
 
+bool wanted(const std::string& name, const Options& options) {
+  const auto in_name = [&](const std::string& part) { return name.find(part) != name.npos; };
+  return options.engines.empty() ||
+         std::any_of(options.engines.begin(), options.engines.end(), in_name);
+}
+
 std::vector<Rival> build(const TestTree& tree, const TestLoad& load, const Options& options) {
   std::vector<Rival> out;
   for (const Maker& maker : allEngines()) {
-    if (maker.name.find(options.engine) == std::string::npos) continue;
+    if (!wanted(maker.name, options)) continue;
     if (static_cast<int>(tree.links.size()) > maker.most_branches) continue;
     const double start = processorTime();
     out.push_back({maker, maker.make(tree, load, options.cache)});
