@@ -161,7 +161,7 @@ TEST(Strips, FollowTheWindOfTheBlades) {
   EXPECT_NEAR(lean.y() / 0.3, mean.y(), 0.03);
 }
 
-// S2-W5: the density may differ from vertex to vertex of a strip.
+// S2-11, S2-W5: the density, one for all of a strip in the paper, may differ from vertex to vertex.
 TEST(Strips, CarryTheDensityAsAlpha) {
   const FeatureMap map;
   Tile tile = makeTile(map, terrain::HeightMap(), 1, 2, 2);
