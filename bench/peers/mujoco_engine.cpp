@@ -19,8 +19,7 @@ class Description {
   explicit Description(const TestTree& tree) : tree_(tree), children_(tree.links.size()) {
     out_.precision(17);
     out_ << "<mujoco><compiler angle='radian' boundmass='0' boundinertia='0'/>"
-            "<size njmax='1' nconmax='1' nstack='"
-         << 400 * tree.links.size() + 100000 << "'/><worldbody>";
+            "<size njmax='1' nconmax='1'/><worldbody>";
     for (std::size_t i = 0; i < tree.links.size(); ++i)
       if (tree.links[i].parent >= 0)
         children_[static_cast<std::size_t>(tree.links[i].parent)].push_back(i);
