@@ -7,12 +7,13 @@ set -euo pipefail
 
 usage() {
   cat <<END
-usage: scripts/demo.sh [SCENARIO] [--headless] [--seconds N] [--screenshot FILE]
+usage: scripts/demo.sh [SCENARIO] [--headless] [--seconds N] [--screenshot FILE] [--series N]
   SCENARIO           one of: $(scenarios) (forest if none is given)
   --headless         on a virtual display and a ROS master of its own; succeeds only if rviz shows a
                      picture and no node dies
   --seconds N        ends after N seconds (20 if headless, else when rviz is closed)
   --screenshot FILE  picture of the rviz window at the end; with --headless
+  --series N         N pictures instead, at equal times up to the end, -1 to -N before FILE's ending
 END
 }
 
@@ -25,13 +26,13 @@ refuse() {
 }
 
 parse() {
-  scenario= headless=false seconds= screenshot=
+  scenario= headless=false seconds= screenshot= series=1
   while [ $# -gt 0 ]; do
     case $1 in
       --headless) headless=true ;;
-      --seconds | --screenshot)
+      --seconds | --screenshot | --series)
         [ $# -ge 2 ] || refuse "$1 wants a value"
-        [ "$1" = --seconds ] && seconds=$2 || screenshot=$2
+        printf -v "${1#--}" %s "$2"
         shift
         ;;
       -h | --help) usage; exit 0 ;;
@@ -46,6 +47,9 @@ parse() {
   scenario=${scenario:-forest}
   [ -e "$ROOT/config/scenarios/$scenario.yaml" ] || refuse "unknown scenario $scenario"
   [[ $seconds =~ ^[0-9]*$ && ! $seconds =~ ^0+$ ]] || refuse "--seconds $seconds is no whole number above 0"
+  [[ $series =~ ^[0-9]{1,3}$ && ! $series =~ ^0+$ ]] || refuse "--series $series is none of 1 to 999"
+  series=$((10#$series))
+  [ "$series" = 1 ] || [ -n "$screenshot" ] || refuse '--series goes with --screenshot'
   [ -z "$screenshot" ] || $headless || refuse '--screenshot goes with --headless'
   $headless || [ -n "${DISPLAY:-}" ] || refuse 'there is no display; add --headless'
   if [ -n "$screenshot" ]; then
@@ -88,6 +92,23 @@ check_picture() {
   say "Picture of $(identify -format '%w x %h' "$1") pixels, $colours colours in its middle"
 }
 
+# usage: run_until TIME, in microseconds
+run_until() {
+  while [ "${EPOCHREALTIME/[.,]/}" -lt "$1" ]; do
+    check_launch
+    sleep 0.1
+  done
+}
+
+take_picture() {
+  local file=$screenshot
+  import -window "$(rviz_window)" "png:$WORK/picture.png"
+  check_launch
+  check_picture "$WORK/picture.png"
+  [ "$series" = 1 ] || file=${screenshot%.*}-$1.${screenshot##*.}
+  [ -z "$file" ] || { cp "$WORK/picture.png" "$file" && say "Wrote $file"; }
+}
+
 run_headless() {
   . "$ROOT/scripts/launching.sh"
   display_pid=
@@ -100,15 +121,11 @@ run_headless() {
   wait_until 120 'the rviz window' rviz_window
   wait_until 60 'a message on forest/state' topic_flows /forest/state
   say "Running for ${seconds:-20} s"
-  local deadline=$((SECONDS + ${seconds:-20}))
-  while [ $SECONDS -lt $deadline ]; do
-    check_launch
-    sleep 0.5
+  local start=${EPOCHREALTIME/[.,]/} number
+  for ((number = 1; number <= series; number++)); do
+    run_until $((start + 10#${seconds:-20} * 1000000 * number / series))
+    take_picture "$number"
   done
-  import -window "$(rviz_window)" "png:$WORK/picture.png"
-  check_launch
-  check_picture "$WORK/picture.png"
-  [ -z "$screenshot" ] || { cp "$WORK/picture.png" "$screenshot" && say "Wrote $screenshot"; }
 }
 
 parse "$@"
