@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstring>
 
 #include "physics/chain_fixture.h"
 #include "vegetation_sim/common/math.h"
@@ -90,6 +91,39 @@ inline Surroundings gustAndPull(const std::vector<Link>& links, double speed, do
     loads.wrench[pulled].torque += arm.cross(force);
   };
   return out;
+}
+
+/// A gripper's springs, far stiffer than what they hold, two of them on one link.
+inline Surroundings gripper(const std::vector<Link>& links) {
+  Surroundings out;
+  const Kinematics rest = kinematicsAt(links, atRest(links.size()));
+  out.loads = [&links, rest](const Kinematics& k, double time, Loads& loads) {
+    const std::size_t thick = thickEnough(links);
+    for (const std::size_t i : {links.size() - 1, thick, thick}) {
+      const auto point = [&](const Pose& pose) {
+        return Vec3(pose.position + 0.7 * links[i].length * axisZ(pose.orientation));
+      };
+      Anchor a;
+      a.link = static_cast<int>(i);
+      a.arm = point(k.pose[i]) - k.pose[i].position;
+      const Vec3 velocity = k.velocity[i] + k.spin[i].cross(a.arm);
+      const Vec3 target = point(rest.pose[i]) + 0.1 * smootherStep(time) * Vec3(1.0, 0.5, -0.2);
+      a.force = 5000.0 * (target - point(k.pose[i])) - 20.0 * velocity;
+      a.stiffness = {5000.0, 5000.0, 5000.0, 0.0, 0.0, 0.0};
+      a.damping = {20.0, 20.0, 20.0, 0.0, 0.0, 0.0};
+      loads.anchors.push_back(a);
+    }
+  };
+  return out;
+}
+
+inline bool sameBits(const ChainState& a, const ChainState& b) {
+  for (std::size_t i = 0; i < a.q.size(); ++i)
+    for (int axis = 0; axis < 2; ++axis)
+      if (std::memcmp(&a.q[i][axis], &b.q[i][axis], sizeof(double)) != 0 ||
+          std::memcmp(&a.rate[i][axis], &b.rate[i][axis], sizeof(double)) != 0)
+        return false;
+  return a.q.size() == b.q.size();
 }
 
 }  // namespace vegetation_sim::physics
