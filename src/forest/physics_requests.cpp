@@ -48,6 +48,29 @@ void checkTarget(const Vec3& target, const Vec3& foot, double reach, Faults& fau
   if (!fault.empty()) faults.add(fault);
 }
 
+// A part that is there to look at its tree: it goes again unless the request is accepted.
+class Provisional {
+ public:
+  using Parts = std::map<std::uint32_t, PhysicalPart>;
+  template <typename Make>
+  Provisional(Parts& parts, std::uint32_t tree, const Make& make)
+      : parts_(parts), tree_(tree), mine_(!parts.count(tree)) {
+    if (mine_) make();
+  }
+  ~Provisional() {
+    if (mine_) parts_.erase(tree_);
+  }
+  Provisional(const Provisional&) = delete;
+  Provisional& operator=(const Provisional&) = delete;
+  const PhysicalPart& get() const { return parts_.at(tree_); }
+  void keep() { mine_ = false; }
+
+ private:
+  Parts& parts_;
+  std::uint32_t tree_;
+  bool mine_;
+};
+
 template <typename Map, typename Key>
 auto& known(Map& map, const Key& key, const std::string& what) {
   const auto found = map.find(key);
@@ -82,9 +105,11 @@ std::uint32_t ForestPhysics::addGrab(const Site& at, Grab grab) {
   if (grabs_.size() >= MOST_GRABS)
     throw InvalidInput("grab: there are " + count(grabs_.size()) + " grabs, allowed are " +
                        count(MOST_GRABS));
-  const auto part = parts_.find(grab.point.tree);
-  const Tree grown =
-      part == parts_.end() ? growTree(at.layout, grab.point.tree, at.terrain) : part->second.tree();
+  if (grab.id == 0) grab.id = next_grab_;
+  if (grabs_.count(grab.id))
+    throw InvalidInput("grab: id = " + count(grab.id) + " is in use, allowed is 0 for a new one");
+  Provisional part(parts_, grab.point.tree, [&] { partOf(at, grab.point.tree); });
+  const Tree& grown = part.get().tree();
   Faults faults;
   check(grab, faults);
   checkPoint(grown, "grab", grab.point, faults);
@@ -92,9 +117,7 @@ std::uint32_t ForestPhysics::addGrab(const Site& at, Grab grab) {
   if (faults.empty()) checkTarget(grab.target, grown.foot, reach, faults);
   faults.throwIfAny();
   checkRoom("grab", grab.point.tree, grab.point.branch);
-  if (grab.id == 0) grab.id = next_grab_;
-  if (grabs_.count(grab.id))
-    throw InvalidInput("grab: id = " + count(grab.id) + " is in use, allowed is 0 for a new one");
+  part.keep();
   next_grab_ = std::max(next_grab_, grab.id + 1);
   grabs_[grab.id] = grab;
   holds_[grab.id] = {grab.target, true, reach, grown.foot, Vec3(Vec3::Zero())};
@@ -128,14 +151,13 @@ void ForestPhysics::push(const Site& at, const Push& push) {
   if (pushes_.size() >= MOST_PUSHES)
     throw InvalidInput("push: there are " + count(pushes_.size()) + " pushes, allowed are " +
                        count(MOST_PUSHES));
-  const auto part = parts_.find(push.point.tree);
-  const Tree grown =
-      part == parts_.end() ? growTree(at.layout, push.point.tree, at.terrain) : part->second.tree();
+  Provisional part(parts_, push.point.tree, [&] { partOf(at, push.point.tree); });
   Faults faults;
   check(push, faults);
-  checkPoint(grown, "push", push.point, faults);
+  checkPoint(part.get().tree(), "push", push.point, faults);
   faults.throwIfAny();
   checkRoom("push", push.point.tree, push.point.branch);
+  part.keep();
   pushes_.push_back(push);
   next_review_ = 0;
 }
