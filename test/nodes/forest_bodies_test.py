@@ -1,0 +1,89 @@
+#!/usr/bin/env python3
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""A body tied to a tf frame pushes a limb aside, feels it, and is forgotten when tf is silent."""
+import math
+import unittest
+
+import rospy
+import rostest
+from vegetation_sim.msg import ForestEvent
+
+from forest_rig import RATE, TickClock, time_of
+from grab_rig import LIMB, TREE, Hands, along_z, minus, plus, size, vector
+from waiting import wait_for
+
+SPEED = 0.3  # [m/s]
+RADIUS = 0.06
+ALONG = 0.3  # [m]
+
+
+def times(factor, v):
+    return tuple(factor * x for x in v)
+
+
+def dot(a, b):
+    return sum(x * y for x, y in zip(a, b))
+
+
+class Bodies(unittest.TestCase):
+
+    @classmethod
+    def setUpClass(cls):
+        cls.clock = TickClock(100 * RATE)
+        cls.hands = Hands(cls.clock)
+        cls.clock.begin(cls.hands)
+
+    def sideways(self):
+        """Level, and across the limb."""
+        pose = self.hands.tree(TREE).transforms.poses[LIMB]
+        axis = minus(along_z(pose, 1.0), vector(pose.position))
+        across = (-axis[1], axis[0], 0.0)
+        return times(1.0 / size(across), across)
+
+    def kinds(self):
+        return [event.kind for event in self.hands.events.messages]
+
+    def show_hand(self, place):
+        """Returns when the node has it: the next tick tells it as an event."""
+        self.hands.show_frame('hand', place)
+        self.hands.settle()
+
+    def test_limb_goes_aside_and_the_hand_feels_it(self):
+        hands, side = self.hands, self.sideways()
+        start = plus(hands.point(LIMB, ALONG), times(-0.25, side))
+
+        def told():
+            self.show_hand(start)
+            hands.run(1)
+            return ForestEvent.BODY in self.kinds()
+        wait_for(told, 'an event of the body')
+
+        ticks, place = 0, start
+        while ticks < 1.2 * RATE:
+            place = plus(start, times(SPEED * ticks / RATE, side))
+            self.show_hand(place)
+            hands.run(1)
+            ticks += 1
+        limb = hands.point(LIMB, ALONG)
+        heard = [w for w in hands.wrenches.messages if w.header.frame_id == 'hand']
+        # It is in front of the hand, not in it or behind: 1 cm for where tf is a tick late.
+        self.assertGreater(dot(minus(limb, place), side), RADIUS - 0.01)
+        self.assertIn(LIMB, hands.physical())
+        self.assertGreater(len(heard), 10)
+        force = vector(heard[-1].wrench.force)
+        self.assertLess(dot(force, side), 0.0)
+        self.assertTrue(all(math.isfinite(x) for x in force))
+
+        # tf falls silent: no body, and soon nothing physical.
+        self.clock.run_until(lambda: ForestEvent.REMOVE_BODY in self.kinds(), 'the end of the body',
+                             hands)
+        self.clock.run_until(lambda: not hands.physical(), 'a calm tree', hands)
+        count = len(hands.wrenches.messages)
+        hands.run(RATE)
+        self.assertEqual(len(hands.wrenches.messages), count)
+
+
+if __name__ == '__main__':
+    rospy.init_node('forest_bodies_test')
+    rostest.rosrun('vegetation_sim', 'forest_bodies', Bodies)
