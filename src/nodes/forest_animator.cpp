@@ -50,6 +50,7 @@ ForestAnimator::ForestAnimator(ros::NodeHandle handle, ros::NodeHandle private_h
   branches_publisher_ = handle_.advertise<BranchTransforms>("forest/branches", 60);
   markers_publisher_ = handle_.advertise<visualization_msgs::MarkerArray>("forest/markers", 1);
   events_publisher_ = handle_.advertise<ForestEvent>("forest/events", 1000);
+  bodies_ = std::make_unique<RobotBodies>(handle_, options_.frame_id, options_.robot.parts);
   wrenches_publisher_ = handle_.advertise<geometry_msgs::WrenchStamped>("forest/wrenches", 1000);
   publishLayout();
   diagnostics_.setHardwareID("none");
@@ -122,6 +123,7 @@ void ForestAnimator::restart(Nanoseconds now) {
   startAnew();
   inputs_.startAnew(now);
   desk_->clear(true);
+  bodies_->clear();
   tf_buffer_.clear();
   last_tick_ = last_framed_tick_ = NEVER;
   publishLayout();
@@ -129,6 +131,7 @@ void ForestAnimator::restart(Nanoseconds now) {
 
 void ForestAnimator::tick(std::int64_t tick) {
   const Nanoseconds stamp = grid_.timeOf(tick);
+  if (!options_.replay) followBodies(stamp);
   desk_->follow(stamp,
                 [this](const std::string& what, const std::string& why) { reject(what, why); });
   for (ForestEvent& event : inputs_.take(stamp)) {
@@ -219,6 +222,28 @@ void ForestAnimator::applyInteraction(const ForestEvent& event) {
       break;
     default:
       throw InvalidInput("kind = " + std::to_string(event.kind) + " is outside 0 to 9");
+  }
+}
+
+// Bodies that have moved or appeared, and those whose frame tf no longer tells.
+void ForestAnimator::followBodies(Nanoseconds stamp) {
+  const std::vector<forest::Body> now = bodies_->update(stamp);
+  const auto& known = forest_->bodies();
+  ForestEvent event;
+  event.kind = ForestEvent::BODY;
+  for (const RobotPart& part : options_.robot.parts) {
+    const auto body = std::find_if(now.begin(), now.end(),
+                                   [&](const forest::Body& b) { return b.id == part.body.id; });
+    const auto old = known.find(part.body.id);
+    if (body != now.end() && (old == known.end() || old->second.stamp != body->stamp)) {
+      event.body = toMsg(*body, part.in_frame);
+      inputs_.addInteraction(event);
+    } else if (body == now.end() && old != known.end()) {
+      ForestEvent gone;
+      gone.kind = ForestEvent::REMOVE_BODY;
+      gone.body.id = part.body.id;
+      inputs_.addInteraction(gone);
+    }
   }
 }
 

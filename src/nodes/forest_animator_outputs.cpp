@@ -91,6 +91,7 @@ void ForestAnimator::addPhysics(diagnostic_updater::DiagnosticStatusWrapper& sta
   status.add("Grabs whose frame is silent", desk_->silent());
   status.add("Grabs ended by their lease", counts_.leases_ended);
   status.add("Bodies", forest_->bodies().size());
+  status.add("Frames of bodies not told", bodies_->missing().size());
   status.add("Physical trees", figures.trees);
   status.add("Physical branches", figures.branches);
   status.add("Physical branches that blend back", figures.blending);

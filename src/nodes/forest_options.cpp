@@ -107,6 +107,7 @@ ForestOptions loadForestOptions(const ros::NodeHandle& private_handle, ForestSce
   parameters.flag("replay", out.replay);
   parameters.integers("branches_trees", out.branches_trees, {0, 1 << 24});
   describe(parameters, out);
+  out.robot = readRobotParts(private_handle, parameters);
   if (out.frame_id.empty()) parameters.fault("frame_id", "= '' is empty");
   checkFrame("frame_id", out.frame_id, parameters);
   checkFrame("viewer_frame", out.viewer_frame, parameters);

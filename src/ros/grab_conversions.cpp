@@ -139,6 +139,20 @@ forest::Body fromMsg(const ForestBody& message) {
   return out;
 }
 
+ForestBody toMsg(const forest::Body& body, const Pose& in_frame) {
+  ForestBody out;
+  out.id = body.id;
+  out.frame = body.frame;
+  out.shape = static_cast<std::uint8_t>(body.shape);
+  out.size = toVector(body.size);
+  out.offset = toMsg(in_frame);
+  out.pose = toMsg(body.pose);
+  out.twist.linear = toVector(body.velocity);
+  out.twist.angular = toVector(body.spin);
+  out.stamp = toStamp(body.stamp);
+  return out;
+}
+
 FramedWrench wrenchIn(const Pose& frame, const forest::Reaction& reaction) {
   const Quat back = conjugate(frame.orientation);
   const Vec3 lever = reaction.point - frame.position;

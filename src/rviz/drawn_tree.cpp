@@ -16,7 +16,8 @@ namespace {
 constexpr double LEAF_COVERAGE = 0.4;    // of a card
 constexpr double VISIBLE_FLUTTER = 0.4;  // [pixel]
 constexpr double BREATH = 0.15;          // [m/s] air that moves no leaf
-constexpr forest::Colour MOVES{0.86f, 0.22f, 0.12f}, CHANGES{0.25f, 0.72f, 0.20f};
+constexpr forest::Colour MOVES{0.86f, 0.22f, 0.12f}, CHANGES{0.25f, 0.72f, 0.20f},
+    PHYSICAL{0.10f, 0.35f, 0.90f};
 
 std::uint8_t byte(double x) {
   return static_cast<std::uint8_t>(saturate(x) * 255.0 + 0.5);
@@ -164,19 +165,28 @@ bool DrawnTree::paintLevels(const forest::ForestReplica& replica, Nanoseconds st
                             const TreeLook& look) {
   if (level_ < 0 || (!look.colour_by_level && !painted_by_level_)) return false;
   forest::Weights weights{};
-  if (look.colour_by_level) weights = replica.weights(id_, stamp);
-  if (painted_by_level_ && look.colour_by_level && weights == painted_) return false;
+  std::vector<int> physical;
+  if (look.colour_by_level) {
+    weights = replica.weights(id_, stamp);
+    for (const auto& branch : replica.promoted(id_).branches) physical.push_back(branch.branch);
+  }
+  if (painted_by_level_ && look.colour_by_level && weights == painted_ &&
+      physical == painted_physical_)
+    return false;
   for (std::size_t i = 0; i < mesh_.bark.size(); ++i) {
     const forest::BarkVertex& vertex = mesh_.bark[i];
     const int depth = tree_.skeleton.branches[static_cast<std::size_t>(vertex.branch)].depth;
     const double weight = weights[static_cast<std::size_t>(depth)];
     const bool rests = weight <= 0.0;
-    setColour(rests          ? paint_.bark(radiusOf(vertex))
+    const bool is_physical = std::binary_search(physical.begin(), physical.end(), vertex.branch);
+    setColour(is_physical    ? PHYSICAL
+              : rests        ? paint_.bark(radiusOf(vertex))
               : weight < 1.0 ? CHANGES
                              : MOVES,
               bark_.paint[i]);
   }
   painted_ = weights;
+  painted_physical_ = std::move(physical);
   painted_by_level_ = look.colour_by_level;
   return true;
 }

@@ -71,7 +71,8 @@ void ForestProperties::addLook(rviz::Display& display) {
                                     SLOT(updateLook()), &display);
   colour_by_level_ = new rviz::BoolProperty(
       "Colour by Level", false,
-      "Paint branches by their joint: red moves, green is between moving and fixed, bark is fixed.",
+      "Paint branches by their joint: red moves, green is between moving and fixed, blue is "
+      "physical, bark is fixed.",
       &display, SLOT(updateLook()), &display);
   rate_ =
       new rviz::FloatProperty("Update Rate", 30.f, "Trees move at most so often [Hz].", &display);

@@ -63,6 +63,7 @@ class ForestAnimator {
   void apply(const ForestEvent& event);
   void applyInteraction(const ForestEvent& event);
   void settleGrabs();
+  void followBodies(Nanoseconds stamp);
   void noteLosses();
   void adoptTuning(const ForestTuning& tuning);
 
@@ -112,6 +113,7 @@ class ForestAnimator {
   tf2_ros::TransformListener tf_listener_;
   tf2_ros::TransformBroadcaster tf_broadcaster_;
   std::unique_ptr<GrabDesk> desk_;
+  std::unique_ptr<RobotBodies> bodies_;
   ros::Publisher layout_publisher_, state_publisher_, branches_publisher_, markers_publisher_,
       events_publisher_, wrenches_publisher_;
   std::vector<ros::Subscriber> subscribers_;

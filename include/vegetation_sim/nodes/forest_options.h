@@ -10,6 +10,7 @@
 
 #include "vegetation_sim/forest/forest.h"
 #include "vegetation_sim/nodes/forest_inputs.h"
+#include "vegetation_sim/nodes/robot_bodies.h"
 
 namespace vegetation_sim {
 
@@ -33,6 +34,7 @@ struct ForestOptions {
   double grab_lease{5.0};            ///< of a grab that names none [s]
   double grab_distance{10.0};        ///< farthest target from the point held [m]
   bool tf_promoted{true};            ///< frames of physical branches, where tf_budget has room
+  RobotParts robot;                  ///< what of a robot pushes branches aside
   bool replay{false};                ///< recorded forest/events instead of live inputs
   double replay_delay{0.5};          ///< how far ticks stay behind the clock in a replay [s]
   ForestTuning tuning;               ///< starting values of what dynamic_reconfigure changes

@@ -38,6 +38,9 @@ forest::Push fromMsg(const BranchForce& message, Nanoseconds start);
 /// @throws InvalidInput for an unknown shape or numbers that are not finite.
 forest::Body fromMsg(const ForestBody& message);
 
+/// @param in_frame pose of the body in its frame.
+ForestBody toMsg(const forest::Body& body, const Pose& in_frame);
+
 /// Force and torque of a reaction as geometry_msgs/Wrench wants them: in the axes of `frame` (world
 /// pose) and about its origin.
 struct FramedWrench {

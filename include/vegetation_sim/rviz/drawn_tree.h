@@ -17,7 +17,8 @@ namespace vegetation_sim::view {
 struct TreeLook {
   bool leaves{true};
   bool flutter{true};
-  bool colour_by_level{false};  ///< bark: moving joints red, those in transition green
+  bool colour_by_level{
+      false};  ///< bark: moving joints red, those in transition green, physical blue
 };
 
 /// One tree as it is drawn: its mesh at one level of detail, where the vertices are and how they
@@ -74,6 +75,7 @@ class DrawnTree {
   Part bark_, leaves_;
   bool moved_{true};  // the last move() left it other than at rest
   forest::Weights painted_{};
+  std::vector<int> painted_physical_;  // branches
   bool painted_by_level_{false};
 };
 
