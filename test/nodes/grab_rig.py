@@ -1,0 +1,111 @@
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the tests of grabs share: a forest of one clock with somebody who grabs in it."""
+import math
+
+import rospy
+from geometry_msgs.msg import Point, PointStamped, TransformStamped, WrenchStamped
+from tf2_msgs.msg import TFMessage
+from vegetation_sim.srv import ApplyForce, Grab, MoveGrab, Release
+
+from forest_rig import Animator, Log, publisher, time_of
+from waiting import wait_for
+
+TREE = 0
+LIMB = 46  # outer third of a limb, 2.4 cm thick, 2.7 m above the ground
+OTHER_LIMB = 49
+
+
+def vector(v):
+    return (v.x, v.y, v.z)
+
+
+def minus(a, b):
+    return tuple(p - q for p, q in zip(a, b))
+
+
+def plus(a, b):
+    return tuple(p + q for p, q in zip(a, b))
+
+
+def along_z(pose, distance):
+    p, q = pose.position, pose.orientation
+    axis = (2 * (q.x * q.z + q.w * q.y), 2 * (q.y * q.z - q.w * q.x),
+            1 - 2 * (q.x * q.x + q.y * q.y))
+    return tuple(a + distance * b for a, b in zip(vector(p), axis))
+
+
+class Hands(Animator):
+    """A forest_animator and the services that hold its branches."""
+
+    def __init__(self, clock, name='/forest_animator'):
+        super().__init__(name)
+        self.clock = clock
+        self.grab = rospy.ServiceProxy(name + '/grab', Grab)
+        self.move_grab = rospy.ServiceProxy(name + '/move_grab', MoveGrab)
+        self.release = rospy.ServiceProxy(name + '/release', Release)
+        self.apply_force = rospy.ServiceProxy(name + '/apply_force', ApplyForce)
+        self.wrenches = Log('/forest/wrenches', WrenchStamped)
+        self._frames = publisher('/tf', TFMessage)
+
+    def run(self, ticks):
+        self.clock.run(ticks, self)
+
+    def point(self, branch, along, tree=TREE):
+        return along_z(self.tree(tree).transforms.poses[branch], along)
+
+    def take(self, **request):
+        """Grabs; the answer."""
+        answer = self.grab(**dict(dict(tree=TREE, lease=60.0), **request))
+        if not answer.success:
+            raise AssertionError(answer.message)
+        return answer
+
+    def take_at(self, offset, branch=LIMB, along=0.3, **request):
+        """Grabs a branch and pulls the point held by `offset` [m]; answer and target."""
+        target = plus(self.point(branch, along), offset)
+        request = dict(dict(branch=branch, along=along), **request)
+        return self.take(target=stamped(target), **request), target
+
+    def show_frame(self, name, place, turn=(0.0, 0.0, 0.0, 1.0), stamp=None):
+        """Broadcasts a frame; returns when tf of the node has it."""
+        transform = TransformStamped(child_frame_id=name)
+        transform.header.frame_id = 'map'
+        transform.header.stamp = stamp or time_of(self.clock.tick)
+        at, q = transform.transform.translation, transform.transform.rotation
+        at.x, at.y, at.z = place
+        q.x, q.y, q.z, q.w = turn
+        wait_for(lambda: self._frames.get_num_connections() > 0, 'listeners of /tf')
+        self._frames.publish([transform])
+
+    def wait_for_frame(self, name, place):
+        """Until the node knows a frame: a probe that changes nothing says why it is refused."""
+        def known():
+            self.show_frame(name, place)
+            answer = self.grab(tree=TREE, branch=LIMB, frame=name, stiffness=-1.0)
+            return 'stiffness' in answer.message
+        wait_for(known, 'the frame ' + name)
+
+    def wrench(self):
+        """Force of the last tick's first wrench, by stamp."""
+        stamp = time_of(self.clock.tick)
+        return self.wrenches.wait(
+            lambda all: next((m for m in all if m.header.stamp == stamp), None), 'a wrench')
+
+    def physical(self, tree=TREE):
+        return list(self.tree(tree).physical)
+
+    def let_all_go(self):
+        """Until nothing is physical any more."""
+        self.release(all=True)
+        self.run(1)
+        self.clock.run_until(lambda: not self.physical(), 'a calm tree', self)
+
+
+def stamped(place):
+    return PointStamped(point=Point(*place))
+
+
+def size(v):
+    return math.hypot(*v)
+
