@@ -25,7 +25,8 @@ Vec3 timesTransposedB(const Body& body, const Vec3& v) {
   return v.x() * body.bx + v.y() * body.by + v.z() * body.bz;
 }
 
-Body rigidBody(const Link& link, const Quat& q, const Vec3& spin, const Wrench& load) {
+Body rigidBody(const Link& link, const Quat& q, const Vec3& spin, const Wrench& load,
+               double products) {
   const Vec3 x = axisX(q), y = axisY(q), z = axisZ(q);
   const Vec3 moment = link.mass * (link.centre.x() * x + link.centre.y() * y + link.centre.z() * z);
   Body out;
@@ -34,8 +35,8 @@ Body rigidBody(const Link& link, const Quat& q, const Vec3& spin, const Wrench& 
   out.bx = Vec3(0.0, -moment.z(), moment.y());
   out.by = Vec3(moment.z(), 0.0, -moment.x());
   out.bz = Vec3(-moment.y(), moment.x(), 0.0);
-  out.torque = cross(spin, multiply(out.a, spin)) - load.torque;
-  out.force = cross(spin, cross(spin, moment)) - load.force;
+  out.torque = products * cross(spin, multiply(out.a, spin)) - load.torque;
+  out.force = products * cross(spin, cross(spin, moment)) - load.force;
   return out;
 }
 
@@ -79,7 +80,8 @@ void addChild(const Body& child, const Vec3& d, Body& parent) {
 }  // namespace
 
 void ArticulatedBody::sweepOut(const std::vector<Link>& links, const std::vector<BaseMotion>& bases,
-                               const ChainState& state, const Kinematics& k, const Loads& loads) {
+                               const ChainState& state, const Kinematics& k, const Loads& loads,
+                               double products) {
   const std::size_t n = links.size();
   joints_.resize(n);
   bodies_.resize(n);
@@ -93,14 +95,14 @@ void ArticulatedBody::sweepOut(const std::vector<Link>& links, const std::vector
     const Pose& from = root ? baseOf(link, bases).pose : k.pose[p];
     const Vec3 spin = root ? baseOf(link, bases).spin : k.spin[p];
     const Quat& q = k.pose[i].orientation;
-    bodies_[i] = rigidBody(link, q, k.spin[i], loads.wrench[i]);
+    bodies_[i] = rigidBody(link, q, k.spin[i], loads.wrench[i], products);
     const BendMotion bend = bendMotion(state.q[i], state.rate[i]);
     Joint& joint = joints_[i];
     joint.first = rotate(q, bend.first);
     joint.second = rotate(q, bend.second);
     joint.offset = link.h * axisZ(from.orientation);
-    joint.linear_bias = cross(spin, cross(spin, joint.offset));
-    joint.spin_bias = rotate(q, bend.bias) + cross(spin, Vec3(k.spin[i] - spin));
+    joint.linear_bias = products * cross(spin, cross(spin, joint.offset));
+    joint.spin_bias = products * (rotate(q, bend.bias) + cross(spin, Vec3(k.spin[i] - spin)));
   }
 }
 
@@ -182,7 +184,7 @@ void ArticulatedBody::accelerations(const std::vector<Link>& links,
                                     const std::vector<BaseMotion>& bases, const ChainState& state,
                                     const Kinematics& kinematics, const Loads& loads,
                                     const Implicitness& implicitness, std::vector<Vec2>& out) {
-  sweepOut(links, bases, state, kinematics, loads);
+  sweepOut(links, bases, state, kinematics, loads, implicitness.products);
   foreseeAnchors(links, bases, loads, implicitness);
   sweepBack(links, state, loads, implicitness);
   out.resize(links.size());
@@ -206,7 +208,7 @@ void ArticulatedBody::torques(const std::vector<Link>& links, const std::vector<
                               const ChainState& state, const Kinematics& kinematics,
                               const Loads& loads, const std::vector<Vec2>& acceleration,
                               std::vector<Vec2>& out) {
-  sweepOut(links, bases, state, kinematics, loads);
+  sweepOut(links, bases, state, kinematics, loads, 1.0);
   foreseeAnchors(links, bases, loads, {});
   for (std::size_t i = 0; i < links.size(); ++i) {
     const bool root = links[i].parent < 0;

@@ -16,13 +16,36 @@ void addScaled(const Angles& a, double factor, const Angles& b, Angles& out) {
   for (std::size_t i = 0; i < a.size(); ++i) out[i] = a[i] + factor * b[i];
 }
 
+double fastestOf(const ChainState& state) {
+  double out = 0.0;
+  for (const Vec2& rate : state.rate)
+    out = std::max({out, std::fabs(rate.x()), std::fabs(rate.y())});
+  return out;
+}
+
 }  // namespace
 
 double guardedTheta(const ChainState& state, double h, double theta) {
-  double fastest = 0.0;
-  for (const Vec2& rate : state.rate)
-    fastest = std::max({fastest, std::fabs(rate.x()), std::fabs(rate.y())});
-  return fastest * h > GUARD_TURN ? 1.0 : std::max(0.5, 0.9 * theta);
+  return fastestOf(state) * h > GUARD_TURN ? 1.0 : std::max(0.5, 0.9 * theta);
+}
+
+double productsOf(const ChainState& state, double h) {
+  return fastestOf(state) * h > WILD_TURN ? 0.0 : 1.0;
+}
+
+void stopJoints(double h, ChainState& state) {
+  const double fastest = LARGEST_TURN / h;
+  for (std::size_t i = 0; i < state.q.size(); ++i) {
+    Vec2 &q = state.q[i], &rate = state.rate[i];
+    const double bend2 = q.x() * q.x() + q.y() * q.y();
+    if (bend2 > LARGEST_BEND * LARGEST_BEND) {
+      const double outwards = (q.x() * rate.x() + q.y() * rate.y()) / bend2;
+      if (outwards > 0.0) rate -= outwards * q;
+      q *= LARGEST_BEND / std::sqrt(bend2);
+    }
+    const double speed2 = rate.x() * rate.x() + rate.y() * rate.y();
+    if (speed2 > fastest * fastest) rate *= fastest / std::sqrt(speed2);
+  }
 }
 
 void ChainStepper::look(const std::vector<Link>& links, const Surroundings& outside, double time,
@@ -50,12 +73,13 @@ void ChainStepper::implicitStep(const std::vector<Link>& links, const Surroundin
                                 double time, double h, double theta, ChainState& state) {
   addScaled(state.q, theta * h, state.rate, between_.q);
   between_.rate = state.rate;
-  evaluate(links, outside, time + theta * h, between_, {theta * theta * h * h, theta * h},
-           acceleration_);
+  evaluate(links, outside, time + theta * h, between_,
+           {theta * theta * h * h, theta * h, productsOf(state, h)}, acceleration_);
   for (std::size_t i = 0; i < links.size(); ++i) {
     state.q[i] += h * (state.rate[i] + (theta * h) * acceleration_[i]);
     state.rate[i] += h * acceleration_[i];
   }
+  stopJoints(h, state);
 }
 
 void ChainStepper::explicitStep(bool as_printed, const std::vector<Link>& links,

@@ -23,9 +23,11 @@ double energyOf(const std::vector<Link>& links, const ChainState& state,
                 const Kinematics& kinematics);
 
 /// What an implicit step foresees: springs act with `stiffness` times their k and dampers with
-/// `damping` times their nu against the acceleration that is sought [s^2], [s].
+/// `damping` times their nu against the acceleration that is sought [s^2], [s]. `products`: what
+/// part of the velocity products (centrifugal, gyroscopic) is felt: 1, or 0 in motion too wild.
 struct Implicitness {
   double stiffness{0.0}, damping{0.0};
+  double products{1.0};
 };
 
 /// The full articulated chain: inertia, reaction forces, gyroscopic terms, lever arms, by the
@@ -68,7 +70,8 @@ class ArticulatedBody {
     double torque1, torque2;
   };
   void sweepOut(const std::vector<Link>& links, const std::vector<BaseMotion>& bases,
-                const ChainState& state, const Kinematics& kinematics, const Loads& loads);
+                const ChainState& state, const Kinematics& kinematics, const Loads& loads,
+                double products);
   void foreseeAnchors(const std::vector<Link>& links, const std::vector<BaseMotion>& bases,
                       const Loads& loads, const Implicitness& implicitness);
   void sweepBack(const std::vector<Link>& links, const ChainState& state, const Loads& loads,

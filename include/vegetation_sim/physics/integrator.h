@@ -11,6 +11,12 @@ namespace vegetation_sim::physics {
 /// Joints that turn farther than this in a step make the midpoint fall back to theta = 1 [rad].
 constexpr double GUARD_TURN = 0.2;
 
+/// Joints that turn farther than this in a step make implicit methods leave out velocity products,
+/// which are explicit and would feed energy in [rad].
+constexpr double WILD_TURN = 0.5;
+/// Where implicit methods stop a joint, whatever drives it: a bend [rad], a turn per step [rad].
+constexpr double LARGEST_BEND = 3.0, LARGEST_TURN = 1.0;
+
 /// Steps chains; keeps scratch only, so one stepper serves many chains.
 class ChainStepper {
  public:
@@ -59,6 +65,12 @@ class ChainStepper {
   };
   Slope slopes_[4];
 };
+
+/// 0 where the motion is too wild for velocity products, else 1.
+double productsOf(const ChainState& state, double h);
+
+/// Stops bends at LARGEST_BEND and turns at LARGEST_TURN a step.
+void stopJoints(double h, ChainState& state);
 
 /// Theta of the guarded midpoint for the coming step (numerics: it never falls at once).
 double guardedTheta(const ChainState& state, double h, double theta);
