@@ -9,7 +9,8 @@ namespace vegetation_sim::bench {
 namespace {
 
 const char* markOf(Answer::Kind kind) {
-  return kind == Answer::Kind::FOUND ? " " : kind == Answer::Kind::BETWEEN ? "~" : ">";
+  const char* const marks[] = {" ", "~", ">", "never"};
+  return marks[static_cast<int>(kind)];
 }
 
 }  // namespace
@@ -18,7 +19,9 @@ Ratio ratioOf(const Cell& cell, const Row& own, std::size_t target) {
   Ratio out;
   double best = 0.0;
   for (const Row& row : cell.rows) {
-    if (!row.peer || (best > 0.0 && row.cost(target) >= best)) continue;
+    if (!row.peer || row.answers[target].kind == Answer::Kind::NEVER ||
+        (best > 0.0 && row.cost(target) >= best))
+      continue;
     best = row.cost(target);
     out = {best / own.cost(target), row.answers[target].kind == Answer::Kind::AT_LEAST, row.engine};
   }
@@ -103,10 +106,9 @@ void write(const Cell& cell, std::FILE* file) {
     }
     for (std::size_t k = 0; k < TARGETS.size(); ++k) {
       const Answer& answer = row.answers[k];
+      const char* const notes[] = {"found", "between", "at_least", "never"};
       line(TARGETS[k], answer.steps, row.step_seconds[k], INTERVALS,
-           answer.kind == Answer::Kind::FOUND     ? "found"
-           : answer.kind == Answer::Kind::BETWEEN ? "between"
-                                                  : "at_least");
+           notes[static_cast<int>(answer.kind)]);
     }
   }
   std::fflush(file);

@@ -24,10 +24,20 @@ bool Explorer::affordable(int steps, double part) const {
   return per_step_ * steps * INTERVALS <= part * cap_;
 }
 
+// A first-order method would have come from one third of the steps with three times the error.
+bool Explorer::stalled(int steps) const {
+  const double now = points_.at(steps).error;
+  for (const auto& [fewer, point] : points_)
+    if (3 * fewer <= steps && fewer >= 4 && std::isfinite(point.error))
+      return now > 0.95 * point.error;
+  return false;
+}
+
 Answer Explorer::longestStep(double tolerance) {
   int low = 0, high = 1;  // low fails
   while (at(high).error > tolerance) {
     low = high;
+    if (stalled(low)) return {Answer::Kind::NEVER, static_cast<double>(low)};
     // Unstable runs end early, so that a step beyond the cap may still be looked at.
     if (!affordable(low, std::isfinite(at(low).error) ? 1.0 : 4.0))
       return {Answer::Kind::AT_LEAST, static_cast<double>(low)};

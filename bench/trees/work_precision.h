@@ -20,9 +20,10 @@ struct Point {
 /// The longest step that holds a tolerance.
 struct Answer {
   enum class Kind : int {
-    FOUND = 0,    ///< bisected
-    BETWEEN = 1,  ///< put on the line between two runs, which are too dear to refine
-    AT_LEAST = 2  ///< no run within the time cap holds it: fewer steps do not
+    FOUND = 0,     ///< bisected
+    BETWEEN = 1,   ///< put on the line between two runs, which are too dear to refine
+    AT_LEAST = 2,  ///< no run within the time cap holds it: fewer steps do not
+    NEVER = 3      ///< shorter steps change nothing: the model differs
   };
   Kind kind{Kind::FOUND};
   double steps{0.0};  ///< an interval
@@ -41,6 +42,7 @@ class Explorer {
 
  private:
   const Point& at(int steps);
+  bool stalled(int steps) const;
   bool affordable(int steps, double part) const;
 
   Engine& engine_;
