@@ -76,6 +76,7 @@ std::size_t PhysicalPart::promote(const std::vector<int>& branches,
                                   const Course& course, const PhysicsSettings& settings) {
   const Nanoseconds stamp = course.wind.stamp();
   std::vector<Joined> all;
+  all.reserve(joints_.size() + branches.size());
   for (std::size_t i = 0; i < joints_.size(); ++i)
     all.push_back({joints_[i], state_.q[i], state_.rate[i]});
   std::vector<char> mask = mask_;
@@ -191,6 +192,10 @@ void PhysicalPart::rebuild(const std::vector<Joined>& joints) {
   joints_.clear();
   branches_.clear();
   state_ = physics::ChainState();
+  joints_.reserve(n);
+  branches_.reserve(n);
+  state_.q.reserve(n);
+  state_.rate.reserve(n);
   for (const Joined& joined : joints) {
     mask_[index(joined.joint.branch)] = 1;
     joints_.push_back(joined.joint);
@@ -203,6 +208,8 @@ void PhysicalPart::rebuild(const std::vector<Joined>& joints) {
   clusterWood(tree_->skeleton, wood_, mask_, clusters);
   links_.clear();
   drags_.clear();
+  links_.reserve(n);
+  drags_.reserve(n);
   for (std::size_t i = 0; i < n; ++i) {
     const Composite& body = clusters[index(branches_[i])];
     links_.push_back(linkFor(i, body));
