@@ -256,7 +256,7 @@ TEST(Integrator, StopsHoldInAnyStorm) {
     Simulation run{links};
     double farthest = 0.0;
     for (int i = 0; i < 1500; ++i) {
-      run.step(storm, i * h, h);
+      run.stepper.step(run.integrator, links, storm, i * h, h, run.state, run.theta);
       for (std::size_t j = 0; j < links.size(); ++j) {
         ASSERT_LE(run.state.q[j].norm(), LARGEST_BEND + 1e-9) << h;
         ASSERT_LE(run.state.rate[j].norm() * h, LARGEST_TURN + 1e-9) << h;
