@@ -14,6 +14,7 @@ from waiting import wait_for
 TREE = 0
 LIMB = 46  # outer third of a limb, 2.4 cm thick, 2.7 m above the ground
 OTHER_LIMB = 49
+STIFFNESS = 20000.0  # the limb's own is some 8000 [N/m]
 
 
 def vector(v):
@@ -56,7 +57,8 @@ class Hands(Animator):
 
     def take(self, **request):
         """Grabs; the answer."""
-        answer = self.grab(**dict(dict(tree=TREE, lease=60.0), **request))
+        answer = self.grab(**dict(dict(tree=TREE, lease=60.0, stiffness=STIFFNESS, damping=200.0,
+                                     force_limit=5000.0), **request))
         if not answer.success:
             raise AssertionError(answer.message)
         return answer
