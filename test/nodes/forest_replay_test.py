@@ -12,11 +12,14 @@ import rosnode
 import rospy
 import rostest
 from dynamic_reconfigure.client import Client
+from geometry_msgs.msg import Point, PointStamped, TransformStamped
 from std_srvs.srv import Trigger
-from vegetation_sim.msg import WindPrimitive
-from vegetation_sim.srv import SetWindPrimitive
+from tf2_msgs.msg import TFMessage
+from vegetation_sim.msg import ForestEvent, WindPrimitive
+from vegetation_sim.srv import ApplyForce, Grab, MoveGrab, Release, SetWindPrimitive
 
-from forest_rig import RATE, Animator, Eye, TickClock, listens, scene, start_animator, stop
+from forest_rig import (RATE, Animator, Eye, TickClock, listens, publisher, scene, start_animator,
+                        stop, time_of)
 from waiting import wait_for
 
 SECONDS = 60
@@ -35,6 +38,7 @@ class ForestReplay(unittest.TestCase):
 
     def edit(self, second):
         """What users do meanwhile."""
+        self.hold(second)
         if second == 20:
             self.server.update_configuration({'size': 0.9, 'transition': 0.4})
         if second == 30:
@@ -45,9 +49,42 @@ class ForestReplay(unittest.TestCase):
             answer = rospy.ServiceProxy('/wind_broadcaster/set_primitive', SetWindPrimitive)(blow)
             self.assertTrue(answer.success, answer.message)
 
+    def hold(self, second):
+        """A holder that grabs, pulls, lets go and pushes; later one whose frame falls silent."""
+        def call(name, service, **request):
+            answer = rospy.ServiceProxy('/forest_animator/' + name, service)(**request)
+            self.assertTrue(answer.success, answer.message)
+            return answer
+
+        def near(place, up):
+            return PointStamped(point=Point(place.x + 0.1, place.y, place.z + up))
+        if second == 5:
+            self.first = call('grab', Grab, tree=11, branch=9, lease=3.0,
+                              target=near(self.forest.tree(11).transforms.poses[9].position, 0.1))
+        if second == 7:
+            call('move_grab', MoveGrab, id=self.first.id, target=near(self.first.point, 0.3))
+        if second == 8.5:
+            call('release', Release, id=self.first.id)
+        if second == 10:
+            force = call('apply_force', ApplyForce, tree=12, branch=7, duration=0.4)
+            self.assertEqual(force.branch, 7)
+        if 44 <= second < 48:
+            if second == 44:
+                self.hand = self.forest.tree(13).transforms.poses[8].position
+                wait_for(self.frames.get_num_connections, 'listeners of /tf')
+            frame = TransformStamped(child_frame_id='hand')
+            frame.header.frame_id, frame.header.stamp = 'map', time_of(self.clock.tick)
+            at = frame.transform.translation
+            at.x, at.y, at.z = self.hand.x + 0.02 * (second - 44), self.hand.y, self.hand.z
+            frame.transform.rotation.w = 1.0
+            self.frames.publish([frame])
+        if second == 45:
+            call('grab', Grab, tree=13, branch=8, frame='hand', keep_offset=True, lease=1.0)
+
     def live_run(self):
         """The forest with an eye that flies through it, recorded; its hashes by stamp."""
         forest, clock, eye = Animator(), TickClock(1000 * RATE), Eye()
+        self.forest, self.clock, self.frames = forest, clock, publisher('/tf', TFMessage)
         forest.wait_until_up('/wind', '/viewer')
         self.server = Client('/forest_animator', timeout=30)
         record = roslib.packages.find_node('rosbag', 'record')[0]
@@ -64,6 +101,12 @@ class ForestReplay(unittest.TestCase):
         self.assertEqual(len(forest.state.messages), SECONDS * RATE + 1)
         self.assertGreater(len({m.wind_hash for m in forest.state.messages}), 2)
         self.assertEqual(len(forest.layout.messages), 2)
+        kinds = {e.kind for e in forest.events.messages}
+        self.assertLessEqual({ForestEvent.GRAB, ForestEvent.MOVE, ForestEvent.RELEASE,
+                              ForestEvent.FORCE}, kinds)
+        held = [m.header.stamp.to_sec() for m in forest.state.messages
+                if any(t.tree == 13 and t.promoted for t in m.trees)]
+        self.assertGreater(len(held), RATE)
         stop(recorder)
         forest.close()
         return forest.hashes(), clock
