@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "vegetation_sim/physics/integrator.h"
+
 namespace vegetation_sim::physics {
 namespace {
 
@@ -133,12 +135,13 @@ void ContactStepper::step(const std::vector<Link>& links, const Surroundings& ou
   look(links, outside, time, h, theta, state);
   prepare(law, h, theta, contacts);
   const std::size_t others = loads_.anchors.size();
+  // The rules of ChainStepper for motion too wild.
+  const Implicitness foreseen{theta * theta * h * h, theta * h, productsOf(state, h)};
   agreed_ = false;
   for (trials_ = 0; trials_ < MOST_TRIALS && !agreed_; ++trials_) {
     loads_.anchors.resize(others);
     addAnchors(law, h, theta, contacts);
-    body_.accelerations(links, bases_, between_, kinematics_, loads_,
-                        {theta * theta * h * h, theta * h}, acceleration_);
+    body_.accelerations(links, bases_, between_, kinematics_, loads_, foreseen, acceleration_);
     spread(links);
     agreed_ = revise(law, h, trials_ >= JOINT_TRIALS, contacts);
   }
@@ -149,6 +152,7 @@ void ContactStepper::step(const std::vector<Link>& links, const Surroundings& ou
       state.rate[i][axis] += change;
     }
   }
+  stopJoints(h, state);
 }
 
 }  // namespace vegetation_sim::physics
