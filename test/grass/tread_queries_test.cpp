@@ -50,6 +50,7 @@ TEST_F(TreadTime, RecoveryStartsAgainWhenTroddenAgain) {
   EXPECT_EQ(map_.at(p, after(90.0)).tilt, 0.f);
 }
 
+// S2-21: each source by its own law.
 TEST_F(TreadTime, RecoversAtOnceOrNeverIfToldSo) {
   TreadLaw at_once;
   at_once.recovery = 0.0;
@@ -98,7 +99,7 @@ TEST_F(TreadTime, HoldsMemoryOnlyWhereGrassIsDown) {
   EXPECT_EQ(map_.bytes(), 0u);
 }
 
-// S2-W1: a print of 5 cm is resolved while the tiles are 2 m.
+// S2-W1, S2-21: a print of 5 cm is resolved while the tiles are 2 m.
 TEST_F(TreadTime, ResolvesASmallFoot) {
   TreadLaw foot = permanent();
   foot.radius = 0.05;
