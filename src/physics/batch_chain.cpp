@@ -98,6 +98,7 @@ void BatchChain::fill(const std::vector<std::vector<Link>>& trees) {
   for (int slot = 0; slot < slot_count_; ++slot) {
     fillNobody(laneOf(store.constants, slot, C_ROWS));
     laneOf(store.state, slot, S_ROWS)[S_THETA * ROW] = 0.5f;
+    laneOf(store.state, slot, S_ROWS)[S_PRODUCTS * ROW] = 1.f;
   }
   for (std::size_t t = 0; t < trees.size(); ++t) {
     for (std::size_t i = 0; i < trees[t].size(); ++i)
@@ -117,7 +118,7 @@ void BatchChain::setState(int tree, const ChainState& state, double theta) {
       rows[(S_RATE + axis) * ROW] = static_cast<float>(state.rate[i][axis]);
     }
   }
-  setTheta(member, theta);
+  setTheta(member, theta, member.products);
   groups_[member.group].calm = false;  // the guard looks for itself
 }
 
@@ -155,12 +156,16 @@ double BatchChain::fastestOf(const Member& member) const {
   return out;
 }
 
-void BatchChain::setTheta(Member& member, double theta) {
-  if (theta == member.theta) return;
+void BatchChain::setTheta(Member& member, double theta, double products) {
+  if (theta == member.theta && products == member.products) return;
   member.theta = theta;
-  for (std::size_t i = 0; i < member.count; ++i)
-    laneOf(store_->state, slots_[member.first + i], S_ROWS)[S_THETA * ROW] =
-        static_cast<float>(theta);
+  member.products = products;
+  for (std::size_t i = 0; i < member.count; ++i) {
+    float* rows = laneOf(store_->state, slots_[member.first + i], S_ROWS);
+    rows[S_THETA * ROW] = static_cast<float>(theta);
+    rows[S_PRODUCTS * ROW] = static_cast<float>(products);
+  }
+  fillBases(member);
 }
 
 // Trees are looked at one by one only where one of them may be fast, or was.
@@ -168,8 +173,9 @@ void BatchChain::guard(ChainGroup& group, double h) {
   if (group.calm && thetaFor(group.fastest, h, 0.5) == 0.5) return;
   group.calm = true;
   for (const std::size_t t : group.trees) {
-    setTheta(trees_[t], thetaFor(fastestOf(trees_[t]), h, trees_[t].theta));
-    group.calm = group.calm && trees_[t].theta == 0.5;
+    const double fastest = fastestOf(trees_[t]);
+    setTheta(trees_[t], thetaFor(fastest, h, trees_[t].theta), productsFor(fastest, h));
+    group.calm = group.calm && trees_[t].theta == 0.5 && trees_[t].products == 1.0;
   }
 }
 
@@ -186,7 +192,7 @@ void BatchChain::fillBases(const Member& member) {
   for (const int root : member.roots) {
     const auto link = static_cast<std::size_t>(root);
     const int place = slots_[member.first + link] - group.levels[0].begin;
-    group.bases[static_cast<std::size_t>(place)] = baseRows(baseOf(member, link));
+    group.bases[static_cast<std::size_t>(place)] = baseRows(baseOf(member, link), member.products);
   }
 }
 

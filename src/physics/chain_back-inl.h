@@ -12,6 +12,7 @@
 #endif
 
 #include "physics/chain_out-inl.h"
+#include "vegetation_sim/physics/integrator.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace vegetation_sim::physics::HWY_NAMESPACE {
@@ -125,6 +126,29 @@ HWY_INLINE Lanes alive(Lanes value) {
   return hn::IfThenElseZero(hn::Abs(value) > all(1e-18f), value);
 }
 
+// stopJoints on lanes.
+HWY_INLINE void stop(Lanes step, Lanes* q, Lanes* rate) {
+  const Tag d;
+  const Lanes bend = all(static_cast<float>(LARGEST_BEND));
+  const Lanes speed = all(static_cast<float>(LARGEST_TURN)) / step;
+  const Lanes bend2 = q[0] * q[0] + q[1] * q[1];
+  const auto far = bend2 > bend * bend;
+  if (HWY_UNLIKELY(!hn::AllFalse(d, far))) {
+    const Lanes outwards = hn::Max((q[0] * rate[0] + q[1] * rate[1]) / bend2, hn::Zero(d));
+    const Lanes factor = bend / hn::Sqrt(bend2);
+    for (int axis = 0; axis < 2; ++axis) {
+      rate[axis] = hn::IfThenElse(far, rate[axis] - outwards * q[axis], rate[axis]);
+      q[axis] = hn::IfThenElse(far, q[axis] * factor, q[axis]);
+    }
+  }
+  const Lanes speed2 = rate[0] * rate[0] + rate[1] * rate[1];
+  const auto fast = speed2 > speed * speed;
+  if (HWY_LIKELY(hn::AllFalse(d, fast))) return;
+  const Lanes factor = speed / hn::Sqrt(speed2);
+  for (int axis = 0; axis < 2; ++axis)
+    rate[axis] = hn::IfThenElse(fast, rate[axis] * factor, rate[axis]);
+}
+
 /// Steps q and rate; `fastest` grows to the largest rate.
 HWY_INLINE Push settle(const Joints& at, const Push& parent, Lanes step, Lanes& fastest) {
   Push out;
@@ -138,15 +162,20 @@ HWY_INLINE Push settle(const Joints& at, const Push& parent, Lanes step, Lanes& 
   const Lanes second = drive(1), first = drive(0) - load(at.work, W_COUPLING) * second;
   out.spin = parent.spin + (first * load3(at.work, W_FIRST) + second * load3(at.work, W_SECOND));
   const Lanes ahead = load(at.state, S_THETA) * step;
-  const auto advance = [&](int axis, Lanes acceleration) HWY_ATTR {
-    const Lanes q = load(at.state, S_Q + axis), rate = load(at.state, S_RATE + axis);
-    const Lanes next = alive(rate + step * acceleration);
-    store(alive(q + step * (rate + ahead * acceleration)), at.state, S_Q + axis);
-    store(next, at.state, S_RATE + axis);
-    fastest = hn::Max(fastest, hn::Abs(next));
-  };
-  advance(0, first);
-  advance(1, second);
+  const Lanes acceleration[2] = {first, second};
+  Lanes q[2] = {load(at.state, S_Q), load(at.state, S_Q + 1)};
+  Lanes rate[2] = {load(at.state, S_RATE), load(at.state, S_RATE + 1)};
+  for (int axis = 0; axis < 2; ++axis) {
+    q[axis] = q[axis] + step * (rate[axis] + ahead * acceleration[axis]);
+    rate[axis] = rate[axis] + step * acceleration[axis];
+  }
+  stop(step, q, rate);
+  for (int axis = 0; axis < 2; ++axis) {
+    rate[axis] = alive(rate[axis]);
+    store(alive(q[axis]), at.state, S_Q + axis);
+    store(rate[axis], at.state, S_RATE + axis);
+    fastest = hn::Max(fastest, hn::Abs(rate[axis]));
+  }
   return out;
 }
 

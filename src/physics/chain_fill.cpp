@@ -24,7 +24,7 @@ void put(const Vec3& v, float* to, int stride = 1) {
 
 }  // namespace
 
-BaseRows baseRows(const BaseMotion& base) {
+BaseRows baseRows(const BaseMotion& base, double products) {
   const Quat& q = base.pose.orientation;
   const Vec3 z = axisZ(q);
   BaseRows out;
@@ -35,7 +35,7 @@ BaseRows baseRows(const BaseMotion& base) {
   put(base.spin, v + F_SPIN);
   put(base.spin_rate, v + F_SPIN_RATE);
   put(base.acceleration, v + F_ACCELERATION);
-  put(Vec3(crossed(base.spin_rate, z) + crossed(base.spin, crossed(base.spin, z))),
+  put(Vec3(crossed(base.spin_rate, z) + products * crossed(base.spin, crossed(base.spin, z))),
       v + F_AXIS_RATE);
   put(base.velocity, v + F_VELOCITY);
   return out;
@@ -105,6 +105,10 @@ void resize(Kinematics& kinematics, std::size_t links) {
 
 double thetaFor(double fastest, double h, double theta) {
   return fastest * h > GUARD_TURN ? 1.0 : std::max(0.5, 0.9 * theta);
+}
+
+double productsFor(double fastest, double h) {
+  return fastest * h > WILD_TURN ? 0.0 : 1.0;
 }
 
 }  // namespace vegetation_sim::physics

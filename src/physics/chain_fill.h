@@ -13,7 +13,7 @@ namespace vegetation_sim::physics {
 struct BaseRows {
   float value[F_ROWS] = {};
 };
-BaseRows baseRows(const BaseMotion& base);
+BaseRows baseRows(const BaseMotion& base, double products);
 
 /// Whether the link is a round bar with its centre on its axis.
 bool isBar(const Link& link);
@@ -52,5 +52,7 @@ void resize(Kinematics& kinematics, std::size_t links);
 
 /// guardedTheta of a tree whose fastest rate is `fastest` [rad/s].
 double thetaFor(double fastest, double h, double theta);
+/// Likewise productsOf.
+double productsFor(double fastest, double h);
 
 }  // namespace vegetation_sim::physics

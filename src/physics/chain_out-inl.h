@@ -104,7 +104,8 @@ HWY_INLINE void rigidBar(const Joints& at, const Frame& frame) {
          at.work, W_INERTIA);
   store3(arm, at.work, W_MOMENT);
   const Lanes3 turning =
-      dot(z, frame.spin_rate) * ez + (excess * dot(z, frame.spin)) * cross(frame.spin, z);
+      dot(z, frame.spin_rate) * ez +
+      (load(at.state, S_PRODUCTS) * excess * dot(z, frame.spin)) * cross(frame.spin, z);
   store3((across * frame.spin_rate + turning) + cross(arm, frame.acceleration), at.work, W_TORQUE);
   store3(mass * frame.acceleration + moment * frame.axis_rate, at.work, W_FORCE);
 }
@@ -115,8 +116,11 @@ HWY_INLINE void rigidBody(const Joints& at, const Axes& axes, const Frame& frame
   const Lanes mass = load(at.constants, C_MASS);
   store6(inertia, at.work, W_INERTIA);
   store3(arm, at.work, W_MOMENT);
-  const Lanes3 torque = inertia * frame.spin_rate + cross(frame.spin, inertia * frame.spin);
-  const Lanes3 force = cross(frame.spin_rate, arm) + cross(frame.spin, cross(frame.spin, arm));
+  const Lanes products = load(at.state, S_PRODUCTS);
+  const Lanes3 torque =
+      inertia * frame.spin_rate + products * cross(frame.spin, inertia * frame.spin);
+  const Lanes3 force =
+      cross(frame.spin_rate, arm) + products * cross(frame.spin, cross(frame.spin, arm));
   store3(torque + cross(arm, frame.acceleration), at.work, W_TORQUE);
   store3(mass * frame.acceleration + force, at.work, W_FORCE);
 }
@@ -158,9 +162,11 @@ HWY_INLINE Frame outward(const Joints& at, const Frame& parent, Lanes step, bool
   store3(h * parent.axis, at.work, W_ARM);
   out.axis = axes.z;
   out.spin = parent.spin + joint.spin;
-  out.spin_rate = parent.spin_rate + (joint.rate + cross(parent.spin, joint.spin));
+  const Lanes products = load(at.state, S_PRODUCTS);
+  out.spin_rate = parent.spin_rate + products * (joint.rate + cross(parent.spin, joint.spin));
   out.acceleration = parent.acceleration + h * parent.axis_rate;
-  out.axis_rate = cross(out.spin_rate, axes.z) + cross(out.spin, cross(out.spin, axes.z));
+  out.axis_rate =
+      cross(out.spin_rate, axes.z) + products * cross(out.spin, cross(out.spin, axes.z));
   if (bars)
     rigidBar(at, out);
   else

@@ -41,8 +41,8 @@ enum : int {
   C_ROWS = C_INERTIA + 6
 };
 
-/// Rows of its state; theta is the tree's.
-enum : int { S_Q, S_RATE = S_Q + 2, S_THETA = S_RATE + 2, S_ROWS };
+/// Rows of its state; theta and the share of velocity products (productsOf) are the tree's.
+enum : int { S_Q, S_RATE = S_Q + 2, S_THETA = S_RATE + 2, S_PRODUCTS, S_ROWS };
 
 /// Rows of what acts on it from outside.
 enum : int { L_FORCE, L_TORQUE = L_FORCE + 3, L_JOINT = L_TORQUE + 3, L_ROWS = L_JOINT + 2 };

@@ -50,6 +50,7 @@ TwinChains::TwinChains(const std::vector<std::vector<Link>>& trees)
       links_(trees.empty() ? 0 : trees[0].size()),
       bases_(trees.size()),
       theta_(trees.size(), 0.5),
+      products_(trees.size(), 1.0),
       fastest_(trees.size(), 0.f),
       loaded_(trees.size(), 0) {
   check(trees);
@@ -103,6 +104,7 @@ void TwinChains::fill(const std::vector<std::vector<Link>>& trees) {
       const std::size_t block = blockOf(store, tree, place_[i]);
       float* constants = laneOf(store.constants, block, C_ROWS, tree);
       laneOf(store.state, block, S_ROWS, tree)[S_THETA * ROW] = 0.5f;
+      laneOf(store.state, block, S_ROWS, tree)[S_PRODUCTS * ROW] = 1.f;
       fillNobody(constants);
       if (tree >= count) continue;
       const Link& link = trees[static_cast<std::size_t>(tree)][i];
@@ -154,7 +156,7 @@ const BaseMotion& TwinChains::baseOf(int tree, int root) const {
 
 void TwinChains::fillBases(int tree) {
   for (int root = 0; root < store_->roots; ++root) {
-    const BaseRows base = baseRows(baseOf(tree, root));
+    const BaseRows base = baseRows(baseOf(tree, root), products_[static_cast<std::size_t>(tree)]);
     const auto block = static_cast<std::size_t>(tree / ROW * store_->roots + root);
     float* rows = laneOf(store_->bases, block, F_ROWS, tree);
     for (int row = 0; row < F_ROWS; ++row) rows[row * ROW] = base.value[row];
@@ -198,11 +200,17 @@ void TwinChains::guard(int pack, double h) {
   const std::size_t begin = static_cast<std::size_t>(pack) * links_;
   for (int lane = 0; lane < ROW && pack * ROW + lane < treeCount(); ++lane) {
     const auto tree = static_cast<std::size_t>(pack * ROW + lane);
-    const double theta = thetaFor(fastest_[tree], h, theta_[tree]);
-    if (theta == theta_[tree]) continue;
+    const double theta = thetaFor(fastest_[tree], h, theta_[tree]),
+                 products = productsFor(fastest_[tree], h);
+    if (theta == theta_[tree] && products == products_[tree]) continue;
     theta_[tree] = theta;
-    for (std::size_t block = begin; block < begin + links_; ++block)
-      store_->state.at(block * S_ROWS)[S_THETA * ROW + lane] = static_cast<float>(theta);
+    products_[tree] = products;
+    for (std::size_t block = begin; block < begin + links_; ++block) {
+      float* rows = store_->state.at(block * S_ROWS) + lane;
+      rows[S_THETA * ROW] = static_cast<float>(theta);
+      rows[S_PRODUCTS * ROW] = static_cast<float>(products);
+    }
+    fillBases(pack * ROW + lane);
   }
 }
 

@@ -48,7 +48,7 @@ class BatchChain {
   struct Member {
     std::size_t first{0}, count{0};  ///< its links, in slots_
     std::size_t group{0};
-    double theta{0.5};
+    double theta{0.5}, products{1.0};
     std::vector<std::size_t> by_slot;  ///< links in the order in which rows hold them
     std::vector<int> base;             ///< [links] what the root of each hangs on
     std::vector<int> roots;            ///< links
@@ -63,7 +63,7 @@ class BatchChain {
   void fillLoads(const Loads& loads, Member& member);
   const BaseMotion& baseOf(const Member& member, std::size_t link) const;
   double fastestOf(const Member& member) const;
-  void setTheta(Member& member, double theta);
+  void setTheta(Member& member, double theta, double products);
   void guard(ChainGroup& group, double h);
   void step(const Surroundings* around, double time, double h);
   void stepWithin(const Surroundings* around, std::size_t count, double time, double h);

@@ -54,6 +54,7 @@ class TwinChains {
   std::vector<std::vector<int>> root_base_;     ///< [trees][roots] index of a base
   std::vector<std::vector<BaseMotion>> bases_;  ///< [trees]
   std::vector<double> theta_;                   ///< [trees]
+  std::vector<double> products_;                ///< [trees]
   std::vector<float> fastest_;                  ///< [trees] rate [rad/s]
   std::vector<char> loaded_;                    ///< [trees]
   Kinematics kinematics_;
