@@ -23,6 +23,7 @@ STYLES = {
     'semi-implicit Euler': ('#e6ab02', '^', 'semi-implicit Euler'),
     'explicit Euler': ('#999999', '<', 'explicit Euler'),
     'Runge-Kutta 4': ('#444444', '>', 'Runge-Kutta 4'),
+    'paper dynamics, midpoint': ('#d95f02', '*', "the paper's dynamics, midpoint"),
     'Bullet, float': ('#e7298a', 's', 'Bullet'),
     'DART': ('#7570b3', 'D', 'DART'),
     'MuJoCo, Euler': ('#1f78b4', 'P', 'MuJoCo, Euler'),
@@ -37,7 +38,7 @@ def read(files):
         with open(name) as file:
             for row in csv.DictReader(file):
                 error = float(row['error'])
-                if row['note'] != 'run' or not math.isfinite(error):
+                if row['note'] != 'run' or row['instants'] != '60' or not math.isfinite(error):
                     continue
                 key = (int(row['branches']), row['tree'], row['load'])
                 cells.setdefault(key, {}).setdefault(row['engine'], []).append(
@@ -55,7 +56,7 @@ def draw(axes, key, engines):
                     linewidth=2.2 if 'plain' in engine else 1.2, label=label)
     for target in (1e-2, 1e-3):
         axes.axhline(target, color='0.6', linewidth=0.8, linestyle=':')
-    axes.set_ylim(1e-5, 2.0)
+    axes.set_ylim(1e-7, 2.0)
     axes.set_title('%s tree, %d branches, %s' % (key[1], key[0], key[2]))
     axes.set_xlabel('processor time for a simulated second [ms]')
     axes.set_ylabel('error of the tips, relative')
