@@ -33,8 +33,8 @@ struct TreadNode {
 struct TreadBlock {
   static constexpr int SIDE = 16;
   std::vector<TreadNode> nodes =
-      std::vector<TreadNode>(SIDE * SIDE);  ///< row by row from the south
-  Nanoseconds until{0};                     ///< when the last of them has recovered
+      std::vector<TreadNode>(std::size_t{SIDE} * SIDE);  ///< row by row from the south
+  Nanoseconds until{0};                                  ///< when the last of them has recovered
 };
 
 /// A source that is on the ground. Doses of the nodes within its reach add up as long as it stays
