@@ -14,7 +14,7 @@ from vegetation_sim.srv import GetTree, Grab, Release
 from visualization_msgs.msg import Marker, MarkerArray
 
 RATE = 50.0  # [Hz]
-METRES_PER_NEWTON = 0.01  # of the arrow
+METRES_PER_NEWTON = 0.003  # of the arrow
 STEEL, ORANGE, RED = (0.25, 0.27, 0.30), (0.95, 0.45, 0.05), (0.80, 0.05, 0.05)
 # What it does, and for how long [s].
 SCRIPT = [('come', 3.0), ('close', 0.5), ('pull', 3.0), ('hold', 4.0), ('open', 0.3), ('go', 3.0),
@@ -44,10 +44,10 @@ class ScriptedGripper:
         self.frame = rospy.get_param('~frame', 'gripper')
         self.world = rospy.get_param('~frame_id', 'map')
         self.tree = rospy.get_param('~tree', 0)
-        self.near = rospy.get_param('~near', [-0.6, -0.8, 2.9])  # it takes a branch near to this [m]
-        self.motion = rospy.get_param('~pull', [1.0, 0.0, 0.0])  # [m]
-        self.away = rospy.get_param('~away', [0.0, -2.0, -0.6])  # where it waits, from the branch [m]
-        self.force_limit = rospy.get_param('~force_limit', 300.0)  # [N]
+        self.near = rospy.get_param('~near', [0.1, 2.4, 4.0])  # it takes a branch near to this [m]
+        self.motion = rospy.get_param('~pull', [-0.8, 0.2, -0.2])  # [m]
+        self.away = rospy.get_param('~away', [0.0, 2.0, -0.6])  # where it waits, from the branch [m]
+        self.force_limit = rospy.get_param('~force_limit', 500.0)  # [N]
         name = rospy.get_param('~animator', '/forest_animator')
         self.get_tree = rospy.ServiceProxy(name + '/get_tree', GetTree)
         self.grab = rospy.ServiceProxy(name + '/grab', Grab)
@@ -77,7 +77,7 @@ class ScriptedGripper:
         if best is None:
             rospy.logwarn_throttle(5.0, 'no branch near %s' % self.near)
             return False
-        self.branch, self.along = best, 0.5 * tree.lengths[best]
+        self.branch, self.along = best, 0.9 * tree.lengths[best]
         return True
 
     def branch_now(self):
@@ -138,10 +138,10 @@ class ScriptedGripper:
         opening = {'close': 1.0 - x, 'pull': 0.0, 'hold': 0.0, 'open': x}.get(name, 1.0)
         gap = 0.05 + 0.07 * opening
         self.markers.publish(MarkerArray([
-            self.box(0, (0.0, -0.30, 0.0), (0.30, 0.12, 0.14), STEEL),
-            self.box(1, (0.0, -0.15, gap), (0.12, 0.30, 0.04), ORANGE),
-            self.box(2, (0.0, -0.15, -gap), (0.12, 0.30, 0.04), ORANGE),
-            self.box(3, (0.0, -1.36, 0.0), (0.10, 2.0, 0.10), STEEL),
+            self.box(0, (0.0, 0.30, 0.0), (0.30, 0.12, 0.14), STEEL),
+            self.box(1, (0.0, 0.15, gap), (0.12, 0.30, 0.04), ORANGE),
+            self.box(2, (0.0, 0.15, -gap), (0.12, 0.30, 0.04), ORANGE),
+            self.box(3, (0.0, 1.36, 0.0), (0.10, 2.0, 0.10), STEEL),
             self.arrow(), self.label(name)]))
 
     def marker(self, number, kind, colour, alpha=1.0):
@@ -179,7 +179,7 @@ class ScriptedGripper:
     def label(self, name):
         out = self.marker(5, Marker.TEXT_VIEW_FACING, (0.05, 0.05, 0.05))
         at = out.pose.position
-        at.x, at.y, at.z = self.place[0], self.place[1] - 0.6, self.place[2] + 0.35
+        at.x, at.y, at.z = self.place[0], self.place[1] + 0.6, self.place[2] + 0.35
         out.scale.z = 0.28
         out.text = name if self.grab_id is None else '%s: %.0f N' % (name, math.hypot(*self.force()))
         return out
