@@ -3,13 +3,8 @@
 #include "trees/reference.h"
 
 #include <array>
-#include <chrono>
 #include <cmath>
-#include <cstdio>
-#include <fstream>
 #include <limits>
-
-#include "vegetation_sim/common/hash.h"
 
 namespace vegetation_sim::bench {
 namespace {
@@ -244,82 +239,6 @@ double relativeError(const Motion& motion, const Reference& reference) {
     }
   }
   return std::sqrt(error / size);
-}
-
-namespace {
-
-bool read(const std::string& path, std::size_t tips, Reference& out) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return false;
-  const auto number = [&] {
-    double value = 0.0;
-    file.read(reinterpret_cast<char*>(&value), sizeof value);
-    return value;
-  };
-  out.converged = number();
-  out.steps = static_cast<int>(number());
-  out.motion.assign(INTERVALS, std::vector<Vec3>(tips));
-  for (auto& instant : out.motion)
-    for (Vec3& tip : instant)
-      for (int axis = 0; axis < 3; ++axis) tip[axis] = number();
-  return file.good();
-}
-
-void write(const std::string& path, const Reference& reference) {
-  std::ofstream file(path, std::ios::binary);
-  const auto number = [&](double value) {
-    file.write(reinterpret_cast<const char*>(&value), sizeof value);
-  };
-  number(reference.converged);
-  number(reference.steps);
-  for (const auto& instant : reference.motion)
-    for (const Vec3& tip : instant) number(tip.x()), number(tip.y()), number(tip.z());
-}
-
-std::string fileOf(const TestTree& tree, const TestLoad& load, Bend bend, double tolerance) {
-  Hash hash;
-  hash.add(tree.hash());
-  hash.add(tolerance);
-  for (const std::string& word : {std::string(load.name()), std::string(nameOf(bend))})
-    hash.add(word);
-  for (std::size_t i = 0; i < load.links.size(); ++i) {
-    hash.add(static_cast<std::uint64_t>(load.links[i]));
-    hash.add(load.force[i]);
-    hash.add(load.along[i]);
-  }
-  char name[40];
-  std::snprintf(name, sizeof name, "/%016llx.motion",
-                static_cast<unsigned long long>(hash.value()));
-  return name;
-}
-
-}  // namespace
-
-Reference referenceOf(const TestTree& tree, const TestLoad& load, Bend bend, double tolerance,
-                      double cap, const std::string& folder) {
-  Reference out;
-  ReferenceChain chain(tree, load, bend);
-  out.rest = {chain.tips(std::vector<double>(4 * tree.links.size(), 0.0))};
-  const std::string path = folder + fileOf(tree, load, bend, tolerance);
-  if (!folder.empty() && read(path, out.rest[0].size(), out)) return out;
-  out.converged = 1.0;
-  for (int steps = 4;; steps += (steps + 1) / 2) {
-    const auto start = std::chrono::steady_clock::now();
-    Reference finer;
-    finer.rest = out.rest;
-    finer.motion = chain.run(steps);
-    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
-    if (finer.motion.empty()) continue;  // unstable
-    if (!out.motion.empty()) {
-      const double gain = std::pow(static_cast<double>(steps) / out.steps, 4.0) - 1.0;
-      out.converged = relativeError(out.motion, finer) / gain;
-    }
-    out.motion = std::move(finer.motion);
-    out.steps = steps;
-    if (out.converged <= tolerance || (out.converged < 1e-4 && 1.5 * spent.count() > cap)) break;
-  }
-  if (!folder.empty()) write(path, out);
-  return out;
 }
 
 }  // namespace vegetation_sim::bench
