@@ -79,6 +79,7 @@ void ChainStepper::implicitStep(const std::vector<Link>& links, const Surroundin
     state.q[i] += h * (state.rate[i] + (theta * h) * acceleration_[i]);
     state.rate[i] += h * acceleration_[i];
   }
+  stopJoints(h, state);
 }
 
 void ChainStepper::explicitStep(bool as_printed, const std::vector<Link>& links,
@@ -133,7 +134,6 @@ int ChainStepper::step(Integrator integrator, const std::vector<Link>& links,
       isImplicit(integrator) ? 1 : partsOf(integrator, links, outside, time, h, state);
   for (int i = 0; i < parts; ++i)
     stepAsIs(integrator, links, outside, time + i * (h / parts), h / parts, state, theta);
-  if (isImplicit(integrator)) stopJoints(h, state);
   return parts;
 }
 

@@ -30,7 +30,7 @@ class ChainStepper {
   /// @return the parts; 0: refused, nothing has changed, take an implicit method.
   int step(Integrator integrator, const std::vector<Link>& links, const Surroundings& outside,
            double time, double h, ChainState& state, double& theta);
-  /// The same in one part whatever its limit and without stops, to measure where methods break.
+  /// The same in one part whatever its limit, to measure where methods break.
   void stepAsIs(Integrator integrator, const std::vector<Link>& links, const Surroundings& outside,
                 double time, double h, ChainState& state, double& theta);
 
