@@ -160,7 +160,8 @@ void ForestDisplay::update(float wall_dt, float /*ros_dt*/) {
 }
 
 void ForestDisplay::watchTime(Nanoseconds stamp) {
-  if (stamp + JUMP_BACK < last_stamp_) source_->forgetState();
+  // Half: the state may be ahead of the picture's clock, by less than the jump.
+  if (stamp + JUMP_BACK < last_stamp_) source_->forgetState(stamp + JUMP_BACK / 2);
   last_stamp_ = stamp;
 }
 

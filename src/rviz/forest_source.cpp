@@ -59,8 +59,8 @@ void ForestSource::takeState(const ForestState& message) {
   }
 }
 
-void ForestSource::forgetState() {
-  if (!replica_.ready()) return;
+void ForestSource::forgetState(Nanoseconds now) {
+  if (!replica_.ready() || replica_.stamp() <= now) return;
   forest::StateUpdate still;
   still.layout_hash = replica_.layoutHash();
   replica_.apply(still);

@@ -100,13 +100,14 @@ class DisplayRig {
   void publish(const WindField& message) { wind_.publish(message); }
   void publish(const ForestState& message) { state_.publish(message); }
   /// All trees at full level.
-  void publishState() {
+  void publishState() { publishState(now_); }
+  void publishState(double stamp) {
     forest::StateUpdate update;
+    update.stamp = fromSeconds(stamp);
     update.base = forest::LevelState::settled(forest::MAX_DEPTHS);
     update.layout_hash = hash_;
     update.wind_hash = wind_field_.hash();
     ForestState message = toMsg(update);
-    message.header.stamp.fromSec(now_);
     message.header.frame_id = "map";
     state_.publish(message);
   }

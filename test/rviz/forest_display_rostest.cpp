@@ -107,6 +107,23 @@ TEST_F(ForestDisplayTest, SurvivesTimeGoingBack) {
   EXPECT_TRUE(advanceUntil([&] { return display->drawn().moving == TREES; }));
 }
 
+// The forest sends a key frame at once when time goes back; it may be here before the display knows
+// of the jump, and no other comes for a while.
+TEST_F(ForestDisplayTest, KeepsTheKeyFrameThatComesWithAJumpBack) {
+  ASSERT_TRUE(drawn());
+  const auto state = [&] {
+    for (auto* property : propertiesOf<rviz::Property>(*display))
+      if (property->getName() == "State") return property->getValue().toString().toStdString();
+    return std::string();
+  };
+  ASSERT_TRUE(rig.until([&] { return state() == "In step"; })) << state();
+  rig.publishState(rig.now() - 50.0);
+  rig.frames(10);  // it is here
+  rig.setTime(rig.now() - 49.98);
+  rig.frames(40);  // a status is shown twice a second
+  EXPECT_EQ(state(), "In step");
+}
+
 // S1-14: the picture's complexity follows what the user asks for.
 TEST_F(ForestDisplayTest, KeepsToTheTriangles) {
   ASSERT_TRUE(drawn());

@@ -36,8 +36,9 @@ class ForestSource {
   int layouts() const { return layouts_; }
   /// Frame of the layout; empty before the first.
   const std::string& frame() const { return frame_; }
-  /// Forgets levels until the next key frame, as after a jump back in time.
-  void forgetState();
+  /// Time went back to `now`: forgets the levels of a later time until the next key frame. One of
+  /// after the jump that has come already is kept.
+  void forgetState(Nanoseconds now);
 
   const InputStatus& layoutStatus() const { return layout_status_; }
   const InputStatus& windStatus() const { return wind_status_; }
