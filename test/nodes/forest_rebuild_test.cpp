@@ -3,6 +3,8 @@
 // Another process rebuilds every branch from layout, wind and state alone, equal to forest_animator
 // (design: state is small, so replicate it).
 #include <gtest/gtest.h>
+#include <vegetation_sim/Grab.h>
+#include <vegetation_sim/Release.h>
 #include <vegetation_sim/WindField.h>
 
 #include <algorithm>
@@ -12,6 +14,7 @@
 #include "forest/forest_fixture.h"
 #include "nodes/forest_rig.h"
 #include "vegetation_sim/forest/batch_poser.h"
+#include "vegetation_sim/forest/narrow.h"
 #include "vegetation_sim/forest/replica.h"
 #include "vegetation_sim/ros/wind_conversions.h"
 
@@ -41,6 +44,7 @@ WindField allKinds() {
 
 struct Errors {
   double metres{0.0}, turn{0.0}, of_height{0.0};
+  std::size_t physical{0};  // branches
 };
 
 class ForestRebuild : public testing::Test {
@@ -109,6 +113,10 @@ class ForestRebuild : public testing::Test {
       forest::BatchPoses fast;
       forest::BatchPoser(tree).pose(replica.wind().at(replica.stamp()).relativeTo(tree.foot),
                                     replica.weights(id, replica.stamp()), forest::MAX_DEPTHS, fast);
+      const auto promoted = replica.promoted(id).branches;
+      EXPECT_EQ(promoted.size(), told.physical.size());
+      if (!promoted.empty()) narrow(poses, fast);  // how displays pose such a tree
+      out.physical += promoted.size();
       if (poses.size() != told.transforms.poses.size()) throw std::runtime_error("other branches");
       for (std::size_t i = 0; i < poses.size(); ++i)
         addErrors(told.transforms.poses[i], tree, poses[i], fast.at(static_cast<int>(i)), out);
@@ -128,13 +136,26 @@ class ForestRebuild : public testing::Test {
         std::max(out.of_height, length(tree.foot + fast.position - at) / tree.skeleton.height);
   }
 
-  static void expectEqual(const forest::ForestReplica& replica, const char* what) {
+  /// Takes hold of a limb and pulls it sideways.
+  static void grab(std::uint32_t tree, std::uint32_t branch) {
+    Grab call;
+    call.request.tree = tree;
+    call.request.branch = branch;
+    call.request.target.point = forest_->ask(tree).transforms.poses[branch].position;
+    call.request.target.point.x += 0.3;
+    call.request.lease = 60.0;
+    ASSERT_TRUE(ros::service::call("forest_animator/grab", call));
+    ASSERT_TRUE(call.response.success) << call.response.message;
+  }
+
+  static Errors expectEqual(const forest::ForestReplica& replica, const char* what) {
     const Errors errors = compare(replica);
     printf("%s: double %.2e m, %.2e of the quaternion; float %.2e of the height\n", what,
            errors.metres, errors.turn, errors.of_height);
     EXPECT_LE(errors.metres, DOUBLE_BAR);
     EXPECT_LE(errors.turn, DOUBLE_BAR);
     EXPECT_LE(errors.of_height, FLOAT_BAR);
+    return errors;
   }
 
   /// The scene is no easy one: several levels, trees between two of them, and bent ones.
@@ -219,6 +240,37 @@ TEST_F(ForestRebuild, DeltasAreFollowed) {
   }
   EXPECT_GT(changed, 20u);
   expectEqual(reader, "deltas");
+}
+
+// S1-34, S1-35: physical branches too, held and on their way back.
+TEST_F(ForestRebuild, GrabbedTreesAreFollowed) {
+  forest::ForestReplica reader = listener();
+  std::size_t next = key_frame_ + 1;
+  const auto follow = [&](int ticks) {
+    forest_->run(ticks);
+    for (; next < forest_->state.messages.size(); ++next)
+      ASSERT_TRUE(reader.apply(fromMsg(forest_->state.messages[next]))) << reader.why();
+  };
+  grab(0, 9);
+  grab(2, 12);
+  follow(40);
+  EXPECT_GT(expectEqual(reader, "two grabs").physical, 10u);
+  Release call;
+  call.request.all = true;
+  ASSERT_TRUE(ros::service::call("forest_animator/release", call));
+  follow(10);
+  EXPECT_GT(expectEqual(reader, "let go").physical, 10u);
+  const auto blending = [&] {
+    const auto branches = reader.promoted(0).branches;
+    return std::any_of(branches.begin(), branches.end(),
+                       [](const auto& branch) { return branch.blend != forest::NEVER; });
+  };
+  for (int i = 0; i < 300 && !blending(); ++i) follow(1);
+  EXPECT_TRUE(blending());
+  follow(15);
+  expectEqual(reader, "blending");
+  for (int i = 0; i < 300 && !reader.physicalTrees().empty(); ++i) follow(1);
+  EXPECT_EQ(expectEqual(reader, "procedural again").physical, 0u);
 }
 
 }  // namespace
