@@ -2,11 +2,8 @@
 # else knows of them.
 file(GLOB tree_sources CONFIGURE_DEPENDS bench/trees/*.cpp)
 target_sources(physics_bench PRIVATE ${tree_sources})
-find_package(PkgConfig QUIET)
-if(PkgConfig_FOUND)
-  pkg_check_modules(bullet QUIET IMPORTED_TARGET bullet)
-  pkg_check_modules(dart QUIET IMPORTED_TARGET dart)
-endif()
+pkg_check_modules(bullet QUIET IMPORTED_TARGET bullet)
+pkg_check_modules(dart QUIET IMPORTED_TARGET dart)
 find_library(mujoco_library mujoco)  # its CMake target names folders that Debian does not install
 if(mujoco_library)
   add_library(mujoco_peer UNKNOWN IMPORTED)
