@@ -13,8 +13,8 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr double NEAREST_REACH = 2.0;     // [m] from a point to the branch that it means
-constexpr double LONGEST_NOTICE = 60.0;   // [s] a request may be that far ahead
+constexpr double NEAREST_REACH = 2.0;    // [m] from a point to the branch that it means
+constexpr double LONGEST_NOTICE = 60.0;  // [s] a request may be that far ahead
 constexpr std::size_t MOST_GRABS = 256;  // waiting ones among them
 constexpr double STIFFNESS = 2000.0, DAMPING = 40.0, FORCE_LIMIT = 200.0;
 
