@@ -25,7 +25,7 @@ CrownResult driveAt(double speed, double radius, const Way& way, double* left_ov
 constexpr Way BIRCH{"birch", -1.5, 0.3, 6.5, 1.2};
 constexpr Way OAK{"oak", -2.0, 0.0, 7.45, 1.5};
 
-// At every speed of a robot, thin wood goes aside: no deeper than 5 mm at any instant.
+// S1-W6. At every speed of a robot, thin wood goes aside: no deeper than 5 mm at any instant.
 TEST(ContactInACrown, ThinWoodGoesAsideAtAnySpeed) {
   for (const double speed : {0.1, 0.5, 1.0, 2.0, 3.0}) {
     const CrownResult found = driveAt(speed, 0.025, BIRCH);

@@ -77,7 +77,7 @@ class Drive {
   std::int64_t tick_{0};
 };
 
-// S1-32 is about hands; this is about arms: only what is near is physical, nothing thin is entered,
+// S1-W6, N12: only what is near is physical, nothing thin is entered,
 // and after the drive and its blend nothing is held.
 TEST(ContactInAForest, BranchesGoAsideAndAllReturns) {
   for (const double speed : {0.5, 3.0}) {
