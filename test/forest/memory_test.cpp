@@ -2,32 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a million trees take, counted at the allocator.
 #include <gtest/gtest.h>
-#include <malloc.h>
-
-#include <atomic>
-#include <cstdlib>
-#include <new>
 
 #include "forest/forest_fixture.h"
-
-namespace {
-std::atomic<long> live_bytes{0};
-}  // namespace
-
-void* operator new(std::size_t size) {
-  void* out = std::malloc(size > 0 ? size : 1);
-  if (out == nullptr) throw std::bad_alloc();
-  live_bytes += static_cast<long>(malloc_usable_size(out));
-  return out;
-}
-void operator delete(void* block) noexcept {
-  if (block == nullptr) return;
-  live_bytes -= static_cast<long>(malloc_usable_size(block));
-  std::free(block);
-}
-void operator delete(void* block, std::size_t) noexcept {
-  operator delete(block);
-}
+#include "heap.h"
 
 namespace vegetation_sim::forest {
 namespace {
@@ -56,12 +33,12 @@ Layout millionTrees() {
 // A million trees as a law: nothing per tree while nobody looks; not too much even if every one of
 // them is held at a level of its own.
 TEST(Memory, MillionTreesStayWithinTheirBytes) {
-  const long before = live_bytes;
+  const long before = liveBytes();
   Forest forest(millionTrees(), flatTerrain(), Settings());
   ASSERT_EQ(forest.layout().treeCount(), static_cast<std::uint32_t>(TREES));
   forest.setWind(wind::Field({makeBreeze(1, Vec3(5, 0, 0))}));
   forest.advance(START);
-  const long unwatched = live_bytes - before;
+  const long unwatched = liveBytes() - before;
   EXPECT_LT(unwatched, TREES);  // less than a byte each
   Viewer eye;
   eye.id = "eye";
@@ -72,7 +49,7 @@ TEST(Memory, MillionTreesStayWithinTheirBytes) {
   forest.advance(START + NANOSECONDS_PER_SECOND / 30);
   ASSERT_EQ(forest.memory().levels.held().size(), static_cast<std::size_t>(TREES));
   forest.update(false);
-  const long watched = live_bytes - before;
+  const long watched = liveBytes() - before;
   EXPECT_GT(watched, 40 * TREES);  // else nothing was counted
   EXPECT_LT(watched, MOST_PER_TREE * TREES);
   RecordProperty("bytes_unwatched", std::to_string(unwatched));

@@ -5,26 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <new>
-
 #include "forest/physics_scene.h"
-
-namespace {
-std::size_t allocations = 0;
-}
-
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* out = std::malloc(size > 0 ? size : 1)) return out;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
+#include "heap.h"
 
 namespace vegetation_sim::forest {
 namespace {
@@ -163,12 +145,12 @@ TEST(PhysicalPart, StepsAllocateNothing) {
   const PhysicsSettings settings;
   std::size_t before = 0;
   for (int i = 0; i < 20; ++i) {
-    if (i == 3) before = allocations;
+    if (i == 3) before = allocationCount();
     part.step(air, loads, settings, rig.now() + i * 4000000, rig.now() + (i + 1) * 4000000,
               scratch);
   }
   EXPECT_GT(part.joints().size(), 1u);
-  EXPECT_EQ(allocations - before, 0u);
+  EXPECT_EQ(allocationCount() - before, 0u);
   EXPECT_EQ(sizeof(part.state().q[0]) + sizeof(part.state().rate[0]), 4 * sizeof(double));
 }
 

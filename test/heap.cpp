@@ -1,0 +1,42 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+// The test programs' own operator new and delete, which count.
+#include "heap.h"
+
+#include <malloc.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+namespace {
+std::atomic<long> live_bytes{0};
+std::atomic<std::size_t> allocations{0};
+}  // namespace
+
+namespace vegetation_sim {
+
+long liveBytes() {
+  return live_bytes;
+}
+std::size_t allocationCount() {
+  return allocations;
+}
+
+}  // namespace vegetation_sim
+
+void* operator new(std::size_t size) {
+  void* out = std::malloc(size > 0 ? size : 1);
+  if (out == nullptr) throw std::bad_alloc();
+  ++allocations;
+  live_bytes += static_cast<long>(malloc_usable_size(out));
+  return out;
+}
+void operator delete(void* block) noexcept {
+  if (block == nullptr) return;
+  live_bytes -= static_cast<long>(malloc_usable_size(block));
+  std::free(block);
+}
+void operator delete(void* block, std::size_t) noexcept {
+  operator delete(block);
+}
