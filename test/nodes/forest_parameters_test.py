@@ -22,6 +22,7 @@ NUMBERS = {
     'tolerance': (' pixel', 0.01, 1000), 'transition': (' s', 0.01, 60),
     'size': ('', 0.2, 3), 'children': ('', 0.2, 3), 'leaves': ('', 0, 3), 'angle': ('', 0.2, 2),
     'noise': ('', 0, 3),
+    'grab_lease': (' s', 0.1, 3600), 'grab_distance': (' m', 0.1, 1000),
 }
 WHOLE_NUMBERS = {
     'state_rate': (' Hz', 1, 240), 'marker_points': ('', 600, 3000000),
@@ -29,7 +30,8 @@ WHOLE_NUMBERS = {
     'cache_budget': (' branches', 1000, 20000000), 'viewer_height': (' pixel', 1, 100000),
     'fixed_level': ('', 0, 6), 'highest_level': ('', 0, 6),
 }
-OTHERS = {'scenario', 'frame_id', 'viewer_frame', 'replay', 'branches_trees'}
+OTHERS = {'scenario', 'frame_id', 'viewer_frame', 'replay', 'branches_trees', 'tf_promoted', 'bodies',
+          'robot_description', 'robot_frame_prefix'}  # of the last three more in robot_bodies
 BY_ROS = {'diagnostic_period'}  # diagnostic_updater's own
 
 # What is wrong with a scenario: its text, what the refusal says.
@@ -102,7 +104,8 @@ class ForestParameters(unittest.TestCase):
     def test_wrong_types_are_refused(self):
         wrong = {name: 'often' for name in NUMBERS}
         wrong.update({name: 2.5 for name in WHOLE_NUMBERS})
-        wrong.update(scenario=4, frame_id=True, viewer_frame=[1], replay='yes', branches_trees=3)
+        wrong.update(scenario=4, frame_id=True, viewer_frame=[1], replay='yes', branches_trees=3,
+                     tf_promoted='no', bodies=7)
         refusal = self.refusal(wrong)
         for name in NUMBERS:
             self.assertIn('~%s = often is not a number' % name, refusal)
@@ -110,6 +113,7 @@ class ForestParameters(unittest.TestCase):
             self.assertIn('~%s = 2.5 is not a whole number' % name, refusal)
         for text in ('~scenario = 4 is not text', '~frame_id = 1 is not text',
                      'viewer_frame = ', '~replay = yes is not true or false',
+                     '~tf_promoted = no is not true or false',
                      '~branches_trees = 3 is not a list of whole numbers'):
             self.assertIn(text, refusal)
         self.assertIn('branches_trees = ', self.refusal({'branches_trees': [1, 'two']}))
