@@ -151,16 +151,16 @@ std::vector<BranchLoad> ForestPhysics::expectedLoads(std::uint32_t tree,
 // Step number k of n between two ticks.
 void ForestPhysics::step(const Site& at, Nanoseconds from, Nanoseconds to, std::size_t k,
                          std::size_t n) {
-  const auto stampOf = [&](std::size_t i) {
+  const auto stamp_of = [&](std::size_t i) {
     return from + (to - from) * static_cast<Nanoseconds>(i) / static_cast<Nanoseconds>(n);
   };
   for (auto& [tree, part] : parts_) {
     if (part.empty()) continue;
-    gather(tree, part.tree().foot, from, stampOf(k), to);
+    gather(tree, part.tree().foot, from, stamp_of(k), to);
     if (isNear(tree))
-      stepTouching(at, tree, part, stampOf(k), stampOf(k + 1));
+      stepTouching(at, tree, part, stamp_of(k), stamp_of(k + 1));
     else
-      part.step(airOf(at, tree), loads_, settings_, stampOf(k), stampOf(k + 1), scratch_);
+      part.step(airOf(at, tree), loads_, settings_, stamp_of(k), stamp_of(k + 1), scratch_);
   }
 }
 

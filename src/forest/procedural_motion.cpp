@@ -29,9 +29,9 @@ void WindWindow::lookAt(const wind::Field& field, Nanoseconds stamp) {
   field.at(stamp + LOOK, looks_[2]);
 }
 
-Course::Course(const Tree& tree_, const WindWindow& wind_, const LevelState& level,
+Course::Course(const Tree& tree, const WindWindow& wind, const LevelState& level,
                const MotionLaw& law)
-    : tree(tree_), wind(wind_) {
+    : tree(tree), wind(wind) {
   for (std::size_t look = 0; look < 3; ++look)
     weights[look] =
         weightsAt(level, wind.stamp() + (static_cast<Nanoseconds>(look) - 1) * LOOK, law);

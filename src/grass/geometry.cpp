@@ -76,17 +76,17 @@ void appendRibbons(const FeatureMap& map, const Tile& tile, const BladeBlock* bl
     const BladeBlock& block = blocks[blade / BLOCK];
     const int lane = blade % BLOCK;
     const Vec3 shift = corner + wayToEdge(tile, look) * style.slide;
-    const auto pointAt = [&](int i) {
+    const auto point_at = [&](int i) {
       return Vec3(Vec3(block.x[i][lane], block.y[i][lane], block.z[i][lane]) + shift);
     };
-    const Vec3 root = pointAt(0), tip = pointAt(LINKS);
+    const Vec3 root = point_at(0), tip = point_at(LINKS);
     const Vec3 side = sideOf(tip - root, eye - root);
     const Vec3 colour = bladeColour(species, double{look.colour});
     const double half = 0.5 * species.width * style.width;
     const auto first = static_cast<std::uint32_t>(mesh.vertexCount());
     for (int k = 0; k < style.segments; ++k) {
       const double way = static_cast<double>(kept[static_cast<std::size_t>(k)]) / LINKS;
-      const Vec3 point = pointAt(kept[static_cast<std::size_t>(k)]);
+      const Vec3 point = point_at(kept[static_cast<std::size_t>(k)]);
       // Dark at the root, where neighbours keep the light away.
       const Vec3 shade = colour * (0.45 + 0.55 * way);
       addVertex(mesh, point - side * (half * (1.0 - way)), 0.0, way, shade, 1.0);
@@ -113,7 +113,7 @@ StripPicture makeStripPicture(int columns, int rows, int blades, std::uint64_t s
     const int alpha = 1 + 254 * (blade + 1) / blades;
     for (int y = 0; y < static_cast<int>(top); ++y) {
       const double way = y / top, middle = x + lean * way * way;
-      const int half = static_cast<int>(0.5 * width * (1.0 - way) + 0.5);
+      const int half = static_cast<int>(std::lround(0.5 * width * (1.0 - way)));
       for (int dx = -half; dx <= half; ++dx) {
         const int column = ((static_cast<int>(middle) + dx) % columns + columns) % columns;
         const std::size_t i =

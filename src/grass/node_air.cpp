@@ -85,7 +85,7 @@ void NodeAir::update(const wind::Instant& wind, const std::vector<ColourMask>& m
         if (const std::size_t i = indexOf(column, row); wanted_[i])
           air_[i] = breeze.velocity(placeOf(column, row));
   }
-  const auto forNodes = [&](const Span& span, auto&& visit) {
+  const auto for_nodes = [&](const Span& span, auto&& visit) {
     for (int row = span.first_row; row <= span.last_row; ++row)
       for (int column = span.first_column; column <= span.last_column; ++column)
         if (const std::size_t i = indexOf(column, row);
@@ -93,7 +93,7 @@ void NodeAir::update(const wind::Instant& wind, const std::vector<ColourMask>& m
           ++touched_;
   };
   for (const wind::Term& term : wind.terms)
-    forNodes(maskOf(term), [&](std::size_t i, const Vec3& place) {
+    for_nodes(maskOf(term), [&](std::size_t i, const Vec3& place) {
       const Vec3 air = velocityOf(term, place);
       air_[i] += air;
       return !air.isZero(0.0);
@@ -101,7 +101,7 @@ void NodeAir::update(const wind::Instant& wind, const std::vector<ColourMask>& m
   for (const ColourMask& mask : masks) {
     const double r = mask.radius;
     const Point& c = mask.centre;
-    forNodes(spanOf(c.x - r, c.x + r, c.y - r, c.y + r), [&](std::size_t i, const Vec3& place) {
+    for_nodes(spanOf(c.x - r, c.x + r, c.y - r, c.y + r), [&](std::size_t i, const Vec3& place) {
       const double dx = place.x() - c.x, dy = place.y() - c.y;
       const double weight = mask.weight * smootherStep(1.0 - std::sqrt(dx * dx + dy * dy) / r);
       tints_[i].weight += weight;

@@ -65,8 +65,8 @@ class Sheet {
 
  private:
   std::size_t nodeOf(double u, double v) const {
-    const auto column = static_cast<std::size_t>(u * crush_->cells + 0.5);
-    const auto row = static_cast<std::size_t>(v * crush_->cells + 0.5);
+    const auto column = static_cast<std::size_t>(std::lround(u * crush_->cells));
+    const auto row = static_cast<std::size_t>(std::lround(v * crush_->cells));
     return row * static_cast<std::size_t>(crush_->cells + 1) + column;
   }
 
@@ -123,7 +123,8 @@ void appendLayers(const FeatureMap& map, const Tile& tile, const TileMotion& mot
     const double share = static_cast<double>(layer) / layers;
     const auto first = static_cast<std::uint32_t>(mesh.vertexCount());
     for (int corner = 0; corner < 4; ++corner) {
-      const double u = corner % 2, v = corner / 2;
+      const int side = corner / 2;
+      const double u = corner % 2, v = side;
       const Vec3 top = sheet.offsetAt(u, v, grown * sheet.heightAt(u, v));
       // The bend of an arc grows with the square of the height.
       const Vec3 place = sheet.groundAt(u, v) +

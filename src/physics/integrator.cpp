@@ -94,7 +94,7 @@ void ChainStepper::explicitStep(bool as_printed, const std::vector<Link>& links,
 void ChainStepper::rungeKuttaStep(const std::vector<Link>& links, const Surroundings& outside,
                                   double time, double h, ChainState& state) {
   constexpr double AHEAD[] = {0.0, 0.5, 0.5, 1.0};
-  for (int stage = 0; stage < 4; ++stage) {
+  for (std::size_t stage = 0; stage < slopes_.size(); ++stage) {
     Slope& slope = slopes_[stage];
     between_ = state;
     if (stage > 0) {

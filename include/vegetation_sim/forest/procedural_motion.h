@@ -41,7 +41,7 @@ struct Course {
   const WindWindow& wind;
   std::array<Weights, 3> weights;
 
-  Course(const Tree& tree_, const WindWindow& wind_, const LevelState& level, const MotionLaw& law);
+  Course(const Tree& tree, const WindWindow& wind, const LevelState& level, const MotionLaw& law);
   /// Bends at look 0, 1 or 2.
   JointAngles anglesAt(int branch, std::size_t look) const;
   JointCourse at(int branch) const;

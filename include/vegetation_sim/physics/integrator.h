@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "vegetation_sim/physics/stability.h"
@@ -63,7 +64,7 @@ class ChainStepper {
   struct Slope {
     Angles rate, acceleration;
   };
-  Slope slopes_[4];
+  std::array<Slope, 4> slopes_;
 };
 
 /// 0 where the motion is too wild for velocity products, else 1.
