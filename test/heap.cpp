@@ -25,12 +25,16 @@ std::size_t allocationCount() {
 
 }  // namespace vegetation_sim
 
-void* operator new(std::size_t size) {
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
   void* out = std::malloc(size > 0 ? size : 1);
-  if (out == nullptr) throw std::bad_alloc();
+  if (out == nullptr) return nullptr;
   ++allocations;
   live_bytes += static_cast<long>(malloc_usable_size(out));
   return out;
+}
+void* operator new(std::size_t size) {
+  if (void* out = operator new(size, std::nothrow)) return out;
+  throw std::bad_alloc();
 }
 void operator delete(void* block) noexcept {
   if (block == nullptr) return;
