@@ -108,7 +108,7 @@ class WindRequests(unittest.TestCase):
     def test_says_when_an_edit_begins(self):
         first = self.set(primitive(fade_in=20.0))
         self.assertEqual(first.t_on, self.last('asked').t_on)
-        self.assertIn('begins at %.3f' % first.t_on.to_sec(), first.message)
+        self.assertIn('begins at %d.' % first.t_on.secs, first.message)
         second = self.set(primitive(fade_in=60.0))
         self.assertEqual(second.t_on, first.t_on + rospy.Duration(20))
         third = self.set(primitive(t_on=second.t_on + rospy.Duration(31)))
