@@ -56,7 +56,7 @@ sanitize() {
   local folder folders=(common forest grass physics terrain wind)
   check 'sanitizers: build' "$ROOT/scripts/build.sh" --sanitize "${folders[@]/%/_test}"
   for folder in "${folders[@]}"; do
-    check "sanitizers: $folder" timeout 600 "$BUILD/sanitize/devel/lib/vegetation_sim/${folder}_test" --gtest_brief=1
+    check "sanitizers: $folder" timeout 1500 "$BUILD/sanitize/devel/lib/vegetation_sim/${folder}_test" --gtest_brief=1
   done
 }
 
