@@ -8,11 +8,6 @@
 namespace vegetation_sim::forest {
 namespace {
 
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(),
-          a.x() * b.y() - a.y() * b.x()};
-}
-
 std::size_t index(int branch) {
   return static_cast<std::size_t>(branch);
 }

@@ -13,11 +13,6 @@ namespace {
 // The air's drag takes at most half of a link's speed in a step, however light the link is.
 constexpr double STRONGEST_DRAG = 0.5 * PHYSICS_RATE;  // [1/s]
 
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(),
-          a.x() * b.y() - a.y() * b.x()};
-}
-
 physics::Symmetric3 uniform(double value) {
   return {value, value, value, 0.0, 0.0, 0.0};
 }

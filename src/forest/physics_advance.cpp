@@ -20,11 +20,6 @@ std::size_t stepsBetween(Nanoseconds from, Nanoseconds to) {
                                   NANOSECONDS_PER_SECOND);
 }
 
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(),
-          a.x() * b.y() - a.y() * b.x()};
-}
-
 Vec3 pointOn(const Pose& pose, double along) {
   return pose.position + along * axisZ(pose.orientation);
 }

@@ -10,11 +10,6 @@
 namespace vegetation_sim::forest {
 namespace {
 
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(),
-          a.x() * b.y() - a.y() * b.x()};
-}
-
 // Torque on a joint per air velocity v is `lever` x v: drag of the sub-tree times its arm [kg m/s].
 std::vector<Vec3> subtreeLevers(const Skeleton& skeleton, const Species& species) {
   const std::size_t n = skeleton.branches.size();

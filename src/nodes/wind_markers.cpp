@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "vegetation_sim/common/math.h"
+#include "vegetation_sim/ros/geometry_conversions.h"
 #include "vegetation_sim/ros/stamps.h"
 #include "vegetation_sim/wind/fade.h"
 #include "vegetation_sim/wind/laws.h"
@@ -37,14 +38,6 @@ std_msgs::ColorRGBA colourOf(Kind kind, double alpha) {
   colour.b = rgb[2];
   colour.a = static_cast<float>(alpha);
   return colour;
-}
-
-geometry_msgs::Point toPoint(const Vec3& v) {
-  geometry_msgs::Point point;
-  point.x = v.x();
-  point.y = v.y();
-  point.z = v.z();
-  return point;
 }
 
 /// Adds the markers of one primitive, all with its id, each in a namespace of its own.
