@@ -20,7 +20,7 @@ format() { code | xargs clang-format --dry-run -Werror; }
 
 # The core only: the headers of ROS would take many minutes.
 tidy() {
-  git ls-files src/{common,forest,grass,physics,terrain,wind}'/*.cpp' |
+  git ls-files src/{canopy,common,crowd,forest,grass,physics,terrain,wind}'/*.cpp' |
     xargs -P "$(nproc)" -n 1 clang-tidy --quiet --extra-arg=-std=c++17 -p "$BUILD" 2>/dev/null
 }
 
@@ -37,8 +37,9 @@ catkin() {
 # The core includes nothing of ROS, rviz or Qt.
 layers() {
   none_match '#include [<"](ros/|tf2|rviz/|nodelet|pluginlib|dynamic_reconfigure|Q[A-Z]|[a-z_]+_(msgs|srvs)/|vegetation_sim/(ros|nodes|rviz)/)' \
-    {include/vegetation_sim,src}/{common,forest,grass,physics,terrain,wind} &&
+    {include/vegetation_sim,src}/{canopy,common,crowd,forest,grass,physics,terrain,wind} &&
     none_match '#include [<"](vegetation_sim/)?forest/' {include/vegetation_sim,src}/grass &&
+    none_match '#include [<"](vegetation_sim/)?(canopy|forest|grass|physics|wind)/' {include/vegetation_sim,src}/crowd &&
     none_match '#include [<"](vegetation_sim/)?(forest|grass|terrain|wind)/' {include/vegetation_sim,src}/physics &&
     none_match '#include [<"](rviz/|Q[A-Z]|vegetation_sim/(nodes|rviz)/)' {include/vegetation_sim,src}/ros
 }
@@ -46,7 +47,7 @@ layers() {
 # No left-over, and in the core nothing whose bits differ between machines. What only chooses how
 # finely a picture is drawn may use the platform's mathematics.
 words() {
-  local code_of_core=({include/vegetation_sim,src}/{common,forest,grass,physics,terrain,wind}
+  local code_of_core=({include/vegetation_sim,src}/{canopy,common,crowd,forest,grass,physics,terrain,wind}
     ':!src/forest/geometry_level.cpp')
   none_match '\b(std::)?(rand|srand|random_device|[a-z]+_distribution)\b *[(<{]' src include &&
     none_match 'std::(sin|cos|tan|atan2?|exp|log|pow|cbrt|hypot)\(' "${code_of_core[@]}" &&

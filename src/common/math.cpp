@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 
 namespace vegetation_sim {
 namespace {
@@ -95,6 +96,21 @@ double cubeRoot(double x) {
   std::memcpy(&r, &bits, sizeof r);
   for (int i = 0; i < 5; ++i) r -= (r - x / (r * r)) * (1.0 / 3.0);
   return r;
+}
+
+double exponential(double x) {
+  // ln 2 in two parts (Cody and Waite): the product with a whole number below 2^21 is exact.
+  constexpr double LN2_1 = 6.93147180369123816490e-01, LN2_2 = 1.90821492927058770002e-10;
+  if (x < -745.2) return 0.0;
+  if (!(x <= 709.8)) return x + std::numeric_limits<double>::infinity();  // NaN stays NaN
+  const double power = std::floor(x * (1.0 / 0.69314718055994530942) + 0.5);
+  const double high = x - power * LN2_1, low = power * LN2_2, r = high - low;
+  // Taylor series on |r| <= ln 2 / 2; the first term left out is below 1e-17.
+  double s = 1.0 / 6227020800.0;
+  for (const double factorial : {479001600.0, 39916800.0, 3628800.0, 362880.0, 40320.0, 5040.0,
+                                 720.0, 120.0, 24.0, 6.0, 2.0})
+    s = s * r + 1.0 / factorial;
+  return std::ldexp(1.0 + (high + (r * r * s - low)), static_cast<int>(power));
 }
 
 double softLimit(double x, double knee, double limit) {

@@ -31,6 +31,23 @@ TEST(SinCosTurns, IsWithinItsBoundForAnySizeOfTurns) {
   }
 }
 
+TEST(Exponential, IsWithinItsBoundOverItsWholeRange) {
+  const Random random(3);
+  for (std::uint64_t i = 0; i < 20000; ++i) {
+    const double x = random.uniform(i, -700.0, 700.0) * (i % 2 ? 1.0 : 1e-3);
+    const double want = static_cast<double>(std::exp(static_cast<long double>(x)));
+    ASSERT_NEAR(exponential(x) / want, 1.0, 4e-16) << x;
+  }
+}
+
+TEST(Exponential, EndsInZeroAndInfinity) {
+  EXPECT_EQ(exponential(0.0), 1.0);
+  EXPECT_EQ(exponential(-1e300), 0.0);
+  EXPECT_GT(exponential(-740.0), 0.0);  // not yet nothing, though denormal
+  EXPECT_TRUE(std::isinf(exponential(1e300)));
+  EXPECT_TRUE(std::isnan(exponential(std::nan(""))));
+}
+
 TEST(SinCosTurns, IsExactAtQuarterTurns) {
   EXPECT_EQ(sinCosTurns(0.0).sin, 0.0);
   EXPECT_EQ(sinCosTurns(0.25).sin, 1.0);

@@ -27,6 +27,9 @@ double arcTangent(double y, double x);
 /// Cube root for x >= 0. Relative error <= 4e-16.
 double cubeRoot(double x);
 
+/// e^x; 0 below -745 and infinity above 709. Relative error <= 4e-16.
+double exponential(double x);
+
 /// Clamp to [0, 1].
 inline double saturate(double x) {
   return std::min(1.0, std::max(0.0, x));
