@@ -1,0 +1,24 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "vegetation_sim/crowd/convex.h"
+
+namespace vegetation_sim::crowd::bench {
+
+/// Another library's answer: shapes are prepared once, then asked by number.
+struct PeerDistance {
+  const char* name;
+  std::function<double(std::size_t)> distance;  ///< [m]
+};
+
+#ifdef WITH_FCL
+/// FCL with both of its solvers. Boxes, and capsules where a box is a segment with a radius.
+std::vector<PeerDistance> fclDistances(const std::vector<Box>& first,
+                                       const std::vector<Box>& second);
+#endif
+
+}  // namespace vegetation_sim::crowd::bench

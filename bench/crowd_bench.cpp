@@ -1,0 +1,17 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Measures walkers: distances of convex shapes, what a step of a crowd costs, how crowds fare.
+// usage: crowd_bench [queries [COUNT] | scale | behaviour [SEEDS]]; all if none is named
+#include <cstdlib>
+#include <string>
+
+#include "crowd/sections.h"
+
+int main(int argc, char** argv) {
+  namespace bench = vegetation_sim::crowd::bench;
+  const std::string part = argc > 1 ? argv[1] : "all";
+  const double number = argc > 2 ? std::atof(argv[2]) : 0.0;
+  if (part == "all" || part == "queries") bench::benchQueries(number > 0.0 ? number : 1e7, 15);
+  return 0;
+}
