@@ -36,18 +36,26 @@ struct PhysicalPart::Step {
   const PhysicsSettings& settings;
   PartScratch& scratch;
   Nanoseconds from;
+  mutable Nanoseconds based{NEVER};  // stamp of scratch.bases
 
   Course courseAt(double time) const {
     return {part.tree(), scratch.lookAt(air.field, from + fromSeconds(time)), air.level, air.law};
   }
+  void lookAtBases(const Course& course) const {
+    if (based == course.wind.stamp()) return;
+    part.baseMotions(course, scratch, scratch.bases);
+    based = course.wind.stamp();
+  }
   void bases(double time, std::vector<physics::BaseMotion>& out) const {
-    part.baseMotions(courseAt(time), scratch, out);
+    lookAtBases(courseAt(time));
+    out = scratch.bases;
   }
   void load(const physics::Kinematics& kinematics, double time, physics::Loads& out) const {
     const Course course = courseAt(time);
     const Nanoseconds stamp = course.wind.stamp();
     out.clear(part.links_.size());
-    part.addWind(course, kinematics, out);
+    part.addWind(course, kinematics, scratch, out);
+    lookAtBases(course);
     part.addCompensation(course, settings, scratch, out);
     part.addSprings(loads, stamp, kinematics, out);
     part.addForces(loads, kinematics, out);
@@ -67,8 +75,12 @@ void PhysicalPart::step(const Air& air, const PartLoads& loads, const PhysicsSet
   const Step context{*this, air, loads, settings, scratch, from};
   const physics::Surroundings outside = context.outside();
   const double h = secondsBetween(from, to);
-  scratch.stepper.setDynamics(static_cast<physics::Dynamics>(settings.dynamics));
+  const auto dynamics = static_cast<physics::Dynamics>(settings.dynamics);
   const auto wanted = static_cast<physics::Integrator>(settings.integrator);
+  if (static_cast<Precision>(settings.precision) == Precision::SINGLE &&
+      dynamics == physics::Dynamics::ARTICULATED && wanted == physics::Integrator::MIDPOINT)
+    return stepBatched(outside, h);
+  scratch.stepper.setDynamics(dynamics);
   if (scratch.stepper.step(wanted, links_, outside, 0.0, h, state_, theta_) == 0) {
     ++scratch.replaced;  // beyond the bound of an explicit method
     scratch.stepper.step(physics::Integrator::MIDPOINT, links_, outside, 0.0, h, state_, theta_);
@@ -76,14 +88,26 @@ void PhysicalPart::step(const Air& air, const PartLoads& loads, const PhysicsSet
   stopJoints();
 }
 
+// The state lives here in double precision; what the chain keeps is gone with the step.
+void PhysicalPart::stepBatched(const physics::Surroundings& outside, double h) {
+  if (!chain_.held) chain_.held = std::make_unique<physics::BatchChain>(links_);
+  physics::BatchChain& chain = *chain_.held;
+  chain.setState(0, state_, theta_);
+  chain.step(outside, 0.0, h);
+  state_ = chain.state(0);
+  theta_ = chain.theta(0);
+  stopJoints();
+}
+
 // Whatever happens, angles stay where the chain and the messages hold: the printed dynamics flutter
 // without bound (E2), and a hand may wring a twig off.
 void PhysicalPart::stopJoints() {
+  constexpr double MOST = 1.0 + 1e-6;  // chains stop there themselves, as they round
   for (std::size_t i = 0; i < links_.size(); ++i) {
     physics::Vec2 &q = state_.q[i], &rate = state_.rate[i];
     const double bend = std::sqrt(q.x() * q.x() + q.y() * q.y());
     const double speed = std::sqrt(rate.x() * rate.x() + rate.y() * rate.y());
-    if (bend <= LARGEST_BEND && speed <= FASTEST_BEND) continue;  // false for NaN
+    if (bend <= MOST * LARGEST_BEND && speed <= FASTEST_BEND) continue;  // false for NaN
     const bool finite = std::isfinite(bend) && std::isfinite(speed);
     if (!finite || bend > LARGEST_BEND) rate = {0.0, 0.0};
     if (!finite) q = {0.0, 0.0};
@@ -117,7 +141,8 @@ void PhysicalPart::baseMotions(const Course& course, PartScratch& scratch,
   out.resize(1 + carriers_.size());
   out[0] = physics::BaseMotion();
   if (carriers_.empty()) return;
-  moveCarriers(course, carriers_, scratch.carrier_poses, scratch.carriers);
+  scratch.carrier_courses.look(course, carriers_);
+  moveCarriers(*tree_, carriers_, scratch.carrier_courses, scratch.carrier_poses, scratch.carriers);
   for (std::size_t i = 0; i < carriers_.size(); ++i) {
     const CarrierMotion& motion = scratch.carriers[i];
     out[i + 1] = {motion.pose, motion.spin, motion.velocity, motion.spin_rate, motion.acceleration};
@@ -126,17 +151,24 @@ void PhysicalPart::baseMotions(const Course& course, PartScratch& scratch,
 
 // Drag of each link with the wood that it carries, where it is and as it moves.
 void PhysicalPart::addWind(const Course& course, const physics::Kinematics& kinematics,
-                           physics::Loads& loads) const {
-  for (std::size_t i = 0; i < links_.size(); ++i) {
+                           PartScratch& scratch, physics::Loads& loads) const {
+  const std::size_t n = links_.size();
+  scratch.air.clear();
+  scratch.arms.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Pose& pose = kinematics.pose[i];
+    scratch.arms[i] = rotate(pose.orientation, drags_[i].centre);
+    scratch.air.add(tree_->foot + pose.position + scratch.arms[i]);
+  }
+  scratch.air.sample(course.wind.now());
+  for (std::size_t i = 0; i < n; ++i) {
     const Drag& drag = drags_[i];
     if (drag.force <= 0.0) continue;
-    const Pose& pose = kinematics.pose[i];
-    const Vec3 arm = rotate(pose.orientation, drag.centre);
-    const Vec3 air = course.wind.now().velocity(tree_->foot + pose.position + arm);
+    const Vec3& arm = scratch.arms[i];
     const Vec3 own = kinematics.velocity[i] + cross(kinematics.spin[i], arm);
     const double share = std::min(1.0, STRONGEST_DRAG * links_[i].mass / drag.force);
-    const Vec3 wind =
-        effectiveVelocity(Vec3(air - share * own), tree_->drag, tree_->reference_speed);
+    const Vec3 wind = effectiveVelocity(Vec3(scratch.air.velocity(i) - share * own), tree_->drag,
+                                        tree_->reference_speed);
     addForce(drag.force * wind, arm, loads.wrench[i]);
   }
 }
@@ -163,16 +195,16 @@ void PhysicalPart::addCompensation(const Course& course, const PhysicsSettings& 
   s.procedural.q.resize(n);
   s.procedural.rate.resize(n);
   s.acceleration.resize(n);
+  s.courses.look(course, branches_);
   for (std::size_t i = 0; i < n; ++i) {
-    const JointCourse at = course.at(branches_[i]);
+    const JointCourse at = s.courses.at(i);
     s.procedural.q[i] = {at.q.first, at.q.second};
     s.procedural.rate[i] = {at.rate.first, at.rate.second};
     s.acceleration[i] = {at.acceleration.first, at.acceleration.second};
   }
-  baseMotions(course, s, s.bases);
   physics::kinematicsOf(links_, s.bases, s.procedural, s.kinematics);
   s.loads.clear(n);
-  addWind(course, s.kinematics, s.loads);
+  addWind(course, s.kinematics, s, s.loads);
   s.body.torques(links_, s.bases, s.procedural, s.kinematics, s.loads, s.acceleration, s.torque);
   const bool printed = static_cast<WindForcing>(settings.wind_forcing) == WindForcing::PAPER;
   for (std::size_t i = 0; i < n; ++i) {

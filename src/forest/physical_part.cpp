@@ -80,6 +80,7 @@ std::size_t PhysicalPart::promote(const std::vector<int>& branches,
   for (std::size_t i = 0; i < joints_.size(); ++i)
     all.push_back({joints_[i], state_.q[i], state_.rate[i]});
   std::vector<char> mask = mask_;
+  std::vector<int> added;
   std::size_t refused = 0;
   for (const int branch : branches) {  // rising: bearers come first
     if (mask[index(branch)]) continue;
@@ -88,10 +89,16 @@ std::size_t PhysicalPart::promote(const std::vector<int>& branches,
       continue;
     }
     mask[index(branch)] = 1;
-    const JointCourse at = course.at(branch);
-    all.push_back({{branch, stamp, stamp, NEVER, 1.0, true}, vectorOf(at.q), vectorOf(at.rate)});
+    added.push_back(branch);
   }
-  if (all.size() > joints_.size()) {
+  if (!added.empty()) {
+    Courses courses;
+    courses.look(course, added);
+    for (std::size_t i = 0; i < added.size(); ++i) {
+      const JointCourse at = courses.at(i);
+      all.push_back(
+          {{added[i], stamp, stamp, NEVER, 1.0, true}, vectorOf(at.q), vectorOf(at.rate)});
+    }
     std::sort(all.begin(), all.end(),
               [](const Joined& a, const Joined& b) { return a.joint.branch < b.joint.branch; });
     rebuild(all);
@@ -138,14 +145,20 @@ void PhysicalPart::takeBack(int link, const Course& course, double duration) {
   }
 }
 
-void PhysicalPart::demote(const Course& course, const PhysicsSettings& settings) {
+void PhysicalPart::demote(const Course& course, const PhysicsSettings& settings,
+                          PartScratch& scratch) {
   const Nanoseconds stamp = course.wind.stamp();
-  for (PartJoint& joint : joints_)
+  bool waiting = false;  // for the calm
+  for (PartJoint& joint : joints_) {
     if (joint.wanted) joint.needed = stamp;
+    waiting = waiting || (!joint.wanted && joint.blend == NEVER);
+  }
+  if (waiting) scratch.courses.look(course, branches_);
   std::vector<char> bears(joints_.size(), 0);  // what is physical for good
   for (std::size_t i = joints_.size(); i-- > 0;) {
     PartJoint& joint = joints_[i];
-    if (joint.blend == NEVER && !bears[i] && mayGo(i, course, settings)) joint.blend = stamp;
+    if (joint.blend == NEVER && !bears[i] && mayGo(i, stamp, scratch.courses, settings))
+      joint.blend = stamp;
     if ((joint.blend == NEVER || bears[i]) && links_[i].parent >= 0)
       bears[index(links_[i].parent)] = 1;
   }
@@ -159,12 +172,12 @@ void PhysicalPart::demote(const Course& course, const PhysicsSettings& settings)
 }
 
 // Nothing needs it, and it moves as it would procedurally, or has had its time.
-bool PhysicalPart::mayGo(std::size_t link, const Course& course,
+bool PhysicalPart::mayGo(std::size_t link, Nanoseconds stamp, const Courses& courses,
                          const PhysicsSettings& settings) const {
   const PartJoint& joint = joints_[link];
   if (joint.wanted) return false;
-  if (secondsBetween(joint.needed, course.wind.stamp()) >= settings.linger) return true;
-  const JointCourse at = course.at(joint.branch);
+  if (secondsBetween(joint.needed, stamp) >= settings.linger) return true;
+  const JointCourse at = courses.at(link);
   const double off = magnitude(state_.q[link] - vectorOf(at.q));
   const double speed = magnitude(state_.rate[link] - vectorOf(at.rate));
   const double reach = wood_.reach[index(joint.branch)];
@@ -191,6 +204,7 @@ void PhysicalPart::rebuild(const std::vector<Joined>& joints) {
   mask_.assign(mask_.size(), 0);
   joints_.clear();
   branches_.clear();
+  chain_.held.reset();
   state_ = physics::ChainState();
   joints_.reserve(n);
   branches_.reserve(n);
@@ -252,7 +266,7 @@ physics::Link PhysicalPart::linkFor(std::size_t link, const Composite& body) con
 
 std::size_t PhysicalPart::bytes() const {
   const std::size_t n = mask_.capacity();
-  return sizeof(*this) + n +
+  return sizeof(*this) + n + (chain_.held ? chain_.held->bytes() : 0) +
          joints_.capacity() * (sizeof(PartJoint) + sizeof(int) + 2 * sizeof(physics::Vec2)) +
          links_.capacity() * (sizeof(physics::Link) + sizeof(Drag)) +
          carriers_.capacity() * sizeof(int) +

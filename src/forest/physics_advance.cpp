@@ -184,7 +184,7 @@ void ForestPhysics::settle(const Site& at, Nanoseconds from, Nanoseconds to) {
     react(at, tree, part, from, to);
     part.demote(
         Course(part.tree(), scratch_.lookAt(at.wind, to), at.levels.of(tree), at.layout.motion),
-        settings_);
+        settings_, scratch_);
   }
   for (auto& [id, hold] : holds_) hold.target = grabs_.at(id).target;
   pushes_.erase(std::remove_if(pushes_.begin(), pushes_.end(),

@@ -9,6 +9,7 @@ void describe(FieldVisitor& v, PhysicsSettings& s) {
   v.choice(
       "integrator", s.integrator,
       {"midpoint", "implicit_euler", "semi_implicit_euler", "explicit_euler", "runge_kutta_4"});
+  v.choice("precision", s.precision, {"single", "double"});
   v.choice("material", s.material, {"beam", "paper"});
   v.choice("wind_forcing", s.wind_forcing, {"compensated", "paper"});
   v.choice("promotion", s.promotion, {"influence", "depth"});

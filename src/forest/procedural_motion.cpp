@@ -20,6 +20,21 @@ Vec3 spinOf(const Quat& change, const Quat& q) {
   return {2.0 * product.x, 2.0 * product.y, 2.0 * product.z};
 }
 
+JointAngles bendOf(const Tree& tree, int branch, const Vec3& air, double weight) {
+  const Vec3 velocity = effectiveVelocity(air, tree.drag, tree.reference_speed);
+  return deviation(tree.response[static_cast<std::size_t>(branch)], velocity, weight,
+                   tree.joint_model);
+}
+
+// Central differences.
+JointCourse courseOf(const JointAngles& a, const JointAngles& b, const JointAngles& c) {
+  const double twice = 2.0 * STEP, square = STEP * STEP;
+  return {b,
+          {(c.first - a.first) / twice, (c.second - a.second) / twice},
+          {((c.first - b.first) - (b.first - a.first)) / square,
+           ((c.second - b.second) - (b.second - a.second)) / square}};
+}
+
 }  // namespace
 
 void WindWindow::lookAt(const wind::Field& field, Nanoseconds stamp) {
@@ -41,34 +56,47 @@ JointAngles Course::anglesAt(int branch, std::size_t look) const {
   const Branch& b = tree.skeleton.branches[static_cast<std::size_t>(branch)];
   const double weight = weights[look][static_cast<std::size_t>(b.depth)];
   if (weight <= 0.0) return {};
-  const Vec3 velocity = effectiveVelocity(wind.looks()[look].velocity(tree.foot + b.rest.position),
-                                          tree.drag, tree.reference_speed);
-  return deviation(tree.response[static_cast<std::size_t>(branch)], velocity, weight,
-                   tree.joint_model);
+  return bendOf(tree, branch, wind.looks()[look].velocity(tree.foot + b.rest.position), weight);
 }
 
 JointCourse Course::at(int branch) const {
-  const JointAngles a = anglesAt(branch, 0), b = anglesAt(branch, 1), c = anglesAt(branch, 2);
-  const double twice = 2.0 * STEP, square = STEP * STEP;
-  return {b,
-          {(c.first - a.first) / twice, (c.second - a.second) / twice},
-          {((c.first - b.first) - (b.first - a.first)) / square,
-           ((c.second - b.second) - (b.second - a.second)) / square}};
+  return courseOf(anglesAt(branch, 0), anglesAt(branch, 1), anglesAt(branch, 2));
 }
 
-void moveCarriers(const Course& course, const std::vector<int>& carriers,
+void Courses::look(const Course& course, const std::vector<int>& branches) {
+  const Tree& tree = course.tree;
+  air_.clear();
+  for (const int branch : branches)
+    air_.add(tree.foot + tree.skeleton.branches[static_cast<std::size_t>(branch)].rest.position);
+  for (std::size_t look = 0; look < angles_.size(); ++look) {
+    air_.sample(course.wind.looks()[look]);
+    angles_[look].resize(branches.size());
+    for (std::size_t i = 0; i < branches.size(); ++i) {
+      const auto branch = static_cast<std::size_t>(branches[i]);
+      const auto depth = static_cast<std::size_t>(tree.skeleton.branches[branch].depth);
+      const double weight = course.weights[look][depth];
+      JointAngles& out = angles_[look][i];
+      out = weight > 0.0 ? bendOf(tree, branches[i], air_.velocity(i), weight) : JointAngles();
+    }
+  }
+}
+
+JointCourse Courses::at(std::size_t i) const {
+  return courseOf(angles_[0][i], angles_[1][i], angles_[2][i]);
+}
+
+void moveCarriers(const Tree& tree, const std::vector<int>& carriers, const Courses& courses,
                   std::vector<Pose>& scratch, std::vector<CarrierMotion>& out) {
   const std::size_t n = carriers.size();
   scratch.resize(3 * n);
   out.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
-    const Branch& b = course.tree.skeleton.branches[static_cast<std::size_t>(carriers[i])];
+    const Branch& b = tree.skeleton.branches[static_cast<std::size_t>(carriers[i])];
     const auto bearer = static_cast<std::size_t>(
         std::lower_bound(carriers.begin(), carriers.end(), b.parent) - carriers.begin());
     for (std::size_t look = 0; look < 3; ++look) {
       const Pose base = b.parent < 0 ? Pose() : scratch[3 * bearer + look];
-      const Quat local =
-          jointRotation(b, course.anglesAt(carriers[i], look), course.tree.joint_model);
+      const Quat local = jointRotation(b, courses.angles(i, look), tree.joint_model);
       Vec3 position = base.position;
       if (b.parent >= 0) position += b.h * axisZ(base.orientation);
       scratch[3 * i + look] = {position, base.orientation * local};

@@ -21,6 +21,10 @@ struct Air {
 /// serves all the trees of a forest, so that a step allocates nothing.
 struct PartScratch {
   WindWindow window;
+  AirSampler air;
+  std::vector<Vec3> arms;  // from joints to where the air grips
+  Courses courses;         // of links
+  Courses carrier_courses;
   physics::ChainStepper stepper;
   physics::ArticulatedBody body;
   std::vector<Pose> carrier_poses;

@@ -10,6 +10,7 @@
 #include "vegetation_sim/forest/part_scratch.h"
 #include "vegetation_sim/forest/procedural_motion.h"
 #include "vegetation_sim/forest/promoted.h"
+#include "vegetation_sim/physics/batch_chain.h"
 
 namespace vegetation_sim::forest {
 
@@ -36,6 +37,22 @@ struct PartSpring {
 struct PartLoads {
   std::vector<PartSpring> springs;
   std::vector<BranchLoad> forces;
+};
+
+/// Built from what stands beside it: a copy starts without.
+template <typename T>
+struct Rebuilt {
+  std::unique_ptr<T> held;
+
+  Rebuilt() = default;
+  Rebuilt(const Rebuilt&) {}
+  Rebuilt(Rebuilt&&) noexcept = default;
+  ~Rebuilt() = default;
+  Rebuilt& operator=(const Rebuilt&) {
+    held.reset();
+    return *this;
+  }
+  Rebuilt& operator=(Rebuilt&&) noexcept = default;
 };
 
 /// The physical part of one tree: any of its branches, without gaps from each to the next that
@@ -76,7 +93,7 @@ class PhysicalPart {
   void letGo();
   /// Starts blends of branches that are not needed and calm, or have waited long enough; ends those
   /// that are over.
-  void demote(const Course& course, const PhysicsSettings& settings);
+  void demote(const Course& course, const PhysicsSettings& settings, PartScratch& scratch);
   /// Another duration of blends: those that run go on from where they are.
   void stretchBlends(Nanoseconds stamp, double from, double to);
   void setMaterial(Material material);
@@ -103,17 +120,19 @@ class PhysicalPart {
     Vec3 centre;   // own axes [m]
   };
   struct Step;
+  void stepBatched(const physics::Surroundings& outside, double h);
   void stopJoints();
   void rebuild(const std::vector<Joined>& joints);
   void findCarriers();
   physics::Link linkFor(std::size_t link, const Composite& body) const;
   bool wouldGap(const std::vector<char>& mask, int branch) const;
   void takeBack(int link, const Course& course, double duration);
-  bool mayGo(std::size_t link, const Course& course, const PhysicsSettings& settings) const;
+  bool mayGo(std::size_t link, Nanoseconds stamp, const Courses& courses,
+             const PhysicsSettings& settings) const;
   double compensationAt(std::size_t link, Nanoseconds stamp, double fade) const;
   void baseMotions(const Course& course, PartScratch& scratch,
                    std::vector<physics::BaseMotion>& out) const;
-  void addWind(const Course& course, const physics::Kinematics& kinematics,
+  void addWind(const Course& course, const physics::Kinematics& kinematics, PartScratch& scratch,
                physics::Loads& loads) const;
   void addCompensation(const Course& course, const PhysicsSettings& settings, PartScratch& scratch,
                        physics::Loads& loads) const;
@@ -133,6 +152,7 @@ class PhysicalPart {
   std::vector<int> carriers_;  // unpromoted bearers of promoted branches, rising
   physics::ChainState state_;
   double theta_{0.5};
+  Rebuilt<physics::BatchChain> chain_;  // of links_
 };
 
 /// No physical joint bends farther [rad] or faster [rad/s].

@@ -17,6 +17,10 @@ enum class WindForcing : int { COMPENSATED = 0, PAPER = 1 };
 /// loaded one (S1-43).
 enum class Promotion : int { INFLUENCE = 0, DEPTH = 1 };
 
+/// How the default, the midpoint of full chains, is computed: many joints at once in single
+/// precision, or one by one in double, the reference. Everything else is always double.
+enum class Precision : int { SINGLE = 0, DOUBLE = 1 };
+
 /// Rate of physical steps [Hz].
 constexpr int PHYSICS_RATE = 240;
 /// A longer time between ticks is not stepped through.
@@ -26,6 +30,7 @@ constexpr Nanoseconds LONGEST_GAP = NANOSECONDS_PER_SECOND;
 struct PhysicsSettings {
   int dynamics{0};                    ///< physics::Dynamics
   int integrator{0};                  ///< physics::Integrator
+  int precision{0};                   ///< Precision
   int material{0};                    ///< Material
   int wind_forcing{0};                ///< WindForcing
   int promotion{0};                   ///< Promotion

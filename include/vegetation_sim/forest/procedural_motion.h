@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "vegetation_sim/forest/air_sampler.h"
 #include "vegetation_sim/forest/physics_settings.h"
 #include "vegetation_sim/forest/pose.h"
 #include "vegetation_sim/wind/field.h"
@@ -47,6 +48,20 @@ struct Course {
   JointCourse at(int branch) const;
 };
 
+/// Procedural motion of many branches of a tree at once: to the bit what Course gives one by one.
+/// Keeps its memory from look to look.
+class Courses {
+ public:
+  void look(const Course& course, const std::vector<int>& branches);
+  /// Of branches[i], at look 0, 1 or 2.
+  const JointAngles& angles(std::size_t i, std::size_t look) const { return angles_[look][i]; }
+  JointCourse at(std::size_t i) const;
+
+ private:
+  AirSampler air_;
+  std::array<std::vector<JointAngles>, 3> angles_;
+};
+
 /// How a branch moves that is not physical itself but bears what is (S1-35), tree's frame.
 struct CarrierMotion {
   Pose pose;
@@ -56,9 +71,10 @@ struct CarrierMotion {
   Vec3 acceleration{Vec3::Zero()};  ///< [m/s^2]
 };
 /// @param[in] carriers rising; with each branch all that bear it.
+/// @param courses their angles, looked at.
 /// @param[out] out [carriers]
 /// @param scratch [3 * carriers] poses, kept from call to call.
-void moveCarriers(const Course& course, const std::vector<int>& carriers,
+void moveCarriers(const Tree& tree, const std::vector<int>& carriers, const Courses& courses,
                   std::vector<Pose>& scratch, std::vector<CarrierMotion>& out);
 
 }  // namespace vegetation_sim::forest

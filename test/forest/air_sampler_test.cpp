@@ -1,0 +1,74 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/forest/air_sampler.h"
+
+#include <gtest/gtest.h>
+
+#include "forest/physics_scene.h"
+#include "vegetation_sim/common/instruction_set.h"
+#include "vegetation_sim/common/random.h"
+#include "wind/examples.h"
+
+namespace vegetation_sim::forest {
+namespace {
+
+std::vector<Vec3> scattered(std::size_t count) {
+  const Random random(11);
+  std::vector<Vec3> out;
+  for (std::uint64_t i = 0; i < count; ++i)
+    out.emplace_back(random.uniform(3 * i, -20.0, 20.0), random.uniform(3 * i + 1, -20.0, 20.0),
+                     random.uniform(3 * i + 2, 0.0, 20.0));
+  return out;
+}
+
+// N6, S1-16: whatever the instruction set and number of points, the law to the bit.
+TEST(AirSampler, GivesTheInstantsVelocitiesToTheBit) {
+  const wind::Field field(wind::oneOfEach(), 3);
+  for (const std::string& set : instructionSets()) {
+    forceInstructionSet(set);
+    AirSampler sampler;
+    for (const std::size_t count : {1u, 7u, 16u, 17u, 301u}) {
+      const std::vector<Vec3> points = scattered(count);
+      sampler.clear();
+      for (const Vec3& point : points) sampler.add(point);
+      for (const double time : {5.0, 8.7}) {  // points stay from look to look
+        const wind::Instant wind = field.at(wind::at(time));
+        sampler.sample(wind);
+        for (std::size_t i = 0; i < count; ++i) {
+          const Vec3 ours = sampler.velocity(i), law = wind.velocity(points[i]);
+          ASSERT_EQ(ours, law) << set << ", point " << i << " of " << count;
+          ASSERT_GT(length(law), 0.0);
+        }
+      }
+    }
+  }
+  forceInstructionSet("");
+}
+
+// S1-36: what promotion starts from is the same for many branches as for one.
+TEST(AirSampler, CoursesOfManyBranchesAreThoseOfEach) {
+  PhysicsRig rig;
+  wind::Primitive breeze = makeBreeze(1, Vec3(4, 2, 0));
+  breeze.epoch = PHYSICS_START;
+  WindWindow window;
+  window.lookAt(wind::Field({breeze}), rig.now());
+  LevelState level = LevelState::settled(3);  // finer branches stand still
+  const Course course(rig.tree, window, level, rig.forest.layout().motion);
+  std::vector<int> branches;
+  for (int i = 0; i < static_cast<int>(rig.branches().size()); i += 3) branches.push_back(i);
+  Courses courses;
+  courses.look(course, branches);
+  int moving = 0;
+  for (std::size_t i = 0; i < branches.size(); ++i) {
+    const JointCourse one = course.at(branches[i]), many = courses.at(i);
+    EXPECT_EQ(difference(one.q, many.q), 0.0);
+    EXPECT_EQ(difference(one.rate, many.rate), 0.0);
+    EXPECT_EQ(difference(one.acceleration, many.acceleration), 0.0);
+    moving += difference(one.acceleration, {}) > 0.0;
+  }
+  EXPECT_GT(moving, 10);
+  EXPECT_LT(moving, static_cast<int>(branches.size()));
+}
+
+}  // namespace
+}  // namespace vegetation_sim::forest
