@@ -61,13 +61,13 @@ void TreadMap::patch(int tile_column, int tile_row, Nanoseconds stamp, CrushPatc
 }
 
 void TreadMap::prune(Nanoseconds stamp) {
-  recent_.clear();
+  forgetRecent();
   for (auto entry = state_.blocks.begin(); entry != state_.blocks.end();)
     entry = entry->second.until <= stamp ? state_.blocks.erase(entry) : std::next(entry);
 }
 
 void TreadMap::rewind(Nanoseconds stamp) {
-  recent_.clear();
+  forgetRecent();
   for (auto& entry : state_.blocks)
     for (TreadNode& node : entry.second.nodes)
       if (node.stamp > stamp) node = TreadNode();
@@ -85,7 +85,7 @@ void TreadMap::clear() {
 }
 
 void TreadMap::restore(TreadState state) {
-  recent_.clear();
+  forgetRecent();
   state_ = std::move(state);
 }
 

@@ -65,34 +65,56 @@ struct TreadState {
   std::uint64_t hash() const;
 };
 
-/// Where blocks were found lately. Empty in a copy, since it points into one map's blocks.
-class RecentBlocks {
+/// Where something was found lately, by a mixed key. Empty in a copy, since it points into one
+/// map's parts. @tparam Entry that is made from a key, with mixed(key...) and is(key...).
+template <class Entry, int BITS>
+class RecentTable {
  public:
-  RecentBlocks() = default;
-  RecentBlocks(const RecentBlocks&) {}
-  RecentBlocks& operator=(const RecentBlocks&) {
+  RecentTable() = default;
+  RecentTable(const RecentTable&) {}
+  RecentTable& operator=(const RecentTable&) {
     clear();
     return *this;
   }
-  /// Null if unknown; may be set.
-  TreadBlock*& at(int row, int column) {
-    if (entries_.empty()) entries_.resize(SIZE);
-    const auto mixed = static_cast<std::uint32_t>(row) * 0x9E3779B1U +
-                       static_cast<std::uint32_t>(column) * 0x85EBCA77U;
-    Entry& entry = entries_[mixed >> (32 - BITS)];
-    if (entry.row != row || entry.column != column) entry = {row, column, nullptr};
-    return entry.block;
+  /// The entry of a key; its pointers are null if nothing is known, and may be set.
+  template <class... Key>
+  Entry& at(Key... key) {
+    if (entries_.empty()) entries_.resize(std::size_t{1} << BITS);
+    Entry& entry = entries_[Entry::mixed(key...) >> (32 - BITS)];
+    if (!entry.is(key...)) entry = Entry(key...);
+    return entry;
   }
   void clear() { entries_.clear(); }
 
  private:
-  static constexpr int BITS = 13, SIZE = 1 << BITS;
-  struct Entry {
-    int row{-1}, column{-1};
-    TreadBlock* block{nullptr};
-  };
   std::vector<Entry> entries_;
 };
+
+struct RecentBlock {
+  RecentBlock() = default;
+  RecentBlock(int row_wanted, int column_wanted) : row(row_wanted), column(column_wanted) {}
+  static std::uint32_t mixed(int row, int column) {
+    return static_cast<std::uint32_t>(row) * 0x9E3779B1U +
+           static_cast<std::uint32_t>(column) * 0x85EBCA77U;
+  }
+  bool is(int other_row, int other_column) const {
+    return row == other_row && column == other_column;
+  }
+  int row{-1}, column{-1};
+  TreadBlock* block{nullptr};
+  TreadNode* nodes{nullptr};  ///< of the block
+};
+
+struct RecentSource {
+  RecentSource() = default;
+  explicit RecentSource(std::uint32_t wanted) : id(wanted) {}
+  static std::uint32_t mixed(std::uint32_t id) { return id * 0x9E3779B1U; }
+  bool is(std::uint32_t other) const { return id == other; }
+  std::uint32_t id{0};
+  TreadSource* source{nullptr};
+};
+
+struct TreadStroke;
 
 /// Trodden grass (paper 2, section 4.2; S2-21 to S2-28) on a fine grid that exists only where
 /// somebody trod (S2-W1). Nothing happens per frame: how far a node has recovered follows from its
@@ -107,7 +129,7 @@ class TreadMap {
   /// and is counted. Requires a checked law. @return number of touched nodes.
   int tread(std::uint32_t source, const TreadLaw& law, const Point& position, Nanoseconds stamp);
   /// The source leaves the ground: its next tread() begins a new track.
-  void lift(std::uint32_t source) { state_.sources.erase(source); }
+  void lift(std::uint32_t source);
 
   /// Tilt and direction of the nearest node at a stamp; nothing where it is untrodden.
   TreadNode at(const Point& place, Nanoseconds stamp) const;
@@ -119,6 +141,10 @@ class TreadMap {
   /// Forgets what is stamped after `stamp`: time went back.
   void rewind(Nanoseconds stamp);
   void clear();
+  /// Raises all nodes within `radius` [m] of a place.
+  void raise(const Point& place, double radius);
+  /// Sets a node as another process told it. False: it is not on the map, or memory is full.
+  bool put(int row, int column, const TreadNode& node);
 
   const TreadState& state() const { return state_; }
   void restore(TreadState state);
@@ -126,20 +152,26 @@ class TreadMap {
   std::size_t bytes() const;
 
  private:
-  struct Stroke;
-  struct Box;
-  TreadBlock* blockAt(int row, int column, bool make);
+  /// Nodes from first to last, both included.
+  struct Box {
+    int first_column, last_column, first_row, last_row;
+  };
+  RecentBlock blockAt(int row, int column, bool make);
+  TreadSource* sourceOf(std::uint32_t id);
   bool isJump(const TreadSource& from, const Point& to, Nanoseconds stamp) const;
-  int press(Stroke& stroke, const Point& from);
-  int pressBlock(Stroke& stroke, int block_row, int block_column, const Box& box);
+  bool moveWindow(TreadSource& source, double reach);
+  int press(TreadStroke& stroke);
+  int pressBlock(TreadStroke& stroke, int block_row, int block_column, const Box& box);
+  void forgetRecent();
 
   MapLaw law_;
   TreadSettings settings_;
   int cells_;  ///< fine cells along a tile
   double spacing_;
   TreadState state_;
-  RecentBlocks recent_;
-  TreadSource before_;  ///< scratch
+  RecentTable<RecentBlock, 13> recent_blocks_;
+  RecentTable<RecentSource, 12> recent_sources_;
+  TreadSource before_;  ///< scratch: a window that was left
 };
 
 /// Tilt of a node at a stamp [rad]: theta0 (1 - smoothStep((t - t0) / T)); 0 before t0.
