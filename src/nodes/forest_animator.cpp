@@ -13,11 +13,6 @@
 namespace vegetation_sim {
 namespace {
 
-// Where the clock leaps farther than this, the ticks between are dropped and counted, not caught
-// up.
-constexpr double LONGEST_CATCH_UP = 1.0;  // [s]
-constexpr int LOOKS_PER_TICK = 4;         // the timer is not aligned with the grid
-constexpr unsigned CLOCK_QUEUE = 1000;    // a fast clock is followed message by message
 constexpr std::size_t MOST_VIEWERS = 32;
 
 forest::Layout designed(const forest::Layout& layout, const ForestTuning& tuning) {
@@ -35,11 +30,13 @@ ForestAnimator::ForestAnimator(ros::NodeHandle handle, ros::NodeHandle private_h
       options_(loadForestOptions(private_handle, scene_)),
       tuning_(options_.tuning),
       inputs_(options_.replay),
-      grid_(options_.state_rate),
       cache_(static_cast<std::size_t>(options_.cache_budget)),
       frames_(options_.tf_budget),
       markers_(options_.marker_points),
       tf_listener_(tf_buffer_),
+      clock_("forest_animator", options_.state_rate, options_.replay ? options_.replay_delay : 0.0,
+             {[this] { lookFromFrame(); }, [this](std::int64_t tick) { this->tick(tick); },
+              [this](Nanoseconds now) { restart(now); }}),
       diagnostics_(handle, private_handle, private_handle.getNamespace()) {
   forest_ = std::make_unique<forest::Forest>(designed(scene_.layout, tuning_), scene_.terrain,
                                              tuning_.settings);
@@ -81,33 +78,12 @@ void ForestAnimator::listen() {
   const auto every = [this](double rate, void (ForestAnimator::*call)(const ros::TimerEvent&)) {
     timers_.push_back(handle_.createTimer(ros::Duration(1.0 / rate), call, this));
   };
-  if (ros::Time::isSimTime())
-    subscribers_.push_back(
-        handle_.subscribe("/clock", CLOCK_QUEUE, &ForestAnimator::onClock, this));
-  else
-    every(LOOKS_PER_TICK * options_.state_rate, &ForestAnimator::onTimer);
   every(options_.tf_rate, &ForestAnimator::sendFrames);
   every(options_.branches_rate, &ForestAnimator::sendBranches);
   every(options_.markers_rate, &ForestAnimator::sendMarkers);
   diagnostics_timer_ = handle_.createWallTimer(
       ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); });
-}
-
-void ForestAnimator::advanceTo(Nanoseconds clock) {
-  const Nanoseconds now = clock - (options_.replay ? fromSeconds(options_.replay_delay) : 0);
-  if (now <= 0) return;  // no clock yet
-  const std::int64_t due = grid_.tickAt(now);
-  if (last_tick_ != NEVER && due < last_tick_) restart(clock);
-  if (last_tick_ == NEVER) last_tick_ = due - 1;
-  const auto longest = static_cast<std::int64_t>(LONGEST_CATCH_UP * grid_.rate());
-  if (due - last_tick_ > longest) {
-    counts_.dropped += static_cast<std::uint64_t>(due - last_tick_ - 1);
-    ROS_WARN_THROTTLE(1.0, "forest_animator: the clock leapt ahead; %lld ticks are dropped",
-                      static_cast<long long>(due - last_tick_ - 1));
-    last_tick_ = due - 1;
-  }
-  if (due > last_tick_ && !options_.viewer_frame.empty()) lookFromFrame();
-  while (last_tick_ < due) tick(last_tick_ + 1);
+  clock_.listen(handle_);
 }
 
 // What a fresh start now would be, with the layout, wind and settings that are in force.
@@ -118,19 +94,17 @@ void ForestAnimator::startAnew() {
 }
 
 void ForestAnimator::restart(Nanoseconds now) {
-  ROS_WARN("forest_animator: time went back; starting anew");
-  ++counts_.jumps;
   startAnew();
   inputs_.startAnew(now);
   desk_->clear(true);
   bodies_->clear();
   tf_buffer_.clear();
-  last_tick_ = last_framed_tick_ = NEVER;
+  last_framed_.reset();
   publishLayout();
 }
 
 void ForestAnimator::tick(std::int64_t tick) {
-  const Nanoseconds stamp = grid_.timeOf(tick);
+  const Nanoseconds stamp = clock_.stamp();
   if (!options_.replay) followBodies(stamp);
   desk_->follow(stamp,
                 [this](const std::string& what, const std::string& why) { reject(what, why); });
@@ -146,9 +120,7 @@ void ForestAnimator::tick(std::int64_t tick) {
   }
   noteLosses();
   forest_->advance(stamp);
-  last_tick_ = tick;
-  ++counts_.ticks;
-  const auto period = static_cast<std::int64_t>(options_.key_frame_period * grid_.rate());
+  const auto period = static_cast<std::int64_t>(options_.key_frame_period * options_.state_rate);
   const bool key_frame = force_key_frame_ || tick % std::max<std::int64_t>(1, period) == 0;
   ForestState message = toMsg(forest_->update(key_frame));
   message.header.frame_id = options_.frame_id;

@@ -84,6 +84,7 @@ geometry_msgs::Transform ForestAnimator::toWorld(const std::string& frame,
 }
 
 void ForestAnimator::lookFromFrame() {
+  if (options_.viewer_frame.empty()) return;
   Viewer viewer;
   viewer.id = "tf:" + options_.viewer_frame;
   viewer.header.frame_id = options_.viewer_frame;

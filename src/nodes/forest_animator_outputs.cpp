@@ -7,8 +7,8 @@ namespace vegetation_sim {
 
 void ForestAnimator::sendFrames(const ros::TimerEvent&) {
   // Every listener warns of a transform that comes twice.
-  if (last_tick_ == last_framed_tick_) return;
-  last_framed_tick_ = last_tick_;
+  if (!clock_.hasBegun() || last_framed_ == clock_.tick()) return;
+  last_framed_ = clock_.tick();
   const BranchFrames::Wanted wanted =
       options_.tf_promoted ? frames_.withPhysical(*forest_, desk_->heldPoints()) : frames_.wanted();
   frames_sent_ = 0;
@@ -19,7 +19,7 @@ void ForestAnimator::sendFrames(const ros::TimerEvent&) {
 }
 
 void ForestAnimator::sendBranches(const ros::TimerEvent&) {
-  if (last_tick_ == NEVER || branches_publisher_.getNumSubscribers() == 0) return;
+  if (!clock_.hasBegun() || branches_publisher_.getNumSubscribers() == 0) return;
   const Nanoseconds stamp = forest_->memory().stamp;
   std::size_t sent = 0;
   for (const int id : options_.branches_trees) {
@@ -40,7 +40,7 @@ void ForestAnimator::sendBranches(const ros::TimerEvent&) {
 }
 
 void ForestAnimator::sendMarkers(const ros::TimerEvent&) {
-  if (last_tick_ == NEVER || markers_publisher_.getNumSubscribers() == 0) return;
+  if (!clock_.hasBegun() || markers_publisher_.getNumSubscribers() == 0) return;
   markers_publisher_.publish(
       markers_.build(*forest_, cache_, options_.frame_id, forest_->memory().stamp));
 }
@@ -52,9 +52,10 @@ void ForestAnimator::warnOfTrouble(diagnostic_updater::DiagnosticStatusWrapper& 
       status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN,
                           std::to_string(now - before) + " " + text);
   };
+  counts_.clock = clock_.counts();
   warn(counts_.rejected, reported_.rejected, "refused input: " + last_rejection_);
-  warn(counts_.dropped, reported_.dropped, "ticks dropped");
-  warn(counts_.jumps, reported_.jumps, "jumps back of the clock");
+  warn(counts_.clock.dropped, reported_.clock.dropped, "ticks dropped");
+  warn(counts_.clock.jumps, reported_.clock.jumps, "jumps back of the clock");
   warn(counts_.inputs.lost, reported_.inputs.lost, "inputs lost, too many at once");
   warn(counts_.inputs.late, reported_.inputs.late, "recorded events late, the replay differs");
   reported_ = counts_;
@@ -63,16 +64,16 @@ void ForestAnimator::warnOfTrouble(diagnostic_updater::DiagnosticStatusWrapper& 
 void ForestAnimator::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   using diagnostic_msgs::DiagnosticStatus;
   status.summary(DiagnosticStatus::OK, "running");
-  if (last_tick_ == NEVER) status.summary(DiagnosticStatus::WARN, "waiting for the clock");
+  if (!clock_.hasBegun()) status.summary(DiagnosticStatus::WARN, "waiting for the clock");
   warnOfTrouble(status);
   const auto& memory = forest_->memory();
   status.add("Trees", forest_->layout().treeCount());
   status.add("Trees not at the base level", memory.levels.held().size());
   status.add("Base level", memory.levels.base().level);
   status.add("Viewers", memory.viewers.size());
-  status.add("Ticks", counts_.ticks);
-  status.add("Ticks dropped", counts_.dropped);
-  status.add("Clock jumps back", counts_.jumps);
+  status.add("Ticks", clock_.counts().ticks);
+  status.add("Ticks dropped", clock_.counts().dropped);
+  status.add("Clock jumps back", clock_.counts().jumps);
   status.add("Inputs refused", counts_.rejected);
   status.add("Inputs lost", counts_.inputs.lost);
   status.add("Recorded events late", counts_.inputs.late);

@@ -45,7 +45,7 @@ forest::Ray checkedRay(const Pick::Request& request) {
 
 Nanoseconds ForestAnimator::stampOf(const ros::Time& stamp) const {
   if (!stamp.isZero()) return fromMsg(stamp);
-  if (last_tick_ == NEVER) throw InvalidInput("no tick yet: the clock has not started");
+  if (!clock_.hasBegun()) throw InvalidInput("no tick yet: the clock has not started");
   return forest_->memory().stamp;
 }
 

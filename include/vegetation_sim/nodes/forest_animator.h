@@ -5,7 +5,6 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <dynamic_reconfigure/server.h>
 #include <ros/ros.h>
-#include <rosgraph_msgs/Clock.h>
 #include <std_srvs/Trigger.h>
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_broadcaster.h>
@@ -31,6 +30,7 @@
 #include "vegetation_sim/nodes/forest_options.h"
 #include "vegetation_sim/nodes/grab_desk.h"
 #include "vegetation_sim/ros/stamps.h"
+#include "vegetation_sim/ros/tick_clock.h"
 
 namespace vegetation_sim {
 
@@ -54,9 +54,6 @@ class ForestAnimator {
 
   // Time.
   void listen();
-  void onClock(const rosgraph_msgs::Clock& message) { advanceTo(fromMsg(message.clock)); }
-  void onTimer(const ros::TimerEvent&) { advanceTo(fromMsg(ros::Time::now())); }
-  void advanceTo(Nanoseconds clock);
   void restart(Nanoseconds now);
   void startAnew();
   void tick(std::int64_t tick);
@@ -93,19 +90,19 @@ class ForestAnimator {
   ForestOptions options_;
   ForestTuning tuning_;
   ForestInputs inputs_;
-  TickGrid grid_;
   std::unique_ptr<forest::Forest> forest_;
   forest::TreeCache cache_;
   BranchFrames frames_;
   ForestMarkers markers_;
 
-  std::int64_t last_tick_{NEVER}, last_framed_tick_{NEVER};
-  std::size_t frames_sent_{0};  // at the last round
+  std::optional<std::int64_t> last_framed_;  // tick
+  std::size_t frames_sent_{0};               // at the last round
   bool force_key_frame_{true};
   std::optional<ForestAnimatorConfig> shown_;  // what the server was told or took last
   struct Counts {
-    std::uint64_t ticks{0}, dropped{0}, rejected{0}, state_bytes{0}, jumps{0}, leases_ended{0};
+    std::uint64_t rejected{0}, state_bytes{0}, leases_ended{0};
     InputLosses inputs;
+    TickClock::Counts clock;
   } counts_, reported_;  // so far, and when diagnostics were last sent
   std::string last_rejection_;
 
@@ -120,10 +117,9 @@ class ForestAnimator {
   std::vector<ros::ServiceServer> services_;
   std::vector<ros::Timer> timers_;
   std::unique_ptr<dynamic_reconfigure::Server<ForestAnimatorConfig>> tuning_server_;
+  TickClock clock_;
   diagnostic_updater::Updater diagnostics_;
   ros::WallTimer diagnostics_timer_;
-
-  static constexpr std::int64_t NEVER = INT64_MIN;
 };
 
 }  // namespace vegetation_sim
