@@ -94,6 +94,16 @@ void describe(FieldVisitor& v, MapLaw& law) {
   v.integer("rows", law.rows, "", {2, terrain::LONGEST_SIDE});
 }
 
+MapInput readMapInput(YamlSection& yaml, const std::string& folder) {
+  MapInput input;
+  describe(yaml, input.law);
+  readSpecies(yaml, folder, input);
+  forEachLayer(input, "", [&](LayerInput& layer, const LayerRule& rule, const std::string& owner) {
+    if (owner.empty()) readLayer(yaml, rule, folder, layer);
+  });
+  return input;
+}
+
 FeatureMap::FeatureMap(MapInput input) : input_(std::move(input)) {
   if (input_.species.empty()) input_.species.emplace_back();
   takeSize(input_);
@@ -117,13 +127,7 @@ FeatureMap::FeatureMap(MapInput input) : input_(std::move(input)) {
 FeatureMap FeatureMap::load(const std::string& file) {
   Faults faults;
   YamlSection yaml(loadYamlFile(file), file, faults);
-  const std::string folder = std::filesystem::path(file).parent_path().string();
-  MapInput input;
-  describe(yaml, input.law);
-  readSpecies(yaml, folder, input);
-  forEachLayer(input, "", [&](LayerInput& layer, const LayerRule& rule, const std::string& owner) {
-    if (owner.empty()) readLayer(yaml, rule, folder, layer);
-  });
+  MapInput input = readMapInput(yaml, std::filesystem::path(file).parent_path().string());
   yaml.finish();
   faults.throwIfAny();
   try {

@@ -47,6 +47,10 @@ struct MapInput {
   std::vector<SpeciesInput> species{};
 };
 
+/// Reads the keys of docs/grass.md; pictures' paths are relative to `folder`. Left to the caller:
+/// finish(), and what FeatureMap checks.
+MapInput readMapInput(YamlSection& yaml, const std::string& folder);
+
 /// Grass at one place; shares of species in the order of the map.
 struct Features {
   double height{0.0};   ///< [m]
@@ -74,6 +78,8 @@ class FeatureMap {
   static FeatureMap load(const std::string& file);
 
   const MapLaw& law() const { return input_.law; }
+  /// What it was made from.
+  const MapInput& input() const { return input_; }
   int tileColumns() const { return input_.law.columns - 1; }
   int tileRows() const { return input_.law.rows - 1; }
   const std::vector<SpeciesInput>& species() const { return input_.species; }

@@ -1,0 +1,50 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+// What changes trodden ground other than treading on it.
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "vegetation_sim/grass/tread_map.h"
+
+namespace vegetation_sim::grass {
+namespace {
+
+constexpr int SIDE = TreadBlock::SIDE;
+constexpr std::size_t BLOCK_BYTES = sizeof(TreadBlock) + sizeof(TreadNode) * SIDE * SIDE;
+
+Nanoseconds uprightAt(const TreadNode& node) {
+  if (double{node.recovery} >= PERMANENT_RECOVERY) return std::numeric_limits<Nanoseconds>::max();
+  return node.stamp + fromSeconds(double{node.recovery});
+}
+
+}  // namespace
+
+bool TreadMap::put(int row, int column, const TreadNode& node) {
+  if (row < 0 || column < 0 || row > (law_.rows - 1) * cells_ ||
+      column > (law_.columns - 1) * cells_)
+    return false;
+  const std::pair<int, int> place{row / SIDE, column / SIDE};
+  auto found = state_.blocks.find(place);
+  if (found == state_.blocks.end()) {
+    const auto blocks = static_cast<double>(state_.blocks.size() + 1);
+    if (blocks * static_cast<double>(BLOCK_BYTES) > settings_.memory_cap) return false;
+    found = state_.blocks.emplace(place, TreadBlock()).first;
+  }
+  found->second.nodes[static_cast<std::size_t>(row % SIDE * SIDE + column % SIDE)] = node;
+  found->second.until = std::max(found->second.until, uprightAt(node));
+  return true;
+}
+
+void TreadMap::raise(const Point& place, double radius) {
+  const double square = radius * radius;
+  for (auto& [key, block] : state_.blocks)
+    for (int i = 0; i < SIDE * SIDE; ++i) {
+      const double x = law_.origin_x + (key.second * SIDE + i % SIDE) * spacing_ - place.x;
+      const double y = law_.origin_y + (key.first * SIDE + i / SIDE) * spacing_ - place.y;
+      if (x * x + y * y <= square) block.nodes[static_cast<std::size_t>(i)] = TreadNode();
+    }
+}
+
+}  // namespace vegetation_sim::grass
