@@ -23,8 +23,8 @@ inline PlaneField noiseField(int size, std::uint64_t seed) {
   return out;
 }
 
-/// Smooth flow without divergence: waves of up to four periods across a square of 1 m, rms 1 m/s.
-/// The same flow at every size.
+/// Smooth flow without divergence: waves of up to four periods across a square of 1 m, large ones
+/// stronger in proportion, rms 1 m/s. The same flow at every size.
 inline PlaneField smoothFlow(int size, std::uint64_t seed) {
   const Random random(seed);
   PlaneField out(size);
@@ -37,7 +37,8 @@ inline PlaneField smoothFlow(int size, std::uint64_t seed) {
       for (int y = 0; y < size; ++y)
         for (int x = 0; x < size; ++x) {
           const double turns = static_cast<double>(kx * x + ky * y) / size;
-          const double wave = strength * sinCosTurns(turns + random.uniform(2 * index + 1)).cos / k;
+          const double wave =
+              strength * sinCosTurns(turns + random.uniform(2 * index + 1)).cos / (k * k);
           out.u[static_cast<std::size_t>(y * size + x)] += ky * wave;
           out.v[static_cast<std::size_t>(y * size + x)] -= kx * wave;
         }
