@@ -40,12 +40,17 @@ Meadow::Meadow(std::shared_ptr<const FeatureMap> map,
     : map_(std::move(map)),
       terrain_(std::move(terrain)),
       seed_(seed),
-      settings_(settings),
       tread_(map_->law(), tread) {
+  setSettings(settings);
+}
+
+void Meadow::setSettings(const MeadowSettings& settings) {
+  MeadowSettings wanted = settings;
   Faults faults;
   FieldChecker checker("meadow: ", faults);
-  describe(checker, settings_);
+  describe(checker, wanted);
   faults.throwIfAny();
+  settings_ = wanted;
 }
 
 Vec3 Meadow::centreOf(int row, int column) const {
@@ -64,6 +69,12 @@ double Meadow::scaleOf(const Vec3& centre) const {
   return scale;
 }
 
+bool Meadow::isSeen(const Vec3& centre) const {
+  const double radius = 0.75 * map_->law().resolution + map_->tallest();
+  return std::any_of(eyes_.begin(), eyes_.end(),
+                     [&](const Eye& eye) { return sees(eye, centre, radius); });
+}
+
 // Columns of a row that any eye is near enough to.
 std::pair<int, int> Meadow::columnsIn(int row) const {
   const MapLaw& law = map_->law();
@@ -79,7 +90,7 @@ std::pair<int, int> Meadow::columnsIn(int row) const {
   return {first, last};
 }
 
-// Levels of one row in order, old ones taken along. @return blades to draw around the eyes.
+// Levels of one row in order, old ones taken along. @return blades that the eyes see.
 double Meadow::chooseRow(int row, std::vector<TileLevel>::const_iterator& old, Nanoseconds stamp,
                          std::vector<TileLevel>& out) const {
   const auto [first, last] = columnsIn(row);
@@ -101,7 +112,7 @@ double Meadow::chooseRow(int row, std::vector<TileLevel>::const_iterator& old, N
     const bool bare = !(f.density > 0.0 && f.height > 0.0);
     const Rung rung =
         bare ? Rung::TEXTURE : chooseRung(detail, scale, tolerance, level.rung.target);
-    if (rung == Rung::BLADES)
+    if (rung == Rung::BLADES && isSeen(centre))
       blades += f.density * size * size * bladeShare(detail, scale, tolerance);
     keep(level, rung);
   }

@@ -54,6 +54,20 @@ class Sheet {
   }
 
   double heightAt(double u, double v) const { return height_.at(u, v); }
+  // Colour of grass that leans by `offset` in this light.
+  Vec3 litAt(double u, double v, const Vec3& offset, const GrassLight* light) const {
+    const Vec3 own = colourAt(u, v);
+    if (!light) return own;
+    const double flat = offset.x() * offset.x() + offset.y() * offset.y();
+    BladePiece piece;
+    piece.flat = static_cast<float>(flat / std::max(flat + offset.z() * offset.z(), 1e-12));
+    const PieceLight l = lightOn(*light, piece);
+    Vec3 out;
+    for (int i = 0; i < 3; ++i)
+      out[i] = own[i] * static_cast<double>(l.factor[i]) + static_cast<double>(l.shine[i]);
+    return out;
+  }
+
   double coverAt(double u, double v) const { return saturate(density_.at(u, v) / full_density_); }
 
   Vec3 colourAt(double u, double v) const {
@@ -93,7 +107,7 @@ class Sheet {
 }  // namespace
 
 void appendStrips(const FeatureMap& map, const Tile& tile, const TileMotion& motion, double grown,
-                  double full_density, GrassMesh& mesh) {
+                  double full_density, GrassMesh& mesh, const GrassLight* light) {
   const Sheet sheet(map, tile, motion, full_density, mesh.origin);
   const Point starts[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
   for (int edge = 0; edge < 4; ++edge) {
@@ -102,8 +116,9 @@ void appendStrips(const FeatureMap& map, const Tile& tile, const TileMotion& mot
     for (int k = 0; k <= STRIP_CELLS; ++k) {
       const double s = static_cast<double>(k) / STRIP_CELLS;
       const double u = a.x + s * (b.x - a.x), v = a.y + s * (b.y - a.y);
-      const Vec3 bottom = sheet.groundAt(u, v), colour = sheet.colourAt(u, v);
-      const Vec3 top = bottom + sheet.offsetAt(u, v, grown * sheet.heightAt(u, v));
+      const Vec3 bottom = sheet.groundAt(u, v);
+      const Vec3 offset = sheet.offsetAt(u, v, grown * sheet.heightAt(u, v)), top = bottom + offset;
+      const Vec3 colour = sheet.litAt(u, v, offset, light);
       const double along = s * double{tile.size} / PICTURE_WIDTH, cover = sheet.coverAt(u, v);
       const auto first = addVertex(mesh, bottom, along, 0.0, colour, cover);
       addVertex(mesh, top, along, 1.0, colour, cover);
@@ -117,7 +132,7 @@ void appendStrips(const FeatureMap& map, const Tile& tile, const TileMotion& mot
 }
 
 void appendLayers(const FeatureMap& map, const Tile& tile, const TileMotion& motion, int layers,
-                  double grown, double full_density, GrassMesh& mesh) {
+                  double grown, double full_density, GrassMesh& mesh, const GrassLight* light) {
   const Sheet sheet(map, tile, motion, full_density, mesh.origin);
   for (int layer = 1; layer <= layers; ++layer) {
     const double share = static_cast<double>(layer) / layers;
@@ -130,8 +145,8 @@ void appendLayers(const FeatureMap& map, const Tile& tile, const TileMotion& mot
       const Vec3 place = sheet.groundAt(u, v) +
                          Vec3(top.x() * share * share, top.y() * share * share, top.z() * share);
       const double size = double{tile.size} / PICTURE_WIDTH;
-      addVertex(mesh, place, u * size, v * size, sheet.colourAt(u, v) * (0.45 + 0.55 * share),
-                sheet.coverAt(u, v) * (1.0 - 0.6 * share));
+      const Vec3 colour = sheet.litAt(u, v, top, light) * (0.45 + 0.55 * share);
+      addVertex(mesh, place, u * size, v * size, colour, sheet.coverAt(u, v) * (1.0 - 0.6 * share));
     }
     addTriangle(mesh, first, first + 1, first + 3);
     addTriangle(mesh, first, first + 3, first + 2);

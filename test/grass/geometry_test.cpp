@@ -102,7 +102,7 @@ TEST(Ribbons, FlowersStandAtTheTips) {
   std::size_t flowers = 0;
   for (int blade = 0; blade < 500; ++blade) flowers += bladeLook(tile, blade).species == 1;
   EXPECT_GT(flowers, 150u);
-  EXPECT_EQ(mesh.indices.size(), 3 * (500 * 9 + flowers));
+  EXPECT_EQ(mesh.indices.size(), 3 * (500 * 9 + 4 * flowers));
 }
 
 // S2-10: four strips stand on the four edges, as high as the grass.

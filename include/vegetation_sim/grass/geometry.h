@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "vegetation_sim/grass/level.h"
+#include "vegetation_sim/grass/light.h"
 #include "vegetation_sim/grass/node_air.h"
 
 namespace vegetation_sim::grass {
@@ -25,14 +26,16 @@ struct GrassMesh {
 
 /// What drawing needs of a tile's blades.
 struct RibbonStyle {
-  int segments{LINKS};            ///< of each blade: 1, 2, 3 or LINKS
-  double width{1.0};              ///< factor, 1 / bladeShare
-  double slide{0.0};              ///< Morph::slide
-  Vec3 eye{Vec3(0.0, 0.0, 1e3)};  ///< ribbons turn their faces to it, world [m]
+  int segments{LINKS};               ///< of each blade: 1, 2, 3 or LINKS
+  double width{1.0};                 ///< factor, 1 / bladeShare
+  double slide{0.0};                 ///< Morph::slide
+  Vec3 eye{Vec3(0.0, 0.0, 1e3)};     ///< ribbons turn their faces to it, world [m]
+  const GrassLight* light{nullptr};  ///< none: colours as the map has them, dark at the root
+  float variety{0.f};  ///< of colour and lightness from blade to blade, 1: as in a meadow
 };
 
-/// Appends blades that poseBlades made as tapering ribbons, flowers as triangles at their tips
-/// (paper 2, section 3.3): 2 n + 1 vertices and 2 n - 1 triangles a blade of n segments.
+/// Appends blades that poseBlades made as tapering ribbons (paper 2, section 3.3): 2 n + 1 vertices
+/// and 2 n - 1 triangles a blade of n segments, and 6 and 4 for the flower at its tip, if any.
 void appendRibbons(const FeatureMap& map, const Tile& tile, const BladeBlock* blocks, int count,
                    const RibbonStyle& style, GrassMesh& mesh);
 
@@ -41,12 +44,13 @@ void appendRibbons(const FeatureMap& map, const Tile& tile, const BladeBlock* bl
 /// widths of the picture, y up; alpha is the density as a share of `full_density`: draw a texel if
 /// its own alpha is above 1 - that.
 void appendStrips(const FeatureMap& map, const Tile& tile, const TileMotion& motion, double grown,
-                  double full_density, GrassMesh& mesh);
+                  double full_density, GrassMesh& mesh, const GrassLight* light = nullptr);
 
 /// Appends `layers` squares parallel to the ground, the higher the more displaced (S2-W3), alpha as
 /// for strips, less with height.
 void appendLayers(const FeatureMap& map, const Tile& tile, const TileMotion& motion, int layers,
-                  double grown, double full_density, GrassMesh& mesh);
+                  double grown, double full_density, GrassMesh& mesh,
+                  const GrassLight* light = nullptr);
 
 constexpr int STRIP_CELLS = 4;         ///< along an edge
 constexpr double PICTURE_WIDTH = 1.0;  ///< of the strips' picture [m]

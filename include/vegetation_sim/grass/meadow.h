@@ -18,7 +18,7 @@ struct MeadowSettings {
   double tolerance{1.5};    ///< what a level may leave out [pixel]
   double transition{0.5};   ///< from one rung to the next [s]
   double farthest{400.0};   ///< beyond, grass is a texture [m]
-  double most_blades{6e5};  ///< about an eye; more than that coarsens the tolerance
+  double most_blades{6e5};  ///< that the eyes see; more than that coarsens the tolerance
 };
 void describe(FieldVisitor& visitor, MeadowSettings& settings);
 
@@ -62,6 +62,8 @@ class Meadow {
   TreadMap& tread() { return tread_; }
   const TreadMap& tread() const { return tread_; }
 
+  /// Other settings from now on. @throws InvalidInput with all faults, then nothing is changed.
+  void setSettings(const MeadowSettings& settings);
   void setEyes(std::vector<Eye> eyes) { eyes_ = std::move(eyes); }
   /// Chooses levels at a stamp and frees what has recovered. A stamp before the last means that
   /// time went back: what is stamped later is forgotten, levels start anew.
@@ -82,6 +84,7 @@ class Meadow {
 
  private:
   double scaleOf(const Vec3& centre) const;
+  bool isSeen(const Vec3& centre) const;
   Vec3 centreOf(int row, int column) const;
   double chooseRow(int row, std::vector<TileLevel>::const_iterator& old, Nanoseconds stamp,
                    std::vector<TileLevel>& out) const;
