@@ -8,8 +8,14 @@
 namespace vegetation_sim {
 namespace {
 
-const std::array<const char*, 7> KNOWN_KEYS = {"frame_id", "seed",    "terrain", "wind",
-                                               "forest",   "physics", "viewer"};
+const std::array<const char*, 10> KNOWN_KEYS = {"frame_id", "seed",  "terrain", "wind",  "forest",
+                                                "physics",  "grass", "canopy",  "crowd", "viewer"};
+
+std::string knownKeys() {
+  std::string out;
+  for (const char* key : KNOWN_KEYS) out += (out.empty() ? "" : ", ") + std::string(key);
+  return out;
+}
 
 bool isKnown(const std::string& key) {
   return std::find(KNOWN_KEYS.begin(), KNOWN_KEYS.end(), key) != KNOWN_KEYS.end();
@@ -32,10 +38,7 @@ void Scenario::finish() {
   if (node_.IsMap()) {
     for (const auto& entry : node_) {
       const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "(not a word)";
-      if (!isKnown(key))
-        top_.fault(
-            key,
-            "is not a known key; known are frame_id, seed, terrain, wind, forest, physics, viewer");
+      if (!isKnown(key)) top_.fault(key, "is not a known key; known are " + knownKeys());
     }
   }
   faults_->throwIfAny();

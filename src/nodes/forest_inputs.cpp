@@ -2,43 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vegetation_sim/nodes/forest_inputs.h"
 
-#include <cmath>
-
 #include <algorithm>
+#include <utility>
 
+#include "vegetation_sim/common/field_values.h"
 #include "vegetation_sim/ros/forest_conversions.h"
 
 namespace vegetation_sim {
 namespace {
 
 constexpr std::size_t MOST_WINDS = 256;
-
-/// Copies fields out under their names, or in from them.
-class FieldCopier : public FieldVisitor {
- public:
-  explicit FieldCopier(std::map<std::string, double>& values, bool out)
-      : values_(values), out_(out) {}
-  void number(const char* name, double& value, const char*, Range) override { copy(name, value); }
-  void integer(const char* name, int& value, const char*, Range) override {
-    double number_value = value;
-    copy(name, number_value);
-    const bool whole = std::fabs(number_value) < 1e9 && std::floor(number_value) == number_value;
-    value = whole ? static_cast<int>(number_value) : -1;  // below every range
-  }
-  void vector(const char*, Vec3&, const char*, Range) override {}
-  void choice(const char*, int&, const std::vector<std::string>&) override {}
-
- private:
-  void copy(const char* name, double& value) {
-    const auto found = values_.find(name);
-    if (out_)
-      values_[name] = value;
-    else if (found != values_.end())
-      value = found->second;
-  }
-  std::map<std::string, double>& values_;
-  bool out_;
-};
 
 }  // namespace
 
@@ -49,36 +22,14 @@ void describe(FieldVisitor& v, ForestTuning& t) {
 }
 
 void toEvent(const ForestTuning& tuning, ForestEvent& event) {
-  std::map<std::string, double> values;
-  FieldCopier copier(values, true);
-  ForestTuning copy = tuning;
-  describe(copier, copy);
+  NamedValues named = namedValues(tuning);
   event.kind = ForestEvent::SETTINGS;
-  for (const auto& [name, value] : values) {
-    event.names.push_back(name);
-    event.values.push_back(value);
-  }
+  event.names = std::move(named.names);
+  event.values = std::move(named.values);
 }
 
 ForestTuning tuningOf(const ForestEvent& event) {
-  if (event.names.size() != event.values.size())
-    throw InvalidInput("event: " + std::to_string(event.names.size()) + " names for " +
-                       std::to_string(event.values.size()) + " values");
-  ForestTuning out;
-  std::map<std::string, double> known, values;
-  FieldCopier reader(known, true);
-  describe(reader, out);
-  Faults faults;
-  for (std::size_t i = 0; i < event.names.size(); ++i) {
-    if (!known.count(event.names[i])) faults.add("event: " + event.names[i] + " is not known");
-    values[event.names[i]] = event.values[i];
-  }
-  FieldCopier writer(values, false);
-  describe(writer, out);
-  FieldChecker checker("event: ", faults);
-  describe(checker, out);
-  faults.throwIfAny();
-  return out;
+  return fromNamedValues<ForestTuning>({event.names, event.values});
 }
 
 // Only the last word of its kind, and of each viewer, counts at a tick.

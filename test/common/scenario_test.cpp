@@ -31,7 +31,7 @@ TEST(Scenario, RefusesUnknownKeysTogetherWithTheFaultsOfItsSections) {
     EXPECT_STREQ(error.what(),
                  "scene.yaml: wind: speed = 'fast' is not a number\n"
                  "scene.yaml: forrest is not a known key; known are frame_id, seed, terrain, wind, "
-                 "forest, physics, viewer");
+                 "forest, physics, grass, canopy, crowd, viewer");
   }
 }
 
