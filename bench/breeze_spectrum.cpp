@@ -1,12 +1,15 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
 // What a breeze does in ten minutes at one point, against what docs/wind.md states of it: mean, rms
-// and spectral density, as CSV. scripts/plot_breeze_spectrum.py draws it.
+// and spectral density.
+// usage: breeze_spectrum [--quick | --full] --csv FILE
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <vector>
 
+#include "options.h"
+#include "table.h"
 #include "vegetation_sim/common/math.h"
 #include "vegetation_sim/wind/breeze.h"
 #include "vegetation_sim/wind/field.h"
@@ -15,7 +18,7 @@ namespace vegetation_sim::wind {
 namespace {
 
 constexpr double RATE = 8.0, DURATION = 600.0;  // [Hz], [s]
-constexpr int SEEDS = 64, COMPONENTS = 3;
+constexpr int COMPONENTS = 3;
 constexpr double SPEED = 5.0, TURBULENCE = 0.3;
 constexpr double BAND = 1.25;  // ratio of the edges of a band of the density
 const std::array<const char*, COMPONENTS> NAMES = {"along", "across", "up"};
@@ -85,7 +88,7 @@ double bandFactor() {
   return 1.0 / sum;
 }
 
-void printDensity(const Record& density, int component) {
+void writeDensity(const Record& density, int component, int seeds, bench::Table& table) {
   const auto c = static_cast<std::size_t>(component);
   const double sigma = TURBULENCE * SPEED * SHARES[c], factor = bandFactor();
   for (double low = 0.004; low < 3.0; low *= BAND) {
@@ -93,34 +96,42 @@ void printDensity(const Record& density, int component) {
     const auto last = static_cast<std::size_t>(std::ceil(low * BAND * DURATION));
     if (first == last || last > density.size()) continue;
     double sum = 0.0;
-    for (std::size_t k = first; k < last; ++k) sum += density[k] / SEEDS;
+    for (std::size_t k = first; k < last; ++k) sum += density[k] / seeds;
     const double f = low * std::sqrt(BAND);
     const bool inside = f > Breeze::LOWEST_HZ && f < Breeze::HIGHEST_HZ;
-    std::printf("density_%s,%.6g,%.6g,%.6g\n", NAMES[c], f, sum / static_cast<double>(last - first),
-                inside ? factor * vonKarmanDensity(f, sigma, breeze().length_scale, SPEED) : 0.0);
+    table.row(std::string("density_") + NAMES[c], f, sum / static_cast<double>(last - first),
+              inside ? factor * vonKarmanDensity(f, sigma, breeze().length_scale, SPEED) : 0.0);
   }
 }
 
-void run() {
-  std::printf("quantity,seed_or_hz,measured,stated\n");
+void run(const bench::Options& options) {
+  const int seeds = options.quick ? 4 : 64;
+  bench::Table table(options.csv, "quantity,seed_or_hz,measured,stated");
   std::array<Record, COMPONENTS> density;
   density.fill(Record(static_cast<std::size_t>(0.5 * RATE * DURATION), 0.0));
-  for (std::uint64_t seed = 0; seed < SEEDS; ++seed) {
-    const auto air = record(seed);
+  for (int seed = 0; seed < seeds; ++seed) {
+    const auto air = record(static_cast<std::uint64_t>(seed));
     for (std::size_t c = 0; c < COMPONENTS; ++c) {
-      std::printf("mean_%s,%d,%.6g,%.6g\n", NAMES[c], static_cast<int>(seed), meanOf(air[c]),
-                  c == 0 ? SPEED : 0.0);
-      std::printf("rms_%s,%d,%.6g,%.6g\n", NAMES[c], static_cast<int>(seed), rmsOf(air[c]),
-                  TURBULENCE * SPEED * SHARES[c]);
+      const std::string name = NAMES[c];
+      table.row("mean_" + name, seed, meanOf(air[c]), c == 0 ? SPEED : 0.0);
+      table.row("rms_" + name, seed, rmsOf(air[c]), TURBULENCE * SPEED * SHARES[c]);
       addDensity(air[c], density[c]);
     }
   }
-  for (int c = 0; c < COMPONENTS; ++c) printDensity(density[static_cast<std::size_t>(c)], c);
+  for (int c = 0; c < COMPONENTS; ++c)
+    writeDensity(density[static_cast<std::size_t>(c)], c, seeds, table);
 }
 
 }  // namespace
 }  // namespace vegetation_sim::wind
 
-int main() {
-  vegetation_sim::wind::run();
+int main(int argc, char** argv) {
+  try {
+    using namespace vegetation_sim;
+    wind::run(bench::readOptions(argc, argv, {}));
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "breeze_spectrum: %s\n", error.what());
+    return 1;
+  }
+  return 0;
 }

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Measures procedural motion: cost per branch of the plain and the batched path against each other
 // and against the machine's memory, and what levels of detail save at what error (S1-41).
-// usage: forest_bench [ROUNDS]
+// usage: forest_bench [ROUNDS] [--quick | --full] [--part NAME,..] [--csv FILE], parts: poses,
+// levels (of which the file tells), growth
 
 #include <cmath>
 #include <cstdio>
@@ -10,12 +11,15 @@
 
 #include "bandwidth.h"
 #include "forest/level_scene.h"
+#include "options.h"
+#include "table.h"
 #include "vegetation_sim/common/math.h"
 
 namespace vegetation_sim::forest {
 namespace {
 
 using bench::Candidate;
+using bench::Options;
 
 // ---- cost per branch -------------------------------------------------------------------------
 
@@ -80,54 +84,103 @@ void benchPoses(int rounds) {
 
 // ---- levels of detail -------------------------------------------------------------------------
 
-void benchLevels(int rounds) {
-  const double spacing = 8.0, extent = 16 * spacing;
-  const Grove grove = growGrove(richLayout(16, spacing, 2000));
-  const Camera camera = edgeCamera(extent);
+std::size_t poseAtLevel(const Grove& grove, int level, const wind::Instant& wind,
+                        BatchPoses& scratch) {
+  Weights weights{};
+  std::fill_n(weights.begin(), level, 1.0);
+  std::size_t posed = 0;
+  for (std::size_t i = 0; i < grove.trees.size(); ++i) {
+    grove.posers[i].pose(wind.relativeTo(grove.trees[i].foot), weights, level, scratch);
+    posed += static_cast<std::size_t>(scratch.count);
+  }
+  return posed;
+}
+
+// What is left of the motion and what it costs, for one choice of levels.
+struct LevelPoint {
+  double seconds{0.0}, all_seconds{0.0};  ///< a frame: at levels, at full depth
+  std::size_t posed{0};
+  LevelError worst;
+};
+
+// With `camera` none, every tree has the fixed level of `settings`.
+LevelPoint measureLevels(const Grove& grove, const Settings& settings, const Camera* camera,
+                         double extent, const Options& options) {
+  const Camera edge = edgeCamera(extent);
   const TickGrid grid(30);
-  const std::int64_t start = grid.tickAt(seconds(1.7e9));
+  std::int64_t tick = grid.tickAt(seconds(1.7e9));
+  Forest forest(grove.layout, flatTerrain(), settings);
+  forest.setWind(threeDiscs(extent));
+  const auto advance = [&](int ticks) {
+    if (camera)
+      settle(forest, *camera, grid, tick, ticks);
+    else
+      for (int i = 0; i < ticks; ++i) forest.advance(grid.timeOf(tick + i));
+    tick += ticks;
+  };
+  advance(90);
+  LevelPoint out;
+  BatchPoses scratch;
+  std::vector<Candidate> candidates{
+      {"all at full depth",
+       [&] {
+         const wind::Instant wind = forest.memory().wind.at(grid.timeOf(tick));
+         for (std::size_t i = 0; i < grove.trees.size(); ++i)
+           grove.posers[i].pose(wind.relativeTo(grove.trees[i].foot), fullWeights(), MAX_DEPTHS,
+                                scratch);
+       }},
+      {"levels", [&] {
+         advance(1);  // what choosing costs is part of it
+         const Nanoseconds stamp = grid.timeOf(tick - 1);
+         const wind::Instant wind = forest.memory().wind.at(stamp);
+         out.posed = camera ? poseAtLevels(grove, forest, wind, stamp, scratch)
+                            : poseAtLevel(grove, settings.fixed_level, wind, scratch);
+       }}};
+  timeInterleaved(candidates, options.rounds);
+  out.all_seconds = candidates[0].seconds;
+  out.seconds = candidates[1].seconds;
+  const int instants = options.quick ? 5 : 20;  // over two periods of the discs
+  for (int i = 0; i < instants; ++i) {
+    const Nanoseconds stamp = grid.timeOf(tick + 220 * i / instants);
+    const LevelError now =
+        errorOfLevels(grove, forest, edge, forest.memory().wind.at(stamp), stamp);
+    out.worst = {std::max(out.worst.pixels, now.pixels), std::max(out.worst.metres, now.metres)};
+  }
+  return out;
+}
+
+void benchLevels(const Options& options, bench::Table& table) {
+  const double spacing = 8.0;
+  const int side = options.quick ? 6 : 16;
+  const Grove grove = growGrove(richLayout(side, spacing, options.quick ? 500 : 2000));
+  const Camera camera = edgeCamera(side * spacing);
   std::printf(
-      "256 trees, %zu branches, three discs over a third of them, camera at the edge, "
+      "%zu trees, %zu branches, three discs over a third of them, camera at the edge, "
       "1280 x 900\n",
-      grove.branches);
+      grove.trees.size(), grove.branches);
   std::printf("%-22s %10s %12s %8s %14s %12s\n", "", "ms/frame", "branches", "ratio",
               "error [pixel]", "error [m]");
-  for (const double tolerance : {0.5, 0.75, 1.0, 1.5, 2.0}) {
+  const auto report = [&](const std::string& name, const char* ladder, double setting,
+                          const LevelPoint& point, bool chosen) {
+    std::printf("%-22s %10.3f %12zu %8.1f %14.2f %12.3f\n", name.c_str(), point.seconds * 1e3,
+                point.posed, point.all_seconds / point.seconds, point.worst.pixels,
+                point.worst.metres);
+    table.row(ladder, point.posed, setting, point.seconds, point.worst.pixels, int(chosen));
+  };
+  for (int level = 0; level <= MAX_DEPTHS; ++level) {
     Settings settings;
+    settings.fixed_level = level;
+    report("level " + std::to_string(level) + " for all", "one level for all", level,
+           measureLevels(grove, settings, nullptr, side * spacing, options), false);
+  }
+  for (const double tolerance : {0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 4.0, 8.0}) {
+    Settings settings;
+    const bool chosen = tolerance == settings.tolerance;
     settings.tolerance = tolerance;
-    Forest forest(grove.layout, flatTerrain(), settings);
-    forest.setWind(threeDiscs(extent));
-    settle(forest, camera, grid, start, 90);
-    BatchPoses scratch;
-    std::size_t posed = 0;
-    std::int64_t tick = start + 90;
-    std::vector<Candidate> candidates{
-        {"all at full depth",
-         [&] {
-           const wind::Instant wind = forest.memory().wind.at(grid.timeOf(tick));
-           for (std::size_t i = 0; i < grove.trees.size(); ++i)
-             grove.posers[i].pose(wind.relativeTo(grove.trees[i].foot), fullWeights(), MAX_DEPTHS,
-                                  scratch);
-         }},
-        {"levels", [&] {
-           settle(forest, camera, grid, tick, 1);  // what choosing costs is part of it
-           const Nanoseconds stamp = grid.timeOf(tick++);
-           posed = poseAtLevels(grove, forest, forest.memory().wind.at(stamp), stamp, scratch);
-         }}};
-    timeInterleaved(candidates, rounds);
-    LevelError worst;
-    for (int i = 0; i < 20; ++i) {  // over two periods of the discs
-      const Nanoseconds stamp = grid.timeOf(tick + 11 * i);
-      const LevelError now =
-          errorOfLevels(grove, forest, camera, forest.memory().wind.at(stamp), stamp);
-      worst = {std::max(worst.pixels, now.pixels), std::max(worst.metres, now.metres)};
-    }
-    if (tolerance == 0.5)
-      std::printf("%-22s %10.3f %12zu %8.1f %14s %12s\n", "all at full depth",
-                  candidates[0].seconds * 1e3, grove.branches, 1.0, "0", "0");
-    std::printf("levels, %.2f pixel     %10.3f %12zu %8.1f %14.2f %12.3f\n", tolerance,
-                candidates[1].seconds * 1e3, posed, candidates[0].seconds / candidates[1].seconds,
-                worst.pixels, worst.metres);
+    char name[40];
+    std::snprintf(name, sizeof name, "levels, %.2f pixel", tolerance);
+    report(name, "by tolerance", tolerance,
+           measureLevels(grove, settings, &camera, side * spacing, options), chosen);
   }
   std::printf("\n");
 }
@@ -152,9 +205,16 @@ void benchGrowth(int rounds) {
 }  // namespace vegetation_sim::forest
 
 int main(int argc, char** argv) {
-  const int rounds = argc > 1 ? std::max(1, std::atoi(argv[1])) : 15;
-  vegetation_sim::forest::benchPoses(rounds);
-  vegetation_sim::forest::benchLevels(rounds);
-  vegetation_sim::forest::benchGrowth(rounds);
+  try {
+    using namespace vegetation_sim;
+    const bench::Options options = bench::readOptions(argc, argv, {"poses", "levels", "growth"});
+    bench::Table table(options.csv, bench::LADDER_COLUMNS);
+    if (options.wants("poses")) forest::benchPoses(options.rounds);
+    if (options.wants("levels")) forest::benchLevels(options, table);
+    if (options.wants("growth")) forest::benchGrowth(options.rounds);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "forest_bench: %s\n", error.what());
+    return 1;
+  }
   return 0;
 }

@@ -40,3 +40,9 @@ if(fcl_library AND ccd_library)
   target_link_libraries(crowd_bench PRIVATE fcl_peer ${fcl_library} ${ccd_library})
   message(STATUS "crowd_bench measures fcl")
 endif()
+
+# Measures everything and draws it: build the target `charts`; scripts/charts has the program.
+add_custom_target(charts
+  COMMAND ${CMAKE_COMMAND} -E env CMAKE_PREFIX_PATH=${CATKIN_DEVEL_PREFIX}
+    ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/scripts/charts/charts --out ${PROJECT_BINARY_DIR}/charts
+  DEPENDS ${bench_targets} USES_TERMINAL VERBATIM)

@@ -1,4 +1,4 @@
-set(own_targets ${PROJECT_NAME}_core ${ros_targets})
+set(own_targets ${PROJECT_NAME}_core ${ros_targets} ${bench_targets})
 list(SORT own_targets)
 install(TARGETS ${own_targets}
   ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
@@ -6,7 +6,9 @@ install(TARGETS ${own_targets}
   RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY include/${PROJECT_NAME}/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION})
 install(DIRECTORY config launch media rviz DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
-catkin_install_python(PROGRAMS scripts/scripted_gripper.py
+catkin_install_python(PROGRAMS scripts/charts/charts scripts/scripted_gripper.py
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+install(DIRECTORY scripts/charts/charting DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION}
+  PATTERN __pycache__ EXCLUDE)
 install(FILES nodelet_plugins.xml plugin_description.xml
   DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})

@@ -14,7 +14,7 @@ PACKAGES=(
   libnodeletlib-dev pluginlib-dev librviz-dev qtbase5-dev
   libeigen3-dev libhwy-dev libpng-dev libyaml-cpp-dev
   # running
-  libnodeletlib-tools rviz
+  libnodeletlib-tools python3-matplotlib python3-numpy python3-pil rviz
   # testing, and looking at topics
   python3-rosbag python3-roslaunch python3-rosmsg python3-rosnode python3-rosparam
   python3-rosservice python3-rostest python3-rostopic rosbash librostest-dev libgmock-dev

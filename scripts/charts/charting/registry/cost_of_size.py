@@ -1,0 +1,46 @@
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a frame costs over how much there is of a thing, with the slope."""
+import numpy as np
+
+from charting import style
+from charting.chart import Chart
+from charting.tables import groups
+
+NAMES = {'trees': 'trees: levels and state of a tick', 'branches': 'branches posed (procedural)',
+         'physical': 'physical branches: a tick of 1/60 s',
+         'links, plain': 'physical links: a step, plain', 'links, SIMD': 'the same on wide vectors',
+         'blades': 'blades of grass posed', 'nodes': 'nodes of grass trodden'}
+FRAME = 1.0 / 60.0
+
+
+def slope(sizes, seconds):
+    """Exponent of the cost over the upper half of the sizes, on a logarithmic scale."""
+    high = sizes >= np.sqrt(sizes.max())
+    if high.sum() < 2:
+        high = sizes > 0
+    return np.polyfit(np.log(sizes[high]), np.log(seconds[high]), 1)[0]
+
+
+def draw(rows):
+    figure, ((axes,),) = style.figure('Cost against size', size=(8.6, 5.4))
+    for number, (series, each) in enumerate(groups(rows, 'series').items()):
+        each = sorted(each, key=lambda row: row.size)
+        sizes = np.array([row.size for row in each])
+        seconds = np.array([row.seconds for row in each])
+        axes.loglog(sizes, 1e3 * seconds, '-', marker=style.MARKERS[number],
+                    color=style.COLOURS[number % len(style.COLOURS)],
+                    label='%s\n  exponent %.2f, %s ns each at the end' % (
+                        NAMES.get(series, series), slope(sizes, seconds),
+                        float('%.2g' % (1e9 * seconds[-1] / sizes[-1]))))
+    axes.axhline(1e3 * FRAME, color='0.3', linewidth=1.0)
+    axes.annotate('a frame of 1/60 s', (0.01, 1e3 * FRAME), xycoords=('axes fraction', 'data'),
+                  xytext=(0, 3), textcoords='offset points', fontsize=8)
+    style.label(axes, 'how many', 'processor time, one core [ms]',
+                'slope 1 is a straight price; exponents are fitted over the upper half')
+    axes.legend(loc='center left', bbox_to_anchor=(1.01, 0.5), labelspacing=1.0)
+    return figure
+
+
+CHART = Chart('cost_of_size', 'cost over the number of trees, branches, blades, nodes',
+              'size_bench', {'series': str, 'size': float, 'seconds': float}, draw)

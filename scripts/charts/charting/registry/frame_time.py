@@ -1,0 +1,43 @@
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Where the time of a frame goes in each scenario."""
+from charting import style
+from charting.chart import Chart
+from charting.tables import groups
+
+PARTS = {'levels': ('choice of levels', style.BLUE), 'physics': ('physics', style.RED),
+         'state': ('state message', style.PINK), 'poses': ('poses of branches', style.GREEN),
+         'meshes': ('meshes moved', style.ORANGE)}
+COLOURS = (style.SKY, style.BLACK, style.YELLOW, style.GREY)  # of parts that come later
+
+
+def draw(rows):
+    scenarios = groups(rows, 'scenario')
+    figure, ((axes,),) = style.figure('Processor time of a frame by part, one core',
+                                      size=(8.0, 1.7 + 0.6 * len(scenarios)))
+    parts = list(dict.fromkeys(row.part for row in rows if row.part != 'frame'))
+    left = {name: 0.0 for name in scenarios}
+    more = iter(COLOURS)
+    longest = max(row.ms_99 for row in rows)
+    for part in parts:
+        words, colour = PARTS.get(part) or (part, next(more))
+        for name, each in scenarios.items():
+            ms = next((row.ms for row in each if row.part == part), 0.0)
+            axes.barh(name, ms, left=left[name], color=colour, label=words, edgecolor='white',
+                      linewidth=0.5)
+            left[name] += ms
+    for name, each in scenarios.items():
+        total = next(row for row in each if row.part == 'frame')
+        axes.plot([total.ms, total.ms_99], [name, name], '-', color=style.BLACK, marker='|')
+        axes.annotate('%.2g ms, 99 %% below %.2g ms' % (total.ms, total.ms_99),
+                      (total.ms_99, name), xytext=(6, 0), textcoords='offset points', va='center')
+    axes.set_xlim(0.0, 1.35 * longest)
+    axes.invert_yaxis()
+    style.label(axes, 'median over frames [ms]; the line ends where 99 % of frames do',
+                '')
+    style.legend_below(figure, [axes], 5)
+    return figure
+
+
+CHART = Chart('frame_time', 'where the time of a frame goes in each scenario', 'frame_bench',
+              {'scenario': str, 'part': str, 'ms': float, 'ms_99': float}, draw)

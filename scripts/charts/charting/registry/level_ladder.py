@@ -1,0 +1,23 @@
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Levels of procedural motion: error seen against time of a frame."""
+from charting import ladders, style
+from charting.chart import Chart, sized
+
+
+def draw(rows):
+    figure, ((axes,),) = style.figure('Levels of procedural motion of a forest', size=(7.6, 4.8))
+    in_ms = [type(row)(row, cost=1e3 * row.cost) for row in rows]
+    ladders.draw(axes, in_ms, floor=5e-3, names={
+        'one level for all': 'one depth for all trees (0 to 6)',
+        'by tolerance': "each tree's own depth, by tolerance [pixel]"}.get,
+        setting=lambda row: '%g' % float(row.setting))
+    style.label(axes, 'processor time of a frame, choice of levels included [ms]',
+                'largest error of a branch tip in the picture [pixel]')
+    axes.axhline(1.0, color='0.5', linewidth=0.8, linestyle=':')
+    axes.legend()
+    return figure
+
+
+CHART = Chart('level_ladder', 'error and cost of levels of procedural motion', 'forest_bench',
+              ladders.COLUMNS, draw, sized('--part', 'levels'))

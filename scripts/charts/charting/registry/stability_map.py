@@ -1,0 +1,55 @@
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Growth per step of one joint over damping and step, the theory's edge drawn over it."""
+import numpy as np
+from matplotlib.colors import TwoSlopeNorm
+
+from charting import style
+from charting.chart import Chart, sized
+from charting.tables import groups
+
+COLUMNS = {'map': str, 'method': str, 'x': float, 'y': float, 'value': float, 'theory': float}
+DEFAULT = 'midpoint (default)'
+
+
+def draw(rows):
+    maps = groups(rows, 'map')
+    methods, edges = groups(maps['growth'], 'method'), groups(maps['edge'], 'method')
+    figure, panels = style.figure('Where methods break: one joint with frequency w and damping '
+                                  'ratio D', 2, 3, size=(4.0, 3.5), sharex=True, sharey=True)
+    order = [DEFAULT, 'implicit Euler', None, 'semi-implicit Euler', 'explicit Euler',
+             'Runge-Kutta 4']
+    shown = None
+    for axes, name in zip(panels.flat, order):
+        if name is None:
+            explain(axes)
+            continue
+        x, y = (np.array(sorted({row[key] for row in methods[name]})) for key in 'xy')
+        growth = np.array([row.value for row in methods[name]]).reshape(len(x), len(y)).T
+        shown = axes.pcolormesh(x, y, np.clip(growth, 0.5, 1.5), cmap='RdBu_r', rasterized=True,
+                                shading='nearest', norm=TwoSlopeNorm(1.0, 0.5, 1.5))
+        for column, line in (('y', dict(color=style.BLACK, linewidth=3.0)),
+                             ('theory', dict(color=style.YELLOW, linewidth=1.4, linestyle='--'))):
+            axes.plot(*zip(*[(row.x, row[column]) for row in edges.get(name, [])]), **line)
+        axes.set(xscale='log', yscale='log', xlim=(x[0], x[-1]), ylim=(y[0], y[-1]))
+        axes.set_title(name, fontweight='bold' if name == DEFAULT else 'normal')
+    for axes in (panels[0][0], panels[1][0]):
+        axes.set_ylabel('step times w')
+    for axes in panels[1]:
+        axes.set_xlabel('damping ratio D')
+    bar = figure.colorbar(shown, ax=panels[:, 2], shrink=0.9)
+    bar.set_label('growth per step')
+    return figure
+
+
+def explain(axes):
+    axes.axis('off')
+    axes.text(0.02, 0.95, 'blue: motion decays\nwhite: it stays\n'
+              'red: it grows, the method breaks\n\n'
+              'black line: the edge, by bisection\nyellow dashes: the edge by theory\n'
+              '(docs/physics.md)\n\nNeither implicit method has an edge.', transform=axes.transAxes,
+              va='top', fontsize=9)
+
+
+CHART = Chart('stability_map', 'growth per step over damping and step, theory over it',
+              'stability_bench', COLUMNS, draw, sized('--part', 'growth'))

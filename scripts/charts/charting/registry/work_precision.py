@@ -1,0 +1,95 @@
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Work and precision of every integrator and dynamics of a tree, peers beside them."""
+import math
+
+from charting import style
+from charting.chart import Chart
+from charting.tables import groups
+
+# engine: colour, marker, line, label; peers are dashed.
+STYLES = {
+    'midpoint, plain double': (style.GREEN, 'o', '-', 'midpoint, plain (default)'),
+    'midpoint, SIMD, one tree': (style.BLUE, 'o', '-', 'midpoint, SIMD, one tree'),
+    'midpoint, SIMD, 16 trees': (style.SKY, 'o', '-', 'midpoint, SIMD, 16 trees, each'),
+    'implicit Euler': (style.PINK, 'v', '-', 'implicit Euler'),
+    'semi-implicit Euler': (style.ORANGE, '^', '-', 'semi-implicit Euler'),
+    'explicit Euler': (style.RED, '<', '-', 'explicit Euler'),
+    'Runge-Kutta 4': (style.BLACK, '>', '-', 'Runge-Kutta 4'),
+    'paper dynamics, midpoint': (style.GREY, '*', '-', "the paper's dynamics, midpoint"),
+    'Bullet, float': (style.RED, 's', '--', 'Bullet'),
+    'DART': (style.PINK, 'D', '--', 'DART'),
+    'MuJoCo, Euler': (style.BLUE, 'P', '--', 'MuJoCo, Euler'),
+    'MuJoCo, RK4': (style.BLACK, 'X', '--', 'MuJoCo, RK4'),
+}
+DEFAULT = 'midpoint, plain double'
+STEPS = 240.0  # of the default, a second
+INSTANTS = 60
+COLUMNS = {'tree': str, 'branches': float, 'load': str, 'engine': str, 'kind': str, 'error': float,
+           'steps_per_second': float, 'ms_per_simulated_second': float, 'instants': float,
+           'note': str}
+OWN = 'plain double,SIMD,implicit Euler,explicit Euler,Runge-Kutta,paper'  # parts of names
+
+
+def curves(rows):
+    """{engine: [(ms, error, steps), ...]} of whole runs that were stable, by cost."""
+    out = {}
+    for row in rows:
+        if row.note == 'run' and row.instants == INSTANTS and math.isfinite(row.error):
+            out.setdefault(row.engine, []).append(
+                (row.ms_per_simulated_second, row.error, row.steps_per_second))
+    return {engine: sorted(points) for engine, points in out.items()}
+
+
+def style_of(engine, number):
+    """Engines that came later get what is left over."""
+    return STYLES.get(engine) or (style.COLOURS[number % len(style.COLOURS)], style.MARKERS[-1],
+                                  '-.', engine)
+
+
+def panel(axes, engines):
+    for number, (engine, points) in enumerate(engines.items()):
+        colour, marker, line, words = style_of(engine, number)
+        axes.loglog([p[0] for p in points], [p[1] for p in points], line, marker=marker,
+                    markersize=4, color=colour, label=words,
+                    linewidth=2.4 if engine == DEFAULT else 1.2)
+    style.draw_front(axes, [p[:2] for points in engines.values() for p in points])
+    if DEFAULT in engines:
+        near = min(engines[DEFAULT], key=lambda p: abs(math.log(p[2] / STEPS)))
+        style.ring(axes, near[0], near[1], 'default, 1/%.0f s' % near[2])
+    for target in (1e-2, 1e-3):
+        axes.axhline(target, color='0.5', linewidth=0.8, linestyle=':')
+    axes.set_ylim(1e-7, 2.0)
+
+
+def draw(rows):
+    cells = groups(rows, 'tree', 'branches', 'load')
+    columns = 2 if len(cells) > 1 else 1
+    lines = math.ceil(len(cells) / columns)
+    figure, panels = style.figure('Work and precision: a tree under a load, everybody on the same '
+                                  'tree', lines, columns, size=(5.6, 3.7 if lines > 1 else 4.8))
+    for axes, key in zip(panels.flat, sorted(cells)):
+        panel(axes, curves(cells[key]))
+        style.label(axes, 'processor time for a simulated second [ms]',
+                    'error of the tips, relative', '%s tree, %d branches, %s' % key)
+    for axes in panels.flat[len(cells):]:
+        axes.axis('off')
+    style.legend_below(figure, panels.flat, 4)
+    return figure
+
+
+def runs(extent):
+    """Peers on what they can do in time, ours on all."""
+    cheap = ['--cap', '1', '--rounds', '3']
+    if extent == 'quick':
+        return [['--quick', '--trees', 'fractal', *cheap]]
+    if extent == 'usual':
+        return [['--trees', 'fractal', '--branches', '100,1000', '--cap', '2', '--rounds', '5'],
+                ['--trees', 'fractal', '--branches', '10000', '--loads', 'gust', '--cap', '6',
+                 '--rounds', '3', '--engines', OWN]]
+    return [['--trees', 'fractal,oak', '--branches', '100,1000,10000', '--cap', '60']]
+
+
+CHART = Chart('work_precision', 'error and cost of every integrator, dynamics and peer',
+              'physics_bench', COLUMNS, draw,
+              {extent: runs(extent) for extent in ('quick', 'usual', 'full')}, cached=True)

@@ -1,0 +1,99 @@
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""One look for all charts: colours that the colour-blind can tell apart, the default ringed, the
+Pareto front drawn as a broad band underneath."""
+import io
+import math
+
+import matplotlib
+from PIL import Image
+matplotlib.use('Agg')
+import matplotlib.pyplot as plt  # noqa: E402
+from matplotlib.ticker import FormatStrFormatter, LogLocator, NullFormatter  # noqa: E402
+
+# Okabe and Ito 2008.
+BLACK, ORANGE, SKY, GREEN = '#000000', '#E69F00', '#56B4E9', '#009E73'
+YELLOW, BLUE, RED, PINK, GREY = '#F0E442', '#0072B2', '#D55E00', '#CC79A7', '#999999'
+COLOURS = (BLUE, RED, GREEN, ORANGE, PINK, SKY, BLACK, GREY)
+MARKERS = 'osD^vPX<>*'
+FRONT = '#D9D9D9'
+DOTS_PER_INCH = 96
+
+plt.rcParams.update({
+    'font.size': 9, 'axes.titlesize': 10, 'axes.grid': True, 'axes.axisbelow': True,
+    'grid.linewidth': 0.3, 'legend.fontsize': 8, 'legend.framealpha': 0.9, 'lines.markersize': 5,
+    'lines.linewidth': 1.4, 'svg.fonttype': 'none', 'svg.hashsalt': 'vegetation_sim',
+    'axes.spines.top': False, 'axes.spines.right': False, 'figure.constrained_layout.use': True})
+
+
+def figure(title, rows=1, columns=1, size=(5.6, 4.2), **options):
+    """A titled figure and its axes, [rows][columns]."""
+    out, axes = plt.subplots(rows, columns, figsize=(size[0] * columns, size[1] * rows),
+                             squeeze=False, **options)
+    out.suptitle(title, fontsize=11, fontweight='bold')
+    return out, axes
+
+
+def label(axes, x, y, title=None):
+    axes.set_xlabel(x)
+    axes.set_ylabel(y)
+    if title:
+        axes.set_title(title)
+    for axis, (low, high) in ((axes.xaxis, axes.get_xlim()), (axes.yaxis, axes.get_ylim())):
+        if axis.get_scale() == 'log' and high / low < 300.0:  # powers of ten alone are too few
+            axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+            axis.set_major_formatter(FormatStrFormatter('%g'))
+            axis.set_minor_formatter(NullFormatter())
+
+
+def front(points):
+    """Those of the points (cost, error) that no other beats in both, by cost."""
+    out = []
+    for cost, error in sorted(p for p in points if all(map(math.isfinite, p))):
+        if not out or error < out[-1][1]:
+            out.append((cost, error))
+    return out
+
+
+def draw_front(axes, points):
+    """The Pareto front as steps: at each cost, the least error to be had."""
+    best = front(points)
+    if len(best) < 2:
+        return
+    axes.step(*zip(*best), where='post', color=FRONT, linewidth=7, zorder=0,
+              solid_capstyle='round', label='Pareto front')
+
+
+def ring(axes, x, y, text='default', left=False):
+    """Marks the default; `left`: the word stands there, not on the right."""
+    axes.plot([x], [y], 'o', markersize=12, markerfacecolor='none', markeredgecolor=BLACK,
+              markeredgewidth=1.6, zorder=5)
+    axes.annotate(text, (x, y), textcoords='offset points',
+                  xytext=(-9 if left else 9, 9), ha='right' if left else 'left',
+                  fontweight='bold', zorder=6)
+
+
+def note(axes, x, y, text, offset=(6, 4), **options):
+    axes.annotate(text, (x, y), textcoords='offset points', xytext=offset, fontsize=7.5,
+                  color='0.25', **options)
+
+
+def legend_below(out, axes, columns=4):
+    """One legend for all axes, below them, each name once."""
+    handles = {}
+    for each in axes:
+        handles.update({name: line for line, name in zip(*each.get_legend_handles_labels())})
+    lines = math.ceil(len(handles) / columns)
+    height = (0.2 * lines + 0.1) / out.get_figheight()
+    out.get_layout_engine().set(rect=(0.0, height, 1.0, 1.0 - height))
+    out.legend(handles.values(), handles.keys(), loc='lower center', ncol=columns)
+
+
+def save(out, path):
+    """As PNG and SVG; no date in either, so that the same figures give the same files."""
+    picture = io.BytesIO()
+    out.savefig(picture, format='png', dpi=DOTS_PER_INCH)
+    few = Image.open(picture).convert('RGB').quantize(255, dither=Image.Dither.NONE)
+    few.save(path.with_suffix('.png'), optimize=True)
+    out.savefig(path.with_suffix('.svg'), metadata={'Date': None})
+    plt.close(out)

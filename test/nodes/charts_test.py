@@ -1,0 +1,164 @@
+#!/usr/bin/env python3
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""charts: what it writes, what it refuses, what its drawings hold on to."""
+import os
+import pathlib
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import rostest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PROGRAM = ROOT / 'scripts/charts/charts'
+sys.path.insert(0, str(PROGRAM.parent))
+from charting import registry, style, tables  # noqa: E402
+from charting.chart import Refused  # noqa: E402
+
+LADDER = 'ladder,rung,setting,cost,error,chosen\n'
+
+
+def run(*command, **environment):
+    return subprocess.run([str(word) for word in command], text=True, capture_output=True,
+                          env={**os.environ, **environment}, timeout=200)
+
+
+def size_of(png):
+    head = png.read_bytes()[:24]
+    assert head[:8] == b'\x89PNG\r\n\x1a\n', png
+    return struct.unpack('>II', head[16:24])
+
+
+class Charts(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.out = self.folder / 'out'
+
+    def bench(self, name, script):
+        """A space with a bench that does what the script says; $FILE is where the table goes."""
+        program = self.folder / 'space/lib/vegetation_sim' / name
+        program.parent.mkdir(parents=True, exist_ok=True)
+        program.write_text('#!/bin/sh\nwhile [ "$1" != --csv ]; do shift; done\nFILE=$2\n' + script)
+        program.chmod(0o755)
+        return {'CMAKE_PREFIX_PATH': str(self.folder / 'space')}
+
+    def assert_drawn(self, name):
+        chart = registry.all_charts()[name]
+        self.assertGreater(len(tables.read(self.out / (name + '.csv'), chart.columns)), 5)
+        width, height = size_of(self.out / (name + '.png'))
+        self.assertGreater(width, 600)
+        self.assertGreater(height, 350)
+        self.assertIn('</svg>', (self.out / (name + '.svg')).read_text())
+
+    # N9: the real program and the real benches.
+    def test_quick_charts_are_measured_and_drawn(self):
+        done = run('rosrun', 'vegetation_sim', 'charts', '--quick', '--only',
+                   'grass_ladder,stability_limits', '--out', self.out)
+        self.assertEqual(done.returncode, 0, done.stderr + done.stdout)
+        self.assertIn('[2/2] stability_limits', done.stdout)
+        self.assertIn('2 of 2 charts', done.stdout)
+        self.assert_drawn('grass_ladder')
+        self.assert_drawn('stability_limits')
+        words = (self.out / 'grass_ladder.svg').read_text()
+        for wanted in ('default', 'Pareto front', 'processor time of a blade [ns]'):
+            self.assertIn(wanted, words)
+        self.assertFalse(list(self.out.glob('*.part')))
+
+    def test_unknown_charts_are_refused_by_name(self):
+        done = run(PROGRAM, '--only', 'grass_ladder,no_such', '--out', self.out)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn('no_such: no such chart', done.stderr)
+        self.assertIn('work_precision', done.stderr)
+        self.assertFalse(self.out.exists())
+        self.assertEqual(run(PROGRAM, '--only', ',').returncode, 2)
+
+    def test_missing_benches_are_refused_by_name(self):
+        empty = str(self.folder)
+        done = run(PROGRAM, '--only', 'grass_ladder', '--out', self.out, CMAKE_PREFIX_PATH=empty)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn('grass_rung_bench: no such program', done.stderr)
+        self.assertIn(empty, done.stderr)
+        self.assertFalse(self.out.exists())
+
+    def test_folders_that_cannot_be_are_refused_by_name(self):
+        self.out.write_text('a file')
+        space = self.bench('grass_rung_bench', 'exit 0')
+        for bad in (self.out, self.out / 'below'):
+            done = run(PROGRAM, '--only', 'grass_ladder', '--out', bad, **space)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn('--out %s: ' % bad, done.stderr)
+
+    # What fails is named, the others are drawn.
+    def test_benches_that_fail_do_not_stop_the_others(self):
+        self.bench('grass_rung_bench', 'echo out of grass; exit 3')
+        space = self.bench('influence_bench', 'printf "%s" > $FILE' % (LADDER.replace('\n', '\\n')))
+        for depth in '12':
+            for rung in range(4):
+                self.bench_line('influence_bench', 'influence %s' % depth, rung)
+            self.bench_line('influence_bench', 'depth %s' % depth, 4)
+        done = run(PROGRAM, '--only', 'grass_ladder,influence_ladder', '--out', self.out, **space)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn('grass_rung_bench', done.stderr)
+        self.assertIn('code 3: out of grass', done.stderr)
+        self.assertIn('1 of 2 charts', done.stdout)
+        self.assert_drawn('influence_ladder')
+        self.assertFalse((self.out / 'grass_ladder.png').exists())
+
+    def bench_line(self, name, ladder, rung):
+        with open(self.folder / 'space/lib/vegetation_sim' / name, 'a') as script:
+            script.write('\necho "%s,%d,0.1,%g,%g,%d" >> $FILE' % (ladder, rung, 1e-5 * (rung + 1),
+                                                                   0.5 ** rung, rung == 2))
+
+    def test_tables_of_another_form_are_refused(self):
+        space = self.bench('grass_rung_bench', 'echo a,b > $FILE; echo 1,2 >> $FILE')
+        done = run(PROGRAM, '--only', 'grass_ladder', '--out', self.out, **space)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn('its columns are "a,b", wanted are "' + LADDER.strip(), done.stderr)
+        path = self.folder / 'table'
+        columns = registry.all_charts()['grass_ladder'].columns
+        for text, wanted in ((LADDER, 'has no row'), (LADDER + 'a,1,x,y,1,1\n', 'line 2'),
+                             (LADDER + 'a,1\n', '2 values for 6 columns')):
+            path.write_text(text)
+            with self.assertRaisesRegex(Refused, wanted):
+                tables.read(path, columns)
+
+    # The figures that the documentation shows can be drawn anew by anybody.
+    def test_documented_tables_draw(self):
+        self.out.mkdir()
+        names = []
+        for table in (ROOT / 'docs/charts').glob('*.csv'):
+            (self.out / table.name).write_text(table.read_text())
+            names.append(table.stem)
+        self.assertIn('work_precision', names)
+        done = run(PROGRAM, '--redraw', '--only', ','.join(names), '--out', self.out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for name in names:
+            self.assert_drawn(name)
+
+    def test_front_has_what_nothing_beats(self):
+        points = [(1, 9), (2, 9), (2, 5), (3, 6), (4, 1), (5, float('nan')), (6, 1)]
+        self.assertEqual(style.front(points), [(1, 9), (2, 5), (4, 1)])
+
+    def test_slope_is_the_exponent_of_the_large(self):
+        import numpy as np
+        from charting.registry.cost_of_size import slope
+        sizes = np.array([4.0 ** k for k in range(8)])
+        self.assertAlmostEqual(slope(sizes, 1e-9 * sizes + 1e-8), 1.0, delta=0.05)
+        self.assertAlmostEqual(slope(sizes, 1e-9 * sizes ** 2), 2.0, delta=1e-6)
+
+    def test_every_chart_has_a_name_words_and_all_extents(self):
+        charts = registry.all_charts()
+        self.assertGreaterEqual(len(charts), 9)
+        for chart in charts.values():
+            self.assertTrue(chart.about and chart.columns, chart.name)
+            self.assertEqual(set(chart.runs), {'quick', 'usual', 'full'})
+            self.assertTrue((ROOT / 'bench' / (chart.bench + '.cpp')).exists(), chart.bench)
+
+
+if __name__ == '__main__':
+    rostest.rosrun('vegetation_sim', 'charts', Charts)
