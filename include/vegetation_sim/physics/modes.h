@@ -1,0 +1,45 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "vegetation_sim/physics/linear_chain.h"
+
+namespace vegetation_sim::physics {
+
+/// Shapes in which a chain swings about rest, each an oscillator of its own of unit modal mass:
+/// a'' + damping a' + frequency^2 a = shape . f (N13). Bends are the sum of a times shape.
+struct Modes {
+  std::size_t length{0};          ///< of a shape: 2 a link
+  std::vector<double> frequency;  ///< [modes] [rad/s]
+  std::vector<double> damping;    ///< [modes] rate [1/s]
+  std::vector<double> shape;      ///< [modes][links][2]
+  int passes{0};                  ///< of M x that it took to find them
+
+  std::size_t size() const { return frequency.size(); }
+  const double* shapeOf(std::size_t mode) const { return shape.data() + mode * length; }
+  std::size_t bytes() const;
+};
+
+/// Relative residual to which modes are found: at 1e-2 some are skipped.
+constexpr double MODE_TOLERANCE = 1e-4;
+/// Two bending modes whose frequencies are nearer than this are a pair, and never cut.
+constexpr double PAIR_GAP = 0.02;
+
+/// The `count` slowest modes of K phi = w^2 M phi, one more where that would cut a pair, all where
+/// there are no more: block Lanczos of two vectors, so that equal modes are found both, with full
+/// reorthogonalisation. Each pass is O(N).
+Modes slowestModes(LinearChain& chain, int count);
+
+/// Rate at which the joints' dampers slow an oscillator of this shape of unit modal mass [1/s].
+double modalDamping(const LinearChain& chain, const double* shape);
+
+/// Adds what a load moves and the modes leave out: `depth` Krylov vectors for each load (joint
+/// torques), made free of the modes, as further oscillators at their Rayleigh frequencies. With one
+/// the answer to a steady load is exact: the static correction, without its jump.
+void addLoadVectors(LinearChain& chain, const std::vector<std::vector<double>>& loads, int depth,
+                    Modes& modes);
+
+}  // namespace vegetation_sim::physics

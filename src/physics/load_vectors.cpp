@@ -1,0 +1,90 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+
+#include "physics/symmetric_eigen.h"
+#include "physics/vector_sums.h"
+#include "vegetation_sim/physics/modes.h"
+
+namespace vegetation_sim::physics {
+namespace {
+
+constexpr double DEPENDENT = 1e-9;  // what is left of a vector that adds nothing
+
+/// Vectors of unit modal mass that share none with each other nor with the modes.
+class Basis {
+ public:
+  Basis(LinearChain& chain, const Modes& modes)
+      : chain_(chain), length_(modes.length), modes_(modes.size()), vectors_(modes.shape) {}
+
+  std::size_t added() const { return vectors_.size() / length_ - modes_; }
+  const double* vector(std::size_t i) const { return vectors_.data() + (modes_ + i) * length_; }
+
+  /// Adds what is new in `x` and gives M times that; false: there is nothing new.
+  bool add(std::vector<double>& x, std::vector<double>& momentum) {
+    momentum.resize(length_);
+    chain_.timesMass(x.data(), momentum.data());
+    const double before = dotOf(x.data(), momentum.data(), length_);
+    for (int round = 0; round < 2; ++round) {  // twice is enough
+      for (std::size_t j = 0; j < modes_ + added(); ++j) {
+        const double* known = vectors_.data() + j * length_;
+        share_.push_back(dotOf(known, momentum.data(), length_));
+      }
+      for (std::size_t j = 0; j < share_.size(); ++j)
+        addScaled(-share_[j], vectors_.data() + j * length_, length_, x.data());
+      share_.clear();
+      chain_.timesMass(x.data(), momentum.data());
+    }
+    const double left = dotOf(x.data(), momentum.data(), length_);
+    if (!(left > DEPENDENT * DEPENDENT * before)) return false;
+    const double scale = 1.0 / std::sqrt(left);
+    for (std::size_t k = 0; k < length_; ++k) x[k] *= scale, momentum[k] *= scale;
+    vectors_.insert(vectors_.end(), x.begin(), x.end());
+    return true;
+  }
+
+ private:
+  LinearChain& chain_;
+  std::size_t length_, modes_;
+  std::vector<double> vectors_, share_;
+};
+
+// Rayleigh and Ritz: the new vectors among themselves as oscillators.
+SymmetricEigen oscillators(const LinearChain& chain, const Basis& basis) {
+  const std::size_t n = basis.added(), length = chain.size();
+  std::vector<double> stiffness(n * n), force(length);
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t k = 0; k < length; ++k) force[k] = chain.stiffness()[k] * basis.vector(i)[k];
+    for (std::size_t j = 0; j <= i; ++j)
+      stiffness[i * n + j] = stiffness[j * n + i] = dotOf(force.data(), basis.vector(j), length);
+  }
+  return symmetricEigen(std::move(stiffness), n);
+}
+
+}  // namespace
+
+void addLoadVectors(LinearChain& chain, const std::vector<std::vector<double>>& loads, int depth,
+                    Modes& modes) {
+  const std::size_t length = modes.length;
+  Basis basis(chain, modes);
+  std::vector<double> x(length), force;
+  for (const std::vector<double>& load : loads) {
+    force = load;
+    for (int level = 0; level < depth; ++level) {
+      for (std::size_t k = 0; k < length; ++k) x[k] = force[k] / chain.stiffness()[k];
+      if (!basis.add(x, force)) break;  // the next one answers to its inertia
+    }
+  }
+  const SymmetricEigen ritz = oscillators(chain, basis);
+  for (std::size_t i = basis.added(); i-- > 0;) {
+    std::fill(x.begin(), x.end(), 0.0);
+    for (std::size_t j = 0; j < basis.added(); ++j)
+      addScaled(ritz.vector(i)[j], basis.vector(j), length, x.data());
+    modes.frequency.push_back(std::sqrt(ritz.values[i]));
+    modes.damping.push_back(modalDamping(chain, x.data()));
+    modes.shape.insert(modes.shape.end(), x.begin(), x.end());
+  }
+}
+
+}  // namespace vegetation_sim::physics
