@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdio>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -26,6 +27,7 @@ struct Options {
 /// @param parts the names that --part may take; all of them are run without it.
 /// @throws std::invalid_argument naming what is wrong.
 inline Options readOptions(int argc, char** argv, const std::vector<std::string>& parts) {
+  std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);  // who reads along sees each line at once
   Options out;
   out.parts = parts;
   for (int i = 1; i < argc; ++i) {

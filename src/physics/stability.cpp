@@ -14,7 +14,7 @@ namespace {
 
 constexpr double INFINITE = std::numeric_limits<double>::infinity();
 // Half-disc about 0 on the left that Runge and Kutta's region of stability contains.
-constexpr double RUNGE_KUTTA_RADIUS = 2.616;
+constexpr double RUNGE_KUTTA_RADIUS = 2.6155;
 
 // |1 + z + z^2/2 + z^3/6 + z^4/24| <= 1, by Horner's rule.
 bool rungeKuttaHolds(double re, double im) {
