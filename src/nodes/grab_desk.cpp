@@ -197,6 +197,9 @@ std::string GrabDesk::move(const MoveGrab::Request& request, MoveGrab::Response&
   }
   const Place place = placeOf(held.grab.tree, held.grab.branch, held.grab.along);
   response.distance = checkDistance(place.point, fromMsg(event.grab.target));
+  response.point = toPoint(place.point);
+  for (const forest::Reaction& reaction : room_.forest.reactions())
+    if (reaction.grab == request.id) response.force = toVector(reaction.force);
   room_.inputs.addInteraction(event);
   if (request.stamp.isZero()) held.grab.target = event.grab.target;
   return request.renew_only ? "lease renewed" : "moved";

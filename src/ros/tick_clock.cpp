@@ -11,6 +11,7 @@ namespace {
 
 constexpr int LOOKS_PER_TICK = 4;       // the timer is not aligned with the grid
 constexpr unsigned CLOCK_QUEUE = 1000;  // a fast clock is followed message by message
+constexpr double NEWEST = 1.0 / 30.0;   // share of the newest tick in the mean cost
 
 }  // namespace
 
@@ -36,6 +37,15 @@ void TickClock::drop(std::int64_t due) {
   last_ = due - 1;
 }
 
+void TickClock::run(std::int64_t tick) {
+  const ros::WallTime begin = ros::WallTime::now();
+  last_ = tick;
+  calls_.tick(tick);
+  const double took = (ros::WallTime::now() - begin).toSec();
+  cost_ += counts_.ticks == 0 ? took : NEWEST * (took - cost_);
+  ++counts_.ticks;
+}
+
 void TickClock::see(Nanoseconds clock) {
   const Nanoseconds now = clock - delay_;
   if (now <= 0) return;  // no clock yet
@@ -50,11 +60,7 @@ void TickClock::see(Nanoseconds clock) {
   if (hasBegun() && due - last_ > longest) drop(due);
   if (hasBegun() && due == last_) return;
   if (calls_.before) calls_.before();
-  for (std::int64_t tick = hasBegun() ? last_ + 1 : due; tick <= due; ++tick) {
-    last_ = tick;
-    calls_.tick(tick);
-    ++counts_.ticks;
-  }
+  for (std::int64_t tick = hasBegun() ? last_ + 1 : due; tick <= due; ++tick) run(tick);
 }
 
 }  // namespace vegetation_sim

@@ -123,6 +123,10 @@ class ForestGrab(unittest.TestCase):
             else:
                 reply = self.hands.move_grab(id=answer.id, renew_only=True)
             self.assertTrue(reply.success, reply.message)
+            self.assertLess(size(minus(vector(reply.point), self.hands.point(LIMB, 0.3))), 1e-9)
+        expected = [STIFFNESS * x for x in minus(vector(reply.point), last)]
+        self.assertGreater(size(expected), 5.0)
+        self.assertLess(size(minus(vector(reply.force), expected)), 0.05 * size(expected) + 1.0)
         self.hands.run(RATE)
         self.assertLess(self.distance(LIMB, 0.3, last), 0.03)
         self.assertEqual(len(self.hands.tree(TREE).grabs), 1)

@@ -52,6 +52,8 @@ class TickClock {
     std::uint64_t jumps{0};    ///< of the clock back
   };
   const Counts& counts() const { return counts_; }
+  /// Wall time that a tick took, the mean of about the last thirty [s].
+  double cost() const { return cost_; }
 
   static constexpr double LONGEST_CATCH_UP = 1.0;  ///< [s]
 
@@ -59,6 +61,7 @@ class TickClock {
   static constexpr std::int64_t NEVER = INT64_MIN;
 
   void drop(std::int64_t due);
+  void run(std::int64_t tick);
 
   std::string name_;
   TickGrid grid_;
@@ -66,6 +69,7 @@ class TickClock {
   TickCalls calls_;
   std::int64_t last_{NEVER};
   Counts counts_;
+  double cost_{0.0};
   ros::Subscriber clock_;
   ros::Timer timer_;
 };

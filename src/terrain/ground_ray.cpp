@@ -1,0 +1,54 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/terrain/ground_ray.h"
+
+#include <algorithm>
+
+namespace vegetation_sim::terrain {
+namespace {
+
+constexpr double CLOSE = 1e-3;  // [m]
+
+double above(const HeightMap& ground, const Vec3& place) {
+  return place.z() - ground.height(place.x(), place.y());
+}
+
+// The part of a ray between two heights, as distances along it; empty if from > to.
+struct Stretch {
+  double from, to;
+};
+
+Stretch between(double low, double high, double z, double rise, double reach) {
+  if (rise == 0.0) return z >= low && z <= high ? Stretch{0.0, reach} : Stretch{1.0, 0.0};
+  const double a = (low - z) / rise, b = (high - z) / rise;
+  return {std::max(0.0, std::min(a, b)), std::min(reach, std::max(a, b))};
+}
+
+}  // namespace
+
+bool meetGround(const HeightMap& ground, const Vec3& origin, const Vec3& direction, double reach,
+                Vec3& place) {
+  const double length = direction.norm();
+  if (!(length > 0.0) || !origin.allFinite() || !direction.allFinite()) return false;
+  const Vec3 along = direction / length;
+  if (above(ground, origin) < 0.0) return false;
+  const Bounds box = ground.bounds();
+  // A little more than the box: at its faces rounding decides nothing.
+  const Stretch part = between(box.min_z - CLOSE, box.max_z + CLOSE, origin.z(), along.z(), reach);
+  if (part.from > part.to) return false;
+  const double step = ground.isFlat() ? part.to - part.from : 0.5 * ground.resolution();
+  double from = part.from, to = from;
+  while (above(ground, origin + to * along) > 0.0) {
+    if (to >= part.to) return false;
+    from = to;
+    to = std::min(part.to, to + std::max(step, CLOSE));
+  }
+  while (to - from > CLOSE) {
+    const double middle = 0.5 * (from + to);
+    (above(ground, origin + middle * along) > 0.0 ? from : to) = middle;
+  }
+  place = origin + to * along;
+  return true;
+}
+
+}  // namespace vegetation_sim::terrain

@@ -1,0 +1,196 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+#include <rviz/properties/string_property.h>
+#include <rviz/tool_manager.h>
+#include <rviz/view_controller.h>
+#include <rviz/viewport_mouse_event.h>
+#include <vegetation_sim/GetTree.h>
+#include <vegetation_sim/TreadEvent.h>
+#include <vegetation_sim/WindField.h>
+
+#include "rviz/view_rig.h"
+#include "vegetation_sim/ros/geometry_conversions.h"
+#include "vegetation_sim/rviz/grab_tool.h"
+#include "vegetation_sim/rviz/ogre_vectors.h"
+#include "vegetation_sim/rviz/tread_tool.h"
+#include "vegetation_sim/rviz/wind_tool.h"
+
+namespace vegetation_sim {
+namespace {
+
+// rviz can only be started once in a process.
+std::unique_ptr<ViewRig> shared_rig;
+
+class ToolsTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() { shared_rig = std::make_unique<ViewRig>(); }
+  static void TearDownTestSuite() { shared_rig.reset(); }
+
+  void SetUp() override { view().lookAt(0.f, 0.f, 3.f); }
+  void TearDown() override { putAway(); }
+
+  rviz::ViewController& view() { return *rig.manager().getViewManager()->getCurrent(); }
+  void putAway() {
+    rviz::ToolManager& tools = *rig.manager().getToolManager();
+    tools.setCurrentTool(tools.addTool("rviz/MoveCamera"));
+  }
+
+  template <class Tool>
+  Tool* use(const char* name) {
+    rviz::ToolManager& tools = *rig.manager().getToolManager();
+    auto* out = dynamic_cast<Tool*>(tools.addTool(name));
+    if (out != nullptr) tools.setCurrentTool(out);
+    return out;
+  }
+
+  struct Pixel {
+    int x, y;
+  };
+  Pixel pixelOf(const Vec3& place) {
+    const Ogre::Vector3 at(static_cast<float>(place.x()), static_cast<float>(place.y()),
+                           static_cast<float>(place.z()));
+    const Ogre::Vector3 seen =
+        rig.camera().getProjectionMatrix() * (rig.camera().getViewMatrix() * at);
+    return {static_cast<int>((0.5f + 0.5f * seen.x) * static_cast<float>(rig.panel().width())),
+            static_cast<int>((0.5f - 0.5f * seen.y) * static_cast<float>(rig.panel().height()))};
+  }
+
+  void mouse(rviz::Tool& tool, QEvent::Type type, Pixel at) {
+    const bool up = type == QEvent::MouseButtonRelease;
+    QMouseEvent event(type, QPointF(at.x, at.y),
+                      type == QEvent::MouseMove ? Qt::NoButton : Qt::LeftButton,
+                      up ? Qt::NoButton : Qt::LeftButton, Qt::NoModifier);
+    rviz::ViewportMouseEvent seen(&rig.panel(), rig.panel().getViewport(), &event, at.x, at.y);
+    tool.processMouseEvent(seen);
+  }
+
+  bool passTimeUntil(const std::function<bool()>& done) {
+    return rig.until([&] {
+      rig.setTime(rig.now() + 0.02);
+      return done();
+    });
+  }
+
+  bool getTree(GetTree& service) {
+    service.request.tree = 0;
+    return ros::service::call("/forest_animator/get_tree", service) && service.response.success;
+  }
+
+  ViewRig& rig{*shared_rig};
+};
+
+Vec3 middleOf(const GetTree::Response& tree, std::size_t branch) {
+  const Pose pose = fromMsg(tree.transforms.poses[branch]);
+  return transformed(pose, {0.0, 0.0, 0.5 * static_cast<double>(tree.lengths[branch])});
+}
+
+// S1-01, S1-27: the mouse takes a branch, pulls it and lets it go.
+TEST_F(ToolsTest, TheMouseGrabsPullsAndReleasesABranch) {
+  auto* tool = use<GrabTool>("vegetation_sim/GrabTool");
+  ASSERT_NE(tool, nullptr);
+  GetTree tree;
+  ASSERT_TRUE(passTimeUntil([&] { return getTree(tree); }));
+  rig.frames(3);
+  const Vec3 trunk = middleOf(tree.response, 0);
+  const Pixel from = pixelOf(trunk), to = {from.x + 40, from.y};
+  mouse(*tool, QEvent::MouseButtonPress, from);
+  ASSERT_TRUE(passTimeUntil([&] { return tool->grip().holding; })) << tool->grip().message;
+  EXPECT_EQ(tool->grip().tree, 0u);
+  mouse(*tool, QEvent::MouseMove, to);
+  ASSERT_TRUE(passTimeUntil([&] { return tool->grip().force.norm() > 20.0; }));
+  const view::Grip pulled = tool->grip();
+  const Vec3 right = view::toVec3(rig.camera().getDerivedRight());
+  EXPECT_GT((pulled.target - pulled.start).dot(right), 0.1) << "not to the right";
+  EXPECT_NEAR((pulled.target - pulled.start).dot(view::toVec3(rig.camera().getDerivedDirection())),
+              0.0, 1e-3);
+  EXPECT_LT(pulled.force.dot(right), 0.0) << "the tree pulls back";
+  ASSERT_TRUE(getTree(tree));
+  ASSERT_EQ(tree.response.grabs.size(), 1u);
+  EXPECT_FALSE(tree.response.physical.empty());
+  mouse(*tool, QEvent::MouseButtonRelease, to);
+  EXPECT_TRUE(passTimeUntil([&] { return getTree(tree) && tree.response.grabs.empty(); }));
+  EXPECT_FALSE(tool->grip().holding);
+}
+
+TEST_F(ToolsTest, AToolPutAwayLetsGo) {
+  auto* tool = use<GrabTool>("vegetation_sim/GrabTool");
+  GetTree tree;
+  ASSERT_TRUE(passTimeUntil([&] { return getTree(tree); }));
+  rig.frames(3);
+  mouse(*tool, QEvent::MouseButtonPress, pixelOf(middleOf(tree.response, 0)));
+  ASSERT_TRUE(passTimeUntil([&] { return tool->grip().holding; }));
+  putAway();
+  EXPECT_TRUE(passTimeUntil([&] { return getTree(tree) && tree.response.grabs.empty(); }));
+}
+
+TEST_F(ToolsTest, ANodeThatDoesNotAnswerIsSaid) {
+  auto* tool = use<GrabTool>("vegetation_sim/GrabTool");
+  putAway();
+  tool->getPropertyContainer()->subProp("Node")->setValue("/nobody");
+  rig.manager().getToolManager()->setCurrentTool(tool);
+  mouse(*tool, QEvent::MouseButtonPress, {240, 180});
+  EXPECT_TRUE(rig.until([&] {
+    return tool->grip().message.find("/nobody/pick") != std::string::npos;
+  })) << tool->grip().message;
+}
+
+// S2-21: a stroke of the mouse on the ground treads along it.
+TEST_F(ToolsTest, TheMouseTreads) {
+  std::vector<TreadEvent> events;
+  const boost::function<void(const TreadEvent&)> heard = [&](const TreadEvent& e) {
+    events.push_back(e);
+  };
+  const ros::Subscriber listener = rig.nodeHandle().subscribe<TreadEvent>("tread", 100, heard);
+  auto* tool = use<TreadTool>("vegetation_sim/TreadTool");
+  ASSERT_NE(tool, nullptr);
+  ASSERT_TRUE(rig.until([&] { return listener.getNumPublishers() > 0; }));
+  view().lookAt(0.f, 0.f, 0.f);
+  rig.frames(3);
+  const Vec3 begin(-0.6, 0.4, 0.0), end(0.7, -0.2, 0.0);
+  mouse(*tool, QEvent::MouseButtonPress, pixelOf(begin));
+  mouse(*tool, QEvent::MouseMove, pixelOf(end));
+  mouse(*tool, QEvent::MouseButtonRelease, pixelOf(end));
+  ASSERT_TRUE(rig.until([&] { return events.size() == 3; }));
+  EXPECT_EQ(events[0].action, TreadEvent::PLACE);
+  EXPECT_EQ(events[1].action, TreadEvent::MOVE);
+  EXPECT_EQ(events[2].action, TreadEvent::LIFT);
+  // A pixel is about 3 cm here.
+  EXPECT_LT((fromMsg(events[0].position) - begin).norm(), 0.08);
+  EXPECT_LT((fromMsg(events[1].position) - end).norm(), 0.08);
+}
+
+// S2-20: a stroke sends a gust along it.
+TEST_F(ToolsTest, AStrokeSendsAGust) {
+  WindField field;
+  const boost::function<void(const WindField&)> heard = [&](const WindField& f) { field = f; };
+  const ros::Subscriber listener = rig.nodeHandle().subscribe<WindField>("wind", 1, heard);
+  auto* tool = use<WindTool>("vegetation_sim/WindTool");
+  ASSERT_NE(tool, nullptr);
+  view().lookAt(0.f, 0.f, 0.f);
+  passTimeUntil([&] { return !field.primitives.empty(); });
+  rig.frames(3);
+  mouse(*tool, QEvent::MouseButtonPress, pixelOf({-1.0, 0.0, 0.0}));
+  mouse(*tool, QEvent::MouseMove, pixelOf({1.0, 0.0, 0.0}));
+  mouse(*tool, QEvent::MouseButtonRelease, pixelOf({1.0, 0.0, 0.0}));
+  const WindPrimitive* gust = nullptr;
+  EXPECT_TRUE(passTimeUntil([&] {
+    for (const WindPrimitive& primitive : field.primitives)
+      if (primitive.name == "mouse_gust") gust = &primitive;
+    return gust != nullptr;
+  }));
+  ASSERT_NE(gust, nullptr);
+  EXPECT_EQ(gust->kind, WindPrimitive::GUST);
+  EXPECT_NEAR(gust->velocity.x, 2.0, 0.1);
+  EXPECT_NEAR(gust->velocity.y, 0.0, 0.1);
+}
+
+}  // namespace
+}  // namespace vegetation_sim
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  QApplication application(argc, argv);
+  ros::init(argc, argv, "tools_rostest");
+  return RUN_ALL_TESTS();
+}
