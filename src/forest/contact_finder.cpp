@@ -125,6 +125,24 @@ double fastestOf(const Pair& pair) {
 
 }  // namespace
 
+// A thinner branch begins on its bearer's axis: until its far side comes out of the bearer, or past
+// the bearer's end, it is the bearer's wood.
+double outsideBearer(const Skeleton& skeleton, int branch) {
+  const Branch& b = skeleton.branches[static_cast<std::size_t>(branch)];
+  if (b.parent < 0) return 0.0;
+  const Branch& bearer = skeleton.branches[static_cast<std::size_t>(b.parent)];
+  const Vec3 axis = axisZ(bearer.rest.orientation), own = axisZ(b.rest.orientation);
+  const double across = length(cross(axis, own)), along = dot(axis, own);
+  const double radius =
+      bearer.base_radius + (bearer.tip_radius - bearer.base_radius) * (b.h / bearer.length);
+  const double wall = radius - b.base_radius, rest = bearer.length - b.h;
+  if (wall <= 0.0 || rest <= 0.0) return 0.0;
+  double out = 0.5 * b.length;
+  if (across * out > wall) out = wall / across;
+  if (along * out > rest) out = rest / along;
+  return out;
+}
+
 std::vector<Contact> ContactFinder::findContacts(const Wood& wood, const Bodies& bodies,
                                                  Nanoseconds from, Nanoseconds to,
                                                  Touches& touches) const {

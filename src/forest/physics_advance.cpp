@@ -28,12 +28,18 @@ Vec3 pointOn(const Pose& pose, double along) {
 
 void ForestPhysics::advance(const Site& at, Nanoseconds from, Nanoseconds to) {
   ended_.clear();
+  const std::vector<Reaction> told = std::move(reactions_);
   reactions_.clear();
   steps_ = 0;
   scratch_.replaced = 0;
   scratch_.window = WindWindow();  // the wind may be another by now
   endLeases(to);
-  if (parts_.empty() && grabs_.empty() && pushes_.empty() && bodies_.empty()) return;
+  if (!parts_.empty() || !grabs_.empty() || !pushes_.empty() || !bodies_.empty())
+    stepAll(at, from, to);
+  letFall(told, secondsBetween(from, to));
+}
+
+void ForestPhysics::stepAll(const Site& at, Nanoseconds from, Nanoseconds to) {
   const bool gap = to <= from || to - from > LONGEST_GAP;
   if (gap && !parts_.empty()) ++skipped_;
   const Nanoseconds start = gap ? to : from;

@@ -57,4 +57,30 @@ void ForestPhysics::reactToBodies(std::size_t steps) {
   touching_.clear();
 }
 
+// Nobody feels a force vanish: what was told at the last tick falls no faster than contacts rise,
+// and what has ended is told down to zero. Bodies that are gone feel nothing.
+void ForestPhysics::letFall(const std::vector<Reaction>& told, double duration) {
+  const double most = settings_.contact.force_rate * std::max(0.0, duration);
+  for (const Reaction& before : told) {
+    const double force = length(before.force), left = std::max(0.0, force - most);
+    const auto same = std::find_if(reactions_.begin(), reactions_.end(), [&](const Reaction& r) {
+      return r.kind == before.kind && r.grab == before.grab && r.body == before.body &&
+             r.at.tree == before.at.tree && r.at.branch == before.at.branch;
+    });
+    if (same != reactions_.end()) {
+      const double now = length(same->force);
+      if (now < left) same->force = (left / force) * before.force;
+      continue;
+    }
+    if (force <= 0.0) continue;
+    const bool gone = before.kind == Reaction::CONTACT && !bodies_.count(before.body);
+    Reaction falling = before;
+    falling.force *= gone ? 0.0 : left / force;
+    falling.torque *= gone ? 0.0 : left / force;
+    falling.limited = false;
+    falling.penetration = 0.0;
+    reactions_.push_back(falling);
+  }
+}
+
 }  // namespace vegetation_sim::forest

@@ -15,6 +15,8 @@ constexpr int MOST_TRIALS = 24;
 constexpr int JOINT_TRIALS = 6;
 // Forces that differ less are the same: rounding decides nothing [N].
 constexpr double SLACK = 1e-5;
+// Forces rise at the law's rate unless that would let a branch in deeper than this [m].
+constexpr double DEEP = 1e-3;
 
 Symmetric3 along(const Vec3& n, double factor) {
   return {factor * n.x() * n.x(), factor * n.y() * n.y(), factor * n.z() * n.z(),
@@ -59,7 +61,9 @@ void ContactStepper::prepare(const ContactLaw& law, double h, double theta,
     p.speed = dot(contact.normal, velocity - contact.surface);
     const double gap = contact.gap + (1.0 - theta) * h * p.speed;
     p.wanted = std::min(-gap / h, law.push_speed);
-    p.limit = contact.share * std::min(law.force_limit, contact.force + h * law.force_rate);
+    const bool deep = gap + h * p.speed < -DEEP;
+    const double risen = contact.force + h * law.force_rate;
+    p.limit = contact.share * (deep ? law.force_limit : std::min(law.force_limit, risen));
     if (contact.force >= p.limit)
       p.mode = Mode::LIMITED;
     else if (contact.force > 0.0 || p.speed < p.wanted)
@@ -136,7 +140,7 @@ void ContactStepper::step(const std::vector<Link>& links, const Surroundings& ou
   prepare(law, h, theta, contacts);
   const std::size_t others = loads_.anchors.size();
   // The rules of ChainStepper for motion too wild.
-  const Implicitness foreseen{theta * theta * h * h, theta * h, productsOf(state, h)};
+  const Implicitness foreseen = foreseeing(theta, h, productsOf(state, h));
   agreed_ = false;
   for (trials_ = 0; trials_ < MOST_TRIALS && !agreed_; ++trials_) {
     loads_.anchors.resize(others);

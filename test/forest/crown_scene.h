@@ -156,12 +156,16 @@ class CrownScene {
     for (int n = 1; n <= 8; ++n) {
       const double part = n / 8.0;
       const Pose at = poseAt(body_, from + static_cast<Nanoseconds>(part * double(to - from)));
-      const Vec3 base = (1.0 - part) * p0.position + part * p1.position;
+      const double start = outsideBearer(tree_.skeleton, static_cast<int>(i));
+      const double out = start / b.length;
+      const Vec3 joint = (1.0 - part) * p0.position + part * p1.position;
       const Vec3 tip = (1.0 - part) * tip0 + part * tip1;
+      const Vec3 base = joint + out * (tip - joint);
       const Quat turn = conjugate(at.orientation);
       const physics::Bar bar{rotate(turn, Vec3(base - at.position)),
                              rotate(turn, Vec3(tip - base)) / length(tip - base),
-                             length(tip - base), b.base_radius, b.tip_radius};
+                             length(tip - base),
+                             b.base_radius + out * (b.tip_radius - b.base_radius), b.tip_radius};
       const physics::Proximity found = physics::nearest(shapeOf(body_), bar);
       const bool thin = bar.radiusAt(found.along) < THIN;
       double& deepest = thin ? result.deepest_thin : result.deepest_thick;

@@ -8,6 +8,7 @@
 
 #include "vegetation_sim/forest/contact_model.h"
 #include "vegetation_sim/forest/pose.h"
+#include "vegetation_sim/forest/skeleton.h"
 #include "vegetation_sim/physics/contact.h"
 
 namespace vegetation_sim::forest {
@@ -35,6 +36,9 @@ class ContactFinder : public ContactModel {
 /// Ids of trees that may reach into a ball, rising. Cheap and generous: only sizes are looked at.
 std::vector<std::uint32_t> treesNear(const Layout& layout, const terrain::HeightMap& terrain,
                                      const Vec3& centre, double radius);
+
+/// From here on a branch stands out of the wood that bears it [m].
+double outsideBearer(const Skeleton& skeleton, int branch);
 
 /// A branch that a body comes nearer to than this, plus twice the way of both in a tick, is made
 /// physical [m].

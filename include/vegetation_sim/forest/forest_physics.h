@@ -67,6 +67,7 @@ class ForestPhysics {
   Air airOf(const Site& at, std::uint32_t tree) const;
   void checkRoom(const std::string& what, std::uint32_t tree, int branch) const;
   void endLeases(Nanoseconds stamp);
+  void stepAll(const Site& at, Nanoseconds from, Nanoseconds to);
   void choose(const Site& at, Nanoseconds from, Nanoseconds to);
   void chooseIn(const Site& at, std::uint32_t tree, PhysicalPart& part,
                 const std::vector<int>& loaded, Nanoseconds stamp);
@@ -77,6 +78,7 @@ class ForestPhysics {
                     Nanoseconds to);
   void addTouches(const std::vector<Reaction>& reactions);
   void reactToBodies(std::size_t steps);
+  void letFall(const std::vector<Reaction>& told, double duration);
   void gather(std::uint32_t tree, const Vec3& foot, Nanoseconds from, Nanoseconds now,
               Nanoseconds to);
   void settle(const Site& at, Nanoseconds from, Nanoseconds to);
