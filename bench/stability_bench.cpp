@@ -79,7 +79,7 @@ double jointStep(Integrator integrator, double w2, double c) {
 
 // Growth per step over damping ratio and h w, of one joint.
 void mapGrowth(const Options& options, Table& table) {
-  const int count = options.quick ? 40 : 120;
+  const int count = options.quick ? 40 : 80;
   for (const auto& methods : {std::vector<Method>(std::begin(EXPLICIT), std::end(EXPLICIT)),
                               std::vector<Method>(std::begin(IMPLICIT), std::end(IMPLICIT))})
     for (const Method& method : methods)

@@ -12,6 +12,20 @@ COLUMNS = {'map': str, 'method': str, 'x': float, 'y': float, 'value': float, 't
 DEFAULT = 'midpoint (default)'
 
 
+def panel(axes, growth, edge):
+    """Colour: growth over x and y; the edge, measured and by theory."""
+    x, y = (np.array(sorted({row[key] for row in growth})) for key in 'xy')
+    order = sorted(growth, key=lambda row: (row.x, row.y))
+    values = np.array([row.value for row in order]).reshape(len(x), len(y)).T
+    shown = axes.pcolormesh(x, y, np.clip(values, 0.5, 1.5), cmap='RdBu_r', rasterized=True,
+                            shading='nearest', norm=TwoSlopeNorm(1.0, 0.5, 1.5))
+    for column, line in (('y', dict(color=style.BLACK, linewidth=3.0)),
+                         ('theory', dict(color=style.YELLOW, linewidth=1.4, linestyle='--'))):
+        axes.plot(*zip(*[(row.x, row[column]) for row in edge]), **line)
+    axes.set(xlim=(x[0], x[-1]), ylim=(y[0], y[-1]))
+    return shown
+
+
 def draw(rows):
     maps = groups(rows, 'map')
     methods, edges = groups(maps['growth'], 'method'), groups(maps['edge'], 'method')
@@ -22,32 +36,25 @@ def draw(rows):
     shown = None
     for axes, name in zip(panels.flat, order):
         if name is None:
-            explain(axes)
+            explain(axes, 'Neither implicit method has an edge.')
             continue
-        x, y = (np.array(sorted({row[key] for row in methods[name]})) for key in 'xy')
-        growth = np.array([row.value for row in methods[name]]).reshape(len(x), len(y)).T
-        shown = axes.pcolormesh(x, y, np.clip(growth, 0.5, 1.5), cmap='RdBu_r', rasterized=True,
-                                shading='nearest', norm=TwoSlopeNorm(1.0, 0.5, 1.5))
-        for column, line in (('y', dict(color=style.BLACK, linewidth=3.0)),
-                             ('theory', dict(color=style.YELLOW, linewidth=1.4, linestyle='--'))):
-            axes.plot(*zip(*[(row.x, row[column]) for row in edges.get(name, [])]), **line)
-        axes.set(xscale='log', yscale='log', xlim=(x[0], x[-1]), ylim=(y[0], y[-1]))
+        shown = panel(axes, methods[name], edges.get(name, []))
+        axes.set(xscale='log', yscale='log')
         axes.set_title(name, fontweight='bold' if name == DEFAULT else 'normal')
     for axes in (panels[0][0], panels[1][0]):
         axes.set_ylabel('step times w')
     for axes in panels[1]:
         axes.set_xlabel('damping ratio D')
-    bar = figure.colorbar(shown, ax=panels[:, 2], shrink=0.9)
-    bar.set_label('growth per step')
+    figure.colorbar(shown, ax=panels[:, 2], shrink=0.9).set_label('growth per step')
     return figure
 
 
-def explain(axes):
+def explain(axes, more):
     axes.axis('off')
     axes.text(0.02, 0.95, 'blue: motion decays\nwhite: it stays\n'
               'red: it grows, the method breaks\n\n'
               'black line: the edge, by bisection\nyellow dashes: the edge by theory\n'
-              '(docs/physics.md)\n\nNeither implicit method has an edge.', transform=axes.transAxes,
+              '(docs/physics.md)\n\n' + more, transform=axes.transAxes,
               va='top', fontsize=9)
 
 

@@ -59,7 +59,8 @@ def panel(axes, engines):
         style.ring(axes, near[0], near[1], 'default, 1/%.0f s' % near[2])
     for target in (1e-2, 1e-3):
         axes.axhline(target, color='0.5', linewidth=0.8, linestyle=':')
-    axes.set_ylim(1e-7, 2.0)
+    least = min(p[1] for points in engines.values() for p in points)
+    axes.set_ylim(min(1e-4, 0.3 * least), 2.0)
 
 
 def draw(rows):
