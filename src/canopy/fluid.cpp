@@ -22,7 +22,6 @@ const FluidSettings& checked(const FluidSettings& settings) {
 void describe(FieldVisitor& v, FluidSettings& s) {
   v.choice("scheme", s.scheme, {"reflection", "fast", "paper"});
   v.integer("cells", s.cells, "", {SMALLEST_FIELD, LARGEST_FIELD});
-  v.number("width", s.width, "m", {0.1, 1000.0});
   v.number("viscosity", s.viscosity, "m^2/s", {0.0, 10.0});
   v.integer("sweeps", s.sweeps, "", {1, 1000});
 }
@@ -30,6 +29,7 @@ void describe(FieldVisitor& v, FluidSettings& s) {
 void check(FluidSettings settings, const std::string& context, Faults& faults) {
   FieldChecker checker(context, faults);
   describe(checker, settings);
+  checker.number("width", settings.width, "m", {0.02, 10000.0});
   if (settings.cells >= SMALLEST_FIELD && settings.cells <= LARGEST_FIELD &&
       !isFieldSize(settings.cells))
     faults.add(context + "cells = " + std::to_string(settings.cells) +

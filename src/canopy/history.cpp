@@ -29,6 +29,13 @@ float fromBits(std::uint32_t bits) {
   return out;
 }
 
+void add(Hash& hash, const std::vector<std::uint16_t>& halfs) {
+  for (std::size_t i = 0; i + 4 <= halfs.size(); i += 4)  // four a word
+    hash.add(halfs[i] | (static_cast<std::uint64_t>(halfs[i + 1]) << 16) |
+             (static_cast<std::uint64_t>(halfs[i + 2]) << 32) |
+             (static_cast<std::uint64_t>(halfs[i + 3]) << 48));
+}
+
 }  // namespace
 
 std::uint16_t toHalf(double value) {
@@ -62,6 +69,8 @@ History::History(int size, int frames) : size_(size) {
 void History::clear() {
   const MotionFrame rest = toFrame(PlaneField(size_), 0.0);
   std::fill(ring_.begin(), ring_.end(), rest);
+  newest_ = 0;
+  chain_ = 0;
 }
 
 std::size_t History::bytes() const {
@@ -75,6 +84,12 @@ void History::push(const MotionFrame& frame) {
                        std::to_string(ring_[0].u.size()));
   newest_ = (newest_ + 1) % ring_.size();
   ring_[newest_] = frame;
+  Hash hash;
+  hash.add(chain_);
+  add(hash, frame.u);
+  add(hash, frame.v);
+  hash.add(static_cast<std::uint64_t>(frame.depth));
+  chain_ = hash.value();
 }
 
 const MotionFrame& History::frame(int age) const {
@@ -105,18 +120,6 @@ PlaneMotion History::newestAt(double x, double y) const {
            q * ((1.0 - p) * at(x0, y1) + p * at(x1, y1));
   };
   return {mix(now.u), mix(now.v), fromHalf(now.depth)};
-}
-
-void History::addTo(Hash& hash) const {
-  for (int age = 0; age < frames(); ++age) {
-    const MotionFrame& now = frame(age);
-    for (const std::vector<std::uint16_t>* part : {&now.u, &now.v})
-      for (std::size_t i = 0; i + 4 <= part->size(); i += 4)  // four halfs a word
-        hash.add((*part)[i] | (static_cast<std::uint64_t>((*part)[i + 1]) << 16) |
-                 (static_cast<std::uint64_t>((*part)[i + 2]) << 32) |
-                 (static_cast<std::uint64_t>((*part)[i + 3]) << 48));
-    hash.add(static_cast<std::uint64_t>(now.depth));
-  }
 }
 
 }  // namespace vegetation_sim::canopy

@@ -45,12 +45,15 @@ void describe(FieldVisitor& v, PlaneSettings& s) {
   v.number("roll", s.roll, "rad", {-3.2, 3.2});
   v.number("distance", s.distance, "m", {0.1, 1000.0});
   v.number("field_of_view", s.field_of_view, "rad", {0.05, 2.5});
+  v.choice("projection", s.projection, {"rotation", "printed"});
   v.choice("tiling", s.tiling, {"periodic", "blend"});
 }
 
-Plane::Plane(const PlaneSettings& s) {
-  const Quat orientation = turn(s.yaw, 2) * turn(s.pitch, 1) * turn(s.roll, 0);
-  axes = axesOf(orientation);
+Quat orientationOf(const PlaneSettings& s) {
+  return turn(s.yaw, 2) * turn(s.pitch, 1) * turn(s.roll, 0);
+}
+
+Plane::Plane(const PlaneSettings& s) : axes(axesOf(orientationOf(s))) {
   centre = s.camera - axes.out * s.distance;
   const SinCos half = sinCos(0.5 * s.field_of_view);
   width = 2.0 * s.distance * half.sin / half.cos;

@@ -208,7 +208,7 @@ TEST(Fluid, RefusesWhatCannotBe) {
   settings.width = -1.0;
   const std::string text = errorOf([&] { Fluid(settings, {}, 1); });
   EXPECT_NE(text.find("cells = 48 is no power of two"), std::string::npos) << text;
-  EXPECT_NE(text.find("width = -1 m is outside 0.1 to 1000"), std::string::npos) << text;
+  EXPECT_NE(text.find("width = -1 m is outside 0.02 to 10000"), std::string::npos) << text;
   Fluid fluid(ideal(Scheme::FAST, 32), {}, 1);
   FluidState state;
   EXPECT_THROW(fluid.restore(state), InvalidInput);

@@ -26,8 +26,9 @@ struct FluidSettings {
   double viscosity{1e-3};  ///< kinematic, what eddies below a cell do included [m^2/s]
   int sweeps{20};          ///< of Gauss and Seidel, in the paper's scheme
 };
+/// All but the width, which is the plane's.
 void describe(FieldVisitor& visitor, FluidSettings& settings);
-/// All faults, `cells` that is no power of two among them.
+/// All faults, width and `cells` that is no power of two among them.
 void check(FluidSettings settings, const std::string& context, Faults& faults);
 
 /// What the air remembers.

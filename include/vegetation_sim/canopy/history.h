@@ -48,12 +48,14 @@ class History {
   /// Bilinear in the newest frame at (x, y), in cells.
   PlaneMotion newestAt(double x, double y) const;
 
-  void addTo(Hash& hash) const;
+  /// Of all frames since clear(), those that are no longer kept included.
+  std::uint64_t hash() const { return chain_; }
 
  private:
   int size_;
   std::vector<MotionFrame> ring_;
   std::size_t newest_{0};
+  std::uint64_t chain_{0};
 };
 
 }  // namespace vegetation_sim::canopy

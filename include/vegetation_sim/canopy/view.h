@@ -26,16 +26,19 @@ struct PlaneSettings {
   double roll{0.0};                   ///< [rad]
   double distance{5.0};               ///< of the plane from the camera [m]
   double field_of_view{0.8};          ///< that the square fills [rad]
+  int projection{0};                  ///< 0 by rotations, 1 by the printed angles (E8)
   int tiling{0};                      ///< 0 periodic solver, 1 offset and blend as printed (S3-14)
 };
 void describe(FieldVisitor& visitor, PlaneSettings& settings);
+/// Of the camera; it looks along x.
+Quat orientationOf(const PlaneSettings& settings);
 
 /// The plane in the world, tiled without end and the same at any depth (S3-09, S3-10).
 struct Plane {
   explicit Plane(const PlaneSettings& settings);
 
-  Vec3 centre;
   Axes axes;
+  Vec3 centre;
   double width;  ///< of a tile [m]
 
   /// Place of a world point in cells of a field of `size` cells; beyond one tile is the next.

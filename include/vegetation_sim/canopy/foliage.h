@@ -1,0 +1,69 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "vegetation_sim/canopy/history.h"
+#include "vegetation_sim/canopy/layout.h"
+#include "vegetation_sim/common/time.h"
+
+namespace vegetation_sim::canopy {
+
+/// For which views the layers are cut, and when from one to the other (S3-04).
+struct CutState {
+  CutView now, before;
+  Nanoseconds since{0};  ///< start of the cross-fade
+  void addTo(Hash& hash) const;
+};
+
+/// How much of the newer of the two cuts is seen at a stamp, 0 to 1.
+double cutShare(const CutState& state, const CutSettings& settings, Nanoseconds stamp);
+
+/// Where a leaf has gone.
+struct MovedLeaf {
+  Vec3 root, tip, side;  ///< [m], world
+};
+
+/// One tick of the whole foliage as its layers: built from what the animator remembers, or from
+/// its messages, to the same bits. Its cost depends on cells and layers, not on leaves (S3-28).
+class Foliage {
+ public:
+  explicit Foliage(const Layout& layout);
+
+  /// @param history of the layout's size. @param front_share see Driver::share().
+  void update(const History& history, double front_share, const CutState& cuts, Nanoseconds stamp);
+
+  /// The layers of all plants for a view.
+  LayerCut cutFor(const CutView& view) const;
+  /// Displacement [m], world, of a point at rest that belongs to what hangs on `anchor`.
+  /// @param plant id, whose foot and height say how freely it moves.
+  Vec3 displacement(const Vec3& anchor, const Vec3& point, std::size_t plant) const;
+  MovedLeaf move(const Leaf& leaf, std::size_t plant) const;
+  /// Motion [m/s] of the layer of `anchor` at a point, in the view's axes: right, up, towards it.
+  Vec3 motion(const Vec3& anchor, const Vec3& point) const;
+  int layerAt(const Vec3& anchor) const { return cuts_[0].cut.layerAt(anchor); }
+  int layers() const { return cuts_[0].cut.layers(); }
+  /// Weakest of limitFolding() over the layers.
+  double weakening() const { return weakening_; }
+
+ private:
+  struct Cut {
+    LayerCut cut;
+    std::vector<LayerMotion> layers;
+    std::vector<double> shares;  // depthShare of each
+  };
+  void build(Cut& cut, const CutView& view, const History& history, double front_share);
+  Vec3 motionIn(const Cut& cut, const Vec3& anchor, const Vec3& point) const;
+  Vec3 displacementIn(const Cut& cut, const Vec3& anchor, const Vec3& point, double limit) const;
+
+  const Layout& layout_;
+  Plane plane_;
+  std::vector<double> tops_;  // height of each plant [m]
+  std::array<Cut, 2> cuts_;   // the newer one first
+  double share_{1.0};         // of the newer one
+  double weakening_{1.0};
+};
+
+}  // namespace vegetation_sim::canopy

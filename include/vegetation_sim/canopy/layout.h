@@ -1,0 +1,64 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "vegetation_sim/canopy/fluid.h"
+#include "vegetation_sim/canopy/layer_cut.h"
+#include "vegetation_sim/canopy/oscillator.h"
+#include "vegetation_sim/canopy/plant.h"
+#include "vegetation_sim/canopy/view.h"
+#include "vegetation_sim/canopy/warp.h"
+#include "vegetation_sim/common/yaml.h"
+#include "vegetation_sim/terrain/height_map.h"
+
+namespace vegetation_sim::canopy {
+
+/// How everything in a layout moves.
+struct Motion {
+  PlaneSettings plane;
+  FluidSettings fluid;  ///< its width is the plane's
+  SourceSettings sources;
+  OscillatorSettings oscillator;
+  LayerSettings layers;
+  CutSettings cuts;
+  WarpSettings warp;
+  int rate{30};  ///< ticks, and frames of the history [Hz]
+};
+/// A visit of every field, group after group; `begin` is called with each group's name first.
+void describe(FieldVisitor& visitor, Motion& motion,
+              const std::function<void(const char*)>& begin = {});
+/// The fluid's settings with the width of the plane.
+FluidSettings fluidOf(const Motion& motion);
+/// Frames that hold the memory of the layers.
+int historyFrames(const Motion& motion);
+
+/// Leafy vegetation as a law: who holds it can grow every leaf.
+struct Layout {
+  Motion motion;
+  std::vector<PlantKind> kinds;
+  std::vector<Plant> plants;  ///< ids 0, 1, 2 ...
+  std::uint64_t seed{0};      ///< of turbulence and of the layers' delays
+
+  std::size_t leafCount() const;
+  std::uint64_t hash() const;
+};
+
+/// Adds a fault for whatever is wrong: ranges, unknown kinds, too many leaves, a history beyond
+/// its memory.
+void check(const Layout& layout, Faults& faults);
+
+/// Reads the `canopy` section of a scenario; plants stand on the terrain. Keys: docs/scenarios.md.
+Layout readLayout(YamlSection section, const terrain::HeightMap& terrain, std::uint64_t seed,
+                  Faults& faults);
+
+/// Motion and kinds as text that parseLaw() reads, with 17 digits.
+std::string writeLaw(const Layout& layout);
+/// Layout without plants. @throws InvalidInput naming `name`, key, value and range.
+Layout parseLaw(const std::string& text, const std::string& name);
+
+}  // namespace vegetation_sim::canopy

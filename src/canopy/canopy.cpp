@@ -1,0 +1,182 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/canopy/canopy.h"
+
+#include <utility>
+
+namespace vegetation_sim::canopy {
+namespace {
+
+const Layout& checked(const Layout& layout) {
+  Faults faults;
+  check(layout, faults);
+  faults.throwIfAny();
+  return layout;
+}
+
+PlaneMotion meanOf(const PlaneField& motion) {
+  PlaneMotion out;
+  for (std::size_t i = 0; i < motion.u.size(); ++i) {
+    out.u += motion.u[i];
+    out.v += motion.v[i];
+  }
+  const auto cells = static_cast<double>(motion.u.size());
+  return {out.u / cells, out.v / cells, 0.0};
+}
+
+}  // namespace
+
+std::uint64_t Memory::hash() const {
+  Hash hash;
+  hash.add(static_cast<std::uint64_t>(stamp));
+  hash.add(ticks);
+  fluid.addTo(hash);
+  oscillator.addTo(hash);
+  hash.add(history.hash());
+  hash.add(driver.share());
+  hash.add(static_cast<std::uint64_t>(driver.front()));
+  cuts.addTo(hash);
+  hash.add(static_cast<std::uint64_t>(looked));
+  return hash.value();
+}
+
+Canopy::Canopy(const Layout& layout)
+    : layout_(checked(layout)),
+      layout_hash_(layout.hash()),
+      plane_(layout.motion.plane),
+      fluid_(fluidOf(layout.motion), layout.motion.sources, layout.seed),
+      oscillator_(layout.motion.oscillator, layout.motion.fluid.cells, plane_.width),
+      foliage_(layout_) {
+  reset();
+}
+
+void Canopy::reset() {
+  fluid_.reset();
+  oscillator_.reset();
+  memory_ = Memory();
+  memory_.history = History(layout_.motion.fluid.cells, historyFrames(layout_.motion));
+  memory_.fluid = fluid_.state();
+  memory_.oscillator = oscillator_.state();
+  stale_ = true;
+}
+
+void Canopy::restore(const Memory& memory) {
+  if (memory.history.size() != layout_.motion.fluid.cells ||
+      memory.history.frames() != historyFrames(layout_.motion))
+    throw InvalidInput("memory: its history is of another layout");
+  Fluid fluid = fluid_;
+  fluid.restore(memory.fluid);
+  oscillator_.restore(memory.oscillator);
+  fluid_ = std::move(fluid);
+  memory_ = memory;
+  stale_ = true;
+}
+
+CutView Canopy::view() const {
+  if (viewer_) return *viewer_;
+  return {layout_.motion.plane.camera, orientationOf(layout_.motion.plane)};
+}
+
+PlaneAir Canopy::airAt(Nanoseconds stamp) const {
+  const wind::Instant instant = wind_.at(stamp);
+  PlaneAir out;
+  for (int j = 0; j < AIR_NODES; ++j)
+    for (int i = 0; i < AIR_NODES; ++i) {
+      const double right = plane_.width * (i / (AIR_NODES - 1.0) - 0.5);
+      const double up = plane_.width * (j / (AIR_NODES - 1.0) - 0.5);
+      const Vec3 there = (plane_.centre + plane_.axes.right * right) + plane_.axes.up * up;
+      const Vec3 air = into(plane_.axes, instant.velocity(there));
+      out.nodes[static_cast<std::size_t>(j * AIR_NODES + i)] = {air.x(), air.y()};
+      out.depth += air.z() / (AIR_NODES * AIR_NODES);
+    }
+  return out;
+}
+
+void Canopy::advance(Nanoseconds stamp) {
+  if (stamp <= memory_.stamp) return;
+  const double dt = memory_.stamp == 0 ? 0.0 : secondsBetween(memory_.stamp, stamp);
+  if (dt > 0.0 && dt <= LONGEST_GAP) step(stamp, dt);
+  memory_.stamp = stamp;
+  ++memory_.ticks;
+  memory_.history.push(toFrame(oscillator_.motion(), oscillator_.depth()));
+  look(stamp);
+  const PlaneMotion mean = meanOf(oscillator_.motion());
+  const Vec3 towards = PlaneToView(plane_.axes, axesOf(memory_.cuts.now.orientation)).out;
+  memory_.driver.advance(dt, dot(towards, Vec3(mean.u, mean.v, oscillator_.depth())),
+                         layout_.motion.layers);
+  memory_.fluid = fluid_.state();
+  memory_.oscillator = oscillator_.state();
+  stale_ = true;
+}
+
+// Phases of the swell count from ROS time's own epoch: the same for whoever starts when.
+void Canopy::step(Nanoseconds stamp, double dt) {
+  const PlaneAir air = airAt(stamp);
+  fluid_.advance(secondsBetween(0, memory_.stamp), dt, &air);
+  oscillator_.advance(dt, fluid_.state().flow, layout_.motion.sources.law_gain * air.depth);
+}
+
+// Layers are cut anew for a view that has left theirs, one cross-fade at a time.
+void Canopy::look(Nanoseconds stamp) {
+  const CutView now = view();
+  CutState& cuts = memory_.cuts;
+  if (!memory_.looked) {
+    const Nanoseconds fade = fromSeconds(layout_.motion.cuts.cross_fade);
+    cuts = {now, now, stamp > fade ? stamp - fade : 0};
+    memory_.looked = true;
+    return;
+  }
+  if (cutShare(cuts, layout_.motion.cuts, stamp) < 1.0) return;
+  if (!foliage_.cutFor(cuts.now).leftBy(now, layout_.motion.cuts)) return;
+  cuts = {now, cuts.now, stamp};
+}
+
+const Foliage& Canopy::foliage() {
+  if (stale_) foliage_.update(memory_.history, memory_.driver.share(), memory_.cuts, memory_.stamp);
+  stale_ = false;
+  return foliage_;
+}
+
+StateUpdate Canopy::update(bool hashed) const {
+  return {memory_.stamp,
+          memory_.ticks,
+          memory_.history.frame(0),
+          memory_.driver.share(),
+          memory_.cuts,
+          layout_hash_,
+          wind_.hash(),
+          hashed ? memory_.hash() : 0};
+}
+
+Replica::Replica(const Layout& layout)
+    : layout_(checked(layout)),
+      layout_hash_(layout.hash()),
+      history_(layout.motion.fluid.cells, historyFrames(layout.motion)),
+      foliage_(layout_) {}
+
+void Replica::apply(const StateUpdate& update) {
+  if (update.layout_hash != layout_hash_)
+    throw InvalidInput("state: layout_hash = " + std::to_string(update.layout_hash) +
+                       " is not that of the layout, " + std::to_string(layout_hash_));
+  const bool next = heard_ > 0 && update.sequence == last_.sequence + 1;
+  const bool first = update.sequence <= 1;
+  if (!next || first) {
+    History fresh(history_.size(), history_.frames());
+    fresh.push(update.frame);
+    history_ = std::move(fresh);
+    heard_ = first ? history_.frames() : 1;  // before its first tick everything was at rest
+  } else {
+    history_.push(update.frame);
+    ++heard_;
+  }
+  last_ = update;
+  stale_ = true;
+}
+
+const Foliage& Replica::foliage() {
+  if (stale_) foliage_.update(history_, last_.front_share, last_.cuts, last_.stamp);
+  stale_ = false;
+  return foliage_;
+}
+
+}  // namespace vegetation_sim::canopy
