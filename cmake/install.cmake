@@ -6,7 +6,7 @@ install(TARGETS ${own_targets}
   RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY include/${PROJECT_NAME}/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION})
 install(DIRECTORY config launch media rviz DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
-catkin_install_python(PROGRAMS scripts/charts/charts scripts/scripted_gripper.py
+catkin_install_python(PROGRAMS scripts/charts/charts scripts/scripted_gripper.py scripts/scripted_mower.py
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY scripts/charts/charting DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION}
   PATTERN __pycache__ EXCLUDE)

@@ -1,0 +1,114 @@
+#!/usr/bin/env python3
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""A mower without a robot: it drives to and fro through branches that its hull and mast push aside. It
+shows what a robot has to do: broadcast its frame and listen to forest/wrenches; its bodies are the
+parameter ~bodies of forest_animator (config/mower.yaml)."""
+import math
+from collections import deque
+
+import rospy
+from geometry_msgs.msg import Point, TransformStamped, WrenchStamped
+from std_msgs.msg import ColorRGBA
+from tf2_msgs.msg import TFMessage
+from visualization_msgs.msg import Marker, MarkerArray
+
+RATE = 50.0  # [Hz]
+METRES_PER_NEWTON = 0.01  # of the arrow
+SMOOTHING = 0.3  # [s] over which the label and the arrow are averaged
+GREEN, BLACK, STEEL, RED = (0.15, 0.45, 0.18), (0.08, 0.08, 0.08), (0.55, 0.57, 0.60), (0.80, 0.05, 0.05)
+
+
+class ScriptedMower:
+    def __init__(self):
+        self.frame = rospy.get_param('~frame', 'mower')
+        self.world = rospy.get_param('~frame_id', 'map')
+        self.speed = rospy.get_param('~speed', 0.8)  # [m/s]
+        self.way = rospy.get_param('~way', 5.0)  # on either side of the middle [m]
+        self.place, self.start = -self.way, None
+        self.felt = deque()
+        self.tf = rospy.Publisher('/tf', TFMessage, queue_size=100)
+        self.markers = rospy.Publisher('mower/markers', MarkerArray, queue_size=1)
+        rospy.Subscriber('forest/wrenches', WrenchStamped, self.feel, queue_size=1000)
+
+    def feel(self, message):
+        if message.header.frame_id == self.frame:
+            self.felt.append(message)
+
+    def force(self, now):
+        """Of all branches on the mower, a mean over the last ticks [N]."""
+        while self.felt and (now - self.felt[0].header.stamp).to_sec() > SMOOTHING:
+            self.felt.popleft()
+        ticks = len({m.header.stamp for m in self.felt})
+        total = [0.0, 0.0, 0.0]
+        for message in list(self.felt):
+            f = message.wrench.force
+            total = [a + b / ticks for a, b in zip(total, (f.x, f.y, f.z))]
+        return total
+
+    def tick(self, event):
+        now = event.current_real
+        if self.start is None or now < self.start:
+            self.start = now
+        # To and fro at constant speed, slower where it turns.
+        phase = (now - self.start).to_sec() * self.speed / (2.0 * self.way)
+        self.place = self.way * math.asin(0.999 * math.sin(math.pi * (phase - 0.5))) / (0.5 * math.pi)
+        self.send(now)
+        self.draw(now)
+
+    def send(self, now):
+        transform = TransformStamped(child_frame_id=self.frame)
+        transform.header.stamp, transform.header.frame_id = now, self.world
+        transform.transform.translation.x = self.place
+        transform.transform.rotation.w = 1.0
+        self.tf.publish([transform])
+
+    def draw(self, now):
+        force = self.force(now)
+        wheels = [self.solid(10 + i, Marker.CYLINDER, (x, y, 0.22), (0.44, 0.44, 0.14), BLACK, True)
+                  for i, (x, y) in enumerate([(-0.4, -0.36), (-0.4, 0.36), (0.4, -0.36), (0.4, 0.36)])]
+        self.markers.publish(MarkerArray(wheels + [
+            self.solid(0, Marker.CUBE, (0.0, 0.0, 0.4), (1.1, 0.7, 0.5), GREEN),
+            self.solid(1, Marker.CYLINDER, (0.1, 0.0, 1.45), (0.14, 0.14, 1.6), STEEL),
+            self.solid(2, Marker.SPHERE, (0.1, 0.0, 2.25), (0.14, 0.14, 0.14), STEEL),
+            self.arrow(force), self.label(force)]))
+
+    def marker(self, number, kind, colour):
+        out = Marker(ns='mower', id=number, type=kind, action=Marker.ADD)
+        out.header.frame_id = self.world
+        out.pose.orientation.w = 1.0
+        out.color = ColorRGBA(*colour, 1.0)
+        out.lifetime = rospy.Duration(1.0)
+        return out
+
+    def solid(self, number, kind, offset, size, colour, lying=False):
+        out = self.marker(number, kind, colour)
+        at, turn = out.pose.position, out.pose.orientation
+        at.x, at.y, at.z = self.place + offset[0], offset[1], offset[2]
+        if lying:
+            turn.x = turn.w = math.sqrt(0.5)
+        out.scale.x, out.scale.y, out.scale.z = size
+        return out
+
+    def arrow(self, force):
+        out = self.marker(4, Marker.ARROW, RED)
+        if math.hypot(*force) * METRES_PER_NEWTON < 0.05:
+            out.action = Marker.DELETE
+        out.scale.x, out.scale.y, out.scale.z = 0.05, 0.11, 0.16
+        foot = (self.place + 0.1, 0.0, 1.6)
+        out.points = [Point(*foot), Point(*[p + METRES_PER_NEWTON * f for p, f in zip(foot, force)])]
+        return out
+
+    def label(self, force):
+        out = self.marker(5, Marker.TEXT_VIEW_FACING, (0.05, 0.05, 0.05))
+        out.pose.position.x, out.pose.position.z = self.place + 0.1, 2.6
+        out.scale.z = 0.26
+        out.text = '%.0f N' % math.hypot(*force)
+        return out
+
+
+if __name__ == '__main__':
+    rospy.init_node('mower')
+    mower = ScriptedMower()
+    rospy.Timer(rospy.Duration.from_sec(1.0 / RATE), mower.tick, reset=True)
+    rospy.spin()
