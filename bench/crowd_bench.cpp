@@ -13,5 +13,8 @@ int main(int argc, char** argv) {
   const std::string part = argc > 1 ? argv[1] : "all";
   const double number = argc > 2 ? std::atof(argv[2]) : 0.0;
   if (part == "all" || part == "queries") bench::benchQueries(number > 0.0 ? number : 1e7, 15);
+  if (part == "all" || part == "scale") bench::benchScale(9);
+  if (part == "all" || part == "behaviour")
+    bench::benchBehaviour(number > 0.0 ? static_cast<int>(number) : 20);
   return 0;
 }

@@ -1,0 +1,69 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "vegetation_sim/crowd/obstacle.h"
+
+namespace vegetation_sim::crowd {
+
+/// Obstacles that stand still, found by place: a uniform grid in which each stands in every cell
+/// that it covers. Immutable; any number of threads may ask.
+class ObstacleGrid {
+ public:
+  ObstacleGrid() = default;
+  /// @param cell wanted edge [m]; larger where there would be more than a million cells.
+  ObstacleGrid(std::vector<Obstacle> obstacles, double cell);
+
+  const std::vector<Obstacle>& obstacles() const { return obstacles_; }
+  /// Circle about an obstacle, as it stands in the cells.
+  struct Spot {
+    Point centre;
+    double reach;  ///< [m]
+    std::uint32_t index;
+    bool is_disc;     ///< the circle is all of it
+    int column, row;  ///< its first cell
+  };
+  /// Calls `visit(spot)` once for each obstacle whose cells come within `range` of a place, in an
+  /// order that depends on the place alone.
+  template <class Visit>
+  void visitNear(const Point& place, double range, Visit visit) const {
+    if (obstacles_.empty()) return;
+    const int c0 = column(place.x - range), c1 = column(place.x + range);
+    const int r0 = row(place.y - range), r1 = row(place.y + range);
+    for (int r = r0; r <= r1; ++r)
+      for (int c = c0; c <= c1; ++c) {
+        const std::size_t cell = static_cast<std::size_t>(r) * columns_ + c;
+        for (std::uint32_t i = starts_[cell]; i < starts_[cell + 1]; ++i) {
+          const Spot& spot = spots_[i];
+          // An obstacle in several of the cells is told of in the first of them only.
+          if (std::max(spot.column, c0) == c && std::max(spot.row, r0) == r) visit(spot);
+        }
+      }
+  }
+
+ private:
+  int clampTo(double cells, int count) const {
+    return static_cast<int>(std::min(std::max(cells, 0.0), count - 1.0));
+  }
+  int column(double x) const { return clampTo((x - origin_.x) * per_metre_, columns_); }
+  int row(double y) const { return clampTo((y - origin_.y) * per_metre_, rows_); }
+
+  std::vector<Obstacle> obstacles_;
+  Point origin_{};
+  double per_metre_{1.0};
+  int columns_{0}, rows_{0};
+  std::vector<std::uint32_t> starts_;  ///< [cells + 1] into `spots_`
+  std::vector<Spot> spots_;
+};
+
+/// Box about an obstacle's outline.
+struct Extent {
+  Point low, high;
+};
+Extent extentOf(const Obstacle& obstacle);
+
+}  // namespace vegetation_sim::crowd

@@ -1,0 +1,82 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "vegetation_sim/crowd/obstacle_grid.h"
+#include "vegetation_sim/crowd/walker.h"
+
+namespace vegetation_sim::crowd {
+
+enum class Seen : int { STATIC, WALKER, ROBOT };
+
+/// One of the nearest obstacles.
+struct Sight {
+  Seen kind{Seen::STATIC};
+  std::uint32_t index{0};  ///< of the static obstacle, walker or robot
+  double gap{0.0};         ///< between the outlines; below 0 they overlap [m]
+  double lower{0.0};       ///< proof: the gap is not less than this, up to rounding [m]
+  Point normal{};          ///< unit, towards it; zero if the walker's centre is in it
+  bool is_disc{false};
+  Point place{};       ///< of a disc [m]
+  double radius{0.0};  ///< of a disc [m]
+};
+
+/// What a walker perceives: (d, theta) of paper 2, section 5.1, for the nearest obstacles.
+struct View {
+  static constexpr int MOST = 8;
+  std::array<Sight, MOST> sights;  ///< nearest first
+  int count{0};
+  double beyond{0.0};  ///< every other obstacle is at least this far away [m]
+
+  const Sight& at(int i) const { return sights[static_cast<std::size_t>(i)]; }
+};
+
+/// People by place: buckets of a grid that repeats itself, so that it takes the memory of its
+/// people wherever they are.
+class WalkerGrid {
+ public:
+  struct Spot {
+    Point position;
+    double radius;
+    std::uint32_t index;
+  };
+  void build(const std::vector<Walker>& walkers, double cell);
+  /// Everybody, neighbours near each other.
+  const std::vector<Spot>& spots() const { return spots_; }
+  template <class Visit>
+  void visitNear(const Point& place, Visit visit) const;
+
+ private:
+  std::uint32_t bucketOf(std::int64_t column, std::int64_t row) const {
+    return (static_cast<std::uint32_t>(row) & mask_) << bits_ |
+           (static_cast<std::uint32_t>(column) & mask_);
+  }
+  std::int64_t cellOf(double x) const;
+
+  double per_metre_{1.0};
+  std::uint32_t bits_{2}, mask_{3};
+  std::vector<std::uint32_t> starts_, buckets_;
+  std::vector<Spot> spots_;
+};
+
+/// Everything that can be in the way at one tick.
+struct Surroundings {
+  const ObstacleGrid* still{nullptr};
+  const WalkerGrid* walkers{nullptr};
+  const std::vector<Obstacle>* robots{nullptr};
+};
+
+/// The `most` nearest obstacles within the sensor's range: candidates from the grids, sorted by
+/// the distance of their circles, measured until the next cannot be nearer. The same answer as
+/// measuring all. @param self index of the walker.
+View perceive(const Walker& walker, std::uint32_t self, const Surroundings& around,
+              double sensor_range, int most);
+/// The same by measuring all; for tests and benches.
+View perceiveAll(const Walker& walker, std::uint32_t self, const std::vector<Walker>& walkers,
+                 const Surroundings& around, double sensor_range, int most);
+
+}  // namespace vegetation_sim::crowd

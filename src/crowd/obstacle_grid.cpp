@@ -1,0 +1,61 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/crowd/obstacle_grid.h"
+
+#include <cmath>
+
+namespace vegetation_sim::crowd {
+namespace {
+
+constexpr double MOST_CELLS = 1e6;
+
+}  // namespace
+
+Extent extentOf(const Obstacle& o) {
+  const Box& box = o.box;
+  double x = box.radius, y = box.radius;
+  for (int i = 0; i < 2; ++i) {
+    const Vec3& axis = box.axes[static_cast<std::size_t>(i)];
+    x += std::fabs(axis.x()) * box.half[i];
+    y += std::fabs(axis.y()) * box.half[i];
+  }
+  const Point c = o.centre();
+  return {{c.x - x, c.y - y}, {c.x + x, c.y + y}};
+}
+
+ObstacleGrid::ObstacleGrid(std::vector<Obstacle> obstacles, double cell)
+    : obstacles_(std::move(obstacles)) {
+  if (obstacles_.empty()) return;
+  std::vector<Extent> extents;
+  for (const Obstacle& o : obstacles_) extents.push_back(extentOf(o));
+  Point low = extents.front().low, high = extents.front().high;
+  for (const Extent& e : extents) {
+    low = {std::min(low.x, e.low.x), std::min(low.y, e.low.y)};
+    high = {std::max(high.x, e.high.x), std::max(high.y, e.high.y)};
+  }
+  origin_ = low;
+  const Point size = high - low;
+  while ((size.x / cell + 1.0) * (size.y / cell + 1.0) > MOST_CELLS) cell *= 2.0;
+  per_metre_ = 1.0 / cell;
+  columns_ = static_cast<int>(size.x * per_metre_) + 1;
+  rows_ = static_cast<int>(size.y * per_metre_) + 1;
+  // Counted, then filled: cells of one vector.
+  starts_.assign(static_cast<std::size_t>(columns_) * rows_ + 1, 0);
+  const auto cover = [&](const Extent& e, auto each) {
+    for (int r = row(e.low.y); r <= row(e.high.y); ++r)
+      for (int c = column(e.low.x); c <= column(e.high.x); ++c)
+        each(static_cast<std::size_t>(r) * columns_ + c);
+  };
+  for (const Extent& e : extents) cover(e, [&](std::size_t at) { ++starts_[at + 1]; });
+  for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
+  spots_.resize(starts_.back());
+  std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
+  for (std::uint32_t i = 0; i < obstacles_.size(); ++i) {
+    const Obstacle& o = obstacles_[i];
+    const Spot spot{o.centre(),           o.reach, i, o.isDisc(), column(extents[i].low.x),
+                    row(extents[i].low.y)};
+    cover(extents[i], [&](std::size_t at) { spots_[next[at]++] = spot; });
+  }
+}
+
+}  // namespace vegetation_sim::crowd

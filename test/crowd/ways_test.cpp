@@ -1,0 +1,79 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/crowd/ways.h"
+
+#include <gtest/gtest.h>
+
+#include "scenes.h"
+
+namespace vegetation_sim::crowd {
+namespace {
+
+// A U that is open to the west.
+ObstacleGrid pocket() {
+  return ObstacleGrid({wallObstacle({2, -3}, {2, 3}, 0.2), wallObstacle({-2, -3}, {2, -3}, 0.2),
+                       wallObstacle({-2, 3}, {2, 3}, 0.2)},
+                      3.0);
+}
+
+TEST(Ways, LeadOutOfAPocket) {
+  const ObstacleGrid still = pocket();
+  const PlanRaster raster(still, 0.3, 0.25);
+  const FlowField field(raster, {8, 0});
+  Point at{1.0, 0.0}, aim;
+  double way = 0.0;
+  for (int i = 0; i < 400 && length(Point{8, 0} - at) > 0.3; ++i) {
+    ASSERT_TRUE(field.aimFrom(raster, at, aim));
+    const Point to = aim - at;
+    const Point next = at + (std::min(0.1, length(to)) / length(to)) * to;
+    for (const Obstacle& wall : still.obstacles())
+      ASSERT_FALSE(separation(next, 0.25, wall).overlapping) << next.x << " " << next.y;
+    at = next;
+    way += 0.1;
+  }
+  EXPECT_LT(length(Point{8, 0} - at), 0.31);
+  // Out to the mouth's corner and back along the arm: 3.3 + 0.5 + 4.2 + 6.5 m, and the steps'
+  // turns.
+  EXPECT_LT(way, 17.0);
+}
+
+TEST(Ways, StraightWhereNothingIsBetween) {
+  const PlanRaster raster(pocket(), 0.3, 0.25);
+  const FlowField field(raster, {8, 0});
+  Point aim;
+  ASSERT_TRUE(field.aimFrom(raster, {3, 2}, aim));
+  EXPECT_EQ(aim.x, 8.0);
+  EXPECT_EQ(aim.y, 0.0);
+}
+
+TEST(Ways, AClosedRoomHasNoWayOut) {
+  const ObstacleGrid still(room(-4, -4, 4, 4), 3.0);
+  const PlanRaster raster(still, 0.3, 0.25);
+  const FlowField field(raster, {6, 0});
+  Point aim;
+  EXPECT_FALSE(field.isReachable(raster, {0, 0}));
+  EXPECT_FALSE(field.aimFrom(raster, {0, 0}, aim));
+  EXPECT_TRUE(field.isReachable(raster, {6, 3}));
+}
+
+TEST(Ways, FieldsThatNobodyAsksForGo) {
+  Ways ways;
+  ways.setObstacles(pocket(), 0.3, 0.25);
+  for (int i = 0; i < 200; ++i) {
+    ways.fieldOf({-4.9 + 0.25 * (i % 40), 4.0 + 0.25 * (i / 40)});
+    ways.endTick();
+  }
+  EXPECT_LE(ways.count(), 125U);
+  for (int i = 0; i < 200; ++i) ways.endTick();
+  EXPECT_LE(ways.count(), 32U);
+}
+
+TEST(Ways, LargeLandscapesGetLargerCells) {
+  const ObstacleGrid still({discObstacle({0, 0}, 1.0), discObstacle({5000, 5000}, 1.0)}, 3.0);
+  const PlanRaster raster(still, 0.3, 0.25);
+  EXPECT_LE(raster.columns() * raster.rows(), 524288);
+  EXPECT_GT(raster.cell(), 0.25);
+}
+
+}  // namespace
+}  // namespace vegetation_sim::crowd
