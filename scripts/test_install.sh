@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs the build, runs a scenario from there, as nodes and as nodelets, and removes it again.
+# Installs the build, draws a chart and runs a scenario from there, as nodes and as nodelets, and
+# removes it again.
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 
@@ -30,6 +31,9 @@ done
 for file in "$INSTALLED"/lib/*.so "$INSTALLED"/lib/vegetation_sim/*; do
   ! ldd "$file" | grep -E "not found|$BUILD/devel" || fail "$file lacks a library"
 done
+
+rosrun vegetation_sim charts --quick --only grass_ladder --out "$WORK/charts" >"$WORK/charts.log" 2>&1 ||
+  fail "charts: $(cat "$WORK/charts.log")"
 
 for nodelets in false true; do
   start_launch demo.launch scenario:=single_tree rviz:=false nodelets:=$nodelets

@@ -10,7 +10,9 @@ from charting.tables import groups
 NAMES = {'trees': 'trees: levels and state of a tick', 'branches': 'branches posed (procedural)',
          'physical': 'physical branches: a tick of 1/60 s',
          'links, plain': 'physical links: a step, plain', 'links, SIMD': 'the same on wide vectors',
-         'blades': 'blades of grass posed', 'nodes': 'nodes of grass trodden'}
+         'blades': 'blades of grass posed', 'nodes': 'nodes of grass trodden',
+         'walkers': 'walkers among ten trunks each: a tick of 1/60 s',
+         'cells': 'cells of a leaf field: wind and leaves of 1/30 s'}
 FRAME = 1.0 / 60.0
 
 
@@ -28,8 +30,9 @@ def draw(rows):
         each = sorted(each, key=lambda row: row.size)
         sizes = np.array([row.size for row in each])
         seconds = np.array([row.seconds for row in each])
-        axes.loglog(sizes, 1e3 * seconds, '-', marker=style.MARKERS[number],
+        axes.loglog(sizes, 1e3 * seconds, marker=style.MARKERS[number % len(style.MARKERS)],
                     color=style.COLOURS[number % len(style.COLOURS)],
+                    linestyle='-' if number < len(style.COLOURS) else '--',
                     label='%s\n  exponent %.2f, %s ns each at the end' % (
                         NAMES.get(series, series), slope(sizes, seconds),
                         float('%.2g' % (1e9 * seconds[-1] / sizes[-1]))))

@@ -7,8 +7,11 @@ from charting.tables import groups
 
 PARTS = {'levels': ('choice of levels', style.BLUE), 'physics': ('physics', style.RED),
          'state': ('state message', style.PINK), 'poses': ('poses of branches', style.GREEN),
-         'meshes': ('meshes moved', style.ORANGE)}
-COLOURS = (style.SKY, style.BLACK, style.YELLOW, style.GREY)  # of parts that come later
+         'meshes': ('meshes of trees', style.ORANGE), 'treading': ('treading', style.BLACK),
+         'grass levels': ('levels of grass', style.SKY),
+         'air on the grass': ('air on the grass', style.GREY),
+         'blades and strips': ('blades and strips', style.YELLOW)}
+LATER = ('#882255', '#44AA99', '#332288', '#DDCC77')  # colours of parts that come later (Tol)
 
 
 def draw(rows):
@@ -17,7 +20,7 @@ def draw(rows):
                                       size=(8.0, 1.7 + 0.6 * len(scenarios)))
     parts = list(dict.fromkeys(row.part for row in rows if row.part != 'frame'))
     left = {name: 0.0 for name in scenarios}
-    more = iter(COLOURS)
+    more = iter(LATER)
     longest = max(row.ms_99 for row in rows)
     for part in parts:
         words, colour = PARTS.get(part) or (part, next(more))
