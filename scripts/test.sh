@@ -66,6 +66,7 @@ sanitize() {
 [ $part = --sanitize ] || lint
 [ $part = --lint ] || sanitize
 [ $part != all ] || check 'runs from the install space' "$ROOT/scripts/test_install.sh"
+[ $part != all ] || check 'a series of pictures of the demo' "$ROOT/scripts/test_demo.sh"
 
 [ $failed -eq 0 ] || printf 'FAILED  %s\n' "${failures[@]}"
 printf '%d passed, %d failed, %d skipped\n' $passed $failed $skipped
