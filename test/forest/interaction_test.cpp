@@ -263,6 +263,31 @@ TEST(Interaction, LeaseEndsAGrabThatNobodyRenews) {
   EXPECT_EQ(rig.forest.physicsFigures().branches, 0u);
 }
 
+// N3: what a hand that opens feels falls at the stated rate, down to a last zero.
+TEST(Interaction, WrenchFallsAfterAReleaseAndEndsAtZero) {
+  PhysicsSettings settings;
+  settings.contact.force_rate = 600.0;
+  PhysicsRig rig(settings);
+  Grab grab = rig.grabOf(rig.branchOfDepth(1));
+  grab.target += Vec3(0.2, 0.1, 0.0);
+  const std::uint32_t id = rig.forest.addGrab(grab);
+  rig.run(2.0);
+  double last = length(rig.forest.reactions().at(0).force);
+  const double most = 600.0 / TICK_RATE;
+  ASSERT_GT(last, 3.0 * most);
+  rig.forest.release(id);
+  int told = 0;
+  for (rig.advance(); !rig.forest.reactions().empty(); rig.advance(), ++told) {
+    ASSERT_EQ(rig.forest.reactions().size(), 1u);
+    EXPECT_EQ(rig.forest.reactions()[0].grab, id);
+    const double now = length(rig.forest.reactions()[0].force);
+    EXPECT_NEAR(now, std::max(0.0, last - most), 1e-6 * most);  // a tick is whole nanoseconds
+    last = now;
+  }
+  EXPECT_GT(told, 3);
+  EXPECT_EQ(last, 0.0);
+}
+
 TEST(Interaction, SeveralGrabsHoldOneTree) {
   PhysicsRig rig;
   Grab a = rig.grabOf(rig.branchOfDepth(1)), b = rig.grabOf(0);
