@@ -12,7 +12,7 @@ namespace vegetation_sim::grass {
 namespace {
 
 // From where single blades are this many tolerances apart, all are drawn.
-constexpr double APART = 4.0;
+constexpr double APART = 8.0;
 // Largest distance of an arc of 90 degrees from n chords, times n^2, per length of the arc.
 constexpr double CHORD_ERROR = PI / 16.0;
 // Elevations between which layers replace strips [rad].

@@ -37,10 +37,7 @@ void describe(FieldVisitor& v, MeadowSettings& s) {
 Meadow::Meadow(std::shared_ptr<const FeatureMap> map,
                std::shared_ptr<const terrain::HeightMap> terrain, std::uint64_t seed,
                const MeadowSettings& settings, const TreadSettings& tread)
-    : map_(std::move(map)),
-      terrain_(std::move(terrain)),
-      seed_(seed),
-      tread_(map_->law(), tread) {
+    : map_(std::move(map)), terrain_(std::move(terrain)), seed_(seed), tread_(map_->law(), tread) {
   setSettings(settings);
 }
 

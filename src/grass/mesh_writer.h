@@ -27,7 +27,4 @@ inline void addTriangle(GrassMesh& mesh, std::uint32_t a, std::uint32_t b, std::
   mesh.indices.insert(mesh.indices.end(), {a, b, c});
 }
 
-/// Colour of the mix of species at a place.
-Vec3 meanColour(const FeatureMap& map, const Features& features);
-
 }  // namespace vegetation_sim::grass

@@ -12,7 +12,7 @@
 namespace vegetation_sim::grass {
 namespace {
 
-constexpr int PETALS = 6;  ///< corners of a flower
+constexpr int PETALS = 6;  ///< corners of a flower, around its middle
 
 struct Float3 {
   float x, y, z;
@@ -107,7 +107,7 @@ class Ribbons {
       const Float3 fresh = narrow(s.species.colour), dry = narrow(s.species.dry_colour);
       looks_.push_back({fresh, dry - fresh, narrow(s.species.flower_colour),
                         static_cast<float>(0.5 * s.species.width * style.width),
-                        static_cast<float>(s.species.flower_radius * std::sqrt(style.width))});
+                        static_cast<float>(s.species.flower_radius * std::pow(style.width, 0.3))});
     }
   }
 
@@ -121,11 +121,11 @@ class Ribbons {
       flowers += looks_[static_cast<std::size_t>(kind)].flower > 0.f ? 1 : 0;
     }
     const auto blades = static_cast<std::size_t>(count);
-    const std::size_t vertices = blades * (2 * n + 1) + flowers * PETALS;
+    const std::size_t vertices = blades * (2 * n + 1) + flowers * (PETALS + 1);
     const auto first = static_cast<std::uint32_t>(mesh.vertexCount());
     Writer out{grow(mesh.positions, 3 * vertices), grow(mesh.texture, 2 * vertices),
                grow(mesh.colours, 4 * vertices),
-               grow(mesh.indices, 3 * (blades * (2 * n - 1) + flowers * (PETALS - 2))), first};
+               grow(mesh.indices, 3 * (blades * (2 * n - 1) + flowers * PETALS)), first};
     for (int blade = 0; blade < count; ++blade) write(blocks[blade / BLOCK], blade, out);
   }
 
@@ -216,10 +216,14 @@ class Ribbons {
     const std::uint32_t first = out.next;
     constexpr std::array<std::array<float, 2>, PETALS> CORNERS{
         {{-1.f, 0.f}, {-0.5f, -0.8f}, {0.5f, -0.8f}, {1.f, 0.f}, {0.5f, 0.8f}, {-0.5f, 0.8f}}};
+    // Pale flowers have a yellow heart, others a dark one.
+    const bool pale = std::min({look.petal.x, look.petal.y, look.petal.z}) > 0.6f;
+    out.vertex(tip, 0.5f, 0.5f, pale ? Float3{0.95f, 0.75f, 0.15f} : light * 0.35f);
     for (const auto& corner : CORNERS)
       out.vertex(tip + across * corner[0] + up * corner[1], 0.5f + 0.5f * corner[0],
                  0.5f + 0.5f * corner[1], light * (0.9f + 0.1f * corner[1]));
-    for (std::uint32_t k = 1; k + 1 < PETALS; ++k) out.triangle(first, first + k, first + k + 1);
+    for (std::uint32_t k = 0; k < PETALS; ++k)
+      out.triangle(first, first + 1 + k, first + 1 + (k + 1) % PETALS);
   }
 
   const FeatureMap& map_;

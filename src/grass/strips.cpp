@@ -7,6 +7,7 @@
 
 #include "grass/blade_plain.h"
 #include "grass/mesh_writer.h"
+#include "vegetation_sim/common/random.h"
 
 namespace vegetation_sim::grass {
 namespace {
@@ -122,6 +123,36 @@ void appendStrips(const FeatureMap& map, const Tile& tile, const TileMotion& mot
       const double along = s * double{tile.size} / PICTURE_WIDTH, cover = sheet.coverAt(u, v);
       const auto first = addVertex(mesh, bottom, along, 0.0, colour, cover);
       addVertex(mesh, top, along, 1.0, colour, cover);
+      if (k > 0) {
+        addTriangle(mesh, before, first, first + 1);
+        addTriangle(mesh, before, first + 1, before + 1);
+      }
+      before = first;
+    }
+  }
+}
+
+void appendRows(const FeatureMap& map, const Tile& tile, const TileMotion& motion, int rows,
+                double grown, double full_density, GrassMesh& mesh, const GrassLight* light) {
+  constexpr int CELLS = 3;
+  const Sheet sheet(map, tile, motion, full_density, mesh.origin);
+  const Random random = Random(tile.key).child(1);
+  for (int line = 0; line < 2 * rows; ++line) {
+    const auto word = static_cast<std::uint64_t>(line) * (CELLS + 2);
+    const double shift = random.uniform(word + CELLS + 1);
+    std::uint32_t before = 0;
+    for (int k = 0; k <= CELLS; ++k) {
+      const double aside = random.uniform(word + static_cast<std::uint64_t>(k), -0.45, 0.45);
+      const double along = static_cast<double>(k) / CELLS;
+      const double across = saturate((line / 2 + 0.5 + aside) / rows);
+      const double u = line % 2 ? across : along, v = line % 2 ? along : across;
+      const Vec3 bottom = sheet.groundAt(u, v);
+      const Vec3 offset = sheet.offsetAt(u, v, grown * sheet.heightAt(u, v));
+      const Vec3 colour = sheet.litAt(u, v, offset, light);
+      const double s = shift + along * double{tile.size} / PICTURE_WIDTH;
+      const double cover = sheet.coverAt(u, v);
+      const auto first = addVertex(mesh, bottom, s, 0.0, colour, cover);
+      addVertex(mesh, bottom + offset, s, 1.0, colour, cover);
       if (k > 0) {
         addTriangle(mesh, before, first, first + 1);
         addTriangle(mesh, before, first + 1, before + 1);

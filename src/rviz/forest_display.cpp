@@ -5,7 +5,6 @@
 #include <rviz/display_context.h>
 #include <rviz/frame_manager.h>
 #include <rviz/render_panel.h>
-#include <rviz/validate_floats.h>
 #include <rviz/view_controller.h>
 #include <rviz/view_manager.h>
 #include <unistd.h>
@@ -13,16 +12,15 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include "vegetation_sim/ros/stamps.h"
+#include "vegetation_sim/rviz/view_of.h"
 
 namespace vegetation_sim {
 namespace {
 
 constexpr double STATUS_PERIOD = 0.5;                           // [s]
+constexpr int GROUND_EDGE = 1024;                               // [pixel] of the ground's picture
+constexpr double GROUND_CELL = 3.0;                             // [m] of its mesh
 constexpr Nanoseconds JUMP_BACK = NANOSECONDS_PER_SECOND / 10;  // less is jitter
-
-Vec3 widen(const Ogre::Vector3& v) {
-  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
-}
 
 }  // namespace
 
@@ -144,19 +142,25 @@ void ForestDisplay::update(float wall_dt, float /*ros_dt*/) {
   since_update_ = 0.0;
   const auto stamp = static_cast<Nanoseconds>(context_->getFrameManager()->getTime().toNSec());
   watchTime(stamp);
-  view::View view;
-  if (source_->replica().ready() && stamp > 0 && placeInFixedFrame() && findView(view)) {
-    if (layouts_ != source_->layouts()) {
-      layouts_ = source_->layouts();
-      forest_->restart(source_->replica(), view, properties_->options());
-    }
-    forest_->update(source_->replica(), stamp, view, properties_->daylight(),
-                    properties_->options());
-    makeGround();
-  }
+  if (source_->replica().ready() && stamp > 0 &&
+      view::placeInFixedFrame(*context_, source_->frame(), *scene_node_, board_))
+    draw(stamp);
   if (since_status_ < STATUS_PERIOD) return;
   since_status_ = 0.0;
   showStatus(stamp);
+}
+
+void ForestDisplay::draw(Nanoseconds stamp) {
+  const std::optional<view::View> found = view::viewOf(*context_, *scene_node_);
+  if (!found) return;
+  const view::View& view = *found;
+  if (sky_) sky_->follow(view.eye.position);
+  if (layouts_ != source_->layouts()) {
+    layouts_ = source_->layouts();
+    forest_->restart(source_->replica(), view, properties_->options());
+  }
+  forest_->update(source_->replica(), stamp, view, properties_->daylight(), properties_->options());
+  makeGround();
 }
 
 void ForestDisplay::watchTime(Nanoseconds stamp) {
@@ -165,50 +169,18 @@ void ForestDisplay::watchTime(Nanoseconds stamp) {
   last_stamp_ = stamp;
 }
 
-bool ForestDisplay::placeInFixedFrame() {
-  Ogre::Vector3 position;
-  Ogre::Quaternion orientation;
-  if (!context_->getFrameManager()->getTransform(source_->frame(), ros::Time(), position,
-                                                 orientation)) {
-    board_.show(rviz::StatusProperty::Error, "Transform",
-                "No transform from " + source_->frame() + " to " + fixed_frame_.toStdString());
-    scene_node_->setVisible(false);
-    return false;
-  }
-  if (!rviz::validateFloats(position) || orientation.isNaN()) return false;
-  board_.show(rviz::StatusProperty::Ok, "Transform", "OK");
-  scene_node_->setVisible(true);
-  scene_node_->setPosition(position);
-  scene_node_->setOrientation(orientation);
-  return true;
-}
-
-bool ForestDisplay::findView(view::View& view) {
-  rviz::ViewController* controller = context_->getViewManager()->getCurrent();
-  if (controller == nullptr || controller->getCamera() == nullptr) return false;
-  const Ogre::Camera& camera = *controller->getCamera();
-  const Ogre::Vector3 position = camera.getDerivedPosition();
-  if (!rviz::validateFloats(position)) return false;
-  const Ogre::Quaternion back = scene_node_->getOrientation().Inverse();
-  view.eye.position = widen(back * (position - scene_node_->getPosition()));
-  view.forward = widen(back * camera.getDerivedDirection());
-  const double half = 0.5 * static_cast<double>(camera.getFOVy().valueRadians());
-  const auto aspect = static_cast<double>(camera.getAspectRatio());
-  view.half_angle = std::atan(std::tan(half) * std::hypot(1.0, aspect));
-  const rviz::RenderPanel* panel = context_->getViewManager()->getRenderPanel();
-  const double height = panel != nullptr ? std::max(panel->height(), 1) : 900.0;
-  view.eye.pixels_per_radian = 0.5 * height / std::tan(half);
-  if (sky_) sky_->follow(back * (position - scene_node_->getPosition()));
-  return true;
-}
-
 void ForestDisplay::makeGround() {
   const view::TreeStock* stock = forest_->stock();
   if (stock == nullptr || !properties_->ground() || grounded_ == forest_->stocks()) return;
   ground_.reset();
   const view::Daylight daylight = properties_->daylight();
-  ground_ = std::make_unique<view::GroundVisual>(*scene_node_, *stock, source_->replica().terrain(),
-                                                 daylight, properties_->groundTint());
+  const terrain::HeightMap& terrain = source_->replica().terrain();
+  const view::Plot plot = view::plotAround(stock->extent());
+  const view::Rgba tint = properties_->groundTint();
+  const view::Picture picture =
+      view::groundPicture(plot, GROUND_EDGE, *stock, terrain, daylight, tint);
+  const view::Land land{plot, picture, terrain, stock->origin(), GROUND_CELL, tint};
+  ground_ = std::make_unique<view::GroundVisual>(*scene_node_, land, daylight);
   ground_->light(daylight, daylight.to_sun, properties_->hazeValues());
   grounded_ = forest_->stocks();
 }

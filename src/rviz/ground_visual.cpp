@@ -8,13 +8,14 @@
 #include <array>
 #include <cmath>
 
+#include "vegetation_sim/common/math.h"
+
 namespace vegetation_sim::view {
 namespace {
 
-constexpr int PICTURE_EDGE = 1024, GRAIN_EDGE = 512;  // [pixel]
-constexpr int TILES = 4;                              // batches along an edge, each seen or not
-constexpr double CELL = 3.0;                          // [m] about
-constexpr int MOST_CELLS = 40;                        // along the edge of a tile
+constexpr int GRAIN_EDGE = 512;  // [pixel]
+constexpr int TILES = 4;         // batches along an edge, each seen or not
+constexpr int MOST_CELLS = 40;   // along the edge of a tile
 // Rings around the plot, in half edges from its middle.
 constexpr std::array<double, 6> RINGS{1.0, 1.25, 1.7, 2.8, 6.0, 24.0};
 constexpr int RING_SIDE = 32;  // quads along a side of a ring
@@ -56,25 +57,20 @@ std::array<double, 2> onSquare(int i) {
 
 }  // namespace
 
-GroundVisual::GroundVisual(Ogre::SceneNode& parent, const TreeStock& stock,
-                           const terrain::HeightMap& terrain, const Daylight& daylight,
-                           const Rgba& tint)
+GroundVisual::GroundVisual(Ogre::SceneNode& parent, const Land& land, const Daylight& daylight)
     : node_(parent.createChildSceneNode()),
-      plot_texture_(uniqueName("ground_picture"),
-                    mipmaps(groundPicture(plotAround(stock.extent()), PICTURE_EDGE, stock, terrain,
-                                          daylight, tint))),
+      plot_texture_(uniqueName("ground_picture"), mipmaps(land.picture)),
       plain_texture_(uniqueName("plain_picture"), {Picture(1, 1, {1.f, 1.f, 1.f, 1.f})}),
       grain_texture_(uniqueName("grain_picture"), mipmaps(grainPicture(GRAIN_EDGE))),
       plot_material_(Material::Kind::GROUND, uniqueName("plot_material"),
                      {plot_texture_.name(), grain_texture_.name()}),
       land_material_(Material::Kind::GROUND, uniqueName("land_material"),
                      {plain_texture_.name(), grain_texture_.name()}) {
-  const Plot plot = plotAround(stock.extent());
-  const Vec3& origin = stock.origin();
+  const Vec3& origin = land.origin;
   node_->setPosition(static_cast<float>(origin.x()), static_cast<float>(origin.y()),
                      static_cast<float>(origin.z()));
-  addPlot(plot, terrain, origin);
-  addLand(plot, terrain, origin, daylight, tint);
+  addPlot(land);
+  addLand(land, daylight);
 }
 
 GroundVisual::~GroundVisual() {
@@ -96,12 +92,13 @@ void GroundVisual::add(const std::vector<float>& positions, const std::vector<Ve
   triangles_ += triangles.size() / 3;
 }
 
-void GroundVisual::addPlot(const Plot& plot, const terrain::HeightMap& terrain,
-                           const Vec3& origin) {
+void GroundVisual::addPlot(const Land& land) {
+  const Plot& plot = land.plot;
+  const terrain::HeightMap& terrain = land.terrain;
   // The tiles' borders fall on the points of the ring of land around them.
   const double tile = plot.edge / TILES;
   constexpr int STEP = RING_SIDE / TILES;
-  const int times = std::max(1, static_cast<int>(std::lround(tile / CELL / STEP)));
+  const int times = std::max(1, static_cast<int>(std::lround(tile / land.cell / STEP)));
   const int cells = terrain.isFlat() ? STEP : std::min(MOST_CELLS, STEP * times);
   for (int t = 0; t < TILES * TILES; ++t) {
     std::vector<float> positions;
@@ -112,7 +109,7 @@ void GroundVisual::addPlot(const Plot& plot, const terrain::HeightMap& terrain,
         const double v = (t / TILES + static_cast<double>(r) / cells) / TILES;
         const double x = plot.x + plot.edge * u, y = plot.y + plot.edge * v;
         addVertex(
-            Vec3(x, y, terrain.height(x, y)) - origin,
+            Vec3(x, y, terrain.height(x, y)) - land.origin,
             plainPaint({1.f, 1.f, 1.f, 1.f}, static_cast<float>(u), static_cast<float>(1.0 - v)),
             positions, paint);
       }
@@ -122,10 +119,13 @@ void GroundVisual::addPlot(const Plot& plot, const terrain::HeightMap& terrain,
   }
 }
 
-void GroundVisual::addLand(const Plot& plot, const terrain::HeightMap& terrain, const Vec3& origin,
-                           const Daylight& daylight, const Rgba& tint) {
+void GroundVisual::addLand(const Land& land, const Daylight& daylight) {
+  const Plot& plot = land.plot;
+  const terrain::HeightMap& terrain = land.terrain;
   const Noise noise(0x6a55);
   const double half = 0.5 * plot.edge;
+  Rgba mean{};
+  int count = 0;
   std::vector<float> positions;
   std::vector<VertexPaint> paint;
   for (const double ring : RINGS) {
@@ -133,11 +133,14 @@ void GroundVisual::addLand(const Plot& plot, const terrain::HeightMap& terrain, 
       const std::array<double, 2> on = onSquare(i);
       const double x = plot.x + half * (1.0 + ring * on[0]);
       const double y = plot.y + half * (1.0 + ring * on[1]);
-      Rgba colour = groundColour(noise, x, y, 0.0, tint);
+      Rgba colour = groundColour(noise, x, y, 0.0, land.tint);
+      mean = mix(mean, colour, 1.f / static_cast<float>(++count));
+      // Far apart as they are, these points would make long streaks of their patches.
+      colour = mix(colour, mean, static_cast<float>(smoothStep((ring - 1.1) / 1.2)));
       const Rgba light = openLight(daylight, terrain.normal(x, y));
       for (std::size_t k = 0; k < 3; ++k) colour[k] *= light[k];
-      addVertex(Vec3(x, y, terrain.height(x, y)) - origin, plainPaint(colour, 0.f, 0.f), positions,
-                paint);
+      addVertex(Vec3(x, y, terrain.height(x, y)) - land.origin, plainPaint(colour, 0.f, 0.f),
+                positions, paint);
     }
   }
   // Rings run counter-clockwise and outwards: the other way round than a grid seen from above.

@@ -30,6 +30,26 @@ void bindEye(Ogre::GpuProgramParameters& parameters) {
                                   Ogre::GpuProgramParameters::ACT_CAMERA_POSITION_OBJECT_SPACE);
 }
 
+bool hasTwoSides(Material::Kind kind) {
+  return kind != Material::Kind::BARK && kind != Material::Kind::GROUND;
+}
+
+struct Sources {
+  const char *vertex, *fragment;
+};
+Sources sourcesOf(Material::Kind kind) {
+  switch (kind) {
+    case Material::Kind::GROUND:
+      return {GROUND_VERTEX, GROUND_FRAGMENT};
+    case Material::Kind::BLADES:
+      return {GRASS_VERTEX, BLADE_FRAGMENT};
+    case Material::Kind::STRIPS:
+      return {GRASS_VERTEX, STRIP_FRAGMENT};
+    default:
+      return {PLANT_VERTEX, PLANT_FRAGMENT};
+  }
+}
+
 Ogre::Vector4 narrow(const Rgba& c) {
   return {c[0], c[1], c[2], c[3]};
 }
@@ -58,8 +78,8 @@ void Material::addTextures(Ogre::Pass& pass, const std::vector<std::string>& tex
   for (const std::string& texture : textures) {
     Ogre::TextureUnitState* unit = pass.createTextureUnitState(texture);
     // Mirrored, so that what does not repeat still shows no seam.
-    const bool repeats =
-        kind_ == Kind::BARK || kind_ == Kind::SKY || unit != pass.getTextureUnitState(0);
+    const bool repeats = kind_ == Kind::BARK || kind_ == Kind::SKY || kind_ == Kind::STRIPS ||
+                         unit != pass.getTextureUnitState(0);
     unit->setTextureAddressingMode(repeats ? Ogre::TextureUnitState::TAM_WRAP
                                            : Ogre::TextureUnitState::TAM_CLAMP);
     if (kind_ == Kind::BARK)
@@ -72,21 +92,19 @@ void Material::addTextures(Ogre::Pass& pass, const std::vector<std::string>& tex
 }
 
 void Material::addShaded(const std::vector<std::string>& textures) {
-  const bool ground = kind_ == Kind::GROUND;
   programs_ = {name_ + "/vertex", name_ + "/fragment"};
-  const auto vertex =
-      makeProgram(programs_[0], ground ? GROUND_VERTEX : PLANT_VERTEX, Ogre::GPT_VERTEX_PROGRAM);
-  const auto fragment = makeProgram(programs_[1], ground ? GROUND_FRAGMENT : PLANT_FRAGMENT,
-                                    Ogre::GPT_FRAGMENT_PROGRAM);
+  const Sources sources = sourcesOf(kind_);
+  const auto vertex = makeProgram(programs_[0], sources.vertex, Ogre::GPT_VERTEX_PROGRAM);
+  const auto fragment = makeProgram(programs_[1], sources.fragment, Ogre::GPT_FRAGMENT_PROGRAM);
   Ogre::Pass* pass = material_->createTechnique()->createPass();
   pass->setVertexProgram(programs_[0]);
   pass->setFragmentProgram(programs_[1]);
   pass->setFog(true, Ogre::FOG_NONE);  // haze is in the programs
   bindEye(*pass->getVertexProgramParameters());
-  pass->getFragmentProgramParameters()->setNamedConstant("picture", 0);
-  if (ground) pass->getFragmentProgramParameters()->setNamedConstant("grain", 1);
+  if (kind_ != Kind::BLADES) pass->getFragmentProgramParameters()->setNamedConstant("picture", 0);
+  if (kind_ == Kind::GROUND) pass->getFragmentProgramParameters()->setNamedConstant("grain", 1);
   if (kind_ == Kind::LEAVES) pass->setAlphaRejectSettings(Ogre::CMPF_GREATER_EQUAL, 128);
-  if (kind_ == Kind::LEAVES) pass->setCullingMode(Ogre::CULL_NONE);
+  if (hasTwoSides(kind_)) pass->setCullingMode(Ogre::CULL_NONE);
   addTextures(*pass, textures);
 }
 
@@ -99,12 +117,13 @@ void Material::addPlain(const std::vector<std::string>& textures) {
     pass->setSpecular(0.f, 0.f, 0.f, 0.f);
   }
   if (kind_ == Kind::LEAVES) pass->setAlphaRejectSettings(Ogre::CMPF_GREATER_EQUAL, 128);
-  if (kind_ == Kind::LEAVES || kind_ == Kind::SKY) pass->setCullingMode(Ogre::CULL_NONE);
+  if (kind_ == Kind::STRIPS) pass->setAlphaRejectSettings(Ogre::CMPF_GREATER_EQUAL, 96);
+  if (hasTwoSides(kind_)) pass->setCullingMode(Ogre::CULL_NONE);
   if (kind_ == Kind::SKY) {
     pass->setFog(true, Ogre::FOG_NONE);
     pass->setDepthWriteEnabled(false);
   }
-  addTextures(*pass, {textures.front()});
+  if (!textures.empty()) addTextures(*pass, {textures.front()});
   if (plant)  // vertex alpha is no transparency
     pass->getTextureUnitState(0)->setAlphaOperation(Ogre::LBX_SOURCE1, Ogre::LBS_TEXTURE,
                                                     Ogre::LBS_CURRENT);
@@ -117,7 +136,7 @@ void Material::light(const Daylight& daylight, const Vec3& to_sun, const Haze& h
   const float length = std::max(haze.end - haze.start, 1.f);
   vertex.setNamedConstant("haze", Ogre::Vector4(haze.start, 1.f / length, haze.most, 0.f));
   pass->getFragmentProgramParameters()->setNamedConstant("haze_colour", narrow(daylight.horizon));
-  if (kind_ == Kind::GROUND) return;
+  if (kind_ != Kind::BARK && kind_ != Kind::LEAVES) return;
   vertex.setNamedConstant(
       "to_sun", Ogre::Vector4(static_cast<float>(to_sun.x()), static_cast<float>(to_sun.y()),
                               static_cast<float>(to_sun.z()), 0.f));
@@ -127,6 +146,11 @@ void Material::light(const Daylight& daylight, const Vec3& to_sun, const Haze& h
   const bool leaves = kind_ == Kind::LEAVES;
   vertex.setNamedConstant("leaf", leaves ? Ogre::Vector4(0.45f, 0.5f, 0.55f, 0.f)
                                          : Ogre::Vector4(0.1f, 0.f, 0.25f, 0.f));
+}
+
+void Material::darken(float distance) {
+  material_->getTechnique(0)->getPass(0)->getFragmentProgramParameters()->setNamedConstant(
+      "under", Ogre::Vector4(distance, 0.f, 0.f, 0.f));
 }
 
 }  // namespace vegetation_sim::view

@@ -44,15 +44,18 @@ void main() {
 )";
 
 // The ground's colours have their light in them; the second picture is its grain, mean one half.
+// Near the eye, where plants are drawn on it, the picture's alpha is the light that they leave.
 constexpr const char* GROUND_VERTEX = R"(#version 120
 uniform mat4 world_view_projection;
 uniform vec4 eye;
 uniform vec4 haze;
 varying vec4 light;
 varying vec4 place;
+varying vec3 view;
 void main() {
   gl_Position = world_view_projection * gl_Vertex;
-  float f = clamp((length(gl_Vertex.xyz - eye.xyz) - haze.x) * haze.y, 0.0, 1.0);
+  view = gl_Vertex.xyz - eye.xyz;
+  float f = clamp((length(view) - haze.x) * haze.y, 0.0, 1.0);
   light = vec4(gl_Color.rgb, haze.z * f * (2.0 - f));
   place = vec4(gl_MultiTexCoord0.xy, gl_Vertex.xy * 0.31);
 }
@@ -62,12 +65,52 @@ constexpr const char* GROUND_FRAGMENT = R"(#version 120
 uniform sampler2D picture;
 uniform sampler2D grain;
 uniform vec4 haze_colour;
+uniform vec4 under;  // distance of the last plants
 varying vec4 light;
 varying vec4 place;
+varying vec3 view;
 void main() {
-  vec3 paint = texture2D(picture, place.xy).rgb * light.rgb;
+  vec4 ground = texture2D(picture, place.xy);
+  float far = clamp(length(view) / max(under.x, 0.001), 0.0, 1.0);
+  vec3 paint = ground.rgb * light.rgb * mix(ground.a, 1.0, far * far);
   paint *= 2.0 * texture2D(grain, place.zw).rgb;
   gl_FragColor = vec4(mix(paint, haze_colour.rgb, light.a), 1.0);
+}
+)";
+
+// Grass: colours have their light in them. Vertex alpha: part of the picture's blades that show,
+// those whose own alpha is above the rest.
+constexpr const char* GRASS_VERTEX = R"(#version 120
+uniform mat4 world_view_projection;
+uniform vec4 eye;
+uniform vec4 haze;
+varying vec4 light;
+varying vec3 place;
+void main() {
+  gl_Position = world_view_projection * gl_Vertex;
+  float f = clamp((length(gl_Vertex.xyz - eye.xyz) - haze.x) * haze.y, 0.0, 1.0);
+  light = vec4(gl_Color.rgb, haze.z * f * (2.0 - f));
+  place = vec3(gl_MultiTexCoord0.xy, gl_Color.a);
+}
+)";
+
+constexpr const char* BLADE_FRAGMENT = R"(#version 120
+uniform vec4 haze_colour;
+varying vec4 light;
+void main() {
+  gl_FragColor = vec4(mix(light.rgb, haze_colour.rgb, light.a), 1.0);
+}
+)";
+
+constexpr const char* STRIP_FRAGMENT = R"(#version 120
+uniform sampler2D picture;
+uniform vec4 haze_colour;
+varying vec4 light;
+varying vec3 place;
+void main() {
+  vec4 paint = texture2D(picture, place.xy);
+  if (paint.a <= 1.0 - place.z) discard;
+  gl_FragColor = vec4(mix(light.rgb * paint.rgb * 1.3, haze_colour.rgb, light.a), 1.0);
 }
 )";
 

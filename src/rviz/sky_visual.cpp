@@ -52,8 +52,9 @@ SkyVisual::~SkyVisual() {
   node_->getCreator()->destroySceneNode(node_);
 }
 
-void SkyVisual::follow(const Ogre::Vector3& eye) {
-  node_->setPosition(eye);
+void SkyVisual::follow(const Vec3& eye) {
+  node_->setPosition(static_cast<float>(eye.x()), static_cast<float>(eye.y()),
+                     static_cast<float>(eye.z()));
 }
 
 }  // namespace vegetation_sim::view

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vegetation_sim/rviz/status_board.h"
 
+#include "vegetation_sim/rviz/grass_visual.h"
+
 namespace vegetation_sim::view {
 
 void StatusBoard::show(rviz::StatusProperty::Level level, const std::string& name,
@@ -25,6 +27,13 @@ std::string describe(const ForestReport& report) {
                     std::to_string(forest::GEOMETRY_LEVELS - 1) + ":";
   for (const std::size_t count : report.per_level) out += " " + std::to_string(count);
   return out;
+}
+
+std::string describe(const GrassReport& report) {
+  return std::to_string(report.blades) + " blades on " + std::to_string(report.bladed) + " of " +
+         std::to_string(report.tiles) + " tiles, strips on " + std::to_string(report.stripped) +
+         "; " + std::to_string(report.triangles) + " triangles; " + std::to_string(report.trodden) +
+         " blocks of trodden ground";
 }
 
 }  // namespace vegetation_sim::view

@@ -23,6 +23,23 @@ Texture::Texture(const std::string& name, const std::vector<Picture>& mipmaps) :
   }
 }
 
+void Texture::update(int column, int row, Picture part) {
+  const Ogre::TexturePtr texture = Ogre::TextureManager::getSingleton().getByName(name_);
+  for (std::size_t level = 0; level <= texture->getNumMipmaps(); ++level) {
+    std::vector<std::uint8_t> bytes = part.bytes();
+    const auto columns = static_cast<Ogre::uint32>(part.columns);
+    const auto rows = static_cast<Ogre::uint32>(part.rows);
+    const auto left = static_cast<Ogre::uint32>(column), top = static_cast<Ogre::uint32>(row);
+    const Ogre::PixelBox from(columns, rows, 1, Ogre::PF_BYTE_RGBA, bytes.data());
+    texture->getBuffer(0, level)->blitFromMemory(from,
+                                                 Ogre::Box(left, top, left + columns, top + rows));
+    if ((column | row | part.columns | part.rows) % 2 != 0) return;
+    part = halved(part);
+    column /= 2;
+    row /= 2;
+  }
+}
+
 Texture::~Texture() {
   if (Ogre::TextureManager::getSingletonPtr() != nullptr)
     Ogre::TextureManager::getSingleton().remove(name_);

@@ -102,7 +102,7 @@ TEST(Ribbons, FlowersStandAtTheTips) {
   std::size_t flowers = 0;
   for (int blade = 0; blade < 500; ++blade) flowers += bladeLook(tile, blade).species == 1;
   EXPECT_GT(flowers, 150u);
-  EXPECT_EQ(mesh.indices.size(), 3 * (500 * 9 + 4 * flowers));
+  EXPECT_EQ(mesh.indices.size(), 3 * (500 * 9 + 6 * flowers));
 }
 
 // S2-10: four strips stand on the four edges, as high as the grass.
@@ -126,6 +126,27 @@ TEST(Strips, StandOnTheEdgesOfTheTile) {
     EXPECT_TRUE(u == 0.0 || u == 2.0 || v == 0.0 || v == 2.0);
   }
   EXPECT_EQ(edges.size(), 4u);
+}
+
+// S2-10: rows stand in the tile, as high as the grass, and two tiles have other ones.
+TEST(Rows, StandInTheTileAndWind) {
+  const FeatureMap map;
+  std::set<double> places;
+  for (const int column : {2, 3}) {
+    const Tile tile = makeTile(map, terrain::HeightMap(), 1, column, 2);
+    GrassMesh mesh;
+    appendRows(map, tile, TileMotion(), 3, 1.0, 800.0, mesh);
+    expectSound(mesh);
+    EXPECT_EQ(mesh.vertexCount(), 2u * 3u * 4u * 2u);
+    for (std::size_t i = 0; i < mesh.vertexCount(); i += 2) {
+      const Vec3 bottom = vertex(mesh, i);
+      EXPECT_NEAR((vertex(mesh, i + 1) - bottom).norm(), 0.3, 1e-6);
+      EXPECT_GE(bottom.x(), tile.x);
+      EXPECT_LE(bottom.x(), tile.x + 2.0);
+      places.insert(bottom.y());
+    }
+  }
+  EXPECT_GT(places.size(), 20u);  // of two tiles with the same rows there would be 16
 }
 
 // S2-14: strips are lifted from the ground; lying they are flat.

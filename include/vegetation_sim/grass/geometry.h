@@ -35,7 +35,7 @@ struct RibbonStyle {
 };
 
 /// Appends blades that poseBlades made as tapering ribbons (paper 2, section 3.3): 2 n + 1 vertices
-/// and 2 n - 1 triangles a blade of n segments, and 6 and 4 for the flower at its tip, if any.
+/// and 2 n - 1 triangles a blade of n segments, and 7 and 6 for the flower at its tip, if any.
 void appendRibbons(const FeatureMap& map, const Tile& tile, const BladeBlock* blocks, int count,
                    const RibbonStyle& style, GrassMesh& mesh);
 
@@ -45,6 +45,12 @@ void appendRibbons(const FeatureMap& map, const Tile& tile, const BladeBlock* bl
 /// its own alpha is above 1 - that.
 void appendStrips(const FeatureMap& map, const Tile& tile, const TileMotion& motion, double grown,
                   double full_density, GrassMesh& mesh, const GrassLight* light = nullptr);
+
+/// Appends strips inside of a tile, `rows` along x and as many along y, which wind so that a meadow
+/// of many tiles shows no grid; else as appendStrips().
+void appendRows(const FeatureMap& map, const Tile& tile, const TileMotion& motion, int rows,
+                double grown, double full_density, GrassMesh& mesh,
+                const GrassLight* light = nullptr);
 
 /// Appends `layers` squares parallel to the ground, the higher the more displaced (S2-W3), alpha as
 /// for strips, less with height.
@@ -69,5 +75,7 @@ std::vector<std::uint8_t> groundColours(const FeatureMap& map, double full_densi
 
 /// Colour of grass of a species between fresh and dry, each component 0 to 1.
 Vec3 bladeColour(const Species& species, double colour);
+/// Colour of the mix of species at a place.
+Vec3 meanColour(const FeatureMap& map, const Features& features);
 
 }  // namespace vegetation_sim::grass

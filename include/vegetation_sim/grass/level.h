@@ -23,7 +23,7 @@ Rung chooseRung(const TileDetail& detail, double pixels_per_metre, double tolera
 /// Share of the blades to draw, and how much wider these are made: fewer where single blades can
 /// hardly be told apart. 1 near, never below LEAST_SHARE.
 double bladeShare(const TileDetail& detail, double pixels_per_metre, double tolerance);
-constexpr double LEAST_SHARE = 0.25;
+constexpr double LEAST_SHARE = 0.125;
 
 /// Segments of a blade: LINKS near, fewer where the chords of a blade bent to the ground are within
 /// the tolerance of it (S2-08).

@@ -34,10 +34,10 @@ struct PieceLight {
 inline PieceLight lightOn(const GrassLight& light, const BladePiece& piece) {
   const auto up = static_cast<float>(light.to_sun.z());
   const float across = std::sqrt(std::max(0.f, 1.f - up * up));
-  const float direct = (1.f - piece.flat) * across * (0.4f + 0.6f * piece.facing) + piece.flat * up;
+  const float direct = (1.f - piece.flat) * across * (0.5f + 0.5f * piece.facing) + piece.flat * up;
   // Neighbours keep the light from the roots, less so where they lie.
   const float depth =
-      (1.f - piece.flat) * (0.28f + 0.72f * piece.way) + piece.flat * (0.72f + 0.28f * piece.way);
+      (1.f - piece.flat) * (0.36f + 0.64f * piece.way) + piece.flat * (0.70f + 0.30f * piece.way);
   const float shine = static_cast<float>(light.shine) * piece.flat * depth *
                       std::max(0.f, 0.55f + 0.45f * piece.away);
   PieceLight out{};

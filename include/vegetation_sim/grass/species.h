@@ -17,8 +17,8 @@ struct Species {
   double width{0.005};                ///< of a blade at its root [m]
   double lean{0.5};                   ///< largest bend at rest, at shape 1 [rad]
   double compliance{0.07};            ///< bend of a blade per wind speed [rad s/m]
-  Vec3 colour{0.20, 0.42, 0.09};      ///< red, green, blue of the map's colour 0, each 0 to 1
-  Vec3 dry_colour{0.62, 0.56, 0.26};  ///< of the map's colour 1
+  Vec3 colour{0.31, 0.43, 0.14};      ///< red, green, blue of the map's colour 0, each 0 to 1
+  Vec3 dry_colour{0.66, 0.58, 0.31};  ///< of the map's colour 1
   double flower_radius{0.0};          ///< of the flower at the tip, 0: none [m]
   Vec3 flower_colour{0.90, 0.85, 0.30};
 };

@@ -51,8 +51,7 @@ class ForestDisplay : public rviz::Display {
  private:
   void start();
   void stop();
-  bool placeInFixedFrame();
-  bool findView(view::View& view);
+  void draw(Nanoseconds stamp);
   void watchTime(Nanoseconds stamp);
   void makeGround();
   void publishViewer();

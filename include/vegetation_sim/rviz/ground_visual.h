@@ -14,22 +14,37 @@
 
 namespace vegetation_sim::view {
 
-/// The ground under a forest: the plot where the trees stand with its picture, and plain land
-/// around it as far as the eye reaches. Render thread only; all of it goes with this object.
+/// Ground to draw.
+struct Land {
+  Plot plot;               ///< gets the picture
+  const Picture& picture;  ///< of the plot from above, north on top, with its light; alpha: part of
+                           ///< the light that is left near the eye, where plants on it are drawn
+  const terrain::HeightMap& terrain;
+  Vec3 origin{Vec3::Zero()};        ///< of coordinates, layout's frame [m]
+  double cell{3.0};                 ///< [m] about, of the plot's mesh on ground that is not flat
+  Rgba tint{{1.f, 1.f, 1.f, 1.f}};  ///< multiplies the colour of grass
+};
+
+/// Ground: a plot with its picture, and plain land around it as far as the eye reaches. Render
+/// thread only; all of it goes with this object.
 class GroundVisual {
  public:
-  /// @param parent node in the frame of the layout. @param tint multiplies the colour of grass.
-  GroundVisual(Ogre::SceneNode& parent, const TreeStock& stock, const terrain::HeightMap& terrain,
-               const Daylight& daylight, const Rgba& tint);
+  /// @param parent node in the frame of the layout.
+  GroundVisual(Ogre::SceneNode& parent, const Land& land, const Daylight& daylight);
   ~GroundVisual();
 
   void light(const Daylight& daylight, const Vec3& to_sun, const Haze& haze);
+  /// Up to this distance [m] the picture's alpha darkens it; 0: nowhere.
+  void darken(float distance) { plot_material_.darken(distance); }
+  /// Paints part of the picture anew, `column` and `row` from its top left.
+  void repaint(int column, int row, const Picture& part) {
+    plot_texture_.update(column, row, part);
+  }
   std::size_t triangleCount() const { return triangles_; }
 
  private:
-  void addPlot(const Plot& plot, const terrain::HeightMap& terrain, const Vec3& origin);
-  void addLand(const Plot& plot, const terrain::HeightMap& terrain, const Vec3& origin,
-               const Daylight& daylight, const Rgba& tint);
+  void addPlot(const Land& land);
+  void addLand(const Land& land, const Daylight& daylight);
   void add(const std::vector<float>& positions, const std::vector<VertexPaint>& paint,
            const std::vector<std::uint32_t>& triangles, const std::string& material);
 

@@ -17,13 +17,14 @@ struct Haze {
   float most{0.f};                ///< 0: none; 1: all is the haze's colour
 };
 
-/// Materials of plants and ground: a GLSL technique with our own daylight, and a fixed-function one
-/// for renderers without GLSL, which takes rviz's light. Gone with this object. Render thread only.
+/// Materials of plants, grass and ground: a GLSL technique with our own daylight, and a
+/// fixed-function one for renderers without GLSL, which takes rviz's light. Gone with this object.
+/// Render thread only.
 class Material {
  public:
-  enum class Kind { BARK, LEAVES, GROUND, SKY };
+  enum class Kind { BARK, LEAVES, GROUND, SKY, BLADES, STRIPS };
 
-  /// @param textures names: the picture; for the ground also its grain.
+  /// @param textures names: the picture, for the ground also its grain; none for blades of grass.
   Material(Kind kind, const std::string& name, const std::vector<std::string>& textures);
   ~Material();
   Material(const Material&) = delete;
@@ -32,6 +33,8 @@ class Material {
   const std::string& name() const { return name_; }
   /// @param to_sun in the frame of the objects that carry the material.
   void light(const Daylight& daylight, const Vec3& to_sun, const Haze& haze);
+  /// Ground only: up to this distance [m] the picture's alpha darkens it; 0: nowhere.
+  void darken(float distance);
 
  private:
   void addShaded(const std::vector<std::string>& textures);

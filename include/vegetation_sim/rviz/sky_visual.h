@@ -17,7 +17,7 @@ class SkyVisual {
   ~SkyVisual();
 
   /// Keeps the dome around the eye; both in the frame of the parent.
-  void follow(const Ogre::Vector3& eye);
+  void follow(const Vec3& eye);
 
  private:
   Ogre::SceneNode* node_;  // Ogre's; destroyed by us

@@ -28,5 +28,8 @@ class StatusBoard {
 
 /// One line: trees, triangles, levels.
 std::string describe(const ForestReport& report);
+struct GrassReport;
+/// One line: blades, strips, triangles, trodden ground.
+std::string describe(const GrassReport& report);
 
 }  // namespace vegetation_sim::view

@@ -20,6 +20,9 @@ class Texture {
   Texture& operator=(const Texture&) = delete;
 
   const std::string& name() const { return name_; }
+  /// Paints a part anew, in all sizes down to where it is a pixel. Its place and size are to be
+  /// multiples of a power of two, so that it covers whole pixels of the smaller pictures.
+  void update(int column, int row, Picture part);
 
  private:
   std::string name_;
