@@ -3,6 +3,7 @@
 #include "trees/engine.h"
 #include "vegetation_sim/physics/batch_chain.h"
 #include "vegetation_sim/physics/integrator.h"
+#include "vegetation_sim/physics/sure_inertia.h"
 #include "vegetation_sim/physics/twin_chains.h"
 
 namespace vegetation_sim::bench {
@@ -10,6 +11,7 @@ namespace {
 
 using physics::Dynamics;
 using physics::Integrator;
+using physics::Products;
 
 std::vector<physics::Link> linksOf(const TestTree& tree) {
   std::vector<physics::Link> out;
@@ -26,6 +28,7 @@ std::vector<physics::Link> linksOf(const TestTree& tree) {
     link.damping = from.damping;
     out.push_back(link);
   }
+  physics::shareInertia(out);
   return out;
 }
 
@@ -73,11 +76,13 @@ class OwnEngine : public Engine {
 };
 
 // One part a step whatever the stability limit: where a method breaks is what we want to see.
-template <Integrator INTEGRATOR, Dynamics DYNAMICS = Dynamics::ARTICULATED>
+template <Integrator INTEGRATOR, Dynamics DYNAMICS = Dynamics::ARTICULATED,
+          Products PRODUCTS = Products::MEAN>
 class PlainEngine : public OwnEngine {
  public:
   PlainEngine(const TestTree& tree, const TestLoad& load) : OwnEngine(tree, load) {
     stepper_.setDynamics(DYNAMICS);
+    stepper_.setProducts(PRODUCTS);
   }
   void rest() override { state_ = atRest(links_.size()), theta_ = 0.5; }
   void step(int interval, double time, double h) override {
@@ -152,6 +157,8 @@ std::vector<Maker> ownEngines() {
       maker<PlainEngine<Integrator::MIDPOINT>>("midpoint, plain double", true),
       maker<BatchEngine>("midpoint, SIMD, one tree", true),
       maker<TwinEngine>("midpoint, SIMD, 16 trees", true, TWINS),
+      maker<PlainEngine<Integrator::MIDPOINT, Dynamics::ARTICULATED, Products::START>>(
+          "midpoint, products at start", false),
       maker<PlainEngine<Integrator::IMPLICIT_EULER>>("implicit Euler", false),
       maker<PlainEngine<Integrator::SEMI_IMPLICIT_EULER>>("semi-implicit Euler", false),
       maker<PlainEngine<Integrator::EXPLICIT_EULER>>("explicit Euler", false),

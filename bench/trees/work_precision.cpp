@@ -33,6 +33,13 @@ bool Explorer::stalled(int steps) const {
   return false;
 }
 
+// Where the line between two runs, in logarithms, meets the tolerance: whole steps an interval are
+// coarse where few hold.
+double Explorer::between(int low, int high, double tolerance) {
+  const double slope = std::log(at(low).error / at(high).error) / std::log(1.0 * low / high);
+  return high * std::exp(std::log(tolerance / at(high).error) / slope);
+}
+
 Answer Explorer::longestStep(double tolerance) {
   int low = 0, high = 1;  // low fails
   while (at(high).error > tolerance) {
@@ -44,17 +51,16 @@ Answer Explorer::longestStep(double tolerance) {
     high = low < 4 ? low + 1 : low + (low + 1) / 3;
   }
   while (high - low > 1 && high > 1.05 * low) {
-    const bool cheap = affordable(high, 0.2);
-    if (!cheap && std::isfinite(at(low).error)) {
-      const double slope = std::log(at(low).error / at(high).error) / std::log(1.0 * low / high);
-      const double share = std::log(tolerance / at(high).error) / slope;
-      return {Answer::Kind::BETWEEN, high * std::exp(share)};
+    if (!affordable(high, 0.2)) {
+      if (std::isfinite(at(low).error))
+        return {Answer::Kind::BETWEEN, between(low, high, tolerance)};
+      return {Answer::Kind::AT_LEAST, static_cast<double>(low)};
     }
-    if (!cheap) return {Answer::Kind::AT_LEAST, static_cast<double>(low)};
     const int middle = (low + high) / 2;
     (at(middle).error > tolerance ? low : high) = middle;
   }
-  return {Answer::Kind::FOUND, static_cast<double>(high)};
+  const bool line = low > 0 && std::isfinite(at(low).error);
+  return {Answer::Kind::FOUND, line ? between(low, high, tolerance) : static_cast<double>(high)};
 }
 
 }  // namespace vegetation_sim::bench

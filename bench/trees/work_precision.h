@@ -20,7 +20,7 @@ struct Point {
 /// The longest step that holds a tolerance.
 struct Answer {
   enum class Kind : int {
-    FOUND = 0,     ///< bisected
+    FOUND = 0,     ///< bisected, and put on the line between the last two runs
     BETWEEN = 1,   ///< put on the line between two runs, which are too dear to refine
     AT_LEAST = 2,  ///< no run within the time cap holds it: fewer steps do not
     NEVER = 3      ///< shorter steps change nothing: the model differs
@@ -44,6 +44,7 @@ class Explorer {
   const Point& at(int steps);
   bool stalled(int steps) const;
   bool affordable(int steps, double part) const;
+  double between(int low, int high, double tolerance);
 
   Engine& engine_;
   const Reference& reference_;

@@ -122,6 +122,10 @@ void BatchChain::setState(int tree, const ChainState& state, double theta) {
   groups_[member.group].calm = false;  // the guard looks for itself
 }
 
+void BatchChain::setProducts(Products products) {
+  store_->mean = products == Products::MEAN;
+}
+
 ChainState BatchChain::state(int tree) const {
   const Member& member = trees_[static_cast<std::size_t>(tree)];
   ChainState out;

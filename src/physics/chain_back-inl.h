@@ -75,8 +75,9 @@ HWY_INLINE void inward(const Joints& at, Lanes step, Articulated& p) {
   const Lanes3 first = load3(at.work, W_FIRST), second = load3(at.work, W_SECOND);
   const Lanes rx = load(at.state, S_RATE), ry = load(at.state, S_RATE + 1);
   const Lanes k = load(at.constants, C_STIFFNESS), nu = load(at.constants, C_DAMPING);
-  const Lanes ahead = load(at.state, S_THETA) * step, zero = hn::Zero(Tag());
-  const Lanes stiff = ahead * (ahead * k + nu);
+  const Lanes theta = load(at.state, S_THETA), ahead = theta * step, zero = hn::Zero(Tag());
+  const Lanes ease = (all(1.f) - theta) * (all(1.f / 3.f) * step * step);
+  const Lanes stiff = ahead * (ahead * k + nu) - hn::Min(ease * k, load(at.constants, C_SURE));
   addBody(at, p);
   // Stiff is a lower bound of both pivots, rounding or not.
   const Lanes3 a1 = p.a * first, b1 = transposed(p, first);
@@ -149,23 +150,38 @@ HWY_INLINE void stop(Lanes step, Lanes* q, Lanes* rate) {
     rate[axis] = hn::IfThenElse(fast, rate[axis] * factor, rate[axis]);
 }
 
-/// Steps q and rate; `fastest` grows to the largest rate.
-HWY_INLINE Push settle(const Joints& at, const Push& parent, Lanes step, Lanes& fastest) {
-  Push out;
-  out.linear = parent.linear + cross(parent.spin, load3(at.work, W_ARM));
+/// Accelerations of a joint, and what it hands on.
+struct Solution {
+  Lanes first, second;
+  Push push;
+};
+
+HWY_INLINE Solution solve(const Joints& at, const Push& parent) {
+  Solution out;
+  out.push.linear = parent.linear + cross(parent.spin, load3(at.work, W_ARM));
   const auto drive = [&](int axis) HWY_ATTR {
     const int gain = W_GAIN + 6 * axis;
     return load(at.work, W_INVERSE + axis) *
            (load(at.work, W_DRIVE + axis) - dot(load3(at.work, gain), parent.spin) -
-            dot(load3(at.work, gain + 3), out.linear));
+            dot(load3(at.work, gain + 3), out.push.linear));
   };
-  const Lanes second = drive(1), first = drive(0) - load(at.work, W_COUPLING) * second;
-  out.spin = parent.spin + (first * load3(at.work, W_FIRST) + second * load3(at.work, W_SECOND));
+  out.second = drive(1);
+  out.first = drive(0) - load(at.work, W_COUPLING) * out.second;
+  out.push.spin =
+      parent.spin + (out.first * load3(at.work, W_FIRST) + out.second * load3(at.work, W_SECOND));
+  return out;
+}
+
+/// Steps q and rate; `fastest` grows to the largest rate. `mean`: on top of what lookAhead found.
+HWY_INLINE Push settle(const Joints& at, const Push& parent, Lanes step, bool mean,
+                       Lanes& fastest) {
+  const Solution solved = solve(at, parent);
   const Lanes ahead = load(at.state, S_THETA) * step;
-  const Lanes acceleration[2] = {first, second};
+  Lanes acceleration[2] = {solved.first, solved.second};
   Lanes q[2] = {load(at.state, S_Q), load(at.state, S_Q + 1)};
   Lanes rate[2] = {load(at.state, S_RATE), load(at.state, S_RATE + 1)};
   for (int axis = 0; axis < 2; ++axis) {
+    if (mean) acceleration[axis] = load(at.work, W_SOLVED + axis) + acceleration[axis];
     q[axis] = q[axis] + step * (rate[axis] + ahead * acceleration[axis]);
     rate[axis] = rate[axis] + step * acceleration[axis];
   }
@@ -176,7 +192,7 @@ HWY_INLINE Push settle(const Joints& at, const Push& parent, Lanes step, Lanes& 
     store(rate[axis], at.state, S_RATE + axis);
     fastest = hn::Max(fastest, hn::Abs(rate[axis]));
   }
-  return out;
+  return solved.push;
 }
 
 }  // namespace vegetation_sim::physics::HWY_NAMESPACE

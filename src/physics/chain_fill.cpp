@@ -41,12 +41,6 @@ BaseRows baseRows(const BaseMotion& base, double products) {
   return out;
 }
 
-bool isBar(const Link& link) {
-  const Symmetric3& i = link.inertia;
-  return link.centre.x() == 0.0 && link.centre.y() == 0.0 && i.xx == i.yy && i.xy == 0.0 &&
-         i.xz == 0.0 && i.yz == 0.0;
-}
-
 void fillLink(const Link& link, float* constants) {
   const auto set = [&](int row, double value) { constants[row * ROW] = narrow(value); };
   const Symmetric3& i = link.inertia;
@@ -58,6 +52,7 @@ void fillLink(const Link& link, float* constants) {
   set(C_MASS, link.mass);
   set(C_STIFFNESS, link.stiffness);
   set(C_DAMPING, link.damping);
+  set(C_SURE, link.sure_inertia);
   put(Vec3(link.mass * link.centre), constants + C_MOMENT * ROW, ROW);
   put({i.xx, i.xy, i.xz}, constants + C_INERTIA * ROW, ROW);
   put({i.yy, i.yz, i.zz}, constants + (C_INERTIA + 3) * ROW, ROW);

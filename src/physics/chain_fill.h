@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "physics/bar.h"
 #include "physics/chain_rows.h"
 #include "vegetation_sim/physics/chain.h"
 
@@ -15,8 +16,6 @@ struct BaseRows {
 };
 BaseRows baseRows(const BaseMotion& base, double products);
 
-/// Whether the link is a round bar with its centre on its axis.
-bool isBar(const Link& link);
 void fillLink(const Link& link, float* constants);
 /// A lane without link: it never moves.
 void fillNobody(float* constants);

@@ -92,59 +92,75 @@ struct StoreRows {
   HWY_INLINE void operator()(int row, Lanes value) const { store(value, rows, row, stride); }
 };
 
-// Round bars with their centre on the own z, the usual case, need no rotation of a full inertia.
-HWY_INLINE void rigidBar(const Joints& at, const Frame& frame) {
+/// Wrench that it takes to move a link as its frame says, if no joint accelerates.
+struct Bias {
+  Lanes3 torque, force;
+};
+
+HWY_INLINE Bias biasOfBar(const Joints& at, const Frame& frame, Lanes products) {
   const Lanes3& z = frame.axis;
   const Lanes across = load(at.constants, C_INERTIA);
   const Lanes excess = load(at.constants, C_INERTIA + 5) - across;
   const Lanes moment = load(at.constants, C_MOMENT + 2), mass = load(at.constants, C_MASS);
-  const Lanes3 ez = excess * z, arm = moment * z;
-  store6({across + ez.x * z.x, ez.x * z.y, ez.x * z.z, across + ez.y * z.y, ez.y * z.z,
-          across + ez.z * z.z},
-         at.work, W_INERTIA);
-  store3(arm, at.work, W_MOMENT);
-  const Lanes3 turning =
-      dot(z, frame.spin_rate) * ez +
-      (load(at.state, S_PRODUCTS) * excess * dot(z, frame.spin)) * cross(frame.spin, z);
-  store3((across * frame.spin_rate + turning) + cross(arm, frame.acceleration), at.work, W_TORQUE);
-  store3(mass * frame.acceleration + moment * frame.axis_rate, at.work, W_FORCE);
+  const Lanes3 turning = dot(z, frame.spin_rate) * (excess * z) +
+                         (products * excess * dot(z, frame.spin)) * cross(frame.spin, z);
+  return {(across * frame.spin_rate + turning) + cross(moment * z, frame.acceleration),
+          mass * frame.acceleration + moment * frame.axis_rate};
 }
 
-HWY_INLINE void rigidBody(const Joints& at, const Axes& axes, const Frame& frame) {
+HWY_INLINE Bias biasOfBody(const Joints& at, const Axes& axes, const Frame& frame, Lanes products) {
   const Symmetric inertia = turnedInertia(axes, load6(at.constants, C_INERTIA));
   const Lanes3 arm = turned(axes, load3(at.constants, C_MOMENT));
-  const Lanes mass = load(at.constants, C_MASS);
-  store6(inertia, at.work, W_INERTIA);
-  store3(arm, at.work, W_MOMENT);
-  const Lanes products = load(at.state, S_PRODUCTS);
   const Lanes3 torque =
       inertia * frame.spin_rate + products * cross(frame.spin, inertia * frame.spin);
   const Lanes3 force =
       cross(frame.spin_rate, arm) + products * cross(frame.spin, cross(frame.spin, arm));
-  store3(torque + cross(arm, frame.acceleration), at.work, W_TORQUE);
-  store3(mass * frame.acceleration + force, at.work, W_FORCE);
+  return {torque + cross(arm, frame.acceleration),
+          load(at.constants, C_MASS) * frame.acceleration + force};
 }
 
-/// Right Jacobian of the rotation vector (x, y, 0): leaves the joint's axes; returns spin and rate
-/// of spin that the joint adds while its rates are constant.
-struct JointSpin {
-  Lanes3 spin, rate;
-};
+// Round bars with their centre on the own z, the usual case, need no rotation of a full inertia.
+HWY_INLINE void rigidBar(const Joints& at, const Lanes3& z) {
+  const Lanes across = load(at.constants, C_INERTIA);
+  const Lanes3 ez = (load(at.constants, C_INERTIA + 5) - across) * z;
+  store6({across + ez.x * z.x, ez.x * z.y, ez.x * z.z, across + ez.y * z.y, ez.y * z.z,
+          across + ez.z * z.z},
+         at.work, W_INERTIA);
+  store3(load(at.constants, C_MOMENT + 2) * z, at.work, W_MOMENT);
+}
 
-HWY_INLINE JointSpin jointSpin(const Joints& at, const Axes& axes, const Swing& g, Lanes x, Lanes y,
-                               Lanes rx, Lanes ry) {
+HWY_INLINE void rigidBody(const Joints& at, const Axes& axes) {
+  store6(turnedInertia(axes, load6(at.constants, C_INERTIA)), at.work, W_INERTIA);
+  store3(turned(axes, load3(at.constants, C_MOMENT)), at.work, W_MOMENT);
+}
+
+/// Rate of the spin that the joint adds while its rates are constant.
+HWY_INLINE Lanes3 bendBias(const Swing& g, const Axes& axes, Lanes x, Lanes y, Lanes rx, Lanes ry) {
+  const Lanes k = x * ry - y * rx, swept = x * rx + y * ry, e = g.dc * swept;
+  return (k * (e * y + g.c * ry)) * axes.x - (k * (e * x + g.c * rx)) * axes.y -
+         (k * (g.db * swept)) * axes.z;
+}
+
+/// Right Jacobian of the rotation vector (x, y, 0): leaves the joint's axes, returns the spin.
+HWY_INLINE Lanes3 jointSpin(const Joints& at, const Axes& axes, const Swing& g, Lanes x, Lanes y,
+                            Lanes rx, Lanes ry) {
   const Lanes3 p = (g.c * y) * axes.x - (g.c * x) * axes.y - g.b * axes.z;
   const Lanes3 first = axes.x - y * p, second = axes.y + x * p;
   store3(first, at.work, W_FIRST);
   store3(second, at.work, W_SECOND);
-  const Lanes k = x * ry - y * rx, swept = x * rx + y * ry, e = g.dc * swept;
-  const Lanes3 rate = (k * (e * y + g.c * ry)) * axes.x - (k * (e * x + g.c * rx)) * axes.y -
-                      (k * (g.db * swept)) * axes.z;
-  return {rx * first + ry * second, rate};
+  return rx * first + ry * second;
 }
 
-/// Geometry at q + theta h rate; leaves the rigid bodies and their bias wrenches.
-HWY_INLINE Frame outward(const Joints& at, const Frame& parent, Lanes step, bool bars) {
+// For lookAhead.
+HWY_INLINE void keep(const Frame& frame, float* work) {
+  store(frame.turn.w, work, W_TURN);
+  store3({frame.turn.x, frame.turn.y, frame.turn.z}, work, W_TURN + 1);
+  store3(frame.spin, work, W_SPIN);
+}
+
+/// Geometry at q + theta h rate; leaves the rigid bodies and their bias wrenches. `mean`: velocity
+/// products will be averaged.
+HWY_INLINE Frame outward(const Joints& at, const Frame& parent, Lanes step, bool bars, bool mean) {
   const Lanes ahead = load(at.state, S_THETA) * step;
   const Lanes rx = load(at.state, S_RATE), ry = load(at.state, S_RATE + 1);
   const Lanes x = load(at.state, S_Q) + ahead * rx, y = load(at.state, S_Q + 1) + ahead * ry;
@@ -158,19 +174,21 @@ HWY_INLINE Frame outward(const Joints& at, const Frame& parent, Lanes step, bool
   Frame out;
   out.turn = parent.turn * local;
   const Axes axes = axesOf(out.turn);
-  const JointSpin joint = jointSpin(at, axes, g, x, y, rx, ry);
+  const Lanes3 own = jointSpin(at, axes, g, x, y, rx, ry);
   store3(h * parent.axis, at.work, W_ARM);
   out.axis = axes.z;
-  out.spin = parent.spin + joint.spin;
+  out.spin = parent.spin + own;
   const Lanes products = load(at.state, S_PRODUCTS);
-  out.spin_rate = parent.spin_rate + products * (joint.rate + cross(parent.spin, joint.spin));
+  const Lanes3 change = bendBias(g, axes, x, y, rx, ry);
+  out.spin_rate = parent.spin_rate + products * (change + cross(parent.spin, own));
   out.acceleration = parent.acceleration + h * parent.axis_rate;
   out.axis_rate =
       cross(out.spin_rate, axes.z) + products * cross(out.spin, cross(out.spin, axes.z));
-  if (bars)
-    rigidBar(at, out);
-  else
-    rigidBody(at, axes, out);
+  bars ? rigidBar(at, axes.z) : rigidBody(at, axes);
+  const Bias bias = bars ? biasOfBar(at, out, products) : biasOfBody(at, axes, out, products);
+  store3(bias.torque, at.work, W_TORQUE);
+  store3(bias.force, at.work, W_FORCE);
+  if (mean) keep(out, at.work);
   return out;
 }
 

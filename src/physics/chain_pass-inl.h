@@ -10,8 +10,8 @@
 #define VEGETATION_SIM_PHYSICS_CHAIN_PASS_INL_H_
 #endif
 
-#include "physics/chain_back-inl.h"
 #include "physics/chain_levels.h"
+#include "physics/chain_mean-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace vegetation_sim::physics::HWY_NAMESPACE {
@@ -89,6 +89,12 @@ HWY_INLINE void addTo(Articulated& sum, const Add& add) {
   addTo(sum.force, P_FORCE, add);
 }
 
+template <class Add>
+HWY_INLINE void addTo(Bias& sum, const Add& add) {
+  addTo(sum.torque, 0, add);
+  addTo(sum.force, 3, add);
+}
+
 // Children of one rank of a vector of joints.
 struct Siblings {
   const float* source;
@@ -102,8 +108,8 @@ struct Siblings {
   }
 };
 
-template <int RANKS>
-HWY_INLINE void addSiblings(const Siblings* of, int room, Articulated& sum) {
+template <int RANKS, class Sum>
+HWY_INLINE void addSiblings(const Siblings* of, int room, Sum& sum) {
   addTo(sum, [&](int row, Lanes value) HWY_ATTR {
     for (int rank = 0; rank < RANKS; ++rank) value = value + of[rank].at(row * room);
     return value;
@@ -111,8 +117,9 @@ HWY_INLINE void addSiblings(const Siblings* of, int room, Articulated& sum) {
 }
 
 // From children to parents, rank by rank; a few ranks at once, which spares going through memory.
+template <class Sum>
 HWY_INLINE void gatherChildren(const Level& level, const float* from, int room, int parent,
-                               Articulated& sum) {
+                               Sum& sum) {
   Siblings found[3];
   int count = 0;
   for (const Brood& brood : level.broods) {
@@ -128,6 +135,11 @@ HWY_INLINE void gatherChildren(const Level& level, const float* from, int room, 
   }
   if (count == 1) addSiblings<1>(found, room, sum);
   if (count == 2) addSiblings<2>(found, room, sum);
+}
+
+HWY_INLINE void storeAll(const Bias& bias, float* rows, int room) {
+  store3(bias.torque, rows, 0, room);
+  store3(bias.force, rows, 3, room);
 }
 
 HWY_INLINE void storeAll(const Articulated& a, float* rows, int room) {

@@ -36,6 +36,7 @@ enum : int {
   C_MASS = C_REST + 4,       //
   C_STIFFNESS,               //
   C_DAMPING,                 //
+  C_SURE,                    // sure inertia
   C_MOMENT,                  // mass times centre
   C_INERTIA = C_MOMENT + 3,  // xx xy xz yy yz zz
   C_ROWS = C_INERTIA + 6
@@ -48,23 +49,26 @@ enum : int { S_Q, S_RATE = S_Q + 2, S_THETA = S_RATE + 2, S_PRODUCTS, S_ROWS };
 enum : int { L_FORCE, L_TORQUE = L_FORCE + 3, L_JOINT = L_TORQUE + 3, L_ROWS = L_JOINT + 2 };
 
 /// Rows that one step keeps between its passes; what the sweep down the tree leaves takes the place
-/// of the rigid body that it has used.
+/// of the rigid inertia that it has used.
 enum : int {
   W_FIRST,                 // joint axes, world
   W_SECOND = W_FIRST + 3,  //
   W_ARM = W_SECOND + 3,    // from the parent's joint
-  W_SWEPT = W_ARM + 3,     //
+  W_TORQUE = W_ARM + 3,    // bias of the link alone, or its change
+  W_FORCE = W_TORQUE + 3,  //
+  W_SWEPT = W_FORCE + 3,   //
   W_INERTIA = W_SWEPT,     // rigid body: xx xy xz yy yz zz
   W_MOMENT = W_INERTIA + 6,
-  W_TORQUE = W_MOMENT + 3,
-  W_FORCE = W_TORQUE + 3,
   W_GAIN = W_SWEPT,  // swept: torque and force gain of the first axis, then of the second
   W_INVERSE = W_GAIN + 12,
   W_COUPLING = W_INVERSE + 2,
   W_DRIVE,
-  W_ROWS = W_DRIVE + 2
+  W_TURN = W_DRIVE + 2,  // from here on only for the mean of velocity products: orientation
+  W_SPIN = W_TURN + 4,
+  W_SOLVED = W_SPIN + 3,  // accelerations of the joint
+  W_ROWS = W_SOLVED + 2
 };
-static_assert(W_FORCE + 3 <= W_ROWS, "the rigid body fits where the sweep writes");
+static_assert(W_MOMENT + 3 <= W_TURN, "the rigid inertia fits where the sweep writes");
 
 /// Rows that a parent hands to its children: orientation (w x y z), z axis, spin, and the
 /// accelerations that it would have if no joint accelerated: of spin, of joint, of z axis.

@@ -52,7 +52,7 @@ HWY_INLINE void outGroupAs(const ChainGroup& group, Lanes step, ChainStore& stor
   for (const Level& level : group.levels) {
     for (int i = 0; i < level.count; i += width()) {
       const Joints at = jointsAt(store, level.begin + i);
-      const Frame frame = outward(at, loadFrame(received + i, room), step, group.bars);
+      const Frame frame = outward(at, loadFrame(received + i, room), step, group.bars, store.mean);
       if constexpr (MOTION) {
         const Trace trace = traceOf(received + i, room, at.work);
         const auto each = [&](const auto& put) HWY_ATTR __attribute__((always_inline)) {
@@ -97,6 +97,40 @@ void inwardGroup(const ChainGroup& group, float h, ChainStore& store) {
   }
 }
 
+void lookAheadGroup(const ChainGroup& group, float h, ChainStore& store) {
+  const Lanes step = all(h);
+  float *received = store.first.data(), *handed = store.second.data();
+  const int room = store.first.room;
+  loadBases(group, store.first);
+  bool root = true;
+  for (const Level& level : group.levels) {
+    for (int i = 0; i < level.count; i += width()) {
+      const Ahead parent = root ? aheadOfBase(received + i, room) : loadAhead(received + i, room);
+      const Ahead own = lookAhead(jointsAt(store, level.begin + i), parent, step, group.bars);
+      handOn(
+          level, i, [&](const auto& put) HWY_ATTR { eachRow(own, put); }, room, handed);
+    }
+    root = false;
+    std::swap(received, handed);
+  }
+}
+
+void inwardWrenches(const ChainGroup& group, ChainStore& store) {
+  const int room = store.first.room;
+  const Lanes o = hn::Zero(Tag());
+  float *own = store.first.data(), *received = store.second.data();
+  for (std::size_t l = group.levels.size(); l-- > 0;) {
+    const Level& level = group.levels[l];
+    for (int i = 0; i < level.count; i += width()) {
+      Bias sum{{o, o, o}, {o, o, o}};
+      gatherChildren(level, received, room, i, sum);
+      inwardWrench(jointsAt(store, level.begin + i), sum);
+      storeAll(sum, own + i, room);
+    }
+    std::swap(own, received);
+  }
+}
+
 float settleGroup(const ChainGroup& group, float h, ChainStore& store) {
   const Lanes step = all(h);
   const int room = store.first.room;
@@ -106,9 +140,8 @@ float settleGroup(const ChainGroup& group, float h, ChainStore& store) {
     std::fill_n(received + row * room, group.levels[0].count, 0.f);
   for (const Level& level : group.levels) {
     for (int i = 0; i < level.count; i += width()) {
-      const Push push =
-          settle(jointsAt(store, level.begin + i),
-                 {load3(received + i, 0, room), load3(received + i, 3, room)}, step, fastest);
+      const Push parent{load3(received + i, 0, room), load3(received + i, 3, room)};
+      const Push push = settle(jointsAt(store, level.begin + i), parent, step, store.mean, fastest);
       handOn(
           level, i, [&](const auto& put) HWY_ATTR { eachRow(push, put); }, room, handed);
     }
@@ -119,6 +152,10 @@ float settleGroup(const ChainGroup& group, float h, ChainStore& store) {
 
 float backGroup(const ChainGroup& group, float h, ChainStore& store) {
   inwardGroup(group, h, store);
+  if (store.mean) {
+    lookAheadGroup(group, h, store);
+    inwardWrenches(group, store);
+  }
   return settleGroup(group, h, store);
 }
 

@@ -40,6 +40,7 @@ struct ChainStore {
   Rows constants, state, loads, work;
   Rows motion;        ///< M_ROWS per block
   bool trace{false};  ///< somebody asks for the motion
+  bool mean{true};    ///< velocity products are averaged over the step
   LevelRows first, second;
   std::vector<AnchorRows> anchors;  ///< sorted by slot
 };

@@ -140,7 +140,7 @@ void ContactStepper::step(const std::vector<Link>& links, const Surroundings& ou
   prepare(law, h, theta, contacts);
   const std::size_t others = loads_.anchors.size();
   // The rules of ChainStepper for motion too wild.
-  const Implicitness foreseen{theta * theta * h * h, theta * h, productsOf(state, h)};
+  const Implicitness foreseen = foreseeing(theta, h, productsOf(state, h));
   agreed_ = false;
   for (trials_ = 0; trials_ < MOST_TRIALS && !agreed_; ++trials_) {
     loads_.anchors.resize(others);

@@ -73,8 +73,12 @@ void ChainStepper::implicitStep(const std::vector<Link>& links, const Surroundin
                                 double time, double h, double theta, ChainState& state) {
   addScaled(state.q, theta * h, state.rate, between_.q);
   between_.rate = state.rate;
-  evaluate(links, outside, time + theta * h, between_,
-           {theta * theta * h * h, theta * h, productsOf(state, h)}, acceleration_);
+  const double products = productsOf(state, h);
+  evaluate(links, outside, time + theta * h, between_, foreseeing(theta, h, products),
+           acceleration_);
+  const bool mean = products_ == Products::MEAN && dynamics_ == Dynamics::ARTICULATED;
+  if (mean && theta == 0.5 && products == 1.0)
+    body_.averageProducts(links, bases_, between_, kinematics_, h, acceleration_);
   for (std::size_t i = 0; i < links.size(); ++i) {
     state.q[i] += h * (state.rate[i] + (theta * h) * acceleration_[i]);
     state.rate[i] += h * acceleration_[i];

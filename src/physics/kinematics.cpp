@@ -24,10 +24,12 @@ void kinematicsOf(const std::vector<Link>& links, const std::vector<BaseMotion>&
     const Vec3 offset = link.h * axisZ(from.orientation);
     Pose& pose = out.pose[i];
     pose.position = from.position + offset;
-    pose.orientation = from.orientation * link.rest * bendRotation(state.q[i]);
-    const BendMotion bend = bendMotion(state.q[i], state.rate[i]);
-    const Vec3 own = state.rate[i].x() * bend.first + state.rate[i].y() * bend.second;
-    out.spin[i] = spin + rotate(pose.orientation, own);
+    const Vec2 &q = state.q[i], &rate = state.rate[i];
+    const Bend bend = bendOf(q);
+    pose.orientation = from.orientation * (link.rest * rotationOf(bend, q));
+    Vec3 first, second;
+    bendAxes(bend, q, axesOf(pose.orientation), first, second);
+    out.spin[i] = spin + rate.x() * first + rate.y() * second;
     out.velocity[i] = velocity + cross(spin, offset);
   }
 }

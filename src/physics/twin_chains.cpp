@@ -135,6 +135,10 @@ void TwinChains::setState(int tree, const ChainState& state, double theta) {
   }
 }
 
+void TwinChains::setProducts(Products products) {
+  store_->mean = products == Products::MEAN;
+}
+
 ChainState TwinChains::state(int tree) const {
   ChainState out;
   for (std::size_t i = 0; i < links_; ++i) {

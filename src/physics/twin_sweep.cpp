@@ -9,7 +9,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "physics/chain_back-inl.h"
+#include "physics/chain_mean-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace vegetation_sim::physics::HWY_NAMESPACE {
@@ -44,7 +44,7 @@ HWY_INLINE void outPart(const Part& part, Lanes step) {
     const TwinJoint& joint = part.store.joints[i];
     const Joints at = part.joints(i);
     const float* parent = joint.root >= 0 ? part.base(joint.root) : part.onStack(joint.depth - 1);
-    const Frame frame = outward(at, loadFrame(parent, ROW), step, joint.bar);
+    const Frame frame = outward(at, loadFrame(parent, ROW), step, joint.bar, part.store.mean);
     const StoreRows own{part.onStack(joint.depth), ROW};
     if (!joint.leaf) eachRow(frame, own);
     if (!motion) continue;
@@ -104,6 +104,32 @@ HWY_INLINE void inwardPart(const Part& part, Lanes step) {
   }
 }
 
+HWY_INLINE void lookAheadPart(const Part& part, Lanes step) {
+  for (std::size_t i = 0; i < part.store.joints.size(); ++i) {
+    const TwinJoint& joint = part.store.joints[i];
+    const Ahead parent = joint.root >= 0 ? aheadOfBase(part.base(joint.root), ROW)
+                                         : loadAhead(part.onStack(joint.depth - 1), ROW);
+    const Ahead own = lookAhead(part.joints(i), parent, step, joint.bar);
+    if (!joint.leaf) eachRow(own, StoreRows{part.onStack(joint.depth), ROW});
+  }
+}
+
+HWY_INLINE void inwardWrenches(const Part& part) {
+  const Lanes o = hn::Zero(Tag());
+  for (std::size_t i = part.store.joints.size(); i-- > 0;) {
+    const TwinJoint& joint = part.store.joints[i];
+    const float* own = part.onStack(joint.depth);
+    Bias sum{{o, o, o}, {o, o, o}};
+    if (!joint.leaf) sum = {load3(own, 0), load3(own, 3)};
+    inwardWrench(part.joints(i), sum);
+    if (joint.root >= 0) continue;
+    float* below = part.onStack(joint.depth - 1);
+    if (!joint.last) sum = {load3(below, 0) + sum.torque, load3(below, 3) + sum.force};
+    store3(sum.torque, below, 0);
+    store3(sum.force, below, 3);
+  }
+}
+
 HWY_INLINE void settlePart(const Part& part, Lanes step) {
   const Lanes o = hn::Zero(Tag());
   Lanes fastest = o;
@@ -111,7 +137,7 @@ HWY_INLINE void settlePart(const Part& part, Lanes step) {
     const TwinJoint& joint = part.store.joints[i];
     const float* below = joint.root >= 0 ? nullptr : part.onStack(joint.depth - 1);
     const Push parent = below ? Push{load3(below, 0), load3(below, 3)} : Push{{o, o, o}, {o, o, o}};
-    const Push push = settle(part.joints(i), parent, step, fastest);
+    const Push push = settle(part.joints(i), parent, step, part.store.mean, fastest);
     if (joint.leaf) continue;
     eachRow(push, StoreRows{part.onStack(joint.depth), ROW});
   }
@@ -129,6 +155,10 @@ void backPack(int pack, float step, TwinStore& store) {
   for (int lane = 0; lane < ROW; lane += width) {
     const Part part{store, static_cast<std::size_t>(pack), lane};
     inwardPart(part, all(step));
+    if (store.mean) {
+      lookAheadPart(part, all(step));
+      inwardWrenches(part);
+    }
     settlePart(part, all(step));
   }
 }

@@ -7,6 +7,7 @@
 
 #include "vegetation_sim/common/random.h"
 #include "vegetation_sim/physics/integrator.h"
+#include "vegetation_sim/physics/sure_inertia.h"
 
 namespace vegetation_sim::physics {
 
@@ -33,6 +34,7 @@ inline std::vector<Link> beam(int n, double length, double radius, double modulu
     out.push_back(bar(i - 1, i ? length / n : 0.0, length / n, radius, modulus, density));
     if (i == 0) out[0].stiffness *= 2.0;
   }
+  shareInertia(out);
   return out;
 }
 
@@ -67,6 +69,7 @@ inline std::vector<Link> crown(std::size_t count, double ratio, std::uint64_t se
     first[p] += first[i] + mass[i] * out[i].h;
     second[p] += second[i] + 2.0 * out[i].h * first[i] + mass[i] * out[i].h * out[i].h;
   }
+  shareInertia(out);
   return out;
 }
 

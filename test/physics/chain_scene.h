@@ -56,6 +56,7 @@ inline std::vector<Link> fractalTree(int n, std::uint64_t seed) {
     if (rest - first > 0) next.push_back({own, rest - first, azimuth + PI});
   }
   damp(out);
+  shareInertia(out);
   return out;
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "vegetation_sim/physics/chain.h"
@@ -25,10 +26,24 @@ double energyOf(const std::vector<Link>& links, const ChainState& state,
 /// What an implicit step foresees: springs act with `stiffness` times their k and dampers with
 /// `damping` times their nu against the acceleration that is sought [s^2], [s]. `products`: what
 /// part of the velocity products (centrifugal, gyroscopic) is felt: 1, or 0 in motion too wild.
+/// `ease`: how much less springs foresee, as far as the joint's sure inertia covers it [s^2].
 struct Implicitness {
   double stiffness{0.0}, damping{0.0};
   double products{1.0};
+  double ease{0.0};
+
+  /// What a joint's springs and dampers add to its inertia [kg m^2].
+  double foreseen(const Link& link) const {
+    return stiffness * link.stiffness + damping * link.damping -
+           std::min(ease * link.stiffness, link.sure_inertia);
+  }
 };
+
+/// Of a theta step: theta = 1 is backward Euler. Below it springs are eased, so that slow motion
+/// keeps its period to fourth order at theta = 1/2.
+inline Implicitness foreseeing(double theta, double h, double products) {
+  return {theta * theta * h * h, theta * h, products, (1.0 - theta) * h * h / 3.0};
+}
 
 /// The full articulated chain: inertia, reaction forces, gyroscopic terms, lever arms, by the
 /// articulated-body algorithm, O(N), for bends below pi. Plain double version: the reference of any
@@ -40,17 +55,25 @@ class ArticulatedBody {
                      const ChainState& state, const Kinematics& kinematics, const Loads& loads,
                      const Implicitness& implicitness, std::vector<Vec2>& out);
 
+  /// To be called after accelerations(), with its `out`: makes them those of velocity products that
+  /// are the mean of what they are at `state.rate` and at `state.rate + h out`, in the same pose.
+  void averageProducts(const std::vector<Link>& links, const std::vector<BaseMotion>& bases,
+                       const ChainState& state, const Kinematics& kinematics, double h,
+                       std::vector<Vec2>& out);
+
   /// Inverse dynamics: the joint torques besides spring and damper that give `acceleration`
   /// [N m].
   void torques(const std::vector<Link>& links, const std::vector<BaseMotion>& bases,
                const ChainState& state, const Kinematics& kinematics, const Loads& loads,
                const std::vector<Vec2>& acceleration, std::vector<Vec2>& out);
 
-  /// Of a joint in world axes, and what its motion adds to accelerations by itself.
+  /// Whether all inertias that the last accelerations() divided by were positive.
+  bool positive() const { return positive_; }
+
+  /// Of a joint in world axes.
   struct Joint {
     Vec3 first, second;  // axes of the two bends
     Vec3 offset;         // from what it hangs on to the joint
-    Vec3 spin_bias, linear_bias;
   };
   /// Of the last accelerations() or torques(), per link.
   const std::vector<Joint>& joints() const { return joints_; }
@@ -62,25 +85,38 @@ class ArticulatedBody {
     Vec3 bx, by, bz;  // rows of b
     Vec3 torque, force;
   };
+  /// Of spin and of the joint's place.
+  struct Acceleration {
+    Vec3 spin, linear;
+  };
 
  private:
+  // The joint's two freedoms eliminated one after the other: inertia times axes, of the second
+  // without what the first takes.
   struct Gain {
-    Vec3 a1, a2, b1, b2;   // inertia times axes
-    double i11, i12, i22;  // inverse of the joint-space inertia
-    double torque1, torque2;
+    Vec3 a1, a2, b1, b2;
+    double inverse1, inverse2, coupling;
+    double drive1, drive2;
   };
-  void sweepOut(const std::vector<Link>& links, const std::vector<BaseMotion>& bases,
-                const ChainState& state, const Kinematics& kinematics, const Loads& loads,
-                double products);
-  void foreseeAnchors(const std::vector<Link>& links, const std::vector<BaseMotion>& bases,
-                      const Loads& loads, const Implicitness& implicitness);
-  void sweepBack(const std::vector<Link>& links, const ChainState& state, const Loads& loads,
+  using Links = std::vector<Link>;
+  using Bases = std::vector<BaseMotion>;
+
+  void sweepOut(const Links& links, const Bases& bases, const ChainState& state,
+                const Kinematics& kinematics, double products);
+  void addLoads(const Loads& loads, const Implicitness& implicitness);
+  void sweepBack(const Links& links, const ChainState& state, const Loads& loads,
                  const Implicitness& implicitness);
+  void sweepWrenches(const Links& links);
+  void settle(const Links& links, std::vector<Vec2>& out);
 
   std::vector<Joint> joints_;
   std::vector<Body> bodies_;
   std::vector<Gain> gains_;
-  std::vector<Vec3> spin_rate_, acceleration_;
+  std::vector<Acceleration> free_;  // if no joint accelerated
+  std::vector<Acceleration> push_;  // that joints add
+  std::vector<Wrench> bias_;        // of the link alone
+  std::vector<Vec2> change_;
+  bool positive_{true};
 };
 
 }  // namespace vegetation_sim::physics

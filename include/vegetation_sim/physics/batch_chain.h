@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "vegetation_sim/physics/chain.h"
+#include "vegetation_sim/physics/stability.h"
 
 namespace vegetation_sim::physics {
 
@@ -33,6 +33,8 @@ class BatchChain {
   ChainState state(int tree) const;
   double theta(int tree) const { return trees_[static_cast<std::size_t>(tree)].theta; }
   std::size_t bytes() const;
+
+  void setProducts(Products products);
 
   /// One step of `h` seconds from `time`; `around` per tree.
   void step(const std::vector<Surroundings>& around, double time, double h);

@@ -23,6 +23,7 @@ class ChainStepper {
  public:
   /// Of the chains that follow; the full chain until told otherwise.
   void setDynamics(Dynamics dynamics) { dynamics_ = dynamics; }
+  void setProducts(Products products) { products_ = products; }
 
   /// One step of `h` seconds from `time`. `theta` belongs to the chain's state: 1/2 is the
   /// midpoint, 1 backward Euler, between is on the way back; others than MIDPOINT leave it alone.
@@ -54,6 +55,7 @@ class ChainStepper {
                       double h, ChainState& state);
 
   Dynamics dynamics_{Dynamics::ARTICULATED};
+  Products products_{Products::MEAN};
   ArticulatedBody body_;
   PaperBody paper_, printed_{PaperForm{true, true, true}};
   std::vector<BaseMotion> bases_;

@@ -17,6 +17,12 @@ enum class Integrator : int {
   RUNGE_KUTTA_4 = 4         ///< the reference: fourth order, explicit
 };
 
+/// At which rates the midpoint feels velocity products (centrifugal, gyroscopic).
+enum class Products : int {
+  MEAN = 0,  ///< the mean of what they are before and after the step: second order (default)
+  START = 1  ///< before: first order in them, and faster
+};
+
 /// What moves a chain.
 enum class Dynamics : int {
   ARTICULATED = 0,   ///< the full chain

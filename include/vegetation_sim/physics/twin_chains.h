@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "vegetation_sim/physics/chain.h"
+#include "vegetation_sim/physics/stability.h"
 
 namespace vegetation_sim::physics {
 
@@ -29,6 +29,8 @@ class TwinChains {
   void setState(int tree, const ChainState& state, double theta = 0.5);
   ChainState state(int tree) const;
   double theta(int tree) const { return theta_[static_cast<std::size_t>(tree)]; }
+
+  void setProducts(Products products);
 
   /// One step of `h` seconds from `time`; `around` per tree.
   void step(const std::vector<Surroundings>& around, double time, double h);
