@@ -118,14 +118,16 @@ void Crowd::setSettings(const CrowdSettings& settings) {
   if (!same) setObstacles(still_.obstacles());
 }
 
-std::uint32_t Crowd::spawn(const Spawn& spawn) {
+std::uint32_t Crowd::spawn(const Spawn& spawn, std::uint32_t id) {
   checkFields("spawn: ", spawn);
   if (spawn.has_goal) checkPlace("spawn: goal ", spawn.goal);
   if (memory_.walkers.size() >= MOST_WALKERS)
     throw InvalidInput("spawn: walkers = " + std::to_string(MOST_WALKERS) +
                        " are there, which is the most allowed");
+  if (find(id)) throw InvalidInput("spawn: walker " + std::to_string(id) + " is there already");
+  memory_.next_id = std::max(memory_.next_id, id + 1);
   Walker w;
-  w.id = memory_.next_id++;
+  w.id = id;
   w.key = Random(memory_.seed).child(w.id).key();
   w.position = spawn.position;
   w.heading = spawn.heading;
@@ -144,35 +146,47 @@ std::uint32_t Crowd::spawn(const Spawn& spawn) {
     w.feet[static_cast<std::size_t>(i)].planted =
         w.position + Point{-turn.sin * off, turn.cos * off};
   }
-  memory_.walkers.push_back(w);
+  const auto place = memory_.walkers.begin() + static_cast<std::ptrdiff_t>(indexOf(id));
+  memory_.walkers.insert(place, w);
   return w.id;
 }
 
-const Walker* Crowd::find(std::uint32_t id) const {
+// Of the first walker with this id or a larger one.
+std::size_t Crowd::indexOf(std::uint32_t id) const {
   const auto& all = memory_.walkers;
   const auto found = std::lower_bound(all.begin(), all.end(), id,
                                       [](const Walker& w, std::uint32_t i) { return w.id < i; });
-  return found != all.end() && found->id == id ? &*found : nullptr;
+  return static_cast<std::size_t>(found - all.begin());
+}
+
+const Walker* Crowd::find(std::uint32_t id) const {
+  const std::size_t index = indexOf(id);
+  const auto& all = memory_.walkers;
+  return index < all.size() && all[index].id == id ? &all[index] : nullptr;
 }
 
 Walker& Crowd::at(std::uint32_t id) {
-  const Walker* found = find(id);
-  if (!found) throw InvalidInput("walker " + std::to_string(id) + " is unknown");
-  return memory_.walkers[static_cast<std::size_t>(found - memory_.walkers.data())];
+  if (!find(id)) throw InvalidInput("walker " + std::to_string(id) + " is unknown");
+  return memory_.walkers[indexOf(id)];
 }
 
 void Crowd::remove(std::uint32_t id) {
   memory_.walkers.erase(memory_.walkers.begin() + (&at(id) - memory_.walkers.data()));
 }
 
-void Crowd::setGoal(std::uint32_t id, const Point& goal) {
+void Crowd::checkGoal(std::uint32_t id, const Point& goal) {
   checkPlace("goal: ", goal);
-  Walker& w = at(id);
+  const Walker& w = at(id);
   const PlanRaster& raster = ways_.raster();
   if (!raster.isClear(w.position, goal, false) &&
       !ways_.fieldOf(goal).isReachable(raster, w.position))
     throw InvalidInput("goal = (" + std::to_string(goal.x) + ", " + std::to_string(goal.y) +
                        ") m: no way leads there from walker " + std::to_string(id));
+}
+
+void Crowd::setGoal(std::uint32_t id, const Point& goal) {
+  checkGoal(id, goal);
+  Walker& w = at(id);
   w.goal = goal;
   w.has_goal = true;
   w.wanders = w.arrived = w.detours = false;

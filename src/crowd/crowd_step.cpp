@@ -93,7 +93,7 @@ Movers Crowd::moversOf(const Walker& walker, const View& view, const Tick& tick)
 }
 
 double Crowd::paceAt(const Walker& walker, const Point& direction) const {
-  double out = 1.0;
+  double out = memory_.settings.pace;
   if (!terrain_->isFlat()) {
     const Vec3 up = terrain_->normal(walker.position.x, walker.position.y);
     out *= slopeFactor(-(up.x() * direction.x + up.y() * direction.y) / up.z());

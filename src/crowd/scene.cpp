@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vegetation_sim/crowd/scene.h"
 
+#include <algorithm>
+
 #include "vegetation_sim/common/math.h"
-#include "vegetation_sim/common/random.h"
 
 namespace vegetation_sim::crowd {
 namespace {
@@ -38,7 +39,6 @@ Spawn readWalker(YamlSection& section) {
   return out;
 }
 
-// People like those of a street: heights and speeds differ by a few percent.
 void readGroup(YamlSection& section, const Random& random, std::vector<Spawn>& out) {
   Spawn like;
   describe(section, like);
@@ -46,11 +46,21 @@ void readGroup(YamlSection& section, const Random& random, std::vector<Spawn>& o
   double spread = 3.0, variety = 0.12;
   section.integer("count", count, "", {1, static_cast<double>(MOST_WALKERS)});
   section.number("spread", spread, "m", {0.0, 1e4});
-  section.number("variety", variety, "", {0.0, 0.4});
-  const bool has_goal = section.has("goal");
-  const Point goal = readPoint(section, "goal");
+  section.number("variety", variety, "", {0.0, 0.3});
+  like.has_goal = section.has("goal");
+  like.wanders = !like.has_goal;
+  if (like.has_goal) like.goal = readPoint(section, "goal");
   section.finish();
-  for (int i = 0; i < count && out.size() < MOST_WALKERS; ++i) {
+  count = std::min(count, static_cast<int>(MOST_WALKERS - std::min(MOST_WALKERS, out.size())));
+  for (const Spawn& one : groupOf(like, count, spread, variety, random)) out.push_back(one);
+}
+
+}  // namespace
+
+std::vector<Spawn> groupOf(const Spawn& like, int count, double spread, double variety,
+                           const Random& random) {
+  std::vector<Spawn> out;
+  for (int i = 0; i < count; ++i) {
     const auto k = static_cast<std::uint64_t>(5 * i);
     Spawn one = like;
     one.position = like.position + Point{random.uniform(k, -spread, spread),
@@ -58,14 +68,10 @@ void readGroup(YamlSection& section, const Random& random, std::vector<Spawn>& o
     one.heading = random.uniform(k + 2, -PI, PI);
     one.speed *= 1.0 + random.uniform(k + 3, -variety, variety);
     one.height *= 1.0 + 0.6 * random.uniform(k + 4, -variety, variety);
-    one.has_goal = has_goal;
-    one.goal = goal;
-    one.wanders = !has_goal;
     out.push_back(one);
   }
+  return out;
 }
-
-}  // namespace
 
 Scene readScene(YamlSection& section, std::uint64_t seed, Faults& faults) {
   Scene out;

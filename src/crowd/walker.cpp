@@ -30,6 +30,7 @@ void describe(FieldVisitor& v, CrowdSettings& s) {
   v.number("push_speed", s.push_speed, "m/s", {0.1, 20.0});
   v.number("field_cell", s.field_cell, "m", {0.05, 5.0});
   v.number("grass_drag", s.grass_drag, "", {0.0, 0.95});
+  v.number("pace", s.pace, "", {0.0, 2.0});
   v.number("arrival", s.arrival, "m", {0.05, 10.0});
 }
 

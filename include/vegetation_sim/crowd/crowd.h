@@ -57,9 +57,13 @@ class Crowd {
   void setThreads(int threads) { threads_ = std::max(1, threads); }
 
   // Each throws InvalidInput naming thing, value and range, and then changes nothing.
-  std::uint32_t spawn(const Spawn& spawn);
+  /// With the next free id.
+  std::uint32_t spawn(const Spawn& spawn) { return this->spawn(spawn, memory_.next_id); }
+  /// With this one, which nobody may have.
+  std::uint32_t spawn(const Spawn& spawn, std::uint32_t id);
   void remove(std::uint32_t id);
   /// @throws also where walls leave no way from the walker to the goal.
+  void checkGoal(std::uint32_t id, const Point& goal);
   void setGoal(std::uint32_t id, const Point& goal);
   void setWandering(std::uint32_t id);
   /// Where a robot is now.
@@ -84,6 +88,7 @@ class Crowd {
 
  private:
   struct Tick;
+  std::size_t indexOf(std::uint32_t id) const;
   Walker& at(std::uint32_t id);
   void look();
   Movers moversOf(const Walker& walker, const View& view, const Tick& tick) const;

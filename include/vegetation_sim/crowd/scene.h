@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "vegetation_sim/common/random.h"
 #include "vegetation_sim/common/yaml.h"
 #include "vegetation_sim/crowd/crowd.h"
 
@@ -26,6 +27,11 @@ struct Scene {
 /// Reads the `crowd` section of a scenario: settings, `area`, `walls`, `walkers` one by one,
 /// `groups` that stand about a place. `seed` places the groups.
 Scene readScene(YamlSection& section, std::uint64_t seed, Faults& faults);
+
+/// People like those of a street, about the place of the first: heights and speeds differ by a few
+/// percent. @param spread largest offset along x and y [m]. @param variety share of the speed.
+std::vector<Spawn> groupOf(const Spawn& like, int count, double spread, double variety,
+                           const Random& random);
 
 /// Walls as obstacles.
 std::vector<Obstacle> obstaclesOf(const std::vector<Wall>& walls);

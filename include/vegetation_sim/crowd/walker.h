@@ -36,6 +36,7 @@ struct CrowdSettings {
   double push_speed{3.0};      ///< with which overlaps are left [m/s]
   double field_cell{0.25};     ///< of the ways around walls [m]
   double grass_drag{0.6};      ///< share of the speed that the densest grass takes
+  double pace{1.0};            ///< factor on everybody's speed
   double arrival{0.4};         ///< distance at which a goal is reached [m]
 };
 void describe(FieldVisitor& visitor, CrowdSettings& settings);
