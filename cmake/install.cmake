@@ -5,8 +5,9 @@ install(TARGETS ${own_targets}
   LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
   RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY include/${PROJECT_NAME}/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION})
-install(DIRECTORY config launch media rviz DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
-catkin_install_python(PROGRAMS scripts/charts/charts scripts/scripted_gripper.py scripts/scripted_mower.py
+install(DIRECTORY config icons launch media rviz DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
+catkin_install_python(PROGRAMS scripts/charts/charts scripts/diff_drive_robot.py
+  scripts/rolling_stone.py scripts/scripted_drive.py scripts/scripted_gripper.py scripts/scripted_mower.py
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY scripts/charts/charting DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION}
   PATTERN __pycache__ EXCLUDE)

@@ -29,6 +29,11 @@ Field::Field(Layout layout, std::shared_ptr<const terrain::HeightMap> terrain,
       treading_(treading),
       tread_(tread) {}
 
+void Field::setTreadLaw(const TreadLaw& law) {
+  layout_.tread = law;
+  layout_hash_ = layout_.hash();
+}
+
 SourceMemory& Field::sourceOf(const TreadInput& input) {
   const auto found = sources_.find(input.source);
   if (found != sources_.end()) return found->second;

@@ -40,7 +40,7 @@ std::uint64_t Layout::hash() const {
   return hash.value();
 }
 
-Scene readScene(YamlSection section, const std::string& folder, std::uint64_t seed,
+Scene readScene(YamlSection& section, const std::string& folder, std::uint64_t seed,
                 Faults& faults) {
   Scene out;
   out.layout.seed = seed;
@@ -52,7 +52,6 @@ Scene readScene(YamlSection section, const std::string& folder, std::uint64_t se
   describe(treading, out.treading);
   treading.finish();
   out.layout.map = readMap(section, folder, faults);
-  section.finish();
   check(out.layout.tread, section.path() + ": tread: ", faults);
   return out;
 }

@@ -73,35 +73,6 @@ void addLink(const urdf::Link& link, const std::string& prefix, RobotParts& out)
   }
 }
 
-// The same strict reader for parameters as for files.
-YAML::Node toYaml(XmlRpc::XmlRpcValue value) {
-  switch (value.getType()) {
-    case XmlRpc::XmlRpcValue::TypeArray: {
-      YAML::Node out(YAML::NodeType::Sequence);
-      for (int i = 0; i < value.size(); ++i) out.push_back(toYaml(value[i]));
-      return out;
-    }
-    case XmlRpc::XmlRpcValue::TypeStruct: {
-      YAML::Node out(YAML::NodeType::Map);
-      for (auto& entry : value) out[entry.first] = toYaml(entry.second);
-      return out;
-    }
-    case XmlRpc::XmlRpcValue::TypeDouble: {
-      YAML::Emitter text;
-      text << YAML::DoublePrecision(17) << static_cast<double>(value);
-      return YAML::Load(text.c_str());
-    }
-    case XmlRpc::XmlRpcValue::TypeInt:
-      return YAML::Node(static_cast<int>(value));
-    case XmlRpc::XmlRpcValue::TypeBoolean:
-      return YAML::Node(static_cast<bool>(value));
-    case XmlRpc::XmlRpcValue::TypeString:
-      return YAML::Node(static_cast<std::string>(value));
-    default:
-      return YAML::Node();
-  }
-}
-
 RobotPart readPart(YamlSection section) {
   const Range sizes{forest::SMALLEST_BODY, forest::LARGEST_BODY};
   RobotPart out;
@@ -129,11 +100,8 @@ RobotPart readPart(YamlSection section) {
 }
 
 void readList(const ros::NodeHandle& handle, Parameters& parameters, RobotParts& out) {
-  parameters.allow("bodies");
-  XmlRpc::XmlRpcValue list;
-  if (!handle.getParam("bodies", list)) return;
-  YAML::Node top(YAML::NodeType::Map);
-  top["bodies"] = toYaml(list);
+  YAML::Node top;
+  if (!parameters.list("bodies", top)) return;
   YamlSection section(top, handle.getNamespace(), parameters.faults());
   for (YamlSection& part : section.sections("bodies")) out.parts.push_back(readPart(part));
 }

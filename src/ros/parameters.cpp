@@ -4,6 +4,8 @@
 
 #include <sstream>
 
+#include "vegetation_sim/common/yaml.h"
+
 namespace vegetation_sim {
 namespace {
 
@@ -22,6 +24,34 @@ bool isNumber(const XmlRpc::XmlRpcValue& value) {
 double toNumber(XmlRpc::XmlRpcValue value) {
   return value.getType() == XmlRpc::XmlRpcValue::TypeInt ? static_cast<int>(value)
                                                          : static_cast<double>(value);
+}
+
+YAML::Node toYaml(XmlRpc::XmlRpcValue value) {
+  switch (value.getType()) {
+    case XmlRpc::XmlRpcValue::TypeArray: {
+      YAML::Node out(YAML::NodeType::Sequence);
+      for (int i = 0; i < value.size(); ++i) out.push_back(toYaml(value[i]));
+      return out;
+    }
+    case XmlRpc::XmlRpcValue::TypeStruct: {
+      YAML::Node out(YAML::NodeType::Map);
+      for (auto& entry : value) out[entry.first] = toYaml(entry.second);
+      return out;
+    }
+    case XmlRpc::XmlRpcValue::TypeDouble: {
+      YAML::Emitter text;
+      text << YAML::DoublePrecision(17) << static_cast<double>(value);
+      return YAML::Load(text.c_str());
+    }
+    case XmlRpc::XmlRpcValue::TypeInt:
+      return YAML::Node(static_cast<int>(value));
+    case XmlRpc::XmlRpcValue::TypeBoolean:
+      return YAML::Node(static_cast<bool>(value));
+    case XmlRpc::XmlRpcValue::TypeString:
+      return YAML::Node(static_cast<std::string>(value));
+    default:
+      return YAML::Node();
+  }
 }
 
 }  // namespace
@@ -106,6 +136,14 @@ void Parameters::flag(const char* name, bool& value) {
   if (found.getType() != XmlRpc::XmlRpcValue::TypeBoolean)
     return wrongType(name, found, "true or false");
   value = static_cast<bool>(found);
+}
+
+bool Parameters::list(const char* name, YAML::Node& map) {
+  XmlRpc::XmlRpcValue found;
+  if (!find(name, found)) return false;
+  map = YAML::Node(YAML::NodeType::Map);
+  map[name] = toYaml(found);
+  return true;
 }
 
 void Parameters::seed(const char* name, std::uint64_t& value) {

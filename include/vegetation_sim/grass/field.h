@@ -84,6 +84,8 @@ class Field {
   const Layout& layout() const { return layout_; }
   /// Drag of grass [N s/m], see resistanceAt().
   void setDrag(double drag) { drag_ = drag; }
+  /// Another law of sources that do not say their own, part of the layout.
+  void setTreadLaw(const TreadLaw& law);
 
   /// Takes a checked input. @return what was wrong with the step, such as a jump that left no
   /// track; empty: nothing. @throws InvalidInput if there are too many sources.

@@ -30,7 +30,9 @@ struct Scene {
   Layout layout;
   TreadSettings treading;
 };
-/// Relative file names count from `folder`. The terrain is the caller's, and tread_spacing too.
-Scene readScene(YamlSection section, const std::string& folder, std::uint64_t seed, Faults& faults);
+/// Relative file names count from `folder`. Left to the caller: finish(), the terrain and
+/// tread_spacing.
+Scene readScene(YamlSection& section, const std::string& folder, std::uint64_t seed,
+                Faults& faults);
 
 }  // namespace vegetation_sim::grass

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <ros/node_handle.h>
+#include <yaml-cpp/yaml.h>
 
 #include <set>
 #include <string>
@@ -27,6 +28,9 @@ class Parameters : public FieldVisitor {
   void flag(const char* name, bool& value);
   void integers(const char* name, std::vector<int>& values, Range range);
 
+  /// A list of maps, as a map with `name` as its one key, for the strict reader of files.
+  /// False: it is absent.
+  bool list(const char* name, YAML::Node& map);
   /// A whole number from 0, or text of digits for what an XML-RPC integer cannot hold.
   void seed(const char* name, std::uint64_t& value);
 

@@ -1,0 +1,153 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <tf2/exceptions.h>
+
+#include "vegetation_sim/common/field_values.h"
+#include "vegetation_sim/nodes/grass_field.h"
+#include "vegetation_sim/ros/forest_conversions.h"
+#include "vegetation_sim/ros/geometry_conversions.h"
+#include "vegetation_sim/ros/grass_conversions.h"
+#include "vegetation_sim/ros/wind_conversions.h"
+
+namespace vegetation_sim {
+namespace {
+
+constexpr double FARTHEST_AHEAD = 60.0;  // [s]
+constexpr std::size_t MOST_VIEWERS = 32;
+
+}  // namespace
+
+void GrassField::reject(const std::string& what, const std::string& why) {
+  ++counts_.rejected;
+  last_rejection_ = what + ": " + why;
+  ROS_WARN_THROTTLE(1.0, "grass_field: refused %s: %s", what.c_str(), why.c_str());
+}
+
+void GrassField::onWind(const WindField& message) {
+  if (message.header.frame_id != options_.frame_id)
+    return reject("wind", "frame_id = '" + message.header.frame_id + "' should be '" +
+                              options_.frame_id + "'");
+  try {
+    wind_ = fromMsg(message);
+  } catch (const InvalidInput& error) {
+    reject("wind", error.what());
+  }
+}
+
+Pose GrassField::toWorld(const std::string& frame, const ros::Time& stamp) const {
+  if (frame.empty() || frame == options_.frame_id) return {};
+  try {
+    return fromMsg(tf_buffer_.lookupTransform(options_.frame_id, frame, stamp).transform);
+  } catch (const tf2::TransformException& error) {
+    throw InvalidInput("frame_id = '" + frame + "' is not known in '" + options_.frame_id +
+                       "': " + error.what());
+  }
+}
+
+ros::Time GrassField::effectOf(const ros::Time& stamp) const {
+  if (stamp.isZero() || !clock_.hasBegun()) return stamp;
+  const double ahead = secondsBetween(clock_.stamp(), fromMsg(stamp));
+  if (ahead > FARTHEST_AHEAD)
+    throw InvalidInput("stamp is " + std::to_string(ahead) + " s ahead, allowed are " +
+                       std::to_string(FARTHEST_AHEAD) + " s");
+  return ahead > 0.0 ? stamp : ros::Time();
+}
+
+// Looks only: the state does not depend on it, so it is no event.
+void GrassField::onViewer(const Viewer& message) {
+  try {
+    fromMsg(message);  // checks it
+    Viewer in_world = message;
+    in_world.pose =
+        toMsg(compose(toWorld(message.header.frame_id, ros::Time(0)), fromMsg(message.pose)));
+    if (viewers_.size() >= MOST_VIEWERS && !viewers_.count(message.id))
+      throw InvalidInput("viewer '" + message.id + "' is one more than the " +
+                         std::to_string(MOST_VIEWERS) + " allowed at once");
+    viewers_[message.id] = {fromMsg(in_world).eye, clock_.hasBegun() ? clock_.stamp() : 0};
+  } catch (const InvalidInput& error) {
+    reject("viewer", error.what());
+  }
+}
+
+void GrassField::lookFromFrame() {
+  if (options_.viewer_frame.empty()) return;
+  Viewer viewer;
+  viewer.id = "tf:" + options_.viewer_frame;
+  viewer.header.frame_id = options_.viewer_frame;
+  viewer.pose.orientation.w = 1.0;
+  viewer.field_of_view = options_.viewer_field_of_view;
+  viewer.height = static_cast<std::uint32_t>(options_.viewer_height);
+  onViewer(viewer);
+}
+
+TreadEvent GrassField::inWorld(const TreadEvent& message) const {
+  TreadEvent out = message;
+  const std::string& frame = message.header.frame_id;
+  if (!frame.empty() && frame != options_.frame_id && message.action != TreadEvent::LIFT) {
+    const Pose to_world = toWorld(frame, ros::Time(0));
+    out.start = toPoint(transformed(to_world, fromMsg(message.start)));
+    out.position = toPoint(transformed(to_world, fromMsg(message.position)));
+    out.velocity = toVector(rotate(to_world.orientation, fromMsg(message.velocity)));
+  }
+  out.header.frame_id = options_.frame_id;
+  return out;
+}
+
+void GrassField::onTread(const TreadEvent& message) {
+  try {
+    GrassEvent event;
+    event.kind = GrassEvent::TREAD;
+    event.header.stamp = effectOf(message.header.stamp);
+    event.tread = toMsg(fromMsg(inWorld(message), tuning_.tread, tuning_.height_gate));
+    event.tread.header.frame_id = options_.frame_id;
+    inputs_.add(std::move(event));
+  } catch (const InvalidInput& error) {
+    reject("tread", error.what());
+  }
+}
+
+void GrassField::followSources(Nanoseconds stamp) {
+  for (const grass::TreadInput& input :
+       sources_->update(stamp, tuning_.tread, tuning_.height_gate)) {
+    Faults faults;
+    check(input, "source: ", faults);
+    if (!faults.empty()) {
+      reject("source '" + input.source + "'", faults.text());
+      continue;
+    }
+    GrassEvent event;
+    event.kind = GrassEvent::TREAD;
+    event.tread = toMsg(input);
+    event.tread.header.frame_id = options_.frame_id;
+    inputs_.add(std::move(event));
+  }
+}
+
+void GrassField::onEvent(const GrassEvent& message) {
+  if (message.kind != GrassEvent::ENTER) inputs_.addRecorded(message);
+}
+
+void GrassField::onTuning(GrassFieldConfig& config) {
+  if (!shown_) {
+    toConfig(tuning_, config);  // some may come from the scenario
+    shown_ = config;
+    return;
+  }
+  try {
+    refuseInReplay();
+    const GrassTuning tuning = fromConfig(config, tuning_.view);
+    check(tuning);  // the server's own clamp lets NaN pass
+    NamedValues named = namedValues(tuning);
+    GrassEvent event;
+    event.kind = GrassEvent::SETTINGS;
+    event.names = std::move(named.names);
+    event.values = std::move(named.values);
+    inputs_.add(std::move(event));
+    shown_ = config;
+  } catch (const InvalidInput& error) {
+    reject("settings", error.what());
+    config = *shown_;
+  }
+}
+
+}  // namespace vegetation_sim

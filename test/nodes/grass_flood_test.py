@@ -1,0 +1,73 @@
+#!/usr/bin/env python3
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""grass_field under more treads than there is room for: bounded, counted, and it goes on."""
+import unittest
+
+import rospy
+import rostest
+
+from forest_rig import TickClock, memory_of
+from grass_rig import FULL, RATE, Feet, Meadow, step
+
+ROOM = 10000  # inputs that may wait for a tick
+PER_SECOND = 10000
+
+
+class GrassFlood(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.grass = Meadow()
+        cls.clock = TickClock(1000 * RATE)
+        cls.grass.wait_until_up()
+        cls.feet = Feet(cls.grass)
+        cls.clock.run(1, cls.grass)
+
+    def flood(self, count, prefix='s'):
+        """Many sources, each a step further; only now and then waits until they have been heard."""
+        for first in range(0, count, 500):
+            self.feet.send(*[step('%s%d' % (prefix, i % 100), -15.0 + 0.3 * (i % 100),
+                                  -15.0 + 0.01 * (i // 100)) for i in range(first, first + 500)])
+
+    # Nothing is taken while the clock stands: what finds no room is dropped and counted.
+    def test_1_what_finds_no_room_is_counted(self):
+        self.flood(3 * ROOM)
+        values = self.grass.diagnostics()
+        self.assertEqual(values['Inputs lost'], 2 * ROOM)
+        before = values['Inputs taken']
+        self.clock.run(1, self.grass)
+        self.assertEqual(self.grass.diagnostics()['Inputs taken'], before + ROOM)
+
+    # 10 000 events in each second of ROS time: all are taken, memory stays where it is.
+    def test_2_ten_thousand_a_second_are_taken(self):
+        lost = self.grass.diagnostics()['Inputs lost']
+        self.flood(PER_SECOND // RATE * 10)
+        self.clock.run(10, self.grass)
+        held, taken = memory_of('/grass_field'), self.grass.diagnostics()['Inputs taken']
+        sent = 0
+        for _ in range(2 * RATE):
+            self.flood(500)
+            sent += 500
+            self.clock.run(1, self.grass)
+        values = self.grass.diagnostics()
+        self.assertEqual(values['Inputs lost'], lost)
+        self.assertEqual(values['Inputs taken'], taken + sent)
+        self.assertLess(memory_of('/grass_field') - held, 30e6)
+
+    def test_3_sources_are_bounded_too(self):
+        refused = self.grass.diagnostics()['Inputs refused']
+        self.feet.send(*[step('n%d' % i, 0.0, 0.0, 9.0) for i in range(5000)])
+        self.clock.run(1, self.grass)
+        values = self.grass.diagnostics()
+        self.assertEqual(values['Sources'], 4096)
+        self.assertGreaterEqual(values['Inputs refused'], refused + 5000 - 4096)
+        self.clock.run(4 * RATE, self.grass)  # longer than the lease of a source
+        self.assertEqual(self.grass.diagnostics()['Sources'], 0)
+        self.feet.send(step('late', 10.0, 10.0))
+        self.clock.run(1, self.grass)
+        self.assertGreater(self.grass.at(10.0, 10.0).tilt, FULL - 1e-3)
+
+
+if __name__ == '__main__':
+    rospy.init_node('grass_flood_test')
+    rostest.rosrun('vegetation_sim', 'grass_flood', GrassFlood)

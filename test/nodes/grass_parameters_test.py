@@ -1,0 +1,160 @@
+#!/usr/bin/env python3
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""grass_field refuses to start with bad parameters or a bad scenario, all faults at once."""
+import os
+import re
+import subprocess
+import tempfile
+import unittest
+
+import roslib.packages
+import rospy
+import rostest
+
+NAN, INF = float('nan'), float('inf')
+
+# parameter: unit, least, most
+NUMBERS = {
+    'key_frame_period': (' s', 0.05, 60), 'markers_rate': (' Hz', 0.1, 60),
+    'cover_rate': (' Hz', 0.1, 60), 'cover_resolution': (' m', 0.02, 100),
+    'cover_age': (' s', 1, 1e9), 'viewer_field_of_view': (' rad', 0.01, 3.1),
+    'replay_delay': (' s', 0, 10), 'drag': (' N s/m', 0, 1000), 'height_gate': (' m', 0, 1000),
+    'tread_radius': (' m', 0.005, 5), 'tread_reach': (' m', 0.01, 10),
+    'tread_softness': (' m', 0.001, 5), 'tread_load': ('', 0, 10), 'tread_recovery': (' s', 0, 1e9),
+    'tolerance': (' pixel', 0.1, 100), 'transition': (' s', 0, 60), 'farthest': (' m', 1, 1e4),
+}
+WHOLE_NUMBERS = {
+    'state_rate': (' Hz', 1, 240), 'marker_points': ('', 900, 3000000),
+    'viewer_height': (' pixel', 1, 100000),
+}
+OTHERS = {'scenario', 'frame_id', 'viewer_frame', 'replay', 'cover_layer', 'sources'}
+BY_ROS = {'diagnostic_period'}  # diagnostic_updater's own
+
+# What is wrong with a scenario: its text, what the refusal says.
+SCENARIOS = [
+    ('{grasses: 3}', 'grasses is not a known key; known are frame_id, seed, terrain'),
+    ('{grass: {densty: 3}}', 'grass: densty is not a known key'),
+    ('{grass: {density: {value: -5}}}', 'density: value = -5 1/m^2 is outside 0 to '),
+    ('{grass: {density: {value: .nan}}}', 'density: value = nan'),
+    ('{grass: {density: {image: FOLDER/colour.png}}}', 'colour.png'),
+    ('{grass: {density: {image: nowhere.png}}}', '/nowhere.png'),
+    ('{grass: {resolution: 50, density: {value: 10000}}}', 'blades in a tile, allowed are fewer'),
+    ('{grass: {species: [{name: a}, {name: a}]}}', "species 'a' is there twice"),
+    ('{grass: {map: nowhere.yaml}}', '/nowhere.yaml: cannot be read'),
+    ('{grass: {blade_model: rubber}}', "blade_model = 'rubber' is none of arc, paper"),
+    ('{grass: {tread: {radius: 0.3, reach: 0.3}}}', 'reach = 0.3'),
+    ('{grass: {treading: {spacing: 0}}}', 'treading: spacing = 0 m is outside 0.01 to 10 m'),
+    ('{terrain: nowhere.yaml, grass: {}}', '/nowhere.yaml: cannot be read'),
+    ('{grass', 'not YAML'),
+]
+# Likewise of the list of sources.
+SOURCES = [
+    ([{'radius': 0.2}], 'needs either frame or odometry'),
+    ([{'frame': 'a', 'odometry': 'b'}], 'needs either frame or odometry'),
+    ([{'frame': '/wheel'}], "frame = '/wheel' begins with '/'"),
+    ([{'frame': 'a', 'radios': 3}], 'sources[0]: radios is not a known key'),
+    ([{'frame': 'a', 'radius': -1.0}], 'sources[0]: radius = -1 m is outside 0.005 to 5 m'),
+    ([{'frame': 'a', 'height_gate': -1.0}], 'height_gate = -1 m is outside 0 to 1000 m'),
+    ([{'frame': 'a', 'offset': [1.0, 2.0]}], 'offset'),
+    ([{'frame': 'a'}, {'frame': 'a'}], "sources names 'a' twice"),
+    ([{'frame': 'a', 'radius': 0.3, 'reach': 0.2}], 'reach = 0.2'),
+    (7, "sources = '7' is not a list"),
+]
+
+
+class GrassParameters(unittest.TestCase):
+    executable = roslib.packages.find_node('vegetation_sim', 'grass_field')[0]
+    names = iter('started_%d' % i for i in range(1000))
+
+    def refusal(self, parameters):
+        """Starts a node, which must end with an error; returns what it wrote."""
+        name = next(self.names)
+        rospy.set_param('/' + name, parameters)
+        done = subprocess.run([self.executable, '__name:=' + name], stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, text=True, timeout=60)
+        self.assertEqual(done.returncode, 1, parameters)
+        self.assertIn('grass_field refuses to start', done.stderr)
+        plain = re.sub(r'\x1b\[\d+m', '', done.stderr)  # without the colours of the log
+        return plain.replace('-nan', 'nan').replace('/' + name + '/', '~')
+
+    def expect_out_of_range(self, values):
+        """All of them in one go, each by name, value and range."""
+        refusal = self.refusal(values)
+        for name, value in values.items():
+            unit, least, most = {**NUMBERS, **WHOLE_NUMBERS}[name]
+            self.assertIn('~%s = %g%s is outside %g to %g%s' % (name, value, unit, least, most,
+                                                                unit), refusal)
+
+    def test_values_below_the_range_are_refused(self):
+        values = {name: least - 0.5 for name, (_, least, _) in NUMBERS.items()}
+        values.update({name: least - 1 for name, (_, least, _) in WHOLE_NUMBERS.items()})
+        self.expect_out_of_range(values)
+
+    def test_values_above_the_range_are_refused(self):
+        values = {name: 2.0 * most for name, (_, _, most) in NUMBERS.items()}
+        values.update({name: most + 1 for name, (_, _, most) in WHOLE_NUMBERS.items()})
+        self.expect_out_of_range(values)
+
+    def test_what_is_not_finite_is_refused(self):
+        for value, text in ((NAN, 'nan'), (INF, 'inf'), (-INF, '-inf')):
+            refusal = self.refusal({name: value for name in NUMBERS})
+            for name, (unit, least, most) in NUMBERS.items():
+                self.assertIn('~%s = %s%s is not finite, allowed is %g to %g%s' % (
+                    name, text, unit, least, most, unit), refusal)
+
+    def test_wrong_types_are_refused(self):
+        wrong = {name: 'often' for name in NUMBERS}
+        wrong.update({name: 2.5 for name in WHOLE_NUMBERS})
+        wrong.update(scenario=4, frame_id=True, viewer_frame=[1], replay='yes', cover_layer='red')
+        refusal = self.refusal(wrong)
+        for name in NUMBERS:
+            self.assertIn('~%s = often is not a number' % name, refusal)
+        for name in WHOLE_NUMBERS:
+            self.assertIn('~%s = 2.5 is not a whole number' % name, refusal)
+        for text in ('~scenario = 4 is not text', '~frame_id = 1 is not text', 'viewer_frame = ',
+                     '~replay = yes is not true or false',
+                     "~cover_layer = 'red' is none of crush, density, resistance, age"):
+            self.assertIn(text, refusal)
+
+    # Every parameter that there is has been given a wrong value somewhere here.
+    def test_unknown_parameters_are_refused_and_the_known_ones_are_these(self):
+        refusal = self.refusal({'tolerence': 2.0})
+        self.assertIn('~tolerence is not a known parameter; known are ', refusal)
+        known = set(re.search('known are (.*)', refusal).group(1).split(', '))
+        self.assertEqual(known - BY_ROS, OTHERS | set(NUMBERS) | set(WHOLE_NUMBERS))
+
+    def test_what_does_not_fit_together_is_refused(self):
+        refusal = self.refusal({'frame_id': '', 'viewer_frame': '/camera'})
+        self.assertIn("~frame_id = '' is empty", refusal)
+        self.assertIn("~viewer_frame = '/camera' begins with '/'", refusal)
+        self.assertIn('reach = 0.3', self.refusal({'tread_radius': 0.3, 'tread_reach': 0.3}))
+        self.assertIn('cells, allowed are', self.refusal({'cover_resolution': 0.02}))
+
+    def test_each_bad_source_is_refused(self):
+        for sources, text in SOURCES:
+            with self.subTest(text=text):
+                self.assertIn(text, self.refusal({'sources': sources}))
+
+    def test_each_bad_scenario_is_refused_by_file_and_key(self):
+        for scenario, text in SCENARIOS:
+            with self.subTest(text=text), tempfile.TemporaryDirectory() as folder:
+                with open(os.path.join(folder, 'colour.png'), 'wb') as picture:
+                    picture.write(COLOUR_PICTURE)
+                name = os.path.join(folder, 'scene.yaml')
+                with open(name, 'w') as file:
+                    file.write(scenario.replace('FOLDER/', ''))
+                refusal = self.refusal({'scenario': name})
+                self.assertIn(text, refusal)
+                self.assertIn(folder, refusal)
+
+
+# One red pixel: a picture of the wrong kind.
+COLOUR_PICTURE = bytes.fromhex(
+    '89504e470d0a1a0a0000000d4948445200000001000000010802000000907753de0000000c49444154789c63'
+    'f8cfc0000003010100c9fe92ef0000000049454e44ae426082')
+
+
+if __name__ == '__main__':
+    rospy.init_node('grass_parameters_test')
+    rostest.rosrun('vegetation_sim', 'grass_parameters', GrassParameters)

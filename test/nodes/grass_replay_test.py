@@ -1,0 +1,122 @@
+#!/usr/bin/env python3
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""A bag of grass/events and the clock replays the run, without tf and services (N6)."""
+import math
+import os
+import subprocess
+import tempfile
+import unittest
+
+import roslib.packages
+import rosnode
+import rospy
+import rostest
+from dynamic_reconfigure.client import Client
+from geometry_msgs.msg import Point, PointStamped, TransformStamped
+from rosgraph_msgs.msg import Clock
+from std_srvs.srv import Trigger
+from tf2_msgs.msg import TFMessage
+
+from forest_rig import Log, TickClock, listens, publisher, scene, stop
+from grass_rig import RATE, Feet, Meadow, start_meadow, step, time_of
+from waiting import wait_for
+
+SECONDS = 20
+TAIL = 3  # [s] recorded but not compared: a recorder that is stopped loses what is on its way
+TOPICS = ['/clock', '/grass/events']
+SPEED = 5  # of the replay over real time
+DELAY = 4.0  # [s] that events have to arrive in
+
+
+class GrassReplay(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.bag = os.path.join(self.folder.name, 'grass.bag')
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def drive(self, tick):
+        """A wheel on a circle, a walker, and now and then a request."""
+        frame = TransformStamped(child_frame_id='wheel')
+        frame.header.frame_id, frame.header.stamp = 'map', time_of(self.clock.tick + 1)
+        angle = 0.8 * tick / RATE
+        frame.transform.translation.x = 6.0 * math.cos(angle)
+        frame.transform.translation.y = 6.0 * math.sin(angle)
+        frame.transform.rotation.w = 1.0
+        self.tf.publish(TFMessage([frame]))
+        self.feet.send(step('walker', -10.0 + tick / RATE, math.sin(tick / 20.0)))
+        second = tick / RATE
+        if second == 4:
+            self.call(self.grass.tread(points=[Point(-15, -15, 0), Point(15, -10, 0)]))
+        if second == 8:
+            self.server.update_configuration({'tread_radius': 0.2, 'tread_recovery': 20.0})
+        if second == 11:
+            self.call(self.grass.clear(centre=PointStamped(point=Point(0, -12, 0)), radius=4.0))
+        if second == 14:
+            self.call(rospy.ServiceProxy('/grass_field/reset', Trigger)())
+
+    def call(self, answer):
+        self.assertTrue(answer.success, answer.message)
+
+    def live_run(self):
+        """Its hashes by stamp."""
+        self.grass, self.clock = Meadow(), TickClock(1000 * RATE)
+        self.grass.wait_until_up()
+        self.tf, self.feet = publisher('/tf', TFMessage), Feet(self.grass)
+        wait_for(self.tf.get_num_connections, 'listeners of /tf')
+        self.server = Client('/grass_field', timeout=30)
+        record = roslib.packages.find_node('rosbag', 'record')[0]
+        recorder = subprocess.Popen([record, '-q', '-O', self.bag, '__name:=recorder'] + TOPICS)
+        for topic in TOPICS:
+            wait_for(lambda: listens('/recorder', topic), 'the recorder of ' + topic)
+        self.clock.run(1, self.grass)
+        wait_for(lambda: os.path.exists(self.bag + '.active'), 'the recorder to begin')
+        for tick in range(SECONDS * RATE):
+            self.drive(tick)
+            self.clock.run(1, self.grass)
+        hashes = self.grass.hashes()
+        self.clock.run(TAIL * RATE, self.grass)
+        stop(recorder)
+        self.grass.close()
+        return hashes
+
+    def replay(self, last):
+        """Another node hears the bag only."""
+        process = start_meadow('/replay/grass_field', {}, scenario=scene('lawn'), replay=True,
+                               replay_delay=DELAY, key_frame_period=0.2)
+        try:
+            grass = Meadow('/replay/grass_field', '/replay/')
+            grass.wait_until_up()
+            refused = grass.clear()
+            self.assertFalse(refused.success)
+            self.assertIn('a replay follows its recorded events only', refused.message)
+            shown = Log('/clock', Clock)
+            subprocess.run(['rosbag', 'play', '-q', '--clock', '-r', str(SPEED), '-d', '1', self.bag,
+                            '--topics', '/grass/events', '/grass/events:=/replay/grass/events'],
+                           check=True, timeout=100, stdout=subprocess.DEVNULL)
+            # The bag's clock ended before the delay: on from where it was.
+            end = int(shown.messages[-1].clock.to_sec() * RATE)
+            for tick in range(1, int((DELAY + 1) * RATE)):
+                self.clock.show(end + tick)
+            grass.state.wait(lambda all: all and all[-1].header.stamp >= last, 'the end')
+            grass.close()
+            return grass.hashes()
+        finally:
+            stop(process)
+
+    def test_a_bag_replays_the_run(self):
+        live = self.live_run()
+        print('bag of %d s: %.2f MB' % (SECONDS, os.path.getsize(self.bag) / 1e6))
+        rosnode.kill_nodes(['/grass_field'])
+        again = self.replay(max(live))
+        common = sorted(set(live) & set(again))
+        self.assertGreater(len(common), 4 * SECONDS)
+        self.assertGreater(len({live[s] for s in common}), 3 * SECONDS, 'little happened')
+        self.assertEqual([s for s in common if again[s] != live[s]], [])
+
+
+if __name__ == '__main__':
+    rospy.init_node('grass_replay_test')
+    rostest.rosrun('vegetation_sim', 'grass_replay', GrassReplay)

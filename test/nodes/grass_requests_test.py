@@ -1,0 +1,183 @@
+#!/usr/bin/env python3
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Services of grass_field, and inputs that it refuses by name, unchanged."""
+import unittest
+
+import rospy
+import rostest
+from geometry_msgs.msg import Point, PointStamped
+from std_msgs.msg import Header
+from std_srvs.srv import Trigger
+from vegetation_sim.msg import TreadEvent, TreadLaw
+
+from forest_rig import TickClock
+from grass_rig import FULL, RATE, Feet, Meadow, nodes_of, step, time_of
+
+NAN, INF = float('nan'), float('inf')
+
+
+def points(*places):
+    return [Point(x, y, 0.0) for x, y in places]
+
+
+class GrassRequests(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.grass = Meadow()
+        cls.clock = TickClock(1000 * RATE)
+        cls.grass.wait_until_up()
+        cls.early = cls.grass.refusal(points=points((0, 0)))
+        cls.feet = Feet(cls.grass)
+        cls.clock.run(1, cls.grass)
+
+    def call(self, service, **request):
+        answer = service(**request)
+        self.assertTrue(answer.success, answer.message)
+        self.clock.run(1, self.grass)
+        return answer
+
+    def ground(self):
+        """All that is trodden."""
+        self.grass.state.wait_for_stamp(time_of(self.clock.tick))
+        while not self.grass.state.messages[-1].key_frame:
+            self.clock.run(1, self.grass)
+        return nodes_of(self.grass.state.messages[-1])
+
+    def test_nothing_is_sampled_before_time_begins(self):
+        self.assertEqual(self.early, 'no tick yet: the clock has not started')
+
+    # S2-21, S2-22: a path of any length at one tick, by a law of its own.
+    def test_a_path_is_trodden_at_one_tick(self):
+        answer = self.call(self.grass.tread, points=points((-15, 10), (15, 10), (15, 12)),
+                           law=TreadLaw(radius=0.3, recovery=1e9))
+        self.assertAlmostEqual(answer.length, 32.0)
+        for x in (-15.0, -7.3, 0.0, 14.9):
+            self.assertGreater(self.grass.at(x, 10.2).tilt, FULL - 1e-6)
+            self.assertEqual(self.grass.at(x, 11.0).tilt, 0.0 if x < 14.0 else
+                             self.grass.at(x, 11.0).tilt)
+        self.assertGreater(self.grass.at(15.0, 11.5).tilt, FULL - 1e-6)
+        stamps = {node[3] for node in self.ground().values() if node[4] == 1e9}
+        self.assertEqual(len(stamps), 1)
+        self.assertEqual(self.grass.diagnostics()['Jumps of sources'], 0)
+
+    # S2-21: one point is a footprint.
+    def test_a_single_point_is_a_footprint(self):
+        self.call(self.grass.tread, points=points((-10, -10)), law=TreadLaw(recovery=1e9))
+        self.assertGreater(self.grass.at(-10.0, -10.05).tilt, FULL - 1e-6)
+        self.assertEqual(self.grass.at(-10.0, -9.5).tilt, 0.0)
+
+    def test_a_stamped_request_waits_for_its_stamp(self):
+        later = time_of(self.clock.tick + 10)
+        answer = self.grass.tread(header=Header(stamp=later), points=points((-10, -14)))
+        self.assertTrue(answer.success, answer.message)
+        self.clock.run(9, self.grass)
+        self.assertEqual(self.grass.at(-10.0, -14.0).tilt, 0.0)
+        self.clock.run(1, self.grass)
+        self.assertGreater(self.grass.at(-10.0, -14.0).tilt, FULL - 1e-6)
+
+    # S2-02, S2-04: the features of the map; twice as dense in the east.
+    def test_a_sample_tells_all_of_a_place(self):
+        west, east, outside = self.grass.samples([(-10.0, 5.0), (10.0, 5.0), (25.0, 0.0)])
+        self.assertAlmostEqual(west.density, 800 * 128 / 255, places=6)
+        self.assertAlmostEqual(east.density, 800.0, places=6)
+        self.assertEqual((west.inside, east.inside, outside.inside), (True, True, False))
+        self.assertEqual(outside.density, 0.0)
+        self.assertAlmostEqual(west.height, 0.3)
+        self.assertAlmostEqual(sum(west.shares), 1.0)
+        self.assertAlmostEqual(west.shares[1], 0.2)
+        self.assertEqual((west.tilt, west.crush, west.age), (0.0, 0.0, -1.0))
+        self.assertAlmostEqual(east.resistance, 0.2 * 800.0 * 0.3)
+        self.assertEqual(west.wind.x, 0.0)
+
+    def test_clear_raises_a_disc_or_all(self):
+        self.call(self.grass.tread, points=points((-5, -5), (5, -5)))
+        self.call(self.grass.clear, centre=PointStamped(point=Point(0, -5, 0)), radius=2.0)
+        self.assertEqual(self.grass.at(1.9, -5.0).tilt, 0.0)
+        self.assertGreater(self.grass.at(2.2, -5.0).tilt, 1.4)
+        self.assertTrue(self.grass.state.messages[-1].key_frame)
+        self.call(self.grass.clear)
+        self.assertEqual(self.ground(), {})
+
+    def test_reset_is_a_fresh_start(self):
+        self.call(self.grass.tread, points=points((-5, 0), (5, 0)))
+        self.assertTrue(self.ground())
+        answer = rospy.ServiceProxy('/grass_field/reset', Trigger)()
+        self.assertTrue(answer.success, answer.message)
+        self.clock.run(1, self.grass)
+        self.assertEqual(self.ground(), {})
+        self.assertEqual([m.sequence for m in self.grass.state.messages if m.header.stamp ==
+                          time_of(self.clock.tick)][-1] < 100, True)
+
+    def expect_refused(self, text, service, **request):
+        before = self.ground()
+        answer = service(**request)
+        self.assertFalse(answer.success, text)
+        self.assertIn(text, answer.message.replace('-nan', 'nan'))
+        self.clock.run(1, self.grass)
+        self.assertEqual(self.ground(), before)
+
+    def test_bad_requests_are_refused_by_name(self):
+        tread, clear = self.grass.tread, self.grass.clear
+        self.expect_refused('points has 0 entries, allowed are 1 to 10000', tread)
+        self.expect_refused('points[1].x = nan m is not finite', tread,
+                            points=points((0, 0), (NAN, 0)))
+        self.expect_refused('points[1].y = 20.5 m is outside -20 to 20 m', tread,
+                            points=points((0, 0), (0, 20.5)))
+        self.expect_refused('radius = -1 m is outside', tread, points=points((0, 0)),
+                            law=TreadLaw(radius=-1))
+        self.expect_refused('reach = 0.2', tread, points=points((0, 0)),
+                            law=TreadLaw(radius=0.2, reach=0.2))
+        self.expect_refused("frame_id = 'nowhere' is not known in 'map'", tread,
+                            header=Header(frame_id='nowhere'), points=points((0, 0)))
+        self.expect_refused('s ahead, allowed are 60', tread, points=points((0, 0)),
+                            header=Header(stamp=time_of(self.clock.tick + 100 * RATE)))
+        self.expect_refused('more steps of 2.5', tread, points=points(*[
+            ((-19, 0), (19, 0))[i % 2] for i in range(1000)]))
+        self.expect_refused('radius = nan m is not finite', clear, radius=NAN)
+        self.expect_refused('centre.x = inf m', clear, radius=1.0,
+                            centre=PointStamped(point=Point(INF, 0, 0)))
+        for request, text in (
+                (dict(points=[]), 'points has 0 entries'),
+                (dict(points=points((NAN, 0))), 'points[0].x = nan m'),
+                (dict(points=points((0, 0)), header=Header(frame_id='nowhere')), "'nowhere'"),
+                (dict(points=points((0, 0)), header=Header(stamp=rospy.Time(1))),
+                 'the past is not kept')):
+            self.assertIn(text, self.grass.refusal(**request).replace('-nan', 'nan'))
+
+    # Each by name in the log and the diagnostics; nothing changes.
+    def test_bad_treads_are_refused_and_counted(self):
+        before, refused = self.ground(), self.grass.diagnostics()['Inputs refused']
+        good = step('x', 1.0, 1.0)
+        bad = [step('', 1.0, 1.0), step('x', NAN, 1.0), step('x', 1.0, INF), step('x', 1e9, 0.0),
+               step('x' * 300, 1.0, 1.0), step('x', 1.0, 1.0, action=9),
+               step('x', 1.0, 1.0, law={'radius': -0.1}), step('x', 1.0, 1.0, law={'load': NAN}),
+               step('x', 1.0, 1.0, height_gate=-2.0)]
+        lost = TreadEvent(source='x')
+        lost.header.frame_id = 'no_such_frame'
+        self.feet.send(*(bad + [lost]))
+        self.clock.run(1, self.grass)
+        self.assertEqual(self.ground(), before)
+        self.assertEqual(self.grass.diagnostics()['Inputs refused'], refused + len(bad) + 1)
+        self.feet.send(good)
+        self.clock.run(1, self.grass)
+        self.assertNotEqual(self.ground(), before)
+
+    # A zero-length step is none; one that is longer than any source can go leaves no track.
+    def test_zero_length_and_teleporting_steps(self):
+        self.feet.walk(self.clock, 'robot', (-9.0, 15.0), (-7.0, 15.0), RATE)
+        held = self.grass.at(-7.0, 15.0).tilt
+        self.feet.send(step('robot', -7.0, 15.0), step('robot', -7.0, 15.0))
+        self.clock.run(1, self.grass)
+        self.assertAlmostEqual(self.grass.at(-7.0, 15.0).tilt, held, delta=1e-3)
+        jumps = self.grass.diagnostics()['Jumps of sources']
+        self.feet.send(step('robot', 9.0, 15.0))
+        self.clock.run(1, self.grass)
+        self.assertEqual(self.grass.diagnostics()['Jumps of sources'], jumps + 1)
+        self.assertEqual(self.grass.at(1.0, 15.0).tilt, 0.0)
+        self.assertGreater(self.grass.at(9.0, 15.0).tilt, 1.4)
+
+
+if __name__ == '__main__':
+    rospy.init_node('grass_requests_test')
+    rostest.rosrun('vegetation_sim', 'grass_requests', GrassRequests)

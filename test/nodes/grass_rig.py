@@ -1,0 +1,152 @@
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the tests of grass_field share, beside forest_rig: the node as its users see it."""
+import subprocess
+
+import roslib.packages
+import rospy
+from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import Point
+from vegetation_sim.msg import GrassEvent, GrassLayout, GrassState, TreadEvent
+from vegetation_sim.srv import ClearGrass, SampleGrass, Tread
+
+from forest_rig import RATE, Log, listens, publisher, time_of
+from waiting import DEADLINE, wait_for
+
+FULL = 1.5  # tilt of grass that is crushed fully [rad]
+SIDE = 16  # nodes along a block
+
+
+class Meadow:
+    """One grass_field as its users see it."""
+
+    def __init__(self, name='/grass_field', namespace='/'):
+        self.name = name
+        self.process = name  # node that it lives in: a manager's, of a nodelet
+        self.layout = Log(namespace + 'grass/layout', GrassLayout)
+        self.state = Log(namespace + 'grass/state', GrassState)
+        self.events = Log(namespace + 'grass/events', GrassEvent)
+        self._sample = rospy.ServiceProxy(name + '/sample', SampleGrass, persistent=True)
+        self.tread = rospy.ServiceProxy(name + '/tread', Tread)
+        self.clear = rospy.ServiceProxy(name + '/clear', ClearGrass)
+
+    def wait_until_up(self, *topics):
+        """Until it listens to the clock and `topics`, and its first state will be heard here."""
+        self._sample.wait_for_service(DEADLINE)
+        self.settle()
+        for topic in ('/clock',) + topics:
+            wait_for(lambda: listens(self.process, topic), '%s to hear %s' % (self.name, topic))
+        for log in (self.layout, self.state, self.events):
+            wait_for(log.connected, log.topic)
+
+    def settle(self):
+        """Returns when it has taken all that was published before: it reads its sockets in turns,
+        so what lay in another socket at the first call is in its queue by the second."""
+        for _ in range(2):
+            self._sample()
+
+    def at(self, x, y, stamp=rospy.Time()):
+        """The grass at one place."""
+        return self.samples([(x, y)], stamp)[0]
+
+    def samples(self, places, stamp=rospy.Time()):
+        request = SampleGrass._request_class()
+        request.header.stamp = stamp
+        request.points = [Point(x, y, 0.0) for x, y in places]
+        answer = self._sample(request)
+        if not answer.success:
+            raise AssertionError(answer.message)
+        return answer.samples
+
+    def refusal(self, **request):
+        """Message with which sample refuses."""
+        answer = self._sample(**request)
+        return '' if answer.success else answer.message
+
+    def hashes(self):
+        """Hash of the trodden ground by stamp of the key frames."""
+        return {m.header.stamp: m.hash for m in self.state.messages if m.key_frame}
+
+    def diagnostics(self):
+        """The node's next diagnostics, by key."""
+        log = Log('/diagnostics', DiagnosticArray)
+        name = self.name.lstrip('/') + ': grass'
+        log.wait(lambda all: any(s.name == name for m in all for s in m.status), name)
+        log.close()
+        status = [s for m in log.messages for s in m.status if s.name == name][-1]
+        return {pair.key: int(pair.value) for pair in status.values}
+
+    def entered(self, source):
+        """Tiles that a source came to."""
+        return [(e.column, e.row) for e in self.events.messages
+                if e.kind == GrassEvent.ENTER and e.source == source]
+
+    def close(self):
+        for log in (self.layout, self.state, self.events):
+            log.close()
+        self._sample.close()
+
+
+class Feet:
+    """Sends treads."""
+
+    def __init__(self, meadow, topic='/tread', readers=1):
+        self.meadow = meadow
+        self._publisher = publisher(topic, TreadEvent)
+        wait_for(lambda: self._publisher.get_num_connections() >= readers, 'readers of ' + topic)
+
+    def send(self, *messages):
+        """Returns when they have been heard."""
+        for message in messages:
+            self._publisher.publish(message)
+        self.meadow.settle()
+
+    def walk(self, clock, source, start, end, ticks, *others, **fields):
+        """From start to end in equal steps, one a tick."""
+        for i in range(ticks + 1):
+            part = i / ticks
+            self.send(step(source, start[0] + part * (end[0] - start[0]),
+                           start[1] + part * (end[1] - start[1]), **fields))
+            for other in others:
+                other.settle()
+            clock.run(1, self.meadow, *others)
+
+    def close(self):
+        self._publisher.unregister()
+
+
+def step(source, x, y, z=0.0, **fields):
+    message = TreadEvent(source=source)
+    message.position = Point(x, y, z)
+    for name, value in fields.items():
+        if name == 'law':
+            for key, number in value.items():
+                setattr(message.law, key, number)
+        else:
+            setattr(message, name, value)
+    return message
+
+
+def nodes_of(message):
+    """Told nodes of a GrassState: by row and column, what is told of them."""
+    out = {}
+    for block in message.blocks:
+        told = [i for i in range(SIDE * SIDE) if block.told[i // 8] >> i % 8 & 1]
+        for k, i in enumerate(told):
+            press = block.press[k]
+            out[SIDE * block.row + i // SIDE, SIDE * block.column + i % SIDE] = (
+                block.tilt[k], block.x[k], block.y[k], message.press_stamps[press],
+                message.press_recoveries[press])
+    return out
+
+
+def start_meadow(name, remappings, **parameters):
+    """Starts a grass_field that the test ends itself."""
+    rospy.set_param(name, parameters)
+    executable = roslib.packages.find_node('vegetation_sim', 'grass_field')[0]
+    namespace, _, node = name.rpartition('/')
+    return subprocess.Popen([executable, '__name:=' + node, '__ns:=' + (namespace or '/')] +
+                            ['%s:=%s' % pair for pair in remappings.items()])
+
+
+__all__ = ['FULL', 'RATE', 'Feet', 'Meadow', 'nodes_of', 'start_meadow', 'step', 'time_of']

@@ -1,0 +1,87 @@
+#!/usr/bin/env python3
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""The scenarios of the meadow, as the demo starts them but for rviz: the rolling stone (S2-29) and the
+robot leave tracks."""
+import math
+import signal
+import subprocess
+import unittest
+
+import rosnode
+import rospy
+import rostest
+from geometry_msgs.msg import WrenchStamped
+from nav_msgs.msg import Odometry
+
+from forest_rig import Log, TickClock
+from grass_rig import RATE, Meadow
+from waiting import DEADLINE, wait_for
+
+NODES = {'meadow': ['/stone', '/grass_field', '/wind_broadcaster'],
+         'meadow_robot': ['/robot', '/driver', '/grass_field', '/wind_broadcaster']}
+
+
+class GrassScenarios(unittest.TestCase):
+    clock = TickClock(1000 * RATE)
+
+    def start(self, scenario):
+        self.launch = subprocess.Popen(['roslaunch', 'vegetation_sim', 'demo.launch',
+                                        'scenario:=' + scenario, 'rviz:=false'])
+        self.addCleanup(self.stop)
+        self.meadow = Meadow()
+        self.meadow.wait_until_up('/wind')
+        wait_for(lambda: set(NODES[scenario]) <= set(rosnode.get_node_names()), 'all nodes')
+        self.clock.run(1, self.meadow)
+
+    def stop(self):
+        self.meadow.close()
+        self.launch.send_signal(signal.SIGINT)
+        self.launch.wait(DEADLINE)
+
+    def run_until(self, condition, what):
+        for _ in range(60 * RATE):
+            if condition():
+                return
+            self.clock.run(1, self.meadow)
+            self.meadow.settle()
+        self.fail('60 s passed without ' + what)
+
+    # S2-29: along the way of the stone grass is down, beside it grass stands; a tornado blows.
+    def test_a_stone_rolls_through_the_meadow(self):
+        self.start('meadow')
+        self.run_until(lambda: len(self.meadow.entered('stone')) > 5, 'a rolling stone')
+        down = [e.tread.position for e in self.meadow.events.messages if e.tread.source == 'stone'][3:]
+        samples = self.meadow.samples([(p.x, p.y) for p in down])
+        self.assertGreater(min(s.tilt for s in samples), 1.2)
+        beside = self.meadow.samples([(p.x - 2.0, p.y + 1.8) for p in down[:20]])
+        self.assertEqual(max(s.tilt for s in beside), 0.0)
+        winds = [s.wind for s in self.meadow.samples([(4.0 + x, 12.0 + y) for x in range(-10, 11, 2)
+                                                      for y in range(-10, 11, 2)])]
+        self.assertGreater(max(math.hypot(w.x, w.y) for w in winds), 8.0)
+        self.assertGreater(len({round(s.height, 2) for s in samples}), 5)
+        self.assertEqual(self.meadow.diagnostics()['Jumps of sources'], 0)
+
+    def test_a_robot_leaves_the_tracks_of_its_wheels(self):
+        self.start('meadow_robot')
+        odom, wrenches = Log('/odom', Odometry), Log('/grass/wrenches', WrenchStamped)
+        wait_for(lambda: odom.connected() and wrenches.connected(), 'odometry and wrenches')
+        self.run_until(lambda: len(self.meadow.entered('left_wheel')) > 3, 'a robot that drives')
+        for side in ('left_wheel', 'right_wheel'):
+            way = [e.tread.position for e in self.meadow.events.messages if e.tread.source == side][5:-2]
+            samples = self.meadow.samples([(p.x, p.y) for p in way])
+            self.assertGreater(min(s.tilt for s in samples), 1.0)
+        left, right = (self.meadow.entered(side)[0] for side in ('left_wheel', 'right_wheel'))
+        self.assertLessEqual(abs(left[0] - right[0]) + abs(left[1] - right[1]), 2)
+        pulls = [w.wrench.force.x for w in wrenches.messages
+                 if w.header.frame_id == 'left_wheel_contact']
+        self.assertLess(min(pulls), -0.5)
+        self.assertLessEqual(max(pulls), 1e-6)
+        self.assertGreater(odom.messages[-1].twist.twist.linear.x, 0.8)
+        odom.close()
+        wrenches.close()
+
+
+if __name__ == '__main__':
+    rospy.init_node('grass_scenarios_test')
+    rostest.rosrun('vegetation_sim', 'grass_scenarios', GrassScenarios)

@@ -1,0 +1,165 @@
+#!/usr/bin/env python3
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Sources that grass_field finds by itself, from parameters alone: tf frames and odometry (N4); the
+drag on them (N3); the air below one that hovers (N11)."""
+import math
+import unittest
+
+import rospy
+import rostest
+from geometry_msgs.msg import TransformStamped, WrenchStamped
+from nav_msgs.msg import Odometry
+from tf2_msgs.msg import TFMessage
+from vegetation_sim.msg import TreadEvent, WindPrimitive
+from vegetation_sim.srv import SetWindPrimitive
+
+from forest_rig import Log, TickClock, publisher
+from grass_rig import FULL, RATE, Feet, Meadow, step, time_of
+from waiting import wait_for
+
+
+class GrassSources(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.grass = Meadow()
+        cls.clock = TickClock(1000 * RATE)
+        cls.grass.wait_until_up('/wind')
+        cls.tf = publisher('/tf', TFMessage)
+        cls.odom = publisher('/odom', Odometry)
+        wait_for(cls.tf.get_num_connections, 'listeners of /tf')
+        wait_for(cls.odom.get_num_connections, 'listeners of /odom')
+        cls.wrenches = Log('/grass/wrenches', WrenchStamped)
+        wait_for(cls.wrenches.connected, 'wrenches')
+        cls.clock.run(1, cls.grass)
+
+    def frame(self, name, x, y, z, yaw=0.0):
+        out = TransformStamped(child_frame_id=name)
+        out.header.frame_id, out.header.stamp = 'map', time_of(self.clock.tick + 1)
+        at = out.transform.translation
+        at.x, at.y, at.z = x, y, z
+        out.transform.rotation.w, out.transform.rotation.z = math.cos(yaw / 2), math.sin(yaw / 2)
+        return out
+
+    def fly(self, ticks, *frames_at):
+        """Sends the frames that each function gives for the part of the way, tick by tick."""
+        for i in range(ticks + 1):
+            self.tf.publish(TFMessage([self.frame(*f(i / ticks)) for f in frames_at]))
+            self.grass.settle()
+            self.clock.run(1, self.grass)
+
+    def last_wrench(self, frame):
+        stamp = time_of(self.clock.tick)
+        return self.wrenches.wait(lambda all: next(
+            (w.wrench for w in reversed(all) if w.header.frame_id == frame and
+             w.header.stamp == stamp), None), 'the drag on ' + frame)
+
+    # N4: as wide as the wheels, and nothing between them.
+    def test_wheels_leave_two_tracks_of_their_width(self):
+        self.fly(3 * RATE, lambda s: ('wheel_left', -6.0 + 4.0 * s, 3.0, 0.1),
+                 lambda s: ('wheel_right', -6.0 + 4.0 * s, 2.0, 0.1))
+        for y, low, high in ((3.0, 1.4, 1.6), (3.12, 1.4, 1.6), (2.0, 1.4, 1.6), (1.88, 1.4, 1.6),
+                             (2.5, 0.0, 0.0), (3.5, 0.0, 0.0), (3.3, 0.0, 0.6)):
+            self.assertTrue(low <= self.grass.at(-4.0, y).tilt <= high, (y, self.grass.at(-4.0, y).tilt))
+        # Left of the track it is pressed to the left and forward, to the right on the other side.
+        self.assertGreater(self.grass.at(-4.0, 3.1).direction.y, 0.6)
+        self.assertLess(self.grass.at(-4.0, 2.9).direction.y, -0.6)
+        self.assertGreater(self.grass.at(-4.0, 2.9).direction.x, 0.6)
+
+    def test_an_offset_and_a_gate_of_its_own(self):
+        self.fly(RATE, lambda s: ('mower', 2.0, 8.0 + s, 0.25, math.pi / 2))
+        self.assertGreater(self.grass.at(2.4, 9.0).tilt, 1.4)  # 0.5 m ahead, 0.05 m up: down
+        self.assertEqual(self.grass.at(2.0, 6.5).tilt, 0.0)
+        self.fly(RATE, lambda s: ('mower', 6.0, 8.0 + s, 0.35, math.pi / 2))
+        self.assertEqual(self.grass.at(6.0, 9.0).tilt, 0.0)
+
+    # N3: against the motion in the frame's own axes, with density and speed; none above the gate.
+    def test_drag_on_a_wheel(self):
+        def pull(x, speed, yaw=0.0, z=0.1):
+            self.grass.clear()
+            self.fly(RATE // 2, lambda s: ('wheel_left', x + 0.5 * speed * s, -8.0, z, yaw))
+            return self.last_wrench('wheel_left').force
+        slow, fast, dense = pull(-12.0, 1.0), pull(-12.0, 2.0), pull(8.0, 1.0)
+        density = 800.0 * 128 / 255
+        self.assertAlmostEqual(slow.x, -0.3 * 0.2 * density * 0.3, delta=0.05)
+        self.assertAlmostEqual(fast.x / slow.x, 2.0, delta=0.05)
+        self.assertAlmostEqual(dense.x / slow.x, 255 / 128, delta=0.05)
+        turned = pull(-12.0, 1.0, math.pi / 2)
+        self.assertAlmostEqual(turned.y, -slow.x, delta=0.05)
+        self.assertAlmostEqual(turned.x, 0.0, delta=1e-6)
+        self.assertEqual(pull(-12.0, 1.0, z=0.5).x, 0.0)
+        self.assertEqual(pull(30.0, 1.0).x, 0.0)
+
+    def test_odometry_treads_and_feels_its_own_speed(self):
+        message = Odometry(child_frame_id='base_link')
+        message.header.frame_id = 'map'
+        message.pose.pose.orientation.w = 1.0
+        message.twist.twist.linear.x = 3.0
+        for i in range(RATE + 1):
+            message.header.stamp = time_of(self.clock.tick + 1)
+            message.pose.pose.position.x, message.pose.pose.position.y = 10.0 + 3.0 * i / RATE, -4.0
+            self.odom.publish(message)
+            self.tf.publish(TFMessage([self.frame('base_link', message.pose.pose.position.x, -4.0, 0.0)]))
+            self.grass.settle()
+            self.clock.run(1, self.grass)
+        self.assertGreater(self.grass.at(11.5, -4.1).tilt, 1.4)
+        self.assertAlmostEqual(self.last_wrench('base_link').force.x, -0.4 * 0.2 * 800.0 * 0.3 * 3.0,
+                               delta=0.5)
+
+    # N4: what tf tells no more has left; it comes down where it is told again.
+    def test_a_silent_frame_has_left(self):
+        self.fly(RATE // 2, lambda s: ('wheel_right', -14.0 + 0.5 * s, 12.0, 0.0))
+        self.clock.run(2 * RATE, self.grass)
+        self.assertGreaterEqual(self.grass.diagnostics()['Sources not told'], 1)
+        lifts = [e for e in self.grass.events.messages if e.tread.source == 'wheel_right' and
+                 e.tread.action == TreadEvent.LIFT]
+        self.assertTrue(lifts)
+        self.fly(RATE // 2, lambda s: ('wheel_right', -12.0 + 0.5 * s, 12.0, 0.0))
+        self.assertEqual(self.grass.at(-12.8, 12.0).tilt, 0.0)
+        self.assertGreater(self.grass.at(-11.8, 12.0).tilt, 1.4)
+
+    # N11: no track, and grass that bends outward all around and follows.
+    def test_a_hovering_drone_bends_grass_outward_and_leaves_no_track(self):
+        blast = WindPrimitive(name='rotor', kind=WindPrimitive.BLAST, radius=5.0, core_radius=0.8,
+                              speed=15.0, fade_in=0.2, fade_out=0.2, attached_frame='drone')
+        answer = rospy.ServiceProxy('/wind_broadcaster/set_primitive', SetWindPrimitive)(blast)
+        self.assertTrue(answer.success, answer.message)
+        wait_for(lambda: self.tf.get_num_connections() > 1, 'the wind to hear /tf')
+
+        def hover(x):
+            self.fly(3 * RATE, lambda s: ('drone', x, 14.0, 1.0))
+            for angle in (0.0, 1.2, 2.5, 3.9, 5.1):
+                out = (math.cos(angle), math.sin(angle))
+                bend = self.grass.at(x + 1.2 * out[0], 14.0 + 1.2 * out[1]).bend
+                along = bend.x * out[0] + bend.y * out[1]
+                across = -bend.x * out[1] + bend.y * out[0]
+                self.assertGreater(along, 0.02)
+                self.assertLess(abs(across), 0.2 * along)
+            self.assertEqual(self.grass.at(x, 14.0).tilt, 0.0)
+        hover(-4.0)
+        self.fly(3 * RATE, lambda s: ('drone', -4.0 + 10.0 * s, 14.0, 1.0))
+        hover(6.0)
+        left = self.grass.at(-4.0 + 1.2, 14.0).bend
+        self.assertLess(math.hypot(left.x, left.y), 1e-3)
+        self.assertEqual(self.grass.at(1.0, 14.0).tilt, 0.0)
+        # Where it lands, it treads.
+        self.fly(RATE, lambda s: ('drone', 6.0, 14.0, 1.0 - s))
+        self.assertGreater(self.grass.at(6.0, 14.2).tilt, 1.4)
+
+    # A tread on the topic in a frame that tf knows, with a body that feels it.
+    def test_a_tread_in_another_frame(self):
+        self.fly(3, lambda s: ('cart_base', 10.0, 10.0, 0.0, math.pi / 2))
+        feet = Feet(self.grass)
+        for i in range(5):
+            message = step('blade', 0.1 * i, 0.0, body_frame='cart_base')
+            message.header.frame_id = 'cart_base'
+            feet.send(message)
+            self.clock.run(1, self.grass)
+        self.assertGreater(self.grass.at(10.0, 10.2).tilt, 1.4)
+        self.assertLess(self.last_wrench('cart_base').force.x, -10.0)
+        feet.close()
+
+
+if __name__ == '__main__':
+    rospy.init_node('grass_sources_test')
+    rostest.rosrun('vegetation_sim', 'grass_sources', GrassSources)

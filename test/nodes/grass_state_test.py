@@ -1,0 +1,168 @@
+#!/usr/bin/env python3
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""What grass_field tells: layout, trodden ground, events, cover map, markers; program and nodelet."""
+import unittest
+
+import rospy
+import rostest
+from nav_msgs.msg import OccupancyGrid
+from vegetation_sim.msg import GrassEvent, TreadEvent
+from visualization_msgs.msg import MarkerArray
+
+from forest_rig import Eye, Log, TickClock
+from grass_rig import FULL, RATE, Feet, Meadow, nodes_of, step, time_of
+from waiting import wait_for
+
+LAYERS = ('crush', 'density', 'resistance', 'age')
+
+
+class GrassState(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.grass = Meadow()
+        cls.twin = Meadow('/twin/grass_field', '/twin/')
+        cls.twin.process = '/manager'
+        cls.clock = TickClock(1000 * RATE)
+        for meadow in (cls.grass, cls.twin):
+            meadow.wait_until_up()
+        cls.feet = Feet(cls.grass, readers=2)
+        cls.clock.run(1, cls.grass, cls.twin)
+
+    def run_both(self, ticks):
+        self.clock.run(ticks, self.grass, self.twin)
+
+    def fresh_cover(self, log):
+        """The first map that was made after now."""
+        count = len(log.messages)
+        now = time_of(self.clock.tick)
+
+        def goes_on():
+            self.run_both(1)
+        log.wait(lambda all: [m for m in all[count:] if m.header.stamp > now], 'a map', goes_on)
+        return log.messages[-1]
+
+    # S2-03, S2-W2: the whole meadow, pictures and species, in one latched message.
+    def test_the_layout_holds_the_meadow(self):
+        layout = self.grass.layout.wait(lambda all: all and all[-1], 'the layout')
+        self.assertEqual(layout.header.frame_id, 'map')
+        self.assertEqual((layout.columns, layout.rows, layout.resolution), (21, 21, 2.0))
+        self.assertEqual([s.name for s in layout.species], ['fescue', 'poppy'])
+        self.assertEqual(len(layout.density.samples), 21 * 21)
+        self.assertEqual(layout.tread_spacing, 0.05)
+        twin = self.twin.layout.wait(lambda all: all and all[-1], 'the layout of the nodelet')
+        self.assertEqual(layout.hash, twin.hash)
+        self.assertEqual(layout.hash, self.grass.state.messages[-1].layout_hash)
+
+    # S2-22, S2-28, N6: key frames and deltas say the same; program and nodelet too.
+    def test_deltas_add_up_to_the_next_key_frame(self):
+        self.feet.walk(self.clock, 'a', (-8.0, -5.0), (-3.0, -4.0), 3 * RATE, self.twin)
+        messages = self.grass.state.messages
+        keys = [i for i, m in enumerate(messages) if m.key_frame]
+        self.assertGreaterEqual(len(keys), 2)
+        held = nodes_of(messages[keys[0]])
+        told = 0
+        for message in messages[keys[0] + 1:keys[-1]]:
+            if message.key_frame:
+                continue
+            told += len(nodes_of(message))
+            held.update(nodes_of(message))
+        key = nodes_of(messages[keys[-1]])
+        held.update({place: node for place, node in key.items()
+                     if node[3] == messages[keys[-1]].header.stamp})
+        self.assertGreater(told, 1000)
+        self.assertEqual(held, key)
+        sequences = [m.sequence for m in messages]
+        self.assertEqual(sequences, list(range(sequences[0], sequences[0] + len(sequences))))
+        self.run_both(2 * RATE)
+        ours, theirs = self.grass.hashes(), self.twin.hashes()
+        common = sorted(set(ours) & set(theirs))
+        self.assertGreater(len(common), 1)
+        self.assertEqual([ours[s] for s in common], [theirs[s] for s in common])
+        self.assertGreater(len(set(ours.values())), 1)
+
+    # S2-28: closed form of the stamps, at any stamp that is asked for.
+    def test_grass_rises_again_in_ros_time(self):
+        self.feet.walk(self.clock, 'b', (2.0, 2.0), (4.0, 2.0), RATE, law={'recovery': 20.0})
+        self.feet.send(step('b', 0.0, 0.0, action=TreadEvent.LIFT))
+        self.clock.run(1, self.grass)
+        pressed = time_of(self.clock.tick) - rospy.Duration(self.grass.at(3.0, 2.0).age)
+        for age, share in ((0.0, 1.0), (5.0, 0.84375), (10.0, 0.5), (15.0, 0.15625), (20.0, 0.0)):
+            stamp = pressed + rospy.Duration(age)
+            if stamp < time_of(self.clock.tick):
+                continue
+            self.assertAlmostEqual(self.grass.at(3.0, 2.0, stamp).tilt, FULL * share, delta=2e-3)
+
+    # N4: who came to which tile, and all that was accepted.
+    def test_events_tell_who_came_where(self):
+        self.feet.walk(self.clock, 'mower', (-19.0, 9.0), (-13.0, 9.0), 2 * RATE)
+        wait_for(lambda: len(self.grass.entered('mower')) == 4, 'the tiles')
+        self.assertEqual(self.grass.entered('mower'), [(0, 14), (1, 14), (2, 14), (3, 14)])
+        treads = [e for e in self.grass.events.messages
+                  if e.kind == GrassEvent.TREAD and e.tread.source == 'mower']
+        self.assertEqual(len(treads), 2 * RATE + 1)
+        self.assertEqual(treads[0].tread.law.radius, 0.12)  # nothing left to defaults
+        self.assertEqual(treads[0].tread.height_gate, 0.3)
+        self.assertEqual(treads[0].header.frame_id, 'map')
+
+    # N5: cells under the path, and back to zero when the grass has risen.
+    def test_the_cover_map_shows_the_track_and_forgets_it(self):
+        logs = {name: Log('/grass/cover/' + name, OccupancyGrid) for name in LAYERS}
+        plain = Log('/grass/cover', OccupancyGrid)
+        for log in list(logs.values()) + [plain]:
+            wait_for(log.connected, log.topic)
+        self.feet.walk(self.clock, 'c', (4.0, -10.0), (8.0, -10.0), 2 * RATE, law={'recovery': 5.0})
+        self.feet.send(step('c', 0.0, 0.0, action=TreadEvent.LIFT))
+        maps = {name: self.fresh_cover(log) for name, log in logs.items()}
+        grid = maps['crush'].info
+        self.assertEqual((grid.width, grid.height, grid.resolution), (160, 160, 0.25))
+        self.assertEqual((grid.origin.position.x, grid.origin.position.y), (-20.0, -20.0))
+        self.assertEqual(maps['crush'].header.frame_id, 'map')
+
+        def cell(layer, x, y):
+            return maps[layer].data[int((y + 20.0) / 0.25) * 160 + int((x + 20.0) / 0.25)]
+        self.assertGreater(cell('crush', 6.0, -9.9), 60)
+        self.assertEqual(cell('crush', 6.0, -8.0), 0)
+        self.assertEqual(cell('density', 6.0, -8.0), 100)
+        self.assertEqual(cell('density', -6.0, -8.0), 50)
+        self.assertEqual(cell('resistance', 6.0, -8.0), 100)
+        self.assertLess(cell('resistance', 6.0, -9.9), 40)
+        self.assertEqual(cell('age', 6.0, -8.0), -1)
+        self.assertIn(cell('age', 6.0, -9.9), (0, 1))
+        self.assertEqual(self.fresh_cover(plain).info, grid)
+        self.assertEqual(self.fresh_cover(plain).data[:2], maps['crush'].data[:2])
+        self.run_both(6 * RATE)
+        maps['crush'], maps['age'] = self.fresh_cover(logs['crush']), self.fresh_cover(logs['age'])
+        self.assertEqual(cell('crush', 6.0, -9.9), 0)
+        self.assertEqual(cell('age', 6.0, -9.9), -1)
+        for log in list(logs.values()) + [plain]:
+            log.close()
+
+    # S2-08, S2-13: lists of constant size; ids stay; blades where somebody looks.
+    def test_markers_keep_their_size_and_ids(self):
+        log = Log('/grass/markers', MarkerArray)
+        wait_for(log.connected, log.topic)
+        eye = Eye()
+
+        def points():
+            return [(p.x, p.y, p.z) for p in log.messages[-1].markers[2].points] if log.messages else []
+        for x in (-10.0, 0.0, 5.0):
+            def look_on():
+                eye.look(x, 0.0, 1.0, self.grass)
+                self.run_both(6)
+            log.wait(lambda _: len({p for p in points() if x < p[0] < x + 8.0}) > 3000, 'blades', look_on)
+        sizes = {tuple((m.ns, m.id, len(m.points), len(m.colors)) for m in array.markers)
+                 for array in log.messages}
+        self.assertEqual(sizes, {(('ground', 0, 30000, 30000), ('strips', 1, 30000, 30000),
+                                  ('blades', 2, 30000, 30000))})
+        blades = points()
+        near = [p for p in blades if 4.0 < p[0] < 20.0]
+        self.assertGreater(len(near), 0.7 * len(blades))
+        self.assertLess(max(p[2] for p in blades), 0.5)
+        log.close()
+        eye.close()
+
+
+if __name__ == '__main__':
+    rospy.init_node('grass_state_test')
+    rostest.rosrun('vegetation_sim', 'grass_state', GrassState)
