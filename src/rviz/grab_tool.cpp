@@ -16,7 +16,7 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr double KEEP = 0.2;         // [s] between renewals of the lease
+constexpr double KEEP = 0.05;        // [s] between renewals of the lease
 constexpr float LINE_WIDTH = 0.02f;  // [m]
 const Ogre::ColourValue SLACK(1.0f, 0.85f, 0.1f), TAUT(0.9f, 0.05f, 0.05f);
 

@@ -9,9 +9,13 @@
 #include <vegetation_sim/TreadEvent.h>
 #include <vegetation_sim/WindField.h>
 
+#include <QPushButton>
+#include <cmath>
+
 #include "rviz/view_rig.h"
 #include "vegetation_sim/ros/geometry_conversions.h"
 #include "vegetation_sim/rviz/grab_tool.h"
+#include "vegetation_sim/rviz/landscape_panel.h"
 #include "vegetation_sim/rviz/ogre_vectors.h"
 #include "vegetation_sim/rviz/tread_tool.h"
 #include "vegetation_sim/rviz/wind_tool.h"
@@ -27,10 +31,18 @@ class ToolsTest : public testing::Test {
   static void SetUpTestSuite() { shared_rig = std::make_unique<ViewRig>(); }
   static void TearDownTestSuite() { shared_rig.reset(); }
 
-  void SetUp() override { view().lookAt(0.f, 0.f, 3.f); }
+  void SetUp() override { look(1.0f); }
   void TearDown() override { putAway(); }
 
-  rviz::ViewController& view() { return *rig.manager().getViewManager()->getCurrent(); }
+  // From the south-west and above, 7 m from a point on the z axis; returns when rviz has drawn so.
+  void look(float z) {
+    rviz::ViewController& view = *rig.manager().getViewManager()->getCurrent();
+    view.lookAt(0.f, 0.f, z);
+    view.subProp("Distance")->setValue(7.0);
+    view.subProp("Yaw")->setValue(3.9);
+    view.subProp("Pitch")->setValue(0.3);
+    rig.frames(3);
+  }
   void putAway() {
     rviz::ToolManager& tools = *rig.manager().getToolManager();
     tools.setCurrentTool(tools.addTool("rviz/MoveCamera"));
@@ -65,13 +77,6 @@ class ToolsTest : public testing::Test {
     tool.processMouseEvent(seen);
   }
 
-  bool passTimeUntil(const std::function<bool()>& done) {
-    return rig.until([&] {
-      rig.setTime(rig.now() + 0.02);
-      return done();
-    });
-  }
-
   bool getTree(GetTree& service) {
     service.request.tree = 0;
     return ros::service::call("/forest_animator/get_tree", service) && service.response.success;
@@ -90,15 +95,14 @@ TEST_F(ToolsTest, TheMouseGrabsPullsAndReleasesABranch) {
   auto* tool = use<GrabTool>("vegetation_sim/GrabTool");
   ASSERT_NE(tool, nullptr);
   GetTree tree;
-  ASSERT_TRUE(passTimeUntil([&] { return getTree(tree); }));
-  rig.frames(3);
+  ASSERT_TRUE(rig.until([&] { return getTree(tree); }));
   const Vec3 trunk = middleOf(tree.response, 0);
   const Pixel from = pixelOf(trunk), to = {from.x + 40, from.y};
   mouse(*tool, QEvent::MouseButtonPress, from);
-  ASSERT_TRUE(passTimeUntil([&] { return tool->grip().holding; })) << tool->grip().message;
+  ASSERT_TRUE(rig.until([&] { return tool->grip().holding; })) << tool->grip().message;
   EXPECT_EQ(tool->grip().tree, 0u);
   mouse(*tool, QEvent::MouseMove, to);
-  ASSERT_TRUE(passTimeUntil([&] { return tool->grip().force.norm() > 20.0; }));
+  ASSERT_TRUE(rig.until([&] { return tool->grip().force.norm() > 20.0; }));
   const view::Grip pulled = tool->grip();
   const Vec3 right = view::toVec3(rig.camera().getDerivedRight());
   EXPECT_GT((pulled.target - pulled.start).dot(right), 0.1) << "not to the right";
@@ -109,19 +113,18 @@ TEST_F(ToolsTest, TheMouseGrabsPullsAndReleasesABranch) {
   ASSERT_EQ(tree.response.grabs.size(), 1u);
   EXPECT_FALSE(tree.response.physical.empty());
   mouse(*tool, QEvent::MouseButtonRelease, to);
-  EXPECT_TRUE(passTimeUntil([&] { return getTree(tree) && tree.response.grabs.empty(); }));
+  EXPECT_TRUE(rig.until([&] { return getTree(tree) && tree.response.grabs.empty(); }));
   EXPECT_FALSE(tool->grip().holding);
 }
 
 TEST_F(ToolsTest, AToolPutAwayLetsGo) {
   auto* tool = use<GrabTool>("vegetation_sim/GrabTool");
   GetTree tree;
-  ASSERT_TRUE(passTimeUntil([&] { return getTree(tree); }));
-  rig.frames(3);
+  ASSERT_TRUE(rig.until([&] { return getTree(tree); }));
   mouse(*tool, QEvent::MouseButtonPress, pixelOf(middleOf(tree.response, 0)));
-  ASSERT_TRUE(passTimeUntil([&] { return tool->grip().holding; }));
+  ASSERT_TRUE(rig.until([&] { return tool->grip().holding; }));
   putAway();
-  EXPECT_TRUE(passTimeUntil([&] { return getTree(tree) && tree.response.grabs.empty(); }));
+  EXPECT_TRUE(rig.until([&] { return getTree(tree) && tree.response.grabs.empty(); }));
 }
 
 TEST_F(ToolsTest, ANodeThatDoesNotAnswerIsSaid) {
@@ -145,8 +148,6 @@ TEST_F(ToolsTest, TheMouseTreads) {
   auto* tool = use<TreadTool>("vegetation_sim/TreadTool");
   ASSERT_NE(tool, nullptr);
   ASSERT_TRUE(rig.until([&] { return listener.getNumPublishers() > 0; }));
-  view().lookAt(0.f, 0.f, 0.f);
-  rig.frames(3);
   const Vec3 begin(-0.6, 0.4, 0.0), end(0.7, -0.2, 0.0);
   mouse(*tool, QEvent::MouseButtonPress, pixelOf(begin));
   mouse(*tool, QEvent::MouseMove, pixelOf(end));
@@ -167,14 +168,12 @@ TEST_F(ToolsTest, AStrokeSendsAGust) {
   const ros::Subscriber listener = rig.nodeHandle().subscribe<WindField>("wind", 1, heard);
   auto* tool = use<WindTool>("vegetation_sim/WindTool");
   ASSERT_NE(tool, nullptr);
-  view().lookAt(0.f, 0.f, 0.f);
-  passTimeUntil([&] { return !field.primitives.empty(); });
-  rig.frames(3);
+  rig.until([&] { return !field.primitives.empty(); });
   mouse(*tool, QEvent::MouseButtonPress, pixelOf({-1.0, 0.0, 0.0}));
   mouse(*tool, QEvent::MouseMove, pixelOf({1.0, 0.0, 0.0}));
   mouse(*tool, QEvent::MouseButtonRelease, pixelOf({1.0, 0.0, 0.0}));
   const WindPrimitive* gust = nullptr;
-  EXPECT_TRUE(passTimeUntil([&] {
+  EXPECT_TRUE(rig.until([&] {
     for (const WindPrimitive& primitive : field.primitives)
       if (primitive.name == "mouse_gust") gust = &primitive;
     return gust != nullptr;
@@ -183,6 +182,31 @@ TEST_F(ToolsTest, AStrokeSendsAGust) {
   EXPECT_EQ(gust->kind, WindPrimitive::GUST);
   EXPECT_NEAR(gust->velocity.x, 2.0, 0.1);
   EXPECT_NEAR(gust->velocity.y, 0.0, 0.1);
+}
+
+// The dial and the slider of the panel set the breeze, the button takes the tool.
+TEST_F(ToolsTest, ThePanelSetsTheWind) {
+  WindField field;
+  const boost::function<void(const WindField&)> heard = [&](const WindField& f) { field = f; };
+  const ros::Subscriber listener = rig.nodeHandle().subscribe<WindField>("wind", 1, heard);
+  LandscapePanel panel;
+  panel.initialize(&rig.manager());
+  panel.findChild<QDial*>()->setValue(180);   // towards the south
+  panel.findChild<QSlider*>()->setValue(60);  // 6 m/s
+  EXPECT_TRUE(rig.until([&] {
+    const WindPrimitive* breeze = nullptr;
+    for (const WindPrimitive& primitive : field.primitives)
+      if (primitive.name == "breeze") breeze = &primitive;
+    return breeze != nullptr && std::fabs(breeze->velocity.y + 6.0) < 0.1;
+  }));
+  for (QPushButton* button : panel.findChildren<QPushButton*>())
+    if (button->text() == "Gust") button->click();
+  EXPECT_NE(dynamic_cast<WindTool*>(rig.manager().getToolManager()->getCurrentTool()), nullptr);
+  EXPECT_TRUE(rig.until([&] {
+    for (QProgressBar* bar : panel.findChildren<QProgressBar*>())
+      if (bar->format().contains(" of 7")) return true;  // trees of the scene
+    return false;
+  }));
 }
 
 }  // namespace
