@@ -72,6 +72,31 @@ void Canopy::restore(const Memory& memory) {
   stale_ = true;
 }
 
+void Canopy::setMotion(const Motion& motion) {
+  Layout next = layout_;
+  next.motion = motion;
+  checked(next);
+  const Motion& now = layout_.motion;
+  Motion same = motion;  // but for what may change
+  same.sources = now.sources;
+  same.cuts = now.cuts;
+  same.warp = now.warp;
+  same.oscillator = now.oscillator;
+  same.oscillator.integrator = motion.oscillator.integrator;
+  same.layers = now.layers;
+  same.layers.memory = motion.layers.memory;
+  next.motion = same;
+  if (next.hash() != layout_hash_)
+    throw InvalidInput(
+        "motion: plane, fluid, integrator, memory and rate cannot be changed while leaves move");
+  layout_.motion = motion;
+  layout_hash_ = layout_.hash();
+  fluid_.setSources(Sources(motion.sources, motion.fluid.cells, layout_.seed));
+  oscillator_ = Oscillator(motion.oscillator, motion.fluid.cells, plane_.width);
+  oscillator_.restore(memory_.oscillator);
+  stale_ = true;
+}
+
 CutView Canopy::view() const {
   if (viewer_) return *viewer_;
   return {layout_.motion.plane.camera, orientationOf(layout_.motion.plane)};

@@ -179,6 +179,37 @@ TEST(Canopy, CrossFadesToNewLayersAsTheViewerMoves) {
   EXPECT_LT(largest, 3.0 * usual);
 }
 
+// S3-29: parameters change while it runs, and nothing jumps.
+TEST(Canopy, GoesOnMovingWhenItsMotionIsChanged) {
+  Canopy canopy(shrubScene());
+  canopy.setWind(breezeFrom(Vec3(1.0, 5.0, 0.0)));
+  run(canopy, 0, 100);
+  const std::uint64_t before = canopy.memory().hash();
+  Motion motion = canopy.layout().motion;
+  motion.oscillator.frequency = 3.0;
+  motion.sources.sides[0].strength = 4.0;
+  motion.cuts.near_layers = 5;
+  const std::uint64_t layout = canopy.layoutHash();
+  canopy.setMotion(motion);
+  EXPECT_EQ(canopy.memory().hash(), before);
+  EXPECT_NE(canopy.layoutHash(), layout);
+  EXPECT_EQ(canopy.foliage().layers(), 5);
+  Canopy other(shrubScene());
+  other.setWind(breezeFrom(Vec3(1.0, 5.0, 0.0)));
+  run(other, 0, 101);
+  run(canopy, 100, 101);
+  EXPECT_NE(canopy.memory().hash(), other.memory().hash());
+  for (const auto change :
+       {+[](Motion& m) { m.plane.distance = 9.0; }, +[](Motion& m) { m.fluid.cells = 64; },
+        +[](Motion& m) { m.rate = 20; }, +[](Motion& m) { m.oscillator.integrator = 1; },
+        +[](Motion& m) { m.layers.memory = 2.0; }}) {
+    Motion bad = motion;
+    change(bad);
+    EXPECT_THROW(canopy.setMotion(bad), InvalidInput);
+  }
+  EXPECT_EQ(canopy.layout().motion.fluid.cells, 32);
+}
+
 // Camera inside the foliage, behind it, edge-on, one layer, no depth, no plants at all.
 TEST(Canopy, IsFiniteFromAnyViewAndWithAnyLayers) {
   for (const Vec3& eye : {Vec3(0.0, 0.0, 0.8), Vec3(50.0, 0.0, 1.0), Vec3(0.0, -8.0, 1.0)})

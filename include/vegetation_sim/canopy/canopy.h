@@ -51,6 +51,11 @@ class Canopy {
   /// The only eye that layers are cut for (S3-W8); none: that of the simulation plane.
   void setViewer(const std::optional<CutView>& viewer) { viewer_ = viewer; }
 
+  /// Other sources, leaves, layers and warp from the next tick on; what moves goes on moving.
+  /// @throws InvalidInput for faults, or another plane, grid, rate, memory or integrator: those
+  /// need a fresh start. Nothing has changed then.
+  void setMotion(const Motion& motion);
+
   /// One tick. Time that does not go on does nothing; a gap of more than LONGEST_GAP is not stepped
   /// through.
   void advance(Nanoseconds stamp);

@@ -59,6 +59,8 @@ class Fluid {
   const FluidState& state() const { return state_; }
   const FluidFigures& figures() const { return figures_; }
 
+  /// Other winds from the next step on.
+  void setSources(const Sources& sources) { sources_ = sources; }
   /// Air at rest.
   void reset();
   /// @throws InvalidInput for another size or for what is no number.

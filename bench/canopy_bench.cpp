@@ -1,0 +1,172 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+// Measures leafy masses: a step of the air by scheme and size with its error, oscillators, layers,
+// and a tick against the number of leaves. usage: canopy_bench [ROUNDS] [--quick] [--part
+// steps,errors,leaves] [--csv FILE]
+
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+#include "canopy/canopy_scene.h"
+#include "canopy/plane_scene.h"
+#include "canopy/spectral_reference.h"
+#include "options.h"
+#include "processor_time.h"
+#include "table.h"
+#include "vegetation_sim/canopy/canopy.h"
+
+namespace vegetation_sim::canopy {
+namespace {
+
+using bench::Candidate;
+
+constexpr double TICK = 1.0 / 30.0;  // [s]
+constexpr int SCHEMES = 3;
+const char* const NAMES[SCHEMES] = {"reflection", "fast", "paper"};
+
+FluidSettings settingsOf(int scheme, int cells, double width, double viscosity) {
+  FluidSettings out;
+  out.scheme = scheme;
+  out.cells = cells;
+  out.width = width;
+  out.viscosity = viscosity;
+  return out;
+}
+
+std::shared_ptr<Fluid> fluidWith(const FluidSettings& settings, const PlaneField& flow) {
+  auto out = std::make_shared<Fluid>(settings, SourceSettings(), 1);
+  FluidState state;
+  state.flow = flow;
+  out->restore(state);
+  return out;
+}
+
+void report(std::vector<Candidate>& candidates, int rounds, int cells, bench::Table& table) {
+  bench::timeOnProcessor(candidates, rounds);
+  const double unit = candidates.back().seconds;  // the paper's step is the last
+  for (const Candidate& candidate : candidates) {
+    std::printf("%4d  %-28s %9.4f ms   %7.2f x faster than the paper's step\n", cells,
+                candidate.name.c_str(), 1e3 * candidate.seconds, unit / candidate.seconds);
+    table.row(candidate.name, cells, 1e3 * candidate.seconds, unit / candidate.seconds);
+  }
+}
+
+// With viscosity, as scenes have it; the paper's solver then relaxes three times.
+void benchSteps(const bench::Options& options, bench::Table& table) {
+  for (const int cells : {64, 128, 256}) {
+    std::vector<Candidate> candidates;
+    const PlaneField flow = smoothFlow(cells, 1);
+    auto leaves = std::make_shared<Oscillator>(OscillatorSettings(), cells, 4.0);
+    OscillatorSettings verlet;
+    verlet.integrator = 1;
+    auto stepped = std::make_shared<Oscillator>(verlet, cells, 4.0);
+    auto history = std::make_shared<History>(cells, 31);
+    for (int i = 0; i < 31; ++i) history->push(toFrame(smoothFlow(cells, 1), 0.1));
+    candidates.push_back({"leaves, exact", [=] { leaves->advance(TICK, flow, 0.1); }});
+    candidates.push_back({"leaves, Verlet", [=] { stepped->advance(TICK, flow, 0.1); }});
+    candidates.push_back({"five layers from history", [=] {
+                            const LayerSettings settings;
+                            const LayerView view{&settings,           history.get(), TICK,
+                                                 Vec3(0.0, 0.0, 1.0), 1.0,           4.0 / cells};
+                            static LayerMotion out;
+                            for (int i = 0; i < 5; ++i) layerMotion(view, 0.4 * i, 1.6, 2.0, out);
+                          }});
+    auto projection = std::make_shared<ProjectionStep>(cells);
+    auto projected = std::make_shared<PlaneField>(flow);
+    candidates.push_back({"projection, exact", [=] { projection->project(*projected, 0.0); }});
+    for (int scheme = 0; scheme < SCHEMES; ++scheme) {
+      auto fluid = fluidWith(settingsOf(scheme, cells, 4.0, 1e-3), flow);
+      candidates.push_back(
+          {std::string("air, ") + NAMES[scheme], [=] { fluid->advance(0.0, TICK); }});
+    }
+    report(candidates, options.quick ? 5 : 10 * options.rounds, cells, table);
+  }
+}
+
+double fastest(const PlaneField& flow) {
+  double out = 0.0;
+  for (std::size_t i = 0; i < flow.u.size(); ++i)
+    out = std::max(out, std::sqrt(flow.u[i] * flow.u[i] + flow.v[i] * flow.v[i]));
+  return out;
+}
+
+double errorOf(int scheme, int cells, double cfl, std::uint64_t seed, SpectralReference& truth) {
+  const double end = 0.25;
+  const PlaneField start = smoothFlow(cells, seed);
+  const auto fluid = fluidWith(settingsOf(scheme, cells, 1.0, 0.0), start);
+  const double steps = std::ceil(end * cells * fastest(start) / cfl);
+  for (double i = 0.0; i < steps; i += 1.0) fluid->advance(0.0, end / steps);
+  return relativeError(fluid->state().flow, truth.flow(128 / cells));
+}
+
+void benchErrors(const bench::Options& options, bench::Table& table) {
+  std::printf("\nerror after 0.25 s of a smooth flow of 1 m/s rms on 1 m, %s\n",
+              options.quick ? "one seed" : "mean of three seeds");
+  const std::uint64_t seeds = options.quick ? 1 : 3;
+  double error[SCHEMES][2][2] = {};
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    SpectralReference truth(smoothFlow(128, seed));
+    for (int i = 0; i < 128; ++i) truth.step(0.25 / 128);
+    for (int scheme = 0; scheme < SCHEMES; ++scheme)
+      for (int large = 0; large < 2; ++large)
+        for (int fast = 0; fast < 2; ++fast)
+          error[scheme][large][fast] +=
+              errorOf(scheme, large ? 128 : 64, fast ? 4.0 : 1.0, seed, truth) /
+              static_cast<double>(seeds);
+  }
+  for (int scheme = 0; scheme < SCHEMES; ++scheme)
+    for (int large = 0; large < 2; ++large)
+      for (int fast = 0; fast < 2; ++fast) {
+        const double value = error[scheme][large][fast], paper = error[SCHEMES - 1][large][fast];
+        std::printf("%4d  CFL %d  %-12s %.4f   %.3f of the paper's\n", large ? 128 : 64,
+                    fast ? 4 : 1, NAMES[scheme], value, value / paper);
+        table.row(std::string("error, ") + NAMES[scheme] + (fast ? ", CFL 4" : ", CFL 1"),
+                  large ? 128 : 64, value, value / paper);
+      }
+}
+
+// S3-28: what a tick of the simulation costs, and moving every leaf, over the number of faces.
+void benchLeaves(const bench::Options& options, bench::Table& table) {
+  std::printf("\nwhole tick (air, leaves, history, layers) and moving all leaves, 64 x 64\n");
+  for (const int leaves : {20000, options.quick ? 50000 : 1000000}) {
+    Layout layout = shrubScene(64);
+    layout.kinds[0].leaves = leaves;
+    auto canopy = std::make_shared<Canopy>(layout);
+    canopy->setWind(breezeFrom(Vec3(1.0, 5.0, 0.0)));
+    auto grown = std::make_shared<std::vector<GrownPlant>>();
+    for (const Plant& plant : layout.plants) grown->push_back(grow(layout.kinds[0], plant));
+    int tick = 0;
+    double sum = 0.0;
+    std::vector<Candidate> parts{{"tick",
+                                  [=, &tick] {
+                                    canopy->advance(tickStamp(++tick));
+                                    canopy->foliage();
+                                  }},
+                                 {"leaves", [=, &sum] {
+                                    for (std::size_t p = 0; p < grown->size(); ++p)
+                                      for (const Leaf& leaf : (*grown)[p].leaves)
+                                        sum += canopy->foliage().move(leaf, p).tip.x();
+                                  }}};
+    bench::timeOnProcessor(parts, options.quick ? 3 : options.rounds);
+    const auto faces = 4.0 * leaves;  // two plants of two triangles a leaf
+    std::printf("%9.0f faces: tick %.3f ms, leaves %.2f ms (%.0f ns each)%s\n", faces,
+                1e3 * parts[0].seconds, 1e3 * parts[1].seconds, 2e9 * parts[1].seconds / faces,
+                std::isfinite(sum) ? "" : "!");
+    table.row("tick", faces, 1e3 * parts[0].seconds, 0.0);
+    table.row("leaves", faces, 1e3 * parts[1].seconds, 0.0);
+  }
+}
+
+}  // namespace
+}  // namespace vegetation_sim::canopy
+
+int main(int argc, char** argv) {
+  using namespace vegetation_sim;
+  const bench::Options options = bench::readOptions(argc, argv, {"steps", "errors", "leaves"});
+  bench::Table table(options.csv, "what,size,value,ratio");
+  if (options.wants("steps")) canopy::benchSteps(options, table);
+  if (options.wants("errors")) canopy::benchErrors(options, table);
+  if (options.wants("leaves")) canopy::benchLeaves(options, table);
+  return 0;
+}
