@@ -2,6 +2,8 @@
 # else knows of them.
 file(GLOB tree_sources CONFIGURE_DEPENDS bench/trees/*.cpp)
 target_sources(physics_bench PRIVATE ${tree_sources})
+file(GLOB modal_sources CONFIGURE_DEPENDS bench/modal/*.cpp)
+target_sources(modal_bench PRIVATE ${modal_sources} ${tree_sources})
 pkg_check_modules(bullet QUIET IMPORTED_TARGET bullet)
 pkg_check_modules(dart QUIET IMPORTED_TARGET dart)
 find_library(mujoco_library mujoco)  # its CMake target names folders that Debian does not install

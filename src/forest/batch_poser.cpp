@@ -14,18 +14,10 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "forest/batch_joint-inl.h"
+#include "forest/batch_carry-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace vegetation_sim::forest::HWY_NAMESPACE {
-
-HWY_INLINE Lanes load(const std::vector<float>& from, int i) {
-  return hn::LoadU(Tag(), from.data() + i);
-}
-
-HWY_INLINE void store(Lanes value, std::vector<float>& to, int i) {
-  hn::StoreU(value, Tag(), to.data() + i);
-}
 
 HWY_INLINE LanesQuat localRotation(const BatchTree& tree, const FloatWind& wind, float weight,
                                    int i) {
@@ -48,54 +40,24 @@ HWY_INLINE LanesQuat localRotation(const BatchTree& tree, const FloatWind& wind,
   return swing ? swingJoint(rest, a, b, all(weight)) : paperJoint(rest, a, b, all(weight));
 }
 
-// Frames of the parents of branches i, i + 1, ...
-struct Parents {
-  Lanes x, y, z;
-  LanesQuat q;
-};
-
-HWY_INLINE Parents gatherParents(const BatchTree& tree, const BatchPoses& out, int i) {
-  const auto parent = hn::LoadU(hn::RebindToSigned<Tag>(), tree.parent.data() + i);
-  const auto gather = [&](const std::vector<float>& from)
-                          HWY_ATTR { return hn::GatherIndex(Tag(), from.data(), parent); };
-  return {gather(out.x),
-          gather(out.y),
-          gather(out.z),
-          {gather(out.qw), gather(out.qx), gather(out.qy), gather(out.qz)}};
-}
-
-HWY_INLINE Parents loadParents(const BatchPoses& out, int parent) {
-  return {load(out.x, parent),
-          load(out.y, parent),
-          load(out.z, parent),
-          {load(out.qw, parent), load(out.qx, parent), load(out.qy, parent), load(out.qz, parent)}};
-}
-
-HWY_INLINE void carry(const Parents& parent, const LanesQuat& local, Lanes h, int i,
-                      BatchPoses& out) {
-  const LanesQuat& q = parent.q;
-  const Lanes two = all(2.f);
-  store(parent.x + h * (two * (q.x * q.z + q.w * q.y)), out.x, i);
-  store(parent.y + h * (two * (q.y * q.z - q.w * q.x)), out.y, i);
-  store(parent.z + h * (all(1.f) - two * (q.x * q.x + q.y * q.y)), out.z, i);
-  const LanesQuat world = multiply(q, local);
-  store(world.w, out.qw, i);
-  store(world.x, out.qx, i);
-  store(world.y, out.qy, i);
-  store(world.z, out.qz, i);
-}
-
-// The last vector of a group runs over into the next one, which is written after it. Where limbs go
-// on, parents stand side by side and need no gathering.
+// The last vector of a group runs over into the next one, which is written after it.
 void poseGroup(const BatchTree& tree, const FloatWind& wind, const BatchGroup& group, float weight,
                BatchPoses& out) {
   const int step = static_cast<int>(hn::Lanes(Tag()));
   for (int i = group.begin; i < group.end; i += step) {
     const LanesQuat local = localRotation(tree, wind, weight, i);
-    const Parents parents = group.first_parent >= 0
-                                ? loadParents(out, group.first_parent + i - group.begin)
-                                : gatherParents(tree, out, i);
-    carry(parents, local, load(tree.h, i), i, out);
+    carry(parentsOf(tree, group, out, i), local, load(tree.h, i), i, out);
+  }
+}
+
+// The same for bends that are known already.
+void poseBends(const BatchTree& tree, const BatchBends& bends, const BatchGroup& group,
+               BatchPoses& out) {
+  const int step = static_cast<int>(hn::Lanes(Tag()));
+  for (int i = group.begin; i < group.end; i += step) {
+    const LanesQuat rest{load(tree.r0, i), load(tree.r1, i), load(tree.r2, i), load(tree.r3, i)};
+    const LanesQuat local = swingJoint(rest, load(bends.first, i), load(bends.second, i), all(1.f));
+    carry(parentsOf(tree, group, out, i), local, load(tree.h, i), i, out);
   }
 }
 
@@ -106,6 +68,7 @@ HWY_AFTER_NAMESPACE();
 namespace vegetation_sim::forest {
 
 HWY_EXPORT(poseGroup);
+HWY_EXPORT(poseBends);
 
 Pose BatchPoses::at(int branch) const {
   const auto i = static_cast<std::size_t>(branch);
@@ -185,17 +148,29 @@ BatchPoser::BatchPoser(const Tree& tree) {
   t.reach = tree.skeleton.reach + 1e-3;  // farther than any base, rounding included
 }
 
-void BatchPoser::pose(const wind::Instant& wind, const Weights& weights, int depths,
-                      BatchPoses& out) const {
+void BatchPoser::ready(BatchPoses& out) const {
   const std::size_t size = tree_.parent.size();
   grow(size, {&out.x, &out.y, &out.z, &out.qw, &out.qx, &out.qy, &out.qz});
   setGround(size - 1, out);
-  const FloatWind narrowed(wind, tree_.reach);
   out.count = 0;
+}
+
+void BatchPoser::pose(const wind::Instant& wind, const Weights& weights, int depths,
+                      BatchPoses& out) const {
+  ready(out);
+  const FloatWind narrowed(wind, tree_.reach);
   for (const BatchGroup& group : tree_.groups) {
     if (group.depth >= depths) break;
     const auto depth = static_cast<std::size_t>(group.depth);
     HWY_DYNAMIC_DISPATCH(poseGroup)(tree_, narrowed, group, narrow(weights[depth]), out);
+    out.count = group.end;
+  }
+}
+
+void BatchPoser::pose(const BatchBends& bends, BatchPoses& out) const {
+  ready(out);
+  for (const BatchGroup& group : tree_.groups) {
+    HWY_DYNAMIC_DISPATCH(poseBends)(tree_, bends, group, out);
     out.count = group.end;
   }
 }

@@ -64,14 +64,13 @@ SymmetricEigen oscillators(const LinearChain& chain, const Basis& basis) {
 
 }  // namespace
 
-void addLoadVectors(LinearChain& chain, const std::vector<std::vector<double>>& loads, int depth,
-                    Modes& modes) {
+void addLoadVectors(LinearChain& chain, const std::vector<LoadShape>& loads, Modes& modes) {
   const std::size_t length = modes.length;
   Basis basis(chain, modes);
   std::vector<double> x(length), force;
-  for (const std::vector<double>& load : loads) {
-    force = load;
-    for (int level = 0; level < depth; ++level) {
+  for (const LoadShape& load : loads) {
+    force = load.torque;
+    for (int level = 0; level < load.depth; ++level) {
       for (std::size_t k = 0; k < length; ++k) x[k] = force[k] / chain.stiffness()[k];
       if (!basis.add(x, force)) break;  // the next one answers to its inertia
     }

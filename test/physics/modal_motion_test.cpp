@@ -92,7 +92,7 @@ class ModalCrown {
   /// Relative error of all tips over two seconds.
   double error(int count, int depth) {
     Modes modes = slowestModes(chain_, count);
-    if (depth > 0) addLoadVectors(chain_, {load_}, depth, modes);
+    if (depth > 0) addLoadVectors(chain_, {{load_, depth}}, modes);
     ModalStepper stepper(modes);
     ModalState state = stepper.atRest();
     double off = 0.0, size = 0.0;

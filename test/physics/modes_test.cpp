@@ -138,7 +138,7 @@ TEST(LoadVectors, MakeTheSteadyAnswerExact) {
   for (const int count : {0, 1, 5}) {
     Modes modes = slowestModes(chain, count);
     const std::size_t before = modes.size();
-    addLoadVectors(chain, {load}, 1, modes);
+    addLoadVectors(chain, {{load, 1}}, modes);
     ASSERT_EQ(modes.size(), before + 1);
     double off = 0.0, size = 0.0;
     std::vector<double> answer(load.size(), 0.0);
@@ -163,7 +163,8 @@ TEST(LoadVectors, ShareNothingWithModesNorEachOther) {
   first[400] = 1.0;
   Modes modes = slowestModes(chain, 6);
   const std::size_t before = modes.size();
-  addLoadVectors(chain, {first, second, first}, 4, modes);  // the third brings nothing new
+  addLoadVectors(chain, {{first, 4}, {second, 4}, {first, 4}},
+                 modes);  // the third brings nothing new
   ASSERT_EQ(modes.size(), before + 8);
   std::vector<double> momentum(chain.size());
   for (std::size_t i = 0; i < modes.size(); ++i) {

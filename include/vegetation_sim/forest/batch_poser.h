@@ -8,6 +8,7 @@
 
 #include "vegetation_sim/common/instruction_set.h"
 #include "vegetation_sim/forest/pose.h"
+#include "vegetation_sim/physics/batch_modes.h"
 
 namespace vegetation_sim::forest {
 
@@ -42,6 +43,8 @@ struct BatchTree {
   double reach{0.0};  ///< farthest branch from the trunk's foot, horizontally [m]
 };
 
+using physics::BatchBends;
+
 /// Forward kinematics of one tree in single precision, many branches of one group at a time, in the
 /// widest instruction set of the processor. The same bits on each of them: only + - * / sqrt, no
 /// fused operations. Within 1e-5 of the tree's height of poseBranches.
@@ -54,12 +57,17 @@ class BatchPoser {
   /// memory from call to call.
   void pose(const wind::Instant& wind, const Weights& weights, int depths, BatchPoses& out) const;
 
+  /// Poses all branches for bends of all joints, limited as every joint's (E16); `swing` only.
+  void pose(const BatchBends& bends, BatchPoses& out) const;
+
   int branchCount() const { return static_cast<int>(tree_.parent.size()) - PADDING; }
   /// Bytes of permanent rest data per branch.
   static constexpr int BYTES_PER_BRANCH = 15 * 4;
   static constexpr int PADDING = 32;
 
  private:
+  void ready(BatchPoses& out) const;
+
   BatchTree tree_;
 };
 

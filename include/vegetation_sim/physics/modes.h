@@ -36,10 +36,15 @@ Modes slowestModes(LinearChain& chain, int count);
 /// Rate at which the joints' dampers slow an oscillator of this shape of unit modal mass [1/s].
 double modalDamping(const LinearChain& chain, const double* shape);
 
-/// Adds what a load moves and the modes leave out: `depth` Krylov vectors for each load (joint
-/// torques), made free of the modes, as further oscillators at their Rayleigh frequencies. With one
-/// the answer to a steady load is exact: the static correction, without its jump.
-void addLoadVectors(LinearChain& chain, const std::vector<std::vector<double>>& loads, int depth,
-                    Modes& modes);
+/// Joint torques [N m] of a load, and how many Krylov vectors to draw from it.
+struct LoadShape {
+  std::vector<double> torque;
+  int depth{1};
+};
+
+/// Adds what loads move and the modes leave out: Krylov vectors of all loads together, made free of
+/// the modes, as further oscillators at their Rayleigh frequencies. From depth 1 on the answer to a
+/// steady load is exact: the static correction, without its jump.
+void addLoadVectors(LinearChain& chain, const std::vector<LoadShape>& loads, Modes& modes);
 
 }  // namespace vegetation_sim::physics

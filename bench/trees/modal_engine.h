@@ -1,0 +1,57 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "trees/engine.h"
+#include "vegetation_sim/physics/modal_motion.h"
+
+namespace vegetation_sim::bench {
+
+/// The tree as the core has it.
+std::vector<physics::Link> coreLinks(const TestTree& tree);
+/// Joint torques of a load at factor 1, at rest.
+std::vector<double> torquesOf(const physics::LinearChain& chain, const TestLoad& load);
+
+/// A tree in modes (N13): `modes` of them, and `vectors` drawn from the load.
+class ModalEngine : public Engine {
+ public:
+  ModalEngine(const TestTree& tree, const TestLoad& load, int modes, int vectors);
+  void rest() override;
+  void step(int interval, double time, double h) override;
+  std::vector<Vec3> tips() const override;
+
+  const physics::Modes& modes() const { return modes_; }
+  /// Since rest() [rad].
+  double largestTurn() const { return largest_turn_; }
+
+ private:
+  const TestTree& tree_;
+  const TestLoad& load_;
+  physics::Modes modes_;
+  physics::RotationProbe probe_;
+  physics::ModalStepper stepper_;
+  physics::ModalState state_;
+  std::vector<double> push_, before_, after_;  // modal load at factor 1; around a step
+  double largest_turn_{0.0};
+};
+
+/// No memory: every joint where the load of the moment would hold it, as the procedural rung.
+class StaticEngine : public Engine {
+ public:
+  StaticEngine(const TestTree& tree, const TestLoad& load);
+  void rest() override { factor_ = 0.0; }
+  void step(int interval, double time, double h) override {
+    factor_ = load_.factor(interval, time + h);
+  }
+  std::vector<Vec3> tips() const override;
+
+ private:
+  const TestTree& tree_;
+  const TestLoad& load_;
+  std::vector<double> bends_;  // at factor 1
+  double factor_{0.0};
+};
+
+}  // namespace vegetation_sim::bench

@@ -1,0 +1,111 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/forest/modal_tree.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "forest/modal_scene.h"
+#include "vegetation_sim/common/faults.h"
+
+namespace vegetation_sim::forest {
+namespace {
+
+constexpr double SECONDS = 1.5;
+
+wind::Field breeze() {
+  return wind::Field({makeBreeze(1, Vec3(5.0, 1.0, 0.0))}, 3);
+}
+
+// N13: in wind a tree in modes is far nearer to the full chain than the procedural one, which knows
+// neither lag nor resonance. Measured over 2 s of breeze: oak .063 (procedural .25), pine .031
+// (.31), birch .041 (.32), willow .18 (.27; long limbs that hang side by side).
+TEST(ModalTree, SwaysAsTheFullChainDoes) {
+  const double bar[] = {0.4, 0.2, 0.2, 0.8};
+  for (std::uint32_t id = 0; id < 4; ++id) {
+    const Swaying scene(id, breeze(), SECONDS);
+    EXPECT_LT(scene.modalError(), bar[id] * scene.proceduralError()) << id;
+  }
+}
+
+// N13: the error falls with the number of modes.
+TEST(ModalTree, ComesNearerWithMoreModes) {
+  const Swaying scene(0, breeze(), SECONDS);
+  const double none = scene.modalError({0, 1, 1}), some = scene.modalError({6, 1, 1}),
+               many = scene.modalError({20, 1, 1}), deep = scene.modalError({10, 5, 1});
+  EXPECT_LT(some, 0.8 * none);
+  EXPECT_LT(many, 0.8 * some);
+  EXPECT_LT(deep, many);
+}
+
+// Uniform steady wind: where the modes settle is what the procedural rung, the static answer, says.
+TEST(ModalTree, SettlesWhereTheProceduralMotionIs) {
+  Layout layout = gridLayout(2, 12.0);
+  for (std::uint32_t id = 0; id < 4; ++id) {
+    const Tree tree = groundedTree(layout, id);
+    const ModalTree modal(tree, layout.species[tree.seed.species]);
+    wind::Instant air;
+    air.mean = Vec3(3.0, -1.0, 0.5);
+    std::vector<double> load;
+    AirSampler sampler;
+    modal.loadOf(air, sampler, load);
+    physics::ModalStepper stepper(modal.modes());
+    physics::ModalState state = stepper.atRest();
+    for (int i = 0; i < 100; ++i) stepper.step(load, load, 1.0, state);
+    const auto bends = modal.bendsOf(state.amplitude),
+               calm = proceduralAngles(tree, air, fullWeights());
+    for (std::size_t i = 0; i < bends.size(); ++i) {
+      EXPECT_NEAR(limited(bends[i]).first, calm[i].first, 1e-6) << id << " " << i;
+      EXPECT_NEAR(limited(bends[i]).second, calm[i].second, 1e-6) << id << " " << i;
+    }
+    // And the way back: bends that are within reach of the modes are found again.
+    const std::vector<double> back = modal.amplitudesOf(bends);
+    for (std::size_t m = 0; m < back.size(); ++m)
+      EXPECT_NEAR(back[m], state.amplitude[m],
+                  1e-6);  // modes are found to 1e-4, which counts twice
+  }
+}
+
+TEST(ModalTree, BatchedPoseAgreesWithThePlainOneOnEveryInstructionSet) {
+  const Layout layout = gridLayout(2, 12.0);
+  for (std::uint32_t id = 0; id < 4; ++id) {
+    const Tree tree = groundedTree(layout, id);
+    const ModalTree modal(tree, layout.species[tree.seed.species]);
+    std::vector<double> amplitude(modal.size());
+    for (std::size_t m = 0; m < modal.size(); ++m)
+      amplitude[m] = (m % 2 ? 1.0 : -1.0) * 0.4 / (1.0 + static_cast<double>(m));
+    std::vector<JointAngles> bends = modal.bendsOf(amplitude);
+    for (JointAngles& each : bends) each = limited(each);
+    const std::vector<Pose> plain = forwardKinematics(tree, bends);
+    const BatchPoser poser(tree);
+    BatchPoses first;
+    for (const std::string& set : instructionSets()) {
+      forceInstructionSet(set);
+      BatchBends batch;
+      BatchPoses fast;
+      physics::BatchModes(modal.modes()).bends(amplitude, batch);
+      poser.pose(batch, fast);
+      forceInstructionSet("");
+      ASSERT_EQ(fast.count, static_cast<int>(plain.size()));
+      for (int i = 0; i < fast.count; ++i)  // bar of the batched path, see batch_poser_test
+        ASSERT_LT(length(fast.at(i).position - plain[static_cast<std::size_t>(i)].position),
+                  1e-5 * tree.skeleton.height);
+      if (first.count == 0) first = fast;
+      for (const auto part : {&BatchPoses::x, &BatchPoses::y, &BatchPoses::z, &BatchPoses::qw})
+        EXPECT_EQ(
+            0, std::memcmp((first.*part).data(), (fast.*part).data(), sizeof(float) * plain.size()))
+            << set;
+    }
+  }
+}
+
+TEST(ModalTree, RefusesJointsThatDoNotBend) {
+  Layout layout = gridLayout(1, 12.0);
+  layout.motion.joint_model = static_cast<int>(JointModel::PAPER);
+  const Tree tree = groundedTree(layout, 0);
+  EXPECT_THROW(ModalTree(tree, layout.species[0]), InvalidInput);
+}
+
+}  // namespace
+}  // namespace vegetation_sim::forest
