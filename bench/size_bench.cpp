@@ -1,9 +1,9 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// What a frame costs over the number of trees, branches, physical branches, blades and trodden
-// nodes, from one on.
+// What a frame costs over the number of trees, branches, physical branches, blades, trodden nodes,
+// walkers and cells of a leaf field, from one on.
 // usage: size_bench [--quick | --full] [--part NAME,..] [--csv FILE], parts: trees, branches,
-// physical, links, blades, nodes
+// physical, links, blades, nodes, walkers, cells
 
 #include <cstdio>
 
@@ -14,6 +14,9 @@
 #include "physics/chain_scene.h"
 #include "processor_time.h"
 #include "table.h"
+#include "vegetation_sim/canopy/fluid.h"
+#include "vegetation_sim/canopy/oscillator.h"
+#include "vegetation_sim/crowd/crowd.h"
 #include "vegetation_sim/grass/tread_map.h"
 #include "vegetation_sim/physics/batch_chain.h"
 
@@ -174,6 +177,51 @@ void treadNodes(const Options& options, Table& table) {
   }
 }
 
+// ---- walkers and leaf fields -------------------------------------------------------------------
+
+// A tick of 1/60 s of walkers who wander among ten trunks each, 90 m^2 a walker.
+void stepWalkers(const Options& options, Table& table) {
+  using namespace crowd;
+  for (int count = 1; count <= most(options, 256, 16384, 65536); count *= 4) {
+    const double side = std::sqrt(90.0 * std::max(10, count));
+    Crowd crowd(3, CrowdSettings(), Area{0.0, side, 0.0, side},
+                std::make_shared<terrain::HeightMap>());
+    const Random random(11);
+    const auto place = [&](std::uint64_t k) {
+      return Point{random.uniform(2 * k, 0.0, side), random.uniform(2 * k + 1, 0.0, side)};
+    };
+    std::vector<Obstacle> trunks;
+    for (std::uint64_t i = 0; i < 10 * static_cast<std::uint64_t>(count); ++i)
+      trunks.push_back(discObstacle(place(i), 0.2));
+    crowd.setObstacles(std::move(trunks));
+    for (std::uint64_t i = 0; i < static_cast<std::uint64_t>(count); ++i) {
+      Spawn spawn;
+      spawn.position = place((1ULL << 40) + i);
+      crowd.spawn(spawn);
+    }
+    const auto step = [&] { crowd.advance(crowd.memory().stamp + fromSeconds(1.0 / 60.0)); };
+    for (int i = 0; i < 30; ++i) step();
+    report(table, "walkers", count, timeOf(options, step));
+  }
+}
+
+// A step of 1/30 s of wind and leaves in the plane, over its cells.
+void stepCells(const Options& options, Table& table) {
+  using namespace canopy;
+  for (int side = SMALLEST_FIELD; side <= most(options, 64, 256, LARGEST_FIELD); side *= 2) {
+    FluidSettings settings;
+    settings.cells = side;
+    Fluid fluid(settings, SourceSettings(), 1);
+    Oscillator leaves(OscillatorSettings(), side, settings.width);
+    double time = 0.0;
+    report(table, "cells", side * side, timeOf(options, [&] {
+             fluid.advance(time, 1.0 / 30.0);
+             leaves.advance(1.0 / 30.0, fluid.state().flow, 0.0);
+             time += 1.0 / 30.0;
+           }));
+  }
+}
+
 void run(const Options& options) {
   Table table(options.csv, bench::SIZE_COLUMNS);
   if (options.wants("trees")) growTrees(options, table);
@@ -182,6 +230,8 @@ void run(const Options& options) {
   if (options.wants("links")) stepLinks(options, table);
   if (options.wants("blades")) poseBlades(options, table);
   if (options.wants("nodes")) treadNodes(options, table);
+  if (options.wants("walkers")) stepWalkers(options, table);
+  if (options.wants("cells")) stepCells(options, table);
 }
 
 }  // namespace
@@ -190,8 +240,9 @@ void run(const Options& options) {
 int main(int argc, char** argv) {
   try {
     using namespace vegetation_sim;
-    run(bench::readOptions(argc, argv,
-                           {"trees", "branches", "physical", "links", "blades", "nodes"}));
+    run(bench::readOptions(
+        argc, argv,
+        {"trees", "branches", "physical", "links", "blades", "nodes", "walkers", "cells"}));
   } catch (const std::exception& error) {
     std::fprintf(stderr, "size_bench: %s\n", error.what());
     return 1;

@@ -1,0 +1,110 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "frame/laps.h"
+#include "frame/scene.h"
+#include "vegetation_sim/forest/narrow.h"
+#include "vegetation_sim/forest/skin.h"
+
+namespace vegetation_sim::forest {
+
+/// The trees of a scenario, tick by tick and picture by picture. In `grab` a hand pulls a branch.
+class ForestFrame {
+ public:
+  explicit ForestFrame(const bench::Scene& scene)
+      : wind_(scene.wind),
+        held_(*scene.forest, scene.terrain, Settings()),
+        free_(*scene.forest, scene.terrain, Settings()) {
+    eye_.id = "eye";
+    eye_.eye = bench::frameEye(scene);
+    for (Forest* forest : {&held_, &free_}) {
+      forest->setPhysics(scene.physics);
+      forest->setWind(scene.wind);
+    }
+    tick_ = grid_.tickAt(bench::FRAME_START);
+    for (std::uint32_t id = 0; id < held_.layout().treeCount(); ++id) grow(id);
+    run(2 * bench::FRAME_RATE);
+    if (scene.name == "grab") hold();
+    run(bench::FRAME_RATE);
+  }
+
+  void frame(bench::Laps& laps) {
+    advance(free_);
+    const double chosen = laps.lap("levels");
+    advance(held_);
+    laps.lapWithout(chosen, "physics");
+    ++tick_;
+    held_.update(tick_ % bench::FRAME_RATE == 0);
+    laps.lap("state");
+    pose();
+    laps.lap("poses");
+    for (Drawn& tree : drawn_) {
+      skinBark(tree.mesh, tree.poses, {}, tree.bark.data());
+      skinLeaves(tree.mesh, tree.poses, {}, Flutter(), tree.leaves.data());
+    }
+    laps.lap("meshes");
+  }
+
+ private:
+  /// A tree as the display has it.
+  struct Drawn {
+    Tree tree;
+    BatchPoser poser;
+    TreeMesh mesh;
+    int depths{0};
+    std::vector<float> bark, leaves;
+    BatchPoses poses;
+  };
+
+  void grow(std::uint32_t id) {
+    const Tree tree = growTree(held_.layout(), id, held_.terrain());
+    const double scale = pixelsPerMetre(eye_.eye, length(tree.foot - eye_.eye.position));
+    const MeshDetail detail = meshDetail(geometryLevel(tree.skeleton.height * scale, -1));
+    TreeMesh mesh = buildMesh(tree.skeleton, held_.layout().species[tree.seed.species], detail);
+    std::vector<float> bark(3 * mesh.bark.size()), leaves(3 * LEAF_CORNERS * mesh.leaves.size());
+    drawn_.push_back(
+        {tree, BatchPoser(tree), std::move(mesh), detail.depths, bark, leaves, BatchPoses()});
+  }
+  void hold() {
+    const Tree& tree = drawn_[0].tree;
+    Grab grab;
+    grab.point = {0, tree.skeleton.depth_end[2] - 1, 0.0};
+    grab.target = tree.foot +
+                  held_.pose(tree, 0, now())[static_cast<std::size_t>(grab.point.branch)].position +
+                  Vec3(0.3, 0.0, 0.0);
+    held_.addGrab(grab);
+  }
+  Nanoseconds now() const { return grid_.timeOf(tick_); }
+  void advance(Forest& forest) const {
+    Viewer eye = eye_;
+    eye.stamp = grid_.timeOf(tick_ + 1);
+    forest.setViewer(eye);
+    forest.advance(eye.stamp);
+  }
+  void run(int ticks) {
+    for (int i = 0; i < ticks; ++i, ++tick_)
+      for (Forest* forest : {&free_, &held_}) advance(*forest);
+  }
+  void pose() {
+    const wind::Instant wind = wind_.at(now());
+    for (std::uint32_t id = 0; id < drawn_.size(); ++id) {
+      Drawn& own = drawn_[id];
+      if (!held_.promoted(id).branches.empty())
+        narrow(held_.pose(own.tree, id, now()), own.poses);
+      else
+        own.poser.pose(wind.relativeTo(own.tree.foot),
+                       weightsAt(held_.memory().levels.of(id), now(), held_.layout().motion),
+                       own.depths, own.poses);
+    }
+  }
+
+  wind::Field wind_;
+  Forest held_, free_;  ///< with the hand, and without: what physics costs is the difference
+  Viewer eye_;
+  TickGrid grid_{bench::FRAME_RATE};
+  std::int64_t tick_{0};
+  std::vector<Drawn> drawn_;
+};
+
+}  // namespace vegetation_sim::forest

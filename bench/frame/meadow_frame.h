@@ -1,0 +1,79 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "frame/laps.h"
+#include "frame/scene.h"
+#include "vegetation_sim/grass/geometry.h"
+#include "vegetation_sim/grass/meadow.h"
+
+namespace vegetation_sim::grass {
+
+/// The grass of a scenario: a stone rolls through it, and all that the eye sees is drawn anew.
+class MeadowFrame {
+ public:
+  explicit MeadowFrame(const bench::Scene& scene)
+      : wind_(scene.wind),
+        tread_(scene.grass->layout.tread),
+        eye_(bench::frameEye(scene)),
+        meadow_(scene.grass->layout.map, scene.terrain, scene.grass->layout.seed, MeadowSettings(),
+                scene.grass->treading) {
+    eye_.position.z() -= 1.4;  // of somebody who walks
+    for (int i = 0; i < 2 * bench::FRAME_RATE; ++i) {
+      bench::Laps unused;
+      frame(unused);
+    }
+  }
+
+  void frame(bench::Laps& laps) {
+    const Nanoseconds stamp =
+        bench::FRAME_START + fromSeconds(++frame_ / double{bench::FRAME_RATE});
+    const double turn = 0.02 * frame_;
+    meadow_.tread().tread(1, tread_, {6.0 * std::cos(turn), 6.0 * std::sin(turn)}, stamp);
+    laps.lap("treading");
+    meadow_.setEyes({eye_});
+    meadow_.advance(stamp);
+    const auto views = meadow_.viewOf(eye_, stamp);
+    laps.lap("grass levels");
+    NodeAir air(meadow_.map(), meadow_.terrain());
+    std::vector<TilePlace> tiles;
+    for (const TileView& view : views) tiles.push_back({view.column, view.row});
+    air.update(wind_.at(stamp), {}, Meadow::windowOf(views), &tiles);
+    laps.lap("air on the grass");
+    draw(views, air, stamp);
+    laps.lap("blades and strips");
+  }
+
+ private:
+  void draw(const std::vector<TileView>& views, const NodeAir& air, Nanoseconds stamp) {
+    mesh_.clear();
+    CrushPatch patch;
+    for (const TileView& view : views) {
+      TileMotion motion;
+      const Tile tile = meadow_.tileAt(view, air, stamp, patch, motion);
+      if (view.morph.blades) {
+        const int count = static_cast<int>(tile.blades * view.share);
+        blocks_.resize(static_cast<std::size_t>(blocksFor(count)));
+        poseBlades(tile, motion, count, blocks_.data());
+        RibbonStyle style;
+        style.segments = view.segments;
+        style.slide = view.morph.slide;
+        style.width = 1.0 / view.share;
+        style.eye = eye_.position;
+        appendRibbons(meadow_.map(), tile, blocks_.data(), count, style, mesh_);
+      }
+      if (view.morph.strip > 0.0)
+        appendStrips(meadow_.map(), tile, motion, view.morph.strip, 1000.0, mesh_);
+    }
+  }
+
+  wind::Field wind_;
+  TreadLaw tread_;
+  Eye eye_;
+  Meadow meadow_;
+  std::vector<BladeBlock> blocks_;
+  GrassMesh mesh_;
+  int frame_{0};
+};
+
+}  // namespace vegetation_sim::grass
