@@ -1,0 +1,101 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <dynamic_reconfigure/server.h>
+#include <ros/ros.h>
+#include <std_srvs/Trigger.h>
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_listener.h>
+#include <vegetation_sim/CanopyEvent.h>
+#include <vegetation_sim/SampleCanopy.h>
+#include <vegetation_sim/Viewer.h>
+#include <vegetation_sim/WindField.h>
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vegetation_sim/canopy/canopy.h"
+#include "vegetation_sim/nodes/canopy_markers.h"
+#include "vegetation_sim/nodes/canopy_options.h"
+#include "vegetation_sim/nodes/event_queue.h"
+#include "vegetation_sim/ros/tick_clock.h"
+
+namespace vegetation_sim {
+
+/// Leaves on ROS: runs canopy::Canopy on the tick grid of ROS time, publishes layout, state and
+/// markers, answers services. One thread calls everything. Program and nodelet are thin shells.
+class CanopyAnimator {
+ public:
+  /// @throws InvalidInput for parameters or a scenario that are refused.
+  CanopyAnimator(ros::NodeHandle handle, ros::NodeHandle private_handle);
+
+ private:
+  // Inputs.
+  void onWind(const WindField& message);
+  void onViewer(const Viewer& message);
+  void onEvent(const CanopyEvent& message) { inputs_.addRecorded(message); }
+  void onTuning(CanopyAnimatorConfig& config);
+  void lookFromFrame();
+  void forgetViewer();
+  /// Transform to the world frame. @throws InvalidInput if tf does not know one.
+  Pose toWorld(const std::string& frame) const;
+  void reject(const std::string& what, const std::string& why);
+
+  // Time.
+  void listen();
+  void tick(std::int64_t tick);
+  void apply(const CanopyEvent& event);
+  void restart(Nanoseconds now);
+  void noteLosses();
+
+  // Outputs.
+  void publishLayout();
+  void publishState(std::int64_t tick);
+  void sendMarkers(const ros::TimerEvent& event);
+  void warnOfTrouble(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
+
+  // Services.
+  bool onSample(SampleCanopy::Request& request, SampleCanopy::Response& response);
+  bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  CanopySample sampleAt(const Vec3& place);
+
+  ros::NodeHandle handle_, private_handle_;
+  CanopyScene scene_;
+  CanopyOptions options_;
+  EventQueue<CanopyEvent> inputs_;
+  std::unique_ptr<canopy::Canopy> canopy_;
+  CanopyMarkers markers_;
+  std::deque<wind::Field> winds_;  // heard last, newest at the end: what events of wind may name
+  struct Seen {
+    std::string id;
+    Nanoseconds stamp{0};
+  };
+  std::optional<Seen> viewer_;  // who looks
+
+  std::optional<CanopyAnimatorConfig> shown_;  // what the server was told or took last
+  struct Counts {
+    std::uint64_t rejected{0}, state_bytes{0}, other_viewers{0}, resets{0};
+    QueueLosses inputs;
+    TickClock::Counts clock;
+  } counts_, reported_;  // so far, and when diagnostics were last sent
+  std::string last_rejection_;
+
+  tf2_ros::Buffer tf_buffer_;
+  tf2_ros::TransformListener tf_listener_;
+  ros::Publisher layout_publisher_, state_publisher_, markers_publisher_, events_publisher_;
+  std::vector<ros::Subscriber> subscribers_;
+  std::vector<ros::ServiceServer> services_;
+  ros::Timer markers_timer_;
+  std::unique_ptr<dynamic_reconfigure::Server<CanopyAnimatorConfig>> tuning_server_;
+  TickClock clock_;
+  diagnostic_updater::Updater diagnostics_;
+  ros::WallTimer diagnostics_timer_;
+};
+
+}  // namespace vegetation_sim

@@ -1,0 +1,130 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <tf2/exceptions.h>
+
+#include "vegetation_sim/common/field_values.h"
+#include "vegetation_sim/nodes/canopy_animator.h"
+#include "vegetation_sim/ros/canopy_conversions.h"
+#include "vegetation_sim/ros/forest_conversions.h"
+#include "vegetation_sim/ros/geometry_conversions.h"
+#include "vegetation_sim/ros/wind_conversions.h"
+
+namespace vegetation_sim {
+namespace {
+
+constexpr double VIEWER_LIFE = 3.0;  // [s]
+constexpr std::size_t MOST_WINDS = 16;
+
+void check(CanopyTuning tuning) {
+  Faults faults;
+  FieldChecker checker("", faults);
+  describe(checker, tuning);
+  canopy::CutSettings cuts = tuning.cuts;
+  cuts.near_end = cuts.mid_end = 1.0;  // the scenario's, checked before
+  if (faults.empty()) canopy::check(cuts, "", faults);
+  faults.throwIfAny();
+}
+
+}  // namespace
+
+void CanopyAnimator::reject(const std::string& what, const std::string& why) {
+  ++counts_.rejected;
+  last_rejection_ = what + ": " + why;
+  ROS_WARN_THROTTLE(1.0, "canopy_animator: refused %s: %s", what.c_str(), why.c_str());
+}
+
+void CanopyAnimator::onWind(const WindField& message) {
+  if (message.header.frame_id != options_.frame_id)
+    return reject("wind", "frame_id = '" + message.header.frame_id + "' should be '" +
+                              options_.frame_id + "'");
+  try {
+    winds_.push_back(fromMsg(message));
+    if (winds_.size() > MOST_WINDS) winds_.pop_front();
+    CanopyEvent event;
+    event.kind = CanopyEvent::WIND;
+    event.wind_hash = winds_.back().hash();
+    inputs_.add(event);
+  } catch (const InvalidInput& error) {
+    reject("wind", error.what());
+  }
+}
+
+Pose CanopyAnimator::toWorld(const std::string& frame) const {
+  if (frame.empty() || frame == options_.frame_id) return {};
+  try {
+    return fromMsg(tf_buffer_.lookupTransform(options_.frame_id, frame, ros::Time(0)).transform);
+  } catch (const tf2::TransformException& error) {
+    throw InvalidInput("frame_id = '" + frame + "' is not known in '" + options_.frame_id +
+                       "': " + error.what());
+  }
+}
+
+// Layers are cut for one eye (S3-W8): the one that is named, or who came first and still looks.
+void CanopyAnimator::onViewer(const Viewer& message) {
+  const bool wanted = options_.viewer_id.empty() ? !viewer_ || viewer_->id == message.id
+                                                 : message.id == options_.viewer_id;
+  if (!wanted) {
+    ++counts_.other_viewers;
+    return;
+  }
+  try {
+    fromMsg(message);  // checks it
+    CanopyEvent event;
+    event.kind = CanopyEvent::VIEWER;
+    event.eye = toMsg(compose(toWorld(message.header.frame_id), fromMsg(message.pose)));
+    event.eye = eyeToMsg(eyeFromMsg(event.eye));
+    inputs_.forget([](const CanopyEvent& e) { return e.kind == CanopyEvent::VIEWER; });
+    inputs_.add(event);
+    viewer_ = Seen{message.id, clock_.hasBegun() ? clock_.stamp() : 0};
+  } catch (const InvalidInput& error) {
+    reject("viewer", error.what());
+  }
+}
+
+void CanopyAnimator::forgetViewer() {
+  if (options_.replay || !viewer_) return;
+  if (viewer_->stamp == 0) viewer_->stamp = clock_.stamp();  // spoke before the first tick
+  if (secondsBetween(viewer_->stamp, clock_.stamp()) <= VIEWER_LIFE) return;
+  viewer_.reset();
+  CanopyEvent event;
+  event.kind = CanopyEvent::VIEWER;
+  event.gone = true;
+  event.eye.orientation.w = 1.0;
+  inputs_.add(event);
+}
+
+void CanopyAnimator::lookFromFrame() {
+  if (options_.viewer_frame.empty() || options_.replay) return;
+  Viewer viewer;
+  viewer.id = options_.viewer_id.empty() ? "tf:" + options_.viewer_frame : options_.viewer_id;
+  viewer.header.frame_id = options_.viewer_frame;
+  viewer.pose.orientation.w = 1.0;
+  viewer.field_of_view = 0.8;  // not asked for
+  viewer.height = 900;
+  onViewer(viewer);
+}
+
+void CanopyAnimator::onTuning(CanopyAnimatorConfig& config) {
+  if (!shown_) {
+    toConfig(tuningOf(canopy_->layout().motion), config);  // some may come from the scenario
+    shown_ = config;
+    return;
+  }
+  try {
+    if (options_.replay) throw InvalidInput("a replay follows its recorded events only");
+    const CanopyTuning tuning = fromConfig(config);
+    check(tuning);  // the server's own clamp lets NaN pass
+    NamedValues named = namedValues(tuning);
+    CanopyEvent event;
+    event.kind = CanopyEvent::SETTINGS;
+    event.names = std::move(named.names);
+    event.values = std::move(named.values);
+    inputs_.add(std::move(event));
+    shown_ = config;
+  } catch (const InvalidInput& error) {
+    reject("settings", error.what());
+    config = *shown_;
+  }
+}
+
+}  // namespace vegetation_sim

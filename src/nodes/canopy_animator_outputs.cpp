@@ -1,0 +1,64 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/nodes/canopy_animator.h"
+#include "vegetation_sim/ros/canopy_conversions.h"
+
+namespace vegetation_sim {
+
+void CanopyAnimator::publishState(std::int64_t tick) {
+  if (state_publisher_.getNumSubscribers() == 0) return;
+  CanopyState message = toMsg(canopy_->update(tick % clock_.grid().rate() == 0));
+  message.header.frame_id = options_.frame_id;
+  counts_.state_bytes += ros::serialization::serializationLength(message);
+  state_publisher_.publish(message);
+}
+
+void CanopyAnimator::sendMarkers(const ros::TimerEvent&) {
+  if (!clock_.hasBegun() || markers_publisher_.getNumSubscribers() == 0) return;
+  markers_publisher_.publish(markers_.build(canopy_->foliage(), options_.frame_id));
+}
+
+// What has happened since the last report, and only that.
+void CanopyAnimator::warnOfTrouble(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const auto warn = [&](std::uint64_t now, std::uint64_t before, const std::string& text) {
+    if (now > before)
+      status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN,
+                          std::to_string(now - before) + " " + text);
+  };
+  counts_.clock = clock_.counts();
+  counts_.inputs = inputs_.losses();
+  counts_.resets = canopy_->figures().resets;
+  warn(counts_.rejected, reported_.rejected, "refused input: " + last_rejection_);
+  warn(counts_.clock.dropped, reported_.clock.dropped, "ticks dropped");
+  warn(counts_.clock.jumps, reported_.clock.jumps, "jumps back of the clock");
+  warn(counts_.inputs.lost, reported_.inputs.lost, "inputs lost, too many at once");
+  warn(counts_.inputs.late, reported_.inputs.late, "recorded events late, the replay differs");
+  warn(counts_.resets, reported_.resets, "steps of the wind gave no number and were undone");
+  reported_ = counts_;
+}
+
+void CanopyAnimator::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  using diagnostic_msgs::DiagnosticStatus;
+  status.summary(DiagnosticStatus::OK, "running");
+  if (!clock_.hasBegun()) status.summary(DiagnosticStatus::WARN, "waiting for the clock");
+  warnOfTrouble(status);
+  status.add("Plants", canopy_->layout().plants.size());
+  status.add("Leaves", canopy_->layout().leafCount());
+  status.add("Layers", canopy_->foliage().layers());
+  status.add("Viewers", viewer_ ? 1 : 0);
+  status.add("Messages of other viewers", counts_.other_viewers);
+  status.add("Ticks", counts_.clock.ticks);
+  status.add("Ticks dropped", counts_.clock.dropped);
+  status.add("Clock jumps back", counts_.clock.jumps);
+  status.add("Tick time [us]", static_cast<int>(1e6 * clock_.cost()));
+  status.add("Inputs refused", counts_.rejected);
+  status.add("Inputs lost", counts_.inputs.lost);
+  status.add("Recorded events late", counts_.inputs.late);
+  status.add("Steps undone", counts_.resets);
+  status.add("Memory of the layers [B]", canopy_->memory().history.bytes());
+  status.add("State sent [B]", counts_.state_bytes);
+  status.add("Marker points", markers_.points());
+  status.add("Marker budget [points]", markers_.budget());
+}
+
+}  // namespace vegetation_sim

@@ -1,0 +1,115 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/nodes/canopy_markers.h"
+
+#include <algorithm>
+
+#include "vegetation_sim/ros/geometry_conversions.h"
+
+namespace vegetation_sim {
+namespace {
+
+constexpr std::size_t POINTS_PER_LEAF = 6, POINTS_PER_STEM = 12;
+
+visualization_msgs::Marker makeList(const std::string& ns, int id) {
+  visualization_msgs::Marker out;
+  out.ns = ns;
+  out.id = id;
+  out.type = visualization_msgs::Marker::TRIANGLE_LIST;
+  out.action = visualization_msgs::Marker::ADD;
+  out.pose.orientation.w = 1.0;
+  out.scale.x = out.scale.y = out.scale.z = 1.0;
+  out.color.r = out.color.g = out.color.b = out.color.a = 1.f;
+  return out;
+}
+
+std_msgs::ColorRGBA colourOf(const Vec3& rgb) {
+  std_msgs::ColorRGBA out;
+  out.r = static_cast<float>(rgb.x());
+  out.g = static_cast<float>(rgb.y());
+  out.b = static_cast<float>(rgb.z());
+  out.a = 1.f;
+  return out;
+}
+
+void addStrip(visualization_msgs::Marker& list, const std::array<Vec3, 4>& corner,
+              const std_msgs::ColorRGBA& colour) {
+  for (const std::size_t i : {0, 1, 2, 2, 1, 3}) {
+    list.points.push_back(toPoint(corner[i]));
+    list.colors.push_back(colour);
+  }
+}
+
+// A list as long as ever: rviz then writes over the old one.
+void fill(visualization_msgs::Marker& list, std::size_t points) {
+  list.points.resize(points);
+  list.colors.resize(points, colourOf(Vec3::Zero()));
+}
+
+}  // namespace
+
+CanopyMarkers::CanopyMarkers(int points)
+    : leaf_points_(static_cast<std::size_t>(points) * 5 / 6 / POINTS_PER_LEAF * POINTS_PER_LEAF),
+      stem_points_(static_cast<std::size_t>(points) / 6 / POINTS_PER_STEM * POINTS_PER_STEM),
+      leaf_list_(makeList("leaves", 0)),
+      stem_list_(makeList("stems", 1)) {}
+
+void CanopyMarkers::setLayout(const canopy::Layout& layout) {
+  leaves_.clear();
+  stem_list_.points.clear();
+  stem_list_.colors.clear();
+  const auto wanted = static_cast<double>(layout.leafCount() * POINTS_PER_LEAF);
+  const double share =
+      wanted > 0.0 ? std::min(1.0, static_cast<double>(leaf_points_) / wanted) : 1.0;
+  for (std::size_t id = 0; id < layout.plants.size(); ++id) addPlant(layout, id, share);
+}
+
+void CanopyMarkers::addPlant(const canopy::Layout& layout, std::size_t id, double share) {
+  const canopy::PlantKind& kind = layout.kinds[layout.plants[id].kind];
+  const canopy::GrownPlant grown = canopy::grow(kind, layout.plants[id]);
+  const auto count = static_cast<std::size_t>(share * static_cast<double>(grown.leaves.size()));
+  for (std::size_t i = 0; i < count; ++i) {
+    const canopy::Leaf& leaf = grown.leaves[i];
+    const double young = leaf.shade;
+    leaves_.push_back(
+        {leaf, id, colourOf(kind.colour * (1.0 - young) + kind.colour_young * young)});
+  }
+  addStems(grown.stems, kind.stem_colour);
+}
+
+// Two crossed strips each.
+void CanopyMarkers::addStems(const std::vector<canopy::Stem>& stems, const Vec3& colour) {
+  const std_msgs::ColorRGBA paint = colourOf(colour);
+  for (const canopy::Stem& stem : stems) {
+    if (stem_list_.points.size() + POINTS_PER_STEM > stem_points_) return;
+    for (const Vec3& side : {Vec3(stem.radius, 0.0, 0.0), Vec3(0.0, stem.radius, 0.0)})
+      addStrip(stem_list_, {stem.from - side, stem.from + side, stem.to - side, stem.to + side},
+               paint);
+  }
+}
+
+visualization_msgs::MarkerArray CanopyMarkers::build(const canopy::Foliage& foliage,
+                                                     const std::string& frame_id) {
+  leaf_list_.points.clear();
+  leaf_list_.colors.clear();
+  for (const Drawn& drawn : leaves_) {
+    const canopy::MovedLeaf moved = foliage.move(drawn.leaf, drawn.plant);
+    const Vec3 low = static_cast<double>(drawn.leaf.root_width) * moved.side;
+    const Vec3 high = static_cast<double>(drawn.leaf.tip_width) * moved.side;
+    addStrip(leaf_list_, {moved.root - low, moved.root + low, moved.tip - high, moved.tip + high},
+             drawn.colour);
+  }
+  used_ = leaf_list_.points.size();
+  fill(leaf_list_, leaf_points_);
+  visualization_msgs::MarkerArray out;
+  out.markers = {leaf_list_, stem_list_};
+  used_ += stem_list_.points.size();
+  fill(out.markers[1], stem_points_);
+  for (visualization_msgs::Marker& marker : out.markers) {
+    marker.header.frame_id = frame_id;
+    marker.header.stamp = ros::Time();  // the newest transform; keeps out of tf's waiting queue
+  }
+  return out;
+}
+
+}  // namespace vegetation_sim

@@ -1,0 +1,80 @@
+#!/usr/bin/env python3
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""canopy_animator when the clock jumps back, leaps and stands; and its run replayed (N6)."""
+import unittest
+
+import rospy
+import rostest
+from std_srvs.srv import Trigger
+from vegetation_sim.msg import CanopyEvent
+
+from canopy_rig import Leaves, start_leaves
+from forest_rig import RATE, Eye, TickClock, publisher, scene, stop, time_of
+from waiting import wait_for
+
+BEGIN = 1000 * RATE
+DELAY = 0.5  # [s]
+
+
+class CanopyClockTest(unittest.TestCase):
+    def setUp(self):
+        self.leaves, self.clock = Leaves(), TickClock(BEGIN)
+        self.leaves.wait_until_up('/wind')
+
+    def tearDown(self):
+        self.leaves.close()
+
+    # N6: back by ten seconds is a fresh start: what it would be had it begun then.
+    def test_time_going_back_is_a_fresh_start(self):
+        self.clock.begin(self.leaves)
+        self.clock.run(2 * RATE, self.leaves)
+        start = self.clock.tick - RATE
+        passes = []
+        for _ in range(2):
+            jumps = self.leaves.diagnostics()['Clock jumps back']
+            self.clock.show(start)
+            self.leaves.state.wait(lambda all: all[-1].sequence == 1, 'a fresh start',
+                                   lambda: self.clock.show(start))
+            self.assertEqual(self.leaves.diagnostics()['Clock jumps back'], jumps + 1)
+            self.clock.run(2 * RATE, self.leaves)
+            end = self.leaves.state.messages[-1]
+            passes.append((end.header.stamp, end.right, end.up, end.depth))
+        self.assertEqual(passes[0], passes[1])
+
+    # Recorded events, the wind and the clock give the same memory to the bit.
+    def test_events_replay_the_run(self):
+        self.clock.begin(self.leaves)
+        process = start_leaves('/replay/canopy_animator', {'wind': '/wind'}, replay=True,
+                               scenario=scene('shrubs'), replay_delay=DELAY)
+        try:
+            again, eye = Leaves('/replay/canopy_animator', '/replay/'), Eye('eye')
+            again.wait_until_up('/wind', '/replay/canopy/events')
+            recorded = publisher('/replay/canopy/events', CanopyEvent)
+            wait_for(lambda: recorded.get_num_connections() >= 2, 'the replay, and its log')
+            answer = rospy.ServiceProxy('/canopy_animator/reset', Trigger)()
+            self.assertTrue(answer.success, answer.message)
+            reset, sent = self.clock.tick + 1, 0
+            for tick in range(5 * RATE):
+                if tick % 20 == 0:
+                    eye.look(-6.0 + 0.02 * tick, 0.5, 1.5, self.leaves)
+                self.clock.run(1, self.leaves)
+                for event in self.leaves.events.messages[sent:]:
+                    recorded.publish(event)
+                    sent += 1
+                again.settle()
+            refused = rospy.ServiceProxy('/replay/canopy_animator/reset', Trigger)()
+            self.assertIn('by its recorded events only', refused.message)
+            live, replayed = self.leaves.hashes(), again.hashes()
+            common = [s for s in sorted(replayed) if s > time_of(reset)]
+            self.assertGreaterEqual(len(common), 3)
+            self.assertEqual([s for s in common if replayed[s] != live[s]], [])
+            again.close()
+            eye.close()
+        finally:
+            stop(process)
+
+
+if __name__ == '__main__':
+    rospy.init_node('canopy_clock_test')
+    rostest.rosrun('vegetation_sim', 'canopy_clock', CanopyClockTest)

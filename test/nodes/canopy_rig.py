@@ -1,0 +1,90 @@
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the tests of canopy_animator share, beside forest_rig: the node as its users see it."""
+import struct
+import subprocess
+
+import roslib.packages
+import rospy
+from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import Point
+from std_msgs.msg import Header
+from vegetation_sim.msg import CanopyEvent, CanopyLayout, CanopyState
+from vegetation_sim.srv import SampleCanopy
+
+from forest_rig import Log, listens
+from waiting import DEADLINE, wait_for
+
+
+class Leaves:
+    """One canopy_animator as its users see it."""
+
+    def __init__(self, name='/canopy_animator', namespace='/'):
+        self.name = name
+        self.process = name  # node that it lives in: a manager's, of a nodelet
+        self.layout = Log(namespace + 'canopy/layout', CanopyLayout)
+        self.state = Log(namespace + 'canopy/state', CanopyState)
+        self.events = Log(namespace + 'canopy/events', CanopyEvent)
+        self._sample = rospy.ServiceProxy(name + '/sample', SampleCanopy, persistent=True)
+
+    def wait_until_up(self, *topics):
+        """Until it listens to the clock and `topics`, and its first state will be heard here."""
+        self._sample.wait_for_service(DEADLINE)
+        self.settle()
+        for topic in ('/clock',) + topics:
+            wait_for(lambda: listens(self.process, topic), '%s to hear %s' % (self.name, topic))
+        for log in (self.layout, self.state, self.events):
+            wait_for(log.connected, log.topic)
+
+    def settle(self):
+        """Returns when it has taken all that was published before: it reads its sockets in turns,
+        so what lay in another socket at the first call is in its queue by the second."""
+        for _ in range(2):
+            self._sample()
+
+    def at(self, x, y, z):
+        """Leaves at one place."""
+        return self.samples((x, y, z)).samples[0]
+
+    def samples(self, *places):
+        answer = self._sample(points=[Point(*place) for place in places])
+        if not answer.success:
+            raise AssertionError(answer.message)
+        return answer
+
+    def refusal(self, *places, **header):
+        """Message with which sample refuses."""
+        answer = self._sample(header=Header(**header), points=[Point(*place) for place in places])
+        return '' if answer.success else answer.message
+
+    def hashes(self):
+        """Hash of all that it remembers by stamp, where it was told."""
+        return {m.header.stamp: m.hash for m in self.state.messages if m.hash}
+
+    def diagnostics(self):
+        """The node's next diagnostics, by key."""
+        log = Log('/diagnostics', DiagnosticArray)
+        name = self.name.lstrip('/') + ': canopy'
+        log.wait(lambda all: any(s.name == name for m in all for s in m.status), name)
+        log.close()
+        status = [s for m in log.messages for s in m.status if s.name == name][-1]
+        return {pair.key: int(pair.value) for pair in status.values}
+
+    def close(self):
+        for log in (self.layout, self.state, self.events):
+            log.close()
+        self._sample.close()
+
+
+def half(bits):
+    """A number in half precision."""
+    return struct.unpack('<e', struct.pack('<H', bits))[0]
+
+
+def start_leaves(name, remappings, **parameters):
+    """Starts a canopy_animator that the test ends itself."""
+    rospy.set_param(name, parameters)
+    executable = roslib.packages.find_node('vegetation_sim', 'canopy_animator')[0]
+    namespace, _, node = name.rpartition('/')
+    return subprocess.Popen([executable, '__name:=' + node, '__ns:=' + (namespace or '/')] +
+                            ['%s:=%s' % pair for pair in remappings.items()])
