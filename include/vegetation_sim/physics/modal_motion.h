@@ -13,6 +13,10 @@ struct ModalState {
   std::vector<double> amplitude, rate;  ///< [modes]
 };
 
+/// Modes are small motion: where turns that gather along a way from the ground exceed this, tips
+/// are 10 % off and it grows fast (docs/modal.md) [rad].
+constexpr double MODAL_LIMIT = 1.0;
+
 /// Turns of the links where each mode turns most, from which the rotation that has gathered along
 /// any way from the ground is told without visiting every link.
 struct RotationProbe {
@@ -23,11 +27,9 @@ struct RotationProbe {
   RotationProbe(const LinearChain& chain, const Modes& modes);
   /// Largest turn of any of them from rest [rad].
   double largestTurn(const ModalState& state) const;
+  /// False: the tree should be physical.
+  bool holds(const ModalState& state) const { return largestTurn(state) <= MODAL_LIMIT; }
 };
-
-/// Modes are small motion: from here on a tree should be physical [rad]. Error of tips against the
-/// full chain by the largest turn: docs/modal.md.
-constexpr double MODAL_LIMIT = 1.0;
 
 /// Steps oscillators exactly, whatever the step, for loads that change linearly during it.
 class ModalStepper {
