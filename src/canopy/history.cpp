@@ -94,7 +94,7 @@ void History::push(const MotionFrame& frame) {
 
 const MotionFrame& History::frame(int age) const {
   const auto back = static_cast<std::size_t>(std::min(std::max(age, 0), frames() - 1));
-  return ring_[(newest_ + ring_.size() - back) % ring_.size()];
+  return ring_[back <= newest_ ? newest_ - back : newest_ + ring_.size() - back];
 }
 
 PlaneMotion History::at(std::size_t cell, double age) const {

@@ -70,6 +70,25 @@ TEST(Layout, IsRefusedAsAWhole) {
             std::string::npos);
 }
 
+// S3-30, N11: shrubs and crowns in the wind, water plants in a current.
+TEST(Layout, OfEachScenarioIsAcceptedAndMoves) {
+  for (const char* name : {"grove", "reef"}) {
+    Scenario scenario =
+        Scenario::load(PACKAGE_FOLDER "/config/scenarios/" + std::string(name) + ".yaml");
+    const terrain::HeightMap flat;
+    const Layout layout = readLayout(scenario.section("canopy"), flat, 1, scenario.faults());
+    scenario.finish();
+    EXPECT_GT(layout.leafCount(), 10000U) << name;
+    EXPECT_LT(6 * layout.leafCount(), 300000U) << name;
+    Canopy canopy(layout);
+    canopy.setWind(breezeFrom(Vec3(0.3, 1.0, 0.0)));
+    run(canopy, 0, 90);
+    const Plant& plant = layout.plants[0];
+    const Vec3 top = plant.position + Vec3(0.0, 0.0, 1.0);
+    EXPECT_GT(length(canopy.foliage().displacement(top, top, 0)), 0.005) << name;
+  }
+}
+
 TEST(Layout, SurvivesTheTextOfItsLaw) {
   Layout layout = shrubScene();
   layout.motion.warp.rigidity = 1.0 / 3.0;

@@ -22,7 +22,7 @@ TEST(CanopyConversions, LayoutSurvivesTheRoundTrip) {
   message.plants[0].position.x = std::nan("");
   const std::string text = errorOf([&] { fromMsg(message); });
   EXPECT_NE(text.find("kind = 7 is unknown"), std::string::npos) << text;
-  EXPECT_NE(text.find("plants[0]: position_x"), std::string::npos) << text;
+  EXPECT_NE(text.find("plants[0]: position.x"), std::string::npos) << text;
   message.law = "{";
   EXPECT_THROW(fromMsg(message), InvalidInput);
 }
