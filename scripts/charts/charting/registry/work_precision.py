@@ -47,6 +47,17 @@ def style_of(engine, number):
                                   '-.', engine)
 
 
+def bounds(axes, rows):
+    """Engines of which no run within the time cap holds an accuracy: they cost at least so much."""
+    for row in rows:
+        if row.note == 'at_least' and math.isfinite(row.ms_per_simulated_second):
+            colour = style_of(row.engine, 0)[0]
+            axes.plot([row.ms_per_simulated_second], [row.error], '>', markersize=7, color=colour,
+                      markerfacecolor=colour if row.kind == 'peer' else 'none')
+    axes.plot([], [], '>', markersize=7, markerfacecolor='none', color='0.3',
+              label='costs more than this (time cap); filled: a peer')
+
+
 def panel(axes, engines):
     for number, (engine, points) in enumerate(engines.items()):
         colour, marker, line, words = style_of(engine, number)
@@ -71,6 +82,7 @@ def draw(rows):
                                   'tree', lines, columns, size=(5.6, 3.7 if lines > 1 else 4.8))
     for axes, key in zip(panels.flat, sorted(cells)):
         panel(axes, curves(cells[key]))
+        bounds(axes, cells[key])
         style.label(axes, 'processor time for a simulated second [ms]',
                     'error of the tips, relative', '%s tree, %d branches, %s' % key)
     for axes in panels.flat[len(cells):]:
@@ -86,7 +98,7 @@ def runs(extent):
         return [['--quick', *tree, '--cap', '1']]
     if extent == 'usual':
         return [[*tree, '--branches', '100', '--cap', '2'],
-                [*tree, '--branches', '1000', '--cap', '1'],
+                [*tree, '--branches', '1000', '--cap', '4'],
                 [*tree, '--branches', '10000', '--loads', 'gust', '--cap', '3', '--engines', OWN]]
     return [['--trees', 'fractal,oak', '--branches', '100,1000,10000', '--cap', '60']]
 
