@@ -1,0 +1,162 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <vegetation_sim/AgentStates.h>
+#include <vegetation_sim/TreadEvent.h>
+
+#include "vegetation_sim/common/math.h"
+#include "vegetation_sim/crowd/gait.h"
+#include "vegetation_sim/nodes/agent_crowd.h"
+#include "vegetation_sim/ros/geometry_conversions.h"
+
+namespace vegetation_sim {
+namespace {
+
+constexpr double BODY_RADIUS = 0.16, FOOT_RADIUS = 0.06;  // of a tread [m]
+constexpr double TOLD_EVERY = 0.12;                       // a body's way [m]
+
+}  // namespace
+
+void AgentCrowd::publishAgents(Nanoseconds stamp) {
+  if (agents_publisher_.getNumSubscribers() == 0) return;
+  AgentStates message;
+  message.header.stamp = toStamp(stamp);
+  message.header.frame_id = options_.frame_id;
+  message.hash = crowd_->memory().hash();
+  for (const crowd::Walker& walker : crowd_->walkers())
+    message.agents.push_back(toMsg(walker, crowd_->terrain()));
+  counts_.state_bytes += ros::serialization::serializationLength(message);
+  agents_publisher_.publish(message);
+}
+
+void AgentCrowd::publishTreads(Nanoseconds stamp) {
+  if (options_.tread == static_cast<int>(Treading::NONE)) return;
+  for (const crowd::Walker& walker : crowd_->walkers()) {
+    if (options_.tread == static_cast<int>(Treading::BODY))
+      treadOfBody(walker, stamp);
+    else
+      treadOfFeet(walker, stamp);
+  }
+  for (auto entry = trodden_.begin(); entry != trodden_.end();)
+    entry = crowd_->find(entry->first) ? std::next(entry) : trodden_.erase(entry);
+}
+
+// A track: the meadow adds up the parts of a way, so a few places of it are enough.
+void AgentCrowd::treadOfBody(const crowd::Walker& walker, Nanoseconds stamp) {
+  Trodden& last = trodden_[walker.id];
+  if (last.seen && length(walker.position - last.place) < TOLD_EVERY) return;
+  TreadEvent event;
+  event.header.stamp = toStamp(stamp);
+  event.header.frame_id = options_.frame_id;
+  event.source = "walker_" + std::to_string(walker.id);
+  event.action = last.seen ? TreadEvent::MOVE : TreadEvent::PLACE;
+  const crowd::Point& p = walker.position;
+  event.position = toPoint(Vec3(p.x, p.y, crowd_->terrain().height(p.x, p.y)));
+  event.velocity = toVector(Vec3(walker.velocity.x, walker.velocity.y, 0.0));
+  event.law.radius = options_.tread_radius > 0.0 ? options_.tread_radius : BODY_RADIUS;
+  last.place = p;
+  last.seen = true;
+  ++counts_.treads;
+  tread_publisher_.publish(event);
+}
+
+// A print, from heel to ball, as each foot comes down.
+void AgentCrowd::treadOfFeet(const crowd::Walker& walker, Nanoseconds stamp) {
+  Trodden& last = trodden_[walker.id];
+  const SinCos front = sinCos(walker.heading);
+  const double sole = crowd::Proportions::FOOT_FRONT + crowd::Proportions::FOOT_BACK;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const crowd::Foot& foot = walker.feet[i];
+    const bool lands = foot.stands && (!last.stood[i] || !last.seen);
+    last.stood[i] = foot.stands;
+    if (!lands) continue;
+    const crowd::Point heel =
+        foot.planted - (walker.height * sole) * crowd::Point{front.cos, front.sin};
+    const auto onGround = [&](const crowd::Point& p) {
+      return toPoint(Vec3(p.x, p.y, crowd_->terrain().height(p.x, p.y)));
+    };
+    TreadEvent event;
+    event.header.stamp = toStamp(stamp);
+    event.header.frame_id = options_.frame_id;
+    event.source = "walker_" + std::to_string(walker.id) + (i == 0 ? "_left" : "_right");
+    event.action = TreadEvent::STROKE;
+    event.start = onGround(heel);
+    event.position = onGround(foot.planted);
+    event.law.radius = options_.tread_radius > 0.0 ? options_.tread_radius : FOOT_RADIUS;
+    ++counts_.treads;
+    tread_publisher_.publish(event);
+  }
+  last.seen = true;
+}
+
+void AgentCrowd::sendFrames(const ros::TimerEvent&) {
+  const Nanoseconds stamp = crowd_->memory().stamp;
+  if (!clock_.hasBegun() || stamp == framed_) return;  // tf warns of a stamp that comes twice
+  framed_ = stamp;
+  std::vector<geometry_msgs::TransformStamped> frames;
+  for (const crowd::Walker& walker : crowd_->walkers()) {
+    if (frames.size() >= static_cast<std::size_t>(options_.tf_budget)) break;
+    const AgentState state = toMsg(walker, crowd_->terrain());
+    geometry_msgs::TransformStamped frame;
+    frame.header.stamp = toStamp(stamp);
+    frame.header.frame_id = options_.frame_id;
+    frame.child_frame_id = "walker_" + std::to_string(walker.id);
+    frame.transform.translation = toVector(fromMsg(state.pose.position));
+    frame.transform.rotation = state.pose.orientation;
+    frames.push_back(frame);
+  }
+  if (!frames.empty()) tf_broadcaster_.sendTransform(frames);
+}
+
+void AgentCrowd::sendMarkers(const ros::TimerEvent&) {
+  if (!clock_.hasBegun() || markers_publisher_.getNumSubscribers() == 0) return;
+  markers_publisher_.publish(markers_.build(*crowd_, options_.frame_id, crowd_->memory().stamp));
+}
+
+// What has happened since the last report, and only that.
+void AgentCrowd::warnOfTrouble(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const auto warn = [&](std::uint64_t now, std::uint64_t before, const std::string& text) {
+    if (now > before)
+      status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN,
+                          std::to_string(now - before) + " " + text);
+  };
+  counts_.clock = clock_.counts();
+  counts_.inputs = inputs_.losses();
+  warn(counts_.rejected, reported_.rejected, "refused input: " + last_rejection_);
+  warn(counts_.clock.dropped, reported_.clock.dropped, "ticks dropped");
+  warn(counts_.clock.jumps, reported_.clock.jumps, "jumps back of the clock");
+  warn(counts_.inputs.lost, reported_.inputs.lost, "inputs lost, too many at once");
+  warn(counts_.inputs.late, reported_.inputs.late, "recorded events late, the replay differs");
+  if (!robots_->missing().empty())
+    status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN,
+                        "tf does not tell " + robots_->missing().front());
+  reported_ = counts_;
+}
+
+void AgentCrowd::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  using diagnostic_msgs::DiagnosticStatus;
+  status.summary(DiagnosticStatus::OK, "running");
+  if (!clock_.hasBegun()) status.summary(DiagnosticStatus::WARN, "waiting for the clock");
+  warnOfTrouble(status);
+  std::size_t arrived = 0;
+  for (const crowd::Walker& walker : crowd_->walkers()) arrived += walker.arrived;
+  status.add("Ticks", counts_.clock.ticks);
+  status.add("Ticks dropped", counts_.clock.dropped);
+  status.add("Clock jumps back", counts_.clock.jumps);
+  status.add("Inputs taken", counts_.events);
+  status.add("Inputs refused", counts_.rejected);
+  status.add("Inputs lost", counts_.inputs.lost);
+  status.add("Recorded events late", counts_.inputs.late);
+  status.add("Walkers", crowd_->walkers().size());
+  status.add("Walkers arrived", arrived);
+  status.add("Walls and trunks", crowd_->obstacles().obstacles().size());
+  status.add("Trunks", trunks_);
+  status.add("Robots", crowd_->memory().robots.size());
+  status.add("Robots not told by tf", robots_->missing().size());
+  status.add("Deepest overlap [mm]", static_cast<int>(1e3 * crowd_->deepestOverlap()));
+  status.add("Treads sent", counts_.treads);
+  status.add("State sent [B]", counts_.state_bytes);
+  status.add("Marker points", markers_.points());
+  status.add("Marker budget [points]", markers_.budget());
+}
+
+}  // namespace vegetation_sim

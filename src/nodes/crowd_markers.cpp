@@ -1,0 +1,158 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/nodes/crowd_markers.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "vegetation_sim/common/math.h"
+#include "vegetation_sim/common/random.h"
+#include "vegetation_sim/ros/geometry_conversions.h"
+#include "vegetation_sim/ros/stamps.h"
+
+namespace vegetation_sim {
+namespace {
+
+using crowd::Part;
+
+constexpr int MOST_SIDES = 10, LEAST_SIDES = 3;
+constexpr double CAP_HEIGHTS[] = {0.0, 0.6, 0.95}, CAP_RADII[] = {1.0, 0.8, 0.3};
+constexpr int CAP_RINGS = 3;
+
+// Bands between the rings of both caps, each of two triangles a side.
+std::size_t pointsOf(int sides) {
+  return crowd::PARTS * static_cast<std::size_t>(sides) * 6 * (2 * CAP_RINGS - 1);
+}
+
+std_msgs::ColorRGBA colour(double r, double g, double b) {
+  std_msgs::ColorRGBA out;
+  out.r = static_cast<float>(r);
+  out.g = static_cast<float>(g);
+  out.b = static_cast<float>(b);
+  out.a = 1.f;
+  return out;
+}
+
+struct Clothes {
+  std_msgs::ColorRGBA skin, hair, shirt, trousers, shoes;
+};
+
+template <std::size_t N>
+const std_msgs::ColorRGBA& oneOf(const std_msgs::ColorRGBA (&list)[N], std::uint64_t bits) {
+  return list[bits % N];
+}
+
+// By id, so that a person keeps them.
+Clothes clothesOf(const crowd::Walker& w) {
+  static const std_msgs::ColorRGBA SKINS[] = {colour(0.93, 0.76, 0.65), colour(0.80, 0.60, 0.46),
+                                              colour(0.55, 0.38, 0.28), colour(0.36, 0.24, 0.18)};
+  static const std_msgs::ColorRGBA HAIRS[] = {colour(0.10, 0.07, 0.05), colour(0.30, 0.19, 0.10),
+                                              colour(0.72, 0.55, 0.30), colour(0.62, 0.62, 0.60)};
+  static const std_msgs::ColorRGBA SHIRTS[] = {colour(0.78, 0.16, 0.14), colour(0.13, 0.33, 0.66),
+                                               colour(0.93, 0.90, 0.84), colour(0.93, 0.68, 0.14),
+                                               colour(0.16, 0.48, 0.42), colour(0.55, 0.30, 0.55)};
+  static const std_msgs::ColorRGBA TROUSERS[] = {colour(0.15, 0.19, 0.32), colour(0.24, 0.23, 0.22),
+                                                 colour(0.50, 0.42, 0.30),
+                                                 colour(0.33, 0.38, 0.44)};
+  const Random random = Random(w.id).child(0x70656F70);
+  return {oneOf(SKINS, random.bits(0)), oneOf(HAIRS, random.bits(1)), oneOf(SHIRTS, random.bits(2)),
+          oneOf(TROUSERS, random.bits(3)), colour(0.12, 0.10, 0.09)};
+}
+
+const std_msgs::ColorRGBA& colourOf(const Clothes& clothes, std::size_t part) {
+  if (part <= static_cast<std::size_t>(Part::NECK)) return clothes.skin;
+  if (part <= static_cast<std::size_t>(Part::SHOULDERS)) return clothes.shirt;
+  if (part < static_cast<std::size_t>(Part::FOOT)) return clothes.trousers;
+  if (part < static_cast<std::size_t>(Part::UPPER_ARM)) return clothes.shoes;
+  return part < static_cast<std::size_t>(Part::FOREARM) ? clothes.shirt : clothes.skin;
+}
+
+}  // namespace
+
+/// A circle across a limb.
+struct CrowdMarkers::Ring {
+  Vec3 centre, u, v;
+  Vec3 at(int side, int sides) const {
+    const SinCos turn = sinCosTurns(static_cast<double>(side) / sides);
+    return centre + turn.cos * u + turn.sin * v;
+  }
+};
+
+CrowdMarkers::CrowdMarkers(int points) {
+  list_.ns = "people";
+  list_.type = visualization_msgs::Marker::TRIANGLE_LIST;
+  list_.action = visualization_msgs::Marker::ADD;
+  list_.pose.orientation.w = 1.0;
+  list_.scale.x = list_.scale.y = list_.scale.z = 1.0;
+  list_.color = colour(1.0, 1.0, 1.0);
+  list_.points.resize(static_cast<std::size_t>(points) / 3 * 3);
+  list_.colors.resize(list_.points.size());
+}
+
+void CrowdMarkers::addPoint(const Vec3& point, const std_msgs::ColorRGBA& colour) {
+  list_.points[used_] = toPoint(point);
+  list_.colors[used_++] = colour;
+}
+
+void CrowdMarkers::addBand(const Ring& low, const Ring& high, int sides,
+                           const std_msgs::ColorRGBA& colour) {
+  for (int i = 0; i < sides; ++i) {
+    const Vec3 corners[4] = {low.at(i, sides), low.at(i + 1, sides), high.at(i + 1, sides),
+                             high.at(i, sides)};
+    for (const int k : {0, 1, 2, 0, 2, 3}) addPoint(corners[k], colour);
+  }
+}
+
+void CrowdMarkers::addLimb(const crowd::Limb& limb, int sides, const std_msgs::ColorRGBA& colour,
+                           const std_msgs::ColorRGBA& end_colour) {
+  const Vec3 span = limb.to - limb.from;
+  const double size = length(span);
+  const Vec3 along = size > 1e-9 ? Vec3(span / size) : Vec3(Vec3::UnitZ());
+  const Vec3 aside = std::fabs(along.x()) < 0.7 ? Vec3::UnitX() : Vec3::UnitY();
+  Vec3 u = cross(along, aside);
+  u /= length(u);
+  const Vec3 v = cross(along, u);
+  const auto ring = [&](const Vec3& end, double sign, int step) {
+    const double r = limb.radius * CAP_RADII[step];
+    return Ring{end + sign * limb.radius * CAP_HEIGHTS[step] * along, r * u, r * v};
+  };
+  for (int step = CAP_RINGS - 1; step > 0; --step)
+    addBand(ring(limb.from, -1.0, step), ring(limb.from, -1.0, step - 1), sides, colour);
+  addBand(ring(limb.from, -1.0, 0), ring(limb.to, 1.0, 0), sides, colour);
+  for (int step = 0; step < CAP_RINGS - 1; ++step)
+    addBand(ring(limb.to, 1.0, step), ring(limb.to, 1.0, step + 1), sides, end_colour);
+}
+
+void CrowdMarkers::addPerson(const crowd::Walker& walker, const terrain::HeightMap& terrain,
+                             int sides) {
+  const Clothes clothes = clothesOf(walker);
+  const crowd::Skeleton skeleton = skeletonOf(walker, terrain);
+  for (std::size_t i = 0; i < crowd::PARTS; ++i) {
+    const std_msgs::ColorRGBA& own = colourOf(clothes, i);
+    addLimb(skeleton[i], sides, own,
+            i == static_cast<std::size_t>(Part::HEAD) ? clothes.hair : own);
+  }
+}
+
+visualization_msgs::MarkerArray CrowdMarkers::build(const crowd::Crowd& crowd,
+                                                    const std::string& frame_id,
+                                                    Nanoseconds stamp) {
+  used_ = 0;
+  const std::size_t people = std::max<std::size_t>(1, crowd.walkers().size());
+  int sides = MOST_SIDES;
+  while (sides > LEAST_SIDES && pointsOf(sides) * people > budget()) --sides;
+  for (const crowd::Walker& walker : crowd.walkers()) {
+    if (used_ + pointsOf(sides) > budget()) break;
+    addPerson(walker, crowd.terrain(), sides);
+  }
+  // What is left has no area.
+  std::fill(list_.points.begin() + static_cast<std::ptrdiff_t>(used_), list_.points.end(),
+            geometry_msgs::Point());
+  list_.header.frame_id = frame_id;
+  list_.header.stamp = toStamp(stamp);
+  visualization_msgs::MarkerArray out;
+  out.markers.push_back(list_);
+  return out;
+}
+
+}  // namespace vegetation_sim

@@ -1,0 +1,135 @@
+#!/usr/bin/env python3
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""S2-30, S2-36 and part 4's crowd list, as users of the node see them."""
+import unittest
+
+import rospy
+import rostest
+from geometry_msgs.msg import PointStamped
+from tf2_msgs.msg import TFMessage
+from vegetation_sim.msg import AgentSpawn, CrowdEvent, TreadEvent
+
+from crowd_rig import Cart, Crowd, at, distance
+from forest_rig import Log, TickClock, time_of
+
+START = 3000  # tick
+
+
+def goal(x, y):
+    message = PointStamped()
+    message.point = at(x, y)
+    return message
+
+
+class CrowdRequests(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node('crowd_requests_test')
+        cls.crowd = Crowd()
+        cls.clock = TickClock(START)
+        cls.crowd.wait_until_up()
+        cls.clock.run(30, cls.crowd)
+
+    def test_1_walks_and_treads(self):
+        before = self.crowd.agents()
+        self.assertEqual(len(before), 8)
+        self.clock.run(60, self.crowd)
+        after = self.crowd.agents()
+        moved = [distance(before[i].pose.position, after[i].pose.position) for i in before]
+        self.assertGreater(sum(moved) / 8, 0.8)  # of 2 s
+        for a in after.values():
+            self.assertLess(max(abs(a.pose.position.x), abs(a.pose.position.y)), 8.7)
+            for b in after.values():
+                if a.id < b.id:
+                    self.assertGreater(distance(a.pose.position, b.pose.position), 0.5 - 1e-6)
+        prints = [t for t in self.crowd.tread.messages if t.action == TreadEvent.STROKE]
+        self.assertGreater(len(prints), 16)
+        for t in prints:  # from heel to ball
+            self.assertTrue(0.15 < distance(t.start, t.position) < 0.3)
+
+    def test_2_spawns_sends_and_removes(self):
+        answer = self.crowd.spawn(like=AgentSpawn(position=at(5, 6), stands=True), count=2, spread=0.5)
+        self.assertTrue(answer.success, answer.message)
+        self.assertEqual(list(answer.ids), [8, 9])
+        self.clock.run(2, self.crowd)
+        self.assertEqual(len(self.crowd.agents()), 10)
+        self.assertTrue(self.crowd.set_goal(ids=[8], goal=goal(6.5, 7.5)).success)
+        self.clock.run(150, self.crowd)
+        self.assertTrue(self.crowd.agents()[8].arrived)
+        self.assertLess(distance(self.crowd.agents()[8].pose.position, at(6.5, 7.5)), 0.6)
+        self.assertTrue(self.crowd.remove(ids=[8, 9]).success)
+        self.clock.run(1, self.crowd)
+        self.assertEqual(sorted(self.crowd.agents()), list(range(8)))
+        for kind in (CrowdEvent.SPAWN, CrowdEvent.GOAL, CrowdEvent.REMOVE):
+            self.assertIn(kind, self.crowd.kinds())
+
+    def test_3_refuses_what_is_not_right(self):
+        hash_before = self.crowd.state.messages[-1].hash
+
+        def refusal(answer):
+            self.assertFalse(answer.success)
+            return answer.message
+
+        nan = float('nan')
+        spawn, crowd = self.crowd.spawn, self.crowd
+        self.assertIn('like: x = nan', refusal(spawn(like=AgentSpawn(position=at(nan, 0)))))
+        self.assertIn('speed = 40', refusal(spawn(like=AgentSpawn(speed=40.0))))
+        self.assertIn('count = 100000', refusal(spawn(count=100000)))
+        self.assertIn('most_walkers = 50', refusal(spawn(count=60)))
+        self.assertIn('walker 77 is unknown', refusal(crowd.remove(ids=[77])))
+        self.assertIn('walker 77 is unknown', refusal(crowd.set_goal(ids=[77], goal=goal(0, 5))))
+        self.assertIn('no way leads there', refusal(crowd.set_goal(ids=[1], goal=goal(20, 0))))
+        self.assertIn('goal: x = nan', refusal(crowd.set_goal(ids=[1], goal=goal(nan, 0))))
+        strange = goal(1, 1)
+        strange.header.frame_id = 'nowhere'
+        self.assertIn("'nowhere'", refusal(crowd.set_goal(ids=[1], goal=strange)))
+        self.assertEqual(crowd.state.messages[-1].hash, hash_before)
+
+    def test_4_robots_live_pose_counts(self):
+        cart = Cart(self.crowd)
+        speed, nearest = 1.5, 1e9
+        for lane in (-1.5, 1.5):
+            for i in range(180):
+                x = -8.0 + speed * i / 30.0
+                if abs(x) < 0.8 or x > 7.9:
+                    break
+                cart.put(x, lane, time_of(self.clock.tick))
+                self.clock.run(1, self.crowd)
+                robot = [e.robot for e in self.crowd.events.messages
+                         if e.kind == CrowdEvent.ROBOT][-1]
+                for agent in self.crowd.agents().values():
+                    gap = distance(agent.pose.position, robot.position) - 0.5 - agent.radius
+                    nearest = min(nearest, gap)
+        self.assertGreater(nearest, -1e-6)
+        self.clock.run(40, self.crowd)  # tf falls silent
+        self.assertIn(CrowdEvent.REMOVE_ROBOT, self.crowd.kinds())
+        cart.put(float('nan'), 0.0, time_of(self.clock.tick))
+        self.clock.run(3, self.crowd)
+        self.assertEqual(self.crowd.diagnostics()['Robots'], 0)
+
+    def test_5_frames_are_bounded(self):
+        log = Log('/tf', TFMessage)
+        log.wait(lambda all: any(t.child_frame_id == 'walker_0' for m in all for t in m.transforms),
+                 'a walker', lambda: self.clock.run(1, self.crowd))
+        names = {t.child_frame_id for m in log.messages for t in m.transforms}
+        log.close()
+        self.assertEqual({n for n in names if n.startswith('walker')},
+                         {'walker_0', 'walker_1', 'walker_2'})
+
+    def test_6_reset_and_time_going_back_are_fresh_starts(self):
+        self.assertTrue(self.crowd.reset().success)
+        self.clock.run(1, self.crowd)
+        start = self.crowd.agents()
+        self.clock.run(20, self.crowd)
+        self.clock.show(START - 1000)
+        self.crowd.state.wait_for_stamp(time_of(START - 1000), lambda: self.clock.show(START - 1000))
+        again = self.crowd.agents()
+        self.assertEqual(sorted(again), sorted(start))
+        for i in start:
+            self.assertLess(distance(start[i].pose.position, again[i].pose.position), 0.1)
+        self.assertGreaterEqual(self.crowd.diagnostics()['Clock jumps back'], 1)
+
+
+if __name__ == '__main__':
+    rostest.rosrun('vegetation_sim', 'crowd_requests_test', CrowdRequests)
