@@ -115,6 +115,7 @@ void ForestAnimator::tick(std::int64_t tick) {
       desk_->adopt(event);
       if (!options_.replay) events_publisher_.publish(event);
     } catch (const InvalidInput& error) {
+      desk_->drop(event);
       reject("event", error.what());
     }
   }

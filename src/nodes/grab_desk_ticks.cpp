@@ -61,9 +61,11 @@ void GrabDesk::adopt(const ForestEvent& event) {
       found->second.grab.holder = event.grab.holder;
       break;
     }
-    case ForestEvent::RELEASE:
-      held_.erase(event.grab.id);
+    case ForestEvent::RELEASE: {
+      const auto found = held_.find(event.grab.id);
+      if (found != held_.end()) forget(found);
       break;
+    }
     case ForestEvent::BODY:
       bodies_[event.body.id] = event.body;
       break;
@@ -78,11 +80,28 @@ void GrabDesk::adopt(const ForestEvent& event) {
   }
 }
 
+void GrabDesk::drop(const ForestEvent& event) {
+  const auto found = held_.find(event.grab.id);
+  const bool waits = found != held_.end() && !found->second.in_force;
+  if (event.kind == ForestEvent::GRAB && waits) held_.erase(found);
+}
+
+// The force of a grab that is over falls for a while where its holder was last.
+std::map<std::uint32_t, GrabDesk::Held>::iterator GrabDesk::forget(
+    std::map<std::uint32_t, Held>::iterator entry) {
+  if (!entry->second.grab.frame.empty()) gone_[entry->first] = fromMsg(entry->second.grab.holder);
+  return held_.erase(entry);
+}
+
 std::vector<forest::Grab> GrabDesk::settle() {
   const auto& in_force = room_.forest.grabs();
   for (auto entry = held_.begin(); entry != held_.end();)
-    entry = entry->second.in_force && !in_force.count(entry->first) ? held_.erase(entry)
-                                                                    : std::next(entry);
+    entry =
+        entry->second.in_force && !in_force.count(entry->first) ? forget(entry) : std::next(entry);
+  std::map<std::uint32_t, Pose> falling;
+  for (const forest::Reaction& reaction : room_.forest.reactions())
+    if (const auto found = gone_.find(reaction.grab); found != gone_.end()) falling.insert(*found);
+  gone_ = std::move(falling);
   return room_.forest.ended();
 }
 
@@ -90,6 +109,7 @@ void GrabDesk::clear(bool waiting_too) {
   for (auto entry = held_.begin(); entry != held_.end();)
     entry = waiting_too || entry->second.in_force ? held_.erase(entry) : std::next(entry);
   bodies_.clear();
+  gone_.clear();
   silent_ = 0;
 }
 
@@ -98,6 +118,8 @@ Pose GrabDesk::frameOf(const forest::Reaction& reaction) const {
   if (reaction.kind == forest::Reaction::GRAB) {
     const auto held = held_.find(reaction.grab);
     if (held != held_.end() && !reaction.frame.empty()) return fromMsg(held->second.grab.holder);
+    const auto gone = gone_.find(reaction.grab);
+    if (gone != gone_.end()) return gone->second;
   } else {
     const auto body = bodies_.find(reaction.body);
     if (body != bodies_.end())

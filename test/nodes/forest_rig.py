@@ -124,7 +124,7 @@ class Animator:
         log.wait(lambda all: any(s.name == name for m in all for s in m.status), name)
         log.close()
         status = [s for m in log.messages for s in m.status if s.name == name][-1]
-        return {pair.key: int(pair.value) for pair in status.values}
+        return {pair.key: float(pair.value) for pair in status.values}
 
     def close(self):
         for log in (self.layout, self.state, self.events):

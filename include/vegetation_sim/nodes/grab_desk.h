@@ -49,6 +49,8 @@ class GrabDesk {
   void follow(Nanoseconds stamp, const Report& report);
   /// An event that the forest has taken.
   void adopt(const ForestEvent& event);
+  /// One that it refused: a grab that waited for it is over.
+  void drop(const ForestEvent& event);
   /// After a tick: forgets grabs that are over. @return those that ended by themselves.
   std::vector<forest::Grab> settle();
   /// All that is in force, or what only waits too.
@@ -84,12 +86,14 @@ class GrabDesk {
   double checkDistance(const Vec3& held, const Vec3& target) const;
   bool followOne(Held& held, Nanoseconds stamp);
   Held& find(std::uint32_t id);
+  std::map<std::uint32_t, Held>::iterator forget(std::map<std::uint32_t, Held>::iterator entry);
   ForestEvent eventAt(std::uint8_t kind, const ros::Time& stamp) const;
   void requireLive() const;
   Pose frameOf(const forest::Reaction& reaction) const;
 
   GrabRoom room_;
   std::map<std::uint32_t, Held> held_;        // waiting ones among them
+  std::map<std::uint32_t, Pose> gone_;        // holders of grabs that are over, still told
   std::map<std::string, ForestBody> bodies_;  // by id, as last told
   std::uint32_t last_id_{0};
   std::size_t silent_{0};
