@@ -55,11 +55,13 @@ void Crowd::advance(Nanoseconds stamp) {
   memory_.stamp = stamp;
   memory_.begun = true;
   if (dt == 0.0) return;
-  before_ = memory_.walkers;
+  before_.swap(memory_.walkers);
+  memory_.walkers.resize(before_.size());
   look();
   // Neighbours one after the other: what one looks at is at hand for the next.
   forAll(before_.size(), [&](std::size_t i) {
     const std::uint32_t index = grid_.spots()[i].index;
+    memory_.walkers[index] = before_[index];
     stepOne(index, tick, memory_.walkers[index]);
   });
   ways_.endTick();

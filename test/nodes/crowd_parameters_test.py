@@ -1,0 +1,78 @@
+#!/usr/bin/env python3
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""agent_crowd refuses to start with bad parameters or a bad scenario, all faults at once."""
+import os
+import subprocess
+import tempfile
+import unittest
+
+import roslib.packages
+import rospy
+import rostest
+
+NAN = float('nan')
+# parameter: bad value, what the refusal says
+BAD = {
+    'state_rate': (0, 'state_rate = 0 Hz is outside 1 to 240'),
+    'markers_rate': (NAN, 'markers_rate = nan'),
+    'marker_points': (3, 'marker_points = 3 is outside 3000 to 3e+06'),
+    'tf_rate': (1e6, 'tf_rate = 1e+06 Hz is outside 0.1 to 240'),
+    'tf_budget': (-1, 'tf_budget = -1 is outside 0 to 10000'),
+    'tread': ('hands', 'tread'),
+    'tread_radius': (-1.0, 'tread_radius = -1 m is outside 0 to 2'),
+    'trunks': ('square', 'trunks'),
+    'most_trunks': (-5, 'most_trunks = -5'),
+    'most_walkers': (10 ** 9, 'most_walkers = 1e+09'),
+    'threads': (0, 'threads = 0 is outside 1 to 64'),
+    'replay_delay': (-1.0, 'replay_delay = -1 s is outside 0 to 10'),
+    'sensor_range': (0.0, 'sensor_range = 0 m is outside 0.5 to 20'),
+    'neighbours': (99, 'neighbours = 99 is outside 1 to 8'),
+    'behaviour': ('panic', 'behaviour'),
+    'frame_id': ('/map', "frame_id"),
+    'robots': ([{'radius': 0.4}], 'needs a frame'),
+    'speeed': (1.0, 'speeed'),
+}
+SCENARIOS = [
+    ('{crowd: {walls: [{from: [0, 0, 0]}]}}', 'needs from and to'),
+    ('{crowd: {walkers: [{x: .nan}]}}', 'x = nan'),
+    ('{crowd: {groups: [{count: 1000000}]}}', 'count = 1e+06 is outside 1 to 100000'),
+    ('{crowd: {robots: [{frame: /cart}]}}', "begins with '/'"),
+    ('{crowd: {robots: [{frame: a}, {frame: a}]}}', 'twice'),
+    ('{crowds: {}}', 'crowds is not a known key'),
+]
+
+
+class CrowdParameters(unittest.TestCase):
+    def refusal(self, **parameters):
+        """What the node says as it ends; it must."""
+        rospy.set_param('/bad_crowd', parameters)
+        executable = roslib.packages.find_node('vegetation_sim', 'agent_crowd')[0]
+        found = subprocess.run([executable, '__name:=bad_crowd'], capture_output=True, text=True,
+                               timeout=60)
+        rospy.delete_param('/bad_crowd')
+        self.assertNotEqual(found.returncode, 0)
+        return found.stdout + found.stderr
+
+    def test_all_faults_at_once(self):
+        text = self.refusal(**{name: value for name, (value, _) in BAD.items()})
+        for name, (_, words) in BAD.items():
+            self.assertIn(words, text, name)
+
+    def test_bad_scenarios(self):
+        for body, words in SCENARIOS:
+            with tempfile.TemporaryDirectory() as folder:
+                file = os.path.join(folder, 'scene.yaml')
+                with open(file, 'w') as out:
+                    out.write(body)
+                text = self.refusal(scenario=file)
+            self.assertIn(words, text, body)
+            self.assertIn('scene.yaml', text, body)
+
+    def test_missing_file(self):
+        self.assertIn('nowhere.yaml', self.refusal(scenario='nowhere.yaml'))
+
+
+if __name__ == '__main__':
+    rospy.init_node('crowd_parameters_test')
+    rostest.rosrun('vegetation_sim', 'crowd_parameters_test', CrowdParameters)
