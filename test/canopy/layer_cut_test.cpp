@@ -48,6 +48,18 @@ TEST(LayerCut, HasTheLayersOfEachRegion) {
   EXPECT_EQ(LayerCut(eastwardFrom(0.0), settings, 1.0, 60.0).layers(), 3);
 }
 
+// S3-W1: what moves together without belonging together is parted by more layers.
+TEST(LayerCut, PartsNeighboursInDepthWithMoreLayers) {
+  const Vec3 near(4.2, 0.0, 1.0), far(4.9, 0.0, 1.0);
+  for (const int layers : {1, 2, 5, 9}) {
+    CutSettings settings;
+    settings.near_layers = layers;
+    settings.near_end = 100.0;
+    const LayerCut cut(eastwardFrom(0.0), settings, 4.0, 7.0);
+    EXPECT_EQ(cut.layerAt(near) != cut.layerAt(far), layers >= 5) << layers;
+  }
+}
+
 // S3-04: a quarter turn cuts other layers.
 TEST(LayerCut, IsOfTheViewThatItWasMadeFor) {
   CutSettings settings;
