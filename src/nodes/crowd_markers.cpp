@@ -16,12 +16,24 @@ namespace {
 using crowd::Part;
 
 constexpr int MOST_SIDES = 10, LEAST_SIDES = 3;
-constexpr double CAP_HEIGHTS[] = {0.0, 0.6, 0.95}, CAP_RADII[] = {1.0, 0.8, 0.3};
-constexpr int CAP_RINGS = 3;
+// Rings of a cap, from its limb outwards: a head's is round and closed, the others end in joints.
+struct Cap {
+  int rings;
+  double heights[3], radii[3];
+};
+constexpr Cap ROUND{3, {0.0, 0.62, 1.0}, {1.0, 0.78, 0.0}};
+constexpr Cap PLAIN{2, {0.0, 0.85, 0.85}, {1.0, 0.45, 0.45}};
+
+const Cap& capOf(std::size_t part) {
+  return part == static_cast<std::size_t>(Part::HEAD) ? ROUND : PLAIN;
+}
 
 // Bands between the rings of both caps, each of two triangles a side.
 std::size_t pointsOf(int sides) {
-  return crowd::PARTS * static_cast<std::size_t>(sides) * 6 * (2 * CAP_RINGS - 1);
+  std::size_t bands = 0;
+  for (std::size_t part = 0; part < crowd::PARTS; ++part)
+    bands += static_cast<std::size_t>(2 * capOf(part).rings - 1);
+  return bands * static_cast<std::size_t>(sides) * 6;
 }
 
 std_msgs::ColorRGBA colour(double r, double g, double b) {
@@ -103,8 +115,10 @@ void CrowdMarkers::addBand(const Ring& low, const Ring& high, int sides,
   }
 }
 
-void CrowdMarkers::addLimb(const crowd::Limb& limb, int sides, const std_msgs::ColorRGBA& colour,
+void CrowdMarkers::addLimb(const crowd::Limb& limb, std::size_t part, int sides,
+                           const std_msgs::ColorRGBA& colour,
                            const std_msgs::ColorRGBA& end_colour) {
+  const Cap& cap = capOf(part);
   const Vec3 span = limb.to - limb.from;
   const double size = length(span);
   const Vec3 along = size > 1e-9 ? Vec3(span / size) : Vec3(Vec3::UnitZ());
@@ -113,13 +127,13 @@ void CrowdMarkers::addLimb(const crowd::Limb& limb, int sides, const std_msgs::C
   u /= length(u);
   const Vec3 v = cross(along, u);
   const auto ring = [&](const Vec3& end, double sign, int step) {
-    const double r = limb.radius * CAP_RADII[step];
-    return Ring{end + sign * limb.radius * CAP_HEIGHTS[step] * along, r * u, r * v};
+    const double r = limb.radius * cap.radii[step];
+    return Ring{end + sign * limb.radius * cap.heights[step] * along, r * u, r * v};
   };
-  for (int step = CAP_RINGS - 1; step > 0; --step)
+  for (int step = cap.rings - 1; step > 0; --step)
     addBand(ring(limb.from, -1.0, step), ring(limb.from, -1.0, step - 1), sides, colour);
   addBand(ring(limb.from, -1.0, 0), ring(limb.to, 1.0, 0), sides, colour);
-  for (int step = 0; step < CAP_RINGS - 1; ++step)
+  for (int step = 0; step < cap.rings - 1; ++step)
     addBand(ring(limb.to, 1.0, step), ring(limb.to, 1.0, step + 1), sides, end_colour);
 }
 
@@ -129,7 +143,7 @@ void CrowdMarkers::addPerson(const crowd::Walker& walker, const terrain::HeightM
   const crowd::Skeleton skeleton = skeletonOf(walker, terrain);
   for (std::size_t i = 0; i < crowd::PARTS; ++i) {
     const std_msgs::ColorRGBA& own = colourOf(clothes, i);
-    addLimb(skeleton[i], sides, own,
+    addLimb(skeleton[i], i, sides, own,
             i == static_cast<std::size_t>(Part::HEAD) ? clothes.hair : own);
   }
 }

@@ -27,8 +27,8 @@ class CrowdMarkers {
  private:
   struct Ring;
   void addPerson(const crowd::Walker& walker, const terrain::HeightMap& terrain, int sides);
-  void addLimb(const crowd::Limb& limb, int sides, const std_msgs::ColorRGBA& colour,
-               const std_msgs::ColorRGBA& end_colour);
+  void addLimb(const crowd::Limb& limb, std::size_t part, int sides,
+               const std_msgs::ColorRGBA& colour, const std_msgs::ColorRGBA& end_colour);
   void addBand(const Ring& low, const Ring& high, int sides, const std_msgs::ColorRGBA& colour);
   void addPoint(const Vec3& point, const std_msgs::ColorRGBA& colour);
 
