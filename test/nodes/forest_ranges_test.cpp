@@ -1,46 +1,16 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
 // What dynamic_reconfigure offers is what the node's own structures allow.
-#include <dynamic_reconfigure/Config.h>
 #include <gtest/gtest.h>
 #include <vegetation_sim/ForestAnimatorConfig.h>
 
-#include <map>
 #include <string>
 
+#include "nodes/declared_fields.h"
 #include "vegetation_sim/nodes/forest_inputs.h"
 
 namespace vegetation_sim {
 namespace {
-
-using Values = std::map<std::string, double>;
-
-struct Declared : FieldVisitor {
-  Values defaults, low, high;
-
-  void number(const char* name, double& value, const char*, Range range) override {
-    defaults[name] = value;
-    low[name] = range.low;
-    high[name] = range.high;
-  }
-  void integer(const char* name, int& value, const char* unit, Range range) override {
-    double number_value = value;
-    number(name, number_value, unit, range);
-  }
-  void vector(const char* name, Vec3&, const char*, Range) override { ADD_FAILURE() << name; }
-  void choice(const char* name, int&, const std::vector<std::string>&) override {
-    ADD_FAILURE() << name;
-  }
-};
-
-Values offered(const ForestAnimatorConfig& config) {
-  dynamic_reconfigure::Config message;
-  config.__toMessage__(message);
-  Values out;
-  for (const auto& field : message.ints) out[field.name] = field.value;
-  for (const auto& field : message.doubles) out[field.name] = field.value;
-  return out;
-}
 
 TEST(ForestRanges, OfReconfigureAreThoseOfTheStructures) {  // S1-10, S1-45
   ForestTuning tuning;
