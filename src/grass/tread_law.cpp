@@ -58,17 +58,17 @@ Point treadVector(const Point& p, const Point& p0, const Point& p1, double field
   return {field * (tx - sign * ty), field * (ty + sign * tx)};
 }
 
-CompactField::CompactField(const Point& p0, const Point& p1, double reach, double softness)
-    : p0_(p0),
-      length_(lengthOf(p0, p1)),
-      square_reach_(reach * reach),
-      square_softness_(softness * softness) {
-  if (length_ > SHORTEST_STROKE)
-    along_ = {(p1.x - p0.x) / length_, (p1.y - p0.y) / length_};
-  else
-    length_ = 0.0;
-  const double end = square_reach_ + square_softness_;
-  edge_ = 1.0 / (end * std::sqrt(end));
+CompactField::CompactField(const Point& p0, const Point& p1, double reach, double softness) {
+  parts_.p0 = p0;
+  parts_.square_reach = reach * reach;
+  parts_.square_softness = softness * softness;
+  const double length = lengthOf(p0, p1);
+  if (length > SHORTEST_STROKE) {
+    parts_.length = length;
+    parts_.along = {(p1.x - p0.x) / length, (p1.y - p0.y) / length};
+  }
+  const double end = parts_.square_reach + parts_.square_softness;
+  parts_.edge = 1.0 / (end * std::sqrt(end));
 }
 
 double CompactField::ofEndlessTrack(double distance, double reach, double softness) {

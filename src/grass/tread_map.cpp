@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "grass/tread_stroke.h"
+#include "vegetation_sim/common/math.h"
 
 namespace vegetation_sim::grass {
 namespace {
@@ -119,10 +120,9 @@ int TreadMap::tread(std::uint32_t id, const TreadLaw& law, const Point& position
 
 // Puts the window around the source. If it is another one than before, that is in `before_`.
 bool TreadMap::moveWindow(TreadSource& source, double reach) {
-  const TreadGrid grid{law_.origin_x, law_.origin_y, spacing_};
   // One node more on each side, whatever rounding does.
-  const int first_column = grid.columnBelow(source.position.x - reach) - 1;
-  const int first_row = grid.rowBelow(source.position.y - reach) - 1;
+  const int first_column = nodeBelow(source.position.x - reach, law_.origin_x, spacing_) - 1;
+  const int first_row = nodeBelow(source.position.y - reach, law_.origin_y, spacing_) - 1;
   const int side = floorOf(2.0 * reach / spacing_) + 5;
   if (source.first_column == first_column && source.first_row == first_row &&
       source.columns == side && source.rows == side)
@@ -138,13 +138,17 @@ bool TreadMap::moveWindow(TreadSource& source, double reach) {
   return true;
 }
 
+TreadMap::Box TreadMap::boxOf(const Point& low, const Point& high, double reach) const {
+  const auto column = [&](double x) { return nodeBelow(x, law_.origin_x, spacing_); };
+  const auto row = [&](double y) { return nodeBelow(y, law_.origin_y, spacing_); };
+  return {std::max(0, column(low.x - reach)),
+          std::min((law_.columns - 1) * cells_, column(high.x + reach) + 1),
+          std::max(0, row(low.y - reach)),
+          std::min((law_.rows - 1) * cells_, row(high.y + reach) + 1)};
+}
+
 int TreadMap::press(TreadStroke& stroke) {
-  const TreadGrid grid{law_.origin_x, law_.origin_y, spacing_};
-  const double reach = stroke.law.reach;
-  const Box box{std::max(0, grid.columnBelow(stroke.low.x - reach)),
-                std::min((law_.columns - 1) * cells_, grid.columnBelow(stroke.high.x + reach) + 1),
-                std::max(0, grid.rowBelow(stroke.low.y - reach)),
-                std::min((law_.rows - 1) * cells_, grid.rowBelow(stroke.high.y + reach) + 1)};
+  const Box box = boxOf(stroke.low, stroke.high, stroke.law.reach);
   int touched = 0;
   if (box.first_column > box.last_column || box.first_row > box.last_row) return touched;
   for (int r = blockOf(box.first_row); r <= blockOf(box.last_row); ++r)
@@ -176,12 +180,13 @@ int TreadMap::pressBlock(TreadStroke& stroke, int block_row, int block_column, c
     row.row = r;
     row.first = first_column;
     row.last = last_column;
-    row.y = grid.y(r);
     stroke.cut(row, grid);
+    if (row.first > row.last) continue;
     touched += stroke.measure(row, grid);
     for (int column = row.first; column <= row.last; ++column) {
-      const auto i = static_cast<std::size_t>(column - row.first);
-      if (row.tilt[i] < CRUNCHED) continue;
+      const int i = column - row.first;
+      const auto tilt = static_cast<float>(row.tilt[i]);
+      if (tilt < CRUNCHED || !stroke.isTouched(row, i)) continue;
       if (!block.nodes && !full) {
         block = blockAt(block_row, block_column, true);
         full = !block.nodes;
@@ -189,7 +194,7 @@ int TreadMap::pressBlock(TreadStroke& stroke, int block_row, int block_column, c
       if (full)
         ++state_.counts.no_memory;
       else
-        stroke.press(row.tilt[i], {grid.x(column), row.y}, row.side[i], *node_at(r, column));
+        stroke.press(tilt, {grid.x(column), grid.y(r)}, row.side[i], *node_at(r, column));
     }
   }
   if (block.block) block.block->until = std::max(block.block->until, stroke.latest);

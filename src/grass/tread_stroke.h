@@ -3,12 +3,10 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
-#include "vegetation_sim/common/math.h"
-#include "vegetation_sim/grass/tread_map.h"
+#include "grass/tread_lanes.h"
 
 namespace vegetation_sim::grass {
 
@@ -21,14 +19,9 @@ inline int floorOf(double x) {
   return static_cast<int>(std::floor(std::min(1e9, std::max(-1e9, x))));
 }
 
-/// The fine grid: places of its nodes, and the nodes next to a place.
-struct TreadGrid {
-  double origin_x, origin_y, spacing;
-  double x(int column) const { return origin_x + column * spacing; }
-  double y(int row) const { return origin_y + row * spacing; }
-  int columnBelow(double place) const { return floorOf((place - origin_x) / spacing); }
-  int rowBelow(double place) const { return floorOf((place - origin_y) / spacing); }
-};
+inline int nodeBelow(double place, double origin, double spacing) {
+  return floorOf((place - origin) / spacing);
+}
 
 /// Doses of one row of a source's window.
 template <class Dose>
@@ -53,14 +46,6 @@ class DoseRow {
   Dose* doses_{nullptr};
 };
 
-/// Some nodes of a row, from column first to last, and what a stroke asks of them.
-struct TreadRow {
-  int row, first, last;
-  double y;
-  std::array<float, TreadBlock::SIDE> tilt;  ///< below 0: not within reach
-  std::array<double, TreadBlock::SIDE> side;
-};
-
 /// One segment being pressed: old doses in, new ones out, which may lie in the same window. In a
 /// header so that the loop over the nodes is one piece of code.
 struct TreadStroke {
@@ -69,10 +54,7 @@ struct TreadStroke {
         field(from, fresh.position, l.reach, l.softness),
         low{std::min(from.x, fresh.position.x), std::min(from.y, fresh.position.y)},
         high{std::max(from.x, fresh.position.x), std::max(from.y, fresh.position.y)},
-        full(CompactField::ofEndlessTrack(l.radius, l.reach, l.softness)),
-        per_full(1.0 / full),
-        enough(full / std::max(l.load, 1e-9)),
-        square_reach(l.reach * l.reach),
+        line(lineOf(l, field)),
         latest(recoveredAt(fresh.stamp, static_cast<float>(l.recovery))),
         before(old),
         after(fresh) {
@@ -81,46 +63,43 @@ struct TreadStroke {
     after.has_moved = moves || had_moved;
   }
 
+  static TreadLine lineOf(const TreadLaw& law, const CompactField& field) {
+    const double full = CompactField::ofEndlessTrack(law.radius, law.reach, law.softness);
+    return {field.parts(), 1.0 / full, full / std::max(law.load, 1e-9), law.radius, law.load};
+  }
+
   // Leaves the nodes of a row that may be within reach.
   void cut(TreadRow& row, const TreadGrid& grid) const {
     constexpr double HAIR = 1e-9;  // whatever rounding does
-    const double over = std::max(0.0, std::max(low.y - row.y, row.y - high.y));
-    const double half = std::sqrt(std::max(0.0, square_reach - over * over)) + HAIR;
-    row.first = std::max(row.first, grid.columnBelow(low.x - half));
-    row.last = std::min(row.last, grid.columnBelow(high.x + half));
+    const double y = grid.y(row.row), over = std::max(0.0, std::max(low.y - y, y - high.y));
+    const double room = line.field.square_reach - over * over;
+    const double half = std::sqrt(std::max(0.0, room)) + HAIR;
+    row.first = std::max(row.first, nodeBelow(low.x - half, grid.origin_x, grid.spacing));
+    row.last = std::min(row.last, nodeBelow(high.x + half, grid.origin_x, grid.spacing));
   }
 
   // New doses and the tilts that they ask for. @return number of nodes within reach.
   int measure(TreadRow& row, const TreadGrid& grid) const {
     const DoseRow<const double> old(before, row.row);
     const DoseRow<double> fresh(after, row.row);
+    const int count = row.last - row.first + 1;
+    for (int i = 0; i < count; ++i) {
+      const double* known = old.at(row.first + i);
+      row.dose[i] = known ? *known : 0.0;
+    }
+    measureRow(line, grid, row);
     int touched = 0;
-    for (int column = row.first; column <= row.last; ++column) {
-      const auto i = static_cast<std::size_t>(column - row.first);
-      const CompactField::Place place = field.placeOf({grid.x(column), row.y});
-      row.tilt[i] = -1.f;
-      if (place.square_distance >= square_reach) continue;
+    for (int i = 0; i < count; ++i) {
+      if (!isTouched(row, i)) continue;
       ++touched;
-      const double* known = old.at(column);
-      double dose = known ? *known : 0.0;
-      if (dose < enough) dose += field.fieldAt(place);  // no dose crushes more than fully
       // What the source leaves behind begins a new pass when it comes back.
-      const bool stays = place.end * place.end + place.side * place.side < square_reach;
-      if (double* kept = fresh.at(column)) *kept = stays ? dose : 0.0;
-      row.tilt[i] = tiltOf(dose, place.square_distance);
-      row.side[i] = place.side;
+      if (double* kept = fresh.at(row.first + i)) *kept = row.kept[i];
     }
     return touched;
   }
 
-  // Of the dose within this pass, or of the print of the foot, which crushes even where it stands.
-  float tiltOf(double dose, double square_distance) const {
-    double part = dose * per_full;
-    if (dose < enough && square_distance < 2.25 * law.radius * law.radius) {
-      const double outside = std::sqrt(square_distance) - law.radius;
-      part = std::max(part, 1.0 - smoothStep(outside / (0.5 * law.radius)));
-    }
-    return static_cast<float>(BEND_LIMIT * std::min(1.0, law.load * part));
+  bool isTouched(const TreadRow& row, int i) const {
+    return row.square[i] < line.field.square_reach;
   }
 
   // True if the node was pressed so lately, and no more than now, that it is surely still down.
@@ -159,10 +138,7 @@ struct TreadStroke {
   const TreadLaw& law;
   CompactField field;
   Point low, high;  ///< box of the segment
-  double full;      ///< dose that crushes fully
-  double per_full;  ///< its inverse
-  double enough;    ///< likewise, of this load
-  double square_reach;
+  TreadLine line;
   Nanoseconds latest;  ///< when the last of the pressed nodes has recovered
   const TreadSource& before;
   TreadSource& after;

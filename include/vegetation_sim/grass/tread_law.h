@@ -56,6 +56,13 @@ class CompactField {
  public:
   CompactField(const Point& p0, const Point& p1, double reach, double softness);
 
+  /// What it is made of, for those who evaluate it side by side.
+  struct Parts {
+    Point p0, along{1.0, 0.0};
+    double length{0.0}, square_reach{0.0}, square_softness{0.0}, edge{0.0};
+  };
+  const Parts& parts() const { return parts_; }
+
   /// Where a point is beside the segment.
   struct Place {
     double start, end;       ///< ends of the segment, counted along it from the point [m]
@@ -63,16 +70,16 @@ class CompactField {
     double square_distance;  ///< from the segment [m^2]
   };
   Place placeOf(const Point& p) const {
-    const double ax = p0_.x - p.x, ay = p0_.y - p.y;
-    const double start = ax * along_.x + ay * along_.y, end = start + length_;
-    const double side = ax * along_.y - ay * along_.x;
+    const double ax = parts_.p0.x - p.x, ay = parts_.p0.y - p.y;
+    const double start = ax * parts_.along.x + ay * parts_.along.y, end = start + parts_.length;
+    const double side = ax * parts_.along.y - ay * parts_.along.x;
     const double beyond = std::max(0.0, std::max(start, -end));
     return {start, end, side, side * side + beyond * beyond};
   }
   /// Field there [1/m^2]; 0 from `reach` on.
   double fieldAt(const Place& place) const {
-    if (place.square_distance >= square_reach_) return 0.0;
-    const double square = place.side * place.side, room = square_reach_ - square;
+    if (place.square_distance >= parts_.square_reach) return 0.0;
+    const double square = place.side * place.side, room = parts_.square_reach - square;
     double lo = place.start, hi = place.end;
     // Both ends within reach, as in most short steps, need no cut.
     if (lo * lo > room || hi * hi > room) {
@@ -81,18 +88,17 @@ class CompactField {
       hi = std::min(hi, half);
     }
     if (!(hi > lo)) return 0.0;
-    return kernelIntegral(lo, hi, square + square_softness_) - (hi - lo) * edge_;
+    return kernelIntegral(lo, hi, square + parts_.square_softness) - (hi - lo) * parts_.edge;
   }
   double fieldAt(const Point& p) const { return fieldAt(placeOf(p)); }
-  double length() const { return length_; }
-  Point along() const { return along_; }
+  double length() const { return parts_.length; }
+  Point along() const { return parts_.along; }
 
   /// Field of an endless straight track at `distance`.
   static double ofEndlessTrack(double distance, double reach, double softness);
 
  private:
-  Point p0_, along_{1.0, 0.0};
-  double length_{0.0}, square_reach_, square_softness_, edge_;
+  Parts parts_;
 };
 
 /// Shorter steps are no motion [m]; a point this near to the track has no side.

@@ -160,6 +160,7 @@ class TreadMap {
   TreadSource* sourceOf(std::uint32_t id);
   bool isJump(const TreadSource& from, const Point& to, Nanoseconds stamp) const;
   bool moveWindow(TreadSource& source, double reach);
+  Box boxOf(const Point& low, const Point& high, double reach) const;
   int press(TreadStroke& stroke);
   int pressBlock(TreadStroke& stroke, int block_row, int block_column, const Box& box);
   void forgetRecent();
