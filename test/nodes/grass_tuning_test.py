@@ -88,7 +88,7 @@ class GrassTuning(unittest.TestCase):
         expect(lambda count: count < 1000, 'few blades')
         self.tune(tolerance=1.5)
         expect(lambda count: count > 3000, 'many blades again')
-        self.tune(farthest=3.0)
+        self.tune(farthest=1.0)
         expect(lambda count: count < 1000, 'no blades as far as that')
         eye.close()
         log.close()
