@@ -74,6 +74,8 @@ void AgentCrowd::populate() {
 
 void AgentCrowd::tick(std::int64_t) {
   const Nanoseconds stamp = clock_.stamp();
+  if (!begun_ && !options_.replay) publishBeginning(stamp);
+  begun_ = true;
   if (!options_.replay) followRobots(stamp);
   for (CrowdEvent& event : inputs_.take(stamp)) {
     event.header.frame_id = options_.frame_id;
@@ -88,6 +90,15 @@ void AgentCrowd::tick(std::int64_t) {
   crowd_->advance(stamp);
   publishAgents(stamp);
   publishTreads(stamp);
+}
+
+// A replay does not know when this run began: it begins anew then.
+void AgentCrowd::publishBeginning(Nanoseconds stamp) {
+  CrowdEvent event;
+  event.kind = CrowdEvent::RESET;
+  event.header.stamp = toStamp(stamp);
+  event.header.frame_id = options_.frame_id;
+  events_publisher_.publish(event);
 }
 
 void AgentCrowd::apply(const CrowdEvent& event) {
@@ -173,6 +184,7 @@ void AgentCrowd::restart(Nanoseconds now) {
     return options_.replay ? fromMsg(event.header.stamp) > now : of_walker;
   });
   tf_buffer_.clear();
+  begun_ = false;
 }
 
 }  // namespace vegetation_sim

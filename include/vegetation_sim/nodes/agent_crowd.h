@@ -55,6 +55,7 @@ class AgentCrowd {
   void listen();
   void populate();
   void tick(std::int64_t tick);
+  void publishBeginning(Nanoseconds stamp);
   void apply(const CrowdEvent& event);
   void applyToWalker(const CrowdEvent& event);
   void adoptTrunks(std::uint64_t hash);
@@ -89,6 +90,7 @@ class AgentCrowd {
   std::uint32_t promised_{0};                      // next id that spawn tells
   std::map<std::uint64_t, ForestLayout> layouts_;  // heard, by hash
   std::map<std::uint64_t, nav_msgs::OccupancyGrid> covers_;
+  bool begun_{false};  // a tick was done since the start or the last jump back
   std::size_t trunks_{0};
   Nanoseconds framed_{0};  // stamp of the last frames
   struct Trodden {
