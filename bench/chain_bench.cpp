@@ -22,8 +22,9 @@ using Trees = std::vector<std::vector<Link>>;
 
 constexpr double STEP = 1.0 / 240.0;
 constexpr double STEPS_A_SECOND = 240.0;  // 60 Hz, four sub-steps
-// Floats that the three passes read and write a link, rows that stay in the cache left out.
-constexpr double BYTES = 4.0 * ((14 + 24) + (40 + 17) + (31 + 4));
+// Floats that the passes read and write a link, rows that stay in the cache left out: out, back,
+// what is ahead, its wrenches, settling.
+constexpr double BYTES = 4.0 * ((15 + 31) + (47 + 17) + (60 + 8) + (30 + 2) + (33 + 4));
 
 struct Path {
   std::string name;
@@ -32,8 +33,9 @@ struct Path {
 };
 
 template <class Batch>
-Path batched(const std::string& name, const Trees& trees) {
+Path batched(const std::string& name, const Trees& trees, Products products = Products::MEAN) {
   auto batch = std::make_shared<Batch>(trees);
+  batch->setProducts(products);
   double links = 0.0;
   for (std::size_t t = 0; t < trees.size(); ++t) {
     batch->setState(static_cast<int>(t), randomState(trees[t].size(), 0.02, 0.1, t));
@@ -56,8 +58,10 @@ Path inWind(const std::string& name, std::shared_ptr<Trees> trees) {
   return out;
 }
 
-Path plain(const std::string& name, std::shared_ptr<Trees> trees, bool wind) {
+Path plain(const std::string& name, std::shared_ptr<Trees> trees, bool wind,
+           Products products = Products::MEAN) {
   auto run = std::make_shared<Simulation>(Simulation{trees->front()});
+  run->stepper.setProducts(products);
   run->state = randomState(run->links.size(), 0.02, 0.1, 1);
   const Surroundings around = wind ? gustAndPull(trees->front(), 18.0, 20.0) : Surroundings();
   return {name, static_cast<double>(run->links.size()), [run, around, trees](int steps) {
@@ -95,12 +99,17 @@ void benchPaths(int rounds, double bandwidth) {
         batched<BatchChain>("equal depth, trees together", several),
         batched<TwinChains>("16 trees of one topology", Trees(16, one->front())),
         plain("plain double, wind asked for", one, true),
-        inWind<BatchChain>("equal depth, wind asked for", one)};
+        inWind<BatchChain>("equal depth, wind asked for", one),
+        plain("plain, products at start", one, false, Products::START),
+        batched<BatchChain>("one tree, products at start", *one, Products::START),
+        batched<BatchChain>("together, products at start", several, Products::START),
+        batched<TwinChains>("16 trees, products at start", Trees(16, one->front()),
+                            Products::START)};
     const std::vector<double> cost = measure(paths, rounds);
     for (std::size_t i = 0; i < paths.size(); ++i) {
       const bool batch = paths[i].name.find("plain") != 0;
       std::printf("%-34s %7.0f %9.2f %7.1f", paths[i].name.c_str(), paths[i].links, cost[i],
-                  cost[i < 4 ? 0 : 4] / cost[i]);
+                  cost[i == 4 || i == 5 ? 4 : 0] / cost[i]);
       if (batch) std::printf(" %10.0f%%", 100.0 * BYTES / (1e-9 * cost[i] * bandwidth));
       std::printf("%s %14.0f\n", batch ? "" : "            ", 1e9 / (STEPS_A_SECOND * cost[i]));
     }

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "physics/bend.h"
 #include "vegetation_sim/common/math.h"
+#include "vegetation_sim/physics/bend.h"
 
 namespace vegetation_sim::forest {
 namespace {

@@ -3,44 +3,55 @@
 #include "vegetation_sim/physics/articulated.h"
 
 #include "physics/articulated_body.h"
-#include "physics/bend.h"
 
 namespace vegetation_sim::physics {
-namespace {
 
-using Acceleration = ArticulatedBody::Acceleration;
-using Joint = ArticulatedBody::Joint;
-
-const BaseMotion GROUND;
-const Acceleration NONE{Vec3::Zero(), Vec3::Zero()};
-
-const BaseMotion& baseOf(const Link& link, const std::vector<BaseMotion>& bases) {
-  return bases.empty() ? GROUND : bases[static_cast<std::size_t>(link.base)];
+void ArticulatedBody::look(const std::vector<Link>& links, const std::vector<BaseMotion>& bases,
+                           const ChainState& state, Kinematics& out) {
+  const std::size_t n = links.size();
+  joints_.resize(n);
+  out.pose.resize(n);
+  out.spin.resize(n);
+  out.velocity.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Link& link = links[i];
+    const bool root = link.parent < 0;
+    const auto p = static_cast<std::size_t>(root ? 0 : link.parent);
+    const BaseMotion& base = baseOf(link, bases);
+    const Pose& from = root ? base.pose : out.pose[p];
+    const Vec3 spin = root ? base.spin : out.spin[p];
+    const Vec2 &q = state.q[i], &rate = state.rate[i];
+    Joint& joint = joints_[i];
+    joint.bend = bendOf(q);
+    joint.offset = link.h * (root ? axisZ(from.orientation) : joints_[p].axes.z);
+    Pose& pose = out.pose[i];
+    pose.position = from.position + joint.offset;
+    pose.orientation = from.orientation * (link.rest * rotationOf(joint.bend, q));
+    joint.axes = axesOf(pose.orientation);
+    bendAxes(joint.bend, q, joint.axes, joint.first, joint.second);
+    out.spin[i] = spin + rate.x() * joint.first + rate.y() * joint.second;
+    out.velocity[i] = (root ? base.velocity : out.velocity[p]) + cross(spin, joint.offset);
+  }
 }
 
-Acceleration accelerationOf(const BaseMotion& base) {
-  return {base.spin_rate, base.acceleration};
+void ArticulatedBody::turnOut(const Links& links, const Bases& bases, const ChainState& state,
+                              const Kinematics& k) {
+  joints_.resize(links.size());
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    const bool root = links[i].parent < 0;
+    const auto p = static_cast<std::size_t>(root ? 0 : links[i].parent);
+    Joint& joint = joints_[i];
+    joint.bend = bendOf(state.q[i]);
+    joint.axes = axesOf(k.pose[i].orientation);
+    bendAxes(joint.bend, state.q[i], joint.axes, joint.first, joint.second);
+    joint.offset =
+        links[i].h * (root ? axisZ(baseOf(links[i], bases).pose.orientation) : joints_[p].axes.z);
+  }
 }
-
-// What a link does if its joint does not accelerate; `own`: spin that the joint adds, `change`: the
-// rate of that in the link's axes.
-Acceleration freeMotion(const Acceleration& parent, const Vec3& spin, const Vec3& own,
-                        const Vec3& change, const Vec3& offset, double products) {
-  return {parent.spin + products * (change + cross(spin, own)),
-          parent.linear + cross(parent.spin, offset) + products * cross(spin, cross(spin, offset))};
-}
-
-Acceleration pushed(const Acceleration& parent, const Joint& joint, const Vec2& acceleration) {
-  return {parent.spin + acceleration.x() * joint.first + acceleration.y() * joint.second,
-          parent.linear + cross(parent.spin, joint.offset)};
-}
-
-}  // namespace
 
 void ArticulatedBody::sweepOut(const Links& links, const Bases& bases, const ChainState& state,
                                const Kinematics& k, double products) {
   const std::size_t n = links.size();
-  joints_.resize(n);
   bodies_.resize(n);
   free_.resize(n);
   push_.resize(n);
@@ -51,14 +62,11 @@ void ArticulatedBody::sweepOut(const Links& links, const Bases& bases, const Cha
     const auto p = static_cast<std::size_t>(root ? 0 : link.parent);
     const BaseMotion& base = baseOf(link, bases);
     const Vec3 spin = root ? base.spin : k.spin[p];
-    const Vec2& q = state.q[i];
-    const Bend bend = bendOf(q);
-    const Axes axes = axesOf(k.pose[i].orientation);
-    Joint& joint = joints_[i];
-    bendAxes(bend, q, axes, joint.first, joint.second);
-    joint.offset = link.h * axisZ(root ? base.pose.orientation : k.pose[p].orientation);
-    free_[i] = freeMotion(root ? accelerationOf(base) : free_[p], spin, k.spin[i] - spin,
-                          bendBias(bend, q, state.rate[i], axes), joint.offset, products);
+    const Joint& joint = joints_[i];
+    const Axes& axes = joint.axes;
+    free_[i] =
+        freeMotion(root ? accelerationOf(base) : free_[p], spin, k.spin[i] - spin,
+                   bendBias(joint.bend, state.q[i], state.rate[i], axes), joint.offset, products);
     rigidBody(link, axes, bodies_[i]);
     bias_[i] = biasOf(link, axes, k.spin[i], free_[i], products);
     bodies_[i].torque = bias_[i].torque;
@@ -127,23 +135,6 @@ void ArticulatedBody::sweepBack(const Links& links, const ChainState& state, con
   }
 }
 
-// What the joints must do under the wrenches in bodies_ alone, inertias as they were.
-void ArticulatedBody::sweepWrenches(const Links& links) {
-  for (std::size_t i = links.size(); i-- > 0;) {
-    const Joint& joint = joints_[i];
-    Body& body = bodies_[i];
-    Gain& gain = gains_[i];
-    gain.drive1 = -dot(joint.first, body.torque);
-    gain.drive2 = -dot(joint.second, body.torque) - gain.coupling * gain.drive1;
-    if (links[i].parent < 0) continue;
-    Body& parent = bodies_[static_cast<std::size_t>(links[i].parent)];
-    const double x1 = gain.inverse1 * gain.drive1, x2 = gain.inverse2 * gain.drive2;
-    const Vec3 force = body.force + x1 * gain.b1 + x2 * gain.b2;
-    parent.torque += body.torque + x1 * gain.a1 + x2 * gain.a2 + cross(joint.offset, force);
-    parent.force += force;
-  }
-}
-
 void ArticulatedBody::settle(const Links& links, std::vector<Vec2>& out) {
   out.resize(links.size());
   for (std::size_t i = 0; i < links.size(); ++i) {
@@ -166,41 +157,25 @@ void ArticulatedBody::accelerations(const std::vector<Link>& links,
                                     const std::vector<BaseMotion>& bases, const ChainState& state,
                                     const Kinematics& kinematics, const Loads& loads,
                                     const Implicitness& implicitness, std::vector<Vec2>& out) {
+  turnOut(links, bases, state, kinematics);
+  solve(links, bases, state, kinematics, loads, implicitness, out);
+}
+
+void ArticulatedBody::solve(const std::vector<Link>& links, const std::vector<BaseMotion>& bases,
+                            const ChainState& state, const Kinematics& kinematics,
+                            const Loads& loads, const Implicitness& implicitness,
+                            std::vector<Vec2>& out) {
   sweepOut(links, bases, state, kinematics, implicitness.products);
   addLoads(loads, implicitness);
   sweepBack(links, state, loads, implicitness);
   settle(links, out);
 }
 
-// The wrenches change by half of what the links' bias does; the chain answers as it did before.
-void ArticulatedBody::averageProducts(const std::vector<Link>& links,
-                                      const std::vector<BaseMotion>& bases, const ChainState& state,
-                                      const Kinematics& k, double h, std::vector<Vec2>& out) {
-  for (std::size_t i = 0; i < links.size(); ++i) {
-    const Link& link = links[i];
-    const bool root = link.parent < 0;
-    const auto p = static_cast<std::size_t>(root ? 0 : link.parent);
-    const BaseMotion& base = baseOf(link, bases);
-    const Vec3 parent = root ? base.spin : Vec3(k.spin[p] + h * push_[p].spin);
-    const Vec3 spin = k.spin[i] + h * push_[i].spin;
-    const Axes axes = axesOf(k.pose[i].orientation);
-    const Vec2 rate = state.rate[i] + h * out[i];
-    free_[i] =
-        freeMotion(root ? accelerationOf(base) : free_[p], parent, spin - parent,
-                   bendBias(bendOf(state.q[i]), state.q[i], rate, axes), joints_[i].offset, 1.0);
-    const Wrench bias = biasOf(link, axes, spin, free_[i], 1.0);
-    bodies_[i].torque = 0.5 * (bias.torque - bias_[i].torque);
-    bodies_[i].force = 0.5 * (bias.force - bias_[i].force);
-  }
-  sweepWrenches(links);
-  settle(links, change_);
-  for (std::size_t i = 0; i < links.size(); ++i) out[i] += change_[i];
-}
-
 void ArticulatedBody::torques(const std::vector<Link>& links, const std::vector<BaseMotion>& bases,
                               const ChainState& state, const Kinematics& kinematics,
                               const Loads& loads, const std::vector<Vec2>& acceleration,
                               std::vector<Vec2>& out) {
+  turnOut(links, bases, state, kinematics);
   sweepOut(links, bases, state, kinematics, 1.0);
   addLoads(loads, {});
   for (std::size_t i = 0; i < links.size(); ++i) {

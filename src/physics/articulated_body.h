@@ -3,13 +3,40 @@
 #pragma once
 
 #include "physics/bar.h"
-#include "physics/bend.h"
 #include "physics/symmetric.h"
 #include "vegetation_sim/physics/articulated.h"
 
 namespace vegetation_sim::physics {
 
-// Inertias about a joint: a rigid link's, a point's, a child's.
+// Motion of joints; inertias about a joint: a rigid link's, a point's, a child's.
+
+inline const BaseMotion GROUND;
+inline const ArticulatedBody::Acceleration NONE{Vec3::Zero(), Vec3::Zero()};
+
+inline const BaseMotion& baseOf(const Link& link, const std::vector<BaseMotion>& bases) {
+  return bases.empty() ? GROUND : bases[static_cast<std::size_t>(link.base)];
+}
+
+inline ArticulatedBody::Acceleration accelerationOf(const BaseMotion& base) {
+  return {base.spin_rate, base.acceleration};
+}
+
+// What a link does if its joint does not accelerate; `own`: spin that the joint adds, `change`: its
+// own rate.
+inline ArticulatedBody::Acceleration freeMotion(const ArticulatedBody::Acceleration& parent,
+                                                const Vec3& spin, const Vec3& own,
+                                                const Vec3& change, const Vec3& offset,
+                                                double products) {
+  return {parent.spin + products * (change + cross(spin, own)),
+          parent.linear + cross(parent.spin, offset) + products * cross(spin, cross(spin, offset))};
+}
+
+inline ArticulatedBody::Acceleration pushed(const ArticulatedBody::Acceleration& parent,
+                                            const ArticulatedBody::Joint& joint,
+                                            const Vec2& acceleration) {
+  return {parent.spin + acceleration.x() * joint.first + acceleration.y() * joint.second,
+          parent.linear + cross(parent.spin, joint.offset)};
+}
 
 inline Vec3 timesB(const ArticulatedBody::Body& body, const Vec3& v) {
   return {dot(body.bx, v), dot(body.by, v), dot(body.bz, v)};

@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "physics/bend.h"
+#include "vegetation_sim/physics/bend.h"
 
 #include <cmath>
 

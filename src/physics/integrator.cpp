@@ -52,7 +52,7 @@ void ChainStepper::look(const std::vector<Link>& links, const Surroundings& outs
                         const ChainState& state) {
   if (outside.bases) outside.bases(time, bases_);
   if (!outside.bases) bases_.clear();
-  kinematicsOf(links, bases_, state, kinematics_);
+  body_.look(links, bases_, state, kinematics_);
   loads_.clear(links.size());
   if (outside.loads) outside.loads(kinematics_, time, loads_);
 }
@@ -62,7 +62,7 @@ void ChainStepper::evaluate(const std::vector<Link>& links, const Surroundings& 
                             Angles& out) {
   look(links, outside, time, state);
   if (dynamics_ == Dynamics::ARTICULATED)
-    return body_.accelerations(links, bases_, state, kinematics_, loads_, implicitness, out);
+    return body_.solve(links, bases_, state, kinematics_, loads_, implicitness, out);
   PaperBody& paper = dynamics_ == Dynamics::PAPER ? paper_ : printed_;
   paper.accelerations(links, bases_, state, kinematics_, loads_, implicitness, out);
 }

@@ -1,6 +1,5 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "physics/bend.h"
 #include "physics/symmetric.h"
 #include "vegetation_sim/physics/articulated.h"
 

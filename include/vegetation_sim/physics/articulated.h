@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "vegetation_sim/physics/bend.h"
 #include "vegetation_sim/physics/chain.h"
 
 namespace vegetation_sim::physics {
@@ -50,13 +51,21 @@ inline Implicitness foreseeing(double theta, double h, double products) {
 /// faster one. Keeps its scratch, so that a step allocates nothing once it has run.
 class ArticulatedBody {
  public:
-  /// Accelerations of all joints [rad/s^2]. `kinematics` is kinematicsOf(state).
+  /// kinematicsOf, and remembers what solve() needs of it.
+  void look(const std::vector<Link>& links, const std::vector<BaseMotion>& bases,
+            const ChainState& state, Kinematics& out);
+  /// Accelerations of all joints [rad/s^2], for what look() saw.
+  void solve(const std::vector<Link>& links, const std::vector<BaseMotion>& bases,
+             const ChainState& state, const Kinematics& kinematics, const Loads& loads,
+             const Implicitness& implicitness, std::vector<Vec2>& out);
+  /// Both for those who have `kinematics`, kinematicsOf(state), already.
   void accelerations(const std::vector<Link>& links, const std::vector<BaseMotion>& bases,
                      const ChainState& state, const Kinematics& kinematics, const Loads& loads,
                      const Implicitness& implicitness, std::vector<Vec2>& out);
 
-  /// To be called after accelerations(), with its `out`: makes them those of velocity products that
-  /// are the mean of what they are at `state.rate` and at `state.rate + h out`, in the same pose.
+  /// To be called after accelerations() or solve(), with its `out`: makes them those of velocity
+  /// products that are the mean of what they are at `state.rate` and at `state.rate + h out`, in
+  /// the same pose.
   void averageProducts(const std::vector<Link>& links, const std::vector<BaseMotion>& bases,
                        const ChainState& state, const Kinematics& kinematics, double h,
                        std::vector<Vec2>& out);
@@ -74,8 +83,10 @@ class ArticulatedBody {
   struct Joint {
     Vec3 first, second;  // axes of the two bends
     Vec3 offset;         // from what it hangs on to the joint
+    Axes axes;           // of the link
+    Bend bend;
   };
-  /// Of the last accelerations() or torques(), per link.
+  /// Of the last look(), accelerations() or torques(), per link.
   const std::vector<Joint>& joints() const { return joints_; }
 
   /// Articulated inertia and bias: torque = a alpha + b acc + torque, force = b^T alpha + m acc +
@@ -101,6 +112,8 @@ class ArticulatedBody {
   using Links = std::vector<Link>;
   using Bases = std::vector<BaseMotion>;
 
+  void turnOut(const Links& links, const Bases& bases, const ChainState& state,
+               const Kinematics& kinematics);
   void sweepOut(const Links& links, const Bases& bases, const ChainState& state,
                 const Kinematics& kinematics, double products);
   void addLoads(const Loads& loads, const Implicitness& implicitness);
