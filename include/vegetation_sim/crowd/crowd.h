@@ -41,9 +41,9 @@ using Resistance = std::function<double(const Point&)>;
 /// Most walkers of a crowd, most robots among them.
 constexpr std::size_t MOST_WALKERS = 100000, MOST_ROBOTS = 64;
 
-/// Walkers who see, decide and move (paper 2, section 5). Inputs take effect at the next tick.
-/// Each walker looks at the crowd as it was, so the order in which they are stepped, and on how
-/// many threads, changes nothing. Not thread-safe itself.
+/// Walkers who see, decide and move (paper 2, section 5; S2-30). Inputs take effect at the next
+/// tick. Each walker looks at the crowd as it was, so the order in which they are stepped, and on
+/// how many threads, changes nothing. Not thread-safe itself.
 class Crowd {
  public:
   /// @throws InvalidInput with all faults of the settings.

@@ -29,14 +29,14 @@ using Movers = std::array<Mover, View::MOST>;
 
 /// Standard deviation of the heading's noise at a distance [rad]: growing from 0 at contact to its
 /// largest at the sensor's range, or as printed the other way round, there bounded by ten times
-/// (E7).
+/// (S2-33, E7).
 double noiseAt(const CrowdSettings& settings, double distance);
 
 /// A number with mean 0 and variance 1, near to normal: the sum of eight uniform ones.
 double normalNumber(std::uint64_t key, std::uint64_t index);
 
-/// The paper's law: slower the nearer the nearest obstacle, turned away from its side; one straight
-/// ahead counts as left, so that one turns right.
+/// The paper's law (S2-32): slower the nearer the nearest obstacle, turned away from its side; one
+/// straight ahead counts as left, so that one turns right.
 Command decideByPaper(const Walker& walker, const View& view, const CrowdSettings& settings,
                       const Wish& wish, Nanoseconds stamp);
 

@@ -15,8 +15,8 @@ struct Joints {
   double elbow{0.0};     ///< flexion
 };
 
-/// Joints of a person who walks, `phase` in cycles: key frames joined by cubic Bezier curves whose
-/// slopes agree at every key and across the cycle's end.
+/// Joints of a person who walks (S2-35), `phase` in cycles: key frames joined by cubic Bezier
+/// curves whose slopes agree at every key and across the cycle's end.
 Joints jointsAt(double phase);
 /// Slopes of the same [rad per cycle].
 Joints jointRatesAt(double phase);

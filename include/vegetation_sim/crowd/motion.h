@@ -7,7 +7,7 @@
 namespace vegetation_sim::crowd {
 
 /// What the ground does to the speed: 1 on the flat, less uphill and on steep ways down (Tobler
-/// 1993). @param slope rise per run along the way.
+/// 1993; S2-34, S2-37). @param slope rise per run along the way.
 double slopeFactor(double slope);
 
 /// A limit on the step: its part along `normal` is to be at most `wanted`, and is never more than

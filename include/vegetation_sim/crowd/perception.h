@@ -25,7 +25,7 @@ struct Sight {
   double radius{0.0};  ///< of a disc [m]
 };
 
-/// What a walker perceives: (d, theta) of paper 2, section 5.1, for the nearest obstacles.
+/// What a walker perceives: (d, theta) of paper 2, section 5.1 (S2-31), for the nearest.
 struct View {
   static constexpr int MOST = 8;
   std::array<Sight, MOST> sights;  ///< nearest first

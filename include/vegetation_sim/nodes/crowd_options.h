@@ -14,7 +14,8 @@
 
 namespace vegetation_sim {
 
-/// How walkers tread: not at all, as one source a walker, or with each foot where it comes down.
+/// How walkers tread (S2-36): not at all, as one source a walker, or with each foot where it comes
+/// down.
 enum class Treading : int { NONE = 0, BODY = 1, FEET = 2 };
 
 /// Parameters of agent_crowd; README.md has them in words.
