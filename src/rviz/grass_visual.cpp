@@ -103,7 +103,7 @@ bool GrassVisual::isDrawn(const Drawn& wanted) const {
 
 void GrassVisual::update(const GrassSource& source, Nanoseconds stamp, double wall,
                          const View& view, const Options& options) {
-  Drawn wanted{stamp, source.changes(), view.eye.position, view.forward, true};
+  Drawn wanted{stamp, source.changes(), view.eye.position, view.forward, 0, true};
   if (isDrawn(wanted)) return;
   const Eye eye = eyeOf(view);
   levels_.setSettings(options.levels);
@@ -114,9 +114,13 @@ void GrassVisual::update(const GrassSource& source, Nanoseconds stamp, double wa
   wanted.settled = std::all_of(tiles.begin(), tiles.end(), [](const grass::TileView& t) {
     return t.morph.slide == 0.0 || (!t.morph.blades && t.morph.strip == 1.0);
   });
-  // Two alike in a row: the number of blades has found its tolerance too.
-  wanted.settled = wanted.settled && drawn_.stamp == stamp && drawn_.eye == wanted.eye;
   build(source, stamp, view, tiles, options);
+  // Two alike in a row: the number of blades has found its tolerance too.
+  wanted.blades = report_.blades;
+  const std::size_t gap =
+      std::max(drawn_.blades, wanted.blades) - std::min(drawn_.blades, wanted.blades);
+  wanted.settled = wanted.settled && drawn_.stamp == stamp && drawn_.eye == wanted.eye &&
+                   500 * gap <= wanted.blades;
   drawn_ = wanted;
   ++report_.rebuilds;
 }

@@ -1,7 +1,5 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include <OgreMaterialManager.h>
-#include <OgreTextureManager.h>
 #include <gtest/gtest.h>
 #include <rviz/properties/bool_property.h>
 #include <rviz/properties/float_property.h>
@@ -52,26 +50,6 @@ class ForestDisplayTest : public testing::Test {
   DisplayRig& rig{*shared_rig};
   ForestDisplay* display{nullptr};
 };
-
-template <class T>
-std::vector<T*> propertiesOf(rviz::Property& parent) {
-  std::vector<T*> out;
-  for (int i = 0; i < parent.numChildren(); ++i) {
-    rviz::Property* child = parent.childAt(i);
-    if (auto* found = dynamic_cast<T*>(child)) out.push_back(found);
-    for (T* deeper : propertiesOf<T>(*child)) out.push_back(deeper);
-  }
-  return out;
-}
-
-std::size_t resources() {
-  std::size_t out = 0;
-  auto textures = Ogre::TextureManager::getSingleton().getResourceIterator();
-  for (; textures.hasMoreElements(); textures.moveNext()) ++out;
-  auto materials = Ogre::MaterialManager::getSingleton().getResourceIterator();
-  for (; materials.hasMoreElements(); materials.moveNext()) ++out;
-  return out;
-}
 
 // S2-16: trees are built on the fly from the layout, and seen.
 TEST_F(ForestDisplayTest, DrawsAForestWithGroundAndSky) {

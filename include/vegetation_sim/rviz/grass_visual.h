@@ -62,6 +62,7 @@ class GrassVisual {
     Nanoseconds stamp{-1};
     int changes{-1};
     Vec3 eye{Vec3::Zero()}, forward{Vec3::Zero()};
+    std::size_t blades{0};
     bool settled{false};
   };
   bool isDrawn(const Drawn& wanted) const;

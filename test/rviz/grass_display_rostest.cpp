@@ -1,0 +1,255 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+#include <rviz/properties/bool_property.h>
+#include <rviz/properties/float_property.h>
+#include <rviz/properties/int_property.h>
+#include <rviz/view_controller.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+#include "rviz/grass_rig.h"
+
+namespace vegetation_sim {
+namespace {
+
+constexpr int TILES = 20;  // along an edge
+
+// rviz can only be started once in a process: one rig for all tests, a fresh display for each.
+std::unique_ptr<GrassRig> shared_rig;
+
+class GrassDisplayTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() { shared_rig = std::make_unique<GrassRig>(); }
+  static void TearDownTestSuite() { shared_rig.reset(); }
+
+  void SetUp() override {
+    rig.setTime(rig.now() + 10.0);
+    rig.publishMeadow(GrassRig::meadow(TILES));
+    display = rig.addDisplay();
+    ASSERT_NE(display, nullptr) << "the plugin is not found or is another class";
+    lookFrom(0.5, 9.0);
+  }
+  void TearDown() override {
+    if (display != nullptr) rig.remove(display);
+  }
+
+  void lookFrom(double pitch, double distance) {
+    rviz::ViewController& view = *rig.manager().getViewManager()->getCurrent();
+    view.lookAt(0.f, 0.f, 0.3f);
+    view.subProp("Pitch")->setValue(pitch);
+    view.subProp("Yaw")->setValue(0.8);
+    view.subProp("Distance")->setValue(distance);
+  }
+  bool drawn() {
+    return rig.until([&] { return display->drawn().blades > 0; });
+  }
+  /// Drawn, and nothing more is done while the clock stands.
+  bool settled() {
+    int before = -1;
+    return drawn() && rig.until([&] {
+      const bool same = display->drawn().rebuilds == before;
+      before = display->drawn().rebuilds;
+      rig.frames(10);
+      return same;
+    });
+  }
+  std::string status(const char* name) {
+    for (auto* property : propertiesOf<rviz::Property>(*display))
+      if (property->getName() == name) return property->getValue().toString().toStdString();
+    return {};
+  }
+  /// Mean of green over a box in the middle of the picture, and how far it is from `other`.
+  double changed(const std::vector<std::uint8_t>& before) {
+    const std::vector<std::uint8_t> now = rig.picture();
+    double sum = 0.0;
+    for (std::size_t i = 0; i < now.size(); ++i)
+      sum += std::abs(static_cast<int>(now[i]) - static_cast<int>(before[i]));
+    return sum / static_cast<double>(now.size());
+  }
+
+  GrassRig& rig{*shared_rig};
+  GrassDisplay* display{nullptr};
+};
+
+// S2-05, S2-13: blades, strips beyond them and a ground without holes are seen.
+TEST_F(GrassDisplayTest, DrawsAMeadowWithGroundAndSky) {
+  lookFrom(0.25, 12.0);
+  display->subProp("Blades")->setValue(3000);
+  ASSERT_TRUE(settled());
+  EXPECT_GT(display->drawn().bladed, 0u);
+  EXPECT_GT(display->drawn().stripped, 0u);
+  const Impression seen = rig.look();
+  EXPECT_GT(seen.green, 0.3);
+  EXPECT_GT(seen.blue, 0.05);
+  EXPECT_GT(seen.spread, 15.0);
+}
+
+// S2-17: the wind moves the grass with the clock, and only with it.
+TEST_F(GrassDisplayTest, MovesWithTheClockAlone) {
+  ASSERT_TRUE(settled());
+  const std::vector<std::uint8_t> before = rig.picture();
+  rig.frames(10);
+  EXPECT_EQ(rig.picture(), before);
+  rig.setTime(rig.now() + 0.5);
+  EXPECT_TRUE(rig.until([&] { return changed(before) > 0.5; }));
+}
+
+// S2-21: a track is seen among blades, among strips and on the ground's picture alone.
+TEST_F(GrassDisplayTest, ShowsTracksAtEveryLevel) {
+  struct Level {
+    bool blades, strips;
+  };
+  for (const Level level : {Level{true, true}, Level{false, true}, Level{false, false}}) {
+    display->subProp("Single Blades")->setValue(level.blades);
+    display->subProp("Strips")->setValue(level.strips);
+    rig.publishMeadow(GrassRig::meadow(TILES), 0.0);
+    ASSERT_TRUE(rig.until([&] { return display->drawn().trodden == 0; }));
+    rig.frames(40);
+    const std::vector<std::uint8_t> before = rig.picture();
+    rig.tread({-4.0, 0.0}, {4.0, 0.0});
+    ASSERT_TRUE(rig.until([&] { return display->paintedTracks() > 3; }));
+    ASSERT_TRUE(rig.until([&] { return display->drawn().trodden > 0; }));
+    rig.frames(10);
+    EXPECT_GT(changed(before), 0.4) << level.blades << level.strips;
+  }
+}
+
+// S2-28: tracks go as the grass rises.
+TEST_F(GrassDisplayTest, TracksGoWhenTheGrassHasRisen) {
+  ASSERT_TRUE(settled());
+  rig.tread({-4.0, 0.0}, {4.0, 0.0}, 5.0);
+  ASSERT_TRUE(rig.until([&] { return display->paintedTracks() > 3; }));
+  EXPECT_TRUE(rig.until([&] {
+    rig.setTime(rig.now() + 0.1);
+    return display->drawn().trodden == 0 && display->paintedTracks() == 0;
+  }));
+}
+
+// S2-15: fewer blades, or farther away, make a coarser picture, never more than asked.
+TEST_F(GrassDisplayTest, KeepsToTheBlades) {
+  for (const int most : {20000, 4000}) {
+    display->subProp("Blades")->setValue(most);
+    EXPECT_TRUE(rig.until([&] {
+      return display->drawn().blades > 0 &&
+             display->drawn().blades < 1.15 * static_cast<double>(most);
+    })) << display->drawn().blades;
+  }
+  lookFrom(0.3, 300.0);
+  EXPECT_TRUE(rig.until([&] { return display->drawn().blades == 0; }));
+}
+
+TEST_F(GrassDisplayTest, SurvivesTimeGoingBack) {
+  ASSERT_TRUE(settled());
+  rig.tread({-4.0, 0.0}, {4.0, 0.0});
+  ASSERT_TRUE(rig.until([&] { return display->drawn().trodden > 0; }));
+  rig.setTime(rig.now() - 50.0);
+  rig.publishMeadow(GrassRig::meadow(TILES));  // as the node does
+  EXPECT_TRUE(
+      rig.until([&] { return display->drawn().tiles > 0 && display->drawn().trodden == 0; }));
+  rig.tread({-4.0, 1.0}, {4.0, 1.0});
+  EXPECT_TRUE(rig.until([&] { return display->drawn().trodden > 0; }));
+}
+
+TEST_F(GrassDisplayTest, RefusesWhatCannotBeAndKeepsWhatItHas) {
+  ASSERT_TRUE(settled());
+  GrassLayout layout = toMsg(GrassRig::meadow(4));
+  layout.header.frame_id = "map";
+  layout.density.value = std::numeric_limits<double>::quiet_NaN();
+  rig.publish(layout);
+  WindField wind = toMsg(wind::Field({forest::makeBreeze(1, Vec3(3.0, 0.0, 0.0))}), "map", 0);
+  wind.primitives[0].velocity.x = std::numeric_limits<double>::infinity();
+  rig.publish(wind);
+  GrassState stranger;
+  stranger.header.stamp.fromSec(rig.now());
+  stranger.key_frame = true;
+  stranger.layout_hash = 12345;
+  rig.publish(stranger);
+  EXPECT_TRUE(rig.until([&] {
+    return status("Layout").rfind("Refused", 0) == 0 && status("Wind").rfind("Refused", 0) == 0 &&
+           status("State").find("layout") != std::string::npos;
+  })) << status("Layout")
+      << "; " << status("Wind") << "; " << status("State");
+  EXPECT_EQ(display->drawn().tiles, static_cast<std::size_t>(TILES) * TILES);
+}
+
+TEST_F(GrassDisplayTest, FollowsALayoutThatChanges) {
+  ASSERT_TRUE(drawn());
+  rig.publishMeadow(GrassRig::meadow(6));
+  EXPECT_TRUE(rig.until([&] { return display->drawn().tiles == 36; }));
+}
+
+TEST_F(GrassDisplayTest, EveryPropertyCanBeChanged) {
+  ASSERT_TRUE(drawn());
+  for (auto* flag : propertiesOf<rviz::BoolProperty>(*display)) {
+    flag->setBool(!flag->getBool());
+    rig.frames(2);
+    flag->setBool(!flag->getBool());
+    rig.frames(2);
+    EXPECT_FALSE(flag->getDescription().isEmpty());
+  }
+  for (auto* number : propertiesOf<rviz::FloatProperty>(*display)) {
+    const float value = number->getFloat();
+    for (const float other : {number->getMin(), value * 1.1f, value}) {
+      number->setFloat(other);
+      rig.frames(1);
+    }
+    EXPECT_FALSE(number->getDescription().isEmpty());
+  }
+  display->subProp("Blades")->setValue(1000);
+  EXPECT_TRUE(drawn());
+}
+
+TEST_F(GrassDisplayTest, SettingsSurviveSaveAndLoad) {
+  display->subProp("Blades")->setValue(54321);
+  display->subProp("Tolerance")->setValue(3.5f);
+  display->subProp("Haze")->subProp("End")->setValue(777.f);
+  rviz::Config saved;
+  display->save(saved);
+  GrassDisplay* other = rig.addDisplay();
+  other->load(saved);
+  rviz::Config again;
+  other->save(again);
+  for (auto it = saved.mapIterator(); it.isValid(); it.advance())
+    EXPECT_EQ(it.currentChild().getValue(), again.mapGetChild(it.currentKey()).getValue())
+        << it.currentKey().toStdString();
+  EXPECT_EQ(other->subProp("Haze")->subProp("End")->getValue().toFloat(), 777.f);
+  EXPECT_EQ(other->subProp("Blades")->getValue().toInt(), 54321);
+  rig.remove(other);
+}
+
+TEST_F(GrassDisplayTest, LeavesNothingBehind) {
+  ASSERT_TRUE(drawn());
+  rig.remove(display);
+  display = nullptr;
+  Ogre::SceneManager& scene = *rig.manager().getSceneManager();
+  const std::size_t before = resources();
+  const auto nodes = scene.getRootSceneNode()->numChildren();
+  EXPECT_EQ(scene.getFogMode(), Ogre::FOG_NONE);
+  for (int i = 0; i < 12; ++i) {
+    GrassDisplay* another = rig.addDisplay();
+    ASSERT_NE(another, nullptr);
+    if (i % 4 == 0)
+      ASSERT_TRUE(rig.until([&] { return another->drawn().blades > 0; }));
+    else
+      rig.frames(1);
+    if (i % 2 == 0) another->reset();
+    if (i % 3 == 0) another->setEnabled(false);
+    rig.remove(another);
+  }
+  EXPECT_EQ(resources(), before);
+  EXPECT_EQ(scene.getRootSceneNode()->numChildren(), nodes);
+  EXPECT_EQ(scene.getFogMode(), Ogre::FOG_NONE);
+}
+
+}  // namespace
+}  // namespace vegetation_sim
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "grass_display_test");
+  const QApplication application(argc, argv);
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,146 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <OgreMaterialManager.h>
+#include <OgreRenderWindow.h>
+#include <OgreTextureManager.h>
+#include <ros/ros.h>
+#include <rosgraph_msgs/Clock.h>
+#include <rviz/display_group.h>
+#include <rviz/render_panel.h>
+#include <rviz/view_manager.h>
+#include <rviz/visualization_manager.h>
+
+#include <QApplication>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace vegetation_sim {
+
+/// Share of pixels that look like leaves or grass, like sky, and how much brightness varies.
+struct Impression {
+  double green{0.0}, blue{0.0}, spread{0.0};
+};
+
+/// rviz without its window frame, and a clock that the test drives.
+class ViewRig {
+ public:
+  ViewRig() {
+    panel_.resize(480, 360);
+    panel_.show();
+    manager_ = std::make_unique<rviz::VisualizationManager>(&panel_);
+    panel_.initialize(manager_->getSceneManager(), manager_.get());
+    manager_->initialize();
+    manager_->setFixedFrame("map");
+    manager_->startUpdate();
+    clock_ = nh_.advertise<rosgraph_msgs::Clock>("/clock", 10, true);
+    setTime(100.0);
+  }
+  ~ViewRig() {
+    manager_->stopUpdate();
+    manager_->removeAllDisplays();
+  }
+
+  rviz::VisualizationManager& manager() { return *manager_; }
+  rviz::RenderPanel& panel() { return panel_; }
+  Ogre::Camera& camera() { return *manager_->getViewManager()->getCurrent()->getCamera(); }
+  ros::NodeHandle& nodeHandle() { return nh_; }
+
+  /// A display of the plugin `name`; null if there is none or it is of another class.
+  template <class Display>
+  Display* add(const char* name) {
+    return dynamic_cast<Display*>(manager_->createDisplay(name, name, true));
+  }
+  void remove(rviz::Display* display) {
+    manager_->getRootDisplayGroup()->takeDisplay(display);
+    delete display;
+  }
+
+  void setTime(double seconds) {
+    rosgraph_msgs::Clock clock;
+    clock.clock.fromSec(seconds);
+    now_ = seconds;
+    clock_.publish(clock);
+  }
+  double now() const { return now_; }
+
+  /// Runs rviz until `done` holds; false after `deadline` wall seconds.
+  bool until(const std::function<bool()>& done, double deadline = 20.0) {
+    const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(deadline);
+    while (!done()) {
+      if (ros::WallTime::now() > end) return false;
+      QApplication::processEvents(QEventLoop::AllEvents, 20);
+    }
+    return true;
+  }
+  /// Runs rviz for some of its frames.
+  void frames(int count) {
+    const std::uint64_t last = manager_->getFrameCount() + static_cast<std::uint64_t>(count);
+    until([&] { return manager_->getFrameCount() >= last; });
+  }
+
+  std::vector<std::uint8_t> picture() {
+    const auto width = static_cast<Ogre::uint32>(panel_.getRenderWindow()->getWidth());
+    const auto height = static_cast<Ogre::uint32>(panel_.getRenderWindow()->getHeight());
+    std::vector<std::uint8_t> out(3 * static_cast<std::size_t>(width) * height);
+    const Ogre::PixelBox target(width, height, 1, Ogre::PF_BYTE_RGB, out.data());
+#if OGRE_VERSION < ((1 << 16) | (12 << 8))
+    panel_.getRenderWindow()->copyContentsToMemory(target);
+#else
+    panel_.getRenderWindow()->copyContentsToMemory(target, target);
+#endif
+    return out;
+  }
+
+  Impression look() {
+    const std::vector<std::uint8_t> pixels = picture();
+    const double count = static_cast<double>(pixels.size()) / 3.0;
+    Impression out;
+    double sum = 0.0, squares = 0.0;
+    for (std::size_t i = 0; i + 2 < pixels.size(); i += 3) {
+      const double r = pixels[i], g = pixels[i + 1], b = pixels[i + 2];
+      out.green += g > r && g > 1.2 * b ? 1.0 / count : 0.0;
+      out.blue += b > r && b > 100.0 ? 1.0 / count : 0.0;
+      sum += g / count;
+      squares += g * g / count;
+    }
+    out.spread = std::sqrt(std::max(0.0, squares - sum * sum));
+    return out;
+  }
+
+ protected:
+  ros::NodeHandle nh_;
+
+ private:
+  rviz::RenderPanel panel_;
+  std::unique_ptr<rviz::VisualizationManager> manager_;
+  ros::Publisher clock_;
+  double now_{0.0};
+};
+
+/// All properties of a kind below one.
+template <class T>
+std::vector<T*> propertiesOf(rviz::Property& parent) {
+  std::vector<T*> out;
+  for (int i = 0; i < parent.numChildren(); ++i) {
+    rviz::Property* child = parent.childAt(i);
+    if (auto* found = dynamic_cast<T*>(child)) out.push_back(found);
+    for (T* deeper : propertiesOf<T>(*child)) out.push_back(deeper);
+  }
+  return out;
+}
+
+/// Textures and materials that Ogre holds.
+inline std::size_t resources() {
+  std::size_t out = 0;
+  auto textures = Ogre::TextureManager::getSingleton().getResourceIterator();
+  for (; textures.hasMoreElements(); textures.moveNext()) ++out;
+  auto materials = Ogre::MaterialManager::getSingleton().getResourceIterator();
+  for (; materials.hasMoreElements(); materials.moveNext()) ++out;
+  return out;
+}
+
+}  // namespace vegetation_sim
