@@ -107,7 +107,7 @@ class Ribbons {
       const Float3 fresh = narrow(s.species.colour), dry = narrow(s.species.dry_colour);
       looks_.push_back({fresh, dry - fresh, narrow(s.species.flower_colour),
                         static_cast<float>(0.5 * s.species.width * style.width),
-                        static_cast<float>(s.species.flower_radius * std::pow(style.width, 0.3))});
+                        static_cast<float>(s.species.flower_radius * cubeRoot(style.width))});
     }
   }
 
