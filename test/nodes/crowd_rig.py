@@ -49,8 +49,12 @@ class Crowd:
     def hashes(self):
         return {m.header.stamp: m.hash for m in self.state.messages}
 
-    def kinds(self):
-        return [event.kind for event in self.events.messages]
+    def expect_event(self, kind, fits=lambda event: True):
+        """The newest event of a kind that fits; waits for it."""
+        def newest():
+            found = [e for e in self.events.messages if e.kind == kind and fits(e)]
+            return found[-1] if found else None
+        return wait_for(newest, 'an event of kind %d' % kind)
 
     def diagnostics(self):
         log = Log('/diagnostics', DiagnosticArray)
