@@ -57,7 +57,8 @@ std::uint32_t PlanRaster::cellAt(const Point& place) const {
 
 Point PlanRaster::centreOf(std::uint32_t cell) const {
   const auto width = static_cast<std::uint32_t>(columns_);
-  return {origin_.x + (cell % width + 0.5) * cell_, origin_.y + (cell / width + 0.5) * cell_};
+  const std::uint32_t column = cell % width, row = cell / width;
+  return {origin_.x + (column + 0.5) * cell_, origin_.y + (row + 0.5) * cell_};
 }
 
 // Samples every half cell: what they step over is the corner of a cell.

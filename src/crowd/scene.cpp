@@ -95,6 +95,7 @@ Scene readScene(YamlSection& section, std::uint64_t seed, Faults& faults) {
 
 std::vector<Obstacle> obstaclesOf(const std::vector<Wall>& walls) {
   std::vector<Obstacle> out;
+  out.reserve(walls.size());
   for (const Wall& wall : walls) out.push_back(wallObstacle(wall.from, wall.to, wall.thickness));
   return out;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "vegetation_sim/common/math.h"
+#include "vegetation_sim/physics/sure_inertia.h"
 
 namespace vegetation_sim::forest {
 namespace {
@@ -92,6 +93,7 @@ void PhysicalPart::rebuild(const std::vector<Joined>& joints) {
     const Vec3 centre = body.drag > 0.0 ? Vec3(body.drag_moment / body.drag) : Vec3(Vec3::Zero());
     drags_.push_back({body.drag, centre});
   }
+  physics::shareInertia(links_);
 }
 
 void PhysicalPart::findCarriers() {

@@ -61,7 +61,7 @@ Float3 wayToEdge(float x, float y, float size) {
 }
 
 std::uint8_t byteOfUnit(float part) {
-  return static_cast<std::uint8_t>(255.f * std::min(1.f, std::max(0.f, part)) + 0.5f);
+  return static_cast<std::uint8_t>(std::lround(255.f * std::min(1.f, std::max(0.f, part))));
 }
 
 /// Writes into the room that a mesh has made.
@@ -95,8 +95,7 @@ T* grow(std::vector<T>& list, std::size_t by) {
 class Ribbons {
  public:
   Ribbons(const FeatureMap& map, const Tile& tile, const RibbonStyle& style, const Vec3& origin)
-      : map_(map),
-        tile_(tile),
+      : tile_(tile),
         style_(style),
         corner_(narrow(Vec3(tile.x, tile.y, tile.z) - origin)),
         eye_(narrow(style.eye - origin)),
@@ -226,7 +225,6 @@ class Ribbons {
       out.triangle(first, first + 1 + k, first + 1 + (k + 1) % PETALS);
   }
 
-  const FeatureMap& map_;
   const Tile& tile_;
   const RibbonStyle& style_;
   Float3 corner_, eye_;

@@ -57,7 +57,7 @@ class Sheet {
   double heightAt(double u, double v) const { return height_.at(u, v); }
   // Colour of grass that leans by `offset` in this light.
   Vec3 litAt(double u, double v, const Vec3& offset, const GrassLight* light) const {
-    const Vec3 own = colourAt(u, v);
+    Vec3 own = colourAt(u, v);
     if (!light) return own;
     const double flat = offset.x() * offset.x() + offset.y() * offset.y();
     BladePiece piece;
@@ -140,11 +140,12 @@ void appendRows(const FeatureMap& map, const Tile& tile, const TileMotion& motio
   for (int line = 0; line < 2 * rows; ++line) {
     const auto word = static_cast<std::uint64_t>(line) * (CELLS + 2);
     const double shift = random.uniform(word + CELLS + 1);
+    const int row = line / 2;
     std::uint32_t before = 0;
     for (int k = 0; k <= CELLS; ++k) {
       const double aside = random.uniform(word + static_cast<std::uint64_t>(k), -0.45, 0.45);
       const double along = static_cast<double>(k) / CELLS;
-      const double across = saturate((line / 2 + 0.5 + aside) / rows);
+      const double across = saturate((row + 0.5 + aside) / rows);
       const double u = line % 2 ? across : along, v = line % 2 ? along : across;
       const Vec3 bottom = sheet.groundAt(u, v);
       const Vec3 offset = sheet.offsetAt(u, v, grown * sheet.heightAt(u, v));

@@ -41,8 +41,9 @@ void TreadMap::raise(const Point& place, double radius) {
   const double square = radius * radius;
   for (auto& [key, block] : state_.blocks)
     for (int i = 0; i < SIDE * SIDE; ++i) {
-      const double x = law_.origin_x + (key.second * SIDE + i % SIDE) * spacing_ - place.x;
-      const double y = law_.origin_y + (key.first * SIDE + i / SIDE) * spacing_ - place.y;
+      const int column = key.second * SIDE + i % SIDE, row = key.first * SIDE + i / SIDE;
+      const double x = law_.origin_x + column * spacing_ - place.x;
+      const double y = law_.origin_y + row * spacing_ - place.y;
       if (x * x + y * y <= square) block.nodes[static_cast<std::size_t>(i)] = TreadNode();
     }
 }

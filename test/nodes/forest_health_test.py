@@ -40,7 +40,7 @@ class ForestHealth(unittest.TestCase):
             return self.diagnostics.wait(found, words)
         warned = find(DiagnosticStatus.WARN, text, self.before)
         well = find(DiagnosticStatus.OK, 'running', warned)
-        values = {v.key: int(v.value) for v in self.statuses(animator)[well - 1].values}
+        values = {v.key: float(v.value) for v in self.statuses(animator)[well - 1].values}
         self.assertGreaterEqual(values[key], count)
 
     def mark(self, animator):
