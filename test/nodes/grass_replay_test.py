@@ -25,7 +25,7 @@ from waiting import wait_for
 SECONDS = 20
 TAIL = 3  # [s] recorded but not compared: a recorder that is stopped loses what is on its way
 TOPICS = ['/clock', '/grass/events']
-SPEED = 5  # of the replay over real time
+SPEED = 2  # of the replay over real time; a busy machine must keep up
 DELAY = 4.0  # [s] that events have to arrive in
 
 
