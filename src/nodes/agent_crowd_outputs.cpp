@@ -139,9 +139,7 @@ void AgentCrowd::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   warnOfTrouble(status);
   std::size_t arrived = 0;
   for (const crowd::Walker& walker : crowd_->walkers()) arrived += walker.arrived;
-  status.add("Ticks", counts_.clock.ticks);
-  status.add("Ticks dropped", counts_.clock.dropped);
-  status.add("Clock jumps back", counts_.clock.jumps);
+  clock_.tell(status);
   status.add("Inputs taken", counts_.events);
   status.add("Inputs refused", counts_.rejected);
   status.add("Inputs lost", counts_.inputs.lost);

@@ -47,10 +47,7 @@ void CanopyAnimator::diagnose(diagnostic_updater::DiagnosticStatusWrapper& statu
   status.add("Layers", canopy_->foliage().layers());
   status.add("Viewers", viewer_ ? 1 : 0);
   status.add("Messages of other viewers", counts_.other_viewers);
-  status.add("Ticks", counts_.clock.ticks);
-  status.add("Ticks dropped", counts_.clock.dropped);
-  status.add("Clock jumps back", counts_.clock.jumps);
-  status.add("Tick time [us]", static_cast<int>(1e6 * clock_.cost()));
+  clock_.tell(status);
   status.add("Inputs refused", counts_.rejected);
   status.add("Inputs lost", counts_.inputs.lost);
   status.add("Recorded events late", counts_.inputs.late);

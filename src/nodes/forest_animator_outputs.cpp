@@ -71,11 +71,7 @@ void ForestAnimator::diagnose(diagnostic_updater::DiagnosticStatusWrapper& statu
   status.add("Trees not at the base level", memory.levels.held().size());
   status.add("Base level", memory.levels.base().level);
   status.add("Viewers", memory.viewers.size());
-  status.add("Ticks", clock_.counts().ticks);
-  status.addf("Time of a tick [ms]", "%.3f", 1e3 * clock_.cost());
-  status.addf("Time between ticks [ms]", "%.3f", 1e3 / clock_.grid().rate());
-  status.add("Ticks dropped", clock_.counts().dropped);
-  status.add("Clock jumps back", clock_.counts().jumps);
+  clock_.tell(status);
   status.add("Inputs refused", counts_.rejected);
   status.add("Inputs lost", counts_.inputs.lost);
   status.add("Recorded events late", counts_.inputs.late);

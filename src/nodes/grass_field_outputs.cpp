@@ -123,9 +123,7 @@ void GrassField::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   if (!clock_.hasBegun()) status.summary(DiagnosticStatus::WARN, "waiting for the clock");
   warnOfTrouble(status);
   const grass::TreadState& tread = meadow_->tread().state();
-  status.add("Ticks", counts_.clock.ticks);
-  status.add("Ticks dropped", counts_.clock.dropped);
-  status.add("Clock jumps back", counts_.clock.jumps);
+  clock_.tell(status);
   status.add("Inputs taken", counts_.events);
   status.add("Inputs refused", counts_.rejected);
   status.add("Inputs lost", counts_.inputs.lost);

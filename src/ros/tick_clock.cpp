@@ -46,6 +46,14 @@ void TickClock::run(std::int64_t tick) {
   ++counts_.ticks;
 }
 
+void TickClock::tell(diagnostic_updater::DiagnosticStatusWrapper& status) const {
+  status.add("Ticks", counts_.ticks);
+  status.addf("Time of a tick [ms]", "%.3f", 1e3 * cost_);
+  status.addf("Time between ticks [ms]", "%.3f", 1e3 / grid_.rate());
+  status.add("Ticks dropped", counts_.dropped);
+  status.add("Clock jumps back", counts_.jumps);
+}
+
 void TickClock::see(Nanoseconds clock) {
   const Nanoseconds now = clock - delay_;
   if (now <= 0) return;  // no clock yet

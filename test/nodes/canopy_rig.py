@@ -6,41 +6,24 @@ import subprocess
 
 import roslib.packages
 import rospy
-from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Point
 from std_msgs.msg import Header
 from vegetation_sim.msg import CanopyEvent, CanopyLayout, CanopyState
 from vegetation_sim.srv import SampleCanopy
 
-from forest_rig import Log, listens
-from waiting import DEADLINE, wait_for
+from forest_rig import Log
+from watched_node import WatchedNode
 
 
-class Leaves:
+class Leaves(WatchedNode):
     """One canopy_animator as its users see it."""
 
     def __init__(self, name='/canopy_animator', namespace='/'):
-        self.name = name
-        self.process = name  # node that it lives in: a manager's, of a nodelet
         self.layout = Log(namespace + 'canopy/layout', CanopyLayout)
         self.state = Log(namespace + 'canopy/state', CanopyState)
         self.events = Log(namespace + 'canopy/events', CanopyEvent)
         self._sample = rospy.ServiceProxy(name + '/sample', SampleCanopy, persistent=True)
-
-    def wait_until_up(self, *topics):
-        """Until it listens to the clock and `topics`, and its first state will be heard here."""
-        self._sample.wait_for_service(DEADLINE)
-        self.settle()
-        for topic in ('/clock',) + topics:
-            wait_for(lambda: listens(self.process, topic), '%s to hear %s' % (self.name, topic))
-        for log in (self.layout, self.state, self.events):
-            wait_for(log.connected, log.topic)
-
-    def settle(self):
-        """Returns when it has taken all that was published before: it reads its sockets in turns,
-        so what lay in another socket at the first call is in its queue by the second."""
-        for _ in range(2):
-            self._sample()
+        super().__init__(name, 'canopy', self._sample, (self.layout, self.state, self.events))
 
     def at(self, x, y, z):
         """Leaves at one place."""
@@ -60,20 +43,6 @@ class Leaves:
     def hashes(self):
         """Hash of all that it remembers by stamp, where it was told."""
         return {m.header.stamp: m.hash for m in self.state.messages if m.hash}
-
-    def diagnostics(self):
-        """The node's next diagnostics, by key."""
-        log = Log('/diagnostics', DiagnosticArray)
-        name = self.name.lstrip('/') + ': canopy'
-        log.wait(lambda all: any(s.name == name for m in all for s in m.status), name)
-        log.close()
-        status = [s for m in log.messages for s in m.status if s.name == name][-1]
-        return {pair.key: int(pair.value) for pair in status.values}
-
-    def close(self):
-        for log in (self.layout, self.state, self.events):
-            log.close()
-        self._sample.close()
 
 
 def half(bits):

@@ -4,23 +4,21 @@
 import math
 
 import rospy
-from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Point, TransformStamped
 from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
 from vegetation_sim.msg import AgentStates, CrowdEvent, TreadEvent
 from vegetation_sim.srv import RemoveAgents, SetAgentGoal, SpawnAgents
 
-from forest_rig import Log, listens, publisher
-from waiting import DEADLINE, wait_for
+from forest_rig import Log, publisher
+from waiting import wait_for
+from watched_node import WatchedNode
 
 
-class Crowd:
+class Crowd(WatchedNode):
     """One agent_crowd as its users see it."""
 
     def __init__(self, name='/agent_crowd', namespace='/'):
-        self.name = name
-        self.process = name  # node that it lives in
         self.state = Log(namespace + 'agents', AgentStates)
         self.events = Log(namespace + 'agents/events', CrowdEvent)
         self.tread = Log(namespace + 'tread', TreadEvent)
@@ -28,19 +26,8 @@ class Crowd:
         self.remove = rospy.ServiceProxy(name + '/remove', RemoveAgents, persistent=True)
         self.set_goal = rospy.ServiceProxy(name + '/set_goal', SetAgentGoal)
         self.reset = rospy.ServiceProxy(name + '/reset', Trigger)
-
-    def wait_until_up(self, *topics):
-        self.remove.wait_for_service(DEADLINE)
-        self.settle()
-        for topic in ('/clock',) + topics:
-            wait_for(lambda: listens(self.process, topic), '%s to hear %s' % (self.name, topic))
-        for log in (self.state, self.events, self.tread):
-            wait_for(log.connected, log.topic)
-
-    def settle(self):
-        """Returns when it has taken all that was published before."""
-        for _ in range(2):
-            self.remove()  # of nobody: refused
+        # To remove nobody is refused.
+        super().__init__(name, 'crowd', self.remove, (self.state, self.events, self.tread))
 
     def agents(self):
         """Those of the last tick, by id."""
@@ -55,14 +42,6 @@ class Crowd:
             found = [e for e in self.events.messages if e.kind == kind and fits(e)]
             return found[-1] if found else None
         return wait_for(newest, 'an event of kind %d' % kind)
-
-    def diagnostics(self):
-        log = Log('/diagnostics', DiagnosticArray)
-        name = self.name.lstrip('/') + ': crowd'
-        log.wait(lambda all: any(s.name == name for m in all for s in m.status), name)
-        log.close()
-        status = [s for m in log.messages for s in m.status if s.name == name][-1]
-        return {pair.key: int(pair.value) for pair in status.values}
 
 
 class Cart:

@@ -5,45 +5,29 @@ import subprocess
 
 import roslib.packages
 import rospy
-from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Point
 from vegetation_sim.msg import GrassEvent, GrassLayout, GrassState, TreadEvent
 from vegetation_sim.srv import ClearGrass, SampleGrass, Tread
 
-from forest_rig import RATE, Log, listens, publisher, time_of
-from waiting import DEADLINE, wait_for
+from forest_rig import RATE, Log, publisher, time_of
+from waiting import wait_for
+from watched_node import WatchedNode
 
 FULL = 1.5  # tilt of grass that is crushed fully [rad]
 SIDE = 16  # nodes along a block
 
 
-class Meadow:
+class Meadow(WatchedNode):
     """One grass_field as its users see it."""
 
     def __init__(self, name='/grass_field', namespace='/'):
-        self.name = name
-        self.process = name  # node that it lives in: a manager's, of a nodelet
         self.layout = Log(namespace + 'grass/layout', GrassLayout)
         self.state = Log(namespace + 'grass/state', GrassState)
         self.events = Log(namespace + 'grass/events', GrassEvent)
         self._sample = rospy.ServiceProxy(name + '/sample', SampleGrass, persistent=True)
         self.tread = rospy.ServiceProxy(name + '/tread', Tread)
         self.clear = rospy.ServiceProxy(name + '/clear', ClearGrass)
-
-    def wait_until_up(self, *topics):
-        """Until it listens to the clock and `topics`, and its first state will be heard here."""
-        self._sample.wait_for_service(DEADLINE)
-        self.settle()
-        for topic in ('/clock',) + topics:
-            wait_for(lambda: listens(self.process, topic), '%s to hear %s' % (self.name, topic))
-        for log in (self.layout, self.state, self.events):
-            wait_for(log.connected, log.topic)
-
-    def settle(self):
-        """Returns when it has taken all that was published before: it reads its sockets in turns,
-        so what lay in another socket at the first call is in its queue by the second."""
-        for _ in range(2):
-            self._sample()
+        super().__init__(name, 'grass', self._sample, (self.layout, self.state, self.events))
 
     def at(self, x, y, stamp=rospy.Time()):
         """The grass at one place."""
@@ -67,24 +51,10 @@ class Meadow:
         """Hash of the trodden ground by stamp of the key frames."""
         return {m.header.stamp: m.hash for m in self.state.messages if m.key_frame}
 
-    def diagnostics(self):
-        """The node's next diagnostics, by key."""
-        log = Log('/diagnostics', DiagnosticArray)
-        name = self.name.lstrip('/') + ': grass'
-        log.wait(lambda all: any(s.name == name for m in all for s in m.status), name)
-        log.close()
-        status = [s for m in log.messages for s in m.status if s.name == name][-1]
-        return {pair.key: int(pair.value) for pair in status.values}
-
     def entered(self, source):
         """Tiles that a source came to."""
         return [(e.column, e.row) for e in self.events.messages
                 if e.kind == GrassEvent.ENTER and e.source == source]
-
-    def close(self):
-        for log in (self.layout, self.state, self.events):
-            log.close()
-        self._sample.close()
 
 
 class Feet:

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <diagnostic_updater/DiagnosticStatusWrapper.h>
 #include <ros/node_handle.h>
 #include <rosgraph_msgs/Clock.h>
 
@@ -52,8 +53,8 @@ class TickClock {
     std::uint64_t jumps{0};    ///< of the clock back
   };
   const Counts& counts() const { return counts_; }
-  /// Wall time that a tick took, the mean of about the last thirty [s].
-  double cost() const { return cost_; }
+  /// Adds the counts and the wall time of a tick to a node's diagnostics.
+  void tell(diagnostic_updater::DiagnosticStatusWrapper& status) const;
 
   static constexpr double LONGEST_CATCH_UP = 1.0;  ///< [s]
 
