@@ -23,45 +23,75 @@ Triple toTriple(const Vec3& v) {
   return {v.x(), v.y(), v.z()};
 }
 
-// Farthest corners of second minus first shape along a direction; in the frame of the first.
-struct BoxPair {
-  BoxPair(const Box& a, const Box& b) : half(toTriple(a.half)) {
-    const Vec3 offset = b.centre - a.centre;
-    const auto local = [&](const Vec3& v) {
-      return Triple{dot(a.axes[0], v), dot(a.axes[1], v), dot(a.axes[2], v)};
-    };
-    centre = local(offset);
-    for (int i = 0; i < 3; ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      edges[k] = b.half[i] > 0.0 ? b.half[i] * local(b.axes[k]) : Triple{0.0, 0.0, 0.0};
-    }
+double clampTo(double x, double half) {
+  return std::min(half, std::max(-half, x));
+}
+
+// In the frame of a box: its corners, and the way from it to a place.
+struct Brick {
+  explicit Brick(const Box& box) : half(toTriple(box.half)) {}
+  Triple wayTo(const Triple& p) const {
+    return {p.x - clampTo(p.x, half.x), p.y - clampTo(p.y, half.y), p.z - clampTo(p.z, half.z)};
   }
-  // From the nearest point of the first box to the second's centre; from its own centre if the
-  // other's is in it.
-  Triple start() const {
-    const Triple v{beyond(centre.x, half.x), beyond(centre.y, half.y), beyond(centre.z, half.z)};
-    return dot(v, v) > 0.0 ? v : centre;
-  }
-  static double beyond(double x, double half) {
-    return x > half ? x - half : x < -half ? x + half : 0.0;
-  }
-  // Of b - a, the corner that is farthest against v.
-  Triple support(const Triple& v) const {
-    Triple out{centre.x - std::copysign(half.x, v.x), centre.y - std::copysign(half.y, v.y),
-               centre.z - std::copysign(half.z, v.z)};
-    for (const Triple& edge : edges) {
-      const double sign = std::copysign(1.0, dot(edge, v));
-      out = out - sign * edge;
-    }
-    return out;
-  }
-  static Vec3 toWorld(const Box& a, const Triple& v) {
-    return v.x * a.axes[0] + v.y * a.axes[1] + v.z * a.axes[2];
+  Triple cornerAlong(const Triple& v) const {
+    return {std::copysign(half.x, v.x), std::copysign(half.y, v.y), std::copysign(half.z, v.z)};
   }
 
-  Triple half, centre{};
-  std::array<Triple, 3> edges{};
+  Triple half;
 };
+
+Triple inFrame(const Box& box, const Vec3& v) {
+  return {dot(box.axes[0], v), dot(box.axes[1], v), dot(box.axes[2], v)};
+}
+
+Vec3 toWorld(const Box& box, const Triple& v) {
+  return v.x * box.axes[0] + v.y * box.axes[1] + v.z * box.axes[2];
+}
+
+// A point minus a box, in the frame of the box: the start is the answer, a round proves it.
+struct BoxPointPair {
+  BoxPointPair(const Box& a, const Vec3& b) : brick(a), point(inFrame(a, b - a.centre)) {}
+  Triple start() const { return brick.wayTo(point); }
+  Triple support(const Triple& v) const { return point - brick.cornerAlong(v); }
+
+  Brick brick;
+  Triple point;
+};
+
+// Second minus first box, in the frame of the first.
+struct BoxPair {
+  BoxPair(const Box& a, const Box& b)
+      : brick(a),
+        centre(inFrame(a, b.centre - a.centre)),
+        axes{inFrame(a, b.axes[0]), inFrame(a, b.axes[1]), inFrame(a, b.axes[2])},
+        half{b.half.x(), b.half.y(), b.half.z()} {}
+  // From the first box to the place in the second that is nearest to the first's place nearest to
+  // the second's centre: two times out of three no two places are nearer.
+  Triple start() const {
+    const Triple way = brick.wayTo(centre);
+    Triple place = centre;
+    for (std::size_t i = 0; i < 3; ++i)
+      place = place - clampTo(dot(way, axes[i]), half[i]) * axes[i];
+    const Triple v = brick.wayTo(place);
+    return dot(v, v) > 0.0 ? v : centre;
+  }
+  // The corner that is farthest against v.
+  Triple support(const Triple& v) const {
+    Triple out = centre - brick.cornerAlong(v);
+    for (std::size_t i = 0; i < 3; ++i)
+      out = out - std::copysign(half[i], dot(axes[i], v)) * axes[i];
+    return out;
+  }
+
+  Brick brick;
+  Triple centre;
+  std::array<Triple, 3> axes;
+  std::array<double, 3> half;
+};
+
+bool isBall(const Box& box) {
+  return box.half.x() == 0.0 && box.half.y() == 0.0 && box.half.z() == 0.0;
+}
 
 Triple lowest(const std::vector<Vec3>& points, const Triple& v) {
   Triple out = toTriple(points.front());
@@ -158,7 +188,9 @@ Cores iterate(const Pair& pair, double enough) {
   }
   out.upper = std::sqrt(best);
   out.overlap = !(best > 0.0);
-  out.lower = out.overlap ? 0.0 : std::min(low / std::sqrt(low_square), out.upper);
+  // Mostly the nearest point is also the one that gave the bound.
+  const double over = low_square == best ? out.upper : std::sqrt(low_square);
+  out.lower = out.overlap ? 0.0 : std::min(low / over, out.upper);
   return out;
 }
 
@@ -170,7 +202,7 @@ Separation finish(const Cores& cores, const Vec3& v, double radii) {
   out.lower = std::max(0.0, cores.lower - radii);
   out.upper = std::max(0.0, out.gap);
   out.overlapping = !(out.gap > 0.0);
-  if (!cores.overlap) out.normal = v / length(v);
+  if (!cores.overlap) out.normal = v / cores.upper;
   return out;
 }
 
@@ -208,10 +240,15 @@ Box uprightBox(const Vec3& centre, const Vec3& half, double yaw) {
 }
 
 Separation separation(const Box& a, const Box& b, double enough) {
-  const BoxPair pair(a, b);
   const double radii = a.radius + b.radius;
-  const Cores cores = iterate(pair, enough + radii);
-  return finish(cores, BoxPair::toWorld(a, cores.v), radii);
+  const auto ofPoint = [&](const Box& box, const Box& ball, double sign) {
+    const Cores cores = iterate(BoxPointPair(box, ball.centre), enough + radii);
+    return finish(cores, sign * toWorld(box, cores.v), radii);
+  };
+  if (isBall(b)) return ofPoint(a, b, 1.0);
+  if (isBall(a)) return ofPoint(b, a, -1.0);
+  const Cores cores = iterate(BoxPair(a, b), enough + radii);
+  return finish(cores, toWorld(a, cores.v), radii);
 }
 
 Separation separation(const Box& a, const Hull& b, double enough) {
