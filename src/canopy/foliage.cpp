@@ -132,6 +132,13 @@ Vec3 Foliage::displacement(const Vec3& anchor, const Vec3& point, std::size_t pl
 }
 
 MovedLeaf Foliage::move(const Leaf& leaf, std::size_t plant) const {
+  if (leaf.joined) {  // each corner by its own place, as in the faces that share it
+    const Vec3 left = leaf.root - leaf.side, right = leaf.root + leaf.side;
+    const Vec3 to_left = left + displacement(leaf.anchor, left, plant);
+    const Vec3 to_right = right + displacement(leaf.anchor, right, plant);
+    return {0.5 * (to_left + to_right), leaf.tip + displacement(leaf.anchor, leaf.tip, plant),
+            0.5 * (to_right - to_left)};
+  }
   return {leaf.root + displacement(leaf.anchor, leaf.root, plant),
           leaf.tip + displacement(leaf.anchor, leaf.tip, plant), leaf.side};
 }

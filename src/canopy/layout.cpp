@@ -85,6 +85,7 @@ std::uint64_t Layout::hash() const {
   for (PlantKind& kind : copy.kinds) {
     hash.add(kind.name);
     describe(hasher, kind);
+    if (kind.form) hash.add(kind.form->hash);
   }
   for (const Plant& plant : plants) {
     hash.add(plant.seed);
@@ -111,6 +112,9 @@ void check(const Layout& layout, Faults& faults) {
     PlantKind kind = layout.kinds[i];
     FieldChecker kind_checker(numbered("kinds", i), faults);
     describe(kind_checker, kind);
+    if (isRead(kind) == kind.file.empty())
+      faults.add(numbered("kinds", i) + "file = '" + kind.file +
+                 "'; shapes mesh and slices have one, others none");
   }
   for (const std::string& fault : groups.list()) faults.add(fault);
   checkPlants(layout, faults);

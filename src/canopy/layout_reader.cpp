@@ -32,6 +32,7 @@ void readKinds(YamlSection& section, std::vector<PlantKind>& kinds) {
   for (YamlSection& entry : section.sections("kinds")) {
     PlantKind kind;
     entry.text("name", kind.name);
+    entry.text("file", kind.file);
     describe(entry, kind);
     entry.finish();
     for (const PlantKind& other : kinds)
@@ -148,6 +149,8 @@ std::string writeLaw(const Layout& layout) {
   out << YAML::Key << "kinds" << YAML::Value << YAML::BeginSeq;
   for (PlantKind& kind : copy.kinds) {
     out << YAML::BeginMap << YAML::Key << "name" << YAML::Value << YAML::DoubleQuoted << kind.name;
+    if (!kind.file.empty())
+      out << YAML::Key << "file" << YAML::Value << YAML::DoubleQuoted << kind.file;
     describe(writer, kind);
     out << YAML::EndMap;
   }

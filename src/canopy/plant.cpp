@@ -23,11 +23,69 @@ bool isRibbon(const PlantKind& kind) {
   return kind.shape == static_cast<int>(Shape::REED) || kind.shape == static_cast<int>(Shape::KELP);
 }
 
+/// From a plant at the origin, unscaled, into the world.
+class Placing {
+ public:
+  Placing(const Plant& plant, double scale)
+      : foot_(plant.position), scale_(scale), turn_(sinCos(plant.yaw)) {}
+
+  Vec3 turned(const Vec3& v) const {
+    return {turn_.cos * v.x() - turn_.sin * v.y(), turn_.sin * v.x() + turn_.cos * v.y(), v.z()};
+  }
+  Vec3 placed(const Vec3& v) const { return foot_ + scale_ * turned(v); }
+  Leaf placed(Leaf leaf) const {
+    leaf.anchor = placed(leaf.anchor);
+    leaf.root = placed(leaf.root);
+    leaf.tip = placed(leaf.tip);
+    leaf.side = scale_ * turned(leaf.side);
+    return leaf;
+  }
+
+ private:
+  Vec3 foot_;
+  double scale_;
+  SinCos turn_;
+};
+
+GrownPlant placeForm(const PlantKind& kind, const Plant& plant) {
+  GrownPlant out;
+  if (!kind.form) return out;
+  const Placing placing(plant, plant.scale * kind.height);
+  for (const Leaf& leaf : kind.form->leaves) out.leaves.push_back(placing.placed(leaf));
+  for (const Leaf& face : kind.form->rigid) out.rigid.push_back(placing.placed(face));
+  return out;
+}
+
+/// A ball of leaves within a ball of radius 1, in the same measure.
+struct Tuft {
+  Vec3 centre;
+  double radius;
+};
+
+// One at the top, the others around and below it: no two plants have the same outline.
+std::vector<Tuft> tuftsOf(const Random& random, bool crown) {
+  std::vector<Tuft> out{{Vec3(0.0, 0.0, 0.45), 0.55}};
+  const int count = 6 + static_cast<int>(5.0 * random.uniform(0));
+  for (int i = 0; i < count; ++i) {
+    const auto at = static_cast<std::uint64_t>(4 * i + 1);
+    const SinCos around = sinCosTurns((i + 0.7 * random.uniform(at)) * 0.381966);
+    const double ring = random.uniform(at + 1, 0.35, 0.62);
+    const double z = random.uniform(at + 2, crown ? -0.55 : -0.75, 0.45);
+    out.push_back({Vec3(ring * around.cos, ring * around.sin, z),
+                   random.uniform(at + 3, 0.30, 0.46) * (z < 0.0 && !crown ? 1.15 : 1.0)});
+  }
+  return out;
+}
+
 /// Grows one plant at the origin, unscaled; `place` moves it.
 class Grower {
  public:
   Grower(const PlantKind& kind, const Plant& plant)
-      : kind_(kind), plant_(plant), random_(plant.seed), turn_(sinCos(plant.yaw)) {}
+      : kind_(kind),
+        plant_(plant),
+        random_(plant.seed),
+        placing_(plant, plant.scale),
+        tufts_(tuftsOf(random_.child(2ULL << 40), kind.shape == static_cast<int>(Shape::CROWN))) {}
 
   GrownPlant grow() {
     out_.leaves.reserve(leafCount(kind_));
@@ -43,46 +101,58 @@ class Grower {
   }
 
  private:
-  Vec3 turned(const Vec3& v) const {
-    return {turn_.cos * v.x() - turn_.sin * v.y(), turn_.sin * v.x() + turn_.cos * v.y(), v.z()};
-  }
-  Vec3 placed(const Vec3& v) const { return plant_.position + plant_.scale * turned(v); }
-
   void add(const Vec3& anchor, const Vec3& root, const Vec3& tip, const Vec3& side, Leaf leaf) {
-    leaf.anchor = placed(anchor);
-    leaf.root = placed(root);
-    leaf.tip = placed(tip);
-    leaf.side = plant_.scale * turned(side);
-    out_.leaves.push_back(leaf);
+    leaf.anchor = anchor;
+    leaf.root = root;
+    leaf.tip = tip;
+    leaf.side = side;
+    out_.leaves.push_back(placing_.placed(leaf));
   }
+  Vec3 placed(const Vec3& v) const { return placing_.placed(v); }
 
   double crownBase() const {
     return kind_.shape == static_cast<int>(Shape::CROWN) ? TRUNK_SHARE * kind_.height : 0.0;
   }
 
-  // Most leaves near the surface of the ball, where the light is.
+  // Dark within the mass, and below it.
+  double lightAt(const Vec3& place, const Vec3& outward) const {
+    double cover = 0.0;
+    for (const Tuft& tuft : tufts_) {
+      const Vec3 above = place + Vec3(0.0, 0.0, 0.25);  // most light comes from up there
+      cover += std::max(0.0, 1.0 - length(Vec3(place - tuft.centre)) / tuft.radius) +
+               0.8 * std::max(0.0, 1.0 - length(Vec3(above - tuft.centre)) / tuft.radius);
+    }
+    const double open = 1.0 / (1.0 + 1.8 * cover);
+    return saturate(open * (0.72 + 0.28 * outward.z()) * (0.82 + 0.18 * place.z()) + 0.1);
+  }
+
+  // Most leaves near the surface of a tuft, where the light is.
   void addLeaf(const Random& random) {
     const double base = crownBase(), half = 0.5 * (kind_.height - base);
-    const double z = random.uniform(0, -0.95, 1.0), around = random.uniform(1);
+    const auto last = static_cast<double>(tufts_.size());
+    const Tuft& tuft = tufts_[static_cast<std::size_t>(last * random.uniform(10))];
+    const double z = random.uniform(0, -0.85, 1.0), around = random.uniform(1);
     const double ring = std::sqrt(std::max(0.0, 1.0 - z * z));
     const SinCos turn = sinCosTurns(around);
     const Vec3 outward(ring * turn.cos, ring * turn.sin, z);
-    const double deep = random.uniform(2), reach = 1.0 - 0.55 * deep * deep;
-    const Vec3 root(reach * kind_.radius * outward.x(), reach * kind_.radius * outward.y(),
-                    std::max(0.0, base + half + reach * half * outward.z()));
+    const double deep = random.uniform(2), reach = 1.0 - 0.6 * deep * deep;
+    const Vec3 place = tuft.centre + tuft.radius * reach * outward;
+    const Vec3 root(kind_.radius * place.x(), kind_.radius * place.y(),
+                    std::max(0.0, base + half + half * place.z()));
     const Vec3 jitter(random.uniform(3, -1.0, 1.0), random.uniform(4, -1.0, 1.0),
-                      random.uniform(5, -0.6, 1.0));
-    const Vec3 along = unit(outward + 0.9 * jitter, Vec3::UnitZ());
+                      random.uniform(5, -0.9, 0.5));
+    const Vec3 along = unit(outward + 1.1 * jitter, Vec3::UnitZ());
     const Vec3 across =
         unit(cross(along, Vec3(random.uniform(6, -1.0, 1.0), random.uniform(7, -1.0, 1.0), 1.5)),
              Vec3::UnitX());
-    const double size = random.uniform(8, 0.7, 1.3);
+    const double size = random.uniform(8, 0.65, 1.35);
     Leaf leaf;
-    leaf.root_width = 0.8F;
-    leaf.tip_width = 0.35F;
-    const double light =
-        saturate(0.55 * reach * (0.5 + 0.5 * outward.z()) + 0.45 * random.uniform(9) - 0.35 * deep);
-    leaf.shade = static_cast<float>(light);
+    leaf.root_width = 0.9F;
+    leaf.tip_width = 0.25F;
+    const double tone = random.uniform(9);
+    leaf.shade =
+        static_cast<float>(saturate(0.25 * reach + 0.25 * outward.z() + 0.6 * tone * tone));
+    leaf.light = static_cast<float>(lightAt(place, outward));
     add(root, root, root + size * kind_.leaf_length * along, 0.5 * size * kind_.leaf_width * across,
         leaf);
   }
@@ -113,6 +183,7 @@ class Grower {
       leaf.root_width = width(i);
       leaf.tip_width = width(i + 1);
       leaf.shade = static_cast<float>(saturate(0.7 * tone + 0.3 * i / kind_.pieces));
+      leaf.light = static_cast<float>(0.45 + 0.55 * (i + 1.0) / kind_.pieces);
       add(foot, point(i), point(i + 1), side, leaf);
     }
   }
@@ -139,14 +210,15 @@ class Grower {
   const PlantKind& kind_;
   const Plant& plant_;
   Random random_;
-  SinCos turn_;
+  Placing placing_;
+  std::vector<Tuft> tufts_;
   GrownPlant out_;
 };
 
 }  // namespace
 
 void describe(FieldVisitor& v, PlantKind& k) {
-  v.choice("shape", k.shape, {"shrub", "crown", "reed", "kelp"});
+  v.choice("shape", k.shape, {"shrub", "crown", "reed", "kelp", "mesh", "slices"});
   v.number("height", k.height, "m", {0.01, 100.0});
   v.number("radius", k.radius, "m", {0.01, 100.0});
   v.integer("leaves", k.leaves, "", {0, 1000000});
@@ -158,13 +230,16 @@ void describe(FieldVisitor& v, PlantKind& k) {
   v.vector("colour", k.colour, "", {0.0, 1.0});
   v.vector("colour_young", k.colour_young, "", {0.0, 1.0});
   v.vector("stem_colour", k.stem_colour, "", {0.0, 1.0});
+  v.choice("up", k.up, {"z", "y"});
+  v.number("solid", k.solid, "", {0.01, 1.0});
 }
 
 GrownPlant grow(const PlantKind& kind, const Plant& plant) {
-  return Grower(kind, plant).grow();
+  return isRead(kind) ? placeForm(kind, plant) : Grower(kind, plant).grow();
 }
 
 std::size_t leafCount(const PlantKind& kind) {
+  if (isRead(kind)) return kind.form ? kind.form->leaves.size() + kind.form->rigid.size() : 0;
   return static_cast<std::size_t>(kind.leaves) *
          static_cast<std::size_t>(isRibbon(kind) ? kind.pieces : 1);
 }

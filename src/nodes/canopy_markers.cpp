@@ -10,6 +10,7 @@ namespace vegetation_sim {
 namespace {
 
 constexpr std::size_t POINTS_PER_LEAF = 6, POINTS_PER_STEM = 12;
+constexpr double DARK_ROOT = 0.6;  // light at a leaf's root over that at its tip
 
 visualization_msgs::Marker makeList(const std::string& ns, int id) {
   visualization_msgs::Marker out;
@@ -32,12 +33,27 @@ std_msgs::ColorRGBA colourOf(const Vec3& rgb) {
   return out;
 }
 
+std_msgs::ColorRGBA darkened(std_msgs::ColorRGBA colour, double light) {
+  const auto share = static_cast<float>(light);
+  colour.r *= share;
+  colour.g *= share;
+  colour.b *= share;
+  return colour;
+}
+
+/// Two corners at the root, then two at the tip.
 void addStrip(visualization_msgs::Marker& list, const std::array<Vec3, 4>& corner,
-              const std_msgs::ColorRGBA& colour) {
+              const std_msgs::ColorRGBA& at_root, const std_msgs::ColorRGBA& at_tip) {
   for (const std::size_t i : {0, 1, 2, 2, 1, 3}) {
     list.points.push_back(toPoint(corner[i]));
-    list.colors.push_back(colour);
+    list.colors.push_back(i < 2 ? at_root : at_tip);
   }
+}
+
+std::array<Vec3, 4> cornersOf(const canopy::Leaf& leaf, const canopy::MovedLeaf& moved) {
+  const Vec3 low = static_cast<double>(leaf.root_width) * moved.side;
+  const Vec3 high = static_cast<double>(leaf.tip_width) * moved.side;
+  return {moved.root - low, moved.root + low, moved.tip - high, moved.tip + high};
 }
 
 // A list as long as ever: rviz then writes over the old one.
@@ -71,20 +87,25 @@ void CanopyMarkers::addPlant(const canopy::Layout& layout, std::size_t id, doubl
   for (std::size_t i = 0; i < count; ++i) {
     const canopy::Leaf& leaf = grown.leaves[i];
     const double young = leaf.shade;
-    leaves_.push_back(
-        {leaf, id, colourOf(kind.colour * (1.0 - young) + kind.colour_young * young)});
+    const Vec3 colour = kind.colour * (1.0 - young) + kind.colour_young * young;
+    leaves_.push_back({leaf, id, colourOf(colour * static_cast<double>(leaf.light))});
   }
   addStems(grown.stems, kind.stem_colour);
+  for (const canopy::Leaf& face : grown.rigid) {
+    if (stem_list_.points.size() + POINTS_PER_LEAF > stem_points_) return;
+    const std_msgs::ColorRGBA paint = darkened(colourOf(kind.stem_colour), face.light);
+    addStrip(stem_list_, cornersOf(face, {face.root, face.tip, face.side}), paint, paint);
+  }
 }
 
 // Two crossed strips each.
 void CanopyMarkers::addStems(const std::vector<canopy::Stem>& stems, const Vec3& colour) {
-  const std_msgs::ColorRGBA paint = colourOf(colour);
+  const std_msgs::ColorRGBA paint = colourOf(colour), shaded = darkened(paint, 0.6);
   for (const canopy::Stem& stem : stems) {
     if (stem_list_.points.size() + POINTS_PER_STEM > stem_points_) return;
     for (const Vec3& side : {Vec3(stem.radius, 0.0, 0.0), Vec3(0.0, stem.radius, 0.0)})
       addStrip(stem_list_, {stem.from - side, stem.from + side, stem.to - side, stem.to + side},
-               paint);
+               paint, shaded);
   }
 }
 
@@ -93,11 +114,9 @@ visualization_msgs::MarkerArray CanopyMarkers::build(const canopy::Foliage& foli
   leaf_list_.points.clear();
   leaf_list_.colors.clear();
   for (const Drawn& drawn : leaves_) {
-    const canopy::MovedLeaf moved = foliage.move(drawn.leaf, drawn.plant);
-    const Vec3 low = static_cast<double>(drawn.leaf.root_width) * moved.side;
-    const Vec3 high = static_cast<double>(drawn.leaf.tip_width) * moved.side;
-    addStrip(leaf_list_, {moved.root - low, moved.root + low, moved.tip - high, moved.tip + high},
-             drawn.colour);
+    const auto corners = cornersOf(drawn.leaf, foliage.move(drawn.leaf, drawn.plant));
+    const double at_root = drawn.leaf.joined ? 1.0 : DARK_ROOT;
+    addStrip(leaf_list_, corners, darkened(drawn.colour, at_root), drawn.colour);
   }
   used_ = leaf_list_.points.size();
   fill(leaf_list_, leaf_points_);

@@ -3,9 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
-#include <vector>
 
+#include "vegetation_sim/canopy/leaf.h"
 #include "vegetation_sim/common/fields.h"
 #include "vegetation_sim/common/vectors.h"
 
@@ -14,9 +15,9 @@ namespace vegetation_sim::canopy {
 constexpr std::size_t MOST_LEAVES = 2000000;  ///< of all plants together
 constexpr std::size_t MOST_PLANTS = 65536;
 
-/// shrub: leaves on a ball from the ground up; crown: a ball on a bare trunk; reed: upright
-/// ribbons; kelp: wavy ribbons. Ribbons are chains of pieces.
-enum class Shape : int { SHRUB = 0, CROWN = 1, REED = 2, KELP = 3 };
+/// shrub: leaves on tufts from the ground up; crown: tufts on a bare trunk; reed: upright ribbons;
+/// kelp: wavy ribbons. Ribbons are chains of pieces. mesh, slices: read from a file.
+enum class Shape : int { SHRUB = 0, CROWN = 1, REED = 2, KELP = 3, MESH = 4, SLICES = 5 };
 
 /// What plants of one kind have in common (S3-30).
 struct PlantKind {
@@ -33,7 +34,16 @@ struct PlantKind {
   Vec3 colour{Vec3(0.16, 0.34, 0.09)};        ///< red, green, blue
   Vec3 colour_young{Vec3(0.42, 0.55, 0.18)};  ///< of the lightest leaves
   Vec3 stem_colour{Vec3(0.30, 0.23, 0.15)};
+  int up{0};                         ///< of a mesh: 0 its z, 1 its y
+  double solid{0.5};                 ///< density from which a cell of a slice has a leaf
+  std::string file;                  ///< of a mesh, or of the first slice; scaled to `height`
+  std::shared_ptr<const Form> form;  ///< what was read from it; many plants and threads share it
 };
+/// Whether plants of this kind are read rather than grown.
+inline bool isRead(const PlantKind& kind) {
+  return kind.shape == static_cast<int>(Shape::MESH) ||
+         kind.shape == static_cast<int>(Shape::SLICES);
+}
 void describe(FieldVisitor& visitor, PlantKind& kind);
 
 /// All that is permanent of one plant.
@@ -45,31 +55,10 @@ struct Plant {
   double scale{1.0};            ///< over the size of its kind
 };
 
-/// A leaf, or a piece of a ribbon, at rest in the world: a four-cornered strip from root to tip.
-struct Leaf {
-  Vec3 anchor{
-      Vec3::Zero()};  ///< root of what hangs together; it alone chooses the layer (S3-03) [m]
-  Vec3 root{Vec3::Zero()}, tip{Vec3::Zero()};  ///< [m]
-  Vec3 side{Vec3::Zero()};                     ///< half the width across [m]
-  float root_width{0.6F};                      ///< of the strip's ends, over `side`
-  float tip_width{0.6F};
-  float shade{0.0F};  ///< from colour to colour_young
-};
-
-/// A straight rigid part.
-struct Stem {
-  Vec3 from, to;  ///< [m]
-  double radius;  ///< [m]
-};
-
-/// A grown plant, in the world: a pure function of kind and plant.
-struct GrownPlant {
-  std::vector<Leaf> leaves;
-  std::vector<Stem> stems;
-};
+/// A pure function of kind and plant.
 GrownPlant grow(const PlantKind& kind, const Plant& plant);
 
-/// Strips that grow() makes of a plant of this kind.
+/// Strips that grow() makes of a plant of this kind; none of what has not been read.
 std::size_t leafCount(const PlantKind& kind);
 
 }  // namespace vegetation_sim::canopy
