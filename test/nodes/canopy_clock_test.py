@@ -10,8 +10,9 @@ from std_srvs.srv import Trigger
 from vegetation_sim.msg import CanopyEvent
 
 from canopy_rig import Leaves, start_leaves
-from forest_rig import RATE, Eye, TickClock, publisher, scene, stop, time_of
+from forest_rig import RATE, Eye, TickClock, scene, stop, time_of
 from waiting import wait_for
+from watched_node import publisher
 
 BEGIN = 1000 * RATE
 DELAY = 0.5  # [s]

@@ -11,8 +11,7 @@ from std_msgs.msg import Header
 from vegetation_sim.msg import CanopyEvent, CanopyLayout, CanopyState
 from vegetation_sim.srv import SampleCanopy
 
-from forest_rig import Log
-from watched_node import WatchedNode
+from watched_node import Log, WatchedNode
 
 
 class Leaves(WatchedNode):
@@ -22,22 +21,22 @@ class Leaves(WatchedNode):
         self.layout = Log(namespace + 'canopy/layout', CanopyLayout)
         self.state = Log(namespace + 'canopy/state', CanopyState)
         self.events = Log(namespace + 'canopy/events', CanopyEvent)
-        self._sample = rospy.ServiceProxy(name + '/sample', SampleCanopy, persistent=True)
-        super().__init__(name, 'canopy', self._sample, (self.layout, self.state, self.events))
+        super().__init__(name, 'canopy', name + '/sample', SampleCanopy,
+                         (self.layout, self.state, self.events))
 
     def at(self, x, y, z):
         """Leaves at one place."""
         return self.samples((x, y, z)).samples[0]
 
     def samples(self, *places):
-        answer = self._sample(points=[Point(*place) for place in places])
+        answer = self._probe(points=[Point(*place) for place in places])
         if not answer.success:
             raise AssertionError(answer.message)
         return answer
 
     def refusal(self, *places, **header):
         """Message with which sample refuses."""
-        answer = self._sample(header=Header(**header), points=[Point(*place) for place in places])
+        answer = self._probe(header=Header(**header), points=[Point(*place) for place in places])
         return '' if answer.success else answer.message
 
     def hashes(self):

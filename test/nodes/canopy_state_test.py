@@ -13,8 +13,9 @@ from vegetation_sim.msg import CanopyEvent, WindField
 from visualization_msgs.msg import MarkerArray
 
 from canopy_rig import Leaves, half
-from forest_rig import RATE, Eye, Log, TickClock, publisher
+from forest_rig import RATE, Eye, TickClock
 from waiting import wait_for
+from watched_node import Log, publisher
 
 NAN = float('nan')
 TOP = (0.0, 0.0, 1.6)  # of the nearer shrub
@@ -75,6 +76,12 @@ class CanopyStateTest(unittest.TestCase):
         self.assertLess(max(moved), 1.0)
         self.assertEqual(first.markers[1].points, last.markers[1].points)  # S3-02: stems stand
 
+    def expect_viewer(self, fits):
+        """The newest event of a viewer is, or comes to be, one that fits."""
+        self.leaves.events.wait(
+            lambda all: any(map(fits, [e for e in all if e.kind == CanopyEvent.VIEWER][-1:])),
+            'a viewer')
+
     # S3-04, S3-W8: layers are cut for one viewer; others are counted and left alone.
     def test_layers_are_cut_for_one_viewer(self):
         one, other = Eye('one'), Eye('other')
@@ -82,13 +89,11 @@ class CanopyStateTest(unittest.TestCase):
         self.clock.run(1, self.leaves)
         other.look(-50.0, 0.0, 1.5, self.leaves)
         self.clock.run(1, self.leaves)
-        event = [e for e in self.leaves.events.messages if e.kind == CanopyEvent.VIEWER][-1]
-        self.assertEqual(event.eye.position.x, 1.0)
+        self.expect_viewer(lambda event: event.eye.position.x == 1.0)
         self.assertEqual(self.leaves.state.messages[-1].eye.position.x, 1.0)
         self.assertGreater(self.leaves.diagnostics()['Messages of other viewers'], 0)
         self.clock.run(4 * RATE, self.leaves)  # silent: forgotten, the plane's own camera looks
-        event = [e for e in self.leaves.events.messages if e.kind == CanopyEvent.VIEWER][-1]
-        self.assertTrue(event.gone)
+        self.expect_viewer(lambda event: event.gone)
         self.assertEqual(self.leaves.state.messages[-1].eye.position.x, -5.0)
         one.close(), other.close()
 

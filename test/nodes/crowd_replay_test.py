@@ -12,8 +12,9 @@ from nav_msgs.msg import OccupancyGrid
 from vegetation_sim.msg import AgentSpawn, CrowdEvent
 
 from crowd_rig import Cart, Crowd, at
-from forest_rig import TickClock, listens, publisher, time_of
+from forest_rig import TickClock, time_of
 from waiting import wait_for
+from watched_node import listens, publisher
 
 START = 1700000000 * 30  # Unix time, where a float second has no fraction left
 

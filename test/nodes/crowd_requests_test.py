@@ -11,7 +11,8 @@ from tf2_msgs.msg import TFMessage
 from vegetation_sim.msg import AgentSpawn, CrowdEvent, TreadEvent
 
 from crowd_rig import Cart, Crowd, at, distance
-from forest_rig import Log, TickClock, time_of
+from forest_rig import TickClock, time_of
+from watched_node import Log
 
 START = 3000  # tick
 

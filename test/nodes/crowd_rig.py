@@ -10,9 +10,8 @@ from tf2_msgs.msg import TFMessage
 from vegetation_sim.msg import AgentStates, CrowdEvent, TreadEvent
 from vegetation_sim.srv import RemoveAgents, SetAgentGoal, SpawnAgents
 
-from forest_rig import Log, publisher
 from waiting import wait_for
-from watched_node import WatchedNode
+from watched_node import Log, WatchedNode, publisher
 
 
 class Crowd(WatchedNode):
@@ -23,11 +22,13 @@ class Crowd(WatchedNode):
         self.events = Log(namespace + 'agents/events', CrowdEvent)
         self.tread = Log(namespace + 'tread', TreadEvent)
         self.spawn = rospy.ServiceProxy(name + '/spawn', SpawnAgents)
-        self.remove = rospy.ServiceProxy(name + '/remove', RemoveAgents, persistent=True)
         self.set_goal = rospy.ServiceProxy(name + '/set_goal', SetAgentGoal)
         self.reset = rospy.ServiceProxy(name + '/reset', Trigger)
-        # To remove nobody is refused.
-        super().__init__(name, 'crowd', self.remove, (self.state, self.events, self.tread))
+        super().__init__(name, 'crowd', name + '/remove', RemoveAgents,
+                         (self.state, self.events, self.tread))
+
+    def remove(self, **request):
+        return self._probe(**request)
 
     def agents(self):
         """Those of the last tick, by id."""

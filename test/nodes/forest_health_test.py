@@ -11,9 +11,9 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from std_srvs.srv import Trigger
 from vegetation_sim.msg import ForestEvent
 
-from forest_rig import (RATE, Animator, Eye, Log, TickClock, publisher, scene, start_animator, stop,
-                        time_of)
+from forest_rig import RATE, Animator, Eye, TickClock, scene, start_animator, stop, time_of
 from waiting import wait_for
+from watched_node import Log, publisher
 
 
 class ForestHealth(unittest.TestCase):

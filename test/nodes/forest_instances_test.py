@@ -12,8 +12,9 @@ import rostest
 from std_srvs.srv import Trigger
 from vegetation_sim.msg import ForestEvent, ForestState
 
-from forest_rig import RATE, Animator, Eye, Log, TickClock, scene, start_animator, stop, time_of
+from forest_rig import RATE, Animator, Eye, TickClock, scene, start_animator, stop, time_of
 from waiting import wait_for
+from watched_node import Log
 
 RESTARTS = 5
 FIXED_LEVEL, OTHER_FIXED_LEVEL = 2, 3

@@ -8,7 +8,8 @@ import rospy
 import rostest
 from vegetation_sim.msg import ForestState, WindField
 
-from forest_rig import RATE, Eye, Log, time_of
+from forest_rig import RATE, Eye, time_of
+from watched_node import Log
 
 TICKS = 2 * RATE
 

@@ -14,8 +14,9 @@ from std_msgs.msg import Header
 from tf2_msgs.msg import TFMessage
 from vegetation_sim.msg import ForestEvent, Viewer, WindField
 
-from forest_rig import RATE, Animator, Eye, Log, TickClock, publisher
+from forest_rig import RATE, Animator, Eye, TickClock
 from waiting import wait_for
+from watched_node import Log, publisher
 
 NAN, INF = float('nan'), float('inf')
 TREES = 17

@@ -3,24 +3,17 @@
 """What the tests of forest_animator share: a clock that goes tick by tick, logs of topics, nodes."""
 import signal
 import subprocess
-import threading
-import warnings
-import xmlrpc.client
 
 import roslib.packages
-import rosgraph
 import rospy
-from diagnostic_msgs.msg import DiagnosticArray
 from rosgraph_msgs.msg import Clock
 from vegetation_sim.msg import ForestEvent, ForestLayout, ForestState, Viewer, WindField
 from vegetation_sim.srv import GetTree, GetWindField, Pick, SetTf
 
 from waiting import DEADLINE, wait_for
+from watched_node import Log, WatchedNode, publisher, slave
 
 RATE = 30  # ticks [Hz]
-REMINDER = 0.5  # [s] of wall time
-# Publishers without a queue: a message is in the reader's socket before publish() returns.
-warnings.simplefilter('ignore', SyntaxWarning)
 
 
 def time_of(tick, rate=RATE):
@@ -28,86 +21,27 @@ def time_of(tick, rate=RATE):
     return rospy.Time(*divmod(-(-tick * 10 ** 9 // rate), 10 ** 9))
 
 
-def publisher(topic, message_type):
-    return rospy.Publisher(topic, message_type, queue_size=None, tcp_nodelay=True)
-
-
-class Log:
-    """All that a topic said."""
-
-    def __init__(self, topic, message_type):
-        self.topic = topic
-        self.messages = []
-        self._heard = threading.Condition()
-        self._subscriber = rospy.Subscriber(topic, message_type, self._hear, tcp_nodelay=True)
-
-    def _hear(self, message):
-        with self._heard:
-            self.messages.append(message)
-            self._heard.notify_all()
-
-    def wait(self, condition, what, remind=lambda: None):
-        """Waits until `condition(messages)` is true, and reminds now and then; returns its value."""
-        for _ in range(int(DEADLINE / REMINDER)):
-            with self._heard:
-                value = self._heard.wait_for(lambda: condition(self.messages), REMINDER)
-            if value:
-                return value
-            remind()
-        raise AssertionError('waited in vain for %s on %s' % (what, self.topic))
-
-    def wait_for_stamp(self, stamp, remind=lambda: None):
-        """The newest message, once it has this stamp."""
-        return self.wait(lambda all: all and all[-1].header.stamp == stamp and all[-1],
-                         str(stamp), remind)
-
-    def connected(self):
-        return self._subscriber.get_num_connections() > 0
-
-    def close(self):
-        self._subscriber.unregister()
-
-
-class Animator:
+class Animator(WatchedNode):
     """One forest_animator as its users see it."""
 
     def __init__(self, name='/forest_animator', namespace='/'):
-        self.name = name
         self.layout = Log(namespace + 'forest/layout', ForestLayout)
         self.state = Log(namespace + 'forest/state', ForestState)
         self.events = Log(namespace + 'forest/events', ForestEvent)
-        self.process = name  # node that it lives in: a manager's, of a nodelet
-        self.reconnect()
+        super().__init__(name, 'forest', name + '/get_tree', GetTree,
+                         (self.layout, self.state, self.events))
         self.pick = rospy.ServiceProxy(name + '/pick', Pick)
         self.set_tf = rospy.ServiceProxy(name + '/set_tf', SetTf)
 
-    def reconnect(self):
-        self._tree = rospy.ServiceProxy(self.name + '/get_tree', GetTree, persistent=True)
-
-    def wait_until_up(self, *topics):
-        """Until it listens to the clock and `topics`, and its first state will be heard here."""
-        self._tree.wait_for_service(DEADLINE)
-        self.settle()
-        for topic in ('/clock',) + topics:
-            wait_for(lambda: listens(self.process, topic), '%s to hear %s' % (self.name, topic))
-        for log in (self.layout, self.state, self.events):
-            wait_for(log.connected, log.topic)
-
-    def settle(self):
-        """Returns when it has taken all that was published before: it reads its sockets in turns,
-        so what lay in another socket at the first call is in its queue by the second."""
-        for _ in range(2):
-            self._tree(tree=2 ** 32 - 1)
-
     def tree(self, tree, stamp=rospy.Time()):
-        answer = self._tree(tree=tree, stamp=stamp)
+        answer = self._probe(tree=tree, stamp=stamp)
         if not answer.success:
             raise AssertionError(answer.message)
         return answer
 
     def refusal(self, **request):
         """Message with which get_tree refuses."""
-        answer = self._tree(**request)
+        answer = self._probe(**request)
         return '' if answer.success else answer.message
 
     def level(self, tree):
@@ -116,20 +50,6 @@ class Animator:
     def hashes(self):
         """Hash of the state by stamp."""
         return {m.header.stamp: m.hash for m in self.state.messages}
-
-    def diagnostics(self):
-        """The node's next diagnostics, by key."""
-        log = Log('/diagnostics', DiagnosticArray)
-        name = self.name.lstrip('/') + ': forest'
-        log.wait(lambda all: any(s.name == name for m in all for s in m.status), name)
-        log.close()
-        status = [s for m in log.messages for s in m.status if s.name == name][-1]
-        return {pair.key: float(pair.value) for pair in status.values}
-
-    def close(self):
-        for log in (self.layout, self.state, self.events):
-            log.close()
-        self._tree.close()
 
 
 class TickClock:
@@ -205,19 +125,6 @@ class Eye:
 
     def close(self):
         self._publisher.unregister()
-
-
-def slave(node):
-    """The node's own XML-RPC interface."""
-    return xmlrpc.client.ServerProxy(rosgraph.Master('/forest_rig').lookupNode(node))
-
-
-def listens(node, topic):
-    try:
-        _, _, links = slave(node).getBusInfo('/forest_rig')
-    except (rosgraph.MasterException, OSError):
-        return False
-    return any(link[2] == 'i' and link[4] == topic for link in links)
 
 
 def memory_of(node):

@@ -11,7 +11,8 @@ from tf2_msgs.msg import TFMessage
 from vegetation_sim.msg import BranchTransforms
 from visualization_msgs.msg import Marker, MarkerArray
 
-from forest_rig import RATE, Animator, Eye, Log, TickClock, time_of
+from forest_rig import RATE, Animator, Eye, TickClock, time_of
+from watched_node import Log
 
 SECONDS = 10
 TREES, LEAST_BRANCHES = 256, 200

@@ -10,8 +10,9 @@ from dynamic_reconfigure.client import Client
 from geometry_msgs.msg import TransformStamped
 from tf2_msgs.msg import TFMessage
 
-from forest_rig import RATE, Animator, Eye, TickClock, publisher, time_of
+from forest_rig import RATE, Animator, Eye, TickClock, time_of
 from waiting import wait_for
+from watched_node import publisher
 
 WEST, EAST = 0, 7  # trees at x = 0 m and 960 m
 BESIDE_WEST, BESIDE_EAST, FAR = (-12.0, 0.0, 5.0), (945.0, 8.0, 5.0), (-400.0, 0.0, 5.0)

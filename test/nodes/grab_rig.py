@@ -8,8 +8,9 @@ from geometry_msgs.msg import Point, PointStamped, TransformStamped, WrenchStamp
 from tf2_msgs.msg import TFMessage
 from vegetation_sim.srv import ApplyForce, Grab, MoveGrab, Release
 
-from forest_rig import Animator, Log, publisher, time_of
+from forest_rig import Animator, time_of
 from waiting import wait_for
+from watched_node import Log, publisher
 
 TREE = 0
 LIMB = 46  # outer third of a limb, 2.4 cm thick, 2.7 m above the ground

@@ -9,9 +9,9 @@ from geometry_msgs.msg import Point
 from vegetation_sim.msg import GrassEvent, GrassLayout, GrassState, TreadEvent
 from vegetation_sim.srv import ClearGrass, SampleGrass, Tread
 
-from forest_rig import RATE, Log, publisher, time_of
+from forest_rig import RATE, time_of
 from waiting import wait_for
-from watched_node import WatchedNode
+from watched_node import Log, WatchedNode, publisher
 
 FULL = 1.5  # tilt of grass that is crushed fully [rad]
 SIDE = 16  # nodes along a block
@@ -24,10 +24,10 @@ class Meadow(WatchedNode):
         self.layout = Log(namespace + 'grass/layout', GrassLayout)
         self.state = Log(namespace + 'grass/state', GrassState)
         self.events = Log(namespace + 'grass/events', GrassEvent)
-        self._sample = rospy.ServiceProxy(name + '/sample', SampleGrass, persistent=True)
         self.tread = rospy.ServiceProxy(name + '/tread', Tread)
         self.clear = rospy.ServiceProxy(name + '/clear', ClearGrass)
-        super().__init__(name, 'grass', self._sample, (self.layout, self.state, self.events))
+        super().__init__(name, 'grass', name + '/sample', SampleGrass,
+                         (self.layout, self.state, self.events))
 
     def at(self, x, y, stamp=rospy.Time()):
         """The grass at one place."""
@@ -37,14 +37,14 @@ class Meadow(WatchedNode):
         request = SampleGrass._request_class()
         request.header.stamp = stamp
         request.points = [Point(x, y, 0.0) for x, y in places]
-        answer = self._sample(request)
+        answer = self._probe(request)
         if not answer.success:
             raise AssertionError(answer.message)
         return answer.samples
 
     def refusal(self, **request):
         """Message with which sample refuses."""
-        answer = self._sample(**request)
+        answer = self._probe(**request)
         return '' if answer.success else answer.message
 
     def hashes(self):

@@ -15,9 +15,10 @@ import rostest
 from geometry_msgs.msg import WrenchStamped
 from nav_msgs.msg import Odometry
 
-from forest_rig import Log, TickClock
+from forest_rig import TickClock
 from grass_rig import RATE, Meadow
 from waiting import DEADLINE, wait_for
+from watched_node import Log
 
 NODES = {'meadow': ['/stone', '/grass_field', '/wind_broadcaster'],
          'meadow_robot': ['/robot', '/driver', '/grass_field', '/wind_broadcaster']}
@@ -77,8 +78,8 @@ class GrassScenarios(unittest.TestCase):
             self.assertGreater(min(s.tilt for s in samples), 1.0)
         left, right = (self.meadow.entered(side)[0] for side in ('left_wheel', 'right_wheel'))
         self.assertLessEqual(abs(left[0] - right[0]) + abs(left[1] - right[1]), 2)
-        pulls = [w.wrench.force.x for w in wrenches.messages
-                 if w.header.frame_id == 'left_wheel_contact']
+        pulls = wrenches.wait(lambda all: [w.wrench.force.x for w in all
+                                           if w.header.frame_id == 'left_wheel_contact'], 'a pull')
         self.assertLess(min(pulls), -0.5)
         self.assertLessEqual(max(pulls), 1e-6)
         self.assertGreater(odom.messages[-1].twist.twist.linear.x, 0.8)

@@ -14,9 +14,10 @@ from tf2_msgs.msg import TFMessage
 from vegetation_sim.msg import TreadEvent, WindPrimitive
 from vegetation_sim.srv import SetWindPrimitive
 
-from forest_rig import Log, TickClock, publisher
+from forest_rig import TickClock
 from grass_rig import FULL, RATE, Feet, Meadow, step, time_of
 from waiting import wait_for
+from watched_node import Log, publisher
 
 
 class GrassSources(unittest.TestCase):
@@ -111,9 +112,9 @@ class GrassSources(unittest.TestCase):
         self.fly(RATE // 2, lambda s: ('wheel_right', -14.0 + 0.5 * s, 12.0, 0.0))
         self.clock.run(2 * RATE, self.grass)
         self.assertGreaterEqual(self.grass.diagnostics()['Sources not told'], 1)
-        lifts = [e for e in self.grass.events.messages if e.tread.source == 'wheel_right' and
-                 e.tread.action == TreadEvent.LIFT]
-        self.assertTrue(lifts)
+        self.grass.events.wait(
+            lambda all: any(e.tread.source == 'wheel_right' and e.tread.action == TreadEvent.LIFT
+                            for e in all), 'a wheel that lifts')
         self.fly(RATE // 2, lambda s: ('wheel_right', -12.0 + 0.5 * s, 12.0, 0.0))
         self.assertEqual(self.grass.at(-12.8, 12.0).tilt, 0.0)
         self.assertGreater(self.grass.at(-11.8, 12.0).tilt, 1.4)

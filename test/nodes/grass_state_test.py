@@ -10,9 +10,10 @@ from nav_msgs.msg import OccupancyGrid
 from vegetation_sim.msg import GrassEvent, TreadEvent
 from visualization_msgs.msg import MarkerArray
 
-from forest_rig import Eye, Log, TickClock
+from forest_rig import Eye, TickClock
 from grass_rig import FULL, RATE, Feet, Meadow, nodes_of, step, time_of
 from waiting import wait_for
+from watched_node import Log
 
 LAYERS = ('crush', 'density', 'resistance', 'age')
 

@@ -10,9 +10,10 @@ from dynamic_reconfigure.client import Client
 from vegetation_sim.msg import GrassEvent
 from visualization_msgs.msg import MarkerArray
 
-from forest_rig import Eye, Log, TickClock
+from forest_rig import Eye, TickClock
 from grass_rig import FULL, RATE, Feet, Meadow, step
 from waiting import wait_for
+from watched_node import Log
 
 PLAIN = dict(tread_radius=0.12, tread_reach=0.35, tread_softness=0.1, tread_load=1.0,
              tread_recovery=60.0, height_gate=0.3, drag=0.2, tolerance=1.5, transition=0.5,

@@ -1,22 +1,98 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the rigs of all nodes with a clock share."""
+"""What the rigs of all nodes with a clock share: logs of topics, links, the node as users see it."""
+import threading
+import warnings
+import xmlrpc.client
+
+import rosgraph
+import rospy
 from diagnostic_msgs.msg import DiagnosticArray
 
-from forest_rig import Log, listens
 from waiting import DEADLINE, wait_for
+
+REMINDER = 0.5  # [s] of wall time
+# Publishers without a queue: a message is in the reader's socket before publish() returns.
+warnings.simplefilter('ignore', SyntaxWarning)
+
+
+def publisher(topic, message_type):
+    return rospy.Publisher(topic, message_type, queue_size=None, tcp_nodelay=True)
+
+
+def slave(node):
+    """The node's own XML-RPC interface."""
+    return xmlrpc.client.ServerProxy(rosgraph.Master('/watched_node').lookupNode(node))
+
+
+def links(address, direction, topic):
+    """Other ends of a node's links of a topic, 'i'n or 'o'ut."""
+    _, _, all_links = xmlrpc.client.ServerProxy(address).getBusInfo('/watched_node')
+    return [link[1] for link in all_links if link[2] == direction and link[4] == topic]
+
+
+def listens(node, topic):
+    """Whether all that is published from now on will be heard: both ends hold the link."""
+    try:
+        address = rosgraph.Master('/watched_node').lookupNode(node)
+        sources = links(address, 'i', topic)
+        return bool(sources) and all(node in links(source, 'o', topic) for source in sources)
+    except (rosgraph.MasterException, OSError):
+        return False
+
+
+class Log:
+    """All that a topic said."""
+
+    def __init__(self, topic, message_type):
+        self.topic = topic
+        self.messages = []
+        self._heard = threading.Condition()
+        self._subscriber = rospy.Subscriber(topic, message_type, self._hear, tcp_nodelay=True)
+
+    def _hear(self, message):
+        with self._heard:
+            self.messages.append(message)
+            self._heard.notify_all()
+
+    def wait(self, condition, what, remind=lambda: None):
+        """Waits until `condition(messages)` is true, and reminds now and then; returns its value."""
+        for _ in range(int(DEADLINE / REMINDER)):
+            with self._heard:
+                value = self._heard.wait_for(lambda: condition(self.messages), REMINDER)
+            if value:
+                return value
+            remind()
+        raise AssertionError('waited in vain for %s on %s' % (what, self.topic))
+
+    def wait_for_stamp(self, stamp, remind=lambda: None):
+        """The newest message, once it has this stamp."""
+        return self.wait(lambda all: all and all[-1].header.stamp == stamp and all[-1],
+                         str(stamp), remind)
+
+    def connected(self):
+        return (self._subscriber.get_num_connections() > 0 and
+                listens(rospy.get_name(), self._subscriber.resolved_name))
+
+    def close(self):
+        self._subscriber.unregister()
 
 
 class WatchedNode:
-    """A node as its users see it. It has `logs`, and a persistent service `probe` that changes
-    nothing when it is called without arguments."""
+    """A node as its users see it. It has `logs`, and a service `probe` that changes nothing when
+    it is called without arguments."""
 
-    def __init__(self, name, status, probe, logs):
+    def __init__(self, name, status, probe, probe_type, logs):
         self.name = name
         self.process = name  # node that it lives in: a manager's, of a nodelet
         self._status = name.lstrip('/') + ': ' + status
-        self._probe = probe
+        self._reconnect = lambda: rospy.ServiceProxy(probe, probe_type, persistent=True)
         self._logs = logs
+        self.reconnect()
+
+    def reconnect(self):
+        """To a node that was started anew."""
+        self._probe = self._reconnect()
 
     def wait_until_up(self, *topics):
         """Until it listens to the clock and `topics`, and its first state will be heard here."""
@@ -26,6 +102,7 @@ class WatchedNode:
             wait_for(lambda: listens(self.process, topic), '%s to hear %s' % (self.name, topic))
         for log in self._logs:
             wait_for(log.connected, log.topic)
+        self.settle()  # so it has what was latched
 
     def settle(self):
         """Returns when it has taken all that was published before: it reads its sockets in turns,
@@ -36,7 +113,8 @@ class WatchedNode:
     def diagnostics(self):
         """The node's next diagnostics, by key."""
         log = Log('/diagnostics', DiagnosticArray)
-        log.wait(lambda all: any(s.name == self._status for m in all for s in m.status), self._status)
+        log.wait(lambda all: any(s.name == self._status for m in all for s in m.status),
+                 self._status)
         log.close()
         status = [s for m in log.messages for s in m.status if s.name == self._status][-1]
         return {pair.key: float(pair.value) for pair in status.values}
