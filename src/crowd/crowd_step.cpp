@@ -22,9 +22,17 @@ constexpr double ASIDE = -1.9;            // to the right of the goal [rad]
 constexpr double GIVE_UP = 30.0;          // without progress, before another goal [s]
 constexpr int DRAWS = 8;                  // for a goal that is free
 constexpr std::size_t FEW = 256;          // walkers that are not worth a thread
+constexpr std::size_t AHEAD = 4;          // walkers for which memory is asked early
 constexpr double JUST_SAFE = 1.0 - 1e-9;  // of what is known to be free
 constexpr double GETTING_OUT = 0.1;       // of the radius, a step
 constexpr double STANDS_STILL = 0.05;     // slower than this the body does not turn [m/s]
+
+// Those who are neighbours now may be anywhere in memory.
+void prefetch(const Walker& walker) {
+  constexpr std::size_t LINE = 64;
+  const char* begin = reinterpret_cast<const char*>(&walker);
+  for (std::size_t at = 0; at < sizeof(Walker); at += LINE) __builtin_prefetch(begin + at, 1);
+}
 
 }  // namespace
 
@@ -55,43 +63,27 @@ void Crowd::advance(Nanoseconds stamp) {
   memory_.stamp = stamp;
   memory_.begun = true;
   if (dt == 0.0) return;
-  before_.swap(memory_.walkers);
-  memory_.walkers.resize(before_.size());
   look();
   // Neighbours one after the other: what one looks at is at hand for the next.
-  forAll(before_.size(), [&](std::size_t i) {
-    const std::uint32_t index = grid_.spots()[i].index;
-    memory_.walkers[index] = before_[index];
-    stepOne(index, tick, memory_.walkers[index]);
+  const auto& spots = grid_.spots();
+  forAll(spots.size(), [&](std::size_t i) {
+    if (i + AHEAD < spots.size()) prefetch(memory_.walkers[spots[i + AHEAD].index]);
+    stepOne(spots[i].index, tick, memory_.walkers[spots[i].index]);
   });
   ways_.endTick();
 }
 
 void Crowd::look() {
+  const std::vector<Walker>& walkers = memory_.walkers;
   robots_.clear();
   for (const auto& entry : memory_.robots) robots_.push_back(obstacleOf(entry.second));
   double widest = 0.0;
-  for (const Walker& w : before_) widest = std::max(widest, w.radius);
-  grid_.build(before_, memory_.settings.sensor_range + 2.0 * widest);
-  fields_.assign(before_.size(), nullptr);
+  for (const Walker& w : walkers) widest = std::max(widest, w.radius);
+  grid_.build(walkers, memory_.settings.sensor_range + 2.0 * widest);
+  fields_.assign(walkers.size(), nullptr);
   if (ways_.raster().empty()) return;
-  for (std::size_t i = 0; i < before_.size(); ++i)
-    if (before_[i].detours && before_[i].has_goal) fields_[i] = &ways_.fieldOf(before_[i].goal);
-}
-
-Movers Crowd::moversOf(const Walker& walker, const View& view, const Tick& tick) const {
-  Movers out;
-  for (int i = 0; i < view.count; ++i) {
-    const Sight& sight = view.at(i);
-    Mover& mover = out[static_cast<std::size_t>(i)];
-    mover = {sight.kind, sight.place - walker.position, {}, sight.radius, nullptr};
-    if (sight.kind == Seen::WALKER) mover.velocity = before_[sight.index].velocity;
-    if (sight.kind == Seen::ROBOT) mover.velocity = (*tick.around.robots)[sight.index].velocity;
-    if (!sight.is_disc)
-      mover.obstacle = sight.kind == Seen::ROBOT ? &(*tick.around.robots)[sight.index]
-                                                 : &still_.obstacles()[sight.index];
-  }
-  return out;
+  for (std::size_t i = 0; i < walkers.size(); ++i)
+    if (walkers[i].detours && walkers[i].has_goal) fields_[i] = &ways_.fieldOf(walkers[i].goal);
 }
 
 double Crowd::paceAt(const Walker& walker, const Point& direction) const {
@@ -122,9 +114,8 @@ void Crowd::chooseGoal(Walker& w) const {
 }
 
 // Where to, before looking around. Standing walkers keep their front.
-Wish Crowd::wishOf(Walker& w, std::size_t index) const {
-  const SinCos front = sinCos(w.heading);
-  Wish out{{front.cos, front.sin}, 0.0};
+Wish Crowd::wishOf(Walker& w, const Point& front, std::size_t index) const {
+  Wish out{front, 0.0};
   const auto behaviour = static_cast<Behaviour>(memory_.settings.behaviour);
   if (!w.has_goal && w.wanders) {
     if (behaviour == Behaviour::GOAL)
@@ -206,16 +197,16 @@ void Crowd::stepOne(std::size_t index, const Tick& tick, Walker& w) const {
   const CrowdSettings& s = memory_.settings;
   const auto self = static_cast<std::uint32_t>(index);
   const bool by_paper = s.behaviour == static_cast<int>(Behaviour::PAPER);
-  const Wish wish = wishOf(w, index);
+  const Point front = frontOf(w);
+  const Wish wish = wishOf(w, front, index);
   const View view = perceive(w, self, tick.around, s.sensor_range, s.neighbours);
-  const Movers movers = moversOf(w, view, tick);
   int side = 0;
   const Command command = by_paper ? decideByPaper(w, view, s, wish, tick.stamp)
-                                   : decideByGoal(w, view, movers, s, wish, tick.stamp, side);
+                                   : decideByGoal(w, view, s, wish, tick.stamp, side);
   keepSide(side, tick.dt, w);
   std::array<Limit, View::MOST> limits;
-  const int count = limitsOf(self, view, movers, s, tick.dt, limits);
-  const Point velocity = followed(w, command, s, tick.dt);
+  const int count = limitsOf(self, view, s, tick.dt, limits);
+  const Point velocity = followed(w, front, command, s, tick.dt);
   // Who is in others already gets out by small steps, whatever else is there.
   const bool overlaps = view.count > 0 && view.at(0).gap < 0.0;
   const double farthest =
@@ -225,7 +216,7 @@ void Crowd::stepOne(std::size_t index, const Tick& tick, Walker& w) const {
   w.velocity = (1.0 / tick.dt) * step;
   const double fastest = 2.0 * w.speed, speed = length(w.velocity);
   if (speed > fastest) w.velocity = (fastest / speed) * w.velocity;  // pushed
-  if (speed > STANDS_STILL) turnTowards(command.direction, s, tick.dt, w);
+  if (speed > STANDS_STILL) turnTowards(command.direction, front, s, tick.dt, w);
   advanceGait(std::min(length(step), fastest * tick.dt), w);
   if (!by_paper) loosen(wish.speed, tick, w);
   reach(tick, w);

@@ -43,39 +43,36 @@ Point turned(const Point& v, const SinCos& by) {
   return {by.cos * v.x - by.sin * v.y, by.sin * v.x + by.cos * v.y};
 }
 
-double meeting(const Walker& walker, const Mover& mover, const Point& velocity) {
-  const Point relative = velocity - mover.velocity;
-  if (mover.obstacle) return timeToMeet(walker.position, walker.radius, relative, *mover.obstacle);
-  return timeToMeet(mover.to, walker.radius + mover.radius, relative);
+double meeting(const Walker& walker, const Sight& sight, const Point& velocity) {
+  const Point relative = velocity - sight.velocity;
+  if (sight.obstacle) return timeToMeet(walker.position, walker.radius, relative, *sight.obstacle);
+  return timeToMeet(sight.place - walker.position, walker.radius + sight.radius, relative);
 }
 
-double firstMeeting(const Walker& walker, const View& view, const Movers& movers,
-                    const Point& velocity) {
+double firstMeeting(const Walker& walker, const View& view, const Point& velocity) {
   double out = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < view.count; ++i)
-    out = std::min(out, meeting(walker, movers[static_cast<std::size_t>(i)], velocity));
+  for (int i = 0; i < view.count; ++i) out = std::min(out, meeting(walker, view.at(i), velocity));
   return out;
 }
 
-bool isThreatened(const Walker& walker, const View& view, const Movers& movers,
-                  const Point& velocity) {
+bool isThreatened(const Walker& walker, const View& view, const Point& velocity) {
   for (int i = 0; i < view.count; ++i) {
-    const Mover& mover = movers[static_cast<std::size_t>(i)];
-    if (mover.kind == Seen::ROBOT && dot(mover.velocity, mover.velocity) > 0.0 &&
-        meeting(walker, mover, velocity) < WARNING)
+    const Sight& sight = view.at(i);
+    if (sight.kind == Seen::ROBOT && dot(sight.velocity, sight.velocity) > 0.0 &&
+        meeting(walker, sight, velocity) < WARNING)
       return true;
   }
   return false;
 }
 
 // Out of a robot's way: where nothing is met for longest, all round.
-Command evade(const Walker& walker, const View& view, const Movers& movers, const Wish& wish) {
+Command evade(const Walker& walker, const View& view, const Wish& wish) {
   constexpr int ROUND = 16;
   Command out{wish.direction, HURRY * walker.speed};
   double best = -1.0;
   for (int i = 0; i < ROUND; ++i) {
     const Point direction = turned(wish.direction, sinCosTurns(static_cast<double>(i) / ROUND));
-    const double time = firstMeeting(walker, view, movers, out.speed * direction);
+    const double time = firstMeeting(walker, view, out.speed * direction);
     const double worth = std::min(time, 2.0 * WARNING) + 0.05 * dot(direction, wish.direction);
     if (worth <= best) continue;
     best = worth;
@@ -120,10 +117,9 @@ Command decideByPaper(const Walker& walker, const View& view, const CrowdSetting
   return out;
 }
 
-Command decideByGoal(const Walker& walker, const View& view, const Movers& movers,
-                     const CrowdSettings& s, const Wish& wish, Nanoseconds stamp, int& side) {
-  if (isThreatened(walker, view, movers, wish.speed * wish.direction))
-    return evade(walker, view, movers, wish);
+Command decideByGoal(const Walker& walker, const View& view, const CrowdSettings& s,
+                     const Wish& wish, Nanoseconds stamp, int& side) {
+  if (isThreatened(walker, view, wish.speed * wish.direction)) return evade(walker, view, wish);
   Command out{wish.direction, wish.speed};
   if (!(wish.speed > 0.0)) return out;
   const double seconds = static_cast<double>(stamp) * 1e-9;
@@ -146,7 +142,7 @@ Command decideByGoal(const Walker& walker, const View& view, const Movers& mover
       const double most = std::min(seen, std::max(0.0, far * turn.cos));
       if (far * far * (1.0 + cost) + most * (most - 2.0 * far * turn.cos) >= best) continue;
     }
-    const double time = firstMeeting(walker, view, movers, wish.speed * direction);
+    const double time = firstMeeting(walker, view, wish.speed * direction);
     const double reach = std::min(seen, wish.speed * time);
     cost = far * far * (1.0 + cost) + reach * (reach - 2.0 * far * turn.cos);
     if (cost >= best) continue;

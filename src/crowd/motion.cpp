@@ -52,8 +52,8 @@ double slopeFactor(double slope) {
   return exponential(STEEPNESS * (std::fabs(BEST) - std::fabs(slope - BEST)));
 }
 
-int limitsOf(std::uint32_t self, const View& view, const Movers& movers, const CrowdSettings& s,
-             double dt, std::array<Limit, View::MOST>& limits) {
+int limitsOf(std::uint32_t self, const View& view, const CrowdSettings& s, double dt,
+             std::array<Limit, View::MOST>& limits) {
   for (int i = 0; i < view.count; ++i) {
     const Sight& sight = view.at(i);
     Limit& limit = limits[static_cast<std::size_t>(i)];
@@ -65,10 +65,8 @@ int limitsOf(std::uint32_t self, const View& view, const Movers& movers, const C
     limit.hard = share * JUST_LESS * std::max(0.0, std::min(sight.gap, sight.lower));
     // Of what overlaps already, only one that stands still holds its ground.
     if (sight.gap < 0.0 && (i > 0 || sight.kind != Seen::STATIC)) limit.hard = UNBOUNDED;
-    if (sight.kind == Seen::ROBOT) {
-      const Point& velocity = movers[static_cast<std::size_t>(i)].velocity;
-      limit.wanted -= dt * std::max(0.0, -dot(velocity, limit.normal));
-    }
+    if (sight.kind == Seen::ROBOT)
+      limit.wanted -= dt * std::max(0.0, -dot(sight.velocity, limit.normal));
     limit.wanted = std::max(limit.wanted, -s.push_speed * dt);
   }
   return view.count;
@@ -95,9 +93,14 @@ Point safeStep(const Point& desired, const std::array<Limit, View::MOST>& limits
   return scale * step;
 }
 
-Point followed(const Walker& walker, const Command& command, const CrowdSettings& s, double dt) {
+Point frontOf(const Walker& walker) {
   const SinCos front = sinCos(walker.heading);
-  const double facing = front.cos * command.direction.x + front.sin * command.direction.y;
+  return {front.cos, front.sin};
+}
+
+Point followed(const Walker& walker, const Point& front, const Command& command,
+               const CrowdSettings& s, double dt) {
+  const double facing = dot(front, command.direction);
   const double speed = command.speed * (BACKWARDS + (1.0 - BACKWARDS) * std::max(0.0, facing));
   Point change = speed * command.direction - walker.velocity;
   change = (dt / (dt + s.reaction)) * change;
@@ -106,10 +109,10 @@ Point followed(const Walker& walker, const Command& command, const CrowdSettings
   return walker.velocity + change;
 }
 
-void turnTowards(const Point& direction, const CrowdSettings& s, double dt, Walker& walker) {
-  const SinCos front = sinCos(walker.heading);
-  const double off = roughAngle(front.cos * direction.y - front.sin * direction.x,
-                                front.cos * direction.x + front.sin * direction.y);
+void turnTowards(const Point& direction, const Point& front, const CrowdSettings& s, double dt,
+                 Walker& walker) {
+  const double off =
+      roughAngle(front.x * direction.y - front.y * direction.x, dot(front, direction));
   const double wanted = std::min(s.turn_rate, std::max(-s.turn_rate, off / TURN_LAG));
   walker.turn_rate += (dt / (dt + 0.5 * TURN_LAG)) * (wanted - walker.turn_rate);
   double turn = walker.turn_rate * dt;

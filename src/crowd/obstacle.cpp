@@ -99,15 +99,6 @@ Point wayOut(const Point& point, const Obstacle& obstacle) {
   return fromFrame(box, {0.0, at.y < 0.0 ? -y : y});
 }
 
-double timeToMeet(const Point& to, double radius, const Point& velocity) {
-  const double closing = dot(to, velocity), away = dot(to, to) - radius * radius;
-  if (!(closing > 0.0)) return NEVER;
-  if (away <= 0.0) return 0.0;
-  const double square = dot(velocity, velocity);
-  const double root = closing * closing - square * away;
-  return root < 0.0 ? NEVER : away / (closing + std::sqrt(root));
-}
-
 double timeToMeet(const Point& from, double radius, const Point& velocity,
                   const Obstacle& obstacle) {
   const Point to = obstacle.centre() - from;

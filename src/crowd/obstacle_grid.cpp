@@ -44,17 +44,18 @@ ObstacleGrid::ObstacleGrid(std::vector<Obstacle> obstacles, double cell)
   const auto cover = [&](const Extent& e, auto each) {
     for (int r = row(e.low.y); r <= row(e.high.y); ++r)
       for (int c = column(e.low.x); c <= column(e.high.x); ++c)
-        each(static_cast<std::size_t>(r) * columns_ + c);
+        each(static_cast<std::size_t>(r) * columns_ + c, r, c);
   };
-  for (const Extent& e : extents) cover(e, [&](std::size_t at) { ++starts_[at + 1]; });
+  for (const Extent& e : extents) cover(e, [&](std::size_t at, int, int) { ++starts_[at + 1]; });
   for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
   spots_.resize(starts_.back());
   std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
   for (std::uint32_t i = 0; i < obstacles_.size(); ++i) {
     const Obstacle& o = obstacles_[i];
-    const Spot spot{o.centre(),           o.reach, i, o.isDisc(), column(extents[i].low.x),
-                    row(extents[i].low.y)};
-    cover(extents[i], [&](std::size_t at) { spots_[next[at]++] = spot; });
+    const int column0 = column(extents[i].low.x), row0 = row(extents[i].low.y);
+    cover(extents[i], [&](std::size_t at, int r, int c) {
+      spots_[next[at]++] = {o.centre(), o.reach, i, c, o.isDisc(), c == column0, r == row0};
+    });
   }
 }
 

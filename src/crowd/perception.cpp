@@ -10,11 +10,10 @@ namespace {
 
 constexpr int MOST_CANDIDATES = 48;
 
-// Without initial values: most of the list stays unused.
+// That is no disc. Without initial values: most of the list stays unused.
 struct Candidate {
-  double bound;              ///< of the gap, from circles
-  double x, y, radius;       ///< of a disc, which has no obstacle here
-  const Obstacle* obstacle;  ///< null: a disc
+  double bound;  ///< of the gap, from circles
+  const Obstacle* obstacle;
   Seen kind;
   std::uint32_t index;
 };
@@ -33,10 +32,6 @@ bool isBefore(const Sight& a, const Sight& b) {
 
 // The nearest candidates in order; what does not fit is farther than `beyond`.
 struct Candidates {
-  std::array<Candidate, MOST_CANDIDATES> list;
-  int count{0};
-  double beyond;
-
   explicit Candidates(double range) : beyond(range) {}
   void add(const Candidate& fresh) {
     if (fresh.bound >= beyond) return;
@@ -50,28 +45,27 @@ struct Candidates {
       list[static_cast<std::size_t>(at)] = list[static_cast<std::size_t>(at - 1)];
     list[static_cast<std::size_t>(at)] = fresh;
   }
+
+  std::array<Candidate, MOST_CANDIDATES> list;
+  int count{0};
+  double beyond;
 };
 
-Sight sightOf(const Walker& walker, const Candidate& c, double enough) {
+Sight sightOf(const Walker& walker, const Obstacle& obstacle, Seen kind, std::uint32_t index,
+              double enough) {
   Sight out;
-  out.kind = c.kind;
-  out.index = c.index;
-  if (!c.obstacle) {
-    const Point to = Point{c.x, c.y} - walker.position;
-    const double apart = length(to);
-    out.gap = out.lower = c.bound;
-    out.is_disc = true;
-    out.place = {c.x, c.y};
-    out.radius = c.radius;
-    if (apart > 0.0) out.normal = (1.0 / apart) * to;
-    return out;
-  }
-  const Separation found = separation(walker.position, walker.radius, *c.obstacle, enough);
+  out.kind = kind;
+  out.index = index;
+  out.velocity = obstacle.velocity;
+  out.obstacle = obstacle.isDisc() ? nullptr : &obstacle;
+  out.place = obstacle.centre();
+  out.radius = obstacle.reach;
+  const Separation found = separation(walker.position, walker.radius, obstacle, enough);
   out.gap = found.gap;
   out.lower = found.gap > 0.0 ? found.lower : found.gap;
   out.normal = {found.normal.x(), found.normal.y()};
-  if (!found.cores_overlap) return out;
-  const Point out_of = wayOut(walker.position, *c.obstacle);
+  if (!found.cores_overlap || !out.obstacle) return out;
+  const Point out_of = wayOut(walker.position, obstacle);
   const double depth = length(out_of);
   out.gap = out.lower = -walker.radius - depth;
   if (depth > 0.0) out.normal = (-1.0 / depth) * out_of;
@@ -95,11 +89,65 @@ void keep(const Sight& sight, int most, double range, View& view) {
   view.sights[static_cast<std::size_t>(at)] = sight;
 }
 
-}  // namespace
+// Collects what a walker sees. Discs are measured at once, the rest when all are known.
+class Look {
+ public:
+  Look(const Walker& walker, double range, int most, View& view)
+      : walker_(walker), range_(range), most_(most), view_(view), others_(range) {
+    view_.beyond = range;
+  }
 
-std::int64_t WalkerGrid::cellOf(double x) const {
-  return static_cast<std::int64_t>(std::floor(x * per_metre_));
-}
+  void disc(const Point& place, double radius, const Point& velocity, Seen kind,
+            std::uint32_t index) {
+    double gap;
+    if (!isNear(place, radius, gap)) return;
+    keep({kind, index, gap, gap, {}, velocity, nullptr, place, radius}, most_, range_, view_);
+  }
+  void other(const Obstacle& obstacle, const Point& place, double reach, Seen kind,
+             std::uint32_t index) {
+    double bound;
+    if (isNear(place, reach, bound)) others_.add({bound, &obstacle, kind, index});
+  }
+  void finish() {
+    for (int i = 0; i < view_.count; ++i) {
+      Sight& sight = view_.sights[static_cast<std::size_t>(i)];
+      const Point to = sight.place - walker_.position;
+      const double apart = length(to);
+      if (apart > 0.0) sight.normal = (1.0 / apart) * to;
+    }
+    view_.beyond = std::min(view_.beyond, others_.beyond);
+    for (int i = 0; i < others_.count; ++i) {
+      const Candidate& candidate = others_.list[static_cast<std::size_t>(i)];
+      const bool full = view_.count == most_;
+      if (full && candidate.bound > view_.at(most_ - 1).gap) {
+        view_.beyond = std::min(view_.beyond, candidate.bound);
+        break;
+      }
+      const double enough = full ? view_.at(most_ - 1).gap : range_;
+      keep(sightOf(walker_, *candidate.obstacle, candidate.kind, candidate.index, enough), most_,
+           range_, view_);
+    }
+  }
+
+ private:
+  // What is farther than what is known to be out of view changes nothing.
+  bool isNear(const Point& place, double reach, double& gap) const {
+    const double far = view_.beyond + walker_.radius + reach;
+    const Point to = place - walker_.position;
+    const double square = dot(to, to);
+    if (square > far * far) return false;
+    gap = std::sqrt(square) - walker_.radius - reach;
+    return true;
+  }
+
+  const Walker& walker_;
+  double range_;
+  int most_;
+  View& view_;
+  Candidates others_;
+};
+
+}  // namespace
 
 void WalkerGrid::build(const std::vector<Walker>& walkers, double cell) {
   per_metre_ = 1.0 / cell;
@@ -118,7 +166,8 @@ void WalkerGrid::build(const std::vector<Walker>& walkers, double cell) {
   // Filled from the back, so that the starts end up where they began.
   for (std::size_t i = walkers.size(); i-- > 0;) {
     const Walker& w = walkers[i];
-    spots_[--starts_[buckets_[i] + 1]] = {w.position, w.radius, static_cast<std::uint32_t>(i)};
+    spots_[--starts_[buckets_[i] + 1]] = {w.position, w.velocity, w.radius,
+                                          static_cast<std::uint32_t>(i)};
   }
   for (std::size_t i = 0; i + 1 < starts_.size(); ++i) starts_[i] = starts_[i + 1];
   starts_.back() = static_cast<std::uint32_t>(walkers.size());
@@ -128,59 +177,48 @@ template <class Visit>
 void WalkerGrid::visitNear(const Point& place, Visit visit) const {
   const std::int64_t column = cellOf(place.x), row = cellOf(place.y);
   for (std::int64_t r = row - 1; r <= row + 1; ++r)
-    for (std::int64_t c = column - 1; c <= column + 1; ++c) {
-      const std::uint32_t bucket = bucketOf(c, r);
-      for (std::uint32_t i = starts_[bucket]; i < starts_[bucket + 1]; ++i) visit(spots_[i]);
+    for (std::int64_t c = column - 1; c <= column + 1;) {
+      // Columns are neighbours in memory too, up to where the grid repeats itself.
+      const std::uint32_t first = bucketOf(c, r), left = mask_ + 1 - (first & mask_);
+      const std::uint32_t run = std::min(static_cast<std::uint32_t>(column + 2 - c), left);
+      for (std::uint32_t i = starts_[first]; i < starts_[first + run]; ++i) visit(spots_[i]);
+      c += run;
     }
 }
 
 View perceive(const Walker& walker, std::uint32_t self, const Surroundings& around,
               double sensor_range, int most) {
-  Candidates candidates(sensor_range);
-  const auto offer = [&](const Point& centre, double reach, bool is_disc, const Obstacle* obstacle,
-                         Seen kind, std::uint32_t index) {
-    const double far = sensor_range + walker.radius + reach;
-    const Point to = centre - walker.position;
-    const double square = dot(to, to);
-    if (square < far * far)
-      candidates.add({std::sqrt(square) - walker.radius - reach, centre.x, centre.y, reach,
-                      is_disc ? nullptr : obstacle, kind, index});
-  };
-  const Obstacle* still = around.still->obstacles().data();
-  around.still->visitNear(
-      walker.position, sensor_range + walker.radius, [&](const ObstacleGrid::Spot& s) {
-        offer(s.centre, s.reach, s.is_disc, still + s.index, Seen::STATIC, s.index);
-      });
+  View out;
+  Look look(walker, sensor_range, most, out);
   around.walkers->visitNear(walker.position, [&](const WalkerGrid::Spot& s) {
-    if (s.index != self) offer(s.position, s.radius, true, nullptr, Seen::WALKER, s.index);
+    if (s.index != self) look.disc(s.position, s.radius, s.velocity, Seen::WALKER, s.index);
   });
+  const Obstacle* still = around.still->obstacles().data();
+  around.still->visitNear(walker.position, sensor_range + walker.radius,
+                          [&](const ObstacleGrid::Spot& s) {
+                            if (s.is_disc)
+                              look.disc(s.centre, s.reach, {}, Seen::STATIC, s.index);
+                            else
+                              look.other(still[s.index], s.centre, s.reach, Seen::STATIC, s.index);
+                          });
   for (std::uint32_t i = 0; i < around.robots->size(); ++i) {
     const Obstacle& o = (*around.robots)[i];
-    offer(o.centre(), o.reach, o.isDisc(), &o, Seen::ROBOT, i);
+    if (o.isDisc())
+      look.disc(o.centre(), o.reach, o.velocity, Seen::ROBOT, i);
+    else
+      look.other(o, o.centre(), o.reach, Seen::ROBOT, i);
   }
-  View out;
-  out.beyond = candidates.beyond;
-  for (int i = 0; i < candidates.count; ++i) {
-    const Candidate& candidate = candidates.list[static_cast<std::size_t>(i)];
-    const bool full = out.count == most;
-    if (full && candidate.bound > out.at(most - 1).gap) {
-      out.beyond = std::min(out.beyond, candidate.bound);
-      break;
-    }
-    const Sight sight = sightOf(walker, candidate, full ? out.at(most - 1).gap : sensor_range);
-    keep(sight, most, sensor_range, out);
-  }
+  look.finish();
   return out;
 }
 
 View perceiveAll(const Walker& walker, std::uint32_t self, const std::vector<Walker>& walkers,
                  const Surroundings& around, double sensor_range, int most) {
+  constexpr double ALL = std::numeric_limits<double>::infinity();
   View out;
   out.beyond = sensor_range;
   const auto offer = [&](const Obstacle& o, Seen kind, std::uint32_t index) {
-    const Sight sight = sightOf(walker, {0.0, 0.0, 0.0, 0.0, &o, kind, index},
-                                std::numeric_limits<double>::infinity());
-    keep(sight, most, sensor_range, out);
+    keep(sightOf(walker, o, kind, index, ALL), most, sensor_range, out);
   };
   const auto& still = around.still->obstacles();
   for (std::uint32_t i = 0; i < still.size(); ++i) offer(still[i], Seen::STATIC, i);

@@ -14,8 +14,7 @@ const Wish EAST{{1.0, 0.0}, 1.3};
 View facing(double gap, const Point& normal) {
   View out;
   out.count = 1;
-  out.sights[0].gap = out.sights[0].lower = gap;
-  out.sights[0].normal = normal;
+  out.sights[0] = {Seen::STATIC, 0, gap, gap, normal, {}, nullptr, (gap + 0.55) * normal, 0.3};
   return out;
 }
 
@@ -101,24 +100,19 @@ TEST(Decision, NoiseIsNearlyNormal) {
   EXPECT_NEAR(fourths, 2.85, 0.2);  // eight uniform numbers: 3 - 1.2 / 8
 }
 
-Movers wallAhead(const Obstacle& wall) {
-  Movers out;
-  out[0] = {Seen::STATIC, {}, {}, 0.0, &wall};
-  return out;
-}
-
 TEST(Decision, GoalBehaviourKeepsTheSideItTook) {
   CrowdSettings settings;
   settings.noise_heading = 0.0;
   const Obstacle wall = boxObstacle({2.0, 0.0}, 0.1, 0.6, 0.0);
-  const View view = facing(1.65, {1, 0});
+  View view = facing(1.65, {1, 0});
+  view.sights[0].obstacle = &wall;
   int side = 0;
   Walker walker;
-  const Command right = decideByGoal(walker, view, wallAhead(wall), settings, EAST, 0, side);
+  const Command right = decideByGoal(walker, view, settings, EAST, 0, side);
   EXPECT_EQ(side, -1);  // the right hand where both are equal
   EXPECT_LT(right.direction.y, -0.1);
   walker.side = 1;  // taken before
-  const Command left = decideByGoal(walker, view, wallAhead(wall), settings, EAST, 0, side);
+  const Command left = decideByGoal(walker, view, settings, EAST, 0, side);
   EXPECT_EQ(side, 1);
   EXPECT_GT(left.direction.y, 0.1);
 }
@@ -126,16 +120,16 @@ TEST(Decision, GoalBehaviourKeepsTheSideItTook) {
 TEST(Decision, StandingWalkersLeaveARobotsWay) {
   CrowdSettings settings;
   settings.noise_heading = 0.0;
-  Movers movers;
-  movers[0] = {Seen::ROBOT, {-2.0, 0.0}, {1.5, 0.0}, 0.4, nullptr};
   int side = 0;
   const Wish stand{{0.0, 1.0}, 0.0};
-  const View view = facing(1.4, {-1, 0});
-  const Command command = decideByGoal({}, view, movers, settings, stand, 0, side);
+  View view = facing(1.4, {-1, 0});
+  view.sights[0].kind = Seen::ROBOT;
+  view.sights[0].velocity = {1.5, 0.0};
+  const Command command = decideByGoal({}, view, settings, stand, 0, side);
   EXPECT_GT(command.speed, 1.0);
   EXPECT_GT(std::fabs(command.direction.y), 0.5);
-  movers[0].velocity = {-1.5, 0.0};  // it goes away
-  EXPECT_EQ(decideByGoal({}, view, movers, settings, stand, 0, side).speed, 0.0);
+  view.sights[0].velocity = {-1.5, 0.0};  // it goes away
+  EXPECT_EQ(decideByGoal({}, view, settings, stand, 0, side).speed, 0.0);
 }
 
 }  // namespace

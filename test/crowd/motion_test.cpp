@@ -57,8 +57,8 @@ TEST(Motion, HeadingAndSpeedChangeAtBoundedRates) {
   for (int i = 0; i < 300; ++i) {
     const Point direction = i / 50 % 2 ? Point{-1.0, 0.0} : Point{0.0, 1.0};
     const Walker before = walker;
-    walker.velocity = followed(walker, {direction, 1.35}, settings, DT);
-    turnTowards(direction, settings, DT, walker);
+    walker.velocity = followed(walker, frontOf(walker), {direction, 1.35}, settings, DT);
+    turnTowards(direction, frontOf(walker), settings, DT, walker);
     EXPECT_LE(length(walker.velocity - before.velocity), settings.acceleration * DT + 1e-12);
     double turn = walker.heading - before.heading;
     turn -= 2.0 * PI * std::floor(turn / (2.0 * PI) + 0.5);
@@ -70,15 +70,13 @@ TEST(Motion, HeadingAndSpeedChangeAtBoundedRates) {
 TEST(Motion, WalkersInOnePlaceAgreeHowToPart) {
   View view;
   view.count = 1;
-  view.sights[0].kind = Seen::WALKER;
-  view.sights[0].gap = view.sights[0].lower = -0.5;
+  view.sights[0] = {Seen::WALKER, 0, -0.5, -0.5, {}, {}, nullptr, {}, 0.25};
   std::array<Limit, View::MOST> one, other;
-  Movers movers{};
   const CrowdSettings settings;
   view.sights[0].index = 7;
-  limitsOf(3, view, movers, settings, 0.1, one);
+  limitsOf(3, view, settings, 0.1, one);
   view.sights[0].index = 3;
-  limitsOf(7, view, movers, settings, 0.1, other);
+  limitsOf(7, view, settings, 0.1, other);
   EXPECT_NEAR(one[0].normal.x, -other[0].normal.x, 1e-15);
   EXPECT_NEAR(one[0].normal.y, -other[0].normal.y, 1e-15);
   EXPECT_LT(one[0].wanted, 0.0);

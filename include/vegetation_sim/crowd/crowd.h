@@ -91,8 +91,7 @@ class Crowd {
   std::size_t indexOf(std::uint32_t id) const;
   Walker& at(std::uint32_t id);
   void look();
-  Movers moversOf(const Walker& walker, const View& view, const Tick& tick) const;
-  Wish wishOf(Walker& walker, std::size_t index) const;
+  Wish wishOf(Walker& walker, const Point& front, std::size_t index) const;
   void stepOne(std::size_t index, const Tick& tick, Walker& walker) const;
   void keepSide(int taken, double dt, Walker& walker) const;
   void loosen(double wanted, const Tick& tick, Walker& walker) const;
@@ -108,8 +107,7 @@ class Crowd {
   Resistance resistance_;
   int threads_{1};
   CrowdMemory memory_;
-  WalkerGrid grid_;
-  std::vector<Walker> before_;
+  WalkerGrid grid_;  ///< all as they were at the last tick
   std::vector<Obstacle> robots_;
   std::vector<const FlowField*> fields_;  ///< of each walker that makes a detour
 };

@@ -18,15 +18,6 @@ struct Wish {
   double speed{0.0};          ///< [m/s]; 0: it stands
 };
 
-/// An obstacle as it moves.
-struct Mover {
-  Seen kind;
-  Point to, velocity;        ///< to a disc from the walker [m], [m/s]
-  double radius;             ///< of the disc [m]
-  const Obstacle* obstacle;  ///< null: a disc
-};
-using Movers = std::array<Mover, View::MOST>;
-
 /// Standard deviation of the heading's noise at a distance [rad]: growing from 0 at contact to its
 /// largest at the sensor's range, or as printed the other way round, there bounded by ten times
 /// (S2-33, E7).
@@ -44,7 +35,7 @@ Command decideByPaper(const Walker& walker, const View& view, const CrowdSetting
 /// moves, and takes the one that ends nearest to where the wish leads (in the manner of Moussaid,
 /// Helbing and Theraulaz 2011). A side once taken is kept; robots are evaded even while standing.
 /// @param side that is taken: 1 left, -1 right, 0 none.
-Command decideByGoal(const Walker& walker, const View& view, const Movers& movers,
-                     const CrowdSettings& settings, const Wish& wish, Nanoseconds stamp, int& side);
+Command decideByGoal(const Walker& walker, const View& view, const CrowdSettings& settings,
+                     const Wish& wish, Nanoseconds stamp, int& side);
 
 }  // namespace vegetation_sim::crowd

@@ -65,6 +65,13 @@ Point wayOut(const Point& point, const Obstacle& obstacle);
 double timeToMeet(const Point& from, double radius, const Point& velocity,
                   const Obstacle& obstacle);
 /// The same for a point and a disc whose centre is at `to` from it.
-double timeToMeet(const Point& to, double radius, const Point& velocity);
+inline double timeToMeet(const Point& to, double radius, const Point& velocity) {
+  constexpr double NEVER = std::numeric_limits<double>::infinity();
+  const double closing = dot(to, velocity), away = dot(to, to) - radius * radius;
+  if (!(closing > 0.0)) return NEVER;
+  if (away <= 0.0) return 0.0;
+  const double root = closing * closing - dot(velocity, velocity) * away;
+  return root < 0.0 ? NEVER : away / (closing + std::sqrt(root));
+}
 
 }  // namespace vegetation_sim::crowd

@@ -24,8 +24,9 @@ class ObstacleGrid {
     Point centre;
     double reach;  ///< [m]
     std::uint32_t index;
-    bool is_disc;     ///< the circle is all of it
-    int column, row;  ///< its first cell
+    int column;                    ///< of this cell
+    bool is_disc;                  ///< the circle is all of it
+    bool first_column, first_row;  ///< of the obstacle's cells
   };
   /// Calls `visit(spot)` once for each obstacle whose cells come within `range` of a place, in an
   /// order that depends on the place alone.
@@ -34,15 +35,15 @@ class ObstacleGrid {
     if (obstacles_.empty()) return;
     const int c0 = column(place.x - range), c1 = column(place.x + range);
     const int r0 = row(place.y - range), r1 = row(place.y + range);
-    for (int r = r0; r <= r1; ++r)
-      for (int c = c0; c <= c1; ++c) {
-        const std::size_t cell = static_cast<std::size_t>(r) * columns_ + c;
-        for (std::uint32_t i = starts_[cell]; i < starts_[cell + 1]; ++i) {
-          const Spot& spot = spots_[i];
-          // An obstacle in several of the cells is told of in the first of them only.
-          if (std::max(spot.column, c0) == c && std::max(spot.row, r0) == r) visit(spot);
-        }
+    for (int r = r0; r <= r1; ++r) {
+      const std::size_t row_start = static_cast<std::size_t>(r) * columns_;
+      const std::uint32_t end = starts_[row_start + c1 + 1];
+      for (std::uint32_t i = starts_[row_start + c0]; i < end; ++i) {
+        const Spot& spot = spots_[i];
+        // An obstacle in several of the cells is told of in the first of them only.
+        if ((spot.first_column || spot.column == c0) && (spot.first_row || r == r0)) visit(spot);
       }
+    }
   }
 
  private:

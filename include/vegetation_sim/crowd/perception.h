@@ -13,16 +13,17 @@ namespace vegetation_sim::crowd {
 
 enum class Seen : int { STATIC, WALKER, ROBOT };
 
-/// One of the nearest obstacles.
+/// One of the nearest obstacles. Without initial values, since most of a view stays unused.
 struct Sight {
-  Seen kind{Seen::STATIC};
-  std::uint32_t index{0};  ///< of the static obstacle, walker or robot
-  double gap{0.0};         ///< between the outlines; below 0 they overlap [m]
-  double lower{0.0};       ///< proof: the gap is not less than this, up to rounding [m]
-  Point normal{};          ///< unit, towards it; zero if the walker's centre is in it
-  bool is_disc{false};
-  Point place{};       ///< of a disc [m]
-  double radius{0.0};  ///< of a disc [m]
+  Seen kind;
+  std::uint32_t index;       ///< of the static obstacle, walker or robot
+  double gap;                ///< between the outlines; below 0 they overlap [m]
+  double lower;              ///< proof: the gap is not less than this, up to rounding [m]
+  Point normal;              ///< unit, towards it; zero if the walker's centre is in it
+  Point velocity;            ///< [m/s]
+  const Obstacle* obstacle;  ///< null: a disc
+  Point place;               ///< of a disc [m]
+  double radius;             ///< of a disc [m]
 };
 
 /// What a walker perceives: (d, theta) of paper 2, section 5.1 (S2-31), for the nearest.
@@ -40,7 +41,7 @@ struct View {
 class WalkerGrid {
  public:
   struct Spot {
-    Point position;
+    Point position, velocity;
     double radius;
     std::uint32_t index;
   };
@@ -55,7 +56,11 @@ class WalkerGrid {
     return (static_cast<std::uint32_t>(row) & mask_) << bits_ |
            (static_cast<std::uint32_t>(column) & mask_);
   }
-  std::int64_t cellOf(double x) const;
+  std::int64_t cellOf(double x) const {
+    const double cells = x * per_metre_;
+    const auto whole = static_cast<std::int64_t>(cells);
+    return whole - (cells < static_cast<double>(whole));
+  }
 
   double per_metre_{1.0};
   std::uint32_t bits_{2}, mask_{3};
@@ -70,9 +75,9 @@ struct Surroundings {
   const std::vector<Obstacle>* robots{nullptr};
 };
 
-/// The `most` nearest obstacles within the sensor's range: candidates from the grids, sorted by
-/// the distance of their circles, measured until the next cannot be nearer. The same answer as
-/// measuring all. @param self index of the walker.
+/// The `most` nearest obstacles within the sensor's range: of the grids' candidates discs at once,
+/// others sorted by the distance of their circles, measured until the next cannot be nearer. The
+/// same answer as measuring all. @param self index of the walker.
 View perceive(const Walker& walker, std::uint32_t self, const Surroundings& around,
               double sensor_range, int most);
 /// The same by measuring all; for tests and benches.
