@@ -1,14 +1,15 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
 // Measures leafy masses: a step of the air by scheme and size with its error, oscillators, layers,
-// and a tick against the number of leaves. usage: canopy_bench [ROUNDS] [--quick] [--part
-// steps,errors,leaves] [--csv FILE]
+// a tick against the number of leaves, and layers against leaves that each move on their own.
+// usage: canopy_bench [ROUNDS] [--quick] [--part steps,errors,leaves,truth] [--csv FILE]
 
 #include <cmath>
 #include <cstdio>
 #include <memory>
 
 #include "canopy/canopy_scene.h"
+#include "canopy/leaf_truth.h"
 #include "canopy/plane_scene.h"
 #include "canopy/spectral_reference.h"
 #include "options.h"
@@ -158,15 +159,34 @@ void benchLeaves(const bench::Options& options, bench::Table& table) {
   }
 }
 
+// S3-06: a shrub of 5 000 leaves in layers, against every leaf on its own.
+void benchTruth(const bench::Options& options, bench::Table& table) {
+  const int leaves = options.quick ? 800 : 5000, from = 120, to = options.quick ? 240 : 480;
+  std::printf("\nlayers against every leaf on its own, a shrub of %d leaves\n", leaves);
+  const AirRecord air(lonelyShrub(1, 1), to + 60);
+  for (const double variety : {0.0, 0.15})
+    for (int layers = 1; layers <= 9; ++layers) {
+      const TruthError got =
+          compareWithTruth(leaves, layers, variety, from, to, air, bench::processorTime);
+      std::printf(
+          "own frequencies +-%2.0f %%  %d layers: error %.4f, %.3f ms; on its own %.2f ms\n",
+          100.0 * variety, layers, got.error, 1e3 * got.model, 1e3 * got.truth);
+      table.row(variety > 0.0 ? "truth, own" : "truth, alike", layers, got.error, 1e3 * got.model);
+      if (layers == 9) table.row("truth, cost", 0, got.error, 1e3 * got.truth);
+    }
+}
+
 }  // namespace
 }  // namespace vegetation_sim::canopy
 
 int main(int argc, char** argv) {
   using namespace vegetation_sim;
-  const bench::Options options = bench::readOptions(argc, argv, {"steps", "errors", "leaves"});
+  const bench::Options options =
+      bench::readOptions(argc, argv, {"steps", "errors", "leaves", "truth"});
   bench::Table table(options.csv, "what,size,value,ratio");
   if (options.wants("steps")) canopy::benchSteps(options, table);
   if (options.wants("errors")) canopy::benchErrors(options, table);
   if (options.wants("leaves")) canopy::benchLeaves(options, table);
+  if (options.wants("truth")) canopy::benchTruth(options, table);
   return 0;
 }

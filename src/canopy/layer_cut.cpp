@@ -59,8 +59,9 @@ LayerCut::LayerCut(const CutView& view, const CutSettings& settings, double near
   region(settings.far_layers, farthest);
   if (middles.empty()) middles.push_back(nearest);
   if (!ends_.empty()) ends_.pop_back();
+  first_ = middles.front();
   distances_.clear();
-  for (const double middle : middles) distances_.push_back(middle - middles.front());
+  for (const double middle : middles) distances_.push_back(middle - first_);
 }
 
 int LayerCut::layerAt(const Vec3& root) const {

@@ -3,8 +3,10 @@
 #include "vegetation_sim/canopy/layers.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "canopy/layer_pass.h"
 #include "vegetation_sim/common/math.h"
 #include "vegetation_sim/common/random.h"
 
@@ -46,6 +48,54 @@ class Lookup {
   double distance_, delay_speed_, sign_;
 };
 
+/// The default, from the history with the right delay: many cells at once.
+class FastLayer {
+ public:
+  FastLayer(const LayerView& view, double delay_speed) : pass_() {
+    for (int age = 0; age < view.history->frames(); ++age) {
+      const MotionFrame& frame = view.history->frame(age);
+      frames_.u.push_back(frame.u.data());
+      frames_.v.push_back(frame.v.data());
+      frames_.depth.push_back(static_cast<float>(fromHalf(frame.depth)));
+    }
+    pass_.frames = &frames_;
+    for (std::size_t i = 0; i < 3; ++i)
+      pass_.towards[i] = static_cast<float>(view.towards[static_cast<int>(i)]);
+    pass_.delay_speed = static_cast<float>(delay_speed);
+    pass_.rate = static_cast<float>(1.0 / view.tick);
+    pass_.u = &u_;
+    pass_.v = &v_;
+    pass_.depth = &depth_;
+  }
+
+  void write(LayerMotion& out, double distance) {
+    look(out, distance, [](float from, double& to) { to = static_cast<double>(from); });
+  }
+  void mix(LayerMotion& out, double distance, double share) {
+    look(out, distance, [share](float from, double& to) {
+      to = (1.0 - share) * to + share * static_cast<double>(from);
+    });
+  }
+
+ private:
+  template <class Put>
+  void look(LayerMotion& out, double distance, Put put) {
+    pass_.distance = static_cast<float>(distance);
+    for (pass_.begin = 0; pass_.begin < out.depth.size(); pass_.begin += PASS) {
+      lookBack(pass_);
+      for (std::size_t i = 0; i < PASS; ++i) {
+        put(u_[i], out.plane.u[pass_.begin + i]);
+        put(v_[i], out.plane.v[pass_.begin + i]);
+        put(depth_[i], out.depth[pass_.begin + i]);
+      }
+    }
+  }
+
+  FramesByAge frames_;
+  LayerPass pass_;
+  std::array<float, PASS> u_, v_, depth_;
+};
+
 }  // namespace
 
 void describe(FieldVisitor& v, LayerSettings& s) {
@@ -85,12 +135,18 @@ void layerMotion(const LayerView& view, double distance, double last, double del
   const int size = view.history->size();
   if (out.plane.size != size) out.plane = PlaneField(size);
   out.depth.resize(out.plane.area());
+  const double share = view.settings->delay == 1 ? 1.0 : smoothStep(view.front_share);
+  if (view.settings->model == 0 && view.settings->delay == 0) {
+    FastLayer layer(view, delay_speed);
+    layer.write(out, distance);
+    if (share < 1.0) layer.mix(out, last - distance, 1.0 - share);
+    return;
+  }
   const Lookup front(view, distance, delay_speed, 1.0);
   // Equation 5 looks against the motion for a layer that is ahead; the history has no future, so
   // there the last layer drives and the others follow it.
   const bool ahead = view.settings->model == 1;
   const Lookup back(view, ahead ? distance : last - distance, delay_speed, -1.0);
-  const double share = view.settings->delay == 1 ? 1.0 : smoothStep(view.front_share);
   for (std::size_t cell = 0; cell < out.depth.size(); ++cell) {
     const PlaneMotion now = view.history->at(cell, 0.0);
     PlaneMotion value;

@@ -46,6 +46,8 @@ class LayerCut {
   /// Of the middle of a layer from that of the first [m].
   double distance(int layer) const { return distances_[static_cast<std::size_t>(layer)]; }
   double last() const { return distances_.back(); }
+  /// Depth of the middle of a layer [m].
+  double middle(int layer) const { return first_ + distance(layer); }
   const Axes& axes() const { return axes_; }
   /// True if layers cut for `view` would differ enough from these to cut anew.
   bool leftBy(const CutView& view, const CutSettings& settings) const;
@@ -55,6 +57,7 @@ class LayerCut {
   Axes axes_;
   std::vector<double> ends_;            // depth where each layer but the last ends
   std::vector<double> distances_{0.0};  // of the middles
+  double first_{0.0};                   // depth of the first middle
   double thickness_{1.0};               // of the thinnest layer
 };
 
