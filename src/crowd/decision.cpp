@@ -127,21 +127,23 @@ Command decideByGoal(const Walker& walker, const View& view, const CrowdSettings
                         gradientNoise(walker.key, seconds / WOBBLE_PERIOD) / WOBBLE_DEVIATION;
   const Point ahead =
       s.noise_heading > 0.0 ? turned(wish.direction, sinCos(wobble)) : wish.direction;
-  const double seen = s.sensor_range, far = HORIZON * seen;
+  const double seen = s.sensor_range, far = HORIZON * seen, bonus = std::min(0.0, s.handedness);
   double best = std::numeric_limits<double>::infinity(), free = seen;
   int taken = 0;
   for (int i = 0; i < 2 * FAN - 1; ++i) {
     const int step = (i + 1) / 2, hand = i % 2 == 1 ? -1 : 1;  // right before left
     const SinCos& turn = fan().turns[step];
-    const Point direction = turned(ahead, {hand * turn.sin, turn.cos});
     double cost = 0.0;
     if (step > 0) {
-      cost = hand > 0 ? s.handedness : 0.0;
-      if (walker.side == -hand) cost += SIDE_KEPT;
       // No direction that is free all along would be better than what was found.
       const double most = std::min(seen, std::max(0.0, far * turn.cos));
-      if (far * far * (1.0 + cost) + most * (most - 2.0 * far * turn.cos) >= best) continue;
+      const double least = far * far + most * (most - 2.0 * far * turn.cos);
+      if (least + far * far * bonus >= best) break;
+      cost = hand > 0 ? s.handedness : 0.0;
+      if (walker.side == -hand) cost += SIDE_KEPT;
+      if (least + far * far * cost >= best) continue;
     }
+    const Point direction = turned(ahead, {hand * turn.sin, turn.cos});
     const double time = firstMeeting(walker, view, wish.speed * direction);
     const double reach = std::min(seen, wish.speed * time);
     cost = far * far * (1.0 + cost) + reach * (reach - 2.0 * far * turn.cos);

@@ -25,9 +25,24 @@ Point partingLine(std::uint32_t self, std::uint32_t other) {
   return self < other ? Point{line.cos, line.sin} : Point{-line.cos, -line.sin};
 }
 
-void project(const Limit& limit, double bound, Point& step) {
+bool project(const Limit& limit, double bound, Point& step) {
   const double over = dot(step, limit.normal) - bound;
-  if (over > 0.0) step = step - over * limit.normal;
+  if (!(over > 0.0)) return false;
+  step = step - over * limit.normal;
+  return true;
+}
+
+// Onto one limit after the other, until the step is within all or they share it well enough.
+void projectOnAll(const std::array<Limit, View::MOST>& limits, int count, double Limit::*bound,
+                  Point& step) {
+  bool crosses = true;
+  for (int sweep = 0; sweep < SWEEPS && crosses; ++sweep) {
+    crosses = false;
+    for (int i = count - 1; i >= 0; --i) {
+      const Limit& limit = limits[static_cast<std::size_t>(i)];
+      if (project(limit, limit.*bound, step)) crosses = true;
+    }
+  }
 }
 
 double wrapped(double angle) {
@@ -75,13 +90,8 @@ int limitsOf(std::uint32_t self, const View& view, const CrowdSettings& s, doubl
 Point safeStep(const Point& desired, const std::array<Limit, View::MOST>& limits, int count,
                double farthest) {
   Point step = desired;
-  for (int sweep = 0; sweep < SWEEPS; ++sweep)
-    for (int i = count - 1; i >= 0; --i)
-      project(limits[static_cast<std::size_t>(i)], limits[static_cast<std::size_t>(i)].wanted,
-              step);
-  for (int sweep = 0; sweep < SWEEPS; ++sweep)
-    for (int i = count - 1; i >= 0; --i)
-      project(limits[static_cast<std::size_t>(i)], limits[static_cast<std::size_t>(i)].hard, step);
+  projectOnAll(limits, count, &Limit::wanted, step);
+  projectOnAll(limits, count, &Limit::hard, step);
   double scale = 1.0;
   for (int i = 0; i < count; ++i) {
     const Limit& limit = limits[static_cast<std::size_t>(i)];

@@ -2,12 +2,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vegetation_sim/crowd/obstacle_grid.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace vegetation_sim::crowd {
 namespace {
 
 constexpr double MOST_CELLS = 1e6;
+
+std::vector<Extent> extentsOf(const std::vector<Obstacle>& obstacles) {
+  std::vector<Extent> out;
+  for (const Obstacle& o : obstacles) out.push_back(extentOf(o));
+  return out;
+}
 
 }  // namespace
 
@@ -26,8 +34,7 @@ Extent extentOf(const Obstacle& o) {
 ObstacleGrid::ObstacleGrid(std::vector<Obstacle> obstacles, double cell)
     : obstacles_(std::move(obstacles)) {
   if (obstacles_.empty()) return;
-  std::vector<Extent> extents;
-  for (const Obstacle& o : obstacles_) extents.push_back(extentOf(o));
+  std::vector<Extent> extents = extentsOf(obstacles_);
   Point low = extents.front().low, high = extents.front().high;
   for (const Extent& e : extents) {
     low = {std::min(low.x, e.low.x), std::min(low.y, e.low.y)};
@@ -39,6 +46,14 @@ ObstacleGrid::ObstacleGrid(std::vector<Obstacle> obstacles, double cell)
   per_metre_ = 1.0 / cell;
   columns_ = static_cast<int>(size.x * per_metre_) + 1;
   rows_ = static_cast<int>(size.y * per_metre_) + 1;
+  // Neighbours are neighbours in memory too.
+  const auto place = [this](const Extent& e) {
+    return std::make_pair(row(e.low.y), column(e.low.x));
+  };
+  std::stable_sort(obstacles_.begin(), obstacles_.end(), [&](const Obstacle& a, const Obstacle& b) {
+    return place(extentOf(a)) < place(extentOf(b));
+  });
+  extents = extentsOf(obstacles_);
   // Counted, then filled: cells of one vector.
   starts_.assign(static_cast<std::size_t>(columns_) * rows_ + 1, 0);
   const auto cover = [&](const Extent& e, auto each) {

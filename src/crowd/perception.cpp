@@ -8,20 +8,25 @@
 namespace vegetation_sim::crowd {
 namespace {
 
-constexpr int MOST_CANDIDATES = 48;
+constexpr Point STANDS{};
 
-// That is no disc. Without initial values: most of the list stays unused.
+// What may be in view. Without initial values: most of the list stays unused.
 struct Candidate {
-  double bound;  ///< of the gap, from circles
-  const Obstacle* obstacle;
+  double square;             ///< of the centre's distance
+  double bound;              ///< of the gap, from circles; of a disc the gap itself
+  const Obstacle* obstacle;  ///< null: a disc
+  Point place;
+  double radius;  ///< of the circle
+  const Point* velocity;
   Seen kind;
   std::uint32_t index;
 };
 
-bool isBefore(const Candidate& a, const Candidate& b) {
-  if (a.bound != b.bound) return a.bound < b.bound;
-  if (a.kind != b.kind) return a.kind < b.kind;
-  return a.index < b.index;
+// Asks for all of it at once.
+void prefetchLines(const Obstacle* obstacle) {
+  const char* at = reinterpret_cast<const char*>(obstacle);
+  if (at)
+    for (std::size_t i = 0; i < sizeof(Obstacle); i += 64) __builtin_prefetch(at + i);
 }
 
 bool isBefore(const Sight& a, const Sight& b) {
@@ -29,27 +34,6 @@ bool isBefore(const Sight& a, const Sight& b) {
   if (a.kind != b.kind) return a.kind < b.kind;
   return a.index < b.index;
 }
-
-// The nearest candidates in order; what does not fit is farther than `beyond`.
-struct Candidates {
-  explicit Candidates(double range) : beyond(range) {}
-  void add(const Candidate& fresh) {
-    if (fresh.bound >= beyond) return;
-    if (count == MOST_CANDIDATES) {
-      beyond = std::max(fresh.bound, list.back().bound);
-      if (!isBefore(fresh, list.back())) return;
-      --count;
-    }
-    int at = count++;
-    for (; at > 0 && isBefore(fresh, list[static_cast<std::size_t>(at - 1)]); --at)
-      list[static_cast<std::size_t>(at)] = list[static_cast<std::size_t>(at - 1)];
-    list[static_cast<std::size_t>(at)] = fresh;
-  }
-
-  std::array<Candidate, MOST_CANDIDATES> list;
-  int count{0};
-  double beyond;
-};
 
 Sight sightOf(const Walker& walker, const Obstacle& obstacle, Seen kind, std::uint32_t index,
               double enough) {
@@ -89,62 +73,77 @@ void keep(const Sight& sight, int most, double range, View& view) {
   view.sights[static_cast<std::size_t>(at)] = sight;
 }
 
-// Collects what a walker sees. Discs are measured at once, the rest when all are known.
+// Collects what may be in a walker's view, then measures from the nearest on.
 class Look {
  public:
-  Look(const Walker& walker, double range, int most, View& view)
-      : walker_(walker), range_(range), most_(most), view_(view), others_(range) {
-    view_.beyond = range;
+  Look(const Walker& walker, double range)
+      : walker_(walker), range_(range), room_(range + walker.radius), beyond_(range) {}
+
+  // No branch on the distance, which nothing foretells. The velocity stays where it is.
+  void offer(const Point& place, double reach, const Point& velocity, const Obstacle* obstacle,
+             Seen kind, std::uint32_t index) {
+    if (count_ == MOST) dropFarthest();
+    const double far = room_ + reach;
+    const Point to = place - walker_.position;
+    const double square = dot(to, to);
+    list_[count_] = {square, 0.0, obstacle, place, reach, &velocity, kind, index};
+    count_ += square < far * far;
   }
 
-  void disc(const Point& place, double radius, const Point& velocity, Seen kind,
-            std::uint32_t index) {
-    double gap;
-    if (!isNear(place, radius, gap)) return;
-    keep({kind, index, gap, gap, {}, velocity, nullptr, place, radius}, most_, range_, view_);
-  }
-  void other(const Obstacle& obstacle, const Point& place, double reach, Seen kind,
-             std::uint32_t index) {
-    double bound;
-    if (isNear(place, reach, bound)) others_.add({bound, &obstacle, kind, index});
-  }
-  void finish() {
-    for (int i = 0; i < view_.count; ++i) {
-      Sight& sight = view_.sights[static_cast<std::size_t>(i)];
-      const Point to = sight.place - walker_.position;
-      const double apart = length(to);
-      if (apart > 0.0) sight.normal = (1.0 / apart) * to;
-    }
-    view_.beyond = std::min(view_.beyond, others_.beyond);
-    for (int i = 0; i < others_.count; ++i) {
-      const Candidate& candidate = others_.list[static_cast<std::size_t>(i)];
-      const bool full = view_.count == most_;
-      if (full && candidate.bound > view_.at(most_ - 1).gap) {
-        view_.beyond = std::min(view_.beyond, candidate.bound);
-        break;
+  void measure(int most, View& view) {
+    setBounds();
+    view.beyond = beyond_;
+    for (; count_ > 0; list_[nearest_] = list_[--count_]) {
+      const Candidate& c = nearest();
+      const bool full = view.count == most;
+      if (full && c.bound > view.at(most - 1).gap) {
+        view.beyond = std::min(view.beyond, c.bound);
+        return;
       }
-      const double enough = full ? view_.at(most_ - 1).gap : range_;
-      keep(sightOf(walker_, *candidate.obstacle, candidate.kind, candidate.index, enough), most_,
-           range_, view_);
+      const double enough = full ? view.at(most - 1).gap : range_;
+      keep(c.obstacle ? sightOf(walker_, *c.obstacle, c.kind, c.index, enough) : discSight(c), most,
+           range_, view);
     }
   }
 
  private:
-  // What is farther than what is known to be out of view changes nothing.
-  bool isNear(const Point& place, double reach, double& gap) const {
-    const double far = view_.beyond + walker_.radius + reach;
-    const Point to = place - walker_.position;
-    const double square = dot(to, to);
-    if (square > far * far) return false;
-    gap = std::sqrt(square) - walker_.radius - reach;
-    return true;
+  static constexpr std::size_t MOST = 48;
+
+  void setBounds() {
+    for (std::size_t i = 0; i < count_; ++i) {
+      Candidate& c = list_[i];
+      c.bound = std::sqrt(c.square) - walker_.radius - c.radius;
+      prefetchLines(c.obstacle);
+    }
+  }
+  const Candidate& nearest() {
+    nearest_ = 0;
+    double least = list_[0].bound;
+    for (std::size_t i = 1; i < count_; ++i) {
+      nearest_ = list_[i].bound < least ? i : nearest_;
+      least = std::min(least, list_[i].bound);
+    }
+    return list_[nearest_];
+  }
+  void dropFarthest() {
+    setBounds();
+    std::size_t farthest = 0;
+    for (std::size_t i = 1; i < count_; ++i)
+      if (list_[i].bound > list_[farthest].bound) farthest = i;
+    beyond_ = std::min(beyond_, list_[farthest].bound);
+    list_[farthest] = list_[--count_];
+  }
+  Sight discSight(const Candidate& c) const {
+    const Point to = c.place - walker_.position;
+    const double apart = length(to);
+    const Point normal = apart > 0.0 ? (1.0 / apart) * to : Point();
+    return {c.kind, c.index, c.bound, c.bound, normal, *c.velocity, nullptr, c.place, c.radius};
   }
 
   const Walker& walker_;
-  double range_;
-  int most_;
-  View& view_;
-  Candidates others_;
+  double range_, room_, beyond_;
+  std::array<Candidate, MOST> list_;
+  std::size_t count_{0}, nearest_{0};
 };
 
 }  // namespace
@@ -188,27 +187,23 @@ void WalkerGrid::visitNear(const Point& place, Visit visit) const {
 
 View perceive(const Walker& walker, std::uint32_t self, const Surroundings& around,
               double sensor_range, int most) {
-  View out;
-  Look look(walker, sensor_range, most, out);
+  Look look(walker, sensor_range);
   around.walkers->visitNear(walker.position, [&](const WalkerGrid::Spot& s) {
-    if (s.index != self) look.disc(s.position, s.radius, s.velocity, Seen::WALKER, s.index);
+    if (s.index != self)
+      look.offer(s.position, s.radius, s.velocity, nullptr, Seen::WALKER, s.index);
   });
   const Obstacle* still = around.still->obstacles().data();
-  around.still->visitNear(walker.position, sensor_range + walker.radius,
-                          [&](const ObstacleGrid::Spot& s) {
-                            if (s.is_disc)
-                              look.disc(s.centre, s.reach, {}, Seen::STATIC, s.index);
-                            else
-                              look.other(still[s.index], s.centre, s.reach, Seen::STATIC, s.index);
-                          });
+  around.still->visitNear(
+      walker.position, sensor_range + walker.radius, [&](const ObstacleGrid::Spot& s) {
+        look.offer(s.centre, s.reach, STANDS, s.is_disc ? nullptr : still + s.index, Seen::STATIC,
+                   s.index);
+      });
   for (std::uint32_t i = 0; i < around.robots->size(); ++i) {
     const Obstacle& o = (*around.robots)[i];
-    if (o.isDisc())
-      look.disc(o.centre(), o.reach, o.velocity, Seen::ROBOT, i);
-    else
-      look.other(o, o.centre(), o.reach, Seen::ROBOT, i);
+    look.offer(o.centre(), o.reach, o.velocity, o.isDisc() ? nullptr : &o, Seen::ROBOT, i);
   }
-  look.finish();
+  View out;
+  look.measure(most, out);
   return out;
 }
 

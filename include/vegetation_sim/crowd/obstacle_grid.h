@@ -18,6 +18,7 @@ class ObstacleGrid {
   /// @param cell wanted edge [m]; larger where there would be more than a million cells.
   ObstacleGrid(std::vector<Obstacle> obstacles, double cell);
 
+  /// In the order of their cells, not in that of the constructor.
   const std::vector<Obstacle>& obstacles() const { return obstacles_; }
   /// Circle about an obstacle, as it stands in the cells.
   struct Spot {

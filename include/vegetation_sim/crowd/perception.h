@@ -75,9 +75,9 @@ struct Surroundings {
   const std::vector<Obstacle>* robots{nullptr};
 };
 
-/// The `most` nearest obstacles within the sensor's range: of the grids' candidates discs at once,
-/// others sorted by the distance of their circles, measured until the next cannot be nearer. The
-/// same answer as measuring all. @param self index of the walker.
+/// The `most` nearest obstacles within the sensor's range: candidates from the grids, measured in
+/// the order of their circles' distances until the next cannot be nearer. The same answer as
+/// measuring all. @param self index of the walker.
 View perceive(const Walker& walker, std::uint32_t self, const Surroundings& around,
               double sensor_range, int most);
 /// The same by measuring all; for tests and benches.
