@@ -34,7 +34,7 @@ target_link_libraries(${PROJECT_NAME}_core
 
 # Above the core everybody sees ROS.
 add_library(${PROJECT_NAME}_ros ${ros_sources})
-target_link_libraries(${PROJECT_NAME}_ros PUBLIC ${PROJECT_NAME}_core)
+target_link_libraries(${PROJECT_NAME}_ros PUBLIC ${PROJECT_NAME}_core PRIVATE PkgConfig::assimp)
 add_library(${PROJECT_NAME}_nodes ${node_sources})
 target_link_libraries(${PROJECT_NAME}_nodes PUBLIC ${PROJECT_NAME}_ros)
 add_library(${PROJECT_NAME}_nodelets ${nodelet_sources})

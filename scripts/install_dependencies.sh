@@ -12,7 +12,7 @@ PACKAGES=(
   libroscpp-dev libtf2-ros-dev liburdf-dev libvisualization-msgs-dev libdiagnostic-updater-dev
   libdynamic-reconfigure-config-init-mutex-dev python3-dynamic-reconfigure
   libnodeletlib-dev pluginlib-dev librviz-dev qtbase5-dev
-  libeigen3-dev libhwy-dev libpng-dev libyaml-cpp-dev
+  libassimp-dev libeigen3-dev libhwy-dev libpng-dev libresource-retriever-dev libyaml-cpp-dev
   # running
   libnodeletlib-tools python3-matplotlib python3-numpy python3-pil rviz
   # testing, and looking at topics

@@ -28,6 +28,20 @@ void checkPlants(const Layout& layout, Faults& faults) {
   }
 }
 
+void checkCrowns(const Layout& layout, Faults& faults) {
+  for (std::size_t i = 0; i < layout.crowns.size(); ++i) {
+    CrownRule crown = layout.crowns[i];
+    FieldChecker checker(numbered("crowns", i), faults);
+    describe(checker, crown);
+    if (crown.kind >= layout.kinds.size())
+      faults.add(numbered("crowns", i) + "kind = " + std::to_string(crown.kind) +
+                 " is unknown; there are " + std::to_string(layout.kinds.size()));
+    else if (isRead(layout.kinds[crown.kind]))
+      faults.add(numbered("crowns", i) + "kind = '" + layout.kinds[crown.kind].name +
+                 "' is read from a file; a crown has leaves that grow");
+  }
+}
+
 void checkSizes(const Layout& layout, Faults& faults) {
   const auto most = [&](const char* what, std::size_t count, std::size_t limit) {
     if (count > limit)
@@ -44,6 +58,11 @@ void checkSizes(const Layout& layout, Faults& faults) {
 }
 
 }  // namespace
+
+void describe(FieldVisitor& v, CrownRule& c) {
+  v.integer("first_tree", c.first_tree, "", {0, 1 << 24});
+  v.integer("trees", c.trees, "", {1, 10000});
+}
 
 void describe(FieldVisitor& v, Motion& m, const std::function<void(const char*)>& begin) {
   const auto group = [&](const char* name, auto& settings) {
@@ -71,6 +90,10 @@ int historyFrames(const Motion& motion) {
 
 std::size_t Layout::leafCount() const {
   std::size_t out = 0;
+  for (const CrownRule& crown : crowns)
+    if (crown.kind < kinds.size())
+      out += static_cast<std::size_t>(std::max(0, crown.trees)) *
+             static_cast<std::size_t>(std::max(0, kinds[crown.kind].leaves));
   for (const Plant& plant : plants)
     if (plant.kind < kinds.size()) out += canopy::leafCount(kinds[plant.kind]);
   return out;
@@ -93,6 +116,11 @@ std::uint64_t Layout::hash() const {
     hash.add(plant.position);
     hash.add(plant.yaw);
     hash.add(plant.scale);
+  }
+  for (const CrownRule& crown : crowns) {
+    hash.add(static_cast<std::uint64_t>(crown.kind));
+    hash.add(static_cast<std::uint64_t>(crown.first_tree));
+    hash.add(static_cast<std::uint64_t>(crown.trees));
   }
   hash.add(seed);
   return hash.value();
@@ -118,6 +146,7 @@ void check(const Layout& layout, Faults& faults) {
   }
   for (const std::string& fault : groups.list()) faults.add(fault);
   checkPlants(layout, faults);
+  checkCrowns(layout, faults);
   if (faults.empty()) checkSizes(layout, faults);
 }
 

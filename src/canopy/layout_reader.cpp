@@ -41,6 +41,27 @@ void readKinds(YamlSection& section, std::vector<PlantKind>& kinds) {
   }
 }
 
+std::uint16_t readKind(YamlSection& section, const std::vector<PlantKind>& kinds) {
+  std::string name, known;
+  section.text("kind", name);
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    if (kinds[i].name == name) return static_cast<std::uint16_t>(i);
+    known += (i ? ", " : "") + kinds[i].name;
+  }
+  section.fault("kind", "= '" + name + "' is none of " + known);
+  return 0;
+}
+
+void readCrowns(YamlSection& section, Layout& layout) {
+  for (YamlSection& entry : section.sections("crowns")) {
+    CrownRule crown;
+    crown.kind = readKind(entry, layout.kinds);
+    describe(entry, crown);
+    entry.finish();
+    layout.crowns.push_back(crown);
+  }
+}
+
 class LayoutReader {
  public:
   LayoutReader(YamlSection section, const terrain::HeightMap& terrain, std::uint64_t seed,
@@ -52,6 +73,7 @@ class LayoutReader {
   Layout read() {
     readMotion(section_, out_.motion);
     readKinds(section_, out_.kinds);
+    readCrowns(section_, out_);
     for (YamlSection& plant : section_.sections("plants")) readPlant(plant);
     for (YamlSection& bed : section_.sections("beds")) readBed(bed);
     section_.finish();
@@ -64,17 +86,6 @@ class LayoutReader {
  private:
   std::uint64_t nextSeed() { return Random(seed_).bits(drawn_++); }
 
-  std::uint16_t readKind(YamlSection& section) {
-    std::string name, known;
-    section.text("kind", name);
-    for (std::size_t i = 0; i < out_.kinds.size(); ++i) {
-      if (out_.kinds[i].name == name) return static_cast<std::uint16_t>(i);
-      known += (i ? ", " : "") + out_.kinds[i].name;
-    }
-    section.fault("kind", "= '" + name + "' is none of " + known);
-    return 0;
-  }
-
   void add(Plant plant) {
     plant.position.z() += terrain_.height(plant.position.x(), plant.position.y());
     out_.plants.push_back(plant);
@@ -83,7 +94,7 @@ class LayoutReader {
   void readPlant(YamlSection& section) {
     Plant plant;
     plant.seed = nextSeed();
-    plant.kind = readKind(section);
+    plant.kind = readKind(section, out_.kinds);
     section.seed("seed", plant.seed);
     section.vector("position", plant.position, "m", ANYWHERE);
     section.number("yaw", plant.yaw, "rad", {-1000.0, 1000.0});
@@ -95,7 +106,7 @@ class LayoutReader {
   // Plants strewn over a rectangle: anywhere in it, each with its own turn and size.
   void readBed(YamlSection& section) {
     std::uint64_t seed = nextSeed();
-    const std::uint16_t kind = readKind(section);
+    const std::uint16_t kind = readKind(section, out_.kinds);
     Vec3 corner = Vec3::Zero();
     double width = 10.0, depth = 10.0, smallest = 0.8, largest = 1.2;
     int count = 0;
@@ -154,6 +165,13 @@ std::string writeLaw(const Layout& layout) {
     describe(writer, kind);
     out << YAML::EndMap;
   }
+  out << YAML::EndSeq << YAML::Key << "crowns" << YAML::Value << YAML::BeginSeq;
+  for (CrownRule& crown : copy.crowns) {
+    out << YAML::BeginMap << YAML::Key << "kind" << YAML::Value << YAML::DoubleQuoted
+        << copy.kinds[crown.kind].name;
+    describe(writer, crown);
+    out << YAML::EndMap;
+  }
   out << YAML::EndSeq << YAML::EndMap;
   return out.c_str();
 }
@@ -165,6 +183,7 @@ Layout parseLaw(const std::string& text, const std::string& name) {
   Layout out;
   readMotion(section, out.motion);
   readKinds(section, out.kinds);
+  readCrowns(section, out);
   section.finish();
   faults.throwIfAny();
   return out;

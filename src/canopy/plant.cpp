@@ -141,7 +141,8 @@ class Grower {
                     std::max(0.0, base + half + half * place.z()));
     const Vec3 jitter(random.uniform(3, -1.0, 1.0), random.uniform(4, -1.0, 1.0),
                       random.uniform(5, -0.9, 0.5));
-    const Vec3 along = unit(outward + 1.1 * jitter, Vec3::UnitZ());
+    Vec3 along = unit(outward + 1.1 * jitter, Vec3::UnitZ());
+    if (root.z() < kind_.leaf_length) along.z() = std::fabs(along.z());  // none into the ground
     const Vec3 across =
         unit(cross(along, Vec3(random.uniform(6, -1.0, 1.0), random.uniform(7, -1.0, 1.0), 1.5)),
              Vec3::UnitX());

@@ -43,6 +43,12 @@ void CanopyAnimator::listen() {
   subscribers_.push_back(
       options_.replay ? handle_.subscribe("canopy/events", MANY, &CanopyAnimator::onEvent, this)
                       : handle_.subscribe("viewer", 10, &CanopyAnimator::onViewer, this));
+  if (!scene_.layout.crowns.empty()) {
+    subscribers_.push_back(
+        handle_.subscribe("forest/layout", 1, &CanopyAnimator::onForestLayout, this));
+    subscribers_.push_back(
+        handle_.subscribe("forest/state", 100, &CanopyAnimator::onForestState, this));
+  }
   services_ = {private_handle_.advertiseService("sample", &CanopyAnimator::onSample, this),
                private_handle_.advertiseService("reset", &CanopyAnimator::onReset, this)};
   markers_timer_ = handle_.createTimer(ros::Duration(1.0 / options_.markers_rate),

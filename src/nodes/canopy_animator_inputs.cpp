@@ -7,6 +7,7 @@
 #include "vegetation_sim/ros/canopy_conversions.h"
 #include "vegetation_sim/ros/forest_conversions.h"
 #include "vegetation_sim/ros/geometry_conversions.h"
+#include "vegetation_sim/ros/resources.h"
 #include "vegetation_sim/ros/wind_conversions.h"
 
 namespace vegetation_sim {
@@ -39,6 +40,7 @@ void CanopyAnimator::onWind(const WindField& message) {
                               options_.frame_id + "'");
   try {
     winds_.push_back(fromMsg(message));
+    forest_.setWind(winds_.back());
     if (winds_.size() > MOST_WINDS) winds_.pop_front();
     CanopyEvent event;
     event.kind = CanopyEvent::WIND;
@@ -46,6 +48,28 @@ void CanopyAnimator::onWind(const WindField& message) {
     inputs_.add(event);
   } catch (const InvalidInput& error) {
     reject("wind", error.what());
+  }
+}
+
+// The crowns are a view of the forest: nothing that the canopy remembers depends on them.
+void CanopyAnimator::onForestLayout(const ForestLayout& message) {
+  if (message.header.frame_id != options_.frame_id)
+    return reject("forest layout", "frame_id = '" + message.header.frame_id + "' should be '" +
+                                       options_.frame_id + "'");
+  try {
+    forest_.setLayout(fromMsg(message), loadTerrain(message.terrain));
+    crowns_.grow(canopy_->layout(), forest_);
+    markers_.setCrowns(canopy_->layout(), crowns_);
+  } catch (const std::exception& error) {
+    reject("forest layout", error.what());
+  }
+}
+
+void CanopyAnimator::onForestState(const ForestState& message) {
+  try {
+    forest_.apply(fromMsg(message));
+  } catch (const InvalidInput& error) {
+    reject("forest state", error.what());
   }
 }
 

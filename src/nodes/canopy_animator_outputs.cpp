@@ -15,7 +15,21 @@ void CanopyAnimator::publishState(std::int64_t tick) {
 
 void CanopyAnimator::sendMarkers(const ros::TimerEvent&) {
   if (!clock_.hasBegun() || markers_publisher_.getNumSubscribers() == 0) return;
-  markers_publisher_.publish(markers_.build(canopy_->foliage(), options_.frame_id));
+  const canopy::Foliage& foliage = canopy_->foliage();
+  markers_publisher_.publish(markers_.build(foliage, crownLeaves(foliage), options_.frame_id));
+}
+
+std::vector<canopy::MovedLeaf> CanopyAnimator::crownLeaves(const canopy::Foliage& foliage) const {
+  std::vector<canopy::MovedLeaf> out;
+  for (std::size_t i = 0; i < crowns_.crowns().size(); ++i) {
+    const LeafedCrowns::Crown& crown = crowns_.crowns()[i];
+    const std::vector<Pose> wood = crowns_.wood(i, forest_, clock_.stamp());
+    for (std::size_t k = 0; k < markers_.drawnOf(crown.leaves.size()); ++k) {
+      const canopy::CrownLeaf& leaf = crown.leaves[k];
+      out.push_back(carry(foliage, leaf, crown.rest[leaf.twig].pose, wood[leaf.twig]));
+    }
+  }
+  return out;
 }
 
 // What has happened since the last report, and only that.
@@ -44,6 +58,10 @@ void CanopyAnimator::diagnose(diagnostic_updater::DiagnosticStatusWrapper& statu
   warnOfTrouble(status);
   status.add("Plants", canopy_->layout().plants.size());
   status.add("Leaves", canopy_->layout().leafCount());
+  std::size_t crown_leaves = 0;
+  for (const LeafedCrowns::Crown& crown : crowns_.crowns()) crown_leaves += crown.leaves.size();
+  status.add("Leafed crowns", crowns_.crowns().size());
+  status.add("Leaves of crowns", crown_leaves);
   status.add("Layers", canopy_->foliage().layers());
   status.add("Viewers", viewer_ ? 1 : 0);
   status.add("Messages of other viewers", counts_.other_viewers);

@@ -33,6 +33,11 @@ std_msgs::ColorRGBA colourOf(const Vec3& rgb) {
   return out;
 }
 
+Vec3 leafColour(const canopy::PlantKind& kind, const canopy::Leaf& leaf) {
+  const double young = leaf.shade, light = leaf.light;
+  return light * (kind.colour * (1.0 - young) + kind.colour_young * young);
+}
+
 std_msgs::ColorRGBA darkened(std_msgs::ColorRGBA colour, double light) {
   const auto share = static_cast<float>(light);
   colour.r *= share;
@@ -75,21 +80,30 @@ void CanopyMarkers::setLayout(const canopy::Layout& layout) {
   stem_list_.points.clear();
   stem_list_.colors.clear();
   const auto wanted = static_cast<double>(layout.leafCount() * POINTS_PER_LEAF);
-  const double share =
-      wanted > 0.0 ? std::min(1.0, static_cast<double>(leaf_points_) / wanted) : 1.0;
-  for (std::size_t id = 0; id < layout.plants.size(); ++id) addPlant(layout, id, share);
+  share_ = wanted > 0.0 ? std::min(1.0, static_cast<double>(leaf_points_) / wanted) : 1.0;
+  for (std::size_t id = 0; id < layout.plants.size(); ++id) addPlant(layout, id);
 }
 
-void CanopyMarkers::addPlant(const canopy::Layout& layout, std::size_t id, double share) {
+std::size_t CanopyMarkers::drawnOf(std::size_t leaves) const {
+  return static_cast<std::size_t>(share_ * static_cast<double>(leaves));
+}
+
+void CanopyMarkers::setCrowns(const canopy::Layout& layout, const LeafedCrowns& crowns) {
+  crown_leaves_.clear();
+  for (const LeafedCrowns::Crown& crown : crowns.crowns()) {
+    const canopy::PlantKind& kind = layout.kinds[crown.kind];
+    for (std::size_t i = 0; i < drawnOf(crown.leaves.size()); ++i) {
+      const canopy::Leaf& leaf = crown.leaves[i].leaf;
+      crown_leaves_.push_back({leaf, 0, colourOf(leafColour(kind, leaf))});
+    }
+  }
+}
+
+void CanopyMarkers::addPlant(const canopy::Layout& layout, std::size_t id) {
   const canopy::PlantKind& kind = layout.kinds[layout.plants[id].kind];
   const canopy::GrownPlant grown = canopy::grow(kind, layout.plants[id]);
-  const auto count = static_cast<std::size_t>(share * static_cast<double>(grown.leaves.size()));
-  for (std::size_t i = 0; i < count; ++i) {
-    const canopy::Leaf& leaf = grown.leaves[i];
-    const double young = leaf.shade;
-    const Vec3 colour = kind.colour * (1.0 - young) + kind.colour_young * young;
-    leaves_.push_back({leaf, id, colourOf(colour * static_cast<double>(leaf.light))});
-  }
+  for (std::size_t i = 0; i < drawnOf(grown.leaves.size()); ++i)
+    leaves_.push_back({grown.leaves[i], id, colourOf(leafColour(kind, grown.leaves[i]))});
   addStems(grown.stems, kind.stem_colour);
   for (const canopy::Leaf& face : grown.rigid) {
     if (stem_list_.points.size() + POINTS_PER_LEAF > stem_points_) return;
@@ -110,14 +124,18 @@ void CanopyMarkers::addStems(const std::vector<canopy::Stem>& stems, const Vec3&
 }
 
 visualization_msgs::MarkerArray CanopyMarkers::build(const canopy::Foliage& foliage,
+                                                     const std::vector<canopy::MovedLeaf>& crowns,
                                                      const std::string& frame_id) {
   leaf_list_.points.clear();
   leaf_list_.colors.clear();
-  for (const Drawn& drawn : leaves_) {
-    const auto corners = cornersOf(drawn.leaf, foliage.move(drawn.leaf, drawn.plant));
+  const auto add = [&](const Drawn& drawn, const canopy::MovedLeaf& moved) {
     const double at_root = drawn.leaf.joined ? 1.0 : DARK_ROOT;
-    addStrip(leaf_list_, corners, darkened(drawn.colour, at_root), drawn.colour);
-  }
+    addStrip(leaf_list_, cornersOf(drawn.leaf, moved), darkened(drawn.colour, at_root),
+             drawn.colour);
+  };
+  for (const Drawn& drawn : leaves_) add(drawn, foliage.move(drawn.leaf, drawn.plant));
+  for (std::size_t i = 0; i < std::min(crowns.size(), crown_leaves_.size()); ++i)
+    add(crown_leaves_[i], crowns[i]);
   used_ = leaf_list_.points.size();
   fill(leaf_list_, leaf_points_);
   visualization_msgs::MarkerArray out;

@@ -8,6 +8,7 @@
 #include "vegetation_sim/common/field_values.h"
 #include "vegetation_sim/common/scenario.h"
 #include "vegetation_sim/ros/parameters.h"
+#include "vegetation_sim/ros/plant_files.h"
 #include "vegetation_sim/ros/resources.h"
 
 namespace vegetation_sim {
@@ -135,8 +136,13 @@ CanopyScene loadCanopyScene(const std::string& file) {
   try {
     const std::string folder = std::filesystem::path(path).parent_path().string();
     const auto ground = loadTerrain(resolveFile(terrain, folder));
-    if (scenario.has("canopy"))
+    if (scenario.has("canopy")) {
       out.layout = canopy::readLayout(scenario.section("canopy"), *ground, seed, scenario.faults());
+      Faults forms;
+      loadForms(out.layout, folder, forms);
+      if (forms.empty() && scenario.faults().empty()) canopy::check(out.layout, forms);
+      for (const std::string& fault : forms.list()) scenario.faults().add(path + ": " + fault);
+    }
   } catch (const InvalidInput& error) {
     scenario.faults().add(path + ": terrain: " + error.what());
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "vegetation_sim/ros/geometry_conversions.h"
+#include "vegetation_sim/ros/plant_files.h"
 #include "vegetation_sim/ros/stamps.h"
 
 namespace vegetation_sim {
@@ -44,6 +45,7 @@ canopy::Layout fromMsg(const CanopyLayout& message) {
   for (const CanopyPlant& plant : message.plants)
     out.plants.push_back({plant.seed, plant.kind, fromMsg(plant.position), plant.yaw, plant.scale});
   Faults faults;
+  loadForms(out, "", faults);
   canopy::check(out, faults);
   if (faults.empty() && out.hash() != message.hash)
     faults.add("layout: its hash is " + std::to_string(out.hash()) + ", the sender's " +

@@ -40,6 +40,8 @@ class Foliage {
   /// Displacement [m], world, of a point at rest that belongs to what hangs on `anchor`.
   /// @param plant id, whose foot and height say how freely it moves.
   Vec3 displacement(const Vec3& anchor, const Vec3& point, std::size_t plant) const;
+  /// The same of what stands on no plant of the layout, but stays within about `limit` [m].
+  Vec3 freeDisplacement(const Vec3& anchor, const Vec3& point, double limit) const;
   MovedLeaf move(const Leaf& leaf, std::size_t plant) const;
   /// Motion [m/s] of the layer of `anchor` at a point, in the view's axes: right, up, towards it.
   Vec3 motion(const Vec3& anchor, const Vec3& point) const;

@@ -37,12 +37,21 @@ FluidSettings fluidOf(const Motion& motion);
 /// Frames that hold the memory of the layers.
 int historyFrames(const Motion& motion);
 
+/// Trees of the forest whose crowns have leaves of a kind, on their own branches (S3-W2).
+struct CrownRule {
+  std::uint16_t kind{0};  ///< index into the layout's kinds; its leaves are those of a tree
+  int first_tree{0}, trees{1};
+};
+
+void describe(FieldVisitor& visitor, CrownRule& crown);
+
 /// Leafy vegetation as a law: who holds it can grow every leaf.
 struct Layout {
   Motion motion;
   std::vector<PlantKind> kinds;
   std::vector<Plant> plants;  ///< ids 0, 1, 2 ...
-  std::uint64_t seed{0};      ///< of turbulence and of the layers' delays
+  std::vector<CrownRule> crowns;
+  std::uint64_t seed{0};  ///< of turbulence and of the layers' delays
 
   std::size_t leafCount() const;
   std::uint64_t hash() const;
@@ -56,7 +65,7 @@ void check(const Layout& layout, Faults& faults);
 Layout readLayout(YamlSection section, const terrain::HeightMap& terrain, std::uint64_t seed,
                   Faults& faults);
 
-/// Motion and kinds as text that parseLaw() reads, with 17 digits.
+/// Motion, kinds and crowns as text that parseLaw() reads, with 17 digits.
 std::string writeLaw(const Layout& layout);
 /// Layout without plants. @throws InvalidInput naming `name`, key, value and range.
 Layout parseLaw(const std::string& text, const std::string& name);

@@ -9,6 +9,8 @@
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
 #include <vegetation_sim/CanopyEvent.h>
+#include <vegetation_sim/ForestLayout.h>
+#include <vegetation_sim/ForestState.h>
 #include <vegetation_sim/SampleCanopy.h>
 #include <vegetation_sim/Viewer.h>
 #include <vegetation_sim/WindField.h>
@@ -23,6 +25,7 @@
 #include "vegetation_sim/nodes/canopy_markers.h"
 #include "vegetation_sim/nodes/canopy_options.h"
 #include "vegetation_sim/nodes/event_queue.h"
+#include "vegetation_sim/ros/leafed_crowns.h"
 #include "vegetation_sim/ros/tick_clock.h"
 
 namespace vegetation_sim {
@@ -45,6 +48,8 @@ class CanopyAnimator {
   /// Transform to the world frame. @throws InvalidInput if tf does not know one.
   Pose toWorld(const std::string& frame) const;
   void reject(const std::string& what, const std::string& why);
+  void onForestLayout(const ForestLayout& message);
+  void onForestState(const ForestState& message);
 
   // Time.
   void listen();
@@ -57,6 +62,8 @@ class CanopyAnimator {
   void publishLayout();
   void publishState(std::int64_t tick);
   void sendMarkers(const ros::TimerEvent& event);
+  /// Of the forest's crowns, as many as markers_ draws.
+  std::vector<canopy::MovedLeaf> crownLeaves(const canopy::Foliage& foliage) const;
   void warnOfTrouble(diagnostic_updater::DiagnosticStatusWrapper& status);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
@@ -71,6 +78,8 @@ class CanopyAnimator {
   EventQueue<CanopyEvent> inputs_;
   std::unique_ptr<canopy::Canopy> canopy_;
   CanopyMarkers markers_;
+  forest::ForestReplica forest_;  // the wood of crowns that the layout leafs
+  LeafedCrowns crowns_;
   std::deque<wind::Field> winds_;  // heard last, newest at the end: what events of wind may name
   struct Seen {
     std::string id;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "vegetation_sim/canopy/foliage.h"
+#include "vegetation_sim/ros/leafed_crowns.h"
 
 namespace vegetation_sim {
 
@@ -21,8 +22,14 @@ class CanopyMarkers {
 
   /// Grows the plants of a layout, as far as they will be drawn.
   void setLayout(const canopy::Layout& layout);
-  /// The leaves where `foliage` carries them.
+  /// Leaves of the forest's crowns that the same layout asks for.
+  void setCrowns(const canopy::Layout& layout, const LeafedCrowns& crowns);
+  /// How many of a plant's leaves are drawn: the first ones.
+  std::size_t drawnOf(std::size_t leaves) const;
+  /// The leaves where `foliage` carries them, and those of the crowns, crown by crown the drawn
+  /// ones, where they are.
   visualization_msgs::MarkerArray build(const canopy::Foliage& foliage,
+                                        const std::vector<canopy::MovedLeaf>& crowns,
                                         const std::string& frame_id);
   /// Points in use at the last build.
   std::size_t points() const { return used_; }
@@ -34,11 +41,12 @@ class CanopyMarkers {
     std::size_t plant;
     std_msgs::ColorRGBA colour;
   };
-  void addPlant(const canopy::Layout& layout, std::size_t id, double share);
+  void addPlant(const canopy::Layout& layout, std::size_t id);
   void addStems(const std::vector<canopy::Stem>& stems, const Vec3& colour);
 
   std::size_t leaf_points_, stem_points_, used_{0};
-  std::vector<Drawn> leaves_;
+  double share_{1.0};  // of all leaves that will be drawn
+  std::vector<Drawn> leaves_, crown_leaves_;
   visualization_msgs::Marker leaf_list_, stem_list_;
 };
 
