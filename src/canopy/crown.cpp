@@ -73,9 +73,9 @@ MovedLeaf carry(const Foliage& foliage, const CrownLeaf& leaf, const Pose& rest,
   const Vec3 root = now.position + rotate(turn, Vec3(leaf.leaf.root - rest.position));
   const Vec3 along = rotate(turn, Vec3(leaf.leaf.tip - leaf.leaf.root));
   const double size = length(along);
-  const Vec3 tip = along + foliage.freeDisplacement(leaf.leaf.anchor, leaf.leaf.root, REACH * size);
-  const double moved = length(tip);  // bends: it grows no longer
-  return {root, root + tip * (moved > 0.0 ? size / moved : 0.0), rotate(turn, leaf.leaf.side)};
+  const Vec3 moved = foliage.freeDisplacement(leaf.leaf.anchor, leaf.leaf.root, REACH * size);
+  const Vec3 side = twisted(foliage.warp(), along, rotate(turn, leaf.leaf.side), moved);
+  return {root, root + along + bent(along, moved), side};  // it grows no longer
 }
 
 }  // namespace vegetation_sim::canopy

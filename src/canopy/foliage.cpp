@@ -75,11 +75,11 @@ LayerCut Foliage::cutFor(const CutView& view) const {
 void Foliage::build(Cut& cut, const CutView& view, const History& history, double front_share) {
   const Motion& motion = layout_.motion;
   cut.cut = cutFor(view);
+  cut.to_view = PlaneToView(plane_.axes, cut.cut.axes());
   cut.layers.resize(static_cast<std::size_t>(cut.cut.layers()));
   cut.shares.clear();
-  const LayerView layers{&motion.layers,    &history,
-                         1.0 / motion.rate, PlaneToView(plane_.axes, cut.cut.axes()).out,
-                         front_share,       plane_.width / history.size()};
+  const LayerView layers{&motion.layers,  &history,    1.0 / motion.rate,
+                         cut.to_view.out, front_share, plane_.width / history.size()};
   const Vec3& lambda = motion.warp.lambda;
   const double reach = motion.warp.reference_time * (std::max(lambda.x(), lambda.y()) + lambda.z());
   for (int i = 0; i < cut.cut.layers(); ++i) {
@@ -101,8 +101,29 @@ Vec3 Foliage::motionIn(const Cut& cut, const Vec3& anchor, const Vec3& point) co
     const PrintedAngles angles = printedAngles(plane_.axes, cut.cut.axes());
     return printedToView(across, angles.tilt, angles.alpha, angles.beta);
   }
-  return PlaneToView(plane_.axes, cut.cut.axes())
-      .apply(Vec3(across.u, across.v, bilinearDepth(layer.depth, size, cell.u, cell.v)));
+  return cut.to_view.apply(
+      Vec3(across.u, across.v, bilinearDepth(layer.depth, size, cell.u, cell.v)));
+}
+
+std::vector<float> Foliage::sheet(int layer) const {
+  const Cut& cut = cuts_[0];
+  const LayerMotion& motion = cut.layers[static_cast<std::size_t>(layer)];
+  std::vector<float> out;
+  for (std::size_t i = 0; i < motion.depth.size(); ++i) {
+    const Vec3 seen =
+        cut.to_view.apply(Vec3(motion.plane.u[i], motion.plane.v[i], motion.depth[i]));
+    for (const double value : {seen.x(), seen.y(), seen.z()})
+      out.push_back(static_cast<float>(value));
+  }
+  return out;
+}
+
+std::vector<std::uint32_t> Foliage::backToFront(const std::vector<Leaf>& leaves) const {
+  std::vector<std::uint32_t> out;
+  for (int layer = layers() - 1; layer >= 0; --layer)
+    for (std::size_t i = 0; i < leaves.size(); ++i)
+      if (layerAt(leaves[i].anchor) == layer) out.push_back(static_cast<std::uint32_t>(i));
+  return out;
 }
 
 Vec3 Foliage::motion(const Vec3& anchor, const Vec3& point) const {
@@ -124,7 +145,10 @@ Vec3 Foliage::displacement(const Vec3& anchor, const Vec3& point, std::size_t pl
   const double height = point.z() - layout_.plants[plant].position.z();
   const double freedom = mobility(height, top, rigidity);
   if (!(freedom > 0.0)) return Vec3::Zero();
-  return freedom * freeDisplacement(anchor, point, FARTHEST * top / std::max(1.0, rigidity));
+  const Vec3 out =
+      freedom * freeDisplacement(anchor, point, FARTHEST * top / std::max(1.0, rigidity));
+  if (layout_.motion.warp.method == 0) return out;
+  return bent(Vec3(point - layout_.plants[plant].position), out);
 }
 
 Vec3 Foliage::freeDisplacement(const Vec3& anchor, const Vec3& point, double limit) const {
@@ -142,8 +166,10 @@ MovedLeaf Foliage::move(const Leaf& leaf, std::size_t plant) const {
     return {0.5 * (to_left + to_right), leaf.tip + displacement(leaf.anchor, leaf.tip, plant),
             0.5 * (to_right - to_left)};
   }
-  return {leaf.root + displacement(leaf.anchor, leaf.root, plant),
-          leaf.tip + displacement(leaf.anchor, leaf.tip, plant), leaf.side};
+  const Vec3 at_root = displacement(leaf.anchor, leaf.root, plant);
+  const Vec3 at_tip = displacement(leaf.anchor, leaf.tip, plant);
+  return {leaf.root + at_root, leaf.tip + at_tip,
+          twisted(layout_.motion.warp, Vec3(leaf.tip - leaf.root), leaf.side, at_tip)};
 }
 
 }  // namespace vegetation_sim::canopy

@@ -11,6 +11,7 @@ namespace vegetation_sim::canopy {
 namespace {
 
 constexpr double STEEPEST = 0.5;
+constexpr double MOST_TWIST = 1.4;  // [rad]
 
 // x^power on [0, 1] with + - * / and square roots alone, so that every processor agrees.
 double powerOf(double x, double power) {
@@ -62,6 +63,8 @@ void describe(FieldVisitor& v, WarpSettings& s) {
   v.number("reference_time", s.reference_time, "s", {0.0, 1.0});
   v.number("depth_loss", s.depth_loss, "", {0.0, 1.0});
   v.number("rigidity", s.rigidity, "", {0.0, 10.0});
+  v.choice("method", s.method, {"warp", "bend"});
+  v.number("twist", s.twist, "rad", {0.0, 10.0});
 }
 
 double mobility(double height, double top, double rigidity) {
@@ -80,6 +83,23 @@ Vec3 displacement(const WarpSettings& settings, const Vec3& velocity, double sha
   const Vec3& lambda = settings.lambda;
   return {time * (lambda.x() * velocity.x()),
           time * (lambda.y() * velocity.y() - lambda.z() * std::fabs(velocity.z())), 0.0};
+}
+
+Vec3 bent(const Vec3& arm, const Vec3& displacement) {
+  const Vec3 there = arm + displacement;
+  const double size = length(there);
+  return size > 0.0 ? Vec3(there * (length(arm) / size) - arm) : displacement;
+}
+
+Vec3 twisted(const WarpSettings& settings, const Vec3& along, const Vec3& side,
+             const Vec3& displacement) {
+  const Vec3 face = cross(along, side);
+  const double size = length(along), area = length(face);
+  if (!(settings.twist > 0.0) || !(area > 0.0)) return side;
+  const double push = dot(displacement, face) / (area * size);
+  const SinCos turn = sinCos(softLimit(settings.twist * push, 0.5 * MOST_TWIST, MOST_TWIST));
+  return turn.cos * side + (turn.sin / size) * cross(along, side) +
+         ((1.0 - turn.cos) * dot(along, side) / (size * size)) * along;
 }
 
 double limitFolding(LayerMotion& motion, double reach, double cell) {

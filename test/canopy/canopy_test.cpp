@@ -262,5 +262,52 @@ TEST(Replica, RefusesAnotherLayout) {
   EXPECT_THROW(another.restore(canopy.memory()), InvalidInput);
 }
 
+// S3-W7: what a vertex shader needs, looked up as it would, is the motion of every leaf.
+TEST(Foliage, IsToldToAGraphicsCardAsPictures) {
+  const Layout layout = shrubScene();
+  Canopy canopy(layout);
+  canopy.setWind(breezeFrom(Vec3(1.0, 5.0, 0.0)));
+  run(canopy, 0, 60);
+  const Foliage& foliage = canopy.foliage();
+  const Plane plane(layout.motion.plane);
+  const int size = layout.motion.fluid.cells;
+  std::vector<std::vector<float>> sheets;
+  for (int layer = 0; layer < foliage.layers(); ++layer) sheets.push_back(foliage.sheet(layer));
+  for (const Leaf& leaf : grow(layout.kinds[0], layout.plants[1]).leaves) {
+    const PlaneVector cell = plane.cellAt(leaf.tip, size);
+    const std::vector<float>& sheet =
+        sheets[static_cast<std::size_t>(foliage.layerAt(leaf.anchor))];
+    const int x = static_cast<int>(std::floor(cell.u)), y = static_cast<int>(std::floor(cell.v));
+    Vec3 looked = Vec3::Zero();
+    for (const int i : {0, 1})
+      for (const int j : {0, 1}) {
+        const double p = cell.u - x, q = cell.v - y;
+        const int at = (((y + j) & (size - 1)) * size + ((x + i) & (size - 1))) * 3;
+        const double w = (i ? p : 1.0 - p) * (j ? q : 1.0 - q);
+        for (int k = 0; k < 3; ++k) looked[k] += w * sheet[static_cast<std::size_t>(at + k)];
+      }
+    EXPECT_LT(length(Vec3(looked - foliage.motion(leaf.anchor, leaf.tip))), 1e-5);  // single
+  }
+}
+
+// S3-07: leaves with transparent edges are laid from the last layer to the first; each once.
+TEST(Foliage, IsLaidFromBackToFront) {
+  const Layout layout = shrubScene();
+  Canopy canopy(layout);
+  run(canopy, 0, 2);
+  const Foliage& foliage = canopy.foliage();
+  std::vector<Leaf> leaves;
+  for (const Plant& plant : layout.plants)
+    for (const Leaf& leaf : grow(layout.kinds[0], plant).leaves) leaves.push_back(leaf);
+  std::vector<std::uint32_t> order = foliage.backToFront(leaves);
+  ASSERT_EQ(order.size(), leaves.size());
+  EXPECT_GT(foliage.layerAt(leaves[order.front()].anchor), 0);
+  for (std::size_t i = 1; i < order.size(); ++i)
+    EXPECT_LE(foliage.layerAt(leaves[order[i]].anchor),
+              foliage.layerAt(leaves[order[i - 1]].anchor));
+  std::sort(order.begin(), order.end());
+  for (std::size_t i = 0; i < order.size(); ++i) ASSERT_EQ(order[i], i);
+}
+
 }  // namespace
 }  // namespace vegetation_sim::canopy

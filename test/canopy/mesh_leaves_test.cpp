@@ -172,6 +172,29 @@ TEST(Slices, MakeALeafOfEachCellOnTheOutside) {
   EXPECT_LT(form.radius, 0.7);
 }
 
+// S3-W6: smoke and clouds are slices that nothing holds: with a rigidity of 0 all of it drifts, in
+// layers, its lowest parts too.
+TEST(Slices, DriftInLayersAsACloud) {
+  Layout layout = shrubScene();
+  layout.motion.warp.rigidity = 0.0;
+  layout.kinds[0].shape = static_cast<int>(Shape::SLICES);
+  layout.kinds[0].file = "none";
+  layout.kinds[0].form = std::make_shared<Form>(formOf(ballOf(12), 0.5));
+  for (Plant& plant : layout.plants) plant.position.z() = 3.0;
+  Canopy canopy(layout);
+  canopy.setWind(breezeFrom(Vec3(2.0, 6.0, 0.0)));
+  run(canopy, 0, 60);
+  const Foliage& foliage = canopy.foliage();
+  std::vector<Vec3> first(static_cast<std::size_t>(foliage.layers()), Vec3::Zero());
+  for (std::size_t plant = 0; plant < 2; ++plant)
+    for (const Leaf& leaf : grow(layout.kinds[0], layout.plants[plant]).leaves) {
+      const Vec3 way = foliage.move(leaf, plant).root - leaf.root;
+      EXPECT_GT(length(way), 0.005);
+      first[static_cast<std::size_t>(foliage.layerAt(leaf.anchor))] = way;
+    }
+  EXPECT_GT(length(Vec3(first.front() - first.back())), 1e-3);
+}
+
 TEST(Slices, AreRefusedIfTheyHoldNothing) {
   EXPECT_THROW(formOf(SliceStack(), 0.5), InvalidInput);
   EXPECT_THROW(formOf(SliceStack{2, 2, 1, {0.0, 0.1, 0.2, 0.3}}, 0.5), InvalidInput);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace vegetation_sim::canopy {
@@ -50,6 +51,47 @@ TEST(Grow, HangsThePiecesOfARibbonOnOneRoot) {
     EXPECT_EQ(grown.leaves[i].anchor, grown.leaves[i - 1].anchor);
     EXPECT_LT(length(grown.leaves[i].root - grown.leaves[i - 1].tip), 1e-12);
   }
+}
+
+// S3-W5: dark inside and below, light outside and above.
+TEST(Grow, GivesLessLightToLeavesInsideAndBelow) {
+  PlantKind kind = kindOf(Shape::SHRUB);
+  kind.leaves = 4000;
+  double inside = 0.0, outside = 0.0, below = 0.0, above = 0.0;
+  int in = 0, out = 0, low = 0, high = 0;
+  for (const Leaf& leaf : grow(kind, {}).leaves) {
+    const Vec3 place((leaf.root.x()) / kind.radius, leaf.root.y() / kind.radius,
+                     2.0 * leaf.root.z() / kind.height - 1.0);
+    const double light = leaf.light;
+    EXPECT_GE(light, 0.05);
+    EXPECT_LE(light, 1.0);
+    (length(place) < 0.5 ? inside : outside) += light;
+    ++(length(place) < 0.5 ? in : out);
+    (place.z() < 0.0 ? below : above) += light;
+    ++(place.z() < 0.0 ? low : high);
+  }
+  EXPECT_LT(inside / in, 0.8 * outside / out);
+  EXPECT_LT(below / low, 0.9 * above / high);
+}
+
+// No two plants of a kind have the same outline.
+TEST(Grow, GivesEachPlantAnOutlineOfItsOwn) {
+  PlantKind kind = kindOf(Shape::SHRUB);
+  kind.leaves = 3000;
+  std::array<std::array<double, 8>, 2> reach{};
+  for (std::size_t seed = 0; seed < 2; ++seed) {
+    Plant plant;
+    plant.seed = seed;
+    for (const Leaf& leaf : grow(kind, plant).leaves) {
+      const double turn = std::atan2(leaf.root.y(), leaf.root.x()) / (2.0 * 3.14159265) + 0.5;
+      double& most = reach[seed][static_cast<std::size_t>(turn * 8.0) % 8];
+      most = std::max(most, std::hypot(leaf.root.x(), leaf.root.y()));
+    }
+  }
+  double difference = 0.0;
+  for (std::size_t i = 0; i < 8; ++i)
+    difference = std::max(difference, std::fabs(reach[0][i] - reach[1][i]));
+  EXPECT_GT(difference, 0.1 * kind.radius);
 }
 
 TEST(Grow, IsAFunctionOfTheSeedAndOfEachLeafsNumber) {

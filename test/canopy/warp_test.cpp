@@ -73,6 +73,32 @@ TEST(Displacement, IsTheIdentityAtRestAndScalesByAxis) {
   EXPECT_NEAR(displacement(settings, Vec3(1.0, 1.0, 9.0), 0.5, 0.1).y(), 0.025, 1e-15);
 }
 
+// S3-W4: another method than the grid warp, which stretches: a bend keeps each point's distance.
+TEST(Bent, KeepsTheDistanceFromTheFoot) {
+  const Vec3 arm(0.2, -0.1, 1.5), push(0.6, 0.3, -0.1);
+  const Vec3 way = bent(arm, push);
+  EXPECT_NEAR(length(Vec3(arm + way)), length(arm), 1e-12);
+  EXPECT_GT(dot(way, push), 0.0);
+  EXPECT_GT(length(Vec3(arm + push)), length(arm) + 0.05);  // what the grid warp does
+  EXPECT_EQ(bent(arm, Vec3::Zero()), Vec3(0.0, 0.0, 0.0));
+}
+
+// S3-W3: a push on the face of a leaf turns it about its midrib, one along the face does not.
+TEST(Twisted, TurnsALeafThatIsPushedOnItsFace) {
+  WarpSettings settings;
+  const Vec3 along(0.0, 0.0, 0.1), side(0.02, 0.0, 0.0);
+  const Vec3 pushed = twisted(settings, along, side, Vec3(0.0, 0.2, 0.0));
+  EXPECT_NEAR(length(pushed), 0.02, 1e-12);
+  EXPECT_NEAR(dot(pushed, along), 0.0, 1e-12);
+  const double turn = std::acos(dot(pushed, side) / 0.0004);
+  EXPECT_NEAR(turn, 0.6, 1e-9);  // 0.3 of twice its length
+  EXPECT_EQ(twisted(settings, along, side, Vec3(0.2, 0.0, 0.0)), side);
+  EXPECT_LT(std::acos(dot(twisted(settings, along, side, Vec3(0.0, 90.0, 0.0)), side) / 0.0004),
+            1.41);
+  settings.twist = 0.0;  // as the paper has it
+  EXPECT_EQ(twisted(settings, along, side, Vec3(0.0, 0.2, 0.0)), side);
+}
+
 /// Smallest determinant of the gradient of x + reach * motion over the corners of all cells.
 double smallestDeterminant(const LayerMotion& motion, double reach, double cell) {
   const int size = motion.plane.size;

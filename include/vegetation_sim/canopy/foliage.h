@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "vegetation_sim/canopy/history.h"
@@ -45,14 +46,22 @@ class Foliage {
   MovedLeaf move(const Leaf& leaf, std::size_t plant) const;
   /// Motion [m/s] of the layer of `anchor` at a point, in the view's axes: right, up, towards it.
   Vec3 motion(const Vec3& anchor, const Vec3& point) const;
+  /// Motion of a layer as a picture that a vertex shader looks up, periodic and bilinear (S3-W7):
+  /// [cells x cells x 3] right, up, towards the viewer, row after row from the lowest [m/s].
+  std::vector<float> sheet(int layer) const;
+  /// Numbers of the leaves from the last layer to the first: the order in which leaves with
+  /// transparent edges are laid over each other (S3-07).
+  std::vector<std::uint32_t> backToFront(const std::vector<Leaf>& leaves) const;
   int layerAt(const Vec3& anchor) const { return cuts_[0].cut.layerAt(anchor); }
   int layers() const { return cuts_[0].cut.layers(); }
+  const WarpSettings& warp() const { return layout_.motion.warp; }
   /// Weakest of limitFolding() over the layers.
   double weakening() const { return weakening_; }
 
  private:
   struct Cut {
     LayerCut cut;
+    PlaneToView to_view;
     std::vector<LayerMotion> layers;
     std::vector<double> shares;  // depthShare of each
   };

@@ -47,12 +47,14 @@ struct Plane {
 
 /// Turns what moves in the plane into what a viewer sees: to the right, up, and towards him.
 struct PlaneToView {
+  /// A view along the plane's own axes.
+  PlaneToView() = default;
   /// With rotations (E8): the length of every vector is kept. Same bits everywhere.
   PlaneToView(const Axes& plane, const Axes& view);
   Vec3 apply(const Vec3& in_plane) const {
     return {dot(right, in_plane), dot(up, in_plane), dot(out, in_plane)};
   }
-  Vec3 right, up, out;  ///< rows of the matrix
+  Vec3 right{Vec3::UnitX()}, up{Vec3::UnitY()}, out{Vec3::UnitZ()};  ///< rows of the matrix
 };
 
 /// Paper 3, equations 1 and 2 as printed: with the plane's tilt and the angles between plane and

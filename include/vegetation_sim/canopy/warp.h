@@ -16,6 +16,9 @@ struct WarpSettings {
   double reference_time{0.05};  ///< displacement per speed [s]
   double depth_loss{0.3};       ///< m: share that the last layer moves less
   double rigidity{1.5};         ///< r of equation 7; 0: every part moves alike
+  int method{0};      ///< 0 grid warp as the paper's, 1 bend: no point leaves its foot (S3-W4)
+  double twist{0.3};  ///< turn of a leaf about its midrib per tip displacement across its face,
+                      ///< over its length (S3-W3) [rad]
 };
 void describe(FieldVisitor& visitor, WarpSettings& settings);
 
@@ -30,6 +33,13 @@ double depthShare(const WarpSettings& settings, double distance, double last);
 /// Displacement [m] to the right, up and 0 of a leaf whose layer moves by `velocity` [m/s] in the
 /// view's axes. The printed form is proportional to the step `dt`; the right one does not know it.
 Vec3 displacement(const WarpSettings& settings, const Vec3& velocity, double share, double dt);
+
+/// The displacement that keeps the distance of `arm`, from foot to point: a bend, not a shear.
+Vec3 bent(const Vec3& arm, const Vec3& displacement);
+
+/// `side` turned about the midrib `along` by what displaces the tip across the leaf's face.
+Vec3 twisted(const WarpSettings& settings, const Vec3& along, const Vec3& side,
+             const Vec3& displacement);
 
 /// Weakens what differs from the mean of the layer until no two points change places, however the
 /// motion is turned into the view: with gradients of at most a half the map has an inverse.
