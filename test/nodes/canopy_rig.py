@@ -21,8 +21,7 @@ class Leaves(WatchedNode):
         self.layout = Log(namespace + 'canopy/layout', CanopyLayout)
         self.state = Log(namespace + 'canopy/state', CanopyState)
         self.events = Log(namespace + 'canopy/events', CanopyEvent)
-        super().__init__(name, 'canopy', name + '/sample', SampleCanopy,
-                         (self.layout, self.state, self.events))
+        super().__init__(name, 'canopy', name + '/sample', SampleCanopy)
 
     def at(self, x, y, z):
         """Leaves at one place."""

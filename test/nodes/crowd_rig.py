@@ -17,6 +17,8 @@ from watched_node import Log, WatchedNode, publisher
 class Crowd(WatchedNode):
     """One agent_crowd as its users see it."""
 
+    LOGS = 'state', 'events', 'tread'
+
     def __init__(self, name='/agent_crowd', namespace='/'):
         self.state = Log(namespace + 'agents', AgentStates)
         self.events = Log(namespace + 'agents/events', CrowdEvent)
@@ -24,8 +26,7 @@ class Crowd(WatchedNode):
         self.spawn = rospy.ServiceProxy(name + '/spawn', SpawnAgents)
         self.set_goal = rospy.ServiceProxy(name + '/set_goal', SetAgentGoal)
         self.reset = rospy.ServiceProxy(name + '/reset', Trigger)
-        super().__init__(name, 'crowd', name + '/remove', RemoveAgents,
-                         (self.state, self.events, self.tread))
+        super().__init__(name, 'crowd', name + '/remove', RemoveAgents)
 
     def remove(self, **request):
         return self._probe(**request)

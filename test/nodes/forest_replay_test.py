@@ -128,7 +128,7 @@ class ForestReplay(unittest.TestCase):
                             '/forest/events:=/replay/forest/events'], check=True, timeout=120,
                            stdout=subprocess.DEVNULL)
             # The bag's clock ended before the delay: on from where it was.
-            end = tick_after(self.bag)
+            end = tick_after(self.bag, ['/wind', '/forest/events'])
             for tick in range(1, int((DELAY + 1) * RATE)):
                 clock.show(end + tick)
             forest.state.wait(lambda all: all and all[-1].header.stamp >= self.last, 'the end')

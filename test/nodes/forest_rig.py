@@ -28,8 +28,7 @@ class Animator(WatchedNode):
         self.layout = Log(namespace + 'forest/layout', ForestLayout)
         self.state = Log(namespace + 'forest/state', ForestState)
         self.events = Log(namespace + 'forest/events', ForestEvent)
-        super().__init__(name, 'forest', name + '/get_tree', GetTree,
-                         (self.layout, self.state, self.events))
+        super().__init__(name, 'forest', name + '/get_tree', GetTree)
         self.pick = rospy.ServiceProxy(name + '/pick', Pick)
         self.set_tf = rospy.ServiceProxy(name + '/set_tf', SetTf)
 

@@ -97,7 +97,7 @@ class GrassReplay(unittest.TestCase):
                             '--topics', '/grass/events', '/grass/events:=/replay/grass/events'],
                            check=True, timeout=100, stdout=subprocess.DEVNULL)
             # The bag's clock ended before the delay: on from where it was.
-            end = tick_after(self.bag)
+            end = tick_after(self.bag, ['/grass/events'])
             for tick in range(1, int((DELAY + 1) * RATE)):
                 self.clock.show(end + tick)
             grass.state.wait(lambda all: all and all[-1].header.stamp >= last, 'the end')

@@ -26,8 +26,7 @@ class Meadow(WatchedNode):
         self.events = Log(namespace + 'grass/events', GrassEvent)
         self.tread = rospy.ServiceProxy(name + '/tread', Tread)
         self.clear = rospy.ServiceProxy(name + '/clear', ClearGrass)
-        super().__init__(name, 'grass', name + '/sample', SampleGrass,
-                         (self.layout, self.state, self.events))
+        super().__init__(name, 'grass', name + '/sample', SampleGrass)
 
     def at(self, x, y, stamp=rospy.Time()):
         """The grass at one place."""

@@ -8,7 +8,8 @@ import rosbag
 from forest_rig import RATE
 
 
-def tick_after(path):
-    """First tick after all that a bag tells."""
+def tick_after(path, topics):
+    """First tick after all that a bag tells on topics: its player's clock stands before it."""
     with rosbag.Bag(path) as bag:
-        return math.ceil(bag.get_end_time() * RATE) + 1
+        last = max(stamp for _, _, stamp in bag.read_messages(topics))
+    return math.ceil(last.to_sec() * RATE) + 1

@@ -79,20 +79,24 @@ class Log:
 
 
 class WatchedNode:
-    """A node as its users see it. It has `logs`, and a service `probe` that changes nothing when
-    it is called without arguments."""
+    """A node as its users see it. It has a service `probe` that changes nothing when it is called
+    without arguments."""
 
-    def __init__(self, name, status, probe, probe_type, logs):
+    LOGS = 'layout', 'state', 'events'  # attributes
+
+    def __init__(self, name, status, probe, probe_type):
         self.name = name
         self.process = name  # node that it lives in: a manager's, of a nodelet
         self._status = name.lstrip('/') + ': ' + status
         self._reconnect = lambda: rospy.ServiceProxy(probe, probe_type, persistent=True)
-        self._logs = logs
         self.reconnect()
 
     def reconnect(self):
         """To a node that was started anew."""
         self._probe = self._reconnect()
+
+    def logs(self):
+        return [getattr(self, name) for name in self.LOGS]
 
     def wait_until_up(self, *topics):
         """Until it listens to the clock and `topics`, and its first state will be heard here."""
@@ -100,7 +104,7 @@ class WatchedNode:
         self.settle()
         for topic in ('/clock',) + topics:
             wait_for(lambda: listens(self.process, topic), '%s to hear %s' % (self.name, topic))
-        for log in self._logs:
+        for log in self.logs():
             wait_for(log.connected, log.topic)
         self.settle()  # so it has what was latched
 
@@ -120,6 +124,6 @@ class WatchedNode:
         return {pair.key: float(pair.value) for pair in status.values}
 
     def close(self):
-        for log in self._logs:
+        for log in self.logs():
             log.close()
         self._probe.close()
