@@ -11,7 +11,7 @@ from vegetation_sim.msg import AgentStates, CrowdEvent, TreadEvent
 from vegetation_sim.srv import RemoveAgents, SetAgentGoal, SpawnAgents
 
 from waiting import wait_for
-from watched_node import Log, WatchedNode, publisher
+from watched_node import Log, WatchedNode, publisher, wait_for_readers
 
 
 class Crowd(WatchedNode):
@@ -53,7 +53,7 @@ class Cart:
         self.crowd = crowd
         self.frame = frame
         self._publisher = publisher('/tf', TFMessage)
-        wait_for(lambda: self._publisher.get_num_connections() > 0, 'readers of /tf')
+        wait_for_readers('/tf', crowd.process)
 
     def put(self, x, y, stamp, yaw=0.0):
         """Returns when the crowd has heard it."""

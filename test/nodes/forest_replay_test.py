@@ -21,7 +21,7 @@ from vegetation_sim.srv import ApplyForce, Grab, MoveGrab, Release, SetWindPrimi
 from forest_rig import RATE, Animator, Eye, TickClock, scene, start_animator, stop, time_of
 from replaying import tick_after
 from waiting import wait_for
-from watched_node import listens, publisher
+from watched_node import listens, publisher, wait_for_readers
 
 SECONDS = 60
 TAIL = 5  # [s] recorded but not compared: a recorder that is stopped loses what is on its way
@@ -73,7 +73,7 @@ class ForestReplay(unittest.TestCase):
         if 44 <= second < 48:
             if second == 44:
                 self.hand = self.forest.tree(13).transforms.poses[8].position
-                wait_for(self.frames.get_num_connections, 'listeners of /tf')
+                wait_for_readers('/tf', '/forest_animator')
             frame = TransformStamped(child_frame_id='hand')
             frame.header.frame_id, frame.header.stamp = 'map', time_of(self.clock.tick)
             at = frame.transform.translation

@@ -11,8 +11,7 @@ from geometry_msgs.msg import TransformStamped
 from tf2_msgs.msg import TFMessage
 
 from forest_rig import RATE, Animator, Eye, TickClock, time_of
-from waiting import wait_for
-from watched_node import publisher
+from watched_node import publisher, wait_for_readers
 
 WEST, EAST = 0, 7  # trees at x = 0 m and 960 m
 BESIDE_WEST, BESIDE_EAST, FAR = (-12.0, 0.0, 5.0), (945.0, 8.0, 5.0), (-400.0, 0.0, 5.0)
@@ -30,7 +29,7 @@ class ForestViewer(unittest.TestCase):
         cls.eye = Eye()
         cls.frames = publisher('/tf', TFMessage)
         cls.server = Client('/forest_animator', timeout=30)
-        wait_for(lambda: cls.frames.get_num_connections() >= 2, 'readers of tf')
+        wait_for_readers('/tf', *(a.process for a in cls.all))
 
     def setUp(self):
         self.clock.run(6 * RATE, *self.all)  # until nobody looks and all have settled

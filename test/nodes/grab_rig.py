@@ -10,7 +10,7 @@ from vegetation_sim.srv import ApplyForce, Grab, MoveGrab, Release
 
 from forest_rig import Animator, time_of
 from waiting import wait_for
-from watched_node import Log, publisher
+from watched_node import Log, publisher, wait_for_readers
 
 TREE = 0
 LIMB = 46  # outer third of a limb, 2.4 cm thick, 2.7 m above the ground
@@ -78,7 +78,7 @@ class Hands(Animator):
         at, q = transform.transform.translation, transform.transform.rotation
         at.x, at.y, at.z = place
         q.x, q.y, q.z, q.w = turn
-        wait_for(lambda: self._frames.get_num_connections() > 0, 'listeners of /tf')
+        wait_for_readers('/tf', self.process)
         self._frames.publish([transform])
 
     def wait_for_frame(self, name, place):

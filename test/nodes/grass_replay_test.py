@@ -21,7 +21,7 @@ from forest_rig import TickClock, scene, stop
 from grass_rig import RATE, Feet, Meadow, start_meadow, step, time_of
 from replaying import tick_after
 from waiting import wait_for
-from watched_node import listens, publisher
+from watched_node import listens, publisher, wait_for_readers
 
 SECONDS = 20
 TAIL = 3  # [s] recorded but not compared: a recorder that is stopped loses what is on its way
@@ -66,7 +66,7 @@ class GrassReplay(unittest.TestCase):
         self.grass, self.clock = Meadow(), TickClock(1000 * RATE)
         self.grass.wait_until_up()
         self.tf, self.feet = publisher('/tf', TFMessage), Feet(self.grass)
-        wait_for(self.tf.get_num_connections, 'listeners of /tf')
+        wait_for_readers('/tf', self.grass.process)
         self.server = Client('/grass_field', timeout=30)
         record = roslib.packages.find_node('rosbag', 'record')[0]
         recorder = subprocess.Popen([record, '-q', '-O', self.bag, '__name:=recorder'] + TOPICS)

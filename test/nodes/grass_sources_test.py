@@ -17,7 +17,7 @@ from vegetation_sim.srv import SetWindPrimitive
 from forest_rig import TickClock
 from grass_rig import FULL, RATE, Feet, Meadow, step, time_of
 from waiting import wait_for
-from watched_node import Log, publisher
+from watched_node import Log, publisher, wait_for_readers
 
 
 class GrassSources(unittest.TestCase):
@@ -28,8 +28,8 @@ class GrassSources(unittest.TestCase):
         cls.grass.wait_until_up('/wind')
         cls.tf = publisher('/tf', TFMessage)
         cls.odom = publisher('/odom', Odometry)
-        wait_for(cls.tf.get_num_connections, 'listeners of /tf')
-        wait_for(cls.odom.get_num_connections, 'listeners of /odom')
+        wait_for_readers('/tf', cls.grass.process)
+        wait_for_readers('/odom', cls.grass.process)
         cls.wrenches = Log('/grass/wrenches', WrenchStamped)
         wait_for(cls.wrenches.connected, 'wrenches')
         cls.clock.run(1, cls.grass)
@@ -125,7 +125,7 @@ class GrassSources(unittest.TestCase):
                               speed=15.0, fade_in=0.2, fade_out=0.2, attached_frame='drone')
         answer = rospy.ServiceProxy('/wind_broadcaster/set_primitive', SetWindPrimitive)(blast)
         self.assertTrue(answer.success, answer.message)
-        wait_for(lambda: self.tf.get_num_connections() > 1, 'the wind to hear /tf')
+        wait_for_readers('/tf', '/wind_broadcaster')
 
         def hover(x):
             self.fly(3 * RATE, lambda s: ('drone', x, 14.0, 1.0))

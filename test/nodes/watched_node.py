@@ -41,6 +41,12 @@ def listens(node, topic):
         return False
 
 
+def wait_for_readers(topic, *nodes):
+    """Until all that this test publishes will be heard by these nodes."""
+    own = rosgraph.Master('/watched_node').lookupNode(rospy.get_name())
+    wait_for(lambda: set(nodes) <= set(links(own, 'o', topic)), '%s to hear %s' % (nodes, topic))
+
+
 class Log:
     """All that a topic said."""
 
