@@ -129,7 +129,7 @@ Wish Crowd::wishOf(Walker& w, const Point& front, std::size_t index) const {
   }
   Point aim = w.goal;
   if (behaviour == Behaviour::GOAL && fields_[index])
-    fields_[index]->aimFrom(ways_.raster(), w.position, aim);
+    fields_[index]->aimFrom(ways_.raster(), w.position, w.goal, aim);
   const Point to = aim - w.position;
   const double way = length(to);
   if (way > 0.0) out.direction = (1.0 / way) * to;

@@ -39,21 +39,20 @@ void visitNeighbours(const PlanRaster& raster, std::uint32_t cell, Each each) {
 }  // namespace
 
 // Costs are small whole numbers, so that waiting cells sort into eight buckets that take turns.
-FlowField::FlowField(const PlanRaster& raster, const Point& goal) : goal_(goal) {
+FlowField::FlowField(const PlanRaster& raster, std::uint32_t cell) {
   length_.assign(static_cast<std::size_t>(raster.columns()) * raster.rows(), FAR);
   constexpr std::uint32_t BUCKETS = DIAGONAL + 1;
   std::vector<std::uint32_t> buckets[BUCKETS];
-  const std::uint32_t start = raster.cellAt(raster.nearestFree(goal));
-  length_[start] = 0;
-  buckets[0].push_back(start);
+  length_[cell] = 0;
+  buckets[0].push_back(cell);
   std::size_t waiting = 1;
   std::vector<std::uint32_t> now;
   for (std::uint32_t length = 0; waiting > 0; ++length) {
     now.swap(buckets[length % BUCKETS]);
     waiting -= now.size();
-    for (const std::uint32_t cell : now) {
-      if (length_[cell] != length) continue;  // found shorter since
-      visitNeighbours(raster, cell, [&](std::uint32_t next, std::uint32_t cost) {
+    for (const std::uint32_t at : now) {
+      if (length_[at] != length) continue;  // found shorter since
+      visitNeighbours(raster, at, [&](std::uint32_t next, std::uint32_t cost) {
         if (length + cost >= length_[next]) return;
         length_[next] = length + cost;
         buckets[(length + cost) % BUCKETS].push_back(next);
@@ -76,9 +75,10 @@ bool FlowField::isReachable(const PlanRaster& raster, const Point& from) const {
   return length_[raster.cellAt(raster.nearestFree(from))] != FAR;
 }
 
-bool FlowField::aimFrom(const PlanRaster& raster, const Point& from, Point& aim) const {
-  aim = goal_;
-  if (raster.isClear(from, goal_, false)) return true;
+bool FlowField::aimFrom(const PlanRaster& raster, const Point& from, const Point& goal,
+                        Point& aim) const {
+  aim = goal;
+  if (raster.isClear(from, goal, false)) return true;
   const Point start = raster.nearestFree(from);
   std::uint32_t cell = raster.cellAt(start);
   if (length_[cell] == FAR) return false;
@@ -99,8 +99,9 @@ void Ways::setObstacles(const ObstacleGrid& still, double clearance, double cell
 }
 
 const FlowField& Ways::fieldOf(const Point& goal) {
-  Kept& kept = fields_[raster_.cellAt(goal)];
-  if (!kept.field) kept.field = std::make_unique<FlowField>(raster_, goal);
+  const std::uint32_t cell = raster_.cellAt(raster_.nearestFree(goal));
+  Kept& kept = fields_[cell];
+  if (!kept.field) kept.field = std::make_unique<FlowField>(raster_, cell);
   kept.asked = tick_;
   return *kept.field;
 }

@@ -19,11 +19,11 @@ ObstacleGrid pocket() {
 TEST(Ways, LeadOutOfAPocket) {
   const ObstacleGrid still = pocket();
   const PlanRaster raster(still, 0.3, 0.25);
-  const FlowField field(raster, {8, 0});
+  const FlowField field(raster, raster.cellAt({8, 0}));
   Point at{1.0, 0.0}, aim;
   double way = 0.0;
   for (int i = 0; i < 400 && length(Point{8, 0} - at) > 0.3; ++i) {
-    ASSERT_TRUE(field.aimFrom(raster, at, aim));
+    ASSERT_TRUE(field.aimFrom(raster, at, {8, 0}, aim));
     const Point to = aim - at;
     const Point next = at + (std::min(0.1, length(to)) / length(to)) * to;
     for (const Obstacle& wall : still.obstacles())
@@ -39,9 +39,9 @@ TEST(Ways, LeadOutOfAPocket) {
 
 TEST(Ways, StraightWhereNothingIsBetween) {
   const PlanRaster raster(pocket(), 0.3, 0.25);
-  const FlowField field(raster, {8, 0});
+  const FlowField field(raster, raster.cellAt({8, 0}));
   Point aim;
-  ASSERT_TRUE(field.aimFrom(raster, {3, 2}, aim));
+  ASSERT_TRUE(field.aimFrom(raster, {3, 2}, {8, 0}, aim));
   EXPECT_EQ(aim.x, 8.0);
   EXPECT_EQ(aim.y, 0.0);
 }
@@ -49,11 +49,26 @@ TEST(Ways, StraightWhereNothingIsBetween) {
 TEST(Ways, AClosedRoomHasNoWayOut) {
   const ObstacleGrid still(room(-4, -4, 4, 4), 3.0);
   const PlanRaster raster(still, 0.3, 0.25);
-  const FlowField field(raster, {6, 0});
+  const FlowField field(raster, raster.cellAt({6, 0}));
   Point aim;
   EXPECT_FALSE(field.isReachable(raster, {0, 0}));
-  EXPECT_FALSE(field.aimFrom(raster, {0, 0}, aim));
+  EXPECT_FALSE(field.aimFrom(raster, {0, 0}, {6, 0}, aim));
   EXPECT_TRUE(field.isReachable(raster, {6, 3}));
+}
+
+// N6: what was asked before, and by whom, changes no answer.
+TEST(Ways, GoalsInOneCellAreNotMixedUp) {
+  Ways ways;
+  ways.setObstacles(pocket(), 0.3, 0.25);
+  const Point goals[2] = {{8.01, 0.01}, {8.09, 0.11}};
+  ASSERT_EQ(ways.raster().cellAt(goals[0]), ways.raster().cellAt(goals[1]));
+  ASSERT_EQ(&ways.fieldOf(goals[0]), &ways.fieldOf(goals[1]));
+  for (const Point& goal : goals) {
+    Point aim;
+    ASSERT_TRUE(ways.fieldOf(goal).aimFrom(ways.raster(), {4, 0}, goal, aim));
+    EXPECT_EQ(aim.x, goal.x);
+    EXPECT_EQ(aim.y, goal.y);
+  }
 }
 
 TEST(Ways, FieldsThatNobodyAsksForGo) {

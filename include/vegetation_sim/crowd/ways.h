@@ -43,20 +43,20 @@ class PlanRaster {
   std::vector<std::uint8_t> blocked_;  ///< 0 free, 1 a small obstacle, 2 a large one
 };
 
-/// Length of the way to one goal from every cell, by steps to the eight neighbours (Dijkstra).
+/// Length of the way to one free cell from every cell, by steps to the eight neighbours (Dijkstra).
+/// All goals in it share the field.
 class FlowField {
  public:
-  FlowField(const PlanRaster& raster, const Point& goal);
-  /// A place on the way from here to the goal, as far along it as can be seen; the goal itself
-  /// where that can. @return false if no way leads there.
-  bool aimFrom(const PlanRaster& raster, const Point& from, Point& aim) const;
+  FlowField(const PlanRaster& raster, std::uint32_t cell);
+  /// A place on the way from here to a goal in the cell, as far along it as can be seen; the goal
+  /// itself where that can. @return false if no way leads there.
+  bool aimFrom(const PlanRaster& raster, const Point& from, const Point& goal, Point& aim) const;
   bool isReachable(const PlanRaster& raster, const Point& from) const;
 
  private:
   static constexpr std::uint32_t FAR = 0xFFFFFFFFU;
   std::uint32_t next(const PlanRaster& raster, std::uint32_t cell) const;
 
-  Point goal_;
   std::vector<std::uint32_t> length_;  ///< in fifths of a cell
 };
 
@@ -78,7 +78,7 @@ class Ways {
     std::uint64_t asked{0};
   };
   PlanRaster raster_;
-  std::map<std::uint32_t, Kept> fields_;  ///< by the goal's cell
+  std::map<std::uint32_t, Kept> fields_;  ///< by the goal's cell, or the nearest free one
   std::uint64_t tick_{0};
 };
 
