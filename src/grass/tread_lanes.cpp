@@ -14,7 +14,7 @@ namespace vegetation_sim::grass::HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
-using Tag = hn::CappedTag<double, TreadRow::MOST>;
+using Tag = hn::CappedTag<double, 16>;
 using Lanes = hn::Vec<Tag>;
 
 HWY_INLINE Lanes all(double value) {
@@ -41,10 +41,14 @@ HWY_INLINE LanesPlace placeOf(const CompactField::Parts& field, Lanes x, Lanes y
 HWY_INLINE Lanes fieldAt(const CompactField::Parts& field, const LanesPlace& place) {
   const Lanes none = hn::Zero(Tag());
   const Lanes beside = place.side * place.side, room = all(field.square_reach) - beside;
-  const Lanes half = hn::Sqrt(hn::Max(room, none));
-  const auto cut = hn::Or(place.start * place.start > room, place.end * place.end > room);
-  const Lanes lo = hn::IfThenElse(cut, hn::Max(place.start, hn::Neg(half)), place.start);
-  const Lanes hi = hn::IfThenElse(cut, hn::Min(place.end, half), place.end);
+  Lanes lo = place.start, hi = place.end;
+  // Both ends within reach, as in most short steps, need no cut.
+  const auto cut = hn::Or(lo * lo > room, hi * hi > room);
+  if (!hn::AllFalse(Tag(), cut)) {
+    const Lanes half = hn::Sqrt(hn::Max(room, none));
+    lo = hn::IfThenElse(cut, hn::Max(lo, hn::Neg(half)), lo);
+    hi = hn::IfThenElse(cut, hn::Min(hi, half), hi);
+  }
   const Lanes square = beside + all(field.square_softness);
   const Lanes r0 = hn::Sqrt(square + lo * lo), r1 = hn::Sqrt(square + hi * hi);
   const auto straddles = hn::And(lo<none, hi> none);
@@ -56,36 +60,42 @@ HWY_INLINE Lanes fieldAt(const CompactField::Parts& field, const LanesPlace& pla
   return hn::IfThenElse(within, sum, none);
 }
 
-// Of the dose within this pass, or of the print of the foot, which crushes even where it stands.
-HWY_INLINE Lanes tiltOf(const TreadLine& line, Lanes dose, Lanes square) {
-  const Lanes none = hn::Zero(Tag()), one = all(1.0), radius = all(line.radius);
-  const Lanes outside = (hn::Sqrt(square) - radius) / all(0.5 * line.radius);
+// Of the print of a foot, which crushes even where it stands.
+HWY_INLINE Lanes printOf(const TreadLine& line, Lanes square) {
+  const Lanes none = hn::Zero(Tag()), one = all(1.0);
+  const Lanes outside = (hn::Sqrt(square) - all(line.radius)) / all(0.5 * line.radius);
   const Lanes u = hn::Min(one, hn::Max(none, outside));
-  const Lanes print = one - u * u * (all(3.0) - all(2.0) * u);
-  const Lanes part = dose * all(line.per_full);
-  const auto printed = hn::And(dose < all(line.enough), square < all(2.25) * radius * radius);
-  const Lanes most = hn::IfThenElse(printed, hn::Max(part, print), part);
-  return all(BEND_LIMIT) * hn::Min(one, all(line.load) * most);
+  return one - u * u * (all(3.0) - all(2.0) * u);
 }
 
-void measure(const TreadLine& line, const TreadGrid& grid, TreadRow& row) {
+// Of the dose within this pass, or of the print.
+HWY_INLINE Lanes tiltOf(const TreadLine& line, Lanes dose, Lanes square) {
+  const Lanes radius = all(line.radius);
+  Lanes part = dose * all(line.per_full);
+  const auto printed = hn::And(dose < all(line.enough), square < all(2.25) * radius * radius);
+  if (!hn::AllFalse(Tag(), printed))
+    part = hn::IfThenElse(printed, hn::Max(part, printOf(line, square)), part);
+  return all(BEND_LIMIT) * hn::Min(all(1.0), all(line.load) * part);
+}
+
+void measure(const TreadLine& line, TreadNodes& nodes) {
   const Tag tag;
-  const int step = static_cast<int>(hn::Lanes(tag)), count = row.last - row.first + 1;
-  const Lanes y = all(grid.y(row.row)), reach = all(line.field.square_reach);
-  for (int i = 0; i < count; i += step) {
-    const Lanes column = hn::Iota(tag, static_cast<double>(row.first + i));
+  const int step = static_cast<int>(hn::Lanes(tag));
+  const Lanes reach = all(line.field.square_reach);
+  for (int i = 0; i < nodes.count; i += step) {
     const LanesPlace place =
-        placeOf(line.field, all(grid.origin_x) + column * all(grid.spacing), y);
-    const Lanes before = hn::Load(tag, row.dose + i);
+        placeOf(line.field, hn::Load(tag, nodes.x + i), hn::Load(tag, nodes.y + i));
+    Lanes dose = hn::Load(tag, nodes.dose + i);
     // No dose crushes more than fully.
-    const Lanes dose =
-        hn::IfThenElse(before < all(line.enough), before + fieldAt(line.field, place), before);
+    const auto grows = hn::And(dose < all(line.enough), place.square < reach);
+    if (!hn::AllFalse(tag, grows))
+      dose = hn::IfThenElse(grows, dose + fieldAt(line.field, place), dose);
     const auto stays = place.end * place.end + place.side * place.side < reach;
-    hn::Store(dose, tag, row.dose + i);
-    hn::Store(hn::IfThenElse(stays, dose, hn::Zero(tag)), tag, row.kept + i);
-    hn::Store(place.square, tag, row.square + i);
-    hn::Store(place.side, tag, row.side + i);
-    hn::Store(tiltOf(line, dose, place.square), tag, row.tilt + i);
+    hn::Store(dose, tag, nodes.dose + i);
+    hn::Store(hn::IfThenElse(stays, dose, hn::Zero(tag)), tag, nodes.kept + i);
+    hn::Store(place.square, tag, nodes.square + i);
+    hn::Store(place.side, tag, nodes.side + i);
+    hn::Store(tiltOf(line, dose, place.square), tag, nodes.tilt + i);
   }
 }
 
@@ -98,8 +108,15 @@ namespace vegetation_sim::grass {
 
 HWY_EXPORT(measure);
 
-void measureRow(const TreadLine& line, const TreadGrid& grid, TreadRow& row) {
-  HWY_DYNAMIC_DISPATCH(measure)(line, grid, row);
+void measureNodes(const TreadLine& line, TreadNodes& nodes) {
+  // Lanes beyond the last node repeat it.
+  constexpr int WIDEST = 16;
+  for (int i = nodes.count; i % WIDEST != 0; ++i) {
+    nodes.x[i] = nodes.x[nodes.count - 1];
+    nodes.y[i] = nodes.y[nodes.count - 1];
+    nodes.dose[i] = nodes.dose[nodes.count - 1];
+  }
+  HWY_DYNAMIC_DISPATCH(measure)(line, nodes);
 }
 
 }  // namespace vegetation_sim::grass

@@ -21,19 +21,31 @@ struct TreadLine {
   double radius, load;
 };
 
-/// Some nodes of a row, from column first on, side by side.
-struct alignas(64) TreadRow {
-  static constexpr int MOST = TreadBlock::SIDE;  ///< each list is a whole number of vectors
-  double dose[MOST];                             ///< before the stroke, then with it
-  double kept[MOST];                             ///< what of it stays within reach of the source
-  double square[MOST];                           ///< of the distance from the segment [m^2]
-  double side[MOST];                             ///< of the track, left positive [m]
-  double tilt[MOST];                             ///< that the stroke asks for [rad]
-  int row, first, last;                          ///< the latter two: columns
+/// Nodes that may be within reach of a stroke, side by side.
+struct alignas(64) TreadNodes {
+  static constexpr int MOST = 64;  ///< a whole number of vectors
+  double x[MOST], y[MOST];         ///< [m]
+  double dose[MOST];               ///< before the stroke, then with it
+  double kept[MOST];               ///< what of it stays within reach of the source
+  double square[MOST];             ///< of the distance from the segment [m^2]
+  double side[MOST];               ///< of the track, left positive [m]
+  double tilt[MOST];               ///< that the stroke asks for [rad]
+  int row[MOST], column[MOST];
+  int slot[MOST];  ///< in the source's window; -1: beyond
+  int count{0};
+
+  void add(const TreadGrid& grid, int node_row, int node_column, double known, int in_window) {
+    x[count] = grid.x(node_column);
+    y[count] = grid.y(node_row);
+    dose[count] = known;
+    slot[count] = in_window;
+    row[count] = node_row;
+    column[count++] = node_column;
+  }
 };
 
-/// Takes the stroke to the nodes of a row: dose in, all else out. Runs on the widest vectors of the
+/// Takes the stroke to the nodes: dose in, all else out. Runs on the widest vectors of the
 /// processor; the same bits on each of them, and those of CompactField::fieldAt().
-void measureRow(const TreadLine& line, const TreadGrid& grid, TreadRow& row);
+void measureNodes(const TreadLine& line, TreadNodes& nodes);
 
 }  // namespace vegetation_sim::grass

@@ -48,6 +48,7 @@ TreadMap::TreadMap(const MapLaw& law, const TreadSettings& settings)
   faults.throwIfAny();
   cells_ = std::max(1, static_cast<int>(cells));
   spacing_ = law.resolution / cells_;
+  per_spacing_ = 1.0 / spacing_;
 }
 
 std::size_t TreadMap::bytes() const {
@@ -57,16 +58,17 @@ std::size_t TreadMap::bytes() const {
 }
 
 // Most strokes fall on the blocks of the ones before: a table in front of the tree.
-RecentBlock TreadMap::blockAt(int row, int column, bool make) {
-  RecentBlock& known = recent_blocks_.at(row, column);
-  if (known.block) return known;
-  const auto found = state_.blocks.find({row, column});
-  TreadBlock* block = found != state_.blocks.end() ? &found->second : nullptr;
+const RecentBlock& TreadMap::blockAt(int row, int column, bool make) {
+  RecentBlock& recent = recent_blocks_.at(row, column);
+  if (!recent.is_known) {
+    const auto found = state_.blocks.find({row, column});
+    if (found != state_.blocks.end()) recent.set(found->second);
+    recent.is_known = true;
+  }
+  if (recent.block || !make) return recent;
   const double size = static_cast<double>((state_.blocks.size() + 1) * BLOCK_BYTES);
-  if (!block && make && size <= settings_.memory_cap) block = &state_.blocks[{row, column}];
-  known.block = block;
-  known.nodes = block ? block->nodes.data() : nullptr;
-  return known;
+  if (size <= settings_.memory_cap) recent.set(state_.blocks[{row, column}]);
+  return recent;
 }
 
 // Null if it is not on the ground.
@@ -112,18 +114,28 @@ int TreadMap::tread(std::uint32_t id, const TreadLaw& law, const Point& position
   source.position = position;
   source.stamp = stamp;
   const bool stays = !moveWindow(source, law.reach);
-  TreadStroke stroke(law, from, stays ? source : before_, source);
+  TreadStroke stroke(law, fullDose(law), from, stays ? source : before_, source);
   const int touched = press(stroke);
   ++(touched > 0 ? state_.counts.strokes : state_.counts.outside);
   return touched;
 }
 
+// The last one's, where many sources tread alike.
+double TreadMap::fullDose(const TreadLaw& law) {
+  if (law.radius != last_law_.radius || law.reach != last_law_.reach ||
+      law.softness != last_law_.softness || !(last_full_ > 0.0)) {
+    last_law_ = law;
+    last_full_ = CompactField::ofEndlessTrack(law.radius, law.reach, law.softness);
+  }
+  return last_full_;
+}
+
 // Puts the window around the source. If it is another one than before, that is in `before_`.
 bool TreadMap::moveWindow(TreadSource& source, double reach) {
   // One node more on each side, whatever rounding does.
-  const int first_column = nodeBelow(source.position.x - reach, law_.origin_x, spacing_) - 1;
-  const int first_row = nodeBelow(source.position.y - reach, law_.origin_y, spacing_) - 1;
-  const int side = floorOf(2.0 * reach / spacing_) + 5;
+  const int first_column = nodeBelow(source.position.x - reach, law_.origin_x, per_spacing_) - 1;
+  const int first_row = nodeBelow(source.position.y - reach, law_.origin_y, per_spacing_) - 1;
+  const int side = floorOf(2.0 * reach * per_spacing_) + 5;
   if (source.first_column == first_column && source.first_row == first_row &&
       source.columns == side && source.rows == side)
     return false;
@@ -139,8 +151,8 @@ bool TreadMap::moveWindow(TreadSource& source, double reach) {
 }
 
 TreadMap::Box TreadMap::boxOf(const Point& low, const Point& high, double reach) const {
-  const auto column = [&](double x) { return nodeBelow(x, law_.origin_x, spacing_); };
-  const auto row = [&](double y) { return nodeBelow(y, law_.origin_y, spacing_); };
+  const auto column = [&](double x) { return nodeBelow(x, law_.origin_x, per_spacing_); };
+  const auto row = [&](double y) { return nodeBelow(y, law_.origin_y, per_spacing_); };
   return {std::max(0, column(low.x - reach)),
           std::min((law_.columns - 1) * cells_, column(high.x + reach) + 1),
           std::max(0, row(low.y - reach)),
@@ -149,63 +161,71 @@ TreadMap::Box TreadMap::boxOf(const Point& low, const Point& high, double reach)
 
 int TreadMap::press(TreadStroke& stroke) {
   const Box box = boxOf(stroke.low, stroke.high, stroke.law.reach);
+  if (box.first_column > box.last_column || box.first_row > box.last_row) return 0;
+  TreadNodes nodes;
   int touched = 0;
-  if (box.first_column > box.last_column || box.first_row > box.last_row) return touched;
   for (int r = blockOf(box.first_row); r <= blockOf(box.last_row); ++r)
     for (int c = blockOf(box.first_column); c <= blockOf(box.last_column); ++c)
-      touched += pressBlock(stroke, r, c, box);
-  return touched;
+      touched += pressBlock(stroke, r, c, box, nodes);
+  return touched + pressNodes(stroke, nodes);
 }
 
-int TreadMap::pressBlock(TreadStroke& stroke, int block_row, int block_column, const Box& box) {
+// Collects the nodes of a block; presses when there are many.
+int TreadMap::pressBlock(TreadStroke& stroke, int block_row, int block_column, const Box& box,
+                         TreadNodes& nodes) {
   const TreadGrid grid{law_.origin_x, law_.origin_y, spacing_};
   const int row0 = block_row * SIDE, column0 = block_column * SIDE;
-  const int first_row = std::max(box.first_row, row0);
   const int last_row = std::min(box.last_row, row0 + SIDE - 1);
   const int first_column = std::max(box.first_column, column0);
   const int last_column = std::min(box.last_column, column0 + SIDE - 1);
-  RecentBlock block = blockAt(block_row, block_column, false);
-  const auto node_at = [&](int row, int column) {
-    return block.nodes + static_cast<std::ptrdiff_t>((row - row0) * SIDE + column - column0);
-  };
+  const TreadNode* there = blockAt(block_row, block_column, false).nodes;
   // Each source treads elsewhere: ask for its nodes at once, not one after the other.
-  if (block.nodes)
-    for (int row = first_row; row <= last_row; ++row)
-      for (int column = first_column; column <= last_column; column += 2)
-        __builtin_prefetch(node_at(row, column), 1);
-  bool full = false;
+  if (there)
+    for (int r = std::max(box.first_row, row0); r <= last_row; ++r)
+      for (int c = first_column; c <= last_column; c += 2)
+        __builtin_prefetch(there + ((r - row0) * SIDE + c - column0), 1);
   int touched = 0;
-  for (int r = first_row; r <= last_row; ++r) {
-    TreadRow row;
-    row.row = r;
-    row.first = first_column;
-    row.last = last_column;
-    stroke.cut(row, grid);
-    if (row.first > row.last) continue;
-    touched += stroke.measure(row, grid);
-    for (int column = row.first; column <= row.last; ++column) {
-      const int i = column - row.first;
-      const auto tilt = static_cast<float>(row.tilt[i]);
-      if (tilt < CRUNCHED || !stroke.isTouched(row, i)) continue;
-      if (!block.nodes && !full) {
-        block = blockAt(block_row, block_column, true);
-        full = !block.nodes;
-      }
-      if (full)
-        ++state_.counts.no_memory;
-      else
-        stroke.press(tilt, {grid.x(column), grid.y(r)}, row.side[i], *node_at(r, column));
-    }
+  for (int r = std::max(box.first_row, row0); r <= last_row; ++r) {
+    const double half = stroke.halfRow(grid.y(r));
+    const int first =
+        std::max(first_column, nodeBelow(stroke.low.x - half, law_.origin_x, per_spacing_));
+    const int last =
+        std::min(last_column, nodeBelow(stroke.high.x + half, law_.origin_x, per_spacing_));
+    if (first > last) continue;
+    if (nodes.count + SIDE > TreadNodes::MOST) touched += pressNodes(stroke, nodes);
+    stroke.gather(grid, r, first, last, nodes);
   }
-  if (block.block) block.block->until = std::max(block.block->until, stroke.latest);
   return touched;
 }
 
-float tiltAt(const TreadNode& node, Nanoseconds stamp) {
-  if (!(node.tilt > 0.f) || stamp < node.stamp || !(node.recovery > 0.f)) return 0.f;
-  if (node.recovery >= static_cast<float>(PERMANENT_RECOVERY)) return node.tilt;
-  const double part = secondsBetween(node.stamp, stamp) / double{node.recovery};
-  return static_cast<float>(double{node.tilt} * (1.0 - smoothStep(part)));
+// Block by block, in the order in which they were collected. @return number of nodes within reach.
+int TreadMap::pressNodes(TreadStroke& stroke, TreadNodes& nodes) {
+  if (nodes.count == 0) return 0;
+  measureNodes(stroke.line, nodes);
+  stroke.keepDoses(nodes);
+  // First who, then what: nothing foretells which nodes are pressed.
+  int pressed[TreadNodes::MOST], count = 0, touched = 0;
+  for (int i = 0; i < nodes.count; ++i) {
+    const bool is_touched = stroke.isTouched(nodes, i);
+    touched += is_touched;
+    pressed[count] = i;
+    count += is_touched && static_cast<float>(nodes.tilt[i]) >= CRUNCHED;
+  }
+  const RecentBlock* block = nullptr;
+  for (int k = 0; k < count; ++k) {
+    const int i = pressed[k], row = nodes.row[i], column = nodes.column[i];
+    if (!block || !block->is(blockOf(row), blockOf(column)))
+      block = &blockAt(blockOf(row), blockOf(column), true);
+    if (!block->nodes) {
+      ++state_.counts.no_memory;
+      continue;
+    }
+    stroke.press(static_cast<float>(nodes.tilt[i]), {nodes.x[i], nodes.y[i]}, nodes.side[i],
+                 block->nodes[row % SIDE * SIDE + column % SIDE]);
+    block->block->until = std::max(block->block->until, stroke.latest);
+  }
+  nodes.count = 0;
+  return touched;
 }
 
 }  // namespace vegetation_sim::grass

@@ -16,45 +16,46 @@ inline Nanoseconds recoveredAt(Nanoseconds stamp, double recovery) {
 }
 
 inline int floorOf(double x) {
-  return static_cast<int>(std::floor(std::min(1e9, std::max(-1e9, x))));
+  const double near = std::min(1e9, std::max(-1e9, x));
+  const int whole = static_cast<int>(near);
+  return whole - (near < whole);
 }
 
-inline int nodeBelow(double place, double origin, double spacing) {
-  return floorOf((place - origin) / spacing);
+inline int nodeBelow(double place, double origin, double per_spacing) {
+  return floorOf((place - origin) * per_spacing);
 }
 
-/// Doses of one row of a source's window.
-template <class Dose>
-class DoseRow {
+/// Where the doses of one row are in a source's window.
+class WindowRow {
  public:
-  template <class Source>
-  DoseRow(Source& source, int row) : first_(source.first_column) {
+  WindowRow(const TreadSource& source, int row) : first_(source.first_column) {
     const int r = row - source.first_row;
     if (r < 0 || r >= source.rows) return;
     columns_ = static_cast<unsigned>(source.columns);
-    doses_ = source.doses.data() + static_cast<std::size_t>(r) * columns_;
+    start_ = r * source.columns;
   }
-  /// Null beyond the window.
-  Dose* at(int column) const {
+  /// -1 beyond the window.
+  int slotOf(int column) const {
     const auto c = static_cast<unsigned>(column - first_);
-    return c < columns_ ? doses_ + c : nullptr;
+    return c < columns_ ? start_ + static_cast<int>(c) : -1;
   }
 
  private:
-  int first_;
+  int first_, start_{0};
   unsigned columns_{0};
-  Dose* doses_{nullptr};
 };
 
 /// One segment being pressed: old doses in, new ones out, which may lie in the same window. In a
 /// header so that the loop over the nodes is one piece of code.
 struct TreadStroke {
-  TreadStroke(const TreadLaw& l, const Point& from, const TreadSource& old, TreadSource& fresh)
+  /// @param full dose of an endless straight track at the law's radius.
+  TreadStroke(const TreadLaw& l, double full, const Point& from, const TreadSource& old,
+              TreadSource& fresh)
       : law(l),
         field(from, fresh.position, l.reach, l.softness),
         low{std::min(from.x, fresh.position.x), std::min(from.y, fresh.position.y)},
         high{std::max(from.x, fresh.position.x), std::max(from.y, fresh.position.y)},
-        line(lineOf(l, field)),
+        line{field.parts(), 1.0 / full, full / std::max(l.load, 1e-9), l.radius, l.load},
         latest(recoveredAt(fresh.stamp, static_cast<float>(l.recovery))),
         before(old),
         after(fresh) {
@@ -63,43 +64,31 @@ struct TreadStroke {
     after.has_moved = moves || had_moved;
   }
 
-  static TreadLine lineOf(const TreadLaw& law, const CompactField& field) {
-    const double full = CompactField::ofEndlessTrack(law.radius, law.reach, law.softness);
-    return {field.parts(), 1.0 / full, full / std::max(law.load, 1e-9), law.radius, law.load};
-  }
-
-  // Leaves the nodes of a row that may be within reach.
-  void cut(TreadRow& row, const TreadGrid& grid) const {
+  // Half of the row at y that may be within reach, beyond the segment's ends.
+  double halfRow(double y) const {
     constexpr double HAIR = 1e-9;  // whatever rounding does
-    const double y = grid.y(row.row), over = std::max(0.0, std::max(low.y - y, y - high.y));
-    const double room = line.field.square_reach - over * over;
-    const double half = std::sqrt(std::max(0.0, room)) + HAIR;
-    row.first = std::max(row.first, nodeBelow(low.x - half, grid.origin_x, grid.spacing));
-    row.last = std::min(row.last, nodeBelow(high.x + half, grid.origin_x, grid.spacing));
+    const double over = std::max(0.0, std::max(low.y - y, y - high.y));
+    return std::sqrt(std::max(0.0, line.field.square_reach - over * over)) + HAIR;
   }
 
-  // New doses and the tilts that they ask for. @return number of nodes within reach.
-  int measure(TreadRow& row, const TreadGrid& grid) const {
-    const DoseRow<const double> old(before, row.row);
-    const DoseRow<double> fresh(after, row.row);
-    const int count = row.last - row.first + 1;
-    for (int i = 0; i < count; ++i) {
-      const double* known = old.at(row.first + i);
-      row.dose[i] = known ? *known : 0.0;
+  // Some nodes of a row, with what is known of their doses.
+  void gather(const TreadGrid& grid, int row, int first, int last, TreadNodes& nodes) const {
+    const WindowRow old(before, row), fresh(after, row);
+    const double* doses = before.doses.data();
+    for (int column = first; column <= last; ++column) {
+      const int slot = old.slotOf(column);
+      nodes.add(grid, row, column, slot < 0 ? 0.0 : doses[slot], fresh.slotOf(column));
     }
-    measureRow(line, grid, row);
-    int touched = 0;
-    for (int i = 0; i < count; ++i) {
-      if (!isTouched(row, i)) continue;
-      ++touched;
-      // What the source leaves behind begins a new pass when it comes back.
-      if (double* kept = fresh.at(row.first + i)) *kept = row.kept[i];
-    }
-    return touched;
   }
 
-  bool isTouched(const TreadRow& row, int i) const {
-    return row.square[i] < line.field.square_reach;
+  // What the source leaves behind begins a new pass when it comes back.
+  void keepDoses(const TreadNodes& nodes) const {
+    for (int i = 0; i < nodes.count; ++i)
+      if (nodes.slot[i] >= 0) after.doses[static_cast<std::size_t>(nodes.slot[i])] = nodes.kept[i];
+  }
+
+  bool isTouched(const TreadNodes& nodes, int i) const {
+    return nodes.square[i] < line.field.square_reach;
   }
 
   // True if the node was pressed so lately, and no more than now, that it is surely still down.
@@ -114,10 +103,11 @@ struct TreadStroke {
   void press(float tilt, const Point& p, double side, TreadNode& node) {
     const float now = isFresh(node, tilt) ? tilt : tiltAt(node, after.stamp);
     if (now <= CRUNCHED) turn(p, side, node);
-    if (tilt >= now)
-      node.recovery = static_cast<float>(law.recovery);
-    else
+    const auto own = static_cast<float>(law.recovery);
+    if (node.recovery != own) {
+      if (tilt >= now) node.recovery = own;
       latest = std::max(latest, recoveredAt(after.stamp, double{node.recovery}));
+    }
     node.tilt = std::max(now, tilt);
     node.stamp = after.stamp;
   }

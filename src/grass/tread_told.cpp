@@ -12,7 +12,6 @@ namespace vegetation_sim::grass {
 namespace {
 
 constexpr int SIDE = TreadBlock::SIDE;
-constexpr std::size_t BLOCK_BYTES = sizeof(TreadBlock) + sizeof(TreadNode) * SIDE * SIDE;
 
 Nanoseconds uprightAt(const TreadNode& node) {
   if (double{node.recovery} >= PERMANENT_RECOVERY) return std::numeric_limits<Nanoseconds>::max();
@@ -25,15 +24,10 @@ bool TreadMap::put(int row, int column, const TreadNode& node) {
   if (row < 0 || column < 0 || row > (law_.rows - 1) * cells_ ||
       column > (law_.columns - 1) * cells_)
     return false;
-  const std::pair<int, int> place{row / SIDE, column / SIDE};
-  auto found = state_.blocks.find(place);
-  if (found == state_.blocks.end()) {
-    const auto blocks = static_cast<double>(state_.blocks.size() + 1);
-    if (blocks * static_cast<double>(BLOCK_BYTES) > settings_.memory_cap) return false;
-    found = state_.blocks.emplace(place, TreadBlock()).first;
-  }
-  found->second.nodes[static_cast<std::size_t>(row % SIDE * SIDE + column % SIDE)] = node;
-  found->second.until = std::max(found->second.until, uprightAt(node));
+  const RecentBlock& found = blockAt(row / SIDE, column / SIDE, true);
+  if (!found.block) return false;
+  found.nodes[row % SIDE * SIDE + column % SIDE] = node;
+  found.block->until = std::max(found.block->until, uprightAt(node));
   return true;
 }
 

@@ -22,7 +22,7 @@ crowd::Robot readRobot(YamlSection& section) {
     section.fault("frame", "= '" + out.id + "' begins with '/'");
   section.number("radius", out.radius, "m", {0.01, 20.0});
   for (YamlSection& corner : section.sections("outline")) {
-    crowd::Point p;
+    crowd::Point p{};
     corner.number("x", p.x, "m", CORNERS);
     corner.number("y", p.y, "m", CORNERS);
     corner.finish();

@@ -10,9 +10,10 @@
 
 namespace vegetation_sim::crowd {
 
-/// A place or direction on the plan [m].
+/// A place or direction on the plan [m]. Point() is the origin; without brackets it has no value,
+/// since lists of what may be in view are made for each walker and mostly stay unused.
 struct Point {
-  double x{0.0}, y{0.0};
+  double x, y;
 };
 inline Point operator+(const Point& a, const Point& b) {
   return {a.x + b.x, a.y + b.y};

@@ -12,7 +12,7 @@ namespace vegetation_sim::crowd {
 
 /// A straight wall, real or virtual.
 struct Wall {
-  Point from, to;         ///< [m]
+  Point from{}, to{};     ///< [m]
   double thickness{0.1};  ///< [m]
 };
 

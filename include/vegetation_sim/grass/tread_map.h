@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "vegetation_sim/common/math.h"
 #include "vegetation_sim/common/time.h"
 #include "vegetation_sim/grass/blade_batch.h"
 #include "vegetation_sim/grass/tread_law.h"
@@ -100,7 +101,12 @@ struct RecentBlock {
   bool is(int other_row, int other_column) const {
     return row == other_row && column == other_column;
   }
+  void set(TreadBlock& found) {
+    block = &found;
+    nodes = found.nodes.data();
+  }
   int row{-1}, column{-1};
+  bool is_known{false};  ///< that the block is there, or that it is not
   TreadBlock* block{nullptr};
   TreadNode* nodes{nullptr};  ///< of the block
 };
@@ -114,6 +120,7 @@ struct RecentSource {
   TreadSource* source{nullptr};
 };
 
+struct TreadNodes;
 struct TreadStroke;
 
 /// Trodden grass (paper 2, section 4.2; S2-21 to S2-28) on a fine grid that exists only where
@@ -156,27 +163,37 @@ class TreadMap {
   struct Box {
     int first_column, last_column, first_row, last_row;
   };
-  RecentBlock blockAt(int row, int column, bool make);
+  const RecentBlock& blockAt(int row, int column, bool make);
   TreadSource* sourceOf(std::uint32_t id);
   bool isJump(const TreadSource& from, const Point& to, Nanoseconds stamp) const;
   bool moveWindow(TreadSource& source, double reach);
   Box boxOf(const Point& low, const Point& high, double reach) const;
+  double fullDose(const TreadLaw& law);
   int press(TreadStroke& stroke);
-  int pressBlock(TreadStroke& stroke, int block_row, int block_column, const Box& box);
+  int pressBlock(TreadStroke& stroke, int block_row, int block_column, const Box& box,
+                 TreadNodes& nodes);
+  int pressNodes(TreadStroke& stroke, TreadNodes& nodes);
   void forgetRecent();
 
   MapLaw law_;
   TreadSettings settings_;
   int cells_;  ///< fine cells along a tile
-  double spacing_;
+  double spacing_, per_spacing_;
   TreadState state_;
   RecentTable<RecentBlock, 13> recent_blocks_;
   RecentTable<RecentSource, 12> recent_sources_;
-  TreadSource before_;  ///< scratch: a window that was left
+  TreadSource before_;     ///< scratch: a window that was left
+  TreadLaw last_law_{};    ///< of the last stroke
+  double last_full_{0.0};  ///< its fullDose()
 };
 
 /// Tilt of a node at a stamp [rad]: theta0 (1 - smoothStep((t - t0) / T)); 0 before t0.
-float tiltAt(const TreadNode& node, Nanoseconds stamp);
+inline float tiltAt(const TreadNode& node, Nanoseconds stamp) {
+  if (!(node.tilt > 0.f) || stamp < node.stamp || !(node.recovery > 0.f)) return 0.f;
+  if (node.recovery >= static_cast<float>(PERMANENT_RECOVERY)) return node.tilt;
+  const double part = secondsBetween(node.stamp, stamp) / double{node.recovery};
+  return static_cast<float>(double{node.tilt} * (1.0 - smoothStep(part)));
+}
 
 /// Below this tilt a node counts as untrodden [rad].
 constexpr float CRUNCHED = 0.0174533f;

@@ -94,7 +94,7 @@ class AgentCrowd {
   std::size_t trunks_{0};
   Nanoseconds framed_{0};  // stamp of the last frames
   struct Trodden {
-    crowd::Point place;
+    crowd::Point place{};
     bool stood[2]{true, true};
     bool seen{false};
   };
