@@ -2,16 +2,11 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
 """agent_crowd refuses to start with bad parameters or a bad scenario, all faults at once."""
-import os
-import subprocess
-import tempfile
-import unittest
-
-import roslib.packages
 import rospy
 import rostest
 
-NAN = float('nan')
+from refusing_node import NAN, RefusingNode
+
 # parameter: bad value, what the refusal says
 BAD = {
     'state_rate': (0, 'state_rate = 0 Hz is outside 1 to 240'),
@@ -43,34 +38,20 @@ SCENARIOS = [
 ]
 
 
-class CrowdParameters(unittest.TestCase):
-    def refusal(self, **parameters):
-        """What the node says as it ends; it must."""
-        rospy.set_param('/bad_crowd', parameters)
-        executable = roslib.packages.find_node('vegetation_sim', 'agent_crowd')[0]
-        found = subprocess.run([executable, '__name:=bad_crowd'], capture_output=True, text=True,
-                               timeout=60)
-        rospy.delete_param('/bad_crowd')
-        self.assertNotEqual(found.returncode, 0)
-        return found.stdout + found.stderr
+class CrowdParameters(RefusingNode):
+    NODE = 'agent_crowd'
 
     def test_all_faults_at_once(self):
-        text = self.refusal(**{name: value for name, (value, _) in BAD.items()})
+        text = self.refusal({name: value for name, (value, _) in BAD.items()})
         for name, (_, words) in BAD.items():
             self.assertIn(words, text, name)
 
     def test_bad_scenarios(self):
-        for body, words in SCENARIOS:
-            with tempfile.TemporaryDirectory() as folder:
-                file = os.path.join(folder, 'scene.yaml')
-                with open(file, 'w') as out:
-                    out.write(body)
-                text = self.refusal(scenario=file)
-            self.assertIn(words, text, body)
-            self.assertIn('scene.yaml', text, body)
+        for scenario, words in SCENARIOS:
+            self.expect_scenario_refused(scenario, words)
 
     def test_missing_file(self):
-        self.assertIn('nowhere.yaml', self.refusal(scenario='nowhere.yaml'))
+        self.assertIn('nowhere.yaml', self.refusal({'scenario': 'nowhere.yaml'}))
 
 
 if __name__ == '__main__':

@@ -2,17 +2,11 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
 """forest_animator refuses to start with bad parameters or a bad scenario, all faults at once."""
-import os
-import re
-import subprocess
-import tempfile
-import unittest
-
 import roslib.packages
 import rospy
 import rostest
 
-NAN, INF = float('nan'), float('inf')
+from refusing_node import Ranges, RefusingNode
 
 # parameter: unit, least, most
 NUMBERS = {
@@ -32,7 +26,6 @@ WHOLE_NUMBERS = {
 }
 OTHERS = {'scenario', 'frame_id', 'viewer_frame', 'replay', 'branches_trees', 'tf_promoted', 'bodies',
           'robot_description', 'robot_frame_prefix'}  # of the last three more in robot_bodies
-BY_ROS = {'diagnostic_period'}  # diagnostic_updater's own
 
 # What is wrong with a scenario: its text, what the refusal says.
 SCENARIOS = [
@@ -61,70 +54,20 @@ SCENARIOS = [
 ]
 
 
-class ForestParameters(unittest.TestCase):
-    executable = roslib.packages.find_node('vegetation_sim', 'forest_animator')[0]
-    names = iter('started_%d' % i for i in range(1000))
-
-    def refusal(self, parameters):
-        """Starts a node, which must end with an error; returns what it wrote."""
-        name = next(self.names)
-        rospy.set_param('/' + name, parameters)
-        done = subprocess.run([self.executable, '__name:=' + name], stdout=subprocess.PIPE,
-                              stderr=subprocess.PIPE, text=True, timeout=60)
-        self.assertEqual(done.returncode, 1, parameters)
-        self.assertIn('forest_animator refuses to start', done.stderr)
-        return done.stderr.replace('-nan', 'nan').replace('/' + name + '/', '~')
-
-    def expect_out_of_range(self, values):
-        """All of them in one go, each by name, value and range."""
-        refusal = self.refusal(values)
-        for name, value in values.items():
-            unit, least, most = {**NUMBERS, **WHOLE_NUMBERS}[name]
-            self.assertIn('~%s = %g%s is outside %g to %g%s' % (name, value, unit, least, most,
-                                                                unit), refusal)
-        self.assertEqual(refusal.count('is outside'), len(values))
-
-    def test_values_below_the_range_are_refused(self):
-        values = {name: least - 0.5 for name, (_, least, _) in NUMBERS.items()}
-        values.update({name: least - 1 for name, (_, least, _) in WHOLE_NUMBERS.items()})
-        self.expect_out_of_range(values)
-
-    def test_values_above_the_range_are_refused(self):
-        values = {name: most + 0.5 for name, (_, _, most) in NUMBERS.items()}
-        values.update({name: most + 1 for name, (_, _, most) in WHOLE_NUMBERS.items()})
-        self.expect_out_of_range(values)
-
-    def test_what_is_not_finite_is_refused(self):
-        for value, text in ((NAN, 'nan'), (INF, 'inf'), (-INF, '-inf')):
-            refusal = self.refusal({name: value for name in NUMBERS})
-            for name, (unit, least, most) in NUMBERS.items():
-                self.assertIn('~%s = %s%s is not finite, allowed is %g to %g%s' % (
-                    name, text, unit, least, most, unit), refusal)
+class ForestParameters(Ranges, RefusingNode):
+    NODE = 'forest_animator'
+    NUMBERS, WHOLE_NUMBERS, OTHERS = NUMBERS, WHOLE_NUMBERS, OTHERS
 
     def test_wrong_types_are_refused(self):
-        wrong = {name: 'often' for name in NUMBERS}
-        wrong.update({name: 2.5 for name in WHOLE_NUMBERS})
-        wrong.update(scenario=4, frame_id=True, viewer_frame=[1], replay='yes', branches_trees=3,
+        wrong = dict(scenario=4, frame_id=True, viewer_frame=[1], replay='yes', branches_trees=3,
                      tf_promoted='no', bodies=7)
         refusal = self.refusal(wrong)
-        for name in NUMBERS:
-            self.assertIn('~%s = often is not a number' % name, refusal)
-        for name in WHOLE_NUMBERS:
-            self.assertIn('~%s = 2.5 is not a whole number' % name, refusal)
         for text in ('~scenario = 4 is not text', '~frame_id = 1 is not text',
                      'viewer_frame = ', '~replay = yes is not true or false',
                      '~tf_promoted = no is not true or false',
                      '~branches_trees = 3 is not a list of whole numbers'):
             self.assertIn(text, refusal)
         self.assertIn('branches_trees = ', self.refusal({'branches_trees': [1, 'two']}))
-
-    # Every parameter that there is has been given a wrong type and value above.
-    def test_unknown_parameters_are_refused_and_the_known_ones_are_these(self):
-        refusal = self.refusal({'tolerence': 2.0, 'levels': {'fixed': 3}})
-        for name in ('tolerence', 'levels/fixed'):
-            self.assertIn('~%s is not a known parameter; known are ' % name, refusal)
-        known = set(re.search('known are (.*)', refusal).group(1).split(', '))
-        self.assertEqual(known - BY_ROS, OTHERS | set(NUMBERS) | set(WHOLE_NUMBERS))
 
     def test_frames_and_trees_that_cannot_be_are_refused(self):
         refusal = self.refusal({'frame_id': '', 'viewer_frame': '/camera'})
@@ -135,14 +78,9 @@ class ForestParameters(unittest.TestCase):
 
     def test_each_bad_scenario_is_refused_by_file_and_key(self):
         species = roslib.packages.get_pkg_dir('vegetation_sim') + '/config/species'
-        for scenario, text in SCENARIOS:
-            with self.subTest(text=text), tempfile.NamedTemporaryFile('w') as file:
-                file.write(scenario.replace('SPECIES', os.path.relpath(species, '/tmp')))
-                file.flush()
-                refusal = self.refusal({'scenario': file.name})
-                self.assertIn(text, refusal)
-                if 'frame_id' not in scenario:
-                    self.assertIn(file.name, refusal)
+        for scenario, words in SCENARIOS:
+            self.expect_scenario_refused(scenario.replace('SPECIES', species), words,
+                                         by_file='frame_id' not in scenario)
 
     def test_faults_of_parameters_and_scenario_are_told_together(self):
         refusal = self.refusal({'tolerance': 0, 'tf_rate': 'fast', 'lod': 3,

@@ -2,17 +2,10 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
 """grass_field refuses to start with bad parameters or a bad scenario, all faults at once."""
-import os
-import re
-import subprocess
-import tempfile
-import unittest
-
-import roslib.packages
 import rospy
 import rostest
 
-NAN, INF = float('nan'), float('inf')
+from refusing_node import Ranges, RefusingNode
 
 # parameter: unit, least, most
 NUMBERS = {
@@ -29,7 +22,6 @@ WHOLE_NUMBERS = {
     'viewer_height': (' pixel', 1, 100000),
 }
 OTHERS = {'scenario', 'frame_id', 'viewer_frame', 'replay', 'cover_layer', 'sources'}
-BY_ROS = {'diagnostic_period'}  # diagnostic_updater's own
 
 # What is wrong with a scenario: its text, what the refusal says.
 SCENARIOS = [
@@ -37,7 +29,7 @@ SCENARIOS = [
     ('{grass: {densty: 3}}', 'grass: densty is not a known key'),
     ('{grass: {density: {value: -5}}}', 'density: value = -5 1/m^2 is outside 0 to '),
     ('{grass: {density: {value: .nan}}}', 'density: value = nan'),
-    ('{grass: {density: {image: FOLDER/colour.png}}}', 'colour.png'),
+    ('{grass: {density: {image: colour.png}}}', 'colour.png'),
     ('{grass: {density: {image: nowhere.png}}}', '/nowhere.png'),
     ('{grass: {resolution: 50, density: {value: 10000}}}', 'blades in a tile, allowed are fewer'),
     ('{grass: {species: [{name: a}, {name: a}]}}', "species 'a' is there twice"),
@@ -63,66 +55,17 @@ SOURCES = [
 ]
 
 
-class GrassParameters(unittest.TestCase):
-    executable = roslib.packages.find_node('vegetation_sim', 'grass_field')[0]
-    names = iter('started_%d' % i for i in range(1000))
-
-    def refusal(self, parameters):
-        """Starts a node, which must end with an error; returns what it wrote."""
-        name = next(self.names)
-        rospy.set_param('/' + name, parameters)
-        done = subprocess.run([self.executable, '__name:=' + name], stdout=subprocess.PIPE,
-                              stderr=subprocess.PIPE, text=True, timeout=60)
-        self.assertEqual(done.returncode, 1, parameters)
-        self.assertIn('grass_field refuses to start', done.stderr)
-        plain = re.sub(r'\x1b\[\d+m', '', done.stderr)  # without the colours of the log
-        return plain.replace('-nan', 'nan').replace('/' + name + '/', '~')
-
-    def expect_out_of_range(self, values):
-        """All of them in one go, each by name, value and range."""
-        refusal = self.refusal(values)
-        for name, value in values.items():
-            unit, least, most = {**NUMBERS, **WHOLE_NUMBERS}[name]
-            self.assertIn('~%s = %g%s is outside %g to %g%s' % (name, value, unit, least, most,
-                                                                unit), refusal)
-
-    def test_values_below_the_range_are_refused(self):
-        values = {name: least - 0.5 for name, (_, least, _) in NUMBERS.items()}
-        values.update({name: least - 1 for name, (_, least, _) in WHOLE_NUMBERS.items()})
-        self.expect_out_of_range(values)
-
-    def test_values_above_the_range_are_refused(self):
-        values = {name: 2.0 * most for name, (_, _, most) in NUMBERS.items()}
-        values.update({name: most + 1 for name, (_, _, most) in WHOLE_NUMBERS.items()})
-        self.expect_out_of_range(values)
-
-    def test_what_is_not_finite_is_refused(self):
-        for value, text in ((NAN, 'nan'), (INF, 'inf'), (-INF, '-inf')):
-            refusal = self.refusal({name: value for name in NUMBERS})
-            for name, (unit, least, most) in NUMBERS.items():
-                self.assertIn('~%s = %s%s is not finite, allowed is %g to %g%s' % (
-                    name, text, unit, least, most, unit), refusal)
+class GrassParameters(Ranges, RefusingNode):
+    NODE = 'grass_field'
+    NUMBERS, WHOLE_NUMBERS, OTHERS = NUMBERS, WHOLE_NUMBERS, OTHERS
 
     def test_wrong_types_are_refused(self):
-        wrong = {name: 'often' for name in NUMBERS}
-        wrong.update({name: 2.5 for name in WHOLE_NUMBERS})
-        wrong.update(scenario=4, frame_id=True, viewer_frame=[1], replay='yes', cover_layer='red')
+        wrong = dict(scenario=4, frame_id=True, viewer_frame=[1], replay='yes', cover_layer='red')
         refusal = self.refusal(wrong)
-        for name in NUMBERS:
-            self.assertIn('~%s = often is not a number' % name, refusal)
-        for name in WHOLE_NUMBERS:
-            self.assertIn('~%s = 2.5 is not a whole number' % name, refusal)
         for text in ('~scenario = 4 is not text', '~frame_id = 1 is not text', 'viewer_frame = ',
                      '~replay = yes is not true or false',
                      "~cover_layer = 'red' is none of crush, density, resistance, age"):
             self.assertIn(text, refusal)
-
-    # Every parameter that there is has been given a wrong value somewhere here.
-    def test_unknown_parameters_are_refused_and_the_known_ones_are_these(self):
-        refusal = self.refusal({'tolerence': 2.0})
-        self.assertIn('~tolerence is not a known parameter; known are ', refusal)
-        known = set(re.search('known are (.*)', refusal).group(1).split(', '))
-        self.assertEqual(known - BY_ROS, OTHERS | set(NUMBERS) | set(WHOLE_NUMBERS))
 
     def test_what_does_not_fit_together_is_refused(self):
         refusal = self.refusal({'frame_id': '', 'viewer_frame': '/camera'})
@@ -137,16 +80,8 @@ class GrassParameters(unittest.TestCase):
                 self.assertIn(text, self.refusal({'sources': sources}))
 
     def test_each_bad_scenario_is_refused_by_file_and_key(self):
-        for scenario, text in SCENARIOS:
-            with self.subTest(text=text), tempfile.TemporaryDirectory() as folder:
-                with open(os.path.join(folder, 'colour.png'), 'wb') as picture:
-                    picture.write(COLOUR_PICTURE)
-                name = os.path.join(folder, 'scene.yaml')
-                with open(name, 'w') as file:
-                    file.write(scenario.replace('FOLDER/', ''))
-                refusal = self.refusal({'scenario': name})
-                self.assertIn(text, refusal)
-                self.assertIn(folder, refusal)
+        for scenario, words in SCENARIOS:
+            self.expect_scenario_refused(scenario, words, [('colour.png', COLOUR_PICTURE)])
 
 
 # One red pixel: a picture of the wrong kind.

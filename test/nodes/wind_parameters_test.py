@@ -4,17 +4,13 @@
 """wind_broadcaster refuses to start with bad parameters, and says why, all at once."""
 import signal
 import subprocess
-import tempfile
-import unittest
 
-import roslib.packages
 import rospy
 import rostest
 from vegetation_sim.srv import GetWindField
 
+from refusing_node import INF, NAN, RefusingNode
 from waiting import wait_for
-
-NAN, INF = float('nan'), float('inf')
 
 # parameter, value, what the refusal says
 CASES = [
@@ -56,19 +52,8 @@ SCENARIOS = [
 ]
 
 
-class WindParameters(unittest.TestCase):
-    executable = roslib.packages.find_node('vegetation_sim', 'wind_broadcaster')[0]
-    names = iter('started_%d' % i for i in range(1000))
-
-    def refusal(self, parameters):
-        """Starts a node, which must end with an error; returns what it wrote."""
-        name = next(self.names)
-        rospy.set_param('/' + name, parameters)
-        done = subprocess.run([self.executable, '__name:=' + name], stdout=subprocess.PIPE,
-                              stderr=subprocess.PIPE, text=True, timeout=60)
-        self.assertGreater(done.returncode, 0, parameters)
-        self.assertIn('refuses to start', done.stderr)
-        return done.stderr.replace('-nan', 'nan')
+class WindParameters(RefusingNode):
+    NODE = 'wind_broadcaster'
 
     def test_each_bad_parameter_is_refused_by_name(self):
         for name, value, text in CASES:
@@ -76,13 +61,8 @@ class WindParameters(unittest.TestCase):
                 self.assertIn(text, self.refusal({name: value}))
 
     def test_each_bad_scenario_is_refused_by_file_and_key(self):
-        for scenario, text in SCENARIOS:
-            with self.subTest(scenario=scenario), tempfile.NamedTemporaryFile('w') as file:
-                file.write(scenario)
-                file.flush()
-                refusal = self.refusal({'scenario': file.name})
-                self.assertIn(text, refusal)
-                self.assertIn(file.name, refusal)
+        for scenario, words in SCENARIOS:
+            self.expect_scenario_refused(scenario, words)
 
     def test_all_faults_are_told_at_once(self):
         refusal = self.refusal({'lead': 99.0, 'markers_rate': 'often', 'sede': 3,
