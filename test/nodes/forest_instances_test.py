@@ -98,9 +98,9 @@ class ForestInstances(unittest.TestCase):
     def test_readers_survive_restarts(self):
         reader = Animator('/mortal/forest_animator', '/mortal/')
         for i in range(RESTARTS):
+            layouts = len(reader.layout.messages)
             process = start_animator('/mortal/forest_animator', {'wind': '/wind'},
                                      scenario=scene('grove'))
-            layouts = len(reader.layout.messages)
             reader.wait_until_up('/wind')
             first = len(reader.state.messages)
             self.clock.run(10 + i, *self.all, reader)
