@@ -53,7 +53,7 @@ class GrassClock(unittest.TestCase):
         process = start_meadow('/fresh/grass_field', {'tread': '/tread'}, scenario=scene('lawn'))
         fresh = Meadow('/fresh/grass_field', '/fresh/')
         try:
-            fresh.wait_until_up()
+            fresh.wait_until_up('/tread')
             self.feet.walk(self.clock, 'b', (0.0, 6.0), (8.0, 7.0), 5 * RATE, fresh)
         finally:
             stop(process)
