@@ -162,7 +162,7 @@ struct TileRung {
   int segments;
   double share;
 };
-constexpr TileRung RUNGS[] = {{"blades, a quarter, 1 segment", 1, LEAST_SHARE},
+constexpr TileRung RUNGS[] = {{"blades, least share, 1 segment", 1, LEAST_SHARE},
                               {"blades, half, 2 segments", 2, 0.5},
                               {"blades, all, 2 segments", 2, 1.0},
                               {"blades, all, 5 segments", LINKS, 1.0}};

@@ -3,6 +3,7 @@
 // The drawing of tiles that are too far away for single blades.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "grass/blade_plain.h"
@@ -17,8 +18,7 @@ class Sheet {
  public:
   Sheet(const FeatureMap& map, const Tile& tile, const TileMotion& motion, double full_density,
         const Vec3& origin)
-      : map_(map),
-        tile_(tile),
+      : tile_(tile),
         corner_(Vec3(tile.x, tile.y, tile.z) - origin),
         full_density_(full_density),
         density_(tile.density),
@@ -30,6 +30,8 @@ class Sheet {
     for (int s = 0; s < tile.species_count; ++s)
       compliance_ +=
           double{tile.species[static_cast<std::size_t>(s)].compliance} / tile.species_count;
+    for (int i = 0; i < 4; ++i)
+      colours_[static_cast<std::size_t>(i)] = nodeColour(map, i % 2, i / 2);
   }
 
   Vec3 groundAt(double u, double v) const {
@@ -71,14 +73,19 @@ class Sheet {
 
   double coverAt(double u, double v) const { return saturate(density_.at(u, v) / full_density_); }
 
+  // Between those of the corners.
   Vec3 colourAt(double u, double v) const {
-    const double size = double{tile_.size};
-    Features f = map_.at(tile_.x + u * size, tile_.y + v * size);
-    f.colour = colour_.at(u, v);  // masks included
-    return meanColour(map_, f);
+    return (1.0 - v) * ((1.0 - u) * colours_[0] + u * colours_[1]) +
+           v * ((1.0 - u) * colours_[2] + u * colours_[3]);
   }
 
  private:
+  Vec3 nodeColour(const FeatureMap& map, int u, int v) const {
+    const double size = double{tile_.size};
+    Features f = map.at(tile_.x + u * size, tile_.y + v * size);
+    f.colour = colour_.at(u, v);  // masks included
+    return meanColour(map, f);
+  }
   std::size_t nodeOf(double u, double v) const {
     const auto column = static_cast<std::size_t>(std::lround(u * crush_->cells));
     const auto row = static_cast<std::size_t>(std::lround(v * crush_->cells));
@@ -96,13 +103,13 @@ class Sheet {
     return (low[0] * (1 - p) + low[1] * p) * (1 - q) + (high[0] * (1 - p) + high[1] * p) * q;
   }
 
-  const FeatureMap& map_;
   const Tile& tile_;
   Vec3 corner_;
   double full_density_;
   Bilinear<double> density_, height_, colour_, wind_x_, wind_y_;
   const CrushPatch* crush_;
   double compliance_{0.0};
+  std::array<Vec3, 4> colours_;  ///< of the corners, along x first
 };
 
 }  // namespace
