@@ -41,6 +41,10 @@ void steps(Crowd& crowd, int count) {
   for (int i = 0; i < count; ++i) crowd.advance(crowd.memory().stamp + fromSeconds(TICK));
 }
 
+double nearestGap(const View& view) {
+  return view.count > 0 ? view.at(0).gap : view.beyond;
+}
+
 // Nearest obstacle of some walkers, by the grid and by measuring everything.
 void againstAll(const Crowd& crowd, int rounds) {
   const std::vector<Walker>& walkers = crowd.walkers();
@@ -56,12 +60,12 @@ void againstAll(const Crowd& crowd, int rounds) {
          // Neighbours one after the other, as in a step.
          for (const WalkerGrid::Spot& spot : grid.spots()) {
            const View view = perceive(walkers[spot.index], spot.index, around, 3.0, 3);
-           if (spot.index < ASKED) by_grid[spot.index] = view.at(0).gap;
+           if (spot.index < ASKED) by_grid[spot.index] = nearestGap(view);
          }
        }},
       {"all", [&] {
          for (std::uint32_t i = 0; i < ASKED; ++i)
-           by_all[i] = perceiveAll(walkers[i], i, walkers, around, 3.0, 3).at(0).gap;
+           by_all[i] = nearestGap(perceiveAll(walkers[i], i, walkers, around, 3.0, 3));
        }}};
   ::vegetation_sim::bench::timeOnProcessor(candidates, rounds);
   const double grid_cost = candidates[0].seconds / static_cast<double>(walkers.size());

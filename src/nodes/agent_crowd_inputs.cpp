@@ -1,7 +1,5 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include <tf2/exceptions.h>
-
 #include <cmath>
 
 #include "vegetation_sim/common/field_values.h"
@@ -10,12 +8,12 @@
 #include "vegetation_sim/ros/answers.h"
 #include "vegetation_sim/ros/forest_conversions.h"
 #include "vegetation_sim/ros/geometry_conversions.h"
+#include "vegetation_sim/ros/requests.h"
 
 namespace vegetation_sim {
 namespace {
 
-constexpr double FARTHEST_AHEAD = 60.0;  // [s]
-constexpr std::size_t MOST_HEARD = 8;    // forests and covers that wait for their events
+constexpr std::size_t MOST_HEARD = 8;  // forests and covers that wait for their events
 constexpr std::uint32_t MOST_AT_ONCE = 1000;
 constexpr double VARIETY = 0.12;  // of people who come together
 
@@ -82,29 +80,10 @@ void AgentCrowd::followRobots(Nanoseconds stamp) {
   }
 }
 
-Pose AgentCrowd::toWorld(const std::string& frame) const {
-  if (frame.empty() || frame == options_.frame_id) return {};
-  try {
-    return fromMsg(tf_buffer_.lookupTransform(options_.frame_id, frame, ros::Time(0)).transform);
-  } catch (const tf2::TransformException& error) {
-    throw InvalidInput("frame_id = '" + frame + "' is not known in '" + options_.frame_id +
-                       "': " + error.what());
-  }
-}
-
 crowd::Point AgentCrowd::placeInWorld(const geometry_msgs::Point& point,
                                       const Pose& to_world) const {
   const Vec3 out = transformed(to_world, Vec3(point.x, point.y, 0.0));
   return {out.x(), out.y()};
-}
-
-ros::Time AgentCrowd::effectOf(const ros::Time& stamp) const {
-  if (stamp.isZero() || !clock_.hasBegun()) return stamp;
-  const double ahead = secondsBetween(clock_.stamp(), fromMsg(stamp));
-  if (ahead > FARTHEST_AHEAD)
-    throw InvalidInput("stamp is " + std::to_string(ahead) + " s ahead, allowed are " +
-                       std::to_string(FARTHEST_AHEAD) + " s");
-  return ahead > 0.0 ? stamp : ros::Time();
 }
 
 void AgentCrowd::refuseInReplay() const {
@@ -132,7 +111,7 @@ bool AgentCrowd::onSpawn(SpawnAgents::Request& request, SpawnAgents::Response& r
                          std::to_string(std::min<std::size_t>(MOST_AT_ONCE, room)) + ": " +
                          std::to_string(crowd_->walkers().size()) + " of most_walkers = " +
                          std::to_string(options_.most_walkers) + " are there");
-    const Pose to_world = toWorld(request.header.frame_id);
+    const Pose to_world = poseInWorld(tf_buffer_, options_.frame_id, request.header.frame_id);
     const Vec3 front = axisX(to_world.orientation);
     crowd::Spawn like = fromMsg(request.like);
     like.position = placeInWorld(request.like.position, to_world);
@@ -151,7 +130,7 @@ bool AgentCrowd::onSpawn(SpawnAgents::Request& request, SpawnAgents::Response& r
                            Random(scene_.seed).child(promised_));
     CrowdEvent event;
     event.kind = CrowdEvent::SPAWN;
-    event.header.stamp = effectOf(request.header.stamp);
+    event.header.stamp = effectOf(request.header.stamp, clock_);
     for (const crowd::Spawn& spawn : all) {
       event.id = promised_++;
       event.spawn = toMsg(spawn);
@@ -194,7 +173,8 @@ bool AgentCrowd::onSetGoal(SetAgentGoal::Request& request, SetAgentGoal::Respons
     event.spawn.has_goal = !request.wander;
     if (!request.wander) {
       const crowd::Point goal =
-          placeInWorld(request.goal.point, toWorld(request.goal.header.frame_id));
+          placeInWorld(request.goal.point,
+                       poseInWorld(tf_buffer_, options_.frame_id, request.goal.header.frame_id));
       event.spawn.goal = toPoint(Vec3(goal.x, goal.y, 0.0));
       for (const std::uint32_t id : request.ids) crowd_->checkGoal(id, goal);
     }

@@ -1,18 +1,16 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include <tf2/exceptions.h>
-
 #include "vegetation_sim/common/field_values.h"
 #include "vegetation_sim/nodes/grass_field.h"
 #include "vegetation_sim/ros/forest_conversions.h"
 #include "vegetation_sim/ros/geometry_conversions.h"
 #include "vegetation_sim/ros/grass_conversions.h"
+#include "vegetation_sim/ros/requests.h"
 #include "vegetation_sim/ros/wind_conversions.h"
 
 namespace vegetation_sim {
 namespace {
 
-constexpr double FARTHEST_AHEAD = 60.0;  // [s]
 constexpr std::size_t MOST_VIEWERS = 32;
 
 }  // namespace
@@ -34,32 +32,14 @@ void GrassField::onWind(const WindField& message) {
   }
 }
 
-Pose GrassField::toWorld(const std::string& frame, const ros::Time& stamp) const {
-  if (frame.empty() || frame == options_.frame_id) return {};
-  try {
-    return fromMsg(tf_buffer_.lookupTransform(options_.frame_id, frame, stamp).transform);
-  } catch (const tf2::TransformException& error) {
-    throw InvalidInput("frame_id = '" + frame + "' is not known in '" + options_.frame_id +
-                       "': " + error.what());
-  }
-}
-
-ros::Time GrassField::effectOf(const ros::Time& stamp) const {
-  if (stamp.isZero() || !clock_.hasBegun()) return stamp;
-  const double ahead = secondsBetween(clock_.stamp(), fromMsg(stamp));
-  if (ahead > FARTHEST_AHEAD)
-    throw InvalidInput("stamp is " + std::to_string(ahead) + " s ahead, allowed are " +
-                       std::to_string(FARTHEST_AHEAD) + " s");
-  return ahead > 0.0 ? stamp : ros::Time();
-}
-
 // Looks only: the state does not depend on it, so it is no event.
 void GrassField::onViewer(const Viewer& message) {
   try {
     fromMsg(message);  // checks it
     Viewer in_world = message;
     in_world.pose =
-        toMsg(compose(toWorld(message.header.frame_id, ros::Time(0)), fromMsg(message.pose)));
+        toMsg(compose(poseInWorld(tf_buffer_, options_.frame_id, message.header.frame_id),
+                      fromMsg(message.pose)));
     if (viewers_.size() >= MOST_VIEWERS && !viewers_.count(message.id))
       throw InvalidInput("viewer '" + message.id + "' is one more than the " +
                          std::to_string(MOST_VIEWERS) + " allowed at once");
@@ -84,7 +64,7 @@ TreadEvent GrassField::inWorld(const TreadEvent& message) const {
   TreadEvent out = message;
   const std::string& frame = message.header.frame_id;
   if (!frame.empty() && frame != options_.frame_id && message.action != TreadEvent::LIFT) {
-    const Pose to_world = toWorld(frame, ros::Time(0));
+    const Pose to_world = poseInWorld(tf_buffer_, options_.frame_id, frame);
     out.start = toPoint(transformed(to_world, fromMsg(message.start)));
     out.position = toPoint(transformed(to_world, fromMsg(message.position)));
     out.velocity = toVector(rotate(to_world.orientation, fromMsg(message.velocity)));
@@ -97,7 +77,7 @@ void GrassField::onTread(const TreadEvent& message) {
   try {
     GrassEvent event;
     event.kind = GrassEvent::TREAD;
-    event.header.stamp = effectOf(message.header.stamp);
+    event.header.stamp = effectOf(message.header.stamp, clock_);
     event.tread = toMsg(fromMsg(inWorld(message), tuning_.tread, tuning_.height_gate));
     event.tread.header.frame_id = options_.frame_id;
     inputs_.add(std::move(event));

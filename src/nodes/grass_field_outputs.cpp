@@ -1,13 +1,13 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include <geometry_msgs/WrenchStamped.h>
-#include <tf2/exceptions.h>
 
 #include <algorithm>
 
 #include "vegetation_sim/nodes/grass_field.h"
 #include "vegetation_sim/ros/geometry_conversions.h"
 #include "vegetation_sim/ros/grass_conversions.h"
+#include "vegetation_sim/ros/requests.h"
 
 namespace vegetation_sim {
 namespace {
@@ -47,7 +47,7 @@ void GrassField::publishWrenches(Nanoseconds stamp) {
   if (wrenches_publisher_.getNumSubscribers() == 0) return;
   for (const grass::Drag& drag : field_->drags()) {
     try {
-      const Pose to_world = toWorld(drag.body_frame, ros::Time(0));
+      const Pose to_world = poseInWorld(tf_buffer_, options_.frame_id, drag.body_frame);
       const Quat back = conjugate(to_world.orientation);
       const Vec3 arm = drag.at - to_world.position;
       geometry_msgs::WrenchStamped message;

@@ -7,6 +7,7 @@
 #include "vegetation_sim/ros/answers.h"
 #include "vegetation_sim/ros/geometry_conversions.h"
 #include "vegetation_sim/ros/grass_conversions.h"
+#include "vegetation_sim/ros/requests.h"
 
 namespace vegetation_sim {
 namespace {
@@ -40,7 +41,7 @@ void GrassField::refuseInReplay() const {
 // On the ground of the map, in the world.
 std::vector<Vec3> GrassField::pathOf(const Tread::Request& request) const {
   checkCount(request.points.size(), MOST_PATH_POINTS);
-  const Pose to_world = toWorld(request.header.frame_id, ros::Time(0));
+  const Pose to_world = poseInWorld(tf_buffer_, options_.frame_id, request.header.frame_id);
   const grass::MapLaw& law = field_->layout().map->law();
   const Range x_range{law.origin_x, law.origin_x + law.resolution * (law.columns - 1)};
   const Range y_range{law.origin_y, law.origin_y + law.resolution * (law.rows - 1)};
@@ -97,7 +98,7 @@ bool GrassField::onTreadPath(Tread::Request& request, Tread::Response& response)
     Faults faults;
     check(law, "law: ", faults);
     faults.throwIfAny();
-    const ros::Time stamp = effectOf(request.header.stamp);
+    const ros::Time stamp = effectOf(request.header.stamp, clock_);
     const std::vector<Vec3> path = pathOf(request);
     queuePath(path, law, stamp);
     for (std::size_t i = 1; i < path.size(); ++i)
@@ -150,7 +151,7 @@ bool GrassField::onSample(SampleGrass::Request& request, SampleGrass::Response& 
     if (stamp < last)
       throw InvalidInput("stamp is " + std::to_string(secondsBetween(stamp, last)) +
                          " s before the last tick: the past is not kept");
-    const Pose to_world = toWorld(request.header.frame_id, ros::Time(0));
+    const Pose to_world = poseInWorld(tf_buffer_, options_.frame_id, request.header.frame_id);
     Faults faults;
     for (std::size_t i = 0; i < request.points.size(); ++i)
       checkPoint(i, fromMsg(request.points[i]), faults);
@@ -176,7 +177,9 @@ bool GrassField::onClear(ClearGrass::Request& request, ClearGrass::Response& res
     GrassEvent event;
     event.kind = GrassEvent::CLEAR;
     event.centre = toPoint(
-        transformed(toWorld(request.centre.header.frame_id, request.centre.header.stamp), centre));
+        transformed(poseInWorld(tf_buffer_, options_.frame_id, request.centre.header.frame_id,
+                                request.centre.header.stamp),
+                    centre));
     event.radius = request.radius;
     if (!inputs_.add(std::move(event)))
       throw InvalidInput("10000 inputs wait for the next tick already");

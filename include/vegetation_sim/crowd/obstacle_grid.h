@@ -36,6 +36,9 @@ class ObstacleGrid {
     if (obstacles_.empty()) return;
     const int c0 = column(place.x - range), c1 = column(place.x + range);
     const int r0 = row(place.y - range), r1 = row(place.y + range);
+    // All rows are asked for at once, not one after the other.
+    for (int r = r0; r <= r1; ++r)
+      __builtin_prefetch(spots_.data() + starts_[static_cast<std::size_t>(r) * columns_ + c0]);
     for (int r = r0; r <= r1; ++r) {
       const std::size_t row_start = static_cast<std::size_t>(r) * columns_;
       const std::uint32_t end = starts_[row_start + c1 + 1];

@@ -44,10 +44,7 @@ class AgentCrowd {
   void onEvent(const CrowdEvent& message) { inputs_.addRecorded(message); }
   void onTuning(AgentCrowdConfig& config);
   void followRobots(Nanoseconds stamp);
-  /// @throws InvalidInput if tf does not know a transform to the world frame.
-  Pose toWorld(const std::string& frame) const;
   crowd::Point placeInWorld(const geometry_msgs::Point& point, const Pose& to_world) const;
-  ros::Time effectOf(const ros::Time& stamp) const;
   void queue(CrowdEvent event);
   void reject(const std::string& what, const std::string& why);
 

@@ -47,10 +47,6 @@ class GrassField {
   void lookFromFrame();
   void followSources(Nanoseconds stamp);
   TreadEvent inWorld(const TreadEvent& message) const;
-  /// Transform to the world frame. @throws InvalidInput if tf does not know one.
-  Pose toWorld(const std::string& frame, const ros::Time& stamp) const;
-  /// When a request takes effect; zero: at the next tick. @throws InvalidInput if too far ahead.
-  ros::Time effectOf(const ros::Time& stamp) const;
   void reject(const std::string& what, const std::string& why);
 
   // Time.
