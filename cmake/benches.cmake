@@ -48,3 +48,11 @@ add_custom_target(charts
   COMMAND ${CMAKE_COMMAND} -E env CMAKE_PREFIX_PATH=${CATKIN_DEVEL_PREFIX}
     ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/scripts/charts/charts --out ${PROJECT_BINARY_DIR}/charts
   DEPENDS ${bench_targets} USES_TERMINAL VERBATIM)
+
+# Frame rates of rviz with our displays or with stock ones.
+add_executable(rviz_frames bench/rviz/rviz_frames.cpp)
+set_own_options(rviz_frames)
+target_compile_definitions(rviz_frames PRIVATE QT_NO_KEYWORDS)
+target_include_directories(rviz_frames SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
+target_link_libraries(rviz_frames PRIVATE Qt5::Widgets ${catkin_LIBRARIES})
+list(APPEND bench_targets rviz_frames)

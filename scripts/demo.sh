@@ -63,27 +63,6 @@ rviz_config() {
   [ -e "$own" ] && echo "$own" || echo "$ROOT/rviz/default.rviz"
 }
 
-# The window of rviz on the virtual display.
-rviz_window() { xdotool search --onlyvisible --name 'RViz$' | head -n 1 | grep .; }
-
-start_display() {
-  # The display says its number when it is ready.
-  Xvfb -displayfd 3 -screen 0 1280x900x24 +extension GLX -nolisten tcp \
-    3>"$WORK/display" >"$WORK/xvfb.log" 2>&1 &
-  display_pid=$!
-  local deadline=$((SECONDS + 30))
-  until [ -s "$WORK/display" ]; do
-    [ $SECONDS -lt $deadline ] && kill -0 $display_pid || fail "no virtual display: $(cat "$WORK/xvfb.log")"
-    sleep 0.1
-  done
-  DISPLAY=:$(cat "$WORK/display")
-  export DISPLAY LIBGL_ALWAYS_SOFTWARE=1 QT_QPA_PLATFORM=xcb
-  if [ -z "${XDG_RUNTIME_DIR:-}" ]; then
-    mkdir -m 700 "$WORK/runtime"
-    export XDG_RUNTIME_DIR=$WORK/runtime
-  fi
-}
-
 # A blank window, or one that shows menus alone, has few colours in its middle.
 check_picture() {
   local colours
@@ -111,7 +90,6 @@ take_picture() {
 
 run_headless() {
   . "$ROOT/scripts/launching.sh"
-  display_pid=
   trap 'stop_process "$launch_pid"; stop_process "$display_pid"; rm -rf "$WORK"' EXIT
   trap 'exit 130' INT TERM
   start_display

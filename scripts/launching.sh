@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Read by the scripts that start a launch file: on a master of its own, and with nothing left behind.
 # Sets WORK, a temporary folder; LOG in it has all that the launch says.
+# start_display gives them a virtual display, of which display_pid is the process.
 WORK=$(mktemp -d)
 LOG=$WORK/launch.log
-launch_pid=
+launch_pid= display_pid=
 
 descendants() {
   local child
@@ -60,4 +61,25 @@ check_launch() {
 give_up() {
   tail -n 40 "$LOG" >&2
   fail "$*"
+}
+
+# The window of rviz on the virtual display.
+rviz_window() { xdotool search --onlyvisible --name 'RViz$' | head -n 1 | grep .; }
+
+start_display() {
+  # The display says its number when it is ready.
+  Xvfb -displayfd 3 -screen 0 1280x900x24 +extension GLX -nolisten tcp \
+    3>"$WORK/display" >"$WORK/xvfb.log" 2>&1 &
+  display_pid=$!
+  local deadline=$((SECONDS + 30))
+  until [ -s "$WORK/display" ]; do
+    [ $SECONDS -lt $deadline ] && kill -0 $display_pid || fail "no virtual display: $(cat "$WORK/xvfb.log")"
+    sleep 0.1
+  done
+  DISPLAY=:$(cat "$WORK/display")
+  export DISPLAY LIBGL_ALWAYS_SOFTWARE=1 QT_QPA_PLATFORM=xcb
+  if [ -z "${XDG_RUNTIME_DIR:-}" ]; then
+    mkdir -m 700 "$WORK/runtime"
+    export XDG_RUNTIME_DIR=$WORK/runtime
+  fi
 }

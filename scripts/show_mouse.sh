@@ -1,0 +1,21 @@
+#!/usr/bin/env bash
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+# Moves a real mouse over rviz on a virtual display: a branch is grabbed, dragged and released, the grass
+# trodden, a gust drawn from the panel. Fails if the landscape does not answer.
+# usage: scripts/show_mouse.sh FOLDER    pictures and services.log go there
+set -euo pipefail
+. "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
+
+[ $# -eq 1 ] || { printf 'usage: scripts/show_mouse.sh FOLDER\n' >&2; exit 2; }
+mkdir -p "$1"
+use_space "$BUILD/devel"
+. "$ROOT/scripts/launching.sh"
+trap 'stop_process "$launch_pid"; stop_process "$display_pid"; rm -rf "$WORK"' EXIT
+trap 'exit 130' INT TERM
+start_display
+start_launch mouse.launch
+wait_until 120 'the rviz window' rviz_window
+wait_until 60 'a message on forest/state' topic_flows /forest/state
+python3 "$ROOT/test/rviz/mouse/scripted_mouse.py" "$1"
+check_launch
