@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "vegetation_sim/common/math.h"
-#include "vegetation_sim/common/random.h"
+#include "vegetation_sim/crowd/clothes.h"
 #include "vegetation_sim/ros/geometry_conversions.h"
 #include "vegetation_sim/ros/stamps.h"
 
@@ -36,47 +36,13 @@ std::size_t pointsOf(int sides) {
   return bands * static_cast<std::size_t>(sides) * 6;
 }
 
-std_msgs::ColorRGBA colour(double r, double g, double b) {
+std_msgs::ColorRGBA colour(const Vec3& rgb) {
   std_msgs::ColorRGBA out;
-  out.r = static_cast<float>(r);
-  out.g = static_cast<float>(g);
-  out.b = static_cast<float>(b);
+  out.r = static_cast<float>(rgb.x());
+  out.g = static_cast<float>(rgb.y());
+  out.b = static_cast<float>(rgb.z());
   out.a = 1.f;
   return out;
-}
-
-struct Clothes {
-  std_msgs::ColorRGBA skin, hair, shirt, trousers, shoes;
-};
-
-template <std::size_t N>
-const std_msgs::ColorRGBA& oneOf(const std_msgs::ColorRGBA (&list)[N], std::uint64_t bits) {
-  return list[bits % N];
-}
-
-// By id, so that a person keeps them.
-Clothes clothesOf(const crowd::Walker& w) {
-  static const std_msgs::ColorRGBA SKINS[] = {colour(0.93, 0.76, 0.65), colour(0.80, 0.60, 0.46),
-                                              colour(0.55, 0.38, 0.28), colour(0.36, 0.24, 0.18)};
-  static const std_msgs::ColorRGBA HAIRS[] = {colour(0.10, 0.07, 0.05), colour(0.30, 0.19, 0.10),
-                                              colour(0.72, 0.55, 0.30), colour(0.62, 0.62, 0.60)};
-  static const std_msgs::ColorRGBA SHIRTS[] = {colour(0.78, 0.16, 0.14), colour(0.13, 0.33, 0.66),
-                                               colour(0.93, 0.90, 0.84), colour(0.93, 0.68, 0.14),
-                                               colour(0.16, 0.48, 0.42), colour(0.55, 0.30, 0.55)};
-  static const std_msgs::ColorRGBA TROUSERS[] = {colour(0.15, 0.19, 0.32), colour(0.24, 0.23, 0.22),
-                                                 colour(0.50, 0.42, 0.30),
-                                                 colour(0.33, 0.38, 0.44)};
-  const Random random = Random(w.id).child(0x70656F70);
-  return {oneOf(SKINS, random.bits(0)), oneOf(HAIRS, random.bits(1)), oneOf(SHIRTS, random.bits(2)),
-          oneOf(TROUSERS, random.bits(3)), colour(0.12, 0.10, 0.09)};
-}
-
-const std_msgs::ColorRGBA& colourOf(const Clothes& clothes, std::size_t part) {
-  if (part <= static_cast<std::size_t>(Part::NECK)) return clothes.skin;
-  if (part <= static_cast<std::size_t>(Part::SHOULDERS)) return clothes.shirt;
-  if (part < static_cast<std::size_t>(Part::FOOT)) return clothes.trousers;
-  if (part < static_cast<std::size_t>(Part::UPPER_ARM)) return clothes.shoes;
-  return part < static_cast<std::size_t>(Part::FOREARM) ? clothes.shirt : clothes.skin;
 }
 
 }  // namespace
@@ -96,7 +62,7 @@ CrowdMarkers::CrowdMarkers(int points) {
   list_.action = visualization_msgs::Marker::ADD;
   list_.pose.orientation.w = 1.0;
   list_.scale.x = list_.scale.y = list_.scale.z = 1.0;
-  list_.color = colour(1.0, 1.0, 1.0);
+  list_.color = colour(Vec3(1.0, 1.0, 1.0));
   list_.points.resize(static_cast<std::size_t>(points) / 3 * 3);
   list_.colors.resize(list_.points.size());
 }
@@ -139,12 +105,12 @@ void CrowdMarkers::addLimb(const crowd::Limb& limb, std::size_t part, int sides,
 
 void CrowdMarkers::addPerson(const crowd::Walker& walker, const terrain::HeightMap& terrain,
                              int sides) {
-  const Clothes clothes = clothesOf(walker);
+  const crowd::Clothes clothes = crowd::clothesOf(walker.id);
   const crowd::Skeleton skeleton = skeletonOf(walker, terrain);
   for (std::size_t i = 0; i < crowd::PARTS; ++i) {
-    const std_msgs::ColorRGBA& own = colourOf(clothes, i);
+    const std_msgs::ColorRGBA own = colour(colourOf(clothes, i));
     addLimb(skeleton[i], i, sides, own,
-            i == static_cast<std::size_t>(Part::HEAD) ? clothes.hair : own);
+            i == static_cast<std::size_t>(Part::HEAD) ? colour(clothes.hair) : own);
   }
 }
 
