@@ -97,6 +97,12 @@ void Batch::move(const std::vector<float>& positions) {
     positions_->writeData(0, sizeof(float) * positions.size(), positions.data(), true);
 }
 
+void Batch::limit(std::size_t triangles) {
+  if (mRenderOp.indexData == nullptr) return;
+  const std::size_t all = mRenderOp.indexData->indexBuffer->getNumIndexes();
+  mRenderOp.indexData->indexCount = std::min(all, 3 * triangles);
+}
+
 void Batch::reorder(const std::vector<std::uint32_t>& triangles) {
   if (mRenderOp.indexData == nullptr) return;
   mRenderOp.indexData->indexBuffer = indexBuffer(triangles, mRenderOp.vertexData->vertexCount);
@@ -119,7 +125,8 @@ void Batch::setRank(int rank) {
 
 void Batch::_updateRenderQueue(Ogre::RenderQueue* queue) {
   seen_ = true;
-  if (mRenderOp.indexData != nullptr) Ogre::SimpleRenderable::_updateRenderQueue(queue);
+  if (mRenderOp.indexData != nullptr && mRenderOp.indexData->indexCount > 0)
+    Ogre::SimpleRenderable::_updateRenderQueue(queue);
 }
 
 Ogre::Real Batch::getBoundingRadius() const {

@@ -2,40 +2,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vegetation_sim/rviz/forest_properties.h"
 
-#include <ros/message_traits.h>
 #include <rviz/display.h>
 #include <rviz/properties/bool_property.h>
 #include <rviz/properties/float_property.h>
 #include <rviz/properties/int_property.h>
-#include <rviz/properties/ros_topic_property.h>
 
 namespace vegetation_sim::view {
-namespace {
-
-template <class Message>
-rviz::RosTopicProperty* topic(const char* name, const char* value, const char* help,
-                              rviz::Display& display) {
-  return new rviz::RosTopicProperty(
-      name, value, QString::fromStdString(ros::message_traits::datatype<Message>()), help, &display,
-      SLOT(updateTopics()), &display);
-}
-
-}  // namespace
-
 ForestProperties::ForestProperties(rviz::Display& display) {
   addTopics(display);
   addLook(display);
   addScenery(display, "Draw the terrain with grass and forest floor.");
-  addViewer(display, "Tell the forest where this view looks from, so that what is seen moves.");
 }
 
 void ForestProperties::addTopics(rviz::Display& display) {
-  layout_ = topic<ForestLayout>("Layout Topic", "forest/layout",
-                                "vegetation_sim/ForestLayout: seeds of all trees.", display);
-  wind_ = topic<WindField>("Wind Topic", "wind", "vegetation_sim/WindField: the law of the wind.",
-                           display);
-  state_ = topic<ForestState>("State Topic", "forest/state",
-                              "vegetation_sim/ForestState: which joints move.", display);
+  layout_ = addTopic<ForestLayout>("Layout Topic", "forest/layout",
+                                   "vegetation_sim/ForestLayout: seeds of all trees.", display);
+  wind_ = addTopic<WindField>("Wind Topic", "wind",
+                              "vegetation_sim/WindField: the law of the wind.", display);
+  state_ = addTopic<ForestState>("State Topic", "forest/state",
+                                 "vegetation_sim/ForestState: which joints move.", display);
 }
 
 void ForestProperties::addLook(rviz::Display& display) {
@@ -51,17 +36,12 @@ void ForestProperties::addLook(rviz::Display& display) {
   most_trees_->setMax(20000);
   leaves_ = new rviz::BoolProperty("Leaves", true, "Draw leaves.", &display, SLOT(updateTrees()),
                                    &display);
-  flutter_ = new rviz::BoolProperty("Flutter", true, "Leaves flutter where wind blows.", &display,
-                                    SLOT(updateLook()), &display);
-  colour_by_level_ = new rviz::BoolProperty(
-      "Colour by Level", false,
-      "Paint branches by their joint: red moves, green is between moving and fixed, blue is "
-      "physical, bark is fixed.",
-      &display, SLOT(updateLook()), &display);
-  rate_ =
-      new rviz::FloatProperty("Update Rate", 30.f, "Trees move at most so often [Hz].", &display);
-  rate_->setMin(1.f);
-  rate_->setMax(120.f);
+  flutter_ = addFlag("Flutter", true, "Leaves flutter where wind blows.", display);
+  colour_by_level_ = addFlag("Colour by Level", false,
+                             "Paint branches by their joint: red moves, green is between moving "
+                             "and fixed, blue is physical, bark is fixed.",
+                             display);
+  addRate(display, "Trees move");
 }
 
 ForestTopics ForestProperties::topics() const {
@@ -74,10 +54,6 @@ ForestVisual::Options ForestProperties::options() const {
   out.target_triangles = triangles_->getInt();
   out.most_trees = static_cast<std::size_t>(most_trees_->getInt());
   return out;
-}
-
-double ForestProperties::updatePeriod() const {
-  return 1.0 / static_cast<double>(rate_->getFloat());
 }
 
 }  // namespace vegetation_sim::view

@@ -105,31 +105,45 @@ Rgba openLight(const Daylight& daylight, const Vec3& normal) {
   return out;
 }
 
+std::vector<float> castShadows(const Plot& plot, int edge, const terrain::HeightMap& terrain,
+                               const Vec3& to_sun,
+                               const std::function<void(const ShadowDrop&)>& tell) {
+  ShadowPainter painter(plot, edge, terrain, to_sun);
+  tell([&](const Vec3& at, double radius, double depth) { painter.drop(at, radius, depth); });
+  return std::move(painter).light();
+}
+
 std::vector<float> shadowsOn(const Plot& plot, int edge, const TreeStock& stock,
                              const terrain::HeightMap& terrain, const Vec3& to_sun) {
-  ShadowPainter painter(plot, edge, terrain, to_sun);
-  for (const auto& tree : stock.trees()) {
-    const double radius = 0.5 * tree->leafSize();
-    for (const forest::Branch& branch : tree->tree().skeleton.branches) {
-      const Vec3 base = tree->foot() + branch.rest.position;
-      const Vec3 tip = tree->foot() + tipOf(branch, branch.rest);
-      for (int leaf = 0; stock.hasLeaves() && leaf < branch.leaves; ++leaf)
-        painter.drop(base + (tip - base) * ((leaf + 0.8) / branch.leaves), radius, LEAF_DEPTH);
-      if (branch.depth > 1 && stock.hasLeaves()) continue;  // lost among the leaves'
-      const int steps = 1 + static_cast<int>(branch.length / 0.15);
-      for (int s = 0; s < steps; ++s)
-        painter.drop(base + (tip - base) * (static_cast<double>(s) / steps), branch.base_radius,
-                     1.5);
+  return castShadows(plot, edge, terrain, to_sun, [&](const ShadowDrop& drop) {
+    for (const auto& tree : stock.trees()) {
+      const double radius = 0.5 * tree->leafSize();
+      for (const forest::Branch& branch : tree->tree().skeleton.branches) {
+        const Vec3 base = tree->foot() + branch.rest.position;
+        const Vec3 tip = tree->foot() + tipOf(branch, branch.rest);
+        for (int leaf = 0; stock.hasLeaves() && leaf < branch.leaves; ++leaf)
+          drop(base + (tip - base) * ((leaf + 0.8) / branch.leaves), radius, LEAF_DEPTH);
+        if (branch.depth > 1 && stock.hasLeaves()) continue;  // lost among the leaves'
+        const int steps = 1 + static_cast<int>(branch.length / 0.15);
+        for (int s = 0; s < steps; ++s)
+          drop(base + (tip - base) * (static_cast<double>(s) / steps), branch.base_radius, 1.5);
+      }
     }
-  }
-  return std::move(painter).light();
+  });
 }
 
 Picture groundPicture(const Plot& plot, int edge, const TreeStock& stock,
                       const terrain::HeightMap& terrain, const Daylight& daylight,
                       const Rgba& tint) {
+  const Shade shade{shadowsOn(plot, edge, stock, terrain, daylight.to_sun),
+                    [&](const Vec3& at) { return stock.light().sky(at); }};
+  return groundPicture(plot, edge, shade, terrain, daylight, tint);
+}
+
+Picture groundPicture(const Plot& plot, int edge, const Shade& shade,
+                      const terrain::HeightMap& terrain, const Daylight& daylight,
+                      const Rgba& tint) {
   const Noise noise(GROUND_SEED);
-  const std::vector<float> shadows = shadowsOn(plot, edge, stock, terrain, daylight.to_sun);
   Picture out(edge, edge, {});
   for (int r = 0; r < edge; ++r) {
     for (int c = 0; c < edge; ++c) {
@@ -138,10 +152,12 @@ Picture groundPicture(const Plot& plot, int edge, const TreeStock& stock,
       const double from_border = std::min(std::min(u, 1.0 - u), std::min(v, 1.0 - v));
       const auto inside = static_cast<double>(ramp(0.2 * BORDER, BORDER, from_border));
       const Vec3 at(x, y, terrain.height(x, y) + 0.3);
-      const double sky = 1.0 - inside * (1.0 - stock.light().sky(at));
-      const auto sun = static_cast<float>(
-          1.0 -
-          inside * (1.0 - static_cast<double>(shadows[static_cast<std::size_t>(r * edge + c)])));
+      const double sky = shade.sky ? 1.0 - inside * (1.0 - shade.sky(at)) : 1.0;
+      const double lit =
+          shade.sun.empty()
+              ? 1.0
+              : static_cast<double>(shade.sun[static_cast<std::size_t>(r * edge + c)]);
+      const auto sun = static_cast<float>(1.0 - inside * (1.0 - lit));
       const Vec3 normal = terrain.normal(x, y);
       const auto facing = static_cast<float>(std::max(0.0, dot(normal, daylight.to_sun)));
       const Rgba colour = groundColour(noise, x, y, 1.0 - sky, tint);

@@ -149,4 +149,14 @@ void GroundVisual::addLand(const Land& land, const Daylight& daylight) {
   add(positions, paint, triangles, land_material_.name());
 }
 
+std::unique_ptr<GroundVisual> plainGround(Ogre::SceneNode& parent, const Plot& plot,
+                                          const Shade& shade, const terrain::HeightMap& terrain,
+                                          const Daylight& daylight, const Rgba& tint) {
+  const Picture picture = groundPicture(plot, PLAIN_EDGE, shade, terrain, daylight, tint);
+  const double x = plot.x + 0.5 * plot.edge, y = plot.y + 0.5 * plot.edge;
+  Land land{plot, picture, terrain, Vec3(x, y, terrain.height(x, y)), 1.0, tint};
+  if (!terrain.isFlat()) land.cell = terrain.resolution();
+  return std::make_unique<GroundVisual>(parent, land, daylight);
+}
+
 }  // namespace vegetation_sim::view

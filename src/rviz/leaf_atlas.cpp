@@ -23,14 +23,19 @@ void keepCoverage(double wanted, Picture& picture) {
 
 }  // namespace
 
+std::vector<Picture> coveredMipmaps(const Picture& picture, int smallest) {
+  std::vector<Picture> levels = mipmaps(picture, smallest);
+  const double wanted = coverage(picture);
+  for (std::size_t level = 1; level < levels.size(); ++level) keepCoverage(wanted, levels[level]);
+  return levels;
+}
+
 std::vector<Picture> leafAtlas(int edge) {
   std::vector<Picture> out;
   for (int cell = 0; cell < 8; ++cell) {
     const auto shape = static_cast<LeafShape>(cell % 4);
-    std::vector<Picture> levels = mipmaps(leafPicture(shape, cell >= 4, edge), 4);
-    const double wanted = coverage(levels.front());
+    const std::vector<Picture> levels = coveredMipmaps(leafPicture(shape, cell >= 4, edge), 4);
     for (std::size_t level = 0; level < levels.size(); ++level) {
-      if (level > 0) keepCoverage(wanted, levels[level]);
       const int side = levels[level].columns;
       if (cell == 0) out.emplace_back(4 * side, 2 * side, Rgba{});
       paste(levels[level], side * (cell % 4), side * (cell / 4), out[level]);

@@ -45,9 +45,18 @@ Sources sourcesOf(Material::Kind kind) {
       return {GRASS_VERTEX, BLADE_FRAGMENT};
     case Material::Kind::STRIPS:
       return {GRASS_VERTEX, STRIP_FRAGMENT};
+    case Material::Kind::SHADOWS:
+      return {GRASS_VERTEX, SHADOW_FRAGMENT};
     default:
       return {PLANT_VERTEX, PLANT_FRAGMENT};
   }
+}
+
+// Over what lies just below it; leaves no trace for what comes later.
+void makeShadow(Ogre::Pass& pass) {
+  pass.setSceneBlending(Ogre::SBT_TRANSPARENT_ALPHA);
+  pass.setDepthWriteEnabled(false);
+  pass.setDepthBias(2.f, 2.f);
 }
 
 Ogre::Vector4 narrow(const Rgba& c) {
@@ -105,6 +114,7 @@ void Material::addShaded(const std::vector<std::string>& textures) {
   if (kind_ == Kind::GROUND) pass->getFragmentProgramParameters()->setNamedConstant("grain", 1);
   if (kind_ == Kind::LEAVES) pass->setAlphaRejectSettings(Ogre::CMPF_GREATER_EQUAL, 128);
   if (hasTwoSides(kind_)) pass->setCullingMode(Ogre::CULL_NONE);
+  if (kind_ == Kind::SHADOWS) makeShadow(*pass);
   addTextures(*pass, textures);
 }
 
@@ -119,6 +129,7 @@ void Material::addPlain(const std::vector<std::string>& textures) {
   if (kind_ == Kind::LEAVES) pass->setAlphaRejectSettings(Ogre::CMPF_GREATER_EQUAL, 128);
   if (kind_ == Kind::STRIPS) pass->setAlphaRejectSettings(Ogre::CMPF_GREATER_EQUAL, 96);
   if (hasTwoSides(kind_)) pass->setCullingMode(Ogre::CULL_NONE);
+  if (kind_ == Kind::SHADOWS) makeShadow(*pass);
   if (kind_ == Kind::SKY) {
     pass->setFog(true, Ogre::FOG_NONE);
     pass->setDepthWriteEnabled(false);

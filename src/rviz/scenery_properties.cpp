@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vegetation_sim/rviz/scenery_properties.h"
 
-#include <rviz/display.h>
 #include <rviz/properties/bool_property.h>
 #include <rviz/properties/color_property.h>
 #include <rviz/properties/float_property.h>
@@ -29,9 +28,19 @@ rviz::FloatProperty* number(const char* name, float value, const char* help, flo
 
 }  // namespace
 
-void SceneryProperties::addScenery(rviz::Display& display, const char* ground_help) {
+rviz::BoolProperty* SceneryProperties::addFlag(const char* name, bool value, const char* help,
+                                               rviz::Display& display) {
+  return new rviz::BoolProperty(name, value, help, &display, SLOT(updateLook()), &display);
+}
+
+rviz::FloatProperty* SceneryProperties::addNumber(const char* name, float value, const char* help,
+                                                  float low, float high, rviz::Display& display) {
+  return number(name, value, help, low, high, &display, SLOT(updateLook()), display);
+}
+
+void SceneryProperties::addScenery(rviz::Display& display, const char* ground_help, bool on) {
   const auto flag = [&](const char* name, const char* help, const char* slot) {
-    return new rviz::BoolProperty(name, true, help, &display, slot, &display);
+    return new rviz::BoolProperty(name, on, help, &display, slot, &display);
   };
   ground_ = flag("Ground", ground_help, SLOT(updateGround()));
   ground_colour_ = new rviz::ColorProperty("Colour", GRASS, "Colour of grass.", ground_,
@@ -48,13 +57,22 @@ void SceneryProperties::addScenery(rviz::Display& display, const char* ground_he
                      SLOT(updateHaze()), display);
   haze_most_ = number("Strength", 0.9f, "All of the haze: 1 hides what is behind.", 0.f, 1.f, haze_,
                       SLOT(updateHaze()), display);
+  addViewer(display, on);
 }
 
-void SceneryProperties::addViewer(rviz::Display& display, const char* help) {
-  publish_viewer_ = new rviz::BoolProperty("Publish Viewer", true, help, &display,
-                                           SLOT(updateViewer()), &display);
+void SceneryProperties::addViewer(rviz::Display& display, bool on) {
+  publish_viewer_ = new rviz::BoolProperty(
+      "Publish Viewer", on, "Tell nodes where this view looks from, so that what is seen moves.",
+      &display, SLOT(updateViewer()), &display);
   viewer_topic_ = new rviz::StringProperty("Topic", "viewer", "vegetation_sim/Viewer.",
                                            publish_viewer_, SLOT(updateViewer()), &display);
+}
+
+void SceneryProperties::addRate(rviz::Display& display, const std::string& who) {
+  rate_ = new rviz::FloatProperty(
+      "Update Rate", 30.f, QString::fromStdString(who + " at most so often [Hz]."), &display);
+  rate_->setMin(1.f);
+  rate_->setMax(120.f);
 }
 
 bool SceneryProperties::ground() const {
@@ -67,7 +85,10 @@ bool SceneryProperties::haze() const {
   return haze_->getBool();
 }
 bool SceneryProperties::publishesViewer() const {
-  return publish_viewer_ != nullptr && publish_viewer_->getBool();
+  return publish_viewer_->getBool();
+}
+double SceneryProperties::updatePeriod() const {
+  return 1.0 / static_cast<double>(rate_->getFloat());
 }
 std::string SceneryProperties::viewerTopic() const {
   return viewer_topic_->getStdString();

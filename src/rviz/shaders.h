@@ -114,4 +114,15 @@ void main() {
 }
 )";
 
+constexpr const char* SHADOW_FRAGMENT = R"(#version 120
+uniform sampler2D picture;
+uniform vec4 haze_colour;
+varying vec4 light;
+varying vec3 place;
+void main() {
+  gl_FragColor = vec4(mix(light.rgb, haze_colour.rgb, light.a),
+                      texture2D(picture, place.xy).a * place.z);
+}
+)";
+
 }  // namespace vegetation_sim::view

@@ -1,15 +1,13 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <rviz/properties/bool_property.h>
-#include <rviz/properties/float_property.h>
-#include <rviz/properties/int_property.h>
 #include <rviz/properties/property_tree_model.h>
 #include <rviz/view_controller.h>
 
 #include <cmath>
 #include <limits>
 
+#include "rviz/display_checks.h"
 #include "rviz/display_rig.h"
 
 namespace vegetation_sim {
@@ -175,72 +173,24 @@ TEST_F(ForestDisplayTest, FollowsALayoutThatChanges) {
 
 TEST_F(ForestDisplayTest, EveryPropertyCanBeChanged) {
   ASSERT_TRUE(drawn());
-  for (auto* flag : propertiesOf<rviz::BoolProperty>(*display)) {
-    flag->setBool(!flag->getBool());
-    rig.frames(2);
-    flag->setBool(!flag->getBool());
-    rig.frames(2);
-  }
-  for (auto* number : propertiesOf<rviz::FloatProperty>(*display)) {
-    const float value = number->getFloat();
-    for (const float other : {number->getMin(), value * 1.1f, value}) {
-      number->setFloat(other);
-      rig.frames(1);
-    }
-    EXPECT_FALSE(number->getDescription().isEmpty());
-  }
-  for (auto* number : propertiesOf<rviz::IntProperty>(*display)) {
-    const int value = number->getInt();
-    for (const int other : {number->getMin(), value + 1, value}) {
-      number->setInt(other);
-      rig.frames(1);
-    }
-  }
+  expectEveryPropertyCanBeChanged(rig, *display);
   rig.publishState();
   EXPECT_TRUE(drawn());
 }
 
 TEST_F(ForestDisplayTest, SettingsSurviveSaveAndLoad) {
-  display->subProp("Triangles")->setValue(54321);
-  display->subProp("Colour by Level")->setValue(true);
-  display->subProp("Haze")->subProp("End")->setValue(777.f);
-  display->subProp("Sky")->subProp("Sun Azimuth")->setValue(33.f);
-  rviz::Config saved;
-  display->save(saved);
-  ForestDisplay* other = rig.addDisplay();
-  other->load(saved);
-  rviz::Config again;
-  other->save(again);
-  for (auto it = saved.mapIterator(); it.isValid(); it.advance())
-    EXPECT_EQ(it.currentChild().getValue(), again.mapGetChild(it.currentKey()).getValue())
-        << it.currentKey().toStdString();
-  EXPECT_EQ(other->subProp("Haze")->subProp("End")->getValue().toFloat(), 777.f);
-  EXPECT_EQ(other->subProp("Triangles")->getValue().toInt(), 54321);
-  rig.remove(other);
+  expectSettingsSurvive(rig, *display, [&] { return rig.addDisplay(); });
 }
 
 TEST_F(ForestDisplayTest, LeavesNothingBehind) {
   ASSERT_TRUE(drawn());
   rig.remove(display);
   display = nullptr;
-  Ogre::SceneManager& scene = *rig.manager().getSceneManager();
-  const std::size_t before = resources();
-  const auto nodes = scene.getRootSceneNode()->numChildren();
-  EXPECT_EQ(scene.getFogMode(), Ogre::FOG_NONE);
-  for (int i = 0; i < 20; ++i) {
-    ForestDisplay* another = rig.addDisplay();
-    ASSERT_NE(another, nullptr);
-    if (i % 4 == 0)
-      ASSERT_TRUE(rig.until([&] { return another->drawn().trees == TREES; }));
-    else
-      rig.frames(1);
-    if (i % 2 == 0) another->reset();
-    if (i % 3 == 0) another->setEnabled(false);
-    rig.remove(another);
-  }
-  EXPECT_EQ(resources(), before);
-  EXPECT_EQ(scene.getRootSceneNode()->numChildren(), nodes);
-  EXPECT_EQ(scene.getFogMode(), Ogre::FOG_NONE);
+  expectNothingLeftBehind(
+      rig, [&] { return rig.addDisplay(); },
+      [&](rviz::Display& another) {
+        return static_cast<ForestDisplay&>(another).drawn().trees == TREES;
+      });
 }
 
 }  // namespace

@@ -1,15 +1,12 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <rviz/properties/bool_property.h>
-#include <rviz/properties/float_property.h>
-#include <rviz/properties/int_property.h>
 #include <rviz/view_controller.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 
+#include "rviz/display_checks.h"
 #include "rviz/grass_rig.h"
 
 namespace vegetation_sim {
@@ -56,18 +53,10 @@ class GrassDisplayTest : public testing::Test {
       return same;
     });
   }
-  std::string status(const char* name) {
-    for (auto* property : propertiesOf<rviz::Property>(*display))
-      if (property->getName() == name) return property->getValue().toString().toStdString();
-    return {};
-  }
-  /// Mean of green over a box in the middle of the picture, and how far it is from `other`.
+  std::string status(const char* name) { return statusOf(*display, name); }
+  /// Mean difference from another picture.
   double changed(const std::vector<std::uint8_t>& before) {
-    const std::vector<std::uint8_t> now = rig.picture();
-    double sum = 0.0;
-    for (std::size_t i = 0; i < now.size(); ++i)
-      sum += std::abs(static_cast<int>(now[i]) - static_cast<int>(before[i]));
-    return sum / static_cast<double>(now.size());
+    return difference(before, rig.picture());
   }
 
   GrassRig& rig{*shared_rig};
@@ -183,65 +172,23 @@ TEST_F(GrassDisplayTest, FollowsALayoutThatChanges) {
 
 TEST_F(GrassDisplayTest, EveryPropertyCanBeChanged) {
   ASSERT_TRUE(drawn());
-  for (auto* flag : propertiesOf<rviz::BoolProperty>(*display)) {
-    flag->setBool(!flag->getBool());
-    rig.frames(2);
-    flag->setBool(!flag->getBool());
-    rig.frames(2);
-    EXPECT_FALSE(flag->getDescription().isEmpty());
-  }
-  for (auto* number : propertiesOf<rviz::FloatProperty>(*display)) {
-    const float value = number->getFloat();
-    for (const float other : {number->getMin(), value * 1.1f, value}) {
-      number->setFloat(other);
-      rig.frames(1);
-    }
-    EXPECT_FALSE(number->getDescription().isEmpty());
-  }
-  display->subProp("Blades")->setValue(1000);
+  expectEveryPropertyCanBeChanged(rig, *display);
   EXPECT_TRUE(drawn());
 }
 
 TEST_F(GrassDisplayTest, SettingsSurviveSaveAndLoad) {
-  display->subProp("Blades")->setValue(54321);
-  display->subProp("Tolerance")->setValue(3.5f);
-  display->subProp("Haze")->subProp("End")->setValue(777.f);
-  rviz::Config saved;
-  display->save(saved);
-  GrassDisplay* other = rig.addDisplay();
-  other->load(saved);
-  rviz::Config again;
-  other->save(again);
-  for (auto it = saved.mapIterator(); it.isValid(); it.advance())
-    EXPECT_EQ(it.currentChild().getValue(), again.mapGetChild(it.currentKey()).getValue())
-        << it.currentKey().toStdString();
-  EXPECT_EQ(other->subProp("Haze")->subProp("End")->getValue().toFloat(), 777.f);
-  EXPECT_EQ(other->subProp("Blades")->getValue().toInt(), 54321);
-  rig.remove(other);
+  expectSettingsSurvive(rig, *display, [&] { return rig.addDisplay(); });
 }
 
 TEST_F(GrassDisplayTest, LeavesNothingBehind) {
   ASSERT_TRUE(drawn());
   rig.remove(display);
   display = nullptr;
-  Ogre::SceneManager& scene = *rig.manager().getSceneManager();
-  const std::size_t before = resources();
-  const auto nodes = scene.getRootSceneNode()->numChildren();
-  EXPECT_EQ(scene.getFogMode(), Ogre::FOG_NONE);
-  for (int i = 0; i < 12; ++i) {
-    GrassDisplay* another = rig.addDisplay();
-    ASSERT_NE(another, nullptr);
-    if (i % 4 == 0)
-      ASSERT_TRUE(rig.until([&] { return another->drawn().blades > 0; }));
-    else
-      rig.frames(1);
-    if (i % 2 == 0) another->reset();
-    if (i % 3 == 0) another->setEnabled(false);
-    rig.remove(another);
-  }
-  EXPECT_EQ(resources(), before);
-  EXPECT_EQ(scene.getRootSceneNode()->numChildren(), nodes);
-  EXPECT_EQ(scene.getFogMode(), Ogre::FOG_NONE);
+  expectNothingLeftBehind(
+      rig, [&] { return rig.addDisplay(); },
+      [&](rviz::Display& another) {
+        return static_cast<GrassDisplay&>(another).drawn().blades > 0;
+      });
 }
 
 }  // namespace

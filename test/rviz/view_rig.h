@@ -9,6 +9,7 @@
 #include <rosgraph_msgs/Clock.h>
 #include <rviz/display_group.h>
 #include <rviz/render_panel.h>
+#include <rviz/view_controller.h>
 #include <rviz/view_manager.h>
 #include <rviz/visualization_manager.h>
 
@@ -48,6 +49,15 @@ class ViewRig {
   rviz::RenderPanel& panel() { return panel_; }
   Ogre::Camera& camera() { return *manager_->getViewManager()->getCurrent()->getCamera(); }
   ros::NodeHandle& nodeHandle() { return nh_; }
+
+  /// Looks at a point over the origin, from the north-east.
+  void lookAt(float height, double pitch, double distance) {
+    rviz::ViewController& view = *manager_->getViewManager()->getCurrent();
+    view.lookAt(0.f, 0.f, height);
+    view.subProp("Pitch")->setValue(pitch);
+    view.subProp("Yaw")->setValue(0.8);
+    view.subProp("Distance")->setValue(distance);
+  }
 
   /// A display of the plugin `name`; null if there is none or it is of another class.
   template <class Display>

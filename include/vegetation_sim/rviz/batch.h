@@ -27,6 +27,8 @@ class Batch : public Ogre::SimpleRenderable {
              const std::vector<std::uint32_t>& triangles, float margin);
   /// Moves the vertices of build(); they may leave its bounding box by `margin` [m].
   void move(const std::vector<float>& positions);
+  /// Draws the first so many triangles of build() only; positions of others need not be given.
+  void limit(std::size_t triangles);
   /// Draws the triangles of build() in another order.
   void reorder(const std::vector<std::uint32_t>& triangles);
   /// Changes colours, places and normals of build()'s vertices.

@@ -2,73 +2,57 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <rviz/display.h>
-
 #include <memory>
 #include <string>
 
-#include "vegetation_sim/rviz/air.h"
 #include "vegetation_sim/rviz/forest_properties.h"
 #include "vegetation_sim/rviz/forest_source.h"
 #include "vegetation_sim/rviz/forest_visual.h"
 #include "vegetation_sim/rviz/ground_visual.h"
-#include "vegetation_sim/rviz/sky_visual.h"
-#include "vegetation_sim/rviz/status_board.h"
-#include "vegetation_sim/rviz/viewer_publisher.h"
+#include "vegetation_sim/rviz/scenery_display.h"
+#include "vegetation_sim/rviz/shadow_visual.h"
 
 namespace vegetation_sim {
 
 /// Rebuilds a forest from its layout, its wind and its state, and draws it as it stands at rviz's
-/// time. Tells the forest where the view looks from. Everything runs in rviz's render thread; while
-/// disabled it holds no subscription and no Ogre object.
-class ForestDisplay : public rviz::Display {
+/// time.
+class ForestDisplay : public SceneryDisplay {
   Q_OBJECT
  public:
   ForestDisplay();
   ~ForestDisplay() override;
 
-  void update(float wall_dt, float ros_dt) override;
-  void reset() override;
-
   /// What was drawn last.
   view::ForestReport drawn() const;
 
  protected:
-  void onInitialize() override;
-  void onEnable() override;
-  void onDisable() override;
+  const view::SceneryProperties& properties() const override { return *properties_; }
+  void open() override;
+  void close() override;
+  std::optional<std::string> frame() const override;
+  void draw(Nanoseconds stamp, const view::View& view) override;
+  void light(const view::Daylight& daylight, const view::Haze& haze) override;
+  void dropGround() override;
+  void forgetState(Nanoseconds now) override { source_->forgetState(now); }
+  void showInputs(view::StatusBoard& board) const override;
+  view::InputStatus describeDrawn() const override;
+  void updateLook() override;
 
  private Q_SLOTS:
-  void updateTopics();
   void updateTrees();
-  void updateLook();
-  void updateGround();
-  void updateSky();
-  void updateSun();
-  void updateHaze();
-  void updateViewer();
 
  private:
-  void start();
-  void stop();
-  void draw(Nanoseconds stamp);
-  void watchTime(Nanoseconds stamp);
   void makeGround();
-  void publishViewer();
-  void showStatus(Nanoseconds stamp);
+  void makeShadows();
 
   std::unique_ptr<view::ForestProperties> properties_;
   std::unique_ptr<view::ForestSource> source_;
   std::unique_ptr<view::ForestVisual> forest_;
   std::unique_ptr<view::GroundVisual> ground_;
-  std::unique_ptr<view::SkyVisual> sky_;
-  std::unique_ptr<view::Air> air_;
-  std::unique_ptr<view::ViewerPublisher> viewer_;
-  view::StatusBoard board_;
+  std::unique_ptr<view::ShadowVisual> shadows_;  // where another display gives the ground
+  Vec3 to_sun_{Vec3::Zero()};                    // that trees have been lit by
   int layouts_{0};
-  int grounded_{-1};  // stock of trees that the ground was made for
-  Nanoseconds last_stamp_{0};
-  double since_update_{0.0}, since_status_{1e9}, wall_{0.0};  // [s]
+  int grounded_{-1};  // stock of trees that ground or shadows were made for
 };
 
 }  // namespace vegetation_sim

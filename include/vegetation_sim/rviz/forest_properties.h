@@ -28,7 +28,6 @@ class ForestProperties : public SceneryProperties {
 
   ForestTopics topics() const;
   ForestVisual::Options options() const;
-  double updatePeriod() const;  ///< [s]
 
  private:
   void addTopics(rviz::Display& display);
@@ -37,7 +36,6 @@ class ForestProperties : public SceneryProperties {
   rviz::RosTopicProperty *layout_, *wind_, *state_;
   rviz::IntProperty *triangles_, *most_trees_;
   rviz::BoolProperty *leaves_, *flutter_, *colour_by_level_;
-  rviz::FloatProperty* rate_;
 };
 
 }  // namespace vegetation_sim::view

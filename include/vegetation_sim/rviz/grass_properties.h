@@ -23,7 +23,6 @@ class GrassProperties : public SceneryProperties {
 
   GrassTopics topics() const;
   GrassVisual::Options options() const;
-  double updatePeriod() const;  ///< [s]
 
  private:
   void addTopics(rviz::Display& display);
@@ -33,7 +32,7 @@ class GrassProperties : public SceneryProperties {
   rviz::RosTopicProperty *layout_, *wind_, *state_;
   rviz::IntProperty* most_blades_;
   rviz::BoolProperty *blades_, *strips_, *colour_by_level_;
-  rviz::FloatProperty *tolerance_, *farthest_, *transition_, *variety_, *rate_;
+  rviz::FloatProperty *tolerance_, *farthest_, *transition_, *variety_;
 };
 
 }  // namespace vegetation_sim::view

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "vegetation_sim/rviz/sky_picture.h"
@@ -30,7 +31,22 @@ Rgba openLight(const Daylight& daylight, const Vec3& normal);
 std::vector<float> shadowsOn(const Plot& plot, int edge, const TreeStock& stock,
                              const terrain::HeightMap& terrain, const Vec3& to_sun);
 
+/// What keeps light from the ground of a plot.
+struct Shade {
+  std::vector<float> sun;  ///< part of the sun that arrives, as shadowsOn(); empty: all of it
+  std::function<double(const Vec3&)> sky;  ///< part of the sky's light at a place; empty: all of it
+};
+
+/// Throws what is told to it, balls that stand in the sun, on the plot. As shadowsOn().
+using ShadowDrop = std::function<void(const Vec3& at, double radius, double depth)>;
+std::vector<float> castShadows(const Plot& plot, int edge, const terrain::HeightMap& terrain,
+                               const Vec3& to_sun,
+                               const std::function<void(const ShadowDrop&)>& tell);
+
 /// The plot from above, north on top, with its light.
+Picture groundPicture(const Plot& plot, int edge, const Shade& shade,
+                      const terrain::HeightMap& terrain, const Daylight& daylight,
+                      const Rgba& tint);
 Picture groundPicture(const Plot& plot, int edge, const TreeStock& stock,
                       const terrain::HeightMap& terrain, const Daylight& daylight,
                       const Rgba& tint);

@@ -55,4 +55,11 @@ class GroundVisual {
   std::size_t triangles_{0};
 };
 
+/// Grass around what stands on it, for displays that know no more of the ground.
+/// @param shade cast on the plot with PLAIN_EDGE pixels.
+std::unique_ptr<GroundVisual> plainGround(Ogre::SceneNode& parent, const Plot& plot,
+                                          const Shade& shade, const terrain::HeightMap& terrain,
+                                          const Daylight& daylight, const Rgba& tint);
+constexpr int PLAIN_EDGE = 512;  ///< [pixel] of its picture
+
 }  // namespace vegetation_sim::view

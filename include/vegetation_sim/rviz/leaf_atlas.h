@@ -15,4 +15,7 @@ std::vector<Picture> leafAtlas(int edge);
 /// A place in one picture, u and v from 0 to 1, as a place in the atlas.
 std::array<float, 2> leafAtlasPlace(int shape, bool bough, const std::array<float, 2>& uv);
 
+/// Mipmaps of which as much passes the test against alpha as of the picture.
+std::vector<Picture> coveredMipmaps(const Picture& picture, int smallest);
+
 }  // namespace vegetation_sim::view

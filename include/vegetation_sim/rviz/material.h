@@ -22,7 +22,7 @@ struct Haze {
 /// Render thread only.
 class Material {
  public:
-  enum class Kind { BARK, LEAVES, GROUND, SKY, BLADES, STRIPS };
+  enum class Kind { BARK, LEAVES, GROUND, SKY, BLADES, STRIPS, SHADOWS };
 
   /// @param textures names: the picture, for the ground also its grain; none for blades of grass.
   Material(Kind kind, const std::string& name, const std::vector<std::string>& textures);

@@ -1,0 +1,26 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "vegetation_sim/crowd/clothes.h"
+#include "vegetation_sim/crowd/skeleton.h"
+#include "vegetation_sim/grass/geometry.h"
+#include "vegetation_sim/rviz/sky_picture.h"
+
+namespace vegetation_sim::view {
+
+/// How finely a body is drawn.
+struct BodyStyle {
+  int sides{8};     ///< of a limb, 3 or more
+  bool caps{true};  ///< round ends and a round head
+  double left_x{0.0},
+      left_y{1.0};  ///< unit, to the left of the walker: bodies are broader that way
+};
+/// Of a body that is so many pixels high.
+BodyStyle bodyStyle(double pixels);
+
+/// Appends a lit body: limbs that taper, a flat chest, hair and hands. No Ogre in it.
+void appendBody(const crowd::Skeleton& skeleton, const crowd::Clothes& clothes,
+                const BodyStyle& style, const Daylight& daylight, grass::GrassMesh& mesh);
+
+}  // namespace vegetation_sim::view

@@ -1,0 +1,57 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros/node_handle.h>
+#include <ros/subscriber.h>
+#include <vegetation_sim/CanopyLayout.h>
+#include <vegetation_sim/CanopyState.h>
+
+#include <memory>
+#include <string>
+
+#include "vegetation_sim/canopy/canopy.h"
+#include "vegetation_sim/rviz/forest_source.h"
+#include "vegetation_sim/rviz/ground_source.h"
+
+namespace vegetation_sim::view {
+
+struct CanopyTopics {
+  std::string layout, state;
+};
+
+/// Listens to leafy masses and keeps the replica of them. Callbacks run in the queue of the node
+/// handle: for a display the render thread's. A refused message changes nothing.
+class CanopySource {
+ public:
+  /// @throws ros::InvalidNameException for a topic that cannot be.
+  CanopySource(ros::NodeHandle nh, const CanopyTopics& topics);
+
+  /// Null before the first layout.
+  canopy::Replica* replica() { return replica_.get(); }
+  const canopy::Replica* replica() const { return replica_.get(); }
+  const terrain::HeightMap& ground() const { return ground_.ground(); }
+  /// Counts layouts taken, and states.
+  int layouts() const { return layouts_; }
+  int states() const { return states_; }
+  const std::string& frame() const { return frame_; }
+  /// Time went back to `now`: a state of a later time is void, all are at rest until the next.
+  void forgetState(Nanoseconds now);
+
+  const InputStatus& layoutStatus() const { return layout_status_; }
+  const InputStatus& stateStatus() const { return state_status_; }
+
+ private:
+  void takeLayout(const CanopyLayout& message);
+  void takeState(const CanopyState& message);
+
+  GroundSource ground_;
+  std::unique_ptr<canopy::Replica> replica_;
+  Nanoseconds stamp_{0};
+  int layouts_{0}, states_{0};
+  std::string frame_;
+  InputStatus layout_status_, state_status_;
+  ros::Subscriber layout_, state_;
+};
+
+}  // namespace vegetation_sim::view
