@@ -241,12 +241,12 @@ Box uprightBox(const Vec3& centre, const Vec3& half, double yaw) {
 
 Separation separation(const Box& a, const Box& b, double enough) {
   const double radii = a.radius + b.radius;
-  const auto ofPoint = [&](const Box& box, const Box& ball, double sign) {
+  const auto of_point = [&](const Box& box, const Box& ball, double sign) {
     const Cores cores = iterate(BoxPointPair(box, ball.centre), enough + radii);
     return finish(cores, sign * toWorld(box, cores.v), radii);
   };
-  if (isBall(b)) return ofPoint(a, b, 1.0);
-  if (isBall(a)) return ofPoint(b, a, -1.0);
+  if (isBall(b)) return of_point(a, b, 1.0);
+  if (isBall(a)) return of_point(b, a, -1.0);
   const Cores cores = iterate(BoxPair(a, b), enough + radii);
   return finish(cores, toWorld(a, cores.v), radii);
 }

@@ -13,6 +13,7 @@ constexpr double MOST_CELLS = 1e6;
 
 std::vector<Extent> extentsOf(const std::vector<Obstacle>& obstacles) {
   std::vector<Extent> out;
+  out.reserve(obstacles.size());
   for (const Obstacle& o : obstacles) out.push_back(extentOf(o));
   return out;
 }
