@@ -1,17 +1,19 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
 // Where methods break: growth of one joint per step over damping and step, the largest stable step
-// over stiffness, damping and size of a tree, each beside what docs/physics.md says of it.
+// over stiffness, damping and size of a tree, each beside what docs/physics.md says of it; and what
+// the default does in a storm beyond all of that.
 // usage: stability_bench [--quick | --full] [--part NAME,..] [--csv FILE], parts: growth, joints,
-// trees
+// trees, storms
 
 #include <cmath>
 #include <cstdio>
 #include <limits>
 
 #include "options.h"
-#include "physics/chain_fixture.h"
+#include "physics/chain_scene.h"
 #include "table.h"
+#include "vegetation_sim/physics/batch_chain.h"
 
 namespace vegetation_sim::physics {
 namespace {
@@ -152,6 +154,56 @@ void sweepTrees(const Options& options, Table& table) {
   }
 }
 
+// ---- storms ------------------------------------------------------------------------------------
+
+/// Largest bend during a storm, and after its ring-down [rad]; infinite: not a number.
+struct Storm {
+  double worst{0.0}, last{0.0};
+
+  void look(const ChainState& state) {
+    last = 0.0;
+    for (const Vec2& q : state.q)
+      last = std::isfinite(q.norm()) ? std::max(last, q.norm())
+                                     : std::numeric_limits<double>::infinity();
+    worst = std::max(worst, last);
+  }
+};
+
+// 30 times the gust for a second, then ten seconds or a hundred steps without.
+template <class Step, class State>
+Storm stormOf(double h, const Step& step, const State& state) {
+  Storm out;
+  const int steps = static_cast<int>(std::max(11.0, 1.0 + 100.0 * h) / h);
+  for (int i = 0; i < steps; ++i) {
+    step(i * h);
+    out.look(state());
+  }
+  return out;
+}
+
+// The default over step and how far stiffness is apart, in double and in float.
+void sweepStorms(const Options& options, Table& table) {
+  const double factor = options.quick ? 10.0 : 2.0;
+  for (double apart = 1e2; apart < 1.1e12; apart *= options.quick ? 1e3 : 10.0) {
+    std::vector<Link> links = crown(63, 0.1);
+    spreadStiffness(links, apart);
+    const Surroundings blow = gust(links, 30.0 * 20.0);
+    for (double h = 1e-3; h < 2.1; h *= factor) {
+      Simulation plain{links};
+      BatchChain batch(links);
+      const Storm slow = stormOf(
+          h, [&](double time) { plain.step(blow, time, h); }, [&] { return plain.state; });
+      const Storm fast = stormOf(
+          h, [&](double time) { batch.step(blow, time, h); }, [&] { return batch.state(0); });
+      table.row("storm", "double", apart, h, slow.last, slow.worst);
+      table.row("storm", "float", apart, h, fast.last, fast.worst);
+      std::printf(
+          "%6.0e apart, step %7.4g s: worst bend %.3g rad, in the end %.2g; float %.3g, %.2g\n",
+          apart, h, slow.worst, slow.last, fast.worst, fast.last);
+    }
+  }
+}
+
 void run(const Options& options) {
   Table table(options.csv, "map,method,x,y,value,theory");
   if (options.wants("growth")) {
@@ -160,6 +212,7 @@ void run(const Options& options) {
   }
   if (options.wants("joints")) sweepStiffness(table);
   if (options.wants("trees")) sweepTrees(options, table);
+  if (options.wants("storms")) sweepStorms(options, table);
 }
 
 }  // namespace
@@ -168,7 +221,7 @@ void run(const Options& options) {
 int main(int argc, char** argv) {
   try {
     using namespace vegetation_sim;
-    physics::run(bench::readOptions(argc, argv, {"growth", "joints", "trees"}));
+    physics::run(bench::readOptions(argc, argv, {"growth", "joints", "trees", "storms"}));
   } catch (const std::exception& error) {
     std::fprintf(stderr, "stability_bench: %s\n", error.what());
     return 1;

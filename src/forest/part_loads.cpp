@@ -10,11 +10,18 @@
 namespace vegetation_sim::forest {
 namespace {
 
-// The air's drag takes at most half of a link's speed in a step, however light the link is.
+// Where steps do not foresee it, drag takes at most half of a link's speed in a step, however light
+// the link is.
 constexpr double STRONGEST_DRAG = 0.5 * PHYSICS_RATE;  // [1/s]
 
 physics::Symmetric3 uniform(double value) {
   return {value, value, value, 0.0, 0.0, 0.0};
+}
+
+// Contacts step implicitly whatever is chosen, and so do explicit methods beyond their bounds.
+bool foreseesDrag(const PhysicsSettings& settings) {
+  return static_cast<physics::Dynamics>(settings.dynamics) == physics::Dynamics::ARTICULATED &&
+         physics::isImplicit(static_cast<physics::Integrator>(settings.integrator));
 }
 
 std::size_t index(int i) {
@@ -54,7 +61,7 @@ struct PhysicalPart::Step {
     const Course course = courseAt(time);
     const Nanoseconds stamp = course.wind.stamp();
     out.clear(part.links_.size());
-    part.addWind(course, kinematics, scratch, out);
+    part.addWind(course, kinematics, settings, scratch, out);
     lookAtBases(course);
     part.addCompensation(course, settings, scratch, out);
     part.addSprings(loads, stamp, kinematics, out);
@@ -151,7 +158,8 @@ void PhysicalPart::baseMotions(const Course& course, PartScratch& scratch,
 
 // Drag of each link with the wood that it carries, where it is and as it moves.
 void PhysicalPart::addWind(const Course& course, const physics::Kinematics& kinematics,
-                           PartScratch& scratch, physics::Loads& loads) const {
+                           const PhysicsSettings& settings, PartScratch& scratch,
+                           physics::Loads& loads) const {
   const std::size_t n = links_.size();
   scratch.air.clear();
   scratch.arms.resize(n);
@@ -161,16 +169,28 @@ void PhysicalPart::addWind(const Course& course, const physics::Kinematics& kine
     scratch.air.add(tree_->foot + pose.position + scratch.arms[i]);
   }
   scratch.air.sample(course.wind.now());
+  const bool foreseen = foreseesDrag(settings);
+  if (foreseen) loads.drag.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
-    const Drag& drag = drags_[i];
+    const LinkDrag& drag = drags_[i];
     if (drag.force <= 0.0) continue;
     const Vec3& arm = scratch.arms[i];
     const Vec3 own = kinematics.velocity[i] + cross(kinematics.spin[i], arm);
-    const double share = std::min(1.0, STRONGEST_DRAG * links_[i].mass / drag.force);
-    const Vec3 wind = effectiveVelocity(Vec3(scratch.air.velocity(i) - share * own), tree_->drag,
-                                        tree_->reference_speed);
-    addForce(drag.force * wind, arm, loads.wrench[i]);
+    const double share =
+        foreseen ? 1.0 : std::min(1.0, STRONGEST_DRAG * links_[i].mass / drag.force);
+    const Vec3 wind = scratch.air.velocity(i) - share * own;
+    addForce(drag.force * effectiveVelocity(wind, tree_->drag, tree_->reference_speed), arm,
+             loads.wrench[i]);
+    if (foreseen) loads.drag[i] = dragAt(drag.force, wind, arm);
   }
+}
+
+// The derivative of its force.
+physics::Drag PhysicalPart::dragAt(double force, const Vec3& wind, const Vec3& arm) const {
+  if (tree_->drag == Drag::LINEAR) return {arm, force, Vec3::Zero()};
+  const double speed = length(wind), slope = force / tree_->reference_speed;
+  if (speed == 0.0) return {arm, 0.0, Vec3::Zero()};
+  return {arm, slope * speed, std::sqrt(slope / speed) * wind};
 }
 
 double PhysicalPart::compensationAt(std::size_t link, Nanoseconds stamp, double fade) const {
@@ -204,7 +224,7 @@ void PhysicalPart::addCompensation(const Course& course, const PhysicsSettings& 
   }
   physics::kinematicsOf(links_, s.bases, s.procedural, s.kinematics);
   s.loads.clear(n);
-  addWind(course, s.kinematics, s, s.loads);
+  addWind(course, s.kinematics, settings, s, s.loads);
   s.body.torques(links_, s.bases, s.procedural, s.kinematics, s.loads, s.acceleration, s.torque);
   const bool printed = static_cast<WindForcing>(settings.wind_forcing) == WindForcing::PAPER;
   for (std::size_t i = 0; i < n; ++i) {

@@ -132,7 +132,7 @@ std::size_t PhysicalPart::bytes() const {
   const std::size_t n = mask_.capacity();
   return sizeof(*this) + n + (chain_.held ? chain_.held->bytes() : 0) +
          joints_.capacity() * (sizeof(PartJoint) + sizeof(int) + 2 * sizeof(physics::Vec2)) +
-         links_.capacity() * (sizeof(physics::Link) + sizeof(Drag)) +
+         links_.capacity() * (sizeof(physics::Link) + sizeof(LinkDrag)) +
          carriers_.capacity() * sizeof(int) +
          wood_.own.capacity() * (2 * sizeof(Composite) + 3 * sizeof(double)) +
          tree_->skeleton.branches.capacity() * (sizeof(Branch) + sizeof(Response));

@@ -30,7 +30,9 @@ void ArticulatedBody::look(const std::vector<Link>& links, const std::vector<Bas
     joint.axes = axesOf(pose.orientation);
     bendAxes(joint.bend, q, joint.axes, joint.first, joint.second);
     out.spin[i] = spin + rate.x() * joint.first + rate.y() * joint.second;
-    out.velocity[i] = (root ? base.velocity : out.velocity[p]) + cross(spin, joint.offset);
+    joint.sweep = cross(out.spin[i], joint.axes.z);
+    out.velocity[i] = root ? Vec3(base.velocity + cross(spin, joint.offset))
+                           : Vec3(out.velocity[p] + link.h * joints_[p].sweep);
   }
 }
 
@@ -44,6 +46,7 @@ void ArticulatedBody::turnOut(const Links& links, const Bases& bases, const Chai
     joint.bend = bendOf(state.q[i]);
     joint.axes = axesOf(k.pose[i].orientation);
     bendAxes(joint.bend, state.q[i], joint.axes, joint.first, joint.second);
+    joint.sweep = cross(k.spin[i], joint.axes.z);
     joint.offset =
         links[i].h * (root ? axisZ(baseOf(links[i], bases).pose.orientation) : joints_[p].axes.z);
   }
@@ -60,15 +63,17 @@ void ArticulatedBody::sweepOut(const Links& links, const Bases& bases, const Cha
     const Link& link = links[i];
     const bool root = link.parent < 0;
     const auto p = static_cast<std::size_t>(root ? 0 : link.parent);
-    const BaseMotion& base = baseOf(link, bases);
-    const Vec3 spin = root ? base.spin : k.spin[p];
+    const Vec3& spin = root ? baseOf(link, bases).spin : k.spin[p];
     const Joint& joint = joints_[i];
     const Axes& axes = joint.axes;
-    free_[i] =
-        freeMotion(root ? accelerationOf(base) : free_[p], spin, k.spin[i] - spin,
-                   bendBias(joint.bend, state.q[i], state.rate[i], axes), joint.offset, products);
+    const Vec3 change =
+        bendBias(joint.bend, state.q[i], state.rate[i], axes) + cross(spin, k.spin[i] - spin);
+    FreeMotion ground;
+    if (root) ground = freeMotionOf(baseOf(link, bases), products);
+    freeMotion(root ? ground : free_[p], link.h, change, k.spin[i], joint.sweep, axes.z, products,
+               free_[i]);
     rigidBody(link, axes, bodies_[i]);
-    bias_[i] = biasOf(link, axes, k.spin[i], free_[i], products);
+    bias_[i] = biasOf(link, axes, k.spin[i], joint.sweep, free_[i], products);
     bodies_[i].torque = bias_[i].torque;
     bodies_[i].force = bias_[i].force;
   }
@@ -81,6 +86,9 @@ void ArticulatedBody::addLoads(const Loads& loads, const Implicitness& implicitn
     bodies_[i].torque -= loads.wrench[i].torque;
     bodies_[i].force -= loads.wrench[i].force;
   }
+  if (implicitness.damping > 0.0)
+    for (std::size_t i = 0; i < loads.drag.size(); ++i)
+      addDrag(implicitness.damping, loads.drag[i], bodies_[i]);
   for (const Anchor& anchor : loads.anchors) {
     Body& body = bodies_[static_cast<std::size_t>(anchor.link)];
     body.torque -= cross(anchor.arm, anchor.force);
@@ -123,7 +131,7 @@ void ArticulatedBody::sweepBack(const Links& links, const ChainState& state, con
     if (link.parent < 0) continue;
     const Vec3 pa1 = gain.inverse1 * gain.a1, pa2 = gain.inverse2 * gain.a2;
     const Vec3 pb1 = gain.inverse1 * gain.b1, pb2 = gain.inverse2 * gain.b2;
-    Body& passed = body;  // needed no more as it is
+    Body passed = body;
     subtractTwo(passed.a, pa1, gain.a1, pa2, gain.a2);
     subtractTwo(passed.m, pb1, gain.b1, pb2, gain.b2);
     passed.bx -= pa1.x() * gain.b1 + pa2.x() * gain.b2;

@@ -204,6 +204,7 @@ void BatchChain::fillLoads(const Loads& loads, Member& member) {
   for (const std::size_t i : member.by_slot)
     fillLoad(loads, i, laneOf(store_->loads, slots_[member.first + i], L_ROWS));
   member.loaded = true;
+  store_->drag = store_->drag || !loads.drag.empty();
 }
 
 void BatchChain::setBases(int tree, const std::vector<BaseMotion>& bases) {

@@ -8,6 +8,7 @@ void Loads::clear(std::size_t links) {
   wrench.assign(links, Wrench());
   joint_torque.assign(links, Vec2::Zero());
   anchors.clear();
+  drag.clear();
 }
 
 }  // namespace vegetation_sim::physics

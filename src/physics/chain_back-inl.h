@@ -50,6 +50,28 @@ HWY_INLINE void addBody(const Joints& at, Articulated& sum) {
   sum.force = sum.force + (load3(at.work, W_FORCE) - load3(at.loads, L_FORCE));
 }
 
+// What an implicit step foresees of the drag: a mass against linear acceleration (addDrag).
+HWY_INLINE void addDrag(const Joints& at, Lanes ahead, Articulated& sum) {
+  const Lanes3 arm = load3(at.loads, L_ARM), along = load3(at.loads, L_ALONG);
+  const Lanes mass = ahead * load(at.loads, L_ALL);
+  const Lanes3 v = mass * arm, turn = cross(arm, along), pull = ahead * along;
+  const Lanes3 swing = ahead * turn;
+  const Lanes size = dot(v, arm);
+  sum.a =
+      sum.a +
+      Symmetric{(size - v.x * arm.x) + swing.x * turn.x, swing.x * turn.y - v.x * arm.y,
+                swing.x * turn.z - v.x * arm.z,          (size - v.y * arm.y) + swing.y * turn.y,
+                swing.y * turn.z - v.y * arm.z,          (size - v.z * arm.z) + swing.z * turn.z};
+  sum.bx = sum.bx + pull.x * turn;
+  sum.by = sum.by + pull.y * turn;
+  sum.bz = sum.bz + pull.z * turn;
+  sum.bx = {sum.bx.x, sum.bx.y + v.z, sum.bx.z - v.y};
+  sum.by = {sum.by.x - v.z, sum.by.y, sum.by.z + v.x};
+  sum.bz = {sum.bz.x + v.y, sum.bz.y - v.x, sum.bz.z};
+  sum.m = sum.m + Symmetric{mass + pull.x * along.x, pull.x * along.y, pull.x * along.z,
+                            mass + pull.y * along.y, pull.y * along.z, mass + pull.z * along.z};
+}
+
 // To the parent's joint, `d` before the own.
 HWY_INLINE void shift(const Lanes3& d, Articulated& p) {
   const Lanes3 x = p.bx, y = p.by, z = p.bz;  // old b
@@ -71,7 +93,7 @@ HWY_INLINE Lanes3 transposed(const Articulated& p, const Lanes3& v) {
 
 /// Takes the joint's freedom out of the inertia and bias of its body and all beyond, and moves what
 /// is left to the parent's joint.
-HWY_INLINE void inward(const Joints& at, Lanes step, Articulated& p) {
+HWY_INLINE void inward(const Joints& at, Lanes step, bool drag, Articulated& p) {
   const Lanes3 first = load3(at.work, W_FIRST), second = load3(at.work, W_SECOND);
   const Lanes rx = load(at.state, S_RATE), ry = load(at.state, S_RATE + 1);
   const Lanes k = load(at.constants, C_STIFFNESS), nu = load(at.constants, C_DAMPING);
@@ -79,6 +101,7 @@ HWY_INLINE void inward(const Joints& at, Lanes step, Articulated& p) {
   const Lanes ease = (all(1.f) - theta) * (all(1.f / 3.f) * step * step);
   const Lanes stiff = ahead * (ahead * k + nu) - hn::Min(ease * k, load(at.constants, C_SURE));
   addBody(at, p);
+  if (drag) addDrag(at, ahead, p);
   // Stiff is a lower bound of both pivots, rounding or not.
   const Lanes3 a1 = p.a * first, b1 = transposed(p, first);
   Lanes3 a2 = p.a * second, b2 = transposed(p, second);

@@ -25,6 +25,12 @@ inline void fillLoad(const Loads& loads, std::size_t link, float* rows) {
     rows[(L_FORCE + i) * ROW] = wrench ? static_cast<float>(loads.wrench[link].force[i]) : 0.f;
     rows[(L_TORQUE + i) * ROW] = wrench ? static_cast<float>(loads.wrench[link].torque[i]) : 0.f;
   }
+  const Drag drag = link < loads.drag.size() ? loads.drag[link] : Drag();
+  for (int i = 0; i < 3; ++i) {
+    rows[(L_ARM + i) * ROW] = static_cast<float>(drag.arm[i]);
+    rows[(L_ALONG + i) * ROW] = static_cast<float>(drag.along[i]);
+  }
+  rows[L_ALL * ROW] = static_cast<float>(drag.all);
   for (int i = 0; i < 2; ++i)
     rows[(L_JOINT + i) * ROW] = joint ? static_cast<float>(loads.joint_torque[link][i]) : 0.f;
 }

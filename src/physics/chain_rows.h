@@ -46,7 +46,15 @@ enum : int {
 enum : int { S_Q, S_RATE = S_Q + 2, S_THETA = S_RATE + 2, S_PRODUCTS, S_ROWS };
 
 /// Rows of what acts on it from outside.
-enum : int { L_FORCE, L_TORQUE = L_FORCE + 3, L_JOINT = L_TORQUE + 3, L_ROWS = L_JOINT + 2 };
+enum : int {
+  L_FORCE,
+  L_TORQUE = L_FORCE + 3,
+  L_JOINT = L_TORQUE + 3,
+  L_ARM = L_JOINT + 2,  // of the drag, read only where there is one: see Drag
+  L_ALL = L_ARM + 3,
+  L_ALONG,
+  L_ROWS = L_ALONG + 3
+};
 
 /// Rows that one step keeps between its passes; what the sweep down the tree leaves takes the place
 /// of the rigid inertia that it has used.

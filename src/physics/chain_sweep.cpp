@@ -90,7 +90,7 @@ void inwardGroup(const ChainGroup& group, float h, ChainStore& store) {
       Articulated sum = nothing();
       gatherChildren(level, received, room, i, sum);
       next = addAnchors(next, end, level.begin + i, sum);
-      inward(jointsAt(store, level.begin + i), step, sum);
+      inward(jointsAt(store, level.begin + i), step, store.drag, sum);
       storeAll(sum, own + i, room);
     }
     std::swap(own, received);

@@ -41,6 +41,7 @@ struct ChainStore {
   Rows motion;        ///< M_ROWS per block
   bool trace{false};  ///< somebody asks for the motion
   bool mean{true};    ///< velocity products are averaged over the step
+  bool drag{false};   ///< some load has drag
   LevelRows first, second;
   std::vector<AnchorRows> anchors;  ///< sorted by slot
 };

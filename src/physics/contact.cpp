@@ -15,7 +15,7 @@ constexpr int MOST_TRIALS = 24;
 constexpr int JOINT_TRIALS = 6;
 // Forces that differ less are the same: rounding decides nothing [N].
 constexpr double SLACK = 1e-5;
-// Forces rise at the law's rate unless that would let a branch in deeper than this [m].
+// Forces rise at the law's rate, and by the spring for what comes in deeper than this [m].
 constexpr double DEEP = 1e-3;
 
 Symmetric3 along(const Vec3& n, double factor) {
@@ -61,9 +61,10 @@ void ContactStepper::prepare(const ContactLaw& law, double h, double theta,
     p.speed = dot(contact.normal, velocity - contact.surface);
     const double gap = contact.gap + (1.0 - theta) * h * p.speed;
     p.wanted = std::min(-gap / h, law.push_speed);
-    const bool deep = gap + h * p.speed < -DEEP;
-    const double risen = contact.force + h * law.force_rate;
-    p.limit = contact.share * (deep ? law.force_limit : std::min(law.force_limit, risen));
+    // Overlap that this step would add beyond DEEP: the force is continuous in all that it is of.
+    const double gain = std::clamp(-DEEP - (gap + h * p.speed), 0.0, std::max(0.0, -h * p.speed));
+    const double risen = contact.force + h * law.force_rate + law.stiffness * gain;
+    p.limit = contact.share * std::min(law.force_limit, risen);
     if (contact.force >= p.limit)
       p.mode = Mode::LIMITED;
     else if (contact.force > 0.0 || p.speed < p.wanted)

@@ -34,10 +34,13 @@ void ArticulatedBody::averageProducts(const std::vector<Link>& links,
     const Vec3 parent = root ? base.spin : Vec3(k.spin[p] + h * push_[p].spin);
     const Vec3 spin = k.spin[i] + h * push_[i].spin;
     const Joint& joint = joints_[i];
-    const Vec2 rate = state.rate[i] + h * out[i];
-    free_[i] = freeMotion(root ? accelerationOf(base) : free_[p], parent, spin - parent,
-                          bendBias(joint.bend, state.q[i], rate, joint.axes), joint.offset, 1.0);
-    const Wrench bias = biasOf(link, joint.axes, spin, free_[i], 1.0);
+    const Vec3 sweep = cross(spin, joint.axes.z);
+    const Vec3 change = bendBias(joint.bend, state.q[i], state.rate[i] + h * out[i], joint.axes) +
+                        cross(parent, spin - parent);
+    FreeMotion ground;
+    if (root) ground = freeMotionOf(base, 1.0);
+    freeMotion(root ? ground : free_[p], link.h, change, spin, sweep, joint.axes.z, 1.0, free_[i]);
+    const Wrench bias = biasOf(link, joint.axes, spin, sweep, free_[i], 1.0);
     bodies_[i].torque = 0.5 * (bias.torque - bias_[i].torque);
     bodies_[i].force = 0.5 * (bias.force - bias_[i].force);
   }

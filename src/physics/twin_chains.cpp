@@ -176,6 +176,7 @@ void TwinChains::setLoads(int tree, const Loads& loads) {
   for (std::size_t i = 0; i < links_; ++i)
     fillLoad(loads, i, laneOf(store_->loads, blockOf(*store_, tree, place_[i]), L_ROWS, tree));
   loaded_[static_cast<std::size_t>(tree)] = 1;
+  store_->drag = store_->drag || !loads.drag.empty();
 }
 
 void TwinChains::ask(const Surroundings& around, double time, double h, int tree) {

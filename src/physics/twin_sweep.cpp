@@ -97,7 +97,7 @@ HWY_INLINE void inwardPart(const Part& part, Lanes step) {
     const TwinJoint& joint = part.store.joints[i];
     Articulated sum = joint.leaf ? nothing() : loadAll(part.onStack(joint.depth));
     next = addAnchors(part, next, i, sum);
-    inward(part.joints(i), step, sum);
+    inward(part.joints(i), step, part.store.drag, sum);
     if (joint.root >= 0) continue;
     float* below = part.onStack(joint.depth - 1);
     storeAll(joint.last ? sum : sumOf(loadAll(below), sum), below);

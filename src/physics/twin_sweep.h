@@ -28,6 +28,7 @@ struct TwinStore {
   Rows stack;                       ///< P_ROWS a depth
   bool trace{false};                ///< somebody asks for the motion
   bool mean{true};                  ///< velocity products are averaged over the step
+  bool drag{false};                 ///< some load has drag
   std::vector<AnchorRows> anchors;  ///< of one pack; slot: joint * ROW + lane, sorted
   float fastest[ROW] = {};          ///< [lanes] rates after the last step of a pack [rad/s]
 };

@@ -71,6 +71,11 @@ TYPED_TEST(Batched, FollowsThePlainStepperThroughGustAndPull) {
   }
 }
 
+TYPED_TEST(Batched, FollowsThePlainStepperThroughQuadraticDrag) {
+  const std::vector<Link> links = fractalTree(100, 3);
+  EXPECT_LT(this->error(links, quadraticGust(links, 18.0), 2.0), BAR);
+}
+
 TYPED_TEST(Batched, FollowsThePlainStepperAlongADeepChain) {
   std::vector<Link> links = beam(64, 3.0, 0.01, 8e9, 900.0);
   damp(links);

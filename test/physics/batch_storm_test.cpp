@@ -138,6 +138,19 @@ TYPED_TEST(BatchedStorm, StaysBoundedForEveryStepInAnyStorm) {
   }
 }
 
+// S1-W4: and far beyond in float too: stiffness 1e8 apart, steps up to half a second. Joints reach
+// their stops, stay finite, and come back.
+TYPED_TEST(BatchedStorm, StopsHoldFarBeyond) {
+  std::vector<Link> links = crown(63, 0.1);
+  spreadStiffness(links, 1e8);
+  const Surroundings blow = gust(links, 30.0 * 20.0);
+  for (const double h : {1e-3, 1.0 / 60.0, 0.05, 0.5}) {
+    const Bends bends = bendsIn<TypeParam>(links, blow, h, std::max(12.0, 200.0 * h));
+    EXPECT_LE(bends.largest, LARGEST_BEND * (1.0 + 1e-6)) << h;
+    EXPECT_GT(bends.largest, 1.0) << h;
+  }
+}
+
 // A tree left alone ends at rest for good: numbers too small to be normal would slow every step.
 TYPED_TEST(BatchedStorm, ComesToRestExactly) {
   const std::vector<Link> links = fractalTree(20, 9);

@@ -75,14 +75,18 @@ inline std::size_t thickEnough(const std::vector<Link>& links) {
 /// of `pull` [N] for a second at the tip of the last link of at least 1 cm in radius.
 inline Surroundings gustAndPull(const std::vector<Link>& links, double speed, double pull) {
   Surroundings out;
-  out.loads = [&links, speed, pull](const Kinematics& k, double time, Loads& loads) {
+  std::vector<double> drag;  // [N s/m]
+  for (const Link& link : links) drag.push_back(12.0 * radiusOf(link) * link.length);
+  out.loads = [&links, speed, pull, drag](const Kinematics& k, double time, Loads& loads) {
+    loads.drag.resize(links.size());
     const double swell = time < 1.0 ? sinCos(PI * time).sin : 0.0;
     const Vec3 wind(speed * swell * swell, 0.2 * speed * swell * swell, 0.0);
     for (std::size_t i = 0; i < links.size(); ++i) {
       const Vec3 arm = links[i].centre.z() * axisZ(k.pose[i].orientation);
       const Vec3 velocity = k.velocity[i] + k.spin[i].cross(arm);
-      const Vec3 force = 12.0 * radiusOf(links[i]) * links[i].length * (wind - velocity);
+      const Vec3 force = drag[i] * (wind - velocity);
       loads.wrench[i] = {force, arm.cross(force)};
+      loads.drag[i] = {arm, drag[i], Vec3::Zero()};
     }
     if (time >= 1.0) return;
     const std::size_t pulled = thickEnough(links);
@@ -92,6 +96,37 @@ inline Surroundings gustAndPull(const std::vector<Link>& links, double speed, do
     loads.wrench[pulled].torque += arm.cross(force);
   };
   return out;
+}
+
+/// A gust for a second whose drag goes with the square of the relative speed, off the links' axes.
+inline Surroundings quadraticGust(const std::vector<Link>& links, double speed) {
+  Surroundings out;
+  out.loads = [&links, speed](const Kinematics& k, double time, Loads& loads) {
+    loads.drag.resize(links.size());
+    const double swell = time < 1.0 ? sinCos(PI * time).sin : 0.0;
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      const double factor = 0.05 * links[i].length;
+      const Vec3 arm = rotate(k.pose[i].orientation, Vec3(0.1, 0.0, 0.8) * links[i].length);
+      const Vec3 wind =
+          speed * swell * swell * Vec3(1.0, 0.3, 0.1) - k.velocity[i] - cross(k.spin[i], arm);
+      const double size = length(wind);
+      loads.wrench[i].force = factor * size * wind;
+      loads.wrench[i].torque = cross(arm, loads.wrench[i].force);
+      if (size > 0.0) loads.drag[i] = {arm, factor * size, std::sqrt(factor / size) * wind};
+    }
+  };
+  return out;
+}
+
+/// Springs of a tree spread evenly in logarithms, the stiffest `ratio` times the softest.
+inline void spreadStiffness(std::vector<Link>& links, double ratio) {
+  const double stiffest = links[0].stiffness, softest = links.back().stiffness;
+  for (Link& link : links) {
+    const double s = std::log(link.stiffness / softest) / std::log(stiffest / softest);
+    const double k = stiffest * std::pow(ratio, s - 1.0);
+    link.damping *= std::sqrt(k / link.stiffness);
+    link.stiffness = k;
+  }
 }
 
 /// A gripper's springs, far stiffer than what they hold, two of them on one link.

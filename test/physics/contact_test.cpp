@@ -152,6 +152,34 @@ TEST(Contact, ForceRisesNoFasterThanTheLawWhereItMayTakeItsTime) {
   }
 }
 
+// Continuous in time at any speed and depth, with a body that is inside already too: the force
+// rises at the law's rate and by the spring for what comes in, so half the step halves the rise.
+TEST(Contact, ForceRisesByRateAndSpringHoweverDeep) {
+  for (const double start : {-0.02, 0.02}) {
+    for (const double speed : {0.0, 0.02, 0.1, 0.3}) {
+      for (const double h : {1.0 / 240.0, 1.0 / 960.0, 1.0 / 3840.0}) {
+        Link trunk = twig();
+        trunk.stiffness = 1e6;
+        trunk.mass = 50000.0;
+        trunk.inertia = {4000.0, 4000.0, 100.0, 0.0, 0.0, 0.0};
+        Meeting meeting(trunk);
+        Wall wall{start, speed};
+        double before = 0.0, rise = 0.0;
+        for (double time = 0.0; time < 0.3; time += h) {
+          meeting.step(h, wall);
+          rise = std::max(rise, meeting.last().force - before);
+          before = meeting.last().force;
+        }
+        // A trunk that gives way a little comes back: its own speed counts as the wall's.
+        const double fastest = speed + 0.02;
+        EXPECT_LE(rise, h * (meeting.law.force_rate + meeting.law.stiffness * fastest))
+            << start << " m, " << speed << " m/s, " << h << " s";
+        EXPECT_TRUE(start < 0.0 || before == meeting.law.force_limit);
+      }
+    }
+  }
+}
+
 TEST(Contact, WhatWouldEnterDeeplyIsStoppedAtOnce) {
   Link trunk = twig();
   trunk.mass = 500.0;

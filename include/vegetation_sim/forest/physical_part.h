@@ -115,7 +115,7 @@ class PhysicalPart {
     PartJoint joint;
     physics::Vec2 q, rate;
   };
-  struct Drag {
+  struct LinkDrag {
     double force;  // per air speed [kg/s]
     Vec3 centre;   // own axes [m]
   };
@@ -132,8 +132,9 @@ class PhysicalPart {
   double compensationAt(std::size_t link, Nanoseconds stamp, double fade) const;
   void baseMotions(const Course& course, PartScratch& scratch,
                    std::vector<physics::BaseMotion>& out) const;
-  void addWind(const Course& course, const physics::Kinematics& kinematics, PartScratch& scratch,
-               physics::Loads& loads) const;
+  void addWind(const Course& course, const physics::Kinematics& kinematics,
+               const PhysicsSettings& settings, PartScratch& scratch, physics::Loads& loads) const;
+  physics::Drag dragAt(double force, const Vec3& wind, const Vec3& arm) const;
   void addCompensation(const Course& course, const PhysicsSettings& settings, PartScratch& scratch,
                        physics::Loads& loads) const;
   void addSprings(const PartLoads& loads, Nanoseconds stamp, const physics::Kinematics& kinematics,
@@ -148,7 +149,7 @@ class PhysicalPart {
   std::vector<PartJoint> joints_;
   std::vector<int> branches_;
   std::vector<physics::Link> links_;
-  std::vector<Drag> drags_;
+  std::vector<LinkDrag> drags_;
   std::vector<int> carriers_;  // unpromoted bearers of promoted branches, rising
   physics::ChainState state_;
   double theta_{0.5};

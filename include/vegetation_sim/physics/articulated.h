@@ -84,6 +84,7 @@ class ArticulatedBody {
     Vec3 first, second;  // axes of the two bends
     Vec3 offset;         // from what it hangs on to the joint
     Axes axes;           // of the link
+    Vec3 sweep;          // velocity of the link's z axis [1/s]
     Bend bend;
   };
   /// Of the last look(), accelerations() or torques(), per link.
@@ -99,6 +100,10 @@ class ArticulatedBody {
   /// Of spin and of the joint's place.
   struct Acceleration {
     Vec3 spin, linear;
+  };
+  /// If no joint accelerated: also of the link's z axis.
+  struct FreeMotion {
+    Vec3 spin, linear, axis;
   };
 
  private:
@@ -125,7 +130,7 @@ class ArticulatedBody {
   std::vector<Joint> joints_;
   std::vector<Body> bodies_;
   std::vector<Gain> gains_;
-  std::vector<Acceleration> free_;  // if no joint accelerated
+  std::vector<FreeMotion> free_;
   std::vector<Acceleration> push_;  // that joints add
   std::vector<Wrench> bias_;        // of the link alone
   std::vector<Vec2> change_;

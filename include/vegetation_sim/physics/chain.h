@@ -69,11 +69,20 @@ struct Anchor {
   Symmetric3 damping;        ///< world axes [N s/m]
 };
 
+/// How the force in a link's wrench falls as a point of the link gains speed: by `all` times the
+/// gain and `along` times its part along `along`. An implicit step foresees it; others need not.
+struct Drag {
+  Vec3 arm{Vec3::Zero()};    ///< from the joint to the point, world axes [m]
+  double all{0.0};           ///< [N s/m]
+  Vec3 along{Vec3::Zero()};  ///< world axes [sqrt(N s/m)]
+};
+
 /// All that acts on a chain at one time.
 struct Loads {
   std::vector<Wrench> wrench;      ///< per link
   std::vector<Vec2> joint_torque;  ///< per link, besides spring and damper [N m]
   std::vector<Anchor> anchors;
+  std::vector<Drag> drag;  ///< per link, or empty
 
   /// No load on any of `links` links; keeps memory.
   void clear(std::size_t links);
