@@ -188,7 +188,7 @@ void sweepStorms(const Options& options, Table& table) {
     std::vector<Link> links = crown(63, 0.1);
     spreadStiffness(links, apart);
     const Surroundings blow = gust(links, 30.0 * 20.0);
-    for (double h = 1e-3; h < 2.1; h *= factor) {
+    for (double h = 1e-3; h < 1.1; h *= factor) {
       Simulation plain{links};
       BatchChain batch(links);
       const Storm slow = stormOf(
