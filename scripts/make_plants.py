@@ -68,8 +68,11 @@ def write_fern():
 
 def write_cushion():
     random = numpy.random.RandomState(5)
-    tufts = [(random.uniform(-0.6, 0.6), random.uniform(-0.6, 0.6), random.uniform(0.25, 0.55),
-              random.uniform(0.3, 0.45)) for _ in range(14)]
+    tufts = []
+    for _ in range(14):
+        out, around = 0.6 * math.sqrt(random.uniform()), random.uniform(0.0, 2.0 * math.pi)
+        tufts.append((out * math.cos(around), out * math.sin(around),
+                      random.uniform(0.5, 0.75) - 0.5 * out, random.uniform(0.22, 0.36)))
     x = (numpy.arange(CELLS) + 0.5) / CELLS * 2.0 - 1.0
     z = 1.0 - (numpy.arange(CELLS // 2) + 0.5) / (CELLS // 2)
     for number in range(SLICES):

@@ -19,7 +19,7 @@ struct Ball {
   }
   double light(const Vec3& place) const {
     const Vec3 out = (place - centre) / std::max(radius, 1e-9);
-    return saturate(0.3 + 0.45 * length(out) + 0.3 * out.z());
+    return saturate(0.5 + 0.4 * length(out) + 0.25 * out.z());
   }
   Vec3 centre{Vec3::Zero()};
   double radius{0.0};

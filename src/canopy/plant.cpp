@@ -122,8 +122,8 @@ class Grower {
       cover += std::max(0.0, 1.0 - length(Vec3(place - tuft.centre)) / tuft.radius) +
                0.8 * std::max(0.0, 1.0 - length(Vec3(above - tuft.centre)) / tuft.radius);
     }
-    const double open = 1.0 / (1.0 + 1.8 * cover);
-    return saturate(open * (0.72 + 0.28 * outward.z()) * (0.82 + 0.18 * place.z()) + 0.1);
+    const double open = 1.0 / (1.0 + 1.3 * cover);
+    return saturate(open * (0.72 + 0.28 * outward.z()) * (0.88 + 0.12 * place.z()) * 1.2 + 0.1);
   }
 
   // Most leaves near the surface of a tuft, where the light is.

@@ -16,7 +16,7 @@ namespace vegetation_sim::canopy {
 namespace {
 
 constexpr int MOST_CELLS = 4096;   // along a side
-constexpr double LEAF_SIZE = 1.8;  // of a leaf over its cell
+constexpr double LEAF_SIZE = 2.2;  // of a leaf over its cell
 constexpr double COVERED = 0.09;   // light that each covered side takes
 
 struct Cell {
@@ -70,13 +70,17 @@ class Stack {
   Leaf leafAt(const Cell& c, const Random& random) const {
     Leaf out;
     const Vec3 outward = Vec3(place(c) - Vec3(0.0, 0.0, 0.5));
-    const Vec3 jitter(random.uniform(0, -0.5, 0.5), random.uniform(1, -0.5, 0.5),
-                      random.uniform(2, -0.5, 0.5));
+    const Vec3 jitter(random.uniform(0, -0.8, 0.8), random.uniform(1, -0.8, 0.8),
+                      random.uniform(2, -0.3, 0.8));
     const double size = LEAF_SIZE / stack_.rows;
     const Vec3 way = Vec3(outward + jitter);
     const Vec3 along = way * (size / std::max(1e-9, length(way)));
     const Vec3 across = cross(along, Vec3(random.uniform(3, -1.0, 1.0), 0.3, 1.0));
-    out.anchor = out.root = place(c);
+    const Vec3 off(random.uniform(5, -0.5, 0.5), random.uniform(6, -0.5, 0.5),
+                   random.uniform(7, -0.5, 0.5));
+    const double across_slices = static_cast<double>(stack_.columns) / stack_.slices;
+    out.anchor = place(c);
+    out.root = out.anchor + Vec3(off.x(), off.y() * across_slices, off.z()) / stack_.rows;
     out.tip = out.root + along;
     out.side = across * (0.35 * size / std::max(1e-9, length(across)));
     out.tip_width = 0.3F;

@@ -4,13 +4,16 @@
 
 #include <algorithm>
 
+#include "vegetation_sim/common/math.h"
 #include "vegetation_sim/ros/geometry_conversions.h"
 
 namespace vegetation_sim {
 namespace {
 
 constexpr std::size_t POINTS_PER_LEAF = 6, POINTS_PER_STEM = 12;
-constexpr double DARK_ROOT = 0.6;  // light at a leaf's root over that at its tip
+constexpr std::size_t SHADE_EDGES = 12, POINTS_PER_SHADE = 3 * SHADE_EDGES;
+constexpr double SHADE_HEIGHT = 0.012;  // [m] over the ground, so that it is not hidden
+constexpr double DARK_ROOT = 0.6;       // light at a leaf's root over that at its tip
 
 visualization_msgs::Marker makeList(const std::string& ns, int id) {
   visualization_msgs::Marker out;
@@ -71,14 +74,18 @@ void fill(visualization_msgs::Marker& list, std::size_t points) {
 
 CanopyMarkers::CanopyMarkers(int points)
     : leaf_points_(static_cast<std::size_t>(points) * 5 / 6 / POINTS_PER_LEAF * POINTS_PER_LEAF),
-      stem_points_(static_cast<std::size_t>(points) / 6 / POINTS_PER_STEM * POINTS_PER_STEM),
+      stem_points_(static_cast<std::size_t>(points) * 9 / 60 / POINTS_PER_STEM * POINTS_PER_STEM),
+      shade_points_(static_cast<std::size_t>(points) / 60 / POINTS_PER_SHADE * POINTS_PER_SHADE),
       leaf_list_(makeList("leaves", 0)),
-      stem_list_(makeList("stems", 1)) {}
+      stem_list_(makeList("stems", 1)),
+      shade_list_(makeList("shade", 2)) {}
 
 void CanopyMarkers::setLayout(const canopy::Layout& layout) {
   leaves_.clear();
-  stem_list_.points.clear();
-  stem_list_.colors.clear();
+  for (visualization_msgs::Marker* list : {&stem_list_, &shade_list_}) {
+    list->points.clear();
+    list->colors.clear();
+  }
   const auto wanted = static_cast<double>(layout.leafCount() * POINTS_PER_LEAF);
   share_ = wanted > 0.0 ? std::min(1.0, static_cast<double>(leaf_points_) / wanted) : 1.0;
   for (std::size_t id = 0; id < layout.plants.size(); ++id) addPlant(layout, id);
@@ -105,10 +112,29 @@ void CanopyMarkers::addPlant(const canopy::Layout& layout, std::size_t id) {
   for (std::size_t i = 0; i < drawnOf(grown.leaves.size()); ++i)
     leaves_.push_back({grown.leaves[i], id, colourOf(leafColour(kind, grown.leaves[i]))});
   addStems(grown.stems, kind.stem_colour);
+  addShade(layout.plants[id], 0.9 * layout.plants[id].scale * kind.radius);
   for (const canopy::Leaf& face : grown.rigid) {
     if (stem_list_.points.size() + POINTS_PER_LEAF > stem_points_) return;
     const std_msgs::ColorRGBA paint = darkened(colourOf(kind.stem_colour), face.light);
     addStrip(stem_list_, cornersOf(face, {face.root, face.tip, face.side}), paint, paint);
+  }
+}
+
+// Darker ground under a plant, softly ending.
+void CanopyMarkers::addShade(const canopy::Plant& plant, double radius) {
+  if (shade_list_.points.size() + POINTS_PER_SHADE > shade_points_) return;
+  const Vec3 middle = plant.position + Vec3(0.0, 0.0, SHADE_HEIGHT);
+  std_msgs::ColorRGBA dark = colourOf(Vec3(0.05, 0.06, 0.02)), clear = dark;
+  dark.a = 0.75F;
+  clear.a = 0.F;
+  const auto rim = [&](std::size_t edge) {
+    const SinCos turn = sinCosTurns(static_cast<double>(edge) / SHADE_EDGES);
+    return Vec3(middle + radius * Vec3(turn.cos, turn.sin, 0.0));
+  };
+  for (std::size_t edge = 0; edge < SHADE_EDGES; ++edge) {
+    for (const Vec3& point : {middle, rim(edge), rim(edge + 1)})
+      shade_list_.points.push_back(toPoint(point));
+    for (const auto& colour : {dark, clear, clear}) shade_list_.colors.push_back(colour);
   }
 }
 
@@ -139,9 +165,10 @@ visualization_msgs::MarkerArray CanopyMarkers::build(const canopy::Foliage& foli
   used_ = leaf_list_.points.size();
   fill(leaf_list_, leaf_points_);
   visualization_msgs::MarkerArray out;
-  out.markers = {leaf_list_, stem_list_};
-  used_ += stem_list_.points.size();
+  out.markers = {leaf_list_, stem_list_, shade_list_};
+  used_ += stem_list_.points.size() + shade_list_.points.size();
   fill(out.markers[1], stem_points_);
+  fill(out.markers[2], shade_points_);
   for (visualization_msgs::Marker& marker : out.markers) {
     marker.header.frame_id = frame_id;
     marker.header.stamp = ros::Time();  // the newest transform; keeps out of tf's waiting queue

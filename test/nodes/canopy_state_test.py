@@ -69,7 +69,7 @@ class CanopyStateTest(unittest.TestCase):
         sizes = [[len(m.points) for m in a.markers] for a in log.messages]
         self.assertEqual(sizes, [sizes[0]] * len(sizes))
         self.assertLessEqual(sum(sizes[0]), 6000)
-        self.assertEqual([m.type for m in first.markers], [11, 11])
+        self.assertEqual([m.type for m in first.markers], [11, 11, 11])
         moved = [math.dist((a.x, a.y, a.z), (b.x, b.y, b.z))
                  for a, b in zip(first.markers[0].points, last.markers[0].points)]
         self.assertGreater(max(moved), 1e-3)

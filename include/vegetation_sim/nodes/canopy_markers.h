@@ -12,12 +12,12 @@
 
 namespace vegetation_sim {
 
-/// Leaves (id 0) and rigid stems (id 1) as two TRIANGLE_LISTs of constant size, which rviz updates
-/// in place. Plants share the budget in proportion to their leaves; what it does not hold is left
+/// Leaves (id 0), rigid stems (id 1) and the shade on the ground (id 2) as TRIANGLE_LISTs of
+/// constant size, which rviz updates in place. Plants share the budget in proportion to their leaves; what it does not hold is left
 /// out, an even part of each plant. Degenerate triangles fill up.
 class CanopyMarkers {
  public:
-  /// @param points of both lists together, at least 600.
+  /// @param points of all lists together, at least 600.
   explicit CanopyMarkers(int points);
 
   /// Grows the plants of a layout, as far as they will be drawn.
@@ -33,7 +33,7 @@ class CanopyMarkers {
                                         const std::string& frame_id);
   /// Points in use at the last build.
   std::size_t points() const { return used_; }
-  std::size_t budget() const { return leaf_points_ + stem_points_; }
+  std::size_t budget() const { return leaf_points_ + stem_points_ + shade_points_; }
 
  private:
   struct Drawn {
@@ -42,12 +42,13 @@ class CanopyMarkers {
     std_msgs::ColorRGBA colour;
   };
   void addPlant(const canopy::Layout& layout, std::size_t id);
+  void addShade(const canopy::Plant& plant, double radius);
   void addStems(const std::vector<canopy::Stem>& stems, const Vec3& colour);
 
-  std::size_t leaf_points_, stem_points_, used_{0};
+  std::size_t leaf_points_, stem_points_, shade_points_, used_{0};
   double share_{1.0};  // of all leaves that will be drawn
   std::vector<Drawn> leaves_, crown_leaves_;
-  visualization_msgs::Marker leaf_list_, stem_list_;
+  visualization_msgs::Marker leaf_list_, stem_list_, shade_list_;
 };
 
 }  // namespace vegetation_sim
