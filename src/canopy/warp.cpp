@@ -11,7 +11,6 @@ namespace vegetation_sim::canopy {
 namespace {
 
 constexpr double STEEPEST = 0.5;
-constexpr double MOST_TWIST = 1.4;  // [rad]
 
 // x^power on [0, 1] with + - * / and square roots alone, so that every processor agrees.
 double powerOf(double x, double power) {
@@ -64,7 +63,7 @@ void describe(FieldVisitor& v, WarpSettings& s) {
   v.number("depth_loss", s.depth_loss, "", {0.0, 1.0});
   v.number("rigidity", s.rigidity, "", {0.0, 10.0});
   v.choice("method", s.method, {"warp", "bend"});
-  v.number("twist", s.twist, "rad", {0.0, 10.0});
+  v.number("twist", s.twist, "", {0.0, 10.0});
 }
 
 double mobility(double height, double top, double rigidity) {
@@ -96,10 +95,8 @@ Vec3 twisted(const WarpSettings& settings, const Vec3& along, const Vec3& side,
   const Vec3 face = cross(along, side);
   const double size = length(along), area = length(face);
   if (!(settings.twist > 0.0) || !(area > 0.0)) return side;
-  const double push = dot(displacement, face) / (area * size);
-  const SinCos turn = sinCos(softLimit(settings.twist * push, 0.5 * MOST_TWIST, MOST_TWIST));
-  return turn.cos * side + (turn.sin / size) * cross(along, side) +
-         ((1.0 - turn.cos) * dot(along, side) / (size * size)) * along;
+  const double tangent = settings.twist * dot(displacement, face) / (area * size);
+  return (side + (tangent / size) * face) / std::sqrt(1.0 + tangent * tangent);
 }
 
 double limitFolding(LayerMotion& motion, double reach, double cell) {

@@ -155,7 +155,8 @@ visualization_msgs::MarkerArray CanopyMarkers::build(const canopy::Foliage& foli
   leaf_list_.points.clear();
   leaf_list_.colors.clear();
   const auto add = [&](const Drawn& drawn, const canopy::MovedLeaf& moved) {
-    const double at_root = drawn.leaf.joined ? 1.0 : DARK_ROOT;
+    const bool sprouts = !drawn.leaf.joined && drawn.leaf.root == drawn.leaf.anchor;
+    const double at_root = sprouts ? DARK_ROOT : 1.0;
     addStrip(leaf_list_, cornersOf(drawn.leaf, moved), darkened(drawn.colour, at_root),
              drawn.colour);
   };

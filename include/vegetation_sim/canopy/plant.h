@@ -12,7 +12,7 @@
 
 namespace vegetation_sim::canopy {
 
-constexpr std::size_t MOST_LEAVES = 2000000;  ///< of all plants together
+constexpr std::size_t MOST_LEAVES = 3000000;  ///< of all plants together
 constexpr std::size_t MOST_PLANTS = 65536;
 
 /// shrub: leaves on tufts from the ground up; crown: tufts on a bare trunk; reed: upright ribbons;

@@ -16,9 +16,10 @@ struct WarpSettings {
   double reference_time{0.05};  ///< displacement per speed [s]
   double depth_loss{0.3};       ///< m: share that the last layer moves less
   double rigidity{1.5};         ///< r of equation 7; 0: every part moves alike
-  int method{0};      ///< 0 grid warp as the paper's, 1 bend: no point leaves its foot (S3-W4)
-  double twist{0.3};  ///< turn of a leaf about its midrib per tip displacement across its face,
-                      ///< over its length (S3-W3) [rad]
+  int method{0};                ///< 0 grid warp, 1 bend: no point leaves its foot (S3-W4)
+  /// Tangent of a leaf's turn about its midrib per displacement of its tip across its face, over
+  /// its length (S3-W3).
+  double twist{0.3};
 };
 void describe(FieldVisitor& visitor, WarpSettings& settings);
 
@@ -37,7 +38,8 @@ Vec3 displacement(const WarpSettings& settings, const Vec3& velocity, double sha
 /// The displacement that keeps the distance of `arm`, from foot to point: a bend, not a shear.
 Vec3 bent(const Vec3& arm, const Vec3& displacement);
 
-/// `side` turned about the midrib `along` by what displaces the tip across the leaf's face.
+/// `side`, at right angles to the midrib `along`, turned about it by what displaces the tip across
+/// the leaf's face: by less than a quarter turn.
 Vec3 twisted(const WarpSettings& settings, const Vec3& along, const Vec3& side,
              const Vec3& displacement);
 
