@@ -52,6 +52,7 @@ Leaf leafOn(const Twig& twig, const PlantKind& kind, const Random& random, const
 std::vector<CrownLeaf> growCrown(const PlantKind& kind, std::uint64_t seed,
                                  const std::vector<Twig>& rest) {
   std::vector<double> sums;
+  sums.reserve(rest.size());
   double sum = 0.0;
   for (const Twig& twig : rest) sums.push_back(sum += twig.share);
   std::vector<CrownLeaf> out;

@@ -78,7 +78,8 @@ CanopyMarkers::CanopyMarkers(int points)
       shade_points_(static_cast<std::size_t>(points) / 60 / POINTS_PER_SHADE * POINTS_PER_SHADE),
       leaf_list_(makeList("leaves", 0)),
       stem_list_(makeList("stems", 1)),
-      shade_list_(makeList("shade", 2)) {}
+      shade_list_(makeList("shade", 2)),
+      crown_list_(makeList("crowns", 3)) {}
 
 void CanopyMarkers::setLayout(const canopy::Layout& layout) {
   leaves_.clear();
@@ -89,6 +90,10 @@ void CanopyMarkers::setLayout(const canopy::Layout& layout) {
   const auto wanted = static_cast<double>(layout.leafCount() * POINTS_PER_LEAF);
   share_ = wanted > 0.0 ? std::min(1.0, static_cast<double>(leaf_points_) / wanted) : 1.0;
   for (std::size_t id = 0; id < layout.plants.size(); ++id) addPlant(layout, id);
+  crown_points_ = 0;
+  for (const canopy::CrownRule& rule : layout.crowns)
+    crown_points_ += POINTS_PER_LEAF * static_cast<std::size_t>(rule.trees) *
+                     drawnOf(static_cast<std::size_t>(layout.kinds[rule.kind].leaves));
 }
 
 std::size_t CanopyMarkers::drawnOf(std::size_t leaves) const {
@@ -152,24 +157,28 @@ void CanopyMarkers::addStems(const std::vector<canopy::Stem>& stems, const Vec3&
 visualization_msgs::MarkerArray CanopyMarkers::build(const canopy::Foliage& foliage,
                                                      const std::vector<canopy::MovedLeaf>& crowns,
                                                      const std::string& frame_id) {
-  leaf_list_.points.clear();
-  leaf_list_.colors.clear();
-  const auto add = [&](const Drawn& drawn, const canopy::MovedLeaf& moved) {
+  for (visualization_msgs::Marker* list : {&leaf_list_, &crown_list_}) {
+    list->points.clear();
+    list->colors.clear();
+  }
+  const auto add = [](visualization_msgs::Marker& list, const Drawn& drawn,
+                      const canopy::MovedLeaf& moved) {
     const bool sprouts = !drawn.leaf.joined && drawn.leaf.root == drawn.leaf.anchor;
-    const double at_root = sprouts ? DARK_ROOT : 1.0;
-    addStrip(leaf_list_, cornersOf(drawn.leaf, moved), darkened(drawn.colour, at_root),
+    addStrip(list, cornersOf(drawn.leaf, moved), darkened(drawn.colour, sprouts ? DARK_ROOT : 1.0),
              drawn.colour);
   };
-  for (const Drawn& drawn : leaves_) add(drawn, foliage.move(drawn.leaf, drawn.plant));
+  for (const Drawn& drawn : leaves_) add(leaf_list_, drawn, foliage.move(drawn.leaf, drawn.plant));
   for (std::size_t i = 0; i < std::min(crowns.size(), crown_leaves_.size()); ++i)
-    add(crown_leaves_[i], crowns[i]);
-  used_ = leaf_list_.points.size();
-  fill(leaf_list_, leaf_points_);
+    add(crown_list_, crown_leaves_[i], crowns[i]);
+  used_ = leaf_list_.points.size() + crown_list_.points.size() + stem_list_.points.size() +
+          shade_list_.points.size();
+  fill(leaf_list_, leaf_points_ - crown_points_);
+  fill(crown_list_, crown_points_);
   visualization_msgs::MarkerArray out;
   out.markers = {leaf_list_, stem_list_, shade_list_};
-  used_ += stem_list_.points.size() + shade_list_.points.size();
   fill(out.markers[1], stem_points_);
   fill(out.markers[2], shade_points_);
+  if (crown_points_ > 0) out.markers.push_back(crown_list_);
   for (visualization_msgs::Marker& marker : out.markers) {
     marker.header.frame_id = frame_id;
     marker.header.stamp = ros::Time();  // the newest transform; keeps out of tf's waiting queue

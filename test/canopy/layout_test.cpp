@@ -61,8 +61,8 @@ TEST(Layout, IsRefusedAsAWhole) {
   EXPECT_NE(errorOf([] {
               read(
                   "canopy: {kinds: [{name: a, leaves: 1000000}], "
-                  "beds: [{kind: a, count: 3}]}");
-            }).find("3000000 leaves, more than"),
+                  "beds: [{kind: a, count: 4}]}");
+            }).find("4000000 leaves, more than"),
             std::string::npos);
   EXPECT_NE(errorOf([] {
               read("canopy: {fluid: {cells: 256}, layers: {memory: 10}, rate: 240}");

@@ -166,8 +166,9 @@ TEST(Slices, MakeALeafOfEachCellOnTheOutside) {
   EXPECT_GT(form.leaves.size(), 16U * 16U * 2U);
   EXPECT_LT(form.leaves.size(), 16U * 16U * 8U);
   for (const Leaf& leaf : form.leaves) {
-    EXPECT_LE(length(Vec3(leaf.root - Vec3(0.0, 0.0, 0.5))), 0.5);
-    EXPECT_GT(length(Vec3(leaf.root - Vec3(0.0, 0.0, 0.5))), 0.3);
+    EXPECT_LE(length(Vec3(leaf.anchor - Vec3(0.0, 0.0, 0.5))), 0.5);
+    EXPECT_GT(length(Vec3(leaf.anchor - Vec3(0.0, 0.0, 0.5))), 0.3);
+    EXPECT_LT(length(Vec3(leaf.root - leaf.anchor)), 1.0 / 16.0);  // within its cell
   }
   EXPECT_LT(form.radius, 0.7);
 }

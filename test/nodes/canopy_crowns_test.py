@@ -31,7 +31,7 @@ class CanopyCrowns(unittest.TestCase):
     def newest(self):
         """Points of the leaves, once there are some."""
         def drawn(all_markers):
-            points = [vector(p) for p in all_markers[-1].markers[0].points] if all_markers else []
+            points = [vector(p) for p in all_markers[-1].markers[3].points] if all_markers else []
             return points if sum(size(p) > 0.0 for p in points) > 6000 else None
         return self.markers.wait(drawn, 'leaves', self.run_all)
 
@@ -43,7 +43,7 @@ class CanopyCrowns(unittest.TestCase):
         self.hands.take_at(PULL)
 
         def carried(all_markers):
-            now = [vector(p) for p in all_markers[-1].markers[0].points]
+            now = [vector(p) for p in all_markers[-1].markers[3].points]
             ways = [size(minus(a, b)) for a, b in zip(before, now)]
             return ways if max(ways[i] for i in near) > 0.08 else None
         ways = self.markers.wait(carried, 'leaves that go with the limb', self.run_all)

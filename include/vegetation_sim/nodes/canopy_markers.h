@@ -12,9 +12,10 @@
 
 namespace vegetation_sim {
 
-/// Leaves (id 0), rigid stems (id 1) and the shade on the ground (id 2) as TRIANGLE_LISTs of
-/// constant size, which rviz updates in place. Plants share the budget in proportion to their leaves; what it does not hold is left
-/// out, an even part of each plant. Degenerate triangles fill up.
+/// Leaves (id 0), rigid stems (id 1), the shade on the ground (id 2) and leaves of the forest's
+/// crowns, if the layout asks for any (id 3), as TRIANGLE_LISTs of constant size, which rviz
+/// updates in place. Plants share the budget in proportion to their leaves; what it does not hold
+/// is left out, an even part of each plant. Degenerate triangles fill up.
 class CanopyMarkers {
  public:
   /// @param points of all lists together, at least 600.
@@ -46,9 +47,10 @@ class CanopyMarkers {
   void addStems(const std::vector<canopy::Stem>& stems, const Vec3& colour);
 
   std::size_t leaf_points_, stem_points_, shade_points_, used_{0};
-  double share_{1.0};  // of all leaves that will be drawn
+  std::size_t crown_points_{0};  // of leaf_points_
+  double share_{1.0};            // of all leaves that will be drawn
   std::vector<Drawn> leaves_, crown_leaves_;
-  visualization_msgs::Marker leaf_list_, stem_list_, shade_list_;
+  visualization_msgs::Marker leaf_list_, stem_list_, shade_list_, crown_list_;
 };
 
 }  // namespace vegetation_sim
