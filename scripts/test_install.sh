@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs the build, draws a chart and runs a scenario from there, as nodes and as nodelets, and
-# removes it again.
+# Installs the build, draws a chart and runs scenarios from there, as nodes, as nodelets and with every
+# display in rviz, and removes it again.
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 
@@ -14,7 +14,7 @@ fi
 # Removed at the end: in the source tree, roslaunch would find every file a second time there.
 INSTALLED=$BUILD/install
 . "$ROOT/scripts/launching.sh"
-trap 'stop_process "$launch_pid"; rm -rf "$WORK" "$INSTALLED"' EXIT
+trap 'stop_process "$launch_pid"; stop_process "$display_pid"; rm -rf "$WORK" "$INSTALLED"' EXIT
 rm -rf "$INSTALLED"
 cmake --install "$BUILD" >"$WORK/install.log"
 use_space "$INSTALLED"
@@ -42,3 +42,11 @@ for nodelets in false true; do
   check_launch
   stop_process "$launch_pid"
 done
+
+# A display of ours publishes the view; rviz would say which class could not be loaded.
+start_display
+start_launch demo.launch scenario:=demo rviz_args:=--disable-anti-aliasing
+wait_until 60 'the rviz window' rviz_window
+wait_until 60 'a message on viewer' topic_flows /viewer
+check_launch
+! grep -rh 'failed to load' "$LOG" "$ROS_LOG_DIR" || fail 'rviz lacks a display'
