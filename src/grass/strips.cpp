@@ -24,14 +24,21 @@ class Sheet {
         density_(tile.density),
         height_(tile.height),
         colour_(tile.colour),
-        wind_x_(motion.wind_x),
-        wind_y_(motion.wind_y),
         crush_(motion.crush && motion.crush->cells > 0 ? motion.crush : nullptr) {
+    double compliance = 0.0;
     for (int s = 0; s < tile.species_count; ++s)
-      compliance_ +=
+      compliance +=
           double{tile.species[static_cast<std::size_t>(s)].compliance} / tile.species_count;
-    for (int i = 0; i < 4; ++i)
-      colours_[static_cast<std::size_t>(i)] = nodeColour(map, i % 2, i / 2);
+    Corners bend_x, bend_y;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Vec3 air(double{motion.wind_x[i]}, double{motion.wind_y[i]}, 0.0);
+      const Point bend = bendIn(air, compliance);
+      bend_x[i] = static_cast<float>(bend.x);
+      bend_y[i] = static_cast<float>(bend.y);
+      colours_[i] = cornerColour(map, static_cast<double>(i % 2), static_cast<double>(i / 2));
+    }
+    bend_x_ = Bilinear<double>(bend_x);
+    bend_y_ = Bilinear<double>(bend_y);
   }
 
   Vec3 groundAt(double u, double v) const {
@@ -41,7 +48,7 @@ class Sheet {
 
   // Of the top of grass `height` high: leaned by wind and tread without growing.
   Vec3 offsetAt(double u, double v, double height) const {
-    Point bend = bendIn(Vec3(wind_x_.at(u, v), wind_y_.at(u, v), 0.0), compliance_);
+    const Point bend{bend_x_.at(u, v), bend_y_.at(u, v)};
     double tilt = 0.0, tx = 0.0, ty = 0.0;
     if (crush_) {
       const std::size_t i = nodeOf(u, v);
@@ -80,7 +87,7 @@ class Sheet {
   }
 
  private:
-  Vec3 nodeColour(const FeatureMap& map, int u, int v) const {
+  Vec3 cornerColour(const FeatureMap& map, double u, double v) const {
     const double size = double{tile_.size};
     Features f = map.at(tile_.x + u * size, tile_.y + v * size);
     f.colour = colour_.at(u, v);  // masks included
@@ -106,9 +113,8 @@ class Sheet {
   const Tile& tile_;
   Vec3 corner_;
   double full_density_;
-  Bilinear<double> density_, height_, colour_, wind_x_, wind_y_;
+  Bilinear<double> density_, height_, colour_, bend_x_, bend_y_;
   const CrushPatch* crush_;
-  double compliance_{0.0};
   std::array<Vec3, 4> colours_;  ///< of the corners, along x first
 };
 
