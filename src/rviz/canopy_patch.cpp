@@ -173,6 +173,7 @@ VertexPaint CanopyPatch::paintOf(const canopy::Layout& layout, const Drawn& draw
   const Vec3 across = unit(drawn.leaf.side, Vec3::UnitX());
   Vec3 face = cross(along, across);
   if (face.z() < 0.0) face = -face;
+  if (drawn.cut == LeafCut::RIBBON) face = Vec3::UnitZ();  // the same for all its pieces
   const auto light = static_cast<double>(drawn.leaf.light);
   double sun = light;
   Vec3 outward = face;
