@@ -90,7 +90,7 @@ class ForestFrame {
     const wind::Instant wind = wind_.at(now());
     for (std::uint32_t id = 0; id < drawn_.size(); ++id) {
       Drawn& own = drawn_[id];
-      if (!held_.promoted(id).branches.empty())
+      if (!held_.promoted(id).branches.empty() || held_.sway(id))
         narrow(held_.pose(own.tree, id, now()), own.poses);
       else
         own.poser.pose(wind.relativeTo(own.tree.foot),

@@ -13,22 +13,6 @@ namespace {
 
 constexpr double SMALLEST_SCALE = 0.7, LARGEST_SCALE = 1.3;  // of trees in tiles, seedInTile
 
-// A level table speaks of the worst tip of the worst tree across the wind; in a picture, a forest
-// shows so much of that. Measured: forest_test, PredictedErrorIsTheMeasuredOne.
-constexpr double SEEN = 0.57;
-
-// Pixels per metre of table of the eye that sees a disc best: the finest wins.
-double finestView(const std::map<std::string, Viewer>& viewers, const Vec3& centre, double reach) {
-  double out = 0.0;
-  for (const auto& entry : viewers) {
-    const Eye& eye = entry.second.eye;
-    if (!sees(eye, centre, 2.0 * reach)) continue;  // twice: the whole tree, and a margin
-    const double distance = length(eye.position - centre) - reach;
-    out = std::max(out, SEEN * pixelsPerMetre(eye, distance));
-  }
-  return out;
-}
-
 void addTo(Hash& hash, const Viewer& viewer) {
   hash.add(viewer.id);
   hash.add(static_cast<std::uint64_t>(viewer.stamp));
@@ -44,6 +28,9 @@ void describe(FieldVisitor& v, Settings& s) {
   v.number("tolerance", s.tolerance, "pixel", {0.01, 1000.0});
   v.integer("fixed_level", s.fixed_level, "", {0, MAX_DEPTHS});
   v.integer("highest_level", s.highest_level, "", {0, MAX_DEPTHS});
+  v.number("robot_tolerance", s.robot_tolerance, "m", {1e-4, 10.0});
+  v.number("robot_range", s.robot_range, "m", {0.0, 100.0});
+  describe(v, s.budget);
 }
 
 Forest::Forest(Layout layout, std::shared_ptr<const terrain::HeightMap> terrain, Settings settings)
@@ -64,10 +51,11 @@ void Forest::setLayout(Layout layout, std::shared_ptr<const terrain::HeightMap> 
   layout_hash_ = layout_.hash();
   terrain_ = std::move(terrain);
   measure();
+  memory_.modes.clear();  // their wood may be another
   if (!same_trees)
     reset();
   else
-    memory_.physics.clear();  // its wood may be another
+    memory_.physics.clear();
 }
 
 void Forest::reset() {
@@ -75,6 +63,7 @@ void Forest::reset() {
   const int level = std::min(memory_.settings.fixed_level, memory_.settings.highest_level);
   memory_.levels.reset(LevelState::settled(level));
   memory_.stamp = 0;
+  memory_.modes.clear();
   memory_.physics.clear();
   memory_.changed.clear();
   memory_.sequence = 0;
@@ -107,77 +96,6 @@ void Forest::measure() {
   }
 }
 
-// Speed that a bend is proportional to.
-double Forest::bendingSpeed(double speed, double reference_speed) const {
-  const bool linear = static_cast<Drag>(layout_.motion.drag) == Drag::LINEAR;
-  return linear ? speed : speed * speed / reference_speed;
-}
-
-void Forest::advance(Nanoseconds stamp) {
-  advancePhysics(stamp);
-  memory_.stamp = stamp;
-  for (auto it = memory_.viewers.begin(); it != memory_.viewers.end();)
-    it = stamp - it->second.stamp > VIEWER_LIFE ? memory_.viewers.erase(it) : std::next(it);
-  const Settings& settings = memory_.settings;
-  const bool watched = !memory_.viewers.empty();
-  const int base = watched ? 0 : std::min(settings.fixed_level, settings.highest_level);
-  last_base_ = memory_.levels.base().level;
-  memory_.levels.rebase(base, stamp, layout_.motion.transition);
-  if (watched) {
-    now_ = memory_.wind.at(stamp);
-    for (const Region& region : regions_) chooseRegion(region);
-  } else {
-    // Copied: aim() changes the map.
-    std::vector<std::uint32_t> held;
-    for (const auto& entry : memory_.levels.held()) held.push_back(entry.first);
-    for (const std::uint32_t tree : held) aim(tree, base);
-  }
-  memory_.levels.prune(stamp, layout_.motion.transition);
-}
-
-// A whole tile at a time: where even its nearest, largest tree may stand still, no tree is looked
-// at.
-void Forest::chooseRegion(const Region& region) {
-  if (region.count == 1) return chooseTree(region.first);
-  const double speed =
-      bendingSpeed(now_.speedBound(region.centre, region.reach), slowest_reference_);
-  const double view = finestView(memory_.viewers, region.centre, region.reach);
-  const double error = largest_omission_ * speed * view;
-  if (error > HYSTERESIS * memory_.settings.tolerance) {
-    for (std::uint32_t i = 0; i < region.count; ++i) chooseTree(region.first + i);
-    return;
-  }
-  std::vector<std::uint32_t> held;
-  const auto& all = memory_.levels.held();
-  for (auto it = all.lower_bound(region.first);
-       it != all.end() && it->first < region.first + region.count; ++it)
-    held.push_back(it->first);
-  for (const std::uint32_t tree : held) aim(tree, 0);
-}
-
-void Forest::chooseTree(std::uint32_t tree) {
-  const TreeSeed seed = seedOf(layout_, tree);
-  const LevelTable table = tables_[seed.species].at(seed.scale);
-  const Vec3 foot = footOf(seed, *terrain_);
-  const double reach = 0.5 * table.reach;  // where most of its twigs are
-  const double speed =
-      bendingSpeed(now_.speedBound(foot, reach), layout_.species[seed.species].reference_speed);
-  const Vec3 middle = foot + Vec3(0.0, 0.0, 0.5 * table.height);
-  const double view = finestView(memory_.viewers, middle, reach);
-  const auto held = memory_.levels.held().find(tree);
-  const int current = held == memory_.levels.held().end() ? last_base_ : held->second.level;
-  const int level = chooseLevel(table, speed, view, memory_.settings.tolerance, current);
-  aim(tree, std::min(level, memory_.settings.highest_level));
-}
-
-void Forest::aim(std::uint32_t tree, int level) {
-  LevelState state = memory_.levels.of(tree);
-  if (state.level == level) return;
-  setLevel(state, level, memory_.stamp, layout_.motion.transition);
-  memory_.levels.set(tree, state);
-  memory_.changed.insert(tree);
-}
-
 std::uint64_t Forest::hash() const {
   Hash out;
   out.add(layout_hash_);
@@ -187,6 +105,7 @@ std::uint64_t Forest::hash() const {
   describe(hasher, settings);
   for (const auto& entry : memory_.viewers) addTo(out, entry.second);
   memory_.levels.addTo(out, memory_.stamp, layout_.motion.transition);
+  memory_.modes.addTo(out);
   memory_.physics.addTo(out);
   return out.value();
 }
@@ -208,7 +127,8 @@ StateUpdate Forest::update(bool key_frame) {
     told = memory_.changed;
   for (const std::uint32_t tree : physicalTrees()) told.insert(tree);
   for (const std::uint32_t tree : told)
-    out.trees.push_back({tree, memory_.levels.of(tree), promoted(tree).branches});
+    out.trees.push_back({tree, memory_.levels.of(tree), promoted(tree).branches,
+                         sway(tree) ? sway(tree)->state() : physics::ModalState()});
   memory_.changed.clear();
   return out;
 }

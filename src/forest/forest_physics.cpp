@@ -6,12 +6,13 @@
 namespace vegetation_sim::forest {
 
 Site Forest::site() const {
-  return {layout_, *terrain_, memory_.wind, memory_.levels, *this, contacts_.get()};
+  return {layout_, *terrain_, memory_.wind, memory_.levels, memory_.modes, *this, contacts_.get()};
 }
 
 // Before the levels are chosen anew: those that hold now did so since the last tick.
 void Forest::advancePhysics(Nanoseconds stamp) {
   for (const std::uint32_t tree : physicalTrees()) memory_.changed.insert(tree);
+  memory_.modes.advance(memory_.wind, memory_.stamp, stamp);
   memory_.physics.advance(site(), memory_.stamp, stamp);
 }
 
@@ -56,7 +57,8 @@ std::vector<std::uint32_t> Forest::physicalTrees() const {
 
 std::vector<Pose> Forest::pose(const Tree& tree, std::uint32_t id, Nanoseconds stamp) const {
   return poseBranches(tree, memory_.wind.at(stamp).relativeTo(tree.foot),
-                      weightsAt(memory_.levels.of(id), stamp, layout_.motion), promoted(id), stamp);
+                      weightsAt(memory_.levels.of(id), stamp, layout_.motion), sway(id), promoted(id),
+                      stamp);
 }
 
 }  // namespace vegetation_sim::forest

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "vegetation_sim/common/math.h"
+#include "vegetation_sim/forest/lag.h"
 #include "vegetation_sim/forest/pose.h"
 
 namespace vegetation_sim::forest {
@@ -48,21 +49,25 @@ void measureTree(const Tree& tree, LevelTable& table) {
   }
 }
 
+double branchesBelow(const Skeleton& skeleton, std::size_t depth) {
+  if (depth == 0) return 0.0;
+  return skeleton.depth_end[std::min(depth, skeleton.depth_end.size()) - 1];
+}
+
 }  // namespace
 
 LevelState LevelState::settled(int level) {
   LevelState out;
   out.level = level;
-  for (int d = 0; d < MAX_DEPTHS; ++d)
+  for (int d = 0; d < MODAL_LEVEL; ++d)
     out.blend[static_cast<std::size_t>(d)] = d < level ? 1.f : 0.f;
   return out;
 }
 
-std::array<double, MAX_DEPTHS> blendAt(const LevelState& state, Nanoseconds stamp,
-                                       double transition) {
+Weights blendAt(const LevelState& state, Nanoseconds stamp, double transition) {
   const double moved = std::max(0.0, secondsBetween(state.since, stamp) / transition);
-  std::array<double, MAX_DEPTHS> out;
-  for (int d = 0; d < MAX_DEPTHS; ++d) {
+  Weights out;
+  for (int d = 0; d < MODAL_LEVEL; ++d) {
     const double from = state.blend[static_cast<std::size_t>(d)];
     out[static_cast<std::size_t>(d)] = saturate(d < state.level ? from + moved : from - moved);
   }
@@ -78,14 +83,14 @@ Weights weightsAt(const LevelState& state, Nanoseconds stamp, const MotionLaw& l
 
 void setLevel(LevelState& state, int level, Nanoseconds stamp, double transition) {
   const auto now = blendAt(state, stamp, transition);
-  for (std::size_t d = 0; d < MAX_DEPTHS; ++d) state.blend[d] = static_cast<float>(now[d]);
+  for (std::size_t d = 0; d < MODAL_LEVEL; ++d) state.blend[d] = static_cast<float>(now[d]);
   state.level = level;
   state.since = stamp;
 }
 
 bool isSettled(const LevelState& state, Nanoseconds stamp, double transition) {
   const auto now = blendAt(state, stamp, transition);
-  for (int d = 0; d < MAX_DEPTHS; ++d)
+  for (int d = 0; d < MODAL_LEVEL; ++d)
     if (now[static_cast<std::size_t>(d)] != (d < state.level ? 1.0 : 0.0)) return false;
   return true;
 }
@@ -107,6 +112,8 @@ LevelTable measureLevels(const Species& species, const MotionLaw& law, double sc
     tree.response = windResponse(tree.skeleton, species, law);
     tree.joint_model = static_cast<JointModel>(law.joint_model);
     measureTree(tree, out);
+    for (std::size_t n = 0; n < out.branches.size(); ++n)
+      out.branches[n] += branchesBelow(tree.skeleton, n) / SAMPLES;
     out.height = std::max(out.height, tree.skeleton.height);
     out.reach = std::max(out.reach, tree.skeleton.reach);
   }
@@ -124,11 +131,24 @@ LevelTable LevelScales::at(double scale) const {
   const LevelTable &a = tables_.at(below), &b = tables_.at(below + 1);
   const double f = saturate((scale - GRID[below]) / (GRID[below + 1] - GRID[below]));
   LevelTable out;
-  for (std::size_t n = 0; n < out.omitted.size(); ++n)
+  for (std::size_t n = 0; n < out.omitted.size(); ++n) {
     out.omitted[n] = a.omitted[n] + f * (b.omitted[n] - a.omitted[n]);
+    out.branches[n] = a.branches[n] + f * (b.branches[n] - a.branches[n]);
+  }
   out.height = a.height + f * (b.height - a.height);
   out.reach = a.reach + f * (b.reach - a.reach);
   return out;
+}
+
+double LevelScales::lagAt(const Species& species, const MotionLaw& law, double scale) {
+  const std::size_t below = gridIndex(scale);
+  const auto lag = [&](std::size_t i) {
+    const auto known = lags_.find(i);
+    if (known != lags_.end()) return known->second;
+    return lags_[i] = measureLag(species, law, GRID[i]);
+  };
+  const double a = lag(below), b = lag(below + 1);
+  return a + saturate((scale - GRID[below]) / (GRID[below + 1] - GRID[below])) * (b - a);
 }
 
 int chooseLevel(const LevelTable& table, double speed, double pixels_per_metre, double tolerance,

@@ -85,16 +85,15 @@ std::vector<WindPoint> pointsOf(std::vector<Sail> sails,
   for (const auto& [begin, end] : parts) {
     WindPoint point;
     point.push.assign(motions.size(), Vec3::Zero());
-    double drag = 0.0;
     for (Range sail = begin; sail != end; ++sail) {
-      drag += sail->drag;
+      point.drag += sail->drag;
       point.position += sail->drag * sail->centre;
       for (std::size_t m = 0; m < motions.size(); ++m) {
         const physics::SmallMotion& motion = motions[m][sail->branch];
         point.push[m] += sail->drag * (motion.move + cross(motion.turn, sail->arm));
       }
     }
-    point.position /= drag;
+    point.position /= point.drag;
     out.push_back(std::move(point));
   }
   return out;

@@ -59,8 +59,9 @@ std::size_t PhysicalPart::promote(const std::vector<int>& branches,
     courses.look(course, added);
     for (std::size_t i = 0; i < added.size(); ++i) {
       const JointCourse at = courses.at(i);
-      all.push_back(
-          {{added[i], stamp, stamp, NEVER, 1.0, true}, vectorOf(at.q), vectorOf(at.rate)});
+      all.push_back({{added[i], stamp, stamp, NEVER, course.missing(), true},
+                     vectorOf(at.q),
+                     vectorOf(at.rate)});
     }
     std::sort(all.begin(), all.end(),
               [](const Joined& a, const Joined& b) { return a.joint.branch < b.joint.branch; });
@@ -104,7 +105,7 @@ void PhysicalPart::takeBack(int link, const Course& course, double duration) {
     q += weight * away;
     joint.blend = NEVER;
     joint.promoted = stamp;
-    joint.compensation = weight;
+    joint.compensation = weight * course.missing();
   }
 }
 

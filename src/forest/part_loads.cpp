@@ -46,7 +46,7 @@ struct PhysicalPart::Step {
   mutable Nanoseconds based{NEVER};  // stamp of scratch.bases
 
   Course courseAt(double time) const {
-    return {part.tree(), scratch.lookAt(air.field, from + fromSeconds(time)), air.level, air.law};
+    return scratch.courseOf(part.tree(), air, from + fromSeconds(time));
   }
   void lookAtBases(const Course& course) const {
     if (based == course.wind.stamp()) return;
@@ -137,7 +137,7 @@ void PhysicalPart::stepTouching(const Air& air, const PartLoads& loads,
 
 void PhysicalPart::kinematicsAt(const Air& air, Nanoseconds stamp, PartScratch& scratch,
                                 physics::Kinematics& out) const {
-  const Course course(*tree_, scratch.lookAt(air.field, stamp), air.level, air.law);
+  const Course course = scratch.courseOf(*tree_, air, stamp);
   baseMotions(course, scratch, scratch.bases);
   physics::kinematicsOf(links_, scratch.bases, state_, out);
 }

@@ -115,8 +115,7 @@ void ForestPhysics::chooseIn(const Site& at, std::uint32_t tree, PhysicalPart& p
   const double threshold = by_depth ? 0.0 : settings_.influence_tolerance;
   const Selection selection = selectBranches(skeleton, rank, threshold, KEEP * threshold,
                                              part.mask(), most > others ? most - others : 0);
-  const Course course(part.tree(), scratch_.lookAt(at.wind, stamp), at.levels.of(tree),
-                      at.layout.motion);
+  const Course course = scratch_.courseOf(part.tree(), airOf(at, tree), stamp);
   refused_ += selection.refused +
               part.promote(selection.branches, score, KEEP * threshold, course, settings_);
 }
@@ -188,9 +187,7 @@ void ForestPhysics::settle(const Site& at, Nanoseconds from, Nanoseconds to) {
   reactToBodies(steps_);
   for (auto& [tree, part] : parts_) {
     react(at, tree, part, from, to);
-    part.demote(
-        Course(part.tree(), scratch_.lookAt(at.wind, to), at.levels.of(tree), at.layout.motion),
-        settings_, scratch_);
+    part.demote(scratch_.courseOf(part.tree(), airOf(at, tree), to), settings_, scratch_);
   }
   for (auto& [id, hold] : holds_) hold.target = grabs_.at(id).target;
   pushes_.erase(std::remove_if(pushes_.begin(), pushes_.end(),
@@ -241,7 +238,7 @@ void ForestPhysics::react(const Site& at, std::uint32_t tree, const PhysicalPart
 }
 
 Air ForestPhysics::airOf(const Site& at, std::uint32_t tree) const {
-  return {at.wind, at.levels.of(tree), at.layout.motion};
+  return {at.wind, at.levels.of(tree), at.layout.motion, at.modes.find(tree)};
 }
 
 }  // namespace vegetation_sim::forest

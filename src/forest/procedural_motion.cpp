@@ -26,6 +26,12 @@ JointAngles bendOf(const Tree& tree, int branch, const Vec3& air, double weight)
                    tree.joint_model);
 }
 
+// `share` of the way from what is procedural to what the modes say.
+JointAngles inModes(const ModalLooks& modal, int branch, std::size_t look, double share,
+                    const JointAngles& procedural) {
+  return between(procedural, bendOf(modal.sway->modes(), modal.amplitude[look], branch), share);
+}
+
 // Central differences.
 JointCourse courseOf(const JointAngles& a, const JointAngles& b, const JointAngles& c) {
   const double twice = 2.0 * STEP, square = STEP * STEP;
@@ -37,6 +43,12 @@ JointCourse courseOf(const JointAngles& a, const JointAngles& b, const JointAngl
 
 }  // namespace
 
+void ModalLooks::lookAt(const Sway& at, Nanoseconds stamp) {
+  sway = &at;
+  for (std::size_t look = 0; look < amplitude.size(); ++look)
+    at.amplitudeBetween(stamp + (static_cast<Nanoseconds>(look) - 1) * LOOK, amplitude[look]);
+}
+
 void WindWindow::lookAt(const wind::Field& field, Nanoseconds stamp) {
   stamp_ = stamp;
   field.at(stamp - LOOK, looks_[0]);
@@ -45,8 +57,8 @@ void WindWindow::lookAt(const wind::Field& field, Nanoseconds stamp) {
 }
 
 Course::Course(const Tree& tree, const WindWindow& wind, const LevelState& level,
-               const MotionLaw& law)
-    : tree(tree), wind(wind) {
+               const MotionLaw& law, const ModalLooks* modal)
+    : tree(tree), wind(wind), modal(modal) {
   for (std::size_t look = 0; look < 3; ++look)
     weights[look] =
         weightsAt(level, wind.stamp() + (static_cast<Nanoseconds>(look) - 1) * LOOK, law);
@@ -55,8 +67,12 @@ Course::Course(const Tree& tree, const WindWindow& wind, const LevelState& level
 JointAngles Course::anglesAt(int branch, std::size_t look) const {
   const Branch& b = tree.skeleton.branches[static_cast<std::size_t>(branch)];
   const double weight = weights[look][static_cast<std::size_t>(b.depth)];
-  if (weight <= 0.0) return {};
-  return bendOf(tree, branch, wind.looks()[look].velocity(tree.foot + b.rest.position), weight);
+  const double share = modalShare(look);
+  JointAngles out;
+  if (weight > 0.0 && share < 1.0)
+    out = bendOf(tree, branch, wind.looks()[look].velocity(tree.foot + b.rest.position), weight);
+  if (share > 0.0) out = inModes(*modal, branch, look, share, out);
+  return out;
 }
 
 JointCourse Course::at(int branch) const {
@@ -69,14 +85,17 @@ void Courses::look(const Course& course, const std::vector<int>& branches) {
   for (const int branch : branches)
     air_.add(tree.foot + tree.skeleton.branches[static_cast<std::size_t>(branch)].rest.position);
   for (std::size_t look = 0; look < angles_.size(); ++look) {
-    air_.sample(course.wind.looks()[look]);
+    const double share = course.modalShare(look);
+    if (share < 1.0) air_.sample(course.wind.looks()[look]);
     angles_[look].resize(branches.size());
     for (std::size_t i = 0; i < branches.size(); ++i) {
       const auto branch = static_cast<std::size_t>(branches[i]);
       const auto depth = static_cast<std::size_t>(tree.skeleton.branches[branch].depth);
       const double weight = course.weights[look][depth];
       JointAngles& out = angles_[look][i];
-      out = weight > 0.0 ? bendOf(tree, branches[i], air_.velocity(i), weight) : JointAngles();
+      out = weight > 0.0 && share < 1.0 ? bendOf(tree, branches[i], air_.velocity(i), weight)
+                                        : JointAngles();
+      if (share > 0.0) out = inModes(*course.modal, branches[i], look, share, out);
     }
   }
 }

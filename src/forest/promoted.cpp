@@ -28,8 +28,8 @@ void overlay(const PromotedTree& promoted, Nanoseconds stamp, std::vector<JointA
 }
 
 std::vector<Pose> poseBranches(const Tree& tree, const wind::Instant& wind, const Weights& weights,
-                               const PromotedTree& promoted, Nanoseconds stamp) {
-  std::vector<JointAngles> angles = proceduralAngles(tree, wind, weights);
+                               const Sway* sway, const PromotedTree& promoted, Nanoseconds stamp) {
+  std::vector<JointAngles> angles = swayingAngles(tree, wind, weights, sway, stamp);
   overlay(promoted, stamp, angles);
   return forwardKinematics(tree, angles);
 }

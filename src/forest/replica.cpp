@@ -14,6 +14,7 @@ void ForestReplica::setLayout(Layout layout, std::shared_ptr<const terrain::Heig
   layout_hash_ = layout.hash();
   layout_ = std::make_shared<const Layout>(std::move(layout));
   terrain_ = std::move(terrain);
+  modes_.clear();
   in_sequence_ = false;
   why_ = "no key frame since the layout";
 }
@@ -50,16 +51,37 @@ bool ForestReplica::apply(const StateUpdate& update) {
   }
   blend_ = update.blend;
   levels_.prune(update.stamp, layout_->motion.transition);
-  in_sequence_ = true;
+  in_sequence_ = takeSway(update);
   sequence_ = update.sequence;
   stamp_ = update.stamp;
-  why_.clear();
+  if (in_sequence_) why_.clear();
+  return in_sequence_;
+}
+
+// Between key frames modes are stepped here as they are there.
+bool ForestReplica::takeSway(const StateUpdate& update) {
+  std::set<std::uint32_t> told;
+  for (const StateUpdate::Entry& entry : update.trees)
+    if (!entry.sway.amplitude.empty()) told.insert(entry.tree);
+  if (update.key_frame)
+    modes_.keepOnly(told);
+  else
+    modes_.advance(wind_, stamp_, update.stamp);
+  try {
+    for (const StateUpdate::Entry& entry : update.trees)
+      if (told.count(entry.tree))
+        modes_.restore({*layout_, *terrain_, wind_}, entry.tree, entry.sway, update.stamp);
+  } catch (const std::exception& error) {
+    why_ = "tree in modes: " + std::string(error.what());
+    return false;
+  }
+  modes_.settle(levels_, update.stamp, layout_->motion.transition);
   return true;
 }
 
 std::vector<Pose> ForestReplica::pose(const Tree& tree, std::uint32_t id, Nanoseconds stamp) const {
-  return poseBranches(tree, wind_.at(stamp).relativeTo(tree.foot), weights(id, stamp), promoted(id),
-                      stamp);
+  return poseBranches(tree, wind_.at(stamp).relativeTo(tree.foot), weights(id, stamp), sway(id),
+                      promoted(id), stamp);
 }
 
 PromotedTree ForestReplica::promoted(std::uint32_t tree) const {

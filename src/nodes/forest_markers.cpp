@@ -139,7 +139,7 @@ void ForestMarkers::addTree(const forest::Forest& forest, forest::TreeCache& cac
   const wind::Instant wind = forest.memory().wind.at(stamp).relativeTo(grown->tree.foot);
   const forest::Weights weights =
       forest::weightsAt(forest.memory().levels.of(id), stamp, forest.layout().motion);
-  if (forest.promoted(id).branches.empty())
+  if (forest.promoted(id).branches.empty() && !forest.sway(id))
     grown->poser.pose(wind, weights, forest::MAX_DEPTHS, poses_);
   else
     narrow(forest.pose(grown->tree, id, stamp), poses_);

@@ -16,6 +16,7 @@ constexpr double VIEW_ASPECT = 16.0 / 9.0;  // width of the picture over its hei
 constexpr double VIEW_MARGIN = 0.15;        // [rad]
 constexpr double LARGEST_BEND = 100.0;      // [rad]
 constexpr double LARGEST_RATE = 1e5;        // [rad/s]
+constexpr std::size_t MOST_MODES = 256;     // of a tree
 
 /// The words of a structure's choices, by field.
 class Choices : public FieldVisitor {
@@ -90,20 +91,20 @@ std::vector<float> blendToMsg(const forest::LevelState& state, Nanoseconds now) 
 
 forest::LevelState levelFromMsg(const std::string& name, int level, const ros::Time& since,
                                 const std::vector<float>& blend, Faults& faults) {
-  if (level > forest::MAX_DEPTHS) {
+  if (level > forest::MODAL_LEVEL) {
     faults.add(name + "level = " + std::to_string(level) + " is outside 0 to " +
-               std::to_string(forest::MAX_DEPTHS));
+               std::to_string(forest::MODAL_LEVEL));
     return {};
   }
   forest::LevelState out = forest::LevelState::settled(level);
   out.since = fromMsg(since);
   if (blend.empty()) return out;
-  if (blend.size() != forest::MAX_DEPTHS) {
+  if (blend.size() != out.blend.size()) {
     faults.add(name + "blend has " + std::to_string(blend.size()) + " entries, allowed are 0 or " +
-               std::to_string(forest::MAX_DEPTHS));
+               std::to_string(out.blend.size()));
     return out;
   }
-  for (std::size_t d = 0; d < forest::MAX_DEPTHS; ++d) {
+  for (std::size_t d = 0; d < blend.size(); ++d) {
     const std::string fault = rangeFault(name + "blend", blend[d], "", {0.0, 1.0});
     if (!fault.empty()) faults.add(fault);
     out.blend[d] = blend[d];
@@ -119,6 +120,8 @@ TreeState entryToMsg(const forest::StateUpdate::Entry& entry, Nanoseconds now) {
   out.blend = blendToMsg(entry.state, now);
   out.promoted.reserve(entry.promoted.size());
   for (const forest::PromotedBranch& branch : entry.promoted) out.promoted.push_back(toMsg(branch));
+  out.amplitude = entry.sway.amplitude;
+  out.rate = entry.sway.rate;
   return out;
 }
 
@@ -144,6 +147,19 @@ std::vector<forest::PromotedBranch> promotedFromMsg(const std::string& name,
     out.push_back(fromMsg(branch));
   }
   return out;
+}
+
+physics::ModalState swayFromMsg(const std::string& name, const TreeState& tree, Faults& faults) {
+  if (tree.amplitude.size() != tree.rate.size() || tree.amplitude.size() > MOST_MODES)
+    faults.add(name + std::to_string(tree.amplitude.size()) + " amplitudes and " +
+               std::to_string(tree.rate.size()) + " rates; allowed are as many, up to " +
+               std::to_string(MOST_MODES));
+  for (const auto* values : {&tree.amplitude, &tree.rate})
+    for (const double value : *values) {
+      const std::string fault = rangeFault(name + "mode", value, "", {-LARGEST_RATE, LARGEST_RATE});
+      if (!fault.empty()) faults.add(fault);
+    }
+  return {tree.amplitude, tree.rate};
 }
 
 }  // namespace
@@ -272,7 +288,8 @@ forest::StateUpdate fromMsg(const ForestState& message) {
   for (const TreeState& tree : message.trees) {
     const std::string name = "state: tree " + std::to_string(tree.tree) + ": ";
     out.trees.push_back({tree.tree, levelFromMsg(name, tree.level, tree.since, tree.blend, faults),
-                         promotedFromMsg(name, tree.promoted, faults)});
+                         promotedFromMsg(name, tree.promoted, faults),
+                         swayFromMsg(name, tree, faults)});
   }
   faults.throwIfAny();
   return out;

@@ -95,11 +95,11 @@ bool DrawnTree::move(const forest::ForestReplica& replica, Nanoseconds stamp,
       moves = true;
     }
   }
-  const bool physical = !replica.promoted(id_).branches.empty();
-  moves = moves || physical;
+  const bool remembers = !replica.promoted(id_).branches.empty() || replica.sway(id_);
+  moves = moves || remembers;
   if (!moves && !moved_) return false;
   moved_ = moves;
-  if (physical)
+  if (remembers)
     narrow(replica.pose(tree_, id_, stamp), poses_);
   else
     poser_.pose(wind.relativeTo(tree_.foot), weights, forest::meshDetail(level_).depths, poses_);

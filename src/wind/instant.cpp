@@ -27,10 +27,26 @@ Instant Instant::relativeTo(const Vec3& origin) const {
   return moved;
 }
 
-double Instant::speedBound(const Vec3& position, double reach) const {
+namespace {
+
+// Three standard deviations of the breezes.
+double turbulence(const std::vector<Mode>& modes) {
   double variance = 0.0;
   for (const Mode& mode : modes) variance += 0.5 * dot(mode.amplitude, mode.amplitude);
-  double bound = length(mean) + 3.0 * std::sqrt(variance);
+  return 3.0 * std::sqrt(variance);
+}
+
+}  // namespace
+
+double Instant::gustBound(const Vec3& position, double reach) const {
+  double bound = turbulence(modes);
+  for (const Term& term : terms)
+    if (term.kind != Kind::DISK) bound += boundOf(term, position, reach);
+  return bound;
+}
+
+double Instant::speedBound(const Vec3& position, double reach) const {
+  double bound = length(mean) + turbulence(modes);
   for (const Term& term : terms) bound += boundOf(term, position, reach);
   return bound;
 }

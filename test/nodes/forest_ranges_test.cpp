@@ -23,7 +23,7 @@ TEST(ForestRanges, OfReconfigureAreThoseOfTheStructures) {  // S1-10, S1-45
 
 TEST(ForestRanges, SettingsSurviveTheirEvent) {  // N6
   ForestTuning tuning;
-  tuning.settings = {2.5, 4, 5};
+  tuning.settings = {2.5, 4, 5, 0.1, 2.0, {4.0, 1000, 3, 10.0, 11.0, 1000.0}};
   tuning.design = {0.5, 1.5, 0.0, 1.25, 2.0};
   tuning.transition = 7.0;
   ForestEvent event;
@@ -54,7 +54,7 @@ TEST(ForestRanges, EventsOfBadSettingsAreRefused) {
   EXPECT_NE(refused(range).find("transition = 1e+09 s is outside 0.01 to 60 s"), std::string::npos)
       << refused(range);
   count.values.pop_back();
-  EXPECT_EQ(refused(count), "event: 9 names for 8 values");
+  EXPECT_EQ(refused(count), "event: 17 names for 16 values");
 }
 
 }  // namespace

@@ -154,7 +154,7 @@ TEST(ForestConversions, SettledTreesAreSentWithoutBlends) {
   const ForestState message = toMsg(update);
   EXPECT_TRUE(message.base_blend.empty());
   EXPECT_TRUE(message.trees[0].blend.empty());
-  EXPECT_EQ(message.trees[1].blend.size(), 6u);
+  EXPECT_EQ(message.trees[1].blend.size(), 7u);
 }
 
 TEST(ForestConversions, RefuseAStateWithAllItsFaults) {
@@ -162,14 +162,14 @@ TEST(ForestConversions, RefuseAStateWithAllItsFaults) {
   update.trees = {{4, between()}, {5, between()}, {6, between()}};
   ForestState message = toMsg(update);
   message.base_level = 9;
-  message.trees[0].level = 7;
+  message.trees[0].level = 8;
   message.trees[1].blend.pop_back();
   message.trees[2].blend[1] = 1.5f;
   message.trees[2].blend[2] = std::numeric_limits<float>::quiet_NaN();
   const std::string faults = errorOf([&] { fromMsg(message); });
   for (const char* part :
-       {"state: base_level = 9 is outside 0 to 6", "state: tree 4: level = 7 is outside 0 to 6",
-        "state: tree 5: blend has 5 entries, allowed are 0 or 6",
+       {"state: base_level = 9 is outside 0 to 7", "state: tree 4: level = 8 is outside 0 to 7",
+        "state: tree 5: blend has 6 entries, allowed are 0 or 7",
         "state: tree 6: blend = 1.5 is outside 0 to 1", "is not finite, allowed is 0 to 1"})
     EXPECT_NE(faults.find(part), std::string::npos) << part << " in " << faults;
 }

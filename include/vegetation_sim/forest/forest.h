@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "vegetation_sim/forest/forest_physics.h"
+#include "vegetation_sim/forest/governor.h"
 #include "vegetation_sim/forest/level_map.h"
 #include "vegetation_sim/wind/field.h"
 
@@ -28,6 +29,9 @@ struct Settings {
   double tolerance{1.0};  ///< error that a viewer may see [pixel]
   int fixed_level{2};     ///< of every tree while nobody looks
   int highest_level{MAX_DEPTHS};
+  double robot_tolerance{0.05};  ///< error of what a robot may touch [m]
+  double robot_range{3.0};       ///< trees so near to a body of a robot hold it [m]
+  Budget budget;
 };
 void describe(FieldVisitor& visitor, Settings& settings);
 
@@ -39,6 +43,7 @@ struct ForestMemory {
   wind::Field wind;
   std::map<std::string, Viewer> viewers;
   LevelMap levels;
+  ForestModes modes;
   ForestPhysics physics;
   std::set<std::uint32_t> changed;  ///< trees to tell of in the next update
   std::uint32_t sequence{0};        ///< of the next update
@@ -96,7 +101,13 @@ class Forest {
   PromotedTree promoted(std::uint32_t tree) const;
   /// Trees that have physical joints, rising.
   std::vector<std::uint32_t> physicalTrees() const;
-  /// Every branch in the tree's frame, physical ones included, double precision.
+  /// Nullptr: the tree does not sway in modes.
+  const Sway* sway(std::uint32_t tree) const { return memory_.modes.find(tree); }
+  /// What the governor chose at the last tick.
+  const GovernorFigures& governor() const { return governor_; }
+  /// The trees that it chose for, with what it predicts of them; none where there are very many.
+  const std::vector<Plant>& plants() const { return plants_; }
+  /// Every branch in the tree's frame, physical ones and modes included, double precision.
   std::vector<Pose> pose(const Tree& tree, std::uint32_t id, Nanoseconds stamp) const;
 
   /// Complete state, or what changed since the last update of either kind.
@@ -116,8 +127,14 @@ class Forest {
   void measure();
   void measureSpecies(std::size_t species, double scale);
   double bendingSpeed(double speed, double reference_speed) const;
+  double viewOf(const Vec3& centre, double reach) const;
+  void chooseLevels();
   void chooseRegion(const Region& region);
   void chooseTree(std::uint32_t tree);
+  void predict(const TreeSeed& seed, const LevelTable& table, double view, Plant& plant);
+  bool haveModes() const;
+  void adopt();
+  void beginModes();
   void aim(std::uint32_t tree, int level);
 
   Layout layout_;
@@ -131,7 +148,9 @@ class Forest {
   std::shared_ptr<const ContactModel> contacts_;
   ForestMemory memory_;
   wind::Instant now_;
-  int last_base_{0};  // level of the trees that were not held before this tick
+  int last_base_{0};           // level of the trees that were not held before this tick
+  std::vector<Plant> plants_;
+  GovernorFigures governor_;
 };
 
 }  // namespace vegetation_sim::forest

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "vegetation_sim/forest/contact_model.h"
+#include "vegetation_sim/forest/forest_modes.h"
 #include "vegetation_sim/forest/interaction.h"
 #include "vegetation_sim/forest/level_map.h"
 #include "vegetation_sim/forest/physical_part.h"
@@ -21,6 +22,7 @@ struct Site {
   const terrain::HeightMap& terrain;
   const wind::Field& wind;
   const LevelMap& levels;
+  const ForestModes& modes;
   const Forest& forest;
   const ContactModel* contacts{nullptr};
 };

@@ -18,8 +18,11 @@ using vegetation_sim::HYSTERESIS;
 using vegetation_sim::pixelsPerMetre;
 using vegetation_sim::sees;
 
-/// Weight of the joints of each recursion depth, 0 (fixed at rest) to 1 (moves).
-using Weights = std::array<double, MAX_DEPTHS>;
+/// The level above all depths: every joint moves, and as the tree's modes do (N13).
+constexpr int MODAL_LEVEL = MAX_DEPTHS + 1;
+/// Weight of the joints of each recursion depth, 0 (fixed at rest) to 1 (moves); the last is that
+/// of the modes over the procedural motion.
+using Weights = std::array<double, MODAL_LEVEL>;
 
 /// Level of one tree as a function of time (S1-21..S1-24). Joints of depth below `level` move.
 /// blend[d] is where depth d was at `since`; from there it rises to 1 where d < level and falls to
@@ -27,7 +30,7 @@ using Weights = std::array<double, MAX_DEPTHS>;
 struct LevelState {
   int level{0};
   Nanoseconds since{0};
-  std::array<float, MAX_DEPTHS> blend{};  // float: as sent, so that replicas hold the same bits
+  std::array<float, MODAL_LEVEL> blend{};  // float: as sent, so that replicas hold the same bits
 
   bool operator==(const LevelState& other) const {
     return level == other.level && since == other.since && blend == other.blend;
@@ -37,8 +40,7 @@ struct LevelState {
 };
 
 /// How far each depth is at `stamp`, before shaping: alpha of paper 1.
-std::array<double, MAX_DEPTHS> blendAt(const LevelState& state, Nanoseconds stamp,
-                                       double transition);
+Weights blendAt(const LevelState& state, Nanoseconds stamp, double transition);
 /// Weights at `stamp`: alpha itself, or smoothStep(alpha), which starts and ends at rest.
 Weights weightsAt(const LevelState& state, Nanoseconds stamp, const MotionLaw& law);
 /// Starts a change to `level` at `stamp`; continuous at any time.
@@ -46,13 +48,18 @@ void setLevel(LevelState& state, int level, Nanoseconds stamp, double transition
 bool isSettled(const LevelState& state, Nanoseconds stamp, double transition);
 /// Number of depths that carry any weight.
 int movingDepths(const Weights& weights);
+/// Weight of the modes over the procedural motion.
+inline double modalWeight(const Weights& weights) {
+  return weights[MAX_DEPTHS];
+}
 
 /// What a level leaves out, measured on sample trees of a species and scale in uniform wind from
 /// several sides: the largest displacement of any tip per wind speed if only depths below n move
 /// [m per m/s]. Index n; falls to 0.
 struct LevelTable {
   std::array<double, MAX_DEPTHS + 1> omitted{};
-  double height{1.0}, reach{1.0};  ///< largest of the samples [m]
+  std::array<double, MAX_DEPTHS + 1> branches{};  ///< of depth below n, mean of the samples
+  double height{1.0}, reach{1.0};                 ///< largest of the samples [m]
 };
 LevelTable measureLevels(const Species& species, const MotionLaw& law, double scale);
 
@@ -63,8 +70,11 @@ class LevelScales {
   /// Makes at(scale) known.
   void measure(const Species& species, const MotionLaw& law, double scale);
   LevelTable at(double scale) const;
+  /// Lag (lag.h) at a known scale; measured when it is first asked for, some 20 ms.
+  double lagAt(const Species& species, const MotionLaw& law, double scale);
 
  private:
+  std::map<std::size_t, double> lags_;
   std::map<std::size_t, LevelTable> tables_;  // by index into the grid of scales
 };
 

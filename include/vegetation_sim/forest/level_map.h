@@ -52,7 +52,8 @@ struct StateUpdate {
   struct Entry {
     std::uint32_t tree{0};
     LevelState state;
-    std::vector<PromotedBranch> promoted{};  ///< by rising branch; none: all procedural
+    std::vector<PromotedBranch> promoted{};  ///< by rising branch; none
+    physics::ModalState sway{};              ///< of its modes; empty: not in modes
   };
   std::vector<Entry> trees;
 };

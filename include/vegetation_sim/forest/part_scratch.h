@@ -10,17 +10,19 @@
 
 namespace vegetation_sim::forest {
 
-/// The air around a tree, as its level tells it.
+/// The air around a tree, as its level tells it, and its modes where it sways in them.
 struct Air {
   const wind::Field& field;
   LevelState level;
   const MotionLaw& law;
+  const Sway* sway{nullptr};
 };
 
 /// Memory that stepping needs and nothing else: what is in it between steps does not matter. One
 /// serves all the trees of a forest, so that a step allocates nothing.
 struct PartScratch {
   WindWindow window;
+  ModalLooks modal;
   AirSampler air;
   std::vector<Vec3> arms;  // from joints to where the air grips
   Courses courses;         // of links
@@ -43,6 +45,12 @@ struct PartScratch {
   const WindWindow& lookAt(const wind::Field& field, Nanoseconds stamp) {
     if (window.stamp() != stamp) window.lookAt(field, stamp);
     return window;
+  }
+  /// The motion of a tree around a stamp, where it is not physical.
+  Course courseOf(const Tree& tree, const Air& around, Nanoseconds stamp) {
+    if (around.sway) modal.lookAt(*around.sway, stamp);
+    return {tree, lookAt(around.field, stamp), around.level, around.law,
+            around.sway ? &modal : nullptr};
   }
 };
 

@@ -8,6 +8,7 @@
 #include "vegetation_sim/forest/air_sampler.h"
 #include "vegetation_sim/forest/physics_settings.h"
 #include "vegetation_sim/forest/pose.h"
+#include "vegetation_sim/forest/sway.h"
 #include "vegetation_sim/wind/field.h"
 
 namespace vegetation_sim::forest {
@@ -30,25 +31,40 @@ class WindWindow {
   std::array<wind::Instant, 3> looks_;
 };
 
-/// Procedural motion of a joint at a stamp by central differences of the pure function: bends
-/// [rad], rates [rad/s], accelerations [rad/s^2].
+/// Amplitudes of a tree in modes at the three looks; keeps its memory from look to look.
+struct ModalLooks {
+  const Sway* sway{nullptr};
+  std::array<std::vector<double>, 3> amplitude;
+
+  void lookAt(const Sway& at, Nanoseconds stamp);
+};
+
+/// Motion of a joint that is not physical at a stamp, by central differences: bends [rad], rates
+/// [rad/s], accelerations [rad/s^2].
 struct JointCourse {
   JointAngles q, rate, acceleration;
 };
 
-/// Procedural motion of one tree around a stamp: window and level's weights at its three looks.
+/// Motion of one tree around a stamp, procedural or in modes: window and level's weights at its
+/// three looks.
 struct Course {
   const Tree& tree;
   const WindWindow& wind;
   std::array<Weights, 3> weights;
+  const ModalLooks* modal;  // none: all procedural
 
-  Course(const Tree& tree, const WindWindow& wind, const LevelState& level, const MotionLaw& law);
+  Course(const Tree& tree, const WindWindow& wind, const LevelState& level, const MotionLaw& law,
+         const ModalLooks* modal = nullptr);
+  /// Weight of the modes at a look.
+  double modalShare(std::size_t look) const { return modal ? modalWeight(weights[look]) : 0.0; }
+  /// Share of the motion that no law of motion brings about: what compensation starts at (E1).
+  double missing() const { return 1.0 - modalShare(1); }
   /// Bends at look 0, 1 or 2.
   JointAngles anglesAt(int branch, std::size_t look) const;
   JointCourse at(int branch) const;
 };
 
-/// Procedural motion of many branches of a tree at once: to the bit what Course gives one by one.
+/// Motion of many branches of a tree at once: to the bit what Course gives one by one.
 /// Keeps its memory from look to look.
 class Courses {
  public:

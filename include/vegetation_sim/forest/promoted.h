@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "vegetation_sim/forest/pose.h"
+#include "vegetation_sim/forest/sway.h"
 
 namespace vegetation_sim::forest {
 
@@ -34,8 +34,9 @@ double blendWeight(const PromotedBranch& branch, Nanoseconds stamp, double durat
 void overlay(const PromotedTree& promoted, Nanoseconds stamp, std::vector<JointAngles>& angles);
 constexpr double LONGEST_LOOK_AHEAD = 0.05;  ///< [s]
 
-/// Pose of every branch in the tree's frame, physical ones included (S1-35).
+/// Pose of every branch in the tree's frame, physical ones and modes included (S1-35, N13).
+/// `sway`: none, the tree has no modes.
 std::vector<Pose> poseBranches(const Tree& tree, const wind::Instant& wind, const Weights& weights,
-                               const PromotedTree& promoted, Nanoseconds stamp);
+                               const Sway* sway, const PromotedTree& promoted, Nanoseconds stamp);
 
 }  // namespace vegetation_sim::forest

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "vegetation_sim/forest/forest_modes.h"
 #include "vegetation_sim/forest/level_map.h"
 #include "vegetation_sim/forest/promoted.h"
 #include "vegetation_sim/wind/field.h"
@@ -18,7 +19,8 @@ class ForestReplica {
   /// @throws InvalidInput for a layout that check() refuses.
   void setLayout(Layout layout, std::shared_ptr<const terrain::HeightMap> terrain);
   void setWind(const wind::Field& wind) { wind_ = wind; }
-  /// Takes a key frame, or the delta that follows what is held. False: `trees` are ignored until
+  /// Takes a key frame, or the delta that follows what is held; trees in modes are stepped to its
+  /// stamp in the wind that is held. False: `trees` are ignored until
   /// the next key frame, because messages were lost or belong to another layout; why() says which.
   bool apply(const StateUpdate& update);
   const std::string& why() const { return why_; }
@@ -39,16 +41,21 @@ class ForestReplica {
   PromotedTree promoted(std::uint32_t tree) const;
   /// Trees that have physical joints, rising.
   std::vector<std::uint32_t> physicalTrees() const;
-  /// Every branch in the tree's frame, physical ones included, double precision.
+  /// Nullptr: the tree does not sway in modes.
+  const Sway* sway(std::uint32_t tree) const { return modes_.find(tree); }
+  /// Every branch in the tree's frame, physical ones and modes included, double precision.
   std::vector<Pose> pose(const Tree& tree, std::uint32_t id, Nanoseconds stamp) const;
 
  private:
+  bool takeSway(const StateUpdate& update);
+
   std::shared_ptr<const Layout> layout_;
   std::shared_ptr<const terrain::HeightMap> terrain_;
   std::uint64_t layout_hash_{0};
   wind::Field wind_;
   LevelMap levels_;
   std::map<std::uint32_t, std::vector<PromotedBranch>> promoted_;
+  ForestModes modes_;
   double blend_{1.5};
   bool in_sequence_{false};
   std::uint32_t sequence_{0};

@@ -1,0 +1,62 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <set>
+#include <vector>
+
+#include "vegetation_sim/common/hash.h"
+#include "vegetation_sim/forest/level_map.h"
+#include "vegetation_sim/forest/sway.h"
+#include "vegetation_sim/terrain/height_map.h"
+#include "vegetation_sim/wind/field.h"
+
+namespace vegetation_sim::forest {
+
+/// Where trees in modes stand: nothing of it is kept.
+struct Grounds {
+  const Layout& layout;
+  const terrain::HeightMap& terrain;
+  const wind::Field& wind;
+};
+
+/// The trees of a forest that sway in modes. Forest and replica step them with this same code, so
+/// that between key frames nobody needs to be told of amplitudes. A value: copy it to save.
+class ForestModes {
+ public:
+  /// Wind is looked at so often [Hz]; a tick takes the nearest whole number of such steps.
+  static constexpr int RATE = 60;
+
+  /// From the last tick to this one. After a gap that is not stepped through, and when time has
+  /// gone back, every tree starts again on its procedural motion.
+  void advance(const wind::Field& wind, Nanoseconds from, Nanoseconds to);
+  /// Takes a tree up, on its procedural motion: finds its modes, a few milliseconds.
+  void begin(const Grounds& at, std::uint32_t tree, Nanoseconds stamp);
+  /// Takes over a state that was told; modes that are held are not found again.
+  /// @throws InvalidInput for a tree without modes, or with another number of them.
+  void restore(const Grounds& at, std::uint32_t tree, const physics::ModalState& state,
+               Nanoseconds stamp);
+  /// Drops the trees whose modes have no weight any more, nor will have.
+  void settle(const LevelMap& levels, Nanoseconds stamp, double transition);
+  void keepOnly(const std::set<std::uint32_t>& trees);
+  void clear() { sways_.clear(); }
+
+  /// Nullptr: not in modes.
+  const Sway* find(std::uint32_t tree) const;
+  const std::map<std::uint32_t, Sway>& sways() const { return sways_; }
+  std::size_t bytes() const;
+  void addTo(Hash& hash) const;
+
+ private:
+  Sway& take(const Grounds& at, std::uint32_t tree);
+  void start(const wind::Field& wind, Sway& sway, Nanoseconds stamp);
+
+  std::map<std::uint32_t, Sway> sways_;
+  std::vector<wind::Instant> instants_;  // scratch from here on
+  std::vector<std::vector<double>> loads_;
+  AirSampler air_;
+};
+
+}  // namespace vegetation_sim::forest

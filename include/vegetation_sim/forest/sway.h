@@ -1,0 +1,60 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "vegetation_sim/forest/level.h"
+#include "vegetation_sim/forest/modal_tree.h"
+
+namespace vegetation_sim::forest {
+
+/// A tree that sways in its modes (N13). Amplitudes and rates at the last tick are all that is
+/// remembered: the modes follow from the seed, their loads from the wind law. A value; copies share
+/// the modes.
+class Sway {
+ public:
+  explicit Sway(std::shared_ptr<const ModalTree> modes);
+
+  const ModalTree& modes() const { return *modes_; }
+  const physics::ModalState& state() const { return state_; }  ///< at stamp()
+  Nanoseconds stamp() const { return stamp_; }
+
+  /// Starts as the procedural motion is under modal loads [modes] `step` seconds before the stamp,
+  /// at it, and after.
+  void begin(const std::array<std::vector<double>, 3>& loads, double step, Nanoseconds stamp);
+  /// Goes on from a state, under a modal load. @throws InvalidInput if it has not as many modes.
+  void restore(const physics::ModalState& state, const std::vector<double>& load,
+               Nanoseconds stamp);
+  /// Equal steps to `stamp` between loads [steps + 1][modes].
+  void step(const std::vector<std::vector<double>>& loads, Nanoseconds stamp);
+
+  /// Amplitudes at a stamp near the last tick: by their rates and accelerations there, not farther
+  /// than LONGEST_LOOK_AHEAD.
+  std::vector<double> amplitudeAt(Nanoseconds stamp) const;
+  /// Amplitudes between the last two ticks, as a cubic that has their values and rates.
+  void amplitudeBetween(Nanoseconds stamp, std::vector<double>& out) const;
+
+ private:
+  void land(const std::vector<double>& load, Nanoseconds stamp);
+
+  std::shared_ptr<const ModalTree> modes_;
+  physics::ModalStepper stepper_;
+  physics::ModalState state_, before_;  // at the last tick, at the one before
+  std::vector<double> acceleration_;
+  Nanoseconds stamp_{0}, before_stamp_{0};
+};
+
+/// Deviation of each joint: procedural, or modal, or between them, as the weights say. `wind` is
+/// relative to the foot; `sway`: none, all procedural.
+std::vector<JointAngles> swayingAngles(const Tree& tree, const wind::Instant& wind,
+                                       const Weights& weights, const Sway* sway, Nanoseconds stamp);
+
+/// Bends of one joint in the modes, within what joints do.
+JointAngles bendOf(const ModalTree& modes, const std::vector<double>& amplitude, int branch);
+/// `weight` of the way from one to the other.
+JointAngles between(const JointAngles& from, const JointAngles& to, double weight);
+
+}  // namespace vegetation_sim::forest

@@ -1,0 +1,182 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+// Which rung each tree of a forest has.
+#include <algorithm>
+
+#include "vegetation_sim/forest/forest.h"
+#include "vegetation_sim/forest/lag.h"
+
+namespace vegetation_sim::forest {
+namespace {
+
+// A level table speaks of the worst tip of the worst tree across the wind; in a picture, a forest
+// shows so much of that. Measured: forest_test, PredictedErrorIsTheMeasuredOne.
+constexpr double SEEN = 0.57;
+// What a tree in modes takes of a key frame; key frames come once a second [B/s].
+constexpr int MODAL_BYTES = 300;
+// More are not kept room for: few scenes have as many near trees.
+constexpr std::size_t MANY_PLANTS = 20000;
+// A rung that has changed stays for so long while the budget binds [s].
+constexpr double REST = 1.0;
+
+}  // namespace
+
+// Speed that a bend is proportional to.
+double Forest::bendingSpeed(double speed, double reference_speed) const {
+  const bool linear = static_cast<Drag>(layout_.motion.drag) == Drag::LINEAR;
+  return linear ? speed : speed * speed / reference_speed;
+}
+
+// Pixels per metre of table of the eye that sees a disc best: the finest wins. A robot near by sees
+// its tolerance in metres as an eye sees its own in pixels.
+double Forest::viewOf(const Vec3& centre, double reach) const {
+  double out = 0.0;
+  for (const auto& entry : memory_.viewers) {
+    const Eye& eye = entry.second.eye;
+    if (!sees(eye, centre, 2.0 * reach)) continue;  // twice: the whole tree, and a margin
+    const double distance = length(eye.position - centre) - reach;
+    out = std::max(out, pixelsPerMetre(eye, distance));
+  }
+  const Settings& settings = memory_.settings;
+  for (const auto& entry : memory_.physics.bodies()) {
+    const double distance = length(entry.second.pose.position - centre) - reach;
+    if (distance < settings.robot_range)
+      out = std::max(out, settings.tolerance / settings.robot_tolerance);
+  }
+  return SEEN * out;
+}
+
+void Forest::advance(Nanoseconds stamp) {
+  advancePhysics(stamp);
+  memory_.stamp = stamp;
+  for (auto it = memory_.viewers.begin(); it != memory_.viewers.end();)
+    it = stamp - it->second.stamp > VIEWER_LIFE ? memory_.viewers.erase(it) : std::next(it);
+  chooseLevels();
+  memory_.levels.prune(stamp, layout_.motion.transition);
+  memory_.modes.settle(memory_.levels, stamp, layout_.motion.transition);
+}
+
+void Forest::chooseLevels() {
+  const Settings& settings = memory_.settings;
+  const bool watched = !memory_.viewers.empty();
+  const int base = watched ? 0 : std::min(settings.fixed_level, settings.highest_level);
+  last_base_ = memory_.levels.base().level;
+  memory_.levels.rebase(base, memory_.stamp, layout_.motion.transition);
+  plants_.clear();
+  if (watched || !memory_.physics.bodies().empty()) {
+    now_ = memory_.wind.at(memory_.stamp);
+    for (const Region& region : regions_) chooseRegion(region);
+  }
+  adopt();
+}
+
+// A whole tile at a time: where even its nearest, largest tree may stand still, no tree is looked
+// at.
+void Forest::chooseRegion(const Region& region) {
+  if (region.count == 1) return chooseTree(region.first);
+  const double speed =
+      bendingSpeed(now_.speedBound(region.centre, region.reach), slowest_reference_);
+  const double error = largest_omission_ * speed * viewOf(region.centre, region.reach);
+  if (error <= HYSTERESIS * memory_.settings.tolerance) return;
+  for (std::uint32_t i = 0; i < region.count; ++i) chooseTree(region.first + i);
+}
+
+void Forest::chooseTree(std::uint32_t tree) {
+  const TreeSeed seed = seedOf(layout_, tree);
+  const LevelTable table = tables_[seed.species].at(seed.scale);
+  const Vec3 foot = footOf(seed, *terrain_);
+  const Vec3 middle = foot + Vec3(0.0, 0.0, 0.5 * table.height);
+  const double view = viewOf(middle, 0.5 * table.reach);  // where most of its twigs are
+  const auto known = memory_.levels.held().find(tree);
+  const bool held = known != memory_.levels.held().end();
+  Plant plant;
+  plant.tree = tree;
+  plant.held = held ? known->second.level : last_base_;
+  plant.resting = held && secondsBetween(known->second.since, memory_.stamp) < REST;
+  predict(seed, table, view, plant);
+  const int base = memory_.levels.base().level;
+  plant.procedural = std::max(plant.procedural, base);
+  if (plant.procedural != base || plant.held != base) plants_.push_back(plant);
+}
+
+// Errors and costs of all rungs, and which of them the tolerance asks for.
+void Forest::predict(const TreeSeed& seed, const LevelTable& table, double view, Plant& plant) {
+  const Settings& settings = memory_.settings;
+  const Budget& budget = settings.budget;
+  const Species& species = layout_.species[seed.species];
+  const Vec3 foot = footOf(seed, *terrain_);
+  const double air = now_.speedBound(foot, 0.5 * table.reach);
+  const double speed = bendingSpeed(air, species.reference_speed);
+  plant.procedural = std::min(chooseLevel(table, speed, view, settings.tolerance, plant.held),
+                              settings.highest_level);
+  double lag = 0.0;
+  if (haveModes() && plant.procedural > 0) {
+    const double gust = now_.gustBound(foot, 0.5 * table.reach);
+    const double share = air > 0.0 ? gust / air : 0.0;
+    if (share > 0.0)
+      lag = share * speed * view * tables_[seed.species].lagAt(species, layout_.motion, seed.scale);
+  }
+  const bool has = plant.held == MODAL_LEVEL;
+  plant.modal = lag > (has ? HYSTERESIS : 1.0) * settings.tolerance;
+  for (std::size_t rung = 0; rung < table.omitted.size(); ++rung) {
+    plant.error[rung] = static_cast<float>(std::max(speed * view * table.omitted[rung], lag));
+    plant.cost[rung] = static_cast<float>(1e-6 * budget.procedural_cost * table.branches[rung]);
+  }
+  plant.error[MODAL_LEVEL] = static_cast<float>(MODAL_SHARE * lag);
+  plant.cost[MODAL_LEVEL] = static_cast<float>(1e-6 * budget.modal_cost * table.branches.back());
+}
+
+bool Forest::haveModes() const {
+  return memory_.settings.budget.modal_trees > 0 && memory_.settings.highest_level == MAX_DEPTHS &&
+         static_cast<JointModel>(layout_.motion.joint_model) == JointModel::SWING;
+}
+
+void Forest::adopt() {
+  const Settings& settings = memory_.settings;
+  const Budget& budget = settings.budget;
+  const double physical =
+      1e-6 * budget.physical_cost * static_cast<double>(physicsFigures().branches);
+  const int modal = std::min(budget.modal_trees, budget.state_bytes / MODAL_BYTES);
+  governor_ = govern(plants_, std::max(0.0, budget.frame_time - physical),
+                     static_cast<std::size_t>(modal), settings.tolerance);
+  governor_.physical = physical;
+  governor_.cost += physical;
+  governor_.budget = budget.frame_time;
+  beginModes();
+  std::vector<std::uint32_t> chosen, held;
+  for (const Plant& plant : plants_) {
+    aim(plant.tree, plant.chosen);
+    chosen.push_back(plant.tree);
+  }
+  std::sort(chosen.begin(), chosen.end());
+  for (const auto& entry : memory_.levels.held()) held.push_back(entry.first);
+  for (const std::uint32_t tree : held)
+    if (!std::binary_search(chosen.begin(), chosen.end(), tree))
+      aim(tree, memory_.levels.base().level);
+  if (plants_.size() > MANY_PLANTS) std::vector<Plant>().swap(plants_);
+}
+
+// Modes take milliseconds to find: one tree a tick, the one that is farthest off first. The others
+// wait on their procedural rung.
+void Forest::beginModes() {
+  Plant* first = nullptr;
+  for (Plant& plant : plants_) {
+    if (plant.chosen != MODAL_LEVEL || memory_.modes.find(plant.tree)) continue;
+    plant.chosen = plant.procedural;
+    if (!first || plant.error[0] > first->error[0]) first = &plant;
+  }
+  if (!first) return;
+  memory_.modes.begin({layout_, *terrain_, memory_.wind}, first->tree, memory_.stamp);
+  memory_.changed.insert(first->tree);
+  first->chosen = MODAL_LEVEL;
+}
+
+void Forest::aim(std::uint32_t tree, int level) {
+  LevelState state = memory_.levels.of(tree);
+  if (state.level == level) return;
+  setLevel(state, level, memory_.stamp, layout_.motion.transition);
+  memory_.levels.set(tree, state);
+  memory_.changed.insert(tree);
+}
+
+}  // namespace vegetation_sim::forest

@@ -1,0 +1,100 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/forest/forest_modes.h"
+
+#include <algorithm>
+
+#include "vegetation_sim/forest/procedural_motion.h"
+
+namespace vegetation_sim::forest {
+namespace {
+
+std::size_t stepsBetween(Nanoseconds from, Nanoseconds to) {
+  const Nanoseconds steps =
+      ((to - from) * ForestModes::RATE + NANOSECONDS_PER_SECOND / 2) / NANOSECONDS_PER_SECOND;
+  return static_cast<std::size_t>(std::max<Nanoseconds>(1, steps));
+}
+
+}  // namespace
+
+void ForestModes::advance(const wind::Field& wind, Nanoseconds from, Nanoseconds to) {
+  if (sways_.empty()) return;
+  if (to <= from || to - from > LONGEST_GAP) {
+    for (auto& entry : sways_) start(wind, entry.second, to);
+    return;
+  }
+  const std::size_t steps = stepsBetween(from, to);
+  instants_.resize(steps + 1);
+  for (std::size_t i = 0; i <= steps; ++i)
+    wind.at(from + (to - from) * static_cast<Nanoseconds>(i) / static_cast<Nanoseconds>(steps),
+            instants_[i]);
+  loads_.resize(steps + 1);
+  for (auto& [tree, sway] : sways_) {
+    for (std::size_t i = 0; i <= steps; ++i) sway.modes().loadOf(instants_[i], air_, loads_[i]);
+    sway.step(loads_, to);
+  }
+}
+
+Sway& ForestModes::take(const Grounds& at, std::uint32_t tree) {
+  const auto found = sways_.find(tree);
+  if (found != sways_.end()) return found->second;
+  const Tree grown = growTree(at.layout, tree, at.terrain);
+  auto modes = std::make_shared<const ModalTree>(grown, at.layout.species[grown.seed.species]);
+  return sways_.emplace(tree, Sway(std::move(modes))).first->second;
+}
+
+void ForestModes::start(const wind::Field& wind, Sway& sway, Nanoseconds stamp) {
+  std::array<std::vector<double>, 3> loads;
+  WindWindow window;
+  window.lookAt(wind, stamp);
+  for (std::size_t look = 0; look < loads.size(); ++look)
+    sway.modes().loadOf(window.looks()[look], air_, loads[look]);
+  sway.begin(loads, secondsBetween(0, LOOK), stamp);
+}
+
+void ForestModes::begin(const Grounds& at, std::uint32_t tree, Nanoseconds stamp) {
+  start(at.wind, take(at, tree), stamp);
+}
+
+void ForestModes::restore(const Grounds& at, std::uint32_t tree, const physics::ModalState& state,
+                          Nanoseconds stamp) {
+  Sway& sway = take(at, tree);
+  std::vector<double> load;
+  sway.modes().loadOf(at.wind.at(stamp), air_, load);
+  sway.restore(state, load, stamp);
+}
+
+void ForestModes::settle(const LevelMap& levels, Nanoseconds stamp, double transition) {
+  for (auto it = sways_.begin(); it != sways_.end();) {
+    const LevelState level = levels.of(it->first);
+    const bool over =
+        level.level < MODAL_LEVEL && modalWeight(blendAt(level, stamp, transition)) <= 0.0;
+    it = over ? sways_.erase(it) : std::next(it);
+  }
+}
+
+void ForestModes::keepOnly(const std::set<std::uint32_t>& trees) {
+  for (auto it = sways_.begin(); it != sways_.end();)
+    it = trees.count(it->first) ? std::next(it) : sways_.erase(it);
+}
+
+const Sway* ForestModes::find(std::uint32_t tree) const {
+  const auto found = sways_.find(tree);
+  return found == sways_.end() ? nullptr : &found->second;
+}
+
+std::size_t ForestModes::bytes() const {
+  std::size_t out = 0;
+  for (const auto& entry : sways_) out += entry.second.modes().bytes();
+  return out;
+}
+
+void ForestModes::addTo(Hash& hash) const {
+  for (const auto& [tree, sway] : sways_) {
+    hash.add(static_cast<std::uint64_t>(tree));
+    for (const double a : sway.state().amplitude) hash.add(a);
+    for (const double r : sway.state().rate) hash.add(r);
+  }
+}
+
+}  // namespace vegetation_sim::forest

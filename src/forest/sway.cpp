@@ -1,0 +1,117 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/forest/sway.h"
+
+#include <algorithm>
+
+#include "vegetation_sim/common/faults.h"
+#include "vegetation_sim/forest/promoted.h"
+
+namespace vegetation_sim::forest {
+namespace {
+
+// Steps are told in whole microseconds: a grid of ticks whose period is no whole number of
+// nanoseconds then has one step, whose propagators are computed once.
+double wholeMicroseconds(Nanoseconds step) {
+  return 1e-6 * static_cast<double>((step + 500) / 1000);
+}
+
+}  // namespace
+
+Sway::Sway(std::shared_ptr<const ModalTree> modes)
+    : modes_(std::move(modes)),
+      stepper_(modes_->modes()),
+      state_(stepper_.atRest()),
+      before_(state_) {}
+
+void Sway::land(const std::vector<double>& load, Nanoseconds stamp) {
+  stepper_.accelerations(state_, load, acceleration_);
+  stamp_ = stamp;
+}
+
+// The static answer to each load; its rate by central difference.
+void Sway::begin(const std::array<std::vector<double>, 3>& loads, double step, Nanoseconds stamp) {
+  for (std::size_t m = 0; m < state_.amplitude.size(); ++m) {
+    const double w = modes_->modes().frequency[m], stiffness = w * w;
+    state_.amplitude[m] = loads[1][m] / stiffness;
+    state_.rate[m] = (loads[2][m] - loads[0][m]) / (2.0 * step * stiffness);
+  }
+  before_ = state_;
+  before_stamp_ = stamp;
+  land(loads[1], stamp);
+}
+
+void Sway::restore(const physics::ModalState& state, const std::vector<double>& load,
+                   Nanoseconds stamp) {
+  if (state.amplitude.size() != modes_->size() || state.rate.size() != modes_->size())
+    throw InvalidInput("modes: " + std::to_string(state.amplitude.size()) + " amplitudes and " +
+                       std::to_string(state.rate.size()) + " rates, the tree has " +
+                       std::to_string(modes_->size()));
+  state_ = before_ = state;
+  before_stamp_ = stamp;
+  land(load, stamp);
+}
+
+void Sway::step(const std::vector<std::vector<double>>& loads, Nanoseconds stamp) {
+  before_ = state_;
+  before_stamp_ = stamp_;
+  const auto steps = static_cast<Nanoseconds>(loads.size()) - 1;
+  const double h = wholeMicroseconds((stamp - stamp_) / steps);
+  for (std::size_t i = 0; i + 1 < loads.size(); ++i)
+    stepper_.step(loads[i], loads[i + 1], h, state_);
+  land(loads.back(), stamp);
+}
+
+std::vector<double> Sway::amplitudeAt(Nanoseconds stamp) const {
+  const double ahead =
+      std::clamp(secondsBetween(stamp_, stamp), -LONGEST_LOOK_AHEAD, LONGEST_LOOK_AHEAD);
+  std::vector<double> out = state_.amplitude;
+  for (std::size_t m = 0; m < out.size(); ++m)
+    out[m] += ahead * (state_.rate[m] + 0.5 * ahead * acceleration_[m]);
+  return out;
+}
+
+void Sway::amplitudeBetween(Nanoseconds stamp, std::vector<double>& out) const {
+  if (stamp_ == before_stamp_) {
+    out = amplitudeAt(stamp);
+    return;
+  }
+  const double length = secondsBetween(before_stamp_, stamp_);
+  const double u = secondsBetween(before_stamp_, stamp) / length, v = 1.0 - u;
+  const double a = v * v * (1.0 + 2.0 * u), b = u * v * v * length;
+  const double c = u * u * (1.0 + 2.0 * v), d = -(u * u * v) * length;
+  out.resize(state_.amplitude.size());
+  for (std::size_t m = 0; m < out.size(); ++m)
+    out[m] = a * before_.amplitude[m] + b * before_.rate[m] + c * state_.amplitude[m] +
+             d * state_.rate[m];
+}
+
+JointAngles bendOf(const ModalTree& modes, const std::vector<double>& amplitude, int branch) {
+  JointAngles out;
+  for (std::size_t m = 0; m < amplitude.size(); ++m) {
+    const double* shape = modes.modes().shapeOf(m) + 2 * static_cast<std::size_t>(branch);
+    out.first += amplitude[m] * shape[0];
+    out.second += amplitude[m] * shape[1];
+  }
+  return limited(out);
+}
+
+JointAngles between(const JointAngles& from, const JointAngles& to, double weight) {
+  return {(1.0 - weight) * from.first + weight * to.first,
+          (1.0 - weight) * from.second + weight * to.second};
+}
+
+std::vector<JointAngles> swayingAngles(const Tree& tree, const wind::Instant& wind,
+                                       const Weights& weights, const Sway* sway,
+                                       Nanoseconds stamp) {
+  const double weight = sway ? modalWeight(weights) : 0.0;
+  if (weight <= 0.0) return proceduralAngles(tree, wind, weights);
+  std::vector<JointAngles> out = sway->modes().bendsOf(sway->amplitudeAt(stamp));
+  for (JointAngles& bends : out) bends = limited(bends);
+  if (weight >= 1.0) return out;
+  const std::vector<JointAngles> from = proceduralAngles(tree, wind, weights);
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = between(from[i], out[i], weight);
+  return out;
+}
+
+}  // namespace vegetation_sim::forest

@@ -1,0 +1,201 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/forest/sway.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "forest/physics_scene.h"
+
+namespace vegetation_sim::forest {
+namespace {
+
+wind::Field breeze() {
+  return wind::Field({makeBreeze(1, Vec3(5.0, 1.0, 0.0))}, 3);
+}
+
+/// Four trees in a breeze, and an eye that comes and goes.
+struct Clearing {
+  explicit Clearing(const wind::Field& field = breeze()) {
+    forest.setWind(field);
+    look(true);
+  }
+  void look(bool near) {
+    eye.id = "eye";
+    eye.eye.position = near ? Vec3(6.0, 6.0, 3.0) : Vec3(4000.0, 0.0, 3.0);
+  }
+  Nanoseconds now() const { return grid.timeOf(tick); }
+  void advance() {
+    eye.stamp = grid.timeOf(++tick);
+    forest.setViewer(eye);
+    forest.advance(now());
+  }
+  void run(double duration) {
+    for (int i = 0; i < static_cast<int>(duration * TICK_RATE + 0.5); ++i) advance();
+  }
+  Tree tree(std::uint32_t id) const { return growTree(forest.layout(), id, forest.terrain()); }
+  std::vector<JointAngles> angles(const Tree& tree, std::uint32_t id, Nanoseconds stamp) const {
+    std::vector<JointAngles> out =
+        swayingAngles(tree, forest.memory().wind.at(stamp).relativeTo(tree.foot),
+                      weightsAt(forest.memory().levels.of(id), stamp, forest.layout().motion),
+                      forest.sway(id), stamp);
+    overlay(forest.promoted(id), stamp, out);
+    return out;
+  }
+
+  Forest forest{gridLayout(2, 12.0), flatTerrain(), Settings()};
+  Viewer eye;
+  TickGrid grid{TICK_RATE};
+  std::int64_t tick{TickGrid(TICK_RATE).tickAt(PHYSICS_START)};
+};
+
+// N13: near trees get their modes when the tolerance asks for it, and lose them after.
+TEST(Sway, NearTreesHaveModesAndFarOnesHaveNone) {
+  Clearing scene;
+  Settings settings;
+  settings.tolerance = 0.1;
+  scene.forest.setSettings(settings);
+  scene.run(2.0);
+  EXPECT_EQ(scene.forest.memory().modes.sways().size(), 4u);
+  for (std::uint32_t id = 0; id < 4; ++id)
+    EXPECT_EQ(scene.forest.memory().levels.of(id).level, MODAL_LEVEL) << id;
+  scene.look(false);
+  scene.run(0.5);
+  EXPECT_EQ(scene.forest.memory().modes.sways().size(), 4u);  // they still fade
+  scene.run(1.0);
+  EXPECT_TRUE(scene.forest.memory().modes.sways().empty());
+}
+
+// Steady wind has no lag to show, and no budget has no modes.
+TEST(Sway, NoTreeHasModesThatNobodyAskedFor) {
+  Clearing steady(wind::Field({makeDisk(1, Vec3::Zero(), 2000.0, Vec3(5, 1, 0))}));
+  steady.run(1.0);
+  EXPECT_TRUE(steady.forest.memory().modes.sways().empty());
+  Clearing poor;
+  Settings settings;
+  settings.budget.modal_trees = 0;
+  poor.forest.setSettings(settings);
+  poor.run(1.0);
+  EXPECT_TRUE(poor.forest.memory().modes.sways().empty());
+  EXPECT_GT(poor.forest.memory().levels.of(0).level, 0);
+}
+
+// N13, S1-24: no pop. At every tick, what was seen up to it and what is seen from it on agree
+// within 0.1 degree, and their rates within 1 % of the largest rate.
+TEST(Sway, NothingJumpsGoingUpOrDown) {
+  Clearing scene;
+  const Tree tree = scene.tree(0);
+  const Nanoseconds aside = seconds(1e-4);
+  double jump = 0.0, kick = 0.0, peak = 0.0;
+  for (int i = 0; i < 4 * TICK_RATE; ++i) {
+    if (i == 2 * TICK_RATE) scene.look(false);
+    const Nanoseconds next = scene.grid.timeOf(scene.tick + 1);
+    const auto early = scene.angles(tree, 0, next - aside), before = scene.angles(tree, 0, next);
+    scene.advance();
+    const auto after = scene.angles(tree, 0, next), late = scene.angles(tree, 0, next + aside);
+    for (std::size_t b = 0; b < before.size(); ++b) {
+      jump = std::max(jump, difference(before[b], after[b]));
+      const JointAngles in{before[b].first - early[b].first, before[b].second - early[b].second};
+      const JointAngles out{late[b].first - after[b].first, late[b].second - after[b].second};
+      kick = std::max(kick, difference(in, out) / 1e-4);
+      peak = std::max(peak, difference(out, {}) / 1e-4);
+    }
+  }
+  std::printf("largest jump %.1e rad, in rate %.1e of %.2f rad/s\n", jump, kick, peak);
+  EXPECT_LT(jump, 0.1 / 57.3);
+  EXPECT_LT(kick, 0.01 * peak);
+}
+
+// N13: key frames tell amplitudes; between them a replica steps the modes itself. Whoever comes
+// late and whoever was there from the beginning pose every branch as the forest does, to the bit.
+TEST(Sway, ReplicasSwayToTheBit) {
+  Clearing scene;
+  ForestReplica steady, late;
+  for (ForestReplica* replica : {&steady, &late}) {
+    replica->setLayout(scene.forest.layout(), flatTerrain());
+    replica->setWind(breeze());
+  }
+  const Tree tree = scene.tree(2);
+  std::size_t told = 0;
+  for (int i = 0; i < 3 * TICK_RATE; ++i) {
+    if (i == 2 * TICK_RATE - 20) scene.look(false);
+    scene.advance();
+    const StateUpdate update = scene.forest.update(i % TICK_RATE == 0);
+    for (const auto& entry : update.trees) told += entry.sway.amplitude.size();
+    ASSERT_TRUE(steady.apply(update)) << steady.why();
+    const bool joined = i >= TICK_RATE;
+    ASSERT_EQ(joined && late.apply(update), joined) << late.why();
+    if (i % 7) continue;
+    const Nanoseconds stamp = scene.now() + seconds(0.004);
+    const auto here = scene.forest.pose(tree, 2, stamp);
+    for (const ForestReplica* replica : {&steady, &late}) {
+      if (replica == &late && !joined) continue;
+      const auto there = replica->pose(tree, 2, stamp);
+      for (std::size_t b = 0; b < here.size(); ++b) {
+        ASSERT_EQ(here[b].position, there[b].position) << i << " " << b;
+        ASSERT_EQ(here[b].orientation.w, there[b].orientation.w) << i << " " << b;
+      }
+    }
+  }
+  EXPECT_LT(told, 4u * 15u * 20u);  // of 3 s at 60 Hz: some 700 would be if every tick told
+}
+
+// N6: what is restored sways as what went on.
+TEST(Sway, IsSavedRestoredAndHashed) {
+  Clearing scene;
+  scene.run(1.0);
+  const ForestMemory saved = scene.forest.memory();
+  const std::int64_t tick = scene.tick;
+  scene.run(1.0);
+  const std::uint64_t hash = scene.forest.hash();
+  scene.forest.restore(saved);
+  EXPECT_NE(scene.forest.hash(), hash);
+  scene.tick = tick;
+  scene.run(1.0);
+  EXPECT_EQ(scene.forest.hash(), hash);
+}
+
+// N13: physics starts from the modal angles and rates, without compensation, and goes on as the
+// modes do while motion is small.
+TEST(Sway, HandsOverToPhysicsWithoutCompensation) {
+  Clearing scene;
+  PhysicsSettings physics;
+  physics.promotion = static_cast<int>(Promotion::DEPTH);
+  scene.forest.setPhysics(physics);
+  scene.run(3.0);
+  const Tree tree = scene.tree(0);
+  const auto before = scene.angles(tree, 0, scene.now());
+  Push touch;
+  touch.point = {0, static_cast<int>(tree.skeleton.branches.size()) - 1, 0.0};
+  touch.until = scene.now() + seconds(1.0);
+  scene.forest.push(touch);
+  double off = 0.0, size = 0.0;
+  for (int i = 0; i < TICK_RATE; ++i) {
+    scene.advance();
+    const PromotedTree promoted = scene.forest.promoted(0);
+    ASSERT_FALSE(promoted.branches.empty());
+    if (i == 0) {
+      for (const PartJoint& joint : scene.forest.memory().physics.parts().at(0).joints())
+        ASSERT_EQ(joint.compensation, 0.0);
+      for (const PromotedBranch& b : promoted.branches)
+        EXPECT_LT(difference(b.q, before[static_cast<std::size_t>(b.branch)]), 0.05);
+    }
+    std::vector<JointAngles> modal =
+        scene.forest.sway(0)->modes().bendsOf(scene.forest.sway(0)->amplitudeAt(scene.now()));
+    std::vector<JointAngles> real = modal;
+    overlay(promoted, scene.now(), real);
+    const std::vector<Pose> a = forwardKinematics(tree, modal), b = forwardKinematics(tree, real);
+    for (std::size_t j = 0; j < a.size(); ++j) {
+      off += (a[j].position - b[j].position).squaredNorm();
+      size += (a[j].position - tree.skeleton.branches[j].rest.position).squaredNorm();
+    }
+  }
+  std::printf("a second of physics without compensation: %.1f %% off the modes\n",
+              100.0 * std::sqrt(off / size));
+  EXPECT_LT(std::sqrt(off / size), 0.1);
+}
+
+}  // namespace
+}  // namespace vegetation_sim::forest
