@@ -4,6 +4,7 @@
 // The modal rung (N13): error against full dynamics by number of modes, beside the procedural rung
 // and paper 1's dynamics; what a step of the load does in one frame; rotation at which modes cease
 // to hold; cost of finding and of posing. usage: modal_bench [--quick | --full] [--cache FOLDER]
+//   [--csv FILE]
 // --full: trees of 10 000 branches too.
 #include <algorithm>
 #include <cstdio>
@@ -17,23 +18,46 @@
 namespace vegetation_sim::bench {
 namespace {
 
+const std::vector<forest::ModalDepth> DEPTHS{
+    {0, 1, 1}, {6, 1, 1}, {20, 1, 1}, {4, 5, 1}, {10, 5, 1}};
+
+// What wind and step of a tree in modes cost besides.
+double breezeCost(const forest::Swaying& scene, forest::ModalDepth depth) {
+  const forest::ModalTree modal(scene.tree(), scene.species(), depth);
+  const wind::Instant air = scene.field().at(forest::SWAY_START);
+  forest::AirSampler sampler;
+  std::vector<double> load;
+  return modalCost(modal.modes()) +
+         costOf([&] { modal.loadOf(air, sampler, load); }, scene.tree().skeleton.branches.size());
+}
+
 void measureSpecies(const ModalOptions& options) {
   const wind::Field breeze({forest::makeBreeze(1, Vec3(5.0, 1.0, 0.0))}, 3);
   std::printf("\nbreeze of 5 m/s, species of the package: error by modes + vectors each side\n");
   std::printf("| species | procedural | 0 + 1 | 6 + 1 | 20 + 1 | 4 + 5 | 10 + 5 |\n");
   for (std::uint32_t id = 0; id < 4; ++id) {
     const forest::Swaying scene(id, breeze, options.duration);
-    std::printf("| %-7s | %8.1f %% |", forest::speciesNames()[id].c_str(),
-                100.0 * scene.proceduralError());
-    for (const forest::ModalDepth depth :
-         {forest::ModalDepth{0, 1, 1}, {6, 1, 1}, {20, 1, 1}, {4, 5, 1}, {10, 5, 1}})
-      std::printf(" %4.1f %% |", 100.0 * scene.modalError(depth));
+    const std::string load = "breeze, " + forest::speciesNames()[id];
+    const std::size_t branches = scene.tree().skeleton.branches.size();
+    const double procedural = scene.proceduralError();
+    std::printf("| %-7s | %8.1f %% |", forest::speciesNames()[id].c_str(), 100.0 * procedural);
+    if (options.table)
+      options.table->row(load, branches, "procedural", -1, -1, procedural, 0.0, options.procedural,
+                         0.0, 0.0);
+    for (const forest::ModalDepth depth : DEPTHS) {
+      const double error = scene.modalError(depth);
+      std::printf(" %4.1f %% |", 100.0 * error);
+      if (options.table)
+        options.table->row(load, branches, "modes", depth.modes, depth.sideways, error, 0.0,
+                           breezeCost(scene, depth), 0.0, 0.0);
+    }
     std::printf("\n");
   }
 }
 
 int run(int argc, char** argv) {
   ModalOptions options;
+  std::string csv;
   for (int i = 1; i < argc; ++i) {
     if (!std::strcmp(argv[i], "--quick")) {
       options.branches = {100};
@@ -42,11 +66,16 @@ int run(int argc, char** argv) {
       options.branches.push_back(10000);
     } else if (!std::strcmp(argv[i], "--cache") && i + 1 < argc) {
       options.cache = argv[++i];
+    } else if (!std::strcmp(argv[i], "--csv") && i + 1 < argc) {
+      csv = argv[++i];
     } else {
       throw std::invalid_argument(std::string(argv[i]) + ": unknown, or its value is missing");
     }
   }
   if (!options.cache.empty()) std::filesystem::create_directories(options.cache);
+  Table table(csv, MODAL_COLUMNS);
+  options.table = &table;
+  options.procedural = proceduralCost();
   for (const int branches : options.branches) {
     const TestTree tree = fractalTree(branches);
     measureFinding(tree, options.rounds);

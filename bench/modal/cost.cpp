@@ -48,6 +48,13 @@ class Posing {
       stepper->step(load_, load_, 1.0 / 60.0, state_);
     });
   }
+  /// Beside forward kinematics [ns].
+  double proceduralCost() {
+    const std::size_t n = tree_.skeleton.branches.size();
+    const double all =
+        costOf([this] { poser_.pose(air_, forest::fullWeights(), forest::MAX_DEPTHS, poses_); }, n);
+    return all - costOf([this] { poser_.pose(bends_, poses_); }, n);
+  }
   void print(int rounds) {
     timeOnProcessor(candidates_, rounds);
     const double share = 1e9 / REPEATS / static_cast<double>(tree_.skeleton.branches.size());
@@ -73,6 +80,33 @@ class Posing {
 };
 
 }  // namespace
+
+double costOf(const std::function<void()>& once, std::size_t branches) {
+  constexpr int REPEATS = 40, ROUNDS = 5;
+  std::vector<Candidate> candidates{{"", [&once] {
+                                       for (int i = 0; i < REPEATS; ++i) once();
+                                     }}};
+  timeOnProcessor(candidates, ROUNDS);
+  return 1e9 / REPEATS / static_cast<double>(branches) * candidates[0].seconds;
+}
+
+double modalCost(const physics::Modes& modes) {
+  const physics::BatchModes batch(modes);
+  physics::ModalStepper stepper(modes);
+  physics::ModalState state = stepper.atRest();
+  const std::vector<double> load(modes.size(), 0.01);
+  physics::BatchBends bends;
+  return costOf(
+      [&] {
+        stepper.step(load, load, 1.0 / 60.0, state);
+        batch.bends(state.amplitude, bends);
+      },
+      modes.length / 2);
+}
+
+double proceduralCost() {
+  return Posing().proceduralCost();
+}
 
 void measureFinding(const TestTree& tree, int rounds) {
   const std::vector<physics::Link> links = coreLinks(tree);

@@ -1,6 +1,7 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cstdio>
+#include <functional>
 
 #include "modal/measure.h"
 #include "trees/modal_engine.h"
@@ -58,15 +59,22 @@ struct Scene {
       : tree(on),
         load(under),
         step(stepping(under)),
+        options(options),
         reference(referenceFor(on, under, options)),
         full(fullChain(on, step)) {}
 
-  void printPlain(const char* name, double error, const FirstFrame& first) const {
+  void printPlain(const char* name, double error, const FirstFrame& first, double cost) const {
+    if (options.table)
+      options.table->row(load.name(), tree.links.size(), name, -1, -1, error, first.off, cost, 0.0,
+                         0.0);
     std::printf("| %-14s |      | %6.2f %% |       | %6.1f | %6.1f |       |\n", name,
                 100.0 * error, first.way, first.off);
   }
   void printModes(int modes, int vectors) const {
-    ModalEngine engine(tree, load, modes, vectors), stepped(tree, step, modes, vectors);
+    const double before = processorTime();
+    ModalEngine engine(tree, load, modes, vectors);
+    const double found = processorTime() - before;
+    ModalEngine stepped(tree, step, modes, vectors);
     const double error = errorOf(engine, reference, STEPS), turn = engine.largestTurn();
     const FirstFrame first = firstFrame(stepped, *full);
     char name[40];
@@ -74,13 +82,24 @@ struct Scene {
     std::printf("| %-14s | %4zu | %6.2f %% | %5.2f | %6.1f | %6.1f | %5.0f |\n", name,
                 engine.modes().size(), 100.0 * error, turn, first.way, first.off,
                 8e-3 * static_cast<double>(engine.modes().shape.size()));
+    if (options.table)
+      options.table->row(load.name(), tree.links.size(), "modes", modes, vectors, error, first.off,
+                         modalCost(engine.modes()), 1e3 * found,
+                         1e-3 * static_cast<double>(engine.modes().bytes()));
   }
 
   const TestTree& tree;
   const TestLoad &load, step;
+  const ModalOptions& options;
   Reference reference;
   std::unique_ptr<Engine> full;
 };
+
+// Four steps a frame, as forest_animator takes them.
+double costOfSteps(Engine& engine, const TestTree& tree) {
+  engine.rest();
+  return 4.0 * costOf([&] { engine.step(0, 0.0, 1.0 / 240.0); }, tree.links.size());
+}
 
 }  // namespace
 
@@ -91,15 +110,15 @@ void measureErrors(const TestTree& tree, const TestLoad& load, const ModalOption
   std::printf("| model          | size | error    | turn  | way mm | off mm | kB    |\n");
   const std::unique_ptr<Engine> finer = fullChain(tree, scene.step);
   scene.printPlain("full chain", errorOf(*fullChain(tree, load), scene.reference, 4 * STEPS),
-                   firstFrame(*finer, *scene.full, PARTS));
+                   firstFrame(*finer, *scene.full, PARTS), costOfSteps(*finer, tree));
   StaticEngine still(tree, load), stepped(tree, scene.step);
   scene.printPlain("procedural", errorOf(still, scene.reference, STEPS),
-                   firstFrame(stepped, *scene.full));
+                   firstFrame(stepped, *scene.full), options.procedural);
   for (const Maker& maker : ownEngines()) {
     if (maker.name != "paper dynamics, midpoint") continue;
     const std::unique_ptr<Engine> paper = maker.make(tree, scene.step, "");
     scene.printPlain("paper dynamics", errorOf(*maker.make(tree, load, ""), scene.reference, 50),
-                     firstFrame(*paper, *scene.full, PARTS));
+                     firstFrame(*paper, *scene.full, PARTS), costOfSteps(*paper, tree));
   }
   for (const int modes : {1, 2, 5, 10, 20})
     for (const int vectors : {0, 1}) scene.printModes(modes, vectors);

@@ -45,6 +45,9 @@ class Swaying {
     runFull();
   }
 
+  const Tree& tree() const { return tree_; }
+  const Species& species() const { return species_; }
+  const wind::Field& field() const { return field_; }
   double proceduralError() const {
     return error([&](int frame) {
       return proceduralAngles(tree_, field_.at(stampOf(frame)), fullWeights());
