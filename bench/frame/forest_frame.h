@@ -90,12 +90,15 @@ class ForestFrame {
     const wind::Instant wind = wind_.at(now());
     for (std::uint32_t id = 0; id < drawn_.size(); ++id) {
       Drawn& own = drawn_[id];
-      if (!held_.promoted(id).branches.empty() || held_.sway(id))
+      const Sway* sway = held_.sway(id);
+      const auto weights = weightsAt(held_.memory().levels.of(id), now(), held_.layout().motion);
+      const bool physical = !held_.promoted(id).branches.empty();
+      if (!physical && sway && modalWeight(weights) >= 1.0)
+        sway->pose(own.poser, now(), own.poses);
+      else if (physical || sway)
         narrow(held_.pose(own.tree, id, now()), own.poses);
       else
-        own.poser.pose(wind.relativeTo(own.tree.foot),
-                       weightsAt(held_.memory().levels.of(id), now(), held_.layout().motion),
-                       own.depths, own.poses);
+        own.poser.pose(wind.relativeTo(own.tree.foot), weights, own.depths, own.poses);
     }
   }
 

@@ -57,8 +57,8 @@ std::vector<std::uint32_t> Forest::physicalTrees() const {
 
 std::vector<Pose> Forest::pose(const Tree& tree, std::uint32_t id, Nanoseconds stamp) const {
   return poseBranches(tree, memory_.wind.at(stamp).relativeTo(tree.foot),
-                      weightsAt(memory_.levels.of(id), stamp, layout_.motion), sway(id), promoted(id),
-                      stamp);
+                      weightsAt(memory_.levels.of(id), stamp, layout_.motion), sway(id),
+                      promoted(id), stamp);
 }
 
 }  // namespace vegetation_sim::forest

@@ -20,6 +20,7 @@ double wholeMicroseconds(Nanoseconds step) {
 
 Sway::Sway(std::shared_ptr<const ModalTree> modes)
     : modes_(std::move(modes)),
+      batch_(std::make_shared<const physics::BatchModes>(modes_->modes())),
       stepper_(modes_->modes()),
       state_(stepper_.atRest()),
       before_(state_) {}
@@ -69,6 +70,12 @@ std::vector<double> Sway::amplitudeAt(Nanoseconds stamp) const {
   for (std::size_t m = 0; m < out.size(); ++m)
     out[m] += ahead * (state_.rate[m] + 0.5 * ahead * acceleration_[m]);
   return out;
+}
+
+void Sway::pose(const BatchPoser& poser, Nanoseconds stamp, BatchPoses& out) const {
+  BatchBends bends;
+  batch_->bends(amplitudeAt(stamp), bends);
+  poser.pose(bends, out);
 }
 
 void Sway::amplitudeBetween(Nanoseconds stamp, std::vector<double>& out) const {

@@ -52,6 +52,7 @@ ForestAnimator::ForestAnimator(ros::NodeHandle handle, ros::NodeHandle private_h
   publishLayout();
   diagnostics_.setHardwareID("none");
   diagnostics_.add("forest", this, &ForestAnimator::diagnose);
+  diagnostics_.add("governor", this, &ForestAnimator::diagnoseGovernor);
   // The server writes its values back to the parameters: they are the checked ones by then.
   tuning_server_ =
       std::make_unique<dynamic_reconfigure::Server<ForestAnimatorConfig>>(private_handle_);

@@ -77,7 +77,6 @@ void ForestAnimator::diagnose(diagnostic_updater::DiagnosticStatusWrapper& statu
   status.add("Recorded events late", counts_.inputs.late);
   status.add("State sent [B]", counts_.state_bytes);
   status.add("Grown branches held", cache_.branches());
-  addGovernor(status);
   addPhysics(status);
   status.add("tf frames", frames_sent_);
   status.add("tf budget [frames]", frames_.budget());
@@ -86,15 +85,15 @@ void ForestAnimator::diagnose(diagnostic_updater::DiagnosticStatusWrapper& statu
 }
 
 // What was chosen at the last tick, and why.
-void ForestAnimator::addGovernor(diagnostic_updater::DiagnosticStatusWrapper& status) const {
+void ForestAnimator::diagnoseGovernor(diagnostic_updater::DiagnosticStatusWrapper& status) {
   const forest::GovernorFigures& figures = forest_->governor();
   const auto& settings = forest_->memory().settings;
   std::string why = "the tolerance is held";
   if (figures.over > 0) why = "finer rungs there are none, or no room for modes";
   if (figures.held_back > 0) why = "frame_time binds";
-  if (figures.trees[0] == forest_->layout().treeCount()) why = "nothing is seen to move";
+  if (figures.cost <= 0.0) why = "nothing is seen to move";
   if (forest_->memory().viewers.empty()) why = "nobody looks: fixed_level";
-  status.add("Governor", why);
+  status.summary(diagnostic_msgs::DiagnosticStatus::OK, why);
   status.add("Tolerance [pixel]", settings.tolerance);
   status.add("Largest predicted error [pixel]", figures.largest);
   status.add("Trees above the tolerance", figures.over);
@@ -102,6 +101,12 @@ void ForestAnimator::addGovernor(diagnostic_updater::DiagnosticStatusWrapper& st
   status.add("Predicted frame time [ms]", figures.cost);
   status.add("Frame time that the tolerance asks for [ms]", figures.wanted + figures.physical);
   status.add("Frame time budget [ms]", figures.budget);
+  for (std::size_t rung = 0; rung < figures.trees.size(); ++rung)
+    status.add("Moving trees of level " + std::to_string(rung), figures.trees[rung]);
+  status.add("tf frames", frames_sent_);
+  status.add("tf budget [frames]", frames_.budget());
+  status.add("Marker points", markers_.points());
+  status.add("Marker budget [points]", markers_.budget());
   status.add("Trees in modes", forest_->memory().modes.sways().size());
   status.add("Memory of modes [B]", forest_->memory().modes.bytes());
 }

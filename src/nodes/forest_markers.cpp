@@ -139,7 +139,11 @@ void ForestMarkers::addTree(const forest::Forest& forest, forest::TreeCache& cac
   const wind::Instant wind = forest.memory().wind.at(stamp).relativeTo(grown->tree.foot);
   const forest::Weights weights =
       forest::weightsAt(forest.memory().levels.of(id), stamp, forest.layout().motion);
-  if (forest.promoted(id).branches.empty() && !forest.sway(id))
+  const forest::Sway* sway = forest.sway(id);
+  const bool physical = !forest.promoted(id).branches.empty();
+  if (!physical && sway && modalWeight(weights) >= 1.0)
+    sway->pose(grown->poser, stamp, poses_);
+  else if (!physical && !sway)
     grown->poser.pose(wind, weights, forest::MAX_DEPTHS, poses_);
   else
     narrow(forest.pose(grown->tree, id, stamp), poses_);

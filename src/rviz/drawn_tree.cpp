@@ -99,7 +99,10 @@ bool DrawnTree::move(const forest::ForestReplica& replica, Nanoseconds stamp,
   moves = moves || remembers;
   if (!moves && !moved_) return false;
   moved_ = moves;
-  if (remembers)
+  const forest::Sway* sway = replica.sway(id_);
+  if (sway && replica.promoted(id_).branches.empty() && modalWeight(weights) >= 1.0)
+    sway->pose(poser_, stamp, poses_);
+  else if (remembers)
     narrow(replica.pose(tree_, id_, stamp), poses_);
   else
     poser_.pose(wind.relativeTo(tree_.foot), weights, forest::meshDetail(level_).depths, poses_);

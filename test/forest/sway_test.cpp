@@ -142,6 +142,21 @@ TEST(Sway, ReplicasSwayToTheBit) {
   EXPECT_LT(told, 4u * 15u * 20u);  // of 3 s at 60 Hz: some 700 would be if every tick told
 }
 
+// Displays pose such a tree in single precision: within the bar of the batched path.
+TEST(Sway, BatchedPoseIsThePlainOne) {
+  Clearing scene;
+  scene.run(3.0);
+  const Tree tree = scene.tree(0);
+  const Nanoseconds stamp = scene.now() + seconds(0.01);
+  const auto plain = scene.forest.pose(tree, 0, stamp);
+  BatchPoses fast;
+  ASSERT_NE(scene.forest.sway(0), nullptr);
+  scene.forest.sway(0)->pose(BatchPoser(tree), stamp, fast);
+  for (std::size_t b = 0; b < plain.size(); ++b)
+    ASSERT_LT(length(plain[b].position - fast.at(static_cast<int>(b)).position),
+              1e-5 * tree.skeleton.height);
+}
+
 // N6: what is restored sways as what went on.
 TEST(Sway, IsSavedRestoredAndHashed) {
   Clearing scene;

@@ -16,6 +16,9 @@ NUMBERS = {
     'tolerance': (' pixel', 0.01, 1000), 'transition': (' s', 0.01, 60),
     'size': ('', 0.2, 3), 'children': ('', 0.2, 3), 'leaves': ('', 0, 3), 'angle': ('', 0.2, 2),
     'noise': ('', 0, 3),
+    'robot_tolerance': (' m', 0.0001, 10), 'robot_range': (' m', 0, 100),
+    'frame_time': (' ms', 0.001, 1e6), 'procedural_cost': (' ns', 0.1, 10000),
+    'modal_cost': (' ns', 0.1, 10000), 'physical_cost': (' ns', 0.1, 1e6),
     'grab_lease': (' s', 0.1, 3600), 'grab_distance': (' m', 0.1, 1000),
 }
 WHOLE_NUMBERS = {
@@ -23,6 +26,7 @@ WHOLE_NUMBERS = {
     'tf_budget': (' frames', 0, 10000), 'branches_budget': (' branches', 0, 1000000),
     'cache_budget': (' branches', 1000, 20000000), 'viewer_height': (' pixel', 1, 100000),
     'fixed_level': ('', 0, 6), 'highest_level': ('', 0, 6),
+    'state_bytes': (' B/s', 0, 100000000), 'modal_trees': ('', 0, 1000),
 }
 OTHERS = {'scenario', 'frame_id', 'viewer_frame', 'replay', 'branches_trees', 'tf_promoted', 'bodies',
           'robot_description', 'robot_frame_prefix'}  # of the last three more in robot_bodies

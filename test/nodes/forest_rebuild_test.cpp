@@ -115,7 +115,8 @@ class ForestRebuild : public testing::Test {
                                     replica.weights(id, replica.stamp()), forest::MAX_DEPTHS, fast);
       const auto promoted = replica.promoted(id).branches;
       EXPECT_EQ(promoted.size(), told.physical.size());
-      if (!promoted.empty() || replica.sway(id)) narrow(poses, fast);  // how displays pose such a tree
+      if (!promoted.empty() || replica.sway(id))
+        narrow(poses, fast);  // how displays pose such a tree
       out.physical += promoted.size();
       if (poses.size() != told.transforms.poses.size()) throw std::runtime_error("other branches");
       for (std::size_t i = 0; i < poses.size(); ++i)

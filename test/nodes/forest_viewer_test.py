@@ -6,12 +6,13 @@ import unittest
 
 import rospy
 import rostest
+from diagnostic_msgs.msg import DiagnosticArray
 from dynamic_reconfigure.client import Client
 from geometry_msgs.msg import TransformStamped
 from tf2_msgs.msg import TFMessage
 
 from forest_rig import RATE, Animator, Eye, TickClock, time_of
-from watched_node import publisher, wait_for_readers
+from watched_node import Log, publisher, wait_for_readers
 
 WEST, EAST = 0, 7  # trees at x = 0 m and 960 m
 BESIDE_WEST, BESIDE_EAST, FAR = (-12.0, 0.0, 5.0), (945.0, 8.0, 5.0), (-400.0, 0.0, 5.0)
@@ -95,6 +96,21 @@ class ForestViewer(unittest.TestCase):
         limited, _ = self.look(BESIDE_WEST)
         self.assertEqual(limited, 1)
         self.server.update_configuration({'highest_level': 6})
+
+    def test_the_governor_tells_what_it_chose_and_why(self):  # N7, N13
+        reports = Log('/diagnostics', DiagnosticArray)
+        self.look(BESIDE_WEST)
+
+        def modes(all_messages):
+            found = [s for m in all_messages for s in m.status
+                     if s.name == 'forest_animator: governor']
+            values = {pair.key: float(pair.value) for pair in found[-1].values} if found else {}
+            return values.get('Trees in modes', 0) > 0 and (found[-1].message, values)
+        why, values = reports.wait(modes, 'trees in modes')
+        reports.close()
+        self.assertIn(why, ('the tolerance is held', 'finer rungs there are none, or no room for modes'))
+        self.assertLessEqual(values['Predicted frame time [ms]'], values['Frame time budget [ms]'])
+        self.assertEqual(self.forest.level(WEST), 7)
 
 
 if __name__ == '__main__':

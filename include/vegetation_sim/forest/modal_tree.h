@@ -20,8 +20,8 @@ struct ModalDepth {
 /// A point of a crown whose wind stands for that on the wood and leaves around it.
 struct WindPoint {
   Vec3 position{Vec3::Zero()};  ///< at rest, tree's frame [m]
-  double drag{0.0};                ///< per air speed, of all that it stands for [kg/s]
-  std::vector<Vec3> push;          ///< [modes] modal load per air velocity [kg/s]
+  double drag{0.0};             ///< per air speed, of all that it stands for [kg/s]
+  std::vector<Vec3> push;       ///< [modes] modal load per air velocity [kg/s]
 };
 
 /// A tree between procedural and physical (N13): its slowest modes, what a wind from each side

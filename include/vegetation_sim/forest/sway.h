@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "vegetation_sim/forest/batch_poser.h"
 #include "vegetation_sim/forest/level.h"
 #include "vegetation_sim/forest/modal_tree.h"
 
@@ -34,6 +35,8 @@ class Sway {
   /// Amplitudes at a stamp near the last tick: by their rates and accelerations there, not farther
   /// than LONGEST_LOOK_AHEAD.
   std::vector<double> amplitudeAt(Nanoseconds stamp) const;
+  /// Poses all branches in single precision, as displays do while the modes have all the weight.
+  void pose(const BatchPoser& poser, Nanoseconds stamp, BatchPoses& out) const;
   /// Amplitudes between the last two ticks, as a cubic that has their values and rates.
   void amplitudeBetween(Nanoseconds stamp, std::vector<double>& out) const;
 
@@ -41,6 +44,7 @@ class Sway {
   void land(const std::vector<double>& load, Nanoseconds stamp);
 
   std::shared_ptr<const ModalTree> modes_;
+  std::shared_ptr<const physics::BatchModes> batch_;  // of modes_
   physics::ModalStepper stepper_;
   physics::ModalState state_, before_;  // at the last tick, at the one before
   std::vector<double> acceleration_;

@@ -71,7 +71,7 @@ class ForestAnimator {
   void sendMarkers(const ros::TimerEvent& event);
   void warnOfTrouble(diagnostic_updater::DiagnosticStatusWrapper& status);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
-  void addGovernor(diagnostic_updater::DiagnosticStatusWrapper& status) const;
+  void diagnoseGovernor(diagnostic_updater::DiagnosticStatusWrapper& status);
   void addPhysics(diagnostic_updater::DiagnosticStatusWrapper& status) const;
 
   // Services.

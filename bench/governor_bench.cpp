@@ -1,0 +1,117 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The governor (N7): cost and error of ever more trees on one budget, and what choosing takes; a
+// still forest that nobody looks at; one held branch among thousands of trees.
+// usage: governor_bench [ROUNDS] [--quick | --full] [--part NAME,..] [--csv FILE]
+#include <cstdio>
+
+#include "forest/forest_fixture.h"
+#include "options.h"
+#include "processor_time.h"
+#include "table.h"
+
+namespace vegetation_sim::bench {
+namespace {
+
+using namespace forest;
+
+constexpr double BUDGET = 1.0;  // [ms] a frame
+constexpr int RATE = 30;        // ticks [Hz]
+
+/// A square of trees in a breeze, and an eye in its middle.
+struct Scene {
+  Scene(int side, bool watched, bool windy)
+      : watched(watched), forest(gridLayout(side, 9.0), flatTerrain(), settings()) {
+    if (windy) forest.setWind(wind::Field({makeBreeze(1, Vec3(5.0, 1.0, 0.0))}, 3));
+    eye.id = "eye";
+    eye.eye.position = Vec3(4.5 * (side - 1), 4.5 * (side - 1), 3.0);
+  }
+  static Settings settings() {
+    Settings out;
+    out.budget.frame_time = BUDGET;
+    return out;
+  }
+  void advance() {
+    eye.stamp = grid.timeOf(tick);
+    if (watched) forest.setViewer(eye);
+    forest.advance(grid.timeOf(tick++));
+    forest.update(tick % RATE == 0);
+  }
+  void run(int ticks) {
+    for (int i = 0; i < ticks; ++i) advance();
+  }
+  /// Processor time of a tick [s].
+  double timeTicks(int ticks) {
+    const double start = processorTime();
+    run(ticks);
+    return (processorTime() - start) / ticks;
+  }
+
+  bool watched;
+  Forest forest;
+  Viewer eye;
+  TickGrid grid{RATE};
+  std::int64_t tick{TickGrid(RATE).tickAt(1700000000LL * NANOSECONDS_PER_SECOND)};
+};
+
+void measureBudget(const Options& options) {
+  Table table(options.csv, "trees,budget_ms,asked_ms,cost_ms,error_px,choice_ms");
+  std::printf("\na breeze of 5 m/s, budget %.1f ms a frame, tolerance 1 pixel\n", BUDGET);
+  std::printf("| trees | asked for ms | cost ms | largest error px | held back | choice ms |\n");
+  for (const int side : {4, 8, 16, 32, 64, 128}) {
+    if (side > (options.full ? 128 : 64)) break;
+    Scene scene(side, true, true);
+    scene.run(90);
+    const double choice = 1e3 * scene.timeTicks(options.quick ? 10 : 60);
+    const GovernorFigures& f = scene.forest.governor();
+    std::printf("| %5d | %12.3f | %7.3f | %16.2f | %9zu | %9.3f |\n", side * side, f.wanted, f.cost,
+                f.largest, f.held_back, choice);
+    table.row(side * side, f.budget, f.wanted, f.cost, f.largest, choice);
+  }
+}
+
+void measureStill() {
+  Scene scene(64, false, false);
+  scene.run(10);
+  std::printf("\nstill, unwatched, 4096 trees: %.4f %% of a core\n",
+              100.0 * RATE * scene.timeTicks(300));
+}
+
+void measureHand(const Options& options) {
+  Scene free(64, true, true), held(64, true, true);
+  for (Scene* scene : {&free, &held}) scene->run(60);
+  const std::uint32_t id = 32 * 64 + 32;
+  const Tree tree = growTree(held.forest.layout(), id, held.forest.terrain());
+  const int branch = tree.skeleton.depth_end[2] - 1;
+  Grab grab;
+  grab.point = {id, branch, 0.0};
+  grab.target = tree.foot + tree.skeleton.branches[static_cast<std::size_t>(branch)].rest.position +
+                Vec3(0.2, 0.0, 0.0);
+  held.forest.addGrab(grab);
+  for (Scene* scene : {&free, &held}) scene->run(30);
+  std::vector<Candidate> candidates{{"free", [&] { free.run(10); }},
+                                    {"held", [&] { held.run(10); }}};
+  timeOnProcessor(candidates, options.rounds);
+  std::printf(
+      "\na branch held of 4096 trees (%zu physical): %.3f ms a tick, %.3f ms without: %.2f x\n",
+      held.forest.physicsFigures().branches, 1e2 * candidates[1].seconds,
+      1e2 * candidates[0].seconds, candidates[1].seconds / candidates[0].seconds);
+}
+
+}  // namespace
+}  // namespace vegetation_sim::bench
+
+int main(int argc, char** argv) {
+  using namespace vegetation_sim::bench;
+  try {
+    const Options options = readOptions(argc, argv, {"budget", "still", "hand"});
+    if (options.wants("budget")) measureBudget(options);
+    if (options.wants("still")) measureStill();
+    if (options.wants("hand")) measureHand(options);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "governor_bench: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}
