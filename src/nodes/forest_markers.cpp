@@ -141,7 +141,7 @@ void ForestMarkers::addTree(const forest::Forest& forest, forest::TreeCache& cac
       forest::weightsAt(forest.memory().levels.of(id), stamp, forest.layout().motion);
   const forest::Sway* sway = forest.sway(id);
   const bool physical = !forest.promoted(id).branches.empty();
-  if (!physical && sway && modalWeight(weights) >= 1.0)
+  if (!physical && sway && forest::modalWeight(weights) >= 1.0)
     sway->pose(grown->poser, stamp, poses_);
   else if (!physical && !sway)
     grown->poser.pose(wind, weights, forest::MAX_DEPTHS, poses_);

@@ -100,7 +100,7 @@ bool DrawnTree::move(const forest::ForestReplica& replica, Nanoseconds stamp,
   if (!moves && !moved_) return false;
   moved_ = moves;
   const forest::Sway* sway = replica.sway(id_);
-  if (sway && replica.promoted(id_).branches.empty() && modalWeight(weights) >= 1.0)
+  if (sway && replica.promoted(id_).branches.empty() && forest::modalWeight(weights) >= 1.0)
     sway->pose(poser_, stamp, poses_);
   else if (remembers)
     narrow(replica.pose(tree_, id_, stamp), poses_);

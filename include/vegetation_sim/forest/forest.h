@@ -148,7 +148,7 @@ class Forest {
   std::shared_ptr<const ContactModel> contacts_;
   ForestMemory memory_;
   wind::Instant now_;
-  int last_base_{0};           // level of the trees that were not held before this tick
+  int last_base_{0};  // level of the trees that were not held before this tick
   std::vector<Plant> plants_;
   GovernorFigures governor_;
 };
