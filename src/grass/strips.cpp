@@ -29,13 +29,14 @@ class Sheet {
     for (int s = 0; s < tile.species_count; ++s)
       compliance +=
           double{tile.species[static_cast<std::size_t>(s)].compliance} / tile.species_count;
+    constexpr double U[] = {0, 1, 0, 1}, V[] = {0, 0, 1, 1};
     Corners bend_x, bend_y;
     for (std::size_t i = 0; i < 4; ++i) {
       const Vec3 air(double{motion.wind_x[i]}, double{motion.wind_y[i]}, 0.0);
       const Point bend = bendIn(air, compliance);
       bend_x[i] = static_cast<float>(bend.x);
       bend_y[i] = static_cast<float>(bend.y);
-      colours_[i] = cornerColour(map, static_cast<double>(i % 2), static_cast<double>(i / 2));
+      colours_[i] = cornerColour(map, U[i], V[i]);
     }
     bend_x_ = Bilinear<double>(bend_x);
     bend_y_ = Bilinear<double>(bend_y);
