@@ -150,7 +150,7 @@ class Look {
 
 void WalkerGrid::build(const std::vector<Walker>& walkers, double cell) {
   per_metre_ = 1.0 / cell;
-  for (bits_ = 2; bits_ < 12 && (1ULL << (2 * bits_)) < walkers.size(); ++bits_) {
+  for (bits_ = 2; bits_ < 12 && (1ULL << (2 * bits_)) < 4 * walkers.size(); ++bits_) {
   }
   mask_ = (1U << bits_) - 1;
   starts_.assign((std::size_t{1} << (2 * bits_)) + 1, 0);
