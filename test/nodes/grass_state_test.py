@@ -39,7 +39,7 @@ class GrassState(unittest.TestCase):
         now = time_of(self.clock.tick)
 
         def goes_on():
-            self.run_both(1)
+            self.run_both(RATE // 3)
         log.wait(lambda all: [m for m in all[count:] if m.header.stamp > now], 'a map', goes_on)
         return log.messages[-1]
 
