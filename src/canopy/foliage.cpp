@@ -145,15 +145,14 @@ Vec3 Foliage::displacement(const Vec3& anchor, const Vec3& point, std::size_t pl
   const double height = point.z() - layout_.plants[plant].position.z();
   const double freedom = mobility(height, top, rigidity);
   if (!(freedom > 0.0)) return Vec3::Zero();
-  const Vec3 out =
-      freedom * freeDisplacement(anchor, point, FARTHEST * top / std::max(1.0, rigidity));
+  Vec3 out = freedom * freeDisplacement(anchor, point, FARTHEST * top / std::max(1.0, rigidity));
   if (layout_.motion.warp.method == 0) return out;
   return bent(Vec3(point - layout_.plants[plant].position), out);
 }
 
 Vec3 Foliage::freeDisplacement(const Vec3& anchor, const Vec3& point, double limit) const {
   if (!(limit > 0.0)) return Vec3::Zero();
-  const Vec3 out = displacementIn(cuts_[0], anchor, point, limit);
+  Vec3 out = displacementIn(cuts_[0], anchor, point, limit);
   if (!(share_ < 1.0)) return out;
   return share_ * out + (1.0 - share_) * displacementIn(cuts_[1], anchor, point, limit);
 }

@@ -13,7 +13,8 @@ namespace {
 // Steps are told in whole microseconds: a grid of ticks whose period is no whole number of
 // nanoseconds then has one step, whose propagators are computed once.
 double wholeMicroseconds(Nanoseconds step) {
-  return 1e-6 * static_cast<double>((step + 500) / 1000);
+  const Nanoseconds microseconds = (step + 500) / 1000;
+  return 1e-6 * static_cast<double>(microseconds);
 }
 
 }  // namespace
