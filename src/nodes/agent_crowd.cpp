@@ -150,12 +150,12 @@ void AgentCrowd::applyToWalker(const CrowdEvent& event) {
 }
 
 void AgentCrowd::adoptTrunks(std::uint64_t hash) {
-  const auto found = layouts_.find(hash);
-  if (found == layouts_.end())
+  const ForestLayout* found = layouts_.find(hash);
+  if (!found)
     throw InvalidInput("input_hash = " + std::to_string(hash) + " is of no forest that was heard");
   std::vector<crowd::Obstacle> all = obstaclesOf(scene_.crowd.walls);
   const std::vector<crowd::Obstacle> trunks =
-      trunksOf(fromMsg(found->second), static_cast<TrunkShape>(options_.trunks), scene_.crowd.area,
+      trunksOf(fromMsg(*found), static_cast<TrunkShape>(options_.trunks), scene_.crowd.area,
                TRUNK_MARGIN, static_cast<std::size_t>(options_.most_trunks));
   all.insert(all.end(), trunks.begin(), trunks.end());
   trunks_ = trunks.size();
@@ -163,10 +163,10 @@ void AgentCrowd::adoptTrunks(std::uint64_t hash) {
 }
 
 void AgentCrowd::adoptCover(std::uint64_t hash) {
-  const auto found = covers_.find(hash);
-  if (found == covers_.end())
+  const nav_msgs::OccupancyGrid* found = covers_.find(hash);
+  if (!found)
     throw InvalidInput("input_hash = " + std::to_string(hash) + " is of no cover that was heard");
-  crowd_->setResistance(resistanceOf(found->second));
+  crowd_->setResistance(resistanceOf(*found));
 }
 
 // What a fresh start now would be, with the trunks, grass and settings that are in force.

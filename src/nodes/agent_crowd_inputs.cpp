@@ -13,15 +13,8 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr std::size_t MOST_HEARD = 8;  // forests and covers that wait for their events
 constexpr std::uint32_t MOST_AT_ONCE = 1000;
 constexpr double VARIETY = 0.12;  // of people who come together
-
-template <class T>
-void keep(std::map<std::uint64_t, T>& heard, std::uint64_t hash, const T& message) {
-  while (heard.size() >= MOST_HEARD) heard.erase(heard.begin());
-  heard[hash] = message;
-}
 
 }  // namespace
 
@@ -42,7 +35,7 @@ void AgentCrowd::onLayout(const ForestLayout& message) {
       throw InvalidInput("frame_id = '" + message.header.frame_id + "' should be '" +
                          options_.frame_id + "'");
     const std::uint64_t hash = fromMsg(message).hash();
-    keep(layouts_, hash, message);
+    layouts_.keep(hash, message);
     CrowdEvent event;
     event.kind = CrowdEvent::TRUNKS;
     event.input_hash = hash;
@@ -59,8 +52,8 @@ void AgentCrowd::onCover(const nav_msgs::OccupancyGrid& message) {
                          options_.frame_id + "'");
     resistanceOf(message);  // checks it
     const std::uint64_t hash = hashOf(message);
-    if (covers_.count(hash)) return;
-    keep(covers_, hash, message);
+    if (covers_.isNewest(hash)) return;
+    covers_.keep(hash, message);
     CrowdEvent event;
     event.kind = CrowdEvent::COVER;
     event.input_hash = hash;

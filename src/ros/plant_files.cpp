@@ -17,19 +17,33 @@ namespace {
 
 constexpr std::size_t LARGEST_FILE = 512U << 20;  // [B]
 constexpr int MOST_SLICES = 1024;
+constexpr std::size_t MOST_CELLS = std::size_t{1} << 25;  // of all slices
+constexpr std::size_t MOST_CORNERS = 16000000;            // and as many faces
+constexpr int MOST_DEPTH = 256;                           // of nodes in nodes
 
 bool isUrl(const std::string& name) {
   return name.find("://") != std::string::npos;
 }
 
+void checkSize(const std::string& name, std::size_t bytes) {
+  if (bytes > LARGEST_FILE)
+    throw InvalidInput(name + ": " + std::to_string(bytes) + " bytes, more than " +
+                       std::to_string(LARGEST_FILE));
+}
+
+std::size_t sizeOf(const std::string& name) {
+  std::error_code unknown;
+  const std::uintmax_t size = std::filesystem::file_size(name, unknown);
+  return unknown ? 0 : static_cast<std::size_t>(size);
+}
+
 std::string read(const std::string& name) {
   const std::string url =
       isUrl(name) ? name : "file://" + std::filesystem::absolute(name).lexically_normal().string();
+  checkSize(name, isUrl(name) ? 0 : sizeOf(name));
   try {
     const resource_retriever::MemoryResource resource = resource_retriever::Retriever().get(url);
-    if (resource.size > LARGEST_FILE)
-      throw InvalidInput(name + ": " + std::to_string(resource.size) + " bytes, more than " +
-                         std::to_string(LARGEST_FILE));
+    checkSize(name, resource.size);
     return {reinterpret_cast<const char*>(resource.data.get()), resource.size};
   } catch (const resource_retriever::Exception& error) {
     throw InvalidInput(name + ": cannot be read: " + error.what());
@@ -42,20 +56,26 @@ class Collector {
   explicit Collector(const aiScene& scene) : scene_(scene) {}
 
   canopy::LeafMesh collect() {
-    if (scene_.mRootNode) add(*scene_.mRootNode, aiMatrix4x4());
+    if (scene_.mRootNode) add(*scene_.mRootNode, aiMatrix4x4(), 0);
     if (!textured_) out_.uv.clear();
     return std::move(out_);
   }
 
  private:
-  void add(const aiNode& node, const aiMatrix4x4& above) {
+  void add(const aiNode& node, const aiMatrix4x4& above, int depth) {
+    if (depth > MOST_DEPTH)
+      throw InvalidInput("nodes in nodes, more than " + std::to_string(MOST_DEPTH) + " deep");
     const aiMatrix4x4 here = above * node.mTransformation;
     for (unsigned i = 0; i < node.mNumMeshes; ++i)
       add(*scene_.mMeshes[node.mMeshes[i]], here, node.mName.C_Str());
-    for (unsigned i = 0; i < node.mNumChildren; ++i) add(*node.mChildren[i], here);
+    for (unsigned i = 0; i < node.mNumChildren; ++i) add(*node.mChildren[i], here, depth + 1);
   }
 
   void add(const aiMesh& mesh, const aiMatrix4x4& here, const std::string& node) {
+    // Before they are made: many nodes may have one mesh.
+    if (out_.vertices.size() + mesh.mNumVertices > MOST_CORNERS ||
+        out_.faces.size() + mesh.mNumFaces > MOST_CORNERS)
+      throw InvalidInput("more than " + std::to_string(MOST_CORNERS) + " corners or faces");
     const auto first = static_cast<std::uint32_t>(out_.vertices.size());
     const aiVector3D* uv = mesh.mTextureCoords[0];
     textured_ = textured_ && uv;
@@ -110,6 +130,9 @@ void append(const terrain::GreyImage& image, const std::string& name, canopy::Sl
     throw InvalidInput(name + ": " + std::to_string(image.columns) + " x " +
                        std::to_string(image.rows) + " pixels, the first slice has " +
                        std::to_string(out.columns) + " x " + std::to_string(out.rows));
+  if (out.density.size() + image.samples.size() > MOST_CELLS)
+    throw InvalidInput(name + ": the slices up to here have more than " +
+                       std::to_string(MOST_CELLS) + " cells");
   for (const std::uint16_t sample : image.samples)
     out.density.push_back(static_cast<double>(sample) / image.white);
   ++out.slices;
@@ -124,7 +147,11 @@ canopy::LeafMesh loadLeafMesh(const std::string& name) {
   const aiScene* scene = importer.ReadFileFromMemory(
       bytes.data(), bytes.size(), aiProcess_Triangulate, ending.empty() ? "" : ending.c_str() + 1);
   if (!scene) throw InvalidInput(name + ": no mesh: " + importer.GetErrorString());
-  return Collector(*scene).collect();
+  try {
+    return Collector(*scene).collect();
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(name + ": " + error.what());
+  }
 }
 
 canopy::SliceStack loadSlices(const std::string& name) {

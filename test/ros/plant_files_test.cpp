@@ -94,6 +94,14 @@ TEST_F(PlantFiles, AreRefusedByName) {
   EXPECT_FALSE(text(write("wild.obj", "v 0 0 0\nv 0 0 1\nv 1 1 1\nf 1 2 99\n")).empty());
 }
 
+// Before it is read.
+TEST_F(PlantFiles, AreRefusedIfTheyAreTooLarge) {
+  const std::string name = write("huge.obj", "");
+  std::filesystem::resize_file(name, (std::uintmax_t{512} << 20) + 1);  // a hole on the disk
+  const std::string text = errorOf([&] { loadLeafMesh(name); });
+  EXPECT_NE(text.find("huge.obj: 536870913 bytes, more than 536870912"), std::string::npos) << text;
+}
+
 // A layout with a mesh goes through its message, and a changed file is noticed.
 TEST_F(PlantFiles, GoThroughTheLayoutsMessage) {
   canopy::Layout layout;

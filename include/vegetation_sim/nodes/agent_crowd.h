@@ -25,6 +25,7 @@
 #include "vegetation_sim/nodes/crowd_options.h"
 #include "vegetation_sim/nodes/crowd_robots.h"
 #include "vegetation_sim/nodes/event_queue.h"
+#include "vegetation_sim/ros/heard.h"
 #include "vegetation_sim/ros/tick_clock.h"
 
 namespace vegetation_sim {
@@ -84,9 +85,9 @@ class AgentCrowd {
   EventQueue<CrowdEvent> inputs_;
   std::unique_ptr<crowd::Crowd> crowd_;
   CrowdMarkers markers_;
-  std::uint32_t promised_{0};                      // next id that spawn tells
-  std::map<std::uint64_t, ForestLayout> layouts_;  // heard, by hash
-  std::map<std::uint64_t, nav_msgs::OccupancyGrid> covers_;
+  std::uint32_t promised_{0};  // next id that spawn tells
+  Heard<ForestLayout> layouts_;
+  Heard<nav_msgs::OccupancyGrid> covers_;
   bool begun_{false};  // a tick was done since the start or the last jump back
   std::size_t trunks_{0};
   Nanoseconds framed_{0};  // stamp of the last frames

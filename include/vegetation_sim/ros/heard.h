@@ -1,0 +1,38 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <deque>
+#include <utility>
+
+namespace vegetation_sim {
+
+/// The newest messages of a topic by their hashes: events name what they need of them.
+template <class Message>
+class Heard {
+ public:
+  static constexpr std::size_t MOST = 8;
+
+  /// Forgets the oldest where there are more than MOST.
+  void keep(std::uint64_t hash, const Message& message) {
+    all_.erase(std::remove_if(all_.begin(), all_.end(),
+                              [&](const auto& one) { return one.first == hash; }),
+               all_.end());
+    all_.emplace_back(hash, message);
+    if (all_.size() > MOST) all_.pop_front();
+  }
+  bool isNewest(std::uint64_t hash) const { return !all_.empty() && all_.back().first == hash; }
+  /// Null if it is not there.
+  const Message* find(std::uint64_t hash) const {
+    for (const auto& one : all_)
+      if (one.first == hash) return &one.second;
+    return nullptr;
+  }
+
+ private:
+  std::deque<std::pair<std::uint64_t, Message>> all_;  ///< oldest first
+};
+
+}  // namespace vegetation_sim
