@@ -178,8 +178,7 @@ void Crowd::checkGoal(std::uint32_t id, const Point& goal) {
   checkPlace("goal: ", goal);
   const Walker& w = at(id);
   const PlanRaster& raster = ways_.raster();
-  if (!raster.isClear(w.position, goal, false) &&
-      !ways_.fieldOf(goal).isReachable(raster, w.position))
+  if (!raster.isClear(w.position, goal, false) && !ways_.isReachable(w.position, goal))
     throw InvalidInput("goal = (" + std::to_string(goal.x) + ", " + std::to_string(goal.y) +
                        ") m: no way leads there from walker " + std::to_string(id));
 }

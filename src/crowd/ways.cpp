@@ -7,10 +7,11 @@
 namespace vegetation_sim::crowd {
 namespace {
 
-constexpr std::uint32_t STRAIGHT = 5, DIAGONAL = 7;  // fifths of a cell
-constexpr int LOOK_AHEAD = 32;                       // cells along the way
-constexpr std::size_t MOST_FIELDS = 32;              // kept beyond those in use
-constexpr std::uint64_t IN_USE = 120;                // ticks
+constexpr std::uint32_t STRAIGHT = 5, DIAGONAL = 7;       // fifths of a cell
+constexpr int LOOK_AHEAD = 32;                            // cells along the way
+constexpr std::size_t MOST_FIELDS = 32;                   // kept beyond those in use
+constexpr std::uint64_t IN_USE = 119;                     // ticks
+constexpr std::size_t MOST_CELLS = std::size_t{1} << 25;  // of all fields, 128 MB
 
 struct Step {
   int column, row;
@@ -99,11 +100,18 @@ void Ways::setObstacles(const ObstacleGrid& still, double clearance, double cell
 }
 
 const FlowField& Ways::fieldOf(const Point& goal) {
-  const std::uint32_t cell = raster_.cellAt(raster_.nearestFree(goal));
+  const std::uint32_t cell = freeCell(goal);
   Kept& kept = fields_[cell];
   if (!kept.field) kept.field = std::make_unique<FlowField>(raster_, cell);
   kept.asked = tick_;
   return *kept.field;
+}
+
+bool Ways::isReachable(const Point& from, const Point& goal) const {
+  const std::uint32_t cell = freeCell(goal);
+  const auto found = fields_.find(cell);
+  if (found != fields_.end()) return found->second.field->isReachable(raster_, from);
+  return FlowField(raster_, cell).isReachable(raster_, from);
 }
 
 void Ways::endTick() {
@@ -112,7 +120,9 @@ void Ways::endTick() {
     auto oldest = fields_.begin();
     for (auto i = fields_.begin(); i != fields_.end(); ++i)
       if (i->second.asked < oldest->second.asked) oldest = i;
-    if (oldest->second.asked + IN_USE > tick_) return;
+    const std::size_t cells = static_cast<std::size_t>(raster_.columns()) * raster_.rows();
+    const std::uint64_t kept = fields_.size() * cells > MOST_CELLS ? 1 : IN_USE;
+    if (oldest->second.asked + kept >= tick_) return;
     fields_.erase(oldest);
   }
 }

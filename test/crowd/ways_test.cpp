@@ -83,6 +83,24 @@ TEST(Ways, FieldsThatNobodyAsksForGo) {
   EXPECT_LE(ways.count(), 32U);
 }
 
+// 128 MB of them at the most, but for those that are in use now.
+TEST(Ways, FieldsOfLargeLandscapesGoSooner) {
+  Ways ways;
+  ways.setObstacles(ObstacleGrid({discObstacle({0, 0}, 1.0), discObstacle({900, 900}, 1.0)}, 3.0),
+                    0.3, 0.25);
+  for (int i = 0; i < 110; ++i) {
+    ways.fieldOf({5.0 + 8.0 * i, 40.0});
+    ways.endTick();
+  }
+  const auto cells = static_cast<std::size_t>(ways.raster().columns() * ways.raster().rows());
+  const std::size_t most = (std::size_t{1} << 25) / cells + 1;
+  ASSERT_LT(most, 100U);
+  EXPECT_LE(ways.count(), most);
+  EXPECT_GT(ways.count(), most / 2);
+  EXPECT_TRUE(ways.isReachable({3, 3}, {700, 700}));
+  EXPECT_LE(ways.count(), most);
+}
+
 TEST(Ways, LargeLandscapesGetLargerCells) {
   const ObstacleGrid still({discObstacle({0, 0}, 1.0), discObstacle({5000, 5000}, 1.0)}, 3.0);
   const PlanRaster raster(still, 0.3, 0.25);

@@ -68,7 +68,9 @@ class Ways {
   const PlanRaster& raster() const { return raster_; }
   /// The field of a goal; made if it is not there. Not for several threads at once.
   const FlowField& fieldOf(const Point& goal);
-  /// Forgets fields that were not asked for lately.
+  /// Keeps no field.
+  bool isReachable(const Point& from, const Point& goal) const;
+  /// Forgets fields that were not asked for lately; at once where they take too much memory.
   void endTick();
   std::size_t count() const { return fields_.size(); }
 
@@ -77,6 +79,10 @@ class Ways {
     std::unique_ptr<FlowField> field;
     std::uint64_t asked{0};
   };
+  std::uint32_t freeCell(const Point& goal) const {
+    return raster_.cellAt(raster_.nearestFree(goal));
+  }
+
   PlanRaster raster_;
   std::map<std::uint32_t, Kept> fields_;  ///< by the goal's cell, or the nearest free one
   std::uint64_t tick_{0};
