@@ -43,6 +43,34 @@ TEST(Canopy, LeansWithTheSharedWind) {
   EXPECT_EQ(canopy.memory().driver.share(), 0.0);  // S3-23
 }
 
+// Of the top of a shrub over five swells of a side wind, about its mean [m].
+double swingAt(int rate) {
+  Layout layout = shrubScene();
+  layout.motion.rate = rate;
+  layout.motion.sources.law_gain = layout.motion.sources.turbulence = 0.0;
+  layout.motion.sources.sides[0] = {6.0, 0.5};
+  Canopy canopy(layout);
+  const Vec3 foot = layout.plants[0].position, top = foot + Vec3(0.0, 0.0, 1.4);
+  double sum = 0.0, squares = 0.0;
+  for (int tick = 0; tick < 20 * rate; ++tick) {
+    canopy.advance(tickStamp(0) + tick * NANOSECONDS_PER_SECOND / rate);
+    if (tick < 10 * rate) continue;
+    const double y = canopy.foliage().displacement(top, top, 0).y();
+    sum += y, squares += y * y;
+  }
+  const double count = 10.0 * rate;
+  return std::sqrt(squares / count - (sum / count) * (sum / count));
+}
+
+// E10: air, leaves and layers, not the warp alone, whose printed form would give a half and a
+// quarter. What is left is the air's step: 6 % at 30 Hz, 18 % at 15 Hz.
+TEST(Canopy, SwingsMuchTheSameAtAnyRate) {
+  const double swing = swingAt(60);
+  EXPECT_GT(swing, 0.005);
+  EXPECT_NEAR(swingAt(30) / swing, 1.0, 0.08);
+  EXPECT_NEAR(swingAt(15) / swing, 1.0, 0.2);
+}
+
 TEST(Canopy, StandsStillInACalm) {
   Canopy canopy(shrubScene());
   run(canopy, 0, 60);
