@@ -7,6 +7,7 @@
 #include "vegetation_sim/ros/canopy_conversions.h"
 #include "vegetation_sim/ros/forest_conversions.h"
 #include "vegetation_sim/ros/geometry_conversions.h"
+#include "vegetation_sim/ros/requests.h"
 #include "vegetation_sim/ros/resources.h"
 #include "vegetation_sim/ros/wind_conversions.h"
 
@@ -73,16 +74,6 @@ void CanopyAnimator::onForestState(const ForestState& message) {
   }
 }
 
-Pose CanopyAnimator::toWorld(const std::string& frame) const {
-  if (frame.empty() || frame == options_.frame_id) return {};
-  try {
-    return fromMsg(tf_buffer_.lookupTransform(options_.frame_id, frame, ros::Time(0)).transform);
-  } catch (const tf2::TransformException& error) {
-    throw InvalidInput("frame_id = '" + frame + "' is not known in '" + options_.frame_id +
-                       "': " + error.what());
-  }
-}
-
 // Layers are cut for one eye (S3-W8): the one that is named, or who came first and still looks.
 void CanopyAnimator::onViewer(const Viewer& message) {
   const bool wanted = options_.viewer_id.empty() ? !viewer_ || viewer_->id == message.id
@@ -95,7 +86,8 @@ void CanopyAnimator::onViewer(const Viewer& message) {
     fromMsg(message);  // checks it
     CanopyEvent event;
     event.kind = CanopyEvent::VIEWER;
-    event.eye = toMsg(compose(toWorld(message.header.frame_id), fromMsg(message.pose)));
+    event.eye = toMsg(compose(poseInWorld(tf_buffer_, options_.frame_id, message.header.frame_id),
+                              fromMsg(message.pose)));
     event.eye = eyeToMsg(eyeFromMsg(event.eye));
     inputs_.forget([](const CanopyEvent& e) { return e.kind == CanopyEvent::VIEWER; });
     inputs_.add(event);

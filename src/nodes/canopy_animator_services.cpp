@@ -5,6 +5,7 @@
 #include "vegetation_sim/nodes/canopy_animator.h"
 #include "vegetation_sim/ros/answers.h"
 #include "vegetation_sim/ros/geometry_conversions.h"
+#include "vegetation_sim/ros/requests.h"
 #include "vegetation_sim/ros/stamps.h"
 
 namespace vegetation_sim {
@@ -70,7 +71,8 @@ bool CanopyAnimator::onSample(SampleCanopy::Request& request, SampleCanopy::Resp
     if (!clock_.hasBegun()) throw InvalidInput("no tick yet: the clock has not started");
     if (!request.header.stamp.isZero() && fromMsg(request.header.stamp) != clock_.stamp())
       throw InvalidInput("stamp is not that of the last tick; others are not kept");
-    for (const Vec3& place : placesOf(request, toWorld(request.header.frame_id)))
+    for (const Vec3& place :
+         placesOf(request, poseInWorld(tf_buffer_, options_.frame_id, request.header.frame_id)))
       response.samples.push_back(sampleAt(place));
     response.layers = static_cast<std::uint8_t>(canopy_->foliage().layers());
     return std::to_string(response.samples.size()) + " samples";

@@ -45,8 +45,6 @@ class CanopyAnimator {
   void onTuning(CanopyAnimatorConfig& config);
   void lookFromFrame();
   void forgetViewer();
-  /// Transform to the world frame. @throws InvalidInput if tf does not know one.
-  Pose toWorld(const std::string& frame) const;
   void reject(const std::string& what, const std::string& why);
   void onForestLayout(const ForestLayout& message);
   void onForestState(const ForestState& message);
