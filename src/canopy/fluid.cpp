@@ -85,26 +85,26 @@ void Fluid::advance(double from, double dt, const PlaneAir* air) {
 void Fluid::substep(const Interval& interval, const PlaneAir* air) {
   last_good_ = state_.flow;
   const Turbulence turbulence = state_.turbulence;
-  sources_.apply(interval, air, state_.turbulence, state_.flow);
-  const double energy = energyOf(state_.flow);
-  if (energy < MOST_ENERGY) {
-    const double cells = interval.length * settings_.cells / settings_.width;
-    const double decay =
-        settings_.viscosity * interval.length / (settings_.width * settings_.width);
-    switch (static_cast<Scheme>(settings_.scheme)) {
-      case Scheme::REFLECTION:
-        reflect(interval.length);
-        break;
-      case Scheme::FAST:
-        advect(state_.flow, state_.flow, cells, Lookup::BILINEAR, half_);
-        std::swap(state_.flow, half_);
-        projection_.project(state_.flow, decay);
-        break;
-      case Scheme::PAPER:
-        paper_.step(state_.flow, decay, cells);
-    }
-    limitEnergy(energy);
+  sources_.carryOn(interval, state_.turbulence);
+  const double before = energyOf(state_.flow);
+  given_ = 0.0;
+  const double cells = interval.length * settings_.cells / settings_.width;
+  const double decay = settings_.viscosity * interval.length / (settings_.width * settings_.width);
+  switch (static_cast<Scheme>(settings_.scheme)) {
+    case Scheme::REFLECTION:
+      reflect(interval, air, cells, decay);
+      break;
+    case Scheme::FAST:
+      blow(interval, air, state_.flow);
+      advect(state_.flow, state_.flow, cells, Lookup::BILINEAR, half_);
+      std::swap(state_.flow, half_);
+      projection_.project(state_.flow, decay);
+      break;
+    case Scheme::PAPER:
+      blow(interval, air, state_.flow);
+      paper_.step(state_.flow, decay, cells);
   }
+  limitEnergy(before + given_);
   ++state_.steps;
   if (energyOf(state_.flow) < MOST_ENERGY) return;
   state_.flow = last_good_;
@@ -114,26 +114,34 @@ void Fluid::substep(const Interval& interval, const PlaneAir* air) {
 
 // Zehnder, Narain and Thomaszewski, "An advection-reflection solver for detail-preserving fluid
 // simulation", ACM TOG 37(4), 2018: what the projection takes away at half time is not dropped but
-// turned round, so that the second half of the step gives it back.
-void Fluid::reflect(double dt) {
-  const double cells = 0.5 * dt * settings_.cells / settings_.width;
-  const double decay = settings_.viscosity * dt / (settings_.width * settings_.width);
-  advect(state_.flow, state_.flow, cells, Lookup::CUBIC, reflected_);
+// turned round, so that the second half of the step gives it back. Sources blow on both sides of
+// the reflection: pressure spreads their push over the plane while they act, not only afterwards.
+void Fluid::reflect(const Interval& interval, const PlaneAir* air, double cells, double decay) {
+  const double half = 0.5 * interval.length;
+  advect(state_.flow, state_.flow, 0.5 * cells, Lookup::CUBIC, reflected_);
+  blow({interval.from, half, interval.number}, air, reflected_);
   half_ = reflected_;
   projection_.project(half_, 0.0);
   for (std::size_t i = 0; i < half_.u.size(); ++i) {
     reflected_.u[i] = 2.0 * half_.u[i] - reflected_.u[i];
     reflected_.v[i] = 2.0 * half_.v[i] - reflected_.v[i];
   }
-  advect(reflected_, half_, cells, Lookup::CUBIC, state_.flow);
+  blow({interval.from + half, half, interval.number}, air, reflected_);
+  advect(reflected_, half_, 0.5 * cells, Lookup::CUBIC, state_.flow);
   projection_.project(state_.flow, decay);
 }
 
-// Advection adds no energy, but a cubic may overshoot a little.
-void Fluid::limitEnergy(double before) {
-  const double after = energyOf(state_.flow);
-  if (!(after > before)) return;
-  const double scale = std::sqrt(before / after);
+void Fluid::blow(const Interval& interval, const PlaneAir* air, PlaneField& flow) {
+  const double before = energyOf(flow);
+  sources_.apply(interval, air, state_.turbulence, flow);
+  given_ += energyOf(flow) - before;
+}
+
+// Only sources add energy, but a cubic may overshoot a little.
+void Fluid::limitEnergy(double most) {
+  const double now = energyOf(state_.flow);
+  if (!(now > most)) return;
+  const double scale = std::sqrt(std::max(0.0, most) / now);
   for (double& value : state_.flow.u) value *= scale;
   for (double& value : state_.flow.v) value *= scale;
 }

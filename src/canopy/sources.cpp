@@ -52,9 +52,8 @@ Sources::Sources(const SourceSettings& settings, int size, std::uint64_t seed)
   for (int i = 0; i < size; ++i) band_.push_back(1.0 - smoothStep((i - 0.5 * width) / width));
 }
 
-void Sources::apply(const Interval& interval, const PlaneAir* air, Turbulence& turbulence,
+void Sources::apply(const Interval& interval, const PlaneAir* air, const Turbulence& turbulence,
                     PlaneField& flow) const {
-  carryOn(interval, turbulence);
   if (air && settings_.law_gain > 0.0) applyAir(interval.length, *air, flow);
   for (int side = 0; side < SIDES; ++side)
     if (settings_.sides[static_cast<std::size_t>(side)].strength > 0.0)

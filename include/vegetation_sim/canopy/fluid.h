@@ -49,8 +49,8 @@ struct FluidFigures {
 /// that is too long is divided, one that leaves anything but numbers is undone.
 class Fluid {
  public:
-  static constexpr double LONGEST_SUBSTEP = 0.1;  ///< [s]
-  static constexpr int MOST_SUBSTEPS = 100;       ///< beyond, the rest of a step is skipped
+  static constexpr double LONGEST_SUBSTEP = 0.034;  ///< [s]
+  static constexpr int MOST_SUBSTEPS = 300;         ///< beyond, the rest of a step is skipped
 
   /// @throws InvalidInput for settings out of range.
   Fluid(const FluidSettings& settings, const SourceSettings& sources, std::uint64_t seed);
@@ -72,8 +72,9 @@ class Fluid {
 
  private:
   void substep(const Interval& interval, const PlaneAir* air);
-  void reflect(double dt);
-  void limitEnergy(double before);
+  void reflect(const Interval& interval, const PlaneAir* air, double cells, double decay);
+  void blow(const Interval& interval, const PlaneAir* air, PlaneField& flow);
+  void limitEnergy(double most);
 
   FluidSettings settings_;
   Sources sources_;
@@ -82,6 +83,7 @@ class Fluid {
   FluidState state_;
   FluidFigures figures_;
   PlaneField last_good_, half_, reflected_;
+  double given_{0.0};  // energy that the sources of a step have brought
 };
 
 }  // namespace vegetation_sim::canopy

@@ -55,14 +55,15 @@ class Sources {
   /// @param seed of the turbulence, which is keyed by Interval::number.
   Sources(const SourceSettings& settings, int size, std::uint64_t seed);
 
-  /// Carries the fluctuations on and pulls the flow in the bands, and everywhere if there is air.
-  void apply(const Interval& interval, const PlaneAir* air, Turbulence& turbulence,
+  /// Carries the fluctuations on to the end of a step.
+  void carryOn(const Interval& interval, Turbulence& turbulence) const;
+  /// Pulls the flow in the bands, and everywhere if there is air.
+  void apply(const Interval& interval, const PlaneAir* air, const Turbulence& turbulence,
              PlaneField& flow) const;
   /// Mean over an interval of the swell of a side, without turbulence [m/s].
   double swell(int side, const Interval& interval) const;
 
  private:
-  void carryOn(const Interval& interval, Turbulence& turbulence) const;
   void applySide(int side, const Interval& interval, const Turbulence& turbulence,
                  PlaneField& flow) const;
   void applyAir(double length, const PlaneAir& air, PlaneField& flow) const;
