@@ -60,6 +60,8 @@ void CanopyAnimator::listen() {
 
 void CanopyAnimator::tick(std::int64_t tick) {
   const Nanoseconds stamp = clock_.stamp();
+  if (!begun_ && !options_.replay) publishBeginning(stamp);
+  begun_ = true;
   forgetViewer();
   for (CanopyEvent& event : inputs_.take(stamp)) {
     event.header.frame_id = options_.frame_id;
@@ -110,6 +112,7 @@ void CanopyAnimator::restart(Nanoseconds now) {
     return options_.replay ? fromMsg(event.header.stamp) > now : event.kind == CanopyEvent::VIEWER;
   });
   tf_buffer_.clear();
+  begun_ = false;
   publishLayout();
 }
 

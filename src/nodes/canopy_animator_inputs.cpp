@@ -27,6 +27,23 @@ void check(CanopyTuning tuning) {
   faults.throwIfAny();
 }
 
+CanopyEvent settingsEvent(const CanopyTuning& tuning) {
+  NamedValues named = namedValues(tuning);
+  CanopyEvent out;
+  out.kind = CanopyEvent::SETTINGS;
+  out.names = std::move(named.names);
+  out.values = std::move(named.values);
+  return out;
+}
+
+CanopyEvent noViewerEvent() {
+  CanopyEvent out;
+  out.kind = CanopyEvent::VIEWER;
+  out.gone = true;
+  out.eye.orientation.w = 1.0;
+  return out;
+}
+
 }  // namespace
 
 void CanopyAnimator::reject(const std::string& what, const std::string& why) {
@@ -102,11 +119,19 @@ void CanopyAnimator::forgetViewer() {
   if (viewer_->stamp == 0) viewer_->stamp = clock_.stamp();  // spoke before the first tick
   if (secondsBetween(viewer_->stamp, clock_.stamp()) <= VIEWER_LIFE) return;
   viewer_.reset();
-  CanopyEvent event;
-  event.kind = CanopyEvent::VIEWER;
-  event.gone = true;
-  event.eye.orientation.w = 1.0;
-  inputs_.add(event);
+  inputs_.add(noViewerEvent());
+}
+
+// A replay does not know when this run began: it becomes what this run was then.
+void CanopyAnimator::publishBeginning(Nanoseconds stamp) {
+  CanopyEvent reset;
+  reset.kind = CanopyEvent::RESET;
+  const CanopyTuning tuning = tuningOf(canopy_->layout().motion);
+  for (CanopyEvent event : {reset, noViewerEvent(), settingsEvent(tuning)}) {
+    event.header.stamp = toStamp(stamp);
+    event.header.frame_id = options_.frame_id;
+    events_publisher_.publish(event);
+  }
 }
 
 void CanopyAnimator::lookFromFrame() {
@@ -130,12 +155,7 @@ void CanopyAnimator::onTuning(CanopyAnimatorConfig& config) {
     if (options_.replay) throw InvalidInput("a replay follows its recorded events only");
     const CanopyTuning tuning = fromConfig(config);
     check(tuning);  // the server's own clamp lets NaN pass
-    NamedValues named = namedValues(tuning);
-    CanopyEvent event;
-    event.kind = CanopyEvent::SETTINGS;
-    event.names = std::move(named.names);
-    event.values = std::move(named.values);
-    inputs_.add(std::move(event));
+    inputs_.add(settingsEvent(tuning));
     shown_ = config;
   } catch (const InvalidInput& error) {
     reject("settings", error.what());

@@ -43,37 +43,58 @@ class CanopyClockTest(unittest.TestCase):
             passes.append((end.header.stamp, end.right, end.up, end.depth))
         self.assertEqual(passes[0], passes[1])
 
-    # Recorded events, the wind and the clock give the same memory to the bit.
-    def test_events_replay_the_run(self):
-        self.clock.begin(self.leaves)
+    # Recorded events, the wind and the clock give the same memory to the bit, though the replay has
+    # ticked for half a second, under another eye, when the run begins. By its name the first test:
+    # the run has not begun.
+    def test_a_run_replays_from_its_first_tick(self):
         process = start_leaves('/replay/canopy_animator', {'wind': '/wind'}, replay=True,
                                scenario=scene('shrubs'), replay_delay=DELAY)
         try:
             again, eye = Leaves('/replay/canopy_animator', '/replay/'), Eye('eye')
             again.wait_until_up('/wind', '/replay/canopy/events')
-            recorded = publisher('/replay/canopy/events', CanopyEvent)
-            wait_for(lambda: recorded.get_num_connections() >= 2, 'the replay, and its log')
-            answer = rospy.ServiceProxy('/canopy_animator/reset', Trigger)()
-            self.assertTrue(answer.success, answer.message)
-            reset, sent = self.clock.tick + 1, 0
+            self.recorded = publisher('/replay/canopy/events', CanopyEvent)
+            wait_for(lambda: self.recorded.get_num_connections() >= 2, 'the replay, and its log')
+            self.record(again, [self.earlier_eye()])
+            sent = 0
             for tick in range(5 * RATE):
-                if tick % 20 == 0:
+                if tick % 20 == 10:
                     eye.look(-6.0 + 0.02 * tick, 0.5, 1.5, self.leaves)
                 self.clock.run(1, self.leaves)
-                for event in self.leaves.events.messages[sent:]:
-                    recorded.publish(event)
-                    sent += 1
-                again.settle()
+                heard = len(self.leaves.events.messages)
+                self.record(again, self.leaves.events.messages[sent:heard])
+                sent = heard
             refused = rospy.ServiceProxy('/replay/canopy_animator/reset', Trigger)()
             self.assertIn('by its recorded events only', refused.message)
+            self.assertIn(1.0, [m.eye.position.x for m in again.state.messages])
+            self.expect_beginning()
             live, replayed = self.leaves.hashes(), again.hashes()
-            common = [s for s in sorted(replayed) if s > time_of(reset)]
-            self.assertGreaterEqual(len(common), 3)
+            common = sorted(set(live) & set(replayed))
+            self.assertEqual(common[0], time_of(BEGIN + RATE))
+            self.assertGreaterEqual(len(common), 4)
             self.assertEqual([s for s in common if replayed[s] != live[s]], [])
             again.close()
             eye.close()
         finally:
             stop(process)
+
+    def earlier_eye(self):
+        event = CanopyEvent(kind=CanopyEvent.VIEWER)
+        event.header.stamp = time_of(BEGIN - 5)
+        event.eye.position.x, event.eye.orientation.w = 1.0, 1.0
+        return event
+
+    def record(self, again, events):
+        """As a bag's player would, in time."""
+        for event in events:
+            self.recorded.publish(event)
+        again.settle()
+
+    def expect_beginning(self):
+        events = self.leaves.events.messages
+        self.assertEqual([e.kind for e in events[:3]],
+                         [CanopyEvent.RESET, CanopyEvent.VIEWER, CanopyEvent.SETTINGS])
+        self.assertEqual({e.header.stamp for e in events[:3]}, {time_of(BEGIN + 1)})
+        self.assertIn(CanopyEvent.WIND, [e.kind for e in events])
 
 
 if __name__ == '__main__':

@@ -45,6 +45,7 @@ class CanopyAnimator {
   void onTuning(CanopyAnimatorConfig& config);
   void lookFromFrame();
   void forgetViewer();
+  void publishBeginning(Nanoseconds stamp);
   void reject(const std::string& what, const std::string& why);
   void onForestLayout(const ForestLayout& message);
   void onForestState(const ForestState& message);
@@ -84,6 +85,7 @@ class CanopyAnimator {
     Nanoseconds stamp{0};
   };
   std::optional<Seen> viewer_;  // who looks
+  bool begun_{false};           // the beginning has been published
 
   std::optional<CanopyAnimatorConfig> shown_;  // what the server was told or took last
   struct Counts {
