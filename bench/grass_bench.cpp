@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Measures grass: blades per second, plain and batched, against what the memory takes; treading per
 // node and per frame of a crowd; frames of a square kilometre.
-// usage: grass_bench [ROUNDS]
+// usage: grass_bench [ROUNDS] [--part NAME,..], parts: blades, walkers, strokes, kilometre
 
 #include <cstdio>
 #include <cstdlib>
@@ -11,6 +11,7 @@
 #include <memory>
 #include <vector>
 
+#include "options.h"
 #include "processor_time.h"
 #include "vegetation_sim/common/instruction_set.h"
 #include "vegetation_sim/common/math.h"
@@ -128,8 +129,8 @@ struct Walkers {
   }
 };
 
-void benchTreading(int rounds) {
-  std::printf("\nTreading, 1 000 walkers, 1.4 m/s, 60 frames a second\n");
+void benchWalkers(int rounds) {
+  std::printf("\n1 000 walkers, 1.4 m/s, 60 frames a second\n");
   std::printf("%-26s %10s %14s %14s %10s\n", "", "ms/frame", "nodes/frame", "ns/node", "MB");
   for (const bool fine : {false, true}) {
     TreadSettings settings;
@@ -152,22 +153,30 @@ void benchTreading(int rounds) {
                 walkers.law.reach, frame * 1e3, touched, frame / touched * 1e9,
                 static_cast<double>(map.bytes()) * 1e-6);
   }
-  // Nodes alone: long strokes, so that what a stroke costs by itself does not count.
+}
+
+// Nodes alone: long strokes, so that what a stroke costs by itself does not count.
+void benchStrokes(int rounds) {
+  std::printf("\nStrokes of 4 m, nodes 0.05 m, reach 1 m\n");
   TreadMap map(lawOf(100), TreadSettings());
   TreadLaw wide;
   wide.reach = 1.0;
   wide.radius = 0.4;
   int touched = 0, k = 0;
-  std::vector<Candidate> candidates{{"strokes", [&] {
-                                       touched = 0;
-                                       for (int i = 0; i < 40; ++i, ++k)
-                                         touched += map.tread(1, wide,
-                                                              {100.0 + (k % 2 ? 2.0 : -2.0), 100.0},
-                                                              START + fromSeconds(k));
-                                     }}};
+  std::vector<Candidate> candidates;
+  for (const std::string& set : instructionSets())
+    candidates.push_back({set, [&, set] {
+                            forceInstructionSet(set);
+                            touched = 0;
+                            for (int i = 0; i < 40; ++i, ++k)
+                              touched += map.tread(1, wide, {100.0 + (k % 2 ? 2.0 : -2.0), 100.0},
+                                                   START + fromSeconds(k));
+                            forceInstructionSet("");
+                          }});
   bench::timeOnProcessor(candidates, 10 * rounds);
-  std::printf("%-26s %10s %14d %14.1f\n", "strokes of 4 m, 0.05 m", "", touched,
-              candidates[0].seconds / touched * 1e9);
+  for (const Candidate& c : candidates)
+    std::printf("%-22s %10.1f ns/node, %d nodes\n", c.name.c_str(), c.seconds / touched * 1e9,
+                touched);
 }
 
 // ---- a square kilometre -----------------------------------------------------------------------
@@ -261,9 +270,17 @@ void benchKilometre() {
 }  // namespace vegetation_sim::grass
 
 int main(int argc, char** argv) {
-  const int rounds = argc > 1 ? std::max(1, std::atoi(argv[1])) : 15;
-  vegetation_sim::grass::benchBlades(rounds);
-  vegetation_sim::grass::benchTreading(rounds);
-  vegetation_sim::grass::benchKilometre();
+  try {
+    using namespace vegetation_sim;
+    const bench::Options options =
+        bench::readOptions(argc, argv, {"blades", "walkers", "strokes", "kilometre"});
+    if (options.wants("blades")) grass::benchBlades(options.rounds);
+    if (options.wants("walkers")) grass::benchWalkers(options.rounds);
+    if (options.wants("strokes")) grass::benchStrokes(options.rounds);
+    if (options.wants("kilometre")) grass::benchKilometre();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "grass_bench: %s\n", error.what());
+    return 1;
+  }
   return 0;
 }

@@ -2,50 +2,84 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
 #include "vegetation_sim/grass/tread_map.h"
 
 namespace vegetation_sim::grass {
 
+inline int floorOf(double x) {
+  const double near = std::min(1e9, std::max(-1e9, x));
+  const int whole = static_cast<int>(near);
+  return whole - (near < whole);
+}
+
 /// The fine grid: places of its nodes.
 struct TreadGrid {
-  double origin_x, origin_y, spacing;
+  double origin_x, origin_y, spacing, per_spacing;
+  int last_column, last_row;
   double x(int column) const { return origin_x + column * spacing; }
   double y(int row) const { return origin_y + row * spacing; }
 };
 
+/// Columns of a row, both included; none if last < first.
+struct TreadSpan {
+  int first, last;
+};
+
+/// Where the nodes of a row are beside a segment: CompactField::Place of column 0, and what each
+/// column adds [m].
+struct TreadRow {
+  TreadRow(const CompactField::Parts& segment, const TreadGrid& grid, int row) {
+    const Point along = segment.along;
+    const double ax = segment.p0.x - grid.origin_x, ay = segment.p0.y - grid.y(row);
+    start = ax * along.x + ay * along.y;
+    side = ax * along.y - ay * along.x;
+    start_step = -grid.spacing * along.x;
+    side_step = -grid.spacing * along.y;
+  }
+  double start, side, start_step, side_step;
+};
+
 /// A segment and how it treads, in numbers that vectors take.
 struct TreadLine {
-  CompactField::Parts field;
+  /// @param full dose of an endless straight track at the law's radius.
+  TreadLine(const CompactField& segment, const TreadLaw& law, double full);
+
+  /// Columns of a row that may be within reach: what lies beside the segment and beyond its ends.
+  TreadSpan spanOf(const TreadGrid& grid, int row) const;
+  /// That the stroke asks for [rad], by the dose of this pass or by the print of a foot, which
+  /// crushes even where it stands.
+  double tiltOf(double dose, double square_distance) const {
+    double part = dose * per_full;
+    if (dose < enough && square_distance < square_print)
+      part = std::max(part, 1.0 - smoothStep((square_distance - square_radius) * per_print));
+    return BEND_LIMIT * std::min(1.0, load * part);
+  }
+
+  CompactField field;
+  Point low, high;  ///< box of the segment
   double per_full;  ///< inverse of the dose that crushes fully
   double enough;    ///< dose that crushes fully at this load
-  double radius, load;
+  double load;
+  double square_radius, square_print, per_print;  ///< where the print is full and ends, 1/between
+  double slant, widening;  ///< of the strip beside the segment: x per y, half its row [m]
 };
 
-/// Nodes that may be within reach of a stroke, side by side.
-struct alignas(64) TreadNodes {
-  static constexpr int MOST = 64;  ///< a whole number of vectors
-  double x[MOST], y[MOST];         ///< [m]
-  double dose[MOST];               ///< before the stroke, then with it
-  double kept[MOST];               ///< what of it stays within reach of the source
-  double square[MOST];             ///< of the distance from the segment [m^2]
-  double side[MOST];               ///< of the track, left positive [m]
-  double tilt[MOST];               ///< that the stroke asks for [rad]
-  int row[MOST], column[MOST];
-  int slot[MOST];  ///< in the source's window; -1: beyond
-  int count{0};
-
-  void add(const TreadGrid& grid, int node_row, int node_column, double known, int in_window) {
-    x[count] = grid.x(node_column);
-    y[count] = grid.y(node_row);
-    dose[count] = known;
-    slot[count] = in_window;
-    row[count] = node_row;
-    column[count++] = node_column;
-  }
+/// Rows of the grid with the doses of one source, whole vectors long.
+struct TreadBand {
+  static constexpr int PITCH = 8;  ///< rows are a whole number of these [nodes]
+  int first_column, first_row, rows, pitch;
+  double* doses;  ///< [rows x pitch] [1/m^2]
+  double* dosesOf(int row) const { return doses + std::ptrdiff_t{row - first_row} * pitch; }
 };
 
-/// Takes the stroke to the nodes: dose in, all else out. Runs on the widest vectors of the
-/// processor; the same bits on each of them, and those of CompactField::fieldAt().
-void measureNodes(const TreadLine& line, TreadNodes& nodes);
+/// Takes the stroke to the nodes of a band: doses in; out are those that stay within reach of the
+/// segment's end. Runs on the widest vectors of the processor; the same bits on each of them, and
+/// without vectors.
+void measureBand(const TreadLine& line, const TreadGrid& grid, const TreadBand& band,
+                 TreadPresses& out);
 
 }  // namespace vegetation_sim::grass

@@ -35,7 +35,9 @@ double treadField(const Point& p, const Point& p0, const Point& p1, double eps) 
   const double tx = (p1.x - p0.x) / c, ty = (p1.y - p0.y) / c;
   const double ax = p0.x - p.x, ay = p0.y - p.y;
   const double s0 = ax * tx + ay * ty, d = ax * ty - ay * tx;
-  return kernelIntegral(s0, s0 + c, d * d + eps * eps);
+  const double s1 = s0 + c, square = d * d + eps * eps;
+  return kernelIntegral({s0, std::sqrt(square + s0 * s0)}, {s1, std::sqrt(square + s1 * s1)},
+                        square);
 }
 
 double treadFieldPrinted(const Point& p, const Point& p0, const Point& p1) {
@@ -67,8 +69,9 @@ CompactField::CompactField(const Point& p0, const Point& p1, double reach, doubl
     parts_.length = length;
     parts_.along = {(p1.x - p0.x) / length, (p1.y - p0.y) / length};
   }
-  const double end = parts_.square_reach + parts_.square_softness;
-  parts_.edge = 1.0 / (end * std::sqrt(end));
+  const double square_end = parts_.square_reach + parts_.square_softness;
+  parts_.end = std::sqrt(square_end);
+  parts_.edge = 1.0 / (square_end * parts_.end);
 }
 
 double CompactField::ofEndlessTrack(double distance, double reach, double softness) {

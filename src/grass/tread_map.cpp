@@ -14,12 +14,31 @@ namespace {
 
 constexpr int SIDE = TreadBlock::SIDE;
 constexpr int MAX_CELLS = 512;  // along a tile
-constexpr std::size_t BLOCK_BYTES = sizeof(TreadBlock) + sizeof(TreadNode) * SIDE * SIDE + 64;
+constexpr std::size_t BLOCK_BYTES = sizeof(TreadBlock) + 64;
 
 int blockOf(int node) {
   return node >> 4;  // rounds down
 }
 static_assert(SIDE == 16, "blockOf");
+
+int wholeVectors(int nodes) {
+  return (nodes + TreadBand::PITCH - 1) / TreadBand::PITCH * TreadBand::PITCH;
+}
+
+// Visits the doses of nodes that are both in the window of a source and in a band.
+template <class Visit>
+void exchangeDoses(TreadSource& source, const TreadBand& band, const Visit& visit) {
+  const int first = std::max(source.first_column, band.first_column);
+  const int last = std::min(source.first_column + source.columns, band.first_column + band.pitch);
+  const int first_row = std::max(source.first_row, band.first_row);
+  const int last_row = std::min(source.first_row + source.rows, band.first_row + band.rows);
+  for (int row = first_row; row < last_row; ++row) {
+    double* const in_window = source.doses.data() + (row - source.first_row) * source.columns;
+    double* const in_band = band.doses + (row - band.first_row) * band.pitch;
+    for (int column = first; column < last; ++column)
+      visit(in_window[column - source.first_column], in_band[column - band.first_column]);
+  }
+}
 
 bool isFinite(const Point& p) {
   return std::isfinite(p.x) && std::isfinite(p.y);
@@ -57,18 +76,19 @@ std::size_t TreadMap::bytes() const {
   return sum;
 }
 
-// Most strokes fall on the blocks of the ones before: a table in front of the tree.
-const RecentBlock& TreadMap::blockAt(int row, int column, bool make) {
+// Most strokes fall on the blocks of the ones before: a table in front of the tree. Null if it is
+// not there and is not wanted or finds no memory.
+TreadBlock* TreadMap::blockAt(int row, int column, bool make) {
   RecentBlock& recent = recent_blocks_.at(row, column);
   if (!recent.is_known) {
     const auto found = state_.blocks.find({row, column});
-    if (found != state_.blocks.end()) recent.set(found->second);
+    if (found != state_.blocks.end()) recent.block = &found->second;
     recent.is_known = true;
   }
-  if (recent.block || !make) return recent;
+  if (recent.block || !make) return recent.block;
   const double size = static_cast<double>((state_.blocks.size() + 1) * BLOCK_BYTES);
-  if (size <= settings_.memory_cap) recent.set(state_.blocks[{row, column}]);
-  return recent;
+  if (size <= settings_.memory_cap) recent.block = &state_.blocks[{row, column}];
+  return recent.block;
 }
 
 // Null if it is not on the ground.
@@ -113,9 +133,8 @@ int TreadMap::tread(std::uint32_t id, const TreadLaw& law, const Point& position
   }
   source.position = position;
   source.stamp = stamp;
-  const bool stays = !moveWindow(source, law.reach);
-  TreadStroke stroke(law, fullDose(law), from, stays ? source : before_, source);
-  const int touched = press(stroke);
+  TreadStroke stroke(law, fullDose(law), from, source);
+  const int touched = moveWindow(source, law.reach) ? pressBands(stroke) : pressWindow(stroke);
   ++(touched > 0 ? state_.counts.strokes : state_.counts.outside);
   return touched;
 }
@@ -132,22 +151,26 @@ double TreadMap::fullDose(const TreadLaw& law) {
 
 // Puts the window around the source. If it is another one than before, that is in `before_`.
 bool TreadMap::moveWindow(TreadSource& source, double reach) {
-  // One node more on each side, whatever rounding does.
-  const int first_column = nodeBelow(source.position.x - reach, law_.origin_x, per_spacing_) - 1;
-  const int first_row = nodeBelow(source.position.y - reach, law_.origin_y, per_spacing_) - 1;
-  const int side = floorOf(2.0 * reach * per_spacing_) + 5;
+  const int first_column = nodeBelow(source.position.x - reach, law_.origin_x, per_spacing_);
+  const int first_row = nodeBelow(source.position.y - reach, law_.origin_y, per_spacing_);
+  const int rows = floorOf(2.0 * reach * per_spacing_) + 3;  // one more, whatever rounding does
+  const int columns = wholeVectors(rows);
   if (source.first_column == first_column && source.first_row == first_row &&
-      source.columns == side && source.rows == side)
+      source.columns == columns && source.rows == rows)
     return false;
-  before_.along = source.along;
-  before_.has_moved = source.has_moved;
   before_.first_column = std::exchange(source.first_column, first_column);
   before_.first_row = std::exchange(source.first_row, first_row);
-  before_.columns = std::exchange(source.columns, side);
-  before_.rows = std::exchange(source.rows, side);
+  before_.columns = std::exchange(source.columns, columns);
+  before_.rows = std::exchange(source.rows, rows);
   before_.doses.swap(source.doses);
-  source.doses.assign(static_cast<std::size_t>(side) * static_cast<std::size_t>(side), 0.0);
+  source.doses.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0.0);
   return true;
+}
+
+TreadGrid TreadMap::grid() const {
+  return {
+      law_.origin_x,           law_.origin_y, spacing_, per_spacing_, (law_.columns - 1) * cells_,
+      (law_.rows - 1) * cells_};
 }
 
 TreadMap::Box TreadMap::boxOf(const Point& low, const Point& high, double reach) const {
@@ -159,73 +182,74 @@ TreadMap::Box TreadMap::boxOf(const Point& low, const Point& high, double reach)
           std::min((law_.rows - 1) * cells_, row(high.y + reach) + 1)};
 }
 
-int TreadMap::press(TreadStroke& stroke) {
-  const Box box = boxOf(stroke.low, stroke.high, stroke.law.reach);
+// A short step: all happens within the window, in place.
+int TreadMap::pressWindow(TreadStroke& stroke) {
+  TreadSource& s = stroke.after;
+  const int first = std::max(0, s.first_row);
+  const int last = std::min((law_.rows - 1) * cells_, s.first_row + s.rows - 1);
+  if (first > last) return 0;
+  return pressBand(stroke, {s.first_column, first, last - first + 1, s.columns,
+                            s.doses.data() + (first - s.first_row) * s.columns});
+}
+
+// From window to window, some rows at a time: doses come from the one and stay in the other; what
+// the source leaves behind begins a new pass when it comes back.
+int TreadMap::pressBands(TreadStroke& stroke) {
+  constexpr int WANTED = 1024;  // nodes at a time
+  const Box box = boxOf(stroke.line.low, stroke.line.high, stroke.law.reach);
   if (box.first_column > box.last_column || box.first_row > box.last_row) return 0;
-  TreadNodes nodes;
+  const int pitch = wholeVectors(box.last_column - box.first_column + 1);
+  const int most = std::max(1, WANTED / pitch);
   int touched = 0;
-  for (int r = blockOf(box.first_row); r <= blockOf(box.last_row); ++r)
-    for (int c = blockOf(box.first_column); c <= blockOf(box.last_column); ++c)
-      touched += pressBlock(stroke, r, c, box, nodes);
-  return touched + pressNodes(stroke, nodes);
-}
-
-// Collects the nodes of a block; presses when there are many.
-int TreadMap::pressBlock(TreadStroke& stroke, int block_row, int block_column, const Box& box,
-                         TreadNodes& nodes) {
-  const TreadGrid grid{law_.origin_x, law_.origin_y, spacing_};
-  const int row0 = block_row * SIDE, column0 = block_column * SIDE;
-  const int last_row = std::min(box.last_row, row0 + SIDE - 1);
-  const int first_column = std::max(box.first_column, column0);
-  const int last_column = std::min(box.last_column, column0 + SIDE - 1);
-  const TreadNode* there = blockAt(block_row, block_column, false).nodes;
-  // Each source treads elsewhere: ask for its nodes at once, not one after the other.
-  if (there)
-    for (int r = std::max(box.first_row, row0); r <= last_row; ++r)
-      for (int c = first_column; c <= last_column; c += 2)
-        __builtin_prefetch(there + ((r - row0) * SIDE + c - column0), 1);
-  int touched = 0;
-  for (int r = std::max(box.first_row, row0); r <= last_row; ++r) {
-    const double half = stroke.halfRow(grid.y(r));
-    const int first =
-        std::max(first_column, nodeBelow(stroke.low.x - half, law_.origin_x, per_spacing_));
-    const int last =
-        std::min(last_column, nodeBelow(stroke.high.x + half, law_.origin_x, per_spacing_));
-    if (first > last) continue;
-    if (nodes.count + SIDE > TreadNodes::MOST) touched += pressNodes(stroke, nodes);
-    stroke.gather(grid, r, first, last, nodes);
+  for (int row = box.first_row; row <= box.last_row; row += most) {
+    const int rows = std::min(most, box.last_row - row + 1);
+    doses_.assign(static_cast<std::size_t>(rows) * static_cast<std::size_t>(pitch), 0.0);
+    const TreadBand band{box.first_column, row, rows, pitch, doses_.data()};
+    exchangeDoses(before_, band, [](double in_window, double& in_band) { in_band = in_window; });
+    touched += pressBand(stroke, band);
+    exchangeDoses(stroke.after, band,
+                  [](double& in_window, double in_band) { in_window = in_band; });
   }
   return touched;
 }
 
-// Block by block, in the order in which they were collected. @return number of nodes within reach.
-int TreadMap::pressNodes(TreadStroke& stroke, TreadNodes& nodes) {
-  if (nodes.count == 0) return 0;
-  measureNodes(stroke.line, nodes);
-  stroke.keepDoses(nodes);
-  // First who, then what: nothing foretells which nodes are pressed.
-  int pressed[TreadNodes::MOST], count = 0, touched = 0;
-  for (int i = 0; i < nodes.count; ++i) {
-    const bool is_touched = stroke.isTouched(nodes, i);
-    touched += is_touched;
-    pressed[count] = i;
-    count += is_touched && static_cast<float>(nodes.tilt[i]) >= CRUNCHED;
-  }
-  const RecentBlock* block = nullptr;
-  for (int k = 0; k < count; ++k) {
-    const int i = pressed[k], row = nodes.row[i], column = nodes.column[i];
-    if (!block || !block->is(blockOf(row), blockOf(column)))
-      block = &blockAt(blockOf(row), blockOf(column), true);
-    if (!block->nodes) {
-      ++state_.counts.no_memory;
-      continue;
+// @return number of nodes within reach.
+int TreadMap::pressBand(TreadStroke& stroke, const TreadBand& band) {
+  prefetch(band);
+  const TreadGrid grid = this->grid();
+  measureBand(stroke.line, grid, band, presses_);
+  constexpr std::uint64_t ITS_BLOCK = ~0xF0000000Full;
+  for (std::size_t i = 0; i < presses_.count;) {
+    const std::uint64_t place = presses_.places[i], its_block = place & ITS_BLOCK;
+    const auto row = static_cast<int>(place >> 32), column = static_cast<int>(place & 0xFFFFFFFF);
+    TreadBlock* const block = blockAt(blockOf(row), blockOf(column), true);
+    for (; i < presses_.count && (presses_.places[i] & ITS_BLOCK) == its_block; ++i) {
+      if (block)
+        stroke.press(static_cast<float>(presses_.tilts[i]), grid, presses_.places[i], *block);
+      else
+        ++state_.counts.no_memory;
     }
-    stroke.press(static_cast<float>(nodes.tilt[i]), {nodes.x[i], nodes.y[i]}, nodes.side[i],
-                 block->nodes[row % SIDE * SIDE + column % SIDE]);
-    block->block->until = std::max(block->block->until, stroke.latest);
+    if (block) block->until = std::max(block->until, stroke.latest);
   }
-  nodes.count = 0;
-  return touched;
+  return presses_.touched;
+}
+
+// Each source treads elsewhere: ask for its nodes at once, not one after the other.
+void TreadMap::prefetch(const TreadBand& band) {
+  const int last_row = band.first_row + band.rows - 1,
+            first_column = std::max(0, band.first_column);
+  const int last_column = band.first_column + band.pitch - 1;
+  for (int r = blockOf(band.first_row); r <= blockOf(last_row); ++r)
+    for (int c = blockOf(first_column); c <= blockOf(last_column); ++c)
+      if (const TreadBlock* block = blockAt(r, c, false)) {
+        __builtin_prefetch(block, 1);
+        for (int row = std::max(band.first_row, r * SIDE);
+             row <= std::min(last_row, r * SIDE + SIDE - 1); ++row)
+          for (int column = std::max(first_column, c * SIDE);
+               column <= std::min(last_column, c * SIDE + SIDE - 1); column += 2)
+            __builtin_prefetch(
+                &block->nodes[static_cast<std::size_t>(row % SIDE * SIDE + column % SIDE)], 1);
+      }
 }
 
 }  // namespace vegetation_sim::grass

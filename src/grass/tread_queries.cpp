@@ -61,9 +61,10 @@ void TreadMap::patch(int tile_column, int tile_row, Nanoseconds stamp, CrushPatc
 }
 
 void TreadMap::prune(Nanoseconds stamp) {
-  forgetRecent();
+  const std::size_t before = state_.blocks.size();
   for (auto entry = state_.blocks.begin(); entry != state_.blocks.end();)
     entry = entry->second.until <= stamp ? state_.blocks.erase(entry) : std::next(entry);
+  if (state_.blocks.size() < before) forgetRecent();
 }
 
 void TreadMap::rewind(Nanoseconds stamp) {

@@ -24,10 +24,10 @@ bool TreadMap::put(int row, int column, const TreadNode& node) {
   if (row < 0 || column < 0 || row > (law_.rows - 1) * cells_ ||
       column > (law_.columns - 1) * cells_)
     return false;
-  const RecentBlock& found = blockAt(row / SIDE, column / SIDE, true);
-  if (!found.block) return false;
-  found.nodes[row % SIDE * SIDE + column % SIDE] = node;
-  found.block->until = std::max(found.block->until, uprightAt(node));
+  TreadBlock* const block = blockAt(row / SIDE, column / SIDE, true);
+  if (!block) return false;
+  block->nodes[static_cast<std::size_t>(row % SIDE * SIDE + column % SIDE)] = node;
+  block->until = std::max(block->until, uprightAt(node));
   return true;
 }
 

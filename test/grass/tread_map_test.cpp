@@ -6,8 +6,10 @@
 
 #include <cmath>
 #include <set>
+#include <string>
 
 #include "grass/tread_fixture.h"
+#include "vegetation_sim/common/instruction_set.h"
 #include "vegetation_sim/common/random.h"
 
 namespace vegetation_sim::grass {
@@ -62,6 +64,31 @@ TEST_F(Treading, KeepsTheDosesOfSourcesApart) {
   }
   // Directions belong to whoever comes first, so only tilts are equal.
   EXPECT_LT(differenceOf(once, turns, after(1.0)).tilt, 1e-5);
+}
+
+// Vectors of any width and none at all, short steps and long, off the map's edge too.
+TEST_F(Treading, GivesTheSameBitsOnAllInstructionSets) {
+  ASSERT_GE(instructionSets().size(), 2u);
+  std::set<std::uint64_t> hashes;
+  for (const std::string& set : instructionSets()) {
+    forceInstructionSet(set);
+    TreadMap map = makeMap();
+    TreadLaw law;
+    for (std::uint64_t i = 0; i < 200; ++i) {
+      const Random random(i);
+      law.load = random.uniform(0, 0.05, 2.0);
+      Point p{random.uniform(1, 0.0, 20.0), random.uniform(2, 0.0, 20.0)};
+      for (std::uint64_t k = 0; k < 6; ++k) {
+        map.tread(static_cast<std::uint32_t>(i), law, p, after(0.1 * static_cast<double>(i)));
+        const double most = k < 3 ? 0.03 : 2.0;
+        p.x += random.uniform(3 + 2 * k, -most, most);
+        p.y += random.uniform(4 + 2 * k, -most, most);
+      }
+    }
+    hashes.insert(map.state().hash());
+    forceInstructionSet("");
+  }
+  EXPECT_EQ(hashes.size(), 1u);
 }
 
 // S2-23: no bulges: across a straight track of many steps every section is the same.

@@ -34,13 +34,17 @@ constexpr double PERMANENT_RECOVERY = 1e9;
 /// length, infinite on the segment if eps = 0.
 double treadField(const Point& p, const Point& p0, const Point& p1, double eps);
 
+/// An end of an integral along a track: how far along, and its softened distance [m].
+struct KernelEnd {
+  double s, r;
+};
+
 /// Integral of (square + s^2)^(-3/2) over s from lo to hi. With both ends on one side the
 /// difference of the two terms is expanded, so that nothing cancels (E5).
-inline double kernelIntegral(double lo, double hi, double square) {
-  const double r0 = std::sqrt(square + lo * lo), r1 = std::sqrt(square + hi * hi);
-  if (lo < 0.0 && hi > 0.0) return (hi * r0 - lo * r1) / (r0 * r1 * square);
-  const double both = std::fabs(hi) * r0 + std::fabs(lo) * r1;
-  return both > 0.0 ? (hi - lo) * std::fabs(hi + lo) / (r0 * r1 * both)
+inline double kernelIntegral(const KernelEnd& lo, const KernelEnd& hi, double square) {
+  if (lo.s < 0.0 && hi.s > 0.0) return (hi.s * lo.r - lo.s * hi.r) / (lo.r * hi.r * square);
+  const double both = std::fabs(hi.s) * lo.r + std::fabs(lo.s) * hi.r;
+  return both > 0.0 ? (hi.s - lo.s) * std::fabs(hi.s + lo.s) / (lo.r * hi.r * both)
                     : std::numeric_limits<double>::infinity();
 }
 
@@ -59,7 +63,8 @@ class CompactField {
   /// What it is made of, for those who evaluate it side by side.
   struct Parts {
     Point p0, along{1.0, 0.0};
-    double length{0.0}, square_reach{0.0}, square_softness{0.0}, edge{0.0};
+    double length{0.0}, square_reach{0.0}, square_softness{0.0};
+    double end{0.0}, edge{0.0};  ///< softened reach [m], kernel there [1/m^3]
   };
   const Parts& parts() const { return parts_; }
 
@@ -71,24 +76,34 @@ class CompactField {
   };
   Place placeOf(const Point& p) const {
     const double ax = parts_.p0.x - p.x, ay = parts_.p0.y - p.y;
-    const double start = ax * parts_.along.x + ay * parts_.along.y, end = start + parts_.length;
-    const double side = ax * parts_.along.y - ay * parts_.along.x;
+    return placeOf(ax * parts_.along.x + ay * parts_.along.y,
+                   ax * parts_.along.y - ay * parts_.along.x);
+  }
+  /// From where the segment starts and on which side it is.
+  Place placeOf(double start, double side) const {
+    const double end = start + parts_.length;
     const double beyond = std::max(0.0, std::max(start, -end));
     return {start, end, side, side * side + beyond * beyond};
   }
-  /// Field there [1/m^2]; 0 from `reach` on.
+  /// Field there [1/m^2]; 0 from `reach` on. An end that lies beyond is cut off at the reach, where
+  /// its softened distance is known.
   double fieldAt(const Place& place) const {
     if (place.square_distance >= parts_.square_reach) return 0.0;
-    const double square = place.side * place.side, room = parts_.square_reach - square;
-    double lo = place.start, hi = place.end;
-    // Both ends within reach, as in most short steps, need no cut.
-    if (lo * lo > room || hi * hi > room) {
-      const double half = std::sqrt(room);
-      lo = std::max(lo, -half);
-      hi = std::min(hi, half);
-    }
+    const double beside = place.side * place.side, room = parts_.square_reach - beside;
+    const double square = beside + parts_.square_softness;
+    double lo = place.start, hi = place.end, r0 = parts_.end, r1 = parts_.end;
+    const bool cut_lo = lo < 0.0 && lo * lo > room, cut_hi = hi > 0.0 && hi * hi > room;
+    const double half = cut_lo || cut_hi ? std::sqrt(room) : 0.0;
+    if (cut_lo)
+      lo = -half;
+    else
+      r0 = std::sqrt(square + lo * lo);
+    if (cut_hi)
+      hi = half;
+    else
+      r1 = std::sqrt(square + hi * hi);
     if (!(hi > lo)) return 0.0;
-    return kernelIntegral(lo, hi, square + parts_.square_softness) - (hi - lo) * parts_.edge;
+    return kernelIntegral({lo, r0}, {hi, r1}, square) - (hi - lo) * parts_.edge;
   }
   double fieldAt(const Point& p) const { return fieldAt(placeOf(p)); }
   double length() const { return parts_.length; }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <utility>
@@ -33,9 +34,8 @@ struct TreadNode {
 /// Nodes of a square of trodden ground.
 struct TreadBlock {
   static constexpr int SIDE = 16;
-  std::vector<TreadNode> nodes =
-      std::vector<TreadNode>(std::size_t{SIDE} * SIDE);  ///< row by row from the south
-  Nanoseconds until{0};                                  ///< when the last of them has recovered
+  Nanoseconds until{0};                                   ///< when the last of them has recovered
+  std::array<TreadNode, std::size_t{SIDE} * SIDE> nodes;  ///< row by row from the south
 };
 
 /// A source that is on the ground. Doses of the nodes within its reach add up as long as it stays
@@ -44,7 +44,7 @@ struct TreadSource {
   Point position, along;
   bool has_moved{false};  ///< `along` means something
   Nanoseconds stamp{0};
-  int first_column{0}, first_row{0}, columns{0}, rows{0};  ///< of the window
+  int first_column{0}, first_row{0}, columns{0}, rows{0};  ///< of the window, whole vectors wide
   std::vector<double> doses;                               ///< [rows x columns] [1/m^2]
 };
 
@@ -101,14 +101,9 @@ struct RecentBlock {
   bool is(int other_row, int other_column) const {
     return row == other_row && column == other_column;
   }
-  void set(TreadBlock& found) {
-    block = &found;
-    nodes = found.nodes.data();
-  }
   int row{-1}, column{-1};
   bool is_known{false};  ///< that the block is there, or that it is not
   TreadBlock* block{nullptr};
-  TreadNode* nodes{nullptr};  ///< of the block
 };
 
 struct RecentSource {
@@ -120,7 +115,16 @@ struct RecentSource {
   TreadSource* source{nullptr};
 };
 
-struct TreadNodes;
+/// Nodes that a stroke presses down, row by row; touched are all within its reach.
+struct TreadPresses {
+  std::vector<std::uint64_t> places;  ///< row << 32 | column
+  std::vector<double> tilts;          ///< that the stroke asks for [rad]
+  std::size_t count{0};
+  int touched{0};
+};
+
+struct TreadBand;
+struct TreadGrid;
 struct TreadStroke;
 
 /// Trodden grass (paper 2, section 4.2; S2-21 to S2-28) on a fine grid that exists only where
@@ -163,16 +167,17 @@ class TreadMap {
   struct Box {
     int first_column, last_column, first_row, last_row;
   };
-  const RecentBlock& blockAt(int row, int column, bool make);
+  TreadBlock* blockAt(int row, int column, bool make);
   TreadSource* sourceOf(std::uint32_t id);
   bool isJump(const TreadSource& from, const Point& to, Nanoseconds stamp) const;
   bool moveWindow(TreadSource& source, double reach);
+  TreadGrid grid() const;
   Box boxOf(const Point& low, const Point& high, double reach) const;
   double fullDose(const TreadLaw& law);
-  int press(TreadStroke& stroke);
-  int pressBlock(TreadStroke& stroke, int block_row, int block_column, const Box& box,
-                 TreadNodes& nodes);
-  int pressNodes(TreadStroke& stroke, TreadNodes& nodes);
+  int pressWindow(TreadStroke& stroke);
+  int pressBands(TreadStroke& stroke);
+  int pressBand(TreadStroke& stroke, const TreadBand& band);
+  void prefetch(const TreadBand& band);
   void forgetRecent();
 
   MapLaw law_;
@@ -180,19 +185,25 @@ class TreadMap {
   int cells_;  ///< fine cells along a tile
   double spacing_, per_spacing_;
   TreadState state_;
-  RecentTable<RecentBlock, 13> recent_blocks_;
+  RecentTable<RecentBlock, 16> recent_blocks_;
   RecentTable<RecentSource, 12> recent_sources_;
-  TreadSource before_;     ///< scratch: a window that was left
-  TreadLaw last_law_{};    ///< of the last stroke
-  double last_full_{0.0};  ///< its fullDose()
+  TreadSource before_;         ///< scratch: a window that was left
+  std::vector<double> doses_;  ///< scratch: on the way from window to window
+  TreadPresses presses_;       ///< scratch
+  TreadLaw last_law_{};        ///< of the last stroke
+  double last_full_{0.0};      ///< its fullDose()
 };
 
-/// Tilt of a node at a stamp [rad]: theta0 (1 - smoothStep((t - t0) / T)); 0 before t0.
+/// Share of its tilt that a node keeps: 1 - smoothStep((t - t0) / T); 0 before t0.
+inline double tiltLeft(const TreadNode& node, Nanoseconds stamp) {
+  if (stamp < node.stamp || !(node.recovery > 0.f)) return 0.0;
+  if (node.recovery >= static_cast<float>(PERMANENT_RECOVERY)) return 1.0;
+  return 1.0 - smoothStep(secondsBetween(node.stamp, stamp) / double{node.recovery});
+}
+
+/// Tilt of a node at a stamp [rad].
 inline float tiltAt(const TreadNode& node, Nanoseconds stamp) {
-  if (!(node.tilt > 0.f) || stamp < node.stamp || !(node.recovery > 0.f)) return 0.f;
-  if (node.recovery >= static_cast<float>(PERMANENT_RECOVERY)) return node.tilt;
-  const double part = secondsBetween(node.stamp, stamp) / double{node.recovery};
-  return static_cast<float>(double{node.tilt} * (1.0 - smoothStep(part)));
+  return static_cast<float>(double{node.tilt} * tiltLeft(node, stamp));
 }
 
 /// Below this tilt a node counts as untrodden [rad].
