@@ -97,6 +97,11 @@ void Canopy::setMotion(const Motion& motion) {
   stale_ = true;
 }
 
+void Canopy::setCrowns(std::vector<LeafBox> crowns) {
+  foliage_.setCrowns(std::move(crowns));
+  stale_ = true;
+}
+
 CutView Canopy::view() const {
   if (viewer_) return *viewer_;
   return {layout_.motion.plane.camera, orientationOf(layout_.motion.plane)};
@@ -152,7 +157,7 @@ void Canopy::look(Nanoseconds stamp) {
     return;
   }
   if (cutShare(cuts, layout_.motion.cuts, stamp) < 1.0) return;
-  if (!foliage_.cutFor(cuts.now).leftBy(now, layout_.motion.cuts)) return;
+  if (!foliage_.cutOfPlants(cuts.now).leftBy(now, layout_.motion.cuts)) return;
   cuts = {now, cuts.now, stamp};
 }
 
@@ -195,6 +200,11 @@ void Replica::apply(const StateUpdate& update) {
     ++heard_;
   }
   last_ = update;
+  stale_ = true;
+}
+
+void Replica::setCrowns(std::vector<LeafBox> crowns) {
+  foliage_.setCrowns(std::move(crowns));
   stale_ = true;
 }
 

@@ -56,18 +56,25 @@ void Foliage::update(const History& history, double front_share, const CutState&
   if (share_ < 1.0) build(cuts_[1], cuts.before, history, front_share);
 }
 
-LayerCut Foliage::cutFor(const CutView& view) const {
-  const Axes axes = axesOf(view.orientation);
-  const double flat = std::sqrt(axes.out.x() * axes.out.x() + axes.out.y() * axes.out.y());
+LayerCut Foliage::cut(const CutView& view, bool crowns) const {
+  const Vec3 out = axesOf(view.orientation).out;
+  const double flat = std::sqrt(out.x() * out.x() + out.y() * out.y());
   double nearest = 1e9, farthest = -1e9;
+  const auto add = [&](const Vec3& middle, double reach) {
+    const double depth = -dot(out, Vec3(middle - view.position));
+    nearest = std::min(nearest, depth - reach);
+    farthest = std::max(farthest, depth + reach);
+  };
   for (std::size_t i = 0; i < layout_.plants.size(); ++i) {
     const Plant& plant = layout_.plants[i];
     const double half = 0.5 * tops_[i], radius = plant.scale * layout_.kinds[plant.kind].radius;
-    const Vec3 middle = plant.position + Vec3(0.0, 0.0, half);
-    const double depth = -dot(axes.out, Vec3(middle - view.position));
-    const double reach = radius * flat + half * std::fabs(axes.out.z());
-    nearest = std::min(nearest, depth - reach);
-    farthest = std::max(farthest, depth + reach);
+    add(plant.position + Vec3(0.0, 0.0, half), radius * flat + half * std::fabs(out.z()));
+  }
+  for (const LeafBox& crown : crowns_) {
+    if (!crowns) break;
+    const Vec3 half = 0.5 * (crown.high - crown.low);
+    add(crown.low + half, half.x() * std::fabs(out.x()) + half.y() * std::fabs(out.y()) +
+                              half.z() * std::fabs(out.z()));
   }
   return LayerCut(view, layout_.motion.cuts, nearest, farthest);
 }

@@ -42,7 +42,7 @@ LayerCut::LayerCut(const CutView& view, const CutSettings& settings, double near
   farthest = std::max(nearest, farthest);
   std::vector<double> middles;
   double begin = nearest;
-  thickness_ = farthest - nearest;
+  if (farthest > nearest) thickness_ = farthest - nearest;
   const auto region = [&](int layers, double end) {
     end = std::min(end, farthest);
     if (layers < 1 || end <= begin) return;

@@ -77,6 +77,7 @@ void CanopyAnimator::onForestLayout(const ForestLayout& message) {
   try {
     forest_.setLayout(fromMsg(message), loadTerrain(message.terrain));
     crowns_.grow(canopy_->layout(), forest_);
+    canopy_->setCrowns(crowns_.boxes());
     markers_.setCrowns(canopy_->layout(), crowns_);
   } catch (const std::exception& error) {
     reject("forest layout", error.what());

@@ -22,7 +22,25 @@ std::vector<canopy::Twig> twigsOf(const forest::Tree& tree) {
   return out;
 }
 
+canopy::LeafBox boxOf(const std::vector<canopy::CrownLeaf>& leaves) {
+  canopy::LeafBox out;
+  if (leaves.empty()) return out;
+  out.low = out.high = leaves.front().leaf.anchor;
+  for (const canopy::CrownLeaf& leaf : leaves) {
+    out.low = out.low.cwiseMin(leaf.leaf.anchor);
+    out.high = out.high.cwiseMax(leaf.leaf.anchor);
+  }
+  return out;
+}
+
 }  // namespace
+
+std::vector<canopy::LeafBox> LeafedCrowns::boxes() const {
+  std::vector<canopy::LeafBox> out;
+  for (const Crown& crown : crowns_)
+    if (!crown.leaves.empty()) out.push_back(crown.box);
+  return out;
+}
 
 void LeafedCrowns::grow(const canopy::Layout& layout, const forest::ForestReplica& forest) {
   crowns_.clear();
@@ -39,6 +57,7 @@ void LeafedCrowns::grow(const canopy::Layout& layout, const forest::ForestReplic
       crown.rest = twigsOf(trees_.back());
       crown.leaves =
           canopy::growCrown(layout.kinds[rule.kind], trees_.back().seed.seed, crown.rest);
+      crown.box = boxOf(crown.leaves);
       crowns_.push_back(std::move(crown));
     }
 }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 
 #include "canopy/canopy_scene.h"
 
@@ -101,6 +102,36 @@ TEST_F(LeafedOak, HasLeavesThatMoveInLayersOnTheirWood) {
     moved = std::max(moved, length(Vec3(after[i].tip - before[i].tip)) / size);
   }
   EXPECT_GT(moved, 0.2);
+}
+
+// S3-W2, S3-05: a crown is cut into layers also where no plant stands, and nothing that the canopy
+// remembers depends on it, though the viewer moves: a replay needs no forest.
+TEST_F(LeafedOak, IsCutIntoLayersWithoutAnyPlant) {
+  layout_.plants.clear();
+  canopy::Canopy with(layout_), without(layout_);
+  with.setCrowns(crowns_.boxes());
+  std::uint64_t first_cuts = 0, cuts = 0;
+  for (int tick = 0; tick < 90; ++tick)
+    for (canopy::Canopy* canopy : {&with, &without}) {
+      canopy->setWind(canopy::breezeFrom(Vec3(1.0, 6.0, 0.0)));
+      canopy->setViewer(canopy::CutView{Vec3(-5.0 + 0.02 * tick, 0.0, 1.5), {}});
+      canopy->advance(canopy::tickStamp(tick));
+      cuts = static_cast<std::uint64_t>(canopy->memory().cuts.since);
+      if (tick == 0) first_cuts = cuts;
+    }
+  EXPECT_NE(cuts, first_cuts);
+  EXPECT_EQ(with.memory().hash(), without.memory().hash());
+  EXPECT_EQ(without.foliage().layers(), 1);
+  const canopy::Foliage& foliage = with.foliage();
+  ASSERT_EQ(foliage.layers(), 3);
+  std::array<int, 3> leaves{};
+  for (const canopy::CrownLeaf& leaf : crowns_.crowns()[0].leaves)
+    ++leaves[static_cast<std::size_t>(foliage.layerAt(leaf.leaf.anchor))];
+  for (const int count : leaves) EXPECT_GT(count, 100);
+  canopy::Replica replica(layout_);
+  replica.setCrowns(crowns_.boxes());
+  replica.apply(with.update(false));
+  EXPECT_EQ(replica.foliage().layers(), 3);
 }
 
 TEST_F(LeafedOak, GrowsNothingOnTreesThatAreNotThere) {

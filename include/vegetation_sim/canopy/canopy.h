@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "vegetation_sim/canopy/fluid.h"
 #include "vegetation_sim/canopy/foliage.h"
@@ -50,6 +51,8 @@ class Canopy {
   void setWind(const wind::Field& wind) { wind_ = wind; }
   /// The only eye that layers are cut for (S3-W8); none: that of the simulation plane.
   void setViewer(const std::optional<CutView>& viewer) { viewer_ = viewer; }
+  /// Crowns that hang in the layers beside the plants; nothing that is remembered depends on them.
+  void setCrowns(std::vector<LeafBox> crowns);
 
   /// Other sources, leaves, layers and warp from the next tick on; what moves goes on moving.
   /// @throws InvalidInput for faults, or another plane, grid, rate, memory or integrator: those
@@ -108,6 +111,8 @@ class Replica {
   void apply(const StateUpdate& update);
   /// Whether the whole history has been heard.
   bool exact() const { return heard_ >= history_.frames(); }
+  /// The same crowns as the animator's give the same layers.
+  void setCrowns(std::vector<LeafBox> crowns);
   const Foliage& foliage();
 
  private:

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "vegetation_sim/canopy/history.h"
@@ -22,6 +23,11 @@ struct CutState {
 /// How much of the newer of the two cuts is seen at a stamp, 0 to 1.
 double cutShare(const CutState& state, const CutSettings& settings, Nanoseconds stamp);
 
+/// Space that leaves fill at rest.
+struct LeafBox {
+  Vec3 low{Vec3::Zero()}, high{Vec3::Zero()};  ///< [m], world
+};
+
 /// Where a leaf has gone.
 struct MovedLeaf {
   Vec3 root, tip, side;  ///< [m], world
@@ -33,11 +39,15 @@ class Foliage {
  public:
   explicit Foliage(const Layout& layout);
 
+  /// Crowns of the forest that hang in the layers too (S3-W2), from the next update on.
+  void setCrowns(std::vector<LeafBox> crowns) { crowns_ = std::move(crowns); }
   /// @param history of the layout's size. @param front_share see Driver::share().
   void update(const History& history, double front_share, const CutState& cuts, Nanoseconds stamp);
 
-  /// The layers of all plants for a view.
-  LayerCut cutFor(const CutView& view) const;
+  /// The layers of all plants and crowns for a view.
+  LayerCut cutFor(const CutView& view) const { return cut(view, true); }
+  /// Those of the plants alone, which the layout knows: what is remembered depends on no crown.
+  LayerCut cutOfPlants(const CutView& view) const { return cut(view, false); }
   /// Displacement [m], world, of a point at rest that belongs to what hangs on `anchor`.
   /// @param plant id, whose foot and height say how freely it moves.
   Vec3 displacement(const Vec3& anchor, const Vec3& point, std::size_t plant) const;
@@ -65,6 +75,7 @@ class Foliage {
     std::vector<LayerMotion> layers;
     std::vector<double> shares;  // depthShare of each
   };
+  LayerCut cut(const CutView& view, bool crowns) const;
   void build(Cut& cut, const CutView& view, const History& history, double front_share);
   Vec3 motionIn(const Cut& cut, const Vec3& anchor, const Vec3& point) const;
   Vec3 displacementIn(const Cut& cut, const Vec3& anchor, const Vec3& point, double limit) const;
@@ -72,8 +83,9 @@ class Foliage {
   const Layout& layout_;
   Plane plane_;
   std::vector<double> tops_;  // height of each plant [m]
-  std::array<Cut, 2> cuts_;   // the newer one first
-  double share_{1.0};         // of the newer one
+  std::vector<LeafBox> crowns_;
+  std::array<Cut, 2> cuts_;  // the newer one first
+  double share_{1.0};        // of the newer one
   double weakening_{1.0};
 };
 

@@ -58,7 +58,7 @@ class LayerCut {
   std::vector<double> ends_;            // depth where each layer but the last ends
   std::vector<double> distances_{0.0};  // of the middles
   double first_{0.0};                   // depth of the first middle
-  double thickness_{1.0};               // of the thinnest layer
+  double thickness_{1.0};               // of the thinnest layer; of nothing, a metre
 };
 
 }  // namespace vegetation_sim::canopy

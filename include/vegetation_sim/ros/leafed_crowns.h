@@ -20,6 +20,7 @@ class LeafedCrowns {
     std::uint16_t kind{0};
     std::vector<canopy::Twig> rest;  ///< of each branch
     std::vector<canopy::CrownLeaf> leaves;
+    canopy::LeafBox box;
   };
 
   /// Grows the crowns that a layout of leaves asks for on the trees that there are; those that are
@@ -28,6 +29,8 @@ class LeafedCrowns {
   void clear() { crowns_.clear(); }
 
   const std::vector<Crown>& crowns() const { return crowns_; }
+  /// Where the crowns are that have leaves.
+  std::vector<canopy::LeafBox> boxes() const;
   /// Base of each branch of a crown's tree in the world at a stamp.
   std::vector<Pose> wood(std::size_t crown, const forest::ForestReplica& forest,
                          Nanoseconds stamp) const;
