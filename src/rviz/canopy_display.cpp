@@ -46,7 +46,8 @@ void CanopyDisplay::light(const view::Daylight& daylight, const view::Haze& haze
   if (ground_) ground_->light(daylight, daylight.to_sun, haze);
 }
 
-void CanopyDisplay::draw(Nanoseconds /*stamp*/, const view::View& view) {
+void CanopyDisplay::draw(Nanoseconds stamp, const view::View& view) {
+  source_->keepCrowns();
   if (!canopy_ || layouts_ != source_->layouts()) {
     layouts_ = source_->layouts();
     dropGround();
@@ -54,7 +55,7 @@ void CanopyDisplay::draw(Nanoseconds /*stamp*/, const view::View& view) {
     canopy_ = std::make_unique<view::CanopyVisual>(*scene_node_, *source_, to_sun_);
     canopy_->light(properties_->daylight(), properties_->hazeValues());
   }
-  canopy_->update(*source_, view, properties_->options());
+  canopy_->update(*source_, stamp, view, properties_->options());
   if (givesGround(source_->ground())) makeGround();
 }
 
@@ -76,12 +77,18 @@ view::CanopyReport CanopyDisplay::drawn() const {
 void CanopyDisplay::showInputs(view::StatusBoard& board) const {
   board.show("Layout", source_->layoutStatus());
   board.show("State", source_->stateStatus());
+  if (const view::ForestSource* forest = source_->forest()) {
+    board.show("Forest Layout", forest->layoutStatus());
+    board.show("Forest State", forest->stateStatus());
+    board.show("Wind", forest->windStatus());
+  }
 }
 
 view::InputStatus CanopyDisplay::describeDrawn() const {
   const view::CanopyReport report = drawn();
-  return {report.plants > 0, std::to_string(report.drawn) + " of " + std::to_string(report.leaves) +
-                                 " leaves of " + std::to_string(report.plants) + " plants, in " +
+  return {report.leaves > 0, std::to_string(report.drawn) + " of " + std::to_string(report.leaves) +
+                                 " leaves of " + std::to_string(report.plants) + " plants and " +
+                                 std::to_string(report.crowns) + " crowns, in " +
                                  std::to_string(report.layers) + " layers"};
 }
 

@@ -77,6 +77,30 @@ CanopyPatch::CanopyPatch(const canopy::Layout& layout, const std::vector<std::si
   for (const std::size_t plant : plants)
     middle_ += layout.plants[plant].position / static_cast<double>(plants.size());
   for (const std::size_t plant : plants) grow(layout, plant);
+  finish(layout, node, to_sun);
+}
+
+CanopyPatch::CanopyPatch(const canopy::Layout& layout, const LeafedCrowns::Crown& crown,
+                         std::size_t number, const Vec3& origin, Ogre::SceneNode& node,
+                         const std::string& leaf_material, const std::string& stem_material,
+                         const Vec3& to_sun)
+    : crown_(number),
+      origin_(origin),
+      middle_(0.5 * (crown.box.low + crown.box.high)),
+      reach_(0.5 * length(Vec3(crown.box.high - crown.box.low))),
+      leaf_batch_(uniqueName("canopy_leaves"), leaf_material),
+      stem_batch_(uniqueName("canopy_stems"), stem_material) {
+  const Vec3 half = (0.5 * (crown.box.high - crown.box.low)).cwiseMax(0.01);
+  const std::size_t count = crown.leaves.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const canopy::Leaf& leaf = crown.leaves[i].leaf;
+    const Vec3 at = (leaf.root - middle_).cwiseQuotient(half);
+    leaves_.push_back({leaf, i, crown.kind, at, LeafCut::LEAF, static_cast<float>(-length(at))});
+  }
+  finish(layout, node, to_sun);
+}
+
+void CanopyPatch::finish(const canopy::Layout& layout, Ogre::SceneNode& node, const Vec3& to_sun) {
   std::stable_sort(leaves_.begin(), leaves_.end(),
                    [](const Drawn& a, const Drawn& b) { return a.order < b.order; });
   build(layout, to_sun);
@@ -102,10 +126,11 @@ void CanopyPatch::grow(const canopy::Layout& layout, std::size_t plant) {
                             : -length(inBall(layout, plant, grown.leaves[i].root)),
                         i);
   std::sort(sorted.begin(), sorted.end());
-  for (std::size_t rank = 0; rank < count; ++rank)
-    leaves_.push_back({grown.leaves[sorted[rank].second], plant,
-                       cutOf(kind, grown.leaves[sorted[rank].second]),
+  for (std::size_t rank = 0; rank < count; ++rank) {
+    const canopy::Leaf& leaf = grown.leaves[sorted[rank].second];
+    leaves_.push_back({leaf, plant, p.kind, inBall(layout, plant, leaf.root), cutOf(kind, leaf),
                        static_cast<float>(rank) / static_cast<float>(count)});
+  }
   addStems(grown, kind.stem_colour);
   addRigid(grown, kind.stem_colour);
   reach_ =
@@ -167,8 +192,7 @@ void CanopyPatch::addStems(const canopy::GrownPlant& grown, const Vec3& colour) 
 // Darker inside: the sun by the way through the leaves in front of this one, the sky by its light.
 VertexPaint CanopyPatch::paintOf(const canopy::Layout& layout, const Drawn& drawn,
                                  const Vec3& to_sun) const {
-  const canopy::Plant& p = layout.plants[drawn.plant];
-  const canopy::PlantKind& kind = layout.kinds[p.kind];
+  const canopy::PlantKind& kind = layout.kinds[drawn.kind];
   const Vec3 along = unit(drawn.leaf.tip - drawn.leaf.root, Vec3::UnitZ());
   const Vec3 across = unit(drawn.leaf.side, Vec3::UnitX());
   Vec3 face = cross(along, across);
@@ -178,9 +202,8 @@ VertexPaint CanopyPatch::paintOf(const canopy::Layout& layout, const Drawn& draw
   double sun = light;
   Vec3 outward = face;
   if (drawn.cut == LeafCut::LEAF) {
-    const Vec3 at = inBall(layout, drawn.plant, drawn.leaf.root);
-    outward = unit(at, Vec3::UnitZ());
-    sun = std::exp(-SUN_DEPTH * wayOut(at, to_sun)) * (0.4 + 0.6 * light);
+    outward = unit(drawn.in_ball, Vec3::UnitZ());
+    sun = std::exp(-SUN_DEPTH * wayOut(drawn.in_ball, to_sun)) * (0.4 + 0.6 * light);
   }
   const double young = drawn.leaf.shade;
   VertexPaint out{{0.f, 0.f, 1.f}, {0, 0, 0, 255}, {0.f, 0.f, static_cast<float>(light)}};
@@ -219,6 +242,21 @@ void CanopyPatch::build(const canopy::Layout& layout, const Vec3& to_sun) {
 }
 
 void CanopyPatch::move(const canopy::Foliage& foliage, std::size_t count) {
+  moveBy([&](const Drawn& drawn) { return foliage.move(drawn.leaf, drawn.owner); }, count);
+}
+
+void CanopyPatch::move(const canopy::Foliage& foliage, const LeafedCrowns::Crown& crown,
+                       const std::vector<Pose>& wood, std::size_t count) {
+  moveBy(
+      [&](const Drawn& drawn) {
+        const canopy::CrownLeaf& leaf = crown.leaves[drawn.owner];
+        return carry(foliage, leaf, crown.rest[leaf.twig].pose, wood[leaf.twig]);
+      },
+      count);
+}
+
+template <class Mover>
+void CanopyPatch::moveBy(const Mover& mover, std::size_t count) {
   drawn_ = std::min(count, leaves_.size());
   leaf_batch_.limit(2 * drawn_);
   if (drawn_ == 0) return;
@@ -227,7 +265,7 @@ void CanopyPatch::move(const canopy::Foliage& foliage, std::size_t count) {
   positions_.resize(12 * drawn_);
   float* out = positions_.data();
   for (std::size_t i = 0; i < drawn_; ++i) {
-    const canopy::MovedLeaf moved = foliage.move(leaves_[i].leaf, leaves_[i].plant);
+    const canopy::MovedLeaf moved = mover(leaves_[i]);
     const bool joined = joins(leaves_[i].cut);
     const Vec3 root = moved.root - origin_;
     const Vec3 tip = root + (joined ? 1.0 : grown) * (moved.tip - moved.root);

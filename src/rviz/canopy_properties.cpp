@@ -12,6 +12,11 @@ CanopyProperties::CanopyProperties(rviz::Display& display) {
                                    "vegetation_sim/CanopyLayout: seeds of all plants.", display);
   state_ = addTopic<CanopyState>("State Topic", "canopy/state",
                                  "vegetation_sim/CanopyState: how the leaves move.", display);
+  forest_layout_ = addTopic<ForestLayout>("Forest Layout Topic", "forest/layout",
+                                          "Trees whose crowns the layout gives leaves.", display);
+  forest_state_ = addTopic<ForestState>("Forest State Topic", "forest/state",
+                                        "Which joints of these trees move.", display);
+  wind_ = addTopic<WindField>("Wind Topic", "wind", "What these trees sway in.", display);
   most_leaves_ = new rviz::IntProperty(
       "Leaves", 40000, "How many leaves to draw in the picture at most. Others become larger.",
       &display, SLOT(updateLook()), &display);
@@ -25,7 +30,9 @@ CanopyProperties::CanopyProperties(rviz::Display& display) {
 }
 
 CanopyTopics CanopyProperties::topics() const {
-  return {layout_->getTopicStd(), state_->getTopicStd()};
+  return {layout_->getTopicStd(),
+          state_->getTopicStd(),
+          {forest_layout_->getTopicStd(), wind_->getTopicStd(), forest_state_->getTopicStd()}};
 }
 
 CanopyVisual::Options CanopyProperties::options() const {

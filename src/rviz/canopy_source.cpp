@@ -17,7 +17,9 @@ InputStatus refused(const std::exception& error) {
 }  // namespace
 
 CanopySource::CanopySource(ros::NodeHandle nh, const CanopyTopics& topics)
-    : ground_(nh),
+    : nh_(nh),
+      topics_(topics),
+      ground_(nh),
       layout_status_{false, "No layout on " + nh.resolveName(topics.layout)},
       state_status_{false, "No state on " + nh.resolveName(topics.state) + ": all at rest"} {
   layout_ = nh.subscribe(topics.layout, 1, &CanopySource::takeLayout, this);
@@ -37,6 +39,12 @@ void CanopySource::takeLayout(const CanopyLayout& message) {
   stamp_ = 0;
   frame_ = message.header.frame_id;
   const canopy::Layout& layout = replica_->layout();
+  crowns_.clear();
+  forests_ = 0;
+  if (layout.crowns.empty())
+    forest_.reset();
+  else if (!forest_)
+    forest_ = std::make_unique<ForestSource>(nh_, topics_.forest);
   layout_status_ = {true, std::to_string(layout.plants.size()) + " plants, " +
                               std::to_string(layout.leafCount()) + " leaves"};
 }
@@ -58,9 +66,20 @@ void CanopySource::takeState(const CanopyState& message) {
   state_status_ = {true, replica_->exact() ? "In step" : "Hearing the memory of the layers"};
 }
 
+void CanopySource::keepCrowns() {
+  if (!forest_ || forests_ == forest_->layouts()) return;
+  forests_ = forest_->layouts();
+  crowns_.grow(replica_->layout(), forest_->replica());
+  replica_->setCrowns(crowns_.boxes());
+  ++layouts_;
+  ++states_;
+}
+
 void CanopySource::forgetState(Nanoseconds now) {
+  if (forest_) forest_->forgetState(now);
   if (!replica_ || stamp_ <= now) return;
   replica_ = std::make_unique<canopy::Replica>(canopy::Layout(replica_->layout()));
+  replica_->setCrowns(crowns_.boxes());
   ++states_;
   stamp_ = 0;
   state_status_ = {false, "Waiting for a state: time went back"};

@@ -49,21 +49,30 @@ CanopyVisual::CanopyVisual(Ogre::SceneNode& parent, const CanopySource& source, 
                      {leaf_texture_.name()}),
       stem_material_(Material::Kind::BARK, uniqueName("stem_material"), {stem_texture_.name()}) {
   const canopy::Layout& layout = source.replica()->layout();
-  if (!layout.plants.empty()) {
+  const std::vector<LeafedCrowns::Crown>& crowns = source.crowns().crowns();
+  if (!layout.plants.empty())
     origin_ = layout.plants.front().position;
-    extent_ = {origin_, origin_};
-  }
+  else if (!crowns.empty())
+    origin_ = crowns.front().box.low;
+  extent_ = {origin_, origin_};
   node_->setPosition(static_cast<float>(origin_.x()), static_cast<float>(origin_.y()),
                      static_cast<float>(origin_.z()));
-  for (const auto& [cell, plants] : cellsOf(layout)) {
-    patches_.push_back(std::make_unique<CanopyPatch>(
-        layout, plants, origin_, *node_, leaf_material_.name(), stem_material_.name(), to_sun));
-    const Vec3 around = Vec3::Constant(patches_.back()->reach());
-    extent_.low = extent_.low.cwiseMin(patches_.back()->middle() - around);
-    extent_.high = extent_.high.cwiseMax(patches_.back()->middle() + around);
-  }
+  for (const auto& [cell, plants] : cellsOf(layout))
+    add(std::make_unique<CanopyPatch>(layout, plants, origin_, *node_, leaf_material_.name(),
+                                      stem_material_.name(), to_sun));
+  for (std::size_t i = 0; i < crowns.size(); ++i)
+    add(std::make_unique<CanopyPatch>(layout, crowns[i], i, origin_, *node_, leaf_material_.name(),
+                                      stem_material_.name(), to_sun));
   report_.plants = layout.plants.size();
-  report_.leaves = layout.leafCount();
+  report_.crowns = crowns.size();
+}
+
+void CanopyVisual::add(std::unique_ptr<CanopyPatch> patch) {
+  const Vec3 around = Vec3::Constant(patch->reach());
+  extent_.low = extent_.low.cwiseMin(patch->middle() - around);
+  extent_.high = extent_.high.cwiseMax(patch->middle() + around);
+  report_.leaves += patch->leafCount();
+  patches_.push_back(std::move(patch));
 }
 
 CanopyVisual::~CanopyVisual() {
@@ -87,11 +96,14 @@ std::vector<CanopyPatch*> CanopyVisual::inPicture(const View& view) const {
   return out;
 }
 
-void CanopyVisual::update(CanopySource& source, const View& view, const Options& options) {
-  if (states_ == source.states() && length(eye_ - view.eye.position) < STILL &&
+void CanopyVisual::update(CanopySource& source, Nanoseconds stamp, const View& view,
+                          const Options& options) {
+  const bool swayed = report_.crowns > 0 && stamp != stamp_;
+  if (!swayed && states_ == source.states() && length(eye_ - view.eye.position) < STILL &&
       length(forward_ - view.forward) < STILL)
     return;
   states_ = source.states();
+  stamp_ = stamp;
   eye_ = view.eye.position;
   forward_ = view.forward;
   const std::vector<CanopyPatch*> seen = inPicture(view);
@@ -104,8 +116,12 @@ void CanopyVisual::update(CanopySource& source, const View& view, const Options&
   int rank = 0;
   for (CanopyPatch* patch : seen) {
     patch->setRank(rank++);
-    patch->move(foliage,
-                static_cast<std::size_t>(share * wantedOf(*patch, view, options.tolerance) + 0.5));
+    const auto count =
+        static_cast<std::size_t>(share * wantedOf(*patch, view, options.tolerance) + 0.5);
+    if (const auto& crown = patch->crown())
+      patch->move(foliage, source.crowns().crowns()[*crown], source.wood(*crown, stamp), count);
+    else
+      patch->move(foliage, count);
     report_.drawn += patch->drawn();
   }
   report_.layers = foliage.layers();

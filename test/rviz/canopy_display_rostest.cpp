@@ -2,16 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <limits>
 
-#include "forest/forest_fixture.h"
 #include "rviz/display_checks.h"
+#include "rviz/display_rig.h"
 #include "vegetation_sim/ros/canopy_conversions.h"
 #include "vegetation_sim/rviz/canopy_display.h"
 
 namespace vegetation_sim {
 namespace {
 
-/// rviz and some shrubs that the rig moves.
-class CanopyRig : public ViewRig {
+/// rviz and some shrubs that the rig moves, or a forest with such leaves.
+class CanopyRig : public DisplayRig {
  public:
   CanopyRig()
       : layout_(nh_.advertise<CanopyLayout>("canopy/layout", 1, true)),
@@ -37,8 +37,9 @@ class CanopyRig : public ViewRig {
     return out;
   }
 
-  void plant(int count) {
-    canopy_ = std::make_unique<canopy::Canopy>(shrubs(count));
+  void plant(int count) { plant(shrubs(count)); }
+  void plant(const canopy::Layout& layout) {
+    canopy_ = std::make_unique<canopy::Canopy>(layout);
     canopy_->setWind(wind::Field({forest::makeBreeze(1, Vec3(1.0, 8.0, 0.0))}));
     CanopyLayout message = toMsg(canopy_->layout());
     message.header.frame_id = "map";
@@ -108,6 +109,33 @@ TEST_F(CanopyDisplayTest, MovesWithTheStateAlone) {
   EXPECT_EQ(rig.picture(), before);
   rig.blow(60);
   EXPECT_TRUE(rig.until([&] { return difference(before, rig.picture()) > 0.3; }));
+}
+
+// S3-W2: leaves on trees of the forest, in layers where no plant stands, go with their wood at
+// rviz's time, whatever the leaves' own state.
+TEST_F(CanopyDisplayTest, CrownsGoWithTheirForest) {
+  canopy::Layout crowns = CanopyRig::shrubs(0);
+  crowns.crowns.resize(1);
+  crowns.crowns[0].trees = 4;
+  rig.plant(crowns);
+  forest::Layout trees = forest::gridLayout(2, 2.0);
+  for (forest::TreeSeed& tree : trees.trees) tree.scale = 0.3;
+  rig.publishForest(trees);
+  rig.blow(2);
+  rig.lookAt(1.5f, 0.25, 8.0);
+  ASSERT_TRUE(
+      rig.until([&] { return display->drawn().crowns == 4 && display->drawn().drawn > 0; }));
+  EXPECT_EQ(display->drawn().plants, 0u);
+  EXPECT_EQ(display->drawn().leaves, 4u * 600);
+  EXPECT_EQ(display->drawn().layers, 3);
+  rig.frames(5);
+  const std::vector<std::uint8_t> before = rig.picture();
+  rig.frames(10);
+  EXPECT_EQ(rig.picture(), before);
+  EXPECT_TRUE(rig.until([&] {
+    rig.setTime(rig.now() + 0.02);
+    return difference(before, rig.picture()) > 0.3;
+  }));
 }
 
 // Far away fewer leaves stand for all, and the plants keep their size in the picture.

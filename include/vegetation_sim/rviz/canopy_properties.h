@@ -22,7 +22,7 @@ class CanopyProperties : public SceneryProperties {
   CanopyVisual::Options options() const;
 
  private:
-  rviz::RosTopicProperty *layout_, *state_;
+  rviz::RosTopicProperty *layout_, *state_, *forest_layout_, *forest_state_, *wind_;
   rviz::IntProperty* most_leaves_;
   rviz::FloatProperty* tolerance_;
 };

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "vegetation_sim/canopy/canopy.h"
+#include "vegetation_sim/ros/leafed_crowns.h"
 #include "vegetation_sim/rviz/forest_source.h"
 #include "vegetation_sim/rviz/ground_source.h"
 
@@ -18,9 +19,11 @@ namespace vegetation_sim::view {
 
 struct CanopyTopics {
   std::string layout, state;
+  ForestTopics forest;  ///< whose crowns have leaves, if the layout says so
 };
 
-/// Listens to leafy masses and keeps the replica of them. Callbacks run in the queue of the node
+/// Listens to leafy masses, and to the forest if they have crowns on it, and keeps the replica of
+/// them. Callbacks run in the queue of the node
 /// handle: for a display the render thread's. A refused message changes nothing.
 class CanopySource {
  public:
@@ -30,8 +33,18 @@ class CanopySource {
   /// Null before the first layout.
   canopy::Replica* replica() { return replica_.get(); }
   const canopy::Replica* replica() const { return replica_.get(); }
+  /// Crowns that leaves hang on: none before the forest's layout.
+  const LeafedCrowns& crowns() const { return crowns_; }
+  /// Base of each branch of a crown's tree at a stamp.
+  std::vector<Pose> wood(std::size_t crown, Nanoseconds stamp) const {
+    return crowns_.wood(crown, forest_->replica(), stamp);
+  }
+  /// The forest; null if nobody asks for it.
+  const ForestSource* forest() const { return forest_.get(); }
+  /// Grows crowns if there is another forest.
+  void keepCrowns();
   const terrain::HeightMap& ground() const { return ground_.ground(); }
-  /// Counts layouts taken, and states.
+  /// Counts layouts taken, of the crowns' forest too, and states.
   int layouts() const { return layouts_; }
   int states() const { return states_; }
   const std::string& frame() const { return frame_; }
@@ -45,7 +58,12 @@ class CanopySource {
   void takeLayout(const CanopyLayout& message);
   void takeState(const CanopyState& message);
 
+  ros::NodeHandle nh_;
+  CanopyTopics topics_;
   GroundSource ground_;
+  std::unique_ptr<ForestSource> forest_;
+  LeafedCrowns crowns_;
+  int forests_{0};
   std::unique_ptr<canopy::Replica> replica_;
   Nanoseconds stamp_{0};
   int layouts_{0}, states_{0};

@@ -18,13 +18,14 @@ namespace vegetation_sim::view {
 
 /// What was drawn last.
 struct CanopyReport {
-  std::size_t plants{0}, leaves{0};  ///< of the layout
-  std::size_t drawn{0};              ///< leaves in the picture
+  std::size_t plants{0}, crowns{0}, leaves{0};  ///< that there are
+  std::size_t drawn{0};                         ///< leaves in the picture
   int layers{0};
   int rebuilds{0};  ///< how often anything was moved
 };
 
-/// The plants of a layout as Ogre shows them. All of it goes with this object. Render thread only.
+/// The plants and crowns of a layout as Ogre shows them. All of it goes with this object. Render
+/// thread only.
 class CanopyVisual {
  public:
   struct Options {
@@ -39,7 +40,8 @@ class CanopyVisual {
   CanopyVisual& operator=(const CanopyVisual&) = delete;
 
   /// Draws the state told last; nothing is done if nothing has changed.
-  void update(CanopySource& source, const View& view, const Options& options);
+  /// @param stamp at which the wood of crowns is shown.
+  void update(CanopySource& source, Nanoseconds stamp, const View& view, const Options& options);
   void light(const Daylight& daylight, const Haze& haze);
   /// Moves all anew at the next update.
   void repaint() { states_ = -1; }
@@ -51,6 +53,7 @@ class CanopyVisual {
   const CanopyReport& report() const { return report_; }
 
  private:
+  void add(std::unique_ptr<CanopyPatch> patch);
   std::vector<CanopyPatch*> inPicture(const View& view) const;
 
   Ogre::SceneNode* node_;  // Ogre's; destroyed by us
@@ -60,6 +63,7 @@ class CanopyVisual {
   std::vector<std::unique_ptr<CanopyPatch>> patches_;
   Extent extent_;
   int states_{-1};
+  Nanoseconds stamp_{0};
   Vec3 eye_{Vec3::Zero()}, forward_{Vec3::Zero()};
   CanopyReport report_;
 };
