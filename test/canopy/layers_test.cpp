@@ -10,6 +10,7 @@
 #include "canopy/plane_scene.h"
 #include "vegetation_sim/canopy/fluid.h"
 #include "vegetation_sim/canopy/oscillator.h"
+#include "vegetation_sim/common/instruction_set.h"
 
 namespace vegetation_sim::canopy {
 namespace {
@@ -262,6 +263,35 @@ TEST(History, RefusesFramesOfAnotherSize) {
   EXPECT_THROW(history.push(toFrame(PlaneField(32), 0.0)), InvalidInput);
   EXPECT_THROW(History(16, 1), InvalidInput);
   EXPECT_THROW(History(15, 4), InvalidInput);
+}
+
+// N6: many cells at once, halfs that have no leading one and delays beyond the memory among them.
+TEST(LayerMotion, HasTheSameBitsOnEveryInstructionSet) {
+  const LayerSettings settings;
+  History history(32, 31);
+  for (std::uint64_t i = 0; i < 31; ++i) {
+    PlaneField motion = noiseField(32, i);
+    for (double& value : motion.u) value *= i % 3 == 0 ? 1e-6 : 3.0;
+    history.push(toFrame(motion, 0.3 * static_cast<double>(i % 5) - 0.6));
+  }
+  std::vector<std::uint64_t> hashes;
+  for (const std::string& name : instructionSets()) {
+    forceInstructionSet(name);
+    Hash hash;
+    for (const double share : {1.0, 0.4, 0.0})
+      for (const double distance : {0.0, 0.37, 1.2, 60.0}) {
+        LayerView view = viewOf(settings, history);
+        view.towards = Vec3(0.36, -0.48, 0.8);
+        view.front_share = share;
+        LayerMotion layer;
+        layerMotion(view, distance, 60.0, 1.9, layer);
+        for (const std::vector<double>* values : {&layer.plane.u, &layer.plane.v, &layer.depth})
+          for (const double value : *values) hash.add(value);
+      }
+    hashes.push_back(hash.value());
+  }
+  forceInstructionSet("");
+  for (const std::uint64_t hash : hashes) EXPECT_EQ(hash, hashes.front());
 }
 
 }  // namespace
