@@ -14,6 +14,7 @@ CanopyAnimator::CanopyAnimator(ros::NodeHandle handle, ros::NodeHandle private_h
       options_(loadCanopyOptions(private_handle, scene_)),
       inputs_(options_.replay),
       canopy_(std::make_unique<canopy::Canopy>(scene_.layout)),
+      plants_(scene_.layout.plants),
       markers_(options_.marker_points),
       tf_listener_(tf_buffer_),
       clock_("canopy_animator", scene_.layout.motion.rate,

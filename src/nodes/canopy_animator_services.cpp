@@ -32,19 +32,6 @@ std::vector<Vec3> placesOf(const SampleCanopy::Request& request, const Pose& to_
   return out;
 }
 
-int nearestPlant(const canopy::Layout& layout, const Vec3& place) {
-  int out = -1;
-  double least = 0.0;
-  for (std::size_t i = 0; i < layout.plants.size(); ++i) {
-    const Vec3 offset = layout.plants[i].position - place;
-    const double distance = offset.x() * offset.x() + offset.y() * offset.y();
-    if (out >= 0 && distance >= least) continue;
-    out = static_cast<int>(i);
-    least = distance;
-  }
-  return out;
-}
-
 }  // namespace
 
 CanopySample CanopyAnimator::sampleAt(const Vec3& place) {
@@ -59,7 +46,7 @@ CanopySample CanopyAnimator::sampleAt(const Vec3& place) {
   out.motion =
       toVector(canopy::outOf(canopy::axesOf(eye.orientation), foliage.motion(place, place)));
   out.layer = static_cast<std::uint8_t>(foliage.layerAt(place));
-  out.plant = nearestPlant(layout, place);
+  out.plant = plants_.nearest(place);
   if (out.plant >= 0)
     out.displacement =
         toVector(foliage.displacement(place, place, static_cast<std::size_t>(out.plant)));

@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "vegetation_sim/canopy/canopy.h"
+#include "vegetation_sim/canopy/plant_index.h"
 #include "vegetation_sim/nodes/canopy_markers.h"
 #include "vegetation_sim/nodes/canopy_options.h"
 #include "vegetation_sim/nodes/event_queue.h"
@@ -76,6 +77,7 @@ class CanopyAnimator {
   CanopyOptions options_;
   EventQueue<CanopyEvent> inputs_;
   std::unique_ptr<canopy::Canopy> canopy_;
+  canopy::PlantIndex plants_;
   CanopyMarkers markers_;
   forest::ForestReplica forest_;  // the wood of crowns that the layout leafs
   LeafedCrowns crowns_;
