@@ -2,133 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vegetation_sim/forest/air_sampler.h"
 
-#include "vegetation_sim/common/math.h"
+#include "vegetation_sim/wind/air_rows.h"
 #include "vegetation_sim/wind/laws.h"
 
-// Vectors without arithmetic operators are left out; their processors take the plain target.
-#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "forest/air_sampler.cpp"
-#include <hwy/foreach_target.h>
-#include <hwy/highway.h>
-
-#ifndef VEGETATION_SIM_FOREST_AIR_SAMPLER_ONCE
-#define VEGETATION_SIM_FOREST_AIR_SAMPLER_ONCE
 namespace vegetation_sim::forest {
-
-/// Points and their air, one array a component, whole vectors long.
-struct AirRows {
-  const double *x, *y, *z;
-  double *vx, *vy, *vz;
-  std::size_t count;
-};
-
-}  // namespace vegetation_sim::forest
-#endif
-
-HWY_BEFORE_NAMESPACE();
-namespace vegetation_sim::forest::HWY_NAMESPACE {
-
-namespace hn = hwy::HWY_NAMESPACE;
-using Tag = hn::ScalableTag<double>;
-using Lanes = hn::Vec<Tag>;
-
-HWY_INLINE Lanes all(double value) {
-  return hn::Set(Tag(), value);
-}
-
-// The series of common/math.h.
-HWY_INLINE Lanes sineSeries(Lanes x, Lanes x2) {
-  Lanes s = all(1.0 / 355687428096000.0);
-  s = s * x2 - all(1.0 / 1307674368000.0);
-  s = s * x2 + all(1.0 / 6227020800.0);
-  s = s * x2 - all(1.0 / 39916800.0);
-  s = s * x2 + all(1.0 / 362880.0);
-  s = s * x2 - all(1.0 / 5040.0);
-  s = s * x2 + all(1.0 / 120.0);
-  s = s * x2 - all(1.0 / 6.0);
-  return x + x * (x2 * s);
-}
-
-HWY_INLINE Lanes cosineSeries(Lanes x2) {
-  Lanes c = all(1.0 / 20922789888000.0);
-  c = c * x2 - all(1.0 / 87178291200.0);
-  c = c * x2 + all(1.0 / 479001600.0);
-  c = c * x2 - all(1.0 / 3628800.0);
-  c = c * x2 + all(1.0 / 40320.0);
-  c = c * x2 - all(1.0 / 720.0);
-  c = c * x2 + all(1.0 / 24.0);
-  return all(1.0) - all(0.5) * x2 + x2 * x2 * c;
-}
-
-// sinCosTurns(turns).cos, every operation of it.
-HWY_INLINE Lanes cosTurns(Lanes turns) {
-  const Lanes fraction = turns - hn::Floor(turns + all(0.5));
-  const Lanes quarter = hn::Floor(fraction * all(4.0) + all(0.5));
-  const Lanes x = (fraction - quarter * all(0.25)) * all(2.0 * PI), x2 = x * x;
-  const Lanes size = hn::Abs(quarter);
-  const auto odd = size == all(1.0);
-  const Lanes value = hn::IfThenElse(odd, sineSeries(x, x2), cosineSeries(x2));
-  const auto positive = hn::Or(quarter == hn::Zero(Tag()), quarter == all(-1.0));
-  return hn::IfThenElse(positive, value, hn::Neg(value));
-}
-
-struct Lanes3 {
-  Lanes x, y, z;
-};
-
-HWY_INLINE Lanes3 load(const AirRows& rows, std::size_t i) {
-  return {hn::LoadU(Tag(), rows.x + i), hn::LoadU(Tag(), rows.y + i), hn::LoadU(Tag(), rows.z + i)};
-}
-
-HWY_INLINE Lanes turnsOf(const wind::Mode& m, const Lanes3& p) {
-  return (all(m.wave.x()) * p.x + all(m.wave.y()) * p.y) + all(m.wave.z()) * p.z + all(m.phase);
-}
-
-HWY_INLINE void add(const wind::Mode& m, Lanes factor, Lanes3& v) {
-  v.x = v.x + all(m.amplitude.x()) * factor;
-  v.y = v.y + all(m.amplitude.y()) * factor;
-  v.z = v.z + all(m.amplitude.z()) * factor;
-}
-
-HWY_INLINE void store(const Lanes3& v, const AirRows& rows, std::size_t i) {
-  hn::StoreU(v.x, Tag(), rows.vx + i);
-  hn::StoreU(v.y, Tag(), rows.vy + i);
-  hn::StoreU(v.z, Tag(), rows.vz + i);
-}
-
-// Mean and modes; two vectors in turn, because one alone waits for its own series.
-void sampleBreeze(const wind::Instant& wind, const AirRows& rows) {
-  const std::size_t width = hn::Lanes(Tag());
-  for (std::size_t i = 0; i < rows.count; i += 2 * width) {
-    const Lanes3 p = load(rows, i), q = load(rows, i + width);
-    Lanes3 v{all(wind.mean.x()), all(wind.mean.y()), all(wind.mean.z())}, w = v;
-    for (const wind::Mode& m : wind.modes) {
-      const Lanes a = cosTurns(turnsOf(m, p)), b = cosTurns(turnsOf(m, q));
-      add(m, a, v);
-      add(m, b, w);
-    }
-    store(v, rows, i);
-    store(w, rows, i + width);
-  }
-}
-
-}  // namespace vegetation_sim::forest::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-namespace vegetation_sim::forest {
-
-HWY_EXPORT(sampleBreeze);
-
-namespace {
-constexpr std::size_t ROOM = 16;  // two of the widest vectors
-}
 
 void AirSampler::add(const Vec3& point) {
   if (count_ == x_.size())
     for (std::vector<double>* row : {&x_, &y_, &z_, &vx_, &vy_, &vz_})
-      row->resize(2 * count_ + ROOM, 0.0);
+      row->resize(2 * count_ + wind::AirRows::ROOM, 0.0);
   x_[count_] = point.x();
   y_[count_] = point.y();
   z_[count_] = point.z();
@@ -137,8 +19,8 @@ void AirSampler::add(const Vec3& point) {
 
 // Modes, which are many, in vectors; the bounded primitives by their law.
 void AirSampler::sample(const wind::Instant& wind) {
-  HWY_DYNAMIC_DISPATCH(sampleBreeze)
-  (wind, {x_.data(), y_.data(), z_.data(), vx_.data(), vy_.data(), vz_.data(), count_});
+  wind::sampleBreeze(wind,
+                     {x_.data(), y_.data(), z_.data(), vx_.data(), vy_.data(), vz_.data(), count_});
   for (const wind::Term& term : wind.terms)
     for (std::size_t i = 0; i < count_; ++i) {
       const Vec3 v = wind::velocityOf(term, {x_[i], y_[i], z_[i]});
@@ -149,4 +31,3 @@ void AirSampler::sample(const wind::Instant& wind) {
 }
 
 }  // namespace vegetation_sim::forest
-#endif

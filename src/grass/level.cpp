@@ -18,6 +18,8 @@ constexpr double CHORD_ERROR = PI / 16.0;
 // Elevations between which layers replace strips [rad].
 constexpr double FLAT_VIEW = 0.5, STEEP_VIEW = 0.9;
 
+}  // namespace
+
 double omission(const TileDetail& detail, Rung rung) {
   switch (rung) {
     case Rung::TEXTURE:
@@ -28,8 +30,6 @@ double omission(const TileDetail& detail, Rung rung) {
       return 0.0;
   }
 }
-
-}  // namespace
 
 Rung chooseRung(const TileDetail& detail, double pixels_per_metre, double tolerance, Rung current) {
   const auto error = [&](int rung) {

@@ -21,6 +21,10 @@ bool isBefore(const TileLevel& level, int row, int column) {
   return std::tie(level.row, level.column) < std::tie(row, column);
 }
 
+bool isBare(const TileMeans& f) {
+  return !(f.density > 0.0 && f.height > 0.0);
+}
+
 TileDetail detailOf(const TileMeans& f) {
   return {1.0 / std::sqrt(std::max(f.density, 1e-6)), f.height};
 }
@@ -39,6 +43,14 @@ Meadow::Meadow(std::shared_ptr<const FeatureMap> map,
                const MeadowSettings& settings, const TreadSettings& tread)
     : map_(std::move(map)), terrain_(std::move(terrain)), seed_(seed), tread_(map_->law(), tread) {
   setSettings(settings);
+  for (int row = 0; row < map_->tileRows(); ++row) {
+    double most = 0.0;
+    for (int column = 0; column < map_->tileColumns(); ++column) {
+      const TileMeans f = map_->meansOf(column, row);
+      if (!isBare(f)) most = std::max(most, omission(detailOf(f), Rung::TEXTURE));
+    }
+    coarsest_.push_back(most);
+  }
 }
 
 void Meadow::setSettings(const MeadowSettings& settings) {
@@ -72,13 +84,20 @@ bool Meadow::isSeen(const Vec3& centre) const {
                      [&](const Eye& eye) { return sees(eye, centre, radius); });
 }
 
+// From where on all tiles of a row are surely textures.
+double Meadow::farthestOf(int row, const Eye& eye) const {
+  const double pixels = HYSTERESIS * settings_.tolerance * coarseness_;
+  const double apart = coarsest_[static_cast<std::size_t>(row)] * eye.pixels_per_radian / pixels;
+  return std::min(settings_.farthest, apart + 2.0 * map_->law().resolution);
+}
+
 // Columns of a row that any eye is near enough to.
 std::pair<int, int> Meadow::columnsIn(int row) const {
   const MapLaw& law = map_->law();
   int first = map_->tileColumns(), last = -1;
   const double y = law.origin_y + law.resolution * (row + 0.5);
   for (const Eye& eye : eyes_) {
-    const double dy = y - eye.position.y(), far = settings_.farthest;
+    const double dy = y - eye.position.y(), far = farthestOf(row, eye);
     if (!(dy * dy < far * far)) continue;
     const double half = std::sqrt(far * far - dy * dy), x = eye.position.x() - law.origin_x;
     first = std::min(first, clamped((x - half) / law.resolution, 0, map_->tileColumns() - 1));
@@ -106,9 +125,8 @@ double Meadow::chooseRow(int row, std::vector<TileLevel>::const_iterator& old, N
     const TileMeans f = map_->meansOf(column, row);
     const TileDetail detail = detailOf(f);
     const double scale = scaleOf(centre);
-    const bool bare = !(f.density > 0.0 && f.height > 0.0);
     const Rung rung =
-        bare ? Rung::TEXTURE : chooseRung(detail, scale, tolerance, level.rung.target);
+        isBare(f) ? Rung::TEXTURE : chooseRung(detail, scale, tolerance, level.rung.target);
     if (rung == Rung::BLADES && isSeen(centre))
       blades += f.density * size * size * bladeShare(detail, scale, tolerance);
     keep(level, rung);

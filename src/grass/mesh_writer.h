@@ -11,20 +11,40 @@ inline std::uint8_t byteOf(double part) {
   return static_cast<std::uint8_t>(255.0 * saturate(part) + 0.5);
 }
 
-/// @return its index.
-inline std::uint32_t addVertex(GrassMesh& mesh, const Vec3& p, double u, double v,
-                               const Vec3& colour, double alpha) {
-  const auto index = static_cast<std::uint32_t>(mesh.vertexCount());
-  for (int i = 0; i < 3; ++i) mesh.positions.push_back(static_cast<float>(p[i]));
-  mesh.texture.push_back(static_cast<float>(u));
-  mesh.texture.push_back(static_cast<float>(v));
-  for (int i = 0; i < 3; ++i) mesh.colours.push_back(byteOf(colour[i]));
-  mesh.colours.push_back(byteOf(alpha));
-  return index;
-}
+/// Writes vertices and triangles behind those of a mesh, which makes room for all of them at once.
+class MeshWriter {
+ public:
+  MeshWriter(GrassMesh& mesh, std::size_t vertices, std::size_t triangles)
+      : next_(static_cast<std::uint32_t>(mesh.vertexCount())) {
+    position_ = grown(mesh.positions, 3 * vertices);
+    texture_ = grown(mesh.texture, 2 * vertices);
+    colour_ = grown(mesh.colours, 4 * vertices);
+    index_ = grown(mesh.indices, 3 * triangles);
+  }
+  /// @return its index.
+  std::uint32_t vertex(const Vec3& p, double u, double v, const Vec3& colour, double alpha) {
+    for (int i = 0; i < 3; ++i) *position_++ = static_cast<float>(p[i]);
+    *texture_++ = static_cast<float>(u);
+    *texture_++ = static_cast<float>(v);
+    for (int i = 0; i < 3; ++i) *colour_++ = byteOf(colour[i]);
+    *colour_++ = byteOf(alpha);
+    return next_++;
+  }
+  void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    *index_++ = a;
+    *index_++ = b;
+    *index_++ = c;
+  }
 
-inline void addTriangle(GrassMesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-  mesh.indices.insert(mesh.indices.end(), {a, b, c});
-}
+ private:
+  template <class T>
+  static T* grown(std::vector<T>& list, std::size_t by) {
+    list.resize(list.size() + by);
+    return list.data() + (list.size() - by);
+  }
+  float *position_, *texture_;
+  std::uint8_t* colour_;
+  std::uint32_t *index_, next_;
+};
 
 }  // namespace vegetation_sim::grass

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "vegetation_sim/common/math.h"
+#include "vegetation_sim/wind/air_rows.h"
 #include "vegetation_sim/wind/laws.h"
 
 namespace vegetation_sim::grass {
@@ -66,6 +67,28 @@ void NodeAir::want(const std::vector<TilePlace>* tiles) {
       wanted_[indexOf(tile.column + corner % 2, tile.row + corner / 2)] = 1;
 }
 
+// The breeze at all wanted nodes, many at a time.
+void NodeAir::blow(const wind::Instant& wind) {
+  asked_.clear();
+  for (std::size_t i = 0; i < air_.size(); ++i)
+    if (wanted_[i]) asked_.push_back(i);
+  constexpr std::size_t ROOM = wind::AirRows::ROOM;
+  const std::size_t count = asked_.size(), pitch = (count + ROOM - 1) / ROOM * ROOM;
+  rows_.resize(6 * pitch);
+  double* const r = rows_.data();
+  const auto columns = static_cast<std::size_t>(columns_);
+  for (std::size_t k = 0; k < count; ++k) {
+    const Vec3 place = placeOf(window_.first_column + static_cast<int>(asked_[k] % columns),
+                               window_.first_row + static_cast<int>(asked_[k] / columns));
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      r[axis * pitch + k] = place[static_cast<int>(axis)];
+  }
+  sampleBreeze(wind,
+               {r, r + pitch, r + 2 * pitch, r + 3 * pitch, r + 4 * pitch, r + 5 * pitch, count});
+  for (std::size_t k = 0; k < count; ++k)
+    air_[asked_[k]] = Vec3(r[3 * pitch + k], r[4 * pitch + k], r[5 * pitch + k]);
+}
+
 void NodeAir::update(const wind::Instant& wind, const std::vector<ColourMask>& masks,
                      const TileWindow& window, const std::vector<TilePlace>* tiles) {
   window_ = window;
@@ -78,13 +101,7 @@ void NodeAir::update(const wind::Instant& wind, const std::vector<ColourMask>& m
   tints_.assign(count, Tint());
   if (count == 0) return;
   want(tiles);
-  if (!wind.modes.empty()) {
-    const wind::Instant breeze{wind.mean, wind.breezes, wind.modes, {}};
-    for (int row = window.first_row; row <= window.last_row + 1; ++row)
-      for (int column = window.first_column; column <= window.last_column + 1; ++column)
-        if (const std::size_t i = indexOf(column, row); wanted_[i])
-          air_[i] = breeze.velocity(placeOf(column, row));
-  }
+  if (!wind.modes.empty()) blow(wind);
   const auto for_nodes = [&](const Span& span, auto&& visit) {
     for (int row = span.first_row; row <= span.last_row; ++row)
       for (int column = span.first_column; column <= span.last_column; ++column)

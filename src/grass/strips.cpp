@@ -23,20 +23,18 @@ class Sheet {
         full_density_(full_density),
         density_(tile.density),
         height_(tile.height),
-        colour_(tile.colour),
         crush_(motion.crush && motion.crush->cells > 0 ? motion.crush : nullptr) {
     double compliance = 0.0;
     for (int s = 0; s < tile.species_count; ++s)
       compliance +=
           double{tile.species[static_cast<std::size_t>(s)].compliance} / tile.species_count;
-    constexpr double U[] = {0, 1, 0, 1}, V[] = {0, 0, 1, 1};
     Corners bend_x, bend_y;
     for (std::size_t i = 0; i < 4; ++i) {
       const Vec3 air(double{motion.wind_x[i]}, double{motion.wind_y[i]}, 0.0);
       const Point bend = bendIn(air, compliance);
       bend_x[i] = static_cast<float>(bend.x);
       bend_y[i] = static_cast<float>(bend.y);
-      colours_[i] = cornerColour(map, U[i], V[i]);
+      colours_[i] = cornerColour(map, i);
     }
     bend_x_ = Bilinear<double>(bend_x);
     bend_y_ = Bilinear<double>(bend_y);
@@ -88,10 +86,10 @@ class Sheet {
   }
 
  private:
-  Vec3 cornerColour(const FeatureMap& map, double u, double v) const {
-    const double size = double{tile_.size};
-    Features f = map.at(tile_.x + u * size, tile_.y + v * size);
-    f.colour = colour_.at(u, v);  // masks included
+  Vec3 cornerColour(const FeatureMap& map, std::size_t corner) const {
+    const int k = static_cast<int>(corner);
+    Features f = map.node(tile_.column + k % 2, tile_.row + k / 2);
+    f.colour = double{tile_.colour[corner]};  // masks included
     return meanColour(map, f);
   }
   std::size_t nodeOf(double u, double v) const {
@@ -114,9 +112,28 @@ class Sheet {
   const Tile& tile_;
   Vec3 corner_;
   double full_density_;
-  Bilinear<double> density_, height_, colour_, bend_x_, bend_y_;
+  Bilinear<double> density_, height_, bend_x_, bend_y_;
   const CrushPatch* crush_;
   std::array<Vec3, 4> colours_;  ///< of the corners, along x first
+};
+
+// Uprights in a row, each joined to the one before.
+class Fence {
+ public:
+  Fence(GrassMesh& mesh, int rows, int cells)
+      : writer_(mesh, 2 * std::size_t(rows) * (std::size_t(cells) + 1),
+                2 * std::size_t(rows) * std::size_t(cells)) {}
+  void add(const Vec3& bottom, const Vec3& offset, double along, const Vec3& colour, double cover,
+           bool is_first) {
+    const std::uint32_t low = writer_.vertex(bottom, along, 0.0, colour, cover);
+    writer_.vertex(bottom + offset, along, 1.0, colour, cover);
+    if (is_first) return;
+    writer_.triangle(low - 2, low, low + 1);
+    writer_.triangle(low - 2, low + 1, low - 1);
+  }
+
+ private:
+  MeshWriter writer_;
 };
 
 }  // namespace
@@ -124,24 +141,17 @@ class Sheet {
 void appendStrips(const FeatureMap& map, const Tile& tile, const TileMotion& motion, double grown,
                   double full_density, GrassMesh& mesh, const GrassLight* light) {
   const Sheet sheet(map, tile, motion, full_density, mesh.origin);
+  Fence fence(mesh, 4, STRIP_CELLS);
   const Point starts[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
   for (int edge = 0; edge < 4; ++edge) {
     const Point a = starts[edge], b = starts[(edge + 1) % 4];
-    std::uint32_t before = 0;
     for (int k = 0; k <= STRIP_CELLS; ++k) {
       const double s = static_cast<double>(k) / STRIP_CELLS;
       const double u = a.x + s * (b.x - a.x), v = a.y + s * (b.y - a.y);
       const Vec3 bottom = sheet.groundAt(u, v);
-      const Vec3 offset = sheet.offsetAt(u, v, grown * sheet.heightAt(u, v)), top = bottom + offset;
-      const Vec3 colour = sheet.litAt(u, v, offset, light);
-      const double along = s * double{tile.size} / PICTURE_WIDTH, cover = sheet.coverAt(u, v);
-      const auto first = addVertex(mesh, bottom, along, 0.0, colour, cover);
-      addVertex(mesh, top, along, 1.0, colour, cover);
-      if (k > 0) {
-        addTriangle(mesh, before, first, first + 1);
-        addTriangle(mesh, before, first + 1, before + 1);
-      }
-      before = first;
+      const Vec3 offset = sheet.offsetAt(u, v, grown * sheet.heightAt(u, v));
+      fence.add(bottom, offset, s * double{tile.size} / PICTURE_WIDTH,
+                sheet.litAt(u, v, offset, light), sheet.coverAt(u, v), k == 0);
     }
   }
 }
@@ -151,11 +161,11 @@ void appendRows(const FeatureMap& map, const Tile& tile, const TileMotion& motio
   constexpr int CELLS = 3;
   const Sheet sheet(map, tile, motion, full_density, mesh.origin);
   const Random random = Random(tile.key).child(1);
+  Fence fence(mesh, 2 * rows, CELLS);
   for (int line = 0; line < 2 * rows; ++line) {
     const auto word = static_cast<std::uint64_t>(line) * (CELLS + 2);
     const double shift = random.uniform(word + CELLS + 1);
     const int row = line / 2;
-    std::uint32_t before = 0;
     for (int k = 0; k <= CELLS; ++k) {
       const double aside = random.uniform(word + static_cast<std::uint64_t>(k), -0.45, 0.45);
       const double along = static_cast<double>(k) / CELLS;
@@ -163,16 +173,8 @@ void appendRows(const FeatureMap& map, const Tile& tile, const TileMotion& motio
       const double u = line % 2 ? across : along, v = line % 2 ? along : across;
       const Vec3 bottom = sheet.groundAt(u, v);
       const Vec3 offset = sheet.offsetAt(u, v, grown * sheet.heightAt(u, v));
-      const Vec3 colour = sheet.litAt(u, v, offset, light);
       const double s = shift + along * double{tile.size} / PICTURE_WIDTH;
-      const double cover = sheet.coverAt(u, v);
-      const auto first = addVertex(mesh, bottom, s, 0.0, colour, cover);
-      addVertex(mesh, bottom + offset, s, 1.0, colour, cover);
-      if (k > 0) {
-        addTriangle(mesh, before, first, first + 1);
-        addTriangle(mesh, before, first + 1, before + 1);
-      }
-      before = first;
+      fence.add(bottom, offset, s, sheet.litAt(u, v, offset, light), sheet.coverAt(u, v), k == 0);
     }
   }
 }
@@ -180,9 +182,12 @@ void appendRows(const FeatureMap& map, const Tile& tile, const TileMotion& motio
 void appendLayers(const FeatureMap& map, const Tile& tile, const TileMotion& motion, int layers,
                   double grown, double full_density, GrassMesh& mesh, const GrassLight* light) {
   const Sheet sheet(map, tile, motion, full_density, mesh.origin);
+  const auto first = static_cast<std::uint32_t>(mesh.vertexCount());
+  MeshWriter writer(mesh, 4 * static_cast<std::size_t>(layers),
+                    2 * static_cast<std::size_t>(layers));
   for (int layer = 1; layer <= layers; ++layer) {
     const double share = static_cast<double>(layer) / layers;
-    const auto first = static_cast<std::uint32_t>(mesh.vertexCount());
+    const std::uint32_t base = first + 4 * static_cast<std::uint32_t>(layer - 1);
     for (int corner = 0; corner < 4; ++corner) {
       const int side = corner / 2;
       const double u = corner % 2, v = side;
@@ -192,10 +197,10 @@ void appendLayers(const FeatureMap& map, const Tile& tile, const TileMotion& mot
                          Vec3(top.x() * share * share, top.y() * share * share, top.z() * share);
       const double size = double{tile.size} / PICTURE_WIDTH;
       const Vec3 colour = sheet.litAt(u, v, top, light) * (0.45 + 0.55 * share);
-      addVertex(mesh, place, u * size, v * size, colour, sheet.coverAt(u, v) * (1.0 - 0.6 * share));
+      writer.vertex(place, u * size, v * size, colour, sheet.coverAt(u, v) * (1.0 - 0.6 * share));
     }
-    addTriangle(mesh, first, first + 1, first + 3);
-    addTriangle(mesh, first, first + 3, first + 2);
+    writer.triangle(base, base + 1, base + 3);
+    writer.triangle(base, base + 3, base + 2);
   }
 }
 

@@ -16,6 +16,9 @@ struct TileDetail {
   double height{0.3};
 };
 
+/// What a rung leaves out of a tile [m].
+double omission(const TileDetail& detail, Rung rung);
+
 /// Coarsest rung whose omission [pixel] holds the tolerance (S2-15), with the hysteresis of the
 /// forest: `current` is kept until the next coarser one is well within it.
 Rung chooseRung(const TileDetail& detail, double pixels_per_metre, double tolerance, Rung current);

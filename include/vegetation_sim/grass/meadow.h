@@ -89,12 +89,14 @@ class Meadow {
   double chooseRow(int row, std::vector<TileLevel>::const_iterator& old, Nanoseconds stamp,
                    std::vector<TileLevel>& out) const;
   std::pair<int, int> columnsIn(int row) const;
+  double farthestOf(int row, const Eye& eye) const;
 
   std::shared_ptr<const FeatureMap> map_;
   std::shared_ptr<const terrain::HeightMap> terrain_;
   std::uint64_t seed_;
   MeadowSettings settings_;
   TreadMap tread_;
+  std::vector<double> coarsest_;  ///< of each row of tiles: most that a texture leaves out [m]
   Nanoseconds stamp_{0};
   double coarseness_{1.0};
   std::vector<TileLevel> levels_;

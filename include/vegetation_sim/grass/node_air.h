@@ -66,6 +66,7 @@ class NodeAir {
   Vec3 placeOf(int column, int row) const;
   Span spanOf(double min_x, double max_x, double min_y, double max_y) const;
   void want(const std::vector<TilePlace>* tiles);
+  void blow(const wind::Instant& wind);
   Span maskOf(const wind::Term& term) const;
 
   const FeatureMap& map_;
@@ -76,6 +77,8 @@ class NodeAir {
   std::vector<std::uint8_t> wanted_;  ///< [rows x columns] of nodes
   std::vector<Vec3> air_;             ///< [rows x columns] of nodes
   std::vector<Tint> tints_;           ///< likewise
+  std::vector<std::size_t> asked_;    ///< nodes that the breeze is asked at: indices
+  std::vector<double> rows_;          ///< [6 x asked] their places and air, a row a component
 };
 
 /// Bend of grass of this compliance [rad s/m] in this air [m/s], bounded (S2-W4, E16) [rad].

@@ -1,0 +1,24 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+
+#include "vegetation_sim/wind/instant.h"
+
+namespace vegetation_sim::wind {
+
+/// Points [m] and their air [m/s], one array a component. All have room for `count` rounded up to
+/// ROOM, and numbers there.
+struct AirRows {
+  static constexpr std::size_t ROOM = 16;  ///< two of the widest vectors
+  const double *x, *y, *z;
+  double *vx, *vy, *vz;
+  std::size_t count;
+};
+
+/// Mean and modes of an instant at many points at once, in the widest instruction set of the
+/// processor: to the bit what Instant::velocity gives one by one where there are no terms.
+void sampleBreeze(const Instant& wind, const AirRows& rows);
+
+}  // namespace vegetation_sim::wind
