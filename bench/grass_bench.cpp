@@ -232,6 +232,17 @@ Frame drawFrame(Meadow& meadow, const wind::Field& wind, const Eye& eye, Nanosec
   return out;
 }
 
+// Room for the strips of so many tiles, touched, as a viewer keeps it from frame to frame.
+GrassMesh makeMesh(std::size_t tiles) {
+  const std::size_t corners = 4 * (STRIP_CELLS + 1) * 2 * tiles;
+  GrassMesh out;
+  out.positions.assign(3 * corners, 1.f);
+  out.texture.assign(2 * corners, 1.f);
+  out.colours.assign(4 * corners, 1);
+  out.indices.assign(3 * 4 * STRIP_CELLS * 2 * tiles, 1);
+  return out;
+}
+
 void benchKilometre() {
   MapInput input;
   input.law.columns = input.law.rows = 501;
@@ -243,7 +254,7 @@ void benchKilometre() {
                 settings, TreadSettings());
   const wind::Field wind = breeze();
   const Blocks blocks = makeBlocks(sizeof(BladeBlock) * blocksFor(8192));
-  GrassMesh strips;
+  GrassMesh strips = makeMesh(8192);
   std::vector<double> times;
   std::size_t blades = 0, tiles = 0;
   for (int k = 0; k < 300; ++k) {
@@ -252,7 +263,6 @@ void benchKilometre() {
     eye.cone_cosine = 0.8;
     const Frame frame =
         drawFrame(meadow, wind, eye, START + fromSeconds(k / 60.0), blocks.get(), strips);
-    if (k < 60) continue;
     times.push_back(frame.milliseconds);
     blades = std::max(blades, frame.blades);
     tiles = std::max(tiles, frame.strips);
@@ -260,8 +270,10 @@ void benchKilometre() {
   std::sort(times.begin(), times.end());
   std::printf(
       "\n1 km2 at 1 000 blades per m2, a viewer at 3 m/s, levels + wind + blades + strips\n");
-  std::printf("ms/frame: median %.2f, 99 %% %.2f, largest %.2f; %zu blades, %zu tiles of strips\n",
-              times[times.size() / 2], times[times.size() * 99 / 100], times.back(), blades, tiles);
+  std::printf(
+      "ms/frame from the first on: median %.2f, 99 %% %.2f, largest %.2f; %zu blades, %zu tiles of "
+      "strips\n",
+      times[times.size() / 2], times[times.size() * 99 / 100], times.back(), blades, tiles);
   std::printf("memory of the process %.0f MB more than before; state %.2f MB\n",
               megabytesInUse() - before, static_cast<double>(meadow.bytes()) * 1e-6);
 }
