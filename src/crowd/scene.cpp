@@ -39,6 +39,20 @@ Spawn readWalker(YamlSection& section) {
   return out;
 }
 
+// Brings fields back into their ranges.
+class Limiter : public FieldVisitor {
+ public:
+  void number(const char* /*name*/, double& value, const char* /*unit*/, Range range) override {
+    value = std::min(range.high, std::max(range.low, value));
+  }
+  void integer(const char* /*name*/, int& /*value*/, const char* /*unit*/,
+               Range /*range*/) override {}
+  void vector(const char* /*name*/, Vec3& /*value*/, const char* /*unit*/,
+              Range /*range*/) override {}
+  void choice(const char* /*name*/, int& /*value*/,
+              const std::vector<std::string>& /*names*/) override {}
+};
+
 void readGroup(YamlSection& section, const Random& random, std::vector<Spawn>& out) {
   Spawn like;
   describe(section, like);
@@ -68,6 +82,8 @@ std::vector<Spawn> groupOf(const Spawn& like, int count, double spread, double v
     one.heading = random.uniform(k + 2, -PI, PI);
     one.speed *= 1.0 + random.uniform(k + 3, -variety, variety);
     one.height *= 1.0 + 0.6 * random.uniform(k + 4, -variety, variety);
+    Limiter limiter;
+    describe(limiter, one);
     out.push_back(one);
   }
   return out;

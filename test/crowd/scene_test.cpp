@@ -36,6 +36,23 @@ groups: [{count: 20, x: -2, y: 4, spread: 1.0}]
   EXPECT_EQ(obstaclesOf(scene.walls).size(), 1U);
 }
 
+// The fastest and tallest there may be are not outdone by those about them.
+TEST(CrowdScene, GroupsKeepWithinWhatAWalkerMayHave) {
+  Spawn like;
+  like.speed = 3.0;
+  like.height = 2.5;
+  like.position = {1e5, 0.0};
+  int fastest = 0;
+  for (const Spawn& one : groupOf(like, 50, 3.0, 0.3, Random(5))) {
+    EXPECT_LE(one.speed, 3.0);
+    EXPECT_LE(one.height, 2.5);
+    EXPECT_LE(one.position.x, 1e5);
+    fastest += one.speed == 3.0;
+  }
+  EXPECT_GT(fastest, 10);
+  EXPECT_LT(fastest, 40);
+}
+
 TEST(CrowdScene, TellsAllFaultsAtOnce) {
   Faults faults;
   read(R"(

@@ -65,6 +65,26 @@ TEST_F(MeadowOf, ShowsBladesNearAndStripsFartherAway) {
   EXPECT_LT(views.at({100, 108}).share, 1.0);
 }
 
+// S2-15: rows that are surely textures are not looked at; what is left is each tile's own choice.
+TEST_F(MeadowOf, LooksAtAllTilesThatAreMoreThanATexture) {
+  const Eye eye = eyeAt(30.0, 201.0, 1.6);
+  meadow_.setEyes({eye});
+  meadow_.advance(START);
+  std::map<std::pair<int, int>, Rung> chosen;
+  for (const TileLevel& level : meadow_.memory().levels)
+    chosen[{level.row, level.column}] = level.rung.target;
+  const double tolerance = MeadowSettings().tolerance;
+  for (int row = 0; row < 200; ++row)
+    for (int column = 0; column < 200; ++column) {
+      const Vec3 centre(2.0 * column + 1.0, 2.0 * row + 1.0, 0.0);
+      const double nearest = length(eye.position - centre) - std::sqrt(2.0);
+      const double scale = pixelsPerMetre(eye, nearest);
+      const Rung own = chooseRung({1.0 / std::sqrt(1000.0), 0.3}, scale, tolerance, Rung::TEXTURE);
+      const auto found = chosen.find({row, column});
+      ASSERT_EQ(found == chosen.end() ? Rung::TEXTURE : found->second, own) << row << ' ' << column;
+    }
+}
+
 TEST_F(MeadowOf, WithoutAnEyeIsAllGround) {
   meadow_.advance(START);
   meadow_.advance(after(5.0));
