@@ -35,6 +35,10 @@ done
 rosrun vegetation_sim charts --quick --only grass_ladder --out "$WORK/charts" >"$WORK/charts.log" 2>&1 ||
   fail "charts: $(cat "$WORK/charts.log")"
 
+rosrun vegetation_sim export_forest package://vegetation_sim/config/scenarios/single_tree.yaml "$WORK/model"
+python3 -c 'import sys, xml.etree.ElementTree as e; assert len(e.parse(sys.argv[1]).findall("model/link")) == 1' "$WORK/model/model.sdf" ||
+  fail 'the exported model is no SDF of one tree'
+
 for nodelets in false true; do
   start_launch demo.launch scenario:=single_tree rviz:=false nodelets:=$nodelets
   wait_until 60 'a message on wind' topic_flows /wind

@@ -1,0 +1,110 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/forest/export.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <regex>
+#include <sstream>
+
+#include "forest/forest_fixture.h"
+
+namespace vegetation_sim::forest {
+namespace {
+
+// Numbers of every match's first group.
+std::vector<std::vector<double>> numbersOf(const std::string& text, const std::string& pattern) {
+  std::vector<std::vector<double>> out;
+  const std::regex expression(pattern);
+  for (std::sregex_iterator i(text.begin(), text.end(), expression), end; i != end; ++i) {
+    std::istringstream words((*i)[1].str());
+    out.emplace_back();
+    for (double value = 0.0; words >> value;) out.back().push_back(value);
+  }
+  return out;
+}
+
+std::string sdfOf(const Layout& layout, const ExportRule& rule) {
+  std::ostringstream out;
+  writeSdf(layout, *flatTerrain(), rule, out);
+  return out.str();
+}
+
+// N14: trunks stand where everybody else has them.
+TEST(Export, LinksStandAtTheFeetOfTheTrees) {
+  const Layout layout = gridLayout(3, 7.0);
+  const auto links = numbersOf(sdfOf(layout, {}), "<link name=\"tree_[0-9]+\"><pose>([^<]*)<");
+  ASSERT_EQ(links.size(), layout.trees.size());
+  for (std::uint32_t i = 0; i < links.size(); ++i) {
+    const Vec3 foot = footOf(layout.trees[i], *flatTerrain());
+    for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(links[i][axis], foot[axis], 1e-7) << i;
+  }
+}
+
+// N14: each cylinder goes from the base of its branch to its tip, however it leans.
+TEST(Export, CylindersLieOnTheirBranches) {
+  Layout layout = gridLayout(1, 1.0);
+  ExportRule rule;
+  rule.thinnest = 0.001;
+  const std::string sdf = sdfOf(layout, rule);
+  const auto poses = numbersOf(sdf, "<collision name=\"[a-z_0-9]+\"><pose>([^<]*)<");
+  const auto lengths = numbersOf(sdf, "<length>([^<]*)</length></cylinder></geometry></collision");
+  const Skeleton skeleton = grow(layout.trees[0], layout.species[0]);
+  ASSERT_EQ(poses.size(), skeleton.branches.size());
+  ASSERT_EQ(lengths.size(), poses.size());
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const Branch& branch = skeleton.branches[i];
+    const std::vector<double>& p = poses[i];
+    ASSERT_EQ(p.size(), 6u);
+    const double half = 0.5 * lengths[i][0];
+    const Vec3 axis(std::sin(p[4]) * std::cos(p[5]), std::sin(p[4]) * std::sin(p[5]),
+                    std::cos(p[4]));
+    const Vec3 middle(p[0], p[1], p[2]);
+    EXPECT_LT(length(middle - half * axis - branch.rest.position), 1e-6) << i;
+    EXPECT_LT(length(middle + half * axis - tipOf(branch, branch.rest)), 1e-6) << i;
+  }
+}
+
+TEST(Export, ThinWoodIsLeftOutAndTrunksNever) {
+  const Layout layout = gridLayout(2, 5.0);
+  ExportRule thick, all;
+  thick.thinnest = 10.0;
+  all.thinnest = 0.001;
+  std::ostringstream none, every;
+  EXPECT_EQ(writeSdf(layout, *flatTerrain(), thick, none), layout.trees.size());
+  EXPECT_GT(writeSdf(layout, *flatTerrain(), all, every), 100u);
+}
+
+TEST(Export, TableHasALineATree) {
+  const Layout layout = gridLayout(2, 5.0);
+  std::ostringstream out;
+  writeTable(layout, *flatTerrain(), out);
+  std::istringstream lines(out.str());
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ(line, "tree,species,x,y,z,trunk_radius,height");
+  std::getline(lines, line);
+  EXPECT_EQ(line.rfind("0,oak,0,0,0,", 0), 0u) << line;
+  int more = 0;
+  while (std::getline(lines, line)) ++more;
+  EXPECT_EQ(more, 3);
+}
+
+TEST(Export, RefusesWhatWouldNotBeLoaded) {
+  for (const double thinnest : {0.0, -1.0, 11.0, std::nan("")}) {
+    Faults faults;
+    check(ExportRule{"forest", thinnest, 10}, faults);
+    EXPECT_NE(faults.text().find("thinnest"), std::string::npos) << thinnest;
+  }
+  Faults faults;
+  check(ExportRule{"a<b", 0.05, 10}, faults);
+  EXPECT_NE(faults.text().find("'a<b'"), std::string::npos);
+  ExportRule few;
+  few.thinnest = 0.001;
+  few.most_branches = 20;
+  EXPECT_THROW(sdfOf(gridLayout(2, 5.0), few), InvalidInput);
+}
+
+}  // namespace
+}  // namespace vegetation_sim::forest
