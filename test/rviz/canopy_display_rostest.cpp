@@ -123,11 +123,12 @@ TEST_F(CanopyDisplayTest, CrownsGoWithTheirForest) {
   rig.publishForest(trees);
   rig.blow(2);
   rig.lookAt(1.5f, 0.25, 8.0);
-  ASSERT_TRUE(
-      rig.until([&] { return display->drawn().crowns == 4 && display->drawn().drawn > 0; }));
+  ASSERT_TRUE(rig.until([&] {
+    const view::CanopyReport drawn = display->drawn();
+    return drawn.crowns == 4 && drawn.drawn > 0 && drawn.layers == 3;
+  }));
   EXPECT_EQ(display->drawn().plants, 0u);
   EXPECT_EQ(display->drawn().leaves, 4u * 600);
-  EXPECT_EQ(display->drawn().layers, 3);
   rig.frames(5);
   const std::vector<std::uint8_t> before = rig.picture();
   rig.frames(10);
