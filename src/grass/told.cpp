@@ -13,7 +13,27 @@ namespace vegetation_sim::grass {
 namespace {
 
 constexpr int SIDE = TreadBlock::SIDE;
-using Presses = std::map<std::pair<Nanoseconds, float>, std::uint32_t>;
+
+// Presses that were told, by number. Neighbours were mostly pressed together.
+class Presses {
+ public:
+  explicit Presses(std::vector<Press>& list) : list_(list) {}
+  std::uint32_t numberOf(const TreadNode& node) {
+    const std::pair<Nanoseconds, float> wanted{node.stamp, node.recovery};
+    if (!last_ || last_->first != wanted) {
+      const auto [press, is_new] =
+          numbers_.insert({wanted, static_cast<std::uint32_t>(list_.size())});
+      if (is_new) list_.push_back({node.stamp, node.recovery});
+      last_ = &*press;
+    }
+    return last_->second;
+  }
+
+ private:
+  std::vector<Press>& list_;
+  std::map<std::pair<Nanoseconds, float>, std::uint32_t> numbers_;
+  const std::pair<const std::pair<Nanoseconds, float>, std::uint32_t>* last_{nullptr};
+};
 
 bool isToldIn(const TreadNode& node, const Telling& telling) {
   return node.stamp > telling.since && tiltAt(node, telling.stamp) > 0.f;
@@ -25,11 +45,8 @@ void tell(const std::pair<int, int>& place, const TreadBlock& block, const Telli
   for (std::size_t i = 0; i < block.nodes.size(); ++i) {
     const TreadNode& node = block.nodes[i];
     if (!isToldIn(node, telling)) continue;
-    const auto next = static_cast<std::uint32_t>(out.presses.size());
-    const auto [press, is_new] = presses.insert({{node.stamp, node.recovery}, next});
-    if (is_new) out.presses.push_back({node.stamp, node.recovery});
     told.told[i / 8] |= static_cast<std::uint8_t>(1u << (i % 8));
-    told.nodes.push_back({node.tilt, node.x, node.y, press->second});
+    told.nodes.push_back({node.tilt, node.x, node.y, presses.numberOf(node)});
   }
   if (!told.nodes.empty()) out.blocks.push_back(std::move(told));
 }
@@ -38,7 +55,7 @@ void tell(const std::pair<int, int>& place, const TreadBlock& block, const Telli
 
 ToldTreads tellAll(const TreadState& state, Nanoseconds stamp) {
   ToldTreads out;
-  Presses presses;
+  Presses presses(out.presses);
   for (const auto& [place, block] : state.blocks)
     tell(place, block, {std::numeric_limits<Nanoseconds>::min(), stamp}, presses, out);
   return out;
@@ -47,7 +64,7 @@ ToldTreads tellAll(const TreadState& state, Nanoseconds stamp) {
 ToldTreads tellSince(const TreadState& state, const std::set<std::pair<int, int>>& blocks,
                      const Telling& telling) {
   ToldTreads out;
-  Presses presses;
+  Presses presses(out.presses);
   for (const auto& place : blocks) {
     const auto found = state.blocks.find(place);
     if (found != state.blocks.end()) tell(place, found->second, telling, presses, out);
