@@ -53,6 +53,7 @@ add_custom_target(charts
 add_executable(rviz_frames bench/rviz/rviz_frames.cpp)
 set_own_options(rviz_frames)
 target_compile_definitions(rviz_frames PRIVATE QT_NO_KEYWORDS)
+target_include_directories(rviz_frames PRIVATE bench)
 target_include_directories(rviz_frames SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
 target_link_libraries(rviz_frames PRIVATE Qt5::Widgets ${catkin_LIBRARIES})
 list(APPEND bench_targets rviz_frames)

@@ -2,8 +2,9 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
 # Frames a second that rviz draws of scenarios in a window of 1280 x 900 on a virtual display: with our
-# displays and with stock markers, one after the other beside the same nodes; and how much pictures
-# change from frame to frame while the camera goes away.
+# displays, beside the same nodes with stock markers as they are budgeted, and with markers of about as
+# many triangles as our displays draw. And how much levels of detail change in pictures of our displays
+# as the camera goes away.
 # usage: scripts/frame_rates.sh [--seconds N] SCENARIO ...
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
@@ -15,14 +16,38 @@ use_space "$BUILD/devel"
 trap 'stop_process "$launch_pid"; stop_process "$display_pid"; rm -rf "$WORK"' EXIT
 trap 'exit 130' INT TERM
 start_display
-for scenario in "$@"; do
-  start_launch demo.launch scenario:="$scenario" rviz:=false
+
+# usage: start_scenario SCENARIO [MARKER_POINTS]
+start_scenario() {
+  local node
+  {
+    echo "<launch><include file='\$(find vegetation_sim)/launch/demo.launch'>"
+    echo "<arg name='scenario' value='$1'/><arg name='rviz' value='false'/></include>"
+    for node in ${2:+forest_animator grass_field canopy_animator agent_crowd}; do
+      echo "<param name='$node/marker_points' value='$2'/>"
+    done
+    echo '</launch>'
+  } >"$WORK/scenario.launch"
+  start_roslaunch "$WORK/scenario.launch"
   wait_until 60 'a message on forest/state' topic_flows /forest/state
+}
+
+# usage: measure WHAT FILE.rviz [OPTION ...]
+measure() {
+  say "$scenario, $1 (load $(cut -d ' ' -f 1 /proc/loadavg))"
+  rosrun vegetation_sim rviz_frames "$2" --seconds "$seconds" "${@:3}" 2>/dev/null |
+    grep 'frames' | tee "$WORK/figures"
+}
+
+for scenario in "$@"; do
   config=$ROOT/rviz/$scenario.rviz
   [ -e "$config" ] || config=$ROOT/rviz/default.rviz
-  say "$scenario, our displays"
-  rosrun vegetation_sim rviz_frames "$config" --seconds "$seconds" --dolly 3 2>/dev/null
-  say "$scenario, stock markers"
-  rosrun vegetation_sim rviz_frames "$ROOT/rviz/markers.rviz" --seconds "$seconds" 2>/dev/null
+  start_scenario "$scenario"
+  measure 'our displays' "$config" --dolly 3
+  triangles=$(sed -n 's/.* of \([0-9]*\) triangles.*/\1/p' "$WORK/figures")
+  measure 'stock markers' "$ROOT/rviz/markers.rviz" --view "$config"
+  stop_process "$launch_pid"
+  start_scenario "$scenario" $((3 * triangles))
+  measure 'stock markers of as many triangles' "$ROOT/rviz/markers.rviz" --view "$config"
   stop_process "$launch_pid"
 done

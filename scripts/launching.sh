@@ -29,13 +29,16 @@ stop_process() {
   kill -KILL "$pid" $family 2>/dev/null || true
 }
 
-# usage: start_launch FILE [ARGUMENT ...], with ROS already in the environment.
-start_launch() {
+# usage: start_launch FILE [ARGUMENT ...], one of this package, with ROS already in the environment.
+start_launch() { start_roslaunch vegetation_sim "$@"; }
+
+# usage: start_roslaunch [PACKAGE] FILE [ARGUMENT ...]
+start_roslaunch() {
   local port
   port=$(python3 -c 'import socket; s = socket.socket(); s.bind(("", 0)); print(s.getsockname()[1])')
   export ROS_MASTER_URI=http://localhost:$port ROS_HOSTNAME=localhost
   export ROS_HOME=$WORK/ros ROS_LOG_DIR=$WORK/ros/log
-  roslaunch -p "$port" vegetation_sim "$@" >"$LOG" 2>&1 &
+  roslaunch -p "$port" "$@" >"$LOG" 2>&1 &
   launch_pid=$!
 }
 

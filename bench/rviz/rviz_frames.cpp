@@ -1,12 +1,13 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
 // Loads a configuration of rviz beside nodes that run, without rviz's window, and says how many
-// frames a second it draws and how much pictures change from frame to frame as the camera goes
-// away:
-//   rviz_frames FILE.rviz [--seconds N] [--dolly FACTOR]
+// frames a second it draws, of how many triangles, in what time of all processors; and how much
+// levels of detail change in pictures as the camera goes away:
+//   rviz_frames FILE.rviz [--view FILE.rviz] [--seconds N] [--picture FILE] [--dolly FACTOR]
 #include <OgreRenderWindow.h>
 #include <ros/ros.h>
 #include <rviz/display_group.h>
+#include <rviz/frame_manager.h>
 #include <rviz/ogre_helpers/render_system.h>
 #include <rviz/render_panel.h>
 #include <rviz/view_controller.h>
@@ -23,12 +24,15 @@
 #include <functional>
 #include <vector>
 
+#include "processor_time.h"
+
 namespace {
 
 constexpr int WIDTH = 1280, HEIGHT = 900;  // [pixel]
 constexpr double SETTLING = 20.0;          // [s] until all has been drawn
 constexpr int BLOCK = 16;                  // [pixel] edge of what differences are meant over
-constexpr int STEPS = 60;                  // of the camera's way
+constexpr int STEPS = 8;                   // of the camera's way
+constexpr int FRAMES_A_STEP = 40;
 
 class Frames {
  public:
@@ -41,12 +45,17 @@ class Frames {
     manager_->startUpdate();
   }
 
-  bool load(const char* file) {
+  /// @param view file whose view it has.
+  bool load(const char* file, const char* view) {
     rviz::YamlConfigReader reader;
-    rviz::Config config;
+    rviz::Config config, looks;
     reader.readFile(config, file);
     if (reader.error()) return false;
+    reader.readFile(looks, view);
+    if (reader.error()) return false;
     manager_->load(config.mapGetChild("Visualization Manager"));
+    manager_->getViewManager()->load(
+        looks.mapGetChild("Visualization Manager").mapGetChild("Views"));
     manager_->getRootDisplayGroup()
         ->subProp("Global Options")
         ->subProp("Frame Rate")
@@ -63,33 +72,49 @@ class Frames {
     while (manager_->getFrameCount() < last) QApplication::processEvents(QEventLoop::AllEvents, 5);
   }
 
-  double rate(double seconds) {
+  void measure(double seconds) {
     const std::uint64_t first = manager_->getFrameCount();
     const ros::WallTime start = ros::WallTime::now();
+    const double used = vegetation_sim::bench::processorTime();
     run(seconds);
-    return static_cast<double>(manager_->getFrameCount() - first) /
-           (ros::WallTime::now() - start).toSec();
+    const auto count = static_cast<double>(manager_->getFrameCount() - first);
+    const double rate = count / (ros::WallTime::now() - start).toSec();
+    const auto triangles =
+        static_cast<double>(panel_.getRenderWindow()->getStatistics().triangleCount);
+    std::printf(
+        "%.1f frames a second of %.0f triangles: %.2f million a second; %.0f ms of processor time "
+        "a frame\n",
+        rate, triangles, 1e-6 * rate * triangles,
+        1e3 * (vegetation_sim::bench::processorTime() - used) / std::max(count, 1.0));
   }
 
-  /// Steps back until the distance is `factor` times what it was; prints the largest mean
-  /// difference of a block between frames of one step, and of two frames without a step.
+  void write(const char* file) { panel_.getRenderWindow()->writeContentsToFile(file); }
+
+  /// Steps back until the distance is `factor` times what it was, while time stands. Prints how
+  /// much pictures change after a step, when only levels of detail do: from one to the next at
+  /// most, and in all.
   void dolly(double factor) {
+    manager_->getFrameManager()->setPause(true);
     rviz::Property* distance = manager_->getViewManager()->getCurrent()->subProp("Distance");
     const double start = distance->getValue().toDouble();
-    double step = 0.0, still = 0.0;
+    double step = 0.0, all = 0.0;
     for (int i = 1; i <= STEPS; ++i) {
-      frames(2);
-      const std::vector<unsigned char> a = picture();
-      frames(1);
-      const std::vector<unsigned char> b = picture();
-      still = std::max(still, largestChange(a, b));
       distance->setValue(start * std::pow(factor, static_cast<double>(i) / STEPS));
       frames(1);
-      step = std::max(step, largestChange(b, picture()));
+      const std::vector<unsigned char> first = picture();
+      std::vector<unsigned char> last = first;
+      for (int frame = 0; frame < FRAMES_A_STEP; ++frame) {
+        frames(1);
+        const std::vector<unsigned char> next = picture();
+        step = std::max(step, largestChange(last, next));
+        last = next;
+      }
+      all = std::max(all, largestChange(first, last));
     }
     std::printf(
-        "largest change of a block of %d x %d pixels: %.1f of 255 in a step, %.1f without one\n",
-        BLOCK, BLOCK, step, still);
+        "levels of detail change a block of %d x %d pixels by %.1f of 255, %.1f between two "
+        "frames\n",
+        BLOCK, BLOCK, all, step);
   }
 
  private:
@@ -130,19 +155,25 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "rviz_frames", ros::init_options::AnonymousName);
   const QApplication application(argc, argv);
   double seconds = 10.0, factor = 0.0;
+  const char *view = argc > 1 ? argv[1] : "", *picture = nullptr;
   for (int i = 2; i + 1 < argc; i += 2) {
+    if (std::strcmp(argv[i], "--view") == 0) view = argv[i + 1];
+    if (std::strcmp(argv[i], "--picture") == 0) picture = argv[i + 1];
     if (std::strcmp(argv[i], "--seconds") == 0) seconds = std::atof(argv[i + 1]);
     if (std::strcmp(argv[i], "--dolly") == 0) factor = std::atof(argv[i + 1]);
   }
   if (argc < 2) {
-    std::fprintf(stderr, "usage: rviz_frames FILE.rviz [--seconds N] [--dolly FACTOR]\n");
+    std::fprintf(stderr,
+                 "usage: rviz_frames FILE.rviz [--view FILE.rviz] [--seconds N] [--picture FILE] "
+                 "[--dolly FACTOR]\n");
     return 2;
   }
   rviz::RenderSystem::disableAntiAliasing();  // without a graphics card it halves the rate
   Frames frames;
-  if (!frames.load(argv[1])) return 1;
+  if (!frames.load(argv[1], view)) return 1;
   frames.run(SETTLING);
-  std::printf("%.1f frames a second\n", frames.rate(seconds));
+  frames.measure(seconds);
+  if (picture != nullptr) frames.write(picture);
   if (factor > 0.0) frames.dolly(factor);
   std::fflush(stdout);
   std::_Exit(0);

@@ -20,7 +20,7 @@ void declareVertices(Ogre::VertexDeclaration& declaration) {
   declaration.addElement(POSITION_STREAM, 0, Ogre::VET_FLOAT3, Ogre::VES_POSITION);
   declaration.addElement(PAINT_STREAM, 0, Ogre::VET_FLOAT3, Ogre::VES_NORMAL);
   declaration.addElement(PAINT_STREAM, 12, Ogre::VET_COLOUR_ABGR, Ogre::VES_DIFFUSE);
-  declaration.addElement(PAINT_STREAM, 16, Ogre::VET_FLOAT3, Ogre::VES_TEXTURE_COORDINATES);
+  declaration.addElement(PAINT_STREAM, 16, Ogre::VET_FLOAT4, Ogre::VES_TEXTURE_COORDINATES);
 }
 
 Ogre::HardwareIndexBufferSharedPtr indexBuffer(const std::vector<std::uint32_t>& triangles,
@@ -43,8 +43,12 @@ Ogre::HardwareIndexBufferSharedPtr indexBuffer(const std::vector<std::uint32_t>&
 }  // namespace
 
 Batch::Batch(const std::string& name, const std::string& material) : Ogre::SimpleRenderable(name) {
-  setMaterial(Ogre::MaterialManager::getSingleton().getByName(material));
+  wear(material);
   setCastShadows(false);
+}
+
+void Batch::wear(const std::string& material) {
+  setMaterial(Ogre::MaterialManager::getSingleton().getByName(material));
 }
 
 Batch::~Batch() {

@@ -36,6 +36,11 @@ double radiusOf(const forest::BarkVertex& vertex) {
   return std::hypot(static_cast<double>(vertex.local[0]), static_cast<double>(vertex.local[1]));
 }
 
+void setFade(float fade, DrawnTree::Shape& shape) {
+  for (DrawnTree::Part* part : {&shape.bark, &shape.leaves})
+    for (VertexPaint& paint : part->paint) paint.fade = fade;
+}
+
 }  // namespace
 
 DrawnTree::DrawnTree(const forest::ForestReplica& replica, std::uint32_t id, const Vec3& origin)
@@ -60,25 +65,50 @@ Vec3 DrawnTree::inLayout(const float* position) const {
   return origin_ + Vec3(position[0], position[1], position[2]);
 }
 
-void DrawnTree::setLevel(int level, const forest::LightGrid& light, const TreeLook& look) {
+DrawnTree::Shape DrawnTree::makeShape(int level, const TreeLook& look) const {
+  const forest::MeshDetail detail = forest::meshDetail(level);
+  Shape out{detail.depths, forest::buildMesh(tree_.skeleton, species_, detail), {}, {}};
+  if (!look.leaves) out.mesh.leaves.clear();
+  out.bark.positions.resize(3 * out.mesh.bark.size());
+  out.leaves.positions.resize(3 * forest::LEAF_CORNERS * out.mesh.leaves.size());
+  return out;
+}
+
+void DrawnTree::setLevel(int level, const forest::LightGrid& light, const TreeLook& look,
+                         float fade_clock) {
+  shapes_.resize(fade_clock > 0.f && level_ >= 0 ? 1 : 0);
+  shapes_.insert(shapes_.begin(), makeShape(level, look));
   level_ = level;
-  mesh_ = forest::buildMesh(tree_.skeleton, species_, forest::meshDetail(level));
-  if (!look.leaves) mesh_.leaves.clear();
-  bark_.positions.resize(3 * mesh_.bark.size());
-  leaves_.positions.resize(3 * forest::LEAF_CORNERS * mesh_.leaves.size());
-  poser_.pose(wind::Instant(), forest::Weights{}, forest::meshDetail(level).depths, poses_);
+  poser_.pose(wind::Instant(), forest::Weights{}, depths(), poses_);
   skin(forest::Flutter());
   moved_ = true;
-  paintBark(light);
-  paintLeaves(light);
+  paintBark(light, shapes_.front());
+  paintLeaves(light, shapes_.front());
+  if (!fading()) return;
+  fades_since_ = fade_clock;
+  setFade(fade_clock, shapes_.front());
+  setFade(-fade_clock, shapes_.back());
+}
+
+void DrawnTree::endFade() {
+  shapes_.resize(1);
+  setFade(0.f, shapes_.front());
+}
+
+int DrawnTree::depths() const {
+  int out = 0;
+  for (const Shape& shape : shapes_) out = std::max(out, shape.depths);
+  return out;
 }
 
 void DrawnTree::skin(const forest::Flutter& flutter) {
   const Vec3 foot = tree_.foot - origin_;
   const std::array<float, 3> at{static_cast<float>(foot.x()), static_cast<float>(foot.y()),
                                 static_cast<float>(foot.z())};
-  forest::skinBark(mesh_, poses_, at, bark_.positions.data());
-  forest::skinLeaves(mesh_, poses_, at, flutter, leaves_.positions.data());
+  for (Shape& shape : shapes_) {
+    forest::skinBark(shape.mesh, poses_, at, shape.bark.positions.data());
+    forest::skinLeaves(shape.mesh, poses_, at, flutter, shape.leaves.positions.data());
+  }
 }
 
 bool DrawnTree::move(const forest::ForestReplica& replica, Nanoseconds stamp,
@@ -88,7 +118,7 @@ bool DrawnTree::move(const forest::ForestReplica& replica, Nanoseconds stamp,
   forest::Flutter flutter;
   const double swing = species_.flutter * species_.leaf_size * pixels_per_metre;
   bool moves = forest::movingDepths(weights) > 0;
-  if (look.flutter && swing > VISIBLE_FLUTTER && !mesh_.leaves.empty()) {
+  if (look.flutter && swing > VISIBLE_FLUTTER && !shapes_.front().mesh.leaves.empty()) {
     const double speed = length(wind.velocity(tree_.foot + Vec3(0.0, 0.0, 0.6 * height())));
     if (speed > BREATH) {
       flutter = forest::Flutter(secondsBetween(0, stamp), speed, species_.flutter);
@@ -105,19 +135,19 @@ bool DrawnTree::move(const forest::ForestReplica& replica, Nanoseconds stamp,
   else if (remembers)
     narrow(replica.pose(tree_, id_, stamp), poses_);
   else
-    poser_.pose(wind.relativeTo(tree_.foot), weights, forest::meshDetail(level_).depths, poses_);
+    poser_.pose(wind.relativeTo(tree_.foot), weights, depths(), poses_);
   skin(flutter);
   return true;
 }
 
-void DrawnTree::paintBark(const forest::LightGrid& light) {
-  bark_.paint.resize(mesh_.bark.size());
-  std::vector<float> normals(3 * mesh_.bark.size());
-  forest::turnBarkNormals(mesh_, poses_, normals.data());
-  for (std::size_t i = 0; i < mesh_.bark.size(); ++i) {
-    const forest::BarkVertex& vertex = mesh_.bark[i];
-    VertexPaint& paint = bark_.paint[i];
-    const Vec3 at = inLayout(&bark_.positions[3 * i]);
+void DrawnTree::paintBark(const forest::LightGrid& light, Shape& shape) {
+  shape.bark.paint.resize(shape.mesh.bark.size());
+  std::vector<float> normals(3 * shape.mesh.bark.size());
+  forest::turnBarkNormals(shape.mesh, poses_, normals.data());
+  for (std::size_t i = 0; i < shape.mesh.bark.size(); ++i) {
+    const forest::BarkVertex& vertex = shape.mesh.bark[i];
+    VertexPaint& paint = shape.bark.paint[i];
+    const Vec3 at = inLayout(&shape.bark.positions[3 * i]);
     setNormal(Vec3(normals[3 * i], normals[3 * i + 1], normals[3 * i + 2]), paint);
     // Damp and darker at the foot.
     const double above = saturate((at.z() - tree_.foot.z()) / (6.0 * species_.trunk_radius));
@@ -133,31 +163,31 @@ void DrawnTree::paintBark(const forest::LightGrid& light) {
 }
 
 // Normals point out of the crown, so that it is shaded as one round body, not as so many cards.
-void DrawnTree::paintLeaves(const forest::LightGrid& light) {
-  leaves_.paint.resize(forest::LEAF_CORNERS * mesh_.leaves.size());
-  if (mesh_.leaves.empty()) return;
+void DrawnTree::paintLeaves(const forest::LightGrid& light, Shape& shape) {
+  shape.leaves.paint.resize(forest::LEAF_CORNERS * shape.mesh.leaves.size());
+  if (shape.mesh.leaves.empty()) return;
   Vec3 middle = Vec3::Zero();
-  for (std::size_t i = 0; i < leaves_.positions.size(); i += 3)
-    middle += inLayout(&leaves_.positions[i]);
-  middle /= static_cast<double>(leaves_.positions.size() / 3);
+  for (std::size_t i = 0; i < shape.leaves.positions.size(); i += 3)
+    middle += inLayout(&shape.leaves.positions[i]);
+  middle /= static_cast<double>(shape.leaves.positions.size() / 3);
   const Vec3 extent(reach() + 0.1, reach() + 0.1, 0.5 * height() + 0.1);
-  for (std::size_t card = 0; card < mesh_.leaves.size(); ++card) {
+  for (std::size_t card = 0; card < shape.mesh.leaves.size(); ++card) {
     const std::size_t first = forest::LEAF_CORNERS * card;
-    const Vec3 centre = 0.5 * (inLayout(&leaves_.positions[3 * first]) +
-                               inLayout(&leaves_.positions[3 * first + 6]));
-    const forest::Colour colour = paint_.leaf(mesh_.leaves[card]);
+    const Vec3 centre = 0.5 * (inLayout(&shape.leaves.positions[3 * first]) +
+                               inLayout(&shape.leaves.positions[3 * first + 6]));
+    const forest::Colour colour = paint_.leaf(shape.mesh.leaves[card]);
     const double sun = light.sun(centre), sky = light.sky(centre);
     for (std::size_t i = 0; i < forest::LEAF_CORNERS; ++i) {
-      VertexPaint& paint = leaves_.paint[first + i];
-      const Vec3 at = inLayout(&leaves_.positions[3 * (first + i)]);
+      VertexPaint& paint = shape.leaves.paint[first + i];
+      const Vec3 at = inLayout(&shape.leaves.positions[3 * (first + i)]);
       const Vec3 out = (at - middle).cwiseQuotient(extent);
-      setNormal(out + 0.5 * (at - centre) / static_cast<double>(mesh_.leaves[card].size) +
+      setNormal(out + 0.5 * (at - centre) / static_cast<double>(shape.mesh.leaves[card].size) +
                     Vec3(0.0, 0.0, 0.25),
                 paint);
       setColour(colour, paint);
       paint.colour[3] = byte(sun);
       const std::array<float, 2> place =
-          leafAtlasPlace(species_.leaf_shape, mesh_.boughs, forest::LEAF_UV[i]);
+          leafAtlasPlace(species_.leaf_shape, shape.mesh.boughs, forest::LEAF_UV[i]);
       std::copy(place.begin(), place.end(), paint.place);
       paint.place[2] = static_cast<float>(sky);
     }
@@ -176,8 +206,9 @@ bool DrawnTree::paintLevels(const forest::ForestReplica& replica, Nanoseconds st
   if (painted_by_level_ && look.colour_by_level && weights == painted_ &&
       physical == painted_physical_)
     return false;
-  for (std::size_t i = 0; i < mesh_.bark.size(); ++i) {
-    const forest::BarkVertex& vertex = mesh_.bark[i];
+  Shape& shape = shapes_.front();
+  for (std::size_t i = 0; i < shape.mesh.bark.size(); ++i) {
+    const forest::BarkVertex& vertex = shape.mesh.bark[i];
     const int depth = tree_.skeleton.branches[static_cast<std::size_t>(vertex.branch)].depth;
     const double weight = weights[static_cast<std::size_t>(depth)];
     const bool rests = weight <= 0.0;
@@ -186,7 +217,7 @@ bool DrawnTree::paintLevels(const forest::ForestReplica& replica, Nanoseconds st
               : rests        ? paint_.bark(radiusOf(vertex))
               : weight < 1.0 ? CHANGES
                              : MOVES,
-              bark_.paint[i]);
+              shape.bark.paint[i]);
   }
   painted_ = weights;
   painted_physical_ = std::move(physical);

@@ -59,7 +59,8 @@ void ForestDisplay::draw(Nanoseconds stamp, const view::View& view) {
     layouts_ = source_->layouts();
     forest_->restart(source_->replica(), view, properties_->options());
   }
-  forest_->update(source_->replica(), stamp, view, properties_->daylight(), properties_->options());
+  forest_->update(source_->replica(), stamp, wall(), view, properties_->daylight(),
+                  properties_->options());
   if (forest_->stock() == nullptr || !properties_->ground()) return;
   if (givesGround(source_->replica().terrain()))
     makeGround();
@@ -105,6 +106,10 @@ void ForestDisplay::showInputs(view::StatusBoard& board) const {
   board.show("Layout", source_->layoutStatus());
   board.show("Wind", source_->windStatus());
   board.show("State", source_->stateStatus());
+  if (!source_->governorStatus().text.empty()) board.show("Governor", source_->governorStatus());
+  if (forest_->stock() != nullptr)
+    board.show(rviz::StatusProperty::Ok, "Motion",
+               view::describeMotion(source_->replica(), *forest_->stock()));
 }
 
 view::InputStatus ForestDisplay::describeDrawn() const {

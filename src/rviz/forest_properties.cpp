@@ -26,8 +26,7 @@ void ForestProperties::addTopics(rviz::Display& display) {
 void ForestProperties::addLook(rviz::Display& display) {
   triangles_ = new rviz::IntProperty(
       "Triangles", 130000,
-      "How many triangles of trees in the picture to aim for. Levels of detail follow.", &display,
-      SLOT(updateLook()), &display);
+      "How many triangles of trees in the picture to aim for. Levels of detail follow.", &display);
   triangles_->setMin(1000);
   triangles_->setMax(20000000);
   most_trees_ = new rviz::IntProperty("Most Trees", 1000, "The nearest so many trees are drawn.",

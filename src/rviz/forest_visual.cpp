@@ -20,7 +20,10 @@ constexpr std::size_t TREES_PER_GROVE = 10;
 // [s] of one update: growing while nothing is drawn and while something is; choosing levels while
 // trees have no mesh yet and later.
 constexpr double GROW_TIME = 0.025, SIDE_TIME = 0.006, FIRST_TIME = 0.06, LEVEL_TIME = 0.010;
-constexpr double RESELECT = 25.0;  // [m] of the eye's way until other trees are the nearest
+constexpr double FADE_TIME = 0.5;     // [s] from one level to another
+constexpr double LARGEST_FADE = 0.2;  // of it between two updates
+constexpr std::size_t FADERS = 8;     // one tree in so many may fade at a time: it costs two
+constexpr double RESELECT = 25.0;     // [m] of the eye's way until other trees are the nearest
 
 double pixelsOf(const DrawnTree& tree, const View& view) {
   const Vec3 middle = tree.foot() + Vec3(0.0, 0.0, 0.5 * tree.height());
@@ -46,7 +49,11 @@ ForestVisual::ForestVisual(Ogre::SceneNode& parent)
       leaf_texture_(uniqueName("leaf_picture"), sharedLeafAtlas()),
       bark_texture_(uniqueName("bark_picture"), mipmaps(barkAtlas(BARK_EDGE), 16)),
       leaf_material_(Material::Kind::LEAVES, uniqueName("leaf_material"), {leaf_texture_.name()}),
-      bark_material_(Material::Kind::BARK, uniqueName("bark_material"), {bark_texture_.name()}) {}
+      bark_material_(Material::Kind::BARK, uniqueName("bark_material"), {bark_texture_.name()}),
+      fading_leaf_material_(Material::Kind::LEAVES, uniqueName("fading_leaf_material"),
+                            {leaf_texture_.name()}, true),
+      fading_bark_material_(Material::Kind::BARK, uniqueName("fading_bark_material"),
+                            {bark_texture_.name()}, true) {}
 
 ForestVisual::~ForestVisual() {
   groves_.clear();
@@ -74,6 +81,7 @@ void ForestVisual::select(const forest::ForestReplica& replica, const View& view
 // The trees that have grown take the place of those drawn so far.
 void ForestVisual::adopt() {
   groves_.clear();
+  settled_ = false;
   stock_ = std::move(next_);
   ++stocks_;
   const Vec3& origin = stock_->origin();
@@ -82,9 +90,10 @@ void ForestVisual::adopt() {
   std::vector<DrawnTree*> trees;
   for (const auto& tree : stock_->trees()) trees.push_back(tree.get());
   if (trees.empty()) return;
+  const TreeMaterials materials{bark_material_.name(), leaf_material_.name(),
+                                fading_bark_material_.name(), fading_leaf_material_.name()};
   for (auto& group : splitByPlace(std::move(trees), TREES_PER_GROVE))
-    groves_.push_back(std::make_unique<Grove>(std::move(group), *node_, bark_material_.name(),
-                                              leaf_material_.name()));
+    groves_.push_back(std::make_unique<Grove>(std::move(group), *node_, materials));
 }
 
 void ForestVisual::repaint() {
@@ -92,21 +101,52 @@ void ForestVisual::repaint() {
 }
 
 void ForestVisual::light(const Daylight& daylight, const Vec3& to_sun, const Haze& haze) {
-  leaf_material_.light(daylight, to_sun, haze);
-  bark_material_.light(daylight, to_sun, haze);
+  for (Material* material :
+       {&leaf_material_, &bark_material_, &fading_leaf_material_, &fading_bark_material_})
+    material->light(daylight, to_sun, haze);
 }
 
-void ForestVisual::update(const forest::ForestReplica& replica, Nanoseconds stamp, const View& view,
-                          const Daylight& daylight, const Options& options) {
+void ForestVisual::update(const forest::ForestReplica& replica, Nanoseconds stamp, double wall,
+                          const View& view, const Daylight& daylight, const Options& options) {
   const bool away = length(view.eye.position - selected_at_) > RESELECT;
   if (stock_ && !next_ && !selected_all_ && away) select(replica, view, options);
   if (next_ &&
       next_->grow(replica, daylight.to_sun, options.look.leaves, stock_ ? SIDE_TIME : GROW_TIME))
     adopt();
   if (!stock_) return;
+  runFadeClock(wall);
   chooseLevels(view, options);
   move(replica, stamp, view, options);
   measure(view, options);
+}
+
+// A fade takes FADE_TIME, or more where pictures are rare: no picture shows much of it at once.
+void ForestVisual::runFadeClock(double wall) {
+  fade_clock_ += std::clamp((wall - wall_) / FADE_TIME, 0.0, LARGEST_FADE);
+  if (report_.fading == 0) fade_clock_ = 1.0;
+  wall_ = wall;
+  fading_leaf_material_.setFadeClock(static_cast<float>(fade_clock_));
+  fading_bark_material_.setFadeClock(static_cast<float>(fade_clock_));
+}
+
+// One level after the other fades; what nobody sees changes at once, and all do until the levels
+// have settled for the first time.
+bool ForestVisual::changeLevel(DrawnTree& tree, const View& view, const Options& options,
+                               bool in_time) {
+  const auto clock = static_cast<float>(fade_clock_);
+  const bool ends = tree.fading() && clock - tree.fadesSince() >= 1.f;
+  if (ends) tree.endFade();
+  const double size = pixelsOf(tree, view) * tree.height() * feedback_.factor();
+  const int level = forest::geometryLevel(size, tree.level());
+  if (level == tree.level() && !repaint_) return ends;
+  const bool fades = settled_ && level != tree.level() && isSeen(tree, view);
+  const bool room = report_.fading <= stock_->trees().size() / FADERS;
+  if (!repaint_ && (!in_time || tree.fading() || (fades && !room))) {
+    ++report_.waiting;
+    return ends;
+  }
+  tree.setLevel(level, stock_->light(), options.look, fades ? clock : 0.f);
+  return true;
 }
 
 // Near groves first: they are drawn first, and the first to get their level when time is short.
@@ -117,22 +157,17 @@ void ForestVisual::chooseLevels(const View& view, const Options& options) {
     return (a->middle() - view.eye.position).squaredNorm() <
            (b->middle() - view.eye.position).squaredNorm();
   });
-  report_.waiting = 0;
+  report_.waiting = report_.fading = 0;
   int rank = 0;
+  bool still = true;
   for (const auto& grove : groves_) {
     grove->setRank(rank++);
     bool changed = false;
     for (DrawnTree* tree : grove->trees()) {
-      const double size = pixelsOf(*tree, view) * tree->height() * feedback_.factor();
-      const int level = forest::geometryLevel(size, tree->level());
-      if (level == tree->level() && !repaint_) continue;
-      if (!repaint_ && Clock::now() >= end) {
-        ++report_.waiting;
-        continue;
-      }
-      tree->setLevel(level, stock_->light(), options.look);
-      changed = true;
+      changed = changeLevel(*tree, view, options, Clock::now() < end) || changed;
+      report_.fading += tree->fading() ? 1 : 0;
     }
+    still = still && !changed;
     if (changed) {
       grove->rebuild();
       grove->moved_to = -1;
@@ -140,6 +175,7 @@ void ForestVisual::chooseLevels(const View& view, const Options& options) {
     if (Clock::now() < end) grove->sortFor(view.eye.position);
   }
   repaint_ = false;
+  settled_ = settled_ || (still && report_.waiting == 0);
 }
 
 // While time stands still nothing moves, and nothing is computed.

@@ -11,51 +11,52 @@ namespace {
 
 constexpr float SWAY = 0.25f;  // of a tree's height: how far wind takes its tips
 
-using PartOf = const DrawnTree::Part& (DrawnTree::*)() const;
+using Part = DrawnTree::Part DrawnTree::Shape::*;
 
-template <class T, class Get>
-std::vector<T> gathered(const std::vector<DrawnTree*>& trees, const Get& get) {
+// Something of each vertex of a part, tree by tree and shape by shape.
+template <class T>
+std::vector<T> gathered(const std::vector<DrawnTree*>& trees, Part part,
+                        std::vector<T> DrawnTree::Part::*what) {
   std::vector<T> out;
   for (const DrawnTree* tree : trees) {
-    const std::vector<T>& part = get(*tree);
-    out.insert(out.end(), part.begin(), part.end());
+    for (const DrawnTree::Shape& shape : tree->shapes()) {
+      const std::vector<T>& some = shape.*part.*what;
+      out.insert(out.end(), some.begin(), some.end());
+    }
   }
   return out;
 }
 
-std::vector<float> positionsOf(const std::vector<DrawnTree*>& trees, PartOf part) {
-  return gathered<float>(trees, [&](const DrawnTree& tree) -> const std::vector<float>& {
-    return (tree.*part)().positions;
-  });
+std::vector<float> positionsOf(const std::vector<DrawnTree*>& trees, Part part) {
+  return gathered(trees, part, &DrawnTree::Part::positions);
 }
 
-std::vector<VertexPaint> paintOf(const std::vector<DrawnTree*>& trees, PartOf part) {
-  return gathered<VertexPaint>(trees, [&](const DrawnTree& t) -> const std::vector<VertexPaint>& {
-    return (t.*part)().paint;
-  });
+std::vector<VertexPaint> paintOf(const std::vector<DrawnTree*>& trees, Part part) {
+  return gathered(trees, part, &DrawnTree::Part::paint);
 }
 
 std::vector<std::uint32_t> barkTriangles(const std::vector<DrawnTree*>& trees) {
   std::vector<std::uint32_t> out;
   std::uint32_t first = 0;
   for (const DrawnTree* tree : trees) {
-    for (const std::uint32_t index : tree->barkTriangles()) out.push_back(first + index);
-    first += static_cast<std::uint32_t>(tree->bark().paint.size());
+    for (const DrawnTree::Shape& shape : tree->shapes()) {
+      for (const std::uint32_t index : shape.mesh.triangles) out.push_back(first + index);
+      first += static_cast<std::uint32_t>(shape.bark.paint.size());
+    }
   }
   return out;
 }
 
 // Triangles of all leaf cards, front to back for an eye in this place.
 std::vector<std::uint32_t> leafTriangles(const std::vector<DrawnTree*>& trees, const Vec3& eye) {
+  if (trees.empty()) return {};
+  const Vec3 from = eye - trees.front()->origin();
+  const std::vector<float> at = positionsOf(trees, &DrawnTree::Shape::leaves);
   std::vector<std::pair<float, std::uint32_t>> cards;
-  for (const DrawnTree* tree : trees) {
-    const std::vector<float>& at = tree->leaves().positions;
-    const Vec3 from = eye - tree->origin();
-    for (std::size_t i = 0; i + 11 < at.size(); i += 12) {
-      const Vec3 corner(at[i], at[i + 1], at[i + 2]);
-      cards.emplace_back(static_cast<float>((corner - from).squaredNorm()),
-                         static_cast<std::uint32_t>(cards.size()));
-    }
+  for (std::size_t i = 0; i + 11 < at.size(); i += 12) {
+    const Vec3 corner(at[i], at[i + 1], at[i + 2]);
+    cards.emplace_back(static_cast<float>((corner - from).squaredNorm()),
+                       static_cast<std::uint32_t>(cards.size()));
   }
   std::sort(cards.begin(), cards.end());
   std::vector<std::uint32_t> out;
@@ -68,11 +69,11 @@ std::vector<std::uint32_t> leafTriangles(const std::vector<DrawnTree*>& trees, c
 
 }  // namespace
 
-Grove::Grove(std::vector<DrawnTree*> trees, Ogre::SceneNode& node, const std::string& bark_material,
-             const std::string& leaf_material)
+Grove::Grove(std::vector<DrawnTree*> trees, Ogre::SceneNode& node, const TreeMaterials& materials)
     : trees_(std::move(trees)),
-      bark_(uniqueName("bark"), bark_material),
-      leaves_(uniqueName("leaves"), leaf_material) {
+      materials_(materials),
+      bark_(uniqueName("bark"), materials.bark),
+      leaves_(uniqueName("leaves"), materials.leaves) {
   for (const DrawnTree* tree : trees_) middle_ += tree->foot();
   middle_ /= static_cast<double>(std::max<std::size_t>(trees_.size(), 1));
   node.attachObject(&bark_);
@@ -83,21 +84,26 @@ void Grove::rebuild() {
   double tallest = 0.0;
   for (const DrawnTree* tree : trees_) tallest = std::max(tallest, tree->height());
   const float margin = SWAY * static_cast<float>(tallest);
-  bark_.build(positionsOf(trees_, &DrawnTree::bark), paintOf(trees_, &DrawnTree::bark),
-              barkTriangles(trees_), margin);
-  leaves_.build(positionsOf(trees_, &DrawnTree::leaves), paintOf(trees_, &DrawnTree::leaves),
+  bark_.build(positionsOf(trees_, &DrawnTree::Shape::bark),
+              paintOf(trees_, &DrawnTree::Shape::bark), barkTriangles(trees_), margin);
+  leaves_.build(positionsOf(trees_, &DrawnTree::Shape::leaves),
+                paintOf(trees_, &DrawnTree::Shape::leaves),
                 leafTriangles(trees_, middle_ + 1000.0 * sorted_for_), margin);
   built_ = true;
+  const bool fading = std::any_of(trees_.begin(), trees_.end(),
+                                  [](const DrawnTree* tree) { return tree->fading(); });
+  bark_.wear(fading ? materials_.fading_bark : materials_.bark);
+  leaves_.wear(fading ? materials_.fading_leaves : materials_.leaves);
 }
 
 void Grove::takePositions() {
   if (!built_) return;
-  bark_.move(positionsOf(trees_, &DrawnTree::bark));
-  leaves_.move(positionsOf(trees_, &DrawnTree::leaves));
+  bark_.move(positionsOf(trees_, &DrawnTree::Shape::bark));
+  leaves_.move(positionsOf(trees_, &DrawnTree::Shape::leaves));
 }
 
 void Grove::takePaint() {
-  if (built_) bark_.paint(paintOf(trees_, &DrawnTree::bark));
+  if (built_) bark_.paint(paintOf(trees_, &DrawnTree::Shape::bark));
 }
 
 bool Grove::takeSeen() {

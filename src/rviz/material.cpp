@@ -15,7 +15,7 @@ namespace {
 
 const char* const GROUP = "General";  // Ogre's default resource group
 
-Ogre::HighLevelGpuProgramPtr makeProgram(const std::string& name, const char* source,
+Ogre::HighLevelGpuProgramPtr makeProgram(const std::string& name, const std::string& source,
                                          Ogre::GpuProgramType type) {
   Ogre::HighLevelGpuProgramPtr program =
       Ogre::HighLevelGpuProgramManager::getSingleton().createProgram(name, GROUP, "glsl", type);
@@ -65,8 +65,9 @@ Ogre::Vector4 narrow(const Rgba& c) {
 
 }  // namespace
 
-Material::Material(Kind kind, const std::string& name, const std::vector<std::string>& textures)
-    : kind_(kind), name_(name) {
+Material::Material(Kind kind, const std::string& name, const std::vector<std::string>& textures,
+                   bool fades)
+    : kind_(kind), fades_(fades), name_(name) {
   material_ = Ogre::MaterialManager::getSingleton().create(name, GROUP);
   material_->setReceiveShadows(false);
   material_->removeAllTechniques();
@@ -103,8 +104,10 @@ void Material::addTextures(Ogre::Pass& pass, const std::vector<std::string>& tex
 void Material::addShaded(const std::vector<std::string>& textures) {
   programs_ = {name_ + "/vertex", name_ + "/fragment"};
   const Sources sources = sourcesOf(kind_);
-  const auto vertex = makeProgram(programs_[0], sources.vertex, Ogre::GPT_VERTEX_PROGRAM);
-  const auto fragment = makeProgram(programs_[1], sources.fragment, Ogre::GPT_FRAGMENT_PROGRAM);
+  const std::string head = fades_ ? FADING_HEAD : HEAD;
+  const auto vertex = makeProgram(programs_[0], head + sources.vertex, Ogre::GPT_VERTEX_PROGRAM);
+  const auto fragment =
+      makeProgram(programs_[1], head + sources.fragment, Ogre::GPT_FRAGMENT_PROGRAM);
   Ogre::Pass* pass = material_->createTechnique()->createPass();
   pass->setVertexProgram(programs_[0]);
   pass->setFragmentProgram(programs_[1]);
@@ -157,6 +160,11 @@ void Material::light(const Daylight& daylight, const Vec3& to_sun, const Haze& h
   const bool leaves = kind_ == Kind::LEAVES;
   vertex.setNamedConstant("leaf", leaves ? Ogre::Vector4(0.45f, 0.5f, 0.55f, 0.f)
                                          : Ogre::Vector4(0.1f, 0.f, 0.25f, 0.f));
+}
+
+void Material::setFadeClock(float clock) {
+  material_->getTechnique(0)->getPass(0)->getVertexProgramParameters()->setNamedConstant(
+      "fade_clock", Ogre::Vector4(clock, 0.f, 0.f, 0.f));
 }
 
 void Material::darken(float distance) {

@@ -15,8 +15,14 @@ namespace vegetation_sim::view {
 namespace {
 
 constexpr double DEGREE = PI / 180.0;
-const QColor GRASS(150, 160,
-                   90);  // shown as the ground's colour; its lightness is the ground's own
+// Shown as the colours of ground and haze, which have more to them: what is set tints them.
+const QColor GRASS(150, 160, 90), AIR(196, 214, 224);
+
+Rgba tintOf(const QColor& wanted, const QColor& own) {
+  const auto over = [](double a, double b) { return static_cast<float>(a / std::max(b, 1e-3)); };
+  return {over(wanted.redF(), own.redF()), over(wanted.greenF(), own.greenF()),
+          over(wanted.blueF(), own.blueF()), 1.f};
+}
 
 rviz::FloatProperty* number(const char* name, float value, const char* help, float low, float high,
                             rviz::Property* parent, const char* slot, rviz::Display& display) {
@@ -57,6 +63,8 @@ void SceneryProperties::addScenery(rviz::Display& display, const char* ground_he
                      SLOT(updateHaze()), display);
   haze_most_ = number("Strength", 0.9f, "All of the haze: 1 hides what is behind.", 0.f, 1.f, haze_,
                       SLOT(updateHaze()), display);
+  haze_colour_ = new rviz::ColorProperty("Colour", AIR, "Colour of the haze: water's in a reef.",
+                                         haze_, SLOT(updateSun()), &display);
   addViewer(display, on);
 }
 
@@ -103,17 +111,15 @@ Haze SceneryProperties::hazeValues() const {
 }
 
 Daylight SceneryProperties::daylight() const {
-  return daylightOf(DEGREE * static_cast<double>(azimuth_->getFloat()),
-                    DEGREE * static_cast<double>(elevation_->getFloat()));
+  Daylight out = daylightOf(DEGREE * static_cast<double>(azimuth_->getFloat()),
+                            DEGREE * static_cast<double>(elevation_->getFloat()));
+  const Rgba tint = tintOf(haze_colour_->getColor(), AIR);
+  for (std::size_t i = 0; i < 3; ++i) out.horizon[i] = std::min(1.f, out.horizon[i] * tint[i]);
+  return out;
 }
 
 Rgba SceneryProperties::groundTint() const {
-  const QColor c = ground_colour_->getColor();
-  const auto over = [](double wanted, double own) {
-    return static_cast<float>(wanted / std::max(own, 1e-3));
-  };
-  return {over(c.redF(), GRASS.redF()), over(c.greenF(), GRASS.greenF()),
-          over(c.blueF(), GRASS.blueF()), 1.f};
+  return tintOf(ground_colour_->getColor(), GRASS);
 }
 
 }  // namespace vegetation_sim::view

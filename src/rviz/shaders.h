@@ -4,11 +4,15 @@
 
 namespace vegetation_sim::view {
 
-// GLSL 1.20: what software rasterisers and OGRE 1.9 to 1.12 have. Light is computed per vertex.
-// Vertex alpha: part of the sun that arrives; third texture coordinate: part of the sky.
+// GLSL 1.20 (HEAD): what software rasterisers and OGRE 1.9 to 1.12 have. Light is computed per
+// vertex. Vertex alpha: part of the sun that arrives; third texture coordinate: part of the sky.
 
-constexpr const char* PLANT_VERTEX = R"(#version 120
-uniform mat4 world_view_projection;
+constexpr const char* HEAD = "#version 120\n";
+constexpr const char* FADING_HEAD = "#version 120\n#define FADING\n";
+
+// Meshes of two levels of a tree fade into one another pixel by pixel, without any order: what
+// comes shows where a pattern is below the part that shows, what goes where it is not.
+constexpr const char* PLANT_VERTEX = R"(uniform mat4 world_view_projection;
 uniform vec4 eye;           // in the object's frame
 uniform vec4 to_sun;        // in the object's frame
 uniform vec4 sun, zenith_light, ground_light;
@@ -16,8 +20,17 @@ uniform vec4 haze;          // start, 1 / length, most
 uniform vec4 leaf;          // light that wraps around, shines through, is scattered inside
 varying vec4 light;         // w: haze
 varying vec2 place;
+#ifdef FADING
+uniform vec4 fade_clock;
+varying float shown;  // part of what comes; of what goes less 1
+#endif
 void main() {
   gl_Position = world_view_projection * gl_Vertex;
+#ifdef FADING
+  float since = gl_MultiTexCoord0.w;
+  float part = clamp(fade_clock.x - abs(since), 0.0, 1.0);
+  shown = since == 0.0 ? 1.0 : since > 0.0 ? part : part - 1.0;
+#endif
   vec3 view = gl_Vertex.xyz - eye.xyz;
   float far = length(view);
   float facing = (dot(gl_Normal, to_sun.xyz) + leaf.x) / (1.0 + leaf.x);
@@ -32,12 +45,18 @@ void main() {
 }
 )";
 
-constexpr const char* PLANT_FRAGMENT = R"(#version 120
-uniform sampler2D picture;
+constexpr const char* PLANT_FRAGMENT = R"(uniform sampler2D picture;
 uniform vec4 haze_colour;
 varying vec4 light;
 varying vec2 place;
+#ifdef FADING
+varying float shown;
+#endif
 void main() {
+#ifdef FADING
+  float pattern = fract(dot(floor(gl_FragCoord.xy), vec2(0.7548777, 0.5698403)));
+  if (shown > 0.0 ? pattern >= shown : pattern < shown + 1.0) discard;
+#endif
   vec4 paint = texture2D(picture, place);
   gl_FragColor = vec4(mix(light.rgb * paint.rgb, haze_colour.rgb, light.a), paint.a);
 }
@@ -45,8 +64,7 @@ void main() {
 
 // The ground's colours have their light in them; the second picture is its grain, mean one half.
 // Near the eye, where plants are drawn on it, the picture's alpha is the light that they leave.
-constexpr const char* GROUND_VERTEX = R"(#version 120
-uniform mat4 world_view_projection;
+constexpr const char* GROUND_VERTEX = R"(uniform mat4 world_view_projection;
 uniform vec4 eye;
 uniform vec4 haze;
 varying vec4 light;
@@ -61,8 +79,7 @@ void main() {
 }
 )";
 
-constexpr const char* GROUND_FRAGMENT = R"(#version 120
-uniform sampler2D picture;
+constexpr const char* GROUND_FRAGMENT = R"(uniform sampler2D picture;
 uniform sampler2D grain;
 uniform vec4 haze_colour;
 uniform vec4 under;  // distance of the last plants
@@ -80,8 +97,7 @@ void main() {
 
 // Grass: colours have their light in them. Vertex alpha: part of the picture's blades that show,
 // those whose own alpha is above the rest.
-constexpr const char* GRASS_VERTEX = R"(#version 120
-uniform mat4 world_view_projection;
+constexpr const char* GRASS_VERTEX = R"(uniform mat4 world_view_projection;
 uniform vec4 eye;
 uniform vec4 haze;
 varying vec4 light;
@@ -94,16 +110,14 @@ void main() {
 }
 )";
 
-constexpr const char* BLADE_FRAGMENT = R"(#version 120
-uniform vec4 haze_colour;
+constexpr const char* BLADE_FRAGMENT = R"(uniform vec4 haze_colour;
 varying vec4 light;
 void main() {
   gl_FragColor = vec4(mix(light.rgb, haze_colour.rgb, light.a), 1.0);
 }
 )";
 
-constexpr const char* STRIP_FRAGMENT = R"(#version 120
-uniform sampler2D picture;
+constexpr const char* STRIP_FRAGMENT = R"(uniform sampler2D picture;
 uniform vec4 haze_colour;
 varying vec4 light;
 varying vec3 place;
@@ -114,8 +128,7 @@ void main() {
 }
 )";
 
-constexpr const char* SHADOW_FRAGMENT = R"(#version 120
-uniform sampler2D picture;
+constexpr const char* SHADOW_FRAGMENT = R"(uniform sampler2D picture;
 uniform vec4 haze_colour;
 varying vec4 light;
 varying vec3 place;

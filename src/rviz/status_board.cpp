@@ -29,6 +29,21 @@ std::string describe(const ForestReport& report) {
   return out;
 }
 
+std::string describeMotion(const forest::ForestReplica& replica, const TreeStock& stock) {
+  std::array<std::size_t, forest::MODAL_LEVEL + 1> trees{};
+  std::size_t physical = 0;
+  for (const auto& tree : stock.trees()) {
+    ++trees[static_cast<std::size_t>(replica.levels().of(tree->id()).level)];
+    physical += replica.promoted(tree->id()).branches.empty() ? 0 : 1;
+  }
+  std::string out = std::to_string(trees.front()) + " trees at rest, moving to depth 1 to " +
+                    std::to_string(forest::MAX_DEPTHS) + ":";
+  for (std::size_t depth = 1; depth < forest::MODAL_LEVEL; ++depth)
+    out += " " + std::to_string(trees[depth]);
+  return out + "; in modes: " + std::to_string(trees[forest::MODAL_LEVEL]) +
+         "; with physical branches: " + std::to_string(physical);
+}
+
 std::string describe(const GrassReport& report) {
   return std::to_string(report.blades) + " blades on " + std::to_string(report.bladed) + " of " +
          std::to_string(report.tiles) + " tiles, strips on " + std::to_string(report.stripped) +

@@ -13,9 +13,14 @@ namespace {
 /// rviz and some shrubs that the rig moves, or a forest with such leaves.
 class CanopyRig : public DisplayRig {
  public:
-  CanopyRig()
-      : layout_(nh_.advertise<CanopyLayout>("canopy/layout", 1, true)),
-        state_(nh_.advertise<CanopyState>("canopy/state", 100)) {}
+  CanopyRig() { startNode(); }
+
+  /// A node that publishes the leaves; one that ran dies.
+  void startNode() {
+    for (ros::Publisher* publisher : {&layout_, &state_}) publisher->shutdown();
+    layout_ = nh_.advertise<CanopyLayout>("canopy/layout", 1, true);
+    state_ = nh_.advertise<CanopyState>("canopy/state", 100);
+  }
 
   CanopyDisplay* addDisplay() { return add<CanopyDisplay>("vegetation_sim/CanopyDisplay"); }
 
@@ -178,6 +183,19 @@ TEST_F(CanopyDisplayTest, SurvivesTimeGoingBack) {
   rig.plant(2);
   rig.blow(2);
   EXPECT_TRUE(rig.until([&] { return display->drawn().plants == 2; }));
+}
+
+TEST_F(CanopyDisplayTest, FollowsANodeThatDiesAndReturns) {
+  expectReloadsAreFollowed(
+      rig,
+      [&](int scene) {
+        rig.startNode();
+        rig.plant(scene == 0 ? 4 : 2);
+        for (int i = 0; i < 100; ++i) rig.publish(rig.message());
+      },
+      [&](int scene) {
+        return display->drawn().plants == (scene == 0 ? 4u : 2u) && display->drawn().drawn > 0;
+      });
 }
 
 TEST_F(CanopyDisplayTest, EveryPropertyCanBeChanged) {

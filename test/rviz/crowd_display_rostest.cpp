@@ -15,7 +15,13 @@ namespace {
 /// rviz and a crowd that the rig walks.
 class CrowdRig : public ViewRig {
  public:
-  CrowdRig() : agents_(nh_.advertise<AgentStates>("agents", 10)) {}
+  CrowdRig() { startNode(); }
+
+  /// A node that publishes the people; one that ran dies.
+  void startNode() {
+    agents_.shutdown();
+    agents_ = nh_.advertise<AgentStates>("agents", 10);
+  }
 
   CrowdDisplay* addDisplay() { return add<CrowdDisplay>("vegetation_sim/CrowdDisplay"); }
 
@@ -151,6 +157,19 @@ TEST_F(CrowdDisplayTest, SurvivesAFlood) {
   rig.walk(0.1);
   rig.frames(5);
   EXPECT_EQ(display->drawn().drawn, 8u);
+}
+
+TEST_F(CrowdDisplayTest, FollowsANodeThatDiesAndReturns) {
+  expectReloadsAreFollowed(
+      rig,
+      [&](int scene) {
+        rig.startNode();
+        rig.gather(scene == 0 ? 8 : 3);
+      },
+      [&](int scene) {
+        rig.walk(0.1);
+        return display->drawn().drawn == (scene == 0 ? 8u : 3u);
+      });
 }
 
 TEST_F(CrowdDisplayTest, EveryPropertyCanBeChanged) {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 #include <rviz/properties/bool_property.h>
+#include <rviz/properties/color_property.h>
 #include <rviz/properties/float_property.h>
 #include <rviz/properties/int_property.h>
 
@@ -30,6 +31,14 @@ inline void expectEveryPropertyCanBeChanged(ViewRig& rig, rviz::Display& display
       rig.frames(2);
     }
     EXPECT_FALSE(flag->getDescription().isEmpty()) << flag->getName().toStdString();
+  }
+  for (auto* colour : propertiesOf<rviz::ColorProperty>(display)) {
+    const QColor value = colour->getColor();
+    for (const QColor& other : {QColor(Qt::black), QColor(Qt::red), value}) {
+      colour->setColor(other);
+      rig.frames(1);
+    }
+    EXPECT_FALSE(colour->getDescription().isEmpty()) << colour->getName().toStdString();
   }
   for (auto* number : propertiesOf<rviz::FloatProperty>(display)) {
     const float value = number->getFloat();
@@ -107,6 +116,34 @@ inline void expectNothingLeftBehind(ViewRig& rig, const MakeDisplay& make,
   EXPECT_EQ(resources(), before);
   EXPECT_EQ(scene.getRootSceneNode()->numChildren(), nodes);
   EXPECT_EQ(scene.getFogMode(), Ogre::FOG_NONE);
+}
+
+/// A node that dies and returns with another of two scenes, again and again, and floods its topics:
+/// what it told last is seen, and nothing stays of what it told before.
+/// @param restart starts the node with scene 0 or 1. @param shows whether a scene is seen.
+inline void expectReloadsAreFollowed(ViewRig& rig, const std::function<void(int)>& restart,
+                                     const std::function<bool(int)>& shows) {
+  // Within one process roscpp now and then leaves a publisher that comes at once without its
+  // subscribers: such a node dies again.
+  const auto see = [&](int scene) {
+    for (int attempt = 0; attempt < 5; ++attempt) {
+      restart(scene);
+      if (rig.until([&] { return shows(scene); }, 6.0)) return true;
+    }
+    return false;
+  };
+  ASSERT_TRUE(see(0));
+  const std::size_t before = resources();
+  for (int i = 1; i < cycles(); ++i) {
+    if (i % 4 == 1) {
+      ASSERT_TRUE(see(i % 2)) << "reload " << i;
+    } else {
+      restart(i % 2);
+      rig.frames(1);
+    }
+  }
+  ASSERT_TRUE(see(0));
+  EXPECT_EQ(resources(), before);
 }
 
 /// What a status line of a display says.

@@ -15,7 +15,11 @@ namespace vegetation_sim {
 /// rviz and a forest that the rig publishes.
 class DisplayRig : public ViewRig {
  public:
-  DisplayRig() {
+  DisplayRig() { startNode(); }
+
+  /// A node that publishes the forest; one that ran dies.
+  void startNode() {
+    for (ros::Publisher* publisher : {&layout_, &wind_, &state_}) publisher->shutdown();
     layout_ = nh_.advertise<ForestLayout>("forest/layout", 1, true);
     wind_ = nh_.advertise<WindField>("wind", 1, true);
     state_ = nh_.advertise<ForestState>("forest/state", 10, true);

@@ -37,7 +37,7 @@ struct Watcher {
   double distanceAtTip(const DrawnTree& tree) const {
     const Vec3 tip = rig.tip(branch);
     double nearest = 1e9;
-    const std::vector<float>& at = tree.bark().positions;
+    const std::vector<float>& at = tree.shapes().front().bark.positions;
     for (std::size_t i = 0; i < at.size(); i += 3)
       nearest = std::min(nearest, length(tree.origin() + Vec3(at[i], at[i + 1], at[i + 2]) - tip));
     return nearest;

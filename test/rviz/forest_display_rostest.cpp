@@ -1,5 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include <diagnostic_msgs/DiagnosticArray.h>
 #include <gtest/gtest.h>
 #include <rviz/properties/property_tree_model.h>
 #include <rviz/view_controller.h>
@@ -111,6 +112,37 @@ TEST_F(ForestDisplayTest, KeepsToTheTriangles) {
   }
 }
 
+// S1-13: nothing pops. An update shows at most a fifth of the way of each tree, and a few of them
+// at once; now and then two updates pass between two pictures.
+TEST_F(ForestDisplayTest, LevelsFadeIntoOneAnother) {
+  display->subProp("Triangles")->setValue(30000);
+  ASSERT_TRUE(drawn());
+  const auto settled = [&] {
+    const view::ForestReport drawn = display->drawn();
+    return drawn.fading == 0 && drawn.waiting == 0;
+  };
+  const auto near = [&](double target) {
+    return std::abs(static_cast<double>(display->drawn().triangles) / target - 1.0) < 0.1;
+  };
+  ASSERT_TRUE(rig.until([&] { return near(30000.0) && settled(); }));
+  rig.frames(3);
+  const std::vector<std::uint8_t> before = rig.picture();
+  std::vector<std::uint8_t> last = before;
+  double step = 0.0;
+  display->subProp("Triangles")->setValue(9000);
+  ASSERT_TRUE(rig.until([&] {
+    const std::vector<std::uint8_t> next = rig.picture();
+    step = std::max(step, rig.largestChange(last, next));
+    last = next;
+    return near(9000.0) && settled();
+  }));
+  const double all = rig.largestChange(before, last);
+  std::cout << "largest change of a block: " << all << " of 255, between two pictures " << step
+            << "\n";
+  EXPECT_GT(all, 20.0);
+  EXPECT_LT(step, 0.45 * all);
+}
+
 // N8: the pose of rviz's camera, x forward and z up, on change and at least each second.
 TEST_F(ForestDisplayTest, TellsWhereTheViewLooksFrom) {
   std::vector<Viewer> heard;
@@ -169,6 +201,40 @@ TEST_F(ForestDisplayTest, FollowsALayoutThatChanges) {
   EXPECT_TRUE(rig.until([&] { return display->drawn().trees == 9; }));
   rig.publishForest(forest::gridLayout(1, 9.0));
   EXPECT_TRUE(rig.until([&] { return display->drawn().trees == 1; }));
+}
+
+TEST_F(ForestDisplayTest, FollowsANodeThatDiesAndReturns) {
+  expectReloadsAreFollowed(
+      rig,
+      [&](int scene) {
+        rig.startNode();
+        rig.publishForest(forest::gridLayout(scene == 0 ? 3 : 2, 9.0));
+        for (int i = 0; i < 100; ++i) rig.publishState();
+      },
+      [&](int scene) {
+        return display->drawn().trees == (scene == 0 ? 9u : 4u) && display->drawn().waiting == 0;
+      });
+}
+
+// N7: how the forest moves, and what its governor says of it.
+TEST_F(ForestDisplayTest, TellsLevelsOfMotionAndTheGovernorsChoice) {
+  ASSERT_TRUE(drawn());
+  EXPECT_TRUE(rig.until([&] {
+    return statusOf(*display, "Motion") ==
+           "0 trees at rest, moving to depth 1 to 6: 0 0 0 0 0 16; in modes: 0; with physical "
+           "branches: 0";
+  })) << statusOf(*display, "Motion");
+  EXPECT_EQ(statusOf(*display, "Governor"), "");
+  diagnostic_msgs::DiagnosticArray message;
+  message.status.resize(1);
+  message.status[0].name = "forest_animator: governor";
+  message.status[0].message = "frame_time binds";
+  const ros::Publisher diagnostics =
+      rig.nodeHandle().advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 1, true);
+  diagnostics.publish(message);
+  EXPECT_TRUE(rig.until([&] {
+    return statusOf(*display, "Governor").rfind("frame_time binds", 0) == 0;
+  })) << statusOf(*display, "Governor");
 }
 
 TEST_F(ForestDisplayTest, EveryPropertyCanBeChanged) {

@@ -170,6 +170,18 @@ TEST_F(GrassDisplayTest, FollowsALayoutThatChanges) {
   EXPECT_TRUE(rig.until([&] { return display->drawn().tiles == 36; }));
 }
 
+TEST_F(GrassDisplayTest, FollowsANodeThatDiesAndReturns) {
+  ASSERT_TRUE(drawn());
+  expectReloadsAreFollowed(
+      rig,
+      [&](int scene) {
+        rig.startNode();
+        rig.publishMeadow(GrassRig::meadow(scene == 0 ? 6 : 4));
+        for (int i = 0; i < 100; ++i) rig.publishState();
+      },
+      [&](int scene) { return display->drawn().tiles == (scene == 0 ? 36u : 16u); });
+}
+
 TEST_F(GrassDisplayTest, EveryPropertyCanBeChanged) {
   ASSERT_TRUE(drawn());
   expectEveryPropertyCanBeChanged(rig, *display);

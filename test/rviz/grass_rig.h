@@ -14,7 +14,11 @@ namespace vegetation_sim {
 /// rviz and a meadow that the rig publishes and treads.
 class GrassRig : public ViewRig {
  public:
-  GrassRig() {
+  GrassRig() { startNode(); }
+
+  /// A node that publishes the meadow; one that ran dies.
+  void startNode() {
+    for (ros::Publisher* publisher : {&layout_, &wind_, &state_}) publisher->shutdown();
     layout_ = nh_.advertise<GrassLayout>("grass/layout", 1, true);
     wind_ = nh_.advertise<WindField>("wind", 1, true);
     state_ = nh_.advertise<GrassState>("grass/state", 10, true);

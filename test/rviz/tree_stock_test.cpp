@@ -112,13 +112,13 @@ TEST(DrawnTree, StandsAsTheReplicaSays) {
   const std::vector<Pose> poses = replica.pose(tree.tree(), tree.id(), stamp);
   const forest::TreeMesh mesh = forest::buildMesh(tree.tree().skeleton, replica.layout().species[2],
                                                   forest::meshDetail(forest::GEOMETRY_LEVELS - 1));
-  ASSERT_EQ(3 * mesh.bark.size(), tree.bark().positions.size());
+  ASSERT_EQ(3 * mesh.bark.size(), tree.shapes().front().bark.positions.size());
   for (std::size_t i = 0; i < mesh.bark.size(); ++i) {
     const forest::BarkVertex& v = mesh.bark[i];
     const Pose& pose = poses[static_cast<std::size_t>(v.branch)];
     const Vec3 expected = tree.foot() + pose.position +
                           rotate(pose.orientation, Vec3(v.local[0], v.local[1], v.local[2]));
-    const float* at = &tree.bark().positions[3 * i];
+    const float* at = &tree.shapes().front().bark.positions[3 * i];
     // 1e-5 of the tree's height, and single precision at some ten metres.
     ASSERT_LT(length(stock.origin() + Vec3(at[0], at[1], at[2]) - expected), 2e-4);
   }
@@ -155,7 +155,7 @@ TEST(DrawnTree, IsPaintedByLevel) {
   ASSERT_TRUE(tree.paintLevels(replica, fromSeconds(11.0), look));
   EXPECT_FALSE(tree.paintLevels(replica, fromSeconds(11.0), look));
   int red = 0, green = 0, bark = 0;
-  for (const VertexPaint& paint : tree.bark().paint) {
+  for (const VertexPaint& paint : tree.shapes().front().bark.paint) {
     if (paint.colour[0] > 3 * paint.colour[1])
       ++red;
     else if (paint.colour[1] > 2 * paint.colour[0])

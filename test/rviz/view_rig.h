@@ -105,6 +105,23 @@ class ViewRig {
     return out;
   }
 
+  /// Of two pictures: the largest mean difference of a block of 16 x 16 pixels, 0 to 255.
+  double largestChange(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
+    constexpr std::size_t BLOCK = 16;
+    const std::size_t width = panel_.getRenderWindow()->getWidth();
+    double largest = 0.0;
+    for (std::size_t row = 0; 3 * (row + BLOCK) * width <= a.size(); row += BLOCK) {
+      for (std::size_t column = 0; column + BLOCK <= width; column += BLOCK) {
+        int sum = 0;
+        for (std::size_t y = row; y < row + BLOCK; ++y)
+          for (std::size_t i = 3 * (y * width + column); i < 3 * (y * width + column + BLOCK); ++i)
+            sum += static_cast<int>(a[i]) - static_cast<int>(b[i]);
+        largest = std::max(largest, std::abs(sum) / (3.0 * BLOCK * BLOCK));
+      }
+    }
+    return largest;
+  }
+
   Impression look() {
     const std::vector<std::uint8_t> pixels = picture();
     const double count = static_cast<double>(pixels.size()) / 3.0;

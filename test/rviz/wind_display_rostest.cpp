@@ -12,7 +12,13 @@ namespace {
 
 class WindRig : public ViewRig {
  public:
-  WindRig() : wind_(nh_.advertise<WindField>("wind", 1, true)) {}
+  WindRig() { startNode(); }
+
+  /// A node that publishes the wind; one that ran dies.
+  void startNode() {
+    wind_.shutdown();
+    wind_ = nh_.advertise<WindField>("wind", 10, true);
+  }
 
   WindDisplay* addDisplay() { return add<WindDisplay>("vegetation_sim/WindDisplay"); }
 
@@ -88,6 +94,21 @@ TEST_F(WindDisplayTest, SurvivesTimeGoingBack) {
   rig.setTime(rig.now() - 50.0);
   rig.frames(5);
   EXPECT_GT(display->drawn().arrows, 0u);
+}
+
+TEST_F(WindDisplayTest, FollowsANodeThatDiesAndReturns) {
+  expectReloadsAreFollowed(
+      rig,
+      [&](int scene) {
+        rig.startNode();
+        WindField wind = WindRig::windy();
+        if (scene == 1) wind.primitives.pop_back();  // the disc
+        for (int i = 0; i < 100; ++i) rig.publish(wind);
+      },
+      [&](int scene) {
+        rig.setTime(rig.now() + 0.01);
+        return display->drawn().shapes == (scene == 0 ? 1u : 0u);
+      });
 }
 
 TEST_F(WindDisplayTest, EveryPropertyCanBeChanged) {

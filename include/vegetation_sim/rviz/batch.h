@@ -21,6 +21,8 @@ class Batch : public Ogre::SimpleRenderable {
   Batch(const std::string& name, const std::string& material);
   ~Batch() override;
 
+  /// Another material, which exists.
+  void wear(const std::string& material);
   /// New triangles. `positions` [3 per vertex], `triangles` [3 per triangle] indices. Nothing is
   /// drawn where there is no triangle.
   void build(const std::vector<float>& positions, const std::vector<VertexPaint>& paint,

@@ -35,13 +35,20 @@ class DrawnTree {
   double reach() const { return tree_.skeleton.reach; }
   double leafSize() const { return species_.leaf_size; }  ///< edge of a cluster [m]
   int level() const { return level_; }                    ///< of geometry; -1: no mesh yet
-  std::size_t triangleCount() const { return mesh_.triangleCount(); }
+  /// Of its level, whatever fades.
+  std::size_t triangleCount() const { return shapes_.front().mesh.triangleCount(); }
   const forest::Tree& tree() const { return tree_; }
 
   /// Adds its leaves to a grid of light in the layout's frame.
   void addTo(forest::LightGrid& light) const;
   /// Builds the mesh of a geometry level, at rest.
-  void setLevel(int level, const forest::LightGrid& light, const TreeLook& look);
+  /// @param fade_clock above 0: the mesh so far stays and fades out, from this time of the clock of
+  ///   fades on, while the other fades in; until endFade().
+  void setLevel(int level, const forest::LightGrid& light, const TreeLook& look,
+                float fade_clock = 0.f);
+  bool fading() const { return shapes_.size() > 1; }
+  float fadesSince() const { return fades_since_; }
+  void endFade();
   /// Moves the vertices to `stamp`. False if nothing has changed since the last call.
   /// @param pixels_per_metre decides whether flutter can be seen.
   bool move(const forest::ForestReplica& replica, Nanoseconds stamp, const wind::Instant& wind,
@@ -53,14 +60,20 @@ class DrawnTree {
     std::vector<float> positions;  ///< [3 per vertex], relative to the origin
     std::vector<VertexPaint> paint;
   };
-  const Part& bark() const { return bark_; }
-  const Part& leaves() const { return leaves_; }
-  const std::vector<std::uint32_t>& barkTriangles() const { return mesh_.triangles; }
+  struct Shape {
+    int depths{0};  ///< whose poses it needs
+    forest::TreeMesh mesh;
+    Part bark, leaves;
+  };
+  /// What is drawn: the mesh of its level first, then the one that fades out, if any.
+  const std::vector<Shape>& shapes() const { return shapes_; }
 
  private:
+  Shape makeShape(int level, const TreeLook& look) const;
+  int depths() const;
   void skin(const forest::Flutter& flutter);
-  void paintBark(const forest::LightGrid& light);
-  void paintLeaves(const forest::LightGrid& light);
+  void paintBark(const forest::LightGrid& light, Shape& shape);
+  void paintLeaves(const forest::LightGrid& light, Shape& shape);
   Vec3 inLayout(const float* position) const;
 
   std::uint32_t id_;
@@ -69,10 +82,10 @@ class DrawnTree {
   forest::Species species_;
   forest::TreePaint paint_;
   forest::BatchPoser poser_;
-  forest::TreeMesh mesh_;
   int level_{-1};
   forest::BatchPoses poses_;
-  Part bark_, leaves_;
+  std::vector<Shape> shapes_ = std::vector<Shape>(1);
+  float fades_since_{0.f};
   bool moved_{true};  // the last move() left it other than at rest
   forest::Weights painted_{};
   std::vector<int> painted_physical_;  // branches

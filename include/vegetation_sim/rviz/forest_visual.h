@@ -21,6 +21,7 @@ struct ForestReport {
   std::size_t triangles{0};         ///< of trees in the picture
   std::size_t moving{0};            ///< trees that were moved
   std::size_t waiting{0};           ///< trees whose geometry level is still to change
+  std::size_t fading{0};            ///< trees that go from one level to another
   std::array<std::size_t, forest::GEOMETRY_LEVELS> per_level{};
 };
 
@@ -40,8 +41,9 @@ class ForestVisual {
   /// Another layout, or other trees of it: grows them anew over the next updates.
   void restart(const forest::ForestReplica& replica, const View& view, const Options& options);
   /// Draws the forest of `stamp`. Work that cannot be done in time is left to later updates.
-  void update(const forest::ForestReplica& replica, Nanoseconds stamp, const View& view,
-              const Daylight& daylight, const Options& options);
+  /// @param wall [s], in which levels fade into one another.
+  void update(const forest::ForestReplica& replica, Nanoseconds stamp, double wall,
+              const View& view, const Daylight& daylight, const Options& options);
   /// The trees will be painted and built anew, as after a change of look.
   void repaint();
   void light(const Daylight& daylight, const Vec3& to_sun, const Haze& haze);
@@ -55,7 +57,9 @@ class ForestVisual {
  private:
   void select(const forest::ForestReplica& replica, const View& view, const Options& options);
   void adopt();
+  void runFadeClock(double wall);
   void chooseLevels(const View& view, const Options& options);
+  bool changeLevel(DrawnTree& tree, const View& view, const Options& options, bool in_time);
   void move(const forest::ForestReplica& replica, Nanoseconds stamp, const View& view,
             const Options& options);
   void measure(const View& view, const Options& options);
@@ -63,13 +67,15 @@ class ForestVisual {
   Ogre::SceneNode& parent_;
   Ogre::SceneNode* node_;  // Ogre's; destroyed by us
   Texture leaf_texture_, bark_texture_;
-  Material leaf_material_, bark_material_;
+  Material leaf_material_, bark_material_, fading_leaf_material_, fading_bark_material_;
   std::unique_ptr<TreeStock> stock_, next_;  // drawn; growing
   std::vector<std::unique_ptr<Grove>> groves_;
   Vec3 selected_at_{Vec3::Zero()};  // eye when the trees were selected
   bool selected_all_{true};
   forest::ComplexityFeedback feedback_;
   bool repaint_{false};
+  bool settled_{false};  // no level has changed in an update
+  double fade_clock_{1.0}, wall_{0.0};
   int stocks_{0};
   ForestReport report_;
 };

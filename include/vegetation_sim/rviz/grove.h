@@ -13,12 +13,16 @@
 
 namespace vegetation_sim::view {
 
+/// Names of the materials of trees, of those that fade too.
+struct TreeMaterials {
+  std::string bark, leaves, fading_bark, fading_leaves;
+};
+
 /// Trees that stand together and are drawn with two batches, bark and leaves. Render thread only.
 class Grove {
  public:
   /// @param node whose frame is the trees' origin.
-  Grove(std::vector<DrawnTree*> trees, Ogre::SceneNode& node, const std::string& bark_material,
-        const std::string& leaf_material);
+  Grove(std::vector<DrawnTree*> trees, Ogre::SceneNode& node, const TreeMaterials& materials);
 
   const std::vector<DrawnTree*>& trees() const { return trees_; }
   /// Middle of the feet, layout's frame [m].
@@ -41,6 +45,7 @@ class Grove {
  private:
   std::vector<DrawnTree*> trees_;
   Vec3 middle_{Vec3::Zero()};
+  TreeMaterials materials_;
   Batch bark_, leaves_;
   bool built_{false};
   Vec3 sorted_for_{Vec3::Zero()};  // direction to the eye

@@ -25,7 +25,9 @@ class Material {
   enum class Kind { BARK, LEAVES, GROUND, SKY, BLADES, STRIPS, SHADOWS };
 
   /// @param textures names: the picture, for the ground also its grain; none for blades of grass.
-  Material(Kind kind, const std::string& name, const std::vector<std::string>& textures);
+  /// @param fades bark and leaves only: draws by VertexPaint::fade.
+  Material(Kind kind, const std::string& name, const std::vector<std::string>& textures,
+           bool fades = false);
   ~Material();
   Material(const Material&) = delete;
   Material& operator=(const Material&) = delete;
@@ -33,6 +35,8 @@ class Material {
   const std::string& name() const { return name_; }
   /// @param to_sun in the frame of the objects that carry the material.
   void light(const Daylight& daylight, const Vec3& to_sun, const Haze& haze);
+  /// Where it fades: the clock of VertexPaint::fade; each fade takes 1 of it.
+  void setFadeClock(float clock);
   /// Ground only: up to this distance [m] the picture's alpha darkens it; 0: nowhere.
   void darken(float distance);
 
@@ -42,6 +46,7 @@ class Material {
   void addTextures(Ogre::Pass& pass, const std::vector<std::string>& textures) const;
 
   Kind kind_;
+  bool fades_;
   std::string name_;
   Ogre::MaterialPtr material_;
   std::vector<std::string> programs_;

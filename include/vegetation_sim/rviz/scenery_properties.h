@@ -57,7 +57,7 @@ class SceneryProperties {
   void addViewer(rviz::Display& display, bool on);
 
   rviz::BoolProperty *ground_, *sky_, *haze_, *publish_viewer_;
-  rviz::ColorProperty* ground_colour_;
+  rviz::ColorProperty *ground_colour_, *haze_colour_;
   rviz::FloatProperty *azimuth_, *elevation_, *haze_start_, *haze_end_, *haze_most_, *rate_;
   rviz::StringProperty* viewer_topic_;
 };
