@@ -31,8 +31,8 @@ namespace {
 constexpr int WIDTH = 1280, HEIGHT = 900;  // [pixel]
 constexpr double SETTLING = 20.0;          // [s] until all has been drawn
 constexpr int BLOCK = 16;                  // [pixel] edge of what differences are meant over
-constexpr int STEPS = 8;                   // of the camera's way
-constexpr int FRAMES_A_STEP = 40;
+constexpr int STEPS = 6;                   // of the camera's way
+constexpr int FRAMES_A_STEP = 20;
 
 class Frames {
  public:
