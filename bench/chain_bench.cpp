@@ -9,10 +9,13 @@
 #include <memory>
 
 #include "bandwidth.h"
+#include "forest/air_blocks.h"
 #include "physics/chain_scene.h"
+#include "processor_time.h"
 #include "vegetation_sim/common/instruction_set.h"
 #include "vegetation_sim/physics/batch_chain.h"
 #include "vegetation_sim/physics/twin_chains.h"
+#include "vegetation_sim/wind/field.h"
 
 namespace vegetation_sim::physics {
 namespace {
@@ -58,6 +61,46 @@ Path inWind(const std::string& name, std::shared_ptr<Trees> trees) {
   return out;
 }
 
+wind::Field gust() {
+  wind::Primitive out;
+  out.kind = static_cast<int>(wind::Kind::GUST);
+  out.name = "gust";
+  out.velocity = Vec3(18.0, 0.0, 0.0);
+  return wind::Field({out});
+}
+
+// Of 24 modes.
+wind::Field breeze() {
+  wind::Primitive out;
+  out.kind = static_cast<int>(wind::Kind::BREEZE);
+  out.velocity = Vec3(4.0, 2.0, 0.0);
+  out.name = "breeze";
+  out.turbulence = 0.2;
+  return wind::Field({out});
+}
+
+// Air is asked for once a frame of 60 Hz, where the links then are, and held for its four steps.
+Path heldAir(const std::string& name, const Trees& trees, const wind::Field& wind) {
+  Path out = batched<BatchChain>(name, trees);
+  auto batch = std::make_shared<BatchChain>(trees);
+  for (std::size_t t = 0; t < trees.size(); ++t) {
+    std::vector<Grip> grips;
+    for (const Link& link : trees[t])
+      grips.push_back({link.centre, 0.0, 0.6 * 2.0 * radiusOf(link) * link.length});
+    batch->setGrips(static_cast<int>(t), grips);
+  }
+  out.advance = [batch, wind](int steps) {
+    for (int i = 0; i < steps; ++i) {
+      if (i % 4 == 0) {
+        const forest::FloatWind now(wind.at(fromSeconds(0.3 + STEP * i)), 100.0);
+        batch->askAir([now](float* rows, std::size_t blocks) { fillAir(now, rows, blocks); });
+      }
+      batch->step(STEP);
+    }
+  };
+  return out;
+}
+
 Path plain(const std::string& name, std::shared_ptr<Trees> trees, bool wind,
            Products products = Products::MEAN) {
   auto run = std::make_shared<Simulation>(Simulation{trees->front()});
@@ -78,7 +121,7 @@ std::vector<double> measure(const std::vector<Path>& paths, int rounds) {
     candidates.push_back({path.name, [&path, steps] { path.advance(steps); }});
     updates.push_back(steps * path.links);
   }
-  timeInterleaved(candidates, rounds);
+  bench::timeOnProcessor(candidates, rounds);
   std::vector<double> out;
   for (std::size_t i = 0; i < paths.size(); ++i)
     out.push_back(1e9 * candidates[i].seconds / updates[i]);
@@ -100,6 +143,10 @@ void benchPaths(int rounds, double bandwidth) {
         batched<TwinChains>("16 trees of one topology", Trees(16, one->front())),
         plain("plain double, wind asked for", one, true),
         inWind<BatchChain>("equal depth, wind asked for", one),
+        heldAir("one tree, gust asked at 60 Hz", *one, gust()),
+        heldAir("one tree, breeze asked at 60 Hz", *one, breeze()),
+        heldAir("together, gust asked at 60 Hz", several, gust()),
+        heldAir("together, breeze asked at 60 Hz", several, breeze()),
         plain("plain, products at start", one, false, Products::START),
         batched<BatchChain>("one tree, products at start", *one, Products::START),
         batched<BatchChain>("together, products at start", several, Products::START),
@@ -109,7 +156,7 @@ void benchPaths(int rounds, double bandwidth) {
     for (std::size_t i = 0; i < paths.size(); ++i) {
       const bool batch = paths[i].name.find("plain") != 0;
       std::printf("%-34s %7.0f %9.2f %7.1f", paths[i].name.c_str(), paths[i].links, cost[i],
-                  cost[i == 4 || i == 5 ? 4 : 0] / cost[i]);
+                  cost[i >= 4 && i < 10 ? 4 : 0] / cost[i]);
       if (batch) std::printf(" %10.0f%%", 100.0 * BYTES / (1e-9 * cost[i] * bandwidth));
       std::printf("%s %14.0f\n", batch ? "" : "            ", 1e9 / (STEPS_A_SECOND * cost[i]));
     }

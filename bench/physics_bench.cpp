@@ -3,8 +3,8 @@
 //
 // What a simulated second of a tree costs at equal accuracy, by our integrators and by the engines
 // of others. usage: physics_bench [--quick] [--branches N,..] [--trees NAME,..] [--loads gust,pull]
-//   [--engines PART,..] [--cap SECONDS] [--tolerance ERROR] [--rounds N] [--csv FILE] [--cache
-//   FOLDER]
+//   [--engines PART,..] [--cap SECONDS] [--window SECONDS] [--tolerance ERROR] [--rounds N]
+//   [--csv FILE] [--cache FOLDER]
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
@@ -24,6 +24,7 @@ struct Options {
   std::string csv, cache;
   double cap{60.0};        ///< of one run [s]
   double tolerance{1e-8};  ///< of references
+  double window{INTERVALS * INTERVAL};  ///< that motions are compared over [s]
   int rounds{7};
 };
 
@@ -60,6 +61,8 @@ Options readOptions(int argc, char** argv) {
       out.cache = value;
     else if (key == "--cap")
       out.cap = std::stod(value);
+    else if (key == "--window")
+      out.window = std::stod(value);
     else if (key == "--tolerance")
       out.tolerance = std::stod(value);
     else if (key == "--rounds")
@@ -107,7 +110,9 @@ double timeStep(const Rival& rival, double steps, bool loaded) {
 }
 
 // Rivals take turns, so that a slow spell of a shared machine hits all of them alike.
-void timeInterleaved(const std::vector<Rival>& rivals, int rounds, std::vector<Row>& rows) {
+void timeInterleaved(const std::vector<Rival>& rivals, int rounds, int intervals,
+                     std::vector<Row>& rows) {
+  const double share = std::min(1.0, 1.0 * LOADED_INTERVALS / intervals);
   std::vector<std::vector<double>> times(rivals.size() * TARGETS.size());
   for (int round = -1; round < rounds; ++round) {
     for (std::size_t i = 0; i < times.size(); ++i) {
@@ -116,7 +121,7 @@ void timeInterleaved(const std::vector<Rival>& rivals, int rounds, std::vector<R
       rivals[rival].engine->rest();
       const double loaded = timeStep(rivals[rival], steps, true);
       const double free = timeStep(rivals[rival], steps, false);
-      if (round >= 0) times[i].push_back((loaded + 2.0 * free) / 3.0);
+      if (round >= 0) times[i].push_back(share * loaded + (1.0 - share) * free);
     }
   }
   for (std::size_t i = 0; i < times.size(); ++i) {
@@ -131,13 +136,19 @@ Cell measure(const TestTree& tree, const TestLoad& load, const std::vector<Rival
   out.tree = tree.name;
   out.load = load.name();
   out.branches = static_cast<int>(tree.links.size());
+  const auto intervals =
+      std::clamp(static_cast<int>(options.window / INTERVAL + 0.5), 1, INTERVALS);
   Reference references[2];
   for (const Bend bend : {Bend::SWING, Bend::HINGES}) {
     const auto bends_so = [&](const Rival& rival) { return rival.maker.bend == bend; };
     if (std::none_of(rivals.begin(), rivals.end(), bends_so)) continue;
     Reference& reference = references[static_cast<int>(bend)];
-    reference = referenceOf(tree, load, bend, options.tolerance, options.cap, options.cache);
+    reference =
+        referenceOf(tree, load, bend, options.tolerance, options.cap, options.cache, intervals);
     out.converged = std::max(out.converged, reference.converged);
+    std::fprintf(stderr, "%s %d %s: reference, %s, converged to %.0e with %d steps an interval\n",
+                 tree.name.c_str(), out.branches, load.name(), nameOf(bend), reference.converged,
+                 reference.steps);
   }
   for (const Rival& rival : rivals) {
     Row row;
@@ -149,10 +160,10 @@ Cell measure(const TestTree& tree, const TestLoad& load, const std::vector<Rival
       row.answers[k] = explorer.longestStep(TARGETS[k]);
     for (const auto& [steps, point] : explorer.points()) row.points.push_back(point);
     out.rows.push_back(row);
-    std::fprintf(stderr, "%s %d %s: %s done\n", tree.name.c_str(), out.branches, load.name(),
-                 row.engine.c_str());
+    std::fprintf(stderr, "%s %d %s: %s done after %.0f s\n", tree.name.c_str(), out.branches,
+                 load.name(), row.engine.c_str(), processorTime());
   }
-  timeInterleaved(rivals, options.rounds, out.rows);
+  timeInterleaved(rivals, options.rounds, intervals, out.rows);
   return out;
 }
 

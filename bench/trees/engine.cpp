@@ -36,9 +36,10 @@ Drive drive(Engine& engine, const Reference& reference, int steps, double cap) {
   for (const auto& instant : reference.motion)
     farthest = std::max(farthest, squaredDistance(instant, reference.rest[0]));
   const double h = INTERVAL / steps, start = processorTime();
+  const auto intervals = static_cast<int>(reference.motion.size());
   Drive out;
   engine.rest();
-  for (int interval = 0; interval < INTERVALS && !out.broken; ++interval) {
+  for (int interval = 0; interval < intervals && !out.broken; ++interval) {
     for (int i = 0; i < steps; ++i) engine.step(interval, INTERVAL * interval + h * i, h);
     out.motion.push_back(engine.tips());
     const double off =

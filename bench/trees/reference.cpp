@@ -216,11 +216,11 @@ std::vector<Vec3> ReferenceChain::tips(const State& state) {
   return tipPositions();
 }
 
-Motion ReferenceChain::run(int steps) {
+Motion ReferenceChain::run(int steps, int intervals) {
   const double h = INTERVAL / steps;
   State state(4 * joints_.size(), 0.0);
   Motion out;
-  for (int interval = 0; interval < INTERVALS; ++interval) {
+  for (int interval = 0; interval < intervals; ++interval) {
     for (int i = 0; i < steps; ++i) step(interval, INTERVAL * interval + h * i, h, state);
     out.push_back(tips(state));
     for (const Vec3& tip : out.back())

@@ -24,8 +24,9 @@ class ReferenceChain {
   ReferenceChain(const TestTree& tree, const TestLoad& load, Bend bend);
   ~ReferenceChain();
 
-  /// Motion from rest with `steps` steps an interval; ends early once it is beyond all bounds.
-  Motion run(int steps);
+  /// Motion from rest over `intervals` of `steps` steps each; ends early once it is beyond all
+  /// bounds.
+  Motion run(int steps, int intervals = INTERVALS);
   /// Tips for [links][q0 q1 rate0 rate1].
   std::vector<Vec3> tips(const std::vector<double>& state);
 
@@ -57,10 +58,10 @@ struct Reference {
 };
 
 /// Shortens the step by 1.5 until `tolerance` holds, or 1e-4 where the next run would cost more
-/// than `cap` seconds. Read from and written to `folder`, unless that is empty, by the hash of
-/// tree, load, bend and tolerance.
+/// than `cap` seconds, over the first `intervals`. Read from and written to `folder`, unless that
+/// is empty, by the hash of tree, load, bend, tolerance and intervals.
 Reference referenceOf(const TestTree& tree, const TestLoad& load, Bend bend, double tolerance,
-                      double cap, const std::string& folder);
+                      double cap, const std::string& folder, int intervals = INTERVALS);
 
 /// RMS over tips and the instants of `motion` of the distance between two motions over that of
 /// `reference` from rest; infinite without instants.

@@ -11,7 +11,7 @@
 namespace vegetation_sim::bench {
 namespace {
 
-bool read(const std::string& path, std::size_t tips, Reference& out) {
+bool read(const std::string& path, std::size_t tips, int intervals, Reference& out) {
   std::ifstream file(path, std::ios::binary);
   if (!file) return false;
   const auto number = [&] {
@@ -21,7 +21,7 @@ bool read(const std::string& path, std::size_t tips, Reference& out) {
   };
   out.converged = number();
   out.steps = static_cast<int>(number());
-  out.motion.assign(INTERVALS, std::vector<Vec3>(tips));
+  out.motion.assign(static_cast<std::size_t>(intervals), std::vector<Vec3>(tips));
   for (auto& instant : out.motion)
     for (Vec3& tip : instant)
       for (int axis = 0; axis < 3; ++axis) tip[axis] = number();
@@ -39,10 +39,12 @@ void write(const std::string& path, const Reference& reference) {
     for (const Vec3& tip : instant) number(tip.x()), number(tip.y()), number(tip.z());
 }
 
-std::string fileOf(const TestTree& tree, const TestLoad& load, Bend bend, double tolerance) {
+std::string fileOf(const TestTree& tree, const TestLoad& load, Bend bend, double tolerance,
+                   int intervals) {
   Hash hash;
   hash.add(tree.hash());
   hash.add(tolerance);
+  if (intervals != INTERVALS) hash.add(static_cast<std::uint64_t>(intervals));
   for (const std::string& word : {std::string(load.name()), std::string(nameOf(bend))})
     hash.add(word);
   for (std::size_t i = 0; i < load.links.size(); ++i) {
@@ -59,18 +61,22 @@ std::string fileOf(const TestTree& tree, const TestLoad& load, Bend bend, double
 }  // namespace
 
 Reference referenceOf(const TestTree& tree, const TestLoad& load, Bend bend, double tolerance,
-                      double cap, const std::string& folder) {
+                      double cap, const std::string& folder, int intervals) {
   Reference out;
   ReferenceChain chain(tree, load, bend);
   out.rest = {chain.tips(std::vector<double>(4 * tree.links.size(), 0.0))};
-  const std::string path = folder + fileOf(tree, load, bend, tolerance);
-  if (!folder.empty() && read(path, out.rest[0].size(), out)) return out;
+  const std::string path = folder + fileOf(tree, load, bend, tolerance, intervals),
+                    whole = folder + fileOf(tree, load, bend, tolerance, INTERVALS);
+  // A window is the beginning of the whole, too.
+  for (const std::string& kept : {whole, path})
+    if (!folder.empty() && read(kept, out.rest[0].size(), intervals, out)) return out;
+  out = {{}, out.rest, 0.0, 0};
   out.converged = 1.0;
   for (int steps = 4;; steps += (steps + 1) / 2) {
     const auto start = std::chrono::steady_clock::now();
     Reference finer;
     finer.rest = out.rest;
-    finer.motion = chain.run(steps);
+    finer.motion = chain.run(steps, intervals);
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
     if (finer.motion.empty()) continue;  // unstable
     if (!out.motion.empty()) {

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trees/work_precision.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace vegetation_sim::bench {
@@ -21,7 +23,7 @@ const Point& Explorer::at(int steps) {
 }
 
 bool Explorer::affordable(int steps, double part) const {
-  return per_step_ * steps * INTERVALS <= part * cap_;
+  return per_step_ * steps * static_cast<double>(reference_.motion.size()) <= part * cap_;
 }
 
 // A first-order method would have come from one third of the steps with three times the error.
@@ -40,6 +42,20 @@ double Explorer::between(int low, int high, double tolerance) {
   return high * std::exp(std::log(tolerance / at(high).error) / slope);
 }
 
+// A third more; where a run is dear and the method has shown its order, as many as that asks for.
+int Explorer::next(int low, double tolerance) {
+  const int third = low < 4 ? low + 1 : low + (low + 1) / 3;
+  const auto here = points_.find(low);
+  if (affordable(third, 0.05) || here == points_.begin()) return third;
+  const Point &now = here->second, &before = std::prev(here)->second;
+  if (!std::isfinite(now.error) || !std::isfinite(before.error)) return third;
+  const double order =
+      std::log(before.error / now.error) / std::log(1.0 * now.steps / before.steps);
+  if (!(order > 0.5)) return third;
+  const double factor = 1.1 * std::pow(now.error / tolerance, 1.0 / order);
+  return std::max(third, static_cast<int>(std::ceil(std::min(factor, 8.0) * low)));
+}
+
 Answer Explorer::longestStep(double tolerance) {
   int low = 0, high = 1;  // low fails
   while (at(high).error > tolerance) {
@@ -48,7 +64,7 @@ Answer Explorer::longestStep(double tolerance) {
     // Unstable runs end early, so that a step beyond the cap may still be looked at.
     if (!affordable(low, std::isfinite(at(low).error) ? 1.0 : 4.0))
       return {Answer::Kind::AT_LEAST, static_cast<double>(low)};
-    high = low < 4 ? low + 1 : low + (low + 1) / 3;
+    high = next(low, tolerance);
   }
   while (high - low > 1 && high > 1.05 * low) {
     if (!affordable(high, 0.2)) {

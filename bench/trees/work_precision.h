@@ -45,6 +45,7 @@ class Explorer {
   bool stalled(int steps) const;
   bool affordable(int steps, double part) const;
   double between(int low, int high, double tolerance);
+  int next(int low, double tolerance);
 
   Engine& engine_;
   const Reference& reference_;

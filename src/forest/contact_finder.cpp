@@ -22,6 +22,9 @@ constexpr double SKIN = 5e-3;
 constexpr double HELD = 1e-3;
 // A branch that is beyond the body by more than this has been passed through [m].
 constexpr double LOST = 5e-3;
+// A bar lies flat on a body where they part by less than this slope, over more than this length.
+constexpr double FLAT = 0.1, SPREAD = 0.02;  // [m/m], [m]
+constexpr double NOWHERE = 1e9;              // [m]
 // The law looks at the gap half a step after the step's end.
 constexpr double LOOK_AHEAD = 1.5;  // [steps]
 
@@ -66,11 +69,15 @@ Pair pairOf(const Placed& placed, const Bar& bar, const Vec3& velocity, const Ve
           velocity + cross(spin, Vec3(bar.length * bar.axis)) - placed.velocity(tip)};
 }
 
+Bar localBar(const Placed& placed, const Bar& bar) {
+  return {placed.local(bar.base), rotate(placed.to_body, bar.axis), bar.length, bar.base_radius,
+          bar.tip_radius};
+}
+
 // Where they touch or shall touch first; none if they do not within the horizon.
 bool meet(const Placed& placed, const Pair& pair, const Touch* known, double horizon,
           Proximity& out) {
-  const Bar local{placed.local(pair.bar.base), rotate(placed.to_body, pair.bar.axis),
-                  pair.bar.length, pair.bar.base_radius, pair.bar.tip_radius};
+  const Bar local = localBar(placed, pair.bar);
   if (known && (known->force > 0.0 || known->gap < HELD)) {
     const Proximity free = nearest(placed.shape, local);
     if (dot(free.normal, known->side) < 0.0 && free.gap > LOST) return false;
@@ -92,6 +99,38 @@ bool meet(const Placed& placed, const Pair& pair, const Touch* known, double hor
   return true;
 }
 
+// How steeply a bar leaves the body, going from its base to its tip; rises, as distance is convex.
+double slopeAt(const Placed& placed, const Bar& local, double along, Vec3& normal) {
+  signedDistance(placed.shape, local.at(along), normal);
+  return dot(normal, local.axis);
+}
+
+// The end of the stretch over which a bar lies flat, from a point of it towards `end`.
+double endOfFlat(const Placed& placed, const Bar& local, double along, double end) {
+  Vec3 normal;
+  double outside = end;
+  if (std::fabs(slopeAt(placed, local, end, normal)) < FLAT) return end;
+  for (int i = 0; i < 20; ++i) {
+    const double middle = 0.5 * (along + outside);
+    (std::fabs(slopeAt(placed, local, middle, normal)) < FLAT ? along : outside) = middle;
+  }
+  return along;
+}
+
+// A bar that lies flat turns about the one point where it is nearest: the far end of the stretch
+// that lies is a contact as well.
+bool liesFlat(const Placed& placed, const Pair& pair, const Proximity& found, double near,
+              Proximity& out) {
+  const Bar local = localBar(placed, pair.bar);
+  const double low = endOfFlat(placed, local, found.along, 0.0),
+               high = endOfFlat(placed, local, found.along, local.length);
+  out.along = found.along - low > high - found.along ? low : high;
+  if (std::fabs(out.along - found.along) < SPREAD) return false;
+  const double distance = signedDistance(placed.shape, local.at(out.along), out.normal);
+  out.gap = distance - local.radiusAt(out.along);
+  return out.gap < near && dot(out.normal, found.normal) > 0.5;
+}
+
 const Touch* find(const Touches& touches, const std::string& body, int branch) {
   const auto before = [](const Touch& a, const std::pair<const std::string&, int>& b) {
     return a.body != b.first ? a.body < b.first : a.branch < b.second;
@@ -100,6 +139,24 @@ const Touch* find(const Touches& touches, const std::string& body, int branch) {
   const auto it = std::lower_bound(touches.begin(), touches.end(), key, before);
   return it != touches.end() && it->body == body && it->branch == branch ? &*it : nullptr;
 }
+
+// What a pair of a body and a branch had in the last step: one contact or two.
+struct Held {
+  const Touch *first, *last;
+
+  Held(const Touches& touches, const Touch* known) : first(known), last(known) {
+    const Touch* end = touches.data() + touches.size();
+    while (last && last != end && last->body == known->body && last->branch == known->branch)
+      ++last;
+  }
+  // The force that goes on at `along`: each goes to the nearer of the two places.
+  double at(double along, double other) const {
+    double out = 0.0;
+    for (const Touch* t = first; t != last; ++t)
+      if (std::fabs(t->along - along) < std::fabs(t->along - other)) out += t->force;
+    return out;
+  }
+};
 
 // A branch that has got beyond the middle of the body is let through softly: the limit fades until
 // it is out on the far side.
@@ -155,16 +212,24 @@ std::vector<Contact> ContactFinder::findContacts(const Wood& wood, const Bodies&
       const Branch& branch = wood.skeleton.branches[static_cast<std::size_t>(wood.branches[i])];
       const Bar bar = barOf(branch, wood.start.pose[i]);
       const Pair pair = pairOf(placed, bar, wood.start.velocity[i], wood.start.spin[i]);
-      if (leastGap(placed, bar) > SKIN + horizon * fastestOf(pair)) continue;
+      const double near = SKIN + horizon * fastestOf(pair);
+      if (leastGap(placed, bar) > near) continue;
       const Touch* known = find(touches, entry.first, wood.branches[i]);
       Proximity found;
       if (!meet(placed, pair, known, horizon, found)) continue;
-      Contact contact = contactOf(placed, pair, found);
-      contact.link = static_cast<int>(i);
-      contact.touch = kept.size();
-      contact.force = known ? known->force : 0.0;
-      kept.push_back({entry.first, wood.branches[i], found.normal, found.gap, contact.force});
-      out.push_back(contact);
+      Proximity far;
+      const bool flat = liesFlat(placed, pair, found, near, far);
+      const auto add = [&](const Proximity& place, double force) {
+        Contact contact = contactOf(placed, pair, place);
+        contact.link = static_cast<int>(i);
+        contact.touch = kept.size();
+        contact.force = force;
+        kept.push_back({entry.first, wood.branches[i], place.normal, place.gap, force, place.along});
+        out.push_back(contact);
+      };
+      const Held held(touches, known);
+      add(found, held.at(found.along, flat ? far.along : NOWHERE));
+      if (flat) add(far, held.at(far.along, found.along));
     }
   }
   touches = std::move(kept);

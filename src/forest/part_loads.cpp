@@ -4,11 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "forest/air_blocks.h"
 #include "vegetation_sim/common/math.h"
 #include "vegetation_sim/forest/physical_part.h"
 
 namespace vegetation_sim::forest {
 namespace {
+
+// No tree reaches farther from its foot [m].
+constexpr double LARGEST_REACH = 1e3;
 
 // Where steps do not foresee it, drag takes at most half of a link's speed in a step, however light
 // the link is.
@@ -59,12 +63,23 @@ struct PhysicalPart::Step {
   }
   void load(const physics::Kinematics& kinematics, double time, physics::Loads& out) const {
     const Course course = courseAt(time);
-    const Nanoseconds stamp = course.wind.stamp();
     out.clear(part.links_.size());
     part.addWind(course, kinematics, settings, scratch, out);
+    addOthers(course, kinematics, out);
+  }
+  // Air for a chain's rows.
+  void blow(double h, float* rows, std::size_t blocks) const {
+    const Nanoseconds middle = from + fromSeconds(part.theta_ * h);
+    const bool own = loads.air == NEVER || part.compensates(from, settings.fade);
+    const Course course = scratch.courseOf(part.tree(), air, own ? middle : loads.air);
+    fillAir(FloatWind(course.wind.now().relativeTo(part.tree().foot), LARGEST_REACH), rows, blocks);
+  }
+  // All that acts besides the wind.
+  void addOthers(const Course& course, const physics::Kinematics& kinematics,
+                 physics::Loads& out) const {
     lookAtBases(course);
     part.addCompensation(course, settings, scratch, out);
-    part.addSprings(loads, stamp, kinematics, out);
+    part.addSprings(loads, course.wind.stamp(), kinematics, out);
     part.addForces(loads, kinematics, out);
   }
   physics::Surroundings outside() const {
@@ -75,18 +90,29 @@ struct PhysicalPart::Step {
     };
     return out;
   }
+  // For a chain that has the wind in its own rows.
+  physics::Surroundings outsideWind() const {
+    physics::Surroundings out;
+    out.bases = [this](double time, std::vector<physics::BaseMotion>& to) { bases(time, to); };
+    if (loads.springs.empty() && loads.forces.empty() && !part.compensates(from, settings.fade))
+      return out;
+    out.loads = [this](const physics::Kinematics& kinematics, double time, physics::Loads& to) {
+      addOthers(courseAt(time), kinematics, to);
+    };
+    return out;
+  }
 };
 
 void PhysicalPart::step(const Air& air, const PartLoads& loads, const PhysicsSettings& settings,
                         Nanoseconds from, Nanoseconds to, PartScratch& scratch) {
   const Step context{*this, air, loads, settings, scratch, from};
-  const physics::Surroundings outside = context.outside();
   const double h = secondsBetween(from, to);
   const auto dynamics = static_cast<physics::Dynamics>(settings.dynamics);
   const auto wanted = static_cast<physics::Integrator>(settings.integrator);
   if (static_cast<Precision>(settings.precision) == Precision::SINGLE &&
       dynamics == physics::Dynamics::ARTICULATED && wanted == physics::Integrator::MIDPOINT)
-    return stepBatched(outside, h);
+    return stepBatched(context, h);
+  const physics::Surroundings outside = context.outside();
   scratch.stepper.setDynamics(dynamics);
   if (scratch.stepper.step(wanted, links_, outside, 0.0, h, state_, theta_) == 0) {
     ++scratch.replaced;  // beyond the bound of an explicit method
@@ -96,14 +122,27 @@ void PhysicalPart::step(const Air& air, const PartLoads& loads, const PhysicsSet
 }
 
 // The state lives here in double precision; what the chain keeps is gone with the step.
-void PhysicalPart::stepBatched(const physics::Surroundings& outside, double h) {
-  if (!chain_.held) chain_.held = std::make_unique<physics::BatchChain>(links_);
+void PhysicalPart::stepBatched(const Step& context, double h) {
+  if (!chain_.held) grip();
   physics::BatchChain& chain = *chain_.held;
   chain.setState(0, state_, theta_);
-  chain.step(outside, 0.0, h);
+  // What fades out is told against the air of each step.
+  if (!context.loads.hold || compensates(context.from, context.settings.fade))
+    chain.askAir([&](float* rows, std::size_t blocks) { context.blow(h, rows, blocks); });
+  chain.step(context.outsideWind(), 0.0, h);
   state_ = chain.state(0);
   theta_ = chain.theta(0);
   stopJoints();
+}
+
+void PhysicalPart::grip() {
+  chain_.held = std::make_unique<physics::BatchChain>(links_);
+  const bool linear = tree_->drag == Drag::LINEAR;
+  std::vector<physics::Grip> grips;
+  for (const LinkDrag& drag : drags_)
+    grips.push_back({drag.centre, linear ? drag.force : 0.0,
+                     linear ? 0.0 : drag.force / tree_->reference_speed});
+  chain_.held->setGrips(0, grips);
 }
 
 // Whatever happens, angles stay where the chain and the messages hold: the printed dynamics flutter
@@ -200,17 +239,20 @@ double PhysicalPart::compensationAt(std::size_t link, Nanoseconds stamp, double 
   return joint.compensation * (1.0 - smootherStep(progress));
 }
 
+bool PhysicalPart::compensates(Nanoseconds stamp, double fade) const {
+  for (std::size_t i = 0; i < joints_.size(); ++i)
+    if (compensationAt(i, stamp, fade) > 0.0) return true;
+  return false;
+}
+
 // Joint torques that turn the real load into the one of the procedural motion: inverse dynamics of
 // that motion under the real load (E1), times what has not faded. `paper`: without what spring and
 // damper need, as printed (S1-26).
 void PhysicalPart::addCompensation(const Course& course, const PhysicsSettings& settings,
                                    PartScratch& s, physics::Loads& loads) const {
   const Nanoseconds stamp = course.wind.stamp();
-  bool any = false;
-  for (std::size_t i = 0; i < joints_.size() && !any; ++i)
-    any = compensationAt(i, stamp, settings.fade) > 0.0;
   // Paper 1's dynamics have no inverse here: their branches meet the real load at once.
-  if (!any || settings.dynamics != 0) return;
+  if (settings.dynamics != 0 || !compensates(stamp, settings.fade)) return;
   const std::size_t n = links_.size();
   s.procedural.q.resize(n);
   s.procedural.rate.resize(n);

@@ -10,6 +10,8 @@ namespace {
 
 /// How often is looked which branches a load needs.
 constexpr Nanoseconds REVIEW = NANOSECONDS_PER_SECOND / 10;
+/// Steps that the air of one moment serves: 60 Hz.
+constexpr std::size_t AIR_STEPS = 4;
 /// Branches that are physical stay so down to this share of the tolerance (hysteresis).
 constexpr double KEEP = 0.5;
 
@@ -157,10 +159,16 @@ void ForestPhysics::step(const Site& at, Nanoseconds from, Nanoseconds to, std::
   for (auto& [tree, part] : parts_) {
     if (part.empty()) continue;
     gather(tree, part.tree().foot, from, stamp_of(k), to);
-    if (isNear(tree))
+    loads_.air = NEVER;
+    loads_.hold = false;
+    if (isNear(tree)) {
       stepTouching(at, tree, part, stamp_of(k), stamp_of(k + 1));
-    else
-      part.step(airOf(at, tree), loads_, settings_, stamp_of(k), stamp_of(k + 1), scratch_);
+      continue;
+    }
+    const std::size_t first = k - k % AIR_STEPS, last = std::min(first + AIR_STEPS, n);
+    loads_.air = (stamp_of(first) + stamp_of(last)) / 2;
+    loads_.hold = k != first;
+    part.step(airOf(at, tree), loads_, settings_, stamp_of(k), stamp_of(k + 1), scratch_);
   }
 }
 

@@ -26,7 +26,8 @@ void ForestPhysics::stepTouching(const Site& at, std::uint32_t tree, PhysicalPar
   addTouches(reactions);
 }
 
-// One a body and branch: where it was last, the sum of its forces, its worst.
+// One a body and branch: the sum of its forces where they have the same moment if they are parallel,
+// its worst.
 void ForestPhysics::addTouches(const std::vector<Reaction>& reactions) {
   for (const Reaction& reaction : reactions) {
     const auto same = std::find_if(touching_.begin(), touching_.end(), [&](const Reaction& other) {
@@ -39,6 +40,9 @@ void ForestPhysics::addTouches(const std::vector<Reaction>& reactions) {
     }
     const Reaction before = *same;
     *same = reaction;
+    const double more = length(reaction.force), share = more / (more + length(before.force));
+    same->point = before.point + share * (reaction.point - before.point);
+    same->at.along = before.at.along + share * (reaction.at.along - before.at.along);
     same->force += before.force;
     same->limited = before.limited || reaction.limited;
     same->penetration = std::max(before.penetration, reaction.penetration);

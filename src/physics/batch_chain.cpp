@@ -88,13 +88,16 @@ void BatchChain::sortBySlot(Member& member) {
             [slots](std::size_t a, std::size_t b) { return slots[a] < slots[b]; });
 }
 
+std::size_t BatchChain::blocks() const {
+  return static_cast<std::size_t>(slot_count_ / ROW);
+}
+
 void BatchChain::fill(const std::vector<std::vector<Link>>& trees) {
   ChainStore& store = *store_;
-  const auto blocks = static_cast<std::size_t>(slot_count_ / ROW);
-  store.constants.assign(blocks * C_ROWS);
-  store.state.assign(blocks * S_ROWS);
-  store.loads.assign(blocks * L_ROWS);
-  store.work.assign(blocks * W_ROWS);
+  store.constants.assign(blocks() * C_ROWS);
+  store.state.assign(blocks() * S_ROWS);
+  store.loads.assign(blocks() * L_ROWS);
+  store.work.assign(blocks() * W_ROWS);
   for (int slot = 0; slot < slot_count_; ++slot) {
     fillNobody(laneOf(store.constants, slot, C_ROWS));
     laneOf(store.state, slot, S_ROWS)[S_THETA * ROW] = 0.5f;
@@ -140,7 +143,7 @@ ChainState BatchChain::state(int tree) const {
 std::size_t BatchChain::bytes() const {
   const ChainStore& s = *store_;
   std::size_t out = s.constants.bytes() + s.state.bytes() + s.loads.bytes() + s.work.bytes() +
-                    s.motion.bytes() + s.first.rows.bytes() + s.second.rows.bytes() +
+                    s.grips.bytes() + s.air.bytes() + s.motion.bytes() + s.first.rows.bytes() + s.second.rows.bytes() +
                     slots_.capacity() * sizeof(int);
   for (const ChainGroup& group : groups_)
     for (const Level& level : group.levels)
@@ -233,6 +236,34 @@ void BatchChain::askLoads(const Surroundings& around, double time, double h, Mem
   }
 }
 
+// ---- air ---------------------------------------------------------------------------------------
+
+void BatchChain::setGrips(int tree, const std::vector<Grip>& grips) {
+  if (store_->grips.empty()) {
+    store_->grips.assign(blocks() * G_ROWS);
+    store_->air.assign(blocks() * V_ROWS);
+  }
+  const Member& member = this->member(tree);
+  for (std::size_t i = 0; i < member.count; ++i)
+    fillGrip(grips[i], laneOf(store_->grips, slots_[member.first + i], G_ROWS));
+}
+
+void BatchChain::askAirOf(const ChainGroup& group) {
+  placeGrips(group, *store_);
+  for (const std::size_t t : group.trees) {
+    const Member& member = trees_[t];
+    for (std::size_t i = 0; i < member.count && !member.bases.empty(); ++i) {
+      float* place = laneOf(store_->air, slots_[member.first + i], V_ROWS);
+      for (int axis = 0; axis < 3; ++axis)
+        place[(V_PLACE + axis) * ROW] += static_cast<float>(baseOf(member, i).pose.position[axis]);
+    }
+  }
+  const auto first = static_cast<std::size_t>(group.levels.front().begin / ROW);
+  const Level& last = group.levels.back();
+  const auto end = static_cast<std::size_t>((last.begin + last.count + ROW - 1) / ROW);
+  ask_(store_->air.at(first * V_ROWS), end - first);
+}
+
 // ---- steps -------------------------------------------------------------------------------------
 
 void BatchChain::askBases(const Surroundings& around, double time, Member& member) {
@@ -243,6 +274,7 @@ void BatchChain::askBases(const Surroundings& around, double time, Member& membe
 
 void BatchChain::step(const Surroundings* around, double time, double h) {
   const auto step = static_cast<float>(h);
+  store_->asked = ask_ && !store_->grips.empty();
   for (ChainGroup& group : groups_) {
     if (group.levels.empty()) continue;
     const auto at = [&](std::size_t t) { return time + trees_[t].theta * h; };
@@ -250,6 +282,7 @@ void BatchChain::step(const Surroundings* around, double time, double h) {
     if (around)
       for (const std::size_t t : group.trees) askBases(around[t], at(t), trees_[t]);
     sweepOut(group, step, *store_);
+    if (store_->asked) askAirOf(group);
     store_->anchors.clear();
     if (around)
       for (const std::size_t t : group.trees) askLoads(around[t], at(t), h, trees_[t]);
@@ -257,6 +290,7 @@ void BatchChain::step(const Surroundings* around, double time, double h) {
                      [](const AnchorRows& a, const AnchorRows& b) { return a.slot < b.slot; });
     group.fastest = sweepBack(group, step, *store_);
   }
+  ask_ = nullptr;
 }
 
 void BatchChain::stepWithin(const Surroundings* around, std::size_t count, double time, double h) {
@@ -265,8 +299,7 @@ void BatchChain::stepWithin(const Surroundings* around, std::size_t count, doubl
                        std::to_string(trees_.size()) + " trees");
   store_->trace = std::any_of(around, around + count,
                               [](const Surroundings& s) { return static_cast<bool>(s.loads); });
-  if (store_->trace && store_->motion.empty())
-    store_->motion.assign(static_cast<std::size_t>(slot_count_ / ROW) * M_ROWS);
+  if (store_->trace && store_->motion.empty()) store_->motion.assign(blocks() * M_ROWS);
   step(around, time, h);
 }
 

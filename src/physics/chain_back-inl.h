@@ -51,9 +51,9 @@ HWY_INLINE void addBody(const Joints& at, Articulated& sum) {
 }
 
 // What an implicit step foresees of the drag: a mass against linear acceleration (addDrag).
-HWY_INLINE void addDrag(const Joints& at, Lanes ahead, Articulated& sum) {
-  const Lanes3 arm = load3(at.loads, L_ARM), along = load3(at.loads, L_ALONG);
-  const Lanes mass = ahead * load(at.loads, L_ALL);
+HWY_INLINE void addDrag(const Lanes3& arm, Lanes drag, const Lanes3& along, Lanes ahead,
+                        Articulated& sum) {
+  const Lanes mass = ahead * drag;
   const Lanes3 v = mass * arm, turn = cross(arm, along), pull = ahead * along;
   const Lanes3 swing = ahead * turn;
   const Lanes size = dot(v, arm);
@@ -70,6 +70,27 @@ HWY_INLINE void addDrag(const Joints& at, Lanes ahead, Articulated& sum) {
   sum.bz = {sum.bz.x + v.y, sum.bz.y - v.x, sum.bz.z};
   sum.m = sum.m + Symmetric{mass + pull.x * along.x, pull.x * along.y, pull.x * along.z,
                             mass + pull.y * along.y, pull.y * along.z, mass + pull.z * along.z};
+}
+
+// From the joint to where air grips the link.
+HWY_INLINE Lanes3 gripArm(const Joints& at) {
+  return turned(axesOf({load(at.work, W_TURN), load(at.work, W_TURN + 1),
+                        load(at.work, W_TURN + 2), load(at.work, W_TURN + 3)}),
+                load3(at.grips, G_CENTRE));
+}
+
+// Drag of the air on its grip, whose force and derivative are those of PhysicalPart::addWind.
+HWY_INLINE void addAir(const Joints& at, Lanes ahead, Articulated& sum) {
+  const Lanes3 arm = gripArm(at);
+  const Lanes3 own = load3(at.work, W_VELOCITY) + cross(load3(at.work, W_SPIN), arm);
+  const Lanes3 wind = load3(at.air, V_AIR) - own;
+  const Lanes size = hn::Sqrt(dot(wind, wind)), square = load(at.grips, G_SQUARE);
+  const Lanes drag = load(at.grips, G_STEADY) + square * size;
+  const Lanes3 force = drag * wind;
+  sum.torque = sum.torque - cross(arm, force);
+  sum.force = sum.force - force;
+  const auto blows = size > hn::Zero(Tag());
+  addDrag(arm, drag, hn::IfThenElseZero(blows, hn::Sqrt(square / size)) * wind, ahead, sum);
 }
 
 // To the parent's joint, `d` before the own.
@@ -101,7 +122,9 @@ HWY_INLINE void inward(const Joints& at, Lanes step, bool drag, Articulated& p) 
   const Lanes ease = (all(1.f) - theta) * (all(1.f / 3.f) * step * step);
   const Lanes stiff = ahead * (ahead * k + nu) - hn::Min(ease * k, load(at.constants, C_SURE));
   addBody(at, p);
-  if (drag) addDrag(at, ahead, p);
+  if (drag)
+    addDrag(load3(at.loads, L_ARM), load(at.loads, L_ALL), load3(at.loads, L_ALONG), ahead, p);
+  if (at.grips) addAir(at, ahead, p);
   // Stiff is a lower bound of both pivots, rounding or not.
   const Lanes3 a1 = p.a * first, b1 = transposed(p, first);
   Lanes3 a2 = p.a * second, b2 = transposed(p, second);

@@ -65,6 +65,12 @@ void fillNobody(float* constants) {
   fillLink(nobody, constants);
 }
 
+void fillGrip(const Grip& grip, float* rows) {
+  put(grip.centre, rows + G_CENTRE * ROW, ROW);
+  rows[G_STEADY * ROW] = narrow(grip.steady);
+  rows[G_SQUARE * ROW] = narrow(grip.square);
+}
+
 // The force at the point is the anchor's less (theta^2 h^2 K + theta h C) times what accelerations
 // of the joints add to its own: a mass there, without bias.
 AnchorRows anchorRows(const Anchor& anchor, int slot, double ahead) {

@@ -4,7 +4,7 @@
 
 #include "physics/bar.h"
 #include "physics/chain_rows.h"
-#include "vegetation_sim/physics/chain.h"
+#include "vegetation_sim/physics/batch_chain.h"
 
 namespace vegetation_sim::physics {
 
@@ -34,6 +34,8 @@ inline void fillLoad(const Loads& loads, std::size_t link, float* rows) {
   for (int i = 0; i < 2; ++i)
     rows[(L_JOINT + i) * ROW] = joint ? static_cast<float>(loads.joint_torque[link][i]) : 0.f;
 }
+
+void fillGrip(const Grip& grip, float* rows);
 
 /// What an anchor adds to the articulated inertia and bias of the joint in `slot`.
 struct AnchorRows {

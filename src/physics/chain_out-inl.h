@@ -23,6 +23,8 @@ struct Joints {
   float* state;
   const float* loads;
   float* work;
+  const float* grips;  ///< none: no air
+  float* air;
 };
 
 /// What a parent hands on, see F_TURN and following.
@@ -151,16 +153,16 @@ HWY_INLINE Lanes3 jointSpin(const Joints& at, const Axes& axes, const Swing& g, 
   return rx * first + ry * second;
 }
 
-// For lookAhead.
+// For lookAhead and air.
 HWY_INLINE void keep(const Frame& frame, float* work) {
   store(frame.turn.w, work, W_TURN);
   store3({frame.turn.x, frame.turn.y, frame.turn.z}, work, W_TURN + 1);
   store3(frame.spin, work, W_SPIN);
 }
 
-/// Geometry at q + theta h rate; leaves the rigid bodies and their bias wrenches. `mean`: velocity
-/// products will be averaged.
-HWY_INLINE Frame outward(const Joints& at, const Frame& parent, Lanes step, bool bars, bool mean) {
+/// Geometry at q + theta h rate; leaves the rigid bodies and their bias wrenches. `kept`: lookAhead
+/// or air will ask where the link is.
+HWY_INLINE Frame outward(const Joints& at, const Frame& parent, Lanes step, bool bars, bool kept) {
   const Lanes ahead = load(at.state, S_THETA) * step;
   const Lanes rx = load(at.state, S_RATE), ry = load(at.state, S_RATE + 1);
   const Lanes x = load(at.state, S_Q) + ahead * rx, y = load(at.state, S_Q + 1) + ahead * ry;
@@ -188,7 +190,7 @@ HWY_INLINE Frame outward(const Joints& at, const Frame& parent, Lanes step, bool
   const Bias bias = bars ? biasOfBar(at, out, products) : biasOfBody(at, axes, out, products);
   store3(bias.torque, at.work, W_TORQUE);
   store3(bias.force, at.work, W_FORCE);
-  if (mean) keep(out, at.work);
+  if (kept) keep(out, at.work);
   return out;
 }
 

@@ -56,6 +56,12 @@ enum : int {
   L_ROWS = L_ALONG + 3
 };
 
+/// Rows of how air grips it, see Grip.
+enum : int { G_CENTRE, G_STEADY = G_CENTRE + 3, G_SQUARE, G_ROWS };
+
+/// Rows of the place of the grip and of the air there, see AskAir.
+enum : int { V_PLACE, V_AIR = V_PLACE + 3, V_ROWS = V_AIR + 3 };
+
 /// Rows that one step keeps between its passes; what the sweep down the tree leaves takes the place
 /// of the rigid inertia that it has used.
 enum : int {
@@ -71,10 +77,12 @@ enum : int {
   W_INVERSE = W_GAIN + 12,
   W_COUPLING = W_INVERSE + 2,
   W_DRIVE,
-  W_TURN = W_DRIVE + 2,  // from here on only for the mean of velocity products: orientation
+  W_TURN = W_DRIVE + 2,  // from here on only for air and the mean of velocity products: orientation
   W_SPIN = W_TURN + 4,
   W_SOLVED = W_SPIN + 3,  // accelerations of the joint
-  W_ROWS = W_SOLVED + 2
+  W_POSITION = W_SOLVED + 2,  // of the joint relative to its base, and its velocity, only for air
+  W_VELOCITY = W_POSITION + 3,
+  W_ROWS = W_VELOCITY + 3
 };
 static_assert(W_MOMENT + 3 <= W_TURN, "the rigid inertia fits where the sweep writes");
 

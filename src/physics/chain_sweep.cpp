@@ -22,7 +22,9 @@ HWY_INLINE float* rowsOf(Rows& rows, int slot, int quantities) {
 
 HWY_INLINE Joints jointsAt(ChainStore& store, int slot) {
   return {rowsOf(store.constants, slot, C_ROWS), rowsOf(store.state, slot, S_ROWS),
-          rowsOf(store.loads, slot, L_ROWS), rowsOf(store.work, slot, W_ROWS)};
+          rowsOf(store.loads, slot, L_ROWS), rowsOf(store.work, slot, W_ROWS),
+          store.grips.empty() ? nullptr : rowsOf(store.grips, slot, G_ROWS),
+          store.grips.empty() ? nullptr : rowsOf(store.air, slot, V_ROWS)};
 }
 
 // Anchors are few: one by one.
@@ -44,22 +46,30 @@ void loadBases(const ChainGroup& group, LevelRows& out) {
       out.data()[static_cast<std::size_t>(row * out.room) + i] = group.bases[i].value[row];
 }
 
-template <bool MOTION>
+// What of the motion is handed on.
+enum class Told { NOTHING, VELOCITY, ALL };
+
+template <Told TOLD>
 HWY_INLINE void outGroupAs(const ChainGroup& group, Lanes step, ChainStore& store) {
   float *received = store.first.data(), *handed = store.second.data();
   const int room = store.first.room;
+  const bool kept = store.mean || !store.grips.empty();
   loadBases(group, store.first);
   for (const Level& level : group.levels) {
     for (int i = 0; i < level.count; i += width()) {
       const Joints at = jointsAt(store, level.begin + i);
-      const Frame frame = outward(at, loadFrame(received + i, room), step, group.bars, store.mean);
-      if constexpr (MOTION) {
+      const Frame frame = outward(at, loadFrame(received + i, room), step, group.bars, kept);
+      if constexpr (TOLD != Told::NOTHING) {
         const Trace trace = traceOf(received + i, room, at.work);
         const auto each = [&](const auto& put) HWY_ATTR __attribute__((always_inline)) {
           eachRow(frame, put);
-          eachRow(trace, put);
+          eachRow(trace.velocity, F_VELOCITY, put);
+          if constexpr (TOLD == Told::ALL) eachRow(trace.position, F_POSITION, put);
         };
-        storeMotion(frame, trace, rowsOf(store.motion, level.begin + i, M_ROWS));
+        if (at.grips) store3(trace.velocity, at.work, W_VELOCITY);
+        if (TOLD == Told::ALL && at.grips) store3(trace.position, at.work, W_POSITION);
+        if (TOLD == Told::ALL && store.trace)
+          storeMotion(frame, trace, rowsOf(store.motion, level.begin + i, M_ROWS));
         handOn(level, i, each, room, handed);
       } else {
         handOn(
@@ -71,10 +81,20 @@ HWY_INLINE void outGroupAs(const ChainGroup& group, Lanes step, ChainStore& stor
 }
 
 void outGroup(const ChainGroup& group, float step, ChainStore& store) {
-  if (store.trace)
-    outGroupAs<true>(group, all(step), store);
+  if (store.trace || store.asked)
+    outGroupAs<Told::ALL>(group, all(step), store);
+  else if (!store.grips.empty())
+    outGroupAs<Told::VELOCITY>(group, all(step), store);
   else
-    outGroupAs<false>(group, all(step), store);
+    outGroupAs<Told::NOTHING>(group, all(step), store);
+}
+
+void placeGripsOf(const ChainGroup& group, ChainStore& store) {
+  for (const Level& level : group.levels)
+    for (int i = 0; i < level.count; i += width()) {
+      const Joints at = jointsAt(store, level.begin + i);
+      store3(load3(at.work, W_POSITION) + gripArm(at), at.air, V_PLACE);
+    }
 }
 
 void inwardGroup(const ChainGroup& group, float h, ChainStore& store) {
@@ -166,10 +186,15 @@ HWY_AFTER_NAMESPACE();
 namespace vegetation_sim::physics {
 
 HWY_EXPORT(outGroup);
+HWY_EXPORT(placeGripsOf);
 HWY_EXPORT(backGroup);
 
 void sweepOut(const ChainGroup& group, float step, ChainStore& store) {
   HWY_DYNAMIC_DISPATCH(outGroup)(group, step, store);
+}
+
+void placeGrips(const ChainGroup& group, ChainStore& store) {
+  HWY_DYNAMIC_DISPATCH(placeGripsOf)(group, store);
 }
 
 float sweepBack(const ChainGroup& group, float step, ChainStore& store) {

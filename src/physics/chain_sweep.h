@@ -38,8 +38,10 @@ struct LevelRows {
 /// All rows of a chain, and scratch of one group's level and its neighbour.
 struct ChainStore {
   Rows constants, state, loads, work;
+  Rows grips, air;  ///< none: no air
   Rows motion;        ///< M_ROWS per block
   bool trace{false};  ///< somebody asks for the motion
+  bool asked{false};  ///< the air is asked for in this step
   bool mean{true};    ///< velocity products are averaged over the step
   bool drag{false};   ///< some load has drag
   LevelRows first, second;
@@ -48,6 +50,8 @@ struct ChainStore {
 
 /// Geometry and rigid bodies of a group at q + theta h rate, h = `step`.
 void sweepOut(const ChainGroup& group, float step, ChainStore& store);
+/// Places of the grips of a group where sweepOut left the links.
+void placeGrips(const ChainGroup& group, ChainStore& store);
 /// Articulated inertias, accelerations, and the step. Returns the largest rate after it.
 float sweepBack(const ChainGroup& group, float step, ChainStore& store);
 

@@ -62,6 +62,32 @@ TEST_F(ContactFinderTest, OverlapIsToldWithSideAndVelocity) {
   EXPECT_EQ(contacts[0].share, 1.0);
 }
 
+// S1-W6: else it would turn about the one place into the body.
+TEST_F(ContactFinderTest, TwigThatLiesFlatTouchesAtTwoPlaces) {
+  body_.pose.orientation = Quat();
+  place(-0.02);
+  auto contacts = find();
+  ASSERT_EQ(contacts.size(), 2u);
+  EXPECT_GT(std::fabs(contacts[1].along - contacts[0].along), 0.2);
+  for (physics::Contact& contact : contacts) {
+    EXPECT_NEAR(contact.gap, -0.005, 2e-4);  // the farther one is on the cap a little
+    EXPECT_EQ(contact.force, 0.0);
+    contact.force = 100.0 * contact.along;
+  }
+  std::vector<Reaction> reactions;
+  finder_.settle(wood(), {{body_.id, body_}}, contacts, STEP, touches_, reactions);
+  EXPECT_EQ(reactions.size(), 2u);
+  contacts = find();  // each has its own force again
+  ASSERT_EQ(contacts.size(), 2u);
+  for (const physics::Contact& contact : contacts)
+    EXPECT_NEAR(contact.force, 100.0 * contact.along, 1e-6);
+  const double both = contacts[0].force + contacts[1].force;
+  body_.pose.orientation = Quat{std::sqrt(0.5), std::sqrt(0.5), 0.0, 0.0};
+  contacts = find();  // crosswise: one, with the force of both
+  ASSERT_EQ(contacts.size(), 1u);
+  EXPECT_NEAR(contacts[0].force, both, 1e-9);
+}
+
 // 30 m/s: the body jumps over the twig within the step.
 TEST_F(ContactFinderTest, FastBodyMeetsWhatItWouldJumpOver) {
   place(-0.06);

@@ -29,8 +29,9 @@ struct Touch {
   Vec3 side{Vec3::Zero()};  ///< of the body on which the branch is: unit, the body's axes
   double gap{0.0};          ///< at the start of the last step [m]
   double force{0.0};        ///< of the last step [N]
+  double along{0.0};        ///< where on the branch [m]
 };
-/// By body, then branch; rising.
+/// By body, then branch; rising. A branch that lies flat on a body has two.
 using Touches = std::vector<Touch>;
 
 /// How bodies touch trees. Without memory of its own.

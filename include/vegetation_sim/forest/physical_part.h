@@ -37,6 +37,10 @@ struct PartSpring {
 struct PartLoads {
   std::vector<PartSpring> springs;
   std::vector<BranchLoad> forces;
+  /// Single precision: the stamp whose air this step asks for, and those after it that say `hold`.
+  /// NEVER: each step asks for its own.
+  Nanoseconds air{NEVER};
+  bool hold{false};  ///< the air that the step before asked for is good enough
 };
 
 /// Built from what stands beside it: a copy starts without.
@@ -120,7 +124,9 @@ class PhysicalPart {
     Vec3 centre;   // own axes [m]
   };
   struct Step;
-  void stepBatched(const physics::Surroundings& outside, double h);
+  void stepBatched(const Step& context, double h);
+  void grip();
+  bool compensates(Nanoseconds stamp, double fade) const;
   void stopJoints();
   void rebuild(const std::vector<Joined>& joints);
   void findCarriers();

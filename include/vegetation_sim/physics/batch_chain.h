@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -11,6 +12,18 @@ namespace vegetation_sim::physics {
 
 struct ChainGroup;
 struct ChainStore;
+
+/// Where air grips a link and how hard: with `w` what the air there moves faster than the link, the
+/// force is (steady + square |w|) w.
+struct Grip {
+  Vec3 centre{Vec3::Zero()};  ///< own axes [m]
+  double steady{0.0};         ///< [N s/m]
+  double square{0.0};         ///< [N s^2/m^2]
+};
+
+/// Air at places of joints: in each of `blocks` blocks of rows of 16 floats, x y z of the place [m],
+/// then, to be filled in, of the air's velocity [m/s]; world axes.
+using AskAir = std::function<void(float* rows, std::size_t blocks)>;
 
 /// The guarded linearly implicit midpoint (Stepper's default) of many links at once in single
 /// precision, in the widest instruction set of the processor: links of equal depth, of one tree or
@@ -40,6 +53,11 @@ class BatchChain {
   void step(const std::vector<Surroundings>& around, double time, double h);
   void step(const Surroundings& around, double time, double h);
 
+  /// From now on air acts on the links of a tree, besides what loads say; still air until asked.
+  void setGrips(int tree, const std::vector<Grip>& grips);
+  /// The next step asks for the air; later ones take what it said, while the links move in it.
+  void askAir(AskAir ask) { ask_ = std::move(ask); }
+
   /// For callers that keep loads themselves: what acts from now on, without anchors, and a step
   /// under it. `bases` may be empty: the ground.
   void setBases(int tree, const std::vector<BaseMotion>& bases);
@@ -59,6 +77,7 @@ class BatchChain {
   };
   Member& member(int tree) { return trees_[static_cast<std::size_t>(tree)]; }
   void sortGroup(const std::vector<std::vector<Link>>& trees, std::size_t index);
+  std::size_t blocks() const;
   void fill(const std::vector<std::vector<Link>>& trees);
   void sortBySlot(Member& member);
   void fillBases(const Member& member);
@@ -69,6 +88,7 @@ class BatchChain {
   void guard(ChainGroup& group, double h);
   void step(const Surroundings* around, double time, double h);
   void stepWithin(const Surroundings* around, std::size_t count, double time, double h);
+  void askAirOf(const ChainGroup& group);
   void askBases(const Surroundings& around, double time, Member& member);
   void askLoads(const Surroundings& around, double time, double h, Member& member);
 
@@ -77,6 +97,7 @@ class BatchChain {
   std::vector<Member> trees_;
   std::vector<int> slots_;  ///< [links of all trees]
   int slot_count_{0};
+  AskAir ask_;
   Kinematics kinematics_;
   Loads loads_;
 };

@@ -1,0 +1,142 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include "forest/air_blocks.h"
+#include "physics/chain_scene.h"
+#include "vegetation_sim/common/instruction_set.h"
+#include "vegetation_sim/physics/batch_chain.h"
+#include "vegetation_sim/wind/field.h"
+
+namespace vegetation_sim::physics {
+namespace {
+
+constexpr double STEP = 1.0 / 240.0;
+
+// The grips of quadraticGust.
+std::vector<Grip> gripsOf(const std::vector<Link>& links) {
+  std::vector<Grip> out;
+  for (const Link& link : links)
+    out.push_back({Vec3(0.1, 0.0, 0.8) * link.length, 0.0, 0.05 * link.length});
+  return out;
+}
+
+AskAir uniform(const Vec3& wind) {
+  return [wind](float* rows, std::size_t blocks) {
+    for (std::size_t i = 0; i < 96 * blocks; ++i)
+      if (i % 96 >= 48) rows[i] = static_cast<float>(wind[static_cast<int>(i % 96 / 16) - 3]);
+  };
+}
+
+wind::Field breeze() {
+  wind::Primitive out;
+  out.kind = static_cast<int>(wind::Kind::BREEZE);
+  out.name = "breeze";
+  out.velocity = Vec3(8.0, 3.0, 0.0);
+  out.turbulence = 0.3;
+  return wind::Field({out});
+}
+
+/// Tips of a tree after 5 s in a breeze, asked for every so many steps in the middle of them.
+std::vector<Vec3> tipsInBreeze(const std::vector<Link>& links, int every) {
+  const wind::Field field = breeze();
+  BatchChain chain(links);
+  chain.setGrips(0, gripsOf(links));
+  for (int i = 0; i < 1200; ++i) {
+    if (i % every == 0) {
+      const forest::FloatWind now(field.at(fromSeconds((i + 0.5 * every) * STEP)), 1e3);
+      chain.askAir([now](float* rows, std::size_t blocks) { fillAir(now, rows, blocks); });
+    }
+    chain.step(STEP);
+  }
+  const Kinematics end = kinematicsAt(links, chain.state(0));
+  std::vector<Vec3> out;
+  for (std::size_t i = 0; i < links.size(); ++i)
+    out.push_back(end.pose[i].position + links[i].length * axisZ(end.pose[i].orientation));
+  return out;
+}
+
+double largestDistance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+  double out = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) out = std::max(out, length(a[i] - b[i]));
+  return out;
+}
+
+// S1-26: the wind in a chain's own rows is the load that a caller would have computed. Bar as for
+// loads: float's rounding over 2 s.
+TEST(BatchAir, IsTheQuadraticDragOfLoads) {
+  const std::vector<Link> links = fractalTree(100, 3);
+  Simulation plain{links};
+  BatchChain chain(links);
+  chain.setGrips(0, gripsOf(links));
+  const Surroundings around = quadraticGust(links, 18.0);
+  double worst = 0.0, largest = 0.0;
+  for (int i = 0; i < 480; ++i) {
+    const double time = i * STEP, swell = sinCos(PI * (time + 0.5 * STEP)).sin;
+    const double speed = time < 1.0 ? 18.0 * swell * swell : 0.0;
+    plain.step(around, time, STEP);
+    chain.askAir(uniform(speed * Vec3(1.0, 0.3, 0.1)));
+    chain.step(STEP);
+    const ChainState now = chain.state(0);
+    for (std::size_t k = 0; k < links.size(); ++k) {
+      worst = std::max(worst, (now.q[k] - plain.state.q[k]).norm());
+      largest = std::max(largest, plain.state.q[k].norm());
+    }
+  }
+  EXPECT_GT(largest, 0.05);
+  EXPECT_LT(worst, 1e-5 * largest);
+}
+
+TEST(BatchAir, IsAskedForWhereGripsAreOnTheirBases) {
+  const std::vector<Link> links = fractalTree(40, 3);
+  BatchChain chain(links);
+  const std::vector<Grip> grips = gripsOf(links);
+  chain.setGrips(0, grips);
+  BaseMotion base;
+  base.pose.position = Vec3(3.0, -2.0, 1.0);
+  Surroundings around;
+  around.bases = [&](double, std::vector<BaseMotion>& out) { out = {base}; };
+  std::vector<Vec3> places;
+  chain.askAir([&](float* rows, std::size_t blocks) {
+    for (std::size_t i = 0; i < 16 * blocks; ++i)
+      places.emplace_back(rows[i / 16 * 96 + i % 16], rows[i / 16 * 96 + 16 + i % 16],
+                          rows[i / 16 * 96 + 32 + i % 16]);
+  });
+  chain.step(around, 0.0, STEP);
+  const Kinematics rest = kinematicsAt(links, atRest(links.size()), {base});
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    const Vec3 grip = rest.pose[i].position + rotate(rest.pose[i].orientation, grips[i].centre);
+    double nearest = 1.0;
+    for (const Vec3& place : places) nearest = std::min(nearest, length(place - grip));
+    EXPECT_LT(nearest, 1e-5) << i;
+  }
+}
+
+// Air of 60 Hz serves steps of 240 Hz: measured 3e-4 of how far the tips are from rest.
+TEST(BatchAir, HeldForAFrameIsNearAirOfEachStep) {
+  const std::vector<Link> links = fractalTree(200, 3);
+  const std::vector<Vec3> each = tipsInBreeze(links, 1);
+  const Kinematics rest = kinematicsAt(links, atRest(links.size()));
+  std::vector<Vec3> still;
+  for (std::size_t i = 0; i < links.size(); ++i)
+    still.push_back(rest.pose[i].position + links[i].length * axisZ(rest.pose[i].orientation));
+  const double way = largestDistance(each, still);
+  EXPECT_GT(way, 0.01);
+  EXPECT_GT(largestDistance(tipsInBreeze(links, 4), each), 0.0);
+  EXPECT_LT(largestDistance(tipsInBreeze(links, 4), each), 5e-3 * way);
+}
+
+TEST(BatchAir, MovesTheSameBitsOnEveryInstructionSet) {
+  const std::vector<Link> links = fractalTree(200, 3);
+  std::vector<Vec3> first;
+  for (const std::string& set : instructionSets()) {
+    forceInstructionSet(set);
+    const std::vector<Vec3> tips = tipsInBreeze(links, 4);
+    forceInstructionSet("");
+    if (first.empty()) first = tips;
+    EXPECT_EQ(largestDistance(tips, first), 0.0) << set;
+  }
+}
+
+}  // namespace
+}  // namespace vegetation_sim::physics
