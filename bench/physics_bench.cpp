@@ -22,8 +22,8 @@ struct Options {
   std::vector<std::string> branches{"100", "1000", "10000"};
   std::vector<std::string> engines;  ///< parts of names; none: all
   std::string csv, cache;
-  double cap{60.0};        ///< of one run [s]
-  double tolerance{1e-8};  ///< of references
+  double cap{60.0};                     ///< of one run [s]
+  double tolerance{1e-8};               ///< of references
   double window{INTERVALS * INTERVAL};  ///< that motions are compared over [s]
   int rounds{7};
 };

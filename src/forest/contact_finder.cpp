@@ -224,7 +224,8 @@ std::vector<Contact> ContactFinder::findContacts(const Wood& wood, const Bodies&
         contact.link = static_cast<int>(i);
         contact.touch = kept.size();
         contact.force = force;
-        kept.push_back({entry.first, wood.branches[i], place.normal, place.gap, force, place.along});
+        kept.push_back(
+            {entry.first, wood.branches[i], place.normal, place.gap, force, place.along});
         out.push_back(contact);
       };
       const Held held(touches, known);

@@ -126,13 +126,14 @@ void PhysicalPart::demote(const Course& course, const PhysicsSettings& settings,
     if ((joint.blend == NEVER || bears[i]) && links_[i].parent >= 0)
       bears[index(links_[i].parent)] = 1;
   }
+  const auto over = [&](const PartJoint& joint) {
+    return joint.blend != NEVER && secondsBetween(joint.blend, stamp) >= settings.blend;
+  };
+  if (std::none_of(joints_.begin(), joints_.end(), over)) return;
   std::vector<Joined> left;
-  for (std::size_t i = 0; i < joints_.size(); ++i) {
-    const PartJoint& joint = joints_[i];
-    const bool over = joint.blend != NEVER && secondsBetween(joint.blend, stamp) >= settings.blend;
-    if (!over) left.push_back({joint, state_.q[i], state_.rate[i]});
-  }
-  if (left.size() < joints_.size()) rebuild(left);
+  for (std::size_t i = 0; i < joints_.size(); ++i)
+    if (!over(joints_[i])) left.push_back({joints_[i], state_.q[i], state_.rate[i]});
+  rebuild(left);
 }
 
 // Nothing needs it, and it moves as it would procedurally, or has had its time.

@@ -26,8 +26,8 @@ void ForestPhysics::stepTouching(const Site& at, std::uint32_t tree, PhysicalPar
   addTouches(reactions);
 }
 
-// One a body and branch: the sum of its forces where they have the same moment if they are parallel,
-// its worst.
+// One a body and branch: the sum of its forces where they have the same moment if they are
+// parallel, its worst.
 void ForestPhysics::addTouches(const std::vector<Reaction>& reactions) {
   for (const Reaction& reaction : reactions) {
     const auto same = std::find_if(touching_.begin(), touching_.end(), [&](const Reaction& other) {

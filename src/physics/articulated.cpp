@@ -179,33 +179,60 @@ void ArticulatedBody::solve(const std::vector<Link>& links, const std::vector<Ba
   settle(links, out);
 }
 
+namespace {
+
+// Each joint bears the wrenches of its link and of all beyond.
+void sumTorques(const std::vector<Link>& links, const std::vector<ArticulatedBody::Joint>& joints,
+                const ChainState& state, std::vector<Wrench>& bias, std::vector<Vec2>& out) {
+  out.resize(links.size());
+  for (std::size_t i = links.size(); i-- > 0;) {
+    const Link& link = links[i];
+    const Wrench& wrench = bias[i];
+    const Vec2 &q = state.q[i], &rate = state.rate[i];
+    out[i] = Vec2(
+        dot(joints[i].first, wrench.torque) + link.stiffness * q.x() + link.damping * rate.x(),
+        dot(joints[i].second, wrench.torque) + link.stiffness * q.y() + link.damping * rate.y());
+    if (link.parent < 0) continue;
+    Wrench& parent = bias[static_cast<std::size_t>(link.parent)];
+    parent.torque += wrench.torque + cross(joints[i].offset, wrench.force);
+    parent.force += wrench.force;
+  }
+}
+
+}  // namespace
+
 void ArticulatedBody::torques(const std::vector<Link>& links, const std::vector<BaseMotion>& bases,
                               const ChainState& state, const Kinematics& kinematics,
                               const Loads& loads, const std::vector<Vec2>& acceleration,
                               std::vector<Vec2>& out) {
   turnOut(links, bases, state, kinematics);
-  sweepOut(links, bases, state, kinematics, 1.0);
-  addLoads(loads, {});
-  for (std::size_t i = 0; i < links.size(); ++i) {
-    const Acceleration& parent =
-        links[i].parent < 0 ? NONE : push_[static_cast<std::size_t>(links[i].parent)];
-    push_[i] = pushed(parent, joints_[i], acceleration[i]);
-  }
-  out.resize(links.size());
-  for (std::size_t i = links.size(); i-- > 0;) {
+  const std::size_t n = links.size();
+  free_.resize(n);
+  bias_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
     const Link& link = links[i];
-    Body& body = bodies_[i];
-    body.torque += multiply(body.a, push_[i].spin) + timesB(body, push_[i].linear);
-    body.force += timesTransposedB(body, push_[i].spin) + multiply(body.m, push_[i].linear);
-    const Vec2 &q = state.q[i], &rate = state.rate[i];
-    out[i] = Vec2(
-        dot(joints_[i].first, body.torque) + link.stiffness * q.x() + link.damping * rate.x(),
-        dot(joints_[i].second, body.torque) + link.stiffness * q.y() + link.damping * rate.y());
-    if (link.parent < 0) continue;
-    Body& parent = bodies_[static_cast<std::size_t>(link.parent)];
-    parent.torque += body.torque + cross(joints_[i].offset, body.force);
-    parent.force += body.force;
+    const bool root = link.parent < 0;
+    const auto p = static_cast<std::size_t>(root ? 0 : link.parent);
+    const Vec3 &own = kinematics.spin[i],
+               &spin = root ? baseOf(link, bases).spin : kinematics.spin[p];
+    const Joint& joint = joints_[i];
+    const Vec3 change = bendBias(joint.bend, state.q[i], state.rate[i], joint.axes) +
+                        cross(spin, own - spin) + acceleration[i].x() * joint.first +
+                        acceleration[i].y() * joint.second;
+    FreeMotion ground;
+    if (root) ground = freeMotionOf(baseOf(link, bases), 1.0);
+    freeMotion(root ? ground : free_[p], link.h, change, own, joint.sweep, joint.axes.z, 1.0,
+               free_[i]);
+    bias_[i] = biasOf(link, joint.axes, own, joint.sweep, free_[i], 1.0);
+    bias_[i].torque -= loads.wrench[i].torque;
+    bias_[i].force -= loads.wrench[i].force;
   }
+  for (const Anchor& anchor : loads.anchors) {
+    Wrench& wrench = bias_[static_cast<std::size_t>(anchor.link)];
+    wrench.torque -= cross(anchor.arm, anchor.force);
+    wrench.force -= anchor.force;
+  }
+  sumTorques(links, joints_, state, bias_, out);
 }
 
 }  // namespace vegetation_sim::physics

@@ -42,17 +42,6 @@ VEGETATION_SIM_INTO void freeMotion(const ArticulatedBody::FreeMotion& parent, d
   out.axis = axisRate(out.spin, spin, sweep, z, products);
 }
 
-inline ArticulatedBody::Acceleration pushed(const ArticulatedBody::Acceleration& parent,
-                                            const ArticulatedBody::Joint& joint,
-                                            const Vec2& acceleration) {
-  return {parent.spin + acceleration.x() * joint.first + acceleration.y() * joint.second,
-          parent.linear + cross(parent.spin, joint.offset)};
-}
-
-inline Vec3 timesB(const ArticulatedBody::Body& body, const Vec3& v) {
-  return {dot(body.bx, v), dot(body.by, v), dot(body.bz, v)};
-}
-
 VEGETATION_SIM_INTO Vec3 timesTransposedB(const ArticulatedBody::Body& body, const Vec3& v) {
   return v.x() * body.bx + v.y() * body.by + v.z() * body.bz;
 }

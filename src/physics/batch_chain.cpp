@@ -132,6 +132,8 @@ void BatchChain::setProducts(Products products) {
 ChainState BatchChain::state(int tree) const {
   const Member& member = trees_[static_cast<std::size_t>(tree)];
   ChainState out;
+  out.q.reserve(member.count);
+  out.rate.reserve(member.count);
   for (std::size_t i = 0; i < member.count; ++i) {
     const float* rows = laneOf(store_->state, slots_[member.first + i], S_ROWS);
     out.q.emplace_back(rows[S_Q * ROW], rows[(S_Q + 1) * ROW]);
@@ -143,8 +145,8 @@ ChainState BatchChain::state(int tree) const {
 std::size_t BatchChain::bytes() const {
   const ChainStore& s = *store_;
   std::size_t out = s.constants.bytes() + s.state.bytes() + s.loads.bytes() + s.work.bytes() +
-                    s.grips.bytes() + s.air.bytes() + s.motion.bytes() + s.first.rows.bytes() + s.second.rows.bytes() +
-                    slots_.capacity() * sizeof(int);
+                    s.grips.bytes() + s.air.bytes() + s.motion.bytes() + s.first.rows.bytes() +
+                    s.second.rows.bytes() + slots_.capacity() * sizeof(int);
   for (const ChainGroup& group : groups_)
     for (const Level& level : group.levels)
       for (const Brood& brood : level.broods) out += brood.first.capacity() * sizeof(std::int32_t);

@@ -74,8 +74,8 @@ HWY_INLINE void addDrag(const Lanes3& arm, Lanes drag, const Lanes3& along, Lane
 
 // From the joint to where air grips the link.
 HWY_INLINE Lanes3 gripArm(const Joints& at) {
-  return turned(axesOf({load(at.work, W_TURN), load(at.work, W_TURN + 1),
-                        load(at.work, W_TURN + 2), load(at.work, W_TURN + 3)}),
+  return turned(axesOf({load(at.work, W_TURN), load(at.work, W_TURN + 1), load(at.work, W_TURN + 2),
+                        load(at.work, W_TURN + 3)}),
                 load3(at.grips, G_CENTRE));
 }
 

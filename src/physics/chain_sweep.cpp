@@ -21,8 +21,10 @@ HWY_INLINE float* rowsOf(Rows& rows, int slot, int quantities) {
 }
 
 HWY_INLINE Joints jointsAt(ChainStore& store, int slot) {
-  return {rowsOf(store.constants, slot, C_ROWS), rowsOf(store.state, slot, S_ROWS),
-          rowsOf(store.loads, slot, L_ROWS), rowsOf(store.work, slot, W_ROWS),
+  return {rowsOf(store.constants, slot, C_ROWS),
+          rowsOf(store.state, slot, S_ROWS),
+          rowsOf(store.loads, slot, L_ROWS),
+          rowsOf(store.work, slot, W_ROWS),
           store.grips.empty() ? nullptr : rowsOf(store.grips, slot, G_ROWS),
           store.grips.empty() ? nullptr : rowsOf(store.air, slot, V_ROWS)};
 }

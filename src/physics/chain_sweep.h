@@ -38,7 +38,7 @@ struct LevelRows {
 /// All rows of a chain, and scratch of one group's level and its neighbour.
 struct ChainStore {
   Rows constants, state, loads, work;
-  Rows grips, air;  ///< none: no air
+  Rows grips, air;    ///< none: no air
   Rows motion;        ///< M_ROWS per block
   bool trace{false};  ///< somebody asks for the motion
   bool asked{false};  ///< the air is asked for in this step

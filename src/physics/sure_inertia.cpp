@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "physics/symmetric.h"
+#include "physics/articulated_body.h"
 #include "vegetation_sim/common/math.h"
 #include "vegetation_sim/physics/articulated.h"
 
@@ -71,21 +71,52 @@ class Sharing {
   std::vector<Price> price_;
 };
 
-// M - diag(sure_inertia) has no negative direction: elimination along the tree meets no pivot that
-// is not positive.
+using Body = ArticulatedBody::Body;
+
+// What is left of a body whose joint has given way about its own x and y, for its parent.
+void giveWay(double pivot1, double pivot2, double coupling, Body& body) {
+  const Vec3 a1(body.a.xx, body.a.xy, body.a.xz), b1 = body.bx;
+  const Vec3 a2 = Vec3(body.a.xy, body.a.yy, body.a.yz) - coupling * a1;
+  const Vec3 b2 = body.by - coupling * b1;
+  const Vec3 pa1 = a1 / pivot1, pa2 = a2 / pivot2;
+  subtractTwo(body.a, pa1, a1, pa2, a2);
+  subtractTwo(body.m, Vec3(b1 / pivot1), b1, Vec3(b2 / pivot2), b2);
+  body.bx -= pa1.x() * b1 + pa2.x() * b2;
+  body.by -= pa1.y() * b1 + pa2.y() * b2;
+  body.bz -= pa1.z() * b1 + pa2.z() * b2;
+}
+
+// From own axes to those that the own ones are given in.
+void turn(const Axes& axes, Body& body) {
+  body.a = turned(body.a, axes.x, axes.y, axes.z);
+  body.m = turned(body.m, axes.x, axes.y, axes.z);
+  const Vec3 x = inAxes(axes, body.bx), y = inAxes(axes, body.by), z = inAxes(axes, body.bz);
+  body.bx = axes.x.x() * x + axes.y.x() * y + axes.z.x() * z;
+  body.by = axes.x.y() * x + axes.y.y() * y + axes.z.y() * z;
+  body.bz = axes.x.z() * x + axes.y.z() * y + axes.z.z() * z;
+}
+
+// M - diag(sure_inertia) has no negative direction: elimination along the tree at rest meets no
+// pivot that is not positive. Each body is in its own axes, so that nothing else need be known.
 bool holdsAtRest(const std::vector<Link>& links) {
-  std::vector<Link> springs = links;
-  for (Link& link : springs) link.stiffness = link.sure_inertia;
-  const ChainState rest{std::vector<Vec2>(links.size(), Vec2::Zero()),
-                        std::vector<Vec2>(links.size(), Vec2::Zero())};
-  Kinematics kinematics;
-  kinematicsOf(springs, {}, rest, kinematics);
-  Loads none;
-  none.clear(links.size());
-  ArticulatedBody body;
-  std::vector<Vec2> unused;
-  body.accelerations(springs, {}, rest, kinematics, none, {-1.0, 0.0}, unused);
-  return body.positive();
+  const Axes own{Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
+  std::vector<Body> bodies(links.size());
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    rigidBody(links[i], own, bodies[i]);
+    bodies[i].torque = bodies[i].force = Vec3::Zero();
+  }
+  for (std::size_t i = links.size(); i-- > 0;) {
+    const Link& link = links[i];
+    Body& body = bodies[i];
+    const double pivot1 = body.a.xx - link.sure_inertia, coupling = body.a.xy / pivot1;
+    const double pivot2 = body.a.yy - link.sure_inertia - coupling * body.a.xy;
+    if (!(pivot1 > 0.0 && pivot2 > 0.0)) return false;
+    if (link.parent < 0) continue;
+    giveWay(pivot1, pivot2, coupling, body);
+    turn(axesOf(link.rest), body);
+    addChild(body, Vec3(0.0, 0.0, link.h), bodies[static_cast<std::size_t>(link.parent)]);
+  }
+  return true;
 }
 
 }  // namespace

@@ -112,7 +112,7 @@ TEST(BatchAir, IsAskedForWhereGripsAreOnTheirBases) {
   }
 }
 
-// Air of 60 Hz serves steps of 240 Hz: measured 3e-4 of how far the tips are from rest.
+// Air of 60 Hz serves steps of 240 Hz: measured 4e-4 of how far the tips are from rest.
 TEST(BatchAir, HeldForAFrameIsNearAirOfEachStep) {
   const std::vector<Link> links = fractalTree(200, 3);
   const std::vector<Vec3> each = tipsInBreeze(links, 1);
