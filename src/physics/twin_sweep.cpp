@@ -26,9 +26,12 @@ struct Part {
 
   HWY_INLINE Joints joints(std::size_t joint) const {
     const std::size_t block = pack * store.joints.size() + joint;
-    return {rowsAt(store.constants, block, C_ROWS, lane), rowsAt(store.state, block, S_ROWS, lane),
-            rowsAt(store.loads, block, L_ROWS, lane), rowsAt(store.work, joint, W_ROWS, lane),
-            nullptr, nullptr};
+    return {rowsAt(store.constants, block, C_ROWS, lane),
+            rowsAt(store.state, block, S_ROWS, lane),
+            rowsAt(store.loads, block, L_ROWS, lane),
+            rowsAt(store.work, joint, W_ROWS, lane),
+            nullptr,
+            nullptr};
   }
   HWY_INLINE float* onStack(int depth) const {
     return rowsAt(store.stack, static_cast<std::size_t>(depth), P_ROWS, lane);
