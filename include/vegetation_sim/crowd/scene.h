@@ -29,7 +29,8 @@ struct Scene {
 Scene readScene(YamlSection& section, std::uint64_t seed, Faults& faults);
 
 /// People like those of a street, about the place of the first: heights and speeds differ by a few
-/// percent, within what a walker may have. @param spread largest offset along x and y [m]. @param variety share of the speed.
+/// percent, within what a walker may have. @param spread largest offset along x and y [m]. @param
+/// variety share of the speed.
 std::vector<Spawn> groupOf(const Spawn& like, int count, double spread, double variety,
                            const Random& random);
 
