@@ -20,7 +20,9 @@ void declareVertices(Ogre::VertexDeclaration& declaration) {
   declaration.addElement(POSITION_STREAM, 0, Ogre::VET_FLOAT3, Ogre::VES_POSITION);
   declaration.addElement(PAINT_STREAM, 0, Ogre::VET_FLOAT3, Ogre::VES_NORMAL);
   declaration.addElement(PAINT_STREAM, 12, Ogre::VET_COLOUR_ABGR, Ogre::VES_DIFFUSE);
-  declaration.addElement(PAINT_STREAM, 16, Ogre::VET_FLOAT4, Ogre::VES_TEXTURE_COORDINATES);
+  declaration.addElement(PAINT_STREAM, 16, Ogre::VET_FLOAT3, Ogre::VES_TEXTURE_COORDINATES);
+  // Not the fourth of the others, by which a fixed-function technique divides them.
+  declaration.addElement(PAINT_STREAM, 28, Ogre::VET_FLOAT1, Ogre::VES_TEXTURE_COORDINATES, 1);
 }
 
 Ogre::HardwareIndexBufferSharedPtr indexBuffer(const std::vector<std::uint32_t>& triangles,

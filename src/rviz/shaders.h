@@ -27,7 +27,7 @@ varying float shown;  // part of what comes; of what goes less 1
 void main() {
   gl_Position = world_view_projection * gl_Vertex;
 #ifdef FADING
-  float since = gl_MultiTexCoord0.w;
+  float since = gl_MultiTexCoord1.x;
   float part = clamp(fade_clock.x - abs(since), 0.0, 1.0);
   shown = since == 0.0 ? 1.0 : since > 0.0 ? part : part - 1.0;
 #endif

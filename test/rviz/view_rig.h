@@ -14,16 +14,20 @@
 #include <rviz/visualization_manager.h>
 
 #include <QApplication>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <memory>
 #include <vector>
 
 namespace vegetation_sim {
 
-/// Share of pixels that look like leaves or grass, like sky, and how much brightness varies.
+/// Share of pixels that look like leaves or grass, like sky, and of the commonest colour; and how
+/// much brightness varies.
 struct Impression {
-  double green{0.0}, blue{0.0}, spread{0.0};
+  double green{0.0}, blue{0.0}, commonest{0.0}, spread{0.0};
 };
 
 /// rviz without its window frame, and a clock that the test drives.
@@ -127,10 +131,14 @@ class ViewRig {
     const double count = static_cast<double>(pixels.size()) / 3.0;
     Impression out;
     double sum = 0.0, squares = 0.0;
+    std::map<std::array<std::uint8_t, 3>, double> colours;
     for (std::size_t i = 0; i + 2 < pixels.size(); i += 3) {
       const double r = pixels[i], g = pixels[i + 1], b = pixels[i + 2];
       out.green += g > r && g > 1.2 * b ? 1.0 / count : 0.0;
       out.blue += b > r && b > 100.0 ? 1.0 / count : 0.0;
+      double& share = colours[{pixels[i], pixels[i + 1], pixels[i + 2]}];
+      share += 1.0 / count;
+      out.commonest = std::max(out.commonest, share);
       sum += g / count;
       squares += g * g / count;
     }
