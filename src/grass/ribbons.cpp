@@ -61,7 +61,8 @@ Float3 wayToEdge(float x, float y, float size) {
 }
 
 std::uint8_t byteOfUnit(float part) {
-  return static_cast<std::uint8_t>(255.f * std::min(1.f, std::max(0.f, part)) + 0.5f);
+  constexpr float HALF = 0.5f;  // rounds; std::lround would call the library
+  return static_cast<std::uint8_t>(255.f * std::min(1.f, std::max(0.f, part)) + HALF);
 }
 
 /// Writes into the room that a mesh has made.
