@@ -1,14 +1,16 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
 // Measures leafy masses: a step of the air by scheme and size with its error, oscillators, layers,
-// a tick against the number of leaves, and layers against leaves that each move on their own.
-// usage: canopy_bench [ROUNDS] [--quick] [--part steps,errors,leaves,truth] [--csv FILE]
+// a tick against the number of leaves, layers against leaves that each move on their own, and how
+// layers behind the first one are told its past. usage: canopy_bench [ROUNDS] [--quick]
+// [--part steps,errors,leaves,truth,delays] [--csv FILE]
 
 #include <cmath>
 #include <cstdio>
 #include <memory>
 
 #include "canopy/canopy_scene.h"
+#include "canopy/delay_scene.h"
 #include "canopy/leaf_truth.h"
 #include "canopy/plane_scene.h"
 #include "canopy/spectral_reference.h"
@@ -204,17 +206,46 @@ void benchTruth(const bench::Options& options, bench::Table& table) {
     }
 }
 
+// S3-18, S3-22: a layer some time behind the first, from the history and by the one look-up.
+void benchDelays(const bench::Options& options, bench::Table& table) {
+  History history(64, 31);
+  for (int i = 0; i < 31; ++i) history.push(toFrame(smoothFlow(64, 1), 0.0));
+  const auto layerBy = [&](int model) {
+    return [&history, model] {
+      LayerSettings settings;
+      settings.model = model;
+      LayerMotion layer;
+      layerMotion(viewOf(settings, history), 1.0, 1.0, 2.0, layer);
+    };
+  };
+  std::vector<Candidate> candidates{{"history", layerBy(0)}, {"lookup", layerBy(1)}};
+  bench::timeOnProcessor(candidates, options.rounds);
+  const double costs[3] = {1e3 * candidates[0].seconds, 1e3 * candidates[1].seconds, 0.0};
+  std::printf("\na layer of 64 x 64 behind the first one in gusts, error by delay\n");
+  for (const int quarters : {1, 3, 7, 15, 31, 61, 91, 117}) {
+    if (options.quick && quarters % 4 == 1 && quarters > 1) continue;
+    const double delay = quarters / 120.0;
+    const GustErrors errors = errorsInGusts(delay);
+    std::printf("%.3f s: history %.4f (%.4f ms), look-up %.3f (%.4f ms), no delay %.3f\n", delay,
+                errors.history, costs[0], errors.lookup, costs[1], errors.nothing);
+    table.row("history", delay, errors.history, costs[0]);
+    table.row("lookup", delay, errors.lookup, costs[1]);
+    table.row("nothing", delay, errors.nothing, costs[2]);
+  }
+}
+
 }  // namespace
 }  // namespace vegetation_sim::canopy
 
 int main(int argc, char** argv) {
   using namespace vegetation_sim;
   const bench::Options options =
-      bench::readOptions(argc, argv, {"steps", "errors", "leaves", "truth"});
+      bench::readOptions(argc, argv, {"steps", "errors", "leaves", "truth", "delays"});
   bench::Table table(options.csv, "what,size,value,ratio");
   if (options.wants("steps")) canopy::benchSteps(options, table);
   if (options.wants("errors")) canopy::benchErrors(options, table);
   if (options.wants("leaves")) canopy::benchLeaves(options, table);
   if (options.wants("truth")) canopy::benchTruth(options, table);
+  if (options.wants("delays")) canopy::benchDelays(options, table);
   return 0;
 }

@@ -4,7 +4,9 @@
 // The governor (N7): cost and error of ever more trees on one budget, and what choosing takes; a
 // still forest that nobody looks at; one held branch among thousands of trees.
 // usage: governor_bench [ROUNDS] [--quick | --full] [--part NAME,..] [--csv FILE]
+#include <algorithm>
 #include <cstdio>
+#include <map>
 
 #include "forest/forest_fixture.h"
 #include "options.h"
@@ -55,19 +57,55 @@ struct Scene {
   std::int64_t tick{TickGrid(RATE).tickAt(1700000000LL * NANOSECONDS_PER_SECOND)};
 };
 
+/// Over some seconds: most changes of rung of any tree, a second; cost and error at the worst.
+struct Watched {
+  double changes{0.0}, least_cost{1e9}, most_cost{0.0}, error{0.0}, typical_error{0.0};
+};
+
+Watched watch(Scene& scene, int duration) {
+  Watched out;
+  std::map<std::uint32_t, int> levels, changes;
+  for (int i = 0; i < duration * RATE; ++i) {
+    scene.advance();
+    const GovernorFigures& figures = scene.forest.governor();
+    out.least_cost = std::min(out.least_cost, figures.cost);
+    out.most_cost = std::max(out.most_cost, figures.cost);
+    out.error = std::max(out.error, figures.largest);
+    std::vector<double> errors;
+    for (const Plant& plant : scene.forest.plants()) {
+      errors.push_back(plant.error[static_cast<std::size_t>(plant.chosen)]);
+      const auto known = levels.find(plant.id);
+      if (known != levels.end() && known->second != plant.chosen) ++changes[plant.id];
+      levels[plant.id] = plant.chosen;
+    }
+    if (errors.empty()) continue;
+    std::nth_element(errors.begin(), errors.begin() + errors.size() / 2, errors.end());
+    out.typical_error = std::max(out.typical_error, errors[errors.size() / 2]);
+  }
+  for (const auto& entry : changes)
+    out.changes = std::max(out.changes, static_cast<double>(entry.second) / duration);
+  return out;
+}
+
 void measureBudget(const Options& options) {
-  Table table(options.csv, "trees,budget_ms,asked_ms,cost_ms,error_px,choice_ms");
+  Table table(options.csv,
+              "trees,budget_ms,asked_ms,least_ms,cost_ms,error_px,median_px,changes,choice_ms");
   std::printf("\na breeze of 5 m/s, budget %.1f ms a frame, tolerance 1 pixel\n", BUDGET);
-  std::printf("| trees | asked for ms | cost ms | largest error px | held back | choice ms |\n");
+  std::printf(
+      "| trees | asked for ms | least to most ms | largest error px | median px | held back | "
+      "changes/s | choice ms |\n");
   for (const int side : {4, 8, 16, 32, 64, 128}) {
     if (side > (options.full ? 128 : 64)) break;
     Scene scene(side, true, true);
     scene.run(90);
     const double choice = 1e3 * scene.timeTicks(options.quick ? 10 : 60);
+    const Watched seen = watch(scene, options.quick ? 1 : 4);
     const GovernorFigures& f = scene.forest.governor();
-    std::printf("| %5d | %12.3f | %7.3f | %16.2f | %9zu | %9.3f |\n", side * side, f.wanted, f.cost,
-                f.largest, f.held_back, choice);
-    table.row(side * side, f.budget, f.wanted, f.cost, f.largest, choice);
+    std::printf("| %5d | %12.3f | %5.3f to %5.3f | %16.2f | %9.2f | %9zu | %9.2f | %9.3f |\n",
+                side * side, f.wanted, seen.least_cost, seen.most_cost, seen.error,
+                seen.typical_error, f.held_back, seen.changes, choice);
+    table.row(side * side, f.budget, f.wanted, seen.least_cost, seen.most_cost, seen.error,
+              seen.typical_error, seen.changes, choice);
   }
 }
 

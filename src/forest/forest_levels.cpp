@@ -16,8 +16,6 @@ constexpr double SEEN = 0.57;
 constexpr int MODAL_BYTES = 300;
 // More are not kept room for: few scenes have as many near trees.
 constexpr std::size_t MANY_PLANTS = 20000;
-// A rung that has changed stays for so long while the budget binds [s].
-constexpr double REST = 1.0;
 
 }  // namespace
 
@@ -90,13 +88,14 @@ void Forest::chooseTree(std::uint32_t tree) {
   const auto known = memory_.levels.held().find(tree);
   const bool held = known != memory_.levels.held().end();
   Plant plant;
-  plant.tree = tree;
+  plant.id = tree;
   plant.held = held ? known->second.level : last_base_;
-  plant.resting = held && secondsBetween(known->second.since, memory_.stamp) < REST;
+  plant.resting = held && secondsBetween(known->second.since, memory_.stamp) < RUNG_REST;
   predict(seed, table, view, plant);
   const int base = memory_.levels.base().level;
-  plant.procedural = std::max(plant.procedural, base);
-  if (plant.procedural != base || plant.held != base) plants_.push_back(plant);
+  plant.stair = std::max(plant.stair, base);
+  plant.wanted = std::max(plant.wanted, base);
+  if (plant.wanted != base || plant.held != base) plants_.push_back(plant);
 }
 
 // Errors and costs of all rungs, and which of them the tolerance asks for.
@@ -107,22 +106,25 @@ void Forest::predict(const TreeSeed& seed, const LevelTable& table, double view,
   const Vec3 foot = footOf(seed, *terrain_);
   const double air = now_.speedBound(foot, 0.5 * table.reach);
   const double speed = bendingSpeed(air, species.reference_speed);
-  plant.procedural = std::min(chooseLevel(table, speed, view, settings.tolerance, plant.held),
-                              settings.highest_level);
-  double lag = 0.0;
-  if (haveModes() && plant.procedural > 0) {
+  plant.stair = plant.wanted = std::min(
+      chooseLevel(table, speed, view, settings.tolerance, plant.held), settings.highest_level);
+  Lag lag;
+  if (haveModes() && plant.stair > 0) {
     const double gust = now_.gustBound(foot, 0.5 * table.reach);
-    const double share = air > 0.0 ? gust / air : 0.0;
-    if (share > 0.0)
-      lag = share * speed * view * tables_[seed.species].lagAt(species, layout_.motion, seed.scale);
+    lag = tables_[seed.species].lagAt(species, layout_.motion, seed.scale);
+    lag.distance *= (air > 0.0 ? gust / air : 0.0) * speed * view / SEEN;  // [pixel]
+    lag.turn *= speed;
   }
   const bool has = plant.held == MODAL_LEVEL;
-  plant.modal = lag > (has ? HYSTERESIS : 1.0) * settings.tolerance;
+  if (lag.distance > (has ? HYSTERESIS : 1.0) * settings.tolerance) plant.wanted = MODAL_LEVEL;
+  const double motion = speed * view * table.omitted[0];
   for (std::size_t rung = 0; rung < table.omitted.size(); ++rung) {
-    plant.error[rung] = static_cast<float>(std::max(speed * view * table.omitted[rung], lag));
+    const double omitted = speed * view * table.omitted[rung];
+    plant.error[rung] = static_cast<float>(std::max(omitted, lag.distance));
     plant.cost[rung] = static_cast<float>(1e-6 * budget.procedural_cost * table.branches[rung]);
   }
-  plant.error[MODAL_LEVEL] = static_cast<float>(MODAL_SHARE * lag);
+  const double off = MODAL_SHARE * lag.distance + MODAL_BENT * lag.turn * motion;
+  plant.error[MODAL_LEVEL] = static_cast<float>(off);
   plant.cost[MODAL_LEVEL] = static_cast<float>(1e-6 * budget.modal_cost * table.branches.back());
 }
 
@@ -137,16 +139,18 @@ void Forest::adopt() {
   const double physical =
       1e-6 * budget.physical_cost * static_cast<double>(physicsFigures().branches);
   const int modal = std::min(budget.modal_trees, budget.state_bytes / MODAL_BYTES);
-  governor_ = govern(plants_, std::max(0.0, budget.frame_time - physical),
-                     static_cast<std::size_t>(modal), settings.tolerance);
+  shareModes(plants_, static_cast<std::size_t>(modal));
+  static_cast<Balance&>(governor_) =
+      govern(plants_, std::max(0.0, budget.frame_time - physical), settings.tolerance);
   governor_.physical = physical;
   governor_.cost += physical;
   governor_.budget = budget.frame_time;
+  governor_.strained = memory_.modes.strained();
   beginModes();
   std::vector<std::uint32_t> chosen, held;
   for (const Plant& plant : plants_) {
-    aim(plant.tree, plant.chosen);
-    chosen.push_back(plant.tree);
+    aim(plant.id, plant.chosen);
+    chosen.push_back(plant.id);
   }
   std::sort(chosen.begin(), chosen.end());
   for (const auto& entry : memory_.levels.held()) held.push_back(entry.first);
@@ -161,13 +165,13 @@ void Forest::adopt() {
 void Forest::beginModes() {
   Plant* first = nullptr;
   for (Plant& plant : plants_) {
-    if (plant.chosen != MODAL_LEVEL || memory_.modes.find(plant.tree)) continue;
-    plant.chosen = plant.procedural;
+    if (plant.chosen != MODAL_LEVEL || memory_.modes.find(plant.id)) continue;
+    plant.chosen = plant.stair;
     if (!first || plant.error[0] > first->error[0]) first = &plant;
   }
   if (!first) return;
-  memory_.modes.begin({layout_, *terrain_, memory_.wind}, first->tree, memory_.stamp);
-  memory_.changed.insert(first->tree);
+  memory_.modes.begin({layout_, *terrain_, memory_.wind}, first->id, memory_.stamp);
+  memory_.changed.insert(first->id);
   first->chosen = MODAL_LEVEL;
 }
 

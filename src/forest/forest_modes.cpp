@@ -89,6 +89,12 @@ std::size_t ForestModes::bytes() const {
   return out;
 }
 
+std::size_t ForestModes::strained() const {
+  return static_cast<std::size_t>(std::count_if(
+      sways_.begin(), sways_.end(),
+      [](const auto& entry) { return !entry.second.modes().probe().holds(entry.second.state()); }));
+}
+
 void ForestModes::addTo(Hash& hash) const {
   for (const auto& [tree, sway] : sways_) {
     hash.add(static_cast<std::uint64_t>(tree));

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 
+#include "vegetation_sim/forest/level.h"
 #include "vegetation_sim/forest/modal_tree.h"
+#include "vegetation_sim/forest/response.h"
 #include "vegetation_sim/wind/field.h"
 
 namespace vegetation_sim::forest {
@@ -13,8 +15,9 @@ namespace {
 constexpr int SAMPLES = 2;         // trees measured per species and scale
 constexpr int RATE = 20;           // looks a second
 constexpr int WARM_UP = 3 * RATE;  // until the start is forgotten
-constexpr int LOOKS = 15 * RATE;
-constexpr double STRANGER = 1.1;  // trees that were not measured may be off so much more
+constexpr int LOOKS = 10 * RATE;
+constexpr int STRIDE = RATE / 4;  // from one comparison of tips to the next
+constexpr double STRANGER = 1.1;  // trees that were not measured may turn so much more
 
 wind::Field breeze() {
   wind::Primitive out;
@@ -26,51 +29,56 @@ wind::Field breeze() {
   return wind::Field({out}, 7);
 }
 
-// Largest distance of any wind point between amplitudes and the static answer to their load.
-double farthest(const ModalTree& modal, const std::vector<double>& load,
-                const std::vector<double>& amplitude) {
+// Largest distance of any tip between modes and the procedural motion.
+double farthest(const Tree& tree, const ModalTree& modal, const std::vector<double>& amplitude,
+                const wind::Instant& now) {
+  std::vector<JointAngles> bends = modal.bendsOf(amplitude);
+  for (JointAngles& bend : bends) bend = limited(bend);
+  const std::vector<Pose> sways = forwardKinematics(tree, bends);
+  Weights all;
+  all.fill(1.0);
+  const std::vector<Pose> follows = poseBranches(tree, now, all);
   double out = 0.0;
-  for (const WindPoint& point : modal.windPoints()) {
-    Vec3 off = Vec3::Zero();
-    for (std::size_t m = 0; m < amplitude.size(); ++m) {
-      const double w = modal.modes().frequency[m];
-      off += (amplitude[m] - load[m] / (w * w)) * point.push[m];
-    }
-    out = std::max(out, length(off) / point.drag);
+  for (std::size_t i = 0; i < sways.size(); ++i) {
+    const Branch& branch = tree.skeleton.branches[i];
+    out = std::max(out, length(tipOf(branch, sways[i]) - tipOf(branch, follows[i])));
   }
   return out;
 }
 
-double lagOf(const Tree& tree, const Species& species, const wind::Field& field) {
+void raise(const Tree& tree, const Species& species, const wind::Field& field, Lag& out) {
   const ModalTree modal(tree, species);
   physics::ModalStepper stepper(modal.modes());
   physics::ModalState state = stepper.atRest();
   std::vector<double> before, after;
   AirSampler air;
-  double out = 0.0;
   for (int look = 0; look < LOOKS; ++look) {
     const wind::Instant now = field.at(fromSeconds(static_cast<double>(look) / RATE));
     modal.loadOf(now, air, after);
     if (look > 0) stepper.step(before, after, 1.0 / RATE, state);
     before = after;
-    if (look >= WARM_UP)
-      out = std::max(out, farthest(modal, after, state.amplitude) / now.gustBound(tree.foot, 0.0));
+    if (look < WARM_UP || look % STRIDE != 0) continue;
+    const double off = farthest(tree, modal, state.amplitude, now) / now.gustBound(tree.foot, 0.0);
+    const double turn = modal.probe().largestTurn(state) / now.speedBound(tree.foot, 0.0);
+    out.distance = std::max(out.distance, off);
+    out.turn = std::max(out.turn, STRANGER * turn);
   }
-  return out;
 }
 
 }  // namespace
 
-double measureLag(const Species& species, const MotionLaw& law, double scale) {
-  if (static_cast<JointModel>(law.joint_model) != JointModel::SWING) return 0.0;
+Lag measureLag(const Species& species, const MotionLaw& law, double scale) {
+  Lag out;
+  if (static_cast<JointModel>(law.joint_model) != JointModel::SWING) return out;
   const wind::Field field = breeze();
-  double out = 0.0;
   for (int sample = 0; sample < SAMPLES; ++sample) {
     Tree tree;
     tree.seed.seed = static_cast<std::uint64_t>(sample) + 1;
     tree.seed.scale = scale;
     tree.skeleton = grow(tree.seed, species);
-    out = std::max(out, STRANGER * lagOf(tree, species, field));
+    tree.response = windResponse(tree.skeleton, species, law);
+    tree.joint_model = JointModel::SWING;
+    raise(tree, species, field, out);
   }
   return out;
 }

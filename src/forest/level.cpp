@@ -140,15 +140,16 @@ LevelTable LevelScales::at(double scale) const {
   return out;
 }
 
-double LevelScales::lagAt(const Species& species, const MotionLaw& law, double scale) {
+Lag LevelScales::lagAt(const Species& species, const MotionLaw& law, double scale) {
   const std::size_t below = gridIndex(scale);
   const auto lag = [&](std::size_t i) {
     const auto known = lags_.find(i);
     if (known != lags_.end()) return known->second;
     return lags_[i] = measureLag(species, law, GRID[i]);
   };
-  const double a = lag(below), b = lag(below + 1);
-  return a + saturate((scale - GRID[below]) / (GRID[below + 1] - GRID[below])) * (b - a);
+  const Lag a = lag(below), b = lag(below + 1);
+  const double f = saturate((scale - GRID[below]) / (GRID[below + 1] - GRID[below]));
+  return {a.distance + f * (b.distance - a.distance), a.turn + f * (b.turn - a.turn)};
 }
 
 int chooseLevel(const LevelTable& table, double speed, double pixels_per_metre, double tolerance,

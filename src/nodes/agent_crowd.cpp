@@ -40,6 +40,7 @@ AgentCrowd::AgentCrowd(ros::NodeHandle handle, ros::NodeHandle private_handle)
   events_publisher_ = handle_.advertise<CrowdEvent>("agents/events", 10000);
   diagnostics_.setHardwareID("none");
   diagnostics_.add("crowd", this, &AgentCrowd::diagnose);
+  diagnostics_.add("governor", this, &AgentCrowd::diagnoseGovernor);
   tuning_server_ = std::make_unique<dynamic_reconfigure::Server<AgentCrowdConfig>>(private_handle_);
   tuning_server_->setCallback(
       [this](AgentCrowdConfig& config, std::uint32_t) { onTuning(config); });
@@ -50,7 +51,8 @@ AgentCrowd::AgentCrowd(ros::NodeHandle handle, ros::NodeHandle private_handle)
 void AgentCrowd::listen() {
   constexpr unsigned MANY = 2 * EventQueue<CrowdEvent>::MOST_WAITING;
   subscribers_ = {handle_.subscribe("forest/layout", 4, &AgentCrowd::onLayout, this),
-                  handle_.subscribe("grass/cover/resistance", 4, &AgentCrowd::onCover, this)};
+                  handle_.subscribe("grass/cover/resistance", 4, &AgentCrowd::onCover, this),
+                  handle_.subscribe("viewer", 10, &AgentCrowd::onViewer, this)};
   if (options_.replay)
     subscribers_.push_back(handle_.subscribe("agents/events", MANY, &AgentCrowd::onEvent, this));
   services_ = {private_handle_.advertiseService("spawn", &AgentCrowd::onSpawn, this),
@@ -184,6 +186,7 @@ void AgentCrowd::restart(Nanoseconds now) {
     return options_.replay ? fromMsg(event.header.stamp) > now : of_walker;
   });
   tf_buffer_.clear();
+  watchers_.clear();
   begun_ = false;
 }
 

@@ -63,6 +63,15 @@ void AgentCrowd::onCover(const nav_msgs::OccupancyGrid& message) {
   }
 }
 
+// Looks only: the state does not depend on it, so it is no event.
+void AgentCrowd::onViewer(const Viewer& message) {
+  try {
+    watchers_.hear(message, tf_buffer_, options_.frame_id, clock_.hasBegun() ? clock_.stamp() : 0);
+  } catch (const InvalidInput& error) {
+    reject("viewer", error.what());
+  }
+}
+
 void AgentCrowd::followRobots(Nanoseconds stamp) {
   for (const CrowdRobots::Change& change : robots_->update(stamp)) {
     CrowdEvent event;

@@ -6,6 +6,7 @@
 #include "vegetation_sim/common/math.h"
 #include "vegetation_sim/crowd/gait.h"
 #include "vegetation_sim/nodes/agent_crowd.h"
+#include "vegetation_sim/ros/balance_report.h"
 #include "vegetation_sim/ros/geometry_conversions.h"
 
 namespace vegetation_sim {
@@ -13,6 +14,7 @@ namespace {
 
 constexpr double BODY_RADIUS = 0.16, FOOT_RADIUS = 0.06;  // of a tread [m]
 constexpr double TOLD_EVERY = 0.12;                       // a body's way [m]
+constexpr double FAR = 1000.0, ARM = 0.5;                 // of walkers from robots [m]
 
 }  // namespace
 
@@ -88,13 +90,35 @@ void AgentCrowd::treadOfFeet(const crowd::Walker& walker, Nanoseconds stamp) {
   last.seen = true;
 }
 
+// Walkers near a robot have frames first: without one, it does not know where they are.
+std::vector<Choice> AgentCrowd::chooseFrames(Nanoseconds stamp) {
+  std::vector<Choice> out;
+  for (const crowd::Walker& walker : crowd_->walkers()) {
+    double nearest = FAR;
+    for (const auto& robot : crowd_->memory().robots)
+      nearest = std::min(nearest, length(robot.second.position - walker.position));
+    Choice choice;
+    choice.id = walker.id;
+    choice.stair = choice.wanted = 1;
+    choice.error[0] = static_cast<float>(1.0 / (ARM + nearest));
+    choice.cost[1] = 1.F;
+    held_frames_.recall(choice, stamp);
+    out.push_back(choice);
+  }
+  govern(out, options_.tf_budget, 0.0);
+  held_frames_.keep(out, stamp);
+  return out;
+}
+
 void AgentCrowd::sendFrames(const ros::TimerEvent&) {
   const Nanoseconds stamp = crowd_->memory().stamp;
   if (!clock_.hasBegun() || stamp == framed_) return;  // tf warns of a stamp that comes twice
   framed_ = stamp;
   std::vector<geometry_msgs::TransformStamped> frames;
-  for (const crowd::Walker& walker : crowd_->walkers()) {
-    if (frames.size() >= static_cast<std::size_t>(options_.tf_budget)) break;
+  const std::vector<Choice> choices = chooseFrames(stamp);
+  for (std::size_t i = 0; i < choices.size(); ++i) {
+    if (choices[i].chosen == 0) continue;
+    const crowd::Walker& walker = crowd_->walkers()[i];
     const AgentState state = toMsg(walker, crowd_->terrain());
     geometry_msgs::TransformStamped frame;
     frame.header.stamp = toStamp(stamp);
@@ -104,12 +128,15 @@ void AgentCrowd::sendFrames(const ros::TimerEvent&) {
     frame.transform.rotation = state.pose.orientation;
     frames.push_back(frame);
   }
+  frames_sent_ = frames.size();
   if (!frames.empty()) tf_broadcaster_.sendTransform(frames);
 }
 
 void AgentCrowd::sendMarkers(const ros::TimerEvent&) {
   if (!clock_.hasBegun() || markers_publisher_.getNumSubscribers() == 0) return;
-  markers_publisher_.publish(markers_.build(*crowd_, options_.frame_id, crowd_->memory().stamp));
+  const Nanoseconds stamp = crowd_->memory().stamp;
+  markers_publisher_.publish(markers_.build(*crowd_, watchers_.eyesAt(stamp), options_.tolerance,
+                                            options_.frame_id, stamp));
 }
 
 // What has happened since the last report, and only that.
@@ -153,8 +180,19 @@ void AgentCrowd::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   status.add("Deepest overlap [mm]", static_cast<int>(1e3 * crowd_->deepestOverlap()));
   status.add("Treads sent", counts_.treads);
   status.add("State sent [B]", counts_.state_bytes);
+}
+
+// Of what is drawn and framed; how people walk is the same for all of them.
+void AgentCrowd::diagnoseGovernor(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  tell(markers_.balance(),
+       {"Walkers", options_.tolerance, "marker_points", "points",
+        static_cast<double>(markers_.budget()), CrowdMarkers::rungs()},
+       status);
+  status.add("Viewers", watchers_.size());
   status.add("Marker points", markers_.points());
   status.add("Marker budget [points]", markers_.budget());
+  status.add("tf frames", frames_sent_);
+  status.add("tf budget [frames]", options_.tf_budget);
 }
 
 }  // namespace vegetation_sim

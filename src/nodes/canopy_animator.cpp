@@ -30,6 +30,7 @@ CanopyAnimator::CanopyAnimator(ros::NodeHandle handle, ros::NodeHandle private_h
   publishLayout();
   diagnostics_.setHardwareID("none");
   diagnostics_.add("canopy", this, &CanopyAnimator::diagnose);
+  diagnostics_.add("governor", this, &CanopyAnimator::diagnoseGovernor);
   tuning_server_ =
       std::make_unique<dynamic_reconfigure::Server<CanopyAnimatorConfig>>(private_handle_);
   tuning_server_->setCallback(

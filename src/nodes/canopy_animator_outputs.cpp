@@ -1,6 +1,7 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vegetation_sim/nodes/canopy_animator.h"
+#include "vegetation_sim/ros/balance_report.h"
 #include "vegetation_sim/ros/canopy_conversions.h"
 
 namespace vegetation_sim {
@@ -16,6 +17,9 @@ void CanopyAnimator::publishState(std::int64_t tick) {
 void CanopyAnimator::sendMarkers(const ros::TimerEvent&) {
   if (!clock_.hasBegun() || markers_publisher_.getNumSubscribers() == 0) return;
   const canopy::Foliage& foliage = canopy_->foliage();
+  Eye eye;
+  eye.position = canopy_->memory().cuts.now.position;
+  markers_.choose(canopy_->layout(), eye, options_.tolerance, clock_.stamp());
   markers_publisher_.publish(markers_.build(foliage, crownLeaves(foliage), options_.frame_id));
 }
 
@@ -72,6 +76,14 @@ void CanopyAnimator::diagnose(diagnostic_updater::DiagnosticStatusWrapper& statu
   status.add("Steps undone", counts_.resets);
   status.add("Memory of the layers [B]", canopy_->memory().history.bytes());
   status.add("State sent [B]", counts_.state_bytes);
+}
+
+// Of the markers; how leaves move is the same for all of them.
+void CanopyAnimator::diagnoseGovernor(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  tell(markers_.balance(),
+       {"Plants", options_.tolerance, "marker_points", "points",
+        static_cast<double>(markers_.budget()), markers_.rungs()},
+       status);
   status.add("Marker points", markers_.points());
   status.add("Marker budget [points]", markers_.budget());
 }

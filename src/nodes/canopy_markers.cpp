@@ -3,6 +3,9 @@
 #include "vegetation_sim/nodes/canopy_markers.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
 
 #include "vegetation_sim/common/math.h"
 #include "vegetation_sim/ros/geometry_conversions.h"
@@ -13,6 +16,7 @@ namespace {
 constexpr std::size_t POINTS_PER_LEAF = 6, POINTS_PER_STEM = 12;
 constexpr std::size_t SHADE_EDGES = 12, POINTS_PER_SHADE = 3 * SHADE_EDGES;
 constexpr double SHADE_HEIGHT = 0.012;  // [m] over the ground, so that it is not hidden
+constexpr double LEAST_SHARE = 0.125;   // of a plant's leaves, over an even share of the points
 constexpr double DARK_ROOT = 0.6;       // light at a leaf's root over that at its tip
 
 visualization_msgs::Marker makeList(const std::string& ns, int id) {
@@ -82,13 +86,18 @@ CanopyMarkers::CanopyMarkers(int points)
       crown_list_(makeList("crowns", 3)) {}
 
 void CanopyMarkers::setLayout(const canopy::Layout& layout) {
-  leaves_.clear();
+  plants_.assign(layout.plants.size(), {});
+  held_ = {};
   for (visualization_msgs::Marker* list : {&stem_list_, &shade_list_}) {
     list->points.clear();
     list->colors.clear();
   }
   const auto wanted = static_cast<double>(layout.leafCount() * POINTS_PER_LEAF);
   share_ = wanted > 0.0 ? std::min(1.0, static_cast<double>(leaf_points_) / wanted) : 1.0;
+  shares_ = {0.0};
+  for (double share = LEAST_SHARE * share_; share < 1.0 && shares_.size() + 1 < MOST_RUNGS;)
+    shares_.push_back(share), share *= 2.0;
+  shares_.push_back(1.0);
   for (std::size_t id = 0; id < layout.plants.size(); ++id) addPlant(layout, id);
   crown_points_ = 0;
   for (const canopy::CrownRule& rule : layout.crowns)
@@ -106,7 +115,7 @@ void CanopyMarkers::setCrowns(const canopy::Layout& layout, const LeafedCrowns& 
     const canopy::PlantKind& kind = layout.kinds[crown.kind];
     for (std::size_t i = 0; i < drawnOf(crown.leaves.size()); ++i) {
       const canopy::Leaf& leaf = crown.leaves[i].leaf;
-      crown_leaves_.push_back({leaf, 0, colourOf(leafColour(kind, leaf))});
+      crown_leaves_.push_back({leaf, colourOf(leafColour(kind, leaf))});
     }
   }
 }
@@ -114,8 +123,6 @@ void CanopyMarkers::setCrowns(const canopy::Layout& layout, const LeafedCrowns& 
 void CanopyMarkers::addPlant(const canopy::Layout& layout, std::size_t id) {
   const canopy::PlantKind& kind = layout.kinds[layout.plants[id].kind];
   const canopy::GrownPlant grown = canopy::grow(kind, layout.plants[id]);
-  for (std::size_t i = 0; i < drawnOf(grown.leaves.size()); ++i)
-    leaves_.push_back({grown.leaves[i], id, colourOf(leafColour(kind, grown.leaves[i]))});
   addStems(grown.stems, kind.stem_colour);
   addShade(layout.plants[id], 0.9 * layout.plants[id].scale * kind.radius);
   for (const canopy::Leaf& face : grown.rigid) {
@@ -123,6 +130,65 @@ void CanopyMarkers::addPlant(const canopy::Layout& layout, std::size_t id) {
     const std_msgs::ColorRGBA paint = darkened(colourOf(kind.stem_colour), face.light);
     addStrip(stem_list_, cornersOf(face, {face.root, face.tip, face.side}), paint, paint);
   }
+}
+
+std::vector<std::string> CanopyMarkers::rungs() const {
+  std::vector<std::string> out;
+  for (const double share : shares_) {
+    char name[40];
+    std::snprintf(name, sizeof name, "with %.3g %% of their leaves", 100.0 * share);
+    out.push_back(name);
+  }
+  return out;
+}
+
+// Fewer leaves leave gaps as wide as the next leaf is farther off; none leave the whole plant out.
+void CanopyMarkers::choose(const canopy::Layout& layout, const Eye& eye, double tolerance,
+                           Nanoseconds stamp) {
+  std::vector<Choice> choices;
+  for (std::size_t id = 0; id < layout.plants.size(); ++id) {
+    const canopy::Plant& plant = layout.plants[id];
+    const canopy::PlantKind& kind = layout.kinds[plant.kind];
+    const double height = plant.scale * kind.height;
+    const Vec3 middle = plant.position + Vec3(0.0, 0.0, 0.5 * height);
+    const double distance = length(eye.position - middle) - plant.scale * kind.radius;
+    const double scale = pixelsPerMetre(eye, distance);
+    const auto leaves = static_cast<double>(canopy::leafCount(kind));
+    Choice choice;
+    choice.id = static_cast<std::uint32_t>(id);
+    for (std::size_t rung = 0; rung < shares_.size(); ++rung) {
+      const double share = shares_[rung];
+      const double gap = kind.leaf_length * (1.0 / std::sqrt(share) - 1.0);
+      choice.error[rung] = static_cast<float>(scale * (share > 0.0 ? gap : height));
+      choice.cost[rung] = static_cast<float>(POINTS_PER_LEAF) * std::floor(share * leaves);
+    }
+    held_.recall(choice, stamp);
+    choice.stair = choice.wanted =
+        rungWithin(choice, static_cast<int>(shares_.size()) - 1, tolerance);
+    choices.push_back(choice);
+  }
+  balance_ = govern(choices, static_cast<double>(leaf_points_ - crown_points_), tolerance);
+  held_.keep(choices, stamp);
+  for (const Choice& choice : choices)
+    if (plants_[choice.id].rung != choice.chosen)
+      plants_[choice.id] = drawPlant(layout, choice.id, choice.chosen);
+}
+
+CanopyMarkers::DrawnPlant CanopyMarkers::drawPlant(const canopy::Layout& layout, std::size_t id,
+                                                   int rung) const {
+  const canopy::PlantKind& kind = layout.kinds[layout.plants[id].kind];
+  const double share = shares_[static_cast<std::size_t>(rung)];
+  DrawnPlant out;
+  out.rung = rung;
+  if (share <= 0.0) return out;
+  const canopy::GrownPlant grown = canopy::grow(kind, layout.plants[id]);
+  const auto count = static_cast<std::size_t>(share * static_cast<double>(grown.leaves.size()));
+  for (std::size_t i = 0; i < count; ++i) {
+    Drawn drawn{grown.leaves[i], colourOf(leafColour(kind, grown.leaves[i]))};
+    if (!drawn.leaf.joined) drawn.leaf.side *= 1.0 / std::sqrt(share);
+    out.leaves.push_back(drawn);
+  }
+  return out;
 }
 
 // Darker ground under a plant, softly ending.
@@ -167,7 +233,9 @@ visualization_msgs::MarkerArray CanopyMarkers::build(const canopy::Foliage& foli
     addStrip(list, cornersOf(drawn.leaf, moved), darkened(drawn.colour, sprouts ? DARK_ROOT : 1.0),
              drawn.colour);
   };
-  for (const Drawn& drawn : leaves_) add(leaf_list_, drawn, foliage.move(drawn.leaf, drawn.plant));
+  for (std::size_t plant = 0; plant < plants_.size(); ++plant)
+    for (const Drawn& drawn : plants_[plant].leaves)
+      add(leaf_list_, drawn, foliage.move(drawn.leaf, plant));
   for (std::size_t i = 0; i < std::min(crowns.size(), crown_leaves_.size()); ++i)
     add(crown_list_, crown_leaves_[i], crowns[i]);
   used_ = leaf_list_.points.size() + crown_list_.points.size() + stem_list_.points.size() +

@@ -120,6 +120,7 @@ void toConfig(const CanopyTuning& tuning, CanopyAnimatorConfig& config) {
 void describe(FieldVisitor& v, CanopyOptions& o) {
   v.number("markers_rate", o.markers_rate, "Hz", {0.1, 60.0});
   v.integer("marker_points", o.marker_points, "", {600, 3000000});
+  v.number("tolerance", o.tolerance, "pixel", {0.01, 1000.0});
   v.number("replay_delay", o.replay_delay, "s", {0.0, 10.0});
 }
 

@@ -3,6 +3,7 @@
 #include "vegetation_sim/nodes/crowd_markers.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "vegetation_sim/common/math.h"
@@ -15,7 +16,9 @@ namespace {
 
 using crowd::Part;
 
-constexpr int MOST_SIDES = 10, LEAST_SIDES = 3;
+constexpr std::array<int, 5> SIDES{0, 3, 4, 6, 10};  // of a limb, by rung; 0: not drawn
+constexpr double GIRTH = 0.17;                       // radius of a body [m]
+constexpr double SEEN_ALIKE = 100.0;                 // pixels per metre when nobody looks
 // Rings of a cap, from its limb outwards: a head's is round and closed, the others end in joints.
 struct Cap {
   int rings;
@@ -114,16 +117,49 @@ void CrowdMarkers::addPerson(const crowd::Walker& walker, const terrain::HeightM
   }
 }
 
+// What is wrong with a rung: all of the body, or what a polygon leaves of its girth.
+void CrowdMarkers::choose(const crowd::Crowd& crowd, const std::vector<Eye>& eyes, double tolerance,
+                          Nanoseconds stamp) {
+  choices_.clear();
+  for (const crowd::Walker& walker : crowd.walkers()) {
+    const crowd::Point& p = walker.position;
+    const Vec3 middle(p.x, p.y, crowd.terrain().height(p.x, p.y) + 0.5 * walker.height);
+    double scale = eyes.empty() ? SEEN_ALIKE : 0.0;
+    for (const Eye& eye : eyes)
+      scale = std::max(scale, pixelsPerMetre(eye, length(eye.position - middle)));
+    Choice choice;
+    choice.id = walker.id;
+    for (std::size_t rung = 0; rung < SIDES.size(); ++rung) {
+      const int sides = SIDES[rung];
+      const double off = sides > 0 ? GIRTH * (1.0 - sinCosTurns(0.5 / sides).cos) : walker.height;
+      choice.error[rung] = static_cast<float>(scale * off);
+      choice.cost[rung] = static_cast<float>(pointsOf(sides));
+    }
+    held_.recall(choice, stamp);
+    choice.stair = choice.wanted = rungWithin(choice, SIDES.size() - 1, tolerance);
+    choices_.push_back(choice);
+  }
+  balance_ = govern(choices_, static_cast<double>(budget()), tolerance);
+  held_.keep(choices_, stamp);
+}
+
+std::vector<std::string> CrowdMarkers::rungs() {
+  std::vector<std::string> out{"not drawn"};
+  for (std::size_t rung = 1; rung < SIDES.size(); ++rung)
+    out.push_back("of " + std::to_string(SIDES[rung]) + " facets");
+  return out;
+}
+
 visualization_msgs::MarkerArray CrowdMarkers::build(const crowd::Crowd& crowd,
+                                                    const std::vector<Eye>& eyes, double tolerance,
                                                     const std::string& frame_id,
                                                     Nanoseconds stamp) {
   used_ = 0;
-  const std::size_t people = std::max<std::size_t>(1, crowd.walkers().size());
-  int sides = MOST_SIDES;
-  while (sides > LEAST_SIDES && pointsOf(sides) * people > budget()) --sides;
-  for (const crowd::Walker& walker : crowd.walkers()) {
-    if (used_ + pointsOf(sides) > budget()) break;
-    addPerson(walker, crowd.terrain(), sides);
+  choose(crowd, eyes, tolerance, stamp);
+  for (std::size_t i = 0; i < choices_.size(); ++i) {
+    const int sides = SIDES[static_cast<std::size_t>(choices_[i].chosen)];
+    if (sides > 0 && used_ + pointsOf(sides) <= budget())
+      addPerson(crowd.walkers()[i], crowd.terrain(), sides);
   }
   // What is left has no area.
   std::fill(list_.points.begin() + static_cast<std::ptrdiff_t>(used_), list_.points.end(),

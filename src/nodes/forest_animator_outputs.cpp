@@ -90,6 +90,7 @@ void ForestAnimator::diagnoseGovernor(diagnostic_updater::DiagnosticStatusWrappe
   const auto& settings = forest_->memory().settings;
   std::string why = "the tolerance is held";
   if (figures.over > 0) why = "finer rungs there are none, or no room for modes";
+  if (figures.strained > 0) why = "trees bend too far for their modes";
   if (figures.held_back > 0) why = "frame_time binds";
   if (figures.cost <= 0.0) why = "nothing is seen to move";
   if (forest_->memory().viewers.empty()) why = "nobody looks: fixed_level";
@@ -98,11 +99,12 @@ void ForestAnimator::diagnoseGovernor(diagnostic_updater::DiagnosticStatusWrappe
   status.add("Largest predicted error [pixel]", figures.largest);
   status.add("Trees above the tolerance", figures.over);
   status.add("Trees that the budget holds back", figures.held_back);
+  status.add("Trees that bend too far for modes", figures.strained);
   status.add("Predicted frame time [ms]", figures.cost);
   status.add("Frame time that the tolerance asks for [ms]", figures.wanted + figures.physical);
   status.add("Frame time budget [ms]", figures.budget);
-  for (std::size_t rung = 0; rung < figures.trees.size(); ++rung)
-    status.add("Moving trees of level " + std::to_string(rung), figures.trees[rung]);
+  for (std::size_t rung = 0; rung < figures.counts.size(); ++rung)
+    status.add("Moving trees of level " + std::to_string(rung), figures.counts[rung]);
   status.add("tf frames", frames_sent_);
   status.add("tf budget [frames]", frames_.budget());
   status.add("Marker points", markers_.points());

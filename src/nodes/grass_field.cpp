@@ -48,6 +48,7 @@ GrassField::GrassField(ros::NodeHandle handle, ros::NodeHandle private_handle)
   publishLayout();
   diagnostics_.setHardwareID("none");
   diagnostics_.add("grass", this, &GrassField::diagnose);
+  diagnostics_.add("governor", this, &GrassField::diagnoseGovernor);
   tuning_server_ = std::make_unique<dynamic_reconfigure::Server<GrassFieldConfig>>(private_handle_);
   tuning_server_->setCallback(
       [this](GrassFieldConfig& config, std::uint32_t) { onTuning(config); });
@@ -146,7 +147,7 @@ void GrassField::restart(Nanoseconds now) {
     return options_.replay ? fromMsg(event.header.stamp) > now
                            : event.kind == GrassEvent::TREAD || event.kind == GrassEvent::CLEAR;
   });
-  viewers_.clear();
+  watchers_.clear();
   tf_buffer_.clear();
   publishLayout();
 }

@@ -2,18 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vegetation_sim/common/field_values.h"
 #include "vegetation_sim/nodes/grass_field.h"
-#include "vegetation_sim/ros/forest_conversions.h"
 #include "vegetation_sim/ros/geometry_conversions.h"
 #include "vegetation_sim/ros/grass_conversions.h"
 #include "vegetation_sim/ros/requests.h"
 #include "vegetation_sim/ros/wind_conversions.h"
 
 namespace vegetation_sim {
-namespace {
-
-constexpr std::size_t MOST_VIEWERS = 32;
-
-}  // namespace
 
 void GrassField::reject(const std::string& what, const std::string& why) {
   ++counts_.rejected;
@@ -35,15 +29,7 @@ void GrassField::onWind(const WindField& message) {
 // Looks only: the state does not depend on it, so it is no event.
 void GrassField::onViewer(const Viewer& message) {
   try {
-    fromMsg(message);  // checks it
-    Viewer in_world = message;
-    in_world.pose =
-        toMsg(compose(poseInWorld(tf_buffer_, options_.frame_id, message.header.frame_id),
-                      fromMsg(message.pose)));
-    if (viewers_.size() >= MOST_VIEWERS && !viewers_.count(message.id))
-      throw InvalidInput("viewer '" + message.id + "' is one more than the " +
-                         std::to_string(MOST_VIEWERS) + " allowed at once");
-    viewers_[message.id] = {fromMsg(in_world).eye, clock_.hasBegun() ? clock_.stamp() : 0};
+    watchers_.hear(message, tf_buffer_, options_.frame_id, clock_.hasBegun() ? clock_.stamp() : 0);
   } catch (const InvalidInput& error) {
     reject("viewer", error.what());
   }

@@ -5,17 +5,12 @@
 #include <algorithm>
 
 #include "vegetation_sim/nodes/grass_field.h"
+#include "vegetation_sim/ros/balance_report.h"
 #include "vegetation_sim/ros/geometry_conversions.h"
 #include "vegetation_sim/ros/grass_conversions.h"
 #include "vegetation_sim/ros/requests.h"
 
 namespace vegetation_sim {
-namespace {
-
-constexpr double VIEWER_LIFE = 3.0;  // [s]
-
-}  // namespace
-
 void GrassField::publishEntering(Nanoseconds stamp) {
   GrassEvent event;
   event.kind = GrassEvent::ENTER;
@@ -62,25 +57,12 @@ void GrassField::publishWrenches(Nanoseconds stamp) {
   }
 }
 
-std::vector<Eye> GrassField::eyesAt(Nanoseconds stamp) {
-  std::vector<Eye> out;
-  for (auto entry = viewers_.begin(); entry != viewers_.end();) {
-    if (secondsBetween(entry->second.stamp, stamp) > VIEWER_LIFE) {
-      entry = viewers_.erase(entry);
-      continue;
-    }
-    out.push_back(entry->second.eye);
-    ++entry;
-  }
-  return out;
-}
-
 void GrassField::sendMarkers(const ros::TimerEvent&) {
   if (!clock_.hasBegun() || markers_publisher_.getNumSubscribers() == 0) return;
   const Nanoseconds stamp = field_->stamp();
   const auto model = static_cast<grass::BladeModel>(field_->layout().blade_model);
   markers_publisher_.publish(
-      markers_.build(*meadow_, eyesAt(stamp), wind_, model, options_.frame_id, stamp));
+      markers_.build(*meadow_, watchers_.eyesAt(stamp), wind_, model, options_.frame_id, stamp));
 }
 
 void GrassField::sendCover(const ros::TimerEvent&) {
@@ -139,7 +121,19 @@ void GrassField::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   status.add("Nodes left out by the cap", tread.counts.no_memory);
   status.add("State sent [B]", counts_.state_bytes);
   status.add("Largest state [B]", counts_.largest_state);
-  status.add("Viewers", viewers_.size());
+  status.add("Viewers", watchers_.size());
+}
+
+// Of the markers; what is trodden is the same on every rung.
+void GrassField::diagnoseGovernor(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  tell(meadow_->balance(),
+       {"Tiles",
+        tuning_.view.tolerance,
+        "marker_points",
+        "blades",
+        options_.tuning.view.most_blades,
+        {"of texture", "of strips", "of blades"}},
+       status);
   status.add("Marker points", markers_.points());
   status.add("Marker budget [points]", markers_.budget());
 }

@@ -5,11 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <deque>
 
-#include "canopy/plane_scene.h"
-#include "vegetation_sim/canopy/fluid.h"
-#include "vegetation_sim/canopy/oscillator.h"
+#include "canopy/delay_scene.h"
 #include "vegetation_sim/common/instruction_set.h"
 
 namespace vegetation_sim::canopy {
@@ -50,10 +47,6 @@ TEST(LayerDelay, HasASpeedOfItsOwnInEachLayer) {
   EXPECT_EQ(delaySpeedOf(settings, 7, 1), delaySpeedOf(settings, 7, 1));
   for (int layer = 0; layer < MOST_LAYERS; ++layer)
     EXPECT_NEAR(delaySpeedOf(settings, 9, layer), 2.0, 0.4);
-}
-
-LayerView viewOf(const LayerSettings& settings, const History& history) {
-  return {&settings, &history, 1.0 / 30.0, Vec3(0.0, 0.0, 1.0), 1.0, 4.0 / history.size()};
 }
 
 // S3-18, S3-20: an impulse of the first layer comes to the others after their delay, and half a
@@ -190,51 +183,6 @@ TEST(LayerMotion, OfOneLookupIsExactForAPlaneWave) {
   EXPECT_LT(differenceOfModels(travellingWave(2.0, 0.5), 0), 1e-6);
   EXPECT_GT(differenceOfModels(travellingWave(2.0, 0.5), 1), 0.05);
   EXPECT_LT(differenceOfModels(travellingWave(1.0, 0.002), 1), 1e-3);
-}
-
-/// Relative error of a layer 1/8 s and 1/2 s behind in a gusty wind, against what the first layer
-/// did, kept in double precision at four times the rate.
-struct GustErrors {
-  double history{0.0}, lookup{0.0}, nothing{0.0};
-};
-GustErrors errorsInGusts(double delay) {
-  SourceSettings sources;
-  sources.sides[0] = {5.0, 0.4};
-  FluidSettings fluid_settings;
-  fluid_settings.cells = 32;
-  Fluid fluid(fluid_settings, sources, 5);
-  Oscillator leaves({}, 32, 4.0);
-  History history(32, 31);
-  std::deque<PlaneField> truth;
-  GustErrors out;
-  double norm = 0.0;
-  const int fine = 4;
-  const double tick = 1.0 / 30.0;
-  for (int i = 0; i < 300 * fine; ++i) {
-    fluid.advance(i * tick / fine, tick / fine);
-    leaves.advance(tick / fine, fluid.state().flow, 0.0);
-    truth.push_front(leaves.motion());
-    if (truth.size() > 31 * fine) truth.pop_back();
-    if (i % fine != 0) continue;
-    history.push(toFrame(leaves.motion(), 0.0));
-    if (i < 100 * fine) continue;
-    LayerSettings settings;
-    LayerMotion layer;
-    const PlaneField& wanted = truth[static_cast<std::size_t>(std::lround(delay / tick * fine))];
-    const auto square = [&](const PlaneField& got) {
-      const double error = relativeError(got, wanted);
-      return error * error * energyOf(wanted);
-    };
-    norm += energyOf(wanted);
-    out.nothing += square(truth.front());
-    layerMotion(viewOf(settings, history), 2.0 * delay, 1.0, 2.0, layer);
-    out.history += square(layer.plane);
-    settings.model = 1;
-    layerMotion(viewOf(settings, history), 2.0 * delay, 1.0, 2.0, layer);
-    out.lookup += square(layer.plane);
-  }
-  for (double* value : {&out.history, &out.lookup, &out.nothing}) *value = std::sqrt(*value / norm);
-  return out;
 }
 
 // S3-18, S3-22: the history is as good as exact in 1 MB; the look-up is hardly better than nothing.

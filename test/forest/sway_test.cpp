@@ -82,6 +82,34 @@ TEST(Sway, NoTreeHasModesThatNobodyAskedFor) {
   EXPECT_GT(poor.forest.memory().levels.of(0).level, 0);
 }
 
+// N13: beyond MODAL_LIMIT the forest says so, predicts so much more error, and saturates: no joint
+// passes its limit in any storm. Below, nothing of it.
+TEST(Sway, SaturatesAndSaysSoBeyondTheLimit) {
+  double share[2];
+  for (const bool storm : {false, true}) {
+    Clearing scene(wind::Field({makeBreeze(1, Vec3(storm ? 90.0 : 5.0, 1.0, 0.0))}, 3));
+    Settings settings;
+    settings.tolerance = 0.1;
+    scene.forest.setSettings(settings);
+    scene.run(3.0);
+    ASSERT_EQ(scene.forest.memory().modes.sways().size(), 4u);
+    double bend = 0.0, turn = 0.0;
+    for (int i = 0; i < TICK_RATE; ++i) {
+      scene.advance();
+      const Sway& birch = *scene.forest.sway(2);
+      turn = std::max(turn, birch.modes().probe().largestTurn(birch.state()));
+      for (const JointAngles& joint : scene.angles(scene.tree(2), 2, scene.now()))
+        bend = std::max(bend, difference(joint, {}));
+      EXPECT_EQ(scene.forest.governor().strained > 0, storm);
+    }
+    EXPECT_EQ(turn > physics::MODAL_LIMIT, storm) << turn;
+    EXPECT_LE(bend, BEND_LIMIT);
+    for (const Plant& plant : scene.forest.plants())
+      if (plant.id == 2) share[storm] = plant.error[MODAL_LEVEL] / plant.error[0];
+  }
+  EXPECT_GT(share[1], share[0] + 0.1);
+}
+
 // N13, S1-24: no pop. At every tick, what was seen up to it and what is seen from it on agree
 // within 0.1 degree, and their rates within 1 % of the largest rate.
 TEST(Sway, NothingJumpsGoingUpOrDown) {

@@ -144,6 +144,25 @@ TEST_F(MeadowOf, KeepsTheBudgetOfBlades) {
   EXPECT_GT(blades, 10000.0);
 }
 
+// N7: tells what was chosen and why: with room the tolerance is held, without it tiles are held
+// back, and what they are off stays within the coarser tolerance.
+TEST_F(MeadowOf, TellsWhatItChoseAndWhy) {
+  const Eye eye = eyeAt(201.0, 201.0, 1.6);
+  for (const double most : {1e8, 2e4}) {
+    Meadow meadow = makeMeadow(most);
+    meadow.setEyes({eye});
+    for (int i = 0; i < 100; ++i) meadow.advance(after(0.1 * i));
+    const Balance& balance = meadow.balance();
+    const bool binds = most < 1e8;
+    EXPECT_EQ(balance.counts[0] + balance.counts[1] + balance.counts[2], 200u * 200u);
+    EXPECT_EQ(balance.held_back > 0, binds);
+    EXPECT_EQ(balance.over > 0, binds);
+    EXPECT_EQ(balance.wanted > balance.cost, binds);
+    EXPECT_LE(balance.cost, 1.1 * most);
+    EXPECT_LE(balance.largest, MeadowSettings().tolerance * meadow.memory().coarseness);
+  }
+}
+
 TEST_F(MeadowOf, LeavesOutWhatTheEyeDoesNotSee) {
   Eye eye = eyeAt(201.0, 201.0, 1.6);
   eye.cone_cosine = std::cos(0.5);

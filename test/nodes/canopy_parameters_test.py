@@ -9,7 +9,8 @@ from refusing_node import Ranges, RefusingNode
 
 # parameter: unit, least, most
 NUMBERS = {
-    'markers_rate': (' Hz', 0.1, 60), 'replay_delay': (' s', 0, 10), 'turbulence': ('', 0, 1),
+    'markers_rate': (' Hz', 0.1, 60), 'tolerance': (' pixel', 0.01, 1000),
+    'replay_delay': (' s', 0, 10), 'turbulence': ('', 0, 1),
     'law_gain': ('', 0, 10), 'frequency': (' Hz', 0.05, 20), 'damping': ('', 0, 50),
     'speed': (' m/s', 0, 20), 'reference_time': (' s', 0, 1), 'rigidity': ('', 0, 10),
     'delay_speed': (' m/s', 0.01, 100), 'depth_loss': ('', 0, 1),

@@ -12,6 +12,7 @@ BAD = {
     'state_rate': (0, 'state_rate = 0 Hz is outside 1 to 240'),
     'markers_rate': (NAN, 'markers_rate = nan'),
     'marker_points': (3, 'marker_points = 3 is outside 3000 to 3e+06'),
+    'tolerance': (0.0, 'tolerance = 0 pixel is outside 0.01 to 1000'),
     'tf_rate': (1e6, 'tf_rate = 1e+06 Hz is outside 0.1 to 240'),
     'tf_budget': (-1, 'tf_budget = -1 is outside 0 to 10000'),
     'tread': ('hands', 'tread'),

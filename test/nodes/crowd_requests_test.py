@@ -8,6 +8,7 @@ import rospy
 import rostest
 from geometry_msgs.msg import PointStamped
 from tf2_msgs.msg import TFMessage
+from visualization_msgs.msg import MarkerArray
 from vegetation_sim.msg import AgentSpawn, CrowdEvent, TreadEvent
 
 from crowd_rig import Cart, Crowd, at, distance
@@ -109,14 +110,33 @@ class CrowdRequests(unittest.TestCase):
         self.clock.run(3, self.crowd)
         self.assertEqual(self.crowd.diagnostics()['Robots'], 0)
 
-    def test_5_frames_are_bounded(self):
+    def test_5_frames_are_bounded_and_go_to_who_is_near_robots(self):  # N7
         log = Log('/tf', TFMessage)
-        log.wait(lambda all: any(t.child_frame_id == 'walker_0' for m in all for t in m.transforms),
-                 'a walker', lambda: self.clock.run(1, self.crowd))
-        names = {t.child_frame_id for m in log.messages for t in m.transforms}
+        cart = Cart(self.crowd)
+
+        def come():
+            last = self.crowd.agents()[7].pose.position
+            cart.put(last.x - 2.0, last.y, time_of(self.clock.tick))
+            self.clock.run(1, self.crowd)
+        log.wait(lambda all: any(t.child_frame_id == 'walker_7' for m in all for t in m.transforms),
+                 'the walker beside the robot', come)
+        rounds = [[t for t in m.transforms if t.child_frame_id.startswith('walker')]
+                  for m in log.messages]
         log.close()
-        self.assertEqual({n for n in names if n.startswith('walker')},
-                         {'walker_0', 'walker_1', 'walker_2'})
+        self.assertEqual({len(r) for r in rounds if r}, {3})
+        self.clock.run(40, self.crowd)  # tf falls silent
+        self.crowd.expect_event(CrowdEvent.REMOVE_ROBOT)
+
+    def test_5_governor_tells_what_it_drew_and_why(self):  # N7
+        markers = Log('/agents/markers', MarkerArray)
+        markers.wait(len, 'people', lambda: self.clock.run(1, self.crowd))
+        values = self.crowd.diagnostics('governor')
+        markers.close()
+        self.assertEqual(values['Walkers: of 10 facets'], 8)  # nobody looks: all alike
+        self.assertEqual(values['Walkers that the budget holds back'], 0)
+        self.assertEqual(values['Cost [points]'], values['Marker points'])
+        self.assertLessEqual(values['Cost [points]'], values['Budget [points]'])
+        self.assertEqual(values['tf frames'], 3)
 
     def test_6_reset_and_time_going_back_are_fresh_starts(self):
         self.assertTrue(self.crowd.reset().success)

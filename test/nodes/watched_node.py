@@ -120,13 +120,13 @@ class WatchedNode:
         for _ in range(2):
             self._probe()
 
-    def diagnostics(self):
-        """The node's next diagnostics, by key."""
+    def diagnostics(self, part=None):
+        """The node's next diagnostics, by key; of another part than its own."""
+        name = self.name.lstrip('/') + ': ' + part if part else self._status
         log = Log('/diagnostics', DiagnosticArray)
-        log.wait(lambda all: any(s.name == self._status for m in all for s in m.status),
-                 self._status)
+        log.wait(lambda all: any(s.name == name for m in all for s in m.status), name)
         log.close()
-        status = [s for m in log.messages for s in m.status if s.name == self._status][-1]
+        status = [s for m in log.messages for s in m.status if s.name == name][-1]
         return {pair.key: float(pair.value) for pair in status.values}
 
     def close(self):

@@ -58,6 +58,20 @@ TEST(Boundary, JointsStopAtTheirBendAndTurn) {
   EXPECT_NEAR(stopped(0.1, 100.1).second, 100.0, 1e-9);
 }
 
+// "kappa = 1/12 is stable to w h = 2.4 only": a joint that is eased in full, without a damper.
+TEST(Boundary, AFullyEasedSpringBreaksWhereNumerovDoes) {
+  const auto swing = [](double h) {
+    Link link = joint(1.0, 0.0);
+    link.sure_inertia = 1e9;  // more than it has: shareInertia() never would
+    Simulation run{{link}};
+    run.state.q[0].x() = 1e-9;
+    for (int i = 0; i < 300; ++i) run.step({}, 0.0, h);
+    return run.state.q[0].norm();
+  };
+  EXPECT_LT(swing(2.40), 1e-7);
+  EXPECT_GT(swing(2.50), 1e-3);
+}
+
 // "an explicit method whose step exceeds 0.9 of its limit runs in equal parts, up to 64; beyond
 // that the step is refused".
 TEST(Boundary, StepsArePartedAboveTheMarginAndRefusedAboveSixtyFourParts) {

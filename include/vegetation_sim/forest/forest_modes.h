@@ -47,6 +47,9 @@ class ForestModes {
   const Sway* find(std::uint32_t tree) const;
   const std::map<std::uint32_t, Sway>& sways() const { return sways_; }
   std::size_t bytes() const;
+  /// Trees that bend farther than modes hold (physics::MODAL_LIMIT). They saturate: joints stop at
+  /// their limit, and nothing else is as near to the full chain at this cost.
+  std::size_t strained() const;
   void addTo(Hash& hash) const;
 
  private:

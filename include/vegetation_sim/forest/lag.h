@@ -6,13 +6,20 @@
 
 namespace vegetation_sim::forest {
 
-/// How far the procedural rung, which answers the wind at once, is off where wind comes and goes:
-/// the largest distance of any part of a crown from where its modes have it, in a breeze, per speed
-/// that comes and goes there (wind::Instant::gustBound) [m per m/s]. Measured on sample trees;
+/// What modes tell of a species: how far the procedural rung, which answers the wind at once, is
+/// off where wind comes and goes, and how far a tree turns. Measured on sample trees in a breeze;
 /// 0 where joints do not bend.
-double measureLag(const Species& species, const MotionLaw& law, double scale);
+struct Lag {
+  /// Largest distance of any tip from where its modes have it, per speed that comes and goes there
+  /// (wind::Instant::gustBound) [m per m/s]. That of the full chain is within a quarter of it.
+  double distance{0.0};
+  /// Turns that gather along a way from the ground, per bending speed [rad per m/s].
+  double turn{0.0};
+};
+Lag measureLag(const Species& species, const MotionLaw& law, double scale);
 
-/// Share of it that modes are off themselves, against the full chain (docs/modal.md).
-constexpr double MODAL_SHARE = 0.3;
+/// Share of the lag that modes are off themselves, against the full chain, at the farthest tip, and
+/// share of the motion per turn [1/rad]: levers are taken at rest (docs/modal.md).
+constexpr double MODAL_SHARE = 0.7, MODAL_BENT = 0.075;
 
 }  // namespace vegetation_sim::forest

@@ -9,6 +9,7 @@
 
 #include "vegetation_sim/common/eye.h"
 #include "vegetation_sim/common/time.h"
+#include "vegetation_sim/forest/lag.h"
 #include "vegetation_sim/forest/layout.h"
 
 namespace vegetation_sim::forest {
@@ -71,10 +72,10 @@ class LevelScales {
   void measure(const Species& species, const MotionLaw& law, double scale);
   LevelTable at(double scale) const;
   /// Lag (lag.h) at a known scale; measured when it is first asked for, some 20 ms.
-  double lagAt(const Species& species, const MotionLaw& law, double scale);
+  Lag lagAt(const Species& species, const MotionLaw& law, double scale);
 
  private:
-  std::map<std::size_t, double> lags_;
+  std::map<std::size_t, Lag> lags_;
   std::map<std::size_t, LevelTable> tables_;  // by index into the grid of scales
 };
 

@@ -25,6 +25,7 @@
 #include "vegetation_sim/nodes/crowd_options.h"
 #include "vegetation_sim/nodes/crowd_robots.h"
 #include "vegetation_sim/nodes/event_queue.h"
+#include "vegetation_sim/nodes/watchers.h"
 #include "vegetation_sim/ros/heard.h"
 #include "vegetation_sim/ros/tick_clock.h"
 
@@ -42,6 +43,7 @@ class AgentCrowd {
   // Inputs.
   void onLayout(const ForestLayout& message);
   void onCover(const nav_msgs::OccupancyGrid& message);
+  void onViewer(const Viewer& message);
   void onEvent(const CrowdEvent& message) { inputs_.addRecorded(message); }
   void onTuning(AgentCrowdConfig& config);
   void followRobots(Nanoseconds stamp);
@@ -66,10 +68,12 @@ class AgentCrowd {
   void publishTreads(Nanoseconds stamp);
   void treadOfBody(const crowd::Walker& walker, Nanoseconds stamp);
   void treadOfFeet(const crowd::Walker& walker, Nanoseconds stamp);
+  std::vector<Choice> chooseFrames(Nanoseconds stamp);
   void sendFrames(const ros::TimerEvent& event);
   void sendMarkers(const ros::TimerEvent& event);
   void warnOfTrouble(diagnostic_updater::DiagnosticStatusWrapper& status);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void diagnoseGovernor(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   // Services.
   bool onSpawn(SpawnAgents::Request& request, SpawnAgents::Response& response);
@@ -85,12 +89,15 @@ class AgentCrowd {
   EventQueue<CrowdEvent> inputs_;
   std::unique_ptr<crowd::Crowd> crowd_;
   CrowdMarkers markers_;
+  Watchers watchers_;
   std::uint32_t promised_{0};  // next id that spawn tells
   Heard<ForestLayout> layouts_;
   Heard<nav_msgs::OccupancyGrid> covers_;
   bool begun_{false};  // a tick was done since the start or the last jump back
   std::size_t trunks_{0};
-  Nanoseconds framed_{0};  // stamp of the last frames
+  Nanoseconds framed_{0};       // stamp of the last frames
+  HeldRungs held_frames_;       // 1: has one
+  std::size_t frames_sent_{0};  // at the last round
   struct Trodden {
     crowd::Point place{};
     bool stood[2]{true, true};

@@ -66,6 +66,7 @@ class CanopyAnimator {
   std::vector<canopy::MovedLeaf> crownLeaves(const canopy::Foliage& foliage) const;
   void warnOfTrouble(diagnostic_updater::DiagnosticStatusWrapper& status);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void diagnoseGovernor(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   // Services.
   bool onSample(SampleCanopy::Request& request, SampleCanopy::Response& response);

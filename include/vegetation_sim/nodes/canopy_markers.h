@@ -8,30 +8,38 @@
 #include <vector>
 
 #include "vegetation_sim/canopy/foliage.h"
+#include "vegetation_sim/common/eye.h"
+#include "vegetation_sim/common/held_rungs.h"
 #include "vegetation_sim/ros/leafed_crowns.h"
 
 namespace vegetation_sim {
 
 /// Leaves (id 0), rigid stems (id 1), the shade on the ground (id 2) and leaves of the forest's
 /// crowns, if the layout asks for any (id 3), as TRIANGLE_LISTs of constant size, which rviz
-/// updates in place. Plants share the budget in proportion to their leaves; what it does not hold
-/// is left out, an even part of each plant. Degenerate triangles fill up.
+/// updates in place. Each plant has the smallest share of its leaves that holds the tolerance,
+/// made wider as they are fewer; where the points do not suffice, plants that are farthest off a
+/// point get them (N7). Crowns have an even part of theirs. Degenerate triangles fill up.
 class CanopyMarkers {
  public:
   /// @param points of all lists together, at least 600.
   explicit CanopyMarkers(int points);
 
-  /// Grows the plants of a layout, as far as they will be drawn.
+  /// Grows what of the plants of a layout never moves.
   void setLayout(const canopy::Layout& layout);
   /// Leaves of the forest's crowns that the same layout asks for.
   void setCrowns(const canopy::Layout& layout, const LeafedCrowns& crowns);
-  /// How many of a plant's leaves are drawn: the first ones.
+  /// How many of a crown's leaves are drawn: the first ones.
   std::size_t drawnOf(std::size_t leaves) const;
+  /// Chooses what is drawn of each plant of the layout that was set. @param tolerance [pixel]
+  void choose(const canopy::Layout& layout, const Eye& eye, double tolerance, Nanoseconds stamp);
   /// The leaves where `foliage` carries them, and those of the crowns, crown by crown the drawn
   /// ones, where they are.
   visualization_msgs::MarkerArray build(const canopy::Foliage& foliage,
                                         const std::vector<canopy::MovedLeaf>& crowns,
                                         const std::string& frame_id);
+  /// What was chosen for plants [points], and the names of the rungs.
+  const Balance& balance() const { return balance_; }
+  std::vector<std::string> rungs() const;
   /// Points in use at the last build.
   std::size_t points() const { return used_; }
   std::size_t budget() const { return leaf_points_ + stem_points_ + shade_points_; }
@@ -39,17 +47,25 @@ class CanopyMarkers {
  private:
   struct Drawn {
     canopy::Leaf leaf;
-    std::size_t plant;
     std_msgs::ColorRGBA colour;
   };
+  struct DrawnPlant {
+    int rung{0};
+    std::vector<Drawn> leaves;
+  };
   void addPlant(const canopy::Layout& layout, std::size_t id);
+  DrawnPlant drawPlant(const canopy::Layout& layout, std::size_t id, int rung) const;
   void addShade(const canopy::Plant& plant, double radius);
   void addStems(const std::vector<canopy::Stem>& stems, const Vec3& colour);
 
   std::size_t leaf_points_, stem_points_, shade_points_, used_{0};
   std::size_t crown_points_{0};  // of leaf_points_
-  double share_{1.0};            // of all leaves that will be drawn
-  std::vector<Drawn> leaves_, crown_leaves_;
+  double share_{1.0};            // of a crown's leaves
+  std::vector<double> shares_;   // of a plant's leaves, by rung
+  std::vector<DrawnPlant> plants_;
+  std::vector<Drawn> crown_leaves_;
+  HeldRungs held_;
+  Balance balance_;
   visualization_msgs::Marker leaf_list_, stem_list_, shade_list_, crown_list_;
 };
 

@@ -32,7 +32,8 @@ struct CanopyOptions {
   std::string scenario;         ///< file; empty: no plants
   std::string frame_id{"map"};  ///< world frame
   double markers_rate{10.0};    ///< [Hz]
-  int marker_points{90000};     ///< budget of both marker lists together
+  int marker_points{90000};     ///< budget of the marker lists together
+  double tolerance{1.0};        ///< error of what is drawn, at 1000 pixels a radian [pixel]
   std::string viewer_id;        ///< the viewer to cut layers for; empty: the first that speaks
   std::string viewer_frame;     ///< tf frame (x forward) that looks instead; empty: none
   bool replay{false};           ///< recorded canopy/events instead of live inputs

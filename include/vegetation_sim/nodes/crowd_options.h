@@ -25,8 +25,9 @@ struct CrowdOptions {
   int state_rate{30};                ///< ticks [Hz]
   double markers_rate{10.0};         ///< [Hz]
   int marker_points{120000};         ///< budget of the list
+  double tolerance{1.0};             ///< error of who is drawn [pixel]
   double tf_rate{15.0};              ///< [Hz]
-  int tf_budget{20};                 ///< frames, of the lowest ids
+  int tf_budget{20};                 ///< frames: nearest to robots, then lowest ids
   int tread{1};                      ///< Treading
   double tread_radius{0.0};          ///< 0: 0.16 of a body, 0.06 of a foot [m]
   int trunks{0};                     ///< TrunkShape

@@ -26,6 +26,7 @@
 #include "vegetation_sim/nodes/grass_markers.h"
 #include "vegetation_sim/nodes/grass_options.h"
 #include "vegetation_sim/nodes/grass_sources.h"
+#include "vegetation_sim/nodes/watchers.h"
 #include "vegetation_sim/ros/tick_clock.h"
 
 namespace vegetation_sim {
@@ -65,9 +66,9 @@ class GrassField {
   void publishWrenches(Nanoseconds stamp);
   void sendMarkers(const ros::TimerEvent& event);
   void sendCover(const ros::TimerEvent& event);
-  std::vector<Eye> eyesAt(Nanoseconds stamp);
   void warnOfTrouble(diagnostic_updater::DiagnosticStatusWrapper& status);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void diagnoseGovernor(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   // Services.
   bool onTreadPath(Tread::Request& request, Tread::Response& response);
@@ -88,11 +89,7 @@ class GrassField {
   std::unique_ptr<grass::Field> field_;
   wind::Field wind_;
   GrassMarkers markers_;
-  struct Seen {
-    Eye eye;
-    Nanoseconds stamp{0};
-  };
-  std::map<std::string, Seen> viewers_;
+  Watchers watchers_;
 
   bool force_key_frame_{true};
   std::uint64_t paths_{0};                 // trodden by service, for the names of their sources

@@ -1,32 +1,46 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Ever more trees on one budget: what they cost, and how far they are off."""
+"""Ever more trees on one budget: what they cost, how far they are off, how often rungs change."""
 from charting import style
 from charting.chart import Chart, sized
 
-COLUMNS = {'trees': float, 'budget_ms': float, 'asked_ms': float, 'cost_ms': float,
-           'error_px': float, 'choice_ms': float}
+COLUMNS = {'trees': float, 'budget_ms': float, 'asked_ms': float, 'least_ms': float,
+           'cost_ms': float, 'error_px': float, 'median_px': float, 'changes': float,
+           'choice_ms': float}
+
+
+def bound(axes, rows, value, text, **options):
+    axes.axhline(value, color=style.BLACK, linewidth=0.8, linestyle=':')
+    style.note(axes, rows[-1].trees, value, text, offset=(0, 4), ha='right', **options)
 
 
 def draw(rows):
-    figure, ((costs, errors),) = style.figure('Ever more trees in a breeze on one budget', 1, 2)
+    figure, ((costs, errors, changes),) = style.figure(
+        'Ever more trees in a breeze on one budget', 1, 3, size=(4.4, 4.0))
     trees = [row.trees for row in rows]
     costs.loglog(trees, [row.asked_ms for row in rows], 'o--', color=style.GREY,
                  label='what the tolerance asks for')
     costs.loglog(trees, [row.cost_ms for row in rows], 's-', color=style.BLUE,
                  label='what the governor chose')
+    costs.fill_between(trees, [row.least_ms for row in rows], [row.cost_ms for row in rows],
+                       color=style.BLUE, alpha=0.25)
     costs.loglog(trees, [row.choice_ms for row in rows], '^-', color=style.ORANGE,
                  label='choosing, and the state message')
-    costs.axhline(rows[0].budget_ms, color=style.BLACK, linewidth=0.8, linestyle=':')
-    style.note(costs, trees[0], rows[0].budget_ms, 'budget')
+    bound(costs, rows, rows[0].budget_ms, 'budget')
     style.label(costs, 'trees', 'processor time of a frame [ms]', 'cost')
-    costs.legend()
     errors.loglog(trees, [row.error_px for row in rows], 'D-', color=style.RED,
-                  label='largest predicted error of a tree')
-    errors.axhline(1.0, color=style.BLACK, linewidth=0.8, linestyle=':')
-    style.note(errors, trees[-1], 1.0, 'tolerance', offset=(0, 4), ha='right')
-    style.label(errors, 'trees', 'pixel', 'error')
-    errors.legend()
+                  label='of the tree that is farthest off')
+    errors.loglog(trees, [row.median_px for row in rows], 'v-', color=style.BLUE,
+                  label='of the median tree that moves')
+    bound(errors, rows, 1.0, 'tolerance')
+    style.label(errors, 'trees', 'predicted error [pixel]', 'error')
+    changes.semilogx(trees, [row.changes for row in rows], 'o-', color=style.BLUE,
+                     label='of the tree that changes most')
+    changes.set_ylim(0.0, 1.3)
+    bound(changes, rows, 1.0, 'bar')
+    style.label(changes, 'trees', 'changes of rung a second', 'changes in a steady breeze')
+    for axes in (costs, errors, changes):
+        axes.legend()
     return figure
 
 

@@ -9,7 +9,7 @@ from charting.tables import groups
 def draw(rows):
     depths = sorted({row.ladder.split()[1] for row in rows})
     figure, (panels,) = style.figure(
-        'Which branches become physical: an oak of 532 branches, pulled by 20 N for 1 s', 1,
+        'Which branches become physical, the rest being rigid clusters: an oak of 532, pulled by 20 N', 1,
         len(depths), size=(4.4, 4.4), sharey=True)
     of = groups(rows, 'ladder')
     for axes, depth in zip(panels, depths):
