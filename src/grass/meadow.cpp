@@ -106,12 +106,35 @@ std::pair<int, int> Meadow::columnsIn(int row) const {
   return {first, last};
 }
 
-// Levels of one row in order, old ones taken along. @return blades that the eyes see.
-double Meadow::chooseRow(int row, std::vector<TileLevel>::const_iterator& old, Nanoseconds stamp,
-                         std::vector<TileLevel>& out) const {
+// The rung of a tile within the tolerance that the budget leaves; notes what it costs and is off.
+Rung Meadow::chooseTile(int row, int column, Rung current) {
+  const TileMeans f = map_->meansOf(column, row);
+  if (isBare(f)) return Rung::TEXTURE;
+  const Vec3 centre = centreOf(row, column);
+  const TileDetail detail = detailOf(f);
+  const double scale = scaleOf(centre), size = map_->law().resolution;
+  const double tolerance = settings_.tolerance * coarseness_;
+  const Rung rung = chooseRung(detail, scale, tolerance, current);
+  const Rung wanted = chooseRung(detail, scale, settings_.tolerance, current);
+  const bool seen = wanted == Rung::BLADES && isSeen(centre);
+  const auto blades = [&](Rung of, double within) {
+    return seen && of == Rung::BLADES ? f.density * size * size * bladeShare(detail, scale, within)
+                                      : 0.0;
+  };
+  const double error = scale * omission(detail, rung);
+  balance_.cost += blades(rung, tolerance);
+  balance_.wanted += blades(wanted, settings_.tolerance);
+  balance_.largest = std::max(balance_.largest, error);
+  balance_.over += error > settings_.tolerance ? 1 : 0;
+  balance_.held_back += rung < wanted ? 1 : 0;
+  ++balance_.counts[static_cast<std::size_t>(rung)];
+  return rung;
+}
+
+// Levels of one row in order, old ones taken along.
+void Meadow::chooseRow(int row, std::vector<TileLevel>::const_iterator& old, Nanoseconds stamp,
+                       std::vector<TileLevel>& out) {
   const auto [first, last] = columnsIn(row);
-  const double tolerance = settings_.tolerance * coarseness_, size = map_->law().resolution;
-  double blades = 0.0;
   const auto keep = [&](TileLevel level, Rung rung) {
     setRung(level.rung, rung, stamp, settings_.transition);
     if (rung != Rung::TEXTURE || placeAt(level.rung, stamp, settings_.transition) > 0.0)
@@ -121,17 +144,8 @@ double Meadow::chooseRow(int row, std::vector<TileLevel>::const_iterator& old, N
     for (; old != levels_.end() && isBefore(*old, row, column); ++old) keep(*old, Rung::TEXTURE);
     TileLevel level{row, column, {}};
     if (old != levels_.end() && old->row == row && old->column == column) level = *old++;
-    const Vec3 centre = centreOf(row, column);
-    const TileMeans f = map_->meansOf(column, row);
-    const TileDetail detail = detailOf(f);
-    const double scale = scaleOf(centre);
-    const Rung rung =
-        isBare(f) ? Rung::TEXTURE : chooseRung(detail, scale, tolerance, level.rung.target);
-    if (rung == Rung::BLADES && isSeen(centre))
-      blades += f.density * size * size * bladeShare(detail, scale, tolerance);
-    keep(level, rung);
+    keep(level, chooseTile(row, column, level.rung.target));
   }
-  return blades;
 }
 
 void Meadow::advance(Nanoseconds stamp) {
@@ -144,8 +158,8 @@ void Meadow::advance(Nanoseconds stamp) {
   std::vector<TileLevel> next;
   next.reserve(levels_.size() + 64);
   auto old = levels_.cbegin();
-  double blades = 0.0;
-  for (int row = 0; row < map_->tileRows(); ++row) blades += chooseRow(row, old, stamp, next);
+  balance_ = Balance();
+  for (int row = 0; row < map_->tileRows(); ++row) chooseRow(row, old, stamp, next);
   for (; old != levels_.cend(); ++old) {
     TileLevel level = *old;
     setRung(level.rung, Rung::TEXTURE, stamp, settings_.transition);
@@ -153,7 +167,7 @@ void Meadow::advance(Nanoseconds stamp) {
   }
   levels_ = std::move(next);
   // Blades grow about as the inverse of the tolerance; half the way at a time cannot overshoot.
-  const double wanted = coarseness_ * std::sqrt(blades / settings_.most_blades);
+  const double wanted = coarseness_ * std::sqrt(balance_.cost / settings_.most_blades);
   coarseness_ = std::min(64.0, std::max(1.0, wanted));
   // A look through all the trodden ground: once a second is enough.
   if (stamp / NANOSECONDS_PER_SECOND != before / NANOSECONDS_PER_SECOND) tread_.prune(stamp);

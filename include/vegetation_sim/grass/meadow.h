@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "vegetation_sim/common/eye.h"
+#include "vegetation_sim/common/governor.h"
 #include "vegetation_sim/grass/level.h"
 #include "vegetation_sim/grass/node_air.h"
 #include "vegetation_sim/grass/tread_map.h"
@@ -77,6 +78,10 @@ class Meadow {
   Tile tileAt(const TileView& view, const NodeAir& air, Nanoseconds stamp, CrushPatch& patch,
               TileMotion& motion) const;
 
+  /// What was chosen at the last advance() for the tiles that may be more than a texture: costs are
+  /// blades, errors what rungs leave out; what the budget holds back would be finer without it.
+  const Balance& balance() const { return balance_; }
+
   MeadowMemory memory() const;
   void restore(MeadowMemory memory);
   /// Bytes of what has memory.
@@ -86,8 +91,9 @@ class Meadow {
   double scaleOf(const Vec3& centre) const;
   bool isSeen(const Vec3& centre) const;
   Vec3 centreOf(int row, int column) const;
-  double chooseRow(int row, std::vector<TileLevel>::const_iterator& old, Nanoseconds stamp,
-                   std::vector<TileLevel>& out) const;
+  void chooseRow(int row, std::vector<TileLevel>::const_iterator& old, Nanoseconds stamp,
+                 std::vector<TileLevel>& out);
+  Rung chooseTile(int row, int column, Rung current);
   std::pair<int, int> columnsIn(int row) const;
   double farthestOf(int row, const Eye& eye) const;
 
@@ -99,6 +105,7 @@ class Meadow {
   std::vector<double> coarsest_;  ///< of each row of tiles: most that a texture leaves out [m]
   Nanoseconds stamp_{0};
   double coarseness_{1.0};
+  Balance balance_;
   std::vector<TileLevel> levels_;
   std::vector<Eye> eyes_;
 };
