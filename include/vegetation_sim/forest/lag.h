@@ -11,7 +11,7 @@ namespace vegetation_sim::forest {
 /// 0 where joints do not bend.
 struct Lag {
   /// Largest distance of any tip from where its modes have it, per speed that comes and goes there
-  /// (wind::Instant::gustBound) [m per m/s]. That of the full chain is within a quarter of it.
+  /// (wind::Instant::gustBound) [m per m/s]. The full chain's is 0.5 to 1.2 of it.
   double distance{0.0};
   /// Turns that gather along a way from the ground, per bending speed [rad per m/s].
   double turn{0.0};
