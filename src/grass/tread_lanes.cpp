@@ -55,7 +55,10 @@ void measureRow(const TreadLine& line, const TreadGrid& grid, const TreadBand& b
   for (int column = std::max(0, span.first); column <= last; ++column) {
     const CompactField::Place place = own.field.placeOf(beside.start + column * beside.start_step,
                                                         beside.side + column * beside.side_step);
-    if (place.square_distance >= reach) continue;
+    if (place.square_distance >= reach) {
+      doses[column] = 0.0;
+      continue;
+    }
     ++touched;
     double dose = doses[column];
     if (dose < own.enough) dose += own.field.fieldAt(place);
@@ -168,12 +171,16 @@ void measureRow(const TreadLine& line, const TreadGrid& grid, const TreadBand& b
     const LanesPlace place = placeOf(beside, field.length, column);
     const auto on_map = hn::And(column >= hn::Zero(tag), column <= most);
     const auto touched = hn::And(place.square < reach, on_map);
-    if (hn::AllFalse(tag, touched)) continue;
+    if (hn::AllFalse(tag, touched)) {
+      hn::StoreU(hn::Zero(tag), tag, doses + i);
+      continue;
+    }
     Lanes dose = hn::LoadU(tag, doses + i);
     // No dose crushes more than fully.
     const auto grows = hn::And(dose < all(line.enough), touched);
     if (!hn::AllFalse(tag, grows)) dose = hn::IfThenElse(grows, dose + fieldAt(field, place), dose);
-    const auto stays = place.end * place.end + place.side * place.side < reach;
+    const auto ends = place.end * place.end + place.side * place.side < reach;
+    const auto stays = hn::And(touched, ends);
     hn::StoreU(hn::IfThenElseZero(stays, dose), tag, doses + i);
     const Lanes tilt = tiltOf(line, dose, place.square);
     const auto pressed = hn::And(touched, tilt >= all(double{CRUNCHED}));

@@ -91,6 +91,28 @@ TEST_F(Treading, GivesTheSameBitsOnAllInstructionSets) {
   EXPECT_EQ(hashes.size(), 1u);
 }
 
+// A node just at the reach is within it in one stroke and by rounding not in the next.
+TEST_F(Treading, GivesTheSameBitsWhereNodesLieAtTheReach) {
+  MapLaw law;
+  law.origin_x = law.origin_y = -10.0;
+  for (const Point& way : {Point{-0.1, 0.0}, Point{0.1, 0.0}, Point{0.0, -0.1}, Point{0.05, 0.05},
+                           Point{-0.05, 0.05}, Point{-0.05, -0.05}}) {
+    std::set<std::uint64_t> hashes;
+    for (const std::string& set : instructionSets()) {
+      forceInstructionSet(set);
+      TreadMap map(law, TreadSettings());
+      std::uint64_t all = 0;
+      for (int k = 0; k < 60; ++k) {
+        map.tread(1, TreadLaw(), {way.x * k, way.y * k}, START);
+        all = 31 * all + map.state().hash();
+      }
+      hashes.insert(all);
+      forceInstructionSet("");
+    }
+    EXPECT_EQ(hashes.size(), 1u) << way.x << ' ' << way.y;
+  }
+}
+
 // S2-23: no bulges: across a straight track of many steps every section is the same.
 TEST_F(Treading, LeavesNoBulgesAlongAStraightTrack) {
   walk(map_, permanent(), {4.0, 10.0}, {9.0, 10.0}, 7, START);
