@@ -67,6 +67,7 @@ void ForestPhysics::addTo(Hash& hash) const {
       hash.add(touch.body);
       hash.add(static_cast<std::uint64_t>(touch.branch));
       hash.add(touch.side);
+      hash.add(touch.along);
       hash.add(touch.gap);
       hash.add(touch.force);
     }

@@ -16,7 +16,11 @@ InputStatus refused(const std::exception& error) {
   return {false, std::string("Refused a message: ") + error.what()};
 }
 
-constexpr const char* GOVERNOR = "forest_animator: governor";
+// The node's own name comes first, in whatever namespace.
+bool isGovernor(const std::string& name) {
+  const std::string end = "forest_animator: governor";
+  return name.size() >= end.size() && name.compare(name.size() - end.size(), end.npos, end) == 0;
+}
 
 std::string valueOf(const diagnostic_msgs::DiagnosticStatus& status, const char* key) {
   for (const diagnostic_msgs::KeyValue& value : status.values)
@@ -70,7 +74,7 @@ void ForestSource::takeState(const ForestState& message) {
 
 void ForestSource::takeDiagnostics(const diagnostic_msgs::DiagnosticArray& message) {
   for (const diagnostic_msgs::DiagnosticStatus& status : message.status)
-    if (status.name == GOVERNOR)
+    if (isGovernor(status.name))
       governor_status_ = {
           true, status.message + ": " + valueOf(status, "Predicted frame time [ms]") + " of " +
                     valueOf(status, "Frame time budget [ms]") + " ms, errors up to " +

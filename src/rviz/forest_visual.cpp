@@ -22,7 +22,7 @@ constexpr std::size_t TREES_PER_GROVE = 10;
 constexpr double GROW_TIME = 0.025, SIDE_TIME = 0.006, FIRST_TIME = 0.06, LEVEL_TIME = 0.010;
 constexpr double FADE_TIME = 0.5;     // [s] from one level to another
 constexpr double LARGEST_FADE = 0.2;  // of it between two updates
-constexpr std::size_t FADERS = 8;     // one tree in so many may fade at a time: it costs two
+constexpr std::size_t FADERS = 8;     // one tree in 8, or 8 if more, fades at a time: it costs two
 constexpr double RESELECT = 25.0;     // [m] of the eye's way until other trees are the nearest
 
 double pixelsOf(const DrawnTree& tree, const View& view) {
@@ -140,7 +140,7 @@ bool ForestVisual::changeLevel(DrawnTree& tree, const View& view, const Options&
   const int level = forest::geometryLevel(size, tree.level());
   if (level == tree.level() && !repaint_) return ends;
   const bool fades = settled_ && level != tree.level() && isSeen(tree, view);
-  const bool room = report_.fading <= stock_->trees().size() / FADERS;
+  const bool room = report_.fading < std::max(FADERS, stock_->trees().size() / FADERS);
   if (!repaint_ && (!in_time || tree.fading() || (fades && !room))) {
     ++report_.waiting;
     return ends;
@@ -158,14 +158,17 @@ void ForestVisual::chooseLevels(const View& view, const Options& options) {
            (b->middle() - view.eye.position).squaredNorm();
   });
   report_.waiting = report_.fading = 0;
+  for (const auto& grove : groves_)
+    for (const DrawnTree* tree : grove->trees()) report_.fading += tree->fading() ? 1 : 0;
   int rank = 0;
   bool still = true;
   for (const auto& grove : groves_) {
     grove->setRank(rank++);
     bool changed = false;
     for (DrawnTree* tree : grove->trees()) {
+      const int before = tree->fading() ? 1 : 0;
       changed = changeLevel(*tree, view, options, Clock::now() < end) || changed;
-      report_.fading += tree->fading() ? 1 : 0;
+      report_.fading += (tree->fading() ? 1 : 0) - before;
     }
     still = still && !changed;
     if (changed) {
@@ -207,7 +210,8 @@ void ForestVisual::measure(const View& view, const Options& options) {
     ++report_.per_level[static_cast<std::size_t>(tree->level())];
     if (isSeen(*tree, view)) report_.triangles += tree->triangleCount();
   }
-  if (report_.waiting == 0 && report_.triangles > 0)
+  // What is on its way to another level is not yet what that level costs.
+  if (report_.waiting == 0 && report_.fading == 0 && report_.triangles > 0)
     feedback_.update(static_cast<double>(report_.triangles), options.target_triangles);
 }
 

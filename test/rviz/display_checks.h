@@ -128,7 +128,7 @@ inline void expectReloadsAreFollowed(ViewRig& rig, const std::function<void(int)
   const auto see = [&](int scene) {
     for (int attempt = 0; attempt < 5; ++attempt) {
       restart(scene);
-      if (rig.until([&] { return shows(scene); }, 6.0)) return true;
+      if (rig.until([&] { return shows(scene); }, 6.0 * (attempt + 1))) return true;
     }
     return false;
   };

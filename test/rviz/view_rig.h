@@ -82,7 +82,7 @@ class ViewRig {
   double now() const { return now_; }
 
   /// Runs rviz until `done` holds; false after `deadline` wall seconds.
-  bool until(const std::function<bool()>& done, double deadline = 20.0) {
+  bool until(const std::function<bool()>& done, double deadline = 60.0) {
     const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(deadline);
     while (!done()) {
       if (ros::WallTime::now() > end) return false;
