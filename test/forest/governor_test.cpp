@@ -16,7 +16,7 @@ namespace {
 
 constexpr Nanoseconds START = 1700000000LL * NANOSECONDS_PER_SECOND;
 
-// The first `stair` rungs cost 0, 1, 2 ... ms and leave 8, 4, 2 ... times `scale` pixels.
+// Its rungs leave 8, 4, 2 ... times `scale` pixels.
 Plant inModes(double scale, int held) {
   Plant out;
   out.stair = 3;
@@ -100,7 +100,7 @@ TEST(Governor, ToleranceIsHeldWhereTheBudgetAllowsIt) {
   Park park(8, 1000.0);
   Settings settings = park.forest.memory().settings;
   settings.budget.modal_trees = 64;
-  settings.tolerance = 3.0;
+  settings.tolerance = 1.0;
   park.forest.setSettings(settings);
   for (int i = 0; i < 100; ++i) park.advance();  // a tree a tick gets its modes
   const double fine = park.forest.governor().cost;
@@ -109,7 +109,7 @@ TEST(Governor, ToleranceIsHeldWhereTheBudgetAllowsIt) {
     const double error = plant.error[static_cast<std::size_t>(plant.chosen)];
     EXPECT_TRUE(error <= settings.tolerance || plant.chosen == MODAL_LEVEL) << plant.id;
   }
-  settings.tolerance = 12.0;
+  settings.tolerance = 6.0;
   park.forest.setSettings(settings);
   for (int i = 0; i < 30; ++i) park.advance();
   EXPECT_LT(park.forest.governor().cost, 0.8 * fine);
