@@ -38,6 +38,10 @@ rosrun vegetation_sim charts --quick --only grass_ladder --out "$WORK/charts" >"
 rosrun vegetation_sim export_forest package://vegetation_sim/config/scenarios/single_tree.yaml "$WORK/model"
 python3 -c 'import sys, xml.etree.ElementTree as e; assert len(e.parse(sys.argv[1]).findall("model/link")) == 1' "$WORK/model/model.sdf" ||
   fail 'the exported model is no SDF of one tree'
+mkdir -p "$WORK/taken/model.sdf"
+! rosrun vegetation_sim export_forest package://vegetation_sim/config/scenarios/single_tree.yaml "$WORK/taken" 2>"$WORK/taken.log" ||
+  fail 'a model was written over a folder'
+! ls "$WORK"/taken/*.part 2>/dev/null || fail 'a refused model leaves a part of it'
 
 for nodelets in false true; do
   start_launch demo.launch scenario:=single_tree rviz:=false nodelets:=$nodelets

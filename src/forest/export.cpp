@@ -53,6 +53,14 @@ std::uint64_t writeTree(const Tree& tree, std::uint32_t id, double thinnest, std
   return written;
 }
 
+// Names are free text: as RFC 4180 has it.
+std::string quoted(const std::string& text) {
+  if (text.find_first_of("\",\r\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + '"';
+}
+
 }  // namespace
 
 void check(const ExportRule& rule, Faults& faults) {
@@ -84,8 +92,8 @@ void writeTable(const Layout& layout, const terrain::HeightMap& terrain, std::os
   out << "tree,species,x,y,z,trunk_radius,height\n";
   for (std::uint32_t id = 0; id < layout.treeCount(); ++id) {
     const Tree tree = growTree(layout, id, terrain);
-    out << id << ',' << layout.species[seedOf(layout, id).species].name << ',' << tree.foot.x()
-        << ',' << tree.foot.y() << ',' << tree.foot.z() << ','
+    out << id << ',' << quoted(layout.species[seedOf(layout, id).species].name) << ','
+        << tree.foot.x() << ',' << tree.foot.y() << ',' << tree.foot.z() << ','
         << tree.skeleton.branches.front().base_radius << ',' << tree.skeleton.height << '\n';
   }
 }

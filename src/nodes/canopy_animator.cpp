@@ -85,12 +85,9 @@ void CanopyAnimator::apply(const CanopyEvent& event) {
       canopy_->setViewer(event.gone ? std::nullopt
                                     : std::optional<canopy::CutView>(eyeFromMsg(event.eye)));
       break;
-    case CanopyEvent::WIND: {
-      for (const wind::Field& wind : winds_)
-        if (wind.hash() == event.wind_hash) return canopy_->setWind(wind);
-      throw InvalidInput("wind_hash = " + std::to_string(event.wind_hash) +
-                         " is of no wind that was heard");
-    }
+    case CanopyEvent::WIND:
+      canopy_->setWind(windOf(event.wind_hash));
+      break;
     case CanopyEvent::SETTINGS: {
       const auto tuning = fromNamedValues<CanopyTuning>({event.names, event.values});
       canopy_->setMotion(withTuning(canopy_->layout().motion, tuning));
@@ -103,6 +100,13 @@ void CanopyAnimator::apply(const CanopyEvent& event) {
     default:
       throw InvalidInput("kind = " + std::to_string(event.kind) + " is outside 0 to 3");
   }
+}
+
+wind::Field CanopyAnimator::windOf(std::uint64_t hash) const {
+  for (const wind::Field& wind : winds_)
+    if (wind.hash() == hash) return wind;
+  if (wind::Field calm; calm.hash() == hash) return calm;  // before the first was heard
+  throw InvalidInput("wind_hash = " + std::to_string(hash) + " is of no wind that was heard");
 }
 
 // What a fresh start now would be, with the layout, wind and settings that are in force.

@@ -44,6 +44,13 @@ CanopyEvent noViewerEvent() {
   return out;
 }
 
+CanopyEvent windEvent(std::uint64_t hash) {
+  CanopyEvent out;
+  out.kind = CanopyEvent::WIND;
+  out.wind_hash = hash;
+  return out;
+}
+
 }  // namespace
 
 void CanopyAnimator::reject(const std::string& what, const std::string& why) {
@@ -60,10 +67,7 @@ void CanopyAnimator::onWind(const WindField& message) {
     winds_.push_back(fromMsg(message));
     forest_.setWind(winds_.back());
     if (winds_.size() > MOST_WINDS) winds_.pop_front();
-    CanopyEvent event;
-    event.kind = CanopyEvent::WIND;
-    event.wind_hash = winds_.back().hash();
-    inputs_.add(event);
+    inputs_.add(windEvent(winds_.back().hash()));
   } catch (const InvalidInput& error) {
     reject("wind", error.what());
   }
@@ -128,7 +132,8 @@ void CanopyAnimator::publishBeginning(Nanoseconds stamp) {
   CanopyEvent reset;
   reset.kind = CanopyEvent::RESET;
   const CanopyTuning tuning = tuningOf(canopy_->layout().motion);
-  for (CanopyEvent event : {reset, noViewerEvent(), settingsEvent(tuning)}) {
+  for (CanopyEvent event :
+       {reset, noViewerEvent(), settingsEvent(tuning), windEvent(canopy_->windHash())}) {
     event.header.stamp = toStamp(stamp);
     event.header.frame_id = options_.frame_id;
     events_publisher_.publish(event);

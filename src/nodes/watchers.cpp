@@ -23,6 +23,7 @@ void Watchers::hear(const Viewer& message, const tf2_ros::Buffer& buffer,
 std::vector<Eye> Watchers::eyesAt(Nanoseconds stamp) {
   std::vector<Eye> out;
   for (auto entry = seen_.begin(); entry != seen_.end();) {
+    if (entry->second.stamp == 0) entry->second.stamp = stamp;  // spoke before the first tick
     if (secondsBetween(entry->second.stamp, stamp) > LIFE) {
       entry = seen_.erase(entry);
       continue;

@@ -23,11 +23,17 @@ template <typename Write>
 void writeWhole(const std::filesystem::path& file, const Write& write) {
   std::filesystem::path part = file;
   part += ".part";
-  std::ofstream out(part);
-  write(out);
-  if (!out.flush()) throw InvalidInput("cannot write " + part.string());
-  out.close();
-  std::filesystem::rename(part, file);
+  try {
+    std::ofstream out(part);
+    write(out);
+    if (!out.flush()) throw InvalidInput("cannot write " + part.string());
+    out.close();
+    std::filesystem::rename(part, file);
+  } catch (...) {
+    std::error_code ignored;
+    std::filesystem::remove(part, ignored);
+    throw;
+  }
 }
 
 double readRadius(const std::string& text) {

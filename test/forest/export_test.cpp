@@ -91,6 +91,15 @@ TEST(Export, TableHasALineATree) {
   EXPECT_EQ(more, 3);
 }
 
+TEST(Export, NamesInTheTableAreQuotedWhereTheyMustBe) {
+  Layout layout = gridLayout(1, 5.0);
+  layout.species[0].name = "oak, the \"old\" one";
+  std::ostringstream out;
+  writeTable(layout, *flatTerrain(), out);
+  EXPECT_NE(out.str().find("\n0,\"oak, the \"\"old\"\" one\",0,0,0,"), std::string::npos)
+      << out.str();
+}
+
 TEST(Export, RefusesWhatWouldNotBeLoaded) {
   for (const double thinnest : {0.0, -1.0, 11.0, std::nan("")}) {
     Faults faults;

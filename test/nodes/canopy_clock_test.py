@@ -34,10 +34,14 @@ class CanopyClockTest(unittest.TestCase):
         passes = []
         for _ in range(2):
             jumps = self.leaves.diagnostics()['Clock jumps back']
+            wind = self.newest_wind()
             self.clock.show(start)
             self.leaves.state.wait(lambda all: all[-1].sequence == 1, 'a fresh start',
                                    lambda: self.clock.show(start))
             self.assertEqual(self.leaves.diagnostics()['Clock jumps back'], jumps + 1)
+            fresh = self.leaves.state.messages[-1].header.stamp
+            wait_for(lambda: self.newest_wind().header.stamp == fresh, 'the wind, told again')
+            self.assertEqual(self.newest_wind().wind_hash, wind.wind_hash)
             self.clock.run(2 * RATE, self.leaves)
             end = self.leaves.state.messages[-1]
             passes.append((end.header.stamp, end.right, end.up, end.depth))
@@ -77,6 +81,9 @@ class CanopyClockTest(unittest.TestCase):
         finally:
             stop(process)
 
+    def newest_wind(self):
+        return [e for e in self.leaves.events.messages if e.kind == CanopyEvent.WIND][-1]
+
     def earlier_eye(self):
         event = CanopyEvent(kind=CanopyEvent.VIEWER)
         event.header.stamp = time_of(BEGIN - 5)
@@ -91,10 +98,10 @@ class CanopyClockTest(unittest.TestCase):
 
     def expect_beginning(self):
         events = self.leaves.events.messages
-        self.assertEqual([e.kind for e in events[:3]],
-                         [CanopyEvent.RESET, CanopyEvent.VIEWER, CanopyEvent.SETTINGS])
-        self.assertEqual({e.header.stamp for e in events[:3]}, {time_of(BEGIN + 1)})
-        self.assertIn(CanopyEvent.WIND, [e.kind for e in events])
+        self.assertEqual([e.kind for e in events[:4]],
+                         [CanopyEvent.RESET, CanopyEvent.VIEWER, CanopyEvent.SETTINGS, CanopyEvent.WIND])
+        self.assertEqual({e.header.stamp for e in events[:4]}, {time_of(BEGIN + 1)})
+        self.assertIn(CanopyEvent.WIND, [e.kind for e in events[4:]])
 
 
 if __name__ == '__main__':

@@ -49,6 +49,7 @@ class Canopy {
   const Layout& layout() const { return layout_; }
   std::uint64_t layoutHash() const { return layout_hash_; }
   void setWind(const wind::Field& wind) { wind_ = wind; }
+  std::uint64_t windHash() const { return wind_.hash(); }  ///< of what blows
   /// The only eye that layers are cut for (S3-W8); none: that of the simulation plane.
   void setViewer(const std::optional<CutView>& viewer) { viewer_ = viewer; }
   /// Crowns that hang in the layers beside the plants; nothing that is remembered depends on them.

@@ -55,6 +55,8 @@ class CanopyAnimator {
   void listen();
   void tick(std::int64_t tick);
   void apply(const CanopyEvent& event);
+  /// One of those that were heard, or calm. @throws InvalidInput for any other.
+  wind::Field windOf(std::uint64_t hash) const;
   void restart(Nanoseconds now);
   void noteLosses();
 
