@@ -71,7 +71,21 @@ void AgentCrowd::listen() {
 // The scenario's people are there from the first tick on, so they are no events.
 void AgentCrowd::populate() {
   for (const crowd::Spawn& spawn : scene_.crowd.spawns) crowd_->spawn(spawn);
+  keepPromises();
+}
+
+// No id is told twice, whether its walker is here or still waits for its stamp.
+void AgentCrowd::keepPromises() {
   promised_ = crowd_->memory().next_id;
+  inputs_.each([this](const CrowdEvent& event) {
+    if (event.kind == CrowdEvent::SPAWN) promised_ = std::max(promised_, event.id + 1);
+  });
+}
+
+std::size_t AgentCrowd::awaited() const {
+  std::size_t out = 0;
+  inputs_.each([&](const CrowdEvent& event) { out += event.kind == CrowdEvent::SPAWN; });
+  return out;
 }
 
 void AgentCrowd::tick(std::int64_t) {
@@ -89,6 +103,7 @@ void AgentCrowd::tick(std::int64_t) {
       reject("event", error.what());
     }
   }
+  keepPromises();
   crowd_->advance(stamp);
   publishAgents(stamp);
   publishTreads(stamp);
@@ -180,11 +195,11 @@ void AgentCrowd::startAnew() {
 }
 
 void AgentCrowd::restart(Nanoseconds now) {
-  startAnew();
   inputs_.forget([&](const CrowdEvent& event) {
     const bool of_walker = event.kind <= CrowdEvent::REMOVE_ROBOT;
     return options_.replay ? fromMsg(event.header.stamp) > now : of_walker;
   });
+  startAnew();
   tf_buffer_.clear();
   watchers_.clear();
   begun_ = false;

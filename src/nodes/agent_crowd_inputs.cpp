@@ -105,14 +105,14 @@ bool AgentCrowd::onSpawn(SpawnAgents::Request& request, SpawnAgents::Response& r
   return answer(response, [&]() -> std::string {
     refuseInReplay();
     const std::uint32_t count = std::max(1U, request.count);
-    const std::size_t room =
-        static_cast<std::size_t>(options_.most_walkers) -
-        std::min(crowd_->walkers().size(), static_cast<std::size_t>(options_.most_walkers));
+    const auto most = static_cast<std::size_t>(options_.most_walkers);
+    const std::size_t room = most - std::min(crowd_->walkers().size() + awaited(), most);
     if (count > MOST_AT_ONCE || count > room || count > inputs_.room())
       throw InvalidInput("count = " + std::to_string(count) + " is outside 1 to " +
                          std::to_string(std::min<std::size_t>(MOST_AT_ONCE, room)) + ": " +
-                         std::to_string(crowd_->walkers().size()) + " of most_walkers = " +
-                         std::to_string(options_.most_walkers) + " are there");
+                         std::to_string(crowd_->walkers().size()) +
+                         " of most_walkers = " + std::to_string(most) + " are there, " +
+                         std::to_string(awaited()) + " are to come");
     const Pose to_world = poseInWorld(tf_buffer_, options_.frame_id, request.header.frame_id);
     const Vec3 front = axisX(to_world.orientation);
     crowd::Spawn like = fromMsg(request.like);

@@ -7,6 +7,7 @@ import unittest
 import rospy
 import rostest
 from geometry_msgs.msg import PointStamped
+from std_msgs.msg import Header
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import MarkerArray
 from vegetation_sim.msg import AgentSpawn, CrowdEvent, TreadEvent
@@ -139,7 +140,22 @@ class CrowdRequests(unittest.TestCase):
         self.assertLessEqual(values['Cost [points]'], values['Budget [points]'])
         self.assertEqual(values['tf frames'], 3)
 
-    def test_6_reset_and_time_going_back_are_fresh_starts(self):
+    # Ids that were told are kept, and those to come count, though a reset comes between.
+    def test_6_walkers_to_come_have_their_ids_and_room(self):
+        later = Header(stamp=time_of(self.clock.tick + 60))
+        first = self.crowd.spawn(header=later, like=AgentSpawn(position=at(5, 6)), count=30, spread=2.0)
+        self.assertTrue(first.success, first.message)
+        refused = self.crowd.spawn(like=AgentSpawn(position=at(5, -6)), count=20)
+        self.assertFalse(refused.success)
+        self.assertIn('8 of most_walkers = 50 are there, 30 are to come', refused.message)
+        self.assertTrue(self.crowd.reset().success)
+        self.clock.run(1, self.crowd)
+        second = self.crowd.spawn(like=AgentSpawn(position=at(5, -6)))
+        self.assertTrue(second.success, second.message)
+        self.clock.run(70, self.crowd)
+        self.assertEqual(sorted(self.crowd.agents()), sorted([*range(8), *first.ids, *second.ids]))
+
+    def test_7_reset_and_time_going_back_are_fresh_starts(self):
         self.assertTrue(self.crowd.reset().success)
         self.clock.run(1, self.crowd)
         start = self.crowd.agents()

@@ -54,6 +54,9 @@ class AgentCrowd {
   // Time.
   void listen();
   void populate();
+  void keepPromises();
+  /// Walkers that wait for their stamps.
+  std::size_t awaited() const;
   void tick(std::int64_t tick);
   void publishBeginning(Nanoseconds stamp);
   void apply(const CrowdEvent& event);

@@ -73,6 +73,11 @@ class EventQueue {
   void forget(Test is_void) {
     waiting_.erase(std::remove_if(waiting_.begin(), waiting_.end(), is_void), waiting_.end());
   }
+  /// Calls `visit(event)` for each that waits.
+  template <class Visit>
+  void each(Visit visit) const {
+    for (const Event& event : waiting_) visit(event);
+  }
   const QueueLosses& losses() const { return losses_; }
 
  private:
