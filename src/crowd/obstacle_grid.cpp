@@ -10,12 +10,31 @@ namespace vegetation_sim::crowd {
 namespace {
 
 constexpr double MOST_CELLS = 1e6;
+constexpr double MOST_SPOTS = 2e6;  // 80 MB; long walls that lie aslant cover very many cells
+constexpr double FEW_SPOTS = 9.0;   // of an obstacle that is smaller than a cell, and then some
 
 std::vector<Extent> extentsOf(const std::vector<Obstacle>& obstacles) {
   std::vector<Extent> out;
   out.reserve(obstacles.size());
   for (const Obstacle& o : obstacles) out.push_back(extentOf(o));
   return out;
+}
+
+double cellsIn(const Point& size, double cell) {
+  return (size.x / cell + 1.0) * (size.y / cell + 1.0);
+}
+
+// `wanted`, doubled until cells and what stands in them fit the memory.
+double affordableCell(const Point& size, const std::vector<Extent>& extents, double wanted) {
+  const double most = std::max(MOST_SPOTS, FEW_SPOTS * static_cast<double>(extents.size()));
+  const auto spots = [&](double cell) {
+    double out = 0.0;
+    for (const Extent& e : extents) out += cellsIn(e.high - e.low, cell);
+    return out;
+  };
+  double cell = wanted;
+  while (cellsIn(size, cell) > MOST_CELLS || spots(cell) > most) cell *= 2.0;
+  return cell;
 }
 
 }  // namespace
@@ -43,8 +62,7 @@ ObstacleGrid::ObstacleGrid(std::vector<Obstacle> obstacles, double cell)
   }
   origin_ = low;
   const Point size = high - low;
-  while ((size.x / cell + 1.0) * (size.y / cell + 1.0) > MOST_CELLS) cell *= 2.0;
-  per_metre_ = 1.0 / cell;
+  per_metre_ = 1.0 / affordableCell(size, extents, cell);
   columns_ = static_cast<int>(size.x * per_metre_) + 1;
   rows_ = static_cast<int>(size.y * per_metre_) + 1;
   // Neighbours are neighbours in memory too.

@@ -15,7 +15,8 @@ namespace vegetation_sim::crowd {
 class ObstacleGrid {
  public:
   ObstacleGrid() = default;
-  /// @param cell wanted edge [m]; larger where there would be more than a million cells.
+  /// @param cell wanted edge [m]; larger where there would be more than a million cells, or
+  /// obstacles would stand in more than two million, or nine each.
   ObstacleGrid(std::vector<Obstacle> obstacles, double cell);
 
   /// In the order of their cells, not in that of the constructor.
