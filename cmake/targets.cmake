@@ -1,7 +1,7 @@
 # Libraries and programs. A folder's sources are its *.cpp files; in src/nodes, *_node.cpp is the
 # program of a node and *_nodelet.cpp its plugin.
 file(GLOB core_sources CONFIGURE_DEPENDS
-  src/canopy/*.cpp src/common/*.cpp src/crowd/*.cpp src/forest/*.cpp src/grass/*.cpp src/physics/*.cpp src/terrain/*.cpp src/wind/*.cpp)
+  src/canopy/*.cpp src/common/*.cpp src/crowd/*.cpp src/forest/*.cpp src/grass/*.cpp src/physics/*.cpp src/scan/*.cpp src/terrain/*.cpp src/wind/*.cpp)
 # Vectors of three numbers go through memory one by one: pairs of them would wait for stores of
 # singles, a quarter of a physical step.
 file(GLOB physics_sources CONFIGURE_DEPENDS src/physics/*.cpp)

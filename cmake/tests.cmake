@@ -9,7 +9,7 @@ function(set_test_options target)
   target_compile_definitions(${target} PRIVATE PACKAGE_FOLDER="${PROJECT_SOURCE_DIR}")
 endfunction()
 
-foreach(folder canopy common crowd forest grass physics ros terrain wind)
+foreach(folder canopy common crowd forest grass physics ros scan terrain wind)
   file(GLOB sources CONFIGURE_DEPENDS test/${folder}/*_test.cpp)
   if(sources)
     catkin_add_gtest(${folder}_test test/main.cpp test/heap.cpp ${sources})

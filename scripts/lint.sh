@@ -20,7 +20,7 @@ format() { code | xargs clang-format --dry-run -Werror; }
 
 # The core only: the headers of ROS would take many minutes.
 tidy() {
-  git ls-files src/{canopy,common,crowd,forest,grass,physics,terrain,wind}'/*.cpp' |
+  git ls-files src/{canopy,common,crowd,forest,grass,physics,scan,terrain,wind}'/*.cpp' |
     xargs -P "$(nproc)" -n 1 clang-tidy --quiet --extra-arg=-std=c++17 -p "$BUILD" 2>/dev/null
 }
 
@@ -37,7 +37,8 @@ catkin() {
 # The core includes nothing of ROS, rviz or Qt.
 layers() {
   none_match '#include [<"](ros/|tf2|rviz/|nodelet|pluginlib|dynamic_reconfigure|Q[A-Z]|[a-z_]+_(msgs|srvs)/|vegetation_sim/(ros|nodes|rviz)/)' \
-    {include/vegetation_sim,src}/{canopy,common,crowd,forest,grass,physics,terrain,wind} &&
+    {include/vegetation_sim,src}/{canopy,common,crowd,forest,grass,physics,scan,terrain,wind} &&
+    none_match '#include [<"](vegetation_sim/)?scan/' {include/vegetation_sim,src}/{canopy,common,crowd,forest,grass,physics,terrain,wind} &&
     none_match '#include [<"](vegetation_sim/)?forest/' {include/vegetation_sim,src}/grass &&
     none_match '#include [<"](vegetation_sim/)?(canopy|forest|grass|physics|wind)/' {include/vegetation_sim,src}/crowd &&
     none_match '#include [<"](vegetation_sim/)?(forest|grass|terrain|wind)/' {include/vegetation_sim,src}/physics &&
