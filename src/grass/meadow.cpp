@@ -13,6 +13,9 @@
 namespace vegetation_sim::grass {
 namespace {
 
+constexpr double MOST_COARSENESS = 64.0;
+constexpr int COARSENESS_STEPS = 24;  // of bisection: a millionth
+
 int clamped(double x, int low, int high) {
   return static_cast<int>(std::min(double(high), std::max(double(low), x)));
 }
@@ -84,9 +87,9 @@ bool Meadow::isSeen(const Vec3& centre) const {
                      [&](const Eye& eye) { return sees(eye, centre, radius); });
 }
 
-// From where on all tiles of a row are surely textures.
+// From where on all tiles of a row are surely textures, however many blades there may be.
 double Meadow::farthestOf(int row, const Eye& eye) const {
-  const double pixels = HYSTERESIS * settings_.tolerance * coarseness_;
+  const double pixels = HYSTERESIS * settings_.tolerance;
   const double apart = coarsest_[static_cast<std::size_t>(row)] * eye.pixels_per_radian / pixels;
   return std::min(settings_.farthest, apart + 2.0 * map_->law().resolution);
 }
@@ -106,45 +109,98 @@ std::pair<int, int> Meadow::columnsIn(int row) const {
   return {first, last};
 }
 
-// The rung of a tile within the tolerance that the budget leaves; notes what it costs and is off.
-Rung Meadow::chooseTile(int row, int column, Rung current) {
-  const TileMeans f = map_->meansOf(column, row);
-  if (isBare(f)) return Rung::TEXTURE;
-  const Vec3 centre = centreOf(row, column);
-  const TileDetail detail = detailOf(f);
-  const double scale = scaleOf(centre), size = map_->law().resolution;
-  const double tolerance = settings_.tolerance * coarseness_;
-  const Rung rung = chooseRung(detail, scale, tolerance, current);
-  const Rung wanted = chooseRung(detail, scale, settings_.tolerance, current);
-  const bool seen = wanted == Rung::BLADES && isSeen(centre);
-  const auto blades = [&](Rung of, double within) {
-    return seen && of == Rung::BLADES ? f.density * size * size * bladeShare(detail, scale, within)
-                                      : 0.0;
-  };
-  const double error = scale * omission(detail, rung);
-  balance_.cost += blades(rung, tolerance);
-  balance_.wanted += blades(wanted, settings_.tolerance);
-  balance_.largest = std::max(balance_.largest, error);
-  balance_.over += error > settings_.tolerance ? 1 : 0;
-  balance_.held_back += rung < wanted ? 1 : 0;
-  ++balance_.counts[static_cast<std::size_t>(rung)];
-  return rung;
+// A tile as it was, with what it takes to choose its rung.
+Meadow::Candidate Meadow::candidateOf(const TileLevel& level) const {
+  Candidate out;
+  out.level = level;
+  const TileMeans f = map_->meansOf(level.column, level.row);
+  if (isBare(f)) return out;
+  const Vec3 centre = centreOf(level.row, level.column);
+  out.detail = detailOf(f);
+  out.scale = scaleOf(centre);
+  out.wanted = chooseRung(out.detail, out.scale, settings_.tolerance, level.rung.target);
+  const double size = map_->law().resolution;
+  if (out.wanted == Rung::BLADES && isSeen(centre)) out.blades = f.density * size * size;
+  return out;
 }
 
-// Levels of one row in order, old ones taken along.
-void Meadow::chooseRow(int row, std::vector<TileLevel>::const_iterator& old, Nanoseconds stamp,
-                       std::vector<TileLevel>& out) {
-  const auto [first, last] = columnsIn(row);
-  const auto keep = [&](TileLevel level, Rung rung) {
+// All tiles that want to be more than a texture, in order, and those that still are.
+std::vector<Meadow::Candidate> Meadow::lookAround() const {
+  std::vector<Candidate> out;
+  out.reserve(levels_.size() + 64);
+  auto old = levels_.cbegin();
+  const auto leave = [&](int row, int column) {
+    for (; old != levels_.cend() && isBefore(*old, row, column); ++old) out.push_back({*old});
+  };
+  for (int row = 0; row < map_->tileRows(); ++row) {
+    const auto [first, last] = columnsIn(row);
+    for (int column = first; column <= last; ++column) {
+      leave(row, column);
+      const bool known = old != levels_.cend() && old->row == row && old->column == column;
+      const Candidate tile = candidateOf(known ? *old++ : TileLevel{row, column, {}});
+      if (known || tile.wanted != Rung::TEXTURE) out.push_back(tile);
+    }
+  }
+  leave(map_->tileRows(), 0);
+  return out;
+}
+
+// Blades that are drawn of a tile, and its rung, at so many times the tolerance.
+double Meadow::bladesAt(const Candidate& tile, double coarseness) const {
+  if (!(tile.blades > 0.0) || rungAt(tile, coarseness) != Rung::BLADES) return 0.0;
+  return tile.blades * bladeShare(tile.detail, tile.scale, settings_.tolerance * coarseness);
+}
+
+Rung Meadow::rungAt(const Candidate& tile, double coarseness) const {
+  if (tile.wanted == Rung::TEXTURE) return Rung::TEXTURE;
+  return chooseRung(tile.detail, tile.scale, settings_.tolerance * coarseness,
+                    tile.level.rung.target);
+}
+
+// The least factor on the tolerance that leaves no more blades than there may be: whatever is off
+// by more than that has its blades. Tiles that hold theirs count as farther off, so that the same
+// view gives the same factor again.
+double Meadow::coarsenessFor(const std::vector<Candidate>& tiles) const {
+  std::vector<const Candidate*> bearing;
+  for (const Candidate& tile : tiles)
+    if (tile.blades > 0.0) bearing.push_back(&tile);
+  const auto fits = [&](double coarseness) {
+    double blades = 0.0;
+    for (const Candidate* tile : bearing) blades += bladesAt(*tile, coarseness);
+    return blades <= settings_.most_blades;
+  };
+  double low = 1.0, high = MOST_COARSENESS;
+  if (fits(low)) return low;
+  for (int i = 0; i < COARSENESS_STEPS; ++i) {
+    const double middle = std::sqrt(low * high);
+    (fits(middle) ? high : low) = middle;
+  }
+  return high;
+}
+
+void Meadow::note(const Candidate& tile, Rung rung) {
+  if (!(tile.scale > 0.0)) return;  // bare, or out of sight
+  const double error = tile.scale * omission(tile.detail, rung);
+  balance_.cost += bladesAt(tile, coarseness_);
+  balance_.wanted += bladesAt(tile, 1.0);
+  balance_.largest = std::max(balance_.largest, error);
+  balance_.over += error > settings_.tolerance ? 1 : 0;
+  balance_.held_back += rung < tile.wanted ? 1 : 0;
+  ++balance_.counts[static_cast<std::size_t>(rung)];
+}
+
+void Meadow::chooseLevels(Nanoseconds stamp) {
+  const std::vector<Candidate> tiles = lookAround();
+  coarseness_ = coarsenessFor(tiles);
+  balance_ = Balance();
+  levels_.clear();
+  for (const Candidate& tile : tiles) {
+    const Rung rung = rungAt(tile, coarseness_);
+    note(tile, rung);
+    TileLevel level = tile.level;
     setRung(level.rung, rung, stamp, settings_.transition);
     if (rung != Rung::TEXTURE || placeAt(level.rung, stamp, settings_.transition) > 0.0)
-      out.push_back(level);
-  };
-  for (int column = first; column <= last; ++column) {
-    for (; old != levels_.end() && isBefore(*old, row, column); ++old) keep(*old, Rung::TEXTURE);
-    TileLevel level{row, column, {}};
-    if (old != levels_.end() && old->row == row && old->column == column) level = *old++;
-    keep(level, chooseTile(row, column, level.rung.target));
+      levels_.push_back(level);
   }
 }
 
@@ -152,23 +208,9 @@ void Meadow::advance(Nanoseconds stamp) {
   if (stamp < stamp_) {
     tread_.rewind(stamp);
     levels_.clear();
-    coarseness_ = 1.0;
   }
   const Nanoseconds before = std::exchange(stamp_, stamp);
-  std::vector<TileLevel> next;
-  next.reserve(levels_.size() + 64);
-  auto old = levels_.cbegin();
-  balance_ = Balance();
-  for (int row = 0; row < map_->tileRows(); ++row) chooseRow(row, old, stamp, next);
-  for (; old != levels_.cend(); ++old) {
-    TileLevel level = *old;
-    setRung(level.rung, Rung::TEXTURE, stamp, settings_.transition);
-    if (placeAt(level.rung, stamp, settings_.transition) > 0.0) next.push_back(level);
-  }
-  levels_ = std::move(next);
-  // Blades grow about as the inverse of the tolerance; half the way at a time cannot overshoot.
-  const double wanted = coarseness_ * std::sqrt(balance_.cost / settings_.most_blades);
-  coarseness_ = std::min(64.0, std::max(1.0, wanted));
+  chooseLevels(stamp);
   // A look through all the trodden ground: once a second is enough.
   if (stamp / NANOSECONDS_PER_SECOND != before / NANOSECONDS_PER_SECOND) tread_.prune(stamp);
 }

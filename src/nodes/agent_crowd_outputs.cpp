@@ -93,20 +93,18 @@ void AgentCrowd::treadOfFeet(const crowd::Walker& walker, Nanoseconds stamp) {
 // Walkers near a robot have frames first: without one, it does not know where they are.
 std::vector<Choice> AgentCrowd::chooseFrames(Nanoseconds stamp) {
   std::vector<Choice> out;
+  if (options_.tf_budget == 0) return out;
   for (const crowd::Walker& walker : crowd_->walkers()) {
     double nearest = FAR;
     for (const auto& robot : crowd_->memory().robots)
       nearest = std::min(nearest, length(robot.second.position - walker.position));
     Choice choice;
     choice.id = walker.id;
-    choice.stair = choice.wanted = 1;
     choice.error[0] = static_cast<float>(1.0 / (ARM + nearest));
     choice.cost[1] = 1.F;
-    held_frames_.recall(choice, stamp);
     out.push_back(choice);
   }
-  govern(out, options_.tf_budget, 0.0);
-  held_frames_.keep(out, stamp);
+  held_frames_.govern(out, 1, options_.tf_budget, 0.0, stamp);
   return out;
 }
 

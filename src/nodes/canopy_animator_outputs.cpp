@@ -82,7 +82,7 @@ void CanopyAnimator::diagnose(diagnostic_updater::DiagnosticStatusWrapper& statu
 void CanopyAnimator::diagnoseGovernor(diagnostic_updater::DiagnosticStatusWrapper& status) {
   tell(markers_.balance(),
        {"Plants", options_.tolerance, "marker_points", "points",
-        static_cast<double>(markers_.budget()), markers_.rungs()},
+        static_cast<double>(markers_.room()), markers_.rungs()},
        status);
   status.add("Marker points", markers_.points());
   status.add("Marker budget [points]", markers_.budget());

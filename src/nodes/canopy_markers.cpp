@@ -68,6 +68,17 @@ std::array<Vec3, 4> cornersOf(const canopy::Leaf& leaf, const canopy::MovedLeaf&
   return {moved.root - low, moved.root + low, moved.tip - high, moved.tip + high};
 }
 
+// Of a plant, without what of a mesh never moves: that is among the stems.
+std::size_t movingLeaves(const canopy::PlantKind& kind) {
+  const std::size_t rigid = kind.form ? kind.form->rigid.size() : 0;
+  return canopy::leafCount(kind) - (isRead(kind) ? rigid : 0);
+}
+
+std::size_t leavesOf(const canopy::Layout& layout, const canopy::CrownRule& rule) {
+  return static_cast<std::size_t>(rule.trees) *
+         static_cast<std::size_t>(layout.kinds[rule.kind].leaves);
+}
+
 // A list as long as ever: rviz then writes over the old one.
 void fill(visualization_msgs::Marker& list, std::size_t points) {
   list.points.resize(points);
@@ -92,17 +103,37 @@ void CanopyMarkers::setLayout(const canopy::Layout& layout) {
     list->points.clear();
     list->colors.clear();
   }
-  const auto wanted = static_cast<double>(layout.leafCount() * POINTS_PER_LEAF);
+  std::size_t leaves = 0;
+  for (const canopy::Plant& plant : layout.plants) leaves += movingLeaves(layout.kinds[plant.kind]);
+  for (const canopy::CrownRule& rule : layout.crowns) leaves += leavesOf(layout, rule);
+  const auto wanted = static_cast<double>(leaves * POINTS_PER_LEAF);
   share_ = wanted > 0.0 ? std::min(1.0, static_cast<double>(leaf_points_) / wanted) : 1.0;
-  shares_ = {0.0};
-  for (double share = LEAST_SHARE * share_; share < 1.0 && shares_.size() + 1 < MOST_RUNGS;)
-    shares_.push_back(share), share *= 2.0;
-  shares_.push_back(1.0);
+  setLadders(layout);
   for (std::size_t id = 0; id < layout.plants.size(); ++id) addPlant(layout, id);
   crown_points_ = 0;
   for (const canopy::CrownRule& rule : layout.crowns)
     crown_points_ += POINTS_PER_LEAF * static_cast<std::size_t>(rule.trees) *
                      drawnOf(static_cast<std::size_t>(layout.kinds[rule.kind].leaves));
+}
+
+// Fewer leaves leave gaps as wide as the next leaf is farther off; none leave the whole plant out.
+void CanopyMarkers::setLadders(const canopy::Layout& layout) {
+  shares_ = {0.0};
+  for (double share = LEAST_SHARE * share_; share < 1.0 && shares_.size() + 1 < MOST_RUNGS;)
+    shares_.push_back(share), share *= 2.0;
+  shares_.push_back(1.0);
+  ladders_.clear();
+  for (const canopy::PlantKind& kind : layout.kinds) {
+    Ladder ladder;
+    for (std::size_t rung = 0; rung < shares_.size(); ++rung) {
+      const double share = shares_[rung];
+      const double gap = kind.leaf_length * (1.0 / std::sqrt(share) - 1.0);
+      ladder.gaps[rung] = static_cast<float>(share > 0.0 ? gap : kind.height);
+      const double leaves = std::floor(share * static_cast<double>(movingLeaves(kind)));
+      ladder.points[rung] = static_cast<float>(POINTS_PER_LEAF * leaves);
+    }
+    ladders_.push_back(ladder);
+  }
 }
 
 std::size_t CanopyMarkers::drawnOf(std::size_t leaves) const {
@@ -142,34 +173,24 @@ std::vector<std::string> CanopyMarkers::rungs() const {
   return out;
 }
 
-// Fewer leaves leave gaps as wide as the next leaf is farther off; none leave the whole plant out.
 void CanopyMarkers::choose(const canopy::Layout& layout, const Eye& eye, double tolerance,
                            Nanoseconds stamp) {
-  std::vector<Choice> choices;
+  choices_.resize(layout.plants.size());
   for (std::size_t id = 0; id < layout.plants.size(); ++id) {
     const canopy::Plant& plant = layout.plants[id];
     const canopy::PlantKind& kind = layout.kinds[plant.kind];
-    const double height = plant.scale * kind.height;
-    const Vec3 middle = plant.position + Vec3(0.0, 0.0, 0.5 * height);
+    const Vec3 middle = plant.position + Vec3(0.0, 0.0, 0.5 * plant.scale * kind.height);
     const double distance = length(eye.position - middle) - plant.scale * kind.radius;
-    const double scale = pixelsPerMetre(eye, distance);
-    const auto leaves = static_cast<double>(canopy::leafCount(kind));
-    Choice choice;
+    const auto scale = static_cast<float>(plant.scale * pixelsPerMetre(eye, distance));
+    Choice& choice = choices_[id] = Choice();
     choice.id = static_cast<std::uint32_t>(id);
-    for (std::size_t rung = 0; rung < shares_.size(); ++rung) {
-      const double share = shares_[rung];
-      const double gap = kind.leaf_length * (1.0 / std::sqrt(share) - 1.0);
-      choice.error[rung] = static_cast<float>(scale * (share > 0.0 ? gap : height));
-      choice.cost[rung] = static_cast<float>(POINTS_PER_LEAF) * std::floor(share * leaves);
-    }
-    held_.recall(choice, stamp);
-    choice.stair = choice.wanted =
-        rungWithin(choice, static_cast<int>(shares_.size()) - 1, tolerance);
-    choices.push_back(choice);
+    choice.cost = ladders_[plant.kind].points;
+    for (std::size_t rung = 0; rung < shares_.size(); ++rung)
+      choice.error[rung] = scale * ladders_[plant.kind].gaps[rung];
   }
-  balance_ = govern(choices, static_cast<double>(leaf_points_ - crown_points_), tolerance);
-  held_.keep(choices, stamp);
-  for (const Choice& choice : choices)
+  const int finest = static_cast<int>(shares_.size()) - 1;
+  balance_ = held_.govern(choices_, finest, static_cast<double>(room()), tolerance, stamp);
+  for (const Choice& choice : choices_)
     if (plants_[choice.id].rung != choice.chosen)
       plants_[choice.id] = drawPlant(layout, choice.id, choice.chosen);
 }
@@ -240,7 +261,7 @@ visualization_msgs::MarkerArray CanopyMarkers::build(const canopy::Foliage& foli
     add(crown_list_, crown_leaves_[i], crowns[i]);
   used_ = leaf_list_.points.size() + crown_list_.points.size() + stem_list_.points.size() +
           shade_list_.points.size();
-  fill(leaf_list_, leaf_points_ - crown_points_);
+  fill(leaf_list_, room());
   fill(crown_list_, crown_points_);
   visualization_msgs::MarkerArray out;
   out.markers = {leaf_list_, stem_list_, shade_list_};

@@ -135,12 +135,10 @@ void CrowdMarkers::choose(const crowd::Crowd& crowd, const std::vector<Eye>& eye
       choice.error[rung] = static_cast<float>(scale * off);
       choice.cost[rung] = static_cast<float>(pointsOf(sides));
     }
-    held_.recall(choice, stamp);
-    choice.stair = choice.wanted = rungWithin(choice, SIDES.size() - 1, tolerance);
     choices_.push_back(choice);
   }
-  balance_ = govern(choices_, static_cast<double>(budget()), tolerance);
-  held_.keep(choices_, stamp);
+  balance_ =
+      held_.govern(choices_, SIDES.size() - 1, static_cast<double>(budget()), tolerance, stamp);
 }
 
 std::vector<std::string> CrowdMarkers::rungs() {

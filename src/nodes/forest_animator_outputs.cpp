@@ -91,8 +91,8 @@ void ForestAnimator::diagnoseGovernor(diagnostic_updater::DiagnosticStatusWrappe
   std::string why = "the tolerance is held";
   if (figures.over > 0) why = "finer rungs there are none, or no room for modes";
   if (figures.strained > 0) why = "trees bend too far for their modes";
-  if (figures.held_back > 0) why = "frame_time binds";
-  if (figures.cost <= 0.0) why = "nothing is seen to move";
+  if (figures.held_back > 0 || figures.cost > figures.budget) why = "frame_time binds";
+  if (figures.wanted + figures.physical <= 0.0) why = "nothing is seen to move";
   if (forest_->memory().viewers.empty()) why = "nobody looks: fixed_level";
   status.summary(diagnostic_msgs::DiagnosticStatus::OK, why);
   status.add("Tolerance [pixel]", settings.tolerance);

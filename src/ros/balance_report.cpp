@@ -2,15 +2,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vegetation_sim/ros/balance_report.h"
 
+#include <algorithm>
+
 namespace vegetation_sim {
+namespace {
+
+// What is seen costs something, is off by something or stands on a rung.
+bool seesAny(const Balance& balance) {
+  return balance.wanted > 0.0 || balance.largest > 0.0 ||
+         std::any_of(balance.counts.begin() + 1, balance.counts.end(),
+                     [](std::size_t count) { return count > 0; });
+}
+
+std::string reasonOf(const Balance& balance, const BalanceTerms& terms) {
+  if (balance.held_back > 0 || balance.wanted > terms.budget) return terms.budget_name + " binds";
+  if (balance.over > 0) return "finer rungs there are none";
+  return seesAny(balance) ? "the tolerance is held" : "nothing is seen";
+}
+
+}  // namespace
 
 void tell(const Balance& balance, const BalanceTerms& terms,
           diagnostic_updater::DiagnosticStatusWrapper& status) {
-  std::string why = "the tolerance is held";
-  if (balance.over > 0) why = "finer rungs there are none";
-  if (balance.held_back > 0) why = terms.budget_name + " binds";
-  if (balance.cost <= 0.0) why = "nothing is seen";
-  status.summary(diagnostic_msgs::DiagnosticStatus::OK, why);
+  status.summary(diagnostic_msgs::DiagnosticStatus::OK, reasonOf(balance, terms));
   const std::string in_unit = " [" + terms.unit + "]";
   status.add("Tolerance [pixel]", terms.tolerance);
   status.add("Largest predicted error [pixel]", balance.largest);

@@ -164,6 +164,62 @@ TEST_F(MeadowOf, TellsWhatItChoseAndWhy) {
   }
 }
 
+// N7: no limit cycle. A lawn that is seen from above is off by about the same everywhere; a still
+// eye sees it stand still from the first tick on, on its budget, and no tile comes and goes.
+TEST_F(MeadowOf, StandsStillOnItsBudget) {
+  Meadow meadow = makeMeadow(2e4);
+  meadow.setEyes({eyeAt(201.0, 201.0, 15.0)});
+  meadow.advance(START);
+  const auto before = meadow.memory();
+  EXPECT_LE(meadow.balance().cost, 2e4);
+  EXPECT_GE(meadow.balance().cost, 0.7 * 2e4);
+  for (int i = 1; i < 40; ++i) {
+    meadow.advance(after(0.1 * i));
+    ASSERT_EQ(meadow.memory().coarseness, before.coarseness) << i;
+    ASSERT_EQ(meadow.memory().levels.size(), before.levels.size()) << i;
+  }
+}
+
+// N7: who moves makes no tile flicker: none changes its rung twice a second.
+TEST_F(MeadowOf, NoTileFlickers) {
+  Meadow meadow = makeMeadow(2e4);
+  std::map<std::pair<int, int>, std::pair<Rung, int>> seen;
+  for (int i = 0; i < 30; ++i) {
+    meadow.setEyes({eyeAt(201.0 + (i % 2 ? 0.1 : 0.0), 201.0, 1.6)});
+    meadow.advance(after(0.1 * i));
+    if (i < 10) continue;
+    EXPECT_LE(meadow.balance().cost, 2e4);
+    for (const TileLevel& level : meadow.memory().levels) {
+      auto& [rung, changes] =
+          seen.emplace(std::pair{level.row, level.column}, std::pair{level.rung.target, 0})
+              .first->second;
+      changes += rung != level.rung.target;
+      rung = level.rung.target;
+      EXPECT_LE(changes, 2) << level.row << ' ' << level.column;
+    }
+  }
+}
+
+// N7: what is asked for does not depend on what there is, and all that would be finer is counted.
+TEST_F(MeadowOf, TellsAllThatTheBudgetHoldsBack) {
+  Meadow rich = makeMeadow(), poor = makeMeadow(2e4);
+  for (Meadow* meadow : {&rich, &poor}) {
+    meadow->setEyes({eyeAt(201.0, 201.0, 1.6)});
+    for (int i = 0; i < 100; ++i) meadow->advance(after(0.1 * i));
+  }
+  EXPECT_EQ(poor.balance().wanted, rich.balance().wanted);
+  std::map<std::pair<int, int>, Rung> of_poor;
+  for (const TileLevel& level : poor.memory().levels)
+    of_poor[{level.row, level.column}] = level.rung.target;
+  std::size_t held_back = 0;
+  for (const TileLevel& level : rich.memory().levels) {
+    const auto found = of_poor.find({level.row, level.column});
+    held_back += found == of_poor.end() || found->second < level.rung.target;
+  }
+  EXPECT_EQ(poor.balance().held_back, held_back);
+  EXPECT_GT(poor.balance().over, poor.balance().counts[1]);  // textures too
+}
+
 TEST_F(MeadowOf, LeavesOutWhatTheEyeDoesNotSee) {
   Eye eye = eyeAt(201.0, 201.0, 1.6);
   eye.cone_cosine = std::cos(0.5);

@@ -76,6 +76,19 @@ class CanopyStateTest(unittest.TestCase):
         self.assertLess(max(moved), 1.0)
         self.assertEqual(first.markers[1].points, last.markers[1].points)  # S3-02: stems stand
 
+    # N7: two shrubs of 200 leaves near by: all of them, within 6 000 points.
+    def test_governor_tells_what_it_drew_and_why(self):
+        log = Log('/canopy/markers', MarkerArray)
+        log.wait(len, 'markers', lambda: self.clock.run(3, self.leaves))
+        values = self.leaves.diagnostics('governor')
+        log.close()
+        self.assertEqual(values['Plants that the budget holds back'], 0)
+        self.assertEqual(values['Cost [points]'], 2 * 200 * 6)
+        self.assertEqual(values['Cost that the tolerance asks for [points]'], 2 * 200 * 6)
+        self.assertLess(values['Cost [points]'], values['Budget [points]'])
+        self.assertLessEqual(values['Marker points'], values['Marker budget [points]'])
+        self.assertEqual(values['Plants: with 100 % of their leaves'], 2)
+
     def expect_viewer(self, fits):
         """The newest event of a viewer is, or comes to be, one that fits."""
         self.leaves.events.wait(

@@ -10,9 +10,11 @@ from geometry_msgs.msg import Point, PointStamped
 from std_msgs.msg import Header
 from std_srvs.srv import Trigger
 from vegetation_sim.msg import TreadEvent, TreadLaw
+from visualization_msgs.msg import MarkerArray
 
 from forest_rig import TickClock
 from grass_rig import FULL, RATE, Feet, Meadow, nodes_of, step, time_of
+from watched_node import Log
 
 NAN, INF = float('nan'), float('inf')
 
@@ -30,6 +32,20 @@ class GrassRequests(unittest.TestCase):
         cls.early = cls.grass.refusal(points=points((0, 0)))
         cls.feet = Feet(cls.grass)
         cls.clock.run(1, cls.grass)
+
+    # N7: nobody looks, so an eye above the lawn does; it would see far more blades than there may be.
+    def test_governor_tells_what_it_drew_and_why(self):
+        log = Log('/grass/markers', MarkerArray)
+        log.wait(len, 'markers', lambda: self.clock.run(3, self.grass))
+        values = self.grass.diagnostics('governor')
+        log.close()
+        self.assertGreater(values['Cost that the tolerance asks for [blades]'],
+                           10 * values['Budget [blades]'])
+        self.assertLessEqual(values['Cost [blades]'], values['Budget [blades]'])
+        self.assertGreater(values['Cost [blades]'], 0)
+        self.assertGreater(values['Tiles that the budget holds back'], 0)
+        self.assertGreater(values['Tiles: of blades'], 0)
+        self.assertLessEqual(values['Marker points'], values['Marker budget [points]'])
 
     def call(self, service, **request):
         answer = service(**request)

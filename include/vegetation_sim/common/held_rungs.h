@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <map>
 #include <vector>
 
 #include "vegetation_sim/common/governor.h"
@@ -13,17 +12,24 @@ namespace vegetation_sim {
 /// Rungs from one choice to the next, by id.
 class HeldRungs {
  public:
-  /// Tells a choice what it held; a stranger holds nothing.
-  void recall(Choice& choice, Nanoseconds stamp) const;
-  /// Takes over what was chosen, and forgets the others.
-  void keep(const std::vector<Choice>& choices, Nanoseconds stamp);
+  /// Tells each choice, wants the cheapest rung up to `finest` that holds the tolerance, governs,
+  /// and takes over what was chosen; who is not among the choices is forgotten. A stranger holds
+  /// nothing and does not rest; where time went back all are strangers.
+  /// @param choices ids rising.
+  Balance govern(std::vector<Choice>& choices, int finest, double room, double tolerance,
+                 Nanoseconds stamp);
 
  private:
   struct Held {
+    std::uint32_t id{0};
     int rung{0};
     Nanoseconds since{0};
   };
-  std::map<std::uint32_t, Held> held_;
+  void recall(std::vector<Choice>& choices, Nanoseconds stamp) const;
+  void keep(const std::vector<Choice>& choices, Nanoseconds stamp);
+
+  Nanoseconds stamp_{0};
+  std::vector<Held> held_;  // ids rise; not of those that rest no more on rung 0
 };
 
 }  // namespace vegetation_sim

@@ -19,7 +19,7 @@ struct MeadowSettings {
   double tolerance{1.5};    ///< what a level may leave out [pixel]
   double transition{0.5};   ///< from one rung to the next [s]
   double farthest{400.0};   ///< beyond, grass is a texture [m]
-  double most_blades{6e5};  ///< that the eyes see; more than that coarsens the tolerance
+  double most_blades{6e5};  ///< that the eyes see; for more, the tolerance is coarsened
 };
 void describe(FieldVisitor& visitor, MeadowSettings& settings);
 
@@ -78,8 +78,8 @@ class Meadow {
   Tile tileAt(const TileView& view, const NodeAir& air, Nanoseconds stamp, CrushPatch& patch,
               TileMotion& motion) const;
 
-  /// What was chosen at the last advance() for the tiles that may be more than a texture: costs are
-  /// blades, errors what rungs leave out; what the budget holds back would be finer without it.
+  /// What was chosen at the last advance() for the tiles that are or want to be more than a
+  /// texture: costs are blades, errors what rungs leave out.
   const Balance& balance() const { return balance_; }
 
   MeadowMemory memory() const;
@@ -91,9 +91,21 @@ class Meadow {
   double scaleOf(const Vec3& centre) const;
   bool isSeen(const Vec3& centre) const;
   Vec3 centreOf(int row, int column) const;
-  void chooseRow(int row, std::vector<TileLevel>::const_iterator& old, Nanoseconds stamp,
-                 std::vector<TileLevel>& out);
-  Rung chooseTile(int row, int column, Rung current);
+  /// A tile that is or wants to be more than a texture.
+  struct Candidate {
+    TileLevel level{};  ///< as it was
+    TileDetail detail{};
+    double scale{0.0};           ///< pixels a metre; 0: bare, or too far off
+    Rung wanted{Rung::TEXTURE};  ///< within the plain tolerance
+    double blades{0.0};          ///< all that grow on it; 0 if it wants none or nobody sees it
+  };
+  Candidate candidateOf(const TileLevel& level) const;
+  std::vector<Candidate> lookAround() const;
+  double bladesAt(const Candidate& tile, double coarseness) const;
+  Rung rungAt(const Candidate& tile, double coarseness) const;
+  double coarsenessFor(const std::vector<Candidate>& tiles) const;
+  void note(const Candidate& tile, Rung rung);
+  void chooseLevels(Nanoseconds stamp);
   std::pair<int, int> columnsIn(int row) const;
   double farthestOf(int row, const Eye& eye) const;
 

@@ -4,6 +4,7 @@
 
 #include <visualization_msgs/MarkerArray.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -17,8 +18,8 @@ namespace vegetation_sim {
 /// Leaves (id 0), rigid stems (id 1), the shade on the ground (id 2) and leaves of the forest's
 /// crowns, if the layout asks for any (id 3), as TRIANGLE_LISTs of constant size, which rviz
 /// updates in place. Each plant has the smallest share of its leaves that holds the tolerance,
-/// made wider as they are fewer; where the points do not suffice, plants that are farthest off a
-/// point get them (N7). Crowns have an even part of theirs. Degenerate triangles fill up.
+/// made wider as they are fewer; where the points do not suffice, they go to the plants whose error
+/// each point lessens most (N7). Crowns have an even part of theirs. Degenerate triangles fill up.
 class CanopyMarkers {
  public:
   /// @param points of all lists together, at least 600.
@@ -43,6 +44,8 @@ class CanopyMarkers {
   /// Points in use at the last build.
   std::size_t points() const { return used_; }
   std::size_t budget() const { return leaf_points_ + stem_points_ + shade_points_; }
+  /// Of these, points that leaves of plants share.
+  std::size_t room() const { return leaf_points_ - crown_points_; }
 
  private:
   struct Drawn {
@@ -53,6 +56,11 @@ class CanopyMarkers {
     int rung{0};
     std::vector<Drawn> leaves;
   };
+  /// Of plants of scale 1, by rung.
+  struct Ladder {
+    std::array<float, MOST_RUNGS> gaps{}, points{};  ///< [m], leaves only
+  };
+  void setLadders(const canopy::Layout& layout);
   void addPlant(const canopy::Layout& layout, std::size_t id);
   DrawnPlant drawPlant(const canopy::Layout& layout, std::size_t id, int rung) const;
   void addShade(const canopy::Plant& plant, double radius);
@@ -62,6 +70,8 @@ class CanopyMarkers {
   std::size_t crown_points_{0};  // of leaf_points_
   double share_{1.0};            // of a crown's leaves
   std::vector<double> shares_;   // of a plant's leaves, by rung
+  std::vector<Ladder> ladders_;  // by kind
+  std::vector<Choice> choices_;  // as the layout has its plants
   std::vector<DrawnPlant> plants_;
   std::vector<Drawn> crown_leaves_;
   HeldRungs held_;
