@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where the time of a frame goes in the shipped scenarios, as nodes and displays do it, without ROS
 // and graphics card: levels, physics, state, poses and meshes of trees; treading, levels, air and
-// drawing of grass.
+// drawing of grass; air and layers of leafy masses; ways and bodies of people.
 // usage: frame_bench [--quick | --full] [--part SCENARIO,..] [--csv FILE]
 
 #include <cstdio>
 
+#include "frame/crowd_frame.h"
 #include "frame/forest_frame.h"
+#include "frame/leaf_frame.h"
 #include "frame/meadow_frame.h"
 #include "options.h"
 #include "table.h"
@@ -21,11 +23,17 @@ std::vector<Laps> framesOf(const Scene& scene, int count) {
   std::unique_ptr<grass::MeadowFrame> meadow;
   if (scene.forest) trees = std::make_unique<forest::ForestFrame>(scene);
   if (scene.grass) meadow = std::make_unique<grass::MeadowFrame>(scene);
+  std::unique_ptr<canopy::LeafFrame> leaves;
+  std::unique_ptr<crowd::CrowdFrame> people;
+  if (scene.canopy) leaves = std::make_unique<canopy::LeafFrame>(scene);
+  if (scene.crowd) people = std::make_unique<crowd::CrowdFrame>(scene);
   std::vector<Laps> out;
   for (int i = 0; i < count; ++i) {
     out.emplace_back();
     if (trees) trees->frame(out.back());
     if (meadow) meadow->frame(out.back());
+    if (leaves) leaves->frame(out.back());
+    if (people) people->frame(out.back());
   }
   return out;
 }
@@ -55,10 +63,7 @@ int main(int argc, char** argv) {
     using namespace vegetation_sim::bench;
     const Options options = readOptions(argc, argv, scenarioNames());
     Table table(options.csv, "scenario,part,ms,ms_99");
-    for (const std::string& name : options.parts) {
-      const Scene scene = loadScene(name);
-      if (scene.forest || scene.grass) run(scene, options, table);
-    }
+    for (const std::string& name : options.parts) run(loadScene(name), options, table);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "frame_bench: %s\n", error.what());
     return 1;

@@ -1,7 +1,8 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
 // What it costs, and how far off it is, to make only some branches of a pulled oak physical: by
-// predicted influence, and by the paper's rule of depth; the rest hangs on as rigid clusters.
+// predicted influence, and by the paper's rule of depth; the rest hangs on as rigid clusters. And
+// the same without clusters: all of it physical, which is the truth here.
 // usage: influence_bench [ROUNDS] [--quick | --full] [--csv FILE]
 
 #include <cstdio>
@@ -88,6 +89,10 @@ class Ladders {
     }
   }
   void depth(bench::Table& table) { report(table, "depth", depth_, byDepth(), false); }
+  void all(bench::Table& table) const {
+    table.row("all " + std::to_string(depth_), truth_.branches, truth_.branches, truth_.seconds,
+              0.0, 0);
+  }
 
  private:
   void report(bench::Table& table, const char* ladder, double setting,
@@ -118,6 +123,7 @@ int main(int argc, char** argv) {
       forest::Ladders ladders(options, depth);
       ladders.influence(table);
       ladders.depth(table);
+      ladders.all(table);
     }
   } catch (const std::exception& error) {
     std::fprintf(stderr, "influence_bench: %s\n", error.what());

@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "forest/level_scene.h"
+#include "vegetation_sim/canopy/layout.h"
 #include "vegetation_sim/common/scenario.h"
+#include "vegetation_sim/crowd/scene.h"
 #include "vegetation_sim/grass/layout.h"
 #include "vegetation_sim/wind/yaml.h"
 
@@ -26,6 +28,8 @@ struct Scene {
   std::optional<forest::Layout> forest;
   forest::PhysicsSettings physics;
   std::optional<grass::Scene> grass;
+  std::optional<canopy::Layout> canopy;
+  std::optional<crowd::Scene> crowd;
 };
 
 inline std::string scenarioFolder() {
@@ -61,6 +65,9 @@ inline Scene loadScene(const std::string& name) {
   std::string terrain;
   file.top().seed("seed", seed);
   file.top().text("terrain", terrain);
+  if (!terrain.empty())
+    out.terrain = std::make_shared<const terrain::HeightMap>(
+        terrain::HeightMap::load((std::filesystem::path(folder) / terrain).lexically_normal()));
   if (file.has("forest"))
     out.forest = forest::readLayout(file.section("forest"), folder, seed, file.faults());
   if (file.has("grass")) {
@@ -72,10 +79,13 @@ inline Scene loadScene(const std::string& name) {
     describe(physics, out.physics);
     physics.finish();
   }
+  if (file.has("canopy"))
+    out.canopy = canopy::readLayout(file.section("canopy"), *out.terrain, seed, file.faults());
+  if (file.has("crowd")) {
+    YamlSection crowd = file.section("crowd");
+    out.crowd = crowd::readScene(crowd, seed, file.faults());
+  }
   out.wind = readWindField(file, seed);
-  if (!terrain.empty())
-    out.terrain = std::make_shared<const terrain::HeightMap>(
-        terrain::HeightMap::load((std::filesystem::path(folder) / terrain).lexically_normal()));
   return out;
 }
 

@@ -10,8 +10,12 @@ PARTS = {'levels': ('choice of levels', style.BLUE), 'physics': ('physics', styl
          'meshes': ('meshes of trees', style.ORANGE), 'treading': ('treading', style.BLACK),
          'grass levels': ('levels of grass', style.SKY),
          'air on the grass': ('air on the grass', style.GREY),
-         'blades and strips': ('blades and strips', style.YELLOW)}
-LATER = ('#882255', '#44AA99', '#332288', '#DDCC77')  # colours of parts that come later (Tol)
+         'blades and strips': ('blades and strips', style.YELLOW),
+         'air in leaves': ('air in leafy masses', '#882255'),
+         'layers of leaves': ('layers of leaves', '#44AA99'),
+         'ways of people': ('ways of people', '#332288'),
+         'bodies of people': ('bodies of people', '#DDCC77')}
+LATER = ('#AA4499', '#999933')  # colours of parts that come later (Tol)
 
 
 def draw(rows):

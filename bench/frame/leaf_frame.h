@@ -1,0 +1,38 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "frame/laps.h"
+#include "frame/scene.h"
+#include "vegetation_sim/canopy/canopy.h"
+
+namespace vegetation_sim::canopy {
+
+/// Leafy masses of a scenario: the plane's air and layers, and pictures of the layers from which a
+/// graphics card moves the leaves.
+class LeafFrame {
+ public:
+  explicit LeafFrame(const bench::Scene& scene) : canopy_(*scene.canopy) {
+    canopy_.setWind(scene.wind);
+    for (int i = 0; i < 2 * bench::FRAME_RATE; ++i) canopy_.advance(next());
+  }
+
+  void frame(bench::Laps& laps) {
+    canopy_.advance(next());
+    laps.lap("air in leaves");
+    const Foliage& foliage = canopy_.foliage();
+    for (int layer = 0; layer < foliage.layers(); ++layer) sheet_ = foliage.sheet(layer);
+    laps.lap("layers of leaves");
+  }
+
+ private:
+  Nanoseconds next() {
+    return bench::FRAME_START + fromSeconds(++frame_ / double{bench::FRAME_RATE});
+  }
+
+  Canopy canopy_;
+  std::vector<float> sheet_;
+  int frame_{0};
+};
+
+}  // namespace vegetation_sim::canopy
