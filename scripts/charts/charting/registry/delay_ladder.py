@@ -22,12 +22,10 @@ def draw(rows):
         typical = own[len(own) // 2]
         costs.plot([1e3 * last.ratio], [100.0 * typical.value], style.MARKERS[number],
                    color=style.COLOURS[number], markersize=9)
-        style.note(costs, 1e3 * last.ratio, 100.0 * typical.value, NAMES[what])
-    typical = sorted({row.size for row in rows})[len({row.size for row in rows}) // 2]
-    for what, own in groups(rows, 'what').items():
+        style.note(costs, 1e3 * last.ratio, 100.0 * typical.value, NAMES[what], (10, -12))
         if what == 'history':
-            own = sorted(own, key=lambda row: row.size)
-            style.ring(costs, 1e3 * own[-1].ratio, 100.0 * own[len(own) // 2].value)
+            style.ring(costs, 1e3 * last.ratio, 100.0 * typical.value)
+    typical = sorted({row.size for row in rows})[len({row.size for row in rows}) // 2]
     costs.set_yscale('log')
     costs.margins(x=0.6, y=0.2)
     costs.set_xlim(left=-10.0)
