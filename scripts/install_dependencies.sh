@@ -9,7 +9,8 @@ set -euo pipefail
 PACKAGES=(
   # compiling
   catkin cmake g++ ninja-build python3-catkin-pkg ros-core-dev
-  libroscpp-dev libtf2-ros-dev liburdf-dev libvisualization-msgs-dev libdiagnostic-updater-dev
+  libroscpp-dev libtf2-ros-dev libsensor-msgs-dev liburdf-dev libvisualization-msgs-dev
+  libdiagnostic-updater-dev
   libdynamic-reconfigure-config-init-mutex-dev python3-dynamic-reconfigure
   libnodeletlib-dev pluginlib-dev librviz-dev qtbase5-dev
   libassimp-dev libeigen3-dev libhwy-dev libpng-dev libresource-retriever-dev libyaml-cpp-dev
@@ -18,7 +19,7 @@ PACKAGES=(
   # testing, and looking at topics
   python3-rosbag python3-roslaunch python3-rosmsg python3-rosnode python3-rosparam
   python3-rosservice python3-rostest python3-rostopic rosbash librostest-dev libgmock-dev
-  python3-diagnostic-msgs python3-geometry-msgs python3-std-srvs python3-tf2-msgs
+  python3-diagnostic-msgs python3-geometry-msgs python3-sensor-msgs python3-std-srvs python3-tf2-msgs
   python3-visualization-msgs
   catkin-lint clang-format clang-tidy
   # a display of its own for the demo, and a picture of it

@@ -1,0 +1,77 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros/ros.h>
+#include <vegetation_sim/AgentStates.h>
+#include <vegetation_sim/ForestLayout.h>
+#include <vegetation_sim/ForestState.h>
+#include <vegetation_sim/GrassLayout.h>
+#include <vegetation_sim/GrassState.h>
+#include <vegetation_sim/WindField.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "vegetation_sim/forest/replica.h"
+#include "vegetation_sim/grass/layout.h"
+#include "vegetation_sim/grass/told.h"
+#include "vegetation_sim/scan/scene.h"
+
+namespace vegetation_sim {
+
+/// Forest, meadow, people and wind as a node that only looks hears them. A refused message changes
+/// nothing.
+class HeardLandscape {
+ public:
+  /// Of a message that is refused.
+  using Reject = std::function<void(const std::string& what, const std::string& why)>;
+  /// @param frame_id that all messages must be in.
+  HeardLandscape(std::string frame_id, Reject reject);
+
+  void listen(ros::NodeHandle handle);
+  /// Time went back to `now`: what was told of a later time is void.
+  void forgetLater(Nanoseconds now);
+  /// Brings a scene to a stamp, within `radius` of a place. The scene looks at what is held here
+  /// until the next call.
+  void show(const Vec3& centre, double radius, Nanoseconds stamp, scan::Scene& scene);
+
+  bool hasForest() const { return forest_.ready(); }
+  bool hasGrass() const { return tread_ != nullptr; }
+  std::size_t people() const { return people_.size(); }
+  /// Why states of forest and grass are not in step; empty: they are, or there are none.
+  std::string waitsFor() const;
+
+  /// For so long a walker is where it was told to be [s].
+  static constexpr double LONGEST_SILENCE = 3.0;
+
+ private:
+  void onWind(const WindField& message);
+  void onForestLayout(const ForestLayout& message);
+  void onForestState(const ForestState& message);
+  void onGrassLayout(const GrassLayout& message);
+  void onGrassState(const GrassState& message);
+  void onPeople(const AgentStates& message);
+  void takeGrass(grass::Layout layout);
+  void checkFrame(const std::string& frame) const;
+  /// Runs `take`; what it throws is a refusal.
+  void guard(const char* what, const std::function<void()>& take);
+  std::shared_ptr<const terrain::HeightMap> ground() const;
+
+  std::string frame_id_;
+  Reject reject_;
+  wind::Field wind_;
+  forest::ForestReplica forest_;
+  std::shared_ptr<const terrain::HeightMap> forest_ground_, grass_ground_;
+  grass::Layout lawn_;
+  std::uint64_t lawn_hash_{0};
+  std::unique_ptr<grass::TreadMap> tread_;
+  grass::TreadReplica treads_;
+  std::vector<crowd::Walker> people_;
+  Nanoseconds people_stamp_{0};
+  std::vector<ros::Subscriber> subscribers_;
+};
+
+}  // namespace vegetation_sim

@@ -1,0 +1,172 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/nodes/heard_landscape.h"
+
+#include <cmath>
+#include <utility>
+
+#include "vegetation_sim/ros/crowd_conversions.h"
+#include "vegetation_sim/ros/forest_conversions.h"
+#include "vegetation_sim/ros/geometry_conversions.h"
+#include "vegetation_sim/ros/grass_conversions.h"
+#include "vegetation_sim/ros/resources.h"
+#include "vegetation_sim/ros/stamps.h"
+#include "vegetation_sim/ros/wind_conversions.h"
+
+namespace vegetation_sim {
+namespace {
+
+constexpr double MEMORY_CAP = 1e9;  // [bytes] of trodden ground
+constexpr Range PLACES{-1e7, 1e7}, HEIGHTS{0.1, 5.0};
+
+void check(const AgentState& agent, Faults& faults) {
+  FieldChecker checker("agent " + std::to_string(agent.id) + ": ", faults);
+  const auto place = [&](const char* name, Vec3 at) { checker.vector(name, at, "m", PLACES); };
+  place("position", fromMsg(agent.pose.position));
+  double height = agent.height, gait = agent.gait;
+  checker.number("height", height, "m", HEIGHTS);
+  checker.number("gait", gait, "", PLACES);
+  Vec3 velocity = fromMsg(agent.velocity);
+  checker.vector("velocity", velocity, "m/s", PLACES);
+  double turn = agent.pose.orientation.z, half = agent.pose.orientation.w;
+  checker.number("orientation.z", turn, "", {-1.01, 1.01});
+  checker.number("orientation.w", half, "", {-1.01, 1.01});
+  for (std::size_t i = 0; i < 2; ++i) {
+    place("feet", fromMsg(agent.feet[i]));
+    place("feet_lag", fromMsg(agent.feet_lag[i]));
+  }
+}
+
+}  // namespace
+
+HeardLandscape::HeardLandscape(std::string frame_id, Reject reject)
+    : frame_id_(std::move(frame_id)), reject_(std::move(reject)) {}
+
+void HeardLandscape::listen(ros::NodeHandle handle) {
+  subscribers_ = {handle.subscribe("wind", 10, &HeardLandscape::onWind, this),
+                  handle.subscribe("forest/layout", 1, &HeardLandscape::onForestLayout, this),
+                  handle.subscribe("forest/state", 100, &HeardLandscape::onForestState, this),
+                  handle.subscribe("grass/layout", 1, &HeardLandscape::onGrassLayout, this),
+                  handle.subscribe("grass/state", 100, &HeardLandscape::onGrassState, this),
+                  handle.subscribe("agents", 10, &HeardLandscape::onPeople, this)};
+}
+
+void HeardLandscape::checkFrame(const std::string& frame) const {
+  if (frame != frame_id_)
+    throw InvalidInput("frame_id = '" + frame + "' should be '" + frame_id_ + "'");
+}
+
+void HeardLandscape::guard(const char* what, const std::function<void()>& take) {
+  try {
+    take();
+  } catch (const std::exception& error) {
+    reject_(what, error.what());
+  }
+}
+
+void HeardLandscape::onWind(const WindField& message) {
+  guard("wind", [&] {
+    checkFrame(message.header.frame_id);
+    wind_ = fromMsg(message);
+    forest_.setWind(wind_);
+  });
+}
+
+void HeardLandscape::onForestLayout(const ForestLayout& message) {
+  guard("forest/layout", [&] {
+    checkFrame(message.header.frame_id);
+    auto terrain = loadTerrain(message.terrain);
+    forest_.setLayout(fromMsg(message), terrain);
+    forest_ground_ = std::move(terrain);
+  });
+}
+
+void HeardLandscape::onForestState(const ForestState& message) {
+  guard("forest/state", [&] { forest_.apply(fromMsg(message)); });
+}
+
+void HeardLandscape::onGrassLayout(const GrassLayout& message) {
+  guard("grass/layout", [&] {
+    checkFrame(message.header.frame_id);
+    takeGrass(fromMsg(message));
+  });
+}
+
+void HeardLandscape::takeGrass(grass::Layout layout) {
+  auto terrain = loadTerrain(layout.terrain);
+  if (terrain->hash() != layout.terrain_hash)
+    throw InvalidInput("layout: terrain = '" + layout.terrain +
+                       "' has other heights here than where it was made");
+  grass::TreadSettings settings;
+  settings.spacing = layout.tread_spacing;
+  settings.memory_cap = MEMORY_CAP;
+  tread_ = std::make_unique<grass::TreadMap>(layout.map->law(), settings);
+  lawn_ = std::move(layout);
+  lawn_hash_ = lawn_.hash();
+  grass_ground_ = std::move(terrain);
+  treads_.reset();
+}
+
+void HeardLandscape::onGrassState(const GrassState& message) {
+  guard("grass/state", [&] {
+    const grass::TreadUpdate update = fromMsg(message);
+    if (tread_ && update.layout_hash == lawn_hash_) treads_.apply(update, *tread_);
+  });
+}
+
+void HeardLandscape::onPeople(const AgentStates& message) {
+  guard("agents", [&] {
+    checkFrame(message.header.frame_id);
+    Faults faults;
+    for (const AgentState& agent : message.agents) check(agent, faults);
+    faults.throwIfAny();
+    people_.clear();
+    for (const AgentState& agent : message.agents) people_.push_back(fromMsg(agent));
+    people_stamp_ = fromMsg(message.header.stamp);
+  });
+}
+
+// One of after the jump that has come already is kept.
+void HeardLandscape::forgetLater(Nanoseconds now) {
+  if (forest_.ready() && forest_.stamp() > now) {
+    forest::ForestReplica fresh;
+    fresh.setLayout(forest_.layout(), forest_ground_);
+    fresh.setWind(wind_);
+    forest_ = std::move(fresh);
+  }
+  if (tread_ && treads_.stamp() > now) {
+    tread_->clear();
+    treads_.reset();
+  }
+  if (people_stamp_ > now) people_.clear();
+}
+
+std::shared_ptr<const terrain::HeightMap> HeardLandscape::ground() const {
+  static const auto FLAT = std::make_shared<const terrain::HeightMap>();
+  return grass_ground_ ? grass_ground_ : forest_ground_ ? forest_ground_ : FLAT;
+}
+
+void HeardLandscape::show(const Vec3& centre, double radius, Nanoseconds stamp,
+                          scan::Scene& scene) {
+  scene.ground = ground();
+  if (forest_.ready()) scene.trees.update(forest_, centre, radius, stamp);
+  if (tread_) {
+    tread_->prune(stamp);
+    scene.grass.update(lawn_, *tread_, grass_ground_, wind_, centre, radius, stamp);
+  }
+  if (secondsBetween(people_stamp_, stamp) > LONGEST_SILENCE) people_.clear();
+  std::vector<scan::People::Person> people;
+  for (const crowd::Walker& walker : people_)
+    people.push_back({walker.id, crowd::skeletonOf(walker, *scene.ground)});
+  scene.people.set(people);
+}
+
+std::string HeardLandscape::waitsFor() const {
+  std::string out;
+  if (forest_.ready() && !forest_.why().empty()) out = "forest: " + forest_.why();
+  if (tread_ && !treads_.why().empty())
+    out += (out.empty() ? "" : "; ") + ("grass: " + treads_.why());
+  return out;
+}
+
+}  // namespace vegetation_sim

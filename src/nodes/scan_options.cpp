@@ -1,0 +1,33 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/nodes/scan_options.h"
+
+#include "vegetation_sim/ros/parameters.h"
+
+namespace vegetation_sim {
+
+void describe(FieldVisitor& v, ScanOptions& o) {
+  v.integer("rate", o.rate, "Hz", {1, 100});
+  v.number("delay", o.delay, "s", {0.0, 5.0});
+  v.integer("branch_budget", o.branch_budget, "", {1000, 20000000});
+  v.integer("threads", o.threads, "", {1, 64});
+  describe(v, o.beams);
+}
+
+ScanOptions loadScanOptions(const ros::NodeHandle& private_handle) {
+  ScanOptions out;
+  Parameters parameters(private_handle);
+  parameters.text("frame_id", out.frame_id);
+  parameters.text("lidar_frame", out.lidar_frame);
+  parameters.seed("seed", out.seed);
+  describe(parameters, out);
+  for (const auto& [name, frame] :
+       {std::pair("frame_id", out.frame_id), std::pair("lidar_frame", out.lidar_frame)})
+    if (frame.empty() || frame[0] == '/')
+      parameters.fault(name, "= '" + frame + "' is empty or begins with '/'");
+  scan::check(out.beams, private_handle.getNamespace() + "/", parameters.faults());
+  parameters.finish();
+  return out;
+}
+
+}  // namespace vegetation_sim

@@ -1,0 +1,166 @@
+#!/usr/bin/env python3
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a lidar sees of a clearing (N1): labels, wind, trodden grass, REP 117, time that goes back."""
+import math
+import unittest
+
+import numpy
+import rospy
+import rostest
+from geometry_msgs.msg import Point
+from vegetation_sim.msg import AgentSpawn, AgentState, AgentStates, ScanReport, TreadLaw, WindPrimitive
+from vegetation_sim.srv import RemoveWindPrimitive, SetWindPrimitive
+
+from crowd_rig import Crowd
+from forest_rig import RATE, Animator, TickClock, time_of
+from grass_rig import Meadow
+from scan_rig import INPUTS, Mast, Scanner
+from waiting import wait_for
+from watched_node import publisher, wait_for_readers
+
+START = 1000 * RATE
+WOOD = ScanReport.TRUNK, ScanReport.BRANCH, ScanReport.LEAF
+BREEZE = WindPrimitive(name='breeze', kind=WindPrimitive.BREEZE, fade_in=0.5, fade_out=0.5)
+BREEZE.velocity.x, BREEZE.turbulence, BREEZE.length_scale = 9.0, 0.3, 20.0
+
+
+class ScanClearing(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.trees, cls.grass, cls.crowd = Animator(), Meadow(), Crowd()
+        cls.scanner = Scanner()
+        cls.clock = TickClock(START)
+        cls.scanner.wait_until_up(*INPUTS)
+        cls.crowd.wait_until_up()
+        cls.grass.wait_until_up('/wind')
+        cls.clock.begin(cls.trees)
+        cls.mast = Mast(cls.scanner)
+        answer = cls.crowd.spawn(like=AgentSpawn(position=Point(3, 0, 0), stands=True), count=1)
+        assert answer.success, answer.message
+        cls.run_for(2.0)
+
+    @classmethod
+    def run_for(cls, seconds):
+        """All nodes; the sensor stands over the middle of the lawn at every tick."""
+        for _ in range(int(seconds * RATE)):
+            cls.mast.put(0.0, 0.0, 1.2, time_of(cls.clock.tick + 1))
+            cls.clock.run(1, cls.trees, cls.grass, cls.crowd)
+
+    def sweep(self):
+        """A sweep of a moment when all that was sent before has been heard."""
+        for node in (self.trees, self.grass, self.crowd, self.scanner):
+            node.settle()
+        self.run_for(2.0 / RATE)
+        return self.scanner.cloud_at(self.clock.tick)
+
+    # N1: labels sum to totals.
+    def test_1_labels_sum_to_the_number_of_rays(self):
+        cloud = self.sweep()
+        report = self.scanner.report.wait_for_stamp(time_of(self.clock.tick))
+        counts = numpy.bincount(cloud['label'], minlength=7)
+        self.assertEqual(list(counts[1:]), list(report.counts[1:]))
+        self.assertEqual(sum(report.counts), report.rays)
+        self.assertEqual(report.rays, 24 * 240)
+        self.assertEqual((report.trees, report.left_out), (4, 0))
+        for label in range(7):
+            self.assertGreater(report.counts[label], 0, label)
+        self.assertTrue(set(cloud['plant'][numpy.isin(cloud['label'], WOOD)]) <= {0, 1, 2, 3})
+        branches = cloud['branch'][cloud['label'] == ScanReport.BRANCH]
+        self.assertTrue(0 < branches.max() < report.branches)
+        self.assertTrue((cloud['branch'][cloud['label'] == ScanReport.GROUND] == -1).all())
+        ranges = numpy.sqrt(cloud['x'] ** 2 + cloud['y'] ** 2 + cloud['z'] ** 2)
+        self.assertTrue(1.0 <= ranges.min() and ranges.max() <= 30.0)
+        self.assertTrue(((0.0 <= cloud['intensity']) & (cloud['intensity'] <= 1.0)).all())
+        person = cloud[cloud['label'] == ScanReport.PERSON]
+        self.assertLess(numpy.hypot(person['x'] - 3.0, person['y']).max(), 0.6)
+
+    # REP 117, REP 103: ranges of the plane are those of the world.
+    def test_2_a_planar_scan_has_infinities_and_no_nan(self):
+        self.sweep()
+        scan = self.scanner.scan.wait_for_stamp(time_of(self.clock.tick))
+        ranges = numpy.array(scan.ranges)
+        self.assertEqual((len(ranges), scan.header.frame_id), (240, 'lidar'))
+        self.assertFalse(numpy.isnan(ranges).any())
+        self.assertTrue(numpy.isposinf(ranges).any())
+        met = ranges[numpy.isfinite(ranges)]
+        self.assertTrue((scan.range_min <= met).all() and (met <= scan.range_max).all())
+        angles = scan.angle_min + scan.angle_increment * numpy.arange(240)
+        self.assertAlmostEqual(angles[-1], scan.angle_max, 4)
+        ahead = ranges[numpy.abs(angles) < 0.06]
+        self.assertTrue(((2.5 < ahead) & (ahead < 3.0)).any(), ahead)  # who stands at 3 m
+
+    # N1: the same scan with the wind off and on.
+    def test_3_wind_changes_what_is_seen_and_still_air_does_not(self):
+        one = self.sweep()
+        self.run_for(0.3)
+        two = self.sweep()
+        self.assertTrue(one.tobytes() == two.tobytes())
+        rospy.ServiceProxy('/wind_broadcaster/set_primitive', SetWindPrimitive)(primitive=BREEZE)
+        self.run_for(1.5)
+        windy = self.sweep()
+        self.run_for(0.3)
+        later = self.sweep()
+
+        def crown(cloud):
+            return cloud[numpy.isin(cloud['label'], WOOD) & (cloud['z'] > 0.5)].tobytes()
+        self.assertFalse(crown(windy) == crown(two))
+        self.assertFalse(crown(windy) == crown(later))
+        rospy.ServiceProxy('/wind_broadcaster/remove_primitive', RemoveWindPrimitive)(name='breeze')
+        self.run_for(2.0)
+        self.assertTrue(crown(self.sweep()) == crown(two))  # back at rest
+
+    # N1: trodden grass lowers returns.
+    def test_4_trodden_grass_returns_lower(self):
+        def lane():
+            """Heights over the ground of all that is met on a lane beside the sensor."""
+            cloud = self.sweep()
+            place = cloud[(numpy.abs(cloud['y'] - 3.0) < 0.5) & (numpy.abs(cloud['x']) < 4.0)]
+            low = place[numpy.isin(place['label'], (ScanReport.GRASS, ScanReport.GROUND))]
+            return 1.2 + low['z'], (low['label'] == ScanReport.GRASS).mean()
+        before, share = lane()
+        self.assertGreater(len(before), 50)
+        law = TreadLaw(radius=1.0, reach=1.6, softness=0.1, load=1.0, recovery=1e9)
+        answer = self.grass.tread(points=[Point(-6, 3, 0), Point(6, 3, 0)], law=law)
+        self.assertTrue(answer.success, answer.message)
+        self.run_for(0.5)
+        after, share_after = lane()
+        self.assertLess(after.mean(), 0.5 * before.mean())
+        self.assertLess(share_after, share)
+
+    def test_5_without_its_frame_it_sees_nothing_and_says_so(self):
+        sent = len(self.scanner.report.messages)
+        self.clock.run(5, self.trees)  # the frame is not told on
+        self.scanner.settle()
+        status = self.scanner.diagnostics()
+        self.assertGreater(status['Sweeps without a place'], 0)
+        self.run_for(0.2)
+        self.assertGreater(len(self.scanner.report.messages), sent)
+
+    def test_6_people_who_cannot_be_are_refused(self):
+        people = publisher('/agents', AgentStates)
+        wait_for_readers('/agents', self.scanner.process)
+        before = self.scanner.diagnostics()['Inputs refused']
+        for height, frame in ((math.nan, 'map'), (9.0, 'map'), (1.7, 'elsewhere')):
+            message = AgentStates(agents=[AgentState(height=height)])
+            message.header.frame_id = frame
+            people.publish(message)
+            self.scanner.settle()
+        wait_for(lambda: self.scanner.diagnostics()['Inputs refused'] == before + 3, 'refusals')
+        people.unregister()
+        self.assertGreater((self.sweep()['label'] == ScanReport.PERSON).sum(), 0)
+
+    def test_7_time_that_goes_back_is_a_fresh_start(self):
+        here = self.sweep()
+        self.clock.show(START - 10 * RATE)
+        self.run_for(1.5)
+        again = self.sweep()
+        trees = [c[numpy.isin(c['label'], WOOD)].tobytes() for c in (here, again)]
+        self.assertTrue(trees[0] == trees[1])
+        grass = [(1.2 + c['z'][c['label'] == ScanReport.GRASS]).mean() for c in (here, again)]
+        self.assertGreater(grass[1], grass[0])  # what was trodden later stands again
+
+
+if __name__ == '__main__':
+    rospy.init_node('scan_clearing_test')
+    rostest.rosrun('vegetation_sim', 'scan_clearing', ScanClearing)

@@ -1,0 +1,44 @@
+#!/usr/bin/env python3
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""vegetation_scanner refuses to start with bad parameters, all faults at once."""
+import rospy
+import rostest
+
+from refusing_node import Ranges, RefusingNode
+
+# parameter: unit, least, most
+NUMBERS = {
+    'delay': (' s', 0, 5), 'elevation_low': (' rad', -1.5707, 1.5707),
+    'elevation_high': (' rad', -1.5707, 1.5707), 'azimuth_low': (' rad', -6.2832, 6.2832),
+    'azimuth_high': (' rad', -6.2832, 6.2832), 'range_min': (' m', 0, 100),
+    'range_max': (' m', 0.1, 500), 'noise': (' m', 0, 1),
+}
+WHOLE_NUMBERS = {
+    'rate': (' Hz', 1, 100), 'branch_budget': ('', 1000, 20000000), 'threads': ('', 1, 64),
+    'rings': ('', 1, 512), 'columns': ('', 1, 14400),
+}
+OTHERS = {'frame_id', 'lidar_frame', 'seed'}
+
+
+class ScanParameters(Ranges, RefusingNode):
+    NODE = 'vegetation_scanner'
+    NUMBERS, WHOLE_NUMBERS, OTHERS = NUMBERS, WHOLE_NUMBERS, OTHERS
+
+    def test_what_does_not_fit_together_is_refused(self):
+        refusal = self.refusal({'frame_id': '', 'lidar_frame': '/lidar', 'seed': -1})
+        self.assertIn("~frame_id = '' is empty", refusal)
+        self.assertIn("~lidar_frame = '/lidar' is empty or begins with '/'", refusal)
+        self.assertIn('~seed', refusal)
+        refusal = self.refusal({'elevation_low': 0.5, 'elevation_high': 0.2, 'azimuth_low': 1.0,
+                                'azimuth_high': 1.0, 'range_min': 50.0, 'range_max': 20.0})
+        for name in ('elevation_high', 'azimuth_high', 'range_max'):
+            self.assertIn('~%s = ' % name, refusal)
+        self.assertEqual(refusal.count('is not above'), 3)
+        refusal = self.refusal({'azimuth_low': -4.0, 'azimuth_high': 4.0})
+        self.assertIn('~azimuth_high is more than a turn', refusal)
+
+
+if __name__ == '__main__':
+    rospy.init_node('scan_parameters_test')
+    rostest.rosrun('vegetation_sim', 'scan_parameters', ScanParameters)

@@ -1,0 +1,61 @@
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the tests of vegetation_scanner share: the node as its users see it."""
+import math
+
+import numpy
+from geometry_msgs.msg import TransformStamped
+from sensor_msgs.msg import LaserScan, PointCloud2, PointField
+from std_srvs.srv import Trigger
+from tf2_msgs.msg import TFMessage
+from vegetation_sim.msg import ScanReport
+
+from forest_rig import time_of
+from watched_node import Log, WatchedNode, publisher, wait_for_readers
+
+TYPES = {PointField.FLOAT32: 'f4', PointField.UINT16: 'u2', PointField.UINT32: 'u4',
+         PointField.INT32: 'i4'}
+INPUTS = ('/wind', '/forest/layout', '/forest/state', '/grass/layout', '/grass/state', '/agents')
+
+
+class Scanner(WatchedNode):
+    """One vegetation_scanner as its users see it."""
+
+    LOGS = 'points', 'scan', 'report'
+
+    def __init__(self, name='/vegetation_scanner'):
+        self.points = Log('/lidar/points', PointCloud2)
+        self.scan = Log('/lidar/scan', LaserScan)
+        self.report = Log('/lidar/report', ScanReport)
+        super().__init__(name, 'scan', name + '/reset', Trigger)
+
+    def cloud_at(self, tick):
+        return cloud_of(self.points.wait_for_stamp(time_of(tick)))
+
+
+def cloud_of(message):
+    """Its points, an array of records."""
+    layout = numpy.dtype({'names': [f.name for f in message.fields],
+                          'formats': [TYPES[f.datatype] for f in message.fields],
+                          'offsets': [f.offset for f in message.fields],
+                          'itemsize': message.point_step})
+    return numpy.frombuffer(message.data, layout)
+
+
+class Mast:
+    """The sensor's frame."""
+
+    def __init__(self, scanner, frame='lidar'):
+        self.scanner, self.frame = scanner, frame
+        self._publisher = publisher('/tf', TFMessage)
+        wait_for_readers('/tf', scanner.process)
+
+    def put(self, x, y, z, stamp, yaw=0.0):
+        """Returns when the scanner has heard it."""
+        frame = TransformStamped(child_frame_id=self.frame)
+        frame.header.frame_id, frame.header.stamp = 'map', stamp
+        at = frame.transform.translation
+        at.x, at.y, at.z = x, y, z
+        frame.transform.rotation.z, frame.transform.rotation.w = math.sin(yaw / 2), math.cos(yaw / 2)
+        self._publisher.publish(TFMessage([frame]))
+        self.scanner.settle()
