@@ -7,12 +7,13 @@ set -euo pipefail
 
 usage() {
   cat <<END
-usage: scripts/demo.sh [SCENARIO] [--headless] [--seconds N] [--screenshot FILE] [--series N]
+usage: scripts/demo.sh [SCENARIO] [--headless] [--seconds N] [--screenshot FILE] [--series N] [--view NAME]
   SCENARIO           one of: $(scenarios) (forest if none is given)
   --headless         on a virtual display and a ROS master of its own; succeeds only if rviz shows a
                      picture and no node dies
   --seconds N        ends after N seconds (20 if headless, else when rviz is closed)
   --screenshot FILE  picture of the rviz window at the end; with --headless
+  --view NAME        looks from there: a saved view of the scenario's rviz configuration; with --headless
   --series N         N pictures instead, at equal times up to the end, -1 to -N before FILE's ending
 END
 }
@@ -26,11 +27,11 @@ refuse() {
 }
 
 parse() {
-  scenario= headless=false seconds= screenshot= series=1
+  scenario= headless=false seconds= screenshot= view= series=1
   while [ $# -gt 0 ]; do
     case $1 in
       --headless) headless=true ;;
-      --seconds | --screenshot | --series)
+      --seconds | --screenshot | --series | --view)
         [ $# -ge 2 ] || refuse "$1 wants a value"
         printf -v "${1#--}" %s "$2"
         shift
@@ -51,6 +52,7 @@ parse() {
   series=$((10#$series))
   [ "$series" = 1 ] || [ -n "$screenshot" ] || refuse '--series goes with --screenshot'
   [ -z "$screenshot" ] || $headless || refuse '--screenshot goes with --headless'
+  [ -z "$view" ] || $headless || refuse '--view goes with --headless'
   $headless || [ -n "${DISPLAY:-}" ] || refuse 'there is no display; add --headless'
   if [ -n "$screenshot" ]; then
     screenshot=$(realpath -m -- "$screenshot")
@@ -61,6 +63,19 @@ parse() {
 rviz_config() {
   local own=$ROOT/rviz/$scenario.rviz
   [ -e "$own" ] && echo "$own" || echo "$ROOT/rviz/default.rviz"
+}
+
+# usage: seen_from NAME: the configuration with that saved view as the one it starts with
+seen_from() {
+  python3 - "$(rviz_config)" "$1" >"$WORK/view.rviz" <<'END' || fail "--view $1: $(rviz_config) has no such view"
+import sys, yaml
+with open(sys.argv[1]) as file:
+    config = yaml.safe_load(file)
+views = config['Visualization Manager']['Views']
+views['Current'] = {view['Name']: view for view in views['Saved'] or []}[sys.argv[2]]
+yaml.safe_dump(config, sys.stdout)
+END
+  echo "$WORK/view.rviz"
 }
 
 # A blank window, or one that shows menus alone, has few colours in its middle.
@@ -92,9 +107,11 @@ run_headless() {
   . "$ROOT/scripts/launching.sh"
   trap 'stop_process "$launch_pid"; stop_process "$display_pid"; rm -rf "$WORK"' EXIT
   trap 'exit 130' INT TERM
+  local config
+  config=$(if [ -n "$view" ]; then seen_from "$view"; else rviz_config; fi)
   start_display
   say "Showing $scenario on display $DISPLAY"
-  start_launch demo.launch scenario:="$scenario" rviz_config:="$(rviz_config)" \
+  start_launch demo.launch scenario:="$scenario" rviz_config:="$config" \
     rviz_args:=--disable-anti-aliasing
   wait_until 120 'the rviz window' rviz_window
   wait_until 60 'a message on forest/state' topic_flows /forest/state

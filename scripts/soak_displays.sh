@@ -2,28 +2,52 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
 # Displays come and go, and nodes die, return with another scene and flood their topics, many times
-# over. Fails where a display crashes, shows what is no more or leaves an object of Ogre behind; says
-# what memory was taken.
-# usage: scripts/soak_displays.sh [--cycles N] [DISPLAY ...]
+# over. Fails where a display crashes, shows what is no more, leaves an object of Ogre behind, or
+# where memory grows; says by how much, and draws it.
+# usage: scripts/soak_displays.sh [--cycles N] [--reloads N] [--sanitize] [--chart FILE.png] [DISPLAY ...]
 #   DISPLAY      canopy crowd forest grass wind; all of them if none is given
-#   --cycles N   500 if not given
+#   --cycles N   displays made and destroyed: 500 if not given, 40 with --sanitize
+#   --reloads N  of the node: 100 if not given, 20 with --sanitize
+#   --sanitize   the whole test of each display, built with the address and undefined behaviour
+#                sanitizers (into build/sanitize): our code writes, reads and frees rightly, and
+#                what it allocates it frees
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 
-cycles=500
-if [ "${1:-}" = --cycles ]; then cycles=$2; shift 2; fi
+cycles= reloads= sanitize=false chart=
+while [[ ${1:-} == --* ]]; do
+  case $1 in
+    --sanitize) sanitize=true ;;
+    --cycles | --reloads | --chart)
+      printf -v "${1#--}" %s "${2:?$1 wants a value}"
+      shift
+      ;;
+    *) fail "unknown option $1" ;;
+  esac
+  shift
+done
 displays=("$@")
 [ $# -gt 0 ] || displays=(canopy crowd forest grass wind)
 
-use_space "$BUILD/devel"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-export VEGETATION_SIM_CYCLES=$cycles GTEST_FILTER='*LeavesNothingBehind:*Returns'
+prefix=
+if $sanitize; then
+  "$ROOT/scripts/build.sh" --sanitize "${displays[@]/%/_display_rostest}"
+  BUILD=$BUILD/sanitize
+  prefix=$ROOT/test/rviz/sanitized.sh
+fi
+use_space "$BUILD/devel"
+$sanitize || export GTEST_FILTER='*LeavesNothingBehind:*Returns'
+if $sanitize; then : "${cycles:=40}" "${reloads:=20}"; else : "${cycles:=500}" "${reloads:=100}"; fi
+export VEGETATION_SIM_CYCLES=$cycles VEGETATION_SIM_RELOADS=$reloads
 for display in "${displays[@]}"; do
-  say "$display: $cycles cycles"
-  sed "s/time-limit=\"[0-9]*\"/time-limit=\"7200\"/" \
+  say "$display: $cycles cycles, $reloads reloads"
+  export VEGETATION_SIM_MEMORY=$work/$display.csv
+  sed "s/time-limit=\"[0-9]*\"/time-limit=\"7200\"/; s|with_display.sh|& $prefix|" \
     "$ROOT/test/rviz/${display}_display.test" >"$work/$display.test"
   rostest --text --pkgdir="$ROOT" --package=vegetation_sim "$work/$display.test" >"$work/log" 2>&1 ||
     { cat "$work/log"; fail "$display"; }
-  grep -E 'cycles:|OK \]' "$work/log"
+  grep 'OK \]' "$work/log"
 done
+$sanitize || python3 "$ROOT/scripts/soak_chart.py" "$work" "${chart:-$work/memory.png}"

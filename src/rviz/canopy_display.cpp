@@ -12,7 +12,8 @@ constexpr int GROUND_RANK = 0;  // knows nothing of what else grows there
 }  // namespace
 
 CanopyDisplay::CanopyDisplay()
-    : SceneryDisplay(GROUND_RANK), properties_(std::make_unique<view::CanopyProperties>(*this)) {}
+    : SceneryDisplay(GROUND_RANK, {"canopy_animator", "Cost [points]", "Budget [points]"}),
+      properties_(std::make_unique<view::CanopyProperties>(*this)) {}
 
 CanopyDisplay::~CanopyDisplay() {
   stop();

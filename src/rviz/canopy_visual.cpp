@@ -18,6 +18,17 @@ constexpr int LEAF_EDGE = 128, BARK_EDGE = 256;  // [pixel]
 constexpr double PATCH = 5.0;                    // [m] edge of the plants of one patch
 constexpr double STILL = 1e-4;                   // [m], [rad] of an eye
 
+// Painted once in a process.
+const std::vector<Picture>& sharedFoliage() {
+  static const std::vector<Picture> atlas = foliageAtlas(LEAF_EDGE);
+  return atlas;
+}
+
+const std::vector<Picture>& sharedStems() {
+  static const std::vector<Picture> atlas = mipmaps(barkAtlas(BARK_EDGE), 16);
+  return atlas;
+}
+
 using Cells = std::map<std::pair<int, int>, std::vector<std::size_t>>;
 
 Cells cellsOf(const canopy::Layout& layout) {
@@ -43,8 +54,8 @@ double wantedOf(const CanopyPatch& patch, const View& view, float tolerance) {
 
 CanopyVisual::CanopyVisual(Ogre::SceneNode& parent, const CanopySource& source, const Vec3& to_sun)
     : node_(parent.createChildSceneNode()),
-      leaf_texture_(uniqueName("foliage_picture"), foliageAtlas(LEAF_EDGE)),
-      stem_texture_(uniqueName("stem_picture"), mipmaps(barkAtlas(BARK_EDGE), 16)),
+      leaf_texture_(uniqueName("foliage_picture"), sharedFoliage()),
+      stem_texture_(uniqueName("stem_picture"), sharedStems()),
       leaf_material_(Material::Kind::LEAVES, uniqueName("foliage_material"),
                      {leaf_texture_.name()}),
       stem_material_(Material::Kind::BARK, uniqueName("stem_material"), {stem_texture_.name()}) {

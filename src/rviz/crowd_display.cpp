@@ -14,7 +14,8 @@ constexpr double SMALLEST = 60.0;  // [m] edge of the ground's picture
 }  // namespace
 
 CrowdDisplay::CrowdDisplay()
-    : SceneryDisplay(GROUND_RANK), properties_(std::make_unique<view::CrowdProperties>(*this)) {}
+    : SceneryDisplay(GROUND_RANK, {"agent_crowd", "Cost [points]", "Budget [points]"}),
+      properties_(std::make_unique<view::CrowdProperties>(*this)) {}
 
 CrowdDisplay::~CrowdDisplay() {
   stop();

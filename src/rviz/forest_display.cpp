@@ -14,7 +14,9 @@ constexpr double GROUND_CELL = 3.0;  // [m] of its mesh
 }  // namespace
 
 ForestDisplay::ForestDisplay()
-    : SceneryDisplay(GROUND_RANK), properties_(std::make_unique<view::ForestProperties>(*this)) {}
+    : SceneryDisplay(GROUND_RANK,
+                     {"forest_animator", "Predicted frame time [ms]", "Frame time budget [ms]"}),
+      properties_(std::make_unique<view::ForestProperties>(*this)) {}
 
 ForestDisplay::~ForestDisplay() {
   stop();
@@ -106,7 +108,6 @@ void ForestDisplay::showInputs(view::StatusBoard& board) const {
   board.show("Layout", source_->layoutStatus());
   board.show("Wind", source_->windStatus());
   board.show("State", source_->stateStatus());
-  if (!source_->governorStatus().text.empty()) board.show("Governor", source_->governorStatus());
   if (forest_->stock() != nullptr)
     board.show(rviz::StatusProperty::Ok, "Motion",
                view::describeMotion(source_->replica(), *forest_->stock()));

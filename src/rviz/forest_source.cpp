@@ -16,18 +16,6 @@ InputStatus refused(const std::exception& error) {
   return {false, std::string("Refused a message: ") + error.what()};
 }
 
-// The node's own name comes first, in whatever namespace.
-bool isGovernor(const std::string& name) {
-  const std::string end = "forest_animator: governor";
-  return name.size() >= end.size() && name.compare(name.size() - end.size(), end.npos, end) == 0;
-}
-
-std::string valueOf(const diagnostic_msgs::DiagnosticStatus& status, const char* key) {
-  for (const diagnostic_msgs::KeyValue& value : status.values)
-    if (value.key == key) return value.value;
-  return "-";
-}
-
 }  // namespace
 
 ForestSource::ForestSource(ros::NodeHandle nh, const ForestTopics& topics)
@@ -37,7 +25,6 @@ ForestSource::ForestSource(ros::NodeHandle nh, const ForestTopics& topics)
   layout_ = nh.subscribe(topics.layout, 1, &ForestSource::takeLayout, this);
   wind_ = nh.subscribe(topics.wind, 1, &ForestSource::takeWind, this);
   state_ = nh.subscribe(topics.state, 100, &ForestSource::takeState, this);
-  diagnostics_ = nh.subscribe("/diagnostics", 10, &ForestSource::takeDiagnostics, this);
 }
 
 void ForestSource::takeLayout(const ForestLayout& message) {
@@ -70,16 +57,6 @@ void ForestSource::takeState(const ForestState& message) {
   } catch (const std::exception& error) {
     state_status_ = refused(error);
   }
-}
-
-void ForestSource::takeDiagnostics(const diagnostic_msgs::DiagnosticArray& message) {
-  for (const diagnostic_msgs::DiagnosticStatus& status : message.status)
-    if (isGovernor(status.name))
-      governor_status_ = {
-          true, status.message + ": " + valueOf(status, "Predicted frame time [ms]") + " of " +
-                    valueOf(status, "Frame time budget [ms]") + " ms, errors up to " +
-                    valueOf(status, "Largest predicted error [pixel]") + " pixel of " +
-                    valueOf(status, "Tolerance [pixel]")};
 }
 
 void ForestSource::forgetState(Nanoseconds now) {

@@ -36,6 +36,11 @@ const std::vector<Picture>& sharedLeafAtlas() {
   return atlas;
 }
 
+const std::vector<Picture>& sharedBarkAtlas() {
+  static const std::vector<Picture> atlas = mipmaps(barkAtlas(BARK_EDGE), 16);
+  return atlas;
+}
+
 bool isSeen(const DrawnTree& tree, const View& view) {
   return view.sees(tree.foot() + Vec3(0.0, 0.0, 0.5 * tree.height()),
                    tree.reach() + 0.5 * tree.height());
@@ -47,7 +52,7 @@ ForestVisual::ForestVisual(Ogre::SceneNode& parent)
     : parent_(parent),
       node_(parent.createChildSceneNode()),
       leaf_texture_(uniqueName("leaf_picture"), sharedLeafAtlas()),
-      bark_texture_(uniqueName("bark_picture"), mipmaps(barkAtlas(BARK_EDGE), 16)),
+      bark_texture_(uniqueName("bark_picture"), sharedBarkAtlas()),
       leaf_material_(Material::Kind::LEAVES, uniqueName("leaf_material"), {leaf_texture_.name()}),
       bark_material_(Material::Kind::BARK, uniqueName("bark_material"), {bark_texture_.name()}),
       fading_leaf_material_(Material::Kind::LEAVES, uniqueName("fading_leaf_material"),

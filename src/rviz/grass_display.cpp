@@ -13,7 +13,8 @@ constexpr double PRUNING_PERIOD = 0.5;  // [s]
 }  // namespace
 
 GrassDisplay::GrassDisplay()
-    : SceneryDisplay(GROUND_RANK), properties_(std::make_unique<view::GrassProperties>(*this)) {}
+    : SceneryDisplay(GROUND_RANK, {"grass_field", "Cost [blades]", "Budget [blades]"}),
+      properties_(std::make_unique<view::GrassProperties>(*this)) {}
 
 GrassDisplay::~GrassDisplay() {
   stop();

@@ -91,10 +91,12 @@ Rgba groundColour(const Noise& noise, double x, double y, double shelter, const 
   grass =
       mix(grass, GRASS_DRY, 0.6f * ramp(0.52, 0.85, noise.fractal(fx / 11.f, fy / 11.f + 30.f, 3)));
   grass = times(mix(grass, times(grass, {0.78f, 0.84f, 0.7f, 1.f}), ramp(0.4, 0.7, fine)), tint);
+  const double edge = shelter + 0.35 * (static_cast<double>(fine) - 0.5);
+  const float covered = 0.92f * ramp(0.25, 0.7, edge);
+  if (covered <= 0.f) return grass;
   const Rgba floor =
       mix(LITTER, MOSS, ramp(0.42, 0.68, noise.fractal(fx / 5.f, fy / 5.f + 11.f, 4)));
-  const double edge = shelter + 0.35 * (static_cast<double>(fine) - 0.5);
-  return mix(grass, floor, 0.92f * ramp(0.25, 0.7, edge));
+  return mix(grass, floor, covered);
 }
 
 Rgba openLight(const Daylight& daylight, const Vec3& normal) {

@@ -20,6 +20,12 @@ constexpr int MOST_CELLS = 40;   // along the edge of a tile
 constexpr std::array<double, 6> RINGS{1.0, 1.25, 1.7, 2.8, 6.0, 24.0};
 constexpr int RING_SIDE = 32;  // quads along a side of a ring
 
+// Painted once in a process.
+const std::vector<Picture>& sharedGrain() {
+  static const std::vector<Picture> grain = mipmaps(grainPicture(GRAIN_EDGE));
+  return grain;
+}
+
 VertexPaint plainPaint(const Rgba& colour, float u, float v) {
   VertexPaint out{{0.f, 0.f, 1.f}, {0, 0, 0, 255}, {u, v, 1.f}};
   for (std::size_t i = 0; i < 3; ++i)
@@ -61,7 +67,7 @@ GroundVisual::GroundVisual(Ogre::SceneNode& parent, const Land& land, const Dayl
     : node_(parent.createChildSceneNode()),
       plot_texture_(uniqueName("ground_picture"), mipmaps(land.picture)),
       plain_texture_(uniqueName("plain_picture"), {Picture(1, 1, {1.f, 1.f, 1.f, 1.f})}),
-      grain_texture_(uniqueName("grain_picture"), mipmaps(grainPicture(GRAIN_EDGE))),
+      grain_texture_(uniqueName("grain_picture"), sharedGrain()),
       plot_material_(Material::Kind::GROUND, uniqueName("plot_material"),
                      {plot_texture_.name(), grain_texture_.name()}),
       land_material_(Material::Kind::GROUND, uniqueName("land_material"),
@@ -139,6 +145,8 @@ void GroundVisual::addLand(const Land& land, const Daylight& daylight) {
       colour = mix(colour, mean, static_cast<float>(smoothStep((ring - 1.1) / 1.2)));
       const Rgba light = openLight(daylight, terrain.normal(x, y));
       for (std::size_t k = 0; k < 3; ++k) colour[k] *= light[k];
+      // No edge against the sky, whatever the haze.
+      colour = mix(colour, daylight.horizon, static_cast<float>(smoothStep((ring - 2.8) / 21.2)));
       addVertex(Vec3(x, y, terrain.height(x, y)) - land.origin, plainPaint(colour, 0.f, 0.f),
                 positions, paint);
     }

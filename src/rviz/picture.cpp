@@ -16,13 +16,20 @@ float fade(float x) {
   return x * x * (3.f - 2.f * x);
 }
 
-}  // namespace
-
-Rgba mix(const Rgba& a, const Rgba& b, float weight_of_b) {
-  Rgba out;
-  for (std::size_t i = 0; i < 4; ++i) out[i] = a[i] + (b[i] - a[i]) * weight_of_b;
-  return out;
+float octave(const std::vector<float>& lattice, float x, float y) {
+  const float fx = std::floor(x), fy = std::floor(y);
+  const int x0 = wrap(static_cast<int>(fx)), y0 = wrap(static_cast<int>(fy));
+  const int x1 = wrap(x0 + 1), y1 = wrap(y0 + 1);
+  const float u = fade(x - fx), v = fade(y - fy);
+  const auto get = [&](int i, int j) {
+    return lattice[static_cast<std::size_t>(j * Noise::PERIOD + i)];
+  };
+  const float a = get(x0, y0) + (get(x1, y0) - get(x0, y0)) * u;
+  const float b = get(x0, y1) + (get(x1, y1) - get(x0, y1)) * u;
+  return a + (b - a) * v;
 }
+
+}  // namespace
 
 Picture::Picture(int columns_wanted, int rows_wanted, const Rgba& fill)
     : columns(columns_wanted),
@@ -80,20 +87,13 @@ Noise::Noise(std::uint64_t seed) : lattice_(static_cast<std::size_t>(PERIOD) * P
 }
 
 float Noise::smooth(float x, float y) const {
-  const float fx = std::floor(x), fy = std::floor(y);
-  const int x0 = wrap(static_cast<int>(fx)), y0 = wrap(static_cast<int>(fy));
-  const int x1 = wrap(x0 + 1), y1 = wrap(y0 + 1);
-  const float u = fade(x - fx), v = fade(y - fy);
-  const auto get = [&](int i, int j) { return lattice_[static_cast<std::size_t>(j * PERIOD + i)]; };
-  const float a = get(x0, y0) + (get(x1, y0) - get(x0, y0)) * u;
-  const float b = get(x0, y1) + (get(x1, y1) - get(x0, y1)) * u;
-  return a + (b - a) * v;
+  return octave(lattice_, x, y);
 }
 
 float Noise::fractal(float x, float y, int octaves) const {
   float sum = 0.f, total = 0.f, weight = 1.f;
   for (int i = 0; i < octaves; ++i) {
-    sum += weight * smooth(x, y);
+    sum += weight * octave(lattice_, x, y);
     total += weight;
     weight *= 0.5f;
     x = 2.f * x + 17.f;  // shifted, so that the lattices do not line up

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <functional>
+#include <utility>
 
 #include "vegetation_sim/ros/stamps.h"
 #include "vegetation_sim/rviz/view_of.h"
@@ -21,6 +22,9 @@ constexpr double STATUS_PERIOD = 0.5;                           // [s]
 constexpr Nanoseconds JUMP_BACK = NANOSECONDS_PER_SECOND / 10;  // less is jitter
 
 }  // namespace
+
+SceneryDisplay::SceneryDisplay(int ground_rank, view::GovernorKeys governor)
+    : ground_rank_(ground_rank), governor_keys_(std::move(governor)), board_(*this) {}
 
 void SceneryDisplay::onEnable() {
   start();
@@ -43,6 +47,8 @@ void SceneryDisplay::reset() {
 void SceneryDisplay::start() {
   try {
     open();
+    if (!governor_keys_.node.empty())
+      governor_ = std::make_unique<view::GovernorSource>(update_nh_, governor_keys_);
     deleteStatus("Topics");
   } catch (const ros::Exception& error) {
     setStatusStd(rviz::StatusProperty::Error, "Topics", error.what());
@@ -57,6 +63,7 @@ void SceneryDisplay::start() {
 
 void SceneryDisplay::stop() {
   open_ = gives_ground_ = false;
+  governor_.reset();
   viewer_.reset();
   air_.reset();
   sky_.reset();
@@ -161,7 +168,10 @@ void SceneryDisplay::drawAt(Nanoseconds stamp) {
 
 void SceneryDisplay::watchTime(Nanoseconds stamp) {
   // Half: the state may be ahead of the picture's clock, by less than the jump.
-  if (stamp + JUMP_BACK < last_stamp_) forgetState(stamp + JUMP_BACK / 2);
+  if (stamp + JUMP_BACK < last_stamp_) {
+    forgetState(stamp + JUMP_BACK / 2);
+    if (governor_) governor_->forgetState(stamp);
+  }
   last_stamp_ = stamp;
 }
 
@@ -187,6 +197,8 @@ void SceneryDisplay::publishViewer() {
 
 void SceneryDisplay::showStatus(Nanoseconds stamp) {
   showInputs(board_);
+  if (governor_)
+    if (const auto status = governor_->status(stamp)) board_.show("Governor", *status);
   if (stamp == 0)
     board_.show(rviz::StatusProperty::Warn, "Time", "Waiting for /clock: nothing is drawn");
   else

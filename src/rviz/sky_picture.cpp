@@ -19,6 +19,22 @@ float smooth(float low, float high, float x) {
   return static_cast<float>(smoothStep((x - low) / (high - low)));
 }
 
+// Around the sun, by the cosine of the angle to it.
+float glow(float towards) {
+  const float t2 = towards * towards, t4 = t2 * t2, t8 = t4 * t4;
+  return std::min(1.f, 0.55f * t8 * t8 * t8 + 0.25f * t4 * towards);
+}
+
+std::vector<SinCos> azimuths(int columns) {
+  std::vector<SinCos> out;
+  for (int c = 0; c < columns; ++c) out.push_back(sinCos(2.0 * PI * c / columns));
+  return out;
+}
+
+Vec3 directionOf(const SinCos& azimuth, const SinCos& elevation) {
+  return {elevation.cos * azimuth.cos, elevation.cos * azimuth.sin, elevation.sin};
+}
+
 float cloudAt(const Noise& noise, const Vec3& direction) {
   // A flat layer overhead: clouds crowd together towards the horizon.
   const double far = CLOUD_HEIGHT / (direction.z() + 0.09);
@@ -53,30 +69,37 @@ Daylight daylightOf(double azimuth, double elevation) {
   return out;
 }
 
-Picture skyPicture(const Daylight& light, int columns, int rows) {
+SkyShapes::SkyShapes(int columns_wanted, int rows_wanted)
+    : columns(columns_wanted), rows(rows_wanted) {
   const Noise noise(0x5c1);
-  Picture out(columns, rows, {});
+  const std::vector<SinCos> around = azimuths(columns);
   for (int r = 0; r < rows; ++r) {
-    const double elevation = skyElevation((r + 0.5) / rows);
-    const SinCos e = sinCos(elevation);
+    const SinCos e = sinCos(skyElevation((r + 0.5) / rows));
+    for (const SinCos& azimuth : around) clouds.push_back(cloudAt(noise, directionOf(azimuth, e)));
+  }
+  for (int c = 0; c < columns; ++c)
+    hills.push_back(ridge(noise, static_cast<float>(c) / static_cast<float>(columns)));
+}
+
+Picture skyPicture(const Daylight& light, const SkyShapes& shapes) {
+  Picture out(shapes.columns, shapes.rows, {});
+  const std::vector<SinCos> around = azimuths(out.columns);
+  const float* density = shapes.clouds.data();
+  for (int r = 0; r < out.rows; ++r) {
+    const SinCos e = sinCos(skyElevation((r + 0.5) / out.rows));
     const auto up = static_cast<float>(e.sin);
-    for (int c = 0; c < columns; ++c) {
-      const SinCos a = sinCos(2.0 * PI * c / columns);
-      const Vec3 direction(e.cos * a.cos, e.cos * a.sin, e.sin);
-      const auto towards = static_cast<float>(std::max(0.0, dot(direction, light.to_sun)));
-      Rgba colour = mix(light.horizon, light.zenith, 1.f - std::pow(1.f - up, 3.2f));
-      const float glow = 0.55f * std::pow(towards, 24.f) + 0.25f * std::pow(towards, 5.f);
-      colour = mix(colour, light.glow, std::min(1.f, glow));
-      const float density = cloudAt(noise, direction);
-      const float cloud =
-          smooth(CLOUD_COVER, CLOUD_COVER + 0.24f, density) * smooth(0.f, 0.16f, up);
-      const Rgba cloud_colour =
-          mix(CLOUD_LIT, CLOUD_SHADED, smooth(CLOUD_COVER + 0.1f, CLOUD_COVER + 0.4f, density));
-      colour = mix(colour, cloud_colour, CLOUD_OPACITY * cloud);
-      const float far_hills = ridge(noise, static_cast<float>(c) / static_cast<float>(columns));
-      const float over = smooth(far_hills - 0.003f, far_hills + 0.003f, up);
-      const Rgba hill = mix(light.horizon, light.zenith, 0.36f * smooth(0.f, 0.04f, up));
-      out.at(c, r) = mix(hill, colour, over);
+    const Rgba clear = mix(light.horizon, light.zenith, 1.f - std::pow(1.f - up, 3.2f));
+    const Rgba hill = mix(light.horizon, light.zenith, 0.36f * smooth(0.f, 0.04f, up));
+    const float opacity = CLOUD_OPACITY * smooth(0.f, 0.16f, up);
+    for (int c = 0; c < out.columns; ++c, ++density) {
+      const auto column = static_cast<std::size_t>(c);
+      const double towards = std::max(0.0, dot(directionOf(around[column], e), light.to_sun));
+      Rgba colour = mix(clear, light.glow, glow(static_cast<float>(towards)));
+      const Rgba cloud =
+          mix(CLOUD_LIT, CLOUD_SHADED, smooth(CLOUD_COVER + 0.1f, CLOUD_COVER + 0.4f, *density));
+      colour = mix(colour, cloud, opacity * smooth(CLOUD_COVER, CLOUD_COVER + 0.24f, *density));
+      const float hills = shapes.hills[column];
+      out.at(c, r) = mix(hill, colour, smooth(hills - 0.003f, hills + 0.003f, up));
       out.at(c, r)[3] = 1.f;
     }
   }

@@ -15,11 +15,17 @@ constexpr int COLUMNS = 2048, ROWS = 512;  // of the picture
 constexpr int AROUND = 48, UP = 16;        // quads of the dome
 constexpr double RADIUS = 8000.0;          // [m] behind all else
 
+// Made once in a process.
+const SkyShapes& sharedShapes() {
+  static const SkyShapes shapes(COLUMNS, ROWS);
+  return shapes;
+}
+
 }  // namespace
 
 SkyVisual::SkyVisual(Ogre::SceneNode& parent, const Daylight& daylight)
     : node_(parent.createChildSceneNode()),
-      texture_(uniqueName("sky_picture"), {skyPicture(daylight, COLUMNS, ROWS)}),
+      texture_(uniqueName("sky_picture"), {skyPicture(daylight, sharedShapes())}),
       material_(Material::Kind::SKY, uniqueName("sky_material"), {texture_.name()}),
       dome_(uniqueName("sky"), material_.name()) {
   std::vector<float> positions;

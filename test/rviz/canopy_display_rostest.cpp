@@ -172,6 +172,12 @@ TEST_F(CanopyDisplayTest, RefusesWhatCannotBeAndKeepsWhatItHas) {
            statusOf(*display, "State").find("layout_hash") != std::string::npos;
   })) << statusOf(*display, "Layout")
       << "; " << statusOf(*display, "State");
+  state = rig.message();
+  state.front_share = std::numeric_limits<double>::quiet_NaN();
+  rig.publish(state);
+  EXPECT_TRUE(rig.until([&] {
+    return statusOf(*display, "State").find("front_share") != std::string::npos;
+  })) << statusOf(*display, "State");
   EXPECT_EQ(display->drawn().plants, 4u);
 }
 
@@ -196,6 +202,12 @@ TEST_F(CanopyDisplayTest, FollowsANodeThatDiesAndReturns) {
       [&](int scene) {
         return display->drawn().plants == (scene == 0 ? 4u : 2u) && display->drawn().drawn > 0;
       });
+}
+
+// N7
+TEST_F(CanopyDisplayTest, TellsTheGovernorsChoice) {
+  expectGovernorIsTold(rig, *display, "canopy_animator", "Cost [points]", "Budget [points]",
+                       "points");
 }
 
 TEST_F(CanopyDisplayTest, EveryPropertyCanBeChanged) {

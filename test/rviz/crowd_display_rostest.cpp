@@ -172,9 +172,17 @@ TEST_F(CrowdDisplayTest, FollowsANodeThatDiesAndReturns) {
       });
 }
 
+// N7
+TEST_F(CrowdDisplayTest, TellsTheGovernorsChoice) {
+  expectGovernorIsTold(rig, *display, "agent_crowd", "Cost [points]", "Budget [points]", "points");
+}
+
 TEST_F(CrowdDisplayTest, EveryPropertyCanBeChanged) {
   expectEveryPropertyCanBeChanged(rig, *display);
-  EXPECT_TRUE(rig.until([&] { return display->drawn().drawn == 8; }));
+  EXPECT_TRUE(rig.until([&] {
+    rig.walk(0.1);  // another topic had nobody
+    return display->drawn().drawn == 8;
+  }));
 }
 
 TEST_F(CrowdDisplayTest, SettingsSurviveSaveAndLoad) {

@@ -2,28 +2,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <diagnostic_msgs/DiagnosticArray.h>
 #include <gtest/gtest.h>
 #include <rviz/properties/bool_property.h>
 #include <rviz/properties/color_property.h>
 #include <rviz/properties/float_property.h>
 #include <rviz/properties/int_property.h>
-
-#include <unistd.h>
+#include <rviz/properties/string_property.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <fstream>
 #include <functional>
-#include <iostream>
 
+#include "rviz/soak.h"
 #include "rviz/view_rig.h"
 
 namespace vegetation_sim {
 
-/// What every display promises, for the tests of each kind.
-using MakeDisplay = std::function<rviz::Display*()>;
+// What every display promises, for the tests of each kind.
 
-/// Each property there and back, at its limits too, with help on each.
+/// Each property there and back, at its limits too, names that cannot be among them, with help on
+/// each.
 inline void expectEveryPropertyCanBeChanged(ViewRig& rig, rviz::Display& display) {
   for (auto* flag : propertiesOf<rviz::BoolProperty>(display)) {
     for (int i = 0; i < 2; ++i) {
@@ -31,6 +29,14 @@ inline void expectEveryPropertyCanBeChanged(ViewRig& rig, rviz::Display& display
       rig.frames(2);
     }
     EXPECT_FALSE(flag->getDescription().isEmpty()) << flag->getName().toStdString();
+  }
+  for (auto* text : propertiesOf<rviz::StringProperty>(display)) {
+    const QString value = text->getString();
+    for (const QString& other : {QString("elsewhere"), QString("no name!"), value}) {
+      text->setValue(other);
+      rig.frames(2);
+    }
+    EXPECT_FALSE(text->getDescription().isEmpty()) << text->getName().toStdString();
   }
   for (auto* colour : propertiesOf<rviz::ColorProperty>(display)) {
     const QColor value = colour->getColor();
@@ -75,82 +81,42 @@ inline void expectSettingsSurvive(ViewRig& rig, rviz::Display& display, const Ma
   rig.remove(other);
 }
 
-/// How often displays come and go: VEGETATION_SIM_CYCLES for long runs.
-inline int cycles() {
-  const char* wanted = std::getenv("VEGETATION_SIM_CYCLES");
-  return wanted != nullptr ? std::atoi(wanted) : 12;
-}
-
-/// Memory of this process [MB].
-inline double residentMemory() {
-  std::ifstream file("/proc/self/statm");
-  double size = 0.0, resident = 0.0;
-  file >> size >> resident;
-  return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
-}
-
-/// Displays that come and go, some of them after they have drawn, leave no Ogre object. Long runs
-/// say what memory they have taken since a quarter of them.
-inline void expectNothingLeftBehind(ViewRig& rig, const MakeDisplay& make,
-                                    const std::function<bool(rviz::Display&)>& hasDrawn) {
-  Ogre::SceneManager& scene = *rig.manager().getSceneManager();
-  const std::size_t before = resources();
-  const auto nodes = scene.getRootSceneNode()->numChildren();
-  const int times = cycles();
-  double memory = 0.0;
-  for (int i = 0; i < times; ++i) {
-    if (i == times / 4) memory = residentMemory();
-    rviz::Display* another = make();
-    ASSERT_NE(another, nullptr);
-    if (i % 4 == 0)
-      ASSERT_TRUE(rig.until([&] { return hasDrawn(*another); }));
-    else
-      rig.frames(1);
-    if (i % 2 == 0) another->reset();
-    if (i % 3 == 0) another->setEnabled(false);
-    rig.remove(another);
-  }
-  if (times > 50)
-    std::cout << times << " cycles: " << residentMemory() - memory
-              << " MB more since a quarter of them\n";
-  EXPECT_EQ(resources(), before);
-  EXPECT_EQ(scene.getRootSceneNode()->numChildren(), nodes);
-  EXPECT_EQ(scene.getFogMode(), Ogre::FOG_NONE);
-}
-
-/// A node that dies and returns with another of two scenes, again and again, and floods its topics:
-/// what it told last is seen, and nothing stays of what it told before.
-/// @param restart starts the node with scene 0 or 1. @param shows whether a scene is seen.
-inline void expectReloadsAreFollowed(ViewRig& rig, const std::function<void(int)>& restart,
-                                     const std::function<bool(int)>& shows) {
-  // Within one process roscpp now and then leaves a publisher that comes at once without its
-  // subscribers: such a node dies again.
-  const auto see = [&](int scene) {
-    for (int attempt = 0; attempt < 5; ++attempt) {
-      restart(scene);
-      if (rig.until([&] { return shows(scene); }, 6.0 * (attempt + 1))) return true;
-    }
-    return false;
-  };
-  ASSERT_TRUE(see(0));
-  const std::size_t before = resources();
-  for (int i = 1; i < cycles(); ++i) {
-    if (i % 4 == 1) {
-      ASSERT_TRUE(see(i % 2)) << "reload " << i;
-    } else {
-      restart(i % 2);
-      rig.frames(1);
-    }
-  }
-  ASSERT_TRUE(see(0));
-  EXPECT_EQ(resources(), before);
-}
-
 /// What a status line of a display says.
 inline std::string statusOf(rviz::Display& display, const char* name) {
   for (auto* property : propertiesOf<rviz::Property>(display))
     if (property->getName() == name) return property->getValue().toString().toStdString();
   return {};
+}
+
+/// What the governor of a node chose is told, and that it is no more heard.
+/// @param cost, budget keys of its diagnostics. @param unit of both.
+inline void expectGovernorIsTold(ViewRig& rig, rviz::Display& display, const std::string& node,
+                                 const char* cost, const char* budget, const std::string& unit) {
+  EXPECT_EQ(statusOf(display, "Governor"), "");
+  diagnostic_msgs::DiagnosticArray message;
+  message.status.resize(2);
+  message.status[0].name = "/field/" + node + ": governor";
+  message.status[0].message = "it binds";
+  message.status[1].name = "another: governor";
+  const std::pair<const char*, const char*> values[] = {{cost, "120"},
+                                                        {budget, "90"},
+                                                        {"Largest predicted error [pixel]", "3"},
+                                                        {"Tolerance [pixel]", "2"}};
+  for (const auto& [key, value] : values) {
+    message.status[0].values.emplace_back();
+    message.status[0].values.back().key = key;
+    message.status[0].values.back().value = value;
+  }
+  const ros::Publisher diagnostics =
+      rig.nodeHandle().advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 1, true);
+  diagnostics.publish(message);
+  const std::string told = "it binds: 120 of 90 " + unit + ", errors up to 3 pixel of 2";
+  EXPECT_TRUE(rig.until([&] { return statusOf(display, "Governor") == told; }, 10.0))
+      << statusOf(display, "Governor");
+  rig.setTime(rig.now() + 6.0);
+  EXPECT_TRUE(rig.until(
+      [&] { return statusOf(display, "Governor") == "Not heard for 5 s; last: " + told; }, 10.0))
+      << statusOf(display, "Governor");
 }
 
 /// Mean difference of two pictures, 0 to 255.

@@ -161,6 +161,11 @@ TEST_F(GrassDisplayTest, RefusesWhatCannotBeAndKeepsWhatItHas) {
            status("State").find("layout") != std::string::npos;
   })) << status("Layout")
       << "; " << status("Wind") << "; " << status("State");
+  stranger.press_stamps.resize(1);
+  stranger.press_recoveries = {std::numeric_limits<float>::quiet_NaN()};
+  rig.publish(stranger);
+  EXPECT_TRUE(rig.until([&] { return status("State").rfind("Refused", 0) == 0; }))
+      << status("State");
   EXPECT_EQ(display->drawn().tiles, static_cast<std::size_t>(TILES) * TILES);
 }
 
@@ -180,6 +185,12 @@ TEST_F(GrassDisplayTest, FollowsANodeThatDiesAndReturns) {
         for (int i = 0; i < 100; ++i) rig.publishState();
       },
       [&](int scene) { return display->drawn().tiles == (scene == 0 ? 36u : 16u); });
+}
+
+// N7
+TEST_F(GrassDisplayTest, TellsTheGovernorsChoice) {
+  ASSERT_TRUE(drawn());
+  expectGovernorIsTold(rig, *display, "grass_field", "Cost [blades]", "Budget [blades]", "blades");
 }
 
 TEST_F(GrassDisplayTest, EveryPropertyCanBeChanged) {

@@ -103,7 +103,7 @@ TEST(BarkPicture, ClosesAroundTheTrunk) {
 
 TEST(SkyPicture, IsHazyBelowBlueAboveAndBrightAroundTheSun) {
   const Daylight light = daylightOf(1.5707963, 0.7);
-  const Picture sky = skyPicture(light, 128, 64);
+  const Picture sky = skyPicture(light, SkyShapes(128, 64));
   double zenith = 0.0, horizon = 0.0;
   for (int c = 0; c < sky.columns; ++c) {
     zenith += static_cast<double>(sky.at(c, 0)[2] - sky.at(c, 0)[0]) / sky.columns;

@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <OgreMaterialManager.h>
 #include <OgreRenderWindow.h>
-#include <OgreTextureManager.h>
 #include <ros/ros.h>
 #include <rosgraph_msgs/Clock.h>
 #include <rviz/display_group.h>
@@ -165,16 +163,6 @@ std::vector<T*> propertiesOf(rviz::Property& parent) {
     if (auto* found = dynamic_cast<T*>(child)) out.push_back(found);
     for (T* deeper : propertiesOf<T>(*child)) out.push_back(deeper);
   }
-  return out;
-}
-
-/// Textures and materials that Ogre holds.
-inline std::size_t resources() {
-  std::size_t out = 0;
-  auto textures = Ogre::TextureManager::getSingleton().getResourceIterator();
-  for (; textures.hasMoreElements(); textures.moveNext()) ++out;
-  auto materials = Ogre::MaterialManager::getSingleton().getResourceIterator();
-  for (; materials.hasMoreElements(); materials.moveNext()) ++out;
   return out;
 }
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <diagnostic_msgs/DiagnosticArray.h>
 #include <ros/node_handle.h>
 #include <ros/subscriber.h>
 #include <vegetation_sim/ForestLayout.h>
@@ -44,20 +43,17 @@ class ForestSource {
   const InputStatus& layoutStatus() const { return layout_status_; }
   const InputStatus& windStatus() const { return wind_status_; }
   const InputStatus& stateStatus() const { return state_status_; }
-  /// What the forest's governor chose last, and why; empty where none is heard.
-  const InputStatus& governorStatus() const { return governor_status_; }
 
  private:
   void takeLayout(const ForestLayout& message);
   void takeWind(const WindField& message);
   void takeState(const ForestState& message);
-  void takeDiagnostics(const diagnostic_msgs::DiagnosticArray& message);
 
   forest::ForestReplica replica_;
   int layouts_{0};
   std::string frame_;
-  InputStatus layout_status_, wind_status_, state_status_, governor_status_;
-  ros::Subscriber layout_, wind_, state_, diagnostics_;
+  InputStatus layout_status_, wind_status_, state_status_;
+  ros::Subscriber layout_, wind_, state_;
 };
 
 }  // namespace vegetation_sim::view

@@ -14,7 +14,11 @@ namespace vegetation_sim::view {
 /// Red, green, blue, alpha in 0 to 1.
 using Rgba = std::array<float, 4>;
 
-Rgba mix(const Rgba& a, const Rgba& b, float weight_of_b);
+inline Rgba mix(const Rgba& a, const Rgba& b, float weight_of_b) {
+  Rgba out;
+  for (std::size_t i = 0; i < 4; ++i) out[i] = a[i] + (b[i] - a[i]) * weight_of_b;
+  return out;
+}
 
 /// Picture in floats, top row first.
 struct Picture {

@@ -10,6 +10,7 @@
 
 #include "vegetation_sim/rviz/air.h"
 #include "vegetation_sim/rviz/claim.h"
+#include "vegetation_sim/rviz/governor_source.h"
 #include "vegetation_sim/rviz/scenery_properties.h"
 #include "vegetation_sim/rviz/sky_visual.h"
 #include "vegetation_sim/rviz/status_board.h"
@@ -31,7 +32,8 @@ class SceneryDisplay : public rviz::Display {
 
  protected:
   /// @param ground_rank of its ground: the one that shows most of what is there wins.
-  explicit SceneryDisplay(int ground_rank) : ground_rank_(ground_rank), board_(*this) {}
+  /// @param governor whose choice a status line tells; without a node's name there is none.
+  explicit SceneryDisplay(int ground_rank, view::GovernorKeys governor = {});
 
   void onInitialize() final {}
   void onEnable() final;
@@ -81,11 +83,13 @@ class SceneryDisplay : public rviz::Display {
   std::unique_ptr<view::Claim> claim(view::Shared thing, std::uint64_t key = 0, int rank = 0) const;
 
   int ground_rank_;
+  view::GovernorKeys governor_keys_;
   bool open_{false}, gives_ground_{false};
   std::unique_ptr<view::Claim> ground_claim_, sky_claim_, air_claim_, viewer_claim_;
   std::unique_ptr<view::SkyVisual> sky_;
   std::unique_ptr<view::Air> air_;
   std::unique_ptr<view::ViewerPublisher> viewer_;
+  std::unique_ptr<view::GovernorSource> governor_;
   view::StatusBoard board_;
   Nanoseconds last_stamp_{0};
   double since_update_{0.0}, since_status_{1e9}, wall_{1.0};  // [s]

@@ -22,9 +22,18 @@ struct Daylight {
 /// Daylight for the sun's azimuth (0 = east, counter-clockwise) and elevation [rad].
 Daylight daylightOf(double azimuth, double elevation);
 
+/// Clouds and far hills, whatever the light: what a sky takes longest to paint.
+struct SkyShapes {
+  SkyShapes(int columns_wanted, int rows_wanted);
+
+  int columns, rows;
+  std::vector<float> clouds;  ///< [rows x columns] density
+  std::vector<float> hills;   ///< [columns] sine of their elevation
+};
+
 /// The sky over azimuth (columns: once around from east, counter-clockwise) and elevation (rows:
 /// the zenith on top, the horizon at the bottom), with soft clouds and far hills.
-Picture skyPicture(const Daylight& light, int columns, int rows);
+Picture skyPicture(const Daylight& light, const SkyShapes& shapes);
 /// Elevation [rad] of a row, v = 0 at the top to 1 at the bottom: finer towards the horizon.
 double skyElevation(double v);
 

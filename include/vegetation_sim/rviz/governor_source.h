@@ -1,0 +1,44 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <ros/node_handle.h>
+#include <ros/subscriber.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+
+#include "vegetation_sim/rviz/forest_source.h"
+
+namespace vegetation_sim::view {
+
+/// Whose governor, and which of its figures bind.
+struct GovernorKeys {
+  std::string node;          ///< in whatever namespace
+  std::string cost, budget;  ///< keys of its diagnostics, the unit in brackets
+};
+
+/// Listens on /diagnostics to what a node's governor chose, and why. Callbacks run in the queue of
+/// the node handle: for a display the render thread's.
+class GovernorSource {
+ public:
+  GovernorSource(ros::NodeHandle nh, GovernorKeys keys);
+
+  /// To be called at rising times. None before the first message; bad when 5 s have brought none.
+  std::optional<InputStatus> status(Nanoseconds now);
+  /// Time went back to `now`.
+  void forgetState(Nanoseconds now) { heard_ = std::min(heard_, now); }
+
+ private:
+  void take(const diagnostic_msgs::DiagnosticArray& message);
+
+  GovernorKeys keys_;
+  std::string text_;
+  bool fresh_{false};  // taken since the last status()
+  Nanoseconds heard_{0};
+  ros::Subscriber subscriber_;
+};
+
+}  // namespace vegetation_sim::view

@@ -1,0 +1,69 @@
+#!/usr/bin/env python3
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""What soak_displays.sh has logged: a chart of memory, and the slopes in words.
+
+usage: soak_chart.py FOLDER FILE.png, with a table DISPLAY.csv for each display in the folder.
+Fails where memory grows: a leak is a slope."""
+import csv
+import os
+import sys
+from pathlib import Path
+
+import numpy
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), 'charts'))
+from charting import style  # noqa: E402
+
+COUNTS = ('textures', 'materials', 'meshes', 'programs', 'buffers', 'nodes', 'objects',
+          'texture bytes')
+COLUMNS = ('what', 'time', 'resident', 'held') + COUNTS
+STEADY = 0.25  # of the run are left out: caches fill
+MOST = 10.0    # [kB] that a cycle may leave: the smallest picture of ours has 16
+
+
+def read(path):
+    """Series of a display by what was done: columns by name."""
+    rows = [dict(zip(COLUMNS, row)) for row in csv.reader(path.open())]
+    return {what: {name: numpy.array([float(r[name]) for r in rows if r['what'] == what])
+                   for name in COLUMNS[1:]} for what in {r['what'] for r in rows}}
+
+
+def slope(series, name):
+    """Least squares over the steady part [kB a time]."""
+    steady = series['time'] >= STEADY * series['time'][-1]
+    return 1000.0 * numpy.polyfit(series['time'][steady], series[name][steady], 1)[0]
+
+
+def draw(tables, path):
+    out, axes = style.figure('Memory of rviz while displays come and go', 2, 2, size=(4.8, 3.0))
+    for row, (what, unit) in enumerate((('cycles', 'displays made and destroyed'),
+                                        ('reloads', 'times that the node died and returned'))):
+        for column, (name, title) in enumerate((('resident', 'resident'), ('held', 'allocated'))):
+            panel = axes[row][column]
+            for colour, (display, table) in zip(style.COLOURS, sorted(tables.items())):
+                if what in table:
+                    panel.plot(table[what]['time'], table[what][name], color=colour, label=display)
+            panel.set_ylim(bottom=0.0)
+            style.label(panel, unit, 'MB', title)
+    style.legend_below(out, [panel for row in axes for panel in row], columns=5)
+    style.save(out, path)
+
+
+def main(folder, picture):
+    tables = {path.stem: read(path) for path in sorted(Path(folder).glob('*.csv'))}
+    grew = False
+    for display, table in tables.items():
+        for what, series in sorted(table.items()):
+            held, resident = slope(series, 'held'), slope(series, 'resident')
+            ogre = [f'{name} {series[name].min():g} to {series[name].max():g}' for name in COUNTS
+                    if series[name][-1] > series[name][len(series[name]) // 4]]
+            grew |= held > MOST
+            print(f'{display}: {series["time"][-1] + 1:g} {what}, {held:+.2f} kB allocated and '
+                  f'{resident:+.2f} kB resident a time' + ''.join(f'; {o}' for o in ogre))
+    draw(tables, Path(picture))
+    return 1 if grew else 0
+
+
+if __name__ == '__main__':
+    sys.exit(main(*sys.argv[1:3]))
