@@ -1,5 +1,5 @@
 # Libraries and programs. A folder's sources are its *.cpp files; in src/nodes, *_node.cpp is the
-# program of a node and *_nodelet.cpp its plugin.
+# program of a node and nodelets.cpp has their plugins.
 file(GLOB core_sources CONFIGURE_DEPENDS
   src/canopy/*.cpp src/common/*.cpp src/crowd/*.cpp src/forest/*.cpp src/grass/*.cpp src/physics/*.cpp src/scan/*.cpp src/terrain/*.cpp src/wind/*.cpp)
 # Vectors of three numbers go through memory one by one: pairs of them would wait for stores of
@@ -10,7 +10,7 @@ set_source_files_properties(${physics_sources} PROPERTIES
 file(GLOB ros_sources CONFIGURE_DEPENDS src/ros/*.cpp)
 file(GLOB node_sources CONFIGURE_DEPENDS src/nodes/*.cpp)
 file(GLOB main_sources CONFIGURE_DEPENDS src/nodes/*_node.cpp)
-file(GLOB nodelet_sources CONFIGURE_DEPENDS src/nodes/*_nodelet.cpp)
+set(nodelet_sources ${PROJECT_SOURCE_DIR}/src/nodes/nodelets.cpp)
 file(GLOB rviz_sources CONFIGURE_DEPENDS src/rviz/*.cpp include/${PROJECT_NAME}/rviz/*.h)
 file(GLOB bench_sources CONFIGURE_DEPENDS bench/*.cpp)
 list(REMOVE_ITEM node_sources ${main_sources} ${nodelet_sources})

@@ -103,6 +103,7 @@ void AgentCrowd::tick(std::int64_t) {
       reject("event", error.what());
     }
   }
+  warnOfLosses("agent_crowd", inputs_.losses(), counts_.inputs);
   keepPromises();
   crowd_->advance(stamp);
   publishAgents(stamp);

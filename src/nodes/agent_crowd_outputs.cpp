@@ -145,7 +145,6 @@ void AgentCrowd::warnOfTrouble(diagnostic_updater::DiagnosticStatusWrapper& stat
                           std::to_string(now - before) + " " + text);
   };
   counts_.clock = clock_.counts();
-  counts_.inputs = inputs_.losses();
   warn(counts_.rejected, reported_.rejected, "refused input: " + last_rejection_);
   warn(counts_.clock.dropped, reported_.clock.dropped, "ticks dropped");
   warn(counts_.clock.jumps, reported_.clock.jumps, "jumps back of the clock");

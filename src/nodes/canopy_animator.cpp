@@ -74,7 +74,7 @@ void CanopyAnimator::tick(std::int64_t tick) {
       reject("event", error.what());
     }
   }
-  noteLosses();
+  warnOfLosses("canopy_animator", inputs_.losses(), counts_.inputs);
   canopy_->advance(stamp);
   publishState(tick);
 }
@@ -120,17 +120,6 @@ void CanopyAnimator::restart(Nanoseconds now) {
   tf_buffer_.clear();
   begun_ = false;
   publishLayout();
-}
-
-void CanopyAnimator::noteLosses() {
-  const QueueLosses& losses = inputs_.losses();
-  if (losses.late > counts_.inputs.late)
-    ROS_WARN_THROTTLE(1.0,
-                      "canopy_animator: recorded events came after their tick, so this replay "
-                      "differs from its run; a larger replay_delay or a slower bag may help");
-  if (losses.lost > counts_.inputs.lost)
-    ROS_WARN_THROTTLE(1.0, "canopy_animator: too many inputs at once; some are lost");
-  counts_.inputs = losses;
 }
 
 void CanopyAnimator::publishLayout() {

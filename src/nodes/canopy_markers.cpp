@@ -9,6 +9,7 @@
 
 #include "vegetation_sim/common/math.h"
 #include "vegetation_sim/ros/geometry_conversions.h"
+#include "vegetation_sim/ros/triangle_list.h"
 
 namespace vegetation_sim {
 namespace {
@@ -18,27 +19,6 @@ constexpr std::size_t SHADE_EDGES = 12, POINTS_PER_SHADE = 3 * SHADE_EDGES;
 constexpr double SHADE_HEIGHT = 0.012;  // [m] over the ground, so that it is not hidden
 constexpr double LEAST_SHARE = 0.125;   // of a plant's leaves, over an even share of the points
 constexpr double DARK_ROOT = 0.6;       // light at a leaf's root over that at its tip
-
-visualization_msgs::Marker makeList(const std::string& ns, int id) {
-  visualization_msgs::Marker out;
-  out.ns = ns;
-  out.id = id;
-  out.type = visualization_msgs::Marker::TRIANGLE_LIST;
-  out.action = visualization_msgs::Marker::ADD;
-  out.pose.orientation.w = 1.0;
-  out.scale.x = out.scale.y = out.scale.z = 1.0;
-  out.color.r = out.color.g = out.color.b = out.color.a = 1.f;
-  return out;
-}
-
-std_msgs::ColorRGBA colourOf(const Vec3& rgb) {
-  std_msgs::ColorRGBA out;
-  out.r = static_cast<float>(rgb.x());
-  out.g = static_cast<float>(rgb.y());
-  out.b = static_cast<float>(rgb.z());
-  out.a = 1.f;
-  return out;
-}
 
 Vec3 leafColour(const canopy::PlantKind& kind, const canopy::Leaf& leaf) {
   const double young = leaf.shade, light = leaf.light;
@@ -82,7 +62,7 @@ std::size_t leavesOf(const canopy::Layout& layout, const canopy::CrownRule& rule
 // A list as long as ever: rviz then writes over the old one.
 void fill(visualization_msgs::Marker& list, std::size_t points) {
   list.points.resize(points);
-  list.colors.resize(points, colourOf(Vec3::Zero()));
+  list.colors.resize(points, opaque(Vec3::Zero()));
 }
 
 }  // namespace
@@ -91,10 +71,10 @@ CanopyMarkers::CanopyMarkers(int points)
     : leaf_points_(static_cast<std::size_t>(points) * 5 / 6 / POINTS_PER_LEAF * POINTS_PER_LEAF),
       stem_points_(static_cast<std::size_t>(points) * 9 / 60 / POINTS_PER_STEM * POINTS_PER_STEM),
       shade_points_(static_cast<std::size_t>(points) / 60 / POINTS_PER_SHADE * POINTS_PER_SHADE),
-      leaf_list_(makeList("leaves", 0)),
-      stem_list_(makeList("stems", 1)),
-      shade_list_(makeList("shade", 2)),
-      crown_list_(makeList("crowns", 3)) {}
+      leaf_list_(triangleList("leaves", 0, 0)),
+      stem_list_(triangleList("stems", 1, 0)),
+      shade_list_(triangleList("shade", 2, 0)),
+      crown_list_(triangleList("crowns", 3, 0)) {}
 
 void CanopyMarkers::setLayout(const canopy::Layout& layout) {
   plants_.assign(layout.plants.size(), {});
@@ -146,7 +126,7 @@ void CanopyMarkers::setCrowns(const canopy::Layout& layout, const LeafedCrowns& 
     const canopy::PlantKind& kind = layout.kinds[crown.kind];
     for (std::size_t i = 0; i < drawnOf(crown.leaves.size()); ++i) {
       const canopy::Leaf& leaf = crown.leaves[i].leaf;
-      crown_leaves_.push_back({leaf, colourOf(leafColour(kind, leaf))});
+      crown_leaves_.push_back({leaf, opaque(leafColour(kind, leaf))});
     }
   }
 }
@@ -158,7 +138,7 @@ void CanopyMarkers::addPlant(const canopy::Layout& layout, std::size_t id) {
   addShade(layout.plants[id], 0.9 * layout.plants[id].scale * kind.radius);
   for (const canopy::Leaf& face : grown.rigid) {
     if (stem_list_.points.size() + POINTS_PER_LEAF > stem_points_) return;
-    const std_msgs::ColorRGBA paint = darkened(colourOf(kind.stem_colour), face.light);
+    const std_msgs::ColorRGBA paint = darkened(opaque(kind.stem_colour), face.light);
     addStrip(stem_list_, cornersOf(face, {face.root, face.tip, face.side}), paint, paint);
   }
 }
@@ -205,7 +185,7 @@ CanopyMarkers::DrawnPlant CanopyMarkers::drawPlant(const canopy::Layout& layout,
   const canopy::GrownPlant grown = canopy::grow(kind, layout.plants[id]);
   const auto count = static_cast<std::size_t>(share * static_cast<double>(grown.leaves.size()));
   for (std::size_t i = 0; i < count; ++i) {
-    Drawn drawn{grown.leaves[i], colourOf(leafColour(kind, grown.leaves[i]))};
+    Drawn drawn{grown.leaves[i], opaque(leafColour(kind, grown.leaves[i]))};
     if (!drawn.leaf.joined) drawn.leaf.side *= 1.0 / std::sqrt(share);
     out.leaves.push_back(drawn);
   }
@@ -216,7 +196,7 @@ CanopyMarkers::DrawnPlant CanopyMarkers::drawPlant(const canopy::Layout& layout,
 void CanopyMarkers::addShade(const canopy::Plant& plant, double radius) {
   if (shade_list_.points.size() + POINTS_PER_SHADE > shade_points_) return;
   const Vec3 middle = plant.position + Vec3(0.0, 0.0, SHADE_HEIGHT);
-  std_msgs::ColorRGBA dark = colourOf(Vec3(0.05, 0.06, 0.02)), clear = dark;
+  std_msgs::ColorRGBA dark = opaque(Vec3(0.05, 0.06, 0.02)), clear = dark;
   dark.a = 0.75F;
   clear.a = 0.F;
   const auto rim = [&](std::size_t edge) {
@@ -232,7 +212,7 @@ void CanopyMarkers::addShade(const canopy::Plant& plant, double radius) {
 
 // Two crossed strips each.
 void CanopyMarkers::addStems(const std::vector<canopy::Stem>& stems, const Vec3& colour) {
-  const std_msgs::ColorRGBA paint = colourOf(colour), shaded = darkened(paint, 0.6);
+  const std_msgs::ColorRGBA paint = opaque(colour), shaded = darkened(paint, 0.6);
   for (const canopy::Stem& stem : stems) {
     if (stem_list_.points.size() + POINTS_PER_STEM > stem_points_) return;
     for (const Vec3& side : {Vec3(stem.radius, 0.0, 0.0), Vec3(0.0, stem.radius, 0.0)})

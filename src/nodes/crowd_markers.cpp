@@ -10,6 +10,7 @@
 #include "vegetation_sim/crowd/clothes.h"
 #include "vegetation_sim/ros/geometry_conversions.h"
 #include "vegetation_sim/ros/stamps.h"
+#include "vegetation_sim/ros/triangle_list.h"
 
 namespace vegetation_sim {
 namespace {
@@ -39,15 +40,6 @@ std::size_t pointsOf(int sides) {
   return bands * static_cast<std::size_t>(sides) * 6;
 }
 
-std_msgs::ColorRGBA colour(const Vec3& rgb) {
-  std_msgs::ColorRGBA out;
-  out.r = static_cast<float>(rgb.x());
-  out.g = static_cast<float>(rgb.y());
-  out.b = static_cast<float>(rgb.z());
-  out.a = 1.f;
-  return out;
-}
-
 }  // namespace
 
 /// A circle across a limb.
@@ -59,16 +51,8 @@ struct CrowdMarkers::Ring {
   }
 };
 
-CrowdMarkers::CrowdMarkers(int points) {
-  list_.ns = "people";
-  list_.type = visualization_msgs::Marker::TRIANGLE_LIST;
-  list_.action = visualization_msgs::Marker::ADD;
-  list_.pose.orientation.w = 1.0;
-  list_.scale.x = list_.scale.y = list_.scale.z = 1.0;
-  list_.color = colour(Vec3(1.0, 1.0, 1.0));
-  list_.points.resize(static_cast<std::size_t>(points) / 3 * 3);
-  list_.colors.resize(list_.points.size());
-}
+CrowdMarkers::CrowdMarkers(int points)
+    : list_(triangleList("people", 0, static_cast<std::size_t>(points) / 3 * 3)) {}
 
 void CrowdMarkers::addPoint(const Vec3& point, const std_msgs::ColorRGBA& colour) {
   list_.points[used_] = toPoint(point);
@@ -111,9 +95,9 @@ void CrowdMarkers::addPerson(const crowd::Walker& walker, const terrain::HeightM
   const crowd::Clothes clothes = crowd::clothesOf(walker.id);
   const crowd::Skeleton skeleton = skeletonOf(walker, terrain);
   for (std::size_t i = 0; i < crowd::PARTS; ++i) {
-    const std_msgs::ColorRGBA own = colour(colourOf(clothes, i));
+    const std_msgs::ColorRGBA own = opaque(colourOf(clothes, i));
     addLimb(skeleton[i], i, sides, own,
-            i == static_cast<std::size_t>(Part::HEAD) ? colour(clothes.hair) : own);
+            i == static_cast<std::size_t>(Part::HEAD) ? opaque(clothes.hair) : own);
   }
 }
 

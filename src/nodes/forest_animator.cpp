@@ -120,7 +120,7 @@ void ForestAnimator::tick(std::int64_t tick) {
       reject("event", error.what());
     }
   }
-  noteLosses();
+  warnOfLosses("forest_animator", inputs_.losses(), counts_.inputs);
   forest_->advance(stamp);
   const auto period = static_cast<std::int64_t>(options_.key_frame_period * options_.state_rate);
   const bool key_frame = force_key_frame_ || tick % std::max<std::int64_t>(1, period) == 0;
@@ -130,17 +130,6 @@ void ForestAnimator::tick(std::int64_t tick) {
   state_publisher_.publish(message);
   settleGrabs();
   force_key_frame_ = false;
-}
-
-void ForestAnimator::noteLosses() {
-  const InputLosses& losses = inputs_.losses();
-  if (losses.late > counts_.inputs.late)
-    ROS_WARN_THROTTLE(1.0,
-                      "forest_animator: recorded events came after their tick, so this replay "
-                      "differs from its run; a larger replay_delay or a slower bag may help");
-  if (losses.lost > counts_.inputs.lost)
-    ROS_WARN_THROTTLE(1.0, "forest_animator: too many inputs at once; some are lost");
-  counts_.inputs = losses;
 }
 
 void ForestAnimator::apply(const ForestEvent& event) {

@@ -8,6 +8,7 @@
 #include "vegetation_sim/forest/narrow.h"
 #include "vegetation_sim/forest/skin.h"
 #include "vegetation_sim/ros/forest_conversions.h"
+#include "vegetation_sim/ros/triangle_list.h"
 
 namespace vegetation_sim {
 namespace {
@@ -16,27 +17,6 @@ constexpr double SMALLEST_PX = 3.0;         // of a tree that is drawn
 constexpr double LARGEST_SCALE = 1.3;       // of trees in tiles, seedInTile
 constexpr std::size_t LEAST_POINTS = 120;   // a tree in the budget; what is farther is not drawn
 constexpr double PIXELS_PER_RADIAN = 1000;  // of the middle of the forest, when nobody looks
-
-visualization_msgs::Marker makeList(const std::string& ns, int id) {
-  visualization_msgs::Marker out;
-  out.ns = ns;
-  out.id = id;
-  out.type = visualization_msgs::Marker::TRIANGLE_LIST;
-  out.action = visualization_msgs::Marker::ADD;
-  out.pose.orientation.w = 1.0;
-  out.scale.x = out.scale.y = out.scale.z = 1.0;
-  out.color.r = out.color.g = out.color.b = out.color.a = 1.f;
-  return out;
-}
-
-std_msgs::ColorRGBA colour(const Vec3& rgb) {
-  std_msgs::ColorRGBA out;
-  out.r = static_cast<float>(rgb.x());
-  out.g = static_cast<float>(rgb.y());
-  out.b = static_cast<float>(rgb.z());
-  out.a = 1.f;
-  return out;
-}
 
 geometry_msgs::Point pointAt(const std::vector<float>& xyz, std::size_t vertex) {
   geometry_msgs::Point out;
@@ -90,8 +70,8 @@ std::vector<std::pair<double, const forest::Tile*>> tilesInOrder(
 ForestMarkers::ForestMarkers(int points)
     : bark_points_(static_cast<std::size_t>(points) / 2 / 3 * 3),
       leaf_points_(static_cast<std::size_t>(points) / 2 / 6 * 6),
-      bark_(makeList("bark", 0)),
-      leaves_(makeList("leaves", 1)) {}
+      bark_(triangleList("bark", 0, 0)),
+      leaves_(triangleList("leaves", 1, 0)) {}
 
 void ForestMarkers::reset() {
   drawn_.clear();
@@ -156,7 +136,7 @@ void ForestMarkers::addTree(const forest::Forest& forest, forest::TreeCache& cac
     bark_.points.push_back(pointAt(scratch_, vertex));
     const auto branch = static_cast<std::size_t>(mesh.bark[vertex].branch);
     const bool trunk = grown->tree.skeleton.branches[branch].depth == 0;
-    bark_.colors.push_back(colour(trunk ? species.bark_colour : species.twig_colour));
+    bark_.colors.push_back(opaque(trunk ? species.bark_colour : species.twig_colour));
   }
   const double speed = length(wind.velocity(Vec3(0.0, 0.0, 0.5 * grown->tree.skeleton.height)));
   const forest::Flutter flutter(static_cast<double>(stamp % (3600 * NANOSECONDS_PER_SECOND)) * 1e-9,
@@ -167,7 +147,7 @@ void ForestMarkers::addTree(const forest::Forest& forest, forest::TreeCache& cac
     if (leaves_.points.size() + 6 > leaf_points_) return;
     const double shade = mesh.leaves[i].shade;
     const auto paint =
-        colour(species.leaf_colour * (1.0 - shade) + species.leaf_colour_young * shade);
+        opaque(species.leaf_colour * (1.0 - shade) + species.leaf_colour_young * shade);
     for (const std::uint32_t corner : forest::LEAF_TRIANGLES) {
       leaves_.points.push_back(pointAt(scratch_, 4 * i + corner));
       leaves_.colors.push_back(paint);
@@ -179,7 +159,7 @@ void ForestMarkers::finish(visualization_msgs::Marker& marker, std::size_t point
                            std::size_t& used) const {
   used += marker.points.size();
   marker.points.resize(points);
-  marker.colors.resize(points, colour(Vec3::Zero()));
+  marker.colors.resize(points, opaque(Vec3::Zero()));
 }
 
 visualization_msgs::MarkerArray ForestMarkers::build(const forest::Forest& forest,

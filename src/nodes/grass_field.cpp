@@ -89,7 +89,7 @@ void GrassField::tick(std::int64_t tick) {
       reject("event", error.what());
     }
   }
-  noteLosses();
+  warnOfLosses("grass_field", inputs_.losses(), counts_.inputs);
   publishEntering(stamp);
   publishState(tick);
   publishWrenches(stamp);
@@ -150,17 +150,6 @@ void GrassField::restart(Nanoseconds now) {
   watchers_.clear();
   tf_buffer_.clear();
   publishLayout();
-}
-
-void GrassField::noteLosses() {
-  const QueueLosses& losses = inputs_.losses();
-  if (losses.late > counts_.inputs.late)
-    ROS_WARN_THROTTLE(1.0,
-                      "grass_field: recorded events came after their tick, so this replay differs "
-                      "from its run; a larger replay_delay or a slower bag may help");
-  if (losses.lost > counts_.inputs.lost)
-    ROS_WARN_THROTTLE(1.0, "grass_field: too many inputs at once; some are lost");
-  counts_.inputs = losses;
 }
 
 void GrassField::publishLayout() {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "vegetation_sim/ros/geometry_conversions.h"
+#include "vegetation_sim/ros/triangle_list.h"
 
 namespace vegetation_sim {
 namespace {
@@ -13,20 +14,6 @@ namespace {
 constexpr double PIXELS_PER_RADIAN = 1000.0;  // of the eye above the middle, when nobody looks
 constexpr double EYE_HEIGHT = 20.0;           // [m] of it
 constexpr float BYTE = 255.f;
-
-visualization_msgs::Marker makeList(const std::string& ns, int id, std::size_t points) {
-  visualization_msgs::Marker out;
-  out.ns = ns;
-  out.id = id;
-  out.type = visualization_msgs::Marker::TRIANGLE_LIST;
-  out.action = visualization_msgs::Marker::ADD;
-  out.pose.orientation.w = 1.0;
-  out.scale.x = out.scale.y = out.scale.z = 1.0;
-  out.color.r = out.color.g = out.color.b = out.color.a = 1.f;
-  out.points.resize(points);
-  out.colors.resize(points);
-  return out;
-}
 
 double largestDensity(const grass::FeatureMap& map) {
   double out = 1.0;
@@ -47,9 +34,9 @@ Eye eyeAbove(const grass::Meadow& meadow) {
 
 GrassMarkers::GrassMarkers(int points)
     : list_points_(static_cast<std::size_t>(points) / 9 * 3),
-      ground_(makeList("ground", 0, list_points_)),
-      strips_(makeList("strips", 1, list_points_)),
-      blades_(makeList("blades", 2, list_points_)) {}
+      ground_(triangleList("ground", 0, list_points_)),
+      strips_(triangleList("strips", 1, list_points_)),
+      blades_(triangleList("blades", 2, list_points_)) {}
 
 // The whole map in squares as small as the budget allows.
 void GrassMarkers::addGround(const grass::Meadow& meadow) {

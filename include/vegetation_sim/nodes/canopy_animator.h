@@ -58,7 +58,6 @@ class CanopyAnimator {
   /// One of those that were heard, or calm. @throws InvalidInput for any other.
   wind::Field windOf(std::uint64_t hash) const;
   void restart(Nanoseconds now);
-  void noteLosses();
 
   // Outputs.
   void publishLayout();

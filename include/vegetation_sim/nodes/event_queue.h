@@ -18,6 +18,9 @@ struct QueueLosses {
   std::uint64_t lost{0};  ///< events that found no room to wait
 };
 
+/// Warns on the node's console of losses that are not in `told`, and puts them there.
+void warnOfLosses(const char* node, const QueueLosses& losses, QueueLosses& told);
+
 /// Accepted inputs of a node wait here for their tick: live ones as events that get the stamp of
 /// the tick at which they are applied, in a replay the recorded ones, applied at their own ticks.
 /// Bounded, whatever comes in. @tparam Event a message with a header.

@@ -61,7 +61,6 @@ class ForestAnimator {
   void applyInteraction(const ForestEvent& event);
   void settleGrabs();
   void followBodies(Nanoseconds stamp);
-  void noteLosses();
   void adoptTuning(const ForestTuning& tuning);
 
   // Outputs.
@@ -102,7 +101,7 @@ class ForestAnimator {
   std::optional<ForestAnimatorConfig> shown_;  // what the server was told or took last
   struct Counts {
     std::uint64_t rejected{0}, state_bytes{0}, leases_ended{0};
-    InputLosses inputs;
+    QueueLosses inputs;
     TickClock::Counts clock;
   } counts_, reported_;  // so far, and when diagnostics were last sent
   std::string last_rejection_;

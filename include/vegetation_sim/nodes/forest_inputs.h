@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "vegetation_sim/forest/forest.h"
+#include "vegetation_sim/nodes/event_queue.h"
 
 namespace vegetation_sim {
 
@@ -29,12 +30,6 @@ void describe(FieldVisitor& visitor, ForestTuning& tuning);
 /// out of range.
 void toEvent(const ForestTuning& tuning, ForestEvent& event);
 ForestTuning tuningOf(const ForestEvent& event);
-
-/// Inputs that did not do what they should.
-struct InputLosses {
-  std::uint64_t late{0};  ///< recorded events that came after the tick they are stamped with
-  std::uint64_t lost{0};  ///< inputs that found no room to wait
-};
 
 /// Inputs wait here for the next tick. Live, each becomes an event stamped with the tick at which
 /// it is applied; in a replay the recorded events are applied at their own ticks instead.
@@ -67,7 +62,7 @@ class ForestInputs {
   std::vector<ForestEvent> take(Nanoseconds stamp);
   /// The wind that an event adopts; none if it was never heard.
   std::optional<wind::Field> windOf(const ForestEvent& event) const;
-  const InputLosses& losses() const { return losses_; }
+  const QueueLosses& losses() const { return losses_; }
   /// Time went back to `now`: live, only settings, winds and resets still wait; in a replay, events
   /// stamped later are forgotten.
   void startAnew(Nanoseconds now);
@@ -76,7 +71,7 @@ class ForestInputs {
   void addLast(const ForestEvent& event);
 
   bool replay_;
-  InputLosses losses_;
+  QueueLosses losses_;
   std::deque<ForestEvent> waiting_;
   std::map<std::uint64_t, wind::Field> winds_;  // by hash
   std::deque<std::uint64_t> wind_order_;

@@ -57,7 +57,6 @@ class GrassField {
   void adoptTuning(GrassTuning tuning);
   void startAnew();
   void restart(Nanoseconds now);
-  void noteLosses();
 
   // Outputs.
   void publishLayout();

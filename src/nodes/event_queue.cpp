@@ -1,0 +1,20 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/nodes/event_queue.h"
+
+#include <ros/console.h>
+
+namespace vegetation_sim {
+
+void warnOfLosses(const char* node, const QueueLosses& losses, QueueLosses& told) {
+  if (losses.late > told.late)
+    ROS_WARN_THROTTLE(1.0,
+                      "%s: recorded events came after their tick, so this replay differs from its "
+                      "run; a larger replay_delay or a slower bag may help",
+                      node);
+  if (losses.lost > told.lost)
+    ROS_WARN_THROTTLE(1.0, "%s: too many inputs at once; some are lost", node);
+  told = losses;
+}
+
+}  // namespace vegetation_sim

@@ -1,0 +1,45 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <nodelet/nodelet.h>
+#include <pluginlib/class_list_macros.hpp>
+
+#include <memory>
+
+#include "vegetation_sim/nodes/agent_crowd.h"
+#include "vegetation_sim/nodes/canopy_animator.h"
+#include "vegetation_sim/nodes/forest_animator.h"
+#include "vegetation_sim/nodes/grass_field.h"
+#include "vegetation_sim/nodes/wind_broadcaster.h"
+
+namespace vegetation_sim {
+namespace {
+
+/// A node inside a nodelet manager, which does not load it if it refuses to start.
+template <class Node>
+class NodeletOf : public nodelet::Nodelet {
+  void onInit() override {
+    try {
+      node_ = std::make_unique<Node>(getNodeHandle(), getPrivateNodeHandle());
+    } catch (const std::exception& error) {
+      NODELET_FATAL("%s refuses to start:\n%s", getName().c_str(), error.what());
+      throw;
+    }
+  }
+  std::unique_ptr<Node> node_;
+};
+
+}  // namespace
+
+using AgentCrowdNodelet = NodeletOf<AgentCrowd>;
+using CanopyAnimatorNodelet = NodeletOf<CanopyAnimator>;
+using ForestAnimatorNodelet = NodeletOf<ForestAnimator>;
+using GrassFieldNodelet = NodeletOf<GrassField>;
+using WindBroadcasterNodelet = NodeletOf<WindBroadcaster>;
+
+}  // namespace vegetation_sim
+
+PLUGINLIB_EXPORT_CLASS(vegetation_sim::AgentCrowdNodelet, nodelet::Nodelet)
+PLUGINLIB_EXPORT_CLASS(vegetation_sim::CanopyAnimatorNodelet, nodelet::Nodelet)
+PLUGINLIB_EXPORT_CLASS(vegetation_sim::ForestAnimatorNodelet, nodelet::Nodelet)
+PLUGINLIB_EXPORT_CLASS(vegetation_sim::GrassFieldNodelet, nodelet::Nodelet)
+PLUGINLIB_EXPORT_CLASS(vegetation_sim::WindBroadcasterNodelet, nodelet::Nodelet)
