@@ -9,6 +9,7 @@
 #include "vegetation_sim/nodes/canopy_animator.h"
 #include "vegetation_sim/nodes/forest_animator.h"
 #include "vegetation_sim/nodes/grass_field.h"
+#include "vegetation_sim/nodes/vegetation_scanner.h"
 #include "vegetation_sim/nodes/wind_broadcaster.h"
 
 namespace vegetation_sim {
@@ -34,6 +35,7 @@ using AgentCrowdNodelet = NodeletOf<AgentCrowd>;
 using CanopyAnimatorNodelet = NodeletOf<CanopyAnimator>;
 using ForestAnimatorNodelet = NodeletOf<ForestAnimator>;
 using GrassFieldNodelet = NodeletOf<GrassField>;
+using VegetationScannerNodelet = NodeletOf<VegetationScanner>;
 using WindBroadcasterNodelet = NodeletOf<WindBroadcaster>;
 
 }  // namespace vegetation_sim
@@ -42,4 +44,5 @@ PLUGINLIB_EXPORT_CLASS(vegetation_sim::AgentCrowdNodelet, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(vegetation_sim::CanopyAnimatorNodelet, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(vegetation_sim::ForestAnimatorNodelet, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(vegetation_sim::GrassFieldNodelet, nodelet::Nodelet)
+PLUGINLIB_EXPORT_CLASS(vegetation_sim::VegetationScannerNodelet, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(vegetation_sim::WindBroadcasterNodelet, nodelet::Nodelet)
