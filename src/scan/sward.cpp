@@ -76,21 +76,46 @@ class Walk {
 void Sward::update(const grass::Layout& layout, const grass::TreadMap& tread,
                    std::shared_ptr<const terrain::HeightMap> terrain, const wind::Field& wind,
                    const Vec3& centre, double radius, Nanoseconds stamp) {
+  const bool other_map = layout_.map != layout.map || tops_.empty();
   layout_ = layout;
   tread_ = &tread;
   terrain_ = std::move(terrain);
   stamp_ = stamp;
-  tallest_ = layout_.map->tallest();
-  kinds_.clear();
-  for (const grass::SpeciesInput& input : layout_.map->species()) {
-    const grass::Species& s = input.species;
-    kinds_.push_back({s.height, s.height_spread, s.width, s.lean, s.compliance});
-  }
+  if (other_map) takeMap();
   window_ = windowAround(*layout_.map, centre, radius);
   air_ = std::make_unique<grass::NodeAir>(*layout_.map, *terrain_);
   const wind::Instant instant = wind.at(stamp);
   still_ = instant.breezes == 0 && instant.terms.empty();
   if (!still_) air_->update(instant, {}, window_);
+}
+
+void Sward::takeMap() {
+  const grass::FeatureMap& map = *layout_.map;
+  tallest_ = map.tallest();
+  kinds_.clear();
+  double factor = 0.0;
+  for (const grass::SpeciesInput& input : map.species()) {
+    const grass::Species& s = input.species;
+    kinds_.push_back({s.height, s.height_spread, s.width, s.lean, s.compliance});
+    factor = std::max(factor, s.height);
+  }
+  tops_.clear();
+  for (int row = 0; row < map.tileRows(); ++row)
+    for (int column = 0; column < map.tileColumns(); ++column) {
+      double height = 0.0;
+      for (int corner = 0; corner < 4; ++corner)
+        height = std::max(height, map.node(column + corner % 2, row + corner / 2).height);
+      tops_.push_back(static_cast<float>(factor * height));
+    }
+}
+
+// Above it there is no blade; below 0 beyond the map.
+double Sward::topAt(double x, double y) const {
+  const grass::MapLaw& law = layout_.map->law();
+  const double u = (x - law.origin_x) / law.resolution, v = (y - law.origin_y) / law.resolution;
+  if (!(u >= 0.0 && v >= 0.0 && u < law.columns - 1 && v < law.rows - 1)) return -1.0;
+  const std::size_t row = static_cast<std::size_t>(v), column = static_cast<std::size_t>(u);
+  return tops_[row * static_cast<std::size_t>(law.columns - 1) + column];
 }
 
 double Sward::above(const Vec3& place) const {
@@ -111,8 +136,12 @@ Vec3 Sward::airAt(double x, double y) const {
 // Blades are taken as straight from root to tip, and as wide from all sides, which is how they are
 // drawn. Lean has a random direction: its square is the sum of two means of 1/6.
 double Sward::extinction(const Vec3& place, const Vec3& direction) const {
-  const double height = above(place);
-  if (!(height >= 0.0 && height <= tallest_)) return 0.0;
+  return extinctionAt(place, above(place), direction);
+}
+
+double Sward::extinctionAt(const Vec3& place, double height, const Vec3& direction) const {
+  // Most of a flat ray's way is over the grass of its place.
+  if (!(height >= 0.0 && height <= topAt(place.x(), place.y()))) return 0.0;
   const grass::Features here = layout_.map->at(place.x(), place.y());
   if (!(here.density > 0.0)) return 0.0;
   const double tilt = double{tread_->at({place.x(), place.y()}, stamp_).tilt};
@@ -163,8 +192,9 @@ double Sward::march(const Ray& ray, double from, Hit& nearest) const {
   while (from < nearest.distance) {
     const double to = std::min(walk.end(), nearest.distance);
     const Vec3 middle = ray.at(0.5 * (from + to));
-    if (above(middle) > tallest_) return from;
-    const double chance = extinction(middle, ray.direction);
+    const double height = above(middle);
+    if (height > tallest_) return from;
+    const double chance = extinctionAt(middle, height, ray.direction);
     const double way = chance > 0.0 ? depthOf(walk.cell(), key) / chance : Box::ENDLESS;
     if (from + way < to) {
       nearest = {from + way, Label::GRASS, 0, -1, MEAN_COSINE};

@@ -32,7 +32,10 @@ class Sward {
   struct Kind {
     double height{1.0}, spread{0.0}, width{0.0}, lean{0.0}, compliance{0.0};
   };
+  void takeMap();
   double above(const Vec3& place) const;
+  double topAt(double x, double y) const;
+  double extinctionAt(const Vec3& place, double height, const Vec3& direction) const;
   Vec3 airAt(double x, double y) const;
   double march(const Ray& ray, double from, Hit& nearest) const;
 
@@ -43,7 +46,8 @@ class Sward {
   grass::TileWindow window_;
   std::unique_ptr<grass::NodeAir> air_;
   bool still_{true};
-  double tallest_{0.0};
+  double tallest_{0.0};      ///< [m] of the map
+  std::vector<float> tops_;  ///< [rows x columns] of tiles: no blade is higher there [m]
   Nanoseconds stamp_{0};
 };
 
