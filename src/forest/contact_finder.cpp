@@ -4,9 +4,8 @@
 
 #include <algorithm>
 
+#include "forest/contact_pair.h"
 #include "vegetation_sim/common/math.h"
-#include "vegetation_sim/forest/contact_body.h"
-#include "vegetation_sim/physics/chain.h"
 
 namespace vegetation_sim::forest {
 namespace {
@@ -15,9 +14,6 @@ using physics::Bar;
 using physics::Contact;
 using physics::Proximity;
 
-// What is this near is a contact even if it does not come nearer by its own speed: its springs may
-// drive it [m].
-constexpr double SKIN = 5e-3;
 // What was this near has a side that it keeps [m].
 constexpr double HELD = 1e-3;
 // A branch that is beyond the body by more than this has been passed through [m].
@@ -25,60 +21,43 @@ constexpr double LOST = 5e-3;
 // A bar lies flat on a body where they part by less than this slope, over more than this length.
 constexpr double FLAT = 0.1, SPREAD = 0.02;  // [m/m], [m]
 constexpr double NOWHERE = 1e9;              // [m]
-// The law looks at the gap half a step after the step's end.
-constexpr double LOOK_AHEAD = 1.5;  // [steps]
+// What a pair of a body and a branch had in the last step: one contact, two or none.
+struct Held {
+  const Touch *first, *last;
 
-// A body at the start of a step, in the tree's frame.
-struct Placed {
-  const Body& body;
-  Pose pose;
-  Quat to_body;
-  physics::RoundedBox shape;
-
-  Vec3 velocity(const Vec3& point) const { return velocityAt(body, pose, point); }
-  Vec3 local(const Vec3& point) const { return rotate(to_body, Vec3(point - pose.position)); }
+  Held(const Touches& touches, const std::string& body, int branch) {
+    const auto before = [&](const Touch& a, int b) {
+      return a.body != body ? a.body < body : a.branch < b;
+    };
+    const auto it = std::lower_bound(touches.begin(), touches.end(), branch, before);
+    first = last = touches.data() + (it - touches.begin());
+    const Touch* end = touches.data() + touches.size();
+    while (last != end && last->body == body && last->branch == branch) ++last;
+  }
+  // The one that bears most, if any touches: its side is the branch's.
+  const Touch* touching() const {
+    const Touch* out = nullptr;
+    for (const Touch* t = first; t != last; ++t)
+      if ((t->force > 0.0 || t->gap < HELD) && (!out || t->force > out->force)) out = t;
+    return out;
+  }
+  // The force that goes on at `along`: each goes to the nearer of the two places, of equals to the
+  // lower.
+  double at(double along, double other) const {
+    double out = 0.0;
+    for (const Touch* t = first; t != last; ++t) {
+      const double way = std::fabs(t->along - along), others = std::fabs(t->along - other);
+      if (way < others || (way == others && along < other)) out += t->force;
+    }
+    return out;
+  }
 };
-
-Placed place(const Body& body, const Vec3& foot, Nanoseconds from) {
-  Pose pose = poseAt(body, from);
-  pose.position -= foot;
-  return {body, pose, conjugate(pose.orientation), shapeOf(body)};
-}
-
-Bar barOf(const Branch& branch, const Pose& pose) {
-  return {pose.position, axisZ(pose.orientation), branch.length, branch.base_radius,
-          branch.tip_radius};
-}
-
-// The gap between a body and a bar is no less: distance grows no faster than the way.
-double leastGap(const Placed& placed, const Bar& bar) {
-  Vec3 normal;
-  const double half = 0.5 * bar.length;
-  return signedDistance(placed.shape, placed.local(bar.at(half)), normal) - half - bar.base_radius;
-}
-
-// One link beside one body.
-struct Pair {
-  Bar bar;                           // tree's frame
-  Vec3 base_velocity, tip_velocity;  // relative to the body there, tree's axes
-};
-
-Pair pairOf(const Placed& placed, const Bar& bar, const Vec3& velocity, const Vec3& spin) {
-  const Vec3 tip = bar.at(bar.length);
-  return {bar, velocity - placed.velocity(bar.base),
-          velocity + cross(spin, Vec3(bar.length * bar.axis)) - placed.velocity(tip)};
-}
-
-Bar localBar(const Placed& placed, const Bar& bar) {
-  return {placed.local(bar.base), rotate(placed.to_body, bar.axis), bar.length, bar.base_radius,
-          bar.tip_radius};
-}
 
 // Where they touch or shall touch first; none if they do not within the horizon.
-bool meet(const Placed& placed, const Pair& pair, const Touch* known, double horizon,
+bool meet(const Placed& placed, const Pair& pair, const Held& held, double horizon,
           Proximity& out) {
-  const Bar local = localBar(placed, pair.bar);
-  if (known && (known->force > 0.0 || known->gap < HELD)) {
+  const Bar local = placed.local(pair.bar);
+  if (const Touch* known = held.touching()) {
     const Proximity free = nearest(placed.shape, local);
     if (dot(free.normal, known->side) < 0.0 && free.gap > LOST) return false;
     out = nearest(placed.shape, local, known->side);
@@ -121,7 +100,7 @@ double endOfFlat(const Placed& placed, const Bar& local, double along, double en
 // that lies is a contact as well.
 bool liesFlat(const Placed& placed, const Pair& pair, const Proximity& found, double near,
               Proximity& out) {
-  const Bar local = localBar(placed, pair.bar);
+  const Bar local = placed.local(pair.bar);
   const double low = endOfFlat(placed, local, found.along, 0.0),
                high = endOfFlat(placed, local, found.along, local.length);
   out.along = found.along - low > high - found.along ? low : high;
@@ -130,33 +109,6 @@ bool liesFlat(const Placed& placed, const Pair& pair, const Proximity& found, do
   out.gap = distance - local.radiusAt(out.along);
   return out.gap < near && dot(out.normal, found.normal) > 0.5;
 }
-
-const Touch* find(const Touches& touches, const std::string& body, int branch) {
-  const auto before = [](const Touch& a, const std::pair<const std::string&, int>& b) {
-    return a.body != b.first ? a.body < b.first : a.branch < b.second;
-  };
-  const std::pair<const std::string&, int> key(body, branch);
-  const auto it = std::lower_bound(touches.begin(), touches.end(), key, before);
-  return it != touches.end() && it->body == body && it->branch == branch ? &*it : nullptr;
-}
-
-// What a pair of a body and a branch had in the last step: one contact or two.
-struct Held {
-  const Touch *first, *last;
-
-  Held(const Touches& touches, const Touch* known) : first(known), last(known) {
-    const Touch* end = touches.data() + touches.size();
-    while (last && last != end && last->body == known->body && last->branch == known->branch)
-      ++last;
-  }
-  // The force that goes on at `along`: each goes to the nearer of the two places.
-  double at(double along, double other) const {
-    double out = 0.0;
-    for (const Touch* t = first; t != last; ++t)
-      if (std::fabs(t->along - along) < std::fabs(t->along - other)) out += t->force;
-    return out;
-  }
-};
 
 // A branch that has got beyond the middle of the body is let through softly: the limit fades until
 // it is out on the far side.
@@ -174,10 +126,6 @@ Contact contactOf(const Placed& placed, const Pair& pair, const Proximity& found
   out.share = shareOf(placed, found, radius);
   out.surface = placed.velocity(pair.bar.at(found.along) - (radius + found.gap) * out.normal);
   return out;
-}
-
-double fastestOf(const Pair& pair) {
-  return std::max(length(pair.base_velocity), length(pair.tip_velocity));
 }
 
 }  // namespace
@@ -203,22 +151,19 @@ double outsideBearer(const Skeleton& skeleton, int branch) {
 std::vector<Contact> ContactFinder::findContacts(const Wood& wood, const Bodies& bodies,
                                                  Nanoseconds from, Nanoseconds to,
                                                  Touches& touches) const {
-  const double horizon = LOOK_AHEAD * secondsBetween(from, to);
+  const double h = secondsBetween(from, to);
   std::vector<Contact> out;
   Touches kept;
   for (const auto& entry : bodies) {
-    const Placed placed = place(entry.second, wood.foot, from);
+    const Placed placed(entry.second, wood.foot, from);
     for (std::size_t i = 0; i < wood.branches.size(); ++i) {
-      const Branch& branch = wood.skeleton.branches[static_cast<std::size_t>(wood.branches[i])];
-      const Bar bar = barOf(branch, wood.start.pose[i]);
-      const Pair pair = pairOf(placed, bar, wood.start.velocity[i], wood.start.spin[i]);
-      const double near = SKIN + horizon * fastestOf(pair);
-      if (leastGap(placed, bar) > near) continue;
-      const Touch* known = find(touches, entry.first, wood.branches[i]);
+      const Pair pair(wood, i, placed);
+      if (leastGap(placed, pair.bar) > pair.reach(h)) continue;
+      const Held held(touches, entry.first, wood.branches[i]);
       Proximity found;
-      if (!meet(placed, pair, known, horizon, found)) continue;
+      if (!meet(placed, pair, held, LOOK_AHEAD * h, found)) continue;
       Proximity far;
-      const bool flat = liesFlat(placed, pair, found, near, far);
+      const bool flat = liesFlat(placed, pair, found, pair.reach(h), far);
       const auto add = [&](const Proximity& place, double force) {
         Contact contact = contactOf(placed, pair, place);
         contact.link = static_cast<int>(i);
@@ -228,7 +173,6 @@ std::vector<Contact> ContactFinder::findContacts(const Wood& wood, const Bodies&
             {entry.first, wood.branches[i], place.normal, place.gap, force, place.along});
         out.push_back(contact);
       };
-      const Held held(touches, known);
       add(found, held.at(found.along, flat ? far.along : NOWHERE));
       if (flat) add(far, held.at(far.along, found.along));
     }

@@ -13,16 +13,31 @@ bool ForestPhysics::isNear(std::uint32_t tree) const {
 
 void ForestPhysics::stepTouching(const Site& at, std::uint32_t tree, PhysicalPart& part,
                                  Nanoseconds from, Nanoseconds to) {
-  part.kinematicsAt(airOf(at, tree), from, scratch_, scratch_.start);
   const ContactModel::Wood wood{tree, part.tree().foot, part.branches(), part.tree().skeleton,
                                 scratch_.start};
-  Touches& touches = touches_[tree];
+  part.kinematicsAt(airOf(at, tree), from, scratch_, scratch_.start);
+  const int parts = at.contacts->partsOf(wood, bodies_, from, to);
+  Nanoseconds now = from;
+  for (int k = 1; k <= parts; ++k) {
+    const Nanoseconds next = from + (to - from) * k / parts;
+    if (k > 1) part.kinematicsAt(airOf(at, tree), now, scratch_, scratch_.start);
+    stepAmong(at, wood, part, now, next, 1.0 / parts);
+    now = next;
+  }
+}
+
+// A part of a step; `share`: of the whole.
+void ForestPhysics::stepAmong(const Site& at, const ContactModel::Wood& wood, PhysicalPart& part,
+                              Nanoseconds from, Nanoseconds to, double share) {
+  Touches& touches = touches_[wood.tree];
   std::vector<physics::Contact> contacts =
       at.contacts->findContacts(wood, bodies_, from, to, touches);
-  if (contacts.empty()) return part.step(airOf(at, tree), loads_, settings_, from, to, scratch_);
-  part.stepTouching(airOf(at, tree), loads_, settings_, from, to, scratch_, contacts);
+  const Air air = airOf(at, wood.tree);
+  if (contacts.empty()) return part.step(air, loads_, settings_, from, to, scratch_);
+  part.stepTouching(air, loads_, settings_, from, to, scratch_, contacts);
   std::vector<Reaction> reactions;
   at.contacts->settle(wood, bodies_, contacts, to, touches, reactions);
+  for (Reaction& reaction : reactions) reaction.force *= share;
   addTouches(reactions);
 }
 

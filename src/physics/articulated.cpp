@@ -5,6 +5,15 @@
 #include "physics/articulated_body.h"
 
 namespace vegetation_sim::physics {
+namespace {
+
+// What rates add to the change of a link's spin; `spin`: of its parent.
+Vec3 biasOf(const ArticulatedBody::Joint& joint, const ChainState& state, std::size_t i,
+            const Vec3& spin, const Vec3& own) {
+  return bendBias(joint.bend, state.q[i], state.rate[i], joint.axes) + cross(spin, own - spin);
+}
+
+}  // namespace
 
 void ArticulatedBody::look(const std::vector<Link>& links, const std::vector<BaseMotion>& bases,
                            const ChainState& state, Kinematics& out) {
@@ -66,8 +75,7 @@ void ArticulatedBody::sweepOut(const Links& links, const Bases& bases, const Cha
     const Vec3& spin = root ? baseOf(link, bases).spin : k.spin[p];
     const Joint& joint = joints_[i];
     const Axes& axes = joint.axes;
-    const Vec3 change =
-        bendBias(joint.bend, state.q[i], state.rate[i], axes) + cross(spin, k.spin[i] - spin);
+    const Vec3 change = biasOf(joint, state, i, spin, k.spin[i]);
     FreeMotion ground;
     if (root) ground = freeMotionOf(baseOf(link, bases), products);
     freeMotion(root ? ground : free_[p], link.h, change, k.spin[i], joint.sweep, axes.z, products,
@@ -216,8 +224,7 @@ void ArticulatedBody::torques(const std::vector<Link>& links, const std::vector<
     const Vec3 &own = kinematics.spin[i],
                &spin = root ? baseOf(link, bases).spin : kinematics.spin[p];
     const Joint& joint = joints_[i];
-    const Vec3 change = bendBias(joint.bend, state.q[i], state.rate[i], joint.axes) +
-                        cross(spin, own - spin) + acceleration[i].x() * joint.first +
+    const Vec3 change = biasOf(joint, state, i, spin, own) + acceleration[i].x() * joint.first +
                         acceleration[i].y() * joint.second;
     FreeMotion ground;
     if (root) ground = freeMotionOf(baseOf(link, bases), 1.0);

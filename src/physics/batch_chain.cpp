@@ -241,11 +241,14 @@ void BatchChain::askLoads(const Surroundings& around, double time, double h, Mem
 // ---- air ---------------------------------------------------------------------------------------
 
 void BatchChain::setGrips(int tree, const std::vector<Grip>& grips) {
+  const Member& member = this->member(tree);
+  if (grips.size() != member.count)
+    throw InvalidInput("grips: " + std::to_string(grips.size()) + "; one for each of the " +
+                       std::to_string(member.count) + " links");
   if (store_->grips.empty()) {
     store_->grips.assign(blocks() * G_ROWS);
     store_->air.assign(blocks() * V_ROWS);
   }
-  const Member& member = this->member(tree);
   for (std::size_t i = 0; i < member.count; ++i)
     fillGrip(grips[i], laneOf(store_->grips, slots_[member.first + i], G_ROWS));
 }

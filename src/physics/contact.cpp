@@ -59,21 +59,39 @@ void ContactStepper::prepare(const ContactLaw& law, double h, double theta,
     p.arm = contact.along * axisZ(kinematics_.pose[i].orientation);
     const Vec3 velocity = kinematics_.velocity[i] + cross(kinematics_.spin[i], p.arm);
     p.speed = dot(contact.normal, velocity - contact.surface);
-    const double gap = contact.gap + (1.0 - theta) * h * p.speed;
-    p.wanted = std::min(-gap / h, law.push_speed);
+    p.gap = contact.gap + (1.0 - theta) * h * p.speed;
     // Overlap that this step would add beyond DEEP: the force is continuous in all that it is of.
-    const double gain = std::clamp(-DEEP - (gap + h * p.speed), 0.0, std::max(0.0, -h * p.speed));
+    const double gain = std::clamp(-DEEP - (p.gap + h * p.speed), 0.0, std::max(0.0, -h * p.speed));
     const double risen = contact.force + h * law.force_rate + law.stiffness * gain;
     p.limit = contact.share * std::min(law.force_limit, risen);
     if (contact.force >= p.limit)
       p.mode = Mode::LIMITED;
-    else if (contact.force > 0.0 || p.speed < p.wanted)
-      p.mode = Mode::PRESSING;
+    else if (contact.force > 0.0 || forceOf(law, h, p, p.speed) > 0.0)
+      p.mode = modeAt(law, h, p, p.speed);
   }
 }
 
-// A contact that presses is a mass k h^2 that the step adds at the point, along the normal, and a
-// force that would give it the wanted speed.
+// The force falls with the speed at the end of the step along a line: of the spring, or of what
+// lets wood out no faster than at push_speed, whichever is the lower. Neither depends on the step's
+// length.
+ContactStepper::Line ContactStepper::lineOf(const ContactLaw& law, double h, const Point& p,
+                                            Mode mode) {
+  if (mode == Mode::PRESSING) return {-law.stiffness * p.gap, law.stiffness * h};
+  return {law.force_limit, law.force_limit / law.push_speed};
+}
+
+ContactStepper::Mode ContactStepper::modeAt(const ContactLaw& law, double h, const Point& p,
+                                            double speed) {
+  const double spring = lineOf(law, h, p, Mode::PRESSING).at(speed);
+  return lineOf(law, h, p, Mode::EASING).at(speed) < spring ? Mode::EASING : Mode::PRESSING;
+}
+
+double ContactStepper::forceOf(const ContactLaw& law, double h, const Point& p, double speed) {
+  return lineOf(law, h, p, modeAt(law, h, p, speed)).at(speed);
+}
+
+// A contact that presses is a mass, h times its line's slope, that the step adds at the point,
+// along the normal, and the force at the speed that is there.
 void ContactStepper::addAnchors(const ContactLaw& law, double h, double theta,
                                 const std::vector<Contact>& contacts) {
   for (std::size_t c = 0; c < contacts.size(); ++c) {
@@ -82,10 +100,13 @@ void ContactStepper::addAnchors(const ContactLaw& law, double h, double theta,
     Anchor anchor;
     anchor.link = contacts[c].link;
     anchor.arm = p.arm;
-    const bool presses = p.mode == Mode::PRESSING;
-    const double force = presses ? law.stiffness * h * (p.wanted - p.speed) : p.limit;
-    anchor.force = force * contacts[c].normal;
-    if (presses) anchor.damping = along(contacts[c].normal, law.stiffness * h / theta);
+    if (p.mode == Mode::LIMITED) {
+      anchor.force = p.limit * contacts[c].normal;
+    } else {
+      const Line line = lineOf(law, h, p, p.mode);
+      anchor.force = line.at(p.speed) * contacts[c].normal;
+      anchor.damping = along(contacts[c].normal, line.slope / theta);
+    }
     loads_.anchors.push_back(anchor);
   }
 }
@@ -104,12 +125,10 @@ void ContactStepper::spread(const std::vector<Link>& links) {
   }
 }
 
-// Of the spring, for the motion that the last trial gave.
-double ContactStepper::forceOf(const ContactLaw& law, double h, const Point& p,
-                               const Contact& contact) const {
+// At the end of the step, along the normal, by the motion that the last trial gave [m/s].
+double ContactStepper::speedAfter(double h, const Point& p, const Contact& contact) const {
   const auto i = static_cast<std::size_t>(contact.link);
-  const double speed = p.speed + h * dot(contact.normal, move_[i] + cross(turn_[i], p.arm));
-  return law.stiffness * h * (p.wanted - speed);
+  return p.speed + h * dot(contact.normal, move_[i] + cross(turn_[i], p.arm));
 }
 
 // True if nothing changed.
@@ -118,15 +137,22 @@ bool ContactStepper::revise(const ContactLaw& law, double h, bool one_by_one,
   bool settled = true;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     Point& p = points_[c];
-    const double force = forceOf(law, h, p, contacts[c]);
+    const double speed = speedAfter(h, p, contacts[c]);
+    const Mode bearing = modeAt(law, h, p, speed);
+    const double force = lineOf(law, h, p, bearing).at(speed);
     contacts[c].force = std::clamp(force, 0.0, p.limit);
     contacts[c].limited = force >= p.limit;
     Mode mode = p.mode;
-    // Between the ends only by way of the spring: a leap over it may be answered by a leap back.
-    if (p.mode == Mode::PRESSING && force < -SLACK) mode = Mode::FREE;
-    if (p.mode == Mode::PRESSING && force > p.limit + SLACK) mode = Mode::LIMITED;
-    if (p.mode == Mode::FREE && force > SLACK) mode = Mode::PRESSING;
-    if (p.mode == Mode::LIMITED && force < p.limit - SLACK) mode = Mode::PRESSING;
+    // Step by step along the law: a leap over a piece of it may be answered by a leap back.
+    const bool held = p.mode == Mode::PRESSING || p.mode == Mode::EASING;
+    if (held && lineOf(law, h, p, p.mode).at(speed) > force + SLACK)
+      mode = bearing;
+    else if (held && force < -SLACK)
+      mode = Mode::FREE;
+    else if (held && force > p.limit + SLACK)
+      mode = Mode::LIMITED;
+    else if (p.mode == Mode::FREE ? force > SLACK : !held && force < p.limit - SLACK)
+      mode = bearing;
     if (mode == p.mode || (one_by_one && !settled)) continue;
     p.mode = mode;
     settled = false;

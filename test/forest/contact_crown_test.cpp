@@ -20,7 +20,9 @@ struct Way {
 constexpr Way BIRCH{"birch", 7, -1.5, 0.3, 6.5, 1.2};
 constexpr Way OAK{"oak", 7, -2.0, 0.0, 7.45, 1.5};
 constexpr Way PINE{"pine", 9, -2.58, -0.4, 7.091, 2.0};
-constexpr Way FLAT{"pine", 8, -1.192, 0.4, 8.819, 2.0};  // a stiff twig lies on the capsule
+constexpr Way FLAT{"pine", 8, -1.192, 0.4, 8.819, 2.0};   // a stiff twig lies on the capsule
+constexpr Way FOOT{"pine", 7, -1.524, -0.3, 7.673, 2.0};  // a twig stands on what is overrun
+constexpr Way WHIP{"oak", 8, -0.986, 1.3, 6.186, 2.0};    // 1 cm of oak whips past at 9 m/s
 
 CrownResult driveAt(double speed, const Way& way) {
   CrownScene scene(way.species, way.seed);
@@ -55,6 +57,20 @@ TEST(ContactInACrown, TwigsOnOverrunWoodStayOut) {
       EXPECT_GT(found.limited, 0) << way.seed << ", " << speed << " m/s";
     }
   }
+}
+
+// A twig's foot is inside wood that is overrun: what of it stands outside that wood stays out.
+// Wood that slides along the body faster than it drives is followed in parts of a step.
+TEST(ContactInACrown, FeetOfTwigsAndWhippingWoodStayOut) {
+  const auto expectOut = [](double speed, const Way& way) {
+    const CrownResult found = driveAt(speed, way);
+    EXPECT_LT(found.deepest_thin, 0.005) << way.species << ", " << speed << " m/s";
+    EXPECT_GT(found.deepest_thick, 0.02) << way.species << ", " << speed << " m/s";
+    EXPECT_EQ(found.disagreed, 0) << way.species << ", " << speed << " m/s";
+  };
+  expectOut(1.0, FOOT);
+  expectOut(3.0, WHIP);
+  if (!SANITIZED) expectOut(0.5, FOOT);
 }
 
 // Wood that cannot give way answers with the limit, while the thin wood around it still goes aside.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "forest/forest_fixture.h"
+#include "vegetation_sim/common/math.h"
 #include "vegetation_sim/forest/contact_body.h"
 #include "vegetation_sim/forest/contact_finder.h"
 #include "vegetation_sim/forest/wood.h"
@@ -38,7 +39,8 @@ inline std::vector<physics::Link> linksOf(const Skeleton& skeleton, const Wood& 
 
 /// What a drive through a crown showed.
 struct CrownResult {
-  double deepest_thin{0.0};   ///< overlap of wood thinner than 1 cm in radius [m]
+  double deepest_thin{
+      0.0};  ///< overlap of wood thinner than 1 cm in radius, outside its bearer [m]
   double deepest_thick{0.0};  ///< of other wood [m]
   double hardest{0.0};        ///< force of one contact [N]
   double largest_rise{0.0};   ///< of the force of one contact from step to step [N]
@@ -104,15 +106,25 @@ class CrownScene {
  private:
   Nanoseconds timeOf(std::int64_t tick) const { return TickGrid(PHYSICS_RATE).timeOf(tick); }
 
+  ContactModel::Wood wood() const {
+    return {0, Vec3::Zero(), branches_, tree_.skeleton, kinematics_};
+  }
   void step(const Bodies& bodies, CrownResult* result) {
     const Nanoseconds from = timeOf(tick_), to = timeOf(++tick_);
-    const ContactModel::Wood wood{0, Vec3::Zero(), branches_, tree_.skeleton, kinematics_};
-    std::vector<physics::Contact> contacts = finder_.findContacts(wood, bodies, from, to, touches_);
+    const int parts = finder_.partsOf(wood(), bodies, from, to);
+    for (int k = 0; k < parts; ++k)
+      stepPart(bodies, from + (to - from) * k / parts, from + (to - from) * (k + 1) / parts,
+               result);
+  }
+  void stepPart(const Bodies& bodies, Nanoseconds from, Nanoseconds to, CrownResult* result) {
+    const double h = secondsBetween(from, to);
+    std::vector<physics::Contact> contacts =
+        finder_.findContacts(wood(), bodies, from, to, touches_);
     const physics::Kinematics before = kinematics_;
-    theta_ = physics::guardedTheta(state_, secondsBetween(from, to), theta_);
-    stepper_.step(links_, {}, law, 0.0, secondsBetween(from, to), theta_, state_, contacts);
+    theta_ = physics::guardedTheta(state_, h, theta_);
+    stepper_.step(links_, {}, law, 0.0, h, theta_, state_, contacts);
     std::vector<Reaction> reactions;
-    finder_.settle(wood, bodies, contacts, to, touches_, reactions);
+    finder_.settle(wood(), bodies, contacts, to, touches_, reactions);
     physics::kinematicsOf(links_, {}, state_, kinematics_);
     if (!result) return;
     note(contacts, *result);
@@ -149,28 +161,70 @@ class CrownScene {
   void look(std::size_t i, const physics::Kinematics& before, Nanoseconds from, Nanoseconds to,
             CrownResult& result) {
     const Branch& b = tree_.skeleton.branches[i];
-    const Pose &p0 = before.pose[i], &p1 = kinematics_.pose[i];
-    const Vec3 tip0 = tipOf(b, p0), tip1 = tipOf(b, p1);
     const double room = shapeOf(body_).reach() + b.length + 0.5;
-    if (length(p1.position - poseAt(body_, to).position) > room) return;
+    if (length(kinematics_.pose[i].position - poseAt(body_, to).position) > room) return;
     for (int n = 1; n <= 8; ++n) {
       const double part = n / 8.0;
       const Pose at = poseAt(body_, from + static_cast<Nanoseconds>(part * double(to - from)));
-      const double start = outsideBearer(tree_.skeleton, static_cast<int>(i));
-      const double out = start / b.length;
-      const Vec3 joint = (1.0 - part) * p0.position + part * p1.position;
-      const Vec3 tip = (1.0 - part) * tip0 + part * tip1;
-      const Vec3 base = joint + out * (tip - joint);
-      const Quat turn = conjugate(at.orientation);
-      const physics::Bar bar{rotate(turn, Vec3(base - at.position)),
-                             rotate(turn, Vec3(tip - base)) / length(tip - base),
-                             length(tip - base),
-                             b.base_radius + out * (b.tip_radius - b.base_radius), b.tip_radius};
+      const Bar bar = barAt(i, before, part, at);
       const physics::Proximity found = physics::nearest(shapeOf(body_), bar);
+      if (found.gap >= 0.0) continue;
       const bool thin = bar.radiusAt(found.along) < THIN;
       double& deepest = thin ? result.deepest_thin : result.deepest_thick;
-      deepest = std::max(deepest, -found.gap);
+      const bool joined = thin && overlaps(b.parent, before, part, at);
+      deepest = std::max(deepest, joined ? ownDepth(i, before, part, at) : -found.gap);
     }
+  }
+
+  using Bar = physics::Bar;
+  /// A branch at a part of a step, in the body's axes, from its joint on or, if `out`, from where
+  /// it stands out of its bearer.
+  Bar barAt(std::size_t i, const physics::Kinematics& before, double part, const Pose& at,
+            bool out = true) const {
+    const Branch& b = tree_.skeleton.branches[i];
+    const Pose &p0 = before.pose[i], &p1 = kinematics_.pose[i];
+    const double start = out ? outsideBearer(tree_.skeleton, static_cast<int>(i)) / b.length : 0.0;
+    const Vec3 joint = (1.0 - part) * p0.position + part * p1.position;
+    const Vec3 tip = (1.0 - part) * tipOf(b, p0) + part * tipOf(b, p1);
+    const Vec3 base = joint + start * (tip - joint);
+    const Quat turn = conjugate(at.orientation);
+    return {rotate(turn, Vec3(base - at.position)),
+            rotate(turn, Vec3(tip - base)) / length(tip - base), length(tip - base),
+            b.base_radius + start * (b.tip_radius - b.base_radius), b.tip_radius};
+  }
+  bool overlaps(int branch, const physics::Kinematics& before, double part, const Pose& at) const {
+    if (branch < 0) return false;
+    const Bar bar = barAt(static_cast<std::size_t>(branch), before, part, at, false);
+    return physics::nearest(shapeOf(body_), bar).gap < 0.0;
+  }
+  /// Where a twig stands on wood that is overrun: how deep that part of its round surface is inside
+  /// the body that is not inside its bearer. (The ball about the end of its axis reaches back into
+  /// the bearer.)
+  double ownDepth(std::size_t i, const physics::Kinematics& before, double part,
+                  const Pose& at) const {
+    const Bar twig = barAt(i, before, part, at, false);
+    const auto parent = static_cast<std::size_t>(tree_.skeleton.branches[i].parent);
+    const Bar bearer = barAt(parent, before, part, at, false);
+    const Vec3 any = std::fabs(twig.axis.x()) < 0.5 ? Vec3::UnitX() : Vec3::UnitY();
+    const Vec3 u = cross(twig.axis, any) / length(cross(twig.axis, any)), w = cross(twig.axis, u);
+    double out = 0.0;
+    Vec3 normal;
+    const int rings = static_cast<int>(twig.length / 5e-4);
+    for (int k = 0; k <= rings; ++k) {
+      const double along = twig.length * k / rings, radius = twig.radiusAt(along);
+      if (signedDistance(shapeOf(body_), twig.at(along), normal) > radius) continue;
+      for (int spoke = 0; spoke < 48; ++spoke) {
+        const SinCos turn = sinCosTurns(spoke / 48.0);
+        const Vec3 point = twig.at(along) + radius * (turn.cos * u + turn.sin * w);
+        if (inside(bearer, point)) continue;
+        out = std::max(out, -signedDistance(shapeOf(body_), point, normal));
+      }
+    }
+    return out;
+  }
+  static bool inside(const Bar& bar, const Vec3& point) {
+    const double along = std::clamp(dot(point - bar.base, bar.axis), 0.0, bar.length);
+    return length(point - bar.at(along)) < bar.radiusAt(along);
   }
 
   Layout layout_;

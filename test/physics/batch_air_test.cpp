@@ -62,6 +62,14 @@ double largestDistance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   return out;
 }
 
+TEST(BatchAir, TakesOneGripForEachLinkOrNone) {
+  const std::vector<Link> links = fractalTree(40, 3);
+  BatchChain chain(links);
+  std::vector<Grip> grips = gripsOf(links);
+  grips.pop_back();
+  EXPECT_THROW(chain.setGrips(0, grips), InvalidInput);
+}
+
 // S1-26: the wind in a chain's own rows is the load that a caller would have computed. Bar as for
 // loads: float's rounding over 2 s.
 TEST(BatchAir, IsTheQuadraticDragOfLoads) {

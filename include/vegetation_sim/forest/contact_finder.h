@@ -20,6 +20,8 @@ class ContactFinder : public ContactModel {
  public:
   void findNear(const Forest& forest, const Bodies& bodies, Nanoseconds from, Nanoseconds to,
                 BranchesOfTrees& near) const override;
+  int partsOf(const Wood& wood, const Bodies& bodies, Nanoseconds from,
+              Nanoseconds to) const override;
   std::vector<physics::Contact> findContacts(const Wood& wood, const Bodies& bodies,
                                              Nanoseconds from, Nanoseconds to,
                                              Touches& touches) const override;

@@ -36,8 +36,9 @@ using Touches = std::vector<Touch>;
 
 /// How bodies touch trees. Without memory of its own.
 ///
-/// A step of a tree with contacts: `findContacts` at its start; if there are any,
-/// `physics::stepWithContacts` instead of the stepper's own step; then `settle`.
+/// A step of a tree with contacts is taken in `partsOf` equal parts. Each: `findContacts` at its
+/// start; if there are any, `physics::ContactStepper` instead of the stepper's own step; then
+/// `settle`.
 class ContactModel {
  public:
   virtual ~ContactModel() = default;
@@ -56,6 +57,10 @@ class ContactModel {
     const Skeleton& skeleton;
     const physics::Kinematics& start;  ///< [links]
   };
+  /// Into how many equal parts the step [from, to] is taken, so that wood near a body moves little
+  /// in each.
+  virtual int partsOf(const Wood& wood, const Bodies& bodies, Nanoseconds from,
+                      Nanoseconds to) const = 0;
   /// Contacts that the step [from, to] has or may have. Touches that are over are dropped.
   virtual std::vector<physics::Contact> findContacts(const Wood& wood, const Bodies& bodies,
                                                      Nanoseconds from, Nanoseconds to,

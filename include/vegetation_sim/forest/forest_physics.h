@@ -78,6 +78,8 @@ class ForestPhysics {
   bool isNear(std::uint32_t tree) const;
   void stepTouching(const Site& at, std::uint32_t tree, PhysicalPart& part, Nanoseconds from,
                     Nanoseconds to);
+  void stepAmong(const Site& at, const ContactModel::Wood& wood, PhysicalPart& part,
+                 Nanoseconds from, Nanoseconds to, double share);
   void addTouches(const std::vector<Reaction>& reactions);
   void reactToBodies(std::size_t steps);
   void letFall(const std::vector<Reaction>& told, double duration);

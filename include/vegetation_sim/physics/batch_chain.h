@@ -53,7 +53,7 @@ class BatchChain {
   void step(const std::vector<Surroundings>& around, double time, double h);
   void step(const Surroundings& around, double time, double h);
 
-  /// From now on air acts on the links of a tree, besides what loads say; still air until asked.
+  /// From now on air acts on a tree's links, one grip each, besides loads; still air until asked.
   void setGrips(int tree, const std::vector<Grip>& grips);
   /// The next step asks for the air; later ones take what it said, while the links move in it.
   void askAir(AskAir ask) { ask_ = std::move(ask); }

@@ -36,13 +36,18 @@ class ContactStepper {
   bool agreed() const { return agreed_; }
 
  private:
-  enum class Mode { FREE, PRESSING, LIMITED };
+  enum class Mode { FREE, PRESSING, EASING, LIMITED };
   struct Point {
     Mode mode{Mode::FREE};
     Vec3 arm;
-    double speed;   // along the normal, relative to the body [m/s]
-    double wanted;  // the same at the end of the step, if it presses [m/s]
-    double limit;   // of the force in this step [N]
+    double speed;  // along the normal, relative to the body [m/s]
+    double gap;    // the one that the step's last speed changes [m]
+    double limit;  // of the force in this step [N]
+  };
+  // Force over speed at the end of the step.
+  struct Line {
+    double at_rest, slope;  // [N], [N s/m]
+    double at(double speed) const { return at_rest - slope * speed; }
   };
   void look(const std::vector<Link>& links, const Surroundings& outside, double time, double h,
             double theta, const ChainState& state);
@@ -50,7 +55,10 @@ class ContactStepper {
   void addAnchors(const ContactLaw& law, double h, double theta,
                   const std::vector<Contact>& contacts);
   void spread(const std::vector<Link>& links);
-  double forceOf(const ContactLaw& law, double h, const Point& point, const Contact& contact) const;
+  static Line lineOf(const ContactLaw& law, double h, const Point& point, Mode mode);
+  static Mode modeAt(const ContactLaw& law, double h, const Point& point, double speed);
+  static double forceOf(const ContactLaw& law, double h, const Point& point, double speed);
+  double speedAfter(double h, const Point& point, const Contact& contact) const;
   bool revise(const ContactLaw& law, double h, bool one_by_one, std::vector<Contact>& contacts);
 
   ArticulatedBody body_;
