@@ -41,7 +41,8 @@ add_library(${PROJECT_NAME}_nodelets ${nodelet_sources})
 target_link_libraries(${PROJECT_NAME}_nodelets PUBLIC ${PROJECT_NAME}_nodes)
 add_library(${PROJECT_NAME}_rviz ${rviz_sources})
 target_compile_definitions(${PROJECT_NAME}_rviz PRIVATE QT_NO_KEYWORDS)
-target_link_libraries(${PROJECT_NAME}_rviz PUBLIC ${PROJECT_NAME}_ros Qt5::Widgets)
+target_link_libraries(${PROJECT_NAME}_rviz
+  PUBLIC ${PROJECT_NAME}_ros Qt5::Widgets PRIVATE OpenGL::GL)
 set_target_properties(${PROJECT_NAME}_rviz PROPERTIES AUTOMOC ON)
 
 set(ros_targets

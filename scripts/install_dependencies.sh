@@ -12,7 +12,7 @@ PACKAGES=(
   libroscpp-dev libtf2-ros-dev libsensor-msgs-dev liburdf-dev libvisualization-msgs-dev
   libdiagnostic-updater-dev
   libdynamic-reconfigure-config-init-mutex-dev python3-dynamic-reconfigure
-  libnodeletlib-dev pluginlib-dev librviz-dev qtbase5-dev
+  libgl-dev libnodeletlib-dev pluginlib-dev librviz-dev qtbase5-dev
   libassimp-dev libeigen3-dev libhwy-dev libpng-dev libresource-retriever-dev libyaml-cpp-dev
   # running
   libnodeletlib-tools python3-matplotlib python3-numpy python3-pil rviz

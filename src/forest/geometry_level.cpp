@@ -22,6 +22,8 @@ constexpr std::array<Step, GEOMETRY_LEVELS> STEPS{{{0.0, {1, 3, 1, 0.016, 3.4, t
                                                    {560.0, {MAX_DEPTHS, 11, 16, 1.0, 1.0, false}}}};
 constexpr double BORDER = 0.15;  // hysteresis, fraction of the size
 constexpr double DEAD_BAND = 0.05;
+constexpr double LEAST_EXPONENT = 0.1;  // overshot three times
+constexpr double MOST_ERROR = 0.7;      // logarithm; what a step answers to
 constexpr double LEAST_FACTOR = 1.0 / 64.0, LARGEST_FACTOR = 64.0;
 
 }  // namespace
@@ -42,13 +44,22 @@ int geometryLevel(double height_px, int current) {
 }
 
 void ComplexityFeedback::update(double actual, double target) {
-  const double ratio = target / std::max(actual, 1.0);
-  if (std::fabs(ratio - 1.0) < DEAD_BAND) return;
-  const bool above = ratio < 1.0;
-  exponent_ = above == was_above_ ? std::min(1.2 * exponent_, LARGEST_EXPONENT) : 0.5 * exponent_;
-  was_above_ = above;
-  const double step = std::pow(std::clamp(ratio, 0.5, 2.0), exponent_);
-  factor_ = std::clamp(factor_ * step, LEAST_FACTOR, LARGEST_FACTOR);
+  actual = std::max(actual, 1.0);
+  const bool same = target == target_ && std::fabs(actual - rests_at_) <= DEAD_BAND * target;
+  target_ = target;
+  if (rests_at_ > 0.0 && same) return;
+  const bool met = std::fabs(target / actual - 1.0) < DEAD_BAND;
+  if (met || rests_at_ > 0.0) *this = ComplexityFeedback(factor_, target_);
+  if (met) return;
+  const double error = std::log(target / actual);
+  const bool overshot = error * error_ < 0.0;
+  if (overshot) exponent_ *= 0.5;
+  if (overshot && exponent_ < LEAST_EXPONENT && std::fabs(error) <= std::fabs(error_))
+    rests_at_ = actual;
+  else
+    factor_ = std::clamp(factor_ * std::exp(exponent_ * std::clamp(error, -MOST_ERROR, MOST_ERROR)),
+                         LEAST_FACTOR, LARGEST_FACTOR);
+  error_ = error;
 }
 
 }  // namespace vegetation_sim::forest

@@ -10,6 +10,8 @@
 
 #include <algorithm>
 
+#include "vegetation_sim/rviz/drawing.h"
+
 namespace vegetation_sim::view {
 namespace {
 
@@ -129,10 +131,21 @@ void Batch::setRank(int rank) {
                                  static_cast<Ogre::ushort>(std::min(rank, LAST_RANK)));
 }
 
+// Ogre looks at nodes only, and many batches share one.
+void Batch::_notifyCurrentCamera(Ogre::Camera* camera) {
+  Ogre::SimpleRenderable::_notifyCurrentCamera(camera);
+  in_view_ = camera->isVisible(getWorldBoundingBox(true));
+}
+
 void Batch::_updateRenderQueue(Ogre::RenderQueue* queue) {
+  if (!in_view_) return;
   seen_ = true;
   if (mRenderOp.indexData != nullptr && mRenderOp.indexData->indexCount > 0)
     Ogre::SimpleRenderable::_updateRenderQueue(queue);
+}
+
+void Batch::postRender(Ogre::SceneManager* /*scene*/, Ogre::RenderSystem* /*renderer*/) {
+  drew(mRenderOp.indexData->indexCount / 3);
 }
 
 Ogre::Real Batch::getBoundingRadius() const {

@@ -25,7 +25,7 @@ void ForestProperties::addTopics(rviz::Display& display) {
 
 void ForestProperties::addLook(rviz::Display& display) {
   triangles_ = new rviz::IntProperty(
-      "Triangles", 130000,
+      "Triangles", 80000,
       "How many triangles of trees in the picture to aim for. Levels of detail follow.", &display);
   triangles_->setMin(1000);
   triangles_->setMax(20000000);

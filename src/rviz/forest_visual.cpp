@@ -16,7 +16,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int LEAF_EDGE = 256, BARK_EDGE = 512;  // [pixel]
-constexpr std::size_t TREES_PER_GROVE = 10;
+constexpr std::size_t TREES_PER_GROVE = 4;
 // [s] of one update: growing while nothing is drawn and while something is; choosing levels while
 // trees have no mesh yet and later.
 constexpr double GROW_TIME = 0.025, SIDE_TIME = 0.006, FIRST_TIME = 0.06, LEVEL_TIME = 0.010;

@@ -8,6 +8,8 @@
 #include <OgreNode.h>
 #include <OgreRenderQueue.h>
 
+#include "vegetation_sim/rviz/drawing.h"
+
 namespace vegetation_sim::view {
 namespace {
 
@@ -84,6 +86,10 @@ void GrassBatch::fill(const grass::GrassMesh& mesh) {
 
 void GrassBatch::_updateRenderQueue(Ogre::RenderQueue* queue) {
   if (mRenderOp.indexData->indexCount > 0) Ogre::SimpleRenderable::_updateRenderQueue(queue);
+}
+
+void GrassBatch::postRender(Ogre::SceneManager* /*scene*/, Ogre::RenderSystem* /*renderer*/) {
+  drew(mRenderOp.indexData->indexCount / 3);
 }
 
 Ogre::Real GrassBatch::getBoundingRadius() const {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
 #include "forest/forest_fixture.h"
@@ -13,17 +14,26 @@
 namespace vegetation_sim::forest {
 namespace {
 
+// Triangles of one oak by level.
+const std::vector<double>& triangles() {
+  static const std::vector<double> counts = [] {
+    const Species species = shippedSpecies("oak");
+    const Skeleton skeleton = grow(TreeSeed(), species);
+    std::vector<double> out;
+    for (int level = 0; level < GEOMETRY_LEVELS; ++level)
+      out.push_back(
+          static_cast<double>(buildMesh(skeleton, species, meshDetail(level)).triangleCount()));
+    return out;
+  }();
+  return counts;
+}
+
 /// A forest as a display draws it: levels by projected size, complexity fed back.
 class DrawnForest {
  public:
-  explicit DrawnForest(double scale) {
-    const Species species = shippedSpecies("oak");
-    const Skeleton skeleton = grow(TreeSeed(), species);
-    for (int level = 0; level < GEOMETRY_LEVELS; ++level)
-      triangles_.push_back(
-          static_cast<double>(buildMesh(skeleton, species, meshDetail(level)).triangleCount()));
+  explicit DrawnForest(double scale, std::uint64_t trees = 256) {
     const Random random(42);
-    for (std::uint64_t i = 0; i < 256; ++i)
+    for (std::uint64_t i = 0; i < trees; ++i)
       sizes_.push_back(scale * 10000.0 / random.uniform(i, 8.0, 150.0));
     levels_.assign(sizes_.size(), -1);
   }
@@ -33,7 +43,7 @@ class DrawnForest {
     double out = 0.0;
     for (std::size_t i = 0; i < sizes_.size(); ++i) {
       levels_[i] = geometryLevel(sizes_[i] * feedback_.factor(), levels_[i]);
-      out += triangles_[static_cast<std::size_t>(levels_[i])];
+      out += triangles()[static_cast<std::size_t>(levels_[i])];
     }
     feedback_.update(out, target);
     return out;
@@ -41,10 +51,24 @@ class DrawnForest {
   void approach(double factor) {
     for (double& size : sizes_) size *= factor;
   }
+  /// Nearer than what one tree adds at its next level, or all trees are at the last one that helps.
+  bool near(double drawn, double target) const {
+    double most = 0.05 * target;
+    bool last = true;
+    for (const int level : levels_) {
+      const auto i = static_cast<std::size_t>(level);
+      const int end = drawn < target ? GEOMETRY_LEVELS - 1 : 0;
+      last = last && level == end;
+      if (level != end)
+        most =
+            std::max(most, std::fabs(triangles()[drawn < target ? i + 1 : i - 1] - triangles()[i]));
+    }
+    return last || std::fabs(drawn - target) <= most;
+  }
   const std::vector<int>& levels() const { return levels_; }
 
  private:
-  std::vector<double> triangles_, sizes_;
+  std::vector<double> sizes_;
   std::vector<int> levels_;
   ComplexityFeedback feedback_;
 };
@@ -99,6 +123,36 @@ TEST(ComplexityFeedback, ComesToRest) {
     forest.frame(130000.0);
     ASSERT_EQ(forest.levels(), levels) << i;
   }
+}
+
+// S1-14: so it does where the step of one tree is a good part of the target; what it rests at is no
+// farther from the target than such a step.
+TEST(ComplexityFeedback, ComesToRestInSmallForests) {
+  for (const std::uint64_t trees : {1u, 4u, 16u, 40u}) {
+    for (double target = 1000.0; target < 50000.0; target *= 1.13) {
+      DrawnForest forest(1.0, trees);
+      for (int i = 0; i < 500; ++i) forest.frame(target);
+      const std::vector<int> levels = forest.levels();
+      const double drawn = forest.frame(target);
+      for (int i = 0; i < 1000; ++i) {
+        forest.frame(target);
+        ASSERT_EQ(forest.levels(), levels) << trees << " trees, " << target << ", frame " << i;
+      }
+      EXPECT_TRUE(forest.near(drawn, target)) << trees << " trees, " << drawn << " of " << target;
+    }
+  }
+}
+
+// S1-14: what rests wakes when the target or the scene changes.
+TEST(ComplexityFeedback, WakesFromRest) {
+  DrawnForest forest(1.0, 16);
+  for (int i = 0; i < 500; ++i) forest.frame(9000.0);
+  for (int i = 0; i < 60; ++i) forest.frame(60000.0);
+  EXPECT_TRUE(forest.near(forest.frame(60000.0), 60000.0));
+  for (int i = 0; i < 500; ++i) forest.frame(9000.0);
+  forest.approach(3.0);
+  for (int i = 0; i < 60; ++i) forest.frame(9000.0);
+  EXPECT_TRUE(forest.near(forest.frame(9000.0), 9000.0));
 }
 
 // S1-14: it follows a scene that changes.

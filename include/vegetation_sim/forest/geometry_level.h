@@ -25,10 +25,12 @@ MeshDetail meshDetail(int geometry_level);
 int geometryLevel(double height_px, int current);
 
 /// Global factor on projected sizes that steers the complexity of the next frame to a target
-/// (S1-14): g <- g (target / actual)^a. The exponent a is halved whenever the target is overshot
-/// and recovers while it is not, so that a complexity that can only jump does not swing for ever.
+/// (S1-14): g <- g (target / actual)^a. The exponent a is halved whenever the target is overshot.
+/// Where a complexity can only jump over the target, the factor comes to rest on the nearer side
+/// and stays there until the target or the scene changes.
 class ComplexityFeedback {
  public:
+  ComplexityFeedback() = default;
   double factor() const { return factor_; }
   /// @param actual complexity of the last frame. @param target wanted, both in the same unit, > 0.
   void update(double actual, double target);
@@ -37,9 +39,13 @@ class ComplexityFeedback {
  private:
   static constexpr double LARGEST_EXPONENT = 0.5;  // triangles grow about as the square of size
 
+  ComplexityFeedback(double factor, double target) : factor_(factor), target_(target) {}
+
   double factor_{1.0};
   double exponent_{LARGEST_EXPONENT};
-  bool was_above_{false};
+  double target_{0.0};
+  double error_{0.0};     // logarithm of target / actual, last time
+  double rests_at_{0.0};  // complexity; 0: it does not rest
 };
 
 }  // namespace vegetation_sim::forest

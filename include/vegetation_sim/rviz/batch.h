@@ -43,7 +43,9 @@ class Batch : public Ogre::SimpleRenderable {
   void setRank(int rank);
   static constexpr int LAST_RANK = 400;
 
+  void _notifyCurrentCamera(Ogre::Camera* camera) override;
   void _updateRenderQueue(Ogre::RenderQueue* queue) override;
+  void postRender(Ogre::SceneManager* scene, Ogre::RenderSystem* renderer) override;
   Ogre::Real getBoundingRadius() const override;
   Ogre::Real getSquaredViewDepth(const Ogre::Camera* camera) const override;
 
@@ -52,7 +54,7 @@ class Batch : public Ogre::SimpleRenderable {
   void setBox(const std::vector<float>& positions, float margin);
 
   Ogre::HardwareVertexBufferSharedPtr positions_, paint_;
-  bool seen_{true};
+  bool seen_{true}, in_view_{true};
 };
 
 }  // namespace vegetation_sim::view

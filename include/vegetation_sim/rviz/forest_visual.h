@@ -30,7 +30,7 @@ class ForestVisual {
  public:
   struct Options {
     TreeLook look;
-    double target_triangles{130000.0};
+    double target_triangles{80000.0};
     std::size_t most_trees{1000};
   };
 

@@ -23,6 +23,7 @@ class GrassBatch : public Ogre::SimpleRenderable {
   void fill(const grass::GrassMesh& mesh);
 
   void _updateRenderQueue(Ogre::RenderQueue* queue) override;
+  void postRender(Ogre::SceneManager* scene, Ogre::RenderSystem* renderer) override;
   Ogre::Real getBoundingRadius() const override;
   Ogre::Real getSquaredViewDepth(const Ogre::Camera* camera) const override;
 
