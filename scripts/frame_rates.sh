@@ -2,9 +2,10 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
 # Frames a second that rviz draws of scenarios in a window of 1280 x 900 on a virtual display: with our
-# displays, beside the same nodes with stock markers as they are budgeted, and with markers of about as
-# many triangles as our displays draw. And how much levels of detail change in pictures of our displays
-# as the camera goes away.
+# displays, beside the same nodes with stock markers as they are budgeted, with markers of about as many
+# triangles as our displays draw, and with the finest markers that the nodes publish, for markers know no
+# camera but the nodes'. And how much levels of detail change in pictures of our displays as the camera
+# goes away.
 # usage: scripts/frame_rates.sh [--seconds N] SCENARIO ...
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
@@ -47,7 +48,9 @@ for scenario in "$@"; do
   triangles=$(sed -n 's/.* of \([0-9]*\) triangles.*/\1/p' "$WORK/figures")
   measure 'stock markers' "$ROOT/rviz/markers.rviz" --view "$config"
   stop_process "$launch_pid"
-  start_scenario "$scenario" $((3 * triangles))
-  measure 'stock markers of as many triangles' "$ROOT/rviz/markers.rviz" --view "$config"
-  stop_process "$launch_pid"
+  for points in $((3 * triangles)) 3000000; do
+    start_scenario "$scenario" "$points"
+    measure "stock markers of up to $((points / 3)) triangles" "$ROOT/rviz/markers.rviz" --view "$config"
+    stop_process "$launch_pid"
+  done
 done

@@ -100,7 +100,7 @@ class Frames {
     double step = 0.0, all = 0.0;
     for (int i = 1; i <= STEPS; ++i) {
       distance->setValue(start * std::pow(factor, static_cast<double>(i) / STEPS));
-      frames(1);
+      frames(2);  // displays see where the camera is one picture later
       const std::vector<unsigned char> first = picture();
       std::vector<unsigned char> last = first;
       for (int frame = 0; frame < FRAMES_A_STEP; ++frame) {

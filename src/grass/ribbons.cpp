@@ -126,7 +126,11 @@ class Ribbons {
     Writer out{grow(mesh.positions, 3 * vertices), grow(mesh.texture, 2 * vertices),
                grow(mesh.colours, 4 * vertices),
                grow(mesh.indices, 3 * (blades * (2 * n - 1) + flowers * PETALS)), first};
-    for (int blade = 0; blade < count; ++blade) write(blocks[blade / BLOCK], blade, out);
+    const auto leaving = static_cast<float>(style_.leaving * count);
+    for (int blade = 0; blade < count; ++blade) {
+      const auto left = static_cast<float>(count - blade);
+      write(blocks[blade / BLOCK], blade, left < leaving ? left / leaving : 1.f, out);
+    }
   }
 
  private:
@@ -147,7 +151,7 @@ class Ribbons {
     return kind;
   }
 
-  void write(const BladeBlock& block, int blade, Writer& out) const {
+  void write(const BladeBlock& block, int blade, float width, Writer& out) const {
     const int lane = blade % BLOCK;
     const float x = block.x[0][lane], y = block.y[0][lane];
     Float3 shift = corner_;
@@ -172,7 +176,8 @@ class Ribbons {
     const std::uint32_t first = out.next;
     for (int k = 0; k <= style_.segments; ++k) {
       const int at = kept_[static_cast<std::size_t>(k)];
-      const float way = static_cast<float>(at) / LINKS, half = look.half * (1.f - way * way);
+      const float way = static_cast<float>(at) / LINKS,
+                  half = width * look.half * (1.f - way * way);
       const Float3 p = point(at);
       const Float3 c = shaded(own, p, root, way, facing);
       if (k == style_.segments) {
@@ -184,7 +189,7 @@ class Ribbons {
     }
     for (std::uint32_t t = 0; t + 1 < 2 * static_cast<std::uint32_t>(style_.segments); ++t)
       out.triangle(first + t, first + t + 1, first + t + 2);
-    if (look.flower > 0.f) flower(tip, side, look, out);
+    if (look.flower > 0.f) flower(tip, side, width * look.flower, look, out);
   }
 
   // Without light: dark at the root, where neighbours keep it away.
@@ -208,8 +213,7 @@ class Ribbons {
   }
 
   // A disc that looks half up and half to the eye.
-  void flower(const Float3& tip, const Float3& side, const Look& look, Writer& out) const {
-    const float r = look.flower;
+  void flower(const Float3& tip, const Float3& side, float r, const Look& look, Writer& out) const {
     const Float3 across{side.x * r, side.y * r, side.z * r};
     const Float3 up = Float3{-side.y * 0.5f, side.x * 0.5f, 0.8f} * r;
     const Float3 light = style_.light ? shaded(look.petal, tip, tip, 1.f, 0.8f) : look.petal;

@@ -14,9 +14,11 @@ namespace vegetation_sim::view {
 namespace {
 
 constexpr int STRIP_COLUMNS = 512, STRIP_ROWS = 128, STRIP_BLADES = 130, LAYER_EDGE = 128;
-constexpr int MOST_LAYERS = 5;  // more would cost the rasteriser more than they show
-constexpr int ROWS = 3;         // of strips in a tile, each way
-constexpr double STILL = 1e-4;  // [m], [rad] of an eye
+constexpr int MOST_LAYERS = 5;        // more would cost the rasteriser more than they show
+constexpr int ROWS = 3;               // of strips in a tile, each way
+constexpr double STILL = 1e-4;        // [m], [rad] of an eye
+constexpr double LARGEST_FADE = 0.2;  // of a transition between two updates
+constexpr double LEAVING = 0.5;       // of the blades drawn: the narrower, the sooner they go
 
 // Painted once in a process.
 const std::vector<Picture>& sharedStrips() {
@@ -108,7 +110,7 @@ void GrassVisual::update(const GrassSource& source, Nanoseconds stamp, double wa
   const Eye eye = eyeOf(view);
   levels_.setSettings(options.levels);
   levels_.setEyes({eye});
-  const Nanoseconds now = fromSeconds(wall);
+  const Nanoseconds now = levelClock(wall, options.levels.transition);
   levels_.advance(now);
   std::vector<grass::TileView> tiles = levels_.viewOf(eye, now);
   wanted.settled = std::all_of(tiles.begin(), tiles.end(), [](const grass::TileView& t) {
@@ -123,6 +125,14 @@ void GrassVisual::update(const GrassSource& source, Nanoseconds stamp, double wa
                    500 * gap <= wanted.blades;
   drawn_ = wanted;
   ++report_.rebuilds;
+}
+
+// Wall time, slower where pictures are rare: none shows much of a transition at once.
+Nanoseconds GrassVisual::levelClock(double wall, double transition) {
+  const double passed = std::max(wall - wall_, 0.0);
+  clock_ += transition > 0.0 ? std::min(passed, LARGEST_FADE * transition) : passed;
+  wall_ = wall;
+  return fromSeconds(clock_);
 }
 
 // Near tiles first: they hide the others cheaply.
@@ -151,7 +161,8 @@ void GrassVisual::build(const GrassSource& source, Nanoseconds stamp, const View
     motion.model = static_cast<grass::BladeModel>(source.layout().blade_model);
     if (tile_view.morph.blades && options.blades) {
       addBlades(tile, motion, tile_view, eye, options);
-      reach_ = std::max(reach_, static_cast<float>(std::sqrt(squareDistance(tile_view, law, eye))));
+      const double distance = std::sqrt(squareDistance(tile_view, law, eye));
+      reach_ = std::max(reach_, static_cast<float>(distance * (1.0 - tile_view.morph.slide)));
     }
     if (tile_view.morph.strip > 0.0 && options.strips) addFlat(tile, motion, tile_view);
   }
@@ -171,7 +182,10 @@ void GrassVisual::addBlades(const grass::Tile& tile, const grass::TileMotion& mo
   poseBlades(tile, motion, count, blocks_.data());
   grass::RibbonStyle style;
   style.segments = view.segments;
-  style.width = std::pow(view.share, -0.95);  // fewer hide each other less
+  style.leaving = std::min(LEAVING, (1.0 - view.share) / view.share);
+  // Fewer hide each other less. What arrives at the edge of its tile is gone.
+  style.width = std::pow(view.share * (1.0 - 0.5 * style.leaving), -0.95) *
+                (1.0 - view.morph.slide * view.morph.slide);
   style.slide = view.morph.slide;
   style.eye = eye;
   style.light = &light_;

@@ -62,6 +62,22 @@ TEST(Ribbons, FaceTheEye) {
   }
 }
 
+// S2-15: blades that are the next to go narrow to nothing, one after the other; the others do not.
+TEST(Ribbons, TheLastOnesNarrowBeforeTheyGo) {
+  const FeatureMap map;
+  const Tile tile = makeTile(map, terrain::HeightMap(), 1, 3, 4);
+  const auto blocks = posed(tile, TileMotion(), 100);
+  GrassMesh mesh;
+  RibbonStyle style;
+  style.leaving = 0.4;
+  appendRibbons(map, tile, blocks.data(), 100, style, mesh);
+  for (std::size_t blade = 0; blade < 100; ++blade) {
+    const Vec3 side = vertex(mesh, 11 * blade + 1) - vertex(mesh, 11 * blade);
+    const double part = std::min(1.0, (100.0 - static_cast<double>(blade)) / 40.0);
+    EXPECT_NEAR(side.norm(), part * map.species()[0].species.width, 1e-5) << blade;
+  }
+}
+
 // S2-12: fully slid, every blade stands on an edge of its tile; half way, half way there.
 TEST(Ribbons, SlideToTheNearestEdge) {
   const FeatureMap map;

@@ -29,6 +29,7 @@ struct RibbonStyle {
   int segments{LINKS};               ///< of each blade: 1, 2, 3 or LINKS
   double width{1.0};                 ///< factor, 1 / bladeShare
   double slide{0.0};                 ///< Morph::slide
+  double leaving{0.0};               ///< share of the blades, the last ones, that narrow to nothing
   Vec3 eye{Vec3(0.0, 0.0, 1e3)};     ///< ribbons turn their faces to it, world [m]
   const GrassLight* light{nullptr};  ///< none: colours as the map has them, dark at the root
   float variety{0.f};  ///< of colour and lightness from blade to blade, 1: as in a meadow

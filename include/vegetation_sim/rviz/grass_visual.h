@@ -66,6 +66,7 @@ class GrassVisual {
     bool settled{false};
   };
   bool isDrawn(const Drawn& wanted) const;
+  Nanoseconds levelClock(double wall, double transition);
   void build(const GrassSource& source, Nanoseconds stamp, const View& view,
              const std::vector<grass::TileView>& tiles, const Options& options);
   void addBlades(const grass::Tile& tile, const grass::TileMotion& motion,
@@ -86,6 +87,7 @@ class GrassVisual {
   std::vector<grass::BladeBlock> blocks_;
   grass::CrushPatch patch_;
   Drawn drawn_;
+  double clock_{0.0}, wall_{0.0};  // of levels; of the last update [s]
   float reach_{0.f};
   GrassReport report_;
 };
