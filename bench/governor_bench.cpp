@@ -2,13 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The governor (N7): cost and error of ever more trees on one budget, and what choosing takes; a
-// still forest that nobody looks at; one held branch among thousands of trees.
+// still forest that nobody looks at; one held branch among thousands of trees; what is foretold of
+// the trees of the shipped scenarios against what they show.
 // usage: governor_bench [ROUNDS] [--quick | --full] [--part NAME,..] [--csv FILE]
 #include <algorithm>
 #include <cstdio>
 #include <map>
 
 #include "forest/forest_fixture.h"
+#include "frame/prediction.h"
 #include "options.h"
 #include "processor_time.h"
 #include "table.h"
@@ -137,16 +139,48 @@ void measureHand(const Options& options) {
       1e2 * candidates[0].seconds, candidates[1].seconds / candidates[0].seconds);
 }
 
+/// Of each tree its largest error over some seconds, foretold and measured.
+void measurePrediction(const Options& options) {
+  std::printf(
+      "\n| scenario | trees that move without modes | foretold within 2 x | worst ratios | frames "
+      "of "
+      "trees within the tolerance |\n");
+  for (const std::string& name : scenarioNames()) {
+    const bench::Scene scene = loadScene(name);
+    if (!scene.forest) continue;
+    const Prediction::Looks looks = Prediction(scene).look(options.quick ? 3 : 10);
+    double within = 0.0, held = 0.0, all = 0.0, least = 1e9, most = 0.0;
+    for (const auto& [tree, each] : looks) {
+      double predicted = 0.0, measured = 0.0;
+      for (const Prediction::Look& look : each) {
+        predicted = std::max(predicted, look.predicted);
+        measured = std::max(measured, look.measured);
+        held += look.measured <= Settings().tolerance;
+        ++all;
+      }
+      const double ratio = predicted / measured;
+      within += ratio > 0.5 && ratio < 2.0;
+      least = std::min(least, ratio);
+      most = std::max(most, ratio);
+    }
+    if (looks.empty()) continue;
+    std::printf("| %-12s | %4zu | %5.1f %% | %.2f to %.2f | %5.1f %% |\n", name.c_str(),
+                looks.size(), 100.0 * within / static_cast<double>(looks.size()), least, most,
+                100.0 * held / all);
+  }
+}
+
 }  // namespace
 }  // namespace vegetation_sim::bench
 
 int main(int argc, char** argv) {
   using namespace vegetation_sim::bench;
   try {
-    const Options options = readOptions(argc, argv, {"budget", "still", "hand"});
+    const Options options = readOptions(argc, argv, {"budget", "still", "hand", "scenarios"});
     if (options.wants("budget")) measureBudget(options);
     if (options.wants("still")) measureStill();
     if (options.wants("hand")) measureHand(options);
+    if (options.wants("scenarios")) measurePrediction(options);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "governor_bench: %s\n", error.what());
     return 1;

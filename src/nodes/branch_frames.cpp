@@ -8,6 +8,11 @@
 #include "vegetation_sim/ros/forest_conversions.h"
 
 namespace vegetation_sim {
+namespace {
+
+constexpr double IN_HAND = 1e6;  // what a frame of a held branch counts: before all others [m]
+
+}  // namespace
 
 void BranchFrames::set(std::uint32_t tree, std::vector<std::uint32_t> branches, std::size_t count,
                        bool enable) {
@@ -39,21 +44,74 @@ std::size_t BranchFrames::count() const {
   return out;
 }
 
-BranchFrames::Wanted BranchFrames::withPhysical(
-    const forest::Forest& forest, const std::vector<forest::BranchPoint>& held) const {
-  std::map<std::uint32_t, std::set<std::uint32_t>> chosen;
-  for (const auto& [tree, branches] : wanted_)
-    chosen[tree].insert(branches.begin(), branches.end());
-  std::size_t room = budget_ - count();
-  const auto add = [&](std::uint32_t tree, int branch) {
-    if (room > 0 && chosen[tree].insert(static_cast<std::uint32_t>(branch)).second) --room;
+bool BranchFrames::isWanted(const Key& key) const {
+  const auto found = wanted_.find(key.first);
+  return found != wanted_.end() &&
+         std::binary_search(found->second.begin(), found->second.end(), key.second);
+}
+
+/// Branches that may have a frame, and what lacks without.
+struct BranchFrames::Offered {
+  std::vector<Key> keys;
+  std::vector<Choice> choices;
+};
+
+BranchFrames::Offered BranchFrames::offer(const forest::Forest& forest, forest::TreeCache& cache,
+                                          const std::vector<forest::BranchPoint>& held,
+                                          Nanoseconds stamp) const {
+  Offered out;
+  const bool fits = sent_.size() <= room();  // else somebody has asked for frames meanwhile
+  const auto add = [&](const Key& key, double error) {
+    if (isWanted(key)) return;
+    const auto known = sent_.find(key);
+    Choice choice;
+    choice.stair = choice.wanted = 1;
+    choice.held = known != sent_.end() ? 1 : 0;
+    choice.resting = fits && choice.held == 1 && secondsBetween(known->second, stamp) < RUNG_REST;
+    choice.error[0] = static_cast<float>(error);
+    choice.cost[1] = 1.F;
+    out.keys.push_back(key);
+    out.choices.push_back(choice);
   };
-  for (const forest::BranchPoint& point : held) add(point.tree, point.branch);
-  for (const std::uint32_t tree : forest.physicalTrees())
-    for (const forest::PromotedBranch& branch : forest.promoted(tree).branches)
-      add(tree, branch.branch);
+  std::set<Key> in_hand;
+  for (const forest::BranchPoint& point : held)
+    if (in_hand.insert({point.tree, static_cast<std::uint32_t>(point.branch)}).second)
+      add({point.tree, static_cast<std::uint32_t>(point.branch)}, IN_HAND);
+  for (const std::uint32_t tree : forest.physicalTrees()) {
+    const auto grown = cache.get(forest.layout(), forest.terrain(), tree);
+    const std::vector<Pose> poses = posesOf(forest, grown->tree, tree, stamp);
+    for (const forest::PromotedBranch& branch : forest.promoted(tree).branches) {
+      const auto index = static_cast<std::size_t>(branch.branch);
+      const Key key(tree, static_cast<std::uint32_t>(branch.branch));
+      if (index >= poses.size() || in_hand.count(key)) continue;
+      const forest::Branch& own = grown->tree.skeleton.branches[index];
+      add(key, length(tipOf(own, poses[index]) - tipOf(own, own.rest)));
+    }
+  }
+  return out;
+}
+
+BranchFrames::Wanted BranchFrames::withPhysical(const forest::Forest& forest,
+                                                forest::TreeCache& cache,
+                                                const std::vector<forest::BranchPoint>& held,
+                                                Nanoseconds stamp) {
+  if (stamp < stamp_) sent_.clear();
+  stamp_ = stamp;
+  Offered offered = offer(forest, cache, held, stamp);
+  balance_ = govern(offered.choices, static_cast<double>(room()), 0.0);
+  std::map<Key, Nanoseconds> now;
+  std::set<Key> all;
+  for (const auto& [tree, branches] : wanted_)
+    for (const std::uint32_t branch : branches) all.insert({tree, branch});
+  for (std::size_t i = 0; i < offered.keys.size(); ++i) {
+    if (offered.choices[i].chosen == 0) continue;
+    const auto known = sent_.find(offered.keys[i]);
+    now[offered.keys[i]] = known != sent_.end() ? known->second : stamp;
+    all.insert(offered.keys[i]);
+  }
+  sent_ = std::move(now);
   Wanted out;
-  for (const auto& [tree, branches] : chosen) out[tree].assign(branches.begin(), branches.end());
+  for (const auto& [tree, branch] : all) out[tree].push_back(branch);
   return out;
 }
 

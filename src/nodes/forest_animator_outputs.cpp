@@ -10,7 +10,9 @@ void ForestAnimator::sendFrames(const ros::TimerEvent&) {
   if (!clock_.hasBegun() || last_framed_ == clock_.tick()) return;
   last_framed_ = clock_.tick();
   const BranchFrames::Wanted wanted =
-      options_.tf_promoted ? frames_.withPhysical(*forest_, desk_->heldPoints()) : frames_.wanted();
+      options_.tf_promoted
+          ? frames_.withPhysical(*forest_, cache_, desk_->heldPoints(), forest_->memory().stamp)
+          : frames_.wanted();
   frames_sent_ = 0;
   for (const auto& entry : wanted) frames_sent_ += entry.second.size();
   if (frames_sent_ > 0)
@@ -107,6 +109,8 @@ void ForestAnimator::diagnoseGovernor(diagnostic_updater::DiagnosticStatusWrappe
     status.add("Moving trees of level " + std::to_string(rung), figures.counts[rung]);
   status.add("tf frames", frames_sent_);
   status.add("tf budget [frames]", frames_.budget());
+  status.add("Branches that tf_budget leaves without a frame", frames_.balance().held_back);
+  status.add("Farthest of these from its rest [m]", frames_.balance().largest);
   status.add("Marker points", markers_.points());
   status.add("Marker budget [points]", markers_.budget());
   status.add("Trees in modes", forest_->memory().modes.sways().size());

@@ -19,6 +19,7 @@ GrassField::GrassField(ros::NodeHandle handle, ros::NodeHandle private_handle)
       tuning_(options_.tuning),
       inputs_(options_.replay),
       markers_(options_.marker_points),
+      key_frames_(options_.key_frame_period, options_.state_rate, options_.state_bytes),
       tf_listener_(tf_buffer_),
       clock_("grass_field", options_.state_rate, options_.replay ? options_.replay_delay : 0.0,
              {[this] { lookFromFrame(); }, [this](std::int64_t tick) { this->tick(tick); },
@@ -36,8 +37,7 @@ GrassField::GrassField(ros::NodeHandle handle, ros::NodeHandle private_handle)
   layout_publisher_ = handle_.advertise<GrassLayout>("grass/layout", 1, true);
   // A listener gets a key frame at the next tick.
   state_publisher_ = handle_.advertise<GrassState>(
-      "grass/state", 1000,
-      [this](const ros::SingleSubscriberPublisher&) { force_key_frame_ = true; });
+      "grass/state", 1000, [this](const ros::SingleSubscriberPublisher&) { key_frames_.demand(); });
   markers_publisher_ = handle_.advertise<visualization_msgs::MarkerArray>("grass/markers", 1);
   events_publisher_ = handle_.advertise<GrassEvent>("grass/events", 10000);
   wrenches_publisher_ = handle_.advertise<geometry_msgs::WrenchStamped>("grass/wrenches", 1000);
@@ -106,7 +106,7 @@ void GrassField::apply(const GrassEvent& event) {
     }
     case GrassEvent::CLEAR:
       field_->raise({event.centre.x, event.centre.y}, event.radius);
-      force_key_frame_ = true;
+      key_frames_.demand();
       break;
     case GrassEvent::SETTINGS:
       adoptTuning(fromNamedValues<GrassTuning>({event.names, event.values}));
@@ -130,7 +130,7 @@ void GrassField::adoptTuning(GrassTuning tuning) {
   const std::uint64_t before = field_->layout().hash();
   field_->setTreadLaw(tuning.tread);
   if (field_->layout().hash() == before) return;
-  force_key_frame_ = true;
+  key_frames_.demand();
   publishLayout();
 }
 
@@ -138,7 +138,7 @@ void GrassField::adoptTuning(GrassTuning tuning) {
 void GrassField::startAnew() {
   field_->reset();
   sources_->clear();
-  force_key_frame_ = true;
+  key_frames_.demand();
 }
 
 void GrassField::restart(Nanoseconds now) {

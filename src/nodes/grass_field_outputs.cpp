@@ -26,12 +26,11 @@ void GrassField::publishEntering(Nanoseconds stamp) {
 }
 
 void GrassField::publishState(std::int64_t tick) {
-  const auto period = static_cast<std::int64_t>(options_.key_frame_period * options_.state_rate);
-  const bool key_frame = force_key_frame_ || tick % std::max<std::int64_t>(1, period) == 0;
-  force_key_frame_ = false;
+  const bool key_frame = key_frames_.isDue(tick);
   GrassState message = toMsg(field_->update(key_frame));
   message.header.frame_id = options_.frame_id;
   const std::uint64_t bytes = ros::serialization::serializationLength(message);
+  if (key_frame) key_frames_.sent(bytes);
   counts_.state_bytes += bytes;
   counts_.largest_state = std::max(counts_.largest_state, bytes);
   state_publisher_.publish(message);
@@ -124,7 +123,7 @@ void GrassField::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   status.add("Viewers", watchers_.size());
 }
 
-// Of the markers; what is trodden is the same on every rung.
+// Of the markers, whose rungs all have the same trodden ground, and of complete states.
 void GrassField::diagnoseGovernor(diagnostic_updater::DiagnosticStatusWrapper& status) {
   tell(meadow_->balance(),
        {"Tiles",
@@ -136,6 +135,12 @@ void GrassField::diagnoseGovernor(diagnostic_updater::DiagnosticStatusWrapper& s
        status);
   status.add("Marker points", markers_.points());
   status.add("Marker budget [points]", markers_.budget());
+  const Balance& states = key_frames_.balance();
+  if (states.held_back > 0) status.summary(status.level, status.message + "; state_bytes binds");
+  status.add("Complete states every [s]", key_frames_.period());
+  status.add("Complete states [B/s]", states.cost);
+  status.add("Complete states that key_frame_period asks for [B/s]", states.wanted);
+  status.add("State budget [B/s]", key_frames_.budget());
 }
 
 }  // namespace vegetation_sim

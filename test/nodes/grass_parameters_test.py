@@ -18,8 +18,8 @@ NUMBERS = {
     'tolerance': (' pixel', 0.1, 100), 'transition': (' s', 0, 60), 'farthest': (' m', 1, 1e4),
 }
 WHOLE_NUMBERS = {
-    'state_rate': (' Hz', 1, 240), 'marker_points': ('', 900, 3000000),
-    'viewer_height': (' pixel', 1, 100000),
+    'state_rate': (' Hz', 1, 240), 'state_bytes': (' B/s', 1000, 1000000000),
+    'marker_points': ('', 900, 3000000), 'viewer_height': (' pixel', 1, 100000),
 }
 OTHERS = {'scenario', 'frame_id', 'viewer_frame', 'replay', 'cover_layer', 'sources'}
 

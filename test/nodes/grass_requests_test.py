@@ -46,6 +46,8 @@ class GrassRequests(unittest.TestCase):
         self.assertGreater(values['Tiles that the budget holds back'], 0)
         self.assertGreater(values['Tiles: of blades'], 0)
         self.assertLessEqual(values['Marker points'], values['Marker budget [points]'])
+        self.assertEqual(values['Complete states every [s]'], 2.0)
+        self.assertGreater(values['Complete states [B/s]'], 0)
 
     def call(self, service, **request):
         answer = service(**request)

@@ -26,6 +26,7 @@
 #include "vegetation_sim/nodes/grass_markers.h"
 #include "vegetation_sim/nodes/grass_options.h"
 #include "vegetation_sim/nodes/grass_sources.h"
+#include "vegetation_sim/nodes/key_frames.h"
 #include "vegetation_sim/nodes/watchers.h"
 #include "vegetation_sim/ros/tick_clock.h"
 
@@ -88,9 +89,9 @@ class GrassField {
   std::unique_ptr<grass::Field> field_;
   wind::Field wind_;
   GrassMarkers markers_;
+  KeyFrames key_frames_;
   Watchers watchers_;
 
-  bool force_key_frame_{true};
   std::uint64_t paths_{0};                 // trodden by service, for the names of their sources
   std::optional<GrassFieldConfig> shown_;  // what the server was told or took last
   struct Counts {

@@ -45,6 +45,7 @@ struct GrassOptions {
   std::string frame_id{"map"};       ///< world frame
   int state_rate{30};                ///< ticks [Hz]
   double key_frame_period{2.0};      ///< [s]
+  int state_bytes{5000000};          ///< of key frames, a second: larger ones come less often [B/s]
   double markers_rate{10.0};         ///< [Hz]
   int marker_points{90000};          ///< of the three lists together
   double cover_rate{2.0};            ///< [Hz]
