@@ -144,15 +144,14 @@ bool ContactStepper::revise(const ContactLaw& law, double h, bool one_by_one,
     contacts[c].limited = force >= p.limit;
     Mode mode = p.mode;
     // Step by step along the law: a leap over a piece of it may be answered by a leap back.
-    const bool held = p.mode == Mode::PRESSING || p.mode == Mode::EASING;
-    if (held && lineOf(law, h, p, p.mode).at(speed) > force + SLACK)
+    const bool pressed = p.mode == Mode::PRESSING || p.mode == Mode::EASING;
+    const double other = p.mode == Mode::FREE ? force : p.limit - force;
+    if ((pressed ? lineOf(law, h, p, p.mode).at(speed) - force : other) > SLACK)
       mode = bearing;
-    else if (held && force < -SLACK)
+    else if (pressed && force < -SLACK)
       mode = Mode::FREE;
-    else if (held && force > p.limit + SLACK)
+    else if (pressed && force > p.limit + SLACK)
       mode = Mode::LIMITED;
-    else if (p.mode == Mode::FREE ? force > SLACK : !held && force < p.limit - SLACK)
-      mode = bearing;
     if (mode == p.mode || (one_by_one && !settled)) continue;
     p.mode = mode;
     settled = false;
