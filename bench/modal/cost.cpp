@@ -44,7 +44,7 @@ class Posing {
     const auto stepper = std::make_shared<physics::ModalStepper>(modal->modes());
     state_ = stepper->atRest();
     add("wind and step", [this, modal, stepper] {
-      modal->loadOf(air_, sampler_, load_);
+      modal->loadOf(air_, kept_, load_);
       stepper->step(load_, load_, 1.0 / 60.0, state_);
     });
   }
@@ -73,7 +73,7 @@ class Posing {
   forest::BatchPoser poser_{tree_};
   forest::BatchPoses poses_;
   forest::BatchBends bends_;
-  forest::AirSampler sampler_;
+  forest::ModalAir kept_;
   physics::ModalState state_;
   std::vector<double> load_;
   std::vector<Candidate> candidates_;
@@ -134,7 +134,7 @@ void measureFinding(const TestTree& tree, int rounds) {
 void measurePosing(int rounds) {
   Posing posing;
   posing.addRivals();
-  for (const forest::ModalDepth depth : {forest::ModalDepth{5, 0, 0}, {4, 5, 1}, {20, 0, 0}})
+  for (const forest::ModalDepth depth : {forest::ModalDepth{5, 0, 0, false}, {}, {20, 0, 0, false}})
     posing.addModes(depth);
   posing.addWind();
   posing.print(rounds);

@@ -8,9 +8,17 @@ namespace vegetation_sim::bench {
 namespace {
 
 physics::Modes findModes(const TestTree& tree, const TestLoad& load, int modes, int vectors) {
-  physics::LinearChain chain(coreLinks(tree));
+  constexpr double FRAME = 1.0 / 60.0;
+  const std::vector<physics::Link> links = coreLinks(tree);
+  physics::LinearChain chain(links);
   physics::Modes out = physics::slowestModes(chain, modes);
-  if (vectors > 0) physics::addLoadVectors(chain, {{torquesOf(chain, load), vectors}}, out);
+  physics::LoadShape shape{torquesOf(chain, load), vectors};
+  if (vectors >= 5) {
+    const double part = load.links.size() > 1 ? 0.5 : 0.25;
+    shape.quick = physics::quickAnswer(links, shape.torque, part * FRAME);
+    --shape.depth;
+  }
+  if (vectors > 0) physics::addLoadVectors(chain, {shape}, out);
   return out;
 }
 

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which rung each tree of a forest has.
 #include <algorithm>
+#include <cmath>
 
+#include "forest/modal_error.h"
 #include "vegetation_sim/forest/forest.h"
 #include "vegetation_sim/forest/lag.h"
 
@@ -13,7 +15,7 @@ namespace {
 // shows so much of that. Measured: forest_test, PredictedErrorIsTheMeasuredOne.
 constexpr double SEEN = 0.57;
 // What a tree in modes takes of a key frame; key frames come once a second [B/s].
-constexpr int MODAL_BYTES = 300;
+constexpr int MODAL_BYTES = 400;
 // More are not kept room for: few scenes have as many near trees.
 constexpr std::size_t MANY_PLANTS = 20000;
 
@@ -109,22 +111,22 @@ void Forest::predict(const TreeSeed& seed, const LevelTable& table, double view,
   plant.stair = plant.wanted = std::min(
       chooseLevel(table, speed, view, settings.tolerance, plant.held), settings.highest_level);
   Lag lag;
-  if (haveModes() && plant.stair > 0) {
-    const double gust = now_.gustBound(foot, 0.5 * table.reach);
+  const double gust = now_.gustBound(foot, 0.5 * table.reach);
+  if (haveModes() && plant.stair > 0 && gust > 0.0) {
     lag = tables_[seed.species].lagAt(species, layout_.motion, seed.scale);
-    lag.distance *= (air > 0.0 ? gust / air : 0.0) * speed * view / SEEN;  // [pixel]
+    lag.distance *= gust / air * speed * view / SEEN;  // [pixel]
     lag.turn *= speed;
   }
   const bool has = plant.held == MODAL_LEVEL;
   if (lag.distance > (has ? HYSTERESIS : 1.0) * settings.tolerance) plant.wanted = MODAL_LEVEL;
-  const double motion = speed * view * table.omitted[0];
+  const double bent = BENT_SHARE * lag.turn * speed * view * table.omitted[0];
+  const auto with = [bent](double off) { return std::sqrt(off * off + bent * bent); };
   for (std::size_t rung = 0; rung < table.omitted.size(); ++rung) {
     const double omitted = speed * view * table.omitted[rung];
-    plant.error[rung] = static_cast<float>(std::max(omitted, lag.distance));
+    plant.error[rung] = static_cast<float>(std::max(omitted, with(lag.distance)));
     plant.cost[rung] = static_cast<float>(1e-6 * budget.procedural_cost * table.branches[rung]);
   }
-  const double off = MODAL_SHARE * lag.distance + MODAL_BENT * lag.turn * motion;
-  plant.error[MODAL_LEVEL] = static_cast<float>(off);
+  plant.error[MODAL_LEVEL] = static_cast<float>(with(MODAL_SHARE * lag.distance));
   plant.cost[MODAL_LEVEL] = static_cast<float>(1e-6 * budget.modal_cost * table.branches.back());
 }
 

@@ -30,7 +30,7 @@ void ForestModes::advance(const wind::Field& wind, Nanoseconds from, Nanoseconds
             instants_[i]);
   loads_.resize(steps + 1);
   for (auto& [tree, sway] : sways_) {
-    for (std::size_t i = 0; i <= steps; ++i) sway.modes().loadOf(instants_[i], air_, loads_[i]);
+    for (std::size_t i = 0; i <= steps; ++i) sway.loadOf(instants_[i], loads_[i]);
     sway.step(loads_, to);
   }
 }
@@ -48,7 +48,7 @@ void ForestModes::start(const wind::Field& wind, Sway& sway, Nanoseconds stamp) 
   WindWindow window;
   window.lookAt(wind, stamp);
   for (std::size_t look = 0; look < loads.size(); ++look)
-    sway.modes().loadOf(window.looks()[look], air_, loads[look]);
+    sway.loadOf(window.looks()[look], loads[look]);
   sway.begin(loads, secondsBetween(0, LOOK), stamp);
 }
 
@@ -60,7 +60,7 @@ void ForestModes::restore(const Grounds& at, std::uint32_t tree, const physics::
                           Nanoseconds stamp) {
   Sway& sway = take(at, tree);
   std::vector<double> load;
-  sway.modes().loadOf(at.wind.at(stamp), air_, load);
+  sway.loadOf(at.wind.at(stamp), load);
   sway.restore(state, load, stamp);
 }
 

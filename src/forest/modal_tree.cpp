@@ -6,14 +6,17 @@
 #include <cmath>
 #include <numeric>
 
+#include "forest/modal_load.h"
 #include "vegetation_sim/common/faults.h"
 #include "vegetation_sim/common/math.h"
 #include "vegetation_sim/forest/wood.h"
+#include "vegetation_sim/wind/laws.h"
 
 namespace vegetation_sim::forest {
 namespace {
 
-constexpr int HALVINGS = 5;  // of the crown, to 16 points
+constexpr int COARSE = 5, FINE = 8;     // halvings of the crown: 32 points and 256
+constexpr double AT_ONCE = 0.5 / 60.0;  // of quick vectors: half a frame [s]
 
 /// What the air holds on to: drag and its centre, per branch with leaves or wood.
 struct Sail {
@@ -77,25 +80,61 @@ std::vector<double> uniformLoad(const physics::LinearChain& chain, const std::ve
   return chain.torquesOf(wrenches);
 }
 
-std::vector<WindPoint> pointsOf(std::vector<Sail> sails,
-                                const std::vector<std::vector<physics::SmallMotion>>& motions) {
-  std::vector<std::pair<Range, Range>> parts;
-  divide(sails.begin(), sails.end(), HALVINGS, parts);
-  std::vector<WindPoint> out;
-  for (const auto& [begin, end] : parts) {
-    WindPoint point;
-    point.push.assign(motions.size(), Vec3::Zero());
-    for (Range sail = begin; sail != end; ++sail) {
-      point.drag += sail->drag;
-      point.position += sail->drag * sail->centre;
-      for (std::size_t m = 0; m < motions.size(); ++m) {
-        const physics::SmallMotion& motion = motions[m][sail->branch];
-        point.push[m] += sail->drag * (motion.move + cross(motion.turn, sail->arm));
-      }
-    }
-    point.position /= point.drag;
-    out.push_back(std::move(point));
+WindPoint pointOf(Range begin, Range end) {
+  WindPoint out;
+  for (Range sail = begin; sail != end; ++sail) {
+    out.drag += sail->drag;
+    out.position += sail->drag * sail->centre;
   }
+  out.position /= out.drag;
+  return out;
+}
+
+// How far the centre of a sail goes per amplitude.
+Vec3 wayOf(const Sail& sail, const std::vector<physics::SmallMotion>& motion) {
+  const physics::SmallMotion& link = motion[sail.branch];
+  return link.move + cross(link.turn, sail.arm);
+}
+
+using Motions = std::vector<std::vector<physics::SmallMotion>>;  // [modes][links]
+
+// [3][row] modal loads per velocity of the air on a range.
+void appendPush(Range begin, Range end, const Motions& motions, std::vector<double>& out) {
+  const std::size_t row = modalRow(motions.size());
+  const std::size_t start = out.size();
+  out.resize(start + 3 * row, 0.0);
+  for (std::size_t m = 0; m < motions.size(); ++m) {
+    Vec3 sum = Vec3::Zero();
+    for (Range sail = begin; sail != end; ++sail) sum += sail->drag * wayOf(*sail, motions[m]);
+    for (int axis = 0; axis < 3; ++axis)
+      out[start + static_cast<std::size_t>(axis) * row + m] = sum[axis];
+  }
+}
+
+WindPoints pointsOf(std::vector<Sail>& sails, const Motions& motions, int halvings) {
+  std::vector<std::pair<Range, Range>> parts;
+  divide(sails.begin(), sails.end(), halvings, parts);
+  WindPoints out;
+  for (const auto& [begin, end] : parts) {
+    out.at.push_back(pointOf(begin, end));
+    appendPush(begin, end, motions, out.push);
+  }
+  return out;
+}
+
+physics::Modes modesIn(const std::vector<physics::Link>& links, physics::LinearChain& chain,
+                       const std::vector<Sail>& sails, ModalDepth depth) {
+  const auto shapeOf = [&](const Vec3& direction, int vectors, bool quick) {
+    physics::LoadShape out{uniformLoad(chain, sails, direction), vectors};
+    if (quick) out.quick = physics::quickAnswer(links, out.torque, AT_ONCE);
+    return out;
+  };
+  physics::Modes out = physics::slowestModes(chain, depth.modes);
+  physics::addLoadVectors(chain,
+                          {shapeOf(Vec3::UnitX(), depth.sideways, depth.quick),
+                           shapeOf(Vec3::UnitY(), depth.sideways, depth.quick),
+                           shapeOf(Vec3::UnitZ(), depth.upwards, false)},
+                          out);
   return out;
 }
 
@@ -126,43 +165,94 @@ ModalTree::ModalTree(const Tree& tree, const Species& species, ModalDepth depth)
     : foot_(tree.foot), drag_(tree.drag), reference_speed_(tree.reference_speed) {
   if (tree.joint_model != JointModel::SWING)
     throw InvalidInput("modes: joint_model = paper has none; allowed: swing");
-  physics::LinearChain chain(chainOf(tree.skeleton, species));
-  const std::vector<Sail> sails =
-      sailsOf(tree.skeleton, woodOf(tree.skeleton, species, Material::BEAM));
-  modes_ = physics::slowestModes(chain, depth.modes);
-  physics::addLoadVectors(chain,
-                          {{uniformLoad(chain, sails, Vec3::UnitX()), depth.sideways},
-                           {uniformLoad(chain, sails, Vec3::UnitY()), depth.sideways},
-                           {uniformLoad(chain, sails, Vec3::UnitZ()), depth.upwards}},
-                          modes_);
-  std::vector<std::vector<physics::SmallMotion>> motions(size());
+  const std::vector<physics::Link> links = chainOf(tree.skeleton, species);
+  physics::LinearChain chain(links);
+  std::vector<Sail> sails = sailsOf(tree.skeleton, woodOf(tree.skeleton, species, Material::BEAM));
+  modes_ = modesIn(links, chain, sails, depth);
+  Motions motions(size());
   for (std::size_t m = 0; m < size(); ++m) {
     chain.motionOf(modes_.shapeOf(m), motions[m]);
     for (const Sail& sail : sails) {  // the air that is at rest holds back what moves in it
-      const physics::SmallMotion& motion = motions[m][sail.branch];
-      const Vec3 way = motion.move + cross(motion.turn, sail.arm);
+      const Vec3 way = wayOf(sail, motions[m]);
       modes_.damping[m] += sail.drag * dot(way, way);
     }
   }
   probe_ = physics::RotationProbe(chain, modes_);
-  points_ = pointsOf(sails, motions);
+  coarse_ = pointsOf(sails, motions, COARSE);
+  fine_ = pointsOf(sails, motions, FINE);
+  appendPush(sails.begin(), sails.end(), motions, uniform_);
   stiffness_ = chain.stiffness();
 }
 
 std::size_t ModalTree::bytes() const {
-  return sizeof(*this) + modes_.bytes() + sizeof(double) * stiffness_.size() +
-         sizeof(Vec3) * (probe_.turn.size() + points_.size() * (1 + size()));
+  std::size_t numbers = stiffness_.size() + uniform_.size();
+  for (const WindPoints* points : {&coarse_, &fine_})
+    numbers += points->push.size() + 4 * points->at.size();
+  return sizeof(*this) + modes_.bytes() + sizeof(double) * numbers +
+         sizeof(Vec3) * probe_.turn.size();
 }
 
-void ModalTree::loadOf(const wind::Instant& wind, AirSampler& air, std::vector<double>& out) const {
-  air.clear();
-  for (const WindPoint& point : points_) air.add(foot_ + point.position);
-  air.sample(wind);
-  out.assign(size(), 0.0);
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    const Vec3 v = effectiveVelocity(air.velocity(i), drag_, reference_speed_);
-    for (std::size_t m = 0; m < size(); ++m) out[m] += dot(points_[i].push[m], v);
+// A wave a cos(2 pi (k . x + phase)) is what its cosine at rest does times cos(2 pi phase), less
+// what its sine does times the other.
+void ModalTree::lookAtWaves(const wind::Instant& wind, ModalAir& air) const {
+  const auto same = [](const Vec3& wave, const wind::Mode& mode) { return wave == mode.wave; };
+  if (air.waves.size() == wind.modes.size() &&
+      std::equal(air.waves.begin(), air.waves.end(), wind.modes.begin(), same))
+    return;
+  const std::size_t row = modalRow(size());
+  air.waves.clear();
+  air.push.assign(6 * row * wind.modes.size(), 0.0);
+  double* out = air.push.data();
+  for (const wind::Mode& mode : wind.modes) {
+    air.waves.push_back(mode.wave);
+    for (std::size_t i = 0; i < fine_.at.size(); ++i) {
+      const SinCos turn = sinCosTurns(dot(mode.wave, foot_ + fine_.at[i].position));
+      const double* push = fine_.push.data() + 3 * row * i;
+      for (std::size_t k = 0; k < 3 * row; ++k) {
+        out[k] += turn.cos * push[k];
+        out[3 * row + k] += turn.sin * push[k];
+      }
+    }
+    out += 6 * row;
   }
+}
+
+void ModalTree::loadOf(const wind::Instant& wind, ModalAir& air, std::vector<double>& out) const {
+  const std::size_t row = modalRow(size());
+  std::vector<Vec3>& velocities = air.velocities;
+  out.assign(row, 0.0);
+  if (drag_ == Drag::LINEAR) {
+    lookAtWaves(wind, air);
+    velocities.clear();
+    for (const wind::Mode& mode : wind.modes) {
+      const SinCos turn = sinCosTurns(mode.phase);
+      velocities.push_back(turn.cos * mode.amplitude);
+      velocities.push_back(-turn.sin * mode.amplitude);
+    }
+    addPushes(uniform_.data(), row, &wind.mean, 1, out.data());
+    addPushes(air.push.data(), row, velocities.data(), velocities.size(), out.data());
+  }
+  if (drag_ != Drag::LINEAR || !wind.terms.empty()) {
+    velocitiesAt(wind, air);
+    addPushes(coarse_.push.data(), row, velocities.data(), velocities.size(), out.data());
+  }
+  out.resize(size());
+}
+
+// At the coarse points, of all that waves do not tell.
+void ModalTree::velocitiesAt(const wind::Instant& wind, ModalAir& air) const {
+  air.velocities.assign(coarse_.at.size(), Vec3::Zero());
+  if (drag_ == Drag::LINEAR) {
+    for (std::size_t i = 0; i < coarse_.at.size(); ++i)
+      for (const wind::Term& term : wind.terms)
+        air.velocities[i] += wind::velocityOf(term, foot_ + coarse_.at[i].position);
+    return;
+  }
+  air.sampler.clear();
+  for (const WindPoint& point : coarse_.at) air.sampler.add(foot_ + point.position);
+  air.sampler.sample(wind);
+  for (std::size_t i = 0; i < coarse_.at.size(); ++i)
+    air.velocities[i] = effectiveVelocity(air.sampler.velocity(i), drag_, reference_speed_);
 }
 
 std::vector<JointAngles> ModalTree::bendsOf(const std::vector<double>& amplitude) const {

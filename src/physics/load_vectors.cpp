@@ -5,6 +5,7 @@
 
 #include "physics/symmetric_eigen.h"
 #include "physics/vector_sums.h"
+#include "vegetation_sim/physics/articulated.h"
 #include "vegetation_sim/physics/modes.h"
 
 namespace vegetation_sim::physics {
@@ -64,6 +65,25 @@ SymmetricEigen oscillators(const LinearChain& chain, const Basis& basis) {
 
 }  // namespace
 
+// As a step of backward Euler foresees it.
+std::vector<double> quickAnswer(const std::vector<Link>& links, const std::vector<double>& torque,
+                                double h) {
+  const std::vector<Vec2> none(links.size(), Vec2::Zero());
+  const ChainState rest{none, none};
+  Kinematics kinematics;
+  kinematicsOf(links, {}, rest, kinematics);
+  Loads loads;
+  loads.clear(links.size());
+  for (std::size_t i = 0; i < links.size(); ++i)
+    loads.joint_torque[i] = Vec2(torque[2 * i], torque[2 * i + 1]);
+  std::vector<Vec2> acceleration;
+  ArticulatedBody().accelerations(links, {}, rest, kinematics, loads, {h * h, h, 0.0, 0.0},
+                                  acceleration);
+  std::vector<double> out;
+  for (const Vec2& a : acceleration) out.insert(out.end(), {a.x(), a.y()});
+  return out;
+}
+
 void addLoadVectors(LinearChain& chain, const std::vector<LoadShape>& loads, Modes& modes) {
   const std::size_t length = modes.length;
   Basis basis(chain, modes);
@@ -74,6 +94,9 @@ void addLoadVectors(LinearChain& chain, const std::vector<LoadShape>& loads, Mod
       for (std::size_t k = 0; k < length; ++k) x[k] = force[k] / chain.stiffness()[k];
       if (!basis.add(x, force)) break;  // the next one answers to its inertia
     }
+    if (load.quick.empty()) continue;
+    x = load.quick;
+    basis.add(x, force);
   }
   const SymmetricEigen ritz = oscillators(chain, basis);
   for (std::size_t i = basis.added(); i-- > 0;) {

@@ -121,6 +121,23 @@ TEST(Governor, ToleranceIsHeldWhereTheBudgetAllowsIt) {
   EXPECT_EQ(park.forest.governor().over, 0u);
 }
 
+// N13: a worse rung is never taken over a better one, in no storm, though it costs more.
+TEST(Governor, ModesAreNeverPredictedWorseThanWhatTheyReplace) {
+  for (const double speed : {2.0, 5.0, 15.0, 40.0, 90.0}) {
+    Park park(4, 1000.0);
+    park.forest.setWind(wind::Field({makeBreeze(1, Vec3(speed, 1, 0))}, 3));
+    for (int i = 0; i < 30; ++i) park.advance();
+    std::size_t modal = 0;
+    for (const Plant& plant : park.forest.plants()) {
+      if (plant.chosen != MODAL_LEVEL) continue;
+      ++modal;
+      for (int rung = 0; rung < MODAL_LEVEL; ++rung)
+        EXPECT_LE(plant.error[MODAL_LEVEL], plant.error[static_cast<std::size_t>(rung)]) << speed;
+    }
+    EXPECT_GT(modal, 0u) << speed;
+  }
+}
+
 // N7: a robot near by is told of trees in metres, whoever looks.
 TEST(Governor, ARobotNearByWantsItsTreesExact) {
   Park park(4, 8.0);

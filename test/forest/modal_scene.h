@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -36,9 +37,12 @@ inline std::vector<Vec3> tipsOf(const Tree& tree, const std::vector<JointAngles>
 class Swaying {
  public:
   Swaying(std::uint32_t id, const wind::Field& field, double duration)
-      : layout_(gridLayout(2, 12.0)),
-        tree_(groundedTree(layout_, id)),
-        species_(layout_.species[tree_.seed.species]),
+      : Swaying(groundedTree(gridLayout(2, 12.0), id), shippedSpecies(speciesNames()[id % 4]),
+                field, duration) {}
+  Swaying(Tree tree, Species species, const wind::Field& field, double duration, int steps = 8)
+      : steps_(steps),
+        tree_(std::move(tree)),
+        species_(std::move(species)),
         field_(field),
         frames_(static_cast<int>(duration * SWAY_RATE)),
         rest_(tipsOf(tree_, std::vector<JointAngles>(tree_.skeleton.branches.size()))) {
@@ -48,19 +52,27 @@ class Swaying {
   const Tree& tree() const { return tree_; }
   const Species& species() const { return species_; }
   const wind::Field& field() const { return field_; }
-  double proceduralError() const {
-    return error([&](int frame) {
+  double proceduralError() const { return procedural(0.0).relative; }
+  double modalError(ModalDepth depth = {}) const { return modal(0.0, depth).relative; }
+
+  /// Against the full chain, after `skip` seconds.
+  struct Off {
+    double relative;  ///< RMS of all tips, of their motion
+    double farthest;  ///< of any tip [m]
+  };
+  Off procedural(double skip) const {
+    return error(skip, [&](int frame) {
       return proceduralAngles(tree_, field_.at(stampOf(frame)), fullWeights());
     });
   }
-  double modalError(ModalDepth depth = {}) const {
+  Off modal(double skip, ModalDepth depth = {}) const {
     const ModalTree modal(tree_, species_, depth);
     physics::ModalStepper stepper(modal.modes());
     physics::ModalState state = stepper.atRest();
     std::vector<double> before, after;
-    AirSampler air;
+    ModalAir air;
     modal.loadOf(field_.at(SWAY_START), air, before);
-    return error([&](int frame) {
+    return error(skip, [&](int frame) {
       modal.loadOf(field_.at(stampOf(frame)), air, after);
       stepper.step(before, after, 1.0 / SWAY_RATE, state);
       before = after;
@@ -69,23 +81,26 @@ class Swaying {
   }
 
  private:
-  static constexpr int STEPS = 8;  // a frame
   Nanoseconds stampOf(int frame) const {
     return SWAY_START + fromSeconds((frame + 1.0) / SWAY_RATE);
   }
 
   template <class Bends>
-  double error(const Bends& bends) const {
-    double off = 0.0, size = 0.0;
+  Off error(double skip, const Bends& bends) const {
+    double off = 0.0, size = 0.0, farthest = 0.0;
     for (int frame = 0; frame < frames_; ++frame) {
-      const std::vector<Vec3> tips = tipsOf(tree_, bends(frame));
+      const std::vector<JointAngles> bent = bends(frame);
+      if (frame < skip * SWAY_RATE) continue;
+      const std::vector<Vec3> tips = tipsOf(tree_, bent);
       const std::vector<Vec3>& right = full_[static_cast<std::size_t>(frame)];
       for (std::size_t i = 0; i < tips.size(); ++i) {
-        off += (tips[i] - right[i]).squaredNorm();
+        const double square = (tips[i] - right[i]).squaredNorm();
+        off += square;
         size += (right[i] - rest_[i]).squaredNorm();
+        farthest = std::max(farthest, square);
       }
     }
-    return std::sqrt(off / size);
+    return {std::sqrt(off / size), std::sqrt(farthest)};
   }
 
   void runFull() {
@@ -97,29 +112,37 @@ class Swaying {
     double theta = 0.5;
     wind::Instant air;
     double looked = -1.0;
+    std::vector<Vec3> arms;
+    AirSampler sampler;
     physics::Surroundings around;
     around.loads = [&](const physics::Kinematics& k, double time, physics::Loads& loads) {
       if (time != looked) field_.at(SWAY_START + fromSeconds(looked = time), air);
+      arms.assign(links.size(), Vec3::Zero());
+      sampler.clear();
+      for (std::size_t i = 0; i < links.size(); ++i) {
+        if (wood.own[i].drag > 0.0)
+          arms[i] = rotate(k.pose[i].orientation, wood.own[i].drag_moment / wood.own[i].drag);
+        sampler.add(k.pose[i].position + arms[i]);
+      }
+      sampler.sample(air);
       for (std::size_t i = 0; i < links.size(); ++i) {
         if (wood.own[i].drag <= 0.0) continue;
-        const Vec3 centre = wood.own[i].drag_moment / wood.own[i].drag;
-        const Vec3 arm = rotate(k.pose[i].orientation, centre);
-        const Vec3 wind = air.velocity(k.pose[i].position + arm);
+        const Vec3 &arm = arms[i], wind = sampler.velocity(i);
         const Vec3 force = wood.own[i].drag * (wind - k.velocity[i] - cross(k.spin[i], arm));
         loads.wrench[i] = {force, cross(arm, force)};
       }
     };
-    const double h = 1.0 / (SWAY_RATE * STEPS);
-    for (int i = 0; i < frames_ * STEPS; ++i) {
+    const double h = 1.0 / (SWAY_RATE * steps_);
+    for (int i = 0; i < frames_ * steps_; ++i) {
       stepper.step(physics::Integrator::MIDPOINT, links, around, i * h, h, state, theta);
-      if (i % STEPS != STEPS - 1) continue;
+      if (i % steps_ != steps_ - 1) continue;
       std::vector<JointAngles> bends;
       for (const physics::Vec2& q : state.q) bends.push_back({q.x(), q.y()});
       full_.push_back(tipsOf(tree_, bends));
     }
   }
 
-  Layout layout_;
+  int steps_;  // a frame
   Tree tree_;
   Species species_;
   wind::Field field_;

@@ -59,7 +59,6 @@ class ForestModes {
   std::map<std::uint32_t, Sway> sways_;
   std::vector<wind::Instant> instants_;  // scratch from here on
   std::vector<std::vector<double>> loads_;
-  AirSampler air_;
 };
 
 }  // namespace vegetation_sim::forest

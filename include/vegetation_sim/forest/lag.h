@@ -10,16 +10,12 @@ namespace vegetation_sim::forest {
 /// off where wind comes and goes, and how far a tree turns. Measured on sample trees in a breeze;
 /// 0 where joints do not bend.
 struct Lag {
-  /// Largest distance of any tip from where its modes have it, per speed that comes and goes there
-  /// (wind::Instant::gustBound) [m per m/s]. The full chain's is 0.5 to 1.2 of it.
+  /// Largest distance of any tip of the full chain from its procedural place in some seconds, per
+  /// speed that comes and goes there (wind::Instant::gustBound) [m per m/s].
   double distance{0.0};
   /// Turns that gather along a way from the ground, per bending speed [rad per m/s].
   double turn{0.0};
 };
 Lag measureLag(const Species& species, const MotionLaw& law, double scale);
-
-/// Share of the lag that modes are off themselves, against the full chain, at the farthest tip, and
-/// share of the motion per turn [1/rad]: levers are taken at rest (docs/modal.md).
-constexpr double MODAL_SHARE = 0.7, MODAL_BENT = 0.075;
 
 }  // namespace vegetation_sim::forest

@@ -14,14 +14,30 @@ namespace vegetation_sim::forest {
 /// the vertical. In crowns wind moves many twigs alike, which no slow mode does: vectors tell more
 /// than as many modes (docs/modal.md).
 struct ModalDepth {
-  int modes{4}, sideways{5}, upwards{1};
+  int modes{8}, sideways{5}, upwards{1};
+  bool quick{true};  ///< one more for each horizontal direction: how the tree gives way at once
 };
 
 /// A point of a crown whose wind stands for that on the wood and leaves around it.
 struct WindPoint {
   Vec3 position{Vec3::Zero()};  ///< at rest, tree's frame [m]
   double drag{0.0};             ///< per air speed, of all that it stands for [kg/s]
-  std::vector<Vec3> push;       ///< [modes] modal load per air velocity [kg/s]
+};
+
+/// Points of a crown, and what the air there does: modal load per velocity [points][3][row], the
+/// modes filled up to whole vectors [kg/s].
+struct WindPoints {
+  std::vector<WindPoint> at;
+  std::vector<double> push;
+};
+
+/// What looks at the wind of one tree keep from look to look: what each wave of the breezes does to
+/// it, which changes with the wave's phase only.
+struct ModalAir {
+  AirSampler sampler;
+  std::vector<Vec3> waves;       ///< [turns/m]
+  std::vector<double> push;      ///< [waves][cosine, sine][3][row] as WindPoints::push
+  std::vector<Vec3> velocities;  ///< scratch
 };
 
 /// A tree between procedural and physical (N13): its slowest modes, what a wind from each side
@@ -35,24 +51,29 @@ class ModalTree {
   /// Load-dependent vectors follow the modes; dampers are the joints' and the air's.
   const physics::Modes& modes() const { return modes_; }
   const physics::RotationProbe& probe() const { return probe_; }
-  const std::vector<WindPoint>& windPoints() const { return points_; }
+  const std::vector<WindPoint>& windPoints() const { return coarse_.at; }
   std::size_t size() const { return modes_.size(); }
   std::size_t bytes() const;
 
-  /// Modal loads [modes] of a wind. `air`: scratch.
-  void loadOf(const wind::Instant& wind, AirSampler& air, std::vector<double>& out) const;
+  /// Modal loads [modes] of a wind. Linear drag: breezes on all of the crown, the rest at
+  /// windPoints(); quadratic: all there. `air`: of this tree only.
+  void loadOf(const wind::Instant& wind, ModalAir& air, std::vector<double>& out) const;
   /// Bends of all joints for amplitudes, or their rates for rates; not limited.
   std::vector<JointAngles> bendsOf(const std::vector<double>& amplitude) const;
   /// Amplitudes [modes] that come nearest to bends, in the energy of the springs.
   std::vector<double> amplitudesOf(const std::vector<JointAngles>& bends) const;
 
  private:
+  void lookAtWaves(const wind::Instant& wind, ModalAir& air) const;
+  void velocitiesAt(const wind::Instant& wind, ModalAir& air) const;
+
   Vec3 foot_;
   Drag drag_;
   double reference_speed_;
   physics::Modes modes_;
   physics::RotationProbe probe_;
-  std::vector<WindPoint> points_;
+  WindPoints coarse_, fine_;       // for all winds, for waves
+  std::vector<double> uniform_;    // [3][row] load per velocity of the same air everywhere [kg/s]
   std::vector<double> stiffness_;  // [branches][2]
 };
 

@@ -23,6 +23,10 @@ class Sway {
   const physics::ModalState& state() const { return state_; }  ///< at stamp()
   Nanoseconds stamp() const { return stamp_; }
 
+  /// Modal loads [modes] of a wind.
+  void loadOf(const wind::Instant& wind, std::vector<double>& out) {
+    modes_->loadOf(wind, air_, out);
+  }
   /// Starts as the procedural motion is under modal loads [modes] `step` seconds before the stamp,
   /// at it, and after.
   void begin(const std::array<std::vector<double>, 3>& loads, double step, Nanoseconds stamp);
@@ -48,6 +52,7 @@ class Sway {
   physics::ModalStepper stepper_;
   physics::ModalState state_, before_;  // at the last tick, at the one before
   std::vector<double> acceleration_;
+  ModalAir air_;  // follows from the wind
   Nanoseconds stamp_{0}, before_stamp_{0};
 };
 

@@ -8,9 +8,10 @@ from charting.tables import groups
 COLUMNS = {'load': str, 'branches': float, 'model': str, 'modes': float, 'vectors': float,
            'error': float, 'first_mm': float, 'cost_ns': float, 'find_ms': float, 'kb': float}
 LOADS = ('gust', 'pull', 'breeze, oak', 'breeze, willow')
-DEFAULT = (4.0, 5.0)  # forest::ModalDepth
+DEFAULT = (8.0, 6.0)  # forest::ModalDepth
 VECTORS = {0.0: ('modes alone', style.BLUE, 'o'), 1.0: ('and 1 vector of the load', style.RED, 's'),
-           5.0: ('and 5 vectors', style.ORANGE, '^'), 10.0: ('and 10 vectors', style.GREEN, 'D')}
+           5.0: ('and 5 vectors', style.ORANGE, '^'),
+           6.0: ('and 6 vectors', style.GREEN, 'P'), 10.0: ('and 10 vectors', style.SKY, 'D')}
 OTHERS = {'procedural': ('procedural', style.PINK, 'v'),
           'paper dynamics': ("paper's dynamics, 240 Hz", style.GREY, 'X'),
           'full chain': ('full chain, 240 Hz', style.BLACK, '*')}
@@ -53,7 +54,7 @@ def draw_rungs(axes, rungs, name, colour, marker):
     last = 1e9
     for row in rungs:
         if (row.modes, row.vectors) == DEFAULT:
-            style.ring(axes, row.cost_ns, 100.0 * row.error, 'default: 4', left=True)
+            style.ring(axes, row.cost_ns, 100.0 * row.error, 'default: 8', left=True)
         elif row.error < 0.95 * last:  # more modes that change nothing go without a number
             style.note(axes, row.cost_ns, 100.0 * row.error, '%d' % row.modes)
             last = row.error

@@ -1,0 +1,68 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/forest/lag.h"
+
+#include <gtest/gtest.h>
+
+#include "forest/modal_error.h"
+#include "forest/modal_scene.h"
+#include "vegetation_sim/forest/response.h"
+
+namespace vegetation_sim::forest {
+namespace {
+
+Tree stranger(const Species& species, const MotionLaw& law, std::uint64_t seed, double scale) {
+  Tree out;
+  out.seed.seed = seed;
+  out.seed.scale = scale;
+  out.skeleton = grow(out.seed, species);
+  out.response = windResponse(out.skeleton, species, law);
+  out.joint_model = JointModel::SWING;
+  return out;
+}
+
+/// A tree and a wind that nothing was fitted to.
+struct Strange {
+  std::uint64_t seed;
+  double scale;
+  Vec3 wind;
+};
+
+bool withinTwo(double predicted, double measured) {
+  return predicted > 0.5 * measured && predicted < 2.0 * measured;
+}
+
+// N7: what is predicted of a tree in a breeze is what the full chain shows, within a factor of two
+// for nine plants in ten, on the procedural rung and in modes. Fitted to seeds 1 to 4 at 4 and
+// 5 m/s (docs/forest.md); these are others, of other sizes, in other winds.
+TEST(Lag, OfStrangersIsPredictedWithinAFactorOfTwo) {
+  constexpr double WARM_UP = 3.0, DURATION = 7.0;  // until starts at rest are forgotten
+  const Strange strangers[] = {{101, 0.85, Vec3(1.8, -2.4, 0.0)},
+                               {202, 1.0, Vec3(-7.0, 0.5, 0.0)},
+                               {303, 1.15, Vec3(2.0, 3.0, 0.0)}};
+  const MotionLaw law = gridLayout(2, 12.0).motion;
+  int all = 0, procedural = 0, modal = 0;
+  for (const std::string& name : speciesNames()) {
+    const Species species = shippedSpecies(name);
+    LevelScales scales;
+    for (const Strange& each : strangers) {
+      const wind::Field field({makeBreeze(1, each.wind)}, each.seed);
+      const Swaying scene(stranger(species, law, each.seed, each.scale), species, field, DURATION,
+                          4);
+      const double gust = field.at(SWAY_START).gustBound(Vec3::Zero(), 0.0);
+      const double lag = gust * scales.lagAt(species, law, each.scale).distance;
+      const double off = scene.procedural(WARM_UP).farthest, left = scene.modal(WARM_UP).farthest;
+      std::printf("%-6s %.2f: %.1f mm, predicted %.1f; in modes %.1f, predicted %.1f\n",
+                  name.c_str(), each.scale, 1e3 * off, 1e3 * lag, 1e3 * left,
+                  1e3 * MODAL_SHARE * lag);
+      ++all;
+      procedural += withinTwo(lag, off);
+      modal += withinTwo(MODAL_SHARE * lag, left);
+    }
+  }
+  EXPECT_GE(procedural, 0.9 * all);
+  EXPECT_GE(modal, 0.9 * all);
+}
+
+}  // namespace
+}  // namespace vegetation_sim::forest
