@@ -30,9 +30,10 @@ def read(path):
 
 
 def slope(series, name):
-    """Least squares over the steady part [kB a time]."""
+    """Least squares over the steady part, and its standard error [kB a time]."""
     steady = series['time'] >= STEADY * series['time'][-1]
-    return 1000.0 * numpy.polyfit(series['time'][steady], series[name][steady], 1)[0]
+    line, scatter = numpy.polyfit(series['time'][steady], series[name][steady], 1, cov=True)
+    return 1000.0 * line[0], 1000.0 * numpy.sqrt(scatter[0][0])
 
 
 def draw(tables, path):
@@ -55,11 +56,12 @@ def main(folder, picture):
     grew = False
     for display, table in tables.items():
         for what, series in sorted(table.items()):
-            held, resident = slope(series, 'held'), slope(series, 'resident')
+            held, error = slope(series, 'held')
+            resident, _ = slope(series, 'resident')
             ogre = [f'{name} {series[name].min():g} to {series[name].max():g}' for name in COUNTS
                     if series[name][-1] > series[name][len(series[name]) // 4]]
-            grew |= held > MOST
-            print(f'{display}: {series["time"][-1] + 1:g} {what}, {held:+.2f} kB allocated and '
+            grew |= held - 3.0 * error > MOST
+            print(f'{display}: {2 * series["time"][-1] - series["time"][-2]:g} {what}, {held:+.2f} +- {error:.2f} kB allocated, '
                   f'{resident:+.2f} kB resident a time' + ''.join(f'; {o}' for o in ogre))
     draw(tables, Path(picture))
     return 1 if grew else 0

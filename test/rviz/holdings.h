@@ -23,6 +23,12 @@ struct Holdings {
   std::size_t textures{0}, materials{0}, meshes{0}, programs{0}, buffers{0}, nodes{0}, objects{0};
   std::size_t texture_bytes{0};
 
+  /// Without what comes and goes with levels of detail.
+  Holdings lasting() const {
+    Holdings out = *this;
+    out.buffers = out.objects = 0;
+    return out;
+  }
   bool operator==(const Holdings& other) const {
     return textures == other.textures && materials == other.materials && meshes == other.meshes &&
            programs == other.programs && buffers == other.buffers && nodes == other.nodes &&
