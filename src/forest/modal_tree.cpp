@@ -124,16 +124,16 @@ WindPoints pointsOf(std::vector<Sail>& sails, const Motions& motions, int halvin
 
 physics::Modes modesIn(const std::vector<physics::Link>& links, physics::LinearChain& chain,
                        const std::vector<Sail>& sails, ModalDepth depth) {
-  const auto shapeOf = [&](const Vec3& direction, int vectors, bool quick) {
+  const auto shape = [&](const Vec3& direction, int vectors, bool quick) {
     physics::LoadShape out{uniformLoad(chain, sails, direction), vectors};
     if (quick) out.quick = physics::quickAnswer(links, out.torque, AT_ONCE);
     return out;
   };
   physics::Modes out = physics::slowestModes(chain, depth.modes);
   physics::addLoadVectors(chain,
-                          {shapeOf(Vec3::UnitX(), depth.sideways, depth.quick),
-                           shapeOf(Vec3::UnitY(), depth.sideways, depth.quick),
-                           shapeOf(Vec3::UnitZ(), depth.upwards, false)},
+                          {shape(Vec3::UnitX(), depth.sideways, depth.quick),
+                           shape(Vec3::UnitY(), depth.sideways, depth.quick),
+                           shape(Vec3::UnitZ(), depth.upwards, false)},
                           out);
   return out;
 }
