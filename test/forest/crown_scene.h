@@ -39,8 +39,8 @@ inline std::vector<physics::Link> linksOf(const Skeleton& skeleton, const Wood& 
 
 /// What a drive through a crown showed.
 struct CrownResult {
-  double deepest_thin{
-      0.0};  ///< overlap of wood thinner than 1 cm in radius, outside its bearer [m]
+  double deepest_thin{0.0};   ///< overlap of wood thinner than 1 cm in radius [m]
+  double deepest_own{0.0};    ///< the same, of wood's surface that is not inside its bearer [m]
   double deepest_thick{0.0};  ///< of other wood [m]
   double hardest{0.0};        ///< force of one contact [N]
   double largest_rise{0.0};   ///< of the force of one contact from step to step [N]
@@ -171,8 +171,11 @@ class CrownScene {
       if (found.gap >= 0.0) continue;
       const bool thin = bar.radiusAt(found.along) < THIN;
       double& deepest = thin ? result.deepest_thin : result.deepest_thick;
-      const bool joined = thin && overlaps(b.parent, before, part, at);
-      deepest = std::max(deepest, joined ? ownDepth(i, before, part, at) : -found.gap);
+      deepest = std::max(deepest, -found.gap);
+      if (!thin) continue;
+      const bool joined = overlaps(b.parent, before, part, at);
+      const double own = joined ? ownDepth(i, before, part, at) : -found.gap;
+      result.deepest_own = std::max(result.deepest_own, own);
     }
   }
 
