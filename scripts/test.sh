@@ -53,7 +53,7 @@ lint() {
 
 sanitize() {
   say 'The core under sanitizers'
-  local folder folders=(canopy common crowd forest grass physics terrain wind)
+  local folder folders=(canopy common crowd forest grass physics scan terrain wind)
   check 'sanitizers: build' "$ROOT/scripts/build.sh" --sanitize "${folders[@]/%/_test}"
   for folder in "${folders[@]}"; do
     check "sanitizers: $folder" timeout 1500 "$BUILD/sanitize/devel/lib/vegetation_sim/${folder}_test" --gtest_brief=1
