@@ -33,15 +33,20 @@ class GrassState(unittest.TestCase):
     def run_both(self, ticks):
         self.clock.run(ticks, self.grass, self.twin)
 
-    def fresh_cover(self, log):
-        """The first map that was made after now."""
-        count = len(log.messages)
+    def fresh_covers(self, logs):
+        """The first maps that were made after now, all at once."""
         now = time_of(self.clock.tick)
+
+        def first(log):
+            return next((m for m in log.messages if m.header.stamp > now), None)
 
         def goes_on():
             self.run_both(RATE // 3)
-        log.wait(lambda all: [m for m in all[count:] if m.header.stamp > now], 'a map', goes_on)
-        return log.messages[-1]
+        for log in logs.values():
+            log.wait(lambda _, log=log: first(log), 'a map', goes_on)
+        maps = {name: first(log) for name, log in logs.items()}
+        self.assertEqual(len({m.header.stamp for m in maps.values()}), 1)
+        return maps
 
     # S2-03, S2-W2: the whole meadow, pictures and species, in one latched message.
     def test_the_layout_holds_the_meadow(self):
@@ -112,12 +117,12 @@ class GrassState(unittest.TestCase):
     # N5: cells under the path, and back to zero when the grass has risen.
     def test_the_cover_map_shows_the_track_and_forgets_it(self):
         logs = {name: Log('/grass/cover/' + name, OccupancyGrid) for name in LAYERS}
-        plain = Log('/grass/cover', OccupancyGrid)
-        for log in list(logs.values()) + [plain]:
+        logs['plain'] = Log('/grass/cover', OccupancyGrid)
+        for log in logs.values():
             wait_for(log.connected, log.topic)
         self.feet.walk(self.clock, 'c', (4.0, -10.0), (8.0, -10.0), 2 * RATE, law={'recovery': 5.0})
         self.feet.send(step('c', 0.0, 0.0, action=TreadEvent.LIFT))
-        maps = {name: self.fresh_cover(log) for name, log in logs.items()}
+        maps = self.fresh_covers(logs)
         grid = maps['crush'].info
         self.assertEqual((grid.width, grid.height, grid.resolution), (160, 160, 0.25))
         self.assertEqual((grid.origin.position.x, grid.origin.position.y), (-20.0, -20.0))
@@ -133,13 +138,13 @@ class GrassState(unittest.TestCase):
         self.assertLess(cell('resistance', 6.0, -9.9), 40)
         self.assertEqual(cell('age', 6.0, -8.0), -1)
         self.assertIn(cell('age', 6.0, -9.9), (0, 1))
-        self.assertEqual(self.fresh_cover(plain).info, grid)
-        self.assertEqual(self.fresh_cover(plain).data[:2], maps['crush'].data[:2])
+        self.assertEqual(maps['plain'].info, grid)
+        self.assertEqual(maps['plain'].data[:2], maps['crush'].data[:2])
         self.run_both(6 * RATE)
-        maps['crush'], maps['age'] = self.fresh_cover(logs['crush']), self.fresh_cover(logs['age'])
+        maps = self.fresh_covers(logs)
         self.assertEqual(cell('crush', 6.0, -9.9), 0)
         self.assertEqual(cell('age', 6.0, -9.9), -1)
-        for log in list(logs.values()) + [plain]:
+        for log in logs.values():
             log.close()
 
     # S2-08, S2-13: lists of constant size; ids stay; blades where somebody looks.
