@@ -60,9 +60,11 @@ void VegetationScanner::tick(std::int64_t tick) {
 
 void VegetationScanner::sweep(const Pose& sensor, std::int64_t tick) {
   landscape_.show(sensor.position, options_.beams.range_max, clock_.stamp(), scene_);
-  const scan::Noise noise{options_.seed, static_cast<std::uint64_t>(tick)};
+  const auto noiseOf = [&](std::uint64_t sensor) {
+    return scan::Noise{options_.seed, static_cast<std::uint64_t>(tick), sensor};
+  };
   if (cloud_publisher_.getNumSubscribers() + report_publisher_.getNumSubscribers() > 0) {
-    const auto returns = scan::sweep(scene_, options_.beams, sensor, noise, options_.threads);
+    const auto returns = scan::sweep(scene_, options_.beams, sensor, noiseOf(0), options_.threads);
     sensor_msgs::PointCloud2 cloud = toCloud(returns, options_.beams);
     ScanReport report = toReport(returns, scene_.trees);
     cloud.header = report.header = header();
@@ -73,7 +75,7 @@ void VegetationScanner::sweep(const Pose& sensor, std::int64_t tick) {
   if (scan_publisher_.getNumSubscribers() == 0) return;
   const scan::Beams plane = scan::planeOf(options_.beams);
   sensor_msgs::LaserScan scan =
-      toScan(scan::sweep(scene_, plane, sensor, noise, options_.threads), plane);
+      toScan(scan::sweep(scene_, plane, sensor, noiseOf(1), options_.threads), plane);
   scan.header = header();
   scan.scan_time = static_cast<float>(1.0 / options_.rate);
   scan_publisher_.publish(scan);

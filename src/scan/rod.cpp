@@ -78,9 +78,10 @@ bool meet(const Ray& ray, const Rod& rod, double reach, Meeting& out) {
   const double c = dot(offset, offset) - oa * oa * more - 2.0 * slope * r0 * oa - r0 * r0;
   const double square = b * b - a * c;
   out.distance = reach;
-  if (a > ALONG) {
-    if (!(square >= 0.0)) return false;  // the balls stand out of the cone by slope^2 of their size
-    const double distance = (-b - std::sqrt(square)) / a, along = oa + distance * da;
+  if (a > ALONG && !(square >= 0.0)) return false;  // balls stand out by slope^2 of their size
+  if (square >= 0.0) {
+    // Where the ray comes in, also if it is steeper than the side and never goes out of it.
+    const double distance = c / (std::sqrt(square) - b), along = oa + distance * da;
     if (along >= 0.0 && along <= rod.length) {
       const Vec3 across = ray.at(distance) - rod.base - along * rod.axis;
       improve(distance, (across / (r0 + slope * along) - slope * rod.axis) / std::sqrt(more), ray,

@@ -62,7 +62,7 @@ Beams planeOf(const Beams& beams) {
 }
 
 double unitNoise(const Noise& noise, std::uint64_t ray) {
-  const Random random = Random(noise.seed).child(noise.sweep).child(ray);
+  const Random random = Random(noise.seed).child(noise.sensor).child(noise.sweep).child(ray);
   double sum = -6.0;
   for (std::uint64_t i = 0; i < 3; ++i)  // four numbers of 16 bits each
     for (std::uint64_t bits = random.bits(i), k = 0; k < 4; ++k, bits >>= 16)

@@ -42,7 +42,7 @@ TEST(ContactInACrown, ThinWoodGoesAsideAtAnySpeed) {
     EXPECT_GE(found.touched, 5) << speed << " m/s";
     EXPECT_EQ(found.disagreed, 0) << speed << " m/s";
     // Shallow contacts: no force rises faster than the law says.
-    EXPECT_LE(found.largest_rise, 1e5 / PHYSICS_RATE + 1e-6) << speed << " m/s";
+    EXPECT_LE(found.steepest_rise, 1e5 + 1e-3) << speed << " m/s";
   }
 }
 
@@ -71,6 +71,8 @@ TEST(ContactInACrown, FeetOfTwigsAndWhippingWoodStayOut) {
   expectOut(1.0, FOOT);
   expectOut(3.0, WHIP);
   EXPECT_LT(driveAt(3.0, WHIP).deepest_thin, 0.005);
+  // The ball about a foot's end reaches back into its bearer; above the bar, no deeper than it was.
+  EXPECT_LT(driveAt(1.0, FOOT).deepest_thin, 0.0066);
   if (!SANITIZED) expectOut(0.5, FOOT);
 }
 

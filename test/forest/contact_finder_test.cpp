@@ -109,6 +109,24 @@ TEST_F(ContactFinderTest, FastTwigMeetsWhatItWouldJumpOver) {
 }
 
 // Through the axis the side is kept and the limit fades, until the twig is out and forgotten.
+// A centimetre of relative way a part; what is far away does not count, and there is an end.
+TEST_F(ContactFinderTest, StepsBesideFastWoodAreTakenInParts) {
+  const auto parts = [&](double x, double body, double twig) {
+    place(x);
+    body_.velocity = Vec3(body, 0.0, 0.0);
+    kinematics_.velocity[0] = Vec3(twig, 0.0, 0.0);
+    return finder_.partsOf(wood(), {{body_.id, body_}}, 0, STEP);
+  };
+  EXPECT_EQ(parts(-0.03, 1.0, 0.0), 1);
+  EXPECT_EQ(parts(-0.03, 2.3, 0.0), 1);
+  EXPECT_EQ(parts(-0.03, 2.5, 0.0), 2);
+  EXPECT_EQ(parts(-0.03, 0.0, -2.5), 2);
+  EXPECT_EQ(parts(-0.03, 2.5, 2.5), 1);
+  EXPECT_EQ(parts(-0.03, 6.0, 0.0), 3);
+  EXPECT_EQ(parts(-0.03, 100.0, 0.0), 4);
+  EXPECT_EQ(parts(-0.5, 6.0, 0.0), 1);
+}
+
 TEST_F(ContactFinderTest, TwigKeepsItsSideUntilItIsOverrun) {
   double last_share = 1.0;
   for (double x = -0.028; x < 0.025; x += 0.002) {

@@ -43,7 +43,7 @@ struct CrownResult {
   double deepest_own{0.0};    ///< the same, of wood's surface that is not inside its bearer [m]
   double deepest_thick{0.0};  ///< of other wood [m]
   double hardest{0.0};        ///< force of one contact [N]
-  double largest_rise{0.0};   ///< of the force of one contact from step to step [N]
+  double steepest_rise{0.0};  ///< of the force of one contact from part to part of a step [N/s]
   double largest_fall{0.0};   ///< the same, downwards [N]
   double largest_jump{0.0};   ///< of the body's whole force from step to step [N]
   double largest_force{0.0};  ///< of the body's whole force [N]
@@ -127,18 +127,18 @@ class CrownScene {
     finder_.settle(wood(), bodies, contacts, to, touches_, reactions);
     physics::kinematicsOf(links_, {}, state_, kinematics_);
     if (!result) return;
-    note(contacts, *result);
+    note(contacts, h, *result);
     for (std::size_t i = 0; i < links_.size(); ++i) look(i, before, from, to, *result);
   }
 
-  void note(const std::vector<physics::Contact>& contacts, CrownResult& result) {
+  void note(const std::vector<physics::Contact>& contacts, double h, CrownResult& result) {
     Vec3 force = Vec3::Zero();
     for (const physics::Contact& contact : contacts) {
       force -= contact.force * contact.normal;
       result.hardest = std::max(result.hardest, contact.force);
       result.limited += contact.limited;
       double& last = force_of_[contact.link];
-      result.largest_rise = std::max(result.largest_rise, contact.force - last);
+      result.steepest_rise = std::max(result.steepest_rise, (contact.force - last) / h);
       if (contact.force > 0.0) touched_[contact.link] = 1;
     }
     std::map<int, double> forces;
@@ -210,9 +210,12 @@ class CrownScene {
     const Bar bearer = barAt(parent, before, part, at, false);
     const Vec3 any = std::fabs(twig.axis.x()) < 0.5 ? Vec3::UnitX() : Vec3::UnitY();
     const Vec3 u = cross(twig.axis, any) / length(cross(twig.axis, any)), w = cross(twig.axis, u);
-    double out = 0.0;
     Vec3 normal;
-    const int rings = static_cast<int>(twig.length / 5e-4);
+    double out = 0.0;
+    const Vec3 tip = twig.at(twig.length);
+    if (!inside(bearer, tip))
+      out = twig.radiusAt(twig.length) - signedDistance(shapeOf(body_), tip, normal);
+    const int rings = std::max(1, static_cast<int>(twig.length / 5e-4));
     for (int k = 0; k <= rings; ++k) {
       const double along = twig.length * k / rings, radius = twig.radiusAt(along);
       if (signedDistance(shapeOf(body_), twig.at(along), normal) > radius) continue;

@@ -101,6 +101,7 @@ class Charts(unittest.TestCase):
             for rung in range(4):
                 self.bench_line('influence_bench', 'influence %s' % depth, rung)
             self.bench_line('influence_bench', 'depth %s' % depth, 4)
+            self.bench_line('influence_bench', 'all %s' % depth, 5)
         done = run(PROGRAM, '--only', 'grass_ladder,influence_ladder', '--out', self.out, **space)
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertIn('grass_rung_bench', done.stderr)

@@ -36,6 +36,12 @@ TEST(Rod, IsMetOnItsSideAndItsEnds) {
   EXPECT_NEAR(side.cosine, 1.0 / std::sqrt(1.0 + 0.05 * 0.05), 1e-12);
   ASSERT_TRUE(meet(Ray(Vec3(0, 0, 5), Vec3(0, 0, -1)), rod, 10.0, end));
   EXPECT_NEAR(end.distance, 2.9, 1e-12);
+  ASSERT_TRUE(meet(Ray(Vec3(0.15, 0, 5), Vec3(0, 0, -1)), rod, 10.0, side));  // past the tip
+  EXPECT_NEAR(side.distance, 4.0, 1e-12);
+  EXPECT_NEAR(side.cosine, 0.05 / std::sqrt(1.0 + 0.05 * 0.05), 1e-12);
+  const Vec3 steep = Vec3(-0.02, 0, -1).normalized();  // steeper than the side, which it meets
+  ASSERT_TRUE(meet(Ray(Vec3(0.15, 0, 1) - 4.0 * steep, steep), rod, 10.0, side));
+  EXPECT_NEAR(side.distance, 4.0, 1e-12);
   EXPECT_FALSE(meet(Ray(Vec3(-3, 0, 1), Vec3(1, 0, 0)), rod, 2.0, side));
   EXPECT_FALSE(meet(Ray(Vec3(-3, 0, 1), Vec3(-1, 0, 0)), rod, 10.0, side));
   EXPECT_FALSE(meet(Ray(Vec3(0, 0, 1), Vec3(1, 0, 0)), rod, 10.0, side));  // from inside

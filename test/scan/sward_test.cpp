@@ -61,7 +61,7 @@ TEST(Sward, LetsThroughAsMuchAsItsBladesDo) {
     RecordProperty(std::string(one.name) + "_height_medium", std::to_string(medium.height));
     RecordProperty(std::string(one.name) + "_height_blades", std::to_string(each.height));
     EXPECT_NEAR(medium.share, each.share, 0.05) << one.name;
-    EXPECT_NEAR(medium.height, each.height, 0.02) << one.name;
+    EXPECT_NEAR(medium.height, each.height, 0.006) << one.name;
     EXPECT_GT(medium.share, 0.05) << one.name;
   }
 }

@@ -119,6 +119,7 @@ TEST(Sweep, NoiseHasMeanZeroAndItsDeviation) {
   EXPECT_EQ(unitNoise({4, 1}, 2), unitNoise({4, 1}, 2));
   EXPECT_NE(unitNoise({4, 1}, 2), unitNoise({4, 2}, 2));
   EXPECT_NE(unitNoise({4, 1}, 2), unitNoise({5, 1}, 2));
+  EXPECT_NE(unitNoise({4, 1}, 2), unitNoise({4, 1, 1}, 2));
 }
 
 TEST(Sweep, RaysStandWhereTheyAreAskedFor) {

@@ -42,9 +42,10 @@ struct Return {
   bool isPoint() const { return range > 0.0 && range < std::numeric_limits<double>::infinity(); }
 };
 
-/// What keys the noise: another number for each ray of each sweep, whoever asks in whatever order.
+/// What keys the noise: another number for each ray of each sweep of each sensor, whoever asks in
+/// whatever order.
 struct Noise {
-  std::uint64_t seed{0}, sweep{0};
+  std::uint64_t seed{0}, sweep{0}, sensor{0};
 };
 /// Error of a range, over its standard deviation: mean 0, variance 1, the sum of twelve uniform
 /// numbers (Irwin 1927, Hall 1927), never beyond 6.
