@@ -3,16 +3,20 @@
 #include "vegetation_sim/nodes/branch_frames.h"
 
 #include <algorithm>
+#include <iterator>
+#include <limits>
 #include <set>
 
 #include "vegetation_sim/ros/forest_conversions.h"
 
 namespace vegetation_sim {
-namespace {
 
-constexpr double IN_HAND = 1e6;  // what a frame of a held branch counts: before all others [m]
-
-}  // namespace
+const PosedTrees::Posed& PosedTrees::of(std::uint32_t tree) {
+  const auto known = posed_.find(tree);
+  if (known != posed_.end()) return known->second;
+  const auto grown = cache_.get(forest_.layout(), forest_.terrain(), tree);
+  return posed_[tree] = {grown, posesOf(forest_, grown->tree, tree, stamp_)};
+}
 
 void BranchFrames::set(std::uint32_t tree, std::vector<std::uint32_t> branches, std::size_t count,
                        bool enable) {
@@ -44,74 +48,70 @@ std::size_t BranchFrames::count() const {
   return out;
 }
 
-bool BranchFrames::isWanted(const Key& key) const {
-  const auto found = wanted_.find(key.first);
-  return found != wanted_.end() &&
-         std::binary_search(found->second.begin(), found->second.end(), key.second);
-}
-
-/// Branches that may have a frame, and what lacks without.
-struct BranchFrames::Offered {
-  std::vector<Key> keys;
-  std::vector<Choice> choices;
-};
-
-BranchFrames::Offered BranchFrames::offer(const forest::Forest& forest, forest::TreeCache& cache,
-                                          const std::vector<forest::BranchPoint>& held,
-                                          Nanoseconds stamp) const {
-  Offered out;
-  const bool fits = sent_.size() <= room();  // else somebody has asked for frames meanwhile
-  const auto add = [&](const Key& key, double error) {
-    if (isWanted(key)) return;
-    const auto known = sent_.find(key);
-    Choice choice;
+// What lacks without a frame is computed only if not all can have one.
+std::vector<Choice> BranchFrames::choicesOf(const std::vector<Key>& keys, PosedTrees& trees,
+                                            std::size_t room) const {
+  std::vector<Choice> out(keys.size());
+  std::size_t resting = 0;
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    Choice& choice = out[i];
+    const auto known = sent_.find(keys[i]);
     choice.stair = choice.wanted = 1;
     choice.held = known != sent_.end() ? 1 : 0;
-    choice.resting = fits && choice.held == 1 && secondsBetween(known->second, stamp) < RUNG_REST;
-    choice.error[0] = static_cast<float>(error);
+    choice.resting = choice.held == 1 && secondsBetween(known->second, trees.stamp()) < RUNG_REST;
     choice.cost[1] = 1.F;
-    out.keys.push_back(key);
-    out.choices.push_back(choice);
-  };
-  std::set<Key> in_hand;
-  for (const forest::BranchPoint& point : held)
-    if (in_hand.insert({point.tree, static_cast<std::uint32_t>(point.branch)}).second)
-      add({point.tree, static_cast<std::uint32_t>(point.branch)}, IN_HAND);
-  for (const std::uint32_t tree : forest.physicalTrees()) {
-    const auto grown = cache.get(forest.layout(), forest.terrain(), tree);
-    const std::vector<Pose> poses = posesOf(forest, grown->tree, tree, stamp);
-    for (const forest::PromotedBranch& branch : forest.promoted(tree).branches) {
-      const auto index = static_cast<std::size_t>(branch.branch);
-      const Key key(tree, static_cast<std::uint32_t>(branch.branch));
-      if (index >= poses.size() || in_hand.count(key)) continue;
-      const forest::Branch& own = grown->tree.skeleton.branches[index];
-      add(key, length(tipOf(own, poses[index]) - tipOf(own, own.rest)));
-    }
+    resting += choice.resting ? 1 : 0;
+    if (keys.size() <= room) continue;
+    const PosedTrees::Posed& tree = trees.of(keys[i].first);
+    if (keys[i].second >= tree.poses.size()) continue;
+    const forest::Branch& own = tree.grown->tree.skeleton.branches[keys[i].second];
+    const Vec3 tip = tipOf(own, tree.poses[keys[i].second]);
+    choice.error[0] = static_cast<float>(length(tip - tipOf(own, own.rest)));
   }
+  if (resting > room)  // others have been asked for or taken in hand meanwhile
+    for (Choice& choice : out) choice.resting = false;
   return out;
 }
 
-BranchFrames::Wanted BranchFrames::withPhysical(const forest::Forest& forest,
-                                                forest::TreeCache& cache,
-                                                const std::vector<forest::BranchPoint>& held,
-                                                Nanoseconds stamp) {
-  if (stamp < stamp_) sent_.clear();
-  stamp_ = stamp;
-  Offered offered = offer(forest, cache, held, stamp);
-  balance_ = govern(offered.choices, static_cast<double>(room()), 0.0);
-  std::map<Key, Nanoseconds> now;
-  std::set<Key> all;
+// Of branches that come after those wanted and held.
+std::vector<BranchFrames::Key> BranchFrames::choose(const std::vector<Key>& keys, PosedTrees& trees,
+                                                    std::size_t room) {
+  balance_ = Balance();
+  balance_.held_back = keys.size();
+  balance_.largest = keys.empty() ? 0.0 : std::numeric_limits<double>::quiet_NaN();
+  if (room == 0) return {};
+  std::vector<Choice> choices = choicesOf(keys, trees, room);
+  balance_ = govern(choices, static_cast<double>(room), 0.0);
+  std::vector<Key> out;
+  for (std::size_t i = 0; i < keys.size(); ++i)
+    if (choices[i].chosen == 1) out.push_back(keys[i]);
+  return out;
+}
+
+BranchFrames::Wanted BranchFrames::withPhysical(PosedTrees& trees,
+                                                const std::vector<forest::BranchPoint>& held) {
+  if (trees.stamp() < stamp_) sent_.clear();
+  stamp_ = trees.stamp();
+  std::set<Key> all, others;
   for (const auto& [tree, branches] : wanted_)
     for (const std::uint32_t branch : branches) all.insert({tree, branch});
-  for (std::size_t i = 0; i < offered.keys.size(); ++i) {
-    if (offered.choices[i].chosen == 0) continue;
-    const auto known = sent_.find(offered.keys[i]);
-    now[offered.keys[i]] = known != sent_.end() ? known->second : stamp;
-    all.insert(offered.keys[i]);
+  for (const forest::BranchPoint& point : held)
+    (all.size() < budget_ ? all : others).insert(keyOf(point.tree, point.branch));
+  for (const std::uint32_t tree : trees.forest().physicalTrees())
+    for (const forest::PromotedBranch& branch : trees.forest().promoted(tree).branches)
+      others.insert(keyOf(tree, branch.branch));
+  std::vector<Key> keys;
+  std::set_difference(others.begin(), others.end(), all.begin(), all.end(),
+                      std::back_inserter(keys));
+  for (const Key& key : choose(keys, trees, budget_ - all.size())) all.insert(key);
+  std::map<Key, Nanoseconds> now;
+  Wanted out;
+  for (const Key& key : all) {
+    const auto known = sent_.find(key);
+    now[key] = known != sent_.end() ? known->second : stamp_;
+    out[key.first].push_back(key.second);
   }
   sent_ = std::move(now);
-  Wanted out;
-  for (const auto& [tree, branch] : all) out[tree].push_back(branch);
   return out;
 }
 
@@ -121,19 +121,16 @@ std::vector<Pose> posesOf(const forest::Forest& forest, const forest::Tree& tree
 }
 
 std::vector<geometry_msgs::TransformStamped> branchTransforms(const BranchFrames::Wanted& wanted,
-                                                              const forest::Forest& forest,
-                                                              forest::TreeCache& cache,
-                                                              const std::string& frame_id,
-                                                              Nanoseconds stamp) {
+                                                              PosedTrees& trees,
+                                                              const std::string& frame_id) {
   std::vector<geometry_msgs::TransformStamped> out;
   for (const auto& [id, branches] : wanted) {
-    const auto grown = cache.get(forest.layout(), forest.terrain(), id);
-    const std::vector<Pose> poses = posesOf(forest, grown->tree, id, stamp);
+    const PosedTrees::Posed& tree = trees.of(id);
     for (const std::uint32_t branch : branches) {
-      if (branch >= poses.size()) continue;  // the designer has thinned the tree meanwhile
-      const geometry_msgs::Pose pose = toMsg(grown->tree.foot, poses[branch]);
+      if (branch >= tree.poses.size()) continue;  // the designer has thinned the tree meanwhile
+      const geometry_msgs::Pose pose = toMsg(tree.grown->tree.foot, tree.poses[branch]);
       geometry_msgs::TransformStamped transform;
-      transform.header.stamp = toStamp(stamp);
+      transform.header.stamp = toStamp(trees.stamp());
       transform.header.frame_id = frame_id;
       transform.child_frame_id = "tree_" + std::to_string(id) + "/branch_" + std::to_string(branch);
       transform.transform.translation.x = pose.position.x;

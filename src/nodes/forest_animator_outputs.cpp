@@ -1,5 +1,7 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+
 #include "vegetation_sim/nodes/forest_animator.h"
 #include "vegetation_sim/ros/forest_conversions.h"
 
@@ -9,15 +11,13 @@ void ForestAnimator::sendFrames(const ros::TimerEvent&) {
   // Every listener warns of a transform that comes twice.
   if (!clock_.hasBegun() || last_framed_ == clock_.tick()) return;
   last_framed_ = clock_.tick();
+  PosedTrees trees(*forest_, cache_, forest_->memory().stamp);
   const BranchFrames::Wanted wanted =
-      options_.tf_promoted
-          ? frames_.withPhysical(*forest_, cache_, desk_->heldPoints(), forest_->memory().stamp)
-          : frames_.wanted();
+      options_.tf_promoted ? frames_.withPhysical(trees, desk_->heldPoints()) : frames_.wanted();
   frames_sent_ = 0;
   for (const auto& entry : wanted) frames_sent_ += entry.second.size();
   if (frames_sent_ > 0)
-    tf_broadcaster_.sendTransform(
-        branchTransforms(wanted, *forest_, cache_, options_.frame_id, forest_->memory().stamp));
+    tf_broadcaster_.sendTransform(branchTransforms(wanted, trees, options_.frame_id));
 }
 
 void ForestAnimator::sendBranches(const ros::TimerEvent&) {
@@ -110,7 +110,9 @@ void ForestAnimator::diagnoseGovernor(diagnostic_updater::DiagnosticStatusWrappe
   status.add("tf frames", frames_sent_);
   status.add("tf budget [frames]", frames_.budget());
   status.add("Branches that tf_budget leaves without a frame", frames_.balance().held_back);
-  status.add("Farthest of these from its rest [m]", frames_.balance().largest);
+  const double farthest = frames_.balance().largest;
+  status.add("Farthest of these from its rest [m]",
+             std::isnan(farthest) ? "not computed: no room" : std::to_string(farthest));
   status.add("Marker points", markers_.points());
   status.add("Marker budget [points]", markers_.budget());
   status.add("Trees in modes", forest_->memory().modes.sways().size());

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
 
 #include "forest/physics_scene.h"
@@ -27,7 +28,8 @@ struct Pulled {
   }
   std::set<Key> choose(BranchFrames& frames) {
     std::set<Key> out;
-    for (const auto& [tree, branches] : frames.withPhysical(rig.forest, cache, held, rig.now()))
+    PosedTrees trees(rig.forest, cache, rig.now());
+    for (const auto& [tree, branches] : frames.withPhysical(trees, held))
       for (const std::uint32_t branch : branches) out.insert({tree, branch});
     return out;
   }
@@ -64,6 +66,26 @@ TEST(BranchFrames, OfHeldAndAskedForBranchesComeFirst) {
   EXPECT_EQ(scene.choose(frames), (std::set<Key>{{1, 5}, {2, 7}, {2, 8}}));
   frames.set(2, {9}, 100, true);
   EXPECT_EQ(scene.choose(frames), (std::set<Key>{{2, 7}, {2, 8}, {2, 9}}));
+}
+
+// N7: also within the second in which the frames of others rest; and what a branch lacks without a
+// frame is told in metres, if anything is left to be shared out.
+TEST(BranchFrames, OfBranchesJustTakenInHandAreThereAtOnce) {
+  Pulled scene;
+  const std::size_t physical = scene.physical(0) + scene.physical(3);
+  BranchFrames frames(3);
+  EXPECT_EQ(scene.choose(frames).size(), 3u);  // no room is left
+  scene.held = {{1, 5, 0.0}};
+  const std::set<Key> chosen = scene.choose(frames);
+  EXPECT_EQ(chosen.size(), 3u);
+  EXPECT_EQ(chosen.count({1, 5}), 1u);
+  EXPECT_EQ(frames.balance().held_back, physical - 2);
+  EXPECT_GT(frames.balance().largest, 0.0);
+  EXPECT_LT(frames.balance().largest, 10.0);
+  scene.held = {{1, 5, 0.0}, {1, 6, 0.0}, {1, 7, 0.0}, {1, 8, 0.0}};
+  EXPECT_EQ(scene.choose(frames), (std::set<Key>{{1, 5}, {1, 6}, {1, 7}}));
+  EXPECT_EQ(frames.balance().held_back, physical + 1);
+  EXPECT_TRUE(std::isnan(frames.balance().largest));
 }
 
 // N7: branches swing through their rest, and yet no frame comes and goes within a second.

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +16,27 @@
 #include "vegetation_sim/forest/tree_cache.h"
 
 namespace vegetation_sim {
+
+/// Trees at a stamp; each is posed once, by the double path.
+class PosedTrees {
+ public:
+  PosedTrees(const forest::Forest& forest, forest::TreeCache& cache, Nanoseconds stamp)
+      : forest_(forest), cache_(cache), stamp_(stamp) {}
+
+  struct Posed {
+    std::shared_ptr<const forest::TreeCache::Grown> grown;
+    std::vector<Pose> poses;  ///< tree's frame
+  };
+  const Posed& of(std::uint32_t tree);
+  const forest::Forest& forest() const { return forest_; }
+  Nanoseconds stamp() const { return stamp_; }
+
+ private:
+  const forest::Forest& forest_;
+  forest::TreeCache& cache_;
+  Nanoseconds stamp_;
+  std::map<std::uint32_t, Posed> posed_;
+};
 
 /// Which branches are sent as tf frames tree_<id>/branch_<id>, never more than a budget.
 class BranchFrames {
@@ -33,22 +55,23 @@ class BranchFrames {
   const Wanted& wanted() const { return wanted_; }
   /// And the branches that are held, then the physical ones whose tips are farthest from where they
   /// rest, as far as the budget goes (N7): without a frame a listener has them there.
-  Wanted withPhysical(const forest::Forest& forest, forest::TreeCache& cache,
-                      const std::vector<forest::BranchPoint>& held, Nanoseconds stamp);
-  /// What was chosen then: costs are frames, errors metres.
+  Wanted withPhysical(PosedTrees& trees, const std::vector<forest::BranchPoint>& held);
+  /// What was chosen then: costs are frames, errors metres. The largest is not a number where
+  /// wanted and held branches leave no room: nobody has looked.
   const Balance& balance() const { return balance_; }
 
  private:
   using Key = std::pair<std::uint32_t, std::uint32_t>;  // tree, branch
-  struct Offered;
-  Offered offer(const forest::Forest& forest, forest::TreeCache& cache,
-                const std::vector<forest::BranchPoint>& held, Nanoseconds stamp) const;
-  std::size_t room() const { return budget_ - count(); }
-  bool isWanted(const Key& key) const;
+  static Key keyOf(std::uint32_t tree, int branch) {
+    return {tree, static_cast<std::uint32_t>(branch)};
+  }
+  std::vector<Key> choose(const std::vector<Key>& keys, PosedTrees& trees, std::size_t room);
+  std::vector<Choice> choicesOf(const std::vector<Key>& keys, PosedTrees& trees,
+                                std::size_t room) const;
 
   std::size_t budget_;
   Wanted wanted_;
-  std::map<Key, Nanoseconds> sent_;  // without the wanted ones; since when
+  std::map<Key, Nanoseconds> sent_;  // since when
   Nanoseconds stamp_{0};             // of the last choice
   Balance balance_;
 };
@@ -57,11 +80,9 @@ class BranchFrames {
 std::vector<Pose> posesOf(const forest::Forest& forest, const forest::Tree& tree, std::uint32_t id,
                           Nanoseconds stamp);
 
-/// Transforms of every wanted branch at `stamp`, all to be sent at once.
+/// Transforms of every wanted branch, all to be sent at once.
 std::vector<geometry_msgs::TransformStamped> branchTransforms(const BranchFrames::Wanted& wanted,
-                                                              const forest::Forest& forest,
-                                                              forest::TreeCache& cache,
-                                                              const std::string& frame_id,
-                                                              Nanoseconds stamp);
+                                                              PosedTrees& trees,
+                                                              const std::string& frame_id);
 
 }  // namespace vegetation_sim
