@@ -1,21 +1,8 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include <ros/ros.h>
-
-#include <cstdlib>
-
-#include "vegetation_sim/common/faults.h"
 #include "vegetation_sim/nodes/forest_animator.h"
+#include "vegetation_sim/nodes/run_node.h"
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "forest_animator");
-  ros::NodeHandle handle, private_handle("~");  // out here, since the last one closes the log
-  try {
-    vegetation_sim::ForestAnimator node(handle, private_handle);
-    ros::spin();
-    return EXIT_SUCCESS;
-  } catch (const std::exception& error) {
-    ROS_FATAL("forest_animator refuses to start:\n%s", error.what());
-    return EXIT_FAILURE;
-  }
+  return vegetation_sim::runNode<vegetation_sim::ForestAnimator>(argc, argv, "forest_animator");
 }

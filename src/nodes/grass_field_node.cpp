@@ -1,21 +1,8 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include <ros/ros.h>
-
-#include <cstdlib>
-
-#include "vegetation_sim/common/faults.h"
 #include "vegetation_sim/nodes/grass_field.h"
+#include "vegetation_sim/nodes/run_node.h"
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "grass_field");
-  ros::NodeHandle handle, private_handle("~");  // out here, since the last one closes the log
-  try {
-    vegetation_sim::GrassField node(handle, private_handle);
-    ros::spin();
-    return EXIT_SUCCESS;
-  } catch (const std::exception& error) {
-    ROS_FATAL("grass_field refuses to start:\n%s", error.what());
-    return EXIT_FAILURE;
-  }
+  return vegetation_sim::runNode<vegetation_sim::GrassField>(argc, argv, "grass_field");
 }

@@ -1,0 +1,27 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros/ros.h>
+
+#include <cstdlib>
+#include <exception>
+
+namespace vegetation_sim {
+
+/// The program of a node: runs until it is told to stop; what it refuses to start for is logged.
+template <class Node>
+int runNode(int argc, char** argv, const char* name) {
+  ros::init(argc, argv, name);
+  ros::NodeHandle handle, private_handle("~");  // out here, since the last one closes the log
+  try {
+    Node node(handle, private_handle);
+    ros::spin();
+    return EXIT_SUCCESS;
+  } catch (const std::exception& error) {
+    ROS_FATAL("%s refuses to start:\n%s", name, error.what());
+    return EXIT_FAILURE;
+  }
+}
+
+}  // namespace vegetation_sim
