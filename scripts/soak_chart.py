@@ -19,6 +19,7 @@ COUNTS = ('textures', 'materials', 'meshes', 'programs', 'buffers', 'nodes', 'ob
           'texture bytes')
 COLUMNS = ('what', 'time', 'resident', 'held') + COUNTS
 STEADY = 0.25  # of the run are left out: caches fill
+LEAST = 6      # points of a slope: with fewer its error says nothing
 MOST = 10.0    # [kB] that a cycle may leave: the smallest picture of ours has 16
 
 
@@ -30,8 +31,10 @@ def read(path):
 
 
 def slope(series, name):
-    """Least squares over the steady part, and its standard error [kB a time]."""
+    """Least squares over the steady part, and its standard error [kB a time]; None if too short."""
     steady = series['time'] >= STEADY * series['time'][-1]
+    if numpy.count_nonzero(steady) < LEAST:
+        return None
     line, scatter = numpy.polyfit(series['time'][steady], series[name][steady], 1, cov=True)
     return 1000.0 * line[0], 1000.0 * numpy.sqrt(scatter[0][0])
 
@@ -56,13 +59,17 @@ def main(folder, picture):
     grew = False
     for display, table in tables.items():
         for what, series in sorted(table.items()):
-            held, error = slope(series, 'held')
-            resident, _ = slope(series, 'resident')
             ogre = [f'{name} {series[name].min():g} to {series[name].max():g}' for name in COUNTS
                     if series[name][-1] > series[name][len(series[name]) // 4]]
-            grew |= held - 3.0 * error > MOST
-            print(f'{display}: {2 * series["time"][-1] - series["time"][-2]:g} {what}, {held:+.2f} +- {error:.2f} kB allocated, '
-                  f'{resident:+.2f} kB resident a time' + ''.join(f'; {o}' for o in ogre))
+            # One step after the last row.
+            times = series['time'][-1] + (series['time'][-1] - series['time'][-2:-1]).sum()
+            told = f'no slope: fewer than {LEAST} points after the first quarter'
+            held, resident = slope(series, 'held'), slope(series, 'resident')
+            if held is not None:
+                grew |= held[0] - 3.0 * held[1] > MOST
+                told = (f'{held[0]:+.2f} +- {held[1]:.2f} kB allocated, '
+                        f'{resident[0]:+.2f} kB resident a time')
+            print(f'{display}: {times:g} {what}, {told}' + ''.join(f'; {o}' for o in ogre))
     draw(tables, Path(picture))
     return 1 if grew else 0
 
