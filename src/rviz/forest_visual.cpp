@@ -46,6 +46,13 @@ bool isSeen(const DrawnTree& tree, const View& view) {
                    tree.reach() + 0.5 * tree.height());
 }
 
+// By a camera a moment ago or in this view now: what comes into view is in its place at once.
+bool isSeen(Grove& grove, const View& view) {
+  return grove.takeSeen() ||
+         std::any_of(grove.trees().begin(), grove.trees().end(),
+                     [&](const DrawnTree* tree) { return isSeen(*tree, view); });
+}
+
 }  // namespace
 
 ForestVisual::ForestVisual(Ogre::SceneNode& parent)
@@ -192,7 +199,7 @@ void ForestVisual::move(const forest::ForestReplica& replica, Nanoseconds stamp,
   const wind::Instant wind = replica.wind().at(stamp);
   report_.moving = 0;
   for (const auto& grove : groves_) {
-    if (!grove->takeSeen() || grove->moved_to == stamp) continue;
+    if (!isSeen(*grove, view) || grove->moved_to == stamp) continue;
     grove->moved_to = stamp;
     bool moved = false, painted = false;
     for (DrawnTree* tree : grove->trees()) {

@@ -5,12 +5,10 @@
 #include <boost/bind/bind.hpp>
 #include <utility>
 
-#include "vegetation_sim/ros/stamps.h"
-
 namespace vegetation_sim::view {
 namespace {
 
-constexpr Nanoseconds SILENCE = 5 * NANOSECONDS_PER_SECOND;  // diagnostics come each second
+constexpr double SILENCE = 5.0;  // [s]; diagnostics come each second
 
 bool endsWith(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.npos, end) == 0;
@@ -45,10 +43,10 @@ void GovernorSource::take(const diagnostic_msgs::DiagnosticArray& message) {
   }
 }
 
-std::optional<InputStatus> GovernorSource::status(Nanoseconds now) {
+std::optional<InputStatus> GovernorSource::status(double wall) {
   if (text_.empty()) return {};
-  if (std::exchange(fresh_, false)) heard_ = now;
-  if (now - heard_ > SILENCE) return InputStatus{false, "Not heard for 5 s; last: " + text_};
+  if (std::exchange(fresh_, false)) heard_ = wall;
+  if (wall - heard_ > SILENCE) return InputStatus{false, "Not heard for 5 s; last: " + text_};
   return InputStatus{true, text_};
 }
 

@@ -168,10 +168,7 @@ void SceneryDisplay::drawAt(Nanoseconds stamp) {
 
 void SceneryDisplay::watchTime(Nanoseconds stamp) {
   // Half: the state may be ahead of the picture's clock, by less than the jump.
-  if (stamp + JUMP_BACK < last_stamp_) {
-    forgetState(stamp + JUMP_BACK / 2);
-    if (governor_) governor_->forgetState(stamp);
-  }
+  if (stamp + JUMP_BACK < last_stamp_) forgetState(stamp + JUMP_BACK / 2);
   last_stamp_ = stamp;
 }
 
@@ -198,7 +195,7 @@ void SceneryDisplay::publishViewer() {
 void SceneryDisplay::showStatus(Nanoseconds stamp) {
   showInputs(board_);
   if (governor_)
-    if (const auto status = governor_->status(stamp)) board_.show("Governor", *status);
+    if (const auto status = governor_->status(wall_)) board_.show("Governor", *status);
   if (stamp == 0)
     board_.show(rviz::StatusProperty::Warn, "Time", "Waiting for /clock: nothing is drawn");
   else

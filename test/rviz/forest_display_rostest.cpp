@@ -79,6 +79,53 @@ TEST_F(ForestDisplayTest, NothingMovesWhileTheClockStands) {
   EXPECT_TRUE(rig.until([&] { return rig.picture() != before; }));
 }
 
+// Trees behind the eye are neither drawn nor moved; those that come into view are in their place at
+// once.
+TEST_F(ForestDisplayTest, TreesBehindTheEyeAreLeftOutAndDoNotPop) {
+  display->subProp("Update Rate")->setValue(120.f);  // no picture without an update
+  display->subProp("Triangles")->setValue(1000);     // the coarsest, wherever one looks
+  ASSERT_TRUE(drawn());
+  // From within the box of all trees, at its corner.
+  rig.lookAt(2.f, 0.0, 0.1);
+  rig.manager().getViewManager()->getCurrent()->lookAt(30.f, 30.f, 2.f);
+  const auto turn = [&](double yaw) {
+    rviz::ViewController& view = *rig.manager().getViewManager()->getCurrent();
+    view.subProp("Distance")->setValue(0.1);
+    view.subProp("Pitch")->setValue(0.0);
+    view.subProp("Yaw")->setValue(yaw);
+  };
+  const auto triangles = [&] {
+    return rig.panel().getRenderWindow()->getStatistics().triangleCount;
+  };
+  const double in = 0.25 * M_PI, out = 1.25 * M_PI;
+  std::vector<std::uint8_t> before;
+  const auto isStill = [&] {
+    before = rig.picture();
+    rig.frames(10);
+    return rig.picture() == before && display->drawn().waiting == 0;
+  };
+  turn(in);
+  ASSERT_TRUE(rig.until(isStill));
+  const std::size_t all = triangles(), trees = display->drawn().triangles;
+  turn(out);
+  EXPECT_TRUE(rig.until([&] { return triangles() + trees / 2 < all; }, 20.0))
+      << triangles() << " of " << all << ", trees " << trees;
+  rig.setTime(rig.now() + 0.7);
+  ASSERT_TRUE(rig.until([&] { return ros::Time::now().toSec() > rig.now() - 0.01; }));
+  rig.frames(3);
+  const std::vector<std::uint8_t> away = rig.picture(), then = before;
+  turn(in);
+  std::vector<std::uint8_t> first;
+  ASSERT_TRUE(rig.until([&] {
+    first = rig.picture();
+    return first != away;
+  }));
+  ASSERT_TRUE(rig.until(isStill));
+  std::cout << "pop " << difference(first, before) << " of " << difference(then, before) << "\n";
+  EXPECT_TRUE(first == before);
+  EXPECT_GT(difference(then, before), 0.0);
+}
+
 TEST_F(ForestDisplayTest, SurvivesTimeGoingBack) {
   ASSERT_TRUE(drawn());
   rig.setTime(rig.now() - 50.0);
@@ -236,8 +283,13 @@ TEST_F(ForestDisplayTest, TellsLevelsOfMotionAndTheGovernorsChoice) {
            "0 trees at rest, moving to depth 1 to 6: 0 0 0 0 0 16; in modes: 0; with physical "
            "branches: 0";
   })) << statusOf(*display, "Motion");
-  expectGovernorIsTold(rig, *display, "forest_animator", "Predicted frame time [ms]",
-                       "Frame time budget [ms]", "ms");
+  const std::string told =
+      expectGovernorIsTold(rig, *display, "forest_animator", "Predicted frame time [ms]",
+                           "Frame time budget [ms]", "ms");
+  // A node that has died is missed although its clock stands.
+  const std::string missed = "Not heard for 5 s; last: " + told;
+  EXPECT_TRUE(rig.until([&] { return statusOf(*display, "Governor") == missed; }))
+      << statusOf(*display, "Governor");
 }
 
 TEST_F(ForestDisplayTest, EveryPropertyCanBeChanged) {

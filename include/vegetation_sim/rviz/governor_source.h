@@ -6,7 +6,6 @@
 #include <ros/node_handle.h>
 #include <ros/subscriber.h>
 
-#include <algorithm>
 #include <optional>
 #include <string>
 
@@ -26,10 +25,9 @@ class GovernorSource {
  public:
   GovernorSource(ros::NodeHandle nh, GovernorKeys keys);
 
-  /// To be called at rising times. None before the first message; bad when 5 s have brought none.
-  std::optional<InputStatus> status(Nanoseconds now);
-  /// Time went back to `now`.
-  void forgetState(Nanoseconds now) { heard_ = std::min(heard_, now); }
+  /// None before the first message; bad when 5 s have brought none.
+  /// @param wall rising [s]: nodes send diagnostics by the wall's clock, whatever ROS time does.
+  std::optional<InputStatus> status(double wall);
 
  private:
   void take(const diagnostic_msgs::DiagnosticArray& message);
@@ -37,7 +35,7 @@ class GovernorSource {
   GovernorKeys keys_;
   std::string text_;
   bool fresh_{false};  // taken since the last status()
-  Nanoseconds heard_{0};
+  double heard_{0.0};  // wall time [s]
   ros::Subscriber subscriber_;
 };
 
