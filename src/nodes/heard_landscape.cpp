@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vegetation_sim/nodes/heard_landscape.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -82,7 +83,11 @@ void HeardLandscape::onForestLayout(const ForestLayout& message) {
 }
 
 void HeardLandscape::onForestState(const ForestState& message) {
-  guard("forest/state", [&] { forest_.apply(fromMsg(message)); });
+  guard("forest/state", [&] {
+    forest::StateUpdate update = fromMsg(message);
+    const Nanoseconds stamp = update.stamp;
+    forest_ahead_.add(stamp, std::move(update));
+  });
 }
 
 void HeardLandscape::onGrassLayout(const GrassLayout& message) {
@@ -109,8 +114,9 @@ void HeardLandscape::takeGrass(grass::Layout layout) {
 
 void HeardLandscape::onGrassState(const GrassState& message) {
   guard("grass/state", [&] {
-    const grass::TreadUpdate update = fromMsg(message);
-    if (tread_ && update.layout_hash == lawn_hash_) treads_.apply(update, *tread_);
+    grass::TreadUpdate update = fromMsg(message);
+    const Nanoseconds stamp = update.stamp;
+    treads_ahead_.add(stamp, std::move(update));
   });
 }
 
@@ -120,10 +126,24 @@ void HeardLandscape::onPeople(const AgentStates& message) {
     Faults faults;
     for (const AgentState& agent : message.agents) check(agent, faults);
     faults.throwIfAny();
-    people_.clear();
-    for (const AgentState& agent : message.agents) people_.push_back(fromMsg(agent));
-    people_stamp_ = fromMsg(message.header.stamp);
+    std::vector<crowd::Walker> people;
+    for (const AgentState& agent : message.agents) people.push_back(fromMsg(agent));
+    people_ahead_.add(fromMsg(message.header.stamp), std::move(people));
   });
+}
+
+void HeardLandscape::follow(Nanoseconds stamp) {
+  forest_ahead_.take(stamp, [this](Nanoseconds, const forest::StateUpdate& update) {
+    guard("forest/state", [&] { forest_.apply(update); });
+  });
+  treads_ahead_.take(stamp, [this](Nanoseconds, const grass::TreadUpdate& update) {
+    if (tread_ && update.layout_hash == lawn_hash_) treads_.apply(update, *tread_);
+  });
+  people_ahead_.take(stamp, [this](Nanoseconds told, const std::vector<crowd::Walker>& people) {
+    people_ = people;
+    people_stamp_ = told;
+  });
+  if (secondsBetween(people_stamp_, stamp) > LONGEST_SILENCE) people_.clear();
 }
 
 // One of after the jump that has come already is kept.
@@ -139,6 +159,17 @@ void HeardLandscape::forgetLater(Nanoseconds now) {
     treads_.reset();
   }
   if (people_stamp_ > now) people_.clear();
+  forest_ahead_.forgetLater(now);
+  treads_ahead_.forgetLater(now);
+  people_ahead_.forgetLater(now);
+}
+
+std::size_t HeardLandscape::waiting() const {
+  return forest_ahead_.size() + treads_ahead_.size() + people_ahead_.size();
+}
+
+std::uint64_t HeardLandscape::lost() const {
+  return forest_ahead_.lost() + treads_ahead_.lost() + people_ahead_.lost();
 }
 
 std::shared_ptr<const terrain::HeightMap> HeardLandscape::ground() const {
@@ -154,11 +185,20 @@ void HeardLandscape::show(const Vec3& centre, double radius, Nanoseconds stamp,
     tread_->prune(stamp);
     scene.grass.update(lawn_, *tread_, grass_ground_, wind_, centre, radius, stamp);
   }
-  if (secondsBetween(people_stamp_, stamp) > LONGEST_SILENCE) people_.clear();
-  std::vector<scan::People::Person> people;
-  for (const crowd::Walker& walker : people_)
-    people.push_back({walker.id, crowd::skeletonOf(walker, *scene.ground)});
-  scene.people.set(people);
+  scene.people.set(peopleAt(stamp));
+}
+
+// A sweep is between two ticks of the crowd: since the one before, all go on as they went.
+std::vector<scan::People::Person> HeardLandscape::peopleAt(Nanoseconds stamp) const {
+  const double since = std::clamp(secondsBetween(people_stamp_, stamp), 0.0, LONGEST_GUESS);
+  const auto terrain = ground();
+  std::vector<scan::People::Person> out;
+  for (crowd::Walker walker : people_) {
+    walker.position = walker.position + since * walker.velocity;
+    crowd::advanceGait(since * crowd::speedOf(walker), walker);
+    out.push_back({walker.id, crowd::skeletonOf(walker, *terrain)});
+  }
+  return out;
 }
 
 std::string HeardLandscape::waitsFor() const {

@@ -15,11 +15,13 @@ VegetationScanner::VegetationScanner(ros::NodeHandle handle, ros::NodeHandle pri
       options_(loadScanOptions(private_handle)),
       landscape_(options_.frame_id,
                  [this](const std::string& what, const std::string& why) { reject(what, why); }),
+      tf_buffer_(ros::Duration(tf2::BufferCore::DEFAULT_CACHE_TIME), true),  // tells what it hears
       tf_listener_(tf_buffer_),
       clock_("vegetation_scanner", options_.rate, options_.delay,
              {{},
               [this](std::int64_t tick) { this->tick(tick); },
-              [this](Nanoseconds now) { restart(now); }}),
+              [this](Nanoseconds now) { restart(now); }},
+             LateTicks::NEWEST),
       diagnostics_(handle, private_handle, private_handle.getNamespace()) {
   startAnew();
   cloud_publisher_ = handle_.advertise<sensor_msgs::PointCloud2>("lidar/points", 10);
@@ -40,6 +42,7 @@ void VegetationScanner::listen() {
 }
 
 void VegetationScanner::tick(std::int64_t tick) {
+  landscape_.follow(clock_.stamp());
   const bool wanted = cloud_publisher_.getNumSubscribers() > 0 ||
                       scan_publisher_.getNumSubscribers() > 0 ||
                       report_publisher_.getNumSubscribers() > 0;
@@ -123,6 +126,8 @@ void VegetationScanner::warnOfTrouble(diagnostic_updater::DiagnosticStatusWrappe
   counts_.clock = clock_.counts();
   warn(counts_.rejected, reported_.rejected, "refused input: " + last_rejection_);
   warn(counts_.blind, reported_.blind, "sweeps without a place: " + blindness_);
+  counts_.lost = landscape_.lost();
+  warn(counts_.lost, reported_.lost, "messages lost that are stamped ahead of the clock");
   warn(counts_.clock.dropped, reported_.clock.dropped, "ticks dropped");
   warn(counts_.clock.jumps, reported_.clock.jumps, "jumps back of the clock");
   warn(scene_.trees.leftOut(), 0, "trees in range beyond branch_budget, unseen");
@@ -144,6 +149,7 @@ void VegetationScanner::diagnose(diagnostic_updater::DiagnosticStatusWrapper& st
   status.add("Branches", scene_.trees.branches());
   status.add("Trees left out", scene_.trees.leftOut());
   status.add("People", landscape_.people());
+  status.add("Messages ahead of the sweep", landscape_.waiting());
   clock_.tell(status);
   status.add("Inputs refused", counts_.rejected);
 }

@@ -15,14 +15,19 @@ constexpr double NEWEST = 1.0 / 30.0;   // share of the newest tick in the mean 
 
 }  // namespace
 
-TickClock::TickClock(std::string name, int rate, double delay, TickCalls calls)
-    : name_(std::move(name)), grid_(rate), delay_(fromSeconds(delay)), calls_(std::move(calls)) {}
+TickClock::TickClock(std::string name, int rate, double delay, TickCalls calls, LateTicks late)
+    : name_(std::move(name)),
+      grid_(rate),
+      delay_(fromSeconds(delay)),
+      calls_(std::move(calls)),
+      late_(late) {}
 
 void TickClock::listen(ros::NodeHandle handle) {
   if (ros::Time::isSimTime()) {
     const boost::function<void(const rosgraph_msgs::Clock&)> heard =
         [this](const rosgraph_msgs::Clock& message) { see(fromMsg(message.clock)); };
-    clock_ = handle.subscribe<rosgraph_msgs::Clock>("/clock", CLOCK_QUEUE, heard);
+    const unsigned queue = late_ == LateTicks::EACH ? CLOCK_QUEUE : 1;
+    clock_ = handle.subscribe<rosgraph_msgs::Clock>("/clock", queue, heard);
   } else {
     timer_ = handle.createTimer(ros::Duration(1.0 / (LOOKS_PER_TICK * grid_.rate())),
                                 [this](const ros::TimerEvent&) { see(fromMsg(ros::Time::now())); });
@@ -32,7 +37,7 @@ void TickClock::listen(ros::NodeHandle handle) {
 void TickClock::drop(std::int64_t due) {
   const std::int64_t between = due - last_ - 1;
   counts_.dropped += static_cast<std::uint64_t>(between);
-  ROS_WARN_THROTTLE(1.0, "%s: the clock leapt ahead; %lld ticks are dropped", name_.c_str(),
+  ROS_WARN_THROTTLE(1.0, "%s: the clock is ahead; %lld ticks are dropped", name_.c_str(),
                     static_cast<long long>(between));
   last_ = due - 1;
 }
@@ -64,7 +69,9 @@ void TickClock::see(Nanoseconds clock) {
     last_ = NEVER;
     if (calls_.back) calls_.back(clock);
   }
-  const auto longest = static_cast<std::int64_t>(LONGEST_CATCH_UP * grid_.rate());
+  const auto longest = late_ == LateTicks::NEWEST
+                           ? std::int64_t{1}
+                           : static_cast<std::int64_t>(LONGEST_CATCH_UP * grid_.rate());
   if (hasBegun() && due - last_ > longest) drop(due);
   if (hasBegun() && due == last_) return;
   if (calls_.before) calls_.before();

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vegetation_sim/scan/sweep.h"
 
+#include <algorithm>
 #include <cmath>
+#include <system_error>
 #include <thread>
 
 #include "vegetation_sim/common/random.h"
@@ -71,7 +73,9 @@ double unitNoise(const Noise& noise, std::uint64_t ray) {
 }
 
 std::vector<Return> sweep(const Scene& scene, const Beams& beams, const Pose& sensor,
-                          const Noise& noise, int threads) {
+                          const Noise& noise, int most_threads) {
+  const int machine = static_cast<int>(std::thread::hardware_concurrency());  // 0: unknown
+  const int threads = std::clamp(machine, 1, std::max(1, most_threads));
   std::vector<Return> out(static_cast<std::size_t>(beams.rings) *
                           static_cast<std::size_t>(beams.columns));
   const auto part = [&](int first) {
@@ -86,8 +90,15 @@ std::vector<Return> sweep(const Scene& scene, const Beams& beams, const Pose& se
       }
   };
   std::vector<std::thread> others;
-  for (int i = 1; i < threads; ++i) others.emplace_back(part, i);
+  int next = 1;
+  try {
+    others.reserve(static_cast<std::size_t>(threads));
+    for (; next < threads; ++next) others.emplace_back(part, next);
+  } catch (const std::system_error&) {
+    // The machine has no more threads: their parts are done here.
+  }
   part(0);
+  for (; next < threads; ++next) part(next);
   for (std::thread& other : others) other.join();
   return out;
 }

@@ -33,14 +33,26 @@ void Trees::update(const forest::ForestReplica& forest, const Vec3& centre, doub
   std::map<std::uint32_t, std::shared_ptr<PosedTree>> known;
   if (layout_hash_ == forest.layoutHash())
     for (auto& tree : trees_) known[tree->id()] = std::move(tree);
+  else
+    sizes_.clear();
   layout_hash_ = forest.layoutHash();
   trees_.clear();
   branches_ = 0;
   const std::vector<std::uint32_t> near = nearestFirst(forest, centre, radius);
+  const auto fits = [this](std::size_t more) {
+    return trees_.empty() || branches_ + more <= most_branches_;
+  };
   for (const std::uint32_t id : near) {
     std::shared_ptr<PosedTree>& tree = known[id];
-    if (!tree) tree = std::make_shared<PosedTree>(forest, id);
-    if (!trees_.empty() && branches_ + tree->branches() > most_branches_) break;
+    if (const auto size = sizes_.find(id); size != sizes_.end() && !fits(size->second)) break;
+    if (!tree) {
+      tree = std::make_shared<PosedTree>(forest, id);
+      ++grown_;
+    }
+    if (!fits(tree->branches())) {
+      sizes_[id] = tree->branches();
+      break;
+    }
     branches_ += tree->branches();
     trees_.push_back(std::move(tree));
   }

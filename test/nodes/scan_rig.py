@@ -4,13 +4,15 @@
 import math
 
 import numpy
+import yaml
 from geometry_msgs.msg import TransformStamped
 from sensor_msgs.msg import LaserScan, PointCloud2, PointField
-from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
+from tf2_msgs.srv import FrameGraph
 from vegetation_sim.msg import ScanReport
 
 from forest_rig import time_of
+from waiting import wait_for
 from watched_node import Log, WatchedNode, publisher, wait_for_readers
 
 TYPES = {PointField.FLOAT32: 'f4', PointField.UINT16: 'u2', PointField.UINT32: 'u4',
@@ -27,10 +29,13 @@ class Scanner(WatchedNode):
         self.points = Log('/lidar/points', PointCloud2)
         self.scan = Log('/lidar/scan', LaserScan)
         self.report = Log('/lidar/report', ScanReport)
-        super().__init__(name, 'scan', name + '/reset', Trigger)
+        super().__init__(name, 'scan', name + '/tf2_frames', FrameGraph)
 
-    def cloud_at(self, tick):
-        return cloud_of(self.points.wait_for_stamp(time_of(tick)))
+    def has_heard(self, frame, stamp):
+        """Whether the newest that tf told it of a frame is of this stamp; to the ms."""
+        told = yaml.safe_load(self._probe().frame_yaml) or {}
+        newest = told.get(frame, {}).get('most_recent_transform', 0.0)
+        return abs(newest - stamp.to_sec()) < 2e-3
 
 
 def cloud_of(message):
@@ -51,11 +56,12 @@ class Mast:
         wait_for_readers('/tf', scanner.process)
 
     def put(self, x, y, z, stamp, yaw=0.0):
-        """Returns when the scanner has heard it."""
+        """Returns when the scanner's tf has it, which hears in a thread of its own."""
+        self.scanner.settle()  # so that time that went back is past
         frame = TransformStamped(child_frame_id=self.frame)
         frame.header.frame_id, frame.header.stamp = 'map', stamp
         at = frame.transform.translation
         at.x, at.y, at.z = x, y, z
         frame.transform.rotation.z, frame.transform.rotation.w = math.sin(yaw / 2), math.cos(yaw / 2)
         self._publisher.publish(TFMessage([frame]))
-        self.scanner.settle()
+        wait_for(lambda: self.scanner.has_heard(self.frame, stamp), self.frame)

@@ -17,14 +17,14 @@ constexpr Nanoseconds UNIX = 1700000000 * SECOND;
 class TickClockTest : public testing::Test {
  protected:
   void SetUp() override { ros::Time::init(); }  // for its warnings
-  TickClock make(double delay = 0.0) {
+  TickClock make(double delay = 0.0, LateTicks late = LateTicks::EACH) {
     TickCalls calls;
     calls.before = [this] { did_.push_back("before"); };
     calls.tick = [this](std::int64_t tick) { did_.push_back(std::to_string(tick)); };
     calls.back = [this](Nanoseconds clock) {
       did_.push_back("back to " + std::to_string(clock / SECOND));
     };
-    return TickClock("node", 10, delay, calls);
+    return TickClock("node", 10, delay, calls, late);
   }
   using Did = std::vector<std::string>;
   Did did_;
@@ -61,6 +61,20 @@ TEST_F(TickClockTest, DropsAndCountsWhatALeapLeavesOut) {
   EXPECT_EQ(did_, (Did{"before", "50", "before", "61"}));
   EXPECT_EQ(clock.counts().dropped, 10u);
   EXPECT_EQ(clock.counts().ticks, 2u);
+}
+
+TEST_F(TickClockTest, OneThatDoesOnlyTheNewestDropsAndCountsThoseBefore) {
+  TickClock clock = make(0.0, LateTicks::NEWEST);
+  clock.see(5 * SECOND);
+  clock.see(5 * SECOND + SECOND / 10);
+  EXPECT_EQ(clock.counts().dropped, 0u);
+  clock.see(5 * SECOND + SECOND / 2);
+  EXPECT_EQ(did_, (Did{"before", "50", "before", "51", "before", "55"}));
+  EXPECT_EQ(clock.counts().dropped, 3u);
+  EXPECT_EQ(clock.counts().ticks, 3u);
+  clock.see(4 * SECOND);
+  EXPECT_EQ(did_.back(), "40");
+  EXPECT_EQ(clock.counts().dropped, 3u);
 }
 
 TEST_F(TickClockTest, BackIsAFreshStartThere) {

@@ -112,7 +112,10 @@ TEST(Trees, BeyondTheBudgetTheFarthestAreLeftOut) {
     EXPECT_GE(length(tree->foot() - SENSOR), last);
     last = length(tree->foot() - SENSOR);
   }
-  Trees one(1);  // at least one
+  const std::uint64_t grown = few.grown();
+  few.update(forest, SENSOR, 60.0, START + fromSeconds(1.0));
+  EXPECT_EQ(few.grown(), grown);  // nor is the first without room grown again
+  Trees one(1);                   // at least one
   one.update(forest, SENSOR, 60.0, START);
   EXPECT_EQ(one.all().size(), 1u);
 }

@@ -18,12 +18,13 @@
 #include "vegetation_sim/forest/replica.h"
 #include "vegetation_sim/grass/layout.h"
 #include "vegetation_sim/grass/told.h"
+#include "vegetation_sim/nodes/told_ahead.h"
 #include "vegetation_sim/scan/scene.h"
 
 namespace vegetation_sim {
 
-/// Forest, meadow, people and wind as a node that only looks hears them. A refused message changes
-/// nothing.
+/// Forest, meadow, people and wind as a node that only looks hears them, at the stamp that it has
+/// come to: what is told of a later one waits. A refused message changes nothing.
 class HeardLandscape {
  public:
   /// Of a message that is refused.
@@ -34,18 +35,25 @@ class HeardLandscape {
   void listen(ros::NodeHandle handle);
   /// Time went back to `now`: what was told of a later time is void.
   void forgetLater(Nanoseconds now);
-  /// Brings a scene to a stamp, within `radius` of a place. The scene looks at what is held here
-  /// until the next call.
+  /// Takes what was told of moments up to `stamp`, which does not fall but by forgetLater().
+  void follow(Nanoseconds stamp);
+  /// Brings a scene to a stamp that was followed to, within `radius` of a place. The scene looks at
+  /// what is held here until the next call of either.
   void show(const Vec3& centre, double radius, Nanoseconds stamp, scan::Scene& scene);
 
   bool hasForest() const { return forest_.ready(); }
   bool hasGrass() const { return tread_ != nullptr; }
   std::size_t people() const { return people_.size(); }
+  /// Messages that wait for their stamp, and those that found no room to.
+  std::size_t waiting() const;
+  std::uint64_t lost() const;
   /// Why states of forest and grass are not in step; empty: they are, or there are none.
   std::string waitsFor() const;
 
-  /// For so long a walker is where it was told to be [s].
+  /// For so long a walker is seen that nothing is told of [s].
   static constexpr double LONGEST_SILENCE = 3.0;
+  /// For so long it goes on as it went [s].
+  static constexpr double LONGEST_GUESS = 0.25;
 
  private:
   void onWind(const WindField& message);
@@ -59,6 +67,7 @@ class HeardLandscape {
   /// Runs `take`; what it throws is a refusal.
   void guard(const char* what, const std::function<void()>& take);
   std::shared_ptr<const terrain::HeightMap> ground() const;
+  std::vector<scan::People::Person> peopleAt(Nanoseconds stamp) const;
 
   std::string frame_id_;
   Reject reject_;
@@ -69,7 +78,10 @@ class HeardLandscape {
   std::uint64_t lawn_hash_{0};
   std::unique_ptr<grass::TreadMap> tread_;
   grass::TreadReplica treads_;
-  std::vector<crowd::Walker> people_;
+  ToldAhead<forest::StateUpdate> forest_ahead_;
+  ToldAhead<grass::TreadUpdate> treads_ahead_;
+  ToldAhead<std::vector<crowd::Walker>> people_ahead_;
+  std::vector<crowd::Walker> people_;  // at people_stamp_
   Nanoseconds people_stamp_{0};
   std::vector<ros::Subscriber> subscribers_;
 };

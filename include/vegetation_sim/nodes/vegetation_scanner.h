@@ -42,7 +42,7 @@ class VegetationScanner {
   HeardLandscape landscape_;
   scan::Scene scene_;
   struct Counts {
-    std::uint64_t rejected{0}, sweeps{0}, blind{0};
+    std::uint64_t rejected{0}, sweeps{0}, blind{0}, lost{0};
     TickClock::Counts clock;
   } counts_, reported_;  // so far, and when diagnostics were last sent
   std::string last_rejection_, blindness_;

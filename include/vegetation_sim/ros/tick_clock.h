@@ -24,15 +24,21 @@ struct TickCalls {
   std::function<void(Nanoseconds clock)> back{};
 };
 
+/// Which ticks a late node does: each one, or without state only the newest.
+enum class LateTicks { EACH, NEWEST };
+
 /// The one rule by which nodes follow ROS time: ticks of an integer grid, none before the clock has
 /// begun, late ones caught up one by one for up to a second; where the clock leaps farther, those
 /// between are dropped and counted; back by a tick or more is a fresh start. In simulation it goes
-/// by every message of /clock, in the order and in the queue of the node's other inputs.
+/// by every message of /clock, in the order and in the queue of the node's other inputs. With
+/// LateTicks::NEWEST it catches up with nothing: what is not done when the next is due is dropped
+/// and counted, and of /clock it takes the newest message.
 class TickClock {
  public:
   /// @param name of the node, in its warnings. @param rate ticks per second [Hz].
   /// @param delay how far ticks stay behind the clock [s].
-  TickClock(std::string name, int rate, double delay, TickCalls calls);
+  TickClock(std::string name, int rate, double delay, TickCalls calls,
+            LateTicks late = LateTicks::EACH);
 
   /// Begins to follow the clock. The last thing that a node's constructor does: a nodelet's first
   /// ticks may come while it is still being built.
@@ -49,7 +55,7 @@ class TickClock {
 
   struct Counts {
     std::uint64_t ticks{0};    ///< done
-    std::uint64_t dropped{0};  ///< left out when the clock leapt ahead
+    std::uint64_t dropped{0};  ///< left out, the node was late or the clock leapt
     std::uint64_t jumps{0};    ///< of the clock back
   };
   const Counts& counts() const { return counts_; }
@@ -68,6 +74,7 @@ class TickClock {
   TickGrid grid_;
   Nanoseconds delay_;
   TickCalls calls_;
+  LateTicks late_;
   std::int64_t last_{NEVER};
   Counts counts_;
   double cost_{0.0};

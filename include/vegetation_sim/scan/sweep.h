@@ -51,9 +51,10 @@ struct Noise {
 /// numbers (Irwin 1927, Hall 1927), never beyond 6.
 double unitNoise(const Noise& noise, std::uint64_t ray);
 
-/// All rays at one instant. [rings x columns] @param threads that share them; they change nothing.
+/// All rays at one instant. [rings x columns] @param most_threads that share them, no
+/// more than the machine has; they change nothing.
 std::vector<Return> sweep(const Scene& scene, const Beams& beams, const Pose& sensor,
-                          const Noise& noise, int threads = 1);
+                          const Noise& noise, int most_threads = 1);
 
 /// Points by label; under NONE, rays without one: the sum is the number of rays.
 std::array<std::uint32_t, LABELS> countLabels(const std::vector<Return>& returns);

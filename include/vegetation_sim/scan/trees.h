@@ -30,12 +30,16 @@ class Trees {
   std::size_t branches() const { return branches_; }
   /// Trees that the last update() had no room for.
   std::size_t leftOut() const { return left_out_; }
+  /// Trees grown so far.
+  std::uint64_t grown() const { return grown_; }
 
  private:
   std::size_t most_branches_;
   std::uint64_t layout_hash_{0};
   std::vector<std::shared_ptr<PosedTree>> trees_;  ///< nearest first
+  std::map<std::uint32_t, std::size_t> sizes_;     ///< branches of trees that found no room
   std::size_t branches_{0}, left_out_{0};
+  std::uint64_t grown_{0};
   BoxTree boxes_;
 };
 

@@ -1,0 +1,71 @@
+#!/usr/bin/env python3
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""A cloud shows people where they are at its stamp (N1), however far it stays behind the clock."""
+import unittest
+
+import numpy
+import rospy
+import rostest
+from geometry_msgs.msg import Point
+from vegetation_sim.msg import AgentSpawn, ScanReport
+
+from crowd_rig import Crowd
+from forest_rig import RATE, TickClock, time_of
+from scan_rig import Mast, Scanner, cloud_of
+
+START = 1000 * RATE
+SPEED = 1.4  # [m/s]
+# Of the trunk: what is seen of its far side lags by less than 2 cm, and its limbs' sway is small.
+LIMBS = 0, 1, 2, 4  # head, neck, chest, pelvis
+CLOSE = 0.04  # [m]; a tick of the crowd is 4.7 cm of way, the delay 14 cm
+
+
+class ScanDelay(unittest.TestCase):
+    def setUp(self):
+        self.crowd, self.scanner = Crowd(), Scanner()
+        self.clock = TickClock(START)
+        self.scanner.wait_until_up('/agents')
+        self.crowd.wait_until_up()
+        self.mast = Mast(self.scanner)
+
+    # The scanner's ticks of 50 ms fall between those of the crowd, 33 ms.
+    def test_who_walks_by_is_where_the_stamp_says(self):
+        self.clock.run(1, self.crowd)
+        walker = AgentSpawn(position=Point(5, -3, 0), heading=numpy.pi / 2, speed=SPEED,
+                            has_goal=True, goal=Point(5, 30, 0))
+        answer = self.crowd.spawn(like=walker, count=1)
+        self.assertTrue(answer.success, answer.message)
+        errors, stamps = [], set()
+        while self.clock.tick < START + 4 * RATE:
+            self.mast.put(0.0, 0.0, 1.2, time_of(self.clock.tick + 1))
+            self.clock.run(1, self.crowd)
+            self.crowd.settle()
+            self.scanner.settle()
+            cloud = self.scanner.points.messages[-1:]
+            if not cloud or cloud[0].header.stamp in stamps:
+                continue
+            stamps.add(cloud[0].header.stamp)
+            error = self.error_of(cloud[0])
+            if error is not None:
+                errors.append(error)
+        self.assertGreater(len(errors), 10)
+        self.assertLess(numpy.abs(errors).max(), CLOSE, errors)
+        self.assertLess(abs(numpy.mean(errors)), CLOSE / 2, errors)
+
+    def error_of(self, message):
+        """How far ahead of its place the walker is seen [m]; None: it is not just in front."""
+        stamp = message.header.stamp.to_sec()
+        told = [(m.header.stamp.to_sec(), m.agents[0].pose.position)
+                for m in self.crowd.state.messages if m.agents]
+        place = numpy.interp(stamp, [t for t, _ in told], [p.y for _, p in told])
+        points = cloud_of(message)
+        trunk = points[(points['label'] == ScanReport.PERSON) & numpy.isin(points['branch'], LIMBS)]
+        if abs(place) > 1.0 or len(trunk) < 20:
+            return None
+        return 0.5 * (trunk['y'].min() + trunk['y'].max()) - place
+
+
+if __name__ == '__main__':
+    rospy.init_node('scan_delay_test')
+    rostest.rosrun('vegetation_sim', 'scan_delay', ScanDelay)
