@@ -44,9 +44,10 @@ mkdir -p "$WORK/taken/model.sdf"
 ! ls "$WORK"/taken/*.part 2>/dev/null || fail 'a refused model leaves a part of it'
 
 for nodelets in false true; do
-  start_launch demo.launch scenario:=single_tree rviz:=false nodelets:=$nodelets
+  start_launch demo.launch scenario:=crowd lidar:=true rviz:=false nodelets:=$nodelets
   wait_until 60 'a message on wind' topic_flows /wind
   wait_until 60 'a message on forest/state' topic_flows /forest/state
+  wait_until 60 'a message on lidar/report' topic_flows /lidar/report
   check_launch
   stop_process "$launch_pid"
 done
