@@ -63,6 +63,7 @@ check_launch() {
 
 give_up() {
   tail -n 40 "$LOG" >&2
+  grep -A 3 'has died' "$LOG" >&2 || true
   fail "$*"
 }
 
