@@ -8,6 +8,7 @@
 #include "vegetation_sim/nodes/agent_crowd.h"
 #include "vegetation_sim/ros/balance_report.h"
 #include "vegetation_sim/ros/geometry_conversions.h"
+#include "vegetation_sim/ros/troubles.h"
 
 namespace vegetation_sim {
 namespace {
@@ -139,17 +140,10 @@ void AgentCrowd::sendMarkers(const ros::TimerEvent&) {
 
 // What has happened since the last report, and only that.
 void AgentCrowd::warnOfTrouble(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  const auto warn = [&](std::uint64_t now, std::uint64_t before, const std::string& text) {
-    if (now > before)
-      status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN,
-                          std::to_string(now - before) + " " + text);
-  };
   counts_.clock = clock_.counts();
-  warn(counts_.rejected, reported_.rejected, "refused input: " + last_rejection_);
-  warn(counts_.clock.dropped, reported_.clock.dropped, "ticks dropped");
-  warn(counts_.clock.jumps, reported_.clock.jumps, "jumps back of the clock");
-  warn(counts_.inputs.lost, reported_.inputs.lost, "inputs lost, too many at once");
-  warn(counts_.inputs.late, reported_.inputs.late, "recorded events late, the replay differs");
+  warnOfMore(status, counts_.rejected, reported_.rejected, "refused input: " + last_rejection_);
+  warnOfClock(status, counts_.clock, reported_.clock);
+  warnOfLosses(status, counts_.inputs, reported_.inputs);
   if (!robots_->missing().empty())
     status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN,
                         "tf does not tell " + robots_->missing().front());

@@ -3,6 +3,7 @@
 #include "vegetation_sim/nodes/canopy_animator.h"
 #include "vegetation_sim/ros/balance_report.h"
 #include "vegetation_sim/ros/canopy_conversions.h"
+#include "vegetation_sim/ros/troubles.h"
 
 namespace vegetation_sim {
 
@@ -38,20 +39,13 @@ std::vector<canopy::MovedLeaf> CanopyAnimator::crownLeaves(const canopy::Foliage
 
 // What has happened since the last report, and only that.
 void CanopyAnimator::warnOfTrouble(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  const auto warn = [&](std::uint64_t now, std::uint64_t before, const std::string& text) {
-    if (now > before)
-      status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN,
-                          std::to_string(now - before) + " " + text);
-  };
   counts_.clock = clock_.counts();
-  counts_.inputs = inputs_.losses();
   counts_.resets = canopy_->figures().resets;
-  warn(counts_.rejected, reported_.rejected, "refused input: " + last_rejection_);
-  warn(counts_.clock.dropped, reported_.clock.dropped, "ticks dropped");
-  warn(counts_.clock.jumps, reported_.clock.jumps, "jumps back of the clock");
-  warn(counts_.inputs.lost, reported_.inputs.lost, "inputs lost, too many at once");
-  warn(counts_.inputs.late, reported_.inputs.late, "recorded events late, the replay differs");
-  warn(counts_.resets, reported_.resets, "steps of the wind gave no number and were undone");
+  warnOfMore(status, counts_.rejected, reported_.rejected, "refused input: " + last_rejection_);
+  warnOfClock(status, counts_.clock, reported_.clock);
+  warnOfLosses(status, counts_.inputs, reported_.inputs);
+  warnOfMore(status, counts_.resets, reported_.resets,
+             "steps of the wind gave no number and were undone");
   reported_ = counts_;
 }
 

@@ -4,7 +4,15 @@
 
 #include <ros/console.h>
 
+#include "vegetation_sim/ros/troubles.h"
+
 namespace vegetation_sim {
+
+void warnOfLosses(diagnostic_updater::DiagnosticStatusWrapper& status, const QueueLosses& now,
+                  const QueueLosses& reported) {
+  warnOfMore(status, now.lost, reported.lost, "inputs lost, too many at once");
+  warnOfMore(status, now.late, reported.late, "recorded events late, the replay differs");
+}
 
 void warnOfLosses(const char* node, const QueueLosses& losses, QueueLosses& told) {
   if (losses.late > told.late)

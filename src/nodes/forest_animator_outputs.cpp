@@ -4,6 +4,7 @@
 
 #include "vegetation_sim/nodes/forest_animator.h"
 #include "vegetation_sim/ros/forest_conversions.h"
+#include "vegetation_sim/ros/troubles.h"
 
 namespace vegetation_sim {
 
@@ -49,17 +50,10 @@ void ForestAnimator::sendMarkers(const ros::TimerEvent&) {
 
 // What has happened since the last report, and only that.
 void ForestAnimator::warnOfTrouble(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  const auto warn = [&](std::uint64_t now, std::uint64_t before, const std::string& text) {
-    if (now > before)
-      status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN,
-                          std::to_string(now - before) + " " + text);
-  };
   counts_.clock = clock_.counts();
-  warn(counts_.rejected, reported_.rejected, "refused input: " + last_rejection_);
-  warn(counts_.clock.dropped, reported_.clock.dropped, "ticks dropped");
-  warn(counts_.clock.jumps, reported_.clock.jumps, "jumps back of the clock");
-  warn(counts_.inputs.lost, reported_.inputs.lost, "inputs lost, too many at once");
-  warn(counts_.inputs.late, reported_.inputs.late, "recorded events late, the replay differs");
+  warnOfMore(status, counts_.rejected, reported_.rejected, "refused input: " + last_rejection_);
+  warnOfClock(status, counts_.clock, reported_.clock);
+  warnOfLosses(status, counts_.inputs, reported_.inputs);
   reported_ = counts_;
 }
 

@@ -9,6 +9,7 @@
 #include "vegetation_sim/ros/geometry_conversions.h"
 #include "vegetation_sim/ros/grass_conversions.h"
 #include "vegetation_sim/ros/requests.h"
+#include "vegetation_sim/ros/troubles.h"
 
 namespace vegetation_sim {
 void GrassField::publishEntering(Nanoseconds stamp) {
@@ -80,21 +81,13 @@ void GrassField::sendCover(const ros::TimerEvent&) {
 
 // What has happened since the last report, and only that.
 void GrassField::warnOfTrouble(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  const auto warn = [&](std::uint64_t now, std::uint64_t before, const std::string& text) {
-    if (now > before)
-      status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN,
-                          std::to_string(now - before) + " " + text);
-  };
   counts_.clock = clock_.counts();
   counts_.tread = meadow_->tread().state().counts;
-  counts_.inputs = inputs_.losses();
-  warn(counts_.rejected, reported_.rejected, "refused input: " + last_rejection_);
-  warn(counts_.clock.dropped, reported_.clock.dropped, "ticks dropped");
-  warn(counts_.clock.jumps, reported_.clock.jumps, "jumps back of the clock");
-  warn(counts_.inputs.lost, reported_.inputs.lost, "inputs lost, too many at once");
-  warn(counts_.inputs.late, reported_.inputs.late, "recorded events late, the replay differs");
-  warn(counts_.tread.no_memory, reported_.tread.no_memory,
-       "nodes left untrodden by the memory cap");
+  warnOfMore(status, counts_.rejected, reported_.rejected, "refused input: " + last_rejection_);
+  warnOfClock(status, counts_.clock, reported_.clock);
+  warnOfLosses(status, counts_.inputs, reported_.inputs);
+  warnOfMore(status, counts_.tread.no_memory, reported_.tread.no_memory,
+             "nodes left untrodden by the memory cap");
   reported_ = counts_;
 }
 

@@ -15,30 +15,6 @@
 #include "vegetation_sim/ros/wind_conversions.h"
 
 namespace vegetation_sim {
-namespace {
-
-constexpr double MEMORY_CAP = 1e9;  // [bytes] of trodden ground
-constexpr Range PLACES{-1e7, 1e7}, HEIGHTS{0.1, 5.0};
-
-void check(const AgentState& agent, Faults& faults) {
-  FieldChecker checker("agent " + std::to_string(agent.id) + ": ", faults);
-  const auto place = [&](const char* name, Vec3 at) { checker.vector(name, at, "m", PLACES); };
-  place("position", fromMsg(agent.pose.position));
-  double height = agent.height, gait = agent.gait;
-  checker.number("height", height, "m", HEIGHTS);
-  checker.number("gait", gait, "", PLACES);
-  Vec3 velocity = fromMsg(agent.velocity);
-  checker.vector("velocity", velocity, "m/s", PLACES);
-  double turn = agent.pose.orientation.z, half = agent.pose.orientation.w;
-  checker.number("orientation.z", turn, "", {-1.01, 1.01});
-  checker.number("orientation.w", half, "", {-1.01, 1.01});
-  for (std::size_t i = 0; i < 2; ++i) {
-    place("feet", fromMsg(agent.feet[i]));
-    place("feet_lag", fromMsg(agent.feet_lag[i]));
-  }
-}
-
-}  // namespace
 
 HeardLandscape::HeardLandscape(std::string frame_id, Reject reject)
     : frame_id_(std::move(frame_id)), reject_(std::move(reject)) {}
@@ -93,23 +69,8 @@ void HeardLandscape::onForestState(const ForestState& message) {
 void HeardLandscape::onGrassLayout(const GrassLayout& message) {
   guard("grass/layout", [&] {
     checkFrame(message.header.frame_id);
-    takeGrass(fromMsg(message));
+    meadow_ = HeardMeadow(message);
   });
-}
-
-void HeardLandscape::takeGrass(grass::Layout layout) {
-  auto terrain = loadTerrain(layout.terrain);
-  if (terrain->hash() != layout.terrain_hash)
-    throw InvalidInput("layout: terrain = '" + layout.terrain +
-                       "' has other heights here than where it was made");
-  grass::TreadSettings settings;
-  settings.spacing = layout.tread_spacing;
-  settings.memory_cap = MEMORY_CAP;
-  tread_ = std::make_unique<grass::TreadMap>(layout.map->law(), settings);
-  lawn_ = std::move(layout);
-  lawn_hash_ = lawn_.hash();
-  grass_ground_ = std::move(terrain);
-  treads_.reset();
 }
 
 void HeardLandscape::onGrassState(const GrassState& message) {
@@ -123,9 +84,7 @@ void HeardLandscape::onGrassState(const GrassState& message) {
 void HeardLandscape::onPeople(const AgentStates& message) {
   guard("agents", [&] {
     checkFrame(message.header.frame_id);
-    Faults faults;
-    for (const AgentState& agent : message.agents) check(agent, faults);
-    faults.throwIfAny();
+    check(message);
     std::vector<crowd::Walker> people;
     for (const AgentState& agent : message.agents) people.push_back(fromMsg(agent));
     people_ahead_.add(fromMsg(message.header.stamp), std::move(people));
@@ -137,7 +96,8 @@ void HeardLandscape::follow(Nanoseconds stamp) {
     guard("forest/state", [&] { forest_.apply(update); });
   });
   treads_ahead_.take(stamp, [this](Nanoseconds, const grass::TreadUpdate& update) {
-    if (tread_ && update.layout_hash == lawn_hash_) treads_.apply(update, *tread_);
+    if (meadow_.ready() && update.layout_hash == meadow_.hash)
+      meadow_.replica.apply(update, *meadow_.tread);
   });
   people_ahead_.take(stamp, [this](Nanoseconds told, const std::vector<crowd::Walker>& people) {
     people_ = people;
@@ -154,10 +114,7 @@ void HeardLandscape::forgetLater(Nanoseconds now) {
     fresh.setWind(wind_);
     forest_ = std::move(fresh);
   }
-  if (tread_ && treads_.stamp() > now) {
-    tread_->clear();
-    treads_.reset();
-  }
+  meadow_.forgetLater(now);
   if (people_stamp_ > now) people_.clear();
   forest_ahead_.forgetLater(now);
   treads_ahead_.forgetLater(now);
@@ -174,16 +131,17 @@ std::uint64_t HeardLandscape::lost() const {
 
 std::shared_ptr<const terrain::HeightMap> HeardLandscape::ground() const {
   static const auto FLAT = std::make_shared<const terrain::HeightMap>();
-  return grass_ground_ ? grass_ground_ : forest_ground_ ? forest_ground_ : FLAT;
+  return meadow_.ready() ? meadow_.terrain : forest_ground_ ? forest_ground_ : FLAT;
 }
 
 void HeardLandscape::show(const Vec3& centre, double radius, Nanoseconds stamp,
                           scan::Scene& scene) {
   scene.ground = ground();
   if (forest_.ready()) scene.trees.update(forest_, centre, radius, stamp);
-  if (tread_) {
-    tread_->prune(stamp);
-    scene.grass.update(lawn_, *tread_, grass_ground_, wind_, centre, radius, stamp);
+  if (meadow_.ready()) {
+    meadow_.tread->prune(stamp);
+    scene.grass.update(meadow_.layout, *meadow_.tread, meadow_.terrain, wind_, centre, radius,
+                       stamp);
   }
   scene.people.set(peopleAt(stamp));
 }
@@ -204,8 +162,8 @@ std::vector<scan::People::Person> HeardLandscape::peopleAt(Nanoseconds stamp) co
 std::string HeardLandscape::waitsFor() const {
   std::string out;
   if (forest_.ready() && !forest_.why().empty()) out = "forest: " + forest_.why();
-  if (tread_ && !treads_.why().empty())
-    out += (out.empty() ? "" : "; ") + ("grass: " + treads_.why());
+  if (meadow_.ready() && !meadow_.replica.why().empty())
+    out += (out.empty() ? "" : "; ") + ("grass: " + meadow_.replica.why());
   return out;
 }
 

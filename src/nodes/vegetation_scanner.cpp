@@ -6,6 +6,7 @@
 #include "vegetation_sim/ros/requests.h"
 #include "vegetation_sim/ros/scan_conversions.h"
 #include "vegetation_sim/ros/stamps.h"
+#include "vegetation_sim/ros/troubles.h"
 
 namespace vegetation_sim {
 
@@ -118,19 +119,14 @@ bool VegetationScanner::onReset(std_srvs::Trigger::Request&,
 
 // What has happened since the last report, and only that.
 void VegetationScanner::warnOfTrouble(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  const auto warn = [&](std::uint64_t now, std::uint64_t before, const std::string& text) {
-    if (now > before)
-      status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN,
-                          std::to_string(now - before) + " " + text);
-  };
   counts_.clock = clock_.counts();
-  warn(counts_.rejected, reported_.rejected, "refused input: " + last_rejection_);
-  warn(counts_.blind, reported_.blind, "sweeps without a place: " + blindness_);
+  warnOfMore(status, counts_.rejected, reported_.rejected, "refused input: " + last_rejection_);
+  warnOfMore(status, counts_.blind, reported_.blind, "sweeps without a place: " + blindness_);
   counts_.lost = landscape_.lost();
-  warn(counts_.lost, reported_.lost, "messages lost that are stamped ahead of the clock");
-  warn(counts_.clock.dropped, reported_.clock.dropped, "ticks dropped");
-  warn(counts_.clock.jumps, reported_.clock.jumps, "jumps back of the clock");
-  warn(scene_.trees.leftOut(), 0, "trees in range beyond branch_budget, unseen");
+  warnOfMore(status, counts_.lost, reported_.lost,
+             "messages lost that are stamped ahead of the clock");
+  warnOfClock(status, counts_.clock, reported_.clock);
+  warnOfMore(status, scene_.trees.leftOut(), 0, "trees in range beyond branch_budget, unseen");
   if (const std::string why = landscape_.waitsFor(); !why.empty())
     status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, "waits for a key frame: " + why);
   reported_ = counts_;

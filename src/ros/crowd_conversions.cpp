@@ -4,12 +4,15 @@
 
 #include <cmath>
 
+#include "vegetation_sim/common/fields.h"
 #include "vegetation_sim/common/hash.h"
 #include "vegetation_sim/common/math.h"
 #include "vegetation_sim/ros/geometry_conversions.h"
 
 namespace vegetation_sim {
 namespace {
+
+constexpr Range PLACES{-1e7, 1e7}, HEIGHTS{0.1, 5.0}, UNIT{-1.01, 1.01};
 
 geometry_msgs::Point pointOf(const crowd::Point& p, double z) {
   return toPoint(Vec3(p.x, p.y, z));
@@ -26,6 +29,24 @@ crowd::Point planOf(const Message& message) {
 
 double orDefault(double value, double fallback) {
   return value == 0.0 ? fallback : value;
+}
+
+void check(const AgentState& agent, Faults& faults) {
+  FieldChecker checker("agent " + std::to_string(agent.id) + ": ", faults);
+  const auto place = [&](const char* name, Vec3 at) { checker.vector(name, at, "m", PLACES); };
+  place("position", fromMsg(agent.pose.position));
+  double height = agent.height, gait = agent.gait;
+  checker.number("height", height, "m", HEIGHTS);
+  checker.number("gait", gait, "", PLACES);
+  Vec3 velocity = fromMsg(agent.velocity);
+  checker.vector("velocity", velocity, "m/s", PLACES);
+  double turn = agent.pose.orientation.z, half = agent.pose.orientation.w;
+  checker.number("orientation.z", turn, "", UNIT);
+  checker.number("orientation.w", half, "", UNIT);
+  for (std::size_t i = 0; i < 2; ++i) {
+    place("feet", fromMsg(agent.feet[i]));
+    place("feet_lag", fromMsg(agent.feet_lag[i]));
+  }
 }
 
 }  // namespace
@@ -72,6 +93,12 @@ crowd::Walker fromMsg(const AgentState& message) {
   out.goal = planOf(message.goal);
   out.no_progress = message.no_progress;
   return out;
+}
+
+void check(const AgentStates& message) {
+  Faults faults;
+  for (const AgentState& agent : message.agents) check(agent, faults);
+  faults.throwIfAny();
 }
 
 AgentSpawn toMsg(const crowd::Spawn& spawn) {

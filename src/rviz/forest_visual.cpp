@@ -56,8 +56,7 @@ bool isSeen(Grove& grove, const View& view) {
 }  // namespace
 
 ForestVisual::ForestVisual(Ogre::SceneNode& parent)
-    : parent_(parent),
-      node_(parent.createChildSceneNode()),
+    : node_(parent.createChildSceneNode()),
       leaf_texture_(uniqueName("leaf_picture"), sharedLeafAtlas()),
       bark_texture_(uniqueName("bark_picture"), sharedBarkAtlas()),
       leaf_material_(Material::Kind::LEAVES, uniqueName("leaf_material"), {leaf_texture_.name()}),

@@ -9,13 +9,10 @@
 #include <utility>
 
 #include "vegetation_sim/ros/grass_conversions.h"
-#include "vegetation_sim/ros/resources.h"
 #include "vegetation_sim/ros/wind_conversions.h"
 
 namespace vegetation_sim::view {
 namespace {
-
-constexpr double MEMORY_CAP = 1e9;  // [bytes] of trodden ground
 
 InputStatus refused(const std::exception& error) {
   return {false, std::string("Refused a message: ") + error.what()};
@@ -34,29 +31,16 @@ GrassSource::GrassSource(ros::NodeHandle nh, const GrassTopics& topics)
 
 void GrassSource::takeLayout(const GrassLayout& message) {
   try {
-    grass::Layout layout = fromMsg(message);
-    auto terrain = loadTerrain(layout.terrain);
-    if (terrain->hash() != layout.terrain_hash)
-      throw InvalidInput("layout: terrain = '" + layout.terrain +
-                         "' has other heights here than where it was made");
-    grass::TreadSettings settings;
-    settings.spacing = layout.tread_spacing;
-    settings.memory_cap = MEMORY_CAP;
-    auto tread = std::make_unique<grass::TreadMap>(layout.map->law(), settings);
-    layout_ = std::move(layout);
-    terrain_ = std::move(terrain);
-    tread_ = std::move(tread);
+    meadow_ = HeardMeadow(message);
   } catch (const std::exception& error) {
     layout_status_ = refused(error);
     return;
   }
-  replica_.reset();
   pressed_.clear();
-  layout_hash_ = layout_.hash();
   ++layouts_;
   ++changes_;
   frame_ = message.header.frame_id;
-  const grass::FeatureMap& map = *layout_.map;
+  const grass::FeatureMap& map = *meadow_.layout.map;
   layout_status_ = {true, std::to_string(map.tileColumns()) + " x " +
                               std::to_string(map.tileRows()) + " tiles, " +
                               std::to_string(map.species().size()) + " species"};
@@ -76,13 +60,14 @@ void GrassSource::takeWind(const WindField& message) {
 void GrassSource::takeState(const GrassState& message) {
   try {
     const grass::TreadUpdate update = fromMsg(message);
-    if (!ready() || update.layout_hash != layout_hash_) {
+    if (!ready() || update.layout_hash != meadow_.hash) {
       state_status_ = {
           false, ready() ? "Waiting: state belongs to another layout" : "Waiting for a layout"};
       return;
     }
-    const bool taken = replica_.apply(update, *tread_);
-    state_status_ = {taken, taken ? "In step" : "Waiting for a key frame: " + replica_.why()};
+    const bool taken = meadow_.replica.apply(update, *meadow_.tread);
+    state_status_ = {taken,
+                     taken ? "In step" : "Waiting for a key frame: " + meadow_.replica.why()};
     if (!taken || (!update.key_frame && update.treads.blocks.empty())) return;
     ++changes_;
     if (!update.key_frame) notePressed(update.treads);
@@ -92,8 +77,8 @@ void GrassSource::takeState(const GrassState& message) {
 }
 
 void GrassSource::notePressed(const grass::ToldTreads& treads) {
-  const grass::MapLaw& law = layout_.map->law();
-  const int cells = static_cast<int>(std::lround(law.resolution / tread_->spacing()));
+  const grass::MapLaw& law = meadow_.layout.map->law();
+  const int cells = static_cast<int>(std::lround(law.resolution / meadow_.tread->spacing()));
   constexpr int SIDE = grass::TreadBlock::SIDE;
   // A node on an edge belongs to the tiles on both sides.
   const auto first = [&](int block) { return std::max(0, (block * SIDE - 1) / cells); };
@@ -112,13 +97,11 @@ std::set<std::pair<int, int>> GrassSource::takePressed() {
 }
 
 void GrassSource::prune(Nanoseconds stamp) {
-  if (ready()) tread_->prune(stamp);
+  if (ready()) meadow_.tread->prune(stamp);
 }
 
 void GrassSource::forgetState(Nanoseconds now) {
-  if (!ready() || replica_.stamp() <= now) return;
-  tread_->clear();
-  replica_.reset();
+  if (!meadow_.forgetLater(now)) return;
   ++changes_;
   state_status_ = {false, "Waiting for a key frame: time went back"};
 }

@@ -112,22 +112,14 @@ class Swaying {
     double theta = 0.5;
     wind::Instant air;
     double looked = -1.0;
-    std::vector<Vec3> arms;
-    AirSampler sampler;
     physics::Surroundings around;
     around.loads = [&](const physics::Kinematics& k, double time, physics::Loads& loads) {
       if (time != looked) field_.at(SWAY_START + fromSeconds(looked = time), air);
-      arms.assign(links.size(), Vec3::Zero());
-      sampler.clear();
-      for (std::size_t i = 0; i < links.size(); ++i) {
-        if (wood.own[i].drag > 0.0)
-          arms[i] = rotate(k.pose[i].orientation, wood.own[i].drag_moment / wood.own[i].drag);
-        sampler.add(k.pose[i].position + arms[i]);
-      }
-      sampler.sample(air);
       for (std::size_t i = 0; i < links.size(); ++i) {
         if (wood.own[i].drag <= 0.0) continue;
-        const Vec3 &arm = arms[i], wind = sampler.velocity(i);
+        const Vec3 centre = wood.own[i].drag_moment / wood.own[i].drag;
+        const Vec3 arm = rotate(k.pose[i].orientation, centre);
+        const Vec3 wind = air.velocity(k.pose[i].position + arm);
         const Vec3 force = wood.own[i].drag * (wind - k.velocity[i] - cross(k.spin[i], arm));
         loads.wrench[i] = {force, cross(arm, force)};
       }

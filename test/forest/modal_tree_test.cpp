@@ -33,10 +33,12 @@ TEST(ModalTree, SwaysAsTheFullChainDoes) {
 TEST(ModalTree, ComesNearerWithMoreModes) {
   const Swaying scene(0, breeze(), SECONDS);
   const double none = scene.modalError({0, 1, 1, false}), some = scene.modalError({6, 1, 1, false}),
-               many = scene.modalError({20, 1, 1, false}), deep = scene.modalError();
+               many = scene.modalError({20, 1, 1, false}),
+               deep = scene.modalError({10, 5, 1, false}), usual = scene.modalError();
   EXPECT_LT(some, 0.8 * none);
   EXPECT_LT(many, 0.8 * some);
   EXPECT_LT(deep, many);
+  EXPECT_LT(usual, many);
 }
 
 // Uniform steady wind: where the modes settle is what the procedural rung, the static answer, says.
@@ -111,6 +113,7 @@ TEST(ModalTree, LoadsAreThoseOnAllBranches) {
         off += (load[m] - plain[m]) * (load[m] - plain[m]);
         size += plain[m] * plain[m];
       }
+      // Measured: 0.054 and 0.013 at most; with half as many points for a breeze 0.0206.
       EXPECT_LT(std::sqrt(off / size), gusty ? 0.08 : 0.02) << id;
       for (const std::string& set : instructionSets()) {
         forceInstructionSet(set);

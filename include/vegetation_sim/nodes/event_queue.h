@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <diagnostic_updater/DiagnosticStatusWrapper.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <deque>
@@ -18,6 +20,9 @@ struct QueueLosses {
   std::uint64_t lost{0};  ///< events that found no room to wait
 };
 
+/// Warns on /diagnostics of losses since the last report.
+void warnOfLosses(diagnostic_updater::DiagnosticStatusWrapper& status, const QueueLosses& now,
+                  const QueueLosses& reported);
 /// Warns on the node's console of losses that are not in `told`, and puts them there.
 void warnOfLosses(const char* node, const QueueLosses& losses, QueueLosses& told);
 

@@ -16,9 +16,8 @@
 #include <vector>
 
 #include "vegetation_sim/forest/replica.h"
-#include "vegetation_sim/grass/layout.h"
-#include "vegetation_sim/grass/told.h"
 #include "vegetation_sim/nodes/told_ahead.h"
+#include "vegetation_sim/ros/heard_meadow.h"
 #include "vegetation_sim/scan/scene.h"
 
 namespace vegetation_sim {
@@ -42,7 +41,7 @@ class HeardLandscape {
   void show(const Vec3& centre, double radius, Nanoseconds stamp, scan::Scene& scene);
 
   bool hasForest() const { return forest_.ready(); }
-  bool hasGrass() const { return tread_ != nullptr; }
+  bool hasGrass() const { return meadow_.ready(); }
   std::size_t people() const { return people_.size(); }
   /// Messages that wait for their stamp, and those that found no room to.
   std::size_t waiting() const;
@@ -62,7 +61,6 @@ class HeardLandscape {
   void onGrassLayout(const GrassLayout& message);
   void onGrassState(const GrassState& message);
   void onPeople(const AgentStates& message);
-  void takeGrass(grass::Layout layout);
   void checkFrame(const std::string& frame) const;
   /// Runs `take`; what it throws is a refusal.
   void guard(const char* what, const std::function<void()>& take);
@@ -73,11 +71,8 @@ class HeardLandscape {
   Reject reject_;
   wind::Field wind_;
   forest::ForestReplica forest_;
-  std::shared_ptr<const terrain::HeightMap> forest_ground_, grass_ground_;
-  grass::Layout lawn_;
-  std::uint64_t lawn_hash_{0};
-  std::unique_ptr<grass::TreadMap> tread_;
-  grass::TreadReplica treads_;
+  std::shared_ptr<const terrain::HeightMap> forest_ground_;
+  HeardMeadow meadow_;
   ToldAhead<forest::StateUpdate> forest_ahead_;
   ToldAhead<grass::TreadUpdate> treads_ahead_;
   ToldAhead<std::vector<crowd::Walker>> people_ahead_;

@@ -5,6 +5,7 @@
 #include <nav_msgs/OccupancyGrid.h>
 #include <vegetation_sim/AgentSpawn.h>
 #include <vegetation_sim/AgentState.h>
+#include <vegetation_sim/AgentStates.h>
 #include <vegetation_sim/CrowdRobot.h>
 
 #include <memory>
@@ -18,6 +19,9 @@ namespace vegetation_sim {
 /// A walker as it stands on the terrain, and back, as far as its body goes.
 AgentState toMsg(const crowd::Walker& walker, const terrain::HeightMap& terrain);
 crowd::Walker fromMsg(const AgentState& message);
+/// What a stranger says of walkers. @throws InvalidInput with all faults, each with id, value and
+/// range.
+void check(const AgentStates& message);
 
 AgentSpawn toMsg(const crowd::Spawn& spawn);
 /// Zeros become the defaults. Not checked: Crowd::spawn() does that.

@@ -64,7 +64,6 @@ class ForestVisual {
             const Options& options);
   void measure(const View& view, const Options& options);
 
-  Ogre::SceneNode& parent_;
   Ogre::SceneNode* node_;  // Ogre's; destroyed by us
   Texture leaf_texture_, bark_texture_;
   Material leaf_material_, bark_material_, fading_leaf_material_, fading_bark_material_;

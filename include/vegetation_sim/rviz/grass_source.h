@@ -13,10 +13,8 @@
 #include <string>
 #include <utility>
 
-#include "vegetation_sim/grass/layout.h"
-#include "vegetation_sim/grass/told.h"
+#include "vegetation_sim/ros/heard_meadow.h"
 #include "vegetation_sim/rviz/forest_source.h"
-#include "vegetation_sim/terrain/height_map.h"
 #include "vegetation_sim/wind/field.h"
 
 namespace vegetation_sim::view {
@@ -33,10 +31,10 @@ class GrassSource {
   GrassSource(ros::NodeHandle nh, const GrassTopics& topics);
 
   /// True once there is a layout. Requires it: layout(), terrain(), tread().
-  bool ready() const { return tread_ != nullptr; }
-  const grass::Layout& layout() const { return layout_; }
-  std::shared_ptr<const terrain::HeightMap> terrain() const { return terrain_; }
-  const grass::TreadMap& tread() const { return *tread_; }
+  bool ready() const { return meadow_.ready(); }
+  const grass::Layout& layout() const { return meadow_.layout; }
+  std::shared_ptr<const terrain::HeightMap> terrain() const { return meadow_.terrain; }
+  const grass::TreadMap& tread() const { return *meadow_.tread; }
   const wind::Field& wind() const { return wind_; }
   /// Counts layouts taken, and changes of any kind.
   int layouts() const { return layouts_; }
@@ -61,11 +59,7 @@ class GrassSource {
   void takeState(const GrassState& message);
   void notePressed(const grass::ToldTreads& treads);
 
-  grass::Layout layout_;
-  std::uint64_t layout_hash_{0};
-  std::shared_ptr<const terrain::HeightMap> terrain_;
-  std::unique_ptr<grass::TreadMap> tread_;
-  grass::TreadReplica replica_;
+  HeardMeadow meadow_;
   wind::Field wind_;
   int layouts_{0}, changes_{0};
   std::set<std::pair<int, int>> pressed_;
