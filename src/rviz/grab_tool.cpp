@@ -2,16 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vegetation_sim/rviz/grab_tool.h"
 
-#include <OgreSceneManager.h>
 #include <rviz/display_context.h>
-#include <rviz/frame_manager.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <pluginlib/class_list_macros.hpp>
 #include <stdexcept>
 
-#include "vegetation_sim/rviz/ogre_vectors.h"
+#include "vegetation_sim/rviz/mouse.h"
 
 namespace vegetation_sim {
 namespace {
@@ -30,7 +28,7 @@ QString describe(const view::Grip& grip) {
 
 }  // namespace
 
-GrabTool::GrabTool() {
+GrabTool::GrabTool() : line_(LINE_WIDTH) {
   shortcut_key_ = 'b';
   rviz::Property* to = getPropertyContainer();
   node_ = std::make_unique<rviz::StringProperty>(
@@ -64,7 +62,7 @@ void GrabTool::activate() {
 }
 
 void GrabTool::deactivate() {
-  line_.reset();
+  line_.clear();
   hand_.reset();
 }
 
@@ -122,25 +120,12 @@ void GrabTool::update(float wall_dt, float) {
 
 void GrabTool::drawPull(const view::Grip& grip) {
   if (!grip.holding) {
-    line_.reset();
+    line_.clear();
     return;
   }
-  if (!line_) {
-    line_ = std::make_unique<rviz::BillboardLine>(context_->getSceneManager());
-    line_->setLineWidth(LINE_WIDTH);
-  }
-  Ogre::Vector3 position;
-  Ogre::Quaternion orientation;
-  if (!context_->getFrameManager()->getTransform(world_->frame(), ros::Time(), position,
-                                                 orientation))
-    return;
-  line_->setPosition(position);
-  line_->setOrientation(orientation);
   const auto share = static_cast<float>(
       std::min(1.0, grip.force.norm() / static_cast<double>(force_limit_->getFloat())));
-  line_->clear();
-  for (const Vec3& end : {grip.point, grip.target})
-    line_->addPoint(view::toOgre(end), SLACK + share * (TAUT - SLACK));
+  line_.draw(*context_, world_->frame(), grip.point, grip.target, SLACK + share * (TAUT - SLACK));
 }
 
 }  // namespace vegetation_sim

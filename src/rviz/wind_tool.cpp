@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vegetation_sim/rviz/wind_tool.h"
 
-#include <OgreSceneManager.h>
 #include <rviz/display_context.h>
-#include <rviz/frame_manager.h>
 #include <vegetation_sim/SetWindPrimitive.h>
 
 #include <pluginlib/class_list_macros.hpp>
@@ -13,7 +11,6 @@
 #include "vegetation_sim/ros/stamps.h"
 #include "vegetation_sim/ros/wind_conversions.h"
 #include "vegetation_sim/rviz/mouse.h"
-#include "vegetation_sim/rviz/ogre_vectors.h"
 #include "vegetation_sim/terrain/ground_ray.h"
 
 namespace vegetation_sim {
@@ -33,7 +30,7 @@ std::unique_ptr<rviz::FloatProperty> metres(const char* name, float value, float
 
 }  // namespace
 
-WindTool::WindTool() {
+WindTool::WindTool() : line_(LINE_WIDTH) {
   shortcut_key_ = 'w';
   rviz::Property* to = getPropertyContainer();
   node_ = std::make_unique<rviz::StringProperty>(
@@ -56,7 +53,7 @@ void WindTool::onInitialize() {
 }
 
 void WindTool::deactivate() {
-  line_.reset();
+  line_.clear();
   drawing_ = false;
 }
 
@@ -116,21 +113,9 @@ void WindTool::update(float, float) {
 }
 
 void WindTool::drawStroke() {
-  if (!line_) {
-    line_ = std::make_unique<rviz::BillboardLine>(context_->getSceneManager());
-    line_->setLineWidth(LINE_WIDTH);
-  }
-  Ogre::Vector3 position;
-  Ogre::Quaternion orientation;
-  if (!context_->getFrameManager()->getTransform(world_->frame(), ros::Time(), position,
-                                                 orientation))
-    return;
-  line_->setPosition(position);
-  line_->setOrientation(orientation);
-  line_->clear();
-  for (const Vec3& end : {stroke_.from, stroke_.to})
-    line_->addPoint(view::toOgre(end + Vec3(0.0, 0.0, LIFTED)),
-                    Ogre::ColourValue(0.4f, 0.8f, 1.0f));
+  const Vec3 lift(0.0, 0.0, LIFTED);
+  line_.draw(*context_, world_->frame(), stroke_.from + lift, stroke_.to + lift,
+             Ogre::ColourValue(0.4f, 0.8f, 1.0f));
 }
 
 }  // namespace vegetation_sim

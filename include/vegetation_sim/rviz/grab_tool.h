@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <rviz/ogre_helpers/billboard_line.h>
 #include <rviz/properties/float_property.h>
 #include <rviz/properties/string_property.h>
 #include <rviz/tool.h>
@@ -11,6 +10,7 @@
 
 #include "vegetation_sim/rviz/ground_source.h"
 #include "vegetation_sim/rviz/mouse_hand.h"
+#include "vegetation_sim/rviz/tool_line.h"
 
 namespace vegetation_sim {
 
@@ -41,7 +41,7 @@ class GrabTool : public rviz::Tool {
   std::unique_ptr<rviz::FloatProperty> stiffness_, damping_, force_limit_, reach_;
   std::unique_ptr<view::GroundSource> world_;
   std::unique_ptr<view::MouseHand> hand_;
-  std::unique_ptr<rviz::BillboardLine> line_;
+  view::ToolLine line_;
   double since_kept_{0.0};  // [s]
 };
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <ros/service_client.h>
-#include <rviz/ogre_helpers/billboard_line.h>
 #include <rviz/properties/enum_property.h>
 #include <rviz/properties/float_property.h>
 #include <rviz/properties/string_property.h>
@@ -15,6 +14,7 @@
 
 #include "vegetation_sim/rviz/errands.h"
 #include "vegetation_sim/rviz/ground_source.h"
+#include "vegetation_sim/rviz/tool_line.h"
 #include "vegetation_sim/rviz/wind_stroke.h"
 
 namespace vegetation_sim {
@@ -45,7 +45,7 @@ class WindTool : public rviz::Tool {
   std::unique_ptr<rviz::EnumProperty> kind_;
   std::unique_ptr<rviz::FloatProperty> speed_, radius_, duration_;
   std::unique_ptr<view::GroundSource> world_;
-  std::unique_ptr<rviz::BillboardLine> line_;
+  view::ToolLine line_;
   view::WindStroke stroke_;
   bool drawing_{false};
   std::mutex mutex_;    // of answer_
