@@ -24,7 +24,8 @@ using bench::Candidate;
 using Trees = std::vector<std::vector<Link>>;
 
 constexpr double STEP = 1.0 / 240.0;
-constexpr double STEPS_A_SECOND = 240.0;  // 60 Hz, four sub-steps
+constexpr int SUB_STEPS = 4;
+constexpr double STEPS_A_SECOND = 60.0 * SUB_STEPS;
 // Floats that the passes read and write a link, rows that stay in the cache left out: out, back,
 // what is ahead, its wrenches, settling.
 constexpr double BYTES = 4.0 * ((15 + 31) + (47 + 17) + (60 + 8) + (30 + 2) + (33 + 4));
@@ -32,7 +33,7 @@ constexpr double BYTES = 4.0 * ((15 + 31) + (47 + 17) + (60 + 8) + (30 + 2) + (3
 struct Path {
   std::string name;
   double links;                      ///< that one call steps
-  std::function<void(int)> advance;  ///< so many steps
+  std::function<void(int)> advance;  ///< so many steps, whole frames
 };
 
 template <class Batch>
@@ -45,7 +46,7 @@ Path batched(const std::string& name, const Trees& trees, Products products = Pr
     links += static_cast<double>(trees[t].size());
   }
   return {name, links, [batch](int steps) {
-            for (int i = 0; i < steps; ++i) batch->step(STEP);
+            for (int i = 0; i < steps; i += SUB_STEPS) batch->step(STEP, SUB_STEPS);
           }};
 }
 
@@ -90,12 +91,10 @@ Path heldAir(const std::string& name, const Trees& trees, const wind::Field& win
     batch->setGrips(static_cast<int>(t), grips);
   }
   out.advance = [batch, wind](int steps) {
-    for (int i = 0; i < steps; ++i) {
-      if (i % 4 == 0) {
-        const forest::FloatWind now(wind.at(fromSeconds(0.3 + STEP * i)), 100.0);
-        batch->askAir([now](float* rows, std::size_t blocks) { fillAir(now, rows, blocks); });
-      }
-      batch->step(STEP);
+    for (int i = 0; i < steps; i += SUB_STEPS) {
+      const forest::FloatWind now(wind.at(fromSeconds(0.3 + STEP * i)), 100.0);
+      batch->askAir([now](float* rows, std::size_t blocks) { fillAir(now, rows, blocks); });
+      batch->step(STEP, SUB_STEPS);
     }
   };
   return out;
@@ -117,7 +116,7 @@ std::vector<double> measure(const std::vector<Path>& paths, int rounds) {
   std::vector<Candidate> candidates;
   std::vector<double> updates;
   for (const Path& path : paths) {
-    const int steps = std::max(1, static_cast<int>(2e5 / path.links));
+    const int steps = SUB_STEPS * std::max(1, static_cast<int>(5e4 / path.links));
     candidates.push_back({path.name, [&path, steps] { path.advance(steps); }});
     updates.push_back(steps * path.links);
   }
@@ -163,6 +162,23 @@ void benchPaths(int rounds, double bandwidth) {
   }
 }
 
+// A whole forest, far more than the caches hold.
+void benchForests(int rounds) {
+  std::printf("\n100 000 links in trees of so many: no wind, gust, breeze [ns], links at 60 Hz\n");
+  for (const int n : {100, 1000, 10000}) {
+    Trees trees;
+    for (int links = 0; links < 100000; links += n)
+      trees.push_back(fractalTree(n, static_cast<std::uint64_t>(3 + links)));
+    const std::vector<double> cost =
+        measure({batched<BatchChain>("no wind", trees), heldAir("gust", trees, gust()),
+                 heldAir("breeze", trees, breeze())},
+                rounds);
+    std::printf("%-10d", n);
+    for (const double each : cost) std::printf(" %8.2f %8.0f", each, 1e9 / (STEPS_A_SECOND * each));
+    std::printf("\n");
+  }
+}
+
 void benchInstructionSets(int rounds) {
   std::printf("\n1000 links: %s", "equal depth / one topology [ns]\n");
   std::vector<Path> paths;
@@ -192,6 +208,7 @@ int main(int argc, char** argv) {
               1e-9 * bandwidth, vegetation_sim::physics::BYTES,
               1e9 * vegetation_sim::physics::BYTES / bandwidth);
   vegetation_sim::physics::benchPaths(rounds, bandwidth);
+  vegetation_sim::physics::benchForests(rounds);
   vegetation_sim::physics::benchInstructionSets(rounds);
   return 0;
 }

@@ -69,7 +69,9 @@ Reference referenceOf(const TestTree& tree, const TestLoad& load, Bend bend, dou
                     whole = folder + fileOf(tree, load, bend, tolerance, INTERVALS);
   // A window is the beginning of the whole, too.
   for (const std::string& kept : {whole, path})
-    if (!folder.empty() && read(kept, out.rest[0].size(), intervals, out)) return out;
+    if (!folder.empty() && read(kept, out.rest[0].size(), intervals, out) &&
+        out.converged <= tolerance)
+      return out;
   out = {{}, out.rest, 0.0, 0};
   out.converged = 1.0;
   for (int steps = 4;; steps += (steps + 1) / 2) {

@@ -40,7 +40,7 @@ BatchChain::BatchChain(const std::vector<std::vector<Link>>& trees)
       if (std::all_of(trees[t].begin(), trees[t].end(), isBar) != bars) continue;
       if (!open || links + trees[t].size() > GROUP_LINKS) {
         groups_.emplace_back();
-        groups_.back().bars = bars;
+        groups_.back().bars = groups_.back().on_axis = bars;
         links = 0;
         open = true;
       }
@@ -75,7 +75,8 @@ void BatchChain::sortGroup(const std::vector<std::vector<Link>>& trees, std::siz
       if (root) member.roots.push_back(static_cast<int>(i));
     }
   }
-  slot_count_ = sortIntoLevels(parents, slot_count_, group.levels, slots_);
+  group.begin = slot_count_;
+  group.end = slot_count_ = sortIntoLevels(parents, slot_count_, group.levels, slots_);
   for (const std::size_t t : group.trees) sortBySlot(trees_[t]);
   group.bases.resize(group.levels.empty() ? 0 : static_cast<std::size_t>(group.levels[0].count));
 }
@@ -96,8 +97,9 @@ void BatchChain::fill(const std::vector<std::vector<Link>>& trees) {
   ChainStore& store = *store_;
   store.constants.assign(blocks() * C_ROWS);
   store.state.assign(blocks() * S_ROWS);
-  store.loads.assign(blocks() * L_ROWS);
-  store.work.assign(blocks() * W_ROWS);
+  int largest = 0;
+  for (const ChainGroup& group : groups_) largest = std::max(largest, group.end - group.begin);
+  store.work.assign(static_cast<std::size_t>(largest / ROW) * W_ROWS);
   for (int slot = 0; slot < slot_count_; ++slot) {
     fillNobody(laneOf(store.constants, slot, C_ROWS));
     laneOf(store.state, slot, S_ROWS)[S_THETA * ROW] = 0.5f;
@@ -174,7 +176,6 @@ void BatchChain::setTheta(Member& member, double theta, double products) {
     rows[S_THETA * ROW] = static_cast<float>(theta);
     rows[S_PRODUCTS * ROW] = static_cast<float>(products);
   }
-  fillBases(member);
 }
 
 // Trees are looked at one by one only where one of them may be fast, or was.
@@ -201,11 +202,12 @@ void BatchChain::fillBases(const Member& member) {
   for (const int root : member.roots) {
     const auto link = static_cast<std::size_t>(root);
     const int place = slots_[member.first + link] - group.levels[0].begin;
-    group.bases[static_cast<std::size_t>(place)] = baseRows(baseOf(member, link), member.products);
+    group.bases[static_cast<std::size_t>(place)] = baseRows(baseOf(member, link));
   }
 }
 
 void BatchChain::fillLoads(const Loads& loads, Member& member) {
+  if (store_->loads.empty()) store_->loads.assign(blocks() * L_ROWS);
   for (const std::size_t i : member.by_slot)
     fillLoad(loads, i, laneOf(store_->loads, slots_[member.first + i], L_ROWS));
   member.loaded = true;
@@ -225,8 +227,9 @@ void BatchChain::askLoads(const Surroundings& around, double time, double h, Mem
   loads_.clear(member.count);
   if (around.loads) {
     resize(kinematics_, member.count);
+    const int begin = groups_[member.group].begin;
     for (const std::size_t i : member.by_slot)
-      readMotion(laneOf(store_->motion, slots_[member.first + i], M_ROWS),
+      readMotion(laneOf(store_->motion, slots_[member.first + i] - begin, M_ROWS),
                  baseOf(member, i).pose.position, i, kinematics_);
     around.loads(kinematics_, time, loads_);
   }
@@ -249,8 +252,11 @@ void BatchChain::setGrips(int tree, const std::vector<Grip>& grips) {
     store_->grips.assign(blocks() * G_ROWS);
     store_->air.assign(blocks() * V_ROWS);
   }
-  for (std::size_t i = 0; i < member.count; ++i)
+  bool& on_axis = groups_[member.group].on_axis;
+  for (std::size_t i = 0; i < member.count; ++i) {
+    on_axis = on_axis && grips[i].centre.x() == 0.0 && grips[i].centre.y() == 0.0;
     fillGrip(grips[i], laneOf(store_->grips, slots_[member.first + i], G_ROWS));
+  }
 }
 
 void BatchChain::askAirOf(const ChainGroup& group) {
@@ -263,10 +269,8 @@ void BatchChain::askAirOf(const ChainGroup& group) {
         place[(V_PLACE + axis) * ROW] += static_cast<float>(baseOf(member, i).pose.position[axis]);
     }
   }
-  const auto first = static_cast<std::size_t>(group.levels.front().begin / ROW);
-  const Level& last = group.levels.back();
-  const auto end = static_cast<std::size_t>((last.begin + last.count + ROW - 1) / ROW);
-  ask_(store_->air.at(first * V_ROWS), end - first);
+  ask_(store_->air.at(static_cast<std::size_t>(group.begin / ROW) * V_ROWS),
+       static_cast<std::size_t>((group.end - group.begin) / ROW));
 }
 
 // ---- steps -------------------------------------------------------------------------------------
@@ -277,25 +281,20 @@ void BatchChain::askBases(const Surroundings& around, double time, Member& membe
   fillBases(member);
 }
 
-void BatchChain::step(const Surroundings* around, double time, double h) {
+void BatchChain::stepGroup(ChainGroup& group, const Surroundings* around, double time, double h) {
   const auto step = static_cast<float>(h);
-  store_->asked = ask_ && !store_->grips.empty();
-  for (ChainGroup& group : groups_) {
-    if (group.levels.empty()) continue;
-    const auto at = [&](std::size_t t) { return time + trees_[t].theta * h; };
-    guard(group, h);
-    if (around)
-      for (const std::size_t t : group.trees) askBases(around[t], at(t), trees_[t]);
-    sweepOut(group, step, *store_);
-    if (store_->asked) askAirOf(group);
-    store_->anchors.clear();
-    if (around)
-      for (const std::size_t t : group.trees) askLoads(around[t], at(t), h, trees_[t]);
-    std::stable_sort(store_->anchors.begin(), store_->anchors.end(),
-                     [](const AnchorRows& a, const AnchorRows& b) { return a.slot < b.slot; });
-    group.fastest = sweepBack(group, step, *store_);
-  }
-  ask_ = nullptr;
+  const auto at = [&](std::size_t t) { return time + trees_[t].theta * h; };
+  guard(group, h);
+  if (around)
+    for (const std::size_t t : group.trees) askBases(around[t], at(t), trees_[t]);
+  sweepOut(group, step, *store_);
+  if (store_->asked) askAirOf(group);
+  store_->anchors.clear();
+  if (around)
+    for (const std::size_t t : group.trees) askLoads(around[t], at(t), h, trees_[t]);
+  std::stable_sort(store_->anchors.begin(), store_->anchors.end(),
+                   [](const AnchorRows& a, const AnchorRows& b) { return a.slot < b.slot; });
+  group.fastest = sweepBack(group, step, *store_);
 }
 
 void BatchChain::stepWithin(const Surroundings* around, std::size_t count, double time, double h) {
@@ -304,8 +303,12 @@ void BatchChain::stepWithin(const Surroundings* around, std::size_t count, doubl
                        std::to_string(trees_.size()) + " trees");
   store_->trace = std::any_of(around, around + count,
                               [](const Surroundings& s) { return static_cast<bool>(s.loads); });
-  if (store_->trace && store_->motion.empty()) store_->motion.assign(blocks() * M_ROWS);
-  step(around, time, h);
+  if (store_->trace && store_->motion.empty())
+    store_->motion.assign(store_->work.count() / W_ROWS * M_ROWS);
+  store_->asked = ask_ && !store_->grips.empty();
+  for (ChainGroup& group : groups_)
+    if (!group.levels.empty()) stepGroup(group, around, time, h);
+  ask_ = nullptr;
 }
 
 void BatchChain::step(const std::vector<Surroundings>& around, double time, double h) {
@@ -316,9 +319,18 @@ void BatchChain::step(const Surroundings& around, double time, double h) {
   stepWithin(&around, 1, time, h);
 }
 
-void BatchChain::step(double h) {
+// All steps of one group, then all of the next: the caches hold one.
+void BatchChain::step(double h, int steps) {
   store_->trace = false;
-  step(nullptr, 0.0, h);
+  for (ChainGroup& group : groups_) {
+    if (group.levels.empty()) continue;
+    store_->asked = ask_ && !store_->grips.empty();
+    for (int i = 0; i < steps; ++i) {
+      stepGroup(group, nullptr, 0.0, h);
+      store_->asked = false;
+    }
+  }
+  ask_ = nullptr;
 }
 
 }  // namespace vegetation_sim::physics

@@ -46,8 +46,8 @@ HWY_INLINE void addBody(const Joints& at, Articulated& sum) {
   sum.m.xx = sum.m.xx + mass;
   sum.m.yy = sum.m.yy + mass;
   sum.m.zz = sum.m.zz + mass;
-  sum.torque = sum.torque + (load3(at.work, W_TORQUE) - load3(at.loads, L_TORQUE));
-  sum.force = sum.force + (load3(at.work, W_FORCE) - load3(at.loads, L_FORCE));
+  sum.torque = sum.torque + (load3(at.work, W_TORQUE) - load3Of(at, L_TORQUE));
+  sum.force = sum.force + (load3(at.work, W_FORCE) - load3Of(at, L_FORCE));
 }
 
 // What an implicit step foresees of the drag: a mass against linear acceleration (addDrag).
@@ -74,9 +74,10 @@ HWY_INLINE void addDrag(const Lanes3& arm, Lanes drag, const Lanes3& along, Lane
 
 // From the joint to where air grips the link.
 HWY_INLINE Lanes3 gripArm(const Joints& at) {
-  return turned(axesOf({load(at.work, W_TURN), load(at.work, W_TURN + 1), load(at.work, W_TURN + 2),
-                        load(at.work, W_TURN + 3)}),
-                load3(at.grips, G_CENTRE));
+  const Axes axes = axesOf({load(at.work, W_TURN), load(at.work, W_TURN + 1),
+                            load(at.work, W_TURN + 2), load(at.work, W_TURN + 3)});
+  return at.on_axis ? load(at.grips, G_CENTRE + 2) * axes.z
+                    : turned(axes, load3(at.grips, G_CENTRE));
 }
 
 // Drag of the air on its grip, whose force and derivative are those of PhysicalPart::addWind.
@@ -134,8 +135,8 @@ HWY_INLINE void inward(const Joints& at, Lanes step, bool drag, Articulated& p) 
   a2 = a2 - l * a1;
   b2 = b2 - l * b1;
   const Lanes x = load(at.state, S_Q) + ahead * rx, y = load(at.state, S_Q + 1) + ahead * ry;
-  const Lanes u1 = load(at.loads, L_JOINT) - (k * x + nu * rx) - dot(first, p.torque);
-  const Lanes u2 = load(at.loads, L_JOINT + 1) - (k * y + nu * ry) - dot(second, p.torque) - l * u1;
+  const Lanes u1 = loadOf(at, L_JOINT) - (k * x + nu * rx) - dot(first, p.torque);
+  const Lanes u2 = loadOf(at, L_JOINT + 1) - (k * y + nu * ry) - dot(second, p.torque) - l * u1;
   const Lanes3 pa1 = inverse1 * a1, pa2 = inverse2 * a2, pb1 = inverse1 * b1, pb2 = inverse2 * b2;
   p.a = without(p.a, pa1, a1, pa2, a2);
   p.m = without(p.m, pb1, b1, pb2, b2);

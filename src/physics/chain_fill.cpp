@@ -24,19 +24,15 @@ void put(const Vec3& v, float* to, int stride = 1) {
 
 }  // namespace
 
-BaseRows baseRows(const BaseMotion& base, double products) {
+BaseRows baseRows(const BaseMotion& base) {
   const Quat& q = base.pose.orientation;
-  const Vec3 z = axisZ(q);
   BaseRows out;
   float* v = out.value;
   v[F_TURN] = narrow(q.w);
   put({q.x, q.y, q.z}, v + F_TURN + 1);
-  put(z, v + F_AXIS);
   put(base.spin, v + F_SPIN);
   put(base.spin_rate, v + F_SPIN_RATE);
   put(base.acceleration, v + F_ACCELERATION);
-  put(Vec3(crossed(base.spin_rate, z) + products * crossed(base.spin, crossed(base.spin, z))),
-      v + F_AXIS_RATE);
   put(base.velocity, v + F_VELOCITY);
   return out;
 }

@@ -14,7 +14,7 @@ namespace vegetation_sim::physics {
 struct BaseRows {
   float value[F_ROWS] = {};
 };
-BaseRows baseRows(const BaseMotion& base, double products);
+BaseRows baseRows(const BaseMotion& base);
 
 void fillLink(const Link& link, float* constants);
 /// A lane without link: it never moves.

@@ -64,7 +64,7 @@ HWY_INLINE Lanes weightOf(const Joints& at) {
 }
 
 /// Keeps the joint's accelerations and leaves the change of its link's bias wrench.
-HWY_INLINE Ahead lookAhead(const Joints& at, const Ahead& parent, Lanes step, bool bars) {
+HWY_INLINE Ahead lookAhead(const Joints& at, const Ahead& parent, Lanes step) {
   const Solution solved = solve(at, parent.push);
   store(solved.first, at.work, W_SOLVED);
   store(solved.second, at.work, W_SOLVED + 1);
@@ -82,9 +82,8 @@ HWY_INLINE Ahead lookAhead(const Joints& at, const Ahead& parent, Lanes step, bo
   const Lanes3 arm = load3(at.work, W_ARM);
   frame.acceleration = parent.acceleration +
                        (cross(parent.spin_rate, arm) + cross(parent.spin, cross(parent.spin, arm)));
-  frame.axis_rate = cross(frame.spin_rate, axes.z) + cross(frame.spin, cross(frame.spin, axes.z));
   const Lanes one = all(1.f), weight = weightOf(at);
-  const Bias bias = bars ? biasOfBar(at, frame, one) : biasOfBody(at, axes, frame, one);
+  const Bias bias = at.bars ? biasOfBar(at, frame, one) : biasOfBody(at, axes, frame, one);
   store3(weight * (bias.torque - load3(at.work, W_TORQUE)), at.work, W_TORQUE);
   store3(weight * (bias.force - load3(at.work, W_FORCE)), at.work, W_FORCE);
   return {solved.push, frame.spin, frame.spin_rate, frame.acceleration};

@@ -21,26 +21,40 @@ namespace vegetation_sim::physics::HWY_NAMESPACE {
 struct Joints {
   const float* constants;
   float* state;
-  const float* loads;
+  const float* loads;  ///< none: nothing acts
   float* work;
   const float* grips;  ///< none: no air
   float* air;
+  bool bars;     ///< all of them
+  bool on_axis;  ///< air grips the axes of bars
 };
 
-/// What a parent hands on, see F_TURN and following.
+HWY_INLINE Lanes loadOf(const Joints& at, int row) {
+  return at.loads ? load(at.loads, row) : hn::Zero(Tag());
+}
+
+HWY_INLINE Lanes3 load3Of(const Joints& at, int row) {
+  return {loadOf(at, row), loadOf(at, row + 1), loadOf(at, row + 2)};
+}
+
+/// What a parent hands on, see F_TURN and following, and its z axis, which follows from it: to hand
+/// on costs more than to compute.
 struct Frame {
   LanesQuat turn;
-  Lanes3 axis, spin, spin_rate, acceleration, axis_rate;
+  Lanes3 axis, spin, spin_rate, acceleration;
 };
 
 HWY_INLINE Frame loadFrame(const float* rows, int stride) {
-  return {{load(rows, F_TURN, stride), load(rows, F_TURN + 1, stride),
-           load(rows, F_TURN + 2, stride), load(rows, F_TURN + 3, stride)},
-          load3(rows, F_AXIS, stride),
-          load3(rows, F_SPIN, stride),
-          load3(rows, F_SPIN_RATE, stride),
-          load3(rows, F_ACCELERATION, stride),
-          load3(rows, F_AXIS_RATE, stride)};
+  const LanesQuat turn{load(rows, F_TURN, stride), load(rows, F_TURN + 1, stride),
+                       load(rows, F_TURN + 2, stride), load(rows, F_TURN + 3, stride)};
+  return {turn, axesOf(turn).z, load3(rows, F_SPIN, stride), load3(rows, F_SPIN_RATE, stride),
+          load3(rows, F_ACCELERATION, stride)};
+}
+
+/// Second rate of its z axis.
+HWY_INLINE Lanes3 axisRate(const Frame& frame, Lanes products) {
+  return cross(frame.spin_rate, frame.axis) +
+         products * cross(frame.spin, cross(frame.spin, frame.axis));
 }
 
 // put(row, value) for each row.
@@ -55,11 +69,9 @@ template <class Put>
 HWY_INLINE void eachRow(const Frame& frame, const Put& put) {
   put(F_TURN, frame.turn.w);
   eachRow({frame.turn.x, frame.turn.y, frame.turn.z}, F_TURN + 1, put);
-  eachRow(frame.axis, F_AXIS, put);
   eachRow(frame.spin, F_SPIN, put);
   eachRow(frame.spin_rate, F_SPIN_RATE, put);
   eachRow(frame.acceleration, F_ACCELERATION, put);
-  eachRow(frame.axis_rate, F_AXIS_RATE, put);
 }
 
 /// With it, for those who ask for the motion: place and velocity of the joint.
@@ -107,7 +119,7 @@ HWY_INLINE Bias biasOfBar(const Joints& at, const Frame& frame, Lanes products) 
   const Lanes3 turning = dot(z, frame.spin_rate) * (excess * z) +
                          (products * excess * dot(z, frame.spin)) * cross(frame.spin, z);
   return {(across * frame.spin_rate + turning) + cross(moment * z, frame.acceleration),
-          mass * frame.acceleration + moment * frame.axis_rate};
+          mass * frame.acceleration + moment * axisRate(frame, products)};
 }
 
 HWY_INLINE Bias biasOfBody(const Joints& at, const Axes& axes, const Frame& frame, Lanes products) {
@@ -122,7 +134,7 @@ HWY_INLINE Bias biasOfBody(const Joints& at, const Axes& axes, const Frame& fram
 }
 
 // Round bars with their centre on the own z, the usual case, need no rotation of a full inertia.
-HWY_INLINE void rigidBar(const Joints& at, const Lanes3& z) {
+HWY_INLINE void keepBar(const Joints& at, const Lanes3& z) {
   const Lanes across = load(at.constants, C_INERTIA);
   const Lanes3 ez = (load(at.constants, C_INERTIA + 5) - across) * z;
   store6({across + ez.x * z.x, ez.x * z.y, ez.x * z.z, across + ez.y * z.y, ez.y * z.z,
@@ -131,7 +143,7 @@ HWY_INLINE void rigidBar(const Joints& at, const Lanes3& z) {
   store3(load(at.constants, C_MOMENT + 2) * z, at.work, W_MOMENT);
 }
 
-HWY_INLINE void rigidBody(const Joints& at, const Axes& axes) {
+HWY_INLINE void keepBody(const Joints& at, const Axes& axes) {
   store6(turnedInertia(axes, load6(at.constants, C_INERTIA)), at.work, W_INERTIA);
   store3(turned(axes, load3(at.constants, C_MOMENT)), at.work, W_MOMENT);
 }
@@ -162,7 +174,7 @@ HWY_INLINE void keep(const Frame& frame, float* work) {
 
 /// Geometry at q + theta h rate; leaves the rigid bodies and their bias wrenches. `kept`: lookAhead
 /// or air will ask where the link is.
-HWY_INLINE Frame outward(const Joints& at, const Frame& parent, Lanes step, bool bars, bool kept) {
+HWY_INLINE Frame outward(const Joints& at, const Frame& parent, Lanes step, bool kept) {
   const Lanes ahead = load(at.state, S_THETA) * step;
   const Lanes rx = load(at.state, S_RATE), ry = load(at.state, S_RATE + 1);
   const Lanes x = load(at.state, S_Q) + ahead * rx, y = load(at.state, S_Q + 1) + ahead * ry;
@@ -183,11 +195,9 @@ HWY_INLINE Frame outward(const Joints& at, const Frame& parent, Lanes step, bool
   const Lanes products = load(at.state, S_PRODUCTS);
   const Lanes3 change = bendBias(g, axes, x, y, rx, ry);
   out.spin_rate = parent.spin_rate + products * (change + cross(parent.spin, own));
-  out.acceleration = parent.acceleration + h * parent.axis_rate;
-  out.axis_rate =
-      cross(out.spin_rate, axes.z) + products * cross(out.spin, cross(out.spin, axes.z));
-  bars ? rigidBar(at, axes.z) : rigidBody(at, axes);
-  const Bias bias = bars ? biasOfBar(at, out, products) : biasOfBody(at, axes, out, products);
+  out.acceleration = parent.acceleration + h * axisRate(parent, products);
+  at.bars ? keepBar(at, axes.z) : keepBody(at, axes);
+  const Bias bias = at.bars ? biasOfBar(at, out, products) : biasOfBody(at, axes, out, products);
   store3(bias.torque, at.work, W_TORQUE);
   store3(bias.force, at.work, W_FORCE);
   if (kept) keep(out, at.work);

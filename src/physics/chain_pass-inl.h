@@ -116,25 +116,36 @@ HWY_INLINE void addSiblings(const Siblings* of, int room, Sum& sum) {
   });
 }
 
-// From children to parents, rank by rank; a few ranks at once, which spares going through memory.
+// The next rank from `brood` on that a vector of joints has; false: no more.
+HWY_INLINE bool nextRank(const Level& level, const float* from, int parent, std::size_t& brood,
+                         Siblings& out) {
+  for (; brood < level.broods.size(); ++brood) {
+    if (parent >= level.broods[brood].parents) continue;
+    const std::int32_t* first = level.broods[brood].first.data() + parent;
+    if (first[width()] == first[0]) continue;
+    out.source = from + first[0];
+    out.places = hn::LoadU(Places(), first) - hn::Set(Places(), first[0]);
+    out.present = hn::RebindMask(Tag(), haveChild(first));
+    ++brood;
+    return true;
+  }
+  return false;
+}
+
+// From children to parents, rank by rank; two ranks at once, which spares going through memory.
 template <class Sum>
 HWY_INLINE void gatherChildren(const Level& level, const float* from, int room, int parent,
                                Sum& sum) {
-  Siblings found[3];
-  int count = 0;
-  for (const Brood& brood : level.broods) {
-    if (parent >= brood.parents) continue;
-    const std::int32_t* first = brood.first.data() + parent;
-    if (first[width()] == first[0]) continue;
-    found[count].source = from + first[0];
-    found[count].places = hn::LoadU(Places(), first) - hn::Set(Places(), first[0]);
-    found[count].present = hn::RebindMask(Tag(), haveChild(first));
-    if (++count < 3) continue;
-    addSiblings<3>(found, room, sum);
-    count = 0;
+  std::size_t brood = 0;
+  Siblings found[2];
+  while (nextRank(level, from, parent, brood, found[0])) {
+    if (nextRank(level, from, parent, brood, found[1])) {
+      addSiblings<2>(found, room, sum);
+    } else {
+      addSiblings<1>(found, room, sum);
+      break;
+    }
   }
-  if (count == 1) addSiblings<1>(found, room, sum);
-  if (count == 2) addSiblings<2>(found, room, sum);
 }
 
 HWY_INLINE void storeAll(const Bias& bias, float* rows, int room) {

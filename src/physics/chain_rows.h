@@ -16,6 +16,7 @@ class Rows {
  public:
   void assign(std::size_t count) { lines_.assign(count, Line()); }
   bool empty() const { return lines_.empty(); }
+  std::size_t count() const { return lines_.size(); }
   std::size_t bytes() const { return lines_.capacity() * sizeof(Line); }
   float* at(std::size_t row) { return reinterpret_cast<float*>(lines_.data()) + row * ROW; }
   const float* at(std::size_t row) const {
@@ -86,16 +87,14 @@ enum : int {
 };
 static_assert(W_MOMENT + 3 <= W_TURN, "the rigid inertia fits where the sweep writes");
 
-/// Rows that a parent hands to its children: orientation (w x y z), z axis, spin, and the
-/// accelerations that it would have if no joint accelerated: of spin, of joint, of z axis.
+/// Rows that a parent hands to its children: orientation (w x y z), spin, and the accelerations
+/// that it would have if no joint accelerated: of spin, of joint.
 enum : int {
   F_TURN,
-  F_AXIS = F_TURN + 4,
-  F_SPIN = F_AXIS + 3,
+  F_SPIN = F_TURN + 4,
   F_SPIN_RATE = F_SPIN + 3,
   F_ACCELERATION = F_SPIN_RATE + 3,
-  F_AXIS_RATE = F_ACCELERATION + 3,
-  F_POSITION = F_AXIS_RATE + 3,  // this and the next only where somebody asks for the motion
+  F_POSITION = F_ACCELERATION + 3,  // this and the next only where somebody asks for the motion
   F_VELOCITY = F_POSITION + 3,
   F_ROWS = F_VELOCITY + 3
 };

@@ -20,18 +20,20 @@ HWY_INLINE float* rowsOf(Rows& rows, int slot, int quantities) {
   return rows.at(static_cast<std::size_t>(slot / ROW * quantities)) + slot % ROW;
 }
 
-HWY_INLINE Joints jointsAt(ChainStore& store, int slot) {
+HWY_INLINE Joints jointsAt(const ChainGroup& group, ChainStore& store, int slot) {
   return {rowsOf(store.constants, slot, C_ROWS),
           rowsOf(store.state, slot, S_ROWS),
-          rowsOf(store.loads, slot, L_ROWS),
-          rowsOf(store.work, slot, W_ROWS),
+          store.loads.empty() ? nullptr : rowsOf(store.loads, slot, L_ROWS),
+          rowsOf(store.work, slot - group.begin, W_ROWS),
           store.grips.empty() ? nullptr : rowsOf(store.grips, slot, G_ROWS),
-          store.grips.empty() ? nullptr : rowsOf(store.air, slot, V_ROWS)};
+          store.grips.empty() ? nullptr : rowsOf(store.air, slot, V_ROWS),
+          group.bars,
+          group.on_axis};
 }
 
-// Anchors are few: one by one.
-const AnchorRows* addAnchors(const AnchorRows* next, const AnchorRows* end, int slot,
-                             Articulated& sum) {
+// Anchors are few: one by one, and apart, so that sums without any stay in registers.
+HWY_NOINLINE const AnchorRows* addAnchors(const AnchorRows* next, const AnchorRows* end, int slot,
+                                          Articulated& sum) {
   for (; next != end && next->slot < slot + width(); ++next) {
     alignas(64) float lanes[P_ROWS][ROW] = {};
     for (int row = 0; row < P_ROWS; ++row) lanes[row][next->slot - slot] = next->value[row];
@@ -59,8 +61,8 @@ HWY_INLINE void outGroupAs(const ChainGroup& group, Lanes step, ChainStore& stor
   loadBases(group, store.first);
   for (const Level& level : group.levels) {
     for (int i = 0; i < level.count; i += width()) {
-      const Joints at = jointsAt(store, level.begin + i);
-      const Frame frame = outward(at, loadFrame(received + i, room), step, group.bars, kept);
+      const Joints at = jointsAt(group, store, level.begin + i);
+      const Frame frame = outward(at, loadFrame(received + i, room), step, kept);
       if constexpr (TOLD != Told::NOTHING) {
         const Trace trace = traceOf(received + i, room, at.work);
         const auto each = [&](const auto& put) HWY_ATTR __attribute__((always_inline)) {
@@ -71,7 +73,7 @@ HWY_INLINE void outGroupAs(const ChainGroup& group, Lanes step, ChainStore& stor
         if (at.grips) store3(trace.velocity, at.work, W_VELOCITY);
         if (TOLD == Told::ALL && at.grips) store3(trace.position, at.work, W_POSITION);
         if (TOLD == Told::ALL && store.trace)
-          storeMotion(frame, trace, rowsOf(store.motion, level.begin + i, M_ROWS));
+          storeMotion(frame, trace, rowsOf(store.motion, level.begin - group.begin + i, M_ROWS));
         handOn(level, i, each, room, handed);
       } else {
         handOn(
@@ -94,7 +96,7 @@ void outGroup(const ChainGroup& group, float step, ChainStore& store) {
 void placeGripsOf(const ChainGroup& group, ChainStore& store) {
   for (const Level& level : group.levels)
     for (int i = 0; i < level.count; i += width()) {
-      const Joints at = jointsAt(store, level.begin + i);
+      const Joints at = jointsAt(group, store, level.begin + i);
       store3(load3(at.work, W_POSITION) + gripArm(at), at.air, V_PLACE);
     }
 }
@@ -111,8 +113,12 @@ void inwardGroup(const ChainGroup& group, float h, ChainStore& store) {
     for (int i = 0; i < level.count; i += width()) {
       Articulated sum = nothing();
       gatherChildren(level, received, room, i, sum);
-      next = addAnchors(next, end, level.begin + i, sum);
-      inward(jointsAt(store, level.begin + i), step, store.drag, sum);
+      if (HWY_UNLIKELY(next != end && next->slot < level.begin + i + width())) {
+        Articulated held = sum;
+        next = addAnchors(next, end, level.begin + i, held);
+        sum = held;
+      }
+      inward(jointsAt(group, store, level.begin + i), step, store.drag, sum);
       storeAll(sum, own + i, room);
     }
     std::swap(own, received);
@@ -128,7 +134,7 @@ void lookAheadGroup(const ChainGroup& group, float h, ChainStore& store) {
   for (const Level& level : group.levels) {
     for (int i = 0; i < level.count; i += width()) {
       const Ahead parent = root ? aheadOfBase(received + i, room) : loadAhead(received + i, room);
-      const Ahead own = lookAhead(jointsAt(store, level.begin + i), parent, step, group.bars);
+      const Ahead own = lookAhead(jointsAt(group, store, level.begin + i), parent, step);
       handOn(
           level, i, [&](const auto& put) HWY_ATTR { eachRow(own, put); }, room, handed);
     }
@@ -146,7 +152,7 @@ void inwardWrenches(const ChainGroup& group, ChainStore& store) {
     for (int i = 0; i < level.count; i += width()) {
       Bias sum{{o, o, o}, {o, o, o}};
       gatherChildren(level, received, room, i, sum);
-      inwardWrench(jointsAt(store, level.begin + i), sum);
+      inwardWrench(jointsAt(group, store, level.begin + i), sum);
       storeAll(sum, own + i, room);
     }
     std::swap(own, received);
@@ -163,7 +169,8 @@ float settleGroup(const ChainGroup& group, float h, ChainStore& store) {
   for (const Level& level : group.levels) {
     for (int i = 0; i < level.count; i += width()) {
       const Push parent{load3(received + i, 0, room), load3(received + i, 3, room)};
-      const Push push = settle(jointsAt(store, level.begin + i), parent, step, store.mean, fastest);
+      const Push push =
+          settle(jointsAt(group, store, level.begin + i), parent, step, store.mean, fastest);
       handOn(
           level, i, [&](const auto& put) HWY_ATTR { eachRow(push, put); }, room, handed);
     }

@@ -14,8 +14,10 @@ namespace vegetation_sim::physics {
 struct ChainGroup {
   std::vector<std::size_t> trees;
   std::vector<Level> levels;
+  int begin{0}, end{0};         ///< its slots, multiples of ROW
   std::vector<BaseRows> bases;  ///< of the first level's joints
   bool bars{true};              ///< nothing but round bars
+  bool on_axis{true};           ///< air grips the axes of bars
   bool calm{true};              ///< all trees at theta = 1/2
   float fastest{0.f};           ///< rate of all [rad/s]
 };
@@ -35,11 +37,12 @@ struct LevelRows {
   const float* data() const { return rows.at(0); }
 };
 
-/// All rows of a chain, and scratch of one group's level and its neighbour.
+/// All rows of a chain, and scratch: of one group, of one of its levels and that one's neighbour.
 struct ChainStore {
-  Rows constants, state, loads, work;
+  Rows constants, state;
+  Rows loads;         ///< none: nothing acts
   Rows grips, air;    ///< none: no air
-  Rows motion;        ///< M_ROWS per block
+  Rows work, motion;  ///< scratch of a group
   bool trace{false};  ///< somebody asks for the motion
   bool asked{false};  ///< the air is asked for in this step
   bool mean{true};    ///< velocity products are averaged over the step

@@ -160,7 +160,7 @@ const BaseMotion& TwinChains::baseOf(int tree, int root) const {
 
 void TwinChains::fillBases(int tree) {
   for (int root = 0; root < store_->roots; ++root) {
-    const BaseRows base = baseRows(baseOf(tree, root), products_[static_cast<std::size_t>(tree)]);
+    const BaseRows base = baseRows(baseOf(tree, root));
     const auto block = static_cast<std::size_t>(tree / ROW * store_->roots + root);
     float* rows = laneOf(store_->bases, block, F_ROWS, tree);
     for (int row = 0; row < F_ROWS; ++row) rows[row * ROW] = base.value[row];
@@ -215,7 +215,6 @@ void TwinChains::guard(int pack, double h) {
       rows[S_THETA * ROW] = static_cast<float>(theta);
       rows[S_PRODUCTS * ROW] = static_cast<float>(products);
     }
-    fillBases(pack * ROW + lane);
   }
 }
 

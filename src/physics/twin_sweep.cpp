@@ -31,7 +31,9 @@ struct Part {
             rowsAt(store.loads, block, L_ROWS, lane),
             rowsAt(store.work, joint, W_ROWS, lane),
             nullptr,
-            nullptr};
+            nullptr,
+            store.joints[joint].bar,
+            false};
   }
   HWY_INLINE float* onStack(int depth) const {
     return rowsAt(store.stack, static_cast<std::size_t>(depth), P_ROWS, lane);
@@ -48,7 +50,7 @@ HWY_INLINE void outPart(const Part& part, Lanes step) {
     const TwinJoint& joint = part.store.joints[i];
     const Joints at = part.joints(i);
     const float* parent = joint.root >= 0 ? part.base(joint.root) : part.onStack(joint.depth - 1);
-    const Frame frame = outward(at, loadFrame(parent, ROW), step, joint.bar, part.store.mean);
+    const Frame frame = outward(at, loadFrame(parent, ROW), step, part.store.mean);
     const StoreRows own{part.onStack(joint.depth), ROW};
     if (!joint.leaf) eachRow(frame, own);
     if (!motion) continue;
@@ -113,7 +115,7 @@ HWY_INLINE void lookAheadPart(const Part& part, Lanes step) {
     const TwinJoint& joint = part.store.joints[i];
     const Ahead parent = joint.root >= 0 ? aheadOfBase(part.base(joint.root), ROW)
                                          : loadAhead(part.onStack(joint.depth - 1), ROW);
-    const Ahead own = lookAhead(part.joints(i), parent, step, joint.bar);
+    const Ahead own = lookAhead(part.joints(i), parent, step);
     if (!joint.leaf) eachRow(own, StoreRows{part.onStack(joint.depth), ROW});
   }
 }

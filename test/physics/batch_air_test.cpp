@@ -146,5 +146,51 @@ TEST(BatchAir, MovesTheSameBitsOnEveryInstructionSet) {
   }
 }
 
+// Bars that are gripped on their axes, the usual case, go a shorter way. A nanometre beside, one
+// joint sends all of its tree the long one: float's rounding is left.
+TEST(BatchAir, OnTheAxesOfBarsIsAsBesideThem) {
+  const std::vector<Link> links = fractalTree(100, 3);
+  std::vector<Vec2> ends[2];
+  for (const bool beside : {false, true}) {
+    std::vector<Grip> grips = gripsOf(links);
+    for (Grip& grip : grips) grip.centre.x() = 0.0;
+    if (beside) grips[7].centre.x() = 1e-9;
+    BatchChain chain(links);
+    chain.setGrips(0, grips);
+    chain.askAir(uniform(Vec3(10.0, 3.0, 1.0)));
+    for (int i = 0; i < 240; ++i) chain.step(STEP);
+    ends[beside] = chain.state(0).q;
+  }
+  double worst = 0.0, largest = 0.0;
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    worst = std::max(worst, (ends[1][i] - ends[0][i]).norm());
+    largest = std::max(largest, ends[0][i].norm());
+  }
+  EXPECT_GT(largest, 0.05);
+  EXPECT_LT(worst, 1e-5 * largest);
+}
+
+// Four steps of one group, then of the next, are four steps of all; in groups of bars and others.
+TEST(BatchAir, StepsOfAFrameAreTheSameTogether) {
+  std::vector<std::vector<Link>> trees;
+  for (const int n : {1500, 1001, 33}) trees.push_back(fractalTree(n, 7));
+  trees[2][5].inertia.xy = 1e-3 * trees[2][5].inertia.xx;  // no bar
+  BatchChain together(trees), apart(trees);
+  const auto blow = [&](BatchChain& chain, double speed) {
+    for (int t = 0; t < 3; ++t) chain.setGrips(t, gripsOf(trees[static_cast<std::size_t>(t)]));
+    chain.askAir(uniform(Vec3(speed, 3.0, 1.0)));
+  };
+  for (int frame = 0; frame < 10; ++frame) {
+    blow(together, 2.0 * frame);
+    blow(apart, 2.0 * frame);
+    together.step(STEP, 4);
+    for (int i = 0; i < 4; ++i) apart.step(STEP);
+  }
+  for (int t = 0; t < 3; ++t) {
+    EXPECT_GT(together.state(t).q.back().norm(), 0.0);
+    EXPECT_TRUE(sameBits(together.state(t), apart.state(t))) << t;
+  }
+}
+
 }  // namespace
 }  // namespace vegetation_sim::physics

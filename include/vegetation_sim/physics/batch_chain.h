@@ -58,11 +58,11 @@ class BatchChain {
   /// The next step asks for the air; later ones take what it said, while the links move in it.
   void askAir(AskAir ask) { ask_ = std::move(ask); }
 
-  /// For callers that keep loads themselves: what acts from now on, without anchors, and a step
-  /// under it. `bases` may be empty: the ground.
+  /// For callers that keep loads themselves: what acts from now on, without anchors, and so many
+  /// steps under it; air is asked for in the first. `bases` may be empty: the ground.
   void setBases(int tree, const std::vector<BaseMotion>& bases);
   void setLoads(int tree, const Loads& loads);
-  void step(double h);
+  void step(double h, int steps = 1);
 
  private:
   struct Member {
@@ -86,7 +86,7 @@ class BatchChain {
   double fastestOf(const Member& member) const;
   void setTheta(Member& member, double theta, double products);
   void guard(ChainGroup& group, double h);
-  void step(const Surroundings* around, double time, double h);
+  void stepGroup(ChainGroup& group, const Surroundings* around, double time, double h);
   void stepWithin(const Surroundings* around, std::size_t count, double time, double h);
   void askAirOf(const ChainGroup& group);
   void askBases(const Surroundings& around, double time, Member& member);
