@@ -36,6 +36,14 @@ struct Path {
   std::function<void(int)> advance;  ///< so many steps, whole frames
 };
 
+void frame(BatchChain& chain) {
+  chain.step(STEP, SUB_STEPS);
+}
+
+void frame(TwinChains& chains) {
+  for (int i = 0; i < SUB_STEPS; ++i) chains.step(STEP);
+}
+
 template <class Batch>
 Path batched(const std::string& name, const Trees& trees, Products products = Products::MEAN) {
   auto batch = std::make_shared<Batch>(trees);
@@ -46,7 +54,7 @@ Path batched(const std::string& name, const Trees& trees, Products products = Pr
     links += static_cast<double>(trees[t].size());
   }
   return {name, links, [batch](int steps) {
-            for (int i = 0; i < steps; i += SUB_STEPS) batch->step(STEP, SUB_STEPS);
+            for (int i = 0; i < steps; i += SUB_STEPS) frame(*batch);
           }};
 }
 
