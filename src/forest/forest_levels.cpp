@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "forest/modal_error.h"
 #include "vegetation_sim/forest/forest.h"
 #include "vegetation_sim/forest/lag.h"
+#include "vegetation_sim/wind/laws.h"
 
 namespace vegetation_sim::forest {
 namespace {
@@ -14,10 +14,25 @@ namespace {
 // A level table speaks of the worst tip of the worst tree across the wind; in a picture, a forest
 // shows so much of that. Measured: forest_test, PredictedErrorIsTheMeasuredOne.
 constexpr double SEEN = 0.57;
+// Errors so near are alike: which is the larger is not foretold. Modes of willows that are foretold
+// as such are 0.7 to 0.85 of the procedural motion's (lag_test).
+constexpr double ALIKE = 1.1;
 // What a tree in modes takes of a key frame; key frames come once a second [B/s].
 constexpr int MODAL_BYTES = 400;
 // More are not kept room for: few scenes have as many near trees.
 constexpr std::size_t MANY_PLANTS = 20000;
+
+// Largest speed to be expected near a place: sources seldom peak together.
+double peakSpeed(const wind::Instant& air, const Vec3& position, double reach) {
+  double square = 0.0;
+  for (const wind::Mode& mode : air.modes) square += 0.5 * dot(mode.amplitude, mode.amplitude);
+  square *= wind::SwingingWind::PEAK * wind::SwingingWind::PEAK;
+  for (const wind::Term& term : air.terms) {
+    const double bound = wind::boundOf(term, position, reach);
+    square += bound * bound;
+  }
+  return length(air.mean) + std::sqrt(square);
+}
 
 }  // namespace
 
@@ -65,6 +80,7 @@ void Forest::chooseLevels() {
   plants_.clear();
   if (watched || !memory_.physics.bodies().empty()) {
     now_ = memory_.wind.at(memory_.stamp);
+    swinging_ = wind::SwingingWind(memory_.wind, memory_.stamp);
     for (const Region& region : regions_) chooseRegion(region);
   }
   adopt();
@@ -110,24 +126,32 @@ void Forest::predict(const TreeSeed& seed, const LevelTable& table, double view,
   const double speed = bendingSpeed(air, species.reference_speed);
   plant.stair = plant.wanted = std::min(
       chooseLevel(table, speed, view, settings.tolerance, plant.held), settings.highest_level);
-  Lag lag;
-  const double gust = now_.gustBound(foot, 0.5 * table.reach);
-  if (haveModes() && plant.stair > 0 && gust > 0.0) {
-    lag = tables_[seed.species].lagAt(species, layout_.motion, seed.scale);
-    lag.distance *= gust / air * speed * view / SEEN;  // [pixel]
-    lag.turn *= speed;
-  }
+  const LagIn lag = plant.stair > 0 ? lagOf(seed, foot, table, speed / air * view / SEEN) : LagIn();
   const bool has = plant.held == MODAL_LEVEL;
-  if (lag.distance > (has ? HYSTERESIS : 1.0) * settings.tolerance) plant.wanted = MODAL_LEVEL;
-  const double bent = BENT_SHARE * lag.turn * speed * view * table.omitted[0];
+  if (haveModes() && lag.procedural > (has ? HYSTERESIS : 1.0) * settings.tolerance &&
+      lag.modal < ALIKE * (has ? 1.05 : 1.0) * lag.procedural)
+    plant.wanted = MODAL_LEVEL;
+  const double peak =
+      bendingSpeed(peakSpeed(now_, foot, 0.5 * table.reach), species.reference_speed);
+  const double bent = lag.bend * peak * peak * view / SEEN;
   const auto with = [bent](double off) { return std::sqrt(off * off + bent * bent); };
   for (std::size_t rung = 0; rung < table.omitted.size(); ++rung) {
     const double omitted = speed * view * table.omitted[rung];
-    plant.error[rung] = static_cast<float>(std::max(omitted, with(lag.distance)));
+    plant.error[rung] = static_cast<float>(std::max(omitted, with(lag.procedural)));
     plant.cost[rung] = static_cast<float>(1e-6 * budget.procedural_cost * table.branches[rung]);
   }
-  plant.error[MODAL_LEVEL] = static_cast<float>(with(MODAL_SHARE * lag.distance));
+  plant.error[MODAL_LEVEL] = static_cast<float>(with(std::min(lag.modal, lag.procedural)));
   plant.cost[MODAL_LEVEL] = static_cast<float>(1e-6 * budget.modal_cost * table.branches.back());
+}
+
+// How far a tree is off where the wind there comes and goes [pixel].
+LagIn Forest::lagOf(const TreeSeed& seed, const Vec3& foot, const LevelTable& table,
+                    double pixels) {
+  LagIn out = tables_[seed.species].lagAt(layout_.species[seed.species], layout_.motion, seed.scale,
+                                          swinging_.at(foot, 0.5 * table.reach));
+  out.procedural *= pixels;
+  out.modal *= pixels;
+  return out;
 }
 
 bool Forest::haveModes() const {

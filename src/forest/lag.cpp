@@ -3,84 +3,274 @@
 #include "vegetation_sim/forest/lag.h"
 
 #include <algorithm>
+#include <cmath>
 
-#include "vegetation_sim/forest/level.h"
+#include "vegetation_sim/common/math.h"
 #include "vegetation_sim/forest/modal_tree.h"
 #include "vegetation_sim/forest/response.h"
-#include "vegetation_sim/wind/field.h"
+#include "vegetation_sim/forest/wood.h"
+#include "vegetation_sim/physics/harmonic_chain.h"
+#include "vegetation_sim/wind/breeze.h"
 
 namespace vegetation_sim::forest {
 namespace {
 
-constexpr int SAMPLES = 2;         // trees measured per species and scale
-constexpr int RATE = 20;           // looks a second
-constexpr int WARM_UP = 3 * RATE;  // until the start is forgotten
-constexpr int LOOKS = 10 * RATE;
-constexpr int STRIDE = RATE / 4;     // from one comparison of tips to the next
-constexpr double FULL_CHAIN = 0.88;  // of the modes' lag, in the mean of seeds 1 to 4
-constexpr double STRANGER = 1.1;     // trees that were not measured may turn so much more
+using wind::Swings;
 
-wind::Field breeze() {
-  wind::Primitive out;
-  out.id = 1;
-  out.name = "breeze";
-  out.kind = static_cast<int>(wind::Kind::BREEZE);
-  out.fade_in = out.fade_out = 0.0;
-  out.velocity = Vec3(4.0, 1.0, 0.0);  // weak enough that drag is linear in what comes and goes
-  return wind::Field({out}, 7);
-}
+constexpr int SAMPLES = 2;     // trees measured per species and scale
+constexpr double PROBE = 0.5;  // [m/s] weak enough that no joint nears its limit
+constexpr double BENT = 0.3;   // [rad] turn at which bending is looked at, well above rounding
+constexpr int ROUNDS = 20;     // leave a millionth of the way
 
-// Largest distance of any tip between modes and the procedural motion.
-double farthest(const Tree& tree, const ModalTree& modal, const std::vector<double>& amplitude,
-                const wind::Instant& now) {
-  std::vector<JointAngles> bends = modal.bendsOf(amplitude);
-  for (JointAngles& bend : bends) bend = limited(bend);
-  const std::vector<Pose> sways = forwardKinematics(tree, bends);
-  Weights all;
-  all.fill(1.0);
-  const std::vector<Pose> follows = poseBranches(tree, now, all);
-  double out = 0.0;
-  for (std::size_t i = 0; i < sways.size(); ++i) {
-    const Branch& branch = tree.skeleton.branches[i];
-    out = std::max(out, length(tipOf(branch, sways[i]) - tipOf(branch, follows[i])));
-  }
+// A wave of the breezes, at unit speed: its parts along and across, and how it is spread
+// (wind/breeze.h). Of a wind that is everywhere the same, along only.
+wind::Mode waveOf(double frequency, double slowness, const Vec3& along) {
+  using wind::Breeze;
+  const Vec3 across(-along.y(), along.x(), 0.0), up = Vec3::UnitZ();
+  wind::Mode out;
+  out.amplitude = PROBE * along;
+  if (slowness == 0.0) return out;
+  out.amplitude += PROBE * (Breeze::LATERAL * across + Breeze::VERTICAL * up);
+  out.amplitude *= PROBE / length(out.amplitude);
+  const double spread = Breeze::DECAY / (2.0 * PI);
+  out.wave = frequency * slowness * (along + spread * (across + up));
   return out;
 }
 
-void raise(const Tree& tree, const Species& species, const wind::Field& field, Lag& out) {
-  const ModalTree modal(tree, species);
-  physics::ModalStepper stepper(modal.modes());
-  physics::ModalState state = stepper.atRest();
-  std::vector<double> before, after;
-  ModalAir air;
-  for (int look = 0; look < LOOKS; ++look) {
-    const wind::Instant now = field.at(fromSeconds(static_cast<double>(look) / RATE));
-    modal.loadOf(now, air, after);
-    if (look > 0) stepper.step(before, after, 1.0 / RATE, state);
-    before = after;
-    if (look < WARM_UP || look % STRIDE != 0) continue;
-    const double off =
-        FULL_CHAIN * farthest(tree, modal, state.amplitude, now) / now.gustBound(tree.foot, 0.0);
-    const double turn = modal.probe().largestTurn(state) / now.speedBound(tree.foot, 0.0);
-    out.distance = std::max(out.distance, off);
-    out.turn = std::max(out.turn, STRANGER * turn);
+/// What goes with the cosine of a wave and what with its sine.
+struct Pair {
+  std::vector<double> cosine, sine;
+};
+
+/// Of each tip, in one wave.
+struct TipSquares {
+  std::vector<double> procedural, modal;
+};
+using Row = std::array<TipSquares, Swings::FREQUENCIES.size()>;
+
+/// A sample tree, and how all of its rungs answer a wave.
+class Sample {
+ public:
+  Sample(const Tree& tree, const Species& species)
+      : tree_(tree),
+        links_(chainOf(tree.skeleton, species)),
+        grips_(gripsOf(woodOf(tree.skeleton, species, Material::BEAM))),
+        linear_(links_),
+        full_(links_, grips_),
+        modal_(tree, species) {}
+
+  void setFrequency(double frequency) {
+    w_ = 2.0 * PI * frequency;
+    full_.setFrequency(w_);
   }
+
+  // Squares of the tips' distances from the full chain, per speed.
+  TipSquares squaresIn(const wind::Mode& wave) {
+    wind::Instant even, odd;
+    even.modes = odd.modes = {wave};
+    odd.modes[0].phase = 0.75;  // a quarter of a cycle later
+    Pair right{torques(even), torques(odd)};
+    full_.answer(right.cosine, right.sine);
+    const Pair shown{proceduralBends(even), proceduralBends(odd)}, swaying = modalBends(even, odd);
+    return {squares(right, shown), squares(right, swaying)};
+  }
+
+  // Farthest tip from where a steady wind holds the full chain, whose levers change as it bends,
+  // per square of the speed.
+  double bend(const Vec3& along) const {
+    const wind::Instant air = steady(BENT / turn(along) * along);
+    const std::vector<Pose> right = forwardKinematics(tree_, balance(air)),
+                            shown = poseBranches(tree_, air, all());
+    double off = 0.0;
+    for (std::size_t i = 0; i < right.size(); ++i) {
+      const Branch& branch = tree_.skeleton.branches[i];
+      off = std::max(off, length(tipOf(branch, right[i]) - tipOf(branch, shown[i])));
+    }
+    return off / dot(air.mean, air.mean);
+  }
+
+ private:
+  static wind::Instant steady(const Vec3& velocity) {
+    wind::Instant out;
+    out.mean = velocity;
+    return out;
+  }
+  static Weights all() {
+    Weights out;
+    out.fill(1.0);
+    return out;
+  }
+
+  // Largest turn that gathers on a way from the ground, per speed.
+  double turn(const Vec3& along) const {
+    std::vector<physics::SmallMotion> motion;
+    linear_.motionOf(proceduralBends(steady(PROBE * along)).data(), motion);
+    double out = 0.0;
+    for (const physics::SmallMotion& link : motion) out = std::max(out, length(link.turn));
+    return out / PROBE;
+  }
+
+  // Bends at which springs hold a steady wind, by going half of the way again and again.
+  std::vector<JointAngles> balance(const wind::Instant& air) const {
+    const std::size_t n = links_.size();
+    physics::ChainState state{std::vector<physics::Vec2>(n, physics::Vec2::Zero()), {}};
+    state.rate = state.q;
+    const std::vector<physics::Vec2> still = state.q;
+    std::vector<physics::Vec2> missing;
+    physics::Kinematics now;
+    physics::Loads loads;
+    for (int round = 0; round < ROUNDS; ++round) {
+      physics::kinematicsOf(links_, {}, state, now);
+      loads.clear(n);
+      for (std::size_t i = 0; i < n; ++i) {
+        const physics::Grip& grip = grips_[i];
+        const Vec3 force = grip.steady * air.mean;
+        loads.wrench[i] = {force, cross(rotate(now.pose[i].orientation, grip.centre), force)};
+      }
+      physics::ArticulatedBody().torques(links_, {}, state, now, loads, still, missing);
+      for (std::size_t i = 0; i < n; ++i) state.q[i] -= 0.5 / links_[i].stiffness * missing[i];
+    }
+    std::vector<JointAngles> out;
+    for (const physics::Vec2& q : state.q) out.push_back({q.x(), q.y()});
+    return out;
+  }
+
+  static std::vector<physics::Grip> gripsOf(const Wood& wood) {
+    std::vector<physics::Grip> out(wood.own.size());
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      const Composite& body = wood.own[i];
+      out[i].steady = body.drag;
+      if (body.drag > 0.0) out[i].centre = body.drag_moment / body.drag;
+    }
+    return out;
+  }
+
+  // Of the air on all of the crown at rest.
+  std::vector<double> torques(const wind::Instant& air) const {
+    std::vector<physics::Wrench> out(links_.size());
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      const Pose& rest = tree_.skeleton.branches[i].rest;
+      const Vec3 arm = rotate(rest.orientation, grips_[i].centre);
+      const Vec3 force = grips_[i].steady * air.velocity(rest.position + arm);
+      out[i] = {force, cross(arm, force)};
+    }
+    return linear_.torquesOf(out);
+  }
+
+  std::vector<double> proceduralBends(const wind::Instant& air) const {
+    return flat(proceduralAngles(tree_, air, all()));
+  }
+
+  Pair modalBends(const wind::Instant& even, const wind::Instant& odd) {
+    Pair load;
+    modal_.loadOf(even, air_, load.cosine);
+    modal_.loadOf(odd, air_, load.sine);
+    for (std::size_t m = 0; m < modal_.size(); ++m) {
+      const double own = modal_.modes().frequency[m];
+      const double in = own * own - w_ * w_, late = w_ * modal_.modes().damping[m];
+      const double size = in * in + late * late;
+      const double c = load.cosine[m], s = load.sine[m];
+      load.cosine[m] = (in * c - late * s) / size;
+      load.sine[m] = (in * s + late * c) / size;
+    }
+    return {flat(modal_.bendsOf(load.cosine)), flat(modal_.bendsOf(load.sine))};
+  }
+
+  static std::vector<double> flat(const std::vector<JointAngles>& bends) {
+    std::vector<double> out;
+    out.reserve(2 * bends.size());
+    for (const JointAngles& bend : bends) out.insert(out.end(), {bend.first, bend.second});
+    return out;
+  }
+
+  std::vector<double> squares(const Pair& right, const Pair& shown) {
+    std::vector<double> out(links_.size(), 0.0), off(2 * links_.size());
+    for (const auto part : {&Pair::cosine, &Pair::sine}) {
+      for (std::size_t k = 0; k < off.size(); ++k) off[k] = (shown.*part)[k] - (right.*part)[k];
+      linear_.motionOf(off.data(), motion_);
+      for (std::size_t i = 0; i < out.size(); ++i) {
+        const Vec3 along = links_[i].length * axisZ(linear_.rest()[i].orientation);
+        const Vec3 tip = motion_[i].move + cross(motion_[i].turn, along);
+        out[i] += dot(tip, tip) / (PROBE * PROBE);
+      }
+    }
+    return out;
+  }
+
+  const Tree& tree_;
+  std::vector<physics::Link> links_;
+  std::vector<physics::Grip> grips_;
+  physics::LinearChain linear_;
+  physics::HarmonicChain full_;
+  ModalTree modal_;
+  ModalAir air_;
+  std::vector<physics::SmallMotion> motion_;
+  double w_{0.0};
+};
+
+// The tip that is farthest off in a breeze, whose power falls with f^(-2/3) a band of frequencies.
+std::size_t farthestIn(const Row& row, std::vector<double> TipSquares::*kind) {
+  std::vector<double> sum((row[0].*kind).size(), 0.0);
+  for (std::size_t f = 0; f < row.size(); ++f) {
+    const double root = cubeRoot(Swings::FREQUENCIES[f]);
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += (row[f].*kind)[i] / (root * root);
+  }
+  return static_cast<std::size_t>(std::max_element(sum.begin(), sum.end()) - sum.begin());
+}
+
+// A breeze swings at all frequencies at once, so that one tip is the farthest; air that moves as
+// one swings at one, and each has its own.
+template <std::size_t N>
+void addRow(const Row& row, bool breeze, std::array<LagSquares, N>& out) {
+  using Kinds = std::pair<std::vector<double> TipSquares::*, double LagSquares::*>;
+  for (const auto& [kind, to] : {Kinds{&TipSquares::procedural, &LagSquares::procedural},
+                                 Kinds{&TipSquares::modal, &LagSquares::modal}}) {
+    const std::size_t tip = farthestIn(row, kind);
+    for (std::size_t f = 0; f < N; ++f) {
+      const std::vector<double>& tips = row[f].*kind;
+      out[f].*to += (breeze ? tips[tip] : *std::max_element(tips.begin(), tips.end())) / SAMPLES;
+    }
+  }
+}
+
+Tree sampleTree(std::uint64_t seed, const Species& species, const MotionLaw& law, double scale) {
+  Tree out;
+  out.seed.seed = seed;
+  out.seed.scale = scale;
+  out.skeleton = grow(out.seed, species);
+  out.response = windResponse(out.skeleton, species, law);
+  out.joint_model = JointModel::SWING;
+  return out;
 }
 
 }  // namespace
 
+LagIn Lag::in(const Swings& swings) const {
+  LagIn out;
+  for (std::size_t s = 0; s < swings.power.size(); ++s)
+    for (std::size_t f = 0; f < swings.power[s].size(); ++f) {
+      out.procedural += squares[s][f].procedural * swings.power[s][f];
+      out.modal += squares[s][f].modal * swings.power[s][f];
+    }
+  return {std::sqrt(out.procedural), std::sqrt(out.modal), bend};
+}
+
 Lag measureLag(const Species& species, const MotionLaw& law, double scale) {
   Lag out;
   if (static_cast<JointModel>(law.joint_model) != JointModel::SWING) return out;
-  const wind::Field field = breeze();
-  for (int sample = 0; sample < SAMPLES; ++sample) {
-    Tree tree;
-    tree.seed.seed = static_cast<std::uint64_t>(sample) + 1;
-    tree.seed.scale = scale;
-    tree.skeleton = grow(tree.seed, species);
-    tree.response = windResponse(tree.skeleton, species, law);
-    tree.joint_model = JointModel::SWING;
-    raise(tree, species, field, out);
+  for (int i = 0; i < SAMPLES; ++i) {
+    const Tree tree = sampleTree(static_cast<std::uint64_t>(i) + 1, species, law, scale);
+    Sample sample(tree, species);
+    const Vec3 along = i % 2 ? Vec3::UnitY() : Vec3::UnitX();
+    std::array<Row, Swings::SLOWNESSES.size()> rows;
+    for (std::size_t f = 0; f < Swings::FREQUENCIES.size(); ++f) {
+      sample.setFrequency(Swings::FREQUENCIES[f]);
+      for (std::size_t s = 0; s < rows.size(); ++s)
+        rows[s][f] = sample.squaresIn(waveOf(Swings::FREQUENCIES[f], Swings::SLOWNESSES[s], along));
+    }
+    for (std::size_t s = 0; s < rows.size(); ++s)
+      addRow(rows[s], Swings::SLOWNESSES[s] > 0.0, out.squares[s]);
+    out.bend += sample.bend(along) / SAMPLES;
   }
   return out;
 }

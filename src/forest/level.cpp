@@ -140,16 +140,20 @@ LevelTable LevelScales::at(double scale) const {
   return out;
 }
 
-Lag LevelScales::lagAt(const Species& species, const MotionLaw& law, double scale) {
+LagIn LevelScales::lagAt(const Species& species, const MotionLaw& law, double scale,
+                         const wind::Swings& swings) {
   const std::size_t below = gridIndex(scale);
   const auto lag = [&](std::size_t i) {
-    const auto known = lags_.find(i);
-    if (known != lags_.end()) return known->second;
-    return lags_[i] = measureLag(species, law, GRID[i]);
+    auto known = lags_.find(i);
+    if (known == lags_.end()) known = lags_.emplace(i, measureLag(species, law, GRID[i])).first;
+    return known->second.in(swings);
   };
-  const Lag a = lag(below), b = lag(below + 1);
+  const LagIn a = lag(below);
   const double f = saturate((scale - GRID[below]) / (GRID[below + 1] - GRID[below]));
-  return {a.distance + f * (b.distance - a.distance), a.turn + f * (b.turn - a.turn)};
+  if (f == 0.0) return a;  // trees of the species' own size need one table
+  const LagIn b = lag(below + 1);
+  return {a.procedural + f * (b.procedural - a.procedural), a.modal + f * (b.modal - a.modal),
+          a.bend + f * (b.bend - a.bend)};
 }
 
 int chooseLevel(const LevelTable& table, double speed, double pixels_per_metre, double tolerance,

@@ -114,7 +114,7 @@ TEST(Governor, ToleranceIsHeldWhereTheBudgetAllowsIt) {
   for (int i = 0; i < 30; ++i) park.advance();
   EXPECT_LT(park.forest.governor().cost, 0.8 * fine);
   park.eye.eye.position = Vec3(-20.0, 31.5, 6.0);
-  settings.tolerance = 1.4;
+  settings.tolerance = 1.0;
   park.forest.setSettings(settings);
   for (int i = 0; i < 100; ++i) park.advance();
   EXPECT_GT(park.forest.governor().counts[MODAL_LEVEL], 0u);

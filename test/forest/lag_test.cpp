@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "forest/modal_error.h"
 #include "forest/modal_scene.h"
 #include "vegetation_sim/forest/response.h"
 
@@ -49,15 +48,15 @@ TEST(Lag, OfStrangersIsPredictedWithinAFactorOfTwo) {
       const wind::Field field({makeBreeze(1, each.wind)}, each.seed);
       const Swaying scene(stranger(species, law, each.seed, each.scale), species, field, DURATION,
                           4);
-      const double gust = field.at(SWAY_START).gustBound(Vec3::Zero(), 0.0);
-      const double lag = gust * scales.lagAt(species, law, each.scale).distance;
+      const wind::Swings swings = wind::SwingingWind(field, SWAY_START).at(Vec3::Zero(), 0.0);
+      const LagIn lag = scales.lagAt(species, law, each.scale, swings);
       const double off = scene.procedural(WARM_UP).farthest, left = scene.modal(WARM_UP).farthest;
       std::printf("%-6s %.2f: %.1f mm, predicted %.1f; in modes %.1f, predicted %.1f\n",
-                  name.c_str(), each.scale, 1e3 * off, 1e3 * lag, 1e3 * left,
-                  1e3 * MODAL_SHARE * lag);
+                  name.c_str(), each.scale, 1e3 * off, 1e3 * lag.procedural, 1e3 * left,
+                  1e3 * lag.modal);
       ++all;
-      procedural += withinTwo(lag, off);
-      modal += withinTwo(MODAL_SHARE * lag, left);
+      procedural += withinTwo(lag.procedural, off);
+      modal += withinTwo(lag.modal, left);
     }
   }
   EXPECT_GE(procedural, 0.9 * all);

@@ -132,6 +132,7 @@ class Forest {
   void chooseRegion(const Region& region);
   void chooseTree(std::uint32_t tree);
   void predict(const TreeSeed& seed, const LevelTable& table, double view, Plant& plant);
+  LagIn lagOf(const TreeSeed& seed, const Vec3& foot, const LevelTable& table, double pixels);
   bool haveModes() const;
   void adopt();
   void beginModes();
@@ -148,6 +149,7 @@ class Forest {
   std::shared_ptr<const ContactModel> contacts_;
   ForestMemory memory_;
   wind::Instant now_;
+  wind::SwingingWind swinging_;  // now
   int last_base_{0};  // level of the trees that were not held before this tick
   std::vector<Plant> plants_;
   GovernorFigures governor_;

@@ -3,18 +3,33 @@
 #pragma once
 
 #include "vegetation_sim/forest/layout.h"
+#include "vegetation_sim/wind/swings.h"
 
 namespace vegetation_sim::forest {
 
-/// What modes tell of a species: how far the procedural rung, which answers the wind at once, is
-/// off where wind comes and goes, and how far a tree turns. Measured on sample trees in a breeze;
-/// 0 where joints do not bend.
+/// Squares of the farthest tip's distance from the full chain, per square of the speed [s^2].
+struct LagSquares {
+  double procedural{0.0}, modal{0.0};
+};
+
+/// How far rungs are off in one wind.
+struct LagIn {
+  double procedural{0.0};  ///< farthest tip [m]
+  double modal{0.0};       ///< of a tree in modes [m]
+  double bend{0.0};        ///< of both in a steady wind, per square of the bending speed [s^2/m]
+};
+
+/// How far the rungs of a species are off where wind comes and goes: the procedural one answers it
+/// at once and asks for it at each branch alone; modes are few; both take levers at rest. From
+/// sample trees beside the full chain, in closed form: waves of small motion. 0 where joints do not
+/// bend.
 struct Lag {
-  /// Largest distance of any tip of the full chain from its procedural place in some seconds, per
-  /// speed that comes and goes there (wind::Instant::gustBound) [m per m/s].
-  double distance{0.0};
-  /// Turns that gather along a way from the ground, per bending speed [rad per m/s].
-  double turn{0.0};
+  std::array<std::array<LagSquares, wind::Swings::FREQUENCIES.size()>,
+             wind::Swings::SLOWNESSES.size()>
+      squares{};     ///< at the points of wind::Swings
+  double bend{0.0};  ///< as LagIn's
+
+  LagIn in(const wind::Swings& swings) const;
 };
 Lag measureLag(const Species& species, const MotionLaw& law, double scale);
 

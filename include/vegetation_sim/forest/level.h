@@ -71,8 +71,9 @@ class LevelScales {
   /// Makes at(scale) known.
   void measure(const Species& species, const MotionLaw& law, double scale);
   LevelTable at(double scale) const;
-  /// Lag (lag.h) at a known scale; measured when it is first asked for, some 20 ms.
-  Lag lagAt(const Species& species, const MotionLaw& law, double scale);
+  /// Lag (lag.h) in a wind at a known scale; measured when it is first asked for, some 25 ms.
+  LagIn lagAt(const Species& species, const MotionLaw& law, double scale,
+              const wind::Swings& swings);
 
  private:
   std::map<std::size_t, Lag> lags_;

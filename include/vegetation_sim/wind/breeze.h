@@ -21,6 +21,11 @@ class Breeze {
   static constexpr double DECAY = 10.0;
   static constexpr double LEAST_CARRIER = 0.5;  ///< [m/s] speed at which modes travel in a calm
 
+  struct Wave {
+    Mode at_epoch;
+    double frequency;  ///< [Hz]
+  };
+
   /// Still air.
   Breeze() = default;
   /// Draws are keyed by seed and name, so an edit of a source keeps the phases of its gusts.
@@ -28,12 +33,9 @@ class Breeze {
 
   /// Adds the modes at `elapsed` [s] after the epoch, scaled by `weight`.
   void addModes(double elapsed, double weight, std::vector<Mode>& modes) const;
+  const std::vector<Wave>& waves() const { return waves_; }
 
  private:
-  struct Wave {
-    Mode at_epoch;
-    double frequency;  // [Hz]
-  };
   std::vector<Wave> waves_;
 };
 

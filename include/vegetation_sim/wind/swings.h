@@ -1,0 +1,49 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "vegetation_sim/wind/field.h"
+
+namespace vegetation_sim::wind {
+
+/// Wind that comes and goes at one place, by how fast: squares of its peak speed [m^2/s^2] on a
+/// grid of frequencies and of slownesses, the time a wave takes for a metre; 0: all air as one.
+struct Swings {
+  static constexpr std::array<double, 12> FREQUENCIES{0.05, 0.07, 0.1,  0.145, 0.21, 0.3, 0.43,
+                                                      0.62, 0.88, 1.26, 1.8,   2.6};  ///< [Hz]
+  static constexpr std::array<double, 3> SLOWNESSES{0.0, 0.2, 0.8};                   ///< [s/m]
+
+  /// [slowness][frequency]
+  std::array<std::array<double, FREQUENCIES.size()>, SLOWNESSES.size()> power{};
+
+  /// Shared out to the four points around. What is slower than the lowest frequency counts with
+  /// the square of how much: plants follow it so much better.
+  void add(double frequency, double slowness, double square);
+};
+
+/// The parts of a wind that come and go, at one stamp.
+class SwingingWind {
+ public:
+  /// Peak over rms of a breeze, within some ten seconds.
+  static constexpr double PEAK = 2.5;
+
+  SwingingWind() = default;
+  SwingingWind(const Field& field, Nanoseconds stamp);
+
+  /// What any point within `reach` [m] (horizontally) of `position` meets over a cycle of the
+  /// primitives.
+  Swings at(const Vec3& position, double reach) const;
+
+ private:
+  struct Part {
+    Term term;
+    double frequency, share;  // share of its bound that swings
+  };
+  Swings breezes_;
+  std::vector<Part> parts_;
+};
+
+}  // namespace vegetation_sim::wind
