@@ -85,7 +85,7 @@ const Sway* ForestModes::find(std::uint32_t tree) const {
 
 std::size_t ForestModes::bytes() const {
   std::size_t out = 0;
-  for (const auto& entry : sways_) out += entry.second.modes().bytes();
+  for (const auto& entry : sways_) out += entry.second.bytes();
   return out;
 }
 

@@ -192,28 +192,41 @@ std::size_t ModalTree::bytes() const {
          sizeof(Vec3) * probe_.turn.size();
 }
 
-// A wave a cos(2 pi (k . x + phase)) is what its cosine at rest does times cos(2 pi phase), less
-// what its sine does times the other.
+// Where sources come and go, what is known of the waves that stay is kept.
 void ModalTree::lookAtWaves(const wind::Instant& wind, ModalAir& air) const {
   const auto same = [](const Vec3& wave, const wind::Mode& mode) { return wave == mode.wave; };
   if (air.waves.size() == wind.modes.size() &&
       std::equal(air.waves.begin(), air.waves.end(), wind.modes.begin(), same))
     return;
-  const std::size_t row = modalRow(size());
+  const std::size_t each = 6 * modalRow(size());
+  const std::vector<Vec3> known = std::move(air.waves);
+  const std::vector<double> push = std::move(air.push);
   air.waves.clear();
-  air.push.assign(6 * row * wind.modes.size(), 0.0);
+  air.push.assign(each * wind.modes.size(), 0.0);
   double* out = air.push.data();
   for (const wind::Mode& mode : wind.modes) {
+    const auto found = std::find(known.begin(), known.end(), mode.wave);
+    if (found != known.end())
+      std::copy_n(push.begin() + (found - known.begin()) * static_cast<std::ptrdiff_t>(each), each,
+                  out);
+    else
+      pushOf(mode.wave, out);
     air.waves.push_back(mode.wave);
-    for (std::size_t i = 0; i < fine_.at.size(); ++i) {
-      const SinCos turn = sinCosTurns(dot(mode.wave, foot_ + fine_.at[i].position));
-      const double* push = fine_.push.data() + 3 * row * i;
-      for (std::size_t k = 0; k < 3 * row; ++k) {
-        out[k] += turn.cos * push[k];
-        out[3 * row + k] += turn.sin * push[k];
-      }
+    out += each;
+  }
+}
+
+// A wave a cos(2 pi (k . x + phase)) is what its cosine at rest does times cos(2 pi phase), less
+// what its sine does times the other.
+void ModalTree::pushOf(const Vec3& wave, double* out) const {
+  const std::size_t row = modalRow(size());
+  for (std::size_t i = 0; i < fine_.at.size(); ++i) {
+    const SinCos turn = sinCosTurns(dot(wave, foot_ + fine_.at[i].position));
+    const double* push = fine_.push.data() + 3 * row * i;
+    for (std::size_t k = 0; k < 3 * row; ++k) {
+      out[k] += turn.cos * push[k];
+      out[3 * row + k] += turn.sin * push[k];
     }
-    out += 6 * row;
   }
 }
 

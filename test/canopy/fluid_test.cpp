@@ -202,6 +202,21 @@ TEST(Fluid, TakesAStepOfNothingAndOneOfTenSeconds) {
   EXPECT_NEAR(fluid.figures().skipped, 3589.8, 1e-9);
 }
 
+// N9: "a step longer than 0.034 s is divided, time beyond 300 of these is skipped", from both
+// sides.
+TEST(Fluid, DividesAndSkipsJustBeyondItsBoundsAndNotBefore) {
+  const auto after = [](double dt) {
+    Fluid fluid = fluidWith(ideal(Scheme::FAST, 16), smoothFlow(16, 9));
+    fluid.advance(0.0, dt);
+    return std::make_pair(fluid.state().steps, fluid.figures().skipped);
+  };
+  const double longest = Fluid::LONGEST_SUBSTEP, most = Fluid::MOST_SUBSTEPS * longest;
+  EXPECT_EQ(after(0.999 * longest).first, 1U);
+  EXPECT_EQ(after(1.001 * longest).first, 2U);
+  EXPECT_EQ(after(0.999 * most).second, 0.0);
+  EXPECT_NEAR(after(1.001 * most).second, 0.001 * most, 1e-9);
+}
+
 TEST(Fluid, RefusesWhatCannotBe) {
   FluidSettings settings;
   settings.cells = 48;

@@ -196,6 +196,19 @@ TEST(Oscillator, DividesAStepThatIsTooLongForVerlet) {
   EXPECT_LT(relativeError(leaves.motion(), other.motion()), 0.01);  // both at rest by then
 }
 
+// N9: "a longer step is divided to 0.95 of it": at the limit and a touch beyond.
+TEST(Oscillator, DividesJustBeyondTheLimitOfVerletAndNotBefore) {
+  OscillatorSettings settings = with("verlet");
+  settings.speed = 5.0;
+  const WaveLaw law{2.0 * PI * settings.frequency, settings.damping, settings.speed, 4.0};
+  const double longest = VerletStep(law, 64).longestStep();
+  for (const double ratio : {0.94, 1.01}) {
+    Oscillator leaves(settings, 64, 4.0);
+    leaves.advance(ratio * longest, smoothFlow(64, 4), 0.0);
+    EXPECT_EQ(leaves.divided(), ratio > 1.0 ? 1U : 0U) << ratio;
+  }
+}
+
 // N6, and bad input.
 TEST(Oscillator, IsRestoredToTheSameBitsAndRefusesWhatIsNoState) {
   for (const char* integrator : {"exact", "verlet"}) {

@@ -85,6 +85,24 @@ TEST(Sway, NoTreeHasModesThatNobodyAskedFor) {
   EXPECT_GT(poor.forest.memory().levels.of(0).level, 0);
 }
 
+// What is kept for a tree is counted, the table of the breeze's waves too.
+TEST(Sway, CountsWhatItKeepsOfTheWaves) {
+  const auto bytes = [](const wind::Field& field) {
+    Clearing scene(field);
+    Settings settings;
+    settings.tolerance = 0.1;
+    scene.forest.setSettings(settings);
+    scene.run(1.0);
+    EXPECT_FALSE(scene.forest.memory().modes.sways().empty());
+    return scene.forest.memory().modes.bytes() / scene.forest.memory().modes.sways().size();
+  };
+  const wind::Primitive first = makeBreeze(1, Vec3(5.0, 1.0, 0.0));
+  const wind::Primitive second = makeBreeze(2, Vec3(4.0, 1.0, 0.0));
+  const std::size_t one = bytes(wind::Field({first}, 3)),
+                    two = bytes(wind::Field({first, second}, 3));
+  EXPECT_GE(two, one + 24 * 6 * 20 * sizeof(double));  // waves, loads of each, oscillators
+}
+
 // N13: beyond MODAL_LIMIT the forest says so, predicts so much more error, and saturates: no joint
 // passes its limit in any storm. Below, nothing of it.
 TEST(Sway, SaturatesAndSaysSoBeyondTheLimit) {

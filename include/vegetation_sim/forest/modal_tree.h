@@ -38,6 +38,11 @@ struct ModalAir {
   std::vector<Vec3> waves;       ///< [turns/m]
   std::vector<double> push;      ///< [waves][cosine, sine][3][row] as WindPoints::push
   std::vector<Vec3> velocities;  ///< scratch
+
+  std::size_t bytes() const {
+    return sizeof(double) * push.capacity() +
+           sizeof(Vec3) * (waves.capacity() + velocities.capacity());
+  }
 };
 
 /// A tree between procedural and physical (N13): its slowest modes, what a wind from each side
@@ -65,6 +70,7 @@ class ModalTree {
 
  private:
   void lookAtWaves(const wind::Instant& wind, ModalAir& air) const;
+  void pushOf(const Vec3& wave, double* out) const;
   void velocitiesAt(const wind::Instant& wind, ModalAir& air) const;
 
   Vec3 foot_;

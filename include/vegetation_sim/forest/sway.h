@@ -22,6 +22,8 @@ class Sway {
   const ModalTree& modes() const { return *modes_; }
   const physics::ModalState& state() const { return state_; }  ///< at stamp()
   Nanoseconds stamp() const { return stamp_; }
+  /// Of the modes, their fast copy and what is kept of the waves that blow.
+  std::size_t bytes() const { return modes_->bytes() + batch_->bytes() + air_.bytes(); }
 
   /// Modal loads [modes] of a wind.
   void loadOf(const wind::Instant& wind, std::vector<double>& out) {
