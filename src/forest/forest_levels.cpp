@@ -128,7 +128,10 @@ void Forest::predict(const TreeSeed& seed, const LevelTable& table, double view,
       chooseLevel(table, speed, view, settings.tolerance, plant.held), settings.highest_level);
   const LagIn lag = plant.stair > 0 ? lagOf(seed, foot, table, speed / air * view / SEEN) : LagIn();
   const bool has = plant.held == MODAL_LEVEL;
-  if (haveModes() && lag.procedural > (has ? HYSTERESIS : 1.0) * settings.tolerance &&
+  // Discs are paper 1's winds, for which the whole of a tree's answer is its levels (S1-41): where
+  // nothing else comes and goes nobody asks for more.
+  const bool gusty = now_.gustBound(foot, 0.5 * table.reach) > 0.0;
+  if (haveModes() && gusty && lag.procedural > (has ? HYSTERESIS : 1.0) * settings.tolerance &&
       lag.modal < ALIKE * (has ? 1.05 : 1.0) * lag.procedural)
     plant.wanted = MODAL_LEVEL;
   const double peak =

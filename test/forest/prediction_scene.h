@@ -16,7 +16,7 @@ namespace vegetation_sim::forest {
 class Prediction {
  public:
   static constexpr int RATE = 30;    ///< ticks [Hz]
-  static constexpr int WARM_UP = 4;  ///< until modes are found and the hand-over is forgotten [s]
+  static constexpr int WARM_UP = 5;  ///< until modes are found and the hand-over is forgotten [s]
   static constexpr double LEAST = 0.05;  ///< what moves less is not looked at [pixel]
 
   Prediction(const Layout& layout, std::shared_ptr<const terrain::HeightMap> terrain,

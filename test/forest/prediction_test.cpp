@@ -62,7 +62,7 @@ TEST(Prediction, OfChosenRungsIsWhatTheFullChainShows) {
   disk.omega = 1.7;
   const wind::Field field({makeBreeze(1, Vec3(3.5, -1.5, 0.0)), gust, disk}, 77);
   Prediction scene(strangers(5000, 10, 5.0), flatTerrain(), field, eyeBefore(25.0), START);
-  const Prediction::Looks looks = scene.look(4);
+  const Prediction::Looks looks = scene.look(8);
   EXPECT_EQ(looks.size(), 10u);
   EXPECT_GE(shareWithinTwo(looks), 0.9);
 }

@@ -70,10 +70,7 @@ TEST(Sway, NearTreesHaveModesAndFarOnesHaveNone) {
 
 // Steady wind has no lag to show, and no budget has no modes.
 TEST(Sway, NoTreeHasModesThatNobodyAskedFor) {
-  wind::Primitive disk = makeDisk(1, Vec3::Zero(), 2000.0, Vec3(5, 1, 0));
-  disk.omega = 0.0;
-  disk.phase = 0.5 * PI;
-  Clearing steady{wind::Field({disk})};
+  Clearing steady(wind::Field({makeDisk(1, Vec3::Zero(), 2000.0, Vec3(5, 1, 0))}));
   steady.run(1.0);
   EXPECT_TRUE(steady.forest.memory().modes.sways().empty());
   Clearing poor;
