@@ -21,6 +21,9 @@ constexpr double LOST = 5e-3;
 // A bar lies flat on a body where they part by less than this slope, over more than this length.
 constexpr double FLAT = 0.1, SPREAD = 0.02;  // [m/m], [m]
 constexpr double NOWHERE = 1e9;              // [m]
+// Thin wood is never let in: where it stands on stout wood, or is whipped by it, it presses harder.
+// Thin is a radius of at most 1 cm; from 1.2 cm on wood is stout [m].
+constexpr double THIN = 0.01, FADE = 2e-3, THIN_BEARS = 5.0;
 // What a pair of a body and a branch had in the last step: one contact, two or none.
 struct Held {
   const Touch *first, *last;
@@ -124,6 +127,7 @@ Contact contactOf(const Placed& placed, const Pair& pair, const Proximity& found
   out.gap = found.gap;
   const double radius = pair.bar.radiusAt(found.along);
   out.share = shareOf(placed, found, radius);
+  out.bears = THIN_BEARS - (THIN_BEARS - 1.0) * smootherStep((radius - THIN) / FADE);
   out.surface = placed.velocity(pair.bar.at(found.along) - (radius + found.gap) * out.normal);
   return out;
 }

@@ -26,15 +26,25 @@ void ForestPhysics::stepTouching(const Site& at, std::uint32_t tree, PhysicalPar
   }
 }
 
-// A part of a step; `share`: of the whole.
+// A part of a step from where scratch_.start tells; `share`: of the whole.
 void ForestPhysics::stepAmong(const Site& at, const ContactModel::Wood& wood, PhysicalPart& part,
                               Nanoseconds from, Nanoseconds to, double share) {
   Touches& touches = touches_[wood.tree];
+  const Touches before = touches;
   std::vector<physics::Contact> contacts =
       at.contacts->findContacts(wood, bodies_, from, to, touches);
   const Air air = airOf(at, wood.tree);
   if (contacts.empty()) return part.step(air, loads_, settings_, from, to, scratch_);
+  const PhysicalPart::Moment start = part.moment();
   part.stepTouching(air, loads_, settings_, from, to, scratch_, contacts);
+  if (isTooCoarse(scratch_.contact_stepper.swing(), from, to)) {
+    const Nanoseconds middle = from + (to - from) / 2;
+    part.goBack(start);
+    touches = before;
+    stepAmong(at, wood, part, from, middle, 0.5 * share);
+    part.kinematicsAt(air, middle, scratch_, scratch_.start);
+    return stepAmong(at, wood, part, middle, to, 0.5 * share);
+  }
   std::vector<Reaction> reactions;
   at.contacts->settle(wood, bodies_, contacts, to, touches, reactions);
   for (Reaction& reaction : reactions) reaction.force *= share;

@@ -3,6 +3,7 @@
 #include "vegetation_sim/physics/contact.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "vegetation_sim/physics/integrator.h"
 
@@ -61,9 +62,13 @@ void ContactStepper::prepare(const ContactLaw& law, double h, double theta,
     p.speed = dot(contact.normal, velocity - contact.surface);
     p.gap = contact.gap + (1.0 - theta) * h * p.speed;
     // Overlap that this step would add beyond DEEP: the force is continuous in all that it is of.
-    const double gain = std::clamp(-DEEP - (p.gap + h * p.speed), 0.0, std::max(0.0, -h * p.speed));
-    const double risen = contact.force + h * law.force_rate + law.stiffness * gain;
-    p.limit = contact.share * std::min(law.force_limit, risen);
+    const double gain =
+        std::clamp(-DEEP / contact.bears - (p.gap + h * p.speed), 0.0, std::max(0.0, -h * p.speed));
+    p.stiffness = contact.bears * law.stiffness;
+    p.full = contact.bears * law.force_limit;
+    p.before = contact.force;
+    const double risen = contact.force + h * law.force_rate + p.stiffness * gain;
+    p.limit = contact.share * std::min(p.full, risen);
     if (contact.force >= p.limit)
       p.mode = Mode::LIMITED;
     else if (contact.force > 0.0 || forceOf(law, h, p, p.speed) > 0.0)
@@ -76,8 +81,8 @@ void ContactStepper::prepare(const ContactLaw& law, double h, double theta,
 // length.
 ContactStepper::Line ContactStepper::lineOf(const ContactLaw& law, double h, const Point& p,
                                             Mode mode) {
-  if (mode == Mode::PRESSING) return {-law.stiffness * p.gap, law.stiffness * h};
-  return {law.force_limit, law.force_limit / law.push_speed};
+  if (mode == Mode::PRESSING) return {-p.stiffness * p.gap, p.stiffness * h};
+  return {p.full, p.full / law.push_speed};
 }
 
 ContactStepper::Mode ContactStepper::modeAt(const ContactLaw& law, double h, const Point& p,
@@ -159,6 +164,14 @@ bool ContactStepper::revise(const ContactLaw& law, double h, bool one_by_one,
   return settled;
 }
 
+// What bounces off in the middle of a step has as much force before as after it.
+double ContactStepper::swingOf(double h, const Point& p, const Contact& contact) {
+  const double change = std::fabs(contact.force - p.before);
+  if (contact.limited) return change;
+  const double most = std::max(contact.force, p.before);
+  return std::max(change, std::min(most, h * p.stiffness * std::fabs(p.speed)));
+}
+
 void ContactStepper::step(const std::vector<Link>& links, const Surroundings& outside,
                           const ContactLaw& law, double time, double h, double theta,
                           ChainState& state, std::vector<Contact>& contacts) {
@@ -183,6 +196,9 @@ void ContactStepper::step(const std::vector<Link>& links, const Surroundings& ou
     }
   }
   stopJoints(h, state);
+  swing_ = 0.0;
+  for (std::size_t c = 0; c < contacts.size(); ++c)
+    swing_ = std::max(swing_, swingOf(h, points_[c], contacts[c]));
 }
 
 }  // namespace vegetation_sim::physics

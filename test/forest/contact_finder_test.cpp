@@ -127,6 +127,20 @@ TEST_F(ContactFinderTest, StepsBesideFastWoodAreTakenInParts) {
   EXPECT_EQ(parts(-0.5, 6.0, 0.0), 1);
 }
 
+// S1-W6. Thin wood is hard to enter; from 1 to 1.2 cm of radius on it is as the law says.
+TEST_F(ContactFinderTest, ThinWoodIsHarder) {
+  const auto bears = [&](double radius) {
+    skeleton_.branches[0].base_radius = skeleton_.branches[0].tip_radius = radius;
+    place(-0.02);
+    return find().at(0).bears;
+  };
+  EXPECT_EQ(bears(0.003), 5.0);
+  EXPECT_EQ(bears(0.01), 5.0);
+  EXPECT_NEAR(bears(0.011), 3.0, 1e-6);
+  EXPECT_NEAR(bears(0.012), 1.0, 1e-9);
+  EXPECT_EQ(bears(0.05), 1.0);
+}
+
 TEST_F(ContactFinderTest, TwigKeepsItsSideUntilItIsOverrun) {
   double last_share = 1.0;
   for (double x = -0.028; x < 0.025; x += 0.002) {

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
+#include <utility>
 
 #include "forest/forest_fixture.h"
 #include "vegetation_sim/forest/contact_body.h"
@@ -117,6 +119,88 @@ TEST(ContactInAForest, ReactionsTellBodyPlaceAndForce) {
   EXPECT_EQ(found->at.tree, 0u);
   EXPECT_LT(found->force.x(), 0.0);  // against the drive
   EXPECT_FALSE(found->limited);
+}
+
+/// Finds contacts as ever and adds up what they give to the trees.
+class Ledger : public ContactFinder {
+ public:
+  std::vector<physics::Contact> findContacts(const Wood& wood, const Bodies& bodies,
+                                             Nanoseconds from, Nanoseconds to,
+                                             Touches& touches) const override {
+    from_ = from;
+    return ContactFinder::findContacts(wood, bodies, from, to, touches);
+  }
+  void settle(const Wood& wood, const Bodies& bodies, const std::vector<physics::Contact>& contacts,
+              Nanoseconds to, Touches& touches, std::vector<Reaction>& reactions) const override {
+    const double h = secondsBetween(from_, to);
+    shortest_ = std::min(shortest_, h);
+    for (const physics::Contact& contact : contacts)
+      given_ += h * contact.force * contact.normal, size_ += h * contact.force;
+    ContactFinder::settle(wood, bodies, contacts, to, touches, reactions);
+  }
+  mutable Vec3 given_{Vec3::Zero()};  ///< impulse [N s]
+  mutable double size_{0.0};          ///< sum of the sizes of all that it is of [N s]
+  mutable double shortest_{1.0};      ///< part of a step [s]
+
+ private:
+  mutable Nanoseconds from_{0};
+};
+
+// N3. Impulse for impulse: wrenches tell what the trees get, in however many parts a step is taken.
+// (physics/contact_test: the wood gains the momentum of the force that is told.)
+TEST(ContactInAForest, WrenchesCarryTheImpulseThatTheTreeGets) {
+  Drive drive(3.0);
+  const auto ledger = std::make_shared<Ledger>();
+  drive.forest().setContactModel(ledger);
+  Vec3 told = Vec3::Zero();
+  for (int i = 0; i < 1.3 / 3.0 * TICKS; ++i) {
+    drive.driveOn();
+    for (const Reaction& reaction : drive.forest().reactions()) told += reaction.force / TICKS;
+  }
+  EXPECT_LT(ledger->shortest_, 0.3 / 240.0);  // parts of parts
+  EXPECT_GT(length(ledger->given_), 1.0);
+  EXPECT_LT(length(told + ledger->given_), 1e-5 * ledger->size_);
+}
+
+// Wrenches as they are told, tick by tick: a trunk's force comes up over several ticks that are no
+// shorter than parts of steps, as the law says, and to its limit.
+TEST(ContactInAForest, WrenchesRiseAsTheLawSays) {
+  for (const auto& [speed, ticks] : {std::pair(0.1, 240), {1.0, 1920}, {3.0, 3840}}) {
+    const TickGrid grid(ticks);
+    Forest forest(Drive::layout(), flatTerrain(), Settings());
+    const auto stampOf = [&](std::int64_t tick) {
+      return 100 * NANOSECONDS_PER_SECOND + grid.timeOf(tick);
+    };
+    forest.advance(stampOf(0));
+    const Branch trunk = growTree(forest.layout(), 0, forest.terrain()).skeleton.branches[0];
+    Body body;
+    body.id = "arm";
+    body.shape = static_cast<int>(Shape::SPHERE);
+    body.size = Vec3(0.05, 0.0, 0.0);  // so small that it has one contact
+    body.velocity = Vec3(speed, 0.0, 0.0);
+    body.pose.position = Vec3(-trunk.base_radius - 0.05, 0.0, 0.3);
+    body.stamp = stampOf(0);
+    double before = 0.0, rise = 0.0, hardest = 0.0;
+    int rising = 0;
+    const physics::ContactLaw law;
+    for (int tick = 1; tick < 0.02 / speed * ticks + 20; ++tick) {
+      Body now = body;
+      now.pose = poseAt(body, stampOf(tick));
+      now.stamp = stampOf(tick);
+      forest.setBody(now);
+      forest.advance(stampOf(tick));
+      double force = 0.0;
+      for (const Reaction& reaction : forest.reactions())
+        if (reaction.at.branch == 0) force = length(reaction.force);
+      rise = std::max(rise, force - before);
+      rising += force > before;
+      hardest = std::max(hardest, force);
+      before = force;
+    }
+    EXPECT_LE(rise, (law.force_rate + law.stiffness * (speed + 0.02)) / ticks) << speed << " m/s";
+    EXPECT_NEAR(hardest, law.force_limit, 1.0) << speed << " m/s";
+    EXPECT_GE(rising, 4) << speed << " m/s";
+  }
 }
 
 TEST(ContactInAForest, SavedInTheMiddleItGoesOnTheSame) {

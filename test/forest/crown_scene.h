@@ -44,11 +44,13 @@ struct CrownResult {
   double deepest_thick{0.0};  ///< of other wood [m]
   double hardest{0.0};        ///< force of one contact [N]
   double steepest_rise{0.0};  ///< of the force of one contact from part to part of a step [N/s]
+  double largest_rise{0.0};   ///< of the force on one branch, from part to part [N]
   double largest_fall{0.0};   ///< the same, downwards [N]
   double largest_jump{0.0};   ///< of the body's whole force from step to step [N]
   double largest_force{0.0};  ///< of the body's whole force [N]
   int touched{0};             ///< branches that bore a force
-  int limited{0};             ///< steps of contacts at the limit
+  int parts{0};               ///< of steps
+  int limited{0};             ///< parts of contacts at the limit
   int disagreed{0};           ///< steps whose contacts did not come to agree
   double trials{0.0};         ///< per step in contact
   double left_over{0.0};      ///< largest displacement of a tip after the rest [m]
@@ -118,15 +120,25 @@ class CrownScene {
   }
   void stepPart(const Bodies& bodies, Nanoseconds from, Nanoseconds to, CrownResult* result) {
     const double h = secondsBetween(from, to);
+    const Touches touches = touches_;
+    const physics::ChainState state = state_;
+    const double theta = theta_;
     std::vector<physics::Contact> contacts =
         finder_.findContacts(wood(), bodies, from, to, touches_);
-    const physics::Kinematics before = kinematics_;
     theta_ = physics::guardedTheta(state_, h, theta_);
     stepper_.step(links_, {}, law, 0.0, h, theta_, state_, contacts);
+    if (isTooCoarse(stepper_.swing(), from, to)) {
+      const Nanoseconds middle = from + (to - from) / 2;
+      touches_ = touches, state_ = state, theta_ = theta;
+      stepPart(bodies, from, middle, result);
+      return stepPart(bodies, middle, to, result);
+    }
+    const physics::Kinematics before = kinematics_;
     std::vector<Reaction> reactions;
     finder_.settle(wood(), bodies, contacts, to, touches_, reactions);
     physics::kinematicsOf(links_, {}, state_, kinematics_);
     if (!result) return;
+    ++result->parts;
     note(contacts, h, *result);
     for (std::size_t i = 0; i < links_.size(); ++i) look(i, before, from, to, *result);
   }
@@ -141,8 +153,14 @@ class CrownScene {
       result.steepest_rise = std::max(result.steepest_rise, (contact.force - last) / h);
       if (contact.force > 0.0) touched_[contact.link] = 1;
     }
-    std::map<int, double> forces;
-    for (const physics::Contact& contact : contacts) forces[contact.link] = contact.force;
+    std::map<int, double> forces, sums;
+    for (const physics::Contact& contact : contacts) {
+      forces[contact.link] = contact.force;
+      sums[contact.link] += contact.force;
+    }
+    for (const auto& [link, sum] : sums)
+      result.largest_rise = std::max(result.largest_rise, sum - sum_of_[link]);
+    sum_of_ = sums;
     for (const auto& [link, last] : force_of_)
       result.largest_fall = std::max(result.largest_fall, last - forces[link]);
     force_of_ = forces;
@@ -248,7 +266,7 @@ class CrownScene {
   std::int64_t tick_{0};
   Vec3 last_force_{Vec3::Zero()};
   std::map<int, int> touched_;
-  std::map<int, double> force_of_;
+  std::map<int, double> force_of_, sum_of_;
   int contact_steps_{0};
 };
 

@@ -47,6 +47,7 @@ class Meeting {
     contact.gap = tip() - wall.place;
     contact.surface = wall.speed * Vec3::UnitX();
     contact.force = last_.force;
+    contact.bears = bears;
     std::vector<Contact> contacts{contact};
     theta_ = guardedTheta(state_, h, theta_);
     stepper_.step(links_, {}, law, 0.0, h, theta_, state_, contacts);
@@ -54,11 +55,13 @@ class Meeting {
     wall.place += h * wall.speed;
     kinematicsOf(links_, {}, state_, kinematics_);
   }
+  double spin() const { return length(kinematics_.spin[0]); }
   double tip() const { return links_[0].length * axisZ(kinematics_.pose[0].orientation).x(); }
   const Contact& last() const { return last_; }
   const ContactStepper& stepper() const { return stepper_; }
 
   ContactLaw law;
+  double bears{1.0};
 
  private:
   std::vector<Link> links_;
@@ -181,6 +184,69 @@ TEST(Contact, ForceRisesByRateAndSpringHoweverDeep) {
       }
     }
   }
+}
+
+// S1-W6. Harder wood: as many times the spring and the limit.
+TEST(Contact, HarderWoodPressesHarder) {
+  for (const double bears : {1.0, 5.0}) {
+    Link trunk = twig();
+    trunk.mass = 50000.0;
+    trunk.inertia = {4000.0, 4000.0, 100.0, 0.0, 0.0, 0.0};
+    Meeting meeting(trunk);
+    meeting.bears = bears;
+    Wall wall{-0.001, 0.02};
+    while (wall.place < 0.001) meeting.step(1.0 / 960.0, wall);
+    EXPECT_NEAR(meeting.last().force, bears * 500.0, bears * 25.0);
+    wall.speed = 1.0;
+    while (wall.place < 0.02) meeting.step(1.0 / 960.0, wall);
+    EXPECT_EQ(meeting.last().force, bears * meeting.law.force_limit);
+  }
+}
+
+// Momentum: what the twig's turning gains is the moment of the force that is told, less its spring.
+TEST(Contact, ForceToldIsWhatTheTwigGets) {
+  Link free = twig();
+  free.stiffness = 0.0;
+  free.damping = 0.0;
+  for (const double h : {1.0 / 240.0, 1.0 / 3840.0}) {
+    Meeting meeting(free);
+    Wall wall{-0.01, 3.0};
+    double told = 0.0;
+    while (wall.place < 0.05) {
+      meeting.step(h, wall);
+      told += h * meeting.last().force * free.length;
+    }
+    EXPECT_GT(told, 0.0);
+    EXPECT_NEAR(free.inertia.xx * meeting.spin(), told, 0.01 * told) << h << " s";  // on its arc
+  }
+}
+
+// A contact whose force changes much in a step says so; one that rests or is overrun does not.
+TEST(Contact, SwingTellsWhatAStepDoesNotResolve) {
+  Link trunk = twig();
+  trunk.mass = 500.0;
+  trunk.inertia = {40.0, 40.0, 1.0, 0.0, 0.0, 0.0};
+  Meeting meeting(trunk);
+  Wall wall{-0.02, 1.0};
+  double before = 0.0, largest = 0.0;
+  while (wall.place < 0.05) {
+    meeting.step(1.0 / 960.0, wall);
+    const double change = std::fabs(meeting.last().force - before);
+    EXPECT_GE(meeting.stepper().swing(), change);
+    largest = std::max(largest, change);
+    before = meeting.last().force;
+  }
+  EXPECT_GT(largest, 500.0);
+  EXPECT_TRUE(meeting.last().limited);
+  EXPECT_EQ(meeting.stepper().swing(), 0.0);
+  Meeting resting(twig());
+  Wall still{0.0, 0.2};
+  for (int i = 0; i < 480; ++i) {
+    if (i == 20) still.speed = 0.0;
+    resting.step(1.0 / 240.0, still);
+  }
+  EXPECT_GT(resting.last().force, 0.1);
+  EXPECT_LT(resting.stepper().swing(), 0.1);
 }
 
 TEST(Contact, WhatWouldEnterDeeplyIsStoppedAtOnce) {

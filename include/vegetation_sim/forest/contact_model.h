@@ -34,11 +34,18 @@ struct Touch {
 /// By body, then branch; rising. A branch that lies flat on a body has two.
 using Touches = std::vector<Touch>;
 
+/// In a part of a step no force of a contact changes by more [N], unless that part is the shortest.
+constexpr double MOST_SWING = 500.0;
+constexpr Nanoseconds SHORTEST_PART = 8000;
+inline bool isTooCoarse(double swing, Nanoseconds from, Nanoseconds to) {
+  return swing > MOST_SWING && to - from >= 2 * SHORTEST_PART;
+}
+
 /// How bodies touch trees. Without memory of its own.
 ///
 /// A step of a tree with contacts is taken in `partsOf` equal parts. Each: `findContacts` at its
-/// start; if there are any, `physics::ContactStepper` instead of the stepper's own step; then
-/// `settle`.
+/// start; if there are any, `physics::ContactStepper` instead of the stepper's own step. Where that
+/// is too coarse: back, and in two halves instead; else `settle`.
 class ContactModel {
  public:
   virtual ~ContactModel() = default;

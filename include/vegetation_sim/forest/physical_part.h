@@ -110,6 +110,13 @@ class PhysicalPart {
   void stepTouching(const Air& air, const PartLoads& loads, const PhysicsSettings& settings,
                     Nanoseconds from, Nanoseconds to, PartScratch& scratch,
                     std::vector<physics::Contact>& contacts);
+  /// All that `stepTouching` changes, to go back to.
+  struct Moment {
+    physics::ChainState state;
+    double theta{0.5};
+  };
+  Moment moment() const { return {state_, theta_}; }
+  void goBack(const Moment& moment) { state_ = moment.state, theta_ = moment.theta; }
   /// Where the links are and how they move, tree's frame.
   void kinematicsAt(const Air& air, Nanoseconds stamp, PartScratch& scratch,
                     physics::Kinematics& out) const;

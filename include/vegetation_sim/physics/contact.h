@@ -17,6 +17,7 @@ struct Contact {
   double gap{0.0};             ///< between the surfaces, along the normal; negative: overlap [m]
   Vec3 surface{Vec3::Zero()};  ///< velocity of the body there, world [m/s]
   double share{1.0};           ///< of the force limit that it may reach, 0 to 1
+  double bears{1.0};           ///< times the law's stiffness and limit: harder wood
   std::size_t touch{0};        ///< whatever the caller knows it by
   double force{0.0};           ///< on the link along the normal [N]: a guess, then what it was
   bool limited{false};         ///< the force was at its limit
@@ -34,15 +35,19 @@ class ContactStepper {
   /// Trials of the last step, and whether the last of them agreed with itself.
   int trials() const { return trials_; }
   bool agreed() const { return agreed_; }
+  /// By how much the force of a contact changed at most in the last step, to and fro [N].
+  double swing() const { return swing_; }
 
  private:
   enum class Mode { FREE, PRESSING, EASING, LIMITED };
   struct Point {
     Mode mode{Mode::FREE};
     Vec3 arm;
-    double speed;  // along the normal, relative to the body [m/s]
-    double gap;    // the one that the step's last speed changes [m]
-    double limit;  // of the force in this step [N]
+    double speed;            // along the normal, relative to the body [m/s]
+    double gap;              // the one that the step's last speed changes [m]
+    double stiffness, full;  // [N/m]; the most that it bears [N]
+    double limit;            // of the force in this step [N]
+    double before;           // the force [N]
   };
   // Force over speed at the end of the step.
   struct Line {
@@ -58,6 +63,7 @@ class ContactStepper {
   static Line lineOf(const ContactLaw& law, double h, const Point& point, Mode mode);
   static Mode modeAt(const ContactLaw& law, double h, const Point& point, double speed);
   static double forceOf(const ContactLaw& law, double h, const Point& point, double speed);
+  static double swingOf(double h, const Point& point, const Contact& contact);
   double speedAfter(double h, const Point& point, const Contact& contact) const;
   bool revise(const ContactLaw& law, double h, bool one_by_one, std::vector<Contact>& contacts);
 
@@ -71,6 +77,7 @@ class ContactStepper {
   std::vector<Point> points_;
   int trials_{0};
   bool agreed_{true};
+  double swing_{0.0};
 };
 
 }  // namespace vegetation_sim::physics
