@@ -33,6 +33,8 @@ constexpr double SETTLING = 20.0;          // [s] until all has been drawn
 constexpr int BLOCK = 16;                  // [pixel] edge of what differences are meant over
 constexpr int STEPS = 6;                   // of the camera's way
 constexpr int FRAMES_A_STEP = 20;
+constexpr int STILL_FRAMES = 15;     // alike: levels of detail have settled
+constexpr double STILL_TIME = 60.0;  // [s] they may take
 
 class Frames {
  public:
@@ -95,6 +97,7 @@ class Frames {
   /// most, and in all.
   void dolly(double factor) {
     manager_->getFrameManager()->setPause(true);
+    settle();
     rviz::Property* distance = manager_->getViewManager()->getCurrent()->subProp("Distance");
     const double start = distance->getValue().toDouble();
     double step = 0.0, all = 0.0;
@@ -118,6 +121,18 @@ class Frames {
   }
 
  private:
+  // Until pictures stay the same while time stands.
+  void settle() {
+    const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(STILL_TIME);
+    std::vector<unsigned char> before;
+    for (int alike = 0; alike < STILL_FRAMES && ros::WallTime::now() < end;) {
+      frames(1);
+      std::vector<unsigned char> now = picture();
+      alike = now == before ? alike + 1 : 0;
+      before = std::move(now);
+    }
+  }
+
   std::vector<unsigned char> picture() {
     std::vector<unsigned char> out(static_cast<std::size_t>(3 * WIDTH * HEIGHT));
     const Ogre::PixelBox target(WIDTH, HEIGHT, 1, Ogre::PF_BYTE_RGB, out.data());

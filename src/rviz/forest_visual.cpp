@@ -21,7 +21,7 @@ constexpr std::size_t TREES_PER_GROVE = 4;
 // trees have no mesh yet and later.
 constexpr double GROW_TIME = 0.025, SIDE_TIME = 0.006, FIRST_TIME = 0.06, LEVEL_TIME = 0.010;
 constexpr double FADE_TIME = 0.5;     // [s] from one level to another
-constexpr double LARGEST_FADE = 0.2;  // of it between two updates
+constexpr double LARGEST_FADE = 0.1;  // of it between two updates
 constexpr std::size_t FADERS = 8;     // one tree in 8, or 8 if more, fades at a time: it costs two
 constexpr double RESELECT = 25.0;     // [m] of the eye's way until other trees are the nearest
 

@@ -14,11 +14,11 @@ namespace vegetation_sim::view {
 namespace {
 
 constexpr int STRIP_COLUMNS = 512, STRIP_ROWS = 128, STRIP_BLADES = 130, LAYER_EDGE = 128;
-constexpr int MOST_LAYERS = 5;        // more would cost the rasteriser more than they show
-constexpr int ROWS = 3;               // of strips in a tile, each way
-constexpr double STILL = 1e-4;        // [m], [rad] of an eye
-constexpr double LARGEST_FADE = 0.2;  // of a transition between two updates
-constexpr double LEAVING = 0.5;       // of the blades drawn: the narrower, the sooner they go
+constexpr int MOST_LAYERS = 5;         // more would cost the rasteriser more than they show
+constexpr int ROWS = 3;                // of strips in a tile, each way
+constexpr double STILL = 1e-4;         // [m], [rad] of an eye
+constexpr double LARGEST_FADE = 0.05;  // of a transition between two updates
+constexpr double LEAVING = 0.5;        // of the blades drawn: the narrower, the sooner they go
 
 // Painted once in a process.
 const std::vector<Picture>& sharedStrips() {
@@ -45,6 +45,15 @@ Vec3 originOf(const grass::MapLaw& law, const terrain::HeightMap& terrain) {
   const double x = law.origin_x + 0.5 * law.resolution * (law.columns - 1);
   const double y = law.origin_y + 0.5 * law.resolution * (law.rows - 1);
   return {x, y, terrain.height(x, y)};
+}
+
+// A tile on its way from texture to blades passes by strips: its place alone does not tell.
+bool haveArrived(const grass::MeadowMemory& memory, double transition) {
+  return std::all_of(memory.levels.begin(), memory.levels.end(),
+                     [&](const grass::TileLevel& level) {
+                       return placeAt(level.rung, memory.stamp, transition) ==
+                              static_cast<double>(level.rung.target);
+                     });
 }
 
 double squareDistance(const grass::TileView& tile, const grass::MapLaw& law, const Vec3& eye) {
@@ -112,10 +121,8 @@ void GrassVisual::update(const GrassSource& source, Nanoseconds stamp, double wa
   levels_.setEyes({eye});
   const Nanoseconds now = levelClock(wall, options.levels.transition);
   levels_.advance(now);
-  std::vector<grass::TileView> tiles = levels_.viewOf(eye, now);
-  wanted.settled = std::all_of(tiles.begin(), tiles.end(), [](const grass::TileView& t) {
-    return t.morph.slide == 0.0 || (!t.morph.blades && t.morph.strip == 1.0);
-  });
+  const std::vector<grass::TileView> tiles = levels_.viewOf(eye, now);
+  wanted.settled = haveArrived(levels_.memory(), options.levels.transition);
   build(source, stamp, view, tiles, options);
   // Two alike in a row: the number of blades has found its tolerance too.
   wanted.blades = report_.blades;

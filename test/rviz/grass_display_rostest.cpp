@@ -130,6 +130,33 @@ TEST_F(GrassDisplayTest, KeepsToTheBlades) {
   EXPECT_TRUE(rig.until([&] { return display->drawn().blades == 0; }));
 }
 
+// S2-15: after a step back nothing but levels change, and no two pictures in a row show much of it.
+TEST_F(GrassDisplayTest, LevelsFadeIntoOneAnother) {
+  lookFrom(0.25, 8.0);
+  display->subProp("Blades")->setValue(3000);
+  ASSERT_TRUE(settled());
+  const int rebuilds = display->drawn().rebuilds;
+  lookFrom(0.25, 14.0);
+  ASSERT_TRUE(rig.until([&] { return display->drawn().rebuilds > rebuilds; }));
+  rig.frames(1);
+  const std::vector<std::uint8_t> before = rig.picture();
+  std::vector<std::uint8_t> last = before;
+  double step = 0.0;
+  int same = 0;
+  ASSERT_TRUE(rig.until([&] {
+    const std::vector<std::uint8_t> next = rig.picture();
+    step = std::max(step, rig.largestChange(last, next));
+    same = next == last ? same + 1 : 0;
+    last = next;
+    return same > 20;
+  }));
+  const double all = rig.largestChange(before, last);
+  std::cout << "largest change of a block: " << all << " of 255, between two pictures " << step
+            << "\n";
+  EXPECT_GT(all, 8.0);
+  EXPECT_LT(step, 0.6 * all);
+}
+
 TEST_F(GrassDisplayTest, SurvivesTimeGoingBack) {
   ASSERT_TRUE(settled());
   rig.tread({-4.0, 0.0}, {4.0, 0.0});
