@@ -152,6 +152,7 @@ void GrassVisual::build(const GrassSource& source, Nanoseconds stamp, const View
     return squareDistance(a, law, eye) < squareDistance(b, law, eye);
   });
   std::vector<grass::TilePlace> places;
+  places.reserve(sorted.size());
   for (const grass::TileView& tile : sorted) places.push_back({tile.column, tile.row});
   grass::NodeAir air(levels_.map(), levels_.terrain());
   air.update(source.wind().at(stamp), {}, grass::Meadow::windowOf(sorted), &places);
