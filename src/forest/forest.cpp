@@ -77,13 +77,23 @@ void Forest::measureSpecies(std::size_t species, double scale) {
   slowest_reference_ = std::min(slowest_reference_, layout_.species[species].reference_speed);
 }
 
+void Forest::eachSize(const std::function<void(std::size_t, double)>& look) const {
+  for (const TreeSeed& seed : layout_.trees) look(seed.species, seed.scale);
+  for (std::size_t species = 0; species < tables_.size() && !layout_.tiles.empty(); ++species)
+    for (const double scale : {SMALLEST_SCALE, 1.0, LARGEST_SCALE}) look(species, scale);
+}
+
+void Forest::foresee() {
+  eachSize([this](std::size_t species, double scale) {
+    tables_[species].lagAt(layout_.species[species], layout_.motion, scale, {});
+  });
+}
+
 void Forest::measure() {
   tables_.assign(layout_.species.size(), LevelScales());
   extent_ = largest_omission_ = 0.0;
   slowest_reference_ = 1e9;
-  for (const TreeSeed& seed : layout_.trees) measureSpecies(seed.species, seed.scale);
-  for (std::size_t species = 0; species < tables_.size() && !layout_.tiles.empty(); ++species)
-    for (const double scale : {SMALLEST_SCALE, 1.0, LARGEST_SCALE}) measureSpecies(species, scale);
+  eachSize([this](std::size_t species, double scale) { measureSpecies(species, scale); });
   const terrain::Bounds bounds = terrain_->bounds();
   const double relief = bounds.max_z - bounds.min_z;
   regions_.clear();

@@ -22,18 +22,6 @@ constexpr int MODAL_BYTES = 400;
 // More are not kept room for: few scenes have as many near trees.
 constexpr std::size_t MANY_PLANTS = 20000;
 
-// Largest speed to be expected near a place: sources seldom peak together.
-double peakSpeed(const wind::Instant& air, const Vec3& position, double reach) {
-  double square = 0.0;
-  for (const wind::Mode& mode : air.modes) square += 0.5 * dot(mode.amplitude, mode.amplitude);
-  square *= wind::SwingingWind::PEAK * wind::SwingingWind::PEAK;
-  for (const wind::Term& term : air.terms) {
-    const double bound = wind::boundOf(term, position, reach);
-    square += bound * bound;
-  }
-  return length(air.mean) + std::sqrt(square);
-}
-
 }  // namespace
 
 // Speed that a bend is proportional to.
@@ -126,17 +114,21 @@ void Forest::predict(const TreeSeed& seed, const LevelTable& table, double view,
   const double speed = bendingSpeed(air, species.reference_speed);
   plant.stair = plant.wanted = std::min(
       chooseLevel(table, speed, view, settings.tolerance, plant.held), settings.highest_level);
-  const LagIn lag = plant.stair > 0 ? lagOf(seed, foot, table, speed / air * view / SEEN) : LagIn();
+  const double reach = 0.5 * table.reach, pixels = speed / air * view / SEEN;
+  LagIn lag, besides;
+  double bent = 0.0;
+  if (plant.stair > 0) {
+    lag = besides = lagOf(seed, swinging_.at(foot, reach), pixels);
+    // Discs are paper 1's winds, for which the whole of a tree's answer is its levels (S1-41): for
+    // them nobody asks for more.
+    if (swinging_.hasDiscs()) besides = lagOf(seed, swinging_.besideDiscs(foot, reach), pixels);
+    const double peak = bendingSpeed(swinging_.peakSpeed(foot, reach), species.reference_speed);
+    bent = lag.bend * peak * peak * view / SEEN;
+  }
   const bool has = plant.held == MODAL_LEVEL;
-  // Discs are paper 1's winds, for which the whole of a tree's answer is its levels (S1-41): where
-  // nothing else comes and goes nobody asks for more.
-  const bool gusty = now_.gustBound(foot, 0.5 * table.reach) > 0.0;
-  if (haveModes() && gusty && lag.procedural > (has ? HYSTERESIS : 1.0) * settings.tolerance &&
-      lag.modal < ALIKE * (has ? 1.05 : 1.0) * lag.procedural)
+  if (haveModes() && besides.procedural > (has ? HYSTERESIS : 1.0) * settings.tolerance &&
+      besides.modal < ALIKE * (has ? 1.05 : 1.0) * besides.procedural)
     plant.wanted = MODAL_LEVEL;
-  const double peak =
-      bendingSpeed(peakSpeed(now_, foot, 0.5 * table.reach), species.reference_speed);
-  const double bent = lag.bend * peak * peak * view / SEEN;
   const auto with = [bent](double off) { return std::sqrt(off * off + bent * bent); };
   for (std::size_t rung = 0; rung < table.omitted.size(); ++rung) {
     const double omitted = speed * view * table.omitted[rung];
@@ -148,10 +140,9 @@ void Forest::predict(const TreeSeed& seed, const LevelTable& table, double view,
 }
 
 // How far a tree is off where the wind there comes and goes [pixel].
-LagIn Forest::lagOf(const TreeSeed& seed, const Vec3& foot, const LevelTable& table,
-                    double pixels) {
+LagIn Forest::lagOf(const TreeSeed& seed, const wind::Swings& swings, double pixels) {
   LagIn out = tables_[seed.species].lagAt(layout_.species[seed.species], layout_.motion, seed.scale,
-                                          swinging_.at(foot, 0.5 * table.reach));
+                                          swings);
   out.procedural *= pixels;
   out.modal *= pixels;
   return out;

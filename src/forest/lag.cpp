@@ -270,7 +270,7 @@ Lag measureLag(const Species& species, const MotionLaw& law, double scale) {
     }
     for (std::size_t s = 0; s < rows.size(); ++s)
       addRow(rows[s], Swings::SLOWNESSES[s] > 0.0, out.squares[s]);
-    out.bend += sample.bend(along) / SAMPLES;
+    if (static_cast<Gain>(law.gain) == Gain::COMPLIANCE) out.bend += sample.bend(along) / SAMPLES;
   }
   return out;
 }

@@ -11,6 +11,10 @@ bool ForestPhysics::isNear(std::uint32_t tree) const {
   return std::binary_search(near_.begin(), near_.end(), tree);
 }
 
+bool isTooCoarse(const physics::ContactStepper& stepper, const physics::ContactLaw& law) {
+  return stepper.swing() > MOST_SWING * law.force_limit || !stepper.agreed();
+}
+
 void ForestPhysics::stepTouching(const Site& at, std::uint32_t tree, PhysicalPart& part,
                                  Nanoseconds from, Nanoseconds to) {
   const ContactModel::Wood wood{tree, part.tree().foot, part.branches(), part.tree().skeleton,
@@ -18,17 +22,20 @@ void ForestPhysics::stepTouching(const Site& at, std::uint32_t tree, PhysicalPar
   part.kinematicsAt(airOf(at, tree), from, scratch_, scratch_.start);
   const int parts = at.contacts->partsOf(wood, bodies_, from, to);
   Nanoseconds now = from;
+  whole_ = to - from;
+  halvings_ = 0;
   for (int k = 1; k <= parts; ++k) {
     const Nanoseconds next = from + (to - from) * k / parts;
     if (k > 1) part.kinematicsAt(airOf(at, tree), now, scratch_, scratch_.start);
-    stepAmong(at, wood, part, now, next, 1.0 / parts);
+    stepAmong(at, wood, part, now, next);
     now = next;
   }
+  coarse_ += halvings_ > MOST_HALVINGS;
 }
 
-// A part of a step from where scratch_.start tells; `share`: of the whole.
+// A part of a step from where scratch_.start tells.
 void ForestPhysics::stepAmong(const Site& at, const ContactModel::Wood& wood, PhysicalPart& part,
-                              Nanoseconds from, Nanoseconds to, double share) {
+                              Nanoseconds from, Nanoseconds to) {
   Touches& touches = touches_[wood.tree];
   const Touches before = touches;
   std::vector<physics::Contact> contacts =
@@ -37,16 +44,18 @@ void ForestPhysics::stepAmong(const Site& at, const ContactModel::Wood& wood, Ph
   if (contacts.empty()) return part.step(air, loads_, settings_, from, to, scratch_);
   const PhysicalPart::Moment start = part.moment();
   part.stepTouching(air, loads_, settings_, from, to, scratch_, contacts);
-  if (isTooCoarse(scratch_.contact_stepper.swing(), from, to)) {
+  if (isTooCoarse(scratch_.contact_stepper, settings_.contact) && to - from >= 2 * SHORTEST_PART &&
+      ++halvings_ <= MOST_HALVINGS) {
     const Nanoseconds middle = from + (to - from) / 2;
     part.goBack(start);
     touches = before;
-    stepAmong(at, wood, part, from, middle, 0.5 * share);
+    stepAmong(at, wood, part, from, middle);
     part.kinematicsAt(air, middle, scratch_, scratch_.start);
-    return stepAmong(at, wood, part, middle, to, 0.5 * share);
+    return stepAmong(at, wood, part, middle, to);
   }
   std::vector<Reaction> reactions;
   at.contacts->settle(wood, bodies_, contacts, to, touches, reactions);
+  const double share = static_cast<double>(to - from) / static_cast<double>(whole_);
   for (Reaction& reaction : reactions) reaction.force *= share;
   addTouches(reactions);
 }

@@ -19,6 +19,7 @@ PhysicsFigures ForestPhysics::figures() const {
   out.steps = steps_;
   out.refused = refused_;
   out.skipped = skipped_;
+  out.coarse = coarse_;
   out.replaced = scratch_.replaced;
   for (const Reaction& reaction : reactions_) out.capped_forces += reaction.limited ? 1 : 0;
   return out;

@@ -103,7 +103,7 @@ void AgentCrowd::tick(std::int64_t) {
       reject("event", error.what());
     }
   }
-  warnOfLosses("agent_crowd", inputs_.losses(), counts_.inputs);
+  warnOfLosses("agent_crowd", inputs_.losses(), told_);
   keepPromises();
   crowd_->advance(stamp);
   publishAgents(stamp);

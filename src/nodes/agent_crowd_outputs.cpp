@@ -141,6 +141,7 @@ void AgentCrowd::sendMarkers(const ros::TimerEvent&) {
 // What has happened since the last report, and only that.
 void AgentCrowd::warnOfTrouble(diagnostic_updater::DiagnosticStatusWrapper& status) {
   counts_.clock = clock_.counts();
+  counts_.inputs = inputs_.losses();
   warnOfMore(status, counts_.rejected, reported_.rejected, "refused input: " + last_rejection_);
   warnOfClock(status, counts_.clock, reported_.clock);
   warnOfLosses(status, counts_.inputs, reported_.inputs);

@@ -74,7 +74,7 @@ void CanopyAnimator::tick(std::int64_t tick) {
       reject("event", error.what());
     }
   }
-  warnOfLosses("canopy_animator", inputs_.losses(), counts_.inputs);
+  warnOfLosses("canopy_animator", inputs_.losses(), told_);
   canopy_->advance(stamp);
   publishState(tick);
 }

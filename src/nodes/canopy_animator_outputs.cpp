@@ -40,6 +40,7 @@ std::vector<canopy::MovedLeaf> CanopyAnimator::crownLeaves(const canopy::Foliage
 // What has happened since the last report, and only that.
 void CanopyAnimator::warnOfTrouble(diagnostic_updater::DiagnosticStatusWrapper& status) {
   counts_.clock = clock_.counts();
+  counts_.inputs = inputs_.losses();
   counts_.resets = canopy_->figures().resets;
   warnOfMore(status, counts_.rejected, reported_.rejected, "refused input: " + last_rejection_);
   warnOfClock(status, counts_.clock, reported_.clock);

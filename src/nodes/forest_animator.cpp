@@ -41,6 +41,7 @@ ForestAnimator::ForestAnimator(ros::NodeHandle handle, ros::NodeHandle private_h
   forest_ = std::make_unique<forest::Forest>(designed(scene_.layout, tuning_), scene_.terrain,
                                              tuning_.settings);
   forest_->setPhysics(scene_.physics);
+  forest_->foresee();
   desk_ = std::make_unique<GrabDesk>(GrabRoom{options_, *forest_, cache_, inputs_, tf_buffer_});
   layout_publisher_ = handle_.advertise<ForestLayout>("forest/layout", 1, true);
   state_publisher_ = handle_.advertise<ForestState>("forest/state", 1000);
@@ -120,7 +121,7 @@ void ForestAnimator::tick(std::int64_t tick) {
       reject("event", error.what());
     }
   }
-  warnOfLosses("forest_animator", inputs_.losses(), counts_.inputs);
+  warnOfLosses("forest_animator", inputs_.losses(), told_);
   forest_->advance(stamp);
   const auto period = static_cast<std::int64_t>(options_.key_frame_period * options_.state_rate);
   const bool key_frame = force_key_frame_ || tick % std::max<std::int64_t>(1, period) == 0;
@@ -224,7 +225,10 @@ void ForestAnimator::adoptTuning(const ForestTuning& tuning) {
   forest::Layout layout = designed(scene_.layout, tuning);
   layout.terrain_hash = scene_.terrain->hash();
   const bool same = layout.hash() == forest_->layoutHash();
-  if (!same) forest_->setLayout(std::move(layout), scene_.terrain);
+  if (!same) {
+    forest_->setLayout(std::move(layout), scene_.terrain);
+    forest_->foresee();
+  }
   forest_->setSettings(tuning.settings);
   tuning_ = tuning;
   if (same) return;

@@ -51,6 +51,7 @@ void ForestAnimator::sendMarkers(const ros::TimerEvent&) {
 // What has happened since the last report, and only that.
 void ForestAnimator::warnOfTrouble(diagnostic_updater::DiagnosticStatusWrapper& status) {
   counts_.clock = clock_.counts();
+  counts_.inputs = inputs_.losses();
   warnOfMore(status, counts_.rejected, reported_.rejected, "refused input: " + last_rejection_);
   warnOfClock(status, counts_.clock, reported_.clock);
   warnOfLosses(status, counts_.inputs, reported_.inputs);
@@ -127,6 +128,7 @@ void ForestAnimator::addPhysics(diagnostic_updater::DiagnosticStatusWrapper& sta
   status.add("Physics memory [B]", figures.bytes);
   status.add("Physics steps of the last tick", figures.steps);
   status.add("Gaps in time not stepped through", figures.skipped);
+  status.add("Steps whose contacts were too fast", figures.coarse);
   status.add("Forces at their limit", figures.capped_forces);
 }
 

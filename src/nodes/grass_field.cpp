@@ -89,7 +89,7 @@ void GrassField::tick(std::int64_t tick) {
       reject("event", error.what());
     }
   }
-  warnOfLosses("grass_field", inputs_.losses(), counts_.inputs);
+  warnOfLosses("grass_field", inputs_.losses(), told_);
   publishEntering(stamp);
   publishState(tick);
   publishWrenches(stamp);

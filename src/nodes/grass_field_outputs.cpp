@@ -82,6 +82,7 @@ void GrassField::sendCover(const ros::TimerEvent&) {
 // What has happened since the last report, and only that.
 void GrassField::warnOfTrouble(diagnostic_updater::DiagnosticStatusWrapper& status) {
   counts_.clock = clock_.counts();
+  counts_.inputs = inputs_.losses();
   counts_.tread = meadow_->tread().state().counts;
   warnOfMore(status, counts_.rejected, reported_.rejected, "refused input: " + last_rejection_);
   warnOfClock(status, counts_.clock, reported_.clock);

@@ -105,25 +105,37 @@ void Field::at(Nanoseconds stamp, Instant& instant) const {
     const Primitive& p = primitives_[i];
     const double weight = fade(p, stamp), elapsed = secondsBetween(p.epoch, stamp);
     if (weight == 0.0) continue;
-    Term term;
-    term.kind = static_cast<Kind>(p.kind);
-    if (term.kind == Kind::BREEZE) {
+    if (static_cast<Kind>(p.kind) == Kind::BREEZE) {
       ++instant.breezes;
       instant.mean += p.velocity * weight;
       compiled_[i]->breeze.addModes(elapsed, weight, instant.modes);
       continue;
     }
-    term.radius = p.radius;
-    term.centre = compiled_[i]->path.at(stamp);
-    if (p.orbit_radius > 0.0) {
-      const SinCos turn = sinCosTurns(elapsed / p.orbit_period);
-      term.centre += Vec3(turn.cos, turn.sin, 0.0) * p.orbit_radius;
-    }
-    if (term.kind == Kind::DISK) shapeDisk(p, elapsed, weight, term);
-    if (term.kind == Kind::GUST) shapeGust(p, elapsed, weight, term);
-    if (term.kind == Kind::TORNADO || term.kind == Kind::BLAST) shapeEddy(p, weight, term);
-    if (term.peak > 0.0) instant.terms.push_back(term);
+    Term term;
+    if (termAt(i, stamp, term)) instant.terms.push_back(term);
   }
+}
+
+bool Field::termAt(std::size_t index, Nanoseconds stamp, Term& out) const {
+  const Primitive& p = primitives_[index];
+  const double weight = fade(p, stamp), elapsed = secondsBetween(p.epoch, stamp);
+  out = Term();
+  out.kind = static_cast<Kind>(p.kind);
+  if (weight == 0.0 || out.kind == Kind::BREEZE) return false;
+  out.radius = p.radius;
+  out.centre = compiled_[index]->path.at(stamp);
+  if (p.orbit_radius > 0.0) {
+    const SinCos turn = sinCosTurns(elapsed / p.orbit_period);
+    out.centre += Vec3(turn.cos, turn.sin, 0.0) * p.orbit_radius;
+  }
+  if (out.kind == Kind::DISK) shapeDisk(p, elapsed, weight, out);
+  if (out.kind == Kind::GUST) shapeGust(p, elapsed, weight, out);
+  if (out.kind == Kind::TORNADO || out.kind == Kind::BLAST) shapeEddy(p, weight, out);
+  return out.peak > 0.0;
+}
+
+const Breeze& Field::breezeOf(std::size_t index) const {
+  return compiled_[index]->breeze;
 }
 
 std::uint64_t Field::hash() const {

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "vegetation_sim/common/math.h"
-#include "vegetation_sim/wind/breeze.h"
 #include "vegetation_sim/wind/fade.h"
 #include "vegetation_sim/wind/laws.h"
 
@@ -17,6 +16,8 @@ constexpr Nanoseconds LOOK = NANOSECONDS_PER_SECOND / 10;
 // A rise by smootherStep in a time T is steepest with 15 / 8 T, as a swing of half its height at
 // this frequency times 1 / T.
 constexpr double RISE = 15.0 / (8.0 * PI);
+constexpr double LINGER = 2.0;     // [s] a plant still swings after a step
+constexpr double SHORTEST = 1e-3;  // [s] of a fade: all steps are alike
 
 template <std::size_t N>
 std::pair<std::size_t, double> between(const std::array<double, N>& grid, double value) {
@@ -25,25 +26,33 @@ std::pair<std::size_t, double> between(const std::array<double, N>& grid, double
   return {i, saturate((value - grid[i]) / (grid[i + 1] - grid[i]))};
 }
 
-void addBreeze(const Primitive& p, double weight, std::uint64_t seed, Swings& out) {
-  const double carrier = std::max(length(p.velocity), Breeze::LEAST_CARRIER);
-  const Breeze breeze(p, seed);
-  for (const Breeze::Wave& wave : breeze.waves()) {
-    const double variance = 0.5 * dot(wave.at_epoch.amplitude, wave.at_epoch.amplitude);
-    out.add(wave.frequency, 1.0 / carrier,
-            weight * weight * SwingingWind::PEAK * SwingingWind::PEAK * variance);
-  }
+// How often what moves past a place comes and goes: by how long it takes for its size.
+double passingOf(const Field& field, std::size_t index, Nanoseconds stamp, const Term& now,
+                 double size) {
+  Term next;
+  if (!field.termAt(index, stamp + LOOK, next)) return 0.0;
+  return length(next.centre - now.centre) / secondsBetween(0, LOOK) / (4.0 * size);
 }
 
-// How often what moves past comes and goes: a front by its steeper side, an eddy by how long its
-// core takes.
-double frequencyOf(const Primitive& p, const Field& alone, Nanoseconds stamp, const Term& now) {
-  if (now.kind == Kind::DISK) return std::fabs(p.omega) / (2.0 * PI);
+// A front by its steeper side.
+double frequencyOf(const Field& field, std::size_t index, Nanoseconds stamp, const Term& now) {
+  const Primitive& p = field.primitives()[index];
   if (now.kind == Kind::GUST) return RISE * p.front_speed / std::min(p.rise_length, p.decay_length);
-  const Instant next = alone.at(stamp + LOOK);
-  if (next.terms.empty()) return 0.0;
-  const double speed = length(next.terms[0].centre - now.centre) / secondsBetween(0, LOOK);
-  return speed / (4.0 * p.core_radius);
+  if (now.kind != Kind::DISK) return passingOf(field, index, stamp, now, p.core_radius);
+  return std::max(std::fabs(p.omega) / (2.0 * PI), passingOf(field, index, stamp, now, p.radius));
+}
+
+// How fast an eddy sets on or dies down; plants swing on for a while. 0: it does neither.
+double onsetOf(const Primitive& p, Nanoseconds stamp) {
+  const auto fades = [&](Nanoseconds from, double duration) {
+    const double since = secondsBetween(from, stamp);
+    return since >= 0.0 && since < duration + LINGER;
+  };
+  double out = 0.0;
+  if (fades(p.t_on, p.fade_in)) out = RISE / std::max(p.fade_in, SHORTEST);
+  if (p.t_off != 0 && fades(p.t_off - fromSeconds(p.fade_out), p.fade_out))
+    out = std::max(out, RISE / std::max(p.fade_out, SHORTEST));
+  return out;
 }
 
 }  // namespace
@@ -60,29 +69,46 @@ void Swings::add(double frequency, double slowness, double square) {
 }
 
 SwingingWind::SwingingWind(const Field& field, Nanoseconds stamp) {
-  for (const Primitive& p : field.primitives()) {
-    const double weight = fade(p, stamp);
-    if (weight == 0.0) continue;
-    if (static_cast<Kind>(p.kind) == Kind::BREEZE) {
-      addBreeze(p, weight, field.seed(), breezes_);
-      continue;
-    }
-    const Field alone({p}, field.seed());
-    const Instant now = alone.at(stamp);
-    if (now.terms.empty()) continue;
-    const Term& term = now.terms[0];
-    parts_.push_back(
-        {term, frequencyOf(p, alone, stamp, term), term.kind == Kind::GUST ? 0.5 : 1.0});
+  for (std::size_t i = 0; i < field.primitives().size(); ++i) {
+    const Primitive& p = field.primitives()[i];
+    Term term;
+    if (static_cast<Kind>(p.kind) == Kind::BREEZE) addBreeze(p, fade(p, stamp), field.breezeOf(i));
+    if (!field.termAt(i, stamp, term)) continue;
+    const bool gust = term.kind == Kind::GUST, disk = term.kind == Kind::DISK;
+    has_discs_ |= disk;
+    parts_.push_back({term, frequencyOf(field, i, stamp, term), gust ? 0.5 : 1.0});
+    const double onset = gust || disk ? 0.0 : onsetOf(p, stamp);
+    if (onset > parts_.back().frequency) parts_.back() = {term, onset, 0.5};
   }
 }
 
-Swings SwingingWind::at(const Vec3& position, double reach) const {
+void SwingingWind::addBreeze(const Primitive& p, double weight, const Breeze& breeze) {
+  mean_ += weight * p.velocity;
+  const double carrier = std::max(length(p.velocity), Breeze::LEAST_CARRIER);
+  for (const Breeze::Wave& wave : breeze.waves()) {
+    const double rms = weight * length(wave.at_epoch.amplitude) / std::sqrt(2.0);
+    breezes_.add(wave.frequency, 1.0 / carrier, PEAK * PEAK * rms * rms);
+    turbulence_ += PEAK * PEAK * rms * rms;
+  }
+}
+
+Swings SwingingWind::atOf(const Vec3& position, double reach, bool discs) const {
   Swings out = breezes_;
   for (const Part& part : parts_) {
+    if (part.term.kind == Kind::DISK && !discs) continue;
     const double speed = part.share * boundOf(part.term, position, reach);
     if (speed > 0.0) out.add(part.frequency, 0.0, speed * speed);
   }
   return out;
+}
+
+double SwingingWind::peakSpeed(const Vec3& position, double reach) const {
+  double square = turbulence_;
+  for (const Part& part : parts_) {
+    const double bound = boundOf(part.term, position, reach);
+    square += bound * bound;
+  }
+  return length(mean_) + std::sqrt(square);
 }
 
 }  // namespace vegetation_sim::wind

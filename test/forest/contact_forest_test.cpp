@@ -121,6 +121,42 @@ TEST(ContactInAForest, ReactionsTellBodyPlaceAndForce) {
   EXPECT_FALSE(found->limited);
 }
 
+/// Counts into how many parts steps are taken, those that are taken again included.
+class Counter : public ContactFinder {
+ public:
+  std::vector<physics::Contact> findContacts(const Wood& wood, const Bodies& bodies,
+                                             Nanoseconds from, Nanoseconds to,
+                                             Touches& touches) const override {
+    ++parts;
+    return ContactFinder::findContacts(wood, bodies, from, to, touches);
+  }
+  mutable std::size_t parts{0};
+};
+
+// A knock costs a bounded number of parts, whatever the law: what wants more is counted, and steps
+// on. The default law wants none.
+TEST(ContactInAForest, HalvingsAreBounded) {
+  for (const double stiffness : {5e5, 1e8}) {
+    Drive drive(3.0);
+    const auto counter = std::make_shared<Counter>();
+    drive.forest().setContactModel(counter);
+    PhysicsSettings settings = drive.forest().physicsSettings();
+    settings.contact.stiffness = stiffness;
+    settings.contact.force_limit = 100.0;
+    if (stiffness > 1e6) drive.forest().setPhysics(settings);
+    std::size_t most = 0, steps = 1;
+    for (int i = 0; i < 26; ++i) {
+      const std::size_t before = counter->parts;
+      drive.driveOn();
+      most = std::max(most, counter->parts - before);
+      steps = std::max(steps, drive.forest().physicsFigures().steps);
+    }
+    EXPECT_LE(most, steps * (2 * MOST_HALVINGS + 4));
+    EXPECT_EQ(drive.forest().physicsFigures().coarse > 0, stiffness > 1e6) << most;
+    EXPECT_LT(drive.depth(), 0.005) << stiffness;
+  }
+}
+
 /// Finds contacts as ever, adds up what they give to the trees and watches how those move.
 class Ledger : public ContactFinder {
  public:

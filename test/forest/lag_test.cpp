@@ -32,8 +32,8 @@ bool withinTwo(double predicted, double measured) {
 }
 
 // N7: what is predicted of a tree in a breeze is what the full chain shows, within a factor of two
-// for nine plants in ten, on the procedural rung and in modes. Fitted to seeds 1 to 4 at 4 and
-// 5 m/s (docs/forest.md); these are others, of other sizes, in other winds.
+// for nine plants in ten, on the procedural rung and in modes. Measured on
+// seeds 1 and 2 at the grid's sizes; these are others, of other sizes, in other winds.
 TEST(Lag, OfStrangersIsPredictedWithinAFactorOfTwo) {
   constexpr double WARM_UP = 3.0, DURATION = 7.0;  // until starts at rest are forgotten
   const Strange strangers[] = {{101, 0.85, Vec3(1.8, -2.4, 0.0)},

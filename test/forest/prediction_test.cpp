@@ -76,7 +76,7 @@ TEST(Prediction, KnowsThatSteadyStormsBendLevers) {
   const Prediction::Looks looks = scene.look(1);
   ASSERT_EQ(looks.size(), 4u);
   for (const auto& entry : looks) EXPECT_GT(entry.second.back().predicted, 0.0);
-  EXPECT_GE(shareWithinTwo(looks), 0.75);
+  EXPECT_GE(shareWithinTwo(looks), 0.9);
 }
 
 }  // namespace

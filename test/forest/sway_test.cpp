@@ -73,6 +73,10 @@ TEST(Sway, NoTreeHasModesThatNobodyAskedFor) {
   Clearing steady(wind::Field({makeDisk(1, Vec3::Zero(), 2000.0, Vec3(5, 1, 0))}));
   steady.run(1.0);
   EXPECT_TRUE(steady.forest.memory().modes.sways().empty());
+  wind::Primitive trace = makeBreeze(2, Vec3(1e-6, 0.0, 0.0));
+  Clearing besides(wind::Field({makeDisk(1, Vec3::Zero(), 2000.0, Vec3(5, 1, 0)), trace}));
+  besides.run(1.0);
+  EXPECT_TRUE(besides.forest.memory().modes.sways().empty());
   Clearing poor;
   Settings settings;
   settings.budget.modal_trees = 0;

@@ -144,6 +144,7 @@ TEST_F(GrassDisplayTest, LevelsFadeIntoOneAnother) {
   double step = 0.0;
   int same = 0;
   ASSERT_TRUE(rig.until([&] {
+    rig.frames(1);
     const std::vector<std::uint8_t> next = rig.picture();
     step = std::max(step, rig.largestChange(last, next));
     same = next == last ? same + 1 : 0;

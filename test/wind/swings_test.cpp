@@ -58,5 +58,53 @@ TEST(Swings, TellWhatComesAndGoesAndHowFast) {
   EXPECT_EQ(sumOf(swaying.at(Vec3(11.0, 0.0, 0.0), 0.5)), 0.0);
 }
 
+Primitive blast() {
+  Primitive out;
+  out.id = 3;
+  out.name = "blast";
+  out.kind = static_cast<int>(Kind::BLAST);
+  out.trajectory = {{0, Vec3::Zero()}};
+  out.radius = 10.0;
+  out.speed = 8.0;
+  out.fade_in = 0.0;
+  return out;
+}
+
+// N7: a blast that stands still swings plants while it sets on and shortly after, as half a swing
+// of its height at a frequency beyond all, and then no more; what comes slowly swings them less.
+TEST(Swings, TellAStepThatStandsStill) {
+  const auto sumAt = [](const Primitive& p, double time) {
+    return sumOf(SwingingWind(Field({p}, 3), fromSeconds(time)).at(Vec3(2.0, 0.0, 0.0), 8.0));
+  };
+  Primitive step = blast();
+  EXPECT_NEAR(sumAt(step, 0.5), 16.0, 1e-9);
+  EXPECT_EQ(sumAt(step, 5.0), 0.0);
+  step.fade_in = 30.0;
+  EXPECT_LT(sumAt(step, 29.0), 4.0);
+  EXPECT_GT(sumAt(step, 29.0), 0.0);
+}
+
+// N7: a disc that runs past comes and goes as fast as it passes, though its air pulsates slowly.
+TEST(Swings, TellADiscThatRunsPast) {
+  Primitive disk;
+  disk.id = 2;
+  disk.name = "disk";
+  disk.fade_in = 0.0;
+  disk.radius = 5.0;
+  disk.omega = 0.01;
+  disk.velocity = Vec3(4.0, 0.0, 0.0);
+  disk.trajectory = {{0, Vec3::Zero()}};
+  const auto sumOfDisk = [&] {
+    return sumOf(SwingingWind(Field({disk}, 3), fromSeconds(1.0)).at(Vec3(2.0, 0.0, 0.0), 8.0));
+  };
+  EXPECT_LT(sumOfDisk(), 0.1);
+  disk.orbit_radius = 3.0;
+  disk.orbit_period = 2.0;  // 9.4 m/s past 20 m: 0.47 Hz
+  EXPECT_NEAR(sumOfDisk(), 16.0, 1e-9);
+  const SwingingWind swinging(Field({disk}, 3), fromSeconds(1.0));
+  EXPECT_TRUE(swinging.hasDiscs());
+  EXPECT_EQ(sumOf(swinging.besideDiscs(Vec3(2.0, 0.0, 0.0), 1.0)), 0.0);
+}
+
 }  // namespace
 }  // namespace vegetation_sim::wind

@@ -10,6 +10,8 @@
 
 namespace vegetation_sim::physics {
 struct Contact;
+struct ContactLaw;
+class ContactStepper;
 struct Kinematics;
 }  // namespace vegetation_sim::physics
 
@@ -34,12 +36,13 @@ struct Touch {
 /// By body, then branch; rising. A branch that lies flat on a body has two.
 using Touches = std::vector<Touch>;
 
-/// In a part of a step no force of a contact changes by more [N], unless that part is the shortest.
-constexpr double MOST_SWING = 500.0;
+/// In a part of a step no force of a contact changes by more than this share of the law's limit,
+/// unless that part is the shortest or the tree's step was halved as often as it may.
+constexpr double MOST_SWING = 0.25;
 constexpr Nanoseconds SHORTEST_PART = 8000;
-inline bool isTooCoarse(double swing, Nanoseconds from, Nanoseconds to) {
-  return swing > MOST_SWING && to - from >= 2 * SHORTEST_PART;
-}
+constexpr int MOST_HALVINGS = 128;
+/// True where the last step of a stepper changed a force by more, or did not agree with itself.
+bool isTooCoarse(const physics::ContactStepper& stepper, const physics::ContactLaw& law);
 
 /// How bodies touch trees. Without memory of its own.
 ///

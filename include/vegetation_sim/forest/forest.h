@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <set>
@@ -67,6 +68,9 @@ class Forest {
   /// Other trees, same ids: levels start anew where the number of trees changed.
   void setLayout(Layout layout, std::shared_ptr<const terrain::HeightMap> terrain);
   void restore(ForestMemory memory) { memory_ = std::move(memory); }
+  /// Computes now how the species lag, some 30 ms for each of a few sizes, not at the tick at which
+  /// an eye first meets one.
+  void foresee();
   /// As a fresh start; keeps layout, wind and settings.
   void reset();
 
@@ -124,6 +128,8 @@ class Forest {
   };
   Site site() const;
   void advancePhysics(Nanoseconds stamp);
+  /// Of all trees; of tiles, whose trees are drawn later, all that may come.
+  void eachSize(const std::function<void(std::size_t species, double scale)>& look) const;
   void measure();
   void measureSpecies(std::size_t species, double scale);
   double bendingSpeed(double speed, double reference_speed) const;
@@ -132,7 +138,7 @@ class Forest {
   void chooseRegion(const Region& region);
   void chooseTree(std::uint32_t tree);
   void predict(const TreeSeed& seed, const LevelTable& table, double view, Plant& plant);
-  LagIn lagOf(const TreeSeed& seed, const Vec3& foot, const LevelTable& table, double pixels);
+  LagIn lagOf(const TreeSeed& seed, const wind::Swings& swings, double pixels);
   bool haveModes() const;
   void adopt();
   void beginModes();

@@ -86,6 +86,7 @@ struct PhysicsFigures {
   std::size_t capped_forces{0};  ///< grabs and contacts at their limit
   std::size_t replaced{0};  ///< steps of a tree at the last tick, beyond the bound of an explicit
                             ///< integrator, that midpoint took
+  std::size_t coarse{0};    ///< steps of trees whose contacts wanted more halvings than there are
   std::size_t skipped{0};   ///< gaps in time that were not stepped through
 };
 

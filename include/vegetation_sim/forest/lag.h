@@ -27,7 +27,7 @@ struct Lag {
   std::array<std::array<LagSquares, wind::Swings::FREQUENCIES.size()>,
              wind::Swings::SLOWNESSES.size()>
       squares{};     ///< at the points of wind::Swings
-  double bend{0.0};  ///< as LagIn's
+  double bend{0.0};  ///< as LagIn's; 0 for a gain that is another from the first metre on
 
   LagIn in(const wind::Swings& swings) const;
 };

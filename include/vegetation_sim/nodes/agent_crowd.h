@@ -113,6 +113,7 @@ class AgentCrowd {
     QueueLosses inputs;
     TickClock::Counts clock;
   } counts_, reported_;  // so far, and when diagnostics were last sent
+  QueueLosses told_;     // on the console
   std::string last_rejection_;
 
   tf2_ros::Buffer tf_buffer_;

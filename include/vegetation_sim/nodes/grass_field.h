@@ -100,6 +100,7 @@ class GrassField {
     TickClock::Counts clock;
     grass::TreadCounts tread;
   } counts_, reported_;  // so far, and when diagnostics were last sent
+  QueueLosses told_;     // on the console
   std::string last_rejection_;
 
   tf2_ros::Buffer tf_buffer_;

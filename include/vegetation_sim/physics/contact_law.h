@@ -7,7 +7,7 @@
 namespace vegetation_sim::physics {
 
 /// Force between a body and a branch: a spring on the overlap, taken at the end of the step, whose
-/// force is limited (docs/contact.md).
+/// force is limited (docs/contact.md). Wood of some contacts bears a multiple (Contact::bears).
 struct ContactLaw {
   double stiffness{5e5};       ///< [N/m]; no step is too long for it
   double force_limit{2000.0};  ///< per contact [N]

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "vegetation_sim/wind/instant.h"
+#include "vegetation_sim/wind/breeze.h"
 #include "vegetation_sim/wind/primitive.h"
 
 namespace vegetation_sim::wind {
@@ -32,6 +32,11 @@ class Field {
   Instant at(Nanoseconds stamp) const;
   /// The same into `out`, whose memory is kept from call to call.
   void at(Nanoseconds stamp, Instant& out) const;
+
+  /// What the primitive of that index adds to Instant::terms; false: nothing, or modes.
+  bool termAt(std::size_t index, Nanoseconds stamp, Term& out) const;
+  /// Waves of the primitive of that index; none but of a breeze.
+  const Breeze& breezeOf(std::size_t index) const;
 
   std::uint64_t hash() const;
 

@@ -35,15 +35,29 @@ class SwingingWind {
 
   /// What any point within `reach` [m] (horizontally) of `position` meets over a cycle of the
   /// primitives.
-  Swings at(const Vec3& position, double reach) const;
+  Swings at(const Vec3& position, double reach) const { return atOf(position, reach, true); }
+  /// The same but for discs.
+  Swings besideDiscs(const Vec3& position, double reach) const {
+    return atOf(position, reach, false);
+  }
+  bool hasDiscs() const { return has_discs_; }
+  /// Largest speed to be expected there [m/s]: sources seldom peak together.
+  double peakSpeed(const Vec3& position, double reach) const;
 
  private:
   struct Part {
     Term term;
-    double frequency, share;  // share of its bound that swings
+    double frequency;
+    double share;  // of its bound that swings
   };
+  void addBreeze(const Primitive& p, double weight, const Breeze& breeze);
+  Swings atOf(const Vec3& position, double reach, bool discs) const;
+
   Swings breezes_;
+  double turbulence_{0.0};  // square of the breezes' peak
+  Vec3 mean_{Vec3::Zero()};
   std::vector<Part> parts_;
+  bool has_discs_{false};
 };
 
 }  // namespace vegetation_sim::wind
