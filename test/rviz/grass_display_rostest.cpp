@@ -141,12 +141,14 @@ TEST_F(GrassDisplayTest, LevelsFadeIntoOneAnother) {
   rig.frames(1);
   const std::vector<std::uint8_t> before = rig.picture();
   std::vector<std::uint8_t> last = before;
-  double step = 0.0;
+  double step = 0.0, frame = rig.frameCount();
   int same = 0;
   ASSERT_TRUE(rig.until([&] {
     rig.frames(1);
     const std::vector<std::uint8_t> next = rig.picture();
-    step = std::max(step, rig.largestChange(last, next));
+    const double frames = rig.frameCount() - frame;  // a busy machine may draw two at once
+    step = std::max(step, rig.largestChange(last, next) / frames);
+    frame += frames;
     same = next == last ? same + 1 : 0;
     last = next;
     return same > 20;
@@ -155,7 +157,7 @@ TEST_F(GrassDisplayTest, LevelsFadeIntoOneAnother) {
   std::cout << "largest change of a block: " << all << " of 255, between two pictures " << step
             << "\n";
   EXPECT_GT(all, 8.0);
-  EXPECT_LT(step, 0.6 * all);
+  EXPECT_LT(step, 0.45 * all);
 }
 
 TEST_F(GrassDisplayTest, SurvivesTimeGoingBack) {

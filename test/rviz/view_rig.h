@@ -88,6 +88,8 @@ class ViewRig {
     }
     return true;
   }
+  /// Frames of rviz so far.
+  double frameCount() const { return static_cast<double>(manager_->getFrameCount()); }
   /// Runs rviz for some of its frames.
   void frames(int count) {
     const std::uint64_t last = manager_->getFrameCount() + static_cast<std::uint64_t>(count);
