@@ -36,7 +36,7 @@ start_scenario() {
 # usage: measure WHAT FILE.rviz [OPTION ...]
 measure() {
   say "$scenario, $1 (load $(cut -d ' ' -f 1 /proc/loadavg))"
-  rosrun vegetation_sim rviz_frames "$2" --seconds "$seconds" "${@:3}" 2>/dev/null |
+  "$BUILD/devel/lib/vegetation_sim/rviz_frames" "$2" --seconds "$seconds" "${@:3}" 2>/dev/null |
     grep 'frames' | tee "$WORK/figures"
 }
 
