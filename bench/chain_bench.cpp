@@ -8,7 +8,6 @@
 #include <cstdlib>
 #include <memory>
 
-#include "bandwidth.h"
 #include "forest/air_blocks.h"
 #include "physics/chain_scene.h"
 #include "processor_time.h"
@@ -26,9 +25,6 @@ using Trees = std::vector<std::vector<Link>>;
 constexpr double STEP = 1.0 / 240.0;
 constexpr int SUB_STEPS = 4;
 constexpr double STEPS_A_SECOND = 60.0 * SUB_STEPS;
-// Floats that the passes read and write a link, rows that stay in the cache left out: out, back,
-// what is ahead, its wrenches, settling.
-constexpr double BYTES = 4.0 * ((15 + 31) + (47 + 17) + (60 + 8) + (30 + 2) + (33 + 4));
 
 struct Path {
   std::string name;
@@ -135,9 +131,8 @@ std::vector<double> measure(const std::vector<Path>& paths, int rounds) {
   return out;
 }
 
-void benchPaths(int rounds, double bandwidth) {
-  std::printf("%-34s %7s %9s %7s %11s %14s\n", "path", "links", "ns/link", "ratio", "of memory",
-              "links at 60 Hz");
+void benchPaths(int rounds) {
+  std::printf("%-34s %7s %9s %7s %14s\n", "path", "links", "ns/link", "ratio", "links at 60 Hz");
   for (const int n : {100, 1000, 10000}) {
     const auto one = std::make_shared<Trees>(1, fractalTree(n, 3));
     Trees several;
@@ -160,13 +155,10 @@ void benchPaths(int rounds, double bandwidth) {
         batched<TwinChains>("16 trees, products at start", Trees(16, one->front()),
                             Products::START)};
     const std::vector<double> cost = measure(paths, rounds);
-    for (std::size_t i = 0; i < paths.size(); ++i) {
-      const bool batch = paths[i].name.find("plain") != 0;
-      std::printf("%-34s %7.0f %9.2f %7.1f", paths[i].name.c_str(), paths[i].links, cost[i],
-                  cost[i >= 4 && i < 10 ? 4 : 0] / cost[i]);
-      if (batch) std::printf(" %10.0f%%", 100.0 * BYTES / (1e-9 * cost[i] * bandwidth));
-      std::printf("%s %14.0f\n", batch ? "" : "            ", 1e9 / (STEPS_A_SECOND * cost[i]));
-    }
+    for (std::size_t i = 0; i < paths.size(); ++i)
+      std::printf("%-34s %7.0f %9.2f %7.1f %14.0f\n", paths[i].name.c_str(), paths[i].links,
+                  cost[i], cost[i >= 4 && i < 10 ? 4 : 0] / cost[i],
+                  1e9 / (STEPS_A_SECOND * cost[i]));
   }
 }
 
@@ -211,11 +203,7 @@ void benchInstructionSets(int rounds) {
 
 int main(int argc, char** argv) {
   const int rounds = argc > 1 ? std::atoi(argv[1]) : 15;
-  const double bandwidth = vegetation_sim::bench::memoryBandwidth();
-  std::printf("memory: %.1f GB/s; a link and step reads and writes %.0f bytes: %.1f ns\n",
-              1e-9 * bandwidth, vegetation_sim::physics::BYTES,
-              1e9 * vegetation_sim::physics::BYTES / bandwidth);
-  vegetation_sim::physics::benchPaths(rounds, bandwidth);
+  vegetation_sim::physics::benchPaths(rounds);
   vegetation_sim::physics::benchForests(rounds);
   vegetation_sim::physics::benchInstructionSets(rounds);
   return 0;

@@ -57,9 +57,9 @@ struct Reference {
   int steps{0};           ///< an interval
 };
 
-/// Shortens the step by 1.5 until `tolerance` holds, or 1e-4 where the next run would cost more
-/// than `cap` seconds, over the first `intervals`. Read from and written to `folder`, unless that
-/// is empty, by the hash of tree, load, bend, tolerance and intervals.
+/// Over the first `intervals`: the step is shortened by 1.5 until `tolerance` holds, or 1e-4 if the
+/// next run would cost more than `cap` seconds. Read from and written to `folder`, unless that is
+/// empty, by the hash of tree, load, bend, tolerance and intervals.
 Reference referenceOf(const TestTree& tree, const TestLoad& load, Bend bend, double tolerance,
                       double cap, const std::string& folder, int intervals = INTERVALS);
 

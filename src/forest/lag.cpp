@@ -233,16 +233,6 @@ void addRow(const Row& row, bool breeze, std::array<LagSquares, N>& out) {
   }
 }
 
-Tree sampleTree(std::uint64_t seed, const Species& species, const MotionLaw& law, double scale) {
-  Tree out;
-  out.seed.seed = seed;
-  out.seed.scale = scale;
-  out.skeleton = grow(out.seed, species);
-  out.response = windResponse(out.skeleton, species, law);
-  out.joint_model = JointModel::SWING;
-  return out;
-}
-
 }  // namespace
 
 LagIn Lag::in(const Swings& swings) const {
@@ -259,7 +249,10 @@ Lag measureLag(const Species& species, const MotionLaw& law, double scale) {
   Lag out;
   if (static_cast<JointModel>(law.joint_model) != JointModel::SWING) return out;
   for (int i = 0; i < SAMPLES; ++i) {
-    const Tree tree = sampleTree(static_cast<std::uint64_t>(i) + 1, species, law, scale);
+    TreeSeed seed;
+    seed.seed = static_cast<std::uint64_t>(i) + 1;
+    seed.scale = scale;
+    const Tree tree = growTree(seed, species, law);
     Sample sample(tree, species);
     const Vec3 along = i % 2 ? Vec3::UnitY() : Vec3::UnitX();
     std::array<Row, Swings::SLOWNESSES.size()> rows;

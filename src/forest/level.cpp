@@ -105,12 +105,10 @@ LevelTable measureLevels(const Species& species, const MotionLaw& law, double sc
   LevelTable out;
   out.height = out.reach = 0.0;
   for (int sample = 0; sample < SAMPLES; ++sample) {
-    Tree tree;
-    tree.seed.seed = static_cast<std::uint64_t>(sample) + 1;
-    tree.seed.scale = scale;
-    tree.skeleton = grow(tree.seed, species);
-    tree.response = windResponse(tree.skeleton, species, law);
-    tree.joint_model = static_cast<JointModel>(law.joint_model);
+    TreeSeed seed;
+    seed.seed = static_cast<std::uint64_t>(sample) + 1;
+    seed.scale = scale;
+    const Tree tree = growTree(seed, species, law);
     measureTree(tree, out);
     for (std::size_t n = 0; n < out.branches.size(); ++n)
       out.branches[n] += branchesBelow(tree.skeleton, n) / SAMPLES;

@@ -11,8 +11,10 @@ bool ForestPhysics::isNear(std::uint32_t tree) const {
   return std::binary_search(near_.begin(), near_.end(), tree);
 }
 
-bool isTooCoarse(const physics::ContactStepper& stepper, const physics::ContactLaw& law) {
-  return stepper.swing() > MOST_SWING * law.force_limit || !stepper.agreed();
+bool Halvings::want(const physics::ContactStepper& stepper, const physics::ContactLaw& law,
+                    Nanoseconds part) {
+  const bool coarse = stepper.swing() > MOST_SWING * law.force_limit || !stepper.agreed();
+  return coarse && part >= 2 * SHORTEST && ++wanted_ <= MOST;
 }
 
 void ForestPhysics::stepTouching(const Site& at, std::uint32_t tree, PhysicalPart& part,
@@ -22,20 +24,20 @@ void ForestPhysics::stepTouching(const Site& at, std::uint32_t tree, PhysicalPar
   part.kinematicsAt(airOf(at, tree), from, scratch_, scratch_.start);
   const int parts = at.contacts->partsOf(wood, bodies_, from, to);
   Nanoseconds now = from;
-  whole_ = to - from;
-  halvings_ = 0;
+  Halvings halvings;
   for (int k = 1; k <= parts; ++k) {
     const Nanoseconds next = from + (to - from) * k / parts;
     if (k > 1) part.kinematicsAt(airOf(at, tree), now, scratch_, scratch_.start);
-    stepAmong(at, wood, part, now, next);
+    stepAmong(at, wood, part, now, next, to - from, halvings);
     now = next;
   }
-  coarse_ += halvings_ > MOST_HALVINGS;
+  coarse_ += halvings.ranOut();
 }
 
-// A part of a step from where scratch_.start tells.
+// A part of a step `whole` long, from where scratch_.start tells.
 void ForestPhysics::stepAmong(const Site& at, const ContactModel::Wood& wood, PhysicalPart& part,
-                              Nanoseconds from, Nanoseconds to) {
+                              Nanoseconds from, Nanoseconds to, Nanoseconds whole,
+                              Halvings& halvings) {
   Touches& touches = touches_[wood.tree];
   const Touches before = touches;
   std::vector<physics::Contact> contacts =
@@ -44,18 +46,17 @@ void ForestPhysics::stepAmong(const Site& at, const ContactModel::Wood& wood, Ph
   if (contacts.empty()) return part.step(air, loads_, settings_, from, to, scratch_);
   const PhysicalPart::Moment start = part.moment();
   part.stepTouching(air, loads_, settings_, from, to, scratch_, contacts);
-  if (isTooCoarse(scratch_.contact_stepper, settings_.contact) && to - from >= 2 * SHORTEST_PART &&
-      ++halvings_ <= MOST_HALVINGS) {
+  if (halvings.want(scratch_.contact_stepper, settings_.contact, to - from)) {
     const Nanoseconds middle = from + (to - from) / 2;
     part.goBack(start);
     touches = before;
-    stepAmong(at, wood, part, from, middle);
+    stepAmong(at, wood, part, from, middle, whole, halvings);
     part.kinematicsAt(air, middle, scratch_, scratch_.start);
-    return stepAmong(at, wood, part, middle, to);
+    return stepAmong(at, wood, part, middle, to, whole, halvings);
   }
   std::vector<Reaction> reactions;
   at.contacts->settle(wood, bodies_, contacts, to, touches, reactions);
-  const double share = static_cast<double>(to - from) / static_cast<double>(whole_);
+  const double share = static_cast<double>(to - from) / static_cast<double>(whole);
   for (Reaction& reaction : reactions) reaction.force *= share;
   addTouches(reactions);
 }

@@ -4,13 +4,19 @@
 
 namespace vegetation_sim::forest {
 
-Tree growTree(const Layout& layout, std::uint32_t id, const terrain::HeightMap& terrain) {
+Tree growTree(const TreeSeed& seed, const Species& species, const MotionLaw& law) {
   Tree out;
-  out.seed = seedOf(layout, id);
-  const Species& species = layout.species.at(out.seed.species);
-  out.skeleton = grow(out.seed, species);
-  out.response = windResponse(out.skeleton, species, layout.motion);
-  out.joint_model = static_cast<JointModel>(layout.motion.joint_model);
+  out.seed = seed;
+  out.skeleton = grow(seed, species);
+  out.response = windResponse(out.skeleton, species, law);
+  out.joint_model = static_cast<JointModel>(law.joint_model);
+  return out;
+}
+
+Tree growTree(const Layout& layout, std::uint32_t id, const terrain::HeightMap& terrain) {
+  const TreeSeed seed = seedOf(layout, id);
+  const Species& species = layout.species.at(seed.species);
+  Tree out = growTree(seed, species, layout.motion);
   out.drag = static_cast<Drag>(layout.motion.drag);
   out.reference_speed = species.reference_speed;
   out.foot = footOf(out.seed, terrain);

@@ -103,25 +103,24 @@ void Field::at(Nanoseconds stamp, Instant& instant) const {
   instant.terms.clear();
   for (std::size_t i = 0; i < primitives_.size(); ++i) {
     const Primitive& p = primitives_[i];
-    const double weight = fade(p, stamp), elapsed = secondsBetween(p.epoch, stamp);
-    if (weight == 0.0) continue;
-    if (static_cast<Kind>(p.kind) == Kind::BREEZE) {
+    if (static_cast<Kind>(p.kind) != Kind::BREEZE) {
+      Term term;
+      if (termAt(i, stamp, term)) instant.terms.push_back(term);
+    } else if (const double weight = fade(p, stamp); weight != 0.0) {
       ++instant.breezes;
       instant.mean += p.velocity * weight;
-      compiled_[i]->breeze.addModes(elapsed, weight, instant.modes);
-      continue;
+      compiled_[i]->breeze.addModes(secondsBetween(p.epoch, stamp), weight, instant.modes);
     }
-    Term term;
-    if (termAt(i, stamp, term)) instant.terms.push_back(term);
   }
 }
 
 bool Field::termAt(std::size_t index, Nanoseconds stamp, Term& out) const {
   const Primitive& p = primitives_[index];
-  const double weight = fade(p, stamp), elapsed = secondsBetween(p.epoch, stamp);
   out = Term();
   out.kind = static_cast<Kind>(p.kind);
-  if (weight == 0.0 || out.kind == Kind::BREEZE) return false;
+  if (out.kind == Kind::BREEZE) return false;
+  const double weight = fade(p, stamp), elapsed = secondsBetween(p.epoch, stamp);
+  if (weight == 0.0) return false;
   out.radius = p.radius;
   out.centre = compiled_[index]->path.at(stamp);
   if (p.orbit_radius > 0.0) {

@@ -76,9 +76,8 @@ SwingingWind::SwingingWind(const Field& field, Nanoseconds stamp) {
     if (!field.termAt(i, stamp, term)) continue;
     const bool gust = term.kind == Kind::GUST, disk = term.kind == Kind::DISK;
     has_discs_ |= disk;
-    parts_.push_back({term, frequencyOf(field, i, stamp, term), gust ? 0.5 : 1.0});
     const double onset = gust || disk ? 0.0 : onsetOf(p, stamp);
-    if (onset > parts_.back().frequency) parts_.back() = {term, onset, 0.5};
+    parts_.push_back({term, frequencyOf(field, i, stamp, term), gust ? 0.5 : 1.0, onset});
   }
 }
 
@@ -96,8 +95,9 @@ Swings SwingingWind::atOf(const Vec3& position, double reach, bool discs) const 
   Swings out = breezes_;
   for (const Part& part : parts_) {
     if (part.term.kind == Kind::DISK && !discs) continue;
-    const double speed = part.share * boundOf(part.term, position, reach);
+    const double bound = boundOf(part.term, position, reach), speed = part.share * bound;
     if (speed > 0.0) out.add(part.frequency, 0.0, speed * speed);
+    if (part.onset > 0.0) out.add(part.onset, 0.0, 0.25 * bound * bound);
   }
   return out;
 }

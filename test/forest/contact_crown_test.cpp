@@ -38,7 +38,7 @@ std::vector<double> speeds(std::vector<double> all) {
 
 // Wrenches are continuous in time: from part to part of a step none rises by more than this.
 void expectGentle(const CrownResult& found, double speed) {
-  EXPECT_LE(found.largest_rise, MOST_SWING * 2000.0 + 1e-6) << speed << " m/s";
+  EXPECT_LE(found.largest_rise, Halvings::MOST_SWING * 2000.0 + 1e-6) << speed << " m/s";
   EXPECT_GT(found.largest_rise, 0.0) << speed << " m/s";
 }
 

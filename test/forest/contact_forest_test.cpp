@@ -151,7 +151,7 @@ TEST(ContactInAForest, HalvingsAreBounded) {
       most = std::max(most, counter->parts - before);
       steps = std::max(steps, drive.forest().physicsFigures().steps);
     }
-    EXPECT_LE(most, steps * (2 * MOST_HALVINGS + 4));
+    EXPECT_LE(most, steps * (2 * Halvings::MOST + 4));
     EXPECT_EQ(drive.forest().physicsFigures().coarse > 0, stiffness > 1e6) << most;
     EXPECT_LT(drive.depth(), 0.005) << stiffness;
   }

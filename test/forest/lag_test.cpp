@@ -11,13 +11,10 @@ namespace vegetation_sim::forest {
 namespace {
 
 Tree stranger(const Species& species, const MotionLaw& law, std::uint64_t seed, double scale) {
-  Tree out;
-  out.seed.seed = seed;
-  out.seed.scale = scale;
-  out.skeleton = grow(out.seed, species);
-  out.response = windResponse(out.skeleton, species, law);
-  out.joint_model = JointModel::SWING;
-  return out;
+  TreeSeed out;
+  out.seed = seed;
+  out.scale = scale;
+  return growTree(out, species, law);
 }
 
 /// A tree and a wind that nothing was fitted to.

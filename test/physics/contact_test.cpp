@@ -30,6 +30,14 @@ Link twig() {
   return out;
 }
 
+/// As long as the twig, far heavier.
+Link trunkOf(double mass) {
+  Link out = twig();
+  out.mass = mass;
+  out.inertia = {0.08 * mass, 0.08 * mass, 0.002 * mass, 0.0, 0.0, 0.0};
+  return out;
+}
+
 struct Wall {
   double place{-0.05}, speed{0.0};  // [m], [m/s]
 };
@@ -120,10 +128,8 @@ TEST(Contact, NeitherSinksInNorRingsAtAnySpeedStepAndStiffness) {
 // A trunk answers with the limit and is overrun, whatever the step.
 TEST(Contact, ForceIsLimited) {
   for (const double h : {1.0 / 240.0, 1.0 / 960.0, 1.0 / 3840.0}) {
-    Link trunk = twig();
+    Link trunk = trunkOf(500.0);
     trunk.stiffness = 1e6;
-    trunk.mass = 500.0;
-    trunk.inertia = {40.0, 40.0, 1.0, 0.0, 0.0, 0.0};
     Meeting meeting(trunk);
     Wall wall{-0.02, 1.0};
     double hardest = 0.0;
@@ -141,10 +147,7 @@ TEST(Contact, ForceIsLimited) {
 // meets wood that hardly gives way. What would enter by a millimetre is stopped at once instead.
 TEST(Contact, ForceRisesNoFasterThanTheLawWhereItMayTakeItsTime) {
   for (const double h : {1.0 / 240.0, 1.0 / 480.0, 1.0 / 960.0}) {
-    Link trunk = twig();
-    trunk.mass = 50000.0;
-    trunk.inertia = {4000.0, 4000.0, 100.0, 0.0, 0.0, 0.0};
-    Meeting meeting(trunk);
+    Meeting meeting(trunkOf(50000.0));
     Wall wall{-0.001, 0.02};
     double before = 0.0, rise = 0.0;
     while (wall.place < 0.005) {
@@ -163,10 +166,8 @@ TEST(Contact, ForceRisesByRateAndSpringHoweverDeep) {
   for (const double start : {-0.02, 0.02}) {
     for (const double speed : {0.0, 0.02, 0.1, 0.3, 1.0, 3.0}) {
       for (const double h : {1.0 / 240.0, 1.0 / 960.0, 1.0 / 3840.0}) {
-        Link trunk = twig();
+        Link trunk = trunkOf(50000.0);
         trunk.stiffness = 1e6;
-        trunk.mass = 50000.0;
-        trunk.inertia = {4000.0, 4000.0, 100.0, 0.0, 0.0, 0.0};
         Meeting meeting(trunk);
         Wall wall{start, speed};
         double before = 0.0, rise = 0.0, hardest = 0.0;
@@ -189,10 +190,7 @@ TEST(Contact, ForceRisesByRateAndSpringHoweverDeep) {
 // S1-W6. Harder wood: as many times the spring and the limit.
 TEST(Contact, HarderWoodPressesHarder) {
   for (const double bears : {1.0, 5.0}) {
-    Link trunk = twig();
-    trunk.mass = 50000.0;
-    trunk.inertia = {4000.0, 4000.0, 100.0, 0.0, 0.0, 0.0};
-    Meeting meeting(trunk);
+    Meeting meeting(trunkOf(50000.0));
     meeting.bears = bears;
     Wall wall{-0.001, 0.02};
     while (wall.place < 0.001) meeting.step(1.0 / 960.0, wall);
@@ -223,10 +221,7 @@ TEST(Contact, ForceToldIsWhatTheTwigGets) {
 
 // A contact whose force changes much in a step says so; one that rests or is overrun does not.
 TEST(Contact, SwingTellsWhatAStepDoesNotResolve) {
-  Link trunk = twig();
-  trunk.mass = 500.0;
-  trunk.inertia = {40.0, 40.0, 1.0, 0.0, 0.0, 0.0};
-  Meeting meeting(trunk);
+  Meeting meeting(trunkOf(500.0));
   Wall wall{-0.02, 1.0};
   double before = 0.0, largest = 0.0;
   while (wall.place < 0.05) {
@@ -250,10 +245,7 @@ TEST(Contact, SwingTellsWhatAStepDoesNotResolve) {
 }
 
 TEST(Contact, WhatWouldEnterDeeplyIsStoppedAtOnce) {
-  Link trunk = twig();
-  trunk.mass = 500.0;
-  trunk.inertia = {40.0, 40.0, 1.0, 0.0, 0.0, 0.0};
-  Meeting meeting(trunk);
+  Meeting meeting(trunkOf(500.0));
   Wall wall{-0.02, 3.0};
   while (meeting.last().force == 0.0) meeting.step(1.0 / 240.0, wall);
   EXPECT_EQ(meeting.last().force, meeting.law.force_limit);

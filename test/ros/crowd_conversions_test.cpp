@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "common/error_text.h"
+
 namespace vegetation_sim {
 namespace {
 
@@ -19,15 +21,6 @@ AgentState standing(std::uint32_t id) {
   out.height = 1.7;
   out.pose.orientation.w = 1.0;
   return out;
-}
-
-std::string refusalOf(const AgentStates& message) {
-  try {
-    check(message);
-  } catch (const InvalidInput& error) {
-    return error.what();
-  }
-  return "";
 }
 
 // What a stranger tells of walkers is refused with who it is, what, its value and the range.
@@ -43,11 +36,11 @@ TEST(CrowdConversions, RefuseWalkersThatCannotBe) {
       {"feet_lag", [](AgentState& a) { a.feet_lag[0].x = -NONE; }}};
   AgentStates message;
   message.agents = {standing(3), standing(7)};
-  EXPECT_EQ(refusalOf(message), "");
+  EXPECT_EQ(errorOf([&] { check(message); }), "");
   for (const auto& [text, spoil] : faults) {
     AgentStates bad = message;
     spoil(bad.agents[1]);
-    const std::string refusal = refusalOf(bad);
+    const std::string refusal = errorOf([&] { check(bad); });
     EXPECT_NE(refusal.find("agent 7: "), std::string::npos) << text;
     EXPECT_NE(refusal.find(text), std::string::npos) << refusal;
     EXPECT_EQ(refusal.find("agent 3"), std::string::npos) << refusal;

@@ -36,13 +36,23 @@ struct Touch {
 /// By body, then branch; rising. A branch that lies flat on a body has two.
 using Touches = std::vector<Touch>;
 
-/// In a part of a step no force of a contact changes by more than this share of the law's limit,
-/// unless that part is the shortest or the tree's step was halved as often as it may.
-constexpr double MOST_SWING = 0.25;
-constexpr Nanoseconds SHORTEST_PART = 8000;
-constexpr int MOST_HALVINGS = 128;
-/// True where the last step of a stepper changed a force by more, or did not agree with itself.
-bool isTooCoarse(const physics::ContactStepper& stepper, const physics::ContactLaw& law);
+/// Of one step of a tree: which of its parts are taken again in halves, so that no force of a
+/// contact changes by more than MOST_SWING of the law's limit in a part.
+class Halvings {
+ public:
+  static constexpr double MOST_SWING = 0.25;
+  static constexpr Nanoseconds SHORTEST = 8000;  ///< of a part
+  static constexpr int MOST = 128;               ///< in a step
+
+  /// True if the last step of `stepper`, a part so long, was too coarse and may be halved.
+  bool want(const physics::ContactStepper& stepper, const physics::ContactLaw& law,
+            Nanoseconds part);
+  /// True if more were wanted.
+  bool ranOut() const { return wanted_ > MOST; }
+
+ private:
+  int wanted_{0};
+};
 
 /// How bodies touch trees. Without memory of its own.
 ///

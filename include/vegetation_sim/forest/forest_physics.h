@@ -79,7 +79,7 @@ class ForestPhysics {
   void stepTouching(const Site& at, std::uint32_t tree, PhysicalPart& part, Nanoseconds from,
                     Nanoseconds to);
   void stepAmong(const Site& at, const ContactModel::Wood& wood, PhysicalPart& part,
-                 Nanoseconds from, Nanoseconds to);
+                 Nanoseconds from, Nanoseconds to, Nanoseconds whole, Halvings& halvings);
   void addTouches(const std::vector<Reaction>& reactions);
   void reactToBodies(std::size_t steps);
   void letFall(const std::vector<Reaction>& told, double duration);
@@ -105,8 +105,6 @@ class ForestPhysics {
   std::size_t steps_{0}, refused_{0}, skipped_{0}, coarse_{0};
   std::vector<std::uint32_t> near_;  // trees that bodies may touch in this tick, rising
   std::vector<Reaction> touching_;   // of bodies in this tick: sums over its steps
-  Nanoseconds whole_{0};             // of the step that is taken in parts
-  int halvings_{0};                  // asked for in that step
   PartLoads loads_;                  // scratch
   PartScratch scratch_;              // dropped with the last part
 };

@@ -24,6 +24,8 @@ struct Tree {
 
 /// Grows a tree of a layout. Pure: the same layout and id give the same tree, to the bit.
 Tree growTree(const Layout& layout, std::uint32_t id, const terrain::HeightMap& terrain);
+/// A tree of no layout: at the origin, its drag linear.
+Tree growTree(const TreeSeed& seed, const Species& species, const MotionLaw& law);
 
 /// Deviation of each joint of the first `depths` depths (equations 1 and 2): independent of every
 /// other branch and of any step (S1-19). `wind` is relative to the foot.

@@ -49,6 +49,7 @@ class SwingingWind {
     Term term;
     double frequency;
     double share;  // of its bound that swings
+    double onset;  // frequency at which half of it sets on or dies down, 0: it does neither
   };
   void addBreeze(const Primitive& p, double weight, const Breeze& breeze);
   Swings atOf(const Vec3& position, double reach, bool discs) const;
