@@ -24,6 +24,7 @@ constexpr Way OAK{"oak", 7, -2.0, 0.0, 7.45, 1.5};
 constexpr Way PINE{"pine", 9, -2.58, -0.4, 7.091, 2.0};
 constexpr Way FLAT{"pine", 8, -1.192, 0.4, 8.819, 2.0};   // a stiff twig lies on the capsule
 constexpr Way FOOT{"pine", 7, -1.524, -0.3, 7.673, 2.0};  // a twig stands on what is overrun
+constexpr Way STEM{"oak", 9, -0.13, 0.12, 4.8, 2.0};      // stout wood lies on the capsule
 constexpr Way WHIP{"oak", 8, -0.986, 1.3, 6.186, 2.0};    // 1 cm of oak whips past at 9 m/s
 
 CrownResult driveAt(double speed, const Way& way) {
@@ -92,6 +93,16 @@ TEST(ContactInACrown, ThickWoodAnswersWithTheLimit) {
     EXPECT_EQ(found.hardest, physics::ContactLaw().force_limit) << speed << " m/s";
     EXPECT_GT(found.deepest_thick, 0.005) << speed << " m/s";
     EXPECT_GT(found.limited, 0) << speed << " m/s";
+    expectGentle(found, speed);
+  }
+}
+
+// What lies flat has two contacts: it is their sum that no part lets rise too far.
+TEST(ContactInACrown, StoutWoodThatLiesFlatIsMetAsGently) {
+  for (const double speed : speeds({1.0, 3.0})) {
+    const CrownResult found = driveAt(speed, STEM);
+    EXPECT_LT(found.deepest_thin, 0.005) << speed << " m/s";
+    EXPECT_GT(found.deepest_thick, 0.05) << speed << " m/s";
     expectGentle(found, speed);
   }
 }

@@ -172,6 +172,10 @@ class Ledger : public ContactFinder {
         leap_ = std::max(leap_, length(way - h * mean));
       }
     }
+    const bool again = from == from_;
+    again_ += again;
+    strange_ += again && touches.size() != remembered_;
+    remembered_ = touches.size();
     last_ = wood.start;
     from_ = from;
     return ContactFinder::findContacts(wood, bodies, from, to, touches);
@@ -189,9 +193,12 @@ class Ledger : public ContactFinder {
   mutable double shortest_{1.0};      ///< part of a step [s]
   mutable double farthest_{0.0};      ///< way of a joint in a part [m]
   mutable double leap_{0.0};          ///< what its speeds do not tell of such a way [m]
+  mutable int again_{0};              ///< parts that were taken again
+  mutable int strange_{0};            ///< of these, begun with other touches than the first time
 
  private:
   mutable Nanoseconds from_{0};
+  mutable std::size_t remembered_{0};
   mutable physics::Kinematics last_;
 };
 
@@ -262,6 +269,8 @@ TEST(ContactInAForest, NothingOfAPartThatIsTakenAgainIsLeft) {
   EXPECT_LT(ledger->shortest_, 0.2 / 240.0);
   EXPECT_GT(ledger->farthest_, 5e-4);
   EXPECT_LT(ledger->leap_, 0.05 * ledger->farthest_);
+  EXPECT_GT(ledger->again_, 3);
+  EXPECT_EQ(ledger->strange_, 0);
 }
 
 // Wrenches as they are told, tick by tick: a trunk's force comes up over several ticks that are no

@@ -36,8 +36,8 @@ struct Touch {
 /// By body, then branch; rising. A branch that lies flat on a body has two.
 using Touches = std::vector<Touch>;
 
-/// Of one step of a tree: which of its parts are taken again in halves, so that no force of a
-/// contact changes by more than MOST_SWING of the law's limit in a part.
+/// Of one step of a tree: which of its parts are taken again in halves, so that the
+/// force on no branch changes by more than MOST_SWING of the law's limit in a part.
 class Halvings {
  public:
   static constexpr double MOST_SWING = 0.25;
