@@ -13,6 +13,18 @@ namespace {
 
 constexpr int FEWEST_SIDES = 3;
 
+// Clusters of the four shapes, then their boughs: 48 to 86 % of the square, for pixels without
+// leaves cost as much as others. A hundredth of the leaves is cut off.
+constexpr std::array<LeafOutline, 8> OUTLINES{
+    {{{{0.14f, 0.14f}, {0.94f, 0.01f}, {0.75f, 1.00f}, {0.23f, 1.00f}}},
+     {{{0.12f, 0.08f}, {1.00f, 0.04f}, {0.84f, 0.96f}, {0.03f, 0.90f}}},
+     {{{0.08f, 0.16f}, {0.84f, 0.01f}, {0.80f, 0.99f}, {0.22f, 1.00f}}},
+     {{{0.31f, 0.06f}, {0.69f, 0.00f}, {0.83f, 1.00f}, {0.16f, 0.90f}}},
+     {{{0.15f, 0.00f}, {0.95f, 0.00f}, {0.87f, 1.00f}, {0.00f, 0.99f}}},
+     {{{0.09f, 0.11f}, {1.00f, 0.00f}, {0.71f, 0.98f}, {0.14f, 0.83f}}},
+     {{{0.03f, 0.01f}, {1.00f, 0.00f}, {0.79f, 1.00f}, {0.00f, 0.96f}}},
+     {{{0.09f, 0.05f}, {1.00f, 0.10f}, {0.82f, 0.98f}, {0.00f, 0.92f}}}}};
+
 float narrow(double x) {
   return static_cast<float>(x);
 }
@@ -33,6 +45,7 @@ class MeshBuilder {
     }
     out_.leaves = placeLeaves(skeleton_, species_, detail_);
     out_.boughs = detail_.boughs;
+    out_.outline = leafOutline(species_.leaf_shape, detail_.boughs);
     return std::move(out_);
   }
 
@@ -105,6 +118,10 @@ class MeshBuilder {
 };
 
 }  // namespace
+
+const LeafOutline& leafOutline(int leaf_shape, bool boughs) {
+  return OUTLINES[static_cast<std::size_t>(leaf_shape + (boughs ? 4 : 0))];
+}
 
 TreeMesh buildMesh(const Skeleton& skeleton, const Species& species, const MeshDetail& detail) {
   return MeshBuilder(skeleton, species, detail).build();

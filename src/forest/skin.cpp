@@ -44,16 +44,14 @@ std::array<float, 3> baseOf(const BatchPoses& poses, int branch) {
 }
 
 // The corners of one card. Flutter is a turn by small angles: the axes lean towards the normal.
-void writeCard(const LeafCard& card, const std::array<float, 3>& foot, const Axes& axes,
-               const std::array<float, 2>& turn, float* out) {
-  const float half = 0.5f * card.size;
+void writeCard(const LeafCard& card, const LeafOutline& outline, const std::array<float, 3>& foot,
+               const Axes& axes, const std::array<float, 2>& turn, float* out) {
   for (std::size_t i = 0; i < 3; ++i) {
-    const float across = half * (axes.x[i] + turn[0] * axes.z[i]);
+    const float across = card.size * (axes.x[i] + turn[0] * axes.z[i]);
     const float up = card.size * (axes.y[i] + turn[1] * axes.z[i]);
-    out[i] = foot[i] - across;
-    out[3 + i] = foot[i] + across;
-    out[6 + i] = foot[i] + across + up;
-    out[9 + i] = foot[i] - across + up;
+    for (std::size_t corner = 0; corner < LEAF_CORNERS; ++corner)
+      out[3 * corner + i] =
+          foot[i] + (outline[corner][0] - 0.5f) * across + outline[corner][1] * up;
   }
 }
 
@@ -109,7 +107,8 @@ void skinLeaves(const TreeMesh& mesh, const BatchPoses& poses, const std::array<
     const Axes axes = axesOf(turn);
     std::array<float, 3> at = baseOf(poses, card.branch);
     for (std::size_t i = 0; i < 3; ++i) at[i] += foot[i] + along(axes, card.local, i);
-    writeCard(card, at, axesOf(multiply(turn, card.rotation)), flutter.of(card.key), positions);
+    writeCard(card, mesh.outline, at, axesOf(multiply(turn, card.rotation)), flutter.of(card.key),
+              positions);
     positions += std::size_t{3} * LEAF_CORNERS;
   }
 }

@@ -81,9 +81,11 @@ Picture barkPicture(forest::LeafShape shape, int columns) {
 }
 
 Picture barkAtlas(int edge) {
-  Picture out(edge, edge, {});
+  Picture out(edge, 2 * edge, {});
   for (int shape = 0; shape < 4; ++shape)
     paste(barkPicture(static_cast<LeafShape>(shape), edge / 4), shape * edge / 4, 0, out);
+  for (int r = 0; r < edge; ++r)
+    for (int c = 0; c < edge; ++c) out.at(c, 2 * edge - 1 - r) = out.at(c, r);
   return out;
 }
 

@@ -179,7 +179,7 @@ void CanopyPatch::addStems(const canopy::GrownPlant& grown, const Vec3& colour) 
       setNormal(normal, paint);
       setColour(1.3 * colour, top ? 0.25 : 0.6, paint);
       paint.place[0] = static_cast<float>(0.25 * turns);
-      paint.place[1] = static_cast<float>(top ? length(stem.to - stem.from) : 0.0);
+      paint.place[1] = static_cast<float>(top ? 0.5 * length(stem.to - stem.from) : 0.0);
       stem_paint_.push_back(paint);
     }
     for (std::uint32_t i = 0; i < STEM_SIDES; ++i) {

@@ -156,7 +156,7 @@ void DrawnTree::paintBark(const forest::LightGrid& light, Shape& shape) {
     setColour(colour, paint);
     paint.colour[3] = byte(light.sun(at));
     paint.place[0] = barkAtlasU(species_.leaf_shape, vertex.uv[0]);
-    paint.place[1] = vertex.uv[1] / BARK_PERIOD;
+    paint.place[1] = vertex.uv[1] / (2.f * BARK_PERIOD);
     paint.place[2] = static_cast<float>(light.sky(at));
   }
   painted_by_level_ = false;
@@ -187,7 +187,7 @@ void DrawnTree::paintLeaves(const forest::LightGrid& light, Shape& shape) {
       setColour(colour, paint);
       paint.colour[3] = byte(sun);
       const std::array<float, 2> place =
-          leafAtlasPlace(species_.leaf_shape, shape.mesh.boughs, forest::LEAF_UV[i]);
+          leafAtlasPlace(species_.leaf_shape, shape.mesh.boughs, shape.mesh.outline[i]);
       std::copy(place.begin(), place.end(), paint.place);
       paint.place[2] = static_cast<float>(sky);
     }

@@ -17,7 +17,11 @@ using Part = DrawnTree::Part DrawnTree::Shape::*;
 template <class T>
 std::vector<T> gathered(const std::vector<DrawnTree*>& trees, Part part,
                         std::vector<T> DrawnTree::Part::*what) {
+  std::size_t size = 0;
+  for (const DrawnTree* tree : trees)
+    for (const DrawnTree::Shape& shape : tree->shapes()) size += (shape.*part.*what).size();
   std::vector<T> out;
+  out.reserve(size);
   for (const DrawnTree* tree : trees) {
     for (const DrawnTree::Shape& shape : tree->shapes()) {
       const std::vector<T>& some = shape.*part.*what;

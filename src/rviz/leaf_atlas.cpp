@@ -44,8 +44,8 @@ std::vector<Picture> leafAtlas(int edge) {
   return out;
 }
 
-std::array<float, 2> leafAtlasPlace(int shape, bool bough, const std::array<float, 2>& uv) {
-  return {0.25f * (static_cast<float>(shape) + uv[0]), 0.5f * ((bough ? 1.f : 0.f) + uv[1])};
+std::array<float, 2> leafAtlasPlace(int shape, bool bough, const std::array<float, 2>& at) {
+  return {0.25f * (static_cast<float>(shape) + at[0]), 0.5f * ((bough ? 2.f : 1.f) - at[1])};
 }
 
 }  // namespace vegetation_sim::view

@@ -87,15 +87,10 @@ Material::~Material() {
 void Material::addTextures(Ogre::Pass& pass, const std::vector<std::string>& textures) const {
   for (const std::string& texture : textures) {
     Ogre::TextureUnitState* unit = pass.createTextureUnitState(texture);
-    // Mirrored, so that what does not repeat still shows no seam.
     const bool repeats = kind_ == Kind::BARK || kind_ == Kind::SKY || kind_ == Kind::STRIPS ||
                          unit != pass.getTextureUnitState(0);
     unit->setTextureAddressingMode(repeats ? Ogre::TextureUnitState::TAM_WRAP
                                            : Ogre::TextureUnitState::TAM_CLAMP);
-    if (kind_ == Kind::BARK)
-      unit->setTextureAddressingMode(Ogre::TextureUnitState::TAM_CLAMP,
-                                     Ogre::TextureUnitState::TAM_MIRROR,
-                                     Ogre::TextureUnitState::TAM_CLAMP);
     if (kind_ == Kind::LEAVES) unit->setTextureMipmapBias(-0.7f);  // crisp rather than round
     unit->setTextureFiltering(Ogre::FO_LINEAR, Ogre::FO_LINEAR, Ogre::FO_POINT);
   }
@@ -169,7 +164,7 @@ void Material::setFadeClock(float clock) {
 
 void Material::darken(float distance) {
   material_->getTechnique(0)->getPass(0)->getFragmentProgramParameters()->setNamedConstant(
-      "under", Ogre::Vector4(distance, 0.f, 0.f, 0.f));
+      "under", Ogre::Vector4(1.f / std::max(distance * distance, 1e-6f), 0.f, 0.f, 0.f));
 }
 
 }  // namespace vegetation_sim::view

@@ -38,9 +38,10 @@ void main() {
   float through = leaf.y * (0.25 + against * against * against);
   vec3 direct = sun.rgb * gl_Color.a * (max(facing, 0.0) + through);
   vec3 around = mix(ground_light.rgb, zenith_light.rgb, 0.5 + 0.5 * gl_Normal.z);
-  light.rgb = gl_Color.rgb * (direct + around * (leaf.z + (1.0 - leaf.z) * gl_MultiTexCoord0.z));
   float f = clamp((far - haze.x) * haze.y, 0.0, 1.0);
   light.a = haze.z * f * (2.0 - f);
+  light.rgb = gl_Color.rgb * (direct + around * (leaf.z + (1.0 - leaf.z) * gl_MultiTexCoord0.z)) *
+              (1.0 - light.a);
   place = gl_MultiTexCoord0.xy;
 }
 )";
@@ -58,7 +59,7 @@ void main() {
   if (shown > 0.0 ? pattern >= shown : pattern < shown + 1.0) discard;
 #endif
   vec4 paint = texture2D(picture, place);
-  gl_FragColor = vec4(mix(light.rgb * paint.rgb, haze_colour.rgb, light.a), paint.a);
+  gl_FragColor = vec4(light.rgb * paint.rgb + haze_colour.rgb * light.a, paint.a);
 }
 )";
 
@@ -82,14 +83,14 @@ void main() {
 constexpr const char* GROUND_FRAGMENT = R"(uniform sampler2D picture;
 uniform sampler2D grain;
 uniform vec4 haze_colour;
-uniform vec4 under;  // distance of the last plants
+uniform vec4 under;  // square of how near the last plants are [1/m2]
 varying vec4 light;
 varying vec4 place;
 varying vec3 view;
 void main() {
   vec4 ground = texture2D(picture, place.xy);
-  float far = clamp(length(view) / max(under.x, 0.001), 0.0, 1.0);
-  vec3 paint = ground.rgb * light.rgb * mix(ground.a, 1.0, far * far);
+  float far = min(dot(view, view) * under.x, 1.0);
+  vec3 paint = ground.rgb * light.rgb * mix(ground.a, 1.0, far);
   paint *= 2.0 * texture2D(grain, place.zw).rgb;
   gl_FragColor = vec4(mix(paint, haze_colour.rgb, light.a), 1.0);
 }

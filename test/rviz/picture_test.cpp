@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "vegetation_sim/forest/mesh.h"
 #include "vegetation_sim/rviz/bark_picture.h"
 #include "vegetation_sim/rviz/leaf_atlas.h"
 #include "vegetation_sim/rviz/sky_picture.h"
@@ -69,12 +70,46 @@ TEST(LeafAtlas, MipmapsKeepTheCoverage) {
   }
 }
 
+// What is drawn of a card is its outline: nearly all of the leaves are in it, and it is no whole
+// square.
+TEST(LeafAtlas, OutlinesHoldThePictures) {
+  const std::vector<Picture> levels = leafAtlas(128);
+  for (int cell = 0; cell < 8; ++cell) {
+    const forest::LeafOutline& outline = forest::leafOutline(cell % 4, cell >= 4);
+    const auto holds = [&](float x, float y) {
+      bool inside = true;
+      for (std::size_t i = 0; i < forest::LEAF_CORNERS; ++i) {
+        const auto &a = outline[i], &b = outline[(i + 1) % forest::LEAF_CORNERS];
+        inside = inside && (b[0] - a[0]) * (y - a[1]) >= (b[1] - a[1]) * (x - a[0]);
+      }
+      return inside;
+    };
+    for (std::size_t level = 0; level < 3; ++level) {
+      const int side = levels[level].columns / 4;
+      int leaves = 0, held = 0, drawn = 0;
+      for (int r = 0; r < side; ++r) {
+        for (int c = 0; c < side; ++c) {
+          const bool in = holds((static_cast<float>(c) + 0.5f) / static_cast<float>(side),
+                                1.f - (static_cast<float>(r) + 0.5f) / static_cast<float>(side));
+          const Rgba& pixel = levels[level].at(side * (cell % 4) + c, side * (cell / 4) + r);
+          drawn += in ? 1 : 0;
+          leaves += pixel[3] >= ALPHA_LIMIT ? 1 : 0;
+          held += in && pixel[3] >= ALPHA_LIMIT ? 1 : 0;
+        }
+      }
+      EXPECT_GT(held, 0.97 * leaves) << cell << " " << level;
+      EXPECT_LT(drawn, 0.9 * side * side) << cell;
+    }
+  }
+}
+
 TEST(LeafAtlas, EachShapeHasItsCell) {
   for (int shape = 0; shape < 4; ++shape) {
     for (const bool bough : {false, true}) {
       const auto place = leafAtlasPlace(shape, bough, {0.5f, 0.5f});
       EXPECT_FLOAT_EQ(place[0], 0.125f + 0.25f * static_cast<float>(shape));
       EXPECT_FLOAT_EQ(place[1], bough ? 0.75f : 0.25f);
+      EXPECT_FLOAT_EQ(leafAtlasPlace(shape, bough, {0.5f, 0.f})[1], bough ? 1.f : 0.5f);
     }
   }
 }

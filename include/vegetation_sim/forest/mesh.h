@@ -19,12 +19,20 @@ struct BarkVertex {
   std::array<float, 2> uv{};      ///< around (0 to 1), along [m]
 };
 
-/// One leaf cluster: a square card fixed to a branch.
+/// Corners of a leaf card: left and right of its foot, then right and left of its tip.
+constexpr int LEAF_CORNERS = 4;
+/// Where they are in the square that the card's picture fills: along x and along the midrib, in
+/// edges, the foot at (0.5, 0).
+using LeafOutline = std::array<std::array<float, 2>, LEAF_CORNERS>;
+/// The part of the square that holds the picture of a leaf shape's clusters or boughs.
+const LeafOutline& leafOutline(int leaf_shape, bool boughs);
+
+/// One leaf cluster: a card fixed to a branch, of which the outline is drawn.
 struct LeafCard {
   std::int32_t branch{0};
   std::array<float, 3> local{};     ///< foot of the card in the branch's frame [m]
   std::array<float, 4> rotation{};  ///< of the card in the branch's frame, w x y z; y is its midrib
-  float size{0.3f};                 ///< edge [m]
+  float size{0.3f};                 ///< edge of the square [m]
   float shade{0.5f};                ///< 0: leaf_colour (inside), 1: leaf_colour_young (outside)
   std::uint32_t key{0};             ///< of its flutter
 };
@@ -36,7 +44,8 @@ struct TreeMesh {
   std::vector<std::uint32_t>
       triangles;  ///< [3 per triangle] indices into `bark`, seen from outside
   std::vector<LeafCard> leaves;
-  bool boughs{false};  ///< cards show whole boughs
+  bool boughs{false};      ///< cards show whole boughs
+  LeafOutline outline{};  ///< of all cards
 
   /// Two triangles per leaf card.
   std::size_t triangleCount() const { return triangles.size() / 3 + 2 * leaves.size(); }

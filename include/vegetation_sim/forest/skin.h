@@ -11,12 +11,8 @@
 
 namespace vegetation_sim::forest {
 
-/// Corners of a leaf card: left and right of its foot, then right and left of its tip.
-constexpr int LEAF_CORNERS = 4;
-/// The two triangles of a card by corner, and the picture's coordinates (v = 0 at the tip).
+/// The two triangles of a card by corner.
 constexpr std::array<std::uint32_t, 6> LEAF_TRIANGLES{0, 1, 2, 0, 2, 3};
-constexpr std::array<std::array<float, 2>, LEAF_CORNERS> LEAF_UV{
-    {{0.f, 1.f}, {1.f, 1.f}, {1.f, 0.f}, {0.f, 0.f}}};
 
 /// Turns of leaf cards at one stamp and wind speed, for 64 kinds of card: cheap for many.
 class Flutter {
