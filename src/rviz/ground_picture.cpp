@@ -72,6 +72,17 @@ class ShadowPainter {
   std::vector<float> depth_;
 };
 
+// Noise that goes on at the right where it began at the left, and below as above, whatever the
+// edge: each place is a mixture with its neighbours one edge away.
+float repeatingNoise(const Noise& noise, float x, float y, float edge) {
+  const auto row = [&](float at_y) {
+    const float part = x / edge;
+    return (1.f - part) * noise.smooth(x, at_y) + part * noise.smooth(x - edge, at_y);
+  };
+  const float part = y / edge;
+  return (1.f - part) * row(y) + part * row(y - edge);
+}
+
 }  // namespace
 
 Plot plotAround(const Extent& extent) {
@@ -177,25 +188,26 @@ Picture grainPicture(int edge) {
   const Noise noise(GROUND_SEED + 1);
   Picture out(edge, edge, {});
   const float unit = static_cast<float>(Noise::PERIOD) / static_cast<float>(edge);
+  constexpr float BROAD = 0.25f * static_cast<float>(Noise::PERIOD);
   for (int r = 0; r < edge; ++r) {
     for (int c = 0; c < edge; ++c) {
       const float x = static_cast<float>(c) * unit, y = static_cast<float>(r) * unit;
       const float value = 0.43f + 0.25f * (noise.smooth(x, y) - 0.5f) +
-                          0.25f * (noise.smooth(0.25f * x, 0.25f * y) - 0.5f);
+                          0.35f * (repeatingNoise(noise, 0.25f * x, 0.25f * y, BROAD) - 0.5f);
       out.at(c, r) = {value, value, value, 1.f};
     }
   }
   // Blades that lie every way, light on dark.
   const Random random(GROUND_SEED);
-  const int blades = edge * edge / 60;
+  const int blades = edge * edge / 40;
   for (int i = 0; i < blades; ++i) {
     const Random own = random.child(static_cast<std::uint64_t>(i));
     const double angle = own.uniform(2, 0.0, 2.0 * PI), way = own.uniform(3, 0.01, 0.03) * edge;
-    const auto light = static_cast<float>(own.uniform(4, 0.3, 0.78));
+    const auto light = static_cast<float>(own.uniform(4, 0.22, 0.82));
     for (double s = 0.0; s < way; s += 0.7) {
       const int c = static_cast<int>(own.uniform(0) * edge + s * std::cos(angle)) & (edge - 1);
       const int r = static_cast<int>(own.uniform(1) * edge + s * std::sin(angle)) & (edge - 1);
-      out.blend(c, r, {light, light, light, 0.55f});
+      out.blend(c, r, {light, light, light, 0.7f});
     }
   }
   float mean = 0.f;

@@ -92,6 +92,8 @@ void Material::addTextures(Ogre::Pass& pass, const std::vector<std::string>& tex
     unit->setTextureAddressingMode(repeats ? Ogre::TextureUnitState::TAM_WRAP
                                            : Ogre::TextureUnitState::TAM_CLAMP);
     if (kind_ == Kind::LEAVES) unit->setTextureMipmapBias(-0.7f);  // crisp rather than round
+    if (kind_ == Kind::GROUND && unit != pass.getTextureUnitState(0))
+      unit->setTextureMipmapBias(-1.2f);  // grain, seen at a low angle
     unit->setTextureFiltering(Ogre::FO_LINEAR, Ogre::FO_LINEAR, Ogre::FO_POINT);
   }
 }

@@ -63,8 +63,8 @@ TEST_F(BentTree, LeafCardsLieInSquaresOnTheirBranches) {
     const Pose& pose = poses[static_cast<std::size_t>(leaf.branch)];
     const Vec3 at = foot() + pose.position +
                     rotate(pose.orientation, Vec3(leaf.local[0], leaf.local[1], leaf.local[2]));
-    const Quat turn = pose.orientation * Quat{leaf.rotation[0], leaf.rotation[1], leaf.rotation[2],
-                                              leaf.rotation[3]};
+    const Quat turn = pose.orientation *
+                      Quat{leaf.rotation[0], leaf.rotation[1], leaf.rotation[2], leaf.rotation[3]};
     for (std::size_t c = 0; c < LEAF_CORNERS; ++c) {
       const Vec3 in_square(mesh.outline[c][0] - 0.5f, mesh.outline[c][1], 0.0);
       const Vec3 expected = at + static_cast<double>(leaf.size) * rotate(turn, in_square);

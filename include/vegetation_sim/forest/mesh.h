@@ -44,7 +44,7 @@ struct TreeMesh {
   std::vector<std::uint32_t>
       triangles;  ///< [3 per triangle] indices into `bark`, seen from outside
   std::vector<LeafCard> leaves;
-  bool boughs{false};      ///< cards show whole boughs
+  bool boughs{false};     ///< cards show whole boughs
   LeafOutline outline{};  ///< of all cards
 
   /// Two triangles per leaf card.
