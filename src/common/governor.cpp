@@ -38,7 +38,10 @@ void addSteps(const Choice& choice, std::size_t index, std::vector<Step>& out) {
   };
   const int stair = std::min(choice.stair, choice.wanted);
   for (int rung = 0; rung < stair; ++rung) add(rung, rung + 1);
-  if (choice.wanted > stair) add(stair, choice.wanted);
+  if (choice.wanted <= stair) return;
+  const int above = std::clamp(choice.above, stair + 1, choice.wanted);
+  add(stair, above);
+  for (int rung = above; rung < choice.wanted; ++rung) add(rung, rung + 1);
 }
 
 void fit(std::vector<Choice>& choices, double room) {

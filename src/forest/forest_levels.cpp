@@ -14,11 +14,10 @@ namespace {
 // A level table speaks of the worst tip of the worst tree across the wind; in a picture, a forest
 // shows so much of that. Measured: forest_test, PredictedErrorIsTheMeasuredOne.
 constexpr double SEEN = 0.57;
-// Errors so near are alike: which is the larger is not foretold. Modes of willows that are foretold
-// as such are 0.7 to 0.85 of the procedural motion's (lag_test).
+// Errors so near are alike: which is the larger is not foretold.
 constexpr double ALIKE = 1.1;
-// What a tree in modes takes of a key frame; key frames come once a second [B/s].
-constexpr int MODAL_BYTES = 400;
+// Fine modes are worth their price where they leave so much less than plain ones.
+constexpr double BETTER = 0.9;
 // More are not kept room for: few scenes have as many near trees.
 constexpr std::size_t MANY_PLANTS = 20000;
 
@@ -96,6 +95,8 @@ void Forest::chooseTree(std::uint32_t tree) {
   Plant plant;
   plant.id = tree;
   plant.held = held ? known->second.level : last_base_;
+  const Sway* sways = memory_.modes.find(tree);
+  if (plant.held == MODAL_LEVEL && sways && sways->fine()) plant.held = FINE_RUNG;
   plant.resting = held && secondsBetween(known->second.since, memory_.stamp) < RUNG_REST;
   predict(seed, table, view, plant);
   const int base = memory_.levels.base().level;
@@ -125,18 +126,36 @@ void Forest::predict(const TreeSeed& seed, const LevelTable& table, double view,
     const double peak = bendingSpeed(swinging_.peakSpeed(foot, reach), species.reference_speed);
     bent = lag.bend * peak * peak * view / SEEN;
   }
-  const bool has = plant.held == MODAL_LEVEL;
-  if (haveModes() && besides.procedural > (has ? HYSTERESIS : 1.0) * settings.tolerance &&
-      besides.modal < ALIKE * (has ? 1.05 : 1.0) * besides.procedural)
-    plant.wanted = MODAL_LEVEL;
   const auto with = [bent](double off) { return std::sqrt(off * off + bent * bent); };
   for (std::size_t rung = 0; rung < table.omitted.size(); ++rung) {
     const double omitted = speed * view * table.omitted[rung];
     plant.error[rung] = static_cast<float>(std::max(omitted, with(lag.procedural)));
     plant.cost[rung] = static_cast<float>(1e-6 * budget.procedural_cost * table.branches[rung]);
   }
-  plant.error[MODAL_LEVEL] = static_cast<float>(with(std::min(lag.modal, lag.procedural)));
-  plant.cost[MODAL_LEVEL] = static_cast<float>(1e-6 * budget.modal_cost * table.branches.back());
+  const auto tell = [&](int rung, double off, double cost) {
+    const auto at = static_cast<std::size_t>(rung);
+    plant.error[at] = static_cast<float>(with(std::min(off, lag.procedural)));
+    plant.cost[at] = static_cast<float>(1e-6 * cost * table.branches.back());
+  };
+  tell(MODAL_LEVEL, lag.modal, budget.modal_cost);
+  tell(FINE_RUNG, std::min(lag.modal, lag.fine), budget.fine_cost);
+  wantModes(besides, with(besides.modal), with(besides.fine), plant);
+}
+
+// Modes where the procedural motion is off by more than is tolerated, and they by less; fine ones
+// where plain ones are too. Once fine a tree stays so while it has modes: the way back would jump.
+void Forest::wantModes(const LagIn& off, double plain, double fine, Plant& plant) const {
+  const double tolerance = memory_.settings.tolerance;
+  const bool has = plant.held >= MODAL_LEVEL;
+  if (!haveModes() || off.procedural <= (has ? HYSTERESIS : 1.0) * tolerance) return;
+  const double alike = ALIKE * (has ? 1.05 : 1.0) * off.procedural;
+  const bool held = plant.held == FINE_RUNG, helps = off.modal < alike && !held;
+  const bool finer = held || (fine < BETTER * plain && (plain > tolerance || !helps));
+  plant.above = helps ? MODAL_LEVEL : FINE_RUNG;
+  if (finer && off.fine < alike)
+    plant.wanted = FINE_RUNG;
+  else if (helps)
+    plant.wanted = MODAL_LEVEL;
 }
 
 // How far a tree is off where the wind there comes and goes [pixel].
@@ -145,6 +164,7 @@ LagIn Forest::lagOf(const TreeSeed& seed, const wind::Swings& swings, double pix
                                           swings);
   out.procedural *= pixels;
   out.modal *= pixels;
+  out.fine *= pixels;
   return out;
 }
 
@@ -158,8 +178,7 @@ void Forest::adopt() {
   const Budget& budget = settings.budget;
   const double physical =
       1e-6 * budget.physical_cost * static_cast<double>(physicsFigures().branches);
-  const int modal = std::min(budget.modal_trees, budget.state_bytes / MODAL_BYTES);
-  shareModes(plants_, static_cast<std::size_t>(modal));
+  shareModes(plants_, budget.modal_trees, budget.state_bytes);
   static_cast<Balance&>(governor_) =
       govern(plants_, std::max(0.0, budget.frame_time - physical), settings.tolerance);
   governor_.physical = physical;
@@ -169,7 +188,7 @@ void Forest::adopt() {
   beginModes();
   std::vector<std::uint32_t> chosen, held;
   for (const Plant& plant : plants_) {
-    aim(plant.id, plant.chosen);
+    aim(plant.id, std::min(plant.chosen, MODAL_LEVEL));
     chosen.push_back(plant.id);
   }
   std::sort(chosen.begin(), chosen.end());
@@ -181,18 +200,25 @@ void Forest::adopt() {
 }
 
 // Modes take milliseconds to find: one tree a tick, the one that is farthest off first. The others
-// wait on their procedural rung.
+// wait on the rung that they have.
 void Forest::beginModes() {
   Plant* first = nullptr;
+  int rung = MODAL_LEVEL;
   for (Plant& plant : plants_) {
-    if (plant.chosen != MODAL_LEVEL || memory_.modes.find(plant.id)) continue;
-    plant.chosen = plant.stair;
-    if (!first || plant.error[0] > first->error[0]) first = &plant;
+    const Sway* sway = memory_.modes.find(plant.id);
+    if (plant.chosen < MODAL_LEVEL || (sway && (plant.chosen == MODAL_LEVEL || sway->fine())))
+      continue;
+    const int wanted = plant.chosen;
+    plant.chosen = sway ? MODAL_LEVEL : plant.stair;
+    if (first && plant.error[0] <= first->error[0]) continue;
+    first = &plant;
+    rung = wanted;
   }
   if (!first) return;
-  memory_.modes.begin({layout_, *terrain_, memory_.wind}, first->id, memory_.stamp);
+  memory_.modes.begin({layout_, *terrain_, memory_.wind}, first->id, rung == FINE_RUNG,
+                      memory_.stamp);
   memory_.changed.insert(first->id);
-  first->chosen = MODAL_LEVEL;
+  first->chosen = rung;
 }
 
 void Forest::aim(std::uint32_t tree, int level) {

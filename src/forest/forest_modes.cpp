@@ -15,6 +15,12 @@ std::size_t stepsBetween(Nanoseconds from, Nanoseconds to) {
   return static_cast<std::size_t>(std::max<Nanoseconds>(1, steps));
 }
 
+Sway swayOf(const Grounds& at, std::uint32_t id, bool fine) {
+  const Tree tree = growTree(at.layout, id, at.terrain);
+  return Sway(std::make_shared<const ModalTree>(tree, at.layout.species[tree.seed.species],
+                                                fine ? FINE_MODES : ModalDepth{}));
+}
+
 }  // namespace
 
 void ForestModes::advance(const wind::Field& wind, Nanoseconds from, Nanoseconds to) {
@@ -35,12 +41,10 @@ void ForestModes::advance(const wind::Field& wind, Nanoseconds from, Nanoseconds
   }
 }
 
-Sway& ForestModes::take(const Grounds& at, std::uint32_t tree) {
+Sway& ForestModes::take(const Grounds& at, std::uint32_t tree, bool fine) {
   const auto found = sways_.find(tree);
-  if (found != sways_.end()) return found->second;
-  const Tree grown = growTree(at.layout, tree, at.terrain);
-  auto modes = std::make_shared<const ModalTree>(grown, at.layout.species[grown.seed.species]);
-  return sways_.emplace(tree, Sway(std::move(modes))).first->second;
+  if (found != sways_.end() && found->second.fine() == fine) return found->second;
+  return sways_.insert_or_assign(tree, swayOf(at, tree, fine)).first->second;
 }
 
 void ForestModes::start(const wind::Field& wind, Sway& sway, Nanoseconds stamp) {
@@ -52,13 +56,27 @@ void ForestModes::start(const wind::Field& wind, Sway& sway, Nanoseconds stamp) 
   sway.begin(loads, secondsBetween(0, LOOK), stamp);
 }
 
-void ForestModes::begin(const Grounds& at, std::uint32_t tree, Nanoseconds stamp) {
-  start(at.wind, take(at, tree), stamp);
+void ForestModes::begin(const Grounds& at, std::uint32_t tree, bool fine, Nanoseconds stamp) {
+  const auto found = sways_.find(tree);
+  if (found == sways_.end()) return start(at.wind, take(at, tree, fine), stamp);
+  if (fine && !found->second.fine()) refine(at, tree, found->second);
+}
+
+// Nothing jumps: the same bends, and the same rates, told by more oscillators.
+void ForestModes::refine(const Grounds& at, std::uint32_t tree, Sway& sway) {
+  Sway fine = swayOf(at, tree, true);
+  const auto told = [&](const std::vector<double>& amplitudes) {
+    return fine.modes().amplitudesOf(sway.modes().bendsOf(amplitudes));
+  };
+  std::vector<double> load;
+  fine.loadOf(at.wind.at(sway.stamp()), load);
+  fine.restore({told(sway.state().amplitude), told(sway.state().rate)}, load, sway.stamp());
+  sway = std::move(fine);
 }
 
 void ForestModes::restore(const Grounds& at, std::uint32_t tree, const physics::ModalState& state,
                           Nanoseconds stamp) {
-  Sway& sway = take(at, tree);
+  Sway& sway = take(at, tree, hasFineModes(state.amplitude.size()));
   std::vector<double> load;
   sway.loadOf(at.wind.at(stamp), load);
   sway.restore(state, load, stamp);

@@ -4,7 +4,27 @@
 
 #include <algorithm>
 
+#include "vegetation_sim/forest/modal_tree.h"
+
 namespace vegetation_sim::forest {
+namespace {
+
+// What a tree in modes takes of a key frame, by its amplitudes and rates; key frames come once a
+// second [B/s].
+int bytesOf(int rung) {
+  constexpr int HEAD = 48;
+  const ModalDepth depth = rung == FINE_RUNG ? FINE_MODES : ModalDepth{};
+  return HEAD + static_cast<int>(2 * sizeof(double) * depth.most());
+}
+
+// The finest that it wants and bytes are left for; the top of its stair if none.
+int affordable(const Plant& plant, int bytes) {
+  for (int rung = plant.wanted; rung >= std::max(plant.above, MODAL_LEVEL); --rung)
+    if (bytesOf(rung) <= bytes) return rung;
+  return plant.stair;
+}
+
+}  // namespace
 
 void describe(FieldVisitor& v, Budget& b) {
   v.number("frame_time", b.frame_time, "ms", {0.001, 1e6});
@@ -12,21 +32,25 @@ void describe(FieldVisitor& v, Budget& b) {
   v.integer("modal_trees", b.modal_trees, "", {0, 1000});
   v.number("procedural_cost", b.procedural_cost, "ns", {0.1, 10000.0});
   v.number("modal_cost", b.modal_cost, "ns", {0.1, 10000.0});
+  v.number("fine_cost", b.fine_cost, "ns", {0.1, 10000.0});
   v.number("physical_cost", b.physical_cost, "ns", {0.1, 1000000.0});
 }
 
-void shareModes(std::vector<Plant>& plants, std::size_t room) {
+void shareModes(std::vector<Plant>& plants, int trees, int bytes) {
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t i = 0; i < plants.size(); ++i) {
     const Plant& plant = plants[i];
-    if (plant.wanted != MODAL_LEVEL) continue;
-    const double held = plant.held == MODAL_LEVEL ? STICKY : 1.0;
+    if (plant.wanted < MODAL_LEVEL) continue;
+    const double held = plant.held >= MODAL_LEVEL ? STICKY : 1.0;
     order.emplace_back(-held * plant.error[static_cast<std::size_t>(plant.stair)], i);
   }
   std::sort(order.begin(), order.end());
-  for (std::size_t k = room; k < order.size(); ++k) {
-    Plant& plant = plants[order[k].second];
-    plant.wanted = plant.stair;
+  for (const auto& [priority, index] : order) {
+    Plant& plant = plants[index];
+    plant.wanted = trees > 0 ? affordable(plant, bytes) : plant.stair;
+    if (plant.wanted < MODAL_LEVEL) continue;
+    --trees;
+    bytes -= bytesOf(plant.wanted);
   }
 }
 

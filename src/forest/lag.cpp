@@ -44,7 +44,7 @@ struct Pair {
 
 /// Of each tip, in one wave.
 struct TipSquares {
-  std::vector<double> procedural, modal;
+  std::vector<double> procedural, modal, fine;
 };
 using Row = std::array<TipSquares, Swings::FREQUENCIES.size()>;
 
@@ -57,7 +57,8 @@ class Sample {
         grips_(gripsOf(woodOf(tree.skeleton, species, Material::BEAM))),
         linear_(links_),
         full_(links_, grips_),
-        modal_(tree, species) {}
+        modal_{ModalTree(tree, species), {}},
+        fine_{ModalTree(tree, species, FINE_MODES), {}} {}
 
   void setFrequency(double frequency) {
     w_ = 2.0 * PI * frequency;
@@ -71,8 +72,9 @@ class Sample {
     odd.modes[0].phase = 0.75;  // a quarter of a cycle later
     Pair right{torques(even), torques(odd)};
     full_.answer(right.cosine, right.sine);
-    const Pair shown{proceduralBends(even), proceduralBends(odd)}, swaying = modalBends(even, odd);
-    return {squares(right, shown), squares(right, swaying)};
+    const Pair shown{proceduralBends(even), proceduralBends(odd)};
+    return {squares(right, shown), squares(right, modalBends(modal_, even, odd)),
+            squares(right, modalBends(fine_, even, odd))};
   }
 
   // Farthest tip from where a steady wind holds the full chain, whose levers change as it bends,
@@ -90,6 +92,12 @@ class Sample {
   }
 
  private:
+  /// The tree in modes, and what it keeps of the waves.
+  struct Swayer {
+    ModalTree modes;
+    ModalAir air;
+  };
+
   static wind::Instant steady(const Vec3& velocity) {
     wind::Instant out;
     out.mean = velocity;
@@ -161,19 +169,20 @@ class Sample {
     return flat(proceduralAngles(tree_, air, all()));
   }
 
-  Pair modalBends(const wind::Instant& even, const wind::Instant& odd) {
+  Pair modalBends(Swayer& swayer, const wind::Instant& even, const wind::Instant& odd) const {
+    const ModalTree& tree = swayer.modes;
     Pair load;
-    modal_.loadOf(even, air_, load.cosine);
-    modal_.loadOf(odd, air_, load.sine);
-    for (std::size_t m = 0; m < modal_.size(); ++m) {
-      const double own = modal_.modes().frequency[m];
-      const double in = own * own - w_ * w_, late = w_ * modal_.modes().damping[m];
+    tree.loadOf(even, swayer.air, load.cosine);
+    tree.loadOf(odd, swayer.air, load.sine);
+    for (std::size_t m = 0; m < tree.size(); ++m) {
+      const double own = tree.modes().frequency[m];
+      const double in = own * own - w_ * w_, late = w_ * tree.modes().damping[m];
       const double size = in * in + late * late;
       const double c = load.cosine[m], s = load.sine[m];
       load.cosine[m] = (in * c - late * s) / size;
       load.sine[m] = (in * s + late * c) / size;
     }
-    return {flat(modal_.bendsOf(load.cosine)), flat(modal_.bendsOf(load.sine))};
+    return {flat(tree.bendsOf(load.cosine)), flat(tree.bendsOf(load.sine))};
   }
 
   static std::vector<double> flat(const std::vector<JointAngles>& bends) {
@@ -202,8 +211,7 @@ class Sample {
   std::vector<physics::Grip> grips_;
   physics::LinearChain linear_;
   physics::HarmonicChain full_;
-  ModalTree modal_;
-  ModalAir air_;
+  Swayer modal_, fine_;
   std::vector<physics::SmallMotion> motion_;
   double w_{0.0};
 };
@@ -224,7 +232,8 @@ template <std::size_t N>
 void addRow(const Row& row, bool breeze, std::array<LagSquares, N>& out) {
   using Kinds = std::pair<std::vector<double> TipSquares::*, double LagSquares::*>;
   for (const auto& [kind, to] : {Kinds{&TipSquares::procedural, &LagSquares::procedural},
-                                 Kinds{&TipSquares::modal, &LagSquares::modal}}) {
+                                 Kinds{&TipSquares::modal, &LagSquares::modal},
+                                 Kinds{&TipSquares::fine, &LagSquares::fine}}) {
     const std::size_t tip = farthestIn(row, kind);
     for (std::size_t f = 0; f < N; ++f) {
       const std::vector<double>& tips = row[f].*kind;
@@ -241,8 +250,9 @@ LagIn Lag::in(const Swings& swings) const {
     for (std::size_t f = 0; f < swings.power[s].size(); ++f) {
       out.procedural += squares[s][f].procedural * swings.power[s][f];
       out.modal += squares[s][f].modal * swings.power[s][f];
+      out.fine += squares[s][f].fine * swings.power[s][f];
     }
-  return {std::sqrt(out.procedural), std::sqrt(out.modal), bend};
+  return {std::sqrt(out.procedural), std::sqrt(out.modal), std::sqrt(out.fine), bend};
 }
 
 Lag measureLag(const Species& species, const MotionLaw& law, double scale) {

@@ -150,8 +150,9 @@ LagIn LevelScales::lagAt(const Species& species, const MotionLaw& law, double sc
   const double f = saturate((scale - GRID[below]) / (GRID[below + 1] - GRID[below]));
   if (f == 0.0) return a;  // trees of the species' own size need one table
   const LagIn b = lag(below + 1);
-  return {a.procedural + f * (b.procedural - a.procedural), a.modal + f * (b.modal - a.modal),
-          a.bend + f * (b.bend - a.bend)};
+  const auto mix = [f](double from, double to) { return from + f * (to - from); };
+  return {mix(a.procedural, b.procedural), mix(a.modal, b.modal), mix(a.fine, b.fine),
+          mix(a.bend, b.bend)};
 }
 
 int chooseLevel(const LevelTable& table, double speed, double pixels_per_metre, double tolerance,

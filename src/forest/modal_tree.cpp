@@ -15,7 +15,7 @@
 namespace vegetation_sim::forest {
 namespace {
 
-constexpr int COARSE = 5, FINE = 8;     // halvings of the crown: 32 points and 256
+constexpr int COARSE = 5, FINE = 10;    // halvings of the crown: 32 points and 1 024
 constexpr double AT_ONCE = 0.5 / 60.0;  // of quick vectors: half a frame [s]
 
 /// What the air holds on to: drag and its centre, per branch with leaves or wood.
@@ -63,8 +63,10 @@ void divide(Range begin, Range end, int halvings, std::vector<std::pair<Range, R
       begin, end, [axis](const Sail& a, const Sail& b) { return a.centre[axis] < b.centre[axis]; });
   const auto add = [](double sum, const Sail& sail) { return sum + sail.drag; };
   const double all = std::accumulate(begin, end, 0.0, add);
-  Range middle = begin;
-  for (double sum = 0.0; middle != end && sum < 0.5 * all; ++middle) sum += middle->drag;
+  Range middle = begin + 1;  // neither half is empty
+  for (double sum = begin->drag; middle + 1 != end && sum + 0.5 * middle->drag < 0.5 * all;
+       ++middle)
+    sum += middle->drag;
   divide(begin, middle, halvings - 1, out);
   divide(middle, end, halvings - 1, out);
 }

@@ -9,7 +9,8 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr int FINEST = MOST_RUNGS - 1;
+constexpr int FINEST = 7;  // halvings of the longest time between two
+static_assert(FINEST < static_cast<int>(MOST_RUNGS));
 
 }  // namespace
 

@@ -10,7 +10,7 @@
 namespace vegetation_sim::physics {
 namespace {
 
-constexpr std::size_t CHECK_EVERY = 8;  // vectors between looks at convergence
+constexpr std::size_t CHECK_EVERY = 8;  // vectors between looks at convergence, at least
 
 // How many of `values` (1 / w^2, falling) are the first `count` without cutting a pair.
 std::size_t uncut(const std::vector<double>& values, std::size_t count) {
@@ -48,9 +48,11 @@ Modes slowestModes(LinearChain& chain, int count) {
   if (wanted == 0) return out;
   Krylov krylov(chain);
   SymmetricEigen ritz;
+  // A look costs the cube of the vectors: of many modes, few are taken.
+  const std::size_t more = std::max(CHECK_EVERY, wanted / 2);
   std::size_t taken = 0, size = 2 * wanted + CHECK_EVERY;
   do {
-    size += CHECK_EVERY;
+    size += more;
     while (krylov.size() < size && !krylov.full()) krylov.grow();
     ritz = krylov.ritz();
     taken = uncut(ritz.values, wanted);

@@ -42,6 +42,21 @@ TEST(Governor, LargestErrorPerCostGoesFirst) {
   EXPECT_EQ(balance.held_back, 8u);
 }
 
+// Where there is no room for the rung above the stair that is wanted, the one before it is taken.
+TEST(Governor, RungsAboveTheStairAreClimbedOneByOne) {
+  Choice choice = choiceOf(1.0, 8, 3);
+  choice.above = 7;
+  for (const auto& [room, chosen] : {std::pair{8.0, 8}, {7.5, 7}, {6.5, 3}}) {
+    std::vector<Choice> choices{choice};
+    govern(choices, room, 0.01);
+    EXPECT_EQ(choices[0].chosen, chosen) << room;
+  }
+  choice.above = 8;
+  std::vector<Choice> choices{choice};
+  govern(choices, 7.5, 0.01);
+  EXPECT_EQ(choices[0].chosen, 3);
+}
+
 // N7: no limit cycle. Things that differ by less than what is held counts more take no turns.
 TEST(Governor, WhatIsHeldStays) {
   std::vector<Choice> choices;

@@ -37,7 +37,7 @@ TEST(Lag, OfStrangersIsPredictedWithinAFactorOfTwo) {
                                {202, 1.0, Vec3(-7.0, 0.5, 0.0)},
                                {303, 1.15, Vec3(2.0, 3.0, 0.0)}};
   const MotionLaw law = gridLayout(2, 12.0).motion;
-  int all = 0, procedural = 0, modal = 0;
+  int all = 0, procedural = 0, modal = 0, fine = 0;
   for (const std::string& name : speciesNames()) {
     const Species species = shippedSpecies(name);
     LevelScales scales;
@@ -47,17 +47,23 @@ TEST(Lag, OfStrangersIsPredictedWithinAFactorOfTwo) {
                           4);
       const wind::Swings swings = wind::SwingingWind(field, SWAY_START).at(Vec3::Zero(), 0.0);
       const LagIn lag = scales.lagAt(species, law, each.scale, swings);
-      const double off = scene.procedural(WARM_UP).farthest, left = scene.modal(WARM_UP).farthest;
-      std::printf("%-6s %.2f: %.1f mm, predicted %.1f; in modes %.1f, predicted %.1f\n",
-                  name.c_str(), each.scale, 1e3 * off, 1e3 * lag.procedural, 1e3 * left,
-                  1e3 * lag.modal);
+      const double off = scene.procedural(WARM_UP).farthest, left = scene.modal(WARM_UP).farthest,
+                   least = scene.modal(WARM_UP, FINE_MODES).farthest;
+      std::printf(
+          "%-6s %.2f: %.1f mm, predicted %.1f; in modes %.1f, predicted %.1f; in fine "
+          "ones %.1f, predicted %.1f\n",
+          name.c_str(), each.scale, 1e3 * off, 1e3 * lag.procedural, 1e3 * left, 1e3 * lag.modal,
+          1e3 * least, 1e3 * lag.fine);
       ++all;
       procedural += withinTwo(lag.procedural, off);
       modal += withinTwo(lag.modal, left);
+      fine += withinTwo(lag.fine, least);
+      EXPECT_LT(lag.fine, lag.modal);
     }
   }
   EXPECT_GE(procedural, 0.9 * all);
   EXPECT_GE(modal, 0.9 * all);
+  EXPECT_GE(fine, 0.9 * all);
 }
 
 }  // namespace

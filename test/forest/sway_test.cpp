@@ -189,7 +189,48 @@ TEST(Sway, ReplicasSwayToTheBit) {
       }
     }
   }
-  EXPECT_LT(told, 4u * 15u * 20u);  // of 3 s at 60 Hz: some 700 would be if every tick told
+  // Of 3 s at 60 Hz: 180 would be if every tick told.
+  EXPECT_LT(told, 4u * 15u * FINE_MODES.most());
+}
+
+// N7, N13: a tree whose modes leave too much goes on in fine ones. Nothing jumps, and a replica
+// that was told poses it to the bit.
+TEST(Sway, GoesOnInFineModesWithoutAJump) {
+  Clearing probe;
+  probe.advance();
+  const Plant& near = probe.forest.plants().front();
+  ASSERT_EQ(near.id, 0u);
+  const float plain = near.error[MODAL_LEVEL], fine = near.error[FINE_RUNG];
+  ASSERT_LT(fine, 0.8f * plain);
+  Clearing scene;
+  ForestReplica replica;
+  replica.setLayout(scene.forest.layout(), flatTerrain());
+  replica.setWind(breeze());
+  const Tree tree = scene.tree(0);
+  double jump = 0.0, peak = 0.0;
+  for (int i = 0; i < 3 * TICK_RATE; ++i) {
+    Settings settings;
+    settings.tolerance = (i < 2 * TICK_RATE ? 1.1 : 0.9) * static_cast<double>(plain);
+    scene.forest.setSettings(settings);
+    const auto before = scene.angles(tree, 0, scene.grid.timeOf(scene.tick + 1));
+    scene.advance();
+    ASSERT_TRUE(replica.apply(scene.forest.update(i % TICK_RATE == 0))) << replica.why();
+    const auto after = scene.angles(tree, 0, scene.now());
+    const auto here = scene.forest.pose(tree, 0, scene.now()),
+               there = replica.pose(tree, 0, scene.now());
+    for (std::size_t b = 0; b < after.size(); ++b) {
+      jump = std::max(jump, difference(before[b], after[b]));
+      peak = std::max(peak, difference(after[b], {}));
+      ASSERT_EQ(here[b].position, there[b].position) << i << " " << b;
+    }
+    if (i == 2 * TICK_RATE - 1) {
+      ASSERT_NE(scene.forest.sway(0), nullptr);
+      EXPECT_FALSE(scene.forest.sway(0)->fine());
+    }
+  }
+  EXPECT_TRUE(scene.forest.sway(0)->fine());
+  std::printf("largest jump %.1e rad of %.2f\n", jump, peak);
+  EXPECT_LT(jump, 0.1 / 57.3);
 }
 
 // Displays pose such a tree in single precision: within the bar of the batched path.

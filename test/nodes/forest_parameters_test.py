@@ -18,7 +18,8 @@ NUMBERS = {
     'noise': ('', 0, 3),
     'robot_tolerance': (' m', 0.0001, 10), 'robot_range': (' m', 0, 100),
     'frame_time': (' ms', 0.001, 1e6), 'procedural_cost': (' ns', 0.1, 10000),
-    'modal_cost': (' ns', 0.1, 10000), 'physical_cost': (' ns', 0.1, 1e6),
+    'modal_cost': (' ns', 0.1, 10000), 'fine_cost': (' ns', 0.1, 10000),
+    'physical_cost': (' ns', 0.1, 1e6),
     'grab_lease': (' s', 0.1, 3600), 'grab_distance': (' m', 0.1, 1000),
 }
 WHOLE_NUMBERS = {

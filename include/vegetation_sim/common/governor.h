@@ -10,7 +10,7 @@
 namespace vegetation_sim {
 
 /// Rungs of the longest ladder of models.
-constexpr std::size_t MOST_RUNGS = 8;
+constexpr std::size_t MOST_RUNGS = 9;
 /// A rung that has changed stays for so long while the budget binds [s].
 constexpr double RUNG_REST = 1.0;
 
@@ -21,7 +21,8 @@ struct Choice {
   std::uint32_t id{0};
   int held{0};          ///< rung now
   int stair{0};         ///< up to here, rungs are climbed one by one
-  int wanted{0};        ///< cheapest that holds the tolerance; one more step if above the stair
+  int above{0};         ///< first rung that is climbed from the top of the stair, if any
+  int wanted{0};        ///< cheapest that holds the tolerance
   bool resting{false};  ///< has changed a moment ago
   int chosen{0};        ///< outcome
   std::array<float, MOST_RUNGS> error{};

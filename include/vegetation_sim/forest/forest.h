@@ -138,6 +138,7 @@ class Forest {
   void chooseRegion(const Region& region);
   void chooseTree(std::uint32_t tree);
   void predict(const TreeSeed& seed, const LevelTable& table, double view, Plant& plant);
+  void wantModes(const LagIn& off, double plain, double fine, Plant& plant) const;
   LagIn lagOf(const TreeSeed& seed, const wind::Swings& swings, double pixels);
   bool haveModes() const;
   void adopt();

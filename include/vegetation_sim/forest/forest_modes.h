@@ -32,8 +32,9 @@ class ForestModes {
   /// From the last tick to this one. After a gap that is not stepped through, and when time has
   /// gone back, every tree starts again on its procedural motion.
   void advance(const wind::Field& wind, Nanoseconds from, Nanoseconds to);
-  /// Takes a tree up, on its procedural motion: finds its modes, a few milliseconds.
-  void begin(const Grounds& at, std::uint32_t tree, Nanoseconds stamp);
+  /// Takes a tree up, on its procedural motion: finds its modes, a few milliseconds; fine ones take
+  /// some tens. One in plain modes goes on in fine ones, which can do all that it does.
+  void begin(const Grounds& at, std::uint32_t tree, bool fine, Nanoseconds stamp);
   /// Takes over a state that was told; modes that are held are not found again.
   /// @throws InvalidInput for a tree without modes, or with another number of them.
   void restore(const Grounds& at, std::uint32_t tree, const physics::ModalState& state,
@@ -53,7 +54,8 @@ class ForestModes {
   void addTo(Hash& hash) const;
 
  private:
-  Sway& take(const Grounds& at, std::uint32_t tree);
+  Sway& take(const Grounds& at, std::uint32_t tree, bool fine);
+  static void refine(const Grounds& at, std::uint32_t tree, Sway& sway);
   void start(const wind::Field& wind, Sway& sway, Nanoseconds stamp);
 
   std::map<std::uint32_t, Sway> sways_;

@@ -10,8 +10,10 @@
 
 namespace vegetation_sim::forest {
 
-/// Rungs of a tree: its levels, the modal one on top.
-constexpr std::size_t RUNGS = MODAL_LEVEL + 1;
+/// The rung above the modal level: more modes. Not a level of motion of its own.
+constexpr int FINE_RUNG = MODAL_LEVEL + 1;
+/// Rungs of a tree: its levels, the modal one, and that with fine modes on top.
+constexpr std::size_t RUNGS = FINE_RUNG + 1;
 static_assert(RUNGS <= MOST_RUNGS);
 
 /// What a forest may cost, and what things cost, on the machine that draws it: data, not a clock,
@@ -19,9 +21,10 @@ static_assert(RUNGS <= MOST_RUNGS);
 struct Budget {
   double frame_time{8.0};        ///< of trees that move, a frame [ms]
   int state_bytes{100000};       ///< of amplitudes in key frames, a second [B]
-  int modal_trees{16};           ///< in modes at once
+  int modal_trees{64};           ///< in modes at once
   double procedural_cost{15.0};  ///< a branch and frame, forward kinematics included [ns]
   double modal_cost{20.0};  ///< the same, with its share of finding the modes once in 10 s [ns]
+  double fine_cost{90.0};   ///< the same of fine modes [ns]
   double physical_cost{2200.0};  ///< a physical branch and frame [ns]
 };
 void describe(FieldVisitor& visitor, Budget& budget);
@@ -37,8 +40,9 @@ struct GovernorFigures : Balance {
   std::size_t strained{0};  ///< trees that bend too far for modes
 };
 
-/// Leaves modes to the `room` plants whose procedural motion is farthest off; the others want the
-/// top of their stair.
-void shareModes(std::vector<Plant>& plants, std::size_t room);
+/// Leaves modes to the plants whose procedural motion is farthest off, at most `trees` of them and
+/// as many as `bytes` a second can tell of; the others want the top of their stair. Where bytes for
+/// fine modes are missing, plain ones do.
+void shareModes(std::vector<Plant>& plants, int trees, int bytes);
 
 }  // namespace vegetation_sim::forest

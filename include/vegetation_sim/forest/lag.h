@@ -9,13 +9,14 @@ namespace vegetation_sim::forest {
 
 /// Squares of the farthest tip's distance from the full chain, per square of the speed [s^2].
 struct LagSquares {
-  double procedural{0.0}, modal{0.0};
+  double procedural{0.0}, modal{0.0}, fine{0.0};
 };
 
 /// How far rungs are off in one wind.
 struct LagIn {
   double procedural{0.0};  ///< farthest tip [m]
   double modal{0.0};       ///< of a tree in modes [m]
+  double fine{0.0};        ///< in fine ones [m]
   double bend{0.0};        ///< of both in a steady wind, per square of the bending speed [s^2/m]
 };
 

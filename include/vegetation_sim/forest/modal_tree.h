@@ -16,7 +16,18 @@ namespace vegetation_sim::forest {
 struct ModalDepth {
   int modes{8}, sideways{5}, upwards{1};
   bool quick{true};  ///< one more for each horizontal direction: how the tree gives way at once
+
+  /// Most oscillators that it makes: a pair of modes is never cut.
+  constexpr std::size_t most() const {
+    return static_cast<std::size_t>(modes + 1 + 2 * (sideways + (quick ? 1 : 0)) + upwards);
+  }
 };
+/// For trees of which these leave more than is tolerated. It spans all that ModalDepth{} does.
+constexpr ModalDepth FINE_MODES{40, 9, 1, true};
+/// Whether a tree with so many oscillators has them.
+constexpr bool hasFineModes(std::size_t oscillators) {
+  return oscillators > ModalDepth{}.most();
+}
 
 /// A point of a crown whose wind stands for that on the wood and leaves around it.
 struct WindPoint {

@@ -20,6 +20,7 @@ class Sway {
   explicit Sway(std::shared_ptr<const ModalTree> modes);
 
   const ModalTree& modes() const { return *modes_; }
+  bool fine() const { return hasFineModes(modes_->size()); }
   const physics::ModalState& state() const { return state_; }  ///< at stamp()
   Nanoseconds stamp() const { return stamp_; }
   /// Of the modes, their fast copy and what is kept of the waves that blow.
