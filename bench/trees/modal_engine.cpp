@@ -12,13 +12,17 @@ physics::Modes findModes(const TestTree& tree, const TestLoad& load, int modes, 
   const std::vector<physics::Link> links = coreLinks(tree);
   physics::LinearChain chain(links);
   physics::Modes out = physics::slowestModes(chain, modes);
-  physics::LoadShape shape{torquesOf(chain, load), vectors};
+  const std::vector<double> torque = torquesOf(chain, load);
+  std::vector<physics::LoadShape> shapes;
   if (vectors >= 5) {
-    const double part = load.links.size() > 1 ? 0.5 : 0.25;
-    shape.quick = physics::quickAnswer(links, shape.torque, part * FRAME);
-    --shape.depth;
+    const bool gust = load.links.size() > 1;
+    for (const double part : gust ? std::vector<double>{0.5} : std::vector<double>{0.25, 0.5})
+      shapes.push_back({torque, 0, physics::quickAnswer(links, torque, part * FRAME)});
   }
-  if (vectors > 0) physics::addLoadVectors(chain, {shape}, out);
+  if (vectors > 0) {
+    shapes.insert(shapes.begin(), {torque, vectors - static_cast<int>(shapes.size())});
+    physics::addLoadVectors(chain, shapes, out);
+  }
   return out;
 }
 

@@ -15,7 +15,7 @@ std::vector<physics::Link> coreLinks(const TestTree& tree);
 std::vector<double> torquesOf(const physics::LinearChain& chain, const TestLoad& load);
 
 /// A tree in modes (N13): `modes` of them, and `vectors` drawn from the load. From 5 on the last of
-/// these is the quick one, of half a frame of 60 Hz for a gust, a quarter for a pull.
+/// these is quick, of half a frame of 60 Hz; for a pull one more, of a quarter.
 class ModalEngine : public Engine {
  public:
   ModalEngine(const TestTree& tree, const TestLoad& load, int modes, int vectors);
