@@ -19,7 +19,7 @@ PACKAGES=(
   # testing, and looking at topics
   python3-rosbag python3-roslaunch python3-rosmsg python3-rosnode python3-rosparam
   python3-rosservice python3-rostest python3-rostopic rosbash librostest-dev libgmock-dev
-  python3-diagnostic-msgs python3-geometry-msgs python3-sensor-msgs python3-std-srvs python3-tf2-msgs
+  python3-diagnostic-msgs python3-geometry-msgs python3-nav-msgs python3-sensor-msgs python3-std-srvs python3-tf2-msgs
   python3-visualization-msgs
   catkin-lint clang-format clang-tidy
   # a display of its own for the demo, and a picture of it
