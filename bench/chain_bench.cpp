@@ -116,7 +116,11 @@ Path plain(const std::string& name, std::shared_ptr<Trees> trees, bool wind,
 }
 
 /// Nanoseconds per link and step.
-std::vector<double> measure(const std::vector<Path>& paths, int rounds) {
+struct Cost {
+  double median, least;
+};
+
+std::vector<Cost> measure(const std::vector<Path>& paths, int rounds) {
   std::vector<Candidate> candidates;
   std::vector<double> updates;
   for (const Path& path : paths) {
@@ -125,9 +129,10 @@ std::vector<double> measure(const std::vector<Path>& paths, int rounds) {
     updates.push_back(steps * path.links);
   }
   bench::timeOnProcessor(candidates, rounds);
-  std::vector<double> out;
+  std::vector<Cost> out;
   for (std::size_t i = 0; i < paths.size(); ++i)
-    out.push_back(1e9 * candidates[i].seconds / updates[i]);
+    out.push_back(
+        {1e9 * candidates[i].seconds / updates[i], 1e9 * candidates[i].least / updates[i]});
   return out;
 }
 
@@ -154,28 +159,32 @@ void benchPaths(int rounds) {
         batched<BatchChain>("together, products at start", several, Products::START),
         batched<TwinChains>("16 trees, products at start", Trees(16, one->front()),
                             Products::START)};
-    const std::vector<double> cost = measure(paths, rounds);
+    const std::vector<Cost> cost = measure(paths, rounds);
     for (std::size_t i = 0; i < paths.size(); ++i)
       std::printf("%-34s %7.0f %9.2f %7.1f %14.0f\n", paths[i].name.c_str(), paths[i].links,
-                  cost[i], cost[i >= 4 && i < 10 ? 4 : 0] / cost[i],
-                  1e9 / (STEPS_A_SECOND * cost[i]));
+                  cost[i].median, cost[i >= 4 && i < 10 ? 4 : 0].median / cost[i].median,
+                  1e9 / (STEPS_A_SECOND * cost[i].median));
   }
 }
 
 // A whole forest, far more than the caches hold.
 void benchForests(int rounds) {
-  std::printf("\n100 000 links in trees of so many: no wind, gust, breeze [ns], links at 60 Hz\n");
+  std::printf(
+      "\n100 000 links in trees of so many: median [ns], thousand links at 60 Hz, least, links\n");
   for (const int n : {100, 1000, 10000}) {
     Trees trees;
     for (int links = 0; links < 100000; links += n)
       trees.push_back(fractalTree(n, static_cast<std::uint64_t>(3 + links)));
-    const std::vector<double> cost =
-        measure({batched<BatchChain>("no wind", trees), heldAir("gust", trees, gust()),
-                 heldAir("breeze", trees, breeze())},
-                rounds);
-    std::printf("%-10d", n);
-    for (const double each : cost) std::printf(" %8.2f %8.0f", each, 1e9 / (STEPS_A_SECOND * each));
-    std::printf("\n");
+    const std::vector<Path> paths{batched<BatchChain>("no wind", trees),
+                                  heldAir("gust", trees, gust()),
+                                  heldAir("breeze", trees, breeze())};
+    const std::vector<Cost> cost = measure(paths, rounds);
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      std::printf("%-6d %-8s", n, paths[i].name.c_str());
+      for (const double each : {cost[i].median, cost[i].least})
+        std::printf(" %8.1f %5.0f", each, 1e6 / (STEPS_A_SECOND * each));
+      std::printf("\n");
+    }
   }
 }
 
@@ -193,9 +202,9 @@ void benchInstructionSets(int rounds) {
       };
       paths.push_back(path);
     }
-  const std::vector<double> cost = measure(paths, rounds);
+  const std::vector<Cost> cost = measure(paths, rounds);
   for (std::size_t i = 0; i < paths.size(); i += 2)
-    std::printf("%-10s %8.2f %8.2f\n", paths[i].name.c_str(), cost[i], cost[i + 1]);
+    std::printf("%-10s %8.2f %8.2f\n", paths[i].name.c_str(), cost[i].median, cost[i + 1].median);
 }
 
 }  // namespace

@@ -27,6 +27,7 @@ inline void timeOnProcessor(std::vector<Candidate>& candidates, int rounds) {
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     std::sort(times[i].begin(), times[i].end());
     candidates[i].seconds = times[i][times[i].size() / 2];
+    candidates[i].least = times[i].front();
   }
 }
 

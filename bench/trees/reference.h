@@ -55,6 +55,7 @@ struct Reference {
   Motion motion, rest;    ///< rest: [1][tips]
   double converged{0.0};  ///< relative error by Richardson's rule
   int steps{0};           ///< an interval
+  double seconds{0.0};    ///< that its finest run took
 };
 
 /// Over the first `intervals`: the step is shortened by 1.5 until `tolerance` holds, or 1e-4 if the

@@ -15,11 +15,6 @@ namespace {
 // Trees step together up to so many links, so that the second-level cache holds them.
 constexpr std::size_t GROUP_LINKS = 2048;
 
-float* laneOf(Rows& rows, int slot, std::size_t quantities) {
-  const auto place = static_cast<std::size_t>(slot);
-  return rows.at(place / ROW * quantities) + place % ROW;
-}
-
 }  // namespace
 
 BatchChain::BatchChain(BatchChain&&) noexcept = default;
@@ -51,7 +46,8 @@ BatchChain::BatchChain(const std::vector<std::vector<Link>>& trees)
   int widest = 0;
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     sortGroup(trees, g);
-    for (const Level& level : groups_[g].levels) widest = std::max(widest, level.count);
+    for (const ChainPart& part : groups_[g].parts)
+      for (const Level& level : part.levels) widest = std::max(widest, level.count);
   }
   store_->first.fit(widest, P_ROWS);
   store_->second.fit(widest, P_ROWS);
@@ -76,9 +72,11 @@ void BatchChain::sortGroup(const std::vector<std::vector<Link>>& trees, std::siz
     }
   }
   group.begin = slot_count_;
-  group.end = slot_count_ = sortIntoLevels(parents, slot_count_, group.levels, slots_);
+  group.end = slot_count_ =
+      sortIntoParts(parents, GROUP_LINKS, slot_count_, group.parts, group.hung, slots_);
   for (const std::size_t t : group.trees) sortBySlot(trees_[t]);
-  group.bases.resize(group.levels.empty() ? 0 : static_cast<std::size_t>(group.levels[0].count));
+  if (!parents.empty())
+    group.bases.resize(static_cast<std::size_t>(group.parts[0].levels[0].count));
 }
 
 void BatchChain::sortBySlot(Member& member) {
@@ -101,13 +99,13 @@ void BatchChain::fill(const std::vector<std::vector<Link>>& trees) {
   for (const ChainGroup& group : groups_) largest = std::max(largest, group.end - group.begin);
   store.work.assign(static_cast<std::size_t>(largest / ROW) * W_ROWS);
   for (int slot = 0; slot < slot_count_; ++slot) {
-    fillNobody(laneOf(store.constants, slot, C_ROWS));
-    laneOf(store.state, slot, S_ROWS)[S_THETA * ROW] = 0.5f;
-    laneOf(store.state, slot, S_ROWS)[S_PRODUCTS * ROW] = 1.f;
+    fillNobody(store.constants.of(slot, C_ROWS));
+    store.state.of(slot, S_ROWS)[S_THETA * ROW] = 0.5f;
+    store.state.of(slot, S_ROWS)[S_PRODUCTS * ROW] = 1.f;
   }
   for (std::size_t t = 0; t < trees.size(); ++t) {
     for (std::size_t i = 0; i < trees[t].size(); ++i)
-      fillLink(trees[t][i], laneOf(store.constants, slots_[trees_[t].first + i], C_ROWS));
+      fillLink(trees[t][i], store.constants.of(slots_[trees_[t].first + i], C_ROWS));
     fillBases(trees_[t]);
   }
 }
@@ -117,7 +115,7 @@ void BatchChain::fill(const std::vector<std::vector<Link>>& trees) {
 void BatchChain::setState(int tree, const ChainState& state, double theta) {
   Member& member = this->member(tree);
   for (std::size_t i = 0; i < member.count; ++i) {
-    float* rows = laneOf(store_->state, slots_[member.first + i], S_ROWS);
+    float* rows = store_->state.of(slots_[member.first + i], S_ROWS);
     for (int axis = 0; axis < 2; ++axis) {
       rows[(S_Q + axis) * ROW] = static_cast<float>(state.q[i][axis]);
       rows[(S_RATE + axis) * ROW] = static_cast<float>(state.rate[i][axis]);
@@ -137,7 +135,7 @@ ChainState BatchChain::state(int tree) const {
   out.q.reserve(member.count);
   out.rate.reserve(member.count);
   for (std::size_t i = 0; i < member.count; ++i) {
-    const float* rows = laneOf(store_->state, slots_[member.first + i], S_ROWS);
+    const float* rows = store_->state.of(slots_[member.first + i], S_ROWS);
     out.q.emplace_back(rows[S_Q * ROW], rows[(S_Q + 1) * ROW]);
     out.rate.emplace_back(rows[S_RATE * ROW], rows[(S_RATE + 1) * ROW]);
   }
@@ -149,9 +147,13 @@ std::size_t BatchChain::bytes() const {
   std::size_t out = s.constants.bytes() + s.state.bytes() + s.loads.bytes() + s.work.bytes() +
                     s.grips.bytes() + s.air.bytes() + s.motion.bytes() + s.first.rows.bytes() +
                     s.second.rows.bytes() + slots_.capacity() * sizeof(int);
-  for (const ChainGroup& group : groups_)
-    for (const Level& level : group.levels)
-      for (const Brood& brood : level.broods) out += brood.first.capacity() * sizeof(std::int32_t);
+  for (const ChainGroup& group : groups_) {
+    out += group.hung.capacity() * sizeof(JointRows);
+    for (const ChainPart& part : group.parts)
+      for (const Level& level : part.levels)
+        for (const Brood& brood : level.broods)
+          out += brood.first.capacity() * sizeof(std::int32_t);
+  }
   return out;
 }
 
@@ -160,7 +162,7 @@ std::size_t BatchChain::bytes() const {
 double BatchChain::fastestOf(const Member& member) const {
   float out = 0.f;
   for (std::size_t i = 0; i < member.count; ++i) {
-    const float* rows = laneOf(store_->state, slots_[member.first + i], S_ROWS);
+    const float* rows = store_->state.of(slots_[member.first + i], S_ROWS);
     for (int axis = 0; axis < 2; ++axis)
       out = std::max(out, std::fabs(rows[(S_RATE + axis) * ROW]));
   }
@@ -172,7 +174,7 @@ void BatchChain::setTheta(Member& member, double theta, double products) {
   member.theta = theta;
   member.products = products;
   for (std::size_t i = 0; i < member.count; ++i) {
-    float* rows = laneOf(store_->state, slots_[member.first + i], S_ROWS);
+    float* rows = store_->state.of(slots_[member.first + i], S_ROWS);
     rows[S_THETA * ROW] = static_cast<float>(theta);
     rows[S_PRODUCTS * ROW] = static_cast<float>(products);
   }
@@ -189,112 +191,50 @@ void BatchChain::guard(ChainGroup& group, double h) {
   }
 }
 
-// ---- what acts ---------------------------------------------------------------------------------
-
-const BaseMotion& BatchChain::baseOf(const Member& member, std::size_t link) const {
-  static const BaseMotion GROUND;
-  const auto base = static_cast<std::size_t>(member.base[link]);
-  return base < member.bases.size() ? member.bases[base] : GROUND;
-}
-
-void BatchChain::fillBases(const Member& member) {
-  ChainGroup& group = groups_[member.group];
-  for (const int root : member.roots) {
-    const auto link = static_cast<std::size_t>(root);
-    const int place = slots_[member.first + link] - group.levels[0].begin;
-    group.bases[static_cast<std::size_t>(place)] = baseRows(baseOf(member, link));
-  }
-}
-
-void BatchChain::fillLoads(const Loads& loads, Member& member) {
-  if (store_->loads.empty()) store_->loads.assign(blocks() * L_ROWS);
-  for (const std::size_t i : member.by_slot)
-    fillLoad(loads, i, laneOf(store_->loads, slots_[member.first + i], L_ROWS));
-  member.loaded = true;
-  store_->drag = store_->drag || !loads.drag.empty();
-}
-
-void BatchChain::setBases(int tree, const std::vector<BaseMotion>& bases) {
-  member(tree).bases = bases;
-  fillBases(member(tree));
-}
-
-void BatchChain::setLoads(int tree, const Loads& loads) {
-  fillLoads(loads, member(tree));
-}
-
-void BatchChain::askLoads(const Surroundings& around, double time, double h, Member& member) {
-  loads_.clear(member.count);
-  if (around.loads) {
-    resize(kinematics_, member.count);
-    const int begin = groups_[member.group].begin;
-    for (const std::size_t i : member.by_slot)
-      readMotion(laneOf(store_->motion, slots_[member.first + i] - begin, M_ROWS),
-                 baseOf(member, i).pose.position, i, kinematics_);
-    around.loads(kinematics_, time, loads_);
-  }
-  if (around.loads || member.loaded) fillLoads(loads_, member);
-  member.loaded = static_cast<bool>(around.loads);
-  for (const Anchor& anchor : loads_.anchors) {
-    const int slot = slots_[member.first + static_cast<std::size_t>(anchor.link)];
-    store_->anchors.push_back(anchorRows(anchor, slot, member.theta * h));
-  }
-}
-
-// ---- air ---------------------------------------------------------------------------------------
-
-void BatchChain::setGrips(int tree, const std::vector<Grip>& grips) {
-  const Member& member = this->member(tree);
-  if (grips.size() != member.count)
-    throw InvalidInput("grips: " + std::to_string(grips.size()) + "; one for each of the " +
-                       std::to_string(member.count) + " links");
-  if (store_->grips.empty()) {
-    store_->grips.assign(blocks() * G_ROWS);
-    store_->air.assign(blocks() * V_ROWS);
-  }
-  bool& on_axis = groups_[member.group].on_axis;
-  for (std::size_t i = 0; i < member.count; ++i) {
-    on_axis = on_axis && grips[i].centre.x() == 0.0 && grips[i].centre.y() == 0.0;
-    fillGrip(grips[i], laneOf(store_->grips, slots_[member.first + i], G_ROWS));
-  }
-}
-
-void BatchChain::askAirOf(const ChainGroup& group) {
-  placeGrips(group, *store_);
-  for (const std::size_t t : group.trees) {
-    const Member& member = trees_[t];
-    for (std::size_t i = 0; i < member.count && !member.bases.empty(); ++i) {
-      float* place = laneOf(store_->air, slots_[member.first + i], V_ROWS);
-      for (int axis = 0; axis < 3; ++axis)
-        place[(V_PLACE + axis) * ROW] += static_cast<float>(baseOf(member, i).pose.position[axis]);
-    }
-  }
-  ask_(store_->air.at(static_cast<std::size_t>(group.begin / ROW) * V_ROWS),
-       static_cast<std::size_t>((group.end - group.begin) / ROW));
-}
-
 // ---- steps -------------------------------------------------------------------------------------
 
-void BatchChain::askBases(const Surroundings& around, double time, Member& member) {
-  member.bases.clear();
-  if (around.bases) around.bases(time, member.bases);
-  fillBases(member);
+float BatchChain::settleGroup(ChainGroup& group, float step) {
+  ChainStore& store = *store_;
+  const int last = static_cast<int>(group.parts.size()) - 1;
+  if (store.mean) {
+    sweepAhead(group, 0, step, store);
+    for (int i = last; i > 0; --i) {
+      sweepAhead(group, group.partAt(i), step, store);
+      sweepWrenches(group, group.partAt(i), store);
+    }
+    sweepWrenches(group, 0, store);
+  }
+  float fastest = sweepSettle(group, 0, step, store);
+  for (int i = 1; i <= last; ++i)
+    fastest = std::max(fastest, sweepSettle(group, group.partAt(i), step, store));
+  return fastest;
 }
 
+// Parts are gone through back and forth: each sweep begins with those that the caches saw last.
 void BatchChain::stepGroup(ChainGroup& group, const Surroundings* around, double time, double h) {
   const auto step = static_cast<float>(h);
   const auto at = [&](std::size_t t) { return time + trees_[t].theta * h; };
+  ChainStore& store = *store_;
+  const int last = static_cast<int>(group.parts.size()) - 1;
   guard(group, h);
   if (around)
     for (const std::size_t t : group.trees) askBases(around[t], at(t), trees_[t]);
-  sweepOut(group, step, *store_);
-  if (store_->asked) askAirOf(group);
-  store_->anchors.clear();
-  if (around)
+  store.anchors.clear();
+  for (int i = 0; i <= last; ++i) {
+    const std::size_t part = group.partAt(i);
+    sweepOut(group, part, step, store);
+    if (store.asked) askAirOf(group, part);
+    if (part > 0 && !around) sweepIn(group, part, step, store);
+  }
+  if (around) {
     for (const std::size_t t : group.trees) askLoads(around[t], at(t), h, trees_[t]);
-  std::stable_sort(store_->anchors.begin(), store_->anchors.end(),
-                   [](const AnchorRows& a, const AnchorRows& b) { return a.slot < b.slot; });
-  group.fastest = sweepBack(group, step, *store_);
+    std::stable_sort(store.anchors.begin(), store.anchors.end(),
+                     [](const JointRows& a, const JointRows& b) { return a.slot < b.slot; });
+    for (int i = last; i > 0; --i) sweepIn(group, group.partAt(i), step, store);
+  }
+  sweepIn(group, 0, step, store);
+  group.fastest = settleGroup(group, step);
+  group.backwards = !group.backwards;
 }
 
 void BatchChain::stepWithin(const Surroundings* around, std::size_t count, double time, double h) {
@@ -307,7 +247,7 @@ void BatchChain::stepWithin(const Surroundings* around, std::size_t count, doubl
     store_->motion.assign(store_->work.count() / W_ROWS * M_ROWS);
   store_->asked = ask_ && !store_->grips.empty();
   for (ChainGroup& group : groups_)
-    if (!group.levels.empty()) stepGroup(group, around, time, h);
+    if (!group.parts.empty()) stepGroup(group, around, time, h);
   ask_ = nullptr;
 }
 
@@ -323,7 +263,7 @@ void BatchChain::step(const Surroundings& around, double time, double h) {
 void BatchChain::step(double h, int steps) {
   store_->trace = false;
   for (ChainGroup& group : groups_) {
-    if (group.levels.empty()) continue;
+    if (group.parts.empty()) continue;
     store_->asked = ask_ && !store_->grips.empty();
     for (int i = 0; i < steps; ++i) {
       stepGroup(group, nullptr, 0.0, h);

@@ -11,88 +11,11 @@
 #define VEGETATION_SIM_PHYSICS_CHAIN_BACK_INL_H_
 #endif
 
-#include "physics/chain_out-inl.h"
+#include "physics/chain_body-inl.h"
 #include "vegetation_sim/physics/integrator.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace vegetation_sim::physics::HWY_NAMESPACE {
-
-// ---- back: articulated inertias ----------------------------------------------------------------
-
-/// torque = a spin' + b acceleration, force = b^T spin' + m acceleration, and the bias wrench; b by
-/// its columns.
-struct Articulated {
-  Symmetric a;
-  Lanes3 bx, by, bz;
-  Symmetric m;
-  Lanes3 torque, force;
-};
-
-HWY_INLINE Articulated nothing() {
-  const Lanes o = hn::Zero(Tag());
-  const Lanes3 o3{o, o, o};
-  const Symmetric o6{o, o, o, o, o, o};
-  return {o6, o3, o3, o3, o6, o3, o3};
-}
-
-// Adds the own body and what acts on it. Sums begin at +0, so that none is ever -0.
-HWY_INLINE void addBody(const Joints& at, Articulated& sum) {
-  const Lanes mass = load(at.constants, C_MASS);
-  const Lanes3 v = load3(at.work, W_MOMENT);
-  sum.a = sum.a + load6(at.work, W_INERTIA);
-  sum.bx = {sum.bx.x, sum.bx.y + v.z, sum.bx.z - v.y};
-  sum.by = {sum.by.x - v.z, sum.by.y, sum.by.z + v.x};
-  sum.bz = {sum.bz.x + v.y, sum.bz.y - v.x, sum.bz.z};
-  sum.m.xx = sum.m.xx + mass;
-  sum.m.yy = sum.m.yy + mass;
-  sum.m.zz = sum.m.zz + mass;
-  sum.torque = sum.torque + (load3(at.work, W_TORQUE) - load3Of(at, L_TORQUE));
-  sum.force = sum.force + (load3(at.work, W_FORCE) - load3Of(at, L_FORCE));
-}
-
-// What an implicit step foresees of the drag: a mass against linear acceleration (addDrag).
-HWY_INLINE void addDrag(const Lanes3& arm, Lanes drag, const Lanes3& along, Lanes ahead,
-                        Articulated& sum) {
-  const Lanes mass = ahead * drag;
-  const Lanes3 v = mass * arm, turn = cross(arm, along), pull = ahead * along;
-  const Lanes3 swing = ahead * turn;
-  const Lanes size = dot(v, arm);
-  sum.a =
-      sum.a +
-      Symmetric{(size - v.x * arm.x) + swing.x * turn.x, swing.x * turn.y - v.x * arm.y,
-                swing.x * turn.z - v.x * arm.z,          (size - v.y * arm.y) + swing.y * turn.y,
-                swing.y * turn.z - v.y * arm.z,          (size - v.z * arm.z) + swing.z * turn.z};
-  sum.bx = sum.bx + pull.x * turn;
-  sum.by = sum.by + pull.y * turn;
-  sum.bz = sum.bz + pull.z * turn;
-  sum.bx = {sum.bx.x, sum.bx.y + v.z, sum.bx.z - v.y};
-  sum.by = {sum.by.x - v.z, sum.by.y, sum.by.z + v.x};
-  sum.bz = {sum.bz.x + v.y, sum.bz.y - v.x, sum.bz.z};
-  sum.m = sum.m + Symmetric{mass + pull.x * along.x, pull.x * along.y, pull.x * along.z,
-                            mass + pull.y * along.y, pull.y * along.z, mass + pull.z * along.z};
-}
-
-// From the joint to where air grips the link.
-HWY_INLINE Lanes3 gripArm(const Joints& at) {
-  const Axes axes = axesOf({load(at.work, W_TURN), load(at.work, W_TURN + 1),
-                            load(at.work, W_TURN + 2), load(at.work, W_TURN + 3)});
-  return at.on_axis ? load(at.grips, G_CENTRE + 2) * axes.z
-                    : turned(axes, load3(at.grips, G_CENTRE));
-}
-
-// Drag of the air on its grip, whose force and derivative are those of PhysicalPart::addWind.
-HWY_INLINE void addAir(const Joints& at, Lanes ahead, Articulated& sum) {
-  const Lanes3 arm = gripArm(at);
-  const Lanes3 own = load3(at.work, W_VELOCITY) + cross(load3(at.work, W_SPIN), arm);
-  const Lanes3 wind = load3(at.air, V_AIR) - own;
-  const Lanes size = hn::Sqrt(dot(wind, wind)), square = load(at.grips, G_SQUARE);
-  const Lanes drag = load(at.grips, G_STEADY) + square * size;
-  const Lanes3 force = drag * wind;
-  sum.torque = sum.torque - cross(arm, force);
-  sum.force = sum.force - force;
-  const auto blows = size > hn::Zero(Tag());
-  addDrag(arm, drag, hn::IfThenElseZero(blows, hn::Sqrt(square / size)) * wind, ahead, sum);
-}
 
 // To the parent's joint, `d` before the own.
 HWY_INLINE void shift(const Lanes3& d, Articulated& p) {
@@ -122,10 +45,9 @@ HWY_INLINE void inward(const Joints& at, Lanes step, bool drag, Articulated& p) 
   const Lanes theta = load(at.state, S_THETA), ahead = theta * step, zero = hn::Zero(Tag());
   const Lanes ease = (all(1.f) - theta) * (all(1.f / 3.f) * step * step);
   const Lanes stiff = ahead * (ahead * k + nu) - hn::Min(ease * k, load(at.constants, C_SURE));
-  addBody(at, p);
-  if (drag)
-    addDrag(load3(at.loads, L_ARM), load(at.loads, L_ALL), load3(at.loads, L_ALONG), ahead, p);
-  if (at.grips) addAir(at, ahead, p);
+  addWrench(at, p);
+  at.bars ? addBarInAir(at, ahead, p) : addBodyInAir(at, ahead, p);
+  if (drag) addDrag(at, ahead, p);
   // Stiff is a lower bound of both pivots, rounding or not.
   const Lanes3 a1 = p.a * first, b1 = transposed(p, first);
   Lanes3 a2 = p.a * second, b2 = transposed(p, second);

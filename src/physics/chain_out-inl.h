@@ -134,15 +134,6 @@ HWY_INLINE Bias biasOfBody(const Joints& at, const Axes& axes, const Frame& fram
 }
 
 // Round bars with their centre on the own z, the usual case, need no rotation of a full inertia.
-HWY_INLINE void keepBar(const Joints& at, const Lanes3& z) {
-  const Lanes across = load(at.constants, C_INERTIA);
-  const Lanes3 ez = (load(at.constants, C_INERTIA + 5) - across) * z;
-  store6({across + ez.x * z.x, ez.x * z.y, ez.x * z.z, across + ez.y * z.y, ez.y * z.z,
-          across + ez.z * z.z},
-         at.work, W_INERTIA);
-  store3(load(at.constants, C_MOMENT + 2) * z, at.work, W_MOMENT);
-}
-
 HWY_INLINE void keepBody(const Joints& at, const Axes& axes) {
   store6(turnedInertia(axes, load6(at.constants, C_INERTIA)), at.work, W_INERTIA);
   store3(turned(axes, load3(at.constants, C_MOMENT)), at.work, W_MOMENT);
@@ -196,7 +187,7 @@ HWY_INLINE Frame outward(const Joints& at, const Frame& parent, Lanes step, bool
   const Lanes3 change = bendBias(g, axes, x, y, rx, ry);
   out.spin_rate = parent.spin_rate + products * (change + cross(parent.spin, own));
   out.acceleration = parent.acceleration + h * axisRate(parent, products);
-  at.bars ? keepBar(at, axes.z) : keepBody(at, axes);
+  at.bars ? store3(axes.z, at.work, W_AXIS) : keepBody(at, axes);
   const Bias bias = at.bars ? biasOfBar(at, out, products) : biasOfBody(at, axes, out, products);
   store3(bias.torque, at.work, W_TORQUE);
   store3(bias.force, at.work, W_FORCE);

@@ -22,6 +22,10 @@ class Rows {
   const float* at(std::size_t row) const {
     return reinterpret_cast<const float*>(lines_.data()) + row * ROW;
   }
+  /// The first of the `quantities` rows of the joint in `slot`.
+  float* of(int slot, int quantities) {
+    return at(static_cast<std::size_t>(slot / ROW * quantities)) + slot % ROW;
+  }
 
  private:
   struct alignas(ROW * sizeof(float)) Line {
@@ -72,7 +76,8 @@ enum : int {
   W_TORQUE = W_ARM + 3,    // bias of the link alone, or its change
   W_FORCE = W_TORQUE + 3,  //
   W_SWEPT = W_FORCE + 3,   //
-  W_INERTIA = W_SWEPT,     // rigid body: xx xy xz yy yz zz
+  W_AXIS = W_SWEPT,        // of a bar
+  W_INERTIA = W_SWEPT,     // of another rigid body: xx xy xz yy yz zz
   W_MOMENT = W_INERTIA + 6,
   W_GAIN = W_SWEPT,  // swept: torque and force gain of the first axis, then of the second
   W_INVERSE = W_GAIN + 12,
@@ -123,7 +128,14 @@ enum : int {
 static_assert(int{F_ROWS} <= int{P_ROWS},
               "what fits an articulated inertia fits all that is passed on");
 
-/// Rows of the accelerations on their way to the children: of spin, of the joint.
+/// Numbers of what acts on the joint in `slot`, or passes between it and what hangs on it, by rows.
+struct JointRows {
+  int slot{0};
+  float value[P_ROWS] = {};
+};
+
+/// Rows of the accelerations on their way to the children: of spin, of the joint; and of a wrench
+/// on its way to the parent: torque, force.
 enum : int { A_ROWS = 6 };
 
 }  // namespace vegetation_sim::physics

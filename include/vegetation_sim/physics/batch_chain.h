@@ -11,6 +11,7 @@
 namespace vegetation_sim::physics {
 
 struct ChainGroup;
+struct ChainPart;
 struct ChainStore;
 
 /// Where air grips a link and how hard: with `w` what the air there moves faster than the link, the
@@ -74,6 +75,7 @@ class BatchChain {
     std::vector<int> roots;            ///< links
     std::vector<BaseMotion> bases;
     bool loaded{false};
+    bool on_axis{true};  ///< so are all grips
   };
   Member& member(int tree) { return trees_[static_cast<std::size_t>(tree)]; }
   void sortGroup(const std::vector<std::vector<Link>>& trees, std::size_t index);
@@ -87,8 +89,10 @@ class BatchChain {
   void setTheta(Member& member, double theta, double products);
   void guard(ChainGroup& group, double h);
   void stepGroup(ChainGroup& group, const Surroundings* around, double time, double h);
+  float settleGroup(ChainGroup& group, float step);
   void stepWithin(const Surroundings* around, std::size_t count, double time, double h);
-  void askAirOf(const ChainGroup& group);
+  void addBases(const Member& member, const ChainPart& part);
+  void askAirOf(const ChainGroup& group, std::size_t part);
   void askBases(const Surroundings& around, double time, Member& member);
   void askLoads(const Surroundings& around, double time, double h, Member& member);
 
