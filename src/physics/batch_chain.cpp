@@ -46,8 +46,7 @@ BatchChain::BatchChain(const std::vector<std::vector<Link>>& trees)
   int widest = 0;
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     sortGroup(trees, g);
-    for (const ChainPart& part : groups_[g].parts)
-      for (const Level& level : part.levels) widest = std::max(widest, level.count);
+    for (const Level& level : groups_[g].levels) widest = std::max(widest, level.count);
   }
   store_->first.fit(widest, P_ROWS);
   store_->second.fit(widest, P_ROWS);
@@ -72,11 +71,9 @@ void BatchChain::sortGroup(const std::vector<std::vector<Link>>& trees, std::siz
     }
   }
   group.begin = slot_count_;
-  group.end = slot_count_ =
-      sortIntoParts(parents, GROUP_LINKS, slot_count_, group.parts, group.hung, slots_);
+  group.end = slot_count_ = sortIntoLevels(parents, slot_count_, group.levels, slots_);
   for (const std::size_t t : group.trees) sortBySlot(trees_[t]);
-  if (!parents.empty())
-    group.bases.resize(static_cast<std::size_t>(group.parts[0].levels[0].count));
+  group.bases.resize(group.levels.empty() ? 0 : static_cast<std::size_t>(group.levels[0].count));
 }
 
 void BatchChain::sortBySlot(Member& member) {
@@ -147,13 +144,9 @@ std::size_t BatchChain::bytes() const {
   std::size_t out = s.constants.bytes() + s.state.bytes() + s.loads.bytes() + s.work.bytes() +
                     s.grips.bytes() + s.air.bytes() + s.motion.bytes() + s.first.rows.bytes() +
                     s.second.rows.bytes() + slots_.capacity() * sizeof(int);
-  for (const ChainGroup& group : groups_) {
-    out += group.hung.capacity() * sizeof(JointRows);
-    for (const ChainPart& part : group.parts)
-      for (const Level& level : part.levels)
-        for (const Brood& brood : level.broods)
-          out += brood.first.capacity() * sizeof(std::int32_t);
-  }
+  for (const ChainGroup& group : groups_)
+    for (const Level& level : group.levels)
+      for (const Brood& brood : level.broods) out += brood.first.capacity() * sizeof(std::int32_t);
   return out;
 }
 
@@ -193,48 +186,20 @@ void BatchChain::guard(ChainGroup& group, double h) {
 
 // ---- steps -------------------------------------------------------------------------------------
 
-float BatchChain::settleGroup(ChainGroup& group, float step) {
-  ChainStore& store = *store_;
-  const int last = static_cast<int>(group.parts.size()) - 1;
-  if (store.mean) {
-    sweepAhead(group, 0, step, store);
-    for (int i = last; i > 0; --i) {
-      sweepAhead(group, group.partAt(i), step, store);
-      sweepWrenches(group, group.partAt(i), store);
-    }
-    sweepWrenches(group, 0, store);
-  }
-  float fastest = sweepSettle(group, 0, step, store);
-  for (int i = 1; i <= last; ++i)
-    fastest = std::max(fastest, sweepSettle(group, group.partAt(i), step, store));
-  return fastest;
-}
-
-// Parts are gone through back and forth: each sweep begins with those that the caches saw last.
 void BatchChain::stepGroup(ChainGroup& group, const Surroundings* around, double time, double h) {
   const auto step = static_cast<float>(h);
   const auto at = [&](std::size_t t) { return time + trees_[t].theta * h; };
-  ChainStore& store = *store_;
-  const int last = static_cast<int>(group.parts.size()) - 1;
   guard(group, h);
   if (around)
     for (const std::size_t t : group.trees) askBases(around[t], at(t), trees_[t]);
-  store.anchors.clear();
-  for (int i = 0; i <= last; ++i) {
-    const std::size_t part = group.partAt(i);
-    sweepOut(group, part, step, store);
-    if (store.asked) askAirOf(group, part);
-    if (part > 0 && !around) sweepIn(group, part, step, store);
-  }
-  if (around) {
+  sweepOut(group, step, *store_);
+  if (store_->asked) askAirOf(group);
+  store_->anchors.clear();
+  if (around)
     for (const std::size_t t : group.trees) askLoads(around[t], at(t), h, trees_[t]);
-    std::stable_sort(store.anchors.begin(), store.anchors.end(),
-                     [](const JointRows& a, const JointRows& b) { return a.slot < b.slot; });
-    for (int i = last; i > 0; --i) sweepIn(group, group.partAt(i), step, store);
-  }
-  sweepIn(group, 0, step, store);
-  group.fastest = settleGroup(group, step);
-  group.backwards = !group.backwards;
+  std::stable_sort(store_->anchors.begin(), store_->anchors.end(),
+                   [](const AnchorRows& a, const AnchorRows& b) { return a.slot < b.slot; });
+  group.fastest = sweepBack(group, step, *store_);
 }
 
 void BatchChain::stepWithin(const Surroundings* around, std::size_t count, double time, double h) {
@@ -247,7 +212,7 @@ void BatchChain::stepWithin(const Surroundings* around, std::size_t count, doubl
     store_->motion.assign(store_->work.count() / W_ROWS * M_ROWS);
   store_->asked = ask_ && !store_->grips.empty();
   for (ChainGroup& group : groups_)
-    if (!group.parts.empty()) stepGroup(group, around, time, h);
+    if (!group.levels.empty()) stepGroup(group, around, time, h);
   ask_ = nullptr;
 }
 
@@ -263,7 +228,7 @@ void BatchChain::step(const Surroundings& around, double time, double h) {
 void BatchChain::step(double h, int steps) {
   store_->trace = false;
   for (ChainGroup& group : groups_) {
-    if (group.parts.empty()) continue;
+    if (group.levels.empty()) continue;
     store_->asked = ask_ && !store_->grips.empty();
     for (int i = 0; i < steps; ++i) {
       stepGroup(group, nullptr, 0.0, h);

@@ -87,22 +87,18 @@ void BatchChain::setGrips(int tree, const std::vector<Grip>& grips) {
 }
 
 // Rows know places relative to the bases.
-void BatchChain::addBases(const Member& member, const ChainPart& part) {
-  if (member.bases.empty()) return;
-  for (std::size_t i = 0; i < member.count; ++i) {
-    const int slot = slots_[member.first + i];
-    if (slot < part.begin || slot >= part.end) continue;
-    float* place = store_->air.of(slot, V_ROWS);
-    for (int axis = 0; axis < 3; ++axis)
-      place[(V_PLACE + axis) * ROW] += static_cast<float>(baseOf(member, i).pose.position[axis]);
+void BatchChain::askAirOf(const ChainGroup& group) {
+  placeGrips(group, *store_);
+  for (const std::size_t t : group.trees) {
+    const Member& member = trees_[t];
+    for (std::size_t i = 0; i < member.count && !member.bases.empty(); ++i) {
+      float* place = store_->air.of(slots_[member.first + i], V_ROWS);
+      for (int axis = 0; axis < 3; ++axis)
+        place[(V_PLACE + axis) * ROW] += static_cast<float>(baseOf(member, i).pose.position[axis]);
+    }
   }
-}
-
-void BatchChain::askAirOf(const ChainGroup& group, std::size_t index) {
-  const ChainPart& part = group.parts[index];
-  placeGrips(group, index, *store_);
-  for (const std::size_t t : group.trees) addBases(trees_[t], part);
-  ask_(store_->air.of(part.begin, V_ROWS), static_cast<std::size_t>((part.end - part.begin) / ROW));
+  ask_(store_->air.of(group.begin, V_ROWS),
+       static_cast<std::size_t>((group.end - group.begin) / ROW));
 }
 
 }  // namespace vegetation_sim::physics

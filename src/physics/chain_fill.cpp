@@ -69,7 +69,7 @@ void fillGrip(const Grip& grip, float* rows) {
 
 // The force at the point is the anchor's less (theta^2 h^2 K + theta h C) times what accelerations
 // of the joints add to its own: a mass there, without bias.
-JointRows anchorRows(const Anchor& anchor, int slot, double ahead) {
+AnchorRows anchorRows(const Anchor& anchor, int slot, double ahead) {
   const auto mass = [&](double k, double c) { return ahead * (ahead * k + c); };
   const Symmetric3 &k = anchor.stiffness, &c = anchor.damping;
   const double xx = mass(k.xx, c.xx), yy = mass(k.yy, c.yy), zz = mass(k.zz, c.zz),
@@ -79,7 +79,7 @@ JointRows anchorRows(const Anchor& anchor, int slot, double ahead) {
   const Vec3 ax = crossed(arm, {bx.x(), by.x(), bz.x()}),
              ay = crossed(arm, {bx.y(), by.y(), bz.y()}),
              az = crossed(arm, {bx.z(), by.z(), bz.z()});
-  JointRows out;
+  AnchorRows out;
   out.slot = slot;
   float* v = out.value;
   put(ax, v + P_A);

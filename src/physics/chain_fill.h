@@ -37,9 +37,13 @@ inline void fillLoad(const Loads& loads, std::size_t link, float* rows) {
 
 void fillGrip(const Grip& grip, float* rows);
 
-/// What an anchor adds to the articulated inertia and bias of the joint in `slot`; `ahead` = theta
-/// h.
-JointRows anchorRows(const Anchor& anchor, int slot, double ahead);
+/// What an anchor adds to the articulated inertia and bias of the joint in `slot`.
+struct AnchorRows {
+  int slot{0};
+  float value[P_ROWS] = {};
+};
+/// `ahead` = theta h.
+AnchorRows anchorRows(const Anchor& anchor, int slot, double ahead);
 
 inline void readMotion(const float* motion, const Vec3& base, std::size_t link, Kinematics& out) {
   const auto read = [motion](int row) {

@@ -28,10 +28,9 @@ enum : int {
   H_PUSH,
   H_SPIN = H_PUSH + 6,
   H_SPIN_RATE = H_SPIN + 3,
-  H_ACCELERATION = H_SPIN_RATE + 3,
-  H_ROWS = H_ACCELERATION + 3
+  H_ACCELERATION = H_SPIN_RATE + 3
 };
-static_assert(int{H_ROWS} <= int{P_ROWS}, "it fits where articulated inertias pass");
+static_assert(H_ACCELERATION + 3 <= int{P_ROWS}, "it fits where articulated inertias pass");
 
 HWY_INLINE Ahead loadAhead(const float* rows, int stride) {
   return {{load3(rows, H_PUSH, stride), load3(rows, H_PUSH + 3, stride)},

@@ -128,14 +128,7 @@ enum : int {
 static_assert(int{F_ROWS} <= int{P_ROWS},
               "what fits an articulated inertia fits all that is passed on");
 
-/// Numbers of what acts on the joint in `slot`, or passes between it and what hangs on it, by rows.
-struct JointRows {
-  int slot{0};
-  float value[P_ROWS] = {};
-};
-
-/// Rows of the accelerations on their way to the children: of spin, of the joint; and of a wrench
-/// on its way to the parent: torque, force.
+/// Rows of the accelerations on their way to the children: of spin, of the joint.
 enum : int { A_ROWS = 6 };
 
 }  // namespace vegetation_sim::physics

@@ -234,7 +234,7 @@ void TwinChains::step(const Surroundings* around, double time, double h) {
     for (int tree = begin; around && tree < end; ++tree)
       ask(around[tree], time + theta(tree) * h, h, tree);
     std::stable_sort(store_->anchors.begin(), store_->anchors.end(),
-                     [](const JointRows& a, const JointRows& b) { return a.slot < b.slot; });
+                     [](const AnchorRows& a, const AnchorRows& b) { return a.slot < b.slot; });
     sweepPackBack(pack, step, *store_);
     std::copy_n(store_->fastest, end - begin, fastest_.begin() + begin);
   }

@@ -81,11 +81,11 @@ HWY_INLINE Articulated sumOf(const Articulated& a, const Articulated& b) {
 }
 
 // Anchors are few: one by one. `next` is one past those of joints up to this one.
-HWY_INLINE const JointRows* addAnchors(const Part& part, const JointRows* next, std::size_t joint,
-                                       Articulated& sum) {
+HWY_INLINE const AnchorRows* addAnchors(const Part& part, const AnchorRows* next, std::size_t joint,
+                                        Articulated& sum) {
   const int width = static_cast<int>(hn::Lanes(Tag()));
   for (; next != part.store.anchors.data(); --next) {
-    const JointRows& anchor = next[-1];
+    const AnchorRows& anchor = next[-1];
     if (static_cast<std::size_t>(anchor.slot / ROW) != joint) break;
     const int lane = anchor.slot % ROW - part.lane;
     if (lane < 0 || lane >= width) continue;
@@ -98,7 +98,7 @@ HWY_INLINE const JointRows* addAnchors(const Part& part, const JointRows* next, 
 
 // The children's sum waits on the stack at their parent's depth; the last child begins it.
 HWY_INLINE void inwardPart(const Part& part, Lanes step) {
-  const JointRows* next = part.store.anchors.data() + part.store.anchors.size();
+  const AnchorRows* next = part.store.anchors.data() + part.store.anchors.size();
   for (std::size_t i = part.store.joints.size(); i-- > 0;) {
     const TwinJoint& joint = part.store.joints[i];
     Articulated sum = joint.leaf ? nothing() : loadAll(part.onStack(joint.depth));

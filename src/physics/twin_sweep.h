@@ -24,13 +24,13 @@ struct TwinStore {
   std::vector<TwinJoint> joints;
   int roots{0};
   Rows constants, state, loads, bases;
-  Rows work, motion;               ///< of one pack
-  Rows stack;                      ///< P_ROWS a depth
-  bool trace{false};               ///< somebody asks for the motion
-  bool mean{true};                 ///< velocity products are averaged over the step
-  bool drag{false};                ///< some load has drag
-  std::vector<JointRows> anchors;  ///< of one pack; slot: joint * ROW + lane, sorted
-  float fastest[ROW] = {};         ///< [lanes] rates after the last step of a pack [rad/s]
+  Rows work, motion;                ///< of one pack
+  Rows stack;                       ///< P_ROWS a depth
+  bool trace{false};                ///< somebody asks for the motion
+  bool mean{true};                  ///< velocity products are averaged over the step
+  bool drag{false};                 ///< some load has drag
+  std::vector<AnchorRows> anchors;  ///< of one pack; slot: joint * ROW + lane, sorted
+  float fastest[ROW] = {};          ///< [lanes] rates after the last step of a pack [rad/s]
 };
 
 /// Geometry and rigid bodies of a pack at q + theta h rate, h = `step`.

@@ -11,7 +11,6 @@
 namespace vegetation_sim::physics {
 
 struct ChainGroup;
-struct ChainPart;
 struct ChainStore;
 
 /// Where air grips a link and how hard: with `w` what the air there moves faster than the link, the
@@ -89,10 +88,8 @@ class BatchChain {
   void setTheta(Member& member, double theta, double products);
   void guard(ChainGroup& group, double h);
   void stepGroup(ChainGroup& group, const Surroundings* around, double time, double h);
-  float settleGroup(ChainGroup& group, float step);
   void stepWithin(const Surroundings* around, std::size_t count, double time, double h);
-  void addBases(const Member& member, const ChainPart& part);
-  void askAirOf(const ChainGroup& group, std::size_t part);
+  void askAirOf(const ChainGroup& group);
   void askBases(const Surroundings& around, double time, Member& member);
   void askLoads(const Surroundings& around, double time, double h, Member& member);
 

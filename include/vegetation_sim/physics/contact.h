@@ -35,7 +35,7 @@ class ContactStepper {
   /// Trials of the last step, and whether the last of them agreed with itself.
   int trials() const { return trials_; }
   bool agreed() const { return agreed_; }
-  /// By how much the force on a link changed at most in the last step, to and fro [N].
+  /// By how much the force on a link by one body changed at most in the last step, to and fro [N].
   double swing() const { return swing_; }
 
  private:
