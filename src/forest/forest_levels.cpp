@@ -18,6 +18,8 @@ constexpr double SEEN = 0.57;
 constexpr double ALIKE = 1.1;
 // Fine modes are worth their price where they leave so much less than plain ones.
 constexpr double BETTER = 0.9;
+// Fine modes take longer to find than a tick: so long between two trees, for who draws them too.
+constexpr Nanoseconds FINE_PAUSE = NANOSECONDS_PER_SECOND / 10;
 // More are not kept room for: few scenes have as many near trees.
 constexpr std::size_t MANY_PLANTS = 20000;
 
@@ -50,6 +52,7 @@ double Forest::viewOf(const Vec3& centre, double reach) const {
 
 void Forest::advance(Nanoseconds stamp) {
   advancePhysics(stamp);
+  fine_due_ = memory_.stamp / FINE_PAUSE != stamp / FINE_PAUSE;
   memory_.stamp = stamp;
   for (auto it = memory_.viewers.begin(); it != memory_.viewers.end();)
     it = stamp - it->second.stamp > VIEWER_LIFE ? memory_.viewers.erase(it) : std::next(it);
@@ -199,26 +202,31 @@ void Forest::adopt() {
   if (plants_.size() > MANY_PLANTS) std::vector<Plant>().swap(plants_);
 }
 
-// Modes take milliseconds to find: one tree a tick, the one that is farthest off first. The others
-// wait on the rung that they have.
+// Modes take milliseconds to find: one tree a tick gets plain ones, the one that is farthest off
+// first; where none does, one gets fine ones every FINE_PAUSE. The others wait on the rung that
+// they have, and one that has had fine ones on its stair until they have faded: the way back would
+// jump.
 void Forest::beginModes() {
-  Plant* first = nullptr;
-  int rung = MODAL_LEVEL;
+  Plant *plain = nullptr, *finer = nullptr;
+  const auto wait = [](Plant& plant, int rung, Plant*& first) {
+    plant.chosen = rung;
+    if (!first || plant.error[0] > first->error[0]) first = &plant;
+  };
   for (Plant& plant : plants_) {
+    if (plant.chosen < MODAL_LEVEL) continue;
     const Sway* sway = memory_.modes.find(plant.id);
-    if (plant.chosen < MODAL_LEVEL || (sway && (plant.chosen == MODAL_LEVEL || sway->fine())))
-      continue;
-    const int wanted = plant.chosen;
-    plant.chosen = sway ? MODAL_LEVEL : plant.stair;
-    if (first && plant.error[0] <= first->error[0]) continue;
-    first = &plant;
-    rung = wanted;
+    if (!sway)
+      wait(plant, plant.stair, plant.chosen == FINE_RUNG ? finer : plain);
+    else if (!sway->fine() && plant.chosen == FINE_RUNG)
+      wait(plant, MODAL_LEVEL, finer);
+    else if (sway->fine() && plant.chosen == MODAL_LEVEL)
+      plant.chosen = plant.stair;
   }
-  if (!first) return;
-  memory_.modes.begin({layout_, *terrain_, memory_.wind}, first->id, rung == FINE_RUNG,
-                      memory_.stamp);
-  memory_.changed.insert(first->id);
-  first->chosen = rung;
+  Plant* const next = plain ? plain : fine_due_ ? finer : nullptr;
+  if (!next) return;
+  memory_.modes.begin({layout_, *terrain_, memory_.wind}, next->id, next == finer, memory_.stamp);
+  memory_.changed.insert(next->id);
+  next->chosen = next == finer ? FINE_RUNG : MODAL_LEVEL;
 }
 
 void Forest::aim(std::uint32_t tree, int level) {

@@ -9,16 +9,20 @@
 namespace vegetation_sim::forest {
 namespace {
 
+constexpr double QUICK = 30.0;  // [rad/s]
+
 std::size_t stepsBetween(Nanoseconds from, Nanoseconds to) {
   const Nanoseconds steps =
       ((to - from) * ForestModes::RATE + NANOSECONDS_PER_SECOND / 2) / NANOSECONDS_PER_SECOND;
   return static_cast<std::size_t>(std::max<Nanoseconds>(1, steps));
 }
 
+// Of a tree of few branches plain modes would be nearly all: it has all.
 Sway swayOf(const Grounds& at, std::uint32_t id, bool fine) {
   const Tree tree = growTree(at.layout, id, at.terrain);
+  const bool few = 2 * tree.skeleton.branches.size() <= ModalDepth{}.most();
   return Sway(std::make_shared<const ModalTree>(tree, at.layout.species[tree.seed.species],
-                                                fine ? FINE_MODES : ModalDepth{}));
+                                                fine || few ? FINE_MODES : ModalDepth{}));
 }
 
 }  // namespace
@@ -41,12 +45,6 @@ void ForestModes::advance(const wind::Field& wind, Nanoseconds from, Nanoseconds
   }
 }
 
-Sway& ForestModes::take(const Grounds& at, std::uint32_t tree, bool fine) {
-  const auto found = sways_.find(tree);
-  if (found != sways_.end() && found->second.fine() == fine) return found->second;
-  return sways_.insert_or_assign(tree, swayOf(at, tree, fine)).first->second;
-}
-
 void ForestModes::start(const wind::Field& wind, Sway& sway, Nanoseconds stamp) {
   std::array<std::vector<double>, 3> loads;
   WindWindow window;
@@ -58,25 +56,41 @@ void ForestModes::start(const wind::Field& wind, Sway& sway, Nanoseconds stamp) 
 
 void ForestModes::begin(const Grounds& at, std::uint32_t tree, bool fine, Nanoseconds stamp) {
   const auto found = sways_.find(tree);
-  if (found == sways_.end()) return start(at.wind, take(at, tree, fine), stamp);
-  if (fine && !found->second.fine()) refine(at, tree, found->second);
+  if (found == sways_.end())
+    start(at.wind, sways_.emplace(tree, swayOf(at, tree, fine)).first->second, stamp);
+  else if (fine && !found->second.fine())
+    refine(at, tree, found->second);
 }
 
-// Nothing jumps: the same bends, and the same rates, told by more oscillators.
+// Nothing jumps: the same bends, and the same rates, told by more oscillators. Those that are too
+// fast for a tick begin as the load holds them: left to ring they would jerk.
 void ForestModes::refine(const Grounds& at, std::uint32_t tree, Sway& sway) {
   Sway fine = swayOf(at, tree, true);
   const auto told = [&](const std::vector<double>& amplitudes) {
     return fine.modes().amplitudesOf(sway.modes().bendsOf(amplitudes));
   };
+  start(at.wind, fine, sway.stamp());
+  physics::ModalState state{told(sway.state().amplitude), told(sway.state().rate)};
+  for (std::size_t m = 0; m < state.amplitude.size(); ++m) {
+    if (fine.modes().modes().frequency[m] < QUICK) continue;
+    state.amplitude[m] = fine.state().amplitude[m];
+    state.rate[m] = fine.state().rate[m];
+  }
   std::vector<double> load;
   fine.loadOf(at.wind.at(sway.stamp()), load);
-  fine.restore({told(sway.state().amplitude), told(sway.state().rate)}, load, sway.stamp());
+  fine.restore(state, load, sway.stamp());
   sway = std::move(fine);
 }
 
+// Their number tells which modes they are.
 void ForestModes::restore(const Grounds& at, std::uint32_t tree, const physics::ModalState& state,
                           Nanoseconds stamp) {
-  Sway& sway = take(at, tree, hasFineModes(state.amplitude.size()));
+  const std::size_t count = state.amplitude.size();
+  const auto found = sways_.find(tree);
+  const bool known = found != sways_.end() && found->second.modes().size() == count;
+  const bool fine = count > ModalDepth{}.most();
+  Sway& sway =
+      known ? found->second : sways_.insert_or_assign(tree, swayOf(at, tree, fine)).first->second;
   std::vector<double> load;
   sway.loadOf(at.wind.at(stamp), load);
   sway.restore(state, load, stamp);

@@ -17,13 +17,6 @@ int bytesOf(int rung) {
   return HEAD + static_cast<int>(2 * sizeof(double) * depth.most());
 }
 
-// The finest that it wants and bytes are left for; the top of its stair if none.
-int affordable(const Plant& plant, int bytes) {
-  for (int rung = plant.wanted; rung >= std::max(plant.above, MODAL_LEVEL); --rung)
-    if (bytesOf(rung) <= bytes) return rung;
-  return plant.stair;
-}
-
 }  // namespace
 
 void describe(FieldVisitor& v, Budget& b) {
@@ -45,12 +38,24 @@ void shareModes(std::vector<Plant>& plants, int trees, int bytes) {
     order.emplace_back(-held * plant.error[static_cast<std::size_t>(plant.stair)], i);
   }
   std::sort(order.begin(), order.end());
+  std::vector<Plant*> finer;
   for (const auto& [priority, index] : order) {
     Plant& plant = plants[index];
-    plant.wanted = trees > 0 ? affordable(plant, bytes) : plant.stair;
-    if (plant.wanted < MODAL_LEVEL) continue;
+    const int least = std::clamp(plant.above, MODAL_LEVEL, plant.wanted);
+    if (trees <= 0 || bytesOf(least) > bytes) {
+      plant.wanted = plant.stair;
+      continue;
+    }
     --trees;
-    bytes -= bytesOf(plant.wanted);
+    bytes -= bytesOf(least);
+    if (plant.wanted > least) finer.push_back(&plant);
+    plant.wanted = least;
+  }
+  const int more = bytesOf(FINE_RUNG) - bytesOf(MODAL_LEVEL);
+  for (Plant* plant : finer) {
+    if (more > bytes) break;
+    bytes -= more;
+    plant->wanted = FINE_RUNG;
   }
 }
 

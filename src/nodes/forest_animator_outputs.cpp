@@ -110,7 +110,11 @@ void ForestAnimator::diagnoseGovernor(diagnostic_updater::DiagnosticStatusWrappe
              std::isnan(farthest) ? "not computed: no room" : std::to_string(farthest));
   status.add("Marker points", markers_.points());
   status.add("Marker budget [points]", markers_.budget());
-  status.add("Trees in modes", forest_->memory().modes.sways().size());
+  const auto& sways = forest_->memory().modes.sways();
+  status.add("Trees in modes", sways.size());
+  status.add("Of these in fine modes",
+             std::count_if(sways.begin(), sways.end(),
+                           [](const auto& tree) { return tree.second.fine(); }));
   status.add("Memory of modes [B]", forest_->memory().modes.bytes());
 }
 

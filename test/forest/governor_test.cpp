@@ -50,8 +50,9 @@ TEST(Governor, FineModesGoToWhomBytesAreLeftFor) {
     return std::vector<int>{plants[0].wanted, plants[1].wanted, plants[2].wanted};
   };
   EXPECT_EQ(wanted(3 * FINE), (std::vector<int>{FINE_RUNG, FINE_RUNG, FINE_RUNG}));
-  EXPECT_EQ(wanted(2 * FINE + PLAIN), (std::vector<int>{FINE_RUNG, FINE_RUNG, 3}));
+  EXPECT_EQ(wanted(2 * FINE + PLAIN), (std::vector<int>{FINE_RUNG, MODAL_LEVEL, FINE_RUNG}));
   EXPECT_EQ(wanted(FINE + PLAIN), (std::vector<int>{FINE_RUNG, MODAL_LEVEL, 3}));
+  EXPECT_EQ(wanted(FINE + PLAIN - 1), (std::vector<int>{MODAL_LEVEL, MODAL_LEVEL, 3}));
   EXPECT_EQ(wanted(PLAIN), (std::vector<int>{MODAL_LEVEL, 3, 3}));
   EXPECT_EQ(wanted(PLAIN - 1), (std::vector<int>{3, 3, 3}));
 }

@@ -157,6 +157,7 @@ class Forest {
   ForestMemory memory_;
   wind::Instant now_;
   wind::SwingingWind swinging_;  // now
+  bool fine_due_{false};         // a tree may get fine modes at this tick
   int last_base_{0};             // level of the trees that were not held before this tick
   std::vector<Plant> plants_;
   GovernorFigures governor_;

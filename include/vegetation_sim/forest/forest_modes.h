@@ -54,8 +54,7 @@ class ForestModes {
   void addTo(Hash& hash) const;
 
  private:
-  Sway& take(const Grounds& at, std::uint32_t tree, bool fine);
-  static void refine(const Grounds& at, std::uint32_t tree, Sway& sway);
+  void refine(const Grounds& at, std::uint32_t tree, Sway& sway);
   void start(const wind::Field& wind, Sway& sway, Nanoseconds stamp);
 
   std::map<std::uint32_t, Sway> sways_;

@@ -24,7 +24,7 @@ struct Budget {
   int modal_trees{64};           ///< in modes at once
   double procedural_cost{15.0};  ///< a branch and frame, forward kinematics included [ns]
   double modal_cost{20.0};  ///< the same, with its share of finding the modes once in 10 s [ns]
-  double fine_cost{90.0};   ///< the same of fine modes [ns]
+  double fine_cost{90.0};   ///< of fine modes, found once in 15 s [ns]
   double physical_cost{2200.0};  ///< a physical branch and frame [ns]
 };
 void describe(FieldVisitor& visitor, Budget& budget);
@@ -41,8 +41,8 @@ struct GovernorFigures : Balance {
 };
 
 /// Leaves modes to the plants whose procedural motion is farthest off, at most `trees` of them and
-/// as many as `bytes` a second can tell of; the others want the top of their stair. Where bytes for
-/// fine modes are missing, plain ones do.
+/// as many as `bytes` a second can tell of; the others want the top of their stair. Fine modes come
+/// out of the bytes that are left when all have plain ones.
 void shareModes(std::vector<Plant>& plants, int trees, int bytes);
 
 }  // namespace vegetation_sim::forest

@@ -71,7 +71,7 @@ class LevelScales {
   /// Makes at(scale) known.
   void measure(const Species& species, const MotionLaw& law, double scale);
   LevelTable at(double scale) const;
-  /// Lag (lag.h) in a wind at a known scale; measured when it is first asked for, 25 to 40 ms.
+  /// Lag (lag.h) in a wind at a known scale; measured when it is first asked for, some 150 ms.
   LagIn lagAt(const Species& species, const MotionLaw& law, double scale,
               const wind::Swings& swings);
 

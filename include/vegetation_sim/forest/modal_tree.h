@@ -24,10 +24,6 @@ struct ModalDepth {
 };
 /// For trees of which these leave more than is tolerated. It spans all that ModalDepth{} does.
 constexpr ModalDepth FINE_MODES{40, 9, 1, true};
-/// Whether a tree with so many oscillators has them.
-constexpr bool hasFineModes(std::size_t oscillators) {
-  return oscillators > ModalDepth{}.most();
-}
 
 /// A point of a crown whose wind stands for that on the wood and leaves around it.
 struct WindPoint {

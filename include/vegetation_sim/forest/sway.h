@@ -20,7 +20,8 @@ class Sway {
   explicit Sway(std::shared_ptr<const ModalTree> modes);
 
   const ModalTree& modes() const { return *modes_; }
-  bool fine() const { return hasFineModes(modes_->size()); }
+  /// In fine modes, or in all that the tree has.
+  bool fine() const;
   const physics::ModalState& state() const { return state_; }  ///< at stamp()
   Nanoseconds stamp() const { return stamp_; }
   /// Of the modes, their fast copy and what is kept of the waves that blow.
