@@ -69,15 +69,15 @@ void ForestModes::refine(const Grounds& at, std::uint32_t tree, Sway& sway) {
   const auto told = [&](const std::vector<double>& amplitudes) {
     return fine.modes().amplitudesOf(sway.modes().bendsOf(amplitudes));
   };
-  start(at.wind, fine, sway.stamp());
-  physics::ModalState state{told(sway.state().amplitude), told(sway.state().rate)};
-  for (std::size_t m = 0; m < state.amplitude.size(); ++m) {
-    if (fine.modes().modes().frequency[m] < QUICK) continue;
-    state.amplitude[m] = fine.state().amplitude[m];
-    state.rate[m] = fine.state().rate[m];
-  }
   std::vector<double> load;
   fine.loadOf(at.wind.at(sway.stamp()), load);
+  physics::ModalState state{told(sway.state().amplitude), told(sway.state().rate)};
+  for (std::size_t m = 0; m < load.size(); ++m) {
+    const double frequency = fine.modes().modes().frequency[m];
+    if (frequency < QUICK) continue;
+    state.amplitude[m] = load[m] / (frequency * frequency);
+    state.rate[m] = 0.0;
+  }
   fine.restore(state, load, sway.stamp());
   sway = std::move(fine);
 }

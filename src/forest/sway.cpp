@@ -31,11 +31,11 @@ void Sway::land(const std::vector<double>& load, Nanoseconds stamp) {
   stamp_ = stamp;
 }
 
-// The static answer to each load; its rate by central difference.
 bool Sway::fine() const {
   return modes_->size() > ModalDepth{}.most() || modes_->size() == modes_->modes().length;
 }
 
+// The static answer to each load; its rate by central difference.
 void Sway::begin(const std::array<std::vector<double>, 3>& loads, double step, Nanoseconds stamp) {
   for (std::size_t m = 0; m < state_.amplitude.size(); ++m) {
     const double w = modes_->modes().frequency[m], stiffness = w * w;

@@ -133,7 +133,6 @@ HWY_INLINE Bias biasOfBody(const Joints& at, const Axes& axes, const Frame& fram
           load(at.constants, C_MASS) * frame.acceleration + force};
 }
 
-// Round bars with their centre on the own z, the usual case, need no rotation of a full inertia.
 HWY_INLINE void keepBody(const Joints& at, const Axes& axes) {
   store6(turnedInertia(axes, load6(at.constants, C_INERTIA)), at.work, W_INERTIA);
   store3(turned(axes, load3(at.constants, C_MOMENT)), at.work, W_MOMENT);
