@@ -61,8 +61,11 @@ std::size_t leavesOf(const canopy::Layout& layout, const canopy::CrownRule& rule
 
 // A list as long as ever: rviz then writes over the old one.
 void fill(visualization_msgs::Marker& list, std::size_t points) {
+  const std::size_t used = list.points.size();
   list.points.resize(points);
   list.colors.resize(points, opaque(Vec3::Zero()));
+  list.action = visualization_msgs::Marker::ADD;
+  takeAwayIfUnused(list, used);
 }
 
 }  // namespace

@@ -150,6 +150,7 @@ visualization_msgs::MarkerArray CrowdMarkers::build(const crowd::Crowd& crowd,
   list_.header.stamp = toStamp(stamp);
   visualization_msgs::MarkerArray out;
   out.markers.push_back(list_);
+  takeAwayIfUnused(out.markers.back(), used_);
   return out;
 }
 

@@ -114,7 +114,8 @@ void ForestMarkers::addTree(const forest::Forest& forest, forest::TreeCache& cac
   const auto grown = cache.get(forest.layout(), forest.terrain(), id);
   const forest::Species& species = forest.layout().species[grown->tree.seed.species];
   const forest::TreeMesh& mesh = *drawn_[id].mesh;
-  wanted_ += mesh.triangles.size() + 6 * mesh.leaves.size();
+  wanted_bark_ += mesh.triangles.size();
+  wanted_leaves_ += 6 * mesh.leaves.size();
   if (bark_.points.size() + mesh.triangles.size() > bark_points_) return;
   const wind::Instant wind = forest.memory().wind.at(stamp).relativeTo(grown->tree.foot);
   const forest::Weights weights =
@@ -155,11 +156,13 @@ void ForestMarkers::addTree(const forest::Forest& forest, forest::TreeCache& cac
   }
 }
 
-void ForestMarkers::finish(visualization_msgs::Marker& marker, std::size_t points,
-                           std::size_t& used) const {
-  used += marker.points.size();
+void ForestMarkers::finish(visualization_msgs::Marker& marker, std::size_t points) {
+  const std::size_t used = marker.points.size();
+  used_ += used;
   marker.points.resize(points);
   marker.colors.resize(points, opaque(Vec3::Zero()));
+  marker.action = visualization_msgs::Marker::ADD;
+  takeAwayIfUnused(marker, used);
 }
 
 visualization_msgs::MarkerArray ForestMarkers::build(const forest::Forest& forest,
@@ -173,7 +176,7 @@ visualization_msgs::MarkerArray ForestMarkers::build(const forest::Forest& fores
     list->header.frame_id = frame_id;
     list->header.stamp = ros::Time();  // the newest transform; keeps out of tf's waiting queue
   }
-  wanted_ = used_ = 0;
+  wanted_bark_ = wanted_leaves_ = used_ = 0;
   std::map<std::uint32_t, Drawn> drawn;
   for (const auto& [height_px, id] : order_) {
     Drawn& entry = drawn[id] = drawn_[id];
@@ -189,9 +192,11 @@ visualization_msgs::MarkerArray ForestMarkers::build(const forest::Forest& fores
     addTree(forest, cache, id, stamp);
   }
   drawn_ = std::move(drawn);
-  feedback_.update(static_cast<double>(wanted_), 0.85 * static_cast<double>(budget()));
-  finish(bark_, bark_points_, used_);
-  finish(leaves_, leaf_points_, used_);
+  // By the fuller list, each of half the budget: else trees stand there without their leaves.
+  feedback_.update(2.0 * static_cast<double>(std::max(wanted_bark_, wanted_leaves_)),
+                   0.85 * static_cast<double>(budget()));
+  finish(bark_, bark_points_);
+  finish(leaves_, leaf_points_);
   visualization_msgs::MarkerArray out;
   out.markers = {bark_, leaves_};
   return out;

@@ -89,8 +89,8 @@ void GrassMarkers::addTile(const grass::Meadow& meadow, const grass::TileView& v
   grass::appendRibbons(meadow.map(), tile, blocks_.data(), count, style, blade_mesh_);
 }
 
-// Points beyond those in use become the first one: triangles without area.
-void GrassMarkers::copy(const grass::GrassMesh& mesh, visualization_msgs::Marker& marker) {
+// Points beyond those in use become the first one: triangles without area. Returns how many are.
+std::size_t GrassMarkers::copy(const grass::GrassMesh& mesh, visualization_msgs::Marker& marker) {
   const std::size_t count = std::min(mesh.indices.size(), list_points_);
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t vertex = mesh.indices[i];
@@ -104,7 +104,7 @@ void GrassMarkers::copy(const grass::GrassMesh& mesh, visualization_msgs::Marker
   }
   const geometry_msgs::Point rest = count > 0 ? marker.points[0] : toPoint(mesh.origin);
   std::fill(marker.points.begin() + static_cast<std::ptrdiff_t>(count), marker.points.end(), rest);
-  used_ += count;
+  return count;
 }
 
 visualization_msgs::MarkerArray GrassMarkers::build(
@@ -133,11 +133,12 @@ visualization_msgs::MarkerArray GrassMarkers::build(
   }
   for (const grass::TileView& view : views)
     addTile(meadow, view, eyes[0].position, air, model, stamp);
-  used_ = ground_points_;
-  copy(strip_mesh_, strips_);
-  copy(blade_mesh_, blades_);
+  const std::size_t used[] = {ground_points_, copy(strip_mesh_, strips_),
+                              copy(blade_mesh_, blades_)};
+  used_ = used[0] + used[1] + used[2];
   visualization_msgs::MarkerArray out;
   out.markers = {ground_, strips_, blades_};
+  for (std::size_t i = 0; i < 3; ++i) takeAwayIfUnused(out.markers[i], used[i]);
   for (visualization_msgs::Marker& marker : out.markers) {
     marker.header.frame_id = frame_id;
     marker.header.stamp = ros::Time();  // the newest transform; keeps out of tf's waiting queue

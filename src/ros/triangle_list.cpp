@@ -18,6 +18,13 @@ visualization_msgs::Marker triangleList(const std::string& ns, int id, std::size
   return out;
 }
 
+void takeAwayIfUnused(visualization_msgs::Marker& list, std::size_t used) {
+  if (used > 0) return;
+  list.action = visualization_msgs::Marker::DELETE;
+  list.points.clear();
+  list.colors.clear();
+}
+
 std_msgs::ColorRGBA opaque(const Vec3& rgb) {
   std_msgs::ColorRGBA out;
   out.r = static_cast<float>(rgb.x());

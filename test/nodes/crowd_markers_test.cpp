@@ -42,6 +42,19 @@ TEST(CrowdMarkers, FarPeopleHaveFewerFacets) {
   EXPECT_LE(fine.over, 4u);
 }
 
+// rviz works on triangles without area as on others: where nobody is there are none.
+TEST(CrowdMarkers, NobodyIsNotDrawn) {
+  const Row nobody(0), one(1);
+  CrowdMarkers markers(60000);
+  const auto markerOf = [&](const Row& row) {
+    return markers.build(row.crowd, {row.eye}, 1.0, "map", 0).markers[0];
+  };
+  EXPECT_EQ(markerOf(nobody).action, visualization_msgs::Marker::DELETE);
+  EXPECT_TRUE(markerOf(nobody).points.empty());
+  EXPECT_EQ(markerOf(one).action, visualization_msgs::Marker::ADD);
+  EXPECT_EQ(markerOf(one).points.size(), 60000u);
+}
+
 // N7: the points bind; a few less coarsen somebody, half of them leave some out.
 TEST(CrowdMarkers, PointsBindAndNobodyIsLeftOutForTheSakeOfFacets) {
   Row row(200);

@@ -19,7 +19,8 @@ namespace vegetation_sim {
 /// crowns, if the layout asks for any (id 3), as TRIANGLE_LISTs of constant size, which rviz
 /// updates in place. Each plant has the smallest share of its leaves that holds the tolerance,
 /// made wider as they are fewer; where the points do not suffice, they go to the plants whose error
-/// each point lessens most (N7). Crowns have an even part of theirs. Degenerate triangles fill up.
+/// each point lessens most (N7). Crowns have an even part of theirs. Degenerate triangles fill
+/// up, and a list of nothing is deleted.
 class CanopyMarkers {
  public:
   /// @param points of all lists together, at least 600.

@@ -15,8 +15,9 @@
 namespace vegetation_sim {
 
 /// Walkers as one TRIANGLE_LIST of constant size, a person fifteen limbs: rviz updates such a list
-/// in place. Each walker has the fewest facets that hold the tolerance; where the points do not
-/// suffice, they go to the walkers whose error each point lessens most (N7).
+/// in place; it is deleted when nobody is drawn. Each walker has the fewest facets that hold the
+/// tolerance; where the points do not suffice, they go to the walkers whose error each point
+/// lessens most (N7).
 class CrowdMarkers {
  public:
   /// @param points of the list.

@@ -18,7 +18,7 @@ namespace vegetation_sim {
 /// The forest as two TRIANGLE_LISTs, bark (id 0) and leaves (id 1), of constant size: rviz updates
 /// such a list in place. Where the trees need more than the budget their geometry levels fall, by
 /// the feedback of S1-14, and the farthest are left out; where they need less, degenerate triangles
-/// fill up.
+/// fill up, and a list of nothing is deleted.
 class ForestMarkers {
  public:
   /// @param points most points of both lists together, at least 600.
@@ -42,10 +42,10 @@ class ForestMarkers {
   void keepLargest(std::size_t count);
   void addTree(const forest::Forest& forest, forest::TreeCache& cache, std::uint32_t id,
                Nanoseconds stamp);
-  void finish(visualization_msgs::Marker& marker, std::size_t points, std::size_t& used) const;
+  void finish(visualization_msgs::Marker& marker, std::size_t points);
 
   std::size_t bark_points_, leaf_points_;
-  std::size_t used_{0}, wanted_{0};
+  std::size_t used_{0}, wanted_bark_{0}, wanted_leaves_{0};
   forest::ComplexityFeedback feedback_;
   std::map<std::uint32_t, Drawn> drawn_;
   std::vector<std::pair<double, std::uint32_t>> order_;  // height [pixel], tree

@@ -15,7 +15,7 @@ namespace vegetation_sim {
 
 /// A meadow as three TRIANGLE_LISTs of constant size: ground (id 0), strips (id 1) and the blades
 /// nearest to the viewers (id 2); rviz updates such a list in place. What the budget does not hold
-/// is left out, the farthest first; degenerate triangles fill up.
+/// is left out, the farthest first; degenerate triangles fill up, and a list of nothing is deleted.
 class GrassMarkers {
  public:
   /// @param points of the three lists together, at least 900.
@@ -34,7 +34,7 @@ class GrassMarkers {
   void addGround(const grass::Meadow& meadow);
   void addTile(const grass::Meadow& meadow, const grass::TileView& view, const Vec3& eye,
                const grass::NodeAir& air, grass::BladeModel model, Nanoseconds stamp);
-  void copy(const grass::GrassMesh& mesh, visualization_msgs::Marker& marker);
+  std::size_t copy(const grass::GrassMesh& mesh, visualization_msgs::Marker& marker);
 
   std::size_t list_points_;  // of one list
   std::size_t used_{0}, ground_points_{0};

@@ -14,6 +14,9 @@ namespace vegetation_sim {
 
 /// A TRIANGLE_LIST of `points` black, clear points at the origin; each has a colour of its own.
 visualization_msgs::Marker triangleList(const std::string& ns, int id, std::size_t points);
+/// A list of which no point is in use is taken away: rviz works on triangles without area as on
+/// others.
+void takeAwayIfUnused(visualization_msgs::Marker& list, std::size_t used);
 std_msgs::ColorRGBA opaque(const Vec3& rgb);
 
 }  // namespace vegetation_sim
