@@ -31,12 +31,19 @@ def read(path):
 
 
 def slope(series, name):
-    """Least squares over the steady part, and its standard error [kB a time]; None if too short."""
+    """Median slope of all pairs of points of the steady part, and between which it is but for three
+    standard errors (Sen 1968) [kB a time]; None if too short. A message that is on its way at one
+    point or another does not count."""
     steady = series['time'] >= STEADY * series['time'][-1]
-    if numpy.count_nonzero(steady) < LEAST:
+    count = numpy.count_nonzero(steady)
+    if count < LEAST:
         return None
-    line, scatter = numpy.polyfit(series['time'][steady], series[name][steady], 1, cov=True)
-    return 1000.0 * line[0], 1000.0 * numpy.sqrt(scatter[0][0])
+    time, value = series['time'][steady], series[name][steady]
+    first, second = numpy.triu_indices(count, 1)
+    slopes = 1000.0 * numpy.sort((value[second] - value[first]) / (time[second] - time[first]))
+    spread = 3.0 * numpy.sqrt(count * (count - 1) * (2 * count + 5) / 18.0)
+    low = max(int((len(slopes) - spread) / 2), 0)
+    return numpy.median(slopes), slopes[low], slopes[-1 - low]
 
 
 def draw(tables, path):
@@ -66,8 +73,8 @@ def main(folder, picture):
             told = f'no slope: fewer than {LEAST} points after the first quarter'
             held, resident = slope(series, 'held'), slope(series, 'resident')
             if held is not None:
-                grew |= held[0] - 3.0 * held[1] > MOST
-                told = (f'{held[0]:+.2f} +- {held[1]:.2f} kB allocated, '
+                grew |= held[1] > MOST
+                told = (f'{held[0]:+.2f} ({held[1]:+.2f} to {held[2]:+.2f}) kB allocated, '
                         f'{resident[0]:+.2f} kB resident a time')
             print(f'{display}: {times:g} {what}, {told}' + ''.join(f'; {o}' for o in ogre))
     draw(tables, Path(picture))

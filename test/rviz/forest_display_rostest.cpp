@@ -263,6 +263,7 @@ TEST_F(ForestDisplayTest, FollowsALayoutThatChanges) {
 }
 
 TEST_F(ForestDisplayTest, FollowsANodeThatDiesAndReturns) {
+  display->subProp("Triangles")->setValue(1000);  // one state of rest: all trees the coarsest
   expectReloadsAreFollowed(
       rig,
       [&](int scene) {
