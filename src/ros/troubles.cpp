@@ -4,13 +4,31 @@
 
 #include <diagnostic_msgs/DiagnosticStatus.h>
 
+#include <algorithm>
+
 namespace vegetation_sim {
+namespace {
+
+constexpr int MOST_LINES = 5;  // of a status that people read
+
+std::string beginningOf(const std::string& text) {
+  std::size_t end = 0;
+  for (int line = 0; line < MOST_LINES; ++line) {
+    end = text.find('\n', end + (line > 0 ? 1 : 0));
+    if (end == std::string::npos) return text;
+  }
+  const auto rest = text.begin() + static_cast<std::ptrdiff_t>(end);
+  return text.substr(0, end) + "\nand " + std::to_string(std::count(rest, text.end(), '\n')) +
+         " more";
+}
+
+}  // namespace
 
 void warnOfMore(diagnostic_updater::DiagnosticStatusWrapper& status, std::uint64_t now,
                 std::uint64_t reported, const std::string& what) {
   if (now > reported)
     status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN,
-                        std::to_string(now - reported) + " " + what);
+                        std::to_string(now - reported) + " " + beginningOf(what));
 }
 
 void warnOfClock(diagnostic_updater::DiagnosticStatusWrapper& status, const TickClock::Counts& now,

@@ -11,7 +11,8 @@
 
 namespace vegetation_sim {
 
-/// Warns on /diagnostics of what has happened since the last report, and only of that.
+/// Warns on /diagnostics of what has happened since the last report, and only of that. Of text of
+/// many lines the first few, and how many more.
 void warnOfMore(diagnostic_updater::DiagnosticStatusWrapper& status, std::uint64_t now,
                 std::uint64_t reported, const std::string& what);
 void warnOfClock(diagnostic_updater::DiagnosticStatusWrapper& status, const TickClock::Counts& now,

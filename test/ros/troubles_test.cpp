@@ -1,0 +1,38 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/ros/troubles.h"
+
+#include <gtest/gtest.h>
+
+#include "vegetation_sim/common/faults.h"
+
+namespace vegetation_sim {
+namespace {
+
+std::string toldOf(int faults) {
+  Faults all;
+  for (int i = 1; i <= faults; ++i) all.add("fault " + std::to_string(i));
+  diagnostic_updater::DiagnosticStatusWrapper status;
+  status.summary(diagnostic_msgs::DiagnosticStatus::OK, "running");
+  warnOfMore(status, 2, 1, all.text());
+  return status.message;
+}
+
+// A message of a hundred robots that all are wrong does not fill the screen.
+TEST(Troubles, OfManyFaultsTheFirstAreToldAndHowManyMore) {
+  EXPECT_EQ(toldOf(1), "1 fault 1");
+  EXPECT_EQ(toldOf(5), "1 fault 1\nfault 2\nfault 3\nfault 4\nfault 5");
+  EXPECT_EQ(toldOf(7), "1 fault 1\nfault 2\nfault 3\nfault 4\nfault 5\nand 2 more");
+  EXPECT_EQ(toldOf(100).substr(toldOf(100).size() - 11), "and 95 more");
+}
+
+TEST(Troubles, WhatWasReportedIsNotToldAgain) {
+  diagnostic_updater::DiagnosticStatusWrapper status;
+  status.summary(diagnostic_msgs::DiagnosticStatus::OK, "running");
+  warnOfMore(status, 3, 3, "ticks dropped");
+  EXPECT_EQ(status.message, "running");
+  EXPECT_EQ(status.level, diagnostic_msgs::DiagnosticStatus::OK);
+}
+
+}  // namespace
+}  // namespace vegetation_sim
