@@ -13,7 +13,6 @@
 namespace vegetation_sim::view {
 namespace {
 
-constexpr double LEAF_COVERAGE = 0.4;    // of a card
 constexpr double VISIBLE_FLUTTER = 0.4;  // [pixel]
 constexpr double BREATH = 0.15;          // [m/s] air that moves no leaf
 constexpr forest::Colour MOVES{0.86f, 0.22f, 0.12f}, CHANGES{0.25f, 0.72f, 0.20f},
@@ -52,7 +51,7 @@ DrawnTree::DrawnTree(const forest::ForestReplica& replica, std::uint32_t id, con
       poser_(tree_) {}
 
 void DrawnTree::addTo(forest::LightGrid& light) const {
-  const double area = LEAF_COVERAGE * species_.leaf_size * species_.leaf_size;
+  const double area = forest::LEAF_COVERAGE * species_.leaf_size * species_.leaf_size;
   for (const forest::Branch& branch : tree_.skeleton.branches) {
     if (branch.leaves == 0) continue;
     const Vec3 tip = tipOf(branch, branch.rest);

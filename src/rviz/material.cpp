@@ -111,7 +111,10 @@ void Material::addShaded(const std::vector<std::string>& textures) {
   pass->setFog(true, Ogre::FOG_NONE);  // haze is in the programs
   bindEye(*pass->getVertexProgramParameters());
   if (kind_ != Kind::BLADES) pass->getFragmentProgramParameters()->setNamedConstant("picture", 0);
-  if (kind_ == Kind::GROUND) pass->getFragmentProgramParameters()->setNamedConstant("grain", 1);
+  if (kind_ == Kind::GROUND) {
+    pass->getFragmentProgramParameters()->setNamedConstant("grain", 1);
+    darken(0.f);
+  }
   if (kind_ == Kind::LEAVES) pass->setAlphaRejectSettings(Ogre::CMPF_GREATER_EQUAL, 128);
   if (hasTwoSides(kind_)) pass->setCullingMode(Ogre::CULL_NONE);
   if (kind_ == Kind::SHADOWS) makeShadow(*pass);

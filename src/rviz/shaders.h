@@ -83,7 +83,7 @@ void main() {
 constexpr const char* GROUND_FRAGMENT = R"(uniform sampler2D picture;
 uniform sampler2D grain;
 uniform vec4 haze_colour;
-uniform vec4 under;  // square of how near the last plants are [1/m2]
+uniform vec4 under;  // one over the square of how far it darkens [1/m2]
 varying vec4 light;
 varying vec4 place;
 varying vec3 view;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "vegetation_sim/common/math.h"
+#include "vegetation_sim/forest/mesh.h"
 #include "vegetation_sim/forest/narrow.h"
 #include "vegetation_sim/scan/chance.h"
 
@@ -40,7 +41,7 @@ void PosedTree::addLeaves(const forest::Species& species) {
   for (std::size_t i = 0; i < branches.size(); ++i) {
     if (branches[i].leaves == 0 || radius <= 0.0) continue;
     const double volume = PI * radius * radius * (branches[i].length + 4.0 / 3.0 * radius);
-    const double area = LEAF_COVERAGE * edge * edge * branches[i].leaves;
+    const double area = forest::LEAF_COVERAGE * edge * edge * branches[i].leaves;
     leaves_[i] = {radius, LEAF_PROJECTION * area / volume,
                   static_cast<std::uint32_t>(branches[i].key >> 32)};
   }

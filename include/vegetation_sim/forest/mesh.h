@@ -27,6 +27,9 @@ using LeafOutline = std::array<std::array<float, 2>, LEAF_CORNERS>;
 /// The part of the square that holds the picture of a leaf shape's clusters or boughs.
 const LeafOutline& leafOutline(int leaf_shape, bool boughs);
 
+/// Share of the square of a cluster that its leaves fill.
+constexpr double LEAF_COVERAGE = 0.4;
+
 /// One leaf cluster: a card fixed to a branch, of which the outline is drawn.
 struct LeafCard {
   std::int32_t branch{0};

@@ -34,7 +34,7 @@ class GroundVisual {
   ~GroundVisual();
 
   void light(const Daylight& daylight, const Vec3& to_sun, const Haze& haze);
-  /// Up to this distance [m] the picture's alpha darkens it; 0: nowhere.
+  /// Up to this distance [m] the picture's alpha darkens it; 0, as at first: nowhere.
   void darken(float distance) { plot_material_.darken(distance); }
   /// Paints part of the picture anew, `column` and `row` from its top left.
   void repaint(int column, int row, const Picture& part) {

@@ -37,7 +37,7 @@ class Material {
   void light(const Daylight& daylight, const Vec3& to_sun, const Haze& haze);
   /// Where it fades: the clock of VertexPaint::fade; each fade takes 1 of it.
   void setFadeClock(float clock);
-  /// Ground only: up to this distance [m] the picture's alpha darkens it; 0: nowhere.
+  /// Ground only: up to this distance [m] the picture's alpha darkens it; 0, as at first: nowhere.
   void darken(float distance);
 
  private:

@@ -56,8 +56,6 @@ class PosedTree {
   bool moved_{true};
 };
 
-/// Share of a cluster's square that its leaves fill, as displays draw them.
-constexpr double LEAF_COVERAGE = 0.4;
 /// Projection of leaves that look all ways: half of their one side (Ross 1981).
 constexpr double LEAF_PROJECTION = 0.5;
 /// Clusters reach this far from their branch, over their edge.
