@@ -2,21 +2,31 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
 # Frames a second that rviz draws of scenarios in a window of 1280 x 900 on a virtual display: with our
-# displays, beside the same nodes with stock markers as they are budgeted, with markers of about as many
-# triangles as our displays draw, and with the finest markers that the nodes publish, for markers know no
-# camera but the nodes'. And how much levels of detail change in pictures of our displays as the camera
-# goes away.
-# usage: scripts/frame_rates.sh [--seconds N] SCENARIO ...
+# displays, beside the same nodes with stock markers as they are budgeted, with markers of which as
+# many triangles are in the picture as of our displays, moving as often, and with the finest markers
+# that the nodes publish, for markers know no camera but the nodes'. And how much levels of detail
+# change in pictures of our displays as the camera goes away.
+# usage: scripts/frame_rates.sh [--seconds N] [--points N] SCENARIO ...
+#   --points N  of the markers that are to show as many triangles, if it is known: not searched for
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 
-seconds=10
-if [ "${1:-}" = --seconds ]; then seconds=$2; shift 2; fi
+seconds=10 given=
+while [[ ${1:-} == --* ]]; do
+  case $1 in
+    --seconds) seconds=$2 ;;
+    --points) given=$2 ;;
+    *) fail "unknown option $1" ;;
+  esac
+  shift 2
+done
 use_space "$BUILD/devel"
 . "$ROOT/scripts/launching.sh"
 trap 'stop_process "$launch_pid"; stop_process "$display_pid"; rm -rf "$WORK"' EXIT
 trap 'exit 130' INT TERM
 start_display
+MOST=3000000   # points that a node may publish
+UPDATE_RATE=30 # [Hz] of our displays
 
 # usage: start_scenario SCENARIO [MARKER_POINTS]
 start_scenario() {
@@ -26,6 +36,7 @@ start_scenario() {
     echo "<arg name='scenario' value='$1'/><arg name='rviz' value='false'/></include>"
     for node in ${2:+forest_animator grass_field canopy_animator agent_crowd}; do
       echo "<param name='$node/marker_points' value='$2'/>"
+      echo "<param name='$node/markers_rate' value='$UPDATE_RATE'/>"
     done
     echo '</launch>'
   } >"$WORK/scenario.launch"
@@ -40,17 +51,34 @@ measure() {
     grep 'frames' | tee "$WORK/figures"
 }
 
+# usage: markers_of POINTS: of all nodes that have something to show, in equal parts
+markers_of() {
+  local parts
+  parts=$(grep -cE '^(forest|grass|canopy|crowd):' "$ROOT/config/scenarios/$scenario.yaml")
+  start_scenario "$scenario" $(($1 / parts))
+  measure "stock markers of $1 points" "$ROOT/rviz/markers.rviz" --view "$config"
+  stop_process "$launch_pid"
+}
+
+in_picture() { sed -n 's/.* \([0-9]*\) in the picture.*/\1/p' "$WORK/figures"; }
+
 for scenario in "$@"; do
   config=$ROOT/rviz/$scenario.rviz
   [ -e "$config" ] || config=$ROOT/rviz/default.rviz
   start_scenario "$scenario"
   measure 'our displays' "$config" --dolly 3
-  triangles=$(sed -n 's/.* of \([0-9]*\) triangles.*/\1/p' "$WORK/figures")
+  wanted=$(in_picture)
+  [ "$wanted" -gt 0 ] || fail "our displays draw nothing of $scenario"
   measure 'stock markers' "$ROOT/rviz/markers.rviz" --view "$config"
   stop_process "$launch_pid"
-  for points in $((3 * triangles)) 3000000; do
-    start_scenario "$scenario" "$points"
-    measure "stock markers of up to $((points / 3)) triangles" "$ROOT/rviz/markers.rviz" --view "$config"
-    stop_process "$launch_pid"
+  points=${given:-$((3 * wanted))}
+  for ((try = 0; try < 3; ++try)); do
+    markers_of "$points"
+    [ -z "$given" ] || break
+    shown=$(in_picture)
+    ((10 * shown < 9 * wanted || 10 * shown > 11 * wanted)) || break
+    points=$((points * wanted / shown))
+    ((points <= MOST)) || points=$MOST
   done
+  markers_of $MOST
 done

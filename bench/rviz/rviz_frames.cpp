@@ -4,6 +4,10 @@
 // frames a second it draws, of how many triangles, in what time of all processors; and how much
 // levels of detail change in pictures as the camera goes away:
 //   rviz_frames FILE.rviz [--view FILE.rviz] [--seconds N] [--picture FILE] [--dolly FACTOR]
+#define GL_GLEXT_PROTOTYPES
+#include <GL/gl.h>
+#include <GL/glext.h>
+#include <OgreCamera.h>
 #include <OgreRenderWindow.h>
 #include <ros/ros.h>
 #include <rviz/display_group.h>
@@ -14,6 +18,7 @@
 #include <rviz/view_manager.h>
 #include <rviz/visualization_manager.h>
 #include <rviz/yaml_config_reader.h>
+#include <visualization_msgs/MarkerArray.h>
 
 #include <QApplication>
 #include <algorithm>
@@ -22,6 +27,8 @@
 #include <cstdlib>
 #include <cstring>
 #include <functional>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "processor_time.h"
@@ -30,6 +37,7 @@ namespace {
 
 constexpr int WIDTH = 1280, HEIGHT = 900;  // [pixel]
 constexpr double SETTLING = 20.0;          // [s] until all has been drawn
+constexpr double LISTENING = 5.0;          // [s] to each topic of markers
 constexpr int BLOCK = 16;                  // [pixel] edge of what differences are meant over
 constexpr int STEPS = 6;                   // of the camera's way
 constexpr int FRAMES_A_STEP = 20;
@@ -77,27 +85,32 @@ class Frames {
   void measure(double seconds) {
     const std::uint64_t first = manager_->getFrameCount();
     const ros::WallTime start = ros::WallTime::now();
-    const double used = vegetation_sim::bench::processorTime();
+    const double before = vegetation_sim::bench::processorTime();
     run(seconds);
+    const double used = vegetation_sim::bench::processorTime() - before;
     const auto count = static_cast<double>(manager_->getFrameCount() - first);
     const double rate = count / (ros::WallTime::now() - start).toSec();
+    const double seen = trianglesInView();
     const auto triangles =
         static_cast<double>(panel_.getRenderWindow()->getStatistics().triangleCount);
     std::printf(
-        "%.1f frames a second of %.0f triangles: %.2f million a second; %.0f ms of processor time "
-        "a frame\n",
-        rate, triangles, 1e-6 * rate * triangles,
-        1e3 * (vegetation_sim::bench::processorTime() - used) / std::max(count, 1.0));
+        "%.1f frames a second of %.0f triangles, %.0f in the picture; %.0f ms of processor time a "
+        "frame\n",
+        rate, triangles, seen, 1e3 * used / std::max(count, 1.0));
   }
 
   void write(const char* file) { panel_.getRenderWindow()->writeContentsToFile(file); }
 
   /// Steps back until the distance is `factor` times what it was, while time stands. Prints how
   /// much pictures change after a step, when only levels of detail do: from one to the next at
-  /// most, and in all.
-  void dolly(double factor) {
+  /// most, and in all. False if pictures never rest before.
+  bool dolly(double factor) {
     manager_->getFrameManager()->setPause(true);
-    settle();
+    if (!settle()) {
+      std::printf("levels of detail: pictures did not rest within %.0f s, so no change of frames\n",
+                  STILL_TIME);
+      return false;
+    }
     rviz::Property* distance = manager_->getViewManager()->getCurrent()->subProp("Distance");
     const double start = distance->getValue().toDouble();
     double step = 0.0, all = 0.0;
@@ -118,19 +131,65 @@ class Frames {
         "levels of detail change a block of %d x %d pixels by %.1f of 255, %.1f between two "
         "frames\n",
         BLOCK, BLOCK, all, step);
+    return true;
   }
 
  private:
-  // Until pictures stay the same while time stands.
-  void settle() {
+  /// Of a frame, those that are not wholly outside: what clipping passes on to the rasteriser; but
+  /// not what fills up lists of markers.
+  double trianglesInView() {
+    GLuint query = 0, passed = 0;
+    glGenQueries(1, &query);
+    glBeginQuery(GL_CLIPPING_OUTPUT_PRIMITIVES_ARB, query);
+    frames(1);
+    glEndQuery(GL_CLIPPING_OUTPUT_PRIMITIVES_ARB);
+    glGetQueryObjectuiv(query, GL_QUERY_RESULT, &passed);
+    glDeleteQueries(1, &query);
+    return passed - emptyOnesInView();
+  }
+
+  /// Triangles without area in the newest markers of each display.
+  double emptyOnesInView() {
+    const rviz::DisplayGroup& displays = *manager_->getRootDisplayGroup();
+    std::map<std::string, visualization_msgs::MarkerArray::ConstPtr> heard;
+    std::vector<ros::Subscriber> subscribers;
+    for (int i = 0; i < displays.numDisplays(); ++i) {
+      rviz::Display& display = *displays.getDisplayAt(i);
+      if (display.getClassId() != "rviz/MarkerArray") continue;
+      const std::string topic =
+          display.subProp("Marker Topic")->getValue().toString().toStdString();
+      subscribers.push_back(nh_.subscribe<visualization_msgs::MarkerArray>(
+          topic, 1, [&heard, topic](const visualization_msgs::MarkerArray::ConstPtr& message) {
+            heard[topic] = message;
+          }));
+    }
+    if (!subscribers.empty()) run(LISTENING);
+    const Ogre::Camera& camera = *manager_->getViewManager()->getCurrent()->getCamera();
+    double out = 0.0;
+    for (const auto& [topic, message] : heard)
+      for (const visualization_msgs::Marker& marker : message->markers)
+        for (std::size_t i = 0; i + 2 < marker.points.size(); i += 3) {
+          const auto& p = marker.points[i];
+          if (p != marker.points[i + 1] || p != marker.points[i + 2]) continue;
+          const Ogre::Vector3 at(static_cast<float>(p.x), static_cast<float>(p.y),
+                                 static_cast<float>(p.z));
+          if (camera.isVisible(at)) out += 1.0;
+        }
+    return out;
+  }
+
+  // Until pictures stay the same while time stands; false if they do not.
+  bool settle() {
     const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(STILL_TIME);
     std::vector<unsigned char> before;
-    for (int alike = 0; alike < STILL_FRAMES && ros::WallTime::now() < end;) {
+    for (int alike = 0; alike < STILL_FRAMES;) {
+      if (ros::WallTime::now() > end) return false;
       frames(1);
       std::vector<unsigned char> now = picture();
       alike = now == before ? alike + 1 : 0;
       before = std::move(now);
     }
+    return true;
   }
 
   std::vector<unsigned char> picture() {
@@ -160,6 +219,7 @@ class Frames {
     return largest;
   }
 
+  ros::NodeHandle nh_;
   rviz::RenderPanel panel_;
   rviz::VisualizationManager* manager_;
 };
@@ -189,7 +249,7 @@ int main(int argc, char** argv) {
   frames.run(SETTLING);
   frames.measure(seconds);
   if (picture != nullptr) frames.write(picture);
-  if (factor > 0.0) frames.dolly(factor);
+  const bool rested = factor <= 0.0 || frames.dolly(factor);
   std::fflush(stdout);
-  std::_Exit(0);
+  std::_Exit(rested ? 0 : 1);
 }
