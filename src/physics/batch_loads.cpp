@@ -88,7 +88,6 @@ void BatchChain::setGrips(int tree, const std::vector<Grip>& grips) {
 
 // Rows know places relative to the bases.
 void BatchChain::askAirOf(const ChainGroup& group) {
-  placeGrips(group, *store_);
   for (const std::size_t t : group.trees) {
     const Member& member = trees_[t];
     for (std::size_t i = 0; i < member.count && !member.bases.empty(); ++i) {

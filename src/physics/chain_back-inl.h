@@ -141,16 +141,14 @@ HWY_INLINE Solution solve(const Joints& at, const Push& parent) {
   return out;
 }
 
-/// Steps q and rate; `fastest` grows to the largest rate. `mean`: on top of what lookAhead found.
-HWY_INLINE Push settle(const Joints& at, const Push& parent, Lanes step, bool mean,
-                       Lanes& fastest) {
+/// Steps q and rate; `fastest` grows to the largest rate.
+HWY_INLINE Push settle(const Joints& at, const Push& parent, Lanes step, Lanes& fastest) {
   const Solution solved = solve(at, parent);
   const Lanes ahead = load(at.state, S_THETA) * step;
-  Lanes acceleration[2] = {solved.first, solved.second};
+  const Lanes acceleration[2] = {solved.first, solved.second};
   Lanes q[2] = {load(at.state, S_Q), load(at.state, S_Q + 1)};
   Lanes rate[2] = {load(at.state, S_RATE), load(at.state, S_RATE + 1)};
   for (int axis = 0; axis < 2; ++axis) {
-    if (mean) acceleration[axis] = load(at.work, W_SOLVED + axis) + acceleration[axis];
     q[axis] = q[axis] + step * (rate[axis] + ahead * acceleration[axis]);
     rate[axis] = rate[axis] + step * acceleration[axis];
   }

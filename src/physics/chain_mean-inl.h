@@ -63,11 +63,9 @@ HWY_INLINE Lanes weightOf(const Joints& at) {
   return hn::IfThenElseZero(sleeps, all(0.5f));
 }
 
-/// Keeps the joint's accelerations and leaves the change of its link's bias wrench.
+/// Leaves the change of the bias wrench of the joint's link.
 HWY_INLINE Ahead lookAhead(const Joints& at, const Ahead& parent, Lanes step) {
   const Solution solved = solve(at, parent.push);
-  store(solved.first, at.work, W_SOLVED);
-  store(solved.second, at.work, W_SOLVED + 1);
   const Lanes rx = load(at.state, S_RATE), ry = load(at.state, S_RATE + 1);
   const Lanes ahead = load(at.state, S_THETA) * step;
   const Lanes x = load(at.state, S_Q) + ahead * rx, y = load(at.state, S_Q + 1) + ahead * ry;
@@ -89,7 +87,7 @@ HWY_INLINE Ahead lookAhead(const Joints& at, const Ahead& parent, Lanes step) {
   return {solved.push, frame.spin, frame.spin_rate, frame.acceleration};
 }
 
-/// What the joint must do under the wrench on its link and all beyond, and what is left of that for
+/// Adds what the wrench on the link and all beyond asks of the joint; leaves what is left of it for
 /// the parent's joint.
 HWY_INLINE void inwardWrench(const Joints& at, Bias& sum) {
   sum.torque = sum.torque + load3(at.work, W_TORQUE);
@@ -98,8 +96,8 @@ HWY_INLINE void inwardWrench(const Joints& at, Bias& sum) {
   const Lanes u1 = zero - dot(load3(at.work, W_FIRST), sum.torque);
   const Lanes u2 =
       zero - dot(load3(at.work, W_SECOND), sum.torque) - load(at.work, W_COUPLING) * u1;
-  store(u1, at.work, W_DRIVE);
-  store(u2, at.work, W_DRIVE + 1);
+  store(load(at.work, W_DRIVE) + u1, at.work, W_DRIVE);
+  store(load(at.work, W_DRIVE + 1) + u2, at.work, W_DRIVE + 1);
   const Lanes x1 = load(at.work, W_INVERSE) * u1, x2 = load(at.work, W_INVERSE + 1) * u2;
   sum.force = sum.force + (x1 * load3(at.work, W_GAIN + 3) + x2 * load3(at.work, W_GAIN + 9));
   sum.torque = sum.torque + (x1 * load3(at.work, W_GAIN) + x2 * load3(at.work, W_GAIN + 6)) +

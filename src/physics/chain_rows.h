@@ -85,9 +85,7 @@ enum : int {
   W_DRIVE,
   W_TURN = W_DRIVE + 2,  // from here on only for air and the mean of velocity products: orientation
   W_SPIN = W_TURN + 4,
-  W_SOLVED = W_SPIN + 3,      // accelerations of the joint
-  W_POSITION = W_SOLVED + 2,  // of the joint relative to its base, and its velocity, only for air
-  W_VELOCITY = W_POSITION + 3,
+  W_VELOCITY = W_SPIN + 3,  // of the joint, only for air
   W_ROWS = W_VELOCITY + 3
 };
 static_assert(W_MOMENT + 3 <= W_TURN, "the rigid inertia fits where the sweep writes");

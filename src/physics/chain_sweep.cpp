@@ -67,7 +67,7 @@ HWY_INLINE void outGroupAs(const ChainGroup& group, Lanes step, ChainStore& stor
           if constexpr (TOLD == Told::ALL) eachRow(trace.position, F_POSITION, put);
         };
         if (at.grips) store3(trace.velocity, at.work, W_VELOCITY);
-        if (TOLD == Told::ALL && at.grips) store3(trace.position, at.work, W_POSITION);
+        if (TOLD == Told::ALL && store.asked) store3(trace.position + gripArm(at), at.air, V_PLACE);
         if (TOLD == Told::ALL && store.trace)
           storeMotion(frame, trace, store.motion.of(level.begin - group.begin + i, M_ROWS));
         handOn(level, i, each, room, handed);
@@ -87,14 +87,6 @@ void outGroup(const ChainGroup& group, float step, ChainStore& store) {
     outGroupAs<Told::VELOCITY>(group, all(step), store);
   else
     outGroupAs<Told::NOTHING>(group, all(step), store);
-}
-
-void placeGripsOf(const ChainGroup& group, ChainStore& store) {
-  for (const Level& level : group.levels)
-    for (int i = 0; i < level.count; i += width()) {
-      const Joints at = jointsAt(group, store, level.begin + i);
-      store3(load3(at.work, W_POSITION) + gripArm(at), at.air, V_PLACE);
-    }
 }
 
 void inwardGroup(const ChainGroup& group, float h, ChainStore& store) {
@@ -165,8 +157,7 @@ float settleGroup(const ChainGroup& group, float h, ChainStore& store) {
   for (const Level& level : group.levels) {
     for (int i = 0; i < level.count; i += width()) {
       const Push parent{load3(received + i, 0, room), load3(received + i, 3, room)};
-      const Push push =
-          settle(jointsAt(group, store, level.begin + i), parent, step, store.mean, fastest);
+      const Push push = settle(jointsAt(group, store, level.begin + i), parent, step, fastest);
       handOn(
           level, i, [&](const auto& put) HWY_ATTR { eachRow(push, put); }, room, handed);
     }
@@ -191,15 +182,10 @@ HWY_AFTER_NAMESPACE();
 namespace vegetation_sim::physics {
 
 HWY_EXPORT(outGroup);
-HWY_EXPORT(placeGripsOf);
 HWY_EXPORT(backGroup);
 
 void sweepOut(const ChainGroup& group, float step, ChainStore& store) {
   HWY_DYNAMIC_DISPATCH(outGroup)(group, step, store);
-}
-
-void placeGrips(const ChainGroup& group, ChainStore& store) {
-  HWY_DYNAMIC_DISPATCH(placeGripsOf)(group, store);
 }
 
 float sweepBack(const ChainGroup& group, float step, ChainStore& store) {

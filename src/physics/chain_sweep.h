@@ -51,10 +51,9 @@ struct ChainStore {
   std::vector<AnchorRows> anchors;  ///< sorted by slot
 };
 
-/// Geometry and rigid bodies of a group at q + theta h rate, h = `step`.
+/// Geometry and rigid bodies of a group at q + theta h rate, h = `step`; places of the grips where
+/// the air is asked for.
 void sweepOut(const ChainGroup& group, float step, ChainStore& store);
-/// Places of the grips of a group where sweepOut left the links.
-void placeGrips(const ChainGroup& group, ChainStore& store);
 /// Articulated inertias, accelerations, and the step. Returns the largest rate after it.
 float sweepBack(const ChainGroup& group, float step, ChainStore& store);
 

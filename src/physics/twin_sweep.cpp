@@ -143,7 +143,7 @@ HWY_INLINE void settlePart(const Part& part, Lanes step) {
     const TwinJoint& joint = part.store.joints[i];
     const float* below = joint.root >= 0 ? nullptr : part.onStack(joint.depth - 1);
     const Push parent = below ? Push{load3(below, 0), load3(below, 3)} : Push{{o, o, o}, {o, o, o}};
-    const Push push = settle(part.joints(i), parent, step, part.store.mean, fastest);
+    const Push push = settle(part.joints(i), parent, step, fastest);
     if (joint.leaf) continue;
     eachRow(push, StoreRows{part.onStack(joint.depth), ROW});
   }
