@@ -2,12 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A capsule of 5 cm driven through crowns that are physical as a whole, where they have most thin
 // wood: how deep wood enters, and with which force; the worst of all drives of a tree and speed.
-// usage: contact_bench [--quick | --full] [--csv FILE]: one, three or all ways through each tree
+// Then in a forest, as a robot has it: the wrenches that are told at 60 Hz.
+// usage: contact_bench [--quick | --full] [--part depth,told] [--csv FILE]: one, three or all ways
+// through each tree; the file is of the depths
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <exception>
+#include <map>
 
+#include "forest/contact_scene.h"
 #include "forest/crown_scene.h"
 #include "options.h"
 #include "table.h"
@@ -103,22 +107,83 @@ void driveAll(const std::string& species, std::uint64_t seed, std::size_t most,
   }
 }
 
+/// Wrenches of branches as they are told, tick by tick: the worst of several drives.
+struct Told {
+  double force{0.0}, rise{0.0}, fall{0.0};  ///< of one branch; from tick to tick [N]
+  double whole{0.0}, jump{0.0};             ///< of the body; from tick to tick [N]
+  int ticks{0}, rises{0};                   ///< wrenches told; risen by more than MOST_SWING
+
+  void drive(Drive& scene, double speed) {
+    const double much = Halvings::MOST_SWING * physics::ContactLaw().force_limit;
+    std::map<int, double> before;
+    Vec3 last = Vec3::Zero();
+    for (int i = 0; i < WAY / speed * TICKS; ++i) {
+      scene.driveOn();
+      std::map<int, double> now;
+      Vec3 sum = Vec3::Zero();
+      for (const Reaction& reaction : scene.forest().reactions()) {
+        now[reaction.at.branch] += length(reaction.force);
+        sum += reaction.force;
+      }
+      for (const auto& [branch, size] : now) {
+        force = std::max(force, size);
+        rise = std::max(rise, size - before[branch]);
+        rises += size - before[branch] > much;
+        ++ticks;
+      }
+      for (const auto& [branch, size] : before) fall = std::max(fall, size - now[branch]);
+      whole = std::max(whole, length(sum));
+      jump = std::max(jump, length(sum - last));
+      before = now;
+      last = sum;
+    }
+  }
+};
+
+void tellAll(const std::string& species, std::uint64_t seed, std::size_t most) {
+  std::vector<Way> ways = busiestWays(CrownScene(species, seed).skeleton());
+  ways.resize(std::min(ways.size(), most));
+  for (const double speed : {0.1, 0.5, 1.0, 3.0}) {
+    Told told;
+    for (const Way& way : ways) {
+      Drive scene(speed, way.start, species, seed);
+      told.drive(scene, speed);
+    }
+    std::printf("%-7s %4llu %5.1f %6zu %9.0f %9.0f %9.0f %9.0f %9.0f %8d %8d\n", species.c_str(),
+                static_cast<unsigned long long>(seed), speed, ways.size(), told.force, told.rise,
+                told.fall, told.whole, told.jump, told.ticks, told.rises);
+  }
+}
+
+void benchDepth(std::size_t most, const std::string& csv) {
+  bench::Table table(csv,
+                     "species,seed,speed,drives,touched,deepest_thin,deepest_own,deeper_than_bar,"
+                     "deepest_thick,force,largest_rise,parts,disagreed");
+  std::printf("%-7s %4s %5s %6s %7s %9s %9s %6s %10s %9s %8s %6s %9s\n", "species", "seed", "[m/s]",
+              "drives", "touched", "thin [mm]", "own [mm]", "> 5 mm", "other [mm]", "force [N]",
+              "rise [N]", "parts", "disagreed");
+  for (const std::string& species : speciesNames())
+    for (std::uint64_t seed = 7; seed < 10; ++seed) driveAll(species, seed, most, table);
+}
+
+void benchTold(std::size_t most) {
+  std::printf("\ntold at %d Hz\n%-7s %4s %5s %6s %9s %9s %9s %9s %9s %8s %8s\n", TICKS, "species",
+              "seed", "[m/s]", "drives", "force [N]", "rise [N]", "fall [N]", "body [N]",
+              "jump [N]", "wrenches", "> 500 N");
+  for (const std::string& species : speciesNames())
+    for (std::uint64_t seed = 7; seed < 10; ++seed) tellAll(species, seed, most);
+}
+
 }  // namespace
 }  // namespace vegetation_sim::forest
 
 int main(int argc, char** argv) {
   using namespace vegetation_sim;
   try {
-    const bench::Options options = bench::readOptions(argc, argv, {});
+    const bench::Options options = bench::readOptions(argc, argv, {"depth", "told"});
     const std::size_t most = options.full ? 1000 : options.quick ? 1 : 3;
-    bench::Table table(options.csv,
-                       "species,seed,speed,drives,touched,deepest_thin,deepest_own,deeper_than_bar,"
-                       "deepest_thick,force,largest_rise,parts,disagreed");
-    std::printf("%-7s %4s %5s %6s %7s %9s %9s %6s %10s %9s %8s %6s %9s\n", "species", "seed",
-                "[m/s]", "drives", "touched", "thin [mm]", "own [mm]", "> 5 mm", "other [mm]",
-                "force [N]", "rise [N]", "parts", "disagreed");
-    for (const std::string& species : forest::speciesNames())
-      for (std::uint64_t seed = 7; seed < 10; ++seed) forest::driveAll(species, seed, most, table);
+    if (options.wants("depth")) forest::benchDepth(most, options.csv);
+    if (options.wants("told")) forest::benchTold(most);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "contact_bench: %s\n", error.what());
     return 1;

@@ -7,6 +7,7 @@
 #include "forest/air_blocks.h"
 #include "vegetation_sim/common/math.h"
 #include "vegetation_sim/forest/physical_part.h"
+#include "vegetation_sim/physics/bend.h"
 
 namespace vegetation_sim::forest {
 namespace {
@@ -169,6 +170,27 @@ void PhysicalPart::kinematicsAt(const Air& air, Nanoseconds stamp, PartScratch& 
   const Course course = scratch.courseOf(*tree_, air, stamp);
   baseMotions(course, scratch, scratch.bases);
   physics::kinematicsOf(links_, scratch.bases, state_, out);
+}
+
+void PhysicalPart::placesAt(const std::vector<PartSpring>& springs, const Air& air,
+                            Nanoseconds stamp, PartScratch& scratch, std::vector<Vec3>& out) const {
+  baseMotions(scratch.courseOf(*tree_, air, stamp), scratch, scratch.bases);
+  out.resize(springs.size());
+  for (std::size_t i = 0; i < springs.size(); ++i) {
+    const int link = linkOf(springs[i].point.branch);
+    if (link < 0) continue;
+    const Pose pose = poseOf(link, scratch.bases);
+    out[i] = pose.position + springs[i].point.along * axisZ(pose.orientation);
+  }
+}
+
+// As physics::kinematicsOf, of what bears the link alone.
+Pose PhysicalPart::poseOf(int link, const std::vector<physics::BaseMotion>& bases) const {
+  const physics::Link& own = links_[index(link)];
+  const Pose from = own.parent < 0 ? bases[index(own.base)].pose : poseOf(own.parent, bases);
+  const physics::Vec2& q = state_.q[index(link)];
+  return {from.position + own.h * axisZ(from.orientation),
+          from.orientation * (own.rest * physics::rotationOf(physics::bendOf(q), q))};
 }
 
 // Base 0 is the ground; the carriers follow.

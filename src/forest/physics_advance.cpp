@@ -159,6 +159,7 @@ void ForestPhysics::step(const Site& at, Nanoseconds from, Nanoseconds to, std::
   for (auto& [tree, part] : parts_) {
     if (part.empty()) continue;
     gather(tree, part.tree().foot, from, stamp_of(k), to);
+    if (k == 0) feel(at, tree, part, from, from);
     loads_.air = NEVER;
     loads_.hold = false;
     if (isNear(tree)) {
@@ -169,6 +170,7 @@ void ForestPhysics::step(const Site& at, Nanoseconds from, Nanoseconds to, std::
     loads_.air = (stamp_of(first) + stamp_of(last)) / 2;
     loads_.hold = k != first;
     part.step(airOf(at, tree), loads_, settings_, stamp_of(k), stamp_of(k + 1), scratch_);
+    feel(at, tree, part, stamp_of(k), stamp_of(k + 1));
   }
 }
 
@@ -194,7 +196,11 @@ void ForestPhysics::gather(std::uint32_t tree, const Vec3& foot, Nanoseconds fro
 void ForestPhysics::settle(const Site& at, Nanoseconds from, Nanoseconds to) {
   reactToBodies(steps_);
   for (auto& [tree, part] : parts_) {
-    react(at, tree, part, from, to);
+    if (to <= from) {
+      gather(tree, part.tree().foot, from, to, to);
+      feel(at, tree, part, to, to);
+    }
+    react(tree, part, secondsBetween(from, to));
     part.demote(scratch_.courseOf(part.tree(), airOf(at, tree), to), settings_, scratch_);
   }
   for (auto& [id, hold] : holds_) hold.target = grabs_.at(id).target;
@@ -215,32 +221,46 @@ bool ForestPhysics::isLoaded(std::uint32_t tree) const {
                      [&](const Push& push) { return push.point.tree == tree; });
 }
 
-// Reactions of the springs on a tree, with the forces of the end of the tick.
-void ForestPhysics::react(const Site& at, std::uint32_t tree, const PhysicalPart& part,
-                          Nanoseconds from, Nanoseconds to) {
-  gather(tree, part.tree().foot, from, to, to);
-  if (loads_.springs.empty() || part.empty()) return;
-  physics::Kinematics& now = scratch_.kinematics;
-  part.kinematicsAt(airOf(at, tree), to, scratch_, now);
+// What the hands on a tree give it between two moments: springs by where the points are at both,
+// dampers by the way between. So the damper's impulse is exact, and the spring's the step's own. Of
+// one moment: a tick begins.
+void ForestPhysics::feel(const Site& at, std::uint32_t tree, const PhysicalPart& part,
+                         Nanoseconds from, Nanoseconds to) {
+  if (loads_.springs.empty()) return;
+  part.placesAt(loads_.springs, airOf(at, tree), to, scratch_, scratch_.places);
+  const double h = secondsBetween(from, to);
   std::size_t spring = 0;
   for (auto& [id, grab] : grabs_) {
     if (grab.point.tree != tree) continue;
-    const PartSpring& held = loads_.springs[spring++];
-    const int found = part.linkOf(grab.point.branch);
-    if (found < 0) continue;
-    const auto link = static_cast<std::size_t>(found);
-    const Vec3 arm = grab.point.along * axisZ(now.pose[link].orientation);
-    const Vec3 point = now.pose[link].position + arm;
-    const SpringForce pull =
-        forceOf(held, to, point, now.velocity[link] + cross(now.spin[link], arm));
-    holds_[id].force = pull.force;
+    const PartSpring& held = loads_.springs[spring];
+    Hold& hold = holds_[id];
+    const Vec3 before = hold.place;
+    hold.place = scratch_.places[spring++];
+    if (h <= 0.0) {
+      hold.impulse = Vec3::Zero();
+      hold.limited = false;
+    }
+    if (h <= 0.0 || part.linkOf(grab.point.branch) < 0) continue;
+    const SpringForce mean = forceOf(held, from + (to - from) / 2, 0.5 * (before + hold.place),
+                                     (hold.place - before) / h);
+    hold.impulse += h * mean.force;
+    hold.limited = hold.limited || mean.scale < 1.0;
+  }
+}
+
+// Reactions of the springs on a tree: means over the tick, which carry their whole impulse.
+void ForestPhysics::react(std::uint32_t tree, const PhysicalPart& part, double duration) {
+  for (auto& [id, grab] : grabs_) {
+    if (grab.point.tree != tree || part.linkOf(grab.point.branch) < 0) continue;
+    Hold& hold = holds_[id];
+    if (duration > 0.0) hold.force = hold.impulse / duration;
     Reaction out;
     out.grab = id;
     out.frame = grab.frame;
     out.at = grab.point;
-    out.point = part.tree().foot + point;
-    out.force = -pull.force;
-    out.limited = pull.scale < 1.0;
+    out.point = part.tree().foot + hold.place;
+    out.force = -hold.force;
+    out.limited = hold.limited;
     reactions_.push_back(out);
   }
 }

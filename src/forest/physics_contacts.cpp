@@ -43,7 +43,10 @@ void ForestPhysics::stepAmong(const Site& at, const ContactModel::Wood& wood, Ph
   std::vector<physics::Contact> contacts =
       at.contacts->findContacts(wood, bodies_, from, to, touches);
   const Air air = airOf(at, wood.tree);
-  if (contacts.empty()) return part.step(air, loads_, settings_, from, to, scratch_);
+  if (contacts.empty()) {
+    part.step(air, loads_, settings_, from, to, scratch_);
+    return feel(at, wood.tree, part, from, to);
+  }
   const PhysicalPart::Moment start = part.moment();
   part.stepTouching(air, loads_, settings_, from, to, scratch_, contacts);
   if (halvings.want(scratch_.contact_stepper, settings_.contact, to - from)) {
@@ -54,6 +57,7 @@ void ForestPhysics::stepAmong(const Site& at, const ContactModel::Wood& wood, Ph
     part.kinematicsAt(air, middle, scratch_, scratch_.start);
     return stepAmong(at, wood, part, middle, to, whole, halvings);
   }
+  feel(at, wood.tree, part, from, to);
   std::vector<Reaction> reactions;
   at.contacts->settle(wood, bodies_, contacts, to, touches, reactions);
   const double share = static_cast<double>(to - from) / static_cast<double>(whole);

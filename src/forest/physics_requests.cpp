@@ -120,7 +120,7 @@ std::uint32_t ForestPhysics::addGrab(const Site& at, Grab grab) {
   part.keep();
   next_grab_ = std::max(next_grab_, grab.id + 1);
   grabs_[grab.id] = grab;
-  holds_[grab.id] = {grab.target, true, reach, grown.foot, Vec3(Vec3::Zero())};
+  holds_[grab.id] = {grab.target, true, reach, grown.foot};
   next_review_ = 0;
   return grab.id;
 }

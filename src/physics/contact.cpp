@@ -197,11 +197,10 @@ void ContactStepper::step(const std::vector<Link>& links, const Surroundings& ou
   }
   stopJoints(h, state);
   swing_ = 0.0;
-  double of_link = 0.0;  // one that lies flat has two contacts in a row
+  swings_.assign(links.size(), 0.0);
   for (std::size_t c = 0; c < contacts.size(); ++c) {
-    if (c > 0 && contacts[c].link != contacts[c - 1].link) of_link = 0.0;
-    of_link += swingOf(h, points_[c], contacts[c]);
-    swing_ = std::max(swing_, of_link);
+    double& of_link = swings_[static_cast<std::size_t>(contacts[c].link)];
+    swing_ = std::max(swing_, of_link += swingOf(h, points_[c], contacts[c]));
   }
 }
 

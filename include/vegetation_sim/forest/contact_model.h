@@ -37,7 +37,7 @@ struct Touch {
 using Touches = std::vector<Touch>;
 
 /// Of one step of a tree: which of its parts are taken again in halves, so that the
-/// force of a body on a branch changes by at most MOST_SWING of the law's limit in a part.
+/// forces on a branch change by at most MOST_SWING of the law's limit in a part.
 class Halvings {
  public:
   static constexpr double MOST_SWING = 0.25;

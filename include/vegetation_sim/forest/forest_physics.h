@@ -58,11 +58,14 @@ class ForestPhysics {
  private:
   /// What a grab needs from one tick to the next.
   struct Hold {
-    Vec3 target{Vec3::Zero()};  ///< at the last tick, world
-    bool renewed{true};         ///< since the last tick
-    double reach{0.0};          ///< its targets are no farther from the tree's foot [m]
-    Vec3 foot{Vec3::Zero()};    ///< of the tree [m]
-    Vec3 force{Vec3::Zero()};   ///< on the branch at the last tick [N]
+    Vec3 target{Vec3::Zero()};   ///< at the last tick, world
+    bool renewed{true};          ///< since the last tick
+    double reach{0.0};           ///< its targets are no farther from the tree's foot [m]
+    Vec3 foot{Vec3::Zero()};     ///< of the tree [m]
+    Vec3 force{Vec3::Zero()};    ///< on the branch, mean of the last tick [N]
+    Vec3 place{Vec3::Zero()};    ///< of the point held, from the tree's foot [m]
+    Vec3 impulse{Vec3::Zero()};  ///< on the branch since the last tick [N s]
+    bool limited{false};         ///< at its limit somewhere since then
   };
 
   PhysicalPart& partOf(const Site& at, std::uint32_t tree);
@@ -85,9 +88,10 @@ class ForestPhysics {
   void letFall(const std::vector<Reaction>& told, double duration);
   void gather(std::uint32_t tree, const Vec3& foot, Nanoseconds from, Nanoseconds now,
               Nanoseconds to);
+  void feel(const Site& at, std::uint32_t tree, const PhysicalPart& part, Nanoseconds from,
+            Nanoseconds to);
   void settle(const Site& at, Nanoseconds from, Nanoseconds to);
-  void react(const Site& at, std::uint32_t tree, const PhysicalPart& part, Nanoseconds from,
-             Nanoseconds to);
+  void react(std::uint32_t tree, const PhysicalPart& part, double duration);
   bool isLoaded(std::uint32_t tree) const;
 
   PhysicsSettings settings_;

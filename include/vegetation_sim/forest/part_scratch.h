@@ -38,6 +38,7 @@ struct PartScratch {
   physics::Loads loads;
   physics::ContactStepper contact_stepper;
   physics::Kinematics start;  // of a step with contacts
+  std::vector<Vec3> places;   // of points that springs hold
 
   std::size_t replaced{0};  ///< steps of a tree that another integrator had to take
 

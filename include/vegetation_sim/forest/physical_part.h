@@ -120,6 +120,10 @@ class PhysicalPart {
   /// Where the links are and how they move, tree's frame.
   void kinematicsAt(const Air& air, Nanoseconds stamp, PartScratch& scratch,
                     physics::Kinematics& out) const;
+  /// Where the points are that springs hold, tree's frame; anywhere for branches that are not
+  /// physical.
+  void placesAt(const std::vector<PartSpring>& springs, const Air& air, Nanoseconds stamp,
+                PartScratch& scratch, std::vector<Vec3>& out) const;
 
  private:
   struct Joined {
@@ -154,6 +158,7 @@ class PhysicalPart {
                   physics::Loads& out) const;
   void addForces(const PartLoads& loads, const physics::Kinematics& kinematics,
                  physics::Loads& out) const;
+  Pose poseOf(int link, const std::vector<physics::BaseMotion>& bases) const;
 
   std::shared_ptr<const Tree> tree_;
   Species species_;

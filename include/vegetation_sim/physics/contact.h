@@ -35,7 +35,8 @@ class ContactStepper {
   /// Trials of the last step, and whether the last of them agreed with itself.
   int trials() const { return trials_; }
   bool agreed() const { return agreed_; }
-  /// By how much the force on a link by one body changed at most in the last step, to and fro [N].
+  /// By how much the forces on a link changed at most in the last step, to and fro, those of all
+  /// bodies together [N].
   double swing() const { return swing_; }
 
  private:
@@ -77,6 +78,7 @@ class ContactStepper {
   std::vector<Point> points_;
   int trials_{0};
   bool agreed_{true};
+  std::vector<double> swings_;  // of links, by all bodies
   double swing_{0.0};
 };
 
