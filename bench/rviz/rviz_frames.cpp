@@ -140,12 +140,14 @@ class Frames {
   double trianglesInView() {
     GLuint query = 0, passed = 0;
     glGenQueries(1, &query);
+    const std::uint64_t first = manager_->getFrameCount();
     glBeginQuery(GL_CLIPPING_OUTPUT_PRIMITIVES_ARB, query);
-    frames(1);
+    frames(1);  // or more
     glEndQuery(GL_CLIPPING_OUTPUT_PRIMITIVES_ARB);
     glGetQueryObjectuiv(query, GL_QUERY_RESULT, &passed);
     glDeleteQueries(1, &query);
-    return passed - emptyOnesInView();
+    const auto count = static_cast<double>(manager_->getFrameCount() - first);
+    return passed / count - emptyOnesInView();
   }
 
   /// Triangles without area in the newest markers of each display.
