@@ -54,7 +54,7 @@ measure() {
 # usage: markers_of POINTS: of all nodes that have something to show, in equal parts
 markers_of() {
   local parts
-  parts=$(grep -cE '^(forest|grass|canopy|crowd):' "$ROOT/config/scenarios/$scenario.yaml")
+  parts=$(grep -cE '^(forest|grass|canopy|crowd):' "$ROOT/config/scenarios/$scenario.yaml") || fail "$scenario has nothing to show"
   start_scenario "$scenario" $(($1 / parts))
   measure "stock markers of $1 points" "$ROOT/rviz/markers.rviz" --view "$config"
   stop_process "$launch_pid"
@@ -68,7 +68,7 @@ for scenario in "$@"; do
   start_scenario "$scenario"
   measure 'our displays' "$config" --dolly 3
   wanted=$(in_picture)
-  [ "$wanted" -gt 0 ] || fail "our displays draw nothing of $scenario"
+  [ "${wanted:-0}" -gt 0 ] || fail "our displays draw nothing of $scenario"
   measure 'stock markers' "$ROOT/rviz/markers.rviz" --view "$config"
   stop_process "$launch_pid"
   points=${given:-$((3 * wanted))}
@@ -76,6 +76,7 @@ for scenario in "$@"; do
     markers_of "$points"
     [ -z "$given" ] || break
     shown=$(in_picture)
+    [ "${shown:-0}" -gt 0 ] || fail "markers of $points points show nothing of $scenario"
     ((10 * shown < 9 * wanted || 10 * shown > 11 * wanted)) || break
     points=$((points * wanted / shown))
     ((points <= MOST)) || points=$MOST

@@ -236,11 +236,14 @@ void ForestPhysics::feel(const Site& at, std::uint32_t tree, const PhysicalPart&
     Hold& hold = holds_[id];
     const Vec3 before = hold.place;
     hold.place = scratch_.places[spring++];
+    if (part.linkOf(grab.point.branch) < 0) continue;
     if (h <= 0.0) {
+      const SpringForce now = forceOf(held, to, hold.place, held.velocity);
+      hold.force = now.force;
       hold.impulse = Vec3::Zero();
-      hold.limited = false;
+      hold.limited = now.scale < 1.0;
+      continue;
     }
-    if (h <= 0.0 || part.linkOf(grab.point.branch) < 0) continue;
     const SpringForce mean = forceOf(held, from + (to - from) / 2, 0.5 * (before + hold.place),
                                      (hold.place - before) / h);
     hold.impulse += h * mean.force;
@@ -248,7 +251,8 @@ void ForestPhysics::feel(const Site& at, std::uint32_t tree, const PhysicalPart&
   }
 }
 
-// Reactions of the springs on a tree: means over the tick, which carry their whole impulse.
+// Reactions of the springs on a tree: means over the tick, which carry their whole impulse; where
+// time has leapt, what the springs have now.
 void ForestPhysics::react(std::uint32_t tree, const PhysicalPart& part, double duration) {
   for (auto& [id, grab] : grabs_) {
     if (grab.point.tree != tree || part.linkOf(grab.point.branch) < 0) continue;

@@ -116,7 +116,9 @@ void ForestMarkers::addTree(const forest::Forest& forest, forest::TreeCache& cac
   const forest::TreeMesh& mesh = *drawn_[id].mesh;
   wanted_bark_ += mesh.triangles.size();
   wanted_leaves_ += 6 * mesh.leaves.size();
-  if (bark_.points.size() + mesh.triangles.size() > bark_points_) return;
+  if (bark_.points.size() + mesh.triangles.size() > bark_points_ ||
+      leaves_.points.size() + 6 * mesh.leaves.size() > leaf_points_)
+    return;
   const wind::Instant wind = forest.memory().wind.at(stamp).relativeTo(grown->tree.foot);
   const forest::Weights weights =
       forest::weightsAt(forest.memory().levels.of(id), stamp, forest.layout().motion);
@@ -145,7 +147,6 @@ void ForestMarkers::addTree(const forest::Forest& forest, forest::TreeCache& cac
   scratch_.resize(12 * mesh.leaves.size());
   skinLeaves(mesh, poses_, foot, flutter, scratch_.data());
   for (std::size_t i = 0; i < mesh.leaves.size(); ++i) {
-    if (leaves_.points.size() + 6 > leaf_points_) return;
     const double shade = mesh.leaves[i].shade;
     const auto paint =
         opaque(species.leaf_colour * (1.0 - shade) + species.leaf_colour_young * shade);

@@ -4,10 +4,12 @@
 """charts: what it writes, what it refuses, what its drawings hold on to."""
 import os
 import pathlib
+import signal
 import struct
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 import rostest
@@ -109,6 +111,38 @@ class Charts(unittest.TestCase):
         self.assertIn('1 of 2 charts', done.stdout)
         self.assert_drawn('influence_ladder')
         self.assertFalse((self.out / 'grass_ladder.png').exists())
+
+    # Each waits for the other, so one after the other neither would end.
+    def test_quick_benches_run_two_at_a_time(self):
+        for name, other in (('grass_rung_bench', 'influence_bench'),
+                            ('influence_bench', 'grass_rung_bench')):
+            space = self.bench(name, 'touch %s/%s.begun\nfor i in $(seq 100); do [ -e %s/%s.begun ] '
+                               '&& exit 7; sleep 0.1; done\nexit 8' %
+                               (self.folder, name, self.folder, other))
+        done = run(PROGRAM, '--quick', '--only', 'grass_ladder,influence_ladder', '--out', self.out,
+                   **space)
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.stderr.count('ended with code 7'), 2, done.stderr)
+
+    # An interrupted run leaves no bench behind and no file of what it had not begun.
+    def test_an_interrupt_ends_the_benches(self):
+        for name in ('grass_rung_bench', 'influence_bench', 'governor_bench'):
+            space = self.bench(name, 'echo $$ > %s/%s.pid\nexec sleep 100' % (self.folder, name))
+        process = subprocess.Popen(
+            [str(PROGRAM), '--quick', '--only', 'grass_ladder,influence_ladder,governor', '--out',
+             str(self.out)], env={**os.environ, **space}, stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL)
+        begun = [self.folder / (name + '.pid') for name in ('grass_rung_bench', 'influence_bench')]
+        for _ in range(300):
+            if all(path.exists() and path.read_text() for path in begun):
+                break
+            time.sleep(0.1)
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(30), 130)
+        for path in begun:
+            with self.assertRaises(ProcessLookupError):
+                os.kill(int(path.read_text()), 0)
+        self.assertFalse((self.out / 'governor.log').exists())
 
     def bench_line(self, name, ladder, rung):
         with open(self.folder / 'space/lib/vegetation_sim' / name, 'a') as script:

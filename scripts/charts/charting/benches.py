@@ -5,6 +5,7 @@ import os
 import pathlib
 import subprocess
 import sys
+import threading
 import time
 
 from charting.chart import Refused
@@ -32,16 +33,25 @@ def find(name):
 
 
 class Progress:
-    """What a bench says, on one line of a terminal that is written again and again."""
+    """What a bench says, on one line of a terminal that is written again and again; nothing before
+    show(), since benches run beside each other."""
 
     def __init__(self, stream=sys.stdout):
-        self.stream, self.terminal, self.start = stream, stream.isatty(), time.monotonic()
-        self.last = self.start
+        self.stream, self.terminal, self.shown = stream, stream.isatty(), False
+        self.start = self.last = time.monotonic()
+
+    def begin(self):
+        self.start = time.monotonic()
 
     def seconds(self):
         return time.monotonic() - self.start
 
+    def show(self):
+        self.shown = True
+
     def tell(self, line):
+        if not self.shown:
+            return
         if self.terminal:
             self.stream.write('\r\033[K  %4.0f s  %s' % (self.seconds(), line[:90]))
         elif time.monotonic() - self.last > QUIET:
@@ -54,21 +64,35 @@ class Progress:
             self.stream.write('\r\033[K')
 
 
+running, stopped = set(), threading.Event()
+
+
+def stop():
+    """Ends all benches."""
+    stopped.set()
+    for bench in list(running):
+        bench.kill()
+
+
 def run(program, arguments, log, progress):
     """Runs a bench to its end, its words into `log`."""
     bench = subprocess.Popen([str(program), *arguments], stdout=subprocess.PIPE,
                              stderr=subprocess.STDOUT, text=True, errors='replace')
+    running.add(bench)
+    if stopped.is_set():
+        bench.kill()
     last = ''
     try:
         for line in bench.stdout:
             log.write(line)
             last = line.strip() or last
             progress.tell(last)
-        code = bench.wait()
     except BaseException:
         bench.kill()
-        bench.wait()
         raise
+    finally:
+        code = bench.wait()
+        running.discard(bench)
     if code != 0:
         raise Refused('%s %s: ended with code %d: %s'
                       % (program.name, ' '.join(arguments), code, last))

@@ -6,6 +6,7 @@ Measures every method of the package that has a chart, and draws it: DIR/NAME.cs
 what the bench said in NAME.log, converged references in DIR/references.
 """
 import argparse
+from concurrent.futures import ThreadPoolExecutor
 import os
 import pathlib
 import sys
@@ -13,6 +14,8 @@ import time
 
 from charting import benches, registry, style, tables
 from charting.chart import Refused
+
+AT_ONCE = {'quick': 2, 'usual': 1, 'full': 1}  # benches: costs are of the processor's time
 
 
 def parser(charts):
@@ -36,7 +39,7 @@ def parser(charts):
 def chosen(charts, only):
     if only is None:
         return list(charts.values())
-    names = [name for name in only.split(',') if name]
+    names = list(dict.fromkeys(name for name in only.split(',') if name))
     unknown = [name for name in names if name not in charts]
     if unknown or not names:
         raise Refused('--only %s: no such chart; there are %s'
@@ -54,7 +57,9 @@ def make_folder(path):
 
 
 def measure(chart, program, extent, out, progress):
-    """Runs the bench of a chart as often as the chart wants; its tables become one."""
+    """Runs the bench of a chart as often as the chart wants; its tables become one. The seconds
+    that it took."""
+    progress.begin()
     parts = []
     with open(out / (chart.name + '.log'), 'w') as log:
         for number, arguments in enumerate(chart.runs[extent]):
@@ -63,17 +68,39 @@ def measure(chart, program, extent, out, progress):
             log.write('%s %s\n' % (program.name, ' '.join(arguments)))
             benches.run(program, [*arguments, *more, '--csv', str(parts[-1])], log, progress)
     tables.join(parts, out / (chart.name + '.csv'), chart.columns)
-
-
-def make(chart, program, extent, out):
-    """Measures, unless there is no program to, and draws; the seconds it took."""
-    progress = benches.Progress()
-    if program:
-        measure(chart, program, extent, out, progress)
-    progress.done()
-    rows = tables.read(out / (chart.name + '.csv'), chart.columns)
-    style.save(chart.draw(rows), out / chart.name)
     return progress.seconds()
+
+
+def wait_for(measured, progress):
+    """Shows how a measurement gets on, if there is one; the seconds that it took."""
+    progress.show()
+    try:
+        return measured.result() if measured else 0.0
+    finally:
+        progress.done()
+
+
+def begin(pool, chart, program, extent, out):
+    """Has the chart measured, unless there is no program to; the measurement and its progress."""
+    progress = benches.Progress()
+    measured = pool.submit(measure, chart, program, extent, out, progress) if program else None
+    return chart, measured, progress
+
+
+def draw_all(begun, out):
+    """Draws charts as they are measured; how many failed."""
+    failed = 0
+    for number, (chart, measured, progress) in enumerate(begun, 1):
+        print('[%d/%d] %s: %s' % (number, len(begun), chart.name, chart.about), flush=True)
+        try:
+            seconds = wait_for(measured, progress)
+            rows = tables.read(out / (chart.name + '.csv'), chart.columns)
+            style.save(chart.draw(rows), out / chart.name)
+            print('  %s.png and .svg, %.0f s' % (out / chart.name, seconds), flush=True)
+        except Refused as error:
+            failed += 1
+            print('\ncharts: %s' % error, file=sys.stderr, flush=True)
+    return failed
 
 
 def run(arguments):
@@ -85,15 +112,18 @@ def run(arguments):
                 for chart in wanted}
     out = pathlib.Path(options.out)
     make_folder(out)
-    start, failed = time.monotonic(), 0
-    for number, chart in enumerate(wanted, 1):
-        print('[%d/%d] %s: %s' % (number, len(wanted), chart.name, chart.about), flush=True)
+    start = time.monotonic()
+    with ThreadPoolExecutor(AT_ONCE[options.extent]) as pool:
+        begun = [begin(pool, chart, programs[chart.name], options.extent, out)
+                 for chart in wanted]
         try:
-            seconds = make(chart, programs[chart.name], options.extent, out)
-            print('  %s.png and .svg, %.0f s' % (out / chart.name, seconds), flush=True)
-        except Refused as error:
-            failed += 1
-            print('\ncharts: %s' % error, file=sys.stderr, flush=True)
+            failed = draw_all(begun, out)
+        except BaseException:
+            for _, measured, _ in begun:
+                if measured:
+                    measured.cancel()
+            benches.stop()
+            raise
     print('%d of %d charts in %.0f s' % (len(wanted) - failed, len(wanted),
                                          time.monotonic() - start))
     return 1 if failed else 0
