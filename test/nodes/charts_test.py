@@ -9,7 +9,6 @@ import struct
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
 
 import rostest
@@ -126,22 +125,21 @@ class Charts(unittest.TestCase):
 
     # An interrupted run leaves no bench behind and no file of what it had not begun.
     def test_an_interrupt_ends_the_benches(self):
+        told = self.folder / 'pids'
+        os.mkfifo(told)
         for name in ('grass_rung_bench', 'influence_bench', 'governor_bench'):
-            space = self.bench(name, 'echo $$ > %s/%s.pid\nexec sleep 100' % (self.folder, name))
+            space = self.bench(name, 'echo $$ > %s\nexec sleep 100' % told)
         process = subprocess.Popen(
             [str(PROGRAM), '--quick', '--only', 'grass_ladder,influence_ladder,governor', '--out',
              str(self.out)], env={**os.environ, **space}, stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL)
-        begun = [self.folder / (name + '.pid') for name in ('grass_rung_bench', 'influence_bench')]
-        for _ in range(300):
-            if all(path.exists() and path.read_text() for path in begun):
-                break
-            time.sleep(0.1)
+        with open(os.open(told, os.O_RDWR)) as pids:  # of two that run
+            running = [int(pids.readline()) for _ in range(2)]
         process.send_signal(signal.SIGINT)
         self.assertEqual(process.wait(30), 130)
-        for path in begun:
+        for pid in running:
             with self.assertRaises(ProcessLookupError):
-                os.kill(int(path.read_text()), 0)
+                os.kill(pid, 0)
         self.assertFalse((self.out / 'governor.log').exists())
 
     def bench_line(self, name, ladder, rung):
