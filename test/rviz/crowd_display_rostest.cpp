@@ -156,7 +156,7 @@ TEST_F(CrowdDisplayTest, SurvivesAFlood) {
   for (int i = 0; i < 2000; ++i) rig.publish(rig.message());
   rig.walk(0.1);
   rig.frames(5);
-  EXPECT_EQ(display->drawn().drawn, 8u);
+  EXPECT_TRUE(rig.until([&] { return display->drawn().drawn == 8; }));
 }
 
 TEST_F(CrowdDisplayTest, FollowsANodeThatDiesAndReturns) {
