@@ -54,7 +54,8 @@ measure() {
 # usage: markers_of POINTS: of all nodes that have something to show, in equal parts
 markers_of() {
   local parts
-  parts=$(grep -cE '^(forest|grass|canopy|crowd):' "$ROOT/config/scenarios/$scenario.yaml") || fail "$scenario has nothing to show"
+  parts=$(grep -cE '^(forest|grass|canopy|crowd):' "$ROOT/config/scenarios/$scenario.yaml") ||
+    fail "$scenario has nothing to show"
   start_scenario "$scenario" $(($1 / parts))
   measure "stock markers of $1 points" "$ROOT/rviz/markers.rviz" --view "$config"
   stop_process "$launch_pid"
