@@ -1,6 +1,8 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
 """What the rigs of all nodes with a clock share: logs of topics, links, the node as users see it."""
+import fcntl
+import struct
 import threading
 import warnings
 import xmlrpc.client
@@ -12,12 +14,27 @@ from diagnostic_msgs.msg import DiagnosticArray
 from waiting import DEADLINE, wait_for
 
 REMINDER = 0.5  # [s] of wall time
-# Publishers without a queue: a message is in the reader's socket before publish() returns.
+# Publishers without a queue: a message is in a socket before publish() returns.
 warnings.simplefilter('ignore', SyntaxWarning)
 
 
+SIOCOUTQNSD = 0x894B  # how much of a socket the other end had no room for yet, tcp(7)
+
+publishers = []
+
+
 def publisher(topic, message_type):
-    return rospy.Publisher(topic, message_type, queue_size=None, tcp_nodelay=True)
+    publishers.append(rospy.Publisher(topic, message_type, queue_size=None, tcp_nodelay=True))
+    return publishers[-1]
+
+
+def all_delivered():
+    """Whether the last byte of all that was published lies in its reader's socket."""
+    sockets = [link.socket for publisher in publishers if publisher.impl
+               for link in publisher.impl.connections
+               if link.socket and link.socket.fileno() >= 0]
+    return not any(struct.unpack('i', fcntl.ioctl(socket, SIOCOUTQNSD, b'\0' * 4))[0]
+                   for socket in sockets)
 
 
 def slave(node):
@@ -117,6 +134,7 @@ class WatchedNode:
     def settle(self):
         """Returns when it has taken all that was published before: it reads its sockets in turns,
         so what lay in another socket at the first call is in its queue by the second."""
+        wait_for(all_delivered, 'all that was published to be in the sockets of its readers')
         for _ in range(2):
             self._probe()
 
