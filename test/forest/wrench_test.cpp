@@ -59,6 +59,29 @@ TEST(Wrench, OfAHandIsTheMeanOfItsTick) {
   EXPECT_GT(sampled, 0.1 * largest);
 }
 
+// N3. A clock that leaps has no mean: what is told is the spring's force at where the point is seen.
+TEST(Wrench, OfAHandIsTheSpringsOwnWhereTheClockLeaps) {
+  PhysicsRig rig;
+  Grab grab = rig.grabOf(rig.twig());
+  grab.stiffness = 50.0;
+  grab.damping = 2.0;
+  grab.target += Vec3(0.0, 0.02, 0.0);
+  const std::uint32_t id = rig.forest.addGrab(grab);
+  rig.run(2.0);
+  for (const int ticks : {10 * TICK_RATE, -5 * TICK_RATE}) {
+    rig.forest.moveGrab(id, grab.target += Vec3(0.0, 0.01, 0.0));
+    rig.tick += ticks;
+    rig.advance();
+    ASSERT_EQ(rig.forest.reactions().size(), 1u);
+    const Reaction& told = rig.forest.reactions()[0];
+    EXPECT_LT(length(told.point - rig.tip(rig.twig())), 1e-9);
+    const Vec3 spring = grab.stiffness * (grab.target - told.point);
+    EXPECT_GT(length(spring), 0.05);
+    EXPECT_LT(length(told.force + spring), 1e-6) << ticks;
+    rig.run(1.0);
+  }
+}
+
 /// What two bodies are told that meet a trunk from two sides, summed over some ticks [N s].
 struct TwoRams {
   std::map<std::string, Vec3> told;

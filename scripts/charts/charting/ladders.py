@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Charts of ladders: the error of each rung against its cost. Benches write them in one form,
 bench/table.h's LADDER_COLUMNS."""
-import math
-
 from charting import style
 from charting.tables import groups
 
@@ -26,18 +24,28 @@ def draw(axes, rows, names=lambda ladder: ladder, setting=None, floor=None, left
         if row.chosen:
             style.ring(axes, cost, error, left=left)
     if setting:
-        write_settings(axes, points, setting)
+        write_settings(axes, points, setting, left)
     style.draw_front(axes, [(cost, error) for _, cost, error in points])
 
 
-def write_settings(axes, points, setting):
-    """Words at the points, but not where they would cover those of another; the default has its
-    own."""
-    spans = [math.log(max(values) / min(values)) or 1.0 for values in list(zip(*points))[1:]]
-    taken = [point for point in points if point[0].chosen]
-    for row, cost, error in points:
-        if any(abs(math.log(cost / other[1])) < 0.08 * spans[0] and
-               abs(math.log(error / other[2])) < 0.04 * spans[1] for other in taken):
+def write_settings(axes, points, setting, left):
+    """Words beside the points, where they cover no other point and no other words; the default has
+    its own."""
+    axes.autoscale_view()
+    at = axes.transData.transform([point[1:] for point in points])
+    taken = [style.box(x, y) for x, y in at]
+    taken += [style.box_of_words(*place, 'default', (-9 if left else 9, 9), bold=True)
+              for place, point in zip(at, points) if point[0].chosen]
+    said = set()
+    for place, (row, cost, error) in zip(at, points):
+        text = setting(row)
+        spot = (text, round(place[0] / 20.0), round(place[1] / 40.0))  # of two curves that meet, once
+        if spot in said:
             continue
-        taken.append((row, cost, error))
-        style.note(axes, cost, error, setting(row))
+        said.add(spot)
+        boxes = [(offset, style.box_of_words(*place, text, offset)) for offset in style.BESIDE]
+        free = [each for each in boxes if not any(style.overlap(each[1], box) for box in taken)]
+        if free and not row.chosen:
+            offset, box = free[0]
+            taken.append(box)
+            style.note(axes, cost, error, text, offset, ha='left' if offset[0] > 0 else 'right')
