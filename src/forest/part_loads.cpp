@@ -120,7 +120,7 @@ void PhysicalPart::stepBatched(const Step& context, double h) {
   // What fades out is told against the air of each step.
   if (!context.loads.hold || compensates(context.from, context.settings.fade))
     chain.askAir([&](float* rows, std::size_t blocks) { context.blow(h, rows, blocks); });
-  chain.step(context.outsideWind(), 0.0, h);
+  chain.step(context.outsideWind(), 0.0, h, context.loads.hold ? 1 : 0);
   state_ = chain.state(0);
   theta_ = chain.theta(0);
   stopJoints();

@@ -123,7 +123,7 @@ void BatchChain::setState(int tree, const ChainState& state, double theta) {
 }
 
 void BatchChain::setProducts(Products products) {
-  store_->mean = products == Products::MEAN;
+  store_->averages = products == Products::MEAN;
 }
 
 ChainState BatchChain::state(int tree) const {
@@ -186,7 +186,10 @@ void BatchChain::guard(ChainGroup& group, double h) {
 
 // ---- steps -------------------------------------------------------------------------------------
 
-void BatchChain::stepGroup(ChainGroup& group, const Surroundings* around, double time, double h) {
+void BatchChain::stepGroup(ChainGroup& group, const Surroundings* around, double time, double h,
+                           int number) {
+  store_->mean = store_->averages && number == 0;
+  store_->foretold = store_->averages && number > 0;
   const auto step = static_cast<float>(h);
   const auto at = [&](std::size_t t) { return time + trees_[t].theta * h; };
   guard(group, h);
@@ -202,7 +205,8 @@ void BatchChain::stepGroup(ChainGroup& group, const Surroundings* around, double
   group.fastest = sweepBack(group, step, *store_);
 }
 
-void BatchChain::stepWithin(const Surroundings* around, std::size_t count, double time, double h) {
+void BatchChain::stepWithin(const Surroundings* around, std::size_t count, double time, double h,
+                            int number) {
   if (count != trees_.size())
     throw InvalidInput("surroundings: " + std::to_string(count) + "; one for each of the " +
                        std::to_string(trees_.size()) + " trees");
@@ -212,16 +216,16 @@ void BatchChain::stepWithin(const Surroundings* around, std::size_t count, doubl
     store_->motion.assign(store_->work.count() / W_ROWS * M_ROWS);
   store_->asked = ask_ && !store_->grips.empty();
   for (ChainGroup& group : groups_)
-    if (!group.levels.empty()) stepGroup(group, around, time, h);
+    if (!group.levels.empty()) stepGroup(group, around, time, h, number);
   ask_ = nullptr;
 }
 
-void BatchChain::step(const std::vector<Surroundings>& around, double time, double h) {
-  stepWithin(around.data(), around.size(), time, h);
+void BatchChain::step(const std::vector<Surroundings>& around, double time, double h, int number) {
+  stepWithin(around.data(), around.size(), time, h, number);
 }
 
-void BatchChain::step(const Surroundings& around, double time, double h) {
-  stepWithin(&around, 1, time, h);
+void BatchChain::step(const Surroundings& around, double time, double h, int number) {
+  stepWithin(&around, 1, time, h, number);
 }
 
 // All steps of one group, then all of the next: the caches hold one.
@@ -231,7 +235,7 @@ void BatchChain::step(double h, int steps) {
     if (group.levels.empty()) continue;
     store_->asked = ask_ && !store_->grips.empty();
     for (int i = 0; i < steps; ++i) {
-      stepGroup(group, nullptr, 0.0, h);
+      stepGroup(group, nullptr, 0.0, h, i);
       store_->asked = false;
     }
   }

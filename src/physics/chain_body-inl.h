@@ -61,8 +61,8 @@ HWY_INLINE void addBar(const Bar& bar, const Lanes3& z, Articulated& sum) {
 
 // What acts on the body, after its bias. Sums begin at +0, so that none is ever -0.
 HWY_INLINE void addWrench(const Joints& at, Articulated& sum) {
-  sum.torque = sum.torque + (load3(at.work, W_TORQUE) - load3Of(at, L_TORQUE));
-  sum.force = sum.force + (load3(at.work, W_FORCE) - load3Of(at, L_FORCE));
+  sum.torque = sum.torque + (load3(at.work, at.bias) - load3Of(at, L_TORQUE));
+  sum.force = sum.force + (load3(at.work, at.bias + 3) - load3Of(at, L_FORCE));
 }
 
 // What an implicit step foresees of the drag: a mass against linear acceleration, `factor` times
@@ -87,25 +87,15 @@ HWY_INLINE void addPoint(Lanes mass, const Lanes3& arm, Articulated& sum) {
   addMass(mass, v, sum);
 }
 
-// From the joint to where air grips the link.
-HWY_INLINE Lanes3 gripArm(const Joints& at) {
-  const Axes axes = axesOf({load(at.work, W_TURN), load(at.work, W_TURN + 1),
-                            load(at.work, W_TURN + 2), load(at.work, W_TURN + 3)});
-  return at.on_axis ? load(at.grips, G_CENTRE + 2) * axes.z
-                    : turned(axes, load3(at.grips, G_CENTRE));
-}
-
 /// Drag of the air on its grip, whose force and derivative are those of PhysicalPart::addWind.
 struct Blow {
   Lanes3 wind;         ///< past the grip
   Lanes drag, factor;  ///< force over wind; of its part along the wind, for addPull
 };
 
-// `crossed`: spin x arm.
-HWY_INLINE Blow blowOn(const Joints& at, const Lanes3& crossed, Lanes steady, Lanes square,
-                       Lanes ahead) {
+HWY_INLINE Blow blowOn(const Joints& at, Lanes steady, Lanes square, Lanes ahead) {
   Blow out;
-  out.wind = load3(at.air, V_AIR) - (load3(at.work, W_VELOCITY) + crossed);
+  out.wind = load3(at.air, V_AIR) - load3(at.work, W_GRIPPED);
   const Lanes size = hn::Sqrt(dot(out.wind, out.wind));
   out.drag = steady + square * size;
   out.factor = hn::IfThenElseZero(size > hn::Zero(Tag()), ahead * square / size);
@@ -122,7 +112,7 @@ HWY_INLINE void addBlow(const Blow& blow, const Lanes3& turn, Articulated& sum) 
 HWY_INLINE void addAirOnAxis(const Joints& at, const Lanes3& z, Lanes steady, Lanes square,
                              Lanes ahead, Bar& bar, Articulated& sum) {
   const Lanes g = load(at.grips, G_CENTRE + 2);
-  const Blow blow = blowOn(at, g * cross(load3(at.work, W_SPIN), z), steady, square, ahead);
+  const Blow blow = blowOn(at, steady, square, ahead);
   const Lanes mass = ahead * blow.drag, moment = g * mass, second = g * moment;
   bar = {bar.mass + mass, bar.moment + moment, bar.across + second, bar.excess - second};
   addBlow(blow, g * cross(z, blow.wind), sum);
@@ -130,13 +120,13 @@ HWY_INLINE void addAirOnAxis(const Joints& at, const Lanes3& z, Lanes steady, La
 
 HWY_INLINE void addAirBeside(const Joints& at, Lanes steady, Lanes square, Lanes ahead,
                              Articulated& sum) {
-  const Lanes3 arm = gripArm(at);
-  const Blow blow = blowOn(at, cross(load3(at.work, W_SPIN), arm), steady, square, ahead);
+  const Lanes3 arm = load3(at.work, W_GRIP);
+  const Blow blow = blowOn(at, steady, square, ahead);
   addPoint(ahead * blow.drag, arm, sum);
   addBlow(blow, cross(arm, blow.wind), sum);
 }
 
-// Which way a joint of a bar goes depends on nobody else: lanes that do not go it grip nothing.
+// Lanes that do not go a way grip nothing there.
 HWY_INLINE void addBarInAir(const Joints& at, Lanes ahead, Articulated& sum) {
   const Lanes3 z = load3(at.work, W_AXIS);
   Bar bar = barOf(at);
@@ -145,9 +135,7 @@ HWY_INLINE void addBarInAir(const Joints& at, Lanes ahead, Articulated& sum) {
     if (at.on_axis) {
       addAirOnAxis(at, z, steady, square, ahead, bar, sum);
     } else {
-      const Lanes o = hn::Zero(Tag());
-      const auto on_axis =
-          hn::And(load(at.grips, G_CENTRE) == o, load(at.grips, G_CENTRE + 1) == o);
+      const auto on_axis = gripsAxis(at);
       addAirOnAxis(at, z, hn::IfThenElseZero(on_axis, steady), hn::IfThenElseZero(on_axis, square),
                    ahead, bar, sum);
       addAirBeside(at, hn::IfThenZeroElse(on_axis, steady), hn::IfThenZeroElse(on_axis, square),

@@ -34,6 +34,7 @@ BaseRows baseRows(const BaseMotion& base) {
   put(base.spin_rate, v + F_SPIN_RATE);
   put(base.acceleration, v + F_ACCELERATION);
   put(base.velocity, v + F_VELOCITY);
+  put(base.spin, v + F_NOW);
   return out;
 }
 

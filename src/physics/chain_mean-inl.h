@@ -82,16 +82,16 @@ HWY_INLINE Ahead lookAhead(const Joints& at, const Ahead& parent, Lanes step) {
                        (cross(parent.spin_rate, arm) + cross(parent.spin, cross(parent.spin, arm)));
   const Lanes one = all(1.f), weight = weightOf(at);
   const Bias bias = at.bars ? biasOfBar(at, frame, one) : biasOfBody(at, axes, frame, one);
-  store3(weight * (bias.torque - load3(at.work, W_TORQUE)), at.work, W_TORQUE);
-  store3(weight * (bias.force - load3(at.work, W_FORCE)), at.work, W_FORCE);
+  store3(weight * (bias.torque - load3(at.work, W_KEPT)), at.work, W_KEPT);
+  store3(weight * (bias.force - load3(at.work, W_KEPT + 3)), at.work, W_KEPT + 3);
   return {solved.push, frame.spin, frame.spin_rate, frame.acceleration};
 }
 
 /// Adds what the wrench on the link and all beyond asks of the joint; leaves what is left of it for
 /// the parent's joint.
 HWY_INLINE void inwardWrench(const Joints& at, Bias& sum) {
-  sum.torque = sum.torque + load3(at.work, W_TORQUE);
-  sum.force = sum.force + load3(at.work, W_FORCE);
+  sum.torque = sum.torque + load3(at.work, W_KEPT);
+  sum.force = sum.force + load3(at.work, W_KEPT + 3);
   const Lanes zero = hn::Zero(Tag());
   const Lanes u1 = zero - dot(load3(at.work, W_FIRST), sum.torque);
   const Lanes u2 =

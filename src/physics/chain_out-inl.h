@@ -25,6 +25,7 @@ struct Joints {
   float* work;
   const float* grips;  ///< none: no air
   float* air;
+  int bias;      ///< W_BIAS or W_KEPT
   bool bars;     ///< all of them
   bool on_axis;  ///< air grips the axes of bars
 };
@@ -74,15 +75,23 @@ HWY_INLINE void eachRow(const Frame& frame, const Put& put) {
   eachRow(frame.acceleration, F_ACCELERATION, put);
 }
 
-/// With it, for those who ask for the motion: place and velocity of the joint.
+/// With it, for those who ask for the motion: place and velocity of the joint, spin of the link,
+/// before the step.
 struct Trace {
-  Lanes3 position, velocity;
+  Lanes3 position, velocity, spin;
 };
 
-HWY_INLINE Trace traceOf(const float* parent, int stride, const float* work) {
-  const Lanes3 arm = load3(work, W_ARM);
-  return {load3(parent, F_POSITION, stride) + arm,
-          load3(parent, F_VELOCITY, stride) + cross(load3(parent, F_SPIN, stride), arm)};
+// `frame`: the link's. FORETOLD: its spin is, and the parent hands on the other as well.
+template <bool FORETOLD>
+HWY_INLINE Trace traceOf(const Joints& at, const Frame& frame, const float* parent, int stride) {
+  const Lanes3 arm = load3(at.work, W_ARM);
+  const Lanes3 before = load3(parent, FORETOLD ? F_NOW : F_SPIN, stride);
+  Trace out{load3(parent, F_POSITION, stride) + arm,
+            load3(parent, F_VELOCITY, stride) + cross(before, arm), frame.spin};
+  if constexpr (FORETOLD)
+    out.spin = before + (load(at.state, S_RATE) * load3(at.work, W_FIRST) +
+                         load(at.state, S_RATE + 1) * load3(at.work, W_SECOND));
+  return out;
 }
 
 template <class Put>
@@ -94,7 +103,7 @@ HWY_INLINE void eachRow(const Trace& trace, const Put& put) {
 HWY_INLINE void storeMotion(const Frame& frame, const Trace& trace, float* rows) {
   store(frame.turn.w, rows, M_TURN);
   store3({frame.turn.x, frame.turn.y, frame.turn.z}, rows, M_TURN + 1);
-  store3(frame.spin, rows, M_SPIN);
+  store3(trace.spin, rows, M_SPIN);
   store3(trace.position, rows, M_POSITION);
   store3(trace.velocity, rows, M_VELOCITY);
 }
@@ -155,19 +164,29 @@ HWY_INLINE Lanes3 jointSpin(const Joints& at, const Axes& axes, const Swing& g, 
   return rx * first + ry * second;
 }
 
-// For lookAhead and air.
+// For lookAhead.
 HWY_INLINE void keep(const Frame& frame, float* work) {
   store(frame.turn.w, work, W_TURN);
   store3({frame.turn.x, frame.turn.y, frame.turn.z}, work, W_TURN + 1);
   store3(frame.spin, work, W_SPIN);
 }
 
-/// Geometry at q + theta h rate; leaves the rigid bodies and their bias wrenches. `kept`: lookAhead
-/// or air will ask where the link is.
-HWY_INLINE Frame outward(const Joints& at, const Frame& parent, Lanes step, bool kept) {
+// The rate of velocity products: before the step, or as foretold for its middle.
+template <bool FORETOLD>
+HWY_INLINE Lanes rateOf(const Joints& at, int axis) {
+  const Lanes now = load(at.state, S_RATE + axis);
+  if constexpr (!FORETOLD) return now;
+  const auto sleeps = load(at.state, S_THETA) == all(0.5f);
+  return now + hn::IfThenElseZero(sleeps, load(at.state, S_LEAD + axis));
+}
+
+/// Geometry at q + theta h rate; leaves the rigid bodies and their bias wrenches.
+template <bool FORETOLD>
+HWY_INLINE Frame outward(const Joints& at, const Frame& parent, Lanes step) {
   const Lanes ahead = load(at.state, S_THETA) * step;
-  const Lanes rx = load(at.state, S_RATE), ry = load(at.state, S_RATE + 1);
-  const Lanes x = load(at.state, S_Q) + ahead * rx, y = load(at.state, S_Q + 1) + ahead * ry;
+  const Lanes x = load(at.state, S_Q) + ahead * load(at.state, S_RATE),
+              y = load(at.state, S_Q + 1) + ahead * load(at.state, S_RATE + 1);
+  const Lanes rx = rateOf<FORETOLD>(at, 0), ry = rateOf<FORETOLD>(at, 1);
   const Swing g = swingOf(x * x + y * y);
   const Lanes qx = all(0.5f) * g.s * x, qy = all(0.5f) * g.s * y;
   const LanesQuat r{load(at.constants, C_REST), load(at.constants, C_REST + 1),
@@ -188,10 +207,42 @@ HWY_INLINE Frame outward(const Joints& at, const Frame& parent, Lanes step, bool
   out.acceleration = parent.acceleration + h * axisRate(parent, products);
   at.bars ? store3(axes.z, at.work, W_AXIS) : keepBody(at, axes);
   const Bias bias = at.bars ? biasOfBar(at, out, products) : biasOfBody(at, axes, out, products);
-  store3(bias.torque, at.work, W_TORQUE);
-  store3(bias.force, at.work, W_FORCE);
-  if (kept) keep(out, at.work);
+  store3(bias.torque, at.work, at.bias);
+  store3(bias.force, at.work, at.bias + 3);
+  if (at.bias == W_KEPT) keep(out, at.work);
   return out;
+}
+
+// ---- air ---------------------------------------------------------------------------------------
+
+// Which way a joint of a bar goes depends on nobody else.
+HWY_INLINE auto gripsAxis(const Joints& at) {
+  const Lanes o = hn::Zero(Tag());
+  return hn::And(load(at.grips, G_CENTRE) == o, load(at.grips, G_CENTRE + 1) == o);
+}
+
+/// From the joint to where air grips the link.
+HWY_INLINE Lanes3 gripArm(const Joints& at, const Frame& frame) {
+  return at.on_axis ? load(at.grips, G_CENTRE + 2) * frame.axis
+                    : turned(axesOf(frame.turn), load3(at.grips, G_CENTRE));
+}
+
+/// Leaves how fast the link moves where air grips it.
+HWY_INLINE void keepGrip(const Joints& at, const Frame& frame, const Trace& trace) {
+  Lanes3 swept = load(at.grips, G_CENTRE + 2) * cross(trace.spin, frame.axis);
+  if (!at.on_axis) {
+    const Lanes3 arm = gripArm(at, frame), beside = cross(trace.spin, arm);
+    store3(arm, at.work, W_GRIP);
+    if (!at.bars) {
+      swept = beside;
+    } else {
+      const auto on_axis = gripsAxis(at);
+      swept = {hn::IfThenElse(on_axis, swept.x, beside.x),
+               hn::IfThenElse(on_axis, swept.y, beside.y),
+               hn::IfThenElse(on_axis, swept.z, beside.z)};
+    }
+  }
+  store3(trace.velocity + swept, at.work, W_GRIPPED);
 }
 
 }  // namespace vegetation_sim::physics::HWY_NAMESPACE

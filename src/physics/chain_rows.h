@@ -47,8 +47,9 @@ enum : int {
   C_ROWS = C_INERTIA + 6
 };
 
-/// Rows of its state; theta and the share of velocity products (productsOf) are the tree's.
-enum : int { S_Q, S_RATE = S_Q + 2, S_THETA = S_RATE + 2, S_PRODUCTS, S_ROWS };
+/// Rows of its state; theta and the share of velocity products (productsOf) are the tree's. S_LEAD:
+/// how much the last step foretells rates to change until the middle of the next.
+enum : int { S_Q, S_RATE = S_Q + 2, S_LEAD = S_RATE + 2, S_THETA = S_LEAD + 2, S_PRODUCTS, S_ROWS };
 
 /// Rows of what acts on it from outside.
 enum : int {
@@ -68,38 +69,40 @@ enum : int { G_CENTRE, G_STEADY = G_CENTRE + 3, G_SQUARE, G_ROWS };
 enum : int { V_PLACE, V_AIR = V_PLACE + 3, V_ROWS = V_AIR + 3 };
 
 /// Rows that one step keeps between its passes; what the sweep down the tree leaves takes the place
-/// of the rigid inertia that it has used.
+/// of the link's motion and inertia, which it has used.
 enum : int {
   W_FIRST,                 // joint axes, world
   W_SECOND = W_FIRST + 3,  //
   W_ARM = W_SECOND + 3,    // from the parent's joint
-  W_TORQUE = W_ARM + 3,    // bias of the link alone, or its change
-  W_FORCE = W_TORQUE + 3,  //
-  W_SWEPT = W_FORCE + 3,   //
-  W_AXIS = W_SWEPT,        // of a bar
-  W_INERTIA = W_SWEPT,     // of another rigid body: xx xy xz yy yz zz
+  W_SWEPT = W_ARM + 3,     //
+  W_BIAS = W_SWEPT,        // bias of the link alone, torque and force; for a mean: W_KEPT
+  W_GRIPPED = W_BIAS + 6,  // velocity where air grips it
+  W_AXIS = W_GRIPPED + 3,  // of a bar
+  W_INERTIA = W_AXIS,      // of another rigid body: xx xy xz yy yz zz
   W_MOMENT = W_INERTIA + 6,
-  W_GAIN = W_SWEPT,  // swept: torque and force gain of the first axis, then of the second
+  W_GRIP = W_MOMENT + 3,  // from the joint to where air grips it, unless on a bar's axis
+  W_GAIN = W_SWEPT,       // swept: torque and force gain of the first axis, then of the second
   W_INVERSE = W_GAIN + 12,
   W_COUPLING = W_INVERSE + 2,
   W_DRIVE,
-  W_TURN = W_DRIVE + 2,  // from here on only for air and the mean of velocity products: orientation
+  W_KEPT = W_GRIP + 3,  // from here on only for the mean of velocity products: bias, or its change
+  W_TURN = W_KEPT + 6,  // orientation
   W_SPIN = W_TURN + 4,
-  W_VELOCITY = W_SPIN + 3,  // of the joint, only for air
-  W_ROWS = W_VELOCITY + 3
+  W_ROWS = W_SPIN + 3
 };
-static_assert(W_MOMENT + 3 <= W_TURN, "the rigid inertia fits where the sweep writes");
+static_assert(W_DRIVE + 2 <= W_KEPT, "the sweep writes where its motion and inertia were");
 
-/// Rows that a parent hands to its children: orientation (w x y z), spin, and the accelerations
-/// that it would have if no joint accelerated: of spin, of joint.
+/// Rows that a parent hands to its children: orientation (w x y z), the spin of velocity products,
+/// and the accelerations that it would have if no joint accelerated: of spin, of joint.
 enum : int {
   F_TURN,
   F_SPIN = F_TURN + 4,
   F_SPIN_RATE = F_SPIN + 3,
   F_ACCELERATION = F_SPIN_RATE + 3,
-  F_POSITION = F_ACCELERATION + 3,  // this and the next only where somebody asks for the motion
+  F_POSITION = F_ACCELERATION + 3,  // from here on only where somebody asks for the motion
   F_VELOCITY = F_POSITION + 3,
-  F_ROWS = F_VELOCITY + 3
+  F_NOW = F_VELOCITY + 3,  // the spin before the step, where F_SPIN is foretold
+  F_ROWS = F_NOW + 3
 };
 
 /// Rows of the motion of joints that somebody asked for: orientation (w x y z), spin; place and

@@ -23,6 +23,7 @@ HWY_INLINE Joints jointsAt(const ChainGroup& group, ChainStore& store, int slot)
           store.work.of(slot - group.begin, W_ROWS),
           store.grips.empty() ? nullptr : store.grips.of(slot, G_ROWS),
           store.grips.empty() ? nullptr : store.air.of(slot, V_ROWS),
+          store.mean ? W_KEPT : W_BIAS,
           group.bars,
           group.on_axis};
 }
@@ -49,25 +50,26 @@ void loadBases(const ChainGroup& group, LevelRows& out) {
 // What of the motion is handed on.
 enum class Told { NOTHING, VELOCITY, ALL };
 
-template <Told TOLD>
+template <Told TOLD, bool FORETOLD>
 HWY_INLINE void outGroupAs(const ChainGroup& group, Lanes step, ChainStore& store) {
   float *received = store.first.data(), *handed = store.second.data();
   const int room = store.first.room;
-  const bool kept = store.mean || !store.grips.empty();
   loadBases(group, store.first);
   for (const Level& level : group.levels) {
     for (int i = 0; i < level.count; i += width()) {
       const Joints at = jointsAt(group, store, level.begin + i);
-      const Frame frame = outward(at, loadFrame(received + i, room), step, kept);
+      const Frame frame = outward<FORETOLD>(at, loadFrame(received + i, room), step);
       if constexpr (TOLD != Told::NOTHING) {
-        const Trace trace = traceOf(received + i, room, at.work);
+        const Trace trace = traceOf<FORETOLD>(at, frame, received + i, room);
         const auto each = [&](const auto& put) HWY_ATTR __attribute__((always_inline)) {
           eachRow(frame, put);
           eachRow(trace.velocity, F_VELOCITY, put);
           if constexpr (TOLD == Told::ALL) eachRow(trace.position, F_POSITION, put);
+          if constexpr (FORETOLD) eachRow(trace.spin, F_NOW, put);
         };
-        if (at.grips) store3(trace.velocity, at.work, W_VELOCITY);
-        if (TOLD == Told::ALL && store.asked) store3(trace.position + gripArm(at), at.air, V_PLACE);
+        if (at.grips) keepGrip(at, frame, trace);
+        if (TOLD == Told::ALL && store.asked)
+          store3(trace.position + gripArm(at, frame), at.air, V_PLACE);
         if (TOLD == Told::ALL && store.trace)
           storeMotion(frame, trace, store.motion.of(level.begin - group.begin + i, M_ROWS));
         handOn(level, i, each, room, handed);
@@ -80,13 +82,19 @@ HWY_INLINE void outGroupAs(const ChainGroup& group, Lanes step, ChainStore& stor
   }
 }
 
-void outGroup(const ChainGroup& group, float step, ChainStore& store) {
+template <bool FORETOLD>
+HWY_INLINE void outGroupAt(const ChainGroup& group, Lanes step, ChainStore& store) {
   if (store.trace || store.asked)
-    outGroupAs<Told::ALL>(group, all(step), store);
+    outGroupAs<Told::ALL, FORETOLD>(group, step, store);
   else if (!store.grips.empty())
-    outGroupAs<Told::VELOCITY>(group, all(step), store);
+    outGroupAs<Told::VELOCITY, FORETOLD>(group, step, store);
   else
-    outGroupAs<Told::NOTHING>(group, all(step), store);
+    outGroupAs<Told::NOTHING, FORETOLD>(group, step, store);
+}
+
+void outGroup(const ChainGroup& group, float step, ChainStore& store) {
+  store.foretold ? outGroupAt<true>(group, all(step), store)
+                 : outGroupAt<false>(group, all(step), store);
 }
 
 void inwardGroup(const ChainGroup& group, float h, ChainStore& store) {
@@ -157,7 +165,8 @@ float settleGroup(const ChainGroup& group, float h, ChainStore& store) {
   for (const Level& level : group.levels) {
     for (int i = 0; i < level.count; i += width()) {
       const Push parent{load3(received + i, 0, room), load3(received + i, 3, room)};
-      const Push push = settle(jointsAt(group, store, level.begin + i), parent, step, fastest);
+      const Push push =
+          settle(jointsAt(group, store, level.begin + i), parent, step, store.averages, fastest);
       handOn(
           level, i, [&](const auto& put) HWY_ATTR { eachRow(push, put); }, room, handed);
     }

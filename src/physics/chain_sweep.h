@@ -40,13 +40,15 @@ struct LevelRows {
 /// All rows of a chain, and scratch: of one group, of one of its levels and that one's neighbour.
 struct ChainStore {
   Rows constants, state;
-  Rows loads;         ///< none: nothing acts
-  Rows grips, air;    ///< none: no air
-  Rows work, motion;  ///< scratch of a group
-  bool trace{false};  ///< somebody asks for the motion
-  bool asked{false};  ///< the air is asked for in this step
-  bool mean{true};    ///< velocity products are averaged over the step
-  bool drag{false};   ///< some load has drag
+  Rows loads;            ///< none: nothing acts
+  Rows grips, air;       ///< none: no air
+  Rows work, motion;     ///< scratch of a group
+  bool trace{false};     ///< somebody asks for the motion
+  bool asked{false};     ///< the air is asked for in this step
+  bool averages{true};   ///< velocity products are those of a mean over the step
+  bool mean{true};       ///< and are averaged in this step
+  bool foretold{false};  ///< or taken at the rates that the step before foretells for its middle
+  bool drag{false};      ///< some load has drag
   LevelRows first, second;
   std::vector<AnchorRows> anchors;  ///< sorted by slot
 };

@@ -32,6 +32,7 @@ struct Part {
             rowsAt(store.work, joint, W_ROWS, lane),
             nullptr,
             nullptr,
+            store.mean ? W_KEPT : W_BIAS,
             store.joints[joint].bar,
             false};
   }
@@ -50,11 +51,11 @@ HWY_INLINE void outPart(const Part& part, Lanes step) {
     const TwinJoint& joint = part.store.joints[i];
     const Joints at = part.joints(i);
     const float* parent = joint.root >= 0 ? part.base(joint.root) : part.onStack(joint.depth - 1);
-    const Frame frame = outward(at, loadFrame(parent, ROW), step, part.store.mean);
+    const Frame frame = outward<false>(at, loadFrame(parent, ROW), step);
     const StoreRows own{part.onStack(joint.depth), ROW};
     if (!joint.leaf) eachRow(frame, own);
     if (!motion) continue;
-    const Trace trace = traceOf(parent, ROW, at.work);
+    const Trace trace = traceOf<false>(at, frame, parent, ROW);
     eachRow(trace, own);
     storeMotion(frame, trace, rowsAt(part.store.motion, i, M_ROWS, part.lane));
   }
@@ -143,7 +144,7 @@ HWY_INLINE void settlePart(const Part& part, Lanes step) {
     const TwinJoint& joint = part.store.joints[i];
     const float* below = joint.root >= 0 ? nullptr : part.onStack(joint.depth - 1);
     const Push parent = below ? Push{load3(below, 0), load3(below, 3)} : Push{{o, o, o}, {o, o, o}};
-    const Push push = settle(part.joints(i), parent, step, fastest);
+    const Push push = settle(part.joints(i), parent, step, false, fastest);
     if (joint.leaf) continue;
     eachRow(push, StoreRows{part.onStack(joint.depth), ROW});
   }

@@ -232,7 +232,7 @@ TEST(BatchAir, StepsOfAFrameAreTheSameTogether) {
     blow(together, 2.0 * frame);
     blow(apart, 2.0 * frame);
     together.step(STEP, 4);
-    for (int i = 0; i < 4; ++i) apart.step(STEP);
+    for (int i = 0; i < 4; ++i) apart.step(std::vector<Surroundings>(3), 0.0, STEP, i);
   }
   for (int t = 0; t < 3; ++t) {
     EXPECT_GT(together.state(t).q.back().norm(), 0.0);

@@ -5,9 +5,8 @@
 
 #include <algorithm>
 
-#include "physics/chain_scene.h"
+#include "physics/framed_chain.h"
 #include "vegetation_sim/common/instruction_set.h"
-#include "vegetation_sim/physics/batch_chain.h"
 #include "vegetation_sim/physics/twin_chains.h"
 
 namespace vegetation_sim::physics {
@@ -66,6 +65,7 @@ TEST(BatchChain, GivesTheSameBitsOnEveryInstructionSet) {
   for (const int n : {1, 7, 33, 1001, 100, 2}) trees.push_back(fractalTree(n, 7));
   trees[2][5].inertia.xy = 1e-3 * trees[2][5].inertia.xx;  // no bar
   expectSameBits<BatchChain>(trees);
+  expectSameBits<FramedChain>(trees);
 }
 
 TEST(TwinChains, GivesTheSameBitsOnEveryInstructionSet) {
@@ -76,23 +76,29 @@ TEST(TwinChains, GivesTheSameBitsOnEveryInstructionSet) {
 }
 
 // Who else is in the batch, and in which lane a link ends up, does not matter.
-TEST(BatchChain, TreesDoNotFeelEachOther) {
+template <class Batch>
+void expectNoFeeling() {
   Trees trees;
   for (const int n : {7, 100, 1001, 2500, 33}) trees.push_back(fractalTree(n, 7));
   trees[1][5].inertia.xy = 1e-3 * trees[1][5].inertia.xx;  // no bar
-  const std::vector<ChainState> together = storm<BatchChain>(trees);
+  const std::vector<ChainState> together = storm<Batch>(trees);
   for (std::size_t t = 0; t < trees.size(); ++t) {
     Trees others(t, fractalTree(3, 1));  // the same index, and so the same start
     others.push_back(trees[t]);
-    EXPECT_TRUE(sameBits(storm<BatchChain>(others)[t], together[t])) << t;
+    EXPECT_TRUE(sameBits(storm<Batch>(others)[t], together[t])) << t;
   }
+}
+
+TEST(BatchChain, TreesDoNotFeelEachOther) {
+  expectNoFeeling<BatchChain>();
+  expectNoFeeling<FramedChain>();
 }
 
 // ---- stability ---------------------------------------------------------------------------------
 
 template <class Batch>
 class BatchedStorm : public testing::Test {};
-using Steppers = testing::Types<BatchChain, TwinChains>;
+using Steppers = testing::Types<BatchChain, FramedChain, TwinChains>;
 TYPED_TEST_SUITE(BatchedStorm, Steppers);
 
 // Largest |q| over a storm and its ring-down, and at the end.

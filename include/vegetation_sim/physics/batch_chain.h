@@ -49,17 +49,20 @@ class BatchChain {
 
   void setProducts(Products products);
 
-  /// One step of `h` seconds from `time`; `around` per tree.
-  void step(const std::vector<Surroundings>& around, double time, double h);
-  void step(const Surroundings& around, double time, double h);
+  /// One step of `h` seconds from `time`; `around` per tree. `number`: of the step in its frame.
+  /// The first, 0, averages velocity products as the plain stepper does. Those after it go on from
+  /// where the step before, as long, has left the trees: they take velocity products at the rates
+  /// that it foretells for their middle, of second order too, for two thirds of the cost.
+  void step(const std::vector<Surroundings>& around, double time, double h, int number = 0);
+  void step(const Surroundings& around, double time, double h, int number = 0);
 
   /// From now on air acts on a tree's links, one grip each, besides loads; still air until asked.
   void setGrips(int tree, const std::vector<Grip>& grips);
   /// The next step asks for the air; later ones take what it said, while the links move in it.
   void askAir(AskAir ask) { ask_ = std::move(ask); }
 
-  /// For callers that keep loads themselves: what acts from now on, without anchors, and so many
-  /// steps under it; air is asked for in the first. `bases` may be empty: the ground.
+  /// For callers that keep loads themselves: what acts from now on, without anchors, and a frame of
+  /// so many steps under it; air is asked for in the first. `bases` may be empty: the ground.
   void setBases(int tree, const std::vector<BaseMotion>& bases);
   void setLoads(int tree, const Loads& loads);
   void step(double h, int steps = 1);
@@ -87,8 +90,8 @@ class BatchChain {
   double fastestOf(const Member& member) const;
   void setTheta(Member& member, double theta, double products);
   void guard(ChainGroup& group, double h);
-  void stepGroup(ChainGroup& group, const Surroundings* around, double time, double h);
-  void stepWithin(const Surroundings* around, std::size_t count, double time, double h);
+  void stepGroup(ChainGroup& group, const Surroundings* around, double time, double h, int number);
+  void stepWithin(const Surroundings* around, std::size_t count, double time, double h, int number);
   void askAirOf(const ChainGroup& group);
   void askBases(const Surroundings& around, double time, Member& member);
   void askLoads(const Surroundings& around, double time, double h, Member& member);
