@@ -59,7 +59,8 @@ TEST(Wrench, OfAHandIsTheMeanOfItsTick) {
   EXPECT_GT(sampled, 0.1 * largest);
 }
 
-// N3. A clock that leaps has no mean: what is told is the spring's force at where the point is seen.
+// N3. A clock that leaps has no mean: what is told is the spring's force at where the point is
+// seen.
 TEST(Wrench, OfAHandIsTheSpringsOwnWhereTheClockLeaps) {
   PhysicsRig rig;
   Grab grab = rig.grabOf(rig.twig());
