@@ -178,6 +178,7 @@ void measurePrediction(const Options& options) {
   std::printf(
       "\n| scenario | begun after s | trees that move | in modes | in fine ones | foretold within "
       "2 x | worst ratios | looks within the tolerance | above it: foretold | not foretold |\n");
+  Told all;
   for (const std::string& name : scenarioNames()) {
     const bench::Scene scene = loadScene(name);
     if (!scene.forest) continue;
@@ -185,10 +186,14 @@ void measurePrediction(const Options& options) {
       Prediction prediction(*scene.forest, scene.terrain, scene.wind, frameEye(scene), FRAME_START,
                             settle);
       Told told;
-      for (const auto& [tree, each] : prediction.look(options.quick ? 3 : 10)) told.add(each);
+      for (const auto& [tree, each] : prediction.look(options.quick ? 3 : 10)) {
+        told.add(each);
+        all.add(each);
+      }
       if (told.trees > 0) told.print(name, settle);
     }
   }
+  all.print("all", 0.0);
 }
 
 }  // namespace

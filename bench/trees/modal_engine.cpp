@@ -84,7 +84,7 @@ void ModalEngine::step(int interval, double time, double h) {
     after_[m] = load_.factor(interval, time + h) * push_[m];
   }
   stepper_.step(before_, after_, h, state_);
-  largest_turn_ = std::max(largest_turn_, probe_.largestTurn(state_));
+  largest_turn_ = std::max(largest_turn_, probe_.largestTurn(state_.amplitude));
 }
 
 std::vector<Vec3> ModalEngine::tips() const {

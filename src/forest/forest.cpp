@@ -66,6 +66,7 @@ void Forest::reset() {
   memory_.modes.clear();
   memory_.physics.clear();
   memory_.changed.clear();
+  memory_.begun.clear();
   memory_.sequence = 0;
 }
 
@@ -136,10 +137,13 @@ StateUpdate Forest::update(bool key_frame) {
   else
     told = memory_.changed;
   for (const std::uint32_t tree : physicalTrees()) told.insert(tree);
-  for (const std::uint32_t tree : told)
+  for (const std::uint32_t tree : told) {
+    const bool amplitudes = sway(tree) && (key_frame || memory_.begun.count(tree));
     out.trees.push_back({tree, memory_.levels.of(tree), promoted(tree).branches,
-                         sway(tree) ? sway(tree)->state() : physics::ModalState()});
+                         amplitudes ? sway(tree)->state() : physics::ModalState()});
+  }
   memory_.changed.clear();
+  memory_.begun.clear();
   return out;
 }
 

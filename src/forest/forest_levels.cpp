@@ -18,10 +18,13 @@ constexpr double SEEN = 0.57;
 constexpr double ALIKE = 1.1;
 // Fine modes are worth their price where they leave so much less than plain ones.
 constexpr double BETTER = 0.9;
-// Fine modes take longer to find than a tick: so long between two trees, for who draws them too.
-constexpr Nanoseconds FINE_PAUSE = NANOSECONDS_PER_SECOND / 10;
 // More are not kept room for: few scenes have as many near trees.
 constexpr std::size_t MANY_PLANTS = 20000;
+
+// Of errors of two kinds that come together.
+double both(double a, double b) {
+  return std::sqrt(a * a + b * b);
+}
 
 }  // namespace
 
@@ -52,7 +55,7 @@ double Forest::viewOf(const Vec3& centre, double reach) const {
 
 void Forest::advance(Nanoseconds stamp) {
   advancePhysics(stamp);
-  fine_due_ = memory_.stamp / FINE_PAUSE != stamp / FINE_PAUSE;
+  fine_due_ = ForestModes::fineDue(memory_.stamp, stamp);
   memory_.stamp = stamp;
   for (auto it = memory_.viewers.begin(); it != memory_.viewers.end();)
     it = stamp - it->second.stamp > VIEWER_LIFE ? memory_.viewers.erase(it) : std::next(it);
@@ -118,42 +121,39 @@ void Forest::predict(const TreeSeed& seed, const LevelTable& table, double view,
   const double speed = bendingSpeed(air, species.reference_speed);
   plant.stair = plant.wanted = std::min(
       chooseLevel(table, speed, view, settings.tolerance, plant.held), settings.highest_level);
-  const double reach = 0.5 * table.reach, pixels = speed / air * view / SEEN;
-  LagIn lag, besides;
-  double bent = 0.0;
+  const double reach = 0.5 * table.reach, pixels = view / SEEN;
+  LagIn off, besides;
   if (plant.stair > 0) {
-    lag = besides = lagOf(seed, swinging_.at(foot, reach), pixels);
+    off = besides = lagOf(seed, swinging_.at(foot, reach), speed / air, pixels);
     // Discs are paper 1's winds, for which the whole of a tree's answer is its levels (S1-41): for
     // them nobody asks for more.
-    if (swinging_.hasDiscs()) besides = lagOf(seed, swinging_.besideDiscs(foot, reach), pixels);
-    const double peak = bendingSpeed(swinging_.peakSpeed(foot, reach), species.reference_speed);
-    bent = lag.bend * peak * peak * view / SEEN;
+    if (swinging_.hasDiscs())
+      besides = lagOf(seed, swinging_.besideDiscs(foot, reach), speed / air, pixels);
   }
-  const auto with = [bent](double off) { return std::sqrt(off * off + bent * bent); };
   for (std::size_t rung = 0; rung < table.omitted.size(); ++rung) {
     const double omitted = speed * view * table.omitted[rung];
-    plant.error[rung] = static_cast<float>(std::max(omitted, with(lag.procedural)));
+    plant.error[rung] = static_cast<float>(std::max(omitted, off.procedural));
     plant.cost[rung] = static_cast<float>(1e-6 * budget.procedural_cost * table.branches[rung]);
   }
-  const auto tell = [&](int rung, double off, double cost) {
+  const auto tell = [&](int rung, double error, double cost) {
     const auto at = static_cast<std::size_t>(rung);
-    plant.error[at] = static_cast<float>(with(std::min(off, lag.procedural)));
+    plant.error[at] = static_cast<float>(std::min(error, off.procedural));
     plant.cost[at] = static_cast<float>(1e-6 * cost * table.branches.back());
   };
-  tell(MODAL_LEVEL, lag.modal, budget.modal_cost);
-  tell(FINE_RUNG, std::min(lag.modal, lag.fine), budget.fine_cost);
-  wantModes(besides, with(besides.modal), with(besides.fine), plant);
+  tell(MODAL_LEVEL, off.modal, budget.modal_cost);
+  tell(FINE_RUNG, std::min(off.modal, off.fine), budget.fine_cost);
+  wantModes(besides, plant);
 }
 
 // Modes where the procedural motion is off by more than is tolerated, and they by less; fine ones
 // where plain ones are too. Once fine a tree stays so while it has modes: the way back would jump.
-void Forest::wantModes(const LagIn& off, double plain, double fine, Plant& plant) const {
+void Forest::wantModes(const LagIn& off, Plant& plant) const {
   const double tolerance = memory_.settings.tolerance;
   const bool has = plant.held >= MODAL_LEVEL;
   if (!haveModes() || off.procedural <= (has ? HYSTERESIS : 1.0) * tolerance) return;
   const double alike = ALIKE * (has ? 1.05 : 1.0) * off.procedural;
   const bool held = plant.held == FINE_RUNG, helps = off.modal < alike && !held;
-  const bool finer = held || (fine < BETTER * plain && (plain > tolerance || !helps));
+  const bool finer = held || (off.fine < BETTER * off.modal && (off.modal > tolerance || !helps));
   plant.above = helps ? MODAL_LEVEL : FINE_RUNG;
   if (finer && off.fine < alike)
     plant.wanted = FINE_RUNG;
@@ -161,14 +161,20 @@ void Forest::wantModes(const LagIn& off, double plain, double fine, Plant& plant
     plant.wanted = MODAL_LEVEL;
 }
 
-// How far a tree is off where the wind there comes and goes [pixel].
-LagIn Forest::lagOf(const TreeSeed& seed, const wind::Swings& swings, double pixels) {
-  LagIn out = tables_[seed.species].lagAt(layout_.species[seed.species], layout_.motion, seed.scale,
-                                          swings);
-  out.procedural *= pixels;
-  out.modal *= pixels;
-  out.fine *= pixels;
-  return out;
+// How far a tree is off where the wind there comes and goes, and bends it [pixel]; `bending`:
+// bending speed per speed of the air. What levers that turn mend is known of steady air: a tree
+// that swings has its inertia bent too, which modes leave out. So fine modes are foretold what
+// plain ones leave of the mean wind, and these as if levers were at rest.
+LagIn Forest::lagOf(const TreeSeed& seed, const wind::Swings& swings, double bending,
+                    double pixels) {
+  const Species& species = layout_.species[seed.species];
+  const LagIn lag = tables_[seed.species].lagAt(species, layout_.motion, seed.scale, swings);
+  const double peak = bendingSpeed(swings.peak, species.reference_speed),
+               mean = bendingSpeed(length(now_.mean), species.reference_speed);
+  const double mended = std::max(0.0, lag.bend.procedural - lag.bend.modal) * mean * mean;
+  const double rest = lag.bend.procedural * peak * peak, turned = rest - mended;
+  return {pixels * both(bending * lag.procedural, rest), pixels * both(bending * lag.modal, rest),
+          pixels * both(bending * lag.fine, turned), lag.bend};
 }
 
 bool Forest::haveModes() const {
@@ -203,9 +209,9 @@ void Forest::adopt() {
 }
 
 // Modes take milliseconds to find: one tree a tick gets plain ones, the one that is farthest off
-// first; where none does, one gets fine ones every FINE_PAUSE. The others wait on the rung that
-// they have, and one that has had fine ones on its stair until they have faded: the way back would
-// jump.
+// first; where none does, one gets fine ones when it is their turn. The others wait on the rung
+// that they have, and one that has had fine ones on its stair until they have faded: the way back
+// would jump.
 void Forest::beginModes() {
   Plant *plain = nullptr, *finer = nullptr;
   const auto wait = [](Plant& plant, int rung, Plant*& first) {
@@ -226,6 +232,7 @@ void Forest::beginModes() {
   if (!next) return;
   memory_.modes.begin({layout_, *terrain_, memory_.wind}, next->id, next == finer, memory_.stamp);
   memory_.changed.insert(next->id);
+  memory_.begun.insert(next->id);
   next->chosen = next == finer ? FINE_RUNG : MODAL_LEVEL;
 }
 

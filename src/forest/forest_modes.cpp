@@ -40,13 +40,17 @@ void ForestModes::advance(const wind::Field& wind, Nanoseconds from, Nanoseconds
             instants_[i]);
   loads_.resize(steps + 1);
   for (auto& [tree, sway] : sways_) {
+    if (sway.stamp() != from) {
+      start(wind, sway, to);
+      continue;
+    }
     for (std::size_t i = 0; i <= steps; ++i) sway.loadOf(instants_[i], loads_[i]);
     sway.step(loads_, to);
   }
 }
 
 void ForestModes::start(const wind::Field& wind, Sway& sway, Nanoseconds stamp) {
-  std::array<std::vector<double>, 3> loads;
+  std::array<ModalLoad, 3> loads;
   WindWindow window;
   window.lookAt(wind, stamp);
   for (std::size_t look = 0; look < loads.size(); ++look)
@@ -69,45 +73,83 @@ void ForestModes::refine(const Grounds& at, std::uint32_t tree, Sway& sway) {
   const auto told = [&](const std::vector<double>& amplitudes) {
     return fine.modes().amplitudesOf(sway.modes().bendsOf(amplitudes));
   };
-  std::vector<double> load;
+  ModalLoad load;
   fine.loadOf(at.wind.at(sway.stamp()), load);
   physics::ModalState state{told(sway.state().amplitude), told(sway.state().rate)};
-  for (std::size_t m = 0; m < load.size(); ++m) {
+  std::vector<double> force;
+  fine.bent(load, state.amplitude, force);
+  for (std::size_t m = 0; m < force.size(); ++m) {
     const double frequency = fine.modes().modes().frequency[m];
     if (frequency < QUICK) continue;
-    state.amplitude[m] = load[m] / (frequency * frequency);
+    state.amplitude[m] = force[m] / (frequency * frequency);
     state.rate[m] = 0.0;
   }
   fine.restore(state, load, sway.stamp());
   sway = std::move(fine);
 }
 
+bool ForestModes::isReady(std::uint32_t tree, std::size_t modes) const {
+  const auto held = [&](const std::map<std::uint32_t, Sway>& sways) {
+    const auto found = sways.find(tree);
+    return found != sways.end() && found->second.modes().size() == modes;
+  };
+  return modes <= ModalDepth{}.most() || held(sways_) || held(prepared_);
+}
+
+void ForestModes::await(std::uint32_t tree) {
+  sways_.erase(tree);
+  awaited_.insert(tree);
+}
+
+void ForestModes::prepareNext(const Grounds& at) {
+  if (awaited_.empty()) return;
+  const std::uint32_t tree = *awaited_.begin();
+  prepared_.insert_or_assign(tree, swayOf(at, tree, true));
+  awaited_.erase(tree);
+}
+
 // Their number tells which modes they are.
 void ForestModes::restore(const Grounds& at, std::uint32_t tree, const physics::ModalState& state,
                           Nanoseconds stamp) {
   const std::size_t count = state.amplitude.size();
-  const auto found = sways_.find(tree);
-  const bool known = found != sways_.end() && found->second.modes().size() == count;
+  const auto has = [count](const auto& found, const auto& sways) {
+    return found != sways.end() && found->second.modes().size() == count;
+  };
+  const auto found = sways_.find(tree), prepared = prepared_.find(tree);
   const bool fine = count > ModalDepth{}.most();
-  Sway& sway =
-      known ? found->second : sways_.insert_or_assign(tree, swayOf(at, tree, fine)).first->second;
-  std::vector<double> load;
+  if (!has(found, sways_))
+    sways_.insert_or_assign(
+        tree, has(prepared, prepared_) ? std::move(prepared->second) : swayOf(at, tree, fine));
+  if (prepared != prepared_.end()) prepared_.erase(prepared);
+  awaited_.erase(tree);
+  Sway& sway = sways_.at(tree);
+  ModalLoad load;
   sway.loadOf(at.wind.at(stamp), load);
   sway.restore(state, load, stamp);
 }
 
 void ForestModes::settle(const LevelMap& levels, Nanoseconds stamp, double transition) {
-  for (auto it = sways_.begin(); it != sways_.end();) {
-    const LevelState level = levels.of(it->first);
-    const bool over =
-        level.level < MODAL_LEVEL && modalWeight(blendAt(level, stamp, transition)) <= 0.0;
-    it = over ? sways_.erase(it) : std::next(it);
-  }
+  keepIf([&](std::uint32_t tree) {
+    const LevelState level = levels.of(tree);
+    return level.level >= MODAL_LEVEL || modalWeight(blendAt(level, stamp, transition)) > 0.0;
+  });
 }
 
 void ForestModes::keepOnly(const std::set<std::uint32_t>& trees) {
-  for (auto it = sways_.begin(); it != sways_.end();)
-    it = trees.count(it->first) ? std::next(it) : sways_.erase(it);
+  keepIf([&](std::uint32_t tree) { return trees.count(tree) > 0; });
+}
+
+void ForestModes::clear() {
+  keepIf([](std::uint32_t) { return false; });
+}
+
+template <class Wanted>
+void ForestModes::keepIf(const Wanted& wanted) {
+  for (auto* each : {&sways_, &prepared_})
+    for (auto it = each->begin(); it != each->end();)
+      it = wanted(it->first) ? std::next(it) : each->erase(it);
+  for (auto it = awaited_.begin(); it != awaited_.end();)
+    it = wanted(*it) ? std::next(it) : awaited_.erase(it);
 }
 
 const Sway* ForestModes::find(std::uint32_t tree) const {
@@ -117,7 +159,8 @@ const Sway* ForestModes::find(std::uint32_t tree) const {
 
 std::size_t ForestModes::bytes() const {
   std::size_t out = 0;
-  for (const auto& entry : sways_) out += entry.second.bytes();
+  for (const auto* each : {&sways_, &prepared_})
+    for (const auto& entry : *each) out += entry.second.bytes();
   return out;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "forest/bending.h"
 #include "vegetation_sim/common/math.h"
 #include "vegetation_sim/forest/modal_tree.h"
 #include "vegetation_sim/forest/response.h"
@@ -19,8 +20,6 @@ using wind::Swings;
 
 constexpr int SAMPLES = 2;     // trees measured per species and scale
 constexpr double PROBE = 0.5;  // [m/s] weak enough that no joint nears its limit
-constexpr double BENT = 0.3;   // [rad] turn at which bending is looked at, well above rounding
-constexpr int ROUNDS = 20;     // leave a millionth of the way
 
 // A wave of the breezes, at unit speed: its parts along and across, and how it is spread
 // (wind/breeze.h). Of a wind that is everywhere the same, along only.
@@ -77,18 +76,8 @@ class Sample {
             squares(right, modalBends(fine_, even, odd))};
   }
 
-  // Farthest tip from where a steady wind holds the full chain, whose levers change as it bends,
-  // per square of the speed.
-  double bend(const Vec3& along) const {
-    const wind::Instant air = steady(BENT / turn(along) * along);
-    const std::vector<Pose> right = forwardKinematics(tree_, balance(air)),
-                            shown = poseBranches(tree_, air, all());
-    double off = 0.0;
-    for (std::size_t i = 0; i < right.size(); ++i) {
-      const Branch& branch = tree_.skeleton.branches[i];
-      off = std::max(off, length(tipOf(branch, right[i]) - tipOf(branch, shown[i])));
-    }
-    return off / dot(air.mean, air.mean);
+  Bending bending(const Vec3& along) const {
+    return bendingOf({tree_, links_, grips_, linear_, modal_.modes}, along);
   }
 
  private:
@@ -97,51 +86,6 @@ class Sample {
     ModalTree modes;
     ModalAir air;
   };
-
-  static wind::Instant steady(const Vec3& velocity) {
-    wind::Instant out;
-    out.mean = velocity;
-    return out;
-  }
-  static Weights all() {
-    Weights out;
-    out.fill(1.0);
-    return out;
-  }
-
-  // Largest turn that gathers on a way from the ground, per speed.
-  double turn(const Vec3& along) const {
-    std::vector<physics::SmallMotion> motion;
-    linear_.motionOf(proceduralBends(steady(PROBE * along)).data(), motion);
-    double out = 0.0;
-    for (const physics::SmallMotion& link : motion) out = std::max(out, length(link.turn));
-    return out / PROBE;
-  }
-
-  // Bends at which springs hold a steady wind, by going half of the way again and again.
-  std::vector<JointAngles> balance(const wind::Instant& air) const {
-    const std::size_t n = links_.size();
-    physics::ChainState state{std::vector<physics::Vec2>(n, physics::Vec2::Zero()), {}};
-    state.rate = state.q;
-    const std::vector<physics::Vec2> still = state.q;
-    std::vector<physics::Vec2> missing;
-    physics::Kinematics now;
-    physics::Loads loads;
-    for (int round = 0; round < ROUNDS; ++round) {
-      physics::kinematicsOf(links_, {}, state, now);
-      loads.clear(n);
-      for (std::size_t i = 0; i < n; ++i) {
-        const physics::Grip& grip = grips_[i];
-        const Vec3 force = grip.steady * air.mean;
-        loads.wrench[i] = {force, cross(rotate(now.pose[i].orientation, grip.centre), force)};
-      }
-      physics::ArticulatedBody().torques(links_, {}, state, now, loads, still, missing);
-      for (std::size_t i = 0; i < n; ++i) state.q[i] -= 0.5 / links_[i].stiffness * missing[i];
-    }
-    std::vector<JointAngles> out;
-    for (const physics::Vec2& q : state.q) out.push_back({q.x(), q.y()});
-    return out;
-  }
 
   static std::vector<physics::Grip> gripsOf(const Wood& wood) {
     std::vector<physics::Grip> out(wood.own.size());
@@ -166,7 +110,7 @@ class Sample {
   }
 
   std::vector<double> proceduralBends(const wind::Instant& air) const {
-    return flat(proceduralAngles(tree_, air, all()));
+    return flat(allDepths(tree_, air));
   }
 
   Pair modalBends(Swayer& swayer, const wind::Instant& even, const wind::Instant& odd) const {
@@ -273,7 +217,11 @@ Lag measureLag(const Species& species, const MotionLaw& law, double scale) {
     }
     for (std::size_t s = 0; s < rows.size(); ++s)
       addRow(rows[s], Swings::SLOWNESSES[s] > 0.0, out.squares[s]);
-    if (static_cast<Gain>(law.gain) == Gain::COMPLIANCE) out.bend += sample.bend(along) / SAMPLES;
+    if (static_cast<Gain>(law.gain) == Gain::COMPLIANCE) {
+      const Bending bending = sample.bending(along);
+      out.bend.procedural += bending.procedural / SAMPLES;
+      out.bend.modal += bending.modal / SAMPLES;
+    }
   }
   return out;
 }

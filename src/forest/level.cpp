@@ -151,8 +151,10 @@ LagIn LevelScales::lagAt(const Species& species, const MotionLaw& law, double sc
   if (f == 0.0) return a;  // trees of the species' own size need one table
   const LagIn b = lag(below + 1);
   const auto mix = [f](double from, double to) { return from + f * (to - from); };
-  return {mix(a.procedural, b.procedural), mix(a.modal, b.modal), mix(a.fine, b.fine),
-          mix(a.bend, b.bend)};
+  return {mix(a.procedural, b.procedural),
+          mix(a.modal, b.modal),
+          mix(a.fine, b.fine),
+          {mix(a.bend.procedural, b.bend.procedural), mix(a.bend.modal, b.bend.modal)}};
 }
 
 int chooseLevel(const LevelTable& table, double speed, double pixels_per_metre, double tolerance,

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "forest/modal_load.h"
+#include "forest/sails.h"
 #include "vegetation_sim/common/faults.h"
 #include "vegetation_sim/common/math.h"
 #include "vegetation_sim/forest/wood.h"
@@ -17,112 +17,6 @@ namespace {
 
 constexpr int COARSE = 5, FINE = 10;    // halvings of the crown: 32 points and 1 024
 constexpr double AT_ONCE = 0.5 / 60.0;  // of quick vectors: half a frame [s]
-
-/// What the air holds on to: drag and its centre, per branch with leaves or wood.
-struct Sail {
-  std::size_t branch;
-  double drag;  // [kg/s]
-  Vec3 arm;     // from the joint, tree's axes
-  Vec3 centre;  // tree's frame
-};
-
-std::vector<Sail> sailsOf(const Skeleton& skeleton, const Wood& wood) {
-  std::vector<Sail> out;
-  for (std::size_t i = 0; i < skeleton.branches.size(); ++i) {
-    const Composite& body = wood.own[i];
-    if (body.drag <= 0.0) continue;
-    const Pose& rest = skeleton.branches[i].rest;
-    const Vec3 arm = rotate(rest.orientation, Vec3(body.drag_moment / body.drag));
-    out.push_back({i, body.drag, arm, rest.position + arm});
-  }
-  return out;
-}
-
-using Range = std::vector<Sail>::iterator;
-
-int longestAxis(Range begin, Range end) {
-  Vec3 low = begin->centre, high = begin->centre;
-  for (Range i = begin; i != end; ++i) {
-    low = low.cwiseMin(i->centre);
-    high = high.cwiseMax(i->centre);
-  }
-  int axis = 0;
-  for (int other = 1; other < 3; ++other)
-    if (high[other] - low[other] > high[axis] - low[axis]) axis = other;
-  return axis;
-}
-
-// Halves of equal drag, again and again.
-void divide(Range begin, Range end, int halvings, std::vector<std::pair<Range, Range>>& out) {
-  if (halvings == 0 || end - begin < 2) {
-    if (begin != end) out.emplace_back(begin, end);
-    return;
-  }
-  const int axis = longestAxis(begin, end);
-  std::stable_sort(
-      begin, end, [axis](const Sail& a, const Sail& b) { return a.centre[axis] < b.centre[axis]; });
-  const auto add = [](double sum, const Sail& sail) { return sum + sail.drag; };
-  const double all = std::accumulate(begin, end, 0.0, add);
-  Range middle = begin + 1;  // neither half is empty
-  for (double sum = begin->drag; middle + 1 != end && sum + 0.5 * middle->drag < 0.5 * all;
-       ++middle)
-    sum += middle->drag;
-  divide(begin, middle, halvings - 1, out);
-  divide(middle, end, halvings - 1, out);
-}
-
-// Joint torques of a uniform wind of 1 m/s.
-std::vector<double> uniformLoad(const physics::LinearChain& chain, const std::vector<Sail>& sails,
-                                const Vec3& direction) {
-  std::vector<physics::Wrench> wrenches(chain.size() / 2);
-  for (const Sail& sail : sails) {
-    const Vec3 force = sail.drag * direction;
-    wrenches[sail.branch] = {force, cross(sail.arm, force)};
-  }
-  return chain.torquesOf(wrenches);
-}
-
-WindPoint pointOf(Range begin, Range end) {
-  WindPoint out;
-  for (Range sail = begin; sail != end; ++sail) {
-    out.drag += sail->drag;
-    out.position += sail->drag * sail->centre;
-  }
-  out.position /= out.drag;
-  return out;
-}
-
-// How far the centre of a sail goes per amplitude.
-Vec3 wayOf(const Sail& sail, const std::vector<physics::SmallMotion>& motion) {
-  const physics::SmallMotion& link = motion[sail.branch];
-  return link.move + cross(link.turn, sail.arm);
-}
-
-using Motions = std::vector<std::vector<physics::SmallMotion>>;  // [modes][links]
-
-// [3][row] modal loads per velocity of the air on a range.
-void appendPush(Range begin, Range end, const Motions& motions, std::vector<double>& out) {
-  const std::size_t row = modalRow(motions.size());
-  const std::size_t start = out.size();
-  out.resize(start + 3 * row, 0.0);
-  for (std::size_t m = 0; m < motions.size(); ++m) {
-    Vec3 sum = Vec3::Zero();
-    for (Range sail = begin; sail != end; ++sail) sum += sail->drag * wayOf(*sail, motions[m]);
-    for (int axis = 0; axis < 3; ++axis)
-      out[start + static_cast<std::size_t>(axis) * row + m] = sum[axis];
-  }
-}
-
-WindPoints pointsOf(std::vector<Sail>& sails, const Motions& motions, int halvings) {
-  std::vector<std::pair<Range, Range>> parts;
-  divide(sails.begin(), sails.end(), halvings, parts);
-  WindPoints out;
-  for (const auto& [begin, end] : parts) {
-    out.at.push_back(pointOf(begin, end));
-    appendPush(begin, end, motions, out.push);
-  }
-  return out;
-}
 
 physics::Modes modesIn(const std::vector<physics::Link>& links, physics::LinearChain& chain,
                        const std::vector<Sail>& sails, ModalDepth depth) {
@@ -182,12 +76,14 @@ ModalTree::ModalTree(const Tree& tree, const Species& species, ModalDepth depth)
   probe_ = physics::RotationProbe(chain, modes_);
   coarse_ = pointsOf(sails, motions, COARSE);
   fine_ = pointsOf(sails, motions, FINE);
-  appendPush(sails.begin(), sails.end(), motions, uniform_);
+  uniform_ = uniformPush(sails, motions);
+  levers_ = leverChange(links, chain, modes_, sails, motions);
+  for (const WindPoint& whole : pointsOf(sails, motions, 0).at) middle_ = whole.position;
   stiffness_ = chain.stiffness();
 }
 
 std::size_t ModalTree::bytes() const {
-  std::size_t numbers = stiffness_.size() + uniform_.size();
+  std::size_t numbers = stiffness_.size() + uniform_.size() + levers_.size();
   for (const WindPoints* points : {&coarse_, &fine_})
     numbers += points->push.size() + 4 * points->at.size();
   return sizeof(*this) + modes_.bytes() + sizeof(double) * numbers +
@@ -252,6 +148,22 @@ void ModalTree::loadOf(const wind::Instant& wind, ModalAir& air, std::vector<dou
     addPushes(coarse_.push.data(), row, velocities.data(), velocities.size(), out.data());
   }
   out.resize(size());
+}
+
+Vec3 ModalTree::airOn(const wind::Instant& wind) const {
+  return effectiveVelocity(wind.velocity(foot_ + middle_), drag_, reference_speed_);
+}
+
+void ModalTree::bendLevers(const Vec3& velocity, const std::vector<double>& amplitude,
+                           ModalAir& air, std::vector<double>& load) const {
+  const std::size_t row = modalRow(size());
+  const double turn = probe_.largestTurn(amplitude);
+  const double share = turn > physics::MODAL_LIMIT ? physics::MODAL_LIMIT / turn : 1.0;
+  air.velocities.clear();
+  for (const double a : amplitude) air.velocities.push_back(share * a * velocity);
+  load.resize(row, 0.0);
+  addPushes(levers_.data(), row, air.velocities.data(), air.velocities.size(), load.data());
+  load.resize(size());
 }
 
 // At the coarse points, of all that waves do not tell.

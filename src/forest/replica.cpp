@@ -68,15 +68,29 @@ bool ForestReplica::takeSway(const StateUpdate& update) {
   else
     modes_.advance(wind_, stamp_, update.stamp);
   try {
-    for (const StateUpdate::Entry& entry : update.trees)
-      if (told.count(entry.tree))
-        modes_.restore({*layout_, *terrain_, wind_}, entry.tree, entry.sway, update.stamp);
+    restoreSway(update);
   } catch (const std::exception& error) {
     why_ = "tree in modes: " + std::string(error.what());
     return false;
   }
   modes_.settle(levels_, update.stamp, layout_->motion.transition);
   return true;
+}
+
+void ForestReplica::restoreSway(const StateUpdate& update) {
+  const Grounds at{*layout_, *terrain_, wind_};
+  bool due = update.key_frame || ForestModes::fineDue(stamp_, update.stamp);
+  for (const StateUpdate::Entry& entry : update.trees) {
+    const std::size_t modes = entry.sway.amplitude.size();
+    if (modes == 0) continue;
+    const bool ready = modes_.isReady(entry.tree, modes);
+    if (ready || due)
+      modes_.restore(at, entry.tree, entry.sway, update.stamp);
+    else
+      modes_.await(entry.tree);
+    due = due && ready;
+  }
+  if (due) modes_.prepareNext(at);  // shown from the next key frame on
 }
 
 std::vector<Pose> ForestReplica::pose(const Tree& tree, std::uint32_t id, Nanoseconds stamp) const {

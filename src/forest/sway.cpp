@@ -26,8 +26,21 @@ Sway::Sway(std::shared_ptr<const ModalTree> modes)
       state_(stepper_.atRest()),
       before_(state_) {}
 
-void Sway::land(const std::vector<double>& load, Nanoseconds stamp) {
-  stepper_.accelerations(state_, load, acceleration_);
+void Sway::loadOf(const wind::Instant& wind, ModalLoad& out) {
+  modes_->loadOf(wind, air_, out.force);
+  out.air = modes_->airOn(wind);
+}
+
+void Sway::bent(const ModalLoad& load, const std::vector<double>& amplitude,
+                std::vector<double>& out) {
+  out = load.force;
+  modes_->bendLevers(load.air, amplitude, air_, out);
+}
+
+// By the state alone, however it was come by: who is told of it looks ahead to the same bits.
+void Sway::land(const ModalLoad& load, Nanoseconds stamp) {
+  bent(load, state_.amplitude, after_load_);
+  stepper_.accelerations(state_, after_load_, acceleration_);
   stamp_ = stamp;
 }
 
@@ -36,19 +49,18 @@ bool Sway::fine() const {
 }
 
 // The static answer to each load; its rate by central difference.
-void Sway::begin(const std::array<std::vector<double>, 3>& loads, double step, Nanoseconds stamp) {
+void Sway::begin(const std::array<ModalLoad, 3>& loads, double step, Nanoseconds stamp) {
   for (std::size_t m = 0; m < state_.amplitude.size(); ++m) {
     const double w = modes_->modes().frequency[m], stiffness = w * w;
-    state_.amplitude[m] = loads[1][m] / stiffness;
-    state_.rate[m] = (loads[2][m] - loads[0][m]) / (2.0 * step * stiffness);
+    state_.amplitude[m] = loads[1].force[m] / stiffness;
+    state_.rate[m] = (loads[2].force[m] - loads[0].force[m]) / (2.0 * step * stiffness);
   }
   before_ = state_;
   before_stamp_ = stamp;
   land(loads[1], stamp);
 }
 
-void Sway::restore(const physics::ModalState& state, const std::vector<double>& load,
-                   Nanoseconds stamp) {
+void Sway::restore(const physics::ModalState& state, const ModalLoad& load, Nanoseconds stamp) {
   if (state.amplitude.size() != modes_->size() || state.rate.size() != modes_->size())
     throw InvalidInput("modes: " + std::to_string(state.amplitude.size()) + " amplitudes and " +
                        std::to_string(state.rate.size()) + " rates, the tree has " +
@@ -58,13 +70,22 @@ void Sway::restore(const physics::ModalState& state, const std::vector<double>& 
   land(load, stamp);
 }
 
-void Sway::step(const std::vector<std::vector<double>>& loads, Nanoseconds stamp) {
+// Levers are turned by the bends that a step with those before it ends in.
+void Sway::step(const std::vector<ModalLoad>& loads, Nanoseconds stamp) {
   before_ = state_;
   before_stamp_ = stamp_;
   const auto steps = static_cast<Nanoseconds>(loads.size()) - 1;
   const double h = wholeMicroseconds((stamp - stamp_) / steps);
-  for (std::size_t i = 0; i + 1 < loads.size(); ++i)
-    stepper_.step(loads[i], loads[i + 1], h, state_);
+  for (std::size_t i = 0; i + 1 < loads.size(); ++i) {
+    bent(loads[i], state_.amplitude, before_load_);
+    trial_ = state_;
+    after_load_ = before_load_;
+    for (std::size_t m = 0; m < after_load_.size(); ++m)
+      after_load_[m] += loads[i + 1].force[m] - loads[i].force[m];
+    stepper_.step(before_load_, after_load_, h, trial_);
+    bent(loads[i + 1], trial_.amplitude, after_load_);
+    stepper_.step(before_load_, after_load_, h, state_);
+  }
   land(loads.back(), stamp);
 }
 

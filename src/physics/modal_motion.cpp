@@ -58,12 +58,12 @@ RotationProbe::RotationProbe(const LinearChain& chain, const Modes& modes) {
     for (const auto& motion : motions) turn.push_back(motion[static_cast<std::size_t>(link)].turn);
 }
 
-double RotationProbe::largestTurn(const ModalState& state) const {
+double RotationProbe::largestTurn(const std::vector<double>& amplitude) const {
   double most = 0.0;
   for (std::size_t i = 0; i < links.size(); ++i) {
     Vec3 sum = Vec3::Zero();
-    for (std::size_t m = 0; m < state.amplitude.size(); ++m)
-      sum += state.amplitude[m] * turn[i * state.amplitude.size() + m];
+    for (std::size_t m = 0; m < amplitude.size(); ++m)
+      sum += amplitude[m] * turn[i * amplitude.size() + m];
     most = std::max(most, dot(sum, sum));
   }
   return std::sqrt(most);

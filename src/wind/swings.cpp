@@ -93,22 +93,16 @@ void SwingingWind::addBreeze(const Primitive& p, double weight, const Breeze& br
 
 Swings SwingingWind::atOf(const Vec3& position, double reach, bool discs) const {
   Swings out = breezes_;
+  double square = turbulence_;
   for (const Part& part : parts_) {
     if (part.term.kind == Kind::DISK && !discs) continue;
     const double bound = boundOf(part.term, position, reach), speed = part.share * bound;
+    square += bound * bound;
     if (speed > 0.0) out.add(part.frequency, 0.0, speed * speed);
     if (part.onset > 0.0) out.add(part.onset, 0.0, 0.25 * bound * bound);
   }
+  out.peak = length(mean_) + std::sqrt(square);
   return out;
-}
-
-double SwingingWind::peakSpeed(const Vec3& position, double reach) const {
-  double square = turbulence_;
-  for (const Part& part : parts_) {
-    const double bound = boundOf(part.term, position, reach);
-    square += bound * bound;
-  }
-  return length(mean_) + std::sqrt(square);
 }
 
 }  // namespace vegetation_sim::wind

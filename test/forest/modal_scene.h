@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "forest/forest_fixture.h"
-#include "vegetation_sim/forest/modal_tree.h"
+#include "vegetation_sim/forest/sway.h"
 #include "vegetation_sim/forest/wood.h"
 #include "vegetation_sim/physics/integrator.h"
 
@@ -66,17 +66,15 @@ class Swaying {
     });
   }
   Off modal(double skip, ModalDepth depth = {}) const {
-    const ModalTree modal(tree_, species_, depth);
-    physics::ModalStepper stepper(modal.modes());
-    physics::ModalState state = stepper.atRest();
-    std::vector<double> before, after;
-    ModalAir air;
-    modal.loadOf(field_.at(SWAY_START), air, before);
+    Sway sway(std::make_shared<const ModalTree>(tree_, species_, depth));
+    std::vector<ModalLoad> loads(2);
+    sway.loadOf(field_.at(SWAY_START), loads[0]);
+    sway.restore(sway.state(), loads[0], SWAY_START);
     return error(skip, [&](int frame) {
-      modal.loadOf(field_.at(stampOf(frame)), air, after);
-      stepper.step(before, after, 1.0 / SWAY_RATE, state);
-      before = after;
-      return modal.bendsOf(state.amplitude);
+      sway.loadOf(field_.at(stampOf(frame)), loads[1]);
+      sway.step(loads, stampOf(frame));
+      loads[0] = loads[1];
+      return sway.modes().bendsOf(sway.state().amplitude);
     });
   }
 

@@ -44,11 +44,11 @@ class Prediction {
   };
   using Looks = std::map<std::uint32_t, std::vector<Look>>;  // by tree that moves
 
-  /// Looks about three times a second, for some seconds.
+  /// Looks at every tick, for some seconds.
   Looks look(int seconds) {
     Looks out;
-    for (int i = 0; i < 3 * seconds; ++i) {
-      run(RATE / 3);
+    for (int i = 0; i < RATE * seconds; ++i) {
+      run(1);
       for (const Plant& plant : chosen_.plants())
         if (trees_.count(plant.id))
           out[plant.id].push_back({plant.error[static_cast<std::size_t>(plant.chosen)],

@@ -87,6 +87,32 @@ TEST(Sway, NoTreeHasModesThatNobodyAskedFor) {
   EXPECT_GT(poor.forest.memory().levels.of(0).level, 0);
 }
 
+// A disc asks for no modes, and takes none from trees that it does not reach: what the breeze does
+// to these, bending included, goes on to be held against the tolerance.
+TEST(Sway, ADiscFarAwayTakesNoModes) {
+  wind::Primitive steady = makeBreeze(1, Vec3(15.0, 3.0, 0.0));
+  steady.turbulence = 0.02;
+  const wind::Primitive far = makeDisk(2, Vec3(3000.0, 0.0, 0.0), 5.0, Vec3(5, 1, 0));
+  Clearing alone(wind::Field({steady}, 3)), beside(wind::Field({steady, far}, 3));
+  int modal = 0, plain = 0;
+  for (double tolerance = 0.5; tolerance < 200.0; tolerance *= 1.2) {
+    Settings settings;
+    settings.tolerance = tolerance;
+    for (Clearing* scene : {&alone, &beside}) {
+      scene->forest.setSettings(settings);
+      scene->advance();
+    }
+    ASSERT_EQ(alone.forest.plants().size(), beside.forest.plants().size());
+    for (std::size_t i = 0; i < alone.forest.plants().size(); ++i) {
+      const int wanted = alone.forest.plants()[i].wanted;
+      EXPECT_EQ(beside.forest.plants()[i].wanted, wanted) << i << " " << tolerance;
+      ++(wanted >= MODAL_LEVEL ? modal : plain);
+    }
+  }
+  EXPECT_GT(modal, 0);
+  EXPECT_GT(plain, 0);
+}
+
 // What is kept for a tree is counted, the table of the breeze's waves too.
 TEST(Sway, CountsWhatItKeepsOfTheWaves) {
   const auto bytes = [](const wind::Field& field) {
@@ -120,7 +146,7 @@ TEST(Sway, SaturatesAndSaysSoBeyondTheLimit) {
     for (int i = 0; i < TICK_RATE; ++i) {
       scene.advance();
       const Sway& birch = *scene.forest.sway(2);
-      turn = std::max(turn, birch.modes().probe().largestTurn(birch.state()));
+      turn = std::max(turn, birch.modes().probe().largestTurn(birch.state().amplitude));
       for (const JointAngles& joint : scene.angles(scene.tree(2), 2, scene.now()))
         bend = std::max(bend, difference(joint, {}));
       EXPECT_EQ(scene.forest.governor().strained > 0, storm);
@@ -163,6 +189,9 @@ TEST(Sway, NothingJumpsGoingUpOrDown) {
 // late and whoever was there from the beginning pose every branch as the forest does, to the bit.
 TEST(Sway, ReplicasSwayToTheBit) {
   Clearing scene;
+  Settings settings;
+  settings.budget.state_bytes = 1600;  // for plain modes, which are found at once
+  scene.forest.setSettings(settings);
   ForestReplica steady, late;
   for (ForestReplica* replica : {&steady, &late}) {
     replica->setLayout(scene.forest.layout(), flatTerrain());
@@ -178,8 +207,8 @@ TEST(Sway, ReplicasSwayToTheBit) {
     ASSERT_TRUE(steady.apply(update)) << steady.why();
     const bool joined = i >= TICK_RATE;
     ASSERT_EQ(joined && late.apply(update), joined) << late.why();
-    if (i % 7) continue;
-    const Nanoseconds stamp = scene.now() + seconds(0.004);
+    if (i % 7 && i % TICK_RATE) continue;  // key frames too: ahead of those too they are alike
+    const Nanoseconds stamp = scene.now() + seconds(0.005);
     const auto here = scene.forest.pose(tree, 2, stamp);
     for (const ForestReplica* replica : {&steady, &late}) {
       if (replica == &late && !joined) continue;
@@ -192,6 +221,177 @@ TEST(Sway, ReplicasSwayToTheBit) {
   }
   // Of 3 s at 60 Hz: 180 would be if every tick told.
   EXPECT_LT(told, 4u * 15u);
+}
+
+// N13: who joins late finds fine modes one by one, not all at once: ticks would be dropped. The
+// trees that wait are shown procedural, and all are to the bit in the end.
+TEST(Sway, WhoJoinsLateFindsFineModesOneByOne) {
+  Clearing scene;
+  Settings settings;
+  settings.tolerance = 0.05;
+  scene.forest.setSettings(settings);
+  scene.run(2.0);
+  for (std::uint32_t id = 0; id < 4; ++id) {
+    ASSERT_NE(scene.forest.sway(id), nullptr) << id;
+    ASSERT_TRUE(scene.forest.sway(id)->fine()) << id;
+  }
+  ForestReplica late;
+  late.setLayout(scene.forest.layout(), flatTerrain());
+  late.setWind(breeze());
+  for (int i = 0; i <= TICK_RATE; ++i) {
+    scene.advance();
+    ASSERT_TRUE(late.apply(scene.forest.update(i % TICK_RATE == 0))) << late.why();
+    int found = 0;
+    for (std::uint32_t id = 0; id < 4; ++id) found += late.sway(id) != nullptr;
+    EXPECT_EQ(found, i < TICK_RATE ? 1 : 4) << i;
+  }
+  for (std::uint32_t id = 0; id < 4; ++id) {
+    const Tree tree = scene.tree(id);
+    const auto here = scene.forest.pose(tree, id, scene.now()),
+               there = late.pose(tree, id, scene.now());
+    for (std::size_t b = 0; b < here.size(); ++b) ASSERT_EQ(here[b].position, there[b].position);
+  }
+}
+
+// N13: modes that are found before they are told of are counted, and neither they nor the wish for
+// them outlive what they are for.
+TEST(ForestModes, WhatIsAwaitedIsCountedAndDropped) {
+  const Layout layout = gridLayout(2, 12.0);
+  const terrain::HeightMap flat;
+  const wind::Field wind = breeze();
+  const Grounds at{layout, flat, wind};
+  LevelMap modal, still;
+  for (std::uint32_t id = 0; id < 4; ++id) modal.set(id, LevelState::settled(MODAL_LEVEL));
+  ForestModes source;
+  for (const std::uint32_t id : {0u, 1u}) source.begin(at, id, true, seconds(1.0));
+  const std::size_t all = source.find(1)->modes().size();
+  ForestModes modes;
+  modes.begin(at, 0, false, seconds(1.0));
+  for (const std::uint32_t id : {0u, 1u, 2u}) modes.await(id);
+  EXPECT_EQ(modes.find(0), nullptr);  // what it had would be stale
+  EXPECT_EQ(modes.bytes(), 0u);
+  modes.restore(at, 0, source.find(0)->state(), seconds(1.0));  // no longer awaited
+  const std::size_t one = modes.bytes();
+  modes.prepareNext(at);
+  EXPECT_FALSE(modes.isReady(2, all));
+  EXPECT_TRUE(modes.isReady(1, all));
+  EXPECT_GT(modes.bytes(), one);
+  modes.settle(modal, seconds(1.0), 1.0);
+  EXPECT_TRUE(modes.isReady(1, all));
+  modes.settle(still, seconds(1.0), 1.0);
+  EXPECT_FALSE(modes.isReady(1, all));
+  modes.prepareNext(at);  // of no tree: 2 has left modes
+  EXPECT_EQ(modes.bytes(), 0u);
+}
+
+// N13: who was told of plain modes, lost messages and is told of fine ones at a key frame does not
+// go on from the old ones, over steps as long as what was lost.
+TEST(Sway, NothingStaleIsShownWhileFineModesAreAwaited) {
+  Clearing scene;
+  Settings settings;
+  settings.tolerance = 0.05;
+  settings.budget.state_bytes = 1600;  // for plain modes
+  scene.forest.setSettings(settings);
+  scene.run(2.0);
+  ForestReplica replica;
+  replica.setLayout(scene.forest.layout(), flatTerrain());
+  replica.setWind(breeze());
+  ASSERT_TRUE(replica.apply(scene.forest.update(true)));
+  for (std::uint32_t id = 0; id < 4; ++id) ASSERT_NE(replica.sway(id), nullptr);
+  settings.budget.state_bytes = 1000000;
+  scene.forest.setSettings(settings);
+  scene.run(2.0);  // of which nothing is told
+  for (std::uint32_t id = 0; id < 4; ++id) ASSERT_TRUE(scene.forest.sway(id)->fine()) << id;
+  for (int i = 0; i < 5; ++i) {
+    scene.advance();
+    ASSERT_TRUE(replica.apply(scene.forest.update(i == 0))) << replica.why();
+    int shown = 0;
+    for (std::uint32_t id = 0; id < 4; ++id) {
+      if (!replica.sway(id)) continue;
+      ++shown;
+      EXPECT_TRUE(replica.sway(id)->fine()) << id;
+      EXPECT_EQ(replica.sway(id)->state().amplitude, scene.forest.sway(id)->state().amplitude);
+    }
+    EXPECT_EQ(shown, 1);
+  }
+}
+
+// N13: a tree that stands at another stamp starts again on its procedural motion.
+TEST(ForestModes, StartAgainWhatStandsAtAnotherStamp) {
+  const Layout layout = gridLayout(2, 12.0);
+  const terrain::HeightMap flat;
+  const wind::Field wind = breeze();
+  const Grounds at{layout, flat, wind};
+  ForestModes early, late;
+  early.begin(at, 0, false, seconds(1.0));
+  late.begin(at, 0, false, seconds(9.0));
+  early.advance(wind, seconds(8.9), seconds(9.0));
+  EXPECT_EQ(early.find(0)->stamp(), seconds(9.0));
+  EXPECT_EQ(early.find(0)->state().amplitude, late.find(0)->state().amplitude);
+}
+
+// N13: levers that turn feed back on what turns them; however strong the storm and long the tick,
+// the tree stays near where levers at rest have it.
+TEST(Sway, LeversThatTurnStayBoundedInStormsOverLongTicks) {
+  const Layout layout = gridLayout(2, 12.0);
+  std::vector<wind::Primitive> three;
+  for (std::uint32_t id = 1; id <= 3; ++id) three.push_back(makeBreeze(id, Vec3(90.0, 10.0, 0.0)));
+  const wind::Field storm(three, 3);
+  const auto largestTurn = [](const Sway& sway) {
+    return sway.modes().probe().largestTurn(sway.state().amplitude);
+  };
+  for (std::uint32_t id = 0; id < 4; ++id) {
+    const Tree tree = growTree(layout, id, terrain::HeightMap());
+    const auto modes =
+        std::make_shared<const ModalTree>(tree, layout.species[tree.seed.species], FINE_MODES);
+    for (const int steps : {1, 6, 60}) {  // of 1/60 s a tick
+      Sway turning(modes), stiff(modes);
+      std::vector<ModalLoad> loads(static_cast<std::size_t>(steps) + 1), rest;
+      double most = 0.0, least = 0.0;
+      for (int tick = 0; tick * steps < 20 * 60; ++tick) {
+        const auto stamp = [&](int i) { return seconds(100.0 + (tick * steps + i) / 60.0); };
+        for (int i = 0; i <= steps; ++i)
+          turning.loadOf(storm.at(stamp(i)), loads[static_cast<std::size_t>(i)]);
+        rest = loads;
+        for (ModalLoad& load : rest) load.air.setZero();
+        for (Sway* sway : {&turning, &stiff}) {
+          const std::vector<ModalLoad>& of = sway == &turning ? loads : rest;
+          if (tick == 0) sway->restore(sway->state(), of[0], stamp(0));
+          sway->step(of, stamp(steps));
+        }
+        most = std::max(most, largestTurn(turning));
+        least = std::max(least, largestTurn(stiff));
+      }
+      std::printf("tree %u, ticks of %d/60 s: %.2f rad, %.2f with levers at rest\n", id, steps,
+                  most, least);
+      EXPECT_LT(most, 1.5 * least) << id << " " << steps;
+    }
+  }
+}
+
+// What a hand moves is told at every tick, the amplitudes of the tree it is on are not.
+TEST(Sway, AHeldTreeTellsItsAmplitudesInKeyFramesOnly) {
+  Clearing scene;
+  Settings settings;
+  settings.tolerance = 0.1;
+  scene.forest.setSettings(settings);
+  scene.run(1.0);
+  scene.forest.update(true);
+  const Tree tree = scene.tree(0);
+  Grab grab;
+  grab.point = {0, static_cast<int>(tree.skeleton.branches.size()) - 1, 0.0};
+  grab.target = tree.foot + tree.skeleton.branches.back().rest.position + Vec3(0.2, 0.0, 0.0);
+  scene.forest.addGrab(grab);
+  for (int i = 1; i <= 30; ++i) {
+    scene.advance();
+    bool held = false;
+    for (const auto& entry : scene.forest.update(i == 30).trees) {
+      if (entry.tree != 0) continue;
+      held = !entry.promoted.empty();
+      EXPECT_EQ(entry.sway.amplitude.empty(), i < 30) << i;
+    }
+    EXPECT_TRUE(held) << i;
+  }
 }
 
 // N7, N13: a tree whose modes leave too much goes on in fine ones. Nothing jumps, and a replica

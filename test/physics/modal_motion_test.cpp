@@ -312,8 +312,8 @@ TEST(RotationProbe, TellsTheLargestTurnOfAnyLink) {
     chain.motionOf(q.data(), motion);
     double most = 0.0;
     for (const SmallMotion& each : motion) most = std::max(most, length(each.turn));
-    EXPECT_LE(probe.largestTurn(state), most * (1.0 + 1e-12));
-    EXPECT_GT(probe.largestTurn(state), 0.6 * most);
+    EXPECT_LE(probe.largestTurn(state.amplitude), most * (1.0 + 1e-12));
+    EXPECT_GT(probe.largestTurn(state.amplitude), 0.6 * most);
   }
 }
 

@@ -104,6 +104,8 @@ TEST(Swings, TellADiscThatRunsPast) {
   const SwingingWind swinging(Field({disk}, 3), fromSeconds(1.0));
   EXPECT_TRUE(swinging.hasDiscs());
   EXPECT_EQ(sumOf(swinging.besideDiscs(Vec3(2.0, 0.0, 0.0), 1.0)), 0.0);
+  EXPECT_NEAR(swinging.at(Vec3(2.0, 0.0, 0.0), 8.0).peak, 4.0, 1e-9);
+  EXPECT_EQ(swinging.besideDiscs(Vec3(2.0, 0.0, 0.0), 8.0).peak, 0.0);
 }
 
 }  // namespace

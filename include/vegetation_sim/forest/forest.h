@@ -47,6 +47,7 @@ struct ForestMemory {
   ForestModes modes;
   ForestPhysics physics;
   std::set<std::uint32_t> changed;  ///< trees to tell of in the next update
+  std::set<std::uint32_t> begun;    ///< of these, with amplitudes: their modes are new
   std::uint32_t sequence{0};        ///< of the next update
 };
 
@@ -138,8 +139,8 @@ class Forest {
   void chooseRegion(const Region& region);
   void chooseTree(std::uint32_t tree);
   void predict(const TreeSeed& seed, const LevelTable& table, double view, Plant& plant);
-  void wantModes(const LagIn& off, double plain, double fine, Plant& plant) const;
-  LagIn lagOf(const TreeSeed& seed, const wind::Swings& swings, double pixels);
+  void wantModes(const LagIn& off, Plant& plant) const;
+  LagIn lagOf(const TreeSeed& seed, const wind::Swings& swings, double bending, double pixels);
   bool haveModes() const;
   void adopt();
   void beginModes();

@@ -53,7 +53,8 @@ struct StateUpdate {
     std::uint32_t tree{0};
     LevelState state;
     std::vector<PromotedBranch> promoted{};  ///< by rising branch; none
-    physics::ModalState sway{};              ///< of its modes; empty: not in modes
+    /// Of its modes, in key frames and when they begin; empty: as steps from then on have it.
+    physics::ModalState sway{};
   };
   std::vector<Entry> trees;
 };

@@ -70,6 +70,13 @@ class ModalTree {
   /// Modal loads [modes] of a wind. Linear drag: breezes on all of the crown, the rest at
   /// windPoints(); quadratic: all there. `air`: of this tree only.
   void loadOf(const wind::Instant& wind, ModalAir& air, std::vector<double>& out) const;
+  /// The air that turns levers as the tree bends, at the middle of the crown [m/s].
+  Vec3 airOn(const wind::Instant& wind) const;
+  /// Adds to modal loads what bending changes in them in a wind whose airOn() is `velocity`, to the
+  /// first order. What is bent beyond MODAL_LIMIT counts as bent so far, whatever the wind: else a
+  /// storm would bend on what it bends.
+  void bendLevers(const Vec3& velocity, const std::vector<double>& amplitude, ModalAir& air,
+                  std::vector<double>& load) const;
   /// Bends of all joints for amplitudes, or their rates for rates; not limited.
   std::vector<JointAngles> bendsOf(const std::vector<double>& amplitude) const;
   /// Amplitudes [modes] that come nearest to bends, in the energy of the springs.
@@ -87,6 +94,8 @@ class ModalTree {
   physics::RotationProbe probe_;
   WindPoints coarse_, fine_;       // for all winds, for waves
   std::vector<double> uniform_;    // [3][row] load per velocity of the same air everywhere [kg/s]
+  std::vector<double> levers_;     // [modes][3][row] its change per amplitude
+  Vec3 middle_{Vec3::Zero()};      // of all drag, at rest, tree's frame [m]
   std::vector<double> stiffness_;  // [branches][2]
 };
 

@@ -41,13 +41,15 @@ class ForestReplica {
   PromotedTree promoted(std::uint32_t tree) const;
   /// Trees that have physical joints, rising.
   std::vector<std::uint32_t> physicalTrees() const;
-  /// Nullptr: the tree does not sway in modes.
+  /// Nullptr: the tree does not sway in modes, or they are still to be found: who joins late finds
+  /// fine ones of one tree every 0.1 s, and shows the others procedural.
   const Sway* sway(std::uint32_t tree) const { return modes_.find(tree); }
   /// Every branch in the tree's frame, physical ones and modes included, double precision.
   std::vector<Pose> pose(const Tree& tree, std::uint32_t id, Nanoseconds stamp) const;
 
  private:
   bool takeSway(const StateUpdate& update);
+  void restoreSway(const StateUpdate& update);
 
   std::shared_ptr<const Layout> layout_;
   std::shared_ptr<const terrain::HeightMap> terrain_;

@@ -12,6 +12,12 @@
 
 namespace vegetation_sim::forest {
 
+/// What the air does to a tree in modes at one moment.
+struct ModalLoad {
+  std::vector<double> force;  ///< [modes] on the tree at rest
+  Vec3 air{Vec3::Zero()};     ///< ModalTree::airOn(), by which levers turn [m/s]
+};
+
 /// A tree that sways in its modes (N13). Amplitudes and rates at the last tick are all that is
 /// remembered: the modes follow from the seed, their loads from the wind law. A value; copies share
 /// the modes.
@@ -27,18 +33,16 @@ class Sway {
   /// Of the modes, their fast copy and what is kept of the waves that blow.
   std::size_t bytes() const { return modes_->bytes() + batch_->bytes() + air_.bytes(); }
 
-  /// Modal loads [modes] of a wind.
-  void loadOf(const wind::Instant& wind, std::vector<double>& out) {
-    modes_->loadOf(wind, air_, out);
-  }
-  /// Starts as the procedural motion is under modal loads [modes] `step` seconds before the stamp,
-  /// at it, and after.
-  void begin(const std::array<std::vector<double>, 3>& loads, double step, Nanoseconds stamp);
-  /// Goes on from a state, under a modal load. @throws InvalidInput if it has not as many modes.
-  void restore(const physics::ModalState& state, const std::vector<double>& load,
-               Nanoseconds stamp);
-  /// Equal steps to `stamp` between loads [steps + 1][modes].
-  void step(const std::vector<std::vector<double>>& loads, Nanoseconds stamp);
+  void loadOf(const wind::Instant& wind, ModalLoad& out);
+  /// Modal forces [modes] of a load on the tree as it is bent.
+  void bent(const ModalLoad& load, const std::vector<double>& amplitude, std::vector<double>& out);
+  /// Starts as the procedural motion is under loads `step` seconds before the stamp, at it, and
+  /// after.
+  void begin(const std::array<ModalLoad, 3>& loads, double step, Nanoseconds stamp);
+  /// Goes on from a state, under a load. @throws InvalidInput if it has not as many modes.
+  void restore(const physics::ModalState& state, const ModalLoad& load, Nanoseconds stamp);
+  /// Equal steps to `stamp` between loads [steps + 1].
+  void step(const std::vector<ModalLoad>& loads, Nanoseconds stamp);
 
   /// Amplitudes at a stamp near the last tick: by their rates and accelerations there, not farther
   /// than LONGEST_LOOK_AHEAD.
@@ -49,14 +53,16 @@ class Sway {
   void amplitudeBetween(Nanoseconds stamp, std::vector<double>& out) const;
 
  private:
-  void land(const std::vector<double>& load, Nanoseconds stamp);
+  void land(const ModalLoad& load, Nanoseconds stamp);
 
   std::shared_ptr<const ModalTree> modes_;
   std::shared_ptr<const physics::BatchModes> batch_;  // of modes_
   physics::ModalStepper stepper_;
   physics::ModalState state_, before_;  // at the last tick, at the one before
   std::vector<double> acceleration_;
-  ModalAir air_;  // follows from the wind
+  ModalAir air_;               // follows from the wind
+  physics::ModalState trial_;  // scratch
+  std::vector<double> before_load_, after_load_;
   Nanoseconds stamp_{0}, before_stamp_{0};
 };
 

@@ -25,10 +25,10 @@ struct RotationProbe {
 
   RotationProbe() = default;
   RotationProbe(const LinearChain& chain, const Modes& modes);
-  /// Largest turn of any of them from rest [rad].
-  double largestTurn(const ModalState& state) const;
+  /// Largest turn of any of them from rest [rad]. @param[in] amplitude [modes].
+  double largestTurn(const std::vector<double>& amplitude) const;
   /// False: the tree should be physical.
-  bool holds(const ModalState& state) const { return largestTurn(state) <= MODAL_LIMIT; }
+  bool holds(const ModalState& state) const { return largestTurn(state.amplitude) <= MODAL_LIMIT; }
 };
 
 /// Steps oscillators exactly, whatever the step, for loads that change linearly during it.

@@ -18,6 +18,8 @@ struct Swings {
 
   /// [slowness][frequency]
   std::array<std::array<double, FREQUENCIES.size()>, SLOWNESSES.size()> power{};
+  /// Largest speed to be expected, the steady part included: sources seldom peak together [m/s].
+  double peak{0.0};
 
   /// Shared out to the four points around. What is slower than the lowest frequency counts with
   /// the square of how much: plants follow it so much better.
@@ -41,8 +43,6 @@ class SwingingWind {
     return atOf(position, reach, false);
   }
   bool hasDiscs() const { return has_discs_; }
-  /// Largest speed to be expected there [m/s]: sources seldom peak together.
-  double peakSpeed(const Vec3& position, double reach) const;
 
  private:
   struct Part {
