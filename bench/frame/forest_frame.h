@@ -3,8 +3,8 @@
 #pragma once
 
 #include "frame/laps.h"
+#include "frame/posed_tree.h"
 #include "frame/scene.h"
-#include "vegetation_sim/forest/narrow.h"
 #include "vegetation_sim/forest/skin.h"
 
 namespace vegetation_sim::forest {
@@ -40,8 +40,8 @@ class ForestFrame {
     pose();
     laps.lap("poses");
     for (Drawn& tree : drawn_) {
-      skinBark(tree.mesh, tree.poses, {}, tree.bark.data());
-      skinLeaves(tree.mesh, tree.poses, {}, Flutter(), tree.leaves.data());
+      skinBark(tree.mesh, tree.posed.poses, {}, tree.bark.data());
+      skinLeaves(tree.mesh, tree.posed.poses, {}, Flutter(), tree.leaves.data());
     }
     laps.lap("meshes");
   }
@@ -49,25 +49,20 @@ class ForestFrame {
  private:
   /// A tree as the display has it.
   struct Drawn {
-    Tree tree;
-    BatchPoser poser;
+    PosedTree posed;
     TreeMesh mesh;
-    int depths{0};
     std::vector<float> bark, leaves;
-    BatchPoses poses;
   };
 
   void grow(std::uint32_t id) {
-    const Tree tree = growTree(held_.layout(), id, held_.terrain());
-    const double scale = pixelsPerMetre(eye_.eye, length(tree.foot - eye_.eye.position));
-    const MeshDetail detail = meshDetail(geometryLevel(tree.skeleton.height * scale, -1));
-    TreeMesh mesh = buildMesh(tree.skeleton, held_.layout().species[tree.seed.species], detail);
+    PosedTree posed(held_, id, eye_.eye);
+    const Species& species = held_.layout().species[posed.tree.seed.species];
+    TreeMesh mesh = buildMesh(posed.tree.skeleton, species, posed.detail);
     std::vector<float> bark(3 * mesh.bark.size()), leaves(3 * LEAF_CORNERS * mesh.leaves.size());
-    drawn_.push_back(
-        {tree, BatchPoser(tree), std::move(mesh), detail.depths, bark, leaves, BatchPoses()});
+    drawn_.push_back({std::move(posed), std::move(mesh), bark, leaves});
   }
   void hold() {
-    const Tree& tree = drawn_[0].tree;
+    const Tree& tree = drawn_[0].posed.tree;
     Grab grab;
     grab.point = {0, tree.skeleton.depth_end[2] - 1, 0.0};
     grab.target = tree.foot +
@@ -88,18 +83,8 @@ class ForestFrame {
   }
   void pose() {
     const wind::Instant wind = wind_.at(now());
-    for (std::uint32_t id = 0; id < drawn_.size(); ++id) {
-      Drawn& own = drawn_[id];
-      const Sway* sway = held_.sway(id);
-      const auto weights = weightsAt(held_.memory().levels.of(id), now(), held_.layout().motion);
-      const bool physical = !held_.promoted(id).branches.empty();
-      if (!physical && sway && modalWeight(weights) >= 1.0)
-        sway->pose(own.poser, now(), own.poses);
-      else if (physical || sway)
-        narrow(held_.pose(own.tree, id, now()), own.poses);
-      else
-        own.poser.pose(wind.relativeTo(own.tree.foot), weights, own.depths, own.poses);
-    }
+    for (std::uint32_t id = 0; id < drawn_.size(); ++id)
+      drawn_[id].posed.pose(held_, id, wind, now());
   }
 
   wind::Field wind_;

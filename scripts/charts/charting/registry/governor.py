@@ -6,7 +6,7 @@ from charting.chart import Chart, sized
 
 COLUMNS = {'trees': float, 'budget_ms': float, 'asked_ms': float, 'least_ms': float,
            'cost_ms': float, 'error_px': float, 'median_px': float, 'changes': float,
-           'choice_ms': float}
+           'choice_ms': float, 'poses_ms': float}
 
 
 def bound(axes, rows, value, text, **options):
@@ -21,11 +21,14 @@ def draw(rows):
     costs.loglog(trees, [row.asked_ms for row in rows], 'o--', color=style.GREY,
                  label='what the tolerance asks for')
     costs.loglog(trees, [row.cost_ms for row in rows], 's-', color=style.BLUE,
-                 label='what the governor chose')
+                 label='what the governor chose, as it reckons')
     costs.fill_between(trees, [row.least_ms for row in rows], [row.cost_ms for row in rows],
                        color=style.BLUE, alpha=0.25)
     costs.loglog(trees, [row.choice_ms for row in rows], '^-', color=style.ORANGE,
                  label='choosing, and the state message')
+    costs.loglog(trees, [row.poses_ms for row in rows], 'D-', color=style.GREEN,
+                 label='posing what it chose, measured')
+    costs.set_ylim(top=50.0)  # the legend has room
     bound(costs, rows, rows[0].budget_ms, 'budget')
     style.label(costs, 'trees', 'processor time of a frame [ms]', 'cost')
     errors.loglog(trees, [row.error_px for row in rows], 'D-', color=style.RED,

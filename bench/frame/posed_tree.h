@@ -1,0 +1,40 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+#include "vegetation_sim/forest/forest.h"
+#include "vegetation_sim/forest/geometry_level.h"
+#include "vegetation_sim/forest/narrow.h"
+
+namespace vegetation_sim::forest {
+
+/// A tree as a display poses it.
+struct PosedTree {
+  Tree tree;
+  BatchPoser poser;
+  MeshDetail detail;
+  BatchPoses poses;
+
+  PosedTree(const Forest& forest, std::uint32_t id, const Eye& eye)
+      : tree(growTree(forest.layout(), id, forest.terrain())),
+        poser(tree),
+        detail(meshDetail(geometryLevel(
+            tree.skeleton.height * pixelsPerMetre(eye, length(tree.foot - eye.position)), -1))) {}
+
+  /// At the forest's moment, on the rung that was chosen for it.
+  void pose(const Forest& forest, std::uint32_t id, const wind::Instant& wind, Nanoseconds now) {
+    const Sway* sway = forest.sway(id);
+    const auto weights = weightsAt(forest.memory().levels.of(id), now, forest.layout().motion);
+    const bool physical = !forest.promoted(id).branches.empty();
+    if (!physical && sway && modalWeight(weights) >= 1.0)
+      sway->pose(poser, now, poses);
+    else if (physical || sway)
+      narrow(forest.pose(tree, id, now), poses);
+    else
+      poser.pose(wind.relativeTo(tree.foot), weights, detail.depths, poses);
+  }
+};
+
+}  // namespace vegetation_sim::forest
