@@ -133,12 +133,14 @@ void Forest::predict(const TreeSeed& seed, const LevelTable& table, double view,
   for (std::size_t rung = 0; rung < table.omitted.size(); ++rung) {
     const double omitted = speed * view * table.omitted[rung];
     plant.error[rung] = static_cast<float>(std::max(omitted, off.procedural));
-    plant.cost[rung] = static_cast<float>(1e-6 * budget.procedural_cost * table.branches[rung]);
+    const double moving = rung > 0 ? budget.tree_cost : 0.0;
+    plant.cost[rung] =
+        static_cast<float>(1e-6 * (moving + budget.procedural_cost * table.branches[rung]));
   }
   const auto tell = [&](int rung, double error, double cost) {
     const auto at = static_cast<std::size_t>(rung);
     plant.error[at] = static_cast<float>(std::min(error, off.procedural));
-    plant.cost[at] = static_cast<float>(1e-6 * cost * table.branches.back());
+    plant.cost[at] = static_cast<float>(1e-6 * (budget.tree_cost + cost * table.branches.back()));
   };
   tell(MODAL_LEVEL, off.modal, budget.modal_cost);
   tell(FINE_RUNG, std::min(off.modal, off.fine), budget.fine_cost);

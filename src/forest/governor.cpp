@@ -23,6 +23,7 @@ void describe(FieldVisitor& v, Budget& b) {
   v.number("frame_time", b.frame_time, "ms", {0.001, 1e6});
   v.integer("state_bytes", b.state_bytes, "B/s", {0, 100000000});
   v.integer("modal_trees", b.modal_trees, "", {0, 1000});
+  v.number("tree_cost", b.tree_cost, "ns", {0.0, 1000000.0});
   v.number("procedural_cost", b.procedural_cost, "ns", {0.1, 10000.0});
   v.number("modal_cost", b.modal_cost, "ns", {0.1, 10000.0});
   v.number("fine_cost", b.fine_cost, "ns", {0.1, 10000.0});

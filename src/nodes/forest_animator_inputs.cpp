@@ -13,9 +13,9 @@ ForestTuning fromConfig(const ForestAnimatorConfig& config) {
   ForestTuning out;
   out.settings = {config.tolerance,       config.fixed_level, config.highest_level,
                   config.robot_tolerance, config.robot_range, {}};
-  out.settings.budget = {config.frame_time,      config.state_bytes, config.modal_trees,
-                         config.procedural_cost, config.modal_cost,  config.fine_cost,
-                         config.physical_cost};
+  out.settings.budget = {config.frame_time, config.state_bytes,     config.modal_trees,
+                         config.tree_cost,  config.procedural_cost, config.modal_cost,
+                         config.fine_cost,  config.physical_cost};
   out.design = {config.size, config.children, config.leaves, config.angle, config.noise};
   out.transition = config.transition;
   return out;

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What dynamic_reconfigure offers is what the node's own structures allow.
 #include <gtest/gtest.h>
+
 #include <vegetation_sim/ForestAnimatorConfig.h>
 
+#include <algorithm>
 #include <string>
 
 #include "nodes/declared_fields.h"
@@ -50,7 +52,9 @@ TEST(ForestRanges, EventsOfBadSettingsAreRefused) {
   ForestEvent unknown = event, range = event, count = event;
   unknown.names[0] = "colour";
   EXPECT_EQ(refused(unknown), "event: colour is not known");
-  range.values[range.names.size() - 1] = 1e9;
+  const auto name = std::find(range.names.begin(), range.names.end(), "transition");
+  ASSERT_NE(name, range.names.end());
+  range.values[static_cast<std::size_t>(name - range.names.begin())] = 1e9;
   EXPECT_NE(refused(range).find("transition = 1e+09 s is outside 0.01 to 60 s"), std::string::npos)
       << refused(range);
   count.values.pop_back();

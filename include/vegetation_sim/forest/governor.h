@@ -22,6 +22,7 @@ struct Budget {
   double frame_time{8.0};        ///< of trees that move, a frame [ms]
   int state_bytes{100000};       ///< of amplitudes in key frames, a second [B]
   int modal_trees{64};           ///< in modes at once
+  double tree_cost{4000.0};      ///< a tree that moves, and frame, however few branches [ns]
   double procedural_cost{15.0};  ///< a branch and frame, forward kinematics included [ns]
   double modal_cost{20.0};  ///< the same, with its share of finding the modes once in 10 s [ns]
   double fine_cost{90.0};   ///< of fine modes, found once in 15 s [ns]
