@@ -122,7 +122,7 @@ void measureErrors(const TestTree& tree, const TestLoad& load, const ModalOption
   }
   for (const int modes : {1, 2, 5, 10, 20})
     for (const int vectors : {0, 1}) scene.printModes(modes, vectors);
-  for (const auto& [modes, vectors] : {std::pair{0, 10}, {4, 5}, {8, 6}, {10, 10}})
+  for (const auto& [modes, vectors] : {std::pair{5, 2}, {20, 2}, {0, 10}, {4, 5}, {8, 6}, {10, 10}})
     scene.printModes(modes, vectors);
 }
 

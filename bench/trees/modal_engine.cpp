@@ -14,11 +14,13 @@ physics::Modes findModes(const TestTree& tree, const TestLoad& load, int modes, 
   physics::Modes out = physics::slowestModes(chain, modes);
   const std::vector<double> torque = torquesOf(chain, load);
   std::vector<physics::LoadShape> shapes;
-  if (vectors >= 5) {
-    const bool gust = load.links.size() > 1;
-    for (const double part : gust ? std::vector<double>{0.5} : std::vector<double>{0.25, 0.5})
-      shapes.push_back({torque, 0, physics::quickAnswer(links, torque, part * FRAME)});
-  }
+  std::vector<double> quick;  // of a frame
+  if (vectors >= 5 && load.links.size() == 1)
+    quick = {0.25, 0.5};
+  else if (vectors >= 2)
+    quick = {0.5};
+  for (const double part : quick)
+    shapes.push_back({torque, 0, physics::quickAnswer(links, torque, part * FRAME)});
   if (vectors > 0) {
     shapes.insert(shapes.begin(), {torque, vectors - static_cast<int>(shapes.size())});
     physics::addLoadVectors(chain, shapes, out);

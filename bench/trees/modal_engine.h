@@ -14,8 +14,8 @@ std::vector<physics::Link> coreLinks(const TestTree& tree);
 /// Joint torques of a load at factor 1, at rest.
 std::vector<double> torquesOf(const physics::LinearChain& chain, const TestLoad& load);
 
-/// A tree in modes (N13): `modes` of them, and `vectors` drawn from the load. From 5 on the last of
-/// these is quick, of half a frame of 60 Hz; for a pull one more, of a quarter.
+/// A tree in modes (N13): `modes` of them, and `vectors` drawn from the load. From 2 on the last of
+/// these is quick, of half a frame of 60 Hz; for a pull from 5 on one more, of a quarter.
 class ModalEngine : public Engine {
  public:
   ModalEngine(const TestTree& tree, const TestLoad& load, int modes, int vectors);

@@ -1,7 +1,7 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
 """A tree in modes: error against full dynamics by how many, beside the other rungs."""
-from charting import style
+from charting import ladders, style
 from charting.chart import Chart
 from charting.tables import groups
 
@@ -10,9 +10,9 @@ COLUMNS = {'load': str, 'branches': float, 'model': str, 'modes': float, 'vector
 LOADS = ('gust', 'pull', 'breeze, oak', 'breeze, willow')
 DEFAULT = (8.0, 6.0)  # forest::ModalDepth
 VECTORS = {0.0: ('modes alone', style.BLUE, 'o'), 1.0: ('and 1 vector of the load', style.RED, 's'),
-           5.0: ('and 5 vectors', style.ORANGE, '^'),
+           2.0: ('and 2 vectors', style.ORANGE, 'v'), 5.0: ('and 5 vectors', style.YELLOW, '^'),
            6.0: ('and 6 vectors', style.GREEN, 'P'), 10.0: ('and 10 vectors', style.SKY, 'D')}
-OTHERS = {'procedural': ('procedural', style.PINK, 'v'),
+OTHERS = {'procedural': ('procedural', style.PINK, 'h'),
           'paper dynamics': ("paper's dynamics, 240 Hz", style.GREY, 'X'),
           'full chain': ('full chain, 240 Hz', style.BLACK, '*')}
 
@@ -33,31 +33,28 @@ def draw(rows):
 
 def draw_load(axes, load, rows):
     branches = max(row.branches for row in rows)
-    own = [row for row in rows if row.branches == branches]
-    for vectors, rungs in groups([row for row in own if row.model == 'modes'], 'vectors').items():
-        draw_rungs(axes, sorted(rungs, key=lambda row: row.modes), *VECTORS[vectors])
+    own = [type(row)(row, error=100.0 * row.error,
+                     chosen=(row.modes, row.vectors) == DEFAULT)
+           for row in rows if row.branches == branches]
+    modal = [row for row in own if row.model == 'modes']
+    for vectors, rungs in groups(modal, 'vectors').items():
+        rungs = sorted(rungs, key=lambda row: row.modes)
+        name, colour, marker = VECTORS[vectors]
+        axes.loglog([row.cost_ns for row in rungs], [row.error for row in rungs], '-',
+                    marker=marker, color=colour, label=name)
     for row in own:
         if row.model in OTHERS:
             name, colour, marker = OTHERS[row.model]
-            axes.loglog([row.cost_ns], [100.0 * row.error], marker, color=colour, markersize=9,
-                        label=name)
-    style.draw_front(axes, [(row.cost_ns, 100.0 * row.error) for row in own])
+            axes.loglog([row.cost_ns], [row.error], marker, color=colour, markersize=9, label=name)
+        if row.chosen:
+            style.ring(axes, row.cost_ns, row.error, left=True)
+    style.draw_front(axes, [(row.cost_ns, row.error) for row in own])
     axes.margins(x=0.12, y=0.12)
+    ladders.write_settings(axes, [(row, row.cost_ns, row.error) for row in modal],
+                           lambda row: '%d' % row.modes, left=True)
     style.label(axes, 'cost beside forward kinematics [ns a branch and frame]',
                 'error of the tips, rms [% of their motion]',
                 '%s, %d branches' % (load, branches))
-
-
-def draw_rungs(axes, rungs, name, colour, marker):
-    axes.loglog([row.cost_ns for row in rungs], [100.0 * row.error for row in rungs], '-',
-                marker=marker, color=colour, label=name)
-    last = 1e9
-    for row in rungs:
-        if (row.modes, row.vectors) == DEFAULT:
-            style.ring(axes, row.cost_ns, 100.0 * row.error, 'default: 8', left=True)
-        elif row.error < 0.95 * last:  # more modes that change nothing go without a number
-            style.note(axes, row.cost_ns, 100.0 * row.error, '%d' % row.modes)
-            last = row.error
 
 
 CHART = Chart('modal_ladder', 'error and cost of a tree in modes', 'modal_bench', COLUMNS, draw,
