@@ -3,7 +3,8 @@
 //
 // The modal rung (N13): error against full dynamics by number of modes, beside the procedural rung
 // and paper 1's dynamics; what a step of the load does in one frame; rotation at which modes cease
-// to hold; cost of finding and of posing. usage: modal_bench [--quick | --full] [--cache FOLDER]
+// to hold; levers that turn; cost of finding and of posing. usage: modal_bench [--quick | --full]
+// [--cache FOLDER]
 //   [--csv FILE]
 // --full: trees of 10 000 branches too.
 #include <algorithm>
@@ -84,6 +85,7 @@ int run(int argc, char** argv) {
   measureSpecies(options);
   if (!csv.empty()) return 0;  // what follows has no rows in the table
   measureLimit(fractalTree(std::min(1000, options.branches.back())), options);
+  measureBending();
   measurePosing(options.rounds);
   return 0;
 }

@@ -39,6 +39,8 @@ double proceduralCost();
 void measureErrors(const TestTree& tree, const TestLoad& load, const ModalOptions& options);
 /// Error in ever stronger gusts: the rotation at which modes cease to hold.
 void measureLimit(const TestTree& tree, const ModalOptions& options);
+/// Error in ever stronger breezes, with levers at rest and as they turn.
+void measureBending();
 /// Time to find modes.
 void measureFinding(const TestTree& tree, int rounds);
 /// Time to pose branches from modes.

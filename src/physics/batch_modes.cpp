@@ -13,23 +13,28 @@ HWY_BEFORE_NAMESPACE();
 namespace vegetation_sim::physics::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-using Tag = hn::CappedTag<float, BatchModes::BLOCK>;
+using Tag = hn::CappedTag<float, BatchModes::BLOCK / 2>;
 
-// Both bends of one block of joints.
+// Both bends of one block of joints, two vectors at once: one alone would wait for its sums.
 HWY_INLINE void sumBlock(const float* shapes, const float* amplitude, std::size_t modes,
                          float* first, float* second) {
   const Tag tag;
   constexpr std::size_t BLOCK = BatchModes::BLOCK;
-  for (std::size_t lane = 0; lane < BLOCK; lane += hn::Lanes(tag)) {
-    auto a = hn::Zero(tag), b = a;
+  const std::size_t width = hn::Lanes(tag);
+  for (std::size_t lane = 0; lane < BLOCK; lane += 2 * width) {
+    auto a = hn::Zero(tag), b = a, c = a, d = a;
     const float* shape = shapes + lane;
     for (std::size_t m = 0; m < modes; ++m, shape += 2 * BLOCK) {
       const auto factor = hn::Set(tag, amplitude[m]);
       a = a + factor * hn::LoadU(tag, shape);
-      b = b + factor * hn::LoadU(tag, shape + BLOCK);
+      b = b + factor * hn::LoadU(tag, shape + width);
+      c = c + factor * hn::LoadU(tag, shape + BLOCK);
+      d = d + factor * hn::LoadU(tag, shape + BLOCK + width);
     }
     hn::StoreU(a, tag, first + lane);
-    hn::StoreU(b, tag, second + lane);
+    hn::StoreU(b, tag, first + lane + width);
+    hn::StoreU(c, tag, second + lane);
+    hn::StoreU(d, tag, second + lane + width);
   }
 }
 
@@ -50,10 +55,11 @@ HWY_EXPORT(sumModes);
 BatchModes::BatchModes(const Modes& modes)
     : joints_(modes.length / 2),
       modes_(modes.size()),
-      shapes_(2 * BLOCK * modes_ * ((joints_ + BLOCK - 1) / BLOCK), 0.f) {
+      lines_(2 * BLOCK / LINE * modes_ * ((joints_ + BLOCK - 1) / BLOCK)) {
+  auto* shapes = reinterpret_cast<float*>(lines_.data());
   for (std::size_t i = 0; i < joints_; ++i)
     for (std::size_t m = 0; m < modes_; ++m) {
-      float* row = shapes_.data() + 2 * BLOCK * (modes_ * (i / BLOCK) + m) + i % BLOCK;
+      float* row = shapes + 2 * BLOCK * (modes_ * (i / BLOCK) + m) + i % BLOCK;
       row[0] = static_cast<float>(modes.shapeOf(m)[2 * i]);
       row[BLOCK] = static_cast<float>(modes.shapeOf(m)[2 * i + 1]);
     }
@@ -67,7 +73,8 @@ void BatchModes::bends(const std::vector<double>& amplitude, BatchBends& out) co
   out.amplitude.resize(modes_);
   for (std::size_t m = 0; m < modes_; ++m) out.amplitude[m] = static_cast<float>(amplitude[m]);
   HWY_DYNAMIC_DISPATCH(sumModes)
-  (shapes_.data(), out.amplitude.data(), modes_, joints_, out.first.data(), out.second.data());
+  (reinterpret_cast<const float*>(lines_.data()), out.amplitude.data(), modes_, joints_,
+   out.first.data(), out.second.data());
 }
 
 }  // namespace vegetation_sim::physics

@@ -65,13 +65,16 @@ class Swaying {
       return proceduralAngles(tree_, field_.at(stampOf(frame)), fullWeights());
     });
   }
-  Off modal(double skip, ModalDepth depth = {}) const {
+  /// `turning`: levers turn as the tree bends.
+  Off modal(double skip, ModalDepth depth = {}, bool turning = true) const {
     Sway sway(std::make_shared<const ModalTree>(tree_, species_, depth));
     std::vector<ModalLoad> loads(2);
     sway.loadOf(field_.at(SWAY_START), loads[0]);
     sway.restore(sway.state(), loads[0], SWAY_START);
     return error(skip, [&](int frame) {
       sway.loadOf(field_.at(stampOf(frame)), loads[1]);
+      if (!turning)
+        for (ModalLoad& load : loads) load.air.setZero();
       sway.step(loads, stampOf(frame));
       loads[0] = loads[1];
       return sway.modes().bendsOf(sway.state().amplitude);

@@ -23,17 +23,22 @@ class BatchModes {
   explicit BatchModes(const Modes& modes);
 
   std::size_t size() const { return modes_; }
-  std::size_t bytes() const { return sizeof(float) * shapes_.size(); }
+  std::size_t bytes() const { return sizeof(Line) * lines_.size(); }
   /// @param[in] amplitude [modes]
   /// @param[out] out [joints and PADDING more], keeps its memory.
   void bends(const std::vector<double>& amplitude, BatchBends& out) const;
 
-  static constexpr std::size_t BLOCK = 16;  ///< joints side by side: the widest vector
+  static constexpr std::size_t BLOCK = 32;  ///< joints side by side: two of the widest vectors
   static constexpr std::size_t PADDING = 32;
 
  private:
+  static constexpr std::size_t LINE = 16;
+  struct alignas(LINE * sizeof(float)) Line {  // of the cache
+    float lane[LINE] = {};
+  };
+
   std::size_t joints_, modes_;
-  std::vector<float> shapes_;  // [blocks][modes][2][BLOCK]
+  std::vector<Line> lines_;  // [blocks][modes][2][BLOCK] floats
 };
 
 }  // namespace vegetation_sim::physics
