@@ -90,19 +90,24 @@ std::size_t BatchChain::blocks() const {
 
 void BatchChain::fill(const std::vector<std::vector<Link>>& trees) {
   ChainStore& store = *store_;
-  store.constants.assign(blocks() * C_ROWS);
+  const bool bars = std::all_of(groups_.begin(), groups_.end(),
+                                [](const ChainGroup& group) { return group.bars; });
+  store.constant_rows = bars ? C_BAR_ROWS : C_ROWS;
+  store.constants.assign(blocks() * static_cast<std::size_t>(store.constant_rows));
   store.state.assign(blocks() * S_ROWS);
   int largest = 0;
   for (const ChainGroup& group : groups_) largest = std::max(largest, group.end - group.begin);
   store.work.assign(static_cast<std::size_t>(largest / ROW) * W_ROWS);
+  store.kept.assign(static_cast<std::size_t>(largest / ROW) * K_ROWS);
   for (int slot = 0; slot < slot_count_; ++slot) {
-    fillNobody(store.constants.of(slot, C_ROWS));
+    fillNobody(store.constant_rows, store.constants.of(slot, store.constant_rows));
     store.state.of(slot, S_ROWS)[S_THETA * ROW] = 0.5f;
     store.state.of(slot, S_ROWS)[S_PRODUCTS * ROW] = 1.f;
   }
   for (std::size_t t = 0; t < trees.size(); ++t) {
     for (std::size_t i = 0; i < trees[t].size(); ++i)
-      fillLink(trees[t][i], store.constants.of(slots_[trees_[t].first + i], C_ROWS));
+      fillLink(trees[t][i], store.constant_rows,
+               store.constants.of(slots_[trees_[t].first + i], store.constant_rows));
     fillBases(trees_[t]);
   }
 }
@@ -141,7 +146,7 @@ ChainState BatchChain::state(int tree) const {
 
 std::size_t BatchChain::bytes() const {
   const ChainStore& s = *store_;
-  std::size_t out = s.constants.bytes() + s.state.bytes() + s.loads.bytes() + s.work.bytes() +
+  std::size_t out = s.constants.bytes() + s.state.bytes() + s.loads.bytes() + s.work.bytes() + s.kept.bytes() +
                     s.grips.bytes() + s.air.bytes() + s.motion.bytes() + s.first.rows.bytes() +
                     s.second.rows.bytes() + slots_.capacity() * sizeof(int);
   for (const ChainGroup& group : groups_)

@@ -47,9 +47,9 @@ struct Bar {
 };
 
 HWY_INLINE Bar barOf(const Joints& at) {
-  const Lanes across = load(at.constants, C_INERTIA);
-  return {load(at.constants, C_MASS), load(at.constants, C_MOMENT + 2), across,
-          load(at.constants, C_INERTIA + 5) - across};
+  const Lanes across = load(at.constants, C_XX);
+  return {load(at.constants, C_MASS), load(at.constants, C_MOMENT), across,
+          load(at.constants, C_ZZ) - across};
 }
 
 HWY_INLINE void addBar(const Bar& bar, const Lanes3& z, Articulated& sum) {
@@ -61,8 +61,8 @@ HWY_INLINE void addBar(const Bar& bar, const Lanes3& z, Articulated& sum) {
 
 // What acts on the body, after its bias. Sums begin at +0, so that none is ever -0.
 HWY_INLINE void addWrench(const Joints& at, Articulated& sum) {
-  sum.torque = sum.torque + (load3(at.work, at.bias) - load3Of(at, L_TORQUE));
-  sum.force = sum.force + (load3(at.work, at.bias + 3) - load3Of(at, L_FORCE));
+  sum.torque = sum.torque + (load3(at.bias, 0) - load3Of(at, L_TORQUE));
+  sum.force = sum.force + (load3(at.bias, 3) - load3Of(at, L_FORCE));
 }
 
 // What an implicit step foresees of the drag: a mass against linear acceleration, `factor` times

@@ -38,7 +38,7 @@ BaseRows baseRows(const BaseMotion& base) {
   return out;
 }
 
-void fillLink(const Link& link, float* constants) {
+void fillLink(const Link& link, int rows, float* constants) {
   const auto set = [&](int row, double value) { constants[row * ROW] = narrow(value); };
   const Symmetric3& i = link.inertia;
   set(C_H, link.h);
@@ -50,16 +50,23 @@ void fillLink(const Link& link, float* constants) {
   set(C_STIFFNESS, link.stiffness);
   set(C_DAMPING, link.damping);
   set(C_SURE, link.sure_inertia);
-  put(Vec3(link.mass * link.centre), constants + C_MOMENT * ROW, ROW);
-  put({i.xx, i.xy, i.xz}, constants + C_INERTIA * ROW, ROW);
-  put({i.yy, i.yz, i.zz}, constants + (C_INERTIA + 3) * ROW, ROW);
+  set(C_MOMENT, link.mass * link.centre.z());
+  set(C_XX, i.xx);
+  set(C_ZZ, i.zz);
+  if (rows == C_BAR_ROWS) return;
+  set(C_BESIDE, link.mass * link.centre.x());
+  set(C_BESIDE + 1, link.mass * link.centre.y());
+  set(C_YY, i.yy);
+  set(C_XY, i.xy);
+  set(C_XZ, i.xz);
+  set(C_YZ, i.yz);
 }
 
-void fillNobody(float* constants) {
+void fillNobody(int rows, float* constants) {
   Link nobody;
   nobody.mass = 0.0;
   nobody.inertia = Symmetric3();
-  fillLink(nobody, constants);
+  fillLink(nobody, rows, constants);
 }
 
 void fillGrip(const Grip& grip, float* rows) {

@@ -16,9 +16,10 @@ struct BaseRows {
 };
 BaseRows baseRows(const BaseMotion& base);
 
-void fillLink(const Link& link, float* constants);
+/// `rows`: C_ROWS, or C_BAR_ROWS of a bar.
+void fillLink(const Link& link, int rows, float* constants);
 /// A lane without link: it never moves.
-void fillNobody(float* constants);
+void fillNobody(int rows, float* constants);
 inline void fillLoad(const Loads& loads, std::size_t link, float* rows) {
   const bool wrench = link < loads.wrench.size(), joint = link < loads.joint_torque.size();
   for (int i = 0; i < 3; ++i) {

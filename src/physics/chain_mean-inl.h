@@ -69,29 +69,29 @@ HWY_INLINE Ahead lookAhead(const Joints& at, const Ahead& parent, Lanes step) {
   const Lanes rx = load(at.state, S_RATE), ry = load(at.state, S_RATE + 1);
   const Lanes ahead = load(at.state, S_THETA) * step;
   const Lanes x = load(at.state, S_Q) + ahead * rx, y = load(at.state, S_Q + 1) + ahead * ry;
-  const Axes axes = axesOf({load(at.work, W_TURN), load(at.work, W_TURN + 1),
-                            load(at.work, W_TURN + 2), load(at.work, W_TURN + 3)});
+  const Axes axes = axesOf({load(at.kept, K_TURN), load(at.kept, K_TURN + 1),
+                            load(at.kept, K_TURN + 2), load(at.kept, K_TURN + 3)});
   const Lanes3 change = bendBias(swingOf(x * x + y * y), axes, x, y, rx + step * solved.first,
                                  ry + step * solved.second);
   Frame frame;
   frame.axis = axes.z;
-  frame.spin = load3(at.work, W_SPIN) + step * solved.push.spin;
+  frame.spin = load3(at.kept, K_SPIN) + step * solved.push.spin;
   frame.spin_rate = parent.spin_rate + (change + cross(parent.spin, frame.spin - parent.spin));
   const Lanes3 arm = load3(at.work, W_ARM);
   frame.acceleration = parent.acceleration +
                        (cross(parent.spin_rate, arm) + cross(parent.spin, cross(parent.spin, arm)));
   const Lanes one = all(1.f), weight = weightOf(at);
   const Bias bias = at.bars ? biasOfBar(at, frame, one) : biasOfBody(at, axes, frame, one);
-  store3(weight * (bias.torque - load3(at.work, W_KEPT)), at.work, W_KEPT);
-  store3(weight * (bias.force - load3(at.work, W_KEPT + 3)), at.work, W_KEPT + 3);
+  store3(weight * (bias.torque - load3(at.kept, K_BIAS)), at.kept, K_BIAS);
+  store3(weight * (bias.force - load3(at.kept, K_BIAS + 3)), at.kept, K_BIAS + 3);
   return {solved.push, frame.spin, frame.spin_rate, frame.acceleration};
 }
 
 /// Adds what the wrench on the link and all beyond asks of the joint; leaves what is left of it for
 /// the parent's joint.
 HWY_INLINE void inwardWrench(const Joints& at, Bias& sum) {
-  sum.torque = sum.torque + load3(at.work, W_KEPT);
-  sum.force = sum.force + load3(at.work, W_KEPT + 3);
+  sum.torque = sum.torque + load3(at.kept, K_BIAS);
+  sum.force = sum.force + load3(at.kept, K_BIAS + 3);
   const Lanes zero = hn::Zero(Tag());
   const Lanes u1 = zero - dot(load3(at.work, W_FIRST), sum.torque);
   const Lanes u2 =

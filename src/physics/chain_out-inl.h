@@ -25,7 +25,8 @@ struct Joints {
   float* work;
   const float* grips;  ///< none: no air
   float* air;
-  int bias;      ///< W_BIAS or W_KEPT
+  float* bias;   ///< of the link alone: six rows of `work`, or of `kept`
+  float* kept;   ///< none: velocity products are not averaged
   bool bars;     ///< all of them
   bool on_axis;  ///< air grips the axes of bars
 };
@@ -122,18 +123,28 @@ struct Bias {
 
 HWY_INLINE Bias biasOfBar(const Joints& at, const Frame& frame, Lanes products) {
   const Lanes3& z = frame.axis;
-  const Lanes across = load(at.constants, C_INERTIA);
-  const Lanes excess = load(at.constants, C_INERTIA + 5) - across;
-  const Lanes moment = load(at.constants, C_MOMENT + 2), mass = load(at.constants, C_MASS);
+  const Lanes across = load(at.constants, C_XX);
+  const Lanes excess = load(at.constants, C_ZZ) - across;
+  const Lanes moment = load(at.constants, C_MOMENT), mass = load(at.constants, C_MASS);
   const Lanes3 turning = dot(z, frame.spin_rate) * (excess * z) +
                          (products * excess * dot(z, frame.spin)) * cross(frame.spin, z);
   return {(across * frame.spin_rate + turning) + cross(moment * z, frame.acceleration),
           mass * frame.acceleration + moment * axisRate(frame, products)};
 }
 
+HWY_INLINE Symmetric inertiaOf(const Joints& at) {
+  return {load(at.constants, C_XX), load(at.constants, C_XY), load(at.constants, C_XZ),
+          load(at.constants, C_YY), load(at.constants, C_YZ), load(at.constants, C_ZZ)};
+}
+
+HWY_INLINE Lanes3 momentOf(const Joints& at) {
+  return {load(at.constants, C_BESIDE), load(at.constants, C_BESIDE + 1),
+          load(at.constants, C_MOMENT)};
+}
+
 HWY_INLINE Bias biasOfBody(const Joints& at, const Axes& axes, const Frame& frame, Lanes products) {
-  const Symmetric inertia = turnedInertia(axes, load6(at.constants, C_INERTIA));
-  const Lanes3 arm = turned(axes, load3(at.constants, C_MOMENT));
+  const Symmetric inertia = turnedInertia(axes, inertiaOf(at));
+  const Lanes3 arm = turned(axes, momentOf(at));
   const Lanes3 torque =
       inertia * frame.spin_rate + products * cross(frame.spin, inertia * frame.spin);
   const Lanes3 force =
@@ -143,8 +154,8 @@ HWY_INLINE Bias biasOfBody(const Joints& at, const Axes& axes, const Frame& fram
 }
 
 HWY_INLINE void keepBody(const Joints& at, const Axes& axes) {
-  store6(turnedInertia(axes, load6(at.constants, C_INERTIA)), at.work, W_INERTIA);
-  store3(turned(axes, load3(at.constants, C_MOMENT)), at.work, W_MOMENT);
+  store6(turnedInertia(axes, inertiaOf(at)), at.work, W_INERTIA);
+  store3(turned(axes, momentOf(at)), at.work, W_MOMENT);
 }
 
 /// Rate of the spin that the joint adds while its rates are constant.
@@ -165,10 +176,10 @@ HWY_INLINE Lanes3 jointSpin(const Joints& at, const Axes& axes, const Swing& g, 
 }
 
 // For lookAhead.
-HWY_INLINE void keep(const Frame& frame, float* work) {
-  store(frame.turn.w, work, W_TURN);
-  store3({frame.turn.x, frame.turn.y, frame.turn.z}, work, W_TURN + 1);
-  store3(frame.spin, work, W_SPIN);
+HWY_INLINE void keep(const Frame& frame, float* rows) {
+  store(frame.turn.w, rows, K_TURN);
+  store3({frame.turn.x, frame.turn.y, frame.turn.z}, rows, K_TURN + 1);
+  store3(frame.spin, rows, K_SPIN);
 }
 
 // The rate of velocity products: before the step, or as foretold for its middle.
@@ -207,9 +218,9 @@ HWY_INLINE Frame outward(const Joints& at, const Frame& parent, Lanes step) {
   out.acceleration = parent.acceleration + h * axisRate(parent, products);
   at.bars ? store3(axes.z, at.work, W_AXIS) : keepBody(at, axes);
   const Bias bias = at.bars ? biasOfBar(at, out, products) : biasOfBody(at, axes, out, products);
-  store3(bias.torque, at.work, at.bias);
-  store3(bias.force, at.work, at.bias + 3);
-  if (at.bias == W_KEPT) keep(out, at.work);
+  store3(bias.torque, at.bias, 0);
+  store3(bias.force, at.bias, 3);
+  if (at.kept) keep(out, at.kept);
   return out;
 }
 

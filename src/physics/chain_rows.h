@@ -34,17 +34,25 @@ class Rows {
   std::vector<Line> lines_;
 };
 
-/// Rows of what a joint is; the inertia is about the joint, own axes.
+/// Rows of what a joint is; the inertia is about the joint, own axes. What no round bar needs comes
+/// last: where there are but bars, it is not kept.
 enum : int {
   C_H,
-  C_REST,                    // w x y z
-  C_MASS = C_REST + 4,       //
-  C_STIFFNESS,               //
-  C_DAMPING,                 //
-  C_SURE,                    // sure inertia
-  C_MOMENT,                  // mass times centre
-  C_INERTIA = C_MOMENT + 3,  // xx xy xz yy yz zz
-  C_ROWS = C_INERTIA + 6
+  C_REST,               // w x y z
+  C_MASS = C_REST + 4,  //
+  C_STIFFNESS,          //
+  C_DAMPING,            //
+  C_SURE,               // sure inertia
+  C_MOMENT,             // mass times centre: z
+  C_XX,                 // inertia
+  C_ZZ,
+  C_BAR_ROWS,
+  C_BESIDE = C_BAR_ROWS,  // mass times centre: x y
+  C_YY = C_BESIDE + 2,
+  C_XY,
+  C_XZ,
+  C_YZ,
+  C_ROWS
 };
 
 /// Rows of its state; theta and the share of velocity products (productsOf) are the tree's. S_LEAD:
@@ -69,13 +77,14 @@ enum : int { G_CENTRE, G_STEADY = G_CENTRE + 3, G_SQUARE, G_ROWS };
 enum : int { V_PLACE, V_AIR = V_PLACE + 3, V_ROWS = V_AIR + 3 };
 
 /// Rows that one step keeps between its passes; what the sweep down the tree leaves takes the place
-/// of the link's motion and inertia, which it has used.
+/// of the link's motion and inertia, which it has used. Bars that air grips on their axes have
+/// W_BAR_ROWS: a large tree outgrows the second-level cache, gaps would fill it.
 enum : int {
   W_FIRST,                 // joint axes, world
   W_SECOND = W_FIRST + 3,  //
   W_ARM = W_SECOND + 3,    // from the parent's joint
   W_SWEPT = W_ARM + 3,     //
-  W_BIAS = W_SWEPT,        // bias of the link alone, torque and force; for a mean: W_KEPT
+  W_BIAS = W_SWEPT,        // bias of the link alone, torque and force; for a mean: K_BIAS
   W_GRIPPED = W_BIAS + 6,  // velocity where air grips it
   W_AXIS = W_GRIPPED + 3,  // of a bar
   W_INERTIA = W_AXIS,      // of another rigid body: xx xy xz yy yz zz
@@ -85,12 +94,18 @@ enum : int {
   W_INVERSE = W_GAIN + 12,
   W_COUPLING = W_INVERSE + 2,
   W_DRIVE,
-  W_KEPT = W_GRIP + 3,  // from here on only for the mean of velocity products: bias, or its change
-  W_TURN = W_KEPT + 6,  // orientation
-  W_SPIN = W_TURN + 4,
-  W_ROWS = W_SPIN + 3
+  W_BAR_ROWS = W_DRIVE + 2,
+  W_ROWS = W_GRIP + 3
 };
-static_assert(W_DRIVE + 2 <= W_KEPT, "the sweep writes where its motion and inertia were");
+static_assert(W_BAR_ROWS <= W_ROWS, "the sweep writes where its motion and inertia were");
+
+/// Rows that a step keeps besides for the mean of velocity products.
+enum : int {
+  K_BIAS,             // or its change
+  K_TURN = K_BIAS + 6,  // orientation
+  K_SPIN = K_TURN + 4,
+  K_ROWS = K_SPIN + 3
+};
 
 /// Rows that a parent hands to its children: orientation (w x y z), the spin of velocity products,
 /// and the accelerations that it would have if no joint accelerated: of spin, of joint.

@@ -17,13 +17,16 @@ HWY_BEFORE_NAMESPACE();
 namespace vegetation_sim::physics::HWY_NAMESPACE {
 
 HWY_INLINE Joints jointsAt(const ChainGroup& group, ChainStore& store, int slot) {
-  return {store.constants.of(slot, C_ROWS),
+  float* work = store.work.of(slot - group.begin, group.workRows());
+  float* kept = store.kept.of(slot - group.begin, K_ROWS);
+  return {store.constants.of(slot, store.constant_rows),
           store.state.of(slot, S_ROWS),
           store.loads.empty() ? nullptr : store.loads.of(slot, L_ROWS),
-          store.work.of(slot - group.begin, W_ROWS),
+          work,
           store.grips.empty() ? nullptr : store.grips.of(slot, G_ROWS),
           store.grips.empty() ? nullptr : store.air.of(slot, V_ROWS),
-          store.mean ? W_KEPT : W_BIAS,
+          store.mean ? kept + K_BIAS * ROW : work + W_BIAS * ROW,
+          store.mean ? kept : nullptr,
           group.bars,
           group.on_axis};
 }

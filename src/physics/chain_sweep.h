@@ -18,6 +18,7 @@ struct ChainGroup {
   std::vector<BaseRows> bases;  ///< of the first level's joints
   bool bars{true};              ///< nothing but round bars
   bool on_axis{true};           ///< air grips the axes of bars
+  int workRows() const { return bars && on_axis ? W_BAR_ROWS : W_ROWS; }
   bool calm{true};              ///< all trees at theta = 1/2
   float fastest{0.f};           ///< rate of all [rad/s]
 };
@@ -40,9 +41,11 @@ struct LevelRows {
 /// All rows of a chain, and scratch: of one group, of one of its levels and that one's neighbour.
 struct ChainStore {
   Rows constants, state;
+  int constant_rows{C_ROWS};
   Rows loads;            ///< none: nothing acts
   Rows grips, air;       ///< none: no air
-  Rows work, motion;     ///< scratch of a group
+  Rows work, kept;       ///< scratch of a group
+  Rows motion;           ///< likewise
   bool trace{false};     ///< somebody asks for the motion
   bool asked{false};     ///< the air is asked for in this step
   bool averages{true};   ///< velocity products are those of a mean over the step

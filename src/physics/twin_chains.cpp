@@ -98,6 +98,7 @@ void TwinChains::fill(const std::vector<std::vector<Link>>& trees) {
   store.loads.assign(blocks * L_ROWS);
   store.bases.assign(static_cast<std::size_t>(packs * store.roots) * F_ROWS);
   store.work.assign(links_ * W_ROWS);
+  store.kept.assign(links_ * K_ROWS);
   for (TwinJoint& joint : store.joints) joint.bar = true;
   for (int tree = 0; tree < packs * ROW; ++tree)
     for (std::size_t i = 0; i < links_; ++i) {
@@ -105,10 +106,10 @@ void TwinChains::fill(const std::vector<std::vector<Link>>& trees) {
       float* constants = laneOf(store.constants, block, C_ROWS, tree);
       laneOf(store.state, block, S_ROWS, tree)[S_THETA * ROW] = 0.5f;
       laneOf(store.state, block, S_ROWS, tree)[S_PRODUCTS * ROW] = 1.f;
-      fillNobody(constants);
+      fillNobody(C_ROWS, constants);
       if (tree >= count) continue;
       const Link& link = trees[static_cast<std::size_t>(tree)][i];
-      fillLink(link, constants);
+      fillLink(link, C_ROWS, constants);
       TwinJoint& joint = store.joints[static_cast<std::size_t>(place_[i])];
       joint.bar = joint.bar && isBar(link);
     }

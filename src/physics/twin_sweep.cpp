@@ -26,13 +26,16 @@ struct Part {
 
   HWY_INLINE Joints joints(std::size_t joint) const {
     const std::size_t block = pack * store.joints.size() + joint;
+    float* work = rowsAt(store.work, joint, W_ROWS, lane);
+    float* kept = rowsAt(store.kept, joint, K_ROWS, lane);
     return {rowsAt(store.constants, block, C_ROWS, lane),
             rowsAt(store.state, block, S_ROWS, lane),
             rowsAt(store.loads, block, L_ROWS, lane),
-            rowsAt(store.work, joint, W_ROWS, lane),
+            work,
             nullptr,
             nullptr,
-            store.mean ? W_KEPT : W_BIAS,
+            store.mean ? kept + K_BIAS * ROW : work + W_BIAS * ROW,
+            store.mean ? kept : nullptr,
             store.joints[joint].bar,
             false};
   }

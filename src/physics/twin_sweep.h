@@ -24,7 +24,7 @@ struct TwinStore {
   std::vector<TwinJoint> joints;
   int roots{0};
   Rows constants, state, loads, bases;
-  Rows work, motion;                ///< of one pack
+  Rows work, kept, motion;          ///< of one pack
   Rows stack;                       ///< P_ROWS a depth
   bool trace{false};                ///< somebody asks for the motion
   bool mean{true};                  ///< velocity products are averaged over the step
