@@ -97,7 +97,9 @@ Path heldAir(const std::string& name, const Trees& trees, const wind::Field& win
   out.advance = [batch, wind](int steps) {
     for (int i = 0; i < steps; i += SUB_STEPS) {
       const forest::FloatWind now(wind.at(fromSeconds(0.3 + STEP * i)), 100.0);
-      batch->askAir([now](float* rows, std::size_t blocks) { fillAir(now, rows, blocks); });
+      batch->askAir([now](const float* places, float* air, std::size_t blocks) {
+        fillAir(now, places, air, blocks);
+      });
       batch->step(STEP, SUB_STEPS);
     }
   };

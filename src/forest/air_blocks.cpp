@@ -16,16 +16,17 @@ namespace vegetation_sim::forest::HWY_NAMESPACE {
 
 constexpr std::size_t ROW = 16;  // floats of a row; no vector is wider
 
-void fillBlocks(const FloatWind& wind, float* rows, std::size_t blocks) {
+void fillBlocks(const FloatWind& wind, const float* places, float* air, std::size_t blocks) {
   const std::size_t width = hn::Lanes(Tag());
-  for (float* block = rows; block != rows + 6 * ROW * blocks; block += 6 * ROW)
-    for (std::size_t i = 0; i < ROW; i += width) {
-      const auto row = [&](std::size_t k) { return block + k * ROW + i; };
+  const Tag d;
+  for (std::size_t block = 0; block < 3 * ROW * blocks; block += 3 * ROW)
+    for (std::size_t x = block; x < block + ROW; x += width) {
+      const std::size_t y = x + ROW, z = y + ROW;
       const Lanes3 v = windAt(
-          wind, {hn::LoadU(Tag(), row(0)), hn::LoadU(Tag(), row(1)), hn::LoadU(Tag(), row(2))});
-      hn::StoreU(v.x, Tag(), row(3));
-      hn::StoreU(v.y, Tag(), row(4));
-      hn::StoreU(v.z, Tag(), row(5));
+          wind, {hn::LoadU(d, places + x), hn::LoadU(d, places + y), hn::LoadU(d, places + z)});
+      hn::StoreU(v.x, d, air + x);
+      hn::StoreU(v.y, d, air + y);
+      hn::StoreU(v.z, d, air + z);
     }
 }
 
@@ -37,8 +38,8 @@ namespace vegetation_sim::forest {
 
 HWY_EXPORT(fillBlocks);
 
-void fillAir(const FloatWind& wind, float* rows, std::size_t blocks) {
-  HWY_DYNAMIC_DISPATCH(fillBlocks)(wind, rows, blocks);
+void fillAir(const FloatWind& wind, const float* places, float* air, std::size_t blocks) {
+  HWY_DYNAMIC_DISPATCH(fillBlocks)(wind, places, air, blocks);
 }
 
 }  // namespace vegetation_sim::forest

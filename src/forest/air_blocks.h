@@ -8,6 +8,6 @@ namespace vegetation_sim::forest {
 
 /// What physics::AskAir asks for, in single precision and the widest instruction set of the
 /// processor; the same bits on every one.
-void fillAir(const FloatWind& wind, float* rows, std::size_t blocks);
+void fillAir(const FloatWind& wind, const float* places, float* air, std::size_t blocks);
 
 }  // namespace vegetation_sim::forest

@@ -59,11 +59,12 @@ struct PhysicalPart::Step {
     addOthers(course, kinematics, out);
   }
   // Air for a chain's rows.
-  void blow(double h, float* rows, std::size_t blocks) const {
+  void blow(double h, const float* places, float* rows, std::size_t blocks) const {
     const Nanoseconds middle = from + fromSeconds(part.theta_ * h);
     const bool own = loads.air == NEVER || part.compensates(from, settings.fade);
     const Course course = scratch.courseOf(part.tree(), air, own ? middle : loads.air);
-    fillAir(FloatWind(course.wind.now().relativeTo(part.tree().foot), LARGEST_REACH), rows, blocks);
+    fillAir(FloatWind(course.wind.now().relativeTo(part.tree().foot), LARGEST_REACH), places, rows,
+            blocks);
   }
   // All that acts besides the wind.
   void addOthers(const Course& course, const physics::Kinematics& kinematics,
@@ -119,7 +120,9 @@ void PhysicalPart::stepBatched(const Step& context, double h) {
   chain.setState(0, state_, theta_);
   // What fades out is told against the air of each step.
   if (!context.loads.hold || compensates(context.from, context.settings.fade))
-    chain.askAir([&](float* rows, std::size_t blocks) { context.blow(h, rows, blocks); });
+    chain.askAir([&](const float* places, float* rows, std::size_t blocks) {
+      context.blow(h, places, rows, blocks);
+    });
   chain.step(context.outsideWind(), 0.0, h, context.loads.hold ? 1 : 0);
   state_ = chain.state(0);
   theta_ = chain.theta(0);

@@ -146,8 +146,9 @@ ChainState BatchChain::state(int tree) const {
 
 std::size_t BatchChain::bytes() const {
   const ChainStore& s = *store_;
-  std::size_t out = s.constants.bytes() + s.state.bytes() + s.loads.bytes() + s.work.bytes() + s.kept.bytes() +
-                    s.grips.bytes() + s.air.bytes() + s.motion.bytes() + s.first.rows.bytes() +
+  std::size_t out = s.constants.bytes() + s.state.bytes() + s.loads.bytes() + s.work.bytes() +
+                    s.kept.bytes() + s.grips.bytes() + s.air.bytes() + s.beside.bytes() +
+                    s.places.bytes() + s.motion.bytes() + s.first.rows.bytes() +
                     s.second.rows.bytes() + slots_.capacity() * sizeof(int);
   for (const ChainGroup& group : groups_)
     for (const Level& level : group.levels)

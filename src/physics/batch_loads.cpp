@@ -75,15 +75,20 @@ void BatchChain::setGrips(int tree, const std::vector<Grip>& grips) {
   if (store_->grips.empty()) {
     store_->grips.assign(blocks() * G_ROWS);
     store_->air.assign(blocks() * V_ROWS);
+    store_->places.assign(store_->work.count() / W_ROWS * V_ROWS);
   }
-  member.on_axis = true;
-  for (std::size_t i = 0; i < member.count; ++i) {
-    member.on_axis = member.on_axis && grips[i].centre.x() == 0.0 && grips[i].centre.y() == 0.0;
-    fillGrip(grips[i], store_->grips.of(slots_[member.first + i], G_ROWS));
-  }
+  member.on_axis = std::all_of(grips.begin(), grips.end(), [](const Grip& grip) {
+    return grip.centre.x() == 0.0 && grip.centre.y() == 0.0;
+  });
   ChainGroup& group = groups_[member.group];
   group.on_axis = group.bars && std::all_of(group.trees.begin(), group.trees.end(),
                                             [&](std::size_t t) { return trees_[t].on_axis; });
+  if (!group.on_axis && store_->beside.empty()) store_->beside.assign(blocks() * B_ROWS);
+  for (std::size_t i = 0; i < member.count; ++i) {
+    const int slot = slots_[member.first + i];
+    fillGrip(grips[i], store_->grips.of(slot, G_ROWS),
+             store_->beside.empty() ? nullptr : store_->beside.of(slot, B_ROWS));
+  }
 }
 
 // Rows know places relative to the bases.
@@ -91,12 +96,12 @@ void BatchChain::askAirOf(const ChainGroup& group) {
   for (const std::size_t t : group.trees) {
     const Member& member = trees_[t];
     for (std::size_t i = 0; i < member.count && !member.bases.empty(); ++i) {
-      float* place = store_->air.of(slots_[member.first + i], V_ROWS);
+      float* place = store_->places.of(slots_[member.first + i] - group.begin, V_ROWS);
       for (int axis = 0; axis < 3; ++axis)
-        place[(V_PLACE + axis) * ROW] += static_cast<float>(baseOf(member, i).pose.position[axis]);
+        place[axis * ROW] += static_cast<float>(baseOf(member, i).pose.position[axis]);
     }
   }
-  ask_(store_->air.of(group.begin, V_ROWS),
+  ask_(store_->places.at(0), store_->air.of(group.begin, V_ROWS),
        static_cast<std::size_t>((group.end - group.begin) / ROW));
 }
 

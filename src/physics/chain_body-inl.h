@@ -95,7 +95,7 @@ struct Blow {
 
 HWY_INLINE Blow blowOn(const Joints& at, Lanes steady, Lanes square, Lanes ahead) {
   Blow out;
-  out.wind = load3(at.air, V_AIR) - load3(at.work, W_GRIPPED);
+  out.wind = load3(at.air, 0) - load3(at.work, W_GRIPPED);
   const Lanes size = hn::Sqrt(dot(out.wind, out.wind));
   out.drag = steady + square * size;
   out.factor = hn::IfThenElseZero(size > hn::Zero(Tag()), ahead * square / size);
@@ -111,7 +111,7 @@ HWY_INLINE void addBlow(const Blow& blow, const Lanes3& turn, Articulated& sum) 
 // On the axis of a bar: what is the same in all directions makes it a heavier bar.
 HWY_INLINE void addAirOnAxis(const Joints& at, const Lanes3& z, Lanes steady, Lanes square,
                              Lanes ahead, Bar& bar, Articulated& sum) {
-  const Lanes g = load(at.grips, G_CENTRE + 2);
+  const Lanes g = load(at.grips, G_ALONG);
   const Blow blow = blowOn(at, steady, square, ahead);
   const Lanes mass = ahead * blow.drag, moment = g * mass, second = g * moment;
   bar = {bar.mass + mass, bar.moment + moment, bar.across + second, bar.excess - second};

@@ -69,10 +69,12 @@ void fillNobody(int rows, float* constants) {
   fillLink(nobody, rows, constants);
 }
 
-void fillGrip(const Grip& grip, float* rows) {
-  put(grip.centre, rows + G_CENTRE * ROW, ROW);
+void fillGrip(const Grip& grip, float* rows, float* beside) {
+  rows[G_ALONG * ROW] = narrow(grip.centre.z());
   rows[G_STEADY * ROW] = narrow(grip.steady);
   rows[G_SQUARE * ROW] = narrow(grip.square);
+  for (int axis = 0; beside && axis < B_ROWS; ++axis)
+    beside[axis * ROW] = narrow(grip.centre[axis]);
 }
 
 // The force at the point is the anchor's less (theta^2 h^2 K + theta h C) times what accelerations

@@ -36,7 +36,8 @@ inline void fillLoad(const Loads& loads, std::size_t link, float* rows) {
     rows[(L_JOINT + i) * ROW] = joint ? static_cast<float>(loads.joint_torque[link][i]) : 0.f;
 }
 
-void fillGrip(const Grip& grip, float* rows);
+/// `beside`: none where the grip is on the axis.
+void fillGrip(const Grip& grip, float* rows, float* beside);
 
 /// What an anchor adds to the articulated inertia and bias of the joint in `slot`.
 struct AnchorRows {

@@ -23,8 +23,9 @@ struct Joints {
   float* state;
   const float* loads;  ///< none: nothing acts
   float* work;
-  const float* grips;  ///< none: no air
-  float* air;
+  const float* grips;   ///< none: no air
+  const float* beside;  ///< read only where not all grips are `on_axis`
+  const float* air;
   float* bias;   ///< of the link alone: six rows of `work`, or of `kept`
   float* kept;   ///< none: velocity products are not averaged
   bool bars;     ///< all of them
@@ -229,18 +230,19 @@ HWY_INLINE Frame outward(const Joints& at, const Frame& parent, Lanes step) {
 // Which way a joint of a bar goes depends on nobody else.
 HWY_INLINE auto gripsAxis(const Joints& at) {
   const Lanes o = hn::Zero(Tag());
-  return hn::And(load(at.grips, G_CENTRE) == o, load(at.grips, G_CENTRE + 1) == o);
+  return hn::And(load(at.beside, 0) == o, load(at.beside, 1) == o);
 }
 
 /// From the joint to where air grips the link.
 HWY_INLINE Lanes3 gripArm(const Joints& at, const Frame& frame) {
-  return at.on_axis ? load(at.grips, G_CENTRE + 2) * frame.axis
-                    : turned(axesOf(frame.turn), load3(at.grips, G_CENTRE));
+  const Lanes along = load(at.grips, G_ALONG);
+  if (at.on_axis) return along * frame.axis;
+  return turned(axesOf(frame.turn), {load(at.beside, 0), load(at.beside, 1), along});
 }
 
 /// Leaves how fast the link moves where air grips it.
 HWY_INLINE void keepGrip(const Joints& at, const Frame& frame, const Trace& trace) {
-  Lanes3 swept = load(at.grips, G_CENTRE + 2) * cross(trace.spin, frame.axis);
+  Lanes3 swept = load(at.grips, G_ALONG) * cross(trace.spin, frame.axis);
   if (!at.on_axis) {
     const Lanes3 arm = gripArm(at, frame), beside = cross(trace.spin, arm);
     store3(arm, at.work, W_GRIP);

@@ -70,11 +70,12 @@ enum : int {
   L_ROWS = L_ALONG + 3
 };
 
-/// Rows of how air grips it, see Grip.
-enum : int { G_CENTRE, G_STEADY = G_CENTRE + 3, G_SQUARE, G_ROWS };
+/// Rows of how air grips it, see Grip: along the own z axis, and its size; beside that axis, x y.
+enum : int { G_ALONG, G_STEADY, G_SQUARE, G_ROWS };
+enum : int { B_ROWS = 2 };
 
-/// Rows of the place of the grip and of the air there, see AskAir.
-enum : int { V_PLACE, V_AIR = V_PLACE + 3, V_ROWS = V_AIR + 3 };
+/// Rows of the place of a grip, or of the air there, see AskAir.
+enum : int { V_ROWS = 3 };
 
 /// Rows that one step keeps between its passes; what the sweep down the tree leaves takes the place
 /// of the link's motion and inertia, which it has used. Bars that air grips on their axes have
@@ -101,7 +102,7 @@ static_assert(W_BAR_ROWS <= W_ROWS, "the sweep writes where its motion and inert
 
 /// Rows that a step keeps besides for the mean of velocity products.
 enum : int {
-  K_BIAS,             // or its change
+  K_BIAS,               // or its change
   K_TURN = K_BIAS + 6,  // orientation
   K_SPIN = K_TURN + 4,
   K_ROWS = K_SPIN + 3

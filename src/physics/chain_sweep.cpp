@@ -24,6 +24,7 @@ HWY_INLINE Joints jointsAt(const ChainGroup& group, ChainStore& store, int slot)
           store.loads.empty() ? nullptr : store.loads.of(slot, L_ROWS),
           work,
           store.grips.empty() ? nullptr : store.grips.of(slot, G_ROWS),
+          store.beside.empty() ? nullptr : store.beside.of(slot, B_ROWS),
           store.grips.empty() ? nullptr : store.air.of(slot, V_ROWS),
           store.mean ? kept + K_BIAS * ROW : work + W_BIAS * ROW,
           store.mean ? kept : nullptr,
@@ -72,7 +73,8 @@ HWY_INLINE void outGroupAs(const ChainGroup& group, Lanes step, ChainStore& stor
         };
         if (at.grips) keepGrip(at, frame, trace);
         if (TOLD == Told::ALL && store.asked)
-          store3(trace.position + gripArm(at, frame), at.air, V_PLACE);
+          store3(trace.position + gripArm(at, frame),
+                 store.places.of(level.begin - group.begin + i, V_ROWS), 0);
         if (TOLD == Told::ALL && store.trace)
           storeMotion(frame, trace, store.motion.of(level.begin - group.begin + i, M_ROWS));
         handOn(level, i, each, room, handed);

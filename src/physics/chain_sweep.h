@@ -18,9 +18,10 @@ struct ChainGroup {
   std::vector<BaseRows> bases;  ///< of the first level's joints
   bool bars{true};              ///< nothing but round bars
   bool on_axis{true};           ///< air grips the axes of bars
-  int workRows() const { return bars && on_axis ? W_BAR_ROWS : W_ROWS; }
   bool calm{true};              ///< all trees at theta = 1/2
   float fastest{0.f};           ///< rate of all [rad/s]
+
+  int workRows() const { return bars && on_axis ? W_BAR_ROWS : W_ROWS; }
 };
 
 /// Rows of one level, one array per quantity, with room for a vector that runs over the end.
@@ -44,8 +45,9 @@ struct ChainStore {
   int constant_rows{C_ROWS};
   Rows loads;            ///< none: nothing acts
   Rows grips, air;       ///< none: no air
+  Rows beside;           ///< none: air grips but axes
   Rows work, kept;       ///< scratch of a group
-  Rows motion;           ///< likewise
+  Rows motion, places;   ///< likewise
   bool trace{false};     ///< somebody asks for the motion
   bool asked{false};     ///< the air is asked for in this step
   bool averages{true};   ///< velocity products are those of a mean over the step

@@ -34,6 +34,7 @@ struct Part {
             work,
             nullptr,
             nullptr,
+            nullptr,
             store.mean ? kept + K_BIAS * ROW : work + W_BIAS * ROW,
             store.mean ? kept : nullptr,
             store.joints[joint].bar,

@@ -22,9 +22,9 @@ std::vector<Grip> gripsOf(const std::vector<Link>& links) {
 }
 
 AskAir uniform(const Vec3& wind) {
-  return [wind](float* rows, std::size_t blocks) {
-    for (std::size_t i = 0; i < 96 * blocks; ++i)
-      if (i % 96 >= 48) rows[i] = static_cast<float>(wind[static_cast<int>(i % 96 / 16) - 3]);
+  return [wind](const float*, float* air, std::size_t blocks) {
+    for (std::size_t i = 0; i < 48 * blocks; ++i)
+      air[i] = static_cast<float>(wind[static_cast<int>(i % 48 / 16)]);
   };
 }
 
@@ -63,7 +63,9 @@ std::vector<Vec3> tipsInBreeze(const std::vector<Link>& links, int every) {
   for (int i = 0; i < 1200; ++i) {
     if (i % every == 0) {
       const forest::FloatWind now(field.at(fromSeconds((i + 0.5 * every) * STEP)), 1e3);
-      chain.askAir([now](float* rows, std::size_t blocks) { fillAir(now, rows, blocks); });
+      chain.askAir([now](const float* places, float* air, std::size_t blocks) {
+        fillAir(now, places, air, blocks);
+      });
     }
     chain.step(STEP);
   }
@@ -123,10 +125,10 @@ TEST(BatchAir, IsAskedForWhereGripsAreOnTheirBases) {
   Surroundings around;
   around.bases = [&](double, std::vector<BaseMotion>& out) { out = {base}; };
   std::vector<Vec3> places;
-  chain.askAir([&](float* rows, std::size_t blocks) {
+  chain.askAir([&](const float* rows, float*, std::size_t blocks) {
     for (std::size_t i = 0; i < 16 * blocks; ++i)
-      places.emplace_back(rows[i / 16 * 96 + i % 16], rows[i / 16 * 96 + 16 + i % 16],
-                          rows[i / 16 * 96 + 32 + i % 16]);
+      places.emplace_back(rows[i / 16 * 48 + i % 16], rows[i / 16 * 48 + 16 + i % 16],
+                          rows[i / 16 * 48 + 32 + i % 16]);
   });
   chain.step(around, 0.0, STEP);
   const Kinematics rest = kinematicsAt(links, atRest(links.size()), {base});

@@ -21,9 +21,9 @@ struct Grip {
   double square{0.0};         ///< [N s^2/m^2]
 };
 
-/// Air at places of joints: in each of `blocks` blocks of rows of 16 floats, x y z of the place
-/// [m], then, to be filled in, of the air's velocity [m/s]; world axes.
-using AskAir = std::function<void(float* rows, std::size_t blocks)>;
+/// Air at places of joints: each of `blocks` blocks has three rows of 16 floats, x y z of places
+/// [m] and, to be filled in, of the velocity of the air there [m/s]; world axes.
+using AskAir = std::function<void(const float* places, float* air, std::size_t blocks)>;
 
 /// The guarded linearly implicit midpoint (Stepper's default) of many links at once in single
 /// precision, in the widest instruction set of the processor: links of equal depth, of one tree or
