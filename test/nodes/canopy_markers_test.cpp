@@ -85,6 +85,29 @@ TEST(CanopyMarkers, RigidFacesAreNoLeaves) {
   EXPECT_EQ(static_cast<double>(row.used), balance.cost);
 }
 
+// rviz works on triangles without area as on others: of no plant there is none, and plants that
+// come again are drawn in lists as long as before.
+TEST(CanopyMarkers, NoPlantsAreNotDrawn) {
+  using visualization_msgs::Marker;
+  const Row none(0), shrubs(4);
+  CanopyMarkers markers(60000);
+  const auto listsOf = [&](const Row& row) {
+    markers.setLayout(row.layout);
+    markers.choose(row.layout, row.eye, 1.0, 0);
+    return markers.build(canopy::Canopy(row.layout).foliage(), {}, "map").markers;
+  };
+  for (const Marker& list : listsOf(none)) {
+    EXPECT_EQ(list.action, Marker::DELETE) << list.ns;
+    EXPECT_TRUE(list.points.empty() && list.colors.empty()) << list.ns;
+  }
+  for (const Marker& list : listsOf(shrubs)) {
+    EXPECT_EQ(list.action, Marker::ADD) << list.ns;
+    EXPECT_EQ(list.points.size(), list.colors.size()) << list.ns;
+    EXPECT_TRUE(list.ns != "leaves" || list.points.size() == markers.room());
+  }
+  for (const Marker& list : listsOf(none)) EXPECT_EQ(list.action, Marker::DELETE) << list.ns;
+}
+
 }  // namespace
 }  // namespace vegetation_sim
 
