@@ -34,22 +34,6 @@ PhysicsRig windyRig(const PhysicsSettings& settings = {}) {
   return out;
 }
 
-double rms(const std::vector<Vec3>& values) {
-  double sum = 0.0;
-  for (const Vec3& v : values) sum += dot(v, v);
-  return std::sqrt(sum / static_cast<double>(values.size()));
-}
-
-std::vector<Vec3> tipsOf(const PhysicsRig& rig) {
-  const auto poses = rig.forest.pose(rig.tree, 0, rig.forest.memory().stamp);
-  std::vector<Vec3> out;
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    const Branch& b = rig.branches()[i];
-    out.push_back(tipOf(b, poses[i]) - tipOf(b, b.rest));
-  }
-  return out;
-}
-
 // N6: the same inputs give the same hash at every tick; a changed one does not.
 TEST(PhysicalPart, RepeatedRunsHaveTheSameHash) {
   const auto hashes = [](double more) {
@@ -246,51 +230,6 @@ TEST(PhysicalPart, AfterTheFadeItIsFullDynamics) {
     rig.run(until > 0.5 ? until / 4 : 0.0);
   }
   EXPECT_LT(last, 0.01);
-}
-
-/// A tree, physical throughout, that swings free after a shove; in still air, where what is held
-/// for a tick besides velocity products makes no difference.
-struct Swinging {
-  static constexpr Nanoseconds TICK = 16666664;  ///< four steps, the same of four parts
-  PhysicsRig rig;
-  std::vector<Vec3> tips;  ///< of all ticks
-
-  // `parts`: a tick is advanced in so many.
-  Swinging(const PhysicsSettings& settings, int parts) : rig(settings) {
-    rig.touch(rig.twig(), 9.0);
-    Push push;
-    push.point = {0, rig.branchOfDepth(1), 0.5 * rig.branches()[rig.branchOfDepth(1)].length};
-    push.force = Vec3(0.0, 150.0, -50.0);
-    push.until = rig.now() + 30 * TICK;
-    rig.forest.push(push);
-    Nanoseconds now = rig.now();
-    for (int tick = 0; tick < 3 * TICK_RATE; ++tick, now += TICK) {
-      for (int i = 1; i <= parts; ++i) rig.forest.advance(now + TICK * i / parts);
-      for (const Vec3& tip : tipsOf(rig)) tips.push_back(tip);
-    }
-  }
-};
-
-double rmsBetween(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-  std::vector<Vec3> out;
-  for (std::size_t i = 0; i < a.size(); ++i) out.push_back(a[i] - b[i]);
-  return rms(out);
-}
-
-// A tick's steps after its first foretell the rates of velocity products; ticks as short as a step
-// average them, and are the same to the bit where nobody foretells. Measured off the converged
-// reference: 2.8e-3 and 2.0e-3 of the way.
-TEST(PhysicalPart, StepsOfATickForetellVelocityProducts) {
-  PhysicsSettings settings;
-  settings.promotion = static_cast<int>(Promotion::DEPTH);
-  settings.fade = 0.0;
-  const Swinging ticks(settings, 1), steps(settings, 4);
-  settings.precision = static_cast<int>(Precision::DOUBLE);
-  const Swinging exact(settings, 64);
-  const double way = rms(exact.tips);
-  EXPECT_GT(way, 0.005);
-  EXPECT_GT(rmsBetween(ticks.tips, steps.tips), 1e-4 * way);
-  EXPECT_LT(rmsBetween(ticks.tips, exact.tips), 5e-3 * way);
 }
 
 struct Clustered {

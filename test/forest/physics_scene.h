@@ -105,4 +105,22 @@ inline double difference(const JointAngles& a, const JointAngles& b) {
   return std::hypot(a.first - b.first, a.second - b.second);
 }
 
+/// Root of the mean square length.
+inline double rms(const std::vector<Vec3>& values) {
+  double sum = 0.0;
+  for (const Vec3& v : values) sum += dot(v, v);
+  return std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+/// How far tips are from where they rest [m].
+inline std::vector<Vec3> tipsOf(const PhysicsRig& rig) {
+  const auto poses = rig.forest.pose(rig.tree, 0, rig.forest.memory().stamp);
+  std::vector<Vec3> out;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const Branch& b = rig.branches()[i];
+    out.push_back(tipOf(b, poses[i]) - tipOf(b, b.rest));
+  }
+  return out;
+}
+
 }  // namespace vegetation_sim::forest

@@ -45,6 +45,8 @@ class BatchChain {
   void setState(int tree, const ChainState& state, double theta = 0.5);
   ChainState state(int tree) const;
   double theta(int tree) const { return trees_[static_cast<std::size_t>(tree)].theta; }
+  /// Largest rate of a joint about an axis [rad/s].
+  double fastest(int tree) const { return fastestOf(trees_[static_cast<std::size_t>(tree)]); }
   std::size_t bytes() const;
 
   void setProducts(Products products);
