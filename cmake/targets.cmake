@@ -44,6 +44,8 @@ target_compile_definitions(${PROJECT_NAME}_rviz PRIVATE QT_NO_KEYWORDS)
 target_link_libraries(${PROJECT_NAME}_rviz
   PUBLIC ${PROJECT_NAME}_ros Qt5::Widgets PRIVATE OpenGL::GL)
 set_target_properties(${PROJECT_NAME}_rviz PROPERTIES AUTOMOC ON)
+# A call that a node has not answered yet returns into this library, when rviz has unloaded it too.
+target_link_options(${PROJECT_NAME}_rviz PRIVATE LINKER:-z,nodelete)
 
 set(ros_targets
   ${PROJECT_NAME}_ros ${PROJECT_NAME}_nodes ${PROJECT_NAME}_nodelets ${PROJECT_NAME}_rviz)

@@ -9,6 +9,13 @@ LevelState LevelMap::of(std::uint32_t tree) const {
   return found == held_.end() ? base_ : found->second;
 }
 
+std::array<std::size_t, MODAL_LEVEL + 1> LevelMap::counts(std::size_t trees) const {
+  std::array<std::size_t, MODAL_LEVEL + 1> out{};
+  out[static_cast<std::size_t>(base_.level)] = trees - held_.size();
+  for (const auto& entry : held_) ++out[static_cast<std::size_t>(entry.second.level)];
+  return out;
+}
+
 void LevelMap::reset(const LevelState& base) {
   base_ = base;
   held_.clear();

@@ -64,7 +64,12 @@ void ForestAnimator::diagnose(diagnostic_updater::DiagnosticStatusWrapper& statu
   if (!clock_.hasBegun()) status.summary(DiagnosticStatus::WARN, "waiting for the clock");
   warnOfTrouble(status);
   const auto& memory = forest_->memory();
-  status.add("Trees", forest_->layout().treeCount());
+  const std::size_t trees = forest_->layout().treeCount();
+  const auto at = memory.levels.counts(trees);
+  status.add("Trees", trees);
+  status.add("Trees at rest", at.front());
+  status.add("Trees that move by procedure", trees - at.front() - at.back());
+  status.add("Trees that move in modes", at.back());
   status.add("Trees not at the base level", memory.levels.held().size());
   status.add("Base level", memory.levels.base().level);
   status.add("Viewers", memory.viewers.size());

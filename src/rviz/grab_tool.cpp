@@ -50,7 +50,9 @@ GrabTool::GrabTool() : line_(LINE_WIDTH) {
   reach_->setMax(1.0f);
 }
 
-GrabTool::~GrabTool() = default;
+GrabTool::~GrabTool() {
+  if (hand_) hand_->release();
+}
 
 void GrabTool::onInitialize() {
   setName("Grab Branch");
@@ -58,11 +60,16 @@ void GrabTool::onInitialize() {
 }
 
 void GrabTool::activate() {
-  hand_ = std::make_unique<view::MouseHand>(ros::NodeHandle(), node_->getStdString());
+  try {
+    hand_ = std::make_shared<view::MouseHand>(ros::NodeHandle(), node_->getStdString());
+  } catch (const ros::InvalidNameException& error) {
+    setStatus(error.what());
+  }
 }
 
 void GrabTool::deactivate() {
   line_.clear();
+  if (hand_) hand_->release();
   hand_.reset();
 }
 

@@ -17,10 +17,12 @@ namespace vegetation_sim {
 namespace {
 
 constexpr char WIND_NODE[] = "/wind_broadcaster", FOREST_NODE[] = "/forest_animator";
-constexpr int SETTLE = 250;   // [ms] after the last turn of the dial
-constexpr int LOOK = 200;     // [ms] between looks for an answer
-constexpr int TENTHS = 10;    // of a metre per second, one step of the slider
-constexpr int FASTEST = 250;  // steps of the slider
+constexpr char TICK[] = "Time of a tick [ms]", BETWEEN_TICKS[] = "Time between ticks [ms]";
+constexpr int SETTLE = 250;    // [ms] after the last turn of the dial
+constexpr int LOOK = 200;      // [ms] between looks for an answer
+constexpr int SILENCE = 5000;  // [ms] a bar is shown after its node was heard
+constexpr int TENTHS = 10;     // of a metre per second, one step of the slider
+constexpr int FASTEST = 250;   // steps of the slider
 constexpr double DEGREE = 0.017453292519943295;
 
 double valueOf(const diagnostic_msgs::DiagnosticStatus& status, const std::string& key,
@@ -47,12 +49,12 @@ LandscapePanel::LandscapePanel(QWidget* parent)
       direction_(new QDial),
       speed_(new QSlider(Qt::Horizontal)),
       wind_text_(new QLabel),
-      tolerance_(new QDoubleSpinBox),
+      settings_{{"tolerance", new QDoubleSpinBox}, {"frame_time", new QDoubleSpinBox}},
       message_text_(new QLabel) {
   auto* grid = new QGridLayout;
   addWind(*grid);
-  grid->addWidget(new QLabel("Tolerance of motion"), 3, 0);
-  grid->addWidget(tolerance_, 3, 1);
+  addSetting(*grid, "tolerance", "Tolerance of motion", " pixel", 0.01, 1000.0);
+  addSetting(*grid, "frame_time", "Budget of motion", " ms a frame", 0.001, 1e6);
   addBars(*grid);
   message_text_->setWordWrap(true);
   grid->addWidget(message_text_, grid->rowCount(), 0, 1, 2);
@@ -77,40 +79,61 @@ void LandscapePanel::addWind(QGridLayout& grid) {
   tornado->setToolTip("Then draw its way on the ground");
   grid.addWidget(gust, 2, 0);
   grid.addWidget(tornado, 2, 1);
-  tolerance_->setRange(0.01, 1000.0);
-  tolerance_->setSuffix(" pixel");
-  tolerance_->setKeyboardTracking(false);
   connect(gust, SIGNAL(clicked()), this, SLOT(pickGust()));
   connect(tornado, SIGNAL(clicked()), this, SLOT(pickTornado()));
   connect(direction_, SIGNAL(valueChanged(int)), this, SLOT(windTurned()));
   connect(speed_, SIGNAL(valueChanged(int)), this, SLOT(windTurned()));
   connect(&wind_timer_, SIGNAL(timeout()), this, SLOT(sendWind()));
-  connect(tolerance_, SIGNAL(valueChanged(double)), this, SLOT(sendTolerance()));
   wind_timer_.setSingleShot(true);
+}
+
+void LandscapePanel::addSetting(QGridLayout& grid, const std::string& parameter, const char* title,
+                                const char* unit, double least, double most) {
+  QDoubleSpinBox* box = settings_.at(parameter);
+  box->setDecimals(3);
+  box->setRange(least, most);
+  box->setSuffix(unit);
+  box->setKeyboardTracking(false);
+  const int line = grid.rowCount();
+  grid.addWidget(new QLabel(title), line, 0);
+  grid.addWidget(box, line, 1);
+  connect(box, static_cast<void (QDoubleSpinBox::*)(double)>(&QDoubleSpinBox::valueChanged), this,
+          [this, parameter](double value) {
+            send(FOREST_NODE, {{parameter, value}});
+          });
 }
 
 void LandscapePanel::addBars(QGridLayout& grid) {
   const struct {
     const char *title, *status, *value, *limit;
   } rows[] = {
-      {"Forest, of its time", "forest_animator: forest", "Time of a tick [ms]",
-       "Time between ticks [ms]"},
-      {"Grass, of its time", "grass_field: grass", "Time of a tick [ms]",
-       "Time between ticks [ms]"},
-      {"Trees that move", "forest_animator: forest", "Trees not at the base level", "Trees"},
-      {"Trees that are physical", "forest_animator: forest", "Physical trees", "Trees"},
+      {"Motion, of its budget", "forest_animator: governor", "Predicted frame time [ms]",
+       "Frame time budget [ms]"},
+      {"Forest, of its tick", "forest_animator: forest", TICK, BETWEEN_TICKS},
+      {"Grass", "grass_field: grass", TICK, BETWEEN_TICKS},
+      {"Leaves", "canopy_animator: canopy", TICK, BETWEEN_TICKS},
+      {"People", "agent_crowd: crowd", TICK, BETWEEN_TICKS},
+      {"Trees still", "forest_animator: forest", "Trees at rest", "Trees"},
+      {"Trees procedural", "forest_animator: forest", "Trees that move by procedure", "Trees"},
+      {"Trees in modes", "forest_animator: forest", "Trees that move in modes", "Trees"},
+      {"Trees physical", "forest_animator: forest", "Physical trees", "Trees"},
       {"Frames in tf", "forest_animator: forest", "tf frames", "tf budget [frames]"},
       {"Points of markers", "forest_animator: forest", "Marker points", "Marker budget [points]"},
   };
   for (const auto& row : rows) {
-    Bar bar{row.status, row.value, row.limit, new QLabel(row.title), new QProgressBar};
+    Bar bar{row.status, row.value, row.limit, new QLabel(row.title), new QProgressBar, {}};
     const int line = grid.rowCount();
     grid.addWidget(bar.label, line, 0);
     grid.addWidget(bar.bar, line, 1);
     bar.bar->setRange(0, 1000);
-    bar.bar->setFormat("-");
+    show(bar, false);  // until its node is heard
     bars_.push_back(bar);
   }
+}
+
+void LandscapePanel::show(const Bar& bar, bool visible) {
+  bar.label->setVisible(visible);
+  bar.bar->setVisible(visible);
 }
 
 void LandscapePanel::onInitialize() {
@@ -120,7 +143,7 @@ void LandscapePanel::onInitialize() {
   forest_ = nh.subscribe(std::string(FOREST_NODE) + "/parameter_updates", 1,
                          &LandscapePanel::takeForest, this);
   diagnostics_ = nh.subscribe("/diagnostics", 10, &LandscapePanel::takeDiagnostics, this);
-  connect(&message_timer_, SIGNAL(timeout()), this, SLOT(showMessage()));
+  connect(&message_timer_, SIGNAL(timeout()), this, SLOT(look()));
   message_timer_.start(LOOK);
 }
 
@@ -136,18 +159,23 @@ void LandscapePanel::takeWind(const dynamic_reconfigure::Config& config) {
 }
 
 void LandscapePanel::takeForest(const dynamic_reconfigure::Config& config) {
-  const QSignalBlocker blocker(tolerance_);
-  for (const dynamic_reconfigure::DoubleParameter& value : config.doubles)
-    if (value.name == "tolerance") tolerance_->setValue(value.value);
+  for (const dynamic_reconfigure::DoubleParameter& value : config.doubles) {
+    const auto found = settings_.find(value.name);
+    if (found == settings_.end()) continue;
+    const QSignalBlocker blocker(found->second);
+    found->second->setValue(value.value);
+  }
 }
 
 void LandscapePanel::takeDiagnostics(const diagnostic_msgs::DiagnosticArray& message) {
   for (const diagnostic_msgs::DiagnosticStatus& status : message.status)
-    for (const Bar& bar : bars_) {
+    for (Bar& bar : bars_) {
       if (status.name != bar.status) continue;
       const double value = valueOf(status, bar.value, 0.0), limit = valueOf(status, bar.limit, 0.0);
       const double share = limit > 0.0 ? value / limit : 0.0;
       bar.bar->setValue(static_cast<int>(1000.0 * std::min(1.0, std::max(0.0, share))));
+      bar.heard.start();
+      show(bar, true);
       bar.bar->setFormat(QString("%1 of %2").arg(value, 0, 'g', 4).arg(limit, 0, 'g', 4));
     }
 }
@@ -162,10 +190,6 @@ void LandscapePanel::sendWind() {
                    {"breeze_direction", toYaw(direction_->value())}});
 }
 
-void LandscapePanel::sendTolerance() {
-  send(FOREST_NODE, {{"tolerance", tolerance_->value()}});
-}
-
 void LandscapePanel::send(const std::string& node, const std::map<std::string, double>& values) {
   dynamic_reconfigure::Reconfigure service;
   for (const auto& value : values) {
@@ -174,16 +198,16 @@ void LandscapePanel::send(const std::string& node, const std::map<std::string, d
     parameter.value = value.second;
     service.request.config.doubles.push_back(parameter);
   }
-  errands_.add([this, node, service]() mutable {
+  errands_.add([answer = answer_, node, service]() mutable {
     const bool answered = ros::service::call(node + "/set_parameters", service);
-    const std::lock_guard<std::mutex> lock(mutex_);
-    message_ = answered ? "" : "no answer from " + node;
+    answer->give(answered ? "" : "no answer from " + node);
   });
 }
 
-void LandscapePanel::showMessage() {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  message_text_->setText(QString::fromStdString(message_));
+void LandscapePanel::look() {
+  if (const auto answer = answer_->take()) message_text_->setText(QString::fromStdString(*answer));
+  for (const Bar& bar : bars_)
+    if (bar.heard.isValid() && bar.heard.hasExpired(SILENCE)) show(bar, false);
 }
 
 void LandscapePanel::pickTool(WindTool::Kind kind) {

@@ -33,10 +33,6 @@ MouseHand::MouseHand(ros::NodeHandle nh, const std::string& node)
       move_(nh.serviceClient<MoveGrab>(node + "/move_grab")),
       release_(nh.serviceClient<Release>(node + "/release")) {}
 
-MouseHand::~MouseHand() {
-  release();
-}
-
 Grip MouseHand::grip() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return grip_;
@@ -48,9 +44,9 @@ void MouseHand::say(const std::string& message) {
 }
 
 void MouseHand::take(const Ray& ray, double tolerance, const Spring& spring) {
-  errands_.add([=] {
-    letGo();
-    pickAndGrab(ray, tolerance, spring);
+  errands_.add([self = shared_from_this(), ray, tolerance, spring] {
+    self->letGo();
+    self->pickAndGrab(ray, tolerance, spring);
   });
 }
 
@@ -60,7 +56,7 @@ void MouseHand::follow(const Vec3& target) {
   grip_.target = target;
   if (moving_) return;
   moving_ = true;
-  errands_.add([this] { move(); });
+  errands_.add([self = shared_from_this()] { self->move(); });
 }
 
 void MouseHand::keep() {
@@ -69,7 +65,7 @@ void MouseHand::keep() {
 }
 
 void MouseHand::release() {
-  errands_.add([this] { letGo(); });
+  errands_.add([self = shared_from_this()] { self->letGo(); });
 }
 
 void MouseHand::pickAndGrab(const Ray& ray, double tolerance, const Spring& spring) {

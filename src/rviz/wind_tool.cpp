@@ -99,17 +99,16 @@ void WindTool::blow() {
   for (geometry_msgs::PointStamped& point : service.request.primitive.trajectory)
     point.header.frame_id = world_->frame();
   const std::string name = node_->getStdString() + "/set_primitive";
-  errands_.add([this, service, name]() mutable {
+  std::string why;
+  if (!ros::names::validate(name, why)) return answer_->give(why);
+  errands_.add([answer = answer_, service, name]() mutable {
     const bool answered = ros::service::call(name, service);
-    const std::lock_guard<std::mutex> lock(mutex_);
-    answer_ = answered ? service.response.message : "no answer from " + name;
+    answer->give(answered ? service.response.message : "no answer from " + name);
   });
 }
 
 void WindTool::update(float, float) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  if (!answer_.empty()) setStatus(QString::fromStdString(answer_));
-  answer_.clear();
+  if (const auto answer = answer_->take()) setStatus(QString::fromStdString(*answer));
 }
 
 void WindTool::drawStroke() {

@@ -48,6 +48,18 @@ TEST(LevelMap, HeldTreesKeepTheirLevelsWhenTheBaseChanges) {
   EXPECT_EQ(levels.of(8).level, 2);
 }
 
+TEST(LevelMap, CountsTheTreesOfEachLevel) {
+  LevelMap levels;
+  levels.reset(LevelState::settled(0));
+  levels.set(7, LevelState::settled(3));
+  levels.set(8, LevelState::settled(3));
+  levels.set(9, LevelState::settled(MODAL_LEVEL));
+  const auto counts = levels.counts(100);
+  EXPECT_EQ(counts.front(), 97u);
+  EXPECT_EQ(counts[3], 2u);
+  EXPECT_EQ(counts.back(), 1u);
+}
+
 // A tree that rests at the base's level is forgotten only when the base has come to rest there too.
 TEST(LevelMap, ForgetsWhatIsLikeTheBase) {
   LevelMap levels;

@@ -1,16 +1,24 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include <diagnostic_msgs/DiagnosticArray.h>
 #include <gtest/gtest.h>
+#include <ros/callback_queue.h>
 #include <rviz/properties/string_property.h>
 #include <rviz/tool_manager.h>
 #include <rviz/view_controller.h>
 #include <rviz/viewport_mouse_event.h>
 #include <vegetation_sim/GetTree.h>
+#include <vegetation_sim/Pick.h>
 #include <vegetation_sim/TreadEvent.h>
 #include <vegetation_sim/WindField.h>
 
 #include <QPushButton>
+#include <atomic>
+#include <chrono>
 #include <cmath>
+#include <future>
+#include <initializer_list>
+#include <map>
 
 #include "rviz/view_rig.h"
 #include "vegetation_sim/ros/geometry_conversions.h"
@@ -138,6 +146,55 @@ TEST_F(ToolsTest, ANodeThatDoesNotAnswerIsSaid) {
   })) << tool->grip().message;
 }
 
+// A service that hangs stops neither the picture nor who puts the tool away.
+TEST_F(ToolsTest, ANodeThatHangsStopsNoPicture) {
+  ros::CallbackQueue queue;
+  ros::NodeHandle hung("/hung");
+  hung.setCallbackQueue(&queue);
+  std::promise<void> enough;
+  std::future<void> waited = enough.get_future();
+  std::atomic<bool> asked{false}, answered{false};
+  const boost::function<bool(Pick::Request&, Pick::Response&)> hang = [&](auto&, auto&) {
+    asked = true;
+    waited.wait_for(std::chrono::seconds(20));
+    return answered = true;
+  };
+  const ros::ServiceServer server = hung.advertiseService("pick", hang);
+  ros::AsyncSpinner spinner(1, &queue);
+  spinner.start();
+  auto* tool = use<GrabTool>("vegetation_sim/GrabTool");
+  putAway();
+  tool->getPropertyContainer()->subProp("Node")->setValue("/hung");
+  rig.manager().getToolManager()->setCurrentTool(tool);
+  mouse(*tool, QEvent::MouseButtonPress, {240, 180});
+  ASSERT_TRUE(rig.until([&] { return asked.load(); }));
+  putAway();
+  rig.frames(3);
+  EXPECT_FALSE(answered);
+  enough.set_value();
+  EXPECT_TRUE(rig.until([&] { return answered.load(); }));
+}
+
+TEST_F(ToolsTest, NamesThatCannotBeAreRefused) {
+  for (const char* name : {"no name!", "~x", ""}) {
+    auto* grab = use<GrabTool>("vegetation_sim/GrabTool");
+    auto* wind = use<WindTool>("vegetation_sim/WindTool");
+    auto* tread = use<TreadTool>("vegetation_sim/TreadTool");
+    putAway();
+    grab->getPropertyContainer()->subProp("Node")->setValue(name);
+    wind->getPropertyContainer()->subProp("Node")->setValue(name);
+    tread->getPropertyContainer()->subProp("Topic")->setValue(name);
+    for (rviz::Tool* tool : std::initializer_list<rviz::Tool*>{grab, wind, tread}) {
+      rig.manager().getToolManager()->setCurrentTool(tool);
+      mouse(*tool, QEvent::MouseButtonPress, pixelOf({-0.6, 0.4, 0.0}));
+      mouse(*tool, QEvent::MouseMove, pixelOf({0.7, -0.2, 0.0}));
+      mouse(*tool, QEvent::MouseButtonRelease, pixelOf({0.7, -0.2, 0.0}));
+      rig.frames(3);
+    }
+    EXPECT_FALSE(grab->grip().holding);
+  }
+}
+
 // S2-21: a stroke of the mouse on the ground treads along it.
 TEST_F(ToolsTest, TheMouseTreads) {
   std::vector<TreadEvent> events;
@@ -207,6 +264,79 @@ TEST_F(ToolsTest, ThePanelSetsTheWind) {
       if (bar->format().contains(" of 7")) return true;  // trees of the scene
     return false;
   }));
+}
+
+// What the forest has is shown, what is turned comes there, each setting alone.
+TEST_F(ToolsTest, ThePanelSetsToleranceAndBudget) {
+  std::map<std::string, double> there;
+  const boost::function<void(const dynamic_reconfigure::Config&)> heard =
+      [&](const dynamic_reconfigure::Config& config) {
+        for (const auto& value : config.doubles) there[value.name] = value.value;
+      };
+  const ros::Subscriber listener = rig.nodeHandle().subscribe<dynamic_reconfigure::Config>(
+      "/forest_animator/parameter_updates", 1, heard);
+  LandscapePanel panel;
+  panel.initialize(&rig.manager());
+  const auto box = [&](const char* unit) {
+    for (QDoubleSpinBox* each : panel.findChildren<QDoubleSpinBox*>())
+      if (each->suffix() == unit) return each;
+    return static_cast<QDoubleSpinBox*>(nullptr);
+  };
+  QDoubleSpinBox *tolerance = box(" pixel"), *budget = box(" ms a frame");
+  ASSERT_TRUE(tolerance && budget);
+  ASSERT_TRUE(rig.until([&] {
+    return there.count("frame_time") > 0 && budget->value() == there["frame_time"] &&
+           tolerance->value() == there["tolerance"];
+  }));
+  const std::map<std::string, double> before = there;
+  budget->setValue(0.125);
+  EXPECT_TRUE(rig.until([&] { return there["frame_time"] == 0.125; }));
+  tolerance->setValue(2.5);
+  EXPECT_TRUE(rig.until([&] { return there["tolerance"] == 2.5; }));
+  EXPECT_EQ(there["frame_time"], 0.125);
+  budget->setValue(before.at("frame_time"));
+  tolerance->setValue(before.at("tolerance"));
+  EXPECT_TRUE(rig.until([&] { return there == before; }));
+}
+
+// Bars tell how each tree moves: the classes sum to all; what no node tells is not shown.
+TEST_F(ToolsTest, ThePanelTellsHowTreesMove) {
+  LandscapePanel panel;
+  panel.initialize(&rig.manager());
+  const auto shown = [&] {
+    std::map<std::string, int> out;
+    for (QLabel* label : panel.findChildren<QLabel*>()) {
+      const auto* grid = static_cast<QGridLayout*>(panel.layout());
+      int row, column, rows, columns;
+      grid->getItemPosition(grid->indexOf(label), &row, &column, &rows, &columns);
+      QLayoutItem* beside = grid->itemAtPosition(row, 1);
+      const auto* bar = beside ? dynamic_cast<QProgressBar*>(beside->widget()) : nullptr;
+      if (bar && !bar->isHidden())
+        out[label->text().toStdString()] = bar->format().section(' ', 0, 0).toInt();
+    }
+    return out;
+  };
+  EXPECT_TRUE(shown().empty());
+  EXPECT_TRUE(rig.until([&] {
+    auto trees = shown();
+    return trees.count("Trees still") &&
+           trees["Trees still"] + trees["Trees procedural"] + trees["Trees in modes"] == 7;
+  }));
+  EXPECT_EQ(shown().count("Trees physical"), 1u);
+  EXPECT_EQ(shown().count("Forest, of its tick"), 1u);
+  EXPECT_EQ(shown().count("People"), 0u);
+  // A node that is heard has its bar, until it has been silent for some seconds.
+  const ros::Publisher diagnostics =
+      rig.nodeHandle().advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 1);
+  diagnostic_msgs::DiagnosticArray people;
+  people.status.resize(1);
+  people.status[0].name = "agent_crowd: crowd";
+  ASSERT_TRUE(rig.until([&] {
+    diagnostics.publish(people);
+    return shown().count("People") > 0;
+  }));
+  EXPECT_TRUE(rig.until([&] { return shown().count("People") == 0; }));
+  EXPECT_EQ(shown().count("Trees still"), 1u);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <vector>
@@ -20,6 +21,8 @@ class LevelMap {
   /// Level of a tree; one that is not held has the base's.
   LevelState of(std::uint32_t tree) const;
   const std::map<std::uint32_t, LevelState>& held() const { return held_; }
+  /// How many of `trees` are at each level.
+  std::array<std::size_t, MODAL_LEVEL + 1> counts(std::size_t trees) const;
 
   void set(std::uint32_t tree, const LevelState& state) { held_[tree] = state; }
   /// Gives a tree the base's level, now and later.

@@ -2,20 +2,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <condition_variable>
-#include <deque>
 #include <functional>
+#include <memory>
 #include <mutex>
-#include <thread>
+#include <optional>
+#include <string>
 
 namespace vegetation_sim::view {
 
 /// Runs errands one after the other beside the render thread: a service that answers late must not
-/// stop the picture. An errand must not throw.
+/// stop the picture. An errand holds what it uses: it may outlive whoever sent it.
 class Errands {
  public:
-  Errands() : thread_([this] { run(); }) {}
-  /// Waits until all are done.
+  Errands();
+  /// Waits half a second at most; what is not done by then goes on beside.
   ~Errands();
   Errands(const Errands&) = delete;
   Errands& operator=(const Errands&) = delete;
@@ -25,13 +25,22 @@ class Errands {
   std::size_t left() const;
 
  private:
-  void run();
+  struct Desk;
+  static void run(Desk& desk);
 
-  mutable std::mutex mutex_;
-  std::condition_variable changed_;
-  std::deque<std::function<void()>> errands_;
-  bool ending_{false};
-  std::thread thread_;  // the last: it uses the others
+  std::shared_ptr<Desk> desk_;
+};
+
+/// What an errand brings back, in words.
+class Answer {
+ public:
+  void give(const std::string& text);
+  /// What was given since it was asked last; none: nothing.
+  std::optional<std::string> take();
+
+ private:
+  std::mutex mutex_;
+  std::optional<std::string> text_;
 };
 
 }  // namespace vegetation_sim::view

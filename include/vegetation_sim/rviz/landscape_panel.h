@@ -10,13 +10,14 @@
 
 #include <QDial>
 #include <QDoubleSpinBox>
+#include <QElapsedTimer>
 #include <QGridLayout>
 #include <QLabel>
 #include <QProgressBar>
 #include <QSlider>
 #include <QTimer>
 #include <map>
-#include <mutex>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -26,7 +27,8 @@
 namespace vegetation_sim {
 
 /// Panel: wind with a dial and a slider, buttons for the tool that makes gusts and tornadoes, the
-/// tolerance of the forest, and bars of what is spent and of what is physical.
+/// tolerance and budget of the forest's motion, and bars of what is spent, by part, and of how
+/// trees move: not at all, by procedure, in modes, physically.
 class LandscapePanel : public rviz::Panel {
   Q_OBJECT
  public:
@@ -38,10 +40,9 @@ class LandscapePanel : public rviz::Panel {
  private Q_SLOTS:
   void windTurned();
   void sendWind();
-  void sendTolerance();
   void pickGust() { pickTool(WindTool::GUST); }
   void pickTornado() { pickTool(WindTool::TORNADO); }
-  void showMessage();
+  void look();
 
  private:
   // A figure of /diagnostics beside its limit.
@@ -49,10 +50,14 @@ class LandscapePanel : public rviz::Panel {
     std::string status, value, limit;
     QLabel* label;
     QProgressBar* bar;
+    QElapsedTimer heard;
   };
 
   void addWind(QGridLayout& grid);
+  void addSetting(QGridLayout& grid, const std::string& parameter, const char* title,
+                  const char* unit, double least, double most);
   void addBars(QGridLayout& grid);
+  static void show(const Bar& bar, bool visible);
   void pickTool(WindTool::Kind kind);
   void takeWind(const dynamic_reconfigure::Config& config);
   void takeForest(const dynamic_reconfigure::Config& config);
@@ -62,13 +67,12 @@ class LandscapePanel : public rviz::Panel {
   QDial* direction_;
   QSlider* speed_;
   QLabel* wind_text_;
-  QDoubleSpinBox* tolerance_;
+  std::map<std::string, QDoubleSpinBox*> settings_;  ///< by parameter of the forest
   QLabel* message_text_;
   QTimer wind_timer_, message_timer_;
   std::vector<Bar> bars_;
   ros::Subscriber wind_, forest_, diagnostics_;
-  std::mutex mutex_;     // of message_
-  std::string message_;  // of the last service called
+  std::shared_ptr<view::Answer> answer_{std::make_shared<view::Answer>()};  // of services
   view::Errands errands_;
 };
 

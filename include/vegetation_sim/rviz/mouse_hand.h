@@ -6,6 +6,7 @@
 #include <ros/service_client.h>
 
 #include <cstdint>
+#include <memory>
 #include <mutex>
 #include <string>
 
@@ -33,12 +34,12 @@ struct Grip {
 };
 
 /// Grabs branches of a forest over the services that everyone has. Returns at once; what came of it
-/// is in `grip`. A hand that is gone, or whose process is, lets go.
-class MouseHand {
+/// is in `grip`. Held by a shared pointer: calls that a node answers late outlive their sender.
+class MouseHand : public std::enable_shared_from_this<MouseHand> {
  public:
   /// @param node that serves ~pick, ~grab, ~move_grab and ~release.
+  /// @throws ros::InvalidNameException
   MouseHand(ros::NodeHandle nh, const std::string& node);
-  ~MouseHand();
 
   /// Takes the branch that a ray meets first, within `tolerance` [m] of its surface.
   void take(const Ray& ray, double tolerance, const Spring& spring);
@@ -46,6 +47,8 @@ class MouseHand {
   void follow(const Vec3& target);
   /// Keeps the lease; call it several times a second.
   void keep();
+  /// Lets go; whoever drops a hand calls it before. A process that is gone lets go too, by the
+  /// lease.
   void release();
   Grip grip() const;
 
@@ -59,7 +62,7 @@ class MouseHand {
   mutable std::mutex mutex_;
   Grip grip_;
   bool moving_{false};  // an errand to move waits
-  Errands errands_;     // the last: they use the others
+  Errands errands_;
 };
 
 }  // namespace vegetation_sim::view

@@ -9,7 +9,6 @@
 #include <rviz/tool.h>
 
 #include <memory>
-#include <mutex>
 #include <string>
 
 #include "vegetation_sim/rviz/errands.h"
@@ -48,8 +47,7 @@ class WindTool : public rviz::Tool {
   view::ToolLine line_;
   view::WindStroke stroke_;
   bool drawing_{false};
-  std::mutex mutex_;    // of answer_
-  std::string answer_;  // of the service
+  std::shared_ptr<view::Answer> answer_{std::make_shared<view::Answer>()};  // of the service
   view::Errands errands_;
 };
 
