@@ -22,6 +22,9 @@ CanopySource::CanopySource(ros::NodeHandle nh, const CanopyTopics& topics)
       ground_(nh),
       layout_status_{false, "No layout on " + nh.resolveName(topics.layout)},
       state_status_{false, "No state on " + nh.resolveName(topics.state) + ": all at rest"} {
+  // Their names are looked at now, though they are heard only where a layout has crowns.
+  for (const std::string& name : {topics.forest.layout, topics.forest.wind, topics.forest.state})
+    nh.resolveName(name);
   layout_ = nh.subscribe(topics.layout, 1, &CanopySource::takeLayout, this);
   // All of a history may wait while the layout's leaves are grown.
   state_ = nh.subscribe(topics.state, 100, &CanopySource::takeState, this);

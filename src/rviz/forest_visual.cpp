@@ -84,15 +84,34 @@ void ForestVisual::select(const forest::ForestReplica& replica, const View& view
                           const Options& options) {
   next_ = std::make_unique<TreeStock>(
       replica, nearestTrees(replica.layout(), view.eye.position, options.most_trees));
+  prepared_ = 0;
   selected_at_ = view.eye.position;
   selected_all_ = next_->wanted() == replica.layout().treeCount();
   report_.wanted = next_->wanted();
 }
 
+// Trees that follow others have a mesh before they take their place, the same if it is the same
+// tree: nothing is bare in between.
+bool ForestVisual::prepare(const View& view, const Options& options) {
+  if (!stock_) return true;
+  const auto end = Clock::now() + std::chrono::duration<double>(SIDE_TIME);
+  for (; prepared_ < next_->trees().size(); ++prepared_) {
+    if (Clock::now() >= end) return false;
+    DrawnTree& tree = *next_->trees()[prepared_];
+    const DrawnTree* before = stock_->find(tree.id());
+    const double size = pixelsOf(tree, view) * tree.height() * feedback_.factor();
+    const bool built = before != nullptr && before->level() >= 0;
+    tree.setLevel(built ? before->level() : forest::geometryLevel(size, -1), next_->light(),
+                  options.look);
+  }
+  return true;
+}
+
 // The trees that have grown take the place of those drawn so far.
 void ForestVisual::adopt() {
+  const bool follows = stock_ != nullptr;
   groves_.clear();
-  settled_ = false;
+  settled_ = settled_ && follows;
   stock_ = std::move(next_);
   ++stocks_;
   const Vec3& origin = stock_->origin();
@@ -105,10 +124,13 @@ void ForestVisual::adopt() {
                                 fading_bark_material_.name(), fading_leaf_material_.name()};
   for (auto& group : splitByPlace(std::move(trees), TREES_PER_GROVE))
     groves_.push_back(std::make_unique<Grove>(std::move(group), *node_, materials));
+  if (!follows) return;
+  for (const auto& grove : groves_) grove->rebuild();
 }
 
 void ForestVisual::repaint() {
   repaint_ = true;
+  prepared_ = 0;
 }
 
 void ForestVisual::light(const Daylight& daylight, const Vec3& to_sun, const Haze& haze) {
@@ -122,7 +144,8 @@ void ForestVisual::update(const forest::ForestReplica& replica, Nanoseconds stam
   const bool away = length(view.eye.position - selected_at_) > RESELECT;
   if (stock_ && !next_ && !selected_all_ && away) select(replica, view, options);
   if (next_ &&
-      next_->grow(replica, daylight.to_sun, options.look.leaves, stock_ ? SIDE_TIME : GROW_TIME))
+      next_->grow(replica, daylight.to_sun, options.look.leaves, stock_ ? SIDE_TIME : GROW_TIME) &&
+      prepare(view, options))
     adopt();
   if (!stock_) return;
   runFadeClock(wall);
@@ -214,6 +237,7 @@ void ForestVisual::move(const forest::ForestReplica& replica, Nanoseconds stamp,
 
 void ForestVisual::measure(const View& view, const Options& options) {
   report_.trees = stock_->trees().size();
+  report_.stocks = stocks_;
   report_.triangles = 0;
   report_.per_level.fill(0);
   for (const auto& tree : stock_->trees()) {

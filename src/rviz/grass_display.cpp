@@ -8,6 +8,7 @@ namespace vegetation_sim {
 namespace {
 
 constexpr int GROUND_RANK = 2;          // shows the tracks
+constexpr int BARE_RANK = -1;           // of a meadow where nothing grows
 constexpr double PRUNING_PERIOD = 0.5;  // [s]
 
 }  // namespace
@@ -49,7 +50,7 @@ void GrassDisplay::draw(Nanoseconds stamp, const view::View& view) {
   if (!grass_ || layouts_ != source_->layouts()) {
     layouts_ = source_->layouts();
     grass_.reset();
-    dropGround();
+    setGroundRank(view::isBare(*source_->layout().map) ? BARE_RANK : GROUND_RANK);
     grass_ = std::make_unique<view::GrassVisual>(*scene_node_, *source_);
     grass_->light(properties_->daylight(), properties_->hazeValues());
   }
@@ -58,7 +59,7 @@ void GrassDisplay::draw(Nanoseconds stamp, const view::View& view) {
     source_->prune(stamp);
     pruned_ = wall();
   }
-  if (givesGround(*source_->terrain())) makeGround();
+  if (view::isPaintable(*source_->layout().map) && givesGround(*source_->terrain())) makeGround();
   if (!ground_) return;
   ground_->update(*source_, source_->takePressed(), stamp);
   ground_->darken(grass_->bladesReach());
@@ -83,7 +84,9 @@ void GrassDisplay::showInputs(view::StatusBoard& board) const {
 }
 
 view::InputStatus GrassDisplay::describeDrawn() const {
-  return {drawn().tiles > 0, view::describe(drawn())};
+  const bool painted = !grass_ || view::isPaintable(*source_->layout().map);
+  return {drawn().tiles > 0,
+          view::describe(drawn()) + (painted ? "" : "; no ground: more than 2048 tiles a side")};
 }
 
 }  // namespace vegetation_sim

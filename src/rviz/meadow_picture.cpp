@@ -54,6 +54,17 @@ double fullDensity(const grass::FeatureMap& map) {
   return std::max(most, 1.0);
 }
 
+bool isBare(const grass::FeatureMap& map) {
+  for (int row = 0; row < map.law().rows; ++row)
+    for (int column = 0; column < map.law().columns; ++column)
+      if (map.node(column, row).density > 0.0) return false;
+  return true;
+}
+
+bool isPaintable(const grass::FeatureMap& map) {
+  return std::max(map.tileColumns(), map.tileRows()) <= MOST_PIXELS;
+}
+
 MeadowPainter::MeadowPainter(const grass::FeatureMap& map, const terrain::HeightMap& terrain,
                              const Daylight& daylight, const Rgba& tint)
     : map_(map),

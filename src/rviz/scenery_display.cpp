@@ -87,10 +87,17 @@ void SceneryDisplay::updateGround() {
   dropGround();
 }
 
+void SceneryDisplay::setGroundRank(int rank) {
+  ground_rank_ = rank;
+  updateGround();
+}
+
 bool SceneryDisplay::givesGround(const terrain::HeightMap& terrain) {
   if (!properties().ground()) return false;
-  if (!ground_claim_ || ground_claim_->key() != terrain.hash())
+  if (!ground_claim_ || ground_claim_->key() != terrain.hash()) {
+    updateGround();  // that of another terrain
     ground_claim_ = claim(view::Shared::GROUND, terrain.hash(), ground_rank_);
+  }
   gives_ground_ = ground_claim_->holds();
   return gives_ground_;
 }

@@ -103,6 +103,13 @@ bool TreeStock::grow(const forest::ForestReplica& replica, const Vec3& to_sun, b
   return true;
 }
 
+const DrawnTree* TreeStock::find(std::uint32_t id) const {
+  const auto found = std::lower_bound(ids_.begin(), ids_.end(), id);
+  if (found == ids_.end() || *found != id) return nullptr;
+  const auto place = static_cast<std::size_t>(found - ids_.begin());
+  return place < trees_.size() ? trees_[place].get() : nullptr;
+}
+
 void TreeStock::castLight(const Vec3& to_sun, bool leaves) {
   leaves_ = leaves;
   extent_ = {origin_, origin_ + Vec3(0.0, 0.0, 1.0)};

@@ -144,6 +144,24 @@ TEST_F(CanopyDisplayTest, CrownsGoWithTheirForest) {
   }));
 }
 
+// Names of the forest's topics are looked at before there are crowns.
+TEST_F(CanopyDisplayTest, ForestTopicsThatCannotBeAreSaid) {
+  canopy::Layout crowns = CanopyRig::shrubs(0);
+  crowns.crowns.resize(1);
+  crowns.crowns[0].trees = 4;
+  for (const char* name : {"Forest Layout Topic", "Forest State Topic", "Wind Topic"}) {
+    rviz::Property& topic = *display->subProp(name);
+    const QVariant good = topic.getValue();
+    topic.setValue("no name!");
+    rig.plant(crowns);
+    rig.frames(5);
+    EXPECT_NE(statusOf(*display, "Topics"), "") << name;
+    topic.setValue(good);
+    rig.frames(5);
+    EXPECT_EQ(statusOf(*display, "Topics"), "") << name;
+  }
+}
+
 // Far away fewer leaves stand for all, and the plants keep their size in the picture.
 TEST_F(CanopyDisplayTest, FarLeavesAreFewer) {
   rig.lookAt(0.8f, 0.25, 60.0);

@@ -1,6 +1,7 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vegetation_sim/AgentStates.h>
+#include <vegetation_sim/ForestLayout.h>
 
 #include <limits>
 
@@ -207,6 +208,22 @@ TEST_F(CrowdDisplayTest, TwoDrawOneScenery) {
   display = other;
   EXPECT_TRUE(rig.until([&] { return statusOf(*other, "Scenery") == "As set here"; }));
   EXPECT_GT(rig.look().green, 0.2);
+}
+
+// The ground is made anew where the terrain is another.
+TEST_F(CrowdDisplayTest, TheGroundFollowsTheTerrain) {
+  ros::Publisher layout = rig.nodeHandle().advertise<ForestLayout>("forest/layout", 1, true);
+  ForestLayout message;
+  message.header.frame_id = "map";
+  layout.publish(message);
+  rig.frames(5);
+  const std::vector<std::uint8_t> flat = rig.picture();
+  message.terrain = "package://vegetation_sim/config/terrain/hills.yaml";
+  layout.publish(message);
+  EXPECT_TRUE(rig.until([&] { return rig.largestChange(flat, rig.picture()) > 20.0; }));
+  message.terrain.clear();
+  layout.publish(message);
+  EXPECT_TRUE(rig.until([&] { return rig.largestChange(flat, rig.picture()) < 1.0; }));
 }
 
 TEST_F(CrowdDisplayTest, LeavesNothingBehind) {

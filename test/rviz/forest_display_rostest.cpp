@@ -169,6 +169,32 @@ TEST_F(ForestDisplayTest, KeepsToTheTriangles) {
   }
 }
 
+// Where there are more trees than are drawn, others become the nearest as the eye goes: none of
+// them is ever without a mesh.
+TEST_F(ForestDisplayTest, OtherTreesTakeTheirPlaceWithoutAGap) {
+  display->subProp("Most Trees")->setValue(300);
+  rig.publishForest(forest::gridLayout(24, 4.0));
+  const auto standing = [&] {
+    const view::ForestReport drawn = display->drawn();
+    std::size_t sum = 0;
+    for (const std::size_t trees : drawn.per_level) sum += trees;
+    return drawn.trees == 300 && sum == 300;
+  };
+  ASSERT_TRUE(rig.until([&] { return standing() && display->drawn().waiting == 0; }, LONG));
+  const int before = display->drawn().stocks;
+  rviz::ViewController& view = *rig.manager().getViewManager()->getCurrent();
+  view.lookAt(60.f, 60.f, 2.f);  // turns there; the eye goes by the distance
+  view.subProp("Distance")->setValue(10.0);
+  int bare = 0;
+  EXPECT_TRUE(rig.until(
+      [&] {
+        bare += standing() ? 0 : 1;
+        return display->drawn().stocks > before && display->drawn().waiting == 0;
+      },
+      LONG));
+  EXPECT_EQ(bare, 0);
+}
+
 // S1-13: nothing pops. An update shows at most a fifth of the way of each tree, and a few of them
 // at once; now and then two updates pass between two pictures.
 TEST_F(ForestDisplayTest, LevelsFadeIntoOneAnother) {

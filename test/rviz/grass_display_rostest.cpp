@@ -8,6 +8,8 @@
 
 #include "rviz/display_checks.h"
 #include "rviz/grass_rig.h"
+#include "vegetation_sim/ros/forest_conversions.h"
+#include "vegetation_sim/rviz/forest_display.h"
 
 namespace vegetation_sim {
 namespace {
@@ -231,6 +233,46 @@ TEST_F(GrassDisplayTest, EveryPropertyCanBeChanged) {
 
 TEST_F(GrassDisplayTest, SettingsSurviveSaveAndLoad) {
   expectSettingsSurvive(rig, *display, [&] { return rig.addDisplay(); });
+}
+
+// A node without a meadow tells one where nothing grows: whoever knows more gives the ground.
+TEST_F(GrassDisplayTest, ABareMeadowLeavesTheGroundToOthers) {
+  ASSERT_TRUE(drawn());
+  auto* forest = rig.add<ForestDisplay>("vegetation_sim/ForestDisplay");
+  ASSERT_NE(forest, nullptr);
+  ros::Publisher trees = rig.nodeHandle().advertise<ForestLayout>("forest/layout", 1, true);
+  ForestLayout message = toMsg(forest::gridLayout(1, 2.0));
+  message.header.frame_id = "map";
+  trees.publish(message);
+  const auto byAnother = [](rviz::Display& display) {
+    return statusOf(display, "Scenery").find("ground by") != std::string::npos;
+  };
+  EXPECT_TRUE(rig.until([&] { return byAnother(*forest) && !byAnother(*display); }));
+  grass::Layout bare = GrassRig::meadow(TILES);
+  grass::MapInput input;
+  input.law = bare.map->law();
+  input.density.value = 0.0;
+  bare.map = std::make_shared<const grass::FeatureMap>(input);
+  rig.publishMeadow(bare);
+  EXPECT_TRUE(rig.until([&] { return byAnother(*display) && !byAnother(*forest); }));
+  rig.publishMeadow(GrassRig::meadow(TILES));
+  EXPECT_TRUE(rig.until([&] { return byAnother(*forest) && !byAnother(*display); }));
+  rig.remove(forest);
+}
+
+// More tiles than a picture has pixels: drawn without a ground, not stalled.
+TEST_F(GrassDisplayTest, AMeadowTooLongForAPictureHasNoGround) {
+  ASSERT_TRUE(drawn());
+  grass::MapInput input;
+  input.law = GrassRig::meadow(2).map->law();
+  input.law.columns = 8192;
+  input.density.value = 500.0;
+  grass::Layout strip = GrassRig::meadow(2);
+  strip.map = std::make_shared<const grass::FeatureMap>(input);
+  rig.publishMeadow(strip);
+  EXPECT_TRUE(rig.until([&] {
+    return statusOf(*display, "Drawn").find("no ground: more than 2048") != std::string::npos;
+  })) << statusOf(*display, "Drawn");
 }
 
 TEST_F(GrassDisplayTest, LeavesNothingBehind) {

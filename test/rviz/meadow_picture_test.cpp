@@ -65,6 +65,19 @@ TEST(MeadowPainter, PaintsTracksInTiles) {
   EXPECT_EQ(trodden.at(column, 0), plain.at(column, 0));
 }
 
+TEST(MeadowPainter, KnowsWhatItCanPaint) {
+  EXPECT_FALSE(isBare(halfBare()));
+  EXPECT_TRUE(isPaintable(halfBare()));
+  grass::MapInput input;
+  input.law.rows = 2;
+  input.law.columns = 2049;
+  input.density.value = 0.0;
+  EXPECT_TRUE(isBare(grass::FeatureMap(input)));
+  EXPECT_TRUE(isPaintable(grass::FeatureMap(input)));
+  ++input.law.columns;
+  EXPECT_FALSE(isPaintable(grass::FeatureMap(input)));
+}
+
 // S2-10, S2-11: smaller versions of the strips' picture show the same share for each density.
 TEST(StripPictures, KeepTheirSharesWithDistance) {
   const std::vector<Picture> pictures = stripPictures(256, 64, 60);

@@ -22,6 +22,7 @@ struct ForestReport {
   std::size_t moving{0};            ///< trees that were moved
   std::size_t waiting{0};           ///< trees whose geometry level is still to change
   std::size_t fading{0};            ///< trees that go from one level to another
+  int stocks{0};                    ///< selections of trees so far
   std::array<std::size_t, forest::GEOMETRY_LEVELS> per_level{};
 };
 
@@ -56,6 +57,7 @@ class ForestVisual {
 
  private:
   void select(const forest::ForestReplica& replica, const View& view, const Options& options);
+  bool prepare(const View& view, const Options& options);
   void adopt();
   void runFadeClock(double wall);
   void chooseLevels(const View& view, const Options& options);
@@ -68,6 +70,7 @@ class ForestVisual {
   Texture leaf_texture_, bark_texture_;
   Material leaf_material_, bark_material_, fading_leaf_material_, fading_bark_material_;
   std::unique_ptr<TreeStock> stock_, next_;  // drawn; growing
+  std::size_t prepared_{0};                  // of the next trees: they have a mesh
   std::vector<std::unique_ptr<Grove>> groves_;
   Vec3 selected_at_{Vec3::Zero()};  // eye when the trees were selected
   bool selected_all_{true};

@@ -14,6 +14,10 @@ grass::GrassLight grassLight(const Daylight& daylight);
 
 /// Density [blades/m^2] from which a picture of grass is closed.
 double fullDensity(const grass::FeatureMap& map);
+/// Nothing grows there.
+bool isBare(const grass::FeatureMap& map);
+/// Whether a picture has a pixel for each tile: of maps with at most 2048 tiles a side.
+bool isPaintable(const grass::FeatureMap& map);
 
 /// Paints a meadow from above: soil and grass with the colour and density of the map, lodged where
 /// it is trodden (S2-13). No Ogre in it.

@@ -59,6 +59,8 @@ class SceneryDisplay : public rviz::Display {
 
   /// Whether this display is the one to draw this ground. When that ends, dropGround() is called.
   bool givesGround(const terrain::HeightMap& terrain);
+  /// From now on; a ground that is drawn is dropped.
+  void setGroundRank(int rank);
   bool isOpen() const { return open_; }
   /// [s] runs while simulation time stands.
   double wall() const { return wall_; }

@@ -41,6 +41,8 @@ class TreeStock {
 
   std::size_t wanted() const { return ids_.size(); }
   const std::vector<std::unique_ptr<DrawnTree>>& trees() const { return trees_; }
+  /// Null if it is not among them.
+  const DrawnTree* find(std::uint32_t id) const;
   const Vec3& origin() const { return origin_; }
   const Extent& extent() const { return extent_; }
   bool hasLeaves() const { return leaves_; }
