@@ -16,7 +16,7 @@ from vegetation_sim.msg import ForestEvent, TreadEvent, Viewer, WindField
 from vegetation_sim.srv import GetTree, SampleGrass, SampleGrassRequest
 
 DEADLINE = 30.0  # [s] of wall time
-GUST_BUTTON = (80, 610)  # of the panel in mouse.rviz, pixels of the window
+GUST_BUTTON = (80, 425)  # of the panel in mouse.rviz, pixels of the window
 KINDS = {ForestEvent.GRAB: 'grab', ForestEvent.MOVE: 'move', ForestEvent.RELEASE: 'release'}
 
 
