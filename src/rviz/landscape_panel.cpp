@@ -32,6 +32,10 @@ double valueOf(const diagnostic_msgs::DiagnosticStatus& status, const std::strin
   return other;
 }
 
+QString inWords(double value) {
+  return value < 1000.0 ? QString::number(value, 'g', 4) : QString::number(value, 'f', 0);
+}
+
 // Compass of the dial: 0 at the top is north, clockwise; ROS counts from east, counter-clockwise.
 double toYaw(int compass) {
   return std::remainder((90.0 - compass) * DEGREE, 360.0 * DEGREE);
@@ -176,7 +180,7 @@ void LandscapePanel::takeDiagnostics(const diagnostic_msgs::DiagnosticArray& mes
       bar.bar->setValue(static_cast<int>(1000.0 * std::min(1.0, std::max(0.0, share))));
       bar.heard.start();
       show(bar, true);
-      bar.bar->setFormat(QString("%1 of %2").arg(value, 0, 'g', 4).arg(limit, 0, 'g', 4));
+      bar.bar->setFormat(QString("%1 of %2").arg(inWords(value), inWords(limit)));
     }
 }
 
