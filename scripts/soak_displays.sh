@@ -5,7 +5,8 @@
 # over. Fails where a display crashes, shows what is no more, leaves an object of Ogre behind, or
 # where memory grows; says by how much, and draws it.
 # usage: scripts/soak_displays.sh [--cycles N] [--reloads N] [--sanitize] [--chart FILE.png] [DISPLAY ...]
-#   DISPLAY      canopy crowd forest grass wind; all of them if none is given
+#   DISPLAY      canopy crowd forest grass wind; all of them if none is given. With --sanitize also
+#                tools, which are the tools and the panel
 #   --cycles N   displays made and destroyed: 500 if not given, 40 with --sanitize
 #   --reloads N  of the node: 100 if not given, 20 with --sanitize
 #   --sanitize   the whole test of each display, built with the address and undefined behaviour
@@ -28,12 +29,16 @@ while [[ ${1:-} == --* ]]; do
 done
 displays=("$@")
 [ $# -gt 0 ] || displays=(canopy crowd forest grass wind)
+[ $# -gt 0 ] || ! $sanitize || displays+=(tools)
+for i in "${!displays[@]}"; do [ "${displays[i]}" = tools ] || displays[i]+=_display; done
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 prefix=
 if $sanitize; then
-  "$ROOT/scripts/build.sh" --sanitize "${displays[@]/%/_display_rostest}"
+  targets=("${displays[@]/%/_rostest}")
+  [[ " ${displays[*]} " != *' tools '* ]] || targets+=(forest_animator wind_broadcaster)
+  "$ROOT/scripts/build.sh" --sanitize "${targets[@]}"
   BUILD=$BUILD/sanitize
   prefix=$ROOT/test/rviz/sanitized.sh
 fi
@@ -42,10 +47,10 @@ $sanitize || export GTEST_FILTER='*LeavesNothingBehind:*Returns'
 if $sanitize; then : "${cycles:=40}" "${reloads:=20}"; else : "${cycles:=500}" "${reloads:=100}"; fi
 export VEGETATION_SIM_CYCLES=$cycles VEGETATION_SIM_RELOADS=$reloads
 for display in "${displays[@]}"; do
-  say "$display: $cycles cycles, $reloads reloads"
-  export VEGETATION_SIM_MEMORY=$work/$display.csv
+  say "${display%_display}: $cycles cycles, $reloads reloads"
+  export VEGETATION_SIM_MEMORY=$work/${display%_display}.csv
   sed "s/time-limit=\"[0-9]*\"/time-limit=\"7200\"/; s|with_display.sh|& $prefix|" \
-    "$ROOT/test/rviz/${display}_display.test" >"$work/$display.test"
+    "$ROOT/test/rviz/$display.test" >"$work/$display.test"
   rostest --text --pkgdir="$ROOT" --package=vegetation_sim "$work/$display.test" >"$work/log" 2>&1 ||
     { cat "$work/log"; fail "$display"; }
   grep 'OK \]' "$work/log"

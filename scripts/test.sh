@@ -56,7 +56,7 @@ sanitize() {
   local folder folders=(canopy common crowd forest grass physics scan terrain wind)
   check 'sanitizers: build' "$ROOT/scripts/build.sh" --sanitize "${folders[@]/%/_test}"
   for folder in "${folders[@]}"; do
-    check "sanitizers: $folder" timeout 1500 "$BUILD/sanitize/devel/lib/vegetation_sim/${folder}_test" --gtest_brief=1
+    check "sanitizers: $folder" timeout 2400 "$BUILD/sanitize/devel/lib/vegetation_sim/${folder}_test" --gtest_brief=1
   done
 }
 

@@ -247,6 +247,10 @@ TEST_F(CanopyDisplayTest, LeavesNothingBehind) {
       });
 }
 
+TEST_F(CanopyDisplayTest, StandsInAnyFixedFrame) {
+  expectStandsInAnyFixedFrame(rig, *display);
+}
+
 }  // namespace
 }  // namespace vegetation_sim
 

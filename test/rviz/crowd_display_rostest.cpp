@@ -237,6 +237,10 @@ TEST_F(CrowdDisplayTest, LeavesNothingBehind) {
       });
 }
 
+TEST_F(CrowdDisplayTest, StandsInAnyFixedFrame) {
+  expectStandsInAnyFixedFrame(rig, *display);
+}
+
 }  // namespace
 }  // namespace vegetation_sim
 

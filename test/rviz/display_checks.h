@@ -3,12 +3,14 @@
 #pragma once
 
 #include <diagnostic_msgs/DiagnosticArray.h>
+#include <geometry_msgs/TransformStamped.h>
 #include <gtest/gtest.h>
 #include <rviz/properties/bool_property.h>
 #include <rviz/properties/color_property.h>
 #include <rviz/properties/float_property.h>
 #include <rviz/properties/int_property.h>
 #include <rviz/properties/string_property.h>
+#include <tf2_msgs/TFMessage.h>
 
 #include <algorithm>
 #include <functional>
@@ -125,6 +127,48 @@ inline double difference(const std::vector<std::uint8_t>& a, const std::vector<s
   for (std::size_t i = 0; i < a.size(); ++i)
     sum += std::abs(static_cast<int>(a[i]) - static_cast<int>(b[i]));
   return sum / static_cast<double>(std::max<std::size_t>(1, a.size()));
+}
+
+/// The picture is the same whichever frame is the fixed one, turned and moved; of one that tf does
+/// not know yet the status tells the name, and nothing is drawn in a wrong place meanwhile.
+inline void expectStandsInAnyFixedFrame(ViewRig& rig, rviz::Display& display) {
+  constexpr double TURN = 2.0;  // [rad] about z
+  rviz::ViewController& view = *rig.manager().getViewManager()->getCurrent();
+  const QVariant former = view.subProp("Target Frame")->getValue();
+  view.subProp("Target Frame")->setValue("map");
+  rig.lookAt(1.5f, 0.4, 18.0);
+  std::vector<std::uint8_t> before = rig.picture();
+  ASSERT_TRUE(rig.until([&] {  // all has come to rest
+    rig.frames(10);
+    const std::vector<std::uint8_t> last = std::move(before);
+    before = rig.picture();
+    return difference(last, before) < 0.05;
+  }));
+  rig.manager().setFixedFrame("elsewhere");
+  EXPECT_TRUE(rig.until([&] {
+    return statusOf(display, "Transform") == "No transform from map to elsewhere";
+  })) << statusOf(display, "Transform");
+  geometry_msgs::TransformStamped place;
+  place.header.frame_id = "elsewhere";
+  place.child_frame_id = "map";
+  place.transform.translation.x = 30.0;
+  place.transform.translation.y = -20.0;
+  place.transform.translation.z = 2.0;
+  place.transform.rotation.w = std::cos(0.5 * TURN);
+  place.transform.rotation.z = std::sin(0.5 * TURN);
+  tf2_msgs::TFMessage message;
+  message.transforms = {place};
+  const ros::Publisher tf = rig.nodeHandle().advertise<tf2_msgs::TFMessage>("/tf_static", 1, true);
+  tf.publish(message);
+  // The view follows the place of its target, not how that is turned.
+  view.subProp("Yaw")->setValue(view.subProp("Yaw")->getValue().toDouble() + TURN);
+  EXPECT_TRUE(rig.until([&] { return statusOf(display, "Transform") == "OK"; }));
+  EXPECT_TRUE(rig.until([&] {
+    rig.frames(1);
+    return difference(before, rig.picture()) < 1.0;
+  })) << difference(before, rig.picture());
+  rig.manager().setFixedFrame("map");
+  view.subProp("Target Frame")->setValue(former);
 }
 
 }  // namespace vegetation_sim

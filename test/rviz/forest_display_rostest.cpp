@@ -251,6 +251,16 @@ TEST_F(ForestDisplayTest, TellsWhereTheViewLooksFrom) {
   EXPECT_EQ(heard.back().header.frame_id, "map");
   EXPECT_EQ(heard.back().height, 360u);
   EXPECT_EQ(heard.back().id.rfind("rviz_", 0), 0u);
+  const Ogre::Radian wide = rig.camera().getFOVy();
+  EXPECT_NEAR(heard.back().field_of_view, static_cast<double>(wide.valueRadians()), 1e-6);
+  rig.camera().setFOVy(Ogre::Radian(0.4f));
+  rig.panel().resize(480, 300);
+  EXPECT_TRUE(rig.until([&] {
+    return std::fabs(heard.back().field_of_view - 0.4) < 1e-6 && heard.back().height == 300u;
+  })) << heard.back();
+  rig.camera().setFOVy(wide);
+  rig.panel().resize(480, 360);
+  rig.frames(2);
   const std::size_t before = heard.size();
   EXPECT_TRUE(rig.until([&] { return heard.size() >= before + 2; }, 10.0));  // still, yet heard
 }
@@ -339,6 +349,10 @@ TEST_F(ForestDisplayTest, LeavesNothingBehind) {
       [&](rviz::Display& another) {
         return static_cast<ForestDisplay&>(another).drawn().trees == TREES;
       });
+}
+
+TEST_F(ForestDisplayTest, StandsInAnyFixedFrame) {
+  expectStandsInAnyFixedFrame(rig, *display);
 }
 
 }  // namespace

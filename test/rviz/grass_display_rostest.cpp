@@ -286,6 +286,10 @@ TEST_F(GrassDisplayTest, LeavesNothingBehind) {
       });
 }
 
+TEST_F(GrassDisplayTest, StandsInAnyFixedFrame) {
+  expectStandsInAnyFixedFrame(rig, *display);
+}
+
 }  // namespace
 }  // namespace vegetation_sim
 

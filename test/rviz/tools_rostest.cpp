@@ -339,6 +339,40 @@ TEST_F(ToolsTest, ThePanelTellsHowTreesMove) {
   EXPECT_EQ(shown().count("Trees still"), 1u);
 }
 
+// What is set of a tool is what another one loads; each setting has its help.
+TEST_F(ToolsTest, SettingsSurvive) {
+  rviz::ToolManager& tools = *rig.manager().getToolManager();
+  for (const char* name :
+       {"vegetation_sim/GrabTool", "vegetation_sim/TreadTool", "vegetation_sim/WindTool"}) {
+    rviz::Tool *one = tools.addTool(name), *other = tools.addTool(name);
+    ASSERT_NE(one, nullptr);
+    int changed = 0;
+    for (auto* property : propertiesOf<rviz::Property>(*one->getPropertyContainer())) {
+      EXPECT_FALSE(property->getDescription().isEmpty()) << property->getName().toStdString();
+      const QVariant value = property->getValue();
+      if (value.type() == QVariant::Bool)
+        property->setValue(!value.toBool());
+      else if (value.type() == QVariant::String)
+        property->setValue("another");
+      else
+        property->setValue(0.5 * value.toDouble());
+      changed += property->getValue() != value;
+    }
+    EXPECT_GT(changed, 0) << name;
+    rviz::Config saved, again;
+    one->save(saved);
+    other->load(saved);
+    other->save(again);
+    int compared = 0;
+    for (auto it = saved.mapIterator(); it.isValid(); it.advance(), ++compared)
+      EXPECT_EQ(it.currentChild().getValue(), again.mapGetChild(it.currentKey()).getValue())
+          << it.currentKey().toStdString();
+    EXPECT_GT(compared, changed - 1) << name;
+    tools.removeTool(tools.numTools() - 1);
+    tools.removeTool(tools.numTools() - 1);
+  }
+}
+
 }  // namespace
 }  // namespace vegetation_sim
 

@@ -131,6 +131,10 @@ TEST_F(WindDisplayTest, LeavesNothingBehind) {
       });
 }
 
+TEST_F(WindDisplayTest, StandsInAnyFixedFrame) {
+  expectStandsInAnyFixedFrame(rig, *display);
+}
+
 }  // namespace
 }  // namespace vegetation_sim
 
