@@ -82,7 +82,7 @@ float narrow(double x) {
 }
 
 void setRest(const Branch& branch, JointModel model, std::size_t i, BatchTree& out) {
-  Quat rest = restRotation(branch.theta, branch.phi);
+  Quat rest = branch.turn;
   if (model == JointModel::PAPER) {
     const SinCos t = sinCos(0.5 * branch.theta), p = sinCos(0.5 * branch.phi);
     rest = {t.cos, t.sin, p.cos, p.sin};

@@ -82,7 +82,8 @@ std::vector<std::uint32_t> treesNear(const Layout& layout, const terrain::Height
 void ContactFinder::findNear(const Forest& forest, const Bodies& bodies, Nanoseconds from,
                              Nanoseconds to, BranchesOfTrees& near) const {
   // Joints as printed have no physical motion.
-  if (static_cast<JointModel>(forest.layout().motion.joint_model) != JointModel::SWING) return;
+  if (static_cast<JointModel>(forest.layout().motion.joint_model) != JointModel::SWING)
+    return letGo();
   std::map<std::uint32_t, std::vector<Ball>> balls;
   for (const auto& entry : bodies) {
     const Ball ball = ballOf(entry.second, from, to);
@@ -113,6 +114,24 @@ void ContactFinder::findNear(const Forest& forest, const Bodies& bodies, Nanosec
       if (chosen[i]) branches.push_back(static_cast<int>(i));
     if (branches.empty()) near.erase(id);
   }
+}
+
+void ContactFinder::letGo() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  trees_.clear();
+}
+
+std::size_t ContactFinder::bytes() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  std::size_t out = 0;
+  for (const auto& entry : trees_) {
+    const Tree& tree = *entry.second;
+    out += sizeof(Trees::value_type) + sizeof(Tree) +
+           tree.skeleton.branches.capacity() * sizeof(Branch) +
+           tree.skeleton.groups.capacity() * sizeof(Group) +
+           tree.response.capacity() * sizeof(Response);
+  }
+  return out;
 }
 
 }  // namespace vegetation_sim::forest

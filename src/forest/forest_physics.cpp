@@ -41,6 +41,12 @@ void Forest::setPhysics(const PhysicsSettings& settings) {
   memory_.physics.setSettings(settings, memory_.stamp);
 }
 
+PhysicsFigures Forest::physicsFigures() const {
+  PhysicsFigures out = memory_.physics.figures();
+  if (contacts_) out.bytes += contacts_->bytes();
+  return out;
+}
+
 PromotedTree Forest::promoted(std::uint32_t tree) const {
   const double blend = memory_.physics.settings().blend;
   const auto found = memory_.physics.parts().find(tree);

@@ -155,17 +155,32 @@ Selection selectBranches(const Skeleton& skeleton, const std::vector<double>& sc
       wanted.push_back(static_cast<int>(i));
     }
   }
+  const auto by_rank = [&](int a, int b) {
+    return rank[index(a)] != rank[index(b)] ? rank[index(a)] > rank[index(b)] : a > b;
+  };
+  const auto is_new = [&](int i) { return !promoted[index(i)]; };
+  const auto newcomers = [&] {
+    return static_cast<std::size_t>(std::count_if(wanted.begin(), wanted.end(), is_new));
+  };
+  const auto taken = static_cast<std::size_t>(
+      std::count_if(promoted.begin(), promoted.end(), [](char p) { return p != 0; }));
+  std::size_t room = cap - std::min(cap, taken);
   Selection out;
-  if (wanted.size() > cap) {
-    out.refused = wanted.size();
-    std::sort(wanted.begin(), wanted.end(), [&](int a, int b) {
-      return rank[index(a)] != rank[index(b)] ? rank[index(a)] > rank[index(b)] : a > b;
-    });
-    wanted.resize(cap);
+  out.refused = newcomers();
+  if (wanted.size() > cap || out.refused > room) {
+    std::sort(wanted.begin(), wanted.end(), by_rank);
+    wanted.resize(std::min(cap, wanted.size()));
+    const auto finds_no_room = [&](int i) {
+      if (!is_new(i)) return false;
+      if (room == 0) return true;
+      --room;
+      return false;
+    };
+    wanted.erase(std::remove_if(wanted.begin(), wanted.end(), finds_no_room), wanted.end());
     std::sort(wanted.begin(), wanted.end());
     dropAboveGaps(skeleton, wanted);
-    out.refused -= wanted.size();
   }
+  out.refused -= newcomers();
   out.branches = std::move(wanted);
   return out;
 }

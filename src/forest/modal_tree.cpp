@@ -45,7 +45,7 @@ std::vector<physics::Link> chainOf(const Skeleton& skeleton, const Species& spec
     physics::Link& link = out[i];
     link.parent = b.parent;
     link.h = b.h;
-    link.rest = restRotation(b.theta, b.phi);
+    link.rest = b.turn;
     link.length = b.length;
     link.mass = body.mass;
     link.centre = body.moment / body.mass;

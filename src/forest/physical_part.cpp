@@ -82,13 +82,14 @@ void PhysicalPart::rebuild(const std::vector<Joined>& joints) {
   }
   findCarriers();
   std::vector<Composite> clusters;
-  clusterWood(tree_->skeleton, wood_, mask_, clusters);
+  const bool whole = n == mask_.size();
+  if (!whole) clusterWood(tree_->skeleton, wood_.own, mask_, clusters);
   links_.clear();
   drags_.clear();
   links_.reserve(n);
   drags_.reserve(n);
   for (std::size_t i = 0; i < n; ++i) {
-    const Composite& body = clusters[index(branches_[i])];
+    const Composite& body = (whole ? wood_.own : clusters)[index(branches_[i])];
     links_.push_back(linkFor(i, body));
     const Vec3 centre = body.drag > 0.0 ? Vec3(body.drag_moment / body.drag) : Vec3(Vec3::Zero());
     drags_.push_back({body.drag, centre});
@@ -117,7 +118,7 @@ physics::Link PhysicalPart::linkFor(std::size_t link, const Composite& body) con
     out.base = 1 + static_cast<int>(std::lower_bound(carriers_.begin(), carriers_.end(), b.parent) -
                                     carriers_.begin());
   out.h = b.h;
-  out.rest = restRotation(b.theta, b.phi);
+  out.rest = b.turn;
   out.length = b.length;
   out.mass = body.mass;
   out.centre = body.moment / body.mass;

@@ -38,6 +38,8 @@ void ForestPhysics::advance(const Site& at, Nanoseconds from, Nanoseconds to) {
   endLeases(to);
   if (!parts_.empty() || !grabs_.empty() || !pushes_.empty() || !bodies_.empty())
     stepAll(at, from, to);
+  else if (at.contacts)
+    at.contacts->letGo();
   letFall(told, secondsBetween(from, to));
 }
 
@@ -81,11 +83,13 @@ void ForestPhysics::choose(const Site& at, Nanoseconds from, Nanoseconds to) {
     loaded[point.tree].push_back(point.branch);
   }
   for (const Push& push : pushes_)
-    if (push.until > from) loaded[push.point.tree].push_back(push.point.branch);
+    if (push.from < to && push.until > from) loaded[push.point.tree].push_back(push.point.branch);
   const bool review = from >= next_review_;
-  if (review) next_review_ = from + REVIEW, refused_ = 0;
+  if (review) next_review_ = from + REVIEW;
   for (auto& [tree, part] : parts_)
     if (!loaded.count(tree)) part.letGo();
+  for (auto it = refused_.begin(); it != refused_.end();)
+    it = loaded.count(it->first) ? std::next(it) : refused_.erase(it);
   for (const auto& [tree, branches] : loaded) {
     PhysicalPart& part = partOf(at, tree);
     bool missing = false;
@@ -108,7 +112,7 @@ void ForestPhysics::chooseIn(const Site& at, std::uint32_t tree, PhysicalPart& p
   std::vector<double> rank = score;  // what is physical already counts before what is not
   for (const PartJoint& joint : part.joints()) {
     double& held = rank[static_cast<std::size_t>(joint.branch)];
-    held = std::max(held, 0.5 * LOADED);
+    held = std::max(held, LOADED * (1.0 - 0.5 / (1.0 + held)));
   }
   std::size_t others = 0;
   for (const auto& [id, other] : parts_)
@@ -117,9 +121,12 @@ void ForestPhysics::chooseIn(const Site& at, std::uint32_t tree, PhysicalPart& p
   const double threshold = by_depth ? 0.0 : settings_.influence_tolerance;
   const Selection selection = selectBranches(skeleton, rank, threshold, KEEP * threshold,
                                              part.mask(), most > others ? most - others : 0);
+  for (const PartJoint& joint : part.joints())  // beyond the cap: makes room for what is loaded
+    if (!std::binary_search(selection.branches.begin(), selection.branches.end(), joint.branch))
+      score[static_cast<std::size_t>(joint.branch)] = 0.0;
   const Course course = scratch_.courseOf(part.tree(), airOf(at, tree), stamp);
-  refused_ += selection.refused +
-              part.promote(selection.branches, score, KEEP * threshold, course, settings_);
+  refused_[tree] = selection.refused +
+                   part.promote(selection.branches, score, KEEP * threshold, course, settings_);
 }
 
 // What the springs, pushes and bodies do to a tree now, or will as soon as they have pulled it to
@@ -158,7 +165,8 @@ void ForestPhysics::step(const Site& at, Nanoseconds from, Nanoseconds to, std::
   };
   for (auto& [tree, part] : parts_) {
     if (part.empty()) continue;
-    gather(tree, part.tree().foot, from, stamp_of(k), to);
+    gather(tree, part.tree().foot, from, to);
+    addPushes(tree, stamp_of(k), stamp_of(k + 1));
     if (k == 0) feel(at, tree, part, from, from);
     loads_.air = NEVER;
     loads_.hold = false;
@@ -174,9 +182,8 @@ void ForestPhysics::step(const Site& at, Nanoseconds from, Nanoseconds to, std::
   }
 }
 
-// Springs and forces on a tree. Targets move in a straight line from tick to tick.
-void ForestPhysics::gather(std::uint32_t tree, const Vec3& foot, Nanoseconds from, Nanoseconds now,
-                           Nanoseconds to) {
+// Springs on a tree. Targets move in a straight line from tick to tick.
+void ForestPhysics::gather(std::uint32_t tree, const Vec3& foot, Nanoseconds from, Nanoseconds to) {
   loads_.springs.clear();
   loads_.forces.clear();
   const double seconds = secondsBetween(from, to);
@@ -187,9 +194,16 @@ void ForestPhysics::gather(std::uint32_t tree, const Vec3& foot, Nanoseconds fro
     loads_.springs.push_back({grab.point, grab.target - foot, velocity, to, grab.stiffness,
                               grab.damping, grab.force_limit});
   }
-  for (const Push& push : pushes_)
-    if (push.point.tree == tree && push.until > now)
-      loads_.forces.push_back({push.point.branch, push.point.along, push.force});
+}
+
+// Forces on a tree in a step: means, such that each push gives its whole impulse.
+void ForestPhysics::addPushes(std::uint32_t tree, Nanoseconds from, Nanoseconds to) {
+  for (const Push& push : pushes_) {
+    const Nanoseconds begin = std::max(push.from, from), end = std::min(push.until, to);
+    if (push.point.tree != tree || end <= begin) continue;
+    const double share = secondsBetween(begin, end) / secondsBetween(from, to);
+    loads_.forces.push_back({push.point.branch, push.point.along, share * push.force});
+  }
 }
 
 // After the last step: what the bodies feel, and who may be procedural again.
@@ -197,7 +211,7 @@ void ForestPhysics::settle(const Site& at, Nanoseconds from, Nanoseconds to) {
   reactToBodies(steps_);
   for (auto& [tree, part] : parts_) {
     if (to <= from) {
-      gather(tree, part.tree().foot, from, to, to);
+      gather(tree, part.tree().foot, from, to);
       feel(at, tree, part, to, to);
     }
     react(tree, part, secondsBetween(from, to));
@@ -215,6 +229,7 @@ void ForestPhysics::settle(const Site& at, Nanoseconds from, Nanoseconds to) {
 }
 
 bool ForestPhysics::isLoaded(std::uint32_t tree) const {
+  if (isNear(tree)) return true;
   for (const auto& entry : grabs_)
     if (entry.second.point.tree == tree) return true;
   return std::any_of(pushes_.begin(), pushes_.end(),

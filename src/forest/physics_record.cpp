@@ -17,7 +17,7 @@ PhysicsFigures ForestPhysics::figures() const {
     out.bytes += part.bytes();
   }
   out.steps = steps_;
-  out.refused = refused_;
+  for (const auto& entry : refused_) out.refused += entry.second;
   out.skipped = skipped_;
   out.coarse = coarse_;
   out.replaced = scratch_.replaced;
@@ -47,7 +47,8 @@ void ForestPhysics::addTo(Hash& hash) const {
   for (const Push& push : pushes_) {
     add(push.point);
     hash.add(push.force);
-    hash.add(static_cast<std::uint64_t>(push.until));
+    for (const Nanoseconds stamp : {push.until, push.from})
+      hash.add(static_cast<std::uint64_t>(stamp));
   }
   for (const auto& [id, body] : bodies_) {
     hash.add(id);

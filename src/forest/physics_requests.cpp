@@ -48,6 +48,11 @@ void checkTarget(const Vec3& target, const Vec3& foot, double reach, Faults& fau
   if (!fault.empty()) faults.add(fault);
 }
 
+// Targets are no farther from the tree's foot [m].
+double reachOf(const Tree& tree) {
+  return REACH_FACTOR * (tree.skeleton.height + tree.skeleton.reach);
+}
+
 // A part that is there to look at its tree: it goes again unless the request is accepted.
 class Provisional {
  public:
@@ -80,6 +85,29 @@ auto& known(Map& map, const Key& key, const std::string& what) {
 
 }  // namespace
 
+void checkGrab(const Layout& layout, const Tree& tree, const Grab& grab) {
+  checkTree(layout, "grab", grab.point.tree);
+  Faults faults;
+  check(grab, faults);
+  checkPoint(tree, "grab", grab.point, faults);
+  if (faults.empty()) checkTarget(grab.target, tree.foot, reachOf(tree), faults);
+  faults.throwIfAny();
+}
+
+void checkTarget(const Tree& tree, const Vec3& target) {
+  Faults faults;
+  checkTarget(target, tree.foot, reachOf(tree), faults);
+  faults.throwIfAny();
+}
+
+void checkPush(const Layout& layout, const Tree& tree, const Push& push) {
+  checkTree(layout, "push", push.point.tree);
+  Faults faults;
+  check(push, faults);
+  checkPoint(tree, "push", push.point, faults);
+  faults.throwIfAny();
+}
+
 // At least the loaded branch must find room.
 void ForestPhysics::checkRoom(const std::string& what, std::uint32_t tree, int branch) const {
   const auto part = parts_.find(tree);
@@ -110,17 +138,12 @@ std::uint32_t ForestPhysics::addGrab(const Site& at, Grab grab) {
     throw InvalidInput("grab: id = " + count(grab.id) + " is in use, allowed is 0 for a new one");
   Provisional part(parts_, grab.point.tree, [&] { partOf(at, grab.point.tree); });
   const Tree& grown = part.get().tree();
-  Faults faults;
-  check(grab, faults);
-  checkPoint(grown, "grab", grab.point, faults);
-  const double reach = REACH_FACTOR * (grown.skeleton.height + grown.skeleton.reach);
-  if (faults.empty()) checkTarget(grab.target, grown.foot, reach, faults);
-  faults.throwIfAny();
+  checkGrab(at.layout, grown, grab);
   checkRoom("grab", grab.point.tree, grab.point.branch);
   part.keep();
   next_grab_ = std::max(next_grab_, grab.id + 1);
   grabs_[grab.id] = grab;
-  holds_[grab.id] = {grab.target, true, reach, grown.foot};
+  holds_[grab.id] = {grab.target, true, reachOf(grown), grown.foot};
   next_review_ = 0;
   return grab.id;
 }
@@ -152,10 +175,7 @@ void ForestPhysics::push(const Site& at, const Push& push) {
     throw InvalidInput("push: there are " + count(pushes_.size()) + " pushes, allowed are " +
                        count(MOST_PUSHES));
   Provisional part(parts_, push.point.tree, [&] { partOf(at, push.point.tree); });
-  Faults faults;
-  check(push, faults);
-  checkPoint(part.get().tree(), "push", push.point, faults);
-  faults.throwIfAny();
+  checkPush(at.layout, part.get().tree(), push);
   checkRoom("push", push.point.tree, push.point.branch);
   part.keep();
   pushes_.push_back(push);

@@ -32,6 +32,17 @@ JointAngles inModes(const ModalLooks& modal, int branch, std::size_t look, doubl
   return between(procedural, bendOf(modal.sway->modes(), modal.amplitude[look], branch), share);
 }
 
+// In this air, and in the modes.
+JointAngles anglesAt(const Course& course, int branch, std::size_t look, const Vec3& air) {
+  const Branch& b = course.tree.skeleton.branches[static_cast<std::size_t>(branch)];
+  const double weight = course.weights[look][static_cast<std::size_t>(b.depth)];
+  const double share = course.modalShare(look);
+  JointAngles out;
+  if (weight > 0.0 && share < 1.0) out = bendOf(course.tree, branch, air, weight);
+  if (share > 0.0) out = inModes(*course.modal, branch, look, share, out);
+  return out;
+}
+
 // Central differences.
 JointCourse courseOf(const JointAngles& a, const JointAngles& b, const JointAngles& c) {
   const double twice = 2.0 * STEP, square = STEP * STEP;
@@ -49,13 +60,6 @@ void ModalLooks::lookAt(const Sway& at, Nanoseconds stamp) {
     at.amplitudeBetween(stamp + (static_cast<Nanoseconds>(look) - 1) * LOOK, amplitude[look]);
 }
 
-void WindWindow::lookAt(const wind::Field& field, Nanoseconds stamp) {
-  stamp_ = stamp;
-  field.at(stamp - LOOK, looks_[0]);
-  field.at(stamp, looks_[1]);
-  field.at(stamp + LOOK, looks_[2]);
-}
-
 Course::Course(const Tree& tree, const WindWindow& wind, const LevelState& level,
                const MotionLaw& law, const ModalLooks* modal)
     : tree(tree), wind(wind), modal(modal) {
@@ -64,19 +68,13 @@ Course::Course(const Tree& tree, const WindWindow& wind, const LevelState& level
         weightsAt(level, wind.stamp() + (static_cast<Nanoseconds>(look) - 1) * LOOK, law);
 }
 
-JointAngles Course::anglesAt(int branch, std::size_t look) const {
-  const Branch& b = tree.skeleton.branches[static_cast<std::size_t>(branch)];
-  const double weight = weights[look][static_cast<std::size_t>(b.depth)];
-  const double share = modalShare(look);
-  JointAngles out;
-  if (weight > 0.0 && share < 1.0)
-    out = bendOf(tree, branch, wind.looks()[look].velocity(tree.foot + b.rest.position), weight);
-  if (share > 0.0) out = inModes(*modal, branch, look, share, out);
-  return out;
-}
-
 JointCourse Course::at(int branch) const {
-  return courseOf(anglesAt(branch, 0), anglesAt(branch, 1), anglesAt(branch, 2));
+  const Branch& b = tree.skeleton.branches[static_cast<std::size_t>(branch)];
+  const std::array<Vec3, 3> air = wind.velocities(tree.foot + b.rest.position);
+  std::array<JointAngles, 3> angles;
+  for (std::size_t look = 0; look < 3; ++look)
+    angles[look] = anglesAt(*this, branch, look, air[look]);
+  return courseOf(angles[0], angles[1], angles[2]);
 }
 
 void Courses::look(const Course& course, const std::vector<int>& branches) {
@@ -84,18 +82,14 @@ void Courses::look(const Course& course, const std::vector<int>& branches) {
   air_.clear();
   for (const int branch : branches)
     air_.add(tree.foot + tree.skeleton.branches[static_cast<std::size_t>(branch)].rest.position);
+  const auto needs_air = [&](std::size_t look) { return course.modalShare(look) < 1.0; };
+  if (needs_air(0) || needs_air(1) || needs_air(2)) air_.sample(course.wind);
   for (std::size_t look = 0; look < angles_.size(); ++look) {
-    const double share = course.modalShare(look);
-    if (share < 1.0) air_.sample(course.wind.looks()[look]);
+    const bool in_air = needs_air(look);
     angles_[look].resize(branches.size());
     for (std::size_t i = 0; i < branches.size(); ++i) {
-      const auto branch = static_cast<std::size_t>(branches[i]);
-      const auto depth = static_cast<std::size_t>(tree.skeleton.branches[branch].depth);
-      const double weight = course.weights[look][depth];
-      JointAngles& out = angles_[look][i];
-      out = weight > 0.0 && share < 1.0 ? bendOf(tree, branches[i], air_.velocity(i), weight)
-                                        : JointAngles();
-      if (share > 0.0) out = inModes(*course.modal, branches[i], look, share, out);
+      const Vec3 air = in_air ? air_.velocity(i, look) : Vec3(Vec3::Zero());
+      angles_[look][i] = anglesAt(course, branches[i], look, air);
     }
   }
 }

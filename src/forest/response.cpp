@@ -91,8 +91,7 @@ JointAngles deviation(const Response& response, const Vec3& velocity, double wei
 Quat jointRotation(const Branch& branch, const JointAngles& angles, JointModel model) {
   if (model == JointModel::PAPER)
     return restRotation(branch.theta + angles.first, branch.phi + angles.second);
-  return restRotation(branch.theta, branch.phi) *
-         physics::bendRotation({angles.first, angles.second});
+  return branch.turn * physics::bendRotation({angles.first, angles.second});
 }
 
 }  // namespace vegetation_sim::forest

@@ -21,6 +21,7 @@ struct Limb {
   double h{0.0};   // along that segment
   double theta{0.0}, phi{0.0};
   double length{0.0}, base_radius{0.0}, tip_radius{0.0};
+  int leaves{0};
   std::uint64_t key{0};
 };
 
@@ -47,11 +48,16 @@ class Grower {
   Grower(const TreeSeed& seed, const Species& species) : seed_(seed), species_(species) {}
 
   Skeleton grow() {
-    std::vector<Limb> limbs{trunk()};
-    for (int depth = 0; depth < species_.depths() && !limbs.empty(); ++depth) {
-      addBranches(limbs, depth);
-      if (depth + 1 < species_.depths()) limbs = sprout(limbs, depth);
+    std::vector<std::vector<Limb>> limbs{{trunk()}};
+    std::size_t count = 0;
+    for (int depth = 0; depth < species_.depths() && !limbs.back().empty(); ++depth) {
+      count += limbs.back().size() * static_cast<std::size_t>(rule(depth).segments);
+      if (depth + 1 < species_.depths()) limbs.push_back(sprout(limbs.back(), depth, count));
     }
+    if (limbs.back().empty()) limbs.pop_back();
+    out_.branches.reserve(count);
+    for (std::size_t depth = 0; depth < limbs.size(); ++depth)
+      addBranches(limbs[depth], static_cast<int>(depth));
     measure();
     return std::move(out_);
   }
@@ -73,16 +79,20 @@ class Grower {
     out.tip_radius = out.base_radius * rule(0).taper;
     out.theta = seed_.yaw + PI * vary(random, AZIMUTH);
     out.phi = std::min(largestAngle(species_, 1.0), species_.lean * std::fabs(vary(random, LEAN)));
+    out.leaves = leavesOf(random, 0);
     out.key = random.key();
     return out;
   }
+  int leavesOf(const Random& limb, int depth) const {
+    return static_cast<int>(rule(depth).leaves + 0.5 + 0.5 * vary(limb, LEAVES));
+  }
 
-  // Limbs of the next depth, those of one bearer together.
-  std::vector<Limb> sprout(const std::vector<Limb>& bearers, int depth) {
+  // Limbs of the next depth, those of one bearer together. `grown`: branches there are so far.
+  std::vector<Limb> sprout(const std::vector<Limb>& bearers, int depth, std::size_t grown) const {
     std::vector<Limb> out;
     const LimbRule& next = rule(depth + 1);
-    const auto room = static_cast<std::size_t>(
-        std::max(0, MAX_BRANCHES - static_cast<int>(out_.branches.size())) / next.segments);
+    const auto room = static_cast<std::size_t>(std::max(0, MAX_BRANCHES - static_cast<int>(grown)) /
+                                               next.segments);
     for (std::size_t b = 0; b < bearers.size(); ++b) {
       const Random random = Random(bearers[b].key);
       const double wanted = next.children * (1.0 + 0.2 * vary(random, COUNT));
@@ -116,6 +126,7 @@ class Grower {
                          r.angle_variation * vary(random, ANGLE);
     const double widest = largestAngle(species_, out.base_radius / bearer_radius);
     out.phi = std::max(0.0, std::min(angle, widest));
+    out.leaves = leavesOf(random, depth);
     out.key = random.key();
     return out;
   }
@@ -178,17 +189,15 @@ class Grower {
     branch.length = limb.length / r.segments;
     branch.base_radius = radiusAt(limb, static_cast<double>(s) / r.segments);
     branch.tip_radius = radiusAt(limb, (s + 1.0) / r.segments);
-    const Random random(limb.key);
-    const int leaves = static_cast<int>(r.leaves + 0.5 + 0.5 * vary(random, LEAVES));
-    branch.leaves = leaves * (s + 1) / r.segments - leaves * s / r.segments;
-    branch.key = random.child(static_cast<std::uint64_t>(s)).key();
-    const Quat local = restRotation(branch.theta, branch.phi);
+    branch.leaves = limb.leaves * (s + 1) / r.segments - limb.leaves * s / r.segments;
+    branch.key = Random(limb.key).child(static_cast<std::uint64_t>(s)).key();
+    branch.turn = restRotation(branch.theta, branch.phi);
     if (branch.parent < 0) {
-      branch.rest.orientation = local;
+      branch.rest.orientation = branch.turn;
       return;
     }
     const Pose& parent = out_.branches[static_cast<std::size_t>(branch.parent)].rest;
-    branch.rest.orientation = parent.orientation * local;
+    branch.rest.orientation = parent.orientation * branch.turn;
     branch.rest.position = parent.position + branch.h * axisZ(parent.orientation);
   }
 

@@ -40,7 +40,7 @@ Composite bar(const Branch& b, const Species& s) {
 
 // Where a branch's joint is in the axes of its parent, and how it is turned there at rest.
 Composite onParent(const Branch& b, const Composite& body) {
-  return body.movedBy(restRotation(b.theta, b.phi), Vec3(0.0, 0.0, b.h));
+  return body.movedBy(b.turn, Vec3(0.0, 0.0, b.h));
 }
 
 }  // namespace
@@ -79,7 +79,7 @@ Wood woodOf(const Skeleton& skeleton, const Species& species, Material material)
   out.damping.resize(n);
   out.reach.resize(n);
   for (std::size_t i = 0; i < n; ++i) out.own[i] = bar(skeleton.branches[i], species);
-  clusterWood(skeleton, {out.own, {}, {}, {}, {}}, std::vector<char>(n, 0), out.subtree);
+  clusterWood(skeleton, out.own, std::vector<char>(n, 0), out.subtree);
   for (std::size_t i = n; i-- > 0;) {
     const Branch& b = skeleton.branches[i];
     const bool paper = material == Material::PAPER;
@@ -96,9 +96,9 @@ Wood woodOf(const Skeleton& skeleton, const Species& species, Material material)
   return out;
 }
 
-void clusterWood(const Skeleton& skeleton, const Wood& wood, const std::vector<char>& promoted,
-                 std::vector<Composite>& out) {
-  out = wood.own;
+void clusterWood(const Skeleton& skeleton, const std::vector<Composite>& own,
+                 const std::vector<char>& promoted, std::vector<Composite>& out) {
+  out = own;
   for (std::size_t i = out.size(); i-- > 0;) {
     const Branch& b = skeleton.branches[i];
     if (b.parent < 0 || promoted[i]) continue;

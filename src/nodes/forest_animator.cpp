@@ -92,6 +92,7 @@ void ForestAnimator::listen() {
 void ForestAnimator::startAnew() {
   forest_->reset();
   frames_.clear();
+  deepest_ = {};
   force_key_frame_ = true;
 }
 
@@ -113,6 +114,7 @@ void ForestAnimator::tick(std::int64_t tick) {
   for (ForestEvent& event : inputs_.take(stamp)) {
     event.header.frame_id = options_.frame_id;
     try {
+      desk_->aim(event);
       apply(event);
       desk_->adopt(event);
       if (!options_.replay) events_publisher_.publish(event);
@@ -123,6 +125,7 @@ void ForestAnimator::tick(std::int64_t tick) {
   }
   warnOfLosses("forest_animator", inputs_.losses(), told_);
   forest_->advance(stamp);
+  noteOverlaps();
   const auto period = static_cast<std::int64_t>(options_.key_frame_period * options_.state_rate);
   const bool key_frame = force_key_frame_ || tick % std::max<std::int64_t>(1, period) == 0;
   ForestState message = toMsg(forest_->update(key_frame));
@@ -172,6 +175,9 @@ void ForestAnimator::applyInteraction(const ForestEvent& event) {
     case ForestEvent::MOVE:
       forest_->moveGrab(event.grab.id, fromMsg(event.grab.target));
       break;
+    case ForestEvent::RENEW:
+      forest_->renewGrab(event.grab.id);
+      break;
     case ForestEvent::RELEASE:
       forest_->release(event.grab.id);
       break;
@@ -185,7 +191,7 @@ void ForestAnimator::applyInteraction(const ForestEvent& event) {
       forest_->removeBody(event.body.id);
       break;
     default:
-      throw InvalidInput("kind = " + std::to_string(event.kind) + " is outside 0 to 9");
+      throw InvalidInput("kind = " + std::to_string(event.kind) + " is outside 0 to 10");
   }
 }
 
@@ -201,12 +207,12 @@ void ForestAnimator::followBodies(Nanoseconds stamp) {
     const auto old = known.find(part.body.id);
     if (body != now.end() && (old == known.end() || old->second.stamp != body->stamp)) {
       event.body = toMsg(*body, part.in_frame);
-      inputs_.addInteraction(event);
+      inputs_.addFirst(event);
     } else if (body == now.end() && old != known.end()) {
       ForestEvent gone;
       gone.kind = ForestEvent::REMOVE_BODY;
       gone.body.id = part.body.id;
-      inputs_.addInteraction(gone);
+      inputs_.addFirst(gone);
     }
   }
 }

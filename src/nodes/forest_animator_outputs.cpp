@@ -80,6 +80,8 @@ void ForestAnimator::diagnose(diagnostic_updater::DiagnosticStatusWrapper& statu
   status.add("State sent [B]", counts_.state_bytes);
   status.add("Grown branches held", cache_.branches());
   addPhysics(status);
+  deepest_ = {};
+  noteOverlaps();
   status.add("tf frames", frames_sent_);
   status.add("tf budget [frames]", frames_.budget());
   status.add("Marker points", markers_.points());
@@ -137,8 +139,19 @@ void ForestAnimator::addPhysics(diagnostic_updater::DiagnosticStatusWrapper& sta
   status.add("Physics memory [B]", figures.bytes);
   status.add("Physics steps of the last tick", figures.steps);
   status.add("Gaps in time not stepped through", figures.skipped);
+  status.add("Steps too long for the integrator", figures.replaced);
   status.add("Steps whose contacts were too fast", figures.coarse);
   status.add("Forces at their limit", figures.capped_forces);
+  status.add("Deepest overlap with a body [m]", deepest_.penetration);
+  if (deepest_.penetration > 0.0)
+    status.add("Deepest overlap, where", deepest_.body + " in tree_" +
+                                             std::to_string(deepest_.at.tree) + "/branch_" +
+                                             std::to_string(deepest_.at.branch));
+}
+
+void ForestAnimator::noteOverlaps() {
+  for (const forest::Reaction& reaction : forest_->reactions())
+    if (reaction.penetration > deepest_.penetration) deepest_ = reaction;
 }
 
 }  // namespace vegetation_sim

@@ -40,7 +40,8 @@ void ForestInputs::addLast(const ForestEvent& event) {
     waiting = event;
     return;
   }
-  if (waiting_.size() < MOST_WAITING)
+  // One of each other kind always finds room, however many requests wait.
+  if (event.kind != ForestEvent::VIEWER || waiting_.size() < MOST_WAITING)
     waiting_.push_back(event);
   else
     ++losses_.lost;
@@ -67,10 +68,10 @@ void ForestInputs::addReset() {
 
 void ForestInputs::addInteraction(const ForestEvent& event) {
   if (replay_) return;
-  if (event.kind == ForestEvent::MOVE || event.kind == ForestEvent::BODY)
+  if (event.kind == ForestEvent::MOVE || event.kind == ForestEvent::RENEW)
     for (ForestEvent& waiting : waiting_) {
       if (waiting.kind != event.kind || waiting.header.stamp != event.header.stamp ||
-          waiting.grab.id != event.grab.id || waiting.body.id != event.body.id)
+          waiting.grab.id != event.grab.id)
         continue;
       waiting = event;
       return;
@@ -86,8 +87,7 @@ void ForestInputs::addFirst(const ForestEvent& event) {
 
 void ForestInputs::forgetGrab(std::uint32_t id) {
   const auto about = [&](const ForestEvent& event) {
-    return event.kind >= ForestEvent::GRAB && event.kind <= ForestEvent::RELEASE &&
-           event.grab.id == id;
+    return event.grab.id == id;  // 0 in all other kinds
   };
   waiting_.erase(std::remove_if(waiting_.begin(), waiting_.end(), about), waiting_.end());
 }

@@ -59,9 +59,14 @@ ForestEvent GrabDesk::eventAt(std::uint8_t kind, const ros::Time& stamp) const {
   return event;
 }
 
+std::shared_ptr<const forest::Tree> GrabDesk::grown(std::uint32_t tree) const {
+  const auto found = room_.cache.get(room_.forest.layout(), room_.forest.terrain(), tree);
+  return {found, &found->tree};
+}
+
 GrabDesk::Place GrabDesk::placeOf(std::uint32_t tree, std::uint32_t branch, double along) const {
-  const auto grown = room_.cache.get(room_.forest.layout(), room_.forest.terrain(), tree);
-  const std::vector<forest::Branch>& branches = grown->tree.skeleton.branches;
+  const auto found = grown(tree);
+  const std::vector<forest::Branch>& branches = found->skeleton.branches;
   if (branch >= branches.size())
     throw InvalidInput("branch = " + std::to_string(branch) + " is unknown; tree " +
                        std::to_string(tree) + " has " + std::to_string(branches.size()) +
@@ -69,9 +74,9 @@ GrabDesk::Place GrabDesk::placeOf(std::uint32_t tree, std::uint32_t branch, doub
   Faults faults;
   FieldChecker("", faults).number("along", along, "m", {0.0, branches[branch].length});
   faults.throwIfAny();
-  const Pose pose = room_.forest.pose(grown->tree, tree, room_.forest.memory().stamp)[branch];
+  const Pose pose = room_.forest.pose(*found, tree, room_.forest.memory().stamp)[branch];
   return {{tree, static_cast<int>(branch), along},
-          grown->tree.foot + pose.position + along * axisZ(pose.orientation)};
+          found->foot + pose.position + along * axisZ(pose.orientation)};
 }
 
 GrabDesk::Place GrabDesk::nearestTo(const geometry_msgs::PointStamped& stamped) const {
@@ -79,9 +84,8 @@ GrabDesk::Place GrabDesk::nearestTo(const geometry_msgs::PointStamped& stamped) 
   const auto found = forest::nearestBranch(
       room_.forest.layout(), room_.forest.terrain(), point, NEAREST_REACH,
       [&](std::uint32_t id) -> forest::PosedTree {
-        const auto grown = room_.cache.get(room_.forest.layout(), room_.forest.terrain(), id);
-        return {std::shared_ptr<const forest::Tree>(grown, &grown->tree),
-                room_.forest.pose(grown->tree, id, room_.forest.memory().stamp)};
+        const auto tree = grown(id);
+        return {tree, room_.forest.pose(*tree, id, room_.forest.memory().stamp)};
       });
   if (!found) throw InvalidInput("no branch within 2 m of point");
   return {found->at, found->point};
@@ -103,42 +107,40 @@ Vec3 GrabDesk::inWorld(const geometry_msgs::PointStamped& stamped, const char* n
   return transformed(fromMsg(by.transform), point);
 }
 
-double GrabDesk::checkDistance(const Vec3& held, const Vec3& target) const {
-  double distance = length(target - held);
+// @return [m] from the point held to the target
+double GrabDesk::checkTarget(const BranchGrab& grab, const Vec3& point) const {
+  double distance = length(fromMsg(grab.target) - point);
   Faults faults;
   FieldChecker("", faults)
       .number("target, its distance from the point held,", distance, "m",
               {0.0, room_.options.grab_distance});
   faults.throwIfAny();
+  forest::checkTarget(*grown(grab.tree), fromMsg(grab.target));
   return distance;
 }
 
-// What tf last said of the frame must be younger than the lease: a dead gripper holds nothing.
-void GrabDesk::tie(const std::string& frame, Held& out) const {
-  const auto newest = lookUp(room_, frame, ros::Time(0), "frame");
-  out.told = newest.header.stamp;
-  out.grab.holder = toMsg(fromMsg(newest.transform));
-  if (out.told.isZero()) return;  // static
-  const double age = secondsBetween(fromMsg(out.told), room_.forest.memory().stamp);
-  if (age > out.grab.lease)
-    throw InvalidInput("frame = '" + frame + "' was last told " + std::to_string(age) +
-                       " s ago, longer than the lease of " + std::to_string(out.grab.lease) + " s");
+// Who asks ahead may find room by then.
+void GrabDesk::checkRoom(const char* what, const Place& place, const ros::Time& stamp) const {
+  if (stamp.isZero()) room_.forest.memory().physics.checkRoom(what, place.at.tree, place.at.branch);
 }
 
-void GrabDesk::aim(const Grab::Request& request, const Vec3& held, Held& out) const {
-  out.grab.frame = request.frame;
-  out.grab.holder.orientation.w = 1.0;
-  if (request.frame.empty()) {
-    out.grab.target = toPoint(inWorld(request.target, "target"));
-  } else {
-    tie(request.frame, out);
-    const Pose frame = fromMsg(out.grab.holder);
-    out.grab.offset =
-        request.keep_offset ? toPoint(transformed(inverse(frame), held)) : request.offset;
-    checkFinite("offset", fromMsg(out.grab.offset), {-1e3, 1e3});
-    out.grab.target = toPoint(transformed(frame, fromMsg(out.grab.offset)));
+// Where its frame is, and the target in it. What tf last said of the frame must be younger than the
+// lease: a dead gripper holds nothing.
+void GrabDesk::tie(const Vec3& point, Held& out) const {
+  BranchGrab& grab = out.grab;
+  const auto newest = lookUp(room_, grab.frame, ros::Time(0), "frame");
+  const Pose frame = fromMsg(newest.transform);
+  out.told = newest.header.stamp;
+  if (!out.told.isZero()) {  // else static
+    const double age = secondsBetween(fromMsg(out.told), room_.forest.memory().stamp);
+    if (age > grab.lease)
+      throw InvalidInput("frame = '" + grab.frame + "' was last told " + std::to_string(age) +
+                         " s ago, longer than the lease of " + std::to_string(grab.lease) + " s");
   }
-  checkDistance(held, fromMsg(out.grab.target));
+  if (out.keep_offset) grab.offset = toPoint(transformed(inverse(frame), point));
+  checkFinite("offset", fromMsg(grab.offset), {-1e3, 1e3});
+  grab.holder = toMsg(frame);
+  grab.target = toPoint(transformed(frame, fromMsg(grab.offset)));
 }
 
 std::string GrabDesk::grab(const Grab::Request& request, Grab::Response& response) {
@@ -149,23 +151,34 @@ std::string GrabDesk::grab(const Grab::Request& request, Grab::Response& respons
                        std::to_string(MOST_GRABS));
   const Place place = choose(request);
   Held held;
-  held.grab.id = last_id_ + 1;
-  held.grab.tree = place.at.tree;
-  held.grab.branch = static_cast<std::uint32_t>(place.at.branch);
-  held.grab.along = place.at.along;
-  held.grab.stiffness = orElse(request.stiffness, STIFFNESS);
-  held.grab.damping = orElse(request.damping, DAMPING);
-  held.grab.force_limit = orElse(request.force_limit, FORCE_LIMIT);
-  held.grab.lease = orElse(request.lease, room_.options.grab_lease);
-  aim(request, place.point, held);
-  fromMsg(held.grab);  // checks it
-  event.grab = held.grab;
+  held.begins = request.stamp;
+  held.keep_offset = request.keep_offset;
+  BranchGrab& grab = held.grab;
+  grab.id = last_id_ + 1;
+  grab.tree = place.at.tree;
+  grab.branch = static_cast<std::uint32_t>(place.at.branch);
+  grab.along = place.at.along;
+  grab.stiffness = orElse(request.stiffness, STIFFNESS);
+  grab.damping = orElse(request.damping, DAMPING);
+  grab.force_limit = orElse(request.force_limit, FORCE_LIMIT);
+  grab.lease = orElse(request.lease, room_.options.grab_lease);
+  grab.frame = request.frame;
+  grab.offset = request.offset;
+  grab.holder.orientation.w = 1.0;
+  if (request.frame.empty())
+    grab.target = toPoint(inWorld(request.target, "target"));
+  else
+    tie(place.point, held);
+  checkTarget(grab, place.point);
+  forest::checkGrab(room_.forest.layout(), *grown(grab.tree), fromMsg(grab));
+  checkRoom("grab", place, request.stamp);
+  event.grab = grab;
   room_.inputs.addInteraction(event);
   held_[++last_id_] = held;
   response.id = last_id_;
-  response.tree = held.grab.tree;
-  response.branch = held.grab.branch;
-  response.along = held.grab.along;
+  response.tree = grab.tree;
+  response.branch = grab.branch;
+  response.along = grab.along;
   response.point = toPoint(place.point);
   return "grab " + std::to_string(last_id_) + " of tree_" + std::to_string(response.tree) +
          "/branch_" + std::to_string(response.branch);
@@ -182,26 +195,36 @@ GrabDesk::Held& GrabDesk::find(std::uint32_t id) {
       (known.empty() ? " is unknown; nothing is held" : " is unknown; held are " + known));
 }
 
+// A grab that takes hold after `stamp`, zero: after the next tick.
+bool GrabDesk::waitsLonger(const Held& held, const ros::Time& stamp) {
+  return !held.in_force && !held.begins.isZero() && (stamp.isZero() || stamp < held.begins);
+}
+
 std::string GrabDesk::move(const MoveGrab::Request& request, MoveGrab::Response& response) {
   requireLive();
   Held& held = find(request.id);
-  ForestEvent event = eventAt(ForestEvent::MOVE, request.stamp);
-  event.grab.id = held.grab.id;
-  event.grab.target = held.grab.target;
-  event.grab.holder = held.grab.holder;
+  ForestEvent event =
+      eventAt(request.renew_only ? ForestEvent::RENEW : ForestEvent::MOVE, request.stamp);
+  if (waitsLonger(held, request.stamp))
+    throw InvalidInput("id = " + std::to_string(request.id) + " takes hold at " +
+                       std::to_string(held.begins.toSec()) + " s; allowed is a stamp from then on");
+  BranchGrab moved = held.grab;
   if (!request.renew_only) {
     if (!held.grab.frame.empty())
       throw InvalidInput("id = " + std::to_string(request.id) + " follows frame '" +
                          held.grab.frame + "'; allowed is renew_only");
-    event.grab.target = toPoint(inWorld(request.target, "target"));
+    moved.target = toPoint(inWorld(request.target, "target"));
   }
-  const Place place = placeOf(held.grab.tree, held.grab.branch, held.grab.along);
-  response.distance = checkDistance(place.point, fromMsg(event.grab.target));
+  const Place place = placeOf(moved.tree, moved.branch, moved.along);
+  const double distance = length(fromMsg(moved.target) - place.point);
+  response.distance = request.renew_only ? distance : checkTarget(moved, place.point);
   response.point = toPoint(place.point);
   for (const forest::Reaction& reaction : room_.forest.reactions())
     if (reaction.grab == request.id) response.force = toVector(reaction.force);
+  event.grab.id = moved.id;
+  event.grab.target = moved.target;
+  event.grab.holder = moved.holder;
   room_.inputs.addInteraction(event);
-  if (request.stamp.isZero()) held.grab.target = event.grab.target;
   return request.renew_only ? "lease renewed" : "moved";
 }
 
@@ -211,14 +234,15 @@ std::string GrabDesk::release(const Release::Request& request) {
   if (!request.all) find(request.id);
   std::size_t count = 0;
   for (auto entry = held_.begin(); entry != held_.end();) {
-    const std::uint32_t id = entry->first;
+    const auto& [id, held] = *entry;
     const bool meant = request.all || id == request.id;
-    const bool waits = !entry->second.in_force && request.stamp.isZero();
-    if (meant && waits) room_.inputs.forgetGrab(id);
+    const bool never =  // takes hold
+        !held.in_force && (request.stamp.isZero() || request.stamp <= held.begins);
+    if (meant && never) room_.inputs.forgetGrab(id);
     event.grab.id = id;
-    if (meant && !waits) room_.inputs.addInteraction(event);
+    if (meant && !never) room_.inputs.addInteraction(event);
     count += meant ? 1 : 0;
-    entry = meant && waits ? held_.erase(entry) : std::next(entry);
+    entry = meant && never ? held_.erase(entry) : std::next(entry);
   }
   return std::to_string(count) + " released";
 }
@@ -239,6 +263,8 @@ std::string GrabDesk::push(const ApplyForce::Request& request, ApplyForce::Respo
         fromMsg(lookUp(room_, frame, request.force.header.stamp, "force.frame_id").transform);
     event.force.force = toVector(rotate(by.orientation, fromMsg(request.force.vector)));
   }
+  forest::checkPush(room_.forest.layout(), *grown(place.at.tree), fromMsg(event.force, 0));
+  checkRoom("push", place, request.stamp);
   room_.inputs.addInteraction(event);
   response.tree = place.at.tree;
   response.branch = event.force.branch;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <tf2/exceptions.h>
 
+#include "vegetation_sim/forest/contact_body.h"
 #include "vegetation_sim/nodes/grab_desk.h"
 #include "vegetation_sim/ros/grab_conversions.h"
 #include "vegetation_sim/ros/stamps.h"
@@ -23,8 +24,9 @@ bool GrabDesk::followOne(Held& held, Nanoseconds stamp) {
   const Pose pose = fromMsg(newest.transform);
   event.grab.holder = toMsg(pose);
   event.grab.target = toPoint(transformed(pose, fromMsg(held.grab.offset)));
-  const Place place = placeOf(held.grab.tree, held.grab.branch, held.grab.along);
-  checkDistance(place.point, fromMsg(event.grab.target));
+  BranchGrab moved = held.grab;
+  moved.target = event.grab.target;
+  checkTarget(moved, placeOf(moved.tree, moved.branch, moved.along).point);
   held.told = told;
   room_.inputs.addFirst(event);
   return true;
@@ -44,6 +46,16 @@ void GrabDesk::follow(Nanoseconds stamp, const Report& report) {
       report("frame of grab " + std::to_string(id), error.what());
     }
   }
+}
+
+void GrabDesk::aim(ForestEvent& event) {
+  if (event.kind != ForestEvent::GRAB || event.grab.frame.empty() || room_.options.replay) return;
+  const auto found = held_.find(event.grab.id);
+  if (found == held_.end()) return;
+  const Vec3 point = placeOf(event.grab.tree, event.grab.branch, event.grab.along).point;
+  tie(point, found->second);
+  checkTarget(found->second.grab, point);
+  event.grab = found->second.grab;
 }
 
 void GrabDesk::adopt(const ForestEvent& event) {
@@ -113,7 +125,7 @@ void GrabDesk::clear(bool waiting_too) {
   silent_ = 0;
 }
 
-// World pose of the frame in which a reaction is told.
+// World pose, at the tick, of the frame in which a reaction is told.
 Pose GrabDesk::frameOf(const forest::Reaction& reaction) const {
   if (reaction.kind == forest::Reaction::GRAB) {
     const auto held = held_.find(reaction.grab);
@@ -122,8 +134,10 @@ Pose GrabDesk::frameOf(const forest::Reaction& reaction) const {
     if (gone != gone_.end()) return gone->second;
   } else {
     const auto body = bodies_.find(reaction.body);
-    if (body != bodies_.end())
-      return compose(fromMsg(body->second.pose), inverse(fromMsg(body->second.offset)));
+    if (body != bodies_.end()) {
+      const Pose now = poseAt(fromMsg(body->second), room_.forest.memory().stamp);
+      return compose(now, inverse(fromMsg(body->second.offset)));
+    }
   }
   return {reaction.point, {}};
 }

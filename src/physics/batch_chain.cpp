@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "physics/chain_sweep.h"
 #include "vegetation_sim/common/faults.h"
@@ -72,16 +71,23 @@ void BatchChain::sortGroup(const std::vector<std::vector<Link>>& trees, std::siz
   }
   group.begin = slot_count_;
   group.end = slot_count_ = sortIntoLevels(parents, slot_count_, group.levels, slots_);
-  for (const std::size_t t : group.trees) sortBySlot(trees_[t]);
+  sortBySlot(group);
   group.bases.resize(group.levels.empty() ? 0 : static_cast<std::size_t>(group.levels[0].count));
 }
 
-void BatchChain::sortBySlot(Member& member) {
-  member.by_slot.resize(member.count);
-  std::iota(member.by_slot.begin(), member.by_slot.end(), std::size_t{0});
-  const int* slots = slots_.data() + member.first;
-  std::sort(member.by_slot.begin(), member.by_slot.end(),
-            [slots](std::size_t a, std::size_t b) { return slots[a] < slots[b]; });
+// Each member's links in the order of their slots.
+void BatchChain::sortBySlot(const ChainGroup& group) {
+  constexpr std::size_t NOBODY = ~std::size_t{0};
+  struct Owner {
+    std::size_t tree{NOBODY}, link{0};
+  };
+  std::vector<Owner> owners(static_cast<std::size_t>(group.end - group.begin));
+  for (const std::size_t t : group.trees)
+    for (std::size_t i = 0; i < trees_[t].count; ++i)
+      owners[static_cast<std::size_t>(slots_[trees_[t].first + i] - group.begin)] = {t, i};
+  for (const std::size_t t : group.trees) trees_[t].by_slot.reserve(trees_[t].count);
+  for (const Owner& owner : owners)
+    if (owner.tree != NOBODY) trees_[owner.tree].by_slot.push_back(owner.link);
 }
 
 std::size_t BatchChain::blocks() const {

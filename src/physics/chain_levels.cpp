@@ -9,25 +9,49 @@
 namespace vegetation_sim::physics {
 namespace {
 
-using Children = std::vector<std::vector<int>>;
+// The children of all joints in one list; joint i has those from first[i] up to first[i + 1].
+struct Children {
+  std::vector<int> first, joints;
+
+  std::size_t count(int joint) const {
+    const auto i = static_cast<std::size_t>(joint);
+    return static_cast<std::size_t>(first[i + 1] - first[i]);
+  }
+  int of(int joint, std::size_t rank) const {
+    return joints[static_cast<std::size_t>(first[static_cast<std::size_t>(joint)]) + rank];
+  }
+};
+
+std::vector<int> heightsOf(const std::vector<int>& parents) {
+  std::vector<int> out(parents.size(), 0);
+  for (std::size_t i = parents.size(); i-- > 0;)
+    if (parents[i] >= 0) {
+      int& below = out[static_cast<std::size_t>(parents[i])];
+      below = std::max(below, out[i] + 1);
+    }
+  return out;
+}
 
 // The tallest child first: it is the one that most parents have, and those fill whole vectors.
 Children childrenOf(const std::vector<int>& parents, std::vector<int>& roots) {
   const std::size_t n = parents.size();
-  std::vector<int> height(n, 0);
-  for (std::size_t i = n; i-- > 0;)
-    if (parents[i] >= 0) {
-      int& below = height[static_cast<std::size_t>(parents[i])];
-      below = std::max(below, height[i] + 1);
-    }
-  Children out(n);
+  Children out{std::vector<int>(n + 1, 0), std::vector<int>(n)};
+  for (const int parent : parents)
+    if (parent >= 0) ++out.first[static_cast<std::size_t>(parent) + 1];
+  for (std::size_t i = 0; i < n; ++i) out.first[i + 1] += out.first[i];
+  std::vector<int> end(out.first.begin(), out.first.end() - 1);
   for (std::size_t i = 0; i < n; ++i) {
-    std::vector<int>& siblings = parents[i] < 0 ? roots : out[static_cast<std::size_t>(parents[i])];
-    siblings.push_back(static_cast<int>(i));
+    if (parents[i] < 0)
+      roots.push_back(static_cast<int>(i));
+    else
+      out.joints[static_cast<std::size_t>(end[static_cast<std::size_t>(parents[i])]++)] =
+          static_cast<int>(i);
   }
-  for (std::vector<int>& siblings : out)
-    std::stable_sort(siblings.begin(), siblings.end(), [&](int a, int b) {
-      return height[static_cast<std::size_t>(a)] > height[static_cast<std::size_t>(b)];
+  const std::vector<int> height = heightsOf(parents);
+  for (std::size_t i = 0; i < n; ++i)
+    std::sort(out.joints.begin() + out.first[i], out.joints.begin() + end[i], [&](int a, int b) {
+      const int ha = height[static_cast<std::size_t>(a)], hb = height[static_cast<std::size_t>(b)];
+      return ha != hb ? ha > hb : a < b;
     });
   return out;
 }
@@ -35,11 +59,11 @@ Children childrenOf(const std::vector<int>& parents, std::vector<int>& roots) {
 Brood broodOf(const std::vector<int>& level, const Children& children, std::size_t rank,
               std::vector<int>& next) {
   Brood out;
+  out.first.reserve(level.size() + ROW + 1);
   for (std::size_t i = 0; i < level.size(); ++i) {
     out.first.push_back(static_cast<std::int32_t>(next.size()));
-    const std::vector<int>& own = children[static_cast<std::size_t>(level[i])];
-    if (own.size() <= rank) continue;
-    next.push_back(own[rank]);
+    if (children.count(level[i]) <= rank) continue;
+    next.push_back(children.of(level[i], rank));
     out.parents = static_cast<int>(i) + 1;
   }
   out.end = static_cast<int>(next.size());
@@ -65,7 +89,7 @@ int sortIntoLevels(const std::vector<int>& parents, int begin, std::vector<Level
     for (std::size_t i = 0; i < current.size(); ++i) {
       const auto joint = static_cast<std::size_t>(current[i]);
       slots[offset + joint] = begin + static_cast<int>(i);
-      ranks = std::max(ranks, children[joint].size());
+      ranks = std::max(ranks, children.count(current[i]));
     }
     for (std::size_t rank = 0; rank < ranks; ++rank)
       level.broods.push_back(broodOf(current, children, rank, next));

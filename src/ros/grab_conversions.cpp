@@ -62,6 +62,7 @@ forest::Push fromMsg(const BranchForce& message, Nanoseconds start) {
   checker.number("along", out.point.along, "m", {0.0, 1e4});
   checker.number("duration", duration, "s", {0.001, 3600.0});
   faults.throwIfAny();
+  out.from = start;
   out.until = start + fromSeconds(duration);
   return out;
 }

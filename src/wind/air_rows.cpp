@@ -47,16 +47,21 @@ HWY_INLINE Lanes cosineSeries(Lanes x2) {
   return all(1.0) - all(0.5) * x2 + x2 * x2 * c;
 }
 
-// sinCosTurns(turns).cos, every operation of it.
-HWY_INLINE Lanes cosTurns(Lanes turns) {
+struct LanesSinCos {
+  Lanes sin, cos;
+};
+
+// sinCosTurns of common/math.h, every operation of it.
+HWY_INLINE LanesSinCos sinCosTurns(Lanes turns) {
   const Lanes fraction = turns - hn::Floor(turns + all(0.5));
   const Lanes quarter = hn::Floor(fraction * all(4.0) + all(0.5));
   const Lanes x = (fraction - quarter * all(0.25)) * all(2.0 * PI), x2 = x * x;
-  const Lanes size = hn::Abs(quarter);
-  const auto odd = size == all(1.0);
-  const Lanes value = hn::IfThenElse(odd, sineSeries(x, x2), cosineSeries(x2));
-  const auto positive = hn::Or(quarter == hn::Zero(Tag()), quarter == all(-1.0));
-  return hn::IfThenElse(positive, value, hn::Neg(value));
+  const Lanes s = sineSeries(x, x2), c = cosineSeries(x2);
+  const auto middle = quarter == hn::Zero(Tag()), left = quarter == all(-1.0);
+  const auto right = quarter == all(1.0), odd = hn::Or(left, right);
+  const Lanes sin = hn::IfThenElse(odd, c, s), cos = hn::IfThenElse(odd, s, c);
+  return {hn::IfThenElse(hn::Or(middle, right), sin, hn::Neg(sin)),
+          hn::IfThenElse(hn::Or(middle, left), cos, hn::Neg(cos))};
 }
 
 struct Lanes3 {
@@ -83,19 +88,43 @@ HWY_INLINE void store(const Lanes3& v, const AirRows& rows, std::size_t i) {
   hn::StoreU(v.z, Tag(), rows.vz + i);
 }
 
+HWY_INLINE Lanes3 mean(const Instant& wind) {
+  return {all(wind.mean.x()), all(wind.mean.y()), all(wind.mean.z())};
+}
+
 // Two vectors in turn, because one alone waits for its own series.
 void sampleRows(const Instant& wind, const AirRows& rows) {
   const std::size_t width = hn::Lanes(Tag());
   for (std::size_t i = 0; i < rows.count; i += 2 * width) {
     const Lanes3 p = load(rows, i), q = load(rows, i + width);
-    Lanes3 v{all(wind.mean.x()), all(wind.mean.y()), all(wind.mean.z())}, w = v;
+    Lanes3 v = mean(wind), w = v;
     for (const Mode& m : wind.modes) {
-      const Lanes a = cosTurns(turnsOf(m, p)), b = cosTurns(turnsOf(m, q));
+      const Lanes a = sinCosTurns(turnsOf(m, p)).cos, b = sinCosTurns(turnsOf(m, q)).cos;
       add(m, a, v);
       add(m, b, w);
     }
     store(v, rows, i);
     store(w, rows, i + width);
+  }
+}
+
+void sampleLooks(const std::array<Instant, 3>& looks,
+                 const std::array<std::vector<SinCos>, 2>& turns,
+                 const std::array<AirRows, 3>& rows) {
+  const std::size_t width = hn::Lanes(Tag());
+  for (std::size_t i = 0; i < rows[1].count; i += width) {
+    const Lanes3 p = load(rows[1], i);
+    Lanes3 before = mean(looks[0]), now = mean(looks[1]), after = mean(looks[2]);
+    for (std::size_t m = 0; m < looks[1].modes.size(); ++m) {
+      const LanesSinCos at = sinCosTurns(turnsOf(looks[1].modes[m], p));
+      const SinCos &to_before = turns[0][m], &to_after = turns[1][m];
+      add(looks[0].modes[m], at.cos * all(to_before.cos) - at.sin * all(to_before.sin), before);
+      add(looks[1].modes[m], at.cos, now);
+      add(looks[2].modes[m], at.cos * all(to_after.cos) - at.sin * all(to_after.sin), after);
+    }
+    store(before, rows[0], i);
+    store(now, rows[1], i);
+    store(after, rows[2], i);
   }
 }
 
@@ -107,9 +136,16 @@ HWY_AFTER_NAMESPACE();
 namespace vegetation_sim::wind {
 
 HWY_EXPORT(sampleRows);
+HWY_EXPORT(sampleLooks);
 
 void sampleBreeze(const Instant& wind, const AirRows& rows) {
   HWY_DYNAMIC_DISPATCH(sampleRows)(wind, rows);
+}
+
+void sampleBreeze(const std::array<Instant, 3>& looks,
+                  const std::array<std::vector<SinCos>, 2>& turns,
+                  const std::array<AirRows, 3>& rows) {
+  HWY_DYNAMIC_DISPATCH(sampleLooks)(looks, turns, rows);
 }
 
 }  // namespace vegetation_sim::wind

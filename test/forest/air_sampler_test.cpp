@@ -45,6 +45,41 @@ TEST(AirSampler, GivesTheInstantsVelocitiesToTheBit) {
   forceInstructionSet("");
 }
 
+// The three looks of a window: turned phases or not, those of the instants; many as one, to the
+// bit.
+TEST(AirSampler, LooksOfAWindowAreThoseOfItsInstants) {
+  std::vector<wind::Primitive> changes = wind::oneOfEach();
+  wind::Primitive late = makeBreeze(77, Vec3(3, 1, 0));
+  late.t_on = wind::at(8.7);  // after the first look of a window there
+  changes.push_back(late);
+  const std::vector<Vec3> points = scattered(37);
+  int turned = 0;
+  for (const std::string& set : instructionSets()) {
+    forceInstructionSet(set);
+    for (const auto& primitives : {wind::oneOfEach(), changes, std::vector<wind::Primitive>{late}})
+      for (const double time : {5.0, 8.7}) {
+        WindWindow window;
+        window.lookAt(wind::Field(primitives, 3), wind::at(time));
+        turned += window.turnsAlike();
+        AirSampler sampler;
+        for (const Vec3& point : points) sampler.add(point);
+        sampler.sample(window);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+          const auto one = window.velocities(points[i]);
+          EXPECT_EQ(one[1], window.now().velocity(points[i]));
+          for (std::size_t look = 0; look < 3; ++look) {
+            ASSERT_EQ(sampler.velocity(i, look), one[look]) << set << ", look " << look;
+            const Vec3 law = window.looks()[look].velocity(points[i]);
+            EXPECT_LE(length(one[look] - law), 1e-13 * length(law));
+          }
+        }
+      }
+  }
+  forceInstructionSet("");
+  const int sets = static_cast<int>(instructionSets().size());
+  EXPECT_EQ(turned, 4 * sets);  // not where the breeze sets in between two looks
+}
+
 // S1-36: what promotion starts from is the same for many branches as for one.
 TEST(AirSampler, CoursesOfManyBranchesAreThoseOfEach) {
   PhysicsRig rig;

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <memory>
+#include <set>
 #include <utility>
 
 #include "forest/contact_scene.h"
+#include "heap.h"
 
 namespace vegetation_sim::forest {
 namespace {
@@ -34,6 +36,31 @@ TEST(ContactInAForest, BranchesGoAsideAndAllReturns) {
     EXPECT_EQ(drive.forest().physicsFigures().branches, 0u) << speed << " m/s";
     EXPECT_TRUE(drive.forest().reactions().empty());
   }
+}
+
+// N12: bodies that touch one branch after the other never make more physical than the cap, and what
+// is left behind makes room.
+TEST(ContactInAForest, CapHoldsAlongTheWholeDrive) {
+  PhysicsSettings settings;
+  settings.most_branches = 20;
+  settings.linger = 0.2;
+  settings.blend = 0.2;
+  Drive drive(0.5);
+  drive.forest().setPhysics(settings);
+  std::size_t most = 0, refused = 0;
+  std::set<int> met;
+  for (int i = 0; i < 2.6 * TICKS; ++i) {
+    drive.driveOn();
+    most = std::max(most, drive.forest().physicsFigures().branches);
+    refused = std::max(refused, drive.forest().physicsFigures().refused);
+    for (const PromotedBranch& b : drive.forest().promoted(0).branches) met.insert(b.branch);
+  }
+  EXPECT_EQ(most, 20u);
+  EXPECT_GT(refused, 0u);
+  EXPECT_GT(met.size(), 20u);
+  for (int i = 0; i < 8 * TICKS; ++i) drive.tick();
+  EXPECT_EQ(drive.forest().physicsFigures().refused, 0u);
+  EXPECT_TRUE(drive.forest().memory().physics.parts().empty());
 }
 
 TEST(ContactInAForest, ReactionsTellBodyPlaceAndForce) {
@@ -127,26 +154,34 @@ TEST(ContactInAForest, NothingOfAPartThatIsTakenAgainIsLeft) {
 }
 
 // Wrenches as they are told, tick by tick: a trunk's force comes up over several ticks that are no
-// shorter than parts of steps, as the law says, and to its limit.
-TEST(ContactInAForest, WrenchesRiseAsTheLawSays) {
+// shorter than parts of steps, as the law says, and to its limit; and falls, when the body is
+// through the trunk, at no more than the law's rate.
+TEST(ContactInAForest, WrenchesRiseAndFallAsTheLawSays) {
   const physics::ContactLaw law;
   for (const auto& [speed, ticks] : {std::pair(0.1, 240), {1.0, 1920}, {3.0, 3840}}) {
     Ram ram(speed, ticks);
-    double before = 0.0, rise = 0.0, hardest = 0.0;
-    int rising = 0;
-    for (int tick = 1; tick < 0.02 / speed * ticks + 20; ++tick) {
+    double before = 0.0, rise = 0.0, fall = 0.0, hardest = 0.0;
+    int rising = 0, falling = 0;
+    for (int tick = 1; tick < 0.02 / speed * ticks + 20 || before > 0.0; ++tick) {
+      ASSERT_LT(tick, 2.0 / speed * ticks) << speed << " m/s";  // it is through the trunk by then
       ram.driveOn();
       double force = 0.0;
       for (const Reaction& reaction : ram.forest().reactions())
         if (reaction.at.branch == 0) force = length(reaction.force);
       rise = std::max(rise, force - before);
+      fall = std::max(fall, before - force);
       rising += force > before;
+      falling += force < before;
       hardest = std::max(hardest, force);
       before = force;
     }
     EXPECT_LE(rise, (law.force_rate + law.stiffness * (speed + 0.02)) / ticks) << speed << " m/s";
     EXPECT_NEAR(hardest, law.force_limit, 1.0) << speed << " m/s";
+    EXPECT_LE(fall, law.force_rate / ticks * (1.0 + 1e-5)) << speed << " m/s";
     EXPECT_GE(rising, 4) << speed << " m/s";
+    EXPECT_GE(falling, 4) << speed << " m/s";
+    std::printf("%.1f m/s, ticks of 1/%d s: rises %.0f N, falls %.0f N\n", speed, ticks, rise,
+                fall);
   }
 }
 
@@ -166,6 +201,40 @@ TEST(ContactInAForest, BodyFarAwayWakesNoTree) {
   drive.forest().setBody(far);
   for (int i = 0; i < 10; ++i) drive.tick();
   EXPECT_TRUE(drive.forest().physicalTrees().empty());
+}
+
+// N12: a tree that a body is near to is at hand, grown, and counted; it is let go with the first
+// tick at which no body is.
+TEST(ContactInAForest, TreesAreAtHandOnlyWhileABodyIsNear) {
+  Drive drive(0.0, Vec3(-4.0, 0.0, 2.0));  // touches nothing
+  Forest& forest = drive.forest();
+  drive.tick();
+  const long before = liveBytes();
+  const auto expectHeld = [&](bool held, const char* when) {
+    const auto told = static_cast<long>(forest.physicsFigures().bytes);
+    const long taken = liveBytes() - before;
+    EXPECT_EQ(told > 0, held) << when;
+    EXPECT_LE(told, taken) << when;
+    EXPECT_EQ(taken > 1000, held) << when << ": " << taken << " bytes";
+    EXPECT_GT(1.1 * told + 1000.0, taken) << when;
+  };
+  const auto show = [&](double x) {
+    Body body = drive.body();
+    body.pose.position.x() = x;
+    forest.setBody(body);
+    drive.tick();
+    EXPECT_TRUE(forest.physicalTrees().empty());
+  };
+  for (int turn = 0; turn < 2; ++turn) {
+    show(-4.0);
+    expectHeld(true, "near");
+    show(-100.0);
+    expectHeld(false, "far");
+    show(-4.0);
+    forest.removeBody("arm");
+    drive.tick();
+    expectHeld(false, "gone");
+  }
 }
 
 TEST(ContactInAForest, TreesNearABallAreFoundInTilesToo) {

@@ -161,9 +161,9 @@ class CrownScene {
     }
     for (const auto& [link, sum] : sums)
       result.largest_rise = std::max(result.largest_rise, sum - sum_of_[link]);
+    for (const auto& [link, last] : sum_of_)
+      result.largest_fall = std::max(result.largest_fall, last - sums[link]);
     sum_of_ = sums;
-    for (const auto& [link, last] : force_of_)
-      result.largest_fall = std::max(result.largest_fall, last - forces[link]);
     force_of_ = forces;
     result.disagreed += !stepper_.agreed();
     if (!contacts.empty()) {

@@ -105,6 +105,28 @@ TEST(Influence, CapKeepsTheMostDeflected) {
   }
 }
 
+// N12: what is physical keeps its place until it is procedural again: new ones only find what room
+// is left beside it, the loaded one first.
+TEST(Influence, CapCountsWhatIsPhysicalButNotWanted) {
+  const Case c;
+  const int loaded = c.twig(), other = loaded - 1;
+  std::vector<double> score(c.none.size(), 0.0);
+  score[other] = 1.0;
+  score[loaded] = LOADED;
+  std::vector<char> promoted = c.none;
+  promoted[5] = promoted[6] = promoted[7] = 1;
+  const auto pick = [&](std::size_t cap) {
+    return selectBranches(c.skeleton, score, TOLERANCE, TOLERANCE, promoted, cap);
+  };
+  EXPECT_EQ(pick(5).branches, (std::vector<int>{other, loaded}));
+  EXPECT_EQ(pick(5).refused, 0u);
+  EXPECT_EQ(pick(4).branches, std::vector<int>{loaded});
+  EXPECT_EQ(pick(4).refused, 1u);
+  EXPECT_TRUE(pick(3).branches.empty());
+  EXPECT_EQ(pick(3).refused, 2u);
+  EXPECT_TRUE(pick(0).branches.empty());
+}
+
 // N12: what is physical stays so until its deflection is well below the threshold.
 TEST(Influence, HysteresisKeepsWhatIsPhysical) {
   const Case c;

@@ -65,6 +65,51 @@ TEST(Interaction, WrenchIsTheJointsSpringOverItsLever) {
   EXPECT_NEAR(rig.angles(rig.now())[0].second, q.second, 0.01 * q.second);
 }
 
+// N3: a push gives force times duration, however short and wherever its ends fall between steps.
+TEST(Interaction, APushGivesItsImpulse) {
+  const auto peak = [](double duration, Nanoseconds late) {
+    PhysicsRig rig = poleRig();
+    Push push;
+    push.point = {0, 0, 2.0};
+    push.force = Vec3(0.2 / duration, 0.0, 0.0);
+    push.from = rig.now() + late;
+    push.until = push.from + seconds(duration);
+    rig.forest.push(push);
+    double out = 0.0;
+    rig.run(1.0, [&] { out = std::max(out, difference(rig.angles(rig.now())[0], {})); });
+    return out;
+  };
+  const double shortest = peak(0.001, 0);
+  EXPECT_GT(shortest, 1e-3);
+  for (const double duration : {0.001, 0.0041, 0.0123, 0.025})
+    for (const Nanoseconds late : {0LL, 3000000LL, 77000000LL})
+      EXPECT_NEAR(peak(duration, late), shortest, 0.02 * shortest) << duration << " " << late;
+}
+
+// N3: and nothing before its time, nor for longer.
+TEST(Interaction, APushKeepsToItsTime) {
+  PhysicsRig rig = poleRig();
+  Push push;
+  push.point = {0, 0, 2.0};
+  push.force = Vec3(5.0, 0.0, 0.0);
+  push.from = rig.now() + 10 * (rig.grid.timeOf(rig.tick + 1) - rig.now());
+  push.until = push.from + seconds(0.5);
+  rig.forest.push(push);
+  while (rig.now() <= push.from) {
+    EXPECT_EQ(rig.forest.physicsFigures().branches, 0u);
+    EXPECT_EQ(difference(rig.angles(rig.now())[0], {}), 0.0);
+    rig.advance();
+  }
+  EXPECT_GT(difference(rig.angles(rig.now())[0], {}), 0.0);
+  while (rig.now() < push.until) rig.advance();
+  rig.advance();
+  EXPECT_TRUE(std::all_of(rig.forest.memory().physics.parts().begin(),
+                          rig.forest.memory().physics.parts().end(), [](const auto& entry) {
+                            return !entry.second.joints().empty() &&
+                                   !entry.second.joints()[0].wanted;
+                          }));
+}
+
 // S1-44, S1-27: wind and hand add up, E17.
 TEST(Interaction, WindAndForceAddUp) {
   const auto bend = [](double wind, double force) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "forest/forest_fixture.h"
+#include "forest/physics_scene.h"
 #include "heap.h"
 
 namespace vegetation_sim::forest {
@@ -57,6 +58,41 @@ TEST(Memory, MillionTreesStayWithinTheirBytes) {
   RecordProperty("bytes_unwatched", std::to_string(unwatched));
   std::printf("a million trees: %ld bytes unwatched, %.1f bytes a tree with all of them held\n",
               unwatched, static_cast<double>(watched) / TREES);
+}
+
+// S1-25, N12: of 256 trees in a wind, a grab makes physical what it moves of one of them; released
+// and blended back, that has given back every byte it took.
+TEST(Memory, OneGrabIn256TreesGivesAllBack) {
+  PhysicsRig rig({}, 16);
+  ASSERT_EQ(rig.forest.layout().treeCount(), 256u);
+  rig.forest.setWind(steadyWind(Vec3(2, 1, 0)));
+  rig.run(1.0);
+  rig.forest.update(true);
+  const long before = liveBytes();
+  EXPECT_EQ(rig.forest.physicsFigures().bytes, 0u);
+  Grab grab = rig.grabOf(rig.branchOfDepth(1));
+  grab.target += Vec3(0.3, 0.0, 0.0);
+  const std::uint32_t id = rig.forest.addGrab(grab);
+  rig.run(1.0);
+  const PhysicsFigures during = rig.forest.physicsFigures();
+  const long held = liveBytes() - before;
+  EXPECT_EQ(during.trees, 1u);
+  EXPECT_GT(during.branches, 1u);
+  EXPECT_LT(during.branches, rig.branches().size() / 2);
+  // What is told is what is held, but for scratch memory of the steps.
+  EXPECT_LE(static_cast<long>(during.bytes), held);
+  EXPECT_GT(2 * static_cast<long>(during.bytes), held);
+  rig.forest.release(id);
+  rig.run(1.0);
+  EXPECT_GT(rig.forest.physicsFigures().branches, 0u);  // recoils
+  for (int i = 0; i < 20 && rig.forest.physicsFigures().trees > 0; ++i) rig.run(1.0);
+  const PhysicsFigures after = rig.forest.physicsFigures();
+  rig.forest.update(true);
+  const long left = liveBytes() - before;
+  EXPECT_EQ(after.trees + after.branches + after.bytes, 0u);
+  EXPECT_LE(left, 0);
+  std::printf("256 trees, one grab: %zu branches, %zu bytes told, %ld held, %ld after\n",
+              during.branches, during.bytes, held, left);
 }
 
 }  // namespace

@@ -30,6 +30,7 @@ Skeleton poleSkeleton(double theta, double phi) {
   Skeleton out = grow(TreeSeed{}, pole());
   out.branches[0].theta = theta;
   out.branches[0].phi = phi;
+  out.branches[0].turn = restRotation(theta, phi);
   out.branches[0].rest.orientation = restRotation(theta, phi);
   return out;
 }

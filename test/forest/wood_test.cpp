@@ -91,7 +91,7 @@ TEST(Wood, ClustersLoseNothing) {
   std::vector<char> promoted(skeleton.branches.size(), 0);
   for (const std::size_t i : {0u, 1u, 2u, 7u}) promoted[i] = 1;
   std::vector<Composite> clusters;
-  clusterWood(skeleton, wood, promoted, clusters);
+  clusterWood(skeleton, wood.own, promoted, clusters);
   double mass = 0.0, drag = 0.0;
   for (std::size_t i = 0; i < promoted.size(); ++i) {
     if (!promoted[i]) continue;
@@ -101,7 +101,7 @@ TEST(Wood, ClustersLoseNothing) {
   EXPECT_NEAR(mass, wood.subtree[0].mass, 1e-9 * mass);
   EXPECT_NEAR(drag, wood.subtree[0].drag, 1e-9 * drag);
   promoted.assign(promoted.size(), 1);
-  clusterWood(skeleton, wood, promoted, clusters);
+  clusterWood(skeleton, wood.own, promoted, clusters);
   for (std::size_t i = 0; i < promoted.size(); ++i) EXPECT_EQ(clusters[i].mass, wood.own[i].mass);
 }
 

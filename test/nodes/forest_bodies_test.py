@@ -7,7 +7,9 @@ import unittest
 
 import rospy
 import rostest
+from geometry_msgs.msg import Vector3, Vector3Stamped
 from vegetation_sim.msg import ForestEvent
+from vegetation_sim.srv import ApplyForce
 
 from forest_rig import RATE, TickClock, time_of
 from grab_rig import LIMB, TREE, Hands, along_z, minus, plus, size, vector
@@ -16,6 +18,9 @@ from waiting import wait_for
 SPEED = 0.3  # [m/s]
 RADIUS = 0.06
 ALONG = 0.3  # [m]
+MOST_WAITING = 10000  # requests
+TRUNK = 0
+OVERLAP, OVERLAP_AT = 'Deepest overlap with a body [m]', 'Deepest overlap, where'
 
 
 def times(factor, v):
@@ -82,6 +87,51 @@ class Bodies(unittest.TestCase):
         count = len(hands.wrenches.messages)
         hands.run(RATE)
         self.assertEqual(len(hands.wrenches.messages), count)
+
+    # Wood that cannot give way is overrun: how deep, of which body and where, is told.
+    def test_overlap_is_told(self):
+        hands = self.hands
+        tree = hands.tree(TREE)
+        radius = tree.radii[TRUNK]
+        inside = 0.03  # [m]
+        at = plus(hands.point(TRUNK, 0.3), (radius + RADIUS - inside, 0.0, 0.0))
+
+        def told():
+            self.show_hand(at)
+            hands.run(1)
+            return OVERLAP_AT in hands.diagnostics()
+        wait_for(told, 'an overlap')
+        figures = hands.diagnostics()
+        # The trunk leans and tapers by less than 1 cm where the hand is, and gives way by less.
+        self.assertAlmostEqual(figures[OVERLAP], inside, delta=0.01)
+        self.assertEqual(figures[OVERLAP_AT], 'palm in tree_%d/branch_%d' % (TREE, TRUNK))
+        self.clock.run_until(lambda: not hands.physical(), 'a calm tree', hands)
+        wait_for(lambda: hands.diagnostics()[OVERLAP] == 0.0, 'a report without an overlap')
+        self.assertNotIn(OVERLAP_AT, hands.diagnostics())
+
+    def test_requests_for_later_that_flood_stop_neither_body_nor_node(self):
+        start = self.hands.point(LIMB, ALONG)
+        place = plus(start, (0.0, 0.0, 5.0))
+        apply_force = rospy.ServiceProxy(self.hands.name + '/apply_force', ApplyForce,
+                                         persistent=True)
+        push = Vector3Stamped(vector=Vector3(1.0, 0.0, 0.0))
+
+        def ask():
+            return apply_force(tree=TREE, branch=LIMB, along=0.1, force=push, duration=0.1,
+                               stamp=time_of(self.clock.tick + 50 * RATE))
+        for _ in range(MOST_WAITING):
+            self.assertTrue(ask().success)
+        self.assertIn('10000 requests wait for the next tick already', ask().message)
+        bodies = self.kinds().count(ForestEvent.BODY)
+
+        def told():
+            self.show_hand(place)
+            self.hands.run(1)
+            return self.kinds().count(ForestEvent.BODY) > bodies
+        wait_for(told, 'the body in the flood')
+        self.clock.show(self.clock.tick - 10 * RATE)
+        self.hands.state.wait_for_stamp(time_of(self.clock.tick))
+        self.assertTrue(ask().success)
 
 
 if __name__ == '__main__':

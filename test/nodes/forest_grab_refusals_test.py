@@ -8,8 +8,11 @@ import rospy
 import rostest
 from geometry_msgs.msg import PointStamped, Vector3, Vector3Stamped
 
+from vegetation_sim.srv import ApplyForce, GetTree, Grab, MoveGrab, Release
+
 from forest_rig import RATE, TickClock, time_of
 from grab_rig import LIMB, TREE, Hands, plus, stamped
+from waiting import DEADLINE, wait_for
 
 NAN, INF = float('nan'), float('inf')
 TREES = 7
@@ -86,12 +89,41 @@ class ForestGrabRefusals(unittest.TestCase):
         start = time_of(self.clock.tick + 50 * RATE)
         held = self.hands.take(**self.good(stamp=start))
         self.expect(self.hands.move_grab, [
-            (dict(id=held.id, target=stamped((0.0, NAN, 0.0))), 'target.y = nan m is not finite'),
-            (dict(id=held.id, target=stamped(plus(self.here, (0.0, 0.0, 1000.0)))),
+            (dict(id=held.id, target=stamped((0.0, NAN, 0.0)), stamp=start),
+             'target.y = nan m is not finite'),
+            (dict(id=held.id, target=stamped(plus(self.here, (0.0, 0.0, 1000.0))), stamp=start),
              'its distance from the point held, = 1000 m is outside 0 to 10 m'),
             (dict(id=held.id + 1), 'id = %d is unknown; held are %d' % (held.id + 1, held.id)),
         ])
         self.assertTrue(self.hands.release(id=held.id).success)
+
+    # What the forest would refuse at its tick is refused when it is asked for.
+    def test_what_no_tick_would_take(self):
+        def service(node, name, kind):
+            topic = '/%s/%s/%s' % (node, node, name)
+            rospy.wait_for_service(topic, DEADLINE)
+            return rospy.ServiceProxy(topic, kind)
+        get_trees = {n: service(n, 'get_tree', GetTree) for n in ('paper', 'far')}
+
+        def ticks():
+            self.clock.run(1, self.hands)
+            return all(get_tree(tree=0).success for get_tree in get_trees.values())
+        wait_for(ticks, 'the other nodes')
+        paper = dict(tree=0, branch=0, along=0.0, target=stamped((0.0, 0.0, 0.0)))
+        text = 'joint_model = paper has no physical motion, allowed is swing'
+        self.expect(service('paper', 'grab', Grab), [(paper, 'grab: ' + text)])
+        push = dict(tree=0, branch=0, along=0.0, duration=1.0,
+                    force=Vector3Stamped(vector=Vector3(1.0, 0.0, 0.0)))
+        self.expect(service('paper', 'apply_force', ApplyForce), [(push, 'push: ' + text)])
+
+        away = self.good(target=stamped(plus(self.here, (0.0, 0.0, 500.0))))
+        text = "distance of target from the tree's foot = 50"
+        grab, move = service('far', 'grab', Grab), service('far', 'move_grab', MoveGrab)
+        self.expect(grab, [(away, text)])
+        near = grab(**self.good())
+        self.assertTrue(near.success, near.message)
+        self.expect(move, [(dict(id=near.id, target=away['target']), text)])
+        self.assertTrue(service('far', 'release', Release)(id=near.id).success)
 
     def test_apply_force(self):
         def good(**changes):

@@ -97,6 +97,38 @@ class ForestGrab(unittest.TestCase):
         events = [e for e in self.hands.events.messages if e.kind == ForestEvent.MOVE]
         self.assertGreater(len(events), 2 * RATE)
 
+    # A renewal says nothing of the target: the gripper's newest place stays the grab's.
+    def test_a_renewal_leaves_the_target_alone(self):
+        place = self.hands.point(LIMB, 0.3)
+        self.hands.wait_for_frame('hand', place)
+        answer = self.hands.take(branch=LIMB, along=0.3, frame='hand')
+        first = len(self.hands.events.messages)
+        for i in range(RATE):
+            place_now = plus(place, (0.1 * i / RATE, 0.0, 0.0))
+            self.hands.show_frame('hand', place_now, stamp=time_of(self.clock.tick + 1))
+            reply = self.hands.move_grab(id=answer.id, renew_only=True)
+            self.assertEqual(reply.message, 'lease renewed')
+            self.hands.run(1)
+        events = self.hands.events.messages[first:]
+        self.assertEqual(sum(e.kind == ForestEvent.RENEW for e in events), RATE)
+        # No tick has more than the frame's own move.
+        moves = [e.header.stamp for e in events if e.kind == ForestEvent.MOVE]
+        self.assertGreater(len(moves), RATE // 2)
+        self.assertEqual(len(moves), len(set(moves)))
+        self.expect_spring(self.hands.wrench(), self.hands.point(LIMB, 0.3), place_now)
+
+    def test_a_renewal_undoes_no_move_of_its_stamp(self):
+        answer, target = self.hands.take_at((0.0, 0.0, 0.0))
+        self.hands.run(1)
+        later = time_of(self.clock.tick + 5)
+        moved = plus(target, (0.1, 0.0, 0.0))
+        self.assertTrue(self.hands.move_grab(id=answer.id, target=stamped(moved), stamp=later).success)
+        self.assertTrue(self.hands.move_grab(id=answer.id, renew_only=True, stamp=later).success)
+        self.assertTrue(self.hands.move_grab(id=answer.id, renew_only=True).success)
+        self.hands.run(2 * RATE)
+        self.assertLess(size(minus(vector(self.hands.tree(TREE).grabs[0].target), moved)), 1e-9)
+        self.assertLess(self.distance(LIMB, 0.3, moved), 0.05)
+
     def test_two_grabs_on_one_tree(self):
         first, target = self.hands.take_at((0.1, 0.0, 0.0))
         second, other = self.hands.take_at((-0.1, 0.0, 0.0), OTHER_LIMB, 0.2)
@@ -200,6 +232,50 @@ class ForestGrab(unittest.TestCase):
             lambda all: next((e for e in all if e.kind == ForestEvent.GRAB and
                               e.grab.id == answer.id), None), 'the grab')
         self.assertEqual(event.header.stamp, start)
+
+    def test_a_grab_that_waits_is_moved_from_its_time_on(self):
+        start = time_of(self.clock.tick + 10)
+        answer, target = self.hands.take_at((0.0, 0.0, 0.0), stamp=start)
+        moved = stamped(plus(target, (0.1, 0.0, 0.0)))
+        for request in (dict(target=moved), dict(renew_only=True),
+                        dict(target=moved, stamp=start - rospy.Duration.from_sec(1.0 / RATE))):
+            reply = self.hands.move_grab(id=answer.id, **request)
+            self.assertFalse(reply.success)
+            self.assertIn('id = %d takes hold at %f s; allowed is a stamp from then on' %
+                          (answer.id, start.to_sec()), reply.message)
+        self.assertTrue(self.hands.move_grab(id=answer.id, target=moved, stamp=start).success)
+        self.hands.run(12)
+        grabs = self.hands.tree(TREE).grabs
+        self.assertEqual([g.target for g in grabs], [moved.point])
+
+    def test_a_grab_that_is_released_before_its_time_never_begins(self):
+        for early in (0, 1, 9):
+            start = time_of(self.clock.tick + 10)
+            answer, _ = self.hands.take_at((0.1, 0.0, 0.0), stamp=start)
+            stamp = time_of(self.clock.tick + 10 - early) if early < 9 else rospy.Time()
+            self.assertTrue(self.hands.release(id=answer.id, stamp=stamp).success)
+            self.hands.run(15)
+            self.assertEqual(self.hands.physical(), [])
+            self.assertEqual([e for e in self.hands.events.messages
+                              if e.kind == ForestEvent.GRAB and e.grab.id == answer.id], [])
+
+    def test_a_grab_ahead_begins_where_its_frame_is_by_then(self):
+        place = self.hands.point(LIMB, 0.3)
+        self.hands.wait_for_frame('hand', place)
+        grabs = [self.hands.take(branch=LIMB, along=0.3, frame='hand', keep_offset=keep,
+                                 stamp=time_of(self.clock.tick + 10)).id for keep in (False, True)]
+        place = plus(place, (0.2, 0.0, 0.0))
+        for _ in range(9):
+            self.hands.show_frame('hand', place, stamp=time_of(self.clock.tick))
+            self.hands.settle()
+            self.hands.run(1)
+        self.assertEqual(self.hands.tree(TREE).grabs, [])
+        held = self.hands.point(LIMB, 0.3)
+        self.hands.run(1)
+        plain, slack = self.hands.tree(TREE).grabs
+        self.assertEqual([plain.id, slack.id], grabs)
+        self.assertLess(size(minus(vector(plain.target), place)), 1e-9)
+        self.assertLess(size(minus(vector(slack.target), held)), 1e-9)
 
     def test_time_that_jumps_ends_every_grab(self):
         self.hands.take_at((0.15, 0.0, 0.0))

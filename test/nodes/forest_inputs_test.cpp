@@ -49,6 +49,50 @@ TEST(ForestInputs, CountViewersThatFindNoRoom) {
   EXPECT_EQ(inputs.losses().lost, 2u);
 }
 
+// N6: a flood of requests for later shuts out neither the wind nor what the node does by itself.
+TEST(ForestInputs, FindRoomForTheNodesOwnInAFlood) {
+  ForestInputs inputs(false);
+  ForestEvent force;
+  force.kind = ForestEvent::FORCE;
+  force.header.stamp = toStamp(100 * TICK);
+  for (std::size_t i = 0; i < ForestInputs::MOST_WAITING; ++i) inputs.addInteraction(force);
+  EXPECT_THROW(inputs.addInteraction(force), InvalidInput);
+  ForestEvent body;
+  body.kind = ForestEvent::BODY;
+  inputs.addFirst(body);
+  inputs.addWind(wind::Field());
+  inputs.addTuning({});
+  inputs.addReset();
+  std::vector<int> kinds;
+  for (const ForestEvent& event : inputs.take(TICK)) kinds.push_back(event.kind);
+  EXPECT_EQ(kinds, (std::vector<int>{ForestEvent::BODY, ForestEvent::WIND, ForestEvent::SETTINGS,
+                                     ForestEvent::RESET}));
+  EXPECT_EQ(inputs.losses().lost, 0u);
+  EXPECT_EQ(inputs.take(100 * TICK).size(), ForestInputs::MOST_WAITING);
+}
+
+// N3: the last move of a grab at a tick counts; a renewal leaves it alone.
+TEST(ForestInputs, RenewalsLeaveMovesAlone) {
+  ForestInputs inputs(false);
+  ForestEvent move;
+  move.kind = ForestEvent::MOVE;
+  move.grab.id = 1;
+  move.grab.target.x = 1.0;
+  inputs.addInteraction(move);
+  move.grab.target.x = 2.0;
+  inputs.addInteraction(move);
+  ForestEvent renewal;
+  renewal.kind = ForestEvent::RENEW;
+  renewal.grab.id = 1;
+  inputs.addInteraction(renewal);
+  inputs.addInteraction(renewal);
+  const std::vector<ForestEvent> taken = inputs.take(TICK);
+  ASSERT_EQ(taken.size(), 2u);
+  EXPECT_EQ(taken[0].kind, ForestEvent::MOVE);
+  EXPECT_EQ(taken[0].grab.target.x, 2.0);
+  EXPECT_EQ(taken[1].kind, ForestEvent::RENEW);
+}
+
 }  // namespace
 }  // namespace vegetation_sim
 

@@ -101,6 +101,13 @@ class Log:
         self._subscriber.unregister()
 
 
+def number_or_text(value):
+    try:
+        return float(value)
+    except ValueError:
+        return value
+
+
 class WatchedNode:
     """A node as its users see it. It has a service `probe` that changes nothing when it is called
     without arguments."""
@@ -145,7 +152,7 @@ class WatchedNode:
         log.wait(lambda all: any(s.name == name for m in all for s in m.status), name)
         log.close()
         status = [s for m in log.messages for s in m.status if s.name == name][-1]
-        return {pair.key: float(pair.value) for pair in status.values}
+        return {pair.key: number_or_text(pair.value) for pair in status.values}
 
     def close(self):
         for log in self.logs():

@@ -14,8 +14,8 @@
 namespace vegetation_sim::forest {
 
 /// Finds what bodies touch: over trees by their size, over branches by distance, then exactly, with
-/// both in motion (docs/contact.md). Keeps the trees around bodies at hand, grown; what it finds
-/// does not depend on which.
+/// both in motion (docs/contact.md). Keeps the trees around bodies at hand, grown, until the first
+/// tick at which none is near; what it finds does not depend on which.
 class ContactFinder : public ContactModel {
  public:
   void findNear(const Forest& forest, const Bodies& bodies, Nanoseconds from, Nanoseconds to,
@@ -27,6 +27,8 @@ class ContactFinder : public ContactModel {
                                              Touches& touches) const override;
   void settle(const Wood& wood, const Bodies& bodies, const std::vector<physics::Contact>& contacts,
               Nanoseconds to, Touches& touches, std::vector<Reaction>& reactions) const override;
+  void letGo() const override;
+  std::size_t bytes() const override;
 
  private:
   using Trees = std::map<std::uint32_t, std::shared_ptr<const Tree>>;

@@ -54,7 +54,7 @@ class Halvings {
   int wanted_{0};
 };
 
-/// How bodies touch trees. Without memory of its own.
+/// How bodies touch trees. What it remembers changes nothing that it finds.
 ///
 /// A step of a tree with contacts is taken in `partsOf` equal parts. Each: `findContacts` at its
 /// start; if there are any, `physics::ContactStepper` instead of the stepper's own step. Where that
@@ -89,6 +89,10 @@ class ContactModel {
   virtual void settle(const Wood& wood, const Bodies& bodies,
                       const std::vector<physics::Contact>& contacts, Nanoseconds to,
                       Touches& touches, std::vector<Reaction>& reactions) const = 0;
+  /// Called instead of findNear where there is nothing to look for: forgets what it remembers.
+  virtual void letGo() const {}
+  /// Held for what it remembers.
+  virtual std::size_t bytes() const { return 0; }
 };
 
 }  // namespace vegetation_sim::forest

@@ -101,7 +101,7 @@ class Forest {
   const std::vector<Grab>& ended() const { return memory_.physics.ended(); }
   /// On the bodies that hold or touch branches, at the end of the last tick.
   const std::vector<Reaction>& reactions() const { return memory_.physics.reactions(); }
-  PhysicsFigures physicsFigures() const { return memory_.physics.figures(); }
+  PhysicsFigures physicsFigures() const;
   /// Physical joints of a tree at the last tick; none: `branches` is empty.
   PromotedTree promoted(std::uint32_t tree) const;
   /// Trees that have physical joints, rising.

@@ -27,6 +27,12 @@ struct Site {
   const ContactModel* contacts{nullptr};
 };
 
+/// What a forest of this layout refuses of a grab, a target or a push, whatever else it holds;
+/// `tree` is the one that is meant. All throw InvalidInput.
+void checkGrab(const Layout& layout, const Tree& tree, const Grab& grab);
+void checkTarget(const Tree& tree, const Vec3& target);
+void checkPush(const Layout& layout, const Tree& tree, const Push& push);
+
 /// What holds, pushes and touches the trees of a forest, and the parts of them that are physical
 /// for it. A value: copy it to save. Requests are checked first and change nothing if refused; they
 /// act from the last tick on.
@@ -40,6 +46,8 @@ class ForestPhysics {
   void setBody(const Body& body);
   void removeBody(const std::string& id);
   void setSettings(const PhysicsSettings& settings, Nanoseconds now);
+  /// @throws InvalidInput if a branch that `what` loads could not be physical now.
+  void checkRoom(const std::string& what, std::uint32_t tree, int branch) const;
   /// Drops grabs, pushes, bodies and all that is physical.
   void clear();
 
@@ -70,7 +78,6 @@ class ForestPhysics {
 
   PhysicalPart& partOf(const Site& at, std::uint32_t tree);
   Air airOf(const Site& at, std::uint32_t tree) const;
-  void checkRoom(const std::string& what, std::uint32_t tree, int branch) const;
   void endLeases(Nanoseconds stamp);
   void stepAll(const Site& at, Nanoseconds from, Nanoseconds to);
   void choose(const Site& at, Nanoseconds from, Nanoseconds to);
@@ -86,8 +93,8 @@ class ForestPhysics {
   void addTouches(const std::vector<Reaction>& reactions);
   void reactToBodies(std::size_t steps);
   void letFall(const std::vector<Reaction>& told, double duration);
-  void gather(std::uint32_t tree, const Vec3& foot, Nanoseconds from, Nanoseconds now,
-              Nanoseconds to);
+  void gather(std::uint32_t tree, const Vec3& foot, Nanoseconds from, Nanoseconds to);
+  void addPushes(std::uint32_t tree, Nanoseconds from, Nanoseconds to);
   void feel(const Site& at, std::uint32_t tree, const PhysicalPart& part, Nanoseconds from,
             Nanoseconds to);
   void settle(const Site& at, Nanoseconds from, Nanoseconds to);
@@ -106,7 +113,8 @@ class ForestPhysics {
   std::vector<Reaction> reactions_;
   std::uint32_t next_grab_{1};
   Nanoseconds next_review_{0};
-  std::size_t steps_{0}, refused_{0}, skipped_{0}, coarse_{0};
+  std::size_t steps_{0}, skipped_{0}, coarse_{0};
+  std::map<std::uint32_t, std::size_t> refused_;  // branches that loaded trees want: no room
   std::vector<std::uint32_t> near_;  // trees that bodies may touch in this tick, rising
   std::vector<Reaction> touching_;   // of bodies in this tick: sums over its steps
   PartLoads loads_;                  // scratch

@@ -31,12 +31,12 @@ double compliance(const Skeleton& skeleton, const Wood& wood, int branch, double
 /// The branches that shall be physical, rising.
 struct Selection {
   std::vector<int> branches;
-  std::size_t refused{0};  ///< wanted, but beyond the cap
+  std::size_t refused{0};  ///< wanted and not physical, but beyond the cap
 };
 
 /// Branches whose score is above `threshold`, or above `keep` where they are physical already
 /// (`promoted`, per branch; hysteresis), and whatever lies between two of them; the highest scores
-/// first, at most `cap`.
+/// first, at most `cap`, and only as many new ones as find room beside all that is physical.
 Selection selectBranches(const Skeleton& skeleton, const std::vector<double>& score,
                          double threshold, double keep, const std::vector<char>& promoted,
                          std::size_t cap);

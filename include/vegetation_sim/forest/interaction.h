@@ -37,6 +37,7 @@ struct Push {
   BranchPoint point;
   Vec3 force{Vec3::Zero()};  ///< world [N]
   Nanoseconds until{0};      ///< the force acts up to here
+  Nanoseconds from{0};       ///< and from here on; in the past: from the last tick on
 };
 
 enum class Shape : int { SPHERE = 0, CAPSULE = 1, BOX = 2 };
@@ -80,9 +81,9 @@ struct PhysicsFigures {
   std::size_t trees{0};          ///< with physical branches
   std::size_t branches{0};       ///< physical, those that blend back included
   std::size_t blending{0};       ///< of these, on their way back
-  std::size_t bytes{0};          ///< held for them
+  std::size_t bytes{0};          ///< held for them, and for trees that bodies are near to
   std::size_t steps{0};          ///< taken at the last tick
-  std::size_t refused{0};        ///< branches that the cap of the last tick left procedural
+  std::size_t refused{0};        ///< branches that loads want and the cap leaves procedural
   std::size_t capped_forces{0};  ///< grabs and contacts at their limit
   std::size_t replaced{0};  ///< steps of a tree at the last tick, beyond the bound of an explicit
                             ///< integrator, that midpoint took

@@ -6,30 +6,11 @@
 #include <vector>
 
 #include "vegetation_sim/forest/air_sampler.h"
-#include "vegetation_sim/forest/physics_settings.h"
 #include "vegetation_sim/forest/pose.h"
 #include "vegetation_sim/forest/sway.h"
-#include "vegetation_sim/wind/field.h"
+#include "vegetation_sim/forest/wind_window.h"
 
 namespace vegetation_sim::forest {
-
-/// Distance in time of the looks that rates and accelerations are differenced from: motion at
-/// w rad/s is told to (w LOOK)^2 / 6.
-constexpr Nanoseconds LOOK = NANOSECONDS_PER_SECOND / PHYSICS_RATE;
-
-/// The wind LOOK before a stamp, at it, and LOOK after, world; shared by all trees of a step.
-class WindWindow {
- public:
-  /// Looks at `stamp`; keeps its memory from call to call.
-  void lookAt(const wind::Field& field, Nanoseconds stamp);
-  Nanoseconds stamp() const { return stamp_; }
-  const wind::Instant& now() const { return looks_[1]; }
-  const std::array<wind::Instant, 3>& looks() const { return looks_; }
-
- private:
-  Nanoseconds stamp_{0};
-  std::array<wind::Instant, 3> looks_;
-};
 
 /// Amplitudes of a tree in modes at the three looks; keeps its memory from look to look.
 struct ModalLooks {
@@ -59,8 +40,6 @@ struct Course {
   double modalShare(std::size_t look) const { return modal ? modalWeight(weights[look]) : 0.0; }
   /// Share of the motion that no law of motion brings about: what compensation starts at (E1).
   double missing() const { return 1.0 - modalShare(1); }
-  /// Bends at look 0, 1 or 2.
-  JointAngles anglesAt(int branch, std::size_t look) const;
   JointCourse at(int branch) const;
 };
 

@@ -24,6 +24,7 @@ struct Branch {
   double roll{0.0};         ///< turn about z that undoes the twist along the limb, for meshes [rad]
   int leaves{0};            ///< leaf clusters on it
   std::uint64_t key{0};     ///< of its random numbers
+  Quat turn;                ///< Rz(theta) Ry(phi): its joint at rest, in its parent's frame
   Pose rest;  ///< base at rest in the tree's frame: origin at the foot, axes as the world's
 };
 

@@ -43,8 +43,8 @@ constexpr double PAPER_RADIUS = 0.02;  ///< [m]
 constexpr double PAPER_DAMPING = 0.1;  ///< [s]
 
 /// Each branch with the unpromoted wood that it carries, straight or by other unpromoted wood, at
-/// rest: clustering (S1-W9). `promoted` per branch.
-void clusterWood(const Skeleton& skeleton, const Wood& wood, const std::vector<char>& promoted,
-                 std::vector<Composite>& out);
+/// rest: clustering (S1-W9). `own` wood and `promoted` per branch.
+void clusterWood(const Skeleton& skeleton, const std::vector<Composite>& own,
+                 const std::vector<char>& promoted, std::vector<Composite>& out);
 
 }  // namespace vegetation_sim::forest

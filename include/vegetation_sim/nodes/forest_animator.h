@@ -72,6 +72,7 @@ class ForestAnimator {
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
   void diagnoseGovernor(diagnostic_updater::DiagnosticStatusWrapper& status);
   void addPhysics(diagnostic_updater::DiagnosticStatusWrapper& status) const;
+  void noteOverlaps();
 
   // Services.
   bool onGetTree(GetTree::Request& request, GetTree::Response& response);
@@ -106,6 +107,7 @@ class ForestAnimator {
   } counts_, reported_;  // so far, and when diagnostics were last sent
   QueueLosses told_;     // on the console
   std::string last_rejection_;
+  forest::Reaction deepest_;  // of the contacts since diagnostics were last sent
 
   tf2_ros::Buffer tf_buffer_;
   tf2_ros::TransformListener tf_listener_;

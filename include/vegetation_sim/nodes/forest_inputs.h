@@ -44,10 +44,11 @@ class ForestInputs {
   void addViewer(const Viewer& viewer_in_world);
   void addTuning(const ForestTuning& tuning);
   void addReset();
-  /// A grab, move, release, force or body; a stamp says when, zero: at the next tick. Of the moves
-  /// of one grab at one tick only the last counts. @throws InvalidInput if too many wait.
+  /// A grab, move, renewal, release or force; a stamp says when, zero: at the next tick. Of the
+  /// moves of one grab at one tick only the last counts. @throws InvalidInput if too many wait.
   void addInteraction(const ForestEvent& event);
-  /// The same, before all that waits: what a grab in force does by itself.
+  /// For the next tick, before all that waits, however much: what grabs in force and bodies do by
+  /// themselves.
   void addFirst(const ForestEvent& event);
   /// Forgets what waits about a grab.
   void forgetGrab(std::uint32_t id);

@@ -12,6 +12,7 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,9 @@ class GrabDesk {
   /// Told of what keeps a frame from being followed: its name and why.
   using Report = std::function<void(const std::string&, const std::string&)>;
   void follow(Nanoseconds stamp, const Report& report);
+  /// Before the forest takes an event: a grab that is tied to a frame begins where that is by now.
+  /// @throws InvalidInput if tf does not tell it any more, or it is too far away.
+  void aim(ForestEvent& event);
   /// An event that the forest has taken.
   void adopt(const ForestEvent& event);
   /// One that it refused: a grab that waited for it is over.
@@ -70,20 +74,24 @@ class GrabDesk {
   struct Held {
     BranchGrab grab;
     bool in_force{false};
-    ros::Time told;  ///< newest transform used
+    bool keep_offset{false};
+    ros::Time begins;  ///< zero: at the next tick
+    ros::Time told;    ///< newest transform used
   };
   struct Place {
     forest::BranchPoint at;
     Vec3 point;  // world
   };
+  std::shared_ptr<const forest::Tree> grown(std::uint32_t tree) const;
   Place placeOf(std::uint32_t tree, std::uint32_t branch, double along) const;
   Place nearestTo(const geometry_msgs::PointStamped& point) const;
   template <class Request>
   Place choose(const Request& request) const;
   Vec3 inWorld(const geometry_msgs::PointStamped& point, const char* name) const;
-  void aim(const Grab::Request& request, const Vec3& held, Held& out) const;
-  void tie(const std::string& frame, Held& out) const;
-  double checkDistance(const Vec3& held, const Vec3& target) const;
+  void tie(const Vec3& point, Held& out) const;
+  double checkTarget(const BranchGrab& grab, const Vec3& point) const;
+  void checkRoom(const char* what, const Place& place, const ros::Time& stamp) const;
+  static bool waitsLonger(const Held& held, const ros::Time& stamp);
   bool followOne(Held& held, Nanoseconds stamp);
   Held& find(std::uint32_t id);
   std::map<std::uint32_t, Held>::iterator forget(std::map<std::uint32_t, Held>::iterator entry);

@@ -85,7 +85,7 @@ class BatchChain {
   void sortGroup(const std::vector<std::vector<Link>>& trees, std::size_t index);
   std::size_t blocks() const;
   void fill(const std::vector<std::vector<Link>>& trees);
-  void sortBySlot(Member& member);
+  void sortBySlot(const ChainGroup& group);
   void fillBases(const Member& member);
   void fillLoads(const Loads& loads, Member& member);
   const BaseMotion& baseOf(const Member& member, std::size_t link) const;
