@@ -51,12 +51,24 @@ lint() {
   for name in format catkin layers words docs tidy; do check "lint $name" "$ROOT/scripts/lint.sh" $name; done
 }
 
+# usage: in_shares COMMAND ...: a suite's tests dealt out to as many processes as there are cores.
+in_shares() {
+  local shares share pids=() bad=0
+  shares=$(nproc)
+  for ((share = 0; share < shares; ++share)); do
+    GTEST_TOTAL_SHARDS=$shares GTEST_SHARD_INDEX=$share "$@" &
+    pids+=($!)
+  done
+  for share in "${pids[@]}"; do wait "$share" || bad=1; done
+  return $bad
+}
+
 sanitize() {
   say 'The core under sanitizers'
   local folder folders=(canopy common crowd forest grass physics scan terrain wind)
   check 'sanitizers: build' "$ROOT/scripts/build.sh" --sanitize "${folders[@]/%/_test}"
   for folder in "${folders[@]}"; do
-    check "sanitizers: $folder" timeout 2400 "$BUILD/sanitize/devel/lib/vegetation_sim/${folder}_test" --gtest_brief=1
+    check "sanitizers: $folder" in_shares timeout 2400 "$BUILD/sanitize/devel/lib/vegetation_sim/${folder}_test" --gtest_brief=1
   done
 }
 

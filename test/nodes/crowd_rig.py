@@ -56,7 +56,7 @@ class Cart:
         wait_for_readers('/tf', crowd.process)
 
     def put(self, x, y, stamp, yaw=0.0):
-        """Returns when the crowd has heard it."""
+        """Returns when it is in the crowd's socket: its thread for tf may take it a tick later."""
         frame = TransformStamped(child_frame_id=self.frame)
         frame.header.frame_id = 'map'
         frame.header.stamp = stamp
