@@ -5,8 +5,8 @@
 # over. Fails where a display crashes, shows what is no more, leaves an object of Ogre behind, or
 # where memory grows; says by how much, and draws it.
 # usage: scripts/soak_displays.sh [--cycles N] [--reloads N] [--sanitize] [--chart FILE.png] [DISPLAY ...]
-#   DISPLAY      canopy crowd forest grass wind; all of them if none is given. With --sanitize also
-#                tools, which are the tools and the panel
+#   DISPLAY      canopy crowd forest grass wind landscape, which is all five in one rviz; all of
+#                them if none is given. With --sanitize also tools, which are the tools and the panel
 #   --cycles N   displays made and destroyed: 500 if not given, 40 with --sanitize
 #   --reloads N  of the node: 100 if not given, 20 with --sanitize
 #   --sanitize   the whole test of each display, built with the address and undefined behaviour
@@ -28,9 +28,9 @@ while [[ ${1:-} == --* ]]; do
   shift
 done
 displays=("$@")
-[ $# -gt 0 ] || displays=(canopy crowd forest grass wind)
+[ $# -gt 0 ] || displays=(canopy crowd forest grass wind landscape)
 [ $# -gt 0 ] || ! $sanitize || displays+=(tools)
-for i in "${!displays[@]}"; do [ "${displays[i]}" = tools ] || displays[i]+=_display; done
+for i in "${!displays[@]}"; do [[ ${displays[i]} = @(landscape|tools) ]] || displays[i]+=_display; done
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -38,6 +38,8 @@ prefix=
 if $sanitize; then
   targets=("${displays[@]/%/_rostest}")
   [[ " ${displays[*]} " != *' tools '* ]] || targets+=(forest_animator wind_broadcaster)
+  [[ " ${displays[*]} " != *' landscape '* ]] ||
+    targets+=(agent_crowd canopy_animator forest_animator grass_field wind_broadcaster)
   "$ROOT/scripts/build.sh" --sanitize "${targets[@]}"
   BUILD=$BUILD/sanitize
   prefix=$ROOT/test/rviz/sanitized.sh

@@ -75,12 +75,12 @@ view::CanopyReport CanopyDisplay::drawn() const {
   return canopy_ ? canopy_->report() : view::CanopyReport();
 }
 
-void CanopyDisplay::showInputs(view::StatusBoard& board) const {
+void CanopyDisplay::showInputs(view::StatusBoard& board, Nanoseconds now) const {
   board.show("Layout", source_->layoutStatus());
-  board.show("State", source_->stateStatus());
+  board.show("State", source_->stateStatus(now));
   if (const view::ForestSource* forest = source_->forest()) {
     board.show("Forest Layout", forest->layoutStatus());
-    board.show("Forest State", forest->stateStatus());
+    board.show("Forest State", forest->stateStatus(now));
     board.show("Wind", forest->windStatus());
   }
 }

@@ -73,7 +73,7 @@ view::CrowdReport CrowdDisplay::drawn() const {
   return people_ ? people_->report() : view::CrowdReport();
 }
 
-void CrowdDisplay::showInputs(view::StatusBoard& board) const {
+void CrowdDisplay::showInputs(view::StatusBoard& board, Nanoseconds /*now*/) const {
   board.show("People", source_->status());
 }
 

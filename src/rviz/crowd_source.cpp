@@ -10,11 +10,6 @@
 #include "vegetation_sim/ros/stamps.h"
 
 namespace vegetation_sim::view {
-namespace {
-
-constexpr Nanoseconds SILENCE = 3 * NANOSECONDS_PER_SECOND;
-
-}  // namespace
 
 CrowdSource::CrowdSource(ros::NodeHandle nh, const std::string& topic)
     : ground_(nh),

@@ -104,10 +104,10 @@ view::ForestReport ForestDisplay::drawn() const {
   return forest_ ? forest_->report() : view::ForestReport();
 }
 
-void ForestDisplay::showInputs(view::StatusBoard& board) const {
+void ForestDisplay::showInputs(view::StatusBoard& board, Nanoseconds now) const {
   board.show("Layout", source_->layoutStatus());
   board.show("Wind", source_->windStatus());
-  board.show("State", source_->stateStatus());
+  board.show("State", source_->stateStatus(now));
   if (forest_->stock() != nullptr)
     board.show(rviz::StatusProperty::Ok, "Motion",
                view::describeMotion(source_->replica(), *forest_->stock()));

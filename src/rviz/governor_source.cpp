@@ -8,7 +8,7 @@
 namespace vegetation_sim::view {
 namespace {
 
-constexpr double SILENCE = 5.0;  // [s]; diagnostics come each second
+constexpr double MISSED = 5.0;  // [s]; diagnostics come each second
 
 bool endsWith(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.npos, end) == 0;
@@ -46,7 +46,7 @@ void GovernorSource::take(const diagnostic_msgs::DiagnosticArray& message) {
 std::optional<InputStatus> GovernorSource::status(double wall) {
   if (text_.empty()) return {};
   if (std::exchange(fresh_, false)) heard_ = wall;
-  if (wall - heard_ > SILENCE) return InputStatus{false, "Not heard for 5 s; last: " + text_};
+  if (wall - heard_ > MISSED) return InputStatus{false, "Not heard for 5 s; last: " + text_};
   return InputStatus{true, text_};
 }
 

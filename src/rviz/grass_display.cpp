@@ -77,10 +77,10 @@ view::GrassReport GrassDisplay::drawn() const {
   return grass_ ? grass_->report() : view::GrassReport();
 }
 
-void GrassDisplay::showInputs(view::StatusBoard& board) const {
+void GrassDisplay::showInputs(view::StatusBoard& board, Nanoseconds now) const {
   board.show("Layout", source_->layoutStatus());
   board.show("Wind", source_->windStatus());
-  board.show("State", source_->stateStatus());
+  board.show("State", source_->stateStatus(now));
 }
 
 view::InputStatus GrassDisplay::describeDrawn() const {

@@ -200,7 +200,7 @@ void SceneryDisplay::publishViewer() {
 }
 
 void SceneryDisplay::showStatus(Nanoseconds stamp) {
-  showInputs(board_);
+  showInputs(board_, stamp);
   if (governor_)
     if (const auto status = governor_->status(wall_)) board_.show("Governor", *status);
   if (stamp == 0)

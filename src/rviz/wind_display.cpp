@@ -86,7 +86,7 @@ void WindDisplay::makeGround(const Vec3& around) {
   ground_->light(daylight, daylight.to_sun, properties_->hazeValues());
 }
 
-void WindDisplay::showInputs(view::StatusBoard& board) const {
+void WindDisplay::showInputs(view::StatusBoard& board, Nanoseconds /*now*/) const {
   board.show("Wind", source_->status());
 }
 

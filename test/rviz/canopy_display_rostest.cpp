@@ -209,6 +209,11 @@ TEST_F(CanopyDisplayTest, SurvivesTimeGoingBack) {
   EXPECT_TRUE(rig.until([&] { return display->drawn().plants == 2; }));
 }
 
+TEST_F(CanopyDisplayTest, TellsThatNoStateComes) {
+  ASSERT_TRUE(rig.until([&] { return display->drawn().drawn > 0; }));
+  expectSilenceIsTold(rig, *display, [&] { rig.blow(1); });
+}
+
 TEST_F(CanopyDisplayTest, FollowsANodeThatDiesAndReturns) {
   expectReloadsAreFollowed(
       rig,

@@ -90,6 +90,20 @@ inline std::string statusOf(rviz::Display& display, const char* name) {
   return {};
 }
 
+/// A node that tells no state any more is missed until it does.
+inline void expectSilenceIsTold(ViewRig& rig, rviz::Display& display,
+                                const std::function<void()>& tell) {
+  const auto says = [&](const char* text) {
+    return rig.until([&] { return statusOf(display, "State") == text; });
+  };
+  tell();
+  EXPECT_TRUE(says("In step")) << statusOf(display, "State");
+  rig.setTime(rig.now() + 4.0);
+  EXPECT_TRUE(says("No message for 3 s: drawn as it was then")) << statusOf(display, "State");
+  tell();
+  EXPECT_TRUE(says("In step")) << statusOf(display, "State");
+}
+
 /// What the governor of a node chose is told.
 /// @param cost, budget keys of its diagnostics. @param unit of both. @return what is told.
 inline std::string expectGovernorIsTold(ViewRig& rig, rviz::Display& display,

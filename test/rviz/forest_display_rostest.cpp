@@ -298,6 +298,11 @@ TEST_F(ForestDisplayTest, FollowsALayoutThatChanges) {
   EXPECT_TRUE(rig.until([&] { return display->drawn().trees == 1; }));
 }
 
+TEST_F(ForestDisplayTest, TellsThatNoStateComes) {
+  ASSERT_TRUE(drawn());
+  expectSilenceIsTold(rig, *display, [&] { rig.publishState(); });
+}
+
 TEST_F(ForestDisplayTest, FollowsANodeThatDiesAndReturns) {
   display->subProp("Triangles")->setValue(1000);  // one state of rest: all trees the coarsest
   expectReloadsAreFollowed(

@@ -207,6 +207,11 @@ TEST_F(GrassDisplayTest, FollowsALayoutThatChanges) {
   EXPECT_TRUE(rig.until([&] { return display->drawn().tiles == 36; }));
 }
 
+TEST_F(GrassDisplayTest, TellsThatNoStateComes) {
+  ASSERT_TRUE(drawn());
+  expectSilenceIsTold(rig, *display, [&] { rig.publishState(); });
+}
+
 TEST_F(GrassDisplayTest, FollowsANodeThatDiesAndReturns) {
   ASSERT_TRUE(drawn());
   expectReloadsAreFollowed(

@@ -52,7 +52,9 @@ class CanopySource {
   void forgetState(Nanoseconds now);
 
   const InputStatus& layoutStatus() const { return layout_status_; }
-  const InputStatus& stateStatus() const { return state_status_; }
+  InputStatus stateStatus(Nanoseconds now) const {
+    return unlessSilent(state_status_, stamp_, now);
+  }
 
  private:
   void takeLayout(const CanopyLayout& message);

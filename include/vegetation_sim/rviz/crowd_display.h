@@ -30,7 +30,7 @@ class CrowdDisplay : public SceneryDisplay {
   void light(const view::Daylight& daylight, const view::Haze& haze) override;
   void dropGround() override { ground_.reset(); }
   void forgetState(Nanoseconds now) override { source_->forgetState(now); }
-  void showInputs(view::StatusBoard& board) const override;
+  void showInputs(view::StatusBoard& board, Nanoseconds now) const override;
   view::InputStatus describeDrawn() const override;
   void updateLook() override;
 

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "vegetation_sim/crowd/walker.h"
-#include "vegetation_sim/rviz/forest_source.h"
 #include "vegetation_sim/rviz/ground_source.h"
+#include "vegetation_sim/rviz/input_status.h"
 
 namespace vegetation_sim::view {
 

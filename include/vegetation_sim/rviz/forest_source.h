@@ -11,14 +11,9 @@
 #include <string>
 
 #include "vegetation_sim/forest/replica.h"
+#include "vegetation_sim/rviz/input_status.h"
 
 namespace vegetation_sim::view {
-
-/// How one input stands, for the display's status.
-struct InputStatus {
-  bool good{false};
-  std::string text;
-};
 
 struct ForestTopics {
   std::string layout, wind, state;
@@ -42,7 +37,9 @@ class ForestSource {
 
   const InputStatus& layoutStatus() const { return layout_status_; }
   const InputStatus& windStatus() const { return wind_status_; }
-  const InputStatus& stateStatus() const { return state_status_; }
+  InputStatus stateStatus(Nanoseconds now) const {
+    return unlessSilent(state_status_, replica_.stamp(), now);
+  }
 
  private:
   void takeLayout(const ForestLayout& message);

@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "vegetation_sim/rviz/forest_source.h"
+#include "vegetation_sim/rviz/input_status.h"
 
 namespace vegetation_sim::view {
 

@@ -14,7 +14,7 @@
 #include <utility>
 
 #include "vegetation_sim/ros/heard_meadow.h"
-#include "vegetation_sim/rviz/forest_source.h"
+#include "vegetation_sim/rviz/input_status.h"
 #include "vegetation_sim/wind/field.h"
 
 namespace vegetation_sim::view {
@@ -51,7 +51,9 @@ class GrassSource {
 
   const InputStatus& layoutStatus() const { return layout_status_; }
   const InputStatus& windStatus() const { return wind_status_; }
-  const InputStatus& stateStatus() const { return state_status_; }
+  InputStatus stateStatus(Nanoseconds now) const {
+    return unlessSilent(state_status_, meadow_.replica.stamp(), now);
+  }
 
  private:
   void takeLayout(const GrassLayout& message);

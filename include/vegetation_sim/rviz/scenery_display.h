@@ -53,7 +53,8 @@ class SceneryDisplay : public rviz::Display {
   virtual void dropGround() = 0;
   /// Time went back to `now`.
   virtual void forgetState(Nanoseconds now) = 0;
-  virtual void showInputs(view::StatusBoard& board) const = 0;
+  /// `now`: of the picture.
+  virtual void showInputs(view::StatusBoard& board, Nanoseconds now) const = 0;
   /// What was drawn last, good if it is anything.
   virtual view::InputStatus describeDrawn() const = 0;
 

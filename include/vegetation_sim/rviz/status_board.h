@@ -7,8 +7,8 @@
 #include <map>
 #include <string>
 
-#include "vegetation_sim/rviz/forest_source.h"
 #include "vegetation_sim/rviz/forest_visual.h"
+#include "vegetation_sim/rviz/input_status.h"
 
 namespace vegetation_sim::view {
 

@@ -38,7 +38,7 @@ class WindDisplay : public SceneryDisplay {
   void light(const view::Daylight& daylight, const view::Haze& haze) override;
   void dropGround() override { ground_.reset(); }
   void forgetState(Nanoseconds /*now*/) override {}  // a law knows all times
-  void showInputs(view::StatusBoard& board) const override;
+  void showInputs(view::StatusBoard& board, Nanoseconds now) const override;
   view::InputStatus describeDrawn() const override;
 
  private:

@@ -8,8 +8,8 @@
 
 #include <string>
 
-#include "vegetation_sim/rviz/forest_source.h"
 #include "vegetation_sim/rviz/ground_source.h"
+#include "vegetation_sim/rviz/input_status.h"
 #include "vegetation_sim/wind/field.h"
 
 namespace vegetation_sim::view {
