@@ -72,7 +72,8 @@ std::vector<Way> busiestWays(const Skeleton& skeleton) {
 /// The worst of several drives.
 struct Worst {
   int drives{0}, touched{0}, disagreed{0}, deeper{0};  ///< deeper: drives above the bar
-  double thin{0.0}, own{0.0}, thick{0.0}, force{0.0}, rise{0.0}, parts{0.0};
+  double thin{0.0}, own{0.0}, thick{0.0}, force{0.0}, rise{0.0}, fall{0.0};
+  double parts{0.0};
 
   void add(const CrownResult& found, double ticks) {
     ++drives;
@@ -84,6 +85,7 @@ struct Worst {
     thick = std::max(thick, found.deepest_thick);
     force = std::max(force, found.hardest);
     rise = std::max(rise, found.largest_rise);
+    fall = std::max(fall, found.largest_fall);
     parts = std::max(parts, found.parts / ticks);
   }
 };
@@ -98,12 +100,13 @@ void driveAll(const std::string& species, std::uint64_t seed, std::size_t most,
       CrownScene scene(species, seed);
       worst.add(scene.drive(way.start, RADIUS, LENGTH, speed, WAY), WAY / speed * PHYSICS_RATE);
     }
-    std::printf("%-7s %4llu %5.1f %6d %7d %9.2f %9.2f %6d %10.1f %9.0f %8.0f %6.2f %9d\n",
+    std::printf("%-7s %4llu %5.1f %6d %7d %9.2f %9.2f %6d %10.1f %9.0f %8.0f %8.0f %6.2f %9d\n",
                 species.c_str(), static_cast<unsigned long long>(seed), speed, worst.drives,
                 worst.touched, 1e3 * worst.thin, 1e3 * worst.own, worst.deeper, 1e3 * worst.thick,
-                worst.force, worst.rise, worst.parts, worst.disagreed);
+                worst.force, worst.rise, worst.fall, worst.parts, worst.disagreed);
     table.row(species, seed, speed, worst.drives, worst.touched, worst.thin, worst.own,
-              worst.deeper, worst.thick, worst.force, worst.rise, worst.parts, worst.disagreed);
+              worst.deeper, worst.thick, worst.force, worst.rise, worst.fall, worst.parts,
+              worst.disagreed);
   }
 }
 
@@ -158,10 +161,10 @@ void tellAll(const std::string& species, std::uint64_t seed, std::size_t most) {
 void benchDepth(std::size_t most, const std::string& csv) {
   bench::Table table(csv,
                      "species,seed,speed,drives,touched,deepest_thin,deepest_own,deeper_than_bar,"
-                     "deepest_thick,force,largest_rise,parts,disagreed");
-  std::printf("%-7s %4s %5s %6s %7s %9s %9s %6s %10s %9s %8s %6s %9s\n", "species", "seed", "[m/s]",
-              "drives", "touched", "thin [mm]", "own [mm]", "> 5 mm", "other [mm]", "force [N]",
-              "rise [N]", "parts", "disagreed");
+                     "deepest_thick,force,largest_rise,largest_fall,parts,disagreed");
+  std::printf("%-7s %4s %5s %6s %7s %9s %9s %6s %10s %9s %8s %8s %6s %9s\n", "species", "seed",
+              "[m/s]", "drives", "touched", "thin [mm]", "own [mm]", "> 5 mm", "other [mm]",
+              "force [N]", "rise [N]", "fall [N]", "parts", "disagreed");
   for (const std::string& species : speciesNames())
     for (std::uint64_t seed = 7; seed < 10; ++seed) driveAll(species, seed, most, table);
 }

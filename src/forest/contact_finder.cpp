@@ -41,7 +41,8 @@ struct Held {
   const Touch* touching() const {
     const Touch* out = nullptr;
     for (const Touch* t = first; t != last; ++t)
-      if ((t->force > 0.0 || t->gap < HELD) && (!out || t->force > out->force)) out = t;
+      if (!t->leaving && (t->force > 0.0 || t->gap < HELD) && (!out || t->force > out->force))
+        out = t;
     return out;
   }
   // The force that goes on at `along`: each goes to the nearer of the two places, of equals to the
@@ -50,7 +51,7 @@ struct Held {
     double out = 0.0;
     for (const Touch* t = first; t != last; ++t) {
       const double way = std::fabs(t->along - along), others = std::fabs(t->along - other);
-      if (way < others || (way == others && along < other)) out += t->force;
+      if (!t->leaving && (way < others || (way == others && along < other))) out += t->force;
     }
     return out;
   }
@@ -64,7 +65,7 @@ bool meet(const Placed& placed, const Pair& pair, const Held& held, double horiz
     const Proximity free = nearest(placed.shape, local);
     if (dot(free.normal, known->side) < 0.0 && free.gap > LOST) return false;
     out = nearest(placed.shape, local, known->side);
-    if (out.gap < SKIN) return true;
+    if (out.gap < SKIN || known->force > 0.0) return true;
   }
   const physics::Meeting meeting =
       sweep(placed.shape, local, rotate(placed.to_body, pair.base_velocity),
@@ -162,23 +163,26 @@ std::vector<Contact> ContactFinder::findContacts(const Wood& wood, const Bodies&
     const Placed placed(entry.second, wood.foot, from);
     for (std::size_t i = 0; i < wood.branches.size(); ++i) {
       const Pair pair(wood, i, placed);
-      if (leastGap(placed, pair.bar) > pair.reach(h)) continue;
       const Held held(touches, entry.first, wood.branches[i]);
-      Proximity found;
-      if (!meet(placed, pair, held, LOOK_AHEAD * h, found)) continue;
-      Proximity far;
-      const bool flat = liesFlat(placed, pair, found, pair.reach(h), far);
-      const auto add = [&](const Proximity& place, double force) {
+      Proximity found, far;
+      const bool meets = leastGap(placed, pair.bar) <= pair.reach(h) &&
+                         meet(placed, pair, held, LOOK_AHEAD * h, found);
+      const bool flat = meets && liesFlat(placed, pair, found, pair.reach(h), far);
+      const auto add = [&](const Proximity& place, double force, bool leaving = false) {
         Contact contact = contactOf(placed, pair, place);
         contact.link = static_cast<int>(i);
         contact.touch = kept.size();
         contact.force = force;
         kept.push_back(
-            {entry.first, wood.branches[i], place.normal, place.gap, force, place.along});
+            {entry.first, wood.branches[i], place.normal, place.gap, force, place.along, leaving});
         out.push_back(contact);
       };
-      add(found, held.at(found.along, flat ? far.along : NOWHERE));
+      if (meets) add(found, held.at(found.along, flat ? far.along : NOWHERE));
       if (flat) add(far, held.at(far.along, found.along));
+      // Nothing presses there any more, and the force falls.
+      for (const Touch* t = held.first; t != held.last; ++t)
+        if (t->force > 0.0 && (t->leaving || !meets))
+          add({t->along, t->side, SKIN}, t->force, true);
     }
   }
   touches = std::move(kept);

@@ -72,6 +72,7 @@ void ForestPhysics::addTo(Hash& hash) const {
       hash.add(touch.along);
       hash.add(touch.gap);
       hash.add(touch.force);
+      hash.add(std::uint64_t{touch.leaving});
     }
   }
 }

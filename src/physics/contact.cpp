@@ -18,6 +18,8 @@ constexpr int JOINT_TRIALS = 6;
 constexpr double SLACK = 1e-5;
 // Forces rise at the law's rate, and by the spring for what comes in deeper than this [m].
 constexpr double DEEP = 1e-3;
+// No knock of wood ends faster: a force falls by at most the law's limit in this time [s].
+constexpr double FALL_TIME = 32e-6;
 
 Symmetric3 along(const Vec3& n, double factor) {
   return {factor * n.x() * n.x(), factor * n.y() * n.y(), factor * n.z() * n.z(),
@@ -68,7 +70,8 @@ void ContactStepper::prepare(const ContactLaw& law, double h, double theta,
     p.full = contact.bears * law.force_limit;
     p.before = contact.force;
     const double risen = contact.force + h * law.force_rate + p.stiffness * gain;
-    p.limit = contact.share * std::min(p.full, risen);
+    p.floor = std::max(0.0, contact.force - h * law.force_limit / FALL_TIME);
+    p.limit = std::max(p.floor, contact.share * std::min(p.full, risen));
     if (contact.force >= p.limit)
       p.mode = Mode::LIMITED;
     else if (contact.force > 0.0 || forceOf(law, h, p, p.speed) > 0.0)
@@ -101,12 +104,12 @@ void ContactStepper::addAnchors(const ContactLaw& law, double h, double theta,
                                 const std::vector<Contact>& contacts) {
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const Point& p = points_[c];
-    if (p.mode == Mode::FREE) continue;
+    if (p.mode == Mode::FREE && p.floor == 0.0) continue;
     Anchor anchor;
     anchor.link = contacts[c].link;
     anchor.arm = p.arm;
-    if (p.mode == Mode::LIMITED) {
-      anchor.force = p.limit * contacts[c].normal;
+    if (p.mode == Mode::LIMITED || p.mode == Mode::FREE) {
+      anchor.force = (p.mode == Mode::FREE ? p.floor : p.limit) * contacts[c].normal;
     } else {
       const Line line = lineOf(law, h, p, p.mode);
       anchor.force = line.at(p.speed) * contacts[c].normal;
@@ -145,15 +148,15 @@ bool ContactStepper::revise(const ContactLaw& law, double h, bool one_by_one,
     const double speed = speedAfter(h, p, contacts[c]);
     const Mode bearing = modeAt(law, h, p, speed);
     const double force = lineOf(law, h, p, bearing).at(speed);
-    contacts[c].force = std::clamp(force, 0.0, p.limit);
+    contacts[c].force = std::clamp(force, p.floor, p.limit);
     contacts[c].limited = force >= p.limit;
     Mode mode = p.mode;
     // Step by step along the law: a leap over a piece of it may be answered by a leap back.
     const bool pressed = p.mode == Mode::PRESSING || p.mode == Mode::EASING;
-    const double other = p.mode == Mode::FREE ? force : p.limit - force;
+    const double other = p.mode == Mode::FREE ? force - p.floor : p.limit - force;
     if ((pressed ? lineOf(law, h, p, p.mode).at(speed) - force : other) > SLACK)
       mode = bearing;
-    else if (pressed && force < -SLACK)
+    else if (pressed && force < p.floor - SLACK)
       mode = Mode::FREE;
     else if (pressed && force > p.limit + SLACK)
       mode = Mode::LIMITED;

@@ -251,6 +251,27 @@ TEST(Contact, WhatWouldEnterDeeplyIsStoppedAtOnce) {
   EXPECT_EQ(meeting.last().force, meeting.law.force_limit);
 }
 
+// Continuous in time also where a body is gone at once: the force falls by the limit in 32 us.
+TEST(Contact, ForceFallsNoFasterThanTheLimitIn32Microseconds) {
+  for (const double bears : {1.0, 5.0}) {
+    for (const double h : {2e-6, 8e-6, 32e-6, 1.0 / 240.0}) {
+      Meeting meeting(trunkOf(50000.0));
+      meeting.bears = bears;
+      Wall wall{-0.001, 0.5};
+      while (meeting.last().force < bears * 1500.0) meeting.step(1e-4, wall);
+      wall = {-1.0, 0.0};
+      double before = meeting.last().force, time = 0.0;
+      for (const double first = before; before > 0.0; before = meeting.last().force) {
+        meeting.step(h, wall);
+        time += h;
+        const double fall = std::min(before, h * meeting.law.force_limit / 32e-6);
+        EXPECT_NEAR(before - meeting.last().force, fall, 1e-6) << first << " N, " << h << " s";
+      }
+      EXPECT_LT(time, h + 32e-6 * bears);
+    }
+  }
+}
+
 TEST(Contact, NeverPulls) {
   Meeting meeting(twig());
   Wall wall{0.0, 0.5};

@@ -32,6 +32,7 @@ struct Touch {
   double gap{0.0};          ///< at the start of the last step [m]
   double force{0.0};        ///< of the last step [N]
   double along{0.0};        ///< where on the branch [m]
+  bool leaving{false};      ///< the branch has slid off there, and the force falls
 };
 /// By body, then branch; rising. A branch that lies flat on a body has two.
 using Touches = std::vector<Touch>;
@@ -41,7 +42,7 @@ using Touches = std::vector<Touch>;
 class Halvings {
  public:
   static constexpr double MOST_SWING = 0.25;
-  static constexpr Nanoseconds SHORTEST = 8000;  ///< of a part
+  static constexpr Nanoseconds SHORTEST = 4000;  ///< of a part
   static constexpr int MOST = 128;               ///< in a step
 
   /// True if the last step of `stepper`, a part so long, was too coarse and may be halved.

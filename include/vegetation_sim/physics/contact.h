@@ -40,14 +40,14 @@ class ContactStepper {
   double swing() const { return swing_; }
 
  private:
-  enum class Mode { FREE, PRESSING, EASING, LIMITED };
+  enum class Mode { FREE, PRESSING, EASING, LIMITED };  // FREE: at the floor, mostly zero
   struct Point {
     Mode mode{Mode::FREE};
     Vec3 arm;
     double speed;            // along the normal, relative to the body [m/s]
     double gap;              // the one that the step's last speed changes [m]
     double stiffness, full;  // [N/m]; the most that it bears [N]
-    double limit;            // of the force in this step [N]
+    double floor, limit;     // of the force in this step [N]
     double before;           // the force [N]
   };
   // Force over speed at the end of the step.
