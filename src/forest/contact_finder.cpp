@@ -24,18 +24,29 @@ constexpr double NOWHERE = 1e9;              // [m]
 // Thin wood is never let in: where it stands on stout wood, or is whipped by it, it presses harder.
 // Thin is a radius of at most 1 cm; from 1.2 cm on wood is stout [m].
 constexpr double THIN = 0.01, FADE = 2e-3, THIN_BEARS = 5.0;
-// What a pair of a body and a branch had in the last step: one contact, two or none.
+
+// What a body had in the last step.
+struct Touched {
+  const Touch *first, *last;
+
+  Touched(const Touches& touches, const std::string& body) {
+    first = touches.data();
+    const Touch* end = first + touches.size();
+    while (first != end && first->body != body) ++first;
+    last = first;
+    while (last != end && last->body == body) ++last;
+  }
+};
+
+// What a pair of a body and a branch had in the last step: one contact, two or none, and what
+// leaves.
 struct Held {
   const Touch *first, *last;
 
-  Held(const Touches& touches, const std::string& body, int branch) {
-    const auto before = [&](const Touch& a, int b) {
-      return a.body != body ? a.body < body : a.branch < b;
-    };
-    const auto it = std::lower_bound(touches.begin(), touches.end(), branch, before);
-    first = last = touches.data() + (it - touches.begin());
-    const Touch* end = touches.data() + touches.size();
-    while (last != end && last->body == body && last->branch == branch) ++last;
+  Held(const Touched& body, int branch) {
+    const auto before = [](const Touch& a, int b) { return a.branch < b; };
+    first = last = std::lower_bound(body.first, body.last, branch, before);
+    while (last != body.last && last->branch == branch) ++last;
   }
   // The one that bears most, if any touches: its side is the branch's.
   const Touch* touching() const {
@@ -161,9 +172,10 @@ std::vector<Contact> ContactFinder::findContacts(const Wood& wood, const Bodies&
   Touches kept;
   for (const auto& entry : bodies) {
     const Placed placed(entry.second, wood.foot, from);
+    const Touched touched(touches, entry.first);
     for (std::size_t i = 0; i < wood.branches.size(); ++i) {
       const Pair pair(wood, i, placed);
-      const Held held(touches, entry.first, wood.branches[i]);
+      const Held held(touched, wood.branches[i]);
       Proximity found, far;
       const bool meets = leastGap(placed, pair.bar) <= pair.reach(h) &&
                          meet(placed, pair, held, LOOK_AHEAD * h, found);
