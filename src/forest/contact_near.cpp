@@ -70,7 +70,7 @@ std::vector<std::uint32_t> treesNear(const Layout& layout, const terrain::Height
     if (centre.x() < tile.x - room || centre.x() > tile.x + tile.size + room ||
         centre.y() < tile.y - room || centre.y() > tile.y + tile.size + room)
       continue;
-    for (std::uint32_t i = 0; i < tile.count; ++i) {
+    for (const std::uint32_t i : treesInTile(tile, centre, room)) {
       const TreeSeed seed = seedInTile(tile, i);
       if (within(footOf(seed, terrain), centre, seed.scale * size[seed.species] + radius))
         out.push_back(tile.first_tree + i);

@@ -33,6 +33,10 @@ void checkSeed(const TreeSeed& seed, const std::string& name, std::size_t specie
   checkNumber(name + ": scale", seed.scale, "", {0.05, 20.0}, faults);
 }
 
+std::uint32_t cellsASide(const Tile& tile) {
+  return static_cast<std::uint32_t>(std::ceil(std::sqrt(std::max(1u, tile.count))));
+}
+
 void checkTile(const Tile& tile, const std::string& name, std::size_t species, Faults& faults) {
   checkNumber(name + ": x", tile.x, "m", {-FARTHEST, FARTHEST}, faults);
   checkNumber(name + ": y", tile.y, "m", {-FARTHEST, FARTHEST}, faults);
@@ -131,7 +135,7 @@ void check(const Layout& layout, Faults& faults) {
 
 TreeSeed seedInTile(const Tile& tile, std::uint32_t index) {
   // One tree per cell of a square grid, jittered inside it: no two trunks touch.
-  const auto side = static_cast<std::uint32_t>(std::ceil(std::sqrt(std::max(1u, tile.count))));
+  const std::uint32_t side = cellsASide(tile);
   const double cell = tile.size / side;
   const Random random = Random(tile.seed).child(index);
   const std::uint32_t column = index % side, row = index / side;
@@ -161,6 +165,26 @@ TreeSeed seedOf(const Layout& layout, std::uint32_t tree) {
                             std::to_string(layout.treeCount()) + ", from 0");
   const Tile& tile = layout.tiles[low - 1];
   return seedInTile(tile, tree - tile.first_tree);
+}
+
+std::vector<std::uint32_t> treesInTile(const Tile& tile, const Vec3& point, double radius) {
+  const std::uint32_t side = cellsASide(tile);
+  const double cell = tile.size / side, x = (point.x() - tile.x) / cell,
+               y = (point.y() - tile.y) / cell, r = radius / cell;
+  const auto first = [&](double low) {
+    return static_cast<std::uint32_t>(std::clamp(std::floor(low), 0.0, double(side)));
+  };
+  const auto end = [&](double high) {
+    return static_cast<std::uint32_t>(std::clamp(std::floor(high) + 1.0, 0.0, double(side)));
+  };
+  std::vector<std::uint32_t> out;
+  for (std::uint32_t row = first(y - r); row < end(y + r); ++row) {
+    const double off = std::max({0.0, row - y, y - row - 1.0});  // of the row's nearer edge
+    const double half = std::sqrt(std::max(0.0, r * r - off * off));
+    for (std::uint32_t column = first(x - half); column < end(x + half); ++column)
+      if (row * side + column < tile.count) out.push_back(row * side + column);
+  }
+  return out;
 }
 
 Vec3 footOf(const TreeSeed& seed, const terrain::HeightMap& terrain) {

@@ -27,6 +27,25 @@ double distanceTo(const forest::Tile& tile, const Vec3& point) {
   return std::sqrt(x * x + y * y);
 }
 
+// The nearest trees of a tile, all of them within the distance that is told [m]: `most`, or all.
+double addTile(const forest::Tile& tile, const Vec3& point, std::size_t most,
+               std::vector<Candidate>& out) {
+  const std::size_t before = out.size();
+  const double least = distanceTo(tile, point), all = least + 1.5 * tile.size;
+  double way = tile.size * std::sqrt(static_cast<double>(most) / std::max(1u, tile.count));
+  for (;; way *= 2.0) {
+    out.resize(before);
+    const double radius = std::min(all, least + way);
+    std::size_t within = 0;
+    for (const std::uint32_t t : forest::treesInTile(tile, point, radius)) {
+      const Vec3 at = forest::seedInTile(tile, t).position - point;
+      out.push_back({std::hypot(at.x(), at.y()), tile.first_tree + t});
+      within += out.back().distance <= radius;
+    }
+    if (within >= most || radius == all) return radius;
+  }
+}
+
 // Trees of tiles, nearest tiles first, until no tile left out can hold one of the `most` nearest.
 void addTiles(const forest::Layout& layout, const Vec3& point, std::size_t most,
               std::vector<Candidate>& out) {
@@ -36,16 +55,12 @@ void addTiles(const forest::Layout& layout, const Vec3& point, std::size_t most,
     return distanceTo(layout.tiles[a], point) < distanceTo(layout.tiles[b], point);
   });
   const std::size_t explicit_trees = out.size();
-  double enough = -1.0;  // [m] within this there are `most` trees
+  double enough = -1.0, farthest = 0.0;  // [m] within `enough` there are `most` trees
   for (const std::size_t i : order) {
     const forest::Tile& tile = layout.tiles[i];
     if (enough >= 0.0 && distanceTo(tile, point) > enough) return;
-    for (std::uint32_t t = 0; t < tile.count; ++t) {
-      const Vec3 at = forest::seedInTile(tile, t).position - point;
-      out.push_back({std::hypot(at.x(), at.y()), tile.first_tree + t});
-    }
-    if (enough < 0.0 && out.size() >= explicit_trees + most)
-      enough = distanceTo(tile, point) + 1.5 * tile.size;
+    farthest = std::max(farthest, addTile(tile, point, most, out));
+    if (enough < 0.0 && out.size() >= explicit_trees + most) enough = farthest;
   }
 }
 

@@ -75,6 +75,29 @@ TEST(Layout, FaultsNameFieldValueAndRange) {
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
 }
 
+// Against the place of every tree.
+TEST(Layout, TreesOfATileNearAPointAreFound) {
+  Tile tile;
+  tile.count = 700;
+  tile.size = 60.0;
+  tile.x = -10.0;
+  tile.mix = {1.f};
+  for (const Vec3& point : {Vec3(5, 7, 0), Vec3(-30, 80, 3), Vec3(49.9, 59.9, 0)}) {
+    for (const double radius : {0.0, 1.0, 9.0, 40.0, 500.0}) {
+      const std::vector<std::uint32_t> found = treesInTile(tile, point, radius);
+      EXPECT_TRUE(std::is_sorted(found.begin(), found.end()));
+      const double cell = 60.0 / 27.0;
+      for (std::uint32_t i = 0; i < tile.count; ++i) {
+        const Vec3 off = seedInTile(tile, i).position - point;
+        const double distance = std::hypot(off.x(), off.y());
+        const bool is_found = std::binary_search(found.begin(), found.end(), i);
+        EXPECT_TRUE(is_found || distance > radius) << i << " at " << distance;
+        EXPECT_FALSE(is_found && distance > radius + 1.5 * cell) << i << " at " << distance;
+      }
+    }
+  }
+}
+
 TEST(Layout, TilesWithGapsAndBadMixAreRefused) {
   Layout layout = gridLayout(1, 5.0);
   Tile tile;

@@ -52,10 +52,25 @@ TEST(NearestTrees, AreAllWhereThereAreNoMore) {
   EXPECT_EQ(nearestTrees(layout, Vec3::Zero(), 100).size(), 9u);
 }
 
+// Many trees in a tile, few in others of other sizes.
+Layout unevenLayout() {
+  Layout out = tiledLayout();
+  const std::pair<std::uint32_t, double> tiles[] = {{5000, 90.0}, {3, 300.0}, {700, 40.0}};
+  for (const auto& [count, size] : tiles) {
+    forest::Tile tile = out.tiles.back();
+    tile.first_tree = out.treeCount();
+    tile.count = count;
+    tile.size = size;
+    tile.x -= 70.0;
+    out.tiles.push_back(tile);
+  }
+  return out;
+}
+
 // Against looking at every tree.
-TEST(NearestTrees, AreTheNearestOfTilesToo) {
-  const Layout layout = tiledLayout();
-  for (const Vec3& eye : {Vec3(0, 0, 2), Vec3(120, 130, 2), Vec3(400, -50, 30)}) {
+void expectNearest(const Layout& layout) {
+  for (const Vec3& eye :
+       {Vec3(0, 0, 2), Vec3(120, 130, 2), Vec3(190, 210, 2), Vec3(400, -50, 30)}) {
     for (const std::size_t most : {1u, 7u, 100u, 600u}) {
       std::vector<std::pair<double, std::uint32_t>> all;
       for (std::uint32_t i = 0; i < layout.treeCount(); ++i) {
@@ -69,6 +84,30 @@ TEST(NearestTrees, AreTheNearestOfTilesToo) {
       EXPECT_EQ(nearestTrees(layout, eye, most), expected) << most;
     }
   }
+}
+
+TEST(NearestTrees, AreTheNearestOfTilesToo) {
+  expectNearest(tiledLayout());
+  expectNearest(unevenLayout());
+}
+
+// Only those of a tile's trees are looked at that may be.
+TEST(NearestTrees, OfATileOfMillionsAreAtHand) {
+  Layout layout = tiledLayout();
+  layout.trees.clear();
+  layout.tiles.resize(1);
+  layout.tiles[0].first_tree = 0;
+  layout.tiles[0].count = forest::MOST_TREES;
+  layout.tiles[0].size = 40000.0;
+  const Vec3 eye(23456.0, 12345.0, 2.0);
+  const auto near = nearestTrees(layout, eye, 100);
+  ASSERT_EQ(near.size(), 100u);
+  double farthest = 0.0;
+  for (const std::uint32_t id : near)
+    farthest =
+        std::max(farthest, length(forest::seedOf(layout, id).position + Vec3(0, 0, 2) - eye));
+  const double mean = std::sqrt(100.0 * 40000.0 * 40000.0 / forest::MOST_TREES / M_PI);
+  EXPECT_NEAR(farthest, mean, 0.1 * mean);  // of the disc that 100 trees fill
 }
 
 TEST(View, SeesWhatIsInItsCone) {

@@ -71,6 +71,9 @@ void check(const Layout& layout, Faults& faults);
 /// The seed of a tree. @throws std::out_of_range for an unknown id.
 TreeSeed seedOf(const Layout& layout, std::uint32_t tree);
 TreeSeed seedInTile(const Tile& tile, std::uint32_t index);
+/// Trees of a tile that may stand within `radius` of a point, rising: one in each cell of a square
+/// grid, row by row, so others are not looked at.
+std::vector<std::uint32_t> treesInTile(const Tile& tile, const Vec3& point, double radius);
 
 /// Foot of a tree in the world [m]: its seed's position on the terrain.
 Vec3 footOf(const TreeSeed& seed, const terrain::HeightMap& terrain);
