@@ -130,7 +130,7 @@ void Material::addPlain(const std::vector<std::string>& textures) {
     pass->setSpecular(0.f, 0.f, 0.f, 0.f);
   }
   if (kind_ == Kind::LEAVES) pass->setAlphaRejectSettings(Ogre::CMPF_GREATER_EQUAL, 128);
-  if (kind_ == Kind::STRIPS) pass->setAlphaRejectSettings(Ogre::CMPF_GREATER_EQUAL, 96);
+  if (kind_ == Kind::STRIPS) pass->setAlphaRejectSettings(Ogre::CMPF_GREATER, 127);
   if (hasTwoSides(kind_)) pass->setCullingMode(Ogre::CULL_NONE);
   if (kind_ == Kind::SHADOWS) makeShadow(*pass);
   if (kind_ == Kind::SKY) {
@@ -141,6 +141,11 @@ void Material::addPlain(const std::vector<std::string>& textures) {
   if (plant)  // vertex alpha is no transparency
     pass->getTextureUnitState(0)->setAlphaOperation(Ogre::LBX_SOURCE1, Ogre::LBS_TEXTURE,
                                                     Ogre::LBS_CURRENT);
+  if (kind_ == Kind::STRIPS) {  // shown where picture + vertex > 1, as in STRIP_FRAGMENT
+    Ogre::TextureUnitState& unit = *pass->getTextureUnitState(0);
+    unit.setAlphaOperation(Ogre::LBX_ADD_SIGNED, Ogre::LBS_TEXTURE, Ogre::LBS_CURRENT);
+    unit.setColourOperationEx(Ogre::LBX_SOURCE1, Ogre::LBS_CURRENT);  // brighter
+  }
 }
 
 void Material::light(const Daylight& daylight, const Vec3& to_sun, const Haze& haze) {

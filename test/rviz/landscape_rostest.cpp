@@ -1,6 +1,9 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
 // All displays in one rviz, beside the nodes that they listen to.
+#include <OgreMaterialManager.h>
+#include <OgreTechnique.h>
+
 #include <algorithm>
 #include <set>
 
@@ -69,6 +72,20 @@ std::string giverOf(rviz::Display& display, const std::string& thing) {
   return told.substr(from, told.find(',', from) - from);
 }
 
+/// Materials with shaders take their other technique, as where a renderer has none; or again not.
+void forgetShaders(bool forget) {
+  Ogre::ResourceManager::ResourceMapIterator all =
+      Ogre::MaterialManager::getSingleton().getResourceIterator();
+  while (all.hasMoreElements()) {
+    auto& material = static_cast<Ogre::Material&>(*all.getNext());
+    if (material.getNumTechniques() < 2) continue;
+    Ogre::Technique& shaded = *material.getTechnique(0);
+    if (!shaded.getPass(0)->hasVertexProgram()) continue;
+    shaded.setSchemeName(forget ? "forgotten" : Ogre::MaterialManager::DEFAULT_SCHEME_NAME);
+    material.compile();
+  }
+}
+
 TEST_F(LandscapeTest, EveryKindDrawsAndWhatASceneHasOnceIsGivenOnce) {
   Landscape scene = add();
   ASSERT_TRUE(goOnUntil([&] { return scene.drawn(); }));
@@ -98,6 +115,24 @@ TEST_F(LandscapeTest, EveryKindDrawsAndWhatASceneHasOnceIsGivenOnce) {
   EXPECT_GT(rig.look().green, 0.15);
   for (rviz::Display* display : scene.all())
     if (display != scene.grass) rig.remove(display);
+}
+
+TEST_F(LandscapeTest, WithoutShadersTheSceneIsPlainerButThere) {
+  const Landscape scene = add();
+  ASSERT_TRUE(goOnUntil([&] { return scene.drawn(); }));
+  rig.frames(3);
+  const Impression shaded = rig.look();
+  const std::vector<std::uint8_t> before = rig.picture();
+  forgetShaders(true);
+  rig.frames(3);
+  const Impression plain = rig.look();
+  const std::vector<std::uint8_t> after = rig.picture();
+  forgetShaders(false);
+  EXPECT_GT(difference(before, after), 0.5);
+  EXPECT_NEAR(plain.green, shaded.green, 0.1);
+  EXPECT_NEAR(plain.blue, shaded.blue, 0.1);
+  EXPECT_GT(plain.spread, 15.0);
+  for (rviz::Display* display : scene.all()) rig.remove(display);
 }
 
 // In whatever order they go.
