@@ -100,7 +100,7 @@ void AgentCrowd::tick(std::int64_t) {
       ++counts_.events;
       if (!options_.replay) events_publisher_.publish(event);
     } catch (const InvalidInput& error) {
-      reject("event", error.what());
+      refusals_.add("event", error.what());
     }
   }
   warnOfLosses("agent_crowd", inputs_.losses(), told_);

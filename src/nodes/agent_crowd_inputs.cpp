@@ -18,12 +18,6 @@ constexpr double VARIETY = 0.12;  // of people who come together
 
 }  // namespace
 
-void AgentCrowd::reject(const std::string& what, const std::string& why) {
-  ++counts_.rejected;
-  last_rejection_ = what + ": " + why;
-  ROS_WARN_THROTTLE(1.0, "agent_crowd: refused %s: %s", what.c_str(), why.c_str());
-}
-
 void AgentCrowd::queue(CrowdEvent event) {
   if (!inputs_.add(std::move(event)))
     throw InvalidInput("10000 inputs wait for the next tick already");
@@ -31,9 +25,7 @@ void AgentCrowd::queue(CrowdEvent event) {
 
 void AgentCrowd::onLayout(const ForestLayout& message) {
   try {
-    if (message.header.frame_id != options_.frame_id)
-      throw InvalidInput("frame_id = '" + message.header.frame_id + "' should be '" +
-                         options_.frame_id + "'");
+    checkFrame(message.header.frame_id, options_.frame_id);
     const std::uint64_t hash = fromMsg(message).hash();
     layouts_.keep(hash, message);
     CrowdEvent event;
@@ -41,15 +33,13 @@ void AgentCrowd::onLayout(const ForestLayout& message) {
     event.input_hash = hash;
     queue(event);
   } catch (const InvalidInput& error) {
-    reject("forest/layout", error.what());
+    refusals_.add("forest/layout", error.what());
   }
 }
 
 void AgentCrowd::onCover(const nav_msgs::OccupancyGrid& message) {
   try {
-    if (message.header.frame_id != options_.frame_id)
-      throw InvalidInput("frame_id = '" + message.header.frame_id + "' should be '" +
-                         options_.frame_id + "'");
+    checkFrame(message.header.frame_id, options_.frame_id);
     resistanceOf(message);  // checks it
     const std::uint64_t hash = hashOf(message);
     if (covers_.isNewest(hash)) return;
@@ -59,7 +49,7 @@ void AgentCrowd::onCover(const nav_msgs::OccupancyGrid& message) {
     event.input_hash = hash;
     queue(event);
   } catch (const InvalidInput& error) {
-    reject("grass/cover/resistance", error.what());
+    refusals_.add("grass/cover/resistance", error.what());
   }
 }
 
@@ -68,7 +58,7 @@ void AgentCrowd::onViewer(const Viewer& message) {
   try {
     watchers_.hear(message, tf_buffer_, options_.frame_id, clock_.hasBegun() ? clock_.stamp() : 0);
   } catch (const InvalidInput& error) {
-    reject("viewer", error.what());
+    refusals_.add("viewer", error.what());
   }
 }
 
@@ -222,7 +212,7 @@ void AgentCrowd::onTuning(AgentCrowdConfig& config) {
     queue(event);
     shown_ = config;
   } catch (const InvalidInput& error) {
-    reject("settings", error.what());
+    refusals_.add("settings", error.what());
     config = *shown_;
   }
 }

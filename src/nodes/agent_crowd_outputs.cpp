@@ -8,7 +8,6 @@
 #include "vegetation_sim/nodes/agent_crowd.h"
 #include "vegetation_sim/ros/balance_report.h"
 #include "vegetation_sim/ros/geometry_conversions.h"
-#include "vegetation_sim/ros/troubles.h"
 
 namespace vegetation_sim {
 namespace {
@@ -142,7 +141,7 @@ void AgentCrowd::sendMarkers(const ros::TimerEvent&) {
 void AgentCrowd::warnOfTrouble(diagnostic_updater::DiagnosticStatusWrapper& status) {
   counts_.clock = clock_.counts();
   counts_.inputs = inputs_.losses();
-  warnOfMore(status, counts_.rejected, reported_.rejected, "refused input: " + last_rejection_);
+  refusals_.warn(status);
   warnOfClock(status, counts_.clock, reported_.clock);
   warnOfLosses(status, counts_.inputs, reported_.inputs);
   if (!robots_->missing().empty())
@@ -160,7 +159,7 @@ void AgentCrowd::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   for (const crowd::Walker& walker : crowd_->walkers()) arrived += walker.arrived;
   clock_.tell(status);
   status.add("Inputs taken", counts_.events);
-  status.add("Inputs refused", counts_.rejected);
+  status.add("Inputs refused", refusals_.count());
   status.add("Inputs lost", counts_.inputs.lost);
   status.add("Recorded events late", counts_.inputs.late);
   status.add("Walkers", crowd_->walkers().size());

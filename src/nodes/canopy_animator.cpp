@@ -71,7 +71,7 @@ void CanopyAnimator::tick(std::int64_t tick) {
       apply(event);
       if (!options_.replay) events_publisher_.publish(event);
     } catch (const InvalidInput& error) {
-      reject("event", error.what());
+      refusals_.add("event", error.what());
     }
   }
   warnOfLosses("canopy_animator", inputs_.losses(), told_);

@@ -53,38 +53,28 @@ CanopyEvent windEvent(std::uint64_t hash) {
 
 }  // namespace
 
-void CanopyAnimator::reject(const std::string& what, const std::string& why) {
-  ++counts_.rejected;
-  last_rejection_ = what + ": " + why;
-  ROS_WARN_THROTTLE(1.0, "canopy_animator: refused %s: %s", what.c_str(), why.c_str());
-}
-
 void CanopyAnimator::onWind(const WindField& message) {
-  if (message.header.frame_id != options_.frame_id)
-    return reject("wind", "frame_id = '" + message.header.frame_id + "' should be '" +
-                              options_.frame_id + "'");
   try {
+    checkFrame(message.header.frame_id, options_.frame_id);
     winds_.push_back(fromMsg(message));
     forest_.setWind(winds_.back());
     if (winds_.size() > MOST_WINDS) winds_.pop_front();
     inputs_.add(windEvent(winds_.back().hash()));
   } catch (const InvalidInput& error) {
-    reject("wind", error.what());
+    refusals_.add("wind", error.what());
   }
 }
 
 // The crowns are a view of the forest: nothing that the canopy remembers depends on them.
 void CanopyAnimator::onForestLayout(const ForestLayout& message) {
-  if (message.header.frame_id != options_.frame_id)
-    return reject("forest layout", "frame_id = '" + message.header.frame_id + "' should be '" +
-                                       options_.frame_id + "'");
   try {
+    checkFrame(message.header.frame_id, options_.frame_id);
     forest_.setLayout(fromMsg(message), loadTerrain(message.terrain));
     crowns_.grow(canopy_->layout(), forest_);
     canopy_->setCrowns(crowns_.boxes());
     markers_.setCrowns(canopy_->layout(), crowns_);
   } catch (const std::exception& error) {
-    reject("forest layout", error.what());
+    refusals_.add("forest layout", error.what());
   }
 }
 
@@ -92,7 +82,7 @@ void CanopyAnimator::onForestState(const ForestState& message) {
   try {
     forest_.apply(fromMsg(message));
   } catch (const InvalidInput& error) {
-    reject("forest state", error.what());
+    refusals_.add("forest state", error.what());
   }
 }
 
@@ -115,7 +105,7 @@ void CanopyAnimator::onViewer(const Viewer& message) {
     inputs_.add(event);
     viewer_ = Seen{message.id, clock_.hasBegun() ? clock_.stamp() : 0};
   } catch (const InvalidInput& error) {
-    reject("viewer", error.what());
+    refusals_.add("viewer", error.what());
   }
 }
 
@@ -164,7 +154,7 @@ void CanopyAnimator::onTuning(CanopyAnimatorConfig& config) {
     inputs_.add(settingsEvent(tuning));
     shown_ = config;
   } catch (const InvalidInput& error) {
-    reject("settings", error.what());
+    refusals_.add("settings", error.what());
     config = *shown_;
   }
 }

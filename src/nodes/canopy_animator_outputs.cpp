@@ -3,7 +3,6 @@
 #include "vegetation_sim/nodes/canopy_animator.h"
 #include "vegetation_sim/ros/balance_report.h"
 #include "vegetation_sim/ros/canopy_conversions.h"
-#include "vegetation_sim/ros/troubles.h"
 
 namespace vegetation_sim {
 
@@ -42,7 +41,7 @@ void CanopyAnimator::warnOfTrouble(diagnostic_updater::DiagnosticStatusWrapper& 
   counts_.clock = clock_.counts();
   counts_.inputs = inputs_.losses();
   counts_.resets = canopy_->figures().resets;
-  warnOfMore(status, counts_.rejected, reported_.rejected, "refused input: " + last_rejection_);
+  refusals_.warn(status);
   warnOfClock(status, counts_.clock, reported_.clock);
   warnOfLosses(status, counts_.inputs, reported_.inputs);
   warnOfMore(status, counts_.resets, reported_.resets,
@@ -65,7 +64,7 @@ void CanopyAnimator::diagnose(diagnostic_updater::DiagnosticStatusWrapper& statu
   status.add("Viewers", viewer_ ? 1 : 0);
   status.add("Messages of other viewers", counts_.other_viewers);
   clock_.tell(status);
-  status.add("Inputs refused", counts_.rejected);
+  status.add("Inputs refused", refusals_.count());
   status.add("Inputs lost", counts_.inputs.lost);
   status.add("Recorded events late", counts_.inputs.late);
   status.add("Steps undone", counts_.resets);

@@ -14,11 +14,6 @@
 namespace vegetation_sim {
 namespace {
 
-void checkFrame(const char* name, const std::string& frame, Parameters& parameters) {
-  if (!frame.empty() && frame[0] == '/')
-    parameters.fault(name, "= '" + frame + "' begins with '/'");
-}
-
 // A parameter holds against what the scenario says.
 void readScene(CanopyOptions& options, CanopyScene& scene, Faults& faults) {
   try {
@@ -156,16 +151,13 @@ CanopyOptions loadCanopyOptions(const ros::NodeHandle& private_handle, CanopySce
   Parameters parameters(private_handle);
   parameters.text("scenario", out.scenario);
   readScene(out, scene, parameters.faults());
-  parameters.text("frame_id", out.frame_id);
+  parameters.frame("frame_id", out.frame_id);
   parameters.text("viewer_id", out.viewer_id);
-  parameters.text("viewer_frame", out.viewer_frame);
+  parameters.frame("viewer_frame", out.viewer_frame, true);
   parameters.flag("replay", out.replay);
   describe(parameters, out);
   CanopyTuning tuning = tuningOf(scene.layout.motion);
   describe(parameters, tuning);
-  if (out.frame_id.empty()) parameters.fault("frame_id", "= '' is empty");
-  checkFrame("frame_id", out.frame_id, parameters);
-  checkFrame("viewer_frame", out.viewer_frame, parameters);
   scene.layout.motion = withTuning(scene.layout.motion, tuning);
   if (parameters.faults().empty()) canopy::check(scene.layout, parameters.faults());
   parameters.finish();

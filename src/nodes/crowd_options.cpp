@@ -109,7 +109,7 @@ CrowdOptions loadCrowdOptions(const ros::NodeHandle& private_handle, CrowdScene&
   Parameters parameters(private_handle);
   parameters.text("scenario", out.scenario);
   readScene(out, scene, parameters.faults());
-  parameters.text("frame_id", out.frame_id);
+  parameters.frame("frame_id", out.frame_id);
   parameters.flag("replay", out.replay);
   describe(parameters, out);
   YAML::Node list;
@@ -117,8 +117,6 @@ CrowdOptions loadCrowdOptions(const ros::NodeHandle& private_handle, CrowdScene&
     YamlSection section(list, private_handle.getNamespace(), parameters.faults());
     out.robots = readRobots(section);
   }
-  if (out.frame_id.empty() || out.frame_id[0] == '/')
-    parameters.fault("frame_id", "= '" + out.frame_id + "' is empty or begins with '/'");
   if (scene.crowd.spawns.size() > static_cast<std::size_t>(out.most_walkers))
     parameters.fault("most_walkers", "= " + std::to_string(out.most_walkers) +
                                          " is below the scenario's " +

@@ -109,8 +109,8 @@ void ForestAnimator::restart(Nanoseconds now) {
 void ForestAnimator::tick(std::int64_t tick) {
   const Nanoseconds stamp = clock_.stamp();
   if (!options_.replay) followBodies(stamp);
-  desk_->follow(stamp,
-                [this](const std::string& what, const std::string& why) { reject(what, why); });
+  desk_->follow(
+      stamp, [this](const std::string& what, const std::string& why) { refusals_.add(what, why); });
   for (ForestEvent& event : inputs_.take(stamp)) {
     event.header.frame_id = options_.frame_id;
     try {
@@ -120,7 +120,7 @@ void ForestAnimator::tick(std::int64_t tick) {
       if (!options_.replay) events_publisher_.publish(event);
     } catch (const InvalidInput& error) {
       desk_->drop(event);
-      reject("event", error.what());
+      refusals_.add("event", error.what());
     }
   }
   warnOfLosses("forest_animator", inputs_.losses(), told_);

@@ -4,6 +4,7 @@
 
 #include "vegetation_sim/nodes/forest_animator.h"
 #include "vegetation_sim/ros/forest_conversions.h"
+#include "vegetation_sim/ros/requests.h"
 #include "vegetation_sim/ros/wind_conversions.h"
 
 namespace vegetation_sim {
@@ -45,20 +46,12 @@ geometry_msgs::Pose moved(const geometry_msgs::Pose& pose, const geometry_msgs::
 
 }  // namespace
 
-void ForestAnimator::reject(const std::string& what, const std::string& why) {
-  ++counts_.rejected;
-  last_rejection_ = what + ": " + why;
-  ROS_WARN_THROTTLE(1.0, "forest_animator: refused %s: %s", what.c_str(), why.c_str());
-}
-
 void ForestAnimator::onWind(const WindField& message) {
-  if (message.header.frame_id != options_.frame_id)
-    return reject("wind", "frame_id = '" + message.header.frame_id + "' should be '" +
-                              options_.frame_id + "'");
   try {
+    checkFrame(message.header.frame_id, options_.frame_id);
     inputs_.addWind(fromMsg(message));
   } catch (const InvalidInput& error) {
-    reject("wind", error.what());
+    refusals_.add("wind", error.what());
   }
 }
 
@@ -73,7 +66,7 @@ void ForestAnimator::onViewer(const Viewer& message) {
     fromMsg(in_world);
     inputs_.addViewer(in_world);
   } catch (const InvalidInput& error) {
-    reject("viewer", error.what());
+    refusals_.add("viewer", error.what());
   }
 }
 
@@ -110,7 +103,7 @@ void ForestAnimator::onTuning(ForestAnimatorConfig& config) {
     inputs_.addTuning(fromConfig(config));
     shown_ = config;
   } catch (const InvalidInput& error) {
-    reject("settings", error.what());
+    refusals_.add("settings", error.what());
     config = *shown_;
   }
 }

@@ -4,7 +4,6 @@
 
 #include "vegetation_sim/nodes/forest_animator.h"
 #include "vegetation_sim/ros/forest_conversions.h"
-#include "vegetation_sim/ros/troubles.h"
 
 namespace vegetation_sim {
 
@@ -52,7 +51,7 @@ void ForestAnimator::sendMarkers(const ros::TimerEvent&) {
 void ForestAnimator::warnOfTrouble(diagnostic_updater::DiagnosticStatusWrapper& status) {
   counts_.clock = clock_.counts();
   counts_.inputs = inputs_.losses();
-  warnOfMore(status, counts_.rejected, reported_.rejected, "refused input: " + last_rejection_);
+  refusals_.warn(status);
   warnOfClock(status, counts_.clock, reported_.clock);
   warnOfLosses(status, counts_.inputs, reported_.inputs);
   reported_ = counts_;
@@ -74,7 +73,7 @@ void ForestAnimator::diagnose(diagnostic_updater::DiagnosticStatusWrapper& statu
   status.add("Base level", memory.levels.base().level);
   status.add("Viewers", memory.viewers.size());
   clock_.tell(status);
-  status.add("Inputs refused", counts_.rejected);
+  status.add("Inputs refused", refusals_.count());
   status.add("Inputs lost", counts_.inputs.lost);
   status.add("Recorded events late", counts_.inputs.late);
   status.add("State sent [B]", counts_.state_bytes);

@@ -17,11 +17,6 @@ forest::Species defaultSpecies() {
   return out;
 }
 
-void checkFrame(const char* name, const std::string& frame, Parameters& parameters) {
-  if (!frame.empty() && frame[0] == '/')
-    parameters.fault(name, "= '" + frame + "' begins with '/'");
-}
-
 void checkTrees(const ForestOptions& options, const ForestScene& scene, Parameters& parameters) {
   const std::uint32_t count = scene.layout.treeCount();
   for (const int tree : options.branches_trees)
@@ -101,16 +96,13 @@ ForestOptions loadForestOptions(const ros::NodeHandle& private_handle, ForestSce
   Parameters parameters(private_handle);
   parameters.text("scenario", out.scenario);
   readScene(out, scene, parameters.faults());
-  parameters.text("frame_id", out.frame_id);
-  parameters.text("viewer_frame", out.viewer_frame);
+  parameters.frame("frame_id", out.frame_id);
+  parameters.frame("viewer_frame", out.viewer_frame, true);
   parameters.flag("tf_promoted", out.tf_promoted);
   parameters.flag("replay", out.replay);
   parameters.integers("branches_trees", out.branches_trees, {0, 1 << 24});
   describe(parameters, out);
   out.robot = readRobotParts(private_handle, parameters);
-  if (out.frame_id.empty()) parameters.fault("frame_id", "= '' is empty");
-  checkFrame("frame_id", out.frame_id, parameters);
-  checkFrame("viewer_frame", out.viewer_frame, parameters);
   if (parameters.faults().empty()) checkTrees(out, scene, parameters);
   parameters.finish();
   return out;

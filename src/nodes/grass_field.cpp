@@ -86,7 +86,7 @@ void GrassField::tick(std::int64_t tick) {
       ++counts_.events;
       if (!options_.replay) events_publisher_.publish(event);
     } catch (const InvalidInput& error) {
-      reject("event", error.what());
+      refusals_.add("event", error.what());
     }
   }
   warnOfLosses("grass_field", inputs_.losses(), told_);
@@ -101,7 +101,7 @@ void GrassField::apply(const GrassEvent& event) {
     case GrassEvent::TREAD: {
       const std::string problem =
           field_->apply(fromMsg(event.tread, tuning_.tread, tuning_.height_gate), stamp);
-      if (!problem.empty()) reject("tread", problem);
+      if (!problem.empty()) refusals_.add("tread", problem);
       break;
     }
     case GrassEvent::CLEAR:

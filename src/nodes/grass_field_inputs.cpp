@@ -9,20 +9,12 @@
 
 namespace vegetation_sim {
 
-void GrassField::reject(const std::string& what, const std::string& why) {
-  ++counts_.rejected;
-  last_rejection_ = what + ": " + why;
-  ROS_WARN_THROTTLE(1.0, "grass_field: refused %s: %s", what.c_str(), why.c_str());
-}
-
 void GrassField::onWind(const WindField& message) {
-  if (message.header.frame_id != options_.frame_id)
-    return reject("wind", "frame_id = '" + message.header.frame_id + "' should be '" +
-                              options_.frame_id + "'");
   try {
+    checkFrame(message.header.frame_id, options_.frame_id);
     wind_ = fromMsg(message);
   } catch (const InvalidInput& error) {
-    reject("wind", error.what());
+    refusals_.add("wind", error.what());
   }
 }
 
@@ -31,7 +23,7 @@ void GrassField::onViewer(const Viewer& message) {
   try {
     watchers_.hear(message, tf_buffer_, options_.frame_id, clock_.hasBegun() ? clock_.stamp() : 0);
   } catch (const InvalidInput& error) {
-    reject("viewer", error.what());
+    refusals_.add("viewer", error.what());
   }
 }
 
@@ -68,7 +60,7 @@ void GrassField::onTread(const TreadEvent& message) {
     event.tread.header.frame_id = options_.frame_id;
     inputs_.add(std::move(event));
   } catch (const InvalidInput& error) {
-    reject("tread", error.what());
+    refusals_.add("tread", error.what());
   }
 }
 
@@ -78,7 +70,7 @@ void GrassField::followSources(Nanoseconds stamp) {
     Faults faults;
     check(input, "source: ", faults);
     if (!faults.empty()) {
-      reject("source '" + input.source + "'", faults.text());
+      refusals_.add("source '" + input.source + "'", faults.text());
       continue;
     }
     GrassEvent event;
@@ -111,7 +103,7 @@ void GrassField::onTuning(GrassFieldConfig& config) {
     inputs_.add(std::move(event));
     shown_ = config;
   } catch (const InvalidInput& error) {
-    reject("settings", error.what());
+    refusals_.add("settings", error.what());
     config = *shown_;
   }
 }

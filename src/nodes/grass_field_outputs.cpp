@@ -9,7 +9,6 @@
 #include "vegetation_sim/ros/geometry_conversions.h"
 #include "vegetation_sim/ros/grass_conversions.h"
 #include "vegetation_sim/ros/requests.h"
-#include "vegetation_sim/ros/troubles.h"
 
 namespace vegetation_sim {
 void GrassField::publishEntering(Nanoseconds stamp) {
@@ -84,7 +83,7 @@ void GrassField::warnOfTrouble(diagnostic_updater::DiagnosticStatusWrapper& stat
   counts_.clock = clock_.counts();
   counts_.inputs = inputs_.losses();
   counts_.tread = meadow_->tread().state().counts;
-  warnOfMore(status, counts_.rejected, reported_.rejected, "refused input: " + last_rejection_);
+  refusals_.warn(status);
   warnOfClock(status, counts_.clock, reported_.clock);
   warnOfLosses(status, counts_.inputs, reported_.inputs);
   warnOfMore(status, counts_.tread.no_memory, reported_.tread.no_memory,
@@ -100,7 +99,7 @@ void GrassField::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   const grass::TreadState& tread = meadow_->tread().state();
   clock_.tell(status);
   status.add("Inputs taken", counts_.events);
-  status.add("Inputs refused", counts_.rejected);
+  status.add("Inputs refused", refusals_.count());
   status.add("Inputs lost", counts_.inputs.lost);
   status.add("Recorded events late", counts_.inputs.late);
   status.add("Sources", field_->sources().size());

@@ -19,11 +19,6 @@ constexpr double MOST_COVER_CELLS = 16e6;
 constexpr int POINTS_PER_BLADE = 27;     // of 9 triangles
 constexpr double LEAST_BLADES = 1000.0;  // that a meadow can aim at
 
-void checkFrame(const std::string& name, const std::string& frame, Parameters& parameters) {
-  if (!frame.empty() && frame[0] == '/')
-    parameters.fault(name, "= '" + frame + "' begins with '/'");
-}
-
 FollowedSource readSource(YamlSection& section) {
   FollowedSource out;
   section.text("frame", out.frame);
@@ -186,8 +181,8 @@ GrassOptions loadGrassOptions(const ros::NodeHandle& private_handle, GrassScene&
   Parameters parameters(private_handle);
   parameters.text("scenario", out.scenario);
   readScene(out, scene, parameters.faults());
-  parameters.text("frame_id", out.frame_id);
-  parameters.text("viewer_frame", out.viewer_frame);
+  parameters.frame("frame_id", out.frame_id);
+  parameters.frame("viewer_frame", out.viewer_frame, true);
   parameters.flag("replay", out.replay);
   describe(parameters, out);
   YAML::Node list;
@@ -195,9 +190,6 @@ GrassOptions loadGrassOptions(const ros::NodeHandle& private_handle, GrassScene&
     YamlSection section(list, private_handle.getNamespace(), parameters.faults());
     out.sources = readSources(section);
   }
-  if (out.frame_id.empty()) parameters.fault("frame_id", "= '' is empty");
-  checkFrame("frame_id", out.frame_id, parameters);
-  checkFrame("viewer_frame", out.viewer_frame, parameters);
   if (parameters.faults().empty()) checkCover(out, scene, parameters);
   if (parameters.faults().empty()) grass::check(out.tuning.tread, "tread_", parameters.faults());
   if (parameters.faults().empty()) checkSources(out, parameters);

@@ -10,6 +10,7 @@
 #include "vegetation_sim/ros/forest_conversions.h"
 #include "vegetation_sim/ros/geometry_conversions.h"
 #include "vegetation_sim/ros/grass_conversions.h"
+#include "vegetation_sim/ros/requests.h"
 #include "vegetation_sim/ros/resources.h"
 #include "vegetation_sim/ros/stamps.h"
 #include "vegetation_sim/ros/wind_conversions.h"
@@ -28,11 +29,6 @@ void HeardLandscape::listen(ros::NodeHandle handle) {
                   handle.subscribe("agents", 10, &HeardLandscape::onPeople, this)};
 }
 
-void HeardLandscape::checkFrame(const std::string& frame) const {
-  if (frame != frame_id_)
-    throw InvalidInput("frame_id = '" + frame + "' should be '" + frame_id_ + "'");
-}
-
 void HeardLandscape::guard(const char* what, const std::function<void()>& take) {
   try {
     take();
@@ -43,7 +39,7 @@ void HeardLandscape::guard(const char* what, const std::function<void()>& take) 
 
 void HeardLandscape::onWind(const WindField& message) {
   guard("wind", [&] {
-    checkFrame(message.header.frame_id);
+    checkFrame(message.header.frame_id, frame_id_);
     wind_ = fromMsg(message);
     forest_.setWind(wind_);
   });
@@ -51,7 +47,7 @@ void HeardLandscape::onWind(const WindField& message) {
 
 void HeardLandscape::onForestLayout(const ForestLayout& message) {
   guard("forest/layout", [&] {
-    checkFrame(message.header.frame_id);
+    checkFrame(message.header.frame_id, frame_id_);
     auto terrain = loadTerrain(message.terrain);
     forest_.setLayout(fromMsg(message), terrain);
     forest_ground_ = std::move(terrain);
@@ -68,7 +64,7 @@ void HeardLandscape::onForestState(const ForestState& message) {
 
 void HeardLandscape::onGrassLayout(const GrassLayout& message) {
   guard("grass/layout", [&] {
-    checkFrame(message.header.frame_id);
+    checkFrame(message.header.frame_id, frame_id_);
     meadow_ = HeardMeadow(message);
   });
 }
@@ -83,7 +79,7 @@ void HeardLandscape::onGrassState(const GrassState& message) {
 
 void HeardLandscape::onPeople(const AgentStates& message) {
   guard("agents", [&] {
-    checkFrame(message.header.frame_id);
+    checkFrame(message.header.frame_id, frame_id_);
     check(message);
     std::vector<crowd::Walker> people;
     for (const AgentState& agent : message.agents) people.push_back(fromMsg(agent));

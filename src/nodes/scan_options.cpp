@@ -17,14 +17,10 @@ void describe(FieldVisitor& v, ScanOptions& o) {
 ScanOptions loadScanOptions(const ros::NodeHandle& private_handle) {
   ScanOptions out;
   Parameters parameters(private_handle);
-  parameters.text("frame_id", out.frame_id);
-  parameters.text("lidar_frame", out.lidar_frame);
+  parameters.frame("frame_id", out.frame_id);
+  parameters.frame("lidar_frame", out.lidar_frame);
   parameters.seed("seed", out.seed);
   describe(parameters, out);
-  for (const auto& [name, frame] :
-       {std::pair("frame_id", out.frame_id), std::pair("lidar_frame", out.lidar_frame)})
-    if (frame.empty() || frame[0] == '/')
-      parameters.fault(name, "= '" + frame + "' is empty or begins with '/'");
   scan::check(out.beams, private_handle.getNamespace() + "/", parameters.faults());
   parameters.finish();
   return out;

@@ -6,7 +6,6 @@
 #include "vegetation_sim/ros/requests.h"
 #include "vegetation_sim/ros/scan_conversions.h"
 #include "vegetation_sim/ros/stamps.h"
-#include "vegetation_sim/ros/troubles.h"
 
 namespace vegetation_sim {
 
@@ -14,8 +13,8 @@ VegetationScanner::VegetationScanner(ros::NodeHandle handle, ros::NodeHandle pri
     : handle_(handle),
       private_handle_(private_handle),
       options_(loadScanOptions(private_handle)),
-      landscape_(options_.frame_id,
-                 [this](const std::string& what, const std::string& why) { reject(what, why); }),
+      landscape_(options_.frame_id, [this](const std::string& what,
+                                           const std::string& why) { refusals_.add(what, why); }),
       tf_buffer_(ros::Duration(tf2::BufferCore::DEFAULT_CACHE_TIME), true),  // tells what it hears
       tf_listener_(tf_buffer_),
       clock_("vegetation_scanner", options_.rate, options_.delay,
@@ -103,12 +102,6 @@ void VegetationScanner::restart(Nanoseconds now) {
   tf_buffer_.clear();
 }
 
-void VegetationScanner::reject(const std::string& what, const std::string& why) {
-  ++counts_.rejected;
-  last_rejection_ = what + ": " + why;
-  ROS_WARN_THROTTLE(1.0, "vegetation_scanner: refused %s: %s", what.c_str(), why.c_str());
-}
-
 bool VegetationScanner::onReset(std_srvs::Trigger::Request&,
                                 std_srvs::Trigger::Response& response) {
   return answer(response, [&]() -> std::string {
@@ -120,7 +113,7 @@ bool VegetationScanner::onReset(std_srvs::Trigger::Request&,
 // What has happened since the last report, and only that.
 void VegetationScanner::warnOfTrouble(diagnostic_updater::DiagnosticStatusWrapper& status) {
   counts_.clock = clock_.counts();
-  warnOfMore(status, counts_.rejected, reported_.rejected, "refused input: " + last_rejection_);
+  refusals_.warn(status);
   warnOfMore(status, counts_.blind, reported_.blind, "sweeps without a place: " + blindness_);
   counts_.lost = landscape_.lost();
   warnOfMore(status, counts_.lost, reported_.lost,
@@ -147,7 +140,7 @@ void VegetationScanner::diagnose(diagnostic_updater::DiagnosticStatusWrapper& st
   status.add("People", landscape_.people());
   status.add("Messages ahead of the sweep", landscape_.waiting());
   clock_.tell(status);
-  status.add("Inputs refused", counts_.rejected);
+  status.add("Inputs refused", refusals_.count());
 }
 
 }  // namespace vegetation_sim

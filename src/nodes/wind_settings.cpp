@@ -29,15 +29,13 @@ void readScenario(const std::string& file, WindSettings& settings) {
 }
 
 void readNumbers(Parameters& parameters, WindSettings& settings) {
-  parameters.text("frame_id", settings.frame_id);
+  parameters.frame("frame_id", settings.frame_id);
   parameters.seed("seed", settings.seed);
   parameters.number("lead", settings.lead, "s", {0.0, 10.0});
   parameters.number("attach_rate", settings.attach_rate, "Hz", {0.5, 10.0});
   parameters.number("attach_horizon", settings.attach_horizon, "s", {0.5, 30.0});
   parameters.number("markers_rate", settings.markers_rate, "Hz", {0.1, 60.0});
   describe(parameters, settings.breeze);
-  if (settings.frame_id.empty() || settings.frame_id.front() == '/')
-    parameters.fault("frame_id", "= '" + settings.frame_id + "' is empty or begins with '/'");
   const double least = 4.0 * std::max(settings.lead, 1.0 / settings.attach_rate);
   if (settings.attach_horizon < least)
     parameters.fault("attach_horizon", "= " + std::to_string(settings.attach_horizon) +

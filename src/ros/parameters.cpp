@@ -130,6 +130,12 @@ void Parameters::text(const char* name, std::string& value) {
   value = static_cast<std::string>(found);
 }
 
+void Parameters::frame(const char* name, std::string& value, bool may_be_empty) {
+  text(name, value);
+  if (value.empty() && !may_be_empty) fault(name, "= '' is empty");
+  if (!value.empty() && value[0] == '/') fault(name, "= '" + value + "' begins with '/'");
+}
+
 void Parameters::flag(const char* name, bool& value) {
   XmlRpc::XmlRpcValue found;
   if (!find(name, found)) return;

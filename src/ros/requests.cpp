@@ -26,6 +26,10 @@ Pose poseInWorld(const tf2_ros::Buffer& buffer, const std::string& world, const 
   }
 }
 
+void checkFrame(const std::string& frame, const std::string& world) {
+  if (frame != world) throw InvalidInput("frame_id = '" + frame + "' should be '" + world + "'");
+}
+
 ros::Time effectOf(const ros::Time& stamp, const TickClock& clock) {
   if (stamp.isZero() || !clock.hasBegun()) return stamp;
   const double ahead = secondsBetween(clock.stamp(), fromMsg(stamp));

@@ -3,6 +3,7 @@
 #include "vegetation_sim/ros/troubles.h"
 
 #include <diagnostic_msgs/DiagnosticStatus.h>
+#include <ros/console.h>
 
 #include <algorithm>
 
@@ -35,6 +36,20 @@ void warnOfClock(diagnostic_updater::DiagnosticStatusWrapper& status, const Tick
                  const TickClock::Counts& reported) {
   warnOfMore(status, now.dropped, reported.dropped, "ticks dropped");
   warnOfMore(status, now.jumps, reported.jumps, "jumps back of the clock");
+}
+
+void Refusals::add(const std::string& what, const std::string& why) {
+  ++count_;
+  last_ = what + ": " + why;
+  const ros::WallTime now = ros::WallTime::now();
+  if (now < quiet_until_) return;
+  quiet_until_ = now + ros::WallDuration(1.0);
+  ROS_WARN("%s: refused %s", node_.c_str(), last_.c_str());
+}
+
+void Refusals::warn(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  warnOfMore(status, count_, reported_, "refused input: " + last_);
+  reported_ = count_;
 }
 
 }  // namespace vegetation_sim

@@ -34,5 +34,18 @@ TEST(Troubles, WhatWasReportedIsNotToldAgain) {
   EXPECT_EQ(status.level, diagnostic_msgs::DiagnosticStatus::OK);
 }
 
+TEST(Troubles, RefusalsAreToldOnceWithTheLastReason) {
+  Refusals refusals("forest_animator");
+  refusals.add("wind", "speed = nan");
+  refusals.add("viewer", "height = 0");
+  diagnostic_updater::DiagnosticStatusWrapper status;
+  refusals.warn(status);
+  EXPECT_EQ(status.message, "2 refused input: viewer: height = 0");
+  status.clearSummary();
+  refusals.warn(status);
+  EXPECT_EQ(status.message, "");
+  EXPECT_EQ(refusals.count(), 2u);
+}
+
 }  // namespace
 }  // namespace vegetation_sim

@@ -28,6 +28,7 @@
 #include "vegetation_sim/nodes/watchers.h"
 #include "vegetation_sim/ros/heard.h"
 #include "vegetation_sim/ros/tick_clock.h"
+#include "vegetation_sim/ros/troubles.h"
 
 namespace vegetation_sim {
 
@@ -49,7 +50,6 @@ class AgentCrowd {
   void followRobots(Nanoseconds stamp);
   crowd::Point placeInWorld(const geometry_msgs::Point& point, const Pose& to_world) const;
   void queue(CrowdEvent event);
-  void reject(const std::string& what, const std::string& why);
 
   // Time.
   void listen();
@@ -109,12 +109,12 @@ class AgentCrowd {
   std::map<std::uint32_t, Trodden> trodden_;  // by walker
   std::optional<AgentCrowdConfig> shown_;     // what the server was told or took last
   struct Counts {
-    std::uint64_t rejected{0}, events{0}, treads{0}, state_bytes{0};
+    std::uint64_t events{0}, treads{0}, state_bytes{0};
     QueueLosses inputs;
     TickClock::Counts clock;
   } counts_, reported_;  // so far, and when diagnostics were last sent
   QueueLosses told_;     // on the console
-  std::string last_rejection_;
+  Refusals refusals_{"agent_crowd"};
 
   tf2_ros::Buffer tf_buffer_;
   tf2_ros::TransformListener tf_listener_;

@@ -28,6 +28,7 @@
 #include "vegetation_sim/nodes/event_queue.h"
 #include "vegetation_sim/ros/leafed_crowns.h"
 #include "vegetation_sim/ros/tick_clock.h"
+#include "vegetation_sim/ros/troubles.h"
 
 namespace vegetation_sim {
 
@@ -47,7 +48,6 @@ class CanopyAnimator {
   void lookFromFrame();
   void forgetViewer();
   void publishBeginning(Nanoseconds stamp);
-  void reject(const std::string& what, const std::string& why);
   void onForestLayout(const ForestLayout& message);
   void onForestState(const ForestState& message);
 
@@ -93,12 +93,12 @@ class CanopyAnimator {
 
   std::optional<CanopyAnimatorConfig> shown_;  // what the server was told or took last
   struct Counts {
-    std::uint64_t rejected{0}, state_bytes{0}, other_viewers{0}, resets{0};
+    std::uint64_t state_bytes{0}, other_viewers{0}, resets{0};
     QueueLosses inputs;
     TickClock::Counts clock;
   } counts_, reported_;  // so far, and when diagnostics were last sent
   QueueLosses told_;     // on the console
-  std::string last_rejection_;
+  Refusals refusals_{"canopy_animator"};
 
   tf2_ros::Buffer tf_buffer_;
   tf2_ros::TransformListener tf_listener_;

@@ -31,6 +31,7 @@
 #include "vegetation_sim/nodes/grab_desk.h"
 #include "vegetation_sim/ros/stamps.h"
 #include "vegetation_sim/ros/tick_clock.h"
+#include "vegetation_sim/ros/troubles.h"
 
 namespace vegetation_sim {
 
@@ -50,7 +51,6 @@ class ForestAnimator {
   void lookFromFrame();
   /// @throws InvalidInput if tf does not lead from the frame to the world.
   geometry_msgs::Transform toWorld(const std::string& frame, const ros::Time& stamp) const;
-  void reject(const std::string& what, const std::string& why);
 
   // Time.
   void listen();
@@ -101,12 +101,12 @@ class ForestAnimator {
   bool force_key_frame_{true};
   std::optional<ForestAnimatorConfig> shown_;  // what the server was told or took last
   struct Counts {
-    std::uint64_t rejected{0}, state_bytes{0}, leases_ended{0};
+    std::uint64_t state_bytes{0}, leases_ended{0};
     QueueLosses inputs;
     TickClock::Counts clock;
   } counts_, reported_;  // so far, and when diagnostics were last sent
   QueueLosses told_;     // on the console
-  std::string last_rejection_;
+  Refusals refusals_{"forest_animator"};
   forest::Reaction deepest_;  // of the contacts since diagnostics were last sent
 
   tf2_ros::Buffer tf_buffer_;

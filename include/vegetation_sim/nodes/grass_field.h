@@ -29,6 +29,7 @@
 #include "vegetation_sim/nodes/key_frames.h"
 #include "vegetation_sim/nodes/watchers.h"
 #include "vegetation_sim/ros/tick_clock.h"
+#include "vegetation_sim/ros/troubles.h"
 
 namespace vegetation_sim {
 
@@ -49,7 +50,6 @@ class GrassField {
   void lookFromFrame();
   void followSources(Nanoseconds stamp);
   TreadEvent inWorld(const TreadEvent& message) const;
-  void reject(const std::string& what, const std::string& why);
 
   // Time.
   void listen();
@@ -95,13 +95,13 @@ class GrassField {
   std::uint64_t paths_{0};                 // trodden by service, for the names of their sources
   std::optional<GrassFieldConfig> shown_;  // what the server was told or took last
   struct Counts {
-    std::uint64_t rejected{0}, state_bytes{0}, largest_state{0}, events{0};
+    std::uint64_t state_bytes{0}, largest_state{0}, events{0};
     QueueLosses inputs;
     TickClock::Counts clock;
     grass::TreadCounts tread;
   } counts_, reported_;  // so far, and when diagnostics were last sent
   QueueLosses told_;     // on the console
-  std::string last_rejection_;
+  Refusals refusals_{"grass_field"};
 
   tf2_ros::Buffer tf_buffer_;
   tf2_ros::TransformListener tf_listener_;

@@ -61,7 +61,6 @@ class HeardLandscape {
   void onGrassLayout(const GrassLayout& message);
   void onGrassState(const GrassState& message);
   void onPeople(const AgentStates& message);
-  void checkFrame(const std::string& frame) const;
   /// Runs `take`; what it throws is a refusal.
   void guard(const char* what, const std::function<void()>& take);
   std::shared_ptr<const terrain::HeightMap> ground() const;

@@ -14,6 +14,7 @@
 #include "vegetation_sim/nodes/heard_landscape.h"
 #include "vegetation_sim/nodes/scan_options.h"
 #include "vegetation_sim/ros/tick_clock.h"
+#include "vegetation_sim/ros/troubles.h"
 
 namespace vegetation_sim {
 
@@ -30,7 +31,6 @@ class VegetationScanner {
   void sweep(const Pose& sensor, std::int64_t tick);
   void startAnew();
   void restart(Nanoseconds now);
-  void reject(const std::string& what, const std::string& why);
   bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   void warnOfTrouble(diagnostic_updater::DiagnosticStatusWrapper& status);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
@@ -42,10 +42,11 @@ class VegetationScanner {
   HeardLandscape landscape_;
   scan::Scene scene_;
   struct Counts {
-    std::uint64_t rejected{0}, sweeps{0}, blind{0}, lost{0};
+    std::uint64_t sweeps{0}, blind{0}, lost{0};
     TickClock::Counts clock;
   } counts_, reported_;  // so far, and when diagnostics were last sent
-  std::string last_rejection_, blindness_;
+  Refusals refusals_{"vegetation_scanner"};
+  std::string blindness_;
   double cost_{0.0};         // wall time of the last sweep [s]
   std::uint32_t points_{0};  // of the last sweep
 

@@ -25,6 +25,8 @@ class Parameters : public FieldVisitor {
   void vector(const char* name, Vec3& value, const char* unit, Range range) override;
   void choice(const char* name, int& value, const std::vector<std::string>& names) override;
   void text(const char* name, std::string& value);
+  /// The name of a tf frame; an empty one is a fault unless it may be.
+  void frame(const char* name, std::string& value, bool may_be_empty = false);
   void flag(const char* name, bool& value);
   void integers(const char* name, std::vector<int>& values, Range range);
 

@@ -16,6 +16,9 @@ namespace vegetation_sim {
 Pose poseInWorld(const tf2_ros::Buffer& buffer, const std::string& world, const std::string& frame,
                  const ros::Time& stamp = ros::Time(0));
 
+/// @throws InvalidInput naming both if a message is not in the world's frame.
+void checkFrame(const std::string& frame, const std::string& world);
+
 /// When a request takes effect: at its stamp if that is yet to come, else at the next tick, which
 /// is zero. @throws InvalidInput for a stamp more than a minute ahead.
 ros::Time effectOf(const ros::Time& stamp, const TickClock& clock);
