@@ -103,14 +103,15 @@ class ForestGrab(unittest.TestCase):
         self.hands.wait_for_frame('hand', place)
         answer = self.hands.take(branch=LIMB, along=0.3, frame='hand')
         first = len(self.hands.events.messages)
+        renewals = lambda all: sum(e.kind == ForestEvent.RENEW for e in all[first:])
         for i in range(RATE):
             place_now = plus(place, (0.1 * i / RATE, 0.0, 0.0))
             self.hands.show_frame('hand', place_now, stamp=time_of(self.clock.tick + 1))
             reply = self.hands.move_grab(id=answer.id, renew_only=True)
             self.assertEqual(reply.message, 'lease renewed')
             self.hands.run(1)
-        events = self.hands.events.messages[first:]
-        self.assertEqual(sum(e.kind == ForestEvent.RENEW for e in events), RATE)
+        events = self.hands.events.wait(lambda all: renewals(all) == RATE and all[first:],
+                                        'all renewals')
         # No tick has more than the frame's own move.
         moves = [e.header.stamp for e in events if e.kind == ForestEvent.MOVE]
         self.assertGreater(len(moves), RATE // 2)
