@@ -9,6 +9,7 @@ import matplotlib
 from PIL import Image
 matplotlib.use('Agg')
 import matplotlib.pyplot as plt  # noqa: E402
+from matplotlib.patheffects import withStroke  # noqa: E402
 from matplotlib.ticker import FormatStrFormatter, LogLocator, NullFormatter  # noqa: E402
 
 # Okabe and Ito 2008.
@@ -18,6 +19,7 @@ COLOURS = (BLUE, RED, GREEN, ORANGE, PINK, SKY, BLACK, GREY)
 MARKERS = 'osD^vPX<>*'
 FRONT = '#D9D9D9'
 DOTS_PER_INCH = 96
+HALO = [withStroke(linewidth=1.5, foreground='white')]  # of a word that a curve may cross
 
 plt.rcParams.update({
     'font.size': 9, 'axes.titlesize': 10, 'axes.grid': True, 'axes.axisbelow': True,
@@ -70,7 +72,7 @@ def ring(axes, x, y, text='default', left=False):
               markeredgewidth=1.6, zorder=5)
     axes.annotate(text, (x, y), textcoords='offset points',
                   xytext=(-9 if left else 9, 9), ha='right' if left else 'left',
-                  fontweight='bold', zorder=6)
+                  fontweight='bold', zorder=6, path_effects=HALO)
 
 
 BESIDE = (6, 4), (6, -10), (-6, 4), (-6, -10)  # where words may stand at a point [points]
