@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 
@@ -97,8 +98,10 @@ class MujocoEngine : public Engine {
     mjcb_control = [](const mjModel*, mjData*) { running_->push(); };
     mj_step(model_, data_);
     mjcb_control = nullptr;
-    if (data_->warning[mjWARN_BADQACC].number + data_->warning[mjWARN_BADQVEL].number > 0)
-      data_->qpos[0] = mjMAXVAL;  // it has gone back to rest by itself
+    for (const int fault : {mjWARN_BADQPOS, mjWARN_BADQVEL, mjWARN_BADQACC})
+      if (data_->warning[fault].number > 0)
+        data_->qpos[0] =
+            std::numeric_limits<double>::quiet_NaN();  // it went back to rest by itself
   }
 
   std::vector<Vec3> tips() const override {
