@@ -6,7 +6,7 @@ Measures every method of the package that has a chart, and draws it: DIR/NAME.cs
 what the bench said in NAME.log, converged references in DIR/references.
 """
 import argparse
-from concurrent.futures import ThreadPoolExecutor
+from concurrent import futures
 import os
 import pathlib
 import sys
@@ -75,6 +75,9 @@ def wait_for(measured, progress):
     """Shows how a measurement gets on, if there is one; the seconds that it took."""
     progress.show()
     try:
+        # An interrupt that comes just before a wait without end would be heard at its end.
+        while measured and not measured.done():
+            futures.wait([measured], timeout=0.2)
         return measured.result() if measured else 0.0
     finally:
         progress.done()
@@ -113,15 +116,13 @@ def run(arguments):
     out = pathlib.Path(options.out)
     make_folder(out)
     start = time.monotonic()
-    with ThreadPoolExecutor(AT_ONCE[options.extent]) as pool:
-        begun = [begin(pool, chart, programs[chart.name], options.extent, out)
-                 for chart in wanted]
+    with futures.ThreadPoolExecutor(AT_ONCE[options.extent]) as pool:
         try:
+            begun = [begin(pool, chart, programs[chart.name], options.extent, out)
+                     for chart in wanted]
             failed = draw_all(begun, out)
         except BaseException:
-            for _, measured, _ in begun:
-                if measured:
-                    measured.cancel()
+            pool.shutdown(wait=False, cancel_futures=True)  # first, or the next would begin
             benches.stop()
             raise
     print('%d of %d charts in %.0f s' % (len(wanted) - failed, len(wanted),
