@@ -10,7 +10,7 @@
 
 #include "options.h"
 #include "table.h"
-#include "vegetation_sim/common/math.h"
+#include "vegetation_sim/core/math/math.h"
 #include "vegetation_sim/wind/breeze.h"
 #include "vegetation_sim/wind/field.h"
 

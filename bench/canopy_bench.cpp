@@ -9,13 +9,13 @@
 #include <cstdio>
 #include <memory>
 
-#include "canopy/canopy_scene.h"
-#include "canopy/delay_scene.h"
-#include "canopy/leaf_truth.h"
-#include "canopy/plane_scene.h"
-#include "canopy/spectral_reference.h"
 #include "options.h"
 #include "processor_time.h"
+#include "scenes/canopy/canopy_scene.h"
+#include "scenes/canopy/delay_scene.h"
+#include "scenes/canopy/leaf_truth.h"
+#include "scenes/canopy/plane_scene.h"
+#include "scenes/canopy/spectral_reference.h"
 #include "table.h"
 #include "vegetation_sim/canopy/canopy.h"
 

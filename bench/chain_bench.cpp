@@ -8,13 +8,12 @@
 #include <cstdlib>
 #include <memory>
 
-#include "forest/air_blocks.h"
-#include "physics/chain_scene.h"
+#include "dynamics/simd/batch_chain.h"
 #include "processor_time.h"
-#include "vegetation_sim/common/instruction_set.h"
-#include "vegetation_sim/physics/batch_chain.h"
-#include "vegetation_sim/physics/twin_chains.h"
+#include "scenes/dynamics/chain_scene.h"
+#include "vegetation_sim/core/config/instruction_set.h"
 #include "vegetation_sim/wind/field.h"
+#include "wind/sampling/batch_wind_blocks.h"
 
 namespace vegetation_sim::physics {
 namespace {
@@ -34,10 +33,6 @@ struct Path {
 
 void frame(BatchChain& chain) {
   chain.step(STEP, SUB_STEPS);
-}
-
-void frame(TwinChains& chains) {
-  for (int i = 0; i < SUB_STEPS; ++i) chains.step(STEP);
 }
 
 template <class Batch>
@@ -149,7 +144,6 @@ void benchPaths(int rounds) {
         plain("plain double", one, false),
         batched<BatchChain>("equal depth, one tree", *one),
         batched<BatchChain>("equal depth, trees together", several),
-        batched<TwinChains>("16 trees of one topology", Trees(16, one->front())),
         plain("plain double, wind asked for", one, true),
         inWind<BatchChain>("equal depth, wind asked for", one),
         heldAir("one tree, gust asked at 60 Hz", *one, gust()),
@@ -158,13 +152,11 @@ void benchPaths(int rounds) {
         heldAir("together, breeze asked at 60 Hz", several, breeze()),
         plain("plain, products at start", one, false, Products::START),
         batched<BatchChain>("one tree, products at start", *one, Products::START),
-        batched<BatchChain>("together, products at start", several, Products::START),
-        batched<TwinChains>("16 trees, products at start", Trees(16, one->front()),
-                            Products::START)};
+        batched<BatchChain>("together, products at start", several, Products::START)};
     const std::vector<Cost> cost = measure(paths, rounds);
     for (std::size_t i = 0; i < paths.size(); ++i)
       std::printf("%-34s %7.0f %9.2f %7.1f %14.0f\n", paths[i].name.c_str(), paths[i].links,
-                  cost[i].median, cost[i >= 4 && i < 10 ? 4 : 0].median / cost[i].median,
+                  cost[i].median, cost[i >= 3 && i < 9 ? 3 : 0].median / cost[i].median,
                   1e9 / (STEPS_A_SECOND * cost[i].median));
   }
 }
@@ -191,22 +183,22 @@ void benchForests(int rounds) {
 }
 
 void benchInstructionSets(int rounds) {
-  std::printf("\n1000 links: %s", "equal depth / one topology [ns]\n");
+  std::printf("\n1000 links: %s", "equal depth [ns]\n");
   std::vector<Path> paths;
-  const Trees tree(1, fractalTree(1000, 3)), twins(16, tree.front());
-  for (const std::string& set : instructionSets())
-    for (Path path : {batched<BatchChain>(set, tree), batched<TwinChains>(set, twins)}) {
-      const auto advance = path.advance;
-      path.advance = [set, advance](int steps) {
-        forceInstructionSet(set);
-        advance(steps);
-        forceInstructionSet("");
-      };
-      paths.push_back(path);
-    }
+  const Trees tree(1, fractalTree(1000, 3));
+  for (const std::string& set : instructionSets()) {
+    Path path = batched<BatchChain>(set, tree);
+    const auto advance = path.advance;
+    path.advance = [set, advance](int steps) {
+      forceInstructionSet(set);
+      advance(steps);
+      forceInstructionSet("");
+    };
+    paths.push_back(path);
+  }
   const std::vector<Cost> cost = measure(paths, rounds);
-  for (std::size_t i = 0; i < paths.size(); i += 2)
-    std::printf("%-10s %8.2f %8.2f\n", paths[i].name.c_str(), cost[i].median, cost[i + 1].median);
+  for (std::size_t i = 0; i < paths.size(); ++i)
+    std::printf("%-10s %8.2f\n", paths[i].name.c_str(), cost[i].median);
 }
 
 }  // namespace

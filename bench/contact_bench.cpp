@@ -11,9 +11,9 @@
 #include <exception>
 #include <map>
 
-#include "forest/contact_scene.h"
-#include "forest/crown_scene.h"
 #include "options.h"
+#include "scenes/forest/contact_scene.h"
+#include "scenes/forest/crown_scene.h"
 #include "table.h"
 
 namespace vegetation_sim::forest {

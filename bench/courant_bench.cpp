@@ -10,7 +10,7 @@
 
 #include "options.h"
 #include "table.h"
-#include "vegetation_sim/canopy/wave_steps.h"
+#include "vegetation_sim/canopy/flow/wave_steps.h"
 
 namespace vegetation_sim::canopy {
 namespace {

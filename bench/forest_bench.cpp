@@ -10,10 +10,10 @@
 #include <cstdlib>
 
 #include "bandwidth.h"
-#include "forest/level_scene.h"
 #include "options.h"
+#include "scenes/forest/level_scene.h"
 #include "table.h"
-#include "vegetation_sim/common/math.h"
+#include "vegetation_sim/core/math/math.h"
 
 namespace vegetation_sim::forest {
 namespace {

@@ -9,11 +9,11 @@
 #include <cstdio>
 #include <map>
 
-#include "forest/prediction_scene.h"
 #include "frame/posed_tree.h"
 #include "frame/scene.h"
 #include "options.h"
 #include "processor_time.h"
+#include "scenes/forest/prediction_scene.h"
 #include "table.h"
 
 namespace vegetation_sim::bench {

@@ -7,9 +7,9 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "forest/level_scene.h"
-#include "forest/physics_scene.h"
 #include "processor_time.h"
+#include "scenes/forest/level_scene.h"
+#include "scenes/forest/physics_scene.h"
 
 namespace vegetation_sim::forest {
 namespace {

@@ -11,13 +11,13 @@
 #include <memory>
 #include <vector>
 
+#include "grass/lod/meadow_lod.h"
+#include "grass/mesh/grass_geometry.h"
 #include "options.h"
 #include "processor_time.h"
-#include "vegetation_sim/common/instruction_set.h"
-#include "vegetation_sim/common/math.h"
-#include "vegetation_sim/common/random.h"
-#include "vegetation_sim/grass/geometry.h"
-#include "vegetation_sim/grass/meadow.h"
+#include "vegetation_sim/core/config/instruction_set.h"
+#include "vegetation_sim/core/math/math.h"
+#include "vegetation_sim/core/math/random.h"
 #include "vegetation_sim/wind/field.h"
 
 namespace vegetation_sim::grass {

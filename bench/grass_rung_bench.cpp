@@ -9,12 +9,12 @@
 #include <cstdio>
 #include <map>
 
-#include "grass/grass_fixture.h"
+#include "grass/mesh/grass_geometry.h"
 #include "options.h"
 #include "processor_time.h"
+#include "scenes/grass/grass_fixture.h"
 #include "table.h"
-#include "vegetation_sim/common/math.h"
-#include "vegetation_sim/grass/geometry.h"
+#include "vegetation_sim/core/math/math.h"
 
 namespace vegetation_sim::grass {
 namespace {

@@ -7,9 +7,9 @@
 
 #include <cstdio>
 
-#include "forest/physics_scene.h"
 #include "options.h"
 #include "processor_time.h"
+#include "scenes/forest/physics_scene.h"
 #include "table.h"
 
 namespace vegetation_sim::forest {

@@ -13,8 +13,8 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "forest/modal_scene.h"
 #include "modal/measure.h"
+#include "scenes/forest/modal_scene.h"
 
 namespace vegetation_sim::bench {
 namespace {

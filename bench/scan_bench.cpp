@@ -8,8 +8,8 @@
 
 #include "options.h"
 #include "processor_time.h"
-#include "scan/scan_scene.h"
-#include "vegetation_sim/scan/sweep.h"
+#include "scenes/sensors/lidar_scene.h"
+#include "sensors/sweep.h"
 
 namespace vegetation_sim::scan {
 namespace {

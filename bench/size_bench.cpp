@@ -7,18 +7,18 @@
 
 #include <cstdio>
 
-#include "forest/level_scene.h"
-#include "forest/physics_scene.h"
-#include "grass/grass_fixture.h"
+#include "crowd/agents/crowd.h"
+#include "dynamics/simd/batch_chain.h"
 #include "options.h"
-#include "physics/chain_scene.h"
 #include "processor_time.h"
+#include "scenes/dynamics/chain_scene.h"
+#include "scenes/forest/level_scene.h"
+#include "scenes/forest/physics_scene.h"
+#include "scenes/grass/grass_fixture.h"
 #include "table.h"
-#include "vegetation_sim/canopy/fluid.h"
-#include "vegetation_sim/canopy/oscillator.h"
-#include "vegetation_sim/crowd/crowd.h"
-#include "vegetation_sim/grass/tread_map.h"
-#include "vegetation_sim/physics/batch_chain.h"
+#include "vegetation_sim/canopy/flow/fluid.h"
+#include "vegetation_sim/canopy/flow/oscillator.h"
+#include "vegetation_sim/grass/tread/tread_map.h"
 
 namespace vegetation_sim {
 namespace {

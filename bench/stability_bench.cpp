@@ -10,10 +10,10 @@
 #include <cstdio>
 #include <limits>
 
+#include "dynamics/simd/batch_chain.h"
 #include "options.h"
-#include "physics/chain_scene.h"
+#include "scenes/dynamics/chain_scene.h"
 #include "table.h"
-#include "vegetation_sim/physics/batch_chain.h"
 
 namespace vegetation_sim::physics {
 namespace {

@@ -1,24 +1,24 @@
-# Libraries and programs. A folder's sources are its *.cpp files; in src/nodes, *_node.cpp is the
-# program of a node and nodelets.cpp has their plugins.
-file(GLOB core_sources CONFIGURE_DEPENDS
-  src/canopy/*.cpp src/common/*.cpp src/crowd/*.cpp src/forest/*.cpp src/grass/*.cpp src/physics/*.cpp src/scan/*.cpp src/terrain/*.cpp src/wind/*.cpp)
-# Vectors of three numbers go through memory one by one: pairs of them would wait for stores of
-# singles, a quarter of a physical step.
-file(GLOB physics_sources CONFIGURE_DEPENDS src/physics/*.cpp)
-set_source_files_properties(${physics_sources} PROPERTIES
-  COMPILE_DEFINITIONS EIGEN_UNALIGNED_VECTORIZE=0)
-file(GLOB ros_sources CONFIGURE_DEPENDS src/ros/*.cpp)
-file(GLOB node_sources CONFIGURE_DEPENDS src/nodes/*.cpp)
-file(GLOB main_sources CONFIGURE_DEPENDS src/nodes/*_node.cpp)
+# Libraries and programs. A library takes all sources below its folders; in src/nodes, *_node.cpp is
+# the program of a node and nodelets.cpp holds the nodelet plugins.
+set(core_folders canopy core crowd dynamics forest grass reference sensors terrain tree wind)
+list(TRANSFORM core_folders APPEND /*.cpp OUTPUT_VARIABLE core_patterns)
+list(TRANSFORM core_patterns PREPEND src/)
+file(GLOB_RECURSE core_sources CONFIGURE_DEPENDS ${core_patterns})
+file(GLOB_RECURSE ros_sources CONFIGURE_DEPENDS src/ros/*.cpp)
+file(GLOB_RECURSE node_sources CONFIGURE_DEPENDS src/nodes/*.cpp)
+file(GLOB_RECURSE main_sources CONFIGURE_DEPENDS src/nodes/*_node.cpp)
 set(nodelet_sources ${PROJECT_SOURCE_DIR}/src/nodes/nodelets.cpp)
-file(GLOB rviz_sources CONFIGURE_DEPENDS src/rviz/*.cpp include/${PROJECT_NAME}/rviz/*.h)
+file(GLOB_RECURSE rviz_sources CONFIGURE_DEPENDS src/rviz/*.cpp src/rviz/*.h)
 file(GLOB bench_sources CONFIGURE_DEPENDS bench/*.cpp)
 list(REMOVE_ITEM node_sources ${main_sources} ${nodelet_sources})
 
-# No contraction into fused multiply-add: state is the same to the bit on every processor.
+# The state must have the same bits on every processor, so multiplications and additions are not
+# contracted into fused operations. Eigen must not vectorise unaligned vectors of three numbers: loads
+# of pairs would wait for stores of single numbers, which costs a quarter of a physical step.
 function(set_own_options target)
   target_compile_features(${target} PRIVATE cxx_std_17)
   target_compile_options(${target} PRIVATE -ffp-contract=off -Wall -Wextra -Wpedantic)
+  target_compile_definitions(${target} PRIVATE EIGEN_UNALIGNED_VECTORIZE=0)
   target_include_directories(${target} PRIVATE src)
   if(${PROJECT_NAME}_DEVELOPER)
     target_compile_options(${target} PRIVATE -Werror)
@@ -32,7 +32,7 @@ target_include_directories(${PROJECT_NAME}_core PUBLIC include)
 target_link_libraries(${PROJECT_NAME}_core
   PUBLIC Eigen3::Eigen ${YAML_CPP_LIBRARIES} PRIVATE PNG::PNG hwy::hwy)
 
-# Above the core everybody sees ROS.
+# Targets above the core use ROS.
 add_library(${PROJECT_NAME}_ros ${ros_sources})
 target_link_libraries(${PROJECT_NAME}_ros PUBLIC ${PROJECT_NAME}_core PRIVATE PkgConfig::assimp)
 add_library(${PROJECT_NAME}_nodes ${node_sources})
@@ -44,7 +44,7 @@ target_compile_definitions(${PROJECT_NAME}_rviz PRIVATE QT_NO_KEYWORDS)
 target_link_libraries(${PROJECT_NAME}_rviz
   PUBLIC ${PROJECT_NAME}_ros Qt5::Widgets PRIVATE OpenGL::GL)
 set_target_properties(${PROJECT_NAME}_rviz PROPERTIES AUTOMOC ON)
-# A call that a node has not answered yet returns into this library, when rviz has unloaded it too.
+# The library stays loaded after rviz unloads it: a pending service call may still return into it.
 target_link_options(${PROJECT_NAME}_rviz PRIVATE LINKER:-z,nodelete)
 
 set(ros_targets
@@ -66,12 +66,12 @@ foreach(target ${ros_targets})
   add_dependencies(${target} ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})
 endforeach()
 
-# Benches share their scenes with the tests.
+# Benches share the folder scenes with the tests.
 foreach(source ${bench_sources})
   get_filename_component(bench ${source} NAME_WE)
   add_executable(${bench} ${source})
   set_own_options(${bench})
-  target_include_directories(${bench} PRIVATE bench test)
+  target_include_directories(${bench} PRIVATE bench ${PROJECT_SOURCE_DIR})
   target_compile_definitions(${bench} PRIVATE PACKAGE_FOLDER="${PROJECT_SOURCE_DIR}")
   target_link_libraries(${bench} PRIVATE ${PROJECT_NAME}_core)
   list(APPEND bench_targets ${bench})

@@ -42,7 +42,7 @@ if $sanitize; then
     targets+=(agent_crowd canopy_animator forest_animator grass_field wind_broadcaster)
   "$ROOT/scripts/build.sh" --sanitize "${targets[@]}"
   BUILD=$BUILD/sanitize
-  prefix=$ROOT/test/rviz/sanitized.sh
+  prefix=$ROOT/test/rviz/rigs/sanitized.sh
 fi
 use_space "$BUILD/devel"
 $sanitize || export GTEST_FILTER='*LeavesNothingBehind:*Returns'
@@ -52,7 +52,7 @@ for display in "${displays[@]}"; do
   say "${display%_display}: $cycles cycles, $reloads reloads"
   export VEGETATION_SIM_MEMORY=$work/${display%_display}.csv
   sed "s/time-limit=\"[0-9]*\"/time-limit=\"7200\"/; s|with_display.sh|& $prefix|" \
-    "$ROOT/test/rviz/$display.test" >"$work/$display.test"
+    "$(find "$ROOT/test/rviz" -name "$display.test")" >"$work/$display.test"
   rostest --text --pkgdir="$ROOT" --package=vegetation_sim "$work/$display.test" >"$work/log" 2>&1 ||
     { cat "$work/log"; fail "$display"; }
   grep 'OK \]' "$work/log"

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cstdio>
 
-#include "crowd/scenes.h"
 #include "crowd/sections.h"
+#include "scenes/crowd/crowd_scenes.h"
 
 namespace vegetation_sim::crowd::bench {
 namespace {

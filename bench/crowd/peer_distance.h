@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "vegetation_sim/crowd/convex.h"
+#include "crowd/geometry/convex.h"
 
 namespace vegetation_sim::crowd::bench {
 

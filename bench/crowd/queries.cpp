@@ -4,9 +4,9 @@
 #include <cstdio>
 
 #include "crowd/peer_distance.h"
-#include "crowd/random_shapes.h"
 #include "crowd/sections.h"
 #include "processor_time.h"
+#include "scenes/crowd/random_shapes.h"
 
 namespace vegetation_sim::crowd::bench {
 namespace {

@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <memory>
 
-#include "crowd/scenes.h"
 #include "crowd/sections.h"
 #include "processor_time.h"
+#include "scenes/crowd/crowd_scenes.h"
 
 namespace vegetation_sim::crowd::bench {
 namespace {

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "crowd/walker/body_skeleton.h"
 #include "frame/laps.h"
 #include "frame/scene.h"
-#include "vegetation_sim/crowd/skeleton.h"
 
 namespace vegetation_sim::crowd {
 

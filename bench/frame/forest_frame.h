@@ -5,7 +5,7 @@
 #include "frame/laps.h"
 #include "frame/posed_tree.h"
 #include "frame/scene.h"
-#include "vegetation_sim/forest/skin.h"
+#include "tree/mesh/skin.h"
 
 namespace vegetation_sim::forest {
 

@@ -4,8 +4,8 @@
 
 #include "frame/laps.h"
 #include "frame/scene.h"
-#include "vegetation_sim/grass/geometry.h"
-#include "vegetation_sim/grass/meadow.h"
+#include "grass/lod/meadow_lod.h"
+#include "grass/mesh/grass_geometry.h"
 
 namespace vegetation_sim::grass {
 

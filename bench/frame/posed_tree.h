@@ -4,9 +4,9 @@
 
 #include <cstdint>
 
-#include "vegetation_sim/forest/forest.h"
-#include "vegetation_sim/forest/geometry_level.h"
-#include "vegetation_sim/forest/narrow.h"
+#include "forest/forest.h"
+#include "tree/mesh/geometry_level.h"
+#include "tree/motion/narrow_poses.h"
 
 namespace vegetation_sim::forest {
 

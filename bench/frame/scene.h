@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "forest/level_scene.h"
-#include "vegetation_sim/canopy/layout.h"
-#include "vegetation_sim/common/scenario.h"
-#include "vegetation_sim/crowd/scene.h"
-#include "vegetation_sim/grass/layout.h"
-#include "vegetation_sim/wind/yaml.h"
+#include "core/config/scenario.h"
+#include "crowd/agents/crowd_scene.h"
+#include "scenes/forest/level_scene.h"
+#include "vegetation_sim/canopy/canopy_layout.h"
+#include "vegetation_sim/grass/grass_layout.h"
+#include "wind/wind_reader.h"
 
 namespace vegetation_sim::bench {
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cstdio>
 
-#include "forest/modal_scene.h"
 #include "modal/measure.h"
+#include "scenes/forest/modal_scene.h"
 
 namespace vegetation_sim::bench {
 namespace {

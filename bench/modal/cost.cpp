@@ -3,11 +3,11 @@
 #include <cstdio>
 #include <memory>
 
-#include "forest/modal_scene.h"
 #include "modal/measure.h"
 #include "processor_time.h"
+#include "scenes/forest/modal_scene.h"
 #include "trees/modal_engine.h"
-#include "vegetation_sim/physics/batch_modes.h"
+#include "vegetation_sim/dynamics/modal/batch_modes.h"
 
 namespace vegetation_sim::bench {
 namespace {

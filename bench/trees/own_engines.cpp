@@ -1,10 +1,9 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/chain/inertia_bound.h"
+#include "dynamics/integration/integrator.h"
+#include "dynamics/simd/batch_chain.h"
 #include "trees/engine.h"
-#include "vegetation_sim/physics/batch_chain.h"
-#include "vegetation_sim/physics/integrator.h"
-#include "vegetation_sim/physics/sure_inertia.h"
-#include "vegetation_sim/physics/twin_chains.h"
 
 namespace vegetation_sim::bench {
 namespace {
@@ -113,28 +112,6 @@ class BatchEngine : public OwnEngine {
   physics::BatchChain chain_;
 };
 
-constexpr int TWINS = 16;
-
-class TwinEngine : public OwnEngine {
- public:
-  TwinEngine(const TestTree& tree, const TestLoad& load)
-      : OwnEngine(tree, load), chains_(std::vector<std::vector<physics::Link>>(TWINS, links_)) {}
-  void rest() override {
-    for (int t = 0; t < TWINS; ++t) chains_.setState(t, atRest(links_.size()));
-  }
-  void step(int interval, double time, double h) override {
-    all_.assign(TWINS, around(interval));
-    chains_.step(all_, time, h);
-  }
-
- protected:
-  physics::ChainState state() const override { return chains_.state(TWINS - 1); }
-
- private:
-  physics::TwinChains chains_;
-  std::vector<physics::Surroundings> all_;
-};
-
 template <class ENGINE>
 std::unique_ptr<Engine> make(const TestTree& tree, const TestLoad& load, const std::string&) {
   return std::make_unique<ENGINE>(tree, load);
@@ -156,7 +133,6 @@ std::vector<Maker> ownEngines() {
   return {
       maker<PlainEngine<Integrator::MIDPOINT>>("midpoint, plain double", true),
       maker<BatchEngine>("midpoint, SIMD, one tree", true),
-      maker<TwinEngine>("midpoint, SIMD, 16 trees", true, TWINS),
       maker<PlainEngine<Integrator::MIDPOINT, Dynamics::ARTICULATED, Products::START>>(
           "midpoint, products at start", false),
       maker<PlainEngine<Integrator::IMPLICIT_EULER>>("implicit Euler", false),

@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "trees/reference.h"
-#include "vegetation_sim/common/hash.h"
+#include "vegetation_sim/core/math/hash.h"
 
 namespace vegetation_sim::bench {
 namespace {

@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "vegetation_sim/common/hash.h"
-#include "vegetation_sim/common/math.h"
-#include "vegetation_sim/common/random.h"
-#include "vegetation_sim/forest/skeleton.h"
+#include "vegetation_sim/core/math/hash.h"
+#include "vegetation_sim/core/math/math.h"
+#include "vegetation_sim/core/math/random.h"
+#include "vegetation_sim/tree/growth/skeleton.h"
 
 namespace vegetation_sim::bench {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "vegetation_sim/common/vectors.h"
+#include "vegetation_sim/core/math/vectors.h"
 
 namespace vegetation_sim::bench {
 

@@ -1,11 +1,11 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vegetation_sim/canopy/crown.h"
+#include "canopy/crown.h"
 
 #include <algorithm>
 
-#include "vegetation_sim/common/math.h"
-#include "vegetation_sim/common/random.h"
+#include "vegetation_sim/core/math/math.h"
+#include "vegetation_sim/core/math/random.h"
 
 namespace vegetation_sim::canopy {
 namespace {

@@ -1,12 +1,12 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vegetation_sim/forest/export.h"
+#include "forest/export.h"
 
 #include <cmath>
 #include <ostream>
 
-#include "vegetation_sim/common/math.h"
-#include "vegetation_sim/forest/pose.h"
+#include "vegetation_sim/core/math/math.h"
+#include "vegetation_sim/tree/motion/pose.h"
 
 namespace vegetation_sim::forest {
 namespace {

@@ -1,12 +1,12 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vegetation_sim/forest/forest.h"
+#include "forest/forest.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "vegetation_sim/common/math.h"
-#include "vegetation_sim/forest/contact_finder.h"
+#include "forest/contact/contact_finder.h"
+#include "vegetation_sim/core/math/math.h"
 
 namespace vegetation_sim::forest {
 namespace {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "vegetation_sim/forest/forest.h"
-#include "vegetation_sim/forest/lag.h"
-#include "vegetation_sim/wind/laws.h"
+#include "forest/forest.h"
+#include "tree/lod/response_error.h"
+#include "wind/laws.h"
 
 namespace vegetation_sim::forest {
 namespace {

@@ -1,10 +1,10 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vegetation_sim/forest/nearest.h"
+#include "forest/nearest.h"
 
 #include <algorithm>
 
-#include "vegetation_sim/forest/contact_finder.h"
+#include "forest/contact/contact_finder.h"
 
 namespace vegetation_sim::forest {
 namespace {

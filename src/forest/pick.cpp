@@ -1,13 +1,13 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vegetation_sim/forest/pick.h"
+#include "forest/pick.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
 
-#include "vegetation_sim/common/math.h"
+#include "vegetation_sim/core/math/math.h"
 
 namespace vegetation_sim::forest {
 namespace {

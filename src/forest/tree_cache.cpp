@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vegetation_sim/forest/tree_cache.h"
+#include "forest/tree_cache.h"
 
 namespace vegetation_sim::forest {
 

@@ -5,12 +5,12 @@
 
 #include <memory>
 
-#include "vegetation_sim/nodes/agent_crowd.h"
-#include "vegetation_sim/nodes/canopy_animator.h"
-#include "vegetation_sim/nodes/forest_animator.h"
-#include "vegetation_sim/nodes/grass_field.h"
-#include "vegetation_sim/nodes/vegetation_scanner.h"
-#include "vegetation_sim/nodes/wind_broadcaster.h"
+#include "nodes/canopy/canopy_animator.h"
+#include "nodes/crowd/agent_crowd.h"
+#include "nodes/forest/forest_animator.h"
+#include "nodes/grass/grass_field.h"
+#include "nodes/sensors/vegetation_scanner.h"
+#include "nodes/wind/wind_broadcaster.h"
 
 namespace vegetation_sim {
 namespace {

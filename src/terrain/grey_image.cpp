@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "terrain/image_formats.h"
-#include "vegetation_sim/common/faults.h"
+#include "vegetation_sim/core/config/faults.h"
 
 namespace vegetation_sim::terrain {
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "vegetation_sim/common/hash.h"
-#include "vegetation_sim/common/yaml.h"
+#include "vegetation_sim/core/config/yaml.h"
+#include "vegetation_sim/core/math/hash.h"
 
 namespace vegetation_sim::terrain {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "terrain/image_formats.h"
-#include "vegetation_sim/common/faults.h"
+#include "vegetation_sim/core/config/faults.h"
 
 namespace vegetation_sim::terrain {
 namespace {

@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "terrain/image_formats.h"
-#include "vegetation_sim/common/faults.h"
+#include "vegetation_sim/core/config/faults.h"
 
 // libpng's short interface would apply a gamma that the file names; a height map wants the samples
 // as they stand, so this is the long one. libpng leaves by longjmp, which skips destructors: the

@@ -6,8 +6,8 @@
 #include <fstream>
 #include <iostream>
 
-#include "vegetation_sim/forest/export.h"
-#include "vegetation_sim/nodes/forest_options.h"
+#include "forest/export.h"
+#include "nodes/forest/forest_options.h"
 
 namespace {
 

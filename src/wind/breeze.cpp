@@ -5,9 +5,9 @@
 #include <array>
 #include <cmath>
 
-#include "vegetation_sim/common/hash.h"
-#include "vegetation_sim/common/math.h"
-#include "vegetation_sim/common/random.h"
+#include "vegetation_sim/core/math/hash.h"
+#include "vegetation_sim/core/math/math.h"
+#include "vegetation_sim/core/math/random.h"
 
 namespace vegetation_sim::wind {
 namespace {

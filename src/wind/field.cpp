@@ -6,11 +6,11 @@
 #include <cmath>
 #include <set>
 
-#include "vegetation_sim/common/math.h"
+#include "vegetation_sim/core/math/math.h"
 #include "vegetation_sim/wind/breeze.h"
-#include "vegetation_sim/wind/fade.h"
-#include "vegetation_sim/wind/limits.h"
-#include "vegetation_sim/wind/trajectory.h"
+#include "wind/fade.h"
+#include "wind/limits.h"
+#include "wind/trajectory.h"
 
 namespace vegetation_sim::wind {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "vegetation_sim/common/math.h"
-#include "vegetation_sim/wind/limits.h"
+#include "vegetation_sim/core/math/math.h"
+#include "wind/limits.h"
 
 namespace vegetation_sim::wind {
 namespace {

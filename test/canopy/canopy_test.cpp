@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "canopy/canopy_scene.h"
-#include "common/error_text.h"
-#include "vegetation_sim/common/instruction_set.h"
+#include "core/error_text.h"
+#include "scenes/canopy/canopy_scene.h"
+#include "vegetation_sim/core/config/instruction_set.h"
 
 namespace vegetation_sim::canopy {
 namespace {

@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "canopy/leaf_truth.h"
+#include "scenes/canopy/leaf_truth.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vegetation_sim/forest/export.h"
+#include "forest/export.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <regex>
 #include <sstream>
 
-#include "forest/forest_fixture.h"
+#include "scenes/forest/forest_fixture.h"
 
 namespace vegetation_sim::forest {
 namespace {

@@ -1,14 +1,14 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vegetation_sim/forest/forest.h"
+#include "forest/forest.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <set>
 
-#include "forest/level_scene.h"
-#include "vegetation_sim/forest/replica.h"
+#include "scenes/forest/level_scene.h"
+#include "vegetation_sim/forest/forest_replica.h"
 
 namespace vegetation_sim::forest {
 namespace {

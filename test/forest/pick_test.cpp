@@ -1,12 +1,12 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vegetation_sim/forest/pick.h"
+#include "forest/pick.h"
 
 #include <gtest/gtest.h>
 
-#include "forest/forest_fixture.h"
-#include "vegetation_sim/common/random.h"
-#include "vegetation_sim/forest/tree_cache.h"
+#include "forest/tree_cache.h"
+#include "scenes/forest/forest_fixture.h"
+#include "vegetation_sim/core/math/random.h"
 
 namespace vegetation_sim::forest {
 namespace {

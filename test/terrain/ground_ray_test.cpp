@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vegetation_sim/terrain/ground_ray.h"
+#include "terrain/ground_ray.h"
 
 #include <gtest/gtest.h>
 

@@ -6,9 +6,9 @@
 
 #include <cmath>
 
-#include "common/error_text.h"
+#include "core/error_text.h"
 #include "terrain/image_fixture.h"
-#include "vegetation_sim/common/random.h"
+#include "vegetation_sim/core/math/random.h"
 
 namespace vegetation_sim::terrain {
 namespace {

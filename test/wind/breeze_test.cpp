@@ -7,8 +7,8 @@
 #include <array>
 #include <cmath>
 
-#include "vegetation_sim/common/math.h"
-#include "wind/examples.h"
+#include "scenes/wind/wind_examples.h"
+#include "vegetation_sim/core/math/math.h"
 
 namespace vegetation_sim::wind {
 namespace {

@@ -6,9 +6,9 @@
 
 #include <functional>
 
-#include "vegetation_sim/common/random.h"
-#include "vegetation_sim/wind/limits.h"
-#include "wind/examples.h"
+#include "scenes/wind/wind_examples.h"
+#include "vegetation_sim/core/math/random.h"
+#include "wind/limits.h"
 
 namespace vegetation_sim::wind {
 namespace {

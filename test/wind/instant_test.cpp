@@ -7,9 +7,9 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "vegetation_sim/common/math.h"
-#include "vegetation_sim/common/random.h"
-#include "wind/examples.h"
+#include "scenes/wind/wind_examples.h"
+#include "vegetation_sim/core/math/math.h"
+#include "vegetation_sim/core/math/random.h"
 
 namespace vegetation_sim::wind {
 namespace {

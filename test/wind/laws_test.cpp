@@ -1,11 +1,11 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vegetation_sim/wind/laws.h"
+#include "wind/laws.h"
 
 #include <gtest/gtest.h>
 
-#include "vegetation_sim/common/math.h"
-#include "wind/examples.h"
+#include "scenes/wind/wind_examples.h"
+#include "vegetation_sim/core/math/math.h"
 
 namespace vegetation_sim::wind {
 namespace {

@@ -8,9 +8,9 @@
 #include <functional>
 #include <limits>
 
-#include "vegetation_sim/wind/limits.h"
+#include "scenes/wind/wind_examples.h"
 #include "vegetation_sim/wind/source.h"
-#include "wind/examples.h"
+#include "wind/limits.h"
 
 namespace vegetation_sim::wind {
 namespace {

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <functional>
 
-#include "vegetation_sim/wind/fade.h"
-#include "vegetation_sim/wind/trajectory.h"
-#include "wind/examples.h"
+#include "scenes/wind/wind_examples.h"
+#include "wind/fade.h"
+#include "wind/trajectory.h"
 
 namespace vegetation_sim::wind {
 namespace {

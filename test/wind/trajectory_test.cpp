@@ -1,12 +1,12 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vegetation_sim/wind/trajectory.h"
+#include "wind/trajectory.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "wind/examples.h"
+#include "scenes/wind/wind_examples.h"
 
 namespace vegetation_sim::wind {
 namespace {

@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "vegetation_sim/canopy/fluid.h"
-#include "vegetation_sim/canopy/foliage.h"
-#include "vegetation_sim/canopy/oscillator.h"
+#include "vegetation_sim/canopy/flow/fluid.h"
+#include "vegetation_sim/canopy/flow/oscillator.h"
+#include "vegetation_sim/canopy/leaf_motion.h"
 #include "vegetation_sim/wind/field.h"
 
 namespace vegetation_sim::canopy {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "vegetation_sim/common/fields.h"
-#include "vegetation_sim/common/vectors.h"
+#include "vegetation_sim/core/config/fields.h"
+#include "vegetation_sim/core/math/vectors.h"
 #include "vegetation_sim/terrain/grey_image.h"
 
 namespace vegetation_sim::terrain {

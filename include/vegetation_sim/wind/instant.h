@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "vegetation_sim/common/vectors.h"
+#include "vegetation_sim/core/math/vectors.h"
 #include "vegetation_sim/wind/primitive.h"
 
 namespace vegetation_sim::wind {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "vegetation_sim/common/fields.h"
-#include "vegetation_sim/common/time.h"
-#include "vegetation_sim/common/vectors.h"
+#include "vegetation_sim/core/config/fields.h"
+#include "vegetation_sim/core/math/time.h"
+#include "vegetation_sim/core/math/vectors.h"
 
 namespace vegetation_sim::wind {
 

@@ -11,7 +11,6 @@ from charting.tables import groups
 STYLES = {
     'midpoint, plain double': (style.GREEN, 'o', '-', 'midpoint, plain (default)'),
     'midpoint, SIMD, one tree': (style.BLUE, 'o', '-', 'midpoint, SIMD, one tree'),
-    'midpoint, SIMD, 16 trees': (style.SKY, 'o', '-', 'midpoint, SIMD, 16 trees, each'),
     'implicit Euler': (style.PINK, 'v', '-', 'implicit Euler'),
     'semi-implicit Euler': (style.ORANGE, '^', '-', 'semi-implicit Euler'),
     'explicit Euler': (style.RED, '<', '-', 'explicit Euler'),

@@ -1,0 +1,76 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <yaml-cpp/yaml.h>
+
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "vegetation_sim/core/config/fields.h"
+
+namespace vegetation_sim {
+
+/// One map of a YAML file, read strictly: a wrong type, a value out of range and, after finish(), a
+/// key that nobody asked for are faults that name file, key, value and allowed range. A key that is
+/// absent leaves the default. Visits a `describe` function as well as single keys.
+class YamlSection : public FieldVisitor {
+ public:
+  /// @param path shown in faults, as in "forest.yaml: trees[2]".
+  YamlSection(const YAML::Node& node, std::string path, Faults& faults);
+
+  bool has(const std::string& key) const;
+  const std::string& path() const { return path_; }
+
+  void number(const char* name, double& value, const char* unit, Range range) override;
+  void integer(const char* name, int& value, const char* unit, Range range) override;
+  void vector(const char* name, Vec3& value, const char* unit, Range range) override;
+  void choice(const char* name, int& value, const std::vector<std::string>& names) override;
+  void text(const char* name, std::string& value);
+  void flag(const char* name, bool& value);
+  void seed(const char* name, std::uint64_t& value);
+
+  /// Map under `name`; empty if absent. Adds a fault if it is no map.
+  YamlSection section(const char* name);
+  /// Maps in the list under `name`; none if absent.
+  std::vector<YamlSection> sections(const char* name);
+
+  /// Adds an own fault about the value of `name`.
+  void fault(const std::string& name, const std::string& problem);
+  /// Adds an own fault about the whole map.
+  void fault(const std::string& problem);
+  /// Reports the keys that were never asked for.
+  void finish();
+
+ private:
+  template <class T>
+  bool read(const char* name, const char* type, T& value);
+
+  YAML::Node node_;
+  std::string path_;
+  Faults* faults_;
+  std::set<std::string> asked_;
+};
+
+/// Parses a file. @throws InvalidInput naming the file if it is missing, larger than 4 MiB or no
+/// YAML.
+YAML::Node loadYamlFile(const std::string& file);
+/// Parses text; `name` stands for it in the error. @throws InvalidInput
+YAML::Node parseYaml(const std::string& text, const std::string& name);
+
+/// Writes every visited field as `key: value`, numbers with 17 digits so that they survive exactly.
+class YamlFieldWriter : public FieldVisitor {
+ public:
+  explicit YamlFieldWriter(YAML::Emitter& out) : out_(out) {}
+  void number(const char* name, double& value, const char* unit, Range range) override;
+  void integer(const char* name, int& value, const char* unit, Range range) override;
+  void vector(const char* name, Vec3& value, const char* unit, Range range) override;
+  void choice(const char* name, int& value, const std::vector<std::string>& names) override;
+
+ private:
+  YAML::Emitter& out_;
+};
+
+}  // namespace vegetation_sim

@@ -1,0 +1,212 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "vegetation_sim/core/math/math.h"
+#include "vegetation_sim/core/math/time.h"
+#include "vegetation_sim/grass/blades/blade_batch.h"
+#include "vegetation_sim/grass/tread/tread_law.h"
+
+namespace vegetation_sim::grass {
+
+struct TreadSettings {
+  double spacing{0.05};        ///< wanted of the fine nodes; becomes a whole part of a tile [m]
+  double memory_cap{128e6};    ///< for trodden ground [bytes]
+  double longest_stroke{5.0};  ///< beyond, a source has jumped and leaves no track [m]
+  double top_speed{40.0};      ///< beyond, likewise [m/s]
+};
+void describe(FieldVisitor& visitor, TreadSettings& settings);
+
+/// Trodden grass at a node: tilt at `stamp`, from which it rises again.
+struct TreadNode {
+  float tilt{0.f};       ///< [rad]
+  float x{0.f}, y{0.f};  ///< unit direction in which the blades lie
+  float recovery{0.f};   ///< [s]
+  Nanoseconds stamp{0};
+};
+
+/// Nodes of a square of trodden ground.
+struct TreadBlock {
+  static constexpr int SIDE = 16;
+  Nanoseconds until{0};                                   ///< when the last of them has recovered
+  std::array<TreadNode, std::size_t{SIDE} * SIDE> nodes;  ///< row by row from the south
+};
+
+/// A source that is on the ground. Doses of the nodes within its reach add up as long as it stays
+/// near them: one pass.
+struct TreadSource {
+  Point position, along;
+  bool has_moved{false};  ///< `along` means something
+  Nanoseconds stamp{0};
+  int first_column{0}, first_row{0}, columns{0}, rows{0};  ///< of the window, whole vectors wide
+  std::vector<double> doses;                               ///< [rows x columns] [1/m^2]
+};
+
+/// What happened so far.
+struct TreadCounts {
+  std::uint64_t strokes{0};    ///< that were taken
+  std::uint64_t invalid{0};    ///< refused: not finite or back in time
+  std::uint64_t jumps{0};      ///< of a source, that left no track
+  std::uint64_t outside{0};    ///< strokes that touched no node of the map
+  std::uint64_t no_memory{0};  ///< nodes that the memory cap left untrodden
+};
+
+/// All that has memory, to be saved, restored and compared.
+struct TreadState {
+  std::map<std::pair<int, int>, TreadBlock> blocks;  ///< by row and column of blocks
+  std::map<std::uint32_t, TreadSource> sources;
+  TreadCounts counts;
+
+  std::uint64_t hash() const;
+};
+
+/// Where something was found lately, by a mixed key. Empty in a copy, since it points into one
+/// map's parts. @tparam Entry that is made from a key, with mixed(key...) and is(key...).
+template <class Entry, int BITS>
+class RecentTable {
+ public:
+  RecentTable() = default;
+  RecentTable(const RecentTable&) {}
+  RecentTable& operator=(const RecentTable&) {
+    clear();
+    return *this;
+  }
+  /// The entry of a key; its pointers are null if nothing is known, and may be set.
+  template <class... Key>
+  Entry& at(Key... key) {
+    if (entries_.empty()) entries_.resize(std::size_t{1} << BITS);
+    Entry& entry = entries_[Entry::mixed(key...) >> (32 - BITS)];
+    if (!entry.is(key...)) entry = Entry(key...);
+    return entry;
+  }
+  void clear() { entries_.clear(); }
+
+ private:
+  std::vector<Entry> entries_;
+};
+
+struct RecentBlock {
+  RecentBlock() = default;
+  RecentBlock(int row_wanted, int column_wanted) : row(row_wanted), column(column_wanted) {}
+  static std::uint32_t mixed(int row, int column) {
+    return static_cast<std::uint32_t>(row) * 0x9E3779B1U +
+           static_cast<std::uint32_t>(column) * 0x85EBCA77U;
+  }
+  bool is(int other_row, int other_column) const {
+    return row == other_row && column == other_column;
+  }
+  int row{-1}, column{-1};
+  bool is_known{false};  ///< that the block is there, or that it is not
+  TreadBlock* block{nullptr};
+};
+
+struct RecentSource {
+  RecentSource() = default;
+  explicit RecentSource(std::uint32_t wanted) : id(wanted) {}
+  static std::uint32_t mixed(std::uint32_t id) { return id * 0x9E3779B1U; }
+  bool is(std::uint32_t other) const { return id == other; }
+  std::uint32_t id{0};
+  TreadSource* source{nullptr};
+};
+
+/// Nodes that a stroke presses down, row by row; touched are all within its reach.
+struct TreadPresses {
+  std::vector<std::uint64_t> places;  ///< row << 32 | column
+  std::vector<double> tilts;          ///< that the stroke asks for [rad]
+  std::size_t count{0};
+  int touched{0};
+};
+
+struct TreadBand;
+struct TreadGrid;
+struct TreadStroke;
+
+/// Trodden grass (paper 2, section 4.2; S2-21 to S2-28) on a fine grid that exists only where
+/// somebody trod (S2-W1). Nothing happens per frame: how far a node has recovered follows from its
+/// stamp. One thread at a time. Every value is the same on each processor.
+class TreadMap {
+ public:
+  /// @throws InvalidInput with all faults.
+  TreadMap(const MapLaw& law, const TreadSettings& settings);
+
+  /// Puts or moves a source: presses the segment from where it was to `position` [m], and the
+  /// ground under it. A place that is not finite, a jump or a stamp before the last leaves no track
+  /// and is counted. Requires a checked law. @return number of touched nodes.
+  int tread(std::uint32_t source, const TreadLaw& law, const Point& position, Nanoseconds stamp);
+  /// The source leaves the ground: its next tread() begins a new track.
+  void lift(std::uint32_t source);
+
+  /// Tilt and direction of the nearest node at a stamp; nothing where it is untrodden.
+  TreadNode at(const Point& place, Nanoseconds stamp) const;
+  /// Fills the patch of a tile: cells 0 if it is untrodden. `out` keeps its memory.
+  void patch(int tile_column, int tile_row, Nanoseconds stamp, CrushPatch& out) const;
+
+  /// Frees ground that has recovered.
+  void prune(Nanoseconds stamp);
+  /// Forgets what is stamped after `stamp`: time went back.
+  void rewind(Nanoseconds stamp);
+  void clear();
+  /// Raises all nodes within `radius` [m] of a place.
+  void raise(const Point& place, double radius);
+  /// Sets a node as another process told it. False: it is not on the map, or memory is full.
+  bool put(int row, int column, const TreadNode& node);
+
+  const TreadState& state() const { return state_; }
+  void restore(TreadState state);
+  double spacing() const { return spacing_; }
+  std::size_t bytes() const;
+
+ private:
+  /// Nodes from first to last, both included.
+  struct Box {
+    int first_column, last_column, first_row, last_row;
+  };
+  TreadBlock* blockAt(int row, int column, bool make);
+  TreadSource* sourceOf(std::uint32_t id);
+  bool isJump(const TreadSource& from, const Point& to, Nanoseconds stamp) const;
+  bool moveWindow(TreadSource& source, double reach);
+  TreadGrid grid() const;
+  Box boxOf(const Point& low, const Point& high, double reach) const;
+  double fullDose(const TreadLaw& law);
+  int pressWindow(TreadStroke& stroke);
+  int pressBands(TreadStroke& stroke);
+  int pressBand(TreadStroke& stroke, const TreadBand& band);
+  void prefetch(const TreadBand& band);
+  void forgetRecent();
+
+  MapLaw law_;
+  TreadSettings settings_;
+  int cells_;  ///< fine cells along a tile
+  double spacing_, per_spacing_;
+  TreadState state_;
+  RecentTable<RecentBlock, 16> recent_blocks_;
+  RecentTable<RecentSource, 12> recent_sources_;
+  TreadSource before_;         ///< scratch: a window that was left
+  std::vector<double> doses_;  ///< scratch: on the way from window to window
+  TreadPresses presses_;       ///< scratch
+  TreadLaw last_law_{};        ///< of the last stroke
+  double last_full_{0.0};      ///< its fullDose()
+};
+
+/// Share of its tilt that a node keeps: 1 - smoothStep((t - t0) / T); 0 before t0.
+inline double tiltLeft(const TreadNode& node, Nanoseconds stamp) {
+  if (stamp < node.stamp || !(node.recovery > 0.f)) return 0.0;
+  if (node.recovery >= static_cast<float>(PERMANENT_RECOVERY)) return 1.0;
+  return 1.0 - smoothStep(secondsBetween(node.stamp, stamp) / double{node.recovery});
+}
+
+/// Tilt of a node at a stamp [rad].
+inline float tiltAt(const TreadNode& node, Nanoseconds stamp) {
+  return static_cast<float>(double{node.tilt} * tiltLeft(node, stamp));
+}
+
+/// Below this tilt a node counts as untrodden [rad].
+constexpr float CRUNCHED = 0.0174533f;
+
+}  // namespace vegetation_sim::grass

@@ -1,0 +1,40 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vegetation_sim/GrassLayout.h>
+#include <vegetation_sim/GrassState.h>
+#include <vegetation_sim/TreadEvent.h>
+
+#include <string>
+
+#include "vegetation_sim/grass/grass_layout.h"
+#include "vegetation_sim/grass/tread/tread_input.h"
+#include "vegetation_sim/grass/tread/tread_update.h"
+
+namespace vegetation_sim {
+
+/// The header is left to the sender.
+GrassLayout toMsg(const grass::Layout& layout);
+/// The terrain is the caller's to load and to compare by its hash. @throws InvalidInput with all
+/// faults: species that do not parse, pictures of a wrong size, numbers out of range, and if the
+/// hash is another than the sender's.
+grass::Layout fromMsg(const GrassLayout& message);
+
+/// The header's frame is left to the sender.
+GrassState toMsg(const grass::TreadUpdate& update);
+/// @throws InvalidInput for what cannot be.
+grass::TreadUpdate fromMsg(const GrassState& message);
+
+TreadLaw toMsg(const grass::TreadLaw& law);
+/// Zeros become what the node has; reach and softness in proportion to the radius. Unchecked.
+grass::TreadLaw fromMsg(const TreadLaw& message, const grass::TreadLaw& own);
+
+/// The header is left to the sender.
+TreadEvent toMsg(const grass::TreadInput& input);
+/// Positions as they stand: the frame is the caller's. Zeros become what the node has.
+/// @throws InvalidInput with all values that are not finite or out of range.
+grass::TreadInput fromMsg(const TreadEvent& message, const grass::TreadLaw& own,
+                          double height_gate);
+
+}  // namespace vegetation_sim

@@ -1,0 +1,85 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "vegetation_sim/terrain/height_map.h"
+#include "vegetation_sim/tree/growth/species.h"
+
+namespace vegetation_sim::forest {
+
+/// All that is permanent of one tree (S1-04).
+struct TreeSeed {
+  std::uint64_t seed{0};        ///< keys every random number of the tree
+  std::uint16_t species{0};     ///< index into Layout::species
+  Vec3 position{Vec3::Zero()};  ///< foot of the trunk, z above the terrain [m]
+  double yaw{0.0};              ///< [rad]
+  double scale{1.0};            ///< over the species' size, 0.05 to 20
+};
+static_assert(sizeof(TreeSeed) < 1024, "S1-05: a unique tree takes less than 1 kB");
+
+/// A square of forest as a law: tree i of it is a pure function of this record and i.
+struct Tile {
+  std::uint32_t first_tree{0}, count{0};
+  std::uint64_t seed{0};
+  double x{0.0}, y{0.0};   ///< south-west corner [m]
+  double size{10.0};       ///< edge [m]
+  std::vector<float> mix;  ///< relative weight of each species
+};
+
+/// `paper`: Rz(th) Ry(ph) of paper 1, fig. 1; `swing`: rest rotation, then an isotropic bend (E4).
+enum class JointModel : int { SWING = 0, PAPER = 1 };
+/// Angle per wind: static compliance of the sub-tree, or L z / m as printed (equations 1 and 2).
+enum class Gain : int { COMPLIANCE = 0, PAPER = 1 };
+/// Force per wind: proportional to the speed (superposition is exact), or to its square.
+enum class Drag : int { LINEAR = 0, QUADRATIC = 1 };
+enum class TransitionShape : int { SMOOTH = 0, LINEAR = 1 };
+
+/// Most trees of a layout.
+constexpr std::uint32_t MOST_TREES = 1u << 24;
+
+/// How every tree of a layout moves; part of the law that replicas share.
+struct MotionLaw {
+  int joint_model{0};       ///< JointModel
+  int gain{0};              ///< Gain
+  int drag{0};              ///< Drag
+  double transition{1.0};   ///< duration of a change of level (S1-45) [s]
+  int transition_shape{0};  ///< TransitionShape
+};
+void describe(FieldVisitor& visitor, MotionLaw& law);
+
+/// The forest as a law: who holds it can rebuild every tree.
+struct Layout {
+  std::vector<Species> species;
+  MotionLaw motion;
+  std::string terrain;            ///< file of the height map; empty: flat
+  std::uint64_t terrain_hash{0};  ///< of its samples, so that replicas know they stand on the same
+  std::vector<TreeSeed> trees;    ///< ids 0, 1, 2 ...
+  std::vector<Tile> tiles;        ///< ids go on
+
+  std::uint32_t treeCount() const;
+  std::uint64_t hash() const;
+};
+
+/// Adds a fault for whatever is wrong: ranges, unknown species, ids with gaps, more than 2^24
+/// trees.
+void check(const Layout& layout, Faults& faults);
+
+/// The seed of a tree. @throws std::out_of_range for an unknown id.
+TreeSeed seedOf(const Layout& layout, std::uint32_t tree);
+TreeSeed seedInTile(const Tile& tile, std::uint32_t index);
+/// Trees of a tile that may stand within `radius` of a point, rising: one in each cell of a square
+/// grid, row by row, so others are not looked at.
+std::vector<std::uint32_t> treesInTile(const Tile& tile, const Vec3& point, double radius);
+
+/// Foot of a tree in the world [m]: its seed's position on the terrain.
+Vec3 footOf(const TreeSeed& seed, const terrain::HeightMap& terrain);
+
+/// Reads the `forest` section of a scenario. Relative file names count from `folder`.
+Layout readLayout(YamlSection section, const std::string& folder, std::uint64_t seed,
+                  Faults& faults);
+
+}  // namespace vegetation_sim::forest

@@ -1,0 +1,59 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "vegetation_sim/core/math/vectors.h"
+#include "vegetation_sim/tree/growth/forest_layout.h"
+
+namespace vegetation_sim::forest {
+
+/// One joint and the straight piece of wood that it carries; several make a limb.
+struct Branch {
+  int parent{-1};           ///< index of the bearing branch, below the own; -1: the ground
+  int next{-1};             ///< index of the branch that goes on the same limb; -1: its tip
+  int depth{0};             ///< recursion depth of its limb: 0 is the trunk
+  double h{0.0};            ///< where it sprouts along its parent [m]
+  double theta{0.0};        ///< rest turn about the parent's z, paper 1 fig. 1 [rad]
+  double phi{0.0};          ///< rest turn about the own y [rad]
+  double length{0.0};       ///< [m]
+  double base_radius{0.0};  ///< [m]
+  double tip_radius{0.0};   ///< [m]
+  double roll{0.0};         ///< turn about z that undoes the twist along the limb, for meshes [rad]
+  int leaves{0};            ///< leaf clusters on it
+  std::uint64_t key{0};     ///< of its random numbers
+  Quat turn;                ///< Rz(theta) Ry(phi): its joint at rest, in its parent's frame
+  Pose rest;  ///< base at rest in the tree's frame: origin at the foot, axes as the world's
+};
+
+/// Branches of one depth and one place in their limbs: none is another's parent, so all can be
+/// posed at once. Their parents are in earlier groups.
+struct Group {
+  int begin{0}, end{0}, depth{0};
+};
+
+/// A tree grown from its seed, at rest. Sorted by groups, so the joints of the first n depths are
+/// the first depth_end[n - 1] branches.
+struct Skeleton {
+  std::vector<Branch> branches;
+  std::vector<Group> groups;
+  std::vector<int> depth_end;  ///< per depth: one past its last branch
+  double height{0.0};          ///< of the highest tip above the foot [m]
+  double reach{0.0};           ///< of the farthest tip from the trunk's axis, horizontally [m]
+
+  int depths() const { return static_cast<int>(depth_end.size()); }
+  std::uint64_t hash() const;
+};
+
+/// Grows a tree: a pure function of seed and species, the same bits everywhere (S1-04, S1-07).
+Skeleton grow(const TreeSeed& seed, const Species& species);
+
+/// Rotation Rz(theta) Ry(phi) of a child in its parent's frame.
+Quat restRotation(double theta, double phi);
+
+/// End of a branch's axis in the frame of `pose`.
+Vec3 tipOf(const Branch& branch, const Pose& pose);
+
+}  // namespace vegetation_sim::forest

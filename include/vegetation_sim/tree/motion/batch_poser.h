@@ -1,0 +1,78 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "vegetation_sim/core/config/instruction_set.h"
+#include "vegetation_sim/dynamics/modal/batch_modes.h"
+#include "vegetation_sim/tree/motion/pose.h"
+
+namespace vegetation_sim::forest {
+
+/// Poses of many branches, structure of arrays, in the tree's frame. Entries beyond `count` are
+/// scratch.
+struct BatchPoses {
+  int count{0};                       ///< branches that hold a pose
+  std::vector<float> x, y, z;         ///< [branches] base [m]
+  std::vector<float> qw, qx, qy, qz;  ///< [branches] orientation
+
+  Pose at(int branch) const;
+};
+
+/// Branches begin to end of one depth; first_parent: of `begin`, if the parents of all stand side
+/// by side, else -1.
+struct BatchGroup {
+  int begin{0}, end{0}, depth{0}, first_parent{-1};
+};
+
+/// Rest data of one tree, structure of arrays, in single precision; padded to the widest vector.
+struct BatchTree {
+  std::vector<std::int32_t> parent;  ///< -1: the ground
+  std::vector<float> h;              ///< along the parent [m]
+  std::vector<float> x, y, z;        ///< base at rest [m]
+  /// Swing: rest rotation in the parent (w x y z). Paper: cos, sin of theta / 2, of phi / 2.
+  std::vector<float> r0, r1, r2, r3;
+  std::vector<float> ax, ay, az, bx, by, bz;  ///< Response::first, second [rad s/m]
+  std::vector<BatchGroup> groups;
+  JointModel joint_model{JointModel::SWING};
+  Drag drag{Drag::LINEAR};
+  float reference_speed{8.f};
+  double reach{0.0};  ///< farthest branch from the trunk's foot, horizontally [m]
+};
+
+using physics::BatchBends;
+
+/// Forward kinematics of one tree in single precision, many branches of one group at a time, in the
+/// widest instruction set of the processor. The same bits on each of them: only + - * / sqrt, no
+/// fused operations. Within 1e-5 of the tree's height of poseBranches.
+class BatchPoser {
+ public:
+  explicit BatchPoser(const Tree& tree);
+
+  /// Poses the branches of the first `depths` recursion depths; those that carry no weight are
+  /// carried at rest by their parents. `wind` is relative to the tree's foot. `out` keeps its
+  /// memory from call to call.
+  void pose(const wind::Instant& wind, const Weights& weights, int depths, BatchPoses& out) const;
+
+  /// Poses all branches for bends of all joints, limited as every joint's (E16); `swing` only.
+  void pose(const BatchBends& bends, BatchPoses& out) const;
+
+  int branchCount() const { return static_cast<int>(tree_.parent.size()) - PADDING; }
+  /// Bytes of permanent rest data per branch.
+  static constexpr int BYTES_PER_BRANCH = 15 * 4;
+  static constexpr int PADDING = 32;
+
+ private:
+  void ready(BatchPoses& out) const;
+
+  BatchTree tree_;
+};
+
+using vegetation_sim::chosenInstructionSet;
+using vegetation_sim::forceInstructionSet;
+using vegetation_sim::instructionSets;
+
+}  // namespace vegetation_sim::forest

@@ -1,0 +1,42 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "vegetation_sim/tree/growth/response.h"
+#include "vegetation_sim/tree/growth/skeleton.h"
+#include "vegetation_sim/tree/motion/motion_level.h"
+#include "vegetation_sim/wind/instant.h"
+
+namespace vegetation_sim::forest {
+
+/// A grown tree with its responses: what the pose at any time is computed from.
+struct Tree {
+  TreeSeed seed;
+  Skeleton skeleton;
+  std::vector<Response> response;  ///< per branch
+  JointModel joint_model{JointModel::SWING};
+  Drag drag{Drag::LINEAR};
+  double reference_speed{8.0};  ///< for quadratic drag [m/s]
+  Vec3 foot{Vec3::Zero()};      ///< world [m]
+};
+
+/// Grows a tree of a layout. Pure: the same layout and id give the same tree, to the bit.
+Tree growTree(const Layout& layout, std::uint32_t id, const terrain::HeightMap& terrain);
+/// A tree of no layout: at the origin, its drag linear.
+Tree growTree(const TreeSeed& seed, const Species& species, const MotionLaw& law);
+
+/// Deviation of each joint of the first `depths` depths (equations 1 and 2): independent of every
+/// other branch and of any step (S1-19). `wind` is relative to the foot.
+std::vector<JointAngles> proceduralAngles(const Tree& tree, const wind::Instant& wind,
+                                          const Weights& weights);
+
+/// Pose of every branch in the tree's frame (origin at the foot, axes as the world's): the plain
+/// version in double precision, reference of BatchPoser.
+std::vector<Pose> poseBranches(const Tree& tree, const wind::Instant& wind, const Weights& weights);
+
+/// Poses for given joint deviations.
+std::vector<Pose> forwardKinematics(const Tree& tree, const std::vector<JointAngles>& angles);
+
+}  // namespace vegetation_sim::forest

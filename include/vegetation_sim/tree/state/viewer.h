@@ -1,0 +1,21 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "vegetation_sim/core/lod/viewpoint.h"
+#include "vegetation_sim/core/math/time.h"
+
+namespace vegetation_sim::forest {
+
+/// An eye that asked for detail.
+struct Viewer {
+  std::string id;
+  Eye eye;
+  Nanoseconds stamp{0};  ///< last heard
+};
+/// A viewer not heard for this long is forgotten.
+constexpr Nanoseconds VIEWER_LIFE = 3 * NANOSECONDS_PER_SECOND;
+
+}  // namespace vegetation_sim::forest

@@ -1,0 +1,44 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "vegetation_sim/wind/sampling/wind_samples.h"
+#include "vegetation_sim/wind/sampling/wind_window.h"
+
+namespace vegetation_sim::forest {
+
+/// Air velocity at many points at once, in the widest instruction set of the processor: to the bit
+/// what wind::Instant::velocity and WindWindow::velocities give one by one. Keeps its memory from
+/// call to call.
+class AirSampler {
+ public:
+  void clear() { count_ = 0; }
+  /// @param point world [m].
+  void add(const Vec3& point);
+  std::size_t size() const { return count_; }
+  /// Looks at all points; they stay for the next look.
+  void sample(const wind::Instant& wind);
+  /// The three looks of a window.
+  void sample(const WindWindow& window);
+  /// At point i, in a look of the window that was sampled last, or of one instant, 0, world [m/s].
+  Vec3 velocity(std::size_t i, std::size_t look = 0) const {
+    return {air_[look].x[i], air_[look].y[i], air_[look].z[i]};
+  }
+
+ private:
+  struct Rows {
+    std::vector<double> x, y, z;  // whole pairs of vectors
+  };
+  void sampleAt(std::size_t look, const wind::Instant& wind);
+  void addTerms(std::size_t look, const wind::Instant& wind);
+  wind::AirRows rows(std::size_t look);
+
+  std::size_t count_{0};
+  Rows points_;
+  std::array<Rows, 3> air_;
+};
+
+}  // namespace vegetation_sim::forest

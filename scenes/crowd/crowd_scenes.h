@@ -1,0 +1,121 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "crowd/agents/crowd.h"
+#include "vegetation_sim/core/math/math.h"
+#include "vegetation_sim/core/math/random.h"
+
+namespace vegetation_sim::crowd {
+
+inline std::shared_ptr<const terrain::HeightMap> flatGround() {
+  return std::make_shared<terrain::HeightMap>();
+}
+
+/// Walls around a rectangle.
+inline std::vector<Obstacle> room(double x0, double y0, double x1, double y1) {
+  return {wallObstacle({x0, y0}, {x1, y0}, 0.1), wallObstacle({x1, y0}, {x1, y1}, 0.1),
+          wallObstacle({x1, y1}, {x0, y1}, 0.1), wallObstacle({x0, y1}, {x0, y0}, 0.1)};
+}
+
+inline std::uint32_t spawnAt(Crowd& crowd, const Point& from, const Point& goal,
+                             double speed = 1.35) {
+  Spawn spawn;
+  spawn.position = from;
+  spawn.heading = arcTangent(goal.y - from.y, goal.x - from.x);
+  spawn.speed = speed;
+  spawn.wanders = false;
+  spawn.has_goal = true;
+  spawn.goal = goal;
+  return crowd.spawn(spawn);
+}
+
+/// Two who walk straight towards each other.
+inline Crowd headOn(std::uint64_t seed, const CrowdSettings& settings) {
+  Crowd out(seed, settings, {-20, 20, -20, 20}, flatGround());
+  spawnAt(out, {-5, 0}, {5, 0});
+  spawnAt(out, {5, 0}, {-5, 0});
+  return out;
+}
+
+/// Each to the far side of a circle.
+inline Crowd circle(int count, double radius, std::uint64_t seed, const CrowdSettings& settings) {
+  Crowd out(seed, settings, {-40, 40, -40, 40}, flatGround());
+  for (int i = 0; i < count; ++i) {
+    const SinCos at = sinCosTurns(static_cast<double>(i) / count);
+    spawnAt(out, {radius * at.cos, radius * at.sin}, {-radius * at.cos, -radius * at.sin});
+  }
+  return out;
+}
+
+/// Inside a U that is open to the west; the goal is east of it.
+//     +------+
+//            |
+//       w    |   goal
+//            |
+//     +------+
+inline Crowd trap(std::uint64_t seed, double width, const CrowdSettings& settings) {
+  Crowd out(seed, settings, {-20, 20, -20, 20}, flatGround());
+  const double y = 0.5 * width;
+  out.setObstacles({wallObstacle({2, -y}, {2, y}, 0.2), wallObstacle({-2, -y}, {2, -y}, 0.2),
+                    wallObstacle({-2, y}, {2, y}, 0.2)});
+  const Random random(seed);
+  spawnAt(out, {random.uniform(0, -1.0, 1.0), random.uniform(1, 0.6 - y, y - 0.6)}, {8, 0});
+  return out;
+}
+
+/// Ten walk east, ten west, in a corridor of 30 m.
+inline Crowd corridor(double width, std::uint64_t seed, const CrowdSettings& settings) {
+  Crowd out(seed, settings, {-20, 20, -20, 20}, flatGround());
+  const double y = 0.5 * width;
+  out.setObstacles({wallObstacle({-60, -y - 0.05}, {60, -y - 0.05}, 0.1),
+                    wallObstacle({-60, y + 0.05}, {60, y + 0.05}, 0.1)});
+  const Random random(seed);
+  for (int i = 0; i < 20; ++i) {
+    const auto k = static_cast<std::uint64_t>(2 * i);
+    const double east = i % 2 == 0 ? 1.0 : -1.0, across = random.uniform(k, 0.35 - y, y - 0.35);
+    const double x = -15.0 * east + east * (i / 2) * 1.2;
+    spawnAt(out, {x, across}, {58.0 * east, across});
+  }
+  return out;
+}
+
+/// Ten in a room of 10 m, who wander.
+inline Crowd crowdedRoom(std::uint64_t seed, const CrowdSettings& settings) {
+  Crowd out(seed, settings, {-4.5, 4.5, -4.5, 4.5}, flatGround());
+  out.setObstacles(room(-5, -5, 5, 5));
+  for (int i = 0; i < 10; ++i) {
+    Spawn spawn;
+    spawn.position = {-4.0 + 0.8 * i, (i % 3) * 1.5 - 1.5};
+    spawn.heading = 0.6 * i - 3.0;
+    out.spawn(spawn);
+  }
+  return out;
+}
+
+/// Steps for `seconds`; `look` sees the crowd after each.
+template <class Look>
+void run(Crowd& crowd, double seconds, double dt, Look look) {
+  const Nanoseconds start = crowd.memory().stamp;
+  const auto steps = static_cast<std::int64_t>(seconds / dt + 0.5);
+  crowd.advance(start == 0 ? NANOSECONDS_PER_SECOND : start);
+  const Nanoseconds from = crowd.memory().stamp;
+  for (std::int64_t i = 1; i <= steps; ++i) {
+    crowd.advance(from + fromSeconds(dt * static_cast<double>(i)));
+    look(crowd);
+  }
+}
+inline void run(Crowd& crowd, double seconds, double dt) {
+  run(crowd, seconds, dt, [](const Crowd&) {});
+}
+
+inline bool allArrived(const Crowd& crowd) {
+  for (const Walker& w : crowd.walkers())
+    if (!w.arrived) return false;
+  return true;
+}
+
+}  // namespace vegetation_sim::crowd

@@ -1,0 +1,180 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+// Bodies that are driven at the trees of a forest, and a look at what these get.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "forest/contact/contact_body.h"
+#include "forest/contact/contact_finder.h"
+#include "forest/forest.h"
+#include "scenes/forest/forest_fixture.h"
+
+namespace vegetation_sim::forest {
+
+constexpr int TICKS = 60;  // [Hz]
+
+/// A tree in still air, and a capsule of 5 cm that is driven through its crown along x.
+class Drive {
+ public:
+  explicit Drive(double speed, const Vec3& start = Vec3(-1.6, 0.3, 6.5),
+                 const std::string& species = "birch", std::uint64_t tree = 7)
+      : forest_(layout(species, tree), flatTerrain(), Settings()) {
+    body_.id = "arm";
+    body_.frame = "arm_link";
+    body_.shape = static_cast<int>(Shape::CAPSULE);
+    body_.size = Vec3(0.025, 0.0, 0.6);
+    body_.pose = {start, Quat{std::sqrt(0.5), std::sqrt(0.5), 0.0, 0.0}};
+    body_.velocity = Vec3(speed, 0.0, 0.0);
+    body_.stamp = stampOf(0);
+    tree_ = growTree(forest_.layout(), 0, forest_.terrain());
+    forest_.advance(stampOf(0));
+  }
+
+  static Layout layout(const std::string& species = "birch", std::uint64_t tree = 7) {
+    Layout out;
+    out.species = {shippedSpecies(species)};
+    TreeSeed seed;
+    seed.seed = tree;
+    out.trees = {seed};
+    return out;
+  }
+
+  static Nanoseconds stampOf(std::int64_t tick) {
+    return 100 * NANOSECONDS_PER_SECOND + TickGrid(TICKS).timeOf(tick);
+  }
+  void tick() { forest_.advance(stampOf(++tick_)); }
+  /// One tick with the body where tf would tell it to be.
+  void driveOn() {
+    Body now = body_;
+    now.pose = poseAt(body_, stampOf(tick_ + 1));
+    now.stamp = stampOf(tick_ + 1);
+    forest_.setBody(now);
+    tick();
+  }
+  /// Deepest overlap of thin wood with the body at this tick [m].
+  double depth() const {
+    const Pose at = poseAt(body_, stampOf(tick_));
+    const std::vector<Pose> poses = forest_.pose(tree_, 0, stampOf(tick_));
+    double out = 0.0;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      const Branch& b = tree_.skeleton.branches[i];
+      const Quat turn = conjugate(at.orientation);
+      const physics::Bar bar{rotate(turn, Vec3(tree_.foot + poses[i].position - at.position)),
+                             rotate(turn, axisZ(poses[i].orientation)), b.length, b.base_radius,
+                             b.tip_radius};
+      const physics::Proximity found = nearest(shapeOf(body_), bar);
+      if (bar.radiusAt(found.along) < 0.01) out = std::max(out, -found.gap);
+    }
+    return out;
+  }
+
+  Forest& forest() { return forest_; }
+  const Body& body() const { return body_; }
+
+ private:
+  Forest forest_;
+  Tree tree_;
+  Body body_;
+  std::int64_t tick_{0};
+};
+
+/// Finds contacts as ever, adds up what they give to the trees and watches how those move.
+class Ledger : public ContactFinder {
+ public:
+  std::vector<physics::Contact> findContacts(const Wood& wood, const Bodies& bodies,
+                                             Nanoseconds from, Nanoseconds to,
+                                             Touches& touches) const override {
+    if (from > from_ && last_.pose.size() == wood.start.pose.size()) {
+      const double h = secondsBetween(from_, from);
+      for (std::size_t i = 0; i < last_.pose.size(); ++i) {
+        const Vec3 way = wood.start.pose[i].position - last_.pose[i].position;
+        const Vec3 mean = 0.5 * (wood.start.velocity[i] + last_.velocity[i]);
+        farthest_ = std::max(farthest_, length(way));
+        leap_ = std::max(leap_, length(way - h * mean));
+      }
+    }
+    const bool again = from == from_;
+    again_ += again;
+    strange_ += again && touches.size() != remembered_;
+    remembered_ = touches.size();
+    last_ = wood.start;
+    from_ = from;
+    return ContactFinder::findContacts(wood, bodies, from, to, touches);
+  }
+  void settle(const Wood& wood, const Bodies& bodies, const std::vector<physics::Contact>& contacts,
+              Nanoseconds to, Touches& touches, std::vector<Reaction>& reactions) const override {
+    const double h = secondsBetween(from_, to);
+    shortest_ = std::min(shortest_, h);
+    std::map<int, double> forces;
+    for (const physics::Contact& contact : contacts) {
+      given_ += h * contact.force * contact.normal, size_ += h * contact.force;
+      forces[wood.branches[static_cast<std::size_t>(contact.link)]] += contact.force;
+    }
+    for (const auto& [branch, force] : forces) rise_ = std::max(rise_, force - forces_[branch]);
+    forces_ = forces;
+    ContactFinder::settle(wood, bodies, contacts, to, touches, reactions);
+  }
+  mutable Vec3 given_{Vec3::Zero()};  ///< impulse [N s]
+  mutable double size_{0.0};          ///< sum of the sizes of all that it is of [N s]
+  mutable double rise_{0.0};          ///< of all forces on a branch, from part to part [N]
+  mutable double shortest_{1.0};      ///< part of a step [s]
+  mutable double farthest_{0.0};      ///< way of a joint in a part [m]
+  mutable double leap_{0.0};          ///< what its speeds do not tell of such a way [m]
+  mutable int again_{0};              ///< parts that were taken again
+  mutable int strange_{0};            ///< of these, begun with other touches than the first time
+
+ private:
+  mutable Nanoseconds from_{0};
+  mutable std::size_t remembered_{0};
+  mutable physics::Kinematics last_;
+  mutable std::map<int, double> forces_;  // on branches
+};
+
+/// Balls at a birch's trunk, at a part of its length, from where they touch: so small that each has
+/// one contact. `from`: the directions they come from, turned so far about the trunk [rad].
+class Ram {
+ public:
+  Ram(double speed, int ticks, double part = 0.0, const std::vector<double>& from = {0.0})
+      : grid_(ticks), forest_(Drive::layout(), flatTerrain(), Settings()) {
+    const Branch trunk = growTree(forest_.layout(), 0, forest_.terrain()).skeleton.branches[0];
+    const double radius = trunk.base_radius + part * (trunk.tip_radius - trunk.base_radius);
+    for (const double angle : from) {
+      const Vec3 way(std::cos(angle), std::sin(angle), 0.0);
+      Body body;
+      body.id = "arm" + std::to_string(bodies_.size());
+      body.shape = static_cast<int>(Shape::SPHERE);
+      body.size = Vec3(0.05, 0.0, 0.0);
+      body.velocity = speed * way;
+      body.pose.position = -(radius + 0.05) * way;
+      body.pose.position.z() = std::max(0.3, part * trunk.length);
+      body.stamp = now();
+      bodies_.push_back(body);
+    }
+    forest_.advance(now());
+  }
+  void driveOn() {
+    ++tick_;
+    for (Body there : bodies_) {
+      there.pose = poseAt(there, now());
+      there.stamp = now();
+      forest_.setBody(there);
+    }
+    forest_.advance(now());
+  }
+  Forest& forest() { return forest_; }
+
+ private:
+  Nanoseconds now() const { return 100 * NANOSECONDS_PER_SECOND + grid_.timeOf(tick_); }
+
+  TickGrid grid_;
+  Forest forest_;
+  std::vector<Body> bodies_;
+  std::int64_t tick_{0};
+};
+
+}  // namespace vegetation_sim::forest

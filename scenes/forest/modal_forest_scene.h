@@ -1,0 +1,64 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "scenes/forest/physics_scene.h"
+
+namespace vegetation_sim::forest {
+
+inline wind::Field breeze() {
+  return wind::Field({makeBreeze(1, Vec3(5.0, 1.0, 0.0))}, 3);
+}
+
+/// Four trees in a breeze, and an eye that comes and goes.
+struct Clearing {
+  explicit Clearing(const wind::Field& field = breeze(), double tolerance = Settings().tolerance) {
+    forest.setWind(field);
+    look(true);
+    tolerate(tolerance);
+  }
+  void use() { forest.setSettings(settings); }
+  void tolerate(double pixels) {
+    settings.tolerance = pixels;
+    use();
+  }
+  void tellAtMost(double bytes) {
+    settings.budget.state_bytes = bytes;
+    use();
+  }
+  void look(bool near) {
+    eye.id = "eye";
+    eye.eye.position = near ? Vec3(6.0, 6.0, 3.0) : Vec3(4000.0, 0.0, 3.0);
+  }
+  /// Tells what does not come in updates.
+  void introduce(ForestReplica& replica) const {
+    replica.setLayout(forest.layout(), flatTerrain());
+    replica.setWind(forest.memory().wind);
+  }
+  Nanoseconds now() const { return grid.timeOf(tick); }
+  void advance() {
+    eye.stamp = grid.timeOf(++tick);
+    forest.setViewer(eye);
+    forest.advance(now());
+  }
+  void run(double duration) {
+    for (int i = 0; i < static_cast<int>(duration * TICK_RATE + 0.5); ++i) advance();
+  }
+  Tree tree(std::uint32_t id) const { return growTree(forest.layout(), id, forest.terrain()); }
+  std::vector<JointAngles> angles(const Tree& tree, std::uint32_t id, Nanoseconds stamp) const {
+    std::vector<JointAngles> out =
+        swayingAngles(tree, forest.memory().wind.at(stamp).relativeTo(tree.foot),
+                      weightsAt(forest.memory().levels.of(id), stamp, forest.layout().motion),
+                      forest.sway(id), stamp);
+    overlay(forest.promoted(id), stamp, out);
+    return out;
+  }
+
+  Forest forest{gridLayout(2, 12.0), flatTerrain(), Settings()};
+  Settings settings;
+  Viewer eye;
+  TickGrid grid{TICK_RATE};
+  std::int64_t tick{TickGrid(TICK_RATE).tickAt(PHYSICS_START)};
+};
+
+}  // namespace vegetation_sim::forest

@@ -1,0 +1,110 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "scenes/forest/forest_fixture.h"
+
+namespace vegetation_sim::forest {
+
+/// What the governor foretells of the trees of a forest against what they show: their motion on the
+/// rungs that it chose, beside that of the full chain.
+class Prediction {
+ public:
+  static constexpr int RATE = 30;    ///< ticks [Hz]
+  static constexpr int WARM_UP = 5;  ///< until modes are found and the hand-over is forgotten [s]
+  static constexpr double LEAST = 0.05;  ///< what moves less is not looked at [pixel]
+
+  Prediction(const Layout& layout, std::shared_ptr<const terrain::HeightMap> terrain,
+             const wind::Field& wind, const Eye& eye, Nanoseconds start, double settle = 0.5,
+             const Settings& settings = {})
+      : chosen_(layout, terrain, settings), exact_(layout, terrain, settings) {
+    eye_.id = "eye";
+    eye_.eye = eye;
+    PhysicsSettings whole;
+    whole.promotion = static_cast<int>(Promotion::DEPTH);
+    whole.most_branches = 1000000;
+    exact_.setPhysics(whole);
+    for (Forest* forest : {&chosen_, &exact_}) forest->setWind(wind);
+    tick_ = grid_.tickAt(start);
+    run(static_cast<int>(settle * RATE));  // chooses; those that move by then are looked at
+    for (const Plant& plant : chosen_.plants())
+      if (plant.error[0] > LEAST) makeWhole(plant.id);
+    run(WARM_UP * RATE);
+  }
+
+  /// Errors of one tree at one look [pixel].
+  struct Look {
+    double predicted, measured;
+    int rung;
+  };
+  using Looks = std::map<std::uint32_t, std::vector<Look>>;  // by tree that moves
+
+  /// Looks at every tick, for some seconds.
+  Looks look(int seconds) {
+    Looks out;
+    for (int i = 0; i < RATE * seconds; ++i) {
+      run(1);
+      for (const Plant& plant : chosen_.plants())
+        if (trees_.count(plant.id))
+          out[plant.id].push_back({plant.error[static_cast<std::size_t>(plant.chosen)],
+                                   measured(plant.id), plant.chosen});
+    }
+    return out;
+  }
+
+  /// Largest predicted over largest measured error of a tree.
+  static double ratioOf(const std::vector<Look>& looks) {
+    double predicted = 0.0, measured = 0.0;
+    for (const Look& look : looks) {
+      predicted = std::max(predicted, look.predicted);
+      measured = std::max(measured, look.measured);
+    }
+    return predicted / measured;
+  }
+
+ private:
+  // All joints physical from now on, under the wind alone.
+  void makeWhole(std::uint32_t id) {
+    const Tree& tree =
+        trees_.emplace(id, growTree(exact_.layout(), id, exact_.terrain())).first->second;
+    Push touch;
+    touch.point = {id, static_cast<int>(tree.skeleton.branches.size()) - 1, 0.0};
+    touch.until = exact_.memory().stamp + fromSeconds(1e6);
+    exact_.push(touch);
+  }
+  void run(int ticks) {
+    for (int i = 0; i < ticks; ++i, ++tick_) {
+      eye_.stamp = grid_.timeOf(tick_);
+      chosen_.setViewer(eye_);
+      for (Forest* forest : {&chosen_, &exact_}) forest->advance(eye_.stamp);
+    }
+  }
+  // Farthest that any tip of a tree is from where the full chain has it.
+  double measured(std::uint32_t id) const {
+    const Tree& tree = trees_.at(id);
+    const Nanoseconds stamp = chosen_.memory().stamp;
+    const auto right = exact_.pose(tree, id, stamp), shown = chosen_.pose(tree, id, stamp);
+    double out = 0.0;
+    for (std::size_t b = 0; b < right.size(); ++b) {
+      const Branch& branch = tree.skeleton.branches[b];
+      const Vec3 tip = tipOf(branch, right[b]);
+      const double distance = length(tree.foot + tip - eye_.eye.position);
+      const double off = length(tip - tipOf(branch, shown[b]));
+      out = std::max(out, off * pixelsPerMetre(eye_.eye, distance));
+    }
+    return out;
+  }
+
+  Forest chosen_, exact_;
+  Viewer eye_;
+  TickGrid grid_{RATE};
+  std::int64_t tick_{0};
+  std::map<std::uint32_t, Tree> trees_;  // that are whole
+};
+
+}  // namespace vegetation_sim::forest

@@ -1,0 +1,95 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/lod/level_allocation.h"
+
+#include <algorithm>
+
+#include "vegetation_sim/core/lod/viewpoint.h"
+
+namespace vegetation_sim {
+namespace {
+
+constexpr double LEAST_COST = 1e-6;  // of a step upwards
+
+/// A step of a choice from one rung to the next that it wants.
+struct Step {
+  double priority;  // error per cost
+  double cost;
+  std::size_t index;
+  int from, to;
+};
+
+double errorAt(const Choice& choice, int rung) {
+  return choice.error[static_cast<std::size_t>(rung)];
+}
+
+double costAt(const Choice& choice, int rung) {
+  return choice.cost[static_cast<std::size_t>(rung)];
+}
+
+// A later step of the same never goes before an earlier one.
+void addSteps(const Choice& choice, std::size_t index, std::vector<Step>& out) {
+  double least = 1e300;
+  const auto add = [&](int from, int to) {
+    const double cost = costAt(choice, to) - costAt(choice, from);
+    const double held = choice.held >= to ? STICKY : 1.0;
+    least = std::min(least, held * errorAt(choice, from) / std::max(cost, LEAST_COST));
+    out.push_back({least, cost, index, from, to});
+  };
+  const int stair = std::min(choice.stair, choice.wanted);
+  for (int rung = 0; rung < stair; ++rung) add(rung, rung + 1);
+  if (choice.wanted <= stair) return;
+  const int above = std::clamp(choice.above, stair + 1, choice.wanted);
+  add(stair, above);
+  for (int rung = above; rung < choice.wanted; ++rung) add(rung, rung + 1);
+}
+
+void fit(std::vector<Choice>& choices, double room) {
+  std::vector<Step> steps;
+  for (std::size_t i = 0; i < choices.size(); ++i) {
+    Choice& choice = choices[i];
+    choice.chosen = choice.resting ? std::min(choice.held, choice.wanted) : 0;
+    room -= costAt(choice, choice.chosen);
+    if (!choice.resting) addSteps(choice, i, steps);
+  }
+  std::sort(steps.begin(), steps.end(), [](const Step& a, const Step& b) {
+    if (a.priority != b.priority) return a.priority > b.priority;
+    return a.index != b.index ? a.index < b.index : a.from < b.from;
+  });
+  for (const Step& step : steps) {
+    Choice& choice = choices[step.index];
+    if (choice.chosen != step.from || step.cost > room) continue;
+    choice.chosen = step.to;
+    room -= step.cost;
+  }
+}
+
+}  // namespace
+
+int rungWithin(const Choice& choice, int finest, double tolerance) {
+  int wanted = 0;
+  while (wanted < finest && errorAt(choice, wanted) > tolerance) ++wanted;
+  const int held = std::min(choice.held, finest);
+  if (wanted < held && errorAt(choice, held - 1) > HYSTERESIS * tolerance) return held;
+  return wanted;
+}
+
+Balance govern(std::vector<Choice>& choices, double room, double tolerance) {
+  Balance out;
+  for (Choice& choice : choices) {
+    choice.chosen = choice.wanted;
+    out.wanted += costAt(choice, choice.chosen);
+  }
+  if (out.wanted > room) fit(choices, room);
+  for (const Choice& choice : choices) {
+    const double error = errorAt(choice, choice.chosen);
+    out.cost += costAt(choice, choice.chosen);
+    out.largest = std::max(out.largest, error);
+    out.over += error > tolerance ? 1 : 0;
+    out.held_back += choice.chosen < choice.wanted ? 1 : 0;
+    ++out.counts[static_cast<std::size_t>(choice.chosen)];
+  }
+  return out;
+}
+
+}  // namespace vegetation_sim

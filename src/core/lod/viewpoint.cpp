@@ -1,0 +1,31 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/core/lod/viewpoint.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vegetation_sim {
+namespace {
+
+constexpr double NEAREST = 0.5;  // [m] closer than this nothing grows in the picture
+
+}  // namespace
+
+bool sees(const Eye& eye, const Vec3& centre, double radius) {
+  if (eye.cone_cosine <= -1.0) return true;
+  const Vec3 offset = centre - eye.position;
+  const double distance = length(offset);
+  if (distance <= radius) return true;
+  // Cosine and sine of the cone's half angle plus the one that the ball itself takes.
+  const double c = eye.cone_cosine, s = std::sqrt(std::max(0.0, 1.0 - c * c));
+  const double ball_sine = radius / distance, ball_cosine = std::sqrt(1.0 - ball_sine * ball_sine);
+  if (s * ball_cosine + c * ball_sine < 0.0) return true;  // more than a half turn
+  return dot(offset, eye.forward) >= distance * (c * ball_cosine - s * ball_sine);
+}
+
+double pixelsPerMetre(const Eye& eye, double distance) {
+  return eye.pixels_per_radian / std::max(distance, NEAREST);
+}
+
+}  // namespace vegetation_sim

@@ -1,0 +1,21 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/math/noise.h"
+
+#include <cmath>
+
+#include "vegetation_sim/core/math/math.h"
+#include "vegetation_sim/core/math/random.h"
+
+namespace vegetation_sim {
+
+double gradientNoise(std::uint64_t seed, double x) {
+  const double cell = std::floor(x), u = x - cell;
+  const auto index = static_cast<std::uint64_t>(static_cast<std::int64_t>(cell));
+  const Random random(seed);
+  const double left = random.uniform(index, -1.0, 1.0) * u;
+  const double right = random.uniform(index + 1, -1.0, 1.0) * (u - 1.0);
+  return 2.0 * (left + (right - left) * smootherStep(u));  // 2: the largest value is then 1
+}
+
+}  // namespace vegetation_sim

@@ -1,0 +1,230 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "crowd/agents/crowd.h"
+
+#include <algorithm>
+
+#include "crowd/walker/gait.h"
+#include "vegetation_sim/core/math/hash.h"
+#include "vegetation_sim/core/math/math.h"
+#include "vegetation_sim/core/math/random.h"
+
+namespace vegetation_sim::crowd {
+namespace {
+
+constexpr double WIDEST = 0.3;  // walker that ways around walls are made for, with clearance [m]
+constexpr double FARTHEST = 1e5;
+
+void add(Hash& hash, const Point& p) {
+  hash.add(p.x);
+  hash.add(p.y);
+}
+
+void add(Hash& hash, const Walker& w) {
+  hash.add(std::uint64_t{w.id});
+  hash.add(w.key);
+  add(hash, w.position);
+  add(hash, w.velocity);
+  for (const double value : {w.heading, w.turn_rate, w.radius, w.height, w.speed, w.side_left,
+                             w.nearest_goal, w.no_progress, w.held_up, w.gait})
+    hash.add(value);
+  hash.add(std::uint64_t{w.has_goal} | std::uint64_t{w.wanders} << 1 |
+           std::uint64_t{w.arrived} << 2 | std::uint64_t{w.detours} << 3 |
+           static_cast<std::uint64_t>(w.side + 1) << 4 | std::uint64_t{w.goals} << 8);
+  add(hash, w.goal);
+  for (const Foot& foot : w.feet) {
+    add(hash, foot.planted);
+    add(hash, foot.lag);
+    hash.add(std::uint64_t{foot.stands});
+  }
+}
+
+void add(Hash& hash, const Robot& r) {
+  hash.add(r.id);
+  for (const Point& corner : r.outline) add(hash, corner);
+  add(hash, r.position);
+  add(hash, r.velocity);
+  hash.add(r.radius);
+  hash.add(r.yaw);
+}
+
+template <class T>
+void checkFields(const char* context, T value) {
+  Faults faults;
+  FieldChecker checker(context, faults);
+  describe(checker, value);
+  faults.throwIfAny();
+}
+
+void checkPlace(const char* context, const Point& place) {
+  Faults faults;
+  FieldChecker checker(context, faults);
+  Point p = place;
+  checker.number("x", p.x, "m", {-FARTHEST, FARTHEST});
+  checker.number("y", p.y, "m", {-FARTHEST, FARTHEST});
+  faults.throwIfAny();
+}
+
+}  // namespace
+
+void describe(FieldVisitor& v, Area& a) {
+  v.number("min_x", a.min_x, "m", {-FARTHEST, FARTHEST});
+  v.number("max_x", a.max_x, "m", {-FARTHEST, FARTHEST});
+  v.number("min_y", a.min_y, "m", {-FARTHEST, FARTHEST});
+  v.number("max_y", a.max_y, "m", {-FARTHEST, FARTHEST});
+}
+
+std::uint64_t CrowdMemory::hash() const {
+  Hash hash;
+  hash.add(static_cast<std::uint64_t>(stamp));
+  hash.add(std::uint64_t{begun});
+  hash.add(seed);
+  FieldHasher hasher(hash);
+  CrowdSettings s = settings;
+  Area a = area;
+  describe(hasher, s);
+  describe(hasher, a);
+  for (const Walker& w : walkers) add(hash, w);
+  for (const auto& entry : robots) add(hash, entry.second);
+  hash.add(std::uint64_t{next_id});
+  return hash.value();
+}
+
+Crowd::Crowd(std::uint64_t seed, const CrowdSettings& settings, const Area& area,
+             std::shared_ptr<const terrain::HeightMap> terrain)
+    : terrain_(std::move(terrain)) {
+  checkFields("crowd: ", settings);
+  checkFields("area: ", area);
+  if (!(area.min_x <= area.max_x && area.min_y <= area.max_y))
+    throw InvalidInput("area: min_x = " + std::to_string(area.min_x) + " to max_x = " +
+                       std::to_string(area.max_x) + ", min_y = " + std::to_string(area.min_y) +
+                       " to max_y = " + std::to_string(area.max_y) + " m holds no place");
+  memory_.seed = seed;
+  memory_.settings = settings;
+  memory_.area = area;
+  setObstacles({});
+}
+
+void Crowd::setObstacles(std::vector<Obstacle> obstacles) {
+  still_ = ObstacleGrid(std::move(obstacles), memory_.settings.sensor_range);
+  ways_.setObstacles(still_, WIDEST, memory_.settings.field_cell);
+}
+
+void Crowd::setSettings(const CrowdSettings& settings) {
+  checkFields("crowd: ", settings);
+  const bool same = settings.sensor_range == memory_.settings.sensor_range &&
+                    settings.field_cell == memory_.settings.field_cell;
+  memory_.settings = settings;
+  if (!same) setObstacles(still_.obstacles());
+}
+
+std::uint32_t Crowd::spawn(const Spawn& spawn, std::uint32_t id) {
+  checkFields("spawn: ", spawn);
+  if (spawn.has_goal) checkPlace("spawn: goal ", spawn.goal);
+  if (memory_.walkers.size() >= MOST_WALKERS)
+    throw InvalidInput("spawn: walkers = " + std::to_string(MOST_WALKERS) +
+                       " are there, which is the most allowed");
+  if (find(id)) throw InvalidInput("spawn: walker " + std::to_string(id) + " is there already");
+  memory_.next_id = std::max(memory_.next_id, id + 1);
+  Walker w;
+  w.id = id;
+  w.key = Random(memory_.seed).child(w.id).key();
+  w.position = spawn.position;
+  w.heading = spawn.heading;
+  w.radius = spawn.radius;
+  w.height = spawn.height;
+  w.speed = spawn.speed;
+  w.wanders = spawn.wanders;
+  w.has_goal = spawn.has_goal;
+  w.goal = spawn.goal;
+  w.gait = Random(w.key).uniform(0);
+  advanceGait(0.0, w);
+  for (int i = 0; i < 2; ++i) {
+    const double side = i == 0 ? 1.0 : -1.0;
+    const SinCos turn = sinCos(w.heading);
+    const double off = side * Proportions::HIP_HALF * w.height;
+    w.feet[static_cast<std::size_t>(i)].planted =
+        w.position + Point{-turn.sin * off, turn.cos * off};
+  }
+  const auto place = memory_.walkers.begin() + static_cast<std::ptrdiff_t>(indexOf(id));
+  memory_.walkers.insert(place, w);
+  return w.id;
+}
+
+// Of the first walker with this id or a larger one.
+std::size_t Crowd::indexOf(std::uint32_t id) const {
+  const auto& all = memory_.walkers;
+  const auto found = std::lower_bound(all.begin(), all.end(), id,
+                                      [](const Walker& w, std::uint32_t i) { return w.id < i; });
+  return static_cast<std::size_t>(found - all.begin());
+}
+
+const Walker* Crowd::find(std::uint32_t id) const {
+  const std::size_t index = indexOf(id);
+  const auto& all = memory_.walkers;
+  return index < all.size() && all[index].id == id ? &all[index] : nullptr;
+}
+
+Walker& Crowd::at(std::uint32_t id) {
+  if (!find(id)) throw InvalidInput("walker " + std::to_string(id) + " is unknown");
+  return memory_.walkers[indexOf(id)];
+}
+
+void Crowd::remove(std::uint32_t id) {
+  memory_.walkers.erase(memory_.walkers.begin() + (&at(id) - memory_.walkers.data()));
+}
+
+void Crowd::checkGoal(std::uint32_t id, const Point& goal) {
+  checkPlace("goal: ", goal);
+  const Walker& w = at(id);
+  const PlanRaster& raster = ways_.raster();
+  if (!raster.isClear(w.position, goal, false) && !ways_.isReachable(w.position, goal))
+    throw InvalidInput("goal = (" + std::to_string(goal.x) + ", " + std::to_string(goal.y) +
+                       ") m: no way leads there from walker " + std::to_string(id));
+}
+
+void Crowd::setGoal(std::uint32_t id, const Point& goal) {
+  checkGoal(id, goal);
+  Walker& w = at(id);
+  w.goal = goal;
+  w.has_goal = true;
+  w.wanders = w.arrived = w.detours = false;
+  w.nearest_goal = 1e9;
+  w.no_progress = 0.0;
+  ++w.goals;
+}
+
+void Crowd::setWandering(std::uint32_t id) {
+  Walker& w = at(id);
+  w.wanders = true;
+  w.has_goal = w.arrived = false;
+}
+
+void Crowd::setRobot(const Robot& robot) {
+  Faults faults;
+  check(robot, faults);
+  faults.throwIfAny();
+  if (memory_.robots.size() >= MOST_ROBOTS && !memory_.robots.count(robot.id))
+    throw InvalidInput("robot '" + robot.id + "' is one more than the " +
+                       std::to_string(MOST_ROBOTS) + " allowed");
+  memory_.robots[robot.id] = robot;
+}
+
+void Crowd::removeRobot(const std::string& id) {
+  if (!memory_.robots.erase(id)) throw InvalidInput("robot '" + id + "' is unknown");
+}
+
+void Crowd::clear() {
+  memory_.walkers.clear();
+  memory_.robots.clear();
+  memory_.next_id = 0;
+  memory_.stamp = 0;
+  memory_.begun = false;
+}
+
+void Crowd::restore(CrowdMemory memory) {
+  memory_ = std::move(memory);
+  setObstacles(still_.obstacles());
+}
+
+}  // namespace vegetation_sim::crowd

@@ -1,0 +1,241 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <thread>
+
+#include "crowd/agents/crowd.h"
+#include "crowd/walker/gait.h"
+#include "vegetation_sim/core/math/math.h"
+#include "vegetation_sim/core/math/random.h"
+
+namespace vegetation_sim::crowd {
+namespace {
+
+constexpr double PATIENCE = 4.0;        // without coming nearer, before a detour [s]
+constexpr double LONG_PATIENCE = 10.0;  // where only trunks can be in the way [s]
+constexpr Nanoseconds LOOK_PERIOD = NANOSECONDS_PER_SECOND;
+constexpr double NEARER = 0.5;            // that counts as progress [m]
+constexpr double THRONG = 1.0;            // time in one, before stepping aside [s]
+constexpr double SLOW = 0.25;             // share of the wanted speed that is one
+constexpr double ASIDE = -1.9;            // to the right of the goal [rad]
+constexpr double GIVE_UP = 30.0;          // without progress, before another goal [s]
+constexpr int DRAWS = 8;                  // for a goal that is free
+constexpr std::size_t FEW = 256;          // walkers that are not worth a thread
+constexpr std::size_t AHEAD = 4;          // walkers for which memory is asked early
+constexpr double JUST_SAFE = 1.0 - 1e-9;  // of what is known to be free
+constexpr double GETTING_OUT = 0.1;       // of the radius, a step
+constexpr double STANDS_STILL = 0.05;     // slower than this the body does not turn [m/s]
+
+// Those who are neighbours now may be anywhere in memory.
+void prefetch(const Walker& walker) {
+  constexpr std::size_t LINE = 64;
+  const char* begin = reinterpret_cast<const char*>(&walker);
+  for (std::size_t at = 0; at < sizeof(Walker); at += LINE) __builtin_prefetch(begin + at, 1);
+}
+
+}  // namespace
+
+/// What all walkers look at while they are stepped.
+struct Crowd::Tick {
+  Nanoseconds before{0}, stamp{0};
+  double dt{0.0};
+  Surroundings around;
+};
+
+template <class Each>
+void Crowd::forAll(std::size_t count, Each each) const {
+  const std::size_t parts =
+      std::min<std::size_t>(static_cast<std::size_t>(threads_), count / FEW + 1);
+  const auto run = [&](std::size_t part) {
+    for (std::size_t i = count * part / parts; i < count * (part + 1) / parts; ++i) each(i);
+  };
+  std::vector<std::thread> others;
+  for (std::size_t part = 1; part < parts; ++part) others.emplace_back(run, part);
+  run(0);
+  for (std::thread& other : others) other.join();
+}
+
+void Crowd::advance(Nanoseconds stamp) {
+  const double dt = memory_.begun ? secondsBetween(memory_.stamp, stamp) : 0.0;
+  if (memory_.begun && !(dt > 0.0)) return;
+  const Tick tick{memory_.stamp, stamp, dt, {&still_, &grid_, &robots_}};
+  memory_.stamp = stamp;
+  memory_.begun = true;
+  if (dt == 0.0) return;
+  look();
+  // Neighbours one after the other: what one looks at is at hand for the next.
+  const auto& spots = grid_.spots();
+  forAll(spots.size(), [&](std::size_t i) {
+    if (i + AHEAD < spots.size()) prefetch(memory_.walkers[spots[i + AHEAD].index]);
+    stepOne(spots[i].index, tick, memory_.walkers[spots[i].index]);
+  });
+  ways_.endTick();
+}
+
+void Crowd::look() {
+  const std::vector<Walker>& walkers = memory_.walkers;
+  robots_.clear();
+  for (const auto& entry : memory_.robots) robots_.push_back(obstacleOf(entry.second));
+  double widest = 0.0;
+  for (const Walker& w : walkers) widest = std::max(widest, w.radius);
+  grid_.build(walkers, memory_.settings.sensor_range + 2.0 * widest);
+  fields_.assign(walkers.size(), nullptr);
+  if (ways_.raster().empty()) return;
+  for (std::size_t i = 0; i < walkers.size(); ++i)
+    if (walkers[i].detours && walkers[i].has_goal) fields_[i] = &ways_.fieldOf(walkers[i].goal);
+}
+
+double Crowd::paceAt(const Walker& walker, const Point& direction) const {
+  double out = memory_.settings.pace;
+  if (!terrain_->isFlat()) {
+    const Vec3 up = terrain_->normal(walker.position.x, walker.position.y);
+    out *= slopeFactor(-(up.x() * direction.x + up.y() * direction.y) / up.z());
+  }
+  if (resistance_)
+    out *= 1.0 - memory_.settings.grass_drag * saturate(resistance_(walker.position));
+  return out;
+}
+
+void Crowd::chooseGoal(Walker& w) const {
+  const Area& area = memory_.area;
+  const Random random = Random(w.key).child(1 + std::uint64_t{w.goals});
+  for (std::uint64_t i = 0; i < DRAWS; ++i) {
+    w.goal = {random.uniform(2 * i, area.min_x, area.max_x),
+              random.uniform(2 * i + 1, area.min_y, area.max_y)};
+    const PlanRaster& raster = ways_.raster();
+    if (raster.empty() || !raster.isBlocked(raster.cellAt(w.goal))) break;
+  }
+  ++w.goals;
+  w.has_goal = true;
+  w.arrived = w.detours = false;
+  w.nearest_goal = 1e9;
+  w.no_progress = 0.0;
+}
+
+// Where to, before looking around. Standing walkers keep their front.
+Wish Crowd::wishOf(Walker& w, const Point& front, std::size_t index) const {
+  Wish out{front, 0.0};
+  const auto behaviour = static_cast<Behaviour>(memory_.settings.behaviour);
+  if (!w.has_goal && w.wanders) {
+    if (behaviour == Behaviour::GOAL)
+      chooseGoal(w);
+    else
+      out.speed = w.speed;  // the paper's walkers just walk on
+  }
+  if (!w.has_goal || w.arrived) {
+    out.speed *= paceAt(w, out.direction);
+    return out;
+  }
+  Point aim = w.goal;
+  if (behaviour == Behaviour::GOAL && fields_[index])
+    fields_[index]->aimFrom(ways_.raster(), w.position, w.goal, aim);
+  const Point to = aim - w.position;
+  const double way = length(to);
+  if (way > 0.0) out.direction = (1.0 / way) * to;
+  const double left = length(w.goal - w.position);
+  if (w.held_up < 0.0) {
+    const SinCos aside = sinCos(ASIDE);
+    out.direction = {aside.cos * out.direction.x - aside.sin * out.direction.y,
+                     aside.sin * out.direction.x + aside.cos * out.direction.y};
+  }
+  out.speed = std::min(w.speed * paceAt(w, out.direction), 2.0 * left);
+  return out;
+}
+
+void Crowd::keepSide(int taken, double dt, Walker& w) const {
+  if (taken != 0) {
+    w.side = taken;
+    w.side_left = memory_.settings.commitment;
+    return;
+  }
+  w.side_left = std::max(0.0, w.side_left - dt);
+  if (w.side_left == 0.0) w.side = 0;
+}
+
+// People who press on from all sides hold each other up: all step aside to the same hand for a
+// while, each for another time.
+void Crowd::loosen(double wanted, const Tick& tick, Walker& w) const {
+  if (w.held_up < 0.0) {
+    w.held_up = std::min(0.0, w.held_up + tick.dt);
+  } else if (length(w.velocity) < SLOW * wanted) {
+    w.held_up += tick.dt;
+    if (w.held_up > THRONG)
+      w.held_up = -1.0 - 2.0 * Random(w.key).uniform(static_cast<std::uint64_t>(tick.stamp));
+  } else {
+    w.held_up = 0.0;
+  }
+}
+
+// Whether the goal is reached, and whether the straight way leads there.
+void Crowd::reach(const Tick& tick, Walker& w) const {
+  if (!w.has_goal || w.arrived) return;
+  const double left = length(w.goal - w.position);
+  if (left <= memory_.settings.arrival) {
+    w.arrived = !w.wanders;
+    w.has_goal = !w.wanders;
+    return;
+  }
+  w.no_progress += tick.dt;
+  if (left < w.nearest_goal - NEARER) {
+    w.nearest_goal = left;
+    w.no_progress = 0.0;
+  }
+  if (w.wanders && w.no_progress > GIVE_UP) w.has_goal = false;
+  // A look along the straight way once a second, each walker at another time.
+  const auto second = [&](Nanoseconds stamp) {
+    return (stamp + static_cast<Nanoseconds>(w.key % static_cast<std::uint64_t>(LOOK_PERIOD))) /
+           LOOK_PERIOD;
+  };
+  const PlanRaster& raster = ways_.raster();
+  if (raster.empty() || second(tick.stamp) == second(tick.before)) return;
+  const bool is_stuck = w.no_progress > (raster.hasLarge() ? PATIENCE : LONG_PATIENCE);
+  w.detours = is_stuck || (raster.hasLarge() && !raster.isClear(w.position, w.goal, true));
+}
+
+void Crowd::stepOne(std::size_t index, const Tick& tick, Walker& w) const {
+  const CrowdSettings& s = memory_.settings;
+  const auto self = static_cast<std::uint32_t>(index);
+  const bool by_paper = s.behaviour == static_cast<int>(Behaviour::PAPER);
+  const Point front = frontOf(w);
+  const Wish wish = wishOf(w, front, index);
+  const View view = perceive(w, self, tick.around, s.sensor_range, s.neighbours);
+  int side = 0;
+  const Command command = by_paper ? decideByPaper(w, view, s, wish, tick.stamp)
+                                   : decideByGoal(w, view, s, wish, tick.stamp, side);
+  keepSide(side, tick.dt, w);
+  std::array<Limit, View::MOST> limits;
+  const int count = limitsOf(self, view, s, tick.dt, limits);
+  const Point velocity = followed(w, front, command, s, tick.dt);
+  // Who is in others already gets out by small steps, whatever else is there.
+  const bool overlaps = view.count > 0 && view.at(0).gap < 0.0;
+  const double farthest =
+      std::max(0.5 * JUST_SAFE * view.beyond, overlaps ? GETTING_OUT * w.radius : 0.0);
+  const Point step = safeStep(tick.dt * velocity, limits, count, farthest);
+  w.position = w.position + step;
+  w.velocity = (1.0 / tick.dt) * step;
+  const double fastest = 2.0 * w.speed, speed = length(w.velocity);
+  if (speed > fastest) w.velocity = (fastest / speed) * w.velocity;  // pushed
+  if (speed > STANDS_STILL) turnTowards(command.direction, front, s, tick.dt, w);
+  advanceGait(std::min(length(step), fastest * tick.dt), w);
+  if (!by_paper) loosen(wish.speed, tick, w);
+  reach(tick, w);
+}
+
+double Crowd::deepestOverlap() const {
+  double out = 0.0;
+  std::vector<Obstacle> robots;
+  for (const auto& entry : memory_.robots) robots.push_back(obstacleOf(entry.second));
+  WalkerGrid grid;
+  double widest = 0.0;
+  for (const Walker& w : memory_.walkers) widest = std::max(widest, w.radius);
+  grid.build(memory_.walkers, 0.5 + 2.0 * widest);
+  const Surroundings around{&still_, &grid, &robots};
+  for (std::size_t i = 0; i < memory_.walkers.size(); ++i) {
+    const View view = perceive(memory_.walkers[i], static_cast<std::uint32_t>(i), around, 0.5, 1);
+    if (view.count > 0) out = std::max(out, -view.at(0).gap);
+  }
+  return out;
+}
+
+}  // namespace vegetation_sim::crowd

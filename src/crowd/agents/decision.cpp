@@ -1,0 +1,161 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "crowd/agents/decision.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/math/noise.h"
+#include "vegetation_sim/core/math/math.h"
+#include "vegetation_sim/core/math/random.h"
+
+namespace vegetation_sim::crowd {
+namespace {
+
+constexpr double LARGEST_TURN = 1.4;      ///< of the paper's law, at contact [rad]
+constexpr double LARGEST_PRINTED = 10.0;  ///< times the noise at the sensor's range
+constexpr double HORIZON = 1.5;           ///< where the wish leads, in ranges of the sensor
+constexpr double STOPPING = 0.5;          ///< time to stop before what is ahead [s]
+constexpr double SIDE_KEPT = 0.35;        ///< how much the other side seems farther, squared
+constexpr double CREEP = 0.15;            ///< share of the speed that remains in a throng
+constexpr double WARNING = 2.0;           ///< a robot that comes sooner is evaded [s]
+constexpr double HURRY = 1.4;             ///< of the speed, out of a robot's way
+constexpr double WOBBLE_PERIOD = 2.5;     ///< of the smooth noise [s]
+constexpr double WOBBLE_DEVIATION = 0.3;  ///< of gradientNoise()
+
+// Of the fan, to the left; [0] is straight ahead.
+constexpr int FAN = 9;
+constexpr double ANGLES[FAN] = {0.0, 0.12, 0.26, 0.42, 0.62, 0.86, 1.15, 1.5, 2.1};
+
+struct Fan {
+  SinCos turns[FAN];
+  Fan() {
+    for (int i = 0; i < FAN; ++i) turns[i] = sinCos(ANGLES[i]);
+  }
+};
+
+const Fan& fan() {
+  static const Fan FAN_OF_ALL;
+  return FAN_OF_ALL;
+}
+
+Point turned(const Point& v, const SinCos& by) {
+  return {by.cos * v.x - by.sin * v.y, by.sin * v.x + by.cos * v.y};
+}
+
+double meeting(const Walker& walker, const Sight& sight, const Point& velocity) {
+  const Point relative = velocity - sight.velocity;
+  if (sight.obstacle) return timeToMeet(walker.position, walker.radius, relative, *sight.obstacle);
+  return timeToMeet(sight.place - walker.position, walker.radius + sight.radius, relative);
+}
+
+double firstMeeting(const Walker& walker, const View& view, const Point& velocity) {
+  double out = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < view.count; ++i) out = std::min(out, meeting(walker, view.at(i), velocity));
+  return out;
+}
+
+bool isThreatened(const Walker& walker, const View& view, const Point& velocity) {
+  for (int i = 0; i < view.count; ++i) {
+    const Sight& sight = view.at(i);
+    if (sight.kind == Seen::ROBOT && dot(sight.velocity, sight.velocity) > 0.0 &&
+        meeting(walker, sight, velocity) < WARNING)
+      return true;
+  }
+  return false;
+}
+
+// Out of a robot's way: where nothing is met for longest, all round.
+Command evade(const Walker& walker, const View& view, const Wish& wish) {
+  constexpr int ROUND = 16;
+  Command out{wish.direction, HURRY * walker.speed};
+  double best = -1.0;
+  for (int i = 0; i < ROUND; ++i) {
+    const Point direction = turned(wish.direction, sinCosTurns(static_cast<double>(i) / ROUND));
+    const double time = firstMeeting(walker, view, out.speed * direction);
+    const double worth = std::min(time, 2.0 * WARNING) + 0.05 * dot(direction, wish.direction);
+    if (worth <= best) continue;
+    best = worth;
+    out.direction = direction;
+  }
+  return out;
+}
+
+}  // namespace
+
+double noiseAt(const CrowdSettings& s, double distance) {
+  const double share = saturate(distance / s.sensor_range);
+  if (s.noise == static_cast<int>(Noise::GROWING)) return s.noise_heading * share;
+  return s.noise_heading / std::max(share, 1.0 / LARGEST_PRINTED);
+}
+
+double normalNumber(std::uint64_t key, std::uint64_t index) {
+  const auto words = philox(
+      {static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(index >> 32), 0x6E6F6973U, 0U},
+      {static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(key >> 32)});
+  std::uint32_t sum = 0;
+  for (const std::uint32_t word : words) sum += (word & 0xFFFFU) + (word >> 16);
+  // Eight numbers of 16 bits: mean 4 * 65535, variance 8 / 12.
+  return (static_cast<double>(sum) * (1.0 / 65536.0) - 4.0 * 65535.0 / 65536.0) *
+         1.2247448713915890;
+}
+
+Command decideByPaper(const Walker& walker, const View& view, const CrowdSettings& s,
+                      const Wish& wish, Nanoseconds stamp) {
+  Command out{wish.direction, wish.speed};
+  double distance = s.sensor_range, turn = 0.0;
+  if (view.count > 0) {
+    const Sight& nearest = view.at(0);
+    distance = std::min(distance, std::max(0.0, nearest.gap));
+    const double near = 1.0 - distance / s.sensor_range;
+    const double left = wish.direction.x * nearest.normal.y - wish.direction.y * nearest.normal.x;
+    turn = (left < 0.0 ? 1.0 : -1.0) * LARGEST_TURN * near;
+    out.speed *= std::max(s.slowest, 1.0 - near);
+  }
+  turn += noiseAt(s, distance) * normalNumber(walker.key, static_cast<std::uint64_t>(stamp));
+  out.direction = turned(wish.direction, sinCos(turn));
+  return out;
+}
+
+Command decideByGoal(const Walker& walker, const View& view, const CrowdSettings& s,
+                     const Wish& wish, Nanoseconds stamp, int& side) {
+  if (isThreatened(walker, view, wish.speed * wish.direction)) return evade(walker, view, wish);
+  Command out{wish.direction, wish.speed};
+  if (!(wish.speed > 0.0)) return out;
+  const double seconds = static_cast<double>(stamp) * 1e-9;
+  const double wobble = noiseAt(s, view.count > 0 ? view.at(0).gap : s.sensor_range) *
+                        gradientNoise(walker.key, seconds / WOBBLE_PERIOD) / WOBBLE_DEVIATION;
+  const Point ahead =
+      s.noise_heading > 0.0 ? turned(wish.direction, sinCos(wobble)) : wish.direction;
+  const double seen = s.sensor_range, far = HORIZON * seen, bonus = std::min(0.0, s.handedness);
+  double best = std::numeric_limits<double>::infinity(), free = seen;
+  int taken = 0;
+  for (int i = 0; i < 2 * FAN - 1; ++i) {
+    const int step = (i + 1) / 2, hand = i % 2 == 1 ? -1 : 1;  // right before left
+    const SinCos& turn = fan().turns[step];
+    double cost = 0.0;
+    if (step > 0) {
+      // No direction that is free all along would be better than what was found.
+      const double most = std::min(seen, std::max(0.0, far * turn.cos));
+      const double least = far * far + most * (most - 2.0 * far * turn.cos);
+      if (least + far * far * bonus >= best) break;
+      cost = hand > 0 ? s.handedness : 0.0;
+      if (walker.side == -hand) cost += SIDE_KEPT;
+      if (least + far * far * cost >= best) continue;
+    }
+    const Point direction = turned(ahead, {hand * turn.sin, turn.cos});
+    const double time = firstMeeting(walker, view, wish.speed * direction);
+    const double reach = std::min(seen, wish.speed * time);
+    cost = far * far * (1.0 + cost) + reach * (reach - 2.0 * far * turn.cos);
+    if (cost >= best) continue;
+    best = cost;
+    free = reach;
+    taken = step > 1 ? hand : 0;
+    out.direction = direction;
+  }
+  side = taken;
+  out.speed = std::min(wish.speed, std::max(free / STOPPING, CREEP * wish.speed));
+  return out;
+}
+
+}  // namespace vegetation_sim::crowd

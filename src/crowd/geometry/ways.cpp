@@ -1,0 +1,130 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "crowd/geometry/ways.h"
+
+#include <algorithm>
+
+namespace vegetation_sim::crowd {
+namespace {
+
+constexpr std::uint32_t STRAIGHT = 5, DIAGONAL = 7;       // fifths of a cell
+constexpr int LOOK_AHEAD = 32;                            // cells along the way
+constexpr std::size_t MOST_FIELDS = 32;                   // kept beyond those in use
+constexpr std::uint64_t IN_USE = 119;                     // ticks
+constexpr std::size_t MOST_CELLS = std::size_t{1} << 25;  // of all fields, 128 MB
+
+struct Step {
+  int column, row;
+  std::uint32_t cost;
+};
+constexpr Step STEPS[8] = {{1, 0, STRAIGHT},   {0, 1, STRAIGHT}, {-1, 0, STRAIGHT},
+                           {0, -1, STRAIGHT},  {1, 1, DIAGONAL}, {-1, 1, DIAGONAL},
+                           {-1, -1, DIAGONAL}, {1, -1, DIAGONAL}};
+
+// Calls `each(cell, cost)` for the free neighbours; none across a blocked corner.
+template <class Each>
+void visitNeighbours(const PlanRaster& raster, std::uint32_t cell, Each each) {
+  const int width = raster.columns();
+  const int column = static_cast<int>(cell) % width, row = static_cast<int>(cell) / width;
+  for (const Step& step : STEPS) {
+    const int c = column + step.column, r = row + step.row;
+    if (c < 0 || r < 0 || c >= width || r >= raster.rows()) continue;
+    const auto at = [&](int x, int y) { return static_cast<std::uint32_t>(y * width + x); };
+    if (raster.isBlocked(at(c, r))) continue;
+    if (step.cost == DIAGONAL && (raster.isBlocked(at(c, row)) || raster.isBlocked(at(column, r))))
+      continue;
+    each(at(c, r), step.cost);
+  }
+}
+
+}  // namespace
+
+// Costs are small whole numbers, so that waiting cells sort into eight buckets that take turns.
+FlowField::FlowField(const PlanRaster& raster, std::uint32_t cell) {
+  length_.assign(static_cast<std::size_t>(raster.columns()) * raster.rows(), FAR);
+  constexpr std::uint32_t BUCKETS = DIAGONAL + 1;
+  std::vector<std::uint32_t> buckets[BUCKETS];
+  length_[cell] = 0;
+  buckets[0].push_back(cell);
+  std::size_t waiting = 1;
+  std::vector<std::uint32_t> now;
+  for (std::uint32_t length = 0; waiting > 0; ++length) {
+    now.swap(buckets[length % BUCKETS]);
+    waiting -= now.size();
+    for (const std::uint32_t at : now) {
+      if (length_[at] != length) continue;  // found shorter since
+      visitNeighbours(raster, at, [&](std::uint32_t next, std::uint32_t cost) {
+        if (length + cost >= length_[next]) return;
+        length_[next] = length + cost;
+        buckets[(length + cost) % BUCKETS].push_back(next);
+        ++waiting;
+      });
+    }
+    now.clear();
+  }
+}
+
+std::uint32_t FlowField::next(const PlanRaster& raster, std::uint32_t cell) const {
+  std::uint32_t out = cell;
+  visitNeighbours(raster, cell, [&](std::uint32_t at, std::uint32_t) {
+    if (length_[at] < length_[out]) out = at;
+  });
+  return out;
+}
+
+bool FlowField::isReachable(const PlanRaster& raster, const Point& from) const {
+  return length_[raster.cellAt(raster.nearestFree(from))] != FAR;
+}
+
+bool FlowField::aimFrom(const PlanRaster& raster, const Point& from, const Point& goal,
+                        Point& aim) const {
+  aim = goal;
+  if (raster.isClear(from, goal, false)) return true;
+  const Point start = raster.nearestFree(from);
+  std::uint32_t cell = raster.cellAt(start);
+  if (length_[cell] == FAR) return false;
+  std::uint32_t path[LOOK_AHEAD];
+  for (std::uint32_t& at : path) at = cell = next(raster, cell);
+  for (int i = LOOK_AHEAD - 1; i > 0; i = i * 2 / 3)
+    if (raster.isClear(start, raster.centreOf(path[i]), false)) {
+      aim = raster.centreOf(path[i]);
+      return true;
+    }
+  aim = raster.centreOf(path[0]);
+  return true;
+}
+
+void Ways::setObstacles(const ObstacleGrid& still, double clearance, double cell) {
+  raster_ = PlanRaster(still, clearance, cell);
+  fields_.clear();
+}
+
+const FlowField& Ways::fieldOf(const Point& goal) {
+  const std::uint32_t cell = freeCell(goal);
+  Kept& kept = fields_[cell];
+  if (!kept.field) kept.field = std::make_unique<FlowField>(raster_, cell);
+  kept.asked = tick_;
+  return *kept.field;
+}
+
+bool Ways::isReachable(const Point& from, const Point& goal) const {
+  const std::uint32_t cell = freeCell(goal);
+  const auto found = fields_.find(cell);
+  if (found != fields_.end()) return found->second.field->isReachable(raster_, from);
+  return FlowField(raster_, cell).isReachable(raster_, from);
+}
+
+void Ways::endTick() {
+  ++tick_;
+  while (fields_.size() > MOST_FIELDS) {
+    auto oldest = fields_.begin();
+    for (auto i = fields_.begin(); i != fields_.end(); ++i)
+      if (i->second.asked < oldest->second.asked) oldest = i;
+    const std::size_t cells = static_cast<std::size_t>(raster_.columns()) * raster_.rows();
+    const std::uint64_t kept = fields_.size() * cells > MOST_CELLS ? 1 : IN_USE;
+    if (oldest->second.asked + kept >= tick_) return;
+    fields_.erase(oldest);
+  }
+}
+
+}  // namespace vegetation_sim::crowd

@@ -1,0 +1,44 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+
+#include "crowd/walker/gait.h"
+#include "vegetation_sim/terrain/height_map.h"
+
+namespace vegetation_sim::crowd {
+
+/// Parts of a body, two of most: left, then right.
+enum class Part : int {
+  HEAD,
+  NECK,
+  CHEST,
+  SHOULDERS,
+  PELVIS,
+  THIGH,
+  SHANK = THIGH + 2,
+  FOOT = SHANK + 2,
+  UPPER_ARM = FOOT + 2,
+  FOREARM = UPPER_ARM + 2,
+  COUNT = FOREARM + 2
+};
+constexpr std::size_t PARTS = static_cast<std::size_t>(Part::COUNT);
+
+/// A limb as a capsule in the world [m].
+struct Limb {
+  Vec3 from{Vec3::Zero()}, to{Vec3::Zero()};
+  double radius{0.05};
+};
+using Skeleton = std::array<Limb, PARTS>;
+
+/// A walker's body: arms by the gait's joints; legs by two-bone inverse kinematics from the pelvis,
+/// which goes as high as both legs allow, to feet that stay where they stand. `Part` + side is the
+/// index of a limb.
+Skeleton skeletonOf(const Walker& walker, const terrain::HeightMap& terrain);
+
+inline const Limb& limbOf(const Skeleton& skeleton, Part part, int side = 0) {
+  return skeleton[static_cast<std::size_t>(part) + static_cast<std::size_t>(side)];
+}
+
+}  // namespace vegetation_sim::crowd

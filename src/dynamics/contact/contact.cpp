@@ -1,0 +1,210 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/contact/contact.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dynamics/integration/integrator.h"
+
+namespace vegetation_sim::physics {
+namespace {
+
+constexpr int MOST_TRIALS = 24;
+// After these many trials contacts change their mind one at a time: no two can keep each other from
+// coming to rest.
+constexpr int JOINT_TRIALS = 6;
+// Forces that differ less are the same: rounding decides nothing [N].
+constexpr double SLACK = 1e-5;
+// Forces rise at the law's rate, and by the spring for what comes in deeper than this [m].
+constexpr double DEEP = 1e-3;
+// No knock of wood ends faster: a force falls by at most the law's limit in this time [s].
+constexpr double FALL_TIME = 32e-6;
+
+Symmetric3 along(const Vec3& n, double factor) {
+  return {factor * n.x() * n.x(), factor * n.y() * n.y(), factor * n.z() * n.z(),
+          factor * n.x() * n.y(), factor * n.x() * n.z(), factor * n.y() * n.z()};
+}
+
+}  // namespace
+
+void describe(FieldVisitor& v, ContactLaw& law) {
+  v.number("contact_stiffness", law.stiffness, "N/m", {1e3, 1e8});
+  v.number("contact_force_limit", law.force_limit, "N", {1.0, 1e6});
+  v.number("contact_force_rate", law.force_rate, "N/s", {10.0, 1e9});
+  v.number("contact_push_speed", law.push_speed, "m/s", {0.01, 100.0});
+}
+
+// Geometry and loads at q + theta h rate, once for all trials.
+void ContactStepper::look(const std::vector<Link>& links, const Surroundings& outside, double time,
+                          double h, double theta, const ChainState& state) {
+  between_.rate = state.rate;
+  between_.q.resize(links.size());
+  for (std::size_t i = 0; i < links.size(); ++i)
+    for (int axis = 0; axis < 2; ++axis)
+      between_.q[i][axis] = state.q[i][axis] + theta * h * state.rate[i][axis];
+  if (outside.bases) outside.bases(time + theta * h, bases_);
+  if (!outside.bases) bases_.clear();
+  kinematicsOf(links, bases_, between_, kinematics_);
+  loads_.clear(links.size());
+  if (outside.loads) outside.loads(kinematics_, time + theta * h, loads_);
+}
+
+// The gap that follows speeds exactly is the one at (1 - theta) h after the step's start: its next
+// value is this one plus h times the speed at the end of the step.
+void ContactStepper::prepare(const ContactLaw& law, double h, double theta,
+                             const std::vector<Contact>& contacts) {
+  points_.assign(contacts.size(), Point());
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const Contact& contact = contacts[c];
+    const auto i = static_cast<std::size_t>(contact.link);
+    Point& p = points_[c];
+    p.arm = contact.along * axisZ(kinematics_.pose[i].orientation);
+    const Vec3 velocity = kinematics_.velocity[i] + cross(kinematics_.spin[i], p.arm);
+    p.speed = dot(contact.normal, velocity - contact.surface);
+    p.gap = contact.gap + (1.0 - theta) * h * p.speed;
+    // Overlap that this step would add beyond DEEP: the force is continuous in all that it is of.
+    const double gain =
+        std::clamp(-DEEP / contact.bears - (p.gap + h * p.speed), 0.0, std::max(0.0, -h * p.speed));
+    p.stiffness = contact.bears * law.stiffness;
+    p.full = contact.bears * law.force_limit;
+    p.before = contact.force;
+    const double risen = contact.force + h * law.force_rate + p.stiffness * gain;
+    p.floor = std::max(0.0, contact.force - h * law.force_limit / FALL_TIME);
+    p.limit = std::max(p.floor, contact.share * std::min(p.full, risen));
+    if (contact.force >= p.limit)
+      p.mode = Mode::LIMITED;
+    else if (contact.force > 0.0 || forceOf(law, h, p, p.speed) > 0.0)
+      p.mode = modeAt(law, h, p, p.speed);
+  }
+}
+
+// The force falls with the speed at the end of the step along a line: of the spring, or of what
+// lets wood out no faster than at push_speed, whichever is the lower. Neither depends on the step's
+// length.
+ContactStepper::Line ContactStepper::lineOf(const ContactLaw& law, double h, const Point& p,
+                                            Mode mode) {
+  if (mode == Mode::PRESSING) return {-p.stiffness * p.gap, p.stiffness * h};
+  return {p.full, p.full / law.push_speed};
+}
+
+ContactStepper::Mode ContactStepper::modeAt(const ContactLaw& law, double h, const Point& p,
+                                            double speed) {
+  const double spring = lineOf(law, h, p, Mode::PRESSING).at(speed);
+  return lineOf(law, h, p, Mode::EASING).at(speed) < spring ? Mode::EASING : Mode::PRESSING;
+}
+
+double ContactStepper::forceOf(const ContactLaw& law, double h, const Point& p, double speed) {
+  return lineOf(law, h, p, modeAt(law, h, p, speed)).at(speed);
+}
+
+// A contact that presses is a mass, h times its line's slope, that the step adds at the point,
+// along the normal, and the force at the speed that is there.
+void ContactStepper::addAnchors(const ContactLaw& law, double h, double theta,
+                                const std::vector<Contact>& contacts) {
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const Point& p = points_[c];
+    if (p.mode == Mode::FREE && p.floor == 0.0) continue;
+    Anchor anchor;
+    anchor.link = contacts[c].link;
+    anchor.arm = p.arm;
+    if (p.mode == Mode::LIMITED || p.mode == Mode::FREE) {
+      anchor.force = (p.mode == Mode::FREE ? p.floor : p.limit) * contacts[c].normal;
+    } else {
+      const Line line = lineOf(law, h, p, p.mode);
+      anchor.force = line.at(p.speed) * contacts[c].normal;
+      anchor.damping = along(contacts[c].normal, line.slope / theta);
+    }
+    loads_.anchors.push_back(anchor);
+  }
+}
+
+// What the joints' accelerations add to the velocities of the links, per second: what anchors feel.
+void ContactStepper::spread(const std::vector<Link>& links) {
+  turn_.resize(links.size());
+  move_.resize(links.size());
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    const ArticulatedBody::Joint& joint = body_.joints()[i];
+    const bool root = links[i].parent < 0;
+    const auto p = static_cast<std::size_t>(root ? 0 : links[i].parent);
+    turn_[i] = root ? Vec3(Vec3::Zero()) : turn_[p];
+    move_[i] = root ? Vec3(Vec3::Zero()) : Vec3(move_[p] + cross(turn_[p], joint.offset));
+    turn_[i] += acceleration_[i].x() * joint.first + acceleration_[i].y() * joint.second;
+  }
+}
+
+// At the end of the step, along the normal, by the motion that the last trial gave [m/s].
+double ContactStepper::speedAfter(double h, const Point& p, const Contact& contact) const {
+  const auto i = static_cast<std::size_t>(contact.link);
+  return p.speed + h * dot(contact.normal, move_[i] + cross(turn_[i], p.arm));
+}
+
+// True if nothing changed.
+bool ContactStepper::revise(const ContactLaw& law, double h, bool one_by_one,
+                            std::vector<Contact>& contacts) {
+  bool settled = true;
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    Point& p = points_[c];
+    const double speed = speedAfter(h, p, contacts[c]);
+    const Mode bearing = modeAt(law, h, p, speed);
+    const double force = lineOf(law, h, p, bearing).at(speed);
+    contacts[c].force = std::clamp(force, p.floor, p.limit);
+    contacts[c].limited = force >= p.limit;
+    Mode mode = p.mode;
+    // Step by step along the law: a leap over a piece of it may be answered by a leap back.
+    const bool pressed = p.mode == Mode::PRESSING || p.mode == Mode::EASING;
+    const double other = p.mode == Mode::FREE ? force - p.floor : p.limit - force;
+    if ((pressed ? lineOf(law, h, p, p.mode).at(speed) - force : other) > SLACK)
+      mode = bearing;
+    else if (pressed && force < p.floor - SLACK)
+      mode = Mode::FREE;
+    else if (pressed && force > p.limit + SLACK)
+      mode = Mode::LIMITED;
+    if (mode == p.mode || (one_by_one && !settled)) continue;
+    p.mode = mode;
+    settled = false;
+  }
+  return settled;
+}
+
+// What bounces off in the middle of a step has as much force before as after it.
+double ContactStepper::swingOf(double h, const Point& p, const Contact& contact) {
+  const double change = std::fabs(contact.force - p.before);
+  if (contact.limited) return change;
+  const double most = std::max(contact.force, p.before);
+  return std::max(change, std::min(most, h * p.stiffness * std::fabs(p.speed)));
+}
+
+void ContactStepper::step(const std::vector<Link>& links, const Surroundings& outside,
+                          const ContactLaw& law, double time, double h, double theta,
+                          ChainState& state, std::vector<Contact>& contacts) {
+  look(links, outside, time, h, theta, state);
+  prepare(law, h, theta, contacts);
+  const std::size_t others = loads_.anchors.size();
+  // The rules of ChainStepper for motion too wild.
+  const Implicitness foreseen = foreseeing(theta, h, productsOf(state, h));
+  agreed_ = false;
+  for (trials_ = 0; trials_ < MOST_TRIALS && !agreed_; ++trials_) {
+    loads_.anchors.resize(others);
+    addAnchors(law, h, theta, contacts);
+    body_.accelerations(links, bases_, between_, kinematics_, loads_, foreseen, acceleration_);
+    spread(links);
+    agreed_ = revise(law, h, trials_ >= JOINT_TRIALS, contacts);
+  }
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    for (int axis = 0; axis < 2; ++axis) {
+      const double change = h * acceleration_[i][axis];
+      state.q[i][axis] += h * (state.rate[i][axis] + theta * change);
+      state.rate[i][axis] += change;
+    }
+  }
+  stopJoints(h, state);
+  swing_ = 0.0;
+  swings_.assign(links.size(), 0.0);
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    double& of_link = swings_[static_cast<std::size_t>(contacts[c].link)];
+    swing_ = std::max(swing_, of_link += swingOf(h, points_[c], contacts[c]));
+  }
+}
+
+}  // namespace vegetation_sim::physics

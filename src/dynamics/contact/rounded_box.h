@@ -1,0 +1,65 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+
+#include "vegetation_sim/core/math/vectors.h"
+
+namespace vegetation_sim::physics {
+
+/// All points within `radius` of a box. Half edges 0: a sphere; only the third edge: a capsule
+/// along z; radius 0: a box. Convex, so its signed distance is a convex function.
+struct RoundedBox {
+  Vec3 half{Vec3::Zero()};  ///< [m]
+  double radius{0.0};       ///< [m]
+
+  /// Of a ball about the origin that holds it [m].
+  double reach() const { return length(half) + radius; }
+  /// Largest depth of any point below the surface [m].
+  double thickness() const { return std::min(half.x(), std::min(half.y(), half.z())) + radius; }
+};
+
+/// How far a box reaches to one side (unit; the box's axes) [m].
+double supportOf(const RoundedBox& box, const Vec3& side);
+
+/// A tapered round bar: radius changes linearly from the first end to the other.
+struct Bar {
+  Vec3 base{Vec3::Zero()}, axis{Vec3::UnitZ()};  ///< `axis` is unit [m]
+  double length{1.0};                            ///< [m]
+  double base_radius{0.0}, tip_radius{0.0};      ///< [m]
+
+  Vec3 at(double along) const { return base + along * axis; }
+  double radiusAt(double along) const {
+    return base_radius + (tip_radius - base_radius) * (along / length);
+  }
+};
+
+/// Where two surfaces are nearest, or overlap most.
+struct Proximity {
+  double along{0.0};           ///< on the bar's axis [m]
+  Vec3 normal{Vec3::UnitZ()};  ///< from box to bar, unit
+  double gap{0.0};             ///< between the surfaces; negative: depth of overlap [m]
+};
+
+/// Signed distance from the surface to a point; `normal`: its gradient. In the box's axes.
+double signedDistance(const RoundedBox& box, const Vec3& point, Vec3& normal);
+
+/// Nearest points of a bar and a rounded box, in the box's axes.
+Proximity nearest(const RoundedBox& box, const Bar& bar);
+
+/// The same for a bar that is known to be on one side (unit; the box's axes) of the box: a bar
+/// that overlaps deeply stays on that side, even beyond the box's axis.
+Proximity nearest(const RoundedBox& box, const Bar& bar, const Vec3& side);
+
+/// First meeting of a bar whose ends move at constant velocities relative to the box [m/s]; within
+/// `horizon` [s].
+struct Meeting {
+  bool met{false};
+  double time{0.0};  ///< [s]
+  Proximity there;
+};
+Meeting sweep(const RoundedBox& box, const Bar& bar, const Vec3& base_velocity,
+              const Vec3& tip_velocity, double horizon);
+
+}  // namespace vegetation_sim::physics

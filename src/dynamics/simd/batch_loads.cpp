@@ -1,0 +1,108 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+// What acts on the links of a BatchChain: bases, loads, air.
+#include <algorithm>
+
+#include "dynamics/simd/batch_chain.h"
+#include "dynamics/simd/chain_sweep.h"
+#include "vegetation_sim/core/config/faults.h"
+
+namespace vegetation_sim::physics {
+
+void BatchChain::askBases(const Surroundings& around, double time, Member& member) {
+  member.bases.clear();
+  if (around.bases) around.bases(time, member.bases);
+  fillBases(member);
+}
+
+const BaseMotion& BatchChain::baseOf(const Member& member, std::size_t link) const {
+  static const BaseMotion GROUND;
+  const auto base = static_cast<std::size_t>(member.base[link]);
+  return base < member.bases.size() ? member.bases[base] : GROUND;
+}
+
+void BatchChain::fillBases(const Member& member) {
+  ChainGroup& group = groups_[member.group];
+  for (const int root : member.roots) {
+    const auto link = static_cast<std::size_t>(root);
+    const int place = slots_[member.first + link] - group.begin;
+    group.bases[static_cast<std::size_t>(place)] = baseRows(baseOf(member, link));
+  }
+}
+
+void BatchChain::fillLoads(const Loads& loads, Member& member) {
+  if (store_->loads.empty()) store_->loads.assign(blocks() * L_ROWS);
+  for (const std::size_t i : member.by_slot)
+    fillLoad(loads, i, store_->loads.of(slots_[member.first + i], L_ROWS));
+  member.loaded = true;
+  store_->drag = store_->drag || !loads.drag.empty();
+}
+
+void BatchChain::setBases(int tree, const std::vector<BaseMotion>& bases) {
+  member(tree).bases = bases;
+  fillBases(member(tree));
+}
+
+void BatchChain::setLoads(int tree, const Loads& loads) {
+  fillLoads(loads, member(tree));
+}
+
+void BatchChain::askLoads(const Surroundings& around, double time, double h, Member& member) {
+  loads_.clear(member.count);
+  if (around.loads) {
+    resize(kinematics_, member.count);
+    const int begin = groups_[member.group].begin;
+    for (const std::size_t i : member.by_slot)
+      readMotion(store_->motion.of(slots_[member.first + i] - begin, M_ROWS),
+                 baseOf(member, i).pose.position, i, kinematics_);
+    around.loads(kinematics_, time, loads_);
+  }
+  if (around.loads || member.loaded) fillLoads(loads_, member);
+  member.loaded = static_cast<bool>(around.loads);
+  for (const Anchor& anchor : loads_.anchors) {
+    const int slot = slots_[member.first + static_cast<std::size_t>(anchor.link)];
+    store_->anchors.push_back(anchorRows(anchor, slot, member.theta * h));
+  }
+}
+
+// ---- air ---------------------------------------------------------------------------------------
+
+void BatchChain::setGrips(int tree, const std::vector<Grip>& grips) {
+  Member& member = this->member(tree);
+  if (grips.size() != member.count)
+    throw InvalidInput("grips: " + std::to_string(grips.size()) + "; one for each of the " +
+                       std::to_string(member.count) + " links");
+  if (store_->grips.empty()) {
+    store_->grips.assign(blocks() * G_ROWS);
+    store_->air.assign(blocks() * V_ROWS);
+    store_->places.assign(store_->work.count() / W_ROWS * V_ROWS);
+  }
+  member.on_axis = std::all_of(grips.begin(), grips.end(), [](const Grip& grip) {
+    return grip.centre.x() == 0.0 && grip.centre.y() == 0.0;
+  });
+  ChainGroup& group = groups_[member.group];
+  group.on_axis = group.bars && std::all_of(group.trees.begin(), group.trees.end(),
+                                            [&](std::size_t t) { return trees_[t].on_axis; });
+  if (!group.on_axis && store_->beside.empty()) store_->beside.assign(blocks() * B_ROWS);
+  for (std::size_t i = 0; i < member.count; ++i) {
+    const int slot = slots_[member.first + i];
+    fillGrip(grips[i], store_->grips.of(slot, G_ROWS),
+             store_->beside.empty() ? nullptr : store_->beside.of(slot, B_ROWS));
+  }
+}
+
+// Rows know places relative to the bases.
+void BatchChain::askAirOf(const ChainGroup& group) {
+  for (const std::size_t t : group.trees) {
+    const Member& member = trees_[t];
+    for (std::size_t i = 0; i < member.count && !member.bases.empty(); ++i) {
+      float* place = store_->places.of(slots_[member.first + i] - group.begin, V_ROWS);
+      for (int axis = 0; axis < 3; ++axis)
+        place[axis * ROW] += static_cast<float>(baseOf(member, i).pose.position[axis]);
+    }
+  }
+  ask_(store_->places.at(0), store_->air.of(group.begin, V_ROWS),
+       static_cast<std::size_t>((group.end - group.begin) / ROW));
+}
+
+}  // namespace vegetation_sim::physics

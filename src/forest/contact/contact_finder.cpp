@@ -1,0 +1,226 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "forest/contact/contact_finder.h"
+
+#include <algorithm>
+
+#include "forest/contact/contact_pair.h"
+#include "vegetation_sim/core/math/math.h"
+
+namespace vegetation_sim::forest {
+namespace {
+
+using physics::Bar;
+using physics::Contact;
+using physics::Proximity;
+
+// What was this near has a side that it keeps [m].
+constexpr double HELD = 1e-3;
+// A branch that is beyond the body by more than this has been passed through [m].
+constexpr double LOST = 5e-3;
+// A bar lies flat on a body where they part by less than this slope, over more than this length.
+constexpr double FLAT = 0.1, SPREAD = 0.02;  // [m/m], [m]
+constexpr double NOWHERE = 1e9;              // [m]
+// Thin wood is never let in: where it stands on stout wood, or is whipped by it, it presses harder.
+// Thin is a radius of at most 1 cm; from 1.2 cm on wood is stout [m].
+constexpr double THIN = 0.01, FADE = 2e-3, THIN_BEARS = 5.0;
+
+// What a body had in the last step.
+struct Touched {
+  const Touch *first, *last;
+
+  Touched(const Touches& touches, const std::string& body) {
+    first = touches.data();
+    const Touch* end = first + touches.size();
+    while (first != end && first->body != body) ++first;
+    last = first;
+    while (last != end && last->body == body) ++last;
+  }
+};
+
+// What a pair of a body and a branch had in the last step: one contact, two or none, and what
+// leaves.
+struct Held {
+  const Touch *first, *last;
+
+  Held(const Touched& body, int branch) {
+    const auto before = [](const Touch& a, int b) { return a.branch < b; };
+    first = last = std::lower_bound(body.first, body.last, branch, before);
+    while (last != body.last && last->branch == branch) ++last;
+  }
+  // The one that bears most, if any touches: its side is the branch's.
+  const Touch* touching() const {
+    const Touch* out = nullptr;
+    for (const Touch* t = first; t != last; ++t)
+      if (!t->leaving && (t->force > 0.0 || t->gap < HELD) && (!out || t->force > out->force))
+        out = t;
+    return out;
+  }
+  // The force that goes on at `along`: each goes to the nearer of the two places, of equals to the
+  // lower.
+  double at(double along, double other) const {
+    double out = 0.0;
+    for (const Touch* t = first; t != last; ++t) {
+      const double way = std::fabs(t->along - along), others = std::fabs(t->along - other);
+      if (!t->leaving && (way < others || (way == others && along < other))) out += t->force;
+    }
+    return out;
+  }
+};
+
+// Where they touch or shall touch first; none if they do not within the horizon.
+bool meet(const Placed& placed, const Pair& pair, const Held& held, double horizon,
+          Proximity& out) {
+  const Bar local = placed.local(pair.bar);
+  if (const Touch* known = held.touching()) {
+    const Proximity free = nearest(placed.shape, local);
+    if (dot(free.normal, known->side) < 0.0 && free.gap > LOST) return false;
+    out = nearest(placed.shape, local, known->side);
+    if (out.gap < SKIN || known->force > 0.0) return true;
+  }
+  const physics::Meeting meeting =
+      sweep(placed.shape, local, rotate(placed.to_body, pair.base_velocity),
+            rotate(placed.to_body, pair.tip_velocity), horizon);
+  if (!meeting.met || meeting.time <= 0.0) {
+    out = nearest(placed.shape, local);
+    return out.gap < SKIN;
+  }
+  // How far they are apart now, along the normal that they shall have then.
+  out = meeting.there;
+  const double part = out.along / pair.bar.length;
+  const Vec3 velocity = (1.0 - part) * pair.base_velocity + part * pair.tip_velocity;
+  out.gap -= meeting.time * dot(rotate(placed.to_body, velocity), out.normal);
+  return true;
+}
+
+// How steeply a bar leaves the body, going from its base to its tip; rises, as distance is convex.
+double slopeAt(const Placed& placed, const Bar& local, double along, Vec3& normal) {
+  signedDistance(placed.shape, local.at(along), normal);
+  return dot(normal, local.axis);
+}
+
+// The end of the stretch over which a bar lies flat, from a point of it towards `end`.
+double endOfFlat(const Placed& placed, const Bar& local, double along, double end) {
+  Vec3 normal;
+  double outside = end;
+  if (std::fabs(slopeAt(placed, local, end, normal)) < FLAT) return end;
+  for (int i = 0; i < 20; ++i) {
+    const double middle = 0.5 * (along + outside);
+    (std::fabs(slopeAt(placed, local, middle, normal)) < FLAT ? along : outside) = middle;
+  }
+  return along;
+}
+
+// A bar that lies flat turns about the one point where it is nearest: the far end of the stretch
+// that lies is a contact as well.
+bool liesFlat(const Placed& placed, const Pair& pair, const Proximity& found, double near,
+              Proximity& out) {
+  const Bar local = placed.local(pair.bar);
+  const double low = endOfFlat(placed, local, found.along, 0.0),
+               high = endOfFlat(placed, local, found.along, local.length);
+  out.along = found.along - low > high - found.along ? low : high;
+  if (std::fabs(out.along - found.along) < SPREAD) return false;
+  const double distance = signedDistance(placed.shape, local.at(out.along), out.normal);
+  out.gap = distance - local.radiusAt(out.along);
+  return out.gap < near && dot(out.normal, found.normal) > 0.5;
+}
+
+// A branch that has got beyond the middle of the body is let through softly: the limit fades until
+// it is out on the far side.
+double shareOf(const Placed& placed, const Proximity& found, double radius) {
+  const double half = supportOf(placed.shape, found.normal) + radius;
+  return 1.0 - smootherStep(-found.gap / half - 1.0);
+}
+
+Contact contactOf(const Placed& placed, const Pair& pair, const Proximity& found) {
+  Contact out;
+  out.along = found.along;
+  out.normal = rotate(placed.pose.orientation, found.normal);
+  out.gap = found.gap;
+  const double radius = pair.bar.radiusAt(found.along);
+  out.share = shareOf(placed, found, radius);
+  out.bears = THIN_BEARS - (THIN_BEARS - 1.0) * smootherStep((radius - THIN) / FADE);
+  out.surface = placed.velocity(pair.bar.at(found.along) - (radius + found.gap) * out.normal);
+  return out;
+}
+
+}  // namespace
+
+// A thinner branch begins on its bearer's axis: until its far side comes out of the bearer, or past
+// the bearer's end, it is the bearer's wood.
+double outsideBearer(const Skeleton& skeleton, int branch) {
+  const Branch& b = skeleton.branches[static_cast<std::size_t>(branch)];
+  if (b.parent < 0) return 0.0;
+  const Branch& bearer = skeleton.branches[static_cast<std::size_t>(b.parent)];
+  const Vec3 axis = axisZ(bearer.rest.orientation), own = axisZ(b.rest.orientation);
+  const double across = length(cross(axis, own)), along = dot(axis, own);
+  const double radius =
+      bearer.base_radius + (bearer.tip_radius - bearer.base_radius) * (b.h / bearer.length);
+  const double wall = radius - b.base_radius, rest = bearer.length - b.h;
+  if (wall <= 0.0 || rest <= 0.0) return 0.0;
+  double out = 0.5 * b.length;
+  if (across * out > wall) out = wall / across;
+  if (along * out > rest) out = rest / along;
+  return out;
+}
+
+std::vector<Contact> ContactFinder::findContacts(const Wood& wood, const Bodies& bodies,
+                                                 Nanoseconds from, Nanoseconds to,
+                                                 Touches& touches) const {
+  const double h = secondsBetween(from, to);
+  std::vector<Contact> out;
+  Touches kept;
+  for (const auto& entry : bodies) {
+    const Placed placed(entry.second, wood.foot, from);
+    const Touched touched(touches, entry.first);
+    for (std::size_t i = 0; i < wood.branches.size(); ++i) {
+      const Pair pair(wood, i, placed);
+      const Held held(touched, wood.branches[i]);
+      Proximity found, far;
+      const bool meets = leastGap(placed, pair.bar) <= pair.reach(h) &&
+                         meet(placed, pair, held, LOOK_AHEAD * h, found);
+      const bool flat = meets && liesFlat(placed, pair, found, pair.reach(h), far);
+      const auto add = [&](const Proximity& place, double force, bool leaving = false) {
+        Contact contact = contactOf(placed, pair, place);
+        contact.link = static_cast<int>(i);
+        contact.touch = kept.size();
+        contact.force = force;
+        kept.push_back(
+            {entry.first, wood.branches[i], place.normal, place.gap, force, place.along, leaving});
+        out.push_back(contact);
+      };
+      if (meets) add(found, held.at(found.along, flat ? far.along : NOWHERE));
+      if (flat) add(far, held.at(far.along, found.along));
+      // Nothing presses there any more, and the force falls.
+      for (const Touch* t = held.first; t != held.last; ++t)
+        if (t->force > 0.0 && (t->leaving || !meets))
+          add({t->along, t->side, SKIN}, t->force, true);
+    }
+  }
+  touches = std::move(kept);
+  return out;
+}
+
+void ContactFinder::settle(const Wood& wood, const Bodies& bodies,
+                           const std::vector<Contact>& contacts, Nanoseconds, Touches& touches,
+                           std::vector<Reaction>& reactions) const {
+  for (const Contact& contact : contacts) {
+    Touch& touch = touches[contact.touch];
+    touch.force = contact.force;
+    const auto body = bodies.find(touch.body);
+    if (contact.force <= 0.0 || body == bodies.end()) continue;
+    const Pose& pose = wood.start.pose[static_cast<std::size_t>(contact.link)];
+    Reaction reaction;
+    reaction.kind = Reaction::CONTACT;
+    reaction.body = touch.body;
+    reaction.frame = body->second.frame;
+    reaction.at = {wood.tree, touch.branch, contact.along};
+    reaction.point = wood.foot + pose.position + contact.along * axisZ(pose.orientation);
+    reaction.force = -contact.force * contact.normal;
+    reaction.limited = contact.limited;
+    reaction.penetration = std::max(0.0, -contact.gap);
+    reactions.push_back(reaction);
+  }
+}
+
+}  // namespace vegetation_sim::forest

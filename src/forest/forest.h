@@ -1,0 +1,160 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "forest/physics/forest_physics.h"
+#include "tree/lod/level_table.h"
+#include "tree/lod/tree_levels.h"
+#include "vegetation_sim/tree/state/level_map.h"
+#include "vegetation_sim/tree/state/viewer.h"
+#include "vegetation_sim/wind/field.h"
+
+namespace vegetation_sim::forest {
+
+/// What users tune while it runs.
+struct Settings {
+  double tolerance{1.0};  ///< error that a viewer may see [pixel]
+  int fixed_level{2};     ///< of every tree while nobody looks
+  int highest_level{MAX_DEPTHS};
+  double robot_tolerance{0.05};  ///< error of what a robot may touch [m]
+  double robot_range{3.0};       ///< trees so near to a body of a robot hold it [m]
+  Budget budget;
+};
+void describe(FieldVisitor& visitor, Settings& settings);
+
+/// All that has memory in a forest: copy it to save, assign it to restore (N6). What follows then
+/// is the same to the bit, messages included.
+struct ForestMemory {
+  Nanoseconds stamp{0};
+  Settings settings;
+  wind::Field wind;
+  std::map<std::string, Viewer> viewers;
+  LevelMap levels;
+  ForestModes modes;
+  ForestPhysics physics;
+  std::set<std::uint32_t> changed;  ///< trees to tell of in the next update
+  std::set<std::uint32_t> begun;    ///< of these, with amplitudes: their modes are new
+  std::uint32_t sequence{0};        ///< of the next update
+};
+
+/// The animated forest. Inputs take effect at the next tick; between ticks it does not change, and
+/// the poses of any stamp follow from layout, wind and levels. Not thread-safe.
+class Forest {
+ public:
+  /// @throws InvalidInput for a layout that check() refuses.
+  Forest(Layout layout, std::shared_ptr<const terrain::HeightMap> terrain, Settings settings);
+
+  const Layout& layout() const { return layout_; }
+  std::uint64_t layoutHash() const { return layout_hash_; }
+  const terrain::HeightMap& terrain() const { return *terrain_; }
+  const ForestMemory& memory() const { return memory_; }
+
+  void setWind(const wind::Field& wind) { memory_.wind = wind; }
+  void setViewer(const Viewer& viewer) { memory_.viewers[viewer.id] = viewer; }
+  void setSettings(const Settings& settings) { memory_.settings = settings; }
+  /// Other trees, same ids: levels start anew where the number of trees changed.
+  void setLayout(Layout layout, std::shared_ptr<const terrain::HeightMap> terrain);
+  void restore(ForestMemory memory) { memory_ = std::move(memory); }
+  /// Computes now how the species lag, some 30 ms for each of a few sizes, not at the tick at which
+  /// an eye first meets one.
+  void foresee();
+  /// As a fresh start; keeps layout, wind and settings.
+  void reset();
+
+  /// One tick: chooses the level of every tree from wind, viewers and tolerance; steps what is
+  /// physical.
+  void advance(Nanoseconds stamp);
+
+  // What holds, pushes or touches branches. All of these throw InvalidInput naming thing, value and
+  // range, and then change nothing.
+  /// Takes hold; gives the id of the grab.
+  std::uint32_t addGrab(const Grab& grab);
+  /// Where the grab shall be at the next tick; renews its lease.
+  void moveGrab(std::uint32_t id, const Vec3& target);
+  void renewGrab(std::uint32_t id);
+  void release(std::uint32_t id);
+  void push(const Push& push);
+  void setBody(const Body& body);
+  void removeBody(const std::string& id);
+  void setPhysics(const PhysicsSettings& settings);
+  /// Who finds contacts, a ContactFinder at first; none: bodies touch nothing.
+  void setContactModel(std::shared_ptr<const ContactModel> model) { contacts_ = std::move(model); }
+
+  const PhysicsSettings& physicsSettings() const { return memory_.physics.settings(); }
+  const std::map<std::uint32_t, Grab>& grabs() const { return memory_.physics.grabs(); }
+  const Bodies& bodies() const { return memory_.physics.bodies(); }
+  /// Grabs that ended by themselves at the last tick: their lease ran out.
+  const std::vector<Grab>& ended() const { return memory_.physics.ended(); }
+  /// On the bodies that hold or touch branches, at the end of the last tick.
+  const std::vector<Reaction>& reactions() const { return memory_.physics.reactions(); }
+  PhysicsFigures physicsFigures() const;
+  /// Physical joints of a tree at the last tick; none: `branches` is empty.
+  PromotedTree promoted(std::uint32_t tree) const;
+  /// Trees that have physical joints, rising.
+  std::vector<std::uint32_t> physicalTrees() const;
+  /// Nullptr: the tree does not sway in modes.
+  const Sway* sway(std::uint32_t tree) const { return memory_.modes.find(tree); }
+  /// What the governor chose at the last tick.
+  const GovernorFigures& governor() const { return governor_; }
+  /// The trees that it chose for, with what it predicts of them; none where there are very many.
+  const std::vector<Plant>& plants() const { return plants_; }
+  /// Every branch in the tree's frame, physical ones and modes included, double precision.
+  std::vector<Pose> pose(const Tree& tree, std::uint32_t id, Nanoseconds stamp) const;
+
+  /// Complete state, or what changed since the last update of either kind.
+  StateUpdate update(bool key_frame);
+  /// Of all that what comes depends on, viewers included; not of how updates are numbered, so that
+  /// a latecomer's is the same.
+  std::uint64_t hash() const;
+
+ private:
+  struct Region {
+    Vec3 centre;
+    double reach;  // [m] around the centre, trees' own reach included
+    std::uint32_t first, count;
+  };
+  Site site() const;
+  void advancePhysics(Nanoseconds stamp);
+  /// Of all trees; of tiles, whose trees are drawn later, all that may come.
+  void eachSize(const std::function<void(std::size_t species, double scale)>& look) const;
+  void measure();
+  void measureSpecies(std::size_t species, double scale);
+  double bendingSpeed(double speed, double reference_speed) const;
+  double viewOf(const Vec3& centre, double reach) const;
+  void chooseLevels();
+  void chooseRegion(const Region& region);
+  void chooseTree(std::uint32_t tree);
+  void predict(const TreeSeed& seed, const LevelTable& table, double view, Plant& plant);
+  void wantModes(const LagIn& off, Plant& plant) const;
+  LagIn lagOf(const TreeSeed& seed, const wind::Swings& swings, double bending, double pixels);
+  bool haveModes() const;
+  void adopt();
+  void beginModes();
+  void aim(std::uint32_t tree, int level);
+
+  Layout layout_;
+  std::uint64_t layout_hash_{0};
+  std::shared_ptr<const terrain::HeightMap> terrain_;
+  std::vector<LevelScales> tables_;  // per species
+  double extent_{0.0};               // height plus reach of the largest tree [m]
+  double largest_omission_{0.0};     // of any tree, all joints fixed [m per m/s]
+  double slowest_reference_{1.0};    // reference speed of any species [m/s]
+  std::vector<Region> regions_;
+  std::shared_ptr<const ContactModel> contacts_;
+  ForestMemory memory_;
+  wind::Instant now_;
+  wind::SwingingWind swinging_;  // now
+  bool fine_due_{false};         // a tree may get fine modes at this tick
+  int last_base_{0};             // level of the trees that were not held before this tick
+  std::vector<Plant> plants_;
+  GovernorFigures governor_;
+};
+
+}  // namespace vegetation_sim::forest

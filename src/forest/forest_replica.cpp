@@ -1,0 +1,113 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/forest/forest_replica.h"
+
+namespace vegetation_sim::forest {
+
+void ForestReplica::setLayout(Layout layout, std::shared_ptr<const terrain::HeightMap> terrain) {
+  Faults faults;
+  check(layout, faults);
+  if (layout.terrain_hash != terrain->hash())
+    faults.add("layout: terrain = '" + layout.terrain + "' has other heights here than where it " +
+               "was made");
+  faults.throwIfAny();
+  layout_hash_ = layout.hash();
+  layout_ = std::make_shared<const Layout>(std::move(layout));
+  terrain_ = std::move(terrain);
+  modes_.clear();
+  in_sequence_ = false;
+  why_ = "no key frame since the layout";
+}
+
+bool ForestReplica::apply(const StateUpdate& update) {
+  if (!ready()) {
+    why_ = "no layout yet";
+    return false;
+  }
+  if (update.layout_hash != layout_hash_) {
+    why_ = "state belongs to another layout";
+    in_sequence_ = false;
+    return false;
+  }
+  if (!update.key_frame && !(in_sequence_ && update.sequence == sequence_ + 1)) {
+    if (in_sequence_) why_ = "messages were lost";
+    in_sequence_ = false;
+    return false;
+  }
+  if (update.key_frame)
+    levels_.reset(update.base);
+  else
+    levels_.setBase(update.base);
+  if (update.key_frame) promoted_.clear();
+  for (const StateUpdate::Entry& entry : update.trees) {
+    if (entry.state == update.base)
+      levels_.follow(entry.tree);  // told for its physical joints
+    else
+      levels_.set(entry.tree, entry.state);
+    if (entry.promoted.empty())
+      promoted_.erase(entry.tree);
+    else
+      promoted_[entry.tree] = entry.promoted;
+  }
+  blend_ = update.blend;
+  levels_.prune(update.stamp, layout_->motion.transition);
+  in_sequence_ = takeSway(update);
+  sequence_ = update.sequence;
+  stamp_ = update.stamp;
+  if (in_sequence_) why_.clear();
+  return in_sequence_;
+}
+
+// Between key frames modes are stepped here as they are there.
+bool ForestReplica::takeSway(const StateUpdate& update) {
+  std::set<std::uint32_t> told;
+  for (const StateUpdate::Entry& entry : update.trees)
+    if (!entry.sway.amplitude.empty()) told.insert(entry.tree);
+  if (update.key_frame)
+    modes_.keepOnly(told);
+  else
+    modes_.advance(wind_, stamp_, update.stamp);
+  try {
+    restoreSway(update);
+  } catch (const std::exception& error) {
+    why_ = "tree in modes: " + std::string(error.what());
+    return false;
+  }
+  modes_.settle(levels_, update.stamp, layout_->motion.transition);
+  return true;
+}
+
+void ForestReplica::restoreSway(const StateUpdate& update) {
+  const Grounds at{*layout_, *terrain_, wind_};
+  bool due = update.key_frame || ForestModes::fineDue(stamp_, update.stamp);
+  for (const StateUpdate::Entry& entry : update.trees) {
+    const std::size_t modes = entry.sway.amplitude.size();
+    if (modes == 0) continue;
+    const bool ready = modes_.isReady(entry.tree, modes);
+    if (ready || due)
+      modes_.restore(at, entry.tree, entry.sway, update.stamp);
+    else
+      modes_.await(entry.tree);
+    due = due && ready;
+  }
+  if (due) modes_.prepareNext(at);  // shown from the next key frame on
+}
+
+std::vector<Pose> ForestReplica::pose(const Tree& tree, std::uint32_t id, Nanoseconds stamp) const {
+  return poseBranches(tree, wind_.at(stamp).relativeTo(tree.foot), weights(id, stamp), sway(id),
+                      promoted(id), stamp);
+}
+
+PromotedTree ForestReplica::promoted(std::uint32_t tree) const {
+  const auto found = promoted_.find(tree);
+  if (found == promoted_.end()) return {stamp_, blend_, {}};
+  return {stamp_, blend_, found->second};
+}
+
+std::vector<std::uint32_t> ForestReplica::physicalTrees() const {
+  std::vector<std::uint32_t> out;
+  for (const auto& entry : promoted_) out.push_back(entry.first);
+  return out;
+}
+
+}  // namespace vegetation_sim::forest

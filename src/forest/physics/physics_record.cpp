@@ -1,0 +1,80 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+// What is told of the physics of a forest: its figures and its hash.
+#include "forest/physics/forest_physics.h"
+#include "vegetation_sim/core/config/fields.h"
+
+namespace vegetation_sim::forest {
+
+PhysicsFigures ForestPhysics::figures() const {
+  PhysicsFigures out;
+  for (const auto& entry : parts_) {
+    const PhysicalPart& part = entry.second;
+    if (part.empty()) continue;
+    ++out.trees;
+    out.branches += part.joints().size();
+    out.blending += part.blending();
+    out.bytes += part.bytes();
+  }
+  out.steps = steps_;
+  for (const auto& entry : refused_) out.refused += entry.second;
+  out.skipped = skipped_;
+  out.coarse = coarse_;
+  out.replaced = scratch_.replaced;
+  for (const Reaction& reaction : reactions_) out.capped_forces += reaction.limited ? 1 : 0;
+  return out;
+}
+
+void ForestPhysics::addTo(Hash& hash) const {
+  PhysicsSettings settings = settings_;
+  FieldHasher hasher(hash);
+  describe(hasher, settings);
+  const auto add = [&](const BranchPoint& point) {
+    hash.add(static_cast<std::uint64_t>(point.tree));
+    hash.add(static_cast<std::uint64_t>(point.branch));
+    hash.add(point.along);
+  };
+  hash.add(static_cast<std::uint64_t>(next_grab_));
+  for (const auto& [id, grab] : grabs_) {
+    hash.add(static_cast<std::uint64_t>(id));
+    add(grab.point);
+    hash.add(grab.target);
+    hash.add(holds_.at(id).target);
+    for (const double v : {grab.stiffness, grab.damping, grab.force_limit, grab.lease}) hash.add(v);
+    hash.add(grab.frame);
+    hash.add(static_cast<std::uint64_t>(grab.renewed));
+  }
+  for (const Push& push : pushes_) {
+    add(push.point);
+    hash.add(push.force);
+    for (const Nanoseconds stamp : {push.until, push.from})
+      hash.add(static_cast<std::uint64_t>(stamp));
+  }
+  for (const auto& [id, body] : bodies_) {
+    hash.add(id);
+    hash.add(static_cast<std::uint64_t>(body.shape));
+    for (const Vec3& v : {body.size, body.pose.position, body.velocity, body.spin}) hash.add(v);
+    const Quat& q = body.pose.orientation;
+    for (const double v : {q.w, q.x, q.y, q.z}) hash.add(v);
+    hash.add(static_cast<std::uint64_t>(body.stamp));
+  }
+  for (const auto& [tree, part] : parts_) {
+    if (part.empty()) continue;
+    hash.add(static_cast<std::uint64_t>(tree));
+    part.addTo(hash);
+  }
+  for (const auto& [tree, touches] : touches_) {
+    for (const Touch& touch : touches) {
+      hash.add(static_cast<std::uint64_t>(tree));
+      hash.add(touch.body);
+      hash.add(static_cast<std::uint64_t>(touch.branch));
+      hash.add(touch.side);
+      hash.add(touch.along);
+      hash.add(touch.gap);
+      hash.add(touch.force);
+      hash.add(std::uint64_t{touch.leaving});
+    }
+  }
+}
+
+}  // namespace vegetation_sim::forest

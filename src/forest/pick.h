@@ -1,0 +1,44 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "forest/forest.h"
+#include "vegetation_sim/tree/motion/pose.h"
+
+namespace vegetation_sim::forest {
+
+struct Ray {
+  Vec3 origin{Vec3::Zero()};             ///< world [m]
+  Vec3 direction{Vec3(0.0, 0.0, -1.0)};  ///< any length but zero
+  double tolerance{0.0};  ///< a branch is met within this distance of its surface [m]
+};
+
+/// Where a ray meets a branch.
+struct Picked {
+  std::uint32_t tree{0};
+  int branch{0};
+  double along{0.0};         ///< from the base of the branch [m]
+  double distance{0.0};      ///< from the ray's origin [m]
+  Vec3 point{Vec3::Zero()};  ///< on the axis of the branch, world [m]
+};
+
+/// No tree of a species and scale 1 reaches farther from its foot than this [m]: limbs reach at
+/// most as far as the longest chain of lengths, which check() bounds through `length`.
+double sizeBound(const Species& species);
+
+/// First branch of one tree that the ray meets. `poses` in the tree's frame.
+std::optional<Picked> pickBranch(const Tree& tree, const std::vector<Pose>& poses, const Ray& ray);
+
+/// First branch of all trees near the ray. `posed` grows and poses a tree.
+struct PosedTree {
+  std::shared_ptr<const Tree> tree;
+  std::vector<Pose> poses;
+};
+std::optional<Picked> pickTree(const Layout& layout, const terrain::HeightMap& terrain,
+                               const Ray& ray,
+                               const std::function<PosedTree(std::uint32_t)>& posed);
+
+}  // namespace vegetation_sim::forest

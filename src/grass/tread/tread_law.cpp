@@ -1,0 +1,82 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/grass/tread/tread_law.h"
+
+#include <cmath>
+
+namespace vegetation_sim::grass {
+namespace {
+
+double lengthOf(const Point& a, const Point& b) {
+  return std::sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y));
+}
+
+}  // namespace
+
+void describe(FieldVisitor& v, TreadLaw& law) {
+  v.number("radius", law.radius, "m", {0.005, 5.0});
+  v.number("reach", law.reach, "m", {0.01, 10.0});
+  v.number("softness", law.softness, "m", {0.001, 5.0});
+  v.number("load", law.load, "", {0.0, 10.0});
+  v.number("recovery", law.recovery, "s", {0.0, PERMANENT_RECOVERY});
+}
+
+void check(TreadLaw law, const std::string& context, Faults& faults) {
+  FieldChecker checker(context, faults);
+  describe(checker, law);
+  if (law.reach < 1.5 * law.radius)
+    faults.add(context + "reach = " + std::to_string(law.reach) +
+               " m is below 1.5 times radius = " + std::to_string(law.radius) + " m");
+}
+
+double treadField(const Point& p, const Point& p0, const Point& p1, double eps) {
+  const double c = lengthOf(p0, p1);
+  if (!(c > 0.0)) return 0.0;
+  const double tx = (p1.x - p0.x) / c, ty = (p1.y - p0.y) / c;
+  const double ax = p0.x - p.x, ay = p0.y - p.y;
+  const double s0 = ax * tx + ay * ty, d = ax * ty - ay * tx;
+  const double s1 = s0 + c, square = d * d + eps * eps;
+  return kernelIntegral({s0, std::sqrt(square + s0 * s0)}, {s1, std::sqrt(square + s1 * s1)},
+                        square);
+}
+
+double treadFieldPrinted(const Point& p, const Point& p0, const Point& p1) {
+  const double c = lengthOf(p0, p1);
+  if (!(c > 0.0)) return 0.0;
+  const double tx = (p1.x - p0.x) / c, ty = (p1.y - p0.y) / c;
+  const double along = (p.x - p0.x) * tx + (p.y - p0.y) * ty;
+  const Point foot{p0.x + along * tx, p0.y + along * ty};
+  const double height = lengthOf(p, foot);
+  const double sine0 = -along / lengthOf(p, p0), sine1 = (c - along) / lengthOf(p, p1);
+  return (sine1 - sine0) / (height * height);
+}
+
+Point treadVector(const Point& p, const Point& p0, const Point& p1, double field) {
+  const double c = lengthOf(p0, p1);
+  if (!(c > SHORTEST_STROKE)) return {};
+  const double tx = (p1.x - p0.x) / c, ty = (p1.y - p0.y) / c;
+  const double side = (p.y - p0.y) * tx - (p.x - p0.x) * ty;
+  const double sign = side > NO_SIDE ? 1.0 : side < -NO_SIDE ? -1.0 : 0.0;
+  return {field * (tx - sign * ty), field * (ty + sign * tx)};
+}
+
+CompactField::CompactField(const Point& p0, const Point& p1, double reach, double softness) {
+  parts_.p0 = p0;
+  parts_.square_reach = reach * reach;
+  parts_.square_softness = softness * softness;
+  const double length = lengthOf(p0, p1);
+  if (length > SHORTEST_STROKE) {
+    parts_.length = length;
+    parts_.along = {(p1.x - p0.x) / length, (p1.y - p0.y) / length};
+  }
+  const double square_end = parts_.square_reach + parts_.square_softness;
+  parts_.end = std::sqrt(square_end);
+  parts_.edge = 1.0 / (square_end * parts_.end);
+}
+
+double CompactField::ofEndlessTrack(double distance, double reach, double softness) {
+  return CompactField({-2.0 * reach, 0.0}, {2.0 * reach, 0.0}, reach, softness)
+      .fieldAt(Point{0.0, distance});
+}
+
+}  // namespace vegetation_sim::grass

@@ -1,0 +1,255 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/grass/tread/tread_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "grass/tread/tread_stroke.h"
+#include "vegetation_sim/core/math/math.h"
+
+namespace vegetation_sim::grass {
+namespace {
+
+constexpr int SIDE = TreadBlock::SIDE;
+constexpr int MAX_CELLS = 512;  // along a tile
+constexpr std::size_t BLOCK_BYTES = sizeof(TreadBlock) + 64;
+
+int blockOf(int node) {
+  return node >> 4;  // rounds down
+}
+static_assert(SIDE == 16, "blockOf");
+
+int wholeVectors(int nodes) {
+  return (nodes + TreadBand::PITCH - 1) / TreadBand::PITCH * TreadBand::PITCH;
+}
+
+// Visits the doses of nodes that are both in the window of a source and in a band.
+template <class Visit>
+void exchangeDoses(TreadSource& source, const TreadBand& band, const Visit& visit) {
+  const int first = std::max(source.first_column, band.first_column);
+  const int last = std::min(source.first_column + source.columns, band.first_column + band.pitch);
+  const int first_row = std::max(source.first_row, band.first_row);
+  const int last_row = std::min(source.first_row + source.rows, band.first_row + band.rows);
+  for (int row = first_row; row < last_row; ++row) {
+    double* const in_window = source.doses.data() + (row - source.first_row) * source.columns;
+    double* const in_band = band.doses + (row - band.first_row) * band.pitch;
+    for (int column = first; column < last; ++column)
+      visit(in_window[column - source.first_column], in_band[column - band.first_column]);
+  }
+}
+
+bool isFinite(const Point& p) {
+  return std::isfinite(p.x) && std::isfinite(p.y);
+}
+
+}  // namespace
+
+void describe(FieldVisitor& v, TreadSettings& s) {
+  v.number("spacing", s.spacing, "m", {0.01, 10.0});
+  v.number("memory_cap", s.memory_cap, "bytes", {1e5, 1e11});
+  v.number("longest_stroke", s.longest_stroke, "m", {0.01, 100.0});
+  v.number("top_speed", s.top_speed, "m/s", {0.1, 1000.0});
+}
+
+TreadMap::TreadMap(const MapLaw& law, const TreadSettings& settings)
+    : law_(law), settings_(settings) {
+  Faults faults;
+  FieldChecker checker("treading: ", faults);
+  describe(checker, settings_);
+  faults.throwIfAny();
+  const double cells = std::floor(law.resolution / settings.spacing + 0.5);
+  if (cells > MAX_CELLS)
+    faults.add("treading: spacing = " + std::to_string(settings.spacing) + " m makes " +
+               std::to_string(static_cast<int>(cells)) + " cells along a tile of " +
+               std::to_string(law.resolution) + " m, allowed are " + std::to_string(MAX_CELLS));
+  faults.throwIfAny();
+  cells_ = std::max(1, static_cast<int>(cells));
+  spacing_ = law.resolution / cells_;
+  per_spacing_ = 1.0 / spacing_;
+}
+
+std::size_t TreadMap::bytes() const {
+  std::size_t sum = state_.blocks.size() * BLOCK_BYTES;
+  for (const auto& entry : state_.sources) sum += entry.second.doses.size() * sizeof(double) + 128;
+  return sum;
+}
+
+// Most strokes fall on the blocks of the ones before: a table in front of the tree. Null if it is
+// not there and is not wanted or finds no memory.
+TreadBlock* TreadMap::blockAt(int row, int column, bool make) {
+  RecentBlock& recent = recent_blocks_.at(row, column);
+  if (!recent.is_known) {
+    const auto found = state_.blocks.find({row, column});
+    if (found != state_.blocks.end()) recent.block = &found->second;
+    recent.is_known = true;
+  }
+  if (recent.block || !make) return recent.block;
+  const double size = static_cast<double>((state_.blocks.size() + 1) * BLOCK_BYTES);
+  if (size <= settings_.memory_cap) recent.block = &state_.blocks[{row, column}];
+  return recent.block;
+}
+
+// Null if it is not on the ground.
+TreadSource* TreadMap::sourceOf(std::uint32_t id) {
+  RecentSource& known = recent_sources_.at(id);
+  if (known.source) return known.source;
+  const auto found = state_.sources.find(id);
+  return known.source = found != state_.sources.end() ? &found->second : nullptr;
+}
+
+void TreadMap::lift(std::uint32_t source) {
+  recent_sources_.at(source).source = nullptr;
+  state_.sources.erase(source);
+}
+
+void TreadMap::forgetRecent() {
+  recent_blocks_.clear();
+  recent_sources_.clear();
+}
+
+bool TreadMap::isJump(const TreadSource& from, const Point& to, Nanoseconds stamp) const {
+  const double x = to.x - from.position.x, y = to.y - from.position.y;
+  const double way = std::sqrt(x * x + y * y), seconds = secondsBetween(from.stamp, stamp);
+  return way > settings_.longest_stroke || (seconds > 0.0 && way > settings_.top_speed * seconds);
+}
+
+int TreadMap::tread(std::uint32_t id, const TreadLaw& law, const Point& position,
+                    Nanoseconds stamp) {
+  TreadSource* known = sourceOf(id);
+  if (!isFinite(position) || (known && stamp < known->stamp)) {
+    ++state_.counts.invalid;
+    return 0;
+  }
+  TreadSource& source = known ? *known : state_.sources[id];
+  Point from = source.position;
+  if (!known || isJump(source, position, stamp)) {
+    if (known) ++state_.counts.jumps;
+    from = position;
+    source.columns = source.rows = 0;
+    source.has_moved = false;
+    source.along = Point();
+  }
+  source.position = position;
+  source.stamp = stamp;
+  TreadStroke stroke(law, fullDose(law), from, source);
+  const int touched = moveWindow(source, law.reach) ? pressBands(stroke) : pressWindow(stroke);
+  ++(touched > 0 ? state_.counts.strokes : state_.counts.outside);
+  return touched;
+}
+
+// The last one's, where many sources tread alike.
+double TreadMap::fullDose(const TreadLaw& law) {
+  if (law.radius != last_law_.radius || law.reach != last_law_.reach ||
+      law.softness != last_law_.softness || !(last_full_ > 0.0)) {
+    last_law_ = law;
+    last_full_ = CompactField::ofEndlessTrack(law.radius, law.reach, law.softness);
+  }
+  return last_full_;
+}
+
+// Puts the window around the source. If it is another one than before, that is in `before_`.
+bool TreadMap::moveWindow(TreadSource& source, double reach) {
+  const int first_column = nodeBelow(source.position.x - reach, law_.origin_x, per_spacing_);
+  const int first_row = nodeBelow(source.position.y - reach, law_.origin_y, per_spacing_);
+  const int rows = floorOf(2.0 * reach * per_spacing_) + 3;  // one more, whatever rounding does
+  const int columns = wholeVectors(rows);
+  if (source.first_column == first_column && source.first_row == first_row &&
+      source.columns == columns && source.rows == rows)
+    return false;
+  before_.first_column = std::exchange(source.first_column, first_column);
+  before_.first_row = std::exchange(source.first_row, first_row);
+  before_.columns = std::exchange(source.columns, columns);
+  before_.rows = std::exchange(source.rows, rows);
+  before_.doses.swap(source.doses);
+  source.doses.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0.0);
+  return true;
+}
+
+TreadGrid TreadMap::grid() const {
+  return {
+      law_.origin_x,           law_.origin_y, spacing_, per_spacing_, (law_.columns - 1) * cells_,
+      (law_.rows - 1) * cells_};
+}
+
+TreadMap::Box TreadMap::boxOf(const Point& low, const Point& high, double reach) const {
+  const auto column = [&](double x) { return nodeBelow(x, law_.origin_x, per_spacing_); };
+  const auto row = [&](double y) { return nodeBelow(y, law_.origin_y, per_spacing_); };
+  return {std::max(0, column(low.x - reach)),
+          std::min((law_.columns - 1) * cells_, column(high.x + reach) + 1),
+          std::max(0, row(low.y - reach)),
+          std::min((law_.rows - 1) * cells_, row(high.y + reach) + 1)};
+}
+
+// A short step: all happens within the window, in place.
+int TreadMap::pressWindow(TreadStroke& stroke) {
+  TreadSource& s = stroke.after;
+  const int first = std::max(0, s.first_row);
+  const int last = std::min((law_.rows - 1) * cells_, s.first_row + s.rows - 1);
+  if (first > last) return 0;
+  return pressBand(stroke, {s.first_column, first, last - first + 1, s.columns,
+                            s.doses.data() + (first - s.first_row) * s.columns});
+}
+
+// From window to window, some rows at a time: doses come from the one and stay in the other; what
+// the source leaves behind begins a new pass when it comes back.
+int TreadMap::pressBands(TreadStroke& stroke) {
+  constexpr int WANTED = 1024;  // nodes at a time
+  const Box box = boxOf(stroke.line.low, stroke.line.high, stroke.law.reach);
+  if (box.first_column > box.last_column || box.first_row > box.last_row) return 0;
+  const int pitch = wholeVectors(box.last_column - box.first_column + 1);
+  const int most = std::max(1, WANTED / pitch);
+  int touched = 0;
+  for (int row = box.first_row; row <= box.last_row; row += most) {
+    const int rows = std::min(most, box.last_row - row + 1);
+    doses_.assign(static_cast<std::size_t>(rows) * static_cast<std::size_t>(pitch), 0.0);
+    const TreadBand band{box.first_column, row, rows, pitch, doses_.data()};
+    exchangeDoses(before_, band, [](double in_window, double& in_band) { in_band = in_window; });
+    touched += pressBand(stroke, band);
+    exchangeDoses(stroke.after, band,
+                  [](double& in_window, double in_band) { in_window = in_band; });
+  }
+  return touched;
+}
+
+// @return number of nodes within reach.
+int TreadMap::pressBand(TreadStroke& stroke, const TreadBand& band) {
+  prefetch(band);
+  const TreadGrid grid = this->grid();
+  measureBand(stroke.line, grid, band, presses_);
+  constexpr std::uint64_t ITS_BLOCK = ~0xF0000000Full;
+  for (std::size_t i = 0; i < presses_.count;) {
+    const std::uint64_t place = presses_.places[i], its_block = place & ITS_BLOCK;
+    const auto row = static_cast<int>(place >> 32), column = static_cast<int>(place & 0xFFFFFFFF);
+    TreadBlock* const block = blockAt(blockOf(row), blockOf(column), true);
+    for (; i < presses_.count && (presses_.places[i] & ITS_BLOCK) == its_block; ++i) {
+      if (block)
+        stroke.press(static_cast<float>(presses_.tilts[i]), grid, presses_.places[i], *block);
+      else
+        ++state_.counts.no_memory;
+    }
+    if (block) block->until = std::max(block->until, stroke.latest);
+  }
+  return presses_.touched;
+}
+
+// Each source treads elsewhere: ask for its nodes at once, not one after the other.
+void TreadMap::prefetch(const TreadBand& band) {
+  const int last_row = band.first_row + band.rows - 1,
+            first_column = std::max(0, band.first_column);
+  const int last_column = band.first_column + band.pitch - 1;
+  for (int r = blockOf(band.first_row); r <= blockOf(last_row); ++r)
+    for (int c = blockOf(first_column); c <= blockOf(last_column); ++c)
+      if (const TreadBlock* block = blockAt(r, c, false)) {
+        __builtin_prefetch(block, 1);
+        for (int row = std::max(band.first_row, r * SIDE);
+             row <= std::min(last_row, r * SIDE + SIDE - 1); ++row)
+          for (int column = std::max(first_column, c * SIDE);
+               column <= std::min(last_column, c * SIDE + SIDE - 1); column += 2)
+            __builtin_prefetch(
+                &block->nodes[static_cast<std::size_t>(row % SIDE * SIDE + column % SIDE)], 1);
+      }
+}
+
+}  // namespace vegetation_sim::grass

@@ -1,0 +1,120 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+// What reads or keeps trodden ground; tread_map.cpp has what presses it.
+
+#include <algorithm>
+#include <cmath>
+
+#include "vegetation_sim/core/math/hash.h"
+#include "vegetation_sim/grass/tread/tread_map.h"
+
+namespace vegetation_sim::grass {
+namespace {
+
+constexpr int SIDE = TreadBlock::SIDE;
+
+}  // namespace
+
+TreadNode TreadMap::at(const Point& place, Nanoseconds stamp) const {
+  const double u = std::floor((place.x - law_.origin_x) / spacing_ + 0.5);
+  const double v = std::floor((place.y - law_.origin_y) / spacing_ + 0.5);
+  const double columns = (law_.columns - 1.0) * cells_, rows = (law_.rows - 1.0) * cells_;
+  if (!(u >= 0.0 && v >= 0.0 && u <= columns && v <= rows)) return {};
+  const int column = static_cast<int>(u), row = static_cast<int>(v);
+  const auto found = state_.blocks.find({row / SIDE, column / SIDE});
+  if (found == state_.blocks.end()) return {};
+  TreadNode node = found->second.nodes[static_cast<std::size_t>(row % SIDE * SIDE + column % SIDE)];
+  node.tilt = tiltAt(node, stamp);
+  return node.tilt > 0.f ? node : TreadNode();
+}
+
+void TreadMap::patch(int tile_column, int tile_row, Nanoseconds stamp, CrushPatch& out) const {
+  out.cells = 0;
+  const int column0 = tile_column * cells_, row0 = tile_row * cells_;
+  const auto side = static_cast<std::size_t>(cells_ + 1);
+  for (int block_row = row0 / SIDE; block_row <= (row0 + cells_) / SIDE; ++block_row) {
+    auto entry = state_.blocks.lower_bound({block_row, column0 / SIDE});
+    for (; entry != state_.blocks.end() && entry->first.first == block_row &&
+           entry->first.second <= (column0 + cells_) / SIDE;
+         ++entry) {
+      if (entry->second.until <= stamp) continue;
+      if (out.cells == 0) {
+        out.cells = cells_;
+        for (std::vector<float>* layer : {&out.tilt, &out.tx, &out.ty})
+          layer->assign(side * side, 0.f);
+      }
+      const int first_row = block_row * SIDE, first_column = entry->first.second * SIDE;
+      for (int row = std::max(row0, first_row);
+           row <= std::min(row0 + cells_, first_row + SIDE - 1); ++row)
+        for (int column = std::max(column0, first_column);
+             column <= std::min(column0 + cells_, first_column + SIDE - 1); ++column) {
+          const TreadNode& node = entry->second.nodes[static_cast<std::size_t>(
+              (row - first_row) * SIDE + column - first_column)];
+          const std::size_t to = static_cast<std::size_t>(row - row0) * side +
+                                 static_cast<std::size_t>(column - column0);
+          out.tilt[to] = tiltAt(node, stamp);
+          out.tx[to] = out.tilt[to] * node.x;
+          out.ty[to] = out.tilt[to] * node.y;
+        }
+    }
+  }
+}
+
+void TreadMap::prune(Nanoseconds stamp) {
+  const std::size_t before = state_.blocks.size();
+  for (auto entry = state_.blocks.begin(); entry != state_.blocks.end();)
+    entry = entry->second.until <= stamp ? state_.blocks.erase(entry) : std::next(entry);
+  if (state_.blocks.size() < before) forgetRecent();
+}
+
+void TreadMap::rewind(Nanoseconds stamp) {
+  forgetRecent();
+  for (auto& entry : state_.blocks)
+    for (TreadNode& node : entry.second.nodes)
+      if (node.stamp > stamp) node = TreadNode();
+  for (auto entry = state_.blocks.begin(); entry != state_.blocks.end();) {
+    bool any = false;
+    for (const TreadNode& node : entry->second.nodes) any = any || node.tilt > 0.f;
+    entry = any ? std::next(entry) : state_.blocks.erase(entry);
+  }
+  for (auto entry = state_.sources.begin(); entry != state_.sources.end();)
+    entry = entry->second.stamp > stamp ? state_.sources.erase(entry) : std::next(entry);
+}
+
+void TreadMap::clear() {
+  restore(TreadState());
+}
+
+void TreadMap::restore(TreadState state) {
+  forgetRecent();
+  state_ = std::move(state);
+}
+
+std::uint64_t TreadState::hash() const {
+  Hash hash;
+  const auto add = [&](auto value) { hash.add(static_cast<std::uint64_t>(value)); };
+  for (const auto& entry : blocks) {
+    add(entry.first.first);
+    add(entry.first.second);
+    add(entry.second.until);
+    for (const TreadNode& node : entry.second.nodes) {
+      for (const float value : {node.tilt, node.x, node.y, node.recovery}) hash.add(double{value});
+      add(node.stamp);
+    }
+  }
+  for (const auto& entry : sources) {
+    const TreadSource& s = entry.second;
+    add(entry.first);
+    for (const double value : {s.position.x, s.position.y, s.along.x, s.along.y}) hash.add(value);
+    add(s.has_moved);
+    add(s.stamp);
+    for (const int value : {s.first_column, s.first_row, s.columns, s.rows}) add(value);
+    for (const double dose : s.doses) hash.add(dose);
+  }
+  for (const std::uint64_t count :
+       {counts.strokes, counts.invalid, counts.jumps, counts.outside, counts.no_memory})
+    add(count);
+  return hash.value();
+}
+
+}  // namespace vegetation_sim::grass

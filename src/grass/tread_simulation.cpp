@@ -1,0 +1,233 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "grass/tread_simulation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vegetation_sim::grass {
+namespace {
+
+double flatDistance(const Vec3& a, const Vec3& b) {
+  const double x = b.x() - a.x(), y = b.y() - a.y();
+  return std::sqrt(x * x + y * y);
+}
+
+int blockOf(double coordinate, double origin, double spacing) {
+  const double node = (coordinate - origin) / spacing;
+  return static_cast<int>(
+      std::floor(std::min(1e8, std::max(-1e8, node)) / double{TreadBlock::SIDE}));
+}
+
+}  // namespace
+
+Field::Field(Layout layout, std::shared_ptr<const terrain::HeightMap> terrain,
+             const TreadSettings& treading, TreadMap& tread)
+    : layout_(std::move(layout)),
+      layout_hash_(layout_.hash()),
+      terrain_(std::move(terrain)),
+      treading_(treading),
+      tread_(tread) {}
+
+void Field::setTreadLaw(const TreadLaw& law) {
+  layout_.tread = law;
+  layout_hash_ = layout_.hash();
+}
+
+SourceMemory& Field::sourceOf(const TreadInput& input) {
+  const auto found = sources_.find(input.source);
+  if (found != sources_.end()) return found->second;
+  if (sources_.size() >= MOST_SOURCES)
+    throw InvalidInput("source '" + input.source + "' is one more than the " +
+                       std::to_string(MOST_SOURCES) + " allowed at once");
+  SourceMemory& source = sources_[input.source];
+  source.id = next_id_++;
+  return source;
+}
+
+// Blocks that a segment may have changed.
+void Field::touch(const Vec3& from, const Vec3& to, double reach) {
+  const MapLaw& law = layout_.map->law();
+  const double spacing = tread_.spacing();
+  const auto column = [&](double x) { return blockOf(x, law.origin_x, spacing); };
+  const auto row = [&](double y) { return blockOf(y, law.origin_y, spacing); };
+  const double side = TreadBlock::SIDE * spacing;
+  const int last_row = std::min(row(std::max(from.y(), to.y()) + reach),
+                                static_cast<int>((law.rows - 1) * law.resolution / side) + 1);
+  const int last_column = std::min(column(std::max(from.x(), to.x()) + reach),
+                                   static_cast<int>((law.columns - 1) * law.resolution / side) + 1);
+  for (int r = std::max(0, row(std::min(from.y(), to.y()) - reach)); r <= last_row; ++r)
+    for (int c = std::max(0, column(std::min(from.x(), to.x()) - reach)); c <= last_column; ++c)
+      touched_.insert({r, c});
+}
+
+void Field::press(SourceMemory& source, const Vec3& to, Nanoseconds stamp) {
+  Vec3 from = source.down ? source.last.position : to;
+  if (flatDistance(from, to) > treading_.longest_stroke) from = to;  // a jump
+  touch(from, to, source.last.law.reach);
+  tread_.tread(source.id, source.last.law, {to.x(), to.y()}, stamp);
+  enter(source, from, to);
+  source.last.position = to;
+  source.down = true;
+  source.pressed = stamp;
+}
+
+// Every tile on the way.
+void Field::enter(SourceMemory& source, const Vec3& from, const Vec3& to) {
+  const MapLaw& law = layout_.map->law();
+  const int steps =
+      1 + static_cast<int>(std::min(1e4, flatDistance(from, to) / law.resolution * 4.0));
+  for (int i = 1; i <= steps; ++i) {
+    const Vec3 p = from + (static_cast<double>(i) / steps) * (to - from);
+    const double u = std::floor((p.x() - law.origin_x) / law.resolution);
+    const double v = std::floor((p.y() - law.origin_y) / law.resolution);
+    const bool on = u >= 0.0 && v >= 0.0 && u < law.columns - 1.0 && v < law.rows - 1.0;
+    const int column = on ? static_cast<int>(u) : -1, row = on ? static_cast<int>(v) : -1;
+    if (on && (column != source.column || row != source.row))
+      entered_.push_back({source.last.source, column, row});
+    source.column = column;
+    source.row = row;
+  }
+}
+
+void Field::lift(SourceMemory& source) {
+  tread_.lift(source.id);
+  source.down = false;
+  source.velocity = Vec3::Zero();
+  source.column = source.row = -1;
+}
+
+// The step of a source that is on the ground.
+std::string Field::move(SourceMemory& source, const TreadInput& input, Nanoseconds stamp) {
+  std::string problem;
+  const std::uint64_t jumps = tread_.state().counts.jumps;
+  const double way = flatDistance(source.last.position, input.position);
+  const double seconds = secondsBetween(source.pressed, stamp);
+  if (stamp > source.heard) {
+    source.before = source.last.position;
+    source.before_stamp = source.heard;
+  }
+  const double passed = secondsBetween(source.before_stamp, stamp);
+  source.velocity = input.velocity != Vec3::Zero() ? input.velocity
+                    : passed > 0.0                 ? Vec3((input.position - source.before) / passed)
+                                                   : Vec3::Zero();
+  const Vec3 from = source.last.position;
+  source.last = input;
+  source.last.position = from;
+  press(source, input.position, stamp);
+  if (tread_.state().counts.jumps == jumps) return problem;
+  source.velocity = input.velocity;
+  return "source '" + input.source + "' jumped by " + std::to_string(way) + " m in " +
+         std::to_string(seconds) + " s and left no track, allowed are longest_stroke = " +
+         std::to_string(treading_.longest_stroke) +
+         " m and top_speed = " + std::to_string(treading_.top_speed) + " m/s";
+}
+
+std::string Field::apply(const TreadInput& input, Nanoseconds stamp) {
+  const auto action = static_cast<TreadAction>(input.action);
+  if (action == TreadAction::LIFT && !sources_.count(input.source)) return "";
+  SourceMemory& source = sourceOf(input);
+  const Vec3& p = input.position;
+  const bool high = p.z() - terrain_->height(p.x(), p.y()) > input.height_gate;
+  std::string problem;
+  if (action != TreadAction::MOVE || high) lift(source);
+  if (action == TreadAction::STROKE) {
+    source.last = input;
+    const Vec3 from = input.start, way = p - from;
+    const double longest = 0.5 * treading_.longest_stroke;
+    const int steps = 1 + static_cast<int>(std::min(1e6, length(way) / longest));
+    for (int i = 0; i <= steps; ++i)
+      press(source, from + (static_cast<double>(i) / steps) * way, stamp);
+    lift(source);
+  } else if (action != TreadAction::LIFT && !high) {
+    if (source.down) {
+      problem = move(source, input, stamp);
+    } else {
+      source.last = input;
+      source.velocity = input.velocity;
+      press(source, p, stamp);
+      source.before = p;
+      source.before_stamp = stamp;
+    }
+  } else {
+    source.last = input;
+  }
+  source.heard = stamp;
+  if (!source.down && action != TreadAction::MOVE) sources_.erase(input.source);
+  return problem;
+}
+
+void Field::raise(const Point& centre, double radius) {
+  if (radius > 0.0) return tread_.raise(centre, radius);
+  TreadState state;
+  state.counts = tread_.state().counts;
+  tread_.restore(std::move(state));
+  for (auto& [name, source] : sources_) source.down = false;
+}
+
+std::vector<Entering> Field::advance(Nanoseconds stamp) {
+  for (auto entry = sources_.begin(); entry != sources_.end();) {
+    SourceMemory& source = entry->second;
+    if (secondsBetween(source.heard, stamp) > LEASE) {
+      lift(source);
+      entry = sources_.erase(entry);
+      continue;
+    }
+    if (source.down && secondsBetween(source.pressed, stamp) >= RENEWAL)
+      press(source, source.last.position, stamp);
+    ++entry;
+  }
+  if (stamp / NANOSECONDS_PER_SECOND != stamp_ / NANOSECONDS_PER_SECOND) tread_.prune(stamp);
+  stamp_ = stamp;
+  return std::exchange(entered_, {});
+}
+
+void Field::reset() {
+  tread_.clear();
+  sources_.clear();
+  entered_.clear();
+  touched_.clear();
+  stamp_ = told_ = 0;
+  next_id_ = 1;
+  sequence_ = 0;
+}
+
+TreadUpdate Field::update(bool key_frame) {
+  TreadUpdate out;
+  out.stamp = stamp_;
+  out.sequence = sequence_++;
+  out.key_frame = key_frame;
+  out.layout_hash = layout_hash_;
+  out.treads = key_frame ? tellAll(tread_.state(), stamp_)
+                         : tellSince(tread_.state(), touched_, {told_, stamp_});
+  if (key_frame) out.hash = hashOf(out.treads);
+  touched_.clear();
+  told_ = stamp_;
+  return out;
+}
+
+double Field::resistanceAt(const Point& place, Nanoseconds stamp) const {
+  const Features f = layout_.map->at(place.x, place.y);
+  const double crush = double{tread_.at(place, stamp).tilt} / BEND_LIMIT;
+  return drag_ * f.density * f.height * std::max(0.0, 1.0 - crush);
+}
+
+std::vector<Drag> Field::drags() const {
+  std::vector<Drag> out;
+  for (const auto& [name, source] : sources_) {
+    if (source.last.body_frame.empty()) continue;
+    Drag drag{name, source.last.body_frame, source.last.position, Vec3::Zero()};
+    const Vec3 flat(source.velocity.x(), source.velocity.y(), 0.0);
+    const double speed = length(flat);
+    if (source.down && speed > 0.0) {
+      // What it meets, not what it has trodden down already.
+      const Vec3 ahead = source.last.position + (source.last.law.reach / speed) * flat;
+      const double width = 2.0 * source.last.law.radius;
+      drag.force = -width * resistanceAt({ahead.x(), ahead.y()}, stamp_) * flat;
+    }
+    out.push_back(std::move(drag));
+  }
+  return out;
+}
+
+}  // namespace vegetation_sim::grass

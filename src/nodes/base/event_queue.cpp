@@ -1,0 +1,28 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/base/event_queue.h"
+
+#include <ros/console.h>
+
+#include "ros/services/diagnostics.h"
+
+namespace vegetation_sim {
+
+void warnOfLosses(diagnostic_updater::DiagnosticStatusWrapper& status, const QueueLosses& now,
+                  const QueueLosses& reported) {
+  warnOfMore(status, now.lost, reported.lost, "inputs lost, too many at once");
+  warnOfMore(status, now.late, reported.late, "recorded events late, the replay differs");
+}
+
+void warnOfLosses(const char* node, const QueueLosses& losses, QueueLosses& told) {
+  if (losses.late > told.late)
+    ROS_WARN_THROTTLE(1.0,
+                      "%s: recorded events came after their tick, so this replay differs from its "
+                      "run; a larger replay_delay or a slower bag may help",
+                      node);
+  if (losses.lost > told.lost)
+    ROS_WARN_THROTTLE(1.0, "%s: too many inputs at once; some are lost", node);
+  told = losses;
+}
+
+}  // namespace vegetation_sim

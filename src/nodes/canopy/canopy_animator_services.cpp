@@ -1,0 +1,79 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+
+#include "nodes/canopy/canopy_animator.h"
+#include "ros/services/requests.h"
+#include "ros/services/service_replies.h"
+#include "vegetation_sim/ros/conversions/geometry_conversions.h"
+#include "vegetation_sim/ros/conversions/stamps.h"
+
+namespace vegetation_sim {
+namespace {
+
+constexpr std::size_t MOST_SAMPLES = 100000;
+constexpr Range PLACES{-1e7, 1e7};
+
+std::vector<Vec3> placesOf(const SampleCanopy::Request& request, const Pose& to_world) {
+  if (request.points.empty() || request.points.size() > MOST_SAMPLES)
+    throw InvalidInput("points has " + std::to_string(request.points.size()) +
+                       " entries, allowed are 1 to " + std::to_string(MOST_SAMPLES));
+  Faults faults;
+  std::vector<Vec3> out;
+  for (std::size_t i = 0; i < request.points.size(); ++i) {
+    Vec3 point = fromMsg(request.points[i]);
+    FieldChecker checker("points[" + std::to_string(i) + "].", faults);
+    checker.number("x", point.x(), "m", PLACES);
+    checker.number("y", point.y(), "m", PLACES);
+    checker.number("z", point.z(), "m", PLACES);
+    out.push_back(transformed(to_world, point));
+  }
+  faults.throwIfAny();
+  return out;
+}
+
+}  // namespace
+
+CanopySample CanopyAnimator::sampleAt(const Vec3& place) {
+  const canopy::Layout& layout = canopy_->layout();
+  const canopy::Foliage& foliage = canopy_->foliage();
+  const canopy::Plane plane(layout.motion.plane);
+  const canopy::PlaneVector cell = plane.cellAt(place, layout.motion.fluid.cells);
+  const canopy::PlaneVector wind = canopy::bilinear(canopy_->wind(), cell.u, cell.v);
+  CanopySample out;
+  out.wind = toVector(canopy::outOf(plane.axes, Vec3(wind.u, wind.v, 0.0)));
+  const canopy::CutView& eye = canopy_->memory().cuts.now;
+  out.motion =
+      toVector(canopy::outOf(canopy::axesOf(eye.orientation), foliage.motion(place, place)));
+  out.layer = static_cast<std::uint8_t>(foliage.layerAt(place));
+  out.plant = plants_.nearest(place);
+  if (out.plant >= 0)
+    out.displacement =
+        toVector(foliage.displacement(place, place, static_cast<std::size_t>(out.plant)));
+  return out;
+}
+
+bool CanopyAnimator::onSample(SampleCanopy::Request& request, SampleCanopy::Response& response) {
+  return answer(response, [&] {
+    if (!clock_.hasBegun()) throw InvalidInput("no tick yet: the clock has not started");
+    if (!request.header.stamp.isZero() && fromMsg(request.header.stamp) != clock_.stamp())
+      throw InvalidInput("stamp is not that of the last tick; others are not kept");
+    for (const Vec3& place :
+         placesOf(request, poseInWorld(tf_buffer_, options_.frame_id, request.header.frame_id)))
+      response.samples.push_back(sampleAt(place));
+    response.layers = static_cast<std::uint8_t>(canopy_->foliage().layers());
+    return std::to_string(response.samples.size()) + " samples";
+  });
+}
+
+bool CanopyAnimator::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  return answer(response, [&]() -> std::string {
+    if (options_.replay) throw InvalidInput("a replay is reset by its recorded events only");
+    CanopyEvent event;
+    event.kind = CanopyEvent::RESET;
+    inputs_.add(event);
+    return "takes effect at the next tick";
+  });
+}
+
+}  // namespace vegetation_sim

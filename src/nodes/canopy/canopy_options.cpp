@@ -1,0 +1,167 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/canopy/canopy_options.h"
+
+#include <filesystem>
+#include <map>
+
+#include "core/config/field_values.h"
+#include "core/config/scenario.h"
+#include "ros/params/parameters.h"
+#include "ros/params/plant_files.h"
+#include "ros/params/resources.h"
+
+namespace vegetation_sim {
+namespace {
+
+// A parameter holds against what the scenario says.
+void readScene(CanopyOptions& options, CanopyScene& scene, Faults& faults) {
+  try {
+    scene = loadCanopyScene(options.scenario);
+    if (!scene.frame_id.empty()) options.frame_id = scene.frame_id;
+  } catch (const InvalidInput& error) {
+    faults.add(error.what());
+  }
+}
+
+}  // namespace
+
+void describe(FieldVisitor& v, CanopyTuning& t) {
+  constexpr std::array<const char*, canopy::SIDES> SIDE{"rightward", "leftward", "upward",
+                                                        "downward"};
+  constexpr std::array<const char*, canopy::SIDES> SWELL{
+      "rightward_frequency", "leftward_frequency", "upward_frequency", "downward_frequency"};
+  for (std::size_t i = 0; i < canopy::SIDES; ++i) {
+    v.number(SIDE[i], t.sources.sides[i].strength, "m/s", {0.0, 50.0});
+    v.number(SWELL[i], t.sources.sides[i].frequency, "Hz", {0.0, 100.0});
+  }
+  v.number("turbulence", t.sources.turbulence, "", {0.0, 1.0});
+  v.number("law_gain", t.sources.law_gain, "", {0.0, 10.0});
+  v.number("frequency", t.oscillator.frequency, "Hz", {0.05, 20.0});
+  v.number("damping", t.oscillator.damping, "", {0.0, 50.0});
+  v.number("speed", t.oscillator.speed, "m/s", {0.0, 20.0});
+  v.number("reference_time", t.warp.reference_time, "s", {0.0, 1.0});
+  v.number("rigidity", t.warp.rigidity, "", {0.0, 10.0});
+  v.number("delay_speed", t.layers.delay_speed, "m/s", {0.01, 100.0});
+  v.number("depth_loss", t.warp.depth_loss, "", {0.0, 1.0});
+  v.integer("near_layers", t.cuts.near_layers, "", {0, canopy::MOST_LAYERS});
+  v.integer("mid_layers", t.cuts.mid_layers, "", {0, canopy::MOST_LAYERS});
+  v.integer("far_layers", t.cuts.far_layers, "", {0, canopy::MOST_LAYERS});
+}
+
+CanopyTuning tuningOf(const canopy::Motion& motion) {
+  return {motion.sources, motion.oscillator, motion.layers, motion.cuts, motion.warp};
+}
+
+canopy::Motion withTuning(canopy::Motion motion, const CanopyTuning& tuning) {
+  CanopyTuning all = tuningOf(motion), named = tuning;
+  std::map<std::string, double> values;
+  FieldCopier reader(values, true), writer(values, false);
+  describe(reader, named);
+  describe(writer, all);
+  motion.sources = all.sources;
+  motion.oscillator = all.oscillator;
+  motion.layers = all.layers;
+  motion.cuts = all.cuts;
+  motion.warp = all.warp;
+  return motion;
+}
+
+CanopyTuning fromConfig(const CanopyAnimatorConfig& config) {
+  CanopyTuning out;
+  out.sources.sides = {{{config.rightward, config.rightward_frequency},
+                        {config.leftward, config.leftward_frequency},
+                        {config.upward, config.upward_frequency},
+                        {config.downward, config.downward_frequency}}};
+  out.sources.turbulence = config.turbulence;
+  out.sources.law_gain = config.law_gain;
+  out.oscillator.frequency = config.frequency;
+  out.oscillator.damping = config.damping;
+  out.oscillator.speed = config.speed;
+  out.warp.reference_time = config.reference_time;
+  out.warp.rigidity = config.rigidity;
+  out.layers.delay_speed = config.delay_speed;
+  out.warp.depth_loss = config.depth_loss;
+  out.cuts.near_layers = config.near_layers;
+  out.cuts.mid_layers = config.mid_layers;
+  out.cuts.far_layers = config.far_layers;
+  return out;
+}
+
+void toConfig(const CanopyTuning& tuning, CanopyAnimatorConfig& config) {
+  const auto& sides = tuning.sources.sides;
+  config.rightward = sides[0].strength;
+  config.rightward_frequency = sides[0].frequency;
+  config.leftward = sides[1].strength;
+  config.leftward_frequency = sides[1].frequency;
+  config.upward = sides[2].strength;
+  config.upward_frequency = sides[2].frequency;
+  config.downward = sides[3].strength;
+  config.downward_frequency = sides[3].frequency;
+  config.turbulence = tuning.sources.turbulence;
+  config.law_gain = tuning.sources.law_gain;
+  config.frequency = tuning.oscillator.frequency;
+  config.damping = tuning.oscillator.damping;
+  config.speed = tuning.oscillator.speed;
+  config.reference_time = tuning.warp.reference_time;
+  config.rigidity = tuning.warp.rigidity;
+  config.delay_speed = tuning.layers.delay_speed;
+  config.depth_loss = tuning.warp.depth_loss;
+  config.near_layers = tuning.cuts.near_layers;
+  config.mid_layers = tuning.cuts.mid_layers;
+  config.far_layers = tuning.cuts.far_layers;
+}
+
+void describe(FieldVisitor& v, CanopyOptions& o) {
+  v.number("markers_rate", o.markers_rate, "Hz", {0.1, 60.0});
+  v.integer("marker_points", o.marker_points, "", {600, 3000000});
+  v.number("tolerance", o.tolerance, "pixel", {0.01, 1000.0});
+  v.number("replay_delay", o.replay_delay, "s", {0.0, 10.0});
+}
+
+CanopyScene loadCanopyScene(const std::string& file) {
+  CanopyScene out;
+  if (file.empty()) return out;
+  const std::string path = resolveFile(file);
+  Scenario scenario = Scenario::load(path);
+  std::uint64_t seed = 0;
+  std::string terrain;
+  scenario.top().text("frame_id", out.frame_id);
+  scenario.top().seed("seed", seed);
+  scenario.top().text("terrain", terrain);
+  try {
+    const std::string folder = std::filesystem::path(path).parent_path().string();
+    const auto ground = loadTerrain(resolveFile(terrain, folder));
+    if (scenario.has("canopy")) {
+      out.layout = canopy::readLayout(scenario.section("canopy"), *ground, seed, scenario.faults());
+      Faults forms;
+      loadForms(out.layout, folder, forms);
+      if (forms.empty() && scenario.faults().empty()) canopy::check(out.layout, forms);
+      for (const std::string& fault : forms.list()) scenario.faults().add(path + ": " + fault);
+    }
+  } catch (const InvalidInput& error) {
+    scenario.faults().add(path + ": terrain: " + error.what());
+  }
+  scenario.finish();
+  return out;
+}
+
+CanopyOptions loadCanopyOptions(const ros::NodeHandle& private_handle, CanopyScene& scene) {
+  CanopyOptions out;
+  Parameters parameters(private_handle);
+  parameters.text("scenario", out.scenario);
+  readScene(out, scene, parameters.faults());
+  parameters.frame("frame_id", out.frame_id);
+  parameters.text("viewer_id", out.viewer_id);
+  parameters.frame("viewer_frame", out.viewer_frame, true);
+  parameters.flag("replay", out.replay);
+  describe(parameters, out);
+  CanopyTuning tuning = tuningOf(scene.layout.motion);
+  describe(parameters, tuning);
+  scene.layout.motion = withTuning(scene.layout.motion, tuning);
+  if (parameters.faults().empty()) canopy::check(scene.layout, parameters.faults());
+  parameters.finish();
+  return out;
+}
+
+}  // namespace vegetation_sim

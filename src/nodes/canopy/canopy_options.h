@@ -1,0 +1,56 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros/node_handle.h>
+#include <vegetation_sim/CanopyAnimatorConfig.h>
+
+#include <string>
+
+#include "vegetation_sim/canopy/canopy_layout.h"
+
+namespace vegetation_sim {
+
+/// What can be reconfigured while canopy_animator runs (S3-29): a part of canopy::Motion.
+struct CanopyTuning {
+  canopy::SourceSettings sources;
+  canopy::OscillatorSettings oscillator;
+  canopy::LayerSettings layers;
+  canopy::CutSettings cuts;
+  canopy::WarpSettings warp;
+};
+void describe(FieldVisitor& visitor, CanopyTuning& tuning);
+CanopyTuning tuningOf(const canopy::Motion& motion);
+/// `motion` with the described fields of the tuning.
+canopy::Motion withTuning(canopy::Motion motion, const CanopyTuning& tuning);
+CanopyTuning fromConfig(const CanopyAnimatorConfig& config);
+/// Writes the tuning into what dynamic_reconfigure shows.
+void toConfig(const CanopyTuning& tuning, CanopyAnimatorConfig& config);
+
+/// Parameters of canopy_animator; README.md has them in words.
+struct CanopyOptions {
+  std::string scenario;         ///< file; empty: no plants
+  std::string frame_id{"map"};  ///< world frame
+  double markers_rate{10.0};    ///< [Hz]
+  int marker_points{90000};     ///< budget of the marker lists together
+  double tolerance{1.0};        ///< error of what is drawn, at 1000 pixels a radian [pixel]
+  std::string viewer_id;        ///< the viewer to cut layers for; empty: the first that speaks
+  std::string viewer_frame;     ///< tf frame (x forward) that looks instead; empty: none
+  bool replay{false};           ///< recorded canopy/events instead of live inputs
+  double replay_delay{0.5};     ///< how far ticks stay behind the clock in a replay [s]
+};
+void describe(FieldVisitor& visitor, CanopyOptions& options);
+
+/// The plants of a scenario file, and its world frame.
+struct CanopyScene {
+  canopy::Layout layout;
+  std::string frame_id;  ///< empty: not said
+};
+/// No file or no `canopy` in it gives no plants. @throws InvalidInput with all faults of the file.
+CanopyScene loadCanopyScene(const std::string& file);
+
+/// Reads and checks all private parameters and the scenario that they name; where both say the same
+/// thing, the parameter holds. @throws InvalidInput with all faults of both.
+CanopyOptions loadCanopyOptions(const ros::NodeHandle& private_handle, CanopyScene& scene);
+
+}  // namespace vegetation_sim

@@ -1,0 +1,189 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <vegetation_sim/AgentStates.h>
+#include <vegetation_sim/TreadEvent.h>
+
+#include "crowd/walker/gait.h"
+#include "nodes/crowd/agent_crowd.h"
+#include "ros/services/allocation_report.h"
+#include "vegetation_sim/core/math/math.h"
+#include "vegetation_sim/ros/conversions/geometry_conversions.h"
+
+namespace vegetation_sim {
+namespace {
+
+constexpr double BODY_RADIUS = 0.16, FOOT_RADIUS = 0.06;  // of a tread [m]
+constexpr double TOLD_EVERY = 0.12;                       // a body's way [m]
+constexpr double FAR = 1000.0, ARM = 0.5;                 // of walkers from robots [m]
+
+}  // namespace
+
+void AgentCrowd::publishAgents(Nanoseconds stamp) {
+  if (agents_publisher_.getNumSubscribers() == 0) return;
+  AgentStates message;
+  message.header.stamp = toStamp(stamp);
+  message.header.frame_id = options_.frame_id;
+  message.hash = crowd_->memory().hash();
+  for (const crowd::Walker& walker : crowd_->walkers())
+    message.agents.push_back(toMsg(walker, crowd_->terrain()));
+  counts_.state_bytes += ros::serialization::serializationLength(message);
+  agents_publisher_.publish(message);
+}
+
+void AgentCrowd::publishTreads(Nanoseconds stamp) {
+  if (options_.tread == static_cast<int>(Treading::NONE)) return;
+  for (const crowd::Walker& walker : crowd_->walkers()) {
+    if (options_.tread == static_cast<int>(Treading::BODY))
+      treadOfBody(walker, stamp);
+    else
+      treadOfFeet(walker, stamp);
+  }
+  for (auto entry = trodden_.begin(); entry != trodden_.end();)
+    entry = crowd_->find(entry->first) ? std::next(entry) : trodden_.erase(entry);
+}
+
+// A track: the meadow adds up the parts of a way, so a few places of it are enough.
+void AgentCrowd::treadOfBody(const crowd::Walker& walker, Nanoseconds stamp) {
+  Trodden& last = trodden_[walker.id];
+  if (last.seen && length(walker.position - last.place) < TOLD_EVERY) return;
+  TreadEvent event;
+  event.header.stamp = toStamp(stamp);
+  event.header.frame_id = options_.frame_id;
+  event.source = "walker_" + std::to_string(walker.id);
+  event.action = last.seen ? TreadEvent::MOVE : TreadEvent::PLACE;
+  const crowd::Point& p = walker.position;
+  event.position = toPoint(Vec3(p.x, p.y, crowd_->terrain().height(p.x, p.y)));
+  event.velocity = toVector(Vec3(walker.velocity.x, walker.velocity.y, 0.0));
+  event.law.radius = options_.tread_radius > 0.0 ? options_.tread_radius : BODY_RADIUS;
+  last.place = p;
+  last.seen = true;
+  ++counts_.treads;
+  tread_publisher_.publish(event);
+}
+
+// A print, from heel to ball, as each foot comes down.
+void AgentCrowd::treadOfFeet(const crowd::Walker& walker, Nanoseconds stamp) {
+  Trodden& last = trodden_[walker.id];
+  const SinCos front = sinCos(walker.heading);
+  const double sole = crowd::Proportions::FOOT_FRONT + crowd::Proportions::FOOT_BACK;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const crowd::Foot& foot = walker.feet[i];
+    const bool lands = foot.stands && (!last.stood[i] || !last.seen);
+    last.stood[i] = foot.stands;
+    if (!lands) continue;
+    const crowd::Point heel =
+        foot.planted - (walker.height * sole) * crowd::Point{front.cos, front.sin};
+    const auto onGround = [&](const crowd::Point& p) {
+      return toPoint(Vec3(p.x, p.y, crowd_->terrain().height(p.x, p.y)));
+    };
+    TreadEvent event;
+    event.header.stamp = toStamp(stamp);
+    event.header.frame_id = options_.frame_id;
+    event.source = "walker_" + std::to_string(walker.id) + (i == 0 ? "_left" : "_right");
+    event.action = TreadEvent::STROKE;
+    event.start = onGround(heel);
+    event.position = onGround(foot.planted);
+    event.law.radius = options_.tread_radius > 0.0 ? options_.tread_radius : FOOT_RADIUS;
+    ++counts_.treads;
+    tread_publisher_.publish(event);
+  }
+  last.seen = true;
+}
+
+// Walkers near a robot have frames first: without one, it does not know where they are.
+std::vector<Choice> AgentCrowd::chooseFrames(Nanoseconds stamp) {
+  std::vector<Choice> out;
+  if (options_.tf_budget == 0) return out;
+  for (const crowd::Walker& walker : crowd_->walkers()) {
+    double nearest = FAR;
+    for (const auto& robot : crowd_->memory().robots)
+      nearest = std::min(nearest, length(robot.second.position - walker.position));
+    Choice choice;
+    choice.id = walker.id;
+    choice.error[0] = static_cast<float>(1.0 / (ARM + nearest));
+    choice.cost[1] = 1.F;
+    out.push_back(choice);
+  }
+  held_frames_.govern(out, 1, options_.tf_budget, 0.0, stamp);
+  return out;
+}
+
+void AgentCrowd::sendFrames(const ros::TimerEvent&) {
+  const Nanoseconds stamp = crowd_->memory().stamp;
+  if (!clock_.hasBegun() || stamp == framed_) return;  // tf warns of a stamp that comes twice
+  framed_ = stamp;
+  std::vector<geometry_msgs::TransformStamped> frames;
+  const std::vector<Choice> choices = chooseFrames(stamp);
+  for (std::size_t i = 0; i < choices.size(); ++i) {
+    if (choices[i].chosen == 0) continue;
+    const crowd::Walker& walker = crowd_->walkers()[i];
+    const AgentState state = toMsg(walker, crowd_->terrain());
+    geometry_msgs::TransformStamped frame;
+    frame.header.stamp = toStamp(stamp);
+    frame.header.frame_id = options_.frame_id;
+    frame.child_frame_id = "walker_" + std::to_string(walker.id);
+    frame.transform.translation = toVector(fromMsg(state.pose.position));
+    frame.transform.rotation = state.pose.orientation;
+    frames.push_back(frame);
+  }
+  frames_sent_ = frames.size();
+  if (!frames.empty()) tf_broadcaster_.sendTransform(frames);
+}
+
+void AgentCrowd::sendMarkers(const ros::TimerEvent&) {
+  if (!clock_.hasBegun() || markers_publisher_.getNumSubscribers() == 0) return;
+  const Nanoseconds stamp = crowd_->memory().stamp;
+  markers_publisher_.publish(markers_.build(*crowd_, watchers_.eyesAt(stamp), options_.tolerance,
+                                            options_.frame_id, stamp));
+}
+
+// What has happened since the last report, and only that.
+void AgentCrowd::warnOfTrouble(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  counts_.clock = clock_.counts();
+  counts_.inputs = inputs_.losses();
+  refusals_.warn(status);
+  warnOfClock(status, counts_.clock, reported_.clock);
+  warnOfLosses(status, counts_.inputs, reported_.inputs);
+  if (!robots_->missing().empty())
+    status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN,
+                        "tf does not tell " + robots_->missing().front());
+  reported_ = counts_;
+}
+
+void AgentCrowd::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  using diagnostic_msgs::DiagnosticStatus;
+  status.summary(DiagnosticStatus::OK, "running");
+  if (!clock_.hasBegun()) status.summary(DiagnosticStatus::WARN, "waiting for the clock");
+  warnOfTrouble(status);
+  std::size_t arrived = 0;
+  for (const crowd::Walker& walker : crowd_->walkers()) arrived += walker.arrived;
+  clock_.tell(status);
+  status.add("Inputs taken", counts_.events);
+  status.add("Inputs refused", refusals_.count());
+  status.add("Inputs lost", counts_.inputs.lost);
+  status.add("Recorded events late", counts_.inputs.late);
+  status.add("Walkers", crowd_->walkers().size());
+  status.add("Walkers arrived", arrived);
+  status.add("Walls and trunks", crowd_->obstacles().obstacles().size());
+  status.add("Trunks", trunks_);
+  status.add("Robots", crowd_->memory().robots.size());
+  status.add("Robots not told by tf", robots_->missing().size());
+  status.add("Deepest overlap [mm]", static_cast<int>(1e3 * crowd_->deepestOverlap()));
+  status.add("Treads sent", counts_.treads);
+  status.add("State sent [B]", counts_.state_bytes);
+}
+
+// Of what is drawn and framed; how people walk is the same for all of them.
+void AgentCrowd::diagnoseGovernor(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  tell(markers_.balance(),
+       {"Walkers", options_.tolerance, "marker_points", "points",
+        static_cast<double>(markers_.budget()), CrowdMarkers::rungs()},
+       status);
+  status.add("Viewers", watchers_.size());
+  status.add("Marker points", markers_.points());
+  status.add("Marker budget [points]", markers_.budget());
+  status.add("tf frames", frames_sent_);
+  status.add("tf budget [frames]", options_.tf_budget);
+}
+
+}  // namespace vegetation_sim

@@ -1,0 +1,156 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+
+#include "nodes/forest/forest_animator.h"
+#include "vegetation_sim/ros/conversions/forest_conversions.h"
+
+namespace vegetation_sim {
+
+void ForestAnimator::sendFrames(const ros::TimerEvent&) {
+  // Every listener warns of a transform that comes twice.
+  if (!clock_.hasBegun() || last_framed_ == clock_.tick()) return;
+  last_framed_ = clock_.tick();
+  PosedTrees trees(*forest_, cache_, forest_->memory().stamp);
+  const BranchFrames::Wanted wanted =
+      options_.tf_promoted ? frames_.withPhysical(trees, desk_->heldPoints()) : frames_.wanted();
+  frames_sent_ = 0;
+  for (const auto& entry : wanted) frames_sent_ += entry.second.size();
+  if (frames_sent_ > 0)
+    tf_broadcaster_.sendTransform(branchTransforms(wanted, trees, options_.frame_id));
+}
+
+void ForestAnimator::sendBranches(const ros::TimerEvent&) {
+  if (!clock_.hasBegun() || branches_publisher_.getNumSubscribers() == 0) return;
+  const Nanoseconds stamp = forest_->memory().stamp;
+  std::size_t sent = 0;
+  for (const int id : options_.branches_trees) {
+    const auto tree = static_cast<std::uint32_t>(id);
+    const auto grown = cache_.get(forest_->layout(), forest_->terrain(), tree);
+    sent += grown->tree.skeleton.branches.size();
+    if (sent > static_cast<std::size_t>(options_.branches_budget)) {
+      ROS_WARN_THROTTLE(10.0, "forest_animator: branches_budget = %d ends at tree %d",
+                        options_.branches_budget, id);
+      return;
+    }
+    BranchTransforms message =
+        toMsg(tree, grown->tree.foot, posesOf(*forest_, grown->tree, tree, stamp));
+    message.header.stamp = toStamp(stamp);
+    message.header.frame_id = options_.frame_id;
+    branches_publisher_.publish(message);
+  }
+}
+
+void ForestAnimator::sendMarkers(const ros::TimerEvent&) {
+  if (!clock_.hasBegun() || markers_publisher_.getNumSubscribers() == 0) return;
+  markers_publisher_.publish(
+      markers_.build(*forest_, cache_, options_.frame_id, forest_->memory().stamp));
+}
+
+// What has happened since the last report, and only that.
+void ForestAnimator::warnOfTrouble(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  counts_.clock = clock_.counts();
+  counts_.inputs = inputs_.losses();
+  refusals_.warn(status);
+  warnOfClock(status, counts_.clock, reported_.clock);
+  warnOfLosses(status, counts_.inputs, reported_.inputs);
+  reported_ = counts_;
+}
+
+void ForestAnimator::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  using diagnostic_msgs::DiagnosticStatus;
+  status.summary(DiagnosticStatus::OK, "running");
+  if (!clock_.hasBegun()) status.summary(DiagnosticStatus::WARN, "waiting for the clock");
+  warnOfTrouble(status);
+  const auto& memory = forest_->memory();
+  const std::size_t trees = forest_->layout().treeCount();
+  const auto at = memory.levels.counts(trees);
+  status.add("Trees", trees);
+  status.add("Trees at rest", at.front());
+  status.add("Trees that move by procedure", trees - at.front() - at.back());
+  status.add("Trees that move in modes", at.back());
+  status.add("Trees not at the base level", memory.levels.held().size());
+  status.add("Base level", memory.levels.base().level);
+  status.add("Viewers", memory.viewers.size());
+  clock_.tell(status);
+  status.add("Inputs refused", refusals_.count());
+  status.add("Inputs lost", counts_.inputs.lost);
+  status.add("Recorded events late", counts_.inputs.late);
+  status.add("State sent [B]", counts_.state_bytes);
+  status.add("Grown branches held", cache_.branches());
+  addPhysics(status);
+  deepest_ = {};
+  noteOverlaps();
+  status.add("tf frames", frames_sent_);
+  status.add("tf budget [frames]", frames_.budget());
+  status.add("Marker points", markers_.points());
+  status.add("Marker budget [points]", markers_.budget());
+}
+
+// What was chosen at the last tick, and why.
+void ForestAnimator::diagnoseGovernor(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const forest::GovernorFigures& figures = forest_->governor();
+  const auto& settings = forest_->memory().settings;
+  std::string why = "the tolerance is held";
+  if (figures.over > 0) why = "finer rungs there are none, or no room for modes";
+  if (figures.strained > 0) why = "trees bend too far for their modes";
+  if (figures.held_back > 0 || figures.cost > figures.budget) why = "frame_time binds";
+  if (figures.wanted + figures.physical <= 0.0) why = "nothing is seen to move";
+  if (forest_->memory().viewers.empty()) why = "nobody looks: fixed_level";
+  status.summary(diagnostic_msgs::DiagnosticStatus::OK, why);
+  status.add("Tolerance [pixel]", settings.tolerance);
+  status.add("Largest predicted error [pixel]", figures.largest);
+  status.add("Trees above the tolerance", figures.over);
+  status.add("Trees that the budget holds back", figures.held_back);
+  status.add("Trees that bend too far for modes", figures.strained);
+  status.add("Predicted frame time [ms]", figures.cost);
+  status.add("Frame time that the tolerance asks for [ms]", figures.wanted + figures.physical);
+  status.add("Frame time budget [ms]", figures.budget);
+  for (std::size_t rung = 0; rung < figures.counts.size(); ++rung)
+    status.add("Moving trees of level " + std::to_string(rung), figures.counts[rung]);
+  status.add("tf frames", frames_sent_);
+  status.add("tf budget [frames]", frames_.budget());
+  status.add("Branches that tf_budget leaves without a frame", frames_.balance().held_back);
+  const double farthest = frames_.balance().largest;
+  status.add("Farthest of these from its rest [m]",
+             std::isnan(farthest) ? "not computed: no room" : std::to_string(farthest));
+  status.add("Marker points", markers_.points());
+  status.add("Marker budget [points]", markers_.budget());
+  const auto& sways = forest_->memory().modes.sways();
+  status.add("Trees in modes", sways.size());
+  status.add("Of these in fine modes",
+             std::count_if(sways.begin(), sways.end(),
+                           [](const auto& tree) { return tree.second.fine(); }));
+  status.add("Memory of modes [B]", forest_->memory().modes.bytes());
+}
+
+void ForestAnimator::addPhysics(diagnostic_updater::DiagnosticStatusWrapper& status) const {
+  const forest::PhysicsFigures figures = forest_->physicsFigures();
+  status.add("Grabs", forest_->grabs().size());
+  status.add("Grabs whose frame is silent", desk_->silent());
+  status.add("Grabs ended by their lease", counts_.leases_ended);
+  status.add("Bodies", forest_->bodies().size());
+  status.add("Frames of bodies not told", bodies_->missing().size());
+  status.add("Physical trees", figures.trees);
+  status.add("Physical branches", figures.branches);
+  status.add("Physical branches that blend back", figures.blending);
+  status.add("Branches kept procedural by the cap", figures.refused);
+  status.add("Physics memory [B]", figures.bytes);
+  status.add("Physics steps of the last tick", figures.steps);
+  status.add("Gaps in time not stepped through", figures.skipped);
+  status.add("Steps too long for the integrator", figures.replaced);
+  status.add("Steps whose contacts were too fast", figures.coarse);
+  status.add("Forces at their limit", figures.capped_forces);
+  status.add("Deepest overlap with a body [m]", deepest_.penetration);
+  if (deepest_.penetration > 0.0)
+    status.add("Deepest overlap, where", deepest_.body + " in tree_" +
+                                             std::to_string(deepest_.at.tree) + "/branch_" +
+                                             std::to_string(deepest_.at.branch));
+}
+
+void ForestAnimator::noteOverlaps() {
+  for (const forest::Reaction& reaction : forest_->reactions())
+    if (reaction.penetration > deepest_.penetration) deepest_ = reaction;
+}
+
+}  // namespace vegetation_sim

@@ -1,0 +1,148 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <stdexcept>
+
+#include "forest/pick.h"
+#include "nodes/forest/forest_animator.h"
+#include "vegetation_sim/ros/conversions/forest_conversions.h"
+
+namespace vegetation_sim {
+namespace {
+
+/// Runs the body of a service; what it throws becomes success = false and the message.
+template <class Response, class Body>
+bool answer(Response& response, Body body) {
+  try {
+    response.success = true;
+    response.message = body();
+  } catch (const std::exception& error) {
+    response = Response();
+    response.success = false;
+    response.message = error.what();
+  }
+  return true;  // false would look like a dead service
+}
+
+constexpr double SHORTEST_DIRECTION = 1e-9;
+
+forest::Ray checkedRay(const Pick::Request& request) {
+  const auto& o = request.origin;
+  const auto& d = request.direction;
+  forest::Ray ray{Vec3(o.x, o.y, o.z), Vec3(d.x, d.y, d.z), request.tolerance};
+  Faults faults;
+  FieldChecker checker("", faults);
+  checker.vector("origin", ray.origin, "m", {-1e7, 1e7});
+  checker.vector("direction", ray.direction, "", {-1e6, 1e6});
+  checker.number("tolerance", ray.tolerance, "m", {0.0, 10.0});
+  if (faults.empty() && length(ray.direction) < SHORTEST_DIRECTION)
+    faults.add("direction has no length; allowed is 1e-9 or more");
+  faults.throwIfAny();
+  return ray;
+}
+
+}  // namespace
+
+Nanoseconds ForestAnimator::stampOf(const ros::Time& stamp) const {
+  if (!stamp.isZero()) return fromMsg(stamp);
+  if (!clock_.hasBegun()) throw InvalidInput("no tick yet: the clock has not started");
+  return forest_->memory().stamp;
+}
+
+bool ForestAnimator::onGetTree(GetTree::Request& request, GetTree::Response& response) {
+  return answer(response, [&] {
+    const Nanoseconds stamp = stampOf(request.stamp);
+    const auto grown = cache_.get(forest_->layout(), forest_->terrain(), request.tree);
+    const forest::Skeleton& skeleton = grown->tree.skeleton;
+    response.seed = toMsg(grown->tree.seed);
+    response.species = forest_->layout().species[grown->tree.seed.species].name;
+    response.level = static_cast<std::uint8_t>(forest_->memory().levels.of(request.tree).level);
+    response.skeleton_hash = skeleton.hash();
+    response.height = skeleton.height;
+    for (const forest::Branch& branch : skeleton.branches) {
+      response.parents.push_back(branch.parent);
+      response.depths.push_back(static_cast<std::uint8_t>(branch.depth));
+      response.lengths.push_back(static_cast<float>(branch.length));
+      response.radii.push_back(static_cast<float>(branch.base_radius));
+    }
+    response.transforms =
+        toMsg(request.tree, grown->tree.foot, posesOf(*forest_, grown->tree, request.tree, stamp));
+    for (const forest::PromotedBranch& branch : forest_->promoted(request.tree).branches)
+      response.physical.push_back(static_cast<std::uint32_t>(branch.branch));
+    response.grabs = desk_->grabsOf(request.tree);
+    response.transforms.header.stamp = toStamp(stamp);
+    response.transforms.header.frame_id = options_.frame_id;
+    return std::to_string(skeleton.branches.size()) + " branches";
+  });
+}
+
+forest::Ray ForestAnimator::rayOf(const Pick::Request& request) const {
+  forest::Ray ray = checkedRay(request);
+  const std::string& frame = request.header.frame_id;
+  if (frame.empty() || frame == options_.frame_id) return ray;
+  const geometry_msgs::Transform by = toWorld(frame, request.header.stamp);
+  const Quat turn{by.rotation.w, by.rotation.x, by.rotation.y, by.rotation.z};
+  ray.origin =
+      rotate(turn, ray.origin) + Vec3(by.translation.x, by.translation.y, by.translation.z);
+  ray.direction = rotate(turn, ray.direction);
+  return ray;
+}
+
+bool ForestAnimator::onPick(Pick::Request& request, Pick::Response& response) {
+  return answer(response, [&]() -> std::string {
+    const forest::Ray ray = rayOf(request);
+    const Nanoseconds stamp = stampOf(request.header.stamp);
+    const auto hit = pickTree(
+        forest_->layout(), forest_->terrain(), ray, [&](std::uint32_t id) -> forest::PosedTree {
+          const auto grown = cache_.get(forest_->layout(), forest_->terrain(), id);
+          return {std::shared_ptr<const forest::Tree>(grown, &grown->tree),
+                  posesOf(*forest_, grown->tree, id, stamp)};
+        });
+    if (!hit) throw InvalidInput("the ray meets no branch");
+    response.tree = hit->tree;
+    response.branch = static_cast<std::uint32_t>(hit->branch);
+    response.along = hit->along;
+    response.point.x = hit->point.x();
+    response.point.y = hit->point.y();
+    response.point.z = hit->point.z();
+    return "tree_" + std::to_string(hit->tree) + "/branch_" + std::to_string(hit->branch);
+  });
+}
+
+bool ForestAnimator::onSetTf(SetTf::Request& request, SetTf::Response& response) {
+  answer(response, [&] {
+    const auto grown = cache_.get(forest_->layout(), forest_->terrain(), request.tree);
+    frames_.set(request.tree, request.branches, grown->tree.skeleton.branches.size(),
+                request.enable);
+    return std::to_string(frames_.count()) + " frames";
+  });
+  response.frames = static_cast<std::uint32_t>(frames_.count());
+  response.budget = static_cast<std::uint32_t>(frames_.budget());
+  return true;
+}
+
+bool ForestAnimator::onGrab(Grab::Request& request, Grab::Response& response) {
+  return answer(response, [&] { return desk_->grab(request, response); });
+}
+
+bool ForestAnimator::onMoveGrab(MoveGrab::Request& request, MoveGrab::Response& response) {
+  return answer(response, [&] { return desk_->move(request, response); });
+}
+
+bool ForestAnimator::onRelease(Release::Request& request, Release::Response& response) {
+  return answer(response, [&] { return desk_->release(request); });
+}
+
+bool ForestAnimator::onApplyForce(ApplyForce::Request& request, ApplyForce::Response& response) {
+  return answer(response, [&] { return desk_->push(request, response); });
+}
+
+bool ForestAnimator::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  return answer(response, [&]() -> std::string {
+    if (options_.replay) throw InvalidInput("a replay is reset by its recorded events only");
+    inputs_.addReset();
+    return "takes effect at the next tick";
+  });
+}
+
+}  // namespace vegetation_sim

@@ -1,0 +1,86 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/forest/robot_bodies.h"
+
+#include <algorithm>
+
+#include "forest/contact/contact_body.h"
+#include "vegetation_sim/ros/conversions/stamps.h"
+
+namespace vegetation_sim {
+namespace {
+
+Pose worldPose(const geometry_msgs::Transform& frame, const Pose& in_frame) {
+  const auto& t = frame.translation;
+  const auto& r = frame.rotation;
+  const Quat turn{r.w, r.x, r.y, r.z};
+  return {Vec3(t.x, t.y, t.z) + rotate(turn, in_frame.position), turn * in_frame.orientation};
+}
+
+bool isSame(const Pose& a, const Pose& b) {
+  const Quat &p = a.orientation, &q = b.orientation;
+  return a.position == b.position && p.w == q.w && p.x == q.x && p.y == q.y && p.z == q.z;
+}
+
+bool isSound(const forest::Body& body) {
+  Faults faults;
+  check(body, faults);
+  return faults.empty();
+}
+
+}  // namespace
+
+RobotBodies::RobotBodies(const ros::NodeHandle& nh, std::string frame_id,
+                         std::vector<RobotPart> parts)
+    : frame_id_(std::move(frame_id)) {
+  for (RobotPart& part : parts) followed_.push_back({std::move(part), {}});
+  if (!followed_.empty()) listener_ = std::make_unique<tf2_ros::TransformListener>(buffer_, nh);
+}
+
+void RobotBodies::clear() {
+  for (Followed& followed : followed_) followed.last.reset();
+  missing_.clear();
+  buffer_.clear();
+}
+
+bool RobotBodies::sample(Followed& followed, Nanoseconds now) {
+  forest::Body body = followed.part.body;
+  try {
+    const auto found = buffer_.lookupTransform(frame_id_, body.frame, ros::Time(0));
+    body.pose = worldPose(found.transform, followed.part.in_frame);
+    // What only static transforms connect has no stamp: it is there now, and told once.
+    const Nanoseconds stamp = fromMsg(found.header.stamp);
+    if (stamp == 0 && followed.last && isSame(followed.last->pose, body.pose)) return true;
+    body.stamp = stamp == 0 ? now : stamp;
+  } catch (const tf2::TransformException&) {
+    return false;
+  }
+  if (secondsBetween(body.stamp, now) > STALE_BODY || !isSound(body)) return false;
+  if (followed.last) {
+    const double passed = secondsBetween(followed.last->stamp, body.stamp);
+    if (passed <= 0.0) return true;  // nothing new: it goes on as it went
+    if (passed < STALE_BODY) setMotion(body, followed.last->pose, body.pose, passed);
+    // Faster than any robot: it was put there.
+    if (!isSound(body)) body.velocity = body.spin = Vec3::Zero();
+  }
+  followed.last = body;
+  return true;
+}
+
+std::vector<forest::Body> RobotBodies::update(Nanoseconds now) {
+  std::vector<forest::Body> out;
+  missing_.clear();
+  for (Followed& followed : followed_) {
+    if (sample(followed, now)) {
+      out.push_back(*followed.last);
+      continue;
+    }
+    followed.last.reset();
+    const std::string& frame = followed.part.body.frame;
+    if (std::find(missing_.begin(), missing_.end(), frame) == missing_.end())
+      missing_.push_back(frame);
+  }
+  return out;
+}
+
+}  // namespace vegetation_sim

@@ -1,0 +1,69 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ros/params/parameters.h"
+#include "tree/physical/interaction.h"
+
+namespace vegetation_sim {
+
+/// A simple shape that is fixed in a tf frame.
+struct RobotPart {
+  forest::Body body;  ///< id, frame, shape and size
+  Pose in_frame;
+};
+
+/// Parts of a robot, and what of it cannot touch anything.
+struct RobotParts {
+  std::vector<RobotPart> parts;
+  std::vector<std::string> left_out;  ///< links whose collision geometry is a mesh
+};
+/// Most parts in all.
+constexpr std::size_t MOST_PARTS = 200;
+/// A frame that tf has not moved for this long is no body any more [s].
+constexpr double STALE_BODY = 0.5;
+
+/// Collision geometry of a URDF: spheres and boxes as they are; a cylinder becomes a capsule of the
+/// same length or, if it is flat, a box of the same section. Frames get `prefix` in front.
+RobotParts partsOfUrdf(const std::string& urdf, const std::string& prefix, Faults& faults);
+
+/// Reads the parameters `bodies` (list of id, frame, shape, its sizes, position, rotation about
+/// x, y, z in the frame), `robot_description` (name of the parameter that holds a URDF) and
+/// `robot_frame_prefix`.
+RobotParts readRobotParts(const ros::NodeHandle& private_handle, Parameters& parameters);
+
+/// Follows the parts' frames. The node asks at each tick; nobody else looks up tf for them.
+class RobotBodies {
+ public:
+  RobotBodies(const ros::NodeHandle& nh, std::string frame_id, std::vector<RobotPart> parts);
+
+  /// Bodies as tf knows them last, with the velocity between the last two samples.
+  std::vector<forest::Body> update(Nanoseconds now);
+  /// Frames that tf did not know, or not of late, at the last update.
+  const std::vector<std::string>& missing() const { return missing_; }
+  /// Time jumped.
+  void clear();
+
+ private:
+  struct Followed {
+    RobotPart part;
+    std::optional<forest::Body> last;
+  };
+  bool sample(Followed& followed, Nanoseconds now);
+
+  std::string frame_id_;
+  std::vector<Followed> followed_;
+  tf2_ros::Buffer buffer_;
+  std::unique_ptr<tf2_ros::TransformListener> listener_;  // if there is anything to follow
+  std::vector<std::string> missing_;
+};
+
+}  // namespace vegetation_sim

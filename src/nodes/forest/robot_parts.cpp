@@ -1,0 +1,153 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <urdf/model.h>
+
+#include <cmath>
+#include <set>
+
+#include "forest/contact/contact_body.h"
+#include "nodes/forest/robot_bodies.h"
+#include "vegetation_sim/core/config/yaml.h"
+#include "vegetation_sim/core/math/math.h"
+
+namespace vegetation_sim {
+namespace {
+
+using forest::Shape;
+
+Quat fromAngles(const Vec3& roll_pitch_yaw) {
+  const SinCos r = sinCos(0.5 * roll_pitch_yaw.x()), p = sinCos(0.5 * roll_pitch_yaw.y()),
+               y = sinCos(0.5 * roll_pitch_yaw.z());
+  return Quat{y.cos, 0.0, 0.0, y.sin} * Quat{p.cos, 0.0, p.sin, 0.0} * Quat{r.cos, r.sin, 0.0, 0.0};
+}
+
+Pose fromUrdf(const urdf::Pose& pose) {
+  Quat q;
+  pose.rotation.getQuaternion(q.x, q.y, q.z, q.w);
+  return {Vec3(pose.position.x, pose.position.y, pose.position.z), q};
+}
+
+// A flat cylinder is a box of the same section, a long one a capsule of the same length.
+void setCylinder(double radius, double length, forest::Body& body) {
+  const bool flat = length < 2.0 * radius;
+  const double edge = radius * std::sqrt(PI);
+  body.shape = static_cast<int>(flat ? Shape::BOX : Shape::CAPSULE);
+  body.size = flat ? Vec3(edge, edge, length) : Vec3(radius, 0.0, length - 2.0 * radius);
+}
+
+// False for a mesh.
+bool setShape(const urdf::Geometry& geometry, forest::Body& body) {
+  switch (geometry.type) {
+    case urdf::Geometry::SPHERE:
+      body.shape = static_cast<int>(Shape::SPHERE);
+      body.size = Vec3(static_cast<const urdf::Sphere&>(geometry).radius, 0.0, 0.0);
+      return true;
+    case urdf::Geometry::BOX: {
+      const urdf::Vector3& edges = static_cast<const urdf::Box&>(geometry).dim;
+      body.shape = static_cast<int>(Shape::BOX);
+      body.size = Vec3(edges.x, edges.y, edges.z);
+      return true;
+    }
+    case urdf::Geometry::CYLINDER: {
+      const auto& cylinder = static_cast<const urdf::Cylinder&>(geometry);
+      setCylinder(cylinder.radius, cylinder.length, body);
+      return true;
+    }
+    case urdf::Geometry::MESH:
+      break;
+  }
+  return false;
+}
+
+void addLink(const urdf::Link& link, const std::string& prefix, RobotParts& out) {
+  for (std::size_t i = 0; i < link.collision_array.size(); ++i) {
+    const urdf::Collision& collision = *link.collision_array[i];
+    RobotPart part;
+    part.body.id = prefix + link.name + (i ? "_" + std::to_string(i) : "");
+    part.body.frame = prefix + link.name;
+    part.in_frame = fromUrdf(collision.origin);
+    if (collision.geometry && setShape(*collision.geometry, part.body))
+      out.parts.push_back(part);
+    else
+      out.left_out.push_back(link.name);
+  }
+}
+
+RobotPart readPart(YamlSection section) {
+  const Range sizes{forest::SMALLEST_BODY, forest::LARGEST_BODY};
+  RobotPart out;
+  forest::Body& body = out.body;
+  section.text("frame", body.frame);
+  body.id = body.frame;
+  section.text("id", body.id);
+  section.choice("shape", body.shape, {"sphere", "capsule", "box"});
+  if (static_cast<Shape>(body.shape) == Shape::BOX) {
+    body.size = Vec3(0.1, 0.1, 0.1);
+    section.vector("size", body.size, "m", sizes);
+  } else {
+    section.number("radius", body.size.x(), "m", sizes);
+    if (static_cast<Shape>(body.shape) == Shape::CAPSULE)
+      section.number("length", body.size.z(), "m", {0.0, forest::LARGEST_BODY});
+  }
+  Vec3 angles = Vec3::Zero();
+  section.vector("position", out.in_frame.position, "m", {-1000.0, 1000.0});
+  section.vector("rotation", angles, "rad", {-2.0 * PI, 2.0 * PI});
+  out.in_frame.orientation = fromAngles(angles);
+  if (body.frame.empty() || body.frame[0] == '/')
+    section.fault("frame", "= '" + body.frame + "' is empty or begins with '/'");
+  section.finish();
+  return out;
+}
+
+void readList(const ros::NodeHandle& handle, Parameters& parameters, RobotParts& out) {
+  YAML::Node top;
+  if (!parameters.list("bodies", top)) return;
+  YamlSection section(top, handle.getNamespace(), parameters.faults());
+  for (YamlSection& part : section.sections("bodies")) out.parts.push_back(readPart(part));
+}
+
+void readRobot(const ros::NodeHandle& handle, Parameters& parameters, RobotParts& out) {
+  std::string name, prefix, urdf;
+  parameters.text("robot_description", name);
+  parameters.text("robot_frame_prefix", prefix);
+  if (name.empty()) return;
+  // Looked for beside the node and above it, as usual for a robot's description.
+  const ros::NodeHandle beside(ros::names::parentNamespace(handle.getNamespace()));
+  std::string found;
+  if (!beside.searchParam(name, found) || !ros::param::get(found, urdf))
+    return parameters.fault("robot_description", "= '" + name + "' is no parameter of text");
+  RobotParts robot = partsOfUrdf(urdf, prefix, parameters.faults());
+  out.parts.insert(out.parts.end(), robot.parts.begin(), robot.parts.end());
+  out.left_out = std::move(robot.left_out);
+}
+
+}  // namespace
+
+RobotParts partsOfUrdf(const std::string& urdf, const std::string& prefix, Faults& faults) {
+  RobotParts out;
+  urdf::Model model;
+  if (!model.initString(urdf)) {
+    faults.add("robot_description: is no URDF; see the log for what urdf says of it");
+    return out;
+  }
+  for (const auto& entry : model.links_) addLink(*entry.second, prefix, out);
+  return out;
+}
+
+RobotParts readRobotParts(const ros::NodeHandle& private_handle, Parameters& parameters) {
+  RobotParts out;
+  readList(private_handle, parameters, out);
+  readRobot(private_handle, parameters, out);
+  std::set<std::string> ids;
+  for (const RobotPart& part : out.parts) {
+    forest::check(part.body, parameters.faults());
+    if (!ids.insert(part.body.id).second)
+      parameters.fault("bodies", "names '" + part.body.id + "' twice");
+  }
+  if (out.parts.size() > MOST_PARTS)
+    parameters.fault("bodies", "are " + std::to_string(out.parts.size()) + " parts, allowed are " +
+                                   std::to_string(MOST_PARTS));
+  return out;
+}
+
+}  // namespace vegetation_sim

@@ -1,0 +1,200 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+
+#include "grass/lod/node_wind.h"
+#include "nodes/grass/grass_field.h"
+#include "ros/services/requests.h"
+#include "ros/services/service_replies.h"
+#include "vegetation_sim/ros/conversions/geometry_conversions.h"
+#include "vegetation_sim/ros/conversions/grass_conversions.h"
+
+namespace vegetation_sim {
+namespace {
+
+constexpr std::size_t MOST_PATH_POINTS = 10000, MOST_SAMPLES = 100000;
+constexpr Range PLACES{-1e7, 1e7};
+
+void checkCount(std::size_t count, std::size_t most) {
+  if (count < 1 || count > most)
+    throw InvalidInput("points has " + std::to_string(count) + " entries, allowed are 1 to " +
+                       std::to_string(most));
+}
+
+void checkPoint(std::size_t index, Vec3 point, Faults& faults) {
+  FieldChecker checker("points[" + std::to_string(index) + "].", faults);
+  checker.number("x", point.x(), "m", PLACES);
+  checker.number("y", point.y(), "m", PLACES);
+}
+
+double flatLength(const Vec3& a, const Vec3& b) {
+  const double x = b.x() - a.x(), y = b.y() - a.y();
+  return std::sqrt(x * x + y * y);
+}
+
+}  // namespace
+
+void GrassField::refuseInReplay() const {
+  if (options_.replay) throw InvalidInput("a replay follows its recorded events only");
+}
+
+// On the ground of the map, in the world.
+std::vector<Vec3> GrassField::pathOf(const Tread::Request& request) const {
+  checkCount(request.points.size(), MOST_PATH_POINTS);
+  const Pose to_world = poseInWorld(tf_buffer_, options_.frame_id, request.header.frame_id);
+  const grass::MapLaw& law = field_->layout().map->law();
+  const Range x_range{law.origin_x, law.origin_x + law.resolution * (law.columns - 1)};
+  const Range y_range{law.origin_y, law.origin_y + law.resolution * (law.rows - 1)};
+  Faults faults;
+  std::vector<Vec3> out;
+  for (std::size_t i = 0; i < request.points.size(); ++i) {
+    Vec3 p = fromMsg(request.points[i]);
+    p.z() = 0.0;
+    p = transformed(to_world, p);
+    FieldChecker checker("points[" + std::to_string(i) + "].", faults);
+    checker.number("x", p.x(), "m", x_range);
+    checker.number("y", p.y(), "m", y_range);
+    p.z() = field_->terrain().height(p.x(), p.y());
+    out.push_back(p);
+  }
+  faults.throwIfAny();
+  return out;
+}
+
+// A source of its own that comes down, walks and leaves within one tick.
+void GrassField::queuePath(const std::vector<Vec3>& path, const grass::TreadLaw& law,
+                           const ros::Time& stamp) {
+  const double longest = 0.5 * scene_.grass.treading.longest_stroke;
+  std::vector<Vec3> steps{path[0]};
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const double pieces = 1.0 + std::floor(flatLength(path[i - 1], path[i]) / longest);
+    if (pieces + static_cast<double>(steps.size() + 2) > static_cast<double>(inputs_.room()))
+      throw InvalidInput("the path needs more steps of " + std::to_string(longest) +
+                         " m than the " + std::to_string(inputs_.room()) + " that have room");
+    for (int k = 1; k <= static_cast<int>(pieces); ++k)
+      steps.push_back(path[i - 1] + (k / pieces) * (path[i] - path[i - 1]));
+  }
+  GrassEvent event;
+  event.kind = GrassEvent::TREAD;
+  event.header.stamp = stamp;
+  grass::TreadInput input;
+  input.source = "path_" + std::to_string(++paths_);
+  input.law = law;
+  input.height_gate = 1000.0;  // a path is on the ground
+  for (const Vec3& step : steps) {
+    input.position = step;
+    event.tread = toMsg(input);
+    inputs_.add(event);
+  }
+  input.action = static_cast<int>(grass::TreadAction::LIFT);
+  event.tread = toMsg(input);
+  inputs_.add(event);
+}
+
+bool GrassField::onTreadPath(Tread::Request& request, Tread::Response& response) {
+  return answer(response, [&]() -> std::string {
+    refuseInReplay();
+    const grass::TreadLaw law = fromMsg(request.law, tuning_.tread);
+    Faults faults;
+    check(law, "law: ", faults);
+    faults.throwIfAny();
+    const ros::Time stamp = effectOf(request.header.stamp, clock_);
+    const std::vector<Vec3> path = pathOf(request);
+    queuePath(path, law, stamp);
+    for (std::size_t i = 1; i < path.size(); ++i)
+      response.length += flatLength(path[i - 1], path[i]);
+    return "takes effect at the next tick";
+  });
+}
+
+GrassSample GrassField::sampleAt(const Vec3& place, Nanoseconds stamp) const {
+  GrassSample out;
+  const double x = place.x(), y = place.y();
+  const grass::FeatureMap& map = *field_->layout().map;
+  const grass::MapLaw& law = map.law();
+  const Vec3 ground(x, y, field_->terrain().height(x, y));
+  out.position = toPoint(ground);
+  out.age = -1.0;
+  const double u = (x - law.origin_x) / law.resolution, v = (y - law.origin_y) / law.resolution;
+  out.inside = u >= 0.0 && v >= 0.0 && u <= law.columns - 1.0 && v <= law.rows - 1.0;
+  if (!out.inside) return out;
+  const grass::Features f = map.at(x, y);
+  out.height = f.height;
+  out.density = f.density;
+  out.colour = f.colour;
+  out.shape = f.shape;
+  double sum = 0.0;
+  for (std::size_t s = 0; s < map.species().size(); ++s) sum += f.mix[s];
+  for (std::size_t s = 0; s < map.species().size(); ++s)
+    out.shares.push_back(sum > 0.0 ? f.mix[s] / sum : 0.0);
+  const grass::TreadNode node = field_->tread().at({x, y}, stamp);
+  out.tilt = double{node.tilt};
+  if (node.tilt > 0.f) {
+    out.direction = toVector(Vec3(double{node.x}, double{node.y}, 0.0));
+    out.age = secondsBetween(node.stamp, stamp);
+  }
+  out.crush = out.tilt / grass::BEND_LIMIT;
+  out.resistance = field_->resistanceAt({x, y}, stamp);
+  const Vec3 air = wind_.at(stamp).velocity(ground);
+  out.wind = toVector(air);
+  const grass::Point bend = grass::bendIn(air, map.species()[0].species.compliance);
+  out.bend = toVector(Vec3(bend.x, bend.y, 0.0));
+  return out;
+}
+
+bool GrassField::onSample(SampleGrass::Request& request, SampleGrass::Response& response) {
+  return answer(response, [&]() -> std::string {
+    if (!clock_.hasBegun()) throw InvalidInput("no tick yet: the clock has not started");
+    checkCount(request.points.size(), MOST_SAMPLES);
+    const Nanoseconds last = field_->stamp();
+    const Nanoseconds stamp = request.header.stamp.isZero() ? last : fromMsg(request.header.stamp);
+    if (stamp < last)
+      throw InvalidInput("stamp is " + std::to_string(secondsBetween(stamp, last)) +
+                         " s before the last tick: the past is not kept");
+    const Pose to_world = poseInWorld(tf_buffer_, options_.frame_id, request.header.frame_id);
+    Faults faults;
+    for (std::size_t i = 0; i < request.points.size(); ++i)
+      checkPoint(i, fromMsg(request.points[i]), faults);
+    faults.throwIfAny();
+    for (const geometry_msgs::Point& point : request.points) {
+      Vec3 p = fromMsg(point);
+      p.z() = 0.0;
+      response.samples.push_back(sampleAt(transformed(to_world, p), stamp));
+    }
+    return std::to_string(response.samples.size()) + " samples";
+  });
+}
+
+bool GrassField::onClear(ClearGrass::Request& request, ClearGrass::Response& response) {
+  return answer(response, [&]() -> std::string {
+    refuseInReplay();
+    Faults faults;
+    FieldChecker checker("", faults);
+    Vec3 centre = fromMsg(request.centre.point);
+    checker.vector("centre", centre, "m", PLACES);
+    checker.number("radius", request.radius, "m", {0.0, 10000.0});
+    faults.throwIfAny();
+    GrassEvent event;
+    event.kind = GrassEvent::CLEAR;
+    event.centre = toPoint(
+        transformed(poseInWorld(tf_buffer_, options_.frame_id, request.centre.header.frame_id,
+                                request.centre.header.stamp),
+                    centre));
+    event.radius = request.radius;
+    if (!inputs_.add(std::move(event)))
+      throw InvalidInput("10000 inputs wait for the next tick already");
+    return "takes effect at the next tick";
+  });
+}
+
+bool GrassField::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  return answer(response, [&]() -> std::string {
+    refuseInReplay();
+    GrassEvent event;
+    event.kind = GrassEvent::RESET;
+    inputs_.add(std::move(event));
+    return "takes effect at the next tick";
+  });
+}
+
+}  // namespace vegetation_sim

@@ -1,0 +1,80 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros/node_handle.h>
+#include <vegetation_sim/GrassFieldConfig.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "grass/lod/meadow_lod.h"
+#include "grass/tread_simulation.h"
+
+namespace vegetation_sim {
+
+/// Everything that can be reconfigured while grass_field runs.
+struct GrassTuning {
+  double drag{0.2};            ///< of grass, see Field::resistanceAt [N s/m]
+  double height_gate{0.3};     ///< of a source that does not say its own [m]
+  grass::TreadLaw tread;       ///< likewise
+  grass::MeadowSettings view;  ///< of the markers; most_blades follows from their budget
+};
+void describe(FieldVisitor& visitor, GrassTuning& tuning);
+/// @throws InvalidInput with all faults.
+void check(GrassTuning tuning);
+GrassTuning fromConfig(const GrassFieldConfig& config, const grass::MeadowSettings& view);
+/// Writes the tuning into what dynamic_reconfigure shows.
+void toConfig(const GrassTuning& tuning, GrassFieldConfig& config);
+
+/// A source that the node finds by itself (N4).
+struct FollowedSource {
+  std::string name;
+  std::string frame;          ///< tf frame; empty: `odometry` says
+  std::string odometry;       ///< topic of nav_msgs/Odometry
+  Vec3 offset{Vec3::Zero()};  ///< in the frame, or in the odometry's child frame [m]
+  double height_gate{0.0};    ///< 0: the node's [m]
+  grass::TreadLaw law;        ///< zeros: the node's
+};
+constexpr std::size_t MOST_FOLLOWED_SOURCES = 256;
+
+/// Parameters of grass_field; README.md has them in words.
+struct GrassOptions {
+  std::string scenario;              ///< file; empty: the default meadow
+  std::string frame_id{"map"};       ///< world frame
+  int state_rate{30};                ///< ticks [Hz]
+  double key_frame_period{2.0};      ///< [s]
+  int state_bytes{5000000};          ///< of key frames, a second: larger ones come less often [B/s]
+  double markers_rate{10.0};         ///< [Hz]
+  int marker_points{90000};          ///< of the three lists together
+  double cover_rate{2.0};            ///< [Hz]
+  double cover_resolution{0.25};     ///< [m] side of a cell
+  double cover_age{600.0};           ///< age that counts as 100 [s]
+  int cover_layer{0};                ///< of grass/cover: crush, density, resistance, age
+  std::string viewer_frame;          ///< tf frame (x forward) that looks; empty: none
+  double viewer_field_of_view{0.8};  ///< [rad]
+  int viewer_height{900};            ///< [pixel]
+  bool replay{false};                ///< recorded grass/events instead of live inputs
+  double replay_delay{0.5};          ///< how far ticks stay behind the clock in a replay [s]
+  std::vector<FollowedSource> sources;
+  GrassTuning tuning;  ///< starting values of what dynamic_reconfigure changes
+};
+void describe(FieldVisitor& visitor, GrassOptions& options);
+
+/// The meadow of a scenario file, its terrain and its world frame.
+struct GrassScene {
+  grass::Scene grass;
+  std::shared_ptr<const terrain::HeightMap> terrain{std::make_shared<terrain::HeightMap>()};
+  std::string frame_id;  ///< empty: not said
+  std::vector<FollowedSource> sources;
+};
+/// No file gives the default meadow, a file without `grass` one without grass.
+/// @throws InvalidInput with all faults of the file.
+GrassScene loadGrassScene(const std::string& file);
+
+/// Reads and checks all private parameters and the scenario that they name; where both say the same
+/// thing, the parameter holds. @throws InvalidInput with all faults of both.
+GrassOptions loadGrassOptions(const ros::NodeHandle& private_handle, GrassScene& scene);
+
+}  // namespace vegetation_sim

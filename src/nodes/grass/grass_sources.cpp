@@ -1,0 +1,112 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/grass/grass_sources.h"
+
+#include <utility>
+
+#include "vegetation_sim/ros/conversions/geometry_conversions.h"
+#include "vegetation_sim/ros/conversions/grass_conversions.h"
+#include "vegetation_sim/ros/conversions/stamps.h"
+
+namespace vegetation_sim {
+namespace {
+
+constexpr unsigned ODOMETRY_QUEUE = 10;
+constexpr double MOVED = 1e-6;  // [m]
+
+}  // namespace
+
+GrassSources::GrassSources(ros::NodeHandle handle, std::string frame_id,
+                           std::vector<FollowedSource> sources, const tf2_ros::Buffer& buffer)
+    : frame_id_(std::move(frame_id)), buffer_(buffer) {
+  for (FollowedSource& source : sources) followed_.push_back({std::move(source), {}, {}, 0});
+  for (Followed& followed : followed_) {
+    if (followed.source.odometry.empty()) continue;
+    const boost::function<void(const nav_msgs::Odometry&)> heard =
+        [&followed](const nav_msgs::Odometry& message) { followed.odometry = message; };
+    subscribers_.push_back(
+        handle.subscribe<nav_msgs::Odometry>(followed.source.odometry, ODOMETRY_QUEUE, heard));
+  }
+}
+
+void GrassSources::clear() {
+  for (Followed& followed : followed_) {
+    followed.odometry.reset();
+    followed.told.reset();
+    followed.told_stamp = 0;
+  }
+  missing_.clear();
+}
+
+GrassSources::Heard GrassSources::findOdometry(const Followed& followed, Nanoseconds now) const {
+  if (!followed.odometry) throw tf2::LookupException("nothing heard");
+  const nav_msgs::Odometry& message = *followed.odometry;
+  Pose base = fromMsg(message.pose.pose);
+  const std::string& frame = message.header.frame_id;
+  Pose to_world;
+  if (frame != frame_id_)
+    to_world = fromMsg(buffer_.lookupTransform(frame_id_, frame, ros::Time(0)).transform);
+  base = compose(to_world, base);
+  // Velocity of the offset point: the twist is in the child frame.
+  const Vec3 spin = fromMsg(message.twist.twist.angular), &arm = followed.source.offset;
+  const Vec3 velocity = fromMsg(message.twist.twist.linear) + cross(spin, arm);
+  const Nanoseconds stamp = fromMsg(message.header.stamp);
+  return {stamp == 0 ? now : stamp, transformed(base, arm), rotate(base.orientation, velocity)};
+}
+
+GrassSources::Heard GrassSources::find(const Followed& followed, Nanoseconds now) const {
+  if (!followed.source.odometry.empty()) return findOdometry(followed, now);
+  const auto found = buffer_.lookupTransform(frame_id_, followed.source.frame, ros::Time(0));
+  // What only static transforms connect has no stamp: it is there now.
+  const Nanoseconds stamp = fromMsg(found.header.stamp);
+  return {stamp == 0 ? now : stamp, transformed(fromMsg(found.transform), followed.source.offset),
+          Vec3::Zero()};
+}
+
+void GrassSources::say(const Followed& followed, grass::TreadAction action, const Heard& heard,
+                       std::vector<grass::TreadInput>& out) const {
+  grass::TreadInput input;
+  input.source = followed.source.name;
+  input.action = static_cast<int>(action);
+  input.position = heard.position;
+  input.velocity = heard.velocity;
+  input.law = fromMsg(toMsg(followed.source.law), own_);
+  input.height_gate =
+      followed.source.height_gate > 0.0 ? followed.source.height_gate : height_gate_;
+  input.body_frame =
+      followed.source.frame.empty() ? followed.odometry->child_frame_id : followed.source.frame;
+  out.push_back(std::move(input));
+}
+
+std::vector<grass::TreadInput> GrassSources::update(Nanoseconds now, const grass::TreadLaw& own,
+                                                    double height_gate) {
+  std::vector<grass::TreadInput> out;
+  own_ = own;
+  height_gate_ = height_gate;
+  missing_.clear();
+  for (Followed& followed : followed_) {
+    Heard heard;
+    bool known = true;
+    try {
+      heard = find(followed, now);
+      known = secondsBetween(heard.stamp, now) <= STALE;
+    } catch (const tf2::TransformException&) {
+      known = false;
+    }
+    if (!known) {
+      missing_.push_back(followed.source.frame.empty() ? followed.source.odometry
+                                                       : followed.source.frame);
+      if (followed.told) say(followed, grass::TreadAction::LIFT, heard, out);
+      followed.told.reset();
+      continue;
+    }
+    const bool moved = !followed.told || !(length(heard.position - *followed.told) <= MOVED);
+    if (!moved && secondsBetween(followed.told_stamp, now) < REMINDER) continue;
+    say(followed, grass::TreadAction::MOVE, heard, out);
+    followed.told = heard.position;
+    followed.told_stamp = now;
+  }
+  return out;
+}
+
+}  // namespace vegetation_sim

@@ -1,0 +1,64 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <nav_msgs/Odometry.h>
+#include <ros/node_handle.h>
+#include <tf2_ros/buffer.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "nodes/grass/grass_options.h"
+
+namespace vegetation_sim {
+
+/// Sources of treading that the node finds by itself (N4): tf frames and odometry. The node asks at
+/// each tick; nobody else looks up tf for them, so that a bag of events replays.
+class GrassSources {
+ public:
+  /// A source that nobody has told of for this long has left the ground [s].
+  static constexpr double STALE = 0.5;
+  /// One that stands is told again so often [s].
+  static constexpr double REMINDER = 1.0;
+
+  /// `buffer` must outlive it.
+  GrassSources(ros::NodeHandle handle, std::string frame_id, std::vector<FollowedSource> sources,
+               const tf2_ros::Buffer& buffer);
+
+  /// What each did since the last call: moved, left, or stands and is told again. Positions in the
+  /// world, nothing left to defaults but for `own` and `height_gate`.
+  std::vector<grass::TreadInput> update(Nanoseconds now, const grass::TreadLaw& own,
+                                        double height_gate);
+  /// Frames and topics that did not say anything of late, at the last update.
+  const std::vector<std::string>& missing() const { return missing_; }
+  /// Time jumped.
+  void clear();
+
+ private:
+  struct Heard {
+    Nanoseconds stamp{0};
+    Vec3 position{Vec3::Zero()}, velocity{Vec3::Zero()};
+  };
+  struct Followed {
+    FollowedSource source;
+    std::optional<nav_msgs::Odometry> odometry;
+    std::optional<Vec3> told;  ///< position
+    Nanoseconds told_stamp{0};
+  };
+  Heard find(const Followed& followed, Nanoseconds now) const;
+  Heard findOdometry(const Followed& followed, Nanoseconds now) const;
+  void say(const Followed& followed, grass::TreadAction action, const Heard& heard,
+           std::vector<grass::TreadInput>& out) const;
+
+  std::string frame_id_;
+  std::vector<Followed> followed_;
+  const tf2_ros::Buffer& buffer_;
+  std::vector<ros::Subscriber> subscribers_;
+  std::vector<std::string> missing_;
+  grass::TreadLaw own_;
+  double height_gate_{0.3};
+};
+
+}  // namespace vegetation_sim

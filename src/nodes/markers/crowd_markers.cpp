@@ -1,0 +1,157 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/markers/crowd_markers.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "crowd/walker/clothes.h"
+#include "nodes/markers/triangle_list.h"
+#include "vegetation_sim/core/math/math.h"
+#include "vegetation_sim/ros/conversions/geometry_conversions.h"
+#include "vegetation_sim/ros/conversions/stamps.h"
+
+namespace vegetation_sim {
+namespace {
+
+using crowd::Part;
+
+constexpr std::array<int, 5> SIDES{0, 3, 4, 6, 10};  // of a limb, by rung; 0: not drawn
+constexpr double GIRTH = 0.17;                       // radius of a body [m]
+constexpr double SEEN_ALIKE = 100.0;                 // pixels per metre when nobody looks
+// Rings of a cap, from its limb outwards: a head's is round and closed, the others end in joints.
+struct Cap {
+  int rings;
+  double heights[3], radii[3];
+};
+constexpr Cap ROUND{3, {0.0, 0.62, 1.0}, {1.0, 0.78, 0.0}};
+constexpr Cap PLAIN{2, {0.0, 0.85, 0.85}, {1.0, 0.45, 0.45}};
+
+const Cap& capOf(std::size_t part) {
+  return part == static_cast<std::size_t>(Part::HEAD) ? ROUND : PLAIN;
+}
+
+// Bands between the rings of both caps, each of two triangles a side.
+std::size_t pointsOf(int sides) {
+  std::size_t bands = 0;
+  for (std::size_t part = 0; part < crowd::PARTS; ++part)
+    bands += static_cast<std::size_t>(2 * capOf(part).rings - 1);
+  return bands * static_cast<std::size_t>(sides) * 6;
+}
+
+}  // namespace
+
+/// A circle across a limb.
+struct CrowdMarkers::Ring {
+  Vec3 centre, u, v;
+  Vec3 at(int side, int sides) const {
+    const SinCos turn = sinCosTurns(static_cast<double>(side) / sides);
+    return centre + turn.cos * u + turn.sin * v;
+  }
+};
+
+CrowdMarkers::CrowdMarkers(int points)
+    : list_(triangleList("people", 0, static_cast<std::size_t>(points) / 3 * 3)) {}
+
+void CrowdMarkers::addPoint(const Vec3& point, const std_msgs::ColorRGBA& colour) {
+  list_.points[used_] = toPoint(point);
+  list_.colors[used_++] = colour;
+}
+
+void CrowdMarkers::addBand(const Ring& low, const Ring& high, int sides,
+                           const std_msgs::ColorRGBA& colour) {
+  for (int i = 0; i < sides; ++i) {
+    const Vec3 corners[4] = {low.at(i, sides), low.at(i + 1, sides), high.at(i + 1, sides),
+                             high.at(i, sides)};
+    for (const int k : {0, 1, 2, 0, 2, 3}) addPoint(corners[k], colour);
+  }
+}
+
+void CrowdMarkers::addLimb(const crowd::Limb& limb, std::size_t part, int sides,
+                           const std_msgs::ColorRGBA& colour,
+                           const std_msgs::ColorRGBA& end_colour) {
+  const Cap& cap = capOf(part);
+  const Vec3 span = limb.to - limb.from;
+  const double size = length(span);
+  const Vec3 along = size > 1e-9 ? Vec3(span / size) : Vec3(Vec3::UnitZ());
+  const Vec3 aside = std::fabs(along.x()) < 0.7 ? Vec3::UnitX() : Vec3::UnitY();
+  Vec3 u = cross(along, aside);
+  u /= length(u);
+  const Vec3 v = cross(along, u);
+  const auto ring = [&](const Vec3& end, double sign, int step) {
+    const double r = limb.radius * cap.radii[step];
+    return Ring{end + sign * limb.radius * cap.heights[step] * along, r * u, r * v};
+  };
+  for (int step = cap.rings - 1; step > 0; --step)
+    addBand(ring(limb.from, -1.0, step), ring(limb.from, -1.0, step - 1), sides, colour);
+  addBand(ring(limb.from, -1.0, 0), ring(limb.to, 1.0, 0), sides, colour);
+  for (int step = 0; step < cap.rings - 1; ++step)
+    addBand(ring(limb.to, 1.0, step), ring(limb.to, 1.0, step + 1), sides, end_colour);
+}
+
+void CrowdMarkers::addPerson(const crowd::Walker& walker, const terrain::HeightMap& terrain,
+                             int sides) {
+  const crowd::Clothes clothes = crowd::clothesOf(walker.id);
+  const crowd::Skeleton skeleton = skeletonOf(walker, terrain);
+  for (std::size_t i = 0; i < crowd::PARTS; ++i) {
+    const std_msgs::ColorRGBA own = opaque(colourOf(clothes, i));
+    addLimb(skeleton[i], i, sides, own,
+            i == static_cast<std::size_t>(Part::HEAD) ? opaque(clothes.hair) : own);
+  }
+}
+
+// What is wrong with a rung: all of the body, or what a polygon leaves of its girth.
+void CrowdMarkers::choose(const crowd::Crowd& crowd, const std::vector<Eye>& eyes, double tolerance,
+                          Nanoseconds stamp) {
+  choices_.clear();
+  for (const crowd::Walker& walker : crowd.walkers()) {
+    const crowd::Point& p = walker.position;
+    const Vec3 middle(p.x, p.y, crowd.terrain().height(p.x, p.y) + 0.5 * walker.height);
+    double scale = eyes.empty() ? SEEN_ALIKE : 0.0;
+    for (const Eye& eye : eyes)
+      scale = std::max(scale, pixelsPerMetre(eye, length(eye.position - middle)));
+    Choice choice;
+    choice.id = walker.id;
+    for (std::size_t rung = 0; rung < SIDES.size(); ++rung) {
+      const int sides = SIDES[rung];
+      const double off = sides > 0 ? GIRTH * (1.0 - sinCosTurns(0.5 / sides).cos) : walker.height;
+      choice.error[rung] = static_cast<float>(scale * off);
+      choice.cost[rung] = static_cast<float>(pointsOf(sides));
+    }
+    choices_.push_back(choice);
+  }
+  balance_ =
+      held_.govern(choices_, SIDES.size() - 1, static_cast<double>(budget()), tolerance, stamp);
+}
+
+std::vector<std::string> CrowdMarkers::rungs() {
+  std::vector<std::string> out{"not drawn"};
+  for (std::size_t rung = 1; rung < SIDES.size(); ++rung)
+    out.push_back("of " + std::to_string(SIDES[rung]) + " facets");
+  return out;
+}
+
+visualization_msgs::MarkerArray CrowdMarkers::build(const crowd::Crowd& crowd,
+                                                    const std::vector<Eye>& eyes, double tolerance,
+                                                    const std::string& frame_id,
+                                                    Nanoseconds stamp) {
+  used_ = 0;
+  choose(crowd, eyes, tolerance, stamp);
+  for (std::size_t i = 0; i < choices_.size(); ++i) {
+    const int sides = SIDES[static_cast<std::size_t>(choices_[i].chosen)];
+    if (sides > 0 && used_ + pointsOf(sides) <= budget())
+      addPerson(crowd.walkers()[i], crowd.terrain(), sides);
+  }
+  // What is left has no area.
+  std::fill(list_.points.begin() + static_cast<std::ptrdiff_t>(used_), list_.points.end(),
+            geometry_msgs::Point());
+  list_.header.frame_id = frame_id;
+  list_.header.stamp = toStamp(stamp);
+  visualization_msgs::MarkerArray out;
+  out.markers.push_back(list_);
+  takeAwayIfUnused(out.markers.back(), used_);
+  return out;
+}
+
+}  // namespace vegetation_sim

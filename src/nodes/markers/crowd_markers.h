@@ -1,0 +1,54 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <visualization_msgs/MarkerArray.h>
+
+#include <string>
+#include <vector>
+
+#include "core/lod/level_hysteresis.h"
+#include "crowd/agents/crowd.h"
+#include "crowd/walker/body_skeleton.h"
+#include "vegetation_sim/core/lod/viewpoint.h"
+
+namespace vegetation_sim {
+
+/// Walkers as one TRIANGLE_LIST of constant size, a person fifteen limbs: rviz updates such a list
+/// in place; it is deleted when nobody is drawn. Each walker has the fewest facets that hold the
+/// tolerance; where the points do not suffice, they go to the walkers whose error each point
+/// lessens most (N7).
+class CrowdMarkers {
+ public:
+  /// @param points of the list.
+  explicit CrowdMarkers(int points);
+
+  /// @param eyes who looks; none: all are seen alike. @param tolerance [pixel]
+  visualization_msgs::MarkerArray build(const crowd::Crowd& crowd, const std::vector<Eye>& eyes,
+                                        double tolerance, const std::string& frame_id,
+                                        Nanoseconds stamp);
+  /// What was chosen at the last build [points], and the names of the rungs.
+  const Balance& balance() const { return balance_; }
+  static std::vector<std::string> rungs();
+  /// Points in use at the last build, of how many.
+  std::size_t points() const { return used_; }
+  std::size_t budget() const { return list_.points.size(); }
+
+ private:
+  struct Ring;
+  void choose(const crowd::Crowd& crowd, const std::vector<Eye>& eyes, double tolerance,
+              Nanoseconds stamp);
+  void addPerson(const crowd::Walker& walker, const terrain::HeightMap& terrain, int sides);
+  void addLimb(const crowd::Limb& limb, std::size_t part, int sides,
+               const std_msgs::ColorRGBA& colour, const std_msgs::ColorRGBA& end_colour);
+  void addBand(const Ring& low, const Ring& high, int sides, const std_msgs::ColorRGBA& colour);
+  void addPoint(const Vec3& point, const std_msgs::ColorRGBA& colour);
+
+  std::vector<Choice> choices_;  // as the crowd has its walkers
+  HeldRungs held_;
+  Balance balance_;
+  std::size_t used_{0};
+  visualization_msgs::Marker list_;
+};
+
+}  // namespace vegetation_sim

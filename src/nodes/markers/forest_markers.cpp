@@ -1,0 +1,206 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/markers/forest_markers.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "nodes/markers/triangle_list.h"
+#include "tree/mesh/skin.h"
+#include "tree/motion/narrow_poses.h"
+#include "vegetation_sim/ros/conversions/forest_conversions.h"
+
+namespace vegetation_sim {
+namespace {
+
+constexpr double SMALLEST_PX = 3.0;         // of a tree that is drawn
+constexpr double LARGEST_SCALE = 1.3;       // of trees in tiles, seedInTile
+constexpr std::size_t LEAST_POINTS = 120;   // a tree in the budget; what is farther is not drawn
+constexpr double PIXELS_PER_RADIAN = 1000;  // of the middle of the forest, when nobody looks
+
+geometry_msgs::Point pointAt(const std::vector<float>& xyz, std::size_t vertex) {
+  geometry_msgs::Point out;
+  out.x = xyz[3 * vertex];
+  out.y = xyz[3 * vertex + 1];
+  out.z = xyz[3 * vertex + 2];
+  return out;
+}
+
+Vec3 middleOf(const forest::Layout& layout) {
+  Vec3 sum = Vec3::Zero();
+  double count = 0.0;
+  for (const forest::TreeSeed& seed : layout.trees) {
+    sum += seed.position;
+    count += 1.0;
+  }
+  for (const forest::Tile& tile : layout.tiles) {
+    sum += static_cast<double>(tile.count) *
+           Vec3(tile.x + 0.5 * tile.size, tile.y + 0.5 * tile.size, 0.0);
+    count += tile.count;
+  }
+  return count > 0.0 ? Vec3(sum / count) : sum;
+}
+
+double finest(const std::vector<forest::Eye>& eyes, const Vec3& position, double reach) {
+  double out = 0.0;
+  for (const forest::Eye& eye : eyes)
+    out = std::max(out, forest::pixelsPerMetre(eye, length(eye.position - position) - reach));
+  return out;
+}
+
+/// Tiles with the largest height [pixel] that any tree of theirs may have, largest first.
+std::vector<std::pair<double, const forest::Tile*>> tilesInOrder(
+    const forest::Forest& forest, const std::vector<forest::Eye>& eyes) {
+  double tallest = 0.0;
+  for (const forest::Species& species : forest.layout().species)
+    tallest = std::max(tallest, LARGEST_SCALE * species.height);
+  std::vector<std::pair<double, const forest::Tile*>> out;
+  for (const forest::Tile& tile : forest.layout().tiles) {
+    const double x = tile.x + 0.5 * tile.size, y = tile.y + 0.5 * tile.size;
+    const Vec3 middle(x, y, forest.terrain().height(x, y));
+    out.emplace_back(tallest * finest(eyes, middle, 0.75 * tile.size), &tile);
+  }
+  std::stable_sort(out.begin(), out.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  return out;
+}
+
+}  // namespace
+
+ForestMarkers::ForestMarkers(int points)
+    : bark_points_(static_cast<std::size_t>(points) / 2 / 3 * 3),
+      leaf_points_(static_cast<std::size_t>(points) / 2 / 6 * 6),
+      bark_(triangleList("bark", 0, 0)),
+      leaves_(triangleList("leaves", 1, 0)) {}
+
+void ForestMarkers::reset() {
+  drawn_.clear();
+  feedback_.reset();
+}
+
+void ForestMarkers::chooseTrees(const forest::Forest& forest) {
+  std::vector<forest::Eye> eyes;
+  for (const auto& entry : forest.memory().viewers) eyes.push_back(entry.second.eye);
+  const forest::Layout& layout = forest.layout();
+  if (eyes.empty()) eyes.push_back({middleOf(layout), PIXELS_PER_RADIAN});
+  order_.clear();
+  const auto consider = [&](std::uint32_t id, const forest::TreeSeed& seed) {
+    const double view = finest(eyes, footOf(seed, forest.terrain()), 0.0);
+    const double height = seed.scale * layout.species[seed.species].height;
+    if (view * height >= SMALLEST_PX) order_.emplace_back(view * height, id);
+  };
+  for (std::uint32_t i = 0; i < layout.trees.size(); ++i) consider(i, layout.trees[i]);
+  for (const auto& [largest, tile] : tilesInOrder(forest, eyes)) {
+    keepLargest(budget() / LEAST_POINTS);
+    if (largest < least_) break;
+    for (std::uint32_t i = 0; i < tile->count; ++i)
+      consider(tile->first_tree + i, seedInTile(*tile, i));
+  }
+  keepLargest(budget() / LEAST_POINTS);
+  std::sort(order_.begin(), order_.end(), std::greater<>());
+}
+
+void ForestMarkers::keepLargest(std::size_t count) {
+  least_ = SMALLEST_PX;
+  if (count == 0 || order_.size() <= count) return;
+  const auto last = order_.begin() + static_cast<std::ptrdiff_t>(count) - 1;
+  std::nth_element(order_.begin(), last, order_.end(), std::greater<>());
+  order_.resize(count);
+  least_ = order_.back().first;
+}
+
+void ForestMarkers::addTree(const forest::Forest& forest, forest::TreeCache& cache,
+                            std::uint32_t id, Nanoseconds stamp) {
+  const auto grown = cache.get(forest.layout(), forest.terrain(), id);
+  const forest::Species& species = forest.layout().species[grown->tree.seed.species];
+  const forest::TreeMesh& mesh = *drawn_[id].mesh;
+  wanted_bark_ += mesh.triangles.size();
+  wanted_leaves_ += 6 * mesh.leaves.size();
+  if (bark_.points.size() + mesh.triangles.size() > bark_points_ ||
+      leaves_.points.size() + 6 * mesh.leaves.size() > leaf_points_)
+    return;
+  const wind::Instant wind = forest.memory().wind.at(stamp).relativeTo(grown->tree.foot);
+  const forest::Weights weights =
+      forest::weightsAt(forest.memory().levels.of(id), stamp, forest.layout().motion);
+  const forest::Sway* sway = forest.sway(id);
+  const bool physical = !forest.promoted(id).branches.empty();
+  if (!physical && sway && forest::modalWeight(weights) >= 1.0)
+    sway->pose(grown->poser, stamp, poses_);
+  else if (!physical && !sway)
+    grown->poser.pose(wind, weights, forest::MAX_DEPTHS, poses_);
+  else
+    narrow(forest.pose(grown->tree, id, stamp), poses_);
+  const std::array<float, 3> foot{static_cast<float>(grown->tree.foot.x()),
+                                  static_cast<float>(grown->tree.foot.y()),
+                                  static_cast<float>(grown->tree.foot.z())};
+  scratch_.resize(3 * mesh.bark.size());
+  skinBark(mesh, poses_, foot, scratch_.data());
+  for (const std::uint32_t vertex : mesh.triangles) {
+    bark_.points.push_back(pointAt(scratch_, vertex));
+    const auto branch = static_cast<std::size_t>(mesh.bark[vertex].branch);
+    const bool trunk = grown->tree.skeleton.branches[branch].depth == 0;
+    bark_.colors.push_back(opaque(trunk ? species.bark_colour : species.twig_colour));
+  }
+  const double speed = length(wind.velocity(Vec3(0.0, 0.0, 0.5 * grown->tree.skeleton.height)));
+  const forest::Flutter flutter(static_cast<double>(stamp % (3600 * NANOSECONDS_PER_SECOND)) * 1e-9,
+                                speed, species.flutter);
+  scratch_.resize(12 * mesh.leaves.size());
+  skinLeaves(mesh, poses_, foot, flutter, scratch_.data());
+  for (std::size_t i = 0; i < mesh.leaves.size(); ++i) {
+    const double shade = mesh.leaves[i].shade;
+    const auto paint =
+        opaque(species.leaf_colour * (1.0 - shade) + species.leaf_colour_young * shade);
+    for (const std::uint32_t corner : forest::LEAF_TRIANGLES) {
+      leaves_.points.push_back(pointAt(scratch_, 4 * i + corner));
+      leaves_.colors.push_back(paint);
+    }
+  }
+}
+
+void ForestMarkers::finish(visualization_msgs::Marker& marker, std::size_t points) {
+  const std::size_t used = marker.points.size();
+  used_ += used;
+  marker.points.resize(points);
+  marker.colors.resize(points, opaque(Vec3::Zero()));
+  marker.action = visualization_msgs::Marker::ADD;
+  takeAwayIfUnused(marker, used);
+}
+
+visualization_msgs::MarkerArray ForestMarkers::build(const forest::Forest& forest,
+                                                     forest::TreeCache& cache,
+                                                     const std::string& frame_id,
+                                                     Nanoseconds stamp) {
+  chooseTrees(forest);
+  for (visualization_msgs::Marker* list : {&bark_, &leaves_}) {
+    list->points.clear();
+    list->colors.clear();
+    list->header.frame_id = frame_id;
+    list->header.stamp = ros::Time();  // the newest transform; keeps out of tf's waiting queue
+  }
+  wanted_bark_ = wanted_leaves_ = used_ = 0;
+  std::map<std::uint32_t, Drawn> drawn;
+  for (const auto& [height_px, id] : order_) {
+    Drawn& entry = drawn[id] = drawn_[id];
+    const int level = forest::geometryLevel(height_px * feedback_.factor(), entry.level);
+    if (level != entry.level || !entry.mesh) {
+      const auto grown = cache.get(forest.layout(), forest.terrain(), id);
+      entry.level = level;
+      entry.mesh = std::make_shared<const forest::TreeMesh>(
+          buildMesh(grown->tree.skeleton, forest.layout().species[grown->tree.seed.species],
+                    forest::meshDetail(level)));
+    }
+    drawn_[id] = entry;
+    addTree(forest, cache, id, stamp);
+  }
+  drawn_ = std::move(drawn);
+  // By the fuller list, each of half the budget: else trees stand there without their leaves.
+  feedback_.update(2.0 * static_cast<double>(std::max(wanted_bark_, wanted_leaves_)),
+                   0.85 * static_cast<double>(budget()));
+  finish(bark_, bark_points_);
+  finish(leaves_, leaf_points_);
+  visualization_msgs::MarkerArray out;
+  out.markers = {bark_, leaves_};
+  return out;
+}
+
+}  // namespace vegetation_sim

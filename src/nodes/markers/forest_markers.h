@@ -1,0 +1,58 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <visualization_msgs/MarkerArray.h>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "forest/forest.h"
+#include "forest/tree_cache.h"
+#include "tree/mesh/mesh.h"
+
+namespace vegetation_sim {
+
+/// The forest as two TRIANGLE_LISTs, bark (id 0) and leaves (id 1), of constant size: rviz updates
+/// such a list in place. Where the trees need more than the budget their geometry levels fall, by
+/// the feedback of S1-14, and the farthest are left out; where they need less, degenerate triangles
+/// fill up, and a list of nothing is deleted.
+class ForestMarkers {
+ public:
+  /// @param points most points of both lists together, at least 600.
+  explicit ForestMarkers(int points);
+
+  /// Builds the array at `stamp`. `seen_from`: viewers see the nearest trees finest; none: from the
+  /// middle of the forest.
+  visualization_msgs::MarkerArray build(const forest::Forest& forest, forest::TreeCache& cache,
+                                        const std::string& frame_id, Nanoseconds stamp);
+  /// Points in use at the last build.
+  std::size_t points() const { return used_; }
+  std::size_t budget() const { return bark_points_ + leaf_points_; }
+  void reset();
+
+ private:
+  struct Drawn {
+    int level{-1};
+    std::shared_ptr<const forest::TreeMesh> mesh;
+  };
+  void chooseTrees(const forest::Forest& forest);
+  void keepLargest(std::size_t count);
+  void addTree(const forest::Forest& forest, forest::TreeCache& cache, std::uint32_t id,
+               Nanoseconds stamp);
+  void finish(visualization_msgs::Marker& marker, std::size_t points);
+
+  std::size_t bark_points_, leaf_points_;
+  std::size_t used_{0}, wanted_bark_{0}, wanted_leaves_{0};
+  forest::ComplexityFeedback feedback_;
+  std::map<std::uint32_t, Drawn> drawn_;
+  std::vector<std::pair<double, std::uint32_t>> order_;  // height [pixel], tree
+  double least_{0.0};                                    // smaller trees are not drawn [pixel]
+  visualization_msgs::Marker bark_, leaves_;
+  forest::BatchPoses poses_;
+  std::vector<float> scratch_;
+};
+
+}  // namespace vegetation_sim

@@ -1,0 +1,149 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/markers/grass_markers.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "nodes/markers/triangle_list.h"
+#include "vegetation_sim/ros/conversions/geometry_conversions.h"
+
+namespace vegetation_sim {
+namespace {
+
+constexpr double PIXELS_PER_RADIAN = 1000.0;  // of the eye above the middle, when nobody looks
+constexpr double EYE_HEIGHT = 20.0;           // [m] of it
+constexpr float BYTE = 255.f;
+
+double largestDensity(const grass::FeatureMap& map) {
+  double out = 1.0;
+  for (int row = 0; row < map.law().rows; ++row)
+    for (int column = 0; column < map.law().columns; ++column)
+      out = std::max(out, map.node(column, row).density);
+  return out;
+}
+
+Eye eyeAbove(const grass::Meadow& meadow) {
+  const grass::MapLaw& law = meadow.map().law();
+  const double x = law.origin_x + 0.5 * law.resolution * (law.columns - 1);
+  const double y = law.origin_y + 0.5 * law.resolution * (law.rows - 1);
+  return {Vec3(x, y, meadow.terrain().height(x, y) + EYE_HEIGHT), PIXELS_PER_RADIAN};
+}
+
+}  // namespace
+
+GrassMarkers::GrassMarkers(int points)
+    : list_points_(static_cast<std::size_t>(points) / 9 * 3),
+      ground_(triangleList("ground", 0, list_points_)),
+      strips_(triangleList("strips", 1, list_points_)),
+      blades_(triangleList("blades", 2, list_points_)) {}
+
+// The whole map in squares as small as the budget allows.
+void GrassMarkers::addGround(const grass::Meadow& meadow) {
+  const grass::FeatureMap& map = meadow.map();
+  const std::uint64_t wanted = map.hash() ^ meadow.terrain().hash();
+  if (ground_of_ == wanted) return;
+  ground_of_ = wanted;
+  full_density_ = largestDensity(map);
+  const grass::MapLaw& law = map.law();
+  int step = 1;
+  const auto cells = [&](int nodes) { return (nodes - 1 + step - 1) / step; };
+  while (6.0 * cells(law.columns) * cells(law.rows) > static_cast<double>(list_points_)) ++step;
+  const std::vector<std::uint8_t> colours = grass::groundColours(map, full_density_);
+  const auto put = [&](int column, int row, std::size_t at) {
+    const int c = std::min(column, law.columns - 1), r = std::min(row, law.rows - 1);
+    const double x = law.origin_x + c * law.resolution, y = law.origin_y + r * law.resolution;
+    ground_.points[at] = toPoint(Vec3(x, y, meadow.terrain().height(x, y)));
+    const std::uint8_t* rgb = &colours[3 * (static_cast<std::size_t>(r) * law.columns + c)];
+    ground_.colors[at].r = rgb[0] / BYTE;
+    ground_.colors[at].g = rgb[1] / BYTE;
+    ground_.colors[at].b = rgb[2] / BYTE;
+    ground_.colors[at].a = 1.f;
+  };
+  std::fill(ground_.points.begin(), ground_.points.end(), geometry_msgs::Point());
+  std::size_t at = 0;
+  for (int row = 0; row < law.rows - 1; row += step)
+    for (int column = 0; column < law.columns - 1; column += step)
+      for (const auto& [c, r] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}})
+        put(column + c * step, row + r * step, at++);
+  ground_points_ = at;
+}
+
+void GrassMarkers::addTile(const grass::Meadow& meadow, const grass::TileView& view,
+                           const Vec3& eye, const grass::NodeAir& air, grass::BladeModel model,
+                           Nanoseconds stamp) {
+  grass::TileMotion motion;
+  const grass::Tile tile = meadow.tileAt(view, air, stamp, patch_, motion);
+  motion.model = model;
+  if (view.morph.strip > 0.0 && strip_mesh_.indices.size() < list_points_)
+    grass::appendStrips(meadow.map(), tile, motion, view.morph.strip, full_density_, strip_mesh_);
+  if (!view.morph.blades || blade_mesh_.indices.size() >= list_points_) return;
+  const int count = static_cast<int>(view.share * tile.blades);
+  blocks_.resize(static_cast<std::size_t>(grass::blocksFor(count)));
+  grass::poseBlades(tile, motion, count, blocks_.data());
+  grass::RibbonStyle style;
+  style.segments = view.segments;
+  style.width = 1.0 / std::max(view.share, 1e-3);
+  style.slide = view.morph.slide;
+  style.eye = eye;
+  grass::appendRibbons(meadow.map(), tile, blocks_.data(), count, style, blade_mesh_);
+}
+
+// Points beyond those in use become the first one: triangles without area. Returns how many are.
+std::size_t GrassMarkers::copy(const grass::GrassMesh& mesh, visualization_msgs::Marker& marker) {
+  const std::size_t count = std::min(mesh.indices.size(), list_points_);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t vertex = mesh.indices[i];
+    const float* p = &mesh.positions[3 * vertex];
+    const std::uint8_t* rgba = &mesh.colours[4 * vertex];
+    marker.points[i] = toPoint(mesh.origin + Vec3(p[0], p[1], p[2]));
+    marker.colors[i].r = rgba[0] / BYTE;
+    marker.colors[i].g = rgba[1] / BYTE;
+    marker.colors[i].b = rgba[2] / BYTE;
+    marker.colors[i].a = rgba[3] / BYTE;
+  }
+  const geometry_msgs::Point rest = count > 0 ? marker.points[0] : toPoint(mesh.origin);
+  std::fill(marker.points.begin() + static_cast<std::ptrdiff_t>(count), marker.points.end(), rest);
+  return count;
+}
+
+visualization_msgs::MarkerArray GrassMarkers::build(
+    grass::Meadow& meadow, const std::vector<Eye>& viewers, const wind::Field& wind,
+    grass::BladeModel model, const std::string& frame_id, Nanoseconds stamp) {
+  const std::vector<Eye> eyes = viewers.empty() ? std::vector<Eye>{eyeAbove(meadow)} : viewers;
+  meadow.setEyes(eyes);
+  meadow.advance(stamp);
+  addGround(meadow);
+  std::vector<grass::TileView> views = meadow.viewOf(eyes[0], stamp);
+  const double size = meadow.map().law().resolution;
+  const auto distance = [&](const grass::TileView& v) {
+    const double x = meadow.map().law().origin_x + (v.column + 0.5) * size - eyes[0].position.x();
+    const double y = meadow.map().law().origin_y + (v.row + 0.5) * size - eyes[0].position.y();
+    return x * x + y * y;
+  };
+  std::stable_sort(views.begin(), views.end(),
+                   [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
+  std::vector<grass::TilePlace> places;
+  for (const grass::TileView& view : views) places.push_back({view.column, view.row});
+  grass::NodeAir air(meadow.map(), meadow.terrain());
+  air.update(wind.at(stamp), {}, grass::Meadow::windowOf(views), &places);
+  for (grass::GrassMesh* mesh : {&strip_mesh_, &blade_mesh_}) {
+    mesh->clear();
+    mesh->origin = Vec3(eyes[0].position.x(), eyes[0].position.y(), 0.0);
+  }
+  for (const grass::TileView& view : views)
+    addTile(meadow, view, eyes[0].position, air, model, stamp);
+  const std::size_t used[] = {ground_points_, copy(strip_mesh_, strips_),
+                              copy(blade_mesh_, blades_)};
+  used_ = used[0] + used[1] + used[2];
+  visualization_msgs::MarkerArray out;
+  out.markers = {ground_, strips_, blades_};
+  for (std::size_t i = 0; i < 3; ++i) takeAwayIfUnused(out.markers[i], used[i]);
+  for (visualization_msgs::Marker& marker : out.markers) {
+    marker.header.frame_id = frame_id;
+    marker.header.stamp = ros::Time();  // the newest transform; keeps out of tf's waiting queue
+  }
+  return out;
+}
+
+}  // namespace vegetation_sim

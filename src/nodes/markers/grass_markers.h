@@ -1,0 +1,49 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <visualization_msgs/MarkerArray.h>
+
+#include <string>
+#include <vector>
+
+#include "grass/lod/meadow_lod.h"
+#include "grass/mesh/grass_geometry.h"
+#include "vegetation_sim/wind/field.h"
+
+namespace vegetation_sim {
+
+/// A meadow as three TRIANGLE_LISTs of constant size: ground (id 0), strips (id 1) and the blades
+/// nearest to the viewers (id 2); rviz updates such a list in place. What the budget does not hold
+/// is left out, the farthest first; degenerate triangles fill up, and a list of nothing is deleted.
+class GrassMarkers {
+ public:
+  /// @param points of the three lists together, at least 900.
+  explicit GrassMarkers(int points);
+
+  /// Builds the array at `stamp`, after choosing levels for the viewers; none: for an eye above the
+  /// middle of the map.
+  visualization_msgs::MarkerArray build(grass::Meadow& meadow, const std::vector<Eye>& viewers,
+                                        const wind::Field& wind, grass::BladeModel model,
+                                        const std::string& frame_id, Nanoseconds stamp);
+  /// Points in use at the last build.
+  std::size_t points() const { return used_; }
+  std::size_t budget() const { return 3 * list_points_; }
+
+ private:
+  void addGround(const grass::Meadow& meadow);
+  void addTile(const grass::Meadow& meadow, const grass::TileView& view, const Vec3& eye,
+               const grass::NodeAir& air, grass::BladeModel model, Nanoseconds stamp);
+  std::size_t copy(const grass::GrassMesh& mesh, visualization_msgs::Marker& marker);
+
+  std::size_t list_points_;  // of one list
+  std::size_t used_{0}, ground_points_{0};
+  std::uint64_t ground_of_{0};  // hash of map and terrain
+  double full_density_{1.0};    // [1/m^2]
+  visualization_msgs::Marker ground_, strips_, blades_;
+  grass::GrassMesh strip_mesh_, blade_mesh_;
+  std::vector<grass::BladeBlock> blocks_;
+  grass::CrushPatch patch_;
+};
+
+}  // namespace vegetation_sim

@@ -1,0 +1,29 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <string>
+
+#include "sensors/sweep.h"
+
+namespace vegetation_sim {
+
+/// Parameters of vegetation_scanner; README.md has them in words.
+struct ScanOptions {
+  std::string frame_id{"map"};       ///< world frame
+  std::string lidar_frame{"lidar"};  ///< tf frame of the sensor: x forward, z up
+  std::uint64_t seed{0};             ///< of the noise
+  int rate{10};                      ///< sweeps [Hz]
+  double delay{0.1};                 ///< how far sweeps stay behind the clock [s]
+  int branch_budget{400000};         ///< most branches that rays can meet
+  int threads{1};                    ///< of a sweep
+  scan::Beams beams;
+};
+void describe(FieldVisitor& visitor, ScanOptions& options);
+
+/// Reads and checks all private parameters. @throws InvalidInput with all faults.
+ScanOptions loadScanOptions(const ros::NodeHandle& private_handle);
+
+}  // namespace vegetation_sim

@@ -1,0 +1,62 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/ros.h>
+#include <std_srvs/Trigger.h>
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <string>
+#include <vector>
+
+#include "nodes/sensors/scanner_options.h"
+#include "ros/replicas/landscape_replica.h"
+#include "ros/services/diagnostics.h"
+#include "ros/time/tick_clock.h"
+
+namespace vegetation_sim {
+
+/// A lidar on ROS: at each tick it rebuilds what grows and walks around a tf frame, casts its rays
+/// and publishes what they meet. It changes nothing of what it sees. One thread calls everything.
+class VegetationScanner {
+ public:
+  /// @throws InvalidInput for parameters that are refused.
+  VegetationScanner(ros::NodeHandle handle, ros::NodeHandle private_handle);
+
+ private:
+  void listen();
+  void tick(std::int64_t tick);
+  void sweep(const Pose& sensor, std::int64_t tick);
+  void startAnew();
+  void restart(Nanoseconds now);
+  bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  void warnOfTrouble(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
+  /// Header of what is measured now.
+  std_msgs::Header header() const;
+
+  ros::NodeHandle handle_, private_handle_;
+  ScanOptions options_;
+  HeardLandscape landscape_;
+  scan::Scene scene_;
+  struct Counts {
+    std::uint64_t sweeps{0}, blind{0}, lost{0};
+    TickClock::Counts clock;
+  } counts_, reported_;  // so far, and when diagnostics were last sent
+  Refusals refusals_{"vegetation_scanner"};
+  std::string blindness_;
+  double cost_{0.0};         // wall time of the last sweep [s]
+  std::uint32_t points_{0};  // of the last sweep
+
+  tf2_ros::Buffer tf_buffer_;
+  tf2_ros::TransformListener tf_listener_;
+  ros::Publisher cloud_publisher_, scan_publisher_, report_publisher_;
+  ros::ServiceServer reset_service_;
+  TickClock clock_;
+  diagnostic_updater::Updater diagnostics_;
+  ros::WallTimer diagnostics_timer_;
+};
+
+}  // namespace vegetation_sim

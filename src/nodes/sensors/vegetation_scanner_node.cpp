@@ -1,0 +1,9 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/base/run_node.h"
+#include "nodes/sensors/vegetation_scanner.h"
+
+int main(int argc, char** argv) {
+  return vegetation_sim::runNode<vegetation_sim::VegetationScanner>(argc, argv,
+                                                                    "vegetation_scanner");
+}

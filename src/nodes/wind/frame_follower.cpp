@@ -1,0 +1,74 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/wind/frame_follower.h"
+
+#include "vegetation_sim/ros/conversions/stamps.h"
+#include "wind/limits.h"
+
+namespace vegetation_sim {
+
+FrameFollower::FrameFollower(const ros::NodeHandle& nh, const WindSettings& settings)
+    : nh_(nh),
+      frame_id_(settings.frame_id),
+      period_(1.0 / settings.attach_rate),
+      horizon_(settings.attach_horizon),
+      lead_(settings.lead) {}
+
+void FrameFollower::set(const wind::Source& source) {
+  const std::string& name = source.primitive.name;
+  if (!follows(name) && attachments_.size() >= WindSettings::MAX_FOLLOWED)
+    throw InvalidInput("primitive '" + name + "': " + std::to_string(attachments_.size()) +
+                       " frames are followed already, allowed are " +
+                       std::to_string(WindSettings::MAX_FOLLOWED));
+  if (!listener_) listener_ = std::make_unique<tf2_ros::TransformListener>(buffer_, nh_);
+  attachments_.erase(name);
+  attachments_.emplace(name, wind::Attachment(source, period_, horizon_));
+}
+
+void FrameFollower::clear() {
+  attachments_.clear();
+  missing_.clear();
+  buffer_.clear();
+}
+
+bool FrameFollower::sample(wind::Attachment& attachment, Nanoseconds now) {
+  try {
+    const auto transform =
+        buffer_.lookupTransform(frame_id_, attachment.source().attached_frame, ros::Time(0));
+    // What only static transforms connect has no stamp: it is there now.
+    const Nanoseconds stamp = fromMsg(transform.header.stamp);
+    const auto& at = transform.transform.translation;
+    wind::Waypoint point{stamp == 0 ? now : stamp, Vec3(at.x, at.y, at.z)};
+    Faults faults;
+    FieldChecker(attachment.source().attached_frame + ".", faults)
+        .vector("position", point.position, "m", wind::POSITIONS);
+    if (!faults.empty() || secondsBetween(point.stamp, now) > 0.5 * horizon_) return false;
+    attachment.add(point);
+    return true;
+  } catch (const tf2::TransformException&) {
+    return false;
+  }
+}
+
+bool FrameFollower::update(wind::Ledger& ledger, Nanoseconds now) {
+  bool changed = false;
+  missing_.clear();
+  const Nanoseconds earliest = now + fromSeconds(lead_);
+  for (auto& [name, attachment] : attachments_) {
+    if (!sample(attachment, now)) missing_.push_back(attachment.source().attached_frame);
+    const bool goes_on = attachment.started();
+    const auto piece = attachment.piece(earliest);
+    if (!piece) continue;
+    goes_on ? ledger.follow(*piece, earliest) : ledger.set(*piece, earliest);
+    changed = true;
+  }
+  return changed;
+}
+
+std::vector<std::string> FrameFollower::names() const {
+  std::vector<std::string> names;
+  for (const auto& entry : attachments_) names.push_back(entry.first);
+  return names;
+}
+
+}  // namespace vegetation_sim

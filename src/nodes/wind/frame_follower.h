@@ -1,0 +1,52 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "nodes/wind/wind_settings.h"
+#include "wind/schedule/attachment.h"
+#include "wind/schedule/primitive_schedule.h"
+
+namespace vegetation_sim {
+
+/// Sources whose centre is a tf frame. The broadcaster alone looks up tf, at update(), and
+/// publishes pieces of trajectory, so that nobody else needs tf for wind and a bag replays.
+class FrameFollower {
+ public:
+  FrameFollower(const ros::NodeHandle& nh, const WindSettings& settings);
+
+  /// Follows a frame for this source, instead of any source of the same name.
+  /// @throws InvalidInput if too many are followed.
+  void set(const wind::Source& source);
+  bool follows(const std::string& name) const { return attachments_.count(name) > 0; }
+  void remove(const std::string& name) { attachments_.erase(name); }
+  void clear();
+
+  /// Samples every frame and puts the next pieces into the ledger. @return whether any was put.
+  /// @throws InvalidInput if the ledger has no room.
+  bool update(wind::Ledger& ledger, Nanoseconds now);
+
+  std::vector<std::string> names() const;
+  /// Frames that tf did not know, or not of late, at the last update.
+  const std::vector<std::string>& missing() const { return missing_; }
+
+ private:
+  bool sample(wind::Attachment& attachment, Nanoseconds now);
+
+  ros::NodeHandle nh_;
+  std::string frame_id_;
+  double period_, horizon_, lead_;  // [s]
+  tf2_ros::Buffer buffer_;
+  std::unique_ptr<tf2_ros::TransformListener> listener_;  // once the first frame is followed
+  std::map<std::string, wind::Attachment> attachments_;   // by name of the source
+  std::vector<std::string> missing_;
+};
+
+}  // namespace vegetation_sim

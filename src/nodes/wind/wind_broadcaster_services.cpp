@@ -1,0 +1,133 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/wind/wind_broadcaster.h"
+#include "vegetation_sim/ros/conversions/stamps.h"
+#include "vegetation_sim/ros/conversions/wind_conversions.h"
+#include "wind/limits.h"
+
+namespace vegetation_sim {
+namespace {
+
+constexpr std::size_t MOST_SAMPLES = 100000;
+constexpr std::size_t MOST_FAULTS = 10;  // listed of one request
+
+void checkSamples(const SampleWind::Request& request) {
+  Faults faults;
+  const std::size_t points = request.positions.size(), stamps = request.stamps.size();
+  if (points > MOST_SAMPLES)
+    faults.add("positions: " + std::to_string(points) + " of them, allowed are " +
+               std::to_string(MOST_SAMPLES));
+  if (stamps > 1 && stamps != points)
+    faults.add("stamps: " + std::to_string(stamps) + " of them, allowed are 0, 1 or " +
+               std::to_string(points) + " as of positions");
+  for (std::size_t i = 0; i < points && faults.list().size() < MOST_FAULTS; ++i) {
+    const auto& at = request.positions[i];
+    Vec3 position(at.x, at.y, at.z);
+    FieldChecker checker("positions[" + std::to_string(i) + "]", faults);
+    checker.vector("", position, "m", wind::POSITIONS);
+  }
+  faults.throwIfAny();
+}
+
+}  // namespace
+
+template <class Response>
+bool WindBroadcaster::answer(const char* service, Response& response,
+                             const std::function<void()>& action) {
+  const Lock lock(mutex_);
+  try {
+    if (!clock_.running()) throw InvalidInput("time has not begun, is /clock published?");
+    action();
+    response.success = true;
+  } catch (const InvalidInput& error) {
+    response.success = false;
+    response.message = error.what();
+    refuse(service, error.what());
+  }
+  return true;
+}
+
+bool WindBroadcaster::setPrimitive(SetWindPrimitive::Request& request,
+                                   SetWindPrimitive::Response& response) {
+  return answer("set_primitive", response, [&] {
+    Faults faults;
+    const wind::Source source = sourceFromMsg(request.primitive, settings_.frame_id, faults);
+    if (const auto published = apply(source, faults)) {
+      response.id = published->id;
+      response.t_on = toStamp(published->t_on);
+      response.message = "begins at " + std::to_string(secondsBetween(0, published->t_on)) + " s";
+    } else {
+      response.message = "blows once tf knows " + source.attached_frame;
+    }
+    noteBreeze();
+  });
+}
+
+bool WindBroadcaster::removePrimitive(RemoveWindPrimitive::Request& request,
+                                      RemoveWindPrimitive::Response& response) {
+  return answer("remove_primitive", response, [&] {
+    if (!request.name.empty()) {
+      remove(request.name);
+    } else {
+      for (const std::string& name : ledger_.names(earliest())) remove(name);
+      for (const std::string& name : follower_.names()) remove(name);
+    }
+    publishField();
+    noteBreeze();
+  });
+}
+
+void WindBroadcaster::reconfigure(WindBroadcasterConfig& config, std::uint32_t level) {
+  if (level != ~0u) {
+    std_srvs::Trigger::Response response;
+    answer("reconfigure", response, [&] {
+      BreezeSettings wanted = fromConfig(config);
+      Faults faults;
+      FieldChecker checker("", faults);  // a NaN passes the server's clamp
+      describe(checker, wanted);
+      faults.throwIfAny();
+      wind::Primitive base;
+      base.velocity = Vec3::Zero();
+      if (const auto now = ledger_.find(BreezeSettings::NAME, earliest())) base = *now;
+      base.t_on = base.t_off = 0;
+      apply({wanted.applyTo(base), ""});
+      breeze_ = wanted;
+    });
+  }
+  config = toConfig(breeze_);
+}
+
+bool WindBroadcaster::getField(GetWindField::Request&, GetWindField::Response& response) {
+  return answer("get_field", response,
+                [&] { response.field = toMsg(ledger_.field(), settings_.frame_id, clock_.now()); });
+}
+
+bool WindBroadcaster::sample(SampleWind::Request& request, SampleWind::Response& response) {
+  return answer("sample", response, [&] {
+    checkSamples(request);
+    const auto stampOf = [&](std::size_t i) {
+      const Nanoseconds stamp = request.stamps.empty()       ? 0
+                                : request.stamps.size() == 1 ? fromMsg(request.stamps[0])
+                                                             : fromMsg(request.stamps[i]);
+      return stamp == 0 ? clock_.now() : stamp;
+    };
+    Nanoseconds stamp = 0;
+    wind::Instant instant;
+    for (std::size_t i = 0; i < request.positions.size(); ++i) {
+      if (i == 0 || stampOf(i) != stamp) instant = ledger_.field().at(stamp = stampOf(i));
+      const auto& at = request.positions[i];
+      const Vec3 velocity = instant.velocity(Vec3(at.x, at.y, at.z));
+      geometry_msgs::Vector3 out;
+      out.x = velocity.x();
+      out.y = velocity.y();
+      out.z = velocity.z();
+      response.velocities.push_back(out);
+    }
+  });
+}
+
+bool WindBroadcaster::reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  return answer("reset", response, [&] { begin(clock_.now()); });
+}
+
+}  // namespace vegetation_sim

@@ -1,8 +1,0 @@
-// Copyright 2026 vegetation_sim developers
-// SPDX-License-Identifier: BSD-3-Clause
-#include "vegetation_sim/nodes/run_node.h"
-#include "vegetation_sim/nodes/wind_broadcaster.h"
-
-int main(int argc, char** argv) {
-  return vegetation_sim::runNode<vegetation_sim::WindBroadcaster>(argc, argv, "wind_broadcaster");
-}

@@ -1,0 +1,114 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/ros/conversions/canopy_conversions.h"
+
+#include <cmath>
+
+#include "ros/params/plant_files.h"
+#include "vegetation_sim/ros/conversions/geometry_conversions.h"
+#include "vegetation_sim/ros/conversions/stamps.h"
+
+namespace vegetation_sim {
+namespace {
+
+constexpr Range ANYWHERE{-1e7, 1e7};
+constexpr std::uint16_t HALF_INFINITY = 0x7c00U;  // exponents from here on are no numbers
+
+bool isFinite(const std::vector<std::uint16_t>& halfs) {
+  for (const std::uint16_t half : halfs)
+    if ((half & HALF_INFINITY) == HALF_INFINITY) return false;
+  return true;
+}
+
+}  // namespace
+
+CanopyLayout toMsg(const canopy::Layout& layout) {
+  CanopyLayout out;
+  out.hash = layout.hash();
+  out.seed = layout.seed;
+  out.law = canopy::writeLaw(layout);
+  for (const canopy::Plant& plant : layout.plants) {
+    CanopyPlant message;
+    message.seed = plant.seed;
+    message.kind = plant.kind;
+    message.position = toPoint(plant.position);
+    message.yaw = plant.yaw;
+    message.scale = plant.scale;
+    out.plants.push_back(message);
+  }
+  return out;
+}
+
+canopy::Layout fromMsg(const CanopyLayout& message) {
+  canopy::Layout out = canopy::parseLaw(message.law, "layout");
+  out.seed = message.seed;
+  for (const CanopyPlant& plant : message.plants)
+    out.plants.push_back({plant.seed, plant.kind, fromMsg(plant.position), plant.yaw, plant.scale});
+  Faults faults;
+  loadForms(out, "", faults);
+  canopy::check(out, faults);
+  if (faults.empty() && out.hash() != message.hash)
+    faults.add("layout: its hash is " + std::to_string(out.hash()) + ", the sender's " +
+               std::to_string(message.hash));
+  faults.throwIfAny();
+  return out;
+}
+
+canopy::CutView eyeFromMsg(const geometry_msgs::Pose& pose) {
+  Faults faults;
+  Vec3 place = fromMsg(pose.position);
+  FieldChecker checker("eye: ", faults);
+  checker.vector("position", place, "m", ANYWHERE);
+  const auto& q = pose.orientation;
+  double norm = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+  checker.number("orientation, its norm,", norm, "", {0.99, 1.01});
+  faults.throwIfAny();
+  // As it stands if it is good: a replica gets the bits of the sender.
+  const double scale = std::fabs(norm - 1.0) < 1e-12 ? 1.0 : 1.0 / norm;
+  return {place, {scale * q.w, scale * q.x, scale * q.y, scale * q.z}};
+}
+
+geometry_msgs::Pose eyeToMsg(const canopy::CutView& eye) {
+  Pose pose;
+  pose.position = eye.position;
+  pose.orientation = eye.orientation;
+  return toMsg(pose);
+}
+
+CanopyState toMsg(const canopy::StateUpdate& update) {
+  CanopyState out;
+  out.header.stamp = toStamp(update.stamp);
+  out.sequence = update.sequence;
+  out.right = update.frame.u;
+  out.up = update.frame.v;
+  out.depth = update.frame.depth;
+  out.front_share = update.front_share;
+  out.eye = eyeToMsg(update.cuts.now);
+  out.eye_before = eyeToMsg(update.cuts.before);
+  out.eye_since = toStamp(update.cuts.since);
+  out.layout_hash = update.layout_hash;
+  out.wind_hash = update.wind_hash;
+  out.hash = update.hash;
+  return out;
+}
+
+canopy::StateUpdate fromMsg(const CanopyState& message) {
+  canopy::StateUpdate out;
+  out.stamp = fromMsg(message.header.stamp);
+  out.sequence = message.sequence;
+  out.frame = {message.right, message.up, message.depth};
+  Faults faults;
+  if (!isFinite(out.frame.u) || !isFinite(out.frame.v) || !isFinite({out.frame.depth}))
+    faults.add("state: a motion is not finite");
+  const std::string fault = rangeFault("state: front_share", message.front_share, "", {0.0, 1.0});
+  if (!fault.empty()) faults.add(fault);
+  faults.throwIfAny();
+  out.front_share = message.front_share;
+  out.cuts = {eyeFromMsg(message.eye), eyeFromMsg(message.eye_before), fromMsg(message.eye_since)};
+  out.layout_hash = message.layout_hash;
+  out.wind_hash = message.wind_hash;
+  out.hash = message.hash;
+  return out;
+}
+
+}  // namespace vegetation_sim

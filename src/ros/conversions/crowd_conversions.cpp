@@ -1,0 +1,203 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/conversions/crowd_conversions.h"
+
+#include <cmath>
+
+#include "vegetation_sim/core/config/fields.h"
+#include "vegetation_sim/core/math/hash.h"
+#include "vegetation_sim/core/math/math.h"
+#include "vegetation_sim/ros/conversions/geometry_conversions.h"
+
+namespace vegetation_sim {
+namespace {
+
+constexpr Range PLACES{-1e7, 1e7}, HEIGHTS{0.1, 5.0}, UNIT{-1.01, 1.01};
+
+geometry_msgs::Point pointOf(const crowd::Point& p, double z) {
+  return toPoint(Vec3(p.x, p.y, z));
+}
+
+geometry_msgs::Vector3 vectorOf(const crowd::Point& p) {
+  return toVector(Vec3(p.x, p.y, 0.0));
+}
+
+template <class Message>
+crowd::Point planOf(const Message& message) {
+  return {message.x, message.y};
+}
+
+double orDefault(double value, double fallback) {
+  return value == 0.0 ? fallback : value;
+}
+
+void check(const AgentState& agent, Faults& faults) {
+  FieldChecker checker("agent " + std::to_string(agent.id) + ": ", faults);
+  const auto place = [&](const char* name, Vec3 at) { checker.vector(name, at, "m", PLACES); };
+  place("position", fromMsg(agent.pose.position));
+  double height = agent.height, gait = agent.gait;
+  checker.number("height", height, "m", HEIGHTS);
+  checker.number("gait", gait, "", PLACES);
+  Vec3 velocity = fromMsg(agent.velocity);
+  checker.vector("velocity", velocity, "m/s", PLACES);
+  double turn = agent.pose.orientation.z, half = agent.pose.orientation.w;
+  checker.number("orientation.z", turn, "", UNIT);
+  checker.number("orientation.w", half, "", UNIT);
+  for (std::size_t i = 0; i < 2; ++i) {
+    place("feet", fromMsg(agent.feet[i]));
+    place("feet_lag", fromMsg(agent.feet_lag[i]));
+  }
+}
+
+}  // namespace
+
+AgentState toMsg(const crowd::Walker& w, const terrain::HeightMap& terrain) {
+  AgentState out;
+  out.id = w.id;
+  out.pose.position = pointOf(w.position, terrain.height(w.position.x, w.position.y));
+  const SinCos half = sinCos(0.5 * w.heading);
+  out.pose.orientation.z = half.sin;
+  out.pose.orientation.w = half.cos;
+  out.velocity = vectorOf(w.velocity);
+  out.radius = w.radius;
+  out.height = w.height;
+  out.gait = w.gait;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const crowd::Point& foot = w.feet[i].planted;
+    out.feet[i] = pointOf(foot, terrain.height(foot.x, foot.y));
+    out.feet_stand[i] = w.feet[i].stands;
+    out.feet_lag[i] = vectorOf(w.feet[i].lag);
+  }
+  out.has_goal = w.has_goal;
+  out.arrived = w.arrived;
+  out.goal = pointOf(w.goal, terrain.height(w.goal.x, w.goal.y));
+  out.no_progress = w.no_progress;
+  return out;
+}
+
+crowd::Walker fromMsg(const AgentState& message) {
+  crowd::Walker out;
+  out.id = message.id;
+  out.position = planOf(message.pose.position);
+  const auto& q = message.pose.orientation;
+  out.heading = 2.0 * arcTangent(q.z, q.w);
+  out.velocity = planOf(message.velocity);
+  out.radius = message.radius;
+  out.height = message.height;
+  out.gait = message.gait;
+  for (std::size_t i = 0; i < 2; ++i)
+    out.feet[i] = {planOf(message.feet[i]), planOf(message.feet_lag[i]),
+                   message.feet_stand[i] != 0};
+  out.has_goal = message.has_goal;
+  out.arrived = message.arrived;
+  out.goal = planOf(message.goal);
+  out.no_progress = message.no_progress;
+  return out;
+}
+
+void check(const AgentStates& message) {
+  Faults faults;
+  for (const AgentState& agent : message.agents) check(agent, faults);
+  faults.throwIfAny();
+}
+
+AgentSpawn toMsg(const crowd::Spawn& spawn) {
+  AgentSpawn out;
+  out.position = pointOf(spawn.position, 0.0);
+  out.heading = spawn.heading;
+  out.speed = spawn.speed;
+  out.radius = spawn.radius;
+  out.height = spawn.height;
+  out.has_goal = spawn.has_goal;
+  out.goal = pointOf(spawn.goal, 0.0);
+  out.stands = !spawn.has_goal && !spawn.wanders;
+  return out;
+}
+
+crowd::Spawn fromMsg(const AgentSpawn& message) {
+  crowd::Spawn out;
+  out.position = planOf(message.position);
+  out.heading = message.heading;
+  out.speed = orDefault(message.speed, out.speed);
+  out.radius = orDefault(message.radius, out.radius);
+  out.height = orDefault(message.height, out.height);
+  out.has_goal = message.has_goal;
+  out.goal = planOf(message.goal);
+  out.wanders = !message.has_goal && !message.stands;
+  return out;
+}
+
+CrowdRobot toMsg(const crowd::Robot& robot) {
+  CrowdRobot out;
+  out.id = robot.id;
+  for (const crowd::Point& corner : robot.outline) out.outline.push_back(pointOf(corner, 0.0));
+  out.radius = robot.radius;
+  out.position = pointOf(robot.position, 0.0);
+  out.yaw = robot.yaw;
+  out.velocity = vectorOf(robot.velocity);
+  return out;
+}
+
+crowd::Robot fromMsg(const CrowdRobot& message) {
+  crowd::Robot out;
+  out.id = message.id;
+  for (const auto& corner : message.outline) out.outline.push_back(planOf(corner));
+  out.radius = message.radius;
+  out.position = planOf(message.position);
+  out.yaw = message.yaw;
+  out.velocity = planOf(message.velocity);
+  return out;
+}
+
+std::vector<crowd::Obstacle> trunksOf(const forest::Layout& layout, TrunkShape shape,
+                                      const crowd::Area& area, double margin, std::size_t most) {
+  std::vector<crowd::Obstacle> out;
+  const std::uint32_t count = layout.treeCount();
+  for (std::uint32_t i = 0; i < count && out.size() < most; ++i) {
+    const forest::TreeSeed tree = seedOf(layout, i);
+    const crowd::Point at{tree.position.x(), tree.position.y()};
+    if (at.x < area.min_x - margin || at.x > area.max_x + margin || at.y < area.min_y - margin ||
+        at.y > area.max_y + margin)
+      continue;
+    const double radius = layout.species[tree.species].trunk_radius * tree.scale;
+    out.push_back(shape == TrunkShape::ROUND ? crowd::discObstacle(at, radius)
+                                             : crowd::boxObstacle(at, radius, radius, tree.yaw));
+  }
+  return out;
+}
+
+std::uint64_t hashOf(const nav_msgs::OccupancyGrid& cover) {
+  Hash hash;
+  hash.add(std::uint64_t{cover.info.width});
+  hash.add(std::uint64_t{cover.info.height});
+  hash.add(cover.info.origin.position.x);
+  hash.add(cover.info.origin.position.y);
+  hash.add(static_cast<double>(cover.info.resolution));
+  for (const std::int8_t cell : cover.data) hash.add(static_cast<std::uint64_t>(cell + 1));
+  return hash.value();
+}
+
+crowd::Resistance resistanceOf(const nav_msgs::OccupancyGrid& cover) {
+  const std::size_t width = cover.info.width, height = cover.info.height;
+  const double cell = static_cast<double>(cover.info.resolution);
+  if (cover.data.size() != width * height || !(cell > 0.0) || width == 0 || height == 0)
+    throw InvalidInput("cover: data has " + std::to_string(cover.data.size()) + " cells, width " +
+                       std::to_string(width) + " and height " + std::to_string(height) +
+                       " want another number, or resolution = " + std::to_string(cell) +
+                       " m is not above 0");
+  const crowd::Point origin{cover.info.origin.position.x, cover.info.origin.position.y};
+  if (!std::isfinite(origin.x) || !std::isfinite(origin.y))
+    throw InvalidInput("cover: origin is not finite");
+  const auto data = std::make_shared<const std::vector<std::int8_t>>(cover.data);
+  return [=](const crowd::Point& place) {
+    const double column = (place.x - origin.x) / cell, row = (place.y - origin.y) / cell;
+    if (column < 0.0 || row < 0.0 || column >= static_cast<double>(width) ||
+        row >= static_cast<double>(height))
+      return 0.0;
+    const int percent =
+        (*data)[static_cast<std::size_t>(row) * width + static_cast<std::size_t>(column)];
+    return percent < 0 ? 0.0 : 0.01 * percent;
+  };
+}
+
+}  // namespace vegetation_sim

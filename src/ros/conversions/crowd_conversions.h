@@ -1,0 +1,44 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <nav_msgs/OccupancyGrid.h>
+#include <vegetation_sim/AgentSpawn.h>
+#include <vegetation_sim/AgentState.h>
+#include <vegetation_sim/AgentStates.h>
+#include <vegetation_sim/CrowdRobot.h>
+
+#include <memory>
+#include <vector>
+
+#include "crowd/agents/crowd.h"
+#include "vegetation_sim/tree/growth/forest_layout.h"
+
+namespace vegetation_sim {
+
+/// A walker as it stands on the terrain, and back, as far as its body goes.
+AgentState toMsg(const crowd::Walker& walker, const terrain::HeightMap& terrain);
+crowd::Walker fromMsg(const AgentState& message);
+/// What a stranger says of walkers. @throws InvalidInput with all faults, each with id, value and
+/// range.
+void check(const AgentStates& message);
+
+AgentSpawn toMsg(const crowd::Spawn& spawn);
+/// Zeros become the defaults. Not checked: Crowd::spawn() does that.
+crowd::Spawn fromMsg(const AgentSpawn& message);
+
+CrowdRobot toMsg(const crowd::Robot& robot);
+crowd::Robot fromMsg(const CrowdRobot& message);
+
+/// Trunks of a forest as obstacles, round or as their bounding boxes, within the area and
+/// `margin` [m] of it; at most `most`, by id.
+enum class TrunkShape : int { ROUND = 0, BOX = 1 };
+std::vector<crowd::Obstacle> trunksOf(const forest::Layout& layout, TrunkShape shape,
+                                      const crowd::Area& area, double margin, std::size_t most);
+
+/// Cover in percent as a resistance by place; unknown cells and those beyond are free. A map that
+/// is turned is read as if it were not. @throws InvalidInput for sizes that do not fit.
+crowd::Resistance resistanceOf(const nav_msgs::OccupancyGrid& cover);
+std::uint64_t hashOf(const nav_msgs::OccupancyGrid& cover);
+
+}  // namespace vegetation_sim

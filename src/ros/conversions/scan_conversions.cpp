@@ -1,0 +1,100 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/conversions/scan_conversions.h"
+
+#include <cstddef>
+#include <cstring>
+
+namespace vegetation_sim {
+namespace {
+
+using sensor_msgs::PointField;
+
+PointField fieldOf(const char* name, std::size_t offset, std::uint8_t type) {
+  PointField out;
+  out.name = name;
+  out.offset = static_cast<std::uint32_t>(offset);
+  out.datatype = type;
+  out.count = 1;
+  return out;
+}
+
+bool isBigEndian() {
+  const std::uint16_t one = 1;
+  std::uint8_t first = 0;
+  std::memcpy(&first, &one, 1);
+  return first == 0;
+}
+
+ScanPoint pointOf(const scan::Return& one, const scan::Beams& beams, int ring, int column) {
+  const Vec3 place = one.range * scan::directionOf(beams, ring, column);
+  ScanPoint out;
+  out.x = static_cast<float>(place.x());
+  out.y = static_cast<float>(place.y());
+  out.z = static_cast<float>(place.z());
+  out.intensity = static_cast<float>(scan::intensityOf(one.hit));
+  out.ring = static_cast<std::uint16_t>(ring);
+  out.label = static_cast<std::uint16_t>(one.hit.label);
+  out.plant = one.hit.plant;
+  out.branch = one.hit.branch;
+  return out;
+}
+
+}  // namespace
+
+sensor_msgs::PointCloud2 toCloud(const std::vector<scan::Return>& returns,
+                                 const scan::Beams& beams) {
+  sensor_msgs::PointCloud2 out;
+  out.fields = {fieldOf("x", offsetof(ScanPoint, x), PointField::FLOAT32),
+                fieldOf("y", offsetof(ScanPoint, y), PointField::FLOAT32),
+                fieldOf("z", offsetof(ScanPoint, z), PointField::FLOAT32),
+                fieldOf("intensity", offsetof(ScanPoint, intensity), PointField::FLOAT32),
+                fieldOf("ring", offsetof(ScanPoint, ring), PointField::UINT16),
+                fieldOf("label", offsetof(ScanPoint, label), PointField::UINT16),
+                fieldOf("plant", offsetof(ScanPoint, plant), PointField::UINT32),
+                fieldOf("branch", offsetof(ScanPoint, branch), PointField::INT32)};
+  std::vector<ScanPoint> points;
+  points.reserve(returns.size());
+  for (std::size_t i = 0; i < returns.size(); ++i)
+    if (returns[i].isPoint())
+      points.push_back(pointOf(returns[i], beams, static_cast<int>(i) / beams.columns,
+                               static_cast<int>(i) % beams.columns));
+  out.height = 1;
+  out.width = static_cast<std::uint32_t>(points.size());
+  out.point_step = sizeof(ScanPoint);
+  out.row_step = out.width * out.point_step;
+  out.is_bigendian = isBigEndian();
+  out.is_dense = true;
+  out.data.resize(out.row_step);
+  if (!points.empty()) std::memcpy(out.data.data(), points.data(), out.data.size());
+  return out;
+}
+
+sensor_msgs::LaserScan toScan(const std::vector<scan::Return>& returns, const scan::Beams& beams) {
+  sensor_msgs::LaserScan out;
+  const double increment = (beams.azimuth_high - beams.azimuth_low) / beams.columns;
+  out.angle_min = static_cast<float>(beams.azimuth_low);
+  out.angle_max = static_cast<float>(beams.azimuth_low + increment * (beams.columns - 1));
+  out.angle_increment = static_cast<float>(increment);
+  out.range_min = static_cast<float>(beams.range_min);
+  out.range_max = static_cast<float>(beams.range_max);
+  for (const scan::Return& one : returns) {
+    out.ranges.push_back(static_cast<float>(one.range));
+    out.intensities.push_back(one.isPoint() ? static_cast<float>(scan::intensityOf(one.hit)) : 0.f);
+  }
+  return out;
+}
+
+ScanReport toReport(const std::vector<scan::Return>& returns, const scan::Trees& trees) {
+  ScanReport out;
+  const auto counts = scan::countLabels(returns);
+  static_assert(decltype(out.counts)::static_size == counts.size(), "ScanReport.msg");
+  std::copy(counts.begin(), counts.end(), out.counts.begin());
+  out.rays = static_cast<std::uint32_t>(returns.size());
+  out.trees = static_cast<std::uint32_t>(trees.all().size());
+  out.branches = static_cast<std::uint32_t>(trees.branches());
+  out.left_out = static_cast<std::uint32_t>(trees.leftOut());
+  return out;
+}
+
+}  // namespace vegetation_sim

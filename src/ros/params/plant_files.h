@@ -1,0 +1,25 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "canopy/plants/mesh_leaves.h"
+#include "canopy/plants/slice_leaves.h"
+#include "vegetation_sim/canopy/canopy_layout.h"
+
+namespace vegetation_sim {
+
+/// The faces of any file that assimp reads, named as a path or as resource_retriever takes it
+/// (package://, file://, http://). @throws InvalidInput naming the file.
+canopy::LeafMesh loadLeafMesh(const std::string& name);
+
+/// Grey pictures, the first of which is named; the others have the numbers after its own.
+/// @throws InvalidInput naming the file.
+canopy::SliceStack loadSlices(const std::string& name);
+
+/// Reads what kinds of the shapes mesh and slices are made of. Files named without a folder are
+/// looked for in `folder`, and named in full then. Adds a fault for each that cannot be read.
+void loadForms(canopy::Layout& layout, const std::string& folder, Faults& faults);
+
+}  // namespace vegetation_sim

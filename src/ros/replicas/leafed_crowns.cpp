@@ -1,0 +1,73 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/replicas/leafed_crowns.h"
+
+namespace vegetation_sim {
+namespace {
+
+// Leaves hang where the species has them; one without any has them on its last limbs.
+std::vector<canopy::Twig> twigsOf(const forest::Tree& tree) {
+  const forest::Skeleton& skeleton = tree.skeleton;
+  bool leafed = false;
+  for (const forest::Branch& branch : skeleton.branches) leafed = leafed || branch.leaves > 0;
+  std::vector<canopy::Twig> out;
+  for (const forest::Branch& branch : skeleton.branches) {
+    canopy::Twig twig;
+    twig.pose = {Vec3(tree.foot + branch.rest.position), branch.rest.orientation};
+    twig.length = branch.length;
+    const bool last = branch.depth + 1 == skeleton.depths();
+    twig.share = leafed ? branch.leaves : (last ? branch.length : 0.0);
+    out.push_back(twig);
+  }
+  return out;
+}
+
+canopy::LeafBox boxOf(const std::vector<canopy::CrownLeaf>& leaves) {
+  canopy::LeafBox out;
+  if (leaves.empty()) return out;
+  out.low = out.high = leaves.front().leaf.anchor;
+  for (const canopy::CrownLeaf& leaf : leaves) {
+    out.low = out.low.cwiseMin(leaf.leaf.anchor);
+    out.high = out.high.cwiseMax(leaf.leaf.anchor);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<canopy::LeafBox> LeafedCrowns::boxes() const {
+  std::vector<canopy::LeafBox> out;
+  for (const Crown& crown : crowns_)
+    if (!crown.leaves.empty()) out.push_back(crown.box);
+  return out;
+}
+
+void LeafedCrowns::grow(const canopy::Layout& layout, const forest::ForestReplica& forest) {
+  crowns_.clear();
+  trees_.clear();
+  const std::uint32_t count = forest.layout().treeCount();
+  for (const canopy::CrownRule& rule : layout.crowns)
+    for (int i = 0; i < rule.trees; ++i) {
+      const auto tree = static_cast<std::uint32_t>(rule.first_tree + i);
+      if (tree >= count) break;
+      trees_.push_back(forest.grow(tree));
+      Crown crown;
+      crown.tree = tree;
+      crown.kind = rule.kind;
+      crown.rest = twigsOf(trees_.back());
+      crown.leaves =
+          canopy::growCrown(layout.kinds[rule.kind], trees_.back().seed.seed, crown.rest);
+      crown.box = boxOf(crown.leaves);
+      crowns_.push_back(std::move(crown));
+    }
+}
+
+std::vector<Pose> LeafedCrowns::wood(std::size_t crown, const forest::ForestReplica& forest,
+                                     Nanoseconds stamp) const {
+  const forest::Tree& tree = trees_[crown];
+  std::vector<Pose> out = forest.pose(tree, crowns_[crown].tree, stamp);
+  for (Pose& pose : out) pose.position = Vec3(tree.foot + pose.position);
+  return out;
+}
+
+}  // namespace vegetation_sim

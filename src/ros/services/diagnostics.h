@@ -1,0 +1,39 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <diagnostic_updater/DiagnosticStatusWrapper.h>
+#include <ros/time.h>
+
+#include <cstdint>
+#include <string>
+#include <utility>
+
+#include "ros/time/tick_clock.h"
+
+namespace vegetation_sim {
+
+/// Warns on /diagnostics of what has happened since the last report, and only of that. Of text of
+/// many lines the first few, and how many more.
+void warnOfMore(diagnostic_updater::DiagnosticStatusWrapper& status, std::uint64_t now,
+                std::uint64_t reported, const std::string& what);
+void warnOfClock(diagnostic_updater::DiagnosticStatusWrapper& status, const TickClock::Counts& now,
+                 const TickClock::Counts& reported);
+
+/// Inputs that a node refuses: told on the console at most once a second, and on /diagnostics.
+class Refusals {
+ public:
+  explicit Refusals(std::string node) : node_(std::move(node)) {}
+
+  void add(const std::string& what, const std::string& why);
+  /// Of those since it last did, with the reason for the last.
+  void warn(diagnostic_updater::DiagnosticStatusWrapper& status);
+  std::uint64_t count() const { return count_; }
+
+ private:
+  std::string node_, last_;
+  std::uint64_t count_{0}, reported_{0};
+  ros::WallTime quiet_until_;
+};
+
+}  // namespace vegetation_sim

@@ -1,0 +1,81 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/time/tick_clock.h"
+
+#include <utility>
+
+#include "vegetation_sim/ros/conversions/stamps.h"
+
+namespace vegetation_sim {
+namespace {
+
+constexpr int LOOKS_PER_TICK = 4;       // the timer is not aligned with the grid
+constexpr unsigned CLOCK_QUEUE = 1000;  // a fast clock is followed message by message
+constexpr double NEWEST = 1.0 / 30.0;   // share of the newest tick in the mean cost
+
+}  // namespace
+
+TickClock::TickClock(std::string name, int rate, double delay, TickCalls calls, LateTicks late)
+    : name_(std::move(name)),
+      grid_(rate),
+      delay_(fromSeconds(delay)),
+      calls_(std::move(calls)),
+      late_(late) {}
+
+void TickClock::listen(ros::NodeHandle handle) {
+  if (ros::Time::isSimTime()) {
+    const boost::function<void(const rosgraph_msgs::Clock&)> heard =
+        [this](const rosgraph_msgs::Clock& message) { see(fromMsg(message.clock)); };
+    const unsigned queue = late_ == LateTicks::EACH ? CLOCK_QUEUE : 1;
+    clock_ = handle.subscribe<rosgraph_msgs::Clock>("/clock", queue, heard);
+  } else {
+    timer_ = handle.createTimer(ros::Duration(1.0 / (LOOKS_PER_TICK * grid_.rate())),
+                                [this](const ros::TimerEvent&) { see(fromMsg(ros::Time::now())); });
+  }
+}
+
+void TickClock::drop(std::int64_t due) {
+  const std::int64_t between = due - last_ - 1;
+  counts_.dropped += static_cast<std::uint64_t>(between);
+  ROS_WARN_THROTTLE(1.0, "%s: the clock is ahead; %lld ticks are dropped", name_.c_str(),
+                    static_cast<long long>(between));
+  last_ = due - 1;
+}
+
+void TickClock::run(std::int64_t tick) {
+  const ros::WallTime begin = ros::WallTime::now();
+  last_ = tick;
+  calls_.tick(tick);
+  const double took = (ros::WallTime::now() - begin).toSec();
+  cost_ += counts_.ticks == 0 ? took : NEWEST * (took - cost_);
+  ++counts_.ticks;
+}
+
+void TickClock::tell(diagnostic_updater::DiagnosticStatusWrapper& status) const {
+  status.add("Ticks", counts_.ticks);
+  status.addf("Time of a tick [ms]", "%.3f", 1e3 * cost_);
+  status.addf("Time between ticks [ms]", "%.3f", 1e3 / grid_.rate());
+  status.add("Ticks dropped", counts_.dropped);
+  status.add("Clock jumps back", counts_.jumps);
+}
+
+void TickClock::see(Nanoseconds clock) {
+  const Nanoseconds now = clock - delay_;
+  if (now <= 0) return;  // no clock yet
+  const std::int64_t due = grid_.tickAt(now);
+  if (hasBegun() && due < last_) {
+    ROS_WARN("%s: time went back; starting anew", name_.c_str());
+    ++counts_.jumps;
+    last_ = NEVER;
+    if (calls_.back) calls_.back(clock);
+  }
+  const auto longest = late_ == LateTicks::NEWEST
+                           ? std::int64_t{1}
+                           : static_cast<std::int64_t>(LONGEST_CATCH_UP * grid_.rate());
+  if (hasBegun() && due - last_ > longest) drop(due);
+  if (hasBegun() && due == last_) return;
+  if (calls_.before) calls_.before();
+  for (std::int64_t tick = hasBegun() ? last_ + 1 : due; tick <= due; ++tick) run(tick);
+}
+
+}  // namespace vegetation_sim

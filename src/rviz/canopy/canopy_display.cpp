@@ -1,0 +1,98 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rviz/canopy/canopy_display.h"
+
+#include <pluginlib/class_list_macros.hpp>
+
+namespace vegetation_sim {
+namespace {
+
+constexpr int GROUND_RANK = 0;  // knows nothing of what else grows there
+
+}  // namespace
+
+CanopyDisplay::CanopyDisplay()
+    : SceneryDisplay(GROUND_RANK, {"canopy_animator", "Cost [points]", "Budget [points]"}),
+      properties_(std::make_unique<view::CanopyProperties>(*this)) {}
+
+CanopyDisplay::~CanopyDisplay() {
+  stop();
+}
+
+void CanopyDisplay::open() {
+  source_ = std::make_unique<view::CanopySource>(update_nh_, properties_->topics());
+  layouts_ = 0;
+}
+
+void CanopyDisplay::close() {
+  dropGround();
+  canopy_.reset();
+  source_.reset();
+}
+
+std::optional<std::string> CanopyDisplay::frame() const {
+  if (source_->replica() == nullptr) return {};
+  return source_->frame();
+}
+
+void CanopyDisplay::updateLook() {
+  if (canopy_) canopy_->repaint();
+}
+
+// The light among the leaves is theirs: they are grown anew under another sun.
+void CanopyDisplay::light(const view::Daylight& daylight, const view::Haze& haze) {
+  if (daylight.to_sun != to_sun_) layouts_ = 0;
+  to_sun_ = daylight.to_sun;
+  if (canopy_) canopy_->light(daylight, haze);
+  if (ground_) ground_->light(daylight, daylight.to_sun, haze);
+}
+
+void CanopyDisplay::draw(Nanoseconds stamp, const view::View& view) {
+  source_->keepCrowns();
+  if (!canopy_ || layouts_ != source_->layouts()) {
+    layouts_ = source_->layouts();
+    dropGround();
+    canopy_.reset();
+    canopy_ = std::make_unique<view::CanopyVisual>(*scene_node_, *source_, to_sun_);
+    canopy_->light(properties_->daylight(), properties_->hazeValues());
+  }
+  canopy_->update(*source_, stamp, view, properties_->options());
+  if (givesGround(source_->ground())) makeGround();
+}
+
+void CanopyDisplay::makeGround() {
+  if (ground_) return;
+  const view::Daylight daylight = properties_->daylight();
+  const view::Plot plot = canopy_->plot();
+  const view::Shade shade =
+      canopy_->shadeOn(plot, view::PLAIN_EDGE, source_->ground(), daylight.to_sun);
+  ground_ = view::plainGround(*scene_node_, plot, shade, source_->ground(), daylight,
+                              properties_->groundTint());
+  ground_->light(daylight, daylight.to_sun, properties_->hazeValues());
+}
+
+view::CanopyReport CanopyDisplay::drawn() const {
+  return canopy_ ? canopy_->report() : view::CanopyReport();
+}
+
+void CanopyDisplay::showInputs(view::StatusBoard& board, Nanoseconds now) const {
+  board.show("Layout", source_->layoutStatus());
+  board.show("State", source_->stateStatus(now));
+  if (const view::ForestSource* forest = source_->forest()) {
+    board.show("Forest Layout", forest->layoutStatus());
+    board.show("Forest State", forest->stateStatus(now));
+    board.show("Wind", forest->windStatus());
+  }
+}
+
+view::InputStatus CanopyDisplay::describeDrawn() const {
+  const view::CanopyReport report = drawn();
+  return {report.leaves > 0, std::to_string(report.drawn) + " of " + std::to_string(report.leaves) +
+                                 " leaves of " + std::to_string(report.plants) + " plants and " +
+                                 std::to_string(report.crowns) + " crowns, in " +
+                                 std::to_string(report.layers) + " layers"};
+}
+
+}  // namespace vegetation_sim
+
+PLUGINLIB_EXPORT_CLASS(vegetation_sim::CanopyDisplay, rviz::Display)

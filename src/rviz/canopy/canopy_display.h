@@ -1,0 +1,49 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "rviz/canopy/canopy_properties.h"
+#include "rviz/ground/ground_visual.h"
+#include "rviz/scenery/scenery_display.h"
+
+namespace vegetation_sim {
+
+/// Rebuilds leafy masses from their layout and their state and draws every leaf where its layer has
+/// it (paper 3): dense leaves, darker inside.
+class CanopyDisplay : public SceneryDisplay {
+  Q_OBJECT
+ public:
+  CanopyDisplay();
+  ~CanopyDisplay() override;
+
+  /// What was drawn last.
+  view::CanopyReport drawn() const;
+
+ protected:
+  const view::SceneryProperties& properties() const override { return *properties_; }
+  void open() override;
+  void close() override;
+  std::optional<std::string> frame() const override;
+  void draw(Nanoseconds stamp, const view::View& view) override;
+  void light(const view::Daylight& daylight, const view::Haze& haze) override;
+  void dropGround() override { ground_.reset(); }
+  void forgetState(Nanoseconds now) override { source_->forgetState(now); }
+  void showInputs(view::StatusBoard& board, Nanoseconds now) const override;
+  view::InputStatus describeDrawn() const override;
+  void updateLook() override;
+
+ private:
+  void makeGround();
+
+  std::unique_ptr<view::CanopyProperties> properties_;
+  std::unique_ptr<view::CanopySource> source_;
+  std::unique_ptr<view::CanopyVisual> canopy_;
+  std::unique_ptr<view::GroundVisual> ground_;
+  Vec3 to_sun_{Vec3::Zero()};  // that leaves have been lit by
+  int layouts_{0};
+};
+
+}  // namespace vegetation_sim

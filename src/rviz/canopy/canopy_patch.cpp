@@ -1,0 +1,282 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rviz/canopy/canopy_patch.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rviz/render/texture.h"
+#include "rviz/textures/foliage_texture.h"
+#include "vegetation_sim/core/math/math.h"
+
+namespace vegetation_sim::view {
+namespace {
+
+constexpr int STEM_SIDES = 5;
+constexpr double SUN_DEPTH = 2.2;  // optical, of a radius of leaves
+constexpr double WIDEST = 4.0;     // growth of leaves that stand for others
+constexpr double MARGIN = 1.0;     // [m] that leaves may leave the box by
+
+bool isRibbon(const canopy::PlantKind& kind) {
+  return kind.shape == static_cast<int>(canopy::Shape::REED) ||
+         kind.shape == static_cast<int>(canopy::Shape::KELP);
+}
+
+// Pieces that join their neighbours have outlines of their own, others that of a picture.
+LeafCut cutOf(const canopy::PlantKind& kind, const canopy::Leaf& leaf) {
+  if (leaf.joined) return LeafCut::PLAIN;
+  if (kind.shape == static_cast<int>(canopy::Shape::SLICES)) return LeafCut::SPRIG;
+  return isRibbon(kind) ? LeafCut::RIBBON : LeafCut::LEAF;
+}
+
+bool joins(LeafCut cut) {
+  return cut == LeafCut::RIBBON || cut == LeafCut::PLAIN;
+}
+
+// Place in the ball of leaves, whose surface is at 1.
+Vec3 inBall(const canopy::Layout& layout, std::size_t plant, const Vec3& at) {
+  const canopy::Plant& p = layout.plants[plant];
+  const canopy::PlantKind& kind = layout.kinds[p.kind];
+  const double base =
+      kind.shape == static_cast<int>(canopy::Shape::CROWN) ? 0.35 * kind.height : 0.0;
+  const double half = 0.5 * (kind.height - base);
+  const Vec3 local = (at - p.position) / p.scale;
+  return {local.x() / kind.radius, local.y() / kind.radius, (local.z() - base - half) / half};
+}
+
+// Way from a point in the unit ball to its surface.
+double wayOut(const Vec3& at, const Vec3& direction) {
+  const double b = dot(at, direction), c = dot(at, at) - 1.0;
+  return std::max(0.0, -b + std::sqrt(std::max(0.0, b * b - c)));
+}
+
+Vec3 unit(const Vec3& v, const Vec3& otherwise) {
+  const double size = length(v);
+  return size > 1e-9 ? Vec3(v / size) : otherwise;
+}
+
+void setColour(const Vec3& rgb, double sun, VertexPaint& paint) {
+  for (int i = 0; i < 3; ++i)
+    paint.colour[i] = static_cast<std::uint8_t>(255.0 * std::clamp(rgb[i], 0.0, 1.0));
+  paint.colour[3] = static_cast<std::uint8_t>(255.0 * std::clamp(sun, 0.0, 1.0));
+}
+
+void setNormal(const Vec3& normal, VertexPaint& paint) {
+  for (int i = 0; i < 3; ++i) paint.normal[i] = static_cast<float>(normal[i]);
+}
+
+}  // namespace
+
+CanopyPatch::CanopyPatch(const canopy::Layout& layout, const std::vector<std::size_t>& plants,
+                         const Vec3& origin, Ogre::SceneNode& node,
+                         const std::string& leaf_material, const std::string& stem_material,
+                         const Vec3& to_sun)
+    : origin_(origin),
+      leaf_batch_(uniqueName("canopy_leaves"), leaf_material),
+      stem_batch_(uniqueName("canopy_stems"), stem_material) {
+  for (const std::size_t plant : plants)
+    middle_ += layout.plants[plant].position / static_cast<double>(plants.size());
+  for (const std::size_t plant : plants) grow(layout, plant);
+  finish(layout, node, to_sun);
+}
+
+CanopyPatch::CanopyPatch(const canopy::Layout& layout, const LeafedCrowns::Crown& crown,
+                         std::size_t number, const Vec3& origin, Ogre::SceneNode& node,
+                         const std::string& leaf_material, const std::string& stem_material,
+                         const Vec3& to_sun)
+    : crown_(number),
+      origin_(origin),
+      middle_(0.5 * (crown.box.low + crown.box.high)),
+      reach_(0.5 * length(Vec3(crown.box.high - crown.box.low))),
+      leaf_batch_(uniqueName("canopy_leaves"), leaf_material),
+      stem_batch_(uniqueName("canopy_stems"), stem_material) {
+  const Vec3 half = (0.5 * (crown.box.high - crown.box.low)).cwiseMax(0.01);
+  const std::size_t count = crown.leaves.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const canopy::Leaf& leaf = crown.leaves[i].leaf;
+    const Vec3 at = (leaf.root - middle_).cwiseQuotient(half);
+    leaves_.push_back({leaf, i, crown.kind, at, LeafCut::LEAF, static_cast<float>(-length(at))});
+  }
+  finish(layout, node, to_sun);
+}
+
+void CanopyPatch::finish(const canopy::Layout& layout, Ogre::SceneNode& node, const Vec3& to_sun) {
+  std::stable_sort(leaves_.begin(), leaves_.end(),
+                   [](const Drawn& a, const Drawn& b) { return a.order < b.order; });
+  build(layout, to_sun);
+  node.attachObject(&leaf_batch_);
+  node.attachObject(&stem_batch_);
+}
+
+void CanopyPatch::setRank(int rank) {
+  leaf_batch_.setRank(rank);
+  stem_batch_.setRank(rank);
+}
+
+// By how many leaves of the same plant are farther out, or ribbons earlier: a share of each plant.
+void CanopyPatch::grow(const canopy::Layout& layout, std::size_t plant) {
+  const canopy::Plant& p = layout.plants[plant];
+  const canopy::PlantKind& kind = layout.kinds[p.kind];
+  const canopy::GrownPlant grown = canopy::grow(kind, p);
+  const std::size_t count = grown.leaves.size();
+  std::vector<std::pair<double, std::size_t>> sorted;
+  for (std::size_t i = 0; i < count; ++i)
+    sorted.emplace_back(joins(cutOf(kind, grown.leaves[i]))
+                            ? 0.0
+                            : -length(inBall(layout, plant, grown.leaves[i].root)),
+                        i);
+  std::sort(sorted.begin(), sorted.end());
+  for (std::size_t rank = 0; rank < count; ++rank) {
+    const canopy::Leaf& leaf = grown.leaves[sorted[rank].second];
+    leaves_.push_back({leaf, plant, p.kind, inBall(layout, plant, leaf.root), cutOf(kind, leaf),
+                       static_cast<float>(rank) / static_cast<float>(count)});
+  }
+  addStems(grown, kind.stem_colour);
+  addRigid(grown, kind.stem_colour);
+  reach_ =
+      std::max(reach_, length(p.position - middle_) + p.scale * std::max(kind.height, kind.radius));
+}
+
+// Faces of wood that were read with the leaves.
+void CanopyPatch::addRigid(const canopy::GrownPlant& grown, const Vec3& colour) {
+  for (const canopy::Leaf& face : grown.rigid) {
+    const auto first = static_cast<std::uint32_t>(stem_paint_.size());
+    const Vec3 normal = unit(cross(face.tip - face.root, face.side), Vec3::UnitZ());
+    const Vec3 low = static_cast<double>(face.root_width) * face.side;
+    const Vec3 high = static_cast<double>(face.tip_width) * face.side;
+    for (const Vec3& at : {Vec3(face.root - low), Vec3(face.root + low), Vec3(face.tip - high),
+                           Vec3(face.tip + high)}) {
+      for (int k = 0; k < 3; ++k) stem_positions_.push_back(static_cast<float>(at[k] - origin_[k]));
+      VertexPaint paint{{0.f, 0.f, 1.f}, {0, 0, 0, 255}, {0.1f, 0.f, face.light}};
+      setNormal(normal, paint);
+      setColour(1.3 * colour, static_cast<double>(face.light), paint);
+      stem_paint_.push_back(paint);
+    }
+    // Both sides: nobody said which is outside.
+    stem_triangles_.insert(stem_triangles_.end(),
+                           {first, first + 1, first + 3, first, first + 3, first + 2, first + 3,
+                            first + 1, first, first + 2, first + 3, first});
+  }
+}
+
+// Prisms that taper a little.
+void CanopyPatch::addStems(const canopy::GrownPlant& grown, const Vec3& colour) {
+  for (const canopy::Stem& stem : grown.stems) {
+    const Vec3 along = unit(stem.to - stem.from, Vec3::UnitZ());
+    const Vec3 u = unit(cross(along, std::fabs(along.x()) < 0.7 ? Vec3::UnitX() : Vec3::UnitY()),
+                        Vec3::UnitY());
+    const Vec3 v = cross(along, u);
+    const auto first = static_cast<std::uint32_t>(stem_paint_.size());
+    for (int i = 0; i < 2 * (STEM_SIDES + 1); ++i) {
+      const bool top = i > STEM_SIDES;
+      const double turns = static_cast<double>(i % (STEM_SIDES + 1)) / STEM_SIDES;
+      const SinCos turn = sinCosTurns(turns);
+      const Vec3 normal = turn.cos * u + turn.sin * v;
+      const Vec3 at =
+          (top ? stem.to : stem.from) + (top ? 0.5 : 1.0) * stem.radius * normal - origin_;
+      for (int k = 0; k < 3; ++k) stem_positions_.push_back(static_cast<float>(at[k]));
+      VertexPaint paint{{0.f, 0.f, 1.f}, {255, 255, 255, 255}, {0.f, 0.f, top ? 0.35f : 0.6f}};
+      setNormal(normal, paint);
+      setColour(1.3 * colour, top ? 0.25 : 0.6, paint);
+      paint.place[0] = static_cast<float>(0.25 * turns);
+      paint.place[1] = static_cast<float>(top ? 0.5 * length(stem.to - stem.from) : 0.0);
+      stem_paint_.push_back(paint);
+    }
+    for (std::uint32_t i = 0; i < STEM_SIDES; ++i) {
+      const std::uint32_t a = first + i, b = a + STEM_SIDES + 1;
+      stem_triangles_.insert(stem_triangles_.end(), {a, a + 1, b + 1, a, b + 1, b});
+    }
+  }
+}
+
+// Darker inside: the sun by the way through the leaves in front of this one, the sky by its light.
+VertexPaint CanopyPatch::paintOf(const canopy::Layout& layout, const Drawn& drawn,
+                                 const Vec3& to_sun) const {
+  const canopy::PlantKind& kind = layout.kinds[drawn.kind];
+  const Vec3 along = unit(drawn.leaf.tip - drawn.leaf.root, Vec3::UnitZ());
+  const Vec3 across = unit(drawn.leaf.side, Vec3::UnitX());
+  Vec3 face = cross(along, across);
+  if (face.z() < 0.0) face = -face;
+  if (drawn.cut == LeafCut::RIBBON) face = Vec3::UnitZ();  // the same for all its pieces
+  const auto light = static_cast<double>(drawn.leaf.light);
+  double sun = light;
+  Vec3 outward = face;
+  if (drawn.cut == LeafCut::LEAF) {
+    outward = unit(drawn.in_ball, Vec3::UnitZ());
+    sun = std::exp(-SUN_DEPTH * wayOut(drawn.in_ball, to_sun)) * (0.4 + 0.6 * light);
+  }
+  const double young = drawn.leaf.shade;
+  VertexPaint out{{0.f, 0.f, 1.f}, {0, 0, 0, 255}, {0.f, 0.f, static_cast<float>(light)}};
+  setNormal(unit(0.75 * outward + 0.5 * face, Vec3::UnitZ()), out);
+  setColour(kind.colour * (1.0 - young) + kind.colour_young * young, sun, out);
+  return out;
+}
+
+void CanopyPatch::build(const canopy::Layout& layout, const Vec3& to_sun) {
+  std::vector<VertexPaint> paint;
+  std::vector<std::uint32_t> triangles;
+  paint.reserve(4 * leaves_.size());
+  triangles.reserve(6 * leaves_.size());
+  positions_.clear();
+  double size = 0.0;
+  for (std::size_t i = 0; i < leaves_.size(); ++i) {
+    const Drawn& drawn = leaves_[i];
+    const canopy::Leaf& leaf = drawn.leaf;
+    const VertexPaint own = paintOf(layout, drawn, to_sun);
+    const auto first = static_cast<std::uint32_t>(4 * i);
+    for (int corner = 0; corner < 4; ++corner) {
+      const Vec3 at = (corner < 2 ? leaf.root : leaf.tip) - origin_;
+      for (int k = 0; k < 3; ++k) positions_.push_back(static_cast<float>(at[k]));
+      const std::array<float, 2> place =
+          foliagePlace(drawn.cut, corner % 2 == 0 ? 0.f : 1.f, corner < 2 ? 0.f : 1.f);
+      paint.push_back(own);
+      paint.back().place[0] = place[0];
+      paint.back().place[1] = place[1];
+    }
+    triangles.insert(triangles.end(), {first, first + 1, first + 3, first, first + 3, first + 2});
+    size += length(leaf.tip - leaf.root);
+  }
+  if (!leaves_.empty()) leaf_size_ = size / static_cast<double>(leaves_.size());
+  leaf_batch_.build(positions_, paint, triangles, static_cast<float>(MARGIN + leaf_size_));
+  stem_batch_.build(stem_positions_, stem_paint_, stem_triangles_, 0.f);
+}
+
+void CanopyPatch::move(const canopy::Foliage& foliage, std::size_t count) {
+  moveBy([&](const Drawn& drawn) { return foliage.move(drawn.leaf, drawn.owner); }, count);
+}
+
+void CanopyPatch::move(const canopy::Foliage& foliage, const LeafedCrowns::Crown& crown,
+                       const std::vector<Pose>& wood, std::size_t count) {
+  moveBy(
+      [&](const Drawn& drawn) {
+        const canopy::CrownLeaf& leaf = crown.leaves[drawn.owner];
+        return carry(foliage, leaf, crown.rest[leaf.twig].pose, wood[leaf.twig]);
+      },
+      count);
+}
+
+template <class Mover>
+void CanopyPatch::moveBy(const Mover& mover, std::size_t count) {
+  drawn_ = std::min(count, leaves_.size());
+  leaf_batch_.limit(2 * drawn_);
+  if (drawn_ == 0) return;
+  const double share = static_cast<double>(drawn_) / static_cast<double>(leaves_.size());
+  const double grown = std::min(WIDEST, 1.0 / std::sqrt(share));
+  positions_.resize(12 * drawn_);
+  float* out = positions_.data();
+  for (std::size_t i = 0; i < drawn_; ++i) {
+    const canopy::MovedLeaf moved = mover(leaves_[i]);
+    const bool joined = joins(leaves_[i].cut);
+    const Vec3 root = moved.root - origin_;
+    const Vec3 tip = root + (joined ? 1.0 : grown) * (moved.tip - moved.root);
+    const Vec3 side = grown * moved.side;
+    const double first = joined ? static_cast<double>(leaves_[i].leaf.root_width) : 1.0;
+    const double last = joined ? static_cast<double>(leaves_[i].leaf.tip_width) : 1.0;
+    for (const Vec3& at : {Vec3(root - first * side), Vec3(root + first * side),
+                           Vec3(tip - last * side), Vec3(tip + last * side)})
+      for (int k = 0; k < 3; ++k) *out++ = static_cast<float>(at[k]);
+  }
+  leaf_batch_.move(positions_);
+}
+
+}  // namespace vegetation_sim::view

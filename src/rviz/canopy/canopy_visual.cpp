@@ -1,0 +1,170 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rviz/canopy/canopy_visual.h"
+
+#include <OgreSceneManager.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "rviz/textures/bark_texture.h"
+#include "rviz/textures/foliage_texture.h"
+
+namespace vegetation_sim::view {
+namespace {
+
+constexpr int LEAF_EDGE = 128, BARK_EDGE = 256;  // [pixel]
+constexpr double PATCH = 5.0;                    // [m] edge of the plants of one patch
+constexpr double STILL = 1e-4;                   // [m], [rad] of an eye
+
+// Painted once in a process.
+const std::vector<Picture>& sharedFoliage() {
+  static const std::vector<Picture> atlas = foliageAtlas(LEAF_EDGE);
+  return atlas;
+}
+
+const std::vector<Picture>& sharedStems() {
+  static const std::vector<Picture> atlas = mipmaps(barkAtlas(BARK_EDGE), 16);
+  return atlas;
+}
+
+using Cells = std::map<std::pair<int, int>, std::vector<std::size_t>>;
+
+Cells cellsOf(const canopy::Layout& layout) {
+  Cells out;
+  for (std::size_t i = 0; i < layout.plants.size(); ++i) {
+    const Vec3& at = layout.plants[i].position;
+    out[{static_cast<int>(std::floor(at.x() / PATCH)),
+         static_cast<int>(std::floor(at.y() / PATCH))}]
+        .push_back(i);
+  }
+  return out;
+}
+
+// Leaves that are worth drawing of a patch: all where they are large enough in the picture.
+double wantedOf(const CanopyPatch& patch, const View& view, float tolerance) {
+  const double distance = length(patch.middle() - view.eye.position) - 0.5 * patch.reach();
+  const double pixels = patch.leafSize() * pixelsPerMetre(view.eye, distance);
+  const double share = std::min(1.0, pixels / std::max(0.1, static_cast<double>(tolerance)));
+  return share * share * static_cast<double>(patch.leafCount());
+}
+
+}  // namespace
+
+CanopyVisual::CanopyVisual(Ogre::SceneNode& parent, const CanopySource& source, const Vec3& to_sun)
+    : node_(parent.createChildSceneNode()),
+      leaf_texture_(uniqueName("foliage_picture"), sharedFoliage()),
+      stem_texture_(uniqueName("stem_picture"), sharedStems()),
+      leaf_material_(Material::Kind::LEAVES, uniqueName("foliage_material"),
+                     {leaf_texture_.name()}),
+      stem_material_(Material::Kind::BARK, uniqueName("stem_material"), {stem_texture_.name()}) {
+  const canopy::Layout& layout = source.replica()->layout();
+  const std::vector<LeafedCrowns::Crown>& crowns = source.crowns().crowns();
+  if (!layout.plants.empty())
+    origin_ = layout.plants.front().position;
+  else if (!crowns.empty())
+    origin_ = crowns.front().box.low;
+  extent_ = {origin_, origin_};
+  node_->setPosition(static_cast<float>(origin_.x()), static_cast<float>(origin_.y()),
+                     static_cast<float>(origin_.z()));
+  for (const auto& [cell, plants] : cellsOf(layout))
+    add(std::make_unique<CanopyPatch>(layout, plants, origin_, *node_, leaf_material_.name(),
+                                      stem_material_.name(), to_sun));
+  for (std::size_t i = 0; i < crowns.size(); ++i)
+    add(std::make_unique<CanopyPatch>(layout, crowns[i], i, origin_, *node_, leaf_material_.name(),
+                                      stem_material_.name(), to_sun));
+  report_.plants = layout.plants.size();
+  report_.crowns = crowns.size();
+}
+
+void CanopyVisual::add(std::unique_ptr<CanopyPatch> patch) {
+  const Vec3 around = Vec3::Constant(patch->reach());
+  extent_.low = extent_.low.cwiseMin(patch->middle() - around);
+  extent_.high = extent_.high.cwiseMax(patch->middle() + around);
+  report_.leaves += patch->leafCount();
+  patches_.push_back(std::move(patch));
+}
+
+CanopyVisual::~CanopyVisual() {
+  patches_.clear();
+  node_->getCreator()->destroySceneNode(node_);
+}
+
+void CanopyVisual::light(const Daylight& daylight, const Haze& haze) {
+  leaf_material_.light(daylight, daylight.to_sun, haze);
+  stem_material_.light(daylight, daylight.to_sun, haze);
+}
+
+// The nearest first: they hide the others.
+std::vector<CanopyPatch*> CanopyVisual::inPicture(const View& view) const {
+  std::vector<CanopyPatch*> out;
+  for (const auto& patch : patches_)
+    if (view.sees(patch->middle(), 1.3 * patch->reach())) out.push_back(patch.get());
+  std::sort(out.begin(), out.end(), [&](const CanopyPatch* a, const CanopyPatch* b) {
+    return length(a->middle() - view.eye.position) < length(b->middle() - view.eye.position);
+  });
+  return out;
+}
+
+void CanopyVisual::update(CanopySource& source, Nanoseconds stamp, const View& view,
+                          const Options& options) {
+  const bool swayed = report_.crowns > 0 && stamp != stamp_;
+  if (!swayed && states_ == source.states() && length(eye_ - view.eye.position) < STILL &&
+      length(forward_ - view.forward) < STILL)
+    return;
+  states_ = source.states();
+  stamp_ = stamp;
+  eye_ = view.eye.position;
+  forward_ = view.forward;
+  const std::vector<CanopyPatch*> seen = inPicture(view);
+  double wanted = 0.0;
+  for (const CanopyPatch* patch : seen) wanted += wantedOf(*patch, view, options.tolerance);
+  const double share =
+      std::min(1.0, static_cast<double>(options.most_leaves) / std::max(1.0, wanted));
+  const canopy::Foliage& foliage = source.replica()->foliage();
+  report_.drawn = 0;
+  int rank = 0;
+  for (CanopyPatch* patch : seen) {
+    patch->setRank(rank++);
+    const auto count =
+        static_cast<std::size_t>(share * wantedOf(*patch, view, options.tolerance) + 0.5);
+    if (const auto& crown = patch->crown())
+      patch->move(foliage, source.crowns().crowns()[*crown], source.wood(*crown, stamp), count);
+    else
+      patch->move(foliage, count);
+    report_.drawn += patch->drawn();
+  }
+  report_.layers = foliage.layers();
+  ++report_.rebuilds;
+}
+
+Plot CanopyVisual::plot() const {
+  return plotAround(extent_);
+}
+
+Shade CanopyVisual::shadeOn(const Plot& plot, int edge, const terrain::HeightMap& ground,
+                            const Vec3& to_sun) const {
+  Shade out;
+  out.sun = castShadows(plot, edge, ground, to_sun, [&](const ShadowDrop& drop) {
+    for (const auto& patch : patches_) patch->tellShadows(drop);
+  });
+  // The sky from straight above: shadows of its zenith, soft by what they are of.
+  const std::vector<float> zenith =
+      castShadows(plot, edge, ground, Vec3::UnitZ(), [&](const ShadowDrop& drop) {
+        for (const auto& patch : patches_)
+          patch->tellShadows([&](const Vec3& at, double radius, double depth) {
+            drop(at, 3.0 * radius, 0.1 * depth);
+          });
+      });
+  out.sky = [plot, edge, zenith](const Vec3& at) {
+    const auto pixel = [&](double x) {
+      return std::clamp(static_cast<int>(x / plot.edge * edge), 0, edge - 1);
+    };
+    return static_cast<double>(
+        zenith[static_cast<std::size_t>(pixel(at.y() - plot.y) * edge + pixel(at.x() - plot.x))]);
+  };
+  return out;
+}
+
+}  // namespace vegetation_sim::view

@@ -1,0 +1,71 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <OgreSceneNode.h>
+
+#include <memory>
+#include <vector>
+
+#include "rviz/canopy/canopy_patch.h"
+#include "rviz/canopy/canopy_source.h"
+#include "rviz/ground/ground_texture.h"
+#include "rviz/render/material.h"
+#include "rviz/render/texture.h"
+#include "rviz/trees/tree_set.h"
+
+namespace vegetation_sim::view {
+
+/// What was drawn last.
+struct CanopyReport {
+  std::size_t plants{0}, crowns{0}, leaves{0};  ///< that there are
+  std::size_t drawn{0};                         ///< leaves in the picture
+  int layers{0};
+  int rebuilds{0};  ///< how often anything was moved
+};
+
+/// The plants and crowns of a layout as Ogre shows them. All of it goes with this object. Render
+/// thread only.
+class CanopyVisual {
+ public:
+  struct Options {
+    std::size_t most_leaves{40000};
+    float tolerance{7.f};  ///< smaller leaves become fewer and larger [pixel]
+  };
+
+  /// @param parent node in the frame of the layout. @param source with a layout.
+  CanopyVisual(Ogre::SceneNode& parent, const CanopySource& source, const Vec3& to_sun);
+  ~CanopyVisual();
+  CanopyVisual(const CanopyVisual&) = delete;
+  CanopyVisual& operator=(const CanopyVisual&) = delete;
+
+  /// Draws the state told last; nothing is done if nothing has changed.
+  /// @param stamp at which the wood of crowns is shown.
+  void update(CanopySource& source, Nanoseconds stamp, const View& view, const Options& options);
+  void light(const Daylight& daylight, const Haze& haze);
+  /// Moves all anew at the next update.
+  void repaint() { states_ = -1; }
+
+  /// Square around the plants, and what they keep from its ground. [edge x edge] pixels.
+  Plot plot() const;
+  Shade shadeOn(const Plot& plot, int edge, const terrain::HeightMap& ground,
+                const Vec3& to_sun) const;
+  const CanopyReport& report() const { return report_; }
+
+ private:
+  void add(std::unique_ptr<CanopyPatch> patch);
+  std::vector<CanopyPatch*> inPicture(const View& view) const;
+
+  Ogre::SceneNode* node_;  // Ogre's; destroyed by us
+  Vec3 origin_{Vec3::Zero()};
+  Texture leaf_texture_, stem_texture_;
+  Material leaf_material_, stem_material_;
+  std::vector<std::unique_ptr<CanopyPatch>> patches_;
+  Extent extent_;
+  int states_{-1};
+  Nanoseconds stamp_{0};
+  Vec3 eye_{Vec3::Zero()}, forward_{Vec3::Zero()};
+  CanopyReport report_;
+};
+
+}  // namespace vegetation_sim::view

@@ -1,0 +1,31 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "rviz/crowd/crowd_visual.h"
+#include "rviz/scenery/scenery_properties.h"
+
+namespace rviz {
+class IntProperty;
+}
+
+namespace vegetation_sim::view {
+
+/// What the user of CrowdDisplay sets, and its values in our terms. The properties are children of
+/// the display, which owns them.
+class CrowdProperties : public SceneryProperties {
+ public:
+  /// @param display a SceneryDisplay.
+  explicit CrowdProperties(rviz::Display& display);
+
+  std::string topic() const;
+  CrowdVisual::Options options() const;
+
+ private:
+  rviz::RosTopicProperty* topic_;
+  rviz::IntProperty* most_people_;
+  rviz::FloatProperty* detail_;
+  rviz::BoolProperty* shadows_;
+};
+
+}  // namespace vegetation_sim::view

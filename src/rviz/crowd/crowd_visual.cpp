@@ -1,0 +1,143 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rviz/crowd/crowd_visual.h"
+
+#include <OgreSceneManager.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "rviz/crowd/body_mesh.h"
+#include "rviz/render/batch.h"
+#include "rviz/textures/shadow_texture.h"
+#include "vegetation_sim/core/math/math.h"
+
+namespace vegetation_sim::view {
+namespace {
+
+constexpr double STILL = 1e-4;      // [m], [rad] of an eye
+constexpr double LIFT = 0.02;       // [m] of shadows over the ground
+constexpr double LONGEST = 2.5;     // of a shadow, in heights
+constexpr std::uint8_t DARK = 150;  // alpha of a shadow
+
+Vec3 placeOf(const Person& person) {
+  return {person.walker.position.x, person.walker.position.y, person.ground};
+}
+
+}  // namespace
+
+CrowdVisual::CrowdVisual(Ogre::SceneNode& parent)
+    : node_(parent.createChildSceneNode()),
+      shadow_texture_(uniqueName("shadow_picture"), mipmaps(shadowPicture())),
+      body_material_(Material::Kind::BLADES, uniqueName("body_material"), {}),
+      shadow_material_(Material::Kind::SHADOWS, uniqueName("shadow_material"),
+                       {shadow_texture_.name()}),
+      bodies_(uniqueName("bodies"), body_material_.name(), 0),
+      shadows_(uniqueName("shadows"), shadow_material_.name(), Batch::LAST_RANK + 1) {
+  node_->attachObject(&bodies_);
+  node_->attachObject(&shadows_);
+}
+
+CrowdVisual::~CrowdVisual() {
+  node_->detachAllObjects();
+  node_->getCreator()->destroySceneNode(node_);
+}
+
+void CrowdVisual::light(const Daylight& daylight, const Haze& haze) {
+  daylight_ = daylight;
+  body_material_.light(daylight, daylight.to_sun, haze);
+  shadow_material_.light(daylight, daylight.to_sun, haze);
+  repaint();
+}
+
+// The nearest of those in the picture.
+std::vector<const Person*> CrowdVisual::select(const CrowdSource& source, const View& view,
+                                               std::size_t most) const {
+  std::vector<const Person*> out;
+  for (const Person& person : source.people()) {
+    const Vec3 middle = placeOf(person) + Vec3(0.0, 0.0, 0.5 * person.walker.height);
+    if (view.sees(middle, 2.0 * person.walker.height)) out.push_back(&person);
+  }
+  std::sort(out.begin(), out.end(), [&](const Person* a, const Person* b) {
+    return (placeOf(*a) - view.eye.position).squaredNorm() <
+           (placeOf(*b) - view.eye.position).squaredNorm();
+  });
+  if (out.size() > most) out.resize(most);
+  return out;
+}
+
+void CrowdVisual::update(const CrowdSource& source, const View& view, const Options& options) {
+  if (drawn_ == source.messages() && length(eye_ - view.eye.position) < STILL &&
+      length(forward_ - view.forward) < STILL)
+    return;
+  drawn_ = source.messages();
+  eye_ = view.eye.position;
+  forward_ = view.forward;
+  body_mesh_.clear();
+  shadow_mesh_.clear();
+  // Floats near their origin, wherever the crowd is.
+  const Vec3 origin =
+      source.people().empty() ? Vec3(Vec3::Zero()) : placeOf(source.people().front());
+  body_mesh_.origin = shadow_mesh_.origin = origin;
+  node_->setPosition(static_cast<float>(origin.x()), static_cast<float>(origin.y()),
+                     static_cast<float>(origin.z()));
+  const std::vector<const Person*> people = select(source, view, options.most_people);
+  for (const Person* person : people) addPerson(source, *person, view, options);
+  bodies_.fill(body_mesh_);
+  shadows_.fill(shadow_mesh_);
+  report_.people = source.people().size();
+  report_.drawn = people.size();
+  report_.triangles = (body_mesh_.indices.size() + shadow_mesh_.indices.size()) / 3;
+  ++report_.rebuilds;
+}
+
+void CrowdVisual::addPerson(const CrowdSource& source, const Person& person, const View& view,
+                            const Options& options) {
+  const crowd::Walker& walker = person.walker;
+  crowd::Skeleton skeleton = skeletonOf(walker, source.ground());
+  // It stands where it was told, whatever ground is known here.
+  const double rise = person.ground - source.ground().height(walker.position.x, walker.position.y);
+  for (crowd::Limb& limb : skeleton) {
+    limb.from.z() += rise;
+    limb.to.z() += rise;
+  }
+  const double distance = length(placeOf(person) - view.eye.position);
+  BodyStyle style = bodyStyle(static_cast<double>(options.detail) * walker.height *
+                              pixelsPerMetre(view.eye, distance));
+  const SinCos heading = sinCos(walker.heading);
+  style.left_x = -heading.sin;
+  style.left_y = heading.cos;
+  appendBody(skeleton, crowd::clothesOf(walker.id), style, daylight_, body_mesh_);
+  if (options.shadows) addShadow(source, person, skeleton);
+}
+
+// A stripe that the picture makes soft, from under the feet away from the sun.
+void CrowdVisual::addShadow(const CrowdSource& source, const Person& person,
+                            const crowd::Skeleton& skeleton) {
+  const Vec3& sun = daylight_.to_sun;
+  const double flat = std::max(1e-6, std::hypot(sun.x(), sun.y()));
+  const Vec3 away(-sun.x() / flat, -sun.y() / flat, 0.0), across(-away.y(), away.x(), 0.0);
+  const double height = person.walker.height;
+  const double reach = height * std::min(LONGEST, flat / std::max(0.1, sun.z()));
+  const Vec3 foot = 0.5 * (limbOf(skeleton, crowd::Part::FOOT, 0).from +
+                           limbOf(skeleton, crowd::Part::FOOT, 1).from);
+  const double wide = 0.19 * height;
+  const auto first = static_cast<std::uint32_t>(shadow_mesh_.vertexCount());
+  for (int i = 0; i < 4; ++i) {
+    const double v = i / 2, u = i % 2;
+    Vec3 at = foot + (-0.2 * height + v * (reach + 0.3 * height)) * away +
+              wide * (2.0 * u - 1.0) * across;
+    const double rise = source.ground().height(at.x(), at.y()) -
+                        source.ground().height(person.walker.position.x, person.walker.position.y);
+    at.z() = person.ground + rise + LIFT;
+    const Vec3 local = at - shadow_mesh_.origin;
+    for (int k = 0; k < 3; ++k) shadow_mesh_.positions.push_back(static_cast<float>(local[k]));
+    shadow_mesh_.texture.insert(shadow_mesh_.texture.end(),
+                                {static_cast<float>(u), static_cast<float>(v)});
+    shadow_mesh_.colours.insert(shadow_mesh_.colours.end(), {18, 22, 14, DARK});
+  }
+  shadow_mesh_.indices.insert(shadow_mesh_.indices.end(),
+                              {first, first + 1, first + 3, first, first + 3, first + 2});
+}
+
+}  // namespace vegetation_sim::view

@@ -1,0 +1,67 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <OgreSceneNode.h>
+
+#include <vector>
+
+#include "crowd/walker/body_skeleton.h"
+#include "rviz/crowd/crowd_source.h"
+#include "rviz/grass/grass_batch.h"
+#include "rviz/render/material.h"
+#include "rviz/render/texture.h"
+#include "rviz/trees/tree_set.h"
+
+namespace vegetation_sim::view {
+
+/// What was drawn last.
+struct CrowdReport {
+  std::size_t people{0}, drawn{0};  ///< there are; in the picture
+  std::size_t triangles{0};
+  int rebuilds{0};  ///< how often anything was drawn anew
+};
+
+/// People as Ogre shows them: bodies in one batch, their shadows in another. All of it goes with
+/// this object. Render thread only.
+class CrowdVisual {
+ public:
+  struct Options {
+    std::size_t most_people{500};
+    float detail{1.f};  ///< factor on the size that decides how finely a body is drawn
+    bool shadows{true};
+  };
+
+  /// @param parent node in the frame of the people.
+  explicit CrowdVisual(Ogre::SceneNode& parent);
+  ~CrowdVisual();
+  CrowdVisual(const CrowdVisual&) = delete;
+  CrowdVisual& operator=(const CrowdVisual&) = delete;
+
+  /// Draws the people as they were told last; nothing is done if nothing has changed.
+  void update(const CrowdSource& source, const View& view, const Options& options);
+  void light(const Daylight& daylight, const Haze& haze);
+  /// Draws all anew at the next update.
+  void repaint() { drawn_ = -1; }
+
+  const CrowdReport& report() const { return report_; }
+
+ private:
+  std::vector<const Person*> select(const CrowdSource& source, const View& view,
+                                    std::size_t most) const;
+  void addPerson(const CrowdSource& source, const Person& person, const View& view,
+                 const Options& options);
+  void addShadow(const CrowdSource& source, const Person& person, const crowd::Skeleton& skeleton);
+
+  Ogre::SceneNode* node_;  // Ogre's; destroyed by us
+  Texture shadow_texture_;
+  Material body_material_, shadow_material_;
+  GrassBatch bodies_, shadows_;
+  grass::GrassMesh body_mesh_, shadow_mesh_;
+  Daylight daylight_;
+  int drawn_{-1};  // messages
+  Vec3 eye_{Vec3::Zero()}, forward_{Vec3::Zero()};
+  CrowdReport report_;
+};
+
+}  // namespace vegetation_sim::view

@@ -1,0 +1,122 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rviz/forest/forest_display.h"
+
+#include <pluginlib/class_list_macros.hpp>
+
+namespace vegetation_sim {
+namespace {
+
+constexpr int GROUND_RANK = 1;       // shows the floor and the shadows of a forest
+constexpr int GROUND_EDGE = 1024;    // [pixel] of the ground's picture
+constexpr double GROUND_CELL = 3.0;  // [m] of its mesh
+
+}  // namespace
+
+ForestDisplay::ForestDisplay()
+    : SceneryDisplay(GROUND_RANK,
+                     {"forest_animator", "Predicted frame time [ms]", "Frame time budget [ms]"}),
+      properties_(std::make_unique<view::ForestProperties>(*this)) {}
+
+ForestDisplay::~ForestDisplay() {
+  stop();
+}
+
+void ForestDisplay::open() {
+  source_ = std::make_unique<view::ForestSource>(update_nh_, properties_->topics());
+  forest_ = std::make_unique<view::ForestVisual>(*scene_node_);
+  layouts_ = 0;
+}
+
+void ForestDisplay::close() {
+  dropGround();
+  forest_.reset();
+  source_.reset();
+}
+
+std::optional<std::string> ForestDisplay::frame() const {
+  if (!source_->replica().ready()) return {};
+  return source_->frame();
+}
+
+// Grown anew: other trees, or other light among them.
+void ForestDisplay::updateTrees() {
+  layouts_ = 0;
+}
+
+void ForestDisplay::updateLook() {
+  if (forest_) forest_->repaint();
+}
+
+void ForestDisplay::light(const view::Daylight& daylight, const view::Haze& haze) {
+  if (daylight.to_sun != to_sun_) updateTrees();
+  to_sun_ = daylight.to_sun;
+  forest_->light(daylight, daylight.to_sun, haze);
+  if (ground_) ground_->light(daylight, daylight.to_sun, haze);
+  if (shadows_) shadows_->light(daylight, haze);
+}
+
+void ForestDisplay::draw(Nanoseconds stamp, const view::View& view) {
+  if (layouts_ != source_->layouts()) {
+    layouts_ = source_->layouts();
+    forest_->restart(source_->replica(), view, properties_->options());
+  }
+  forest_->update(source_->replica(), stamp, wall(), view, properties_->daylight(),
+                  properties_->options());
+  if (forest_->stock() == nullptr || !properties_->ground()) return;
+  if (givesGround(source_->replica().terrain()))
+    makeGround();
+  else
+    makeShadows();
+}
+
+void ForestDisplay::dropGround() {
+  ground_.reset();
+  shadows_.reset();
+}
+
+void ForestDisplay::makeShadows() {
+  if (shadows_ && grounded_ == forest_->stocks()) return;
+  const view::Daylight daylight = properties_->daylight();
+  shadows_ = std::make_unique<view::ShadowVisual>(*scene_node_, *forest_->stock(),
+                                                  source_->replica().terrain(), daylight);
+  shadows_->light(daylight, properties_->hazeValues());
+  grounded_ = forest_->stocks();
+}
+
+void ForestDisplay::makeGround() {
+  if (ground_ && grounded_ == forest_->stocks()) return;
+  dropGround();
+  const view::TreeStock& stock = *forest_->stock();
+  const view::Daylight daylight = properties_->daylight();
+  const terrain::HeightMap& terrain = source_->replica().terrain();
+  const view::Plot plot = view::plotAround(stock.extent());
+  const view::Rgba tint = properties_->groundTint();
+  const view::Picture picture =
+      view::groundPicture(plot, GROUND_EDGE, stock, terrain, daylight, tint);
+  const view::Land land{plot, picture, terrain, stock.origin(), GROUND_CELL, tint};
+  ground_ = std::make_unique<view::GroundVisual>(*scene_node_, land, daylight);
+  ground_->light(daylight, daylight.to_sun, properties_->hazeValues());
+  grounded_ = forest_->stocks();
+}
+
+view::ForestReport ForestDisplay::drawn() const {
+  return forest_ ? forest_->report() : view::ForestReport();
+}
+
+void ForestDisplay::showInputs(view::StatusBoard& board, Nanoseconds now) const {
+  board.show("Layout", source_->layoutStatus());
+  board.show("Wind", source_->windStatus());
+  board.show("State", source_->stateStatus(now));
+  if (forest_->stock() != nullptr)
+    board.show(rviz::StatusProperty::Ok, "Motion",
+               view::describeMotion(source_->replica(), *forest_->stock()));
+}
+
+view::InputStatus ForestDisplay::describeDrawn() const {
+  return {drawn().trees > 0, view::describe(drawn())};
+}
+
+}  // namespace vegetation_sim
+
+PLUGINLIB_EXPORT_CLASS(vegetation_sim::ForestDisplay, rviz::Display)

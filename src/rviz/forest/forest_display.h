@@ -1,0 +1,58 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "rviz/forest/forest_properties.h"
+#include "rviz/forest/forest_source.h"
+#include "rviz/forest/forest_visual.h"
+#include "rviz/ground/ground_visual.h"
+#include "rviz/ground/shadow_visual.h"
+#include "rviz/scenery/scenery_display.h"
+
+namespace vegetation_sim {
+
+/// Rebuilds a forest from its layout, its wind and its state, and draws it as it stands at rviz's
+/// time.
+class ForestDisplay : public SceneryDisplay {
+  Q_OBJECT
+ public:
+  ForestDisplay();
+  ~ForestDisplay() override;
+
+  /// What was drawn last.
+  view::ForestReport drawn() const;
+
+ protected:
+  const view::SceneryProperties& properties() const override { return *properties_; }
+  void open() override;
+  void close() override;
+  std::optional<std::string> frame() const override;
+  void draw(Nanoseconds stamp, const view::View& view) override;
+  void light(const view::Daylight& daylight, const view::Haze& haze) override;
+  void dropGround() override;
+  void forgetState(Nanoseconds now) override { source_->forgetState(now); }
+  void showInputs(view::StatusBoard& board, Nanoseconds now) const override;
+  view::InputStatus describeDrawn() const override;
+  void updateLook() override;
+
+ private Q_SLOTS:
+  void updateTrees();
+
+ private:
+  void makeGround();
+  void makeShadows();
+
+  std::unique_ptr<view::ForestProperties> properties_;
+  std::unique_ptr<view::ForestSource> source_;
+  std::unique_ptr<view::ForestVisual> forest_;
+  std::unique_ptr<view::GroundVisual> ground_;
+  std::unique_ptr<view::ShadowVisual> shadows_;  // where another display gives the ground
+  Vec3 to_sun_{Vec3::Zero()};                    // that trees have been lit by
+  int layouts_{0};
+  int grounded_{-1};  // stock of trees that ground or shadows were made for
+};
+
+}  // namespace vegetation_sim

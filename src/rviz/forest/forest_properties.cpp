@@ -1,0 +1,58 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rviz/forest/forest_properties.h"
+
+#include <rviz/display.h>
+#include <rviz/properties/bool_property.h>
+#include <rviz/properties/float_property.h>
+#include <rviz/properties/int_property.h>
+
+namespace vegetation_sim::view {
+ForestProperties::ForestProperties(rviz::Display& display) {
+  addTopics(display);
+  addLook(display);
+  addScenery(display, "Draw the terrain with grass and forest floor.");
+}
+
+void ForestProperties::addTopics(rviz::Display& display) {
+  layout_ = addTopic<ForestLayout>("Layout Topic", "forest/layout",
+                                   "vegetation_sim/ForestLayout: seeds of all trees.", display);
+  wind_ = addTopic<WindField>("Wind Topic", "wind",
+                              "vegetation_sim/WindField: the law of the wind.", display);
+  state_ = addTopic<ForestState>("State Topic", "forest/state",
+                                 "vegetation_sim/ForestState: which joints move.", display);
+}
+
+void ForestProperties::addLook(rviz::Display& display) {
+  triangles_ = new rviz::IntProperty(
+      "Triangles", 80000,
+      "How many triangles of trees in the picture to aim for. Levels of detail follow.", &display);
+  triangles_->setMin(1000);
+  triangles_->setMax(20000000);
+  most_trees_ = new rviz::IntProperty("Most Trees", 1000, "The nearest so many trees are drawn.",
+                                      &display, SLOT(updateTrees()), &display);
+  most_trees_->setMin(1);
+  most_trees_->setMax(20000);
+  leaves_ = new rviz::BoolProperty("Leaves", true, "Draw leaves.", &display, SLOT(updateTrees()),
+                                   &display);
+  flutter_ = addFlag("Flutter", true, "Leaves flutter where wind blows.", display);
+  colour_by_level_ = addFlag("Colour by Level", false,
+                             "Paint branches by their joint: red moves, green is between moving "
+                             "and fixed, blue is physical, bark is fixed.",
+                             display);
+  addRate(display, "Trees move");
+}
+
+ForestTopics ForestProperties::topics() const {
+  return {layout_->getTopicStd(), wind_->getTopicStd(), state_->getTopicStd()};
+}
+
+ForestVisual::Options ForestProperties::options() const {
+  ForestVisual::Options out;
+  out.look = {leaves_->getBool(), flutter_->getBool(), colour_by_level_->getBool()};
+  out.target_triangles = triangles_->getInt();
+  out.most_trees = static_cast<std::size_t>(most_trees_->getInt());
+  return out;
+}
+
+}  // namespace vegetation_sim::view

@@ -1,0 +1,41 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "rviz/forest/forest_source.h"
+#include "rviz/forest/forest_visual.h"
+#include "rviz/scenery/scenery_properties.h"
+
+namespace rviz {
+class BoolProperty;
+class Display;
+class FloatProperty;
+class IntProperty;
+class RosTopicProperty;
+}  // namespace rviz
+
+namespace vegetation_sim::view {
+
+/// What the user of ForestDisplay sets, and its values in our terms. The properties are children of
+/// the display, which owns them.
+class ForestProperties : public SceneryProperties {
+ public:
+  /// @param display with the slots updateTopics(), updateTrees(), updateLook(), updateGround(),
+  /// updateSky(), updateSun(), updateHaze() and updateViewer().
+  explicit ForestProperties(rviz::Display& display);
+
+  ForestTopics topics() const;
+  ForestVisual::Options options() const;
+
+ private:
+  void addTopics(rviz::Display& display);
+  void addLook(rviz::Display& display);
+
+  rviz::RosTopicProperty *layout_, *wind_, *state_;
+  rviz::IntProperty *triangles_, *most_trees_;
+  rviz::BoolProperty *leaves_, *flutter_, *colour_by_level_;
+};
+
+}  // namespace vegetation_sim::view

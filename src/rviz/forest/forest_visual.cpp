@@ -1,0 +1,253 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rviz/forest/forest_visual.h"
+
+#include <OgreSceneManager.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "rviz/textures/bark_texture.h"
+#include "rviz/textures/leaf_atlas.h"
+
+namespace vegetation_sim::view {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int LEAF_EDGE = 256, BARK_EDGE = 512;  // [pixel]
+constexpr std::size_t TREES_PER_GROVE = 4;
+// [s] of one update: growing while nothing is drawn and while something is; choosing levels while
+// trees have no mesh yet and later.
+constexpr double GROW_TIME = 0.025, SIDE_TIME = 0.006, FIRST_TIME = 0.06, LEVEL_TIME = 0.010;
+constexpr double FADE_TIME = 0.5;     // [s] from one level to another
+constexpr double LARGEST_FADE = 0.1;  // of it between two updates
+constexpr std::size_t FADERS = 8;     // one tree in 8, or 8 if more, fades at a time: it costs two
+constexpr double RESELECT = 25.0;     // [m] of the eye's way until other trees are the nearest
+
+double pixelsOf(const DrawnTree& tree, const View& view) {
+  const Vec3 middle = tree.foot() + Vec3(0.0, 0.0, 0.5 * tree.height());
+  return forest::pixelsPerMetre(view.eye, length(middle - view.eye.position) - tree.reach());
+}
+
+// Painted once in a process.
+const std::vector<Picture>& sharedLeafAtlas() {
+  static const std::vector<Picture> atlas = leafAtlas(LEAF_EDGE);
+  return atlas;
+}
+
+const std::vector<Picture>& sharedBarkAtlas() {
+  static const std::vector<Picture> atlas = mipmaps(barkAtlas(BARK_EDGE), 16);
+  return atlas;
+}
+
+bool isSeen(const DrawnTree& tree, const View& view) {
+  return view.sees(tree.foot() + Vec3(0.0, 0.0, 0.5 * tree.height()),
+                   tree.reach() + 0.5 * tree.height());
+}
+
+// By a camera a moment ago or in this view now: what comes into view is in its place at once.
+bool isSeen(Grove& grove, const View& view) {
+  return grove.takeSeen() ||
+         std::any_of(grove.trees().begin(), grove.trees().end(),
+                     [&](const DrawnTree* tree) { return isSeen(*tree, view); });
+}
+
+}  // namespace
+
+ForestVisual::ForestVisual(Ogre::SceneNode& parent)
+    : node_(parent.createChildSceneNode()),
+      leaf_texture_(uniqueName("leaf_picture"), sharedLeafAtlas()),
+      bark_texture_(uniqueName("bark_picture"), sharedBarkAtlas()),
+      leaf_material_(Material::Kind::LEAVES, uniqueName("leaf_material"), {leaf_texture_.name()}),
+      bark_material_(Material::Kind::BARK, uniqueName("bark_material"), {bark_texture_.name()}),
+      fading_leaf_material_(Material::Kind::LEAVES, uniqueName("fading_leaf_material"),
+                            {leaf_texture_.name()}, true),
+      fading_bark_material_(Material::Kind::BARK, uniqueName("fading_bark_material"),
+                            {bark_texture_.name()}, true) {}
+
+ForestVisual::~ForestVisual() {
+  groves_.clear();
+  node_->getCreator()->destroySceneNode(node_);
+}
+
+void ForestVisual::restart(const forest::ForestReplica& replica, const View& view,
+                           const Options& options) {
+  groves_.clear();
+  stock_.reset();
+  report_ = ForestReport();
+  repaint_ = false;
+  select(replica, view, options);
+}
+
+void ForestVisual::select(const forest::ForestReplica& replica, const View& view,
+                          const Options& options) {
+  next_ = std::make_unique<TreeStock>(
+      replica, nearestTrees(replica.layout(), view.eye.position, options.most_trees));
+  prepared_ = 0;
+  selected_at_ = view.eye.position;
+  selected_all_ = next_->wanted() == replica.layout().treeCount();
+  report_.wanted = next_->wanted();
+}
+
+// Trees that follow others have a mesh before they take their place, the same if it is the same
+// tree: nothing is bare in between.
+bool ForestVisual::prepare(const View& view, const Options& options) {
+  if (!stock_) return true;
+  const auto end = Clock::now() + std::chrono::duration<double>(SIDE_TIME);
+  for (; prepared_ < next_->trees().size(); ++prepared_) {
+    if (Clock::now() >= end) return false;
+    DrawnTree& tree = *next_->trees()[prepared_];
+    const DrawnTree* before = stock_->find(tree.id());
+    const double size = pixelsOf(tree, view) * tree.height() * feedback_.factor();
+    const bool built = before != nullptr && before->level() >= 0;
+    tree.setLevel(built ? before->level() : forest::geometryLevel(size, -1), next_->light(),
+                  options.look);
+  }
+  return true;
+}
+
+// The trees that have grown take the place of those drawn so far.
+void ForestVisual::adopt() {
+  const bool follows = stock_ != nullptr;
+  groves_.clear();
+  settled_ = settled_ && follows;
+  stock_ = std::move(next_);
+  ++stocks_;
+  const Vec3& origin = stock_->origin();
+  node_->setPosition(static_cast<float>(origin.x()), static_cast<float>(origin.y()),
+                     static_cast<float>(origin.z()));
+  std::vector<DrawnTree*> trees;
+  for (const auto& tree : stock_->trees()) trees.push_back(tree.get());
+  if (trees.empty()) return;
+  const TreeMaterials materials{bark_material_.name(), leaf_material_.name(),
+                                fading_bark_material_.name(), fading_leaf_material_.name()};
+  for (auto& group : splitByPlace(std::move(trees), TREES_PER_GROVE))
+    groves_.push_back(std::make_unique<Grove>(std::move(group), *node_, materials));
+  if (!follows) return;
+  for (const auto& grove : groves_) grove->rebuild();
+}
+
+void ForestVisual::repaint() {
+  repaint_ = true;
+  prepared_ = 0;
+}
+
+void ForestVisual::light(const Daylight& daylight, const Vec3& to_sun, const Haze& haze) {
+  for (Material* material :
+       {&leaf_material_, &bark_material_, &fading_leaf_material_, &fading_bark_material_})
+    material->light(daylight, to_sun, haze);
+}
+
+void ForestVisual::update(const forest::ForestReplica& replica, Nanoseconds stamp, double wall,
+                          const View& view, const Daylight& daylight, const Options& options) {
+  const bool away = length(view.eye.position - selected_at_) > RESELECT;
+  if (stock_ && !next_ && !selected_all_ && away) select(replica, view, options);
+  if (next_ &&
+      next_->grow(replica, daylight.to_sun, options.look.leaves, stock_ ? SIDE_TIME : GROW_TIME) &&
+      prepare(view, options))
+    adopt();
+  if (!stock_) return;
+  runFadeClock(wall);
+  chooseLevels(view, options);
+  move(replica, stamp, view, options);
+  measure(view, options);
+}
+
+// A fade takes FADE_TIME, or more where pictures are rare: no picture shows much of it at once.
+void ForestVisual::runFadeClock(double wall) {
+  fade_clock_ += std::clamp((wall - wall_) / FADE_TIME, 0.0, LARGEST_FADE);
+  if (report_.fading == 0) fade_clock_ = 1.0;
+  wall_ = wall;
+  fading_leaf_material_.setFadeClock(static_cast<float>(fade_clock_));
+  fading_bark_material_.setFadeClock(static_cast<float>(fade_clock_));
+}
+
+// One level after the other fades; what nobody sees changes at once, and all do until the levels
+// have settled for the first time.
+bool ForestVisual::changeLevel(DrawnTree& tree, const View& view, const Options& options,
+                               bool in_time) {
+  const auto clock = static_cast<float>(fade_clock_);
+  const bool ends = tree.fading() && clock - tree.fadesSince() >= 1.f;
+  if (ends) tree.endFade();
+  const double size = pixelsOf(tree, view) * tree.height() * feedback_.factor();
+  const int level = forest::geometryLevel(size, tree.level());
+  if (level == tree.level() && !repaint_) return ends;
+  const bool fades = settled_ && level != tree.level() && isSeen(tree, view);
+  const bool room = report_.fading < std::max(FADERS, stock_->trees().size() / FADERS);
+  if (!repaint_ && (!in_time || tree.fading() || (fades && !room))) {
+    ++report_.waiting;
+    return ends;
+  }
+  tree.setLevel(level, stock_->light(), options.look, fades ? clock : 0.f);
+  return true;
+}
+
+// Near groves first: they are drawn first, and the first to get their level when time is short.
+void ForestVisual::chooseLevels(const View& view, const Options& options) {
+  const bool bare = report_.triangles == 0 || report_.waiting > groves_.size();
+  const auto end = Clock::now() + std::chrono::duration<double>(bare ? FIRST_TIME : LEVEL_TIME);
+  std::sort(groves_.begin(), groves_.end(), [&](const auto& a, const auto& b) {
+    return (a->middle() - view.eye.position).squaredNorm() <
+           (b->middle() - view.eye.position).squaredNorm();
+  });
+  report_.waiting = report_.fading = 0;
+  for (const auto& grove : groves_)
+    for (const DrawnTree* tree : grove->trees()) report_.fading += tree->fading() ? 1 : 0;
+  int rank = 0;
+  bool still = true;
+  for (const auto& grove : groves_) {
+    grove->setRank(rank++);
+    bool changed = false;
+    for (DrawnTree* tree : grove->trees()) {
+      const int before = tree->fading() ? 1 : 0;
+      changed = changeLevel(*tree, view, options, Clock::now() < end) || changed;
+      report_.fading += (tree->fading() ? 1 : 0) - before;
+    }
+    still = still && !changed;
+    if (changed) {
+      grove->rebuild();
+      grove->moved_to = -1;
+    }
+    if (Clock::now() < end) grove->sortFor(view.eye.position);
+  }
+  repaint_ = false;
+  settled_ = settled_ || (still && report_.waiting == 0);
+}
+
+// While time stands still nothing moves, and nothing is computed.
+void ForestVisual::move(const forest::ForestReplica& replica, Nanoseconds stamp, const View& view,
+                        const Options& options) {
+  const wind::Instant wind = replica.wind().at(stamp);
+  report_.moving = 0;
+  for (const auto& grove : groves_) {
+    if (!isSeen(*grove, view) || grove->moved_to == stamp) continue;
+    grove->moved_to = stamp;
+    bool moved = false, painted = false;
+    for (DrawnTree* tree : grove->trees()) {
+      const bool moves = tree->move(replica, stamp, wind, options.look, pixelsOf(*tree, view));
+      report_.moving += moves ? 1 : 0;
+      moved = moved || moves;
+      painted = tree->paintLevels(replica, stamp, options.look) || painted;
+    }
+    if (moved) grove->takePositions();
+    if (painted) grove->takePaint();
+  }
+}
+
+void ForestVisual::measure(const View& view, const Options& options) {
+  report_.trees = stock_->trees().size();
+  report_.stocks = stocks_;
+  report_.triangles = 0;
+  report_.per_level.fill(0);
+  for (const auto& tree : stock_->trees()) {
+    if (tree->level() < 0) continue;
+    ++report_.per_level[static_cast<std::size_t>(tree->level())];
+    if (isSeen(*tree, view)) report_.triangles += tree->triangleCount();
+  }
+  // What is on its way to another level is not yet what that level costs.
+  if (report_.waiting == 0 && report_.fading == 0 && report_.triangles > 0)
+    feedback_.update(static_cast<double>(report_.triangles), options.target_triangles);
+}
+
+}  // namespace vegetation_sim::view

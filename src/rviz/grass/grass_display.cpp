@@ -1,0 +1,94 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rviz/grass/grass_display.h"
+
+#include <pluginlib/class_list_macros.hpp>
+
+namespace vegetation_sim {
+namespace {
+
+constexpr int GROUND_RANK = 2;          // shows the tracks
+constexpr int BARE_RANK = -1;           // of a meadow where nothing grows
+constexpr double PRUNING_PERIOD = 0.5;  // [s]
+
+}  // namespace
+
+GrassDisplay::GrassDisplay()
+    : SceneryDisplay(GROUND_RANK, {"grass_field", "Cost [blades]", "Budget [blades]"}),
+      properties_(std::make_unique<view::GrassProperties>(*this)) {}
+
+GrassDisplay::~GrassDisplay() {
+  stop();
+}
+
+void GrassDisplay::open() {
+  source_ = std::make_unique<view::GrassSource>(update_nh_, properties_->topics());
+  layouts_ = 0;
+}
+
+void GrassDisplay::close() {
+  dropGround();
+  grass_.reset();
+  source_.reset();
+}
+
+std::optional<std::string> GrassDisplay::frame() const {
+  if (!source_->ready()) return {};
+  return source_->frame();
+}
+
+void GrassDisplay::updateLook() {
+  if (grass_) grass_->repaint();
+}
+
+void GrassDisplay::light(const view::Daylight& daylight, const view::Haze& haze) {
+  if (grass_) grass_->light(daylight, haze);
+  if (ground_) ground_->light(daylight, haze);
+}
+
+void GrassDisplay::draw(Nanoseconds stamp, const view::View& view) {
+  if (!grass_ || layouts_ != source_->layouts()) {
+    layouts_ = source_->layouts();
+    grass_.reset();
+    setGroundRank(view::isBare(*source_->layout().map) ? BARE_RANK : GROUND_RANK);
+    grass_ = std::make_unique<view::GrassVisual>(*scene_node_, *source_);
+    grass_->light(properties_->daylight(), properties_->hazeValues());
+  }
+  grass_->update(*source_, stamp, wall(), view, properties_->options());
+  if (wall() > pruned_ + PRUNING_PERIOD) {
+    source_->prune(stamp);
+    pruned_ = wall();
+  }
+  if (view::isPaintable(*source_->layout().map) && givesGround(*source_->terrain())) makeGround();
+  if (!ground_) return;
+  ground_->update(*source_, source_->takePressed(), stamp);
+  ground_->darken(grass_->bladesReach());
+}
+
+void GrassDisplay::makeGround() {
+  if (ground_) return;
+  const view::Daylight daylight = properties_->daylight();
+  ground_ = std::make_unique<view::MeadowGround>(*scene_node_, *source_, daylight,
+                                                 properties_->groundTint());
+  ground_->light(daylight, properties_->hazeValues());
+}
+
+view::GrassReport GrassDisplay::drawn() const {
+  return grass_ ? grass_->report() : view::GrassReport();
+}
+
+void GrassDisplay::showInputs(view::StatusBoard& board, Nanoseconds now) const {
+  board.show("Layout", source_->layoutStatus());
+  board.show("Wind", source_->windStatus());
+  board.show("State", source_->stateStatus(now));
+}
+
+view::InputStatus GrassDisplay::describeDrawn() const {
+  const bool painted = !grass_ || view::isPaintable(*source_->layout().map);
+  return {drawn().tiles > 0,
+          view::describe(drawn()) + (painted ? "" : "; no ground: more than 2048 tiles a side")};
+}
+
+}  // namespace vegetation_sim
+
+PLUGINLIB_EXPORT_CLASS(vegetation_sim::GrassDisplay, rviz::Display)

@@ -1,0 +1,70 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rviz/grass/grass_properties.h"
+
+#include <rviz/display.h>
+#include <rviz/properties/bool_property.h>
+#include <rviz/properties/float_property.h>
+#include <rviz/properties/int_property.h>
+
+namespace vegetation_sim::view {
+GrassProperties::GrassProperties(rviz::Display& display) {
+  addTopics(display);
+  addLook(display);
+  addLevels(display);
+  addScenery(display, "Draw the terrain with the colours of the meadow and the tracks in it.");
+}
+
+void GrassProperties::addTopics(rviz::Display& display) {
+  layout_ = addTopic<GrassLayout>("Layout Topic", "grass/layout",
+                                  "vegetation_sim/GrassLayout: the map of the meadow.", display);
+  wind_ = addTopic<WindField>("Wind Topic", "wind",
+                              "vegetation_sim/WindField: the law of the wind.", display);
+  state_ = addTopic<GrassState>("State Topic", "grass/state",
+                                "vegetation_sim/GrassState: what is trodden.", display);
+}
+
+void GrassProperties::addLook(rviz::Display& display) {
+  most_blades_ = new rviz::IntProperty(
+      "Blades", 25000,
+      "How many single blades to draw in the picture at most. Farther blades become fewer and "
+      "wider, then strips.",
+      &display, SLOT(updateLook()), &display);
+  most_blades_->setMin(1000);
+  most_blades_->setMax(2000000);
+  blades_ = addFlag("Single Blades", true, "Draw blades near the eye.", display);
+  strips_ = addFlag("Strips", true, "Draw strips and layers farther away.", display);
+  variety_ =
+      addNumber("Variety", 1.f, "How much colours differ from blade to blade.", 0.f, 2.f, display);
+  colour_by_level_ = addFlag("Colour by Level", false,
+                             "Paint blades red, strips blue and layers violet.", display);
+  addRate(display, "Grass moves");
+}
+
+void GrassProperties::addLevels(rviz::Display& display) {
+  tolerance_ = addNumber("Tolerance", 2.f, "What a level of detail may leave out [pixel].", 0.1f,
+                         100.f, display);
+  farthest_ = addNumber("Farthest", 160.f, "Beyond, grass is only a picture on the ground [m].",
+                        1.f, 10000.f, display);
+  transition_ =
+      addNumber("Transition", 0.5f, "Time from one level to the next [s].", 0.f, 60.f, display);
+}
+
+GrassTopics GrassProperties::topics() const {
+  return {layout_->getTopicStd(), wind_->getTopicStd(), state_->getTopicStd()};
+}
+
+GrassVisual::Options GrassProperties::options() const {
+  GrassVisual::Options out;
+  out.levels.tolerance = static_cast<double>(tolerance_->getFloat());
+  out.levels.transition = static_cast<double>(transition_->getFloat());
+  out.levels.farthest = static_cast<double>(farthest_->getFloat());
+  out.levels.most_blades = most_blades_->getInt();
+  out.variety = variety_->getFloat();
+  out.blades = blades_->getBool();
+  out.strips = strips_->getBool();
+  out.colour_by_level = colour_by_level_->getBool();
+  return out;
+}
+
+}  // namespace vegetation_sim::view

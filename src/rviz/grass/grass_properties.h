@@ -1,0 +1,38 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "rviz/grass/grass_source.h"
+#include "rviz/grass/grass_visual.h"
+#include "rviz/scenery/scenery_properties.h"
+
+namespace rviz {
+class IntProperty;
+class RosTopicProperty;
+}  // namespace rviz
+
+namespace vegetation_sim::view {
+
+/// What the user of GrassDisplay sets, and its values in our terms. The properties are children of
+/// the display, which owns them.
+class GrassProperties : public SceneryProperties {
+ public:
+  /// @param display with the slots updateTopics(), updateLook(), updateGround(), updateSky(),
+  /// updateSun() and updateHaze().
+  explicit GrassProperties(rviz::Display& display);
+
+  GrassTopics topics() const;
+  GrassVisual::Options options() const;
+
+ private:
+  void addTopics(rviz::Display& display);
+  void addLook(rviz::Display& display);
+  void addLevels(rviz::Display& display);
+
+  rviz::RosTopicProperty *layout_, *wind_, *state_;
+  rviz::IntProperty* most_blades_;
+  rviz::BoolProperty *blades_, *strips_, *colour_by_level_;
+  rviz::FloatProperty *tolerance_, *farthest_, *transition_, *variety_;
+};
+
+}  // namespace vegetation_sim::view

@@ -1,0 +1,225 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rviz/grass/grass_visual.h"
+
+#include <OgreSceneManager.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "rviz/render/batch.h"
+#include "rviz/textures/meadow_texture.h"
+
+namespace vegetation_sim::view {
+namespace {
+
+constexpr int STRIP_COLUMNS = 512, STRIP_ROWS = 128, STRIP_BLADES = 130, LAYER_EDGE = 128;
+constexpr int MOST_LAYERS = 5;         // more would cost the rasteriser more than they show
+constexpr int ROWS = 3;                // of strips in a tile, each way
+constexpr double STILL = 1e-4;         // [m], [rad] of an eye
+constexpr double LARGEST_FADE = 0.05;  // of a transition between two updates
+constexpr double LEAVING = 0.5;        // of the blades drawn: the narrower, the sooner they go
+
+// Painted once in a process.
+const std::vector<Picture>& sharedStrips() {
+  static const std::vector<Picture> pictures =
+      stripPictures(STRIP_COLUMNS, STRIP_ROWS, STRIP_BLADES);
+  return pictures;
+}
+
+const std::vector<Picture>& sharedLayers() {
+  static const std::vector<Picture> pictures = layerPictures(LAYER_EDGE);
+  return pictures;
+}
+
+Eye eyeOf(const View& view) {
+  Eye out;
+  out.position = view.eye.position;
+  out.pixels_per_radian = view.eye.pixels_per_radian;
+  out.forward = view.forward;
+  out.cone_cosine = std::cos(view.half_angle);
+  return out;
+}
+
+Vec3 originOf(const grass::MapLaw& law, const terrain::HeightMap& terrain) {
+  const double x = law.origin_x + 0.5 * law.resolution * (law.columns - 1);
+  const double y = law.origin_y + 0.5 * law.resolution * (law.rows - 1);
+  return {x, y, terrain.height(x, y)};
+}
+
+// A tile on its way from texture to blades passes by strips: its place alone does not tell.
+bool haveArrived(const grass::MeadowMemory& memory, double transition) {
+  return std::all_of(memory.levels.begin(), memory.levels.end(),
+                     [&](const grass::TileLevel& level) {
+                       return placeAt(level.rung, memory.stamp, transition) ==
+                              static_cast<double>(level.rung.target);
+                     });
+}
+
+double squareDistance(const grass::TileView& tile, const grass::MapLaw& law, const Vec3& eye) {
+  const double x = law.origin_x + law.resolution * (tile.column + 0.5) - eye.x();
+  const double y = law.origin_y + law.resolution * (tile.row + 0.5) - eye.y();
+  return x * x + y * y;
+}
+
+void paint(grass::GrassMesh& mesh, std::uint8_t red, std::uint8_t blue) {
+  for (std::size_t i = 0; i + 3 < mesh.colours.size(); i += 4) {
+    mesh.colours[i] = std::max(mesh.colours[i], red);
+    mesh.colours[i + 2] = std::max(mesh.colours[i + 2], blue);
+  }
+}
+
+}  // namespace
+
+GrassVisual::GrassVisual(Ogre::SceneNode& parent, const GrassSource& source)
+    : node_(parent.createChildSceneNode()),
+      origin_(originOf(source.layout().map->law(), *source.terrain())),
+      levels_(source.layout().map, source.terrain(), source.layout().seed, grass::MeadowSettings(),
+              grass::TreadSettings{source.layout().tread_spacing}),
+      full_density_(fullDensity(*source.layout().map)),
+      strip_texture_(uniqueName("strip_picture"), sharedStrips()),
+      layer_texture_(uniqueName("layer_picture"), sharedLayers()),
+      blade_material_(Material::Kind::BLADES, uniqueName("blade_material"), {}),
+      strip_material_(Material::Kind::STRIPS, uniqueName("strip_material"),
+                      {strip_texture_.name()}),
+      layer_material_(Material::Kind::STRIPS, uniqueName("layer_material"),
+                      {layer_texture_.name()}),
+      blades_(uniqueName("blades"), blade_material_.name(), 0),
+      strips_(uniqueName("strips"), strip_material_.name(), 1),
+      layers_(uniqueName("layers"), layer_material_.name(), 2) {
+  node_->setPosition(static_cast<float>(origin_.x()), static_cast<float>(origin_.y()),
+                     static_cast<float>(origin_.z()));
+  for (GrassBatch* batch : {&blades_, &strips_, &layers_}) node_->attachObject(batch);
+  for (grass::GrassMesh* mesh : {&blade_mesh_, &strip_mesh_, &layer_mesh_}) mesh->origin = origin_;
+  report_.tiles = static_cast<std::size_t>(levels_.map().tileColumns()) *
+                  static_cast<std::size_t>(levels_.map().tileRows());
+}
+
+GrassVisual::~GrassVisual() {
+  node_->detachAllObjects();
+  node_->getCreator()->destroySceneNode(node_);
+}
+
+void GrassVisual::light(const Daylight& daylight, const Haze& haze) {
+  light_ = grassLight(daylight);
+  for (Material* material : {&blade_material_, &strip_material_, &layer_material_})
+    material->light(daylight, daylight.to_sun, haze);
+  repaint();
+}
+
+bool GrassVisual::isDrawn(const Drawn& wanted) const {
+  return drawn_.settled && drawn_.stamp == wanted.stamp && drawn_.changes == wanted.changes &&
+         length(drawn_.eye - wanted.eye) < STILL && length(drawn_.forward - wanted.forward) < STILL;
+}
+
+void GrassVisual::update(const GrassSource& source, Nanoseconds stamp, double wall,
+                         const View& view, const Options& options) {
+  Drawn wanted{stamp, source.changes(), view.eye.position, view.forward, 0, true};
+  if (isDrawn(wanted)) return;
+  const Eye eye = eyeOf(view);
+  levels_.setSettings(options.levels);
+  levels_.setEyes({eye});
+  const Nanoseconds now = levelClock(wall, options.levels.transition);
+  levels_.advance(now);
+  const std::vector<grass::TileView> tiles = levels_.viewOf(eye, now);
+  wanted.settled = haveArrived(levels_.memory(), options.levels.transition);
+  build(source, stamp, view, tiles, options);
+  // Two alike in a row: the number of blades has found its tolerance too.
+  wanted.blades = report_.blades;
+  const std::size_t gap =
+      std::max(drawn_.blades, wanted.blades) - std::min(drawn_.blades, wanted.blades);
+  wanted.settled = wanted.settled && drawn_.stamp == stamp && drawn_.eye == wanted.eye &&
+                   500 * gap <= wanted.blades;
+  drawn_ = wanted;
+  ++report_.rebuilds;
+}
+
+// Wall time, slower where pictures are rare: none shows much of a transition at once.
+Nanoseconds GrassVisual::levelClock(double wall, double transition) {
+  const double passed = std::max(wall - wall_, 0.0);
+  clock_ += transition > 0.0 ? std::min(passed, LARGEST_FADE * transition) : passed;
+  wall_ = wall;
+  return fromSeconds(clock_);
+}
+
+// Near tiles first: they hide the others cheaply.
+void GrassVisual::build(const GrassSource& source, Nanoseconds stamp, const View& view,
+                        const std::vector<grass::TileView>& tiles, const Options& options) {
+  std::vector<grass::TileView> sorted = tiles;
+  const Vec3& eye = view.eye.position;
+  const grass::MapLaw& law = levels_.map().law();
+  std::sort(sorted.begin(), sorted.end(), [&](const auto& a, const auto& b) {
+    return squareDistance(a, law, eye) < squareDistance(b, law, eye);
+  });
+  std::vector<grass::TilePlace> places;
+  places.reserve(sorted.size());
+  for (const grass::TileView& tile : sorted) places.push_back({tile.column, tile.row});
+  grass::NodeAir air(levels_.map(), levels_.terrain());
+  air.update(source.wind().at(stamp), {}, grass::Meadow::windowOf(sorted), &places);
+  for (grass::GrassMesh* mesh : {&blade_mesh_, &strip_mesh_, &layer_mesh_}) mesh->clear();
+  report_.blades = report_.bladed = report_.stripped = 0;
+  reach_ = 0.f;
+  for (const grass::TileView& tile_view : sorted) {
+    grass::TileMotion motion;
+    grass::Tile tile =
+        makeTile(levels_.map(), levels_.terrain(), levels_.seed(), tile_view.column, tile_view.row);
+    air.fill(tile, motion);
+    source.tread().patch(tile_view.column, tile_view.row, stamp, patch_);
+    motion.crush = patch_.cells > 0 ? &patch_ : nullptr;
+    motion.model = static_cast<grass::BladeModel>(source.layout().blade_model);
+    if (tile_view.morph.blades && options.blades) {
+      addBlades(tile, motion, tile_view, eye, options);
+      const double distance = std::sqrt(squareDistance(tile_view, law, eye));
+      reach_ = std::max(reach_, static_cast<float>(distance * (1.0 - tile_view.morph.slide)));
+    }
+    if (tile_view.morph.strip > 0.0 && options.strips) addFlat(tile, motion, tile_view);
+  }
+  if (options.colour_by_level) tint(options);
+  blades_.fill(blade_mesh_);
+  strips_.fill(strip_mesh_);
+  layers_.fill(layer_mesh_);
+  report_.trodden = source.tread().state().blocks.size();
+  report_.triangles =
+      (blade_mesh_.indices.size() + strip_mesh_.indices.size() + layer_mesh_.indices.size()) / 3;
+}
+
+void GrassVisual::addBlades(const grass::Tile& tile, const grass::TileMotion& motion,
+                            const grass::TileView& view, const Vec3& eye, const Options& options) {
+  const int count = static_cast<int>(std::lround(tile.blades * view.share));
+  blocks_.resize(static_cast<std::size_t>(grass::blocksFor(count)));
+  poseBlades(tile, motion, count, blocks_.data());
+  grass::RibbonStyle style;
+  style.segments = view.segments;
+  style.leaving = std::min(LEAVING, (1.0 - view.share) / view.share);
+  // Fewer hide each other less. What arrives at the edge of its tile is gone.
+  style.width = std::pow(view.share * (1.0 - 0.5 * style.leaving), -0.95) *
+                (1.0 - view.morph.slide * view.morph.slide);
+  style.slide = view.morph.slide;
+  style.eye = eye;
+  style.light = &light_;
+  style.variety = options.variety;
+  appendRibbons(levels_.map(), tile, blocks_.data(), count, style, blade_mesh_);
+  report_.blades += static_cast<std::size_t>(count);
+  ++report_.bladed;
+}
+
+// Strips seen from the side, layers seen from above.
+void GrassVisual::addFlat(const grass::Tile& tile, const grass::TileMotion& motion,
+                          const grass::TileView& view) {
+  const double from_above = grass::layerWeight(view.elevation);
+  const double upright = view.morph.strip * (1.0 - from_above);
+  if (upright > 0.0)
+    appendRows(levels_.map(), tile, motion, ROWS, upright, full_density_, strip_mesh_, &light_);
+  if (from_above > 0.0)
+    appendLayers(levels_.map(), tile, motion, MOST_LAYERS, view.morph.strip * from_above,
+                 full_density_, layer_mesh_, &light_);
+  ++report_.stripped;
+}
+
+void GrassVisual::tint(const Options&) {
+  paint(blade_mesh_, 230, 0);
+  paint(strip_mesh_, 0, 230);
+  paint(layer_mesh_, 120, 230);
+}
+
+}  // namespace vegetation_sim::view

@@ -1,0 +1,95 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <OgreSceneNode.h>
+
+#include <memory>
+#include <vector>
+
+#include "grass/lod/meadow_lod.h"
+#include "rviz/grass/grass_batch.h"
+#include "rviz/grass/grass_source.h"
+#include "rviz/render/material.h"
+#include "rviz/render/texture.h"
+#include "rviz/trees/tree_set.h"
+
+namespace vegetation_sim::view {
+
+/// What was drawn last.
+struct GrassReport {
+  std::size_t tiles{0};     ///< of the map
+  std::size_t blades{0};    ///< single ones
+  std::size_t bladed{0};    ///< tiles of blades
+  std::size_t stripped{0};  ///< tiles of strips or layers
+  std::size_t trodden{0};   ///< blocks of trodden ground
+  std::size_t triangles{0};
+  int rebuilds{0};  ///< how often anything was drawn anew
+};
+
+/// The grass of a layout as Ogre shows it: blades near the eye, strips and layers farther away
+/// (paper 2, section 3). All of it goes with this object. Render thread only.
+class GrassVisual {
+ public:
+  struct Options {
+    grass::MeadowSettings levels;
+    float variety{1.f};  ///< of blades, RibbonStyle::variety
+    bool blades{true}, strips{true};
+    bool colour_by_level{false};  ///< blades red, strips blue
+  };
+
+  /// @param parent node in the frame of the layout. @param source with a layout.
+  GrassVisual(Ogre::SceneNode& parent, const GrassSource& source);
+  ~GrassVisual();
+  GrassVisual(const GrassVisual&) = delete;
+  GrassVisual& operator=(const GrassVisual&) = delete;
+
+  /// Draws the grass of `stamp`; nothing is done if nothing has changed. Levels go on by `wall` [s]
+  /// while simulation time stands.
+  void update(const GrassSource& source, Nanoseconds stamp, double wall, const View& view,
+              const Options& options);
+  void light(const Daylight& daylight, const Haze& haze);
+  /// Draws all anew at the next update.
+  void repaint() { drawn_ = Drawn(); }
+
+  const GrassReport& report() const { return report_; }
+  /// [m] around the eye within which most grass is blades; 0: none.
+  float bladesReach() const { return reach_; }
+
+ private:
+  /// What the picture was made of.
+  struct Drawn {
+    Nanoseconds stamp{-1};
+    int changes{-1};
+    Vec3 eye{Vec3::Zero()}, forward{Vec3::Zero()};
+    std::size_t blades{0};
+    bool settled{false};
+  };
+  bool isDrawn(const Drawn& wanted) const;
+  Nanoseconds levelClock(double wall, double transition);
+  void build(const GrassSource& source, Nanoseconds stamp, const View& view,
+             const std::vector<grass::TileView>& tiles, const Options& options);
+  void addBlades(const grass::Tile& tile, const grass::TileMotion& motion,
+                 const grass::TileView& view, const Vec3& eye, const Options& options);
+  void addFlat(const grass::Tile& tile, const grass::TileMotion& motion,
+               const grass::TileView& view);
+  void tint(const Options& options);
+
+  Ogre::SceneNode* node_;  // Ogre's; destroyed by us
+  Vec3 origin_;
+  grass::Meadow levels_;  // its treads stay empty
+  double full_density_;
+  grass::GrassLight light_;
+  Texture strip_texture_, layer_texture_;
+  Material blade_material_, strip_material_, layer_material_;
+  GrassBatch blades_, strips_, layers_;
+  grass::GrassMesh blade_mesh_, strip_mesh_, layer_mesh_;
+  std::vector<grass::BladeBlock> blocks_;
+  grass::CrushPatch patch_;
+  Drawn drawn_;
+  double clock_{0.0}, wall_{0.0};  // of levels; of the last update [s]
+  float reach_{0.f};
+  GrassReport report_;
+};
+
+}  // namespace vegetation_sim::view

@@ -1,0 +1,73 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rviz/grass/meadow_ground.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vegetation_sim::view {
+namespace {
+
+constexpr int PRESSED_A_TIME = 8, IN_TURN_A_TIME = 2;  // tiles painted in one update
+
+}  // namespace
+
+MeadowGround::MeadowGround(Ogre::SceneNode& parent, const GrassSource& source,
+                           const Daylight& daylight, const Rgba& tint)
+    : map_(source.layout().map), terrain_(source.terrain()), daylight_(daylight) {
+  painter_ = std::make_unique<MeadowPainter>(*map_, *terrain_, daylight_, tint);
+  const Picture picture = painter_->whole();
+  const Plot& plot = painter_->plot();
+  const double x = plot.x + 0.5 * plot.edge, y = plot.y + 0.5 * plot.edge;
+  Land land{plot, picture, *terrain_, Vec3(x, y, terrain_->height(x, y)), 1.0, tint};
+  if (!terrain_->isFlat()) land.cell = terrain_->resolution();
+  ground_ = std::make_unique<GroundVisual>(parent, land, daylight);
+}
+
+void MeadowGround::light(const Daylight& daylight, const Haze& haze) {
+  ground_->light(daylight, daylight.to_sun, haze);
+}
+
+void MeadowGround::paint(const GrassSource& source, std::pair<int, int> tile, Nanoseconds stamp) {
+  const auto [row, column] = tile;
+  source.tread().patch(column, row, stamp, patch_);
+  ground_->repaint(painter_->left(column), painter_->top(row),
+                   painter_->tile(column, row, &patch_));
+  if (patch_.cells > 0)
+    tracks_.insert(tile);
+  else
+    tracks_.erase(tile);
+}
+
+// All tiles that have tracks, or had them when they were painted.
+void MeadowGround::collect(const GrassSource& source) {
+  std::set<std::pair<int, int>> all = tracks_;
+  const double cells = map_->law().resolution / source.tread().spacing();
+  constexpr int SIDE = grass::TreadBlock::SIDE;
+  const auto tileOf = [&](int node, int most) {
+    return std::min(most - 1, static_cast<int>(node / cells));
+  };
+  for (const auto& [place, block] : source.tread().state().blocks)
+    for (int row = tileOf(place.first * SIDE, map_->tileRows());
+         row <= tileOf(place.first * SIDE + SIDE - 1, map_->tileRows()); ++row)
+      for (int column = tileOf(place.second * SIDE, map_->tileColumns());
+           column <= tileOf(place.second * SIDE + SIDE - 1, map_->tileColumns()); ++column)
+        all.insert({row, column});
+  round_.assign(all.begin(), all.end());
+}
+
+void MeadowGround::update(const GrassSource& source, const std::set<std::pair<int, int>>& pressed,
+                          Nanoseconds stamp) {
+  pressed_.insert(pressed.begin(), pressed.end());
+  for (int i = 0; i < PRESSED_A_TIME && !pressed_.empty(); ++i) {
+    paint(source, *pressed_.begin(), stamp);
+    pressed_.erase(pressed_.begin());
+  }
+  if (round_.empty()) collect(source);
+  for (int i = 0; i < IN_TURN_A_TIME && !round_.empty(); ++i) {
+    paint(source, round_.back(), stamp);
+    round_.pop_back();
+  }
+}
+
+}  // namespace vegetation_sim::view

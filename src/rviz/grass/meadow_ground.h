@@ -1,0 +1,50 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <OgreSceneNode.h>
+
+#include <memory>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "rviz/grass/grass_source.h"
+#include "rviz/ground/ground_visual.h"
+#include "rviz/textures/meadow_texture.h"
+
+namespace vegetation_sim::view {
+
+/// The ground of a meadow: its picture is under everything and beyond all strips, with the tracks
+/// in it. Render thread only.
+class MeadowGround {
+ public:
+  /// @param source with a layout, which must outlive it until another is made.
+  MeadowGround(Ogre::SceneNode& parent, const GrassSource& source, const Daylight& daylight,
+               const Rgba& tint);
+
+  /// Paints tiles whose tracks have changed: those in `pressed` first, and some of the others.
+  void update(const GrassSource& source, const std::set<std::pair<int, int>>& pressed,
+              Nanoseconds stamp);
+  void light(const Daylight& daylight, const Haze& haze);
+  /// [m] around the eye where blades stand on it.
+  void darken(float distance) { ground_->darken(distance); }
+
+  std::size_t paintedTracks() const { return tracks_.size(); }  ///< tiles with tracks
+
+ private:
+  void paint(const GrassSource& source, std::pair<int, int> tile, Nanoseconds stamp);
+  void collect(const GrassSource& source);
+
+  std::shared_ptr<const grass::FeatureMap> map_;
+  std::shared_ptr<const terrain::HeightMap> terrain_;
+  Daylight daylight_;
+  std::unique_ptr<MeadowPainter> painter_;
+  std::unique_ptr<GroundVisual> ground_;
+  std::set<std::pair<int, int>> tracks_;    // tiles that have tracks in the picture
+  std::set<std::pair<int, int>> pressed_;   // to be painted soon
+  std::vector<std::pair<int, int>> round_;  // to be painted in turn
+  grass::CrushPatch patch_;
+};
+
+}  // namespace vegetation_sim::view

@@ -1,0 +1,220 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rviz/ground/ground_texture.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tree/mesh/mesh.h"
+#include "vegetation_sim/core/math/math.h"
+
+namespace vegetation_sim::view {
+namespace {
+
+constexpr std::uint64_t GROUND_SEED = 0x6a55;
+constexpr double ROOM = 14.0;        // [m] around the trees
+constexpr double BORDER = 0.12;      // of the plot's edge: where it fades to plain grass
+constexpr double LEAF_DEPTH = 0.55;  // optical depth of one leaf cluster, seen from the sun
+constexpr double THINNEST = 0.7;     // [pixel] radius of a shadow
+constexpr Rgba GRASS_DEEP{0.25f, 0.30f, 0.12f, 1.f}, GRASS_FRESH{0.37f, 0.41f, 0.17f, 1.f};
+constexpr Rgba GRASS_DRY{0.52f, 0.47f, 0.27f, 1.f};
+constexpr Rgba LITTER{0.30f, 0.25f, 0.16f, 1.f}, MOSS{0.20f, 0.26f, 0.09f, 1.f};
+
+float ramp(double low, double high, double x) {
+  return static_cast<float>(smoothStep((x - low) / (high - low)));
+}
+
+Rgba times(const Rgba& a, const Rgba& b) {
+  return {a[0] * b[0], a[1] * b[1], a[2] * b[2], a[3] * b[3]};
+}
+
+/// Adds up what blocks the sun, pixel by pixel.
+class ShadowPainter {
+ public:
+  ShadowPainter(const Plot& plot, int edge, const terrain::HeightMap& terrain, const Vec3& to_sun)
+      : plot_(plot),
+        edge_(edge),
+        terrain_(terrain),
+        slope_(to_sun / std::max(to_sun.z(), 0.15)),
+        depth_(static_cast<std::size_t>(edge) * static_cast<std::size_t>(edge), 0.f) {}
+
+  /// A ball of leaves or wood that throws its shadow.
+  void drop(const Vec3& from, double radius, double depth) {
+    Vec3 at = from;
+    for (int i = 0; i < 3; ++i)  // down the ray to the ground, which is nearly flat
+      at = at - (at.z() - terrain_.height(at.x(), at.y())) * slope_;
+    const double pixel = plot_.edge / edge_;
+    const double column = (at.x() - plot_.x) / pixel, row = (at.y() - plot_.y) / pixel;
+    const double reach = std::max(radius / pixel, THINNEST);
+    depth *= std::min(1.0, radius / pixel / THINNEST);  // what is thinner than a pixel is faint
+    const int last_row = std::min(edge_ - 1, static_cast<int>(row + reach));
+    const int last_column = std::min(edge_ - 1, static_cast<int>(column + reach));
+    for (int r = std::max(0, static_cast<int>(row - reach)); r <= last_row; ++r) {
+      for (int c = std::max(0, static_cast<int>(column - reach)); c <= last_column; ++c) {
+        const double x = (c + 0.5 - column) / reach, y = (r + 0.5 - row) / reach;
+        const double inside = 1.0 - x * x - y * y;
+        if (inside > 0.0)
+          depth_[static_cast<std::size_t>(r * edge_ + c)] += static_cast<float>(depth * inside);
+      }
+    }
+  }
+
+  std::vector<float> light() && {
+    for (float& depth : depth_) depth = std::exp(-depth);
+    return std::move(depth_);
+  }
+
+ private:
+  Plot plot_;
+  int edge_;
+  const terrain::HeightMap& terrain_;
+  Vec3 slope_;
+  std::vector<float> depth_;
+};
+
+// Noise that goes on at the right where it began at the left, and below as above, whatever the
+// edge: each place is a mixture with its neighbours one edge away.
+float repeatingNoise(const Noise& noise, float x, float y, float edge) {
+  const auto row = [&](float at_y) {
+    const float part = x / edge;
+    return (1.f - part) * noise.smooth(x, at_y) + part * noise.smooth(x - edge, at_y);
+  };
+  const float part = y / edge;
+  return (1.f - part) * row(y) + part * row(y - edge);
+}
+
+}  // namespace
+
+Plot plotAround(const Extent& extent) {
+  const Vec3 size = extent.high - extent.low;
+  Plot out;
+  out.edge = std::max(40.0, std::max(size.x(), size.y()) + 2.0 * ROOM) / (1.0 - 2.0 * BORDER);
+  out.x = 0.5 * (extent.low.x() + extent.high.x() - out.edge);
+  out.y = 0.5 * (extent.low.y() + extent.high.y() - out.edge);
+  return out;
+}
+
+Rgba groundColour(const Noise& noise, double x, double y, double shelter, const Rgba& tint) {
+  const auto fx = static_cast<float>(x), fy = static_cast<float>(y);
+  const float broad = noise.fractal(fx / 23.f, fy / 23.f, 3);
+  const float fine = noise.fractal(fx / 2.3f + 7.f, fy / 2.3f, 3);
+  Rgba grass = mix(GRASS_DEEP, GRASS_FRESH, ramp(0.3, 0.7, broad));
+  grass =
+      mix(grass, GRASS_DRY, 0.6f * ramp(0.52, 0.85, noise.fractal(fx / 11.f, fy / 11.f + 30.f, 3)));
+  grass = times(mix(grass, times(grass, {0.78f, 0.84f, 0.7f, 1.f}), ramp(0.4, 0.7, fine)), tint);
+  const double edge = shelter + 0.35 * (static_cast<double>(fine) - 0.5);
+  const float covered = 0.92f * ramp(0.25, 0.7, edge);
+  if (covered <= 0.f) return grass;
+  const Rgba floor =
+      mix(LITTER, MOSS, ramp(0.42, 0.68, noise.fractal(fx / 5.f, fy / 5.f + 11.f, 4)));
+  return mix(grass, floor, covered);
+}
+
+Rgba openLight(const Daylight& daylight, const Vec3& normal) {
+  const auto facing = static_cast<float>(std::max(0.0, dot(normal, daylight.to_sun)));
+  Rgba out;
+  for (std::size_t i = 0; i < 3; ++i) out[i] = daylight.sun[i] * facing + daylight.zenith_light[i];
+  out[3] = 1.f;
+  return out;
+}
+
+std::vector<float> castShadows(const Plot& plot, int edge, const terrain::HeightMap& terrain,
+                               const Vec3& to_sun,
+                               const std::function<void(const ShadowDrop&)>& tell) {
+  ShadowPainter painter(plot, edge, terrain, to_sun);
+  tell([&](const Vec3& at, double radius, double depth) { painter.drop(at, radius, depth); });
+  return std::move(painter).light();
+}
+
+std::vector<float> shadowsOn(const Plot& plot, int edge, const TreeStock& stock,
+                             const terrain::HeightMap& terrain, const Vec3& to_sun) {
+  return castShadows(plot, edge, terrain, to_sun, [&](const ShadowDrop& drop) {
+    for (const auto& tree : stock.trees()) {
+      const double radius = 0.5 * tree->leafSize();
+      for (const forest::Branch& branch : tree->tree().skeleton.branches) {
+        const Vec3 base = tree->foot() + branch.rest.position;
+        const Vec3 tip = tree->foot() + tipOf(branch, branch.rest);
+        for (int leaf = 0; stock.hasLeaves() && leaf < branch.leaves; ++leaf)
+          drop(base + (tip - base) * ((leaf + 0.8) / branch.leaves), radius, LEAF_DEPTH);
+        if (branch.depth > 1 && stock.hasLeaves()) continue;  // lost among the leaves'
+        const int steps = 1 + static_cast<int>(branch.length / 0.15);
+        for (int s = 0; s < steps; ++s)
+          drop(base + (tip - base) * (static_cast<double>(s) / steps), branch.base_radius, 1.5);
+      }
+    }
+  });
+}
+
+Picture groundPicture(const Plot& plot, int edge, const TreeStock& stock,
+                      const terrain::HeightMap& terrain, const Daylight& daylight,
+                      const Rgba& tint) {
+  const Shade shade{shadowsOn(plot, edge, stock, terrain, daylight.to_sun),
+                    [&](const Vec3& at) { return stock.light().sky(at); }};
+  return groundPicture(plot, edge, shade, terrain, daylight, tint);
+}
+
+Picture groundPicture(const Plot& plot, int edge, const Shade& shade,
+                      const terrain::HeightMap& terrain, const Daylight& daylight,
+                      const Rgba& tint) {
+  const Noise noise(GROUND_SEED);
+  Picture out(edge, edge, {});
+  for (int r = 0; r < edge; ++r) {
+    for (int c = 0; c < edge; ++c) {
+      const double u = (c + 0.5) / edge, v = (r + 0.5) / edge;
+      const double x = plot.x + plot.edge * u, y = plot.y + plot.edge * v;
+      const double from_border = std::min(std::min(u, 1.0 - u), std::min(v, 1.0 - v));
+      const auto inside = static_cast<double>(ramp(0.2 * BORDER, BORDER, from_border));
+      const Vec3 at(x, y, terrain.height(x, y) + 0.3);
+      const double sky = shade.sky ? 1.0 - inside * (1.0 - shade.sky(at)) : 1.0;
+      const double lit =
+          shade.sun.empty()
+              ? 1.0
+              : static_cast<double>(shade.sun[static_cast<std::size_t>(r * edge + c)]);
+      const auto sun = static_cast<float>(1.0 - inside * (1.0 - lit));
+      const Vec3 normal = terrain.normal(x, y);
+      const auto facing = static_cast<float>(std::max(0.0, dot(normal, daylight.to_sun)));
+      const Rgba colour = groundColour(noise, x, y, 1.0 - sky, tint);
+      Rgba& pixel = out.at(c, edge - 1 - r);
+      for (std::size_t i = 0; i < 3; ++i)
+        pixel[i] = colour[i] * (daylight.sun[i] * facing * sun +
+                                daylight.zenith_light[i] * static_cast<float>(0.25 + 0.75 * sky));
+      pixel[3] = 1.f;
+    }
+  }
+  return out;
+}
+
+Picture grainPicture(int edge) {
+  const Noise noise(GROUND_SEED + 1);
+  Picture out(edge, edge, {});
+  const float unit = static_cast<float>(Noise::PERIOD) / static_cast<float>(edge);
+  constexpr float BROAD = 0.25f * static_cast<float>(Noise::PERIOD);
+  for (int r = 0; r < edge; ++r) {
+    for (int c = 0; c < edge; ++c) {
+      const float x = static_cast<float>(c) * unit, y = static_cast<float>(r) * unit;
+      const float value = 0.43f + 0.25f * (noise.smooth(x, y) - 0.5f) +
+                          0.35f * (repeatingNoise(noise, 0.25f * x, 0.25f * y, BROAD) - 0.5f);
+      out.at(c, r) = {value, value, value, 1.f};
+    }
+  }
+  // Blades that lie every way, light on dark.
+  const Random random(GROUND_SEED);
+  const int blades = edge * edge / 40;
+  for (int i = 0; i < blades; ++i) {
+    const Random own = random.child(static_cast<std::uint64_t>(i));
+    const double angle = own.uniform(2, 0.0, 2.0 * PI), way = own.uniform(3, 0.01, 0.03) * edge;
+    const auto light = static_cast<float>(own.uniform(4, 0.22, 0.82));
+    for (double s = 0.0; s < way; s += 0.7) {
+      const int c = static_cast<int>(own.uniform(0) * edge + s * std::cos(angle)) & (edge - 1);
+      const int r = static_cast<int>(own.uniform(1) * edge + s * std::sin(angle)) & (edge - 1);
+      out.blend(c, r, {light, light, light, 0.7f});
+    }
+  }
+  float mean = 0.f;
+  for (const Rgba& pixel : out.pixels) mean += pixel[0] / static_cast<float>(out.pixels.size());
+  for (Rgba& pixel : out.pixels)
+    for (std::size_t i = 0; i < 3; ++i) pixel[i] *= 0.5f / mean;
+  return out;
+}
+
+}  // namespace vegetation_sim::view

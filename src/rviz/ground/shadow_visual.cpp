@@ -1,0 +1,75 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rviz/ground/shadow_visual.h"
+
+#include <OgreSceneManager.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace vegetation_sim::view {
+namespace {
+
+constexpr int EDGE = 1024;                // [pixel]
+constexpr double LIFT = 0.2, CELL = 2.0;  // [m] over the ground; of the veil's mesh
+constexpr int MOST_CELLS = 120;           // along its edge
+constexpr float DARKEST = 0.62f;          // alpha where no sun arrives
+
+Picture veilPicture(const Plot& plot, const TreeStock& stock, const terrain::HeightMap& terrain,
+                    const Vec3& to_sun) {
+  const std::vector<float> light = shadowsOn(plot, EDGE, stock, terrain, to_sun);
+  Picture out(EDGE, EDGE, {1.f, 1.f, 1.f, 0.f});
+  for (int r = 0; r < EDGE; ++r)
+    for (int c = 0; c < EDGE; ++c)
+      out.at(c, EDGE - 1 - r)[3] = DARKEST * (1.f - light[static_cast<std::size_t>(r * EDGE + c)]);
+  return out;
+}
+
+}  // namespace
+
+ShadowVisual::ShadowVisual(Ogre::SceneNode& parent, const TreeStock& stock,
+                           const terrain::HeightMap& terrain, const Daylight& daylight)
+    : node_(parent.createChildSceneNode()),
+      texture_(uniqueName("veil_picture"),
+               mipmaps(veilPicture(plotAround(stock.extent()), stock, terrain, daylight.to_sun))),
+      material_(Material::Kind::SHADOWS, uniqueName("veil_material"), {texture_.name()}),
+      veil_(uniqueName("veil"), material_.name()) {
+  const Plot plot = plotAround(stock.extent());
+  const Vec3& origin = stock.origin();
+  node_->setPosition(static_cast<float>(origin.x()), static_cast<float>(origin.y()),
+                     static_cast<float>(origin.z()));
+  const int cells = std::clamp(static_cast<int>(plot.edge / CELL), 1, MOST_CELLS);
+  std::vector<float> positions;
+  std::vector<VertexPaint> paint;
+  std::vector<std::uint32_t> triangles;
+  for (int r = 0; r <= cells; ++r) {
+    for (int c = 0; c <= cells; ++c) {
+      const double u = static_cast<double>(c) / cells, v = static_cast<double>(r) / cells;
+      const double x = plot.x + plot.edge * u, y = plot.y + plot.edge * v;
+      const Vec3 at = Vec3(x, y, terrain.height(x, y) + LIFT) - origin;
+      for (int k = 0; k < 3; ++k) positions.push_back(static_cast<float>(at[k]));
+      paint.push_back({{0.f, 0.f, 1.f},
+                       {16, 24, 20, 255},
+                       {static_cast<float>(u), static_cast<float>(1.0 - v), 1.f}});
+      if (r == cells || c == cells) continue;
+      const auto a = static_cast<std::uint32_t>(r * (cells + 1) + c);
+      const std::uint32_t b = a + static_cast<std::uint32_t>(cells) + 1;
+      triangles.insert(triangles.end(), {a, a + 1, b + 1, a, b + 1, b});
+    }
+  }
+  veil_.build(positions, paint, triangles, 0.f);
+  // After grass and ground; bodies of walkers come before it, and hide it where they are in front.
+  veil_.setRenderQueueGroupAndPriority(Ogre::RENDER_QUEUE_3, Batch::LAST_RANK + 2);
+  node_->attachObject(&veil_);
+}
+
+ShadowVisual::~ShadowVisual() {
+  node_->detachAllObjects();
+  node_->getCreator()->destroySceneNode(node_);
+}
+
+void ShadowVisual::light(const Daylight& daylight, const Haze& haze) {
+  material_.light(daylight, daylight.to_sun, haze);
+}
+
+}  // namespace vegetation_sim::view

@@ -1,0 +1,32 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <OgreSceneNode.h>
+
+#include "rviz/ground/ground_texture.h"
+#include "rviz/render/batch.h"
+#include "rviz/render/material.h"
+#include "rviz/render/texture.h"
+
+namespace vegetation_sim::view {
+
+/// Shadows of a forest over a ground that another display gives: a dark veil at the height of
+/// grass, so that this is shaded too. Render thread only.
+class ShadowVisual {
+ public:
+  /// @param parent node in the frame of the layout.
+  ShadowVisual(Ogre::SceneNode& parent, const TreeStock& stock, const terrain::HeightMap& terrain,
+               const Daylight& daylight);
+  ~ShadowVisual();
+
+  void light(const Daylight& daylight, const Haze& haze);
+
+ private:
+  Ogre::SceneNode* node_;  // Ogre's; destroyed by us
+  Texture texture_;
+  Material material_;
+  Batch veil_;
+};
+
+}  // namespace vegetation_sim::view

@@ -1,0 +1,34 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <OgreColourValue.h>
+#include <OgreSceneManager.h>
+
+#include "rviz/render/material.h"
+
+namespace rviz {
+class RenderPanel;
+}
+
+namespace vegetation_sim::view {
+
+/// Haze over all that rviz draws, and its colour as background; what was there before is put back
+/// when this object goes. Render thread only.
+class Air {
+ public:
+  /// @param panel may be null: then no background is changed.
+  Air(Ogre::SceneManager& scene, rviz::RenderPanel* panel, const Haze& haze, const Rgba& colour);
+  ~Air();
+  Air(const Air&) = delete;
+  Air& operator=(const Air&) = delete;
+
+ private:
+  Ogre::SceneManager& scene_;
+  rviz::RenderPanel* panel_;
+  Ogre::FogMode mode_;
+  Ogre::ColourValue colour_, background_;
+  Ogre::Real density_, start_, end_;
+};
+
+}  // namespace vegetation_sim::view

@@ -1,0 +1,180 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rviz/render/material.h"
+
+// Before Ogre's material headers, which only declare it.
+#include <OgreHighLevelGpuProgram.h>
+#include <OgreHighLevelGpuProgramManager.h>
+#include <OgreMaterialManager.h>
+#include <OgreTechnique.h>
+
+#include "rviz/render/shaders.h"
+
+namespace vegetation_sim::view {
+namespace {
+
+const char* const GROUP = "General";  // Ogre's default resource group
+
+Ogre::HighLevelGpuProgramPtr makeProgram(const std::string& name, const std::string& source,
+                                         Ogre::GpuProgramType type) {
+  Ogre::HighLevelGpuProgramPtr program =
+      Ogre::HighLevelGpuProgramManager::getSingleton().createProgram(name, GROUP, "glsl", type);
+  program->setSource(source);
+  return program;
+}
+
+void bindEye(Ogre::GpuProgramParameters& parameters) {
+  parameters.setNamedAutoConstant("world_view_projection",
+                                  Ogre::GpuProgramParameters::ACT_WORLDVIEWPROJ_MATRIX);
+  parameters.setNamedAutoConstant("eye",
+                                  Ogre::GpuProgramParameters::ACT_CAMERA_POSITION_OBJECT_SPACE);
+}
+
+bool hasTwoSides(Material::Kind kind) {
+  return kind != Material::Kind::BARK && kind != Material::Kind::GROUND;
+}
+
+struct Sources {
+  const char *vertex, *fragment;
+};
+Sources sourcesOf(Material::Kind kind) {
+  switch (kind) {
+    case Material::Kind::GROUND:
+      return {GROUND_VERTEX, GROUND_FRAGMENT};
+    case Material::Kind::BLADES:
+      return {GRASS_VERTEX, BLADE_FRAGMENT};
+    case Material::Kind::STRIPS:
+      return {GRASS_VERTEX, STRIP_FRAGMENT};
+    case Material::Kind::SHADOWS:
+      return {GRASS_VERTEX, SHADOW_FRAGMENT};
+    default:
+      return {PLANT_VERTEX, PLANT_FRAGMENT};
+  }
+}
+
+// Over what lies just below it; leaves no trace for what comes later.
+void makeShadow(Ogre::Pass& pass) {
+  pass.setSceneBlending(Ogre::SBT_TRANSPARENT_ALPHA);
+  pass.setDepthWriteEnabled(false);
+  pass.setDepthBias(2.f, 2.f);
+}
+
+Ogre::Vector4 narrow(const Rgba& c) {
+  return {c[0], c[1], c[2], c[3]};
+}
+
+}  // namespace
+
+Material::Material(Kind kind, const std::string& name, const std::vector<std::string>& textures,
+                   bool fades)
+    : kind_(kind), fades_(fades), name_(name) {
+  material_ = Ogre::MaterialManager::getSingleton().create(name, GROUP);
+  material_->setReceiveShadows(false);
+  material_->removeAllTechniques();
+  if (kind != Kind::SKY) addShaded(textures);
+  addPlain(textures);
+  material_->load();
+}
+
+Material::~Material() {
+  material_ = Ogre::MaterialPtr();
+  if (Ogre::MaterialManager::getSingletonPtr() == nullptr) return;
+  Ogre::MaterialManager::getSingleton().remove(name_);
+  for (const std::string& program : programs_)
+    Ogre::HighLevelGpuProgramManager::getSingleton().remove(program);
+}
+
+void Material::addTextures(Ogre::Pass& pass, const std::vector<std::string>& textures) const {
+  for (const std::string& texture : textures) {
+    Ogre::TextureUnitState* unit = pass.createTextureUnitState(texture);
+    const bool repeats = kind_ == Kind::BARK || kind_ == Kind::SKY || kind_ == Kind::STRIPS ||
+                         unit != pass.getTextureUnitState(0);
+    unit->setTextureAddressingMode(repeats ? Ogre::TextureUnitState::TAM_WRAP
+                                           : Ogre::TextureUnitState::TAM_CLAMP);
+    if (kind_ == Kind::LEAVES) unit->setTextureMipmapBias(-0.7f);  // crisp rather than round
+    if (kind_ == Kind::GROUND && unit != pass.getTextureUnitState(0))
+      unit->setTextureMipmapBias(-1.2f);  // grain, seen at a low angle
+    unit->setTextureFiltering(Ogre::FO_LINEAR, Ogre::FO_LINEAR, Ogre::FO_POINT);
+  }
+}
+
+void Material::addShaded(const std::vector<std::string>& textures) {
+  programs_ = {name_ + "/vertex", name_ + "/fragment"};
+  const Sources sources = sourcesOf(kind_);
+  const std::string head = fades_ ? FADING_HEAD : HEAD;
+  const auto vertex = makeProgram(programs_[0], head + sources.vertex, Ogre::GPT_VERTEX_PROGRAM);
+  const auto fragment =
+      makeProgram(programs_[1], head + sources.fragment, Ogre::GPT_FRAGMENT_PROGRAM);
+  Ogre::Pass* pass = material_->createTechnique()->createPass();
+  pass->setVertexProgram(programs_[0]);
+  pass->setFragmentProgram(programs_[1]);
+  pass->setFog(true, Ogre::FOG_NONE);  // haze is in the programs
+  bindEye(*pass->getVertexProgramParameters());
+  if (kind_ != Kind::BLADES) pass->getFragmentProgramParameters()->setNamedConstant("picture", 0);
+  if (kind_ == Kind::GROUND) {
+    pass->getFragmentProgramParameters()->setNamedConstant("grain", 1);
+    darken(0.f);
+  }
+  if (kind_ == Kind::LEAVES) pass->setAlphaRejectSettings(Ogre::CMPF_GREATER_EQUAL, 128);
+  if (hasTwoSides(kind_)) pass->setCullingMode(Ogre::CULL_NONE);
+  if (kind_ == Kind::SHADOWS) makeShadow(*pass);
+  addTextures(*pass, textures);
+}
+
+void Material::addPlain(const std::vector<std::string>& textures) {
+  Ogre::Pass* pass = material_->createTechnique()->createPass();
+  const bool plant = kind_ == Kind::BARK || kind_ == Kind::LEAVES;
+  pass->setLightingEnabled(plant);
+  if (plant) {
+    pass->setVertexColourTracking(Ogre::TVC_AMBIENT | Ogre::TVC_DIFFUSE);
+    pass->setSpecular(0.f, 0.f, 0.f, 0.f);
+  }
+  if (kind_ == Kind::LEAVES) pass->setAlphaRejectSettings(Ogre::CMPF_GREATER_EQUAL, 128);
+  if (kind_ == Kind::STRIPS) pass->setAlphaRejectSettings(Ogre::CMPF_GREATER, 127);
+  if (hasTwoSides(kind_)) pass->setCullingMode(Ogre::CULL_NONE);
+  if (kind_ == Kind::SHADOWS) makeShadow(*pass);
+  if (kind_ == Kind::SKY) {
+    pass->setFog(true, Ogre::FOG_NONE);
+    pass->setDepthWriteEnabled(false);
+  }
+  if (!textures.empty()) addTextures(*pass, {textures.front()});
+  if (plant)  // vertex alpha is no transparency
+    pass->getTextureUnitState(0)->setAlphaOperation(Ogre::LBX_SOURCE1, Ogre::LBS_TEXTURE,
+                                                    Ogre::LBS_CURRENT);
+  if (kind_ == Kind::STRIPS) {  // shown where picture + vertex > 1, as in STRIP_FRAGMENT
+    Ogre::TextureUnitState& unit = *pass->getTextureUnitState(0);
+    unit.setAlphaOperation(Ogre::LBX_ADD_SIGNED, Ogre::LBS_TEXTURE, Ogre::LBS_CURRENT);
+    unit.setColourOperationEx(Ogre::LBX_SOURCE1, Ogre::LBS_CURRENT);  // brighter
+  }
+}
+
+void Material::light(const Daylight& daylight, const Vec3& to_sun, const Haze& haze) {
+  if (kind_ == Kind::SKY) return;
+  Ogre::Pass* pass = material_->getTechnique(0)->getPass(0);
+  Ogre::GpuProgramParameters& vertex = *pass->getVertexProgramParameters();
+  const float length = std::max(haze.end - haze.start, 1.f);
+  vertex.setNamedConstant("haze", Ogre::Vector4(haze.start, 1.f / length, haze.most, 0.f));
+  pass->getFragmentProgramParameters()->setNamedConstant("haze_colour", narrow(daylight.horizon));
+  if (kind_ != Kind::BARK && kind_ != Kind::LEAVES) return;
+  vertex.setNamedConstant(
+      "to_sun", Ogre::Vector4(static_cast<float>(to_sun.x()), static_cast<float>(to_sun.y()),
+                              static_cast<float>(to_sun.z()), 0.f));
+  vertex.setNamedConstant("sun", narrow(daylight.sun));
+  vertex.setNamedConstant("zenith_light", narrow(daylight.zenith_light));
+  vertex.setNamedConstant("ground_light", narrow(daylight.ground_light));
+  const bool leaves = kind_ == Kind::LEAVES;
+  vertex.setNamedConstant("leaf", leaves ? Ogre::Vector4(0.45f, 0.5f, 0.55f, 0.f)
+                                         : Ogre::Vector4(0.1f, 0.f, 0.25f, 0.f));
+}
+
+void Material::setFadeClock(float clock) {
+  material_->getTechnique(0)->getPass(0)->getVertexProgramParameters()->setNamedConstant(
+      "fade_clock", Ogre::Vector4(clock, 0.f, 0.f, 0.f));
+}
+
+void Material::darken(float distance) {
+  material_->getTechnique(0)->getPass(0)->getFragmentProgramParameters()->setNamedConstant(
+      "under", Ogre::Vector4(1.f / std::max(distance * distance, 1e-6f), 0.f, 0.f, 0.f));
+}
+
+}  // namespace vegetation_sim::view

@@ -1,0 +1,223 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rviz/scenery/scenery_display.h"
+
+#include <rviz/display_context.h>
+#include <rviz/frame_manager.h>
+#include <rviz/render_panel.h>
+#include <rviz/view_controller.h>
+#include <rviz/view_manager.h>
+#include <unistd.h>
+
+#include <functional>
+#include <utility>
+
+#include "rviz/scenery/frame_transform.h"
+#include "vegetation_sim/ros/conversions/stamps.h"
+
+namespace vegetation_sim {
+namespace {
+
+constexpr double STATUS_PERIOD = 0.5;                           // [s]
+constexpr Nanoseconds JUMP_BACK = NANOSECONDS_PER_SECOND / 10;  // less is jitter
+
+}  // namespace
+
+SceneryDisplay::SceneryDisplay(int ground_rank, view::GovernorKeys governor)
+    : ground_rank_(ground_rank), governor_keys_(std::move(governor)), board_(*this) {}
+
+void SceneryDisplay::onEnable() {
+  start();
+}
+
+void SceneryDisplay::onDisable() {
+  stop();
+  clearStatuses();
+  board_.forget();
+}
+
+void SceneryDisplay::reset() {
+  rviz::Display::reset();
+  board_.forget();
+  if (!isEnabled()) return;
+  stop();
+  start();
+}
+
+void SceneryDisplay::start() {
+  try {
+    open();
+    if (!governor_keys_.node.empty())
+      governor_ = std::make_unique<view::GovernorSource>(update_nh_, governor_keys_);
+    deleteStatus("Topics");
+  } catch (const ros::Exception& error) {
+    setStatusStd(rviz::StatusProperty::Error, "Topics", error.what());
+    close();
+    return;
+  }
+  open_ = true;
+  last_stamp_ = 0;
+  updateSun();
+  updateViewer();
+}
+
+void SceneryDisplay::stop() {
+  open_ = gives_ground_ = false;
+  governor_.reset();
+  viewer_.reset();
+  air_.reset();
+  sky_.reset();
+  close();
+  for (auto* claim : {&ground_claim_, &sky_claim_, &air_claim_, &viewer_claim_}) claim->reset();
+}
+
+void SceneryDisplay::updateTopics() {
+  if (isEnabled() && initialized()) reset();
+}
+
+std::unique_ptr<view::Claim> SceneryDisplay::claim(view::Shared thing, std::uint64_t key,
+                                                   int rank) const {
+  return std::make_unique<view::Claim>(*scene_manager_, thing, key, rank, *this);
+}
+
+// Made anew at the next update.
+void SceneryDisplay::updateGround() {
+  ground_claim_.reset();
+  gives_ground_ = false;
+  dropGround();
+}
+
+void SceneryDisplay::setGroundRank(int rank) {
+  ground_rank_ = rank;
+  updateGround();
+}
+
+bool SceneryDisplay::givesGround(const terrain::HeightMap& terrain) {
+  if (!properties().ground()) return false;
+  if (!ground_claim_ || ground_claim_->key() != terrain.hash()) {
+    updateGround();  // that of another terrain
+    ground_claim_ = claim(view::Shared::GROUND, terrain.hash(), ground_rank_);
+  }
+  gives_ground_ = ground_claim_->holds();
+  return gives_ground_;
+}
+
+void SceneryDisplay::updateSky() {
+  sky_.reset();
+  sky_claim_.reset();
+  if (open_ && properties().sky()) sky_claim_ = claim(view::Shared::SKY);
+  keepScenery();
+}
+
+void SceneryDisplay::updateSun() {
+  updateSky();
+  updateGround();
+  updateHaze();
+}
+
+void SceneryDisplay::updateHaze() {
+  air_.reset();
+  air_claim_.reset();
+  if (!open_) return;
+  if (properties().haze()) air_claim_ = claim(view::Shared::AIR);
+  keepScenery();
+  light(properties().daylight(), properties().hazeValues());
+}
+
+void SceneryDisplay::updateViewer() {
+  viewer_.reset();
+  viewer_claim_.reset();
+  if (!open_ || !properties().publishesViewer()) return;
+  const std::string topic = properties().viewerTopic();
+  viewer_claim_ = claim(view::Shared::VIEWER, std::hash<std::string>()(topic));
+}
+
+// What another display gave until now may be ours to give.
+void SceneryDisplay::keepScenery() {
+  if (!sky_ && sky_claim_ && sky_claim_->holds())
+    sky_ = std::make_unique<view::SkyVisual>(*scene_node_, properties().daylight());
+  if (!air_ && air_claim_ && air_claim_->holds())
+    air_ =
+        std::make_unique<view::Air>(*scene_manager_, context_->getViewManager()->getRenderPanel(),
+                                    properties().hazeValues(), properties().daylight().horizon);
+  if (gives_ground_ && !ground_claim_->holds()) {
+    gives_ground_ = false;
+    dropGround();
+  }
+}
+
+void SceneryDisplay::update(float wall_dt, float /*ros_dt*/) {
+  if (!open_) return;
+  const double dt = static_cast<double>(wall_dt);
+  wall_ += dt;
+  since_update_ += dt;
+  since_status_ += dt;
+  publishViewer();
+  if (since_update_ < 0.9 * properties().updatePeriod()) return;
+  since_update_ = 0.0;
+  const auto stamp = static_cast<Nanoseconds>(context_->getFrameManager()->getTime().toNSec());
+  watchTime(stamp);
+  keepScenery();
+  if (stamp > 0) drawAt(stamp);
+  if (since_status_ < STATUS_PERIOD) return;
+  since_status_ = 0.0;
+  showStatus(stamp);
+}
+
+void SceneryDisplay::drawAt(Nanoseconds stamp) {
+  const std::optional<std::string> frame = this->frame();
+  if (!frame || !view::placeInFixedFrame(*context_, *frame, *scene_node_, board_)) return;
+  const std::optional<view::View> view = view::viewOf(*context_, *scene_node_);
+  if (!view) return;
+  if (sky_) sky_->follow(view->eye.position);
+  draw(stamp, *view);
+}
+
+void SceneryDisplay::watchTime(Nanoseconds stamp) {
+  // Half: the state may be ahead of the picture's clock, by less than the jump.
+  if (stamp + JUMP_BACK < last_stamp_) forgetState(stamp + JUMP_BACK / 2);
+  last_stamp_ = stamp;
+}
+
+void SceneryDisplay::publishViewer() {
+  if (!viewer_claim_ || !viewer_claim_->holds()) return;
+  try {
+    const std::string id = "rviz_" + std::to_string(getpid()) + "_" + getNameStd();
+    if (!viewer_)
+      viewer_ = std::make_unique<view::ViewerPublisher>(update_nh_, properties().viewerTopic(), id);
+    deleteStatus("Viewer");
+  } catch (const ros::Exception& error) {
+    setStatusStd(rviz::StatusProperty::Error, "Viewer", error.what());
+    viewer_claim_.reset();
+    return;
+  }
+  rviz::ViewController* controller = context_->getViewManager()->getCurrent();
+  if (controller == nullptr || controller->getCamera() == nullptr) return;
+  const rviz::RenderPanel* panel = context_->getViewManager()->getRenderPanel();
+  const int height = panel != nullptr ? panel->height() : 900;
+  viewer_->update(view::viewerOf(*controller->getCamera(), static_cast<unsigned>(height)),
+                  fixed_frame_.toStdString(), wall_);
+}
+
+void SceneryDisplay::showStatus(Nanoseconds stamp) {
+  showInputs(board_, stamp);
+  if (governor_)
+    if (const auto status = governor_->status(wall_)) board_.show("Governor", *status);
+  if (stamp == 0)
+    board_.show(rviz::StatusProperty::Warn, "Time", "Waiting for /clock: nothing is drawn");
+  else
+    board_.show(rviz::StatusProperty::Ok, "Time", "OK");
+  std::string others;
+  const std::pair<const char*, const view::Claim*> things[] = {
+      {"ground", ground_claim_.get()}, {"sky", sky_claim_.get()}, {"haze", air_claim_.get()}};
+  for (const auto& [name, claim] : things)
+    if (claim != nullptr && !claim->holds())
+      others +=
+          (others.empty() ? "" : ", ") + std::string(name) + " by " + claim->giver().getNameStd();
+  board_.show(rviz::StatusProperty::Ok, "Scenery", others.empty() ? "As set here" : others);
+  const view::InputStatus drawn = describeDrawn();
+  ROS_DEBUG_STREAM(getNameStd() << ": " << drawn.text);
+  board_.show("Drawn", drawn);
+}
+
+}  // namespace vegetation_sim

@@ -1,0 +1,65 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros/message_traits.h>
+#include <rviz/display.h>
+#include <rviz/properties/ros_topic_property.h>
+
+#include <string>
+
+#include "rviz/render/material.h"
+
+namespace rviz {
+class BoolProperty;
+class ColorProperty;
+class FloatProperty;
+class StringProperty;
+}  // namespace rviz
+
+namespace vegetation_sim::view {
+
+/// What the user of a SceneryDisplay sets about ground, sky, haze, pace and the published view. The
+/// properties are children of the display, which owns them.
+class SceneryProperties {
+ public:
+  bool ground() const;
+  bool sky() const;
+  bool haze() const;
+  bool publishesViewer() const;
+  std::string viewerTopic() const;
+  Haze hazeValues() const;
+  Daylight daylight() const;
+  /// Multiplies the ground's colours.
+  Rgba groundTint() const;
+  double updatePeriod() const;  ///< [s]
+
+ protected:
+  /// @param display a SceneryDisplay. @param on whether it gives them if nobody is asked.
+  void addScenery(rviz::Display& display, const char* ground_help, bool on = true);
+  /// @param who what moves, as a word.
+  void addRate(rviz::Display& display, const std::string& who);
+
+  template <class Message>
+  static rviz::RosTopicProperty* addTopic(const char* name, const char* value, const char* help,
+                                          rviz::Display& display) {
+    return new rviz::RosTopicProperty(
+        name, value, QString::fromStdString(ros::message_traits::datatype<Message>()), help,
+        &display, SLOT(updateTopics()), &display);
+  }
+  /// Those that change how things are drawn: updateLook() follows.
+  static rviz::BoolProperty* addFlag(const char* name, bool value, const char* help,
+                                     rviz::Display& display);
+  static rviz::FloatProperty* addNumber(const char* name, float value, const char* help, float low,
+                                        float high, rviz::Display& display);
+
+ private:
+  void addViewer(rviz::Display& display, bool on);
+
+  rviz::BoolProperty *ground_, *sky_, *haze_, *publish_viewer_;
+  rviz::ColorProperty *ground_colour_, *haze_colour_;
+  rviz::FloatProperty *azimuth_, *elevation_, *haze_start_, *haze_end_, *haze_most_, *rate_;
+  rviz::StringProperty* viewer_topic_;
+};
+
+}  // namespace vegetation_sim::view

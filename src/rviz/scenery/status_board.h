@@ -1,0 +1,37 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <rviz/display.h>
+
+#include <map>
+#include <string>
+
+#include "rviz/forest/forest_visual.h"
+#include "rviz/scenery/input_status.h"
+
+namespace vegetation_sim::view {
+
+/// Status lines of a display, touched only when they change: Qt redraws its tree each time.
+class StatusBoard {
+ public:
+  explicit StatusBoard(rviz::Display& display) : display_(display) {}
+
+  void show(rviz::StatusProperty::Level level, const std::string& name, const std::string& text);
+  void show(const std::string& name, const InputStatus& status);
+  void forget() { shown_.clear(); }
+
+ private:
+  rviz::Display& display_;
+  std::map<std::string, std::string> shown_;
+};
+
+/// One line: trees, triangles, levels.
+std::string describe(const ForestReport& report);
+/// Levels of motion of those trees that are drawn.
+std::string describeMotion(const forest::ForestReplica& replica, const TreeStock& stock);
+struct GrassReport;
+/// One line: blades, strips, triangles, trodden ground.
+std::string describe(const GrassReport& report);
+
+}  // namespace vegetation_sim::view

@@ -1,0 +1,102 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rviz/textures/foliage_texture.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rviz/textures/leaf_atlas.h"
+#include "vegetation_sim/core/math/math.h"
+
+namespace vegetation_sim::view {
+namespace {
+
+constexpr int CUTS = 4;         // places in the atlas
+constexpr float INSET = 0.02f;  // of a picture, that neighbours do not show through
+
+float triangleWave(float x) {
+  return std::fabs(2.f * (x - std::floor(x)) - 1.f);
+}
+
+// Half the breadth of a leaf at t from its foot to its tip.
+float halfWidth(float t) {
+  return 0.47f * std::sin(static_cast<float>(PI) * std::pow(std::clamp(t, 0.f, 1.f), 0.72f));
+}
+
+// Lightness of a leaf: a midrib, veins that leave it forwards, darker towards the edge.
+Rgba leafPixel(float x, float t) {
+  const float half = halfWidth(t), out = std::fabs(x);
+  const float serrated = half * (1.f - 0.06f * triangleWave(14.f * t));
+  if (out > serrated && !(t < 0.08f && out < 0.02f)) return {0.8f, 0.8f, 0.8f, 0.f};
+  const float vein = triangleWave(7.f * t - 9.f * out * out - 2.2f * out);
+  float light = 0.78f + 0.1f * vein - 0.16f * (out / std::max(half, 0.05f));
+  if (out < 0.025f * (1.2f - t)) light = 0.98f;
+  light += x > 0.f ? 0.05f : -0.02f;  // folded a little along the midrib
+  return {light, light, 0.96f * light, 1.f};
+}
+
+// The same all along, since pieces join.
+Rgba ribbonPixel(float x, float /*t*/) {
+  const float out = std::fabs(x);
+  if (out > 0.46f) return {0.8f, 0.8f, 0.8f, 0.f};
+  const float line = triangleWave(6.f * x);
+  const float light = 0.72f + 0.14f * line + (out < 0.04f ? 0.14f : 0.f) - 0.3f * out * out;
+  return {light, light, 0.97f * light, 1.f};
+}
+
+template <class Pixel>
+Picture paint(int edge, const Pixel& pixel) {
+  Picture out(2 * edge, 2 * edge, {});
+  for (int r = 0; r < out.rows; ++r)
+    for (int c = 0; c < out.columns; ++c)
+      out.at(c, r) = pixel((static_cast<float>(c) + 0.5f) / static_cast<float>(out.columns) - 0.5f,
+                           (static_cast<float>(r) + 0.5f) / static_cast<float>(out.rows));
+  return halved(out);  // painted at twice the size: smooth edges
+}
+
+// Five leaves on a twig, by looking up the leaf in turned frames.
+Rgba sprigPixel(float x, float t) {
+  struct Place {
+    float x, t, turn, size;
+  };
+  static constexpr Place PLACES[] = {{0.f, 0.52f, 0.f, 0.48f},
+                                     {0.f, 0.36f, 0.75f, 0.46f},
+                                     {0.f, 0.40f, -0.75f, 0.44f},
+                                     {0.f, 0.12f, 1.0f, 0.48f},
+                                     {0.f, 0.16f, -1.0f, 0.47f}};
+  Rgba out{0.8f, 0.8f, 0.8f, 0.f};
+  if (t < 0.6f && std::fabs(x) < 0.012f) out = {0.55f, 0.5f, 0.42f, 1.f};
+  for (const Place& place : PLACES) {
+    const float dx = x - place.x, dt = t - place.t;
+    const float c = std::cos(place.turn), s = std::sin(place.turn);
+    const float along = (c * dt + s * dx) / place.size, across = (c * dx - s * dt) / place.size;
+    if (along < 0.f || along > 1.f || std::fabs(across) > 0.5f) continue;
+    const Rgba pixel = leafPixel(across / 0.75f, along);
+    if (pixel[3] > 0.f) out = pixel;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<Picture> foliageAtlas(int edge) {
+  std::vector<Picture> out;
+  const Picture cuts[] = {paint(edge, leafPixel), paint(edge, sprigPixel), paint(edge, ribbonPixel),
+                          Picture(edge, edge, {0.8f, 0.8f, 0.8f, 1.f})};
+  for (int cut = 0; cut < CUTS; ++cut) {
+    const std::vector<Picture> levels = coveredMipmaps(cuts[cut], 4);
+    for (std::size_t level = 0; level < levels.size(); ++level) {
+      const int side = levels[level].columns;
+      if (cut == 0) out.emplace_back(CUTS * side, side, Rgba{0.8f, 0.8f, 0.8f, 0.f});
+      paste(levels[level], side * cut, 0, out[level]);
+    }
+  }
+  return out;
+}
+
+std::array<float, 2> foliagePlace(LeafCut cut, float u, float v) {
+  return {(static_cast<float>(cut) + INSET + (1.f - 2.f * INSET) * u) / CUTS,
+          INSET + (1.f - 2.f * INSET) * v};
+}
+
+}  // namespace vegetation_sim::view

@@ -1,0 +1,67 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "vegetation_sim/core/math/random.h"
+
+namespace vegetation_sim::view {
+
+/// Red, green, blue, alpha in 0 to 1.
+using Rgba = std::array<float, 4>;
+
+inline Rgba mix(const Rgba& a, const Rgba& b, float weight_of_b) {
+  Rgba out;
+  for (std::size_t i = 0; i < 4; ++i) out[i] = a[i] + (b[i] - a[i]) * weight_of_b;
+  return out;
+}
+
+/// Picture in floats, top row first.
+struct Picture {
+  Picture() = default;
+  Picture(int columns_wanted, int rows_wanted, const Rgba& fill);
+
+  int columns{0}, rows{0};
+  std::vector<Rgba> pixels;  ///< [rows x columns]
+
+  Rgba& at(int column, int row) { return pixels[place(column, row)]; }
+  const Rgba& at(int column, int row) const { return pixels[place(column, row)]; }
+  /// Paints over what is there, by the alpha of `colour`.
+  void blend(int column, int row, const Rgba& colour);
+  /// [rows x columns x 4] as a texture takes it.
+  std::vector<std::uint8_t> bytes() const;
+
+ private:
+  std::size_t place(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+           static_cast<std::size_t>(column);
+  }
+};
+
+/// The picture at half the size, each pixel the mean of four.
+Picture halved(const Picture& picture);
+/// Picture and its smaller versions down to `smallest` pixels.
+std::vector<Picture> mipmaps(Picture picture, int smallest = 1);
+/// Copies `part` into `whole` with its top left corner at (column, row).
+void paste(const Picture& part, int column, int row, Picture& whole);
+
+/// Smooth noise over a plane, in [0, 1] with mean about 0.5, repeating after PERIOD units.
+class Noise {
+ public:
+  static constexpr int PERIOD = 64;
+  explicit Noise(std::uint64_t seed);
+
+  /// One octave: features of one unit.
+  float smooth(float x, float y) const;
+  /// `octaves` of it, each twice as fine and half as strong.
+  float fractal(float x, float y, int octaves) const;
+
+ private:
+  std::vector<float> lattice_;  // [PERIOD x PERIOD]
+};
+
+}  // namespace vegetation_sim::view

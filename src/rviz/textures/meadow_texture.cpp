@@ -1,0 +1,147 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rviz/textures/meadow_texture.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "vegetation_sim/core/math/math.h"
+
+namespace vegetation_sim::view {
+namespace {
+
+constexpr std::uint64_t GROUND_SEED = 0x6a55;  // as for the land around
+constexpr int MOST_PIXELS = 2048, MOST_PER_TILE = 32;
+constexpr Rgba SOIL{0.33f, 0.27f, 0.18f, 1.f};
+constexpr float UNDER = 0.48f;  // of the light is kept from the ground by closed grass
+constexpr double BORDER = 3.0;  // [m] in which the map's edge fades into the land around
+
+Vec3 widen(const Rgba& c) {
+  return {static_cast<double>(c[0]), static_cast<double>(c[1]), static_cast<double>(c[2])};
+}
+
+// Tilt [0, 1] and direction at a place of a tile, between the nodes of its patch.
+double crushAt(const grass::CrushPatch& patch, double u, double v, Vec3& lying) {
+  const int n = patch.cells;
+  const double x = u * n, y = v * n;
+  const int c = std::min(static_cast<int>(x), n - 1), r = std::min(static_cast<int>(y), n - 1);
+  const double p = x - c, q = y - r;
+  const auto at = [&](const std::vector<float>& layer) {
+    const float* low = layer.data() + r * (n + 1) + c;
+    const float* high = low + n + 1;
+    return (double{low[0]} * (1 - p) + double{low[1]} * p) * (1 - q) +
+           (double{high[0]} * (1 - p) + double{high[1]} * p) * q;
+  };
+  lying = Vec3(at(patch.tx), at(patch.ty), 0.0) / grass::BEND_LIMIT;
+  return saturate(at(patch.tilt) / grass::BEND_LIMIT);
+}
+
+}  // namespace
+
+grass::GrassLight grassLight(const Daylight& daylight) {
+  grass::GrassLight out;
+  out.to_sun = daylight.to_sun;
+  out.sun = widen(daylight.sun);
+  out.sky = widen(daylight.zenith_light);
+  return out;
+}
+
+double fullDensity(const grass::FeatureMap& map) {
+  double most = 0.0;
+  for (int row = 0; row < map.law().rows; ++row)
+    for (int column = 0; column < map.law().columns; ++column)
+      most = std::max(most, map.node(column, row).density);
+  return std::max(most, 1.0);
+}
+
+bool isBare(const grass::FeatureMap& map) {
+  for (int row = 0; row < map.law().rows; ++row)
+    for (int column = 0; column < map.law().columns; ++column)
+      if (map.node(column, row).density > 0.0) return false;
+  return true;
+}
+
+bool isPaintable(const grass::FeatureMap& map) {
+  return std::max(map.tileColumns(), map.tileRows()) <= MOST_PIXELS;
+}
+
+MeadowPainter::MeadowPainter(const grass::FeatureMap& map, const terrain::HeightMap& terrain,
+                             const Daylight& daylight, const Rgba& tint)
+    : map_(map),
+      terrain_(terrain),
+      daylight_(daylight),
+      tint_(tint),
+      light_(grassLight(daylight)),
+      full_(fullDensity(map)),
+      per_tile_(1),
+      noise_(GROUND_SEED) {
+  const int tiles = std::max(map.tileColumns(), map.tileRows());
+  while (2 * per_tile_ <= MOST_PER_TILE && 2 * per_tile_ * tiles <= MOST_PIXELS) per_tile_ *= 2;
+  edge_ = per_tile_ * tiles;
+  plot_ = {map.law().origin_x, map.law().origin_y, map.law().resolution * tiles};
+}
+
+Rgba MeadowPainter::colourAt(double x, double y, double crush, const Vec3& lying) const {
+  const grass::MapLaw& law = map_.law();
+  const Vec3 normal = terrain_.normal(x, y);
+  const Rgba open = openLight(daylight_, normal);
+  const auto fx = static_cast<float>(x), fy = static_cast<float>(y);
+  const float fine = noise_.fractal(fx / 0.6f, fy / 0.6f, 3) - 0.5f;
+  const float patches = noise_.fractal(fx / 4.f + 9.f, fy / 4.f, 2) - 0.5f;
+  Rgba land = groundColour(noise_, x, y, 0.0, tint_);
+  for (std::size_t i = 0; i < 3; ++i) land[i] *= open[i];
+  const double east = law.origin_x + law.resolution * map_.tileColumns();
+  const double north = law.origin_y + law.resolution * map_.tileRows();
+  const double inside =
+      std::min(std::min(x - law.origin_x, east - x), std::min(y - law.origin_y, north - y));
+  if (inside <= 0.0) return land;
+  const grass::Features f = map_.at(x, y);
+  const auto cover = static_cast<float>(saturate(1.6 * f.density / full_));
+  grass::BladePiece piece;
+  const auto down = static_cast<float>(crush);
+  piece.flat = 0.12f + 0.7f * down * down;
+  piece.way = 0.72f + 0.1f * down;
+  // Lodged grass shines or not by the way it lies, here for an eye in the direction of the sun.
+  piece.away = static_cast<float>(-(lying.x() * light_.to_sun.x() + lying.y() * light_.to_sun.y()));
+  const grass::PieceLight light = lightOn(light_, piece);
+  const Vec3 own = grass::meanColour(map_, f);
+  const float lightness = 1.f + 0.5f * fine * (1.f - 0.5f * down) + 0.35f * patches;
+  Rgba out;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    const float bleached = 1.f + down * (i == 0 ? 0.10f : i == 1 ? 0.02f : 0.0f);
+    const float grass = (static_cast<float>(own[k]) * light.factor[i] * bleached + light.shine[i]) *
+                        lightness * tint_[i];
+    const float soil = SOIL[i] * open[i] * (1.f + 0.6f * fine);
+    out[i] = soil + (grass - soil) * cover;
+  }
+  out = mix(land, out, static_cast<float>(smoothStep(inside / BORDER)));
+  out[3] = 1.f - UNDER * cover * (1.f - 0.55f * down);
+  return out;
+}
+
+Picture MeadowPainter::whole() const {
+  Picture out(edge_, edge_, {});
+  const double pixel = plot_.edge / edge_;
+  for (int r = 0; r < edge_; ++r)
+    for (int c = 0; c < edge_; ++c)
+      out.at(c, edge_ - 1 - r) =
+          colourAt(plot_.x + (c + 0.5) * pixel, plot_.y + (r + 0.5) * pixel, 0.0, Vec3::Zero());
+  return out;
+}
+
+Picture MeadowPainter::tile(int column, int row, const grass::CrushPatch* patch) const {
+  Picture out(per_tile_, per_tile_, {});
+  const double size = map_.law().resolution;
+  for (int r = 0; r < per_tile_; ++r)
+    for (int c = 0; c < per_tile_; ++c) {
+      const double u = (c + 0.5) / per_tile_, v = (r + 0.5) / per_tile_;
+      Vec3 lying = Vec3::Zero();
+      const double crush = patch && patch->cells > 0 ? crushAt(*patch, u, v, lying) : 0.0;
+      out.at(c, per_tile_ - 1 - r) =
+          colourAt(plot_.x + (column + u) * size, plot_.y + (row + v) * size, crush, lying);
+    }
+  return out;
+}
+
+}  // namespace vegetation_sim::view

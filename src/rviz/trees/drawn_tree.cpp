@@ -1,0 +1,227 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rviz/trees/drawn_tree.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rviz/textures/bark_texture.h"
+#include "rviz/textures/leaf_atlas.h"
+#include "tree/motion/narrow_poses.h"
+#include "vegetation_sim/core/math/math.h"
+
+namespace vegetation_sim::view {
+namespace {
+
+constexpr double VISIBLE_FLUTTER = 0.4;  // [pixel]
+constexpr double BREATH = 0.15;          // [m/s] air that moves no leaf
+constexpr forest::Colour MOVES{0.86f, 0.22f, 0.12f}, CHANGES{0.25f, 0.72f, 0.20f},
+    PHYSICAL{0.10f, 0.35f, 0.90f};
+
+std::uint8_t byte(double x) {
+  return static_cast<std::uint8_t>(saturate(x) * 255.0 + 0.5);
+}
+
+void setColour(const forest::Colour& colour, VertexPaint& paint) {
+  for (std::size_t i = 0; i < 3; ++i) paint.colour[i] = byte(static_cast<double>(colour[i]));
+}
+
+void setNormal(const Vec3& normal, VertexPaint& paint) {
+  const Vec3 unit = normal / std::max(length(normal), 1e-9);
+  for (int i = 0; i < 3; ++i) paint.normal[i] = static_cast<float>(unit[i]);
+}
+
+double radiusOf(const forest::BarkVertex& vertex) {
+  return std::hypot(static_cast<double>(vertex.local[0]), static_cast<double>(vertex.local[1]));
+}
+
+void setFade(float fade, DrawnTree::Shape& shape) {
+  for (DrawnTree::Part* part : {&shape.bark, &shape.leaves})
+    for (VertexPaint& paint : part->paint) paint.fade = fade;
+}
+
+}  // namespace
+
+DrawnTree::DrawnTree(const forest::ForestReplica& replica, std::uint32_t id, const Vec3& origin)
+    : id_(id),
+      origin_(origin),
+      tree_(replica.grow(id)),
+      species_(replica.layout().species.at(tree_.seed.species)),
+      paint_(species_, tree_.seed.seed),
+      poser_(tree_) {}
+
+void DrawnTree::addTo(forest::LightGrid& light) const {
+  const double area = forest::LEAF_COVERAGE * species_.leaf_size * species_.leaf_size;
+  for (const forest::Branch& branch : tree_.skeleton.branches) {
+    if (branch.leaves == 0) continue;
+    const Vec3 tip = tipOf(branch, branch.rest);
+    light.addLeaf(tree_.foot + 0.5 * (branch.rest.position + tip), 0.5 * area * branch.leaves);
+    light.addLeaf(tree_.foot + tip, 0.5 * area * branch.leaves);
+  }
+}
+
+Vec3 DrawnTree::inLayout(const float* position) const {
+  return origin_ + Vec3(position[0], position[1], position[2]);
+}
+
+DrawnTree::Shape DrawnTree::makeShape(int level, const TreeLook& look) const {
+  const forest::MeshDetail detail = forest::meshDetail(level);
+  Shape out{detail.depths, forest::buildMesh(tree_.skeleton, species_, detail), {}, {}};
+  if (!look.leaves) out.mesh.leaves.clear();
+  out.bark.positions.resize(3 * out.mesh.bark.size());
+  out.leaves.positions.resize(3 * forest::LEAF_CORNERS * out.mesh.leaves.size());
+  return out;
+}
+
+void DrawnTree::setLevel(int level, const forest::LightGrid& light, const TreeLook& look,
+                         float fade_clock) {
+  shapes_.resize(fade_clock > 0.f && level_ >= 0 ? 1 : 0);
+  shapes_.insert(shapes_.begin(), makeShape(level, look));
+  level_ = level;
+  poser_.pose(wind::Instant(), forest::Weights{}, depths(), poses_);
+  skin(forest::Flutter());
+  moved_ = true;
+  paintBark(light, shapes_.front());
+  paintLeaves(light, shapes_.front());
+  if (!fading()) return;
+  fades_since_ = fade_clock;
+  setFade(fade_clock, shapes_.front());
+  setFade(-fade_clock, shapes_.back());
+}
+
+void DrawnTree::endFade() {
+  shapes_.resize(1);
+  setFade(0.f, shapes_.front());
+}
+
+int DrawnTree::depths() const {
+  int out = 0;
+  for (const Shape& shape : shapes_) out = std::max(out, shape.depths);
+  return out;
+}
+
+void DrawnTree::skin(const forest::Flutter& flutter) {
+  const Vec3 foot = tree_.foot - origin_;
+  const std::array<float, 3> at{static_cast<float>(foot.x()), static_cast<float>(foot.y()),
+                                static_cast<float>(foot.z())};
+  for (Shape& shape : shapes_) {
+    forest::skinBark(shape.mesh, poses_, at, shape.bark.positions.data());
+    forest::skinLeaves(shape.mesh, poses_, at, flutter, shape.leaves.positions.data());
+  }
+}
+
+bool DrawnTree::move(const forest::ForestReplica& replica, Nanoseconds stamp,
+                     const wind::Instant& wind, const TreeLook& look, double pixels_per_metre) {
+  if (level_ < 0) return false;
+  const forest::Weights weights = replica.weights(id_, stamp);
+  forest::Flutter flutter;
+  const double swing = species_.flutter * species_.leaf_size * pixels_per_metre;
+  bool moves = forest::movingDepths(weights) > 0;
+  if (look.flutter && swing > VISIBLE_FLUTTER && !shapes_.front().mesh.leaves.empty()) {
+    const double speed = length(wind.velocity(tree_.foot + Vec3(0.0, 0.0, 0.6 * height())));
+    if (speed > BREATH) {
+      flutter = forest::Flutter(secondsBetween(0, stamp), speed, species_.flutter);
+      moves = true;
+    }
+  }
+  const bool remembers = !replica.promoted(id_).branches.empty() || replica.sway(id_);
+  moves = moves || remembers;
+  if (!moves && !moved_) return false;
+  moved_ = moves;
+  const forest::Sway* sway = replica.sway(id_);
+  if (sway && replica.promoted(id_).branches.empty() && forest::modalWeight(weights) >= 1.0)
+    sway->pose(poser_, stamp, poses_);
+  else if (remembers)
+    narrow(replica.pose(tree_, id_, stamp), poses_);
+  else
+    poser_.pose(wind.relativeTo(tree_.foot), weights, depths(), poses_);
+  skin(flutter);
+  return true;
+}
+
+void DrawnTree::paintBark(const forest::LightGrid& light, Shape& shape) {
+  shape.bark.paint.resize(shape.mesh.bark.size());
+  std::vector<float> normals(3 * shape.mesh.bark.size());
+  forest::turnBarkNormals(shape.mesh, poses_, normals.data());
+  for (std::size_t i = 0; i < shape.mesh.bark.size(); ++i) {
+    const forest::BarkVertex& vertex = shape.mesh.bark[i];
+    VertexPaint& paint = shape.bark.paint[i];
+    const Vec3 at = inLayout(&shape.bark.positions[3 * i]);
+    setNormal(Vec3(normals[3 * i], normals[3 * i + 1], normals[3 * i + 2]), paint);
+    // Damp and darker at the foot.
+    const double above = saturate((at.z() - tree_.foot.z()) / (6.0 * species_.trunk_radius));
+    forest::Colour colour = paint_.bark(radiusOf(vertex));
+    for (float& part : colour) part *= static_cast<float>(0.6 + 0.4 * above);
+    setColour(colour, paint);
+    paint.colour[3] = byte(light.sun(at));
+    paint.place[0] = barkAtlasU(species_.leaf_shape, vertex.uv[0]);
+    paint.place[1] = vertex.uv[1] / (2.f * BARK_PERIOD);
+    paint.place[2] = static_cast<float>(light.sky(at));
+  }
+  painted_by_level_ = false;
+}
+
+// Normals point out of the crown, so that it is shaded as one round body, not as so many cards.
+void DrawnTree::paintLeaves(const forest::LightGrid& light, Shape& shape) {
+  shape.leaves.paint.resize(forest::LEAF_CORNERS * shape.mesh.leaves.size());
+  if (shape.mesh.leaves.empty()) return;
+  Vec3 middle = Vec3::Zero();
+  for (std::size_t i = 0; i < shape.leaves.positions.size(); i += 3)
+    middle += inLayout(&shape.leaves.positions[i]);
+  middle /= static_cast<double>(shape.leaves.positions.size() / 3);
+  const Vec3 extent(reach() + 0.1, reach() + 0.1, 0.5 * height() + 0.1);
+  for (std::size_t card = 0; card < shape.mesh.leaves.size(); ++card) {
+    const std::size_t first = forest::LEAF_CORNERS * card;
+    const Vec3 centre = 0.5 * (inLayout(&shape.leaves.positions[3 * first]) +
+                               inLayout(&shape.leaves.positions[3 * first + 6]));
+    const forest::Colour colour = paint_.leaf(shape.mesh.leaves[card]);
+    const double sun = light.sun(centre), sky = light.sky(centre);
+    for (std::size_t i = 0; i < forest::LEAF_CORNERS; ++i) {
+      VertexPaint& paint = shape.leaves.paint[first + i];
+      const Vec3 at = inLayout(&shape.leaves.positions[3 * (first + i)]);
+      const Vec3 out = (at - middle).cwiseQuotient(extent);
+      setNormal(out + 0.5 * (at - centre) / static_cast<double>(shape.mesh.leaves[card].size) +
+                    Vec3(0.0, 0.0, 0.25),
+                paint);
+      setColour(colour, paint);
+      paint.colour[3] = byte(sun);
+      const std::array<float, 2> place =
+          leafAtlasPlace(species_.leaf_shape, shape.mesh.boughs, shape.mesh.outline[i]);
+      std::copy(place.begin(), place.end(), paint.place);
+      paint.place[2] = static_cast<float>(sky);
+    }
+  }
+}
+
+bool DrawnTree::paintLevels(const forest::ForestReplica& replica, Nanoseconds stamp,
+                            const TreeLook& look) {
+  if (level_ < 0 || (!look.colour_by_level && !painted_by_level_)) return false;
+  forest::Weights weights{};
+  std::vector<int> physical;
+  if (look.colour_by_level) {
+    weights = replica.weights(id_, stamp);
+    for (const auto& branch : replica.promoted(id_).branches) physical.push_back(branch.branch);
+  }
+  if (painted_by_level_ && look.colour_by_level && weights == painted_ &&
+      physical == painted_physical_)
+    return false;
+  Shape& shape = shapes_.front();
+  for (std::size_t i = 0; i < shape.mesh.bark.size(); ++i) {
+    const forest::BarkVertex& vertex = shape.mesh.bark[i];
+    const int depth = tree_.skeleton.branches[static_cast<std::size_t>(vertex.branch)].depth;
+    const double weight = weights[static_cast<std::size_t>(depth)];
+    const bool rests = weight <= 0.0;
+    const bool is_physical = std::binary_search(physical.begin(), physical.end(), vertex.branch);
+    setColour(is_physical    ? PHYSICAL
+              : rests        ? paint_.bark(radiusOf(vertex))
+              : weight < 1.0 ? CHANGES
+                             : MOVES,
+              shape.bark.paint[i]);
+  }
+  painted_ = weights;
+  painted_physical_ = std::move(physical);
+  painted_by_level_ = look.colour_by_level;
+  return true;
+}
+
+}  // namespace vegetation_sim::view

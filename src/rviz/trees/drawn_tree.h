@@ -1,0 +1,95 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "rviz/render/vertex_paint.h"
+#include "tree/mesh/light_grid.h"
+#include "tree/mesh/paint.h"
+#include "tree/mesh/skin.h"
+#include "vegetation_sim/forest/forest_replica.h"
+
+namespace vegetation_sim::view {
+
+/// What the user chose about the look of trees.
+struct TreeLook {
+  bool leaves{true};
+  bool flutter{true};
+  bool colour_by_level{
+      false};  ///< bark: moving joints red, those in transition green, physical blue
+};
+
+/// One tree as it is drawn: its mesh at one level of detail, where the vertices are and how they
+/// are painted. No Ogre in it.
+class DrawnTree {
+ public:
+  /// Grows the tree. @param origin of all coordinates that it gives, in the layout's frame [m].
+  DrawnTree(const forest::ForestReplica& replica, std::uint32_t id, const Vec3& origin);
+
+  std::uint32_t id() const { return id_; }
+  const Vec3& origin() const { return origin_; }
+  const Vec3& foot() const { return tree_.foot; }  ///< layout's frame [m]
+  double height() const { return tree_.skeleton.height; }
+  double reach() const { return tree_.skeleton.reach; }
+  double leafSize() const { return species_.leaf_size; }  ///< edge of a cluster [m]
+  int level() const { return level_; }                    ///< of geometry; -1: no mesh yet
+  /// Of its level, whatever fades.
+  std::size_t triangleCount() const { return shapes_.front().mesh.triangleCount(); }
+  const forest::Tree& tree() const { return tree_; }
+
+  /// Adds its leaves to a grid of light in the layout's frame.
+  void addTo(forest::LightGrid& light) const;
+  /// Builds the mesh of a geometry level, at rest.
+  /// @param fade_clock above 0: the mesh so far stays and fades out, from this time of the clock of
+  ///   fades on, while the other fades in; until endFade().
+  void setLevel(int level, const forest::LightGrid& light, const TreeLook& look,
+                float fade_clock = 0.f);
+  bool fading() const { return shapes_.size() > 1; }
+  float fadesSince() const { return fades_since_; }
+  void endFade();
+  /// Moves the vertices to `stamp`. False if nothing has changed since the last call.
+  /// @param pixels_per_metre decides whether flutter can be seen.
+  bool move(const forest::ForestReplica& replica, Nanoseconds stamp, const wind::Instant& wind,
+            const TreeLook& look, double pixels_per_metre);
+  /// Paints the bark by what each joint does at `stamp`. False if nothing has changed.
+  bool paintLevels(const forest::ForestReplica& replica, Nanoseconds stamp, const TreeLook& look);
+
+  struct Part {
+    std::vector<float> positions;  ///< [3 per vertex], relative to the origin
+    std::vector<VertexPaint> paint;
+  };
+  struct Shape {
+    int depths{0};  ///< whose poses it needs
+    forest::TreeMesh mesh;
+    Part bark, leaves;
+  };
+  /// What is drawn: the mesh of its level first, then the one that fades out, if any.
+  const std::vector<Shape>& shapes() const { return shapes_; }
+
+ private:
+  Shape makeShape(int level, const TreeLook& look) const;
+  int depths() const;
+  void skin(const forest::Flutter& flutter);
+  void paintBark(const forest::LightGrid& light, Shape& shape);
+  void paintLeaves(const forest::LightGrid& light, Shape& shape);
+  Vec3 inLayout(const float* position) const;
+
+  std::uint32_t id_;
+  Vec3 origin_;
+  forest::Tree tree_;
+  forest::Species species_;
+  forest::TreePaint paint_;
+  forest::BatchPoser poser_;
+  int level_{-1};
+  forest::BatchPoses poses_;
+  std::vector<Shape> shapes_ = std::vector<Shape>(1);
+  float fades_since_{0.f};
+  bool moved_{true};  // the last move() left it other than at rest
+  forest::Weights painted_{};
+  std::vector<int> painted_physical_;  // branches
+  bool painted_by_level_{false};
+};
+
+}  // namespace vegetation_sim::view

@@ -1,0 +1,58 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "rviz/grass/grass_batch.h"
+#include "rviz/ground/ground_visual.h"
+#include "rviz/scenery/scenery_display.h"
+#include "rviz/wind/wind_properties.h"
+#include "rviz/wind/wind_source.h"
+
+namespace vegetation_sim {
+
+/// Shows the wind law at rviz's time: arrows of the air's velocity around the view, and what bounds
+/// each gust, disc, tornado and blast.
+class WindDisplay : public SceneryDisplay {
+  Q_OBJECT
+ public:
+  /// What was drawn last.
+  struct Report {
+    std::size_t arrows{0}, shapes{0};
+    double fastest{0.0};  ///< of the primitives [m/s]
+  };
+
+  WindDisplay();
+  ~WindDisplay() override;
+
+  const Report& drawn() const { return report_; }
+
+ protected:
+  const view::SceneryProperties& properties() const override { return *properties_; }
+  void open() override;
+  void close() override;
+  std::optional<std::string> frame() const override;
+  void draw(Nanoseconds stamp, const view::View& view) override;
+  void light(const view::Daylight& daylight, const view::Haze& haze) override;
+  void dropGround() override { ground_.reset(); }
+  void forgetState(Nanoseconds /*now*/) override {}  // a law knows all times
+  void showInputs(view::StatusBoard& board, Nanoseconds now) const override;
+  view::InputStatus describeDrawn() const override;
+
+ private:
+  void makeGround(const Vec3& around);
+
+  std::unique_ptr<view::WindProperties> properties_;
+  std::unique_ptr<view::WindSource> source_;
+  std::unique_ptr<view::Material> material_;
+  std::unique_ptr<view::GrassBatch> batch_;
+  std::unique_ptr<view::GroundVisual> ground_;
+  Ogre::SceneNode* node_{nullptr};  // Ogre's; destroyed by us
+  grass::GrassMesh mesh_;
+  wind::Instant instant_;
+  Report report_;
+};
+
+}  // namespace vegetation_sim

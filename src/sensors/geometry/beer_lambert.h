@@ -1,0 +1,37 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "vegetation_sim/core/math/random.h"
+#include "vegetation_sim/core/math/vectors.h"
+
+namespace vegetation_sim::scan {
+
+// Leaves and blades are media: a ray comes through a length l of them with the chance exp(-s l).
+// The chance is bound to the place, not to the ray or the time, so that what stands still looks
+// still, from wherever one looks.
+
+/// Cube of space with one number of its own.
+struct Cell {
+  std::int32_t x{0}, y{0}, z{0};
+};
+
+inline Cell cellAt(const Vec3& place, double size) {
+  const auto index = [&](double at) {
+    return static_cast<std::int32_t>(std::floor(std::fmin(std::fmax(at / size, -2e9), 2e9)));
+  };
+  return {index(place.x()), index(place.y()), index(place.z())};
+}
+
+/// Optical depth that a cell lets through: exponentially distributed, mean 1.
+inline double depthOf(const Cell& cell, std::uint32_t key) {
+  const std::uint32_t bits = mix32(
+      mix32(mix32(static_cast<std::uint32_t>(cell.x) ^ key) + static_cast<std::uint32_t>(cell.y)) +
+      static_cast<std::uint32_t>(cell.z));
+  return -std::log1p(-(static_cast<double>(bits) + 0.5) / 4294967296.0);
+}
+
+}  // namespace vegetation_sim::scan

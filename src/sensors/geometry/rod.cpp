@@ -1,0 +1,110 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sensors/geometry/rod.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vegetation_sim::scan {
+namespace {
+
+constexpr double ALONG = 1e-9;  // squared sine: such a ray meets an end of a rod, not its side
+
+// A ray's line through a ball; empty if it misses.
+Stretch through(const Ray& ray, const Vec3& centre, double radius) {
+  const Vec3 offset = ray.origin - centre;
+  const double b = dot(offset, ray.direction);
+  const double square = b * b - dot(offset, offset) + radius * radius;
+  if (!(square > 0.0)) return {};
+  const double root = std::sqrt(square);
+  return {-b - root, -b + root};
+}
+
+void improve(double distance, const Vec3& normal, const Ray& ray, Meeting& out) {
+  if (!(distance >= 0.0 && distance < out.distance)) return;
+  out.distance = distance;
+  out.cosine = std::fabs(dot(normal, ray.direction));
+}
+
+void meetBall(const Ray& ray, const Vec3& centre, double radius, Meeting& out) {
+  const Stretch part = through(ray, centre, radius);
+  if (part.from < part.to && part.from < out.distance)
+    improve(part.from, (ray.at(part.from) - centre) / radius, ray, out);
+}
+
+// A ray's line through an endless cylinder around the axis, cut off at both ends.
+Stretch throughCylinder(const Ray& ray, const Rod& rod, double radius) {
+  const Vec3 offset = ray.origin - rod.base;
+  const double da = dot(ray.direction, rod.axis), oa = dot(offset, rod.axis);
+  const double a = 1.0 - da * da, b = dot(offset, ray.direction) - oa * da;
+  const double square = b * b - a * (dot(offset, offset) - oa * oa - radius * radius);
+  if (a < ALONG || !(square > 0.0)) return {};
+  const double root = std::sqrt(square);
+  Stretch out{(-b - root) / a, (-b + root) / a};
+  if (da == 0.0) return oa >= 0.0 && oa <= rod.length ? out : Stretch{};
+  const double low = -oa / da, high = (rod.length - oa) / da;
+  return {std::max(out.from, std::min(low, high)), std::min(out.to, std::max(low, high))};
+}
+
+}  // namespace
+
+Rod rodBetween(const Vec3& base, const Vec3& tip, double base_radius, double tip_radius) {
+  const Vec3 way = tip - base;
+  const double size = length(way);
+  Rod out;
+  out.base = base;
+  if (size > 0.0) out.axis = way / size;
+  out.length = size;
+  out.base_radius = base_radius;
+  out.tip_radius = tip_radius;
+  return out;
+}
+
+Box boxOf(const Rod& rod) {
+  Box out;
+  out.add(rod.base, rod.base_radius);
+  out.add(rod.base + rod.length * rod.axis, rod.tip_radius);
+  return out;
+}
+
+// Points y along the axis of a cone with radius r(y) = r0 + k y: |x|^2 - y^2 = r(y)^2.
+bool meet(const Ray& ray, const Rod& rod, double reach, Meeting& out) {
+  const Vec3 offset = ray.origin - rod.base;
+  const double slope = rod.length > 0.0 ? (rod.tip_radius - rod.base_radius) / rod.length : 0.0;
+  const double r0 = rod.base_radius, more = 1.0 + slope * slope;
+  const double da = dot(ray.direction, rod.axis), oa = dot(offset, rod.axis);
+  const double a = 1.0 - da * da * more;
+  const double b = dot(offset, ray.direction) - oa * da * more - slope * r0 * da;
+  const double c = dot(offset, offset) - oa * oa * more - 2.0 * slope * r0 * oa - r0 * r0;
+  const double square = b * b - a * c;
+  out.distance = reach;
+  if (a > ALONG && !(square >= 0.0)) return false;  // balls stand out by slope^2 of their size
+  if (square >= 0.0) {
+    // Where the ray comes in, also if it is steeper than the side and never goes out of it.
+    const double distance = c / (std::sqrt(square) - b), along = oa + distance * da;
+    if (along >= 0.0 && along <= rod.length) {
+      const Vec3 across = ray.at(distance) - rod.base - along * rod.axis;
+      improve(distance, (across / (r0 + slope * along) - slope * rod.axis) / std::sqrt(more), ray,
+              out);
+      return out.distance < reach;
+    }
+  }
+  meetBall(ray, rod.base, r0, out);
+  meetBall(ray, rod.base + rod.length * rod.axis, rod.tip_radius, out);
+  return out.distance < reach;
+}
+
+Stretch within(const Ray& ray, const Rod& rod, double radius) {
+  Stretch all;
+  for (const Stretch& part : {throughCylinder(ray, rod, radius), through(ray, rod.base, radius),
+                              through(ray, rod.base + rod.length * rod.axis, radius)}) {
+    if (!(part.from < part.to)) continue;
+    const bool first = !(all.from < all.to);
+    all.from = first ? part.from : std::min(all.from, part.from);
+    all.to = first ? part.to : std::max(all.to, part.to);
+  }
+  all.from = std::max(all.from, 0.0);
+  return all;
+}
+
+}  // namespace vegetation_sim::scan

@@ -1,0 +1,33 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "sensors/geometry/box_tree.h"
+
+namespace vegetation_sim::scan {
+
+/// Tapered round bar with a ball at each end: a branch, a person's limb, a piece of a blade.
+struct Rod {
+  Vec3 base{Vec3::Zero()};                                ///< [m]
+  Vec3 axis{Vec3::UnitZ()};                               ///< unit, from base to tip
+  double length{0.0}, base_radius{0.0}, tip_radius{0.0};  ///< [m]
+};
+Rod rodBetween(const Vec3& base, const Vec3& tip, double base_radius, double tip_radius);
+Box boxOf(const Rod& rod);
+
+/// Where a ray comes in.
+struct Meeting {
+  double distance{0.0};  ///< [m]
+  double cosine{0.0};    ///< of the angle between ray and normal
+};
+/// False if it does not before `reach`, or starts inside.
+bool meet(const Ray& ray, const Rod& rod, double reach, Meeting& out);
+
+/// Part of a ray, as distances along it [m]; empty if from >= to.
+struct Stretch {
+  double from{0.0}, to{0.0};
+};
+/// What of a ray, from its origin on, is within `radius` of the rod's axis.
+Stretch within(const Ray& ray, const Rod& rod, double radius);
+
+}  // namespace vegetation_sim::scan

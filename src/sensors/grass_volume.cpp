@@ -1,0 +1,209 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sensors/grass_volume.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "sensors/geometry/beer_lambert.h"
+#include "sensors/geometry/box_tree.h"
+#include "terrain/ground_ray.h"
+#include "vegetation_sim/core/math/math.h"
+
+namespace vegetation_sim::scan {
+namespace {
+
+constexpr double MEAN_COSINE = 0.5;  // of blades that look all ways
+
+int indexOf(double x, double origin, double resolution, int most) {
+  return static_cast<int>(std::clamp(std::floor((x - origin) / resolution), 0.0, double(most)));
+}
+
+grass::TileWindow windowAround(const grass::FeatureMap& map, const Vec3& centre, double radius) {
+  const grass::MapLaw& law = map.law();
+  const auto column = [&](double x) {
+    return indexOf(x, law.origin_x, law.resolution, map.tileColumns() - 1);
+  };
+  const auto row = [&](double y) {
+    return indexOf(y, law.origin_y, law.resolution, map.tileRows() - 1);
+  };
+  return {column(centre.x() - radius), column(centre.x() + radius), row(centre.y() - radius),
+          row(centre.y() + radius)};
+}
+
+/// Blades of lengths evenly spread over [least, most] that stand at one place: what of their width
+/// is left at `way` along them, mean over all. A blade has the width 1 - (way / length)^2 of its
+/// root's.
+double widthAt(double way, double least, double most) {
+  if (way >= most) return 0.0;
+  const double from = std::max(least, way);
+  if (most - least < 1e-6 * most) return 1.0 - way * way / (most * most);
+  return ((most - from) - way * way * (1.0 / from - 1.0 / most)) / (most - least);
+}
+
+/// A ray through cells of space, from one to the next.
+class Walk {
+ public:
+  Walk(const Ray& ray, double from, double size) : cell_(cellAt(ray.at(from), size)) {
+    const Vec3 place = ray.at(from);
+    const std::int32_t index[3] = {cell_.x, cell_.y, cell_.z};
+    for (int i = 0; i < 3; ++i) {
+      step_[i] = std::fabs(size * ray.inverse[i]);
+      const double edge = size * (index[i] + (ray.direction[i] > 0.0 ? 1 : 0));
+      next_[i] = ray.direction[i] == 0.0 ? Box::ENDLESS : from + (edge - place[i]) * ray.inverse[i];
+      way_[i] = ray.direction[i] > 0.0 ? 1 : -1;
+    }
+  }
+  const Cell& cell() const { return cell_; }
+  /// Where the ray leaves the cell.
+  double end() const { return std::min({next_[0], next_[1], next_[2]}); }
+  void advance() {
+    const int axis =
+        next_[0] <= next_[1] ? (next_[0] <= next_[2] ? 0 : 2) : (next_[1] <= next_[2] ? 1 : 2);
+    next_[axis] += step_[axis];
+    (axis == 0 ? cell_.x : axis == 1 ? cell_.y : cell_.z) += way_[axis];
+  }
+
+ private:
+  Cell cell_;
+  double next_[3], step_[3];
+  std::int32_t way_[3];
+};
+
+}  // namespace
+
+void Sward::update(const grass::Layout& layout, const grass::TreadMap& tread,
+                   std::shared_ptr<const terrain::HeightMap> terrain, const wind::Field& wind,
+                   const Vec3& centre, double radius, Nanoseconds stamp) {
+  const bool other_map = layout_.map != layout.map || tops_.empty();
+  layout_ = layout;
+  tread_ = &tread;
+  terrain_ = std::move(terrain);
+  stamp_ = stamp;
+  if (other_map) takeMap();
+  window_ = windowAround(*layout_.map, centre, radius);
+  air_ = std::make_unique<grass::NodeAir>(*layout_.map, *terrain_);
+  const wind::Instant instant = wind.at(stamp);
+  still_ = instant.breezes == 0 && instant.terms.empty();
+  if (!still_) air_->update(instant, {}, window_);
+}
+
+void Sward::takeMap() {
+  const grass::FeatureMap& map = *layout_.map;
+  tallest_ = map.tallest();
+  kinds_.clear();
+  double factor = 0.0;
+  for (const grass::SpeciesInput& input : map.species()) {
+    const grass::Species& s = input.species;
+    kinds_.push_back({s.height, s.height_spread, s.width, s.lean, s.compliance});
+    factor = std::max(factor, s.height);
+  }
+  tops_.clear();
+  for (int row = 0; row < map.tileRows(); ++row)
+    for (int column = 0; column < map.tileColumns(); ++column) {
+      double height = 0.0;
+      for (int corner = 0; corner < 4; ++corner)
+        height = std::max(height, map.node(column + corner % 2, row + corner / 2).height);
+      tops_.push_back(static_cast<float>(factor * height));
+    }
+}
+
+// Above it there is no blade; below 0 beyond the map.
+double Sward::topAt(double x, double y) const {
+  const grass::MapLaw& law = layout_.map->law();
+  const double u = (x - law.origin_x) / law.resolution, v = (y - law.origin_y) / law.resolution;
+  if (!(u >= 0.0 && v >= 0.0 && u < law.columns - 1 && v < law.rows - 1)) return -1.0;
+  const std::size_t row = static_cast<std::size_t>(v), column = static_cast<std::size_t>(u);
+  return tops_[row * static_cast<std::size_t>(law.columns - 1) + column];
+}
+
+double Sward::above(const Vec3& place) const {
+  return place.z() - terrain_->height(place.x(), place.y());
+}
+
+// Between the corners of the tile, as its blades have it.
+Vec3 Sward::airAt(double x, double y) const {
+  const grass::MapLaw& law = layout_.map->law();
+  const double u = (x - law.origin_x) / law.resolution, v = (y - law.origin_y) / law.resolution;
+  const int column = static_cast<int>(std::floor(u)), row = static_cast<int>(std::floor(v));
+  if (still_ || !window_.has(column, row)) return Vec3::Zero();
+  const double p = u - column, q = v - row;
+  return (1.0 - q) * ((1.0 - p) * air_->at(column, row) + p * air_->at(column + 1, row)) +
+         q * ((1.0 - p) * air_->at(column, row + 1) + p * air_->at(column + 1, row + 1));
+}
+
+// Blades are taken as straight from root to tip, and as wide from all sides, which is how they are
+// drawn. Lean has a random direction: its square is the sum of two means of 1/6.
+double Sward::extinction(const Vec3& place, const Vec3& direction) const {
+  return extinctionAt(place, above(place), direction);
+}
+
+double Sward::extinctionAt(const Vec3& place, double height, const Vec3& direction) const {
+  // Most of a flat ray's way is over the grass of its place.
+  if (!(height >= 0.0 && height <= topAt(place.x(), place.y()))) return 0.0;
+  const grass::Features here = layout_.map->at(place.x(), place.y());
+  if (!(here.density > 0.0)) return 0.0;
+  const double tilt = double{tread_->at({place.x(), place.y()}, stamp_).tilt};
+  const Vec3 air = airAt(place.x(), place.y());
+  double sum = 0.0, shares = 0.0;
+  for (std::size_t k = 0; k < kinds_.size(); ++k) {
+    const Kind& kind = kinds_[k];
+    shares += here.mix[k];
+    const grass::Point blown = grass::bendIn(air, kind.compliance);
+    const double lean = kind.lean * here.shape;
+    const double bend =
+        softLimit(std::sqrt(blown.x * blown.x + blown.y * blown.y + lean * lean / 3.0),
+                  grass::BEND_KNEE, grass::BEND_LIMIT);
+    const double left = bend * (1.0 - tilt / grass::BEND_LIMIT);
+    const double both = std::sqrt(tilt * tilt + left * left);
+    const double hinge = tilt + left > 0.0 ? both * tilt / (tilt + left) : 0.0;
+    const double rise = sinCos(hinge + 0.5 * (both - hinge)).cos;
+    const double most = here.height * kind.height;
+    const double width = kind.width * widthAt(height / rise, most * (1.0 - kind.spread), most);
+    // Mean squared cosine between ray and blades that lean all ways.
+    const double steep = direction.z() * direction.z();
+    const double along = rise * rise * steep + 0.5 * (1.0 - rise * rise) * (1.0 - steep);
+    sum += here.mix[k] * width / rise * std::sqrt(1.0 - along);
+  }
+  return shares > 0.0 ? here.density * sum / shares : 0.0;
+}
+
+// Comes down into the layer of the grass, goes through it, and perhaps down into it again.
+void Sward::meet(const Ray& ray, Hit& nearest) const {
+  if (!tread_) return;
+  double from = 0.0;
+  while (from < nearest.distance) {
+    const Vec3 top = ray.at(from) - Vec3(0.0, 0.0, tallest_);
+    if (above(top) > 0.0) {
+      Vec3 entry;
+      const double left = std::min(nearest.distance - from, 1e4);
+      if (!terrain::meetGround(*terrain_, top, ray.direction, left, entry)) return;
+      from += length(entry - top);
+    }
+    from = march(ray, from, nearest) + GRASS_CELL;
+  }
+}
+
+// @return where it leaves the layer or meets something.
+double Sward::march(const Ray& ray, double from, Hit& nearest) const {
+  Walk walk(ray, from, GRASS_CELL);
+  const auto key = static_cast<std::uint32_t>(layout_.seed);
+  while (from < nearest.distance) {
+    const double to = std::min(walk.end(), nearest.distance);
+    const Vec3 middle = ray.at(0.5 * (from + to));
+    const double height = above(middle);
+    if (height > tallest_) return from;
+    const double chance = extinctionAt(middle, height, ray.direction);
+    const double way = chance > 0.0 ? depthOf(walk.cell(), key) / chance : Box::ENDLESS;
+    if (from + way < to) {
+      nearest = {from + way, Label::GRASS, 0, -1, MEAN_COSINE};
+      return nearest.distance;
+    }
+    from = to;
+    walk.advance();
+  }
+  return from;
+}
+
+}  // namespace vegetation_sim::scan

@@ -1,0 +1,57 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "grass/lod/node_wind.h"
+#include "sensors/geometry/ray.h"
+#include "vegetation_sim/grass/grass_layout.h"
+#include "vegetation_sim/wind/field.h"
+
+namespace vegetation_sim::scan {
+
+/// Grass as a ray meets it: a medium as dense as the blades that stand there, as high as wind and
+/// feet leave them (docs/scan.md).
+class Sward {
+ public:
+  /// What grows and is trodden where, and the air that bends it, at a stamp and within `radius` of
+  /// a place. `tread` must stay as it is as long as rays are cast.
+  void update(const grass::Layout& layout, const grass::TreadMap& tread,
+              std::shared_ptr<const terrain::HeightMap> terrain, const wind::Field& wind,
+              const Vec3& centre, double radius, Nanoseconds stamp);
+  void clear() { tread_ = nullptr; }
+
+  void meet(const Ray& ray, Hit& nearest) const;
+
+  /// Chance per length that a ray of this direction meets a blade at a world place [1/m].
+  double extinction(const Vec3& place, const Vec3& direction) const;
+
+ private:
+  struct Kind {
+    double height{1.0}, spread{0.0}, width{0.0}, lean{0.0}, compliance{0.0};
+  };
+  void takeMap();
+  double above(const Vec3& place) const;
+  double topAt(double x, double y) const;
+  double extinctionAt(const Vec3& place, double height, const Vec3& direction) const;
+  Vec3 airAt(double x, double y) const;
+  double march(const Ray& ray, double from, Hit& nearest) const;
+
+  grass::Layout layout_;
+  std::vector<Kind> kinds_;
+  const grass::TreadMap* tread_{nullptr};  ///< null: no grass
+  std::shared_ptr<const terrain::HeightMap> terrain_;
+  grass::TileWindow window_;
+  std::unique_ptr<grass::NodeAir> air_;
+  bool still_{true};
+  double tallest_{0.0};      ///< [m] of the map
+  std::vector<float> tops_;  ///< [rows x columns] of tiles: no blade is higher there [m]
+  Nanoseconds stamp_{0};
+};
+
+/// Edge of the cells of the grass [m].
+constexpr double GRASS_CELL = 0.05;
+
+}  // namespace vegetation_sim::scan

@@ -1,0 +1,38 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "crowd/walker/body_skeleton.h"
+#include "sensors/geometry/rod.h"
+
+namespace vegetation_sim::scan {
+
+/// Walkers as a ray meets them: their limbs.
+class People {
+ public:
+  struct Person {
+    std::uint32_t id{0};
+    crowd::Skeleton skeleton;
+  };
+  void set(const std::vector<Person>& people);
+
+  void meet(const Ray& ray, Hit& nearest) const;
+  /// Looks at every limb: the reference of meet().
+  void meetEach(const Ray& ray, Hit& nearest) const;
+
+ private:
+  struct Limb {
+    std::uint32_t person{0};
+    int part{0};  ///< index into the skeleton
+    Rod rod;
+  };
+  void meetLimb(const Limb& limb, const Ray& ray, Hit& nearest) const;
+
+  std::vector<Limb> limbs_;
+  BoxTree boxes_;
+};
+
+}  // namespace vegetation_sim::scan

@@ -1,0 +1,26 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+
+#include "sensors/grass_volume.h"
+#include "sensors/people.h"
+#include "sensors/tree_field.h"
+
+namespace vegetation_sim::scan {
+
+/// All that a sensor sees at one stamp. What is cast may come from any thread.
+struct Scene {
+  Trees trees;
+  Sward grass;
+  People people;
+  std::shared_ptr<const terrain::HeightMap> ground{std::make_shared<const terrain::HeightMap>()};
+};
+
+/// The nearest thing within `reach` [m]; Label::NONE if there is none.
+Hit cast(const Scene& scene, const Ray& ray, double reach);
+/// The same, looking at every branch and limb: the reference.
+Hit castPlain(const Scene& scene, const Ray& ray, double reach);
+
+}  // namespace vegetation_sim::scan

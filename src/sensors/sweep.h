@@ -1,0 +1,66 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "sensors/sensor_scene.h"
+#include "vegetation_sim/core/config/fields.h"
+#include "vegetation_sim/core/math/math.h"
+
+namespace vegetation_sim::scan {
+
+/// Rays of a lidar: rings of equal elevations, columns of equal azimuths, from the low end on, in
+/// the sensor's frame (x forward, y left, z up). The high end of the elevations has a ring, that of
+/// the azimuths no column: a full turn comes back to the first.
+struct Beams {
+  int rings{16};
+  double elevation_low{-0.2618};  ///< [rad]
+  double elevation_high{0.2618};  ///< [rad]
+  int columns{900};
+  double azimuth_low{-3.14159};  ///< [rad]
+  double azimuth_high{3.14159};  ///< [rad]
+  double range_min{0.3};         ///< what is nearer gives no return [m]
+  double range_max{60.0};        ///< [m]
+  double noise{0.01};            ///< standard deviation of ranges [m]
+};
+void describe(FieldVisitor& visitor, Beams& beams);
+/// Adds a fault for each range whose ends are not in order.
+void check(const Beams& beams, const std::string& context, Faults& faults);
+
+/// Unit vector of a ray in the sensor's frame.
+Vec3 directionOf(const Beams& beams, int ring, int column);
+/// The one ring of a planar scan of the same columns.
+Beams planeOf(const Beams& beams);
+
+/// One measurement.
+struct Return {
+  double range{0.0};  ///< with noise [m]; infinite: nothing within range_max; -infinite: too near
+  Hit hit;
+  bool isPoint() const { return range > 0.0 && range < std::numeric_limits<double>::infinity(); }
+};
+
+/// What keys the noise: another number for each ray of each sweep of each sensor, whoever asks in
+/// whatever order.
+struct Noise {
+  std::uint64_t seed{0}, sweep{0}, sensor{0};
+};
+/// Error of a range, over its standard deviation: mean 0, variance 1, the sum of twelve uniform
+/// numbers (Irwin 1927, Hall 1927), never beyond 6.
+double unitNoise(const Noise& noise, std::uint64_t ray);
+
+/// All rays at one instant. [rings x columns] @param most_threads that share them, no
+/// more than the machine has; they change nothing.
+std::vector<Return> sweep(const Scene& scene, const Beams& beams, const Pose& sensor,
+                          const Noise& noise, int most_threads = 1);
+
+/// Points by label; under NONE, rays without one: the sum is the number of rays.
+std::array<std::uint32_t, LABELS> countLabels(const std::vector<Return>& returns);
+
+/// Share of the light that comes back, at 905 nm: of dry soil, bark, leaves, grass and clothes,
+/// roughly, times the cosine of incidence.
+double intensityOf(const Hit& hit);
+
+}  // namespace vegetation_sim::scan

@@ -1,0 +1,78 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sensors/tree_field.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "forest/contact/contact_finder.h"
+
+namespace vegetation_sim::scan {
+namespace {
+
+// Those that may reach into a ball, nearest first.
+std::vector<std::uint32_t> nearestFirst(const forest::ForestReplica& forest, const Vec3& centre,
+                                        double radius) {
+  std::vector<std::pair<double, std::uint32_t>> sorted;
+  for (const std::uint32_t id :
+       forest::treesNear(forest.layout(), forest.terrain(), centre, radius)) {
+    const Vec3 foot = forest::footOf(seedOf(forest.layout(), id), forest.terrain());
+    sorted.emplace_back(length(foot - centre), id);
+  }
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<std::uint32_t> out;
+  out.reserve(sorted.size());
+  for (const auto& entry : sorted) out.push_back(entry.second);
+  return out;
+}
+
+}  // namespace
+
+void Trees::update(const forest::ForestReplica& forest, const Vec3& centre, double radius,
+                   Nanoseconds stamp) {
+  std::map<std::uint32_t, std::shared_ptr<PosedTree>> known;
+  if (layout_hash_ == forest.layoutHash())
+    for (auto& tree : trees_) known[tree->id()] = std::move(tree);
+  else
+    sizes_.clear();
+  layout_hash_ = forest.layoutHash();
+  trees_.clear();
+  branches_ = 0;
+  const std::vector<std::uint32_t> near = nearestFirst(forest, centre, radius);
+  const auto fits = [this](std::size_t more) {
+    return trees_.empty() || branches_ + more <= most_branches_;
+  };
+  for (const std::uint32_t id : near) {
+    std::shared_ptr<PosedTree>& tree = known[id];
+    if (const auto size = sizes_.find(id); size != sizes_.end() && !fits(size->second)) break;
+    if (!tree) {
+      tree = std::make_shared<PosedTree>(forest, id);
+      ++grown_;
+    }
+    if (!fits(tree->branches())) {
+      sizes_[id] = tree->branches();
+      break;
+    }
+    branches_ += tree->branches();
+    trees_.push_back(std::move(tree));
+  }
+  left_out_ = near.size() - trees_.size();
+  const wind::Instant wind = forest.wind().at(stamp);
+  std::vector<Box> items;
+  items.reserve(trees_.size());
+  for (const auto& tree : trees_) {
+    tree->follow(forest, stamp, wind);
+    items.push_back(tree->bounds());
+  }
+  boxes_.build(items);
+}
+
+void Trees::meet(const Ray& ray, Hit& nearest) const {
+  boxes_.visit(ray, nearest, [&](std::size_t tree) { trees_[tree]->meet(ray, nearest); });
+}
+
+void Trees::meetEach(const Ray& ray, Hit& nearest) const {
+  for (const auto& tree : trees_) tree->meetEach(ray, nearest);
+}
+
+}  // namespace vegetation_sim::scan

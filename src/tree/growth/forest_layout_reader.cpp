@@ -1,0 +1,138 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <filesystem>
+#include <map>
+
+#include "vegetation_sim/core/math/random.h"
+#include "vegetation_sim/tree/growth/forest_layout.h"
+
+namespace vegetation_sim::forest {
+namespace {
+
+constexpr Range ANYWHERE{-1e7, 1e7};
+constexpr int MOST_TILES = 65536;
+
+class LayoutReader {
+ public:
+  LayoutReader(YamlSection section, std::string folder, std::uint64_t seed, Faults& faults)
+      : section_(std::move(section)), folder_(std::move(folder)), seed_(seed), faults_(faults) {}
+
+  Layout read() {
+    readSpeciesList();
+    YamlSection motion = section_.section("motion");
+    describe(motion, out_.motion);
+    motion.finish();
+    for (YamlSection& tree : section_.sections("trees")) out_.trees.push_back(readTree(tree));
+    for (YamlSection& tile : section_.sections("tiles")) readTile(tile);
+    section_.finish();
+    Faults of_the_whole;
+    if (faults_.empty()) check(out_, of_the_whole);
+    for (const std::string& fault : of_the_whole.list()) section_.fault(fault);
+    return std::move(out_);
+  }
+
+ private:
+  void readSpeciesList() {
+    for (YamlSection& entry : section_.sections("species")) {
+      std::string name, file;
+      entry.text("name", name);
+      entry.text("file", file);
+      entry.finish();
+      if (file.empty()) file = "../species/" + name + ".yaml";
+      const auto path = (std::filesystem::path(folder_) / file).lexically_normal();
+      try {
+        Species species = loadSpecies(path.string());
+        if (!name.empty()) species.name = name;
+        number_[species.name] = static_cast<std::uint16_t>(out_.species.size());
+        out_.species.push_back(std::move(species));
+      } catch (const InvalidInput& error) {
+        faults_.add(entry.path() + ": " + error.what());
+      }
+    }
+  }
+
+  std::uint16_t speciesNumber(YamlSection& section, const std::string& name) {
+    const auto found = number_.find(name);
+    if (found != number_.end()) return found->second;
+    std::string known;
+    for (const auto& entry : number_) known += (known.empty() ? "" : ", ") + entry.first;
+    section.fault("species", "= '" + name + "' is none of " + known);
+    return 0;
+  }
+
+  std::uint64_t nextSeed() { return Random(seed_).bits(drawn_++); }
+
+  TreeSeed readTree(YamlSection& section) {
+    TreeSeed tree;
+    tree.seed = nextSeed();
+    std::string name;
+    section.text("species", name);
+    tree.species = speciesNumber(section, name);
+    section.seed("seed", tree.seed);
+    section.vector("position", tree.position, "m", ANYWHERE);
+    section.number("yaw", tree.yaw, "rad", {-1000.0, 1000.0});
+    section.number("scale", tree.scale, "", {0.05, 20.0});
+    section.finish();
+    return tree;
+  }
+
+  // A tile may be split into rows x columns of equal ones, so that a forest is one entry.
+  void readTile(YamlSection& section) {
+    Tile tile;
+    int count = 0, rows = 1, columns = 1;
+    tile.seed = nextSeed();
+    section.seed("seed", tile.seed);
+    section.number("x", tile.x, "m", ANYWHERE);
+    section.number("y", tile.y, "m", ANYWHERE);
+    section.number("size", tile.size, "m", {0.1, 1e5});
+    section.integer("count", count, "", {0, 1 << 24});
+    section.integer("rows", rows, "", {1, 4096});
+    section.integer("columns", columns, "", {1, 4096});
+    tile.mix = readMix(section.section("mix"));
+    section.finish();
+    const double tiles = static_cast<double>(rows) * columns;
+    if (tiles > MOST_TILES || tiles * count + out_.treeCount() > MOST_TREES)
+      return faults_.add(section.path() + ": " + std::to_string(rows) + " rows x " +
+                         std::to_string(columns) + " columns x " + std::to_string(count) +
+                         " trees pass the " + std::to_string(MOST_TILES) + " tiles or " +
+                         std::to_string(MOST_TREES) + " trees allowed");
+    const Tile first = tile;
+    for (int i = 0; i < rows * columns; ++i) {
+      tile.first_tree = out_.treeCount();
+      tile.count = static_cast<std::uint32_t>(count);
+      const int column = i % columns, row = i / columns;
+      tile.x = first.x + first.size * column;
+      tile.y = first.y + first.size * row;
+      tile.seed = Random(first.seed).bits(static_cast<std::uint64_t>(i));
+      out_.tiles.push_back(tile);
+    }
+  }
+
+  std::vector<float> readMix(YamlSection section) {
+    std::vector<float> mix(out_.species.size(), 0.f);
+    for (const auto& entry : number_) {
+      double weight = 0.0;
+      section.number(entry.first.c_str(), weight, "", {0.0, 1e6});
+      mix[entry.second] = static_cast<float>(weight);
+    }
+    section.finish();
+    return mix;
+  }
+
+  YamlSection section_;
+  std::string folder_;
+  std::uint64_t seed_;
+  Faults& faults_;
+  Layout out_;
+  std::map<std::string, std::uint16_t> number_;  // species by name
+  std::uint64_t drawn_{0};
+};
+
+}  // namespace
+
+Layout readLayout(YamlSection section, const std::string& folder, std::uint64_t seed,
+                  Faults& faults) {
+  return LayoutReader(std::move(section), folder, seed, faults).read();
+}
+
+}  // namespace vegetation_sim::forest

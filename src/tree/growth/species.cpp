@@ -1,0 +1,202 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/tree/growth/species.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "vegetation_sim/core/math/math.h"
+
+namespace vegetation_sim::forest {
+namespace {
+
+const std::vector<std::string> CROWNS{"even", "conical", "round", "flame"};
+const std::vector<std::string> LEAF_SHAPES{"broad", "needle", "small", "long"};
+
+/// Clamps each field into its range.
+class FieldClamper : public FieldVisitor {
+ public:
+  void number(const char*, double& value, const char*, Range range) override {
+    value = std::min(range.high, std::max(range.low, value));
+  }
+  void integer(const char*, int&, const char*, Range) override {}
+  void vector(const char*, Vec3&, const char*, Range) override {}
+  void choice(const char*, int&, const std::vector<std::string>&) override {}
+};
+
+}  // namespace
+
+void describe(FieldVisitor& v, LimbRule& r) {
+  v.number("children", r.children, "", {0.0, 200.0});
+  v.integer("whorl", r.whorl, "", {1, 12});
+  v.number("start", r.start, "", {0.0, 1.0});
+  v.number("end", r.end, "", {0.0, 1.0});
+  v.number("length", r.length, "", {0.01, 3.0});
+  v.number("length_variation", r.length_variation, "", {0.0, 0.9});
+  v.choice("crown", r.crown, CROWNS);
+  v.number("radius", r.radius, "", {0.01, 1.0});
+  v.number("taper", r.taper, "", {0.05, 1.0});
+  v.number("angle_low", r.angle_low, "rad", {0.0, 2.8});
+  v.number("angle_high", r.angle_high, "rad", {0.0, 2.8});
+  v.number("angle_variation", r.angle_variation, "rad", {0.0, 1.5});
+  v.number("rise", r.rise, "rad", {-3.1, 3.1});
+  v.number("wander", r.wander, "rad", {0.0, 3.0});
+  v.integer("segments", r.segments, "", {1, 16});
+  v.number("leaves", r.leaves, "", {0.0, 100.0});
+}
+
+void describe(FieldVisitor& v, Species& s) {
+  v.number("height", s.height, "m", {0.1, 100.0});
+  v.number("height_variation", s.height_variation, "", {0.0, 0.9});
+  v.number("trunk_radius", s.trunk_radius, "m", {0.001, 5.0});
+  v.number("twig_radius", s.twig_radius, "m", {1e-4, 1.0});
+  v.number("slenderness", s.slenderness, "", {5.0, 5000.0});
+  v.number("lean", s.lean, "rad", {0.0, 1.0});
+  v.number("angle_thin", s.angle_thin, "rad", {0.0, 2.8});
+  v.number("angle_thick", s.angle_thick, "rad", {0.0, 2.8});
+  v.number("noise", s.noise, "", {0.0, 3.0});
+  v.number("youngs_modulus", s.youngs_modulus, "Pa", {1e6, 1e12});
+  v.number("density", s.density, "kg/m^3", {50.0, 3000.0});
+  v.number("damping_ratio", s.damping_ratio, "", {0.0, 2.0});
+  v.number("drag_coefficient", s.drag_coefficient, "", {0.0, 5.0});
+  v.number("reference_speed", s.reference_speed, "m/s", {0.1, 100.0});
+  v.number("leaf_size", s.leaf_size, "m", {0.001, 5.0});
+  v.number("leaf_area", s.leaf_area, "m^2", {0.0, 10.0});
+  v.number("leaf_mass", s.leaf_mass, "kg", {0.0, 10.0});
+  v.number("flutter", s.flutter, "rad", {0.0, 1.5});
+  v.choice("leaf_shape", s.leaf_shape, LEAF_SHAPES);
+  v.vector("leaf_colour", s.leaf_colour, "", {0.0, 1.0});
+  v.vector("leaf_colour_young", s.leaf_colour_young, "", {0.0, 1.0});
+  v.vector("bark_colour", s.bark_colour, "", {0.0, 1.0});
+  v.vector("twig_colour", s.twig_colour, "", {0.0, 1.0});
+}
+
+void describe(FieldVisitor& v, Design& d) {
+  v.number("size", d.size, "", {0.2, 3.0});
+  v.number("children", d.children, "", {0.2, 3.0});
+  v.number("leaves", d.leaves, "", {0.0, 3.0});
+  v.number("angle", d.angle, "", {0.2, 2.0});
+  v.number("noise", d.noise, "", {0.0, 3.0});
+}
+
+double largestAngle(const Species& s, double relative_diameter) {
+  return s.angle_thin + (s.angle_thick - s.angle_thin) * saturate(relative_diameter);
+}
+
+double expectedBranches(const Species& species) {
+  double limbs = 1.0, branches = 0.0;
+  for (int depth = 0; depth < species.depths(); ++depth) {
+    const LimbRule& rule = species.limbs[static_cast<std::size_t>(depth)];
+    if (depth > 0) limbs *= rule.children;
+    branches += limbs * rule.segments;
+  }
+  return branches;
+}
+
+void check(Species species, Faults& faults) {
+  const std::string context = "species " + species.name + ": ";
+  if (species.name.empty()) faults.add("species: name is empty");
+  if (species.limbs.empty() || species.depths() > MAX_DEPTHS) {
+    faults.add(context + "limbs has " + std::to_string(species.limbs.size()) +
+               " rules, outside 1 to " + std::to_string(MAX_DEPTHS));
+    return;
+  }
+  FieldChecker checker(context, faults);
+  describe(checker, species);
+  for (std::size_t i = 0; i < species.limbs.size(); ++i) {
+    LimbRule& rule = species.limbs[i];
+    const std::string where = context + "limbs[" + std::to_string(i) + "]: ";
+    FieldChecker limb_checker(where, faults);
+    describe(limb_checker, rule);
+    if (rule.end < rule.start) faults.add(where + "end is below start");
+  }
+  if (species.angle_thick > species.angle_thin)
+    faults.add(context + "angle_thick is above angle_thin");
+  if (!faults.empty()) return;
+  if (expectedBranches(species) > MAX_BRANCHES)
+    faults.add(context + "grows " + std::to_string(static_cast<long>(expectedBranches(species))) +
+               " branches, more than the " + std::to_string(MAX_BRANCHES) + " allowed");
+}
+
+Species applyDesign(const Species& species, const Design& design) {
+  Species out = species;
+  out.height *= design.size;
+  out.trunk_radius *= design.size;
+  out.noise *= design.noise;
+  for (std::size_t depth = 0; depth < out.limbs.size(); ++depth) {
+    LimbRule& rule = out.limbs[depth];
+    if (depth > 0) rule.children *= design.children;
+    rule.leaves *= design.leaves;
+    rule.angle_low *= design.angle;
+    rule.angle_high *= design.angle;
+  }
+  FieldClamper clamper;
+  describe(clamper, out);
+  for (LimbRule& rule : out.limbs) describe(clamper, rule);
+  // Thin out rather than refuse a slider; ends, since without laterals a trunk is left.
+  const double limit = 0.8 * MAX_BRANCHES;
+  while (expectedBranches(out) > limit)
+    for (LimbRule& rule : out.limbs) rule.children *= 0.95;
+  return out;
+}
+
+Species readSpecies(YamlSection section) {
+  Species species;
+  section.text("name", species.name);
+  describe(section, species);
+  std::vector<YamlSection> limbs = section.sections("limbs");
+  if (!limbs.empty()) species.limbs.clear();
+  for (YamlSection& limb : limbs) {
+    LimbRule rule;
+    describe(limb, rule);
+    limb.finish();
+    species.limbs.push_back(rule);
+  }
+  section.finish();
+  return species;
+}
+
+std::string writeSpecies(const Species& species) {
+  Species copy = species;
+  YAML::Emitter out;
+  out << YAML::BeginMap << YAML::Key << "name" << YAML::Value << copy.name;
+  YamlFieldWriter writer(out);
+  describe(writer, copy);
+  out << YAML::Key << "limbs" << YAML::Value << YAML::BeginSeq;
+  for (LimbRule& rule : copy.limbs) {
+    out << YAML::Flow << YAML::BeginMap;
+    describe(writer, rule);
+    out << YAML::EndMap;
+  }
+  out << YAML::EndSeq << YAML::EndMap;
+  return std::string(out.c_str()) + "\n";
+}
+
+Species parseSpecies(const std::string& yaml, const std::string& name) {
+  Faults faults;
+  Species species = readSpecies(YamlSection(parseYaml(yaml, name), name, faults));
+  if (faults.empty()) check(species, faults);
+  faults.throwIfAny();
+  return species;
+}
+
+Species loadSpecies(const std::string& file) {
+  Faults faults;
+  Species species = readSpecies(YamlSection(loadYamlFile(file), file, faults));
+  if (species.name.empty()) species.name = std::filesystem::path(file).stem().string();
+  if (faults.empty()) check(species, faults);
+  if (!faults.empty()) throw InvalidInput(file + ": " + faults.text());
+  return species;
+}
+
+std::uint64_t hash(const Species& species) {
+  Species copy = species;
+  Hash out;
+  FieldHasher hasher(out);
+  out.add(copy.name);
+  describe(hasher, copy);
+  for (LimbRule& rule : copy.limbs) describe(hasher, rule);
+  return out.value();
+}
+
+}  // namespace vegetation_sim::forest

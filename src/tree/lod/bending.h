@@ -1,0 +1,28 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "dynamics/modal/harmonic_chain.h"
+#include "tree/lod/response_error.h"
+#include "vegetation_sim/tree/modal/modal_tree.h"
+
+namespace vegetation_sim::forest {
+
+/// The procedural motion with nothing left out.
+std::vector<JointAngles> allDepths(const Tree& tree, const wind::Instant& air);
+
+/// One tree as each of its rungs has it.
+struct Rungs {
+  const Tree& tree;
+  const std::vector<physics::Link>& links;
+  const std::vector<physics::Grip>& grips;
+  const physics::LinearChain& linear;
+  const ModalTree& modal;
+};
+
+/// Farthest tips from where a steady wind along a unit vector holds the full chain.
+Bending bendingOf(const Rungs& rungs, const Vec3& along);
+
+}  // namespace vegetation_sim::forest

@@ -1,0 +1,229 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tree/lod/response_error.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dynamics/modal/harmonic_chain.h"
+#include "tree/growth/wood.h"
+#include "tree/lod/bending.h"
+#include "vegetation_sim/core/math/math.h"
+#include "vegetation_sim/tree/growth/response.h"
+#include "vegetation_sim/tree/modal/modal_tree.h"
+#include "vegetation_sim/wind/breeze.h"
+
+namespace vegetation_sim::forest {
+namespace {
+
+using wind::Swings;
+
+constexpr int SAMPLES = 2;     // trees measured per species and scale
+constexpr double PROBE = 0.5;  // [m/s] weak enough that no joint nears its limit
+
+// A wave of the breezes, at unit speed: its parts along and across, and how it is spread
+// (wind/breeze.h). Of a wind that is everywhere the same, along only.
+wind::Mode waveOf(double frequency, double slowness, const Vec3& along) {
+  using wind::Breeze;
+  const Vec3 across(-along.y(), along.x(), 0.0), up = Vec3::UnitZ();
+  wind::Mode out;
+  out.amplitude = PROBE * along;
+  if (slowness == 0.0) return out;
+  out.amplitude += PROBE * (Breeze::LATERAL * across + Breeze::VERTICAL * up);
+  out.amplitude *= PROBE / length(out.amplitude);
+  const double spread = Breeze::DECAY / (2.0 * PI);
+  out.wave = frequency * slowness * (along + spread * (across + up));
+  return out;
+}
+
+/// What goes with the cosine of a wave and what with its sine.
+struct Pair {
+  std::vector<double> cosine, sine;
+};
+
+/// Of each tip, in one wave.
+struct TipSquares {
+  std::vector<double> procedural, modal, fine;
+};
+using Row = std::array<TipSquares, Swings::FREQUENCIES.size()>;
+
+/// A sample tree, and how all of its rungs answer a wave.
+class Sample {
+ public:
+  Sample(const Tree& tree, const Species& species)
+      : tree_(tree),
+        links_(chainOf(tree.skeleton, species)),
+        grips_(gripsOf(woodOf(tree.skeleton, species, Material::BEAM))),
+        linear_(links_),
+        full_(links_, grips_),
+        modal_{ModalTree(tree, species), {}},
+        fine_{ModalTree(tree, species, FINE_MODES), {}} {}
+
+  void setFrequency(double frequency) {
+    w_ = 2.0 * PI * frequency;
+    full_.setFrequency(w_);
+  }
+
+  // Squares of the tips' distances from the full chain, per speed.
+  TipSquares squaresIn(const wind::Mode& wave) {
+    wind::Instant even, odd;
+    even.modes = odd.modes = {wave};
+    odd.modes[0].phase = 0.75;  // a quarter of a cycle later
+    Pair right{torques(even), torques(odd)};
+    full_.answer(right.cosine, right.sine);
+    const Pair shown{proceduralBends(even), proceduralBends(odd)};
+    return {squares(right, shown), squares(right, modalBends(modal_, even, odd)),
+            squares(right, modalBends(fine_, even, odd))};
+  }
+
+  Bending bending(const Vec3& along) const {
+    return bendingOf({tree_, links_, grips_, linear_, modal_.modes}, along);
+  }
+
+ private:
+  /// The tree in modes, and what it keeps of the waves.
+  struct Swayer {
+    ModalTree modes;
+    ModalAir air;
+  };
+
+  static std::vector<physics::Grip> gripsOf(const Wood& wood) {
+    std::vector<physics::Grip> out(wood.own.size());
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      const Composite& body = wood.own[i];
+      out[i].steady = body.drag;
+      if (body.drag > 0.0) out[i].centre = body.drag_moment / body.drag;
+    }
+    return out;
+  }
+
+  // Of the air on all of the crown at rest.
+  std::vector<double> torques(const wind::Instant& air) const {
+    std::vector<physics::Wrench> out(links_.size());
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      const Pose& rest = tree_.skeleton.branches[i].rest;
+      const Vec3 arm = rotate(rest.orientation, grips_[i].centre);
+      const Vec3 force = grips_[i].steady * air.velocity(rest.position + arm);
+      out[i] = {force, cross(arm, force)};
+    }
+    return linear_.torquesOf(out);
+  }
+
+  std::vector<double> proceduralBends(const wind::Instant& air) const {
+    return flat(allDepths(tree_, air));
+  }
+
+  Pair modalBends(Swayer& swayer, const wind::Instant& even, const wind::Instant& odd) const {
+    const ModalTree& tree = swayer.modes;
+    Pair load;
+    tree.loadOf(even, swayer.air, load.cosine);
+    tree.loadOf(odd, swayer.air, load.sine);
+    for (std::size_t m = 0; m < tree.size(); ++m) {
+      const double own = tree.modes().frequency[m];
+      const double in = own * own - w_ * w_, late = w_ * tree.modes().damping[m];
+      const double size = in * in + late * late;
+      const double c = load.cosine[m], s = load.sine[m];
+      load.cosine[m] = (in * c - late * s) / size;
+      load.sine[m] = (in * s + late * c) / size;
+    }
+    return {flat(tree.bendsOf(load.cosine)), flat(tree.bendsOf(load.sine))};
+  }
+
+  static std::vector<double> flat(const std::vector<JointAngles>& bends) {
+    std::vector<double> out;
+    out.reserve(2 * bends.size());
+    for (const JointAngles& bend : bends) out.insert(out.end(), {bend.first, bend.second});
+    return out;
+  }
+
+  std::vector<double> squares(const Pair& right, const Pair& shown) {
+    std::vector<double> out(links_.size(), 0.0), off(2 * links_.size());
+    for (const auto part : {&Pair::cosine, &Pair::sine}) {
+      for (std::size_t k = 0; k < off.size(); ++k) off[k] = (shown.*part)[k] - (right.*part)[k];
+      linear_.motionOf(off.data(), motion_);
+      for (std::size_t i = 0; i < out.size(); ++i) {
+        const Vec3 along = links_[i].length * axisZ(linear_.rest()[i].orientation);
+        const Vec3 tip = motion_[i].move + cross(motion_[i].turn, along);
+        out[i] += dot(tip, tip) / (PROBE * PROBE);
+      }
+    }
+    return out;
+  }
+
+  const Tree& tree_;
+  std::vector<physics::Link> links_;
+  std::vector<physics::Grip> grips_;
+  physics::LinearChain linear_;
+  physics::HarmonicChain full_;
+  Swayer modal_, fine_;
+  std::vector<physics::SmallMotion> motion_;
+  double w_{0.0};
+};
+
+// The tip that is farthest off in a breeze, whose power falls with f^(-2/3) a band of frequencies.
+std::size_t farthestIn(const Row& row, std::vector<double> TipSquares::*kind) {
+  std::vector<double> sum((row[0].*kind).size(), 0.0);
+  for (std::size_t f = 0; f < row.size(); ++f) {
+    const double root = cubeRoot(Swings::FREQUENCIES[f]);
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += (row[f].*kind)[i] / (root * root);
+  }
+  return static_cast<std::size_t>(std::max_element(sum.begin(), sum.end()) - sum.begin());
+}
+
+// A breeze swings at all frequencies at once, so that one tip is the farthest; air that moves as
+// one swings at one, and each has its own.
+template <std::size_t N>
+void addRow(const Row& row, bool breeze, std::array<LagSquares, N>& out) {
+  using Kinds = std::pair<std::vector<double> TipSquares::*, double LagSquares::*>;
+  for (const auto& [kind, to] : {Kinds{&TipSquares::procedural, &LagSquares::procedural},
+                                 Kinds{&TipSquares::modal, &LagSquares::modal},
+                                 Kinds{&TipSquares::fine, &LagSquares::fine}}) {
+    const std::size_t tip = farthestIn(row, kind);
+    for (std::size_t f = 0; f < N; ++f) {
+      const std::vector<double>& tips = row[f].*kind;
+      out[f].*to += (breeze ? tips[tip] : *std::max_element(tips.begin(), tips.end())) / SAMPLES;
+    }
+  }
+}
+
+}  // namespace
+
+LagIn Lag::in(const Swings& swings) const {
+  LagIn out;
+  for (std::size_t s = 0; s < swings.power.size(); ++s)
+    for (std::size_t f = 0; f < swings.power[s].size(); ++f) {
+      out.procedural += squares[s][f].procedural * swings.power[s][f];
+      out.modal += squares[s][f].modal * swings.power[s][f];
+      out.fine += squares[s][f].fine * swings.power[s][f];
+    }
+  return {std::sqrt(out.procedural), std::sqrt(out.modal), std::sqrt(out.fine), bend};
+}
+
+Lag measureLag(const Species& species, const MotionLaw& law, double scale) {
+  Lag out;
+  if (static_cast<JointModel>(law.joint_model) != JointModel::SWING) return out;
+  for (int i = 0; i < SAMPLES; ++i) {
+    TreeSeed seed;
+    seed.seed = static_cast<std::uint64_t>(i) + 1;
+    seed.scale = scale;
+    const Tree tree = growTree(seed, species, law);
+    Sample sample(tree, species);
+    const Vec3 along = i % 2 ? Vec3::UnitY() : Vec3::UnitX();
+    std::array<Row, Swings::SLOWNESSES.size()> rows;
+    for (std::size_t f = 0; f < Swings::FREQUENCIES.size(); ++f) {
+      sample.setFrequency(Swings::FREQUENCIES[f]);
+      for (std::size_t s = 0; s < rows.size(); ++s)
+        rows[s][f] = sample.squaresIn(waveOf(Swings::FREQUENCIES[f], Swings::SLOWNESSES[s], along));
+    }
+    for (std::size_t s = 0; s < rows.size(); ++s)
+      addRow(rows[s], Swings::SLOWNESSES[s] > 0.0, out.squares[s]);
+    if (static_cast<Gain>(law.gain) == Gain::COMPLIANCE) {
+      const Bending bending = sample.bending(along);
+      out.bend.procedural += bending.procedural / SAMPLES;
+      out.bend.modal += bending.modal / SAMPLES;
+    }
+  }
+  return out;
+}
+
+}  // namespace vegetation_sim::forest

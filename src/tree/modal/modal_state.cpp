@@ -1,0 +1,150 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/tree/modal/modal_state.h"
+
+#include <algorithm>
+
+#include "vegetation_sim/core/config/faults.h"
+#include "vegetation_sim/tree/state/promoted_branches.h"
+
+namespace vegetation_sim::forest {
+namespace {
+
+// Steps are told in whole microseconds: a grid of ticks whose period is no whole number of
+// nanoseconds then has one step, whose propagators are computed once.
+double wholeMicroseconds(Nanoseconds step) {
+  const Nanoseconds microseconds = (step + 500) / 1000;
+  return 1e-6 * static_cast<double>(microseconds);
+}
+
+}  // namespace
+
+Sway::Sway(std::shared_ptr<const ModalTree> modes)
+    : modes_(std::move(modes)),
+      batch_(std::make_shared<const physics::BatchModes>(modes_->modes())),
+      stepper_(modes_->modes()),
+      state_(stepper_.atRest()),
+      before_(state_) {}
+
+void Sway::loadOf(const wind::Instant& wind, ModalLoad& out) {
+  modes_->loadOf(wind, air_, out.force);
+  out.air = modes_->airOn(wind);
+}
+
+void Sway::bent(const ModalLoad& load, const std::vector<double>& amplitude,
+                std::vector<double>& out) {
+  out = load.force;
+  modes_->bendLevers(load.air, amplitude, air_, out);
+}
+
+// By the state alone, however it was come by: who is told of it looks ahead to the same bits.
+void Sway::land(const ModalLoad& load, Nanoseconds stamp) {
+  bent(load, state_.amplitude, after_load_);
+  stepper_.accelerations(state_, after_load_, acceleration_);
+  stamp_ = stamp;
+}
+
+bool Sway::fine() const {
+  return modes_->size() > ModalDepth{}.most() || modes_->size() == modes_->modes().length;
+}
+
+// The static answer to each load; its rate by central difference.
+void Sway::begin(const std::array<ModalLoad, 3>& loads, double step, Nanoseconds stamp) {
+  for (std::size_t m = 0; m < state_.amplitude.size(); ++m) {
+    const double w = modes_->modes().frequency[m], stiffness = w * w;
+    state_.amplitude[m] = loads[1].force[m] / stiffness;
+    state_.rate[m] = (loads[2].force[m] - loads[0].force[m]) / (2.0 * step * stiffness);
+  }
+  before_ = state_;
+  before_stamp_ = stamp;
+  land(loads[1], stamp);
+}
+
+void Sway::restore(const physics::ModalState& state, const ModalLoad& load, Nanoseconds stamp) {
+  if (state.amplitude.size() != modes_->size() || state.rate.size() != modes_->size())
+    throw InvalidInput("modes: " + std::to_string(state.amplitude.size()) + " amplitudes and " +
+                       std::to_string(state.rate.size()) + " rates, the tree has " +
+                       std::to_string(modes_->size()));
+  state_ = before_ = state;
+  before_stamp_ = stamp;
+  land(load, stamp);
+}
+
+// Levers are turned by the bends that a step with those before it ends in.
+void Sway::step(const std::vector<ModalLoad>& loads, Nanoseconds stamp) {
+  before_ = state_;
+  before_stamp_ = stamp_;
+  const auto steps = static_cast<Nanoseconds>(loads.size()) - 1;
+  const double h = wholeMicroseconds((stamp - stamp_) / steps);
+  for (std::size_t i = 0; i + 1 < loads.size(); ++i) {
+    bent(loads[i], state_.amplitude, before_load_);
+    trial_ = state_;
+    after_load_ = before_load_;
+    for (std::size_t m = 0; m < after_load_.size(); ++m)
+      after_load_[m] += loads[i + 1].force[m] - loads[i].force[m];
+    stepper_.step(before_load_, after_load_, h, trial_);
+    bent(loads[i + 1], trial_.amplitude, after_load_);
+    stepper_.step(before_load_, after_load_, h, state_);
+  }
+  land(loads.back(), stamp);
+}
+
+std::vector<double> Sway::amplitudeAt(Nanoseconds stamp) const {
+  const double ahead =
+      std::clamp(secondsBetween(stamp_, stamp), -LONGEST_LOOK_AHEAD, LONGEST_LOOK_AHEAD);
+  std::vector<double> out = state_.amplitude;
+  for (std::size_t m = 0; m < out.size(); ++m)
+    out[m] += ahead * (state_.rate[m] + 0.5 * ahead * acceleration_[m]);
+  return out;
+}
+
+void Sway::pose(const BatchPoser& poser, Nanoseconds stamp, BatchPoses& out) const {
+  BatchBends bends;
+  batch_->bends(amplitudeAt(stamp), bends);
+  poser.pose(bends, out);
+}
+
+void Sway::amplitudeBetween(Nanoseconds stamp, std::vector<double>& out) const {
+  if (stamp_ == before_stamp_) {
+    out = amplitudeAt(stamp);
+    return;
+  }
+  const double length = secondsBetween(before_stamp_, stamp_);
+  const double u = secondsBetween(before_stamp_, stamp) / length, v = 1.0 - u;
+  const double a = v * v * (1.0 + 2.0 * u), b = u * v * v * length;
+  const double c = u * u * (1.0 + 2.0 * v), d = -(u * u * v) * length;
+  out.resize(state_.amplitude.size());
+  for (std::size_t m = 0; m < out.size(); ++m)
+    out[m] = a * before_.amplitude[m] + b * before_.rate[m] + c * state_.amplitude[m] +
+             d * state_.rate[m];
+}
+
+JointAngles bendOf(const ModalTree& modes, const std::vector<double>& amplitude, int branch) {
+  JointAngles out;
+  for (std::size_t m = 0; m < amplitude.size(); ++m) {
+    const double* shape = modes.modes().shapeOf(m) + 2 * static_cast<std::size_t>(branch);
+    out.first += amplitude[m] * shape[0];
+    out.second += amplitude[m] * shape[1];
+  }
+  return limited(out);
+}
+
+JointAngles between(const JointAngles& from, const JointAngles& to, double weight) {
+  return {(1.0 - weight) * from.first + weight * to.first,
+          (1.0 - weight) * from.second + weight * to.second};
+}
+
+std::vector<JointAngles> swayingAngles(const Tree& tree, const wind::Instant& wind,
+                                       const Weights& weights, const Sway* sway,
+                                       Nanoseconds stamp) {
+  const double weight = sway ? modalWeight(weights) : 0.0;
+  if (weight <= 0.0) return proceduralAngles(tree, wind, weights);
+  std::vector<JointAngles> out = sway->modes().bendsOf(sway->amplitudeAt(stamp));
+  for (JointAngles& bends : out) bends = limited(bends);
+  if (weight >= 1.0) return out;
+  const std::vector<JointAngles> from = proceduralAngles(tree, wind, weights);
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = between(from[i], out[i], weight);
+  return out;
+}
+
+}  // namespace vegetation_sim::forest

@@ -1,0 +1,193 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tree/modal/modal_wind_load.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "core/math/vector_sums.h"
+#include "tree/modal/modal_load.h"
+
+namespace vegetation_sim::forest {
+namespace {
+
+using Range = Sail*;
+
+int longestAxis(Range begin, Range end) {
+  Vec3 low = begin->centre, high = begin->centre;
+  for (Range i = begin; i != end; ++i) {
+    low = low.cwiseMin(i->centre);
+    high = high.cwiseMax(i->centre);
+  }
+  int axis = 0;
+  for (int other = 1; other < 3; ++other)
+    if (high[other] - low[other] > high[axis] - low[axis]) axis = other;
+  return axis;
+}
+
+// Halves of equal drag, again and again.
+void divide(Range begin, Range end, int halvings, std::vector<std::pair<Range, Range>>& out) {
+  if (halvings == 0 || end - begin < 2) {
+    if (begin != end) out.emplace_back(begin, end);
+    return;
+  }
+  const int axis = longestAxis(begin, end);
+  std::stable_sort(
+      begin, end, [axis](const Sail& a, const Sail& b) { return a.centre[axis] < b.centre[axis]; });
+  const auto add = [](double sum, const Sail& sail) { return sum + sail.drag; };
+  const double all = std::accumulate(begin, end, 0.0, add);
+  Range middle = begin + 1;  // neither half is empty
+  for (double sum = begin->drag; middle + 1 != end && sum + 0.5 * middle->drag < 0.5 * all;
+       ++middle)
+    sum += middle->drag;
+  divide(begin, middle, halvings - 1, out);
+  divide(middle, end, halvings - 1, out);
+}
+
+WindPoint pointOf(Range begin, Range end) {
+  WindPoint out;
+  for (Range sail = begin; sail != end; ++sail) {
+    out.drag += sail->drag;
+    out.position += sail->drag * sail->centre;
+  }
+  out.position /= out.drag;
+  return out;
+}
+
+// [3][row] modal loads per velocity of the air on a range.
+void appendPush(const Sail* begin, const Sail* end, const Motions& motions,
+                std::vector<double>& out) {
+  const std::size_t row = modalRow(motions.size());
+  const std::size_t start = out.size();
+  out.resize(start + 3 * row, 0.0);
+  for (std::size_t m = 0; m < motions.size(); ++m) {
+    Vec3 sum = Vec3::Zero();
+    for (const Sail* sail = begin; sail != end; ++sail)
+      sum += sail->drag * wayOf(*sail, motions[m]);
+    for (int axis = 0; axis < 3; ++axis)
+      out[start + static_cast<std::size_t>(axis) * row + m] = sum[axis];
+  }
+}
+
+// What hangs on a joint and beyond: its drag, and that times its arms from the joint.
+struct Held {
+  double drag{0.0};
+  Vec3 moment{Vec3::Zero()};
+};
+
+std::vector<Held> heldOf(const std::vector<physics::Link>& links, const std::vector<Pose>& rest,
+                         const std::vector<Sail>& sails) {
+  std::vector<Held> out(links.size());
+  for (const Sail& sail : sails) out[sail.branch] = {sail.drag, sail.drag * sail.arm};
+  for (std::size_t i = links.size(); i-- > 0;) {
+    if (links[i].parent < 0) continue;
+    const auto p = static_cast<std::size_t>(links[i].parent);
+    out[p].drag += out[i].drag;
+    out[p].moment += out[i].moment + out[i].drag * (rest[i].position - rest[p].position);
+  }
+  return out;
+}
+
+// How the moments change per amplitude of a motion.
+std::vector<Vec3> momentChange(const std::vector<physics::Link>& links,
+                               const std::vector<Held>& held, const std::vector<Sail>& sails,
+                               const std::vector<physics::SmallMotion>& motion) {
+  std::vector<Vec3> out(links.size(), Vec3::Zero());
+  for (const Sail& sail : sails)
+    out[sail.branch] = sail.drag * cross(motion[sail.branch].turn, sail.arm);
+  for (std::size_t i = links.size(); i-- > 0;) {
+    if (links[i].parent < 0) continue;
+    const auto p = static_cast<std::size_t>(links[i].parent);
+    out[p] += out[i] + held[i].drag * (motion[i].move - motion[p].move);
+  }
+  return out;
+}
+
+// Torque about an axis per velocity v of the air is (axis x moment) . v. A bend's axis turns with
+// all that bears the joint and half as far as the joint itself (a rotation vector's).
+void torqueChange(const std::vector<physics::Link>& links, const std::vector<Pose>& rest,
+                  const std::vector<Held>& held, const std::vector<Vec3>& change,
+                  const std::vector<physics::SmallMotion>& motion,
+                  std::array<std::vector<double>, 3>& out) {
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    Vec3 turn = motion[i].turn;
+    if (links[i].parent >= 0)
+      turn = 0.5 * (turn + motion[static_cast<std::size_t>(links[i].parent)].turn);
+    else
+      turn *= 0.5;
+    const Vec3 axes[] = {axisX(rest[i].orientation), axisY(rest[i].orientation)};
+    for (std::size_t bend = 0; bend < 2; ++bend) {
+      const Vec3 sum =
+          cross(cross(turn, axes[bend]), held[i].moment) + cross(axes[bend], change[i]);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        out[axis][2 * i + bend] = sum[static_cast<int>(axis)];
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Sail> sailsOf(const Skeleton& skeleton, const Wood& wood) {
+  std::vector<Sail> out;
+  for (std::size_t i = 0; i < skeleton.branches.size(); ++i) {
+    const Composite& body = wood.own[i];
+    if (body.drag <= 0.0) continue;
+    const Pose& rest = skeleton.branches[i].rest;
+    const Vec3 arm = rotate(rest.orientation, Vec3(body.drag_moment / body.drag));
+    out.push_back({i, body.drag, arm, rest.position + arm});
+  }
+  return out;
+}
+
+Vec3 wayOf(const Sail& sail, const std::vector<physics::SmallMotion>& motion) {
+  const physics::SmallMotion& link = motion[sail.branch];
+  return link.move + cross(link.turn, sail.arm);
+}
+
+std::vector<double> uniformLoad(const physics::LinearChain& chain, const std::vector<Sail>& sails,
+                                const Vec3& direction) {
+  std::vector<physics::Wrench> wrenches(chain.size() / 2);
+  for (const Sail& sail : sails) {
+    const Vec3 force = sail.drag * direction;
+    wrenches[sail.branch] = {force, cross(sail.arm, force)};
+  }
+  return chain.torquesOf(wrenches);
+}
+
+std::vector<double> uniformPush(const std::vector<Sail>& sails, const Motions& motions) {
+  std::vector<double> out;
+  appendPush(sails.data(), sails.data() + sails.size(), motions, out);
+  return out;
+}
+
+WindPoints pointsOf(std::vector<Sail>& sails, const Motions& motions, int halvings) {
+  std::vector<std::pair<Range, Range>> parts;
+  divide(sails.data(), sails.data() + sails.size(), halvings, parts);
+  WindPoints out;
+  for (const auto& [begin, end] : parts) {
+    out.at.push_back(pointOf(begin, end));
+    appendPush(begin, end, motions, out.push);
+  }
+  return out;
+}
+
+std::vector<double> leverChange(const std::vector<physics::Link>& links,
+                                const physics::LinearChain& chain, const physics::Modes& modes,
+                                const std::vector<Sail>& sails, const Motions& motions) {
+  const std::size_t count = modes.size(), row = modalRow(count);
+  const std::vector<Held> held = heldOf(links, chain.rest(), sails);
+  std::array<std::vector<double>, 3> torque;
+  torque.fill(std::vector<double>(modes.length));
+  std::vector<double> out(3 * row * count, 0.0);
+  for (std::size_t n = 0; n < count; ++n) {
+    torqueChange(links, chain.rest(), held, momentChange(links, held, sails, motions[n]),
+                 motions[n], torque);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      for (std::size_t m = 0; m <= n; ++m)
+        out[(3 * n + axis) * row + m] = out[(3 * m + axis) * row + n] =
+            physics::dotOf(modes.shapeOf(m), torque[axis].data(), modes.length);
+  }
+  return out;
+}
+
+}  // namespace vegetation_sim::forest

@@ -1,0 +1,43 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "tree/growth/wood.h"
+#include "vegetation_sim/tree/modal/modal_tree.h"
+
+namespace vegetation_sim::forest {
+
+/// What the air holds on to: drag and its centre, per branch with leaves or wood.
+struct Sail {
+  std::size_t branch;
+  double drag;  // [kg/s]
+  Vec3 arm;     // from the joint, tree's axes
+  Vec3 centre;  // tree's frame
+};
+
+std::vector<Sail> sailsOf(const Skeleton& skeleton, const Wood& wood);
+
+using Motions = std::vector<std::vector<physics::SmallMotion>>;  // [modes][links]
+
+/// How far the centre of a sail goes per amplitude.
+Vec3 wayOf(const Sail& sail, const std::vector<physics::SmallMotion>& motion);
+
+/// Joint torques of a uniform wind of 1 m/s.
+std::vector<double> uniformLoad(const physics::LinearChain& chain, const std::vector<Sail>& sails,
+                                const Vec3& direction);
+
+/// [3][row] modal loads per velocity of the same air on all sails [kg/s].
+std::vector<double> uniformPush(const std::vector<Sail>& sails, const Motions& motions);
+
+/// The crown in halves of equal drag, again and again; puts the sails in their order.
+WindPoints pointsOf(std::vector<Sail>& sails, const Motions& motions, int halvings);
+
+/// How uniformPush() changes as the tree bends, to the first order: [modes][3][row] per amplitude
+/// of each mode [kg/s]. Levers turn with the branches that bear them; the change is symmetric.
+std::vector<double> leverChange(const std::vector<physics::Link>& links,
+                                const physics::LinearChain& chain, const physics::Modes& modes,
+                                const std::vector<Sail>& sails, const Motions& motions);
+
+}  // namespace vegetation_sim::forest

@@ -1,0 +1,61 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/tree/motion/pose.h"
+
+namespace vegetation_sim::forest {
+
+Tree growTree(const TreeSeed& seed, const Species& species, const MotionLaw& law) {
+  Tree out;
+  out.seed = seed;
+  out.skeleton = grow(seed, species);
+  out.response = windResponse(out.skeleton, species, law);
+  out.joint_model = static_cast<JointModel>(law.joint_model);
+  return out;
+}
+
+Tree growTree(const Layout& layout, std::uint32_t id, const terrain::HeightMap& terrain) {
+  const TreeSeed seed = seedOf(layout, id);
+  const Species& species = layout.species.at(seed.species);
+  Tree out = growTree(seed, species, layout.motion);
+  out.drag = static_cast<Drag>(layout.motion.drag);
+  out.reference_speed = species.reference_speed;
+  out.foot = footOf(out.seed, terrain);
+  return out;
+}
+
+std::vector<JointAngles> proceduralAngles(const Tree& tree, const wind::Instant& wind,
+                                          const Weights& weights) {
+  std::vector<JointAngles> out(tree.skeleton.branches.size());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const Branch& branch = tree.skeleton.branches[i];
+    const double weight = weights[static_cast<std::size_t>(branch.depth)];
+    if (weight <= 0.0) continue;
+    const Vec3 velocity =
+        effectiveVelocity(wind.velocity(branch.rest.position), tree.drag, tree.reference_speed);
+    out[i] = deviation(tree.response[i], velocity, weight, tree.joint_model);
+  }
+  return out;
+}
+
+std::vector<Pose> forwardKinematics(const Tree& tree, const std::vector<JointAngles>& angles) {
+  std::vector<Pose> out(angles.size());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const Branch& branch = tree.skeleton.branches[i];
+    const Quat local = jointRotation(branch, angles[i], tree.joint_model);
+    if (branch.parent < 0) {
+      out[i].orientation = local;
+      continue;
+    }
+    const Pose& parent = out[static_cast<std::size_t>(branch.parent)];
+    out[i].orientation = parent.orientation * local;
+    out[i].position = parent.position + branch.h * axisZ(parent.orientation);
+  }
+  return out;
+}
+
+std::vector<Pose> poseBranches(const Tree& tree, const wind::Instant& wind,
+                               const Weights& weights) {
+  return forwardKinematics(tree, proceduralAngles(tree, wind, weights));
+}
+
+}  // namespace vegetation_sim::forest

@@ -1,0 +1,34 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tree/physical/interaction.h"
+
+#include "vegetation_sim/core/config/fields.h"
+
+namespace vegetation_sim::forest {
+namespace {
+
+constexpr Range ANYWHERE{-1e7, 1e7};  // [m]
+constexpr Range FORCE{-1e5, 1e5};     // [N]
+constexpr std::size_t LONGEST_NAME = 256;
+
+}  // namespace
+
+void check(const Grab& grab, Faults& faults) {
+  FieldChecker checker("grab: ", faults);
+  Grab copy = grab;
+  checker.vector("target", copy.target, "m", ANYWHERE);
+  checker.number("stiffness", copy.stiffness, "N/m", {1.0, 1e6});
+  checker.number("damping", copy.damping, "N s/m", {0.0, 1e5});
+  checker.number("force_limit", copy.force_limit, "N", {0.001, 1e5});
+  checker.number("lease", copy.lease, "s", {0.0, 3600.0});
+  if (grab.frame.size() > LONGEST_NAME)
+    faults.add("grab: frame is longer than " + std::to_string(LONGEST_NAME) + " characters");
+}
+
+void check(const Push& push, Faults& faults) {
+  FieldChecker checker("push: ", faults);
+  Vec3 force = push.force;
+  checker.vector("force", force, "N", FORCE);
+}
+
+}  // namespace vegetation_sim::forest

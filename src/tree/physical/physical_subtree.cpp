@@ -1,0 +1,155 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tree/physical/physical_subtree.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dynamics/chain/inertia_bound.h"
+#include "vegetation_sim/core/math/math.h"
+
+namespace vegetation_sim::forest {
+namespace {
+
+std::size_t index(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+JointAngles anglesOf(const physics::Vec2& a) {
+  return {a.x(), a.y()};
+}
+
+}  // namespace
+
+PhysicalPart::PhysicalPart(std::shared_ptr<const Tree> tree, const Species& species,
+                           Material material)
+    : tree_(std::move(tree)),
+      species_(species),
+      wood_(woodOf(tree_->skeleton, species, material)),
+      mask_(tree_->skeleton.branches.size(), 0) {}
+
+int PhysicalPart::linkOf(int branch) const {
+  const auto found = std::lower_bound(branches_.begin(), branches_.end(), branch);
+  if (found == branches_.end() || *found != branch) return -1;
+  return static_cast<int>(found - branches_.begin());
+}
+
+bool PhysicalPart::holds(int branch) const {
+  const int link = linkOf(branch);
+  return link >= 0 && joints_[index(link)].blend == NEVER;
+}
+
+std::size_t PhysicalPart::blending() const {
+  return static_cast<std::size_t>(std::count_if(
+      joints_.begin(), joints_.end(), [](const PartJoint& j) { return j.blend != NEVER; }));
+}
+
+PromotedTree PhysicalPart::promoted(Nanoseconds stamp, double duration) const {
+  PromotedTree out{stamp, duration, {}};
+  out.branches.reserve(joints_.size());
+  for (std::size_t i = 0; i < joints_.size(); ++i)
+    out.branches.push_back(
+        {joints_[i].branch, anglesOf(state_.q[i]), anglesOf(state_.rate[i]), joints_[i].blend});
+  return out;
+}
+
+void PhysicalPart::setMaterial(Material material) {
+  wood_ = woodOf(tree_->skeleton, species_, material);
+  std::vector<Joined> all;
+  for (std::size_t i = 0; i < joints_.size(); ++i)
+    all.push_back({joints_[i], state_.q[i], state_.rate[i]});
+  rebuild(all);
+}
+
+// Lays everything out anew for these joints, by rising branch. Nothing is kept for others.
+void PhysicalPart::rebuild(const std::vector<Joined>& joints) {
+  const std::size_t n = joints.size();
+  mask_.assign(mask_.size(), 0);
+  joints_.clear();
+  branches_.clear();
+  chain_.held.reset();
+  state_ = physics::ChainState();
+  joints_.reserve(n);
+  branches_.reserve(n);
+  state_.q.reserve(n);
+  state_.rate.reserve(n);
+  for (const Joined& joined : joints) {
+    mask_[index(joined.joint.branch)] = 1;
+    joints_.push_back(joined.joint);
+    branches_.push_back(joined.joint.branch);
+    state_.q.push_back(joined.q);
+    state_.rate.push_back(joined.rate);
+  }
+  findCarriers();
+  std::vector<Composite> clusters;
+  const bool whole = n == mask_.size();
+  if (!whole) clusterWood(tree_->skeleton, wood_.own, mask_, clusters);
+  links_.clear();
+  drags_.clear();
+  links_.reserve(n);
+  drags_.reserve(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Composite& body = (whole ? wood_.own : clusters)[index(branches_[i])];
+    links_.push_back(linkFor(i, body));
+    const Vec3 centre = body.drag > 0.0 ? Vec3(body.drag_moment / body.drag) : Vec3(Vec3::Zero());
+    drags_.push_back({body.drag, centre});
+  }
+  physics::shareInertia(links_);
+}
+
+void PhysicalPart::findCarriers() {
+  carriers_.clear();
+  const auto& branches = tree_->skeleton.branches;
+  for (const int branch : branches_) {
+    int parent = branches[index(branch)].parent;
+    if (parent >= 0 && mask_[index(parent)]) continue;
+    for (; parent >= 0; parent = branches[index(parent)].parent) carriers_.push_back(parent);
+  }
+  std::sort(carriers_.begin(), carriers_.end());
+  carriers_.erase(std::unique(carriers_.begin(), carriers_.end()), carriers_.end());
+}
+
+physics::Link PhysicalPart::linkFor(std::size_t link, const Composite& body) const {
+  const std::size_t i = index(branches_[link]);
+  const Branch& b = tree_->skeleton.branches[i];
+  physics::Link out;
+  out.parent = b.parent < 0 ? -1 : linkOf(b.parent);
+  if (out.parent < 0 && b.parent >= 0)
+    out.base = 1 + static_cast<int>(std::lower_bound(carriers_.begin(), carriers_.end(), b.parent) -
+                                    carriers_.begin());
+  out.h = b.h;
+  out.rest = b.turn;
+  out.length = b.length;
+  out.mass = body.mass;
+  out.centre = body.moment / body.mass;
+  out.inertia = {body.inertia[0], body.inertia[1], body.inertia[2],
+                 body.inertia[3], body.inertia[4], body.inertia[5]};
+  out.stiffness = wood_.stiffness[i];
+  out.damping = wood_.damping[i];
+  return out;
+}
+
+std::size_t PhysicalPart::bytes() const {
+  const std::size_t n = mask_.capacity();
+  return sizeof(*this) + n + (chain_.held ? chain_.held->bytes() : 0) +
+         joints_.capacity() * (sizeof(PartJoint) + sizeof(int) + 2 * sizeof(physics::Vec2)) +
+         links_.capacity() * (sizeof(physics::Link) + sizeof(LinkDrag)) +
+         carriers_.capacity() * sizeof(int) +
+         wood_.own.capacity() * (2 * sizeof(Composite) + 3 * sizeof(double)) +
+         tree_->skeleton.branches.capacity() * (sizeof(Branch) + sizeof(Response));
+}
+
+void PhysicalPart::addTo(Hash& hash) const {
+  hash.add(theta_);
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    const PartJoint& joint = joints_[i];
+    hash.add(static_cast<std::uint64_t>(joint.branch));
+    for (const Nanoseconds stamp : {joint.promoted, joint.needed, joint.blend})
+      hash.add(static_cast<std::uint64_t>(stamp));
+    hash.add(joint.compensation);
+    hash.add(static_cast<std::uint64_t>(joint.wanted));
+    for (const physics::Vec2& v : {state_.q[i], state_.rate[i]}) hash.add(v.x()), hash.add(v.y());
+  }
+}
+
+}  // namespace vegetation_sim::forest

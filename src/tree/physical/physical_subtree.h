@@ -1,0 +1,189 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "dynamics/simd/batch_chain.h"
+#include "tree/physical/influence.h"
+#include "tree/physical/interaction.h"
+#include "tree/physical/procedural_motion.h"
+#include "tree/physical/substep_bisection.h"
+#include "vegetation_sim/tree/state/promoted_branches.h"
+
+namespace vegetation_sim::forest {
+
+/// A branch that is physical.
+struct PartJoint {
+  int branch{0};
+  Nanoseconds promoted{0};   ///< when it became physical
+  Nanoseconds needed{0};     ///< when a load last needed it to be
+  Nanoseconds blend{NEVER};  ///< start of its blend back
+  double compensation{1.0};  ///< share of the procedural load at `promoted`; it fades from there
+  bool wanted{true};         ///< a load needs it now
+};
+
+/// A spring that holds a point of a branch; its target moves at a constant velocity.
+struct PartSpring {
+  BranchPoint point;
+  Vec3 target{Vec3::Zero()};    ///< at `stamp`, tree's frame [m]
+  Vec3 velocity{Vec3::Zero()};  ///< [m/s]
+  Nanoseconds stamp{0};
+  double stiffness{0.0}, damping{0.0}, force_limit{0.0};
+};
+
+/// What acts on a part in a step besides the wind.
+struct PartLoads {
+  std::vector<PartSpring> springs;
+  std::vector<BranchLoad> forces;
+  /// Single precision: the stamp whose air this step asks for, and those after it that say `hold`.
+  /// NEVER: each step asks for its own.
+  Nanoseconds air{NEVER};
+  bool hold{false};  ///< the air that the step before asked for is good enough
+};
+
+/// Built from what stands beside it: a copy starts without.
+template <typename T>
+struct Rebuilt {
+  std::unique_ptr<T> held;
+
+  Rebuilt() = default;
+  Rebuilt(const Rebuilt&) {}
+  Rebuilt(Rebuilt&&) noexcept = default;
+  ~Rebuilt() = default;
+  Rebuilt& operator=(const Rebuilt&) {
+    held.reset();
+    return *this;
+  }
+  Rebuilt& operator=(Rebuilt&&) noexcept = default;
+};
+
+/// The physical part of one tree: any of its branches, without gaps from each to the next that
+/// bears it, so that the lowest ones hang on procedural wood or the ground. Physical branches carry
+/// their unpromoted sub-trees rigidly (S1-W9); those move procedurally on top (S1-35).
+///
+/// Promotion matches angles and rates (S1-36). The load is the real one plus, fading, what is
+/// missing to keep the procedural motion going (E1). Demotion blends angles (S1-37) and may turn
+/// round at any time (S1-38). A branch only blends when all that is physical on it does too, so
+/// what is held is always where physics has it. docs/forest.md derives all of it.
+///
+/// A value; copies share the grown tree, which never changes.
+class PhysicalPart {
+ public:
+  PhysicalPart(std::shared_ptr<const Tree> tree, const Species& species, Material material);
+
+  const Tree& tree() const { return *tree_; }
+  const Wood& wood() const { return wood_; }
+  bool empty() const { return joints_.empty(); }
+  const std::vector<char>& mask() const { return mask_; }  ///< [branches of the tree] physical
+  const std::vector<PartJoint>& joints() const { return joints_; }    ///< [links]
+  const std::vector<int>& branches() const { return branches_; }      ///< [links] rising
+  const std::vector<physics::Link>& links() const { return links_; }  ///< [links]
+  const physics::ChainState& state() const { return state_; }         ///< [links]
+  int linkOf(int branch) const;                                       ///< -1: not physical
+  bool holds(int branch) const;  ///< physical and not on its way back
+  std::size_t blending() const;
+  std::size_t bytes() const;
+  void addTo(Hash& hash) const;
+  PromotedTree promoted(Nanoseconds stamp, double duration) const;
+
+  /// Makes `branches` (rising) physical as well and takes back those that blend but are needed:
+  /// whose score [branches of the tree] is above `keep`. Returns how many were refused, because a
+  /// bearer was missing.
+  std::size_t promote(const std::vector<int>& branches, const std::vector<double>& score,
+                      double keep, const Course& course, const PhysicsSettings& settings);
+  /// Nothing is needed any more.
+  void letGo();
+  /// Starts blends of branches that are not needed and calm, or have waited long enough; ends those
+  /// that are over.
+  void demote(const Course& course, const PhysicsSettings& settings, PartScratch& scratch);
+  /// Another duration of blends: those that run go on from where they are.
+  void stretchBlends(Nanoseconds stamp, double from, double to);
+  void setMaterial(Material material);
+
+  /// One step.
+  void step(const Air& air, const PartLoads& loads, const PhysicsSettings& settings,
+            Nanoseconds from, Nanoseconds to, PartScratch& scratch);
+  /// One step of a part that touches bodies; gives the forces of `contacts`. An explicit method
+  /// cannot hold a contact, so this is always a linearly implicit one.
+  void stepTouching(const Air& air, const PartLoads& loads, const PhysicsSettings& settings,
+                    Nanoseconds from, Nanoseconds to, PartScratch& scratch,
+                    std::vector<physics::Contact>& contacts);
+  /// All that `stepTouching` changes, to go back to.
+  struct Moment {
+    physics::ChainState state;
+    double theta{0.5};
+  };
+  Moment moment() const { return {state_, theta_}; }
+  void goBack(const Moment& moment) { state_ = moment.state, theta_ = moment.theta; }
+  /// Where the links are and how they move, tree's frame.
+  void kinematicsAt(const Air& air, Nanoseconds stamp, PartScratch& scratch,
+                    physics::Kinematics& out) const;
+  /// Where the points are that springs hold, tree's frame; anywhere for branches that are not
+  /// physical.
+  void placesAt(const std::vector<PartSpring>& springs, const Air& air, Nanoseconds stamp,
+                PartScratch& scratch, std::vector<Vec3>& out) const;
+
+ private:
+  struct Joined {
+    PartJoint joint;
+    physics::Vec2 q, rate;
+  };
+  struct LinkDrag {
+    double force;  // per air speed [kg/s]
+    Vec3 centre;   // own axes [m]
+  };
+  struct Step;
+  void stepBatched(const Step& context, double h);
+  void grip();
+  bool compensates(Nanoseconds stamp, double fade) const;
+  void stopJoints();
+  void rebuild(const std::vector<Joined>& joints);
+  void findCarriers();
+  physics::Link linkFor(std::size_t link, const Composite& body) const;
+  bool wouldGap(const std::vector<char>& mask, int branch) const;
+  void takeBack(int link, const Course& course, double duration);
+  bool mayGo(std::size_t link, Nanoseconds stamp, const Courses& courses,
+             const PhysicsSettings& settings) const;
+  double compensationAt(std::size_t link, Nanoseconds stamp, double fade) const;
+  void baseMotions(const Course& course, PartScratch& scratch,
+                   std::vector<physics::BaseMotion>& out) const;
+  void addWind(const Course& course, const physics::Kinematics& kinematics,
+               const PhysicsSettings& settings, PartScratch& scratch, physics::Loads& loads) const;
+  physics::Drag dragAt(double force, const Vec3& wind, const Vec3& arm) const;
+  void addCompensation(const Course& course, const PhysicsSettings& settings, PartScratch& scratch,
+                       physics::Loads& loads) const;
+  void addSprings(const PartLoads& loads, Nanoseconds stamp, const physics::Kinematics& kinematics,
+                  physics::Loads& out) const;
+  void addForces(const PartLoads& loads, const physics::Kinematics& kinematics,
+                 physics::Loads& out) const;
+  Pose poseOf(int link, const std::vector<physics::BaseMotion>& bases) const;
+
+  std::shared_ptr<const Tree> tree_;
+  Species species_;
+  Wood wood_;
+  std::vector<char> mask_;
+  std::vector<PartJoint> joints_;
+  std::vector<int> branches_;
+  std::vector<physics::Link> links_;
+  std::vector<LinkDrag> drags_;
+  std::vector<int> carriers_;  // unpromoted bearers of promoted branches, rising
+  physics::ChainState state_;
+  double theta_{0.5};
+  Rebuilt<physics::BatchChain> chain_;  // of links_
+};
+
+/// No physical joint bends farther [rad] or faster [rad/s].
+constexpr double LARGEST_BEND = 3.0, FASTEST_BEND = 1e4;
+
+/// Force of a spring on its branch where the point is at `point` and moves with `velocity`; how
+/// much its law is scaled down to stay within its limit: 1 below it.
+struct SpringForce {
+  Vec3 force{Vec3::Zero()};
+  double scale{1.0};
+};
+SpringForce forceOf(const PartSpring& spring, Nanoseconds stamp, const Vec3& point,
+                    const Vec3& velocity);
+
+}  // namespace vegetation_sim::forest

@@ -1,0 +1,58 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "dynamics/contact/contact.h"
+#include "dynamics/integration/integrator.h"
+#include "tree/physical/procedural_motion.h"
+
+namespace vegetation_sim::forest {
+
+/// The air around a tree, as its level tells it, and its modes where it sways in them.
+struct Air {
+  const wind::Field& field;
+  LevelState level;
+  const MotionLaw& law;
+  const Sway* sway{nullptr};
+};
+
+/// Memory that stepping needs and nothing else: what is in it between steps does not matter. One
+/// serves all the trees of a forest, so that a step allocates nothing.
+struct PartScratch {
+  WindWindow window;
+  ModalLooks modal;
+  AirSampler air;
+  std::vector<Vec3> arms;  // from joints to where the air grips
+  Courses courses;         // of links
+  Courses carrier_courses;
+  physics::ChainStepper stepper;
+  physics::ArticulatedBody body;
+  std::vector<Pose> carrier_poses;
+  std::vector<CarrierMotion> carriers;
+  std::vector<physics::BaseMotion> bases;
+  physics::ChainState procedural;
+  std::vector<physics::Vec2> acceleration, torque;
+  physics::Kinematics kinematics;
+  physics::Loads loads;
+  physics::ContactStepper contact_stepper;
+  physics::Kinematics start;  // of a step with contacts
+  std::vector<Vec3> places;   // of points that springs hold
+
+  std::size_t replaced{0};  ///< steps of a tree that another integrator had to take
+
+  /// Looks at a stamp, unless that is where it looks already.
+  const WindWindow& lookAt(const wind::Field& field, Nanoseconds stamp) {
+    if (window.stamp() != stamp) window.lookAt(field, stamp);
+    return window;
+  }
+  /// The motion of a tree around a stamp, where it is not physical.
+  Course courseOf(const Tree& tree, const Air& around, Nanoseconds stamp) {
+    if (around.sway) modal.lookAt(*around.sway, stamp);
+    return {tree, lookAt(around.field, stamp), around.level, around.law,
+            around.sway ? &modal : nullptr};
+  }
+};
+
+}  // namespace vegetation_sim::forest

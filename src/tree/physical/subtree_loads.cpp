@@ -1,0 +1,255 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+// What acts on the physical part of a tree, and its step.
+#include <algorithm>
+#include <cmath>
+
+#include "dynamics/chain/bend.h"
+#include "tree/physical/physical_subtree.h"
+#include "vegetation_sim/core/math/math.h"
+#include "wind/sampling/batch_wind_blocks.h"
+
+namespace vegetation_sim::forest {
+namespace {
+
+// No tree reaches farther from its foot [m].
+constexpr double LARGEST_REACH = 1e3;
+
+// Where no joint turns farther in a step, velocity products are foretold as well as averaged [rad].
+constexpr double FORETOLD_TURN = 0.01;
+
+physics::Symmetric3 uniform(double value) {
+  return {value, value, value, 0.0, 0.0, 0.0};
+}
+
+std::size_t index(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+void addForce(const Vec3& force, const Vec3& arm, physics::Wrench& wrench) {
+  wrench.force += force;
+  wrench.torque += cross(arm, force);
+}
+
+}  // namespace
+
+/// What the stepper asks for during one step.
+struct PhysicalPart::Step {
+  const PhysicalPart& part;
+  const Air& air;
+  const PartLoads& loads;
+  const PhysicsSettings& settings;
+  PartScratch& scratch;
+  Nanoseconds from;
+  mutable Nanoseconds based{NEVER};  // stamp of scratch.bases
+
+  Course courseAt(double time) const {
+    return scratch.courseOf(part.tree(), air, from + fromSeconds(time));
+  }
+  void lookAtBases(const Course& course) const {
+    if (based == course.wind.stamp()) return;
+    part.baseMotions(course, scratch, scratch.bases);
+    based = course.wind.stamp();
+  }
+  void bases(double time, std::vector<physics::BaseMotion>& out) const {
+    lookAtBases(courseAt(time));
+    out = scratch.bases;
+  }
+  void load(const physics::Kinematics& kinematics, double time, physics::Loads& out) const {
+    const Course course = courseAt(time);
+    out.clear(part.links_.size());
+    part.addWind(course, kinematics, settings, scratch, out);
+    addOthers(course, kinematics, out);
+  }
+  // Air for a chain's rows.
+  void blow(double h, const float* places, float* rows, std::size_t blocks) const {
+    const Nanoseconds middle = from + fromSeconds(part.theta_ * h);
+    const bool own = loads.air == NEVER || part.compensates(from, settings.fade);
+    const Course course = scratch.courseOf(part.tree(), air, own ? middle : loads.air);
+    fillAir(FloatWind(course.wind.now().relativeTo(part.tree().foot), LARGEST_REACH), places, rows,
+            blocks);
+  }
+  // All that acts besides the wind.
+  void addOthers(const Course& course, const physics::Kinematics& kinematics,
+                 physics::Loads& out) const {
+    lookAtBases(course);
+    part.addCompensation(course, settings, scratch, out);
+    part.addSprings(loads, course.wind.stamp(), kinematics, out);
+    part.addForces(loads, kinematics, out);
+  }
+  physics::Surroundings outside() const {
+    physics::Surroundings out;
+    out.bases = [this](double time, std::vector<physics::BaseMotion>& to) { bases(time, to); };
+    out.loads = [this](const physics::Kinematics& kinematics, double time, physics::Loads& to) {
+      load(kinematics, time, to);
+    };
+    return out;
+  }
+  // For a chain that has the wind in its own rows.
+  physics::Surroundings outsideWind() const {
+    physics::Surroundings out;
+    out.bases = [this](double time, std::vector<physics::BaseMotion>& to) { bases(time, to); };
+    if (loads.springs.empty() && loads.forces.empty() && !part.compensates(from, settings.fade))
+      return out;
+    out.loads = [this](const physics::Kinematics& kinematics, double time, physics::Loads& to) {
+      addOthers(courseAt(time), kinematics, to);
+    };
+    return out;
+  }
+};
+
+void PhysicalPart::step(const Air& air, const PartLoads& loads, const PhysicsSettings& settings,
+                        Nanoseconds from, Nanoseconds to, PartScratch& scratch) {
+  const Step context{*this, air, loads, settings, scratch, from};
+  const double h = secondsBetween(from, to);
+  const auto dynamics = static_cast<physics::Dynamics>(settings.dynamics);
+  const auto wanted = static_cast<physics::Integrator>(settings.integrator);
+  if (static_cast<Precision>(settings.precision) == Precision::SINGLE &&
+      dynamics == physics::Dynamics::ARTICULATED && wanted == physics::Integrator::MIDPOINT)
+    return stepBatched(context, h);
+  const physics::Surroundings outside = context.outside();
+  scratch.stepper.setDynamics(dynamics);
+  if (scratch.stepper.step(wanted, links_, outside, 0.0, h, state_, theta_) == 0) {
+    ++scratch.replaced;  // beyond the bound of an explicit method
+    scratch.stepper.step(physics::Integrator::MIDPOINT, links_, outside, 0.0, h, state_, theta_);
+  }
+  stopJoints();
+}
+
+// The state lives here in double precision; what the chain keeps is gone with the step.
+void PhysicalPart::stepBatched(const Step& context, double h) {
+  if (!chain_.held) grip();
+  physics::BatchChain& chain = *chain_.held;
+  chain.setState(0, state_, theta_);
+  // What fades out is told against the air of each step.
+  if (!context.loads.hold || compensates(context.from, context.settings.fade))
+    chain.askAir([&](const float* places, float* rows, std::size_t blocks) {
+      context.blow(h, places, rows, blocks);
+    });
+  const bool foretells = context.loads.hold && h * chain.fastest(0) <= FORETOLD_TURN;
+  chain.step(context.outsideWind(), 0.0, h, foretells ? 1 : 0);
+  state_ = chain.state(0);
+  theta_ = chain.theta(0);
+  stopJoints();
+}
+
+void PhysicalPart::grip() {
+  chain_.held = std::make_unique<physics::BatchChain>(links_);
+  const bool linear = tree_->drag == Drag::LINEAR;
+  std::vector<physics::Grip> grips;
+  for (const LinkDrag& drag : drags_)
+    grips.push_back({drag.centre, linear ? drag.force : 0.0,
+                     linear ? 0.0 : drag.force / tree_->reference_speed});
+  chain_.held->setGrips(0, grips);
+}
+
+// Whatever happens, angles stay where the chain and the messages hold: the printed dynamics flutter
+// without bound (E2), and a hand may wring a twig off.
+void PhysicalPart::stopJoints() {
+  constexpr double MOST = 1.0 + 1e-6;  // chains stop there themselves, as they round
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    physics::Vec2 &q = state_.q[i], &rate = state_.rate[i];
+    const double bend = std::sqrt(q.x() * q.x() + q.y() * q.y());
+    const double speed = std::sqrt(rate.x() * rate.x() + rate.y() * rate.y());
+    if (bend <= MOST * LARGEST_BEND && speed <= FASTEST_BEND) continue;  // false for NaN
+    const bool finite = std::isfinite(bend) && std::isfinite(speed);
+    if (!finite || bend > LARGEST_BEND) rate = {0.0, 0.0};
+    if (!finite) q = {0.0, 0.0};
+    if (finite && bend > LARGEST_BEND) q *= LARGEST_BEND / bend;
+    if (finite && bend <= LARGEST_BEND) rate *= FASTEST_BEND / speed;
+  }
+}
+
+void PhysicalPart::stepTouching(const Air& air, const PartLoads& loads,
+                                const PhysicsSettings& settings, Nanoseconds from, Nanoseconds to,
+                                PartScratch& scratch, std::vector<physics::Contact>& contacts) {
+  const Step context{*this, air, loads, settings, scratch, from};
+  const double h = secondsBetween(from, to);
+  theta_ = physics::guardedTheta(state_, h, theta_);
+  const bool euler = settings.integrator == static_cast<int>(physics::Integrator::IMPLICIT_EULER);
+  scratch.contact_stepper.step(links_, context.outside(), settings.contact, 0.0, h,
+                               euler ? 1.0 : theta_, state_, contacts);
+  stopJoints();
+}
+
+void PhysicalPart::kinematicsAt(const Air& air, Nanoseconds stamp, PartScratch& scratch,
+                                physics::Kinematics& out) const {
+  const Course course = scratch.courseOf(*tree_, air, stamp);
+  baseMotions(course, scratch, scratch.bases);
+  physics::kinematicsOf(links_, scratch.bases, state_, out);
+}
+
+void PhysicalPart::placesAt(const std::vector<PartSpring>& springs, const Air& air,
+                            Nanoseconds stamp, PartScratch& scratch, std::vector<Vec3>& out) const {
+  baseMotions(scratch.courseOf(*tree_, air, stamp), scratch, scratch.bases);
+  out.resize(springs.size());
+  for (std::size_t i = 0; i < springs.size(); ++i) {
+    const int link = linkOf(springs[i].point.branch);
+    if (link < 0) continue;
+    const Pose pose = poseOf(link, scratch.bases);
+    out[i] = pose.position + springs[i].point.along * axisZ(pose.orientation);
+  }
+}
+
+// As physics::kinematicsOf, of what bears the link alone.
+Pose PhysicalPart::poseOf(int link, const std::vector<physics::BaseMotion>& bases) const {
+  const physics::Link& own = links_[index(link)];
+  const Pose from = own.parent < 0 ? bases[index(own.base)].pose : poseOf(own.parent, bases);
+  const physics::Vec2& q = state_.q[index(link)];
+  return {from.position + own.h * axisZ(from.orientation),
+          from.orientation * (own.rest * physics::rotationOf(physics::bendOf(q), q))};
+}
+
+// Base 0 is the ground; the carriers follow.
+void PhysicalPart::baseMotions(const Course& course, PartScratch& scratch,
+                               std::vector<physics::BaseMotion>& out) const {
+  out.resize(1 + carriers_.size());
+  out[0] = physics::BaseMotion();
+  if (carriers_.empty()) return;
+  scratch.carrier_courses.look(course, carriers_);
+  moveCarriers(*tree_, carriers_, scratch.carrier_courses, scratch.carrier_poses, scratch.carriers);
+  for (std::size_t i = 0; i < carriers_.size(); ++i) {
+    const CarrierMotion& motion = scratch.carriers[i];
+    out[i + 1] = {motion.pose, motion.spin, motion.velocity, motion.spin_rate, motion.acceleration};
+  }
+}
+
+SpringForce forceOf(const PartSpring& spring, Nanoseconds stamp, const Vec3& point,
+                    const Vec3& velocity) {
+  const Vec3 target = spring.target + secondsBetween(spring.stamp, stamp) * spring.velocity;
+  SpringForce out;
+  out.force = spring.stiffness * (target - point) + spring.damping * (spring.velocity - velocity);
+  const double size = length(out.force);
+  if (size > spring.force_limit) out.scale = spring.force_limit / size;
+  out.force *= out.scale;
+  return out;
+}
+
+// At its limit a spring acts as a softer one that has the same force here: an implicit step cannot
+// overshoot, however light the branch.
+void PhysicalPart::addSprings(const PartLoads& loads, Nanoseconds stamp,
+                              const physics::Kinematics& kinematics, physics::Loads& out) const {
+  for (const PartSpring& spring : loads.springs) {
+    const int link = linkOf(spring.point.branch);
+    if (link < 0) continue;
+    const Pose& pose = kinematics.pose[index(link)];
+    const Vec3 arm = spring.point.along * axisZ(pose.orientation);
+    const Vec3 velocity =
+        kinematics.velocity[index(link)] + cross(kinematics.spin[index(link)], arm);
+    const SpringForce f = forceOf(spring, stamp, pose.position + arm, velocity);
+    out.anchors.push_back({link, arm, f.force, uniform(f.scale * spring.stiffness),
+                           uniform(f.scale * spring.damping)});
+  }
+}
+
+void PhysicalPart::addForces(const PartLoads& loads, const physics::Kinematics& kinematics,
+                             physics::Loads& out) const {
+  for (const BranchLoad& load : loads.forces) {
+    const int link = linkOf(load.branch);
+    if (link < 0) continue;
+    const Vec3 arm = load.along * axisZ(kinematics.pose[index(link)].orientation);
+    addForce(load.force, arm, out.wrench[index(link)]);
+  }
+}
+
+}  // namespace vegetation_sim::forest

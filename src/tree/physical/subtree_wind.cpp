@@ -1,0 +1,109 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+// Wind on the physical part of a tree, and what makes up for it while a hand-over fades.
+#include <algorithm>
+#include <cmath>
+
+#include "tree/physical/physical_subtree.h"
+#include "vegetation_sim/core/math/math.h"
+
+namespace vegetation_sim::forest {
+namespace {
+
+// Where steps do not foresee it, drag takes at most half of a link's speed in a step, however light
+// the link is.
+constexpr double STRONGEST_DRAG = 0.5 * PHYSICS_RATE;  // [1/s]
+
+// Contacts step implicitly whatever is chosen, and so do explicit methods beyond their bounds.
+bool foreseesDrag(const PhysicsSettings& settings) {
+  return static_cast<physics::Dynamics>(settings.dynamics) == physics::Dynamics::ARTICULATED &&
+         physics::isImplicit(static_cast<physics::Integrator>(settings.integrator));
+}
+
+}  // namespace
+
+// Drag of each link with the wood that it carries, where it is and as it moves.
+void PhysicalPart::addWind(const Course& course, const physics::Kinematics& kinematics,
+                           const PhysicsSettings& settings, PartScratch& scratch,
+                           physics::Loads& loads) const {
+  const std::size_t n = links_.size();
+  scratch.air.clear();
+  scratch.arms.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Pose& pose = kinematics.pose[i];
+    scratch.arms[i] = rotate(pose.orientation, drags_[i].centre);
+    scratch.air.add(tree_->foot + pose.position + scratch.arms[i]);
+  }
+  scratch.air.sample(course.wind.now());
+  const bool foreseen = foreseesDrag(settings);
+  if (foreseen) loads.drag.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const LinkDrag& drag = drags_[i];
+    if (drag.force <= 0.0) continue;
+    const Vec3& arm = scratch.arms[i];
+    const Vec3 own = kinematics.velocity[i] + cross(kinematics.spin[i], arm);
+    const double share =
+        foreseen ? 1.0 : std::min(1.0, STRONGEST_DRAG * links_[i].mass / drag.force);
+    const Vec3 wind = scratch.air.velocity(i) - share * own;
+    const Vec3 force = drag.force * effectiveVelocity(wind, tree_->drag, tree_->reference_speed);
+    loads.wrench[i].force += force;
+    loads.wrench[i].torque += cross(arm, force);
+    if (foreseen) loads.drag[i] = dragAt(drag.force, wind, arm);
+  }
+}
+
+// The derivative of its force.
+physics::Drag PhysicalPart::dragAt(double force, const Vec3& wind, const Vec3& arm) const {
+  if (tree_->drag == Drag::LINEAR) return {arm, force, Vec3::Zero()};
+  const double speed = length(wind), slope = force / tree_->reference_speed;
+  if (speed == 0.0) return {arm, 0.0, Vec3::Zero()};
+  return {arm, slope * speed, std::sqrt(slope / speed) * wind};
+}
+
+double PhysicalPart::compensationAt(std::size_t link, Nanoseconds stamp, double fade) const {
+  const PartJoint& joint = joints_[link];
+  if (fade <= 0.0) return 0.0;
+  const double progress = secondsBetween(joint.promoted, stamp) / fade;
+  return joint.compensation * (1.0 - smootherStep(progress));
+}
+
+bool PhysicalPart::compensates(Nanoseconds stamp, double fade) const {
+  for (std::size_t i = 0; i < joints_.size(); ++i)
+    if (compensationAt(i, stamp, fade) > 0.0) return true;
+  return false;
+}
+
+// Joint torques that turn the real load into the one of the procedural motion: inverse dynamics of
+// that motion under the real load (E1), times what has not faded. `paper`: without what spring and
+// damper need, as printed (S1-26).
+void PhysicalPart::addCompensation(const Course& course, const PhysicsSettings& settings,
+                                   PartScratch& s, physics::Loads& loads) const {
+  const Nanoseconds stamp = course.wind.stamp();
+  // Paper 1's dynamics have no inverse here: their branches meet the real load at once.
+  if (settings.dynamics != 0 || !compensates(stamp, settings.fade)) return;
+  const std::size_t n = links_.size();
+  s.procedural.q.resize(n);
+  s.procedural.rate.resize(n);
+  s.acceleration.resize(n);
+  s.courses.look(course, branches_);
+  for (std::size_t i = 0; i < n; ++i) {
+    const JointCourse at = s.courses.at(i);
+    s.procedural.q[i] = {at.q.first, at.q.second};
+    s.procedural.rate[i] = {at.rate.first, at.rate.second};
+    s.acceleration[i] = {at.acceleration.first, at.acceleration.second};
+  }
+  physics::kinematicsOf(links_, s.bases, s.procedural, s.kinematics);
+  s.loads.clear(n);
+  addWind(course, s.kinematics, settings, s, s.loads);
+  s.body.torques(links_, s.bases, s.procedural, s.kinematics, s.loads, s.acceleration, s.torque);
+  const bool printed = static_cast<WindForcing>(settings.wind_forcing) == WindForcing::PAPER;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double share = compensationAt(i, stamp, settings.fade);
+    physics::Vec2 torque = s.torque[i];
+    if (printed)
+      torque -= links_[i].stiffness * s.procedural.q[i] + links_[i].damping * s.procedural.rate[i];
+    loads.joint_torque[i] += share * torque;
+  }
+}
+
+}  // namespace vegetation_sim::forest

@@ -1,0 +1,134 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+// The wind law of wind::Instant::velocity on vectors of floats; included once per instruction set.
+
+#if defined(VEGETATION_SIM_FOREST_BATCH_WIND_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef VEGETATION_SIM_FOREST_BATCH_WIND_INL_H_
+#undef VEGETATION_SIM_FOREST_BATCH_WIND_INL_H_
+#else
+#define VEGETATION_SIM_FOREST_BATCH_WIND_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include "wind/sampling/batch_wind.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace vegetation_sim::forest::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using Tag = hn::ScalableTag<float>;
+using Lanes = hn::Vec<Tag>;
+
+struct Lanes3 {
+  Lanes x, y, z;
+};
+
+HWY_INLINE Lanes all(float value) {
+  return hn::Set(Tag(), value);
+}
+
+HWY_INLINE Lanes saturate(Lanes x) {
+  return hn::Min(all(1.f), hn::Max(hn::Zero(Tag()), x));
+}
+
+HWY_INLINE Lanes smootherStep(Lanes x) {
+  const Lanes u = saturate(x);
+  return u * u * u * (u * (all(6.f) * u - all(15.f)) + all(10.f));
+}
+
+HWY_INLINE Lanes envelope(bool smooth, Lanes x) {
+  return smooth ? smootherStep(x) : saturate(x);
+}
+
+// cos(2 pi u): whole turns dropped, then sin(2 pi (1/4 - |u|)), the odd polynomial to t^9 whose
+// largest error is least (3e-9, with rounding 2.1e-7), summed by pairs: the sum of a breeze's modes
+// waits for each of them.
+HWY_INLINE Lanes cosTurns(Lanes u) {
+  const Lanes t = all(0.25f) - hn::Abs(u - hn::Round(u)), t2 = t * t, t4 = t2 * t2;
+  const Lanes low = all(6.283185160089465f) - all(41.34165503141383f) * t2;
+  const Lanes high = all(81.6010040731224f) - all(76.5497822905063f) * t2;
+  return t * (low + t4 * (high + t4 * all(39.53670604288345f)));
+}
+
+HWY_INLINE void add(Lanes3& v, Lanes factor, float x, float y, float z) {
+  v.x = v.x + factor * all(x);
+  v.y = v.y + factor * all(y);
+  v.z = v.z + factor * all(z);
+}
+
+HWY_INLINE void addMode(const FloatMode& m, const Lanes3& p, Lanes3& v) {
+  const Lanes turns = (all(m.wx) * p.x + all(m.wy) * p.y) + (all(m.wz) * p.z + all(m.phase));
+  add(v, cosTurns(turns), m.vx, m.vy, m.vz);
+}
+
+HWY_INLINE void addDisk(const FloatTerm& t, Lanes dx, Lanes dy, Lanes3& v) {
+  const Lanes d = hn::Sqrt(dx * dx + dy * dy);
+  add(v, envelope(t.smooth, all(1.f) - d * all(t.inverse_radius)), t.vx, t.vy, t.vz);
+}
+
+HWY_INLINE void addGust(const FloatTerm& t, Lanes dx, Lanes dy, Lanes3& v) {
+  const Lanes behind = hn::Zero(Tag()) - (dx * all(t.nx) + dy * all(t.ny));
+  const Lanes beside = hn::Abs(dy * all(t.nx) - dx * all(t.ny));
+  const Lanes rise = smootherStep(behind * all(t.rise));
+  const Lanes past = behind - all(1.f / t.rise) - all(t.plateau);
+  const Lanes decay = all(1.f) - smootherStep(past * all(t.decay));
+  const Lanes across = envelope(t.smooth, all(1.f) - beside * all(t.inverse_radius));
+  add(v, rise * decay * across, t.vx, t.vy, t.vz);
+}
+
+// 2 / (1 + rho^2) / core, so that times the distance it peaks at 1 on the core radius.
+HWY_INLINE Lanes vortex(const FloatTerm& t, Lanes d2) {
+  const Lanes core = all(t.inverse_core);
+  return all(2.f) * core / (all(1.f) + d2 * core * core);
+}
+
+HWY_INLINE void addTornado(const FloatTerm& t, Lanes dx, Lanes dy, Lanes3& v) {
+  const Lanes d2 = dx * dx + dy * dy, d = hn::Sqrt(d2);
+  const Lanes inside = all(1.f) - d * all(t.inverse_radius);
+  const Lanes strength = all(t.speed) * smootherStep(inside);
+  const Lanes swirl = strength * vortex(t, d2), inflow = swirl * all(t.inflow);
+  const Lanes core = all(t.inverse_core);
+  v.x = v.x - swirl * dy - inflow * dx;
+  v.y = v.y + swirl * dx - inflow * dy;
+  v.z = v.z + strength * all(t.updraft) / (all(1.f) + d2 * core * core);
+}
+
+HWY_INLINE void addBlast(const FloatTerm& t, Lanes dx, Lanes dy, Lanes dz, Lanes3& v) {
+  const Lanes d2 = dx * dx + dy * dy + dz * dz;
+  const Lanes inside = all(1.f) - hn::Sqrt(d2) * all(t.inverse_radius);
+  const Lanes out = all(t.speed) * vortex(t, d2) * smootherStep(inside);
+  v.x = v.x + out * dx;
+  v.y = v.y + out * dy;
+  v.z = v.z + out * dz;
+}
+
+HWY_INLINE Lanes3 windAt(const FloatWind& wind, const Lanes3& p) {
+  Lanes3 v{all(wind.vx), all(wind.vy), all(wind.vz)};
+  for (const FloatMode& mode : wind.modes) addMode(mode, p, v);
+  for (const FloatTerm& t : wind.terms) {
+    const Lanes dx = p.x - all(t.x), dy = p.y - all(t.y);
+    switch (t.kind) {
+      case wind::Kind::DISK:
+        addDisk(t, dx, dy, v);
+        break;
+      case wind::Kind::GUST:
+        addGust(t, dx, dy, v);
+        break;
+      case wind::Kind::TORNADO:
+        addTornado(t, dx, dy, v);
+        break;
+      case wind::Kind::BLAST:
+        addBlast(t, dx, dy, p.z - all(t.z), v);
+        break;
+      case wind::Kind::BREEZE:
+        break;  // in mean and modes
+    }
+  }
+  return v;
+}
+
+}  // namespace vegetation_sim::forest::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // toggle

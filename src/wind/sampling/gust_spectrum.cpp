@@ -1,0 +1,108 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "wind/sampling/gust_spectrum.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "vegetation_sim/core/math/math.h"
+#include "wind/fade.h"
+#include "wind/laws.h"
+
+namespace vegetation_sim::wind {
+namespace {
+
+constexpr Nanoseconds LOOK = NANOSECONDS_PER_SECOND / 10;
+// A rise by smootherStep in a time T is steepest with 15 / 8 T, as a swing of half its height at
+// this frequency times 1 / T.
+constexpr double RISE = 15.0 / (8.0 * PI);
+constexpr double LINGER = 2.0;     // [s] a plant still swings after a step
+constexpr double SHORTEST = 1e-3;  // [s] of a fade: all steps are alike
+
+template <std::size_t N>
+std::pair<std::size_t, double> between(const std::array<double, N>& grid, double value) {
+  std::size_t i = 0;
+  while (i + 2 < N && grid[i + 1] <= value) ++i;
+  return {i, saturate((value - grid[i]) / (grid[i + 1] - grid[i]))};
+}
+
+// How often what moves past a place comes and goes: by how long it takes for its size.
+double passingOf(const Field& field, std::size_t index, Nanoseconds stamp, const Term& now,
+                 double size) {
+  Term next;
+  if (!field.termAt(index, stamp + LOOK, next)) return 0.0;
+  return length(next.centre - now.centre) / secondsBetween(0, LOOK) / (4.0 * size);
+}
+
+// A front by its steeper side.
+double frequencyOf(const Field& field, std::size_t index, Nanoseconds stamp, const Term& now) {
+  const Primitive& p = field.primitives()[index];
+  if (now.kind == Kind::GUST) return RISE * p.front_speed / std::min(p.rise_length, p.decay_length);
+  if (now.kind != Kind::DISK) return passingOf(field, index, stamp, now, p.core_radius);
+  return std::max(std::fabs(p.omega) / (2.0 * PI), passingOf(field, index, stamp, now, p.radius));
+}
+
+// How fast an eddy sets on or dies down; plants swing on for a while. 0: it does neither.
+double onsetOf(const Primitive& p, Nanoseconds stamp) {
+  const auto fades = [&](Nanoseconds from, double duration) {
+    const double since = secondsBetween(from, stamp);
+    return since >= 0.0 && since < duration + LINGER;
+  };
+  double out = 0.0;
+  if (fades(p.t_on, p.fade_in)) out = RISE / std::max(p.fade_in, SHORTEST);
+  if (p.t_off != 0 && fades(p.t_off - fromSeconds(p.fade_out), p.fade_out))
+    out = std::max(out, RISE / std::max(p.fade_out, SHORTEST));
+  return out;
+}
+
+}  // namespace
+
+void Swings::add(double frequency, double slowness, double square) {
+  if (frequency < FREQUENCIES[0])
+    square *= frequency * frequency / (FREQUENCIES[0] * FREQUENCIES[0]);
+  const auto [f, across] = between(FREQUENCIES, frequency);
+  const auto [s, along] = between(SLOWNESSES, slowness);
+  power[s][f] += (1.0 - along) * (1.0 - across) * square;
+  power[s][f + 1] += (1.0 - along) * across * square;
+  power[s + 1][f] += along * (1.0 - across) * square;
+  power[s + 1][f + 1] += along * across * square;
+}
+
+SwingingWind::SwingingWind(const Field& field, Nanoseconds stamp) {
+  for (std::size_t i = 0; i < field.primitives().size(); ++i) {
+    const Primitive& p = field.primitives()[i];
+    Term term;
+    if (static_cast<Kind>(p.kind) == Kind::BREEZE) addBreeze(p, fade(p, stamp), field.breezeOf(i));
+    if (!field.termAt(i, stamp, term)) continue;
+    const bool gust = term.kind == Kind::GUST, disk = term.kind == Kind::DISK;
+    has_discs_ |= disk;
+    const double onset = gust || disk ? 0.0 : onsetOf(p, stamp);
+    parts_.push_back({term, frequencyOf(field, i, stamp, term), gust ? 0.5 : 1.0, onset});
+  }
+}
+
+void SwingingWind::addBreeze(const Primitive& p, double weight, const Breeze& breeze) {
+  mean_ += weight * p.velocity;
+  const double carrier = std::max(length(p.velocity), Breeze::LEAST_CARRIER);
+  for (const Breeze::Wave& wave : breeze.waves()) {
+    const double rms = weight * length(wave.at_epoch.amplitude) / std::sqrt(2.0);
+    breezes_.add(wave.frequency, 1.0 / carrier, PEAK * PEAK * rms * rms);
+    turbulence_ += PEAK * PEAK * rms * rms;
+  }
+}
+
+Swings SwingingWind::atOf(const Vec3& position, double reach, bool discs) const {
+  Swings out = breezes_;
+  double square = turbulence_;
+  for (const Part& part : parts_) {
+    if (part.term.kind == Kind::DISK && !discs) continue;
+    const double bound = boundOf(part.term, position, reach), speed = part.share * bound;
+    square += bound * bound;
+    if (speed > 0.0) out.add(part.frequency, 0.0, speed * speed);
+    if (part.onset > 0.0) out.add(part.onset, 0.0, 0.25 * bound * bound);
+  }
+  out.peak = length(mean_) + std::sqrt(square);
+  return out;
+}
+
+}  // namespace vegetation_sim::wind

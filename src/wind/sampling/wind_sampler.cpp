@@ -1,0 +1,63 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/wind/sampling/wind_sampler.h"
+
+#include "wind/laws.h"
+
+namespace vegetation_sim::forest {
+
+void AirSampler::add(const Vec3& point) {
+  if (count_ == points_.x.size())
+    for (std::vector<double>* row : {&points_.x, &points_.y, &points_.z})
+      row->resize(2 * count_ + wind::AirRows::ROOM, 0.0);
+  points_.x[count_] = point.x();
+  points_.y[count_] = point.y();
+  points_.z[count_] = point.z();
+  ++count_;
+}
+
+wind::AirRows AirSampler::rows(std::size_t look) {
+  Rows& air = air_[look];
+  for (std::vector<double>* row : {&air.x, &air.y, &air.z})
+    if (row->size() < points_.x.size()) row->resize(points_.x.size());
+  return {points_.x.data(),
+          points_.y.data(),
+          points_.z.data(),
+          air.x.data(),
+          air.y.data(),
+          air.z.data(),
+          count_};
+}
+
+// Modes, which are many, in vectors; the bounded primitives by their law.
+void AirSampler::sampleAt(std::size_t look, const wind::Instant& wind) {
+  wind::sampleBreeze(wind, rows(look));
+  addTerms(look, wind);
+}
+
+void AirSampler::addTerms(std::size_t look, const wind::Instant& wind) {
+  Rows& air = air_[look];
+  for (const wind::Term& term : wind.terms)
+    for (std::size_t i = 0; i < count_; ++i) {
+      const Vec3 v = wind::velocityOf(term, {points_.x[i], points_.y[i], points_.z[i]});
+      air.x[i] += v.x();
+      air.y[i] += v.y();
+      air.z[i] += v.z();
+    }
+}
+
+void AirSampler::sample(const wind::Instant& wind) {
+  sampleAt(0, wind);
+}
+
+// One sine and cosine a mode serve all looks.
+void AirSampler::sample(const WindWindow& window) {
+  if (!window.turnsAlike()) {
+    for (std::size_t look = 0; look < air_.size(); ++look) sampleAt(look, window.looks()[look]);
+    return;
+  }
+  wind::sampleBreeze(window.looks(), window.turns(), {rows(0), rows(1), rows(2)});
+  for (std::size_t look = 0; look < air_.size(); ++look) addTerms(look, window.looks()[look]);
+}
+
+}  // namespace vegetation_sim::forest

@@ -1,0 +1,79 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "wind/wind_reader.h"
+
+#include <set>
+
+#include "wind/limits.h"
+
+namespace vegetation_sim::wind {
+namespace {
+
+constexpr Range STARTS{0.0, 1e9};  // [s] after the start of the node
+
+std::vector<Waypoint> readTrajectory(YamlSection& section) {
+  std::vector<Waypoint> points;
+  for (YamlSection& entry : section.sections("trajectory")) {
+    Waypoint point;
+    double t = 0.0;
+    for (const char* key : {"t", "position"})
+      if (!entry.has(key)) entry.fault(key, "is missing");
+    entry.number("t", t, "s", STARTS);
+    entry.vector("position", point.position, "m", POSITIONS);
+    entry.finish();
+    point.stamp = fromSeconds(t);
+    points.push_back(point);
+  }
+  if (!section.has("position")) return points;
+  if (!points.empty()) section.fault("position", "and trajectory are given, allowed is one");
+  Waypoint point;
+  section.vector("position", point.position, "m", POSITIONS);
+  return {point};
+}
+
+void readTimes(YamlSection& section, Primitive& p) {
+  double start = 0.0, end = 0.0;
+  section.number("start", start, "s", STARTS);
+  section.number("end", end, "s", STARTS);
+  p.t_on = p.epoch = fromSeconds(start);
+  if (!section.has("end")) return;
+  p.t_off = fromSeconds(end);
+  if (p.t_off <= p.t_on) section.fault("end", "is not after start");
+}
+
+Source readSource(YamlSection& section) {
+  Source source;
+  Primitive& p = source.primitive;
+  p.kind = -1;
+  section.text("name", p.name);
+  if (!section.has("kind")) section.fault("kind", "is missing");
+  section.choice("kind", p.kind, kindNames());
+  if (p.kind < 0) return source;  // without a kind its keys mean nothing
+  describe(section, p);
+  section.text("attached_frame", source.attached_frame);
+  readTimes(section, p);
+  p.trajectory = readTrajectory(section);
+  section.finish();
+  Faults faults;
+  if (p.t_off == 0 || p.t_off > p.t_on) check(source, faults);
+  for (const std::string& fault : faults.list()) section.fault(fault);
+  return source;
+}
+
+}  // namespace
+
+std::vector<Source> readWind(YamlSection& section, std::uint64_t& seed) {
+  std::vector<Source> sources;
+  std::set<std::string> names;
+  section.seed("seed", seed);
+  for (YamlSection& entry : section.sections("primitives")) {
+    sources.push_back(readSource(entry));
+    const std::string& name = sources.back().primitive.name;
+    if (!name.empty() && !names.insert(name).second)
+      entry.fault("name", "= '" + name + "' is taken already");
+  }
+  section.finish();
+  return sources;
+}
+
+}  // namespace vegetation_sim::wind

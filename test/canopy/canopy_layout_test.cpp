@@ -1,0 +1,108 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/canopy/canopy_layout.h"
+
+#include <gtest/gtest.h>
+
+#include "core/config/scenario.h"
+#include "core/error_text.h"
+#include "scenes/canopy/canopy_scene.h"
+
+namespace vegetation_sim::canopy {
+namespace {
+
+Layout read(const std::string& text) {
+  Scenario scenario = Scenario::parse(text, "scene.yaml");
+  const terrain::HeightMap flat;
+  Layout out = readLayout(scenario.section("canopy"), flat, 9, scenario.faults());
+  scenario.finish();
+  return out;
+}
+
+TEST(Layout, IsReadWithItsGroupsKindsPlantsAndBeds) {
+  const Layout layout = read(
+      "canopy:\n"
+      "  plane: {camera: [0, -6, 2], yaw: 1.5}\n"
+      "  fluid: {scheme: fast, cells: 128}\n"
+      "  oscillator: {frequency: 0.3}\n"
+      "  rate: 60\n"
+      "  kinds: [{name: kelp, shape: kelp, leaves: 40, pieces: 5}]\n"
+      "  plants: [{kind: kelp, position: [1, 2, 0], scale: 1.5}]\n"
+      "  beds: [{kind: kelp, corner: [0, 0, 0], width: 4, depth: 3, count: 7}]\n");
+  EXPECT_EQ(layout.motion.fluid.scheme, static_cast<int>(Scheme::FAST));
+  EXPECT_EQ(layout.motion.rate, 60);
+  ASSERT_EQ(layout.plants.size(), 8U);
+  EXPECT_EQ(layout.leafCount(), 8U * 200U);
+  for (std::size_t i = 1; i < 8; ++i) {
+    EXPECT_LE(layout.plants[i].position.x(), 4.0);
+    EXPECT_NE(layout.plants[i].seed, layout.plants[i - 1].seed);
+  }
+}
+
+TEST(Layout, IsRefusedWithAllItsFaults) {
+  const std::string text = errorOf([] {
+    read(
+        "canopy:\n"
+        "  fluid: {cells: 48, scheme: quick}\n"
+        "  oscillator: {frequency: -1}\n"
+        "  warp: {rigidity: 11, lamda: [1, 1, 1]}\n"
+        "  kinds: [{name: shrub, leaves: -4}]\n"
+        "  plants: [{kind: tree}]\n");
+  });
+  for (const char* part : {"scheme = 'quick' is none of reflection, fast, paper",
+                           "frequency = -1 Hz is outside", "rigidity = 11 is outside 0 to 10",
+                           "lamda", "leaves = -4", "kind = 'tree' is none of shrub"})
+    EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
+}
+
+TEST(Layout, IsRefusedAsAWhole) {
+  EXPECT_NE(errorOf([] { read("canopy: {fluid: {cells: 48}}"); }).find("no power of two"),
+            std::string::npos);
+  EXPECT_NE(errorOf([] {
+              read(
+                  "canopy: {kinds: [{name: a, leaves: 1000000}], "
+                  "beds: [{kind: a, count: 4}]}");
+            }).find("4000000 leaves, more than"),
+            std::string::npos);
+  EXPECT_NE(errorOf([] {
+              read("canopy: {fluid: {cells: 256}, layers: {memory: 10}, rate: 240}");
+            }).find("bytes of history"),
+            std::string::npos);
+}
+
+// S3-30, N11: shrubs and crowns in the wind, water plants in a current.
+TEST(Layout, OfEachScenarioIsAcceptedAndMoves) {
+  for (const char* name : {"grove", "reef"}) {
+    Scenario scenario =
+        Scenario::load(PACKAGE_FOLDER "/config/scenarios/" + std::string(name) + ".yaml");
+    const terrain::HeightMap flat;
+    const Layout layout = readLayout(scenario.section("canopy"), flat, 1, scenario.faults());
+    scenario.finish();
+    EXPECT_GT(layout.leafCount(), 10000U) << name;
+    EXPECT_LT(6 * layout.leafCount(), 300000U) << name;
+    Canopy canopy(layout);
+    canopy.setWind(breezeFrom(Vec3(0.3, 1.0, 0.0)));
+    run(canopy, 0, 90);
+    const Plant& plant = layout.plants[0];
+    const Vec3 top = plant.position + Vec3(0.0, 0.0, 1.0);
+    EXPECT_GT(length(canopy.foliage().displacement(top, top, 0)), 0.005) << name;
+  }
+}
+
+TEST(Layout, SurvivesTheTextOfItsLaw) {
+  Layout layout = shrubScene();
+  layout.motion.warp.rigidity = 1.0 / 3.0;
+  layout.motion.sources.sides[2] = {1.5, 0.25};
+  layout.motion.rate = 20;
+  layout.kinds[0].name = "a \"b\": c";
+  Layout back = parseLaw(writeLaw(layout), "law");
+  back.plants = layout.plants;
+  back.seed = layout.seed;
+  EXPECT_EQ(back.hash(), layout.hash());
+  back.motion.warp.rigidity += 1e-15;
+  EXPECT_NE(back.hash(), layout.hash());
+  EXPECT_THROW(parseLaw("plane: {yaw: north}", "law"), InvalidInput);
+}
+
+}  // namespace
+}  // namespace vegetation_sim::canopy

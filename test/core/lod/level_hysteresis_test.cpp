@@ -1,0 +1,82 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/lod/level_hysteresis.h"
+
+#include <gtest/gtest.h>
+
+namespace vegetation_sim {
+namespace {
+
+constexpr Nanoseconds START = 1700000000LL * NANOSECONDS_PER_SECOND;
+constexpr int FINEST = 3;
+
+/// Things with ids 10, 20 ... whose rungs cost 0, 1, 2, 3 and leave 8, 4, 2, 1 times their size.
+struct Things {
+  const std::vector<Choice>& choose(const std::vector<double>& sizes, double room, double tolerance,
+                                    double seconds) {
+    choices.clear();
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+      Choice choice;
+      choice.id = static_cast<std::uint32_t>(10 * (i + 1));
+      for (std::size_t rung = 0; rung <= FINEST; ++rung) {
+        choice.error[rung] = static_cast<float>(sizes[i] * 8.0 / (1 << rung));
+        choice.cost[rung] = static_cast<float>(rung);
+      }
+      if (sizes[i] > 0.0) choices.push_back(choice);  // 0: is not there
+    }
+    held.govern(choices, FINEST, room, tolerance, START + fromSeconds(seconds));
+    return choices;
+  }
+  HeldRungs held;
+  std::vector<Choice> choices;
+};
+
+// N7: what has changed stays for a second while the budget binds, whatever the others do.
+TEST(HeldRungs, WhatHasChangedRests) {
+  Things things;
+  things.choose({1.0, 0.1}, 3.0, 0.1, 0.0);
+  ASSERT_EQ(things.choices[0].chosen, FINEST);
+  things.choose({1.0, 9.0}, 3.0, 0.1, 0.9);
+  EXPECT_TRUE(things.choices[0].resting);
+  EXPECT_FALSE(things.choices[1].resting);  // has never had more
+  EXPECT_EQ(things.choices[0].chosen, FINEST);
+  things.choose({1.0, 9.0}, 3.0, 0.1, 1.1);
+  EXPECT_FALSE(things.choices[0].resting);
+  EXPECT_LT(things.choices[0].chosen, FINEST);
+  EXPECT_EQ(things.choices[1].chosen, FINEST);
+  things.choose({9.0, 1.0}, 3.0, 0.1, 1.2);  // both have changed just now
+  EXPECT_EQ(things.choices[1].chosen, FINEST);
+}
+
+TEST(HeldRungs, AFinerRungIsKeptUntilTheCoarserOneIsWellWithin) {
+  Things things;
+  EXPECT_EQ(things.choose({1.0}, 9.0, 3.9, 0.0)[0].chosen, 2);
+  EXPECT_EQ(things.choose({1.0}, 9.0, 4.1, 5.0)[0].chosen, 2);
+  EXPECT_EQ(things.choose({1.0}, 9.0, 6.0, 9.0)[0].chosen, 1);
+}
+
+TEST(HeldRungs, ForgetsWhoIsNotThere) {
+  Things things;
+  things.choose({1.0, 1.0, 1.0}, 99.0, 1.0, 0.0);
+  things.choose({1.0, 0.0, 1.0}, 99.0, 1.0, 0.1);
+  things.choose({1.0, 1.0, 1.0}, 99.0, 1.0, 0.2);
+  EXPECT_EQ(things.choices[0].held, FINEST);
+  EXPECT_EQ(things.choices[1].held, 0);
+  EXPECT_EQ(things.choices[2].held, FINEST);
+}
+
+// As a fresh start then would be.
+TEST(HeldRungs, ForgetsAllWhenTimeGoesBack) {
+  Things things;
+  things.choose({1.0, 1.0}, 3.0, 0.1, 10.0);
+  things.choose({1.0, 1.0}, 3.0, 0.1, 5.0);
+  for (const Choice& choice : things.choices) {
+    EXPECT_EQ(choice.held, 0);
+    EXPECT_FALSE(choice.resting);
+  }
+  things.choose({1.0, 1.0}, 3.0, 0.1, 5.1);
+  EXPECT_TRUE(things.choices[0].resting);
+}
+
+}  // namespace
+}  // namespace vegetation_sim

@@ -1,0 +1,288 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "crowd/agents/crowd.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "core/error_text.h"
+#include "crowd/walker/gait.h"
+#include "scenes/crowd/crowd_scenes.h"
+
+namespace vegetation_sim::crowd {
+namespace {
+
+constexpr double TICK = 1.0 / 30.0;
+constexpr double NONE = std::numeric_limits<double>::quiet_NaN();
+
+bool allArriveWithin(Crowd& crowd, double seconds) {
+  bool all = false;
+  for (int i = 0; i < static_cast<int>(seconds) && !all; ++i) {
+    run(crowd, 1.0, TICK);
+    all = allArrived(crowd);
+  }
+  return all;
+}
+
+// Part 4: real radii, no walking through walls or people, at any step.
+TEST(Crowd, NothingIsPenetratedAtAnyStep) {
+  for (const double dt : {1.0 / 60.0, 0.1, 0.5, 2.0, 10.0}) {
+    Crowd crowd = crowdedRoom(4, CrowdSettings());
+    run(crowd, std::max(20.0, 40.0 * dt), dt, [&](const Crowd& c) {
+      ASSERT_LT(c.deepestOverlap(), 1e-9) << dt;
+      for (const Walker& w : c.walkers()) ASSERT_LT(std::fabs(w.position.x), 4.7) << dt;
+    });
+  }
+}
+
+// S2-30: ten minutes on a slope; nobody leaves the walls, nobody overlaps, everybody moves.
+TEST(Crowd, TenMinutesBetweenVirtualWalls) {
+  Crowd crowd = crowdedRoom(2, CrowdSettings());
+  std::vector<double> way(10, 0.0);
+  run(crowd, 600.0, 0.1, [&](const Crowd& c) {
+    ASSERT_LT(c.deepestOverlap(), 1e-9);
+    for (std::size_t i = 0; i < 10; ++i) way[i] += 0.1 * length(c.walkers()[i].velocity);
+  });
+  for (const double metres : way) EXPECT_GT(metres, 120.0);
+}
+
+// S2-32
+TEST(Crowd, HeadOnPairsPass) {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    Crowd crowd = headOn(seed, CrowdSettings());
+    EXPECT_TRUE(allArriveWithin(crowd, 30.0)) << seed;
+  }
+  CrowdSettings quiet;
+  quiet.noise_heading = 0.0;
+  Crowd exact = headOn(0, quiet);
+  run(exact, 3.6, TICK);                           // side by side
+  EXPECT_LT(exact.walkers()[0].position.y, -0.1);  // each to its right
+  EXPECT_GT(exact.walkers()[1].position.y, 0.1);
+  EXPECT_TRUE(allArriveWithin(exact, 30.0));
+}
+
+TEST(Crowd, CirclesCross) {
+  Crowd crowd = circle(20, 8.0, 1, CrowdSettings());
+  EXPECT_TRUE(allArriveWithin(crowd, 60.0));
+}
+
+TEST(Crowd, TrapsAreLeft) {
+  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+    Crowd crowd = trap(seed, 4.0, CrowdSettings());
+    EXPECT_TRUE(allArriveWithin(crowd, 90.0)) << seed;
+  }
+  // The nearest obstacle alone leads nobody out.
+  CrowdSettings paper;
+  paper.behaviour = static_cast<int>(Behaviour::PAPER);
+  paper.neighbours = 1;
+  Crowd crowd = trap(0, 4.0, paper);
+  EXPECT_FALSE(allArriveWithin(crowd, 90.0));
+}
+
+TEST(Crowd, TwoStreamsPassInACorridor) {
+  Crowd crowd = corridor(3.0, 1, CrowdSettings());
+  std::vector<double> start;
+  for (const Walker& w : crowd.walkers()) start.push_back(w.position.x);
+  run(crowd, 15.0, TICK);
+  double share = 0.0;
+  for (std::size_t i = 0; i < start.size(); ++i) {
+    const Walker& w = crowd.walkers()[i];
+    share += std::fabs(w.position.x - start[i]) / (15.0 * w.speed) / 20.0;
+  }
+  EXPECT_GT(share, 0.5);
+}
+
+// Part 4: the live pose of the robot counts, not where it was first.
+TEST(Crowd, RobotsDriveThroughWithoutTouchingAnybody) {
+  Crowd crowd(5, CrowdSettings(), {-8, 8, -8, 8}, flatGround());
+  const Random random(8);
+  for (std::uint64_t i = 0; i < 30; ++i) {
+    Spawn spawn;
+    spawn.position = {random.uniform(2 * i, -7.0, 7.0), random.uniform(2 * i + 1, -7.0, 7.0)};
+    spawn.wanders = i % 3 != 0;  // some stand
+    crowd.spawn(spawn);
+  }
+  run(crowd, 2.0, TICK);
+  Robot robot;
+  robot.id = "base_link";
+  robot.outline = {{0.5, 0.35}, {-0.5, 0.35}, {-0.5, -0.35}, {0.5, -0.35}};
+  robot.velocity = {1.5, 0.0};
+  double deepest = 0.0;
+  for (int pass = 0; pass < 4; ++pass) {
+    for (int i = 0; i < 400; ++i) {
+      robot.position = {-10.0 + 1.5 * TICK * i, -3.0 + 2.0 * pass};
+      crowd.setRobot(robot);
+      crowd.advance(crowd.memory().stamp + fromSeconds(TICK));
+      deepest = std::max(deepest, crowd.deepestOverlap());
+    }
+  }
+  EXPECT_LT(deepest, 1e-9);
+}
+
+TEST(Crowd, OverlapsAreLeftFast) {
+  Crowd crowd(1, CrowdSettings(), {-5, 5, -5, 5}, flatGround());
+  crowd.setObstacles({discObstacle({0, 0}, 0.5), boxObstacle({4, 0}, 0.8, 0.4, 0.3)});
+  for (int i = 0; i < 6; ++i) {
+    Spawn spawn;
+    spawn.wanders = false;
+    spawn.position = i < 4 ? Point{0.1, 0.0} : Point{4.1, 0.1};
+    crowd.spawn(spawn);
+  }
+  EXPECT_GT(crowd.deepestOverlap(), 0.4);
+  run(crowd, 3.0, TICK);
+  EXPECT_LT(crowd.deepestOverlap(), 1e-9);
+}
+
+// N6: one structure; the same inputs, the same bits, on any number of threads.
+TEST(Crowd, SameHashForAnyNumberOfThreads) {
+  std::uint64_t hashes[3];
+  const int threads[3] = {1, 2, 5};
+  for (int k = 0; k < 3; ++k) {
+    Crowd crowd(9, CrowdSettings(), {0, 60, 0, 60}, flatGround());
+    crowd.setThreads(threads[k]);
+    for (std::uint64_t i = 0; i < 1500; ++i) {
+      Spawn spawn;
+      spawn.position = {Random(3).uniform(2 * i, 0.0, 60.0),
+                        Random(3).uniform(2 * i + 1, 0.0, 60.0)};
+      crowd.spawn(spawn);
+    }
+    run(crowd, 1.0, TICK);
+    hashes[k] = crowd.memory().hash();
+  }
+  EXPECT_EQ(hashes[0], hashes[1]);
+  EXPECT_EQ(hashes[0], hashes[2]);
+}
+
+TEST(Crowd, GoesOnFromASavedMemory) {
+  Crowd first = crowdedRoom(6, CrowdSettings()), second = crowdedRoom(1, CrowdSettings());
+  run(first, 5.0, TICK);
+  const CrowdMemory saved = first.memory();
+  run(first, 5.0, TICK);
+  second.restore(saved);
+  run(second, 5.0, TICK);
+  EXPECT_EQ(first.memory().hash(), second.memory().hash());
+  EXPECT_NE(first.memory().hash(), saved.hash());
+}
+
+TEST(Crowd, SeedsMakeCrowds) {
+  Crowd first = crowdedRoom(6, CrowdSettings()), same = crowdedRoom(6, CrowdSettings());
+  Crowd other = crowdedRoom(7, CrowdSettings());
+  for (Crowd* crowd : {&first, &same, &other}) run(*crowd, 5.0, TICK);
+  EXPECT_EQ(first.memory().hash(), same.memory().hash());
+  EXPECT_NE(first.memory().hash(), other.memory().hash());
+}
+
+std::shared_ptr<const terrain::HeightMap> slope(double rise) {
+  terrain::HeightMapLaw law;
+  law.resolution = 100.0;
+  law.origin = Vec3(-50, -50, 0);
+  law.height_max = 100.0 * rise;
+  terrain::GreyImage image;
+  image.columns = image.rows = 2;
+  image.samples = {0, 255, 0, 255};  // rises to the east
+  return std::make_shared<terrain::HeightMap>(law, image);
+}
+
+double meanSpeed(const std::shared_ptr<const terrain::HeightMap>& ground, const Point& goal,
+                 double grass) {
+  CrowdSettings settings;
+  settings.noise_heading = 0.0;
+  Crowd crowd(1, settings, {-40, 40, -40, 40}, ground);
+  if (grass > 0.0) crowd.setResistance([grass](const Point&) { return grass; });
+  spawnAt(crowd, {0, 0}, goal);
+  run(crowd, 10.0, TICK);
+  return length(crowd.walkers()[0].position) / 10.0;
+}
+
+// S2-34, S2-37: the ground is felt.
+TEST(Crowd, SlopesAndGrassSlowDown) {
+  const double flat = meanSpeed(flatGround(), {30, 0}, 0.0);
+  EXPECT_NEAR(flat, 1.35, 0.1);
+  EXPECT_LT(meanSpeed(slope(0.2), {30, 0}, 0.0), 0.65 * flat);    // up
+  EXPECT_GT(meanSpeed(slope(0.05), {-30, 0}, 0.0), 1.05 * flat);  // gently down
+  EXPECT_NEAR(meanSpeed(slope(0.2), {0, 30}, 0.0), flat, 0.02);   // along
+  EXPECT_NEAR(meanSpeed(flatGround(), {30, 0}, 1.0), 0.4 * flat, 0.1 * flat);
+}
+
+// S2-36: footprints are a stride apart, left and right of the track.
+TEST(Crowd, FeetComeDownAStrideApart) {
+  CrowdSettings settings;
+  settings.noise_heading = 0.0;
+  Crowd crowd(1, settings, {-40, 40, -40, 40}, flatGround());
+  spawnAt(crowd, {0, 0}, {30, 0});
+  std::vector<Point> prints;
+  bool stood = true;
+  run(crowd, 12.0, TICK, [&](const Crowd& c) {
+    const Walker& w = c.walkers()[0];
+    if (w.feet[0].stands && !stood) prints.push_back(w.feet[0].planted);
+    stood = w.feet[0].stands;
+  });
+  ASSERT_GT(prints.size(), 6U);
+  for (std::size_t i = 4; i < prints.size(); ++i) {
+    EXPECT_NEAR(prints[i].x - prints[i - 1].x, strideLength(1.35, 1.75), 0.06);
+    EXPECT_NEAR(prints[i].y, Proportions::HIP_HALF * 1.75, 0.02);
+  }
+}
+
+TEST(Crowd, RefusesWhatIsNotRight) {
+  Crowd crowd = crowdedRoom(1, CrowdSettings());
+  const std::uint64_t before = crowd.memory().hash();
+  Spawn spawn;
+  spawn.position.x = NONE;
+  spawn.speed = 99.0;
+  EXPECT_NE(errorOf([&] { crowd.spawn(spawn); }).find("speed = 99 m/s is outside 0.1 to 3"),
+            std::string::npos);
+  EXPECT_NE(errorOf([&] { crowd.spawn(spawn); }).find("x = "), std::string::npos);
+  EXPECT_NE(errorOf([&] { crowd.remove(77); }).find("walker 77 is unknown"), std::string::npos);
+  EXPECT_NE(errorOf([&] { crowd.setGoal(77, {0, 0}); }).find("77"), std::string::npos);
+  EXPECT_NE(errorOf([&] { crowd.setGoal(1, {NONE, 0}); }).find("goal: x"), std::string::npos);
+  EXPECT_NE(errorOf([&] {
+              crowd.setGoal(1, {30, 0});
+            }).find("no way leads there"),
+            std::string::npos);
+  Robot robot;
+  robot.id = "cart";
+  robot.position.x = NONE;
+  robot.outline = {{0, 0}, {1, 0}};
+  const std::string text = errorOf([&] { crowd.setRobot(robot); });
+  EXPECT_NE(text.find("robot 'cart': x = nan"), std::string::npos) << text;
+  EXPECT_NE(text.find("2 corners"), std::string::npos) << text;
+  EXPECT_NE(errorOf([&] { crowd.removeRobot("cart"); }).find("cart"), std::string::npos);
+  CrowdSettings settings;
+  settings.sensor_range = 0.0;
+  EXPECT_NE(errorOf([&] { crowd.setSettings(settings); }).find("sensor_range = 0 m"),
+            std::string::npos);
+  EXPECT_EQ(crowd.memory().hash(), before);
+}
+
+TEST(Crowd, TakesNoMoreThanItsMost) {
+  Crowd crowd(1, CrowdSettings(), {-5, 5, -5, 5}, flatGround());
+  Spawn spawn;
+  for (std::size_t i = 0; i < MOST_WALKERS; ++i) crowd.spawn(spawn);
+  EXPECT_NE(errorOf([&] { crowd.spawn(spawn); }).find("100000"), std::string::npos);
+  crowd.clear();
+  EXPECT_EQ(crowd.spawn(spawn), 0U);
+}
+
+// Walls that cross are walls.
+TEST(Crowd, CrossingWallsAreWalls) {
+  Crowd crowd(3, CrowdSettings(), {-3, 3, -3, 3}, flatGround());
+  crowd.setObstacles({wallObstacle({-4, -4}, {4, 4}, 0.1), wallObstacle({-4, 4}, {4, -4}, 0.1)});
+  Spawn spawn;
+  spawn.position = {2.0, 0.0};
+  crowd.spawn(spawn);
+  run(crowd, 60.0, 0.1, [&](const Crowd& c) { ASSERT_LT(c.deepestOverlap(), 1e-9); });
+}
+
+TEST(Crowd, TimeThatStandsMovesNobody) {
+  Crowd crowd = crowdedRoom(1, CrowdSettings());
+  run(crowd, 1.0, TICK);
+  const std::uint64_t before = crowd.memory().hash();
+  crowd.advance(crowd.memory().stamp);
+  crowd.advance(crowd.memory().stamp - 5);
+  EXPECT_EQ(crowd.memory().hash(), before);
+}
+
+}  // namespace
+}  // namespace vegetation_sim::crowd

@@ -1,0 +1,134 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include "scenes/forest/modal_forest_scene.h"
+
+namespace vegetation_sim::forest {
+namespace {
+
+// N13: key frames tell amplitudes; between them a replica steps the modes itself. Whoever comes
+// late and whoever was there from the beginning pose every branch as the forest does, to the bit.
+TEST(Sway, ReplicasSwayToTheBit) {
+  Clearing scene;
+  scene.tellAtMost(1600);  // plain modes, which are found at once
+  ForestReplica steady, late;
+  for (ForestReplica* replica : {&steady, &late}) scene.introduce(*replica);
+  const Tree tree = scene.tree(2);
+  std::size_t told = 0;
+  for (int i = 0; i < 3 * TICK_RATE; ++i) {
+    if (i == 2 * TICK_RATE - 20) scene.look(false);
+    scene.advance();
+    const StateUpdate update = scene.forest.update(i % TICK_RATE == 0);
+    for (const auto& entry : update.trees) told += !entry.sway.amplitude.empty();
+    ASSERT_TRUE(steady.apply(update)) << steady.why();
+    const bool joined = i >= TICK_RATE;
+    ASSERT_EQ(joined && late.apply(update), joined) << late.why();
+    if (i % 7 && i % TICK_RATE) continue;  // key frames too: ahead of those too they are alike
+    const Nanoseconds stamp = scene.now() + seconds(0.005);
+    const auto here = scene.forest.pose(tree, 2, stamp);
+    for (const ForestReplica* replica : {&steady, &late}) {
+      if (replica == &late && !joined) continue;
+      const auto there = replica->pose(tree, 2, stamp);
+      for (std::size_t b = 0; b < here.size(); ++b) {
+        ASSERT_EQ(here[b].position, there[b].position) << i << " " << b;
+        ASSERT_EQ(here[b].orientation.w, there[b].orientation.w) << i << " " << b;
+      }
+    }
+  }
+  // Of 3 s at 60 Hz: 180 would be if every tick told.
+  EXPECT_LT(told, 4u * 15u);
+}
+
+// N13: who joins late finds fine modes one by one, not all at once: ticks would be dropped. The
+// trees that wait are shown procedural, and all are to the bit in the end.
+TEST(Sway, WhoJoinsLateFindsFineModesOneByOne) {
+  Clearing scene(breeze(), 0.05);
+  scene.run(2.0);
+  for (std::uint32_t id = 0; id < 4; ++id) {
+    ASSERT_NE(scene.forest.sway(id), nullptr) << id;
+    ASSERT_TRUE(scene.forest.sway(id)->fine()) << id;
+  }
+  ForestReplica late;
+  scene.introduce(late);
+  for (int i = 0; i <= TICK_RATE; ++i) {
+    scene.advance();
+    ASSERT_TRUE(late.apply(scene.forest.update(i % TICK_RATE == 0))) << late.why();
+    int found = 0;
+    for (std::uint32_t id = 0; id < 4; ++id) found += late.sway(id) != nullptr;
+    EXPECT_EQ(found, i < TICK_RATE ? 1 : 4) << i;
+  }
+  for (std::uint32_t id = 0; id < 4; ++id) {
+    const Tree tree = scene.tree(id);
+    const auto here = scene.forest.pose(tree, id, scene.now()),
+               there = late.pose(tree, id, scene.now());
+    for (std::size_t b = 0; b < here.size(); ++b) ASSERT_EQ(here[b].position, there[b].position);
+  }
+}
+
+// N13: who was told of plain modes, lost messages and is told of fine ones at a key frame does not
+// go on from the old ones, over steps as long as what was lost.
+TEST(Sway, NothingStaleIsShownWhileFineModesAreAwaited) {
+  Clearing scene(breeze(), 0.05);
+  scene.tellAtMost(1600);  // plain modes
+  scene.run(2.0);
+  ForestReplica replica;
+  scene.introduce(replica);
+  ASSERT_TRUE(replica.apply(scene.forest.update(true)));
+  for (std::uint32_t id = 0; id < 4; ++id) ASSERT_NE(replica.sway(id), nullptr);
+  scene.tellAtMost(1000000);
+  scene.run(2.0);  // of which nothing is told
+  for (std::uint32_t id = 0; id < 4; ++id) ASSERT_TRUE(scene.forest.sway(id)->fine()) << id;
+  for (int i = 0; i < 5; ++i) {
+    scene.advance();
+    ASSERT_TRUE(replica.apply(scene.forest.update(i == 0))) << replica.why();
+    int shown = 0;
+    for (std::uint32_t id = 0; id < 4; ++id) {
+      if (!replica.sway(id)) continue;
+      ++shown;
+      EXPECT_TRUE(replica.sway(id)->fine()) << id;
+      EXPECT_EQ(replica.sway(id)->state().amplitude, scene.forest.sway(id)->state().amplitude);
+    }
+    EXPECT_EQ(shown, 1);
+  }
+}
+
+// What a hand moves is told at every tick, the amplitudes of the tree it is on are not.
+TEST(Sway, AHeldTreeTellsItsAmplitudesInKeyFramesOnly) {
+  Clearing scene(breeze(), 0.1);
+  scene.run(1.0);
+  scene.forest.update(true);
+  const Tree tree = scene.tree(0);
+  Grab grab;
+  grab.point = {0, static_cast<int>(tree.skeleton.branches.size()) - 1, 0.0};
+  grab.target = tree.foot + tree.skeleton.branches.back().rest.position + Vec3(0.2, 0.0, 0.0);
+  scene.forest.addGrab(grab);
+  for (int i = 1; i <= 30; ++i) {
+    scene.advance();
+    bool held = false;
+    for (const auto& entry : scene.forest.update(i == 30).trees) {
+      if (entry.tree != 0) continue;
+      held = !entry.promoted.empty();
+      EXPECT_EQ(entry.sway.amplitude.empty(), i < 30) << i;
+    }
+    EXPECT_TRUE(held) << i;
+  }
+}
+
+// Displays pose such a tree in single precision: within the bar of the batched path.
+TEST(Sway, BatchedPoseIsThePlainOne) {
+  Clearing scene;
+  scene.run(3.0);
+  const Tree tree = scene.tree(0);
+  const Nanoseconds stamp = scene.now() + seconds(0.01);
+  const auto plain = scene.forest.pose(tree, 0, stamp);
+  BatchPoses fast;
+  ASSERT_NE(scene.forest.sway(0), nullptr);
+  scene.forest.sway(0)->pose(BatchPoser(tree), stamp, fast);
+  for (std::size_t b = 0; b < plain.size(); ++b)
+    ASSERT_LT(length(plain[b].position - fast.at(static_cast<int>(b)).position),
+              1e-5 * tree.skeleton.height);
+}
+
+}  // namespace
+}  // namespace vegetation_sim::forest

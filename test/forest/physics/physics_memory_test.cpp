@@ -1,0 +1,99 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+// What a million trees take, counted at the allocator.
+#include <gtest/gtest.h>
+
+#include "heap.h"
+#include "scenes/forest/forest_fixture.h"
+#include "scenes/forest/physics_scene.h"
+
+namespace vegetation_sim::forest {
+namespace {
+
+constexpr Nanoseconds START = 1700000000LL * NANOSECONDS_PER_SECOND;
+constexpr long MOST_PER_TREE = 200;  // [byte] that stay, of each of a million trees
+constexpr long TREES = 1000000;
+
+Layout millionTrees() {
+  Layout out = gridLayout(1, 1.0);
+  out.trees.clear();
+  for (std::uint32_t i = 0; i < 1000; ++i) {
+    Tile tile;
+    tile.first_tree = i * 1000;
+    tile.count = 1000;
+    tile.seed = i;
+    tile.x = 200.0 * (i % 32);
+    tile.y = 200.0 * (i / 32);
+    tile.size = 200.0;
+    tile.mix = {1.f, 1.f, 1.f, 1.f};
+    out.tiles.push_back(tile);
+  }
+  return out;
+}
+
+// A million trees as a law: nothing per tree while nobody looks; not too much even if every one of
+// them is held at a level of its own.
+TEST(Memory, MillionTreesStayWithinTheirBytes) {
+  const long before = liveBytes();
+  Settings settings;
+  settings.budget.frame_time = 1e6;  // no tree is held back
+  Forest forest(millionTrees(), flatTerrain(), settings);
+  ASSERT_EQ(forest.layout().treeCount(), static_cast<std::uint32_t>(TREES));
+  forest.setWind(wind::Field({makeBreeze(1, Vec3(5, 0, 0))}));
+  forest.advance(START);
+  const long unwatched = liveBytes() - before;
+  EXPECT_LT(unwatched, TREES);  // less than a byte each
+  Viewer eye;
+  eye.id = "eye";
+  eye.eye.position = Vec3(3000, 3000, 100);
+  eye.eye.pixels_per_radian = 1e6;  // sees every twig of the farthest tree
+  eye.stamp = START;
+  forest.setViewer(eye);
+  forest.advance(START + NANOSECONDS_PER_SECOND / 30);
+  ASSERT_EQ(forest.memory().levels.held().size(), static_cast<std::size_t>(TREES));
+  forest.update(false);
+  const long watched = liveBytes() - before;
+  EXPECT_GT(watched, 40 * TREES);  // else nothing was counted
+  EXPECT_LT(watched, MOST_PER_TREE * TREES);
+  RecordProperty("bytes_unwatched", std::to_string(unwatched));
+  std::printf("a million trees: %ld bytes unwatched, %.1f bytes a tree with all of them held\n",
+              unwatched, static_cast<double>(watched) / TREES);
+}
+
+// S1-25, N12: of 256 trees in a wind, a grab makes physical what it moves of one of them; released
+// and blended back, that has given back every byte it took.
+TEST(Memory, OneGrabIn256TreesGivesAllBack) {
+  PhysicsRig rig({}, 16);
+  ASSERT_EQ(rig.forest.layout().treeCount(), 256u);
+  rig.forest.setWind(steadyWind(Vec3(2, 1, 0)));
+  rig.run(1.0);
+  rig.forest.update(true);
+  const long before = liveBytes();
+  EXPECT_EQ(rig.forest.physicsFigures().bytes, 0u);
+  Grab grab = rig.grabOf(rig.branchOfDepth(1));
+  grab.target += Vec3(0.3, 0.0, 0.0);
+  const std::uint32_t id = rig.forest.addGrab(grab);
+  rig.run(1.0);
+  const PhysicsFigures during = rig.forest.physicsFigures();
+  const long held = liveBytes() - before;
+  EXPECT_EQ(during.trees, 1u);
+  EXPECT_GT(during.branches, 1u);
+  EXPECT_LT(during.branches, rig.branches().size() / 2);
+  // What is told is what is held, but for scratch memory of the steps.
+  EXPECT_LE(static_cast<long>(during.bytes), held);
+  EXPECT_GT(2 * static_cast<long>(during.bytes), held);
+  rig.forest.release(id);
+  rig.run(1.0);
+  EXPECT_GT(rig.forest.physicsFigures().branches, 0u);  // recoils
+  for (int i = 0; i < 20 && rig.forest.physicsFigures().trees > 0; ++i) rig.run(1.0);
+  const PhysicsFigures after = rig.forest.physicsFigures();
+  rig.forest.update(true);
+  const long left = liveBytes() - before;
+  EXPECT_EQ(after.trees + after.branches + after.bytes, 0u);
+  EXPECT_LE(left, 0);
+  std::printf("256 trees, one grab: %zu branches, %zu bytes told, %ld held, %ld after\n",
+              during.branches, during.bytes, held, left);
+}
+
+}  // namespace
+}  // namespace vegetation_sim::forest

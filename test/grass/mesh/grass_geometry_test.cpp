@@ -1,0 +1,289 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "grass/mesh/grass_geometry.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "scenes/grass/grass_fixture.h"
+
+namespace vegetation_sim::grass {
+namespace {
+
+Vec3 vertex(const GrassMesh& mesh, std::size_t i) {
+  return {mesh.positions[3 * i], mesh.positions[3 * i + 1], mesh.positions[3 * i + 2]};
+}
+
+void expectSound(const GrassMesh& mesh) {
+  EXPECT_EQ(mesh.texture.size(), 2 * mesh.vertexCount());
+  EXPECT_EQ(mesh.colours.size(), 4 * mesh.vertexCount());
+  for (const std::uint32_t index : mesh.indices) ASSERT_LT(index, mesh.vertexCount());
+  for (const float p : mesh.positions) ASSERT_TRUE(std::isfinite(p));
+}
+
+// S2-07, S2-08: n segments make 2 n + 1 vertices and 2 n - 1 triangles from root to tip.
+TEST(Ribbons, HaveTheSegmentsAsked) {
+  const FeatureMap map;
+  const Tile tile = makeTile(map, terrain::HeightMap(), 1, 0, 0);
+  const auto blocks = posed(tile, TileMotion(), 100);
+  for (const int segments : {1, 2, 3, 5}) {
+    GrassMesh mesh;
+    RibbonStyle style;
+    style.segments = segments;
+    appendRibbons(map, tile, blocks.data(), 100, style, mesh);
+    expectSound(mesh);
+    const auto n = static_cast<std::size_t>(segments);
+    EXPECT_EQ(mesh.vertexCount(), 100 * (2 * n + 1));
+    EXPECT_EQ(mesh.indices.size(), 3 * 100 * (2 * n - 1));
+    for (std::size_t blade = 0; blade < 100; ++blade) {
+      const Vec3 root =
+          0.5 * (vertex(mesh, blade * (2 * n + 1)) + vertex(mesh, blade * (2 * n + 1) + 1));
+      const Vec3 tip = vertex(mesh, blade * (2 * n + 1) + 2 * n);
+      EXPECT_LT((root - pointOf(blocks, static_cast<int>(blade), 0)).norm(), 1e-6);
+      EXPECT_LT((tip - pointOf(blocks, static_cast<int>(blade), LINKS)).norm(), 1e-6);
+    }
+  }
+}
+
+TEST(Ribbons, FaceTheEye) {
+  const FeatureMap map;
+  const Tile tile = makeTile(map, terrain::HeightMap(), 1, 0, 0);
+  const auto blocks = posed(tile, TileMotion(), 50);
+  GrassMesh mesh;
+  RibbonStyle style;
+  style.eye = Vec3(-5, 3, 1.6);
+  appendRibbons(map, tile, blocks.data(), 50, style, mesh);
+  for (std::size_t blade = 0; blade < 50; ++blade) {
+    const Vec3 side = vertex(mesh, 11 * blade + 1) - vertex(mesh, 11 * blade);
+    EXPECT_NEAR(side.norm(), map.species()[0].species.width, 1e-5);
+    EXPECT_NEAR(side.dot(style.eye - vertex(mesh, 11 * blade)) / side.norm(), 0.0, 5e-3);
+  }
+}
+
+// S2-15: blades that are the next to go narrow to nothing, one after the other; the others do not.
+TEST(Ribbons, TheLastOnesNarrowBeforeTheyGo) {
+  const FeatureMap map;
+  const Tile tile = makeTile(map, terrain::HeightMap(), 1, 3, 4);
+  const auto blocks = posed(tile, TileMotion(), 100);
+  GrassMesh mesh;
+  RibbonStyle style;
+  style.leaving = 0.4;
+  appendRibbons(map, tile, blocks.data(), 100, style, mesh);
+  for (std::size_t blade = 0; blade < 100; ++blade) {
+    const Vec3 side = vertex(mesh, 11 * blade + 1) - vertex(mesh, 11 * blade);
+    const double part = std::min(1.0, (100.0 - static_cast<double>(blade)) / 40.0);
+    EXPECT_NEAR(side.norm(), part * map.species()[0].species.width, 1e-5) << blade;
+  }
+}
+
+// S2-12: fully slid, every blade stands on an edge of its tile; half way, half way there.
+TEST(Ribbons, SlideToTheNearestEdge) {
+  const FeatureMap map;
+  const Tile tile = makeTile(map, terrain::HeightMap(), 1, 3, 4);
+  const auto blocks = posed(tile, TileMotion(), 200);
+  const auto rootsAt = [&](double slide) {
+    GrassMesh mesh;
+    RibbonStyle style;
+    style.slide = slide;
+    appendRibbons(map, tile, blocks.data(), 200, style, mesh);
+    std::vector<Vec3> roots;
+    for (std::size_t blade = 0; blade < 200; ++blade)
+      roots.push_back(0.5 * (vertex(mesh, 11 * blade) + vertex(mesh, 11 * blade + 1)));
+    return roots;
+  };
+  const auto none = rootsAt(0.0), half = rootsAt(0.5), all = rootsAt(1.0);
+  for (std::size_t i = 0; i < none.size(); ++i) {
+    const double u = all[i].x() - tile.x, v = all[i].y() - tile.y;
+    const double off =
+        std::min({std::fabs(u), std::fabs(2.0 - u), std::fabs(v), std::fabs(2.0 - v)});
+    EXPECT_LT(off, 1e-5);
+    EXPECT_LE((all[i] - none[i]).norm(), 1.0);
+    EXPECT_LT((half[i] - 0.5 * (none[i] + all[i])).norm(), 1e-5);
+  }
+}
+
+// S2-W2: flowers stand at the tips of their species only.
+TEST(Ribbons, FlowersStandAtTheTips) {
+  MapInput input;
+  input.species.resize(2);
+  input.species[1].species.name = "daisy";
+  input.species[1].species.flower_radius = 0.02;
+  const FeatureMap map(input);
+  const Tile tile = makeTile(map, terrain::HeightMap(), 1, 0, 0);
+  const auto blocks = posed(tile, TileMotion(), 500);
+  GrassMesh mesh;
+  appendRibbons(map, tile, blocks.data(), 500, RibbonStyle(), mesh);
+  std::size_t flowers = 0;
+  for (int blade = 0; blade < 500; ++blade) flowers += bladeLook(tile, blade).species == 1;
+  EXPECT_GT(flowers, 150u);
+  EXPECT_EQ(mesh.indices.size(), 3 * (500 * 9 + 6 * flowers));
+}
+
+// S2-10: four strips stand on the four edges, as high as the grass.
+TEST(Strips, StandOnTheEdgesOfTheTile) {
+  const FeatureMap map;
+  const Tile tile = makeTile(map, terrain::HeightMap(), 1, 2, 2);
+  GrassMesh mesh;
+  appendStrips(map, tile, TileMotion(), 1.0, 800.0, mesh);
+  expectSound(mesh);
+  EXPECT_EQ(mesh.indices.size(), 3u * 4u * STRIP_CELLS * 2u);
+  std::set<int> edges;
+  for (std::size_t i = 0; i < mesh.vertexCount(); i += 2) {
+    const Vec3 bottom = vertex(mesh, i), top = vertex(mesh, i + 1);
+    EXPECT_NEAR((top - bottom).norm(), 0.3, 1e-6);
+    EXPECT_NEAR(bottom.z(), 0.0, 1e-9);
+    const double u = bottom.x() - tile.x, v = bottom.y() - tile.y;
+    if (v == 0.0) edges.insert(0);
+    if (u == 2.0) edges.insert(1);
+    if (v == 2.0) edges.insert(2);
+    if (u == 0.0) edges.insert(3);
+    EXPECT_TRUE(u == 0.0 || u == 2.0 || v == 0.0 || v == 2.0);
+  }
+  EXPECT_EQ(edges.size(), 4u);
+}
+
+// S2-10: rows stand in the tile, as high as the grass, and two tiles have other ones.
+TEST(Rows, StandInTheTileAndWind) {
+  const FeatureMap map;
+  std::set<double> places;
+  for (const int column : {2, 3}) {
+    const Tile tile = makeTile(map, terrain::HeightMap(), 1, column, 2);
+    GrassMesh mesh;
+    appendRows(map, tile, TileMotion(), 3, 1.0, 800.0, mesh);
+    expectSound(mesh);
+    EXPECT_EQ(mesh.vertexCount(), 2u * 3u * 4u * 2u);
+    for (std::size_t i = 0; i < mesh.vertexCount(); i += 2) {
+      const Vec3 bottom = vertex(mesh, i);
+      EXPECT_NEAR((vertex(mesh, i + 1) - bottom).norm(), 0.3, 1e-6);
+      EXPECT_GE(bottom.x(), tile.x);
+      EXPECT_LE(bottom.x(), tile.x + 2.0);
+      places.insert(bottom.y());
+    }
+  }
+  EXPECT_GT(places.size(), 20u);  // of two tiles with the same rows there would be 16
+}
+
+// S2-14: strips are lifted from the ground; lying they are flat.
+TEST(Strips, AreLiftedFromTheGround) {
+  const FeatureMap map;
+  const Tile tile = makeTile(map, terrain::HeightMap(), 1, 2, 2);
+  for (const double grown : {0.0, 0.3, 1.0}) {
+    GrassMesh mesh;
+    appendStrips(map, tile, TileMotion(), grown, 800.0, mesh);
+    EXPECT_NEAR(vertex(mesh, 1).z(), 0.3 * grown, 1e-6);
+  }
+}
+
+// S2-19: wind displaces the tops of the strips as it does the blades: same side, same moment.
+TEST(Strips, FollowTheWindOfTheBlades) {
+  const FeatureMap map;
+  const Tile tile = makeTile(map, terrain::HeightMap(), 1, 2, 2);
+  TileMotion motion;
+  motion.wind_x = {5.f, 5.f, 5.f, 5.f};
+  motion.wind_y = {-2.f, -2.f, -2.f, -2.f};
+  GrassMesh mesh;
+  appendStrips(map, tile, motion, 1.0, 800.0, mesh);
+  const Vec3 lean = vertex(mesh, 1) - vertex(mesh, 0);
+  EXPECT_GT(lean.x(), 0.0);
+  EXPECT_NEAR(lean.y() / lean.x(), -0.4, 1e-6);
+  EXPECT_NEAR(lean.norm(), 0.3, 1e-6);
+  Vec3 mean = Vec3::Zero();
+  const auto blocks = posed(tile, motion, 1000);
+  for (int i = 0; i < 1000; ++i)
+    mean += (pointOf(blocks, i, LINKS) - pointOf(blocks, i, 0)) / bladeLook(tile, i).length;
+  mean /= 1000.0;
+  EXPECT_NEAR(lean.x() / 0.3, mean.x(), 0.03);  // the mean of bent blades against one sheet
+  EXPECT_NEAR(lean.y() / 0.3, mean.y(), 0.03);
+}
+
+// S2-11, S2-W5: the density, one for all of a strip in the paper, may differ from vertex to vertex.
+TEST(Strips, CarryTheDensityAsAlpha) {
+  const FeatureMap map;
+  Tile tile = makeTile(map, terrain::HeightMap(), 1, 2, 2);
+  tile.density = {0.f, 400.f, 200.f, 800.f};
+  GrassMesh mesh;
+  appendStrips(map, tile, TileMotion(), 1.0, 800.0, mesh);
+  EXPECT_EQ(mesh.colours[3], 0);
+  EXPECT_EQ(mesh.colours[4 * 2 * STRIP_CELLS + 3], 128);  // the south-east corner
+}
+
+// S2-10: a test against alpha shows as many blades of the picture as the density asks for.
+TEST(StripPicture, ShowsAsManyBladesAsTheDensityAsksFor) {
+  constexpr int BLADES = 50;
+  const StripPicture picture = makeStripPicture(256, 128, BLADES, 3);
+  ASSERT_EQ(picture.pixels.size(), 256u * 128u * 4u);
+  std::size_t before = 0;
+  for (const double density : {0.1, 0.3, 0.5, 0.8, 1.0}) {
+    std::set<int> visible;
+    std::size_t pixels = 0;
+    for (std::size_t i = 3; i < picture.pixels.size(); i += 4)
+      if (picture.pixels[i] > 255.0 * (1.0 - density)) {
+        visible.insert(picture.pixels[i]);
+        ++pixels;
+      }
+    EXPECT_NEAR(static_cast<double>(visible.size()), BLADES * density, 2.0);
+    EXPECT_GT(pixels, before);
+    before = pixels;
+  }
+}
+
+// S2-W3: layers lie over each other up to the top of the grass; the higher the more displaced.
+TEST(Layers, LieOverEachOtherAndShearWithTheWind) {
+  const FeatureMap map;
+  const Tile tile = makeTile(map, terrain::HeightMap(), 1, 2, 2);
+  TileMotion motion;
+  motion.wind_x = {5.f, 5.f, 5.f, 5.f};
+  GrassMesh mesh;
+  appendLayers(map, tile, motion, 6, 1.0, 800.0, mesh);
+  expectSound(mesh);
+  EXPECT_EQ(mesh.vertexCount(), 24u);
+  double height = 0.0, shift = 0.0;
+  for (std::size_t layer = 0; layer < 6; ++layer) {
+    const Vec3 corner = vertex(mesh, 4 * layer);
+    EXPECT_GT(corner.z(), height);
+    EXPECT_GT(corner.x() - tile.x, shift);
+    for (std::size_t k = 1; k < 4; ++k)
+      EXPECT_NEAR(vertex(mesh, 4 * layer + k).z(), corner.z(), 1e-6);
+    height = corner.z();
+    shift = corner.x() - tile.x;
+  }
+  EXPECT_LT(height, 0.3);
+}
+
+// S2-13: the ground has a colour everywhere: soil where nothing grows.
+TEST(GroundColours, AreSoilWhereNothingGrowsAndGrassWhereItIsDense) {
+  MapInput input;
+  input.density = {0.0, {2, 2, 1, {0, 0, 0, 1}}, 0.0, 1000.0};
+  const FeatureMap map(input);
+  const auto colours = groundColours(map, 800.0);
+  ASSERT_EQ(colours.size(), 12u);
+  EXPECT_GT(colours[0], colours[1]);  // brown in the south-west
+  EXPECT_GT(colours[4], colours[3]);  // green in the south-east
+}
+
+// S2-03, fig. 2: height and colour of the map are seen on the blades.
+TEST(Ribbons, ShowColourAndHeightOfTheMap) {
+  MapInput input;
+  input.colour = {0.0, {2, 2, 1, {0, 1, 0, 1}}, 0.0, 1.0};
+  input.height = {0.0, {2, 2, 1, {0, 1, 0, 1}}, 0.1, 0.5};
+  const FeatureMap map(input);
+  const Tile tile = makeTile(map, terrain::HeightMap(), 1, 0, 0);
+  double red[2] = {}, length[2] = {}, count[2] = {};
+  const auto blocks = posed(tile, TileMotion(), 800);
+  GrassMesh mesh;
+  appendRibbons(map, tile, blocks.data(), 800, RibbonStyle(), mesh);
+  for (int i = 0; i < 800; ++i) {
+    const BladeLook look = bladeLook(tile, i);
+    const int side = look.u > 0.5f;
+    red[side] += mesh.colours[static_cast<std::size_t>(4 * (11 * i + 10))];
+    length[side] += double{look.length};
+    count[side] += 1.0;
+  }
+  EXPECT_GT(red[1] / count[1], 1.3 * red[0] / count[0]);
+  EXPECT_GT(length[1] / count[1], 1.5 * length[0] / count[0]);
+}
+
+}  // namespace
+}  // namespace vegetation_sim::grass

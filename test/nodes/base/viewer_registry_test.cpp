@@ -1,0 +1,70 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/base/viewer_registry.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "vegetation_sim/core/config/faults.h"
+
+namespace vegetation_sim {
+namespace {
+
+constexpr Nanoseconds SECOND = NANOSECONDS_PER_SECOND;
+
+Viewer viewer(const std::string& id) {
+  Viewer out;
+  out.id = id;
+  out.header.frame_id = "map";
+  out.pose.orientation.w = 1.0;
+  out.field_of_view = 0.8;
+  out.height = 900;
+  return out;
+}
+
+struct Watched : testing::Test {
+  void hear(const Viewer& message, Nanoseconds stamp) {
+    watchers.hear(message, buffer, "map", stamp);
+  }
+  tf2_ros::Buffer buffer{ros::Duration(10.0), false};
+  Watchers watchers;
+};
+
+// N8
+TEST_F(Watched, WhoIsSilentIsForgotten) {
+  hear(viewer("eye"), 10 * SECOND);
+  EXPECT_EQ(watchers.eyesAt(13 * SECOND).size(), 1u);
+  EXPECT_EQ(watchers.eyesAt(13 * SECOND + 1).size(), 0u);
+}
+
+TEST_F(Watched, WhoSpokeBeforeTheFirstTickLivesFromThen) {
+  hear(viewer("eye"), 0);
+  EXPECT_EQ(watchers.eyesAt(1000 * SECOND).size(), 1u);
+  EXPECT_EQ(watchers.eyesAt(1003 * SECOND).size(), 1u);
+  EXPECT_EQ(watchers.eyesAt(1003 * SECOND + 1).size(), 0u);
+}
+
+TEST_F(Watched, OneTooManyIsRefusedAndTheOthersStay) {
+  for (std::size_t i = 0; i < Watchers::MOST; ++i) hear(viewer(std::to_string(i)), SECOND);
+  EXPECT_THROW(hear(viewer("late"), SECOND), InvalidInput);
+  hear(viewer("0"), SECOND);  // one of them
+  EXPECT_EQ(watchers.size(), Watchers::MOST);
+}
+
+TEST_F(Watched, BadViewersAreRefused) {
+  Viewer of_nowhere = viewer("eye"), not_a_number = viewer("eye");
+  of_nowhere.header.frame_id = "nowhere";
+  not_a_number.field_of_view = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(hear(of_nowhere, SECOND), InvalidInput);
+  EXPECT_THROW(hear(not_a_number, SECOND), InvalidInput);
+  EXPECT_EQ(watchers.size(), 0u);
+}
+
+}  // namespace
+}  // namespace vegetation_sim
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,209 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+// Wrenches as bodies and grippers are told them: in their own frame, wherever it is and however it
+// is turned.
+#include "nodes/forest/grab_manager.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "ros/conversions/grab_conversions.h"
+#include "scenes/forest/forest_fixture.h"
+#include "vegetation_sim/core/math/math.h"
+#include "vegetation_sim/ros/conversions/stamps.h"
+
+namespace vegetation_sim {
+namespace {
+
+constexpr int RATE = 60;  // [Hz]
+
+/// About the axis (1, 2, 2) / 3 by 1 rad: no axis of one frame is one of the other.
+Quat turned() {
+  const SinCos half = sinCos(0.5);
+  return {half.cos, half.sin / 3.0, 2.0 * half.sin / 3.0, 2.0 * half.sin / 3.0};
+}
+
+/// An oak in still air, a desk at which its branches are held, and tf.
+class DeskRig {
+ public:
+  DeskRig() : forest_(layout(), forest::flatTerrain(), forest::Settings()) {
+    tree_ = forest::growTree(forest_.layout(), 0, forest_.terrain());
+    forest_.advance(now());
+  }
+  static forest::Layout layout() {
+    forest::Layout out;
+    out.species = {forest::shippedSpecies("oak")};
+    forest::TreeSeed seed;
+    seed.seed = 4;
+    out.trees = {seed};
+    return out;
+  }
+  Nanoseconds now() const { return TickGrid(RATE).timeOf(tick_); }
+  const forest::Forest& forest() const { return forest_; }
+  const forest::Branch& branch(int i) const {
+    return tree_.skeleton.branches[static_cast<std::size_t>(i)];
+  }
+  Vec3 pointOn(int i, double along) const {
+    const Pose pose = forest_.pose(tree_, 0, now())[static_cast<std::size_t>(i)];
+    return tree_.foot + pose.position + along * axisZ(pose.orientation);
+  }
+
+  /// What tf says of a frame at the next tick.
+  void show(const std::string& frame, const Pose& pose) {
+    geometry_msgs::TransformStamped out;
+    out.header.frame_id = options_.frame_id;
+    out.header.stamp = toStamp(TickGrid(RATE).timeOf(tick_ + 1));
+    out.child_frame_id = frame;
+    out.transform.translation = toVector(pose.position);
+    const Quat& q = pose.orientation;
+    out.transform.rotation.w = q.w, out.transform.rotation.x = q.x;
+    out.transform.rotation.y = q.y, out.transform.rotation.z = q.z;
+    tf_.setTransform(out, "test");
+  }
+  void tell(const forest::Body& body, const Pose& in_frame) {
+    ForestEvent event;
+    event.kind = ForestEvent::BODY;
+    event.body = toMsg(body, in_frame);
+    inputs_.addFirst(event);
+  }
+  std::uint32_t grab(const Grab::Request& request) {
+    Grab::Response response;
+    desk_.grab(request, response);
+    return response.id;
+  }
+  /// As forest_animator has it.
+  void tick() {
+    ++tick_;
+    desk_.follow(now(), [](const std::string& what, const std::string& why) {
+      ADD_FAILURE() << what << ": " << why;
+    });
+    for (ForestEvent& event : inputs_.take(now())) {
+      desk_.aim(event);
+      if (event.kind == ForestEvent::GRAB) forest_.addGrab(fromMsg(event.grab));
+      if (event.kind == ForestEvent::MOVE)
+        forest_.moveGrab(event.grab.id, fromMsg(event.grab.target));
+      if (event.kind == ForestEvent::BODY) forest_.setBody(fromMsg(event.body));
+      desk_.adopt(event);
+    }
+    forest_.advance(now());
+    desk_.settle();
+  }
+  std::vector<geometry_msgs::WrenchStamped> wrenches() const { return desk_.wrenches(); }
+
+ private:
+  std::int64_t tick_{6000};
+  ForestOptions options_;
+  forest::Forest forest_;
+  forest::Tree tree_;
+  forest::TreeCache cache_{100000};
+  ForestInputs inputs_{false};
+  tf2_ros::Buffer tf_;
+  GrabDesk desk_{GrabRoom{options_, forest_, cache_, inputs_, tf_}};
+};
+
+// Components along a frame's axes, told by dot products.
+Vec3 alongAxes(const Quat& frame, const Vec3& v) {
+  return Vec3(dot(axisX(frame), v), dot(axisY(frame), v), dot(axisZ(frame), v));
+}
+
+// N3. A hand holds a limb 30 cm off its own origin, turned against the world, and goes aside and
+// turns on: at rest its wrench balances the spring, as a force and as a moment about the hand's
+// origin.
+TEST(GrabDesk, HandFeelsForceAndTorqueInItsOwnFrame) {
+  DeskRig rig;
+  const int limb = 46;
+  const double along = 0.5 * rig.branch(limb).length, stiffness = 5000.0;
+  const Pose start{rig.pointOn(limb, along) + Vec3(0.1, -0.2, 0.2), turned()};
+  rig.show("hand", start);
+  Grab::Request request;
+  request.tree = 0;
+  request.branch = static_cast<std::uint32_t>(limb);
+  request.along = along;
+  request.frame = "hand";
+  request.keep_offset = true;
+  request.stiffness = stiffness;
+  request.damping = 200.0;
+  request.force_limit = 1e4;
+  request.lease = 60.0;
+  rig.grab(request);
+  const Vec3 in_hand = transformed(inverse(start), rig.pointOn(limb, along));
+  Pose hand = start;
+  for (int i = 0; i < 20 * RATE; ++i) {
+    const double share = std::min(1.0, static_cast<double>(i) / RATE);
+    const SinCos half = sinCos(0.2 * share);
+    hand.position = start.position + share * Vec3(0.05, 0.1, -0.02);
+    hand.orientation = Quat{half.cos, 0.0, half.sin, 0.0} * turned();
+    rig.show("hand", hand);
+    rig.tick();
+  }
+  const Vec3 held = rig.pointOn(limb, along), target = transformed(hand, in_hand);
+  const Vec3 force = stiffness * (held - target);  // on the hand
+  const Vec3 torque = cross(held - hand.position, force);
+  ASSERT_GT(length(force), 20.0);
+  ASSERT_GT(length(torque), 5.0);
+  ASSERT_EQ(rig.wrenches().size(), 1u);
+  const geometry_msgs::WrenchStamped told = rig.wrenches()[0];
+  EXPECT_EQ(told.header.frame_id, "hand");
+  EXPECT_EQ(fromMsg(told.header.stamp), rig.now());
+  // What still swings after 20 s, and single precision.
+  EXPECT_LT(length(fromMsg(told.wrench.force) - alongAxes(hand.orientation, force)),
+            0.01 * length(force));
+  EXPECT_LT(length(fromMsg(told.wrench.torque) - alongAxes(hand.orientation, torque)),
+            0.01 * length(torque));
+}
+
+// N3. A body that turns and goes on, of which tf tells late: its wrench at a tick is in its frame
+// as it is at the tick, not as tf last told it.
+TEST(GrabDesk, BodyFeelsItsWrenchInItsFrameOfTheTick) {
+  constexpr double LATE = 0.1;  // [s]
+  DeskRig rig;
+  const forest::Branch& trunk = rig.branch(0);
+  const Pose in_frame{Vec3(0.3, -0.1, 0.2), turned()};
+  forest::Body body;
+  body.id = "palm";
+  body.frame = "hand";
+  body.shape = static_cast<int>(forest::Shape::SPHERE);
+  body.size = Vec3(0.1, 0.0, 0.0);
+  body.velocity = Vec3(0.5, 0.0, 0.0);
+  body.spin = Vec3(0.0, 0.0, 2.0);
+  const Vec3 start(-trunk.base_radius - 0.12, 0.02, 1.0);
+  int told = 0;
+  for (int i = 0; i < RATE / 2; ++i) {
+    const double seen = static_cast<double>(i + 1) / RATE, known = seen - LATE;
+    const auto at = [&](double time) -> Pose {
+      const SinCos half = sinCos(0.5 * body.spin.z() * time);
+      return {start + time * body.velocity, Quat{half.cos, 0.0, 0.0, half.sin} * turned()};
+    };
+    body.pose = at(known);
+    body.stamp = rig.now() + fromSeconds(1.0 / RATE - LATE);
+    rig.tell(body, in_frame);
+    rig.tick();
+    const Pose frame = compose(at(seen), inverse(in_frame));
+    const auto& reactions = rig.forest().reactions();
+    const auto wrenches = rig.wrenches();
+    ASSERT_EQ(wrenches.size(), reactions.size());
+    for (std::size_t k = 0; k < wrenches.size(); ++k) {
+      const forest::Reaction& reaction = reactions[k];
+      const Vec3 torque = cross(reaction.point - frame.position, reaction.force);
+      const Vec3 force = alongAxes(frame.orientation, reaction.force);
+      EXPECT_EQ(wrenches[k].header.frame_id, "hand");
+      EXPECT_LT(length(fromMsg(wrenches[k].wrench.force) - force), 1e-6 * length(force) + 1e-9);
+      EXPECT_LT(length(fromMsg(wrenches[k].wrench.torque) - alongAxes(frame.orientation, torque)),
+                1e-6 * length(force) + 1e-9);
+      told += length(force) > 100.0;
+    }
+  }
+  EXPECT_GT(told, 5);
+}
+
+}  // namespace
+}  // namespace vegetation_sim
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

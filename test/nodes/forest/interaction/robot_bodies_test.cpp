@@ -1,0 +1,193 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/forest/robot_bodies.h"
+
+#include <gtest/gtest.h>
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+#include <tf2_ros/transform_broadcaster.h>
+
+#include <cmath>
+
+#include "core/error_text.h"
+#include "vegetation_sim/core/math/math.h"
+#include "vegetation_sim/ros/conversions/stamps.h"
+
+namespace vegetation_sim {
+namespace {
+
+using forest::Body;
+using forest::Shape;
+
+const RobotPart* find(const RobotParts& parts, const std::string& id) {
+  for (const RobotPart& part : parts.parts)
+    if (part.body.id == id) return &part;
+  return nullptr;
+}
+
+XmlRpc::XmlRpcValue list(double x, double y, double z) {
+  XmlRpc::XmlRpcValue out;
+  out[0] = x, out[1] = y, out[2] = z;
+  return out;
+}
+
+class RobotBodiesTest : public testing::Test {
+ protected:
+  RobotBodiesTest() : handle_("~/case") {}
+  ~RobotBodiesTest() override { ros::param::del(handle_.getNamespace()); }
+
+  RobotParts read() {
+    Parameters parameters(handle_);
+    RobotParts out = readRobotParts(handle_, parameters);
+    parameters.finish();
+    return out;
+  }
+  void setBody(XmlRpc::XmlRpcValue body) {
+    XmlRpc::XmlRpcValue bodies;
+    bodies[0] = body;
+    handle_.setParam("bodies", bodies);
+  }
+
+  ros::NodeHandle handle_;
+};
+
+TEST_F(RobotBodiesTest, NothingIsNoBody) {
+  EXPECT_TRUE(read().parts.empty());
+}
+
+TEST_F(RobotBodiesTest, ListIsRead) {
+  XmlRpc::XmlRpcValue body;
+  body["id"] = "boom";
+  body["frame"] = "boom_link";
+  body["shape"] = "capsule";
+  body["radius"] = 0.05;
+  body["length"] = 2;
+  body["position"] = list(0.0, 0.5, 1.0);
+  body["rotation"] = list(0.5 * PI, 0.0, 0.0);
+  setBody(body);
+  const RobotParts found = read();
+  ASSERT_EQ(found.parts.size(), 1u);
+  const RobotPart& part = found.parts[0];
+  EXPECT_EQ(part.body.id, "boom");
+  EXPECT_EQ(part.body.frame, "boom_link");
+  EXPECT_EQ(part.body.shape, static_cast<int>(Shape::CAPSULE));
+  EXPECT_EQ(part.body.size, Vec3(0.05, 0.0, 2.0));
+  EXPECT_EQ(part.in_frame.position, Vec3(0.0, 0.5, 1.0));
+  EXPECT_NEAR(length(axisZ(part.in_frame.orientation) + Vec3::UnitY()), 0.0, 1e-12);
+}
+
+TEST_F(RobotBodiesTest, FaultsOfTheListAreTold) {
+  XmlRpc::XmlRpcValue body;
+  body["shape"] = "cone";
+  body["radius"] = -1.0;
+  body["radios"] = 1.0;
+  setBody(body);
+  const std::string faults = errorOf([&] { read(); });
+  for (const char* part : {"shape = 'cone'", "radius = -1", "radios", "frame"})
+    EXPECT_NE(faults.find(part), std::string::npos) << part << " in " << faults;
+}
+
+TEST_F(RobotBodiesTest, CollisionGeometryOfAUrdfIsRead) {
+  handle_.setParam("robot_description", "robot_description");
+  handle_.setParam("robot_frame_prefix", "r1/");
+  const RobotParts found = read();
+  ASSERT_EQ(found.parts.size(), 4u);
+  const RobotPart* base = find(found, "r1/base");
+  const RobotPart* arm = find(found, "r1/arm");
+  const RobotPart* hand = find(found, "r1/arm_1");
+  const RobotPart* wheel = find(found, "r1/wheel");
+  ASSERT_TRUE(base && arm && hand && wheel);
+  EXPECT_EQ(base->body.shape, static_cast<int>(Shape::BOX));
+  EXPECT_EQ(base->body.size, Vec3(0.8, 0.6, 0.4));
+  EXPECT_EQ(base->in_frame.position, Vec3(0.0, 0.0, 0.2));
+  EXPECT_EQ(arm->body.frame, "r1/arm");
+  EXPECT_EQ(arm->body.shape, static_cast<int>(Shape::CAPSULE));
+  EXPECT_NEAR(length(arm->body.size - Vec3(0.05, 0.0, 0.9)), 0.0, 1e-12);
+  EXPECT_NEAR(length(axisZ(arm->in_frame.orientation) - Vec3::UnitX()), 0.0, 1e-12);
+  EXPECT_EQ(hand->body.shape, static_cast<int>(Shape::SPHERE));
+  EXPECT_EQ(wheel->body.shape, static_cast<int>(Shape::BOX));
+  EXPECT_EQ(found.left_out, std::vector<std::string>{"camera"});
+}
+
+TEST_F(RobotBodiesTest, WhatIsNoUrdfIsRefused) {
+  handle_.setParam("robot_description", "no_such_parameter");
+  EXPECT_NE(errorOf([&] { read(); }).find("'no_such_parameter' is no parameter of text"),
+            std::string::npos);
+}
+
+geometry_msgs::TransformStamped frameAt(Nanoseconds stamp, double x) {
+  geometry_msgs::TransformStamped out;
+  out.header.frame_id = "map";
+  out.header.stamp = toStamp(stamp);
+  out.child_frame_id = "hand";
+  out.transform.translation.x = x;
+  out.transform.rotation.w = 1.0;
+  return out;
+}
+
+class Following : public testing::Test {
+ protected:
+  Following() : bodies_(ros::NodeHandle(), "map", {part()}) {}
+
+  static RobotPart part() {
+    RobotPart out;
+    out.body.id = out.body.frame = "hand";
+    out.in_frame.position = Vec3(0.0, 0.0, 1.0);
+    return out;
+  }
+  // Sends until the body is seen with that stamp; empty if it never is.
+  std::vector<Body> follow(Nanoseconds stamp, double x, Nanoseconds now) {
+    const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(30.0);
+    while (ros::WallTime::now() < deadline) {
+      broadcaster_.sendTransform(frameAt(stamp, x));
+      ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.01));
+      const std::vector<Body> found = bodies_.update(now);
+      if (!found.empty() && found[0].stamp == stamp) return found;
+    }
+    return {};
+  }
+
+  tf2_ros::TransformBroadcaster broadcaster_;
+  RobotBodies bodies_;
+};
+
+constexpr Nanoseconds START = 100 * NANOSECONDS_PER_SECOND;
+constexpr Nanoseconds TENTH = NANOSECONDS_PER_SECOND / 10;
+
+TEST_F(Following, TwoSamplesGiveTheVelocity) {
+  std::vector<Body> found = follow(START, 1.0, START);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].pose.position, Vec3(1.0, 0.0, 1.0));
+  EXPECT_EQ(found[0].velocity, Vec3(0.0, 0.0, 0.0));
+  found = follow(START + TENTH, 1.2, START + TENTH);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NEAR(found[0].velocity.x(), 2.0, 1e-9);
+  // Nothing new: it goes on.
+  found = bodies_.update(START + 2 * TENTH);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NEAR(found[0].velocity.x(), 2.0, 1e-9);
+  EXPECT_TRUE(bodies_.missing().empty());
+}
+
+TEST_F(Following, FrameThatFallsSilentIsNoBody) {
+  ASSERT_EQ(follow(START, 1.0, START).size(), 1u);
+  EXPECT_TRUE(bodies_.update(START + NANOSECONDS_PER_SECOND).empty());
+  EXPECT_EQ(bodies_.missing(), std::vector<std::string>{"hand"});
+}
+
+TEST_F(Following, LeapIsNoSpeed) {
+  ASSERT_EQ(follow(START, 1.0, START).size(), 1u);
+  const std::vector<Body> found = follow(START + TENTH, 500.0, START + TENTH);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].velocity, Vec3(0.0, 0.0, 0.0));
+}
+
+}  // namespace
+}  // namespace vegetation_sim
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "robot_bodies_test");
+  const ros::NodeHandle handle;
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,102 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/forest/forest_inputs.h"
+
+#include <gtest/gtest.h>
+
+#include "vegetation_sim/ros/conversions/stamps.h"
+
+namespace vegetation_sim {
+namespace {
+
+constexpr Nanoseconds TICK = NANOSECONDS_PER_SECOND / 25;
+
+ForestEvent resetAt(std::int64_t tick) {
+  ForestEvent out;
+  out.kind = ForestEvent::RESET;
+  out.header.stamp = toStamp(tick * TICK);
+  return out;
+}
+
+// N6: at its own tick an event of a replay is in time, after it it is late, whatever the reason.
+TEST(ForestInputs, CountLateEventsOfAReplay) {
+  ForestInputs inputs(true);
+  for (const std::int64_t tick : {101, 102, 104}) inputs.addEvent(resetAt(tick));
+  EXPECT_TRUE(inputs.take(100 * TICK).empty());
+  EXPECT_EQ(inputs.take(101 * TICK).size(), 1u);
+  EXPECT_EQ(inputs.take(102 * TICK).size(), 1u);
+  EXPECT_EQ(inputs.losses().late, 0u);
+  inputs.addEvent(resetAt(99));
+  EXPECT_EQ(inputs.take(105 * TICK).size(), 2u);  // tick 104 was dropped; 99 came late
+  EXPECT_EQ(inputs.losses().late, 2u);
+  EXPECT_EQ(inputs.losses().lost, 0u);
+}
+
+TEST(ForestInputs, CountEventsThatFindNoRoom) {
+  ForestInputs inputs(true);
+  for (std::size_t i = 0; i < ForestInputs::MOST_WAITING + 3; ++i) inputs.addEvent(resetAt(7));
+  EXPECT_EQ(inputs.losses().lost, 3u);
+  EXPECT_EQ(inputs.take(7 * TICK).size(), ForestInputs::MOST_WAITING);
+}
+
+TEST(ForestInputs, CountViewersThatFindNoRoom) {
+  ForestInputs inputs(false);
+  Viewer viewer;
+  for (std::size_t i = 0; i < ForestInputs::MOST_WAITING + 2; ++i) {
+    viewer.id = std::to_string(i);
+    inputs.addViewer(viewer);
+  }
+  EXPECT_EQ(inputs.losses().lost, 2u);
+}
+
+// N6: a flood of requests for later shuts out neither the wind nor what the node does by itself.
+TEST(ForestInputs, FindRoomForTheNodesOwnInAFlood) {
+  ForestInputs inputs(false);
+  ForestEvent force;
+  force.kind = ForestEvent::FORCE;
+  force.header.stamp = toStamp(100 * TICK);
+  for (std::size_t i = 0; i < ForestInputs::MOST_WAITING; ++i) inputs.addInteraction(force);
+  EXPECT_THROW(inputs.addInteraction(force), InvalidInput);
+  ForestEvent body;
+  body.kind = ForestEvent::BODY;
+  inputs.addFirst(body);
+  inputs.addWind(wind::Field());
+  inputs.addTuning({});
+  inputs.addReset();
+  std::vector<int> kinds;
+  for (const ForestEvent& event : inputs.take(TICK)) kinds.push_back(event.kind);
+  EXPECT_EQ(kinds, (std::vector<int>{ForestEvent::BODY, ForestEvent::WIND, ForestEvent::SETTINGS,
+                                     ForestEvent::RESET}));
+  EXPECT_EQ(inputs.losses().lost, 0u);
+  EXPECT_EQ(inputs.take(100 * TICK).size(), ForestInputs::MOST_WAITING);
+}
+
+// N3: the last move of a grab at a tick counts; a renewal leaves it alone.
+TEST(ForestInputs, RenewalsLeaveMovesAlone) {
+  ForestInputs inputs(false);
+  ForestEvent move;
+  move.kind = ForestEvent::MOVE;
+  move.grab.id = 1;
+  move.grab.target.x = 1.0;
+  inputs.addInteraction(move);
+  move.grab.target.x = 2.0;
+  inputs.addInteraction(move);
+  ForestEvent renewal;
+  renewal.kind = ForestEvent::RENEW;
+  renewal.grab.id = 1;
+  inputs.addInteraction(renewal);
+  inputs.addInteraction(renewal);
+  const std::vector<ForestEvent> taken = inputs.take(TICK);
+  ASSERT_EQ(taken.size(), 2u);
+  EXPECT_EQ(taken[0].kind, ForestEvent::MOVE);
+  EXPECT_EQ(taken[0].grab.target.x, 2.0);
+  EXPECT_EQ(taken[1].kind, ForestEvent::RENEW);
+}
+
+}  // namespace
+}  // namespace vegetation_sim
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

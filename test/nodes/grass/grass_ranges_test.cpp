@@ -1,0 +1,104 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+// What dynamic_reconfigure offers is what the node's own structures allow; inputs wait in bounds.
+#include <gtest/gtest.h>
+#include <vegetation_sim/GrassEvent.h>
+#include <vegetation_sim/GrassFieldConfig.h>
+
+#include <string>
+
+#include "core/config/field_values.h"
+#include "nodes/base/event_queue.h"
+#include "nodes/grass/grass_options.h"
+#include "nodes/rigs/declared_fields.h"
+
+namespace vegetation_sim {
+namespace {
+
+using Queue = EventQueue<GrassEvent>;
+constexpr Nanoseconds TICK = NANOSECONDS_PER_SECOND / 25;
+
+GrassEvent at(std::int64_t tick) {
+  GrassEvent out;
+  out.header.stamp = toStamp(tick * TICK);
+  return out;
+}
+
+TEST(GrassRanges, OfReconfigureAreThoseOfTheStructures) {
+  GrassTuning tuning;
+  Declared declared;
+  describe(declared, tuning);
+  EXPECT_EQ(offered(GrassFieldConfig::__getMin__()), declared.low);
+  EXPECT_EQ(offered(GrassFieldConfig::__getMax__()), declared.high);
+  EXPECT_EQ(offered(GrassFieldConfig::__getDefault__()), declared.defaults);
+}
+
+TEST(GrassRanges, SettingsSurviveTheirEventAndTheirConfig) {  // N6
+  GrassTuning tuning;
+  tuning.drag = 0.5;
+  tuning.height_gate = 0.1;
+  tuning.tread = {0.2, 0.6, 0.15, 0.8, 90.0};
+  tuning.view = {2.5, 0.25, 90.0, tuning.view.most_blades};
+  GrassFieldConfig config;
+  toConfig(tuning, config);
+  GrassTuning by_event = fromNamedValues<GrassTuning>(namedValues(tuning));
+  GrassTuning by_config = fromConfig(config, GrassTuning().view);
+  Declared sent, event, reconfigured;
+  describe(sent, tuning);
+  describe(event, by_event);
+  describe(reconfigured, by_config);
+  EXPECT_EQ(sent.defaults, event.defaults);
+  EXPECT_EQ(sent.defaults, reconfigured.defaults);
+}
+
+// N6: at its own tick an event of a replay is in time, after it it is late.
+TEST(EventQueue, CountsLateEventsOfAReplay) {
+  Queue queue(true);
+  for (const std::int64_t tick : {101, 102, 104}) queue.addRecorded(at(tick));
+  EXPECT_TRUE(queue.add(at(0)));  // a live input has no effect
+  EXPECT_TRUE(queue.take(100 * TICK).empty());
+  EXPECT_EQ(queue.take(101 * TICK).size(), 1u);
+  EXPECT_EQ(queue.take(102 * TICK).size(), 1u);
+  EXPECT_EQ(queue.losses().late, 0u);
+  queue.addRecorded(at(99));
+  EXPECT_EQ(queue.take(105 * TICK).size(), 2u);
+  EXPECT_EQ(queue.losses().late, 2u);
+}
+
+TEST(EventQueue, LiveInputsGetTheStampOfTheirTickAndKeepTheirOrder) {
+  Queue queue(false);
+  for (const double radius : {1.0, 2.0, 3.0}) {
+    GrassEvent event = at(radius == 2.0 ? 8 : 0);
+    event.radius = radius;
+    EXPECT_TRUE(queue.add(event));
+  }
+  queue.addRecorded(at(1));  // its own events come back to it
+  const std::vector<GrassEvent> now = queue.take(7 * TICK), later = queue.take(8 * TICK);
+  ASSERT_EQ(now.size(), 2u);
+  EXPECT_EQ(now[0].radius, 1.0);
+  EXPECT_EQ(now[1].radius, 3.0);
+  EXPECT_EQ(now[1].header.stamp, toStamp(7 * TICK));
+  ASSERT_EQ(later.size(), 1u);
+  EXPECT_EQ(later[0].radius, 2.0);
+}
+
+TEST(EventQueue, IsBoundedAndCountsWhatFindsNoRoom) {
+  Queue live(false), replay(true);
+  for (std::size_t i = 0; i < Queue::MOST_WAITING; ++i) EXPECT_TRUE(live.add(at(0)));
+  EXPECT_EQ(live.room(), 0u);
+  EXPECT_FALSE(live.add(at(0)));
+  EXPECT_EQ(live.losses().lost, 1u);
+  EXPECT_EQ(live.take(TICK).size(), Queue::MOST_WAITING);
+  for (std::size_t i = 0; i < Queue::MOST_WAITING + 3; ++i) replay.addRecorded(at(1));
+  EXPECT_EQ(replay.losses().lost, 3u);
+  replay.forget([](const GrassEvent&) { return true; });
+  EXPECT_TRUE(replay.take(TICK).empty());
+}
+
+}  // namespace
+}  // namespace vegetation_sim
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,117 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/markers/canopy_markers.h"
+
+#include <gtest/gtest.h>
+
+#include "vegetation_sim/canopy/canopy.h"
+
+namespace vegetation_sim {
+namespace {
+
+/// Shrubs in a row away from an eye, 4 m apart.
+struct Row {
+  explicit Row(int shrubs) {
+    layout.kinds.emplace_back();
+    layout.kinds[0].leaves = 200;
+    for (int i = 0; i < shrubs; ++i) {
+      canopy::Plant plant;
+      plant.seed = static_cast<std::uint64_t>(i);
+      plant.position = Vec3(4.0 * (i + 1), 0.0, 0.0);
+      layout.plants.push_back(plant);
+    }
+    eye.position = Vec3(0.0, 0.0, 1.6);
+  }
+  Balance choose(int points, double tolerance) {
+    CanopyMarkers markers(points);
+    markers.setLayout(layout);
+    markers.choose(layout, eye, tolerance, 0);
+    room = markers.room();
+    used = drawn(markers);
+    return markers.balance();
+  }
+  /// Points of leaves with an area, in a list of constant size.
+  std::size_t drawn(CanopyMarkers& markers) {
+    canopy::Canopy canopy(layout);
+    const auto list = markers.build(canopy.foliage(), {}, "map").markers[0];
+    EXPECT_EQ(list.points.size(), markers.room());
+    std::size_t out = 0;
+    for (const geometry_msgs::Point& p : list.points) out += p.x != 0.0;
+    return out;
+  }
+  canopy::Layout layout;
+  Eye eye;
+  std::size_t room{0}, used{0};
+};
+
+// N7: a plant has the smallest share of its leaves that holds the tolerance.
+TEST(CanopyMarkers, FarPlantsHaveFewerLeaves) {
+  Row row(40);
+  const Balance fine = row.choose(200000, 1.0);
+  EXPECT_EQ(static_cast<double>(row.used), fine.cost);
+  EXPECT_EQ(fine.held_back, 0u);
+  const Balance coarse = row.choose(200000, 8.0);
+  EXPECT_EQ(static_cast<double>(row.used), coarse.cost);
+  EXPECT_LT(coarse.cost, 0.9 * fine.cost);
+  EXPECT_EQ(coarse.over, 0u);
+  EXPECT_EQ(coarse.counts[0], 0u);
+}
+
+// N7: the points bind; near plants keep more, far ones are thinned before any is left out.
+TEST(CanopyMarkers, PointsBindAndNoneIsLeftOutForTheSakeOfLeaves) {
+  Row row(40);
+  const double free = row.choose(200000, 1.0).cost;
+  const Balance poor = row.choose(static_cast<int>(0.5 * free), 1.0);
+  EXPECT_LE(poor.cost, static_cast<double>(row.room));
+  EXPECT_GE(poor.cost, 0.9 * static_cast<double>(row.room));
+  EXPECT_EQ(static_cast<double>(row.used), poor.cost);
+  EXPECT_GT(poor.wanted, 0.9 * free);  // shares of leaves are others
+  EXPECT_GT(poor.held_back, 0u);
+  EXPECT_EQ(poor.counts[0], 0u);
+}
+
+// Of a mesh that was read, faces that never move are stems: they take no leaf's place.
+TEST(CanopyMarkers, RigidFacesAreNoLeaves) {
+  Row row(10);
+  auto form = std::make_shared<canopy::Form>();
+  form->leaves.resize(30);
+  for (canopy::Leaf& leaf : form->leaves) leaf.root = leaf.tip = Vec3(0.1, 0.0, 0.5);
+  form->rigid.resize(500);
+  row.layout.kinds[0].shape = static_cast<int>(canopy::Shape::MESH);
+  row.layout.kinds[0].file = "read.dae";
+  row.layout.kinds[0].form = form;
+  const Balance balance = row.choose(200000, 0.01);
+  EXPECT_EQ(balance.cost, 10 * 30 * 6);
+  EXPECT_EQ(static_cast<double>(row.used), balance.cost);
+}
+
+// rviz works on triangles without area as on others: of no plant there is none, and plants that
+// come again are drawn in lists as long as before.
+TEST(CanopyMarkers, NoPlantsAreNotDrawn) {
+  using visualization_msgs::Marker;
+  const Row none(0), shrubs(4);
+  CanopyMarkers markers(60000);
+  const auto listsOf = [&](const Row& row) {
+    markers.setLayout(row.layout);
+    markers.choose(row.layout, row.eye, 1.0, 0);
+    return markers.build(canopy::Canopy(row.layout).foliage(), {}, "map").markers;
+  };
+  for (const Marker& list : listsOf(none)) {
+    EXPECT_EQ(list.action, Marker::DELETE) << list.ns;
+    EXPECT_TRUE(list.points.empty() && list.colors.empty()) << list.ns;
+  }
+  for (const Marker& list : listsOf(shrubs)) {
+    EXPECT_EQ(list.action, Marker::ADD) << list.ns;
+    EXPECT_EQ(list.points.size(), list.colors.size()) << list.ns;
+    EXPECT_TRUE(list.ns != "leaves" || list.points.size() == markers.room());
+  }
+  for (const Marker& list : listsOf(none)) EXPECT_EQ(list.action, Marker::DELETE) << list.ns;
+}
+
+}  // namespace
+}  // namespace vegetation_sim
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,91 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/markers/crowd_markers.h"
+
+#include <gtest/gtest.h>
+
+#include "scenes/crowd/crowd_scenes.h"
+
+namespace vegetation_sim {
+namespace {
+
+constexpr Nanoseconds SECOND = NANOSECONDS_PER_SECOND;
+
+/// People in a row away from an eye, 2 m apart.
+struct Row {
+  explicit Row(int people) : crowd(1, {}, {-1, 5000, -5, 5}, crowd::flatGround()) {
+    for (int i = 0; i < people; ++i)
+      crowd::spawnAt(crowd, {2.0 + 2.0 * i, 0.0}, {2.0 + 2.0 * i, 1.0});
+    eye.position = Vec3(0.0, 0.0, 1.6);
+  }
+  Balance build(int points, double tolerance, Nanoseconds stamp = 0) {
+    CrowdMarkers markers(points);
+    const auto array = markers.build(crowd, {eye}, tolerance, "map", stamp);
+    EXPECT_EQ(array.markers[0].points.size(), static_cast<std::size_t>(points) / 3 * 3);
+    EXPECT_EQ(static_cast<double>(markers.points()), markers.balance().cost);
+    return markers.balance();
+  }
+  crowd::Crowd crowd;
+  Eye eye;
+};
+
+// N7: a person has the fewest facets that hold the tolerance.
+TEST(CrowdMarkers, FarPeopleHaveFewerFacets) {
+  Row row(200);
+  const Balance fine = row.build(400000, 1.0), coarse = row.build(400000, 4.0);
+  EXPECT_EQ(fine.held_back, 0u);
+  for (std::size_t rung = 1; rung < CrowdMarkers::rungs().size(); ++rung)
+    EXPECT_GT(fine.counts[rung], 0u) << rung;
+  EXPECT_EQ(fine.counts[0], 0u);
+  EXPECT_LT(coarse.cost, 0.9 * fine.cost);
+  // Only who stands nearer than the finest rung is meant for is above the tolerance.
+  EXPECT_LE(fine.over, 4u);
+}
+
+// rviz works on triangles without area as on others: where nobody is there are none.
+TEST(CrowdMarkers, NobodyIsNotDrawn) {
+  const Row nobody(0), one(1);
+  CrowdMarkers markers(60000);
+  const auto markerOf = [&](const Row& row) {
+    return markers.build(row.crowd, {row.eye}, 1.0, "map", 0).markers[0];
+  };
+  EXPECT_EQ(markerOf(nobody).action, visualization_msgs::Marker::DELETE);
+  EXPECT_TRUE(markerOf(nobody).points.empty());
+  EXPECT_EQ(markerOf(one).action, visualization_msgs::Marker::ADD);
+  EXPECT_EQ(markerOf(one).points.size(), 60000u);
+}
+
+// N7: the points bind; a few less coarsen somebody, half of them leave some out.
+TEST(CrowdMarkers, PointsBindAndNobodyIsLeftOutForTheSakeOfFacets) {
+  Row row(200);
+  const Balance free = row.build(400000, 1.0);
+  for (const double share : {0.95, 0.5}) {
+    const int points = static_cast<int>(share * free.cost);
+    const Balance poor = row.build(points, 1.0);
+    EXPECT_LE(poor.cost, points);
+    EXPECT_GE(poor.cost, 0.9 * points);
+    EXPECT_GT(poor.held_back, 0u);
+    EXPECT_EQ(poor.counts[0] > 0, share < 0.9);
+  }
+}
+
+// N7: who moves a little does not make anybody else flicker.
+TEST(CrowdMarkers, NobodyFlickers) {
+  Row row(200);
+  CrowdMarkers markers(60000);
+  markers.build(row.crowd, {row.eye}, 1.0, "map", 0);
+  const auto before = markers.balance().counts;
+  for (int i = 1; i < 20; ++i) {
+    row.eye.position.x() = i % 2 ? 0.1 : 0.0;
+    markers.build(row.crowd, {row.eye}, 1.0, "map", i * SECOND);
+    EXPECT_EQ(markers.balance().counts, before) << i;
+  }
+}
+
+}  // namespace
+}  // namespace vegetation_sim
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

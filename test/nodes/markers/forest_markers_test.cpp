@@ -1,0 +1,82 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/markers/forest_markers.h"
+
+#include <gtest/gtest.h>
+
+#include "scenes/forest/forest_fixture.h"
+
+namespace vegetation_sim {
+namespace {
+
+constexpr std::size_t BRANCHES = 100000;  // that the cache may hold
+constexpr int POINTS = 60000;
+
+using visualization_msgs::Marker;
+
+/// Action and number of points of bark and leaves.
+struct Lists {
+  std::vector<int> actions;
+  std::vector<std::size_t> points;
+};
+
+Lists listsOf(ForestMarkers& markers, const forest::Forest& forest) {
+  forest::TreeCache cache(BRANCHES);
+  Lists out;
+  for (const Marker& marker : markers.build(forest, cache, "map", 0).markers) {
+    EXPECT_EQ(marker.points.size(), marker.colors.size()) << marker.ns;
+    out.actions.push_back(marker.action);
+    out.points.push_back(marker.points.size());
+  }
+  return out;
+}
+
+forest::Forest standing(forest::Layout layout) {
+  return forest::Forest(std::move(layout), forest::flatTerrain(), forest::Settings());
+}
+
+/// A tree of a species that bears no leaf.
+forest::Layout bareTree() {
+  forest::Layout out = forest::gridLayout(1, 10.0);
+  for (forest::Species& species : out.species)
+    for (forest::LimbRule& limb : species.limbs) limb.leaves = 0.0;
+  return out;
+}
+
+const std::vector<int> BOTH{Marker::ADD, Marker::ADD}, NEITHER{Marker::DELETE, Marker::DELETE};
+const std::vector<std::size_t> FULL{POINTS / 2, POINTS / 2}, EMPTY{0, 0};
+
+// rviz works on triangles without area as on others: where no tree is there are none, and trees
+// that come again are drawn in lists as long as before.
+TEST(ForestMarkers, NoTreesAreNotDrawn) {
+  const forest::Forest trees = standing(forest::gridLayout(2, 10.0)),
+                       none = standing(forest::gridLayout(0, 10.0));
+  ForestMarkers markers(POINTS);
+  for (int again = 0; again < 2; ++again) {
+    const Lists drawn = listsOf(markers, trees);
+    EXPECT_EQ(drawn.actions, BOTH);
+    EXPECT_EQ(drawn.points, FULL);
+    EXPECT_GT(markers.points(), 0u);
+    const Lists gone = listsOf(markers, none);
+    EXPECT_EQ(gone.actions, NEITHER);
+    EXPECT_EQ(gone.points, EMPTY);
+    EXPECT_EQ(markers.points(), 0u);
+  }
+}
+
+// Each list by itself.
+TEST(ForestMarkers, LeavesOfBareTreesAreNotDrawn) {
+  const forest::Forest bare = standing(bareTree());
+  ForestMarkers markers(POINTS);
+  const Lists drawn = listsOf(markers, bare);
+  EXPECT_EQ(drawn.actions, (std::vector<int>{Marker::ADD, Marker::DELETE}));
+  EXPECT_EQ(drawn.points, (std::vector<std::size_t>{POINTS / 2, 0}));
+}
+
+}  // namespace
+}  // namespace vegetation_sim
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

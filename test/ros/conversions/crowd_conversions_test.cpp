@@ -1,0 +1,51 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/conversions/crowd_conversions.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/error_text.h"
+
+namespace vegetation_sim {
+namespace {
+
+AgentState standing(std::uint32_t id) {
+  AgentState out;
+  out.id = id;
+  out.height = 1.7;
+  out.pose.orientation.w = 1.0;
+  return out;
+}
+
+// What a stranger tells of walkers is refused with who it is, what, its value and the range.
+TEST(CrowdConversions, RefuseWalkersThatCannotBe) {
+  constexpr double NONE = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<std::pair<std::string, std::function<void(AgentState&)>>> faults = {
+      {"position", [](AgentState& a) { a.pose.position.y = NONE; }},
+      {"height = 9 m is outside 0.1 to 5 m", [](AgentState& a) { a.height = 9.0; }},
+      {"gait", [](AgentState& a) { a.gait = NONE; }},
+      {"velocity", [](AgentState& a) { a.velocity.x = 1e9; }},
+      {"orientation.w = 2", [](AgentState& a) { a.pose.orientation.w = 2.0; }},
+      {"feet", [](AgentState& a) { a.feet[1].z = NONE; }},
+      {"feet_lag", [](AgentState& a) { a.feet_lag[0].x = -NONE; }}};
+  AgentStates message;
+  message.agents = {standing(3), standing(7)};
+  EXPECT_EQ(errorOf([&] { check(message); }), "");
+  for (const auto& [text, spoil] : faults) {
+    AgentStates bad = message;
+    spoil(bad.agents[1]);
+    const std::string refusal = errorOf([&] { check(bad); });
+    EXPECT_NE(refusal.find("agent 7: "), std::string::npos) << text;
+    EXPECT_NE(refusal.find(text), std::string::npos) << refusal;
+    EXPECT_EQ(refusal.find("agent 3"), std::string::npos) << refusal;
+  }
+}
+
+}  // namespace
+}  // namespace vegetation_sim

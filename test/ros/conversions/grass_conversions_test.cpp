@@ -1,0 +1,137 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/ros/conversions/grass_conversions.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "core/error_text.h"
+#include "scenes/grass/tread_simulation_fixture.h"
+
+namespace vegetation_sim {
+namespace {
+
+constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
+
+/// Every field set to something of its own; pictures of one and of two bytes a sample.
+grass::Layout exampleLayout() {
+  grass::MapInput map;
+  map.law = {1.5, -3.0, 4.0, 3, 2};
+  map.density.image = {3, 2, 255, {0, 100, 200, 50, 150, 255}};
+  map.height.image = {3, 2, 65535, {0, 1000, 20000, 50, 65535, 255}};
+  map.height.white = 0.7;
+  map.colour.value = 0.25;
+  map.species.resize(2);
+  map.species[0].species.name = "fescue";
+  map.species[1].species.name = "poppy";
+  map.species[1].species.flower_radius = 0.03;
+  map.species[1].species.colour = Vec3(0.1, 1.0 / 3.0, 0.5);
+  map.species[1].mix.value = 0.1;
+  grass::Layout out;
+  out.map = std::make_shared<const grass::FeatureMap>(map);
+  out.seed = 18446744073709551615ULL;
+  out.terrain = "package://somewhere/hills.yaml";
+  out.terrain_hash = 7;
+  out.blade_model = 1;
+  out.tread_spacing = 0.0625;
+  out.tread = {0.2, 0.5, 0.15, 0.7, 90.0};
+  return out;
+}
+
+TEST(GrassConversions, ReturnEveryFieldOfALayout) {  // S2-03, S2-W2
+  const grass::Layout layout = exampleLayout();
+  const grass::Layout back = fromMsg(toMsg(layout));
+  EXPECT_EQ(back.hash(), layout.hash());  // over every number
+  EXPECT_EQ(back.terrain, layout.terrain);
+  EXPECT_EQ(back.map->hash(), layout.map->hash());
+  EXPECT_EQ(toMsg(layout).blade_model, "paper");
+  EXPECT_EQ(back.map->node(1, 1).density, layout.map->node(1, 1).density);
+  EXPECT_EQ(back.map->node(1, 0).height, layout.map->node(1, 0).height);
+}
+
+TEST(GrassConversions, RefuseALayoutWithAllItsFaults) {
+  GrassLayout message = toMsg(exampleLayout());
+  message.blade_model = "rubber";
+  message.density.samples.pop_back();
+  message.species[1].rules = "{width: -1, hieght: 4}";
+  message.tread.load = -1.0;
+  message.tread_spacing = NOT_A_NUMBER;
+  const std::string faults = errorOf([&] { fromMsg(message); });
+  for (const char* part :
+       {"blade_model = 'rubber' is none of arc, paper", "density: 5 bytes for 3 x 2 samples of 1",
+        "species 'poppy': width = -1 m", "hieght is not a known key", "tread: load = -1",
+        "tread_spacing = nan"})
+    EXPECT_NE(faults.find(part), std::string::npos) << part << " in " << faults;
+}
+
+TEST(GrassConversions, RefuseALayoutOfAnotherHash) {
+  GrassLayout message = toMsg(exampleLayout());
+  message.colour.value = 0.26;
+  EXPECT_NE(errorOf([&] { fromMsg(message); }).find("is not that of its content"),
+            std::string::npos);
+}
+
+class GrassStateConversions : public grass::FieldTest {};
+
+TEST_F(GrassStateConversions, ReturnTroddenGroundToTheBit) {
+  drive("a", 3.0, 5.0, 1.0, 40);
+  const grass::TreadUpdate update = field_.update(true);
+  const GrassState message = toMsg(update);
+  const grass::TreadUpdate back = fromMsg(message);
+  EXPECT_EQ(hashOf(back.treads), update.hash);
+  EXPECT_EQ(message.hash, update.hash);
+  EXPECT_EQ(back.stamp, update.stamp);
+  EXPECT_EQ(back.sequence, update.sequence);
+  EXPECT_TRUE(back.key_frame);
+  EXPECT_EQ(back.layout_hash, layout_.hash());
+}
+
+TEST_F(GrassStateConversions, RefuseWhatCannotBe) {
+  drive("a", 3.0, 5.0, 1.0, 5);
+  GrassState message = toMsg(field_.update(true));
+  GrassState lists = message, presses = message, nodes = message;
+  lists.blocks[0].x.pop_back();
+  EXPECT_NE(errorOf([&] { fromMsg(lists); }).find("its lists differ in length"), std::string::npos);
+  presses.press_recoveries.pop_back();
+  EXPECT_NE(errorOf([&] { fromMsg(presses); }).find("press_stamps for"), std::string::npos);
+  nodes.blocks[0].press[0] = 77;
+  EXPECT_NE(errorOf([&] { fromMsg(nodes); }).find("press = 77"), std::string::npos);
+}
+
+TEST(TreadConversions, ZerosBecomeTheNodesOwn) {
+  const grass::TreadLaw own{0.1, 0.3, 0.08, 0.9, 30.0};
+  TreadEvent message;
+  message.source = "wheel";
+  message.position.x = 2.0;
+  grass::TreadInput input = fromMsg(message, own, 0.4);
+  EXPECT_EQ(input.law.radius, 0.1);
+  EXPECT_EQ(input.law.recovery, 30.0);
+  EXPECT_EQ(input.height_gate, 0.4);
+  message.law.radius = 0.2;  // reach and softness grow with it
+  message.law.load = 0.5;
+  message.height_gate = 0.1;
+  input = fromMsg(message, own, 0.4);
+  EXPECT_NEAR(input.law.reach, 0.6, 1e-12);
+  EXPECT_NEAR(input.law.softness, 0.16, 1e-12);
+  EXPECT_EQ(input.law.load, 0.5);
+  EXPECT_EQ(input.height_gate, 0.1);
+  const grass::TreadInput back = fromMsg(toMsg(input), grass::TreadLaw(), 9.0);
+  EXPECT_EQ(back.law.reach, input.law.reach);
+  EXPECT_EQ(back.height_gate, input.height_gate);
+  EXPECT_EQ(back.position, input.position);
+}
+
+TEST(TreadConversions, RefuseAllThatIsWrong) {
+  TreadEvent message;
+  message.action = 9;
+  message.position.y = NOT_A_NUMBER;
+  message.law.recovery = -1.0;
+  const std::string faults = errorOf([&] { fromMsg(message, grass::TreadLaw(), 0.3); });
+  for (const char* part :
+       {"source = '' has 0 letters", "action = 9", "position.y = nan", "recovery = -1 s"})
+    EXPECT_NE(faults.find(part), std::string::npos) << part << " in " << faults;
+}
+
+}  // namespace
+}  // namespace vegetation_sim

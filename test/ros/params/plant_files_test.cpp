@@ -1,0 +1,127 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/params/plant_files.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "core/error_text.h"
+#include "vegetation_sim/ros/conversions/canopy_conversions.h"
+
+namespace vegetation_sim {
+namespace {
+
+/// A folder of this test's own, gone afterwards.
+class PlantFiles : public ::testing::Test {
+ protected:
+  PlantFiles()
+      : folder_(std::filesystem::temp_directory_path() /
+                ("plant_files_" + std::to_string(::getpid()))) {
+    std::filesystem::create_directories(folder_);
+  }
+  ~PlantFiles() override { std::filesystem::remove_all(folder_); }
+
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+    return (folder_ / name).string();
+  }
+
+  std::filesystem::path folder_;
+};
+
+// A leaf of two triangles and a trunk of one.
+const char* const SHRUB =
+    "v 0 0 1\nv 1 0 1\nv 0 0.2 2\nv 1 0.2 2\nv 0 0 0\nv 0.1 0 0\nv 0 0 1\n"
+    "o leaf\nusemtl green\nf 1 2 3\nf 2 4 3\no old_trunk\nusemtl brown\nf 5 6 7\n";
+
+std::string slice(int dark, int rows = 2) {
+  std::string out = "P2\n2 " + std::to_string(rows) + "\n255\n";
+  for (int i = 0; i < 2 * rows; ++i) out += std::to_string(i < dark ? 0 : 200) + "\n";
+  return out;
+}
+
+// S3-02, S3-03, S3-29: leaves and rigid parts of a mesh, by the names in the file.
+TEST_F(PlantFiles, HaveLeavesAndRigidPartsOfAMesh) {
+  const canopy::LeafMesh mesh = loadLeafMesh(write("shrub.obj", SHRUB));
+  const canopy::Form form = canopy::formOf(mesh, false);
+  ASSERT_EQ(form.leaves.size(), 2U);
+  EXPECT_EQ(form.rigid.size(), 1U);
+  EXPECT_EQ(form.leaves[0].anchor, form.leaves[1].anchor);
+  EXPECT_EQ(canopy::formOf(loadLeafMesh("file://" + (folder_ / "shrub.obj").string()), false).hash,
+            form.hash);
+}
+
+// A package's mesh, as other nodes name theirs.
+TEST_F(PlantFiles, AreFoundInPackages) {
+  const canopy::Form fern =
+      canopy::formOf(loadLeafMesh("package://vegetation_sim/media/plants/fern.obj"), false);
+  EXPECT_GT(fern.leaves.size(), 500U);
+  EXPECT_GT(fern.rigid.size(), 10U);
+  const canopy::Form moss =
+      canopy::formOf(loadSlices("package://vegetation_sim/media/plants/cushion_00.png"), 0.5);
+  EXPECT_GT(moss.leaves.size(), 500U);
+}
+
+// S3-29: an image stack.
+TEST_F(PlantFiles, AreReadAsSlices) {
+  write("s_9.pgm", slice(1));
+  write("s_10.pgm", slice(0));
+  const canopy::SliceStack stack = loadSlices((folder_ / "s_9.pgm").string());
+  EXPECT_EQ(stack.slices, 2);
+  EXPECT_EQ(canopy::formOf(stack, 0.5).leaves.size(), 7U);
+  write("t_00.pgm", slice(1));
+  write("t_01.pgm", slice(1, 3));
+  EXPECT_NE(errorOf([&] { loadSlices((folder_ / "t_00.pgm").string()); }).find("the first slice"),
+            std::string::npos);
+}
+
+// Bad input: each names its file and what is wrong.
+TEST_F(PlantFiles, AreRefusedByName) {
+  const auto text = [&](const std::string& name) {
+    return errorOf([&] { canopy::formOf(loadLeafMesh(name), false); });
+  };
+  EXPECT_NE(text((folder_ / "none.obj").string()).find("none.obj: cannot be read"),
+            std::string::npos);
+  EXPECT_NE(text("package://vegetation_sim/none.obj").find("cannot be read"), std::string::npos);
+  EXPECT_NE(text("package://no_such_package/none.obj").find("cannot be read"), std::string::npos);
+  EXPECT_FALSE(text(write("empty.obj", "")).empty());
+  EXPECT_FALSE(text(write("points.obj", "v 0 0 0\nv 0 0 1\n")).empty());
+  EXPECT_FALSE(text(write("odd.obj", "v nan 0 0\nv 0 nan 1\nv 1 1 1\nf 1 2 3\n")).empty());
+  EXPECT_FALSE(text(write("noise.stl", std::string(500, '\xff'))).empty());
+  EXPECT_FALSE(text(write("wild.obj", "v 0 0 0\nv 0 0 1\nv 1 1 1\nf 1 2 99\n")).empty());
+}
+
+// Before it is read.
+TEST_F(PlantFiles, AreRefusedIfTheyAreTooLarge) {
+  const std::string name = write("huge.obj", "");
+  std::filesystem::resize_file(name, (std::uintmax_t{512} << 20) + 1);  // a hole on the disk
+  const std::string text = errorOf([&] { loadLeafMesh(name); });
+  EXPECT_NE(text.find("huge.obj: 536870913 bytes, more than 536870912"), std::string::npos) << text;
+}
+
+// A layout with a mesh goes through its message, and a changed file is noticed.
+TEST_F(PlantFiles, GoThroughTheLayoutsMessage) {
+  canopy::Layout layout;
+  layout.kinds.resize(1);
+  layout.kinds[0].shape = static_cast<int>(canopy::Shape::MESH);
+  layout.kinds[0].file = "shrub.obj";
+  layout.plants.resize(1);
+  write("shrub.obj", SHRUB);
+  Faults faults;
+  loadForms(layout, folder_.string(), faults);
+  ASSERT_TRUE(faults.empty());
+  EXPECT_EQ(layout.leafCount(), 3U);
+  const CanopyLayout message = toMsg(layout);
+  EXPECT_EQ(fromMsg(message).leafCount(), 3U);
+  std::string other = SHRUB;
+  write("shrub.obj", other.replace(0, 7, "v 0 0.3 1"));
+  EXPECT_NE(errorOf([&] { fromMsg(message); }).find("hash"), std::string::npos);
+  std::filesystem::remove(folder_ / "shrub.obj");
+  EXPECT_NE(errorOf([&] { fromMsg(message); }).find("cannot be read"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace vegetation_sim

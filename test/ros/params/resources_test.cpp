@@ -1,0 +1,52 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/params/resources.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "core/error_text.h"
+
+namespace vegetation_sim {
+namespace {
+
+const std::string FOLDER = PACKAGE_FOLDER;
+
+class Resources : public testing::Test {
+ protected:
+  void SetUp() override { setenv("ROS_PACKAGE_PATH", PACKAGE_FOLDER, 1); }
+};
+
+TEST_F(Resources, RelativeNamesCountFromTheFolder) {
+  EXPECT_EQ(resolveFile("../terrain/hills.yaml", "/scenes/forest"), "/scenes/terrain/hills.yaml");
+  EXPECT_EQ(resolveFile("/terrain/hills.yaml", "/scenes"), "/terrain/hills.yaml");
+  EXPECT_EQ(resolveFile("hills.yaml"), "hills.yaml");
+  EXPECT_EQ(resolveFile("", "/scenes"), "");
+}
+
+TEST_F(Resources, PackagesAreFound) {
+  EXPECT_EQ(resolveFile("package://vegetation_sim/config/terrain/hills.yaml", "/scenes"),
+            FOLDER + "/config/terrain/hills.yaml");
+}
+
+TEST_F(Resources, UnknownPackageIsRefusedByName) {
+  EXPECT_EQ(errorOf([] { resolveFile("package://no_such_package/hills.yaml"); }),
+            "package://no_such_package/hills.yaml: package 'no_such_package' is not known here");
+}
+
+TEST_F(Resources, TerrainIsTheSameByPathAndByPackage) {
+  const auto by_path = loadTerrain(FOLDER + "/config/terrain/hills.yaml");
+  const auto by_package = loadTerrain("package://vegetation_sim/config/terrain/hills.yaml");
+  EXPECT_FALSE(by_path->isFlat());
+  EXPECT_EQ(by_path->hash(), by_package->hash());
+  EXPECT_TRUE(loadTerrain("")->isFlat());
+}
+
+TEST_F(Resources, MissingTerrainIsRefusedByName) {
+  EXPECT_NE(errorOf([] { loadTerrain("/nowhere/hills.yaml"); }).find("/nowhere/hills.yaml"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace vegetation_sim

@@ -1,0 +1,144 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/replicas/leafed_crowns.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+
+#include "scenes/canopy/canopy_scene.h"
+
+namespace vegetation_sim {
+namespace {
+
+/// One oak with leaves of a canopy, in still air.
+class LeafedOak : public ::testing::Test {
+ protected:
+  LeafedOak() {
+    forest::Layout trees;
+    trees.species = {forest::loadSpecies(PACKAGE_FOLDER "/config/species/oak.yaml")};
+    trees.trees.resize(1);
+    trees.trees[0].scale = 0.4;
+    trees.trees[0].position = Vec3(2.0, 1.0, 0.0);
+    forest_.setLayout(trees, std::make_shared<terrain::HeightMap>());
+    layout_ = canopy::shrubScene();
+    layout_.crowns.resize(1);
+    layout_.kinds[0].leaves = 3000;
+    crowns_.grow(layout_, forest_);
+  }
+
+  /// The forest's state with a bend of one branch, as somebody holds it.
+  void bend(int branch, double angle) {
+    forest::StateUpdate state;
+    state.layout_hash = forest_.layoutHash();
+    state.stamp = canopy::tickStamp(1);
+    forest::PromotedBranch held;
+    held.branch = branch;
+    held.q.first = angle;
+    state.trees = {{0, {}, {held}}};
+    ASSERT_TRUE(forest_.apply(state)) << forest_.why();
+  }
+
+  std::vector<canopy::MovedLeaf> leaves(const canopy::Foliage& foliage) const {
+    const LeafedCrowns::Crown& crown = crowns_.crowns()[0];
+    const std::vector<Pose> wood = crowns_.wood(0, forest_, canopy::tickStamp(1));
+    std::vector<canopy::MovedLeaf> out;
+    for (const canopy::CrownLeaf& leaf : crown.leaves)
+      out.push_back(carry(foliage, leaf, crown.rest[leaf.twig].pose, wood[leaf.twig]));
+    return out;
+  }
+
+  bool bears(int branch, std::uint32_t twig) const {
+    const auto& branches = forest_.grow(0).skeleton.branches;
+    for (int i = static_cast<int>(twig); i >= 0; i = branches[static_cast<std::size_t>(i)].parent)
+      if (i == branch) return true;
+    return false;
+  }
+
+  canopy::Layout layout_;
+  forest::ForestReplica forest_;
+  LeafedCrowns crowns_;
+};
+
+// S3-W2: a branch that is held takes its leaves along, and no others.
+TEST_F(LeafedOak, TakesLeavesAlongWithTheBranchThatIsHeld) {
+  canopy::Canopy canopy(layout_);
+  const auto& foliage = canopy.foliage();
+  const auto before = leaves(foliage);
+  const int limb = forest_.grow(0).skeleton.depth_end[0] + 2;
+  bend(limb, 0.4);
+  const auto after = leaves(foliage);
+  const auto& crown = crowns_.crowns()[0].leaves;
+  double carried = 0.0;
+  int on_limb = 0;
+  for (std::size_t i = 0; i < crown.size(); ++i) {
+    const double way = length(Vec3(after[i].root - before[i].root));
+    EXPECT_NEAR(length(Vec3(after[i].tip - after[i].root)),
+                length(Vec3(before[i].tip - before[i].root)), 1e-9);
+    if (bears(limb, crown[i].twig)) {
+      ++on_limb;
+      carried = std::max(carried, way);
+    } else {
+      EXPECT_LT(way, 1e-9);
+    }
+  }
+  EXPECT_GT(on_limb, 20);
+  EXPECT_GT(carried, 0.1);
+}
+
+// S3-W2: the layers move leaves about wood that stands; they stay on it and keep their length.
+TEST_F(LeafedOak, HasLeavesThatMoveInLayersOnTheirWood) {
+  canopy::Canopy canopy(layout_);
+  canopy.setWind(canopy::breezeFrom(Vec3(1.0, 6.0, 0.0)));
+  const auto before = leaves(canopy.foliage());
+  canopy::run(canopy, 0, 90);
+  const auto after = leaves(canopy.foliage());
+  double moved = 0.0;
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    EXPECT_LT(length(Vec3(after[i].root - before[i].root)), 1e-12);
+    const double size = length(Vec3(before[i].tip - before[i].root));
+    EXPECT_NEAR(length(Vec3(after[i].tip - after[i].root)), size, 1e-9);
+    moved = std::max(moved, length(Vec3(after[i].tip - before[i].tip)) / size);
+  }
+  EXPECT_GT(moved, 0.2);
+}
+
+// S3-W2, S3-05: a crown is cut into layers also where no plant stands, and nothing that the canopy
+// remembers depends on it, though the viewer moves: a replay needs no forest.
+TEST_F(LeafedOak, IsCutIntoLayersWithoutAnyPlant) {
+  layout_.plants.clear();
+  canopy::Canopy with(layout_), without(layout_);
+  with.setCrowns(crowns_.boxes());
+  std::uint64_t first_cuts = 0, cuts = 0;
+  for (int tick = 0; tick < 90; ++tick)
+    for (canopy::Canopy* canopy : {&with, &without}) {
+      canopy->setWind(canopy::breezeFrom(Vec3(1.0, 6.0, 0.0)));
+      canopy->setViewer(canopy::CutView{Vec3(-5.0 + 0.02 * tick, 0.0, 1.5), {}});
+      canopy->advance(canopy::tickStamp(tick));
+      cuts = static_cast<std::uint64_t>(canopy->memory().cuts.since);
+      if (tick == 0) first_cuts = cuts;
+    }
+  EXPECT_NE(cuts, first_cuts);
+  EXPECT_EQ(with.memory().hash(), without.memory().hash());
+  EXPECT_EQ(without.foliage().layers(), 1);
+  const canopy::Foliage& foliage = with.foliage();
+  ASSERT_EQ(foliage.layers(), 3);
+  std::array<int, 3> leaves{};
+  for (const canopy::CrownLeaf& leaf : crowns_.crowns()[0].leaves)
+    ++leaves[static_cast<std::size_t>(foliage.layerAt(leaf.leaf.anchor))];
+  for (const int count : leaves) EXPECT_GT(count, 100);
+  canopy::Replica replica(layout_);
+  replica.setCrowns(crowns_.boxes());
+  replica.apply(with.update(false));
+  EXPECT_EQ(replica.foliage().layers(), 3);
+}
+
+TEST_F(LeafedOak, GrowsNothingOnTreesThatAreNotThere) {
+  layout_.crowns[0].first_tree = 7;
+  crowns_.grow(layout_, forest_);
+  EXPECT_TRUE(crowns_.crowns().empty());
+}
+
+}  // namespace
+}  // namespace vegetation_sim

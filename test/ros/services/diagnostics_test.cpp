@@ -1,0 +1,51 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/services/diagnostics.h"
+
+#include <gtest/gtest.h>
+
+#include "vegetation_sim/core/config/faults.h"
+
+namespace vegetation_sim {
+namespace {
+
+std::string toldOf(int faults) {
+  Faults all;
+  for (int i = 1; i <= faults; ++i) all.add("fault " + std::to_string(i));
+  diagnostic_updater::DiagnosticStatusWrapper status;
+  status.summary(diagnostic_msgs::DiagnosticStatus::OK, "running");
+  warnOfMore(status, 2, 1, all.text());
+  return status.message;
+}
+
+// A message of a hundred robots that all are wrong does not fill the screen.
+TEST(Troubles, OfManyFaultsTheFirstAreToldAndHowManyMore) {
+  EXPECT_EQ(toldOf(1), "1 fault 1");
+  EXPECT_EQ(toldOf(5), "1 fault 1\nfault 2\nfault 3\nfault 4\nfault 5");
+  EXPECT_EQ(toldOf(7), "1 fault 1\nfault 2\nfault 3\nfault 4\nfault 5\nand 2 more");
+  EXPECT_EQ(toldOf(100).substr(toldOf(100).size() - 11), "and 95 more");
+}
+
+TEST(Troubles, WhatWasReportedIsNotToldAgain) {
+  diagnostic_updater::DiagnosticStatusWrapper status;
+  status.summary(diagnostic_msgs::DiagnosticStatus::OK, "running");
+  warnOfMore(status, 3, 3, "ticks dropped");
+  EXPECT_EQ(status.message, "running");
+  EXPECT_EQ(status.level, diagnostic_msgs::DiagnosticStatus::OK);
+}
+
+TEST(Troubles, RefusalsAreToldOnceWithTheLastReason) {
+  Refusals refusals("forest_animator");
+  refusals.add("wind", "speed = nan");
+  refusals.add("viewer", "height = 0");
+  diagnostic_updater::DiagnosticStatusWrapper status;
+  refusals.warn(status);
+  EXPECT_EQ(status.message, "2 refused input: viewer: height = 0");
+  status.clearSummary();
+  refusals.warn(status);
+  EXPECT_EQ(status.message, "");
+  EXPECT_EQ(refusals.count(), 2u);
+}
+
+}  // namespace
+}  // namespace vegetation_sim

@@ -1,0 +1,123 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/time/tick_clock.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace vegetation_sim {
+namespace {
+
+constexpr Nanoseconds SECOND = NANOSECONDS_PER_SECOND;
+constexpr Nanoseconds UNIX = 1700000000 * SECOND;
+
+/// N6: the rule of time of all nodes.
+class TickClockTest : public testing::Test {
+ protected:
+  void SetUp() override { ros::Time::init(); }  // for its warnings
+  TickClock make(double delay = 0.0, LateTicks late = LateTicks::EACH) {
+    TickCalls calls;
+    calls.before = [this] { did_.push_back("before"); };
+    calls.tick = [this](std::int64_t tick) { did_.push_back(std::to_string(tick)); };
+    calls.back = [this](Nanoseconds clock) {
+      did_.push_back("back to " + std::to_string(clock / SECOND));
+    };
+    return TickClock("node", 10, delay, calls, late);
+  }
+  using Did = std::vector<std::string>;
+  Did did_;
+};
+
+TEST_F(TickClockTest, WaitsForTheClockAndBeginsWithTheTickThatItShows) {
+  TickClock clock = make();
+  clock.see(0);
+  EXPECT_FALSE(clock.hasBegun());
+  EXPECT_EQ(did_, Did());
+  clock.see(UNIX + SECOND / 4);
+  EXPECT_EQ(did_, (Did{"before", "17000000002"}));
+  EXPECT_EQ(clock.tick(), 17000000002);
+  EXPECT_EQ(clock.stamp(), UNIX + SECOND / 5);
+}
+
+TEST_F(TickClockTest, DoesEachTickOnceAndCatchesUpForASecond) {
+  TickClock clock = make();
+  clock.see(5 * SECOND);
+  clock.see(5 * SECOND);
+  clock.see(5 * SECOND + SECOND / 20);
+  EXPECT_EQ(did_, (Did{"before", "50"}));
+  clock.see(6 * SECOND);
+  EXPECT_EQ(did_, (Did{"before", "50", "before", "51", "52", "53", "54", "55", "56", "57", "58",
+                       "59", "60"}));
+  EXPECT_EQ(clock.counts().ticks, 11u);
+  EXPECT_EQ(clock.counts().dropped, 0u);
+}
+
+TEST_F(TickClockTest, DropsAndCountsWhatALeapLeavesOut) {
+  TickClock clock = make();
+  clock.see(5 * SECOND);
+  clock.see(6 * SECOND + SECOND / 10);
+  EXPECT_EQ(did_, (Did{"before", "50", "before", "61"}));
+  EXPECT_EQ(clock.counts().dropped, 10u);
+  EXPECT_EQ(clock.counts().ticks, 2u);
+}
+
+TEST_F(TickClockTest, OneThatDoesOnlyTheNewestDropsAndCountsThoseBefore) {
+  TickClock clock = make(0.0, LateTicks::NEWEST);
+  clock.see(5 * SECOND);
+  clock.see(5 * SECOND + SECOND / 10);
+  EXPECT_EQ(clock.counts().dropped, 0u);
+  clock.see(5 * SECOND + SECOND / 2);
+  EXPECT_EQ(did_, (Did{"before", "50", "before", "51", "before", "55"}));
+  EXPECT_EQ(clock.counts().dropped, 3u);
+  EXPECT_EQ(clock.counts().ticks, 3u);
+  clock.see(4 * SECOND);
+  EXPECT_EQ(did_.back(), "40");
+  EXPECT_EQ(clock.counts().dropped, 3u);
+}
+
+TEST_F(TickClockTest, BackIsAFreshStartThere) {
+  TickClock clock = make();
+  clock.see(5 * SECOND);
+  clock.see(5 * SECOND - 1);
+  EXPECT_EQ(did_, (Did{"before", "50", "back to 4", "before", "49"}));
+  EXPECT_EQ(clock.counts().jumps, 1u);
+  EXPECT_EQ(clock.counts().dropped, 0u);
+  clock.see(5 * SECOND);
+  EXPECT_EQ(did_.back(), "50");
+}
+
+TEST_F(TickClockTest, BackWithinATickIsNone) {
+  TickClock clock = make();
+  clock.see(5 * SECOND + SECOND / 20);
+  clock.see(5 * SECOND);
+  EXPECT_EQ(did_, (Did{"before", "50"}));
+  EXPECT_EQ(clock.counts().jumps, 0u);
+}
+
+TEST_F(TickClockTest, ADelayedOneStaysBehindTheClock) {
+  TickClock clock = make(0.5);
+  clock.see(SECOND / 2);
+  EXPECT_FALSE(clock.hasBegun());
+  clock.see(5 * SECOND);
+  EXPECT_EQ(did_, (Did{"before", "45"}));
+}
+
+// The restarted node may ask for the clock: it has not begun.
+TEST_F(TickClockTest, HasNotBegunWhileItStartsAnew) {
+  TickClock* seen = nullptr;
+  bool begun = true;
+  TickCalls calls;
+  calls.tick = [](std::int64_t) {};
+  calls.back = [&](Nanoseconds) { begun = seen->hasBegun(); };
+  TickClock clock("node", 10, 0.0, calls);
+  seen = &clock;
+  clock.see(5 * SECOND);
+  clock.see(SECOND);
+  EXPECT_FALSE(begun);
+  EXPECT_TRUE(clock.hasBegun());
+}
+
+}  // namespace
+}  // namespace vegetation_sim

@@ -1,0 +1,267 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <limits>
+
+#include "rviz/canopy/canopy_display.h"
+#include "rviz/rigs/display_checks.h"
+#include "rviz/rigs/display_rig.h"
+#include "vegetation_sim/ros/conversions/canopy_conversions.h"
+
+namespace vegetation_sim {
+namespace {
+
+/// rviz and some shrubs that the rig moves, or a forest with such leaves.
+class CanopyRig : public DisplayRig {
+ public:
+  CanopyRig() { startNode(); }
+
+  /// A node that publishes the leaves; one that ran dies.
+  void startNode() {
+    for (ros::Publisher* publisher : {&layout_, &state_}) publisher->shutdown();
+    layout_ = nh_.advertise<CanopyLayout>("canopy/layout", 1, true);
+    state_ = nh_.advertise<CanopyState>("canopy/state", 100);
+  }
+
+  CanopyDisplay* addDisplay() { return add<CanopyDisplay>("vegetation_sim/CanopyDisplay"); }
+
+  static canopy::Layout shrubs(int count) {
+    canopy::Layout out;
+    out.motion.fluid.cells = 32;
+    out.kinds.resize(2);
+    out.kinds[0].leaves = 600;
+    out.kinds[1].name = "reed";
+    out.kinds[1].shape = static_cast<int>(canopy::Shape::REED);
+    out.kinds[1].leaves = 40;
+    for (int i = 0; i < count; ++i) {
+      canopy::Plant plant;
+      plant.seed = static_cast<std::uint64_t>(i) + 1;
+      plant.kind = static_cast<std::uint16_t>(i % 2);
+      plant.position = Vec3(2.0 * (i / 2) - 2.0, 1.5 * (i % 2) - 0.75, 0.0);
+      out.plants.push_back(plant);
+    }
+    return out;
+  }
+
+  void plant(int count) { plant(shrubs(count)); }
+  void plant(const canopy::Layout& layout) {
+    canopy_ = std::make_unique<canopy::Canopy>(layout);
+    canopy_->setWind(wind::Field({forest::makeBreeze(1, Vec3(1.0, 8.0, 0.0))}));
+    CanopyLayout message = toMsg(canopy_->layout());
+    message.header.frame_id = "map";
+    publish(message);
+  }
+  /// Moves the leaves for a while, telling each tick.
+  void blow(int ticks) {
+    for (int i = 0; i < ticks; ++i) {
+      setTime(now() + 0.05);
+      canopy_->advance(fromSeconds(now()));
+      publish(message());
+    }
+  }
+  CanopyState message() const {
+    CanopyState out = toMsg(canopy_->update(false));
+    out.header.frame_id = "map";
+    return out;
+  }
+  void publish(const CanopyLayout& message) { layout_.publish(message); }
+  void publish(const CanopyState& message) { state_.publish(message); }
+
+ private:
+  ros::Publisher layout_, state_;
+  std::unique_ptr<canopy::Canopy> canopy_;
+};
+
+// rviz can only be started once in a process: one rig for all tests, a fresh display for each.
+std::unique_ptr<CanopyRig> shared_rig;
+
+class CanopyDisplayTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() { shared_rig = std::make_unique<CanopyRig>(); }
+  static void TearDownTestSuite() { shared_rig.reset(); }
+
+  void SetUp() override {
+    rig.setTime(rig.now() + 10.0);
+    rig.plant(4);
+    display = rig.addDisplay();
+    ASSERT_NE(display, nullptr) << "the plugin is not found or is another class";
+    rig.lookAt(0.8f, 0.25, 6.0);
+    ASSERT_TRUE(
+        rig.until([&] { return display->drawn().plants == 4 && display->drawn().drawn > 0; }));
+  }
+  void TearDown() override {
+    if (display != nullptr) rig.remove(display);
+  }
+
+  CanopyRig& rig{*shared_rig};
+  CanopyDisplay* display{nullptr};
+};
+
+// S3-01, S3-30: leaves of each plant in front of a sky, on grass.
+TEST_F(CanopyDisplayTest, DrawsLeavesOnGrassUnderASky) {
+  rig.frames(5);
+  const Impression seen = rig.look();
+  EXPECT_GT(seen.green, 0.2);
+  EXPECT_GT(seen.blue, 0.05);
+  EXPECT_EQ(display->drawn().drawn, display->drawn().leaves);
+  EXPECT_EQ(display->drawn().leaves, 2u * 600 + 2u * 40 * 6);
+}
+
+// S3-27: leaves move with the states that are told, and only with them.
+TEST_F(CanopyDisplayTest, MovesWithTheStateAlone) {
+  rig.frames(5);
+  const std::vector<std::uint8_t> before = rig.picture();
+  rig.frames(10);
+  EXPECT_EQ(rig.picture(), before);
+  rig.blow(60);
+  EXPECT_TRUE(rig.until([&] { return difference(before, rig.picture()) > 0.3; }));
+}
+
+// S3-W2: leaves on trees of the forest, in layers where no plant stands, go with their wood at
+// rviz's time, whatever the leaves' own state.
+TEST_F(CanopyDisplayTest, CrownsGoWithTheirForest) {
+  canopy::Layout crowns = CanopyRig::shrubs(0);
+  crowns.crowns.resize(1);
+  crowns.crowns[0].trees = 4;
+  rig.plant(crowns);
+  forest::Layout trees = forest::gridLayout(2, 2.0);
+  for (forest::TreeSeed& tree : trees.trees) tree.scale = 0.3;
+  rig.publishForest(trees);
+  rig.blow(2);
+  rig.lookAt(1.5f, 0.25, 8.0);
+  ASSERT_TRUE(rig.until([&] {
+    const view::CanopyReport drawn = display->drawn();
+    return drawn.crowns == 4 && drawn.drawn > 0 && drawn.layers == 3;
+  }));
+  EXPECT_EQ(display->drawn().plants, 0u);
+  EXPECT_EQ(display->drawn().leaves, 4u * 600);
+  rig.frames(5);
+  const std::vector<std::uint8_t> before = rig.picture();
+  rig.frames(10);
+  EXPECT_EQ(rig.picture(), before);
+  EXPECT_TRUE(rig.until([&] {
+    rig.setTime(rig.now() + 0.02);
+    return difference(before, rig.picture()) > 0.3;
+  }));
+}
+
+// Names of the forest's topics are looked at before there are crowns.
+TEST_F(CanopyDisplayTest, ForestTopicsThatCannotBeAreSaid) {
+  canopy::Layout crowns = CanopyRig::shrubs(0);
+  crowns.crowns.resize(1);
+  crowns.crowns[0].trees = 4;
+  for (const char* name : {"Forest Layout Topic", "Forest State Topic", "Wind Topic"}) {
+    rviz::Property& topic = *display->subProp(name);
+    const QVariant good = topic.getValue();
+    topic.setValue("no name!");
+    rig.plant(crowns);
+    rig.frames(5);
+    EXPECT_NE(statusOf(*display, "Topics"), "") << name;
+    topic.setValue(good);
+    rig.frames(5);
+    EXPECT_EQ(statusOf(*display, "Topics"), "") << name;
+  }
+}
+
+// Far away fewer leaves stand for all, and the plants keep their size in the picture.
+TEST_F(CanopyDisplayTest, FarLeavesAreFewer) {
+  rig.lookAt(0.8f, 0.25, 60.0);
+  EXPECT_TRUE(rig.until([&] {
+    return display->drawn().drawn > 0 && 3 * display->drawn().drawn < display->drawn().leaves;
+  })) << display->drawn().drawn;
+}
+
+TEST_F(CanopyDisplayTest, KeepsToTheLeaves) {
+  display->subProp("Leaves")->setValue(300);
+  EXPECT_TRUE(rig.until([&] {
+    return display->drawn().drawn > 0 && display->drawn().drawn <= 304;
+  })) << display->drawn().drawn;
+}
+
+TEST_F(CanopyDisplayTest, RefusesWhatCannotBeAndKeepsWhatItHas) {
+  CanopyLayout layout = toMsg(CanopyRig::shrubs(2));
+  layout.header.frame_id = "map";
+  layout.plants[0].position.x = std::numeric_limits<double>::quiet_NaN();
+  rig.publish(layout);
+  CanopyState state = rig.message();
+  state.layout_hash ^= 1;
+  rig.publish(state);
+  EXPECT_TRUE(rig.until([&] {
+    return statusOf(*display, "Layout").rfind("Refused", 0) == 0 &&
+           statusOf(*display, "State").find("layout_hash") != std::string::npos;
+  })) << statusOf(*display, "Layout")
+      << "; " << statusOf(*display, "State");
+  state = rig.message();
+  state.front_share = std::numeric_limits<double>::quiet_NaN();
+  rig.publish(state);
+  EXPECT_TRUE(rig.until([&] {
+    return statusOf(*display, "State").find("front_share") != std::string::npos;
+  })) << statusOf(*display, "State");
+  EXPECT_EQ(display->drawn().plants, 4u);
+}
+
+TEST_F(CanopyDisplayTest, SurvivesTimeGoingBack) {
+  rig.blow(10);
+  ASSERT_TRUE(rig.until([&] { return statusOf(*display, "State") == "In step"; }));
+  rig.setTime(rig.now() - 50.0);
+  EXPECT_TRUE(rig.until([&] { return statusOf(*display, "State") != "In step"; }));
+  rig.plant(2);
+  rig.blow(2);
+  EXPECT_TRUE(rig.until([&] { return display->drawn().plants == 2; }));
+}
+
+TEST_F(CanopyDisplayTest, TellsThatNoStateComes) {
+  ASSERT_TRUE(rig.until([&] { return display->drawn().drawn > 0; }));
+  expectSilenceIsTold(rig, *display, [&] { rig.blow(1); });
+}
+
+TEST_F(CanopyDisplayTest, FollowsANodeThatDiesAndReturns) {
+  expectReloadsAreFollowed(
+      rig,
+      [&](int scene) {
+        rig.startNode();
+        rig.plant(scene == 0 ? 4 : 2);
+        for (int i = 0; i < 100; ++i) rig.publish(rig.message());
+      },
+      [&](int scene) {
+        return display->drawn().plants == (scene == 0 ? 4u : 2u) && display->drawn().drawn > 0;
+      });
+}
+
+// N7
+TEST_F(CanopyDisplayTest, TellsTheGovernorsChoice) {
+  expectGovernorIsTold(rig, *display, "canopy_animator", "Cost [points]", "Budget [points]",
+                       "points");
+}
+
+TEST_F(CanopyDisplayTest, EveryPropertyCanBeChanged) {
+  expectEveryPropertyCanBeChanged(rig, *display);
+  EXPECT_TRUE(rig.until([&] { return display->drawn().drawn == display->drawn().leaves; }));
+}
+
+TEST_F(CanopyDisplayTest, SettingsSurviveSaveAndLoad) {
+  expectSettingsSurvive(rig, *display, [&] { return rig.addDisplay(); });
+}
+
+TEST_F(CanopyDisplayTest, LeavesNothingBehind) {
+  rig.remove(display);
+  display = nullptr;
+  expectNothingLeftBehind(
+      rig, [&] { return rig.addDisplay(); },
+      [&](rviz::Display& another) {
+        return static_cast<CanopyDisplay&>(another).drawn().drawn > 0;
+      });
+}
+
+TEST_F(CanopyDisplayTest, StandsInAnyFixedFrame) {
+  expectStandsInAnyFixedFrame(rig, *display);
+}
+
+}  // namespace
+}  // namespace vegetation_sim
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "canopy_display_test");
+  const QApplication application(argc, argv);
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,98 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rviz/crowd/body_mesh.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "crowd/walker/walker.h"
+
+namespace vegetation_sim::view {
+namespace {
+
+constexpr double HEIGHT = 1.7;  // [m]
+
+grass::GrassMesh meshAt(double pixels) {
+  crowd::Walker walker;
+  walker.height = HEIGHT;
+  grass::GrassMesh out;
+  appendBody(crowd::skeletonOf(walker, terrain::HeightMap()), crowd::clothesOf(3),
+             bodyStyle(pixels), Daylight(), out);
+  return out;
+}
+
+Vec3 pointOf(const grass::GrassMesh& mesh, std::size_t vertex) {
+  const float* p = &mesh.positions[3 * vertex];
+  return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
+}
+
+double distanceToSegment(const Vec3& p, const Vec3& a, const Vec3& b) {
+  const Vec3 way = b - a;
+  const double square = way.squaredNorm();
+  const double part = square > 0.0 ? std::clamp(dot(p - a, way) / square, 0.0, 1.0) : 0.0;
+  return length(p - a - part * way);
+}
+
+double distanceToTriangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 normal = cross(b - a, c - a);
+  const auto inside = [&](const Vec3& u, const Vec3& v) {
+    return dot(cross(v - u, p - u), normal) >= 0.0;
+  };
+  if (length(normal) > 1e-12 && inside(a, b) && inside(b, c) && inside(c, a))
+    return std::fabs(dot(p - a, normal)) / length(normal);
+  return std::min(
+      {distanceToSegment(p, a, b), distanceToSegment(p, b, c), distanceToSegment(p, c, a)});
+}
+
+/// How far the vertices of one mesh are from the surface of another at most [m].
+double farthest(const grass::GrassMesh& from, const grass::GrassMesh& to) {
+  double out = 0.0;
+  for (std::size_t i = 0; i < from.vertexCount(); ++i) {
+    double nearest = HEIGHT;
+    for (std::size_t k = 0; k + 2 < to.indices.size(); k += 3)
+      nearest = std::min(nearest, distanceToTriangle(pointOf(from, i), pointOf(to, to.indices[k]),
+                                                     pointOf(to, to.indices[k + 1]),
+                                                     pointOf(to, to.indices[k + 2])));
+    out = std::max(out, nearest);
+  }
+  return out;
+}
+
+// From each size to one that is a thousandth smaller: by less than a twentieth of a pixel, and no
+// colour by more than a few of 255.
+TEST(BodyMesh, NothingPopsAsABodyGetsSmaller) {
+  int switches = 0;
+  double farthest_pixels = 0.0;
+  int colour = 0;
+  grass::GrassMesh before = meshAt(400.0);
+  for (double pixels = 400.0; pixels > 8.0; pixels *= 0.999) {
+    const grass::GrassMesh now = meshAt(pixels);
+    double way = 0.0;
+    if (now.vertexCount() == before.vertexCount()) {
+      for (std::size_t i = 0; i < now.vertexCount(); ++i)
+        way = std::max(way, length(pointOf(now, i) - pointOf(before, i)));
+      for (std::size_t i = 0; i < now.colours.size(); ++i)
+        colour = std::max(colour, std::abs(int{now.colours[i]} - int{before.colours[i]}));
+    } else {
+      ++switches;
+      way = farthest(before, now);
+    }
+    farthest_pixels = std::max(farthest_pixels, way * pixels / HEIGHT);
+    before = now;
+  }
+  std::printf("largest step %.4f pixel, %d of 255\n", farthest_pixels, colour);
+  EXPECT_EQ(switches, 3);
+  EXPECT_LT(farthest_pixels, 0.05);
+  EXPECT_LE(colour, 3);
+}
+
+TEST(BodyMesh, SmallBodiesCostLess) {
+  EXPECT_GT(meshAt(400.0).indices.size(), 10 * meshAt(10.0).indices.size());
+  EXPECT_GT(meshAt(10.0).indices.size(), 0u);
+}
+
+}  // namespace
+}  // namespace vegetation_sim::view

@@ -1,0 +1,371 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+#include <rviz/properties/property_tree_model.h>
+#include <rviz/view_controller.h>
+
+#include <cmath>
+#include <limits>
+
+#include "rviz/rigs/display_checks.h"
+#include "rviz/rigs/display_rig.h"
+
+namespace vegetation_sim {
+namespace {
+
+constexpr int TREES = 16;
+
+// rviz can only be started once in a process: one rig for all tests, a fresh display for each.
+std::unique_ptr<DisplayRig> shared_rig;
+
+class ForestDisplayTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() { shared_rig = std::make_unique<DisplayRig>(); }
+  static void TearDownTestSuite() { shared_rig.reset(); }
+
+  void SetUp() override {
+    rig.setTime(rig.now() + 10.0);
+    rig.publishForest(forest::gridLayout(4, 9.0));
+    display = rig.addDisplay();
+    ASSERT_NE(display, nullptr) << "the plugin is not found or is another class";
+    rig.manager().getViewManager()->getCurrent()->lookAt(13.f, 13.f, 4.f);
+  }
+  void TearDown() override {
+    if (display != nullptr) rig.remove(display);
+  }
+
+  bool drawn() {
+    return rig.until(
+        [&] { return display->drawn().trees == TREES && display->drawn().waiting == 0; });
+  }
+  bool advanceUntil(const std::function<bool()>& done) {
+    return rig.until([&] {
+      rig.setTime(rig.now() + 0.02);
+      return done();
+    });
+  }
+
+  DisplayRig& rig{*shared_rig};
+  ForestDisplay* display{nullptr};
+};
+
+// S2-16: trees are built on the fly from the layout, and seen.
+TEST_F(ForestDisplayTest, DrawsAForestWithGroundAndSky) {
+  ASSERT_TRUE(drawn());
+  ASSERT_TRUE(advanceUntil([&] { return display->drawn().moving == TREES; }));
+  rig.frames(3);
+  const Impression seen = rig.look();
+  EXPECT_GT(seen.green, 0.15);
+  EXPECT_GT(seen.blue, 0.05);
+  EXPECT_GT(seen.spread, 15.0);
+  // Upwards: the sky has clouds and gets paler towards the horizon.
+  rig.lookAt(9.f, -0.5, 4.0);
+  rig.frames(3);
+  EXPECT_LT(rig.look().commonest, 0.1);
+}
+
+TEST_F(ForestDisplayTest, NothingMovesWhileTheClockStands) {
+  ASSERT_TRUE(drawn());
+  ASSERT_TRUE(advanceUntil([&] { return display->drawn().moving == TREES; }));
+  ASSERT_TRUE(rig.until([&] { return display->drawn().moving == 0; }));
+  // Levels of detail may still settle; then one frame is as the other.
+  std::vector<std::uint8_t> before;
+  EXPECT_TRUE(rig.until([&] {
+    before = rig.picture();
+    rig.frames(10);
+    return rig.picture() == before;
+  }));
+  rig.setTime(rig.now() + 0.5);
+  EXPECT_TRUE(rig.until([&] { return rig.picture() != before; }));
+}
+
+// Trees behind the eye are neither drawn nor moved; those that come into view are in their place at
+// once.
+TEST_F(ForestDisplayTest, TreesBehindTheEyeAreLeftOutAndDoNotPop) {
+  display->subProp("Update Rate")->setValue(120.f);  // no picture without an update
+  display->subProp("Triangles")->setValue(1000);     // the coarsest, wherever one looks
+  ASSERT_TRUE(drawn());
+  // From within the box of all trees, at its corner.
+  rig.lookAt(2.f, 0.0, 0.1);
+  rig.manager().getViewManager()->getCurrent()->lookAt(30.f, 30.f, 2.f);
+  const auto turn = [&](double yaw) {
+    rviz::ViewController& view = *rig.manager().getViewManager()->getCurrent();
+    view.subProp("Distance")->setValue(0.1);
+    view.subProp("Pitch")->setValue(0.0);
+    view.subProp("Yaw")->setValue(yaw);
+  };
+  const auto triangles = [&] {
+    return rig.panel().getRenderWindow()->getStatistics().triangleCount;
+  };
+  const double in = 0.25 * M_PI, out = 1.25 * M_PI;
+  std::vector<std::uint8_t> before;
+  const auto isStill = [&] {
+    before = rig.picture();
+    rig.frames(10);
+    return rig.picture() == before && display->drawn().waiting == 0;
+  };
+  turn(in);
+  ASSERT_TRUE(rig.until(isStill));
+  const std::size_t all = triangles(), trees = display->drawn().triangles;
+  turn(out);
+  EXPECT_TRUE(rig.until([&] { return triangles() + trees / 2 < all; }, 20.0))
+      << triangles() << " of " << all << ", trees " << trees;
+  rig.setTime(rig.now() + 0.7);
+  ASSERT_TRUE(rig.until([&] { return ros::Time::now().toSec() > rig.now() - 0.01; }));
+  rig.frames(3);
+  const std::vector<std::uint8_t> away = rig.picture(), then = before;
+  turn(in);
+  std::vector<std::uint8_t> first;
+  ASSERT_TRUE(rig.until([&] {
+    first = rig.picture();
+    return first != away;
+  }));
+  ASSERT_TRUE(rig.until(isStill));
+  std::cout << "pop " << difference(first, before) << " of " << difference(then, before) << "\n";
+  EXPECT_TRUE(first == before);
+  EXPECT_GT(difference(then, before), 0.0);
+}
+
+TEST_F(ForestDisplayTest, SurvivesTimeGoingBack) {
+  ASSERT_TRUE(drawn());
+  rig.setTime(rig.now() - 50.0);
+  ASSERT_TRUE(rig.until([&] { return display->drawn().moving == 0; }));
+  rig.publishState();
+  EXPECT_TRUE(advanceUntil([&] { return display->drawn().moving == TREES; }));
+}
+
+// The forest sends a key frame at once when time goes back; it may be here before the display knows
+// of the jump, and no other comes for a while.
+TEST_F(ForestDisplayTest, KeepsTheKeyFrameThatComesWithAJumpBack) {
+  ASSERT_TRUE(drawn());
+  const auto state = [&] {
+    for (auto* property : propertiesOf<rviz::Property>(*display))
+      if (property->getName() == "State") return property->getValue().toString().toStdString();
+    return std::string();
+  };
+  ASSERT_TRUE(rig.until([&] { return state() == "In step"; })) << state();
+  rig.publishState(rig.now() - 50.0);
+  rig.frames(10);  // it is here
+  rig.setTime(rig.now() - 49.98);
+  rig.frames(40);  // a status is shown twice a second
+  EXPECT_EQ(state(), "In step");
+}
+
+// Each step towards a number of triangles waits for fades of a dozen pictures [s].
+constexpr double LONG = 240.0;
+
+// S1-14: the picture's complexity follows what the user asks for.
+TEST_F(ForestDisplayTest, KeepsToTheTriangles) {
+  ASSERT_TRUE(drawn());
+  for (const double target : {60000.0, 30000.0, 60000.0}) {
+    display->subProp("Triangles")->setValue(static_cast<int>(target));
+    EXPECT_TRUE(rig.until(
+        [&] {
+          const auto triangles = static_cast<double>(display->drawn().triangles);
+          return std::abs(triangles / target - 1.0) < 0.1;
+        },
+        LONG))
+        << display->drawn().triangles;
+  }
+}
+
+// Where there are more trees than are drawn, others become the nearest as the eye goes: none of
+// them is ever without a mesh.
+TEST_F(ForestDisplayTest, OtherTreesTakeTheirPlaceWithoutAGap) {
+  display->subProp("Most Trees")->setValue(300);
+  rig.publishForest(forest::gridLayout(24, 4.0));
+  const auto standing = [&] {
+    const view::ForestReport drawn = display->drawn();
+    std::size_t sum = 0;
+    for (const std::size_t trees : drawn.per_level) sum += trees;
+    return drawn.trees == 300 && sum == 300;
+  };
+  ASSERT_TRUE(rig.until([&] { return standing() && display->drawn().waiting == 0; }, LONG));
+  const int before = display->drawn().stocks;
+  rviz::ViewController& view = *rig.manager().getViewManager()->getCurrent();
+  view.lookAt(60.f, 60.f, 2.f);  // turns there; the eye goes by the distance
+  view.subProp("Distance")->setValue(10.0);
+  int bare = 0;
+  EXPECT_TRUE(rig.until(
+      [&] {
+        bare += standing() ? 0 : 1;
+        return display->drawn().stocks > before && display->drawn().waiting == 0;
+      },
+      LONG));
+  EXPECT_EQ(bare, 0);
+}
+
+// S1-13: nothing pops. An update shows at most a fifth of the way of each tree, and a few of them
+// at once; now and then two updates pass between two pictures.
+TEST_F(ForestDisplayTest, LevelsFadeIntoOneAnother) {
+  display->subProp("Triangles")->setValue(30000);
+  ASSERT_TRUE(drawn());
+  const auto settled = [&] {
+    const view::ForestReport drawn = display->drawn();
+    return drawn.fading == 0 && drawn.waiting == 0;
+  };
+  const auto triangles = [&] { return display->drawn().triangles; };
+  ASSERT_TRUE(rig.until(
+      [&] { return std::abs(static_cast<double>(triangles()) / 30000.0 - 1.0) < 0.1 && settled(); },
+      LONG));
+  rig.frames(3);
+  const std::vector<std::uint8_t> before = rig.picture();
+  std::vector<std::uint8_t> last = before;
+  double step = 0.0;
+  display->subProp("Triangles")->setValue(9000);
+  ASSERT_TRUE(rig.until(
+      [&] {
+        const std::vector<std::uint8_t> next = rig.picture();
+        step = std::max(step, rig.largestChange(last, next));
+        last = next;
+        return triangles() < 15000 && settled();
+      },
+      LONG));
+  const double all = rig.largestChange(before, last);
+  std::cout << "largest change of a block: " << all << " of 255, between two pictures " << step
+            << "\n";
+  EXPECT_GT(all, 20.0);
+  EXPECT_LT(step, 0.45 * all);
+}
+
+// N8: the pose of rviz's camera, x forward and z up, on change and at least each second.
+TEST_F(ForestDisplayTest, TellsWhereTheViewLooksFrom) {
+  std::vector<Viewer> heard;
+  const ros::Subscriber subscriber = rig.nodeHandle().subscribe<Viewer>(
+      "viewer", 100, [&](const Viewer::ConstPtr& message) { heard.push_back(*message); });
+  ASSERT_TRUE(rig.until([&] { return !heard.empty(); }));
+  const auto forwardOf = [](const Viewer& viewer) {
+    const auto& q = viewer.pose.orientation;
+    return axisX(Quat{q.w, q.x, q.y, q.z});
+  };
+  rig.manager().getViewManager()->getCurrent()->subProp("Yaw")->setValue(2.0);
+  EXPECT_TRUE(rig.until([&] {
+    const Ogre::Vector3 at = rig.camera().getDerivedPosition();
+    const Ogre::Vector3 to = rig.camera().getDerivedDirection();
+    const Viewer& last = heard.back();
+    const auto& p = last.pose.position;
+    return std::hypot(p.x - static_cast<double>(at.x), p.y - static_cast<double>(at.y)) < 0.02 &&
+           length(forwardOf(last) - Vec3(static_cast<double>(to.x), static_cast<double>(to.y),
+                                         static_cast<double>(to.z))) < 0.02;
+  }));
+  EXPECT_EQ(heard.back().header.frame_id, "map");
+  EXPECT_EQ(heard.back().height, 360u);
+  EXPECT_EQ(heard.back().id.rfind("rviz_", 0), 0u);
+  const Ogre::Radian wide = rig.camera().getFOVy();
+  EXPECT_NEAR(heard.back().field_of_view, static_cast<double>(wide.valueRadians()), 1e-6);
+  rig.camera().setFOVy(Ogre::Radian(0.4f));
+  rig.panel().resize(480, 300);
+  EXPECT_TRUE(rig.until([&] {
+    return std::fabs(heard.back().field_of_view - 0.4) < 1e-6 && heard.back().height == 300u;
+  })) << heard.back();
+  rig.camera().setFOVy(wide);
+  rig.panel().resize(480, 360);
+  rig.frames(2);
+  const std::size_t before = heard.size();
+  EXPECT_TRUE(rig.until([&] { return heard.size() >= before + 2; }, 10.0));  // still, yet heard
+}
+
+TEST_F(ForestDisplayTest, RefusesWhatCannotBeAndKeepsWhatItHas) {
+  ASSERT_TRUE(drawn());
+  ForestLayout layout = toMsg(forest::gridLayout(2, 9.0));
+  layout.header.frame_id = "map";
+  layout.trees[1].position.x = std::numeric_limits<double>::quiet_NaN();
+  rig.publish(layout);
+  ForestState stranger;
+  stranger.header.stamp.fromSec(rig.now());
+  stranger.key_frame = true;
+  stranger.layout_hash = 12345;
+  rig.publish(stranger);
+  WindField wind = toMsg(wind::Field({forest::makeBreeze(1, Vec3(3.0, 0.0, 0.0))}), "map", 0);
+  wind.primitives[0].velocity.x = std::numeric_limits<double>::infinity();
+  rig.publish(wind);
+  const auto refused = [&](const char* name) {
+    const auto all = propertiesOf<rviz::Property>(*display);
+    return std::any_of(all.begin(), all.end(), [&](rviz::Property* property) {
+      return property->getName() == name &&
+             property->getValue().toString().contains("is not finite", Qt::CaseInsensitive);
+    });
+  };
+  EXPECT_TRUE(rig.until([&] { return refused("Layout") && refused("Wind"); }));
+  EXPECT_EQ(display->drawn().trees, static_cast<std::size_t>(TREES));
+}
+
+TEST_F(ForestDisplayTest, FollowsALayoutThatChanges) {
+  ASSERT_TRUE(drawn());
+  rig.publishForest(forest::gridLayout(3, 9.0));
+  EXPECT_TRUE(rig.until([&] { return display->drawn().trees == 9; }));
+  rig.publishForest(forest::gridLayout(1, 9.0));
+  EXPECT_TRUE(rig.until([&] { return display->drawn().trees == 1; }));
+}
+
+TEST_F(ForestDisplayTest, TellsThatNoStateComes) {
+  ASSERT_TRUE(drawn());
+  expectSilenceIsTold(rig, *display, [&] { rig.publishState(); });
+}
+
+TEST_F(ForestDisplayTest, FollowsANodeThatDiesAndReturns) {
+  display->subProp("Triangles")->setValue(1000);  // one state of rest: all trees the coarsest
+  expectReloadsAreFollowed(
+      rig,
+      [&](int scene) {
+        rig.startNode();
+        rig.publishForest(forest::gridLayout(scene == 0 ? 3 : 2, 9.0));
+        for (int i = 0; i < 100; ++i) rig.publishState();
+      },
+      [&](int scene) {
+        return display->drawn().trees == (scene == 0 ? 9u : 4u) && display->drawn().waiting == 0;
+      });
+}
+
+// N7: how the forest moves, and what its governor says of it.
+TEST_F(ForestDisplayTest, TellsLevelsOfMotionAndTheGovernorsChoice) {
+  ASSERT_TRUE(drawn());
+  EXPECT_TRUE(rig.until([&] {
+    return statusOf(*display, "Motion") ==
+           "0 trees at rest, moving to depth 1 to 6: 0 0 0 0 0 16; in modes: 0; with physical "
+           "branches: 0";
+  })) << statusOf(*display, "Motion");
+  const std::string told =
+      expectGovernorIsTold(rig, *display, "forest_animator", "Predicted frame time [ms]",
+                           "Frame time budget [ms]", "ms");
+  // A node that has died is missed although its clock stands.
+  const std::string missed = "Not heard for 5 s; last: " + told;
+  EXPECT_TRUE(rig.until([&] { return statusOf(*display, "Governor") == missed; }))
+      << statusOf(*display, "Governor");
+}
+
+TEST_F(ForestDisplayTest, EveryPropertyCanBeChanged) {
+  ASSERT_TRUE(drawn());
+  expectEveryPropertyCanBeChanged(rig, *display);
+  rig.publishState();
+  EXPECT_TRUE(drawn());
+}
+
+TEST_F(ForestDisplayTest, SettingsSurviveSaveAndLoad) {
+  expectSettingsSurvive(rig, *display, [&] { return rig.addDisplay(); });
+}
+
+TEST_F(ForestDisplayTest, LeavesNothingBehind) {
+  ASSERT_TRUE(drawn());
+  rig.remove(display);
+  display = nullptr;
+  expectNothingLeftBehind(
+      rig, [&] { return rig.addDisplay(); },
+      [&](rviz::Display& another) {
+        return static_cast<ForestDisplay&>(another).drawn().trees == TREES;
+      });
+}
+
+TEST_F(ForestDisplayTest, StandsInAnyFixedFrame) {
+  expectStandsInAnyFixedFrame(rig, *display);
+}
+
+}  // namespace
+}  // namespace vegetation_sim
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "forest_display_test");
+  const QApplication application(argc, argv);
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,188 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <geometry_msgs/TransformStamped.h>
+#include <gtest/gtest.h>
+#include <rviz/properties/bool_property.h>
+#include <rviz/properties/color_property.h>
+#include <rviz/properties/float_property.h>
+#include <rviz/properties/int_property.h>
+#include <rviz/properties/string_property.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "rviz/rigs/soak.h"
+#include "rviz/rigs/view_rig.h"
+
+namespace vegetation_sim {
+
+// What every display promises, for the tests of each kind.
+
+/// Each property there and back, at its limits too, names that cannot be among them, with help on
+/// each.
+inline void expectEveryPropertyCanBeChanged(ViewRig& rig, rviz::Display& display) {
+  for (auto* flag : propertiesOf<rviz::BoolProperty>(display)) {
+    for (int i = 0; i < 2; ++i) {
+      flag->setBool(!flag->getBool());
+      rig.frames(2);
+    }
+    EXPECT_FALSE(flag->getDescription().isEmpty()) << flag->getName().toStdString();
+  }
+  for (auto* text : propertiesOf<rviz::StringProperty>(display)) {
+    const QString value = text->getString();
+    for (const QString& other : {QString("elsewhere"), QString("no name!"), value}) {
+      text->setValue(other);
+      rig.frames(2);
+    }
+    EXPECT_FALSE(text->getDescription().isEmpty()) << text->getName().toStdString();
+  }
+  for (auto* colour : propertiesOf<rviz::ColorProperty>(display)) {
+    const QColor value = colour->getColor();
+    for (const QColor& other : {QColor(Qt::black), QColor(Qt::red), value}) {
+      colour->setColor(other);
+      rig.frames(1);
+    }
+    EXPECT_FALSE(colour->getDescription().isEmpty()) << colour->getName().toStdString();
+  }
+  for (auto* number : propertiesOf<rviz::FloatProperty>(display)) {
+    const float value = number->getFloat();
+    for (const float other : {number->getMin(), number->getMax(), value}) {
+      number->setFloat(other);
+      rig.frames(1);
+    }
+    EXPECT_FALSE(number->getDescription().isEmpty()) << number->getName().toStdString();
+  }
+  for (auto* number : propertiesOf<rviz::IntProperty>(display)) {
+    const int value = number->getInt();
+    for (const int other : {number->getMin(), value}) {
+      number->setInt(other);
+      rig.frames(1);
+    }
+    EXPECT_FALSE(number->getDescription().isEmpty()) << number->getName().toStdString();
+  }
+}
+
+/// Another display that loads what one has saved has the same settings.
+inline void expectSettingsSurvive(ViewRig& rig, rviz::Display& display, const MakeDisplay& make) {
+  display.subProp("Update Rate")->setValue(17.f);
+  display.subProp("Haze")->subProp("End")->setValue(777.f);
+  rviz::Config saved, again;
+  display.save(saved);
+  rviz::Display* other = make();
+  other->load(saved);
+  other->save(again);
+  for (auto it = saved.mapIterator(); it.isValid(); it.advance())
+    EXPECT_EQ(it.currentChild().getValue(), again.mapGetChild(it.currentKey()).getValue())
+        << it.currentKey().toStdString();
+  EXPECT_EQ(other->subProp("Haze")->subProp("End")->getValue().toFloat(), 777.f);
+  EXPECT_EQ(other->subProp("Update Rate")->getValue().toFloat(), 17.f);
+  rig.remove(other);
+}
+
+/// What a status line of a display says.
+inline std::string statusOf(rviz::Display& display, const char* name) {
+  for (auto* property : propertiesOf<rviz::Property>(display))
+    if (property->getName() == name) return property->getValue().toString().toStdString();
+  return {};
+}
+
+/// A node that tells no state any more is missed until it does.
+inline void expectSilenceIsTold(ViewRig& rig, rviz::Display& display,
+                                const std::function<void()>& tell) {
+  const auto says = [&](const char* text) {
+    return rig.until([&] { return statusOf(display, "State") == text; });
+  };
+  tell();
+  EXPECT_TRUE(says("In step")) << statusOf(display, "State");
+  rig.setTime(rig.now() + 4.0);
+  EXPECT_TRUE(says("No message for 3 s: drawn as it was then")) << statusOf(display, "State");
+  tell();
+  EXPECT_TRUE(says("In step")) << statusOf(display, "State");
+}
+
+/// What the governor of a node chose is told.
+/// @param cost, budget keys of its diagnostics. @param unit of both. @return what is told.
+inline std::string expectGovernorIsTold(ViewRig& rig, rviz::Display& display,
+                                        const std::string& node, const char* cost,
+                                        const char* budget, const std::string& unit) {
+  EXPECT_EQ(statusOf(display, "Governor"), "");
+  diagnostic_msgs::DiagnosticArray message;
+  message.status.resize(2);
+  message.status[0].name = "/field/" + node + ": governor";
+  message.status[0].message = "it binds";
+  message.status[1].name = "another: governor";
+  const std::pair<const char*, const char*> values[] = {{cost, "120"},
+                                                        {budget, "90"},
+                                                        {"Largest predicted error [pixel]", "3"},
+                                                        {"Tolerance [pixel]", "2"}};
+  for (const auto& [key, value] : values) {
+    message.status[0].values.emplace_back();
+    message.status[0].values.back().key = key;
+    message.status[0].values.back().value = value;
+  }
+  const ros::Publisher diagnostics =
+      rig.nodeHandle().advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 1, true);
+  const std::string told = "it binds: 120 of 90 " + unit + ", errors up to 3 pixel of 2";
+  EXPECT_TRUE(rig.until([&] {
+    diagnostics.publish(message);
+    rig.frames(1);
+    return statusOf(display, "Governor") == told;
+  })) << statusOf(display, "Governor");
+  return told;
+}
+
+/// Mean difference of two pictures, 0 to 255.
+inline double difference(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    sum += std::abs(static_cast<int>(a[i]) - static_cast<int>(b[i]));
+  return sum / static_cast<double>(std::max<std::size_t>(1, a.size()));
+}
+
+/// The picture is the same whichever frame is the fixed one, turned and moved; of one that tf does
+/// not know yet the status tells the name, and nothing is drawn in a wrong place meanwhile.
+inline void expectStandsInAnyFixedFrame(ViewRig& rig, rviz::Display& display) {
+  constexpr double TURN = 2.0;  // [rad] about z
+  rviz::ViewController& view = *rig.manager().getViewManager()->getCurrent();
+  const QVariant former = view.subProp("Target Frame")->getValue();
+  view.subProp("Target Frame")->setValue("map");
+  rig.lookAt(1.5f, 0.4, 18.0);
+  std::vector<std::uint8_t> before = rig.picture();
+  ASSERT_TRUE(rig.until([&] {  // all has come to rest
+    rig.frames(10);
+    const std::vector<std::uint8_t> last = std::move(before);
+    before = rig.picture();
+    return difference(last, before) < 0.05;
+  }));
+  rig.manager().setFixedFrame("elsewhere");
+  EXPECT_TRUE(rig.until([&] {
+    return statusOf(display, "Transform") == "No transform from map to elsewhere";
+  })) << statusOf(display, "Transform");
+  geometry_msgs::TransformStamped place;
+  place.header.frame_id = "elsewhere";
+  place.child_frame_id = "map";
+  place.transform.translation.x = 30.0;
+  place.transform.translation.y = -20.0;
+  place.transform.translation.z = 2.0;
+  place.transform.rotation.w = std::cos(0.5 * TURN);
+  place.transform.rotation.z = std::sin(0.5 * TURN);
+  tf2_msgs::TFMessage message;
+  message.transforms = {place};
+  const ros::Publisher tf = rig.nodeHandle().advertise<tf2_msgs::TFMessage>("/tf_static", 1, true);
+  tf.publish(message);
+  // The view follows the place of its target, not how that is turned.
+  view.subProp("Yaw")->setValue(view.subProp("Yaw")->getValue().toDouble() + TURN);
+  EXPECT_TRUE(rig.until([&] { return statusOf(display, "Transform") == "OK"; }));
+  EXPECT_TRUE(rig.until([&] {
+    rig.frames(1);
+    return difference(before, rig.picture()) < 1.0;
+  })) << difference(before, rig.picture());
+  rig.manager().setFixedFrame("map");
+  view.subProp("Target Frame")->setValue(former);
+}
+
+}  // namespace vegetation_sim

@@ -1,0 +1,73 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rviz/trees/drawn_tree.h"
+
+#include <gtest/gtest.h>
+
+#include "scenes/forest/physics_scene.h"
+
+namespace vegetation_sim::view {
+namespace {
+
+using forest::PhysicsRig;
+
+/// A forest with a branch that is pulled, and who hears of it and draws it.
+struct Watcher {
+  PhysicsRig rig;
+  forest::ForestReplica replica;
+  int branch{0};
+
+  Watcher() {
+    rig.forest.setWind(forest::steadyWind(Vec3(1, 0, 0)));
+    rig.run(0.5);
+    branch = rig.branchOfDepth(1);
+    replica.setLayout(rig.forest.layout(), forest::flatTerrain());
+    replica.setWind(rig.forest.memory().wind);
+    hear(true);
+  }
+  void hear(bool key_frame) { ASSERT_TRUE(replica.apply(rig.forest.update(key_frame))); }
+  void run(double duration) {
+    rig.run(duration, [&] { hear(false); });
+  }
+  bool move(DrawnTree& tree) {
+    const wind::Instant wind = rig.forest.memory().wind.at(rig.now());
+    return tree.move(replica, rig.now(), wind, TreeLook(), 1.0);
+  }
+  /// Distance from the branch's tip, where the forest has it, to the nearest vertex of bark.
+  double distanceAtTip(const DrawnTree& tree) const {
+    const Vec3 tip = rig.tip(branch);
+    double nearest = 1e9;
+    const std::vector<float>& at = tree.shapes().front().bark.positions;
+    for (std::size_t i = 0; i < at.size(); i += 3)
+      nearest = std::min(nearest, length(tree.origin() + Vec3(at[i], at[i + 1], at[i + 2]) - tip));
+    return nearest;
+  }
+};
+
+// S1-35: what is drawn is where physics has it, not where the wind alone would.
+TEST(DrawnTree, PhysicalBranchesAreDrawnWhereTheForestHasThem) {
+  Watcher watcher;
+  DrawnTree tree(watcher.replica, 0, Vec3::Zero());
+  tree.setLevel(forest::GEOMETRY_LEVELS - 1,
+                forest::LightGrid(Vec3(-9, -9, -1), Vec3(9, 9, 12), 1.0), TreeLook());
+  ASSERT_TRUE(watcher.move(tree));
+  const double radius = watcher.rig.branches()[watcher.branch].tip_radius;
+  EXPECT_LT(watcher.distanceAtTip(tree), 1.5 * radius);
+  const Vec3 calm = watcher.rig.tip(watcher.branch);
+  forest::Grab grab = watcher.rig.grabOf(watcher.branch);
+  grab.target += Vec3(0.0, 0.5, -0.2);
+  const std::uint32_t id = watcher.rig.forest.addGrab(grab);
+  watcher.run(1.0);
+  ASSERT_GT(length(watcher.rig.tip(watcher.branch) - calm), 5.0 * radius);
+  EXPECT_GT(watcher.distanceAtTip(tree), 1.5 * radius);  // it has not moved yet
+  ASSERT_TRUE(watcher.move(tree));
+  EXPECT_LT(watcher.distanceAtTip(tree), 1.5 * radius);
+  watcher.rig.forest.release(id);
+  watcher.run(10.0);
+  ASSERT_TRUE(watcher.replica.promoted(0).branches.empty());
+  ASSERT_TRUE(watcher.move(tree));
+  EXPECT_LT(watcher.distanceAtTip(tree), 1.5 * radius);
+}
+
+}  // namespace
+}  // namespace vegetation_sim::view

@@ -1,0 +1,127 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sensors/grass_volume.h"
+
+#include <gtest/gtest.h>
+
+#include "scenes/sensors/lidar_scene.h"
+
+namespace vegetation_sim::scan {
+namespace {
+
+// What rays over a piece of lawn meet within 1.5 m.
+struct Met {
+  double share{0.0};   ///< of the rays that meet a blade
+  double height{0.0};  ///< of the meetings, mean [m]
+};
+
+template <class Grass>
+Met meetings(const Grass& grass, double low, double high, int rays = 4000) {
+  const Random random(8);
+  Met out;
+  for (int i = 0; i < rays; ++i) {
+    const auto k = static_cast<std::uint64_t>(i);
+    const Vec3 from(random.uniform(10 * k, 9.2, 10.8), random.uniform(10 * k + 1, 9.7, 10.3),
+                    random.uniform(10 * k + 2, low, high));
+    const Ray ray(from, randomDirection(random, k + 100000, -0.3, 0.2));
+    Hit nearest;
+    nearest.distance = 1.5;
+    if (ray.direction.z() < 0.0) nearest.distance = std::min(1.5, -from.z() / ray.direction.z());
+    grass.meet(ray, nearest);
+    if (nearest.label != Label::GRASS) continue;
+    out.share += 1.0 / rays;
+    out.height += ray.at(nearest.distance).z();
+  }
+  out.height /= std::max(1.0, out.share * rays);
+  return out;
+}
+
+struct Case {
+  const char* name;
+  double height, density;
+  Vec3 air;
+  bool trodden;
+};
+
+// N1: the medium against every blade. 4000 rays: a share is sure to 0.016, twice its deviation.
+TEST(Sward, LetsThroughAsMuchAsItsBladesDo) {
+  for (const Case& one :
+       {Case{"lawn", 0.3, 400.0, Vec3::Zero(), false}, Case{"thin", 0.3, 60.0, Vec3::Zero(), false},
+        Case{"wind", 0.3, 100.0, Vec3(7, 0, 0), false},
+        Case{"trodden", 0.3, 400.0, Vec3::Zero(), true}}) {
+    Lawn lawn(one.height, one.density);
+    if (one.trodden) lawn.treadLane();
+    const wind::Field wind = breezeOf(one.air);
+    Sward sward;
+    lawn.show(sward, wind);
+    const Blades blades(lawn, wind, START + fromSeconds(60.0), 3, 6);
+    const Met medium = meetings(sward, 0.02, 0.25), each = meetings(blades, 0.02, 0.25);
+    RecordProperty(std::string(one.name) + "_share_medium", std::to_string(medium.share));
+    RecordProperty(std::string(one.name) + "_share_blades", std::to_string(each.share));
+    RecordProperty(std::string(one.name) + "_height_medium", std::to_string(medium.height));
+    RecordProperty(std::string(one.name) + "_height_blades", std::to_string(each.height));
+    EXPECT_NEAR(medium.share, each.share, 0.05) << one.name;
+    EXPECT_NEAR(medium.height, each.height, 0.006) << one.name;
+    EXPECT_GT(medium.share, 0.05) << one.name;
+  }
+}
+
+// N1
+TEST(Sward, ThatIsTroddenReturnsLower) {
+  Lawn upright, trodden;
+  trodden.treadLane();
+  Sward before, after;
+  upright.show(before);
+  trodden.show(after);
+  const auto top = [](const Sward& sward) {  // rays from a robot that looks ahead
+    double sum = 0.0;
+    for (int i = 0; i < 1000; ++i) {
+      const Vec3 from(5.0 + 0.005 * i, 10.3, 1.0);
+      const Ray ray(from, Vec3(1.0, 0.0, -0.2).normalized());
+      Hit nearest;
+      nearest.distance = -from.z() / ray.direction.z();
+      sward.meet(ray, nearest);
+      sum += ray.at(nearest.distance).z();
+    }
+    return sum / 1000.0;
+  };
+  EXPECT_GT(top(before), 0.06);  // [m], of 0.3
+  EXPECT_LT(top(after), 0.35 * top(before));
+}
+
+TEST(Sward, BentByWindIsLower) {
+  const Lawn lawn;
+  Sward still, windy;
+  lawn.show(still);
+  lawn.show(windy, breezeOf(Vec3(12, 0, 0)));
+  EXPECT_LT(meetings(windy, 0.1, 0.3).height, meetings(still, 0.1, 0.3).height - 0.005);
+}
+
+// What stands still looks still, from one scan to the next.
+TEST(Sward, InStillAirLooksTheSameAtAnyTime) {
+  const Lawn lawn;
+  Sward now, later;
+  lawn.show(now, wind::Field(), 1.0);
+  lawn.show(later, wind::Field(), 2.0);
+  for (std::uint64_t i = 0; i < 500; ++i) {
+    const Ray ray(Vec3(10, 10, 0.8), randomDirection(Random(2), i, -0.6, -0.05));
+    Hit a, b;
+    a.distance = b.distance = 20.0;
+    now.meet(ray, a);
+    later.meet(ray, b);
+    EXPECT_TRUE(same(a, b));
+  }
+}
+
+TEST(Sward, EndsAtTheBorderOfItsMap) {
+  const Lawn lawn;
+  Sward sward;
+  lawn.show(sward);
+  EXPECT_GT(sward.extinction(Vec3(10.0, 19.9, 0.1), Vec3::UnitX()), 0.0);
+  EXPECT_EQ(sward.extinction(Vec3(10.0, 20.1, 0.1), Vec3::UnitX()), 0.0);
+  EXPECT_EQ(sward.extinction(Vec3(10.0, 10.0, 0.31), Vec3::UnitX()), 0.0);
+  EXPECT_EQ(sward.extinction(Vec3(10.0, 10.0, -0.01), Vec3::UnitX()), 0.0);
+}
+
+}  // namespace
+}  // namespace vegetation_sim::scan

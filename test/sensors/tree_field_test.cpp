@@ -1,0 +1,124 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sensors/tree_field.h"
+
+#include <gtest/gtest.h>
+
+#include "scenes/sensors/lidar_scene.h"
+
+namespace vegetation_sim::scan {
+namespace {
+
+constexpr int RAYS = 3000;
+const Vec3 SENSOR(6.0, 5.0, 1.2);
+
+Hit castAt(const Trees& trees, std::uint64_t ray) {
+  Hit out;
+  trees.meet(Ray(SENSOR, randomDirection(Random(1), ray, -0.1, 0.6)), out);
+  return out;
+}
+
+Trees seen(const forest::ForestReplica& forest, double after) {
+  Trees out;
+  out.update(forest, SENSOR, 60.0, START + fromSeconds(after));
+  return out;
+}
+
+// Rays whose answer differs.
+int differences(const Trees& a, const Trees& b) {
+  int out = 0;
+  for (std::uint64_t i = 0; i < RAYS; ++i) out += same(castAt(a, i), castAt(b, i)) ? 0 : 1;
+  return out;
+}
+
+// N1
+TEST(Trees, AreMetAsIfEveryBranchWereLookedAt) {
+  const auto forest = movingForest(forest::gridLayout(3, 7.0), breezeOf(Vec3(6, 2, 0)));
+  const Trees trees = seen(forest, 3.0);
+  std::array<int, LABELS> labels{};
+  for (std::uint64_t i = 0; i < RAYS; ++i) {
+    Hit plain;
+    trees.meetEach(Ray(SENSOR, randomDirection(Random(1), i, -0.1, 0.6)), plain);
+    EXPECT_TRUE(same(castAt(trees, i), plain)) << i;
+    ++labels[static_cast<std::size_t>(plain.label)];
+  }
+  for (const Label label : {Label::NONE, Label::TRUNK, Label::BRANCH, Label::LEAF})
+    EXPECT_GT(labels[static_cast<std::size_t>(label)], RAYS / 100) << static_cast<int>(label);
+}
+
+// N1. Poses in single precision against those in double precision.
+TEST(Trees, BranchesStandWhereTheReplicaHasThem) {
+  const auto forest = movingForest(forest::gridLayout(2, 9.0), breezeOf(Vec3(6, 2, 0)));
+  const Trees trees = seen(forest, 3.0);
+  double worst = 0.0;
+  for (const auto& tree : trees.all()) {
+    const forest::Tree grown = forest.grow(tree->id());
+    const auto poses = forest.pose(grown, tree->id(), START + fromSeconds(3.0));
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      const Rod& rod = tree->rods()[i];
+      const Vec3 tip = grown.foot + tipOf(grown.skeleton.branches[i], poses[i]);
+      worst = std::max(worst, length(rod.base + rod.length * rod.axis - tip));
+    }
+  }
+  RecordProperty("worst_mm", std::to_string(1e3 * worst));
+  EXPECT_LT(worst, 2e-5);
+}
+
+// N1: the same scan with the wind off and on.
+TEST(Trees, InStillAirLookTheSameAndInWindDoNot) {
+  const forest::Layout layout = forest::gridLayout(3, 7.0);
+  const auto still = movingForest(layout, wind::Field());
+  const auto windy = movingForest(layout, breezeOf(Vec3(6, 2, 0)));
+  EXPECT_EQ(differences(seen(still, 3.0), seen(still, 4.0)), 0);
+  EXPECT_GT(differences(seen(still, 3.0), seen(windy, 3.0)), RAYS / 10);
+  EXPECT_GT(differences(seen(windy, 3.0), seen(windy, 4.0)), RAYS / 10);
+}
+
+TEST(Trees, KeptFromScanToScanAreWhereNewOnesWouldBe) {
+  const auto forest = movingForest(forest::gridLayout(2, 9.0), breezeOf(Vec3(6, 2, 0)));
+  Trees kept = seen(forest, 3.0);
+  kept.update(forest, SENSOR, 60.0, START + fromSeconds(9.0));
+  EXPECT_EQ(differences(kept, seen(forest, 9.0)), 0);
+}
+
+// A turbid body lets through what its depth says: leaves alone, over many trees and rays.
+TEST(Trees, LeavesHideWhatIsBehindThemMoreTheMoreThereAre) {
+  forest::Layout bare = forest::gridLayout(3, 7.0), full = bare;
+  for (forest::Species& species : bare.species)
+    for (forest::LimbRule& limb : species.limbs) limb.leaves = 0.0;
+  const Trees without = seen(movingForest(bare, wind::Field()), 0.0);
+  const Trees with = seen(movingForest(full, wind::Field()), 0.0);
+  int wood_without = 0, wood_with = 0, leaves = 0;
+  for (std::uint64_t i = 0; i < RAYS; ++i) {
+    const Label a = castAt(without, i).label, b = castAt(with, i).label;
+    wood_without += a == Label::TRUNK || a == Label::BRANCH ? 1 : 0;
+    wood_with += b == Label::TRUNK || b == Label::BRANCH ? 1 : 0;
+    leaves += b == Label::LEAF ? 1 : 0;
+    EXPECT_NE(a, Label::LEAF);
+  }
+  EXPECT_LT(wood_with, wood_without);
+  EXPECT_GT(leaves, RAYS / 20);
+}
+
+TEST(Trees, BeyondTheBudgetTheFarthestAreLeftOut) {
+  const auto forest = movingForest(forest::gridLayout(4, 7.0), wind::Field());
+  Trees few(3000);
+  few.update(forest, SENSOR, 60.0, START);
+  EXPECT_LE(few.branches(), 3000u);
+  EXPECT_EQ(few.all().size() + few.leftOut(), 16u);
+  EXPECT_GT(few.leftOut(), 0u);
+  double last = 0.0;
+  for (const auto& tree : few.all()) {
+    EXPECT_GE(length(tree->foot() - SENSOR), last);
+    last = length(tree->foot() - SENSOR);
+  }
+  const std::uint64_t grown = few.grown();
+  few.update(forest, SENSOR, 60.0, START + fromSeconds(1.0));
+  EXPECT_EQ(few.grown(), grown);  // nor is the first without room grown again
+  Trees one(1);                   // at least one
+  one.update(forest, SENSOR, 60.0, START);
+  EXPECT_EQ(one.all().size(), 1u);
+}
+
+}  // namespace
+}  // namespace vegetation_sim::scan

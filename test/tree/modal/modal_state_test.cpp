@@ -1,0 +1,192 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/tree/modal/modal_state.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scenes/forest/modal_forest_scene.h"
+
+namespace vegetation_sim::forest {
+namespace {
+
+// N13: near trees get their modes when the tolerance asks for it, and lose them after.
+TEST(Sway, NearTreesHaveModesAndFarOnesHaveNone) {
+  Clearing scene(breeze(), 0.1);
+  scene.run(2.0);
+  EXPECT_EQ(scene.forest.memory().modes.sways().size(), 4u);
+  for (std::uint32_t id = 0; id < 4; ++id)
+    EXPECT_EQ(scene.forest.memory().levels.of(id).level, MODAL_LEVEL) << id;
+  scene.look(false);
+  scene.run(0.5);
+  EXPECT_EQ(scene.forest.memory().modes.sways().size(), 4u);  // they still fade
+  scene.run(1.0);
+  EXPECT_TRUE(scene.forest.memory().modes.sways().empty());
+}
+
+// Steady wind has no lag to show, and no budget has no modes.
+TEST(Sway, NoTreeHasModesThatNobodyAskedFor) {
+  Clearing steady(wind::Field({makeDisk(1, Vec3::Zero(), 2000.0, Vec3(5, 1, 0))}));
+  steady.run(1.0);
+  EXPECT_TRUE(steady.forest.memory().modes.sways().empty());
+  wind::Primitive trace = makeBreeze(2, Vec3(1e-6, 0.0, 0.0));
+  Clearing besides(wind::Field({makeDisk(1, Vec3::Zero(), 2000.0, Vec3(5, 1, 0)), trace}));
+  besides.run(1.0);
+  EXPECT_TRUE(besides.forest.memory().modes.sways().empty());
+  Clearing poor;
+  poor.settings.budget.modal_trees = 0;
+  poor.use();
+  poor.run(1.0);
+  EXPECT_TRUE(poor.forest.memory().modes.sways().empty());
+  EXPECT_GT(poor.forest.memory().levels.of(0).level, 0);
+}
+
+// A disc asks for no modes, and takes none from trees that it does not reach: what the breeze does
+// to these, bending included, goes on to be held against the tolerance.
+TEST(Sway, ADiscFarAwayTakesNoModes) {
+  wind::Primitive steady = makeBreeze(1, Vec3(15.0, 3.0, 0.0));
+  steady.turbulence = 0.02;
+  const wind::Primitive far = makeDisk(2, Vec3(3000.0, 0.0, 0.0), 5.0, Vec3(5, 1, 0));
+  Clearing alone(wind::Field({steady}, 3)), beside(wind::Field({steady, far}, 3));
+  int modal = 0, plain = 0;
+  for (double tolerance = 0.5; tolerance < 200.0; tolerance *= 1.2) {
+    for (Clearing* scene : {&alone, &beside}) {
+      scene->tolerate(tolerance);
+      scene->advance();
+    }
+    ASSERT_EQ(alone.forest.plants().size(), beside.forest.plants().size());
+    for (std::size_t i = 0; i < alone.forest.plants().size(); ++i) {
+      const int wanted = alone.forest.plants()[i].wanted;
+      EXPECT_EQ(beside.forest.plants()[i].wanted, wanted) << i << " " << tolerance;
+      ++(wanted >= MODAL_LEVEL ? modal : plain);
+    }
+  }
+  EXPECT_GT(modal, 0);
+  EXPECT_GT(plain, 0);
+}
+
+// What is kept for a tree is counted, the table of the breeze's waves too.
+TEST(Sway, CountsWhatItKeepsOfTheWaves) {
+  const auto bytes = [](const wind::Field& field) {
+    Clearing scene(field, 0.1);
+    scene.run(1.0);
+    EXPECT_FALSE(scene.forest.memory().modes.sways().empty());
+    return scene.forest.memory().modes.bytes() / scene.forest.memory().modes.sways().size();
+  };
+  const wind::Primitive first = makeBreeze(1, Vec3(5.0, 1.0, 0.0));
+  const wind::Primitive second = makeBreeze(2, Vec3(4.0, 1.0, 0.0));
+  const std::size_t one = bytes(wind::Field({first}, 3)),
+                    two = bytes(wind::Field({first, second}, 3));
+  EXPECT_GE(two, one + 24 * 6 * 20 * sizeof(double));  // waves, loads of each, oscillators
+}
+
+// N13: beyond MODAL_LIMIT the forest says so, predicts so much more error, and saturates: no joint
+// passes its limit in any storm. Below, nothing of it.
+TEST(Sway, SaturatesAndSaysSoBeyondTheLimit) {
+  double share[2];
+  for (const bool storm : {false, true}) {
+    Clearing scene(wind::Field({makeBreeze(1, Vec3(storm ? 90.0 : 5.0, 1.0, 0.0))}, 3), 0.1);
+    scene.run(3.0);
+    ASSERT_EQ(scene.forest.memory().modes.sways().size(), 4u);
+    double bend = 0.0, turn = 0.0;
+    for (int i = 0; i < TICK_RATE; ++i) {
+      scene.advance();
+      const Sway& birch = *scene.forest.sway(2);
+      turn = std::max(turn, birch.modes().probe().largestTurn(birch.state().amplitude));
+      for (const JointAngles& joint : scene.angles(scene.tree(2), 2, scene.now()))
+        bend = std::max(bend, difference(joint, {}));
+      EXPECT_EQ(scene.forest.governor().strained > 0, storm);
+    }
+    EXPECT_EQ(turn > physics::MODAL_LIMIT, storm) << turn;
+    EXPECT_LE(bend, BEND_LIMIT);
+    for (const Plant& plant : scene.forest.plants())
+      if (plant.id == 2) share[storm] = plant.error[MODAL_LEVEL] / plant.error[0];
+  }
+  EXPECT_GT(share[1], share[0] + 0.1);
+}
+
+// N13, S1-24: no pop. At every tick, what was seen up to it and what is seen from it on agree
+// within 0.1 degree, and their rates within 1 % of the largest rate.
+TEST(Sway, NothingJumpsGoingUpOrDown) {
+  Clearing scene;
+  const Tree tree = scene.tree(0);
+  const Nanoseconds aside = seconds(1e-4);
+  double jump = 0.0, kick = 0.0, peak = 0.0;
+  for (int i = 0; i < 4 * TICK_RATE; ++i) {
+    if (i == 2 * TICK_RATE) scene.look(false);
+    const Nanoseconds next = scene.grid.timeOf(scene.tick + 1);
+    const auto early = scene.angles(tree, 0, next - aside), before = scene.angles(tree, 0, next);
+    scene.advance();
+    const auto after = scene.angles(tree, 0, next), late = scene.angles(tree, 0, next + aside);
+    for (std::size_t b = 0; b < before.size(); ++b) {
+      jump = std::max(jump, difference(before[b], after[b]));
+      const JointAngles in{before[b].first - early[b].first, before[b].second - early[b].second};
+      const JointAngles out{late[b].first - after[b].first, late[b].second - after[b].second};
+      kick = std::max(kick, difference(in, out) / 1e-4);
+      peak = std::max(peak, difference(out, {}) / 1e-4);
+    }
+  }
+  std::printf("largest jump %.1e rad, in rate %.1e of %.2f rad/s\n", jump, kick, peak);
+  EXPECT_LT(jump, 0.1 / 57.3);
+  EXPECT_LT(kick, 0.01 * peak);
+}
+
+// N6: what is restored sways as what went on.
+TEST(Sway, IsSavedRestoredAndHashed) {
+  Clearing scene;
+  scene.run(1.0);
+  const ForestMemory saved = scene.forest.memory();
+  const std::int64_t tick = scene.tick;
+  scene.run(1.0);
+  const std::uint64_t hash = scene.forest.hash();
+  scene.forest.restore(saved);
+  EXPECT_NE(scene.forest.hash(), hash);
+  scene.tick = tick;
+  scene.run(1.0);
+  EXPECT_EQ(scene.forest.hash(), hash);
+}
+
+// N13: physics starts from the modal angles and rates, without compensation, and goes on as the
+// modes do while motion is small.
+TEST(Sway, HandsOverToPhysicsWithoutCompensation) {
+  Clearing scene;
+  PhysicsSettings physics;
+  physics.promotion = static_cast<int>(Promotion::DEPTH);
+  scene.forest.setPhysics(physics);
+  scene.run(3.0);
+  const Tree tree = scene.tree(0);
+  const auto before = scene.angles(tree, 0, scene.now());
+  Push touch;
+  touch.point = {0, static_cast<int>(tree.skeleton.branches.size()) - 1, 0.0};
+  touch.until = scene.now() + seconds(1.0);
+  scene.forest.push(touch);
+  double off = 0.0, size = 0.0;
+  for (int i = 0; i < TICK_RATE; ++i) {
+    scene.advance();
+    const PromotedTree promoted = scene.forest.promoted(0);
+    ASSERT_FALSE(promoted.branches.empty());
+    if (i == 0) {
+      for (const PartJoint& joint : scene.forest.memory().physics.parts().at(0).joints())
+        ASSERT_EQ(joint.compensation, 0.0);
+      for (const PromotedBranch& b : promoted.branches)
+        EXPECT_LT(difference(b.q, before[static_cast<std::size_t>(b.branch)]), 0.05);
+    }
+    std::vector<JointAngles> modal =
+        scene.forest.sway(0)->modes().bendsOf(scene.forest.sway(0)->amplitudeAt(scene.now()));
+    std::vector<JointAngles> real = modal;
+    overlay(promoted, scene.now(), real);
+    const std::vector<Pose> a = forwardKinematics(tree, modal), b = forwardKinematics(tree, real);
+    for (std::size_t j = 0; j < a.size(); ++j) {
+      off += (a[j].position - b[j].position).squaredNorm();
+      size += (a[j].position - tree.skeleton.branches[j].rest.position).squaredNorm();
+    }
+  }
+  std::printf("a second of physics without compensation: %.1f %% off the modes\n",
+              100.0 * std::sqrt(off / size));
+  EXPECT_LT(std::sqrt(off / size), 0.1);
+}
+
+}  // namespace
+}  // namespace vegetation_sim::forest

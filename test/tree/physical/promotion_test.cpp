@@ -1,0 +1,272 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+// From procedural to physical and back.
+#include <gtest/gtest.h>
+
+#include "scenes/forest/physics_scene.h"
+
+namespace vegetation_sim::forest {
+namespace {
+
+constexpr double HELD = 3600.0;  // [s] a fade that does not end
+
+PhysicsSettings allOfIt() {
+  PhysicsSettings out;
+  out.promotion = static_cast<int>(Promotion::DEPTH);
+  out.linger = 0.0;
+  return out;
+}
+
+/// Largest over all joints of RMS(q - q~) over the amplitude of q~.
+double differenceFromProcedural(const PhysicsSettings& settings) {
+  PhysicsRig rig(settings);
+  rig.forest.setWind(steadyWind(Vec3(2, 1, 0)));
+  rig.run(0.5);
+  rig.touch(rig.twig(), 10.0);
+  const std::size_t n = rig.branches().size();
+  std::vector<double> square(n, 0.0), amplitude(n, 0.0);
+  double ticks = 0.0;
+  rig.run(6.0, [&] {
+    const auto a = rig.angles(rig.now()), b = rig.procedural(rig.now());
+    for (std::size_t i = 0; i < n; ++i) {
+      square[i] += std::pow(difference(a[i], b[i]), 2);
+      amplitude[i] = std::max(amplitude[i], std::hypot(b[i].first, b[i].second));
+    }
+    ++ticks;
+  });
+  EXPECT_EQ(rig.forest.physicsFigures().branches, n);
+  double worst = 0.0;
+  for (std::size_t i = 0; i < n; ++i)
+    worst = std::max(worst, std::sqrt(square[i] / ticks) / amplitude[i]);
+  return worst;
+}
+
+// N10, E1, S1-26: a whole tree made physical in steady wind moves as before; the printed form does
+// not.
+TEST(HandOver, CompensatedWindKeepsTheProceduralMotion) {
+  PhysicsSettings settings = allOfIt();
+  settings.fade = HELD;
+  const double compensated = differenceFromProcedural(settings);
+  settings.wind_forcing = static_cast<int>(WindForcing::PAPER);
+  const double printed = differenceFromProcedural(settings);
+  std::printf("RMS difference from procedural over amplitude: compensated %.2e, printed %.2f\n",
+              compensated, printed);
+  EXPECT_LT(compensated, 0.01);
+  EXPECT_GT(printed, 0.5);
+}
+
+/// Left and right limits of what is seen at a switch: the largest difference of angles [rad], and
+/// of rates over the peak rate; over all joints.
+struct Jump {
+  double angle{0.0}, rate{0.0};
+
+  void add(const Jump& other) {
+    angle = std::max(angle, other.angle);
+    rate = std::max(rate, other.rate);
+  }
+};
+
+constexpr Nanoseconds FINE = 10000;  // [ns] between looks
+
+using Angles = std::vector<JointAngles>;
+
+/// Angles and rates at a moment, from two looks to one side of it.
+struct Limit {
+  Angles q, rate;
+
+  /// @param from,to angles of two looks; the moment is `way` times their distance beyond `to`.
+  Limit(const Angles& from, const Angles& to, double way, Nanoseconds apart) : q(to), rate(to) {
+    const double h = apart * 1e-9;
+    for (std::size_t i = 0; i < to.size(); ++i) {
+      rate[i] = {(to[i].first - from[i].first) / h, (to[i].second - from[i].second) / h};
+      q[i] = {to[i].first + way * h * rate[i].first, to[i].second + way * h * rate[i].second};
+    }
+  }
+};
+
+Jump between(const Limit& left, const Limit& right, double peak) {
+  Jump out;
+  for (std::size_t i = 0; i < left.q.size(); ++i)
+    out.add({difference(left.q[i], right.q[i]), difference(left.rate[i], right.rate[i]) / peak});
+  return out;
+}
+
+Angles lookAt(PhysicsRig& rig, Nanoseconds stamp) {
+  rig.forest.advance(stamp);
+  return rig.angles(stamp);
+}
+
+// Goes on to the next tick and throws a switch there: what is seen just before and just after.
+Jump jumpAt(PhysicsRig& rig, double peak, const std::function<void(PhysicsRig&)>& change) {
+  const Nanoseconds stamp = rig.grid.timeOf(rig.tick + 1);
+  PhysicsRig with = rig;
+  const Angles before = lookAt(with, stamp - 2 * FINE), last = lookAt(with, stamp - FINE);
+  with.forest.advance(stamp);
+  ++with.tick;
+  change(with);
+  const Angles first = lookAt(with, stamp + FINE), after = lookAt(with, stamp + 2 * FINE);
+  rig.advance();
+  return between({before, last, 1.0, FINE}, {after, first, 1.0, -FINE}, peak);
+}
+
+double peakRate(PhysicsRig rig, double duration) {
+  double out = 0.0;
+  auto before = rig.angles(rig.now());
+  rig.run(duration, [&] {
+    const auto after = rig.angles(rig.now());
+    for (std::size_t i = 0; i < after.size(); ++i)
+      out = std::max(out, TICK_RATE * difference(before[i], after[i]));
+    before = after;
+  });
+  return out;
+}
+
+// The bar is 0.1 degree, 1.7e-3. Joints bend little here, so far less is asked [rad].
+constexpr double LARGEST_JUMP = 1e-6;
+
+// S1-36: going up, at any phase of the wind.
+TEST(HandOver, PromotionJumpsNeitherInAngleNorInRate) {
+  PhysicsRig rig(allOfIt());
+  rig.forest.setWind(steadyWind(Vec3(3, 1, 0)));
+  const double peak = peakRate(rig, 3.5);
+  Jump worst;
+  for (int i = 0; i < 8; ++i) {
+    rig.run(0.37);
+    worst.add(jumpAt(rig, peak, [](PhysicsRig& r) { r.touch(r.twig(), 1.0); }));
+  }
+  std::printf("promotion: %.1e rad, %.1e of peak rate\n", worst.angle, worst.rate);
+  EXPECT_LT(worst.angle, LARGEST_JUMP);
+  EXPECT_LT(worst.rate, 0.01);
+}
+
+/// A branch pulled aside and let go: in mid-recoil the blend starts.
+PhysicsRig recoiling() {
+  PhysicsSettings settings;
+  settings.linger = 0.3;
+  PhysicsRig rig(settings);
+  rig.forest.setWind(steadyWind(Vec3(3, 1, 0)));
+  rig.run(0.2);
+  const int branch = rig.branchOfDepth(1);
+  Grab grab = rig.grabOf(branch);
+  const std::uint32_t id = rig.forest.addGrab(grab);
+  rig.run(0.5, [&] {
+    grab.target += Vec3(0.0, 0.4, -0.2) / (0.5 * TICK_RATE);
+    rig.forest.moveGrab(id, grab.target);
+  });
+  rig.forest.release(id);
+  return rig;
+}
+
+// The same at every moment of a while, in the middle of four looks that are 5e-5 s apart: whenever
+// in it something is switched.
+Jump jumpsIn(PhysicsRig rig, Nanoseconds duration, double peak) {
+  constexpr Nanoseconds APART = 50000;
+  const Nanoseconds start = rig.now();
+  std::vector<Angles> looks;
+  Jump out;
+  for (Nanoseconds t = APART; t <= duration; t += APART) {
+    looks.push_back(lookAt(rig, start + t));
+    if (looks.size() < 4) continue;
+    out.add(between({looks[0], looks[1], 0.5, APART}, {looks[3], looks[2], 0.5, -APART}, peak));
+    looks.erase(looks.begin());
+  }
+  return out;
+}
+
+// S1-37: going down, where branches start to blend and where they have blended.
+TEST(HandOver, DemotionJumpsNeitherInAngleNorInRate) {
+  PhysicsRig rig = recoiling();
+  const double peak = peakRate(rig, 1.0);
+  rig.run(0.1);  // letting go is a step of force, not of ours
+  Jump worst;
+  int switches = 0;
+  for (int i = 0; i < 4 * TICK_RATE; ++i) {
+    const PhysicsRig before = rig;
+    rig.advance();
+    const PhysicsFigures a = before.forest.physicsFigures(), b = rig.forest.physicsFigures();
+    if (a.blending == b.blending && a.branches == b.branches) continue;
+    ++switches;
+    worst.add(jumpsIn(before, before.grid.timeOf(before.tick + 2) - before.now(), peak));
+  }
+  std::printf("demotion: %d switches, %.1e rad, %.1e of peak rate\n", switches, worst.angle,
+              worst.rate);
+  EXPECT_GE(switches, 2);
+  EXPECT_EQ(rig.forest.physicsFigures().branches, 0u);
+  EXPECT_LT(worst.angle, LARGEST_JUMP);
+  EXPECT_LT(worst.rate, 0.01);
+}
+
+// S1-37: what is seen is (1 - a) physical + a procedural with a = 3 u^2 - 2 u^3 over 1.5 s.
+TEST(HandOver, BlendIsThePapersSmoothStep) {
+  PromotedBranch branch{0, {}, {}, PHYSICS_START};
+  const auto at = [&](double u) {
+    return blendWeight(branch, PHYSICS_START + seconds(1.5 * u), 1.5);
+  };
+  EXPECT_DOUBLE_EQ(at(0.25), 0.15625);
+  EXPECT_DOUBLE_EQ(at(0.5), 0.5);
+  EXPECT_DOUBLE_EQ(at(0.75), 0.84375);
+  EXPECT_EQ(at(-1.0), 0.0);
+  EXPECT_EQ(at(2.0), 1.0);
+  EXPECT_EQ(PhysicsSettings().blend, 1.5);
+}
+
+// S1-37, S1-38: the blend starts, is taken back and ends without a jump, at any instant of it.
+TEST(HandOver, RegrabInTheBlendJumpsNeitherInAngleNorInRate) {
+  PhysicsRig rig = recoiling();
+  const double peak = peakRate(rig, 1.0);
+  while (rig.forest.physicsFigures().blending == 0) rig.advance();
+  Jump worst;
+  int tried = 0;
+  while (rig.forest.physicsFigures().blending > 0) {
+    if (++tried % 7 == 0)
+      worst.add(jumpAt(rig, peak, [](PhysicsRig& r) { r.touch(r.branchOfDepth(1), 9.0); }));
+    else
+      rig.advance();
+  }
+  std::printf("regrab: %.1e rad, %.1e of peak rate, of %d instants\n", worst.angle, worst.rate,
+              tried / 7);
+  EXPECT_GT(tried, 60);
+  EXPECT_LT(worst.angle, LARGEST_JUMP);
+  EXPECT_LT(worst.rate, 0.01);
+}
+
+// S1-25: nothing is held before a branch is touched, and nothing after it has blended back.
+TEST(HandOver, NothingIsHeldBeforeAndAfter) {
+  PhysicsRig rig({}, 4);
+  rig.run(0.2);
+  EXPECT_EQ(rig.forest.physicsFigures().bytes, 0u);
+  const std::uint64_t untouched = rig.forest.memory().physics.parts().size();
+  EXPECT_EQ(untouched, 0u);
+  Grab grab = rig.grabOf(rig.branchOfDepth(1));
+  grab.target += Vec3(0.3, 0.0, 0.0);
+  const std::uint32_t id = rig.forest.addGrab(grab);
+  rig.run(1.0);
+  const PhysicsFigures during = rig.forest.physicsFigures();
+  EXPECT_EQ(during.trees, 1u);
+  EXPECT_GT(during.branches, 0u);
+  EXPECT_GT(during.bytes, 0u);
+  rig.forest.release(id);
+  rig.run(10.0);
+  const PhysicsFigures after = rig.forest.physicsFigures();
+  EXPECT_EQ(after.trees, 0u);
+  EXPECT_EQ(after.branches, 0u);
+  EXPECT_EQ(after.bytes, 0u);
+  EXPECT_TRUE(rig.forest.memory().physics.parts().empty());
+  std::printf("during: %zu branches, %zu bytes\n", during.branches, during.bytes);
+}
+
+// E6: without wind a tree keeps its rest shape through promotion, physics, blend and after.
+TEST(HandOver, WithoutWindTheRestShapeStays) {
+  PhysicsRig rig(allOfIt());
+  const auto rest = rig.forest.pose(rig.tree, 0, rig.now());
+  rig.touch(rig.twig(), 1.0);
+  rig.run(4.0, [&] {
+    const auto poses = rig.forest.pose(rig.tree, 0, rig.now());
+    for (std::size_t i = 0; i < rest.size(); ++i)
+      ASSERT_LT(length(poses[i].position - rest[i].position), 1e-12) << i;
+  });
+  EXPECT_EQ(rig.forest.physicsFigures().branches, 0u);
+}
+
+}  // namespace
+}  // namespace vegetation_sim::forest

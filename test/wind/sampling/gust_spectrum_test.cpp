@@ -1,0 +1,112 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "wind/sampling/gust_spectrum.h"
+
+#include <gtest/gtest.h>
+
+namespace vegetation_sim::wind {
+namespace {
+
+double sumOf(const Swings& swings) {
+  double out = 0.0;
+  for (const auto& row : swings.power)
+    for (const double power : row) out += power;
+  return out;
+}
+
+// N7: nothing is lost between the points of the grid; what is slow counts less.
+TEST(Swings, SharesOutWhatIsAdded) {
+  Swings swings;
+  swings.add(0.5, 0.3, 4.0);
+  EXPECT_NEAR(sumOf(swings), 4.0, 1e-12);
+  swings.add(50.0, 9.0, 1.0);  // beyond both ends: at the end
+  EXPECT_NEAR(sumOf(swings), 5.0, 1e-12);
+  EXPECT_NEAR(swings.power[2][11], 1.0, 1e-12);
+  swings.add(0.5 * Swings::FREQUENCIES[0], 0.0, 4.0);
+  EXPECT_NEAR(swings.power[0][0], 1.0, 1e-12);
+}
+
+// N7: a breeze swings with what its modes have of variance, where it blows; a disc at its own
+// pulsation and within its radius; steady wind not at all.
+TEST(Swings, TellWhatComesAndGoesAndHowFast) {
+  Primitive breeze;
+  breeze.id = 1;
+  breeze.name = "breeze";
+  breeze.kind = static_cast<int>(Kind::BREEZE);
+  breeze.fade_in = 0.0;
+  breeze.velocity = Vec3(5.0, 0.0, 0.0);
+  const Field windy({breeze}, 3);
+  double variance = 0.0;
+  for (const Mode& mode : windy.at(0).modes) variance += 0.5 * dot(mode.amplitude, mode.amplitude);
+  const Swings swings = SwingingWind(windy, 0).at(Vec3::Zero(), 0.0);
+  const double peak = SwingingWind::PEAK * SwingingWind::PEAK * variance;
+  EXPECT_LE(sumOf(swings), peak);
+  EXPECT_GE(sumOf(swings), 0.5 * peak);  // the rest is slower than the grid
+  EXPECT_EQ(swings.power[2][3], 0.0);    // carried at 5 m/s: between 0 and 0.2 s/m
+  breeze.turbulence = 0.0;
+  EXPECT_EQ(sumOf(SwingingWind(Field({breeze}, 3), 0).at(Vec3::Zero(), 0.0)), 0.0);
+
+  Primitive disk;
+  disk.id = 2;
+  disk.name = "disk";
+  disk.fade_in = 0.0;
+  disk.radius = 10.0;
+  disk.velocity = Vec3(3.0, 4.0, 0.0);
+  disk.omega = 2.0 * 3.14159265358979 * 0.3;
+  const SwingingWind swaying(Field({disk}, 3), 0);
+  EXPECT_NEAR(swaying.at(Vec3::Zero(), 0.0).power[0][5], 25.0, 1e-6);
+  EXPECT_EQ(sumOf(swaying.at(Vec3(11.0, 0.0, 0.0), 0.5)), 0.0);
+}
+
+Primitive blast() {
+  Primitive out;
+  out.id = 3;
+  out.name = "blast";
+  out.kind = static_cast<int>(Kind::BLAST);
+  out.trajectory = {{0, Vec3::Zero()}};
+  out.radius = 10.0;
+  out.speed = 8.0;
+  out.fade_in = 0.0;
+  return out;
+}
+
+// N7: a blast that stands still swings plants while it sets on and shortly after, as half a swing
+// of its height at a frequency beyond all, and then no more; what comes slowly swings them less.
+TEST(Swings, TellAStepThatStandsStill) {
+  const auto sumAt = [](const Primitive& p, double time) {
+    return sumOf(SwingingWind(Field({p}, 3), fromSeconds(time)).at(Vec3(2.0, 0.0, 0.0), 8.0));
+  };
+  Primitive step = blast();
+  EXPECT_NEAR(sumAt(step, 0.5), 16.0, 1e-9);
+  EXPECT_EQ(sumAt(step, 5.0), 0.0);
+  step.fade_in = 30.0;
+  EXPECT_LT(sumAt(step, 29.0), 4.0);
+  EXPECT_GT(sumAt(step, 29.0), 0.0);
+}
+
+// N7: a disc that runs past comes and goes as fast as it passes, though its air pulsates slowly.
+TEST(Swings, TellADiscThatRunsPast) {
+  Primitive disk;
+  disk.id = 2;
+  disk.name = "disk";
+  disk.fade_in = 0.0;
+  disk.radius = 5.0;
+  disk.omega = 0.01;
+  disk.velocity = Vec3(4.0, 0.0, 0.0);
+  disk.trajectory = {{0, Vec3::Zero()}};
+  const auto sumOfDisk = [&] {
+    return sumOf(SwingingWind(Field({disk}, 3), fromSeconds(1.0)).at(Vec3(2.0, 0.0, 0.0), 8.0));
+  };
+  EXPECT_LT(sumOfDisk(), 0.1);
+  disk.orbit_radius = 3.0;
+  disk.orbit_period = 2.0;  // 9.4 m/s past 20 m: 0.47 Hz
+  EXPECT_NEAR(sumOfDisk(), 16.0, 1e-9);
+  const SwingingWind swinging(Field({disk}, 3), fromSeconds(1.0));
+  EXPECT_TRUE(swinging.hasDiscs());
+  EXPECT_EQ(sumOf(swinging.besideDiscs(Vec3(2.0, 0.0, 0.0), 1.0)), 0.0);
+  EXPECT_NEAR(swinging.at(Vec3(2.0, 0.0, 0.0), 8.0).peak, 4.0, 1e-9);
+  EXPECT_EQ(swinging.besideDiscs(Vec3(2.0, 0.0, 0.0), 8.0).peak, 0.0);
+}
+
+}  // namespace
+}  // namespace vegetation_sim::wind

@@ -1,0 +1,123 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "wind/schedule/attachment.h"
+
+#include <gtest/gtest.h>
+
+#include "scenes/wind/wind_examples.h"
+#include "vegetation_sim/core/math/math.h"
+#include "wind/schedule/primitive_schedule.h"
+
+namespace vegetation_sim::wind {
+namespace {
+
+constexpr double PERIOD = 0.2, HORIZON = 2.0, LEAD = 0.2;
+
+/// A drone that circles at 5 m/s, 20 m from the origin.
+Vec3 drone(double t) {
+  const SinCos turn = sinCos(0.25 * t);
+  return {20.0 * turn.cos, 20.0 * turn.sin, 6.0};
+}
+
+Source downwash() {
+  Source source{example(Kind::BLAST, "downwash"), "drone"};
+  source.primitive.fade_in = source.primitive.fade_out = 1.0;
+  source.primitive.core_radius = 1.0;
+  source.primitive.radius = 6.0;
+  return source;
+}
+
+/// Follows the drone from one time to another as the broadcaster does.
+void follow(Attachment& attachment, Ledger& ledger, double from, double to) {
+  for (double t = from; t < to; t += PERIOD) {
+    attachment.add({at(t), drone(t)});
+    const bool goes_on = attachment.started();
+    if (const auto piece = attachment.piece(at(t + LEAD)))
+      goes_on ? ledger.follow(*piece, at(t + LEAD)) : ledger.set(*piece, at(t + LEAD));
+    ledger.prune(at(t));
+  }
+}
+
+TEST(Attachment, KeepsTheCentreOnTheFrame) {  // S1-W1, N12
+  Attachment attachment(downwash(), PERIOD, HORIZON);
+  Ledger ledger;
+  for (double t = 0.0; t < 30.0; t += PERIOD) {
+    follow(attachment, ledger, t, t + 0.5 * PERIOD);
+    if (t < 3.0) continue;
+    const Instant now = ledger.field().at(at(t + 0.1));
+    ASSERT_GE(now.terms.size(), 1u);
+    double weight = 0.0;
+    Vec3 centre = Vec3::Zero();
+    for (const Term& term : now.terms) {
+      centre += term.centre * term.speed / 10.0;
+      weight += term.speed / 10.0;
+    }
+    EXPECT_NEAR(weight, 1.0, 1e-7) << t;
+    // Half the acceleration, 1.25 m/s^2, times the square of 0.6 s that a piece looks ahead.
+    EXPECT_LT(length(centre / weight - drone(t + 0.1)), 0.3) << t;
+  }
+}
+
+TEST(Attachment, BlowsSmoothlyThroughItsPieces) {  // E1
+  Attachment attachment(downwash(), PERIOD, HORIZON);
+  Ledger ledger;
+  follow(attachment, ledger, 0.0, 4.5);
+  const Vec3 position = drone(3.0) + Vec3(0.5, 0.5, -1.0);
+  const double h = 1e-4;
+  for (double t = 1.0; t < 4.0; t += h) {
+    const Vec3 step =
+        ledger.field().velocity(position, at(t + h)) - ledger.field().velocity(position, at(t));
+    // 5 m/s through a slope of 20 (m/s)/m, and cross-fades of pieces 0.3 m apart
+    ASSERT_LT(length(step), h * 300.0) << t;
+  }
+}
+
+TEST(Attachment, FadesOutAfterTheFrameIsLost) {  // S1-W1
+  Attachment attachment(downwash(), PERIOD, HORIZON);
+  Ledger ledger;
+  follow(attachment, ledger, 0.0, 9.9);  // last at 9.8 s
+  EXPECT_FALSE(ledger.field().at(at(11.0)).terms.empty());
+  EXPECT_TRUE(ledger.field().at(at(9.8 + HORIZON + 0.01)).terms.empty());
+  EXPECT_FALSE(attachment.piece(at(11.5)));
+}
+
+TEST(Attachment, FadesInAnewWhenTheFrameComesBack) {
+  Attachment attachment(downwash(), PERIOD, HORIZON);
+  Ledger ledger;
+  follow(attachment, ledger, 0.0, 9.9);  // last at 9.8 s
+  attachment.add({at(20.0), drone(20.0)});
+  EXPECT_FALSE(attachment.piece(at(20.2)));  // one sample has no velocity
+  attachment.add({at(20.2), drone(20.2)});
+  EXPECT_FALSE(attachment.started());
+  EXPECT_EQ(attachment.piece(at(20.4))->fade_in, 1.0);
+}
+
+TEST(Attachment, IgnoresOldSamples) {
+  Attachment attachment(downwash(), PERIOD, HORIZON);
+  attachment.add({at(1.0), drone(1.0)});
+  attachment.add({at(1.0), drone(1.0)});
+  attachment.add({at(0.5), drone(0.5)});
+  EXPECT_FALSE(attachment.piece(at(1.2)));
+}
+
+TEST(Attachment, KeepsTheTimesOfItsSource) {
+  Source source = downwash();
+  source.primitive.t_on = at(5.0);
+  source.primitive.t_off = at(10.0);
+  Attachment attachment(source, PERIOD, HORIZON);
+  Ledger ledger;
+  follow(attachment, ledger, 0.0, 12.0);
+  EXPECT_TRUE(ledger.field().at(at(4.9)).terms.empty());
+  EXPECT_FALSE(ledger.field().at(at(9.8)).terms.empty());
+  EXPECT_TRUE(ledger.field().at(at(10.0)).terms.empty());
+}
+
+TEST(Attachment, NeedsFewPrimitivesHoweverLongItFlies) {
+  Attachment attachment(downwash(), PERIOD, HORIZON);
+  Ledger ledger;
+  follow(attachment, ledger, 0.0, 100.0);
+  EXPECT_LT(ledger.field().primitives().size(), 35u);  // 5 s of pieces at 5 Hz and the living ones
+}
+
+}  // namespace
+}  // namespace vegetation_sim::wind
