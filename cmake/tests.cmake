@@ -18,6 +18,13 @@ foreach(folder ${core_folders})
     target_link_libraries(${folder}_test ${PROJECT_NAME}_core)
   endif()
 endforeach()
+# The shared scenes against their recorded hashes.
+file(GLOB sources CONFIGURE_DEPENDS test/golden/*.cpp scenes/*.cpp)
+catkin_add_gtest(golden_test ${sources})
+if(TARGET golden_test)
+  set_test_options(golden_test)
+  target_link_libraries(golden_test ${PROJECT_NAME}_core)
+endif()
 if(TARGET dynamics_test)  # it shares the trees of the benches
   target_sources(dynamics_test PRIVATE bench/trees/test_trees.cpp)
   target_include_directories(dynamics_test PRIVATE bench)

@@ -7,7 +7,7 @@ set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 cd "$ROOT"
 
-code() { git ls-files 'include/*.h' 'src/*.h' 'src/*.cpp' 'test/*.h' 'test/*.cpp' 'bench/*.h' 'bench/*.cpp'; }
+code() { git ls-files 'include/*.h' 'src/*.h' 'src/*.cpp' 'test/*.h' 'test/*.cpp' 'bench/*.h' 'bench/*.cpp' 'scenes/*.h' 'scenes/*.cpp'; }
 
 # usage: none_match PATTERN PATH...: prints every line that matches, and fails if there is one.
 none_match() {
