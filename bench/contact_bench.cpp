@@ -114,10 +114,10 @@ void driveAll(const std::string& species, std::uint64_t seed, std::size_t most,
 struct Told {
   double force{0.0}, rise{0.0}, fall{0.0};  ///< of one branch; from tick to tick [N]
   double whole{0.0}, jump{0.0};             ///< of the body; from tick to tick [N]
-  int ticks{0}, rises{0};                   ///< wrenches told; risen by more than MOST_SWING
+  int ticks{0}, rises{0};                   ///< wrenches told; risen by more than MAX_FORCE_CHANGE
 
   void drive(Drive& scene, double speed) {
-    const double much = Halvings::MOST_SWING * physics::ContactLaw().force_limit;
+    const double much = SubstepBisection::MAX_FORCE_CHANGE * physics::ContactLaw().force_limit;
     std::map<int, double> before;
     Vec3 last = Vec3::Zero();
     for (int i = 0; i < WAY / speed * TICKS; ++i) {
@@ -143,18 +143,19 @@ struct Told {
   }
 };
 
-void tellAll(const std::string& species, std::uint64_t seed, std::size_t most) {
+void snapshotTreads(const std::string& species, std::uint64_t seed, std::size_t most) {
   std::vector<Way> ways = busiestWays(CrownScene(species, seed).skeleton());
   ways.resize(std::min(ways.size(), most));
   for (const double speed : {0.1, 0.5, 1.0, 3.0}) {
-    Told told;
+    Told published;
     for (const Way& way : ways) {
       Drive scene(speed, way.start, species, seed);
-      told.drive(scene, speed);
+      published.drive(scene, speed);
     }
     std::printf("%-7s %4llu %5.1f %6zu %9.0f %9.0f %9.0f %9.0f %9.0f %8d %8d\n", species.c_str(),
-                static_cast<unsigned long long>(seed), speed, ways.size(), told.force, told.rise,
-                told.fall, told.whole, told.jump, told.ticks, told.rises);
+                static_cast<unsigned long long>(seed), speed, ways.size(), published.force,
+                published.rise, published.fall, published.whole, published.jump, published.ticks,
+                published.rises);
   }
 }
 
@@ -169,12 +170,12 @@ void benchDepth(std::size_t most, const std::string& csv) {
     for (std::uint64_t seed = 7; seed < 10; ++seed) driveAll(species, seed, most, table);
 }
 
-void benchTold(std::size_t most) {
+void benchPublished(std::size_t most) {
   std::printf("\ntold at %d Hz\n%-7s %4s %5s %6s %9s %9s %9s %9s %9s %8s %8s\n", TICKS, "species",
               "seed", "[m/s]", "drives", "force [N]", "rise [N]", "fall [N]", "body [N]",
               "jump [N]", "wrenches", "> 500 N");
   for (const std::string& species : speciesNames())
-    for (std::uint64_t seed = 7; seed < 10; ++seed) tellAll(species, seed, most);
+    for (std::uint64_t seed = 7; seed < 10; ++seed) snapshotTreads(species, seed, most);
 }
 
 }  // namespace
@@ -186,7 +187,7 @@ int main(int argc, char** argv) {
     const bench::Options options = bench::readOptions(argc, argv, {"depth", "told"});
     const std::size_t most = options.full ? 1000 : options.quick ? 1 : 3;
     if (options.wants("depth")) forest::benchDepth(most, options.csv);
-    if (options.wants("told")) forest::benchTold(most);
+    if (options.wants("told")) forest::benchPublished(most);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "contact_bench: %s\n", error.what());
     return 1;

@@ -31,7 +31,7 @@ wind::Field fourDiscs(double extent) {
   return wind::Field(out);
 }
 
-double largestDifference(const Grove& grove, const wind::Instant& wind) {
+double largestDifference(const TreeBatch& grove, const wind::Instant& wind) {
   double worst = 0.0;
   BatchPoses fast;
   for (std::size_t i = 0; i < grove.trees.size(); ++i) {
@@ -49,7 +49,7 @@ double largestDifference(const Grove& grove, const wind::Instant& wind) {
 }
 
 void benchPoses(int rounds) {
-  const Grove grove = growGrove(richLayout(7, 8.0, 2000));
+  const TreeBatch grove = growTrees(richLayout(7, 8.0, 2000));
   const wind::Instant wind = fourDiscs(60.0).at(seconds(1.7e9 + 0.4));
   std::vector<BatchPoses> poses(grove.trees.size());
   std::vector<Candidate> candidates{{"plain double", [&] {
@@ -84,7 +84,7 @@ void benchPoses(int rounds) {
 
 // ---- levels of detail -------------------------------------------------------------------------
 
-std::size_t poseAtLevel(const Grove& grove, int level, const wind::Instant& wind,
+std::size_t poseAtLevel(const TreeBatch& grove, int level, const wind::Instant& wind,
                         BatchPoses& scratch) {
   Weights weights{};
   std::fill_n(weights.begin(), level, 1.0);
@@ -104,7 +104,7 @@ struct LevelPoint {
 };
 
 // With `camera` none, every tree has the fixed level of `settings`.
-LevelPoint measureLevels(const Grove& grove, const Settings& settings, const Camera* camera,
+LevelPoint measureLevels(const TreeBatch& grove, const Settings& settings, const Camera* camera,
                          double extent, const Options& options) {
   const Camera edge = edgeCamera(extent);
   const TickGrid grid(30);
@@ -124,7 +124,7 @@ LevelPoint measureLevels(const Grove& grove, const Settings& settings, const Cam
   std::vector<Candidate> candidates{
       {"all at full depth",
        [&] {
-         const wind::Instant wind = forest.memory().wind.at(grid.timeOf(tick));
+         const wind::Instant wind = forest.snapshot().wind.at(grid.timeOf(tick));
          for (std::size_t i = 0; i < grove.trees.size(); ++i)
            grove.posers[i].pose(wind.relativeTo(grove.trees[i].foot), fullWeights(), MAX_DEPTHS,
                                 scratch);
@@ -132,7 +132,7 @@ LevelPoint measureLevels(const Grove& grove, const Settings& settings, const Cam
       {"levels", [&] {
          advance(1);  // what choosing costs is part of it
          const Nanoseconds stamp = grid.timeOf(tick - 1);
-         const wind::Instant wind = forest.memory().wind.at(stamp);
+         const wind::Instant wind = forest.snapshot().wind.at(stamp);
          out.posed = camera ? poseAtLevels(grove, forest, wind, stamp, scratch)
                             : poseAtLevel(grove, settings.fixed_level, wind, scratch);
        }}};
@@ -143,7 +143,7 @@ LevelPoint measureLevels(const Grove& grove, const Settings& settings, const Cam
   for (int i = 0; i < instants; ++i) {
     const Nanoseconds stamp = grid.timeOf(tick + 220 * i / instants);
     const LevelError now =
-        errorOfLevels(grove, forest, edge, forest.memory().wind.at(stamp), stamp);
+        errorOfLevels(grove, forest, edge, forest.snapshot().wind.at(stamp), stamp);
     out.worst = {std::max(out.worst.pixels, now.pixels), std::max(out.worst.metres, now.metres)};
   }
   return out;
@@ -152,7 +152,7 @@ LevelPoint measureLevels(const Grove& grove, const Settings& settings, const Cam
 void benchLevels(const Options& options, bench::Table& table) {
   const double spacing = 8.0;
   const int side = options.quick ? 6 : 16;
-  const Grove grove = growGrove(richLayout(side, spacing, options.quick ? 500 : 2000));
+  const TreeBatch grove = growTrees(richLayout(side, spacing, options.quick ? 500 : 2000));
   const Camera camera = edgeCamera(side * spacing);
   std::printf(
       "%zu trees, %zu branches, three discs over a third of them, camera at the edge, "

@@ -60,7 +60,7 @@ struct Scene {
   std::int64_t tick{TickGrid(RATE).tickAt(1700000000LL * NANOSECONDS_PER_SECOND)};
 };
 
-/// Over some seconds: most changes of rung of any tree, a second; cost and error at the worst.
+/// Over some seconds: most changes of tier of any tree, a second; cost and error at the worst.
 struct Watched {
   double changes{0.0}, least_cost{1e9}, most_cost{0.0}, error{0.0}, typical_error{0.0};
 };
@@ -90,10 +90,10 @@ Watched watch(Scene& scene, int duration) {
   return out;
 }
 
-/// Processor time of the poses of a picture, all trees that move on their rungs, median [s].
+/// Processor time of the poses of a picture, all trees that move on their tiers, median [s].
 double timePoses(const Scene& scene, int pictures) {
   const Nanoseconds now = scene.grid.timeOf(scene.tick - 1);
-  const wind::Instant wind = scene.forest.memory().wind.at(now);
+  const wind::Instant wind = scene.forest.snapshot().wind.at(now);
   std::map<std::uint32_t, PosedTree> trees;
   for (const Plant& plant : scene.forest.plants())
     if (plant.chosen > 0) trees.emplace(plant.id, PosedTree(scene.forest, plant.id, scene.eye.eye));
@@ -170,8 +170,8 @@ struct Told {
   void add(const std::vector<Prediction::Look>& each) {
     const double ratio = Prediction::ratioOf(each);
     ++trees;
-    modal += each.back().rung == MODAL_LEVEL;
-    fine += each.back().rung == FINE_RUNG;
+    modal += each.back().tier == MODAL_LEVEL;
+    fine += each.back().tier == FINE_MODAL_TIER;
     within += ratio > 0.5 && ratio < 2.0;
     least = std::min(least, ratio);
     most = std::max(most, ratio);
@@ -206,12 +206,12 @@ void measurePrediction(const Options& options) {
     for (const double settle : {0.5, 10.0}) {
       Prediction prediction(*scene.forest, scene.terrain, scene.wind, frameEye(scene), FRAME_START,
                             settle);
-      Told told;
+      Told published;
       for (const auto& [tree, each] : prediction.look(options.quick ? 3 : 10)) {
-        told.add(each);
+        published.add(each);
         all.add(each);
       }
-      if (told.trees > 0) told.print(name, settle);
+      if (published.trees > 0) published.print(name, settle);
     }
   }
   all.print("all", 0.0);

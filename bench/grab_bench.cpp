@@ -85,7 +85,7 @@ void benchPromotion(int rounds) {
   rig.tree = growTree(layout, 0, rig.forest.terrain());
   rig.forest.setWind(breeze());
   rig.run(2.0);
-  const ForestMemory procedural = rig.forest.memory();
+  const ForestSnapshot procedural = rig.forest.snapshot();
   const Nanoseconds first = rig.now() + NANOSECONDS_PER_SECOND / PHYSICS_RATE;
   double sink = 0.0;
   std::vector<bench::Candidate> candidates{

@@ -201,17 +201,17 @@ struct Frame {
   std::size_t blades{0}, strips{0};
 };
 
-Frame drawFrame(Meadow& meadow, const wind::Field& wind, const Eye& eye, Nanoseconds stamp,
+Frame drawFrame(MeadowLod& meadow, const wind::Field& wind, const Viewpoint& eye, Nanoseconds stamp,
                 BladeBlock* blocks, GrassMesh& strips) {
   const double start = bench::processorTime();
   Frame out;
   meadow.setEyes({eye});
   meadow.advance(stamp);
   const auto views = meadow.viewOf(eye, stamp);
-  NodeAir air(meadow.map(), meadow.terrain());
+  NodeWind air(meadow.map(), meadow.terrain());
   std::vector<TilePlace> tiles;
   for (const TileView& view : views) tiles.push_back({view.column, view.row});
-  air.update(wind.at(stamp), {}, Meadow::windowOf(views), &tiles);
+  air.update(wind.at(stamp), {}, MeadowLod::windowOf(views), &tiles);
   CrushPatch patch;
   strips.clear();
   strips.origin = eye.position;
@@ -244,8 +244,8 @@ GrassMesh makeMesh(std::size_t tiles) {
 }
 
 // 3 m/s at 60 frames a second; or ten times that, with a jump in the middle.
-Eye viewerAt(int frame, bool jumps) {
-  Eye eye;
+Viewpoint viewerAt(int frame, bool jumps) {
+  Viewpoint eye;
   eye.cone_cosine = 0.8;
   eye.position = !jumps        ? Vec3(300.0 + 0.05 * frame, 500.0, 1.6)
                  : frame < 150 ? Vec3(300.0 + 0.5 * frame, 500.0, 1.6)
@@ -260,8 +260,8 @@ void benchKilometre(bool jumps) {
   MeadowSettings settings;
   settings.most_blades = 3e5;
   const double before = megabytesInUse();
-  Meadow meadow(std::make_shared<FeatureMap>(input), std::make_shared<terrain::HeightMap>(), 7,
-                settings, TreadSettings());
+  MeadowLod meadow(std::make_shared<FeatureMap>(input), std::make_shared<terrain::HeightMap>(), 7,
+                   settings, TreadSettings());
   const wind::Field wind = breeze();
   const Blocks blocks = makeBlocks(sizeof(BladeBlock) * blocksFor(8192));
   GrassMesh strips = makeMesh(16384);

@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// What each rung of a tile of grass costs, and what it leaves out: segments of a blade, its shape,
+// What each tier of a tile of grass costs, and what it leaves out: segments of a blade, its shape,
 // and texture, strips or blades.
 // usage: grass_rung_bench [ROUNDS] [--quick | --full] [--part NAME,..] [--csv FILE], parts:
 // segments, tiles
@@ -116,7 +116,7 @@ Vec3 tipOffset(const Scene& scene, int blade) {
   return pointOf(scene.blocks, blade, LINKS) - pointOf(scene.blocks, blade, 0);
 }
 
-// The error of a rung: mean distance [m] of a blade's tip, from its root, to that of what stands
+// The error of a tier: mean distance [m] of a blade's tip, from its root, to that of what stands
 // for it.
 template <class StandIn>
 double meanError(const Scene& scene, const StandIn& stand_in) {
@@ -162,17 +162,17 @@ struct TileRung {
   int segments;
   double share;
 };
-constexpr TileRung RUNGS[] = {{"blades, least share, 1 segment", 1, LEAST_SHARE},
+constexpr TileRung TIERS[] = {{"blades, least share, 1 segment", 1, LEAST_SHARE},
                               {"blades, half, 2 segments", 2, 0.5},
                               {"blades, all, 2 segments", 2, 1.0},
                               {"blades, all, 5 segments", LINKS, 1.0}};
 
-void report(bench::Table& table, const char* name, int rung, double seconds, double error) {
+void report(bench::Table& table, const char* name, int tier, double seconds, double error) {
   std::printf("%-30s %8.2f us a tile, %.2f mm off\n", name, 1e6 * seconds, 1e3 * error);
-  table.row("tile", rung, name, seconds, error, 0);
+  table.row("tile", tier, name, seconds, error, 0);
 }
 
-// A whole tile as each rung of the ladder.
+// A whole tile as each tier of the ladder.
 void benchTiles(const Options& options, bench::Table& table) {
   Scene scene;
   GrassMesh strips;
@@ -181,18 +181,18 @@ void benchTiles(const Options& options, bench::Table& table) {
                                        appendStrips(scene.map, scene.tile, scene.motion, 1.0,
                                                     DENSITY, strips);
                                      }}};
-  for (const TileRung& rung : RUNGS)
-    candidates.push_back({rung.name, [&scene, rung] {
+  for (const TileRung& tier : TIERS)
+    candidates.push_back({tier.name, [&scene, tier] {
                             scene.clear();
-                            scene.blades(rung.segments, rung.share);
+                            scene.blades(tier.segments, tier.share);
                           }});
   bench::timeOnProcessor(candidates, options.rounds);
   scene.blades(LINKS, 1.0);
   report(table, "strips", 1, candidates[0].seconds, stripError(scene, strips));
   for (std::size_t i = 0; i + 1 < candidates.size(); ++i) {
-    const int drawn = static_cast<int>(RUNGS[i].share * scene.count);
-    const double shape = LENGTH * shapeError(BladeModel::ARC, RUNGS[i].segments, 1.0);
-    report(table, RUNGS[i].name, static_cast<int>(i) + 2, candidates[i + 1].seconds,
+    const int drawn = static_cast<int>(TIERS[i].share * scene.count);
+    const double shape = LENGTH * shapeError(BladeModel::ARC, TIERS[i].segments, 1.0);
+    report(table, TIERS[i].name, static_cast<int>(i) + 2, candidates[i + 1].seconds,
            std::hypot(shape, placeError(scene, drawn)));
   }
   const double texture = meanError(scene, [](int) { return Vec3(Vec3::Zero()); });

@@ -1,7 +1,7 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The modal rung (N13): error against full dynamics by number of modes, beside the procedural rung
+// The modal tier (N13): error against full dynamics by number of modes, beside the procedural tier
 // and paper 1's dynamics; what a step of the load does in one frame; rotation at which modes cease
 // to hold; levers that turn; cost of finding and of posing. usage: modal_bench [--quick | --full]
 // [--cache FOLDER]
@@ -25,7 +25,7 @@ const std::vector<forest::ModalDepth> DEPTHS{
 // What wind and step of a tree in modes cost besides.
 double breezeCost(const forest::Swaying& scene, forest::ModalDepth depth) {
   const forest::ModalTree modal(scene.tree(), scene.species(), depth);
-  const wind::Instant air = scene.field().at(forest::SWAY_START);
+  const wind::Instant air = scene.field().at(forest::MODAL_START);
   forest::ModalAir kept;
   std::vector<double> load;
   return modalCost(modal.modes()) +

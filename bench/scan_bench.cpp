@@ -51,7 +51,7 @@ void benchRays(const std::vector<Rays>& scenes, int rounds, int rays) {
 
 void benchUpdate(const forest::ForestReplica& forest, const Lawn& lawn, int rounds) {
   Trees trees;
-  Sward grass;
+  GrassVolume grass;
   int stamp = 0;
   std::vector<bench::Candidate> candidates{
       {"trees to a stamp",

@@ -84,7 +84,7 @@ void growTrees(const Options& options, Table& table) {
 // Batched poses at full depth.
 void poseBranches(const Options& options, Table& table) {
   for (int side = 1; side * side <= most(options, 16, 256, 4096); side *= 2) {
-    const forest::Grove grove = forest::growGrove(forest::gridLayout(side, 8.0));
+    const forest::TreeBatch grove = forest::growTrees(forest::gridLayout(side, 8.0));
     const wind::Instant wind = forest::threeDiscs(8.0 * side).at(forest::PHYSICS_START);
     forest::BatchPoses poses;
     report(table, "branches", static_cast<double>(grove.branches), timeOf(options, [&] {
@@ -199,7 +199,7 @@ void stepWalkers(const Options& options, Table& table) {
       spawn.position = place((1ULL << 40) + i);
       crowd.spawn(spawn);
     }
-    const auto step = [&] { crowd.advance(crowd.memory().stamp + fromSeconds(1.0 / 60.0)); };
+    const auto step = [&] { crowd.advance(crowd.snapshot().stamp + fromSeconds(1.0 / 60.0)); };
     for (int i = 0; i < 30; ++i) step();
     report(table, "walkers", count, timeOf(options, step));
   }

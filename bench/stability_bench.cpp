@@ -61,10 +61,10 @@ StepMatrix stepMatrix(Integrator integrator, double w2, double c, double h) {
 /// Largest step that `holds`, by bisection between `low`, which does, and `high`; infinite if that
 /// does too.
 template <class Holds>
-double largestStep(const Holds& holds, double low, double high, int halvings) {
+double largestStep(const Holds& holds, double low, double high, int bisection) {
   if (holds(high)) return std::numeric_limits<double>::infinity();
   if (!holds(low)) return 0.0;
-  for (int i = 0; i < halvings; ++i) {
+  for (int i = 0; i < bisection; ++i) {
     const double middle = std::sqrt(low * high);
     (holds(middle) ? low : high) = middle;
   }

@@ -50,7 +50,7 @@ class Table {
   std::FILE* file_{nullptr};
 };
 
-/// Columns of a ladder: how far a rung is off, and what it costs; `chosen` is 1 for the default.
+/// Columns of a ladder: how far a tier is off, and what it costs; `chosen` is 1 for the default.
 constexpr const char* LADDER_COLUMNS = "ladder,rung,setting,cost,error,chosen";
 /// Columns of cost against size.
 constexpr const char* SIZE_COLUMNS = "series,size,seconds";

@@ -38,7 +38,7 @@ std::unique_ptr<Crowd> forestCrowd(int walkers, int trunks, double side, bool bo
 }
 
 void steps(Crowd& crowd, int count) {
-  for (int i = 0; i < count; ++i) crowd.advance(crowd.memory().stamp + fromSeconds(TICK));
+  for (int i = 0; i < count; ++i) crowd.advance(crowd.snapshot().stamp + fromSeconds(TICK));
 }
 
 double nearestGap(const View& view) {

@@ -35,17 +35,17 @@ class MeadowFrame {
     meadow_.advance(stamp);
     const auto views = meadow_.viewOf(eye_, stamp);
     laps.lap("grass levels");
-    NodeAir air(meadow_.map(), meadow_.terrain());
+    NodeWind air(meadow_.map(), meadow_.terrain());
     std::vector<TilePlace> tiles;
     for (const TileView& view : views) tiles.push_back({view.column, view.row});
-    air.update(wind_.at(stamp), {}, Meadow::windowOf(views), &tiles);
+    air.update(wind_.at(stamp), {}, MeadowLod::windowOf(views), &tiles);
     laps.lap("air on the grass");
     draw(views, air, stamp);
     laps.lap("blades and strips");
   }
 
  private:
-  void draw(const std::vector<TileView>& views, const NodeAir& air, Nanoseconds stamp) {
+  void draw(const std::vector<TileView>& views, const NodeWind& air, Nanoseconds stamp) {
     mesh_.clear();
     CrushPatch patch;
     for (const TileView& view : views) {
@@ -69,8 +69,8 @@ class MeadowFrame {
 
   wind::Field wind_;
   TreadLaw tread_;
-  Eye eye_;
-  Meadow meadow_;
+  Viewpoint eye_;
+  MeadowLod meadow_;
   std::vector<BladeBlock> blocks_;
   GrassMesh mesh_;
   int frame_{0};

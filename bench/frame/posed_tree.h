@@ -17,16 +17,16 @@ struct PosedTree {
   MeshDetail detail;
   BatchPoses poses;
 
-  PosedTree(const Forest& forest, std::uint32_t id, const Eye& eye)
+  PosedTree(const Forest& forest, std::uint32_t id, const Viewpoint& eye)
       : tree(growTree(forest.layout(), id, forest.terrain())),
         poser(tree),
         detail(meshDetail(geometryLevel(
             tree.skeleton.height * pixelsPerMetre(eye, length(tree.foot - eye.position)), -1))) {}
 
-  /// At the forest's moment, on the rung that was chosen for it.
+  /// At the forest's moment, on the tier that was chosen for it.
   void pose(const Forest& forest, std::uint32_t id, const wind::Instant& wind, Nanoseconds now) {
-    const Sway* sway = forest.sway(id);
-    const auto weights = weightsAt(forest.memory().levels.of(id), now, forest.layout().motion);
+    const ModalTreeState* sway = forest.sway(id);
+    const auto weights = weightsAt(forest.snapshot().levels.of(id), now, forest.layout().motion);
     const bool physical = !forest.promoted(id).branches.empty();
     if (!physical && sway && modalWeight(weights) >= 1.0)
       sway->pose(poser, now, poses);

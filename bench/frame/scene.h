@@ -90,8 +90,8 @@ inline Scene loadScene(const std::string& name) {
 }
 
 /// Who looks: 25 m south of the origin at eye height, northwards.
-inline Eye frameEye(const Scene& scene) {
-  Eye out;
+inline Viewpoint frameEye(const Scene& scene) {
+  Viewpoint out;
   out.position = Vec3(0.0, -25.0, 3.0 + scene.terrain->height(0.0, -25.0));
   out.forward = Vec3::UnitY();
   out.cone_cosine = 0.7;

@@ -69,7 +69,7 @@ class Posing {
   forest::Layout layout_{forest::gridLayout(2, 12.0)};
   forest::Tree tree_{forest::groundedTree(layout_, 2)};
   wind::Field field_{{forest::makeBreeze(1, Vec3(5.0, 1.0, 0.0))}, 3};
-  wind::Instant air_{field_.at(forest::SWAY_START)};
+  wind::Instant air_{field_.at(forest::MODAL_START)};
   forest::BatchPoser poser_{tree_};
   forest::BatchPoses poses_;
   forest::BatchBends bends_;

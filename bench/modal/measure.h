@@ -17,7 +17,7 @@ struct ModalOptions {
   std::vector<int> branches{100, 1000};
   std::string cache;        ///< folder of references; empty: none
   Table* table{nullptr};    ///< of MODAL_COLUMNS
-  double procedural{12.0};  ///< cost of the procedural rung, as below [ns]
+  double procedural{12.0};  ///< cost of the procedural tier, as below [ns]
   int rounds{9};
   double duration{6.0};  ///< of breezes [s]
 };
@@ -31,10 +31,10 @@ constexpr const char* MODAL_COLUMNS =
 double costOf(const std::function<void()>& once, std::size_t branches);
 /// Of stepping modes and of what they bend, loads apart.
 double modalCost(const physics::Modes& modes);
-/// Of the procedural rung, in a breeze.
+/// Of the procedural tier, in a breeze.
 double proceduralCost();
 
-/// Error against full dynamics by number of modes, beside the procedural rung and paper 1's
+/// Error against full dynamics by number of modes, beside the procedural tier and paper 1's
 /// dynamics; what the first frame of a load that steps does.
 void measureErrors(const TestTree& tree, const TestLoad& load, const ModalOptions& options);
 /// Error in ever stronger gusts: the rotation at which modes cease to hold.

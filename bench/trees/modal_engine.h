@@ -38,7 +38,7 @@ class ModalEngine : public Engine {
   double largest_turn_{0.0};
 };
 
-/// No memory: every joint where the load of the moment would hold it, as the procedural rung.
+/// No memory: every joint where the load of the moment would hold it, as the procedural tier.
 class StaticEngine : public Engine {
  public:
   StaticEngine(const TestTree& tree, const TestLoad& load);

@@ -99,10 +99,10 @@ inline Crowd crowdedRoom(std::uint64_t seed, const CrowdSettings& settings) {
 /// Steps for `seconds`; `look` sees the crowd after each.
 template <class Look>
 void run(Crowd& crowd, double seconds, double dt, Look look) {
-  const Nanoseconds start = crowd.memory().stamp;
+  const Nanoseconds start = crowd.snapshot().stamp;
   const auto steps = static_cast<std::int64_t>(seconds / dt + 0.5);
   crowd.advance(start == 0 ? NANOSECONDS_PER_SECOND : start);
-  const Nanoseconds from = crowd.memory().stamp;
+  const Nanoseconds from = crowd.snapshot().stamp;
   for (std::int64_t i = 1; i <= steps; ++i) {
     crowd.advance(from + fromSeconds(dt * static_cast<double>(i)));
     look(crowd);

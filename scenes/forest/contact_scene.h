@@ -84,7 +84,7 @@ class Drive {
 };
 
 /// Finds contacts as ever, adds up what they give to the trees and watches how those move.
-class Ledger : public ContactFinder {
+class PrimitiveSchedule : public ContactFinder {
  public:
   std::vector<physics::Contact> findContacts(const Wood& wood, const Bodies& bodies,
                                              Nanoseconds from, Nanoseconds to,

@@ -114,7 +114,7 @@ class CrownScene {
   void step(const Bodies& bodies, CrownResult* result) {
     const Nanoseconds from = timeOf(tick_), to = timeOf(++tick_);
     const int parts = finder_.partsOf(wood(), bodies, from, to);
-    halvings_ = Halvings();
+    bisection_ = SubstepBisection();
     for (int k = 0; k < parts; ++k)
       stepPart(bodies, from + (to - from) * k / parts, from + (to - from) * (k + 1) / parts,
                result);
@@ -128,7 +128,7 @@ class CrownScene {
         finder_.findContacts(wood(), bodies, from, to, touches_);
     theta_ = physics::guardedTheta(state_, h, theta_);
     stepper_.step(links_, {}, law, 0.0, h, theta_, state_, contacts);
-    if (halvings_.want(stepper_, law, to - from)) {
+    if (bisection_.want(stepper_, law, to - from)) {
       const Nanoseconds middle = from + (to - from) / 2;
       touches_ = touches, state_ = state, theta_ = theta;
       stepPart(bodies, from, middle, result);
@@ -264,7 +264,7 @@ class CrownScene {
   Touches touches_;
   Body body_;
   double theta_{0.5};
-  Halvings halvings_;  // of this step
+  SubstepBisection bisection_;  // of this step
   std::int64_t tick_{0};
   Vec3 last_force_{Vec3::Zero()};
   std::map<int, int> touched_;

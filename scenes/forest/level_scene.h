@@ -14,15 +14,15 @@
 
 namespace vegetation_sim::forest {
 
-struct Grove {
+struct TreeBatch {
   Layout layout;
   std::vector<Tree> trees;
   std::vector<BatchPoser> posers;
   std::size_t branches{0};
 };
 
-inline Grove growGrove(Layout layout) {
-  Grove out;
+inline TreeBatch growTrees(Layout layout) {
+  TreeBatch out;
   out.layout = std::move(layout);
   for (std::uint32_t id = 0; id < out.layout.treeCount(); ++id) {
     out.trees.push_back(growTree(out.layout, id, terrain::HeightMap()));
@@ -52,7 +52,7 @@ constexpr double FIELD_OF_VIEW = 0.8;  // vertical [rad]
 constexpr double PICTURE_HEIGHT = 900, PICTURE_WIDTH = 1280;
 
 struct Camera {
-  Eye eye;
+  Viewpoint eye;
   Vec3 forward, left, up;
   /// Pixel of a point; false if it is behind the camera or outside the picture.
   bool project(const Vec3& point, double& x, double& y) const {
@@ -89,7 +89,7 @@ struct LevelError {
   double pixels{0.0}, metres{0.0};
 };
 
-inline LevelError errorOfLevels(const Grove& grove, const Forest& forest, const Camera& camera,
+inline LevelError errorOfLevels(const TreeBatch& grove, const Forest& forest, const Camera& camera,
                                 const wind::Instant& wind, Nanoseconds stamp) {
   LevelError out;
   for (std::uint32_t id = 0; id < grove.trees.size(); ++id) {
@@ -97,7 +97,7 @@ inline LevelError errorOfLevels(const Grove& grove, const Forest& forest, const 
     const auto local = wind.relativeTo(tree.foot);
     const auto full = poseBranches(tree, local, fullWeights());
     const auto cut = poseBranches(
-        tree, local, weightsAt(forest.memory().levels.of(id), stamp, forest.layout().motion));
+        tree, local, weightsAt(forest.snapshot().levels.of(id), stamp, forest.layout().motion));
     for (std::size_t b = 0; b < full.size(); ++b) {
       const Vec3 a = tree.foot + tipOf(tree.skeleton.branches[b], full[b]);
       const Vec3 c = tree.foot + tipOf(tree.skeleton.branches[b], cut[b]);
@@ -123,10 +123,10 @@ inline void settle(Forest& forest, const Camera& camera, const TickGrid& grid, s
 }
 
 /// Poses every branch that moves; returns how many.
-inline std::size_t poseAtLevels(const Grove& grove, const Forest& forest, const wind::Instant& wind,
-                                Nanoseconds stamp, BatchPoses& scratch) {
+inline std::size_t poseAtLevels(const TreeBatch& grove, const Forest& forest,
+                                const wind::Instant& wind, Nanoseconds stamp, BatchPoses& scratch) {
   std::size_t posed = 0;
-  for (const auto& [id, state] : forest.memory().levels.held()) {
+  for (const auto& [id, state] : forest.snapshot().levels.held()) {
     const Weights weights = weightsAt(state, stamp, forest.layout().motion);
     const int depths = movingDepths(weights);
     grove.posers[id].pose(wind.relativeTo(grove.trees[id].foot), weights, depths, scratch);

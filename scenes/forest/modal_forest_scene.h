@@ -22,7 +22,7 @@ struct Clearing {
     settings.tolerance = pixels;
     use();
   }
-  void tellAtMost(double bytes) {
+  void publishAtMost(double bytes) {
     settings.budget.state_bytes = bytes;
     use();
   }
@@ -33,7 +33,7 @@ struct Clearing {
   /// Tells what does not come in updates.
   void introduce(ForestReplica& replica) const {
     replica.setLayout(forest.layout(), flatTerrain());
-    replica.setWind(forest.memory().wind);
+    replica.setWind(forest.snapshot().wind);
   }
   Nanoseconds now() const { return grid.timeOf(tick); }
   void advance() {
@@ -47,9 +47,9 @@ struct Clearing {
   Tree tree(std::uint32_t id) const { return growTree(forest.layout(), id, forest.terrain()); }
   std::vector<JointAngles> angles(const Tree& tree, std::uint32_t id, Nanoseconds stamp) const {
     std::vector<JointAngles> out =
-        swayingAngles(tree, forest.memory().wind.at(stamp).relativeTo(tree.foot),
-                      weightsAt(forest.memory().levels.of(id), stamp, forest.layout().motion),
-                      forest.sway(id), stamp);
+        modalAngles(tree, forest.snapshot().wind.at(stamp).relativeTo(tree.foot),
+                    weightsAt(forest.snapshot().levels.of(id), stamp, forest.layout().motion),
+                    forest.sway(id), stamp);
     overlay(forest.promoted(id), stamp, out);
     return out;
   }

@@ -11,12 +11,12 @@
 #include "tree/growth/wood.h"
 #include "vegetation_sim/tree/modal/modal_state.h"
 
-// One tree in a wind, on every rung; shared by tests and bench.
+// One tree in a wind, on every tier; shared by tests and bench.
 
 namespace vegetation_sim::forest {
 
-constexpr Nanoseconds SWAY_START = 1700000000LL * NANOSECONDS_PER_SECOND;
-constexpr int SWAY_RATE = 60;
+constexpr Nanoseconds MODAL_START = 1700000000LL * NANOSECONDS_PER_SECOND;
+constexpr int MODAL_RATE = 60;
 
 inline Tree groundedTree(const Layout& layout, std::uint32_t id) {
   Tree out = growTree(layout, id, terrain::HeightMap());
@@ -44,7 +44,7 @@ class Swaying {
         tree_(std::move(tree)),
         species_(std::move(species)),
         field_(field),
-        frames_(static_cast<int>(duration * SWAY_RATE)),
+        frames_(static_cast<int>(duration * MODAL_RATE)),
         rest_(tipsOf(tree_, std::vector<JointAngles>(tree_.skeleton.branches.size()))) {
     runFull();
   }
@@ -67,10 +67,10 @@ class Swaying {
   }
   /// `turning`: levers turn as the tree bends.
   Off modal(double skip, ModalDepth depth = {}, bool turning = true) const {
-    Sway sway(std::make_shared<const ModalTree>(tree_, species_, depth));
+    ModalTreeState sway(std::make_shared<const ModalTree>(tree_, species_, depth));
     std::vector<ModalLoad> loads(2);
-    sway.loadOf(field_.at(SWAY_START), loads[0]);
-    sway.restore(sway.state(), loads[0], SWAY_START);
+    sway.loadOf(field_.at(MODAL_START), loads[0]);
+    sway.restore(sway.state(), loads[0], MODAL_START);
     return error(skip, [&](int frame) {
       sway.loadOf(field_.at(stampOf(frame)), loads[1]);
       if (!turning)
@@ -83,7 +83,7 @@ class Swaying {
 
  private:
   Nanoseconds stampOf(int frame) const {
-    return SWAY_START + fromSeconds((frame + 1.0) / SWAY_RATE);
+    return MODAL_START + fromSeconds((frame + 1.0) / MODAL_RATE);
   }
 
   template <class Bends>
@@ -91,7 +91,7 @@ class Swaying {
     double off = 0.0, size = 0.0, farthest = 0.0;
     for (int frame = 0; frame < frames_; ++frame) {
       const std::vector<JointAngles> bent = bends(frame);
-      if (frame < skip * SWAY_RATE) continue;
+      if (frame < skip * MODAL_RATE) continue;
       const std::vector<Vec3> tips = tipsOf(tree_, bent);
       const std::vector<Vec3>& right = full_[static_cast<std::size_t>(frame)];
       for (std::size_t i = 0; i < tips.size(); ++i) {
@@ -115,7 +115,7 @@ class Swaying {
     double looked = -1.0;
     physics::Surroundings around;
     around.loads = [&](const physics::Kinematics& k, double time, physics::Loads& loads) {
-      if (time != looked) field_.at(SWAY_START + fromSeconds(looked = time), air);
+      if (time != looked) field_.at(MODAL_START + fromSeconds(looked = time), air);
       for (std::size_t i = 0; i < links.size(); ++i) {
         if (wood.own[i].drag <= 0.0) continue;
         const Vec3 centre = wood.own[i].drag_moment / wood.own[i].drag;
@@ -125,7 +125,7 @@ class Swaying {
         loads.wrench[i] = {force, cross(arm, force)};
       }
     };
-    const double h = 1.0 / (SWAY_RATE * steps_);
+    const double h = 1.0 / (MODAL_RATE * steps_);
     for (int i = 0; i < frames_ * steps_; ++i) {
       stepper.step(physics::Integrator::MIDPOINT, links, around, i * h, h, state, theta);
       if (i % steps_ != steps_ - 1) continue;

@@ -72,8 +72,9 @@ struct PhysicsRig {
   }
   int twig() const { return branchOfDepth(tree.skeleton.depths() - 1); }
   std::vector<JointAngles> procedural(Nanoseconds stamp) const {
-    return proceduralAngles(tree, forest.memory().wind.at(stamp).relativeTo(tree.foot),
-                            weightsAt(forest.memory().levels.of(0), stamp, forest.layout().motion));
+    return proceduralAngles(
+        tree, forest.snapshot().wind.at(stamp).relativeTo(tree.foot),
+        weightsAt(forest.snapshot().levels.of(0), stamp, forest.layout().motion));
   }
   /// Angles as they are seen, physical ones included.
   std::vector<JointAngles> angles(Nanoseconds stamp) const {
@@ -82,7 +83,7 @@ struct PhysicsRig {
     return out;
   }
   Vec3 pointOn(const BranchPoint& at) const {
-    const Pose pose = forest.pose(tree, at.tree, forest.memory().stamp)[at.branch];
+    const Pose pose = forest.pose(tree, at.tree, forest.snapshot().stamp)[at.branch];
     return tree.foot + pose.position + at.along * axisZ(pose.orientation);
   }
   Vec3 tip(int branch) const { return pointOn({0, branch, branches()[branch].length}); }
@@ -114,7 +115,7 @@ inline double rms(const std::vector<Vec3>& values) {
 
 /// How far tips are from where they rest [m].
 inline std::vector<Vec3> tipsOf(const PhysicsRig& rig) {
-  const auto poses = rig.forest.pose(rig.tree, 0, rig.forest.memory().stamp);
+  const auto poses = rig.forest.pose(rig.tree, 0, rig.forest.snapshot().stamp);
   std::vector<Vec3> out;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const Branch& b = rig.branches()[i];

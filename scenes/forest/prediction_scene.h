@@ -12,7 +12,7 @@
 namespace vegetation_sim::forest {
 
 /// What the governor foretells of the trees of a forest against what they show: their motion on the
-/// rungs that it chose, beside that of the full chain.
+/// tiers that it chose, beside that of the full chain.
 class Prediction {
  public:
   static constexpr int RATE = 30;    ///< ticks [Hz]
@@ -20,7 +20,7 @@ class Prediction {
   static constexpr double LEAST = 0.05;  ///< what moves less is not looked at [pixel]
 
   Prediction(const Layout& layout, std::shared_ptr<const terrain::HeightMap> terrain,
-             const wind::Field& wind, const Eye& eye, Nanoseconds start, double settle = 0.5,
+             const wind::Field& wind, const Viewpoint& eye, Nanoseconds start, double settle = 0.5,
              const Settings& settings = {})
       : chosen_(layout, terrain, settings), exact_(layout, terrain, settings) {
     eye_.id = "eye";
@@ -40,7 +40,7 @@ class Prediction {
   /// Errors of one tree at one look [pixel].
   struct Look {
     double predicted, measured;
-    int rung;
+    int tier;
   };
   using Looks = std::map<std::uint32_t, std::vector<Look>>;  // by tree that moves
 
@@ -74,7 +74,7 @@ class Prediction {
         trees_.emplace(id, growTree(exact_.layout(), id, exact_.terrain())).first->second;
     Push touch;
     touch.point = {id, static_cast<int>(tree.skeleton.branches.size()) - 1, 0.0};
-    touch.until = exact_.memory().stamp + fromSeconds(1e6);
+    touch.until = exact_.snapshot().stamp + fromSeconds(1e6);
     exact_.push(touch);
   }
   void run(int ticks) {
@@ -87,7 +87,7 @@ class Prediction {
   // Farthest that any tip of a tree is from where the full chain has it.
   double measured(std::uint32_t id) const {
     const Tree& tree = trees_.at(id);
-    const Nanoseconds stamp = chosen_.memory().stamp;
+    const Nanoseconds stamp = chosen_.snapshot().stamp;
     const auto right = exact_.pose(tree, id, stamp), shown = chosen_.pose(tree, id, stamp);
     double out = 0.0;
     for (std::size_t b = 0; b < right.size(); ++b) {

@@ -34,14 +34,15 @@ class FieldTest : public Treading {
 
   Layout layout_;
   std::int64_t tick_{0};
-  Field field_{makeField(map_)};
+  TreadSimulation field_{makeField(map_)};
 
-  Field makeField(TreadMap& map) {
+  TreadSimulation makeField(TreadMap& map) {
     MapInput map_input;
     map_input.law = mapLaw();
     layout_.map = std::make_shared<const FeatureMap>(map_input);
     layout_.tread_spacing = map.spacing();
-    return Field(layout_, std::make_shared<const terrain::HeightMap>(), TreadSettings(), map);
+    return TreadSimulation(layout_, std::make_shared<const terrain::HeightMap>(), TreadSettings(),
+                           map);
   }
 };
 

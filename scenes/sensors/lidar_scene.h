@@ -68,20 +68,21 @@ struct Lawn {
     for (int i = 0; i <= 40; ++i)
       tread.tread(1, law, {0.5 * i, 10.0}, START + fromSeconds(0.5 * i));
   }
-  void show(Sward& sward, const wind::Field& wind = wind::Field(), double after = 60.0) const {
-    sward.update(layout, tread, std::make_shared<const terrain::HeightMap>(), wind,
-                 Vec3(10.0, 10.0, 1.0), 30.0, START + fromSeconds(after));
+  void show(GrassVolume& grass_volume, const wind::Field& wind = wind::Field(),
+            double after = 60.0) const {
+    grass_volume.update(layout, tread, std::make_shared<const terrain::HeightMap>(), wind,
+                        Vec3(10.0, 10.0, 1.0), 30.0, START + fromSeconds(after));
   }
   grass::Layout layout;
   grass::TreadMap tread{layout.map->law(), grass::TreadSettings()};
 };
 
-/// Blades one by one, as bars as thick as they are wide: what Sward stands for.
+/// Blades one by one, as bars as thick as they are wide: what GrassVolume stands for.
 class Blades {
  public:
   Blades(const Lawn& lawn, const wind::Field& wind, Nanoseconds stamp, int first, int last) {
     const terrain::HeightMap flat;
-    grass::NodeAir air(*lawn.layout.map, flat);
+    grass::NodeWind air(*lawn.layout.map, flat);
     air.update(wind.at(stamp), {}, {first, last, first, last});
     for (int row = first; row <= last; ++row)
       for (int column = first; column <= last; ++column) {

@@ -26,7 +26,7 @@ PlaneMotion meanOf(const PlaneField& motion) {
 
 }  // namespace
 
-std::uint64_t Memory::hash() const {
+std::uint64_t CanopySnapshot::hash() const {
   Hash hash;
   hash.add(static_cast<std::uint64_t>(stamp));
   hash.add(ticks);
@@ -53,14 +53,14 @@ Canopy::Canopy(const Layout& layout)
 void Canopy::reset() {
   fluid_.reset();
   oscillator_.reset();
-  memory_ = Memory();
+  memory_ = CanopySnapshot();
   memory_.history = History(layout_.motion.fluid.cells, historyFrames(layout_.motion));
   memory_.fluid = fluid_.state();
   memory_.oscillator = oscillator_.state();
   stale_ = true;
 }
 
-void Canopy::restore(const Memory& memory) {
+void Canopy::restore(const CanopySnapshot& memory) {
   if (memory.history.size() != layout_.motion.fluid.cells ||
       memory.history.frames() != historyFrames(layout_.motion))
     throw InvalidInput("memory: its history is of another layout");

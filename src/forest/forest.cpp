@@ -84,9 +84,9 @@ void Forest::eachSize(const std::function<void(std::size_t, double)>& look) cons
     for (const double scale : {SMALLEST_SCALE, 1.0, LARGEST_SCALE}) look(species, scale);
 }
 
-void Forest::foresee() {
+void Forest::precompute() {
   eachSize([this](std::size_t species, double scale) {
-    tables_[species].lagAt(layout_.species[species], layout_.motion, scale, {});
+    tables_[species].responseErrorAt(layout_.species[species], layout_.motion, scale, {});
   });
 }
 
@@ -131,13 +131,13 @@ StateUpdate Forest::update(bool key_frame) {
   out.wind_hash = memory_.wind.hash();
   out.hash = hash();
   out.blend = memory_.physics.settings().blend;
-  std::set<std::uint32_t> told;
+  std::set<std::uint32_t> published;
   if (key_frame)
-    for (const auto& entry : memory_.levels.held()) told.insert(entry.first);
+    for (const auto& entry : memory_.levels.held()) published.insert(entry.first);
   else
-    told = memory_.changed;
-  for (const std::uint32_t tree : physicalTrees()) told.insert(tree);
-  for (const std::uint32_t tree : told) {
+    published = memory_.changed;
+  for (const std::uint32_t tree : physicalTrees()) published.insert(tree);
+  for (const std::uint32_t tree : published) {
     const bool amplitudes = sway(tree) && (key_frame || memory_.begun.count(tree));
     out.trees.push_back({tree, memory_.levels.of(tree), promoted(tree).branches,
                          amplitudes ? sway(tree)->state() : physics::ModalState()});

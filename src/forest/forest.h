@@ -31,13 +31,13 @@ void describe(FieldVisitor& visitor, Settings& settings);
 
 /// All that has memory in a forest: copy it to save, assign it to restore (N6). What follows then
 /// is the same to the bit, messages included.
-struct ForestMemory {
+struct ForestSnapshot {
   Nanoseconds stamp{0};
   Settings settings;
   wind::Field wind;
   std::map<std::string, Viewer> viewers;
   LevelMap levels;
-  ForestModes modes;
+  ModalForest modes;
   ForestPhysics physics;
   std::set<std::uint32_t> changed;  ///< trees to tell of in the next update
   std::set<std::uint32_t> begun;    ///< of these, with amplitudes: their modes are new
@@ -54,17 +54,17 @@ class Forest {
   const Layout& layout() const { return layout_; }
   std::uint64_t layoutHash() const { return layout_hash_; }
   const terrain::HeightMap& terrain() const { return *terrain_; }
-  const ForestMemory& memory() const { return memory_; }
+  const ForestSnapshot& snapshot() const { return memory_; }
 
   void setWind(const wind::Field& wind) { memory_.wind = wind; }
   void setViewer(const Viewer& viewer) { memory_.viewers[viewer.id] = viewer; }
   void setSettings(const Settings& settings) { memory_.settings = settings; }
   /// Other trees, same ids: levels start anew where the number of trees changed.
   void setLayout(Layout layout, std::shared_ptr<const terrain::HeightMap> terrain);
-  void restore(ForestMemory memory) { memory_ = std::move(memory); }
+  void restore(ForestSnapshot memory) { memory_ = std::move(memory); }
   /// Computes now how the species lag, some 30 ms for each of a few sizes, not at the tick at which
   /// an eye first meets one.
-  void foresee();
+  void precompute();
   /// As a fresh start; keeps layout, wind and settings.
   void reset();
 
@@ -100,7 +100,7 @@ class Forest {
   /// Trees that have physical joints, rising.
   std::vector<std::uint32_t> physicalTrees() const;
   /// Nullptr: the tree does not sway in modes.
-  const Sway* sway(std::uint32_t tree) const { return memory_.modes.find(tree); }
+  const ModalTreeState* sway(std::uint32_t tree) const { return memory_.modes.find(tree); }
   /// What the governor chose at the last tick.
   const GovernorFigures& governor() const { return governor_; }
   /// The trees that it chose for, with what it predicts of them; none where there are very many.
@@ -120,7 +120,7 @@ class Forest {
     double reach;  // [m] around the centre, trees' own reach included
     std::uint32_t first, count;
   };
-  Site site() const;
+  StepContext site() const;
   void advancePhysics(Nanoseconds stamp);
   /// Of all trees; of tiles, whose trees are drawn later, all that may come.
   void eachSize(const std::function<void(std::size_t species, double scale)>& look) const;
@@ -132,10 +132,11 @@ class Forest {
   void chooseRegion(const Region& region);
   void chooseTree(std::uint32_t tree);
   void predict(const TreeSeed& seed, const LevelTable& table, double view, Plant& plant);
-  void wantModes(const LagIn& off, Plant& plant) const;
-  LagIn lagOf(const TreeSeed& seed, const wind::Swings& swings, double bending, double pixels);
+  void wantModes(const PredictedError& off, Plant& plant) const;
+  PredictedError responseErrorOf(const TreeSeed& seed, const wind::GustSpectrum& spectrum,
+                                 double bending, double pixels);
   bool haveModes() const;
-  void adopt();
+  void applyDelta();
   void beginModes();
   void aim(std::uint32_t tree, int level);
 
@@ -148,11 +149,11 @@ class Forest {
   double slowest_reference_{1.0};    // reference speed of any species [m/s]
   std::vector<Region> regions_;
   std::shared_ptr<const ContactModel> contacts_;
-  ForestMemory memory_;
+  ForestSnapshot memory_;
   wind::Instant now_;
-  wind::SwingingWind swinging_;  // now
-  bool fine_due_{false};         // a tree may get fine modes at this tick
-  int last_base_{0};             // level of the trees that were not held before this tick
+  wind::GustSpectrumField swinging_;  // now
+  bool fine_due_{false};              // a tree may get fine modes at this tick
+  int last_base_{0};                  // level of the trees that were not held before this tick
   std::vector<Plant> plants_;
   GovernorFigures governor_;
 };

@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// Which rung each tree of a forest has.
+// Which tier each tree of a forest has.
 #include <algorithm>
 #include <cmath>
 
@@ -39,7 +39,7 @@ double Forest::bendingSpeed(double speed, double reference_speed) const {
 double Forest::viewOf(const Vec3& centre, double reach) const {
   double out = 0.0;
   for (const auto& entry : memory_.viewers) {
-    const Eye& eye = entry.second.eye;
+    const Viewpoint& eye = entry.second.eye;
     if (!sees(eye, centre, 2.0 * reach)) continue;  // twice: the whole tree, and a margin
     const double distance = length(eye.position - centre) - reach;
     out = std::max(out, pixelsPerMetre(eye, distance));
@@ -55,7 +55,7 @@ double Forest::viewOf(const Vec3& centre, double reach) const {
 
 void Forest::advance(Nanoseconds stamp) {
   advancePhysics(stamp);
-  fine_due_ = ForestModes::fineDue(memory_.stamp, stamp);
+  fine_due_ = ModalForest::fineDue(memory_.stamp, stamp);
   memory_.stamp = stamp;
   for (auto it = memory_.viewers.begin(); it != memory_.viewers.end();)
     it = stamp - it->second.stamp > VIEWER_LIFE ? memory_.viewers.erase(it) : std::next(it);
@@ -73,10 +73,10 @@ void Forest::chooseLevels() {
   plants_.clear();
   if (watched || !memory_.physics.bodies().empty()) {
     now_ = memory_.wind.at(memory_.stamp);
-    swinging_ = wind::SwingingWind(memory_.wind, memory_.stamp);
+    swinging_ = wind::GustSpectrumField(memory_.wind, memory_.stamp);
     for (const Region& region : regions_) chooseRegion(region);
   }
-  adopt();
+  applyDelta();
 }
 
 // A whole tile at a time: where even its nearest, largest tree may stand still, no tree is looked
@@ -101,17 +101,18 @@ void Forest::chooseTree(std::uint32_t tree) {
   Plant plant;
   plant.id = tree;
   plant.held = held ? known->second.level : last_base_;
-  const Sway* sways = memory_.modes.find(tree);
-  if (plant.held == MODAL_LEVEL && sways && sways->fine()) plant.held = FINE_RUNG;
-  plant.resting = held && secondsBetween(known->second.since, memory_.stamp) < RUNG_REST;
+  const ModalTreeState* modal_states = memory_.modes.find(tree);
+  if (plant.held == MODAL_LEVEL && modal_states && modal_states->fine())
+    plant.held = FINE_MODAL_TIER;
+  plant.resting = held && secondsBetween(known->second.since, memory_.stamp) < TIER_HOLD;
   predict(seed, table, view, plant);
   const int base = memory_.levels.base().level;
-  plant.stair = std::max(plant.stair, base);
+  plant.stepwise = std::max(plant.stepwise, base);
   plant.wanted = std::max(plant.wanted, base);
   if (plant.wanted != base || plant.held != base) plants_.push_back(plant);
 }
 
-// Errors and costs of all rungs, and which of them the tolerance asks for.
+// Errors and costs of all tiers, and which of them the tolerance asks for.
 void Forest::predict(const TreeSeed& seed, const LevelTable& table, double view, Plant& plant) {
   const Settings& settings = memory_.settings;
   const Budget& budget = settings.budget;
@@ -119,46 +120,46 @@ void Forest::predict(const TreeSeed& seed, const LevelTable& table, double view,
   const Vec3 foot = footOf(seed, *terrain_);
   const double air = now_.speedBound(foot, 0.5 * table.reach);
   const double speed = bendingSpeed(air, species.reference_speed);
-  plant.stair = plant.wanted = std::min(
+  plant.stepwise = plant.wanted = std::min(
       chooseLevel(table, speed, view, settings.tolerance, plant.held), settings.highest_level);
   const double reach = 0.5 * table.reach, pixels = view / SEEN;
-  LagIn off, besides;
-  if (plant.stair > 0) {
-    off = besides = lagOf(seed, swinging_.at(foot, reach), speed / air, pixels);
+  PredictedError off, besides;
+  if (plant.stepwise > 0) {
+    off = besides = responseErrorOf(seed, swinging_.at(foot, reach), speed / air, pixels);
     // Discs are paper 1's winds, for which the whole of a tree's answer is its levels (S1-41): for
     // them nobody asks for more.
     if (swinging_.hasDiscs())
-      besides = lagOf(seed, swinging_.besideDiscs(foot, reach), speed / air, pixels);
+      besides = responseErrorOf(seed, swinging_.withoutDiscs(foot, reach), speed / air, pixels);
   }
-  for (std::size_t rung = 0; rung < table.omitted.size(); ++rung) {
-    const double omitted = speed * view * table.omitted[rung];
-    plant.error[rung] = static_cast<float>(std::max(omitted, off.procedural));
-    const double moving = rung > 0 ? budget.tree_cost : 0.0;
-    plant.cost[rung] =
-        static_cast<float>(1e-6 * (moving + budget.procedural_cost * table.branches[rung]));
+  for (std::size_t tier = 0; tier < table.omitted.size(); ++tier) {
+    const double omitted = speed * view * table.omitted[tier];
+    plant.error[tier] = static_cast<float>(std::max(omitted, off.procedural));
+    const double moving = tier > 0 ? budget.tree_cost : 0.0;
+    plant.cost[tier] =
+        static_cast<float>(1e-6 * (moving + budget.procedural_cost * table.branches[tier]));
   }
-  const auto tell = [&](int rung, double error, double cost) {
-    const auto at = static_cast<std::size_t>(rung);
+  const auto report = [&](int tier, double error, double cost) {
+    const auto at = static_cast<std::size_t>(tier);
     plant.error[at] = static_cast<float>(std::min(error, off.procedural));
     plant.cost[at] = static_cast<float>(1e-6 * (budget.tree_cost + cost * table.branches.back()));
   };
-  tell(MODAL_LEVEL, off.modal, budget.modal_cost);
-  tell(FINE_RUNG, std::min(off.modal, off.fine), budget.fine_cost);
+  report(MODAL_LEVEL, off.modal, budget.modal_cost);
+  report(FINE_MODAL_TIER, std::min(off.modal, off.fine), budget.fine_cost);
   wantModes(besides, plant);
 }
 
 // Modes where the procedural motion is off by more than is tolerated, and they by less; fine ones
 // where plain ones are too. Once fine a tree stays so while it has modes: the way back would jump.
-void Forest::wantModes(const LagIn& off, Plant& plant) const {
+void Forest::wantModes(const PredictedError& off, Plant& plant) const {
   const double tolerance = memory_.settings.tolerance;
   const bool has = plant.held >= MODAL_LEVEL;
   if (!haveModes() || off.procedural <= (has ? HYSTERESIS : 1.0) * tolerance) return;
   const double alike = ALIKE * (has ? 1.05 : 1.0) * off.procedural;
-  const bool held = plant.held == FINE_RUNG, helps = off.modal < alike && !held;
+  const bool held = plant.held == FINE_MODAL_TIER, helps = off.modal < alike && !held;
   const bool finer = held || (off.fine < BETTER * off.modal && (off.modal > tolerance || !helps));
-  plant.above = helps ? MODAL_LEVEL : FINE_RUNG;
+  plant.above = helps ? MODAL_LEVEL : FINE_MODAL_TIER;
   if (finer && off.fine < alike)
-    plant.wanted = FINE_RUNG;
+    plant.wanted = FINE_MODAL_TIER;
   else if (helps)
     plant.wanted = MODAL_LEVEL;
 }
@@ -167,11 +168,12 @@ void Forest::wantModes(const LagIn& off, Plant& plant) const {
 // bending speed per speed of the air. What levers that turn mend is known of steady air: a tree
 // that swings has its inertia bent too, which modes leave out. So fine modes are foretold what
 // plain ones leave of the mean wind, and these as if levers were at rest.
-LagIn Forest::lagOf(const TreeSeed& seed, const wind::Swings& swings, double bending,
-                    double pixels) {
+PredictedError Forest::responseErrorOf(const TreeSeed& seed, const wind::GustSpectrum& spectrum,
+                                       double bending, double pixels) {
   const Species& species = layout_.species[seed.species];
-  const LagIn lag = tables_[seed.species].lagAt(species, layout_.motion, seed.scale, swings);
-  const double peak = bendingSpeed(swings.peak, species.reference_speed),
+  const PredictedError lag =
+      tables_[seed.species].responseErrorAt(species, layout_.motion, seed.scale, spectrum);
+  const double peak = bendingSpeed(spectrum.peak, species.reference_speed),
                mean = bendingSpeed(length(now_.mean), species.reference_speed);
   const double mended = std::max(0.0, lag.bend.procedural - lag.bend.modal) * mean * mean;
   const double rest = lag.bend.procedural * peak * peak, turned = rest - mended;
@@ -184,14 +186,14 @@ bool Forest::haveModes() const {
          static_cast<JointModel>(layout_.motion.joint_model) == JointModel::SWING;
 }
 
-void Forest::adopt() {
+void Forest::applyDelta() {
   const Settings& settings = memory_.settings;
   const Budget& budget = settings.budget;
   const double physical =
       1e-6 * budget.physical_cost * static_cast<double>(physicsFigures().branches);
   shareModes(plants_, budget.modal_trees, budget.state_bytes);
-  static_cast<Balance&>(governor_) =
-      govern(plants_, std::max(0.0, budget.frame_time - physical), settings.tolerance);
+  static_cast<TierAllocation&>(governor_) =
+      allocateTiers(plants_, std::max(0.0, budget.frame_time - physical), settings.tolerance);
   governor_.physical = physical;
   governor_.cost += physical;
   governor_.budget = budget.frame_time;
@@ -211,31 +213,31 @@ void Forest::adopt() {
 }
 
 // Modes take milliseconds to find: one tree a tick gets plain ones, the one that is farthest off
-// first; where none does, one gets fine ones when it is their turn. The others wait on the rung
+// first; where none does, one gets fine ones when it is their turn. The others wait on the tier
 // that they have, and one that has had fine ones on its stair until they have faded: the way back
 // would jump.
 void Forest::beginModes() {
   Plant *plain = nullptr, *finer = nullptr;
-  const auto wait = [](Plant& plant, int rung, Plant*& first) {
-    plant.chosen = rung;
+  const auto wait = [](Plant& plant, int tier, Plant*& first) {
+    plant.chosen = tier;
     if (!first || plant.error[0] > first->error[0]) first = &plant;
   };
   for (Plant& plant : plants_) {
     if (plant.chosen < MODAL_LEVEL) continue;
-    const Sway* sway = memory_.modes.find(plant.id);
+    const ModalTreeState* sway = memory_.modes.find(plant.id);
     if (!sway)
-      wait(plant, plant.stair, plant.chosen == FINE_RUNG ? finer : plain);
-    else if (!sway->fine() && plant.chosen == FINE_RUNG)
+      wait(plant, plant.stepwise, plant.chosen == FINE_MODAL_TIER ? finer : plain);
+    else if (!sway->fine() && plant.chosen == FINE_MODAL_TIER)
       wait(plant, MODAL_LEVEL, finer);
     else if (sway->fine() && plant.chosen == MODAL_LEVEL)
-      plant.chosen = plant.stair;
+      plant.chosen = plant.stepwise;
   }
   Plant* const next = plain ? plain : fine_due_ ? finer : nullptr;
   if (!next) return;
   memory_.modes.begin({layout_, *terrain_, memory_.wind}, next->id, next == finer, memory_.stamp);
   memory_.changed.insert(next->id);
   memory_.begun.insert(next->id);
-  next->chosen = next == finer ? FINE_RUNG : MODAL_LEVEL;
+  next->chosen = next == finer ? FINE_MODAL_TIER : MODAL_LEVEL;
 }
 
 void Forest::aim(std::uint32_t tree, int level) {

@@ -51,7 +51,7 @@ bool ForestReplica::apply(const StateUpdate& update) {
   }
   blend_ = update.blend;
   levels_.prune(update.stamp, layout_->motion.transition);
-  in_sequence_ = takeSway(update);
+  in_sequence_ = takeModalStates(update);
   sequence_ = update.sequence;
   stamp_ = update.stamp;
   if (in_sequence_) why_.clear();
@@ -59,16 +59,16 @@ bool ForestReplica::apply(const StateUpdate& update) {
 }
 
 // Between key frames modes are stepped here as they are there.
-bool ForestReplica::takeSway(const StateUpdate& update) {
-  std::set<std::uint32_t> told;
+bool ForestReplica::takeModalStates(const StateUpdate& update) {
+  std::set<std::uint32_t> published;
   for (const StateUpdate::Entry& entry : update.trees)
-    if (!entry.sway.amplitude.empty()) told.insert(entry.tree);
+    if (!entry.sway.amplitude.empty()) published.insert(entry.tree);
   if (update.key_frame)
-    modes_.keepOnly(told);
+    modes_.keepOnly(published);
   else
     modes_.advance(wind_, stamp_, update.stamp);
   try {
-    restoreSway(update);
+    restoreModalState(update);
   } catch (const std::exception& error) {
     why_ = "tree in modes: " + std::string(error.what());
     return false;
@@ -77,9 +77,9 @@ bool ForestReplica::takeSway(const StateUpdate& update) {
   return true;
 }
 
-void ForestReplica::restoreSway(const StateUpdate& update) {
-  const Grounds at{*layout_, *terrain_, wind_};
-  bool due = update.key_frame || ForestModes::fineDue(stamp_, update.stamp);
+void ForestReplica::restoreModalState(const StateUpdate& update) {
+  const ModalContext at{*layout_, *terrain_, wind_};
+  bool due = update.key_frame || ModalForest::fineDue(stamp_, update.stamp);
   for (const StateUpdate::Entry& entry : update.trees) {
     const std::size_t modes = entry.sway.amplitude.size();
     if (modes == 0) continue;

@@ -21,32 +21,32 @@ int blockOf(double coordinate, double origin, double spacing) {
 
 }  // namespace
 
-Field::Field(Layout layout, std::shared_ptr<const terrain::HeightMap> terrain,
-             const TreadSettings& treading, TreadMap& tread)
+TreadSimulation::TreadSimulation(Layout layout, std::shared_ptr<const terrain::HeightMap> terrain,
+                                 const TreadSettings& treading, TreadMap& tread)
     : layout_(std::move(layout)),
       layout_hash_(layout_.hash()),
       terrain_(std::move(terrain)),
       treading_(treading),
       tread_(tread) {}
 
-void Field::setTreadLaw(const TreadLaw& law) {
+void TreadSimulation::setTreadLaw(const TreadLaw& law) {
   layout_.tread = law;
   layout_hash_ = layout_.hash();
 }
 
-SourceMemory& Field::sourceOf(const TreadInput& input) {
+TreadSourceState& TreadSimulation::sourceOf(const TreadInput& input) {
   const auto found = sources_.find(input.source);
   if (found != sources_.end()) return found->second;
   if (sources_.size() >= MOST_SOURCES)
     throw InvalidInput("source '" + input.source + "' is one more than the " +
                        std::to_string(MOST_SOURCES) + " allowed at once");
-  SourceMemory& source = sources_[input.source];
+  TreadSourceState& source = sources_[input.source];
   source.id = next_id_++;
   return source;
 }
 
 // Blocks that a segment may have changed.
-void Field::touch(const Vec3& from, const Vec3& to, double reach) {
+void TreadSimulation::touch(const Vec3& from, const Vec3& to, double reach) {
   const MapLaw& law = layout_.map->law();
   const double spacing = tread_.spacing();
   const auto column = [&](double x) { return blockOf(x, law.origin_x, spacing); };
@@ -61,7 +61,7 @@ void Field::touch(const Vec3& from, const Vec3& to, double reach) {
       touched_.insert({r, c});
 }
 
-void Field::press(SourceMemory& source, const Vec3& to, Nanoseconds stamp) {
+void TreadSimulation::press(TreadSourceState& source, const Vec3& to, Nanoseconds stamp) {
   Vec3 from = source.down ? source.last.position : to;
   if (flatDistance(from, to) > treading_.longest_stroke) from = to;  // a jump
   touch(from, to, source.last.law.reach);
@@ -73,7 +73,7 @@ void Field::press(SourceMemory& source, const Vec3& to, Nanoseconds stamp) {
 }
 
 // Every tile on the way.
-void Field::enter(SourceMemory& source, const Vec3& from, const Vec3& to) {
+void TreadSimulation::enter(TreadSourceState& source, const Vec3& from, const Vec3& to) {
   const MapLaw& law = layout_.map->law();
   const int steps =
       1 + static_cast<int>(std::min(1e4, flatDistance(from, to) / law.resolution * 4.0));
@@ -90,7 +90,7 @@ void Field::enter(SourceMemory& source, const Vec3& from, const Vec3& to) {
   }
 }
 
-void Field::lift(SourceMemory& source) {
+void TreadSimulation::lift(TreadSourceState& source) {
   tread_.lift(source.id);
   source.down = false;
   source.velocity = Vec3::Zero();
@@ -98,7 +98,8 @@ void Field::lift(SourceMemory& source) {
 }
 
 // The step of a source that is on the ground.
-std::string Field::move(SourceMemory& source, const TreadInput& input, Nanoseconds stamp) {
+std::string TreadSimulation::move(TreadSourceState& source, const TreadInput& input,
+                                  Nanoseconds stamp) {
   std::string problem;
   const std::uint64_t jumps = tread_.state().counts.jumps;
   const double way = flatDistance(source.last.position, input.position);
@@ -123,10 +124,10 @@ std::string Field::move(SourceMemory& source, const TreadInput& input, Nanosecon
          " m and top_speed = " + std::to_string(treading_.top_speed) + " m/s";
 }
 
-std::string Field::apply(const TreadInput& input, Nanoseconds stamp) {
+std::string TreadSimulation::apply(const TreadInput& input, Nanoseconds stamp) {
   const auto action = static_cast<TreadAction>(input.action);
   if (action == TreadAction::LIFT && !sources_.count(input.source)) return "";
-  SourceMemory& source = sourceOf(input);
+  TreadSourceState& source = sourceOf(input);
   const Vec3& p = input.position;
   const bool high = p.z() - terrain_->height(p.x(), p.y()) > input.height_gate;
   std::string problem;
@@ -157,7 +158,7 @@ std::string Field::apply(const TreadInput& input, Nanoseconds stamp) {
   return problem;
 }
 
-void Field::raise(const Point& centre, double radius) {
+void TreadSimulation::raise(const Point& centre, double radius) {
   if (radius > 0.0) return tread_.raise(centre, radius);
   TreadState state;
   state.counts = tread_.state().counts;
@@ -165,9 +166,9 @@ void Field::raise(const Point& centre, double radius) {
   for (auto& [name, source] : sources_) source.down = false;
 }
 
-std::vector<Entering> Field::advance(Nanoseconds stamp) {
+std::vector<Entering> TreadSimulation::advance(Nanoseconds stamp) {
   for (auto entry = sources_.begin(); entry != sources_.end();) {
-    SourceMemory& source = entry->second;
+    TreadSourceState& source = entry->second;
     if (secondsBetween(source.heard, stamp) > LEASE) {
       lift(source);
       entry = sources_.erase(entry);
@@ -182,37 +183,37 @@ std::vector<Entering> Field::advance(Nanoseconds stamp) {
   return std::exchange(entered_, {});
 }
 
-void Field::reset() {
+void TreadSimulation::reset() {
   tread_.clear();
   sources_.clear();
   entered_.clear();
   touched_.clear();
-  stamp_ = told_ = 0;
+  stamp_ = published_ = 0;
   next_id_ = 1;
   sequence_ = 0;
 }
 
-TreadUpdate Field::update(bool key_frame) {
+TreadUpdate TreadSimulation::update(bool key_frame) {
   TreadUpdate out;
   out.stamp = stamp_;
   out.sequence = sequence_++;
   out.key_frame = key_frame;
   out.layout_hash = layout_hash_;
-  out.treads = key_frame ? tellAll(tread_.state(), stamp_)
-                         : tellSince(tread_.state(), touched_, {told_, stamp_});
+  out.treads = key_frame ? snapshotTreads(tread_.state(), stamp_)
+                         : makeDelta(tread_.state(), touched_, {published_, stamp_});
   if (key_frame) out.hash = hashOf(out.treads);
   touched_.clear();
-  told_ = stamp_;
+  published_ = stamp_;
   return out;
 }
 
-double Field::resistanceAt(const Point& place, Nanoseconds stamp) const {
+double TreadSimulation::resistanceAt(const Point& place, Nanoseconds stamp) const {
   const Features f = layout_.map->at(place.x, place.y);
   const double crush = double{tread_.at(place, stamp).tilt} / BEND_LIMIT;
   return drag_ * f.density * f.height * std::max(0.0, 1.0 - crush);
 }
 
-std::vector<Drag> Field::drags() const {
+std::vector<Drag> TreadSimulation::drags() const {
   std::vector<Drag> out;
   for (const auto& [name, source] : sources_) {
     if (source.last.body_frame.empty()) continue;

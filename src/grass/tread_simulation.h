@@ -18,7 +18,7 @@
 namespace vegetation_sim::grass {
 
 /// What is kept of a source.
-struct SourceMemory {
+struct TreadSourceState {
   std::uint32_t id{0};  ///< in the TreadMap
   TreadInput last;
   Nanoseconds heard{0};         ///< when it was told last
@@ -31,10 +31,10 @@ struct SourceMemory {
 };
 
 /// All of a trodden field that has memory (N6).
-struct FieldMemory {
+struct TreadSnapshot {
   Nanoseconds stamp{0};
   std::uint32_t next_id{1};
-  std::map<std::string, SourceMemory> sources;  ///< by name
+  std::map<std::string, TreadSourceState> sources;  ///< by name
   TreadState tread;
 
   std::uint64_t hash() const;
@@ -55,14 +55,14 @@ struct Drag {
 
 /// Grass with what treads on it, by name: gates, passes, drag, who came where (N3, N4). What is
 /// trodden is in a TreadMap, which must outlive it. One thread at a time.
-class Field {
+class TreadSimulation {
  public:
   static constexpr std::size_t MOST_SOURCES = 4096;
   static constexpr double LEASE = 3.0;     ///< of a source that is told no more [s]
   static constexpr double RENEWAL = 0.25;  ///< a standing source presses again [s]
 
-  Field(Layout layout, std::shared_ptr<const terrain::HeightMap> terrain,
-        const TreadSettings& treading, TreadMap& tread);
+  TreadSimulation(Layout layout, std::shared_ptr<const terrain::HeightMap> terrain,
+                  const TreadSettings& treading, TreadMap& tread);
 
   const Layout& layout() const { return layout_; }
   /// Drag of grass [N s/m], see resistanceAt().
@@ -89,19 +89,19 @@ class Field {
   /// Drag per speed on one metre of width [N/(m/s)]: drag * density * height * (1 - crush).
   double resistanceAt(const Point& place, Nanoseconds stamp) const;
 
-  FieldMemory memory() const;
-  void restore(FieldMemory memory);
-  const std::map<std::string, SourceMemory>& sources() const { return sources_; }
+  TreadSnapshot snapshot() const;
+  void restore(TreadSnapshot memory);
+  const std::map<std::string, TreadSourceState>& sources() const { return sources_; }
   Nanoseconds stamp() const { return stamp_; }
   const TreadMap& tread() const { return tread_; }
   const terrain::HeightMap& terrain() const { return *terrain_; }
 
  private:
-  SourceMemory& sourceOf(const TreadInput& input);
-  void press(SourceMemory& source, const Vec3& to, Nanoseconds stamp);
-  void enter(SourceMemory& source, const Vec3& from, const Vec3& to);
-  std::string move(SourceMemory& source, const TreadInput& input, Nanoseconds stamp);
-  void lift(SourceMemory& source);
+  TreadSourceState& sourceOf(const TreadInput& input);
+  void press(TreadSourceState& source, const Vec3& to, Nanoseconds stamp);
+  void enter(TreadSourceState& source, const Vec3& from, const Vec3& to);
+  std::string move(TreadSourceState& source, const TreadInput& input, Nanoseconds stamp);
+  void lift(TreadSourceState& source);
   void touch(const Vec3& from, const Vec3& to, double reach);
 
   Layout layout_;
@@ -112,10 +112,10 @@ class Field {
   double drag_{0.2};
   Nanoseconds stamp_{0};
   std::uint32_t next_id_{1};
-  std::map<std::string, SourceMemory> sources_;
+  std::map<std::string, TreadSourceState> sources_;
   std::vector<Entering> entered_;
   std::set<std::pair<int, int>> touched_;  ///< blocks, since the last update
-  Nanoseconds told_{0};                    ///< stamp of the last update
+  Nanoseconds published_{0};               ///< stamp of the last update
   std::uint32_t sequence_{0};
 };
 

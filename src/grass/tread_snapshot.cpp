@@ -6,19 +6,19 @@
 #include "vegetation_sim/core/math/hash.h"
 
 namespace vegetation_sim::grass {
-FieldMemory Field::memory() const {
+TreadSnapshot TreadSimulation::snapshot() const {
   return {stamp_, next_id_, sources_, tread_.state()};
 }
 
-void Field::restore(FieldMemory memory) {
+void TreadSimulation::restore(TreadSnapshot memory) {
   reset();
-  stamp_ = told_ = memory.stamp;
+  stamp_ = published_ = memory.stamp;
   next_id_ = memory.next_id;
   sources_ = std::move(memory.sources);
   tread_.restore(std::move(memory.tread));
 }
 
-std::uint64_t FieldMemory::hash() const {
+std::uint64_t TreadSnapshot::hash() const {
   Hash hash;
   const auto add = [&](auto value) { hash.add(static_cast<std::uint64_t>(value)); };
   add(stamp);

@@ -73,9 +73,9 @@ class Walk {
 
 }  // namespace
 
-void Sward::update(const grass::Layout& layout, const grass::TreadMap& tread,
-                   std::shared_ptr<const terrain::HeightMap> terrain, const wind::Field& wind,
-                   const Vec3& centre, double radius, Nanoseconds stamp) {
+void GrassVolume::update(const grass::Layout& layout, const grass::TreadMap& tread,
+                         std::shared_ptr<const terrain::HeightMap> terrain, const wind::Field& wind,
+                         const Vec3& centre, double radius, Nanoseconds stamp) {
   const bool other_map = layout_.map != layout.map || tops_.empty();
   layout_ = layout;
   tread_ = &tread;
@@ -83,13 +83,13 @@ void Sward::update(const grass::Layout& layout, const grass::TreadMap& tread,
   stamp_ = stamp;
   if (other_map) takeMap();
   window_ = windowAround(*layout_.map, centre, radius);
-  air_ = std::make_unique<grass::NodeAir>(*layout_.map, *terrain_);
+  air_ = std::make_unique<grass::NodeWind>(*layout_.map, *terrain_);
   const wind::Instant instant = wind.at(stamp);
   still_ = instant.breezes == 0 && instant.terms.empty();
   if (!still_) air_->update(instant, {}, window_);
 }
 
-void Sward::takeMap() {
+void GrassVolume::takeMap() {
   const grass::FeatureMap& map = *layout_.map;
   tallest_ = map.tallest();
   kinds_.clear();
@@ -110,7 +110,7 @@ void Sward::takeMap() {
 }
 
 // Above it there is no blade; below 0 beyond the map.
-double Sward::topAt(double x, double y) const {
+double GrassVolume::topAt(double x, double y) const {
   const grass::MapLaw& law = layout_.map->law();
   const double u = (x - law.origin_x) / law.resolution, v = (y - law.origin_y) / law.resolution;
   if (!(u >= 0.0 && v >= 0.0 && u < law.columns - 1 && v < law.rows - 1)) return -1.0;
@@ -118,12 +118,12 @@ double Sward::topAt(double x, double y) const {
   return tops_[row * static_cast<std::size_t>(law.columns - 1) + column];
 }
 
-double Sward::above(const Vec3& place) const {
+double GrassVolume::above(const Vec3& place) const {
   return place.z() - terrain_->height(place.x(), place.y());
 }
 
 // Between the corners of the tile, as its blades have it.
-Vec3 Sward::airAt(double x, double y) const {
+Vec3 GrassVolume::airAt(double x, double y) const {
   const grass::MapLaw& law = layout_.map->law();
   const double u = (x - law.origin_x) / law.resolution, v = (y - law.origin_y) / law.resolution;
   const int column = static_cast<int>(std::floor(u)), row = static_cast<int>(std::floor(v));
@@ -135,11 +135,11 @@ Vec3 Sward::airAt(double x, double y) const {
 
 // Blades are taken as straight from root to tip, and as wide from all sides, which is how they are
 // drawn. Lean has a random direction: its square is the sum of two means of 1/6.
-double Sward::extinction(const Vec3& place, const Vec3& direction) const {
+double GrassVolume::extinction(const Vec3& place, const Vec3& direction) const {
   return extinctionAt(place, above(place), direction);
 }
 
-double Sward::extinctionAt(const Vec3& place, double height, const Vec3& direction) const {
+double GrassVolume::extinctionAt(const Vec3& place, double height, const Vec3& direction) const {
   // Most of a flat ray's way is over the grass of its place.
   if (!(height >= 0.0 && height <= topAt(place.x(), place.y()))) return 0.0;
   const grass::Features here = layout_.map->at(place.x(), place.y());
@@ -170,7 +170,7 @@ double Sward::extinctionAt(const Vec3& place, double height, const Vec3& directi
 }
 
 // Comes down into the layer of the grass, goes through it, and perhaps down into it again.
-void Sward::meet(const Ray& ray, Hit& nearest) const {
+void GrassVolume::meet(const Ray& ray, Hit& nearest) const {
   if (!tread_) return;
   double from = 0.0;
   while (from < nearest.distance) {
@@ -186,7 +186,7 @@ void Sward::meet(const Ray& ray, Hit& nearest) const {
 }
 
 // @return where it leaves the layer or meets something.
-double Sward::march(const Ray& ray, double from, Hit& nearest) const {
+double GrassVolume::march(const Ray& ray, double from, Hit& nearest) const {
   Walk walk(ray, from, GRASS_CELL);
   const auto key = static_cast<std::uint32_t>(layout_.seed);
   while (from < nearest.distance) {

@@ -14,7 +14,7 @@ namespace vegetation_sim::scan {
 
 /// Grass as a ray meets it: a medium as dense as the blades that stand there, as high as wind and
 /// feet leave them (docs/scan.md).
-class Sward {
+class GrassVolume {
  public:
   /// What grows and is trodden where, and the air that bends it, at a stamp and within `radius` of
   /// a place. `tread` must stay as it is as long as rays are cast.
@@ -44,7 +44,7 @@ class Sward {
   const grass::TreadMap* tread_{nullptr};  ///< null: no grass
   std::shared_ptr<const terrain::HeightMap> terrain_;
   grass::TileWindow window_;
-  std::unique_ptr<grass::NodeAir> air_;
+  std::unique_ptr<grass::NodeWind> air_;
   bool still_{true};
   double tallest_{0.0};      ///< [m] of the map
   std::vector<float> tops_;  ///< [rows x columns] of tiles: no blade is higher there [m]

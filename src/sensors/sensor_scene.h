@@ -13,7 +13,7 @@ namespace vegetation_sim::scan {
 /// All that a sensor sees at one stamp. What is cast may come from any thread.
 struct Scene {
   Trees trees;
-  Sward grass;
+  GrassVolume grass;
   People people;
   std::shared_ptr<const terrain::HeightMap> ground{std::make_shared<const terrain::HeightMap>()};
 };

@@ -37,10 +37,10 @@ TEST(Canopy, LeansWithTheSharedWind) {
   canopy.setWind(breezeFrom(Vec3(6.0, 0.0, 0.0)));  // into the picture: shorter, and from the front
   run(canopy, 0, 200);
   EXPECT_GT(std::fabs(canopy.oscillator().depth()), 1.0);
-  EXPECT_EQ(canopy.memory().driver.share(), 1.0);
+  EXPECT_EQ(canopy.snapshot().driver.share(), 1.0);
   canopy.setWind(breezeFrom(Vec3(-6.0, 0.0, 0.0)));
   run(canopy, 200, 400);
-  EXPECT_EQ(canopy.memory().driver.share(), 0.0);  // S3-23
+  EXPECT_EQ(canopy.snapshot().driver.share(), 0.0);  // S3-23
 }
 
 // Of the top of a shrub over five swells of a side wind, about its mean [m].
@@ -129,7 +129,7 @@ TEST(Canopy, CostsTheSameForAnyNumberOfLeaves) {
     canopy->setWind(breezeFrom(Vec3(0.0, 5.0, 0.0)));
     run(*canopy, 0, 30);
   }
-  EXPECT_EQ(a.memory().hash(), b.memory().hash());
+  EXPECT_EQ(a.snapshot().hash(), b.snapshot().hash());
 }
 
 // N6: same inputs, same hash, on every instruction set; a snapshot goes on to the same bits.
@@ -140,31 +140,31 @@ TEST(Canopy, RepeatsItselfToTheBit) {
     Canopy canopy(shrubScene());
     canopy.setWind(breezeFrom(Vec3(1.0, 5.0, 0.0)));
     run(canopy, 0, 60);
-    hashes.push_back(canopy.memory().hash());
+    hashes.push_back(canopy.snapshot().hash());
   }
   forceInstructionSet("");
   for (const std::uint64_t hash : hashes) EXPECT_EQ(hash, hashes.front());
   Canopy first(shrubScene()), second(shrubScene());
   for (Canopy* canopy : {&first, &second}) canopy->setWind(breezeFrom(Vec3(1.0, 5.0, 0.0)));
   run(first, 0, 30);
-  second.restore(first.memory());
-  EXPECT_EQ(first.memory().hash(), second.memory().hash());
+  second.restore(first.snapshot());
+  EXPECT_EQ(first.snapshot().hash(), second.snapshot().hash());
   for (Canopy* canopy : {&first, &second}) run(*canopy, 30, 60);
-  EXPECT_EQ(first.memory().hash(), second.memory().hash());
-  EXPECT_EQ(first.memory().hash(), hashes.front());
+  EXPECT_EQ(first.snapshot().hash(), second.snapshot().hash());
+  EXPECT_EQ(first.snapshot().hash(), hashes.front());
   second.reset();
   run(second, 0, 60);
-  EXPECT_EQ(second.memory().hash(), hashes.front());
+  EXPECT_EQ(second.snapshot().hash(), hashes.front());
 }
 
 TEST(Canopy, TakesStandingTimeAndGaps) {
   Canopy canopy(shrubScene());
   canopy.setWind(breezeFrom(Vec3(1.0, 5.0, 0.0)));
   run(canopy, 0, 30);
-  const std::uint64_t before = canopy.memory().hash();
+  const std::uint64_t before = canopy.snapshot().hash();
   canopy.advance(tickStamp(29));
   canopy.advance(tickStamp(5));
-  EXPECT_EQ(canopy.memory().hash(), before);
+  EXPECT_EQ(canopy.snapshot().hash(), before);
   canopy.advance(tickStamp(29) + 10 * NANOSECONDS_PER_SECOND);
   EXPECT_EQ(canopy.figures().resets, 0U);
   canopy.advance(tickStamp(29) + 7200 * NANOSECONDS_PER_SECOND);
@@ -189,7 +189,7 @@ TEST(Canopy, CrossFadesToNewLayersAsTheViewerMoves) {
     }
     return out;
   }();
-  const CutView before = canopy.memory().cuts.now;
+  const CutView before = canopy.snapshot().cuts.now;
   double largest = 0.0;
   for (int tick = 160; tick < 280; ++tick) {
     const SinCos turn = sinCosTurns(0.25 * (tick - 160) / 120.0),
@@ -202,7 +202,7 @@ TEST(Canopy, CrossFadesToNewLayersAsTheViewerMoves) {
       largest = std::max(largest, length(now[i] - last[i]));
     last = now;
   }
-  EXPECT_GT(length(canopy.memory().cuts.now.position - before.position), 4.0);
+  EXPECT_GT(length(canopy.snapshot().cuts.now.position - before.position), 4.0);
   EXPECT_LT(largest, 3.0 * usual);
 }
 
@@ -211,21 +211,21 @@ TEST(Canopy, GoesOnMovingWhenItsMotionIsChanged) {
   Canopy canopy(shrubScene());
   canopy.setWind(breezeFrom(Vec3(1.0, 5.0, 0.0)));
   run(canopy, 0, 100);
-  const std::uint64_t before = canopy.memory().hash();
+  const std::uint64_t before = canopy.snapshot().hash();
   Motion motion = canopy.layout().motion;
   motion.oscillator.frequency = 3.0;
   motion.sources.sides[0].strength = 4.0;
   motion.cuts.near_layers = 5;
   const std::uint64_t layout = canopy.layoutHash();
   canopy.setMotion(motion);
-  EXPECT_EQ(canopy.memory().hash(), before);
+  EXPECT_EQ(canopy.snapshot().hash(), before);
   EXPECT_NE(canopy.layoutHash(), layout);
   EXPECT_EQ(canopy.foliage().layers(), 5);
   Canopy other(shrubScene());
   other.setWind(breezeFrom(Vec3(1.0, 5.0, 0.0)));
   run(other, 0, 101);
   run(canopy, 100, 101);
-  EXPECT_NE(canopy.memory().hash(), other.memory().hash());
+  EXPECT_NE(canopy.snapshot().hash(), other.snapshot().hash());
   for (const auto change :
        {+[](Motion& m) { m.plane.distance = 9.0; }, +[](Motion& m) { m.fluid.cells = 64; },
         +[](Motion& m) { m.rate = 20; }, +[](Motion& m) { m.oscillator.integrator = 1; },
@@ -286,7 +286,7 @@ TEST(Replica, RefusesAnotherLayout) {
   EXPECT_NE(errorOf([&] { replica.apply(canopy.update(true)); }).find("layout_hash"),
             std::string::npos);
   Canopy another(shrubScene(64));
-  EXPECT_THROW(another.restore(canopy.memory()), InvalidInput);
+  EXPECT_THROW(another.restore(canopy.snapshot()), InvalidInput);
 }
 
 // S3-W7: what a vertex shader needs, looked up as it would, is the motion of every leaf.

@@ -45,8 +45,8 @@ void run(Forest& forest, Nanoseconds from, double for_seconds, const Viewer* vie
 TEST(Forest, FixedLevelWithoutViewer) {
   Forest forest = makeForest();
   run(forest, START, 1.0);
-  EXPECT_EQ(forest.memory().levels.of(3).level, 2);
-  EXPECT_TRUE(forest.memory().levels.held().empty());
+  EXPECT_EQ(forest.snapshot().levels.of(3).level, 2);
+  EXPECT_TRUE(forest.snapshot().levels.held().empty());
 }
 
 // S1-01, S1-22, N8: two trees at different distances get different levels; moving the eye swaps
@@ -59,9 +59,9 @@ TEST(Forest, LevelsFollowTheViewer) {
   forest.setWind(wind::Field({makeBreeze(1, Vec3(5, 0, 0))}));
   const Viewer here = lookFrom(Vec3(-10, 0, 2), 0), there = lookFrom(Vec3(410, 0, 2), 0);
   run(forest, START, 2.0, &here);
-  EXPECT_GT(forest.memory().levels.of(0).level, forest.memory().levels.of(1).level);
+  EXPECT_GT(forest.snapshot().levels.of(0).level, forest.snapshot().levels.of(1).level);
   run(forest, START + seconds(2), 5.0, &there);
-  EXPECT_LT(forest.memory().levels.of(0).level, forest.memory().levels.of(1).level);
+  EXPECT_LT(forest.snapshot().levels.of(0).level, forest.snapshot().levels.of(1).level);
 }
 
 // S1-40: what is out of sight stands still, and moves again when the eye turns to it.
@@ -72,13 +72,13 @@ TEST(Forest, TreesOutOfSightStandStill) {
   eye.eye.cone_cosine = 0.88;
   forest.setViewer(eye);
   forest.advance(START);
-  EXPECT_EQ(forest.memory().levels.of(0).level, 0);  // at x = 0, behind
-  EXPECT_GT(forest.memory().levels.of(1).level, 0);  // at x = 60, in front
+  EXPECT_EQ(forest.snapshot().levels.of(0).level, 0);  // at x = 0, behind
+  EXPECT_GT(forest.snapshot().levels.of(1).level, 0);  // at x = 60, in front
   eye.eye.forward = Vec3(-1, 0, 0);
   forest.setViewer(eye);
   forest.advance(START + seconds(0.1));
-  EXPECT_GT(forest.memory().levels.of(0).level, 0);
-  EXPECT_EQ(forest.memory().levels.of(1).level, 0);
+  EXPECT_GT(forest.snapshot().levels.of(0).level, 0);
+  EXPECT_EQ(forest.snapshot().levels.of(1).level, 0);
 }
 
 // N8: several viewers, the finest wins; a silent one is forgotten.
@@ -87,12 +87,12 @@ TEST(Forest, FinestOfSeveralViewersWins) {
   forest.setWind(wind::Field({makeBreeze(1, Vec3(5, 0, 0))}));
   forest.setViewer(lookFrom(Vec3(5000, 0, 0), START, "far"));
   forest.advance(START);
-  const int far_level = forest.memory().levels.of(0).level;
+  const int far_level = forest.snapshot().levels.of(0).level;
   forest.setViewer(lookFrom(Vec3(5, 5, 2), START, "near"));
   forest.advance(START + seconds(0.1));
-  EXPECT_GT(forest.memory().levels.of(0).level, far_level);
+  EXPECT_GT(forest.snapshot().levels.of(0).level, far_level);
   run(forest, START + seconds(4), 3.0);
-  EXPECT_TRUE(forest.memory().viewers.empty());
+  EXPECT_TRUE(forest.snapshot().viewers.empty());
 }
 
 // S1-22, S1-40: level 0 where no wind reaches; the middle of a disc asks for more than its rim.
@@ -102,7 +102,7 @@ TEST(Forest, LevelsFollowTheWind) {
   forest.setViewer(lookFrom(Vec3(70, 70, 150), START));
   forest.advance(START);
   const auto level = [&](std::uint32_t x, std::uint32_t y) {
-    return forest.memory().levels.of(y * 8 + x).level;
+    return forest.snapshot().levels.of(y * 8 + x).level;
   };
   EXPECT_EQ(level(7, 7), 0);
   EXPECT_GT(level(0, 0), 0);
@@ -131,7 +131,7 @@ TEST(Forest, IsDeterministicAndRestores) {
   run(a, START, 3.0, &eye);
   run(b, START, 3.0, &eye);
   EXPECT_EQ(a.hash(), b.hash());
-  const ForestMemory saved = a.memory();
+  const ForestSnapshot saved = a.snapshot();
   run(a, START + seconds(3), 5.0);  // the viewer is forgotten meanwhile
   const std::uint64_t later = a.hash();
   EXPECT_NE(later, b.hash());
@@ -162,7 +162,7 @@ TEST(Forest, RestoredMemorySendsTheSameMessages) {
   messages(forest, start, 20);
   forest.setViewer(lookFrom(Vec3(60, 60, 5), START));
   forest.advance(TickGrid(30).timeOf(start + 20));  // its changes are not sent yet
-  const ForestMemory saved = forest.memory();
+  const ForestSnapshot saved = forest.snapshot();
   const StateUpdate unsent = forest.update(false);
   EXPECT_FALSE(unsent.trees.empty());
   const std::vector<StateUpdate> before = messages(forest, start + 21, 60);
@@ -197,11 +197,11 @@ TEST(Forest, NewTransitionTimeMovesNoTree) {
   forest.advance(START);
   const Nanoseconds midway = START + seconds(0.5 * forest.layout().motion.transition);
   forest.advance(midway);
-  const auto before = weightsAt(forest.memory().levels.of(0), midway, forest.layout().motion);
+  const auto before = weightsAt(forest.snapshot().levels.of(0), midway, forest.layout().motion);
   Layout slow = forest.layout();
   slow.motion.transition = 30.0;
   forest.setLayout(slow, flatTerrain());
-  const auto after = weightsAt(forest.memory().levels.of(0), midway, forest.layout().motion);
+  const auto after = weightsAt(forest.snapshot().levels.of(0), midway, forest.layout().motion);
   for (std::size_t d = 0; d < MAX_DEPTHS; ++d) EXPECT_NEAR(after[d], before[d], 1e-6) << d;
 }
 
@@ -255,7 +255,7 @@ TEST(Forest, ReplicaFollowsKeyFramesAndDeltas) {
     EXPECT_EQ(late.apply(k < 95 ? StateUpdate() : update), k >= 120) << k;
     for (std::uint32_t id = 0; id < 16; ++id) {
       EXPECT_EQ(steady.weights(id, now),
-                weightsAt(forest.memory().levels.of(id), now, forest.layout().motion))
+                weightsAt(forest.snapshot().levels.of(id), now, forest.layout().motion))
           << k << " " << id;
     }
   }
@@ -276,14 +276,14 @@ TEST(Forest, ReplicaIgnoresAGapUntilTheNextKeyFrame) {
 }
 
 // Largest error in the picture over two periods of the discs, levels having settled.
-double worstPixels(const Grove& grove, const Forest& forest, const Camera& camera,
+double worstPixels(const TreeBatch& grove, const Forest& forest, const Camera& camera,
                    std::int64_t settled, int instants) {
   const TickGrid grid(30);
   double out = 0.0;
   for (int i = 0; i < instants; ++i) {
     const Nanoseconds stamp = grid.timeOf(settled + 11 * i);
     out = std::max(
-        out, errorOfLevels(grove, forest, camera, forest.memory().wind.at(stamp), stamp).pixels);
+        out, errorOfLevels(grove, forest, camera, forest.snapshot().wind.at(stamp), stamp).pixels);
   }
   return out;
 }
@@ -292,7 +292,7 @@ double worstPixels(const Grove& grove, const Forest& forest, const Camera& camer
 // by more than a little, and not so much less that work is wasted.
 TEST(Forest, PredictedErrorIsTheMeasuredOne) {
   const double spacing = 9.0, extent = 8 * spacing;
-  const Grove grove = growGrove(richLayout(8, spacing, 400));
+  const TreeBatch grove = growTrees(richLayout(8, spacing, 400));
   const TickGrid grid(30);
   const std::int64_t start = grid.tickAt(START);
   for (const double tolerance : {0.5, 1.0, 2.0, 4.0}) {
@@ -317,7 +317,7 @@ TEST(Forest, PredictedErrorIsTheMeasuredOne) {
 // with all of them.
 TEST(Forest, LevelsSaveWorkAtAPixel) {
   const double spacing = 8.0, extent = 16 * spacing;
-  const Grove grove = growGrove(richLayout(16, spacing, 2000));
+  const TreeBatch grove = growTrees(richLayout(16, spacing, 2000));
   Forest forest(grove.layout, flatTerrain(), Settings());
   forest.setWind(threeDiscs(extent));
   const Camera camera = edgeCamera(extent);
@@ -326,7 +326,8 @@ TEST(Forest, LevelsSaveWorkAtAPixel) {
   settle(forest, camera, grid, start, ticks);
   const Nanoseconds now = grid.timeOf(start + ticks);
   BatchPoses scratch;
-  const std::size_t posed = poseAtLevels(grove, forest, forest.memory().wind.at(now), now, scratch);
+  const std::size_t posed =
+      poseAtLevels(grove, forest, forest.snapshot().wind.at(now), now, scratch);
   EXPECT_GT(posed, 0u);
   EXPECT_GT(grove.branches, 27 * posed);
   EXPECT_LE(worstPixels(grove, forest, camera, start + ticks, 20), 1.0);

@@ -9,18 +9,18 @@ namespace {
 
 // N13: key frames tell amplitudes; between them a replica steps the modes itself. Whoever comes
 // late and whoever was there from the beginning pose every branch as the forest does, to the bit.
-TEST(Sway, ReplicasSwayToTheBit) {
+TEST(ModalTreeState, ReplicasSwayToTheBit) {
   Clearing scene;
-  scene.tellAtMost(1600);  // plain modes, which are found at once
+  scene.publishAtMost(1600);  // plain modes, which are found at once
   ForestReplica steady, late;
   for (ForestReplica* replica : {&steady, &late}) scene.introduce(*replica);
   const Tree tree = scene.tree(2);
-  std::size_t told = 0;
+  std::size_t published = 0;
   for (int i = 0; i < 3 * TICK_RATE; ++i) {
     if (i == 2 * TICK_RATE - 20) scene.look(false);
     scene.advance();
     const StateUpdate update = scene.forest.update(i % TICK_RATE == 0);
-    for (const auto& entry : update.trees) told += !entry.sway.amplitude.empty();
+    for (const auto& entry : update.trees) published += !entry.sway.amplitude.empty();
     ASSERT_TRUE(steady.apply(update)) << steady.why();
     const bool joined = i >= TICK_RATE;
     ASSERT_EQ(joined && late.apply(update), joined) << late.why();
@@ -37,12 +37,12 @@ TEST(Sway, ReplicasSwayToTheBit) {
     }
   }
   // Of 3 s at 60 Hz: 180 would be if every tick told.
-  EXPECT_LT(told, 4u * 15u);
+  EXPECT_LT(published, 4u * 15u);
 }
 
 // N13: who joins late finds fine modes one by one, not all at once: ticks would be dropped. The
 // trees that wait are shown procedural, and all are to the bit in the end.
-TEST(Sway, WhoJoinsLateFindsFineModesOneByOne) {
+TEST(ModalTreeState, WhoJoinsLateFindsFineModesOneByOne) {
   Clearing scene(breeze(), 0.05);
   scene.run(2.0);
   for (std::uint32_t id = 0; id < 4; ++id) {
@@ -68,15 +68,15 @@ TEST(Sway, WhoJoinsLateFindsFineModesOneByOne) {
 
 // N13: who was told of plain modes, lost messages and is told of fine ones at a key frame does not
 // go on from the old ones, over steps as long as what was lost.
-TEST(Sway, NothingStaleIsShownWhileFineModesAreAwaited) {
+TEST(ModalTreeState, NothingStaleIsShownWhileFineModesAreAwaited) {
   Clearing scene(breeze(), 0.05);
-  scene.tellAtMost(1600);  // plain modes
+  scene.publishAtMost(1600);  // plain modes
   scene.run(2.0);
   ForestReplica replica;
   scene.introduce(replica);
   ASSERT_TRUE(replica.apply(scene.forest.update(true)));
   for (std::uint32_t id = 0; id < 4; ++id) ASSERT_NE(replica.sway(id), nullptr);
-  scene.tellAtMost(1000000);
+  scene.publishAtMost(1000000);
   scene.run(2.0);  // of which nothing is told
   for (std::uint32_t id = 0; id < 4; ++id) ASSERT_TRUE(scene.forest.sway(id)->fine()) << id;
   for (int i = 0; i < 5; ++i) {
@@ -94,7 +94,7 @@ TEST(Sway, NothingStaleIsShownWhileFineModesAreAwaited) {
 }
 
 // What a hand moves is told at every tick, the amplitudes of the tree it is on are not.
-TEST(Sway, AHeldTreeTellsItsAmplitudesInKeyFramesOnly) {
+TEST(ModalTreeState, AHeldTreeTellsItsAmplitudesInKeyFramesOnly) {
   Clearing scene(breeze(), 0.1);
   scene.run(1.0);
   scene.forest.update(true);
@@ -116,7 +116,7 @@ TEST(Sway, AHeldTreeTellsItsAmplitudesInKeyFramesOnly) {
 }
 
 // Displays pose such a tree in single precision: within the bar of the batched path.
-TEST(Sway, BatchedPoseIsThePlainOne) {
+TEST(ModalTreeState, BatchedPoseIsThePlainOne) {
   Clearing scene;
   scene.run(3.0);
   const Tree tree = scene.tree(0);

@@ -108,7 +108,8 @@ TEST_F(FieldTest, DragGrowsWithDensityAndSpeed) {
     Layout layout = layout_;
     layout.map = std::make_shared<const FeatureMap>(map_input);
     TreadMap map = makeMap();
-    Field field(layout, std::make_shared<const terrain::HeightMap>(), TreadSettings(), map);
+    TreadSimulation field(layout, std::make_shared<const terrain::HeightMap>(), TreadSettings(),
+                          map);
     for (int i = 0; i < 10; ++i)
       field.apply(input("wheel", 5.0 + speed * i / 30.0, y, z),
                   START + i * NANOSECONDS_PER_SECOND / 30);
@@ -137,21 +138,21 @@ TEST_F(FieldTest, TroddenGrassResistsLess) {  // N3, N5
 
 TEST_F(FieldTest, SavedStateGoesOnAlike) {  // N6
   drive("a", 3.0, 5.0, 1.0, 40);
-  const FieldMemory saved = field_.memory();
+  const TreadSnapshot saved = field_.snapshot();
   TreadMap other_map = makeMap();
-  Field other = makeField(other_map);
+  TreadSimulation other = makeField(other_map);
   other.restore(saved);
-  EXPECT_EQ(other.memory().hash(), saved.hash());
+  EXPECT_EQ(other.snapshot().hash(), saved.hash());
   for (int i = 0; i < 40; ++i) {
     ++tick_;
-    for (Field* field : {&field_, &other}) {
+    for (TreadSimulation* field : {&field_, &other}) {
       field->apply(input("a", 4.3 + i / 30.0, 5.0), now());
       field->apply(input("b", 8.0, 8.0 + i / 20.0), now());
       field->advance(now());
     }
   }
-  EXPECT_NE(field_.memory().hash(), saved.hash());
-  EXPECT_EQ(other.memory().hash(), field_.memory().hash());
+  EXPECT_NE(field_.snapshot().hash(), saved.hash());
+  EXPECT_EQ(other.snapshot().hash(), field_.snapshot().hash());
 }
 
 TEST_F(FieldTest, ADiscOrAllIsRaised) {
@@ -165,7 +166,7 @@ TEST_F(FieldTest, ADiscOrAllIsRaised) {
 }
 
 TEST_F(FieldTest, RefusesOneSourceTooMany) {
-  for (std::size_t i = 0; i < Field::MOST_SOURCES; ++i)
+  for (std::size_t i = 0; i < TreadSimulation::MOST_SOURCES; ++i)
     field_.apply(input("s" + std::to_string(i), 10.0, 10.0, 1.0), now());
   EXPECT_EQ(errorOf([&] { field_.apply(input("x", 1.0, 1.0), now()); }),
             "source 'x' is one more than the 4096 allowed at once");

@@ -44,7 +44,7 @@ struct Case {
 };
 
 // N1: the medium against every blade. 4000 rays: a share is sure to 0.016, twice its deviation.
-TEST(Sward, LetsThroughAsMuchAsItsBladesDo) {
+TEST(GrassVolume, LetsThroughAsMuchAsItsBladesDo) {
   for (const Case& one :
        {Case{"lawn", 0.3, 400.0, Vec3::Zero(), false}, Case{"thin", 0.3, 60.0, Vec3::Zero(), false},
         Case{"wind", 0.3, 100.0, Vec3(7, 0, 0), false},
@@ -52,10 +52,10 @@ TEST(Sward, LetsThroughAsMuchAsItsBladesDo) {
     Lawn lawn(one.height, one.density);
     if (one.trodden) lawn.treadLane();
     const wind::Field wind = breezeOf(one.air);
-    Sward sward;
-    lawn.show(sward, wind);
+    GrassVolume grass_volume;
+    lawn.show(grass_volume, wind);
     const Blades blades(lawn, wind, START + fromSeconds(60.0), 3, 6);
-    const Met medium = meetings(sward, 0.02, 0.25), each = meetings(blades, 0.02, 0.25);
+    const Met medium = meetings(grass_volume, 0.02, 0.25), each = meetings(blades, 0.02, 0.25);
     RecordProperty(std::string(one.name) + "_share_medium", std::to_string(medium.share));
     RecordProperty(std::string(one.name) + "_share_blades", std::to_string(each.share));
     RecordProperty(std::string(one.name) + "_height_medium", std::to_string(medium.height));
@@ -67,20 +67,20 @@ TEST(Sward, LetsThroughAsMuchAsItsBladesDo) {
 }
 
 // N1
-TEST(Sward, ThatIsTroddenReturnsLower) {
+TEST(GrassVolume, ThatIsTroddenReturnsLower) {
   Lawn upright, trodden;
   trodden.treadLane();
-  Sward before, after;
+  GrassVolume before, after;
   upright.show(before);
   trodden.show(after);
-  const auto top = [](const Sward& sward) {  // rays from a robot that looks ahead
+  const auto top = [](const GrassVolume& grass_volume) {  // rays from a robot that looks ahead
     double sum = 0.0;
     for (int i = 0; i < 1000; ++i) {
       const Vec3 from(5.0 + 0.005 * i, 10.3, 1.0);
       const Ray ray(from, Vec3(1.0, 0.0, -0.2).normalized());
       Hit nearest;
       nearest.distance = -from.z() / ray.direction.z();
-      sward.meet(ray, nearest);
+      grass_volume.meet(ray, nearest);
       sum += ray.at(nearest.distance).z();
     }
     return sum / 1000.0;
@@ -89,18 +89,18 @@ TEST(Sward, ThatIsTroddenReturnsLower) {
   EXPECT_LT(top(after), 0.35 * top(before));
 }
 
-TEST(Sward, BentByWindIsLower) {
+TEST(GrassVolume, BentByWindIsLower) {
   const Lawn lawn;
-  Sward still, windy;
+  GrassVolume still, windy;
   lawn.show(still);
   lawn.show(windy, breezeOf(Vec3(12, 0, 0)));
   EXPECT_LT(meetings(windy, 0.1, 0.3).height, meetings(still, 0.1, 0.3).height - 0.005);
 }
 
 // What stands still looks still, from one scan to the next.
-TEST(Sward, InStillAirLooksTheSameAtAnyTime) {
+TEST(GrassVolume, InStillAirLooksTheSameAtAnyTime) {
   const Lawn lawn;
-  Sward now, later;
+  GrassVolume now, later;
   lawn.show(now, wind::Field(), 1.0);
   lawn.show(later, wind::Field(), 2.0);
   for (std::uint64_t i = 0; i < 500; ++i) {
@@ -113,14 +113,14 @@ TEST(Sward, InStillAirLooksTheSameAtAnyTime) {
   }
 }
 
-TEST(Sward, EndsAtTheBorderOfItsMap) {
+TEST(GrassVolume, EndsAtTheBorderOfItsMap) {
   const Lawn lawn;
-  Sward sward;
-  lawn.show(sward);
-  EXPECT_GT(sward.extinction(Vec3(10.0, 19.9, 0.1), Vec3::UnitX()), 0.0);
-  EXPECT_EQ(sward.extinction(Vec3(10.0, 20.1, 0.1), Vec3::UnitX()), 0.0);
-  EXPECT_EQ(sward.extinction(Vec3(10.0, 10.0, 0.31), Vec3::UnitX()), 0.0);
-  EXPECT_EQ(sward.extinction(Vec3(10.0, 10.0, -0.01), Vec3::UnitX()), 0.0);
+  GrassVolume grass_volume;
+  lawn.show(grass_volume);
+  EXPECT_GT(grass_volume.extinction(Vec3(10.0, 19.9, 0.1), Vec3::UnitX()), 0.0);
+  EXPECT_EQ(grass_volume.extinction(Vec3(10.0, 20.1, 0.1), Vec3::UnitX()), 0.0);
+  EXPECT_EQ(grass_volume.extinction(Vec3(10.0, 10.0, 0.31), Vec3::UnitX()), 0.0);
+  EXPECT_EQ(grass_volume.extinction(Vec3(10.0, 10.0, -0.01), Vec3::UnitX()), 0.0);
 }
 
 }  // namespace

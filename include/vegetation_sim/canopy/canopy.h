@@ -14,7 +14,7 @@
 namespace vegetation_sim::canopy {
 
 /// All that a canopy remembers: one structure that can be kept, restored and hashed (N6).
-struct Memory {
+struct CanopySnapshot {
   Nanoseconds stamp{0};  ///< of the last tick; 0: none yet
   std::uint64_t ticks{0};
   FluidState fluid;
@@ -66,9 +66,9 @@ class Canopy {
   /// As fresh, with layout, wind and viewer as they are.
   void reset();
 
-  const Memory& memory() const { return memory_; }
+  const CanopySnapshot& snapshot() const { return memory_; }
   /// @throws InvalidInput for a memory of another layout, or what is no number.
-  void restore(const Memory& memory);
+  void restore(const CanopySnapshot& memory);
   /// @param hashed with the memory's hash, which costs as much as a tick.
   StateUpdate update(bool hashed) const;
 
@@ -92,7 +92,7 @@ class Canopy {
   Plane plane_;
   Fluid fluid_;
   Oscillator oscillator_;
-  Memory memory_;  // fluid and oscillator hold their own parts between ticks
+  CanopySnapshot memory_;  // fluid and oscillator hold their own parts between ticks
   wind::Field wind_;
   std::optional<CutView> viewer_;
   Foliage foliage_;

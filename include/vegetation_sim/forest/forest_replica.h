@@ -43,13 +43,13 @@ class ForestReplica {
   std::vector<std::uint32_t> physicalTrees() const;
   /// Nullptr: the tree does not sway in modes, or they are still to be found: who joins late finds
   /// fine ones of one tree every 0.1 s, and shows the others procedural.
-  const Sway* sway(std::uint32_t tree) const { return modes_.find(tree); }
+  const ModalTreeState* sway(std::uint32_t tree) const { return modes_.find(tree); }
   /// Every branch in the tree's frame, physical ones and modes included, double precision.
   std::vector<Pose> pose(const Tree& tree, std::uint32_t id, Nanoseconds stamp) const;
 
  private:
-  bool takeSway(const StateUpdate& update);
-  void restoreSway(const StateUpdate& update);
+  bool takeModalStates(const StateUpdate& update);
+  void restoreModalState(const StateUpdate& update);
 
   std::shared_ptr<const Layout> layout_;
   std::shared_ptr<const terrain::HeightMap> terrain_;
@@ -57,7 +57,7 @@ class ForestReplica {
   wind::Field wind_;
   LevelMap levels_;
   std::map<std::uint32_t, std::vector<PromotedBranch>> promoted_;
-  ForestModes modes_;
+  ModalForest modes_;
   double blend_{1.5};
   bool in_sequence_{false};
   std::uint32_t sequence_{0};

@@ -9,7 +9,7 @@
 namespace vegetation_sim::wind {
 
 /// What a user asks for: a primitive, and the tf frame that its centre follows, if any. The id is
-/// given by the Ledger that takes it.
+/// given by the PrimitiveSchedule that takes it.
 struct Source {
   Primitive primitive;
   std::string attached_frame;  ///< empty: not tied

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double LEAST_COST = 1e-6;  // of a step upwards
 
-/// A step of a choice from one rung to the next that it wants.
+/// A step of a choice from one tier to the next that it wants.
 struct Step {
   double priority;  // error per cost
   double cost;
@@ -19,16 +19,16 @@ struct Step {
   int from, to;
 };
 
-double errorAt(const Choice& choice, int rung) {
-  return choice.error[static_cast<std::size_t>(rung)];
+double errorAt(const TierChoice& choice, int tier) {
+  return choice.error[static_cast<std::size_t>(tier)];
 }
 
-double costAt(const Choice& choice, int rung) {
-  return choice.cost[static_cast<std::size_t>(rung)];
+double costAt(const TierChoice& choice, int tier) {
+  return choice.cost[static_cast<std::size_t>(tier)];
 }
 
 // A later step of the same never goes before an earlier one.
-void addSteps(const Choice& choice, std::size_t index, std::vector<Step>& out) {
+void addSteps(const TierChoice& choice, std::size_t index, std::vector<Step>& out) {
   double least = 1e300;
   const auto add = [&](int from, int to) {
     const double cost = costAt(choice, to) - costAt(choice, from);
@@ -36,18 +36,18 @@ void addSteps(const Choice& choice, std::size_t index, std::vector<Step>& out) {
     least = std::min(least, held * errorAt(choice, from) / std::max(cost, LEAST_COST));
     out.push_back({least, cost, index, from, to});
   };
-  const int stair = std::min(choice.stair, choice.wanted);
-  for (int rung = 0; rung < stair; ++rung) add(rung, rung + 1);
-  if (choice.wanted <= stair) return;
-  const int above = std::clamp(choice.above, stair + 1, choice.wanted);
-  add(stair, above);
-  for (int rung = above; rung < choice.wanted; ++rung) add(rung, rung + 1);
+  const int stepwise = std::min(choice.stepwise, choice.wanted);
+  for (int tier = 0; tier < stepwise; ++tier) add(tier, tier + 1);
+  if (choice.wanted <= stepwise) return;
+  const int above = std::clamp(choice.above, stepwise + 1, choice.wanted);
+  add(stepwise, above);
+  for (int tier = above; tier < choice.wanted; ++tier) add(tier, tier + 1);
 }
 
-void fit(std::vector<Choice>& choices, double room) {
+void fit(std::vector<TierChoice>& choices, double room) {
   std::vector<Step> steps;
   for (std::size_t i = 0; i < choices.size(); ++i) {
-    Choice& choice = choices[i];
+    TierChoice& choice = choices[i];
     choice.chosen = choice.resting ? std::min(choice.held, choice.wanted) : 0;
     room -= costAt(choice, choice.chosen);
     if (!choice.resting) addSteps(choice, i, steps);
@@ -57,7 +57,7 @@ void fit(std::vector<Choice>& choices, double room) {
     return a.index != b.index ? a.index < b.index : a.from < b.from;
   });
   for (const Step& step : steps) {
-    Choice& choice = choices[step.index];
+    TierChoice& choice = choices[step.index];
     if (choice.chosen != step.from || step.cost > room) continue;
     choice.chosen = step.to;
     room -= step.cost;
@@ -66,7 +66,7 @@ void fit(std::vector<Choice>& choices, double room) {
 
 }  // namespace
 
-int rungWithin(const Choice& choice, int finest, double tolerance) {
+int tierWithin(const TierChoice& choice, int finest, double tolerance) {
   int wanted = 0;
   while (wanted < finest && errorAt(choice, wanted) > tolerance) ++wanted;
   const int held = std::min(choice.held, finest);
@@ -74,14 +74,14 @@ int rungWithin(const Choice& choice, int finest, double tolerance) {
   return wanted;
 }
 
-Balance govern(std::vector<Choice>& choices, double room, double tolerance) {
-  Balance out;
-  for (Choice& choice : choices) {
+TierAllocation allocateTiers(std::vector<TierChoice>& choices, double room, double tolerance) {
+  TierAllocation out;
+  for (TierChoice& choice : choices) {
     choice.chosen = choice.wanted;
     out.wanted += costAt(choice, choice.chosen);
   }
   if (out.wanted > room) fit(choices, room);
-  for (const Choice& choice : choices) {
+  for (const TierChoice& choice : choices) {
     const double error = errorAt(choice, choice.chosen);
     out.cost += costAt(choice, choice.chosen);
     out.largest = std::max(out.largest, error);

@@ -12,7 +12,7 @@ constexpr double NEAREST = 0.5;  // [m] closer than this nothing grows in the pi
 
 }  // namespace
 
-bool sees(const Eye& eye, const Vec3& centre, double radius) {
+bool sees(const Viewpoint& eye, const Vec3& centre, double radius) {
   if (eye.cone_cosine <= -1.0) return true;
   const Vec3 offset = centre - eye.position;
   const double distance = length(offset);
@@ -24,7 +24,7 @@ bool sees(const Eye& eye, const Vec3& centre, double radius) {
   return dot(offset, eye.forward) >= distance * (c * ball_cosine - s * ball_sine);
 }
 
-double pixelsPerMetre(const Eye& eye, double distance) {
+double pixelsPerMetre(const Viewpoint& eye, double distance) {
   return eye.pixels_per_radian / std::max(distance, NEAREST);
 }
 

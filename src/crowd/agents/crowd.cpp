@@ -74,7 +74,7 @@ void describe(FieldVisitor& v, Area& a) {
   v.number("max_y", a.max_y, "m", {-FARTHEST, FARTHEST});
 }
 
-std::uint64_t CrowdMemory::hash() const {
+std::uint64_t CrowdSnapshot::hash() const {
   Hash hash;
   hash.add(static_cast<std::uint64_t>(stamp));
   hash.add(std::uint64_t{begun});
@@ -222,7 +222,7 @@ void Crowd::clear() {
   memory_.begun = false;
 }
 
-void Crowd::restore(CrowdMemory memory) {
+void Crowd::restore(CrowdSnapshot memory) {
   memory_ = std::move(memory);
   setObstacles(still_.obstacles());
 }

@@ -22,7 +22,7 @@ void describe(FieldVisitor& visitor, Area& area);
 
 /// All that has memory in a crowd: copy it to save, assign it to restore (N6). What stands still,
 /// the terrain and the grass are inputs; with the same ones, what follows is the same to the bit.
-struct CrowdMemory {
+struct CrowdSnapshot {
   Nanoseconds stamp{0};
   bool begun{false};  ///< `stamp` is of a tick
   std::uint64_t seed{0};
@@ -76,8 +76,8 @@ class Crowd {
   /// One tick. A stamp not after the last moves nobody.
   void advance(Nanoseconds stamp);
 
-  const CrowdMemory& memory() const { return memory_; }
-  void restore(CrowdMemory memory);
+  const CrowdSnapshot& snapshot() const { return memory_; }
+  void restore(CrowdSnapshot memory);
   const std::vector<Walker>& walkers() const { return memory_.walkers; }
   /// Null if unknown.
   const Walker* find(std::uint32_t id) const;
@@ -106,7 +106,7 @@ class Crowd {
   Ways ways_;
   Resistance resistance_;
   int threads_{1};
-  CrowdMemory memory_;
+  CrowdSnapshot memory_;
   WalkerGrid grid_;  ///< all as they were at the last tick
   std::vector<Obstacle> robots_;
   std::vector<const FlowField*> fields_;  ///< of each walker that makes a detour

@@ -34,15 +34,15 @@ struct Implicitness {
   double ease{0.0};
 
   /// What a joint's springs and dampers add to its inertia [kg m^2].
-  double foreseen(const Link& link) const {
+  double predicted(const Link& link) const {
     return stiffness * link.stiffness + damping * link.damping -
-           std::min(ease * link.stiffness, link.sure_inertia);
+           std::min(ease * link.stiffness, link.guaranteed_inertia);
   }
 };
 
 /// Of a theta step: theta = 1 is backward Euler. Below it springs are eased, so that slow motion
 /// keeps its period to fourth order at theta = 1/2.
-inline Implicitness foreseeing(double theta, double h, double products) {
+inline Implicitness implicitFor(double theta, double h, double products) {
   return {theta * theta * h * h, theta * h, products, (1.0 - theta) * h * h / 3.0};
 }
 

@@ -108,8 +108,8 @@ bool holdsAtRest(const std::vector<Link>& links) {
   for (std::size_t i = links.size(); i-- > 0;) {
     const Link& link = links[i];
     Body& body = bodies[i];
-    const double pivot1 = body.a.xx - link.sure_inertia, coupling = body.a.xy / pivot1;
-    const double pivot2 = body.a.yy - link.sure_inertia - coupling * body.a.xy;
+    const double pivot1 = body.a.xx - link.guaranteed_inertia, coupling = body.a.xy / pivot1;
+    const double pivot2 = body.a.yy - link.guaranteed_inertia - coupling * body.a.xy;
     if (!(pivot1 > 0.0 && pivot2 > 0.0)) return false;
     if (link.parent < 0) continue;
     giveWay(pivot1, pivot2, coupling, body);
@@ -125,9 +125,9 @@ void shareInertia(std::vector<Link>& links) {
   Sharing sharing(links);
   for (int i = 0; i < PASSES; ++i) sharing.grow();
   for (std::size_t i = 0; i < links.size(); ++i)
-    links[i].sure_inertia = MARGIN * sharing.share()[i];
+    links[i].guaranteed_inertia = MARGIN * sharing.share()[i];
   for (int trial = 0; trial <= MOST_TRIALS && !holdsAtRest(links); ++trial)
-    for (Link& link : links) link.sure_inertia *= trial < MOST_TRIALS ? SHRINK : 0.0;
+    for (Link& link : links) link.guaranteed_inertia *= trial < MOST_TRIALS ? SHRINK : 0.0;
 }
 
 }  // namespace vegetation_sim::physics

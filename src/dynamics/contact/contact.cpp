@@ -182,12 +182,12 @@ void ContactStepper::step(const std::vector<Link>& links, const Surroundings& ou
   prepare(law, h, theta, contacts);
   const std::size_t others = loads_.anchors.size();
   // The rules of ChainStepper for motion too wild.
-  const Implicitness foreseen = foreseeing(theta, h, productsOf(state, h));
+  const Implicitness predicted = implicitFor(theta, h, productsOf(state, h));
   agreed_ = false;
   for (trials_ = 0; trials_ < MOST_TRIALS && !agreed_; ++trials_) {
     loads_.anchors.resize(others);
     addAnchors(law, h, theta, contacts);
-    body_.accelerations(links, bases_, between_, kinematics_, loads_, foreseen, acceleration_);
+    body_.accelerations(links, bases_, between_, kinematics_, loads_, predicted, acceleration_);
     spread(links);
     agreed_ = revise(law, h, trials_ >= JOINT_TRIALS, contacts);
   }

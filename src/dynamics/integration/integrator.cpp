@@ -74,7 +74,7 @@ void ChainStepper::implicitStep(const std::vector<Link>& links, const Surroundin
   addScaled(state.q, theta * h, state.rate, between_.q);
   between_.rate = state.rate;
   const double products = productsOf(state, h);
-  evaluate(links, outside, time + theta * h, between_, foreseeing(theta, h, products),
+  evaluate(links, outside, time + theta * h, between_, implicitFor(theta, h, products),
            acceleration_);
   const bool mean = products_ == Products::MEAN && dynamics_ == Dynamics::ARTICULATED;
   if (mean && theta == 0.5 && products == 1.0)

@@ -23,15 +23,15 @@ Matrix exponential(double w2, double c, double h) {
   constexpr double PART = 0.125;  // of a radian
   constexpr int TERMS = 12;
   const double rate = std::sqrt(w2) + c;
-  int halvings = 0;
-  while (rate * h > PART && halvings < 1000) h *= 0.5, ++halvings;
+  int bisection = 0;
+  while (rate * h > PART && bisection < 1000) h *= 0.5, ++bisection;
   // What the matrix leaves of one, so that slow modes keep their digits.
   Matrix power{1.0, 0.0, 0.0, 1.0}, rest{0.0, 0.0, 0.0, 0.0};
   for (int n = 1; n <= TERMS; ++n) {
     power = product(power, {0.0, h / n, -w2 * h / n, -c * h / n});
     rest = {rest.aa + power.aa, rest.ab + power.ab, rest.ba + power.ba, rest.bb + power.bb};
   }
-  for (; halvings > 0; --halvings) {  // (1 + r)^2 = 1 + 2 r + r^2
+  for (; bisection > 0; --bisection) {  // (1 + r)^2 = 1 + 2 r + r^2
     const Matrix square = product(rest, rest);
     rest = {2.0 * rest.aa + square.aa, 2.0 * rest.ab + square.ab, 2.0 * rest.ba + square.ba,
             2.0 * rest.bb + square.bb};

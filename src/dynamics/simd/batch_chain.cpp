@@ -201,7 +201,7 @@ void BatchChain::guard(ChainGroup& group, double h) {
 void BatchChain::stepGroup(ChainGroup& group, const Surroundings* around, double time, double h,
                            int number) {
   store_->mean = store_->averages && number == 0;
-  store_->foretold = store_->averages && number > 0;
+  store_->predicted = store_->averages && number > 0;
   const auto step = static_cast<float>(h);
   const auto at = [&](std::size_t t) { return time + trees_[t].theta * h; };
   guard(group, h);

@@ -144,7 +144,7 @@ HWY_INLINE Solution solve(const Joints& at, const Push& parent) {
 /// Steps q and rate; `fastest` grows to the largest rate. `foretells`: leaves half of how rates
 /// have changed: until the middle of the next step they do so again, but for a term of second
 /// order.
-HWY_INLINE Push settle(const Joints& at, const Push& parent, Lanes step, bool foretells,
+HWY_INLINE Push settle(const Joints& at, const Push& parent, Lanes step, bool predicts,
                        Lanes& fastest) {
   const Solution solved = solve(at, parent);
   const Lanes ahead = load(at.state, S_THETA) * step;
@@ -159,7 +159,7 @@ HWY_INLINE Push settle(const Joints& at, const Push& parent, Lanes step, bool fo
   for (int axis = 0; axis < 2; ++axis) {
     rate[axis] = alive(rate[axis]);
     const Lanes change = rate[axis] - load(at.state, S_RATE + axis);
-    if (foretells) store(all(0.5f) * change, at.state, S_LEAD + axis);
+    if (predicts) store(all(0.5f) * change, at.state, S_LEAD + axis);
     store(alive(q[axis]), at.state, S_Q + axis);
     store(rate[axis], at.state, S_RATE + axis);
     fastest = hn::Max(fastest, hn::Abs(rate[axis]));

@@ -87,7 +87,7 @@ HWY_INLINE void addPoint(Lanes mass, const Lanes3& arm, Articulated& sum) {
   addMass(mass, v, sum);
 }
 
-/// Drag of the air on its grip, whose force and derivative are those of PhysicalPart::addWind.
+/// Drag of the air on its grip, whose force and derivative are those of PhysicalSubtree::addWind.
 struct Blow {
   Lanes3 wind;         ///< past the grip
   Lanes drag, factor;  ///< force over wind; of its part along the wind, for addPull

@@ -49,7 +49,7 @@ void fillLink(const Link& link, int rows, float* constants) {
   set(C_MASS, link.mass);
   set(C_STIFFNESS, link.stiffness);
   set(C_DAMPING, link.damping);
-  set(C_SURE, link.sure_inertia);
+  set(C_SURE, link.guaranteed_inertia);
   set(C_MOMENT, link.mass * link.centre.z());
   set(C_XX, i.xx);
   set(C_ZZ, i.zz);

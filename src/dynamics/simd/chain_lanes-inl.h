@@ -137,14 +137,14 @@ HWY_INLINE Symmetric turnedInertia(const Axes& r, const Symmetric& a) {
 
 // Series of the rotation vector of size a: cos(a/2), sin(a/2) / (a/2), b = (1 - cos a) / a^2,
 // c = (a - sin a) / a^3 and the derivatives of b and c by a, divided by a.
-struct Swing {
+struct RotationSeries {
   Lanes w, s, b, c, db, dc;
 };
 
 // Taylor for a <= 1: relative errors below 2e-7, of the derivatives 1e-6.
-HWY_INLINE Swing smallSwing(Lanes a2) {
+HWY_INLINE RotationSeries smallRotation(Lanes a2) {
   const Lanes u = all(0.25f) * a2;
-  Swing out;
+  RotationSeries out;
   out.s = ((all(-1.f / 5040.f) * u + all(1.f / 120.f)) * u - all(1.f / 6.f)) * u + all(1.f);
   out.w = (all(1.f / 40320.f) * u - all(1.f / 720.f)) * u + all(1.f / 24.f);
   out.w = (out.w * u - all(0.5f)) * u + all(1.f);
@@ -158,7 +158,7 @@ HWY_INLINE Swing smallSwing(Lanes a2) {
 }
 
 // For a > 1: the half angle less whole half turns, then Taylor.
-inline HWY_NOINLINE Swing largeSwing(Lanes a2) {
+inline HWY_NOINLINE RotationSeries largeRotation(Lanes a2) {
   const Lanes half = all(0.5f) * hn::Sqrt(a2), one = all(1.f);
   const Lanes n = hn::Round(half * all(0.318309886183790672f));
   const Lanes r = (half - n * all(3.140625f)) - n * all(9.6765358979323846e-4f);
@@ -170,7 +170,7 @@ inline HWY_NOINLINE Swing largeSwing(Lanes a2) {
   Lanes w = all(-1.f / 3628800.f) + u * all(1.f / 479001600.f);
   w = ((w * u + all(1.f / 40320.f)) * u - all(1.f / 720.f)) * u + all(1.f / 24.f);
   w = (w * u - all(0.5f)) * u + one;
-  Swing out;
+  RotationSeries out;
   out.w = sign * w;
   out.s = sign * (s * r) / half;
   const Lanes inverse = one / a2, whole = out.s * out.w;  // whole: sin a / a
@@ -181,11 +181,11 @@ inline HWY_NOINLINE Swing largeSwing(Lanes a2) {
   return out;
 }
 
-HWY_INLINE Swing swingOf(Lanes a2) {
-  Swing out = smallSwing(a2);
+HWY_INLINE RotationSeries swingOf(Lanes a2) {
+  RotationSeries out = smallRotation(a2);
   const auto large = a2 > all(1.f);
   if (HWY_LIKELY(hn::AllFalse(Tag(), large))) return out;
-  const Swing other = largeSwing(hn::Max(a2, all(1.f)));
+  const RotationSeries other = largeRotation(hn::Max(a2, all(1.f)));
   out.w = hn::IfThenElse(large, other.w, out.w);
   out.s = hn::IfThenElse(large, other.s, out.s);
   out.b = hn::IfThenElse(large, other.b, out.b);

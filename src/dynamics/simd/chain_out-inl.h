@@ -83,14 +83,14 @@ struct Trace {
   Lanes3 position, velocity, spin;
 };
 
-// `frame`: the link's. FORETOLD: its spin is, and the parent hands on the other as well.
-template <bool FORETOLD>
+// `frame`: the link's. PREDICTED: its spin is, and the parent hands on the other as well.
+template <bool PREDICTED>
 HWY_INLINE Trace traceOf(const Joints& at, const Frame& frame, const float* parent, int stride) {
   const Lanes3 arm = load3(at.work, W_ARM);
-  const Lanes3 before = load3(parent, FORETOLD ? F_NOW : F_SPIN, stride);
+  const Lanes3 before = load3(parent, PREDICTED ? F_NOW : F_SPIN, stride);
   Trace out{load3(parent, F_POSITION, stride) + arm,
             load3(parent, F_VELOCITY, stride) + cross(before, arm), frame.spin};
-  if constexpr (FORETOLD)
+  if constexpr (PREDICTED)
     out.spin = before + (load(at.state, S_RATE) * load3(at.work, W_FIRST) +
                          load(at.state, S_RATE + 1) * load3(at.work, W_SECOND));
   return out;
@@ -160,15 +160,16 @@ HWY_INLINE void keepBody(const Joints& at, const Axes& axes) {
 }
 
 /// Rate of the spin that the joint adds while its rates are constant.
-HWY_INLINE Lanes3 bendBias(const Swing& g, const Axes& axes, Lanes x, Lanes y, Lanes rx, Lanes ry) {
+HWY_INLINE Lanes3 bendBias(const RotationSeries& g, const Axes& axes, Lanes x, Lanes y, Lanes rx,
+                           Lanes ry) {
   const Lanes k = x * ry - y * rx, swept = x * rx + y * ry, e = g.dc * swept;
   return (k * (e * y + g.c * ry)) * axes.x - (k * (e * x + g.c * rx)) * axes.y -
          (k * (g.db * swept)) * axes.z;
 }
 
 /// Right Jacobian of the rotation vector (x, y, 0): leaves the joint's axes, returns the spin.
-HWY_INLINE Lanes3 jointSpin(const Joints& at, const Axes& axes, const Swing& g, Lanes x, Lanes y,
-                            Lanes rx, Lanes ry) {
+HWY_INLINE Lanes3 jointSpin(const Joints& at, const Axes& axes, const RotationSeries& g, Lanes x,
+                            Lanes y, Lanes rx, Lanes ry) {
   const Lanes3 p = (g.c * y) * axes.x - (g.c * x) * axes.y - g.b * axes.z;
   const Lanes3 first = axes.x - y * p, second = axes.y + x * p;
   store3(first, at.work, W_FIRST);
@@ -184,22 +185,22 @@ HWY_INLINE void keep(const Frame& frame, float* rows) {
 }
 
 // The rate of velocity products: before the step, or as foretold for its middle.
-template <bool FORETOLD>
+template <bool PREDICTED>
 HWY_INLINE Lanes rateOf(const Joints& at, int axis) {
   const Lanes now = load(at.state, S_RATE + axis);
-  if constexpr (!FORETOLD) return now;
+  if constexpr (!PREDICTED) return now;
   const auto sleeps = load(at.state, S_THETA) == all(0.5f);
   return now + hn::IfThenElseZero(sleeps, load(at.state, S_LEAD + axis));
 }
 
 /// Geometry at q + theta h rate; leaves the rigid bodies and their bias wrenches.
-template <bool FORETOLD>
+template <bool PREDICTED>
 HWY_INLINE Frame outward(const Joints& at, const Frame& parent, Lanes step) {
   const Lanes ahead = load(at.state, S_THETA) * step;
   const Lanes x = load(at.state, S_Q) + ahead * load(at.state, S_RATE),
               y = load(at.state, S_Q + 1) + ahead * load(at.state, S_RATE + 1);
-  const Lanes rx = rateOf<FORETOLD>(at, 0), ry = rateOf<FORETOLD>(at, 1);
-  const Swing g = swingOf(x * x + y * y);
+  const Lanes rx = rateOf<PREDICTED>(at, 0), ry = rateOf<PREDICTED>(at, 1);
+  const RotationSeries g = swingOf(x * x + y * y);
   const Lanes qx = all(0.5f) * g.s * x, qy = all(0.5f) * g.s * y;
   const LanesQuat r{load(at.constants, C_REST), load(at.constants, C_REST + 1),
                     load(at.constants, C_REST + 2), load(at.constants, C_REST + 3)};

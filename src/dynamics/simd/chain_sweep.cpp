@@ -54,7 +54,7 @@ void loadBases(const ChainGroup& group, LevelRows& out) {
 // What of the motion is handed on.
 enum class Told { NOTHING, VELOCITY, ALL };
 
-template <Told TOLD, bool FORETOLD>
+template <Told PUBLISHED, bool PREDICTED>
 HWY_INLINE void outGroupAs(const ChainGroup& group, Lanes step, ChainStore& store) {
   float *received = store.first.data(), *handed = store.second.data();
   const int room = store.first.room;
@@ -62,20 +62,20 @@ HWY_INLINE void outGroupAs(const ChainGroup& group, Lanes step, ChainStore& stor
   for (const Level& level : group.levels) {
     for (int i = 0; i < level.count; i += width()) {
       const Joints at = jointsAt(group, store, level.begin + i);
-      const Frame frame = outward<FORETOLD>(at, loadFrame(received + i, room), step);
-      if constexpr (TOLD != Told::NOTHING) {
-        const Trace trace = traceOf<FORETOLD>(at, frame, received + i, room);
+      const Frame frame = outward<PREDICTED>(at, loadFrame(received + i, room), step);
+      if constexpr (PUBLISHED != Told::NOTHING) {
+        const Trace trace = traceOf<PREDICTED>(at, frame, received + i, room);
         const auto each = [&](const auto& put) HWY_ATTR __attribute__((always_inline)) {
           eachRow(frame, put);
           eachRow(trace.velocity, F_VELOCITY, put);
-          if constexpr (TOLD == Told::ALL) eachRow(trace.position, F_POSITION, put);
-          if constexpr (FORETOLD) eachRow(trace.spin, F_NOW, put);
+          if constexpr (PUBLISHED == Told::ALL) eachRow(trace.position, F_POSITION, put);
+          if constexpr (PREDICTED) eachRow(trace.spin, F_NOW, put);
         };
         if (at.grips) keepGrip(at, frame, trace);
-        if (TOLD == Told::ALL && store.asked)
+        if (PUBLISHED == Told::ALL && store.asked)
           store3(trace.position + gripArm(at, frame),
                  store.places.of(level.begin - group.begin + i, V_ROWS), 0);
-        if (TOLD == Told::ALL && store.trace)
+        if (PUBLISHED == Told::ALL && store.trace)
           storeMotion(frame, trace, store.motion.of(level.begin - group.begin + i, M_ROWS));
         handOn(level, i, each, room, handed);
       } else {
@@ -87,19 +87,19 @@ HWY_INLINE void outGroupAs(const ChainGroup& group, Lanes step, ChainStore& stor
   }
 }
 
-template <bool FORETOLD>
+template <bool PREDICTED>
 HWY_INLINE void outGroupAt(const ChainGroup& group, Lanes step, ChainStore& store) {
   if (store.trace || store.asked)
-    outGroupAs<Told::ALL, FORETOLD>(group, step, store);
+    outGroupAs<Told::ALL, PREDICTED>(group, step, store);
   else if (!store.grips.empty())
-    outGroupAs<Told::VELOCITY, FORETOLD>(group, step, store);
+    outGroupAs<Told::VELOCITY, PREDICTED>(group, step, store);
   else
-    outGroupAs<Told::NOTHING, FORETOLD>(group, step, store);
+    outGroupAs<Told::NOTHING, PREDICTED>(group, step, store);
 }
 
 void outGroup(const ChainGroup& group, float step, ChainStore& store) {
-  store.foretold ? outGroupAt<true>(group, all(step), store)
-                 : outGroupAt<false>(group, all(step), store);
+  store.predicted ? outGroupAt<true>(group, all(step), store)
+                  : outGroupAt<false>(group, all(step), store);
 }
 
 void inwardGroup(const ChainGroup& group, float h, ChainStore& store) {

@@ -43,17 +43,17 @@ struct LevelRows {
 struct ChainStore {
   Rows constants, state;
   int constant_rows{C_ROWS};
-  Rows loads;            ///< none: nothing acts
-  Rows grips, air;       ///< none: no air
-  Rows beside;           ///< none: air grips but axes
-  Rows work, kept;       ///< scratch of a group
-  Rows motion, places;   ///< likewise
-  bool trace{false};     ///< somebody asks for the motion
-  bool asked{false};     ///< the air is asked for in this step
-  bool averages{true};   ///< velocity products are those of a mean over the step
-  bool mean{true};       ///< and are averaged in this step
-  bool foretold{false};  ///< or taken at the rates that the step before foretells for its middle
-  bool drag{false};      ///< some load has drag
+  Rows loads;             ///< none: nothing acts
+  Rows grips, air;        ///< none: no air
+  Rows beside;            ///< none: air grips but axes
+  Rows work, kept;        ///< scratch of a group
+  Rows motion, places;    ///< likewise
+  bool trace{false};      ///< somebody asks for the motion
+  bool asked{false};      ///< the air is asked for in this step
+  bool averages{true};    ///< velocity products are those of a mean over the step
+  bool mean{true};        ///< and are averaged in this step
+  bool predicted{false};  ///< or taken at the rates that the step before foretells for its middle
+  bool drag{false};       ///< some load has drag
   LevelRows first, second;
   std::vector<AnchorRows> anchors;  ///< sorted by slot
 };

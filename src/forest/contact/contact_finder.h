@@ -27,7 +27,7 @@ class ContactFinder : public ContactModel {
                                              Touches& touches) const override;
   void settle(const Wood& wood, const Bodies& bodies, const std::vector<physics::Contact>& contacts,
               Nanoseconds to, Touches& touches, std::vector<Reaction>& reactions) const override;
-  void letGo() const override;
+  void releaseTrees() const override;
   std::size_t bytes() const override;
 
  private:

@@ -38,10 +38,10 @@ struct Touch {
 using Touches = std::vector<Touch>;
 
 /// Of one step of a tree: which of its parts are taken again in halves, so that the
-/// forces on a branch change by at most MOST_SWING of the law's limit in a part.
-class Halvings {
+/// forces on a branch change by at most MAX_FORCE_CHANGE of the law's limit in a part.
+class SubstepBisection {
  public:
-  static constexpr double MOST_SWING = 0.25;
+  static constexpr double MAX_FORCE_CHANGE = 0.25;
   static constexpr Nanoseconds SHORTEST = 4000;  ///< of a part
   static constexpr int MOST = 128;               ///< in a step
 
@@ -91,7 +91,7 @@ class ContactModel {
                       const std::vector<physics::Contact>& contacts, Nanoseconds to,
                       Touches& touches, std::vector<Reaction>& reactions) const = 0;
   /// Called instead of findNear where there is nothing to look for: forgets what it remembers.
-  virtual void letGo() const {}
+  virtual void releaseTrees() const {}
   /// Held for what it remembers.
   virtual std::size_t bytes() const { return 0; }
 };

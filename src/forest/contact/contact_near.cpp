@@ -83,7 +83,7 @@ void ContactFinder::findNear(const Forest& forest, const Bodies& bodies, Nanosec
                              Nanoseconds to, BranchesOfTrees& near) const {
   // Joints as printed have no physical motion.
   if (static_cast<JointModel>(forest.layout().motion.joint_model) != JointModel::SWING)
-    return letGo();
+    return releaseTrees();
   std::map<std::uint32_t, std::vector<Ball>> balls;
   for (const auto& entry : bodies) {
     const Ball ball = ballOf(entry.second, from, to);
@@ -116,7 +116,7 @@ void ContactFinder::findNear(const Forest& forest, const Bodies& bodies, Nanosec
   }
 }
 
-void ContactFinder::letGo() const {
+void ContactFinder::releaseTrees() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   trees_.clear();
 }

@@ -5,7 +5,7 @@
 
 namespace vegetation_sim::forest {
 
-Site Forest::site() const {
+StepContext Forest::site() const {
   return {layout_, *terrain_, memory_.wind, memory_.levels, memory_.modes, *this, contacts_.get()};
 }
 

@@ -17,12 +17,12 @@
 namespace vegetation_sim::forest {
 
 /// The forest in which physics happens: nothing of it is kept.
-struct Site {
+struct StepContext {
   const Layout& layout;
   const terrain::HeightMap& terrain;
   const wind::Field& wind;
   const LevelMap& levels;
-  const ForestModes& modes;
+  const ModalForest& modes;
   const Forest& forest;
   const ContactModel* contacts{nullptr};
 };
@@ -38,11 +38,11 @@ void checkPush(const Layout& layout, const Tree& tree, const Push& push);
 /// act from the last tick on.
 class ForestPhysics {
  public:
-  std::uint32_t addGrab(const Site& at, Grab grab);
+  std::uint32_t addGrab(const StepContext& at, Grab grab);
   void moveGrab(std::uint32_t id, const Vec3& target);
   void renewGrab(std::uint32_t id);
   void release(std::uint32_t id);
-  void push(const Site& at, const Push& push);
+  void push(const StepContext& at, const Push& push);
   void setBody(const Body& body);
   void removeBody(const std::string& id);
   void setSettings(const PhysicsSettings& settings, Nanoseconds now);
@@ -52,14 +52,14 @@ class ForestPhysics {
   void clear();
 
   /// Steps from the last tick to this one: ceil(PHYSICS_RATE * time) equal steps.
-  void advance(const Site& at, Nanoseconds from, Nanoseconds to);
+  void advance(const StepContext& at, Nanoseconds from, Nanoseconds to);
 
   const PhysicsSettings& settings() const { return settings_; }
   const std::map<std::uint32_t, Grab>& grabs() const { return grabs_; }
   const Bodies& bodies() const { return bodies_; }
   const std::vector<Grab>& ended() const { return ended_; }
   const std::vector<Reaction>& reactions() const { return reactions_; }
-  const std::map<std::uint32_t, PhysicalPart>& parts() const { return parts_; }
+  const std::map<std::uint32_t, PhysicalSubtree>& parts() const { return parts_; }
   PhysicsFigures figures() const;
   void addTo(Hash& hash) const;
 
@@ -76,29 +76,29 @@ class ForestPhysics {
     bool limited{false};         ///< at its limit somewhere since then
   };
 
-  PhysicalPart& partOf(const Site& at, std::uint32_t tree);
-  Air airOf(const Site& at, std::uint32_t tree) const;
+  PhysicalSubtree& partOf(const StepContext& at, std::uint32_t tree);
+  TreeWind airOf(const StepContext& at, std::uint32_t tree) const;
   void endLeases(Nanoseconds stamp);
-  void stepAll(const Site& at, Nanoseconds from, Nanoseconds to);
-  void choose(const Site& at, Nanoseconds from, Nanoseconds to);
-  void chooseIn(const Site& at, std::uint32_t tree, PhysicalPart& part,
+  void stepAll(const StepContext& at, Nanoseconds from, Nanoseconds to);
+  void choose(const StepContext& at, Nanoseconds from, Nanoseconds to);
+  void chooseIn(const StepContext& at, std::uint32_t tree, PhysicalSubtree& part,
                 const std::vector<int>& loaded, Nanoseconds stamp);
-  std::vector<BranchLoad> expectedLoads(std::uint32_t tree, const PhysicalPart& part) const;
-  void step(const Site& at, Nanoseconds from, Nanoseconds to, std::size_t k, std::size_t n);
+  std::vector<BranchLoad> expectedLoads(std::uint32_t tree, const PhysicalSubtree& part) const;
+  void step(const StepContext& at, Nanoseconds from, Nanoseconds to, std::size_t k, std::size_t n);
   bool isNear(std::uint32_t tree) const;
-  void stepTouching(const Site& at, std::uint32_t tree, PhysicalPart& part, Nanoseconds from,
-                    Nanoseconds to);
-  void stepAmong(const Site& at, const ContactModel::Wood& wood, PhysicalPart& part,
-                 Nanoseconds from, Nanoseconds to, Nanoseconds whole, Halvings& halvings);
+  void stepTouching(const StepContext& at, std::uint32_t tree, PhysicalSubtree& part,
+                    Nanoseconds from, Nanoseconds to);
+  void stepAmong(const StepContext& at, const ContactModel::Wood& wood, PhysicalSubtree& part,
+                 Nanoseconds from, Nanoseconds to, Nanoseconds whole, SubstepBisection& bisection);
   void addTouches(const std::vector<Reaction>& reactions);
   void reactToBodies(std::size_t steps);
-  void letFall(const std::vector<Reaction>& told, double duration);
+  void decay(const std::vector<Reaction>& published, double duration);
   void gather(std::uint32_t tree, const Vec3& foot, Nanoseconds from, Nanoseconds to);
   void addPushes(std::uint32_t tree, Nanoseconds from, Nanoseconds to);
-  void feel(const Site& at, std::uint32_t tree, const PhysicalPart& part, Nanoseconds from,
-            Nanoseconds to);
-  void settle(const Site& at, Nanoseconds from, Nanoseconds to);
-  void react(std::uint32_t tree, const PhysicalPart& part, double duration);
+  void accumulateLoads(const StepContext& at, std::uint32_t tree, const PhysicalSubtree& part,
+                       Nanoseconds from, Nanoseconds to);
+  void settle(const StepContext& at, Nanoseconds from, Nanoseconds to);
+  void react(std::uint32_t tree, const PhysicalSubtree& part, double duration);
   bool isLoaded(std::uint32_t tree) const;
 
   PhysicsSettings settings_;
@@ -106,7 +106,7 @@ class ForestPhysics {
   std::map<std::uint32_t, Hold> holds_;
   std::vector<Push> pushes_;
   Bodies bodies_;
-  std::map<std::uint32_t, PhysicalPart> parts_;
+  std::map<std::uint32_t, PhysicalSubtree> parts_;
   std::map<std::uint32_t, Touches> touches_;
   std::map<std::uint32_t, std::vector<BranchLoad>> contact_loads_;  // of the last tick
   std::vector<Grab> ended_;
@@ -117,8 +117,8 @@ class ForestPhysics {
   std::map<std::uint32_t, std::size_t> refused_;  // branches that loaded trees want: no room
   std::vector<std::uint32_t> near_;  // trees that bodies may touch in this tick, rising
   std::vector<Reaction> touching_;   // of bodies in this tick: sums over its steps
-  PartLoads loads_;                  // scratch
-  PartScratch scratch_;              // dropped with the last part
+  SubtreeLoads loads_;               // scratch
+  SubtreeScratch scratch_;           // dropped with the last part
 };
 
 }  // namespace vegetation_sim::forest

@@ -13,24 +13,24 @@ constexpr double QUICK = 30.0;  // [rad/s]
 
 std::size_t stepsBetween(Nanoseconds from, Nanoseconds to) {
   const Nanoseconds steps =
-      ((to - from) * ForestModes::RATE + NANOSECONDS_PER_SECOND / 2) / NANOSECONDS_PER_SECOND;
+      ((to - from) * ModalForest::RATE + NANOSECONDS_PER_SECOND / 2) / NANOSECONDS_PER_SECOND;
   return static_cast<std::size_t>(std::max<Nanoseconds>(1, steps));
 }
 
 // Of a tree of few branches plain modes would be nearly all: it has all.
-Sway swayOf(const Grounds& at, std::uint32_t id, bool fine) {
+ModalTreeState modalStateOf(const ModalContext& at, std::uint32_t id, bool fine) {
   const Tree tree = growTree(at.layout, id, at.terrain);
   const bool few = 2 * tree.skeleton.branches.size() <= ModalDepth{}.most();
-  return Sway(std::make_shared<const ModalTree>(tree, at.layout.species[tree.seed.species],
-                                                fine || few ? FINE_MODES : ModalDepth{}));
+  return ModalTreeState(std::make_shared<const ModalTree>(
+      tree, at.layout.species[tree.seed.species], fine || few ? FINE_MODES : ModalDepth{}));
 }
 
 }  // namespace
 
-void ForestModes::advance(const wind::Field& wind, Nanoseconds from, Nanoseconds to) {
-  if (sways_.empty()) return;
+void ModalForest::advance(const wind::Field& wind, Nanoseconds from, Nanoseconds to) {
+  if (modal_states_.empty()) return;
   if (to <= from || to - from > LONGEST_GAP) {
-    for (auto& entry : sways_) start(wind, entry.second, to);
+    for (auto& entry : modal_states_) start(wind, entry.second, to);
     return;
   }
   const std::size_t steps = stepsBetween(from, to);
@@ -39,7 +39,7 @@ void ForestModes::advance(const wind::Field& wind, Nanoseconds from, Nanoseconds
     wind.at(from + (to - from) * static_cast<Nanoseconds>(i) / static_cast<Nanoseconds>(steps),
             instants_[i]);
   loads_.resize(steps + 1);
-  for (auto& [tree, sway] : sways_) {
+  for (auto& [tree, sway] : modal_states_) {
     if (sway.stamp() != from) {
       start(wind, sway, to);
       continue;
@@ -49,33 +49,33 @@ void ForestModes::advance(const wind::Field& wind, Nanoseconds from, Nanoseconds
   }
 }
 
-void ForestModes::start(const wind::Field& wind, Sway& sway, Nanoseconds stamp) {
+void ModalForest::start(const wind::Field& wind, ModalTreeState& sway, Nanoseconds stamp) {
   std::array<ModalLoad, 3> loads;
   WindWindow window;
-  window.lookAt(wind, stamp);
+  window.sampleAt(wind, stamp);
   for (std::size_t look = 0; look < loads.size(); ++look)
     sway.loadOf(window.looks()[look], loads[look]);
   sway.begin(loads, secondsBetween(0, LOOK), stamp);
 }
 
-void ForestModes::begin(const Grounds& at, std::uint32_t tree, bool fine, Nanoseconds stamp) {
-  const auto found = sways_.find(tree);
-  if (found == sways_.end())
-    start(at.wind, sways_.emplace(tree, swayOf(at, tree, fine)).first->second, stamp);
+void ModalForest::begin(const ModalContext& at, std::uint32_t tree, bool fine, Nanoseconds stamp) {
+  const auto found = modal_states_.find(tree);
+  if (found == modal_states_.end())
+    start(at.wind, modal_states_.emplace(tree, modalStateOf(at, tree, fine)).first->second, stamp);
   else if (fine && !found->second.fine())
     refine(at, tree, found->second);
 }
 
 // Nothing jumps: the same bends, and the same rates, told by more oscillators. Those that are too
 // fast for a tick begin as the load holds them: left to ring they would jerk.
-void ForestModes::refine(const Grounds& at, std::uint32_t tree, Sway& sway) {
-  Sway fine = swayOf(at, tree, true);
-  const auto told = [&](const std::vector<double>& amplitudes) {
+void ModalForest::refine(const ModalContext& at, std::uint32_t tree, ModalTreeState& sway) {
+  ModalTreeState fine = modalStateOf(at, tree, true);
+  const auto published = [&](const std::vector<double>& amplitudes) {
     return fine.modes().amplitudesOf(sway.modes().bendsOf(amplitudes));
   };
   ModalLoad load;
   fine.loadOf(at.wind.at(sway.stamp()), load);
-  physics::ModalState state{told(sway.state().amplitude), told(sway.state().rate)};
+  physics::ModalState state{published(sway.state().amplitude), published(sway.state().rate)};
   std::vector<double> force;
   fine.bent(load, state.amplitude, force);
   for (std::size_t m = 0; m < force.size(); ++m) {
@@ -88,90 +88,90 @@ void ForestModes::refine(const Grounds& at, std::uint32_t tree, Sway& sway) {
   sway = std::move(fine);
 }
 
-bool ForestModes::isReady(std::uint32_t tree, std::size_t modes) const {
-  const auto held = [&](const std::map<std::uint32_t, Sway>& sways) {
-    const auto found = sways.find(tree);
-    return found != sways.end() && found->second.modes().size() == modes;
+bool ModalForest::isReady(std::uint32_t tree, std::size_t modes) const {
+  const auto held = [&](const std::map<std::uint32_t, ModalTreeState>& modal_states) {
+    const auto found = modal_states.find(tree);
+    return found != modal_states.end() && found->second.modes().size() == modes;
   };
-  return modes <= ModalDepth{}.most() || held(sways_) || held(prepared_);
+  return modes <= ModalDepth{}.most() || held(modal_states_) || held(prepared_);
 }
 
-void ForestModes::await(std::uint32_t tree) {
-  sways_.erase(tree);
+void ModalForest::await(std::uint32_t tree) {
+  modal_states_.erase(tree);
   awaited_.insert(tree);
 }
 
-void ForestModes::prepareNext(const Grounds& at) {
+void ModalForest::prepareNext(const ModalContext& at) {
   if (awaited_.empty()) return;
   const std::uint32_t tree = *awaited_.begin();
-  prepared_.insert_or_assign(tree, swayOf(at, tree, true));
+  prepared_.insert_or_assign(tree, modalStateOf(at, tree, true));
   awaited_.erase(tree);
 }
 
 // Their number tells which modes they are.
-void ForestModes::restore(const Grounds& at, std::uint32_t tree, const physics::ModalState& state,
-                          Nanoseconds stamp) {
+void ModalForest::restore(const ModalContext& at, std::uint32_t tree,
+                          const physics::ModalState& state, Nanoseconds stamp) {
   const std::size_t count = state.amplitude.size();
-  const auto has = [count](const auto& found, const auto& sways) {
-    return found != sways.end() && found->second.modes().size() == count;
+  const auto has = [count](const auto& found, const auto& modal_states) {
+    return found != modal_states.end() && found->second.modes().size() == count;
   };
-  const auto found = sways_.find(tree), prepared = prepared_.find(tree);
+  const auto found = modal_states_.find(tree), prepared = prepared_.find(tree);
   const bool fine = count > ModalDepth{}.most();
-  if (!has(found, sways_))
-    sways_.insert_or_assign(
-        tree, has(prepared, prepared_) ? std::move(prepared->second) : swayOf(at, tree, fine));
+  if (!has(found, modal_states_))
+    modal_states_.insert_or_assign(tree, has(prepared, prepared_) ? std::move(prepared->second)
+                                                                  : modalStateOf(at, tree, fine));
   if (prepared != prepared_.end()) prepared_.erase(prepared);
   awaited_.erase(tree);
-  Sway& sway = sways_.at(tree);
+  ModalTreeState& sway = modal_states_.at(tree);
   ModalLoad load;
   sway.loadOf(at.wind.at(stamp), load);
   sway.restore(state, load, stamp);
 }
 
-void ForestModes::settle(const LevelMap& levels, Nanoseconds stamp, double transition) {
+void ModalForest::settle(const LevelMap& levels, Nanoseconds stamp, double transition) {
   keepIf([&](std::uint32_t tree) {
     const LevelState level = levels.of(tree);
     return level.level >= MODAL_LEVEL || modalWeight(blendAt(level, stamp, transition)) > 0.0;
   });
 }
 
-void ForestModes::keepOnly(const std::set<std::uint32_t>& trees) {
+void ModalForest::keepOnly(const std::set<std::uint32_t>& trees) {
   keepIf([&](std::uint32_t tree) { return trees.count(tree) > 0; });
 }
 
-void ForestModes::clear() {
+void ModalForest::clear() {
   keepIf([](std::uint32_t) { return false; });
 }
 
 template <class Wanted>
-void ForestModes::keepIf(const Wanted& wanted) {
-  for (auto* each : {&sways_, &prepared_})
+void ModalForest::keepIf(const Wanted& wanted) {
+  for (auto* each : {&modal_states_, &prepared_})
     for (auto it = each->begin(); it != each->end();)
       it = wanted(it->first) ? std::next(it) : each->erase(it);
   for (auto it = awaited_.begin(); it != awaited_.end();)
     it = wanted(*it) ? std::next(it) : awaited_.erase(it);
 }
 
-const Sway* ForestModes::find(std::uint32_t tree) const {
-  const auto found = sways_.find(tree);
-  return found == sways_.end() ? nullptr : &found->second;
+const ModalTreeState* ModalForest::find(std::uint32_t tree) const {
+  const auto found = modal_states_.find(tree);
+  return found == modal_states_.end() ? nullptr : &found->second;
 }
 
-std::size_t ForestModes::bytes() const {
+std::size_t ModalForest::bytes() const {
   std::size_t out = 0;
-  for (const auto* each : {&sways_, &prepared_})
+  for (const auto* each : {&modal_states_, &prepared_})
     for (const auto& entry : *each) out += entry.second.bytes();
   return out;
 }
 
-std::size_t ForestModes::strained() const {
+std::size_t ModalForest::strained() const {
   return static_cast<std::size_t>(std::count_if(
-      sways_.begin(), sways_.end(),
+      modal_states_.begin(), modal_states_.end(),
       [](const auto& entry) { return !entry.second.modes().probe().holds(entry.second.state()); }));
 }
 
-void ForestModes::addTo(Hash& hash) const {
-  for (const auto& [tree, sway] : sways_) {
+void ModalForest::addTo(Hash& hash) const {
+  for (const auto& [tree, sway] : modal_states_) {
     hash.add(static_cast<std::uint64_t>(tree));
     for (const double a : sway.state().amplitude) hash.add(a);
     for (const double r : sway.state().rate) hash.add(r);

@@ -28,9 +28,9 @@ Vec3 pointOn(const Pose& pose, double along) {
 
 }  // namespace
 
-void ForestPhysics::advance(const Site& at, Nanoseconds from, Nanoseconds to) {
+void ForestPhysics::advance(const StepContext& at, Nanoseconds from, Nanoseconds to) {
   ended_.clear();
-  const std::vector<Reaction> told = std::move(reactions_);
+  const std::vector<Reaction> published = std::move(reactions_);
   reactions_.clear();
   steps_ = 0;
   scratch_.replaced = 0;
@@ -39,11 +39,11 @@ void ForestPhysics::advance(const Site& at, Nanoseconds from, Nanoseconds to) {
   if (!parts_.empty() || !grabs_.empty() || !pushes_.empty() || !bodies_.empty())
     stepAll(at, from, to);
   else if (at.contacts)
-    at.contacts->letGo();
-  letFall(told, secondsBetween(from, to));
+    at.contacts->releaseTrees();
+  decay(published, secondsBetween(from, to));
 }
 
-void ForestPhysics::stepAll(const Site& at, Nanoseconds from, Nanoseconds to) {
+void ForestPhysics::stepAll(const StepContext& at, Nanoseconds from, Nanoseconds to) {
   const bool gap = to <= from || to - from > LONGEST_GAP;
   if (gap && !parts_.empty()) ++skipped_;
   const Nanoseconds start = gap ? to : from;
@@ -71,7 +71,7 @@ void ForestPhysics::endLeases(Nanoseconds stamp) {
   }
 }
 
-void ForestPhysics::choose(const Site& at, Nanoseconds from, Nanoseconds to) {
+void ForestPhysics::choose(const StepContext& at, Nanoseconds from, Nanoseconds to) {
   BranchesOfTrees loaded;
   if (at.contacts) at.contacts->findNear(at.forest, bodies_, from, to, loaded);
   near_.clear();
@@ -87,11 +87,11 @@ void ForestPhysics::choose(const Site& at, Nanoseconds from, Nanoseconds to) {
   const bool review = from >= next_review_;
   if (review) next_review_ = from + REVIEW;
   for (auto& [tree, part] : parts_)
-    if (!loaded.count(tree)) part.letGo();
+    if (!loaded.count(tree)) part.releaseTrees();
   for (auto it = refused_.begin(); it != refused_.end();)
     it = loaded.count(it->first) ? std::next(it) : refused_.erase(it);
   for (const auto& [tree, branches] : loaded) {
-    PhysicalPart& part = partOf(at, tree);
+    PhysicalSubtree& part = partOf(at, tree);
     bool missing = false;
     for (const int branch : branches) missing = missing || !part.holds(branch);
     if (review || missing) chooseIn(at, tree, part, branches, from);
@@ -99,7 +99,7 @@ void ForestPhysics::choose(const Site& at, Nanoseconds from, Nanoseconds to) {
 }
 
 // Which branches of a tree its loads need, and that they are physical from now on.
-void ForestPhysics::chooseIn(const Site& at, std::uint32_t tree, PhysicalPart& part,
+void ForestPhysics::chooseIn(const StepContext& at, std::uint32_t tree, PhysicalSubtree& part,
                              const std::vector<int>& loaded, Nanoseconds stamp) {
   const Skeleton& skeleton = part.tree().skeleton;
   const bool by_depth = static_cast<Promotion>(settings_.promotion) == Promotion::DEPTH;
@@ -110,7 +110,7 @@ void ForestPhysics::chooseIn(const Site& at, std::uint32_t tree, PhysicalPart& p
     score = predictDeflection(skeleton, part.wood(), expectedLoads(tree, part));
   for (const int branch : loaded) score[static_cast<std::size_t>(branch)] = LOADED;
   std::vector<double> rank = score;  // what is physical already counts before what is not
-  for (const PartJoint& joint : part.joints()) {
+  for (const SubtreeJoint& joint : part.joints()) {
     double& held = rank[static_cast<std::size_t>(joint.branch)];
     held = std::max(held, LOADED * (1.0 - 0.5 / (1.0 + held)));
   }
@@ -121,18 +121,18 @@ void ForestPhysics::chooseIn(const Site& at, std::uint32_t tree, PhysicalPart& p
   const double threshold = by_depth ? 0.0 : settings_.influence_tolerance;
   const Selection selection = selectBranches(skeleton, rank, threshold, KEEP * threshold,
                                              part.mask(), most > others ? most - others : 0);
-  for (const PartJoint& joint : part.joints())  // beyond the cap: makes room for what is loaded
+  for (const SubtreeJoint& joint : part.joints())  // beyond the cap: makes room for what is loaded
     if (!std::binary_search(selection.branches.begin(), selection.branches.end(), joint.branch))
       score[static_cast<std::size_t>(joint.branch)] = 0.0;
-  const Course course = scratch_.courseOf(part.tree(), airOf(at, tree), stamp);
+  const ProceduralMotion motion = scratch_.motionOf(part.tree(), airOf(at, tree), stamp);
   refused_[tree] = selection.refused +
-                   part.promote(selection.branches, score, KEEP * threshold, course, settings_);
+                   part.promote(selection.branches, score, KEEP * threshold, motion, settings_);
 }
 
 // What the springs, pushes and bodies do to a tree now, or will as soon as they have pulled it to
 // their targets.
 std::vector<BranchLoad> ForestPhysics::expectedLoads(std::uint32_t tree,
-                                                     const PhysicalPart& part) const {
+                                                     const PhysicalSubtree& part) const {
   std::vector<BranchLoad> out;
   for (const auto& [id, grab] : grabs_) {
     if (grab.point.tree != tree) continue;
@@ -158,7 +158,7 @@ std::vector<BranchLoad> ForestPhysics::expectedLoads(std::uint32_t tree,
 }
 
 // Step number k of n between two ticks.
-void ForestPhysics::step(const Site& at, Nanoseconds from, Nanoseconds to, std::size_t k,
+void ForestPhysics::step(const StepContext& at, Nanoseconds from, Nanoseconds to, std::size_t k,
                          std::size_t n) {
   const auto stamp_of = [&](std::size_t i) {
     return from + (to - from) * static_cast<Nanoseconds>(i) / static_cast<Nanoseconds>(n);
@@ -167,7 +167,7 @@ void ForestPhysics::step(const Site& at, Nanoseconds from, Nanoseconds to, std::
     if (part.empty()) continue;
     gather(tree, part.tree().foot, from, to);
     addPushes(tree, stamp_of(k), stamp_of(k + 1));
-    if (k == 0) feel(at, tree, part, from, from);
+    if (k == 0) accumulateLoads(at, tree, part, from, from);
     loads_.air = NEVER;
     loads_.hold = false;
     if (isNear(tree)) {
@@ -178,7 +178,7 @@ void ForestPhysics::step(const Site& at, Nanoseconds from, Nanoseconds to, std::
     loads_.air = (stamp_of(first) + stamp_of(last)) / 2;
     loads_.hold = k != first;
     part.step(airOf(at, tree), loads_, settings_, stamp_of(k), stamp_of(k + 1), scratch_);
-    feel(at, tree, part, stamp_of(k), stamp_of(k + 1));
+    accumulateLoads(at, tree, part, stamp_of(k), stamp_of(k + 1));
   }
 }
 
@@ -207,15 +207,15 @@ void ForestPhysics::addPushes(std::uint32_t tree, Nanoseconds from, Nanoseconds 
 }
 
 // After the last step: what the bodies feel, and who may be procedural again.
-void ForestPhysics::settle(const Site& at, Nanoseconds from, Nanoseconds to) {
+void ForestPhysics::settle(const StepContext& at, Nanoseconds from, Nanoseconds to) {
   reactToBodies(steps_);
   for (auto& [tree, part] : parts_) {
     if (to <= from) {
       gather(tree, part.tree().foot, from, to);
-      feel(at, tree, part, to, to);
+      accumulateLoads(at, tree, part, to, to);
     }
     react(tree, part, secondsBetween(from, to));
-    part.demote(scratch_.courseOf(part.tree(), airOf(at, tree), to), settings_, scratch_);
+    part.demote(scratch_.motionOf(part.tree(), airOf(at, tree), to), settings_, scratch_);
   }
   for (auto& [id, hold] : holds_) hold.target = grabs_.at(id).target;
   pushes_.erase(std::remove_if(pushes_.begin(), pushes_.end(),
@@ -224,8 +224,8 @@ void ForestPhysics::settle(const Site& at, Nanoseconds from, Nanoseconds to) {
   for (auto it = parts_.begin(); it != parts_.end();)
     it = it->second.empty() && !isLoaded(it->first) ? parts_.erase(it) : std::next(it);
   if (!parts_.empty()) return;
-  scratch_ = PartScratch();
-  loads_ = PartLoads();
+  scratch_ = SubtreeScratch();
+  loads_ = SubtreeLoads();
 }
 
 bool ForestPhysics::isLoaded(std::uint32_t tree) const {
@@ -239,15 +239,15 @@ bool ForestPhysics::isLoaded(std::uint32_t tree) const {
 // What the hands on a tree give it between two moments: springs by where the points are at both,
 // dampers by the way between. So the damper's impulse is exact, and the spring's the step's own. Of
 // one moment: a tick begins.
-void ForestPhysics::feel(const Site& at, std::uint32_t tree, const PhysicalPart& part,
-                         Nanoseconds from, Nanoseconds to) {
+void ForestPhysics::accumulateLoads(const StepContext& at, std::uint32_t tree,
+                                    const PhysicalSubtree& part, Nanoseconds from, Nanoseconds to) {
   if (loads_.springs.empty()) return;
   part.placesAt(loads_.springs, airOf(at, tree), to, scratch_, scratch_.places);
   const double h = secondsBetween(from, to);
   std::size_t spring = 0;
   for (auto& [id, grab] : grabs_) {
     if (grab.point.tree != tree) continue;
-    const PartSpring& held = loads_.springs[spring];
+    const SubtreeSpring& held = loads_.springs[spring];
     Hold& hold = holds_[id];
     const Vec3 before = hold.place;
     hold.place = scratch_.places[spring++];
@@ -268,7 +268,7 @@ void ForestPhysics::feel(const Site& at, std::uint32_t tree, const PhysicalPart&
 
 // Reactions of the springs on a tree: means over the tick, which carry their whole impulse; where
 // time has leapt, what the springs have now.
-void ForestPhysics::react(std::uint32_t tree, const PhysicalPart& part, double duration) {
+void ForestPhysics::react(std::uint32_t tree, const PhysicalSubtree& part, double duration) {
   for (auto& [id, grab] : grabs_) {
     if (grab.point.tree != tree || part.linkOf(grab.point.branch) < 0) continue;
     Hold& hold = holds_[id];
@@ -284,7 +284,7 @@ void ForestPhysics::react(std::uint32_t tree, const PhysicalPart& part, double d
   }
 }
 
-Air ForestPhysics::airOf(const Site& at, std::uint32_t tree) const {
+TreeWind ForestPhysics::airOf(const StepContext& at, std::uint32_t tree) const {
   return {at.wind, at.levels.of(tree), at.layout.motion, at.modes.find(tree)};
 }
 

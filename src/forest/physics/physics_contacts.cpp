@@ -11,53 +11,53 @@ bool ForestPhysics::isNear(std::uint32_t tree) const {
   return std::binary_search(near_.begin(), near_.end(), tree);
 }
 
-bool Halvings::want(const physics::ContactStepper& stepper, const physics::ContactLaw& law,
-                    Nanoseconds part) {
-  const bool coarse = stepper.swing() > MOST_SWING * law.force_limit || !stepper.agreed();
+bool SubstepBisection::want(const physics::ContactStepper& stepper, const physics::ContactLaw& law,
+                            Nanoseconds part) {
+  const bool coarse = stepper.swing() > MAX_FORCE_CHANGE * law.force_limit || !stepper.agreed();
   return coarse && part >= 2 * SHORTEST && ++wanted_ <= MOST;
 }
 
-void ForestPhysics::stepTouching(const Site& at, std::uint32_t tree, PhysicalPart& part,
+void ForestPhysics::stepTouching(const StepContext& at, std::uint32_t tree, PhysicalSubtree& part,
                                  Nanoseconds from, Nanoseconds to) {
   const ContactModel::Wood wood{tree, part.tree().foot, part.branches(), part.tree().skeleton,
                                 scratch_.start};
   part.kinematicsAt(airOf(at, tree), from, scratch_, scratch_.start);
   const int parts = at.contacts->partsOf(wood, bodies_, from, to);
   Nanoseconds now = from;
-  Halvings halvings;
+  SubstepBisection bisection;
   for (int k = 1; k <= parts; ++k) {
     const Nanoseconds next = from + (to - from) * k / parts;
     if (k > 1) part.kinematicsAt(airOf(at, tree), now, scratch_, scratch_.start);
-    stepAmong(at, wood, part, now, next, to - from, halvings);
+    stepAmong(at, wood, part, now, next, to - from, bisection);
     now = next;
   }
-  coarse_ += halvings.ranOut();
+  coarse_ += bisection.ranOut();
 }
 
 // A part of a step `whole` long, from where scratch_.start tells.
-void ForestPhysics::stepAmong(const Site& at, const ContactModel::Wood& wood, PhysicalPart& part,
-                              Nanoseconds from, Nanoseconds to, Nanoseconds whole,
-                              Halvings& halvings) {
+void ForestPhysics::stepAmong(const StepContext& at, const ContactModel::Wood& wood,
+                              PhysicalSubtree& part, Nanoseconds from, Nanoseconds to,
+                              Nanoseconds whole, SubstepBisection& bisection) {
   Touches& touches = touches_[wood.tree];
   const Touches before = touches;
   std::vector<physics::Contact> contacts =
       at.contacts->findContacts(wood, bodies_, from, to, touches);
-  const Air air = airOf(at, wood.tree);
+  const TreeWind air = airOf(at, wood.tree);
   if (contacts.empty()) {
     part.step(air, loads_, settings_, from, to, scratch_);
-    return feel(at, wood.tree, part, from, to);
+    return accumulateLoads(at, wood.tree, part, from, to);
   }
-  const PhysicalPart::Moment start = part.moment();
+  const PhysicalSubtree::Moment start = part.moment();
   part.stepTouching(air, loads_, settings_, from, to, scratch_, contacts);
-  if (halvings.want(scratch_.contact_stepper, settings_.contact, to - from)) {
+  if (bisection.want(scratch_.contact_stepper, settings_.contact, to - from)) {
     const Nanoseconds middle = from + (to - from) / 2;
     part.goBack(start);
     touches = before;
-    stepAmong(at, wood, part, from, middle, whole, halvings);
+    stepAmong(at, wood, part, from, middle, whole, bisection);
     part.kinematicsAt(air, middle, scratch_, scratch_.start);
-    return stepAmong(at, wood, part, middle, to, whole, halvings);
+    return stepAmong(at, wood, part, middle, to, whole, bisection);
   }
-  feel(at, wood.tree, part, from, to);
+  accumulateLoads(at, wood.tree, part, from, to);
   std::vector<Reaction> reactions;
   at.contacts->settle(wood, bodies_, contacts, to, touches, reactions);
   const double share = static_cast<double>(to - from) / static_cast<double>(whole);
@@ -102,9 +102,9 @@ void ForestPhysics::reactToBodies(std::size_t steps) {
 
 // Nobody feels a force vanish: what was told at the last tick falls no faster than contacts rise,
 // and what has ended is told down to zero. Bodies that are gone feel nothing.
-void ForestPhysics::letFall(const std::vector<Reaction>& told, double duration) {
+void ForestPhysics::decay(const std::vector<Reaction>& published, double duration) {
   const double most = settings_.contact.force_rate * std::max(0.0, duration);
-  for (const Reaction& before : told) {
+  for (const Reaction& before : published) {
     const double force = length(before.force), left = std::max(0.0, force - most);
     const auto same = std::find_if(reactions_.begin(), reactions_.end(), [&](const Reaction& r) {
       return r.kind == before.kind && r.grab == before.grab && r.body == before.body &&

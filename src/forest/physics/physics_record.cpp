@@ -9,7 +9,7 @@ namespace vegetation_sim::forest {
 PhysicsFigures ForestPhysics::figures() const {
   PhysicsFigures out;
   for (const auto& entry : parts_) {
-    const PhysicalPart& part = entry.second;
+    const PhysicalSubtree& part = entry.second;
     if (part.empty()) continue;
     ++out.trees;
     out.branches += part.joints().size();

@@ -56,7 +56,7 @@ double reachOf(const Tree& tree) {
 // A part that is there to look at its tree: it goes again unless the request is accepted.
 class Provisional {
  public:
-  using Parts = std::map<std::uint32_t, PhysicalPart>;
+  using Parts = std::map<std::uint32_t, PhysicalSubtree>;
   template <typename Make>
   Provisional(Parts& parts, std::uint32_t tree, const Make& make)
       : parts_(parts), tree_(tree), mine_(!parts.count(tree)) {
@@ -67,7 +67,7 @@ class Provisional {
   }
   Provisional(const Provisional&) = delete;
   Provisional& operator=(const Provisional&) = delete;
-  const PhysicalPart& get() const { return parts_.at(tree_); }
+  const PhysicalSubtree& get() const { return parts_.at(tree_); }
   void keep() { mine_ = false; }
 
  private:
@@ -119,16 +119,16 @@ void ForestPhysics::checkRoom(const std::string& what, std::uint32_t tree, int b
                        " are physical already");
 }
 
-PhysicalPart& ForestPhysics::partOf(const Site& at, std::uint32_t tree) {
+PhysicalSubtree& ForestPhysics::partOf(const StepContext& at, std::uint32_t tree) {
   const auto found = parts_.find(tree);
   if (found != parts_.end()) return found->second;
   auto grown = std::make_shared<const Tree>(growTree(at.layout, tree, at.terrain));
   const Species& species = at.layout.species[grown->seed.species];
   const auto material = static_cast<Material>(settings_.material);
-  return parts_.emplace(tree, PhysicalPart(std::move(grown), species, material)).first->second;
+  return parts_.emplace(tree, PhysicalSubtree(std::move(grown), species, material)).first->second;
 }
 
-std::uint32_t ForestPhysics::addGrab(const Site& at, Grab grab) {
+std::uint32_t ForestPhysics::addGrab(const StepContext& at, Grab grab) {
   checkTree(at.layout, "grab", grab.point.tree);
   if (grabs_.size() >= MOST_GRABS)
     throw InvalidInput("grab: there are " + count(grabs_.size()) + " grabs, allowed are " +
@@ -169,7 +169,7 @@ void ForestPhysics::release(std::uint32_t id) {
   holds_.erase(id);
 }
 
-void ForestPhysics::push(const Site& at, const Push& push) {
+void ForestPhysics::push(const StepContext& at, const Push& push) {
   checkTree(at.layout, "push", push.point.tree);
   if (pushes_.size() >= MOST_PUSHES)
     throw InvalidInput("push: there are " + count(pushes_.size()) + " pushes, allowed are " +

@@ -41,22 +41,22 @@ void describe(FieldVisitor& v, MeadowSettings& s) {
   v.number("most_blades", s.most_blades, "", {1e3, 1e8});
 }
 
-Meadow::Meadow(std::shared_ptr<const FeatureMap> map,
-               std::shared_ptr<const terrain::HeightMap> terrain, std::uint64_t seed,
-               const MeadowSettings& settings, const TreadSettings& tread)
+MeadowLod::MeadowLod(std::shared_ptr<const FeatureMap> map,
+                     std::shared_ptr<const terrain::HeightMap> terrain, std::uint64_t seed,
+                     const MeadowSettings& settings, const TreadSettings& tread)
     : map_(std::move(map)), terrain_(std::move(terrain)), seed_(seed), tread_(map_->law(), tread) {
   setSettings(settings);
   for (int row = 0; row < map_->tileRows(); ++row) {
     double most = 0.0;
     for (int column = 0; column < map_->tileColumns(); ++column) {
       const TileMeans f = map_->meansOf(column, row);
-      if (!isBare(f)) most = std::max(most, omission(detailOf(f), Rung::TEXTURE));
+      if (!isBare(f)) most = std::max(most, omission(detailOf(f), TileModel::TEXTURE));
     }
     coarsest_.push_back(most);
   }
 }
 
-void Meadow::setSettings(const MeadowSettings& settings) {
+void MeadowLod::setSettings(const MeadowSettings& settings) {
   MeadowSettings wanted = settings;
   Faults faults;
   FieldChecker checker("meadow: ", faults);
@@ -65,7 +65,7 @@ void Meadow::setSettings(const MeadowSettings& settings) {
   settings_ = wanted;
 }
 
-Vec3 Meadow::centreOf(int row, int column) const {
+Vec3 MeadowLod::centreOf(int row, int column) const {
   const MapLaw& law = map_->law();
   const double x = law.origin_x + law.resolution * (column + 0.5);
   const double y = law.origin_y + law.resolution * (row + 0.5);
@@ -73,33 +73,33 @@ Vec3 Meadow::centreOf(int row, int column) const {
 }
 
 // Largest scale of any eye, from the nearest point of the tile.
-double Meadow::scaleOf(const Vec3& centre) const {
+double MeadowLod::scaleOf(const Vec3& centre) const {
   double scale = 0.0;
   const double half = 0.70710678 * map_->law().resolution;
-  for (const Eye& eye : eyes_)
+  for (const Viewpoint& eye : eyes_)
     scale = std::max(scale, pixelsPerMetre(eye, length(eye.position - centre) - half));
   return scale;
 }
 
-bool Meadow::isSeen(const Vec3& centre) const {
+bool MeadowLod::isSeen(const Vec3& centre) const {
   const double radius = 0.75 * map_->law().resolution + map_->tallest();
   return std::any_of(eyes_.begin(), eyes_.end(),
-                     [&](const Eye& eye) { return sees(eye, centre, radius); });
+                     [&](const Viewpoint& eye) { return sees(eye, centre, radius); });
 }
 
 // From where on all tiles of a row are surely textures, however many blades there may be.
-double Meadow::farthestOf(int row, const Eye& eye) const {
+double MeadowLod::farthestOf(int row, const Viewpoint& eye) const {
   const double pixels = HYSTERESIS * settings_.tolerance;
   const double apart = coarsest_[static_cast<std::size_t>(row)] * eye.pixels_per_radian / pixels;
   return std::min(settings_.farthest, apart + 2.0 * map_->law().resolution);
 }
 
 // Columns of a row that any eye is near enough to.
-std::pair<int, int> Meadow::columnsIn(int row) const {
+std::pair<int, int> MeadowLod::columnsIn(int row) const {
   const MapLaw& law = map_->law();
   int first = map_->tileColumns(), last = -1;
   const double y = law.origin_y + law.resolution * (row + 0.5);
-  for (const Eye& eye : eyes_) {
+  for (const Viewpoint& eye : eyes_) {
     const double dy = y - eye.position.y(), far = farthestOf(row, eye);
     if (!(dy * dy < far * far)) continue;
     const double half = std::sqrt(far * far - dy * dy), x = eye.position.x() - law.origin_x;
@@ -109,8 +109,8 @@ std::pair<int, int> Meadow::columnsIn(int row) const {
   return {first, last};
 }
 
-// A tile as it was, with what it takes to choose its rung.
-Meadow::Candidate Meadow::candidateOf(const TileLevel& level) const {
+// A tile as it was, with what it takes to choose its tier.
+MeadowLod::Candidate MeadowLod::candidateOf(const TileLevel& level) const {
   Candidate out;
   out.level = level;
   const TileMeans f = map_->meansOf(level.column, level.row);
@@ -118,14 +118,14 @@ Meadow::Candidate Meadow::candidateOf(const TileLevel& level) const {
   const Vec3 centre = centreOf(level.row, level.column);
   out.detail = detailOf(f);
   out.scale = scaleOf(centre);
-  out.wanted = chooseRung(out.detail, out.scale, settings_.tolerance, level.rung.target);
+  out.wanted = chooseTileModel(out.detail, out.scale, settings_.tolerance, level.tier.target);
   const double size = map_->law().resolution;
-  if (out.wanted == Rung::BLADES && isSeen(centre)) out.blades = f.density * size * size;
+  if (out.wanted == TileModel::BLADES && isSeen(centre)) out.blades = f.density * size * size;
   return out;
 }
 
 // All tiles that want to be more than a texture, in order, and those that still are.
-std::vector<Meadow::Candidate> Meadow::lookAround() const {
+std::vector<MeadowLod::Candidate> MeadowLod::lookAround() const {
   std::vector<Candidate> out;
   out.reserve(levels_.size() + 64);
   auto old = levels_.cbegin();
@@ -138,29 +138,29 @@ std::vector<Meadow::Candidate> Meadow::lookAround() const {
       leave(row, column);
       const bool known = old != levels_.cend() && old->row == row && old->column == column;
       const Candidate tile = candidateOf(known ? *old++ : TileLevel{row, column, {}});
-      if (known || tile.wanted != Rung::TEXTURE) out.push_back(tile);
+      if (known || tile.wanted != TileModel::TEXTURE) out.push_back(tile);
     }
   }
   leave(map_->tileRows(), 0);
   return out;
 }
 
-// Blades that are drawn of a tile, and its rung, at so many times the tolerance.
-double Meadow::bladesAt(const Candidate& tile, double coarseness) const {
-  if (!(tile.blades > 0.0) || rungAt(tile, coarseness) != Rung::BLADES) return 0.0;
+// Blades that are drawn of a tile, and its tier, at so many times the tolerance.
+double MeadowLod::bladesAt(const Candidate& tile, double coarseness) const {
+  if (!(tile.blades > 0.0) || modelAt(tile, coarseness) != TileModel::BLADES) return 0.0;
   return tile.blades * bladeShare(tile.detail, tile.scale, settings_.tolerance * coarseness);
 }
 
-Rung Meadow::rungAt(const Candidate& tile, double coarseness) const {
-  if (tile.wanted == Rung::TEXTURE) return Rung::TEXTURE;
-  return chooseRung(tile.detail, tile.scale, settings_.tolerance * coarseness,
-                    tile.level.rung.target);
+TileModel MeadowLod::modelAt(const Candidate& tile, double coarseness) const {
+  if (tile.wanted == TileModel::TEXTURE) return TileModel::TEXTURE;
+  return chooseTileModel(tile.detail, tile.scale, settings_.tolerance * coarseness,
+                         tile.level.tier.target);
 }
 
 // The least factor on the tolerance that leaves no more blades than there may be: whatever is off
 // by more than that has its blades. Tiles that hold theirs count as farther off, so that the same
 // view gives the same factor again.
-double Meadow::coarsenessFor(const std::vector<Candidate>& tiles) const {
+double MeadowLod::coarsenessFor(const std::vector<Candidate>& tiles) const {
   std::vector<const Candidate*> bearing;
   for (const Candidate& tile : tiles)
     if (tile.blades > 0.0) bearing.push_back(&tile);
@@ -178,33 +178,33 @@ double Meadow::coarsenessFor(const std::vector<Candidate>& tiles) const {
   return high;
 }
 
-void Meadow::note(const Candidate& tile, Rung rung) {
+void MeadowLod::note(const Candidate& tile, TileModel tier) {
   if (!(tile.scale > 0.0)) return;  // bare, or out of sight
-  const double error = tile.scale * omission(tile.detail, rung);
+  const double error = tile.scale * omission(tile.detail, tier);
   balance_.cost += bladesAt(tile, coarseness_);
   balance_.wanted += bladesAt(tile, 1.0);
   balance_.largest = std::max(balance_.largest, error);
   balance_.over += error > settings_.tolerance ? 1 : 0;
-  balance_.held_back += rung < tile.wanted ? 1 : 0;
-  ++balance_.counts[static_cast<std::size_t>(rung)];
+  balance_.held_back += tier < tile.wanted ? 1 : 0;
+  ++balance_.counts[static_cast<std::size_t>(tier)];
 }
 
-void Meadow::chooseLevels(Nanoseconds stamp) {
+void MeadowLod::chooseLevels(Nanoseconds stamp) {
   const std::vector<Candidate> tiles = lookAround();
   coarseness_ = coarsenessFor(tiles);
-  balance_ = Balance();
+  balance_ = TierAllocation();
   levels_.clear();
   for (const Candidate& tile : tiles) {
-    const Rung rung = rungAt(tile, coarseness_);
-    note(tile, rung);
+    const TileModel tier = modelAt(tile, coarseness_);
+    note(tile, tier);
     TileLevel level = tile.level;
-    setRung(level.rung, rung, stamp, settings_.transition);
-    if (rung != Rung::TEXTURE || placeAt(level.rung, stamp, settings_.transition) > 0.0)
+    setTileModel(level.tier, tier, stamp, settings_.transition);
+    if (tier != TileModel::TEXTURE || placeAt(level.tier, stamp, settings_.transition) > 0.0)
       levels_.push_back(level);
   }
 }
 
-void Meadow::advance(Nanoseconds stamp) {
+void MeadowLod::advance(Nanoseconds stamp) {
   if (stamp < stamp_) {
     tread_.rewind(stamp);
     levels_.clear();
@@ -215,11 +215,11 @@ void Meadow::advance(Nanoseconds stamp) {
   if (stamp / NANOSECONDS_PER_SECOND != before / NANOSECONDS_PER_SECOND) tread_.prune(stamp);
 }
 
-std::vector<TileView> Meadow::viewOf(const Eye& eye, Nanoseconds stamp) const {
+std::vector<TileView> MeadowLod::viewOf(const Viewpoint& eye, Nanoseconds stamp) const {
   std::vector<TileView> out;
   const double size = map_->law().resolution, tolerance = settings_.tolerance * coarseness_;
   for (const TileLevel& level : levels_) {
-    const double place = placeAt(level.rung, stamp, settings_.transition);
+    const double place = placeAt(level.tier, stamp, settings_.transition);
     if (!(place > 0.0)) continue;
     const Vec3 centre = centreOf(level.row, level.column);
     const TileMeans f = map_->meansOf(level.column, level.row);
@@ -235,7 +235,7 @@ std::vector<TileView> Meadow::viewOf(const Eye& eye, Nanoseconds stamp) const {
   return out;
 }
 
-TileWindow Meadow::windowOf(const std::vector<TileView>& views) {
+TileWindow MeadowLod::windowOf(const std::vector<TileView>& views) {
   TileWindow out;
   bool any = false;
   for (const TileView& v : views) {
@@ -249,8 +249,8 @@ TileWindow Meadow::windowOf(const std::vector<TileView>& views) {
   return out;
 }
 
-Tile Meadow::tileAt(const TileView& view, const NodeAir& air, Nanoseconds stamp, CrushPatch& patch,
-                    TileMotion& motion) const {
+Tile MeadowLod::tileAt(const TileView& view, const NodeWind& air, Nanoseconds stamp,
+                       CrushPatch& patch, TileMotion& motion) const {
   Tile tile = makeTile(*map_, *terrain_, seed_, view.column, view.row);
   air.fill(tile, motion);
   tread_.patch(view.column, view.row, stamp, patch);
@@ -258,11 +258,11 @@ Tile Meadow::tileAt(const TileView& view, const NodeAir& air, Nanoseconds stamp,
   return tile;
 }
 
-MeadowMemory Meadow::memory() const {
+MeadowLodSnapshot MeadowLod::snapshot() const {
   return {stamp_, coarseness_, levels_, eyes_, tread_.state()};
 }
 
-void Meadow::restore(MeadowMemory memory) {
+void MeadowLod::restore(MeadowLodSnapshot memory) {
   stamp_ = memory.stamp;
   coarseness_ = memory.coarseness;
   levels_ = std::move(memory.levels);
@@ -270,22 +270,22 @@ void Meadow::restore(MeadowMemory memory) {
   tread_.restore(std::move(memory.tread));
 }
 
-std::size_t Meadow::bytes() const {
+std::size_t MeadowLod::bytes() const {
   return tread_.bytes() + levels_.capacity() * sizeof(TileLevel);
 }
 
-std::uint64_t MeadowMemory::hash() const {
+std::uint64_t MeadowLodSnapshot::hash() const {
   Hash hash;
   const auto add = [&](auto value) { hash.add(static_cast<std::uint64_t>(value)); };
   add(stamp);
   hash.add(coarseness);
   for (const TileLevel& level : levels) {
-    for (const int value : {level.row, level.column, static_cast<int>(level.rung.target)})
+    for (const int value : {level.row, level.column, static_cast<int>(level.tier.target)})
       add(value);
-    add(level.rung.since);
-    hash.add(double{level.rung.place});
+    add(level.tier.since);
+    hash.add(double{level.tier.place});
   }
-  for (const Eye& eye : eyes) {
+  for (const Viewpoint& eye : eyes) {
     hash.add(eye.position);
     hash.add(eye.forward);
     hash.add(eye.pixels_per_radian);

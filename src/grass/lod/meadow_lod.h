@@ -17,7 +17,7 @@ namespace vegetation_sim::grass {
 
 struct MeadowSettings {
   double tolerance{1.5};    ///< what a level may leave out [pixel]
-  double transition{0.5};   ///< from one rung to the next [s]
+  double transition{0.5};   ///< from one tier to the next [s]
   double farthest{400.0};   ///< beyond, grass is a texture [m]
   double most_blades{6e5};  ///< that the eyes see; for more, the tolerance is coarsened
 };
@@ -26,15 +26,15 @@ void describe(FieldVisitor& visitor, MeadowSettings& settings);
 /// A tile that is more than a texture, or is on its way to or from it.
 struct TileLevel {
   int row{0}, column{0};
-  RungState rung;
+  TileModelState tier;
 };
 
 /// All of a meadow that has memory (N6): what was trodden, and which tiles are drawn how.
-struct MeadowMemory {
+struct MeadowLodSnapshot {
   Nanoseconds stamp{0};
   double coarseness{1.0};         ///< factor on the tolerance that keeps the number of blades
   std::vector<TileLevel> levels;  ///< by row, then column
-  std::vector<Eye> eyes;
+  std::vector<Viewpoint> eyes;
   TreadState tread;
 
   std::uint64_t hash() const;
@@ -51,11 +51,12 @@ struct TileView {
 
 /// A meadow with its state: levels of the tiles around the eyes, trodden ground. One thread at a
 /// time; what it shows at a stamp is a function of its memory, map, terrain, seed and wind.
-class Meadow {
+class MeadowLod {
  public:
   /// @throws InvalidInput with all faults.
-  Meadow(std::shared_ptr<const FeatureMap> map, std::shared_ptr<const terrain::HeightMap> terrain,
-         std::uint64_t seed, const MeadowSettings& settings, const TreadSettings& tread);
+  MeadowLod(std::shared_ptr<const FeatureMap> map,
+            std::shared_ptr<const terrain::HeightMap> terrain, std::uint64_t seed,
+            const MeadowSettings& settings, const TreadSettings& tread);
 
   const FeatureMap& map() const { return *map_; }
   const terrain::HeightMap& terrain() const { return *terrain_; }
@@ -65,25 +66,25 @@ class Meadow {
 
   /// Other settings from now on. @throws InvalidInput with all faults, then nothing is changed.
   void setSettings(const MeadowSettings& settings);
-  void setEyes(std::vector<Eye> eyes) { eyes_ = std::move(eyes); }
+  void setEyes(std::vector<Viewpoint> eyes) { eyes_ = std::move(eyes); }
   /// Chooses levels at a stamp and frees what has recovered. A stamp before the last means that
   /// time went back: what is stamped later is forgotten, levels start anew.
   void advance(Nanoseconds stamp);
 
   /// Tiles that an eye sees as more than a texture.
-  std::vector<TileView> viewOf(const Eye& eye, Nanoseconds stamp) const;
+  std::vector<TileView> viewOf(const Viewpoint& eye, Nanoseconds stamp) const;
   /// Smallest window with all of these tiles.
   static TileWindow windowOf(const std::vector<TileView>& views);
   /// A tile ready to be posed: made from its seed, with its air and treads. `air` holds its window.
-  Tile tileAt(const TileView& view, const NodeAir& air, Nanoseconds stamp, CrushPatch& patch,
+  Tile tileAt(const TileView& view, const NodeWind& air, Nanoseconds stamp, CrushPatch& patch,
               TileMotion& motion) const;
 
   /// What was chosen at the last advance() for the tiles that are or want to be more than a
-  /// texture: costs are blades, errors what rungs leave out.
-  const Balance& balance() const { return balance_; }
+  /// texture: costs are blades, errors what tiers leave out.
+  const TierAllocation& balance() const { return balance_; }
 
-  MeadowMemory memory() const;
-  void restore(MeadowMemory memory);
+  MeadowLodSnapshot snapshot() const;
+  void restore(MeadowLodSnapshot memory);
   /// Bytes of what has memory.
   std::size_t bytes() const;
 
@@ -95,19 +96,19 @@ class Meadow {
   struct Candidate {
     TileLevel level{};  ///< as it was
     TileDetail detail{};
-    double scale{0.0};           ///< pixels a metre; 0: bare, or too far off
-    Rung wanted{Rung::TEXTURE};  ///< within the plain tolerance
-    double blades{0.0};          ///< all that grow on it; 0 if it wants none or nobody sees it
+    double scale{0.0};                     ///< pixels a metre; 0: bare, or too far off
+    TileModel wanted{TileModel::TEXTURE};  ///< within the plain tolerance
+    double blades{0.0};  ///< all that grow on it; 0 if it wants none or nobody sees it
   };
   Candidate candidateOf(const TileLevel& level) const;
   std::vector<Candidate> lookAround() const;
   double bladesAt(const Candidate& tile, double coarseness) const;
-  Rung rungAt(const Candidate& tile, double coarseness) const;
+  TileModel modelAt(const Candidate& tile, double coarseness) const;
   double coarsenessFor(const std::vector<Candidate>& tiles) const;
-  void note(const Candidate& tile, Rung rung);
+  void note(const Candidate& tile, TileModel tier);
   void chooseLevels(Nanoseconds stamp);
   std::pair<int, int> columnsIn(int row) const;
-  double farthestOf(int row, const Eye& eye) const;
+  double farthestOf(int row, const Viewpoint& eye) const;
 
   std::shared_ptr<const FeatureMap> map_;
   std::shared_ptr<const terrain::HeightMap> terrain_;
@@ -117,9 +118,9 @@ class Meadow {
   std::vector<double> coarsest_;  ///< of each row of tiles: most that a texture leaves out [m]
   Nanoseconds stamp_{0};
   double coarseness_{1.0};
-  Balance balance_;
+  TierAllocation balance_;
   std::vector<TileLevel> levels_;
-  std::vector<Eye> eyes_;
+  std::vector<Viewpoint> eyes_;
 };
 
 }  // namespace vegetation_sim::grass

@@ -18,12 +18,12 @@ int bounded(double x) {
 
 }  // namespace
 
-std::size_t NodeAir::indexOf(int column, int row) const {
+std::size_t NodeWind::indexOf(int column, int row) const {
   return static_cast<std::size_t>(row - window_.first_row) * static_cast<std::size_t>(columns_) +
          static_cast<std::size_t>(column - window_.first_column);
 }
 
-Vec3 NodeAir::placeOf(int column, int row) const {
+Vec3 NodeWind::placeOf(int column, int row) const {
   const MapLaw& law = map_.law();
   const double x = law.origin_x + law.resolution * column;
   const double y = law.origin_y + law.resolution * row;
@@ -31,7 +31,7 @@ Vec3 NodeAir::placeOf(int column, int row) const {
 }
 
 // Nodes of the window within a box, both ends included.
-NodeAir::Span NodeAir::spanOf(double min_x, double max_x, double min_y, double max_y) const {
+NodeWind::Span NodeWind::spanOf(double min_x, double max_x, double min_y, double max_y) const {
   const MapLaw& law = map_.law();
   const auto first = [&](double x, double origin) {
     return bounded(std::ceil((x - origin) / law.resolution));
@@ -46,7 +46,7 @@ NodeAir::Span NodeAir::spanOf(double min_x, double max_x, double min_y, double m
 }
 
 // Box around what a primitive can move; a hair larger, so that rounding leaves no node out.
-NodeAir::Span NodeAir::maskOf(const wind::Term& term) const {
+NodeWind::Span NodeWind::maskOf(const wind::Term& term) const {
   constexpr double HAIR = 1e-6;
   const double x = term.centre.x(), y = term.centre.y(), r = term.radius + HAIR;
   if (term.kind != wind::Kind::GUST) return spanOf(x - r, x + r, y - r, y + r);
@@ -59,7 +59,7 @@ NodeAir::Span NodeAir::maskOf(const wind::Term& term) const {
                 y + std::min(0.0, back_y) - side_y, y + std::max(0.0, back_y) + side_y);
 }
 
-void NodeAir::want(const std::vector<TilePlace>* tiles) {
+void NodeWind::want(const std::vector<TilePlace>* tiles) {
   wanted_.assign(air_.size(), tiles ? 0 : 1);
   if (!tiles) return;
   for (const TilePlace& tile : *tiles)
@@ -68,11 +68,11 @@ void NodeAir::want(const std::vector<TilePlace>* tiles) {
 }
 
 // The breeze at all wanted nodes, many at a time.
-void NodeAir::blow(const wind::Instant& wind) {
+void NodeWind::blow(const wind::Instant& wind) {
   asked_.clear();
   for (std::size_t i = 0; i < air_.size(); ++i)
     if (wanted_[i]) asked_.push_back(i);
-  constexpr std::size_t ROOM = wind::AirRows::ROOM;
+  constexpr std::size_t ROOM = wind::WindSamples::ROOM;
   const std::size_t count = asked_.size(), pitch = (count + ROOM - 1) / ROOM * ROOM;
   rows_.resize(6 * pitch);
   double* const r = rows_.data();
@@ -89,8 +89,8 @@ void NodeAir::blow(const wind::Instant& wind) {
     air_[asked_[k]] = Vec3(r[3 * pitch + k], r[4 * pitch + k], r[5 * pitch + k]);
 }
 
-void NodeAir::update(const wind::Instant& wind, const std::vector<ColourMask>& masks,
-                     const TileWindow& window, const std::vector<TilePlace>* tiles) {
+void NodeWind::update(const wind::Instant& wind, const std::vector<ColourMask>& masks,
+                      const TileWindow& window, const std::vector<TilePlace>* tiles) {
   window_ = window;
   columns_ = std::max(0, window.last_column - window.first_column + 2);
   const int rows = std::max(0, window.last_row - window.first_row + 2);
@@ -128,12 +128,12 @@ void NodeAir::update(const wind::Instant& wind, const std::vector<ColourMask>& m
   }
 }
 
-double NodeAir::colourAt(int column, int row) const {
+double NodeWind::colourAt(int column, int row) const {
   const Tint& tint = tints_[indexOf(column, row)];
   return (map_.node(column, row).colour + tint.sum) / (1.0 + tint.weight);
 }
 
-void NodeAir::fill(Tile& tile, TileMotion& motion) const {
+void NodeWind::fill(Tile& tile, TileMotion& motion) const {
   for (int corner = 0; corner < 4; ++corner) {
     const auto k = static_cast<std::size_t>(corner);
     const int column = tile.column + corner % 2, row = tile.row + corner / 2;

@@ -33,10 +33,10 @@ struct ColourMask {
 
 /// What primitives send to the nodes under their masks (paper 2, section 4.1): displacements are
 /// summed, as air velocity, and bounded where a blade bends; colours are averaged (S2-18).
-class NodeAir {
+class NodeWind {
  public:
   /// Both must outlive it.
-  NodeAir(const FeatureMap& map, const terrain::HeightMap& terrain)
+  NodeWind(const FeatureMap& map, const terrain::HeightMap& terrain)
       : map_(map), terrain_(terrain) {}
 
   /// Evaluates the wind law at the nodes of a window: the sum is Instant::velocity on the ground,

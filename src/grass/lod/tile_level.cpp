@@ -20,27 +20,28 @@ constexpr double FLAT_VIEW = 0.5, STEEP_VIEW = 0.9;
 
 }  // namespace
 
-double omission(const TileDetail& detail, Rung rung) {
-  switch (rung) {
-    case Rung::TEXTURE:
+double omission(const TileDetail& detail, TileModel tier) {
+  switch (tier) {
+    case TileModel::TEXTURE:
       return std::max(detail.height, detail.blade_spacing);
-    case Rung::STRIPS:
+    case TileModel::STRIPS:
       return detail.blade_spacing;
     default:
       return 0.0;
   }
 }
 
-Rung chooseRung(const TileDetail& detail, double pixels_per_metre, double tolerance, Rung current) {
-  const auto error = [&](int rung) {
-    return pixels_per_metre * omission(detail, static_cast<Rung>(rung));
+TileModel chooseTileModel(const TileDetail& detail, double pixels_per_metre, double tolerance,
+                          TileModel current) {
+  const auto error = [&](int tier) {
+    return pixels_per_metre * omission(detail, static_cast<TileModel>(tier));
   };
   int wanted = 0;
-  while (wanted < static_cast<int>(Rung::BLADES) && error(wanted) > tolerance) ++wanted;
-  int rung = static_cast<int>(current);
-  if (wanted >= rung) return static_cast<Rung>(wanted);
-  while (rung > wanted && error(rung - 1) <= HYSTERESIS * tolerance) --rung;
-  return static_cast<Rung>(rung);
+  while (wanted < static_cast<int>(TileModel::BLADES) && error(wanted) > tolerance) ++wanted;
+  int tier = static_cast<int>(current);
+  if (wanted >= tier) return static_cast<TileModel>(wanted);
+  while (tier > wanted && error(tier - 1) <= HYSTERESIS * tolerance) --tier;
+  return static_cast<TileModel>(tier);
 }
 
 double bladeShare(const TileDetail& detail, double pixels_per_metre, double tolerance) {
@@ -54,7 +55,7 @@ int bladeSegments(double height, double pixels_per_metre, double tolerance) {
   return LINKS;
 }
 
-double placeAt(const RungState& state, Nanoseconds stamp, double transition) {
+double placeAt(const TileModelState& state, Nanoseconds stamp, double transition) {
   const double target = static_cast<double>(state.target), gap = target - double{state.place};
   if (stamp <= state.since) return double{state.place};
   const double way = transition > 0.0 ? secondsBetween(state.since, stamp) / transition : 2.0;
@@ -62,7 +63,7 @@ double placeAt(const RungState& state, Nanoseconds stamp, double transition) {
                    : std::max(target, double{state.place} - way);
 }
 
-void setRung(RungState& state, Rung target, Nanoseconds stamp, double transition) {
+void setTileModel(TileModelState& state, TileModel target, Nanoseconds stamp, double transition) {
   if (target == state.target) return;
   state.place = static_cast<float>(placeAt(state, stamp, transition));
   state.since = stamp;

@@ -7,21 +7,22 @@
 namespace vegetation_sim::grass {
 
 /// What a tile is drawn as (paper 2, section 3): each shows all that the one before does, and more.
-enum class Rung : int { TEXTURE = 0, STRIPS = 1, BLADES = 2 };
+enum class TileModel : int { TEXTURE = 0, STRIPS = 1, BLADES = 2 };
 
-/// What the coarser rungs leave out of a tile, as lengths [m]: strips the places of single blades,
+/// What the coarser tiers leave out of a tile, as lengths [m]: strips the places of single blades,
 /// a texture the height of the grass.
 struct TileDetail {
   double blade_spacing{0.05};  ///< mean distance of neighbours, 1 / sqrt(density)
   double height{0.3};
 };
 
-/// What a rung leaves out of a tile [m].
-double omission(const TileDetail& detail, Rung rung);
+/// What a tier leaves out of a tile [m].
+double omission(const TileDetail& detail, TileModel tier);
 
-/// Coarsest rung whose omission [pixel] holds the tolerance (S2-15), with the hysteresis of the
+/// Coarsest tier whose omission [pixel] holds the tolerance (S2-15), with the hysteresis of the
 /// forest: `current` is kept until the next coarser one is well within it.
-Rung chooseRung(const TileDetail& detail, double pixels_per_metre, double tolerance, Rung current);
+TileModel chooseTileModel(const TileDetail& detail, double pixels_per_metre, double tolerance,
+                          TileModel current);
 
 /// Share of the blades to draw, and how much wider these are made: fewer where single blades can
 /// hardly be told apart. 1 near, never below LEAST_SHARE.
@@ -34,16 +35,16 @@ int bladeSegments(double height, double pixels_per_metre, double tolerance);
 
 /// Level of one tile as a function of time: its place on the ladder, 0 (texture) to 2 (blades), was
 /// `place` at `since` and moves towards `target` at constant speed; it can turn round anywhere.
-struct RungState {
-  Rung target{Rung::TEXTURE};
+struct TileModelState {
+  TileModel target{TileModel::TEXTURE};
   Nanoseconds since{0};
   float place{0.f};
 };
-/// @param transition time from one rung to the next [s]; 0: at once.
-double placeAt(const RungState& state, Nanoseconds stamp, double transition);
-void setRung(RungState& state, Rung target, Nanoseconds stamp, double transition);
+/// @param transition time from one tier to the next [s]; 0: at once.
+double placeAt(const TileModelState& state, Nanoseconds stamp, double transition);
+void setTileModel(TileModelState& state, TileModel target, Nanoseconds stamp, double transition);
 
-/// How a tile looks between two rungs.
+/// How a tile looks between two tiers.
 struct Morph {
   bool blades{false};   ///< any are drawn
   double slide{0.0};    ///< 0: blades at their places, 1: all on the edges of the tile (S2-12)

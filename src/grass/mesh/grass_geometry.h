@@ -62,7 +62,7 @@ void appendLayers(const FeatureMap& map, const Tile& tile, const TileMotion& mot
 constexpr int STRIP_CELLS = 4;         ///< along an edge
 constexpr double PICTURE_WIDTH = 1.0;  ///< of the strips' picture [m]
 
-/// Picture of the strips: `blades` blades, each with an alpha of its own, so that a test against
+/// Image of the strips: `blades` blades, each with an alpha of its own, so that a test against
 /// alpha shows as many as wanted (S2-10). Top row first.
 struct StripPicture {
   int columns{0}, rows{0};

@@ -35,50 +35,50 @@ class Presses {
   const std::pair<const std::pair<Nanoseconds, float>, std::uint32_t>* last_{nullptr};
 };
 
-bool isToldIn(const TreadNode& node, const Telling& telling) {
+bool isIncludedIn(const TreadNode& node, const TreadInterval& telling) {
   return node.stamp > telling.since && tiltAt(node, telling.stamp) > 0.f;
 }
 
-void tell(const std::pair<int, int>& place, const TreadBlock& block, const Telling& telling,
-          Presses& presses, ToldTreads& out) {
-  ToldBlock told{place.first, place.second, {}, {}};
+void report(const std::pair<int, int>& place, const TreadBlock& block, const TreadInterval& telling,
+            Presses& presses, TreadDelta& out) {
+  TreadBlockDelta published{place.first, place.second, {}, {}};
   for (std::size_t i = 0; i < block.nodes.size(); ++i) {
     const TreadNode& node = block.nodes[i];
-    if (!isToldIn(node, telling)) continue;
-    told.told[i / 8] |= static_cast<std::uint8_t>(1u << (i % 8));
-    told.nodes.push_back({node.tilt, node.x, node.y, presses.numberOf(node)});
+    if (!isIncludedIn(node, telling)) continue;
+    published.included[i / 8] |= static_cast<std::uint8_t>(1u << (i % 8));
+    published.nodes.push_back({node.tilt, node.x, node.y, presses.numberOf(node)});
   }
-  if (!told.nodes.empty()) out.blocks.push_back(std::move(told));
+  if (!published.nodes.empty()) out.blocks.push_back(std::move(published));
 }
 
 }  // namespace
 
-ToldTreads tellAll(const TreadState& state, Nanoseconds stamp) {
-  ToldTreads out;
+TreadDelta snapshotTreads(const TreadState& state, Nanoseconds stamp) {
+  TreadDelta out;
   Presses presses(out.presses);
   for (const auto& [place, block] : state.blocks)
-    tell(place, block, {std::numeric_limits<Nanoseconds>::min(), stamp}, presses, out);
+    report(place, block, {std::numeric_limits<Nanoseconds>::min(), stamp}, presses, out);
   return out;
 }
 
-ToldTreads tellSince(const TreadState& state, const std::set<std::pair<int, int>>& blocks,
-                     const Telling& telling) {
-  ToldTreads out;
+TreadDelta makeDelta(const TreadState& state, const std::set<std::pair<int, int>>& blocks,
+                     const TreadInterval& telling) {
+  TreadDelta out;
   Presses presses(out.presses);
   for (const auto& place : blocks) {
     const auto found = state.blocks.find(place);
-    if (found != state.blocks.end()) tell(place, found->second, telling, presses, out);
+    if (found != state.blocks.end()) report(place, found->second, telling, presses, out);
   }
   return out;
 }
 
-std::uint64_t hashOf(const ToldTreads& treads) {
+std::uint64_t hashOf(const TreadDelta& treads) {
   Hash hash;
-  for (const ToldBlock& block : treads.blocks) {
+  for (const TreadBlockDelta& block : treads.blocks) {
     hash.add(static_cast<std::uint64_t>(block.row));
     hash.add(static_cast<std::uint64_t>(block.column));
-    for (const std::uint8_t byte : block.told) hash.add(static_cast<std::uint64_t>(byte));
-    for (const ToldNode& node : block.nodes) {
+    for (const std::uint8_t byte : block.included) hash.add(static_cast<std::uint64_t>(byte));
+    for (const TreadNodeDelta& node : block.nodes) {
       for (const float value : {node.tilt, node.x, node.y, treads.presses[node.press].recovery})
         hash.add(double{value});
       hash.add(static_cast<std::uint64_t>(treads.presses[node.press].stamp));
@@ -87,22 +87,22 @@ std::uint64_t hashOf(const ToldTreads& treads) {
   return hash.value();
 }
 
-void check(const ToldTreads& treads, Faults& faults) {
+void check(const TreadDelta& treads, Faults& faults) {
   for (const Press& press : treads.presses) {
     const std::string fault =
         rangeFault("state: recovery", double{press.recovery}, "s", {0.0, PERMANENT_RECOVERY});
     if (!fault.empty()) faults.add(fault);
   }
-  for (const ToldBlock& block : treads.blocks) {
+  for (const TreadBlockDelta& block : treads.blocks) {
     const std::string name =
         "state: block " + std::to_string(block.row) + ", " + std::to_string(block.column) + ": ";
-    std::size_t told = 0;
-    for (const unsigned byte : block.told)
-      for (unsigned bits = byte; bits; bits &= bits - 1) ++told;
-    if (told != block.nodes.size())
+    std::size_t published = 0;
+    for (const unsigned byte : block.included)
+      for (unsigned bits = byte; bits; bits &= bits - 1) ++published;
+    if (published != block.nodes.size())
       faults.add(name + std::to_string(block.nodes.size()) + " nodes where " +
-                 std::to_string(told) + " are told");
-    for (const ToldNode& node : block.nodes) {
+                 std::to_string(published) + " are told");
+    for (const TreadNodeDelta& node : block.nodes) {
       if (node.press >= treads.presses.size())
         faults.add(name + "press = " + std::to_string(node.press) + " is outside 0 to " +
                    std::to_string(treads.presses.size()) + " less one");
@@ -113,13 +113,13 @@ void check(const ToldTreads& treads, Faults& faults) {
   }
 }
 
-int adopt(const ToldTreads& treads, TreadMap& map) {
+int applyDelta(const TreadDelta& treads, TreadMap& map) {
   int refused = 0;
-  for (const ToldBlock& block : treads.blocks) {
+  for (const TreadBlockDelta& block : treads.blocks) {
     std::size_t next = 0;
     for (int i = 0; i < SIDE * SIDE; ++i) {
-      if (!(block.told[static_cast<std::size_t>(i / 8)] >> (i % 8) & 1)) continue;
-      const ToldNode& node = block.nodes[next++];
+      if (!(block.included[static_cast<std::size_t>(i / 8)] >> (i % 8) & 1)) continue;
+      const TreadNodeDelta& node = block.nodes[next++];
       const Press& press = treads.presses[node.press];
       refused += !map.put(block.row * SIDE + i / SIDE, block.column * SIDE + i % SIDE,
                           {node.tilt, node.x, node.y, press.recovery, press.stamp});
@@ -135,7 +135,7 @@ bool TreadReplica::apply(const TreadUpdate& update, TreadMap& map) {
     return false;
   }
   if (update.key_frame) map.clear();
-  const int refused = adopt(update.treads, map);
+  const int refused = applyDelta(update.treads, map);
   in_sequence_ = true;
   sequence_ = update.sequence;
   stamp_ = update.stamp;

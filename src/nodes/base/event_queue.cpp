@@ -14,15 +14,15 @@ void warnOfLosses(diagnostic_updater::DiagnosticStatusWrapper& status, const Que
   warnOfMore(status, now.late, reported.late, "recorded events late, the replay differs");
 }
 
-void warnOfLosses(const char* node, const QueueLosses& losses, QueueLosses& told) {
-  if (losses.late > told.late)
+void warnOfLosses(const char* node, const QueueLosses& losses, QueueLosses& published) {
+  if (losses.late > published.late)
     ROS_WARN_THROTTLE(1.0,
                       "%s: recorded events came after their tick, so this replay differs from its "
                       "run; a larger replay_delay or a slower bag may help",
                       node);
-  if (losses.lost > told.lost)
+  if (losses.lost > published.lost)
     ROS_WARN_THROTTLE(1.0, "%s: too many inputs at once; some are lost", node);
-  told = losses;
+  published = losses;
 }
 
 }  // namespace vegetation_sim

@@ -24,7 +24,7 @@ struct QueueLosses {
 void warnOfLosses(diagnostic_updater::DiagnosticStatusWrapper& status, const QueueLosses& now,
                   const QueueLosses& reported);
 /// Warns on the node's console of losses that are not in `told`, and puts them there.
-void warnOfLosses(const char* node, const QueueLosses& losses, QueueLosses& told);
+void warnOfLosses(const char* node, const QueueLosses& losses, QueueLosses& published);
 
 /// Accepted inputs of a node wait here for their tick: live ones as events that get the stamp of
 /// the tick at which they are applied, in a replay the recorded ones, applied at their own ticks.

@@ -10,7 +10,7 @@ namespace vegetation_sim {
 namespace {
 
 constexpr int FINEST = 7;  // halvings of the longest time between two
-static_assert(FINEST < static_cast<int>(MOST_RUNGS));
+static_assert(FINEST < static_cast<int>(MAX_TIERS));
 
 }  // namespace
 
@@ -18,7 +18,7 @@ KeyFrames::KeyFrames(double period, int rate, int budget)
     : ticks_(std::max(1, static_cast<int>(period * rate))), rate_(rate), budget_(budget) {}
 
 std::int64_t KeyFrames::ticks() const {
-  return std::int64_t{ticks_} << halvings_;
+  return std::int64_t{ticks_} << bisection_;
 }
 
 double KeyFrames::period() const {
@@ -30,17 +30,17 @@ bool KeyFrames::isDue(std::int64_t tick) {
 }
 
 void KeyFrames::sent(std::uint64_t bytes) {
-  std::vector<Choice> choice(1);
-  choice[0].held = FINEST - halvings_;
-  for (int rung = 0; rung <= FINEST; ++rung) {
-    const auto place = static_cast<std::size_t>(rung);
-    const double seconds = static_cast<double>(std::int64_t{ticks_} << (FINEST - rung)) / rate_;
+  std::vector<TierChoice> choice(1);
+  choice[0].held = FINEST - bisection_;
+  for (int tier = 0; tier <= FINEST; ++tier) {
+    const auto place = static_cast<std::size_t>(tier);
+    const double seconds = static_cast<double>(std::int64_t{ticks_} << (FINEST - tier)) / rate_;
     choice[0].error[place] = static_cast<float>(seconds);
     choice[0].cost[place] = static_cast<float>(static_cast<double>(bytes) / seconds);
   }
-  choice[0].stair = choice[0].wanted = FINEST;
-  balance_ = govern(choice, budget_, 0.0);
-  halvings_ = FINEST - choice[0].chosen;
+  choice[0].stepwise = choice[0].wanted = FINEST;
+  balance_ = allocateTiers(choice, budget_, 0.0);
+  bisection_ = FINEST - choice[0].chosen;
 }
 
 }  // namespace vegetation_sim

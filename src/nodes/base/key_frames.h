@@ -25,7 +25,7 @@ class KeyFrames {
 
   double period() const;  ///< [s]
   /// Of the choice: costs are bytes a second, errors seconds.
-  const Balance& balance() const { return balance_; }
+  const TierAllocation& balance() const { return balance_; }
   double budget() const { return budget_; }
 
  private:
@@ -33,9 +33,9 @@ class KeyFrames {
 
   int ticks_, rate_;  // a period as it is wanted, a second
   double budget_;
-  int halvings_{0};  // of how often they come
+  int bisection_{0};  // of how often they come
   bool demanded_{true};
-  Balance balance_;
+  TierAllocation balance_;
 };
 
 }  // namespace vegetation_sim

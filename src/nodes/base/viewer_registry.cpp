@@ -8,8 +8,8 @@
 
 namespace vegetation_sim {
 
-void Watchers::hear(const Viewer& message, const tf2_ros::Buffer& buffer,
-                    const std::string& frame_id, Nanoseconds stamp) {
+void ViewerRegistry::hear(const Viewer& message, const tf2_ros::Buffer& buffer,
+                          const std::string& frame_id, Nanoseconds stamp) {
   fromMsg(message);  // checks it
   Viewer in_world = message;
   in_world.pose =
@@ -20,8 +20,8 @@ void Watchers::hear(const Viewer& message, const tf2_ros::Buffer& buffer,
   seen_[message.id] = {fromMsg(in_world).eye, stamp};
 }
 
-std::vector<Eye> Watchers::eyesAt(Nanoseconds stamp) {
-  std::vector<Eye> out;
+std::vector<Viewpoint> ViewerRegistry::eyesAt(Nanoseconds stamp) {
+  std::vector<Viewpoint> out;
   for (auto entry = seen_.begin(); entry != seen_.end();) {
     if (entry->second.stamp == 0) entry->second.stamp = stamp;  // spoke before the first tick
     if (secondsBetween(entry->second.stamp, stamp) > LIFE) {

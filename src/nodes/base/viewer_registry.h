@@ -15,7 +15,7 @@
 namespace vegetation_sim {
 
 /// Who looks at what a node draws, where nothing that it remembers depends on it: grass, people.
-class Watchers {
+class ViewerRegistry {
  public:
   static constexpr std::size_t MOST = 32;
   static constexpr double LIFE = 3.0;  ///< of a viewer that is not heard [s]
@@ -25,13 +25,13 @@ class Watchers {
   void hear(const Viewer& message, const tf2_ros::Buffer& buffer, const std::string& frame_id,
             Nanoseconds stamp);
   /// Their eyes, by id; forgets those that are silent.
-  std::vector<Eye> eyesAt(Nanoseconds stamp);
+  std::vector<Viewpoint> eyesAt(Nanoseconds stamp);
   std::size_t size() const { return seen_.size(); }
   void clear() { seen_.clear(); }
 
  private:
   struct Seen {
-    Eye eye;
+    Viewpoint eye;
     Nanoseconds stamp{0};
   };
   std::map<std::string, Seen> seen_;

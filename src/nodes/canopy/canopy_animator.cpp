@@ -74,7 +74,7 @@ void CanopyAnimator::tick(std::int64_t tick) {
       refusals_.add("event", error.what());
     }
   }
-  warnOfLosses("canopy_animator", inputs_.losses(), told_);
+  warnOfLosses("canopy_animator", inputs_.losses(), published_);
   canopy_->advance(stamp);
   publishState(tick);
 }

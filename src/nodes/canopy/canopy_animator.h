@@ -65,7 +65,7 @@ class CanopyAnimator {
   void sendMarkers(const ros::TimerEvent& event);
   /// Of the forest's crowns, as many as markers_ draws.
   std::vector<canopy::MovedLeaf> crownLeaves(const canopy::Foliage& foliage) const;
-  void warnOfTrouble(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void reportProblem(diagnostic_updater::DiagnosticStatusWrapper& status);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
   void diagnoseGovernor(diagnostic_updater::DiagnosticStatusWrapper& status);
 
@@ -96,8 +96,8 @@ class CanopyAnimator {
     std::uint64_t state_bytes{0}, other_viewers{0}, resets{0};
     QueueLosses inputs;
     TickClock::Counts clock;
-  } counts_, reported_;  // so far, and when diagnostics were last sent
-  QueueLosses told_;     // on the console
+  } counts_, reported_;    // so far, and when diagnostics were last sent
+  QueueLosses published_;  // on the console
   Refusals refusals_{"canopy_animator"};
 
   tf2_ros::Buffer tf_buffer_;

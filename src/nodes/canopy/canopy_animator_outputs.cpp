@@ -17,8 +17,8 @@ void CanopyAnimator::publishState(std::int64_t tick) {
 void CanopyAnimator::sendMarkers(const ros::TimerEvent&) {
   if (!clock_.hasBegun() || markers_publisher_.getNumSubscribers() == 0) return;
   const canopy::Foliage& foliage = canopy_->foliage();
-  Eye eye;
-  eye.position = canopy_->memory().cuts.now.position;
+  Viewpoint eye;
+  eye.position = canopy_->snapshot().cuts.now.position;
   markers_.choose(canopy_->layout(), eye, options_.tolerance, clock_.stamp());
   markers_publisher_.publish(markers_.build(foliage, crownLeaves(foliage), options_.frame_id));
 }
@@ -37,7 +37,7 @@ std::vector<canopy::MovedLeaf> CanopyAnimator::crownLeaves(const canopy::Foliage
 }
 
 // What has happened since the last report, and only that.
-void CanopyAnimator::warnOfTrouble(diagnostic_updater::DiagnosticStatusWrapper& status) {
+void CanopyAnimator::reportProblem(diagnostic_updater::DiagnosticStatusWrapper& status) {
   counts_.clock = clock_.counts();
   counts_.inputs = inputs_.losses();
   counts_.resets = canopy_->figures().resets;
@@ -53,7 +53,7 @@ void CanopyAnimator::diagnose(diagnostic_updater::DiagnosticStatusWrapper& statu
   using diagnostic_msgs::DiagnosticStatus;
   status.summary(DiagnosticStatus::OK, "running");
   if (!clock_.hasBegun()) status.summary(DiagnosticStatus::WARN, "waiting for the clock");
-  warnOfTrouble(status);
+  reportProblem(status);
   status.add("Plants", canopy_->layout().plants.size());
   status.add("Leaves", canopy_->layout().leafCount());
   std::size_t crown_leaves = 0;
@@ -63,21 +63,21 @@ void CanopyAnimator::diagnose(diagnostic_updater::DiagnosticStatusWrapper& statu
   status.add("Layers", canopy_->foliage().layers());
   status.add("Viewers", viewer_ ? 1 : 0);
   status.add("Messages of other viewers", counts_.other_viewers);
-  clock_.tell(status);
+  clock_.report(status);
   status.add("Inputs refused", refusals_.count());
   status.add("Inputs lost", counts_.inputs.lost);
   status.add("Recorded events late", counts_.inputs.late);
   status.add("Steps undone", counts_.resets);
-  status.add("Memory of the layers [B]", canopy_->memory().history.bytes());
+  status.add("Memory of the layers [B]", canopy_->snapshot().history.bytes());
   status.add("State sent [B]", counts_.state_bytes);
 }
 
 // Of the markers; how leaves move is the same for all of them.
 void CanopyAnimator::diagnoseGovernor(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  tell(markers_.balance(),
-       {"Plants", options_.tolerance, "marker_points", "points",
-        static_cast<double>(markers_.room()), markers_.rungs()},
-       status);
+  report(markers_.balance(),
+         {"Plants", options_.tolerance, "marker_points", "points",
+          static_cast<double>(markers_.room()), markers_.tiers()},
+         status);
   status.add("Marker points", markers_.points());
   status.add("Marker budget [points]", markers_.budget());
 }

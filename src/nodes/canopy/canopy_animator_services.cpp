@@ -42,7 +42,7 @@ CanopySample CanopyAnimator::sampleAt(const Vec3& place) {
   const canopy::PlaneVector wind = canopy::bilinear(canopy_->wind(), cell.u, cell.v);
   CanopySample out;
   out.wind = toVector(canopy::outOf(plane.axes, Vec3(wind.u, wind.v, 0.0)));
-  const canopy::CutView& eye = canopy_->memory().cuts.now;
+  const canopy::CutView& eye = canopy_->snapshot().cuts.now;
   out.motion =
       toVector(canopy::outOf(canopy::axesOf(eye.orientation), foliage.motion(place, place)));
   out.layer = static_cast<std::uint8_t>(foliage.layerAt(place));

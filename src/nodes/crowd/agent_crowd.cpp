@@ -76,7 +76,7 @@ void AgentCrowd::populate() {
 
 // No id is told twice, whether its walker is here or still waits for its stamp.
 void AgentCrowd::keepPromises() {
-  promised_ = crowd_->memory().next_id;
+  promised_ = crowd_->snapshot().next_id;
   inputs_.each([this](const CrowdEvent& event) {
     if (event.kind == CrowdEvent::SPAWN) promised_ = std::max(promised_, event.id + 1);
   });
@@ -103,7 +103,7 @@ void AgentCrowd::tick(std::int64_t) {
       refusals_.add("event", error.what());
     }
   }
-  warnOfLosses("agent_crowd", inputs_.losses(), told_);
+  warnOfLosses("agent_crowd", inputs_.losses(), published_);
   keepPromises();
   crowd_->advance(stamp);
   publishAgents(stamp);
@@ -202,7 +202,7 @@ void AgentCrowd::restart(Nanoseconds now) {
   });
   startAnew();
   tf_buffer_.clear();
-  watchers_.clear();
+  viewers_.clear();
   begun_ = false;
 }
 

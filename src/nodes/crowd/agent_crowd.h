@@ -71,10 +71,10 @@ class AgentCrowd {
   void publishTreads(Nanoseconds stamp);
   void treadOfBody(const crowd::Walker& walker, Nanoseconds stamp);
   void treadOfFeet(const crowd::Walker& walker, Nanoseconds stamp);
-  std::vector<Choice> chooseFrames(Nanoseconds stamp);
+  std::vector<TierChoice> chooseFrames(Nanoseconds stamp);
   void sendFrames(const ros::TimerEvent& event);
   void sendMarkers(const ros::TimerEvent& event);
-  void warnOfTrouble(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void reportProblem(diagnostic_updater::DiagnosticStatusWrapper& status);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
   void diagnoseGovernor(diagnostic_updater::DiagnosticStatusWrapper& status);
 
@@ -92,14 +92,14 @@ class AgentCrowd {
   EventQueue<CrowdEvent> inputs_;
   std::unique_ptr<crowd::Crowd> crowd_;
   CrowdMarkers markers_;
-  Watchers watchers_;
+  ViewerRegistry viewers_;
   std::uint32_t promised_{0};  // next id that spawn tells
-  Heard<ForestLayout> layouts_;
-  Heard<nav_msgs::OccupancyGrid> covers_;
+  HashedCache<ForestLayout> layouts_;
+  HashedCache<nav_msgs::OccupancyGrid> covers_;
   bool begun_{false};  // a tick was done since the start or the last jump back
   std::size_t trunks_{0};
   Nanoseconds framed_{0};       // stamp of the last frames
-  HeldRungs held_frames_;       // 1: has one
+  TierHysteresis held_frames_;  // 1: has one
   std::size_t frames_sent_{0};  // at the last round
   struct Trodden {
     crowd::Point place{};
@@ -112,8 +112,8 @@ class AgentCrowd {
     std::uint64_t events{0}, treads{0}, state_bytes{0};
     QueueLosses inputs;
     TickClock::Counts clock;
-  } counts_, reported_;  // so far, and when diagnostics were last sent
-  QueueLosses told_;     // on the console
+  } counts_, reported_;    // so far, and when diagnostics were last sent
+  QueueLosses published_;  // on the console
   Refusals refusals_{"agent_crowd"};
 
   tf2_ros::Buffer tf_buffer_;

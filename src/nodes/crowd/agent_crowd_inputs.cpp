@@ -56,7 +56,7 @@ void AgentCrowd::onCover(const nav_msgs::OccupancyGrid& message) {
 // Looks only: the state does not depend on it, so it is no event.
 void AgentCrowd::onViewer(const Viewer& message) {
   try {
-    watchers_.hear(message, tf_buffer_, options_.frame_id, clock_.hasBegun() ? clock_.stamp() : 0);
+    viewers_.hear(message, tf_buffer_, options_.frame_id, clock_.hasBegun() ? clock_.stamp() : 0);
   } catch (const InvalidInput& error) {
     refusals_.add("viewer", error.what());
   }
@@ -67,7 +67,7 @@ void AgentCrowd::followRobots(Nanoseconds stamp) {
     CrowdEvent event;
     event.kind = change.gone ? CrowdEvent::REMOVE_ROBOT : CrowdEvent::ROBOT;
     event.robot = toMsg(change.robot);
-    if (change.gone && !crowd_->memory().robots.count(change.robot.id)) continue;
+    if (change.gone && !crowd_->snapshot().robots.count(change.robot.id)) continue;
     inputs_.add(event);
   }
 }

@@ -13,7 +13,7 @@ namespace vegetation_sim {
 namespace {
 
 constexpr double BODY_RADIUS = 0.16, FOOT_RADIUS = 0.06;  // of a tread [m]
-constexpr double TOLD_EVERY = 0.12;                       // a body's way [m]
+constexpr double PUBLISH_EVERY = 0.12;                    // a body's way [m]
 constexpr double FAR = 1000.0, ARM = 0.5;                 // of walkers from robots [m]
 
 }  // namespace
@@ -23,7 +23,7 @@ void AgentCrowd::publishAgents(Nanoseconds stamp) {
   AgentStates message;
   message.header.stamp = toStamp(stamp);
   message.header.frame_id = options_.frame_id;
-  message.hash = crowd_->memory().hash();
+  message.hash = crowd_->snapshot().hash();
   for (const crowd::Walker& walker : crowd_->walkers())
     message.agents.push_back(toMsg(walker, crowd_->terrain()));
   counts_.state_bytes += ros::serialization::serializationLength(message);
@@ -45,7 +45,7 @@ void AgentCrowd::publishTreads(Nanoseconds stamp) {
 // A track: the meadow adds up the parts of a way, so a few places of it are enough.
 void AgentCrowd::treadOfBody(const crowd::Walker& walker, Nanoseconds stamp) {
   Trodden& last = trodden_[walker.id];
-  if (last.seen && length(walker.position - last.place) < TOLD_EVERY) return;
+  if (last.seen && length(walker.position - last.place) < PUBLISH_EVERY) return;
   TreadEvent event;
   event.header.stamp = toStamp(stamp);
   event.header.frame_id = options_.frame_id;
@@ -91,29 +91,29 @@ void AgentCrowd::treadOfFeet(const crowd::Walker& walker, Nanoseconds stamp) {
 }
 
 // Walkers near a robot have frames first: without one, it does not know where they are.
-std::vector<Choice> AgentCrowd::chooseFrames(Nanoseconds stamp) {
-  std::vector<Choice> out;
+std::vector<TierChoice> AgentCrowd::chooseFrames(Nanoseconds stamp) {
+  std::vector<TierChoice> out;
   if (options_.tf_budget == 0) return out;
   for (const crowd::Walker& walker : crowd_->walkers()) {
     double nearest = FAR;
-    for (const auto& robot : crowd_->memory().robots)
+    for (const auto& robot : crowd_->snapshot().robots)
       nearest = std::min(nearest, length(robot.second.position - walker.position));
-    Choice choice;
+    TierChoice choice;
     choice.id = walker.id;
     choice.error[0] = static_cast<float>(1.0 / (ARM + nearest));
     choice.cost[1] = 1.F;
     out.push_back(choice);
   }
-  held_frames_.govern(out, 1, options_.tf_budget, 0.0, stamp);
+  held_frames_.allocateTiers(out, 1, options_.tf_budget, 0.0, stamp);
   return out;
 }
 
 void AgentCrowd::sendFrames(const ros::TimerEvent&) {
-  const Nanoseconds stamp = crowd_->memory().stamp;
+  const Nanoseconds stamp = crowd_->snapshot().stamp;
   if (!clock_.hasBegun() || stamp == framed_) return;  // tf warns of a stamp that comes twice
   framed_ = stamp;
   std::vector<geometry_msgs::TransformStamped> frames;
-  const std::vector<Choice> choices = chooseFrames(stamp);
+  const std::vector<TierChoice> choices = chooseFrames(stamp);
   for (std::size_t i = 0; i < choices.size(); ++i) {
     if (choices[i].chosen == 0) continue;
     const crowd::Walker& walker = crowd_->walkers()[i];
@@ -132,13 +132,13 @@ void AgentCrowd::sendFrames(const ros::TimerEvent&) {
 
 void AgentCrowd::sendMarkers(const ros::TimerEvent&) {
   if (!clock_.hasBegun() || markers_publisher_.getNumSubscribers() == 0) return;
-  const Nanoseconds stamp = crowd_->memory().stamp;
-  markers_publisher_.publish(markers_.build(*crowd_, watchers_.eyesAt(stamp), options_.tolerance,
+  const Nanoseconds stamp = crowd_->snapshot().stamp;
+  markers_publisher_.publish(markers_.build(*crowd_, viewers_.eyesAt(stamp), options_.tolerance,
                                             options_.frame_id, stamp));
 }
 
 // What has happened since the last report, and only that.
-void AgentCrowd::warnOfTrouble(diagnostic_updater::DiagnosticStatusWrapper& status) {
+void AgentCrowd::reportProblem(diagnostic_updater::DiagnosticStatusWrapper& status) {
   counts_.clock = clock_.counts();
   counts_.inputs = inputs_.losses();
   refusals_.warn(status);
@@ -154,10 +154,10 @@ void AgentCrowd::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   using diagnostic_msgs::DiagnosticStatus;
   status.summary(DiagnosticStatus::OK, "running");
   if (!clock_.hasBegun()) status.summary(DiagnosticStatus::WARN, "waiting for the clock");
-  warnOfTrouble(status);
+  reportProblem(status);
   std::size_t arrived = 0;
   for (const crowd::Walker& walker : crowd_->walkers()) arrived += walker.arrived;
-  clock_.tell(status);
+  clock_.report(status);
   status.add("Inputs taken", counts_.events);
   status.add("Inputs refused", refusals_.count());
   status.add("Inputs lost", counts_.inputs.lost);
@@ -166,7 +166,7 @@ void AgentCrowd::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   status.add("Walkers arrived", arrived);
   status.add("Walls and trunks", crowd_->obstacles().obstacles().size());
   status.add("Trunks", trunks_);
-  status.add("Robots", crowd_->memory().robots.size());
+  status.add("Robots", crowd_->snapshot().robots.size());
   status.add("Robots not told by tf", robots_->missing().size());
   status.add("Deepest overlap [mm]", static_cast<int>(1e3 * crowd_->deepestOverlap()));
   status.add("Treads sent", counts_.treads);
@@ -175,11 +175,11 @@ void AgentCrowd::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
 
 // Of what is drawn and framed; how people walk is the same for all of them.
 void AgentCrowd::diagnoseGovernor(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  tell(markers_.balance(),
-       {"Walkers", options_.tolerance, "marker_points", "points",
-        static_cast<double>(markers_.budget()), CrowdMarkers::rungs()},
-       status);
-  status.add("Viewers", watchers_.size());
+  report(markers_.balance(),
+         {"Walkers", options_.tolerance, "marker_points", "points",
+          static_cast<double>(markers_.budget()), CrowdMarkers::tiers()},
+         status);
+  status.add("Viewers", viewers_.size());
   status.add("Marker points", markers_.points());
   status.add("Marker budget [points]", markers_.budget());
   status.add("tf frames", frames_sent_);

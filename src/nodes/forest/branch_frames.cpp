@@ -49,16 +49,16 @@ std::size_t BranchFrames::count() const {
 }
 
 // What lacks without a frame is computed only if not all can have one.
-std::vector<Choice> BranchFrames::choicesOf(const std::vector<Key>& keys, PosedTrees& trees,
-                                            std::size_t room) const {
-  std::vector<Choice> out(keys.size());
+std::vector<TierChoice> BranchFrames::choicesOf(const std::vector<Key>& keys, PosedTrees& trees,
+                                                std::size_t room) const {
+  std::vector<TierChoice> out(keys.size());
   std::size_t resting = 0;
   for (std::size_t i = 0; i < keys.size(); ++i) {
-    Choice& choice = out[i];
+    TierChoice& choice = out[i];
     const auto known = sent_.find(keys[i]);
-    choice.stair = choice.wanted = 1;
+    choice.stepwise = choice.wanted = 1;
     choice.held = known != sent_.end() ? 1 : 0;
-    choice.resting = choice.held == 1 && secondsBetween(known->second, trees.stamp()) < RUNG_REST;
+    choice.resting = choice.held == 1 && secondsBetween(known->second, trees.stamp()) < TIER_HOLD;
     choice.cost[1] = 1.F;
     resting += choice.resting ? 1 : 0;
     if (keys.size() <= room) continue;
@@ -69,19 +69,19 @@ std::vector<Choice> BranchFrames::choicesOf(const std::vector<Key>& keys, PosedT
     choice.error[0] = static_cast<float>(length(tip - tipOf(own, own.rest)));
   }
   if (resting > room)  // others have been asked for or taken in hand meanwhile
-    for (Choice& choice : out) choice.resting = false;
+    for (TierChoice& choice : out) choice.resting = false;
   return out;
 }
 
 // Of branches that come after those wanted and held.
 std::vector<BranchFrames::Key> BranchFrames::choose(const std::vector<Key>& keys, PosedTrees& trees,
                                                     std::size_t room) {
-  balance_ = Balance();
+  balance_ = TierAllocation();
   balance_.held_back = keys.size();
   balance_.largest = keys.empty() ? 0.0 : std::numeric_limits<double>::quiet_NaN();
   if (room == 0) return {};
-  std::vector<Choice> choices = choicesOf(keys, trees, room);
-  balance_ = govern(choices, static_cast<double>(room), 0.0);
+  std::vector<TierChoice> choices = choicesOf(keys, trees, room);
+  balance_ = allocateTiers(choices, static_cast<double>(room), 0.0);
   std::vector<Key> out;
   for (std::size_t i = 0; i < keys.size(); ++i)
     if (choices[i].chosen == 1) out.push_back(keys[i]);

@@ -58,7 +58,7 @@ class BranchFrames {
   Wanted withPhysical(PosedTrees& trees, const std::vector<forest::BranchPoint>& held);
   /// What was chosen then: costs are frames, errors metres. The largest is not a number where
   /// wanted and held branches leave no room: nobody has looked.
-  const Balance& balance() const { return balance_; }
+  const TierAllocation& balance() const { return balance_; }
 
  private:
   using Key = std::pair<std::uint32_t, std::uint32_t>;  // tree, branch
@@ -66,14 +66,14 @@ class BranchFrames {
     return {tree, static_cast<std::uint32_t>(branch)};
   }
   std::vector<Key> choose(const std::vector<Key>& keys, PosedTrees& trees, std::size_t room);
-  std::vector<Choice> choicesOf(const std::vector<Key>& keys, PosedTrees& trees,
-                                std::size_t room) const;
+  std::vector<TierChoice> choicesOf(const std::vector<Key>& keys, PosedTrees& trees,
+                                    std::size_t room) const;
 
   std::size_t budget_;
   Wanted wanted_;
   std::map<Key, Nanoseconds> sent_;  // since when
   Nanoseconds stamp_{0};             // of the last choice
-  Balance balance_;
+  TierAllocation balance_;
 };
 
 /// Poses of a tree at a stamp, tree's frame, by the double path.

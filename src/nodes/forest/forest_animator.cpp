@@ -41,8 +41,9 @@ ForestAnimator::ForestAnimator(ros::NodeHandle handle, ros::NodeHandle private_h
   forest_ = std::make_unique<forest::Forest>(designed(scene_.layout, tuning_), scene_.terrain,
                                              tuning_.settings);
   forest_->setPhysics(scene_.physics);
-  forest_->foresee();
-  desk_ = std::make_unique<GrabDesk>(GrabRoom{options_, *forest_, cache_, inputs_, tf_buffer_});
+  forest_->precompute();
+  grabs_manager_ = std::make_unique<GrabManager>(
+      GrabDependencies{options_, *forest_, cache_, inputs_, tf_buffer_});
   layout_publisher_ = handle_.advertise<ForestLayout>("forest/layout", 1, true);
   state_publisher_ = handle_.advertise<ForestState>("forest/state", 1000);
   branches_publisher_ = handle_.advertise<BranchTransforms>("forest/branches", 60);
@@ -99,7 +100,7 @@ void ForestAnimator::startAnew() {
 void ForestAnimator::restart(Nanoseconds now) {
   startAnew();
   inputs_.startAnew(now);
-  desk_->clear(true);
+  grabs_manager_->clear(true);
   bodies_->clear();
   tf_buffer_.clear();
   last_framed_.reset();
@@ -109,21 +110,21 @@ void ForestAnimator::restart(Nanoseconds now) {
 void ForestAnimator::tick(std::int64_t tick) {
   const Nanoseconds stamp = clock_.stamp();
   if (!options_.replay) followBodies(stamp);
-  desk_->follow(
+  grabs_manager_->follow(
       stamp, [this](const std::string& what, const std::string& why) { refusals_.add(what, why); });
   for (ForestEvent& event : inputs_.take(stamp)) {
     event.header.frame_id = options_.frame_id;
     try {
-      desk_->aim(event);
+      grabs_manager_->aim(event);
       apply(event);
-      desk_->adopt(event);
+      grabs_manager_->applyDelta(event);
       if (!options_.replay) events_publisher_.publish(event);
     } catch (const InvalidInput& error) {
-      desk_->drop(event);
+      grabs_manager_->drop(event);
       refusals_.add("event", error.what());
     }
   }
-  warnOfLosses("forest_animator", inputs_.losses(), told_);
+  warnOfLosses("forest_animator", inputs_.losses(), published_);
   forest_->advance(stamp);
   noteOverlaps();
   const auto period = static_cast<std::int64_t>(options_.key_frame_period * options_.state_rate);
@@ -141,7 +142,7 @@ void ForestAnimator::apply(const ForestEvent& event) {
     case ForestEvent::VIEWER: {
       forest::Viewer viewer = fromMsg(event.viewer);
       viewer.stamp = fromMsg(event.header.stamp);
-      const auto& known = forest_->memory().viewers;
+      const auto& known = forest_->snapshot().viewers;
       if (known.size() >= MOST_VIEWERS && !known.count(viewer.id))
         throw InvalidInput("viewer '" + viewer.id + "' is one more than the " +
                            std::to_string(MOST_VIEWERS) + " allowed at once");
@@ -218,12 +219,12 @@ void ForestAnimator::followBodies(Nanoseconds stamp) {
 }
 
 void ForestAnimator::settleGrabs() {
-  for (const forest::Grab& grab : desk_->settle()) {
+  for (const forest::Grab& grab : grabs_manager_->settle()) {
     ++counts_.leases_ended;
     ROS_WARN("forest_animator: grab %u ended: nobody moved or renewed it for its lease of %g s",
              grab.id, grab.lease);
   }
-  for (const geometry_msgs::WrenchStamped& wrench : desk_->wrenches())
+  for (const geometry_msgs::WrenchStamped& wrench : grabs_manager_->wrenches())
     wrenches_publisher_.publish(wrench);
 }
 
@@ -233,7 +234,7 @@ void ForestAnimator::adoptTuning(const ForestTuning& tuning) {
   const bool same = layout.hash() == forest_->layoutHash();
   if (!same) {
     forest_->setLayout(std::move(layout), scene_.terrain);
-    forest_->foresee();
+    forest_->precompute();
   }
   forest_->setSettings(tuning.settings);
   tuning_ = tuning;

@@ -68,7 +68,7 @@ class ForestAnimator {
   void sendFrames(const ros::TimerEvent& event);
   void sendBranches(const ros::TimerEvent& event);
   void sendMarkers(const ros::TimerEvent& event);
-  void warnOfTrouble(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void reportProblem(diagnostic_updater::DiagnosticStatusWrapper& status);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
   void diagnoseGovernor(diagnostic_updater::DiagnosticStatusWrapper& status);
   void addPhysics(diagnostic_updater::DiagnosticStatusWrapper& status) const;
@@ -104,15 +104,15 @@ class ForestAnimator {
     std::uint64_t state_bytes{0}, leases_ended{0};
     QueueLosses inputs;
     TickClock::Counts clock;
-  } counts_, reported_;  // so far, and when diagnostics were last sent
-  QueueLosses told_;     // on the console
+  } counts_, reported_;    // so far, and when diagnostics were last sent
+  QueueLosses published_;  // on the console
   Refusals refusals_{"forest_animator"};
   forest::Reaction deepest_;  // of the contacts since diagnostics were last sent
 
   tf2_ros::Buffer tf_buffer_;
   tf2_ros::TransformListener tf_listener_;
   tf2_ros::TransformBroadcaster tf_broadcaster_;
-  std::unique_ptr<GrabDesk> desk_;
+  std::unique_ptr<GrabManager> grabs_manager_;
   std::unique_ptr<RobotBodies> bodies_;
   ros::Publisher layout_publisher_, state_publisher_, branches_publisher_, markers_publisher_,
       events_publisher_, wrenches_publisher_;

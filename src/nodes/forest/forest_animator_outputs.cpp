@@ -11,9 +11,10 @@ void ForestAnimator::sendFrames(const ros::TimerEvent&) {
   // Every listener warns of a transform that comes twice.
   if (!clock_.hasBegun() || last_framed_ == clock_.tick()) return;
   last_framed_ = clock_.tick();
-  PosedTrees trees(*forest_, cache_, forest_->memory().stamp);
+  PosedTrees trees(*forest_, cache_, forest_->snapshot().stamp);
   const BranchFrames::Wanted wanted =
-      options_.tf_promoted ? frames_.withPhysical(trees, desk_->heldPoints()) : frames_.wanted();
+      options_.tf_promoted ? frames_.withPhysical(trees, grabs_manager_->heldPoints())
+                           : frames_.wanted();
   frames_sent_ = 0;
   for (const auto& entry : wanted) frames_sent_ += entry.second.size();
   if (frames_sent_ > 0)
@@ -22,7 +23,7 @@ void ForestAnimator::sendFrames(const ros::TimerEvent&) {
 
 void ForestAnimator::sendBranches(const ros::TimerEvent&) {
   if (!clock_.hasBegun() || branches_publisher_.getNumSubscribers() == 0) return;
-  const Nanoseconds stamp = forest_->memory().stamp;
+  const Nanoseconds stamp = forest_->snapshot().stamp;
   std::size_t sent = 0;
   for (const int id : options_.branches_trees) {
     const auto tree = static_cast<std::uint32_t>(id);
@@ -44,11 +45,11 @@ void ForestAnimator::sendBranches(const ros::TimerEvent&) {
 void ForestAnimator::sendMarkers(const ros::TimerEvent&) {
   if (!clock_.hasBegun() || markers_publisher_.getNumSubscribers() == 0) return;
   markers_publisher_.publish(
-      markers_.build(*forest_, cache_, options_.frame_id, forest_->memory().stamp));
+      markers_.build(*forest_, cache_, options_.frame_id, forest_->snapshot().stamp));
 }
 
 // What has happened since the last report, and only that.
-void ForestAnimator::warnOfTrouble(diagnostic_updater::DiagnosticStatusWrapper& status) {
+void ForestAnimator::reportProblem(diagnostic_updater::DiagnosticStatusWrapper& status) {
   counts_.clock = clock_.counts();
   counts_.inputs = inputs_.losses();
   refusals_.warn(status);
@@ -61,8 +62,8 @@ void ForestAnimator::diagnose(diagnostic_updater::DiagnosticStatusWrapper& statu
   using diagnostic_msgs::DiagnosticStatus;
   status.summary(DiagnosticStatus::OK, "running");
   if (!clock_.hasBegun()) status.summary(DiagnosticStatus::WARN, "waiting for the clock");
-  warnOfTrouble(status);
-  const auto& memory = forest_->memory();
+  reportProblem(status);
+  const auto& memory = forest_->snapshot();
   const std::size_t trees = forest_->layout().treeCount();
   const auto at = memory.levels.counts(trees);
   status.add("Trees", trees);
@@ -72,7 +73,7 @@ void ForestAnimator::diagnose(diagnostic_updater::DiagnosticStatusWrapper& statu
   status.add("Trees not at the base level", memory.levels.held().size());
   status.add("Base level", memory.levels.base().level);
   status.add("Viewers", memory.viewers.size());
-  clock_.tell(status);
+  clock_.report(status);
   status.add("Inputs refused", refusals_.count());
   status.add("Inputs lost", counts_.inputs.lost);
   status.add("Recorded events late", counts_.inputs.late);
@@ -90,13 +91,13 @@ void ForestAnimator::diagnose(diagnostic_updater::DiagnosticStatusWrapper& statu
 // What was chosen at the last tick, and why.
 void ForestAnimator::diagnoseGovernor(diagnostic_updater::DiagnosticStatusWrapper& status) {
   const forest::GovernorFigures& figures = forest_->governor();
-  const auto& settings = forest_->memory().settings;
+  const auto& settings = forest_->snapshot().settings;
   std::string why = "the tolerance is held";
   if (figures.over > 0) why = "finer rungs there are none, or no room for modes";
   if (figures.strained > 0) why = "trees bend too far for their modes";
   if (figures.held_back > 0 || figures.cost > figures.budget) why = "frame_time binds";
   if (figures.wanted + figures.physical <= 0.0) why = "nothing is seen to move";
-  if (forest_->memory().viewers.empty()) why = "nobody looks: fixed_level";
+  if (forest_->snapshot().viewers.empty()) why = "nobody looks: fixed_level";
   status.summary(diagnostic_msgs::DiagnosticStatus::OK, why);
   status.add("Tolerance [pixel]", settings.tolerance);
   status.add("Largest predicted error [pixel]", figures.largest);
@@ -106,8 +107,8 @@ void ForestAnimator::diagnoseGovernor(diagnostic_updater::DiagnosticStatusWrappe
   status.add("Predicted frame time [ms]", figures.cost);
   status.add("Frame time that the tolerance asks for [ms]", figures.wanted + figures.physical);
   status.add("Frame time budget [ms]", figures.budget);
-  for (std::size_t rung = 0; rung < figures.counts.size(); ++rung)
-    status.add("Moving trees of level " + std::to_string(rung), figures.counts[rung]);
+  for (std::size_t tier = 0; tier < figures.counts.size(); ++tier)
+    status.add("Moving trees of level " + std::to_string(tier), figures.counts[tier]);
   status.add("tf frames", frames_sent_);
   status.add("tf budget [frames]", frames_.budget());
   status.add("Branches that tf_budget leaves without a frame", frames_.balance().held_back);
@@ -116,18 +117,18 @@ void ForestAnimator::diagnoseGovernor(diagnostic_updater::DiagnosticStatusWrappe
              std::isnan(farthest) ? "not computed: no room" : std::to_string(farthest));
   status.add("Marker points", markers_.points());
   status.add("Marker budget [points]", markers_.budget());
-  const auto& sways = forest_->memory().modes.sways();
-  status.add("Trees in modes", sways.size());
+  const auto& modal_states = forest_->snapshot().modes.modal_states();
+  status.add("Trees in modes", modal_states.size());
   status.add("Of these in fine modes",
-             std::count_if(sways.begin(), sways.end(),
+             std::count_if(modal_states.begin(), modal_states.end(),
                            [](const auto& tree) { return tree.second.fine(); }));
-  status.add("Memory of modes [B]", forest_->memory().modes.bytes());
+  status.add("Memory of modes [B]", forest_->snapshot().modes.bytes());
 }
 
 void ForestAnimator::addPhysics(diagnostic_updater::DiagnosticStatusWrapper& status) const {
   const forest::PhysicsFigures figures = forest_->physicsFigures();
   status.add("Grabs", forest_->grabs().size());
-  status.add("Grabs whose frame is silent", desk_->silent());
+  status.add("Grabs whose frame is silent", grabs_manager_->silent());
   status.add("Grabs ended by their lease", counts_.leases_ended);
   status.add("Bodies", forest_->bodies().size());
   status.add("Frames of bodies not told", bodies_->missing().size());

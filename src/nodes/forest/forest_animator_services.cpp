@@ -46,7 +46,7 @@ forest::Ray checkedRay(const Pick::Request& request) {
 Nanoseconds ForestAnimator::stampOf(const ros::Time& stamp) const {
   if (!stamp.isZero()) return fromMsg(stamp);
   if (!clock_.hasBegun()) throw InvalidInput("no tick yet: the clock has not started");
-  return forest_->memory().stamp;
+  return forest_->snapshot().stamp;
 }
 
 bool ForestAnimator::onGetTree(GetTree::Request& request, GetTree::Response& response) {
@@ -56,7 +56,7 @@ bool ForestAnimator::onGetTree(GetTree::Request& request, GetTree::Response& res
     const forest::Skeleton& skeleton = grown->tree.skeleton;
     response.seed = toMsg(grown->tree.seed);
     response.species = forest_->layout().species[grown->tree.seed.species].name;
-    response.level = static_cast<std::uint8_t>(forest_->memory().levels.of(request.tree).level);
+    response.level = static_cast<std::uint8_t>(forest_->snapshot().levels.of(request.tree).level);
     response.skeleton_hash = skeleton.hash();
     response.height = skeleton.height;
     for (const forest::Branch& branch : skeleton.branches) {
@@ -69,7 +69,7 @@ bool ForestAnimator::onGetTree(GetTree::Request& request, GetTree::Response& res
         toMsg(request.tree, grown->tree.foot, posesOf(*forest_, grown->tree, request.tree, stamp));
     for (const forest::PromotedBranch& branch : forest_->promoted(request.tree).branches)
       response.physical.push_back(static_cast<std::uint32_t>(branch.branch));
-    response.grabs = desk_->grabsOf(request.tree);
+    response.grabs = grabs_manager_->grabsOf(request.tree);
     response.transforms.header.stamp = toStamp(stamp);
     response.transforms.header.frame_id = options_.frame_id;
     return std::to_string(skeleton.branches.size()) + " branches";
@@ -122,19 +122,19 @@ bool ForestAnimator::onSetTf(SetTf::Request& request, SetTf::Response& response)
 }
 
 bool ForestAnimator::onGrab(Grab::Request& request, Grab::Response& response) {
-  return answer(response, [&] { return desk_->grab(request, response); });
+  return answer(response, [&] { return grabs_manager_->grab(request, response); });
 }
 
 bool ForestAnimator::onMoveGrab(MoveGrab::Request& request, MoveGrab::Response& response) {
-  return answer(response, [&] { return desk_->move(request, response); });
+  return answer(response, [&] { return grabs_manager_->move(request, response); });
 }
 
 bool ForestAnimator::onRelease(Release::Request& request, Release::Response& response) {
-  return answer(response, [&] { return desk_->release(request); });
+  return answer(response, [&] { return grabs_manager_->release(request); });
 }
 
 bool ForestAnimator::onApplyForce(ApplyForce::Request& request, ApplyForce::Response& response) {
-  return answer(response, [&] { return desk_->push(request, response); });
+  return answer(response, [&] { return grabs_manager_->push(request, response); });
 }
 
 bool ForestAnimator::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {

@@ -28,7 +28,7 @@ void checkFinite(const char* name, Vec3 value, Range range) {
   faults.throwIfAny();
 }
 
-geometry_msgs::TransformStamped lookUp(const GrabRoom& room, const std::string& frame,
+geometry_msgs::TransformStamped lookUp(const GrabDependencies& room, const std::string& frame,
                                        const ros::Time& stamp, const char* name) {
   try {
     return room.tf.lookupTransform(room.options.frame_id, frame, stamp);
@@ -40,18 +40,18 @@ geometry_msgs::TransformStamped lookUp(const GrabRoom& room, const std::string& 
 
 }  // namespace
 
-void GrabDesk::requireLive() const {
+void GrabManager::requireLive() const {
   if (room_.options.replay) throw InvalidInput("a replay follows its recorded events only");
-  if (room_.forest.memory().stamp == 0)
+  if (room_.forest.snapshot().stamp == 0)
     throw InvalidInput("no tick yet: the clock has not started");
 }
 
-ForestEvent GrabDesk::eventAt(std::uint8_t kind, const ros::Time& stamp) const {
+ForestEvent GrabManager::eventAt(std::uint8_t kind, const ros::Time& stamp) const {
   ForestEvent event;
   event.kind = kind;
   event.header.stamp = stamp;
   if (stamp.isZero()) return event;
-  double ahead = secondsBetween(room_.forest.memory().stamp, fromMsg(stamp));
+  double ahead = secondsBetween(room_.forest.snapshot().stamp, fromMsg(stamp));
   Faults faults;
   FieldChecker("", faults)
       .number("stamp, ahead of the last tick,", ahead, "s", {0.0, LONGEST_NOTICE});
@@ -59,12 +59,13 @@ ForestEvent GrabDesk::eventAt(std::uint8_t kind, const ros::Time& stamp) const {
   return event;
 }
 
-std::shared_ptr<const forest::Tree> GrabDesk::grown(std::uint32_t tree) const {
+std::shared_ptr<const forest::Tree> GrabManager::grown(std::uint32_t tree) const {
   const auto found = room_.cache.get(room_.forest.layout(), room_.forest.terrain(), tree);
   return {found, &found->tree};
 }
 
-GrabDesk::Place GrabDesk::placeOf(std::uint32_t tree, std::uint32_t branch, double along) const {
+GrabManager::Place GrabManager::placeOf(std::uint32_t tree, std::uint32_t branch,
+                                        double along) const {
   const auto found = grown(tree);
   const std::vector<forest::Branch>& branches = found->skeleton.branches;
   if (branch >= branches.size())
@@ -74,30 +75,30 @@ GrabDesk::Place GrabDesk::placeOf(std::uint32_t tree, std::uint32_t branch, doub
   Faults faults;
   FieldChecker("", faults).number("along", along, "m", {0.0, branches[branch].length});
   faults.throwIfAny();
-  const Pose pose = room_.forest.pose(*found, tree, room_.forest.memory().stamp)[branch];
+  const Pose pose = room_.forest.pose(*found, tree, room_.forest.snapshot().stamp)[branch];
   return {{tree, static_cast<int>(branch), along},
           found->foot + pose.position + along * axisZ(pose.orientation)};
 }
 
-GrabDesk::Place GrabDesk::nearestTo(const geometry_msgs::PointStamped& stamped) const {
+GrabManager::Place GrabManager::nearestTo(const geometry_msgs::PointStamped& stamped) const {
   const Vec3 point = inWorld(stamped, "point");
   const auto found = forest::nearestBranch(
       room_.forest.layout(), room_.forest.terrain(), point, NEAREST_REACH,
       [&](std::uint32_t id) -> forest::PosedTree {
         const auto tree = grown(id);
-        return {tree, room_.forest.pose(*tree, id, room_.forest.memory().stamp)};
+        return {tree, room_.forest.pose(*tree, id, room_.forest.snapshot().stamp)};
       });
   if (!found) throw InvalidInput("no branch within 2 m of point");
   return {found->at, found->point};
 }
 
 template <class Request>
-GrabDesk::Place GrabDesk::choose(const Request& request) const {
+GrabManager::Place GrabManager::choose(const Request& request) const {
   if (request.nearest) return nearestTo(request.point);
   return placeOf(request.tree, request.branch, request.along);
 }
 
-Vec3 GrabDesk::inWorld(const geometry_msgs::PointStamped& stamped, const char* name) const {
+Vec3 GrabManager::inWorld(const geometry_msgs::PointStamped& stamped, const char* name) const {
   const Vec3 point = fromMsg(stamped.point);
   checkFinite(name, point, {-1e7, 1e7});
   const std::string& frame = stamped.header.frame_id;
@@ -108,7 +109,7 @@ Vec3 GrabDesk::inWorld(const geometry_msgs::PointStamped& stamped, const char* n
 }
 
 // @return [m] from the point held to the target
-double GrabDesk::checkTarget(const BranchGrab& grab, const Vec3& point) const {
+double GrabManager::checkTarget(const BranchGrab& grab, const Vec3& point) const {
   double distance = length(fromMsg(grab.target) - point);
   Faults faults;
   FieldChecker("", faults)
@@ -120,19 +121,20 @@ double GrabDesk::checkTarget(const BranchGrab& grab, const Vec3& point) const {
 }
 
 // Who asks ahead may find room by then.
-void GrabDesk::checkRoom(const char* what, const Place& place, const ros::Time& stamp) const {
-  if (stamp.isZero()) room_.forest.memory().physics.checkRoom(what, place.at.tree, place.at.branch);
+void GrabManager::checkRoom(const char* what, const Place& place, const ros::Time& stamp) const {
+  if (stamp.isZero())
+    room_.forest.snapshot().physics.checkRoom(what, place.at.tree, place.at.branch);
 }
 
 // Where its frame is, and the target in it. What tf last said of the frame must be younger than the
 // lease: a dead gripper holds nothing.
-void GrabDesk::tie(const Vec3& point, Held& out) const {
+void GrabManager::tie(const Vec3& point, Held& out) const {
   BranchGrab& grab = out.grab;
   const auto newest = lookUp(room_, grab.frame, ros::Time(0), "frame");
   const Pose frame = fromMsg(newest.transform);
-  out.told = newest.header.stamp;
-  if (!out.told.isZero()) {  // else static
-    const double age = secondsBetween(fromMsg(out.told), room_.forest.memory().stamp);
+  out.published = newest.header.stamp;
+  if (!out.published.isZero()) {  // else static
+    const double age = secondsBetween(fromMsg(out.published), room_.forest.snapshot().stamp);
     if (age > grab.lease)
       throw InvalidInput("frame = '" + grab.frame + "' was last told " + std::to_string(age) +
                          " s ago, longer than the lease of " + std::to_string(grab.lease) + " s");
@@ -143,7 +145,7 @@ void GrabDesk::tie(const Vec3& point, Held& out) const {
   grab.target = toPoint(transformed(frame, fromMsg(grab.offset)));
 }
 
-std::string GrabDesk::grab(const Grab::Request& request, Grab::Response& response) {
+std::string GrabManager::grab(const Grab::Request& request, Grab::Response& response) {
   requireLive();
   ForestEvent event = eventAt(ForestEvent::GRAB, request.stamp);
   if (held_.size() >= MOST_GRABS)
@@ -184,7 +186,7 @@ std::string GrabDesk::grab(const Grab::Request& request, Grab::Response& respons
          "/branch_" + std::to_string(response.branch);
 }
 
-GrabDesk::Held& GrabDesk::find(std::uint32_t id) {
+GrabManager::Held& GrabManager::find(std::uint32_t id) {
   const auto found = held_.find(id);
   if (found != held_.end()) return found->second;
   std::string known;
@@ -196,11 +198,11 @@ GrabDesk::Held& GrabDesk::find(std::uint32_t id) {
 }
 
 // A grab that takes hold after `stamp`, zero: after the next tick.
-bool GrabDesk::waitsLonger(const Held& held, const ros::Time& stamp) {
+bool GrabManager::waitsLonger(const Held& held, const ros::Time& stamp) {
   return !held.in_force && !held.begins.isZero() && (stamp.isZero() || stamp < held.begins);
 }
 
-std::string GrabDesk::move(const MoveGrab::Request& request, MoveGrab::Response& response) {
+std::string GrabManager::move(const MoveGrab::Request& request, MoveGrab::Response& response) {
   requireLive();
   Held& held = find(request.id);
   ForestEvent event =
@@ -228,7 +230,7 @@ std::string GrabDesk::move(const MoveGrab::Request& request, MoveGrab::Response&
   return request.renew_only ? "lease renewed" : "moved";
 }
 
-std::string GrabDesk::release(const Release::Request& request) {
+std::string GrabManager::release(const Release::Request& request) {
   requireLive();
   ForestEvent event = eventAt(ForestEvent::RELEASE, request.stamp);
   if (!request.all) find(request.id);
@@ -247,7 +249,7 @@ std::string GrabDesk::release(const Release::Request& request) {
   return std::to_string(count) + " released";
 }
 
-std::string GrabDesk::push(const ApplyForce::Request& request, ApplyForce::Response& response) {
+std::string GrabManager::push(const ApplyForce::Request& request, ApplyForce::Response& response) {
   requireLive();
   ForestEvent event = eventAt(ForestEvent::FORCE, request.stamp);
   const Place place = choose(request);

@@ -23,7 +23,7 @@
 namespace vegetation_sim {
 
 /// What a desk needs of its node.
-struct GrabRoom {
+struct GrabDependencies {
   const ForestOptions& options;
   const forest::Forest& forest;
   forest::TreeCache& cache;
@@ -33,9 +33,9 @@ struct GrabRoom {
 
 /// Takes requests to grab, move, release and push, checks them and makes them events of the next
 /// tick; moves the grabs that follow a tf frame; tells the wrenches on those who hold.
-class GrabDesk {
+class GrabManager {
  public:
-  explicit GrabDesk(GrabRoom room) : room_(room) {}
+  explicit GrabManager(GrabDependencies room) : room_(room) {}
 
   // Bodies of the services; what they return is their message. All throw InvalidInput, and then
   // nothing has changed.
@@ -52,7 +52,7 @@ class GrabDesk {
   /// @throws InvalidInput if tf does not tell it any more, or it is too far away.
   void aim(ForestEvent& event);
   /// An event that the forest has taken.
-  void adopt(const ForestEvent& event);
+  void applyDelta(const ForestEvent& event);
   /// One that it refused: a grab that waited for it is over.
   void drop(const ForestEvent& event);
   /// After a tick: forgets grabs that are over. @return those that ended by themselves.
@@ -75,8 +75,8 @@ class GrabDesk {
     BranchGrab grab;
     bool in_force{false};
     bool keep_offset{false};
-    ros::Time begins;  ///< zero: at the next tick
-    ros::Time told;    ///< newest transform used
+    ros::Time begins;     ///< zero: at the next tick
+    ros::Time published;  ///< newest transform used
   };
   struct Place {
     forest::BranchPoint at;
@@ -99,7 +99,7 @@ class GrabDesk {
   void requireLive() const;
   Pose frameOf(const forest::Reaction& reaction) const;
 
-  GrabRoom room_;
+  GrabDependencies room_;
   std::map<std::uint32_t, Held> held_;        // waiting ones among them
   std::map<std::uint32_t, Pose> gone_;        // holders of grabs that are over, still told
   std::map<std::string, ForestBody> bodies_;  // by id, as last told

@@ -10,13 +10,13 @@
 namespace vegetation_sim {
 
 // The transform of the tick itself where tf has it, else the newest one.
-bool GrabDesk::followOne(Held& held, Nanoseconds stamp) {
+bool GrabManager::followOne(Held& held, Nanoseconds stamp) {
   const std::string &world = room_.options.frame_id, &frame = held.grab.frame;
   geometry_msgs::TransformStamped newest = room_.tf.lookupTransform(world, frame, ros::Time(0));
-  const ros::Time told = newest.header.stamp;
-  if (!told.isZero() && told <= held.told) return false;
+  const ros::Time published = newest.header.stamp;
+  if (!published.isZero() && published <= held.published) return false;
   const ros::Time tick = toStamp(stamp);
-  if (told > tick && room_.tf.canTransform(world, frame, tick))
+  if (published > tick && room_.tf.canTransform(world, frame, tick))
     newest = room_.tf.lookupTransform(world, frame, tick);
   ForestEvent event;
   event.kind = ForestEvent::MOVE;
@@ -27,12 +27,12 @@ bool GrabDesk::followOne(Held& held, Nanoseconds stamp) {
   BranchGrab moved = held.grab;
   moved.target = event.grab.target;
   checkTarget(moved, placeOf(moved.tree, moved.branch, moved.along).point);
-  held.told = told;
+  held.published = published;
   room_.inputs.addFirst(event);
   return true;
 }
 
-void GrabDesk::follow(Nanoseconds stamp, const Report& report) {
+void GrabManager::follow(Nanoseconds stamp, const Report& report) {
   silent_ = 0;
   if (room_.options.replay) return;
   for (auto& [id, held] : held_) {
@@ -48,7 +48,7 @@ void GrabDesk::follow(Nanoseconds stamp, const Report& report) {
   }
 }
 
-void GrabDesk::aim(ForestEvent& event) {
+void GrabManager::aim(ForestEvent& event) {
   if (event.kind != ForestEvent::GRAB || event.grab.frame.empty() || room_.options.replay) return;
   const auto found = held_.find(event.grab.id);
   if (found == held_.end()) return;
@@ -58,7 +58,7 @@ void GrabDesk::aim(ForestEvent& event) {
   event.grab = found->second.grab;
 }
 
-void GrabDesk::adopt(const ForestEvent& event) {
+void GrabManager::applyDelta(const ForestEvent& event) {
   switch (event.kind) {
     case ForestEvent::GRAB: {
       Held& held = held_[event.grab.id];
@@ -92,20 +92,20 @@ void GrabDesk::adopt(const ForestEvent& event) {
   }
 }
 
-void GrabDesk::drop(const ForestEvent& event) {
+void GrabManager::drop(const ForestEvent& event) {
   const auto found = held_.find(event.grab.id);
   const bool waits = found != held_.end() && !found->second.in_force;
   if (event.kind == ForestEvent::GRAB && waits) held_.erase(found);
 }
 
 // The force of a grab that is over falls for a while where its holder was last.
-std::map<std::uint32_t, GrabDesk::Held>::iterator GrabDesk::forget(
+std::map<std::uint32_t, GrabManager::Held>::iterator GrabManager::forget(
     std::map<std::uint32_t, Held>::iterator entry) {
   if (!entry->second.grab.frame.empty()) gone_[entry->first] = fromMsg(entry->second.grab.holder);
   return held_.erase(entry);
 }
 
-std::vector<forest::Grab> GrabDesk::settle() {
+std::vector<forest::Grab> GrabManager::settle() {
   const auto& in_force = room_.forest.grabs();
   for (auto entry = held_.begin(); entry != held_.end();)
     entry =
@@ -117,7 +117,7 @@ std::vector<forest::Grab> GrabDesk::settle() {
   return room_.forest.ended();
 }
 
-void GrabDesk::clear(bool waiting_too) {
+void GrabManager::clear(bool waiting_too) {
   for (auto entry = held_.begin(); entry != held_.end();)
     entry = waiting_too || entry->second.in_force ? held_.erase(entry) : std::next(entry);
   bodies_.clear();
@@ -126,7 +126,7 @@ void GrabDesk::clear(bool waiting_too) {
 }
 
 // World pose, at the tick, of the frame in which a reaction is told.
-Pose GrabDesk::frameOf(const forest::Reaction& reaction) const {
+Pose GrabManager::frameOf(const forest::Reaction& reaction) const {
   if (reaction.kind == forest::Reaction::GRAB) {
     const auto held = held_.find(reaction.grab);
     if (held != held_.end() && !reaction.frame.empty()) return fromMsg(held->second.grab.holder);
@@ -135,19 +135,19 @@ Pose GrabDesk::frameOf(const forest::Reaction& reaction) const {
   } else {
     const auto body = bodies_.find(reaction.body);
     if (body != bodies_.end()) {
-      const Pose now = poseAt(fromMsg(body->second), room_.forest.memory().stamp);
+      const Pose now = poseAt(fromMsg(body->second), room_.forest.snapshot().stamp);
       return compose(now, inverse(fromMsg(body->second.offset)));
     }
   }
   return {reaction.point, {}};
 }
 
-std::vector<geometry_msgs::WrenchStamped> GrabDesk::wrenches() const {
+std::vector<geometry_msgs::WrenchStamped> GrabManager::wrenches() const {
   std::vector<geometry_msgs::WrenchStamped> out;
   for (const forest::Reaction& reaction : room_.forest.reactions()) {
     const FramedWrench wrench = wrenchIn(frameOf(reaction), reaction);
     geometry_msgs::WrenchStamped message;
-    message.header.stamp = toStamp(room_.forest.memory().stamp);
+    message.header.stamp = toStamp(room_.forest.snapshot().stamp);
     message.header.frame_id = reaction.frame.empty() ? room_.options.frame_id : reaction.frame;
     message.wrench.force = toVector(wrench.force);
     message.wrench.torque = toVector(wrench.torque);
@@ -156,14 +156,14 @@ std::vector<geometry_msgs::WrenchStamped> GrabDesk::wrenches() const {
   return out;
 }
 
-std::vector<BranchGrab> GrabDesk::grabsOf(std::uint32_t tree) const {
+std::vector<BranchGrab> GrabManager::grabsOf(std::uint32_t tree) const {
   std::vector<BranchGrab> out;
   for (const auto& entry : held_)
     if (entry.second.in_force && entry.second.grab.tree == tree) out.push_back(entry.second.grab);
   return out;
 }
 
-std::vector<forest::BranchPoint> GrabDesk::heldPoints() const {
+std::vector<forest::BranchPoint> GrabManager::heldPoints() const {
   std::vector<forest::BranchPoint> out;
   for (const auto& entry : held_)
     if (entry.second.in_force) {

@@ -21,7 +21,7 @@ struct Trodden {
 
 class CoverMaker {
  public:
-  CoverMaker(const grass::Field& field, const CoverSettings& settings)
+  CoverMaker(const grass::TreadSimulation& field, const CoverSettings& settings)
       : field_(field), law_(field.layout().map->law()), settings_(settings) {
     const double size = law_.resolution / settings.resolution;
     columns_ = static_cast<int>(std::ceil(size * (law_.columns - 1) - 1e-9));
@@ -98,7 +98,7 @@ class CoverMaker {
         std::floor(100.0 * std::min(1.0, std::max(0.0, value / of)) + 0.5));
   }
 
-  const grass::Field& field_;
+  const grass::TreadSimulation& field_;
   const grass::MapLaw& law_;
   CoverSettings settings_;
   int columns_, rows_;
@@ -106,7 +106,7 @@ class CoverMaker {
 
 }  // namespace
 
-nav_msgs::OccupancyGrid coverOf(const grass::Field& field, CoverLayer layer,
+nav_msgs::OccupancyGrid coverOf(const grass::TreadSimulation& field, CoverLayer layer,
                                 const CoverSettings& settings) {
   return CoverMaker(field, settings).make(layer);
 }

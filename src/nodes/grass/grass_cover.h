@@ -23,7 +23,7 @@ struct CoverSettings {
 
 /// A layer in percent: CRUSH of the largest tilt, DENSITY and RESISTANCE of the largest on the map,
 /// AGE of full_age; -1: not trodden (AGE). The header's frame is left to the caller.
-nav_msgs::OccupancyGrid coverOf(const grass::Field& field, CoverLayer layer,
+nav_msgs::OccupancyGrid coverOf(const grass::TreadSimulation& field, CoverLayer layer,
                                 const CoverSettings& settings);
 
 }  // namespace vegetation_sim

@@ -26,11 +26,11 @@ GrassField::GrassField(ros::NodeHandle handle, ros::NodeHandle private_handle)
               [this](Nanoseconds now) { restart(now); }}),
       diagnostics_(handle, private_handle, private_handle.getNamespace()) {
   grass::Layout& layout = scene_.grass.layout;
-  meadow_ = std::make_unique<grass::Meadow>(layout.map, scene_.terrain, layout.seed, tuning_.view,
-                                            scene_.grass.treading);
+  meadow_ = std::make_unique<grass::MeadowLod>(layout.map, scene_.terrain, layout.seed,
+                                               tuning_.view, scene_.grass.treading);
   layout.tread_spacing = meadow_->tread().spacing();
-  field_ = std::make_unique<grass::Field>(layout, scene_.terrain, scene_.grass.treading,
-                                          meadow_->tread());
+  field_ = std::make_unique<grass::TreadSimulation>(layout, scene_.terrain, scene_.grass.treading,
+                                                    meadow_->tread());
   field_->setDrag(tuning_.drag);
   sources_ =
       std::make_unique<GrassSources>(handle_, options_.frame_id, options_.sources, tf_buffer_);
@@ -89,7 +89,7 @@ void GrassField::tick(std::int64_t tick) {
       refusals_.add("event", error.what());
     }
   }
-  warnOfLosses("grass_field", inputs_.losses(), told_);
+  warnOfLosses("grass_field", inputs_.losses(), published_);
   publishEntering(stamp);
   publishState(tick);
   publishWrenches(stamp);
@@ -147,7 +147,7 @@ void GrassField::restart(Nanoseconds now) {
     return options_.replay ? fromMsg(event.header.stamp) > now
                            : event.kind == GrassEvent::TREAD || event.kind == GrassEvent::CLEAR;
   });
-  watchers_.clear();
+  viewers_.clear();
   tf_buffer_.clear();
   publishLayout();
 }

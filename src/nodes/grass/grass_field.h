@@ -66,7 +66,7 @@ class GrassField {
   void publishWrenches(Nanoseconds stamp);
   void sendMarkers(const ros::TimerEvent& event);
   void sendCover(const ros::TimerEvent& event);
-  void warnOfTrouble(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void reportProblem(diagnostic_updater::DiagnosticStatusWrapper& status);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
   void diagnoseGovernor(diagnostic_updater::DiagnosticStatusWrapper& status);
 
@@ -85,12 +85,12 @@ class GrassField {
   GrassOptions options_;
   GrassTuning tuning_;
   EventQueue<GrassEvent> inputs_;
-  std::unique_ptr<grass::Meadow> meadow_;
-  std::unique_ptr<grass::Field> field_;
+  std::unique_ptr<grass::MeadowLod> meadow_;
+  std::unique_ptr<grass::TreadSimulation> field_;
   wind::Field wind_;
   GrassMarkers markers_;
   KeyFrames key_frames_;
-  Watchers watchers_;
+  ViewerRegistry viewers_;
 
   std::uint64_t paths_{0};                 // trodden by service, for the names of their sources
   std::optional<GrassFieldConfig> shown_;  // what the server was told or took last
@@ -99,8 +99,8 @@ class GrassField {
     QueueLosses inputs;
     TickClock::Counts clock;
     grass::TreadCounts tread;
-  } counts_, reported_;  // so far, and when diagnostics were last sent
-  QueueLosses told_;     // on the console
+  } counts_, reported_;    // so far, and when diagnostics were last sent
+  QueueLosses published_;  // on the console
   Refusals refusals_{"grass_field"};
 
   tf2_ros::Buffer tf_buffer_;

@@ -21,7 +21,7 @@ void GrassField::onWind(const WindField& message) {
 // Looks only: the state does not depend on it, so it is no event.
 void GrassField::onViewer(const Viewer& message) {
   try {
-    watchers_.hear(message, tf_buffer_, options_.frame_id, clock_.hasBegun() ? clock_.stamp() : 0);
+    viewers_.hear(message, tf_buffer_, options_.frame_id, clock_.hasBegun() ? clock_.stamp() : 0);
   } catch (const InvalidInput& error) {
     refusals_.add("viewer", error.what());
   }

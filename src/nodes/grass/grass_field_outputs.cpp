@@ -61,7 +61,7 @@ void GrassField::sendMarkers(const ros::TimerEvent&) {
   const Nanoseconds stamp = field_->stamp();
   const auto model = static_cast<grass::BladeModel>(field_->layout().blade_model);
   markers_publisher_.publish(
-      markers_.build(*meadow_, watchers_.eyesAt(stamp), wind_, model, options_.frame_id, stamp));
+      markers_.build(*meadow_, viewers_.eyesAt(stamp), wind_, model, options_.frame_id, stamp));
 }
 
 void GrassField::sendCover(const ros::TimerEvent&) {
@@ -79,7 +79,7 @@ void GrassField::sendCover(const ros::TimerEvent&) {
 }
 
 // What has happened since the last report, and only that.
-void GrassField::warnOfTrouble(diagnostic_updater::DiagnosticStatusWrapper& status) {
+void GrassField::reportProblem(diagnostic_updater::DiagnosticStatusWrapper& status) {
   counts_.clock = clock_.counts();
   counts_.inputs = inputs_.losses();
   counts_.tread = meadow_->tread().state().counts;
@@ -95,9 +95,9 @@ void GrassField::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   using diagnostic_msgs::DiagnosticStatus;
   status.summary(DiagnosticStatus::OK, "running");
   if (!clock_.hasBegun()) status.summary(DiagnosticStatus::WARN, "waiting for the clock");
-  warnOfTrouble(status);
+  reportProblem(status);
   const grass::TreadState& tread = meadow_->tread().state();
-  clock_.tell(status);
+  clock_.report(status);
   status.add("Inputs taken", counts_.events);
   status.add("Inputs refused", refusals_.count());
   status.add("Inputs lost", counts_.inputs.lost);
@@ -113,22 +113,22 @@ void GrassField::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   status.add("Nodes left out by the cap", tread.counts.no_memory);
   status.add("State sent [B]", counts_.state_bytes);
   status.add("Largest state [B]", counts_.largest_state);
-  status.add("Viewers", watchers_.size());
+  status.add("Viewers", viewers_.size());
 }
 
-// Of the markers, whose rungs all have the same trodden ground, and of complete states.
+// Of the markers, whose tiers all have the same trodden ground, and of complete states.
 void GrassField::diagnoseGovernor(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  tell(meadow_->balance(),
-       {"Tiles",
-        tuning_.view.tolerance,
-        "marker_points",
-        "blades",
-        options_.tuning.view.most_blades,
-        {"of texture", "of strips", "of blades"}},
-       status);
+  report(meadow_->balance(),
+         {"Tiles",
+          tuning_.view.tolerance,
+          "marker_points",
+          "blades",
+          options_.tuning.view.most_blades,
+          {"of texture", "of strips", "of blades"}},
+         status);
   status.add("Marker points", markers_.points());
   status.add("Marker budget [points]", markers_.budget());
-  const Balance& states = key_frames_.balance();
+  const TierAllocation& states = key_frames_.balance();
   if (states.held_back > 0) status.summary(status.level, status.message + "; state_bytes binds");
   status.add("Complete states every [s]", key_frames_.period());
   status.add("Complete states [B/s]", states.cost);

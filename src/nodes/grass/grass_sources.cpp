@@ -32,13 +32,14 @@ GrassSources::GrassSources(ros::NodeHandle handle, std::string frame_id,
 void GrassSources::clear() {
   for (Followed& followed : followed_) {
     followed.odometry.reset();
-    followed.told.reset();
-    followed.told_stamp = 0;
+    followed.published.reset();
+    followed.published_stamp = 0;
   }
   missing_.clear();
 }
 
-GrassSources::Heard GrassSources::findOdometry(const Followed& followed, Nanoseconds now) const {
+GrassSources::ObservedSource GrassSources::findOdometry(const Followed& followed,
+                                                        Nanoseconds now) const {
   if (!followed.odometry) throw tf2::LookupException("nothing heard");
   const nav_msgs::Odometry& message = *followed.odometry;
   Pose base = fromMsg(message.pose.pose);
@@ -54,7 +55,7 @@ GrassSources::Heard GrassSources::findOdometry(const Followed& followed, Nanosec
   return {stamp == 0 ? now : stamp, transformed(base, arm), rotate(base.orientation, velocity)};
 }
 
-GrassSources::Heard GrassSources::find(const Followed& followed, Nanoseconds now) const {
+GrassSources::ObservedSource GrassSources::find(const Followed& followed, Nanoseconds now) const {
   if (!followed.source.odometry.empty()) return findOdometry(followed, now);
   const auto found = buffer_.lookupTransform(frame_id_, followed.source.frame, ros::Time(0));
   // What only static transforms connect has no stamp: it is there now.
@@ -63,8 +64,8 @@ GrassSources::Heard GrassSources::find(const Followed& followed, Nanoseconds now
           Vec3::Zero()};
 }
 
-void GrassSources::say(const Followed& followed, grass::TreadAction action, const Heard& heard,
-                       std::vector<grass::TreadInput>& out) const {
+void GrassSources::say(const Followed& followed, grass::TreadAction action,
+                       const ObservedSource& heard, std::vector<grass::TreadInput>& out) const {
   grass::TreadInput input;
   input.source = followed.source.name;
   input.action = static_cast<int>(action);
@@ -85,7 +86,7 @@ std::vector<grass::TreadInput> GrassSources::update(Nanoseconds now, const grass
   height_gate_ = height_gate;
   missing_.clear();
   for (Followed& followed : followed_) {
-    Heard heard;
+    ObservedSource heard;
     bool known = true;
     try {
       heard = find(followed, now);
@@ -96,15 +97,16 @@ std::vector<grass::TreadInput> GrassSources::update(Nanoseconds now, const grass
     if (!known) {
       missing_.push_back(followed.source.frame.empty() ? followed.source.odometry
                                                        : followed.source.frame);
-      if (followed.told) say(followed, grass::TreadAction::LIFT, heard, out);
-      followed.told.reset();
+      if (followed.published) say(followed, grass::TreadAction::LIFT, heard, out);
+      followed.published.reset();
       continue;
     }
-    const bool moved = !followed.told || !(length(heard.position - *followed.told) <= MOVED);
-    if (!moved && secondsBetween(followed.told_stamp, now) < REMINDER) continue;
+    const bool moved =
+        !followed.published || !(length(heard.position - *followed.published) <= MOVED);
+    if (!moved && secondsBetween(followed.published_stamp, now) < REMINDER) continue;
     say(followed, grass::TreadAction::MOVE, heard, out);
-    followed.told = heard.position;
-    followed.told_stamp = now;
+    followed.published = heard.position;
+    followed.published_stamp = now;
   }
   return out;
 }

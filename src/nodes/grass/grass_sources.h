@@ -37,19 +37,19 @@ class GrassSources {
   void clear();
 
  private:
-  struct Heard {
+  struct ObservedSource {
     Nanoseconds stamp{0};
     Vec3 position{Vec3::Zero()}, velocity{Vec3::Zero()};
   };
   struct Followed {
     FollowedSource source;
     std::optional<nav_msgs::Odometry> odometry;
-    std::optional<Vec3> told;  ///< position
-    Nanoseconds told_stamp{0};
+    std::optional<Vec3> published;  ///< position
+    Nanoseconds published_stamp{0};
   };
-  Heard find(const Followed& followed, Nanoseconds now) const;
-  Heard findOdometry(const Followed& followed, Nanoseconds now) const;
-  void say(const Followed& followed, grass::TreadAction action, const Heard& heard,
+  ObservedSource find(const Followed& followed, Nanoseconds now) const;
+  ObservedSource findOdometry(const Followed& followed, Nanoseconds now) const;
+  void say(const Followed& followed, grass::TreadAction action, const ObservedSource& heard,
            std::vector<grass::TreadInput>& out) const;
 
   std::string frame_id_;

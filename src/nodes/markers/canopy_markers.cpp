@@ -102,18 +102,18 @@ void CanopyMarkers::setLayout(const canopy::Layout& layout) {
 // Fewer leaves leave gaps as wide as the next leaf is farther off; none leave the whole plant out.
 void CanopyMarkers::setLadders(const canopy::Layout& layout) {
   shares_ = {0.0};
-  for (double share = LEAST_SHARE * share_; share < 1.0 && shares_.size() + 1 < MOST_RUNGS;)
+  for (double share = LEAST_SHARE * share_; share < 1.0 && shares_.size() + 1 < MAX_TIERS;)
     shares_.push_back(share), share *= 2.0;
   shares_.push_back(1.0);
   ladders_.clear();
   for (const canopy::PlantKind& kind : layout.kinds) {
     Ladder ladder;
-    for (std::size_t rung = 0; rung < shares_.size(); ++rung) {
-      const double share = shares_[rung];
+    for (std::size_t tier = 0; tier < shares_.size(); ++tier) {
+      const double share = shares_[tier];
       const double gap = kind.leaf_length * (1.0 / std::sqrt(share) - 1.0);
-      ladder.gaps[rung] = static_cast<float>(share > 0.0 ? gap : kind.height);
+      ladder.gaps[tier] = static_cast<float>(share > 0.0 ? gap : kind.height);
       const double leaves = std::floor(share * static_cast<double>(movingLeaves(kind)));
-      ladder.points[rung] = static_cast<float>(POINTS_PER_LEAF * leaves);
+      ladder.points[tier] = static_cast<float>(POINTS_PER_LEAF * leaves);
     }
     ladders_.push_back(ladder);
   }
@@ -146,7 +146,7 @@ void CanopyMarkers::addPlant(const canopy::Layout& layout, std::size_t id) {
   }
 }
 
-std::vector<std::string> CanopyMarkers::rungs() const {
+std::vector<std::string> CanopyMarkers::tiers() const {
   std::vector<std::string> out;
   for (const double share : shares_) {
     char name[40];
@@ -156,7 +156,7 @@ std::vector<std::string> CanopyMarkers::rungs() const {
   return out;
 }
 
-void CanopyMarkers::choose(const canopy::Layout& layout, const Eye& eye, double tolerance,
+void CanopyMarkers::choose(const canopy::Layout& layout, const Viewpoint& eye, double tolerance,
                            Nanoseconds stamp) {
   choices_.resize(layout.plants.size());
   for (std::size_t id = 0; id < layout.plants.size(); ++id) {
@@ -165,25 +165,25 @@ void CanopyMarkers::choose(const canopy::Layout& layout, const Eye& eye, double 
     const Vec3 middle = plant.position + Vec3(0.0, 0.0, 0.5 * plant.scale * kind.height);
     const double distance = length(eye.position - middle) - plant.scale * kind.radius;
     const auto scale = static_cast<float>(plant.scale * pixelsPerMetre(eye, distance));
-    Choice& choice = choices_[id] = Choice();
+    TierChoice& choice = choices_[id] = TierChoice();
     choice.id = static_cast<std::uint32_t>(id);
     choice.cost = ladders_[plant.kind].points;
-    for (std::size_t rung = 0; rung < shares_.size(); ++rung)
-      choice.error[rung] = scale * ladders_[plant.kind].gaps[rung];
+    for (std::size_t tier = 0; tier < shares_.size(); ++tier)
+      choice.error[tier] = scale * ladders_[plant.kind].gaps[tier];
   }
   const int finest = static_cast<int>(shares_.size()) - 1;
-  balance_ = held_.govern(choices_, finest, static_cast<double>(room()), tolerance, stamp);
-  for (const Choice& choice : choices_)
-    if (plants_[choice.id].rung != choice.chosen)
+  balance_ = held_.allocateTiers(choices_, finest, static_cast<double>(room()), tolerance, stamp);
+  for (const TierChoice& choice : choices_)
+    if (plants_[choice.id].tier != choice.chosen)
       plants_[choice.id] = drawPlant(layout, choice.id, choice.chosen);
 }
 
 CanopyMarkers::DrawnPlant CanopyMarkers::drawPlant(const canopy::Layout& layout, std::size_t id,
-                                                   int rung) const {
+                                                   int tier) const {
   const canopy::PlantKind& kind = layout.kinds[layout.plants[id].kind];
-  const double share = shares_[static_cast<std::size_t>(rung)];
+  const double share = shares_[static_cast<std::size_t>(tier)];
   DrawnPlant out;
-  out.rung = rung;
+  out.tier = tier;
   if (share <= 0.0) return out;
   const canopy::GrownPlant grown = canopy::grow(kind, layout.plants[id]);
   const auto count = static_cast<std::size_t>(share * static_cast<double>(grown.leaves.size()));

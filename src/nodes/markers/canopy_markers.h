@@ -33,15 +33,16 @@ class CanopyMarkers {
   /// How many of a crown's leaves are drawn: the first ones.
   std::size_t drawnOf(std::size_t leaves) const;
   /// Chooses what is drawn of each plant of the layout that was set. @param tolerance [pixel]
-  void choose(const canopy::Layout& layout, const Eye& eye, double tolerance, Nanoseconds stamp);
+  void choose(const canopy::Layout& layout, const Viewpoint& eye, double tolerance,
+              Nanoseconds stamp);
   /// The leaves where `foliage` carries them, and those of the crowns, crown by crown the drawn
   /// ones, where they are.
   visualization_msgs::MarkerArray build(const canopy::Foliage& foliage,
                                         const std::vector<canopy::MovedLeaf>& crowns,
                                         const std::string& frame_id);
-  /// What was chosen for plants [points], and the names of the rungs.
-  const Balance& balance() const { return balance_; }
-  std::vector<std::string> rungs() const;
+  /// What was chosen for plants [points], and the names of the tiers.
+  const TierAllocation& balance() const { return balance_; }
+  std::vector<std::string> tiers() const;
   /// Points in use at the last build.
   std::size_t points() const { return used_; }
   std::size_t budget() const { return leaf_points_ + stem_points_ + shade_points_; }
@@ -54,29 +55,29 @@ class CanopyMarkers {
     std_msgs::ColorRGBA colour;
   };
   struct DrawnPlant {
-    int rung{0};
+    int tier{0};
     std::vector<Drawn> leaves;
   };
-  /// Of plants of scale 1, by rung.
+  /// Of plants of scale 1, by tier.
   struct Ladder {
-    std::array<float, MOST_RUNGS> gaps{}, points{};  ///< [m], leaves only
+    std::array<float, MAX_TIERS> gaps{}, points{};  ///< [m], leaves only
   };
   void setLadders(const canopy::Layout& layout);
   void addPlant(const canopy::Layout& layout, std::size_t id);
-  DrawnPlant drawPlant(const canopy::Layout& layout, std::size_t id, int rung) const;
+  DrawnPlant drawPlant(const canopy::Layout& layout, std::size_t id, int tier) const;
   void addShade(const canopy::Plant& plant, double radius);
   void addStems(const std::vector<canopy::Stem>& stems, const Vec3& colour);
 
   std::size_t leaf_points_, stem_points_, shade_points_, used_{0};
-  std::size_t crown_points_{0};  // of leaf_points_
-  double share_{1.0};            // of a crown's leaves
-  std::vector<double> shares_;   // of a plant's leaves, by rung
-  std::vector<Ladder> ladders_;  // by kind
-  std::vector<Choice> choices_;  // as the layout has its plants
+  std::size_t crown_points_{0};      // of leaf_points_
+  double share_{1.0};                // of a crown's leaves
+  std::vector<double> shares_;       // of a plant's leaves, by tier
+  std::vector<Ladder> ladders_;      // by kind
+  std::vector<TierChoice> choices_;  // as the layout has its plants
   std::vector<DrawnPlant> plants_;
   std::vector<Drawn> crown_leaves_;
-  HeldRungs held_;
-  Balance balance_;
+  TierHysteresis held_;
+  TierAllocation balance_;
   visualization_msgs::Marker leaf_list_, stem_list_, shade_list_, crown_list_;
 };
 

@@ -17,7 +17,7 @@ namespace {
 
 using crowd::Part;
 
-constexpr std::array<int, 5> SIDES{0, 3, 4, 6, 10};  // of a limb, by rung; 0: not drawn
+constexpr std::array<int, 5> SIDES{0, 3, 4, 6, 10};  // of a limb, by tier; 0: not drawn
 constexpr double GIRTH = 0.17;                       // radius of a body [m]
 constexpr double SEEN_ALIKE = 100.0;                 // pixels per metre when nobody looks
 // Rings of a cap, from its limb outwards: a head's is round and closed, the others end in joints.
@@ -101,40 +101,40 @@ void CrowdMarkers::addPerson(const crowd::Walker& walker, const terrain::HeightM
   }
 }
 
-// What is wrong with a rung: all of the body, or what a polygon leaves of its girth.
-void CrowdMarkers::choose(const crowd::Crowd& crowd, const std::vector<Eye>& eyes, double tolerance,
-                          Nanoseconds stamp) {
+// What is wrong with a tier: all of the body, or what a polygon leaves of its girth.
+void CrowdMarkers::choose(const crowd::Crowd& crowd, const std::vector<Viewpoint>& eyes,
+                          double tolerance, Nanoseconds stamp) {
   choices_.clear();
   for (const crowd::Walker& walker : crowd.walkers()) {
     const crowd::Point& p = walker.position;
     const Vec3 middle(p.x, p.y, crowd.terrain().height(p.x, p.y) + 0.5 * walker.height);
     double scale = eyes.empty() ? SEEN_ALIKE : 0.0;
-    for (const Eye& eye : eyes)
+    for (const Viewpoint& eye : eyes)
       scale = std::max(scale, pixelsPerMetre(eye, length(eye.position - middle)));
-    Choice choice;
+    TierChoice choice;
     choice.id = walker.id;
-    for (std::size_t rung = 0; rung < SIDES.size(); ++rung) {
-      const int sides = SIDES[rung];
+    for (std::size_t tier = 0; tier < SIDES.size(); ++tier) {
+      const int sides = SIDES[tier];
       const double off = sides > 0 ? GIRTH * (1.0 - sinCosTurns(0.5 / sides).cos) : walker.height;
-      choice.error[rung] = static_cast<float>(scale * off);
-      choice.cost[rung] = static_cast<float>(pointsOf(sides));
+      choice.error[tier] = static_cast<float>(scale * off);
+      choice.cost[tier] = static_cast<float>(pointsOf(sides));
     }
     choices_.push_back(choice);
   }
-  balance_ =
-      held_.govern(choices_, SIDES.size() - 1, static_cast<double>(budget()), tolerance, stamp);
+  balance_ = held_.allocateTiers(choices_, SIDES.size() - 1, static_cast<double>(budget()),
+                                 tolerance, stamp);
 }
 
-std::vector<std::string> CrowdMarkers::rungs() {
+std::vector<std::string> CrowdMarkers::tiers() {
   std::vector<std::string> out{"not drawn"};
-  for (std::size_t rung = 1; rung < SIDES.size(); ++rung)
-    out.push_back("of " + std::to_string(SIDES[rung]) + " facets");
+  for (std::size_t tier = 1; tier < SIDES.size(); ++tier)
+    out.push_back("of " + std::to_string(SIDES[tier]) + " facets");
   return out;
 }
 
 visualization_msgs::MarkerArray CrowdMarkers::build(const crowd::Crowd& crowd,
-                                                    const std::vector<Eye>& eyes, double tolerance,
-                                                    const std::string& frame_id,
+                                                    const std::vector<Viewpoint>& eyes,
+                                                    double tolerance, const std::string& frame_id,
                                                     Nanoseconds stamp) {
   used_ = 0;
   choose(crowd, eyes, tolerance, stamp);

@@ -24,19 +24,19 @@ class CrowdMarkers {
   explicit CrowdMarkers(int points);
 
   /// @param eyes who looks; none: all are seen alike. @param tolerance [pixel]
-  visualization_msgs::MarkerArray build(const crowd::Crowd& crowd, const std::vector<Eye>& eyes,
-                                        double tolerance, const std::string& frame_id,
-                                        Nanoseconds stamp);
-  /// What was chosen at the last build [points], and the names of the rungs.
-  const Balance& balance() const { return balance_; }
-  static std::vector<std::string> rungs();
+  visualization_msgs::MarkerArray build(const crowd::Crowd& crowd,
+                                        const std::vector<Viewpoint>& eyes, double tolerance,
+                                        const std::string& frame_id, Nanoseconds stamp);
+  /// What was chosen at the last build [points], and the names of the tiers.
+  const TierAllocation& balance() const { return balance_; }
+  static std::vector<std::string> tiers();
   /// Points in use at the last build, of how many.
   std::size_t points() const { return used_; }
   std::size_t budget() const { return list_.points.size(); }
 
  private:
   struct Ring;
-  void choose(const crowd::Crowd& crowd, const std::vector<Eye>& eyes, double tolerance,
+  void choose(const crowd::Crowd& crowd, const std::vector<Viewpoint>& eyes, double tolerance,
               Nanoseconds stamp);
   void addPerson(const crowd::Walker& walker, const terrain::HeightMap& terrain, int sides);
   void addLimb(const crowd::Limb& limb, std::size_t part, int sides,
@@ -44,9 +44,9 @@ class CrowdMarkers {
   void addBand(const Ring& low, const Ring& high, int sides, const std_msgs::ColorRGBA& colour);
   void addPoint(const Vec3& point, const std_msgs::ColorRGBA& colour);
 
-  std::vector<Choice> choices_;  // as the crowd has its walkers
-  HeldRungs held_;
-  Balance balance_;
+  std::vector<TierChoice> choices_;  // as the crowd has its walkers
+  TierHysteresis held_;
+  TierAllocation balance_;
   std::size_t used_{0};
   visualization_msgs::Marker list_;
 };

@@ -41,16 +41,16 @@ Vec3 middleOf(const forest::Layout& layout) {
   return count > 0.0 ? Vec3(sum / count) : sum;
 }
 
-double finest(const std::vector<forest::Eye>& eyes, const Vec3& position, double reach) {
+double finest(const std::vector<forest::Viewpoint>& eyes, const Vec3& position, double reach) {
   double out = 0.0;
-  for (const forest::Eye& eye : eyes)
+  for (const forest::Viewpoint& eye : eyes)
     out = std::max(out, forest::pixelsPerMetre(eye, length(eye.position - position) - reach));
   return out;
 }
 
 /// Tiles with the largest height [pixel] that any tree of theirs may have, largest first.
 std::vector<std::pair<double, const forest::Tile*>> tilesInOrder(
-    const forest::Forest& forest, const std::vector<forest::Eye>& eyes) {
+    const forest::Forest& forest, const std::vector<forest::Viewpoint>& eyes) {
   double tallest = 0.0;
   for (const forest::Species& species : forest.layout().species)
     tallest = std::max(tallest, LARGEST_SCALE * species.height);
@@ -79,8 +79,8 @@ void ForestMarkers::reset() {
 }
 
 void ForestMarkers::chooseTrees(const forest::Forest& forest) {
-  std::vector<forest::Eye> eyes;
-  for (const auto& entry : forest.memory().viewers) eyes.push_back(entry.second.eye);
+  std::vector<forest::Viewpoint> eyes;
+  for (const auto& entry : forest.snapshot().viewers) eyes.push_back(entry.second.eye);
   const forest::Layout& layout = forest.layout();
   if (eyes.empty()) eyes.push_back({middleOf(layout), PIXELS_PER_RADIAN});
   order_.clear();
@@ -119,10 +119,10 @@ void ForestMarkers::addTree(const forest::Forest& forest, forest::TreeCache& cac
   if (bark_.points.size() + mesh.triangles.size() > bark_points_ ||
       leaves_.points.size() + 6 * mesh.leaves.size() > leaf_points_)
     return;
-  const wind::Instant wind = forest.memory().wind.at(stamp).relativeTo(grown->tree.foot);
+  const wind::Instant wind = forest.snapshot().wind.at(stamp).relativeTo(grown->tree.foot);
   const forest::Weights weights =
-      forest::weightsAt(forest.memory().levels.of(id), stamp, forest.layout().motion);
-  const forest::Sway* sway = forest.sway(id);
+      forest::weightsAt(forest.snapshot().levels.of(id), stamp, forest.layout().motion);
+  const forest::ModalTreeState* sway = forest.sway(id);
   const bool physical = !forest.promoted(id).branches.empty();
   if (!physical && sway && forest::modalWeight(weights) >= 1.0)
     sway->pose(grown->poser, stamp, poses_);

@@ -23,7 +23,7 @@ double largestDensity(const grass::FeatureMap& map) {
   return out;
 }
 
-Eye eyeAbove(const grass::Meadow& meadow) {
+Viewpoint eyeAbove(const grass::MeadowLod& meadow) {
   const grass::MapLaw& law = meadow.map().law();
   const double x = law.origin_x + 0.5 * law.resolution * (law.columns - 1);
   const double y = law.origin_y + 0.5 * law.resolution * (law.rows - 1);
@@ -39,7 +39,7 @@ GrassMarkers::GrassMarkers(int points)
       blades_(triangleList("blades", 2, list_points_)) {}
 
 // The whole map in squares as small as the budget allows.
-void GrassMarkers::addGround(const grass::Meadow& meadow) {
+void GrassMarkers::addGround(const grass::MeadowLod& meadow) {
   const grass::FeatureMap& map = meadow.map();
   const std::uint64_t wanted = map.hash() ^ meadow.terrain().hash();
   if (ground_of_ == wanted) return;
@@ -69,8 +69,8 @@ void GrassMarkers::addGround(const grass::Meadow& meadow) {
   ground_points_ = at;
 }
 
-void GrassMarkers::addTile(const grass::Meadow& meadow, const grass::TileView& view,
-                           const Vec3& eye, const grass::NodeAir& air, grass::BladeModel model,
+void GrassMarkers::addTile(const grass::MeadowLod& meadow, const grass::TileView& view,
+                           const Vec3& eye, const grass::NodeWind& air, grass::BladeModel model,
                            Nanoseconds stamp) {
   grass::TileMotion motion;
   const grass::Tile tile = meadow.tileAt(view, air, stamp, patch_, motion);
@@ -108,9 +108,10 @@ std::size_t GrassMarkers::copy(const grass::GrassMesh& mesh, visualization_msgs:
 }
 
 visualization_msgs::MarkerArray GrassMarkers::build(
-    grass::Meadow& meadow, const std::vector<Eye>& viewers, const wind::Field& wind,
+    grass::MeadowLod& meadow, const std::vector<Viewpoint>& viewers, const wind::Field& wind,
     grass::BladeModel model, const std::string& frame_id, Nanoseconds stamp) {
-  const std::vector<Eye> eyes = viewers.empty() ? std::vector<Eye>{eyeAbove(meadow)} : viewers;
+  const std::vector<Viewpoint> eyes =
+      viewers.empty() ? std::vector<Viewpoint>{eyeAbove(meadow)} : viewers;
   meadow.setEyes(eyes);
   meadow.advance(stamp);
   addGround(meadow);
@@ -125,8 +126,8 @@ visualization_msgs::MarkerArray GrassMarkers::build(
                    [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
   std::vector<grass::TilePlace> places;
   for (const grass::TileView& view : views) places.push_back({view.column, view.row});
-  grass::NodeAir air(meadow.map(), meadow.terrain());
-  air.update(wind.at(stamp), {}, grass::Meadow::windowOf(views), &places);
+  grass::NodeWind air(meadow.map(), meadow.terrain());
+  air.update(wind.at(stamp), {}, grass::MeadowLod::windowOf(views), &places);
   for (grass::GrassMesh* mesh : {&strip_mesh_, &blade_mesh_}) {
     mesh->clear();
     mesh->origin = Vec3(eyes[0].position.x(), eyes[0].position.y(), 0.0);

@@ -23,7 +23,8 @@ class GrassMarkers {
 
   /// Builds the array at `stamp`, after choosing levels for the viewers; none: for an eye above the
   /// middle of the map.
-  visualization_msgs::MarkerArray build(grass::Meadow& meadow, const std::vector<Eye>& viewers,
+  visualization_msgs::MarkerArray build(grass::MeadowLod& meadow,
+                                        const std::vector<Viewpoint>& viewers,
                                         const wind::Field& wind, grass::BladeModel model,
                                         const std::string& frame_id, Nanoseconds stamp);
   /// Points in use at the last build.
@@ -31,9 +32,9 @@ class GrassMarkers {
   std::size_t budget() const { return 3 * list_points_; }
 
  private:
-  void addGround(const grass::Meadow& meadow);
-  void addTile(const grass::Meadow& meadow, const grass::TileView& view, const Vec3& eye,
-               const grass::NodeAir& air, grass::BladeModel model, Nanoseconds stamp);
+  void addGround(const grass::MeadowLod& meadow);
+  void addTile(const grass::MeadowLod& meadow, const grass::TileView& view, const Vec3& eye,
+               const grass::NodeWind& air, grass::BladeModel model, Nanoseconds stamp);
   std::size_t copy(const grass::GrassMesh& mesh, visualization_msgs::Marker& marker);
 
   std::size_t list_points_;  // of one list

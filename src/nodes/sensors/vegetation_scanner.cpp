@@ -111,7 +111,7 @@ bool VegetationScanner::onReset(std_srvs::Trigger::Request&,
 }
 
 // What has happened since the last report, and only that.
-void VegetationScanner::warnOfTrouble(diagnostic_updater::DiagnosticStatusWrapper& status) {
+void VegetationScanner::reportProblem(diagnostic_updater::DiagnosticStatusWrapper& status) {
   counts_.clock = clock_.counts();
   refusals_.warn(status);
   warnOfMore(status, counts_.blind, reported_.blind, "sweeps without a place: " + blindness_);
@@ -129,7 +129,7 @@ void VegetationScanner::diagnose(diagnostic_updater::DiagnosticStatusWrapper& st
   using diagnostic_msgs::DiagnosticStatus;
   status.summary(DiagnosticStatus::OK, "running");
   if (!clock_.hasBegun()) status.summary(DiagnosticStatus::WARN, "waiting for the clock");
-  warnOfTrouble(status);
+  reportProblem(status);
   status.add("Sweeps", counts_.sweeps);
   status.add("Sweeps without a place", counts_.blind);
   status.add("Points", points_);
@@ -139,7 +139,7 @@ void VegetationScanner::diagnose(diagnostic_updater::DiagnosticStatusWrapper& st
   status.add("Trees left out", scene_.trees.leftOut());
   status.add("People", landscape_.people());
   status.add("Messages ahead of the sweep", landscape_.waiting());
-  clock_.tell(status);
+  clock_.report(status);
   status.add("Inputs refused", refusals_.count());
 }
 

@@ -32,14 +32,14 @@ class VegetationScanner {
   void startAnew();
   void restart(Nanoseconds now);
   bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
-  void warnOfTrouble(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void reportProblem(diagnostic_updater::DiagnosticStatusWrapper& status);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
   /// Header of what is measured now.
   std_msgs::Header header() const;
 
   ros::NodeHandle handle_, private_handle_;
   ScanOptions options_;
-  HeardLandscape landscape_;
+  LandscapeReplica landscape_;
   scan::Scene scene_;
   struct Counts {
     std::uint64_t sweeps{0}, blind{0}, lost{0};

@@ -50,7 +50,7 @@ bool FrameFollower::sample(wind::Attachment& attachment, Nanoseconds now) {
   }
 }
 
-bool FrameFollower::update(wind::Ledger& ledger, Nanoseconds now) {
+bool FrameFollower::update(wind::PrimitiveSchedule& schedule, Nanoseconds now) {
   bool changed = false;
   missing_.clear();
   const Nanoseconds earliest = now + fromSeconds(lead_);
@@ -59,7 +59,7 @@ bool FrameFollower::update(wind::Ledger& ledger, Nanoseconds now) {
     const bool goes_on = attachment.started();
     const auto piece = attachment.piece(earliest);
     if (!piece) continue;
-    goes_on ? ledger.follow(*piece, earliest) : ledger.set(*piece, earliest);
+    goes_on ? schedule.follow(*piece, earliest) : schedule.set(*piece, earliest);
     changed = true;
   }
   return changed;

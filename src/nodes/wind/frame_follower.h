@@ -31,7 +31,7 @@ class FrameFollower {
 
   /// Samples every frame and puts the next pieces into the ledger. @return whether any was put.
   /// @throws InvalidInput if the ledger has no room.
-  bool update(wind::Ledger& ledger, Nanoseconds now);
+  bool update(wind::PrimitiveSchedule& schedule, Nanoseconds now);
 
   std::vector<std::string> names() const;
   /// Frames that tf did not know, or not of late, at the last update.

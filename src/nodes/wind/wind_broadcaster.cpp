@@ -19,7 +19,7 @@ WindBroadcaster::WindBroadcaster(ros::NodeHandle nh, ros::NodeHandle private_nh)
     : settings_(readWindSettings(private_nh)),
       nh_(nh),
       private_nh_(private_nh),
-      ledger_(settings_.seed),
+      schedule_(settings_.seed),
       follower_(nh, settings_),
       breeze_(settings_.breeze),
       field_publisher_(nh.advertise<WindField>("wind", 1, true)),
@@ -51,7 +51,7 @@ WindBroadcaster::WindBroadcaster(ros::NodeHandle nh, ros::NodeHandle private_nh)
 
 void WindBroadcaster::begin(Nanoseconds now) {
   const Lock lock(mutex_);
-  ledger_ = freshLedger(settings_, now);
+  schedule_ = initialSchedule(settings_, now);
   follower_.clear();
   for (const wind::Source& source : settings_.sources)
     if (!source.attached_frame.empty()) follower_.set(wind::startedAt(source, now));
@@ -65,7 +65,7 @@ Nanoseconds WindBroadcaster::earliest() const {
 
 std::optional<wind::Primitive> WindBroadcaster::apply(const wind::Source& source, Faults faults) {
   wind::checkFrame(source, faults);
-  wind::Ledger edited = ledger_;
+  wind::PrimitiveSchedule edited = schedule_;
   wind::Primitive filled;  // with the times that the request left open
   try {
     filled = edited.set(source.primitive, earliest());
@@ -78,14 +78,14 @@ std::optional<wind::Primitive> WindBroadcaster::apply(const wind::Source& source
     return std::nullopt;
   }
   follower_.remove(filled.name);
-  ledger_ = std::move(edited);
+  schedule_ = std::move(edited);
   publishField();
   return filled;
 }
 
 void WindBroadcaster::remove(const std::string& name) {
-  const bool blows = ledger_.find(name, earliest()).has_value();
-  if (blows || !follower_.follows(name)) ledger_.remove(name, earliest());
+  const bool blows = schedule_.find(name, earliest()).has_value();
+  if (blows || !follower_.follows(name)) schedule_.remove(name, earliest());
   follower_.remove(name);
 }
 
@@ -93,7 +93,7 @@ void WindBroadcaster::follow() {
   const Lock lock(mutex_);
   if (!clock_.running()) return;
   try {
-    if (follower_.update(ledger_, clock_.now())) publishField();
+    if (follower_.update(schedule_, clock_.now())) publishField();
   } catch (const InvalidInput& error) {
     refuse("followed frame", error.what());
   }
@@ -101,17 +101,17 @@ void WindBroadcaster::follow() {
 
 void WindBroadcaster::forget() {
   const Lock lock(mutex_);
-  if (clock_.running() && ledger_.prune(clock_.now())) publishField();
+  if (clock_.running() && schedule_.prune(clock_.now())) publishField();
 }
 
 void WindBroadcaster::publishField() {
-  field_publisher_.publish(toMsg(ledger_.field(), settings_.frame_id, clock_.now()));
+  field_publisher_.publish(toMsg(schedule_.field(), settings_.frame_id, clock_.now()));
 }
 
 void WindBroadcaster::publishMarkers() {
   const Lock lock(mutex_);
   if (!clock_.running() || marker_publisher_.getNumSubscribers() == 0) return;
-  marker_publisher_.publish(windMarkers(ledger_.field(), settings_.frame_id, clock_.now(),
+  marker_publisher_.publish(windMarkers(schedule_.field(), settings_.frame_id, clock_.now(),
                                         MARKER_PERIODS / settings_.markers_rate));
 }
 
@@ -123,7 +123,7 @@ void WindBroadcaster::showBreeze(const BreezeSettings& breeze) {
 void WindBroadcaster::noteBreeze() {
   BreezeSettings now = breeze_;
   now.speed = 0.0;
-  if (const auto found = ledger_.find(BreezeSettings::NAME, earliest()))
+  if (const auto found = schedule_.find(BreezeSettings::NAME, earliest()))
     now = BreezeSettings::of(*found, breeze_.direction);
   if (now != breeze_) showBreeze(now);
 }
@@ -143,11 +143,11 @@ void WindBroadcaster::diagnose(diagnostic_updater::DiagnosticStatusWrapper& stat
   for (const std::string& frame : follower_.missing())
     missing += (missing.empty() ? "" : ", ") + frame;
   if (!missing.empty()) status.mergeSummary(DiagnosticStatus::WARN, "no tf of late for " + missing);
-  status.add("primitives", ledger_.field().primitives().size());
-  status.add("sources", ledger_.names(clock_.now()).size());
+  status.add("primitives", schedule_.field().primitives().size());
+  status.add("sources", schedule_.names(clock_.now()).size());
   status.add("followed frames", follower_.names().size());
   status.add("missing frames", missing);
-  status.add("hash", ledger_.field().hash());
+  status.add("hash", schedule_.field().hash());
   status.add("refused inputs", refused_);
   status.add("last refusal", last_refusal_);
   status.add("jumps back in time", clock_.jumps());

@@ -65,7 +65,7 @@ class WindBroadcaster {
   boost::recursive_mutex mutex_;
   WindSettings settings_;
   ros::NodeHandle nh_, private_nh_;
-  wind::Ledger ledger_;
+  wind::PrimitiveSchedule schedule_;
   FrameFollower follower_;
   BreezeSettings breeze_;  // as dynamic_reconfigure shows it
   std::uint64_t refused_{0};

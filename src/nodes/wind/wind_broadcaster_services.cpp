@@ -69,7 +69,7 @@ bool WindBroadcaster::removePrimitive(RemoveWindPrimitive::Request& request,
     if (!request.name.empty()) {
       remove(request.name);
     } else {
-      for (const std::string& name : ledger_.names(earliest())) remove(name);
+      for (const std::string& name : schedule_.names(earliest())) remove(name);
       for (const std::string& name : follower_.names()) remove(name);
     }
     publishField();
@@ -88,7 +88,7 @@ void WindBroadcaster::reconfigure(WindBroadcasterConfig& config, std::uint32_t l
       faults.throwIfAny();
       wind::Primitive base;
       base.velocity = Vec3::Zero();
-      if (const auto now = ledger_.find(BreezeSettings::NAME, earliest())) base = *now;
+      if (const auto now = schedule_.find(BreezeSettings::NAME, earliest())) base = *now;
       base.t_on = base.t_off = 0;
       apply({wanted.applyTo(base), ""});
       breeze_ = wanted;
@@ -98,8 +98,9 @@ void WindBroadcaster::reconfigure(WindBroadcasterConfig& config, std::uint32_t l
 }
 
 bool WindBroadcaster::getField(GetWindField::Request&, GetWindField::Response& response) {
-  return answer("get_field", response,
-                [&] { response.field = toMsg(ledger_.field(), settings_.frame_id, clock_.now()); });
+  return answer("get_field", response, [&] {
+    response.field = toMsg(schedule_.field(), settings_.frame_id, clock_.now());
+  });
 }
 
 bool WindBroadcaster::sample(SampleWind::Request& request, SampleWind::Response& response) {
@@ -114,7 +115,7 @@ bool WindBroadcaster::sample(SampleWind::Request& request, SampleWind::Response&
     Nanoseconds stamp = 0;
     wind::Instant instant;
     for (std::size_t i = 0; i < request.positions.size(); ++i) {
-      if (i == 0 || stampOf(i) != stamp) instant = ledger_.field().at(stamp = stampOf(i));
+      if (i == 0 || stampOf(i) != stamp) instant = schedule_.field().at(stamp = stampOf(i));
       const auto& at = request.positions[i];
       const Vec3 velocity = instant.velocity(Vec3(at.x, at.y, at.z));
       geometry_msgs::Vector3 out;

@@ -61,7 +61,7 @@ void checkTogether(const WindSettings& settings, Faults& faults) {
                std::to_string(WindSettings::MAX_FOLLOWED));
   if (!faults.empty()) return;
   try {
-    freshLedger(settings, NANOSECONDS_PER_SECOND);
+    initialSchedule(settings, NANOSECONDS_PER_SECOND);
   } catch (const InvalidInput& error) {
     faults.add(error.what());
   }
@@ -103,14 +103,14 @@ BreezeSettings BreezeSettings::of(const wind::Primitive& p, double direction_in_
   return {std::sqrt(x * x + y * y), calm ? direction_in_a_calm : arcTangent(y, x), p.turbulence};
 }
 
-wind::Ledger freshLedger(const WindSettings& settings, Nanoseconds start) {
-  wind::Ledger ledger(settings.seed);
+wind::PrimitiveSchedule initialSchedule(const WindSettings& settings, Nanoseconds start) {
+  wind::PrimitiveSchedule schedule(settings.seed);
   std::vector<wind::Primitive> primitives;
   for (const wind::Source& source : settings.sources)
     if (source.attached_frame.empty())
       primitives.push_back(wind::startedAt(source, start).primitive);
-  ledger.start(primitives);
-  return ledger;
+  schedule.start(primitives);
+  return schedule;
 }
 
 WindSettings readWindSettings(const ros::NodeHandle& private_nh) {

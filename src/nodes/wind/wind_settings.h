@@ -60,6 +60,6 @@ WindSettings readWindSettings(const ros::NodeHandle& private_nh);
 
 /// The law of a fresh start at a stamp, but for the sources that follow a frame.
 /// @throws InvalidInput if the sources do not fit in one field.
-wind::Ledger freshLedger(const WindSettings& settings, Nanoseconds start);
+wind::PrimitiveSchedule initialSchedule(const WindSettings& settings, Nanoseconds start);
 
 }  // namespace vegetation_sim

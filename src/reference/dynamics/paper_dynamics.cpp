@@ -39,7 +39,7 @@ void PaperBody::gather(const std::vector<Link>& links, const ChainState& state,
     node.k = implicitness.stiffness * link.stiffness + implicitness.damping * link.damping;
     const double j = paperInertia(link, form_);
     node.inertia = {Vec3(j, 0.0, 0.0), Vec3(0.0, j, 0.0), Vec3(0.0, 0.0, j)};
-    node.foreseen = Vec3::Zero();
+    node.predicted = Vec3::Zero();
     const Vec2 &q = state.q[i], &rate = state.rate[i], &extra = loads.joint_torque[i];
     const Vec3 t1 = (extra.x() - link.stiffness * q.x() - link.damping * rate.x()) * node.first;
     const Vec3 t2 = (extra.y() - link.stiffness * q.y() - link.damping * rate.y()) * node.second;
@@ -100,7 +100,7 @@ void PaperBody::solve(Node& node, const Vec3& torque) const {
 void PaperBody::passOn(const Node& node, Node& parent) const {
   const Vec3 first = node.k * node.first;
   const Vec3 second = (form_.reaction ? -node.k : node.k) * node.second;
-  parent.foreseen += node.g1 * first + node.g2 * second;
+  parent.predicted += node.g1 * first + node.g2 * second;
   parent.inertia.x += first.x() * node.row1 + second.x() * node.row2;
   parent.inertia.y += first.y() * node.row1 + second.y() * node.row2;
   parent.inertia.z += first.z() * node.row1 + second.z() * node.row2;
@@ -112,7 +112,7 @@ void PaperBody::accelerations(const std::vector<Link>& links, const std::vector<
                               std::vector<Vec2>& out) {
   gather(links, state, kinematics, loads, implicitness);
   for (std::size_t i = links.size(); i-- > 0;) {
-    solve(nodes_[i], net_[i] + nodes_[i].foreseen);
+    solve(nodes_[i], net_[i] + nodes_[i].predicted);
     if (links[i].parent >= 0) passOn(nodes_[i], nodes_[static_cast<std::size_t>(links[i].parent)]);
   }
   out.resize(links.size());

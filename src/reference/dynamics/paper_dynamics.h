@@ -40,7 +40,7 @@ class PaperBody {
     Vec3 first, second;   // axes, world
     double k{0.0};        // foreseen stiffness of the joint
     Matrix inertia;       // own, anchors' and what children give back
-    Vec3 foreseen;        // torque of the children, foreseen
+    Vec3 predicted;       // torque of the children, foreseen
     double g1, g2;        // acceleration = g - G parent
     Vec3 row1, row2;      // of G
     Vec3 free, by1, by2;  // own turn: free - k (by1 a1 + by2 a2), as printed

@@ -149,7 +149,8 @@ std::vector<forest::PromotedBranch> promotedFromMsg(const std::string& name,
   return out;
 }
 
-physics::ModalState swayFromMsg(const std::string& name, const TreeState& tree, Faults& faults) {
+physics::ModalState modalStateFromMsg(const std::string& name, const TreeState& tree,
+                                      Faults& faults) {
   if (tree.amplitude.size() != tree.rate.size() || tree.amplitude.size() > MOST_MODES)
     faults.add(name + std::to_string(tree.amplitude.size()) + " amplitudes and " +
                std::to_string(tree.rate.size()) + " rates; allowed are as many, up to " +
@@ -289,7 +290,7 @@ forest::StateUpdate fromMsg(const ForestState& message) {
     const std::string name = "state: tree " + std::to_string(tree.tree) + ": ";
     out.trees.push_back({tree.tree, levelFromMsg(name, tree.level, tree.since, tree.blend, faults),
                          promotedFromMsg(name, tree.promoted, faults),
-                         swayFromMsg(name, tree, faults)});
+                         modalStateFromMsg(name, tree, faults)});
   }
   faults.throwIfAny();
   return out;

@@ -166,12 +166,12 @@ GrassState toMsg(const grass::TreadUpdate& update) {
     out.press_recoveries.push_back(press.recovery);
   }
   out.blocks.reserve(update.treads.blocks.size());
-  for (const grass::ToldBlock& block : update.treads.blocks) {
+  for (const grass::TreadBlockDelta& block : update.treads.blocks) {
     TroddenBlock message;
     message.row = block.row;
     message.column = block.column;
-    std::copy(block.told.begin(), block.told.end(), message.told.begin());
-    for (const grass::ToldNode& node : block.nodes) {
+    std::copy(block.included.begin(), block.included.end(), message.told.begin());
+    for (const grass::TreadNodeDelta& node : block.nodes) {
       message.tilt.push_back(node.tilt);
       message.x.push_back(node.x);
       message.y.push_back(node.y);
@@ -200,15 +200,15 @@ grass::TreadUpdate fromMsg(const GrassState& message) {
   for (std::size_t i = 0; i < message.press_stamps.size(); ++i)
     out.treads.presses.push_back({fromMsg(message.press_stamps[i]), message.press_recoveries[i]});
   for (const TroddenBlock& block : message.blocks) {
-    grass::ToldBlock told{block.row, block.column, {}, {}};
-    std::copy(block.told.begin(), block.told.end(), told.told.begin());
+    grass::TreadBlockDelta delta{block.row, block.column, {}, {}};
+    std::copy(block.told.begin(), block.told.end(), delta.included.begin());
     const std::size_t count = block.tilt.size();
     if (block.x.size() != count || block.y.size() != count || block.press.size() != count)
       throw InvalidInput("state: block " + std::to_string(block.row) + ", " +
                          std::to_string(block.column) + ": its lists differ in length");
     for (std::size_t i = 0; i < count; ++i)
-      told.nodes.push_back({block.tilt[i], block.x[i], block.y[i], block.press[i]});
-    out.treads.blocks.push_back(std::move(told));
+      delta.nodes.push_back({block.tilt[i], block.x[i], block.y[i], block.press[i]});
+    out.treads.blocks.push_back(std::move(delta));
   }
   check(out.treads, faults);
   faults.throwIfAny();

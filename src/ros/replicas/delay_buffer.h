@@ -14,16 +14,16 @@ namespace vegetation_sim {
 /// What was told of moments to which a node that stays behind the clock has not come yet; in the
 /// order in which it came. Bounded: where there is no room, the oldest is lost and counted.
 template <class Told>
-class ToldAhead {
+class DelayBuffer {
  public:
   static constexpr std::size_t MOST_WAITING = 2000;
 
-  void add(Nanoseconds stamp, Told told) {
+  void add(Nanoseconds stamp, Told published) {
     if (waiting_.size() >= MOST_WAITING) {
       waiting_.pop_front();
       ++lost_;
     }
-    waiting_.emplace_back(stamp, std::move(told));
+    waiting_.emplace_back(stamp, std::move(published));
   }
   /// Hands over, in order, what is due at `stamp`: `take(stamp, told)`.
   template <class Take>

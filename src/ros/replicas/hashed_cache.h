@@ -11,7 +11,7 @@ namespace vegetation_sim {
 
 /// The newest messages of a topic by their hashes: events name what they need of them.
 template <class Message>
-class Heard {
+class HashedCache {
  public:
   static constexpr std::size_t MOST = 8;
 

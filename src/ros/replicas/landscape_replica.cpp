@@ -17,19 +17,19 @@
 
 namespace vegetation_sim {
 
-HeardLandscape::HeardLandscape(std::string frame_id, Reject reject)
+LandscapeReplica::LandscapeReplica(std::string frame_id, Reject reject)
     : frame_id_(std::move(frame_id)), reject_(std::move(reject)) {}
 
-void HeardLandscape::listen(ros::NodeHandle handle) {
-  subscribers_ = {handle.subscribe("wind", 10, &HeardLandscape::onWind, this),
-                  handle.subscribe("forest/layout", 1, &HeardLandscape::onForestLayout, this),
-                  handle.subscribe("forest/state", 100, &HeardLandscape::onForestState, this),
-                  handle.subscribe("grass/layout", 1, &HeardLandscape::onGrassLayout, this),
-                  handle.subscribe("grass/state", 100, &HeardLandscape::onGrassState, this),
-                  handle.subscribe("agents", 10, &HeardLandscape::onPeople, this)};
+void LandscapeReplica::listen(ros::NodeHandle handle) {
+  subscribers_ = {handle.subscribe("wind", 10, &LandscapeReplica::onWind, this),
+                  handle.subscribe("forest/layout", 1, &LandscapeReplica::onForestLayout, this),
+                  handle.subscribe("forest/state", 100, &LandscapeReplica::onForestState, this),
+                  handle.subscribe("grass/layout", 1, &LandscapeReplica::onGrassLayout, this),
+                  handle.subscribe("grass/state", 100, &LandscapeReplica::onGrassState, this),
+                  handle.subscribe("agents", 10, &LandscapeReplica::onPeople, this)};
 }
 
-void HeardLandscape::guard(const char* what, const std::function<void()>& take) {
+void LandscapeReplica::guard(const char* what, const std::function<void()>& take) {
   try {
     take();
   } catch (const std::exception& error) {
@@ -37,7 +37,7 @@ void HeardLandscape::guard(const char* what, const std::function<void()>& take) 
   }
 }
 
-void HeardLandscape::onWind(const WindField& message) {
+void LandscapeReplica::onWind(const WindField& message) {
   guard("wind", [&] {
     checkFrame(message.header.frame_id, frame_id_);
     wind_ = fromMsg(message);
@@ -45,7 +45,7 @@ void HeardLandscape::onWind(const WindField& message) {
   });
 }
 
-void HeardLandscape::onForestLayout(const ForestLayout& message) {
+void LandscapeReplica::onForestLayout(const ForestLayout& message) {
   guard("forest/layout", [&] {
     checkFrame(message.header.frame_id, frame_id_);
     auto terrain = loadTerrain(message.terrain);
@@ -54,7 +54,7 @@ void HeardLandscape::onForestLayout(const ForestLayout& message) {
   });
 }
 
-void HeardLandscape::onForestState(const ForestState& message) {
+void LandscapeReplica::onForestState(const ForestState& message) {
   guard("forest/state", [&] {
     forest::StateUpdate update = fromMsg(message);
     const Nanoseconds stamp = update.stamp;
@@ -62,14 +62,14 @@ void HeardLandscape::onForestState(const ForestState& message) {
   });
 }
 
-void HeardLandscape::onGrassLayout(const GrassLayout& message) {
+void LandscapeReplica::onGrassLayout(const GrassLayout& message) {
   guard("grass/layout", [&] {
     checkFrame(message.header.frame_id, frame_id_);
-    meadow_ = HeardMeadow(message);
+    meadow_ = MeadowReplica(message);
   });
 }
 
-void HeardLandscape::onGrassState(const GrassState& message) {
+void LandscapeReplica::onGrassState(const GrassState& message) {
   guard("grass/state", [&] {
     grass::TreadUpdate update = fromMsg(message);
     const Nanoseconds stamp = update.stamp;
@@ -77,7 +77,7 @@ void HeardLandscape::onGrassState(const GrassState& message) {
   });
 }
 
-void HeardLandscape::onPeople(const AgentStates& message) {
+void LandscapeReplica::onPeople(const AgentStates& message) {
   guard("agents", [&] {
     checkFrame(message.header.frame_id, frame_id_);
     check(message);
@@ -87,7 +87,7 @@ void HeardLandscape::onPeople(const AgentStates& message) {
   });
 }
 
-void HeardLandscape::follow(Nanoseconds stamp) {
+void LandscapeReplica::follow(Nanoseconds stamp) {
   forest_ahead_.take(stamp, [this](Nanoseconds, const forest::StateUpdate& update) {
     guard("forest/state", [&] { forest_.apply(update); });
   });
@@ -95,15 +95,16 @@ void HeardLandscape::follow(Nanoseconds stamp) {
     if (meadow_.ready() && update.layout_hash == meadow_.hash)
       meadow_.replica.apply(update, *meadow_.tread);
   });
-  people_ahead_.take(stamp, [this](Nanoseconds told, const std::vector<crowd::Walker>& people) {
-    people_ = people;
-    people_stamp_ = told;
-  });
+  people_ahead_.take(stamp,
+                     [this](Nanoseconds published, const std::vector<crowd::Walker>& people) {
+                       people_ = people;
+                       people_stamp_ = published;
+                     });
   if (secondsBetween(people_stamp_, stamp) > LONGEST_SILENCE) people_.clear();
 }
 
 // One of after the jump that has come already is kept.
-void HeardLandscape::forgetLater(Nanoseconds now) {
+void LandscapeReplica::forgetLater(Nanoseconds now) {
   if (forest_.ready() && forest_.stamp() > now) {
     forest::ForestReplica fresh;
     fresh.setLayout(forest_.layout(), forest_ground_);
@@ -117,21 +118,21 @@ void HeardLandscape::forgetLater(Nanoseconds now) {
   people_ahead_.forgetLater(now);
 }
 
-std::size_t HeardLandscape::waiting() const {
+std::size_t LandscapeReplica::waiting() const {
   return forest_ahead_.size() + treads_ahead_.size() + people_ahead_.size();
 }
 
-std::uint64_t HeardLandscape::lost() const {
+std::uint64_t LandscapeReplica::lost() const {
   return forest_ahead_.lost() + treads_ahead_.lost() + people_ahead_.lost();
 }
 
-std::shared_ptr<const terrain::HeightMap> HeardLandscape::ground() const {
+std::shared_ptr<const terrain::HeightMap> LandscapeReplica::ground() const {
   static const auto FLAT = std::make_shared<const terrain::HeightMap>();
   return meadow_.ready() ? meadow_.terrain : forest_ground_ ? forest_ground_ : FLAT;
 }
 
-void HeardLandscape::show(const Vec3& centre, double radius, Nanoseconds stamp,
-                          scan::Scene& scene) {
+void LandscapeReplica::show(const Vec3& centre, double radius, Nanoseconds stamp,
+                            scan::Scene& scene) {
   scene.ground = ground();
   if (forest_.ready()) scene.trees.update(forest_, centre, radius, stamp);
   if (meadow_.ready()) {
@@ -143,7 +144,7 @@ void HeardLandscape::show(const Vec3& centre, double radius, Nanoseconds stamp,
 }
 
 // A sweep is between two ticks of the crowd: since the one before, all go on as they went.
-std::vector<scan::People::Person> HeardLandscape::peopleAt(Nanoseconds stamp) const {
+std::vector<scan::People::Person> LandscapeReplica::peopleAt(Nanoseconds stamp) const {
   const double since = std::clamp(secondsBetween(people_stamp_, stamp), 0.0, LONGEST_GUESS);
   const auto terrain = ground();
   std::vector<scan::People::Person> out;
@@ -155,7 +156,7 @@ std::vector<scan::People::Person> HeardLandscape::peopleAt(Nanoseconds stamp) co
   return out;
 }
 
-std::string HeardLandscape::waitsFor() const {
+std::string LandscapeReplica::waitsFor() const {
   std::string out;
   if (forest_.ready() && !forest_.why().empty()) out = "forest: " + forest_.why();
   if (meadow_.ready() && !meadow_.replica.why().empty())

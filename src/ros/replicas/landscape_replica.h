@@ -24,12 +24,12 @@ namespace vegetation_sim {
 
 /// Forest, meadow, people and wind as a node that only looks hears them, at the stamp that it has
 /// come to: what is told of a later one waits. A refused message changes nothing.
-class HeardLandscape {
+class LandscapeReplica {
  public:
   /// Of a message that is refused.
   using Reject = std::function<void(const std::string& what, const std::string& why)>;
   /// @param frame_id that all messages must be in.
-  HeardLandscape(std::string frame_id, Reject reject);
+  LandscapeReplica(std::string frame_id, Reject reject);
 
   void listen(ros::NodeHandle handle);
   /// Time went back to `now`: what was told of a later time is void.
@@ -71,10 +71,10 @@ class HeardLandscape {
   wind::Field wind_;
   forest::ForestReplica forest_;
   std::shared_ptr<const terrain::HeightMap> forest_ground_;
-  HeardMeadow meadow_;
-  ToldAhead<forest::StateUpdate> forest_ahead_;
-  ToldAhead<grass::TreadUpdate> treads_ahead_;
-  ToldAhead<std::vector<crowd::Walker>> people_ahead_;
+  MeadowReplica meadow_;
+  DelayBuffer<forest::StateUpdate> forest_ahead_;
+  DelayBuffer<grass::TreadUpdate> treads_ahead_;
+  DelayBuffer<std::vector<crowd::Walker>> people_ahead_;
   std::vector<crowd::Walker> people_;  // at people_stamp_
   Nanoseconds people_stamp_{0};
   std::vector<ros::Subscriber> subscribers_;

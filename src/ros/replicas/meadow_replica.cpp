@@ -12,7 +12,7 @@ constexpr double MEMORY_CAP = 1e9;  // [bytes] of trodden ground
 
 }  // namespace
 
-HeardMeadow::HeardMeadow(const GrassLayout& message)
+MeadowReplica::MeadowReplica(const GrassLayout& message)
     : layout(fromMsg(message)), hash(layout.hash()), terrain(loadTerrain(layout.terrain)) {
   if (terrain->hash() != layout.terrain_hash)
     throw InvalidInput("layout: terrain = '" + layout.terrain +
@@ -23,7 +23,7 @@ HeardMeadow::HeardMeadow(const GrassLayout& message)
   tread = std::make_unique<grass::TreadMap>(layout.map->law(), settings);
 }
 
-bool HeardMeadow::forgetLater(Nanoseconds now) {
+bool MeadowReplica::forgetLater(Nanoseconds now) {
   if (!ready() || replica.stamp() <= now) return false;
   tread->clear();
   replica.reset();

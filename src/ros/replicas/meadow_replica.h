@@ -13,11 +13,11 @@
 namespace vegetation_sim {
 
 /// A copy of a meadow as it is told: empty until there is a layout.
-struct HeardMeadow {
-  HeardMeadow() = default;
+struct MeadowReplica {
+  MeadowReplica() = default;
   /// Untrodden, on the terrain that the layout names.
   /// @throws InvalidInput for a layout that cannot be, or a terrain with other heights.
-  explicit HeardMeadow(const GrassLayout& message);
+  explicit MeadowReplica(const GrassLayout& message);
 
   bool ready() const { return tread != nullptr; }
   /// Time went back to `now`: what was trodden later is void until the next key frame. One of after

@@ -7,14 +7,14 @@
 namespace vegetation_sim {
 namespace {
 
-// What is seen costs something, is off by something or stands on a rung.
-bool seesAny(const Balance& balance) {
+// What is seen costs something, is off by something or stands on a tier.
+bool seesAny(const TierAllocation& balance) {
   return balance.wanted > 0.0 || balance.largest > 0.0 ||
          std::any_of(balance.counts.begin() + 1, balance.counts.end(),
                      [](std::size_t count) { return count > 0; });
 }
 
-std::string reasonOf(const Balance& balance, const BalanceTerms& terms) {
+std::string reasonOf(const TierAllocation& balance, const BalanceTerms& terms) {
   if (balance.held_back > 0 || balance.wanted > terms.budget) return terms.budget_name + " binds";
   if (balance.over > 0) return "finer rungs there are none";
   return seesAny(balance) ? "the tolerance is held" : "nothing is seen";
@@ -22,8 +22,8 @@ std::string reasonOf(const Balance& balance, const BalanceTerms& terms) {
 
 }  // namespace
 
-void tell(const Balance& balance, const BalanceTerms& terms,
-          diagnostic_updater::DiagnosticStatusWrapper& status) {
+void report(const TierAllocation& balance, const BalanceTerms& terms,
+            diagnostic_updater::DiagnosticStatusWrapper& status) {
   status.summary(diagnostic_msgs::DiagnosticStatus::OK, reasonOf(balance, terms));
   const std::string in_unit = " [" + terms.unit + "]";
   status.add("Tolerance [pixel]", terms.tolerance);
@@ -33,8 +33,8 @@ void tell(const Balance& balance, const BalanceTerms& terms,
   status.add("Cost" + in_unit, balance.cost);
   status.add("Cost that the tolerance asks for" + in_unit, balance.wanted);
   status.add("Budget" + in_unit, terms.budget);
-  for (std::size_t rung = 0; rung < terms.rungs.size(); ++rung)
-    status.add(terms.what + ": " + terms.rungs[rung], balance.counts[rung]);
+  for (std::size_t tier = 0; tier < terms.tiers.size(); ++tier)
+    status.add(terms.what + ": " + terms.tiers[tier], balance.counts[tier]);
 }
 
 }  // namespace vegetation_sim

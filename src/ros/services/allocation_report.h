@@ -18,10 +18,10 @@ struct BalanceTerms {
   std::string budget_name;         ///< parameter that may bind
   std::string unit;                ///< of budget and costs
   double budget{0.0};              ///< in that unit
-  std::vector<std::string> rungs;  ///< names, coarsest first
+  std::vector<std::string> tiers;  ///< names, coarsest first
 };
 /// Says on /diagnostics what was chosen and why.
-void tell(const Balance& balance, const BalanceTerms& terms,
-          diagnostic_updater::DiagnosticStatusWrapper& status);
+void report(const TierAllocation& balance, const BalanceTerms& terms,
+            diagnostic_updater::DiagnosticStatusWrapper& status);
 
 }  // namespace vegetation_sim

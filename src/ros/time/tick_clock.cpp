@@ -51,7 +51,7 @@ void TickClock::run(std::int64_t tick) {
   ++counts_.ticks;
 }
 
-void TickClock::tell(diagnostic_updater::DiagnosticStatusWrapper& status) const {
+void TickClock::report(diagnostic_updater::DiagnosticStatusWrapper& status) const {
   status.add("Ticks", counts_.ticks);
   status.addf("Time of a tick [ms]", "%.3f", 1e3 * cost_);
   status.addf("Time between ticks [ms]", "%.3f", 1e3 / grid_.rate());

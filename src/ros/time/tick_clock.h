@@ -60,7 +60,7 @@ class TickClock {
   };
   const Counts& counts() const { return counts_; }
   /// Adds the counts and the wall time of a tick to a node's diagnostics.
-  void tell(diagnostic_updater::DiagnosticStatusWrapper& status) const;
+  void report(diagnostic_updater::DiagnosticStatusWrapper& status) const;
 
   static constexpr double LONGEST_CATCH_UP = 1.0;  ///< [s]
 

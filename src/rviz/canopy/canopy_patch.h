@@ -47,7 +47,7 @@ class CanopyPatch {
   std::size_t drawn() const { return drawn_; }
   /// Tells all that throws a shadow: place, radius, depth.
   template <class Drop>
-  void tellShadows(const Drop& drop) const {
+  void setShadows(const Drop& drop) const {
     for (std::size_t i = 0; i < leaves_.size(); i += 2)
       drop(leaves_[i].leaf.tip, 0.6 * length(leaves_[i].leaf.tip - leaves_[i].leaf.root), 0.8);
   }

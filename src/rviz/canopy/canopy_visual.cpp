@@ -19,13 +19,13 @@ constexpr double PATCH = 5.0;                    // [m] edge of the plants of on
 constexpr double STILL = 1e-4;                   // [m], [rad] of an eye
 
 // Painted once in a process.
-const std::vector<Picture>& sharedFoliage() {
-  static const std::vector<Picture> atlas = foliageAtlas(LEAF_EDGE);
+const std::vector<Image>& sharedFoliage() {
+  static const std::vector<Image> atlas = foliageAtlas(LEAF_EDGE);
   return atlas;
 }
 
-const std::vector<Picture>& sharedStems() {
-  static const std::vector<Picture> atlas = mipmaps(barkAtlas(BARK_EDGE), 16);
+const std::vector<Image>& sharedStems() {
+  static const std::vector<Image> atlas = mipmaps(barkAtlas(BARK_EDGE), 16);
   return atlas;
 }
 
@@ -147,13 +147,13 @@ Shade CanopyVisual::shadeOn(const Plot& plot, int edge, const terrain::HeightMap
                             const Vec3& to_sun) const {
   Shade out;
   out.sun = castShadows(plot, edge, ground, to_sun, [&](const ShadowDrop& drop) {
-    for (const auto& patch : patches_) patch->tellShadows(drop);
+    for (const auto& patch : patches_) patch->setShadows(drop);
   });
   // The sky from straight above: shadows of its zenith, soft by what they are of.
   const std::vector<float> zenith =
       castShadows(plot, edge, ground, Vec3::UnitZ(), [&](const ShadowDrop& drop) {
         for (const auto& patch : patches_)
-          patch->tellShadows([&](const Vec3& at, double radius, double depth) {
+          patch->setShadows([&](const Vec3& at, double radius, double depth) {
             drop(at, 3.0 * radius, 0.1 * depth);
           });
       });

@@ -63,7 +63,7 @@ void ForestDisplay::draw(Nanoseconds stamp, const view::View& view) {
   }
   forest_->update(source_->replica(), stamp, wall(), view, properties_->daylight(),
                   properties_->options());
-  if (forest_->stock() == nullptr || !properties_->ground()) return;
+  if (forest_->tree_set() == nullptr || !properties_->ground()) return;
   if (givesGround(source_->replica().terrain()))
     makeGround();
   else
@@ -76,28 +76,28 @@ void ForestDisplay::dropGround() {
 }
 
 void ForestDisplay::makeShadows() {
-  if (shadows_ && grounded_ == forest_->stocks()) return;
+  if (shadows_ && grounded_ == forest_->tree_sets()) return;
   const view::Daylight daylight = properties_->daylight();
-  shadows_ = std::make_unique<view::ShadowVisual>(*scene_node_, *forest_->stock(),
+  shadows_ = std::make_unique<view::ShadowVisual>(*scene_node_, *forest_->tree_set(),
                                                   source_->replica().terrain(), daylight);
   shadows_->light(daylight, properties_->hazeValues());
-  grounded_ = forest_->stocks();
+  grounded_ = forest_->tree_sets();
 }
 
 void ForestDisplay::makeGround() {
-  if (ground_ && grounded_ == forest_->stocks()) return;
+  if (ground_ && grounded_ == forest_->tree_sets()) return;
   dropGround();
-  const view::TreeStock& stock = *forest_->stock();
+  const view::TreeSet& tree_set = *forest_->tree_set();
   const view::Daylight daylight = properties_->daylight();
   const terrain::HeightMap& terrain = source_->replica().terrain();
-  const view::Plot plot = view::plotAround(stock.extent());
+  const view::Plot plot = view::plotAround(tree_set.extent());
   const view::Rgba tint = properties_->groundTint();
-  const view::Picture picture =
-      view::groundPicture(plot, GROUND_EDGE, stock, terrain, daylight, tint);
-  const view::Land land{plot, picture, terrain, stock.origin(), GROUND_CELL, tint};
+  const view::Image picture =
+      view::groundPicture(plot, GROUND_EDGE, tree_set, terrain, daylight, tint);
+  const view::Land land{plot, picture, terrain, tree_set.origin(), GROUND_CELL, tint};
   ground_ = std::make_unique<view::GroundVisual>(*scene_node_, land, daylight);
   ground_->light(daylight, daylight.to_sun, properties_->hazeValues());
-  grounded_ = forest_->stocks();
+  grounded_ = forest_->tree_sets();
 }
 
 view::ForestReport ForestDisplay::drawn() const {
@@ -108,9 +108,9 @@ void ForestDisplay::showInputs(view::StatusBoard& board, Nanoseconds now) const 
   board.show("Layout", source_->layoutStatus());
   board.show("Wind", source_->windStatus());
   board.show("State", source_->stateStatus(now));
-  if (forest_->stock() != nullptr)
+  if (forest_->tree_set() != nullptr)
     board.show(rviz::StatusProperty::Ok, "Motion",
-               view::describeMotion(source_->replica(), *forest_->stock()));
+               view::describeMotion(source_->replica(), *forest_->tree_set()));
 }
 
 view::InputStatus ForestDisplay::describeDrawn() const {

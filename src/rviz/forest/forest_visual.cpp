@@ -31,13 +31,13 @@ double pixelsOf(const DrawnTree& tree, const View& view) {
 }
 
 // Painted once in a process.
-const std::vector<Picture>& sharedLeafAtlas() {
-  static const std::vector<Picture> atlas = leafAtlas(LEAF_EDGE);
+const std::vector<Image>& sharedLeafAtlas() {
+  static const std::vector<Image> atlas = leafAtlas(LEAF_EDGE);
   return atlas;
 }
 
-const std::vector<Picture>& sharedBarkAtlas() {
-  static const std::vector<Picture> atlas = mipmaps(barkAtlas(BARK_EDGE), 16);
+const std::vector<Image>& sharedBarkAtlas() {
+  static const std::vector<Image> atlas = mipmaps(barkAtlas(BARK_EDGE), 16);
   return atlas;
 }
 
@@ -47,7 +47,7 @@ bool isSeen(const DrawnTree& tree, const View& view) {
 }
 
 // By a camera a moment ago or in this view now: what comes into view is in its place at once.
-bool isSeen(Grove& grove, const View& view) {
+bool isSeen(TreeBatch& grove, const View& view) {
   return grove.takeSeen() ||
          std::any_of(grove.trees().begin(), grove.trees().end(),
                      [&](const DrawnTree* tree) { return isSeen(*tree, view); });
@@ -67,14 +67,14 @@ ForestVisual::ForestVisual(Ogre::SceneNode& parent)
                             {bark_texture_.name()}, true) {}
 
 ForestVisual::~ForestVisual() {
-  groves_.clear();
+  tree_batches_.clear();
   node_->getCreator()->destroySceneNode(node_);
 }
 
 void ForestVisual::restart(const forest::ForestReplica& replica, const View& view,
                            const Options& options) {
-  groves_.clear();
-  stock_.reset();
+  tree_batches_.clear();
+  tree_set_.reset();
   report_ = ForestReport();
   repaint_ = false;
   select(replica, view, options);
@@ -82,7 +82,7 @@ void ForestVisual::restart(const forest::ForestReplica& replica, const View& vie
 
 void ForestVisual::select(const forest::ForestReplica& replica, const View& view,
                           const Options& options) {
-  next_ = std::make_unique<TreeStock>(
+  next_ = std::make_unique<TreeSet>(
       replica, nearestTrees(replica.layout(), view.eye.position, options.most_trees));
   prepared_ = 0;
   selected_at_ = view.eye.position;
@@ -93,12 +93,12 @@ void ForestVisual::select(const forest::ForestReplica& replica, const View& view
 // Trees that follow others have a mesh before they take their place, the same if it is the same
 // tree: nothing is bare in between.
 bool ForestVisual::prepare(const View& view, const Options& options) {
-  if (!stock_) return true;
+  if (!tree_set_) return true;
   const auto end = Clock::now() + std::chrono::duration<double>(SIDE_TIME);
   for (; prepared_ < next_->trees().size(); ++prepared_) {
     if (Clock::now() >= end) return false;
     DrawnTree& tree = *next_->trees()[prepared_];
-    const DrawnTree* before = stock_->find(tree.id());
+    const DrawnTree* before = tree_set_->find(tree.id());
     const double size = pixelsOf(tree, view) * tree.height() * feedback_.factor();
     const bool built = before != nullptr && before->level() >= 0;
     tree.setLevel(built ? before->level() : forest::geometryLevel(size, -1), next_->light(),
@@ -108,24 +108,24 @@ bool ForestVisual::prepare(const View& view, const Options& options) {
 }
 
 // The trees that have grown take the place of those drawn so far.
-void ForestVisual::adopt() {
-  const bool follows = stock_ != nullptr;
-  groves_.clear();
+void ForestVisual::applyDelta() {
+  const bool follows = tree_set_ != nullptr;
+  tree_batches_.clear();
   settled_ = settled_ && follows;
-  stock_ = std::move(next_);
-  ++stocks_;
-  const Vec3& origin = stock_->origin();
+  tree_set_ = std::move(next_);
+  ++tree_sets_;
+  const Vec3& origin = tree_set_->origin();
   node_->setPosition(static_cast<float>(origin.x()), static_cast<float>(origin.y()),
                      static_cast<float>(origin.z()));
   std::vector<DrawnTree*> trees;
-  for (const auto& tree : stock_->trees()) trees.push_back(tree.get());
+  for (const auto& tree : tree_set_->trees()) trees.push_back(tree.get());
   if (trees.empty()) return;
   const TreeMaterials materials{bark_material_.name(), leaf_material_.name(),
                                 fading_bark_material_.name(), fading_leaf_material_.name()};
   for (auto& group : splitByPlace(std::move(trees), TREES_PER_GROVE))
-    groves_.push_back(std::make_unique<Grove>(std::move(group), *node_, materials));
+    tree_batches_.push_back(std::make_unique<TreeBatch>(std::move(group), *node_, materials));
   if (!follows) return;
-  for (const auto& grove : groves_) grove->rebuild();
+  for (const auto& grove : tree_batches_) grove->rebuild();
 }
 
 void ForestVisual::repaint() {
@@ -142,12 +142,13 @@ void ForestVisual::light(const Daylight& daylight, const Vec3& to_sun, const Haz
 void ForestVisual::update(const forest::ForestReplica& replica, Nanoseconds stamp, double wall,
                           const View& view, const Daylight& daylight, const Options& options) {
   const bool away = length(view.eye.position - selected_at_) > RESELECT;
-  if (stock_ && !next_ && !selected_all_ && away) select(replica, view, options);
+  if (tree_set_ && !next_ && !selected_all_ && away) select(replica, view, options);
   if (next_ &&
-      next_->grow(replica, daylight.to_sun, options.look.leaves, stock_ ? SIDE_TIME : GROW_TIME) &&
+      next_->grow(replica, daylight.to_sun, options.look.leaves,
+                  tree_set_ ? SIDE_TIME : GROW_TIME) &&
       prepare(view, options))
-    adopt();
-  if (!stock_) return;
+    applyDelta();
+  if (!tree_set_) return;
   runFadeClock(wall);
   chooseLevels(view, options);
   move(replica, stamp, view, options);
@@ -174,29 +175,29 @@ bool ForestVisual::changeLevel(DrawnTree& tree, const View& view, const Options&
   const int level = forest::geometryLevel(size, tree.level());
   if (level == tree.level() && !repaint_) return ends;
   const bool fades = settled_ && level != tree.level() && isSeen(tree, view);
-  const bool room = report_.fading < std::max(FADERS, stock_->trees().size() / FADERS);
+  const bool room = report_.fading < std::max(FADERS, tree_set_->trees().size() / FADERS);
   if (!repaint_ && (!in_time || tree.fading() || (fades && !room))) {
     ++report_.waiting;
     return ends;
   }
-  tree.setLevel(level, stock_->light(), options.look, fades ? clock : 0.f);
+  tree.setLevel(level, tree_set_->light(), options.look, fades ? clock : 0.f);
   return true;
 }
 
 // Near groves first: they are drawn first, and the first to get their level when time is short.
 void ForestVisual::chooseLevels(const View& view, const Options& options) {
-  const bool bare = report_.triangles == 0 || report_.waiting > groves_.size();
+  const bool bare = report_.triangles == 0 || report_.waiting > tree_batches_.size();
   const auto end = Clock::now() + std::chrono::duration<double>(bare ? FIRST_TIME : LEVEL_TIME);
-  std::sort(groves_.begin(), groves_.end(), [&](const auto& a, const auto& b) {
+  std::sort(tree_batches_.begin(), tree_batches_.end(), [&](const auto& a, const auto& b) {
     return (a->middle() - view.eye.position).squaredNorm() <
            (b->middle() - view.eye.position).squaredNorm();
   });
   report_.waiting = report_.fading = 0;
-  for (const auto& grove : groves_)
+  for (const auto& grove : tree_batches_)
     for (const DrawnTree* tree : grove->trees()) report_.fading += tree->fading() ? 1 : 0;
   int rank = 0;
   bool still = true;
-  for (const auto& grove : groves_) {
+  for (const auto& grove : tree_batches_) {
     grove->setRank(rank++);
     bool changed = false;
     for (DrawnTree* tree : grove->trees()) {
@@ -220,7 +221,7 @@ void ForestVisual::move(const forest::ForestReplica& replica, Nanoseconds stamp,
                         const Options& options) {
   const wind::Instant wind = replica.wind().at(stamp);
   report_.moving = 0;
-  for (const auto& grove : groves_) {
+  for (const auto& grove : tree_batches_) {
     if (!isSeen(*grove, view) || grove->moved_to == stamp) continue;
     grove->moved_to = stamp;
     bool moved = false, painted = false;
@@ -236,11 +237,11 @@ void ForestVisual::move(const forest::ForestReplica& replica, Nanoseconds stamp,
 }
 
 void ForestVisual::measure(const View& view, const Options& options) {
-  report_.trees = stock_->trees().size();
-  report_.stocks = stocks_;
+  report_.trees = tree_set_->trees().size();
+  report_.tree_sets = tree_sets_;
   report_.triangles = 0;
   report_.per_level.fill(0);
-  for (const auto& tree : stock_->trees()) {
+  for (const auto& tree : tree_set_->trees()) {
     if (tree->level() < 0) continue;
     ++report_.per_level[static_cast<std::size_t>(tree->level())];
     if (isSeen(*tree, view)) report_.triangles += tree->triangleCount();

@@ -22,7 +22,7 @@ struct ForestReport {
   std::size_t moving{0};            ///< trees that were moved
   std::size_t waiting{0};           ///< trees whose geometry level is still to change
   std::size_t fading{0};            ///< trees that go from one level to another
-  int stocks{0};                    ///< selections of trees so far
+  int tree_sets{0};                 ///< selections of trees so far
   std::array<std::size_t, forest::GEOMETRY_LEVELS> per_level{};
 };
 
@@ -50,15 +50,15 @@ class ForestVisual {
   void light(const Daylight& daylight, const Vec3& to_sun, const Haze& haze);
 
   /// The trees that are drawn; null until all of them stand.
-  const TreeStock* stock() const { return stock_.get(); }
+  const TreeSet* tree_set() const { return tree_set_.get(); }
   /// Counts the stocks so far.
-  int stocks() const { return stocks_; }
+  int tree_sets() const { return tree_sets_; }
   const ForestReport& report() const { return report_; }
 
  private:
   void select(const forest::ForestReplica& replica, const View& view, const Options& options);
   bool prepare(const View& view, const Options& options);
-  void adopt();
+  void applyDelta();
   void runFadeClock(double wall);
   void chooseLevels(const View& view, const Options& options);
   bool changeLevel(DrawnTree& tree, const View& view, const Options& options, bool in_time);
@@ -69,16 +69,16 @@ class ForestVisual {
   Ogre::SceneNode* node_;  // Ogre's; destroyed by us
   Texture leaf_texture_, bark_texture_;
   Material leaf_material_, bark_material_, fading_leaf_material_, fading_bark_material_;
-  std::unique_ptr<TreeStock> stock_, next_;  // drawn; growing
-  std::size_t prepared_{0};                  // of the next trees: they have a mesh
-  std::vector<std::unique_ptr<Grove>> groves_;
+  std::unique_ptr<TreeSet> tree_set_, next_;  // drawn; growing
+  std::size_t prepared_{0};                   // of the next trees: they have a mesh
+  std::vector<std::unique_ptr<TreeBatch>> tree_batches_;
   Vec3 selected_at_{Vec3::Zero()};  // eye when the trees were selected
   bool selected_all_{true};
   forest::ComplexityFeedback feedback_;
   bool repaint_{false};
   bool settled_{false};  // no level has changed in an update
   double fade_clock_{1.0}, wall_{0.0};
-  int stocks_{0};
+  int tree_sets_{0};
   ForestReport report_;
 };
 

@@ -73,7 +73,8 @@ std::vector<std::uint32_t> leafTriangles(const std::vector<DrawnTree*>& trees, c
 
 }  // namespace
 
-Grove::Grove(std::vector<DrawnTree*> trees, Ogre::SceneNode& node, const TreeMaterials& materials)
+TreeBatch::TreeBatch(std::vector<DrawnTree*> trees, Ogre::SceneNode& node,
+                     const TreeMaterials& materials)
     : trees_(std::move(trees)),
       materials_(materials),
       bark_(uniqueName("bark"), materials.bark),
@@ -84,7 +85,7 @@ Grove::Grove(std::vector<DrawnTree*> trees, Ogre::SceneNode& node, const TreeMat
   node.attachObject(&leaves_);
 }
 
-void Grove::rebuild() {
+void TreeBatch::rebuild() {
   double tallest = 0.0;
   for (const DrawnTree* tree : trees_) tallest = std::max(tallest, tree->height());
   const float margin = SWAY * static_cast<float>(tallest);
@@ -100,22 +101,22 @@ void Grove::rebuild() {
   leaves_.wear(fading ? materials_.fading_leaves : materials_.leaves);
 }
 
-void Grove::takePositions() {
+void TreeBatch::takePositions() {
   if (!built_) return;
   bark_.move(positionsOf(trees_, &DrawnTree::Shape::bark));
   leaves_.move(positionsOf(trees_, &DrawnTree::Shape::leaves));
 }
 
-void Grove::takePaint() {
+void TreeBatch::takePaint() {
   if (built_) bark_.paint(paintOf(trees_, &DrawnTree::Shape::bark));
 }
 
-bool Grove::takeSeen() {
+bool TreeBatch::takeSeen() {
   const bool bark = bark_.takeSeen(), leaves = leaves_.takeSeen();
   return bark || leaves;
 }
 
-bool Grove::sortFor(const Vec3& eye) {
+bool TreeBatch::sortFor(const Vec3& eye) {
   constexpr double SAME = 0.97;  // cosine of about 14 degrees
   const Vec3 direction = (eye - middle_) / std::max(length(eye - middle_), 1e-6);
   if (!built_ || dot(direction, sorted_for_) > SAME) return false;
@@ -124,7 +125,7 @@ bool Grove::sortFor(const Vec3& eye) {
   return true;
 }
 
-void Grove::setRank(int rank) {
+void TreeBatch::setRank(int rank) {
   bark_.setRank(rank);
   leaves_.setRank(rank);
 }

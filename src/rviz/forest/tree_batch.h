@@ -19,10 +19,10 @@ struct TreeMaterials {
 };
 
 /// Trees that stand together and are drawn with two batches, bark and leaves. Render thread only.
-class Grove {
+class TreeBatch {
  public:
   /// @param node whose frame is the trees' origin.
-  Grove(std::vector<DrawnTree*> trees, Ogre::SceneNode& node, const TreeMaterials& materials);
+  TreeBatch(std::vector<DrawnTree*> trees, Ogre::SceneNode& node, const TreeMaterials& materials);
 
   const std::vector<DrawnTree*>& trees() const { return trees_; }
   /// Middle of the feet, layout's frame [m].

@@ -31,7 +31,7 @@ GrassSource::GrassSource(ros::NodeHandle nh, const GrassTopics& topics)
 
 void GrassSource::takeLayout(const GrassLayout& message) {
   try {
-    meadow_ = HeardMeadow(message);
+    meadow_ = MeadowReplica(message);
   } catch (const std::exception& error) {
     layout_status_ = refused(error);
     return;
@@ -76,7 +76,7 @@ void GrassSource::takeState(const GrassState& message) {
   }
 }
 
-void GrassSource::notePressed(const grass::ToldTreads& treads) {
+void GrassSource::notePressed(const grass::TreadDelta& treads) {
   const grass::MapLaw& law = meadow_.layout.map->law();
   const int cells = static_cast<int>(std::lround(law.resolution / meadow_.tread->spacing()));
   constexpr int SIDE = grass::TreadBlock::SIDE;
@@ -85,7 +85,7 @@ void GrassSource::notePressed(const grass::ToldTreads& treads) {
   const auto last = [&](int block, int most) {
     return std::min(most - 1, (block * SIDE + SIDE - 1) / cells);
   };
-  for (const grass::ToldBlock& block : treads.blocks)
+  for (const grass::TreadBlockDelta& block : treads.blocks)
     for (int row = first(block.row); row <= last(block.row, law.rows - 1); ++row)
       for (int column = first(block.column); column <= last(block.column, law.columns - 1);
            ++column)

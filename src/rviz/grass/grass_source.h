@@ -59,9 +59,9 @@ class GrassSource {
   void takeLayout(const GrassLayout& message);
   void takeWind(const WindField& message);
   void takeState(const GrassState& message);
-  void notePressed(const grass::ToldTreads& treads);
+  void notePressed(const grass::TreadDelta& treads);
 
-  HeardMeadow meadow_;
+  MeadowReplica meadow_;
   wind::Field wind_;
   int layouts_{0}, changes_{0};
   std::set<std::pair<int, int>> pressed_;

@@ -21,19 +21,18 @@ constexpr double LARGEST_FADE = 0.05;  // of a transition between two updates
 constexpr double LEAVING = 0.5;        // of the blades drawn: the narrower, the sooner they go
 
 // Painted once in a process.
-const std::vector<Picture>& sharedStrips() {
-  static const std::vector<Picture> pictures =
-      stripPictures(STRIP_COLUMNS, STRIP_ROWS, STRIP_BLADES);
+const std::vector<Image>& sharedStrips() {
+  static const std::vector<Image> pictures = stripPictures(STRIP_COLUMNS, STRIP_ROWS, STRIP_BLADES);
   return pictures;
 }
 
-const std::vector<Picture>& sharedLayers() {
-  static const std::vector<Picture> pictures = layerPictures(LAYER_EDGE);
+const std::vector<Image>& sharedLayers() {
+  static const std::vector<Image> pictures = layerPictures(LAYER_EDGE);
   return pictures;
 }
 
-Eye eyeOf(const View& view) {
-  Eye out;
+Viewpoint eyeOf(const View& view) {
+  Viewpoint out;
   out.position = view.eye.position;
   out.pixels_per_radian = view.eye.pixels_per_radian;
   out.forward = view.forward;
@@ -48,11 +47,11 @@ Vec3 originOf(const grass::MapLaw& law, const terrain::HeightMap& terrain) {
 }
 
 // A tile on its way from texture to blades passes by strips: its place alone does not tell.
-bool haveArrived(const grass::MeadowMemory& memory, double transition) {
+bool haveArrived(const grass::MeadowLodSnapshot& memory, double transition) {
   return std::all_of(memory.levels.begin(), memory.levels.end(),
                      [&](const grass::TileLevel& level) {
-                       return placeAt(level.rung, memory.stamp, transition) ==
-                              static_cast<double>(level.rung.target);
+                       return placeAt(level.tier, memory.stamp, transition) ==
+                              static_cast<double>(level.tier.target);
                      });
 }
 
@@ -116,13 +115,13 @@ void GrassVisual::update(const GrassSource& source, Nanoseconds stamp, double wa
                          const View& view, const Options& options) {
   Drawn wanted{stamp, source.changes(), view.eye.position, view.forward, 0, true};
   if (isDrawn(wanted)) return;
-  const Eye eye = eyeOf(view);
+  const Viewpoint eye = eyeOf(view);
   levels_.setSettings(options.levels);
   levels_.setEyes({eye});
   const Nanoseconds now = levelClock(wall, options.levels.transition);
   levels_.advance(now);
   const std::vector<grass::TileView> tiles = levels_.viewOf(eye, now);
-  wanted.settled = haveArrived(levels_.memory(), options.levels.transition);
+  wanted.settled = haveArrived(levels_.snapshot(), options.levels.transition);
   build(source, stamp, view, tiles, options);
   // Two alike in a row: the number of blades has found its tolerance too.
   wanted.blades = report_.blades;
@@ -154,8 +153,8 @@ void GrassVisual::build(const GrassSource& source, Nanoseconds stamp, const View
   std::vector<grass::TilePlace> places;
   places.reserve(sorted.size());
   for (const grass::TileView& tile : sorted) places.push_back({tile.column, tile.row});
-  grass::NodeAir air(levels_.map(), levels_.terrain());
-  air.update(source.wind().at(stamp), {}, grass::Meadow::windowOf(sorted), &places);
+  grass::NodeWind air(levels_.map(), levels_.terrain());
+  air.update(source.wind().at(stamp), {}, grass::MeadowLod::windowOf(sorted), &places);
   for (grass::GrassMesh* mesh : {&blade_mesh_, &strip_mesh_, &layer_mesh_}) mesh->clear();
   report_.blades = report_.bladed = report_.stripped = 0;
   reach_ = 0.f;

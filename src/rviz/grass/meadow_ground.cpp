@@ -16,7 +16,7 @@ MeadowGround::MeadowGround(Ogre::SceneNode& parent, const GrassSource& source,
                            const Daylight& daylight, const Rgba& tint)
     : map_(source.layout().map), terrain_(source.terrain()), daylight_(daylight) {
   painter_ = std::make_unique<MeadowPainter>(*map_, *terrain_, daylight_, tint);
-  const Picture picture = painter_->whole();
+  const Image picture = painter_->whole();
   const Plot& plot = painter_->plot();
   const double x = plot.x + 0.5 * plot.edge, y = plot.y + 0.5 * plot.edge;
   Land land{plot, picture, *terrain_, Vec3(x, y, terrain_->height(x, y)), 1.0, tint};

@@ -120,23 +120,23 @@ Rgba openLight(const Daylight& daylight, const Vec3& normal) {
 
 std::vector<float> castShadows(const Plot& plot, int edge, const terrain::HeightMap& terrain,
                                const Vec3& to_sun,
-                               const std::function<void(const ShadowDrop&)>& tell) {
+                               const std::function<void(const ShadowDrop&)>& report) {
   ShadowPainter painter(plot, edge, terrain, to_sun);
-  tell([&](const Vec3& at, double radius, double depth) { painter.drop(at, radius, depth); });
+  report([&](const Vec3& at, double radius, double depth) { painter.drop(at, radius, depth); });
   return std::move(painter).light();
 }
 
-std::vector<float> shadowsOn(const Plot& plot, int edge, const TreeStock& stock,
+std::vector<float> shadowsOn(const Plot& plot, int edge, const TreeSet& tree_set,
                              const terrain::HeightMap& terrain, const Vec3& to_sun) {
   return castShadows(plot, edge, terrain, to_sun, [&](const ShadowDrop& drop) {
-    for (const auto& tree : stock.trees()) {
+    for (const auto& tree : tree_set.trees()) {
       const double radius = 0.5 * tree->leafSize();
       for (const forest::Branch& branch : tree->tree().skeleton.branches) {
         const Vec3 base = tree->foot() + branch.rest.position;
         const Vec3 tip = tree->foot() + tipOf(branch, branch.rest);
-        for (int leaf = 0; stock.hasLeaves() && leaf < branch.leaves; ++leaf)
+        for (int leaf = 0; tree_set.hasLeaves() && leaf < branch.leaves; ++leaf)
           drop(base + (tip - base) * ((leaf + 0.8) / branch.leaves), radius, LEAF_DEPTH);
-        if (branch.depth > 1 && stock.hasLeaves()) continue;  // lost among the leaves'
+        if (branch.depth > 1 && tree_set.hasLeaves()) continue;  // lost among the leaves'
         const int steps = 1 + static_cast<int>(branch.length / 0.15);
         for (int s = 0; s < steps; ++s)
           drop(base + (tip - base) * (static_cast<double>(s) / steps), branch.base_radius, 1.5);
@@ -145,19 +145,17 @@ std::vector<float> shadowsOn(const Plot& plot, int edge, const TreeStock& stock,
   });
 }
 
-Picture groundPicture(const Plot& plot, int edge, const TreeStock& stock,
-                      const terrain::HeightMap& terrain, const Daylight& daylight,
-                      const Rgba& tint) {
-  const Shade shade{shadowsOn(plot, edge, stock, terrain, daylight.to_sun),
-                    [&](const Vec3& at) { return stock.light().sky(at); }};
+Image groundPicture(const Plot& plot, int edge, const TreeSet& tree_set,
+                    const terrain::HeightMap& terrain, const Daylight& daylight, const Rgba& tint) {
+  const Shade shade{shadowsOn(plot, edge, tree_set, terrain, daylight.to_sun),
+                    [&](const Vec3& at) { return tree_set.light().sky(at); }};
   return groundPicture(plot, edge, shade, terrain, daylight, tint);
 }
 
-Picture groundPicture(const Plot& plot, int edge, const Shade& shade,
-                      const terrain::HeightMap& terrain, const Daylight& daylight,
-                      const Rgba& tint) {
+Image groundPicture(const Plot& plot, int edge, const Shade& shade,
+                    const terrain::HeightMap& terrain, const Daylight& daylight, const Rgba& tint) {
   const Noise noise(GROUND_SEED);
-  Picture out(edge, edge, {});
+  Image out(edge, edge, {});
   for (int r = 0; r < edge; ++r) {
     for (int c = 0; c < edge; ++c) {
       const double u = (c + 0.5) / edge, v = (r + 0.5) / edge;
@@ -184,9 +182,9 @@ Picture groundPicture(const Plot& plot, int edge, const Shade& shade,
   return out;
 }
 
-Picture grainPicture(int edge) {
+Image grainPicture(int edge) {
   const Noise noise(GROUND_SEED + 1);
-  Picture out(edge, edge, {});
+  Image out(edge, edge, {});
   const float unit = static_cast<float>(Noise::PERIOD) / static_cast<float>(edge);
   constexpr float BROAD = 0.25f * static_cast<float>(Noise::PERIOD);
   for (int r = 0; r < edge; ++r) {

@@ -28,7 +28,7 @@ Rgba openLight(const Daylight& daylight, const Vec3& normal);
 
 /// Part of the sun that leaves let through to each pixel of the plot: the trees' shadows, sharper
 /// than the grid of light. [edge x edge], south first.
-std::vector<float> shadowsOn(const Plot& plot, int edge, const TreeStock& stock,
+std::vector<float> shadowsOn(const Plot& plot, int edge, const TreeSet& tree_set,
                              const terrain::HeightMap& terrain, const Vec3& to_sun);
 
 /// What keeps light from the ground of a plot.
@@ -41,17 +41,15 @@ struct Shade {
 using ShadowDrop = std::function<void(const Vec3& at, double radius, double depth)>;
 std::vector<float> castShadows(const Plot& plot, int edge, const terrain::HeightMap& terrain,
                                const Vec3& to_sun,
-                               const std::function<void(const ShadowDrop&)>& tell);
+                               const std::function<void(const ShadowDrop&)>& report);
 
 /// The plot from above, north on top, with its light.
-Picture groundPicture(const Plot& plot, int edge, const Shade& shade,
-                      const terrain::HeightMap& terrain, const Daylight& daylight,
-                      const Rgba& tint);
-Picture groundPicture(const Plot& plot, int edge, const TreeStock& stock,
-                      const terrain::HeightMap& terrain, const Daylight& daylight,
-                      const Rgba& tint);
+Image groundPicture(const Plot& plot, int edge, const Shade& shade,
+                    const terrain::HeightMap& terrain, const Daylight& daylight, const Rgba& tint);
+Image groundPicture(const Plot& plot, int edge, const TreeSet& tree_set,
+                    const terrain::HeightMap& terrain, const Daylight& daylight, const Rgba& tint);
 
 /// Fine grain that repeats, mean one half. @param edge a power of two.
-Picture grainPicture(int edge);
+Image grainPicture(int edge);
 
 }  // namespace vegetation_sim::view

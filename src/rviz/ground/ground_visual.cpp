@@ -21,8 +21,8 @@ constexpr std::array<double, 6> RINGS{1.0, 1.25, 1.7, 2.8, 6.0, 24.0};
 constexpr int RING_SIDE = 32;  // quads along a side of a ring
 
 // Painted once in a process.
-const std::vector<Picture>& sharedGrain() {
-  static const std::vector<Picture> grain = mipmaps(grainPicture(GRAIN_EDGE));
+const std::vector<Image>& sharedGrain() {
+  static const std::vector<Image> grain = mipmaps(grainPicture(GRAIN_EDGE));
   return grain;
 }
 
@@ -66,7 +66,7 @@ std::array<double, 2> onSquare(int i) {
 GroundVisual::GroundVisual(Ogre::SceneNode& parent, const Land& land, const Daylight& daylight)
     : node_(parent.createChildSceneNode()),
       plot_texture_(uniqueName("ground_picture"), mipmaps(land.picture)),
-      plain_texture_(uniqueName("plain_picture"), {Picture(1, 1, {1.f, 1.f, 1.f, 1.f})}),
+      plain_texture_(uniqueName("plain_picture"), {Image(1, 1, {1.f, 1.f, 1.f, 1.f})}),
       grain_texture_(uniqueName("grain_picture"), sharedGrain()),
       plot_material_(Material::Kind::GROUND, uniqueName("plot_material"),
                      {plot_texture_.name(), grain_texture_.name()}),
@@ -160,7 +160,7 @@ void GroundVisual::addLand(const Land& land, const Daylight& daylight) {
 std::unique_ptr<GroundVisual> plainGround(Ogre::SceneNode& parent, const Plot& plot,
                                           const Shade& shade, const terrain::HeightMap& terrain,
                                           const Daylight& daylight, const Rgba& tint) {
-  const Picture picture = groundPicture(plot, PLAIN_EDGE, shade, terrain, daylight, tint);
+  const Image picture = groundPicture(plot, PLAIN_EDGE, shade, terrain, daylight, tint);
   const double x = plot.x + 0.5 * plot.edge, y = plot.y + 0.5 * plot.edge;
   Land land{plot, picture, terrain, Vec3(x, y, terrain.height(x, y)), 1.0, tint};
   if (!terrain.isFlat()) land.cell = terrain.resolution();

@@ -16,9 +16,9 @@ namespace vegetation_sim::view {
 
 /// Ground to draw.
 struct Land {
-  Plot plot;               ///< gets the picture
-  const Picture& picture;  ///< of the plot from above, north on top, with its light; alpha: part of
-                           ///< the light that is left near the eye, where plants on it are drawn
+  Plot plot;             ///< gets the picture
+  const Image& picture;  ///< of the plot from above, north on top, with its light; alpha: part of
+                         ///< the light that is left near the eye, where plants on it are drawn
   const terrain::HeightMap& terrain;
   Vec3 origin{Vec3::Zero()};        ///< of coordinates, layout's frame [m]
   double cell{3.0};                 ///< [m] about, of the plot's mesh on ground that is not flat
@@ -37,9 +37,7 @@ class GroundVisual {
   /// Up to this distance [m] the picture's alpha darkens it; 0, as at first: nowhere.
   void darken(float distance) { plot_material_.darken(distance); }
   /// Paints part of the picture anew, `column` and `row` from its top left.
-  void repaint(int column, int row, const Picture& part) {
-    plot_texture_.update(column, row, part);
-  }
+  void repaint(int column, int row, const Image& part) { plot_texture_.update(column, row, part); }
   std::size_t triangleCount() const { return triangles_; }
 
  private:

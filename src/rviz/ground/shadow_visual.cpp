@@ -15,10 +15,10 @@ constexpr double LIFT = 0.2, CELL = 2.0;  // [m] over the ground; of the veil's 
 constexpr int MOST_CELLS = 120;           // along its edge
 constexpr float DARKEST = 0.62f;          // alpha where no sun arrives
 
-Picture veilPicture(const Plot& plot, const TreeStock& stock, const terrain::HeightMap& terrain,
-                    const Vec3& to_sun) {
-  const std::vector<float> light = shadowsOn(plot, EDGE, stock, terrain, to_sun);
-  Picture out(EDGE, EDGE, {1.f, 1.f, 1.f, 0.f});
+Image veilPicture(const Plot& plot, const TreeSet& tree_set, const terrain::HeightMap& terrain,
+                  const Vec3& to_sun) {
+  const std::vector<float> light = shadowsOn(plot, EDGE, tree_set, terrain, to_sun);
+  Image out(EDGE, EDGE, {1.f, 1.f, 1.f, 0.f});
   for (int r = 0; r < EDGE; ++r)
     for (int c = 0; c < EDGE; ++c)
       out.at(c, EDGE - 1 - r)[3] = DARKEST * (1.f - light[static_cast<std::size_t>(r * EDGE + c)]);
@@ -27,15 +27,16 @@ Picture veilPicture(const Plot& plot, const TreeStock& stock, const terrain::Hei
 
 }  // namespace
 
-ShadowVisual::ShadowVisual(Ogre::SceneNode& parent, const TreeStock& stock,
+ShadowVisual::ShadowVisual(Ogre::SceneNode& parent, const TreeSet& tree_set,
                            const terrain::HeightMap& terrain, const Daylight& daylight)
     : node_(parent.createChildSceneNode()),
-      texture_(uniqueName("veil_picture"),
-               mipmaps(veilPicture(plotAround(stock.extent()), stock, terrain, daylight.to_sun))),
+      texture_(
+          uniqueName("veil_picture"),
+          mipmaps(veilPicture(plotAround(tree_set.extent()), tree_set, terrain, daylight.to_sun))),
       material_(Material::Kind::SHADOWS, uniqueName("veil_material"), {texture_.name()}),
       veil_(uniqueName("veil"), material_.name()) {
-  const Plot plot = plotAround(stock.extent());
-  const Vec3& origin = stock.origin();
+  const Plot plot = plotAround(tree_set.extent());
+  const Vec3& origin = tree_set.origin();
   node_->setPosition(static_cast<float>(origin.x()), static_cast<float>(origin.y()),
                      static_cast<float>(origin.z()));
   const int cells = std::clamp(static_cast<int>(plot.edge / CELL), 1, MOST_CELLS);

@@ -16,7 +16,7 @@ namespace vegetation_sim::view {
 class ShadowVisual {
  public:
   /// @param parent node in the frame of the layout.
-  ShadowVisual(Ogre::SceneNode& parent, const TreeStock& stock, const terrain::HeightMap& terrain,
+  ShadowVisual(Ogre::SceneNode& parent, const TreeSet& tree_set, const terrain::HeightMap& terrain,
                const Daylight& daylight);
   ~ShadowVisual();
 

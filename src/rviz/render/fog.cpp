@@ -7,7 +7,7 @@
 
 namespace vegetation_sim::view {
 
-Air::Air(Ogre::SceneManager& scene, rviz::RenderPanel* panel, const Haze& haze, const Rgba& colour)
+Fog::Fog(Ogre::SceneManager& scene, rviz::RenderPanel* panel, const Haze& haze, const Rgba& colour)
     : scene_(scene),
       panel_(panel),
       mode_(scene.getFogMode()),
@@ -24,7 +24,7 @@ Air::Air(Ogre::SceneManager& scene, rviz::RenderPanel* panel, const Haze& haze, 
   panel_->setBackgroundColor(value);
 }
 
-Air::~Air() {
+Fog::~Fog() {
   scene_.setFog(mode_, colour_, density_, start_, end_);
   if (panel_ != nullptr && panel_->getViewport() != nullptr)
     panel_->setBackgroundColor(background_);

@@ -15,13 +15,13 @@ namespace vegetation_sim::view {
 
 /// Haze over all that rviz draws, and its colour as background; what was there before is put back
 /// when this object goes. Render thread only.
-class Air {
+class Fog {
  public:
   /// @param panel may be null: then no background is changed.
-  Air(Ogre::SceneManager& scene, rviz::RenderPanel* panel, const Haze& haze, const Rgba& colour);
-  ~Air();
-  Air(const Air&) = delete;
-  Air& operator=(const Air&) = delete;
+  Fog(Ogre::SceneManager& scene, rviz::RenderPanel* panel, const Haze& haze, const Rgba& colour);
+  ~Fog();
+  Fog(const Fog&) = delete;
+  Fog& operator=(const Fog&) = delete;
 
  private:
   Ogre::SceneManager& scene_;

@@ -8,8 +8,8 @@
 
 namespace vegetation_sim::view {
 
-Texture::Texture(const std::string& name, const std::vector<Picture>& mipmaps) : name_(name) {
-  const Picture& full = mipmaps.front();
+Texture::Texture(const std::string& name, const std::vector<Image>& mipmaps) : name_(name) {
+  const Image& full = mipmaps.front();
   const Ogre::TexturePtr texture = Ogre::TextureManager::getSingleton().createManual(
       name, Ogre::ResourceGroupManager::DEFAULT_RESOURCE_GROUP_NAME, Ogre::TEX_TYPE_2D,
       static_cast<Ogre::uint>(full.columns), static_cast<Ogre::uint>(full.rows),
@@ -23,7 +23,7 @@ Texture::Texture(const std::string& name, const std::vector<Picture>& mipmaps) :
   }
 }
 
-void Texture::update(int column, int row, Picture part) {
+void Texture::update(int column, int row, Image part) {
   const Ogre::TexturePtr texture = Ogre::TextureManager::getSingleton().getByName(name_);
   for (std::size_t level = 0; level <= texture->getNumMipmaps(); ++level) {
     std::vector<std::uint8_t> bytes = part.bytes();

@@ -14,7 +14,7 @@ namespace vegetation_sim::view {
 class Texture {
  public:
   /// @param name unique among Ogre's textures.
-  Texture(const std::string& name, const std::vector<Picture>& mipmaps);
+  Texture(const std::string& name, const std::vector<Image>& mipmaps);
   ~Texture();
   Texture(const Texture&) = delete;
   Texture& operator=(const Texture&) = delete;
@@ -22,7 +22,7 @@ class Texture {
   const std::string& name() const { return name_; }
   /// Paints a part anew, in all sizes down to where it is a pixel. Its place and size are to be
   /// multiples of a power of two, so that it covers whole pixels of the smaller pictures.
-  void update(int column, int row, Picture part);
+  void update(int column, int row, Image part);
 
  private:
   std::string name_;

@@ -9,27 +9,27 @@ namespace vegetation_sim::view {
 namespace {
 
 // Oldest first.
-std::vector<const Claim*>& allClaims() {
-  static std::vector<const Claim*> claims;
-  return claims;
+std::vector<const SceneOwnership*>& allOwnerships() {
+  static std::vector<const SceneOwnership*> ownerships;
+  return ownerships;
 }
 
 }  // namespace
 
-Claim::Claim(const Ogre::SceneManager& scene, Shared thing, std::uint64_t key, int rank,
-             const rviz::Display& display)
+SceneOwnership::SceneOwnership(const Ogre::SceneManager& scene, Shared thing, std::uint64_t key,
+                               int rank, const rviz::Display& display)
     : scene_(scene), thing_(thing), key_(key), rank_(rank), display_(display) {
-  allClaims().push_back(this);
+  allOwnerships().push_back(this);
 }
 
-Claim::~Claim() {
-  std::vector<const Claim*>& all = allClaims();
+SceneOwnership::~SceneOwnership() {
+  std::vector<const SceneOwnership*>& all = allOwnerships();
   all.erase(std::remove(all.begin(), all.end(), this), all.end());
 }
 
-const Claim& Claim::holder() const {
-  const Claim* best = nullptr;
-  for (const Claim* other : allClaims()) {
+const SceneOwnership& SceneOwnership::holder() const {
+  const SceneOwnership* best = nullptr;
+  for (const SceneOwnership* other : allOwnerships()) {
     if (&other->scene_ != &scene_ || other->thing_ != thing_ || other->key_ != key_) continue;
     if (best == nullptr || other->rank_ > best->rank_) best = other;
   }

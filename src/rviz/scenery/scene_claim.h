@@ -18,14 +18,14 @@ enum class Shared { GROUND, SKY, AIR, VIEWER };
 
 /// A display's wish to give it. The highest rank holds it, the oldest among equals; when that one
 /// goes, the next does. Render thread only.
-class Claim {
+class SceneOwnership {
  public:
   /// @param key claims of different keys do not meet: the ground's terrain, the viewer's topic.
-  Claim(const Ogre::SceneManager& scene, Shared thing, std::uint64_t key, int rank,
-        const rviz::Display& display);
-  ~Claim();
-  Claim(const Claim&) = delete;
-  Claim& operator=(const Claim&) = delete;
+  SceneOwnership(const Ogre::SceneManager& scene, Shared thing, std::uint64_t key, int rank,
+                 const rviz::Display& display);
+  ~SceneOwnership();
+  SceneOwnership(const SceneOwnership&) = delete;
+  SceneOwnership& operator=(const SceneOwnership&) = delete;
 
   std::uint64_t key() const { return key_; }
   bool holds() const { return &holder() == this; }
@@ -33,7 +33,7 @@ class Claim {
   const rviz::Display& giver() const { return holder().display_; }
 
  private:
-  const Claim& holder() const;
+  const SceneOwnership& holder() const;
 
   const Ogre::SceneManager& scene_;
   Shared thing_;

@@ -68,21 +68,22 @@ void SceneryDisplay::stop() {
   air_.reset();
   sky_.reset();
   close();
-  for (auto* claim : {&ground_claim_, &sky_claim_, &air_claim_, &viewer_claim_}) claim->reset();
+  for (auto* ownership : {&ground_ownership_, &sky_ownership_, &fog_ownership_, &viewer_ownership_})
+    ownership->reset();
 }
 
 void SceneryDisplay::updateTopics() {
   if (isEnabled() && initialized()) reset();
 }
 
-std::unique_ptr<view::Claim> SceneryDisplay::claim(view::Shared thing, std::uint64_t key,
-                                                   int rank) const {
-  return std::make_unique<view::Claim>(*scene_manager_, thing, key, rank, *this);
+std::unique_ptr<view::SceneOwnership> SceneryDisplay::ownership(view::Shared thing,
+                                                                std::uint64_t key, int rank) const {
+  return std::make_unique<view::SceneOwnership>(*scene_manager_, thing, key, rank, *this);
 }
 
 // Made anew at the next update.
 void SceneryDisplay::updateGround() {
-  ground_claim_.reset();
+  ground_ownership_.reset();
   gives_ground_ = false;
   dropGround();
 }
@@ -94,18 +95,18 @@ void SceneryDisplay::setGroundRank(int rank) {
 
 bool SceneryDisplay::givesGround(const terrain::HeightMap& terrain) {
   if (!properties().ground()) return false;
-  if (!ground_claim_ || ground_claim_->key() != terrain.hash()) {
+  if (!ground_ownership_ || ground_ownership_->key() != terrain.hash()) {
     updateGround();  // that of another terrain
-    ground_claim_ = claim(view::Shared::GROUND, terrain.hash(), ground_rank_);
+    ground_ownership_ = ownership(view::Shared::GROUND, terrain.hash(), ground_rank_);
   }
-  gives_ground_ = ground_claim_->holds();
+  gives_ground_ = ground_ownership_->holds();
   return gives_ground_;
 }
 
 void SceneryDisplay::updateSky() {
   sky_.reset();
-  sky_claim_.reset();
-  if (open_ && properties().sky()) sky_claim_ = claim(view::Shared::SKY);
+  sky_ownership_.reset();
+  if (open_ && properties().sky()) sky_ownership_ = ownership(view::Shared::SKY);
   keepScenery();
 }
 
@@ -117,30 +118,30 @@ void SceneryDisplay::updateSun() {
 
 void SceneryDisplay::updateHaze() {
   air_.reset();
-  air_claim_.reset();
+  fog_ownership_.reset();
   if (!open_) return;
-  if (properties().haze()) air_claim_ = claim(view::Shared::AIR);
+  if (properties().haze()) fog_ownership_ = ownership(view::Shared::AIR);
   keepScenery();
   light(properties().daylight(), properties().hazeValues());
 }
 
 void SceneryDisplay::updateViewer() {
   viewer_.reset();
-  viewer_claim_.reset();
+  viewer_ownership_.reset();
   if (!open_ || !properties().publishesViewer()) return;
   const std::string topic = properties().viewerTopic();
-  viewer_claim_ = claim(view::Shared::VIEWER, std::hash<std::string>()(topic));
+  viewer_ownership_ = ownership(view::Shared::VIEWER, std::hash<std::string>()(topic));
 }
 
 // What another display gave until now may be ours to give.
 void SceneryDisplay::keepScenery() {
-  if (!sky_ && sky_claim_ && sky_claim_->holds())
+  if (!sky_ && sky_ownership_ && sky_ownership_->holds())
     sky_ = std::make_unique<view::SkyVisual>(*scene_node_, properties().daylight());
-  if (!air_ && air_claim_ && air_claim_->holds())
+  if (!air_ && fog_ownership_ && fog_ownership_->holds())
     air_ =
-        std::make_unique<view::Air>(*scene_manager_, context_->getViewManager()->getRenderPanel(),
+        std::make_unique<view::Fog>(*scene_manager_, context_->getViewManager()->getRenderPanel(),
                                     properties().hazeValues(), properties().daylight().horizon);
-  if (gives_ground_ && !ground_claim_->holds()) {
+  if (gives_ground_ && !ground_ownership_->holds()) {
     gives_ground_ = false;
     dropGround();
   }
@@ -180,7 +181,7 @@ void SceneryDisplay::watchTime(Nanoseconds stamp) {
 }
 
 void SceneryDisplay::publishViewer() {
-  if (!viewer_claim_ || !viewer_claim_->holds()) return;
+  if (!viewer_ownership_ || !viewer_ownership_->holds()) return;
   try {
     const std::string id = "rviz_" + std::to_string(getpid()) + "_" + getNameStd();
     if (!viewer_)
@@ -188,7 +189,7 @@ void SceneryDisplay::publishViewer() {
     deleteStatus("Viewer");
   } catch (const ros::Exception& error) {
     setStatusStd(rviz::StatusProperty::Error, "Viewer", error.what());
-    viewer_claim_.reset();
+    viewer_ownership_.reset();
     return;
   }
   rviz::ViewController* controller = context_->getViewManager()->getCurrent();
@@ -208,12 +209,14 @@ void SceneryDisplay::showStatus(Nanoseconds stamp) {
   else
     board_.show(rviz::StatusProperty::Ok, "Time", "OK");
   std::string others;
-  const std::pair<const char*, const view::Claim*> things[] = {
-      {"ground", ground_claim_.get()}, {"sky", sky_claim_.get()}, {"haze", air_claim_.get()}};
-  for (const auto& [name, claim] : things)
-    if (claim != nullptr && !claim->holds())
-      others +=
-          (others.empty() ? "" : ", ") + std::string(name) + " by " + claim->giver().getNameStd();
+  const std::pair<const char*, const view::SceneOwnership*> things[] = {
+      {"ground", ground_ownership_.get()},
+      {"sky", sky_ownership_.get()},
+      {"haze", fog_ownership_.get()}};
+  for (const auto& [name, ownership] : things)
+    if (ownership != nullptr && !ownership->holds())
+      others += (others.empty() ? "" : ", ") + std::string(name) + " by " +
+                ownership->giver().getNameStd();
   board_.show(rviz::StatusProperty::Ok, "Scenery", others.empty() ? "As set here" : others);
   const view::InputStatus drawn = describeDrawn();
   ROS_DEBUG_STREAM(getNameStd() << ": " << drawn.text);

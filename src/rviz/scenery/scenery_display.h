@@ -20,8 +20,8 @@ namespace vegetation_sim {
 
 /// What the displays of a landscape have in common: they listen while enabled, draw at rviz's time,
 /// say what they draw and why, and tell nodes where the view looks from. Ground, sky, haze and
-/// viewer are given once in a scene, whoever else could (view::Claim). Everything runs in rviz's
-/// render thread; while disabled a display holds no subscription and no Ogre object.
+/// viewer are given once in a scene, whoever else could (view::SceneOwnership). Everything runs in
+/// rviz's render thread; while disabled a display holds no subscription and no Ogre object.
 ///
 /// A kind of display overrides the functions below and calls stop() in its destructor.
 class SceneryDisplay : public rviz::Display {
@@ -83,14 +83,16 @@ class SceneryDisplay : public rviz::Display {
   void drawAt(Nanoseconds stamp);
   void publishViewer();
   void showStatus(Nanoseconds stamp);
-  std::unique_ptr<view::Claim> claim(view::Shared thing, std::uint64_t key = 0, int rank = 0) const;
+  std::unique_ptr<view::SceneOwnership> ownership(view::Shared thing, std::uint64_t key = 0,
+                                                  int rank = 0) const;
 
   int ground_rank_;
   view::GovernorKeys governor_keys_;
   bool open_{false}, gives_ground_{false};
-  std::unique_ptr<view::Claim> ground_claim_, sky_claim_, air_claim_, viewer_claim_;
+  std::unique_ptr<view::SceneOwnership> ground_ownership_, sky_ownership_, fog_ownership_,
+      viewer_ownership_;
   std::unique_ptr<view::SkyVisual> sky_;
-  std::unique_ptr<view::Air> air_;
+  std::unique_ptr<view::Fog> air_;
   std::unique_ptr<view::ViewerPublisher> viewer_;
   std::unique_ptr<view::GovernorSource> governor_;
   view::StatusBoard board_;

@@ -29,10 +29,10 @@ std::string describe(const ForestReport& report) {
   return out;
 }
 
-std::string describeMotion(const forest::ForestReplica& replica, const TreeStock& stock) {
+std::string describeMotion(const forest::ForestReplica& replica, const TreeSet& tree_set) {
   std::array<std::size_t, forest::MODAL_LEVEL + 1> trees{};
   std::size_t physical = 0;
-  for (const auto& tree : stock.trees()) {
+  for (const auto& tree : tree_set.trees()) {
     ++trees[static_cast<std::size_t>(replica.levels().of(tree->id()).level)];
     physical += replica.promoted(tree->id()).branches.empty() ? 0 : 1;
   }

@@ -29,7 +29,7 @@ class StatusBoard {
 /// One line: trees, triangles, levels.
 std::string describe(const ForestReport& report);
 /// Levels of motion of those trees that are drawn.
-std::string describeMotion(const forest::ForestReplica& replica, const TreeStock& stock);
+std::string describeMotion(const forest::ForestReplica& replica, const TreeSet& tree_set);
 struct GrassReport;
 /// One line: blades, strips, triangles, trodden ground.
 std::string describe(const GrassReport& report);

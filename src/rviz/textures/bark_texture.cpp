@@ -33,7 +33,7 @@ float paleBark(const Noise& noise, float around, float along) {
 }
 
 // Dark strokes across the wood, and a few rough patches.
-void addLenticels(Picture& picture) {
+void addLenticels(Image& picture) {
   const Random random(0xb12c);
   for (std::uint64_t i = 0; i < 150; ++i) {
     const Random own = random.child(i);
@@ -55,10 +55,10 @@ void addLenticels(Picture& picture) {
 
 }  // namespace
 
-Picture barkPicture(forest::LeafShape shape, int columns) {
+Image barkPicture(forest::LeafShape shape, int columns) {
   const int rows = 4 * columns;
   const Noise noise(0xba2c + static_cast<std::uint64_t>(shape));
-  Picture out(columns, rows, {1.f, 1.f, 1.f, 1.f});
+  Image out(columns, rows, {1.f, 1.f, 1.f, 1.f});
   for (int r = 0; r < rows; ++r) {
     for (int c = 0; c < columns; ++c) {
       // Mirrored half way round, so that it closes.
@@ -80,8 +80,8 @@ Picture barkPicture(forest::LeafShape shape, int columns) {
   return out;
 }
 
-Picture barkAtlas(int edge) {
-  Picture out(edge, 2 * edge, {});
+Image barkAtlas(int edge) {
+  Image out(edge, 2 * edge, {});
   for (int shape = 0; shape < 4; ++shape)
     paste(barkPicture(static_cast<LeafShape>(shape), edge / 4), shape * edge / 4, 0, out);
   for (int r = 0; r < edge; ++r)

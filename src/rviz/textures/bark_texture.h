@@ -13,11 +13,11 @@ constexpr float BARK_PERIOD = 2.f;
 /// Bark as lightness, mean about 0.85: once around from left to right, BARK_PERIOD of wood in
 /// height. The kind of tree is told by its leaves: fissures (broad, long), plates (needle),
 /// lenticels (small).
-Picture barkPicture(forest::LeafShape shape, int columns);
+Image barkPicture(forest::LeafShape shape, int columns);
 
 /// The four barks side by side, in the order of LeafShape, and mirrored below: so it repeats
 /// without a seam, of 2 BARK_PERIOD, where renderers are slow to mirror. [2 edge x edge]
-Picture barkAtlas(int edge);
+Image barkAtlas(int edge);
 /// Horizontal place in the atlas of `around` (0 to 1) for a shape.
 float barkAtlasU(int shape, float around);
 

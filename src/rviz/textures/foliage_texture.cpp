@@ -45,8 +45,8 @@ Rgba ribbonPixel(float x, float /*t*/) {
 }
 
 template <class Pixel>
-Picture paint(int edge, const Pixel& pixel) {
-  Picture out(2 * edge, 2 * edge, {});
+Image paint(int edge, const Pixel& pixel) {
+  Image out(2 * edge, 2 * edge, {});
   for (int r = 0; r < out.rows; ++r)
     for (int c = 0; c < out.columns; ++c)
       out.at(c, r) = pixel((static_cast<float>(c) + 0.5f) / static_cast<float>(out.columns) - 0.5f,
@@ -79,12 +79,12 @@ Rgba sprigPixel(float x, float t) {
 
 }  // namespace
 
-std::vector<Picture> foliageAtlas(int edge) {
-  std::vector<Picture> out;
-  const Picture cuts[] = {paint(edge, leafPixel), paint(edge, sprigPixel), paint(edge, ribbonPixel),
-                          Picture(edge, edge, {0.8f, 0.8f, 0.8f, 1.f})};
+std::vector<Image> foliageAtlas(int edge) {
+  std::vector<Image> out;
+  const Image cuts[] = {paint(edge, leafPixel), paint(edge, sprigPixel), paint(edge, ribbonPixel),
+                        Image(edge, edge, {0.8f, 0.8f, 0.8f, 1.f})};
   for (int cut = 0; cut < CUTS; ++cut) {
-    const std::vector<Picture> levels = coveredMipmaps(cuts[cut], 4);
+    const std::vector<Image> levels = coveredMipmaps(cuts[cut], 4);
     for (std::size_t level = 0; level < levels.size(); ++level) {
       const int side = levels[level].columns;
       if (cut == 0) out.emplace_back(CUTS * side, side, Rgba{0.8f, 0.8f, 0.8f, 0.f});

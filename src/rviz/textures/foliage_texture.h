@@ -14,7 +14,7 @@ enum class LeafCut { LEAF, SPRIG, RIBBON, PLAIN };
 
 /// The cuts side by side: lightness in the colour, mean about 0.8, their outlines in alpha, which
 /// keeps its coverage in the smaller versions.
-std::vector<Picture> foliageAtlas(int edge);
+std::vector<Image> foliageAtlas(int edge);
 /// A place in one picture, u across and v along from 0 to 1, as a place in the atlas.
 std::array<float, 2> foliagePlace(LeafCut cut, float u, float v);
 

@@ -31,12 +31,12 @@ float octave(const std::vector<float>& lattice, float x, float y) {
 
 }  // namespace
 
-Picture::Picture(int columns_wanted, int rows_wanted, const Rgba& fill)
+Image::Image(int columns_wanted, int rows_wanted, const Rgba& fill)
     : columns(columns_wanted),
       rows(rows_wanted),
       pixels(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), fill) {}
 
-void Picture::blend(int column, int row, const Rgba& colour) {
+void Image::blend(int column, int row, const Rgba& colour) {
   if (column < 0 || row < 0 || column >= columns || row >= rows || colour[3] <= 0.f) return;
   Rgba& pixel = at(column, row);
   const float alpha = colour[3] + pixel[3] * (1.f - colour[3]);
@@ -45,7 +45,7 @@ void Picture::blend(int column, int row, const Rgba& colour) {
   pixel[3] = alpha;
 }
 
-std::vector<std::uint8_t> Picture::bytes() const {
+std::vector<std::uint8_t> Image::bytes() const {
   std::vector<std::uint8_t> out;
   out.reserve(4 * pixels.size());
   for (const Rgba& pixel : pixels)
@@ -54,8 +54,8 @@ std::vector<std::uint8_t> Picture::bytes() const {
   return out;
 }
 
-Picture halved(const Picture& picture) {
-  Picture out(std::max(1, picture.columns / 2), std::max(1, picture.rows / 2), {});
+Image halved(const Image& picture) {
+  Image out(std::max(1, picture.columns / 2), std::max(1, picture.rows / 2), {});
   for (int r = 0; r < out.rows; ++r) {
     for (int c = 0; c < out.columns; ++c) {
       const int c1 = std::min(2 * c + 1, picture.columns - 1);
@@ -68,14 +68,14 @@ Picture halved(const Picture& picture) {
   return out;
 }
 
-std::vector<Picture> mipmaps(Picture picture, int smallest) {
-  std::vector<Picture> out{std::move(picture)};
+std::vector<Image> mipmaps(Image picture, int smallest) {
+  std::vector<Image> out{std::move(picture)};
   while (std::min(out.back().columns, out.back().rows) > smallest)
     out.push_back(halved(out.back()));
   return out;
 }
 
-void paste(const Picture& part, int column, int row, Picture& whole) {
+void paste(const Image& part, int column, int row, Image& whole) {
   for (int r = 0; r < part.rows; ++r)
     for (int c = 0; c < part.columns; ++c) whole.at(column + c, row + r) = part.at(c, r);
 }

@@ -20,10 +20,10 @@ inline Rgba mix(const Rgba& a, const Rgba& b, float weight_of_b) {
   return out;
 }
 
-/// Picture in floats, top row first.
-struct Picture {
-  Picture() = default;
-  Picture(int columns_wanted, int rows_wanted, const Rgba& fill);
+/// Image in floats, top row first.
+struct Image {
+  Image() = default;
+  Image(int columns_wanted, int rows_wanted, const Rgba& fill);
 
   int columns{0}, rows{0};
   std::vector<Rgba> pixels;  ///< [rows x columns]
@@ -43,11 +43,11 @@ struct Picture {
 };
 
 /// The picture at half the size, each pixel the mean of four.
-Picture halved(const Picture& picture);
-/// Picture and its smaller versions down to `smallest` pixels.
-std::vector<Picture> mipmaps(Picture picture, int smallest = 1);
+Image halved(const Image& picture);
+/// Image and its smaller versions down to `smallest` pixels.
+std::vector<Image> mipmaps(Image picture, int smallest = 1);
 /// Copies `part` into `whole` with its top left corner at (column, row).
-void paste(const Picture& part, int column, int row, Picture& whole);
+void paste(const Image& part, int column, int row, Image& whole);
 
 /// Smooth noise over a plane, in [0, 1] with mean about 0.5, repeating after PERIOD units.
 class Noise {

@@ -11,7 +11,7 @@ namespace {
 using forest::LeafShape;
 
 // Scales alpha so that the same fraction passes the test as in the full picture.
-void keepCoverage(double wanted, Picture& picture) {
+void keepCoverage(double wanted, Image& picture) {
   std::vector<float> alphas;
   for (const Rgba& pixel : picture.pixels) alphas.push_back(pixel[3]);
   std::sort(alphas.begin(), alphas.end(), std::greater<>());
@@ -23,18 +23,18 @@ void keepCoverage(double wanted, Picture& picture) {
 
 }  // namespace
 
-std::vector<Picture> coveredMipmaps(const Picture& picture, int smallest) {
-  std::vector<Picture> levels = mipmaps(picture, smallest);
+std::vector<Image> coveredMipmaps(const Image& picture, int smallest) {
+  std::vector<Image> levels = mipmaps(picture, smallest);
   const double wanted = coverage(picture);
   for (std::size_t level = 1; level < levels.size(); ++level) keepCoverage(wanted, levels[level]);
   return levels;
 }
 
-std::vector<Picture> leafAtlas(int edge) {
-  std::vector<Picture> out;
+std::vector<Image> leafAtlas(int edge) {
+  std::vector<Image> out;
   for (int cell = 0; cell < 8; ++cell) {
     const auto shape = static_cast<LeafShape>(cell % 4);
-    const std::vector<Picture> levels = coveredMipmaps(leafPicture(shape, cell >= 4, edge), 4);
+    const std::vector<Image> levels = coveredMipmaps(leafPicture(shape, cell >= 4, edge), 4);
     for (std::size_t level = 0; level < levels.size(); ++level) {
       const int side = levels[level].columns;
       if (cell == 0) out.emplace_back(4 * side, 2 * side, Rgba{});

@@ -42,7 +42,7 @@ class ClusterPainter {
         random_(0x1eaf + static_cast<std::uint64_t>(shape)),
         out_(2 * edge, 2 * edge, {0.8f, 0.8f, 0.8f, 0.f}) {}
 
-  Picture paint() {
+  Image paint() {
     switch (shape_) {
       case LeafShape::BROAD:
         bough_ ? sprays(0.082f) : spray({0.5f, 0.f}, 0.f, 0.76f, 9, 7, 0.135f);
@@ -213,16 +213,16 @@ class ClusterPainter {
   Random random_;
   std::uint64_t drawn_{0};
   float lightness_{1.f};  // of the leaves that are painted now
-  Picture out_;
+  Image out_;
 };
 
 }  // namespace
 
-Picture leafPicture(forest::LeafShape shape, bool bough, int edge) {
+Image leafPicture(forest::LeafShape shape, bool bough, int edge) {
   return ClusterPainter(shape, bough, edge).paint();
 }
 
-double coverage(const Picture& picture) {
+double coverage(const Image& picture) {
   const auto passes = [](const Rgba& pixel) { return pixel[3] >= ALPHA_LIMIT; };
   return static_cast<double>(std::count_if(picture.pixels.begin(), picture.pixels.end(), passes)) /
          static_cast<double>(picture.pixels.size());

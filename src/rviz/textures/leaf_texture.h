@@ -9,11 +9,11 @@ namespace vegetation_sim::view {
 
 /// One cluster of leaves on its twig, or a bough of several, foot at the middle of the lower edge:
 /// lightness in the colour (about 0.8, to be multiplied with the tree's own), the leaves in alpha.
-Picture leafPicture(forest::LeafShape shape, bool bough, int edge);
+Image leafPicture(forest::LeafShape shape, bool bough, int edge);
 
 /// What alpha has to reach to be drawn.
 constexpr float ALPHA_LIMIT = 0.5f;
 /// Fraction of the picture that passes that test.
-double coverage(const Picture& picture);
+double coverage(const Image& picture);
 
 }  // namespace vegetation_sim::view

@@ -120,8 +120,8 @@ Rgba MeadowPainter::colourAt(double x, double y, double crush, const Vec3& lying
   return out;
 }
 
-Picture MeadowPainter::whole() const {
-  Picture out(edge_, edge_, {});
+Image MeadowPainter::whole() const {
+  Image out(edge_, edge_, {});
   const double pixel = plot_.edge / edge_;
   for (int r = 0; r < edge_; ++r)
     for (int c = 0; c < edge_; ++c)
@@ -130,8 +130,8 @@ Picture MeadowPainter::whole() const {
   return out;
 }
 
-Picture MeadowPainter::tile(int column, int row, const grass::CrushPatch* patch) const {
-  Picture out(per_tile_, per_tile_, {});
+Image MeadowPainter::tile(int column, int row, const grass::CrushPatch* patch) const {
+  Image out(per_tile_, per_tile_, {});
   const double size = map_.law().resolution;
   for (int r = 0; r < per_tile_; ++r)
     for (int c = 0; c < per_tile_; ++c) {

@@ -32,9 +32,9 @@ class MeadowPainter {
   int edge() const { return edge_; }               ///< of the whole picture [pixel]
   int pixelsPerTile() const { return per_tile_; }  ///< a power of two
 
-  Picture whole() const;
+  Image whole() const;
   /// One tile. `patch` may be null: untrodden.
-  Picture tile(int column, int row, const grass::CrushPatch* patch) const;
+  Image tile(int column, int row, const grass::CrushPatch* patch) const;
   /// Where a tile's picture lies in the whole one.
   int left(int column) const { return column * per_tile_; }
   int top(int row) const { return edge_ - (row + 1) * per_tile_; }
@@ -55,9 +55,9 @@ class MeadowPainter {
 
 /// The strips' picture and its smaller versions, which show the same share of blades at each height
 /// for each test against alpha, so that far grass does not thin out.
-std::vector<Picture> stripPictures(int columns, int rows, int blades);
+std::vector<Image> stripPictures(int columns, int rows, int blades);
 /// Blades from above, for layers (S2-W3): dots with an alpha of their own, repeating. @param edge a
 /// power of two.
-std::vector<Picture> layerPictures(int edge);
+std::vector<Image> layerPictures(int edge);
 
 }  // namespace vegetation_sim::view

@@ -18,8 +18,8 @@ double halfWidth(double v) {
 
 }  // namespace
 
-Picture shadowPicture() {
-  Picture out(COLUMNS, ROWS, {1.f, 1.f, 1.f, 0.f});
+Image shadowPicture() {
+  Image out(COLUMNS, ROWS, {1.f, 1.f, 1.f, 0.f});
   for (int r = 0; r < ROWS; ++r) {
     const double v = (r + 0.5) / ROWS, soft = 0.25 + 0.45 * v;
     const double along = smoothStep(v / 0.12) * smoothStep((1.0 - v) / 0.25);

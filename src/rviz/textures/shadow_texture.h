@@ -8,6 +8,6 @@ namespace vegetation_sim::view {
 
 /// Shadow of an upright body: white, alpha is how much of it there is; dark at its feet, which are
 /// on top, and soft at its head.
-Picture shadowPicture();
+Image shadowPicture();
 
 }  // namespace vegetation_sim::view

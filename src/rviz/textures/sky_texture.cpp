@@ -81,8 +81,8 @@ SkyShapes::SkyShapes(int columns_wanted, int rows_wanted)
     hills.push_back(ridge(noise, static_cast<float>(c) / static_cast<float>(columns)));
 }
 
-Picture skyPicture(const Daylight& light, const SkyShapes& shapes) {
-  Picture out(shapes.columns, shapes.rows, {});
+Image skyPicture(const Daylight& light, const SkyShapes& shapes) {
+  Image out(shapes.columns, shapes.rows, {});
   const std::vector<SinCos> around = azimuths(out.columns);
   const float* density = shapes.clouds.data();
   for (int r = 0; r < out.rows; ++r) {

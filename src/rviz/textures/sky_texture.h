@@ -33,7 +33,7 @@ struct SkyShapes {
 
 /// The sky over azimuth (columns: once around from east, counter-clockwise) and elevation (rows:
 /// the zenith on top, the horizon at the bottom), with soft clouds and far hills.
-Picture skyPicture(const Daylight& light, const SkyShapes& shapes);
+Image skyPicture(const Daylight& light, const SkyShapes& shapes);
 /// Elevation [rad] of a row, v = 0 at the top to 1 at the bottom: finer towards the horizon.
 double skyElevation(double v);
 

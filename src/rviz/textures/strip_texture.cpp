@@ -28,8 +28,8 @@ void keepShares(std::vector<Rgba>& pixels, std::size_t first, std::size_t last,
 }
 
 // Colour is the mean of what is painted; alpha keeps its shares, row by row.
-Picture smaller(const Picture& picture) {
-  Picture out(std::max(1, picture.columns / 2), std::max(1, picture.rows / 2), {});
+Image smaller(const Image& picture) {
+  Image out(std::max(1, picture.columns / 2), std::max(1, picture.rows / 2), {});
   for (int r = 0; r < out.rows; ++r) {
     const int r0 = std::min(2 * r, picture.rows - 1), r1 = std::min(2 * r + 1, picture.rows - 1);
     std::vector<float> alphas;
@@ -55,17 +55,17 @@ Picture smaller(const Picture& picture) {
   return out;
 }
 
-std::vector<Picture> allSizes(Picture picture) {
-  std::vector<Picture> out{std::move(picture)};
+std::vector<Image> allSizes(Image picture) {
+  std::vector<Image> out{std::move(picture)};
   while (std::max(out.back().columns, out.back().rows) > 1) out.push_back(smaller(out.back()));
   return out;
 }
 
 }  // namespace
 
-std::vector<Picture> stripPictures(int columns, int rows, int blades) {
+std::vector<Image> stripPictures(int columns, int rows, int blades) {
   const grass::StripPicture from = grass::makeStripPicture(columns, rows, blades, SEED);
-  Picture out(columns, rows, {});
+  Image out(columns, rows, {});
   // Roots in the first row, as v runs up; a clear last row keeps them from showing over the tips.
   for (int r = 0; r + 1 < rows; ++r)
     for (int c = 0; c < columns; ++c)
@@ -77,8 +77,8 @@ std::vector<Picture> stripPictures(int columns, int rows, int blades) {
   return allSizes(std::move(out));
 }
 
-std::vector<Picture> layerPictures(int edge) {
-  Picture out(edge, edge, {0.8f, 0.8f, 0.8f, 0.f});
+std::vector<Image> layerPictures(int edge) {
+  Image out(edge, edge, {0.8f, 0.8f, 0.8f, 0.f});
   const Random random(SEED);
   const int dots = edge * edge / 10;
   for (int i = 0; i < dots; ++i) {

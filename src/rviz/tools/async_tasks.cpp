@@ -18,7 +18,7 @@ constexpr std::chrono::milliseconds PATIENCE(500);
 
 }  // namespace
 
-struct Errands::Desk {
+struct AsyncTasks::Desk {
   mutable std::mutex mutex;
   std::condition_variable changed;
   std::deque<std::function<void()>> waiting;
@@ -26,39 +26,39 @@ struct Errands::Desk {
   bool ending{false};
 };
 
-Errands::Errands() : desk_(std::make_shared<Desk>()) {
-  std::thread([desk = desk_] { run(*desk); }).detach();
+AsyncTasks::AsyncTasks() : grabs_manager_(std::make_shared<Desk>()) {
+  std::thread([desk = grabs_manager_] { run(*desk); }).detach();
 }
 
-Errands::~Errands() {
-  std::unique_lock<std::mutex> lock(desk_->mutex);
-  desk_->ending = true;
-  desk_->changed.notify_all();
-  desk_->changed.wait_for(lock, PATIENCE, [this] { return desk_->left == 0; });
+AsyncTasks::~AsyncTasks() {
+  std::unique_lock<std::mutex> lock(grabs_manager_->mutex);
+  grabs_manager_->ending = true;
+  grabs_manager_->changed.notify_all();
+  grabs_manager_->changed.wait_for(lock, PATIENCE, [this] { return grabs_manager_->left == 0; });
 }
 
-void Errands::add(std::function<void()> errand) {
-  const std::lock_guard<std::mutex> lock(desk_->mutex);
-  desk_->waiting.push_back(std::move(errand));
-  ++desk_->left;
-  desk_->changed.notify_all();
+void AsyncTasks::add(std::function<void()> task) {
+  const std::lock_guard<std::mutex> lock(grabs_manager_->mutex);
+  grabs_manager_->waiting.push_back(std::move(task));
+  ++grabs_manager_->left;
+  grabs_manager_->changed.notify_all();
 }
 
-std::size_t Errands::left() const {
-  const std::lock_guard<std::mutex> lock(desk_->mutex);
-  return desk_->left;
+std::size_t AsyncTasks::left() const {
+  const std::lock_guard<std::mutex> lock(grabs_manager_->mutex);
+  return grabs_manager_->left;
 }
 
-void Errands::run(Desk& desk) {
+void AsyncTasks::run(Desk& desk) {
   std::unique_lock<std::mutex> lock(desk.mutex);
   while (true) {
     desk.changed.wait(lock, [&] { return desk.ending || !desk.waiting.empty(); });
     if (desk.waiting.empty()) return;
-    std::function<void()> errand = std::move(desk.waiting.front());
+    std::function<void()> task = std::move(desk.waiting.front());
     desk.waiting.pop_front();
     lock.unlock();
     try {
-      errand();
+      task();
     } catch (const std::exception& error) {
       ROS_ERROR("An errand of rviz ended early: %s", error.what());
     }
@@ -66,7 +66,7 @@ void Errands::run(Desk& desk) {
     --desk.left;
     desk.changed.notify_all();
     lock.unlock();
-    errand = nullptr;  // whom it holds may end with it, and ask for the lock
+    task = nullptr;  // whom it holds may end with it, and ask for the lock
     lock.lock();
   }
 }

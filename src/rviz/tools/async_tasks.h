@@ -12,15 +12,15 @@ namespace vegetation_sim::view {
 
 /// Runs errands one after the other beside the render thread: a service that answers late must not
 /// stop the picture. An errand holds what it uses: it may outlive whoever sent it.
-class Errands {
+class AsyncTasks {
  public:
-  Errands();
+  AsyncTasks();
   /// Waits half a second at most; what is not done by then goes on beside.
-  ~Errands();
-  Errands(const Errands&) = delete;
-  Errands& operator=(const Errands&) = delete;
+  ~AsyncTasks();
+  AsyncTasks(const AsyncTasks&) = delete;
+  AsyncTasks& operator=(const AsyncTasks&) = delete;
 
-  void add(std::function<void()> errand);
+  void add(std::function<void()> task);
   /// Those that wait or run.
   std::size_t left() const;
 
@@ -28,7 +28,7 @@ class Errands {
   struct Desk;
   static void run(Desk& desk);
 
-  std::shared_ptr<Desk> desk_;
+  std::shared_ptr<Desk> grabs_manager_;
 };
 
 /// What an errand brings back, in words.

@@ -27,48 +27,48 @@ bool ask(ros::ServiceClient& client, Service& service, std::string& message) {
 
 }  // namespace
 
-MouseHand::MouseHand(ros::NodeHandle nh, const std::string& node)
+GrabClient::GrabClient(ros::NodeHandle nh, const std::string& node)
     : pick_(nh.serviceClient<Pick>(node + "/pick")),
       grab_(nh.serviceClient<vegetation_sim::Grab>(node + "/grab")),
       move_(nh.serviceClient<MoveGrab>(node + "/move_grab")),
       release_(nh.serviceClient<Release>(node + "/release")) {}
 
-Grip MouseHand::grip() const {
+Grip GrabClient::grip() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return grip_;
 }
 
-void MouseHand::say(const std::string& message) {
+void GrabClient::say(const std::string& message) {
   const std::lock_guard<std::mutex> lock(mutex_);
   grip_.message = message;
 }
 
-void MouseHand::take(const Ray& ray, double tolerance, const Spring& spring) {
-  errands_.add([self = shared_from_this(), ray, tolerance, spring] {
-    self->letGo();
+void GrabClient::take(const Ray& ray, double tolerance, const Spring& spring) {
+  tasks_.add([self = shared_from_this(), ray, tolerance, spring] {
+    self->releaseTrees();
     self->pickAndGrab(ray, tolerance, spring);
   });
 }
 
-void MouseHand::follow(const Vec3& target) {
+void GrabClient::follow(const Vec3& target) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!grip_.holding) return;
   grip_.target = target;
   if (moving_) return;
   moving_ = true;
-  errands_.add([self = shared_from_this()] { self->move(); });
+  tasks_.add([self = shared_from_this()] { self->move(); });
 }
 
-void MouseHand::keep() {
+void GrabClient::keep() {
   const Grip now = grip();
   if (now.holding) follow(now.target);
 }
 
-void MouseHand::release() {
-  errands_.add([self = shared_from_this()] { self->letGo(); });
+void GrabClient::release() {
+  tasks_.add([self = shared_from_this()] { self->releaseTrees(); });
 }
 
-void MouseHand::pickAndGrab(const Ray& ray, double tolerance, const Spring& spring) {
+void GrabClient::pickAndGrab(const Ray& ray, double tolerance, const Spring& spring) {
   std::string message;
   Pick pick;
   pick.request.origin = toPoint(ray.origin);
@@ -95,7 +95,7 @@ void MouseHand::pickAndGrab(const Ray& ray, double tolerance, const Spring& spri
   grip_.message = message;
 }
 
-void MouseHand::move() {
+void GrabClient::move() {
   MoveGrab move;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -116,7 +116,7 @@ void MouseHand::move() {
   grip_.force = fromMsg(move.response.force);
 }
 
-void MouseHand::letGo() {
+void GrabClient::releaseTrees() {
   const Grip held = grip();
   if (!held.holding) return;
   Release release;

@@ -35,11 +35,11 @@ struct Grip {
 
 /// Grabs branches of a forest over the services that everyone has. Returns at once; what came of it
 /// is in `grip`. Held by a shared pointer: calls that a node answers late outlive their sender.
-class MouseHand : public std::enable_shared_from_this<MouseHand> {
+class GrabClient : public std::enable_shared_from_this<GrabClient> {
  public:
   /// @param node that serves ~pick, ~grab, ~move_grab and ~release.
   /// @throws ros::InvalidNameException
-  MouseHand(ros::NodeHandle nh, const std::string& node);
+  GrabClient(ros::NodeHandle nh, const std::string& node);
 
   /// Takes the branch that a ray meets first, within `tolerance` [m] of its surface.
   void take(const Ray& ray, double tolerance, const Spring& spring);
@@ -55,14 +55,14 @@ class MouseHand : public std::enable_shared_from_this<MouseHand> {
  private:
   void pickAndGrab(const Ray& ray, double tolerance, const Spring& spring);
   void move();
-  void letGo();
+  void releaseTrees();
   void say(const std::string& message);
 
   ros::ServiceClient pick_, grab_, move_, release_;
   mutable std::mutex mutex_;
   Grip grip_;
   bool moving_{false};  // an errand to move waits
-  Errands errands_;
+  AsyncTasks tasks_;
 };
 
 }  // namespace vegetation_sim::view

@@ -61,7 +61,7 @@ void GrabTool::onInitialize() {
 
 void GrabTool::activate() {
   try {
-    hand_ = std::make_shared<view::MouseHand>(ros::NodeHandle(), node_->getStdString());
+    hand_ = std::make_shared<view::GrabClient>(ros::NodeHandle(), node_->getStdString());
   } catch (const ros::InvalidNameException& error) {
     setStatus(error.what());
   }

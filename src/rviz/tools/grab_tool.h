@@ -40,7 +40,7 @@ class GrabTool : public rviz::Tool {
   std::unique_ptr<rviz::StringProperty> node_;
   std::unique_ptr<rviz::FloatProperty> stiffness_, damping_, force_limit_, reach_;
   std::unique_ptr<view::GroundSource> world_;
-  std::shared_ptr<view::MouseHand> hand_;
+  std::shared_ptr<view::GrabClient> hand_;
   view::ToolLine line_;
   double since_kept_{0.0};  // [s]
 };

@@ -202,7 +202,7 @@ void LandscapePanel::send(const std::string& node, const std::map<std::string, d
     parameter.value = value.second;
     service.request.config.doubles.push_back(parameter);
   }
-  errands_.add([answer = answer_, node, service]() mutable {
+  tasks_.add([answer = answer_, node, service]() mutable {
     const bool answered = ros::service::call(node + "/set_parameters", service);
     answer->give(answered ? "" : "no answer from " + node);
   });

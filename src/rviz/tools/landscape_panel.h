@@ -73,7 +73,7 @@ class LandscapePanel : public rviz::Panel {
   std::vector<Bar> bars_;
   ros::Subscriber wind_, forest_, diagnostics_;
   std::shared_ptr<view::Answer> answer_{std::make_shared<view::Answer>()};  // of services
-  view::Errands errands_;
+  view::AsyncTasks tasks_;
 };
 
 }  // namespace vegetation_sim

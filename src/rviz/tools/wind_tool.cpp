@@ -101,7 +101,7 @@ void WindTool::blow() {
   const std::string name = node_->getStdString() + "/set_primitive";
   std::string why;
   if (!ros::names::validate(name, why)) return answer_->give(why);
-  errands_.add([answer = answer_, service, name]() mutable {
+  tasks_.add([answer = answer_, service, name]() mutable {
     const bool answered = ros::service::call(name, service);
     answer->give(answered ? service.response.message : "no answer from " + name);
   });

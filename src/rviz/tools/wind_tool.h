@@ -48,7 +48,7 @@ class WindTool : public rviz::Tool {
   view::WindStroke stroke_;
   bool drawing_{false};
   std::shared_ptr<view::Answer> answer_{std::make_shared<view::Answer>()};  // of the service
-  view::Errands errands_;
+  view::AsyncTasks tasks_;
 };
 
 }  // namespace vegetation_sim

@@ -128,7 +128,7 @@ bool DrawnTree::move(const forest::ForestReplica& replica, Nanoseconds stamp,
   moves = moves || remembers;
   if (!moves && !moved_) return false;
   moved_ = moves;
-  const forest::Sway* sway = replica.sway(id_);
+  const forest::ModalTreeState* sway = replica.sway(id_);
   if (sway && replica.promoted(id_).branches.empty() && forest::modalWeight(weights) >= 1.0)
     sway->pose(poser_, stamp, poses_);
   else if (remembers)

@@ -99,15 +99,15 @@ std::vector<std::uint32_t> nearestTrees(const forest::Layout& layout, const Vec3
   return out;
 }
 
-TreeStock::TreeStock(const forest::ForestReplica& replica, std::vector<std::uint32_t> ids)
+TreeSet::TreeSet(const forest::ForestReplica& replica, std::vector<std::uint32_t> ids)
     : ids_(std::move(ids)), origin_(Vec3::Zero()) {
   for (const std::uint32_t id : ids_)
     origin_ += forest::seedOf(replica.layout(), id).position / static_cast<double>(ids_.size());
   origin_.z() = replica.terrain().height(origin_.x(), origin_.y());
 }
 
-bool TreeStock::grow(const forest::ForestReplica& replica, const Vec3& to_sun, bool leaves,
-                     double seconds) {
+bool TreeSet::grow(const forest::ForestReplica& replica, const Vec3& to_sun, bool leaves,
+                   double seconds) {
   if (ready()) return true;
   const auto end = Clock::now() + std::chrono::duration<double>(seconds);
   while (trees_.size() < ids_.size()) {
@@ -118,14 +118,14 @@ bool TreeStock::grow(const forest::ForestReplica& replica, const Vec3& to_sun, b
   return true;
 }
 
-const DrawnTree* TreeStock::find(std::uint32_t id) const {
+const DrawnTree* TreeSet::find(std::uint32_t id) const {
   const auto found = std::lower_bound(ids_.begin(), ids_.end(), id);
   if (found == ids_.end() || *found != id) return nullptr;
   const auto place = static_cast<std::size_t>(found - ids_.begin());
   return place < trees_.size() ? trees_[place].get() : nullptr;
 }
 
-void TreeStock::castLight(const Vec3& to_sun, bool leaves) {
+void TreeSet::castLight(const Vec3& to_sun, bool leaves) {
   leaves_ = leaves;
   extent_ = {origin_, origin_ + Vec3(0.0, 0.0, 1.0)};
   for (const auto& tree : trees_) {

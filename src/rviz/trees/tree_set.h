@@ -12,7 +12,7 @@ namespace vegetation_sim::view {
 
 /// Who looks, in the layout's frame.
 struct View {
-  forest::Eye eye;
+  forest::Viewpoint eye;
   Vec3 forward{Vec3::UnitX()};  ///< unit
   double half_angle{0.6};       ///< of a cone around all that is in the picture [rad]
 
@@ -29,10 +29,10 @@ std::vector<std::uint32_t> nearestTrees(const forest::Layout& layout, const Vec3
                                         std::size_t most);
 
 /// The trees that a display draws, grown a few at a time, and the light among them. No Ogre in it.
-class TreeStock {
+class TreeSet {
  public:
   /// Starts anew with some trees of the replica's layout.
-  TreeStock(const forest::ForestReplica& replica, std::vector<std::uint32_t> ids);
+  TreeSet(const forest::ForestReplica& replica, std::vector<std::uint32_t> ids);
 
   /// Grows trees for about `seconds`; when all stand, sends light through them.
   /// @param leaves whether they take light. @return true once all is there.

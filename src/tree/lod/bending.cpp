@@ -20,20 +20,20 @@ wind::Instant steady(const Vec3& velocity) {
 }
 
 // Largest turn that gathers on a way from the ground, per speed.
-double turn(const Rungs& rungs, const Vec3& along) {
+double turn(const TreeModels& tiers, const Vec3& along) {
   std::vector<double> bends;
-  for (const JointAngles& bend : allDepths(rungs.tree, steady(PROBE * along)))
+  for (const JointAngles& bend : allDepths(tiers.tree, steady(PROBE * along)))
     bends.insert(bends.end(), {bend.first, bend.second});
   std::vector<physics::SmallMotion> motion;
-  rungs.linear.motionOf(bends.data(), motion);
+  tiers.linear.motionOf(bends.data(), motion);
   double out = 0.0;
   for (const physics::SmallMotion& link : motion) out = std::max(out, length(link.turn));
   return out / PROBE;
 }
 
 // Bends at which springs hold a steady wind, by going half of the way again and again.
-std::vector<JointAngles> balance(const Rungs& rungs, const wind::Instant& air) {
-  const std::size_t n = rungs.links.size();
+std::vector<JointAngles> balance(const TreeModels& tiers, const wind::Instant& air) {
+  const std::size_t n = tiers.links.size();
   physics::ChainState state{std::vector<physics::Vec2>(n, physics::Vec2::Zero()), {}};
   state.rate = state.q;
   const std::vector<physics::Vec2> still = state.q;
@@ -41,15 +41,15 @@ std::vector<JointAngles> balance(const Rungs& rungs, const wind::Instant& air) {
   physics::Kinematics now;
   physics::Loads loads;
   for (int round = 0; round < ROUNDS; ++round) {
-    physics::kinematicsOf(rungs.links, {}, state, now);
+    physics::kinematicsOf(tiers.links, {}, state, now);
     loads.clear(n);
     for (std::size_t i = 0; i < n; ++i) {
-      const physics::Grip& grip = rungs.grips[i];
+      const physics::Grip& grip = tiers.grips[i];
       const Vec3 force = grip.steady * air.mean;
       loads.wrench[i] = {force, cross(rotate(now.pose[i].orientation, grip.centre), force)};
     }
-    physics::ArticulatedBody().torques(rungs.links, {}, state, now, loads, still, missing);
-    for (std::size_t i = 0; i < n; ++i) state.q[i] -= 0.5 / rungs.links[i].stiffness * missing[i];
+    physics::ArticulatedBody().torques(tiers.links, {}, state, now, loads, still, missing);
+    for (std::size_t i = 0; i < n; ++i) state.q[i] -= 0.5 / tiers.links[i].stiffness * missing[i];
   }
   std::vector<JointAngles> out;
   for (const physics::Vec2& q : state.q) out.push_back({q.x(), q.y()});
@@ -80,20 +80,20 @@ std::vector<JointAngles> allDepths(const Tree& tree, const wind::Instant& air) {
   return proceduralAngles(tree, air, all);
 }
 
-Bending bendingOf(const Rungs& rungs, const Vec3& along) {
-  const double speed = BENT / turn(rungs, along);
+Bending bendingOf(const TreeModels& tiers, const Vec3& along) {
+  const double speed = BENT / turn(tiers, along);
   const wind::Instant air = steady(speed * along);
-  const std::vector<Pose> right = forwardKinematics(rungs.tree, balance(rungs, air));
+  const std::vector<Pose> right = forwardKinematics(tiers.tree, balance(tiers, air));
   const auto off = [&](const std::vector<JointAngles>& bends) {
-    const std::vector<Pose> shown = forwardKinematics(rungs.tree, bends);
+    const std::vector<Pose> shown = forwardKinematics(tiers.tree, bends);
     double most = 0.0;
     for (std::size_t i = 0; i < right.size(); ++i) {
-      const Branch& branch = rungs.tree.skeleton.branches[i];
+      const Branch& branch = tiers.tree.skeleton.branches[i];
       most = std::max(most, length(tipOf(branch, right[i]) - tipOf(branch, shown[i])));
     }
     return most / (speed * speed);
   };
-  return {off(allDepths(rungs.tree, air)), off(balance(rungs.modal, air))};
+  return {off(allDepths(tiers.tree, air)), off(balance(tiers.modal, air))};
 }
 
 }  // namespace vegetation_sim::forest

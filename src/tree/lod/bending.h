@@ -13,8 +13,8 @@ namespace vegetation_sim::forest {
 /// The procedural motion with nothing left out.
 std::vector<JointAngles> allDepths(const Tree& tree, const wind::Instant& air);
 
-/// One tree as each of its rungs has it.
-struct Rungs {
+/// One tree as each of its tiers has it.
+struct TreeModels {
   const Tree& tree;
   const std::vector<physics::Link>& links;
   const std::vector<physics::Grip>& grips;
@@ -23,6 +23,6 @@ struct Rungs {
 };
 
 /// Farthest tips from where a steady wind along a unit vector holds the full chain.
-Bending bendingOf(const Rungs& rungs, const Vec3& along);
+Bending bendingOf(const TreeModels& tiers, const Vec3& along);
 
 }  // namespace vegetation_sim::forest

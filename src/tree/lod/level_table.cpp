@@ -92,18 +92,19 @@ LevelTable LevelScales::at(double scale) const {
   return out;
 }
 
-LagIn LevelScales::lagAt(const Species& species, const MotionLaw& law, double scale,
-                         const wind::Swings& swings) {
+PredictedError LevelScales::responseErrorAt(const Species& species, const MotionLaw& law,
+                                            double scale, const wind::GustSpectrum& spectrum) {
   const std::size_t below = gridIndex(scale);
   const auto lag = [&](std::size_t i) {
-    auto known = lags_.find(i);
-    if (known == lags_.end()) known = lags_.emplace(i, measureLag(species, law, GRID[i])).first;
-    return known->second.in(swings);
+    auto known = response_errors_.find(i);
+    if (known == response_errors_.end())
+      known = response_errors_.emplace(i, measureResponseError(species, law, GRID[i])).first;
+    return known->second.in(spectrum);
   };
-  const LagIn a = lag(below);
+  const PredictedError a = lag(below);
   const double f = saturate((scale - GRID[below]) / (GRID[below + 1] - GRID[below]));
   if (f == 0.0) return a;  // trees of the species' own size need one table
-  const LagIn b = lag(below + 1);
+  const PredictedError b = lag(below + 1);
   const auto mix = [f](double from, double to) { return from + f * (to - from); };
   return {mix(a.procedural, b.procedural),
           mix(a.modal, b.modal),

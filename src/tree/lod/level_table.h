@@ -27,12 +27,13 @@ class LevelScales {
   /// Makes at(scale) known.
   void measure(const Species& species, const MotionLaw& law, double scale);
   LevelTable at(double scale) const;
-  /// Lag (lag.h) in a wind at a known scale; measured when it is first asked for, some 150 ms.
-  LagIn lagAt(const Species& species, const MotionLaw& law, double scale,
-              const wind::Swings& swings);
+  /// ResponseError (lag.h) in a wind at a known scale; measured when it is first asked for, some
+  /// 150 ms.
+  PredictedError responseErrorAt(const Species& species, const MotionLaw& law, double scale,
+                                 const wind::GustSpectrum& spectrum);
 
  private:
-  std::map<std::size_t, Lag> lags_;
+  std::map<std::size_t, ResponseError> response_errors_;
   std::map<std::size_t, LevelTable> tables_;  // by index into the grid of scales
 };
 

@@ -16,7 +16,7 @@
 namespace vegetation_sim::forest {
 namespace {
 
-using wind::Swings;
+using wind::GustSpectrum;
 
 constexpr int SAMPLES = 2;     // trees measured per species and scale
 constexpr double PROBE = 0.5;  // [m/s] weak enough that no joint nears its limit
@@ -45,9 +45,9 @@ struct Pair {
 struct TipSquares {
   std::vector<double> procedural, modal, fine;
 };
-using Row = std::array<TipSquares, Swings::FREQUENCIES.size()>;
+using Row = std::array<TipSquares, GustSpectrum::FREQUENCIES.size()>;
 
-/// A sample tree, and how all of its rungs answer a wave.
+/// A sample tree, and how all of its tiers answer a wave.
 class Sample {
  public:
   Sample(const Tree& tree, const Species& species)
@@ -82,7 +82,7 @@ class Sample {
 
  private:
   /// The tree in modes, and what it keeps of the waves.
-  struct Swayer {
+  struct ModalTreeRig {
     ModalTree modes;
     ModalAir air;
   };
@@ -113,11 +113,12 @@ class Sample {
     return flat(allDepths(tree_, air));
   }
 
-  Pair modalBends(Swayer& swayer, const wind::Instant& even, const wind::Instant& odd) const {
-    const ModalTree& tree = swayer.modes;
+  Pair modalBends(ModalTreeRig& modal_tree, const wind::Instant& even,
+                  const wind::Instant& odd) const {
+    const ModalTree& tree = modal_tree.modes;
     Pair load;
-    tree.loadOf(even, swayer.air, load.cosine);
-    tree.loadOf(odd, swayer.air, load.sine);
+    tree.loadOf(even, modal_tree.air, load.cosine);
+    tree.loadOf(odd, modal_tree.air, load.sine);
     for (std::size_t m = 0; m < tree.size(); ++m) {
       const double own = tree.modes().frequency[m];
       const double in = own * own - w_ * w_, late = w_ * tree.modes().damping[m];
@@ -155,7 +156,7 @@ class Sample {
   std::vector<physics::Grip> grips_;
   physics::LinearChain linear_;
   physics::HarmonicChain full_;
-  Swayer modal_, fine_;
+  ModalTreeRig modal_, fine_;
   std::vector<physics::SmallMotion> motion_;
   double w_{0.0};
 };
@@ -164,7 +165,7 @@ class Sample {
 std::size_t farthestIn(const Row& row, std::vector<double> TipSquares::*kind) {
   std::vector<double> sum((row[0].*kind).size(), 0.0);
   for (std::size_t f = 0; f < row.size(); ++f) {
-    const double root = cubeRoot(Swings::FREQUENCIES[f]);
+    const double root = cubeRoot(GustSpectrum::FREQUENCIES[f]);
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += (row[f].*kind)[i] / (root * root);
   }
   return static_cast<std::size_t>(std::max_element(sum.begin(), sum.end()) - sum.begin());
@@ -173,11 +174,11 @@ std::size_t farthestIn(const Row& row, std::vector<double> TipSquares::*kind) {
 // A breeze swings at all frequencies at once, so that one tip is the farthest; air that moves as
 // one swings at one, and each has its own.
 template <std::size_t N>
-void addRow(const Row& row, bool breeze, std::array<LagSquares, N>& out) {
-  using Kinds = std::pair<std::vector<double> TipSquares::*, double LagSquares::*>;
-  for (const auto& [kind, to] : {Kinds{&TipSquares::procedural, &LagSquares::procedural},
-                                 Kinds{&TipSquares::modal, &LagSquares::modal},
-                                 Kinds{&TipSquares::fine, &LagSquares::fine}}) {
+void addRow(const Row& row, bool breeze, std::array<ErrorSquares, N>& out) {
+  using Kinds = std::pair<std::vector<double> TipSquares::*, double ErrorSquares::*>;
+  for (const auto& [kind, to] : {Kinds{&TipSquares::procedural, &ErrorSquares::procedural},
+                                 Kinds{&TipSquares::modal, &ErrorSquares::modal},
+                                 Kinds{&TipSquares::fine, &ErrorSquares::fine}}) {
     const std::size_t tip = farthestIn(row, kind);
     for (std::size_t f = 0; f < N; ++f) {
       const std::vector<double>& tips = row[f].*kind;
@@ -188,19 +189,19 @@ void addRow(const Row& row, bool breeze, std::array<LagSquares, N>& out) {
 
 }  // namespace
 
-LagIn Lag::in(const Swings& swings) const {
-  LagIn out;
-  for (std::size_t s = 0; s < swings.power.size(); ++s)
-    for (std::size_t f = 0; f < swings.power[s].size(); ++f) {
-      out.procedural += squares[s][f].procedural * swings.power[s][f];
-      out.modal += squares[s][f].modal * swings.power[s][f];
-      out.fine += squares[s][f].fine * swings.power[s][f];
+PredictedError ResponseError::in(const GustSpectrum& spectrum) const {
+  PredictedError out;
+  for (std::size_t s = 0; s < spectrum.power.size(); ++s)
+    for (std::size_t f = 0; f < spectrum.power[s].size(); ++f) {
+      out.procedural += squares[s][f].procedural * spectrum.power[s][f];
+      out.modal += squares[s][f].modal * spectrum.power[s][f];
+      out.fine += squares[s][f].fine * spectrum.power[s][f];
     }
   return {std::sqrt(out.procedural), std::sqrt(out.modal), std::sqrt(out.fine), bend};
 }
 
-Lag measureLag(const Species& species, const MotionLaw& law, double scale) {
-  Lag out;
+ResponseError measureResponseError(const Species& species, const MotionLaw& law, double scale) {
+  ResponseError out;
   if (static_cast<JointModel>(law.joint_model) != JointModel::SWING) return out;
   for (int i = 0; i < SAMPLES; ++i) {
     TreeSeed seed;
@@ -209,14 +210,15 @@ Lag measureLag(const Species& species, const MotionLaw& law, double scale) {
     const Tree tree = growTree(seed, species, law);
     Sample sample(tree, species);
     const Vec3 along = i % 2 ? Vec3::UnitY() : Vec3::UnitX();
-    std::array<Row, Swings::SLOWNESSES.size()> rows;
-    for (std::size_t f = 0; f < Swings::FREQUENCIES.size(); ++f) {
-      sample.setFrequency(Swings::FREQUENCIES[f]);
+    std::array<Row, GustSpectrum::SLOWNESSES.size()> rows;
+    for (std::size_t f = 0; f < GustSpectrum::FREQUENCIES.size(); ++f) {
+      sample.setFrequency(GustSpectrum::FREQUENCIES[f]);
       for (std::size_t s = 0; s < rows.size(); ++s)
-        rows[s][f] = sample.squaresIn(waveOf(Swings::FREQUENCIES[f], Swings::SLOWNESSES[s], along));
+        rows[s][f] = sample.squaresIn(
+            waveOf(GustSpectrum::FREQUENCIES[f], GustSpectrum::SLOWNESSES[s], along));
     }
     for (std::size_t s = 0; s < rows.size(); ++s)
-      addRow(rows[s], Swings::SLOWNESSES[s] > 0.0, out.squares[s]);
+      addRow(rows[s], GustSpectrum::SLOWNESSES[s] > 0.0, out.squares[s]);
     if (static_cast<Gain>(law.gain) == Gain::COMPLIANCE) {
       const Bending bending = sample.bending(along);
       out.bend.procedural += bending.procedural / SAMPLES;

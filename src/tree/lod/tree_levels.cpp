@@ -11,9 +11,9 @@ namespace {
 
 // What a tree in modes takes of a key frame, by its amplitudes and rates; key frames come once a
 // second [B/s].
-int bytesOf(int rung) {
+int bytesOf(int tier) {
   constexpr int HEAD = 48;
-  const ModalDepth depth = rung == FINE_RUNG ? FINE_MODES : ModalDepth{};
+  const ModalDepth depth = tier == FINE_MODAL_TIER ? FINE_MODES : ModalDepth{};
   return HEAD + static_cast<int>(2 * sizeof(double) * depth.most());
 }
 
@@ -36,7 +36,7 @@ void shareModes(std::vector<Plant>& plants, int trees, int bytes) {
     const Plant& plant = plants[i];
     if (plant.wanted < MODAL_LEVEL) continue;
     const double held = plant.held >= MODAL_LEVEL ? STICKY : 1.0;
-    order.emplace_back(-held * plant.error[static_cast<std::size_t>(plant.stair)], i);
+    order.emplace_back(-held * plant.error[static_cast<std::size_t>(plant.stepwise)], i);
   }
   std::sort(order.begin(), order.end());
   std::vector<Plant*> finer;
@@ -44,7 +44,7 @@ void shareModes(std::vector<Plant>& plants, int trees, int bytes) {
     Plant& plant = plants[index];
     const int least = std::clamp(plant.above, MODAL_LEVEL, plant.wanted);
     if (trees <= 0 || bytesOf(least) > bytes) {
-      plant.wanted = plant.stair;
+      plant.wanted = plant.stepwise;
       continue;
     }
     --trees;
@@ -52,11 +52,11 @@ void shareModes(std::vector<Plant>& plants, int trees, int bytes) {
     if (plant.wanted > least) finer.push_back(&plant);
     plant.wanted = least;
   }
-  const int more = bytesOf(FINE_RUNG) - bytesOf(MODAL_LEVEL);
+  const int more = bytesOf(FINE_MODAL_TIER) - bytesOf(MODAL_LEVEL);
   for (Plant* plant : finer) {
     if (more > bytes) break;
     bytes -= more;
-    plant->wanted = FINE_RUNG;
+    plant->wanted = FINE_MODAL_TIER;
   }
 }
 

@@ -10,11 +10,11 @@
 
 namespace vegetation_sim::forest {
 
-/// The rung above the modal level: more modes. Not a level of motion of its own.
-constexpr int FINE_RUNG = MODAL_LEVEL + 1;
-/// Rungs of a tree: its levels, the modal one, and that with fine modes on top.
-constexpr std::size_t RUNGS = FINE_RUNG + 1;
-static_assert(RUNGS <= MOST_RUNGS);
+/// The tier above the modal level: more modes. Not a level of motion of its own.
+constexpr int FINE_MODAL_TIER = MODAL_LEVEL + 1;
+/// TreeModels of a tree: its levels, the modal one, and that with fine modes on top.
+constexpr std::size_t TIERS = FINE_MODAL_TIER + 1;
+static_assert(TIERS <= MAX_TIERS);
 
 /// What a forest may cost, and what things cost, on the machine that draws it: data, not a clock,
 /// so that every process chooses alike.
@@ -31,11 +31,11 @@ struct Budget {
 void describe(FieldVisitor& visitor, Budget& budget);
 
 /// A tree that somebody sees move: `id` is the tree, errors are in pixels, costs in ms a frame;
-/// procedural rungs are its stair, modes are wanted above it.
-using Plant = Choice;
+/// procedural tiers are its stair, modes are wanted above it.
+using Plant = TierChoice;
 
 /// What was chosen, and why.
-struct GovernorFigures : Balance {
+struct GovernorFigures : TierAllocation {
   double physical{0.0};     ///< of the cost, physical branches [ms]
   double budget{0.0};       ///< [ms]
   std::size_t strained{0};  ///< trees that bend too far for modes

@@ -19,37 +19,37 @@ double wholeMicroseconds(Nanoseconds step) {
 
 }  // namespace
 
-Sway::Sway(std::shared_ptr<const ModalTree> modes)
+ModalTreeState::ModalTreeState(std::shared_ptr<const ModalTree> modes)
     : modes_(std::move(modes)),
       batch_(std::make_shared<const physics::BatchModes>(modes_->modes())),
       stepper_(modes_->modes()),
       state_(stepper_.atRest()),
       before_(state_) {}
 
-void Sway::loadOf(const wind::Instant& wind, ModalLoad& out) {
+void ModalTreeState::loadOf(const wind::Instant& wind, ModalLoad& out) {
   modes_->loadOf(wind, air_, out.force);
   out.air = modes_->airOn(wind);
 }
 
-void Sway::bent(const ModalLoad& load, const std::vector<double>& amplitude,
-                std::vector<double>& out) {
+void ModalTreeState::bent(const ModalLoad& load, const std::vector<double>& amplitude,
+                          std::vector<double>& out) {
   out = load.force;
   modes_->bendLevers(load.air, amplitude, air_, out);
 }
 
 // By the state alone, however it was come by: who is told of it looks ahead to the same bits.
-void Sway::land(const ModalLoad& load, Nanoseconds stamp) {
+void ModalTreeState::land(const ModalLoad& load, Nanoseconds stamp) {
   bent(load, state_.amplitude, after_load_);
   stepper_.accelerations(state_, after_load_, acceleration_);
   stamp_ = stamp;
 }
 
-bool Sway::fine() const {
+bool ModalTreeState::fine() const {
   return modes_->size() > ModalDepth{}.most() || modes_->size() == modes_->modes().length;
 }
 
 // The static answer to each load; its rate by central difference.
-void Sway::begin(const std::array<ModalLoad, 3>& loads, double step, Nanoseconds stamp) {
+void ModalTreeState::begin(const std::array<ModalLoad, 3>& loads, double step, Nanoseconds stamp) {
   for (std::size_t m = 0; m < state_.amplitude.size(); ++m) {
     const double w = modes_->modes().frequency[m], stiffness = w * w;
     state_.amplitude[m] = loads[1].force[m] / stiffness;
@@ -60,7 +60,8 @@ void Sway::begin(const std::array<ModalLoad, 3>& loads, double step, Nanoseconds
   land(loads[1], stamp);
 }
 
-void Sway::restore(const physics::ModalState& state, const ModalLoad& load, Nanoseconds stamp) {
+void ModalTreeState::restore(const physics::ModalState& state, const ModalLoad& load,
+                             Nanoseconds stamp) {
   if (state.amplitude.size() != modes_->size() || state.rate.size() != modes_->size())
     throw InvalidInput("modes: " + std::to_string(state.amplitude.size()) + " amplitudes and " +
                        std::to_string(state.rate.size()) + " rates, the tree has " +
@@ -71,7 +72,7 @@ void Sway::restore(const physics::ModalState& state, const ModalLoad& load, Nano
 }
 
 // Levers are turned by the bends that a step with those before it ends in.
-void Sway::step(const std::vector<ModalLoad>& loads, Nanoseconds stamp) {
+void ModalTreeState::step(const std::vector<ModalLoad>& loads, Nanoseconds stamp) {
   before_ = state_;
   before_stamp_ = stamp_;
   const auto steps = static_cast<Nanoseconds>(loads.size()) - 1;
@@ -89,7 +90,7 @@ void Sway::step(const std::vector<ModalLoad>& loads, Nanoseconds stamp) {
   land(loads.back(), stamp);
 }
 
-std::vector<double> Sway::amplitudeAt(Nanoseconds stamp) const {
+std::vector<double> ModalTreeState::amplitudeAt(Nanoseconds stamp) const {
   const double ahead =
       std::clamp(secondsBetween(stamp_, stamp), -LONGEST_LOOK_AHEAD, LONGEST_LOOK_AHEAD);
   std::vector<double> out = state_.amplitude;
@@ -98,13 +99,13 @@ std::vector<double> Sway::amplitudeAt(Nanoseconds stamp) const {
   return out;
 }
 
-void Sway::pose(const BatchPoser& poser, Nanoseconds stamp, BatchPoses& out) const {
+void ModalTreeState::pose(const BatchPoser& poser, Nanoseconds stamp, BatchPoses& out) const {
   BatchBends bends;
   batch_->bends(amplitudeAt(stamp), bends);
   poser.pose(bends, out);
 }
 
-void Sway::amplitudeBetween(Nanoseconds stamp, std::vector<double>& out) const {
+void ModalTreeState::amplitudeBetween(Nanoseconds stamp, std::vector<double>& out) const {
   if (stamp_ == before_stamp_) {
     out = amplitudeAt(stamp);
     return;
@@ -134,9 +135,9 @@ JointAngles between(const JointAngles& from, const JointAngles& to, double weigh
           (1.0 - weight) * from.second + weight * to.second};
 }
 
-std::vector<JointAngles> swayingAngles(const Tree& tree, const wind::Instant& wind,
-                                       const Weights& weights, const Sway* sway,
-                                       Nanoseconds stamp) {
+std::vector<JointAngles> modalAngles(const Tree& tree, const wind::Instant& wind,
+                                     const Weights& weights, const ModalTreeState* sway,
+                                     Nanoseconds stamp) {
   const double weight = sway ? modalWeight(weights) : 0.0;
   if (weight <= 0.0) return proceduralAngles(tree, wind, weights);
   std::vector<JointAngles> out = sway->modes().bendsOf(sway->amplitudeAt(stamp));

@@ -19,9 +19,9 @@ constexpr int COARSE = 5, FINE = 10;    // halvings of the crown: 32 points and 
 constexpr double AT_ONCE = 0.5 / 60.0;  // of quick vectors: half a frame [s]
 
 physics::Modes modesIn(const std::vector<physics::Link>& links, physics::LinearChain& chain,
-                       const std::vector<Sail>& sails, ModalDepth depth) {
+                       const std::vector<WindLoadPoint>& load_points, ModalDepth depth) {
   const auto shape = [&](const Vec3& direction, int vectors, bool quick) {
-    physics::LoadShape out{uniformLoad(chain, sails, direction), vectors};
+    physics::LoadShape out{uniformLoad(chain, load_points, direction), vectors};
     if (quick) out.quick = physics::quickAnswer(links, out.torque, AT_ONCE);
     return out;
   };
@@ -63,22 +63,24 @@ ModalTree::ModalTree(const Tree& tree, const Species& species, ModalDepth depth)
     throw InvalidInput("modes: joint_model = paper has none; allowed: swing");
   const std::vector<physics::Link> links = chainOf(tree.skeleton, species);
   physics::LinearChain chain(links);
-  std::vector<Sail> sails = sailsOf(tree.skeleton, woodOf(tree.skeleton, species, Material::BEAM));
-  modes_ = modesIn(links, chain, sails, depth);
+  std::vector<WindLoadPoint> load_points =
+      windLoadPoints(tree.skeleton, woodOf(tree.skeleton, species, Material::BEAM));
+  modes_ = modesIn(links, chain, load_points, depth);
   Motions motions(size());
   for (std::size_t m = 0; m < size(); ++m) {
     chain.motionOf(modes_.shapeOf(m), motions[m]);
-    for (const Sail& sail : sails) {  // the air that is at rest holds back what moves in it
-      const Vec3 way = wayOf(sail, motions[m]);
-      modes_.damping[m] += sail.drag * dot(way, way);
+    for (const WindLoadPoint& load_point :
+         load_points) {  // the air that is at rest holds back what moves in it
+      const Vec3 way = wayOf(load_point, motions[m]);
+      modes_.damping[m] += load_point.drag * dot(way, way);
     }
   }
   probe_ = physics::RotationProbe(chain, modes_);
-  coarse_ = pointsOf(sails, motions, COARSE);
-  fine_ = pointsOf(sails, motions, FINE);
-  uniform_ = uniformPush(sails, motions);
-  levers_ = leverChange(links, chain, modes_, sails, motions);
-  for (const WindPoint& whole : pointsOf(sails, motions, 0).at) middle_ = whole.position;
+  coarse_ = pointsOf(load_points, motions, COARSE);
+  fine_ = pointsOf(load_points, motions, FINE);
+  uniform_ = uniformWindLoad(load_points, motions);
+  levers_ = leverArmChange(links, chain, modes_, load_points, motions);
+  for (const WindPoint& whole : pointsOf(load_points, motions, 0).at) middle_ = whole.position;
   stiffness_ = chain.stiffness();
 }
 

@@ -11,7 +11,7 @@
 namespace vegetation_sim::forest {
 namespace {
 
-using Range = Sail*;
+using Range = WindLoadPoint*;
 
 int longestAxis(Range begin, Range end) {
   Vec3 low = begin->centre, high = begin->centre;
@@ -26,44 +26,47 @@ int longestAxis(Range begin, Range end) {
 }
 
 // Halves of equal drag, again and again.
-void divide(Range begin, Range end, int halvings, std::vector<std::pair<Range, Range>>& out) {
-  if (halvings == 0 || end - begin < 2) {
+void divide(Range begin, Range end, int bisection, std::vector<std::pair<Range, Range>>& out) {
+  if (bisection == 0 || end - begin < 2) {
     if (begin != end) out.emplace_back(begin, end);
     return;
   }
   const int axis = longestAxis(begin, end);
-  std::stable_sort(
-      begin, end, [axis](const Sail& a, const Sail& b) { return a.centre[axis] < b.centre[axis]; });
-  const auto add = [](double sum, const Sail& sail) { return sum + sail.drag; };
+  std::stable_sort(begin, end, [axis](const WindLoadPoint& a, const WindLoadPoint& b) {
+    return a.centre[axis] < b.centre[axis];
+  });
+  const auto add = [](double sum, const WindLoadPoint& load_point) {
+    return sum + load_point.drag;
+  };
   const double all = std::accumulate(begin, end, 0.0, add);
   Range middle = begin + 1;  // neither half is empty
   for (double sum = begin->drag; middle + 1 != end && sum + 0.5 * middle->drag < 0.5 * all;
        ++middle)
     sum += middle->drag;
-  divide(begin, middle, halvings - 1, out);
-  divide(middle, end, halvings - 1, out);
+  divide(begin, middle, bisection - 1, out);
+  divide(middle, end, bisection - 1, out);
 }
 
 WindPoint pointOf(Range begin, Range end) {
   WindPoint out;
-  for (Range sail = begin; sail != end; ++sail) {
-    out.drag += sail->drag;
-    out.position += sail->drag * sail->centre;
+  for (Range load_point = begin; load_point != end; ++load_point) {
+    out.drag += load_point->drag;
+    out.position += load_point->drag * load_point->centre;
   }
   out.position /= out.drag;
   return out;
 }
 
 // [3][row] modal loads per velocity of the air on a range.
-void appendPush(const Sail* begin, const Sail* end, const Motions& motions,
+void appendPush(const WindLoadPoint* begin, const WindLoadPoint* end, const Motions& motions,
                 std::vector<double>& out) {
   const std::size_t row = modalRow(motions.size());
   const std::size_t start = out.size();
   out.resize(start + 3 * row, 0.0);
   for (std::size_t m = 0; m < motions.size(); ++m) {
     Vec3 sum = Vec3::Zero();
-    for (const Sail* sail = begin; sail != end; ++sail)
-      sum += sail->drag * wayOf(*sail, motions[m]);
+    for (const WindLoadPoint* load_point = begin; load_point != end; ++load_point)
+      sum += load_point->drag * wayOf(*load_point, motions[m]);
     for (int axis = 0; axis < 3; ++axis)
       out[start + static_cast<std::size_t>(axis) * row + m] = sum[axis];
   }
@@ -76,9 +79,10 @@ struct Held {
 };
 
 std::vector<Held> heldOf(const std::vector<physics::Link>& links, const std::vector<Pose>& rest,
-                         const std::vector<Sail>& sails) {
+                         const std::vector<WindLoadPoint>& load_points) {
   std::vector<Held> out(links.size());
-  for (const Sail& sail : sails) out[sail.branch] = {sail.drag, sail.drag * sail.arm};
+  for (const WindLoadPoint& load_point : load_points)
+    out[load_point.branch] = {load_point.drag, load_point.drag * load_point.arm};
   for (std::size_t i = links.size(); i-- > 0;) {
     if (links[i].parent < 0) continue;
     const auto p = static_cast<std::size_t>(links[i].parent);
@@ -90,11 +94,13 @@ std::vector<Held> heldOf(const std::vector<physics::Link>& links, const std::vec
 
 // How the moments change per amplitude of a motion.
 std::vector<Vec3> momentChange(const std::vector<physics::Link>& links,
-                               const std::vector<Held>& held, const std::vector<Sail>& sails,
+                               const std::vector<Held>& held,
+                               const std::vector<WindLoadPoint>& load_points,
                                const std::vector<physics::SmallMotion>& motion) {
   std::vector<Vec3> out(links.size(), Vec3::Zero());
-  for (const Sail& sail : sails)
-    out[sail.branch] = sail.drag * cross(motion[sail.branch].turn, sail.arm);
+  for (const WindLoadPoint& load_point : load_points)
+    out[load_point.branch] =
+        load_point.drag * cross(motion[load_point.branch].turn, load_point.arm);
   for (std::size_t i = links.size(); i-- > 0;) {
     if (links[i].parent < 0) continue;
     const auto p = static_cast<std::size_t>(links[i].parent);
@@ -127,8 +133,8 @@ void torqueChange(const std::vector<physics::Link>& links, const std::vector<Pos
 
 }  // namespace
 
-std::vector<Sail> sailsOf(const Skeleton& skeleton, const Wood& wood) {
-  std::vector<Sail> out;
+std::vector<WindLoadPoint> windLoadPoints(const Skeleton& skeleton, const Wood& wood) {
+  std::vector<WindLoadPoint> out;
   for (std::size_t i = 0; i < skeleton.branches.size(); ++i) {
     const Composite& body = wood.own[i];
     if (body.drag <= 0.0) continue;
@@ -139,30 +145,33 @@ std::vector<Sail> sailsOf(const Skeleton& skeleton, const Wood& wood) {
   return out;
 }
 
-Vec3 wayOf(const Sail& sail, const std::vector<physics::SmallMotion>& motion) {
-  const physics::SmallMotion& link = motion[sail.branch];
-  return link.move + cross(link.turn, sail.arm);
+Vec3 wayOf(const WindLoadPoint& load_point, const std::vector<physics::SmallMotion>& motion) {
+  const physics::SmallMotion& link = motion[load_point.branch];
+  return link.move + cross(link.turn, load_point.arm);
 }
 
-std::vector<double> uniformLoad(const physics::LinearChain& chain, const std::vector<Sail>& sails,
+std::vector<double> uniformLoad(const physics::LinearChain& chain,
+                                const std::vector<WindLoadPoint>& load_points,
                                 const Vec3& direction) {
   std::vector<physics::Wrench> wrenches(chain.size() / 2);
-  for (const Sail& sail : sails) {
-    const Vec3 force = sail.drag * direction;
-    wrenches[sail.branch] = {force, cross(sail.arm, force)};
+  for (const WindLoadPoint& load_point : load_points) {
+    const Vec3 force = load_point.drag * direction;
+    wrenches[load_point.branch] = {force, cross(load_point.arm, force)};
   }
   return chain.torquesOf(wrenches);
 }
 
-std::vector<double> uniformPush(const std::vector<Sail>& sails, const Motions& motions) {
+std::vector<double> uniformWindLoad(const std::vector<WindLoadPoint>& load_points,
+                                    const Motions& motions) {
   std::vector<double> out;
-  appendPush(sails.data(), sails.data() + sails.size(), motions, out);
+  appendPush(load_points.data(), load_points.data() + load_points.size(), motions, out);
   return out;
 }
 
-WindPoints pointsOf(std::vector<Sail>& sails, const Motions& motions, int halvings) {
+WindPoints pointsOf(std::vector<WindLoadPoint>& load_points, const Motions& motions,
+                    int bisection) {
   std::vector<std::pair<Range, Range>> parts;
-  divide(sails.data(), sails.data() + sails.size(), halvings, parts);
+  divide(load_points.data(), load_points.data() + load_points.size(), bisection, parts);
   WindPoints out;
   for (const auto& [begin, end] : parts) {
     out.at.push_back(pointOf(begin, end));
@@ -171,16 +180,17 @@ WindPoints pointsOf(std::vector<Sail>& sails, const Motions& motions, int halvin
   return out;
 }
 
-std::vector<double> leverChange(const std::vector<physics::Link>& links,
-                                const physics::LinearChain& chain, const physics::Modes& modes,
-                                const std::vector<Sail>& sails, const Motions& motions) {
+std::vector<double> leverArmChange(const std::vector<physics::Link>& links,
+                                   const physics::LinearChain& chain, const physics::Modes& modes,
+                                   const std::vector<WindLoadPoint>& load_points,
+                                   const Motions& motions) {
   const std::size_t count = modes.size(), row = modalRow(count);
-  const std::vector<Held> held = heldOf(links, chain.rest(), sails);
+  const std::vector<Held> held = heldOf(links, chain.rest(), load_points);
   std::array<std::vector<double>, 3> torque;
   torque.fill(std::vector<double>(modes.length));
   std::vector<double> out(3 * row * count, 0.0);
   for (std::size_t n = 0; n < count; ++n) {
-    torqueChange(links, chain.rest(), held, momentChange(links, held, sails, motions[n]),
+    torqueChange(links, chain.rest(), held, momentChange(links, held, load_points, motions[n]),
                  motions[n], torque);
     for (std::size_t axis = 0; axis < 3; ++axis)
       for (std::size_t m = 0; m <= n; ++m)

@@ -21,30 +21,30 @@ JointAngles anglesOf(const physics::Vec2& a) {
 
 }  // namespace
 
-PhysicalPart::PhysicalPart(std::shared_ptr<const Tree> tree, const Species& species,
-                           Material material)
+PhysicalSubtree::PhysicalSubtree(std::shared_ptr<const Tree> tree, const Species& species,
+                                 Material material)
     : tree_(std::move(tree)),
       species_(species),
       wood_(woodOf(tree_->skeleton, species, material)),
       mask_(tree_->skeleton.branches.size(), 0) {}
 
-int PhysicalPart::linkOf(int branch) const {
+int PhysicalSubtree::linkOf(int branch) const {
   const auto found = std::lower_bound(branches_.begin(), branches_.end(), branch);
   if (found == branches_.end() || *found != branch) return -1;
   return static_cast<int>(found - branches_.begin());
 }
 
-bool PhysicalPart::holds(int branch) const {
+bool PhysicalSubtree::holds(int branch) const {
   const int link = linkOf(branch);
   return link >= 0 && joints_[index(link)].blend == NEVER;
 }
 
-std::size_t PhysicalPart::blending() const {
+std::size_t PhysicalSubtree::blending() const {
   return static_cast<std::size_t>(std::count_if(
-      joints_.begin(), joints_.end(), [](const PartJoint& j) { return j.blend != NEVER; }));
+      joints_.begin(), joints_.end(), [](const SubtreeJoint& j) { return j.blend != NEVER; }));
 }
 
-PromotedTree PhysicalPart::promoted(Nanoseconds stamp, double duration) const {
+PromotedTree PhysicalSubtree::promoted(Nanoseconds stamp, double duration) const {
   PromotedTree out{stamp, duration, {}};
   out.branches.reserve(joints_.size());
   for (std::size_t i = 0; i < joints_.size(); ++i)
@@ -53,7 +53,7 @@ PromotedTree PhysicalPart::promoted(Nanoseconds stamp, double duration) const {
   return out;
 }
 
-void PhysicalPart::setMaterial(Material material) {
+void PhysicalSubtree::setMaterial(Material material) {
   wood_ = woodOf(tree_->skeleton, species_, material);
   std::vector<Joined> all;
   for (std::size_t i = 0; i < joints_.size(); ++i)
@@ -62,7 +62,7 @@ void PhysicalPart::setMaterial(Material material) {
 }
 
 // Lays everything out anew for these joints, by rising branch. Nothing is kept for others.
-void PhysicalPart::rebuild(const std::vector<Joined>& joints) {
+void PhysicalSubtree::rebuild(const std::vector<Joined>& joints) {
   const std::size_t n = joints.size();
   mask_.assign(mask_.size(), 0);
   joints_.clear();
@@ -97,7 +97,7 @@ void PhysicalPart::rebuild(const std::vector<Joined>& joints) {
   physics::shareInertia(links_);
 }
 
-void PhysicalPart::findCarriers() {
+void PhysicalSubtree::findCarriers() {
   carriers_.clear();
   const auto& branches = tree_->skeleton.branches;
   for (const int branch : branches_) {
@@ -109,7 +109,7 @@ void PhysicalPart::findCarriers() {
   carriers_.erase(std::unique(carriers_.begin(), carriers_.end()), carriers_.end());
 }
 
-physics::Link PhysicalPart::linkFor(std::size_t link, const Composite& body) const {
+physics::Link PhysicalSubtree::linkFor(std::size_t link, const Composite& body) const {
   const std::size_t i = index(branches_[link]);
   const Branch& b = tree_->skeleton.branches[i];
   physics::Link out;
@@ -129,20 +129,20 @@ physics::Link PhysicalPart::linkFor(std::size_t link, const Composite& body) con
   return out;
 }
 
-std::size_t PhysicalPart::bytes() const {
+std::size_t PhysicalSubtree::bytes() const {
   const std::size_t n = mask_.capacity();
   return sizeof(*this) + n + (chain_.held ? chain_.held->bytes() : 0) +
-         joints_.capacity() * (sizeof(PartJoint) + sizeof(int) + 2 * sizeof(physics::Vec2)) +
+         joints_.capacity() * (sizeof(SubtreeJoint) + sizeof(int) + 2 * sizeof(physics::Vec2)) +
          links_.capacity() * (sizeof(physics::Link) + sizeof(LinkDrag)) +
          carriers_.capacity() * sizeof(int) +
          wood_.own.capacity() * (2 * sizeof(Composite) + 3 * sizeof(double)) +
          tree_->skeleton.branches.capacity() * (sizeof(Branch) + sizeof(Response));
 }
 
-void PhysicalPart::addTo(Hash& hash) const {
+void PhysicalSubtree::addTo(Hash& hash) const {
   hash.add(theta_);
   for (std::size_t i = 0; i < joints_.size(); ++i) {
-    const PartJoint& joint = joints_[i];
+    const SubtreeJoint& joint = joints_[i];
     hash.add(static_cast<std::uint64_t>(joint.branch));
     for (const Nanoseconds stamp : {joint.promoted, joint.needed, joint.blend})
       hash.add(static_cast<std::uint64_t>(stamp));

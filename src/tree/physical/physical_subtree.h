@@ -15,7 +15,7 @@
 namespace vegetation_sim::forest {
 
 /// A branch that is physical.
-struct PartJoint {
+struct SubtreeJoint {
   int branch{0};
   Nanoseconds promoted{0};   ///< when it became physical
   Nanoseconds needed{0};     ///< when a load last needed it to be
@@ -25,7 +25,7 @@ struct PartJoint {
 };
 
 /// A spring that holds a point of a branch; its target moves at a constant velocity.
-struct PartSpring {
+struct SubtreeSpring {
   BranchPoint point;
   Vec3 target{Vec3::Zero()};    ///< at `stamp`, tree's frame [m]
   Vec3 velocity{Vec3::Zero()};  ///< [m/s]
@@ -34,8 +34,8 @@ struct PartSpring {
 };
 
 /// What acts on a part in a step besides the wind.
-struct PartLoads {
-  std::vector<PartSpring> springs;
+struct SubtreeLoads {
+  std::vector<SubtreeSpring> springs;
   std::vector<BranchLoad> forces;
   /// Single precision: the stamp whose air this step asks for, and those after it that say `hold`.
   /// NEVER: each step asks for its own.
@@ -69,19 +69,19 @@ struct Rebuilt {
 /// what is held is always where physics has it. docs/forest.md derives all of it.
 ///
 /// A value; copies share the grown tree, which never changes.
-class PhysicalPart {
+class PhysicalSubtree {
  public:
-  PhysicalPart(std::shared_ptr<const Tree> tree, const Species& species, Material material);
+  PhysicalSubtree(std::shared_ptr<const Tree> tree, const Species& species, Material material);
 
   const Tree& tree() const { return *tree_; }
   const Wood& wood() const { return wood_; }
   bool empty() const { return joints_.empty(); }
   const std::vector<char>& mask() const { return mask_; }  ///< [branches of the tree] physical
-  const std::vector<PartJoint>& joints() const { return joints_; }    ///< [links]
-  const std::vector<int>& branches() const { return branches_; }      ///< [links] rising
-  const std::vector<physics::Link>& links() const { return links_; }  ///< [links]
-  const physics::ChainState& state() const { return state_; }         ///< [links]
-  int linkOf(int branch) const;                                       ///< -1: not physical
+  const std::vector<SubtreeJoint>& joints() const { return joints_; }  ///< [links]
+  const std::vector<int>& branches() const { return branches_; }       ///< [links] rising
+  const std::vector<physics::Link>& links() const { return links_; }   ///< [links]
+  const physics::ChainState& state() const { return state_; }          ///< [links]
+  int linkOf(int branch) const;                                        ///< -1: not physical
   bool holds(int branch) const;  ///< physical and not on its way back
   std::size_t blending() const;
   std::size_t bytes() const;
@@ -92,23 +92,24 @@ class PhysicalPart {
   /// whose score [branches of the tree] is above `keep`. Returns how many were refused, because a
   /// bearer was missing.
   std::size_t promote(const std::vector<int>& branches, const std::vector<double>& score,
-                      double keep, const Course& course, const PhysicsSettings& settings);
+                      double keep, const ProceduralMotion& motion, const PhysicsSettings& settings);
   /// Nothing is needed any more.
-  void letGo();
+  void releaseTrees();
   /// Starts blends of branches that are not needed and calm, or have waited long enough; ends those
   /// that are over.
-  void demote(const Course& course, const PhysicsSettings& settings, PartScratch& scratch);
+  void demote(const ProceduralMotion& motion, const PhysicsSettings& settings,
+              SubtreeScratch& scratch);
   /// Another duration of blends: those that run go on from where they are.
   void stretchBlends(Nanoseconds stamp, double from, double to);
   void setMaterial(Material material);
 
   /// One step.
-  void step(const Air& air, const PartLoads& loads, const PhysicsSettings& settings,
-            Nanoseconds from, Nanoseconds to, PartScratch& scratch);
+  void step(const TreeWind& air, const SubtreeLoads& loads, const PhysicsSettings& settings,
+            Nanoseconds from, Nanoseconds to, SubtreeScratch& scratch);
   /// One step of a part that touches bodies; gives the forces of `contacts`. An explicit method
   /// cannot hold a contact, so this is always a linearly implicit one.
-  void stepTouching(const Air& air, const PartLoads& loads, const PhysicsSettings& settings,
-                    Nanoseconds from, Nanoseconds to, PartScratch& scratch,
+  void stepTouching(const TreeWind& air, const SubtreeLoads& loads, const PhysicsSettings& settings,
+                    Nanoseconds from, Nanoseconds to, SubtreeScratch& scratch,
                     std::vector<physics::Contact>& contacts);
   /// All that `stepTouching` changes, to go back to.
   struct Moment {
@@ -118,16 +119,16 @@ class PhysicalPart {
   Moment moment() const { return {state_, theta_}; }
   void goBack(const Moment& moment) { state_ = moment.state, theta_ = moment.theta; }
   /// Where the links are and how they move, tree's frame.
-  void kinematicsAt(const Air& air, Nanoseconds stamp, PartScratch& scratch,
+  void kinematicsAt(const TreeWind& air, Nanoseconds stamp, SubtreeScratch& scratch,
                     physics::Kinematics& out) const;
   /// Where the points are that springs hold, tree's frame; anywhere for branches that are not
   /// physical.
-  void placesAt(const std::vector<PartSpring>& springs, const Air& air, Nanoseconds stamp,
-                PartScratch& scratch, std::vector<Vec3>& out) const;
+  void placesAt(const std::vector<SubtreeSpring>& springs, const TreeWind& air, Nanoseconds stamp,
+                SubtreeScratch& scratch, std::vector<Vec3>& out) const;
 
  private:
   struct Joined {
-    PartJoint joint;
+    SubtreeJoint joint;
     physics::Vec2 q, rate;
   };
   struct LinkDrag {
@@ -143,20 +144,21 @@ class PhysicalPart {
   void findCarriers();
   physics::Link linkFor(std::size_t link, const Composite& body) const;
   bool wouldGap(const std::vector<char>& mask, int branch) const;
-  void takeBack(int link, const Course& course, double duration);
-  bool mayGo(std::size_t link, Nanoseconds stamp, const Courses& courses,
+  void takeBack(int link, const ProceduralMotion& motion, double duration);
+  bool mayGo(std::size_t link, Nanoseconds stamp, const ProceduralMotions& motions,
              const PhysicsSettings& settings) const;
   double compensationAt(std::size_t link, Nanoseconds stamp, double fade) const;
-  void baseMotions(const Course& course, PartScratch& scratch,
+  void baseMotions(const ProceduralMotion& motion, SubtreeScratch& scratch,
                    std::vector<physics::BaseMotion>& out) const;
-  void addWind(const Course& course, const physics::Kinematics& kinematics,
-               const PhysicsSettings& settings, PartScratch& scratch, physics::Loads& loads) const;
+  void addWind(const ProceduralMotion& motion, const physics::Kinematics& kinematics,
+               const PhysicsSettings& settings, SubtreeScratch& scratch,
+               physics::Loads& loads) const;
   physics::Drag dragAt(double force, const Vec3& wind, const Vec3& arm) const;
-  void addCompensation(const Course& course, const PhysicsSettings& settings, PartScratch& scratch,
-                       physics::Loads& loads) const;
-  void addSprings(const PartLoads& loads, Nanoseconds stamp, const physics::Kinematics& kinematics,
-                  physics::Loads& out) const;
-  void addForces(const PartLoads& loads, const physics::Kinematics& kinematics,
+  void addCompensation(const ProceduralMotion& motion, const PhysicsSettings& settings,
+                       SubtreeScratch& scratch, physics::Loads& loads) const;
+  void addSprings(const SubtreeLoads& loads, Nanoseconds stamp,
+                  const physics::Kinematics& kinematics, physics::Loads& out) const;
+  void addForces(const SubtreeLoads& loads, const physics::Kinematics& kinematics,
                  physics::Loads& out) const;
   Pose poseOf(int link, const std::vector<physics::BaseMotion>& bases) const;
 
@@ -164,7 +166,7 @@ class PhysicalPart {
   Species species_;
   Wood wood_;
   std::vector<char> mask_;
-  std::vector<PartJoint> joints_;
+  std::vector<SubtreeJoint> joints_;
   std::vector<int> branches_;
   std::vector<physics::Link> links_;
   std::vector<LinkDrag> drags_;
@@ -183,7 +185,7 @@ struct SpringForce {
   Vec3 force{Vec3::Zero()};
   double scale{1.0};
 };
-SpringForce forceOf(const PartSpring& spring, Nanoseconds stamp, const Vec3& point,
+SpringForce forceOf(const SubtreeSpring& spring, Nanoseconds stamp, const Vec3& point,
                     const Vec3& velocity);
 
 }  // namespace vegetation_sim::forest

@@ -27,24 +27,25 @@ JointAngles bendOf(const Tree& tree, int branch, const Vec3& air, double weight)
 }
 
 // `share` of the way from what is procedural to what the modes say.
-JointAngles inModes(const ModalLooks& modal, int branch, std::size_t look, double share,
+JointAngles inModes(const ModalSamples& modal, int branch, std::size_t look, double share,
                     const JointAngles& procedural) {
   return between(procedural, bendOf(modal.sway->modes(), modal.amplitude[look], branch), share);
 }
 
 // In this air, and in the modes.
-JointAngles anglesAt(const Course& course, int branch, std::size_t look, const Vec3& air) {
-  const Branch& b = course.tree.skeleton.branches[static_cast<std::size_t>(branch)];
-  const double weight = course.weights[look][static_cast<std::size_t>(b.depth)];
-  const double share = course.modalShare(look);
+JointAngles anglesAt(const ProceduralMotion& motion, int branch, std::size_t look,
+                     const Vec3& air) {
+  const Branch& b = motion.tree.skeleton.branches[static_cast<std::size_t>(branch)];
+  const double weight = motion.weights[look][static_cast<std::size_t>(b.depth)];
+  const double share = motion.modalShare(look);
   JointAngles out;
-  if (weight > 0.0 && share < 1.0) out = bendOf(course.tree, branch, air, weight);
-  if (share > 0.0) out = inModes(*course.modal, branch, look, share, out);
+  if (weight > 0.0 && share < 1.0) out = bendOf(motion.tree, branch, air, weight);
+  if (share > 0.0) out = inModes(*motion.modal, branch, look, share, out);
   return out;
 }
 
 // Central differences.
-JointCourse courseOf(const JointAngles& a, const JointAngles& b, const JointAngles& c) {
+JointMotion motionOf(const JointAngles& a, const JointAngles& b, const JointAngles& c) {
   const double twice = 2.0 * STEP, square = STEP * STEP;
   return {b,
           {(c.first - a.first) / twice, (c.second - a.second) / twice},
@@ -54,52 +55,54 @@ JointCourse courseOf(const JointAngles& a, const JointAngles& b, const JointAngl
 
 }  // namespace
 
-void ModalLooks::lookAt(const Sway& at, Nanoseconds stamp) {
+void ModalSamples::sampleAt(const ModalTreeState& at, Nanoseconds stamp) {
   sway = &at;
   for (std::size_t look = 0; look < amplitude.size(); ++look)
     at.amplitudeBetween(stamp + (static_cast<Nanoseconds>(look) - 1) * LOOK, amplitude[look]);
 }
 
-Course::Course(const Tree& tree, const WindWindow& wind, const LevelState& level,
-               const MotionLaw& law, const ModalLooks* modal)
+ProceduralMotion::ProceduralMotion(const Tree& tree, const WindWindow& wind,
+                                   const LevelState& level, const MotionLaw& law,
+                                   const ModalSamples* modal)
     : tree(tree), wind(wind), modal(modal) {
   for (std::size_t look = 0; look < 3; ++look)
     weights[look] =
         weightsAt(level, wind.stamp() + (static_cast<Nanoseconds>(look) - 1) * LOOK, law);
 }
 
-JointCourse Course::at(int branch) const {
+JointMotion ProceduralMotion::at(int branch) const {
   const Branch& b = tree.skeleton.branches[static_cast<std::size_t>(branch)];
   const std::array<Vec3, 3> air = wind.velocities(tree.foot + b.rest.position);
   std::array<JointAngles, 3> angles;
   for (std::size_t look = 0; look < 3; ++look)
     angles[look] = anglesAt(*this, branch, look, air[look]);
-  return courseOf(angles[0], angles[1], angles[2]);
+  return motionOf(angles[0], angles[1], angles[2]);
 }
 
-void Courses::look(const Course& course, const std::vector<int>& branches) {
-  const Tree& tree = course.tree;
+void ProceduralMotions::look(const ProceduralMotion& motion, const std::vector<int>& branches) {
+  const Tree& tree = motion.tree;
   air_.clear();
   for (const int branch : branches)
     air_.add(tree.foot + tree.skeleton.branches[static_cast<std::size_t>(branch)].rest.position);
-  const auto needs_air = [&](std::size_t look) { return course.modalShare(look) < 1.0; };
-  if (needs_air(0) || needs_air(1) || needs_air(2)) air_.sample(course.wind);
+  const auto needs_air = [&](std::size_t look) { return motion.modalShare(look) < 1.0; };
+  if (needs_air(0) || needs_air(1) || needs_air(2)) air_.sample(motion.wind);
   for (std::size_t look = 0; look < angles_.size(); ++look) {
     const bool in_air = needs_air(look);
     angles_[look].resize(branches.size());
     for (std::size_t i = 0; i < branches.size(); ++i) {
       const Vec3 air = in_air ? air_.velocity(i, look) : Vec3(Vec3::Zero());
-      angles_[look][i] = anglesAt(course, branches[i], look, air);
+      angles_[look][i] = anglesAt(motion, branches[i], look, air);
     }
   }
 }
 
-JointCourse Courses::at(std::size_t i) const {
-  return courseOf(angles_[0][i], angles_[1][i], angles_[2][i]);
+JointMotion ProceduralMotions::at(std::size_t i) const {
+  return motionOf(angles_[0][i], angles_[1][i], angles_[2][i]);
 }
 
-void moveCarriers(const Tree& tree, const std::vector<int>& carriers, const Courses& courses,
-                  std::vector<Pose>& scratch, std::vector<CarrierMotion>& out) {
+void moveCarriers(const Tree& tree, const std::vector<int>& carriers,
+                  const ProceduralMotions& motions, std::vector<Pose>& scratch,
+                  std::vector<CarrierMotion>& out) {
   const std::size_t n = carriers.size();
   scratch.resize(3 * n);
   out.resize(n);
@@ -109,7 +112,7 @@ void moveCarriers(const Tree& tree, const std::vector<int>& carriers, const Cour
         std::lower_bound(carriers.begin(), carriers.end(), b.parent) - carriers.begin());
     for (std::size_t look = 0; look < 3; ++look) {
       const Pose base = b.parent < 0 ? Pose() : scratch[3 * bearer + look];
-      const Quat local = jointRotation(b, courses.angles(i, look), tree.joint_model);
+      const Quat local = jointRotation(b, motions.angles(i, look), tree.joint_model);
       Vec3 position = base.position;
       if (b.parent >= 0) position += b.h * axisZ(base.orientation);
       scratch[3 * i + look] = {position, base.orientation * local};

@@ -13,47 +13,47 @@
 namespace vegetation_sim::forest {
 
 /// Amplitudes of a tree in modes at the three looks; keeps its memory from look to look.
-struct ModalLooks {
-  const Sway* sway{nullptr};
+struct ModalSamples {
+  const ModalTreeState* sway{nullptr};
   std::array<std::vector<double>, 3> amplitude;
 
-  void lookAt(const Sway& at, Nanoseconds stamp);
+  void sampleAt(const ModalTreeState& at, Nanoseconds stamp);
 };
 
 /// Motion of a joint that is not physical at a stamp, by central differences: bends [rad], rates
 /// [rad/s], accelerations [rad/s^2].
-struct JointCourse {
+struct JointMotion {
   JointAngles q, rate, acceleration;
 };
 
 /// Motion of one tree around a stamp, procedural or in modes: window and level's weights at its
 /// three looks.
-struct Course {
+struct ProceduralMotion {
   const Tree& tree;
   const WindWindow& wind;
   std::array<Weights, 3> weights;
-  const ModalLooks* modal;  // none: all procedural
+  const ModalSamples* modal;  // none: all procedural
 
-  Course(const Tree& tree, const WindWindow& wind, const LevelState& level, const MotionLaw& law,
-         const ModalLooks* modal = nullptr);
+  ProceduralMotion(const Tree& tree, const WindWindow& wind, const LevelState& level,
+                   const MotionLaw& law, const ModalSamples* modal = nullptr);
   /// Weight of the modes at a look.
   double modalShare(std::size_t look) const { return modal ? modalWeight(weights[look]) : 0.0; }
   /// Share of the motion that no law of motion brings about: what compensation starts at (E1).
   double missing() const { return 1.0 - modalShare(1); }
-  JointCourse at(int branch) const;
+  JointMotion at(int branch) const;
 };
 
-/// Motion of many branches of a tree at once: to the bit what Course gives one by one.
+/// Motion of many branches of a tree at once: to the bit what ProceduralMotion gives one by one.
 /// Keeps its memory from look to look.
-class Courses {
+class ProceduralMotions {
  public:
-  void look(const Course& course, const std::vector<int>& branches);
+  void look(const ProceduralMotion& motion, const std::vector<int>& branches);
   /// Of branches[i], at look 0, 1 or 2.
   const JointAngles& angles(std::size_t i, std::size_t look) const { return angles_[look][i]; }
-  JointCourse at(std::size_t i) const;
+  JointMotion at(std::size_t i) const;
 
  private:
-  AirSampler air_;
+  WindSampler air_;
   std::array<std::vector<JointAngles>, 3> angles_;
 };
 
@@ -69,7 +69,8 @@ struct CarrierMotion {
 /// @param courses their angles, looked at.
 /// @param[out] out [carriers]
 /// @param scratch [3 * carriers] poses, kept from call to call.
-void moveCarriers(const Tree& tree, const std::vector<int>& carriers, const Courses& courses,
-                  std::vector<Pose>& scratch, std::vector<CarrierMotion>& out);
+void moveCarriers(const Tree& tree, const std::vector<int>& carriers,
+                  const ProceduralMotions& motions, std::vector<Pose>& scratch,
+                  std::vector<CarrierMotion>& out);
 
 }  // namespace vegetation_sim::forest

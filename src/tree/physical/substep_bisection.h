@@ -11,22 +11,22 @@
 namespace vegetation_sim::forest {
 
 /// The air around a tree, as its level tells it, and its modes where it sways in them.
-struct Air {
+struct TreeWind {
   const wind::Field& field;
   LevelState level;
   const MotionLaw& law;
-  const Sway* sway{nullptr};
+  const ModalTreeState* sway{nullptr};
 };
 
 /// Memory that stepping needs and nothing else: what is in it between steps does not matter. One
 /// serves all the trees of a forest, so that a step allocates nothing.
-struct PartScratch {
+struct SubtreeScratch {
   WindWindow window;
-  ModalLooks modal;
-  AirSampler air;
-  std::vector<Vec3> arms;  // from joints to where the air grips
-  Courses courses;         // of links
-  Courses carrier_courses;
+  ModalSamples modal;
+  WindSampler air;
+  std::vector<Vec3> arms;     // from joints to where the air grips
+  ProceduralMotions motions;  // of links
+  ProceduralMotions carrier_motions;
   physics::ChainStepper stepper;
   physics::ArticulatedBody body;
   std::vector<Pose> carrier_poses;
@@ -43,14 +43,14 @@ struct PartScratch {
   std::size_t replaced{0};  ///< steps of a tree that another integrator had to take
 
   /// Looks at a stamp, unless that is where it looks already.
-  const WindWindow& lookAt(const wind::Field& field, Nanoseconds stamp) {
-    if (window.stamp() != stamp) window.lookAt(field, stamp);
+  const WindWindow& sampleAt(const wind::Field& field, Nanoseconds stamp) {
+    if (window.stamp() != stamp) window.sampleAt(field, stamp);
     return window;
   }
   /// The motion of a tree around a stamp, where it is not physical.
-  Course courseOf(const Tree& tree, const Air& around, Nanoseconds stamp) {
-    if (around.sway) modal.lookAt(*around.sway, stamp);
-    return {tree, lookAt(around.field, stamp), around.level, around.law,
+  ProceduralMotion motionOf(const Tree& tree, const TreeWind& around, Nanoseconds stamp) {
+    if (around.sway) modal.sampleAt(*around.sway, stamp);
+    return {tree, sampleAt(around.field, stamp), around.level, around.law,
             around.sway ? &modal : nullptr};
   }
 };

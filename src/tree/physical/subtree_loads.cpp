@@ -16,7 +16,7 @@ namespace {
 constexpr double LARGEST_REACH = 1e3;
 
 // Where no joint turns farther in a step, velocity products are foretold as well as averaged [rad].
-constexpr double FORETOLD_TURN = 0.01;
+constexpr double PREDICTED_TURN = 0.01;
 
 physics::Symmetric3 uniform(double value) {
   return {value, value, value, 0.0, 0.0, 0.0};
@@ -34,47 +34,47 @@ void addForce(const Vec3& force, const Vec3& arm, physics::Wrench& wrench) {
 }  // namespace
 
 /// What the stepper asks for during one step.
-struct PhysicalPart::Step {
-  const PhysicalPart& part;
-  const Air& air;
-  const PartLoads& loads;
+struct PhysicalSubtree::Step {
+  const PhysicalSubtree& part;
+  const TreeWind& air;
+  const SubtreeLoads& loads;
   const PhysicsSettings& settings;
-  PartScratch& scratch;
+  SubtreeScratch& scratch;
   Nanoseconds from;
   mutable Nanoseconds based{NEVER};  // stamp of scratch.bases
 
-  Course courseAt(double time) const {
-    return scratch.courseOf(part.tree(), air, from + fromSeconds(time));
+  ProceduralMotion motionAt(double time) const {
+    return scratch.motionOf(part.tree(), air, from + fromSeconds(time));
   }
-  void lookAtBases(const Course& course) const {
-    if (based == course.wind.stamp()) return;
-    part.baseMotions(course, scratch, scratch.bases);
-    based = course.wind.stamp();
+  void lookAtBases(const ProceduralMotion& motion) const {
+    if (based == motion.wind.stamp()) return;
+    part.baseMotions(motion, scratch, scratch.bases);
+    based = motion.wind.stamp();
   }
   void bases(double time, std::vector<physics::BaseMotion>& out) const {
-    lookAtBases(courseAt(time));
+    lookAtBases(motionAt(time));
     out = scratch.bases;
   }
   void load(const physics::Kinematics& kinematics, double time, physics::Loads& out) const {
-    const Course course = courseAt(time);
+    const ProceduralMotion motion = motionAt(time);
     out.clear(part.links_.size());
-    part.addWind(course, kinematics, settings, scratch, out);
-    addOthers(course, kinematics, out);
+    part.addWind(motion, kinematics, settings, scratch, out);
+    addOthers(motion, kinematics, out);
   }
   // Air for a chain's rows.
   void blow(double h, const float* places, float* rows, std::size_t blocks) const {
     const Nanoseconds middle = from + fromSeconds(part.theta_ * h);
     const bool own = loads.air == NEVER || part.compensates(from, settings.fade);
-    const Course course = scratch.courseOf(part.tree(), air, own ? middle : loads.air);
-    fillAir(FloatWind(course.wind.now().relativeTo(part.tree().foot), LARGEST_REACH), places, rows,
+    const ProceduralMotion motion = scratch.motionOf(part.tree(), air, own ? middle : loads.air);
+    fillAir(FloatWind(motion.wind.now().relativeTo(part.tree().foot), LARGEST_REACH), places, rows,
             blocks);
   }
   // All that acts besides the wind.
-  void addOthers(const Course& course, const physics::Kinematics& kinematics,
+  void addOthers(const ProceduralMotion& motion, const physics::Kinematics& kinematics,
                  physics::Loads& out) const {
-    lookAtBases(course);
-    part.addCompensation(course, settings, scratch, out);
-    part.addSprings(loads, course.wind.stamp(), kinematics, out);
+    lookAtBases(motion);
+    part.addCompensation(motion, settings, scratch, out);
+    part.addSprings(loads, motion.wind.stamp(), kinematics, out);
     part.addForces(loads, kinematics, out);
   }
   physics::Surroundings outside() const {
@@ -92,14 +92,15 @@ struct PhysicalPart::Step {
     if (loads.springs.empty() && loads.forces.empty() && !part.compensates(from, settings.fade))
       return out;
     out.loads = [this](const physics::Kinematics& kinematics, double time, physics::Loads& to) {
-      addOthers(courseAt(time), kinematics, to);
+      addOthers(motionAt(time), kinematics, to);
     };
     return out;
   }
 };
 
-void PhysicalPart::step(const Air& air, const PartLoads& loads, const PhysicsSettings& settings,
-                        Nanoseconds from, Nanoseconds to, PartScratch& scratch) {
+void PhysicalSubtree::step(const TreeWind& air, const SubtreeLoads& loads,
+                           const PhysicsSettings& settings, Nanoseconds from, Nanoseconds to,
+                           SubtreeScratch& scratch) {
   const Step context{*this, air, loads, settings, scratch, from};
   const double h = secondsBetween(from, to);
   const auto dynamics = static_cast<physics::Dynamics>(settings.dynamics);
@@ -117,7 +118,7 @@ void PhysicalPart::step(const Air& air, const PartLoads& loads, const PhysicsSet
 }
 
 // The state lives here in double precision; what the chain keeps is gone with the step.
-void PhysicalPart::stepBatched(const Step& context, double h) {
+void PhysicalSubtree::stepBatched(const Step& context, double h) {
   if (!chain_.held) grip();
   physics::BatchChain& chain = *chain_.held;
   chain.setState(0, state_, theta_);
@@ -126,14 +127,14 @@ void PhysicalPart::stepBatched(const Step& context, double h) {
     chain.askAir([&](const float* places, float* rows, std::size_t blocks) {
       context.blow(h, places, rows, blocks);
     });
-  const bool foretells = context.loads.hold && h * chain.fastest(0) <= FORETOLD_TURN;
-  chain.step(context.outsideWind(), 0.0, h, foretells ? 1 : 0);
+  const bool predicts = context.loads.hold && h * chain.fastest(0) <= PREDICTED_TURN;
+  chain.step(context.outsideWind(), 0.0, h, predicts ? 1 : 0);
   state_ = chain.state(0);
   theta_ = chain.theta(0);
   stopJoints();
 }
 
-void PhysicalPart::grip() {
+void PhysicalSubtree::grip() {
   chain_.held = std::make_unique<physics::BatchChain>(links_);
   const bool linear = tree_->drag == Drag::LINEAR;
   std::vector<physics::Grip> grips;
@@ -145,7 +146,7 @@ void PhysicalPart::grip() {
 
 // Whatever happens, angles stay where the chain and the messages hold: the printed dynamics flutter
 // without bound (E2), and a hand may wring a twig off.
-void PhysicalPart::stopJoints() {
+void PhysicalSubtree::stopJoints() {
   constexpr double MOST = 1.0 + 1e-6;  // chains stop there themselves, as they round
   for (std::size_t i = 0; i < links_.size(); ++i) {
     physics::Vec2 &q = state_.q[i], &rate = state_.rate[i];
@@ -160,9 +161,10 @@ void PhysicalPart::stopJoints() {
   }
 }
 
-void PhysicalPart::stepTouching(const Air& air, const PartLoads& loads,
-                                const PhysicsSettings& settings, Nanoseconds from, Nanoseconds to,
-                                PartScratch& scratch, std::vector<physics::Contact>& contacts) {
+void PhysicalSubtree::stepTouching(const TreeWind& air, const SubtreeLoads& loads,
+                                   const PhysicsSettings& settings, Nanoseconds from,
+                                   Nanoseconds to, SubtreeScratch& scratch,
+                                   std::vector<physics::Contact>& contacts) {
   const Step context{*this, air, loads, settings, scratch, from};
   const double h = secondsBetween(from, to);
   theta_ = physics::guardedTheta(state_, h, theta_);
@@ -172,16 +174,17 @@ void PhysicalPart::stepTouching(const Air& air, const PartLoads& loads,
   stopJoints();
 }
 
-void PhysicalPart::kinematicsAt(const Air& air, Nanoseconds stamp, PartScratch& scratch,
-                                physics::Kinematics& out) const {
-  const Course course = scratch.courseOf(*tree_, air, stamp);
-  baseMotions(course, scratch, scratch.bases);
+void PhysicalSubtree::kinematicsAt(const TreeWind& air, Nanoseconds stamp, SubtreeScratch& scratch,
+                                   physics::Kinematics& out) const {
+  const ProceduralMotion motion = scratch.motionOf(*tree_, air, stamp);
+  baseMotions(motion, scratch, scratch.bases);
   physics::kinematicsOf(links_, scratch.bases, state_, out);
 }
 
-void PhysicalPart::placesAt(const std::vector<PartSpring>& springs, const Air& air,
-                            Nanoseconds stamp, PartScratch& scratch, std::vector<Vec3>& out) const {
-  baseMotions(scratch.courseOf(*tree_, air, stamp), scratch, scratch.bases);
+void PhysicalSubtree::placesAt(const std::vector<SubtreeSpring>& springs, const TreeWind& air,
+                               Nanoseconds stamp, SubtreeScratch& scratch,
+                               std::vector<Vec3>& out) const {
+  baseMotions(scratch.motionOf(*tree_, air, stamp), scratch, scratch.bases);
   out.resize(springs.size());
   for (std::size_t i = 0; i < springs.size(); ++i) {
     const int link = linkOf(springs[i].point.branch);
@@ -192,7 +195,7 @@ void PhysicalPart::placesAt(const std::vector<PartSpring>& springs, const Air& a
 }
 
 // As physics::kinematicsOf, of what bears the link alone.
-Pose PhysicalPart::poseOf(int link, const std::vector<physics::BaseMotion>& bases) const {
+Pose PhysicalSubtree::poseOf(int link, const std::vector<physics::BaseMotion>& bases) const {
   const physics::Link& own = links_[index(link)];
   const Pose from = own.parent < 0 ? bases[index(own.base)].pose : poseOf(own.parent, bases);
   const physics::Vec2& q = state_.q[index(link)];
@@ -201,20 +204,20 @@ Pose PhysicalPart::poseOf(int link, const std::vector<physics::BaseMotion>& base
 }
 
 // Base 0 is the ground; the carriers follow.
-void PhysicalPart::baseMotions(const Course& course, PartScratch& scratch,
-                               std::vector<physics::BaseMotion>& out) const {
+void PhysicalSubtree::baseMotions(const ProceduralMotion& motion, SubtreeScratch& scratch,
+                                  std::vector<physics::BaseMotion>& out) const {
   out.resize(1 + carriers_.size());
   out[0] = physics::BaseMotion();
   if (carriers_.empty()) return;
-  scratch.carrier_courses.look(course, carriers_);
-  moveCarriers(*tree_, carriers_, scratch.carrier_courses, scratch.carrier_poses, scratch.carriers);
+  scratch.carrier_motions.look(motion, carriers_);
+  moveCarriers(*tree_, carriers_, scratch.carrier_motions, scratch.carrier_poses, scratch.carriers);
   for (std::size_t i = 0; i < carriers_.size(); ++i) {
     const CarrierMotion& motion = scratch.carriers[i];
     out[i + 1] = {motion.pose, motion.spin, motion.velocity, motion.spin_rate, motion.acceleration};
   }
 }
 
-SpringForce forceOf(const PartSpring& spring, Nanoseconds stamp, const Vec3& point,
+SpringForce forceOf(const SubtreeSpring& spring, Nanoseconds stamp, const Vec3& point,
                     const Vec3& velocity) {
   const Vec3 target = spring.target + secondsBetween(spring.stamp, stamp) * spring.velocity;
   SpringForce out;
@@ -227,9 +230,9 @@ SpringForce forceOf(const PartSpring& spring, Nanoseconds stamp, const Vec3& poi
 
 // At its limit a spring acts as a softer one that has the same force here: an implicit step cannot
 // overshoot, however light the branch.
-void PhysicalPart::addSprings(const PartLoads& loads, Nanoseconds stamp,
-                              const physics::Kinematics& kinematics, physics::Loads& out) const {
-  for (const PartSpring& spring : loads.springs) {
+void PhysicalSubtree::addSprings(const SubtreeLoads& loads, Nanoseconds stamp,
+                                 const physics::Kinematics& kinematics, physics::Loads& out) const {
+  for (const SubtreeSpring& spring : loads.springs) {
     const int link = linkOf(spring.point.branch);
     if (link < 0) continue;
     const Pose& pose = kinematics.pose[index(link)];
@@ -242,8 +245,8 @@ void PhysicalPart::addSprings(const PartLoads& loads, Nanoseconds stamp,
   }
 }
 
-void PhysicalPart::addForces(const PartLoads& loads, const physics::Kinematics& kinematics,
-                             physics::Loads& out) const {
+void PhysicalSubtree::addForces(const SubtreeLoads& loads, const physics::Kinematics& kinematics,
+                                physics::Loads& out) const {
   for (const BranchLoad& load : loads.forces) {
     const int link = linkOf(load.branch);
     if (link < 0) continue;

@@ -15,7 +15,7 @@ namespace {
 constexpr double STRONGEST_DRAG = 0.5 * PHYSICS_RATE;  // [1/s]
 
 // Contacts step implicitly whatever is chosen, and so do explicit methods beyond their bounds.
-bool foreseesDrag(const PhysicsSettings& settings) {
+bool predictsDrag(const PhysicsSettings& settings) {
   return static_cast<physics::Dynamics>(settings.dynamics) == physics::Dynamics::ARTICULATED &&
          physics::isImplicit(static_cast<physics::Integrator>(settings.integrator));
 }
@@ -23,9 +23,9 @@ bool foreseesDrag(const PhysicsSettings& settings) {
 }  // namespace
 
 // Drag of each link with the wood that it carries, where it is and as it moves.
-void PhysicalPart::addWind(const Course& course, const physics::Kinematics& kinematics,
-                           const PhysicsSettings& settings, PartScratch& scratch,
-                           physics::Loads& loads) const {
+void PhysicalSubtree::addWind(const ProceduralMotion& motion, const physics::Kinematics& kinematics,
+                              const PhysicsSettings& settings, SubtreeScratch& scratch,
+                              physics::Loads& loads) const {
   const std::size_t n = links_.size();
   scratch.air.clear();
   scratch.arms.resize(n);
@@ -34,40 +34,40 @@ void PhysicalPart::addWind(const Course& course, const physics::Kinematics& kine
     scratch.arms[i] = rotate(pose.orientation, drags_[i].centre);
     scratch.air.add(tree_->foot + pose.position + scratch.arms[i]);
   }
-  scratch.air.sample(course.wind.now());
-  const bool foreseen = foreseesDrag(settings);
-  if (foreseen) loads.drag.resize(n);
+  scratch.air.sample(motion.wind.now());
+  const bool predicted = predictsDrag(settings);
+  if (predicted) loads.drag.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     const LinkDrag& drag = drags_[i];
     if (drag.force <= 0.0) continue;
     const Vec3& arm = scratch.arms[i];
     const Vec3 own = kinematics.velocity[i] + cross(kinematics.spin[i], arm);
     const double share =
-        foreseen ? 1.0 : std::min(1.0, STRONGEST_DRAG * links_[i].mass / drag.force);
+        predicted ? 1.0 : std::min(1.0, STRONGEST_DRAG * links_[i].mass / drag.force);
     const Vec3 wind = scratch.air.velocity(i) - share * own;
     const Vec3 force = drag.force * effectiveVelocity(wind, tree_->drag, tree_->reference_speed);
     loads.wrench[i].force += force;
     loads.wrench[i].torque += cross(arm, force);
-    if (foreseen) loads.drag[i] = dragAt(drag.force, wind, arm);
+    if (predicted) loads.drag[i] = dragAt(drag.force, wind, arm);
   }
 }
 
 // The derivative of its force.
-physics::Drag PhysicalPart::dragAt(double force, const Vec3& wind, const Vec3& arm) const {
+physics::Drag PhysicalSubtree::dragAt(double force, const Vec3& wind, const Vec3& arm) const {
   if (tree_->drag == Drag::LINEAR) return {arm, force, Vec3::Zero()};
   const double speed = length(wind), slope = force / tree_->reference_speed;
   if (speed == 0.0) return {arm, 0.0, Vec3::Zero()};
   return {arm, slope * speed, std::sqrt(slope / speed) * wind};
 }
 
-double PhysicalPart::compensationAt(std::size_t link, Nanoseconds stamp, double fade) const {
-  const PartJoint& joint = joints_[link];
+double PhysicalSubtree::compensationAt(std::size_t link, Nanoseconds stamp, double fade) const {
+  const SubtreeJoint& joint = joints_[link];
   if (fade <= 0.0) return 0.0;
   const double progress = secondsBetween(joint.promoted, stamp) / fade;
   return joint.compensation * (1.0 - smootherStep(progress));
 }
 
-bool PhysicalPart::compensates(Nanoseconds stamp, double fade) const {
+bool PhysicalSubtree::compensates(Nanoseconds stamp, double fade) const {
   for (std::size_t i = 0; i < joints_.size(); ++i)
     if (compensationAt(i, stamp, fade) > 0.0) return true;
   return false;
@@ -76,25 +76,26 @@ bool PhysicalPart::compensates(Nanoseconds stamp, double fade) const {
 // Joint torques that turn the real load into the one of the procedural motion: inverse dynamics of
 // that motion under the real load (E1), times what has not faded. `paper`: without what spring and
 // damper need, as printed (S1-26).
-void PhysicalPart::addCompensation(const Course& course, const PhysicsSettings& settings,
-                                   PartScratch& s, physics::Loads& loads) const {
-  const Nanoseconds stamp = course.wind.stamp();
+void PhysicalSubtree::addCompensation(const ProceduralMotion& motion,
+                                      const PhysicsSettings& settings, SubtreeScratch& s,
+                                      physics::Loads& loads) const {
+  const Nanoseconds stamp = motion.wind.stamp();
   // Paper 1's dynamics have no inverse here: their branches meet the real load at once.
   if (settings.dynamics != 0 || !compensates(stamp, settings.fade)) return;
   const std::size_t n = links_.size();
   s.procedural.q.resize(n);
   s.procedural.rate.resize(n);
   s.acceleration.resize(n);
-  s.courses.look(course, branches_);
+  s.motions.look(motion, branches_);
   for (std::size_t i = 0; i < n; ++i) {
-    const JointCourse at = s.courses.at(i);
+    const JointMotion at = s.motions.at(i);
     s.procedural.q[i] = {at.q.first, at.q.second};
     s.procedural.rate[i] = {at.rate.first, at.rate.second};
     s.acceleration[i] = {at.acceleration.first, at.acceleration.second};
   }
   physics::kinematicsOf(links_, s.bases, s.procedural, s.kinematics);
   s.loads.clear(n);
-  addWind(course, s.kinematics, settings, s, s.loads);
+  addWind(motion, s.kinematics, settings, s, s.loads);
   s.body.torques(links_, s.bases, s.procedural, s.kinematics, s.loads, s.acceleration, s.torque);
   const bool printed = static_cast<WindForcing>(settings.wind_forcing) == WindForcing::PAPER;
   for (std::size_t i = 0; i < n; ++i) {

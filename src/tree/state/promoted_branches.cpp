@@ -28,8 +28,9 @@ void overlay(const PromotedTree& promoted, Nanoseconds stamp, std::vector<JointA
 }
 
 std::vector<Pose> poseBranches(const Tree& tree, const wind::Instant& wind, const Weights& weights,
-                               const Sway* sway, const PromotedTree& promoted, Nanoseconds stamp) {
-  std::vector<JointAngles> angles = swayingAngles(tree, wind, weights, sway, stamp);
+                               const ModalTreeState* sway, const PromotedTree& promoted,
+                               Nanoseconds stamp) {
+  std::vector<JointAngles> angles = modalAngles(tree, wind, weights, sway, stamp);
   overlay(promoted, stamp, angles);
   return forwardKinematics(tree, angles);
 }

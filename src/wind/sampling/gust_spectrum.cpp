@@ -57,7 +57,7 @@ double onsetOf(const Primitive& p, Nanoseconds stamp) {
 
 }  // namespace
 
-void Swings::add(double frequency, double slowness, double square) {
+void GustSpectrum::add(double frequency, double slowness, double square) {
   if (frequency < FREQUENCIES[0])
     square *= frequency * frequency / (FREQUENCIES[0] * FREQUENCIES[0]);
   const auto [f, across] = between(FREQUENCIES, frequency);
@@ -68,7 +68,7 @@ void Swings::add(double frequency, double slowness, double square) {
   power[s + 1][f + 1] += along * across * square;
 }
 
-SwingingWind::SwingingWind(const Field& field, Nanoseconds stamp) {
+GustSpectrumField::GustSpectrumField(const Field& field, Nanoseconds stamp) {
   for (std::size_t i = 0; i < field.primitives().size(); ++i) {
     const Primitive& p = field.primitives()[i];
     Term term;
@@ -81,7 +81,7 @@ SwingingWind::SwingingWind(const Field& field, Nanoseconds stamp) {
   }
 }
 
-void SwingingWind::addBreeze(const Primitive& p, double weight, const Breeze& breeze) {
+void GustSpectrumField::addBreeze(const Primitive& p, double weight, const Breeze& breeze) {
   mean_ += weight * p.velocity;
   const double carrier = std::max(length(p.velocity), Breeze::LEAST_CARRIER);
   for (const Breeze::Wave& wave : breeze.waves()) {
@@ -91,8 +91,8 @@ void SwingingWind::addBreeze(const Primitive& p, double weight, const Breeze& br
   }
 }
 
-Swings SwingingWind::atOf(const Vec3& position, double reach, bool discs) const {
-  Swings out = breezes_;
+GustSpectrum GustSpectrumField::atOf(const Vec3& position, double reach, bool discs) const {
+  GustSpectrum out = breezes_;
   double square = turbulence_;
   for (const Part& part : parts_) {
     if (part.term.kind == Kind::DISK && !discs) continue;

@@ -11,7 +11,7 @@ namespace vegetation_sim::wind {
 
 /// Wind that comes and goes at one place, by how fast: squares of its peak speed [m^2/s^2] on a
 /// grid of frequencies and of slownesses, the time a wave takes for a metre; 0: all air as one.
-struct Swings {
+struct GustSpectrum {
   static constexpr std::array<double, 12> FREQUENCIES{0.05, 0.07, 0.1,  0.145, 0.21, 0.3, 0.43,
                                                       0.62, 0.88, 1.26, 1.8,   2.6};  ///< [Hz]
   static constexpr std::array<double, 3> SLOWNESSES{0.0, 0.2, 0.8};                   ///< [s/m]
@@ -27,19 +27,19 @@ struct Swings {
 };
 
 /// The parts of a wind that come and go, at one stamp.
-class SwingingWind {
+class GustSpectrumField {
  public:
   /// Peak over rms of a breeze, within some ten seconds.
   static constexpr double PEAK = 2.5;
 
-  SwingingWind() = default;
-  SwingingWind(const Field& field, Nanoseconds stamp);
+  GustSpectrumField() = default;
+  GustSpectrumField(const Field& field, Nanoseconds stamp);
 
   /// What any point within `reach` [m] (horizontally) of `position` meets over a cycle of the
   /// primitives.
-  Swings at(const Vec3& position, double reach) const { return atOf(position, reach, true); }
+  GustSpectrum at(const Vec3& position, double reach) const { return atOf(position, reach, true); }
   /// The same but for discs.
-  Swings besideDiscs(const Vec3& position, double reach) const {
+  GustSpectrum withoutDiscs(const Vec3& position, double reach) const {
     return atOf(position, reach, false);
   }
   bool hasDiscs() const { return has_discs_; }
@@ -52,9 +52,9 @@ class SwingingWind {
     double onset;  // frequency at which half of it sets on or dies down, 0: it does neither
   };
   void addBreeze(const Primitive& p, double weight, const Breeze& breeze);
-  Swings atOf(const Vec3& position, double reach, bool discs) const;
+  GustSpectrum atOf(const Vec3& position, double reach, bool discs) const;
 
-  Swings breezes_;
+  GustSpectrum breezes_;
   double turbulence_{0.0};  // square of the breezes' peak
   Vec3 mean_{Vec3::Zero()};
   std::vector<Part> parts_;

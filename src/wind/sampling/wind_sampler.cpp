@@ -6,17 +6,17 @@
 
 namespace vegetation_sim::forest {
 
-void AirSampler::add(const Vec3& point) {
+void WindSampler::add(const Vec3& point) {
   if (count_ == points_.x.size())
     for (std::vector<double>* row : {&points_.x, &points_.y, &points_.z})
-      row->resize(2 * count_ + wind::AirRows::ROOM, 0.0);
+      row->resize(2 * count_ + wind::WindSamples::ROOM, 0.0);
   points_.x[count_] = point.x();
   points_.y[count_] = point.y();
   points_.z[count_] = point.z();
   ++count_;
 }
 
-wind::AirRows AirSampler::rows(std::size_t look) {
+wind::WindSamples WindSampler::rows(std::size_t look) {
   Rows& air = air_[look];
   for (std::vector<double>* row : {&air.x, &air.y, &air.z})
     if (row->size() < points_.x.size()) row->resize(points_.x.size());
@@ -30,12 +30,12 @@ wind::AirRows AirSampler::rows(std::size_t look) {
 }
 
 // Modes, which are many, in vectors; the bounded primitives by their law.
-void AirSampler::sampleAt(std::size_t look, const wind::Instant& wind) {
+void WindSampler::sampleAt(std::size_t look, const wind::Instant& wind) {
   wind::sampleBreeze(wind, rows(look));
   addTerms(look, wind);
 }
 
-void AirSampler::addTerms(std::size_t look, const wind::Instant& wind) {
+void WindSampler::addTerms(std::size_t look, const wind::Instant& wind) {
   Rows& air = air_[look];
   for (const wind::Term& term : wind.terms)
     for (std::size_t i = 0; i < count_; ++i) {
@@ -46,12 +46,12 @@ void AirSampler::addTerms(std::size_t look, const wind::Instant& wind) {
     }
 }
 
-void AirSampler::sample(const wind::Instant& wind) {
+void WindSampler::sample(const wind::Instant& wind) {
   sampleAt(0, wind);
 }
 
 // One sine and cosine a mode serve all looks.
-void AirSampler::sample(const WindWindow& window) {
+void WindSampler::sample(const WindWindow& window) {
   if (!window.turnsAlike()) {
     for (std::size_t look = 0; look < air_.size(); ++look) sampleAt(look, window.looks()[look]);
     return;

@@ -68,7 +68,7 @@ struct Lanes3 {
   Lanes x, y, z;
 };
 
-HWY_INLINE Lanes3 load(const AirRows& rows, std::size_t i) {
+HWY_INLINE Lanes3 load(const WindSamples& rows, std::size_t i) {
   return {hn::LoadU(Tag(), rows.x + i), hn::LoadU(Tag(), rows.y + i), hn::LoadU(Tag(), rows.z + i)};
 }
 
@@ -82,7 +82,7 @@ HWY_INLINE void add(const Mode& m, Lanes factor, Lanes3& v) {
   v.z = v.z + all(m.amplitude.z()) * factor;
 }
 
-HWY_INLINE void store(const Lanes3& v, const AirRows& rows, std::size_t i) {
+HWY_INLINE void store(const Lanes3& v, const WindSamples& rows, std::size_t i) {
   hn::StoreU(v.x, Tag(), rows.vx + i);
   hn::StoreU(v.y, Tag(), rows.vy + i);
   hn::StoreU(v.z, Tag(), rows.vz + i);
@@ -93,7 +93,7 @@ HWY_INLINE Lanes3 mean(const Instant& wind) {
 }
 
 // Two vectors in turn, because one alone waits for its own series.
-void sampleRows(const Instant& wind, const AirRows& rows) {
+void sampleRows(const Instant& wind, const WindSamples& rows) {
   const std::size_t width = hn::Lanes(Tag());
   for (std::size_t i = 0; i < rows.count; i += 2 * width) {
     const Lanes3 p = load(rows, i), q = load(rows, i + width);
@@ -110,7 +110,7 @@ void sampleRows(const Instant& wind, const AirRows& rows) {
 
 void sampleLooks(const std::array<Instant, 3>& looks,
                  const std::array<std::vector<SinCos>, 2>& turns,
-                 const std::array<AirRows, 3>& rows) {
+                 const std::array<WindSamples, 3>& rows) {
   const std::size_t width = hn::Lanes(Tag());
   for (std::size_t i = 0; i < rows[1].count; i += width) {
     const Lanes3 p = load(rows[1], i);
@@ -138,13 +138,13 @@ namespace vegetation_sim::wind {
 HWY_EXPORT(sampleRows);
 HWY_EXPORT(sampleLooks);
 
-void sampleBreeze(const Instant& wind, const AirRows& rows) {
+void sampleBreeze(const Instant& wind, const WindSamples& rows) {
   HWY_DYNAMIC_DISPATCH(sampleRows)(wind, rows);
 }
 
 void sampleBreeze(const std::array<Instant, 3>& looks,
                   const std::array<std::vector<SinCos>, 2>& turns,
-                  const std::array<AirRows, 3>& rows) {
+                  const std::array<WindSamples, 3>& rows) {
   HWY_DYNAMIC_DISPATCH(sampleLooks)(looks, turns, rows);
 }
 

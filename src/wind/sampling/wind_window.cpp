@@ -16,7 +16,7 @@ bool haveSameWaves(const wind::Instant& a, const wind::Instant& b) {
 
 }  // namespace
 
-void WindWindow::lookAt(const wind::Field& field, Nanoseconds stamp) {
+void WindWindow::sampleAt(const wind::Field& field, Nanoseconds stamp) {
   stamp_ = stamp;
   field.at(stamp - LOOK, looks_[0]);
   field.at(stamp, looks_[1]);

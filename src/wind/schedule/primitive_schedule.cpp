@@ -27,7 +27,7 @@ std::string seconds(Nanoseconds stamp) {
 
 }  // namespace
 
-void Ledger::adopt(Entries entries, std::uint32_t next_id) {
+void PrimitiveSchedule::applyDelta(Entries entries, std::uint32_t next_id) {
   std::vector<Primitive> primitives;
   for (const Entry& entry : entries) primitives.push_back(entry.primitive);
   field_ = Field(std::move(primitives), field_.seed());
@@ -35,7 +35,7 @@ void Ledger::adopt(Entries entries, std::uint32_t next_id) {
   next_id_ = next_id;
 }
 
-void Ledger::start(const std::vector<Primitive>& primitives) {
+void PrimitiveSchedule::start(const std::vector<Primitive>& primitives) {
   Entries entries = entries_;
   std::uint32_t id = next_id_;
   for (Primitive p : primitives) {
@@ -44,10 +44,10 @@ void Ledger::start(const std::vector<Primitive>& primitives) {
     p.id = id++;
     entries.push_back({p, KEEP_EDITED});
   }
-  adopt(std::move(entries), id);
+  applyDelta(std::move(entries), id);
 }
 
-Ledger::Entry* Ledger::latest(Entries& entries, const std::string& name) {
+PrimitiveSchedule::Entry* PrimitiveSchedule::latest(Entries& entries, const std::string& name) {
   Entry* found = nullptr;
   for (Entry& entry : entries)
     if (entry.primitive.name == name &&
@@ -56,22 +56,23 @@ Ledger::Entry* Ledger::latest(Entries& entries, const std::string& name) {
   return found;
 }
 
-void Ledger::dropPending(Entries& entries, const std::string& name, Nanoseconds earliest) {
+void PrimitiveSchedule::dropPending(Entries& entries, const std::string& name,
+                                    Nanoseconds earliest) {
   const auto pending = [&](const Entry& entry) {
     return entry.primitive.name == name && entry.primitive.t_on >= earliest;
   };
   entries.erase(std::remove_if(entries.begin(), entries.end(), pending), entries.end());
 }
 
-Primitive Ledger::set(Primitive p, Nanoseconds earliest) {
+Primitive PrimitiveSchedule::set(Primitive p, Nanoseconds earliest) {
   return put(std::move(p), earliest, Change::EDIT);
 }
 
-Primitive Ledger::follow(Primitive p, Nanoseconds earliest) {
+Primitive PrimitiveSchedule::follow(Primitive p, Nanoseconds earliest) {
   return put(std::move(p), earliest, Change::PIECE);
 }
 
-Nanoseconds Ledger::freeFrom(const Primitive& old, Nanoseconds wanted, Faults& faults) {
+Nanoseconds PrimitiveSchedule::freeFrom(const Primitive& old, Nanoseconds wanted, Faults& faults) {
   const Nanoseconds begin = std::max(wanted, old.t_on + fromSeconds(old.fade_in));
   if (begin - wanted > LONGEST_WAIT)
     faults.add("primitive '" + old.name + "' is still fading in until " + seconds(begin) +
@@ -79,7 +80,7 @@ Nanoseconds Ledger::freeFrom(const Primitive& old, Nanoseconds wanted, Faults& f
   return begin;
 }
 
-Primitive Ledger::put(Primitive p, Nanoseconds earliest, Change change) {
+Primitive PrimitiveSchedule::put(Primitive p, Nanoseconds earliest, Change change) {
   Faults faults;
   if (p.t_on != 0 && p.t_on < earliest)
     faults.add("primitive '" + p.name + "': t_on = " + seconds(p.t_on) + " is before " +
@@ -103,11 +104,11 @@ Primitive Ledger::put(Primitive p, Nanoseconds earliest, Change change) {
   if (p.epoch == 0) p.epoch = default_epoch.value_or(p.t_on);
   p.id = next_id_;
   entries.push_back({p, change == Change::EDIT ? KEEP_EDITED : KEEP_PIECES});
-  adopt(std::move(entries), next_id_ + 1);
+  applyDelta(std::move(entries), next_id_ + 1);
   return p;
 }
 
-void Ledger::remove(const std::string& name, Nanoseconds earliest) {
+void PrimitiveSchedule::remove(const std::string& name, Nanoseconds earliest) {
   if (!find(name, earliest)) {
     std::string known;
     for (const std::string& other : names(earliest)) known += (known.empty() ? "" : ", ") + other;
@@ -118,10 +119,10 @@ void Ledger::remove(const std::string& name, Nanoseconds earliest) {
   dropPending(entries, name, earliest);
   for (Entry& entry : entries)
     if (entry.primitive.name == name) end(entry.primitive, earliest, entry.primitive.fade_out);
-  adopt(std::move(entries), next_id_);
+  applyDelta(std::move(entries), next_id_);
 }
 
-bool Ledger::prune(Nanoseconds now) {
+bool PrimitiveSchedule::prune(Nanoseconds now) {
   const auto forgotten = [&](const Entry& entry) {
     const Nanoseconds t_off = entry.primitive.t_off;
     return t_off != 0 && t_off < now - entry.keep;
@@ -129,11 +130,11 @@ bool Ledger::prune(Nanoseconds now) {
   Entries entries = entries_;
   entries.erase(std::remove_if(entries.begin(), entries.end(), forgotten), entries.end());
   if (entries.size() == entries_.size()) return false;
-  adopt(std::move(entries), next_id_);
+  applyDelta(std::move(entries), next_id_);
   return true;
 }
 
-std::vector<std::string> Ledger::names(Nanoseconds stamp) const {
+std::vector<std::string> PrimitiveSchedule::names(Nanoseconds stamp) const {
   std::vector<std::string> names;
   for (const Entry& entry : entries_) {
     const Primitive& p = entry.primitive;
@@ -143,7 +144,7 @@ std::vector<std::string> Ledger::names(Nanoseconds stamp) const {
   return names;
 }
 
-std::optional<Primitive> Ledger::find(const std::string& name, Nanoseconds stamp) const {
+std::optional<Primitive> PrimitiveSchedule::find(const std::string& name, Nanoseconds stamp) const {
   std::optional<Primitive> found;
   for (const Entry& entry : entries_) {
     const Primitive& p = entry.primitive;

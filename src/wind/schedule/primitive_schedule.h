@@ -15,13 +15,13 @@ namespace vegetation_sim::wind {
 /// predecessor fades out, over the longer of the two times; only one such change of a source runs
 /// at a time, and one that has not begun gives way to a later edit. Every edit is checked as a
 /// whole and throws InvalidInput, with all faults, before anything has changed.
-class Ledger {
+class PrimitiveSchedule {
  public:
   /// How long an ended primitive is kept, so that late messages still see the past [ns].
   static constexpr Nanoseconds KEEP_EDITED = 30 * NANOSECONDS_PER_SECOND;
   static constexpr Nanoseconds KEEP_PIECES = 5 * NANOSECONDS_PER_SECOND;  ///< of a followed frame
 
-  explicit Ledger(std::uint64_t seed = 0) : field_({}, seed) {}
+  explicit PrimitiveSchedule(std::uint64_t seed = 0) : field_({}, seed) {}
 
   const Field& field() const { return field_; }
 
@@ -65,7 +65,7 @@ class Ledger {
   static Entry* latest(Entries& entries, const std::string& name);
   static void dropPending(Entries& entries, const std::string& name, Nanoseconds earliest);
   /// Rebuilds the field first, and adopts the entries if it accepts them.
-  void adopt(Entries entries, std::uint32_t next_id);
+  void applyDelta(Entries entries, std::uint32_t next_id);
 
   Entries entries_;
   std::uint32_t next_id_{1};

@@ -7,22 +7,22 @@
 namespace vegetation_sim {
 namespace {
 
-// Rungs cost 0, 1, 2 ... and leave errors of 8, 4, 2 ... times `scale`.
-Choice choiceOf(double scale, int wanted, int stair = MOST_RUNGS) {
-  Choice out;
-  out.stair = std::min(stair, wanted);
+// TreeModels cost 0, 1, 2 ... and leave errors of 8, 4, 2 ... times `scale`.
+TierChoice choiceOf(double scale, int wanted, int stepwise = MAX_TIERS) {
+  TierChoice out;
+  out.stepwise = std::min(stepwise, wanted);
   out.wanted = wanted;
-  for (std::size_t rung = 0; rung < MOST_RUNGS; ++rung) {
-    out.error[rung] = static_cast<float>(scale * 8.0 / static_cast<double>(1 << rung));
-    out.cost[rung] = static_cast<float>(rung);
+  for (std::size_t tier = 0; tier < MAX_TIERS; ++tier) {
+    out.error[tier] = static_cast<float>(scale * 8.0 / static_cast<double>(1 << tier));
+    out.cost[tier] = static_cast<float>(tier);
   }
   return out;
 }
 
 // N7: what the tolerance asks for is taken while there is room for it.
 TEST(Governor, TakesTheCheapestRungsThatHoldTheTolerance) {
-  std::vector<Choice> choices{choiceOf(1.0, 3), choiceOf(0.5, 2), choiceOf(9.0, 7, 4)};
-  const Balance balance = govern(choices, 100.0, 1.0);
+  std::vector<TierChoice> choices{choiceOf(1.0, 3), choiceOf(0.5, 2), choiceOf(9.0, 7, 4)};
+  const TierAllocation balance = allocateTiers(choices, 100.0, 1.0);
   EXPECT_EQ(choices[0].chosen, 3);
   EXPECT_EQ(choices[1].chosen, 2);
   EXPECT_EQ(choices[2].chosen, 7);
@@ -33,60 +33,60 @@ TEST(Governor, TakesTheCheapestRungsThatHoldTheTolerance) {
 // N7: when the budget binds, what is farthest off per cost goes first, and the errors that stay
 // are about equal.
 TEST(Governor, LargestErrorPerCostGoesFirst) {
-  std::vector<Choice> choices;
+  std::vector<TierChoice> choices;
   for (int i = 0; i < 8; ++i) choices.push_back(choiceOf(i < 4 ? 1.0 : 4.0, 6));
-  const Balance balance = govern(choices, 24.0, 0.1);
+  const TierAllocation balance = allocateTiers(choices, 24.0, 0.1);
   EXPECT_LE(balance.cost, 24.0);
   EXPECT_GE(balance.cost, 0.9 * 24.0);
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(choices[4 + i].chosen, choices[i].chosen + 2);
   EXPECT_EQ(balance.held_back, 8u);
 }
 
-// Where there is no room for the rung above the stair that is wanted, the one before it is taken.
+// Where there is no room for the tier above the stair that is wanted, the one before it is taken.
 TEST(Governor, RungsAboveTheStairAreClimbedOneByOne) {
-  Choice choice = choiceOf(1.0, 8, 3);
+  TierChoice choice = choiceOf(1.0, 8, 3);
   choice.above = 7;
   for (const auto& [room, chosen] : {std::pair{8.0, 8}, {7.5, 7}, {6.5, 3}}) {
-    std::vector<Choice> choices{choice};
-    govern(choices, room, 0.01);
+    std::vector<TierChoice> choices{choice};
+    allocateTiers(choices, room, 0.01);
     EXPECT_EQ(choices[0].chosen, chosen) << room;
   }
   choice.above = 8;
-  std::vector<Choice> choices{choice};
-  govern(choices, 7.5, 0.01);
+  std::vector<TierChoice> choices{choice};
+  allocateTiers(choices, 7.5, 0.01);
   EXPECT_EQ(choices[0].chosen, 3);
 }
 
 // N7: no limit cycle. Things that differ by less than what is held counts more take no turns.
 TEST(Governor, WhatIsHeldStays) {
-  std::vector<Choice> choices;
+  std::vector<TierChoice> choices;
   for (int i = 0; i < 20; ++i) choices.push_back(choiceOf(1.0 + 0.01 * i, 4));
-  govern(choices, 41.0, 0.1);
-  const std::vector<Choice> before = choices;
+  allocateTiers(choices, 41.0, 0.1);
+  const std::vector<TierChoice> before = choices;
   for (std::size_t i = 0; i < choices.size(); ++i) {
     choices[i].held = before[i].chosen;
     for (float& error : choices[i].error) error *= i % 2 ? 0.9f : 1.1f;
   }
-  govern(choices, 41.0, 0.1);
+  allocateTiers(choices, 41.0, 0.1);
   for (std::size_t i = 0; i < choices.size(); ++i) EXPECT_EQ(choices[i].chosen, before[i].chosen);
 }
 
 TEST(Governor, WhatHasJustChangedRests) {
-  std::vector<Choice> choices{choiceOf(1.0, 4), choiceOf(9.0, 4)};
+  std::vector<TierChoice> choices{choiceOf(1.0, 4), choiceOf(9.0, 4)};
   choices[0].resting = true;
   choices[0].held = 3;
-  govern(choices, 4.0, 0.1);
+  allocateTiers(choices, 4.0, 0.1);
   EXPECT_EQ(choices[0].chosen, 3);
   EXPECT_EQ(choices[1].chosen, 1);
 }
 
 TEST(Governor, AFinerRungIsKeptUntilTheCoarserOneIsWellWithin) {
-  Choice choice = choiceOf(1.0, 0);
-  EXPECT_EQ(rungWithin(choice, 7, 1.0), 3);
-  EXPECT_EQ(rungWithin(choice, 2, 1.0), 2);  // none holds it: the finest
-  choice.held = 4;                           // rung 3 leaves 1.0
-  EXPECT_EQ(rungWithin(choice, 7, 1.2), 4);
-  EXPECT_EQ(rungWithin(choice, 7, 1.5), 3);
+  TierChoice choice = choiceOf(1.0, 0);
+  EXPECT_EQ(tierWithin(choice, 7, 1.0), 3);
+  EXPECT_EQ(tierWithin(choice, 2, 1.0), 2);  // none holds it: the finest
+  choice.held = 4;                           // tier 3 leaves 1.0
+  EXPECT_EQ(tierWithin(choice, 7, 1.2), 4);
+  EXPECT_EQ(tierWithin(choice, 7, 1.5), 3);
 }
 
 }  // namespace

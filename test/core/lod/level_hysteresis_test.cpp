@@ -10,29 +10,29 @@ namespace {
 constexpr Nanoseconds START = 1700000000LL * NANOSECONDS_PER_SECOND;
 constexpr int FINEST = 3;
 
-/// Things with ids 10, 20 ... whose rungs cost 0, 1, 2, 3 and leave 8, 4, 2, 1 times their size.
+/// Things with ids 10, 20 ... whose tiers cost 0, 1, 2, 3 and leave 8, 4, 2, 1 times their size.
 struct Things {
-  const std::vector<Choice>& choose(const std::vector<double>& sizes, double room, double tolerance,
-                                    double seconds) {
+  const std::vector<TierChoice>& choose(const std::vector<double>& sizes, double room,
+                                        double tolerance, double seconds) {
     choices.clear();
     for (std::size_t i = 0; i < sizes.size(); ++i) {
-      Choice choice;
+      TierChoice choice;
       choice.id = static_cast<std::uint32_t>(10 * (i + 1));
-      for (std::size_t rung = 0; rung <= FINEST; ++rung) {
-        choice.error[rung] = static_cast<float>(sizes[i] * 8.0 / (1 << rung));
-        choice.cost[rung] = static_cast<float>(rung);
+      for (std::size_t tier = 0; tier <= FINEST; ++tier) {
+        choice.error[tier] = static_cast<float>(sizes[i] * 8.0 / (1 << tier));
+        choice.cost[tier] = static_cast<float>(tier);
       }
       if (sizes[i] > 0.0) choices.push_back(choice);  // 0: is not there
     }
-    held.govern(choices, FINEST, room, tolerance, START + fromSeconds(seconds));
+    held.allocateTiers(choices, FINEST, room, tolerance, START + fromSeconds(seconds));
     return choices;
   }
-  HeldRungs held;
-  std::vector<Choice> choices;
+  TierHysteresis held;
+  std::vector<TierChoice> choices;
 };
 
 // N7: what has changed stays for a second while the budget binds, whatever the others do.
-TEST(HeldRungs, WhatHasChangedRests) {
+TEST(TierHysteresis, WhatHasChangedRests) {
   Things things;
   things.choose({1.0, 0.1}, 3.0, 0.1, 0.0);
   ASSERT_EQ(things.choices[0].chosen, FINEST);
@@ -48,14 +48,14 @@ TEST(HeldRungs, WhatHasChangedRests) {
   EXPECT_EQ(things.choices[1].chosen, FINEST);
 }
 
-TEST(HeldRungs, AFinerRungIsKeptUntilTheCoarserOneIsWellWithin) {
+TEST(TierHysteresis, AFinerRungIsKeptUntilTheCoarserOneIsWellWithin) {
   Things things;
   EXPECT_EQ(things.choose({1.0}, 9.0, 3.9, 0.0)[0].chosen, 2);
   EXPECT_EQ(things.choose({1.0}, 9.0, 4.1, 5.0)[0].chosen, 2);
   EXPECT_EQ(things.choose({1.0}, 9.0, 6.0, 9.0)[0].chosen, 1);
 }
 
-TEST(HeldRungs, ForgetsWhoIsNotThere) {
+TEST(TierHysteresis, ForgetsWhoIsNotThere) {
   Things things;
   things.choose({1.0, 1.0, 1.0}, 99.0, 1.0, 0.0);
   things.choose({1.0, 0.0, 1.0}, 99.0, 1.0, 0.1);
@@ -66,11 +66,11 @@ TEST(HeldRungs, ForgetsWhoIsNotThere) {
 }
 
 // As a fresh start then would be.
-TEST(HeldRungs, ForgetsAllWhenTimeGoesBack) {
+TEST(TierHysteresis, ForgetsAllWhenTimeGoesBack) {
   Things things;
   things.choose({1.0, 1.0}, 3.0, 0.1, 10.0);
   things.choose({1.0, 1.0}, 3.0, 0.1, 5.0);
-  for (const Choice& choice : things.choices) {
+  for (const TierChoice& choice : things.choices) {
     EXPECT_EQ(choice.held, 0);
     EXPECT_FALSE(choice.resting);
   }

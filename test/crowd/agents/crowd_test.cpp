@@ -113,7 +113,7 @@ TEST(Crowd, RobotsDriveThroughWithoutTouchingAnybody) {
     for (int i = 0; i < 400; ++i) {
       robot.position = {-10.0 + 1.5 * TICK * i, -3.0 + 2.0 * pass};
       crowd.setRobot(robot);
-      crowd.advance(crowd.memory().stamp + fromSeconds(TICK));
+      crowd.advance(crowd.snapshot().stamp + fromSeconds(TICK));
       deepest = std::max(deepest, crowd.deepestOverlap());
     }
   }
@@ -148,7 +148,7 @@ TEST(Crowd, SameHashForAnyNumberOfThreads) {
       crowd.spawn(spawn);
     }
     run(crowd, 1.0, TICK);
-    hashes[k] = crowd.memory().hash();
+    hashes[k] = crowd.snapshot().hash();
   }
   EXPECT_EQ(hashes[0], hashes[1]);
   EXPECT_EQ(hashes[0], hashes[2]);
@@ -157,20 +157,20 @@ TEST(Crowd, SameHashForAnyNumberOfThreads) {
 TEST(Crowd, GoesOnFromASavedMemory) {
   Crowd first = crowdedRoom(6, CrowdSettings()), second = crowdedRoom(1, CrowdSettings());
   run(first, 5.0, TICK);
-  const CrowdMemory saved = first.memory();
+  const CrowdSnapshot saved = first.snapshot();
   run(first, 5.0, TICK);
   second.restore(saved);
   run(second, 5.0, TICK);
-  EXPECT_EQ(first.memory().hash(), second.memory().hash());
-  EXPECT_NE(first.memory().hash(), saved.hash());
+  EXPECT_EQ(first.snapshot().hash(), second.snapshot().hash());
+  EXPECT_NE(first.snapshot().hash(), saved.hash());
 }
 
 TEST(Crowd, SeedsMakeCrowds) {
   Crowd first = crowdedRoom(6, CrowdSettings()), same = crowdedRoom(6, CrowdSettings());
   Crowd other = crowdedRoom(7, CrowdSettings());
   for (Crowd* crowd : {&first, &same, &other}) run(*crowd, 5.0, TICK);
-  EXPECT_EQ(first.memory().hash(), same.memory().hash());
-  EXPECT_NE(first.memory().hash(), other.memory().hash());
+  EXPECT_EQ(first.snapshot().hash(), same.snapshot().hash());
+  EXPECT_NE(first.snapshot().hash(), other.snapshot().hash());
 }
 
 std::shared_ptr<const terrain::HeightMap> slope(double rise) {
@@ -227,7 +227,7 @@ TEST(Crowd, FeetComeDownAStrideApart) {
 
 TEST(Crowd, RefusesWhatIsNotRight) {
   Crowd crowd = crowdedRoom(1, CrowdSettings());
-  const std::uint64_t before = crowd.memory().hash();
+  const std::uint64_t before = crowd.snapshot().hash();
   Spawn spawn;
   spawn.position.x = NONE;
   spawn.speed = 99.0;
@@ -253,7 +253,7 @@ TEST(Crowd, RefusesWhatIsNotRight) {
   settings.sensor_range = 0.0;
   EXPECT_NE(errorOf([&] { crowd.setSettings(settings); }).find("sensor_range = 0 m"),
             std::string::npos);
-  EXPECT_EQ(crowd.memory().hash(), before);
+  EXPECT_EQ(crowd.snapshot().hash(), before);
 }
 
 TEST(Crowd, TakesNoMoreThanItsMost) {
@@ -278,10 +278,10 @@ TEST(Crowd, CrossingWallsAreWalls) {
 TEST(Crowd, TimeThatStandsMovesNobody) {
   Crowd crowd = crowdedRoom(1, CrowdSettings());
   run(crowd, 1.0, TICK);
-  const std::uint64_t before = crowd.memory().hash();
-  crowd.advance(crowd.memory().stamp);
-  crowd.advance(crowd.memory().stamp - 5);
-  EXPECT_EQ(crowd.memory().hash(), before);
+  const std::uint64_t before = crowd.snapshot().hash();
+  crowd.advance(crowd.snapshot().stamp);
+  crowd.advance(crowd.snapshot().stamp - 5);
+  EXPECT_EQ(crowd.snapshot().hash(), before);
 }
 
 }  // namespace

@@ -31,11 +31,13 @@ TEST(ObstacleGrid, TellsOfEachThatIsNearOnce) {
   for (int i = 0; i < 200; ++i) {
     const Random random = Random(4).child(i);
     const Point place{random.uniform(0, -20.0, 540.0), random.uniform(1, -20.0, 120.0)};
-    std::multiset<std::uint32_t> told;
-    grid.visitNear(place, 2.5, [&](const ObstacleGrid::Spot& spot) { told.insert(spot.index); });
+    std::multiset<std::uint32_t> published;
+    grid.visitNear(place, 2.5,
+                   [&](const ObstacleGrid::Spot& spot) { published.insert(spot.index); });
     for (std::uint32_t k = 0; k < grid.obstacles().size(); ++k) {
-      EXPECT_LE(told.count(k), 1u);
-      EXPECT_GE(told.count(k), touches(grid.obstacles()[k], place, 2.5) ? 1u : 0u) << i << ' ' << k;
+      EXPECT_LE(published.count(k), 1u);
+      EXPECT_GE(published.count(k), touches(grid.obstacles()[k], place, 2.5) ? 1u : 0u)
+          << i << ' ' << k;
     }
   }
 }
@@ -52,9 +54,9 @@ TEST(ObstacleGrid, ManySmallOnesKeepTheCellThatWasAskedFor) {
   for (int i = 0; i < 300000; ++i)
     trunks.push_back(discObstacle({2.0 * (i % 600), 2.0 * (i / 600)}, 0.3));
   const ObstacleGrid grid(std::move(trunks), 2.0);
-  int told = 0;
-  grid.visitNear({600.0, 500.0}, 0.5, [&](const ObstacleGrid::Spot&) { ++told; });
-  EXPECT_LE(told, 9);
+  int published = 0;
+  grid.visitNear({600.0, 500.0}, 0.5, [&](const ObstacleGrid::Spot&) { ++published; });
+  EXPECT_LE(published, 9);
 }
 
 }  // namespace

@@ -17,42 +17,42 @@ double kineticOf(std::vector<Link> links, const ChainState& state) {
 double sureEnergy(const std::vector<Link>& links, const ChainState& state) {
   double out = 0.0;
   for (std::size_t i = 0; i < links.size(); ++i)
-    out += 0.5 * links[i].sure_inertia * state.rate[i].squaredNorm();
+    out += 0.5 * links[i].guaranteed_inertia * state.rate[i].squaredNorm();
   return out;
 }
 
 // Whatever moves, alone, all at once or a twig against all others, at bends up to 0.8 rad.
-TEST(SureInertia, IsNeverMoreThanTheTreeHas) {
+TEST(GuaranteedInertia, IsNeverMoreThanTheTreeHas) {
   for (const auto& links : {crown(63, 0.1), fractalTree(100, 3), beam(40, 3.0, 0.01, 8e9, 900.0)}) {
     double most = 0.0;
     for (std::uint64_t seed = 0; seed < 200; ++seed) {
       ChainState state = randomState(links.size(), seed % 2 ? 0.5 : 0.0, 1.0, seed);
       for (std::size_t i = 0; i < links.size(); ++i) {
         if (seed % 3 == 0 && i % (seed % 7 + 2) != 0) state.rate[i] = Vec2::Zero();
-        if (seed % 3 == 1) state.rate[i] /= std::sqrt(links[i].sure_inertia);
+        if (seed % 3 == 1) state.rate[i] /= std::sqrt(links[i].guaranteed_inertia);
       }
       most = std::max(most, sureEnergy(links, state) / kineticOf(links, state));
     }
     EXPECT_LT(most, 1.0);
-    for (const Link& link : links) EXPECT_GT(link.sure_inertia, 0.0);
+    for (const Link& link : links) EXPECT_GT(link.guaranteed_inertia, 0.0);
   }
 }
 
-TEST(SureInertia, OfOneJointIsMostOfIt) {
+TEST(GuaranteedInertia, OfOneJointIsMostOfIt) {
   std::vector<Link> links{bar(-1, 0.0, 1.0, 0.02, 8e9, 900.0)};
   shareInertia(links);
-  EXPECT_NEAR(links[0].sure_inertia / links[0].inertia.xx, 0.8, 1e-12);
+  EXPECT_NEAR(links[0].guaranteed_inertia / links[0].inertia.xx, 0.8, 1e-12);
 }
 
-TEST(SureInertia, NothingAndMasslessThingsHaveNone) {
+TEST(GuaranteedInertia, NothingAndMasslessThingsHaveNone) {
   std::vector<Link> links;
   shareInertia(links);
   links.assign(2, Link());
   links[1].parent = 0;
   for (Link& link : links) link.mass = 0.0, link.inertia = Symmetric3();
   shareInertia(links);
-  EXPECT_EQ(links[0].sure_inertia, 0.0);
-  EXPECT_EQ(links[1].sure_inertia, 0.0);
+  EXPECT_EQ(links[0].guaranteed_inertia, 0.0);
+  EXPECT_EQ(links[1].guaranteed_inertia, 0.0);
 }
 
 // Angle of a joint of 3 rad/s, let go at 1e-3 rad, after `seconds` in `steps`.
@@ -68,7 +68,7 @@ double angleAfter(double seconds, int steps, bool eased) {
 }
 
 // Without it the period is right to second order only.
-TEST(SureInertia, MakesSlowMotionFourthOrder) {
+TEST(GuaranteedInertia, MakesSlowMotionFourthOrder) {
   const double exact = 1e-3 * std::cos(15.0);
   const auto error = [&](int steps, bool eased) {
     return std::fabs(angleAfter(5.0, steps, eased) - exact);
@@ -79,7 +79,7 @@ TEST(SureInertia, MakesSlowMotionFourthOrder) {
 }
 
 // Small motion without any damper never grows, at no step, however stiff the twigs for it.
-TEST(SureInertia, LeavesTheMidpointStableAtAnyStep) {
+TEST(GuaranteedInertia, LeavesTheMidpointStableAtAnyStep) {
   for (std::vector<Link> links : {crown(63, 0.0), fractalTree(100, 3)}) {
     for (Link& link : links) link.damping = 0.0;
     for (const double h : {5e-4, 1e-3, 2e-3, 1.0 / 240.0, 0.008, 1.0 / 60.0, 0.05, 0.5}) {

@@ -209,13 +209,14 @@ TEST(Contact, ForceToldIsWhatTheTwigGets) {
   for (const double h : {1.0 / 240.0, 1.0 / 3840.0}) {
     Meeting meeting(free);
     Wall wall{-0.01, 3.0};
-    double told = 0.0;
+    double published = 0.0;
     while (wall.place < 0.05) {
       meeting.step(h, wall);
-      told += h * meeting.last().force * free.length;
+      published += h * meeting.last().force * free.length;
     }
-    EXPECT_GT(told, 0.0);
-    EXPECT_NEAR(free.inertia.xx * meeting.spin(), told, 0.01 * told) << h << " s";  // on its arc
+    EXPECT_GT(published, 0.0);
+    EXPECT_NEAR(free.inertia.xx * meeting.spin(), published, 0.01 * published)
+        << h << " s";  // on its arc
   }
 }
 

@@ -62,7 +62,7 @@ TEST(Boundary, JointsStopAtTheirBendAndTurn) {
 TEST(Boundary, AFullyEasedSpringBreaksWhereNumerovDoes) {
   const auto swing = [](double h) {
     Link link = joint(1.0, 0.0);
-    link.sure_inertia = 1e9;  // more than it has: shareInertia() never would
+    link.guaranteed_inertia = 1e9;  // more than it has: shareInertia() never would
     Simulation run{{link}};
     run.state.q[0].x() = 1e-9;
     for (int i = 0; i < 300; ++i) run.step({}, 0.0, h);

@@ -46,7 +46,7 @@ std::vector<double> speeds(std::vector<double> all) {
 // Wrenches are continuous in time: from part to part of a step none changes by more than this.
 void expectGentle(const CrownResult& found, double speed) {
   for (const double change : {found.largest_rise, found.largest_fall}) {
-    EXPECT_LE(change, Halvings::MOST_SWING * 2000.0 + 1e-6) << speed << " m/s";
+    EXPECT_LE(change, SubstepBisection::MAX_FORCE_CHANGE * 2000.0 + 1e-6) << speed << " m/s";
     EXPECT_GT(change, 0.0) << speed << " m/s";
   }
 }

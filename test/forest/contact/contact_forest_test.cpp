@@ -60,7 +60,7 @@ TEST(ContactInAForest, CapHoldsAlongTheWholeDrive) {
   EXPECT_GT(met.size(), 20u);
   for (int i = 0; i < 8 * TICKS; ++i) drive.tick();
   EXPECT_EQ(drive.forest().physicsFigures().refused, 0u);
-  EXPECT_TRUE(drive.forest().memory().physics.parts().empty());
+  EXPECT_TRUE(drive.forest().snapshot().physics.parts().empty());
 }
 
 TEST(ContactInAForest, ReactionsTellBodyPlaceAndForce) {
@@ -111,46 +111,46 @@ TEST(ContactInAForest, HalvingsAreBounded) {
       most = std::max(most, counter->parts - before);
       steps = std::max(steps, drive.forest().physicsFigures().steps);
     }
-    EXPECT_LE(most, steps * (2 * Halvings::MOST + 4));
+    EXPECT_LE(most, steps * (2 * SubstepBisection::MOST + 4));
     EXPECT_EQ(drive.forest().physicsFigures().coarse > 0, stiffness > 1e6) << most;
     EXPECT_LT(drive.depth(), 0.005) << stiffness;
   }
 }
 
 template <typename Scene>
-std::shared_ptr<Ledger> expectImpulseIsTold(Scene& scene, int ticks) {
-  const auto ledger = std::make_shared<Ledger>();
-  scene.forest().setContactModel(ledger);
-  Vec3 told = Vec3::Zero();
+std::shared_ptr<PrimitiveSchedule> expectImpulseIsReported(Scene& scene, int ticks) {
+  const auto schedule = std::make_shared<PrimitiveSchedule>();
+  scene.forest().setContactModel(schedule);
+  Vec3 published = Vec3::Zero();
   for (int i = 0; i < ticks; ++i) {
     scene.driveOn();
-    for (const Reaction& reaction : scene.forest().reactions()) told += reaction.force / TICKS;
+    for (const Reaction& reaction : scene.forest().reactions()) published += reaction.force / TICKS;
   }
-  EXPECT_GT(length(ledger->given_), 1.0);
-  EXPECT_LT(length(told + ledger->given_), 1e-5 * ledger->size_);
-  return ledger;
+  EXPECT_GT(length(schedule->given_), 1.0);
+  EXPECT_LT(length(published + schedule->given_), 1e-5 * schedule->size_);
+  return schedule;
 }
 
 // N3. Impulse for impulse: wrenches tell what the trees get, in however many parts a step is taken.
 // (physics/contact_test: the wood gains the momentum of the force that is told.)
 TEST(ContactInAForest, WrenchesCarryTheImpulseThatTheTreeGets) {
   Drive twigs(3.0);
-  EXPECT_LT(expectImpulseIsTold(twigs, 26)->shortest_, 0.6 / 240.0);  // parts of steps
+  EXPECT_LT(expectImpulseIsReported(twigs, 26)->shortest_, 0.6 / 240.0);  // parts of steps
   Ram trunk(3.0, TICKS);
-  EXPECT_LT(expectImpulseIsTold(trunk, 2)->shortest_, 0.2 / 240.0);  // their halves
+  EXPECT_LT(expectImpulseIsReported(trunk, 2)->shortest_, 0.2 / 240.0);  // their halves
 }
 
 // What is taken again in halves was taken back: wood moves on by its speeds from part to part.
 TEST(ContactInAForest, NothingOfAPartThatIsTakenAgainIsLeft) {
   Ram ram(3.0, TICKS, 0.95);
-  const auto ledger = std::make_shared<Ledger>();
-  ram.forest().setContactModel(ledger);
+  const auto schedule = std::make_shared<PrimitiveSchedule>();
+  ram.forest().setContactModel(schedule);
   for (int i = 0; i < 2; ++i) ram.driveOn();
-  EXPECT_LT(ledger->shortest_, 0.2 / 240.0);
-  EXPECT_GT(ledger->farthest_, 5e-4);
-  EXPECT_LT(ledger->leap_, 0.05 * ledger->farthest_);
-  EXPECT_GT(ledger->again_, 3);
-  EXPECT_EQ(ledger->strange_, 0);
+  EXPECT_LT(schedule->shortest_, 0.2 / 240.0);
+  EXPECT_GT(schedule->farthest_, 5e-4);
+  EXPECT_LT(schedule->leap_, 0.05 * schedule->farthest_);
+  EXPECT_GT(schedule->again_, 3);
+  EXPECT_EQ(schedule->strange_, 0);
 }
 
 // Wrenches as they are told, tick by tick: a trunk's force comes up over several ticks that are no
@@ -188,7 +188,7 @@ TEST(ContactInAForest, WrenchesRiseAndFallAsTheLawSays) {
 TEST(ContactInAForest, SavedInTheMiddleItGoesOnTheSame) {
   Drive one(1.0), other(1.0);
   for (int i = 0; i < 30; ++i) one.driveOn(), other.driveOn();
-  other.forest().restore(one.forest().memory());
+  other.forest().restore(one.forest().snapshot());
   for (int i = 0; i < 30; ++i) one.driveOn(), other.driveOn();
   EXPECT_GT(one.forest().physicsFigures().branches, 0u);
   EXPECT_EQ(one.forest().hash(), other.forest().hash());
@@ -211,12 +211,12 @@ TEST(ContactInAForest, TreesAreAtHandOnlyWhileABodyIsNear) {
   drive.tick();
   const long before = liveBytes();
   const auto expectHeld = [&](bool held, const char* when) {
-    const auto told = static_cast<long>(forest.physicsFigures().bytes);
+    const auto published = static_cast<long>(forest.physicsFigures().bytes);
     const long taken = liveBytes() - before;
-    EXPECT_EQ(told > 0, held) << when;
-    EXPECT_LE(told, taken) << when;
+    EXPECT_EQ(published > 0, held) << when;
+    EXPECT_LE(published, taken) << when;
     EXPECT_EQ(taken > 1000, held) << when << ": " << taken << " bytes";
-    EXPECT_GT(1.1 * told + 1000.0, taken) << when;
+    EXPECT_GT(1.1 * published + 1000.0, taken) << when;
   };
   const auto show = [&](double x) {
     Body body = drive.body();

@@ -28,7 +28,7 @@ struct TwigPull {
     settings.promotion = static_cast<int>(Promotion::DEPTH);  // the same branches whatever the rate
     PhysicsRig rig(settings);
     rig.grid = TickGrid(rate);
-    rig.tick = rig.grid.tickAt(rig.forest.memory().stamp);
+    rig.tick = rig.grid.tickAt(rig.forest.snapshot().stamp);
     Grab grab = rig.grabOf(rig.twig());
     grab.stiffness = 300.0;
     grab.damping = 2.0;
@@ -74,29 +74,29 @@ TEST(Wrench, OfAHandIsTheSpringsOwnWhereTheClockLeaps) {
     rig.tick += ticks;
     rig.advance();
     ASSERT_EQ(rig.forest.reactions().size(), 1u);
-    const Reaction& told = rig.forest.reactions()[0];
-    EXPECT_LT(length(told.point - rig.tip(rig.twig())), 1e-9);
-    const Vec3 spring = grab.stiffness * (grab.target - told.point);
+    const Reaction& published = rig.forest.reactions()[0];
+    EXPECT_LT(length(published.point - rig.tip(rig.twig())), 1e-9);
+    const Vec3 spring = grab.stiffness * (grab.target - published.point);
     EXPECT_GT(length(spring), 0.05);
-    EXPECT_LT(length(told.force + spring), 1e-6) << ticks;
+    EXPECT_LT(length(published.force + spring), 1e-6) << ticks;
     rig.run(1.0);
   }
 }
 
 /// What two bodies are told that meet a trunk from two sides, summed over some ticks [N s].
 struct TwoRams {
-  std::map<std::string, Vec3> told;
-  std::shared_ptr<Ledger> ledger = std::make_shared<Ledger>();
+  std::map<std::string, Vec3> published;
+  std::shared_ptr<PrimitiveSchedule> schedule = std::make_shared<PrimitiveSchedule>();
 
   TwoRams(double first, double second) {
     Ram rams(1.0, TICKS, 0.3, {first, second});
-    rams.forest().setContactModel(ledger);
+    rams.forest().setContactModel(schedule);
     for (int i = 0; i < 4; ++i) {
       rams.driveOn();
       for (const Reaction& reaction : rams.forest().reactions()) {
         if (reaction.at.branch != 0) ADD_FAILURE() << reaction.at.branch;
         EXPECT_LE(length(reaction.force), physics::ContactLaw().force_limit * (1.0 + 1e-9));
-        told.emplace(reaction.body, Vec3::Zero()).first->second += reaction.force / TICKS;
+        published.emplace(reaction.body, Vec3::Zero()).first->second += reaction.force / TICKS;
       }
     }
   }
@@ -108,17 +108,17 @@ TEST(Wrench, OfTwoBodiesOnABranchIsEachOnesOwn) {
   const double limit = physics::ContactLaw().force_limit, tick = 1.0 / TICKS;
   TwoRams beside(-0.8, 0.8), swapped(0.8, -0.8), pinch(0.0, PI);
   for (TwoRams* rams : {&beside, &swapped, &pinch}) {
-    ASSERT_EQ(rams->told.size(), 2u);
-    const Vec3 sum = rams->told["arm0"] + rams->told["arm1"];
-    EXPECT_LT(length(sum + rams->ledger->given_), 1e-5 * rams->ledger->size_);
-    EXPECT_LE(rams->ledger->rise_, Halvings::MOST_SWING * limit * (1.0 + 1e-9));
+    ASSERT_EQ(rams->published.size(), 2u);
+    const Vec3 sum = rams->published["arm0"] + rams->published["arm1"];
+    EXPECT_LT(length(sum + rams->schedule->given_), 1e-5 * rams->schedule->size_);
+    EXPECT_LE(rams->schedule->rise_, SubstepBisection::MAX_FORCE_CHANGE * limit * (1.0 + 1e-9));
   }
-  EXPECT_LT(length(beside.told["arm0"] - swapped.told["arm1"]), 1e-3 * limit * tick);
-  EXPECT_LT(length(beside.told["arm1"] - swapped.told["arm0"]), 1e-3 * limit * tick);
-  EXPECT_GT(length(beside.ledger->given_), 4.0 * limit * tick);  // more than one could do
-  EXPECT_LT(beside.told["arm0"].y() * beside.told["arm1"].y(), 0.0);
-  EXPECT_LT(pinch.told["arm0"].x(), -3.0 * limit * tick);
-  EXPECT_GT(pinch.told["arm1"].x(), 3.0 * limit * tick);
+  EXPECT_LT(length(beside.published["arm0"] - swapped.published["arm1"]), 1e-3 * limit * tick);
+  EXPECT_LT(length(beside.published["arm1"] - swapped.published["arm0"]), 1e-3 * limit * tick);
+  EXPECT_GT(length(beside.schedule->given_), 4.0 * limit * tick);  // more than one could do
+  EXPECT_LT(beside.published["arm0"].y() * beside.published["arm1"].y(), 0.0);
+  EXPECT_LT(pinch.published["arm0"].x(), -3.0 * limit * tick);
+  EXPECT_GT(pinch.published["arm1"].x(), 3.0 * limit * tick);
 }
 
 }  // namespace

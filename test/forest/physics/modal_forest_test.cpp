@@ -13,17 +13,17 @@ namespace {
 
 // N13: modes that are found before they are told of are counted, and neither they nor the wish for
 // them outlive what they are for.
-TEST(ForestModes, WhatIsAwaitedIsCountedAndDropped) {
+TEST(ModalForest, WhatIsAwaitedIsCountedAndDropped) {
   const Layout layout = gridLayout(2, 12.0);
   const terrain::HeightMap flat;
   const wind::Field wind = breeze();
-  const Grounds at{layout, flat, wind};
+  const ModalContext at{layout, flat, wind};
   LevelMap modal, still;
   for (std::uint32_t id = 0; id < 4; ++id) modal.set(id, LevelState::settled(MODAL_LEVEL));
-  ForestModes source;
+  ModalForest source;
   for (const std::uint32_t id : {0u, 1u}) source.begin(at, id, true, seconds(1.0));
   const std::size_t all = source.find(1)->modes().size();
-  ForestModes modes;
+  ModalForest modes;
   modes.begin(at, 0, false, seconds(1.0));
   for (const std::uint32_t id : {0u, 1u, 2u}) modes.await(id);
   EXPECT_EQ(modes.find(0), nullptr);  // what it had would be stale
@@ -43,12 +43,12 @@ TEST(ForestModes, WhatIsAwaitedIsCountedAndDropped) {
 }
 
 // N13: a tree that stands at another stamp starts again on its procedural motion.
-TEST(ForestModes, StartAgainWhatStandsAtAnotherStamp) {
+TEST(ModalForest, StartAgainWhatStandsAtAnotherStamp) {
   const Layout layout = gridLayout(2, 12.0);
   const terrain::HeightMap flat;
   const wind::Field wind = breeze();
-  const Grounds at{layout, flat, wind};
-  ForestModes early, late;
+  const ModalContext at{layout, flat, wind};
+  ModalForest early, late;
   early.begin(at, 0, false, seconds(1.0));
   late.begin(at, 0, false, seconds(9.0));
   early.advance(wind, seconds(8.9), seconds(9.0));
@@ -58,7 +58,7 @@ TEST(ForestModes, StartAgainWhatStandsAtAnotherStamp) {
 
 // N13: a tree of few branches has all of its modes at once; they are not looked for again, and
 // whoever is told of them has the same.
-TEST(ForestModes, TreesOfFewBranchesHaveAllOfTheirModes) {
+TEST(ModalForest, TreesOfFewBranchesHaveAllOfTheirModes) {
   const wind::Field wind = breeze();
   const terrain::HeightMap flat;
   for (const int branches : {1, 4, 8, 10, 11, 12, 15}) {
@@ -66,12 +66,12 @@ TEST(ForestModes, TreesOfFewBranchesHaveAllOfTheirModes) {
     layout.species[0] = Species();
     layout.species[0].limbs[0].segments = branches;
     layout.species[0].limbs[0].leaves = 20.0;
-    const Grounds at{layout, flat, wind};
-    ForestModes modes, late;
+    const ModalContext at{layout, flat, wind};
+    ModalForest modes, late;
     modes.begin(at, 0, false, seconds(1.0));
     EXPECT_EQ(modes.find(0)->fine(), branches <= 11) << branches;
     modes.begin(at, 0, true, seconds(1.0));
-    const Sway& here = *modes.find(0);
+    const ModalTreeState& here = *modes.find(0);
     EXPECT_TRUE(here.fine()) << branches;
     const ModalTree* found = &here.modes();
     modes.begin(at, 0, true, seconds(1.0));
@@ -89,12 +89,12 @@ TEST(ForestModes, TreesOfFewBranchesHaveAllOfTheirModes) {
 
 // N13: levers that turn feed back on what turns them; however strong the storm and long the tick,
 // the tree stays near where levers at rest have it.
-TEST(ForestModes, LeversThatTurnStayBoundedInStormsOverLongTicks) {
+TEST(ModalForest, LeversThatTurnStayBoundedInStormsOverLongTicks) {
   const Layout layout = gridLayout(2, 12.0);
   std::vector<wind::Primitive> three;
   for (std::uint32_t id = 1; id <= 3; ++id) three.push_back(makeBreeze(id, Vec3(90.0, 10.0, 0.0)));
   const wind::Field storm(three, 3);
-  const auto largestTurn = [](const Sway& sway) {
+  const auto largestTurn = [](const ModalTreeState& sway) {
     return sway.modes().probe().largestTurn(sway.state().amplitude);
   };
   for (std::uint32_t id = 0; id < 4; ++id) {
@@ -102,7 +102,7 @@ TEST(ForestModes, LeversThatTurnStayBoundedInStormsOverLongTicks) {
     const auto modes =
         std::make_shared<const ModalTree>(tree, layout.species[tree.seed.species], FINE_MODES);
     for (const int steps : {1, 6, 60}) {  // of 1/60 s a tick
-      Sway turning(modes), stiff(modes);
+      ModalTreeState turning(modes), stiff(modes);
       std::vector<ModalLoad> loads(static_cast<std::size_t>(steps) + 1), rest;
       double most = 0.0, least = 0.0;
       for (int tick = 0; tick * steps < 20 * 60; ++tick) {
@@ -111,7 +111,7 @@ TEST(ForestModes, LeversThatTurnStayBoundedInStormsOverLongTicks) {
           turning.loadOf(storm.at(stamp(i)), loads[static_cast<std::size_t>(i)]);
         rest = loads;
         for (ModalLoad& load : rest) load.air.setZero();
-        for (Sway* sway : {&turning, &stiff}) {
+        for (ModalTreeState* sway : {&turning, &stiff}) {
           const std::vector<ModalLoad>& of = sway == &turning ? loads : rest;
           if (tick == 0) sway->restore(sway->state(), of[0], stamp(0));
           sway->step(of, stamp(steps));

@@ -50,7 +50,7 @@ TEST(Memory, MillionTreesStayWithinTheirBytes) {
   eye.stamp = START;
   forest.setViewer(eye);
   forest.advance(START + NANOSECONDS_PER_SECOND / 30);
-  ASSERT_EQ(forest.memory().levels.held().size(), static_cast<std::size_t>(TREES));
+  ASSERT_EQ(forest.snapshot().levels.held().size(), static_cast<std::size_t>(TREES));
   forest.update(false);
   const long watched = liveBytes() - before;
   EXPECT_GT(watched, 40 * TREES);  // else nothing was counted

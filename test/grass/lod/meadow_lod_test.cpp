@@ -20,37 +20,37 @@ Nanoseconds after(double seconds) {
   return START + fromSeconds(seconds);
 }
 
-Eye eyeAt(double x, double y, double z) {
-  Eye eye;
+Viewpoint eyeAt(double x, double y, double z) {
+  Viewpoint eye;
   eye.position = Vec3(x, y, z);
   return eye;
 }
 
 class MeadowOf : public testing::Test {
  protected:
-  static Meadow makeMeadow(double most_blades = 1e8) {
+  static MeadowLod makeMeadow(double most_blades = 1e8) {
     MapInput input;
     input.law.columns = input.law.rows = 201;
     input.density.value = 1000.0;
     MeadowSettings settings;
     settings.most_blades = most_blades;
-    return Meadow(std::make_shared<FeatureMap>(input), std::make_shared<terrain::HeightMap>(), 7,
-                  settings, TreadSettings());
+    return MeadowLod(std::make_shared<FeatureMap>(input), std::make_shared<terrain::HeightMap>(), 7,
+                     settings, TreadSettings());
   }
 
-  static std::map<std::pair<int, int>, TileView> viewsOf(const Meadow& meadow, const Eye& eye,
-                                                         Nanoseconds stamp) {
+  static std::map<std::pair<int, int>, TileView> viewsOf(const MeadowLod& meadow,
+                                                         const Viewpoint& eye, Nanoseconds stamp) {
     std::map<std::pair<int, int>, TileView> out;
     for (const TileView& view : meadow.viewOf(eye, stamp)) out[{view.row, view.column}] = view;
     return out;
   }
 
-  Meadow meadow_{makeMeadow()};
+  MeadowLod meadow_{makeMeadow()};
 };
 
 // S2-15: blades around the eye, strips in a ring about them, nothing but ground beyond.
 TEST_F(MeadowOf, ShowsBladesNearAndStripsFartherAway) {
-  const Eye eye = eyeAt(201.0, 201.0, 1.6);
+  const Viewpoint eye = eyeAt(201.0, 201.0, 1.6);
   meadow_.setEyes({eye});
   meadow_.advance(START);
   EXPECT_TRUE(meadow_.viewOf(eye, START).empty());  // all begin as ground
@@ -67,47 +67,49 @@ TEST_F(MeadowOf, ShowsBladesNearAndStripsFartherAway) {
 
 // S2-15: rows that are surely textures are not looked at; what is left is each tile's own choice.
 TEST_F(MeadowOf, LooksAtAllTilesThatAreMoreThanATexture) {
-  const Eye eye = eyeAt(30.0, 201.0, 1.6);
+  const Viewpoint eye = eyeAt(30.0, 201.0, 1.6);
   meadow_.setEyes({eye});
   meadow_.advance(START);
-  std::map<std::pair<int, int>, Rung> chosen;
-  for (const TileLevel& level : meadow_.memory().levels)
-    chosen[{level.row, level.column}] = level.rung.target;
+  std::map<std::pair<int, int>, TileModel> chosen;
+  for (const TileLevel& level : meadow_.snapshot().levels)
+    chosen[{level.row, level.column}] = level.tier.target;
   const double tolerance = MeadowSettings().tolerance;
   for (int row = 0; row < 200; ++row)
     for (int column = 0; column < 200; ++column) {
       const Vec3 centre(2.0 * column + 1.0, 2.0 * row + 1.0, 0.0);
       const double nearest = length(eye.position - centre) - std::sqrt(2.0);
       const double scale = pixelsPerMetre(eye, nearest);
-      const Rung own = chooseRung({1.0 / std::sqrt(1000.0), 0.3}, scale, tolerance, Rung::TEXTURE);
+      const TileModel own =
+          chooseTileModel({1.0 / std::sqrt(1000.0), 0.3}, scale, tolerance, TileModel::TEXTURE);
       const auto found = chosen.find({row, column});
-      ASSERT_EQ(found == chosen.end() ? Rung::TEXTURE : found->second, own) << row << ' ' << column;
+      ASSERT_EQ(found == chosen.end() ? TileModel::TEXTURE : found->second, own)
+          << row << ' ' << column;
     }
 }
 
 TEST_F(MeadowOf, WithoutAnEyeIsAllGround) {
   meadow_.advance(START);
   meadow_.advance(after(5.0));
-  EXPECT_TRUE(meadow_.memory().levels.empty());
+  EXPECT_TRUE(meadow_.snapshot().levels.empty());
 }
 
 TEST_F(MeadowOf, WithoutGrassIsAllGround) {
   MapInput input;
   input.density.value = 0.0;
-  Meadow bare(std::make_shared<FeatureMap>(input), std::make_shared<terrain::HeightMap>(), 7,
-              MeadowSettings(), TreadSettings());
+  MeadowLod bare(std::make_shared<FeatureMap>(input), std::make_shared<terrain::HeightMap>(), 7,
+                 MeadowSettings(), TreadSettings());
   bare.setEyes({eyeAt(50.0, 50.0, 1.6)});
   bare.advance(START);
-  EXPECT_TRUE(bare.memory().levels.empty());
+  EXPECT_TRUE(bare.snapshot().levels.empty());
 }
 
 // S2-05: the blades of a tile are the same before and after a walk that took it out of sight.
 TEST_F(MeadowOf, ShowsTheSameBladesAfterLeavingAndComingBack) {
-  const Eye near = eyeAt(201.0, 201.0, 1.6), far = eyeAt(-60.0, -60.0, 1.6);
+  const Viewpoint near = eyeAt(201.0, 201.0, 1.6), far = eyeAt(-60.0, -60.0, 1.6);
   const auto bladesNow = [&](Nanoseconds stamp) {
-    NodeAir air(meadow_.map(), meadow_.terrain());
+    NodeWind air(meadow_.map(), meadow_.terrain());
     const auto views = meadow_.viewOf(near, stamp);
-    air.update(wind::Instant(), {}, Meadow::windowOf(views));
+    air.update(wind::Instant(), {}, MeadowLod::windowOf(views));
     CrushPatch patch;
     TileMotion motion;
     const TileView view = viewsOf(meadow_, near, stamp).at({100, 100});
@@ -133,8 +135,8 @@ TEST_F(MeadowOf, ShowsTheSameBladesAfterLeavingAndComingBack) {
 
 // The number of blades stays within its budget wherever the eye is.
 TEST_F(MeadowOf, KeepsTheBudgetOfBlades) {
-  Meadow small = makeMeadow(50000.0);
-  const Eye eye = eyeAt(201.0, 201.0, 1.6);
+  MeadowLod small = makeMeadow(50000.0);
+  const Viewpoint eye = eyeAt(201.0, 201.0, 1.6);
   small.setEyes({eye});
   for (int k = 0; k < 60; ++k) small.advance(after(0.1 * k));
   double blades = 0.0;
@@ -147,12 +149,12 @@ TEST_F(MeadowOf, KeepsTheBudgetOfBlades) {
 // N7: tells what was chosen and why: with room the tolerance is held, without it tiles are held
 // back, and what they are off stays within the coarser tolerance.
 TEST_F(MeadowOf, TellsWhatItChoseAndWhy) {
-  const Eye eye = eyeAt(201.0, 201.0, 1.6);
+  const Viewpoint eye = eyeAt(201.0, 201.0, 1.6);
   for (const double most : {1e8, 2e4}) {
-    Meadow meadow = makeMeadow(most);
+    MeadowLod meadow = makeMeadow(most);
     meadow.setEyes({eye});
     for (int i = 0; i < 100; ++i) meadow.advance(after(0.1 * i));
-    const Balance& balance = meadow.balance();
+    const TierAllocation& balance = meadow.balance();
     const bool binds = most < 1e8;
     EXPECT_GT(balance.counts[1], 0u);
     EXPECT_GT(balance.counts[2], 0u);
@@ -160,41 +162,41 @@ TEST_F(MeadowOf, TellsWhatItChoseAndWhy) {
     EXPECT_EQ(balance.over > 0, binds);
     EXPECT_EQ(balance.wanted > balance.cost, binds);
     EXPECT_LE(balance.cost, 1.1 * most);
-    EXPECT_LE(balance.largest, MeadowSettings().tolerance * meadow.memory().coarseness);
+    EXPECT_LE(balance.largest, MeadowSettings().tolerance * meadow.snapshot().coarseness);
   }
 }
 
 // N7: no limit cycle. A lawn that is seen from above is off by about the same everywhere; a still
 // eye sees it stand still from the first tick on, on its budget, and no tile comes and goes.
 TEST_F(MeadowOf, StandsStillOnItsBudget) {
-  Meadow meadow = makeMeadow(2e4);
+  MeadowLod meadow = makeMeadow(2e4);
   meadow.setEyes({eyeAt(201.0, 201.0, 15.0)});
   meadow.advance(START);
-  const auto before = meadow.memory();
+  const auto before = meadow.snapshot();
   EXPECT_LE(meadow.balance().cost, 2e4);
   EXPECT_GE(meadow.balance().cost, 0.7 * 2e4);
   for (int i = 1; i < 40; ++i) {
     meadow.advance(after(0.1 * i));
-    ASSERT_EQ(meadow.memory().coarseness, before.coarseness) << i;
-    ASSERT_EQ(meadow.memory().levels.size(), before.levels.size()) << i;
+    ASSERT_EQ(meadow.snapshot().coarseness, before.coarseness) << i;
+    ASSERT_EQ(meadow.snapshot().levels.size(), before.levels.size()) << i;
   }
 }
 
-// N7: who moves makes no tile flicker: none changes its rung twice a second.
+// N7: who moves makes no tile flicker: none changes its tier twice a second.
 TEST_F(MeadowOf, NoTileFlickers) {
-  Meadow meadow = makeMeadow(2e4);
-  std::map<std::pair<int, int>, std::pair<Rung, int>> seen;
+  MeadowLod meadow = makeMeadow(2e4);
+  std::map<std::pair<int, int>, std::pair<TileModel, int>> seen;
   for (int i = 0; i < 30; ++i) {
     meadow.setEyes({eyeAt(201.0 + (i % 2 ? 0.1 : 0.0), 201.0, 1.6)});
     meadow.advance(after(0.1 * i));
     if (i < 10) continue;
     EXPECT_LE(meadow.balance().cost, 2e4);
-    for (const TileLevel& level : meadow.memory().levels) {
-      auto& [rung, changes] =
-          seen.emplace(std::pair{level.row, level.column}, std::pair{level.rung.target, 0})
+    for (const TileLevel& level : meadow.snapshot().levels) {
+      auto& [tier, changes] =
+          seen.emplace(std::pair{level.row, level.column}, std::pair{level.tier.target, 0})
               .first->second;
-      changes += rung != level.rung.target;
-      rung = level.rung.target;
+      changes += tier != level.tier.target;
+      tier = level.tier.target;
       EXPECT_LE(changes, 2) << level.row << ' ' << level.column;
     }
   }
@@ -202,26 +204,26 @@ TEST_F(MeadowOf, NoTileFlickers) {
 
 // N7: what is asked for does not depend on what there is, and all that would be finer is counted.
 TEST_F(MeadowOf, TellsAllThatTheBudgetHoldsBack) {
-  Meadow rich = makeMeadow(), poor = makeMeadow(2e4);
-  for (Meadow* meadow : {&rich, &poor}) {
+  MeadowLod rich = makeMeadow(), poor = makeMeadow(2e4);
+  for (MeadowLod* meadow : {&rich, &poor}) {
     meadow->setEyes({eyeAt(201.0, 201.0, 1.6)});
     for (int i = 0; i < 100; ++i) meadow->advance(after(0.1 * i));
   }
   EXPECT_EQ(poor.balance().wanted, rich.balance().wanted);
-  std::map<std::pair<int, int>, Rung> of_poor;
-  for (const TileLevel& level : poor.memory().levels)
-    of_poor[{level.row, level.column}] = level.rung.target;
+  std::map<std::pair<int, int>, TileModel> of_poor;
+  for (const TileLevel& level : poor.snapshot().levels)
+    of_poor[{level.row, level.column}] = level.tier.target;
   std::size_t held_back = 0;
-  for (const TileLevel& level : rich.memory().levels) {
+  for (const TileLevel& level : rich.snapshot().levels) {
     const auto found = of_poor.find({level.row, level.column});
-    held_back += found == of_poor.end() || found->second < level.rung.target;
+    held_back += found == of_poor.end() || found->second < level.tier.target;
   }
   EXPECT_EQ(poor.balance().held_back, held_back);
   EXPECT_GT(poor.balance().over, poor.balance().counts[1]);  // textures too
 }
 
 TEST_F(MeadowOf, LeavesOutWhatTheEyeDoesNotSee) {
-  Eye eye = eyeAt(201.0, 201.0, 1.6);
+  Viewpoint eye = eyeAt(201.0, 201.0, 1.6);
   eye.cone_cosine = std::cos(0.5);
   meadow_.setEyes({eye});
   meadow_.advance(START);
@@ -232,7 +234,7 @@ TEST_F(MeadowOf, LeavesOutWhatTheEyeDoesNotSee) {
 
 // S2-W3: views tell from how steep they are seen.
 TEST_F(MeadowOf, KnowsFromHowSteepATileIsSeen) {
-  const Eye eye = eyeAt(201.0, 201.0, 30.0);
+  const Viewpoint eye = eyeAt(201.0, 201.0, 30.0);
   meadow_.setEyes({eye});
   meadow_.advance(START);
   const auto views = viewsOf(meadow_, eye, after(2.0));
@@ -242,28 +244,28 @@ TEST_F(MeadowOf, KnowsFromHowSteepATileIsSeen) {
 
 // N6: one structure is all the state; restored, the run goes on to the bit.
 TEST_F(MeadowOf, GoesOnFromARestoredMemory) {
-  const auto step = [](Meadow& meadow, int k) {
+  const auto step = [](MeadowLod& meadow, int k) {
     const double x = 150.0 + 0.5 * k;
     meadow.setEyes({eyeAt(x, 201.0, 1.6)});
     meadow.tread().tread(1, TreadLaw(), {x, 201.0}, after(0.1 * k));
     meadow.advance(after(0.1 * k));
   };
   for (int k = 0; k < 20; ++k) step(meadow_, k);
-  Meadow copy = makeMeadow();
-  copy.restore(meadow_.memory());
-  EXPECT_EQ(copy.memory().hash(), meadow_.memory().hash());
+  MeadowLod copy = makeMeadow();
+  copy.restore(meadow_.snapshot());
+  EXPECT_EQ(copy.snapshot().hash(), meadow_.snapshot().hash());
   for (int k = 20; k < 30; ++k) {
     step(meadow_, k);
     step(copy, k);
-    ASSERT_EQ(copy.memory().hash(), meadow_.memory().hash()) << k;
+    ASSERT_EQ(copy.snapshot().hash(), meadow_.snapshot().hash()) << k;
   }
-  const std::uint64_t before = meadow_.memory().hash();
+  const std::uint64_t before = meadow_.snapshot().hash();
   step(meadow_, 31);
-  EXPECT_NE(meadow_.memory().hash(), before);
+  EXPECT_NE(meadow_.snapshot().hash(), before);
 }
 
 TEST_F(MeadowOf, StartsAnewWhenTimeGoesBack) {
-  const Eye eye = eyeAt(201.0, 201.0, 1.6);
+  const Viewpoint eye = eyeAt(201.0, 201.0, 1.6);
   meadow_.setEyes({eye});
   meadow_.advance(after(10.0));
   meadow_.tread().tread(1, TreadLaw(), {200.0, 200.0}, after(10.0));
@@ -279,8 +281,9 @@ TEST_F(MeadowOf, RefusesBadSettingsByName) {
   settings.tolerance = -1.0;
   settings.transition = std::nan("");
   EXPECT_EQ(errorOf([&] {
-              Meadow meadow(std::make_shared<FeatureMap>(), std::make_shared<terrain::HeightMap>(),
-                            7, settings, TreadSettings());
+              MeadowLod meadow(std::make_shared<FeatureMap>(),
+                               std::make_shared<terrain::HeightMap>(), 7, settings,
+                               TreadSettings());
             }),
             "meadow: tolerance = -1 pixel is outside 0.1 to 100 pixel\n"
             "meadow: transition = nan s is not finite, allowed is 0 to 60 s");

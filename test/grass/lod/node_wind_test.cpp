@@ -41,10 +41,10 @@ constexpr TileWindow ALL{0, 49, 0, 49};
 
 // S2-19, S2-20: grass and trees ask the same law: at a node on the ground the air is the wind's, to
 // the bit, whatever blows; so every gust passes both at the same time.
-TEST(NodeAir, IsTheWindOfTheTreesBitByBit) {
+TEST(NodeWind, IsTheWindOfTheTreesBitByBit) {
   const FeatureMap map;
   const terrain::HeightMap hill = slopedGround(0.2, 0.1);
-  NodeAir air(map, hill);
+  NodeWind air(map, hill);
   for (const double second : {0.0, 0.7, 3.1}) {
     const wind::Instant wind = everyKind().at(STAMP + fromSeconds(second));
     air.update(wind, {}, ALL);
@@ -57,10 +57,10 @@ TEST(NodeAir, IsTheWindOfTheTreesBitByBit) {
 }
 
 // S2-17: only the nodes under a mask are touched; their number is the mask's area.
-TEST(NodeAir, TouchesOnlyTheNodesUnderAMask) {
+TEST(NodeWind, TouchesOnlyTheNodesUnderAMask) {
   const FeatureMap map;
   const terrain::HeightMap flat;
-  NodeAir air(map, flat);
+  NodeWind air(map, flat);
   auto disk = primitive(wind::Kind::DISK, 1, Vec3(50, 50, 0), 20.0);
   disk.phase = 1.0;
   const wind::Instant wind = wind::Field({disk}).at(STAMP);
@@ -82,12 +82,12 @@ TEST(NodeAir, TouchesOnlyTheNodesUnderAMask) {
 }
 
 // S2-18: displacements add, colours average.
-TEST(NodeAir, AddsDisplacementsAndAveragesColours) {
+TEST(NodeWind, AddsDisplacementsAndAveragesColours) {
   MapInput input;
   input.colour.value = 0.2;
   const FeatureMap map(input);
   const terrain::HeightMap flat;
-  NodeAir air(map, flat);
+  NodeWind air(map, flat);
   std::vector<wind::Primitive> discs{primitive(wind::Kind::DISK, 1, Vec3(50, 50, 0), 20.0),
                                      primitive(wind::Kind::DISK, 2, Vec3(50, 50, 0), 30.0)};
   for (auto& disc : discs) disc.phase = 1.0;
@@ -106,7 +106,7 @@ TEST(NodeAir, AddsDisplacementsAndAveragesColours) {
 }
 
 // S2-18, S2-W4, E16: sums follow their causes while small, and stay below 86 degrees in any storm.
-TEST(NodeAir, BendIsBounded) {
+TEST(NodeWind, BendIsBounded) {
   const Point small = bendIn(Vec3(3, -4, 9), 0.07);
   EXPECT_NEAR(small.x, 0.21, 1e-15);
   EXPECT_NEAR(small.y, -0.28, 1e-15);
@@ -122,7 +122,7 @@ TEST(NodeAir, BendIsBounded) {
 }
 
 // S2-18: on blades: two winds together bend a blade by the sum of what each does.
-TEST(NodeAir, BladesBendByTheSumOfWinds) {
+TEST(NodeWind, BladesBendByTheSumOfWinds) {
   Tile tile = tileOf({100.f, 100.f, 100.f, 100.f});
   tile.shape = {0.f, 0.f, 0.f, 0.f};  // upright at rest
   const auto tipOf = [&](float x, float y) {
@@ -141,10 +141,10 @@ TEST(NodeAir, BladesBendByTheSumOfWinds) {
 }
 
 // S2-20: a gust's front moves on, a tornado turns and sucks, a breeze stays low.
-TEST(NodeAir, ShowsGustTornadoAndBreeze) {
+TEST(NodeWind, ShowsGustTornadoAndBreeze) {
   const FeatureMap map;
   const terrain::HeightMap flat;
-  NodeAir air(map, flat);
+  NodeWind air(map, flat);
   auto gust = primitive(wind::Kind::GUST, 1, Vec3(10, 50, 0), 60.0);
   gust.epoch = STAMP;
   const wind::Field front({gust});
@@ -165,12 +165,12 @@ TEST(NodeAir, ShowsGustTornadoAndBreeze) {
 }
 
 // N11: a hovering body's downwash bends grass outward and moves with it.
-TEST(NodeAir, DownwashBendsOutwardAndMovesAlong) {
+TEST(NodeWind, DownwashBendsOutwardAndMovesAlong) {
   MapInput input;
   input.law.resolution = 0.5;
   const FeatureMap map(input);
   const terrain::HeightMap flat;
-  NodeAir air(map, flat);
+  NodeWind air(map, flat);
   for (const double x : {8.0, 14.0}) {
     auto wash = primitive(wind::Kind::BLAST, 1, Vec3(x, 10, 1.0), 4.0);
     wash.core_radius = 1.0;
@@ -187,10 +187,10 @@ TEST(NodeAir, DownwashBendsOutwardAndMovesAlong) {
 }
 
 // S2-17: a viewer's tiles may be all that is asked for; those get the same air.
-TEST(NodeAir, CanBeRestrictedToSomeTiles) {
+TEST(NodeWind, CanBeRestrictedToSomeTiles) {
   const FeatureMap map;
   const terrain::HeightMap flat;
-  NodeAir all(map, flat), some(map, flat);
+  NodeWind all(map, flat), some(map, flat);
   const wind::Instant wind = everyKind().at(STAMP);
   const std::vector<TilePlace> tiles{{14, 15}, {20, 11}};
   all.update(wind, {}, {10, 20, 10, 20});
@@ -203,10 +203,10 @@ TEST(NodeAir, CanBeRestrictedToSomeTiles) {
   EXPECT_LE(some.touched(), 8 * 4);
 }
 
-TEST(NodeAir, FillsTheCornersOfATile) {
+TEST(NodeWind, FillsTheCornersOfATile) {
   const FeatureMap map;
   const terrain::HeightMap flat;
-  NodeAir air(map, flat);
+  NodeWind air(map, flat);
   air.update(everyKind().at(STAMP), {{{30, 30}, 9.0, 1.0, 1.0}}, {10, 20, 10, 20});
   Tile tile = makeTile(map, flat, 1, 14, 15);
   TileMotion motion;

@@ -16,43 +16,49 @@ constexpr double TOLERANCE = 1.5;  // [pixel]
 constexpr Nanoseconds START = 1700000000 * NANOSECONDS_PER_SECOND;
 
 double scaleAt(double distance) {
-  return pixelsPerMetre(Eye(), distance);
+  return pixelsPerMetre(Viewpoint(), distance);
 }
 
-// S2-15: nearer means finer, and each rung holds the tolerance where it is chosen.
-TEST(Rung, IsChosenByWhatItLeavesOutInPixels) {
+// S2-15: nearer means finer, and each tier holds the tolerance where it is chosen.
+TEST(TileModel, IsChosenByWhatItLeavesOutInPixels) {
   const TileDetail detail{0.03, 0.3};
   int before = 2;
   double first_strip = 0.0, first_texture = 0.0;
   for (double distance = 0.5; distance < 1000.0; distance *= 1.05) {
-    const Rung rung = chooseRung(detail, scaleAt(distance), TOLERANCE, Rung::TEXTURE);
-    EXPECT_LE(static_cast<int>(rung), before);
-    if (rung == Rung::STRIPS) {
+    const TileModel tier =
+        chooseTileModel(detail, scaleAt(distance), TOLERANCE, TileModel::TEXTURE);
+    EXPECT_LE(static_cast<int>(tier), before);
+    if (tier == TileModel::STRIPS) {
       EXPECT_LE(detail.blade_spacing * scaleAt(distance), TOLERANCE);
     }
-    if (rung == Rung::TEXTURE) {
+    if (tier == TileModel::TEXTURE) {
       EXPECT_LE(detail.height * scaleAt(distance), TOLERANCE);
     }
-    if (rung == Rung::STRIPS && first_strip == 0.0) first_strip = distance;
-    if (rung == Rung::TEXTURE && first_texture == 0.0) first_texture = distance;
-    before = static_cast<int>(rung);
+    if (tier == TileModel::STRIPS && first_strip == 0.0) first_strip = distance;
+    if (tier == TileModel::TEXTURE && first_texture == 0.0) first_texture = distance;
+    before = static_cast<int>(tier);
   }
   EXPECT_NEAR(first_strip, 20.0, 1.1);
   EXPECT_NEAR(first_texture, 200.0, 11.0);
 }
 
 // S2-15: a viewer who steps to and fro at a border does not make the tile flicker.
-TEST(Rung, HasHysteresis) {
+TEST(TileModel, HasHysteresis) {
   const TileDetail detail{0.03, 0.3};
-  EXPECT_EQ(chooseRung(detail, scaleAt(21.0), TOLERANCE, Rung::STRIPS), Rung::STRIPS);
-  EXPECT_EQ(chooseRung(detail, scaleAt(21.0), TOLERANCE, Rung::BLADES), Rung::BLADES);
-  EXPECT_EQ(chooseRung(detail, scaleAt(29.0), TOLERANCE, Rung::BLADES), Rung::STRIPS);
-  EXPECT_EQ(chooseRung(detail, scaleAt(1000.0), TOLERANCE, Rung::BLADES), Rung::TEXTURE);
-  EXPECT_EQ(chooseRung(detail, scaleAt(19.0), TOLERANCE, Rung::STRIPS), Rung::BLADES);
+  EXPECT_EQ(chooseTileModel(detail, scaleAt(21.0), TOLERANCE, TileModel::STRIPS),
+            TileModel::STRIPS);
+  EXPECT_EQ(chooseTileModel(detail, scaleAt(21.0), TOLERANCE, TileModel::BLADES),
+            TileModel::BLADES);
+  EXPECT_EQ(chooseTileModel(detail, scaleAt(29.0), TOLERANCE, TileModel::BLADES),
+            TileModel::STRIPS);
+  EXPECT_EQ(chooseTileModel(detail, scaleAt(1000.0), TOLERANCE, TileModel::BLADES),
+            TileModel::TEXTURE);
+  EXPECT_EQ(chooseTileModel(detail, scaleAt(19.0), TOLERANCE, TileModel::STRIPS),
+            TileModel::BLADES);
 }
 
 // S2-08: five segments near, fewer with distance, never more again.
-TEST(Rung, SegmentsFallWithDistance) {
+TEST(TileModel, SegmentsFallWithDistance) {
   EXPECT_EQ(bladeSegments(0.3, scaleAt(1.0), TOLERANCE), 5);
   int before = LINKS;
   for (double distance = 0.5; distance < 300.0; distance *= 1.1) {
@@ -64,7 +70,7 @@ TEST(Rung, SegmentsFallWithDistance) {
 }
 
 // S2-08: the chords that are drawn are within the tolerance of the blade.
-TEST(Rung, SegmentsHoldTheTolerance) {
+TEST(TileModel, SegmentsHoldTheTolerance) {
   for (double distance = 1.0; distance < 300.0; distance *= 1.1) {
     const int n = bladeSegments(0.3, scaleAt(distance), TOLERANCE);
     if (n == LINKS) continue;
@@ -75,7 +81,7 @@ TEST(Rung, SegmentsHoldTheTolerance) {
   }
 }
 
-TEST(Rung, ShareOfBladesFallsWithDistance) {
+TEST(TileModel, ShareOfBladesFallsWithDistance) {
   const TileDetail detail{0.03, 0.3};
   EXPECT_EQ(bladeShare(detail, scaleAt(2.0), TOLERANCE), 1.0);
   EXPECT_EQ(bladeShare(detail, scaleAt(100.0), TOLERANCE), LEAST_SHARE);
@@ -115,19 +121,19 @@ TEST(Morph, LeadsFromBladesOverStripsToTheGround) {
 }
 
 // S2-12: it takes its time, and turns round wherever it stands.
-TEST(RungState, MovesAtConstantSpeedAndTurnsRoundAnywhere) {
-  RungState state;
-  setRung(state, Rung::BLADES, START, 0.5);
+TEST(TileModelState, MovesAtConstantSpeedAndTurnsRoundAnywhere) {
+  TileModelState state;
+  setTileModel(state, TileModel::BLADES, START, 0.5);
   EXPECT_EQ(placeAt(state, START, 0.5), 0.0);
   EXPECT_NEAR(placeAt(state, START + fromSeconds(0.25), 0.5), 0.5, 1e-9);
   EXPECT_EQ(placeAt(state, START + fromSeconds(2.0), 0.5), 2.0);
-  setRung(state, Rung::TEXTURE, START + fromSeconds(0.6), 0.5);
+  setTileModel(state, TileModel::TEXTURE, START + fromSeconds(0.6), 0.5);
   EXPECT_NEAR(placeAt(state, START + fromSeconds(0.6), 0.5), 1.2, 1e-6);
   EXPECT_NEAR(placeAt(state, START + fromSeconds(0.7), 0.5), 1.0, 1e-6);
   EXPECT_EQ(placeAt(state, START + fromSeconds(9.0), 0.5), 0.0);
   EXPECT_NEAR(placeAt(state, START, 0.5), 1.2, 1e-6);  // before the change: where it began
-  RungState hard;
-  setRung(hard, Rung::STRIPS, START, 0.0);
+  TileModelState hard;
+  setTileModel(hard, TileModel::STRIPS, START, 0.0);
   EXPECT_EQ(placeAt(hard, START + 1, 0.0), 1.0);
 }
 

@@ -15,7 +15,7 @@ namespace {
 class Told : public FieldTest {
  protected:
   std::uint64_t groundHash(const TreadMap& map) const {
-    return hashOf(tellAll(map.state(), now()));
+    return hashOf(snapshotTreads(map.state(), now()));
   }
   TreadMap other_{makeMap()};
   TreadReplica replica_;
@@ -34,16 +34,16 @@ TEST_F(Told, KeyFrameAndDeltasRebuildTheGroundToTheBit) {
     ASSERT_TRUE(replica_.apply(update, other_)) << replica_.why();
     ASSERT_EQ(groundHash(other_), groundHash(map_)) << i;
   }
-  EXPECT_GT(tellAll(map_.state(), now()).blocks.size(), 5u);
+  EXPECT_GT(snapshotTreads(map_.state(), now()).blocks.size(), 5u);
   EXPECT_EQ(replica_.stamp(), now());
 }
 
 TEST_F(Told, ADeltaTellsOnlyWhatWasPressedSince) {
   drive("a", 3.0, 5.0, 2.0, 150);
   std::size_t all = 0, few = 0;
-  for (const ToldBlock& block : field_.update(true).treads.blocks) all += block.nodes.size();
+  for (const TreadBlockDelta& block : field_.update(true).treads.blocks) all += block.nodes.size();
   drive("a", 13.0, 5.0, 1.0, 1);
-  for (const ToldBlock& block : field_.update(false).treads.blocks) few += block.nodes.size();
+  for (const TreadBlockDelta& block : field_.update(false).treads.blocks) few += block.nodes.size();
   EXPECT_GT(few, 50u);
   EXPECT_LT(few, all / 5);
   field_.advance(now());
@@ -69,13 +69,13 @@ TEST_F(Told, AfterALostMessageItWaitsForAKeyFrame) {
 TEST_F(Told, RisenGrassIsNotTold) {
   drive("a", 3.0, 5.0, 1.0, 20);
   tick_ += 30 * 61;
-  EXPECT_TRUE(tellAll(map_.state(), now()).blocks.empty());
-  EXPECT_TRUE(tellAll(map_.state(), now()).presses.empty());
+  EXPECT_TRUE(snapshotTreads(map_.state(), now()).blocks.empty());
+  EXPECT_TRUE(snapshotTreads(map_.state(), now()).presses.empty());
 }
 
 TEST_F(Told, WhatCannotBeIsRefused) {
   drive("a", 3.0, 5.0, 1.0, 5);
-  ToldTreads bad = field_.update(true).treads;
+  TreadDelta bad = field_.update(true).treads;
   Faults none;
   check(bad, none);
   EXPECT_TRUE(none.empty()) << none.text();

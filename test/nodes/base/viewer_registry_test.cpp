@@ -25,31 +25,31 @@ Viewer viewer(const std::string& id) {
 
 struct Watched : testing::Test {
   void hear(const Viewer& message, Nanoseconds stamp) {
-    watchers.hear(message, buffer, "map", stamp);
+    viewers.hear(message, buffer, "map", stamp);
   }
   tf2_ros::Buffer buffer{ros::Duration(10.0), false};
-  Watchers watchers;
+  ViewerRegistry viewers;
 };
 
 // N8
 TEST_F(Watched, WhoIsSilentIsForgotten) {
   hear(viewer("eye"), 10 * SECOND);
-  EXPECT_EQ(watchers.eyesAt(13 * SECOND).size(), 1u);
-  EXPECT_EQ(watchers.eyesAt(13 * SECOND + 1).size(), 0u);
+  EXPECT_EQ(viewers.eyesAt(13 * SECOND).size(), 1u);
+  EXPECT_EQ(viewers.eyesAt(13 * SECOND + 1).size(), 0u);
 }
 
 TEST_F(Watched, WhoSpokeBeforeTheFirstTickLivesFromThen) {
   hear(viewer("eye"), 0);
-  EXPECT_EQ(watchers.eyesAt(1000 * SECOND).size(), 1u);
-  EXPECT_EQ(watchers.eyesAt(1003 * SECOND).size(), 1u);
-  EXPECT_EQ(watchers.eyesAt(1003 * SECOND + 1).size(), 0u);
+  EXPECT_EQ(viewers.eyesAt(1000 * SECOND).size(), 1u);
+  EXPECT_EQ(viewers.eyesAt(1003 * SECOND).size(), 1u);
+  EXPECT_EQ(viewers.eyesAt(1003 * SECOND + 1).size(), 0u);
 }
 
 TEST_F(Watched, OneTooManyIsRefusedAndTheOthersStay) {
-  for (std::size_t i = 0; i < Watchers::MOST; ++i) hear(viewer(std::to_string(i)), SECOND);
+  for (std::size_t i = 0; i < ViewerRegistry::MOST; ++i) hear(viewer(std::to_string(i)), SECOND);
   EXPECT_THROW(hear(viewer("late"), SECOND), InvalidInput);
   hear(viewer("0"), SECOND);  // one of them
-  EXPECT_EQ(watchers.size(), Watchers::MOST);
+  EXPECT_EQ(viewers.size(), ViewerRegistry::MOST);
 }
 
 TEST_F(Watched, BadViewersAreRefused) {
@@ -58,7 +58,7 @@ TEST_F(Watched, BadViewersAreRefused) {
   not_a_number.field_of_view = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(hear(of_nowhere, SECOND), InvalidInput);
   EXPECT_THROW(hear(not_a_number, SECOND), InvalidInput);
-  EXPECT_EQ(watchers.size(), 0u);
+  EXPECT_EQ(viewers.size(), 0u);
 }
 
 }  // namespace

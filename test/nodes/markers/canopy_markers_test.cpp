@@ -22,7 +22,7 @@ struct Row {
     }
     eye.position = Vec3(0.0, 0.0, 1.6);
   }
-  Balance choose(int points, double tolerance) {
+  TierAllocation choose(int points, double tolerance) {
     CanopyMarkers markers(points);
     markers.setLayout(layout);
     markers.choose(layout, eye, tolerance, 0);
@@ -40,17 +40,17 @@ struct Row {
     return out;
   }
   canopy::Layout layout;
-  Eye eye;
+  Viewpoint eye;
   std::size_t room{0}, used{0};
 };
 
 // N7: a plant has the smallest share of its leaves that holds the tolerance.
 TEST(CanopyMarkers, FarPlantsHaveFewerLeaves) {
   Row row(40);
-  const Balance fine = row.choose(200000, 1.0);
+  const TierAllocation fine = row.choose(200000, 1.0);
   EXPECT_EQ(static_cast<double>(row.used), fine.cost);
   EXPECT_EQ(fine.held_back, 0u);
-  const Balance coarse = row.choose(200000, 8.0);
+  const TierAllocation coarse = row.choose(200000, 8.0);
   EXPECT_EQ(static_cast<double>(row.used), coarse.cost);
   EXPECT_LT(coarse.cost, 0.9 * fine.cost);
   EXPECT_EQ(coarse.over, 0u);
@@ -61,7 +61,7 @@ TEST(CanopyMarkers, FarPlantsHaveFewerLeaves) {
 TEST(CanopyMarkers, PointsBindAndNoneIsLeftOutForTheSakeOfLeaves) {
   Row row(40);
   const double free = row.choose(200000, 1.0).cost;
-  const Balance poor = row.choose(static_cast<int>(0.5 * free), 1.0);
+  const TierAllocation poor = row.choose(static_cast<int>(0.5 * free), 1.0);
   EXPECT_LE(poor.cost, static_cast<double>(row.room));
   EXPECT_GE(poor.cost, 0.9 * static_cast<double>(row.room));
   EXPECT_EQ(static_cast<double>(row.used), poor.cost);
@@ -80,7 +80,7 @@ TEST(CanopyMarkers, RigidFacesAreNoLeaves) {
   row.layout.kinds[0].shape = static_cast<int>(canopy::Shape::MESH);
   row.layout.kinds[0].file = "read.dae";
   row.layout.kinds[0].form = form;
-  const Balance balance = row.choose(200000, 0.01);
+  const TierAllocation balance = row.choose(200000, 0.01);
   EXPECT_EQ(balance.cost, 10 * 30 * 6);
   EXPECT_EQ(static_cast<double>(row.used), balance.cost);
 }

@@ -18,7 +18,7 @@ struct Row {
       crowd::spawnAt(crowd, {2.0 + 2.0 * i, 0.0}, {2.0 + 2.0 * i, 1.0});
     eye.position = Vec3(0.0, 0.0, 1.6);
   }
-  Balance build(int points, double tolerance, Nanoseconds stamp = 0) {
+  TierAllocation build(int points, double tolerance, Nanoseconds stamp = 0) {
     CrowdMarkers markers(points);
     const auto array = markers.build(crowd, {eye}, tolerance, "map", stamp);
     EXPECT_EQ(array.markers[0].points.size(), static_cast<std::size_t>(points) / 3 * 3);
@@ -26,19 +26,19 @@ struct Row {
     return markers.balance();
   }
   crowd::Crowd crowd;
-  Eye eye;
+  Viewpoint eye;
 };
 
 // N7: a person has the fewest facets that hold the tolerance.
 TEST(CrowdMarkers, FarPeopleHaveFewerFacets) {
   Row row(200);
-  const Balance fine = row.build(400000, 1.0), coarse = row.build(400000, 4.0);
+  const TierAllocation fine = row.build(400000, 1.0), coarse = row.build(400000, 4.0);
   EXPECT_EQ(fine.held_back, 0u);
-  for (std::size_t rung = 1; rung < CrowdMarkers::rungs().size(); ++rung)
-    EXPECT_GT(fine.counts[rung], 0u) << rung;
+  for (std::size_t tier = 1; tier < CrowdMarkers::tiers().size(); ++tier)
+    EXPECT_GT(fine.counts[tier], 0u) << tier;
   EXPECT_EQ(fine.counts[0], 0u);
   EXPECT_LT(coarse.cost, 0.9 * fine.cost);
-  // Only who stands nearer than the finest rung is meant for is above the tolerance.
+  // Only who stands nearer than the finest tier is meant for is above the tolerance.
   EXPECT_LE(fine.over, 4u);
 }
 
@@ -58,10 +58,10 @@ TEST(CrowdMarkers, NobodyIsNotDrawn) {
 // N7: the points bind; a few less coarsen somebody, half of them leave some out.
 TEST(CrowdMarkers, PointsBindAndNobodyIsLeftOutForTheSakeOfFacets) {
   Row row(200);
-  const Balance free = row.build(400000, 1.0);
+  const TierAllocation free = row.build(400000, 1.0);
   for (const double share : {0.95, 0.5}) {
     const int points = static_cast<int>(share * free.cost);
-    const Balance poor = row.build(points, 1.0);
+    const TierAllocation poor = row.build(points, 1.0);
     EXPECT_LE(poor.cost, points);
     EXPECT_GE(poor.cost, 0.9 * points);
     EXPECT_GT(poor.held_back, 0u);

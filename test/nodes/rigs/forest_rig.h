@@ -30,9 +30,9 @@ inline void spinUntil(const std::string& what, const std::function<bool()>& cond
 
 /// Everything that a topic said.
 template <class Message>
-class Heard {
+class LatestMessage {
  public:
-  explicit Heard(const std::string& topic) : topic_(topic) {
+  explicit LatestMessage(const std::string& topic) : topic_(topic) {
     const boost::function<void(const Message&)> hear = [this](const Message& message) {
       messages.push_back(message);
     };
@@ -100,8 +100,8 @@ class ClockedForest {
 
   const TickGrid& grid() const { return grid_; }
 
-  Heard<ForestLayout> layout{"forest/layout"};
-  Heard<ForestState> state{"forest/state"};
+  LatestMessage<ForestLayout> layout{"forest/layout"};
+  LatestMessage<ForestState> state{"forest/state"};
 
  private:
   TickGrid grid_{30};

@@ -68,7 +68,7 @@ TEST(FreshLedger, StartsAllStampsAtTheStart) {
   tied.primitive.name = "tied";
   tied.attached_frame = "drone";
   settings.sources = {late, tied};
-  const wind::Field field = freshLedger(settings, fromSeconds(100.0)).field();
+  const wind::Field field = initialSchedule(settings, fromSeconds(100.0)).field();
   ASSERT_EQ(field.primitives().size(), 1u);  // the tied one waits for tf
   EXPECT_EQ(field.primitives()[0].t_on, fromSeconds(105.0));
   EXPECT_EQ(field.seed(), 9u);

@@ -8,8 +8,8 @@ namespace vegetation_sim {
 namespace {
 
 // Whatever the hashes, the oldest one goes.
-TEST(Heard, ForgetsTheOldest) {
-  Heard<int> heard;
+TEST(HashedCache, ForgetsTheOldest) {
+  HashedCache<int> heard;
   for (int i = 0; i < 12; ++i) heard.keep(static_cast<std::uint64_t>(1000 - i), i);
   for (int i = 0; i < 12; ++i) {
     const int* found = heard.find(static_cast<std::uint64_t>(1000 - i));
@@ -20,8 +20,8 @@ TEST(Heard, ForgetsTheOldest) {
   }
 }
 
-TEST(Heard, WhatComesAgainIsTheNewest) {
-  Heard<int> heard;
+TEST(HashedCache, WhatComesAgainIsTheNewest) {
+  HashedCache<int> heard;
   heard.keep(1, 10);
   heard.keep(2, 20);
   EXPECT_FALSE(heard.isNewest(1));

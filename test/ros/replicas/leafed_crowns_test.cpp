@@ -116,11 +116,11 @@ TEST_F(LeafedOak, IsCutIntoLayersWithoutAnyPlant) {
       canopy->setWind(canopy::breezeFrom(Vec3(1.0, 6.0, 0.0)));
       canopy->setViewer(canopy::CutView{Vec3(-5.0 + 0.02 * tick, 0.0, 1.5), {}});
       canopy->advance(canopy::tickStamp(tick));
-      cuts = static_cast<std::uint64_t>(canopy->memory().cuts.since);
+      cuts = static_cast<std::uint64_t>(canopy->snapshot().cuts.since);
       if (tick == 0) first_cuts = cuts;
     }
   EXPECT_NE(cuts, first_cuts);
-  EXPECT_EQ(with.memory().hash(), without.memory().hash());
+  EXPECT_EQ(with.snapshot().hash(), without.snapshot().hash());
   EXPECT_EQ(without.foliage().layers(), 1);
   const canopy::Foliage& foliage = with.foliage();
   ASSERT_EQ(foliage.layers(), 3);

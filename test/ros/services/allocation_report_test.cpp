@@ -13,16 +13,16 @@ BalanceTerms terms() {
   return {"Walkers", 1.5, "marker_points", "points", 100.0, {"not drawn", "coarse", "fine"}};
 }
 
-std::string reasonFor(const Balance& balance) {
+std::string reasonFor(const TierAllocation& balance) {
   diagnostic_updater::DiagnosticStatusWrapper status;
-  tell(balance, terms(), status);
+  report(balance, terms(), status);
   EXPECT_EQ(status.level, diagnostic_msgs::DiagnosticStatus::OK);
   return status.message;
 }
 
-Balance balanceOf(double cost, double wanted, double largest, std::size_t over, std::size_t held,
-                  std::size_t fine) {
-  Balance out;
+TierAllocation balanceOf(double cost, double wanted, double largest, std::size_t over,
+                         std::size_t held, std::size_t fine) {
+  TierAllocation out;
   out.cost = cost;
   out.wanted = wanted;
   out.largest = largest;
@@ -37,14 +37,14 @@ TEST(BalanceReport, SaysWhy) {
   EXPECT_EQ(reasonFor(balanceOf(60, 60, 1, 0, 0, 2)), "the tolerance is held");
   EXPECT_EQ(reasonFor(balanceOf(60, 60, 3, 1, 0, 2)), "finer rungs there are none");
   EXPECT_EQ(reasonFor(balanceOf(90, 120, 3, 2, 2, 2)), "marker_points binds");
-  EXPECT_EQ(reasonFor(Balance()), "nothing is seen");
+  EXPECT_EQ(reasonFor(TierAllocation()), "nothing is seen");
 }
 
 TEST(BalanceReport, ABudgetBindsThatPaysForNothing) {
   EXPECT_EQ(reasonFor(balanceOf(0, 120, 3, 2, 2, 0)), "marker_points binds");
 }
 
-// Blades grow fewer within their rung: nothing is held back, yet more is asked for than there is.
+// Blades grow fewer within their tier: nothing is held back, yet more is asked for than there is.
 TEST(BalanceReport, ABudgetBindsThatThinsARung) {
   EXPECT_EQ(reasonFor(balanceOf(99, 120, 1, 0, 0, 2)), "marker_points binds");
 }
@@ -57,7 +57,7 @@ TEST(BalanceReport, WhatCostsNothingMayBeSeen) {
 
 TEST(BalanceReport, NamesItsUnits) {
   diagnostic_updater::DiagnosticStatusWrapper status;
-  tell(balanceOf(90, 120, 3, 2, 1, 4), terms(), status);
+  report(balanceOf(90, 120, 3, 2, 1, 4), terms(), status);
   std::map<std::string, std::string> values;
   for (const auto& pair : status.values) values[pair.key] = pair.value;
   const std::map<std::string, std::string> expected{

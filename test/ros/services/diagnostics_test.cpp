@@ -9,7 +9,7 @@
 namespace vegetation_sim {
 namespace {
 
-std::string toldOf(int faults) {
+std::string publishedOf(int faults) {
   Faults all;
   for (int i = 1; i <= faults; ++i) all.add("fault " + std::to_string(i));
   diagnostic_updater::DiagnosticStatusWrapper status;
@@ -20,10 +20,10 @@ std::string toldOf(int faults) {
 
 // A message of a hundred robots that all are wrong does not fill the screen.
 TEST(Troubles, OfManyFaultsTheFirstAreToldAndHowManyMore) {
-  EXPECT_EQ(toldOf(1), "1 fault 1");
-  EXPECT_EQ(toldOf(5), "1 fault 1\nfault 2\nfault 3\nfault 4\nfault 5");
-  EXPECT_EQ(toldOf(7), "1 fault 1\nfault 2\nfault 3\nfault 4\nfault 5\nand 2 more");
-  EXPECT_EQ(toldOf(100).substr(toldOf(100).size() - 11), "and 95 more");
+  EXPECT_EQ(publishedOf(1), "1 fault 1");
+  EXPECT_EQ(publishedOf(5), "1 fault 1\nfault 2\nfault 3\nfault 4\nfault 5");
+  EXPECT_EQ(publishedOf(7), "1 fault 1\nfault 2\nfault 3\nfault 4\nfault 5\nand 2 more");
+  EXPECT_EQ(publishedOf(100).substr(publishedOf(100).size() - 11), "and 95 more");
 }
 
 TEST(Troubles, WhatWasReportedIsNotToldAgain) {

@@ -44,7 +44,7 @@ class CrowdRig : public ViewRig {
     return out;
   }
   /// Nobody moves: however often a slow rviz has to be told, all stay in the picture.
-  void tell() {
+  void report() {
     setTime(now() + 0.1);
     publish(message());
   }
@@ -75,9 +75,9 @@ class CrowdDisplayTest : public testing::Test {
     rig.gather(8);
     display = rig.addDisplay();
     ASSERT_NE(display, nullptr) << "the plugin is not found or is another class";
-    rig.lookAt(0.9f, 0.2, 9.0);
+    rig.sampleAt(0.9f, 0.2, 9.0);
     ASSERT_TRUE(rig.until([&] {
-      rig.tell();
+      rig.report();
       return display->drawn().drawn == 8;
     }));
   }
@@ -97,7 +97,7 @@ TEST_F(CrowdDisplayTest, DrawsPeopleOnGrassUnderASky) {
   EXPECT_GT(seen.blue, 0.05);
   const std::vector<std::uint8_t> with = rig.picture();
   rig.gather(0);
-  rig.tell();
+  rig.report();
   ASSERT_TRUE(rig.until([&] { return display->drawn().people == 0; }));
   rig.frames(3);
   EXPECT_GT(difference(with, rig.picture()), 1.0);
@@ -112,7 +112,7 @@ TEST_F(CrowdDisplayTest, PeopleWalk) {
 // S2-15 in spirit: who is far away is drawn with less.
 TEST_F(CrowdDisplayTest, FarPeopleCostLess) {
   const std::size_t near = display->drawn().triangles;
-  rig.lookAt(0.9f, 0.2, 120.0);
+  rig.sampleAt(0.9f, 0.2, 120.0);
   EXPECT_TRUE(rig.until([&] {
     return display->drawn().drawn == 8 && 3 * display->drawn().triangles < near;
   })) << display->drawn().triangles
@@ -143,7 +143,7 @@ TEST_F(CrowdDisplayTest, SurvivesTimeGoingBack) {
   rig.setTime(rig.now() - 50.0);
   EXPECT_TRUE(rig.until([&] { return display->drawn().people == 0; }));
   EXPECT_TRUE(rig.until([&] {
-    rig.tell();  // rviz listens anew
+    rig.report();  // rviz listens anew
     return display->drawn().drawn == 8;
   }));
 }
@@ -154,13 +154,13 @@ TEST_F(CrowdDisplayTest, NobodyIsLeftWhenTheirNodeDies) {
   EXPECT_EQ(display->drawn().people, 8u);
   rig.setTime(rig.now() + 3.5);
   EXPECT_TRUE(rig.until([&] { return display->drawn().people == 0; }));
-  rig.tell();  // it returns
+  rig.report();  // it returns
   EXPECT_TRUE(rig.until([&] { return display->drawn().people == 8; }));
 }
 
 TEST_F(CrowdDisplayTest, SurvivesAFlood) {
   for (int i = 0; i < 2000; ++i) rig.publish(rig.message());
-  rig.tell();
+  rig.report();
   rig.frames(5);
   EXPECT_TRUE(rig.until([&] { return display->drawn().drawn == 8; }));
 }
@@ -173,20 +173,21 @@ TEST_F(CrowdDisplayTest, FollowsANodeThatDiesAndReturns) {
         rig.gather(scene == 0 ? 8 : 3);
       },
       [&](int scene) {
-        rig.tell();
+        rig.report();
         return display->drawn().drawn == (scene == 0 ? 8u : 3u);
       });
 }
 
 // N7
 TEST_F(CrowdDisplayTest, TellsTheGovernorsChoice) {
-  expectGovernorIsTold(rig, *display, "agent_crowd", "Cost [points]", "Budget [points]", "points");
+  expectAllocationIsReported(rig, *display, "agent_crowd", "Cost [points]", "Budget [points]",
+                             "points");
 }
 
 TEST_F(CrowdDisplayTest, EveryPropertyCanBeChanged) {
   expectEveryPropertyCanBeChanged(rig, *display);
   EXPECT_TRUE(rig.until([&] {
-    rig.tell();  // another topic had nobody
+    rig.report();  // another topic had nobody
     return display->drawn().drawn == 8;
   }));
 }
@@ -198,9 +199,9 @@ TEST_F(CrowdDisplayTest, SettingsSurviveSaveAndLoad) {
 // One ground, one sky: whoever came first draws them, and the other when that one goes.
 TEST_F(CrowdDisplayTest, TwoDrawOneScenery) {
   CrowdDisplay* other = rig.addDisplay();
-  rig.tell();
+  rig.report();
   ASSERT_TRUE(rig.until([&] {
-    rig.tell();
+    rig.report();
     return other->drawn().drawn == 8 &&
            statusOf(*other, "Scenery").find("ground by") != std::string::npos;
   }));
@@ -232,7 +233,7 @@ TEST_F(CrowdDisplayTest, LeavesNothingBehind) {
   expectNothingLeftBehind(
       rig, [&] { return rig.addDisplay(); },
       [&](rviz::Display& another) {
-        rig.tell();
+        rig.report();
         return static_cast<CrowdDisplay&>(another).drawn().drawn > 0;
       });
 }

@@ -28,7 +28,7 @@ class ForestDisplayTest : public testing::Test {
     rig.publishForest(forest::gridLayout(4, 9.0));
     display = rig.addDisplay();
     ASSERT_NE(display, nullptr) << "the plugin is not found or is another class";
-    rig.manager().getViewManager()->getCurrent()->lookAt(13.f, 13.f, 4.f);
+    rig.manager().getViewManager()->getCurrent()->sampleAt(13.f, 13.f, 4.f);
   }
   void TearDown() override {
     if (display != nullptr) rig.remove(display);
@@ -59,7 +59,7 @@ TEST_F(ForestDisplayTest, DrawsAForestWithGroundAndSky) {
   EXPECT_GT(seen.blue, 0.05);
   EXPECT_GT(seen.spread, 15.0);
   // Upwards: the sky has clouds and gets paler towards the horizon.
-  rig.lookAt(9.f, -0.5, 4.0);
+  rig.sampleAt(9.f, -0.5, 4.0);
   rig.frames(3);
   EXPECT_LT(rig.look().commonest, 0.1);
 }
@@ -86,8 +86,8 @@ TEST_F(ForestDisplayTest, TreesBehindTheEyeAreLeftOutAndDoNotPop) {
   display->subProp("Triangles")->setValue(1000);     // the coarsest, wherever one looks
   ASSERT_TRUE(drawn());
   // From within the box of all trees, at its corner.
-  rig.lookAt(2.f, 0.0, 0.1);
-  rig.manager().getViewManager()->getCurrent()->lookAt(30.f, 30.f, 2.f);
+  rig.sampleAt(2.f, 0.0, 0.1);
+  rig.manager().getViewManager()->getCurrent()->sampleAt(30.f, 30.f, 2.f);
   const auto turn = [&](double yaw) {
     rviz::ViewController& view = *rig.manager().getViewManager()->getCurrent();
     view.subProp("Distance")->setValue(0.1);
@@ -181,15 +181,15 @@ TEST_F(ForestDisplayTest, OtherTreesTakeTheirPlaceWithoutAGap) {
     return drawn.trees == 300 && sum == 300;
   };
   ASSERT_TRUE(rig.until([&] { return standing() && display->drawn().waiting == 0; }, LONG));
-  const int before = display->drawn().stocks;
+  const int before = display->drawn().tree_sets;
   rviz::ViewController& view = *rig.manager().getViewManager()->getCurrent();
-  view.lookAt(60.f, 60.f, 2.f);  // turns there; the eye goes by the distance
+  view.sampleAt(60.f, 60.f, 2.f);  // turns there; the eye goes by the distance
   view.subProp("Distance")->setValue(10.0);
   int bare = 0;
   EXPECT_TRUE(rig.until(
       [&] {
         bare += standing() ? 0 : 1;
-        return display->drawn().stocks > before && display->drawn().waiting == 0;
+        return display->drawn().tree_sets > before && display->drawn().waiting == 0;
       },
       LONG));
   EXPECT_EQ(bare, 0);
@@ -300,7 +300,7 @@ TEST_F(ForestDisplayTest, FollowsALayoutThatChanges) {
 
 TEST_F(ForestDisplayTest, TellsThatNoStateComes) {
   ASSERT_TRUE(drawn());
-  expectSilenceIsTold(rig, *display, [&] { rig.publishState(); });
+  expectSilenceIsReported(rig, *display, [&] { rig.publishState(); });
 }
 
 TEST_F(ForestDisplayTest, FollowsANodeThatDiesAndReturns) {
@@ -325,11 +325,11 @@ TEST_F(ForestDisplayTest, TellsLevelsOfMotionAndTheGovernorsChoice) {
            "0 trees at rest, moving to depth 1 to 6: 0 0 0 0 0 16; in modes: 0; with physical "
            "branches: 0";
   })) << statusOf(*display, "Motion");
-  const std::string told =
-      expectGovernorIsTold(rig, *display, "forest_animator", "Predicted frame time [ms]",
-                           "Frame time budget [ms]", "ms");
+  const std::string published =
+      expectAllocationIsReported(rig, *display, "forest_animator", "Predicted frame time [ms]",
+                                 "Frame time budget [ms]", "ms");
   // A node that has died is missed although its clock stands.
-  const std::string missed = "Not heard for 5 s; last: " + told;
+  const std::string missed = "Not heard for 5 s; last: " + published;
   EXPECT_TRUE(rig.until([&] { return statusOf(*display, "Governor") == missed; }))
       << statusOf(*display, "Governor");
 }

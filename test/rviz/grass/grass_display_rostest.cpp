@@ -37,7 +37,7 @@ class GrassDisplayTest : public testing::Test {
 
   void lookFrom(double pitch, double distance) {
     rviz::ViewController& view = *rig.manager().getViewManager()->getCurrent();
-    view.lookAt(0.f, 0.f, 0.3f);
+    view.sampleAt(0.f, 0.f, 0.3f);
     view.subProp("Pitch")->setValue(pitch);
     view.subProp("Yaw")->setValue(0.8);
     view.subProp("Distance")->setValue(distance);
@@ -209,7 +209,7 @@ TEST_F(GrassDisplayTest, FollowsALayoutThatChanges) {
 
 TEST_F(GrassDisplayTest, TellsThatNoStateComes) {
   ASSERT_TRUE(drawn());
-  expectSilenceIsTold(rig, *display, [&] { rig.publishState(); });
+  expectSilenceIsReported(rig, *display, [&] { rig.publishState(); });
 }
 
 TEST_F(GrassDisplayTest, FollowsANodeThatDiesAndReturns) {
@@ -227,7 +227,8 @@ TEST_F(GrassDisplayTest, FollowsANodeThatDiesAndReturns) {
 // N7
 TEST_F(GrassDisplayTest, TellsTheGovernorsChoice) {
   ASSERT_TRUE(drawn());
-  expectGovernorIsTold(rig, *display, "grass_field", "Cost [blades]", "Budget [blades]", "blades");
+  expectAllocationIsReported(rig, *display, "grass_field", "Cost [blades]", "Budget [blades]",
+                             "blades");
 }
 
 TEST_F(GrassDisplayTest, EveryPropertyCanBeChanged) {

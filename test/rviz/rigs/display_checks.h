@@ -91,24 +91,24 @@ inline std::string statusOf(rviz::Display& display, const char* name) {
 }
 
 /// A node that tells no state any more is missed until it does.
-inline void expectSilenceIsTold(ViewRig& rig, rviz::Display& display,
-                                const std::function<void()>& tell) {
+inline void expectSilenceIsReported(ViewRig& rig, rviz::Display& display,
+                                    const std::function<void()>& report) {
   const auto says = [&](const char* text) {
     return rig.until([&] { return statusOf(display, "State") == text; });
   };
-  tell();
+  report();
   EXPECT_TRUE(says("In step")) << statusOf(display, "State");
   rig.setTime(rig.now() + 4.0);
   EXPECT_TRUE(says("No message for 3 s: drawn as it was then")) << statusOf(display, "State");
-  tell();
+  report();
   EXPECT_TRUE(says("In step")) << statusOf(display, "State");
 }
 
 /// What the governor of a node chose is told.
 /// @param cost, budget keys of its diagnostics. @param unit of both. @return what is told.
-inline std::string expectGovernorIsTold(ViewRig& rig, rviz::Display& display,
-                                        const std::string& node, const char* cost,
-                                        const char* budget, const std::string& unit) {
+inline std::string expectAllocationIsReported(ViewRig& rig, rviz::Display& display,
+                                              const std::string& node, const char* cost,
+                                              const char* budget, const std::string& unit) {
   EXPECT_EQ(statusOf(display, "Governor"), "");
   diagnostic_msgs::DiagnosticArray message;
   message.status.resize(2);
@@ -126,13 +126,13 @@ inline std::string expectGovernorIsTold(ViewRig& rig, rviz::Display& display,
   }
   const ros::Publisher diagnostics =
       rig.nodeHandle().advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 1, true);
-  const std::string told = "it binds: 120 of 90 " + unit + ", errors up to 3 pixel of 2";
+  const std::string published = "it binds: 120 of 90 " + unit + ", errors up to 3 pixel of 2";
   EXPECT_TRUE(rig.until([&] {
     diagnostics.publish(message);
     rig.frames(1);
-    return statusOf(display, "Governor") == told;
+    return statusOf(display, "Governor") == published;
   })) << statusOf(display, "Governor");
-  return told;
+  return published;
 }
 
 /// Mean difference of two pictures, 0 to 255.
@@ -150,7 +150,7 @@ inline void expectStandsInAnyFixedFrame(ViewRig& rig, rviz::Display& display) {
   rviz::ViewController& view = *rig.manager().getViewManager()->getCurrent();
   const QVariant former = view.subProp("Target Frame")->getValue();
   view.subProp("Target Frame")->setValue("map");
-  rig.lookAt(1.5f, 0.4, 18.0);
+  rig.sampleAt(1.5f, 0.4, 18.0);
   std::vector<std::uint8_t> before = rig.picture();
   ASSERT_TRUE(rig.until([&] {  // all has come to rest
     rig.frames(10);

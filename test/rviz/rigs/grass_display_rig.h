@@ -78,7 +78,7 @@ class GrassRig : public ViewRig {
     update.sequence = ++sequence_;
     update.key_frame = true;
     update.layout_hash = hash_;
-    update.treads = tellAll(tread_->state(), update.stamp);
+    update.treads = snapshotTreads(tread_->state(), update.stamp);
     update.hash = hashOf(update.treads);
     GrassState message = toMsg(update);
     message.header.frame_id = "map";

@@ -19,8 +19,8 @@ float brightness(const Rgba& colour) {
   return (colour[0] + colour[1] + colour[2]) / 3.f;
 }
 
-TEST(Picture, BlendsByAlpha) {
-  Picture picture(2, 1, {0.f, 0.f, 0.f, 1.f});
+TEST(Image, BlendsByAlpha) {
+  Image picture(2, 1, {0.f, 0.f, 0.f, 1.f});
   picture.blend(0, 0, {1.f, 1.f, 1.f, 0.25f});
   picture.blend(5, -3, {1.f, 1.f, 1.f, 1.f});  // outside: nothing
   EXPECT_FLOAT_EQ(picture.at(0, 0)[0], 0.25f);
@@ -28,10 +28,10 @@ TEST(Picture, BlendsByAlpha) {
   EXPECT_EQ(picture.bytes(), (std::vector<std::uint8_t>{64, 64, 64, 255, 0, 0, 0, 255}));
 }
 
-TEST(Picture, MipmapsHalveDownToOnePixelAndKeepTheMean) {
-  Picture picture(8, 4, {});
+TEST(Image, MipmapsHalveDownToOnePixelAndKeepTheMean) {
+  Image picture(8, 4, {});
   for (std::size_t i = 0; i < picture.pixels.size(); ++i) picture.pixels[i][0] = i % 2 ? 1.f : 0.f;
-  const std::vector<Picture> levels = mipmaps(picture);
+  const std::vector<Image> levels = mipmaps(picture);
   EXPECT_EQ(levels.size(), 3u);
   EXPECT_EQ(levels.back().rows, 1);
   for (const Rgba& pixel : levels.back().pixels) EXPECT_FLOAT_EQ(pixel[0], 0.5f);
@@ -52,7 +52,7 @@ TEST(Noise, IsBoundedSmoothAndRepeats) {
 TEST(LeafPicture, ShapesAreCardsWithHolesAndDifferFromEachOther) {
   for (const bool bough : {false, true}) {
     for (int a = 0; a < 4; ++a) {
-      const Picture picture = leafPicture(static_cast<LeafShape>(a), bough, 64);
+      const Image picture = leafPicture(static_cast<LeafShape>(a), bough, 64);
       EXPECT_GT(coverage(picture), 0.15) << a;
       EXPECT_LT(coverage(picture), 0.8) << a;
       for (int b = 0; b < a; ++b)
@@ -62,9 +62,9 @@ TEST(LeafPicture, ShapesAreCardsWithHolesAndDifferFromEachOther) {
 }
 
 TEST(LeafAtlas, MipmapsKeepTheCoverage) {
-  const std::vector<Picture> levels = leafAtlas(128);
+  const std::vector<Image> levels = leafAtlas(128);
   ASSERT_EQ(levels.size(), 6u);
-  for (const Picture& level : levels) {
+  for (const Image& level : levels) {
     EXPECT_EQ(level.columns, 2 * level.rows);
     // One pixel of 32 x 16 is 0.2 %; ties in alpha may take a few.
     EXPECT_NEAR(coverage(level), coverage(levels.front()), 0.04) << level.columns;
@@ -76,7 +76,7 @@ struct Cut {
   double drawn{0.0}, held{0.0};
 };
 
-Cut cutOf(const Picture& atlas, int cell) {
+Cut cutOf(const Image& atlas, int cell) {
   constexpr int SAMPLES = 256;  // along the square
   const forest::LeafOutline& outline = forest::leafOutline(cell % 4, cell >= 4);
   const auto holds = [&](float x, float y) {
@@ -108,7 +108,7 @@ Cut cutOf(const Picture& atlas, int cell) {
 // What is drawn of a card is its outline: nearly all of the leaves are in it, and it is no whole
 // square. In the smallest pictures, of 4 x 4 and 2 x 2 pixels, those at the border count for much.
 TEST(LeafAtlas, OutlinesHoldThePictures) {
-  const std::vector<Picture> levels = leafAtlas(128);
+  const std::vector<Image> levels = leafAtlas(128);
   ASSERT_EQ(levels.size(), 6u);
   for (std::size_t level = 0; level < levels.size(); ++level) {
     for (int cell = 0; cell < 8; ++cell) {
@@ -131,7 +131,7 @@ TEST(LeafAtlas, EachShapeHasItsCell) {
 }
 
 TEST(BarkPicture, BirchIsPaleWithDarkLenticels) {
-  const Picture birch = barkPicture(LeafShape::SMALL, 64);
+  const Image birch = barkPicture(LeafShape::SMALL, 64);
   int pale = 0, dark = 0;
   for (const Rgba& pixel : birch.pixels) {
     pale += pixel[0] > 0.8f ? 1 : 0;
@@ -143,7 +143,7 @@ TEST(BarkPicture, BirchIsPaleWithDarkLenticels) {
 
 TEST(BarkPicture, ClosesAroundTheTrunk) {
   for (const LeafShape shape : {LeafShape::BROAD, LeafShape::NEEDLE, LeafShape::LONG}) {
-    const Picture picture = barkPicture(shape, 128);
+    const Image picture = barkPicture(shape, 128);
     double step = 0.0;
     for (int r = 0; r < picture.rows; ++r)
       step +=
@@ -154,7 +154,7 @@ TEST(BarkPicture, ClosesAroundTheTrunk) {
 
 // It goes on above as it ends below, without a renderer that mirrors.
 TEST(BarkAtlas, RepeatsAlongTheWood) {
-  const Picture atlas = barkAtlas(64);
+  const Image atlas = barkAtlas(64);
   ASSERT_EQ(atlas.rows, 128);
   const auto stepTo = [&](int row, int next) {
     double sum = 0.0;
@@ -168,7 +168,7 @@ TEST(BarkAtlas, RepeatsAlongTheWood) {
 }
 
 /// Mean lightness of a square of pixels, which goes on at the other side.
-double meanOf(const Picture& picture, int column, int row, int edge) {
+double meanOf(const Image& picture, int column, int row, int edge) {
   double sum = 0.0;
   for (int r = row; r < row + edge; ++r)
     for (int c = column; c < column + edge; ++c)
@@ -180,7 +180,7 @@ double meanOf(const Picture& picture, int column, int row, int edge) {
 // Across its border, either way, grain changes no more than elsewhere.
 TEST(GrainPicture, RepeatsWithoutASeam) {
   constexpr int EDGE = 256, BLOCK = 8;
-  const Picture grain = grainPicture(EDGE);
+  const Image grain = grainPicture(EDGE);
   const auto stepAt = [&](int at, bool down) {
     double sum = 0.0;
     for (int i = 0; i < EDGE; i += BLOCK) {
@@ -200,7 +200,7 @@ TEST(GrainPicture, RepeatsWithoutASeam) {
 
 TEST(SkyPicture, IsHazyBelowBlueAboveAndBrightAroundTheSun) {
   const Daylight light = daylightOf(1.5707963, 0.7);
-  const Picture sky = skyPicture(light, SkyShapes(128, 64));
+  const Image sky = skyPicture(light, SkyShapes(128, 64));
   double zenith = 0.0, horizon = 0.0;
   for (int c = 0; c < sky.columns; ++c) {
     zenith += static_cast<double>(sky.at(c, 0)[2] - sky.at(c, 0)[0]) / sky.columns;

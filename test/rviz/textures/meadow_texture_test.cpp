@@ -29,7 +29,7 @@ TEST(MeadowPainter, PaintsSoilAndGrass) {
   const terrain::HeightMap flat;
   const Daylight light;
   const MeadowPainter painter(map, flat, light, {1.f, 1.f, 1.f, 1.f});
-  const Picture picture = painter.whole();
+  const Image picture = painter.whole();
   ASSERT_EQ(picture.columns, 10 * painter.pixelsPerTile());
   const int middle = picture.rows / 2;
   const Rgba soil = picture.at(picture.columns * 3 / 10, middle);
@@ -46,7 +46,7 @@ TEST(MeadowPainter, PaintsTracksInTiles) {
   const terrain::HeightMap flat;
   const Daylight light;
   const MeadowPainter painter(map, flat, light, {1.f, 1.f, 1.f, 1.f});
-  const Picture whole = painter.whole(), plain = painter.tile(8, 4, nullptr);
+  const Image whole = painter.whole(), plain = painter.tile(8, 4, nullptr);
   for (int r = 0; r < plain.rows; ++r)
     for (int c = 0; c < plain.columns; ++c)
       for (std::size_t k = 0; k < 4; ++k)
@@ -57,7 +57,7 @@ TEST(MeadowPainter, PaintsTracksInTiles) {
   patch.tx.assign(25, 0.f);
   patch.ty.assign(25, 0.f);
   for (std::size_t i = 10; i < 15; ++i) patch.tilt[i] = patch.tx[i] = 1.5f;  // west to east
-  const Picture trodden = painter.tile(8, 4, &patch);
+  const Image trodden = painter.tile(8, 4, &patch);
   const int row = trodden.rows / 2, column = trodden.columns / 2;
   EXPECT_GT(std::fabs(lightness(trodden.at(column, row)) / lightness(plain.at(column, row)) - 1.f),
             0.1f);
@@ -80,9 +80,9 @@ TEST(MeadowPainter, KnowsWhatItCanPaint) {
 
 // S2-10, S2-11: smaller versions of the strips' picture show the same share for each density.
 TEST(StripPictures, KeepTheirSharesWithDistance) {
-  const std::vector<Picture> pictures = stripPictures(256, 64, 60);
+  const std::vector<Image> pictures = stripPictures(256, 64, 60);
   ASSERT_EQ(pictures.back().columns, 1);
-  const auto share = [](const Picture& picture, float density) {
+  const auto share = [](const Image& picture, float density) {
     double shown = 0.0;
     for (const Rgba& pixel : picture.pixels) shown += pixel[3] > 1.f - density ? 1.0 : 0.0;
     return shown / static_cast<double>(picture.pixels.size());
@@ -95,7 +95,7 @@ TEST(StripPictures, KeepTheirSharesWithDistance) {
 
 // Roots are in the first row, where the texture's v is 0.
 TEST(StripPictures, StandOnTheirRoots) {
-  const Picture picture = stripPictures(256, 64, 60).front();
+  const Image picture = stripPictures(256, 64, 60).front();
   int first = 0, last = 0;
   for (int c = 0; c < picture.columns; ++c) {
     first += picture.at(c, 0)[3] > 0.f;
@@ -107,7 +107,7 @@ TEST(StripPictures, StandOnTheirRoots) {
 
 // S2-W3: as many dots as the density asks for.
 TEST(LayerPictures, ShowMoreDotsWhereItIsDenser) {
-  const Picture picture = layerPictures(64).front();
+  const Image picture = layerPictures(64).front();
   int few = 0, many = 0;
   for (const Rgba& pixel : picture.pixels) {
     few += pixel[3] > 0.8f;

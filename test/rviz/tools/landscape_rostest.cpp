@@ -40,7 +40,7 @@ class LandscapeTest : public testing::Test {
   static void SetUpTestSuite() { shared_rig = std::make_unique<ViewRig>(); }
   static void TearDownTestSuite() { shared_rig.reset(); }
 
-  void SetUp() override { rig.lookAt(2.f, 0.3, 18.0); }
+  void SetUp() override { rig.sampleAt(2.f, 0.3, 18.0); }
 
   Landscape add() {
     Landscape out;
@@ -65,11 +65,11 @@ class LandscapeTest : public testing::Test {
 
 /// Who gives a thing that a scene has but once, as a display says it; "" if that is itself.
 std::string giverOf(rviz::Display& display, const std::string& thing) {
-  const std::string told = statusOf(display, "Scenery"), sought = thing + " by ";
-  const std::size_t at = told.find(sought);
-  if (at == told.npos) return {};
+  const std::string published = statusOf(display, "Scenery"), sought = thing + " by ";
+  const std::size_t at = published.find(sought);
+  if (at == published.npos) return {};
   const std::size_t from = at + sought.size();
-  return told.substr(from, told.find(',', from) - from);
+  return published.substr(from, published.find(',', from) - from);
 }
 
 /// Materials with shaders take their other technique, as where a renderer has none; or again not.

@@ -12,17 +12,17 @@ namespace {
 using forest::PhysicsRig;
 
 /// A forest with a branch that is pulled, and who hears of it and draws it.
-struct Watcher {
+struct RegisteredViewer {
   PhysicsRig rig;
   forest::ForestReplica replica;
   int branch{0};
 
-  Watcher() {
+  RegisteredViewer() {
     rig.forest.setWind(forest::steadyWind(Vec3(1, 0, 0)));
     rig.run(0.5);
     branch = rig.branchOfDepth(1);
     replica.setLayout(rig.forest.layout(), forest::flatTerrain());
-    replica.setWind(rig.forest.memory().wind);
+    replica.setWind(rig.forest.snapshot().wind);
     hear(true);
   }
   void hear(bool key_frame) { ASSERT_TRUE(replica.apply(rig.forest.update(key_frame))); }
@@ -30,7 +30,7 @@ struct Watcher {
     rig.run(duration, [&] { hear(false); });
   }
   bool move(DrawnTree& tree) {
-    const wind::Instant wind = rig.forest.memory().wind.at(rig.now());
+    const wind::Instant wind = rig.forest.snapshot().wind.at(rig.now());
     return tree.move(replica, rig.now(), wind, TreeLook(), 1.0);
   }
   /// Distance from the branch's tip, where the forest has it, to the nearest vertex of bark.
@@ -46,27 +46,27 @@ struct Watcher {
 
 // S1-35: what is drawn is where physics has it, not where the wind alone would.
 TEST(DrawnTree, PhysicalBranchesAreDrawnWhereTheForestHasThem) {
-  Watcher watcher;
-  DrawnTree tree(watcher.replica, 0, Vec3::Zero());
+  RegisteredViewer viewer;
+  DrawnTree tree(viewer.replica, 0, Vec3::Zero());
   tree.setLevel(forest::GEOMETRY_LEVELS - 1,
                 forest::LightGrid(Vec3(-9, -9, -1), Vec3(9, 9, 12), 1.0), TreeLook());
-  ASSERT_TRUE(watcher.move(tree));
-  const double radius = watcher.rig.branches()[watcher.branch].tip_radius;
-  EXPECT_LT(watcher.distanceAtTip(tree), 1.5 * radius);
-  const Vec3 calm = watcher.rig.tip(watcher.branch);
-  forest::Grab grab = watcher.rig.grabOf(watcher.branch);
+  ASSERT_TRUE(viewer.move(tree));
+  const double radius = viewer.rig.branches()[viewer.branch].tip_radius;
+  EXPECT_LT(viewer.distanceAtTip(tree), 1.5 * radius);
+  const Vec3 calm = viewer.rig.tip(viewer.branch);
+  forest::Grab grab = viewer.rig.grabOf(viewer.branch);
   grab.target += Vec3(0.0, 0.5, -0.2);
-  const std::uint32_t id = watcher.rig.forest.addGrab(grab);
-  watcher.run(1.0);
-  ASSERT_GT(length(watcher.rig.tip(watcher.branch) - calm), 5.0 * radius);
-  EXPECT_GT(watcher.distanceAtTip(tree), 1.5 * radius);  // it has not moved yet
-  ASSERT_TRUE(watcher.move(tree));
-  EXPECT_LT(watcher.distanceAtTip(tree), 1.5 * radius);
-  watcher.rig.forest.release(id);
-  watcher.run(10.0);
-  ASSERT_TRUE(watcher.replica.promoted(0).branches.empty());
-  ASSERT_TRUE(watcher.move(tree));
-  EXPECT_LT(watcher.distanceAtTip(tree), 1.5 * radius);
+  const std::uint32_t id = viewer.rig.forest.addGrab(grab);
+  viewer.run(1.0);
+  ASSERT_GT(length(viewer.rig.tip(viewer.branch) - calm), 5.0 * radius);
+  EXPECT_GT(viewer.distanceAtTip(tree), 1.5 * radius);  // it has not moved yet
+  ASSERT_TRUE(viewer.move(tree));
+  EXPECT_LT(viewer.distanceAtTip(tree), 1.5 * radius);
+  viewer.rig.forest.release(id);
+  viewer.run(10.0);
+  ASSERT_TRUE(viewer.replica.promoted(0).branches.empty());
+  ASSERT_TRUE(viewer.move(tree));
+  EXPECT_LT(viewer.distanceAtTip(tree), 1.5 * radius);
 }
 
 }  // namespace

@@ -40,8 +40,8 @@ ForestReplica replicaOf(const Layout& layout) {
   return out;
 }
 
-TreeStock grown(const ForestReplica& replica, std::vector<std::uint32_t> ids, bool leaves = true) {
-  TreeStock out(replica, std::move(ids));
+TreeSet grown(const ForestReplica& replica, std::vector<std::uint32_t> ids, bool leaves = true) {
+  TreeSet out(replica, std::move(ids));
   while (!out.grow(replica, FROM_SOUTH_WEST, leaves, 1.0)) continue;
   return out;
 }
@@ -120,17 +120,17 @@ TEST(View, SeesWhatIsInItsCone) {
   EXPECT_TRUE(view.sees(Vec3(10, 9, 0), 6.0));  // its edge
 }
 
-TEST(TreeStock, GrowsInStepsAndEndsWithLight) {
+TEST(TreeSet, GrowsInStepsAndEndsWithLight) {
   const ForestReplica replica = replicaOf(forest::gridLayout(4, 8.0));
-  TreeStock stock(replica, nearestTrees(replica.layout(), Vec3::Zero(), 100));
-  EXPECT_FALSE(stock.ready());
+  TreeSet tree_set(replica, nearestTrees(replica.layout(), Vec3::Zero(), 100));
+  EXPECT_FALSE(tree_set.ready());
   int steps = 0;
-  while (!stock.grow(replica, FROM_SOUTH_WEST, true, 1e-9)) ++steps;
+  while (!tree_set.grow(replica, FROM_SOUTH_WEST, true, 1e-9)) ++steps;
   EXPECT_EQ(steps, 16);  // one tree each, then the light
-  EXPECT_TRUE(stock.ready());
+  EXPECT_TRUE(tree_set.ready());
   const Vec3 under(8.5, 8.5, 1.0), outside(-15.0, -15.0, 0.5);
-  EXPECT_LT(stock.light().sky(under), 0.8);
-  EXPECT_GT(stock.light().sky(outside), stock.light().sky(under));
+  EXPECT_LT(tree_set.light().sky(under), 0.8);
+  EXPECT_GT(tree_set.light().sky(outside), tree_set.light().sky(under));
 }
 
 // The fast float path of the display against the double one of the core.
@@ -141,9 +141,9 @@ TEST(DrawnTree, StandsAsTheReplicaSays) {
   update.base = forest::LevelState::settled(forest::MAX_DEPTHS);
   update.layout_hash = replica.layoutHash();
   ASSERT_TRUE(replica.apply(update));
-  const TreeStock stock = grown(replica, {0, 1, 2, 3});
-  DrawnTree& tree = *stock.trees()[2];
-  tree.setLevel(forest::GEOMETRY_LEVELS - 1, stock.light(), TreeLook());
+  const TreeSet tree_set = grown(replica, {0, 1, 2, 3});
+  DrawnTree& tree = *tree_set.trees()[2];
+  tree.setLevel(forest::GEOMETRY_LEVELS - 1, tree_set.light(), TreeLook());
   const Nanoseconds stamp = fromSeconds(3.3);
   TreeLook still;
   still.flutter = false;
@@ -159,16 +159,16 @@ TEST(DrawnTree, StandsAsTheReplicaSays) {
                           rotate(pose.orientation, Vec3(v.local[0], v.local[1], v.local[2]));
     const float* at = &tree.shapes().front().bark.positions[3 * i];
     // 1e-5 of the tree's height, and single precision at some ten metres.
-    ASSERT_LT(length(stock.origin() + Vec3(at[0], at[1], at[2]) - expected), 2e-4);
+    ASSERT_LT(length(tree_set.origin() + Vec3(at[0], at[1], at[2]) - expected), 2e-4);
   }
 }
 
 TEST(DrawnTree, RestsWhereNothingMovesIt) {
   ForestReplica replica = replicaOf(forest::gridLayout(1, 12.0));
-  const TreeStock stock = grown(replica, {0});
-  DrawnTree& tree = *stock.trees()[0];
+  const TreeSet tree_set = grown(replica, {0});
+  DrawnTree& tree = *tree_set.trees()[0];
   EXPECT_FALSE(tree.move(replica, 1, wind::Instant(), TreeLook(), 100.0));  // no mesh yet
-  tree.setLevel(2, stock.light(), TreeLook());
+  tree.setLevel(2, tree_set.light(), TreeLook());
   EXPECT_TRUE(tree.move(replica, 1, wind::Instant(), TreeLook(), 100.0));
   EXPECT_FALSE(tree.move(replica, 2, wind::Instant(), TreeLook(), 100.0));
 }
@@ -178,11 +178,11 @@ TEST(DrawnTree, IsPaintedByLevel) {
   Layout layout = forest::gridLayout(1, 12.0);
   layout.motion.transition = 2.0;
   ForestReplica replica = replicaOf(layout);
-  const TreeStock stock = grown(replica, {0});
-  DrawnTree& tree = *stock.trees()[0];
+  const TreeSet tree_set = grown(replica, {0});
+  DrawnTree& tree = *tree_set.trees()[0];
   TreeLook look;
   look.colour_by_level = true;
-  tree.setLevel(forest::GEOMETRY_LEVELS - 1, stock.light(), look);
+  tree.setLevel(forest::GEOMETRY_LEVELS - 1, tree_set.light(), look);
   forest::StateUpdate update;
   update.layout_hash = replica.layoutHash();
   forest::StateUpdate::Entry entry;
@@ -209,11 +209,12 @@ TEST(DrawnTree, IsPaintedByLevel) {
 
 TEST(GroundPicture, IsDarkerUnderTreesAndInTheirShadow) {
   const ForestReplica replica = replicaOf(forest::gridLayout(1, 12.0));
-  const TreeStock stock = grown(replica, {0});
-  const Plot plot = plotAround(stock.extent());
+  const TreeSet tree_set = grown(replica, {0});
+  const Plot plot = plotAround(tree_set.extent());
   constexpr int EDGE = 128;
   const Daylight light = daylightOf(-2.356194, 0.75);  // from the south-west
-  const std::vector<float> shadows = shadowsOn(plot, EDGE, stock, replica.terrain(), light.to_sun);
+  const std::vector<float> shadows =
+      shadowsOn(plot, EDGE, tree_set, replica.terrain(), light.to_sun);
   const auto shadowAt = [&](double x, double y) {
     const int c = static_cast<int>((x - plot.x) / plot.edge * EDGE);
     const int r = static_cast<int>((y - plot.y) / plot.edge * EDGE);
@@ -221,8 +222,8 @@ TEST(GroundPicture, IsDarkerUnderTreesAndInTheirShadow) {
   };
   EXPECT_LT(shadowAt(5.5, 5.5), 0.6f);  // the crown's, to the north-east
   EXPECT_GT(shadowAt(-6.0, -6.0), 0.95f);
-  const Picture picture =
-      groundPicture(plot, EDGE, stock, replica.terrain(), light, {1.f, 1.f, 1.f, 1.f});
+  const Image picture =
+      groundPicture(plot, EDGE, tree_set, replica.terrain(), light, {1.f, 1.f, 1.f, 1.f});
   const auto greenAt = [&](double x, double y) {
     const int c = static_cast<int>((x - plot.x) / plot.edge * EDGE);
     const int r = EDGE - 1 - static_cast<int>((y - plot.y) / plot.edge * EDGE);
@@ -234,10 +235,10 @@ TEST(GroundPicture, IsDarkerUnderTreesAndInTheirShadow) {
 TEST(GroundPicture, BareTreesThrowThinShadows) {
   const ForestReplica replica = replicaOf(forest::gridLayout(1, 12.0));
   const auto lit = [&](bool leaves) {
-    const TreeStock stock = grown(replica, {0}, leaves);
+    const TreeSet tree_set = grown(replica, {0}, leaves);
     double sum = 0.0;
     for (const float part :
-         shadowsOn(plotAround(stock.extent()), 64, stock, replica.terrain(), FROM_SOUTH_WEST))
+         shadowsOn(plotAround(tree_set.extent()), 64, tree_set, replica.terrain(), FROM_SOUTH_WEST))
       sum += static_cast<double>(part) / (64 * 64);
     return sum;
   };
@@ -245,7 +246,7 @@ TEST(GroundPicture, BareTreesThrowThinShadows) {
 }
 
 TEST(GrainPicture, HasAMeanOfOneHalf) {
-  const Picture grain = grainPicture(128);
+  const Image grain = grainPicture(128);
   double sum = 0.0;
   for (const Rgba& pixel : grain.pixels) sum += static_cast<double>(pixel[0]) / (128 * 128);
   EXPECT_NEAR(sum, 0.5, 1e-4);

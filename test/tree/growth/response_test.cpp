@@ -116,19 +116,20 @@ double tipTravel(JointModel model, double phi, double azimuth) {
 // of the in-plane travel and not at all where a branch goes on straight; `swing` is isotropic.
 TEST(Response, SwingIsIsotropicWherePaperIsDegenerate) {
   for (const double phi : {0.0, 10.0 * PI / 180.0}) {
-    double swing_low = 1e9, swing_high = 0.0, paper_low = 1e9, paper_high = 0.0;
+    double bending_low = 1e9, bending_high = 0.0, paper_low = 1e9, paper_high = 0.0;
     for (int i = 0; i < 36; ++i) {
       const double azimuth = 2.0 * PI * i / 36.0;
       const double swing = tipTravel(JointModel::SWING, phi, azimuth);
       const double paper = tipTravel(JointModel::PAPER, phi, azimuth);
-      swing_low = std::min(swing_low, swing);
-      swing_high = std::max(swing_high, swing);
+      bending_low = std::min(bending_low, swing);
+      bending_high = std::max(bending_high, swing);
       paper_low = std::min(paper_low, paper);
       paper_high = std::max(paper_high, paper);
     }
     const double s = std::sin(phi);
     EXPECT_NEAR(paper_low / paper_high, s * s / std::cos(phi), 0.002) << phi;
-    EXPECT_GT(swing_low / swing_high, std::cos(phi) - 0.01) << phi;  // cos: the wind's own slant
+    EXPECT_GT(bending_low / bending_high, std::cos(phi) - 0.01)
+        << phi;  // cos: the wind's own slant
   }
 }
 

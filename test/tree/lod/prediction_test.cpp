@@ -26,8 +26,8 @@ Layout strangers(std::uint64_t seed, int count, double spacing) {
   return out;
 }
 
-Eye eyeBefore(double distance) {
-  Eye out;
+Viewpoint eyeBefore(double distance) {
+  Viewpoint out;
   out.position = Vec3(0.0, -distance, 3.0);
   out.forward = Vec3::UnitY();
   out.cone_cosine = 0.2;
@@ -39,14 +39,14 @@ double shareWithinTwo(const Prediction::Looks& looks) {
   double within = 0.0;
   for (const auto& [tree, each] : looks) {
     const double ratio = Prediction::ratioOf(each);
-    std::printf("tree %u on rung %d: predicted over measured %.2f\n", tree, each.back().rung,
+    std::printf("tree %u on rung %d: predicted over measured %.2f\n", tree, each.back().tier,
                 ratio);
     within += ratio > 0.5 && ratio < 2.0;
   }
   return within / static_cast<double>(looks.size());
 }
 
-// N7: what the governor foretells of the rungs that it chose, procedural or modal, is what the full
+// N7: what the governor foretells of the tiers that it chose, procedural or modal, is what the full
 // chain shows within a factor of two, for nine trees in ten, in breeze, swaying disc and gust
 // together; of trees and a wind that nothing was measured on or fitted to.
 TEST(Prediction, OfChosenRungsIsWhatTheFullChainShows) {
@@ -104,7 +104,7 @@ TEST(Prediction, KnowsThatGustsBendWhatSwings) {
   Prediction scene(layout, flatTerrain(), wind::Field({breeze, gust}, 5), eyeBefore(13.0), START);
   const Prediction::Looks looks = scene.look(10);
   ASSERT_EQ(looks.size(), 1u);
-  EXPECT_EQ(looks.at(0).back().rung, FINE_RUNG);
+  EXPECT_EQ(looks.at(0).back().tier, FINE_MODAL_TIER);
   EXPECT_EQ(shareWithinTwo(looks), 1.0);
 }
 

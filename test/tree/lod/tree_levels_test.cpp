@@ -16,14 +16,14 @@ namespace {
 
 constexpr Nanoseconds START = 1700000000LL * NANOSECONDS_PER_SECOND;
 
-// Its rungs leave 8, 4, 2 ... times `scale` pixels.
+// Its tiers leave 8, 4, 2 ... times `scale` pixels.
 Plant inModes(double scale, int held) {
   Plant out;
-  out.stair = 3;
+  out.stepwise = 3;
   out.wanted = MODAL_LEVEL;
   out.held = held;
-  for (std::size_t rung = 0; rung < RUNGS; ++rung)
-    out.error[rung] = static_cast<float>(scale * 8.0 / static_cast<double>(1 << rung));
+  for (std::size_t tier = 0; tier < TIERS; ++tier)
+    out.error[tier] = static_cast<float>(scale * 8.0 / static_cast<double>(1 << tier));
   return out;
 }
 
@@ -44,14 +44,16 @@ TEST(Governor, FineModesGoToWhomBytesAreLeftFor) {
   constexpr int PLAIN = 48 + 16 * 22, FINE = 48 + 16 * 62;
   const auto wanted = [](int bytes) {
     std::vector<Plant> plants{inModes(3.0, 3), inModes(2.0, 3), inModes(1.0, 3)};
-    for (Plant& plant : plants) plant.wanted = FINE_RUNG, plant.above = MODAL_LEVEL;
-    plants[2].above = FINE_RUNG;
+    for (Plant& plant : plants) plant.wanted = FINE_MODAL_TIER, plant.above = MODAL_LEVEL;
+    plants[2].above = FINE_MODAL_TIER;
     shareModes(plants, 64, bytes);
     return std::vector<int>{plants[0].wanted, plants[1].wanted, plants[2].wanted};
   };
-  EXPECT_EQ(wanted(3 * FINE), (std::vector<int>{FINE_RUNG, FINE_RUNG, FINE_RUNG}));
-  EXPECT_EQ(wanted(2 * FINE + PLAIN), (std::vector<int>{FINE_RUNG, MODAL_LEVEL, FINE_RUNG}));
-  EXPECT_EQ(wanted(FINE + PLAIN), (std::vector<int>{FINE_RUNG, MODAL_LEVEL, 3}));
+  EXPECT_EQ(wanted(3 * FINE),
+            (std::vector<int>{FINE_MODAL_TIER, FINE_MODAL_TIER, FINE_MODAL_TIER}));
+  EXPECT_EQ(wanted(2 * FINE + PLAIN),
+            (std::vector<int>{FINE_MODAL_TIER, MODAL_LEVEL, FINE_MODAL_TIER}));
+  EXPECT_EQ(wanted(FINE + PLAIN), (std::vector<int>{FINE_MODAL_TIER, MODAL_LEVEL, 3}));
   EXPECT_EQ(wanted(FINE + PLAIN - 1), (std::vector<int>{MODAL_LEVEL, MODAL_LEVEL, 3}));
   EXPECT_EQ(wanted(PLAIN), (std::vector<int>{MODAL_LEVEL, 3, 3}));
   EXPECT_EQ(wanted(PLAIN - 1), (std::vector<int>{3, 3, 3}));
@@ -84,7 +86,7 @@ struct Park {
 };
 
 // N7: more trees, the same cost: it stays within a tenth of the budget, errors grow no more than
-// they must, and in steady wind no rung changes more than once a second.
+// they must, and in steady wind no tier changes more than once a second.
 TEST(Governor, CostStaysOnTheBudgetFromFewTreesToThousands) {
   constexpr double BUDGET = 0.1;  // less than 16 trees ask for
   double last = 0.0;
@@ -113,10 +115,10 @@ TEST(Governor, CostStaysOnTheBudgetFromFewTreesToThousands) {
 }
 
 // N7: where the budget allows it the tolerance is held, except by trees so near that even their
-// finest rung shows; and a larger one costs less.
+// finest tier shows; and a larger one costs less.
 TEST(Governor, ToleranceIsHeldWhereTheBudgetAllowsIt) {
   Park park(8, 1000.0);
-  Settings settings = park.forest.memory().settings;
+  Settings settings = park.forest.snapshot().settings;
   settings.budget.modal_trees = 64;
   settings.tolerance = 1.0;
   park.forest.setSettings(settings);
@@ -125,7 +127,7 @@ TEST(Governor, ToleranceIsHeldWhereTheBudgetAllowsIt) {
   EXPECT_EQ(park.forest.governor().held_back, 0u);
   for (const Plant& plant : park.forest.plants()) {
     const double error = plant.error[static_cast<std::size_t>(plant.chosen)];
-    EXPECT_TRUE(error <= settings.tolerance || plant.chosen == FINE_RUNG) << plant.id;
+    EXPECT_TRUE(error <= settings.tolerance || plant.chosen == FINE_MODAL_TIER) << plant.id;
   }
   settings.tolerance = 6.0;
   park.forest.setSettings(settings);
@@ -139,7 +141,7 @@ TEST(Governor, ToleranceIsHeldWhereTheBudgetAllowsIt) {
   EXPECT_EQ(park.forest.governor().over, 0u);
 }
 
-// N13: a worse rung is never taken over a better one, in no storm, though it costs more.
+// N13: a worse tier is never taken over a better one, in no storm, though it costs more.
 TEST(Governor, ModesAreNeverPredictedWorseThanWhatTheyReplace) {
   for (const double speed : {2.0, 5.0, 15.0, 40.0, 90.0}) {
     Park park(4, 1000.0);
@@ -150,8 +152,8 @@ TEST(Governor, ModesAreNeverPredictedWorseThanWhatTheyReplace) {
       if (plant.chosen < MODAL_LEVEL) continue;
       ++modal;
       const float chosen = plant.error[static_cast<std::size_t>(plant.chosen)];
-      for (int rung = 0; rung < plant.chosen; ++rung)
-        EXPECT_LE(chosen, plant.error[static_cast<std::size_t>(rung)]) << speed;
+      for (int tier = 0; tier < plant.chosen; ++tier)
+        EXPECT_LE(chosen, plant.error[static_cast<std::size_t>(tier)]) << speed;
     }
     EXPECT_GT(modal, 0u) << speed;
   }
@@ -160,7 +162,7 @@ TEST(Governor, ModesAreNeverPredictedWorseThanWhatTheyReplace) {
 // N7: a robot near by is told of trees in metres, whoever looks.
 TEST(Governor, ARobotNearByWantsItsTreesExact) {
   Park park(4, 8.0);
-  Settings settings = park.forest.memory().settings;
+  Settings settings = park.forest.snapshot().settings;
   settings.fixed_level = 1;
   park.forest.setSettings(settings);
   Body robot;
@@ -169,17 +171,17 @@ TEST(Governor, ARobotNearByWantsItsTreesExact) {
   robot.stamp = park.grid.timeOf(park.tick);
   park.forest.setBody(robot);
   park.forest.advance(park.grid.timeOf(park.tick++));
-  EXPECT_GT(park.forest.memory().levels.of(0).level, 1);   // beside the arm
-  EXPECT_EQ(park.forest.memory().levels.of(15).level, 1);  // far off
+  EXPECT_GT(park.forest.snapshot().levels.of(0).level, 1);   // beside the arm
+  EXPECT_EQ(park.forest.snapshot().levels.of(15).level, 1);  // far off
 }
 
 // Farthest that any tip of a tree is from where it would be with all depths [pixel].
 double measuredError(const Tree& tree, std::uint32_t id, const Forest& forest, const Camera& camera,
                      Nanoseconds stamp) {
-  const auto air = forest.memory().wind.at(stamp).relativeTo(tree.foot);
+  const auto air = forest.snapshot().wind.at(stamp).relativeTo(tree.foot);
   const auto full = poseBranches(tree, air, fullWeights());
   const auto cut = poseBranches(
-      tree, air, weightsAt(forest.memory().levels.of(id), stamp, forest.layout().motion));
+      tree, air, weightsAt(forest.snapshot().levels.of(id), stamp, forest.layout().motion));
   double out = 0.0;
   for (std::size_t b = 0; b < full.size(); ++b) {
     const Vec3 right = tipOf(tree.skeleton.branches[b], full[b]);
@@ -201,7 +203,7 @@ wind::Field oneWind() {
 // ten; and the tolerance is held. Trees that leave nothing out have no error to speak of.
 TEST(Governor, PredictedErrorsAreTheMeasuredOnes) {
   const double spacing = 9.0, extent = 12 * spacing;
-  const Grove grove = growGrove(gridLayout(12, spacing));
+  const TreeBatch grove = growTrees(gridLayout(12, spacing));
   const TickGrid grid(30);
   const std::int64_t start = grid.tickAt(START);
   double within = 0.0, held = 0.0, all = 0.0;
@@ -238,15 +240,16 @@ TEST(Governor, PredictedErrorsAreTheMeasuredOnes) {
 }
 
 // Farthest that any tip is from where its modes have it, without lag [pixel].
-double measuredLag(const Tree& tree, std::uint32_t id, const Forest& forest, const Eye& eye) {
-  const Nanoseconds stamp = forest.memory().stamp;
-  const auto air = forest.memory().wind.at(stamp).relativeTo(tree.foot);
+double measuredError(const Tree& tree, std::uint32_t id, const Forest& forest,
+                     const Viewpoint& eye) {
+  const Nanoseconds stamp = forest.snapshot().stamp;
+  const auto air = forest.snapshot().wind.at(stamp).relativeTo(tree.foot);
   const auto& branches = tree.skeleton.branches;
   const auto still = forwardKinematics(tree, proceduralAngles(tree, air, fullWeights()));
-  const auto sways = forest.pose(tree, id, stamp);
+  const auto modal_states = forest.pose(tree, id, stamp);
   double out = 0.0;
-  for (std::size_t b = 0; b < sways.size(); ++b) {
-    const Vec3 right = tipOf(branches[b], sways[b]);
+  for (std::size_t b = 0; b < modal_states.size(); ++b) {
+    const Vec3 right = tipOf(branches[b], modal_states[b]);
     const double distance = length(tree.foot + right - eye.position);
     out =
         std::max(out, length(right - tipOf(branches[b], still[b])) * pixelsPerMetre(eye, distance));
@@ -257,7 +260,7 @@ double measuredLag(const Tree& tree, std::uint32_t id, const Forest& forest, con
 // N7: so is the lag of trees that follow the wind at once, tree by tree.
 TEST(Governor, PredictedLagIsTheMeasuredOne) {
   Park park(4, 1000.0);
-  Settings settings = park.forest.memory().settings;
+  Settings settings = park.forest.snapshot().settings;
   settings.budget.modal_trees = 16;
   settings.tolerance = 0.02;  // so that all have modes
   park.forest.setSettings(settings);
@@ -270,9 +273,9 @@ TEST(Governor, PredictedLagIsTheMeasuredOne) {
     for (const Plant& plant : park.forest.plants()) {
       ASSERT_GE(plant.chosen, MODAL_LEVEL);
       const Tree tree = growTree(park.forest.layout(), plant.id, park.forest.terrain());
-      predicted[plant.id] = plant.error[static_cast<std::size_t>(plant.stair)];
+      predicted[plant.id] = plant.error[static_cast<std::size_t>(plant.stepwise)];
       measured[plant.id] =
-          std::max(measured[plant.id], measuredLag(tree, plant.id, park.forest, park.eye.eye));
+          std::max(measured[plant.id], measuredError(tree, plant.id, park.forest, park.eye.eye));
     }
   }
   ASSERT_EQ(measured.size(), 16u);

@@ -12,12 +12,12 @@ namespace {
 
 // N7, N13: a tree whose modes leave too much goes on in fine ones. Nothing jumps, and a replica
 // that was told poses it to the bit.
-TEST(Sway, GoesOnInFineModesWithoutAJump) {
+TEST(ModalTreeState, GoesOnInFineModesWithoutAJump) {
   Clearing probe;
   probe.advance();
   const Plant& near = probe.forest.plants().front();
   ASSERT_EQ(near.id, 0u);
-  const float plain = near.error[MODAL_LEVEL], fine = near.error[FINE_RUNG];
+  const float plain = near.error[MODAL_LEVEL], fine = near.error[FINE_MODAL_TIER];
   ASSERT_LT(fine, 0.8f * plain);
   Clearing scene;
   ForestReplica replica;
@@ -48,30 +48,30 @@ TEST(Sway, GoesOnInFineModesWithoutAJump) {
 }
 
 // N7: who loses fine modes because bytes are short gets plain ones once those have faded, and keeps
-// them: no rung changes more than once a second, and what is told is short.
-TEST(Sway, FineModesThatAreLostDoNotFlicker) {
+// them: no tier changes more than once a second, and what is told is short.
+TEST(ModalTreeState, FineModesThatAreLostDoNotFlicker) {
   Clearing scene;
   scene.advance();
   scene.tolerate(0.9 * static_cast<double>(scene.forest.plants().front().error[MODAL_LEVEL]));
   scene.run(2.0);
   ASSERT_NE(scene.forest.sway(0), nullptr);
   ASSERT_TRUE(scene.forest.sway(0)->fine());
-  scene.tellAtMost(500);
-  std::map<std::uint32_t, int> changes, told;
+  scene.publishAtMost(500);
+  std::map<std::uint32_t, int> changes, published;
   for (int i = 0; i < 5 * TICK_RATE; ++i) {
-    const LevelMap before = scene.forest.memory().levels;
+    const LevelMap before = scene.forest.snapshot().levels;
     scene.advance();
     for (std::uint32_t tree = 0; tree < 4; ++tree)
-      changes[tree] += scene.forest.memory().levels.of(tree).level != before.of(tree).level;
+      changes[tree] += scene.forest.snapshot().levels.of(tree).level != before.of(tree).level;
     for (const auto& entry : scene.forest.update(false).trees)
-      told[entry.tree] += !entry.sway.amplitude.empty();
+      published[entry.tree] += !entry.sway.amplitude.empty();
   }
   for (std::uint32_t tree = 0; tree < 4; ++tree) {
     EXPECT_LE(changes[tree], 2) << tree;  // to its stair, to plain modes
-    EXPECT_LE(told[tree], 3) << tree;
+    EXPECT_LE(published[tree], 3) << tree;
   }
-  ASSERT_EQ(scene.forest.memory().modes.sways().size(), 1u);  // whom the bytes suffice for
-  EXPECT_FALSE(scene.forest.memory().modes.sways().begin()->second.fine());
+  ASSERT_EQ(scene.forest.snapshot().modes.modal_states().size(), 1u);  // whom the bytes suffice for
+  EXPECT_FALSE(scene.forest.snapshot().modes.modal_states().begin()->second.fine());
 }
 
 }  // namespace

@@ -13,39 +13,39 @@ namespace vegetation_sim::forest {
 namespace {
 
 // N13: near trees get their modes when the tolerance asks for it, and lose them after.
-TEST(Sway, NearTreesHaveModesAndFarOnesHaveNone) {
+TEST(ModalTreeState, NearTreesHaveModesAndFarOnesHaveNone) {
   Clearing scene(breeze(), 0.1);
   scene.run(2.0);
-  EXPECT_EQ(scene.forest.memory().modes.sways().size(), 4u);
+  EXPECT_EQ(scene.forest.snapshot().modes.modal_states().size(), 4u);
   for (std::uint32_t id = 0; id < 4; ++id)
-    EXPECT_EQ(scene.forest.memory().levels.of(id).level, MODAL_LEVEL) << id;
+    EXPECT_EQ(scene.forest.snapshot().levels.of(id).level, MODAL_LEVEL) << id;
   scene.look(false);
   scene.run(0.5);
-  EXPECT_EQ(scene.forest.memory().modes.sways().size(), 4u);  // they still fade
+  EXPECT_EQ(scene.forest.snapshot().modes.modal_states().size(), 4u);  // they still fade
   scene.run(1.0);
-  EXPECT_TRUE(scene.forest.memory().modes.sways().empty());
+  EXPECT_TRUE(scene.forest.snapshot().modes.modal_states().empty());
 }
 
 // Steady wind has no lag to show, and no budget has no modes.
-TEST(Sway, NoTreeHasModesThatNobodyAskedFor) {
+TEST(ModalTreeState, NoTreeHasModesThatNobodyAskedFor) {
   Clearing steady(wind::Field({makeDisk(1, Vec3::Zero(), 2000.0, Vec3(5, 1, 0))}));
   steady.run(1.0);
-  EXPECT_TRUE(steady.forest.memory().modes.sways().empty());
+  EXPECT_TRUE(steady.forest.snapshot().modes.modal_states().empty());
   wind::Primitive trace = makeBreeze(2, Vec3(1e-6, 0.0, 0.0));
   Clearing besides(wind::Field({makeDisk(1, Vec3::Zero(), 2000.0, Vec3(5, 1, 0)), trace}));
   besides.run(1.0);
-  EXPECT_TRUE(besides.forest.memory().modes.sways().empty());
+  EXPECT_TRUE(besides.forest.snapshot().modes.modal_states().empty());
   Clearing poor;
   poor.settings.budget.modal_trees = 0;
   poor.use();
   poor.run(1.0);
-  EXPECT_TRUE(poor.forest.memory().modes.sways().empty());
-  EXPECT_GT(poor.forest.memory().levels.of(0).level, 0);
+  EXPECT_TRUE(poor.forest.snapshot().modes.modal_states().empty());
+  EXPECT_GT(poor.forest.snapshot().levels.of(0).level, 0);
 }
 
 // A disc asks for no modes, and takes none from trees that it does not reach: what the breeze does
 // to these, bending included, goes on to be held against the tolerance.
-TEST(Sway, ADiscFarAwayTakesNoModes) {
+TEST(ModalTreeState, ADiscFarAwayTakesNoModes) {
   wind::Primitive steady = makeBreeze(1, Vec3(15.0, 3.0, 0.0));
   steady.turbulence = 0.02;
   const wind::Primitive far = makeDisk(2, Vec3(3000.0, 0.0, 0.0), 5.0, Vec3(5, 1, 0));
@@ -68,12 +68,13 @@ TEST(Sway, ADiscFarAwayTakesNoModes) {
 }
 
 // What is kept for a tree is counted, the table of the breeze's waves too.
-TEST(Sway, CountsWhatItKeepsOfTheWaves) {
+TEST(ModalTreeState, CountsWhatItKeepsOfTheWaves) {
   const auto bytes = [](const wind::Field& field) {
     Clearing scene(field, 0.1);
     scene.run(1.0);
-    EXPECT_FALSE(scene.forest.memory().modes.sways().empty());
-    return scene.forest.memory().modes.bytes() / scene.forest.memory().modes.sways().size();
+    EXPECT_FALSE(scene.forest.snapshot().modes.modal_states().empty());
+    return scene.forest.snapshot().modes.bytes() /
+           scene.forest.snapshot().modes.modal_states().size();
   };
   const wind::Primitive first = makeBreeze(1, Vec3(5.0, 1.0, 0.0));
   const wind::Primitive second = makeBreeze(2, Vec3(4.0, 1.0, 0.0));
@@ -84,16 +85,16 @@ TEST(Sway, CountsWhatItKeepsOfTheWaves) {
 
 // N13: beyond MODAL_LIMIT the forest says so, predicts so much more error, and saturates: no joint
 // passes its limit in any storm. Below, nothing of it.
-TEST(Sway, SaturatesAndSaysSoBeyondTheLimit) {
+TEST(ModalTreeState, SaturatesAndSaysSoBeyondTheLimit) {
   double share[2];
   for (const bool storm : {false, true}) {
     Clearing scene(wind::Field({makeBreeze(1, Vec3(storm ? 90.0 : 5.0, 1.0, 0.0))}, 3), 0.1);
     scene.run(3.0);
-    ASSERT_EQ(scene.forest.memory().modes.sways().size(), 4u);
+    ASSERT_EQ(scene.forest.snapshot().modes.modal_states().size(), 4u);
     double bend = 0.0, turn = 0.0;
     for (int i = 0; i < TICK_RATE; ++i) {
       scene.advance();
-      const Sway& birch = *scene.forest.sway(2);
+      const ModalTreeState& birch = *scene.forest.sway(2);
       turn = std::max(turn, birch.modes().probe().largestTurn(birch.state().amplitude));
       for (const JointAngles& joint : scene.angles(scene.tree(2), 2, scene.now()))
         bend = std::max(bend, difference(joint, {}));
@@ -109,7 +110,7 @@ TEST(Sway, SaturatesAndSaysSoBeyondTheLimit) {
 
 // N13, S1-24: no pop. At every tick, what was seen up to it and what is seen from it on agree
 // within 0.1 degree, and their rates within 1 % of the largest rate.
-TEST(Sway, NothingJumpsGoingUpOrDown) {
+TEST(ModalTreeState, NothingJumpsGoingUpOrDown) {
   Clearing scene;
   const Tree tree = scene.tree(0);
   const Nanoseconds aside = seconds(1e-4);
@@ -134,10 +135,10 @@ TEST(Sway, NothingJumpsGoingUpOrDown) {
 }
 
 // N6: what is restored sways as what went on.
-TEST(Sway, IsSavedRestoredAndHashed) {
+TEST(ModalTreeState, IsSavedRestoredAndHashed) {
   Clearing scene;
   scene.run(1.0);
-  const ForestMemory saved = scene.forest.memory();
+  const ForestSnapshot saved = scene.forest.snapshot();
   const std::int64_t tick = scene.tick;
   scene.run(1.0);
   const std::uint64_t hash = scene.forest.hash();
@@ -150,7 +151,7 @@ TEST(Sway, IsSavedRestoredAndHashed) {
 
 // N13: physics starts from the modal angles and rates, without compensation, and goes on as the
 // modes do while motion is small.
-TEST(Sway, HandsOverToPhysicsWithoutCompensation) {
+TEST(ModalTreeState, HandsOverToPhysicsWithoutCompensation) {
   Clearing scene;
   PhysicsSettings physics;
   physics.promotion = static_cast<int>(Promotion::DEPTH);
@@ -168,7 +169,7 @@ TEST(Sway, HandsOverToPhysicsWithoutCompensation) {
     const PromotedTree promoted = scene.forest.promoted(0);
     ASSERT_FALSE(promoted.branches.empty());
     if (i == 0) {
-      for (const PartJoint& joint : scene.forest.memory().physics.parts().at(0).joints())
+      for (const SubtreeJoint& joint : scene.forest.snapshot().physics.parts().at(0).joints())
         ASSERT_EQ(joint.compensation, 0.0);
       for (const PromotedBranch& b : promoted.branches)
         EXPECT_LT(difference(b.q, before[static_cast<std::size_t>(b.branch)]), 0.05);

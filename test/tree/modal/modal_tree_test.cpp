@@ -41,7 +41,7 @@ TEST(ModalTree, ComesNearerWithMoreModes) {
   EXPECT_LT(usual, many);
 }
 
-// Uniform steady wind: where the modes settle is what the procedural rung, the static answer, says.
+// Uniform steady wind: where the modes settle is what the procedural tier, the static answer, says.
 TEST(ModalTree, SettlesWhereTheProceduralMotionIs) {
   Layout layout = gridLayout(2, 12.0);
   for (std::uint32_t id = 0; id < 4; ++id) {
@@ -105,7 +105,7 @@ TEST(ModalTree, LoadsAreThoseOnAllBranches) {
     ModalAir kept;
     std::vector<double> load, again;
     for (const bool gusty : {false, true, false}) {
-      const wind::Instant air = (gusty ? swirl : breeze()).at(SWAY_START + seconds(0.3));
+      const wind::Instant air = (gusty ? swirl : breeze()).at(MODAL_START + seconds(0.3));
       const std::vector<double> plain = plainLoads(tree, species, modal, air);
       modal.loadOf(air, kept, load);
       double off = 0.0, size = 0.0;
@@ -169,13 +169,13 @@ TEST(ModalTree, LoadsChangeAsTheTreeBends) {
     for (double& a : state.amplitude) a *= 1e-3 / turn;  // [rad]
     const std::vector<double> rest = bentLoads(tree, wood, modal, none, air),
                               bent = bentLoads(tree, wood, modal, state.amplitude, air);
-    std::vector<double> told(modal.size(), 0.0);
+    std::vector<double> published(modal.size(), 0.0);
     ModalAir kept;
-    modal.bendLevers(modal.airOn(wind), state.amplitude, kept, told);
+    modal.bendLevers(modal.airOn(wind), state.amplitude, kept, published);
     double off = 0.0, size = 0.0;
-    for (std::size_t m = 0; m < told.size(); ++m) {
+    for (std::size_t m = 0; m < published.size(); ++m) {
       const double change = bent[m] - rest[m];
-      off += (told[m] - change) * (told[m] - change);
+      off += (published[m] - change) * (published[m] - change);
       size += change * change;
     }
     EXPECT_GT(size, 0.0);

@@ -111,7 +111,7 @@ TEST(Level, EyeSeesWhatIsInItsCone) {
   const Random random(3);
   int seen = 0;
   for (std::uint64_t i = 0; i < 4000; ++i) {
-    Eye eye;
+    Viewpoint eye;
     const double half = random.uniform(8 * i, 0.1, 3.0),
                  radius = random.uniform(8 * i + 1, 0.1, 4.0);
     eye.cone_cosine = std::cos(half);

@@ -35,7 +35,7 @@ PhysicsRig windyRig(const PhysicsSettings& settings = {}) {
 }
 
 // N6: the same inputs give the same hash at every tick; a changed one does not.
-TEST(PhysicalPart, RepeatedRunsHaveTheSameHash) {
+TEST(PhysicalSubtree, RepeatedRunsHaveTheSameHash) {
   const auto hashes = [](double more) {
     PhysicsRig rig = windyRig();
     std::vector<std::uint64_t> out;
@@ -49,7 +49,7 @@ TEST(PhysicalPart, RepeatedRunsHaveTheSameHash) {
 }
 
 // N6: vectors of any width move a tree to the same bits.
-TEST(PhysicalPart, EveryInstructionSetHasTheSameHash) {
+TEST(PhysicalSubtree, EveryInstructionSetHasTheSameHash) {
   const auto hashes = [](const std::string& set) {
     forceInstructionSet(set);
     PhysicsRig rig = windyRig();
@@ -65,7 +65,7 @@ TEST(PhysicalPart, EveryInstructionSetHasTheSameHash) {
 
 // S1-30: the default computes many joints at once in single precision. Through a pull, wind and
 // recoil its tips stay with the plain double reference.
-TEST(PhysicalPart, SinglePrecisionFollowsTheReference) {
+TEST(PhysicalSubtree, SinglePrecisionFollowsTheReference) {
   PhysicsSettings settings;
   EXPECT_EQ(settings.precision, static_cast<int>(Precision::SINGLE));
   PhysicsRig single = windyRig(settings);
@@ -87,10 +87,10 @@ TEST(PhysicalPart, SinglePrecisionFollowsTheReference) {
 }
 
 // N6: saved in the middle of a recoil, restored after other things have happened.
-TEST(PhysicalPart, RestoredForestGoesOnAsBefore) {
+TEST(PhysicalSubtree, RestoredForestGoesOnAsBefore) {
   PhysicsRig rig = windyRig();
   pull(rig, 1.5);
-  const ForestMemory saved = rig.forest.memory();
+  const ForestSnapshot saved = rig.forest.snapshot();
   const std::int64_t tick = rig.tick;
   std::vector<std::uint64_t> first, second;
   rig.run(1.0, [&] { first.push_back(rig.forest.hash()); });
@@ -104,14 +104,14 @@ TEST(PhysicalPart, RestoredForestGoesOnAsBefore) {
 }
 
 // Whoever hears the messages has the same branches, from the first touch to the end of the blend.
-TEST(PhysicalPart, ReplicaPosesAreTheForests) {
+TEST(PhysicalSubtree, ReplicaPosesAreTheForests) {
   PhysicsSettings settings;
   settings.linger = 0.3;
   PhysicsRig rig = windyRig(settings);
   ForestReplica early, late;
   for (ForestReplica* replica : {&early, &late}) {
     replica->setLayout(rig.forest.layout(), flatTerrain());
-    replica->setWind(rig.forest.memory().wind);
+    replica->setWind(rig.forest.snapshot().wind);
   }
   ASSERT_TRUE(early.apply(rig.forest.update(true)));
   int ticks = 0, blended = 0;
@@ -138,7 +138,7 @@ TEST(PhysicalPart, ReplicaPosesAreTheForests) {
 }
 
 // A leap of the clock is not stepped through, and nothing breaks.
-TEST(PhysicalPart, LongGapsAreNotSteppedThrough) {
+TEST(PhysicalSubtree, LongGapsAreNotSteppedThrough) {
   PhysicsRig rig = windyRig();
   pull(rig, 0.5);
   rig.tick += 100 * TICK_RATE;
@@ -154,7 +154,7 @@ TEST(PhysicalPart, LongGapsAreNotSteppedThrough) {
 }
 
 // Steps are whole and equal: ceil(240 Hz * time).
-TEST(PhysicalPart, StepsAreAtLeast240AHertz) {
+TEST(PhysicalSubtree, StepsAreAtLeast240AHertz) {
   PhysicsRig rig = windyRig();
   rig.touch(0, 10.0);
   rig.advance();
@@ -170,18 +170,18 @@ TEST(PhysicalPart, StepsAreAtLeast240AHertz) {
 
 // Nothing is allocated in a plain step once one has run (S1-34: four numbers a branch are the
 // state).
-TEST(PhysicalPart, StepsAllocateNothing) {
+TEST(PhysicalSubtree, StepsAllocateNothing) {
   PhysicsRig rig = windyRig();
   Grab grab = rig.grabOf(rig.branchOfDepth(2));
   grab.target += Vec3(0.1, 0.1, 0.0);
   rig.forest.addGrab(grab);
   rig.run(0.2);
-  PhysicalPart part = rig.forest.memory().physics.parts().at(0);
-  PartScratch scratch;
-  PartLoads loads;
+  PhysicalSubtree part = rig.forest.snapshot().physics.parts().at(0);
+  SubtreeScratch scratch;
+  SubtreeLoads loads;
   loads.springs.push_back({grab.point, grab.target, Vec3(Vec3::Zero()), rig.now(), 2000, 40, 200});
-  const Air air{rig.forest.memory().wind, rig.forest.memory().levels.of(0),
-                rig.forest.layout().motion};
+  const TreeWind air{rig.forest.snapshot().wind, rig.forest.snapshot().levels.of(0),
+                     rig.forest.layout().motion};
   PhysicsSettings settings;
   settings.precision = static_cast<int>(Precision::DOUBLE);
   std::size_t before = 0;
@@ -197,7 +197,7 @@ TEST(PhysicalPart, StepsAllocateNothing) {
 
 // E1, the default fade: once it is over, the tree is where full dynamics with the real load, a
 // quarter of the step and no hand-over at all have it.
-TEST(PhysicalPart, AfterTheFadeItIsFullDynamics) {
+TEST(PhysicalSubtree, AfterTheFadeItIsFullDynamics) {
   PhysicsSettings all;
   all.promotion = static_cast<int>(Promotion::DEPTH);
   PhysicsRig rig(all), reference(all);
@@ -259,7 +259,7 @@ std::vector<Vec3> pulledTip(const PhysicsSettings& settings, bool all, std::size
 
 // S1-W9, N12: fewer branches cost less and are less right; the default is within a few per cent of
 // the tree fully physical.
-TEST(PhysicalPart, ClusteredErrorFallsWithTheBranchesThatArePhysical) {
+TEST(PhysicalSubtree, ClusteredErrorFallsWithTheBranchesThatArePhysical) {
   PhysicsSettings settings;
   settings.promotion = static_cast<int>(Promotion::DEPTH);
   std::size_t everything = 0;
@@ -284,7 +284,7 @@ TEST(PhysicalPart, ClusteredErrorFallsWithTheBranchesThatArePhysical) {
 }
 
 // S1-30, S1-33: whatever is chosen runs in a forest, in steps that its own method takes.
-TEST(PhysicalPart, EveryDynamicsAndIntegratorStaysBounded) {
+TEST(PhysicalSubtree, EveryDynamicsAndIntegratorStaysBounded) {
   for (int dynamics = 0; dynamics < 3; ++dynamics) {
     for (int integrator = 0; integrator < 5; ++integrator) {
       PhysicsSettings settings;
@@ -305,7 +305,7 @@ TEST(PhysicalPart, EveryDynamicsAndIntegratorStaysBounded) {
 
 // S1-33: of wood so stiff that explicit methods would need more parts of a step than they get, each
 // step is the midpoint's, whichever was chosen, and counted.
-TEST(PhysicalPart, StiffWoodIsRunByTheMidpointAndCounted) {
+TEST(PhysicalSubtree, StiffWoodIsRunByTheMidpointAndCounted) {
   std::vector<Vec3> tips;
   for (int integrator = 0; integrator < 5; ++integrator) {
     PhysicsSettings settings;
@@ -339,7 +339,7 @@ Vec3 pulledTip(const PhysicsSettings& settings) {
   constexpr int RATE = 64 * PHYSICS_RATE;
   PhysicsRig rig(settings);
   rig.grid = TickGrid(RATE);
-  rig.tick = rig.grid.tickAt(rig.forest.memory().stamp);
+  rig.tick = rig.grid.tickAt(rig.forest.snapshot().stamp);
   const int limb = rig.branchOfDepth(1);
   Grab grab = rig.grabOf(limb);
   grab.target += Vec3(0.1, 0.2, 0.0);
@@ -354,7 +354,7 @@ Vec3 pulledTip(const PhysicsSettings& settings) {
 // S1-30, S1-31, S1-33: it is the dynamics, the integrator, the precision and the material that are
 // asked for that move the wood: no two choices have the same motion, and where steps are short the
 // integrators agree.
-TEST(PhysicalPart, MovesByTheMethodThatIsChosen) {
+TEST(PhysicalSubtree, MovesByTheMethodThatIsChosen) {
   std::vector<Vec3> tips;
   for (int material = 0; material < 2; ++material)
     for (int dynamics = 0; dynamics < 3; ++dynamics)

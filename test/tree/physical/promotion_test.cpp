@@ -91,7 +91,7 @@ Jump between(const Limit& left, const Limit& right, double peak) {
   return out;
 }
 
-Angles lookAt(PhysicsRig& rig, Nanoseconds stamp) {
+Angles sampleAt(PhysicsRig& rig, Nanoseconds stamp) {
   rig.forest.advance(stamp);
   return rig.angles(stamp);
 }
@@ -100,11 +100,11 @@ Angles lookAt(PhysicsRig& rig, Nanoseconds stamp) {
 Jump jumpAt(PhysicsRig& rig, double peak, const std::function<void(PhysicsRig&)>& change) {
   const Nanoseconds stamp = rig.grid.timeOf(rig.tick + 1);
   PhysicsRig with = rig;
-  const Angles before = lookAt(with, stamp - 2 * FINE), last = lookAt(with, stamp - FINE);
+  const Angles before = sampleAt(with, stamp - 2 * FINE), last = sampleAt(with, stamp - FINE);
   with.forest.advance(stamp);
   ++with.tick;
   change(with);
-  const Angles first = lookAt(with, stamp + FINE), after = lookAt(with, stamp + 2 * FINE);
+  const Angles first = sampleAt(with, stamp + FINE), after = sampleAt(with, stamp + 2 * FINE);
   rig.advance();
   return between({before, last, 1.0, FINE}, {after, first, 1.0, -FINE}, peak);
 }
@@ -165,7 +165,7 @@ Jump jumpsIn(PhysicsRig rig, Nanoseconds duration, double peak) {
   std::vector<Angles> looks;
   Jump out;
   for (Nanoseconds t = APART; t <= duration; t += APART) {
-    looks.push_back(lookAt(rig, start + t));
+    looks.push_back(sampleAt(rig, start + t));
     if (looks.size() < 4) continue;
     out.add(between({looks[0], looks[1], 0.5, APART}, {looks[3], looks[2], 0.5, -APART}, peak));
     looks.erase(looks.begin());
@@ -235,7 +235,7 @@ TEST(HandOver, NothingIsHeldBeforeAndAfter) {
   PhysicsRig rig({}, 4);
   rig.run(0.2);
   EXPECT_EQ(rig.forest.physicsFigures().bytes, 0u);
-  const std::uint64_t untouched = rig.forest.memory().physics.parts().size();
+  const std::uint64_t untouched = rig.forest.snapshot().physics.parts().size();
   EXPECT_EQ(untouched, 0u);
   Grab grab = rig.grabOf(rig.branchOfDepth(1));
   grab.target += Vec3(0.3, 0.0, 0.0);
@@ -251,7 +251,7 @@ TEST(HandOver, NothingIsHeldBeforeAndAfter) {
   EXPECT_EQ(after.trees, 0u);
   EXPECT_EQ(after.branches, 0u);
   EXPECT_EQ(after.bytes, 0u);
-  EXPECT_TRUE(rig.forest.memory().physics.parts().empty());
+  EXPECT_TRUE(rig.forest.snapshot().physics.parts().empty());
   std::printf("during: %zu branches, %zu bytes\n", during.branches, during.bytes);
 }
 

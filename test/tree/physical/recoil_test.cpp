@@ -62,7 +62,7 @@ struct Foretold {
 
 // A tick's steps after its first foretell the rates of velocity products; ticks as short as a step
 // average them, and are the same to the bit where nobody foretells.
-TEST(PhysicalPart, StepsOfATickForetellVelocityProducts) {
+TEST(PhysicalSubtree, StepsOfATickForetellVelocityProducts) {
   const Foretold shoved(Vec3(0.0, 150.0, -50.0));
   EXPECT_GT(shoved.way, 0.005);
   EXPECT_GT(shoved.between, 1e-4);
@@ -70,7 +70,7 @@ TEST(PhysicalPart, StepsOfATickForetellVelocityProducts) {
 }
 
 // What is thrown is averaged in each step: foretold, it was 9.0e-3 off.
-TEST(PhysicalPart, BranchesThatAreThrownAreAsRightInTicksAsInSteps) {
+TEST(PhysicalSubtree, BranchesThatAreThrownAreAsRightInTicksAsInSteps) {
   const Foretold thrown(Vec3(0.0, 600.0, -200.0));
   EXPECT_GT(thrown.way, 0.02);
   EXPECT_LT(thrown.steps, 3e-3);

@@ -7,28 +7,28 @@
 namespace vegetation_sim::wind {
 namespace {
 
-double sumOf(const Swings& swings) {
+double sumOf(const GustSpectrum& spectrum) {
   double out = 0.0;
-  for (const auto& row : swings.power)
+  for (const auto& row : spectrum.power)
     for (const double power : row) out += power;
   return out;
 }
 
 // N7: nothing is lost between the points of the grid; what is slow counts less.
-TEST(Swings, SharesOutWhatIsAdded) {
-  Swings swings;
-  swings.add(0.5, 0.3, 4.0);
-  EXPECT_NEAR(sumOf(swings), 4.0, 1e-12);
-  swings.add(50.0, 9.0, 1.0);  // beyond both ends: at the end
-  EXPECT_NEAR(sumOf(swings), 5.0, 1e-12);
-  EXPECT_NEAR(swings.power[2][11], 1.0, 1e-12);
-  swings.add(0.5 * Swings::FREQUENCIES[0], 0.0, 4.0);
-  EXPECT_NEAR(swings.power[0][0], 1.0, 1e-12);
+TEST(GustSpectrum, SharesOutWhatIsAdded) {
+  GustSpectrum spectrum;
+  spectrum.add(0.5, 0.3, 4.0);
+  EXPECT_NEAR(sumOf(spectrum), 4.0, 1e-12);
+  spectrum.add(50.0, 9.0, 1.0);  // beyond both ends: at the end
+  EXPECT_NEAR(sumOf(spectrum), 5.0, 1e-12);
+  EXPECT_NEAR(spectrum.power[2][11], 1.0, 1e-12);
+  spectrum.add(0.5 * GustSpectrum::FREQUENCIES[0], 0.0, 4.0);
+  EXPECT_NEAR(spectrum.power[0][0], 1.0, 1e-12);
 }
 
 // N7: a breeze swings with what its modes have of variance, where it blows; a disc at its own
 // pulsation and within its radius; steady wind not at all.
-TEST(Swings, TellWhatComesAndGoesAndHowFast) {
+TEST(GustSpectrum, TellWhatComesAndGoesAndHowFast) {
   Primitive breeze;
   breeze.id = 1;
   breeze.name = "breeze";
@@ -38,13 +38,13 @@ TEST(Swings, TellWhatComesAndGoesAndHowFast) {
   const Field windy({breeze}, 3);
   double variance = 0.0;
   for (const Mode& mode : windy.at(0).modes) variance += 0.5 * dot(mode.amplitude, mode.amplitude);
-  const Swings swings = SwingingWind(windy, 0).at(Vec3::Zero(), 0.0);
-  const double peak = SwingingWind::PEAK * SwingingWind::PEAK * variance;
-  EXPECT_LE(sumOf(swings), peak);
-  EXPECT_GE(sumOf(swings), 0.5 * peak);  // the rest is slower than the grid
-  EXPECT_EQ(swings.power[2][3], 0.0);    // carried at 5 m/s: between 0 and 0.2 s/m
+  const GustSpectrum spectrum = GustSpectrumField(windy, 0).at(Vec3::Zero(), 0.0);
+  const double peak = GustSpectrumField::PEAK * GustSpectrumField::PEAK * variance;
+  EXPECT_LE(sumOf(spectrum), peak);
+  EXPECT_GE(sumOf(spectrum), 0.5 * peak);  // the rest is slower than the grid
+  EXPECT_EQ(spectrum.power[2][3], 0.0);    // carried at 5 m/s: between 0 and 0.2 s/m
   breeze.turbulence = 0.0;
-  EXPECT_EQ(sumOf(SwingingWind(Field({breeze}, 3), 0).at(Vec3::Zero(), 0.0)), 0.0);
+  EXPECT_EQ(sumOf(GustSpectrumField(Field({breeze}, 3), 0).at(Vec3::Zero(), 0.0)), 0.0);
 
   Primitive disk;
   disk.id = 2;
@@ -53,7 +53,7 @@ TEST(Swings, TellWhatComesAndGoesAndHowFast) {
   disk.radius = 10.0;
   disk.velocity = Vec3(3.0, 4.0, 0.0);
   disk.omega = 2.0 * 3.14159265358979 * 0.3;
-  const SwingingWind swaying(Field({disk}, 3), 0);
+  const GustSpectrumField swaying(Field({disk}, 3), 0);
   EXPECT_NEAR(swaying.at(Vec3::Zero(), 0.0).power[0][5], 25.0, 1e-6);
   EXPECT_EQ(sumOf(swaying.at(Vec3(11.0, 0.0, 0.0), 0.5)), 0.0);
 }
@@ -72,9 +72,9 @@ Primitive blast() {
 
 // N7: a blast that stands still swings plants while it sets on and shortly after, as half a swing
 // of its height at a frequency beyond all, and then no more; what comes slowly swings them less.
-TEST(Swings, TellAStepThatStandsStill) {
+TEST(GustSpectrum, TellAStepThatStandsStill) {
   const auto sumAt = [](const Primitive& p, double time) {
-    return sumOf(SwingingWind(Field({p}, 3), fromSeconds(time)).at(Vec3(2.0, 0.0, 0.0), 8.0));
+    return sumOf(GustSpectrumField(Field({p}, 3), fromSeconds(time)).at(Vec3(2.0, 0.0, 0.0), 8.0));
   };
   Primitive step = blast();
   EXPECT_NEAR(sumAt(step, 0.5), 16.0, 1e-9);
@@ -85,7 +85,7 @@ TEST(Swings, TellAStepThatStandsStill) {
 }
 
 // N7: a disc that runs past comes and goes as fast as it passes, though its air pulsates slowly.
-TEST(Swings, TellADiscThatRunsPast) {
+TEST(GustSpectrum, TellADiscThatRunsPast) {
   Primitive disk;
   disk.id = 2;
   disk.name = "disk";
@@ -95,17 +95,18 @@ TEST(Swings, TellADiscThatRunsPast) {
   disk.velocity = Vec3(4.0, 0.0, 0.0);
   disk.trajectory = {{0, Vec3::Zero()}};
   const auto sumOfDisk = [&] {
-    return sumOf(SwingingWind(Field({disk}, 3), fromSeconds(1.0)).at(Vec3(2.0, 0.0, 0.0), 8.0));
+    return sumOf(
+        GustSpectrumField(Field({disk}, 3), fromSeconds(1.0)).at(Vec3(2.0, 0.0, 0.0), 8.0));
   };
   EXPECT_LT(sumOfDisk(), 0.1);
   disk.orbit_radius = 3.0;
   disk.orbit_period = 2.0;  // 9.4 m/s past 20 m: 0.47 Hz
   EXPECT_NEAR(sumOfDisk(), 16.0, 1e-9);
-  const SwingingWind swinging(Field({disk}, 3), fromSeconds(1.0));
+  const GustSpectrumField swinging(Field({disk}, 3), fromSeconds(1.0));
   EXPECT_TRUE(swinging.hasDiscs());
-  EXPECT_EQ(sumOf(swinging.besideDiscs(Vec3(2.0, 0.0, 0.0), 1.0)), 0.0);
+  EXPECT_EQ(sumOf(swinging.withoutDiscs(Vec3(2.0, 0.0, 0.0), 1.0)), 0.0);
   EXPECT_NEAR(swinging.at(Vec3(2.0, 0.0, 0.0), 8.0).peak, 4.0, 1e-9);
-  EXPECT_EQ(swinging.besideDiscs(Vec3(2.0, 0.0, 0.0), 8.0).peak, 0.0);
+  EXPECT_EQ(swinging.withoutDiscs(Vec3(2.0, 0.0, 0.0), 8.0).peak, 0.0);
 }
 
 }  // namespace

@@ -22,11 +22,11 @@ std::vector<Vec3> scattered(std::size_t count) {
 }
 
 // N6, S1-16: whatever the instruction set and number of points, the law to the bit.
-TEST(AirSampler, GivesTheInstantsVelocitiesToTheBit) {
+TEST(WindSampler, GivesTheInstantsVelocitiesToTheBit) {
   const wind::Field field(wind::oneOfEach(), 3);
   for (const std::string& set : instructionSets()) {
     forceInstructionSet(set);
-    AirSampler sampler;
+    WindSampler sampler;
     for (const std::size_t count : {1u, 7u, 16u, 17u, 301u}) {
       const std::vector<Vec3> points = scattered(count);
       sampler.clear();
@@ -47,7 +47,7 @@ TEST(AirSampler, GivesTheInstantsVelocitiesToTheBit) {
 
 // The three looks of a window: turned phases or not, those of the instants; many as one, to the
 // bit.
-TEST(AirSampler, LooksOfAWindowAreThoseOfItsInstants) {
+TEST(WindSampler, LooksOfAWindowAreThoseOfItsInstants) {
   std::vector<wind::Primitive> changes = wind::oneOfEach();
   wind::Primitive late = makeBreeze(77, Vec3(3, 1, 0));
   late.t_on = wind::at(8.7);  // after the first look of a window there
@@ -59,9 +59,9 @@ TEST(AirSampler, LooksOfAWindowAreThoseOfItsInstants) {
     for (const auto& primitives : {wind::oneOfEach(), changes, std::vector<wind::Primitive>{late}})
       for (const double time : {5.0, 8.7}) {
         WindWindow window;
-        window.lookAt(wind::Field(primitives, 3), wind::at(time));
+        window.sampleAt(wind::Field(primitives, 3), wind::at(time));
         turned += window.turnsAlike();
-        AirSampler sampler;
+        WindSampler sampler;
         for (const Vec3& point : points) sampler.add(point);
         sampler.sample(window);
         for (std::size_t i = 0; i < points.size(); ++i) {
@@ -81,21 +81,21 @@ TEST(AirSampler, LooksOfAWindowAreThoseOfItsInstants) {
 }
 
 // S1-36: what promotion starts from is the same for many branches as for one.
-TEST(AirSampler, CoursesOfManyBranchesAreThoseOfEach) {
+TEST(WindSampler, CoursesOfManyBranchesAreThoseOfEach) {
   PhysicsRig rig;
   wind::Primitive breeze = makeBreeze(1, Vec3(4, 2, 0));
   breeze.epoch = PHYSICS_START;
   WindWindow window;
-  window.lookAt(wind::Field({breeze}), rig.now());
+  window.sampleAt(wind::Field({breeze}), rig.now());
   LevelState level = LevelState::settled(3);  // finer branches stand still
-  const Course course(rig.tree, window, level, rig.forest.layout().motion);
+  const ProceduralMotion motion(rig.tree, window, level, rig.forest.layout().motion);
   std::vector<int> branches;
   for (int i = 0; i < static_cast<int>(rig.branches().size()); i += 3) branches.push_back(i);
-  Courses courses;
-  courses.look(course, branches);
+  ProceduralMotions motions;
+  motions.look(motion, branches);
   int moving = 0;
   for (std::size_t i = 0; i < branches.size(); ++i) {
-    const JointCourse one = course.at(branches[i]), many = courses.at(i);
+    const JointMotion one = motion.at(branches[i]), many = motions.at(i);
     EXPECT_EQ(difference(one.q, many.q), 0.0);
     EXPECT_EQ(difference(one.rate, many.rate), 0.0);
     EXPECT_EQ(difference(one.acceleration, many.acceleration), 0.0);

@@ -12,11 +12,11 @@ namespace vegetation_sim::wind {
 namespace {
 
 // N6, S2-19: the breeze on vectors of any width is the law's to the bit.
-TEST(AirRows, AreTheInstantsVelocitiesToTheBit) {
+TEST(WindSamples, AreTheInstantsVelocitiesToTheBit) {
   Instant wind = Field(oneOfEach(), 3).at(at(5.0));
   wind.terms.clear();
   ASSERT_FALSE(wind.modes.empty());
-  constexpr std::size_t COUNT = 21, ROOM = 2 * AirRows::ROOM;
+  constexpr std::size_t COUNT = 21, ROOM = 2 * WindSamples::ROOM;
   std::vector<double> rows(6 * ROOM, 0.0);
   double* const r = rows.data();
   for (std::size_t i = 0; i < 3 * ROOM; ++i) r[i] = Random(i).uniform(0, -50.0, 50.0);

@@ -28,23 +28,23 @@ Source downwash() {
 }
 
 /// Follows the drone from one time to another as the broadcaster does.
-void follow(Attachment& attachment, Ledger& ledger, double from, double to) {
+void follow(Attachment& attachment, PrimitiveSchedule& schedule, double from, double to) {
   for (double t = from; t < to; t += PERIOD) {
     attachment.add({at(t), drone(t)});
     const bool goes_on = attachment.started();
     if (const auto piece = attachment.piece(at(t + LEAD)))
-      goes_on ? ledger.follow(*piece, at(t + LEAD)) : ledger.set(*piece, at(t + LEAD));
-    ledger.prune(at(t));
+      goes_on ? schedule.follow(*piece, at(t + LEAD)) : schedule.set(*piece, at(t + LEAD));
+    schedule.prune(at(t));
   }
 }
 
 TEST(Attachment, KeepsTheCentreOnTheFrame) {  // S1-W1, N12
   Attachment attachment(downwash(), PERIOD, HORIZON);
-  Ledger ledger;
+  PrimitiveSchedule schedule;
   for (double t = 0.0; t < 30.0; t += PERIOD) {
-    follow(attachment, ledger, t, t + 0.5 * PERIOD);
+    follow(attachment, schedule, t, t + 0.5 * PERIOD);
     if (t < 3.0) continue;
-    const Instant now = ledger.field().at(at(t + 0.1));
+    const Instant now = schedule.field().at(at(t + 0.1));
     ASSERT_GE(now.terms.size(), 1u);
     double weight = 0.0;
     Vec3 centre = Vec3::Zero();
@@ -60,13 +60,13 @@ TEST(Attachment, KeepsTheCentreOnTheFrame) {  // S1-W1, N12
 
 TEST(Attachment, BlowsSmoothlyThroughItsPieces) {  // E1
   Attachment attachment(downwash(), PERIOD, HORIZON);
-  Ledger ledger;
-  follow(attachment, ledger, 0.0, 4.5);
+  PrimitiveSchedule schedule;
+  follow(attachment, schedule, 0.0, 4.5);
   const Vec3 position = drone(3.0) + Vec3(0.5, 0.5, -1.0);
   const double h = 1e-4;
   for (double t = 1.0; t < 4.0; t += h) {
     const Vec3 step =
-        ledger.field().velocity(position, at(t + h)) - ledger.field().velocity(position, at(t));
+        schedule.field().velocity(position, at(t + h)) - schedule.field().velocity(position, at(t));
     // 5 m/s through a slope of 20 (m/s)/m, and cross-fades of pieces 0.3 m apart
     ASSERT_LT(length(step), h * 300.0) << t;
   }
@@ -74,17 +74,17 @@ TEST(Attachment, BlowsSmoothlyThroughItsPieces) {  // E1
 
 TEST(Attachment, FadesOutAfterTheFrameIsLost) {  // S1-W1
   Attachment attachment(downwash(), PERIOD, HORIZON);
-  Ledger ledger;
-  follow(attachment, ledger, 0.0, 9.9);  // last at 9.8 s
-  EXPECT_FALSE(ledger.field().at(at(11.0)).terms.empty());
-  EXPECT_TRUE(ledger.field().at(at(9.8 + HORIZON + 0.01)).terms.empty());
+  PrimitiveSchedule schedule;
+  follow(attachment, schedule, 0.0, 9.9);  // last at 9.8 s
+  EXPECT_FALSE(schedule.field().at(at(11.0)).terms.empty());
+  EXPECT_TRUE(schedule.field().at(at(9.8 + HORIZON + 0.01)).terms.empty());
   EXPECT_FALSE(attachment.piece(at(11.5)));
 }
 
 TEST(Attachment, FadesInAnewWhenTheFrameComesBack) {
   Attachment attachment(downwash(), PERIOD, HORIZON);
-  Ledger ledger;
-  follow(attachment, ledger, 0.0, 9.9);  // last at 9.8 s
+  PrimitiveSchedule schedule;
+  follow(attachment, schedule, 0.0, 9.9);  // last at 9.8 s
   attachment.add({at(20.0), drone(20.0)});
   EXPECT_FALSE(attachment.piece(at(20.2)));  // one sample has no velocity
   attachment.add({at(20.2), drone(20.2)});
@@ -105,18 +105,19 @@ TEST(Attachment, KeepsTheTimesOfItsSource) {
   source.primitive.t_on = at(5.0);
   source.primitive.t_off = at(10.0);
   Attachment attachment(source, PERIOD, HORIZON);
-  Ledger ledger;
-  follow(attachment, ledger, 0.0, 12.0);
-  EXPECT_TRUE(ledger.field().at(at(4.9)).terms.empty());
-  EXPECT_FALSE(ledger.field().at(at(9.8)).terms.empty());
-  EXPECT_TRUE(ledger.field().at(at(10.0)).terms.empty());
+  PrimitiveSchedule schedule;
+  follow(attachment, schedule, 0.0, 12.0);
+  EXPECT_TRUE(schedule.field().at(at(4.9)).terms.empty());
+  EXPECT_FALSE(schedule.field().at(at(9.8)).terms.empty());
+  EXPECT_TRUE(schedule.field().at(at(10.0)).terms.empty());
 }
 
 TEST(Attachment, NeedsFewPrimitivesHoweverLongItFlies) {
   Attachment attachment(downwash(), PERIOD, HORIZON);
-  Ledger ledger;
-  follow(attachment, ledger, 0.0, 100.0);
-  EXPECT_LT(ledger.field().primitives().size(), 35u);  // 5 s of pieces at 5 Hz and the living ones
+  PrimitiveSchedule schedule;
+  follow(attachment, schedule, 0.0, 100.0);
+  EXPECT_LT(schedule.field().primitives().size(),
+            35u);  // 5 s of pieces at 5 Hz and the living ones
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ struct Link {
   Symmetric3 inertia{1.0, 1.0, 0.0, 0.0, 0.0, 0.0};  ///< about the joint, own axes [kg m^2]
   double stiffness{1.0};                             ///< of both bends [N m/rad]
   double damping{0.0};                               ///< [N m s/rad]
-  double sure_inertia{0.0};  ///< see shareInertia; 0 is safe and less exact [kg m^2]
+  double guaranteed_inertia{0.0};  ///< see shareInertia; 0 is safe and less exact [kg m^2]
 };
 
 /// Prescribed motion of something that carries links and is not physical itself: the pose of its

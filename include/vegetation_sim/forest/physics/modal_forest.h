@@ -16,7 +16,7 @@
 namespace vegetation_sim::forest {
 
 /// Where trees in modes stand: nothing of it is kept.
-struct Grounds {
+struct ModalContext {
   const Layout& layout;
   const terrain::HeightMap& terrain;
   const wind::Field& wind;
@@ -24,7 +24,7 @@ struct Grounds {
 
 /// The trees of a forest that sway in modes. Forest and replica step them with this same code, so
 /// that between key frames nobody needs to be told of amplitudes. A value: copy it to save.
-class ForestModes {
+class ModalForest {
  public:
   /// Wind is looked at so often [Hz]; a tick takes the nearest whole number of such steps.
   static constexpr int RATE = 60;
@@ -35,7 +35,7 @@ class ForestModes {
   void advance(const wind::Field& wind, Nanoseconds from, Nanoseconds to);
   /// Takes a tree up, on its procedural motion: finds its modes, a few milliseconds; fine ones take
   /// some tens. One in plain modes goes on in fine ones, which can do all that it does.
-  void begin(const Grounds& at, std::uint32_t tree, bool fine, Nanoseconds stamp);
+  void begin(const ModalContext& at, std::uint32_t tree, bool fine, Nanoseconds stamp);
   /// Fine modes take longer to find than a tick: one tree gets some every 0.1 s, for who draws too.
   static bool fineDue(Nanoseconds from, Nanoseconds to) {
     constexpr Nanoseconds PAUSE = NANOSECONDS_PER_SECOND / 10;
@@ -46,10 +46,10 @@ class ForestModes {
   /// A tree whose fine modes are to be found; until a state of it is restored it has none.
   void await(std::uint32_t tree);
   /// Finds the fine modes of one awaited tree, for a state that is told later.
-  void prepareNext(const Grounds& at);
+  void prepareNext(const ModalContext& at);
   /// Takes over a state that was told; modes that are held or prepared are not found again.
   /// @throws InvalidInput for a tree without modes, or with another number of them.
-  void restore(const Grounds& at, std::uint32_t tree, const physics::ModalState& state,
+  void restore(const ModalContext& at, std::uint32_t tree, const physics::ModalState& state,
                Nanoseconds stamp);
   /// Drops the trees whose modes have no weight any more, nor will have.
   void settle(const LevelMap& levels, Nanoseconds stamp, double transition);
@@ -57,8 +57,8 @@ class ForestModes {
   void clear();
 
   /// Nullptr: not in modes.
-  const Sway* find(std::uint32_t tree) const;
-  const std::map<std::uint32_t, Sway>& sways() const { return sways_; }
+  const ModalTreeState* find(std::uint32_t tree) const;
+  const std::map<std::uint32_t, ModalTreeState>& modal_states() const { return modal_states_; }
   std::size_t bytes() const;  ///< of all that was found
   /// Trees that bend farther than modes hold (physics::MODAL_LIMIT). They saturate: joints stop at
   /// their limit, and nothing else is as near to the full chain at this cost.
@@ -66,15 +66,15 @@ class ForestModes {
   void addTo(Hash& hash) const;
 
  private:
-  void refine(const Grounds& at, std::uint32_t tree, Sway& sway);
-  void start(const wind::Field& wind, Sway& sway, Nanoseconds stamp);
+  void refine(const ModalContext& at, std::uint32_t tree, ModalTreeState& sway);
+  void start(const wind::Field& wind, ModalTreeState& sway, Nanoseconds stamp);
   template <class Wanted>
   void keepIf(const Wanted& wanted);
 
-  std::map<std::uint32_t, Sway> sways_;
-  std::map<std::uint32_t, Sway> prepared_;  // found, not told of yet
-  std::set<std::uint32_t> awaited_;         // still to be found
-  std::vector<wind::Instant> instants_;     // scratch from here on
+  std::map<std::uint32_t, ModalTreeState> modal_states_;
+  std::map<std::uint32_t, ModalTreeState> prepared_;  // found, not told of yet
+  std::set<std::uint32_t> awaited_;                   // still to be found
+  std::vector<wind::Instant> instants_;               // scratch from here on
   std::vector<ModalLoad> loads_;
 };
 

@@ -19,41 +19,41 @@ struct Press {
   float recovery{0.f};
 };
 
-struct ToldNode {
+struct TreadNodeDelta {
   float tilt{0.f}, x{0.f}, y{0.f};  ///< as in TreadNode
-  std::uint32_t press{0};           ///< index into ToldTreads::presses
+  std::uint32_t press{0};           ///< index into TreadDelta::presses
 };
 
 /// Some nodes of a block, exactly.
-struct ToldBlock {
-  int row{0}, column{0};                ///< of the block
-  std::array<std::uint8_t, 32> told{};  ///< bit i % 8 of byte i / 8: node i is told
-  std::vector<ToldNode> nodes;          ///< those, by rising i
+struct TreadBlockDelta {
+  int row{0}, column{0};                    ///< of the block
+  std::array<std::uint8_t, 32> included{};  ///< bit i % 8 of byte i / 8: node i is told
+  std::vector<TreadNodeDelta> nodes;        ///< those, by rising i
 };
-static_assert(TreadBlock::SIDE * TreadBlock::SIDE == 8 * 32, "ToldBlock::told");
+static_assert(TreadBlock::SIDE * TreadBlock::SIDE == 8 * 32, "TreadBlockDelta::included");
 
 /// Trodden nodes as one process tells them to another: to the bit, 16 bytes each.
-struct ToldTreads {
+struct TreadDelta {
   std::vector<Press> presses;
-  std::vector<ToldBlock> blocks;
+  std::vector<TreadBlockDelta> blocks;
 };
 
 /// What is told: nodes pressed later than `since` that are not upright at `stamp`.
-struct Telling {
+struct TreadInterval {
   Nanoseconds since{0}, stamp{0};
 };
 
 /// Every node that is not upright.
-ToldTreads tellAll(const TreadState& state, Nanoseconds stamp);
+TreadDelta snapshotTreads(const TreadState& state, Nanoseconds stamp);
 /// Nodes of these blocks that were pressed since.
-ToldTreads tellSince(const TreadState& state, const std::set<std::pair<int, int>>& blocks,
-                     const Telling& telling);
+TreadDelta makeDelta(const TreadState& state, const std::set<std::pair<int, int>>& blocks,
+                     const TreadInterval& telling);
 /// Of every value that is told; equal for equal ground, if all of it is told.
-std::uint64_t hashOf(const ToldTreads& treads);
+std::uint64_t hashOf(const TreadDelta& treads);
 /// Adds a fault for whatever cannot be.
-void check(const ToldTreads& treads, Faults& faults);
+void check(const TreadDelta& treads, Faults& faults);
 /// Requires checked treads. @return nodes that are off the map or found no memory.
-int adopt(const ToldTreads& treads, TreadMap& map);
+int applyDelta(const TreadDelta& treads, TreadMap& map);
 
 /// One message about trodden ground.
 struct TreadUpdate {
@@ -62,7 +62,7 @@ struct TreadUpdate {
   bool key_frame{false};
   std::uint64_t layout_hash{0};
   std::uint64_t hash{0};  ///< in key frames, hashOf(treads); else 0
-  ToldTreads treads;
+  TreadDelta treads;
 };
 
 /// Keeps another process's trodden ground in a TreadMap of the same layout.

@@ -21,9 +21,9 @@ struct ModalLoad {
 /// A tree that sways in its modes (N13). Amplitudes and rates at the last tick are all that is
 /// remembered: the modes follow from the seed, their loads from the wind law. A value; copies share
 /// the modes.
-class Sway {
+class ModalTreeState {
  public:
-  explicit Sway(std::shared_ptr<const ModalTree> modes);
+  explicit ModalTreeState(std::shared_ptr<const ModalTree> modes);
 
   const ModalTree& modes() const { return *modes_; }
   /// In fine modes, or in all that the tree has.
@@ -68,8 +68,9 @@ class Sway {
 
 /// Deviation of each joint: procedural, or modal, or between them, as the weights say. `wind` is
 /// relative to the foot; `sway`: none, all procedural.
-std::vector<JointAngles> swayingAngles(const Tree& tree, const wind::Instant& wind,
-                                       const Weights& weights, const Sway* sway, Nanoseconds stamp);
+std::vector<JointAngles> modalAngles(const Tree& tree, const wind::Instant& wind,
+                                     const Weights& weights, const ModalTreeState* sway,
+                                     Nanoseconds stamp);
 
 /// Bends of one joint in the modes, within what joints do.
 JointAngles bendOf(const ModalTree& modes, const std::vector<double>& amplitude, int branch);

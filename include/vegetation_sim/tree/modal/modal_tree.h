@@ -41,7 +41,7 @@ struct WindPoints {
 /// What looks at the wind of one tree keep from look to look: what each wave of the breezes does to
 /// it, which changes with the wave's phase only.
 struct ModalAir {
-  AirSampler sampler;
+  WindSampler sampler;
   std::vector<Vec3> waves;       ///< [turns/m]
   std::vector<double> push;      ///< [waves][cosine, sine][3][row] as WindPoints::push
   std::vector<Vec3> velocities;  ///< scratch

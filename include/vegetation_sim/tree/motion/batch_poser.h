@@ -33,7 +33,8 @@ struct BatchTree {
   std::vector<std::int32_t> parent;  ///< -1: the ground
   std::vector<float> h;              ///< along the parent [m]
   std::vector<float> x, y, z;        ///< base at rest [m]
-  /// Swing: rest rotation in the parent (w x y z). Paper: cos, sin of theta / 2, of phi / 2.
+  /// RotationSeries: rest rotation in the parent (w x y z). Paper: cos, sin of theta / 2, of phi
+  /// / 2.
   std::vector<float> r0, r1, r2, r3;
   std::vector<float> ax, ay, az, bx, by, bz;  ///< Response::first, second [rad s/m]
   std::vector<BatchGroup> groups;

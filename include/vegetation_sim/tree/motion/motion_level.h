@@ -12,10 +12,10 @@
 
 namespace vegetation_sim::forest {
 
-using vegetation_sim::Eye;
 using vegetation_sim::HYSTERESIS;
 using vegetation_sim::pixelsPerMetre;
 using vegetation_sim::sees;
+using vegetation_sim::Viewpoint;
 
 /// The level above all depths: every joint moves, and as the tree's modes do (N13).
 constexpr int MODAL_LEVEL = MAX_DEPTHS + 1;

@@ -37,6 +37,7 @@ constexpr double LONGEST_LOOK_AHEAD = 0.05;  ///< [s]
 /// Pose of every branch in the tree's frame, physical ones and modes included (S1-35, N13).
 /// `sway`: none, the tree has no modes.
 std::vector<Pose> poseBranches(const Tree& tree, const wind::Instant& wind, const Weights& weights,
-                               const Sway* sway, const PromotedTree& promoted, Nanoseconds stamp);
+                               const ModalTreeState* sway, const PromotedTree& promoted,
+                               Nanoseconds stamp);
 
 }  // namespace vegetation_sim::forest

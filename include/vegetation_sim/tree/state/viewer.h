@@ -12,7 +12,7 @@ namespace vegetation_sim::forest {
 /// An eye that asked for detail.
 struct Viewer {
   std::string id;
-  Eye eye;
+  Viewpoint eye;
   Nanoseconds stamp{0};  ///< last heard
 };
 /// A viewer not heard for this long is forgotten.

@@ -13,7 +13,7 @@ namespace vegetation_sim::forest {
 /// Air velocity at many points at once, in the widest instruction set of the processor: to the bit
 /// what wind::Instant::velocity and WindWindow::velocities give one by one. Keeps its memory from
 /// call to call.
-class AirSampler {
+class WindSampler {
  public:
   void clear() { count_ = 0; }
   /// @param point world [m].
@@ -34,7 +34,7 @@ class AirSampler {
   };
   void sampleAt(std::size_t look, const wind::Instant& wind);
   void addTerms(std::size_t look, const wind::Instant& wind);
-  wind::AirRows rows(std::size_t look);
+  wind::WindSamples rows(std::size_t look);
 
   std::size_t count_{0};
   Rows points_;

@@ -19,7 +19,7 @@ constexpr Nanoseconds LOOK = NANOSECONDS_PER_SECOND / PHYSICS_RATE;
 class WindWindow {
  public:
   /// Looks at `stamp`; keeps its memory from call to call.
-  void lookAt(const wind::Field& field, Nanoseconds stamp);
+  void sampleAt(const wind::Field& field, Nanoseconds stamp);
   Nanoseconds stamp() const { return stamp_; }
   const wind::Instant& now() const { return looks_[1]; }
   const std::array<wind::Instant, 3>& looks() const { return looks_; }

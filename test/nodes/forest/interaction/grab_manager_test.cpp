@@ -28,9 +28,9 @@ Quat turned() {
 }
 
 /// An oak in still air, a desk at which its branches are held, and tf.
-class DeskRig {
+class GrabManagerRig {
  public:
-  DeskRig() : forest_(layout(), forest::flatTerrain(), forest::Settings()) {
+  GrabManagerRig() : forest_(layout(), forest::flatTerrain(), forest::Settings()) {
     tree_ = forest::growTree(forest_.layout(), 0, forest_.terrain());
     forest_.advance(now());
   }
@@ -64,7 +64,7 @@ class DeskRig {
     out.transform.rotation.y = q.y, out.transform.rotation.z = q.z;
     tf_.setTransform(out, "test");
   }
-  void tell(const forest::Body& body, const Pose& in_frame) {
+  void report(const forest::Body& body, const Pose& in_frame) {
     ForestEvent event;
     event.kind = ForestEvent::BODY;
     event.body = toMsg(body, in_frame);
@@ -72,27 +72,27 @@ class DeskRig {
   }
   std::uint32_t grab(const Grab::Request& request) {
     Grab::Response response;
-    desk_.grab(request, response);
+    grabs_manager_.grab(request, response);
     return response.id;
   }
   /// As forest_animator has it.
   void tick() {
     ++tick_;
-    desk_.follow(now(), [](const std::string& what, const std::string& why) {
+    grabs_manager_.follow(now(), [](const std::string& what, const std::string& why) {
       ADD_FAILURE() << what << ": " << why;
     });
     for (ForestEvent& event : inputs_.take(now())) {
-      desk_.aim(event);
+      grabs_manager_.aim(event);
       if (event.kind == ForestEvent::GRAB) forest_.addGrab(fromMsg(event.grab));
       if (event.kind == ForestEvent::MOVE)
         forest_.moveGrab(event.grab.id, fromMsg(event.grab.target));
       if (event.kind == ForestEvent::BODY) forest_.setBody(fromMsg(event.body));
-      desk_.adopt(event);
+      grabs_manager_.applyDelta(event);
     }
     forest_.advance(now());
-    desk_.settle();
+    grabs_manager_.settle();
   }
-  std::vector<geometry_msgs::WrenchStamped> wrenches() const { return desk_.wrenches(); }
+  std::vector<geometry_msgs::WrenchStamped> wrenches() const { return grabs_manager_.wrenches(); }
 
  private:
   std::int64_t tick_{6000};
@@ -102,7 +102,7 @@ class DeskRig {
   forest::TreeCache cache_{100000};
   ForestInputs inputs_{false};
   tf2_ros::Buffer tf_;
-  GrabDesk desk_{GrabRoom{options_, forest_, cache_, inputs_, tf_}};
+  GrabManager grabs_manager_{GrabDependencies{options_, forest_, cache_, inputs_, tf_}};
 };
 
 // Components along a frame's axes, told by dot products.
@@ -113,8 +113,8 @@ Vec3 alongAxes(const Quat& frame, const Vec3& v) {
 // N3. A hand holds a limb 30 cm off its own origin, turned against the world, and goes aside and
 // turns on: at rest its wrench balances the spring, as a force and as a moment about the hand's
 // origin.
-TEST(GrabDesk, HandFeelsForceAndTorqueInItsOwnFrame) {
-  DeskRig rig;
+TEST(GrabManager, HandFeelsForceAndTorqueInItsOwnFrame) {
+  GrabManagerRig rig;
   const int limb = 46;
   const double along = 0.5 * rig.branch(limb).length, stiffness = 5000.0;
   const Pose start{rig.pointOn(limb, along) + Vec3(0.1, -0.2, 0.2), turned()};
@@ -146,21 +146,21 @@ TEST(GrabDesk, HandFeelsForceAndTorqueInItsOwnFrame) {
   ASSERT_GT(length(force), 20.0);
   ASSERT_GT(length(torque), 5.0);
   ASSERT_EQ(rig.wrenches().size(), 1u);
-  const geometry_msgs::WrenchStamped told = rig.wrenches()[0];
-  EXPECT_EQ(told.header.frame_id, "hand");
-  EXPECT_EQ(fromMsg(told.header.stamp), rig.now());
+  const geometry_msgs::WrenchStamped published = rig.wrenches()[0];
+  EXPECT_EQ(published.header.frame_id, "hand");
+  EXPECT_EQ(fromMsg(published.header.stamp), rig.now());
   // What still swings after 20 s, and single precision.
-  EXPECT_LT(length(fromMsg(told.wrench.force) - alongAxes(hand.orientation, force)),
+  EXPECT_LT(length(fromMsg(published.wrench.force) - alongAxes(hand.orientation, force)),
             0.01 * length(force));
-  EXPECT_LT(length(fromMsg(told.wrench.torque) - alongAxes(hand.orientation, torque)),
+  EXPECT_LT(length(fromMsg(published.wrench.torque) - alongAxes(hand.orientation, torque)),
             0.01 * length(torque));
 }
 
 // N3. A body that turns and goes on, of which tf tells late: its wrench at a tick is in its frame
 // as it is at the tick, not as tf last told it.
-TEST(GrabDesk, BodyFeelsItsWrenchInItsFrameOfTheTick) {
+TEST(GrabManager, BodyFeelsItsWrenchInItsFrameOfTheTick) {
   constexpr double LATE = 0.1;  // [s]
-  DeskRig rig;
+  GrabManagerRig rig;
   const forest::Branch& trunk = rig.branch(0);
   const Pose in_frame{Vec3(0.3, -0.1, 0.2), turned()};
   forest::Body body;
@@ -171,7 +171,7 @@ TEST(GrabDesk, BodyFeelsItsWrenchInItsFrameOfTheTick) {
   body.velocity = Vec3(0.5, 0.0, 0.0);
   body.spin = Vec3(0.0, 0.0, 2.0);
   const Vec3 start(-trunk.base_radius - 0.12, 0.02, 1.0);
-  int told = 0;
+  int published = 0;
   for (int i = 0; i < RATE / 2; ++i) {
     const double seen = static_cast<double>(i + 1) / RATE, known = seen - LATE;
     const auto at = [&](double time) -> Pose {
@@ -180,7 +180,7 @@ TEST(GrabDesk, BodyFeelsItsWrenchInItsFrameOfTheTick) {
     };
     body.pose = at(known);
     body.stamp = rig.now() + fromSeconds(1.0 / RATE - LATE);
-    rig.tell(body, in_frame);
+    rig.report(body, in_frame);
     rig.tick();
     const Pose frame = compose(at(seen), inverse(in_frame));
     const auto& reactions = rig.forest().reactions();
@@ -194,10 +194,10 @@ TEST(GrabDesk, BodyFeelsItsWrenchInItsFrameOfTheTick) {
       EXPECT_LT(length(fromMsg(wrenches[k].wrench.force) - force), 1e-6 * length(force) + 1e-9);
       EXPECT_LT(length(fromMsg(wrenches[k].wrench.torque) - alongAxes(frame.orientation, torque)),
                 1e-6 * length(force) + 1e-9);
-      told += length(force) > 100.0;
+      published += length(force) > 100.0;
     }
   }
-  EXPECT_GT(told, 5);
+  EXPECT_GT(published, 5);
 }
 
 }  // namespace

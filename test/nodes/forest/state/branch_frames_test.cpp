@@ -103,7 +103,7 @@ TEST(BranchFrames, DoNotFlicker) {
         ++entry;
         continue;
       }
-      EXPECT_GE(secondsBetween(entry->second, scene.rig.now()), RUNG_REST);
+      EXPECT_GE(secondsBetween(entry->second, scene.rig.now()), TIER_HOLD);
       entry = since.erase(entry);
     }
     for (const Key& key : chosen) since.emplace(key, scene.rig.now());

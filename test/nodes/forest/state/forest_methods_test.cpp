@@ -53,8 +53,8 @@ TEST(ForestMethods, AreThoseOfTheScenario) {
   ClockedForest forest(3000);
   forest.run(3);
   const Nanoseconds stamp = fromMsg(forest.state.last().header.stamp);
-  const std::uint64_t told = forest.state.last().hash;
-  EXPECT_EQ(told, hashWith(wanted(), stamp));
+  const std::uint64_t published = forest.state.last().hash;
+  EXPECT_EQ(published, hashWith(wanted(), stamp));
   const PhysicsSettings usual;
   const std::vector<std::function<void(PhysicsSettings&)>> changes{
       [&](PhysicsSettings& s) { s.dynamics = usual.dynamics; },
@@ -75,7 +75,7 @@ TEST(ForestMethods, AreThoseOfTheScenario) {
   for (std::size_t i = 0; i < changes.size(); ++i) {
     PhysicsSettings other = wanted();
     changes[i](other);
-    EXPECT_NE(told, hashWith(other, stamp)) << "setting " << i;
+    EXPECT_NE(published, hashWith(other, stamp)) << "setting " << i;
   }
 }
 

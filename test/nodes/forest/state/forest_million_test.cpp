@@ -138,10 +138,10 @@ TEST_F(ForestMillion, TreesRegrowToTheBit) {
   const forest::Layout layout = fromMsg(forest_->layout.last());
   std::uint64_t last = 0;
   for (const std::uint32_t id : {0u, 1u, 499999u, 765432u, TREES - 1}) {
-    const GetTree::Response told = forest_->ask(id);
-    ASSERT_TRUE(told.success) << told.message;
+    const GetTree::Response published = forest_->ask(id);
+    ASSERT_TRUE(published.success) << published.message;
     const std::uint64_t hash = forest::growTree(layout, id, {}).skeleton.hash();
-    EXPECT_EQ(told.skeleton_hash, hash);
+    EXPECT_EQ(published.skeleton_hash, hash);
     EXPECT_NE(hash, last);
     last = hash;
   }
@@ -150,7 +150,7 @@ TEST_F(ForestMillion, TreesRegrowToTheBit) {
 
 // Stock markers draw the nearest trees only, and let the state flow.
 TEST_F(ForestMillion, MarkersStayWithinTheirBudget) {
-  Heard<visualization_msgs::MarkerArray> markers("forest/markers");
+  LatestMessage<visualization_msgs::MarkerArray> markers("forest/markers");
   markers.waitForPublisher();
   const std::uint32_t first = forest_->state.last().sequence;
   int steps = 0;

@@ -90,8 +90,8 @@ class ForestRebuild : public testing::Test {
 
   /// A process that heard the latched layout, the wind and the key frame only.
   static forest::ForestReplica listener() {
-    Heard<ForestLayout> layout("forest/layout");
-    Heard<WindField> wind("wind");
+    LatestMessage<ForestLayout> layout("forest/layout");
+    LatestMessage<WindField> wind("wind");
     forest::ForestReplica out;
     out.setLayout(fromMsg(layout.last()), loadTerrain(layout.last().terrain));
     out.setWind(fromMsg(wind.last()));
@@ -104,31 +104,32 @@ class ForestRebuild : public testing::Test {
   static Errors compare(const forest::ForestReplica& replica) {
     Errors out;
     for (std::uint32_t id = 0; id < replica.layout().treeCount(); ++id) {
-      const GetTree::Response told = forest_->ask(id, toStamp(replica.stamp()));
+      const GetTree::Response published = forest_->ask(id, toStamp(replica.stamp()));
       const forest::Tree tree = replica.grow(id);
-      EXPECT_TRUE(told.success) << told.message;
-      EXPECT_EQ(told.skeleton_hash, tree.skeleton.hash());  // S1-04
-      EXPECT_EQ(told.level, replica.levels().of(id).level);
+      EXPECT_TRUE(published.success) << published.message;
+      EXPECT_EQ(published.skeleton_hash, tree.skeleton.hash());  // S1-04
+      EXPECT_EQ(published.level, replica.levels().of(id).level);
       const auto poses = replica.pose(tree, id, replica.stamp());
       forest::BatchPoses fast;
       forest::BatchPoser(tree).pose(replica.wind().at(replica.stamp()).relativeTo(tree.foot),
                                     replica.weights(id, replica.stamp()), forest::MAX_DEPTHS, fast);
       const auto promoted = replica.promoted(id).branches;
-      EXPECT_EQ(promoted.size(), told.physical.size());
+      EXPECT_EQ(promoted.size(), published.physical.size());
       if (!promoted.empty() || replica.sway(id))
         narrow(poses, fast);  // how displays pose such a tree
       out.physical += promoted.size();
-      if (poses.size() != told.transforms.poses.size()) throw std::runtime_error("other branches");
+      if (poses.size() != published.transforms.poses.size())
+        throw std::runtime_error("other branches");
       for (std::size_t i = 0; i < poses.size(); ++i)
-        addErrors(told.transforms.poses[i], tree, poses[i], fast.at(static_cast<int>(i)), out);
+        addErrors(published.transforms.poses[i], tree, poses[i], fast.at(static_cast<int>(i)), out);
     }
     return out;
   }
 
-  static void addErrors(const geometry_msgs::Pose& told, const forest::Tree& tree,
+  static void addErrors(const geometry_msgs::Pose& published, const forest::Tree& tree,
                         const Pose& exact, const Pose& fast, Errors& out) {
-    const Vec3 at(told.position.x, told.position.y, told.position.z);
-    const auto& q = told.orientation;
+    const Vec3 at(published.position.x, published.position.y, published.position.z);
+    const auto& q = published.orientation;
     const Quat& e = exact.orientation;
     out.metres = std::max(out.metres, length(tree.foot + exact.position - at));
     for (const double difference : {q.w - e.w, q.x - e.x, q.y - e.y, q.z - e.z})
