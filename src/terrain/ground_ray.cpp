@@ -28,9 +28,9 @@ Stretch between(double low, double high, double z, double rise, double reach) {
 
 bool meetGround(const HeightMap& ground, const Vec3& origin, const Vec3& direction, double reach,
                 Vec3& place) {
-  const double length = direction.norm();
-  if (!(length > 0.0) || !origin.allFinite() || !direction.allFinite()) return false;
-  const Vec3 along = direction / length;
+  const double size = length(direction);
+  if (!(size > 0.0) || !origin.allFinite() || !direction.allFinite()) return false;
+  const Vec3 along = direction / size;
   if (above(ground, origin) < 0.0) return false;
   const Bounds box = ground.bounds();
   // A little more than the box: at its faces rounding decides nothing.

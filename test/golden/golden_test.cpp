@@ -6,6 +6,7 @@
 
 #include <cstdio>
 #include <exception>
+#include <ostream>
 
 #include "golden/golden_file.h"
 #include "vegetation_sim/core/config/instruction_set.h"
@@ -20,6 +21,10 @@ struct Case {
   std::string instruction_set;
   int threads;
 };
+
+void PrintTo(const Case& scene, std::ostream* out) {
+  *out << scene.scene.covers;
+}
 
 std::vector<Case> allCases() {
   std::vector<Case> out;
