@@ -18,7 +18,7 @@ void CanopyPart::advance(Nanoseconds stamp) {
 }
 
 void CanopyPart::addTo(Hashes& hashes) {
-  hashes.state.add(canopy_.memory().hash());
+  hashes.state.add(canopy_.snapshot().hash());
   const canopy::Foliage& own = canopy_.foliage();
   const canopy::Foliage& shown = replica_.foliage();
   for (std::size_t plant = 0; plant < leaves_.size(); ++plant)

@@ -19,7 +19,7 @@ std::vector<crowd::Skeleton> CrowdPart::bodies() const {
 }
 
 void CrowdPart::addTo(Hashes& hashes) const {
-  hashes.state.add(crowd_.memory().hash());
+  hashes.state.add(crowd_.snapshot().hash());
   for (const crowd::Skeleton& body : bodies())
     for (const crowd::Limb& limb : body) {
       hashes.reference.add(limb.from);

@@ -28,7 +28,7 @@ void ForestPart::setWind(const wind::Field& wind) {
   replica_.setWind(wind);
 }
 
-void ForestPart::setEye(const Eye& eye, Nanoseconds stamp) {
+void ForestPart::setEye(const Viewpoint& eye, Nanoseconds stamp) {
   forest::Viewer viewer;
   viewer.id = "camera";
   viewer.eye = eye;

@@ -19,7 +19,7 @@ class ForestPart {
   explicit ForestPart(const Scenario& scenario);
 
   void setWind(const wind::Field& wind);
-  void setEye(const Eye& eye, Nanoseconds stamp);
+  void setEye(const Viewpoint& eye, Nanoseconds stamp);
   void advance(Nanoseconds stamp, bool key_frame);
   void addTo(Hashes& hashes);
 

@@ -49,20 +49,20 @@ void GrassPart::advance(Nanoseconds stamp, bool key_frame) {
 }
 
 void GrassPart::addTo(Hashes& hashes) {
-  hashes.state.add(field_.memory().hash());
-  hashes.display.add(meadow_.memory().hash());
+  hashes.state.add(field_.snapshot().hash());
+  hashes.display.add(meadow_.snapshot().hash());
   for (const grass::Drag& drag : field_.drags()) hashes.reference.add(drag.force);
   std::vector<grass::TileView> views = meadow_.viewOf(eye_, stamp_);
   std::vector<grass::TilePlace> tiles;
   for (const grass::TileView& view : views) tiles.push_back({view.column, view.row});
-  grass::NodeAir air(meadow_.map(), meadow_.terrain());
-  air.update(wind_.at(stamp_), {}, grass::Meadow::windowOf(views), &tiles);
+  grass::NodeWind air(meadow_.map(), meadow_.terrain());
+  air.update(wind_.at(stamp_), {}, grass::MeadowLod::windowOf(views), &tiles);
   mesh_.clear();
   for (const grass::TileView& view : views) draw(view, air, hashes);
   addFloats(mesh_.positions, hashes.display);
 }
 
-void GrassPart::draw(const grass::TileView& view, const grass::NodeAir& air, Hashes& hashes) {
+void GrassPart::draw(const grass::TileView& view, const grass::NodeWind& air, Hashes& hashes) {
   grass::TileMotion motion;
   grass::CrushPatch patch;
   const grass::Tile tile = meadow_.tileAt(view, air, stamp_, patch, motion);

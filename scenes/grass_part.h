@@ -21,7 +21,7 @@ class GrassPart {
   explicit GrassPart(const Scenario& scenario);
 
   void setWind(const wind::Field& wind) { wind_ = wind; }
-  void setEye(const Eye& eye) { eye_ = eye; }
+  void setEye(const Viewpoint& eye) { eye_ = eye; }
   void advance(Nanoseconds stamp, bool key_frame);
   void addTo(Hashes& hashes);
 
@@ -40,14 +40,14 @@ class GrassPart {
 
  private:
   grass::TreadInput inputOf(const std::string& source, grass::TreadAction action) const;
-  void draw(const grass::TileView& view, const grass::NodeAir& air, Hashes& hashes);
+  void draw(const grass::TileView& view, const grass::NodeWind& air, Hashes& hashes);
 
   grass::TreadMap tread_;
-  grass::Field field_;
-  grass::Meadow meadow_;  ///< of the display, with its own trodden ground
+  grass::TreadSimulation field_;
+  grass::MeadowLod meadow_;  ///< of the display, with its own trodden ground
   grass::TreadReplica replica_;
   wind::Field wind_;
-  Eye eye_;
+  Viewpoint eye_;
   Nanoseconds stamp_{START};
   std::vector<grass::BladeBlock> blocks_;
   grass::GrassMesh mesh_;

@@ -35,7 +35,7 @@ void World::changeWind() {
 
 void World::setCamera(const Vec3& from, double yaw) {
   const SinCos turn = sinCos(yaw), half = sinCos(0.5 * yaw);
-  Eye eye;
+  Viewpoint eye;
   eye.position = from;
   eye.forward = Vec3(turn.cos, turn.sin, 0.0);
   eye.cone_cosine = 0.7;
