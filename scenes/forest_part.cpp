@@ -9,6 +9,12 @@
 #include "tree/motion/narrow_poses.h"
 
 namespace vegetation_sim::scenes {
+namespace {
+
+/// Displays draw between ticks: trees are drawn so long after the last one.
+constexpr Nanoseconds AFTER_TICK = 5000000;
+
+}  // namespace
 
 ForestPart::ForestPart(const Scenario& scenario)
     : forest_(*scenario.forest, scenario.terrain, scenario.levels) {
@@ -49,11 +55,12 @@ void ForestPart::addTo(Hashes& hashes) {
     hashes.reference.add(reaction.force);
     hashes.reference.add(reaction.torque);
   }
-  const wind::Instant wind = replica_.wind().at(stamp_);
+  const Nanoseconds shown = stamp_ + AFTER_TICK;
+  const wind::Instant wind = replica_.wind().at(shown);
   forest::BatchPoses drawn;
   for (std::uint32_t id = 0; id < trees_.size(); ++id) {
     for (const Pose& pose : forest_.pose(trees_[id], id, stamp_)) addPose(pose, hashes.reference);
-    poseAsDrawn(id, wind, drawn);
+    poseAsDrawn(id, wind, shown, drawn);
     const auto count = static_cast<std::size_t>(drawn.count);
     for (const auto* row :
          {&drawn.x, &drawn.y, &drawn.z, &drawn.qw, &drawn.qx, &drawn.qy, &drawn.qz})
@@ -62,15 +69,15 @@ void ForestPart::addTo(Hashes& hashes) {
   }
 }
 
-void ForestPart::poseAsDrawn(std::uint32_t id, const wind::Instant& wind,
+void ForestPart::poseAsDrawn(std::uint32_t id, const wind::Instant& wind, Nanoseconds stamp,
                              forest::BatchPoses& out) const {
   const auto* modes = replica_.sway(id);
-  const forest::Weights weights = replica_.weights(id, stamp_);
+  const forest::Weights weights = replica_.weights(id, stamp);
   const bool physical = !replica_.promoted(id).branches.empty();
   if (!physical && modes && forest::modalWeight(weights) >= 1.0)
-    modes->pose(posers_[id], stamp_, out);
+    modes->pose(posers_[id], stamp, out);
   else if (physical || modes)
-    forest::narrow(replica_.pose(trees_[id], id, stamp_), out);
+    forest::narrow(replica_.pose(trees_[id], id, stamp), out);
   else
     posers_[id].pose(wind.relativeTo(trees_[id].foot), weights, forest::MAX_DEPTHS, out);
 }

@@ -35,7 +35,8 @@ class ForestPart {
   double height(std::uint32_t tree) const;
 
  private:
-  void poseAsDrawn(std::uint32_t id, const wind::Instant& wind, forest::BatchPoses& out) const;
+  void poseAsDrawn(std::uint32_t id, const wind::Instant& wind, Nanoseconds stamp,
+                   forest::BatchPoses& out) const;
   void addMesh(const forest::BatchPoses& poses, Hash& hash) const;
 
   forest::Forest forest_;
