@@ -2,7 +2,7 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
 # Checks of the code that run nothing of it.
-# usage: scripts/lint.sh [format | tidy | catkin | layers | words | docs] ...; all if none is given
+# usage: scripts/lint.sh [format | tidy | catkin | structure | words | docs] ...; all if none is given
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 cd "$ROOT"
@@ -20,7 +20,7 @@ format() { code | xargs clang-format --dry-run -Werror; }
 
 # The core only: the headers of ROS would take many minutes.
 tidy() {
-  git ls-files src/{canopy,common,crowd,forest,grass,physics,scan,terrain,wind}'/*.cpp' |
+  git ls-files src/{canopy,core,crowd,dynamics,forest,grass,reference,sensors,terrain,tree,wind}'/*.cpp' |
     xargs -P "$(nproc)" -n 1 clang-tidy --quiet --extra-arg=-std=c++17 -p "$BUILD" 2>/dev/null
 }
 
@@ -34,22 +34,14 @@ catkin() {
   [ -z "$found" ] || { printf '%s\n' "$found"; return 1; }
 }
 
-# The core includes nothing of ROS, rviz or Qt.
-layers() {
-  none_match '#include [<"](ros/|tf2|rviz/|nodelet|pluginlib|dynamic_reconfigure|Q[A-Z]|[a-z_]+_(msgs|srvs)/|vegetation_sim/(ros|nodes|rviz)/)' \
-    {include/vegetation_sim,src}/{canopy,common,crowd,forest,grass,physics,scan,terrain,wind} &&
-    none_match '#include [<"](vegetation_sim/)?scan/' {include/vegetation_sim,src}/{canopy,common,crowd,forest,grass,physics,terrain,wind} &&
-    none_match '#include [<"](vegetation_sim/)?forest/' {include/vegetation_sim,src}/grass &&
-    none_match '#include [<"](vegetation_sim/)?(canopy|forest|grass|physics|wind)/' {include/vegetation_sim,src}/crowd &&
-    none_match '#include [<"](vegetation_sim/)?(forest|grass|terrain|wind)/' {include/vegetation_sim,src}/physics &&
-    none_match '#include [<"](rviz/|Q[A-Z]|vegetation_sim/(nodes|rviz)/)' {include/vegetation_sim,src}/ros
-}
+# Folders, includes, public headers and stems are as docs/folders.yaml says.
+structure() { python3 test/structure/check_structure.py; }
 
 # No left-over, and in the core nothing whose bits differ between machines. What only chooses how
 # finely a picture is drawn may use the platform's mathematics.
 words() {
-  local code_of_core=({include/vegetation_sim,src}/{canopy,common,crowd,forest,grass,physics,terrain,wind}
-    ':!src/forest/geometry_level.cpp')
+  local code_of_core=({include/vegetation_sim,src}/{canopy,core,crowd,dynamics,forest,grass,reference,terrain,tree,wind}
+    ':!src/tree/mesh/geometry_level.cpp')
   none_match '\b(std::)?(rand|srand|random_device|[a-z]+_distribution)\b *[(<{]' src include &&
     none_match 'std::(sin|cos|tan|atan2?|exp|log|pow|cbrt|hypot)\(' "${code_of_core[@]}" &&
     none_match 'unordered_(map|set)' "${code_of_core[@]}" &&
@@ -60,10 +52,10 @@ words() {
 
 docs() { python3 test/docs/check_docs.py; }
 
-[ $# -gt 0 ] || set -- format tidy catkin layers words docs
+[ $# -gt 0 ] || set -- format tidy catkin structure words docs
 for check in "$@"; do
   case $check in
-    format | tidy | catkin | layers | words | docs) "$check" ;;
+    format | tidy | catkin | structure | words | docs) "$check" ;;
     *) fail "unknown check $check" ;;
   esac
 done

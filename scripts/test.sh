@@ -48,7 +48,7 @@ run_tests() {
 lint() {
   say 'Checks of the code'
   local name
-  for name in format catkin layers words docs tidy; do check "lint $name" "$ROOT/scripts/lint.sh" $name; done
+  for name in format catkin structure words docs tidy; do check "lint $name" "$ROOT/scripts/lint.sh" $name; done
 }
 
 # usage: in_shares COMMAND ...: a suite's tests dealt out to as many processes as there are cores.
@@ -65,7 +65,7 @@ in_shares() {
 
 sanitize() {
   say 'The core under sanitizers'
-  local folder folders=(canopy common crowd forest grass physics scan terrain wind)
+  local folder folders=(canopy core crowd dynamics forest grass sensors terrain tree wind)
   check 'sanitizers: build' "$ROOT/scripts/build.sh" --sanitize "${folders[@]/%/_test}"
   for folder in "${folders[@]}"; do
     check "sanitizers: $folder" in_shares timeout 2400 "$BUILD/sanitize/devel/lib/vegetation_sim/${folder}_test" --gtest_brief=1

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rviz/ground/meadow_texture.h"
 #include "rviz/render/batch.h"
-#include "rviz/textures/meadow_texture.h"
 
 namespace vegetation_sim::view {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "rviz/grass/grass_source.h"
 #include "rviz/ground/ground_visual.h"
-#include "rviz/textures/meadow_texture.h"
+#include "rviz/ground/meadow_texture.h"
 
 namespace vegetation_sim::view {
 

@@ -12,6 +12,9 @@ using Nanoseconds = std::int64_t;
 
 constexpr Nanoseconds NANOSECONDS_PER_SECOND = 1000000000;
 
+/// Rate of the steps of physical motion [Hz].
+constexpr int PHYSICS_RATE = 240;
+
 /// Seconds from one stamp to another: exact integer difference first, then double.
 inline double secondsBetween(Nanoseconds from, Nanoseconds to) {
   return static_cast<double>(to - from) * 1e-9;

@@ -21,8 +21,6 @@ enum class Promotion : int { INFLUENCE = 0, DEPTH = 1 };
 /// precision, or one by one in double, the reference. Everything else is always double.
 enum class Precision : int { SINGLE = 0, DOUBLE = 1 };
 
-/// Rate of physical steps [Hz].
-constexpr int PHYSICS_RATE = 240;
 /// A longer time between ticks is not stepped through.
 constexpr Nanoseconds LONGEST_GAP = NANOSECONDS_PER_SECOND;
 

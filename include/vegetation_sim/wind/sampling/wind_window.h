@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "vegetation_sim/core/math/math.h"
-#include "vegetation_sim/tree/growth/physics_settings.h"
+#include "vegetation_sim/core/math/time.h"
 #include "vegetation_sim/wind/field.h"
 
 namespace vegetation_sim::forest {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "rviz/textures/meadow_texture.h"
+#include "rviz/ground/meadow_texture.h"
 #include "vegetation_sim/core/math/math.h"
 
 namespace vegetation_sim::view {

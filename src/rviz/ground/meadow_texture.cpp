@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rviz/textures/meadow_texture.h"
+#include "rviz/ground/meadow_texture.h"
 
 #include <algorithm>
 #include <cmath>
