@@ -29,7 +29,7 @@ using Record = std::vector<double>;
 Primitive breeze() {
   Primitive p;
   p.name = "breeze";
-  p.kind = static_cast<int>(Kind::BREEZE);
+  p.kind = Kind::BREEZE;
   p.fade_in = 0.0;
   p.velocity = Vec3(SPEED, 0.0, 0.0);
   p.turbulence = TURBULENCE;

@@ -63,7 +63,7 @@ Path inWind(const std::string& name, std::shared_ptr<Trees> trees) {
 
 wind::Field gust() {
   wind::Primitive out;
-  out.kind = static_cast<int>(wind::Kind::GUST);
+  out.kind = wind::Kind::GUST;
   out.name = "gust";
   out.velocity = Vec3(18.0, 0.0, 0.0);
   return wind::Field({out});
@@ -72,7 +72,7 @@ wind::Field gust() {
 // Of 24 modes.
 wind::Field breeze() {
   wind::Primitive out;
-  out.kind = static_cast<int>(wind::Kind::BREEZE);
+  out.kind = wind::Kind::BREEZE;
   out.velocity = Vec3(4.0, 2.0, 0.0);
   out.name = "breeze";
   out.turbulence = 0.2;

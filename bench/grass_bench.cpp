@@ -192,7 +192,7 @@ wind::Field breeze() {
   wind::Primitive p;
   p.id = 1;
   p.name = "breeze";
-  p.kind = static_cast<int>(wind::Kind::BREEZE);
+  p.kind = wind::Kind::BREEZE;
   return wind::Field({p}, 3);
 }
 

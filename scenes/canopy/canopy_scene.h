@@ -27,7 +27,7 @@ inline wind::Field breezeFrom(const Vec3& velocity) {
   wind::Primitive breeze;
   breeze.id = 1;
   breeze.name = "breeze";
-  breeze.kind = static_cast<int>(wind::Kind::BREEZE);
+  breeze.kind = wind::Kind::BREEZE;
   breeze.velocity = velocity;
   return wind::Field({breeze}, 3);
 }

@@ -44,7 +44,7 @@ inline wind::Primitive makeDisk(std::uint32_t id, const Vec3& centre, double rad
   wind::Primitive out;
   out.id = id;
   out.name = "disc_" + std::to_string(id);
-  out.kind = static_cast<int>(wind::Kind::DISK);
+  out.kind = wind::Kind::DISK;
   out.fade_in = out.fade_out = 0.0;
   out.trajectory = {{0, centre}};
   out.radius = radius;
@@ -56,7 +56,7 @@ inline wind::Primitive makeBreeze(std::uint32_t id, const Vec3& velocity) {
   wind::Primitive out;
   out.id = id;
   out.name = "breeze_" + std::to_string(id);
-  out.kind = static_cast<int>(wind::Kind::BREEZE);
+  out.kind = wind::Kind::BREEZE;
   out.fade_in = out.fade_out = 0.0;
   out.velocity = velocity;
   return out;

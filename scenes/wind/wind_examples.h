@@ -18,7 +18,7 @@ inline Primitive example(Kind kind, const std::string& name = "source") {
   Primitive p;
   p.id = 1;
   p.name = name;
-  p.kind = static_cast<int>(kind);
+  p.kind = kind;
   p.fade_in = p.fade_out = 0.0;
   return p;
 }
@@ -26,7 +26,7 @@ inline Primitive example(Kind kind, const std::string& name = "source") {
 /// The disk of the requirements' reference vector: r = 10 m, w = 2 rad/s, |F| = 5.
 inline Primitive printedDisk() {
   Primitive p = example(Kind::DISK);
-  p.envelope = 1;
+  p.envelope = Envelope::PAPER;
   p.radius = 10.0;
   p.omega = 2.0;
   p.velocity = Vec3(5.0, 0.0, 0.0);

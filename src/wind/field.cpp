@@ -28,7 +28,7 @@ void shapeDisk(const Primitive& p, double elapsed, double weight, Term& term) {
   const double turns = p.omega * elapsed / (2.0 * PI), psi = p.phase / (2.0 * PI);
   // Whole turns to the nearest one: just before the epoch nothing is lost against 1.
   const double sine = sinCosTurns(turns - std::floor(turns + 0.5) + psi).sin;
-  term.smooth = p.envelope == 0;
+  term.smooth = p.envelope == Envelope::SMOOTH;
   term.amplitude = p.velocity * (weight * sine);
   term.peak = weight * length(p.velocity);
 }
@@ -84,7 +84,7 @@ Field::Field(std::vector<Primitive> primitives, std::uint64_t seed)
   }
   faults.throwIfAny();
   for (const Primitive& p : primitives_) {
-    const bool breeze = p.kind == static_cast<int>(Kind::BREEZE);
+    const bool breeze = p.kind == Kind::BREEZE;
     compiled_.push_back(std::make_shared<Compiled>(
         Compiled{Trajectory(p.trajectory), breeze ? Breeze(p, seed_) : Breeze()}));
   }
@@ -103,7 +103,7 @@ void Field::at(Nanoseconds stamp, Instant& instant) const {
   instant.terms.clear();
   for (std::size_t i = 0; i < primitives_.size(); ++i) {
     const Primitive& p = primitives_[i];
-    if (static_cast<Kind>(p.kind) != Kind::BREEZE) {
+    if (p.kind != Kind::BREEZE) {
       Term term;
       if (termAt(i, stamp, term)) instant.terms.push_back(term);
     } else if (const double weight = fade(p, stamp); weight != 0.0) {
@@ -117,7 +117,7 @@ void Field::at(Nanoseconds stamp, Instant& instant) const {
 bool Field::termAt(std::size_t index, Nanoseconds stamp, Term& out) const {
   const Primitive& p = primitives_[index];
   out = Term();
-  out.kind = static_cast<Kind>(p.kind);
+  out.kind = p.kind;
   if (out.kind == Kind::BREEZE) return false;
   const double weight = fade(p, stamp), elapsed = secondsBetween(p.epoch, stamp);
   if (weight == 0.0) return false;

@@ -12,7 +12,7 @@ namespace {
 
 bool isKind(const Primitive& p, std::initializer_list<Kind> kinds) {
   for (const Kind kind : kinds)
-    if (p.kind == static_cast<int>(kind)) return true;
+    if (p.kind == kind) return true;
   return false;
 }
 

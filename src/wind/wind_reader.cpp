@@ -44,11 +44,11 @@ void readTimes(YamlSection& section, Primitive& p) {
 Source readSource(YamlSection& section) {
   Source source;
   Primitive& p = source.primitive;
-  p.kind = -1;
   section.text("name", p.name);
   if (!section.has("kind")) section.fault("kind", "is missing");
-  section.choice("kind", p.kind, kindNames());
-  if (p.kind < 0) return source;  // without a kind its keys mean nothing
+  int kind = -1;
+  section.choice("kind", kind, kindNames());
+  if (kind < 0) return source;  // the kind decides which keys are allowed
   describe(section, p);
   section.text("attached_frame", source.attached_frame);
   readTimes(section, p);

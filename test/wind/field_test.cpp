@@ -92,7 +92,7 @@ TEST(Field, HashChangesWithEveryPartOfIt) {  // N2
   const std::vector<std::function<void(Primitive&)>> changes = {
       [](Primitive& p) { p.id = 9; },
       [](Primitive& p) { p.name += "x"; },
-      [](Primitive& p) { p.kind = static_cast<int>(Kind::BLAST); },
+      [](Primitive& p) { p.kind = Kind::BLAST; },
       [](Primitive& p) { p.epoch += 1; },
       [](Primitive& p) { p.t_on += 1; },
       [](Primitive& p) { p.t_off += 1; },
@@ -108,7 +108,7 @@ TEST(Field, HashChangesWithEveryPartOfIt) {  // N2
       [](Primitive& p) { p.radius += 1e-9; },
       [](Primitive& p) { p.omega += 1e-9; },
       [](Primitive& p) { p.phase += 1e-9; },
-      [](Primitive& p) { p.envelope = 1; },
+      [](Primitive& p) { p.envelope = Envelope::PAPER; },
       [](Primitive& p) { p.turbulence += 1e-9; },
       [](Primitive& p) { p.length_scale += 1e-9; },
       [](Primitive& p) { p.front_speed += 1e-9; },

@@ -25,7 +25,7 @@ Primitive randomSource(const Random& random, std::uint32_t id) {
   p.velocity = Vec3(draw(1, -9.0, 9.0), draw(2, -9.0, 9.0), draw(3, -2.0, 2.0));
   p.radius = draw(4, 1.0, 30.0);
   p.omega = draw(5, 0.0, 9.0);
-  p.envelope = draw(6, 0.0, 2.0) < 1.0 ? 0 : 1;
+  p.envelope = draw(6, 0.0, 2.0) < 1.0 ? Envelope::SMOOTH : Envelope::PAPER;
   p.turbulence = 0.0;
   p.front_speed = draw(8, 0.0, 15.0);
   p.rise_length = draw(9, 0.1, 10.0);

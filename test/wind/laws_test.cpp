@@ -77,7 +77,7 @@ TEST(Disk, RunsCounterClockwiseOnItsOrbit) {  // S1-17
 
 TEST(Disk, SmoothEnvelopeIsTheC2StepOfThePrintedOne) {  // S1-15, E1
   Primitive disk = printedDisk();
-  disk.envelope = 0;
+  disk.envelope = Envelope::SMOOTH;
   const Field smooth({disk}), printed({printedDisk()});
   for (const double d : {0.0, 2.0, 5.0, 9.0}) {
     const double u = (10.0 - d) / 10.0, full = 5.0 * sinCos(0.6).sin;

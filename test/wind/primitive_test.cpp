@@ -110,7 +110,7 @@ TEST(Check, AllowsOddNumbersOnlyWhereTheKindDoesNotLook) {
 
 TEST(Check, RefusesAnUnknownKind) {
   Primitive p = example(Kind::DISK);
-  p.kind = 5;
+  p.kind = static_cast<Kind>(5);
   EXPECT_EQ(
       faultsOf(p),
       "primitive 'source': kind = 5 is none of 0 (disk), 1 (breeze), 2 (gust), 3 (tornado), 4 "
@@ -119,7 +119,7 @@ TEST(Check, RefusesAnUnknownKind) {
 
 TEST(Check, RefusesAnUnknownEnvelope) {
   Primitive p = example(Kind::DISK);
-  p.envelope = 7;
+  p.envelope = static_cast<Envelope>(7);
   EXPECT_EQ(faultsOf(p), "primitive 'source': envelope = 7 is none of 0 (smooth), 1 (paper)");
 }
 

@@ -64,7 +64,7 @@ wind:
   EXPECT_EQ(breeze.velocity, Vec3(4.0, 1.0, 0.0));
   EXPECT_EQ(breeze.length_scale, 60.0);
   EXPECT_EQ(breeze.t_off, 0);
-  EXPECT_EQ(disk.envelope, 1);
+  EXPECT_EQ(disk.envelope, Envelope::PAPER);
   EXPECT_EQ(disk.trajectory.at(0).position, Vec3(1.0, 2.0, 3.0));
   EXPECT_EQ(disk.fade_in, 0.0);
   EXPECT_EQ(disk.fade_out, 1.0);

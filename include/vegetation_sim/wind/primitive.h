@@ -12,10 +12,16 @@
 
 namespace vegetation_sim::wind {
 
-enum class Kind : int { DISK = 0, BREEZE = 1, GUST = 2, TORNADO = 3, BLAST = 4 };
+enum class Kind { DISK, BREEZE, GUST, TORNADO, BLAST };
 
 /// "disk", "breeze", "gust", "tornado", "blast", in the order of Kind.
 const std::vector<std::string>& kindNames();
+
+/// Profile of a disk over the distance d from its centre.
+enum class Envelope {
+  SMOOTH,  ///< C2 (E1)
+  PAPER,   ///< (r - d) / r as printed
+};
 
 /// Where the centre of a primitive is at a stamp.
 struct Waypoint {
@@ -27,9 +33,9 @@ struct Waypoint {
 /// it never changes: an edit ends it and starts another a little ahead in time, so the past stays
 /// what it was. docs/wind.md has the law of each kind.
 struct Primitive {
-  std::uint32_t id{0};   ///< unique in a field
-  std::string name;      ///< handle of the user, shared by the successive edits of one source
-  int kind{0};           ///< Kind
+  std::uint32_t id{0};  ///< unique in a field
+  std::string name;     ///< handle of the user, shared by the successive edits of one source
+  Kind kind{Kind::DISK};
   Nanoseconds epoch{0};  ///< zero of the phase, of the orbit and of `repeat`
   Nanoseconds t_on{0};   ///< start of the fade in
   Nanoseconds t_off{0};  ///< end of the fade out; 0 = for ever
@@ -41,13 +47,13 @@ struct Primitive {
   double orbit_period{60.0};  ///< [s] counter-clockwise
   double repeat{0.0};         ///< gust: passes again each so many seconds; 0 = once [s]
 
-  Vec3 velocity{Vec3(5.0, 0.0, 0.0)};  ///< amplitude (disk), mean (breeze), peak (gust) [m/s]
-  double radius{10.0};                 ///< of influence; gust: half width; breeze: unused [m]
-  double omega{2.0};                   ///< disk: pulsation [rad/s]
-  double phase{0.0};                   ///< disk: phase psi [rad] (S1-16)
-  int envelope{0};              ///< disk: 0 = "smooth", C2 (E1); 1 = "paper", (r-d)/r as printed
-  double turbulence{0.2};       ///< breeze: rms of the along-wind fluctuation / mean speed
-  double length_scale{40.0};    ///< breeze: integral length of the turbulence [m]
+  Vec3 velocity{Vec3(5.0, 0.0, 0.0)};   ///< amplitude (disk), mean (breeze), peak (gust) [m/s]
+  double radius{10.0};                  ///< of influence; gust: half width; breeze: unused [m]
+  double omega{2.0};                    ///< disk: pulsation [rad/s]
+  double phase{0.0};                    ///< disk: phase psi [rad] (S1-16)
+  Envelope envelope{Envelope::SMOOTH};  ///< disk
+  double turbulence{0.2};               ///< breeze: rms of the along-wind fluctuation / mean speed
+  double length_scale{40.0};            ///< breeze: integral length of the turbulence [m]
   double front_speed{6.0};      ///< gust: speed at which the front moves along `velocity` [m/s]
   double rise_length{5.0};      ///< gust: front from nothing to full [m]
   double plateau_length{10.0};  ///< gust: full strength behind the front [m]

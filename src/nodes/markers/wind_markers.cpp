@@ -138,7 +138,7 @@ visualization_msgs::MarkerArray windMarkers(const wind::Field& field, const std:
     base.id = static_cast<std::int32_t>(p.id);
     base.pose.orientation.w = 1.0;
     base.lifetime = ros::Duration(lifetime);
-    Painter painter(base, static_cast<Kind>(p.kind), weight, array.markers);
+    Painter painter(base, p.kind, weight, array.markers);
     const wind::Instant alone = wind::Field({p}, field.seed()).at(stamp);
     for (const Term& term : alone.terms) paintTerm(painter, term);
     const Vec3 hook(0.0, 0.0, BREEZE_HEIGHT);

@@ -90,7 +90,7 @@ BreezeSettings fromConfig(const WindBroadcasterConfig& config) {
 wind::Primitive BreezeSettings::applyTo(wind::Primitive base) const {
   const SinCos heading = sinCos(direction);
   base.name = NAME;
-  base.kind = static_cast<int>(wind::Kind::BREEZE);
+  base.kind = wind::Kind::BREEZE;
   base.velocity.x() = speed * heading.cos;
   base.velocity.y() = speed * heading.sin;
   base.turbulence = turbulence;

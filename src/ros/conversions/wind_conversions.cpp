@@ -61,8 +61,8 @@ wind::Primitive fromMsg(const WindPrimitive& message) {
   visitNumbers(message, p, [](const double& from, double& to) { to = from; });
   p.id = message.id;
   p.name = message.name;
-  p.kind = message.kind;
-  p.envelope = message.envelope;
+  p.kind = static_cast<wind::Kind>(message.kind);
+  p.envelope = static_cast<wind::Envelope>(message.envelope);
   p.epoch = fromMsg(message.epoch);
   p.t_on = fromMsg(message.t_on);
   p.t_off = fromMsg(message.t_off);

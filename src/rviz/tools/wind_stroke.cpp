@@ -19,7 +19,7 @@ wind::Primitive gustOf(const WindStroke& stroke, Nanoseconds now) {
   way.z() = 0.0;
   const double length = way.norm();
   wind::Primitive out;
-  out.kind = static_cast<int>(wind::Kind::GUST);
+  out.kind = wind::Kind::GUST;
   out.name = "mouse_gust";
   const Vec3 direction = length < CLICK ? Vec3(Vec3::UnitX()) : Vec3(way / length);
   out.velocity = (length < CLICK ? stroke.speed : std::min(length, STRONGEST)) * direction;
@@ -36,7 +36,7 @@ wind::Primitive gustOf(const WindStroke& stroke, Nanoseconds now) {
 
 wind::Primitive tornadoOf(const WindStroke& stroke, Nanoseconds now) {
   wind::Primitive out;
-  out.kind = static_cast<int>(wind::Kind::TORNADO);
+  out.kind = wind::Kind::TORNADO;
   out.name = "mouse_tornado";
   out.radius = stroke.radius;
   out.core_radius = 0.2 * stroke.radius;

@@ -72,7 +72,7 @@ GustSpectrumField::GustSpectrumField(const Field& field, Nanoseconds stamp) {
   for (std::size_t i = 0; i < field.primitives().size(); ++i) {
     const Primitive& p = field.primitives()[i];
     Term term;
-    if (static_cast<Kind>(p.kind) == Kind::BREEZE) addBreeze(p, fade(p, stamp), field.breezeOf(i));
+    if (p.kind == Kind::BREEZE) addBreeze(p, fade(p, stamp), field.breezeOf(i));
     if (!field.termAt(i, stamp, term)) continue;
     const bool gust = term.kind == Kind::GUST, disk = term.kind == Kind::DISK;
     has_discs_ |= disk;

@@ -48,7 +48,7 @@ Surroundings steadyDrag(const std::vector<Link>& links, const std::vector<Grip>&
 
 wind::Field breeze() {
   wind::Primitive out;
-  out.kind = static_cast<int>(wind::Kind::BREEZE);
+  out.kind = wind::Kind::BREEZE;
   out.name = "breeze";
   out.velocity = Vec3(8.0, 3.0, 0.0);
   out.turbulence = 0.3;

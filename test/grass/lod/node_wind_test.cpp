@@ -18,7 +18,7 @@ wind::Primitive primitive(wind::Kind kind, std::uint32_t id, const Vec3& centre,
   wind::Primitive p;
   p.id = id;
   p.name = "wind " + std::to_string(id);
-  p.kind = static_cast<int>(kind);
+  p.kind = kind;
   p.trajectory = {{0, centre}};
   p.radius = radius;
   p.fade_in = 0.0;

@@ -18,7 +18,7 @@ TEST(WindConversions, ReturnEveryFieldToTheBit) {  // N2
           &p.phase, &p.turbulence, &p.front_speed, &p.rise_length, &p.plateau_length,
           &p.decay_length, &p.speed, &p.core_radius, &p.inflow, &p.updraft})
       *number = (value += 0.01);
-  sources[0].envelope = 1;
+  sources[0].envelope = wind::Envelope::PAPER;
   const wind::Field field(sources, 18446744073709551615ULL);
   const WindField message = toMsg(field, "odom", wind::at(17.25));
   EXPECT_EQ(message.header.frame_id, "odom");

@@ -27,7 +27,7 @@ class WindRig : public ViewRig {
     wind::Primitive disk;
     disk.id = 2;
     disk.name = "disk";
-    disk.kind = static_cast<int>(wind::Kind::DISK);
+    disk.kind = wind::Kind::DISK;
     return toMsg(wind::Field({forest::makeBreeze(1, Vec3(6.0, 1.0, 0.0)), disk}), "map", 0);
   }
   void publish(const WindField& message) { wind_.publish(message); }

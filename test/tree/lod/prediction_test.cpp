@@ -52,7 +52,7 @@ double shareWithinTwo(const Prediction::Looks& looks) {
 TEST(Prediction, OfChosenRungsIsWhatTheFullChainShows) {
   wind::Primitive gust = makeBreeze(2, Vec3(1.0, 5.0, 0.0));
   gust.name = "gust";
-  gust.kind = static_cast<int>(wind::Kind::GUST);
+  gust.kind = wind::Kind::GUST;
   gust.trajectory = {{START, Vec3(0.0, -80.0, 0.0)}};
   gust.epoch = START;
   gust.front_speed = 9.0;
@@ -92,7 +92,7 @@ TEST(Prediction, KnowsThatGustsBendWhatSwings) {
   breeze.length_scale = 12.0;
   wind::Primitive gust = makeBreeze(2, Vec3(0.5, 6.0, 0.0));
   gust.name = "gust";
-  gust.kind = static_cast<int>(wind::Kind::GUST);
+  gust.kind = wind::Kind::GUST;
   gust.trajectory = {{START, Vec3(-4.0, -32.0, 0.0)}};
   gust.epoch = START;
   gust.front_speed = 7.0;

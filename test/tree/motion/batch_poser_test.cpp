@@ -21,11 +21,11 @@ wind::Field everyKind() {
   const wind::Kind kinds[] = {wind::Kind::GUST, wind::Kind::TORNADO, wind::Kind::BLAST};
   for (std::uint32_t i = 0; i < 3; ++i) {
     wind::Primitive p = makeDisk(i + 3, Vec3(5.0 * i, 6, 3), 25.0, Vec3(4, 1, 0));
-    p.kind = static_cast<int>(kinds[i]);
+    p.kind = kinds[i];
     out.push_back(p);
   }
   wind::Primitive paper = makeDisk(6, Vec3(-3, 2, 0), 20.0, Vec3(1, 1, 0.2));
-  paper.envelope = 1;
+  paper.envelope = wind::Envelope::PAPER;
   out.push_back(paper);
   return wind::Field(out, 5);
 }

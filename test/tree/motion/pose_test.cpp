@@ -142,7 +142,7 @@ TEST(Pose, GustReachesTreesInTurn) {
   wind::Primitive gust;
   gust.id = 1;
   gust.name = "gust";
-  gust.kind = static_cast<int>(wind::Kind::GUST);
+  gust.kind = wind::Kind::GUST;
   gust.trajectory = {{0, Vec3(-5, 25, 0)}};
   gust.velocity = Vec3(10, 0, 0);
   gust.front_speed = 5.0;

@@ -32,7 +32,7 @@ TEST(GustSpectrum, TellWhatComesAndGoesAndHowFast) {
   Primitive breeze;
   breeze.id = 1;
   breeze.name = "breeze";
-  breeze.kind = static_cast<int>(Kind::BREEZE);
+  breeze.kind = Kind::BREEZE;
   breeze.fade_in = 0.0;
   breeze.velocity = Vec3(5.0, 0.0, 0.0);
   const Field windy({breeze}, 3);
@@ -62,7 +62,7 @@ Primitive blast() {
   Primitive out;
   out.id = 3;
   out.name = "blast";
-  out.kind = static_cast<int>(Kind::BLAST);
+  out.kind = Kind::BLAST;
   out.trajectory = {{0, Vec3::Zero()}};
   out.radius = 10.0;
   out.speed = 8.0;

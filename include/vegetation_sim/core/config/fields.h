@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "vegetation_sim/core/config/faults.h"
@@ -29,6 +30,15 @@ class FieldVisitor {
   virtual void vector(const char* name, Vec3& value, const char* unit, Range range) = 0;
   /// Index into `names`.
   virtual void choice(const char* name, int& value, const std::vector<std::string>& names) = 0;
+
+  /// Visits an enum, whose values are 0, 1, ... in the order of `names`, as its index. A derived
+  /// class hides it; `using FieldVisitor::choice;` makes it visible there.
+  template <class Enum, class = std::enable_if_t<std::is_enum_v<Enum>>>
+  void choice(const char* name, Enum& value, const std::vector<std::string>& names) {
+    int index = static_cast<int>(value);
+    choice(name, index, names);
+    value = static_cast<Enum>(index);
+  }
 };
 
 /// "name = value unit is outside low to high", or empty if the value is finite and in range.

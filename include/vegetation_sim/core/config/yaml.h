@@ -27,6 +27,7 @@ class YamlSection : public FieldVisitor {
   void number(const char* name, double& value, const char* unit, Range range) override;
   void integer(const char* name, int& value, const char* unit, Range range) override;
   void vector(const char* name, Vec3& value, const char* unit, Range range) override;
+  using FieldVisitor::choice;
   void choice(const char* name, int& value, const std::vector<std::string>& names) override;
   void text(const char* name, std::string& value);
   void flag(const char* name, bool& value);

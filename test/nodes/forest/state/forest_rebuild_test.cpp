@@ -35,7 +35,7 @@ WindField allKinds() {
   for (const wind::Kind kind : {wind::Kind::GUST, wind::Kind::TORNADO, wind::Kind::BLAST}) {
     const auto id = static_cast<std::uint32_t>(all.size()) + 1;
     wind::Primitive p = forest::makeDisk(id, Vec3(20.0 * id, 6, 3), 60.0, Vec3(4, 1, 0));
-    p.kind = static_cast<int>(kind);
+    p.kind = kind;
     p.epoch = TickGrid(30).timeOf(KEY_FRAME);
     all.push_back(p);
   }
