@@ -84,7 +84,7 @@ class CanopyDisplayTest : public testing::Test {
     rig.plant(4);
     display = rig.addDisplay();
     ASSERT_NE(display, nullptr) << "the plugin is not found or is another class";
-    rig.sampleAt(0.8f, 0.25, 6.0);
+    rig.lookAt(0.8f, 0.25, 6.0);
     ASSERT_TRUE(
         rig.until([&] { return display->drawn().plants == 4 && display->drawn().drawn > 0; }));
   }
@@ -127,7 +127,7 @@ TEST_F(CanopyDisplayTest, CrownsGoWithTheirForest) {
   for (forest::TreeSeed& tree : trees.trees) tree.scale = 0.3;
   rig.publishForest(trees);
   rig.blow(2);
-  rig.sampleAt(1.5f, 0.25, 8.0);
+  rig.lookAt(1.5f, 0.25, 8.0);
   ASSERT_TRUE(rig.until([&] {
     const view::CanopyReport drawn = display->drawn();
     return drawn.crowns == 4 && drawn.drawn > 0 && drawn.layers == 3;
@@ -164,7 +164,7 @@ TEST_F(CanopyDisplayTest, ForestTopicsThatCannotBeAreSaid) {
 
 // Far away fewer leaves stand for all, and the plants keep their size in the picture.
 TEST_F(CanopyDisplayTest, FarLeavesAreFewer) {
-  rig.sampleAt(0.8f, 0.25, 60.0);
+  rig.lookAt(0.8f, 0.25, 60.0);
   EXPECT_TRUE(rig.until([&] {
     return display->drawn().drawn > 0 && 3 * display->drawn().drawn < display->drawn().leaves;
   })) << display->drawn().drawn;

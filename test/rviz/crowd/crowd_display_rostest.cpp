@@ -75,7 +75,7 @@ class CrowdDisplayTest : public testing::Test {
     rig.gather(8);
     display = rig.addDisplay();
     ASSERT_NE(display, nullptr) << "the plugin is not found or is another class";
-    rig.sampleAt(0.9f, 0.2, 9.0);
+    rig.lookAt(0.9f, 0.2, 9.0);
     ASSERT_TRUE(rig.until([&] {
       rig.report();
       return display->drawn().drawn == 8;
@@ -112,7 +112,7 @@ TEST_F(CrowdDisplayTest, PeopleWalk) {
 // S2-15 in spirit: who is far away is drawn with less.
 TEST_F(CrowdDisplayTest, FarPeopleCostLess) {
   const std::size_t near = display->drawn().triangles;
-  rig.sampleAt(0.9f, 0.2, 120.0);
+  rig.lookAt(0.9f, 0.2, 120.0);
   EXPECT_TRUE(rig.until([&] {
     return display->drawn().drawn == 8 && 3 * display->drawn().triangles < near;
   })) << display->drawn().triangles

@@ -28,7 +28,7 @@ class ForestDisplayTest : public testing::Test {
     rig.publishForest(forest::gridLayout(4, 9.0));
     display = rig.addDisplay();
     ASSERT_NE(display, nullptr) << "the plugin is not found or is another class";
-    rig.manager().getViewManager()->getCurrent()->sampleAt(13.f, 13.f, 4.f);
+    rig.manager().getViewManager()->getCurrent()->lookAt(13.f, 13.f, 4.f);
   }
   void TearDown() override {
     if (display != nullptr) rig.remove(display);
@@ -59,7 +59,7 @@ TEST_F(ForestDisplayTest, DrawsAForestWithGroundAndSky) {
   EXPECT_GT(seen.blue, 0.05);
   EXPECT_GT(seen.spread, 15.0);
   // Upwards: the sky has clouds and gets paler towards the horizon.
-  rig.sampleAt(9.f, -0.5, 4.0);
+  rig.lookAt(9.f, -0.5, 4.0);
   rig.frames(3);
   EXPECT_LT(rig.look().commonest, 0.1);
 }
@@ -86,8 +86,8 @@ TEST_F(ForestDisplayTest, TreesBehindTheEyeAreLeftOutAndDoNotPop) {
   display->subProp("Triangles")->setValue(1000);     // the coarsest, wherever one looks
   ASSERT_TRUE(drawn());
   // From within the box of all trees, at its corner.
-  rig.sampleAt(2.f, 0.0, 0.1);
-  rig.manager().getViewManager()->getCurrent()->sampleAt(30.f, 30.f, 2.f);
+  rig.lookAt(2.f, 0.0, 0.1);
+  rig.manager().getViewManager()->getCurrent()->lookAt(30.f, 30.f, 2.f);
   const auto turn = [&](double yaw) {
     rviz::ViewController& view = *rig.manager().getViewManager()->getCurrent();
     view.subProp("Distance")->setValue(0.1);
@@ -183,7 +183,7 @@ TEST_F(ForestDisplayTest, OtherTreesTakeTheirPlaceWithoutAGap) {
   ASSERT_TRUE(rig.until([&] { return standing() && display->drawn().waiting == 0; }, LONG));
   const int before = display->drawn().tree_sets;
   rviz::ViewController& view = *rig.manager().getViewManager()->getCurrent();
-  view.sampleAt(60.f, 60.f, 2.f);  // turns there; the eye goes by the distance
+  view.lookAt(60.f, 60.f, 2.f);  // turns there; the eye goes by the distance
   view.subProp("Distance")->setValue(10.0);
   int bare = 0;
   EXPECT_TRUE(rig.until(

@@ -37,7 +37,7 @@ class GrassDisplayTest : public testing::Test {
 
   void lookFrom(double pitch, double distance) {
     rviz::ViewController& view = *rig.manager().getViewManager()->getCurrent();
-    view.sampleAt(0.f, 0.f, 0.3f);
+    view.lookAt(0.f, 0.f, 0.3f);
     view.subProp("Pitch")->setValue(pitch);
     view.subProp("Yaw")->setValue(0.8);
     view.subProp("Distance")->setValue(distance);

@@ -150,7 +150,7 @@ inline void expectStandsInAnyFixedFrame(ViewRig& rig, rviz::Display& display) {
   rviz::ViewController& view = *rig.manager().getViewManager()->getCurrent();
   const QVariant former = view.subProp("Target Frame")->getValue();
   view.subProp("Target Frame")->setValue("map");
-  rig.sampleAt(1.5f, 0.4, 18.0);
+  rig.lookAt(1.5f, 0.4, 18.0);
   std::vector<std::uint8_t> before = rig.picture();
   ASSERT_TRUE(rig.until([&] {  // all has come to rest
     rig.frames(10);

@@ -53,9 +53,9 @@ class ViewRig {
   ros::NodeHandle& nodeHandle() { return nh_; }
 
   /// Looks at a point over the origin, from the north-east.
-  void sampleAt(float height, double pitch, double distance) {
+  void lookAt(float height, double pitch, double distance) {
     rviz::ViewController& view = *manager_->getViewManager()->getCurrent();
-    view.sampleAt(0.f, 0.f, height);
+    view.lookAt(0.f, 0.f, height);
     view.subProp("Pitch")->setValue(pitch);
     view.subProp("Yaw")->setValue(0.8);
     view.subProp("Distance")->setValue(distance);

@@ -40,7 +40,7 @@ class LandscapeTest : public testing::Test {
   static void SetUpTestSuite() { shared_rig = std::make_unique<ViewRig>(); }
   static void TearDownTestSuite() { shared_rig.reset(); }
 
-  void SetUp() override { rig.sampleAt(2.f, 0.3, 18.0); }
+  void SetUp() override { rig.lookAt(2.f, 0.3, 18.0); }
 
   Landscape add() {
     Landscape out;

@@ -45,7 +45,7 @@ class ToolsTest : public testing::Test {
   // From the south-west and above, 7 m from a point on the z axis; returns when rviz has drawn so.
   void look(float z) {
     rviz::ViewController& view = *rig.manager().getViewManager()->getCurrent();
-    view.sampleAt(0.f, 0.f, z);
+    view.lookAt(0.f, 0.f, z);
     view.subProp("Distance")->setValue(7.0);
     view.subProp("Yaw")->setValue(3.9);
     view.subProp("Pitch")->setValue(0.3);

@@ -49,7 +49,7 @@ class WindDisplayTest : public testing::Test {
     rig.publish(WindRig::windy());
     display = rig.addDisplay();
     ASSERT_NE(display, nullptr) << "the plugin is not found or is another class";
-    rig.sampleAt(0.8f, 0.5, 20.0);
+    rig.lookAt(0.8f, 0.5, 20.0);
     ASSERT_TRUE(rig.until([&] { return display->drawn().arrows > 0; }));
   }
   void TearDown() override {
