@@ -11,7 +11,7 @@
 
 #include "forest/physics/forest_physics.h"
 #include "tree/lod/level_table.h"
-#include "tree/lod/tree_levels.h"
+#include "tree/lod/tree_tiers.h"
 #include "vegetation_sim/tree/state/level_map.h"
 #include "vegetation_sim/tree/state/viewer.h"
 #include "vegetation_sim/wind/field.h"

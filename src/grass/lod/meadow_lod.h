@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/lod/level_allocation.h"
+#include "core/lod/tier_allocation.h"
 #include "grass/lod/node_wind.h"
 #include "grass/lod/tile_level.h"
 #include "vegetation_sim/core/lod/viewpoint.h"

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "core/lod/level_allocation.h"
+#include "core/lod/tier_allocation.h"
 
 namespace vegetation_sim {
 

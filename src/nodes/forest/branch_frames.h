@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/lod/level_allocation.h"
+#include "core/lod/tier_allocation.h"
 #include "forest/forest.h"
 #include "forest/tree_cache.h"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/lod/level_hysteresis.h"
+#include "core/lod/tier_hysteresis.h"
 #include "ros/replicas/leafed_crowns.h"
 #include "vegetation_sim/canopy/leaf_motion.h"
 #include "vegetation_sim/core/lod/viewpoint.h"

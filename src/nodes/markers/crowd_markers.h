@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/lod/level_hysteresis.h"
+#include "core/lod/tier_hysteresis.h"
 #include "crowd/agents/crowd.h"
 #include "crowd/walker/body_skeleton.h"
 #include "vegetation_sim/core/lod/viewpoint.h"

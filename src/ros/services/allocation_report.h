@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/lod/level_allocation.h"
+#include "core/lod/tier_allocation.h"
 
 namespace vegetation_sim {
 

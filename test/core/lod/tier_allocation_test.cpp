@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/lod/level_allocation.h"
+#include "core/lod/tier_allocation.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "core/lod/level_allocation.h"
+#include "core/lod/tier_allocation.h"
 #include "vegetation_sim/core/math/time.h"
 
 namespace vegetation_sim {

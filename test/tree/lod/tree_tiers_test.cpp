@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tree/lod/tree_levels.h"
+#include "tree/lod/tree_tiers.h"
 
 #include <gtest/gtest.h>
 
