@@ -106,7 +106,7 @@ double timeStep(const Rival& rival, double steps, bool loaded) {
     for (int i = 0; i < 2; ++i, ++done)
       rival.engine->step(loaded ? LOADED_INTERVALS / 2 : INTERVALS - 1, loaded ? 0.5 : 2.95, h);
   }
-  return spent / done / rival.maker.trees;
+  return spent / done;
 }
 
 // Rivals take turns, so that a slow spell of a shared machine hits all of them alike.

@@ -28,7 +28,6 @@ struct Maker {
   bool peer{false};
   Bend bend{Bend::SWING};
   int most_branches{1 << 20};  ///< larger trees take too long to build
-  int trees{1};                ///< that one step moves; costs are given per tree
   bool fast{false};            ///< ours, to be held against the best peer
   std::unique_ptr<Engine> (*make)(const TestTree&, const TestLoad&, const std::string& cache){};
 };

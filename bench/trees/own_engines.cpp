@@ -118,11 +118,10 @@ std::unique_ptr<Engine> make(const TestTree& tree, const TestLoad& load, const s
 }
 
 template <class ENGINE>
-Maker maker(const std::string& name, bool fast, int trees = 1) {
+Maker maker(const std::string& name, bool fast) {
   Maker out;
   out.name = name;
   out.fast = fast;
-  out.trees = trees;
   out.make = make<ENGINE>;
   return out;
 }

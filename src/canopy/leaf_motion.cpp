@@ -50,7 +50,6 @@ Foliage::Foliage(const Layout& layout) : layout_(layout), plane_(layout.motion.p
 
 void Foliage::update(const History& history, double front_share, const CutState& cuts,
                      Nanoseconds stamp) {
-  weakening_ = 1.0;
   share_ = cutShare(cuts, layout_.motion.cuts, stamp);
   build(cuts_[0], cuts.now, history, front_share);
   if (share_ < 1.0) build(cuts_[1], cuts.before, history, front_share);
@@ -94,7 +93,7 @@ void Foliage::build(Cut& cut, const CutView& view, const History& history, doubl
     layerMotion(layers, cut.cut.distance(i), cut.cut.last(),
                 delaySpeedOf(motion.layers, layout_.seed, i), layer);
     if (motion.plane.tiling == 1) blendSeams(layer.plane);
-    weakening_ = std::min(weakening_, limitFolding(layer, reach, layers.cell));
+    limitFolding(layer, reach, layers.cell);
     cut.shares.push_back(depthShare(motion.warp, cut.cut.distance(i), cut.cut.last()));
   }
 }

@@ -38,13 +38,6 @@ double turbulence(const std::vector<Mode>& modes) {
 
 }  // namespace
 
-double Instant::gustBound(const Vec3& position, double reach) const {
-  double bound = turbulence(modes);
-  for (const Term& term : terms)
-    if (term.kind != Kind::DISK) bound += boundOf(term, position, reach);
-  return bound;
-}
-
 double Instant::speedBound(const Vec3& position, double reach) const {
   double bound = length(mean) + turbulence(modes);
   for (const Term& term : terms) bound += boundOf(term, position, reach);

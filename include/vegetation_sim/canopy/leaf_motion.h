@@ -65,8 +65,6 @@ class Foliage {
   int layerAt(const Vec3& anchor) const { return cuts_[0].cut.layerAt(anchor); }
   int layers() const { return cuts_[0].cut.layers(); }
   const WarpSettings& warp() const { return layout_.motion.warp; }
-  /// Weakest of limitFolding() over the layers.
-  double weakening() const { return weakening_; }
 
  private:
   struct Cut {
@@ -86,7 +84,6 @@ class Foliage {
   std::vector<LeafBox> crowns_;
   std::array<Cut, 2> cuts_;  // the newer one first
   double share_{1.0};        // of the newer one
-  double weakening_{1.0};
 };
 
 }  // namespace vegetation_sim::canopy

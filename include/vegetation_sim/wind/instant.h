@@ -47,9 +47,6 @@ struct Instant {
   /// Bound on the speed that any point within `reach` [m] (horizontally) of `position` meets over a
   /// cycle of the primitives: what levels of detail go by, blind to momentary zeros of a sine.
   double speedBound(const Vec3& position, double reach) const;
-  /// The part of it that comes and goes within seconds, which sets trees swinging: all but the
-  /// breezes' means and the discs, whose winds are told by their own slow sines.
-  double gustBound(const Vec3& position, double reach) const;
   /// Number of primitives that can move anything within `reach` of `position`.
   int influences(const Vec3& position, double reach) const;
 };

@@ -63,10 +63,8 @@ class BatchChain {
   /// The next step asks for the air; later ones take what it said, while the links move in it.
   void askAir(AskAir ask) { ask_ = std::move(ask); }
 
-  /// For callers that keep loads themselves: what acts from now on, without anchors, and a frame of
-  /// so many steps under it; air is asked for in the first. `bases` may be empty: the ground.
-  void setBases(int tree, const std::vector<BaseMotion>& bases);
-  void setLoads(int tree, const Loads& loads);
+  /// A frame of so many steps under the bases and loads of the step before, without anchors. Air is
+  /// asked for in the first.
   void step(double h, int steps = 1);
 
  private:

@@ -38,15 +38,6 @@ void BatchChain::fillLoads(const Loads& loads, Member& member) {
   store_->drag = store_->drag || !loads.drag.empty();
 }
 
-void BatchChain::setBases(int tree, const std::vector<BaseMotion>& bases) {
-  member(tree).bases = bases;
-  fillBases(member(tree));
-}
-
-void BatchChain::setLoads(int tree, const Loads& loads) {
-  fillLoads(loads, member(tree));
-}
-
 void BatchChain::askLoads(const Surroundings& around, double time, double h, Member& member) {
   loads_.clear(member.count);
   if (around.loads) {

@@ -63,12 +63,11 @@ class ModalTree {
   /// Load-dependent vectors follow the modes; dampers are the joints' and the air's.
   const physics::Modes& modes() const { return modes_; }
   const physics::RotationProbe& probe() const { return probe_; }
-  const std::vector<WindPoint>& windPoints() const { return coarse_.at; }
   std::size_t size() const { return modes_.size(); }
   std::size_t bytes() const;
 
   /// Modal loads [modes] of a wind. Linear drag: breezes on all of the crown, the rest at
-  /// windPoints(); quadratic: all there. `air`: of this tree only.
+  /// a few points; quadratic: all there. `air`: of this tree only.
   void loadOf(const wind::Instant& wind, ModalAir& air, std::vector<double>& out) const;
   /// The air that turns levers as the tree bends, at the middle of the crown [m/s].
   Vec3 airOn(const wind::Instant& wind) const;

@@ -61,7 +61,6 @@ class BatchPoser {
   /// Poses all branches for bends of all joints, limited as every joint's (E16); `swing` only.
   void pose(const BatchBends& bends, BatchPoses& out) const;
 
-  int branchCount() const { return static_cast<int>(tree_.parent.size()) - PADDING; }
   /// Bytes of permanent rest data per branch.
   static constexpr int BYTES_PER_BRANCH = 15 * 4;
   static constexpr int PADDING = 32;
