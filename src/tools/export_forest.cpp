@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// The trees of a scenario for simulators and planners: a folder with an SDF model and a table.
+// Exports the trees of a scenario for simulators and planners: an SDF model and a table.
 // usage: export_forest SCENARIO FOLDER [THINNEST]
 #include <filesystem>
 #include <fstream>
@@ -18,7 +18,7 @@ constexpr char CONFIGURATION[] =
     "  <sdf version=\"1.6\">model.sdf</sdf>\n"
     "  <description>Trees at rest, exported by vegetation_sim</description>\n</model>\n";
 
-// Takes its name only when it is whole, so that nothing half-written is ever found.
+// Renames the file when it is complete, so that no partial file has the final name.
 template <typename Write>
 void writeWhole(const std::filesystem::path& file, const Write& write) {
   std::filesystem::path part = file;

@@ -14,13 +14,13 @@
 
 namespace vegetation_sim::view {
 
-/// The ground that forest or meadow stand on, and the frame of it, from whichever layout came last.
+/// The ground of forest and meadow and its frame, from the layout that arrived last.
 class GroundSource {
  public:
   explicit GroundSource(ros::NodeHandle nh);
 
   const terrain::HeightMap& ground() const { return *ground_; }
-  /// `map` before the first layout.
+  /// Returns `map` before the first layout.
   const std::string& frame() const { return frame_; }
 
  private:

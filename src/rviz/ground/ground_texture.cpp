@@ -12,8 +12,8 @@ namespace vegetation_sim::view {
 namespace {
 
 constexpr std::uint64_t GROUND_SEED = 0x6a55;
-constexpr double ROOM = 14.0;        // [m] around the trees
-constexpr double BORDER = 0.12;      // of the plot's edge: where it fades to plain grass
+constexpr double ROOM = 14.0;        // [m] margin around the trees
+constexpr double BORDER = 0.12;      // share of the edge that fades to plain grass
 constexpr double LEAF_DEPTH = 0.55;  // optical depth of one leaf cluster, seen from the sun
 constexpr double THINNEST = 0.7;     // [pixel] radius of a shadow
 constexpr Rgba GRASS_DEEP{0.25f, 0.30f, 0.12f, 1.f}, GRASS_FRESH{0.37f, 0.41f, 0.17f, 1.f};
@@ -28,7 +28,7 @@ Rgba times(const Rgba& a, const Rgba& b) {
   return {a[0] * b[0], a[1] * b[1], a[2] * b[2], a[3] * b[3]};
 }
 
-/// Adds up what blocks the sun, pixel by pixel.
+// Accumulates the optical depth towards the sun for each pixel.
 class ShadowPainter {
  public:
   ShadowPainter(const Plot& plot, int edge, const terrain::HeightMap& terrain, const Vec3& to_sun)
@@ -38,15 +38,15 @@ class ShadowPainter {
         slope_(to_sun / std::max(to_sun.z(), 0.15)),
         depth_(static_cast<std::size_t>(edge) * static_cast<std::size_t>(edge), 0.f) {}
 
-  /// A ball of leaves or wood that throws its shadow.
+  // Adds the shadow of a ball of leaves or wood.
   void drop(const Vec3& from, double radius, double depth) {
     Vec3 at = from;
-    for (int i = 0; i < 3; ++i)  // down the ray to the ground, which is nearly flat
+    for (int i = 0; i < 3; ++i)  // iterates along the ray to the nearly flat ground
       at = at - (at.z() - terrain_.height(at.x(), at.y())) * slope_;
     const double pixel = plot_.edge / edge_;
     const double column = (at.x() - plot_.x) / pixel, row = (at.y() - plot_.y) / pixel;
     const double reach = std::max(radius / pixel, THINNEST);
-    depth *= std::min(1.0, radius / pixel / THINNEST);  // what is thinner than a pixel is faint
+    depth *= std::min(1.0, radius / pixel / THINNEST);  // thinner than a pixel is fainter
     const int last_row = std::min(edge_ - 1, static_cast<int>(row + reach));
     const int last_column = std::min(edge_ - 1, static_cast<int>(column + reach));
     for (int r = std::max(0, static_cast<int>(row - reach)); r <= last_row; ++r) {
@@ -72,8 +72,8 @@ class ShadowPainter {
   std::vector<float> depth_;
 };
 
-// Noise that goes on at the right where it began at the left, and below as above, whatever the
-// edge: each place is a mixture with its neighbours one edge away.
+// Noise that repeats without a seam for any edge: each place is mixed with its neighbours one edge
+// away.
 float repeatingNoise(const Noise& noise, float x, float y, float edge) {
   const auto row = [&](float at_y) {
     const float part = x / edge;
@@ -136,7 +136,7 @@ std::vector<float> shadowsOn(const Plot& plot, int edge, const TreeSet& tree_set
         const Vec3 tip = tree->foot() + tipOf(branch, branch.rest);
         for (int leaf = 0; tree_set.hasLeaves() && leaf < branch.leaves; ++leaf)
           drop(base + (tip - base) * ((leaf + 0.8) / branch.leaves), radius, LEAF_DEPTH);
-        if (branch.depth > 1 && tree_set.hasLeaves()) continue;  // lost among the leaves'
+        if (branch.depth > 1 && tree_set.hasLeaves()) continue;  // leaves hide them
         const int steps = 1 + static_cast<int>(branch.length / 0.15);
         for (int s = 0; s < steps; ++s)
           drop(base + (tip - base) * (static_cast<double>(s) / steps), branch.base_radius, 1.5);
@@ -195,7 +195,7 @@ Image grainPicture(int edge) {
       out.at(c, r) = {value, value, value, 1.f};
     }
   }
-  // Blades that lie every way, light on dark.
+  // Paints blades in all directions, light on dark.
   const Random random(GROUND_SEED);
   const int blades = edge * edge / 40;
   for (int i = 0; i < blades; ++i) {

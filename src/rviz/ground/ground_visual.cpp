@@ -14,13 +14,13 @@ namespace vegetation_sim::view {
 namespace {
 
 constexpr int GRAIN_EDGE = 512;  // [pixel]
-constexpr int TILES = 4;         // batches along an edge, each seen or not
+constexpr int TILES = 4;         // batches along an edge, culled one by one
 constexpr int MOST_CELLS = 40;   // along the edge of a tile
-// Rings around the plot, in half edges from its middle.
+// Radii of rings around the plot, in half edges.
 constexpr std::array<double, 6> RINGS{1.0, 1.25, 1.7, 2.8, 6.0, 24.0};
 constexpr int RING_SIDE = 32;  // quads along a side of a ring
 
-// Painted once in a process.
+// It is painted once per process.
 const std::vector<Image>& sharedGrain() {
   static const std::vector<Image> grain = mipmaps(grainPicture(GRAIN_EDGE));
   return grain;
@@ -39,7 +39,7 @@ void addVertex(const Vec3& at, const VertexPaint& paint, std::vector<float>& pos
   paints.push_back(paint);
 }
 
-// Quads of a grid of vertices, (columns + 1) x (rows + 1), seen from above.
+// Returns the triangles of a grid of (columns + 1) x (rows + 1) vertices, facing up.
 std::vector<std::uint32_t> gridTriangles(std::uint32_t columns, std::uint32_t rows) {
   std::vector<std::uint32_t> out;
   for (std::uint32_t r = 0; r < rows; ++r) {
@@ -51,7 +51,7 @@ std::vector<std::uint32_t> gridTriangles(std::uint32_t columns, std::uint32_t ro
   return out;
 }
 
-// Point number i of 4 * RING_SIDE on the border of the square [-1, 1]^2, counter-clockwise.
+// Returns point i of 4 * RING_SIDE on the border of the square [-1, 1]^2, counter-clockwise.
 std::array<double, 2> onSquare(int i) {
   const int side = (i / RING_SIDE) % 4;
   const double along = 2.0 * (i % RING_SIDE) / RING_SIDE - 1.0;
@@ -93,7 +93,7 @@ void GroundVisual::add(const std::vector<float>& positions, const std::vector<Ve
                        const std::vector<std::uint32_t>& triangles, const std::string& material) {
   batches_.push_back(std::make_unique<Batch>(uniqueName("ground"), material));
   batches_.back()->build(positions, paint, triangles, 0.f);
-  batches_.back()->setRank(Batch::LAST_RANK);  // most of it is hidden by trees
+  batches_.back()->setRank(Batch::LAST_RANK);  // trees hide most of it
   node_->attachObject(batches_.back().get());
   triangles_ += triangles.size() / 3;
 }
@@ -101,7 +101,7 @@ void GroundVisual::add(const std::vector<float>& positions, const std::vector<Ve
 void GroundVisual::addPlot(const Land& land) {
   const Plot& plot = land.plot;
   const terrain::HeightMap& terrain = land.terrain;
-  // The tiles' borders fall on the points of the ring of land around them.
+  // The borders of tiles coincide with the points of the surrounding ring.
   const double tile = plot.edge / TILES;
   constexpr int STEP = RING_SIDE / TILES;
   const int times = std::max(1, static_cast<int>(std::lround(tile / land.cell / STEP)));
@@ -141,17 +141,17 @@ void GroundVisual::addLand(const Land& land, const Daylight& daylight) {
       const double y = plot.y + half * (1.0 + ring * on[1]);
       Rgba colour = groundColour(noise, x, y, 0.0, land.tint);
       mean = mix(mean, colour, 1.f / static_cast<float>(++count));
-      // Far apart as they are, these points would make long streaks of their patches.
+      // Patches of colour on these distant points would become long streaks.
       colour = mix(colour, mean, static_cast<float>(smoothStep((ring - 1.1) / 1.2)));
       const Rgba light = openLight(daylight, terrain.normal(x, y));
       for (std::size_t k = 0; k < 3; ++k) colour[k] *= light[k];
-      // No edge against the sky, whatever the haze.
+      // The outer ring has the colour of the horizon, so that no edge shows.
       colour = mix(colour, daylight.horizon, static_cast<float>(smoothStep((ring - 2.8) / 21.2)));
       addVertex(Vec3(x, y, terrain.height(x, y)) - land.origin, plainPaint(colour, 0.f, 0.f),
                 positions, paint);
     }
   }
-  // Rings run counter-clockwise and outwards: the other way round than a grid seen from above.
+  // Rings run counter-clockwise and outwards, so their winding is opposite to that of a grid.
   std::vector<std::uint32_t> triangles = gridTriangles(4 * RING_SIDE, RINGS.size() - 1);
   for (std::size_t i = 0; i < triangles.size(); i += 3) std::swap(triangles[i], triangles[i + 1]);
   add(positions, paint, triangles, land_material_.name());

@@ -10,17 +10,17 @@
 namespace vegetation_sim::view {
 namespace {
 
-constexpr std::uint64_t GROUND_SEED = 0x6a55;  // as for the land around
+constexpr std::uint64_t GROUND_SEED = 0x6a55;  // the same as of the surrounding land
 constexpr int MOST_PIXELS = 2048, MOST_PER_TILE = 32;
 constexpr Rgba SOIL{0.33f, 0.27f, 0.18f, 1.f};
-constexpr float UNDER = 0.48f;  // of the light is kept from the ground by closed grass
-constexpr double BORDER = 3.0;  // [m] in which the map's edge fades into the land around
+constexpr float UNDER = 0.48f;  // share of light that closed grass blocks
+constexpr double BORDER = 3.0;  // [m] over which the edge fades into the surroundings
 
 Vec3 widen(const Rgba& c) {
   return {static_cast<double>(c[0]), static_cast<double>(c[1]), static_cast<double>(c[2])};
 }
 
-// Tilt [0, 1] and direction at a place of a tile, between the nodes of its patch.
+// Interpolates tilt [0, 1] and direction between the nodes of a patch.
 double crushAt(const grass::CrushPatch& patch, double u, double v, Vec3& lying) {
   const int n = patch.cells;
   const double x = u * n, y = v * n;
@@ -101,7 +101,7 @@ Rgba MeadowPainter::colourAt(double x, double y, double crush, const Vec3& lying
   const auto down = static_cast<float>(crush);
   piece.flat = 0.12f + 0.7f * down * down;
   piece.way = 0.72f + 0.1f * down;
-  // Lodged grass shines or not by the way it lies, here for an eye in the direction of the sun.
+  // The shine of lodged grass depends on its direction, here for a view along the sunlight.
   piece.away = static_cast<float>(-(lying.x() * light_.to_sun.x() + lying.y() * light_.to_sun.y()));
   const grass::PieceLight light = lightOn(light_, piece);
   const Vec3 own = grass::meanColour(map_, f);

@@ -1,6 +1,5 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// Pictures of grass that is too far away for single blades.
 
 #include <algorithm>
 #include <cmath>
@@ -14,8 +13,8 @@ namespace {
 
 constexpr std::uint64_t SEED = 0x57219;
 
-// Gives pixels first to last, by the order of their alpha, the alphas that `from` has in the same
-// shares: a test against any alpha lets as large a part of them pass.
+// Replaces the alphas of the pixels first to last by those of `from` at the same ranks, so that any
+// alpha test passes the same share of pixels.
 void keepShares(std::vector<Rgba>& pixels, std::size_t first, std::size_t last,
                 std::vector<float> from) {
   std::sort(from.begin(), from.end());
@@ -27,7 +26,7 @@ void keepShares(std::vector<Rgba>& pixels, std::size_t first, std::size_t last,
     pixels[order[i]][3] = from[(2 * i + 1) * from.size() / (2 * order.size())];
 }
 
-// Colour is the mean of what is painted; alpha keeps its shares, row by row.
+// Averages colours and keeps the distribution of alpha row by row.
 Image smaller(const Image& picture) {
   Image out(std::max(1, picture.columns / 2), std::max(1, picture.rows / 2), {});
   for (int r = 0; r < out.rows; ++r) {
@@ -66,7 +65,7 @@ std::vector<Image> allSizes(Image picture) {
 std::vector<Image> stripPictures(int columns, int rows, int blades) {
   const grass::StripPicture from = grass::makeStripPicture(columns, rows, blades, SEED);
   Image out(columns, rows, {});
-  // Roots in the first row, as v runs up; a clear last row keeps them from showing over the tips.
+  // Roots are in the first row; a clear last row keeps them from showing above the tips.
   for (int r = 0; r + 1 < rows; ++r)
     for (int c = 0; c < columns; ++c)
       for (std::size_t k = 0; k < 4; ++k)

@@ -11,9 +11,9 @@ namespace vegetation_sim::view {
 namespace {
 
 constexpr int EDGE = 1024;                // [pixel]
-constexpr double LIFT = 0.2, CELL = 2.0;  // [m] over the ground; of the veil's mesh
-constexpr int MOST_CELLS = 120;           // along its edge
-constexpr float DARKEST = 0.62f;          // alpha where no sun arrives
+constexpr double LIFT = 0.2, CELL = 2.0;  // [m] height above the ground; cell of the mesh
+constexpr int MOST_CELLS = 120;           // along an edge
+constexpr float DARKEST = 0.62f;          // alpha without sunlight
 
 Image veilPicture(const Plot& plot, const TreeSet& tree_set, const terrain::HeightMap& terrain,
                   const Vec3& to_sun) {
@@ -59,7 +59,7 @@ ShadowVisual::ShadowVisual(Ogre::SceneNode& parent, const TreeSet& tree_set,
     }
   }
   veil_.build(positions, paint, triangles, 0.f);
-  // After grass and ground; bodies of walkers come before it, and hide it where they are in front.
+  // It is drawn after grass, ground and walkers, which hide it where they are in front.
   veil_.setRenderQueueGroupAndPriority(Ogre::RENDER_QUEUE_3, Batch::LAST_RANK + 2);
   node_->attachObject(&veil_);
 }

@@ -11,11 +11,11 @@
 
 namespace vegetation_sim::view {
 
-/// Shadows of a forest over a ground that another display gives: a dark veil at the height of
-/// grass, so that this is shaded too. Render thread only.
+/// Shadows of a forest over the ground of another display: a dark transparent surface at the height
+/// of grass. Render thread only.
 class ShadowVisual {
  public:
-  /// @param parent node in the frame of the layout.
+  /// @param parent scene node in the frame of the layout.
   ShadowVisual(Ogre::SceneNode& parent, const TreeSet& tree_set, const terrain::HeightMap& terrain,
                const Daylight& daylight);
   ~ShadowVisual();
@@ -23,7 +23,7 @@ class ShadowVisual {
   void light(const Daylight& daylight, const Haze& haze);
 
  private:
-  Ogre::SceneNode* node_;  // Ogre's; destroyed by us
+  Ogre::SceneNode* node_;  // owned by Ogre, destroyed in the destructor
   Texture texture_;
   Material material_;
   Batch veil_;

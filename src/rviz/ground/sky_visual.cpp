@@ -11,11 +11,11 @@
 namespace vegetation_sim::view {
 namespace {
 
-constexpr int COLUMNS = 2048, ROWS = 512;  // of the picture
+constexpr int COLUMNS = 2048, ROWS = 512;  // of the texture
 constexpr int AROUND = 48, UP = 16;        // quads of the dome
-constexpr double RADIUS = 8000.0;          // [m] behind all else
+constexpr double RADIUS = 8000.0;          // [m] beyond everything else
 
-// Made once in a process.
+// It is made once per process.
 const SkyShapes& sharedShapes() {
   static const SkyShapes shapes(COLUMNS, ROWS);
   return shapes;
@@ -32,7 +32,7 @@ SkyVisual::SkyVisual(Ogre::SceneNode& parent, const Daylight& daylight)
   std::vector<VertexPaint> paint;
   std::vector<std::uint32_t> triangles;
   for (int r = 0; r <= UP + 1; ++r) {
-    // The last ring lies straight below: what is under the horizon has the horizon's colour.
+    // The last ring is straight below: all below the horizon has the horizon's colour.
     const double v = static_cast<double>(r) / UP;
     const SinCos e = r > UP ? SinCos{-1.0, 0.0} : sinCos(skyElevation(v));
     for (int c = 0; c <= AROUND; ++c) {
@@ -49,7 +49,7 @@ SkyVisual::SkyVisual(Ogre::SceneNode& parent, const Daylight& daylight)
     }
   }
   dome_.build(positions, paint, triangles, 0.f);
-  dome_.setRenderQueueGroup(Ogre::RENDER_QUEUE_4);  // only where trees and ground left room
+  dome_.setRenderQueueGroup(Ogre::RENDER_QUEUE_4);  // after trees and ground, which hide most of it
   node_->attachObject(&dome_);
 }
 

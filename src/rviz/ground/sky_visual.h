@@ -10,17 +10,17 @@
 
 namespace vegetation_sim::view {
 
-/// A dome with the sky's picture, drawn behind all else. Render thread only.
+/// A textured dome, drawn behind everything else. Render thread only.
 class SkyVisual {
  public:
   SkyVisual(Ogre::SceneNode& parent, const Daylight& daylight);
   ~SkyVisual();
 
-  /// Keeps the dome around the eye; both in the frame of the parent.
+  /// Centres the dome on the camera; both are in the frame of the parent.
   void follow(const Vec3& eye);
 
  private:
-  Ogre::SceneNode* node_;  // Ogre's; destroyed by us
+  Ogre::SceneNode* node_;  // owned by Ogre, destroyed in the destructor
   Texture texture_;
   Material material_;
   Batch dome_;

@@ -23,7 +23,7 @@ void declareVertices(Ogre::VertexDeclaration& declaration) {
   declaration.addElement(PAINT_STREAM, 0, Ogre::VET_FLOAT3, Ogre::VES_NORMAL);
   declaration.addElement(PAINT_STREAM, 12, Ogre::VET_COLOUR_ABGR, Ogre::VES_DIFFUSE);
   declaration.addElement(PAINT_STREAM, 16, Ogre::VET_FLOAT3, Ogre::VES_TEXTURE_COORDINATES);
-  // Not the fourth of the others, by which a fixed-function technique divides them.
+  // Only three components: a fixed-function technique would divide by a fourth.
   declaration.addElement(PAINT_STREAM, 28, Ogre::VET_FLOAT1, Ogre::VES_TEXTURE_COORDINATES, 1);
 }
 
@@ -60,7 +60,7 @@ Batch::~Batch() {
 }
 
 void Batch::clear() {
-  delete mRenderOp.vertexData;  // Ogre's structure holds raw pointers
+  delete mRenderOp.vertexData;  // Ogre keeps it as a raw pointer
   delete mRenderOp.indexData;
   mRenderOp.vertexData = nullptr;
   mRenderOp.indexData = nullptr;
@@ -131,7 +131,7 @@ void Batch::setRank(int rank) {
                                  static_cast<Ogre::ushort>(std::min(rank, LAST_RANK)));
 }
 
-// Ogre looks at nodes only, and many batches share one.
+// Ogre culls by node, and many batches share one.
 void Batch::_notifyCurrentCamera(Ogre::Camera* camera) {
   Ogre::SimpleRenderable::_notifyCurrentCamera(camera);
   in_view_ = camera->isVisible(getWorldBoundingBox(true));

@@ -13,33 +13,33 @@
 
 namespace vegetation_sim::view {
 
-/// Some triangles that are drawn at once: positions that may change each frame, all else fixed.
-/// Attach it to a scene node; it leaves it when destroyed. Render thread only.
+/// Triangles in one draw call. Positions may change each frame; everything else is fixed until the
+/// next build(). It detaches itself from its scene node when destroyed. Render thread only.
 class Batch : public Ogre::SimpleRenderable {
  public:
   /// @param name of the Ogre object, unique. @param material that exists.
   Batch(const std::string& name, const std::string& material);
   ~Batch() override;
 
-  /// Another material, which exists.
+  /// Changes to another existing material.
   void wear(const std::string& material);
-  /// New triangles. `positions` [3 per vertex], `triangles` [3 per triangle] indices. Nothing is
-  /// drawn where there is no triangle.
+  /// Replaces the triangles. `positions` [3 per vertex], `triangles` [3 per triangle] indices. An
+  /// empty list draws nothing.
   void build(const std::vector<float>& positions, const std::vector<VertexPaint>& paint,
              const std::vector<std::uint32_t>& triangles, float margin);
   /// Moves the vertices of build(); they may leave its bounding box by `margin` [m].
   void move(const std::vector<float>& positions);
-  /// Draws the first so many triangles of build() only; positions of others need not be given.
+  /// Draws only the first triangles of build(); positions of the others need not be given.
   void limit(std::size_t triangles);
   /// Draws the triangles of build() in another order.
   void reorder(const std::vector<std::uint32_t>& triangles);
-  /// Changes colours, places and normals of build()'s vertices.
+  /// Changes colours, texture coordinates and normals of the vertices of build().
   void paint(const std::vector<VertexPaint>& paint);
 
-  /// True if any camera has seen it since the last call.
+  /// Returns whether any camera has seen it since the last call.
   bool takeSeen();
-  /// Which batches are drawn first: the nearest, so that they hide the others cheaply. All of them
-  /// come before what rviz draws itself, so that its see-through things stay in front.
+  /// Orders the batches: the nearest are drawn first, so that the depth test rejects hidden pixels
+  /// early. All batches are drawn before the transparent objects of rviz.
   void setRank(int rank);
   static constexpr int LAST_RANK = 400;
 

@@ -7,7 +7,7 @@
 namespace vegetation_sim::view {
 
 void drew(std::size_t triangles) {
-  constexpr std::size_t ENOUGH = 20000;  // each start costs a rasteriser about 0.2 ms
+  constexpr std::size_t ENOUGH = 20000;  // a flush costs a rasteriser about 0.2 ms
   static std::size_t waiting = 0;
   waiting += triangles;
   if (waiting < ENOUGH) return;

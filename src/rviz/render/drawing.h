@@ -6,9 +6,9 @@
 
 namespace vegetation_sim::view {
 
-/// Tells that so many triangles were given to the renderer, which starts on them now and then: a
-/// software rasteriser fills pixels on the other cores while the next vertices are on their way.
-/// Render thread only, while a picture is drawn.
+/// Counts triangles submitted to the renderer and flushes it at intervals, so that a software
+/// rasteriser fills pixels on other cores while the next vertices are prepared. Render thread only,
+/// while a picture is drawn.
 void drew(std::size_t triangles);
 
 }  // namespace vegetation_sim::view

@@ -16,7 +16,7 @@ Fog::Fog(Ogre::SceneManager& scene, rviz::RenderPanel* panel, const Haze& haze, 
       start_(scene.getFogStart()),
       end_(scene.getFogEnd()) {
   const Ogre::ColourValue value(colour[0], colour[1], colour[2], 1.f);
-  // Linear fog ends at nothing but fog: farther out where haze is thin.
+  // Linear fog is opaque at its end, so thin haze ends farther away.
   const float end = haze.start + (haze.end - haze.start) / std::max(haze.most, 0.05f);
   scene.setFog(haze.most > 0.f ? Ogre::FOG_LINEAR : Ogre::FOG_NONE, value, 0.f, haze.start, end);
   if (panel_ == nullptr || panel_->getViewport() == nullptr) return;

@@ -13,11 +13,11 @@ class RenderPanel;
 
 namespace vegetation_sim::view {
 
-/// Haze over all that rviz draws, and its colour as background; what was there before is put back
-/// when this object goes. Render thread only.
+/// Haze over everything that rviz draws, and its colour as the background. The destructor restores
+/// the previous settings. Render thread only.
 class Fog {
  public:
-  /// @param panel may be null: then no background is changed.
+  /// @param panel may be null; the background then stays as it is.
   Fog(Ogre::SceneManager& scene, rviz::RenderPanel* panel, const Haze& haze, const Rgba& colour);
   ~Fog();
   Fog(const Fog&) = delete;

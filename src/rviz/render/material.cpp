@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rviz/render/material.h"
 
-// Before Ogre's material headers, which only declare it.
+// Must stand before Ogre's material headers, which only declare it.
 #include <OgreHighLevelGpuProgram.h>
 #include <OgreHighLevelGpuProgramManager.h>
 #include <OgreMaterialManager.h>
@@ -52,7 +52,7 @@ Sources sourcesOf(Material::Kind kind) {
   }
 }
 
-// Over what lies just below it; leaves no trace for what comes later.
+// Draws over what lies just below it and writes no depth.
 void makeShadow(Ogre::Pass& pass) {
   pass.setSceneBlending(Ogre::SBT_TRANSPARENT_ALPHA);
   pass.setDepthWriteEnabled(false);
@@ -91,9 +91,9 @@ void Material::addTextures(Ogre::Pass& pass, const std::vector<std::string>& tex
                          unit != pass.getTextureUnitState(0);
     unit->setTextureAddressingMode(repeats ? Ogre::TextureUnitState::TAM_WRAP
                                            : Ogre::TextureUnitState::TAM_CLAMP);
-    if (kind_ == Kind::LEAVES) unit->setTextureMipmapBias(-0.7f);  // crisp rather than round
+    if (kind_ == Kind::LEAVES) unit->setTextureMipmapBias(-0.7f);  // keeps leaf outlines crisp
     if (kind_ == Kind::GROUND && unit != pass.getTextureUnitState(0))
-      unit->setTextureMipmapBias(-1.2f);  // grain, seen at a low angle
+      unit->setTextureMipmapBias(-1.2f);  // keeps the grain visible at low angles
     unit->setTextureFiltering(Ogre::FO_LINEAR, Ogre::FO_LINEAR, Ogre::FO_POINT);
   }
 }
@@ -108,7 +108,7 @@ void Material::addShaded(const std::vector<std::string>& textures) {
   Ogre::Pass* pass = material_->createTechnique()->createPass();
   pass->setVertexProgram(programs_[0]);
   pass->setFragmentProgram(programs_[1]);
-  pass->setFog(true, Ogre::FOG_NONE);  // haze is in the programs
+  pass->setFog(true, Ogre::FOG_NONE);  // the shaders add haze
   bindEye(*pass->getVertexProgramParameters());
   if (kind_ != Kind::BLADES) pass->getFragmentProgramParameters()->setNamedConstant("picture", 0);
   if (kind_ == Kind::GROUND) {
@@ -138,10 +138,10 @@ void Material::addPlain(const std::vector<std::string>& textures) {
     pass->setDepthWriteEnabled(false);
   }
   if (!textures.empty()) addTextures(*pass, {textures.front()});
-  if (plant)  // vertex alpha is no transparency
+  if (plant)  // vertex alpha is not transparency
     pass->getTextureUnitState(0)->setAlphaOperation(Ogre::LBX_SOURCE1, Ogre::LBS_TEXTURE,
                                                     Ogre::LBS_CURRENT);
-  if (kind_ == Kind::STRIPS) {  // shown where picture + vertex > 1, as in STRIP_FRAGMENT
+  if (kind_ == Kind::STRIPS) {  // visible where texture + vertex > 1, as in STRIP_FRAGMENT
     Ogre::TextureUnitState& unit = *pass->getTextureUnitState(0);
     unit.setAlphaOperation(Ogre::LBX_ADD_SIGNED, Ogre::LBS_TEXTURE, Ogre::LBS_CURRENT);
     unit.setColourOperationEx(Ogre::LBX_SOURCE1, Ogre::LBS_CURRENT);  // brighter

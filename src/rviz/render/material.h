@@ -11,21 +11,21 @@
 
 namespace vegetation_sim::view {
 
-/// Air between the eye and what it sees.
+/// Haze between the camera and an object.
 struct Haze {
-  float start{60.f}, end{420.f};  ///< [m] from nothing to most
-  float most{0.f};                ///< 0: none; 1: all is the haze's colour
+  float start{60.f}, end{420.f};  ///< distances of no haze and of the most haze [m]
+  float most{0.f};                ///< largest share of the haze's colour, 0 to 1
 };
 
-/// Materials of plants, grass and ground: a GLSL technique with our own daylight, and a
-/// fixed-function one for renderers without GLSL, which takes rviz's light. Gone with this object.
-/// Render thread only.
+/// Materials of plants, grass and ground: a GLSL technique with daylight of its own, and a
+/// fixed-function technique with rviz's light for renderers without GLSL. The destructor removes
+/// them. Render thread only.
 class Material {
  public:
   enum class Kind { BARK, LEAVES, GROUND, SKY, BLADES, STRIPS, SHADOWS };
 
-  /// @param textures names: the picture, for the ground also its grain; none for blades of grass.
-  /// @param fades bark and leaves only: draws by VertexPaint::fade.
+  /// @param textures names of the texture and, for the ground, of its grain; none for blades.
+  /// @param fades for bark and leaves: vertices fade by VertexPaint::fade.
   Material(Kind kind, const std::string& name, const std::vector<std::string>& textures,
            bool fades = false);
   ~Material();
@@ -33,11 +33,11 @@ class Material {
   Material& operator=(const Material&) = delete;
 
   const std::string& name() const { return name_; }
-  /// @param to_sun in the frame of the objects that carry the material.
+  /// @param to_sun direction in the frame of the objects that use the material.
   void light(const Daylight& daylight, const Vec3& to_sun, const Haze& haze);
-  /// Where it fades: the clock of VertexPaint::fade; each fade takes 1 of it.
+  /// Sets the clock of VertexPaint::fade; a fade takes one unit of it.
   void setFadeClock(float clock);
-  /// Ground only: up to this distance [m] the picture's alpha darkens it; 0, as at first: nowhere.
+  /// For the ground: up to this distance [m] the texture's alpha darkens it. The default is 0.
   void darken(float distance);
 
  private:

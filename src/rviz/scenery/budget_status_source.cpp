@@ -20,7 +20,7 @@ std::string valueOf(const diagnostic_msgs::DiagnosticStatus& status, const std::
   return "-";
 }
 
-// "Budget [points]": points.
+// Returns the unit in brackets, "points" for "Budget [points]".
 std::string unitOf(const std::string& key) {
   const std::size_t open = key.find('['), close = key.find(']');
   return close == key.npos ? std::string() : " " + key.substr(open + 1, close - open - 1);
@@ -45,8 +45,8 @@ void GovernorSource::take(const diagnostic_msgs::DiagnosticArray& message) {
 
 std::optional<InputStatus> GovernorSource::status(double wall) {
   if (text_.empty()) return {};
-  if (std::exchange(fresh_, false)) heard_ = wall;
-  if (wall - heard_ > MISSED) return InputStatus{false, "Not heard for 5 s; last: " + text_};
+  if (std::exchange(fresh_, false)) received_ = wall;
+  if (wall - received_ > MISSED) return InputStatus{false, "Not heard for 5 s; last: " + text_};
   return InputStatus{true, text_};
 }
 

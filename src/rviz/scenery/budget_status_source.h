@@ -13,20 +13,20 @@
 
 namespace vegetation_sim::view {
 
-/// Whose governor, and which of its figures bind.
+/// Node whose budget a display reports, and the keys of its diagnostics.
 struct GovernorKeys {
-  std::string node;          ///< in whatever namespace
-  std::string cost, budget;  ///< keys of its diagnostics, the unit in brackets
+  std::string node;          ///< name without namespace
+  std::string cost, budget;  ///< keys, with the unit in brackets
 };
 
-/// Listens on /diagnostics to what a node's governor chose, and why. Callbacks run in the queue of
-/// the node handle: for a display the render thread's.
+/// Reads from /diagnostics how a node keeps its budget. Callbacks run in the queue of the node
+/// handle, which is the render thread's for a display.
 class GovernorSource {
  public:
   GovernorSource(ros::NodeHandle nh, GovernorKeys keys);
 
-  /// None before the first message; bad when 5 s have brought none.
-  /// @param wall rising [s]: nodes send diagnostics by the wall's clock, whatever ROS time does.
+  /// Returns nothing before the first message, and a warning after 5 s without one.
+  /// @param wall increasing wall time [s], since diagnostics do not follow ROS time.
   std::optional<InputStatus> status(double wall);
 
  private:
@@ -34,8 +34,8 @@ class GovernorSource {
 
   GovernorKeys keys_;
   std::string text_;
-  bool fresh_{false};  // taken since the last status()
-  double heard_{0.0};  // wall time [s]
+  bool fresh_{false};     // a message has arrived since the last status()
+  double received_{0.0};  // wall time [s]
   ros::Subscriber subscriber_;
 };
 

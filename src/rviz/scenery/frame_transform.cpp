@@ -43,7 +43,7 @@ bool placeInFixedFrame(rviz::DisplayContext& context, const std::string& frame,
 std::optional<View> viewOf(rviz::DisplayContext& context, const Ogre::SceneNode& node) {
   rviz::ViewController* controller = context.getViewManager()->getCurrent();
   if (controller == nullptr || controller->getCamera() == nullptr) return {};
-  controller->update(0.f, 0.f);  // rviz turns its camera only after the displays
+  controller->update(0.f, 0.f);  // rviz moves its camera after it updates the displays
   const Ogre::Camera& camera = *controller->getCamera();
   const Ogre::Vector3 position = camera.getDerivedPosition();
   if (!rviz::validateFloats(position)) return {};

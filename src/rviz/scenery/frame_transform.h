@@ -16,12 +16,12 @@ class DisplayContext;
 
 namespace vegetation_sim::view {
 
-/// Puts a display's node where `frame` is in the fixed frame, and says so on the board; hides it
-/// where no transform is known. False then.
+/// Moves a display's node to `frame` in the fixed frame and reports it on the status board. Without
+/// a transform it hides the node and returns false.
 bool placeInFixedFrame(rviz::DisplayContext& context, const std::string& frame,
                        Ogre::SceneNode& node, StatusBoard& board);
 
-/// Who looks at a display, in the frame of its node; none without a camera.
+/// Returns the camera in the frame of a display's node, or nothing without a camera.
 std::optional<View> viewOf(rviz::DisplayContext& context, const Ogre::SceneNode& node);
 
 }  // namespace vegetation_sim::view

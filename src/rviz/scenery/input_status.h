@@ -8,16 +8,16 @@
 
 namespace vegetation_sim::view {
 
-/// How one input stands, for the display's status.
+/// State of one input, for the status of a display.
 struct InputStatus {
   bool good{false};
   std::string text;
 };
 
-constexpr Nanoseconds SILENCE = 3 * NANOSECONDS_PER_SECOND;  ///< of a node that is missed
+constexpr Nanoseconds SILENCE = 3 * NANOSECONDS_PER_SECOND;  ///< after which a warning is shown
 
-/// The status of an input whose newest message is of `stamp`, for a picture of `now`: a good one
-/// that is more than 3 s old says so.
+/// Returns the status of an input at the time `now` of the picture. A message whose stamp is more
+/// than 3 s old is reported with its age.
 inline InputStatus unlessSilent(const InputStatus& status, Nanoseconds stamp, Nanoseconds now) {
   if (!status.good || now - stamp <= SILENCE) return status;
   return {false, "No message for 3 s: drawn as it was then"};

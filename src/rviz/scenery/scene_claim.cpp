@@ -8,7 +8,7 @@
 namespace vegetation_sim::view {
 namespace {
 
-// Oldest first.
+// The oldest is first.
 std::vector<const SceneOwnership*>& allOwnerships() {
   static std::vector<const SceneOwnership*> ownerships;
   return ownerships;

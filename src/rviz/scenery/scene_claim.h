@@ -13,14 +13,14 @@ class Display;
 
 namespace vegetation_sim::view {
 
-/// What a scene has but once, however many displays could give it.
+/// Parts that a scene has once, although several displays could provide them.
 enum class Shared { GROUND, SKY, AIR, VIEWER };
 
-/// A display's wish to give it. The highest rank holds it, the oldest among equals; when that one
-/// goes, the next does. Render thread only.
+/// The request of a display to provide such a part. The request with the highest rank is granted,
+/// among equals the oldest; when it is withdrawn, the next one is granted. Render thread only.
 class SceneOwnership {
  public:
-  /// @param key claims of different keys do not meet: the ground's terrain, the viewer's topic.
+  /// @param key separates parts of one kind: the ground's terrain, the viewer's topic.
   SceneOwnership(const Ogre::SceneManager& scene, Shared thing, std::uint64_t key, int rank,
                  const rviz::Display& display);
   ~SceneOwnership();
@@ -29,7 +29,7 @@ class SceneOwnership {
 
   std::uint64_t key() const { return key_; }
   bool holds() const { return &holder() == this; }
-  /// Who gives it.
+  /// Returns the display that provides the part.
   const rviz::Display& giver() const { return holder().display_; }
 
  private:

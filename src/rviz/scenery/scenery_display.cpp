@@ -19,7 +19,7 @@ namespace vegetation_sim {
 namespace {
 
 constexpr double STATUS_PERIOD = 0.5;                           // [s]
-constexpr Nanoseconds JUMP_BACK = NANOSECONDS_PER_SECOND / 10;  // less is jitter
+constexpr Nanoseconds JUMP_BACK = NANOSECONDS_PER_SECOND / 10;  // smaller jumps are jitter
 
 }  // namespace
 
@@ -81,7 +81,7 @@ std::unique_ptr<view::SceneOwnership> SceneryDisplay::ownership(view::Shared thi
   return std::make_unique<view::SceneOwnership>(*scene_manager_, thing, key, rank, *this);
 }
 
-// Made anew at the next update.
+// The next update builds it again.
 void SceneryDisplay::updateGround() {
   ground_ownership_.reset();
   gives_ground_ = false;
@@ -96,7 +96,7 @@ void SceneryDisplay::setGroundRank(int rank) {
 bool SceneryDisplay::givesGround(const terrain::HeightMap& terrain) {
   if (!properties().ground()) return false;
   if (!ground_ownership_ || ground_ownership_->key() != terrain.hash()) {
-    updateGround();  // that of another terrain
+    updateGround();  // the terrain may have changed
     ground_ownership_ = ownership(view::Shared::GROUND, terrain.hash(), ground_rank_);
   }
   gives_ground_ = ground_ownership_->holds();
@@ -133,7 +133,7 @@ void SceneryDisplay::updateViewer() {
   viewer_ownership_ = ownership(view::Shared::VIEWER, std::hash<std::string>()(topic));
 }
 
-// What another display gave until now may be ours to give.
+// This display may take over what another one has provided until now.
 void SceneryDisplay::keepScenery() {
   if (!sky_ && sky_ownership_ && sky_ownership_->holds())
     sky_ = std::make_unique<view::SkyVisual>(*scene_node_, properties().daylight());
@@ -175,7 +175,7 @@ void SceneryDisplay::drawAt(Nanoseconds stamp) {
 }
 
 void SceneryDisplay::watchTime(Nanoseconds stamp) {
-  // Half: the state may be ahead of the picture's clock, by less than the jump.
+  // The state may be ahead of the picture's clock by less than the jump, hence half of it.
   if (stamp + JUMP_BACK < last_stamp_) forgetState(stamp + JUMP_BACK / 2);
   last_stamp_ = stamp;
 }

@@ -18,12 +18,12 @@
 
 namespace vegetation_sim {
 
-/// What the displays of a landscape have in common: they listen while enabled, draw at rviz's time,
-/// say what they draw and why, and tell nodes where the view looks from. Ground, sky, haze and
-/// viewer are given once in a scene, whoever else could (view::SceneOwnership). Everything runs in
-/// rviz's render thread; while disabled a display holds no subscription and no Ogre object.
+/// Base class of the displays. A display subscribes while it is enabled, draws at rviz's time,
+/// reports its status, and publishes the viewer. Ground, sky, haze and viewer exist once in a scene
+/// (view::SceneOwnership). Everything runs in rviz's render thread; a disabled display holds no
+/// subscription and no Ogre object.
 ///
-/// A kind of display overrides the functions below and calls stop() in its destructor.
+/// A derived class overrides the virtual functions and calls stop() in its destructor.
 class SceneryDisplay : public rviz::Display {
   Q_OBJECT
  public:
@@ -31,8 +31,8 @@ class SceneryDisplay : public rviz::Display {
   void reset() final;
 
  protected:
-  /// @param ground_rank of its ground: the one that shows most of what is there wins.
-  /// @param governor whose choice a status line tells; without a node's name there is none.
+  /// @param ground_rank priority of its ground: the most complete ground is drawn.
+  /// @param governor node whose budget a status line reports; an empty name omits the line.
   explicit SceneryDisplay(int ground_rank, view::GovernorKeys governor = {});
 
   void onInitialize() final {}
@@ -43,32 +43,32 @@ class SceneryDisplay : public rviz::Display {
   virtual const view::SceneryProperties& properties() const = 0;
   /// Subscribes. @throws ros::Exception
   virtual void open() = 0;
-  /// Drops subscriptions and all that is drawn.
+  /// Drops subscriptions and everything that is drawn.
   virtual void close() = 0;
-  /// Frame of what is to be drawn; none: nothing is yet.
+  /// Returns the frame of what is drawn, or nothing before the first layout.
   virtual std::optional<std::string> frame() const = 0;
-  /// Called at the update rate once there is something to draw.
+  /// Is called at the update rate once there is something to draw.
   virtual void draw(Nanoseconds stamp, const view::View& view) = 0;
   virtual void light(const view::Daylight& daylight, const view::Haze& haze) = 0;
   virtual void dropGround() = 0;
-  /// Time went back to `now`.
+  /// Is called when time has gone back to `now`.
   virtual void forgetState(Nanoseconds now) = 0;
-  /// `now`: of the picture.
+  /// `now` is the time of the picture.
   virtual void showInputs(view::StatusBoard& board, Nanoseconds now) const = 0;
-  /// What was drawn last, good if it is anything.
+  /// Reports what was drawn last; it is good if anything was drawn.
   virtual view::InputStatus describeDrawn() const = 0;
 
-  /// Whether this display is the one to draw this ground. When that ends, dropGround() is called.
+  /// Returns whether this display draws this ground. When that ends, dropGround() is called.
   bool givesGround(const terrain::HeightMap& terrain);
-  /// From now on; a ground that is drawn is dropped.
+  /// Sets the rank from now on and drops a ground that is drawn.
   void setGroundRank(int rank);
   bool isOpen() const { return open_; }
-  /// [s] runs while simulation time stands.
+  /// Wall time [s]; it advances while simulation time stands.
   double wall() const { return wall_; }
 
  protected Q_SLOTS:
   void updateTopics();
-  /// Something is to be drawn in another way, or other things.
+  /// Is called when settings of the appearance have changed.
   virtual void updateLook() {}
   void updateGround();
   void updateSky();

@@ -15,7 +15,7 @@ namespace vegetation_sim::view {
 namespace {
 
 constexpr double DEGREE = PI / 180.0;
-// Shown as the colours of ground and haze, which have more to them: what is set tints them.
+// Representative colours of ground and haze; a user's choice tints the detailed ones.
 const QColor GRASS(150, 160, 90), AIR(196, 214, 224);
 
 Rgba tintOf(const QColor& wanted, const QColor& own) {
@@ -70,8 +70,9 @@ void SceneryProperties::addScenery(rviz::Display& display, const char* ground_he
 
 void SceneryProperties::addViewer(rviz::Display& display, bool on) {
   publish_viewer_ = new rviz::BoolProperty(
-      "Publish Viewer", on, "Tell nodes where this view looks from, so that what is seen moves.",
-      &display, SLOT(updateViewer()), &display);
+      "Publish Viewer", on,
+      "Publishes the camera of this view, so that nodes animate what is visible.", &display,
+      SLOT(updateViewer()), &display);
   viewer_topic_ = new rviz::StringProperty("Topic", "viewer", "vegetation_sim/Viewer.",
                                            publish_viewer_, SLOT(updateViewer()), &display);
 }

@@ -19,8 +19,8 @@ class StringProperty;
 
 namespace vegetation_sim::view {
 
-/// What the user of a SceneryDisplay sets about ground, sky, haze, pace and the published view. The
-/// properties are children of the display, which owns them.
+/// User settings of a SceneryDisplay: ground, sky, haze, update rate and published viewer. The
+/// display owns the properties, which are its children.
 class SceneryProperties {
  public:
   bool ground() const;
@@ -30,14 +30,14 @@ class SceneryProperties {
   std::string viewerTopic() const;
   Haze hazeValues() const;
   Daylight daylight() const;
-  /// Multiplies the ground's colours.
+  /// Returns the factor of the ground's colours.
   Rgba groundTint() const;
   double updatePeriod() const;  ///< [s]
 
  protected:
-  /// @param display a SceneryDisplay. @param on whether it gives them if nobody is asked.
+  /// @param display must be a SceneryDisplay. @param on default of the switches.
   void addScenery(rviz::Display& display, const char* ground_help, bool on = true);
-  /// @param who what moves, as a word.
+  /// @param who name of what moves, for the help texts.
   void addRate(rviz::Display& display, const std::string& who);
 
   template <class Message>
@@ -47,7 +47,7 @@ class SceneryProperties {
         name, value, QString::fromStdString(ros::message_traits::datatype<Message>()), help,
         &display, SLOT(updateTopics()), &display);
   }
-  /// Those that change how things are drawn: updateLook() follows.
+  /// A change of these properties calls updateLook().
   static rviz::BoolProperty* addFlag(const char* name, bool value, const char* help,
                                      rviz::Display& display);
   static rviz::FloatProperty* addNumber(const char* name, float value, const char* help, float low,

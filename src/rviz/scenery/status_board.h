@@ -12,7 +12,7 @@
 
 namespace vegetation_sim::view {
 
-/// Status lines of a display, touched only when they change: Qt redraws its tree each time.
+/// Status lines of a display. They are set only when they change, since Qt redraws its tree.
 class StatusBoard {
  public:
   explicit StatusBoard(rviz::Display& display) : display_(display) {}

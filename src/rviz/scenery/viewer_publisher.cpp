@@ -10,7 +10,7 @@
 namespace vegetation_sim::view {
 namespace {
 
-constexpr double SHORTEST = 0.1, LONGEST = 0.8;  // [s] between messages; a frame may come late
+constexpr double SHORTEST = 0.1, LONGEST = 0.8;  // [s] between messages
 constexpr double MOVED = 0.01;                   // [m]
 constexpr double TURNED = 0.0087;                // [rad]
 constexpr double ZOOMED = 0.002;                 // [rad]
@@ -20,7 +20,7 @@ constexpr double ZOOMED = 0.002;                 // [rad]
 Viewer viewerOf(const Ogre::Camera& camera, unsigned int height) {
   Viewer out;
   const Ogre::Vector3 position = camera.getDerivedPosition();
-  // Ogre's camera looks along -z with x to the right.
+  // Ogre's camera looks along -z, with x to the right.
   const Ogre::Vector3 right = camera.getDerivedRight(), up = camera.getDerivedUp();
   const Ogre::Quaternion orientation(camera.getDerivedDirection(), -right, up);
   out.pose.position.x = static_cast<double>(position.x);

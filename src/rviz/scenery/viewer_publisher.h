@@ -11,20 +11,21 @@
 
 namespace vegetation_sim::view {
 
-/// A camera as a Viewer message: x forward, y left, z up (REP 103). Header and id are left empty.
+/// Converts a camera to a Viewer message: x forward, y left, z up (REP 103). Header and id stay
+/// empty.
 /// @param height of the picture [pixel].
 Viewer viewerOf(const Ogre::Camera& camera, unsigned int height);
 
-/// True if an eye has moved by 1 cm, turned by 0.5 degrees or zoomed.
+/// Returns whether a viewer has moved by 1 cm, turned by 0.5 degrees or zoomed.
 bool differs(const Viewer& a, const Viewer& b);
 
-/// Tells who computes levels of detail where the user looks from: on change, at most ten times a
-/// second, and at least once each second.
+/// Publishes the camera for the nodes that choose levels of detail: on change, at most ten times a
+/// second, and at least once a second.
 class ViewerPublisher {
  public:
   ViewerPublisher(ros::NodeHandle nh, const std::string& topic, const std::string& id);
 
-  /// @param wall [s] any clock that runs while simulation time stands.
+  /// @param wall wall time [s].
   void update(Viewer viewer, const std::string& frame, double wall);
 
  private:

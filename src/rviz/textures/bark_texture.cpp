@@ -10,9 +10,9 @@ namespace {
 
 using forest::LeafShape;
 
-constexpr float INSET = 0.02f;  // of a column: keeps its neighbours out of the filter
+constexpr float INSET = 0.02f;  // share of a column that keeps its neighbours out of the filter
 
-// Ridges along the wood: bright between narrow dark fissures.
+// Draws bright ridges along the wood between narrow dark fissures.
 float fissures(const Noise& noise, float around, float along) {
   const float bend = 0.12f * noise.fractal(2.f * around, 3.f * along, 2);
   const float ridge = std::fabs(2.f * noise.fractal(9.f * (around + bend), 1.5f * along, 3) - 1.f);
@@ -20,7 +20,7 @@ float fissures(const Noise& noise, float around, float along) {
          0.1f * noise.smooth(20.f * around, 30.f * along);
 }
 
-// Flat plates with dark gaps.
+// Draws flat plates with dark gaps.
 float plates(const Noise& noise, float around, float along) {
   const float a = std::fabs(2.f * noise.fractal(4.f * around, 7.f * along, 2) - 1.f);
   const float b = std::fabs(2.f * noise.fractal(6.f * around + 20.f, 5.f * along + 9.f, 2) - 1.f);
@@ -32,7 +32,7 @@ float paleBark(const Noise& noise, float around, float along) {
   return 0.9f + 0.1f * noise.fractal(3.f * around, 12.f * along, 3);
 }
 
-// Dark strokes across the wood, and a few rough patches.
+// Draws dark strokes across the wood and a few rough patches.
 void addLenticels(Image& picture) {
   const Random random(0xb12c);
   for (std::uint64_t i = 0; i < 150; ++i) {
@@ -61,7 +61,7 @@ Image barkPicture(forest::LeafShape shape, int columns) {
   Image out(columns, rows, {1.f, 1.f, 1.f, 1.f});
   for (int r = 0; r < rows; ++r) {
     for (int c = 0; c < columns; ++c) {
-      // Mirrored half way round, so that it closes.
+      // The second half mirrors the first, so that the texture closes.
       const float around =
           1.f - std::fabs(2.f * static_cast<float>(c) / static_cast<float>(columns) - 1.f);
       const float along = 4.f * static_cast<float>(r) / static_cast<float>(rows);

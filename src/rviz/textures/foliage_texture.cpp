@@ -11,19 +11,19 @@
 namespace vegetation_sim::view {
 namespace {
 
-constexpr int CUTS = 4;         // places in the atlas
-constexpr float INSET = 0.02f;  // of a picture, that neighbours do not show through
+constexpr int CUTS = 4;         // images in the atlas
+constexpr float INSET = 0.02f;  // share of an image that keeps its neighbours out of the filter
 
 float triangleWave(float x) {
   return std::fabs(2.f * (x - std::floor(x)) - 1.f);
 }
 
-// Half the breadth of a leaf at t from its foot to its tip.
+// Returns half the breadth of a leaf at t from its foot (0) to its tip (1).
 float halfWidth(float t) {
   return 0.47f * std::sin(static_cast<float>(PI) * std::pow(std::clamp(t, 0.f, 1.f), 0.72f));
 }
 
-// Lightness of a leaf: a midrib, veins that leave it forwards, darker towards the edge.
+// Returns the lightness of a leaf with a midrib, forward veins and a darker edge.
 Rgba leafPixel(float x, float t) {
   const float half = halfWidth(t), out = std::fabs(x);
   const float serrated = half * (1.f - 0.06f * triangleWave(14.f * t));
@@ -31,11 +31,11 @@ Rgba leafPixel(float x, float t) {
   const float vein = triangleWave(7.f * t - 9.f * out * out - 2.2f * out);
   float light = 0.78f + 0.1f * vein - 0.16f * (out / std::max(half, 0.05f));
   if (out < 0.025f * (1.2f - t)) light = 0.98f;
-  light += x > 0.f ? 0.05f : -0.02f;  // folded a little along the midrib
+  light += x > 0.f ? 0.05f : -0.02f;  // the halves are folded a little
   return {light, light, 0.96f * light, 1.f};
 }
 
-// The same all along, since pieces join.
+// It is the same along the whole length, since pieces join.
 Rgba ribbonPixel(float x, float /*t*/) {
   const float out = std::fabs(x);
   if (out > 0.46f) return {0.8f, 0.8f, 0.8f, 0.f};
@@ -51,10 +51,10 @@ Image paint(int edge, const Pixel& pixel) {
     for (int c = 0; c < out.columns; ++c)
       out.at(c, r) = pixel((static_cast<float>(c) + 0.5f) / static_cast<float>(out.columns) - 0.5f,
                            (static_cast<float>(r) + 0.5f) / static_cast<float>(out.rows));
-  return halved(out);  // painted at twice the size: smooth edges
+  return halved(out);  // painting at twice the size smooths the edges
 }
 
-// Five leaves on a twig, by looking up the leaf in turned frames.
+// Paints five leaves on a twig by sampling the leaf in rotated frames.
 Rgba sprigPixel(float x, float t) {
   struct Place {
     float x, t, turn, size;

@@ -9,13 +9,13 @@
 
 namespace vegetation_sim::view {
 
-/// What a leaf of a canopy is cut from; the foot of each is at the top of its picture (v = 0).
+/// Images from which the leaves of a canopy are cut; the foot of each is at the top (v = 0).
 enum class LeafCut { LEAF, SPRIG, RIBBON, PLAIN };
 
-/// The cuts side by side: lightness in the colour, mean about 0.8, their outlines in alpha, which
-/// keeps its coverage in the smaller versions.
+/// Paints the images side by side: lightness with a mean of about 0.8 in the colour, outlines in
+/// alpha. Mipmaps keep the coverage.
 std::vector<Image> foliageAtlas(int edge);
-/// A place in one picture, u across and v along from 0 to 1, as a place in the atlas.
+/// Converts a place in one image, u across and v along from 0 to 1, to atlas coordinates.
 std::array<float, 2> foliagePlace(LeafCut cut, float u, float v);
 
 }  // namespace vegetation_sim::view

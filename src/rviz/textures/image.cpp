@@ -96,7 +96,7 @@ float Noise::fractal(float x, float y, int octaves) const {
     sum += weight * octave(lattice_, x, y);
     total += weight;
     weight *= 0.5f;
-    x = 2.f * x + 17.f;  // shifted, so that the lattices do not line up
+    x = 2.f * x + 17.f;  // a shift keeps the lattices from lining up
     y = 2.f * y + 31.f;
   }
   return sum / total;

@@ -20,7 +20,7 @@ inline Rgba mix(const Rgba& a, const Rgba& b, float weight_of_b) {
   return out;
 }
 
-/// Image in floats, top row first.
+/// Image of floats, top row first.
 struct Image {
   Image() = default;
   Image(int columns_wanted, int rows_wanted, const Rgba& fill);
@@ -30,9 +30,9 @@ struct Image {
 
   Rgba& at(int column, int row) { return pixels[place(column, row)]; }
   const Rgba& at(int column, int row) const { return pixels[place(column, row)]; }
-  /// Paints over what is there, by the alpha of `colour`.
+  /// Blends `colour` over the pixel by its alpha.
   void blend(int column, int row, const Rgba& colour);
-  /// [rows x columns x 4] as a texture takes it.
+  /// Returns bytes [rows x columns x 4] for a texture.
   std::vector<std::uint8_t> bytes() const;
 
  private:
@@ -42,22 +42,22 @@ struct Image {
   }
 };
 
-/// The picture at half the size, each pixel the mean of four.
+/// Returns the image at half the size; each pixel is the mean of four.
 Image halved(const Image& picture);
-/// Image and its smaller versions down to `smallest` pixels.
+/// Returns the image and its mipmaps down to `smallest` pixels.
 std::vector<Image> mipmaps(Image picture, int smallest = 1);
 /// Copies `part` into `whole` with its top left corner at (column, row).
 void paste(const Image& part, int column, int row, Image& whole);
 
-/// Smooth noise over a plane, in [0, 1] with mean about 0.5, repeating after PERIOD units.
+/// Smooth noise over a plane, in [0, 1] with a mean of about 0.5; it repeats after PERIOD units.
 class Noise {
  public:
   static constexpr int PERIOD = 64;
   explicit Noise(std::uint64_t seed);
 
-  /// One octave: features of one unit.
+  /// Returns one octave, with features of one unit.
   float smooth(float x, float y) const;
-  /// `octaves` of it, each twice as fine and half as strong.
+  /// Sums `octaves`, each twice as fine and half as strong as the one before.
   float fractal(float x, float y, int octaves) const;
 
  private:

@@ -10,7 +10,7 @@ namespace {
 
 using forest::LeafShape;
 
-// Scales alpha so that the same fraction passes the test as in the full picture.
+// Scales alpha so that the same fraction passes the alpha test as in the full image.
 void keepCoverage(double wanted, Image& picture) {
   std::vector<float> alphas;
   for (const Rgba& pixel : picture.pixels) alphas.push_back(pixel[3]);

@@ -9,13 +9,14 @@
 
 namespace vegetation_sim::view {
 
-/// The four clusters in the order of LeafShape from left to right, their boughs below, with mipmaps
-/// that keep each picture's coverage, so that crowns do not thin out with distance.
+/// Paints the four clusters in the order of LeafShape from left to right, their boughs below.
+/// Mipmaps keep the coverage of each image, so that crowns do not thin out with distance.
 std::vector<Image> leafAtlas(int edge);
-/// A place in one picture, from the lower left corner (0, 0) to (1, 1), as a place in the atlas.
+/// Converts a place in one image, from the lower left corner (0, 0) to (1, 1), to atlas
+/// coordinates.
 std::array<float, 2> leafAtlasPlace(int shape, bool bough, const std::array<float, 2>& at);
 
-/// Mipmaps of which as much passes the test against alpha as of the picture.
+/// Returns mipmaps of which the same fraction passes the alpha test as of the image.
 std::vector<Image> coveredMipmaps(const Image& picture, int smallest);
 
 }  // namespace vegetation_sim::view

@@ -15,10 +15,10 @@ using forest::LeafShape;
 constexpr Rgba TWIG{0.48f, 0.40f, 0.30f, 1.f};
 
 struct Spot {
-  float x, y;  // right, up; the foot is (0.5, 0), the tip's edge y = 1
+  float x, y;  // right and up; the foot is (0.5, 0), the edge at the tip is y = 1
 };
 
-/// Half the width of a leaf at t from its stalk (0) to its tip (1), for a leaf of length 1.
+// Returns half the width of a leaf of length 1 at t from its stalk (0) to its tip (1).
 float halfWidth(LeafShape shape, bool bough, float t) {
   const float round = std::sin(static_cast<float>(PI) * std::pow(t, 0.85f));
   switch (shape) {
@@ -57,7 +57,7 @@ class ClusterPainter {
         bough_ ? curtain() : strands();
         break;
     }
-    return halved(out_);  // painted at twice the size: smooth edges
+    return halved(out_);  // painting at twice the size smooths the edges
   }
 
  private:
@@ -69,7 +69,7 @@ class ClusterPainter {
     return static_cast<float>(random_.uniform(drawn_++, low, high));
   }
 
-  // Side twigs along a stem, leaves along the side twigs, the last ones in front.
+  // Paints side twigs along a stem and leaves along the side twigs; the last ones are in front.
   void spray(const Spot& foot, float lean, float stem, int twigs, int leaves, float leaf_length) {
     const Spot tip{foot.x + stem * std::sin(lean), foot.y + stem * std::cos(lean)};
     stroke(foot, tip, 0.008f * (bough_ ? 0.5f : 1.f));
@@ -92,11 +92,11 @@ class ClusterPainter {
       leaf(between(foot, tip, 0.96f), lean + draw(-0.8f, 0.8f), leaf_length * draw(0.8f, 1.f));
   }
 
-  // Sprays to both sides of a stem and one at its end.
+  // Paints sprays on both sides of a stem and one at its end.
   void sprays(float leaf_length) {
     stroke({0.5f, 0.f}, {0.5f, 0.66f}, 0.007f);
     for (int i = 0; i < 9; ++i) {
-      lightness_ = 0.55f + 0.05f * static_cast<float>(i);  // those behind are in the shade
+      lightness_ = 0.55f + 0.05f * static_cast<float>(i);  // leaves behind are darker
       const float up = 0.04f + 0.07f * static_cast<float>(i);
       const float angle = (i % 2 == 0 ? 1.f : -1.f) * draw(0.6f, 1.15f) * (1.2f - 0.7f * up);
       spray({0.5f, up}, angle, draw(0.32f, 0.5f) * (1.f - 0.3f * up), 6, 4, leaf_length);
@@ -144,7 +144,7 @@ class ClusterPainter {
     }
   }
 
-  // Many strands side by side that hang from the foot's edge.
+  // Paints many strands side by side that hang from the edge of the foot.
   void curtain() {
     for (int i = 0; i < 13; ++i) {
       lightness_ = 0.6f + 0.033f * static_cast<float>(i);
@@ -190,14 +190,14 @@ class ClusterPainter {
              if (t < 0.f || t > 1.f) return;
              const float half = halfWidth(shape_, bough_, t);
              if (std::fabs(s) > half) return;
-             // Two halves that face the light differently, a pale midrib, darker towards the stalk.
+             // The halves face the light differently; the midrib is pale, the stalk dark.
              float value = light * (0.86f + 0.14f * t) + (s > 0.f ? tilt : -tilt);
              if (shape_ != LeafShape::NEEDLE && std::fabs(s) < 0.022f) value += 0.1f;
              out_.blend(c, r, {value * (1.f + warm), value, value * (1.f - warm), 1.f});
            });
   }
 
-  // Calls draw(x, y, column, row) for each pixel of a box in the picture's own units.
+  // Calls draw(x, y, column, row) for each pixel of a box in image units.
   template <class Draw>
   void forBox(float left, float right, float low, float high, const Draw& draw) {
     const auto n = static_cast<float>(out_.columns);
@@ -212,7 +212,7 @@ class ClusterPainter {
   bool bough_;
   Random random_;
   std::uint64_t drawn_{0};
-  float lightness_{1.f};  // of the leaves that are painted now
+  float lightness_{1.f};  // of the current leaves
   Image out_;
 };
 

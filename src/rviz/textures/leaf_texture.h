@@ -7,13 +7,14 @@
 
 namespace vegetation_sim::view {
 
-/// One cluster of leaves on its twig, or a bough of several, foot at the middle of the lower edge:
-/// lightness in the colour (about 0.8, to be multiplied with the tree's own), the leaves in alpha.
+/// Paints one cluster of leaves on its twig, or a bough of several, with the foot at the middle of
+/// the lower edge: lightness of about 0.8 in the colour (a factor of the tree's colour), leaves in
+/// alpha.
 Image leafPicture(forest::LeafShape shape, bool bough, int edge);
 
-/// What alpha has to reach to be drawn.
+/// Pixels with at least this alpha are drawn.
 constexpr float ALPHA_LIMIT = 0.5f;
-/// Fraction of the picture that passes that test.
+/// Returns the fraction of the image that passes the alpha test.
 double coverage(const Image& picture);
 
 }  // namespace vegetation_sim::view

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int COLUMNS = 32, ROWS = 64;
 
-// Half the width of a body, as a share of the picture's, at v from its feet (0) to its head (1).
+// Returns half the width of a body as a share of the image at v from its feet (0) to its head (1).
 double halfWidth(double v) {
   return v < 0.8 ? 0.42 + 0.35 * std::sin(PI * v) : 0.42;
 }

@@ -6,8 +6,8 @@
 
 namespace vegetation_sim::view {
 
-/// Shadow of an upright body: white, alpha is how much of it there is; dark at its feet, which are
-/// on top, and soft at its head.
+/// Paints the shadow of an upright body: white, with its strength in alpha; dark at the feet, which
+/// are at the top, and soft at the head.
 Image shadowPicture();
 
 }  // namespace vegetation_sim::view

@@ -10,8 +10,8 @@
 namespace vegetation_sim::view {
 namespace {
 
-constexpr double CLOUD_HEIGHT = 1.0;  // of the layer, in the unit of its noise
-constexpr float CLOUD_COVER = 0.53f;  // noise above this is cloud
+constexpr double CLOUD_HEIGHT = 1.0;  // of the cloud layer, in units of the noise
+constexpr float CLOUD_COVER = 0.53f;  // noise above this value is cloud
 constexpr float CLOUD_OPACITY = 0.75f;
 constexpr Rgba CLOUD_LIT{1.f, 0.985f, 0.96f, 1.f}, CLOUD_SHADED{0.80f, 0.84f, 0.89f, 1.f};
 
@@ -19,7 +19,7 @@ float smooth(float low, float high, float x) {
   return static_cast<float>(smoothStep((x - low) / (high - low)));
 }
 
-// Around the sun, by the cosine of the angle to it.
+// Returns the glow by the cosine of the angle to the sun.
 float glow(float towards) {
   const float t2 = towards * towards, t4 = t2 * t2, t8 = t4 * t4;
   return std::min(1.f, 0.55f * t8 * t8 * t8 + 0.25f * t4 * towards);
@@ -36,7 +36,7 @@ Vec3 directionOf(const SinCos& azimuth, const SinCos& elevation) {
 }
 
 float cloudAt(const Noise& noise, const Vec3& direction) {
-  // A flat layer overhead: clouds crowd together towards the horizon.
+  // Clouds are a flat layer, so they appear denser towards the horizon.
   const double far = CLOUD_HEIGHT / (direction.z() + 0.09);
   const auto x = static_cast<float>(direction.x() * far),
              y = static_cast<float>(direction.y() * far);
@@ -44,7 +44,7 @@ float cloudAt(const Noise& noise, const Vec3& direction) {
   return noise.fractal(1.3f * x + warp, 2.0f * y + 0.6f * warp, 5);
 }
 
-// Height of hills far away, as the sine of their elevation, once around.
+// Returns the sine of the elevation of far hills by azimuth.
 float ridge(const Noise& noise, float turn) {
   const float around = static_cast<float>(Noise::PERIOD) * turn;
   return 0.010f + 0.042f * noise.smooth(0.25f * around, 3.f) * noise.smooth(0.5f * around, 9.f) +
@@ -61,7 +61,7 @@ Daylight daylightOf(double azimuth, double elevation) {
   Daylight out;
   const SinCos a = sinCos(azimuth), e = sinCos(elevation);
   out.to_sun = {e.cos * a.cos, e.cos * a.sin, e.sin};
-  // A low sun is warmer and weaker, and shines through more haze.
+  // Light of a low sun is warmer and weaker, and the haze is stronger.
   const auto low = static_cast<float>(1.0 - smoothStep(elevation / 0.8));
   out.sun = mix(out.sun, {1.38f, 0.93f, 0.52f, 1.f}, low);
   out.horizon = mix(out.horizon, {0.93f, 0.84f, 0.72f, 1.f}, 0.6f * low);

@@ -18,7 +18,7 @@ constexpr std::chrono::milliseconds PATIENCE(500);
 
 }  // namespace
 
-struct AsyncTasks::Desk {
+struct AsyncTasks::Queue {
   mutable std::mutex mutex;
   std::condition_variable changed;
   std::deque<std::function<void()>> waiting;
@@ -26,47 +26,47 @@ struct AsyncTasks::Desk {
   bool ending{false};
 };
 
-AsyncTasks::AsyncTasks() : grabs_manager_(std::make_shared<Desk>()) {
-  std::thread([desk = grabs_manager_] { run(*desk); }).detach();
+AsyncTasks::AsyncTasks() : queue_(std::make_shared<Queue>()) {
+  std::thread([queue = queue_] { run(*queue); }).detach();
 }
 
 AsyncTasks::~AsyncTasks() {
-  std::unique_lock<std::mutex> lock(grabs_manager_->mutex);
-  grabs_manager_->ending = true;
-  grabs_manager_->changed.notify_all();
-  grabs_manager_->changed.wait_for(lock, PATIENCE, [this] { return grabs_manager_->left == 0; });
+  std::unique_lock<std::mutex> lock(queue_->mutex);
+  queue_->ending = true;
+  queue_->changed.notify_all();
+  queue_->changed.wait_for(lock, PATIENCE, [this] { return queue_->left == 0; });
 }
 
 void AsyncTasks::add(std::function<void()> task) {
-  const std::lock_guard<std::mutex> lock(grabs_manager_->mutex);
-  grabs_manager_->waiting.push_back(std::move(task));
-  ++grabs_manager_->left;
-  grabs_manager_->changed.notify_all();
+  const std::lock_guard<std::mutex> lock(queue_->mutex);
+  queue_->waiting.push_back(std::move(task));
+  ++queue_->left;
+  queue_->changed.notify_all();
 }
 
 std::size_t AsyncTasks::left() const {
-  const std::lock_guard<std::mutex> lock(grabs_manager_->mutex);
-  return grabs_manager_->left;
+  const std::lock_guard<std::mutex> lock(queue_->mutex);
+  return queue_->left;
 }
 
-void AsyncTasks::run(Desk& desk) {
-  std::unique_lock<std::mutex> lock(desk.mutex);
+void AsyncTasks::run(Queue& queue) {
+  std::unique_lock<std::mutex> lock(queue.mutex);
   while (true) {
-    desk.changed.wait(lock, [&] { return desk.ending || !desk.waiting.empty(); });
-    if (desk.waiting.empty()) return;
-    std::function<void()> task = std::move(desk.waiting.front());
-    desk.waiting.pop_front();
+    queue.changed.wait(lock, [&] { return queue.ending || !queue.waiting.empty(); });
+    if (queue.waiting.empty()) return;
+    std::function<void()> task = std::move(queue.waiting.front());
+    queue.waiting.pop_front();
     lock.unlock();
     try {
       task();
     } catch (const std::exception& error) {
-      ROS_ERROR("An errand of rviz ended early: %s", error.what());
+      ROS_ERROR("A background task of rviz failed: %s", error.what());
     }
     lock.lock();
-    --desk.left;
-    desk.changed.notify_all();
+    --queue.left;
+    queue.changed.notify_all();
     lock.unlock();
-    task = nullptr;  // whom it holds may end with it, and ask for the lock
+    task = nullptr;  // its captures may end here and need the lock
     lock.lock();
   }
 }

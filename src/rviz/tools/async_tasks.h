@@ -10,32 +10,32 @@
 
 namespace vegetation_sim::view {
 
-/// Runs errands one after the other beside the render thread: a service that answers late must not
-/// stop the picture. An errand holds what it uses: it may outlive whoever sent it.
+/// Runs tasks one after the other in a thread beside the render thread, so that a slow service does
+/// not block rendering. A task owns what it uses, since it may outlive its sender.
 class AsyncTasks {
  public:
   AsyncTasks();
-  /// Waits half a second at most; what is not done by then goes on beside.
+  /// Waits at most half a second; unfinished tasks continue in the background.
   ~AsyncTasks();
   AsyncTasks(const AsyncTasks&) = delete;
   AsyncTasks& operator=(const AsyncTasks&) = delete;
 
   void add(std::function<void()> task);
-  /// Those that wait or run.
+  /// Returns the number of tasks that wait or run.
   std::size_t left() const;
 
  private:
-  struct Desk;
-  static void run(Desk& desk);
+  struct Queue;
+  static void run(Queue& queue);
 
-  std::shared_ptr<Desk> grabs_manager_;
+  std::shared_ptr<Queue> queue_;
 };
 
-/// What an errand brings back, in words.
+/// Message that a task returns.
 class Answer {
  public:
   void give(const std::string& text);
-  /// What was given since it was asked last; none: nothing.
+  /// Returns the message since the last call, or nothing.
   std::optional<std::string> take();
 
  private:

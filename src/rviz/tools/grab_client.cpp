@@ -12,9 +12,9 @@
 namespace vegetation_sim::view {
 namespace {
 
-constexpr double LEASE = 3.0;  // [s] also where rviz draws few frames
+constexpr double LEASE = 3.0;  // [s] long enough for low frame rates
 
-// False: `message` says why.
+// Returns false with the reason in `message`.
 template <class Service>
 bool ask(ros::ServiceClient& client, Service& service, std::string& message) {
   if (!client.call(service)) {
@@ -106,7 +106,7 @@ void GrabClient::move() {
   }
   std::string message, why;
   const bool moved = ask(move_, move, message);
-  move.request.renew_only = true;  // a target out of reach is no reason to let go
+  move.request.renew_only = true;  // a target out of reach must not end the grab
   const bool held = moved || ask(move_, move, why);
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!held) grip_ = Grip();

@@ -15,40 +15,40 @@
 
 namespace vegetation_sim::view {
 
-/// The spring between the mouse and a branch; docs/grab.md.
+/// The spring between the mouse and a branch, see docs/grab.md.
 struct Spring {
   double stiffness{2000.0};   ///< [N/m]
   double damping{40.0};       ///< [N s/m]
   double force_limit{200.0};  ///< [N]
 };
 
-/// What a hand holds, in the world frame of the forest.
+/// What the client holds, in the world frame of the forest.
 struct Grip {
   bool holding{false};
   std::uint32_t id{0}, tree{0}, branch{0};
-  Vec3 start{Vec3::Zero()};   ///< where it was taken [m]
-  Vec3 point{Vec3::Zero()};   ///< the point held, as last told [m]
-  Vec3 target{Vec3::Zero()};  ///< where it is pulled [m]
-  Vec3 force{Vec3::Zero()};   ///< of the branch on the hand [N]
-  std::string message;        ///< what happened last, in words
+  Vec3 start{Vec3::Zero()};   ///< where it was grabbed [m]
+  Vec3 point{Vec3::Zero()};   ///< last known place of the held point [m]
+  Vec3 target{Vec3::Zero()};  ///< target of the spring [m]
+  Vec3 force{Vec3::Zero()};   ///< of the branch on the mouse [N]
+  std::string message;        ///< last result for the user
 };
 
-/// Grabs branches of a forest over the services that everyone has. Returns at once; what came of it
-/// is in `grip`. Held by a shared pointer: calls that a node answers late outlive their sender.
+/// Grabs branches of a forest by its public services. Functions return at once; results are in
+/// grip(). It is held by a shared pointer, since late replies outlive their sender.
 class GrabClient : public std::enable_shared_from_this<GrabClient> {
  public:
-  /// @param node that serves ~pick, ~grab, ~move_grab and ~release.
+  /// @param node node with the services ~pick, ~grab, ~move_grab and ~release.
   /// @throws ros::InvalidNameException
   GrabClient(ros::NodeHandle nh, const std::string& node);
 
-  /// Takes the branch that a ray meets first, within `tolerance` [m] of its surface.
+  /// Grabs the branch that a ray meets first, within `tolerance` [m] of its surface.
   void take(const Ray& ray, double tolerance, const Spring& spring);
-  /// Pulls what is held to a place; of several calls before an answer only the last counts.
+  /// Moves the target; of several calls before a reply only the last one is sent.
   void follow(const Vec3& target);
-  /// Keeps the lease; call it several times a second.
+  /// Renews the lease; call it several times a second.
   void keep();
-  /// Lets go; whoever drops a hand calls it before. A process that is gone lets go too, by the
-  /// lease.
+  /// Releases the branch; call it before the client is dropped. The lease releases it if the
+  /// process ends.
   void release();
   Grip grip() const;
 
@@ -61,7 +61,7 @@ class GrabClient : public std::enable_shared_from_this<GrabClient> {
   ros::ServiceClient pick_, grab_, move_, release_;
   mutable std::mutex mutex_;
   Grip grip_;
-  bool moving_{false};  // an errand to move waits
+  bool moving_{false};  // a move request is queued
   AsyncTasks tasks_;
 };
 

@@ -104,7 +104,7 @@ int GrabTool::take(const rviz::ViewportMouseEvent& event) {
   return Render;
 }
 
-// The plane faces the view and goes through the place where the branch was taken.
+// The plane faces the view and contains the point where the branch was grabbed.
 int GrabTool::pull(const rviz::ViewportMouseEvent& event) {
   const view::Ray ray = view::rayOf(event, *context_, world_->frame());
   const Vec3 sight = view::sightOf(event, *context_, world_->frame());

@@ -14,8 +14,8 @@
 
 namespace vegetation_sim {
 
-/// Mouse tool: a click takes the branch under the cursor, dragging pulls it in the plane of the
-/// view, letting the button go lets the branch go. A line shows the pull.
+/// Mouse tool: a click grabs the branch under the cursor, dragging pulls it in the plane of the
+/// view, and releasing the button releases it. A line shows the pull.
 class GrabTool : public rviz::Tool {
   Q_OBJECT
  public:
@@ -28,7 +28,7 @@ class GrabTool : public rviz::Tool {
   int processMouseEvent(rviz::ViewportMouseEvent& event) override;
   void update(float wall_dt, float ros_dt) override;
 
-  /// What is held; nothing while the tool is not active.
+  /// Returns what is held, or nothing while the tool is inactive.
   view::Grip grip() const;
 
  private:

@@ -18,10 +18,10 @@ namespace {
 
 constexpr char WIND_NODE[] = "/wind_broadcaster", FOREST_NODE[] = "/forest_animator";
 constexpr char TICK[] = "Time of a tick [ms]", BETWEEN_TICKS[] = "Time between ticks [ms]";
-constexpr int SETTLE = 250;    // [ms] after the last turn of the dial
-constexpr int LOOK = 200;      // [ms] between looks for an answer
-constexpr int SILENCE = 5000;  // [ms] a bar is shown after its node was heard
-constexpr int TENTHS = 10;     // of a metre per second, one step of the slider
+constexpr int SETTLE = 250;    // [ms] delay after the last move of the dial
+constexpr int LOOK = 200;      // [ms] between checks for a reply
+constexpr int SILENCE = 5000;  // [ms] without diagnostics that hide a bar
+constexpr int TENTHS = 10;     // steps of the slider per m/s
 constexpr int FASTEST = 250;   // steps of the slider
 constexpr double DEGREE = 0.017453292519943295;
 
@@ -36,7 +36,7 @@ QString inWords(double value) {
   return value < 1000.0 ? QString::number(value, 'g', 4) : QString::number(value, 'f', 0);
 }
 
-// Compass of the dial: 0 at the top is north, clockwise; ROS counts from east, counter-clockwise.
+// The dial counts clockwise from north at the top; ROS counts counter-clockwise from east.
 double toYaw(int compass) {
   return std::remainder((90.0 - compass) * DEGREE, 360.0 * DEGREE);
 }
@@ -130,7 +130,7 @@ void LandscapePanel::addBars(QGridLayout& grid) {
     grid.addWidget(bar.label, line, 0);
     grid.addWidget(bar.bar, line, 1);
     bar.bar->setRange(0, 1000);
-    show(bar, false);  // until its node is heard
+    show(bar, false);  // until the node publishes
     bars_.push_back(bar);
   }
 }
@@ -152,7 +152,7 @@ void LandscapePanel::onInitialize() {
 }
 
 void LandscapePanel::takeWind(const dynamic_reconfigure::Config& config) {
-  if (wind_timer_.isActive()) return;  // the user is turning
+  if (wind_timer_.isActive()) return;  // the user moves the dial
   const QSignalBlocker dial(direction_), slider(speed_);
   for (const dynamic_reconfigure::DoubleParameter& value : config.doubles) {
     if (value.name == "breeze_speed")

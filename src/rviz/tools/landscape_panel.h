@@ -26,9 +26,9 @@
 
 namespace vegetation_sim {
 
-/// Panel: wind with a dial and a slider, buttons for the tool that makes gusts and tornadoes, the
-/// tolerance and budget of the forest's motion, and bars of what is spent, by part, and of how
-/// trees move: not at all, by procedure, in modes, physically.
+/// Panel with the wind as a dial and a slider, buttons for gusts and tornadoes, the tolerance and
+/// budget of the forest, and bars of the costs by part and of how trees move: fixed, procedural,
+/// modal or physical.
 class LandscapePanel : public rviz::Panel {
   Q_OBJECT
  public:
@@ -45,7 +45,7 @@ class LandscapePanel : public rviz::Panel {
   void look();
 
  private:
-  // A figure of /diagnostics beside its limit.
+  // A figure of /diagnostics and its limit.
   struct Bar {
     std::string status, value, limit;
     QLabel* label;
@@ -67,12 +67,12 @@ class LandscapePanel : public rviz::Panel {
   QDial* direction_;
   QSlider* speed_;
   QLabel* wind_text_;
-  std::map<std::string, QDoubleSpinBox*> settings_;  ///< by parameter of the forest
+  std::map<std::string, QDoubleSpinBox*> settings_;  ///< by parameter of forest_animator
   QLabel* message_text_;
   QTimer wind_timer_, message_timer_;
   std::vector<Bar> bars_;
   ros::Subscriber wind_, forest_, diagnostics_;
-  std::shared_ptr<view::Answer> answer_{std::make_shared<view::Answer>()};  // of services
+  std::shared_ptr<view::Answer> answer_{std::make_shared<view::Answer>()};  // of service calls
   view::AsyncTasks tasks_;
 };
 

@@ -22,7 +22,7 @@ struct Placement {
   Ogre::Quaternion orientation;
 };
 
-// The frame in the fixed frame.
+// Returns the pose of the frame in the fixed frame.
 Placement placementOf(rviz::DisplayContext& context, const std::string& frame) {
   Placement out;
   if (!context.getFrameManager()->getTransform(frame, ros::Time(), out.position, out.orientation))

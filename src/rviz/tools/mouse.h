@@ -11,23 +11,23 @@
 
 namespace vegetation_sim::view {
 
-/// Where the mouse points [m].
+/// Ray under the mouse cursor [m].
 struct Ray {
   Vec3 origin{Vec3::Zero()}, direction{Vec3::UnitX()};
 };
 
-/// Ray through the mouse in a tf frame. @throws std::runtime_error if tf does not know the frame.
+/// Returns the ray in a tf frame. @throws std::runtime_error if there is no transform.
 Ray rayOf(const rviz::ViewportMouseEvent& event, rviz::DisplayContext& context,
           const std::string& frame);
 
-/// Unit vector along which the event's camera looks, in a tf frame. @throws as rayOf.
+/// Returns the unit view direction of the event's camera in a tf frame. @throws as rayOf().
 Vec3 sightOf(const rviz::ViewportMouseEvent& event, rviz::DisplayContext& context,
              const std::string& frame);
 
-/// Where a ray meets the plane through `point`; false if it does not in front of its origin.
+/// Intersects a ray with the plane through `point`. Returns false behind the origin of the ray.
 bool meetPlane(const Ray& ray, const Vec3& point, const Vec3& normal, Vec3& place);
 
-/// Lets the view have a mouse event that a tool has no use for.
+/// Passes a mouse event that a tool does not use to the view controller.
 void passToView(rviz::ViewportMouseEvent& event);
 
 }  // namespace vegetation_sim::view

@@ -16,13 +16,13 @@ class DisplayContext;
 
 namespace vegetation_sim::view {
 
-/// The line that a tool draws while a button is held: nothing until then.
+/// The line that a tool draws while a button is held.
 class ToolLine {
  public:
   explicit ToolLine(float width);  ///< [m]
   ~ToolLine();
 
-  /// Between two places of a frame; as it was where tf does not tell the frame.
+  /// Sets both ends in a frame. Without a transform the line stays as it is.
   void draw(rviz::DisplayContext& context, const std::string& frame, const Vec3& from,
             const Vec3& to, const Ogre::ColourValue& colour);
   void clear();

@@ -16,7 +16,7 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr double FAR = 300.0;  // [m] the ground beyond is not trodden
+constexpr double FAR = 300.0;  // [m] the tool ignores ground beyond
 constexpr double STEP = 0.02;  // [m] between events
 
 }  // namespace

@@ -13,7 +13,7 @@
 
 namespace vegetation_sim {
 
-/// Mouse tool: dragging across the grass treads it.
+/// Mouse tool: dragging across grass treads it.
 class TreadTool : public rviz::Tool {
   Q_OBJECT
  public:

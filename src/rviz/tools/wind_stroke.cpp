@@ -7,7 +7,7 @@
 namespace vegetation_sim::view {
 namespace {
 
-constexpr double LEAD = 1.0;           // [s] until everyone knows of it, about
+constexpr double LEAD = 1.0;           // [s] delay until all subscribers have it
 constexpr double CLICK = 0.5;          // [m] shorter strokes are clicks
 constexpr double STRONGEST = 40.0;     // [m/s]
 constexpr double LONGEST_GUST = 60.0;  // [s]

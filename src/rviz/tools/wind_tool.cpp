@@ -16,8 +16,8 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr double FAR = 500.0;        // [m] no stroke is drawn beyond
-constexpr double LIFTED = 0.3;       // [m] the line above the ground
+constexpr double FAR = 500.0;        // [m] the tool draws nothing beyond
+constexpr double LIFTED = 0.3;       // [m] height of the line above the ground
 constexpr float LINE_WIDTH = 0.15f;  // [m]
 
 std::unique_ptr<rviz::FloatProperty> metres(const char* name, float value, float low, float high,

@@ -18,7 +18,7 @@
 
 namespace vegetation_sim {
 
-/// Mouse tool: a stroke on the ground sends a gust along it, or lets a tornado walk along it.
+/// Mouse tool: a stroke on the ground starts a gust or a tornado along it.
 class WindTool : public rviz::Tool {
   Q_OBJECT
  public:
@@ -47,7 +47,7 @@ class WindTool : public rviz::Tool {
   view::ToolLine line_;
   view::WindStroke stroke_;
   bool drawing_{false};
-  std::shared_ptr<view::Answer> answer_{std::make_shared<view::Answer>()};  // of the service
+  std::shared_ptr<view::Answer> answer_{std::make_shared<view::Answer>()};  // of the service call
   view::AsyncTasks tasks_;
 };
 

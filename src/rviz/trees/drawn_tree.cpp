@@ -14,7 +14,7 @@ namespace vegetation_sim::view {
 namespace {
 
 constexpr double VISIBLE_FLUTTER = 0.4;  // [pixel]
-constexpr double BREATH = 0.15;          // [m/s] air that moves no leaf
+constexpr double BREATH = 0.15;          // [m/s] slower wind moves no leaf
 constexpr forest::Colour MOVES{0.86f, 0.22f, 0.12f}, CHANGES{0.25f, 0.72f, 0.20f},
     PHYSICAL{0.10f, 0.35f, 0.90f};
 
@@ -148,7 +148,7 @@ void DrawnTree::paintBark(const forest::LightGrid& light, Shape& shape) {
     VertexPaint& paint = shape.bark.paint[i];
     const Vec3 at = inLayout(&shape.bark.positions[3 * i]);
     setNormal(Vec3(normals[3 * i], normals[3 * i + 1], normals[3 * i + 2]), paint);
-    // Damp and darker at the foot.
+    // Bark is damp and darker at the foot.
     const double above = saturate((at.z() - tree_.foot.z()) / (6.0 * species_.trunk_radius));
     forest::Colour colour = paint_.bark(radiusOf(vertex));
     for (float& part : colour) part *= static_cast<float>(0.6 + 0.4 * above);
@@ -161,7 +161,7 @@ void DrawnTree::paintBark(const forest::LightGrid& light, Shape& shape) {
   painted_by_level_ = false;
 }
 
-// Normals point out of the crown, so that it is shaded as one round body, not as so many cards.
+// Normals point out of the crown, so that it is shaded as one round body and not as many cards.
 void DrawnTree::paintLeaves(const forest::LightGrid& light, Shape& shape) {
   shape.leaves.paint.resize(forest::LEAF_CORNERS * shape.mesh.leaves.size());
   if (shape.mesh.leaves.empty()) return;

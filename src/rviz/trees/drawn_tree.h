@@ -13,19 +13,19 @@
 
 namespace vegetation_sim::view {
 
-/// What the user chose about the look of trees.
+/// Settings of the appearance of trees.
 struct TreeLook {
   bool leaves{true};
   bool flutter{true};
   bool colour_by_level{
-      false};  ///< bark: moving joints red, those in transition green, physical blue
+      false};  ///< colours bark by state: moving red, in transition green, physical blue
 };
 
-/// One tree as it is drawn: its mesh at one level of detail, where the vertices are and how they
-/// are painted. No Ogre in it.
+/// One tree as it is drawn: its mesh at one level of detail, with vertex positions and colours. It
+/// uses no Ogre.
 class DrawnTree {
  public:
-  /// Grows the tree. @param origin of all coordinates that it gives, in the layout's frame [m].
+  /// Grows the tree. @param origin origin of all coordinates that it returns, layout's frame [m].
   DrawnTree(const forest::ForestReplica& replica, std::uint32_t id, const Vec3& origin);
 
   std::uint32_t id() const { return id_; }
@@ -34,26 +34,27 @@ class DrawnTree {
   double height() const { return tree_.skeleton.height; }
   double reach() const { return tree_.skeleton.reach; }
   double leafSize() const { return species_.leaf_size; }  ///< edge of a cluster [m]
-  int level() const { return level_; }                    ///< of geometry; -1: no mesh yet
-  /// Of its level, whatever fades.
+  int level() const { return level_; }  ///< of geometry, or -1 before the first mesh
+  /// Counts the triangles of its level without those that fade out.
   std::size_t triangleCount() const { return shapes_.front().mesh.triangleCount(); }
   const forest::Tree& tree() const { return tree_; }
 
-  /// Adds its leaves to a grid of light in the layout's frame.
+  /// Adds its leaves to a light grid in the layout's frame.
   void addTo(forest::LightGrid& light) const;
-  /// Builds the mesh of a geometry level, at rest.
-  /// @param fade_clock above 0: the mesh so far stays and fades out, from this time of the clock of
-  ///   fades on, while the other fades in; until endFade().
+  /// Builds the mesh of a geometry level at rest.
+  /// @param fade_clock if positive, the previous mesh fades out from this time of the fade clock
+  /// while
+  ///   the new one fades in, until endFade().
   void setLevel(int level, const forest::LightGrid& light, const TreeLook& look,
                 float fade_clock = 0.f);
   bool fading() const { return shapes_.size() > 1; }
   float fadesSince() const { return fades_since_; }
   void endFade();
-  /// Moves the vertices to `stamp`. False if nothing has changed since the last call.
-  /// @param pixels_per_metre decides whether flutter can be seen.
+  /// Moves the vertices to `stamp`. Returns false if nothing has changed since the last call.
+  /// @param pixels_per_metre decides whether flutter is visible.
   bool move(const forest::ForestReplica& replica, Nanoseconds stamp, const wind::Instant& wind,
             const TreeLook& look, double pixels_per_metre);
-  /// Paints the bark by what each joint does at `stamp`. False if nothing has changed.
+  /// Colours the bark by the state of each joint at `stamp`. Returns false if nothing has changed.
   bool paintLevels(const forest::ForestReplica& replica, Nanoseconds stamp, const TreeLook& look);
 
   struct Part {
@@ -61,11 +62,11 @@ class DrawnTree {
     std::vector<VertexPaint> paint;
   };
   struct Shape {
-    int depths{0};  ///< whose poses it needs
+    int depths{0};  ///< recursion depths whose poses it needs
     forest::TreeMesh mesh;
     Part bark, leaves;
   };
-  /// What is drawn: the mesh of its level first, then the one that fades out, if any.
+  /// Meshes that are drawn: that of its level, then the one that fades out, if any.
   const std::vector<Shape>& shapes() const { return shapes_; }
 
  private:
@@ -86,7 +87,7 @@ class DrawnTree {
   forest::BatchPoses poses_;
   std::vector<Shape> shapes_ = std::vector<Shape>(1);
   float fades_since_{0.f};
-  bool moved_{true};  // the last move() left it other than at rest
+  bool moved_{true};  // the last move() left it away from rest
   forest::Weights painted_{};
   std::vector<int> painted_physical_;  // branches
   bool painted_by_level_{false};

@@ -13,7 +13,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double LIGHT_CELL = 0.8;  // [m]
-constexpr double MARGIN = 12.0;     // [m] of light around the trees, for their shadows
+constexpr double MARGIN = 12.0;     // [m] of the light grid around the trees
 
 struct Candidate {
   double distance;
@@ -27,7 +27,7 @@ double distanceTo(const forest::Tile& tile, const Vec3& point) {
   return std::sqrt(x * x + y * y);
 }
 
-// The nearest trees of a tile, all of them within the distance that is told [m]: `most`, or all.
+// The nearest trees of a tile: `most` or all, and the distance that contains them [m].
 double addTile(const forest::Tile& tile, const Vec3& point, std::size_t most,
                std::vector<Candidate>& out) {
   const std::size_t before = out.size();
@@ -46,7 +46,7 @@ double addTile(const forest::Tile& tile, const Vec3& point, std::size_t most,
   }
 }
 
-// Trees of tiles, nearest tiles first, until no tile left out can hold one of the `most` nearest.
+// Visits the nearest tiles first, until no other tile can contain one of the `most` nearest trees.
 void addTiles(const forest::Layout& layout, const Vec3& point, std::size_t most,
               std::vector<Candidate>& out) {
   std::vector<std::size_t> order(layout.tiles.size());
@@ -55,7 +55,7 @@ void addTiles(const forest::Layout& layout, const Vec3& point, std::size_t most,
     return distanceTo(layout.tiles[a], point) < distanceTo(layout.tiles[b], point);
   });
   const std::size_t explicit_trees = out.size();
-  double enough = -1.0, farthest = 0.0;  // [m] within `enough` there are `most` trees
+  double enough = -1.0, farthest = 0.0;  // [m] `most` trees are within `enough`
   for (const std::size_t i : order) {
     const forest::Tile& tile = layout.tiles[i];
     if (enough >= 0.0 && distanceTo(tile, point) > enough) return;
