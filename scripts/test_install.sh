@@ -32,6 +32,14 @@ for file in "$INSTALLED"/lib/*.so "$INSTALLED"/lib/vegetation_sim/*; do
   ! ldd "$file" | grep -E "not found|$BUILD/devel" || fail "$file lacks a library"
 done
 
+# Another package can include every installed header and link the libraries.
+(cd "$INSTALLED/include" && find vegetation_sim -name '*.h' -printf '#include <%p>\n' | sort) >"$WORK/consumer.cpp"
+echo 'int main() { return vegetation_sim::forest::ForestReplica().ready() ? 1 : 0; }' >>"$WORK/consumer.cpp"
+# shellcheck disable=SC2046
+g++ -std=c++17 "$WORK/consumer.cpp" -o "$WORK/consumer" $(pkg-config --cflags --libs vegetation_sim) \
+  $(pkg-config --cflags eigen3) >"$WORK/consumer.log" 2>&1 && "$WORK/consumer" ||
+  fail "a program of another package: $(tail -n 20 "$WORK/consumer.log")"
+
 rosrun vegetation_sim charts --quick --only grass_ladder --out "$WORK/charts" >"$WORK/charts.log" 2>&1 ||
   fail "charts: $(cat "$WORK/charts.log")"
 
