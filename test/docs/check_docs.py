@@ -130,7 +130,7 @@ def check_ranges():
             if len(bounds) == 2:
                 declared.setdefault(name, set()).add(tuple(map(float, bounds)))
     for name, body in DOCS.items():
-        for first, shown in re.findall(r'^\| (`[^|]*) \|[^|]*\| ([^|]*?) \|', body, re.M):
+        for first, shown in re.findall(r'^\| *(`[^|]*?) *\|[^|]*\| *([^|]*?) *\|', body, re.M):
             bounds = re.match(r'([-\d.e]+) to ([-\d.e]+)$', shown)
             for key in re.findall(r'`(\w+)`', first):
                 if key in declared and bounds and tuple(map(float, bounds.groups())) not in declared[key]:

@@ -188,8 +188,8 @@ def check_sizes():
 
 
 def draw_table():
-    lines = ['| folder | what it holds |', '|---|---|']
-    lines += ['| `%s` | %s |' % (folder, row['holds']) for folder, row in FOLDERS.items()]
+    lines = ['|folder|what it holds|', '|---|---|']
+    lines += ['|`%s`|%s|' % (folder, row['holds']) for folder, row in FOLDERS.items()]
     return '\n'.join(lines) + '\n'
 
 

@@ -27,7 +27,7 @@ CanopyTuning fromConfig(const CanopyAnimatorConfig& config);
 /// Writes the tuning into what dynamic_reconfigure shows.
 void toConfig(const CanopyTuning& tuning, CanopyAnimatorConfig& config);
 
-/// Parameters of canopy_animator; README.md has them in words.
+/// Parameters of canopy_animator; see docs/reference.md.
 struct CanopyOptions {
   std::string scenario;         ///< file; empty: no plants
   std::string frame_id{"map"};  ///< world frame

@@ -18,7 +18,7 @@ namespace vegetation_sim {
 /// down.
 enum class Treading : int { NONE = 0, BODY = 1, FEET = 2 };
 
-/// Parameters of agent_crowd; README.md has them in words.
+/// Parameters of agent_crowd; see docs/reference.md.
 struct CrowdOptions {
   std::string scenario;              ///< file; empty: nobody
   std::string frame_id{"map"};       ///< world frame

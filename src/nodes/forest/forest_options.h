@@ -14,7 +14,7 @@
 
 namespace vegetation_sim {
 
-/// Parameters of forest_animator; README.md has them in words.
+/// Parameters of forest_animator; see docs/reference.md.
 struct ForestOptions {
   std::string scenario;              ///< file; empty: no trees
   std::string frame_id{"map"};       ///< world frame

@@ -39,7 +39,7 @@ struct FollowedSource {
 };
 constexpr std::size_t MOST_FOLLOWED_SOURCES = 256;
 
-/// Parameters of grass_field; README.md has them in words.
+/// Parameters of grass_field; see docs/reference.md.
 struct GrassOptions {
   std::string scenario;              ///< file; empty: the default meadow
   std::string frame_id{"map"};       ///< world frame

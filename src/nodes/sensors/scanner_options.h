@@ -10,7 +10,7 @@
 
 namespace vegetation_sim {
 
-/// Parameters of vegetation_scanner; README.md has them in words.
+/// Parameters of vegetation_scanner; see docs/reference.md.
 struct ScanOptions {
   std::string frame_id{"map"};       ///< world frame
   std::string lidar_frame{"lidar"};  ///< tf frame of the sensor: x forward, z up
