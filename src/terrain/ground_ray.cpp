@@ -33,7 +33,7 @@ bool meetGround(const HeightMap& ground, const Vec3& origin, const Vec3& directi
   const Vec3 along = direction / size;
   if (above(ground, origin) < 0.0) return false;
   const Bounds box = ground.bounds();
-  // A little more than the box: at its faces rounding decides nothing.
+  // A margin around the box keeps rounding at its faces from mattering.
   const Stretch part = between(box.min_z - CLOSE, box.max_z + CLOSE, origin.z(), along.z(), reach);
   if (part.from > part.to) return false;
   const double step = ground.isFlat() ? part.to - part.from : 0.5 * ground.resolution();

@@ -7,10 +7,11 @@
 
 namespace vegetation_sim::terrain {
 
-/// Where a ray first meets the ground from above, within 1 mm; the steps along it are half the
-/// distance between samples, so that a narrower ridge may be missed.
-/// @param direction any length but zero. @param reach farthest along the ray [m].
-/// @return false if it does not within `reach`, or starts below the ground.
+/// Finds where a ray first meets the ground from above, within 1 mm. The steps along the ray are
+/// half the distance between samples, so a narrower ridge may be missed.
+/// @param direction has any length but zero. @param reach is the largest distance along the ray
+/// [m].
+/// @return false if it meets none within `reach`, or starts below the ground.
 bool meetGround(const HeightMap& ground, const Vec3& origin, const Vec3& direction, double reach,
                 Vec3& place);
 

@@ -12,10 +12,10 @@
 namespace vegetation_sim::terrain {
 namespace {
 
-/// Place of a coordinate on one axis of the grid.
+/// Position of a coordinate on one axis of the grid.
 struct Place {
   int index;        ///< Lower sample of the interval.
-  double fraction;  ///< Way to the upper one, 0 to 1.
+  double fraction;  ///< Fraction of the way to the upper one, 0 to 1.
   bool inside;
 };
 
@@ -52,7 +52,7 @@ void describe(FieldVisitor& v, HeightMapLaw& law) {
   v.number("height_max", law.height_max, "m", {-1e4, 1e4});
 }
 
-/// The four samples around a point, and where it is among them.
+/// The four samples around a point, and the position of the point among them.
 struct HeightMap::Cell {
   double h00, h10, h01, h11;  ///< [m], the first digit along x.
   Place x, y;

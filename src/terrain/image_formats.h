@@ -8,9 +8,9 @@
 
 namespace vegetation_sim::terrain {
 
-/// Whether the bytes start as a PNG does.
+/// Returns whether the bytes start as a PNG does.
 bool looksLikePng(const std::string& bytes);
-/// Whether the bytes start as a PGM does.
+/// Returns whether the bytes start as a PGM does.
 bool looksLikePgm(const std::string& bytes);
 
 /// @throws InvalidInput

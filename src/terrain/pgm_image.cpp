@@ -10,7 +10,7 @@ namespace {
 
 constexpr int LARGEST_SAMPLE = 65535;
 
-/// Reads one file from its start to its end; whatever is wrong is thrown with the file's name.
+/// Reads one file from its start to its end; every error names the file.
 class PgmReader {
  public:
   PgmReader(const std::string& bytes, const std::string& name) : bytes_(bytes), name_(name) {}
@@ -24,7 +24,7 @@ class PgmReader {
     const std::size_t count = static_cast<std::size_t>(out.columns) * out.rows;
     const std::size_t sample_bytes = binary && out.white < 256 ? 1 : 2;
     if (binary) ++at_;  // the one blank after the header
-    // A text sample takes a digit and a blank, the last one no blank.
+    // A text sample takes a digit and a blank; the last one needs no blank.
     const std::size_t wanted = count * sample_bytes - (binary ? 0 : 1);
     if (at_ > bytes_.size() || bytes_.size() - at_ < wanted) fail("is cut short");
     out.samples.resize(count);
@@ -76,7 +76,7 @@ class PgmReader {
   }
 
   std::uint16_t rawSample(std::size_t sample_bytes) {
-    unsigned value = 0;  // big end first
+    unsigned value = 0;  // the most significant byte comes first
     for (std::size_t i = 0; i < sample_bytes; ++i)
       value = value << 8 | static_cast<unsigned char>(bytes_[at_++]);
     return static_cast<std::uint16_t>(value);

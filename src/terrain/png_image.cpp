@@ -9,14 +9,14 @@
 #include "terrain/image_formats.h"
 #include "vegetation_sim/core/config/faults.h"
 
-// libpng's short interface would apply a gamma that the file names; a height map wants the samples
-// as they stand, so this is the long one. libpng leaves by longjmp, which skips destructors: the
-// functions that it may leave hold nothing that has one.
+// libpng's short interface would apply a gamma that the file names; a height map needs the samples
+// unchanged, so this uses the long one. libpng reports errors by longjmp, which skips destructors:
+// the functions that it may leave hold no objects that need one.
 
 namespace vegetation_sim::terrain {
 namespace {
 
-/// What libpng's callbacks see.
+/// The data that libpng's callbacks use.
 struct Source {
   const std::string& bytes;
   std::size_t at{0};
@@ -61,7 +61,8 @@ class PngFile {
   int rows() const { return static_cast<int>(png_get_image_height(png_, info_)); }
   int bits() const { return png_get_bit_depth(png_, info_); }
 
-  /// @param rows one pointer a row, each to columns() samples of one byte, or two if bits() is 16.
+  /// @param rows has one pointer per row, each to columns() samples of one byte, or two if bits()
+  /// is 16.
   bool readRows(png_bytep* rows) {
     if (setjmp(png_jmpbuf(png_))) return false;
     png_set_packing(png_);

@@ -31,8 +31,8 @@ Axes axesOf(const Vec3& mean, double speed) {
   return {along, across, up};
 }
 
-/// Uniform u in [0, 1) to Cauchy's distribution of unit scale, whose characteristic function is the
-/// exponential that Davenport's coherence asks for. Its tails beyond WIDEST_DRAW are left out.
+/// Maps a uniform u in [0, 1) to Cauchy's distribution of unit scale, whose characteristic function
+/// is the exponential that Davenport's coherence needs. The tails beyond WIDEST_DRAW are left out.
 double cauchy(double u) {
   static const double KEPT = 2.0 * arcTangent(WIDEST_DRAW, 1.0) / PI;
   const SinCos angle = sinCosTurns(0.5 * KEPT * (u - 0.5));
@@ -41,7 +41,7 @@ double cauchy(double u) {
 
 using Edges = std::array<double, Breeze::MODES + 1>;
 
-/// Edges of the frequency bins [Hz], geometrically spaced.
+/// Returns the edges of the frequency bins [Hz], geometrically spaced.
 Edges binEdges() {
   static_assert(Breeze::MODES == 24, "the ratio below is the 24th root");
   const double range = Breeze::HIGHEST_HZ / Breeze::LOWEST_HZ;
@@ -52,7 +52,7 @@ Edges binEdges() {
   return edges;
 }
 
-/// What each bin holds of the variance of the whole band; adds up to 1.
+/// Returns each bin's share of the variance of the whole band; the sum is 1.
 std::array<double, Breeze::MODES> sharesOfVariance(const Edges& edges, double length_scale,
                                                    double speed) {
   std::array<double, Breeze::MODES> shares{};

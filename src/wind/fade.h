@@ -7,14 +7,15 @@
 
 namespace vegetation_sim::wind {
 
-/// C2 ramp from 0 to 1 over `duration` [s] from `elapsed` = 0; a hard edge if the duration is 0.
+/// Returns a C2 ramp from 0 to 1 over `duration` [s] from `elapsed` = 0, or a step if the duration
+/// is 0.
 inline double ramp(double elapsed, double duration) {
   if (duration > 0.0) return smootherStep(elapsed / duration);
   return elapsed >= 0.0 ? 1.0 : 0.0;
 }
 
-/// Weight of a primitive at a stamp, 0 to 1. A fade out and a fade in of equal length that run at
-/// the same time add up to 1, so replacing a primitive by an equal one changes nothing.
+/// Returns the weight of a primitive at a stamp, 0 to 1. A fade out and a fade in of equal length
+/// that run at the same time add up to 1, so replacing a primitive by an equal one changes nothing.
 inline double fade(const Primitive& p, Nanoseconds stamp) {
   if (stamp < p.t_on || (p.t_off != 0 && stamp >= p.t_off)) return 0.0;
   const double in = ramp(secondsBetween(p.t_on, stamp), p.fade_in);

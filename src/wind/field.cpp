@@ -15,8 +15,9 @@
 namespace vegetation_sim::wind {
 namespace {
 
-constexpr double REPEAT_EDGE = 0.1;  // share of a repeated gust's cycle in which it fades, twice
-constexpr double GUST_MARGIN = 1.0;  // [s] how far a gust's front moves within a bound
+// share of a repeated gust's cycle in which it fades, at each end
+constexpr double REPEAT_EDGE = 0.1;
+constexpr double GUST_MARGIN = 1.0;  // [s] motion of a gust's front that a bound covers
 
 Vec3 levelDirection(const Vec3& v) {
   const double size = std::sqrt(v.x() * v.x() + v.y() * v.y());
@@ -26,7 +27,7 @@ Vec3 levelDirection(const Vec3& v) {
 void shapeDisk(const Primitive& p, double elapsed, double weight, Term& term) {
   // The two parts of the phase are reduced apart: the first is large, the second exact.
   const double turns = p.omega * elapsed / (2.0 * PI), psi = p.phase / (2.0 * PI);
-  // Whole turns to the nearest one: just before the epoch nothing is lost against 1.
+  // Subtracting the nearest whole turn keeps all digits just before the epoch.
   const double sine = sinCosTurns(turns - std::floor(turns + 0.5) + psi).sin;
   term.smooth = p.envelope == Envelope::SMOOTH;
   term.amplitude = p.velocity * (weight * sine);

@@ -29,7 +29,7 @@ Instant Instant::relativeTo(const Vec3& origin) const {
 
 namespace {
 
-// Three standard deviations of the breezes.
+// Returns three standard deviations of the breezes [m/s].
 double turbulence(const std::vector<Mode>& modes) {
   double variance = 0.0;
   for (const Mode& mode : modes) variance += 0.5 * dot(mode.amplitude, mode.amplitude);

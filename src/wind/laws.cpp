@@ -14,14 +14,14 @@ double horizontal(const Vec3& v) {
   return std::sqrt(v.x() * v.x() + v.y() * v.y());
 }
 
-/// Eddy with a solid core: rises like the distance, peaks with 1 at the core radius, falls like
-/// 1/d.
+/// Profile of a vortex with a solid core: rises like the distance, peaks with 1 at the core radius,
+/// falls like 1/d.
 double coreProfile(double d, double core) {
   const double rho = d / core;
   return 2.0 * rho / (1.0 + rho * rho);
 }
 
-/// The same divided by the distance [1/m], finite and smooth in the middle.
+/// The same profile divided by the distance [1/m], finite and smooth in the middle.
 double coreProfilePerMetre(double d, double core) {
   const double rho = d / core;
   return 2.0 / (core * (1.0 + rho * rho));
@@ -57,7 +57,7 @@ Vec3 blast(const Term& term, const Vec3& offset) {
 double gustBound(const Term& term, const Vec3& offset, double reach) {
   const double ahead = offset.x() * term.direction.x() + offset.y() * term.direction.y();
   const double beside = offset.y() * term.direction.x() - offset.x() * term.direction.y();
-  // The profile has one hill, so its largest value on an interval is where that is nearest to it.
+  // The profile has one maximum, so its largest value on an interval is nearest to that.
   const double margin = reach + term.travel;
   const double behind =
       std::clamp(std::max(term.rise, -ahead - margin), -ahead - margin, -ahead + margin);

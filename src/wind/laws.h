@@ -6,14 +6,16 @@
 
 namespace vegetation_sim::wind {
 
-/// Share of full strength at horizontal (blast: spatial) distance `d` [m] of the centre.
+/// Returns the share of full strength at horizontal (blast: spatial) distance `d` [m] of the
+/// centre.
 double envelope(const Term& term, double d);
 
-/// Air velocity [m/s] of one bounded primitive at a position [m], world.
+/// Returns the wind velocity [m/s] of one bounded primitive at a position [m], world.
 Vec3 velocityOf(const Term& term, const Vec3& position);
 
-/// Bound on the speed [m/s] within `reach` [m] horizontally of `position`, at any height. Follows
-/// the term's cycle, not its momentary sine; a gust counts where it is within one second.
+/// Returns a bound on the speed [m/s] within `reach` [m] horizontally of `position`, at any height.
+/// It follows the term's cycle, not its momentary sine; a gust counts where it is within one
+/// second.
 double boundOf(const Term& term, const Vec3& position, double reach);
 
 }  // namespace vegetation_sim::wind

@@ -15,8 +15,8 @@ constexpr std::size_t MAX_NAME = 128;        ///< [characters]
 /// Last stamp that a ROS time can hold.
 constexpr Nanoseconds LAST_STAMP = 4294967295LL * NANOSECONDS_PER_SECOND;
 
-constexpr double SHORTEST_ORBIT = 0.1;  ///< [s] a round takes at least
-/// An edit of a source waits for the change before it at most this long, else it is refused [ns].
+constexpr double SHORTEST_ORBIT = 0.1;  ///< [s] shortest period of an orbit
+/// An edit of a source waits for the change before it at most this long, else it is rejected [ns].
 constexpr Nanoseconds LONGEST_WAIT = 30 * NANOSECONDS_PER_SECOND;
 constexpr Range SPEEDS{-200.0, 200.0};  ///< [m/s] each component
 constexpr Range POSITIONS{-1e6, 1e6};   ///< [m] each component

@@ -57,7 +57,7 @@ class Ignore : public FieldVisitor {
   void choice(const char*, int&, const std::vector<std::string>&) override {}
 };
 
-/// Fields that a kind does not use may hold anything but NaN and infinity.
+/// Checks that fields which a kind does not use are finite.
 class FiniteChecker : public FieldChecker {
  public:
   using FieldChecker::FieldChecker;

@@ -19,7 +19,8 @@ Vec3 Trajectory::chord(std::size_t i) const {
   return (points_[i + 1].position - points_[i].position) / step(i);
 }
 
-// Thomas algorithm on the tridiagonal system of the second derivatives, which are zero at the ends.
+// Solves the tridiagonal system of the second derivatives, which are zero at the ends, by the
+// Thomas algorithm.
 void Trajectory::solve() {
   const std::size_t last = points_.size() - 1;
   std::vector<double> ratio(points_.size(), 0.0);

@@ -8,15 +8,15 @@
 
 namespace vegetation_sim::wind {
 
-/// C2 path through stamped way points: natural cubic spline, straight on beyond both ends. One
-/// point stands still, none stands at the origin.
+/// A C2 path through stamped way points: a natural cubic spline, straight on beyond both ends. With
+/// one point it stands still, with none it stays at the origin.
 class Trajectory {
  public:
   Trajectory() = default;
-  /// @param points with strictly increasing stamps (see check()).
+  /// @param points have strictly increasing stamps (see check()).
   explicit Trajectory(const std::vector<Waypoint>& points);
 
-  /// Position [m] at a stamp.
+  /// Returns the position [m] at a stamp.
   Vec3 at(Nanoseconds stamp) const;
 
  private:

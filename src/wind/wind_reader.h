@@ -11,8 +11,8 @@
 namespace vegetation_sim::wind {
 
 /// Reads the section `wind` of a scenario: `seed` and the list `primitives`, with the keys of
-/// docs/wind.md. Stamps count from 0, the start of the node; startedAt() shifts them. Faults go to
-/// the section's list.
+/// docs/wind.md. Stamps count from 0, the start of the node; startedAt() shifts them. Faults are
+/// added to the section's list.
 std::vector<Source> readWind(YamlSection& section, std::uint64_t& seed);
 
 }  // namespace vegetation_sim::wind

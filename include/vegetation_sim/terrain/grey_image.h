@@ -15,7 +15,7 @@ struct GreyImage {
   std::vector<std::uint16_t> samples{};  ///< [rows x columns], top row first, left to right.
 };
 
-/// Longest side [pixels] and largest file [bytes] that are read.
+/// Longest side [pixels] and largest file [bytes] that are accepted.
 constexpr int LONGEST_SIDE = 8192;
 constexpr std::size_t LARGEST_IMAGE_FILE = 160u << 20;
 

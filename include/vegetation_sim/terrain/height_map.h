@@ -13,7 +13,8 @@
 
 namespace vegetation_sim::terrain {
 
-/// Keys of a terrain's YAML file beside `image`, the path of its picture, relative to that file.
+/// The keys of a terrain's YAML file besides `image`, the path of its picture relative to that
+/// file.
 struct HeightMapLaw {
   double resolution{1.0};     ///< Distance between neighbouring samples [m].
   Vec3 origin{Vec3::Zero()};  ///< World position of the lower left sample, at height 0 [m].
@@ -28,9 +29,9 @@ struct Bounds {
   double min_x, max_x, min_y, max_y, min_z, max_z;
 };
 
-/// Ground as a function of the place: a grid of heights with bilinear interpolation, going
-/// on flat at the border's height beyond it. Samples stand on the grid's corners: an image of 257
-/// columns at 1 m covers 256 m. The picture's top row is north (largest y), as in map_server.
+/// Ground height as a function of the place: a grid of heights with bilinear interpolation,
+/// continued at constant height beyond the border. Samples stand on the grid's corners: an image of
+/// 257 columns at 1 m covers 256 m. The picture's top row is north (largest y), as in map_server.
 /// Immutable: share it by pointer, read it from any thread. The same bits on every processor.
 class HeightMap {
  public:
@@ -39,20 +40,22 @@ class HeightMap {
   /// @throws InvalidInput with all faults of the law and the image.
   HeightMap(const HeightMapLaw& law, GreyImage image);
 
-  /// Reads a YAML file and its picture; an empty name is flat ground. @throws InvalidInput naming
-  /// file, key, value and allowed range, all faults of the YAML at once.
+  /// Reads a YAML file and its picture; an empty name gives flat ground. @throws InvalidInput
+  /// naming
+  /// file, key, value and allowed range, with all faults of the YAML at once.
   static HeightMap load(const std::string& file);
 
   bool isFlat() const { return image_.samples.empty(); }
-  /// Height of the ground at (x, y) [m]; for a coordinate that is no number, as at the border.
+  /// Returns the height of the ground at (x, y) [m]. A coordinate that is not a number counts as
+  /// the border.
   double height(double x, double y) const;
-  /// Upward unit normal of the facet at (x, y); vertical where a coordinate is beyond the border.
+  /// Returns the upward unit normal of the facet at (x, y), which is vertical beyond the border.
   Vec3 normal(double x, double y) const;
-  /// Box around the samples; endless in x and y if flat.
+  /// Returns the box around the samples, infinite in x and y if the ground is flat.
   Bounds bounds() const { return bounds_; }
-  /// Distance between samples [m]; 0 if flat.
+  /// Returns the distance between samples [m], or 0 if the ground is flat.
   double resolution() const { return isFlat() ? 0.0 : law_.resolution; }
-  /// Of all samples and the law.
+  /// Returns a hash of all samples and of the law.
   std::uint64_t hash() const { return hash_; }
 
  private:

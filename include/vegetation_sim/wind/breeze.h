@@ -15,9 +15,9 @@ class Breeze {
  public:
   static constexpr int MODES = 24;
   static constexpr double LOWEST_HZ = 0.01, HIGHEST_HZ = 2.0;
-  /// rms of the lateral and of the vertical fluctuation over that along the wind.
+  /// Ratio of the rms of the lateral and of the vertical fluctuation to that along the wind.
   static constexpr double LATERAL = 0.8, VERTICAL = 0.5;
-  /// Davenport's decay: coherence at distance r across the wind is exp(-DECAY f r / U).
+  /// Davenport's decay: the coherence at distance r across the wind is exp(-DECAY f r / U).
   static constexpr double DECAY = 10.0;
   static constexpr double LEAST_CARRIER = 0.5;  ///< [m/s] speed at which modes travel in a calm
 
@@ -26,9 +26,10 @@ class Breeze {
     double frequency;  ///< [Hz]
   };
 
-  /// Still air.
+  /// Creates still air.
   Breeze() = default;
-  /// Draws are keyed by seed and name, so an edit of a source keeps the phases of its gusts.
+  /// Random numbers are keyed by seed and name, so an edit of a source keeps the phases of its
+  /// gusts.
   Breeze(const Primitive& primitive, std::uint64_t seed);
 
   /// Adds the modes at `elapsed` [s] after the epoch, scaled by `weight`.
@@ -39,8 +40,8 @@ class Breeze {
   std::vector<Wave> waves_;
 };
 
-/// Stated spectrum: von Karman's one-sided density [(m/s)^2/Hz] at f [Hz] of the along-wind
-/// fluctuation, not limited to a band: its integral from 0 to infinity is sigma^2.
+/// Returns von Karman's one-sided density [(m/s)^2/Hz] at f [Hz] of the along-wind fluctuation, not
+/// limited to a band: its integral from 0 to infinity is sigma^2.
 double vonKarmanDensity(double f, double sigma, double length_scale, double speed);
 
 }  // namespace vegetation_sim::wind

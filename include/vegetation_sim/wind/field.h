@@ -11,8 +11,8 @@
 
 namespace vegetation_sim::wind {
 
-/// The wind law: velocity(x, t) as a pure function of primitives and seed. Immutable; everyone who
-/// holds the same primitives and seed computes the same air, to the bit.
+/// The wind law: velocity(x, t) as a pure function of primitives and seed. Immutable: all processes
+/// that hold the same primitives and seed compute the same velocities, to the bit.
 class Field {
  public:
   Field();
@@ -23,19 +23,20 @@ class Field {
   const std::vector<Primitive>& primitives() const { return primitives_; }
   std::uint64_t seed() const { return seed_; }
 
-  /// Air velocity [m/s], world, at position [m] and stamp.
+  /// Returns the wind velocity [m/s], world, at a position [m] and stamp.
   Vec3 velocity(const Vec3& position, Nanoseconds stamp) const {
     return at(stamp).velocity(position);
   }
 
-  /// The field frozen at a stamp: what many positions share is computed once.
+  /// Returns the field at one stamp: what many positions share is computed once.
   Instant at(Nanoseconds stamp) const;
-  /// The same into `out`, whose memory is kept from call to call.
+  /// Does the same into `out`, whose memory is kept from call to call.
   void at(Nanoseconds stamp, Instant& out) const;
 
-  /// What the primitive of that index adds to Instant::terms; false: nothing, or modes.
+  /// Computes what the primitive of that index adds to Instant::terms. Returns false if it adds
+  /// nothing or adds modes.
   bool termAt(std::size_t index, Nanoseconds stamp, Term& out) const;
-  /// Waves of the primitive of that index; none but of a breeze.
+  /// Returns the waves of the primitive of that index; only a breeze has any.
   const Breeze& breezeOf(std::size_t index) const;
 
   std::uint64_t hash() const;
@@ -44,7 +45,8 @@ class Field {
   struct Compiled;
   std::vector<Primitive> primitives_;
   std::uint64_t seed_{0};
-  std::vector<std::shared_ptr<const Compiled>> compiled_;  // shared: copies of a field are cheap
+  // shared, so copies of a field are cheap
+  std::vector<std::shared_ptr<const Compiled>> compiled_;
 };
 
 }  // namespace vegetation_sim::wind

@@ -15,11 +15,12 @@ struct Term {
   Vec3 centre{Vec3::Zero()};  ///< [m]
   double radius{1.0};         ///< [m]
   bool smooth{true};          ///< envelope: smootherStep of (r-d)/r, else (r-d)/r
-  /// Disk, gust: velocity in the middle, fade and sine included. Tornado, blast: unused. [m/s]
+  /// Velocity in the middle of a disk or gust, fade and sine included [m/s]. Unused by tornado and
+  /// blast.
   Vec3 amplitude{Vec3::Zero()};
   Vec3 direction{Vec3::UnitX()};  ///< gust: horizontal unit vector along which the front moves
   double rise{1.0}, plateau{0.0}, decay{1.0};  ///< gust: lengths [m]
-  double travel{0.0};  ///< gust: way of the front in the second that a bound looks ahead [m]
+  double travel{0.0};  ///< gust: distance of the front in the second that a bound covers [m]
   double core{1.0};    ///< tornado, blast: radius of the peak [m]
   double speed{0.0};   ///< tornado, blast: peak, fade included [m/s]
   double inflow{0.0}, updraft{0.0};  ///< tornado: fractions
@@ -35,19 +36,21 @@ struct Mode {
 
 /// A wind field at one stamp, with all phases reduced in double precision.
 struct Instant {
-  Vec3 mean{Vec3::Zero()};  ///< sum of the breezes' means [m/s]
+  Vec3 mean{Vec3::Zero()};  ///< sum of the means of the breezes [m/s]
   int breezes{0};           ///< number of breezes that blow
   std::vector<Mode> modes;
   std::vector<Term> terms;
 
-  /// Air velocity at a position [m/s], world. The reference for every faster path.
+  /// Returns the wind velocity at a position [m/s], world. The reference for every faster path.
   Vec3 velocity(const Vec3& position) const;
-  /// The same field with positions counted from `origin` [m], for kernels in single precision.
+  /// Returns the same field with positions relative to `origin` [m], for kernels in single
+  /// precision.
   Instant relativeTo(const Vec3& origin) const;
-  /// Bound on the speed that any point within `reach` [m] (horizontally) of `position` meets over a
-  /// cycle of the primitives: what levels of detail go by, blind to momentary zeros of a sine.
+  /// Returns a bound on the speed that any point within `reach` [m] (horizontally) of `position`
+  /// meets over a cycle of the primitives. Levels of detail depend on it, so it ignores momentary
+  /// zeros of a sine.
   double speedBound(const Vec3& position, double reach) const;
-  /// Number of primitives that can move anything within `reach` of `position`.
+  /// Returns the number of primitives that can move anything within `reach` of `position` (S1-40).
   int influences(const Vec3& position, double reach) const;
 };
 

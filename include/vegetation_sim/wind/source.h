@@ -8,20 +8,20 @@
 
 namespace vegetation_sim::wind {
 
-/// What a user asks for: a primitive, and the tf frame that its centre follows, if any. The id is
-/// given by the PrimitiveSchedule that takes it.
+/// The description of a source by a user: a primitive, and the tf frame that its centre follows, if
+/// any. The PrimitiveSchedule that takes it assigns the id.
 struct Source {
   Primitive primitive;
-  std::string attached_frame;  ///< empty: not tied
+  std::string attached_frame;  ///< empty if the source is not attached
 };
 
-/// All faults of one source: those of its primitive, and those of checkFrame().
+/// Adds all faults of one source: those of its primitive, and those of checkFrame().
 void check(const Source& source, Faults& faults);
 
-/// Faults of the frame, and of what does not go with one.
+/// Adds the faults of the frame, and of fields that cannot go with one.
 void checkFrame(const Source& source, Faults& faults);
 
-/// The same source with all its stamps later by `start`. A t_off of 0 stays "for ever".
+/// Returns the same source with all its stamps later by `start`. A t_off of 0 stays "never".
 Source startedAt(Source source, Nanoseconds start);
 
 }  // namespace vegetation_sim::wind

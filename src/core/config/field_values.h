@@ -10,8 +10,8 @@
 
 namespace vegetation_sim {
 
-/// Numbers of a described structure under their names, as events of settings carry them; vectors
-/// and choices are left out.
+/// The numbers of a described structure under their names, as events of settings carry them.
+/// Vectors and choices are left out.
 struct NamedValues {
   std::vector<std::string> names;
   std::vector<double> values;
@@ -44,11 +44,12 @@ NamedValues namedValues(T fields) {
   return out;
 }
 
-/// Faults of names that `known` has not, or of lists of unequal length; empty if there is none.
+/// Adds the faults of names that are not in `known`, or of lists of unequal length.
 void checkNames(const NamedValues& named, const std::map<std::string, double>& known,
                 Faults& faults);
 
-/// The structure back; what is not named is as in T(). @throws InvalidInput for an unknown name or
+/// Returns the structure; fields that are not named are as in T(). @throws InvalidInput for an
+/// unknown name or
 /// a value out of range.
 template <class T>
 T fromNamedValues(const NamedValues& named) {

@@ -4,7 +4,7 @@
 
 #include "vegetation_sim/core/config/faults.h"
 
-// The same choice as in the kernels: vectors without arithmetic operators are left out.
+// This choice is the same as in the kernels: vectors without arithmetic operators are left out.
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/config/instruction_set.cpp"
@@ -14,7 +14,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace vegetation_sim::HWY_NAMESPACE {
 
-// Compiled once for each set, as kernels are.
+// This function is compiled once for each instruction set, as kernels are.
 const char* ownName() {
   return hwy::TargetName(HWY_TARGET);
 }
@@ -35,7 +35,7 @@ std::vector<std::string> instructionSets() {
 }
 
 void forceInstructionSet(const std::string& name) {
-  hwy::SetSupportedTargetsForTest(0);  // 0: whatever the processor has
+  hwy::SetSupportedTargetsForTest(0);  // 0: any that the processor has
   bool found = name.empty();
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets())
     if (name == hwy::TargetName(target)) {

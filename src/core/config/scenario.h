@@ -9,18 +9,18 @@
 
 namespace vegetation_sim {
 
-/// One scene in one file. Each node reads its own section; the sections of the others are legal and
-/// left alone, any other top-level key is a fault.
+/// One scene in one file. Each node reads its own section. The sections of other nodes are allowed
+/// and ignored; any other top-level key is a fault.
 class Scenario {
  public:
   /// @throws InvalidInput naming the file if it is missing, too large or no YAML.
   static Scenario load(const std::string& file);
-  /// The same from text; `name` stands for the file in faults.
+  /// Does the same from text; `name` stands for the file in faults.
   static Scenario parse(const std::string& text, const std::string& name);
 
-  /// The top level, for frame_id, seed and terrain.
+  /// Returns the top level, for frame_id, seed and terrain.
   YamlSection& top() { return top_; }
-  /// Map under a top-level key; empty if absent.
+  /// Returns the map under a top-level key, or an empty one if it is absent.
   YamlSection section(const char* name) { return top_.section(name); }
   bool has(const std::string& name) const { return top_.has(name); }
   Faults& faults() { return *faults_; }
@@ -32,7 +32,7 @@ class Scenario {
   Scenario(const YAML::Node& node, const std::string& name);
 
   YAML::Node node_;
-  std::unique_ptr<Faults> faults_;  // on the heap: the sections point at it
+  std::unique_ptr<Faults> faults_;  // on the heap, because the sections point at it
   YamlSection top_;
 };
 

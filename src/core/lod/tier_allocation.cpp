@@ -11,7 +11,7 @@ namespace {
 
 constexpr double LEAST_COST = 1e-6;  // of a step upwards
 
-/// A step of a choice from one tier to the next that it wants.
+/// A step of one choice from a tier to a finer one.
 struct Step {
   double priority;  // error per cost
   double cost;
@@ -27,7 +27,8 @@ double costAt(const TierChoice& choice, int tier) {
   return choice.cost[static_cast<std::size_t>(tier)];
 }
 
-// A later step of the same never goes before an earlier one.
+// Adds the steps of a choice up to the tier that it wants. Priorities never rise, so that a later
+// step never goes before an earlier one.
 void addSteps(const TierChoice& choice, std::size_t index, std::vector<Step>& out) {
   double least = 1e300;
   const auto add = [&](int from, int to) {

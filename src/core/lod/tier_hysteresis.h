@@ -9,13 +9,14 @@
 
 namespace vegetation_sim {
 
-/// TreeModels from one choice to the next, by id.
+/// Remembers the tier of each item, by id, from one allocation to the next.
 class TierHysteresis {
  public:
-  /// Tells each choice, wants the cheapest tier up to `finest` that holds the tolerance, governs,
-  /// and takes over what was chosen; who is not among the choices is forgotten. A stranger holds
-  /// nothing and does not rest; where time went back all are strangers.
-  /// @param choices ids rising.
+  /// Sets `held` and `resting` of each choice, wants the cheapest tier up to `finest` that holds
+  /// the tolerance, allocates, and remembers the outcome. Items that are not among the choices are
+  /// forgotten. Unknown ids start at tier 0 without rest, and so do all ids after a step back in
+  /// time.
+  /// @param choices have rising ids.
   TierAllocation allocateTiers(std::vector<TierChoice>& choices, int finest, double room,
                                double tolerance, Nanoseconds stamp);
 
@@ -29,7 +30,7 @@ class TierHysteresis {
   void keep(const std::vector<TierChoice>& choices, Nanoseconds stamp);
 
   Nanoseconds stamp_{0};
-  std::vector<Held> held_;  // ids rise; not of those that rest no more on tier 0
+  std::vector<Held> held_;  // ids rise; items that rest no more on tier 0 are left out
 };
 
 }  // namespace vegetation_sim

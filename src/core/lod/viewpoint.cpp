@@ -8,7 +8,7 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr double NEAREST = 0.5;  // [m] closer than this nothing grows in the picture
+constexpr double NEAREST = 0.5;  // [m] objects closer than this do not appear larger
 
 }  // namespace
 
@@ -17,10 +17,11 @@ bool sees(const Viewpoint& eye, const Vec3& centre, double radius) {
   const Vec3 offset = centre - eye.position;
   const double distance = length(offset);
   if (distance <= radius) return true;
-  // Cosine and sine of the cone's half angle plus the one that the ball itself takes.
+  // These are cosine and sine of the sum of the cone's half angle and the angular radius of the
+  // ball.
   const double c = eye.cone_cosine, s = std::sqrt(std::max(0.0, 1.0 - c * c));
   const double ball_sine = radius / distance, ball_cosine = std::sqrt(1.0 - ball_sine * ball_sine);
-  if (s * ball_cosine + c * ball_sine < 0.0) return true;  // more than a half turn
+  if (s * ball_cosine + c * ball_sine < 0.0) return true;  // the sum exceeds a half turn
   return dot(offset, eye.forward) >= distance * (c * ball_cosine - s * ball_sine);
 }
 

@@ -10,7 +10,7 @@
 namespace vegetation_sim {
 namespace {
 
-// Taylor series on |x| <= pi/4; the first term left out is below 1e-18.
+// Taylor series on |x| <= pi/4; the first omitted term is below 1e-18.
 double sinePolynomial(double x) {
   const double x2 = x * x;
   double s = 1.0 / 355687428096000.0;
@@ -53,7 +53,7 @@ SinCos fromQuadrant(double x, int quadrant) {
 }  // namespace
 
 SinCos sinCosTurns(double turns) {
-  // From the nearest whole turn, so that the difference is exact for small negative turns too.
+  // Subtracting the nearest whole turn makes the difference exact for small negative turns too.
   const double fraction = turns - std::floor(turns + 0.5);
   const double quarter = std::floor(fraction * 4.0 + 0.5);
   return fromQuadrant((fraction - quarter * 0.25) * (2.0 * PI), static_cast<int>(quarter));
@@ -78,7 +78,7 @@ double arcTangent(double y, double x) {
   const double scale = std::sqrt(1.0 + ratio * ratio);
   const double s = ratio / scale, c = 1.0 / scale;
   double angle = ratio * (PI / 4.0 + 0.273 * (1.0 - ratio));  // within 0.005 rad
-  for (int i = 0; i < 2; ++i) {                               // each cubes the error
+  for (int i = 0; i < 2; ++i) {                               // each iteration cubes the error
     const SinCos guess = sinCos(angle);
     angle += s * guess.cos - c * guess.sin;
   }
@@ -105,7 +105,7 @@ double exponential(double x) {
   if (!(x <= 709.8)) return x + std::numeric_limits<double>::infinity();  // NaN stays NaN
   const double power = std::floor(x * (1.0 / 0.69314718055994530942) + 0.5);
   const double high = x - power * LN2_1, low = power * LN2_2, r = high - low;
-  // Taylor series on |r| <= ln 2 / 2; the first term left out is below 1e-17.
+  // Taylor series on |r| <= ln 2 / 2; the first omitted term is below 1e-17.
   double s = 1.0 / 6227020800.0;
   for (const double factorial : {479001600.0, 39916800.0, 3628800.0, 362880.0, 40320.0, 5040.0,
                                  720.0, 120.0, 24.0, 6.0, 2.0})

@@ -15,7 +15,8 @@ double gradientNoise(std::uint64_t seed, double x) {
   const Random random(seed);
   const double left = random.uniform(index, -1.0, 1.0) * u;
   const double right = random.uniform(index + 1, -1.0, 1.0) * (u - 1.0);
-  return 2.0 * (left + (right - left) * smootherStep(u));  // 2: the largest value is then 1
+  // the factor 2 makes the largest value 1
+  return 2.0 * (left + (right - left) * smootherStep(u));
 }
 
 }  // namespace vegetation_sim

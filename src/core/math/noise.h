@@ -6,8 +6,8 @@
 
 namespace vegetation_sim {
 
-/// Gradient noise in one dimension (Perlin 1985, quintic fade of 2002): in [-1, 1], zero at whole
-/// numbers, zero mean, C2.
+/// Returns gradient noise in one dimension (Perlin 1985, quintic fade of 2002): in [-1, 1], zero at
+/// whole numbers, zero mean, C2.
 double gradientNoise(std::uint64_t seed, double x);
 
 }  // namespace vegetation_sim

@@ -14,14 +14,14 @@ struct Tridiagonal {
   std::vector<double> diagonal, beside;  // beside[i] couples i and i + 1
 };
 
-// One reflection 1 - factor v v^T; v starts at element `from`.
+// A reflection 1 - factor v v^T; v starts at element `from`.
 struct Reflection {
   std::size_t from;
   std::vector<double> v;
   double factor;
 };
 
-// Reflects row and column k of the matrix onto their elements k and k + 1.
+// Returns the reflection of row and column k of the matrix onto their elements k and k + 1.
 Reflection reflectionFor(const std::vector<double>& a, std::size_t n, std::size_t k) {
   const double* row = a.data() + k * n;
   Reflection out{k + 1, std::vector<double>(row + k + 1, row + n), 0.0};
@@ -34,7 +34,7 @@ Reflection reflectionFor(const std::vector<double>& a, std::size_t n, std::size_
   return out;
 }
 
-// a := H a H for the part of the matrix that H reaches.
+// a := H a H for the part of the matrix that H changes.
 void reflect(const Reflection& h, std::size_t n, std::vector<double>& a) {
   const std::size_t m = h.v.size();
   std::vector<double> p(m, 0.0);
@@ -67,7 +67,7 @@ Tridiagonal tridiagonalise(std::size_t n, std::vector<double>& a) {
   for (std::size_t i = 0; i < n; ++i) out.diagonal[i] = a[i * n + i];
   std::fill(a.begin(), a.end(), 0.0);
   for (std::size_t i = 0; i < n; ++i) a[i * n + i] = 1.0;
-  // a := a H from the last to the first: row i holds what H leaves of unit vector i.
+  // a := H a from the last to the first, so row i becomes the image of unit vector i.
   for (std::size_t k = all.size(); k-- > 0;) {
     const Reflection& h = all[k];
     if (h.factor == 0.0) continue;
@@ -82,7 +82,7 @@ Tridiagonal tridiagonalise(std::size_t n, std::vector<double>& a) {
   return out;
 }
 
-// Turns rows i and i + 1.
+// Rotates rows i and i + 1.
 void turnRows(double c, double s, std::size_t n, std::size_t i, std::vector<double>& rows) {
   double *low = rows.data() + i * n, *high = low + n;
   for (std::size_t j = 0; j < n; ++j) {
@@ -92,7 +92,7 @@ void turnRows(double c, double s, std::size_t n, std::size_t i, std::vector<doub
   }
 }
 
-// One implicit QL sweep over the unreduced block from l to m.
+// Runs one implicit QL sweep over the unreduced block from l to m.
 void sweepBlock(std::size_t l, std::size_t m, std::size_t n, Tridiagonal& t,
                 std::vector<double>& rows) {
   std::vector<double>&d = t.diagonal, &e = t.beside;
@@ -103,7 +103,7 @@ void sweepBlock(std::size_t l, std::size_t m, std::size_t n, Tridiagonal& t,
   for (std::size_t i = m; i-- > l;) {
     const double f = s * e[i], b = c * e[i], r = std::sqrt(f * f + g * g);
     e[i + 1] = r;
-    if (r == 0.0) {  // the block falls apart here
+    if (r == 0.0) {  // the block splits here
       d[i + 1] -= shift;
       e[m] = 0.0;
       return;
@@ -124,7 +124,7 @@ void sweepBlock(std::size_t l, std::size_t m, std::size_t n, Tridiagonal& t,
 void diagonalise(std::size_t n, Tridiagonal& t, std::vector<double>& rows) {
   constexpr double EPSILON = std::numeric_limits<double>::epsilon();
   for (std::size_t l = 0; l < n; ++l) {
-    for (int sweep = 0; sweep < 50; ++sweep) {  // two are usual
+    for (int sweep = 0; sweep < 50; ++sweep) {  // two sweeps are usual
       std::size_t m = l;
       while (m + 1 < n && std::fabs(t.beside[m]) >
                               EPSILON * (std::fabs(t.diagonal[m]) + std::fabs(t.diagonal[m + 1])))

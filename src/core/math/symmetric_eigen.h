@@ -11,12 +11,12 @@ namespace vegetation_sim::physics {
 struct SymmetricEigen {
   std::size_t size{0};
   std::vector<double> values;   ///< [size]
-  std::vector<double> vectors;  ///< [size][size], one a row
+  std::vector<double> vectors;  ///< [size][size], one per row
   const double* vector(std::size_t i) const { return vectors.data() + i * size; }
 };
 
-/// Householder's reflections to a tridiagonal matrix, then QL with implicit shifts. The same bits
-/// everywhere.
+/// Solves with Householder's reflections to a tridiagonal matrix, then QL with implicit shifts. The
+/// same bits on every processor.
 /// @param matrix [size][size]
 SymmetricEigen symmetricEigen(std::vector<double> matrix, std::size_t size);
 

@@ -35,7 +35,7 @@ std::int64_t TickGrid::tickAt(Nanoseconds stamp) const {
 Nanoseconds TickGrid::timeOf(std::int64_t tick) const {
   const std::int64_t second = floorDivide(tick, rate_hz_);
   const std::int64_t rest = tick - second * rate_hz_;
-  // Rounded up, so that tickAt(timeOf(k)) == k.
+  // Rounding up makes tickAt(timeOf(k)) == k.
   return second * NANOSECONDS_PER_SECOND +
          (rest * NANOSECONDS_PER_SECOND + rate_hz_ - 1) / rate_hz_;
 }

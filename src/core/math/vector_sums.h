@@ -6,7 +6,8 @@
 
 namespace vegetation_sim::physics {
 
-/// a . b in eight interleaved sums, so that compilers may use vectors without changing a bit.
+/// Returns a . b in eight interleaved sums, so that compilers may use vectors without changing a
+/// bit.
 inline double dotOf(const double* a, const double* b, std::size_t n) {
   double sum[8] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
   std::size_t i = 0;
@@ -21,7 +22,7 @@ inline void addScaled(double factor, const double* from, std::size_t n, double* 
   for (std::size_t i = 0; i < n; ++i) to[i] += factor * from[i];
 }
 
-/// Takes out of x and y what they share with an orthonormal vector q, which is read once for both.
+/// Removes from x and y their components along the unit vector q, which is read once for both.
 inline void makeOrthogonal(const double* q, std::size_t n, double* x, double* y) {
   constexpr std::size_t LANES = 4;
   double sx[LANES] = {0.0, 0.0, 0.0, 0.0}, sy[LANES] = {0.0, 0.0, 0.0, 0.0};

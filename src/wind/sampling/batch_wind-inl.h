@@ -1,6 +1,7 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// The wind law of wind::Instant::velocity on vectors of floats; included once per instruction set.
+// The wind law of wind::Instant::velocity on vectors of floats; this file is included once per
+// instruction set.
 
 #if defined(VEGETATION_SIM_FOREST_BATCH_WIND_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef VEGETATION_SIM_FOREST_BATCH_WIND_INL_H_
@@ -41,9 +42,9 @@ HWY_INLINE Lanes envelope(bool smooth, Lanes x) {
   return smooth ? smootherStep(x) : saturate(x);
 }
 
-// cos(2 pi u): whole turns dropped, then sin(2 pi (1/4 - |u|)), the odd polynomial to t^9 whose
-// largest error is least (3e-9, with rounding 2.1e-7), summed by pairs: the sum of a breeze's modes
-// waits for each of them.
+// Returns cos(2 pi u). It drops whole turns, then computes sin(2 pi (1/4 - |u|)) by the odd
+// polynomial to t^9 of least maximal error (3e-9, with rounding 2.1e-7). The polynomial is summed
+// by pairs for a short chain of dependencies.
 HWY_INLINE Lanes cosTurns(Lanes u) {
   const Lanes t = all(0.25f) - hn::Abs(u - hn::Round(u)), t2 = t * t, t4 = t2 * t2;
   const Lanes low = all(6.283185160089465f) - all(41.34165503141383f) * t2;
@@ -77,7 +78,7 @@ HWY_INLINE void addGust(const FloatTerm& t, Lanes dx, Lanes dy, Lanes3& v) {
   add(v, rise * decay * across, t.vx, t.vy, t.vz);
 }
 
-// 2 / (1 + rho^2) / core, so that times the distance it peaks at 1 on the core radius.
+// Returns 2 / (1 + rho^2) / core, which times the distance peaks at 1 on the core radius.
 HWY_INLINE Lanes vortex(const FloatTerm& t, Lanes d2) {
   const Lanes core = all(t.inverse_core);
   return all(2.f) * core / (all(1.f) + d2 * core * core);
@@ -122,7 +123,7 @@ HWY_INLINE Lanes3 windAt(const FloatWind& wind, const Lanes3& p) {
         addBlast(t, dx, dy, p.z - all(t.z), v);
         break;
       case wind::Kind::BREEZE:
-        break;  // in mean and modes
+        break;  // part of mean and modes
     }
   }
   return v;

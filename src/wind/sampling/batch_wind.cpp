@@ -35,7 +35,7 @@ FloatTerm narrowed(const wind::Term& t) {
   return out;
 }
 
-// True if the term is exactly zero everywhere within `reach` of the origin.
+// Returns whether the term is exactly zero everywhere within `reach` of the origin.
 bool isAbsent(const wind::Term& t, double reach) {
   const double x = -t.centre.x(), y = -t.centre.y();
   if (t.kind != wind::Kind::GUST) return std::sqrt(x * x + y * y) > t.radius + reach;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "wind/sampling/batch_wind_blocks.h"
 
-// Vectors without arithmetic operators are left out; their processors take the plain target.
+// Vectors without arithmetic operators are left out; their processors use the plain target.
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "wind/sampling/batch_wind_blocks.cpp"

@@ -13,11 +13,11 @@ namespace vegetation_sim::wind {
 namespace {
 
 constexpr Nanoseconds LOOK = NANOSECONDS_PER_SECOND / 10;
-// A rise by smootherStep in a time T is steepest with 15 / 8 T, as a swing of half its height at
-// this frequency times 1 / T.
+// A rise by smootherStep in a time T has its steepest slope 15 / 8 T, as an oscillation of half its
+// height at this frequency times 1 / T.
 constexpr double RISE = 15.0 / (8.0 * PI);
-constexpr double LINGER = 2.0;     // [s] a plant still swings after a step
-constexpr double SHORTEST = 1e-3;  // [s] of a fade: all steps are alike
+constexpr double LINGER = 2.0;     // [s] time that a plant still oscillates after a step
+constexpr double SHORTEST = 1e-3;  // [s] shorter fades all act as steps
 
 template <std::size_t N>
 std::pair<std::size_t, double> between(const std::array<double, N>& grid, double value) {
@@ -26,7 +26,8 @@ std::pair<std::size_t, double> between(const std::array<double, N>& grid, double
   return {i, saturate((value - grid[i]) / (grid[i + 1] - grid[i]))};
 }
 
-// How often what moves past a place comes and goes: by how long it takes for its size.
+// Returns the frequency [Hz] at which something of a given size that moves past a place comes and
+// goes.
 double passingOf(const Field& field, std::size_t index, Nanoseconds stamp, const Term& now,
                  double size) {
   Term next;
@@ -34,7 +35,7 @@ double passingOf(const Field& field, std::size_t index, Nanoseconds stamp, const
   return length(next.centre - now.centre) / secondsBetween(0, LOOK) / (4.0 * size);
 }
 
-// A front by its steeper side.
+// Returns the frequency [Hz] of a term; a gust counts by its steeper side.
 double frequencyOf(const Field& field, std::size_t index, Nanoseconds stamp, const Term& now) {
   const Primitive& p = field.primitives()[index];
   if (now.kind == Kind::GUST) return RISE * p.front_speed / std::min(p.rise_length, p.decay_length);
@@ -42,7 +43,8 @@ double frequencyOf(const Field& field, std::size_t index, Nanoseconds stamp, con
   return std::max(std::fabs(p.omega) / (2.0 * PI), passingOf(field, index, stamp, now, p.radius));
 }
 
-// How fast an eddy sets on or dies down; plants swing on for a while. 0: it does neither.
+// Returns the frequency [Hz] at which an eddy starts or ends, or 0 if it does neither. Plants
+// oscillate for a while afterwards.
 double onsetOf(const Primitive& p, Nanoseconds stamp) {
   const auto fades = [&](Nanoseconds from, double duration) {
     const double since = secondsBetween(from, stamp);

@@ -9,8 +9,8 @@
 
 namespace vegetation_sim::wind {
 
-/// Wind that comes and goes at one place, by how fast: squares of its peak speed [m^2/s^2] on a
-/// grid of frequencies and of slownesses, the time a wave takes for a metre; 0: all air as one.
+/// Variable wind at one place by frequency: squares of its peak speed [m^2/s^2] on a grid of
+/// frequencies and of slownesses, the time that a wave takes for a metre (0: all wind in phase).
 struct GustSpectrum {
   static constexpr std::array<double, 12> FREQUENCIES{0.05, 0.07, 0.1,  0.145, 0.21, 0.3, 0.43,
                                                       0.62, 0.88, 1.26, 1.8,   2.6};  ///< [Hz]
@@ -18,27 +18,27 @@ struct GustSpectrum {
 
   /// [slowness][frequency]
   std::array<std::array<double, FREQUENCIES.size()>, SLOWNESSES.size()> power{};
-  /// Largest speed to be expected, the steady part included: sources seldom peak together [m/s].
+  /// Largest expected speed, the steady part included [m/s]. Sources seldom peak together.
   double peak{0.0};
 
-  /// Shared out to the four points around. What is slower than the lowest frequency counts with
-  /// the square of how much: plants follow it so much better.
+  /// Adds a square to the four grid points around it. A frequency below the lowest one counts with
+  /// the square of the ratio, because plants follow slow wind so much better.
   void add(double frequency, double slowness, double square);
 };
 
-/// The parts of a wind that come and go, at one stamp.
+/// The variable parts of a wind at one stamp.
 class GustSpectrumField {
  public:
-  /// Peak over rms of a breeze, within some ten seconds.
+  /// Ratio of peak to rms of a breeze within some ten seconds.
   static constexpr double PEAK = 2.5;
 
   GustSpectrumField() = default;
   GustSpectrumField(const Field& field, Nanoseconds stamp);
 
-  /// What any point within `reach` [m] (horizontally) of `position` meets over a cycle of the
-  /// primitives.
+  /// Returns the spectrum that any point within `reach` [m] (horizontally) of `position` meets over
+  /// a cycle of the primitives.
   GustSpectrum at(const Vec3& position, double reach) const { return atOf(position, reach, true); }
-  /// The same but for discs.
+  /// Returns the same without disks.
   GustSpectrum withoutDiscs(const Vec3& position, double reach) const {
     return atOf(position, reach, false);
   }
@@ -48,8 +48,8 @@ class GustSpectrumField {
   struct Part {
     Term term;
     double frequency;
-    double share;  // of its bound that swings
-    double onset;  // frequency at which half of it sets on or dies down, 0: it does neither
+    double share;  // share of its bound that oscillates
+    double onset;  // frequency at which half of it starts or ends; 0: it does neither
   };
   void addBreeze(const Primitive& p, double weight, const Breeze& breeze);
   GustSpectrum atOf(const Vec3& position, double reach, bool discs) const;

@@ -29,7 +29,7 @@ wind::WindSamples WindSampler::rows(std::size_t look) {
           count_};
 }
 
-// Modes, which are many, in vectors; the bounded primitives by their law.
+// Modes, of which there are many, are summed in vectors; the bounded primitives one by one.
 void WindSampler::sampleAt(std::size_t look, const wind::Instant& wind) {
   wind::sampleBreeze(wind, rows(look));
   addTerms(look, wind);
@@ -50,7 +50,7 @@ void WindSampler::sample(const wind::Instant& wind) {
   sampleAt(0, wind);
 }
 
-// One sine and cosine a mode serve all looks.
+// One sine and cosine per mode serve all instants.
 void WindSampler::sample(const WindWindow& window) {
   if (!window.turnsAlike()) {
     for (std::size_t look = 0; look < air_.size(); ++look) sampleAt(look, window.looks()[look]);

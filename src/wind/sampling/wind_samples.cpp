@@ -23,7 +23,7 @@ HWY_INLINE Lanes all(double value) {
   return hn::Set(Tag(), value);
 }
 
-// The series of common/math.h.
+// This is the series of core/math/math.h.
 HWY_INLINE Lanes sineSeries(Lanes x, Lanes x2) {
   Lanes s = all(1.0 / 355687428096000.0);
   s = s * x2 - all(1.0 / 1307674368000.0);
@@ -51,7 +51,7 @@ struct LanesSinCos {
   Lanes sin, cos;
 };
 
-// sinCosTurns of common/math.h, every operation of it.
+// Repeats every operation of sinCosTurns of core/math/math.h.
 HWY_INLINE LanesSinCos sinCosTurns(Lanes turns) {
   const Lanes fraction = turns - hn::Floor(turns + all(0.5));
   const Lanes quarter = hn::Floor(fraction * all(4.0) + all(0.5));
@@ -92,7 +92,7 @@ HWY_INLINE Lanes3 mean(const Instant& wind) {
   return {all(wind.mean.x()), all(wind.mean.y()), all(wind.mean.z())};
 }
 
-// Two vectors in turn, because one alone waits for its own series.
+// Two vectors alternate, because a single one would wait for its own series.
 void sampleRows(const Instant& wind, const WindSamples& rows) {
   const std::size_t width = hn::Lanes(Tag());
   for (std::size_t i = 0; i < rows.count; i += 2 * width) {

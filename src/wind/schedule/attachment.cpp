@@ -7,7 +7,7 @@
 namespace vegetation_sim::wind {
 namespace {
 
-constexpr std::size_t SAMPLES = 4;  // in a piece: the spline's end slope needs a few
+constexpr std::size_t SAMPLES = 4;  // per piece; the end slope of the spline needs a few
 
 }  // namespace
 

@@ -14,7 +14,7 @@ bool endsBy(const Primitive& p, Nanoseconds stamp) {
   return p.t_off != 0 && p.t_off <= stamp;
 }
 
-/// Fades `p` out from `stamp` on over `duration` [s], unless it is fading out by then already.
+/// Fades `p` out from `stamp` on over `duration` [s], unless it fades out by then already.
 void end(Primitive& p, Nanoseconds stamp, double duration) {
   if (p.t_off != 0 && p.t_off - fromSeconds(p.fade_out) < stamp) return;
   p.fade_out = duration;

@@ -8,24 +8,24 @@
 
 namespace vegetation_sim {
 
-/// Refused input. what() lists every fault, one a line.
+/// An input that is rejected. what() lists every fault, one per line.
 class InvalidInput : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// All that is wrong with one input, so that a user mends it in one go.
+/// Collects all faults of one input, so that a user can mend them at once.
 class Faults {
  public:
-  /// Keeps the first hundred.
+  /// Keeps the first hundred faults.
   void add(std::string fault) {
     if (list_.size() < 100) list_.push_back(std::move(fault));
   }
   bool empty() const { return list_.empty(); }
   const std::vector<std::string>& list() const { return list_; }
-  /// One fault a line.
+  /// Returns the faults, one per line.
   std::string text() const;
-  /// @throws InvalidInput with text() if there is any.
+  /// @throws InvalidInput with text() if there is a fault.
   void throwIfAny() const;
 
  private:

@@ -18,21 +18,21 @@ struct Range {
   double low, high;
 };
 
-/// A parameter structure declares each field once, in a free function
-/// `describe(FieldVisitor&, T&)`, with name, unit and range; reading, checking, writing, hashing
-/// and documentation visit that declaration, so they cannot disagree.
+/// A parameter structure declares each field once, in a free function `describe(FieldVisitor&,
+/// T&)`, with name, unit and range. Reading, checking, writing, hashing and documentation all visit
+/// that declaration, so they cannot disagree.
 class FieldVisitor {
  public:
   virtual ~FieldVisitor() = default;
   virtual void number(const char* name, double& value, const char* unit, Range range) = 0;
   virtual void integer(const char* name, int& value, const char* unit, Range range) = 0;
-  /// Three numbers, each within `range`.
+  /// Visits three numbers, each within `range`.
   virtual void vector(const char* name, Vec3& value, const char* unit, Range range) = 0;
-  /// Index into `names`.
+  /// Visits an index into `names`.
   virtual void choice(const char* name, int& value, const std::vector<std::string>& names) = 0;
 
   /// Visits an enum, whose values are 0, 1, ... in the order of `names`, as its index. A derived
-  /// class hides it; `using FieldVisitor::choice;` makes it visible there.
+  /// class hides this overload unless it says `using FieldVisitor::choice;`.
   template <class Enum, class = std::enable_if_t<std::is_enum_v<Enum>>>
   void choice(const char* name, Enum& value, const std::vector<std::string>& names) {
     int index = static_cast<int>(value);
@@ -41,7 +41,8 @@ class FieldVisitor {
   }
 };
 
-/// "name = value unit is outside low to high", or empty if the value is finite and in range.
+/// Returns "name = value unit is outside low to high", or an empty text if the value is finite and
+/// in range.
 std::string rangeFault(const std::string& name, double value, const char* unit, Range range);
 
 /// Adds a fault for each field that is not finite or out of range; `context` names the owner.

@@ -7,12 +7,13 @@
 
 namespace vegetation_sim {
 
-/// Instruction sets that the batched kernels can use here, best first ("AVX3", "AVX2", ...).
+/// Returns the instruction sets that the batched kernels can use here, best first ("AVX3", "AVX2").
 std::vector<std::string> instructionSets();
-/// Restricts the batched kernels to one of them; empty: free choice. For tests and benches.
-/// @throws InvalidInput for one that is not offered here.
+/// Restricts the batched kernels to one instruction set; an empty name restores the free choice.
+/// For tests and benches.
+/// @throws InvalidInput for an instruction set that is not offered here.
 void forceInstructionSet(const std::string& name);
-/// The one that kernels are compiled for which a call reaches now.
+/// Returns the instruction set of the kernels that a call runs now.
 std::string chosenInstructionSet();
 
 }  // namespace vegetation_sim

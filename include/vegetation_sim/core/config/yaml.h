@@ -14,11 +14,11 @@
 namespace vegetation_sim {
 
 /// One map of a YAML file, read strictly: a wrong type, a value out of range and, after finish(), a
-/// key that nobody asked for are faults that name file, key, value and allowed range. A key that is
+/// key that was never read are faults that name file, key, value and allowed range. A key that is
 /// absent leaves the default. Visits a `describe` function as well as single keys.
 class YamlSection : public FieldVisitor {
  public:
-  /// @param path shown in faults, as in "forest.yaml: trees[2]".
+  /// @param path is shown in faults, as in "forest.yaml: trees[2]".
   YamlSection(const YAML::Node& node, std::string path, Faults& faults);
 
   bool has(const std::string& key) const;
@@ -33,16 +33,16 @@ class YamlSection : public FieldVisitor {
   void flag(const char* name, bool& value);
   void seed(const char* name, std::uint64_t& value);
 
-  /// Map under `name`; empty if absent. Adds a fault if it is no map.
+  /// Returns the map under `name`, or an empty one if it is absent. Adds a fault if it is no map.
   YamlSection section(const char* name);
-  /// Maps in the list under `name`; none if absent.
+  /// Returns the maps in the list under `name`, or none if it is absent.
   std::vector<YamlSection> sections(const char* name);
 
-  /// Adds an own fault about the value of `name`.
+  /// Adds a fault of the caller about the value of `name`.
   void fault(const std::string& name, const std::string& problem);
-  /// Adds an own fault about the whole map.
+  /// Adds a fault of the caller about the whole map.
   void fault(const std::string& problem);
-  /// Reports the keys that were never asked for.
+  /// Reports the keys that were never read.
   void finish();
 
  private:

@@ -6,20 +6,22 @@
 
 namespace vegetation_sim {
 
-/// An eye: where it is and how many pixels a metre at one metre takes.
+/// A camera that chooses levels of detail: its place and the pixels that a metre takes at one
+/// metre.
 struct Viewpoint {
   Vec3 position{Vec3::Zero()};
   double pixels_per_radian{1000.0};
-  Vec3 forward{Vec3::UnitX()};  ///< unit
-  double cone_cosine{-1.0};     ///< of half the angle of the cone that it sees; -1: all round
+  Vec3 forward{Vec3::UnitX()};  ///< unit vector
+  double cone_cosine{-1.0};  ///< of half the angle of the visible cone; -1 if all round is visible
 };
-/// True if the eye sees any of a ball.
+/// Returns whether any part of a ball is visible.
 bool sees(const Viewpoint& eye, const Vec3& centre, double radius);
-/// Pixels that one metre takes at `distance` [m], which counts as half a metre if it is less.
+/// Returns the pixels that one metre takes at `distance` [m], which counts as at least half a
+/// metre.
 double pixelsPerMetre(const Viewpoint& eye, double distance);
 
-/// A finer level is kept until the next coarser one holds this share of the tolerance, so that a
-/// level at its border does not flicker.
+/// A finer level is kept until the error of the next coarser one falls to this share of the
+/// tolerance, so that a level at its border does not flicker.
 constexpr double HYSTERESIS = 0.7;
 
 }  // namespace vegetation_sim

@@ -13,7 +13,7 @@ namespace vegetation_sim {
 class Hash {
  public:
   void add(std::uint64_t value);
-  /// The bit pattern; so -0 and 0 differ, as do any two states that are not the same to the bit.
+  /// Adds the bit pattern, so -0 and 0 differ.
   void add(double value);
   void add(const std::string& value);
   void add(const Vec3& v) { add(v.x()), add(v.y()), add(v.z()); }

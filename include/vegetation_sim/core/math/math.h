@@ -6,8 +6,9 @@
 
 namespace vegetation_sim {
 
-// Same bits on every processor: only +, -, *, / and sqrt, which IEEE 754 fixes. The platform's own
-// sin, pow and friends differ between libraries and are not used for anything that is state.
+// The results have the same bits on every processor: they use only +, -, *, / and sqrt, which IEEE
+// 754 fixes. The platform's own sin, pow and others differ between libraries and never compute
+// state.
 
 constexpr double PI = 3.14159265358979323846;
 
@@ -15,39 +16,41 @@ struct SinCos {
   double sin, cos;
 };
 
-/// Sine and cosine of `turns` full turns (1 turn = 2 pi). Error <= 2e-16 for |turns| < 2^52.
+/// Returns sine and cosine of `turns` full turns (1 turn = 2 pi). Error <= 2e-16 for |turns| <
+/// 2^52.
 SinCos sinCosTurns(double turns);
 
-/// Sine and cosine of an angle [rad]. Error <= 4e-16 * max(1, |angle|).
+/// Returns sine and cosine of an angle [rad]. Error <= 4e-16 * max(1, |angle|).
 SinCos sinCos(double angle);
 
-/// Angle of (x, y) in (-pi, pi] [rad]; 0 for (0, 0). Error <= 1e-15.
+/// Returns the angle of (x, y) in (-pi, pi] [rad], or 0 for (0, 0). Error <= 1e-15.
 double arcTangent(double y, double x);
 
-/// Cube root for x >= 0. Relative error <= 4e-16.
+/// Returns the cube root for x >= 0. Relative error <= 4e-16.
 double cubeRoot(double x);
 
-/// e^x; 0 below -745 and infinity above 709. Relative error <= 4e-16.
+/// Returns e^x: 0 below -745 and infinity above 709. Relative error <= 4e-16.
 double exponential(double x);
 
-/// Clamp to [0, 1].
+/// Clamps to [0, 1].
 inline double saturate(double x) {
   return std::min(1.0, std::max(0.0, x));
 }
 
-/// 3x^2 - 2x^3 on [0, 1], flat outside: C1 (paper 1, section 4.3).
+/// Returns 3x^2 - 2x^3 on [0, 1] and is constant outside: C1 (paper 1, section 4.3).
 inline double smoothStep(double x) {
   const double u = saturate(x);
   return u * u * (3.0 - 2.0 * u);
 }
 
-/// 6x^5 - 15x^4 + 10x^3 on [0, 1], flat outside: C2, what E1 needs of an envelope.
+/// Returns 6x^5 - 15x^4 + 10x^3 on [0, 1] and is constant outside: C2, as an envelope needs it
+/// (E1).
 inline double smootherStep(double x) {
   const double u = saturate(x);
   return u * u * u * (u * (6.0 * u - 15.0) + 10.0);
 }
 
-/// Bounded deviation: the identity up to `knee`, then C2 towards `limit`, which it never passes
+/// Bounds a deviation: returns x up to `knee`, then approaches `limit` without reaching it, C2
 /// (E16). Odd in x. Requires 0 < knee < limit.
 double softLimit(double x, double knee, double limit);
 

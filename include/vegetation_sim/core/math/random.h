@@ -7,13 +7,13 @@
 
 namespace vegetation_sim {
 
-/// Philox4x32-10: 128 random bits as a pure function of key and counter (Salmon, Moraes, Dror and
-/// Shaw, "Parallel random numbers: as easy as 1, 2, 3", SC 2011).
+/// Philox4x32-10: returns 128 random bits as a pure function of key and counter (Salmon, Moraes,
+/// Dror and Shaw, "Parallel random numbers: as easy as 1, 2, 3", SC 2011).
 std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter,
                                     std::array<std::uint32_t, 2> key);
 
-/// Well mixed bits of a counter: a bijection of 32 bits that costs two multiplications (Wellons
-/// 2018, "lowbias32"). For what there are millions of and nobody's state follows from, like blades.
+/// Mixes the bits of a counter: a bijection of 32 bits that costs two multiplications (Wellons
+/// 2018, "lowbias32"). For millions of items that no state depends on, such as blades.
 inline std::uint32_t mix32(std::uint32_t x) {
   x ^= x >> 16;
   x *= 0x7FEB352DU;
@@ -23,22 +23,22 @@ inline std::uint32_t mix32(std::uint32_t x) {
   return x;
 }
 
-/// Random numbers of one plant or part of it. Nothing is drawn in sequence: the value for an index
-/// is the same whoever asks, in whatever order, so levels of detail never change a neighbour.
+/// Random numbers of one plant or part of it. Nothing is drawn in sequence: the value of an index
+/// does not depend on the order of calls, so levels of detail never change a neighbour.
 class Random {
  public:
   explicit Random(std::uint64_t key) : key_(key) {}
 
   std::uint64_t key() const { return key_; }
-  /// 64 random bits for `index`.
+  /// Returns 64 random bits for `index`.
   std::uint64_t bits(std::uint64_t index) const;
-  /// Uniform in [0, 1).
+  /// Returns a uniform number in [0, 1).
   double uniform(std::uint64_t index) const;
-  /// Uniform in [low, high).
+  /// Returns a uniform number in [low, high).
   double uniform(std::uint64_t index, double low, double high) const {
     return low + (high - low) * uniform(index);
   }
-  /// Independent generator for part number `index`.
+  /// Returns an independent generator for part number `index`.
   Random child(std::uint64_t index) const;
 
  private:

@@ -9,19 +9,20 @@ namespace vegetation_sim {
 
 using Vec3 = Eigen::Vector3d;
 
-/// Rotation w + xi + yj + zk, unit norm. Own products, so that the order of operations, and with
-/// it every bit, is the same on each processor (Eigen's follow the instruction set).
+/// Rotation w + xi + yj + zk of unit norm. Its products are its own, so that the order of
+/// operations, and with it every bit, is the same on each processor (Eigen's follow the instruction
+/// set).
 struct Quat {
   double w{1.0}, x{0.0}, y{0.0}, z{0.0};
 };
 
-/// Frame of a branch in its tree's frame: origin [m], orientation.
+/// Frame of a branch in its tree's frame: origin [m] and orientation.
 struct Pose {
   Vec3 position{Vec3::Zero()};
   Quat orientation{};
 };
 
-/// Rotation `a` after rotation `b`: the Hamilton product a b.
+/// Returns rotation `a` after rotation `b`: the Hamilton product a b.
 inline Quat operator*(const Quat& a, const Quat& b) {
   return {
       a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,

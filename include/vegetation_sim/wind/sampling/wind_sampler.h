@@ -10,18 +10,18 @@
 
 namespace vegetation_sim::forest {
 
-/// Air velocity at many points at once, in the widest instruction set of the processor: to the bit
-/// what wind::Instant::velocity and WindWindow::velocities give one by one. Keeps its memory from
-/// call to call.
+/// Computes the wind velocity at many points at once, in the widest instruction set of the
+/// processor, with the same bits as wind::Instant::velocity and WindWindow::velocities. Keeps its
+/// memory from call to call.
 class WindSampler {
  public:
   void clear() { count_ = 0; }
-  /// @param point world [m].
+  /// @param point in world coordinates [m].
   void add(const Vec3& point);
   std::size_t size() const { return count_; }
-  /// Looks at all points; they stay for the next look.
+  /// Samples the wind at all points, which stay for the next call.
   void sample(const wind::Instant& wind);
-  /// The three looks of a window.
+  /// Samples the three instants of a window.
   void sample(const WindWindow& window);
   /// At point i, in a look of the window that was sampled last, or of one instant, 0, world [m/s].
   Vec3 velocity(std::size_t i, std::size_t look = 0) const {
@@ -30,7 +30,7 @@ class WindSampler {
 
  private:
   struct Rows {
-    std::vector<double> x, y, z;  // whole pairs of vectors
+    std::vector<double> x, y, z;  // padded to whole pairs of vectors
   };
   void sampleAt(std::size_t look, const wind::Instant& wind);
   void addTerms(std::size_t look, const wind::Instant& wind);
