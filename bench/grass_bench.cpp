@@ -201,8 +201,8 @@ struct Frame {
   std::size_t blades{0}, strips{0};
 };
 
-Frame drawFrame(MeadowLod& meadow, const wind::Field& wind, const Viewpoint& eye, Nanoseconds stamp,
-                BladeBlock* blocks, GrassMesh& strips) {
+Frame drawFrame(MeadowLod& meadow, const TreadMap& tread, const wind::Field& wind,
+                const Viewpoint& eye, Nanoseconds stamp, BladeBlock* blocks, GrassMesh& strips) {
   const double start = bench::processorTime();
   Frame out;
   meadow.setEyes({eye});
@@ -217,7 +217,7 @@ Frame drawFrame(MeadowLod& meadow, const wind::Field& wind, const Viewpoint& eye
   strips.origin = eye.position;
   for (const TileView& view : views) {
     TileMotion motion;
-    const Tile tile = meadow.tileAt(view, air, stamp, patch, motion);
+    const Tile tile = meadow.tileAt(view, air, tread, stamp, patch, motion);
     if (view.morph.blades) {
       const int count = static_cast<int>(tile.blades * view.share);
       poseBlades(tile, motion, count, blocks);
@@ -261,15 +261,16 @@ void benchKilometre(bool jumps) {
   settings.most_blades = 3e5;
   const double before = megabytesInUse();
   MeadowLod meadow(std::make_shared<FeatureMap>(input), std::make_shared<terrain::HeightMap>(), 7,
-                   settings, TreadSettings());
+                   settings);
+  const TreadMap tread(input.law, TreadSettings());
   const wind::Field wind = breeze();
   const Blocks blocks = makeBlocks(sizeof(BladeBlock) * blocksFor(8192));
   GrassMesh strips = makeMesh(16384);
   std::vector<double> times;
   std::size_t blades = 0, tiles = 0;
   for (int k = 0; k < 300; ++k) {
-    const Frame frame = drawFrame(meadow, wind, viewerAt(k, jumps), START + fromSeconds(k / 60.0),
-                                  blocks.get(), strips);
+    const Frame frame = drawFrame(meadow, tread, wind, viewerAt(k, jumps),
+                                  START + fromSeconds(k / 60.0), blocks.get(), strips);
     times.push_back(frame.milliseconds);
     blades = std::max(blades, frame.blades);
     tiles = std::max(tiles, frame.strips);
@@ -282,7 +283,8 @@ void benchKilometre(bool jumps) {
       "strips\n",
       times[times.size() / 2], times[times.size() * 99 / 100], times.back(), blades, tiles);
   std::printf("memory of the process %.0f MB more than before; state %.2f MB\n",
-              megabytesInUse() - before, static_cast<double>(meadow.bytes()) * 1e-6);
+              megabytesInUse() - before,
+              static_cast<double>(meadow.bytes() + tread.bytes()) * 1e-6);
 }
 
 }  // namespace

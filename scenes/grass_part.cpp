@@ -10,7 +10,8 @@ GrassPart::GrassPart(const Scenario& scenario)
     : tread_(scenario.grass->layout.map->law(), scenario.grass->treading),
       field_(scenario.grass->layout, scenario.terrain, scenario.grass->treading, tread_),
       meadow_(scenario.grass->layout.map, scenario.terrain, scenario.grass->layout.seed,
-              scenario.grass_levels, scenario.grass->treading),
+              scenario.grass_levels),
+      shown_tread_(scenario.grass->layout.map->law(), scenario.grass->treading),
       wind_(scenario.wind) {}
 
 grass::TreadInput GrassPart::inputOf(const std::string& source, grass::TreadAction action) const {
@@ -41,16 +42,21 @@ void GrassPart::lift(const std::string& source, Nanoseconds stamp) {
 }
 
 void GrassPart::advance(Nanoseconds stamp, bool key_frame) {
+  const bool is_new_second = stamp / NANOSECONDS_PER_SECOND != stamp_ / NANOSECONDS_PER_SECOND;
   stamp_ = stamp;
   field_.advance(stamp);
-  replica_.apply(field_.update(key_frame), meadow_.tread());
+  replica_.apply(field_.update(key_frame), shown_tread_);
   meadow_.setEyes({eye_});
   meadow_.advance(stamp);
+  if (is_new_second) shown_tread_.prune(stamp);
 }
 
 void GrassPart::addTo(Hashes& hashes) {
   hashes.state.add(field_.snapshot().hash());
-  hashes.display.add(meadow_.snapshot().hash());
+  Hash display;
+  meadow_.snapshot().addTo(display);
+  display.add(shown_tread_.state().hash());
+  hashes.display.add(display.value());
   for (const grass::Drag& drag : field_.drags()) hashes.reference.add(drag.force);
   std::vector<grass::TileView> views = meadow_.viewOf(eye_, stamp_);
   std::vector<grass::TilePlace> tiles;
@@ -65,7 +71,7 @@ void GrassPart::addTo(Hashes& hashes) {
 void GrassPart::draw(const grass::TileView& view, const grass::NodeWind& air, Hashes& hashes) {
   grass::TileMotion motion;
   grass::CrushPatch patch;
-  const grass::Tile tile = meadow_.tileAt(view, air, stamp_, patch, motion);
+  const grass::Tile tile = meadow_.tileAt(view, air, shown_tread_, stamp_, patch, motion);
   if (view.morph.blades) {
     const int count = static_cast<int>(tile.blades * view.share);
     blocks_.resize(static_cast<std::size_t>(grass::blocksFor(count)));

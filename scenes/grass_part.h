@@ -35,7 +35,7 @@ class GrassPart {
   double crushedArea() const;
 
   const grass::Layout& layout() const { return field_.layout(); }
-  const grass::TreadMap& shownTread() const { return meadow_.tread(); }
+  const grass::TreadMap& shownTread() const { return shown_tread_; }
   const wind::Field& wind() const { return wind_; }
 
  private:
@@ -44,7 +44,8 @@ class GrassPart {
 
   grass::TreadMap tread_;
   grass::TreadSimulation field_;
-  grass::MeadowLod meadow_;  ///< of the display, with its own trodden ground
+  grass::MeadowLod meadow_;      ///< of the display
+  grass::TreadMap shown_tread_;  ///< of the display
   grass::TreadReplica replica_;
   wind::Field wind_;
   Viewpoint eye_;

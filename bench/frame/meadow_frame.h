@@ -16,8 +16,8 @@ class MeadowFrame {
       : wind_(scene.wind),
         tread_(scene.grass->layout.tread),
         eye_(bench::frameEye(scene)),
-        meadow_(scene.grass->layout.map, scene.terrain, scene.grass->layout.seed, MeadowSettings(),
-                scene.grass->treading) {
+        meadow_(scene.grass->layout.map, scene.terrain, scene.grass->layout.seed, MeadowSettings()),
+        treads_(scene.grass->layout.map->law(), scene.grass->treading) {
     eye_.position.z() -= 1.4;  // of somebody who walks
     for (int i = 0; i < 2 * bench::FRAME_RATE; ++i) {
       bench::Laps unused;
@@ -29,7 +29,7 @@ class MeadowFrame {
     const Nanoseconds stamp =
         bench::FRAME_START + fromSeconds(++frame_ / double{bench::FRAME_RATE});
     const double turn = 0.02 * frame_;
-    meadow_.tread().tread(1, tread_, {6.0 * std::cos(turn), 6.0 * std::sin(turn)}, stamp);
+    treads_.tread(1, tread_, {6.0 * std::cos(turn), 6.0 * std::sin(turn)}, stamp);
     laps.lap("treading");
     meadow_.setEyes({eye_});
     meadow_.advance(stamp);
@@ -50,7 +50,7 @@ class MeadowFrame {
     CrushPatch patch;
     for (const TileView& view : views) {
       TileMotion motion;
-      const Tile tile = meadow_.tileAt(view, air, stamp, patch, motion);
+      const Tile tile = meadow_.tileAt(view, air, treads_, stamp, patch, motion);
       if (view.morph.blades) {
         const int count = static_cast<int>(tile.blades * view.share);
         blocks_.resize(static_cast<std::size_t>(blocksFor(count)));
@@ -71,6 +71,7 @@ class MeadowFrame {
   TreadLaw tread_;
   Viewpoint eye_;
   MeadowLod meadow_;
+  TreadMap treads_;
   std::vector<BladeBlock> blocks_;
   GrassMesh mesh_;
   int frame_{0};

@@ -7,7 +7,6 @@
 #include <tuple>
 #include <utility>
 
-#include "vegetation_sim/core/math/hash.h"
 #include "vegetation_sim/core/math/math.h"
 
 namespace vegetation_sim::grass {
@@ -43,8 +42,8 @@ void describe(FieldVisitor& v, MeadowSettings& s) {
 
 MeadowLod::MeadowLod(std::shared_ptr<const FeatureMap> map,
                      std::shared_ptr<const terrain::HeightMap> terrain, std::uint64_t seed,
-                     const MeadowSettings& settings, const TreadSettings& tread)
-    : map_(std::move(map)), terrain_(std::move(terrain)), seed_(seed), tread_(map_->law(), tread) {
+                     const MeadowSettings& settings)
+    : map_(std::move(map)), terrain_(std::move(terrain)), seed_(seed) {
   setSettings(settings);
   for (int row = 0; row < map_->tileRows(); ++row) {
     double most = 0.0;
@@ -205,14 +204,9 @@ void MeadowLod::chooseLevels(Nanoseconds stamp) {
 }
 
 void MeadowLod::advance(Nanoseconds stamp) {
-  if (stamp < stamp_) {
-    tread_.rewind(stamp);
-    levels_.clear();
-  }
-  const Nanoseconds before = std::exchange(stamp_, stamp);
+  if (stamp < stamp_) levels_.clear();
+  stamp_ = stamp;
   chooseLevels(stamp);
-  // A look through all the trodden ground: once a second is enough.
-  if (stamp / NANOSECONDS_PER_SECOND != before / NANOSECONDS_PER_SECOND) tread_.prune(stamp);
 }
 
 std::vector<TileView> MeadowLod::viewOf(const Viewpoint& eye, Nanoseconds stamp) const {
@@ -249,17 +243,17 @@ TileWindow MeadowLod::windowOf(const std::vector<TileView>& views) {
   return out;
 }
 
-Tile MeadowLod::tileAt(const TileView& view, const NodeWind& air, Nanoseconds stamp,
-                       CrushPatch& patch, TileMotion& motion) const {
+Tile MeadowLod::tileAt(const TileView& view, const NodeWind& air, const TreadMap& tread,
+                       Nanoseconds stamp, CrushPatch& patch, TileMotion& motion) const {
   Tile tile = makeTile(*map_, *terrain_, seed_, view.column, view.row);
   air.fill(tile, motion);
-  tread_.patch(view.column, view.row, stamp, patch);
+  tread.patch(view.column, view.row, stamp, patch);
   motion.crush = patch.cells > 0 ? &patch : nullptr;
   return tile;
 }
 
 MeadowLodSnapshot MeadowLod::snapshot() const {
-  return {stamp_, coarseness_, levels_, eyes_, tread_.state()};
+  return {stamp_, coarseness_, levels_, eyes_};
 }
 
 void MeadowLod::restore(MeadowLodSnapshot memory) {
@@ -267,15 +261,9 @@ void MeadowLod::restore(MeadowLodSnapshot memory) {
   coarseness_ = memory.coarseness;
   levels_ = std::move(memory.levels);
   eyes_ = std::move(memory.eyes);
-  tread_.restore(std::move(memory.tread));
 }
 
-std::size_t MeadowLod::bytes() const {
-  return tread_.bytes() + levels_.capacity() * sizeof(TileLevel);
-}
-
-std::uint64_t MeadowLodSnapshot::hash() const {
-  Hash hash;
+void MeadowLodSnapshot::addTo(Hash& hash) const {
   const auto add = [&](auto value) { hash.add(static_cast<std::uint64_t>(value)); };
   add(stamp);
   hash.add(coarseness);
@@ -291,7 +279,11 @@ std::uint64_t MeadowLodSnapshot::hash() const {
     hash.add(eye.pixels_per_radian);
     hash.add(eye.cone_cosine);
   }
-  add(tread.hash());
+}
+
+std::uint64_t MeadowLodSnapshot::hash() const {
+  Hash hash;
+  addTo(hash);
   return hash.value();
 }
 

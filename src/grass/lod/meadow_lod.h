@@ -11,6 +11,7 @@
 #include "grass/lod/node_wind.h"
 #include "grass/lod/tile_level.h"
 #include "vegetation_sim/core/lod/viewpoint.h"
+#include "vegetation_sim/core/math/hash.h"
 #include "vegetation_sim/grass/tread/tread_map.h"
 
 namespace vegetation_sim::grass {
@@ -29,14 +30,13 @@ struct TileLevel {
   TileModelState tier;
 };
 
-/// All of a meadow that has memory (N6): what was trodden, and which tiles are drawn how.
+/// State of the level of detail of a meadow (N6): which tiles are drawn how.
 struct MeadowLodSnapshot {
   Nanoseconds stamp{0};
   double coarseness{1.0};         ///< factor on the tolerance that keeps the number of blades
   std::vector<TileLevel> levels;  ///< by row, then column
   std::vector<Viewpoint> eyes;
-  TreadState tread;
-
+  void addTo(Hash& hash) const;
   std::uint64_t hash() const;
 };
 
@@ -49,35 +49,33 @@ struct TileView {
   double elevation{0.0};  ///< from which the tile is seen [rad]
 };
 
-/// A meadow with its state: levels of the tiles around the eyes, trodden ground. One thread at a
-/// time; what it shows at a stamp is a function of its memory, map, terrain, seed and wind.
+/// Level of detail of the tiles of a meadow around its viewers. The trodden ground belongs to
+/// whoever simulates or replicates it. One thread at a time.
 class MeadowLod {
  public:
   /// @throws InvalidInput with all faults.
   MeadowLod(std::shared_ptr<const FeatureMap> map,
             std::shared_ptr<const terrain::HeightMap> terrain, std::uint64_t seed,
-            const MeadowSettings& settings, const TreadSettings& tread);
+            const MeadowSettings& settings);
 
   const FeatureMap& map() const { return *map_; }
   const terrain::HeightMap& terrain() const { return *terrain_; }
   std::uint64_t seed() const { return seed_; }
-  TreadMap& tread() { return tread_; }
-  const TreadMap& tread() const { return tread_; }
 
   /// Other settings from now on. @throws InvalidInput with all faults, then nothing is changed.
   void setSettings(const MeadowSettings& settings);
   void setEyes(std::vector<Viewpoint> eyes) { eyes_ = std::move(eyes); }
-  /// Chooses levels at a stamp and frees what has recovered. A stamp before the last means that
-  /// time went back: what is stamped later is forgotten, levels start anew.
+  /// Chooses levels at a stamp. If the stamp is before the last one, all tiles start as textures.
   void advance(Nanoseconds stamp);
 
   /// Tiles that an eye sees as more than a texture.
   std::vector<TileView> viewOf(const Viewpoint& eye, Nanoseconds stamp) const;
   /// Smallest window with all of these tiles.
   static TileWindow windowOf(const std::vector<TileView>& views);
-  /// A tile ready to be posed: made from its seed, with its air and treads. `air` holds its window.
-  Tile tileAt(const TileView& view, const NodeWind& air, Nanoseconds stamp, CrushPatch& patch,
-              TileMotion& motion) const;
+  /// Makes a tile from its seed and fills `motion` with its wind and its trodden ground, for which
+  /// `patch` is the memory. Requires that the window of `air` contains the tile.
+  Tile tileAt(const TileView& view, const NodeWind& air, const TreadMap& tread, Nanoseconds stamp,
+              CrushPatch& patch, TileMotion& motion) const;
 
   /// What was chosen at the last advance() for the tiles that are or want to be more than a
   /// texture: costs are blades, errors what tiers leave out.
@@ -85,8 +83,8 @@ class MeadowLod {
 
   MeadowLodSnapshot snapshot() const;
   void restore(MeadowLodSnapshot memory);
-  /// Bytes of what has memory.
-  std::size_t bytes() const;
+  /// Memory of the state [bytes].
+  std::size_t bytes() const { return levels_.capacity() * sizeof(TileLevel); }
 
  private:
   double scaleOf(const Vec3& centre) const;
@@ -114,7 +112,6 @@ class MeadowLod {
   std::shared_ptr<const terrain::HeightMap> terrain_;
   std::uint64_t seed_;
   MeadowSettings settings_;
-  TreadMap tread_;
   std::vector<double> coarsest_;  ///< of each row of tiles: most that a texture leaves out [m]
   Nanoseconds stamp_{0};
   double coarseness_{1.0};

@@ -67,20 +67,6 @@ void TreadMap::prune(Nanoseconds stamp) {
   if (state_.blocks.size() < before) forgetRecent();
 }
 
-void TreadMap::rewind(Nanoseconds stamp) {
-  forgetRecent();
-  for (auto& entry : state_.blocks)
-    for (TreadNode& node : entry.second.nodes)
-      if (node.stamp > stamp) node = TreadNode();
-  for (auto entry = state_.blocks.begin(); entry != state_.blocks.end();) {
-    bool any = false;
-    for (const TreadNode& node : entry->second.nodes) any = any || node.tilt > 0.f;
-    entry = any ? std::next(entry) : state_.blocks.erase(entry);
-  }
-  for (auto entry = state_.sources.begin(); entry != state_.sources.end();)
-    entry = entry->second.stamp > stamp ? state_.sources.erase(entry) : std::next(entry);
-}
-
 void TreadMap::clear() {
   restore(TreadState());
 }

@@ -26,11 +26,12 @@ GrassField::GrassField(ros::NodeHandle handle, ros::NodeHandle private_handle)
               [this](Nanoseconds now) { restart(now); }}),
       diagnostics_(handle, private_handle, private_handle.getNamespace()) {
   grass::Layout& layout = scene_.grass.layout;
-  meadow_ = std::make_unique<grass::MeadowLod>(layout.map, scene_.terrain, layout.seed,
-                                               tuning_.view, scene_.grass.treading);
-  layout.tread_spacing = meadow_->tread().spacing();
+  meadow_ =
+      std::make_unique<grass::MeadowLod>(layout.map, scene_.terrain, layout.seed, tuning_.view);
+  tread_ = std::make_unique<grass::TreadMap>(layout.map->law(), scene_.grass.treading);
+  layout.tread_spacing = tread_->spacing();
   field_ = std::make_unique<grass::TreadSimulation>(layout, scene_.terrain, scene_.grass.treading,
-                                                    meadow_->tread());
+                                                    *tread_);
   field_->setDrag(tuning_.drag);
   sources_ =
       std::make_unique<GrassSources>(handle_, options_.frame_id, options_.sources, tf_buffer_);

@@ -85,7 +85,8 @@ class GrassField {
   GrassOptions options_;
   GrassTuning tuning_;
   EventQueue<GrassEvent> inputs_;
-  std::unique_ptr<grass::MeadowLod> meadow_;
+  std::unique_ptr<grass::MeadowLod> meadow_;  // of the markers
+  std::unique_ptr<grass::TreadMap> tread_;
   std::unique_ptr<grass::TreadSimulation> field_;
   wind::Field wind_;
   GrassMarkers markers_;

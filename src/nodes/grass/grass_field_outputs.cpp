@@ -60,8 +60,8 @@ void GrassField::sendMarkers(const ros::TimerEvent&) {
   if (!clock_.hasBegun() || markers_publisher_.getNumSubscribers() == 0) return;
   const Nanoseconds stamp = field_->stamp();
   const auto model = static_cast<grass::BladeModel>(field_->layout().blade_model);
-  markers_publisher_.publish(
-      markers_.build(*meadow_, viewers_.eyesAt(stamp), wind_, model, options_.frame_id, stamp));
+  markers_publisher_.publish(markers_.build(*meadow_, *tread_, viewers_.eyesAt(stamp), wind_, model,
+                                            options_.frame_id, stamp));
 }
 
 void GrassField::sendCover(const ros::TimerEvent&) {
@@ -82,7 +82,7 @@ void GrassField::sendCover(const ros::TimerEvent&) {
 void GrassField::reportProblem(diagnostic_updater::DiagnosticStatusWrapper& status) {
   counts_.clock = clock_.counts();
   counts_.inputs = inputs_.losses();
-  counts_.tread = meadow_->tread().state().counts;
+  counts_.tread = tread_->state().counts;
   refusals_.warn(status);
   warnOfClock(status, counts_.clock, reported_.clock);
   warnOfLosses(status, counts_.inputs, reported_.inputs);
@@ -96,7 +96,7 @@ void GrassField::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   status.summary(DiagnosticStatus::OK, "running");
   if (!clock_.hasBegun()) status.summary(DiagnosticStatus::WARN, "waiting for the clock");
   reportProblem(status);
-  const grass::TreadState& tread = meadow_->tread().state();
+  const grass::TreadState& tread = tread_->state();
   clock_.report(status);
   status.add("Inputs taken", counts_.events);
   status.add("Inputs refused", refusals_.count());
@@ -108,7 +108,7 @@ void GrassField::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   status.add("Strokes off the map", tread.counts.outside);
   status.add("Jumps of sources", tread.counts.jumps);
   status.add("Trodden blocks", tread.blocks.size());
-  status.add("Trodden ground [B]", meadow_->tread().bytes());
+  status.add("Trodden ground [B]", tread_->bytes());
   status.add("Memory cap [B]", static_cast<std::uint64_t>(scene_.grass.treading.memory_cap));
   status.add("Nodes left out by the cap", tread.counts.no_memory);
   status.add("State sent [B]", counts_.state_bytes);

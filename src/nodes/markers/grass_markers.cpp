@@ -70,11 +70,8 @@ void GrassMarkers::addGround(const grass::MeadowLod& meadow) {
 }
 
 void GrassMarkers::addTile(const grass::MeadowLod& meadow, const grass::TileView& view,
-                           const Vec3& eye, const grass::NodeWind& air, grass::BladeModel model,
-                           Nanoseconds stamp) {
-  grass::TileMotion motion;
-  const grass::Tile tile = meadow.tileAt(view, air, stamp, patch_, motion);
-  motion.model = model;
+                           const grass::Tile& tile, const grass::TileMotion& motion,
+                           const Vec3& eye) {
   if (view.morph.strip > 0.0 && strip_mesh_.indices.size() < list_points_)
     grass::appendStrips(meadow.map(), tile, motion, view.morph.strip, full_density_, strip_mesh_);
   if (!view.morph.blades || blade_mesh_.indices.size() >= list_points_) return;
@@ -108,8 +105,9 @@ std::size_t GrassMarkers::copy(const grass::GrassMesh& mesh, visualization_msgs:
 }
 
 visualization_msgs::MarkerArray GrassMarkers::build(
-    grass::MeadowLod& meadow, const std::vector<Viewpoint>& viewers, const wind::Field& wind,
-    grass::BladeModel model, const std::string& frame_id, Nanoseconds stamp) {
+    grass::MeadowLod& meadow, const grass::TreadMap& tread, const std::vector<Viewpoint>& viewers,
+    const wind::Field& wind, grass::BladeModel model, const std::string& frame_id,
+    Nanoseconds stamp) {
   const std::vector<Viewpoint> eyes =
       viewers.empty() ? std::vector<Viewpoint>{eyeAbove(meadow)} : viewers;
   meadow.setEyes(eyes);
@@ -132,8 +130,12 @@ visualization_msgs::MarkerArray GrassMarkers::build(
     mesh->clear();
     mesh->origin = Vec3(eyes[0].position.x(), eyes[0].position.y(), 0.0);
   }
-  for (const grass::TileView& view : views)
-    addTile(meadow, view, eyes[0].position, air, model, stamp);
+  for (const grass::TileView& view : views) {
+    grass::TileMotion motion;
+    const grass::Tile tile = meadow.tileAt(view, air, tread, stamp, patch_, motion);
+    motion.model = model;
+    addTile(meadow, view, tile, motion, eyes[0].position);
+  }
   const std::size_t used[] = {ground_points_, copy(strip_mesh_, strips_),
                               copy(blade_mesh_, blades_)};
   used_ = used[0] + used[1] + used[2];

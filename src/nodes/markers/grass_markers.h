@@ -23,7 +23,7 @@ class GrassMarkers {
 
   /// Builds the array at `stamp`, after choosing levels for the viewers; none: for an eye above the
   /// middle of the map.
-  visualization_msgs::MarkerArray build(grass::MeadowLod& meadow,
+  visualization_msgs::MarkerArray build(grass::MeadowLod& meadow, const grass::TreadMap& tread,
                                         const std::vector<Viewpoint>& viewers,
                                         const wind::Field& wind, grass::BladeModel model,
                                         const std::string& frame_id, Nanoseconds stamp);
@@ -33,8 +33,8 @@ class GrassMarkers {
 
  private:
   void addGround(const grass::MeadowLod& meadow);
-  void addTile(const grass::MeadowLod& meadow, const grass::TileView& view, const Vec3& eye,
-               const grass::NodeWind& air, grass::BladeModel model, Nanoseconds stamp);
+  void addTile(const grass::MeadowLod& meadow, const grass::TileView& view, const grass::Tile& tile,
+               const grass::TileMotion& motion, const Vec3& eye);
   std::size_t copy(const grass::GrassMesh& mesh, visualization_msgs::Marker& marker);
 
   std::size_t list_points_;  // of one list

@@ -73,8 +73,7 @@ void paint(grass::GrassMesh& mesh, std::uint8_t red, std::uint8_t blue) {
 GrassVisual::GrassVisual(Ogre::SceneNode& parent, const GrassSource& source)
     : node_(parent.createChildSceneNode()),
       origin_(originOf(source.layout().map->law(), *source.terrain())),
-      levels_(source.layout().map, source.terrain(), source.layout().seed, grass::MeadowSettings(),
-              grass::TreadSettings{source.layout().tread_spacing}),
+      levels_(source.layout().map, source.terrain(), source.layout().seed, grass::MeadowSettings()),
       full_density_(fullDensity(*source.layout().map)),
       strip_texture_(uniqueName("strip_picture"), sharedStrips()),
       layer_texture_(uniqueName("layer_picture"), sharedLayers()),
@@ -160,11 +159,7 @@ void GrassVisual::build(const GrassSource& source, Nanoseconds stamp, const View
   reach_ = 0.f;
   for (const grass::TileView& tile_view : sorted) {
     grass::TileMotion motion;
-    grass::Tile tile =
-        makeTile(levels_.map(), levels_.terrain(), levels_.seed(), tile_view.column, tile_view.row);
-    air.fill(tile, motion);
-    source.tread().patch(tile_view.column, tile_view.row, stamp, patch_);
-    motion.crush = patch_.cells > 0 ? &patch_ : nullptr;
+    const grass::Tile tile = levels_.tileAt(tile_view, air, source.tread(), stamp, patch_, motion);
     motion.model = static_cast<grass::BladeModel>(source.layout().blade_model);
     if (tile_view.morph.blades && options.blades) {
       addBlades(tile, motion, tile_view, eye, options);

@@ -77,7 +77,7 @@ class GrassVisual {
 
   Ogre::SceneNode* node_;  // Ogre's; destroyed by us
   Vec3 origin_;
-  grass::MeadowLod levels_;  // its treads stay empty
+  grass::MeadowLod levels_;
   double full_density_;
   grass::GrassLight light_;
   Texture strip_texture_, layer_texture_;

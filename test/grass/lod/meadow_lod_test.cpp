@@ -35,7 +35,7 @@ class MeadowOf : public testing::Test {
     MeadowSettings settings;
     settings.most_blades = most_blades;
     return MeadowLod(std::make_shared<FeatureMap>(input), std::make_shared<terrain::HeightMap>(), 7,
-                     settings, TreadSettings());
+                     settings);
   }
 
   static std::map<std::pair<int, int>, TileView> viewsOf(const MeadowLod& meadow,
@@ -97,7 +97,7 @@ TEST_F(MeadowOf, WithoutGrassIsAllGround) {
   MapInput input;
   input.density.value = 0.0;
   MeadowLod bare(std::make_shared<FeatureMap>(input), std::make_shared<terrain::HeightMap>(), 7,
-                 MeadowSettings(), TreadSettings());
+                 MeadowSettings());
   bare.setEyes({eyeAt(50.0, 50.0, 1.6)});
   bare.advance(START);
   EXPECT_TRUE(bare.snapshot().levels.empty());
@@ -110,10 +110,11 @@ TEST_F(MeadowOf, ShowsTheSameBladesAfterLeavingAndComingBack) {
     NodeWind air(meadow_.map(), meadow_.terrain());
     const auto views = meadow_.viewOf(near, stamp);
     air.update(wind::Instant(), {}, MeadowLod::windowOf(views));
+    const TreadMap untrodden(meadow_.map().law(), TreadSettings());
     CrushPatch patch;
     TileMotion motion;
     const TileView view = viewsOf(meadow_, near, stamp).at({100, 100});
-    const Tile tile = meadow_.tileAt(view, air, stamp, patch, motion);
+    const Tile tile = meadow_.tileAt(view, air, untrodden, stamp, patch, motion);
     return posed(tile, motion, tile.blades);
   };
   meadow_.setEyes({near});
@@ -247,7 +248,6 @@ TEST_F(MeadowOf, GoesOnFromARestoredMemory) {
   const auto step = [](MeadowLod& meadow, int k) {
     const double x = 150.0 + 0.5 * k;
     meadow.setEyes({eyeAt(x, 201.0, 1.6)});
-    meadow.tread().tread(1, TreadLaw(), {x, 201.0}, after(0.1 * k));
     meadow.advance(after(0.1 * k));
   };
   for (int k = 0; k < 20; ++k) step(meadow_, k);
@@ -268,10 +268,8 @@ TEST_F(MeadowOf, StartsAnewWhenTimeGoesBack) {
   const Viewpoint eye = eyeAt(201.0, 201.0, 1.6);
   meadow_.setEyes({eye});
   meadow_.advance(after(10.0));
-  meadow_.tread().tread(1, TreadLaw(), {200.0, 200.0}, after(10.0));
   meadow_.advance(after(20.0));
   meadow_.advance(after(5.0));
-  EXPECT_EQ(meadow_.tread().at({200.0, 200.0}, after(11.0)).tilt, 0.f);
   EXPECT_TRUE(meadow_.viewOf(eye, after(5.0)).empty());
   EXPECT_FALSE(meadow_.viewOf(eye, after(6.0)).empty());
 }
@@ -282,8 +280,7 @@ TEST_F(MeadowOf, RefusesBadSettingsByName) {
   settings.transition = std::nan("");
   EXPECT_EQ(errorOf([&] {
               MeadowLod meadow(std::make_shared<FeatureMap>(),
-                               std::make_shared<terrain::HeightMap>(), 7, settings,
-                               TreadSettings());
+                               std::make_shared<terrain::HeightMap>(), 7, settings);
             }),
             "meadow: tolerance = -1 pixel is outside 0.1 to 100 pixel\n"
             "meadow: transition = nan s is not finite, allowed is 0 to 60 s");

@@ -149,8 +149,6 @@ class TreadMap {
 
   /// Frees ground that has recovered.
   void prune(Nanoseconds stamp);
-  /// Forgets what is stamped after `stamp`: time went back.
-  void rewind(Nanoseconds stamp);
   void clear();
   /// Raises all nodes within `radius` [m] of a place.
   void raise(const Point& place, double radius);
