@@ -26,8 +26,8 @@ inline Link bar(int parent, double h, double length, double radius, double modul
   return out;
 }
 
-/// A straight upright beam of `n` equal pieces; every joint but the root's stands for a whole
-/// piece, the root's for half of one, so that the chain is second order in 1/n.
+/// A straight upright beam of `n` equal pieces. Every joint but the root's represents a whole
+/// piece, the root's half of one, so that the chain is second order in 1/n.
 inline std::vector<Link> beam(int n, double length, double radius, double modulus, double density) {
   std::vector<Link> out;
   for (int i = 0; i < n; ++i) {
@@ -38,8 +38,8 @@ inline std::vector<Link> beam(int n, double length, double radius, double modulu
   return out;
 }
 
-/// A crown: forks down to 2 mm twigs, length ~ radius^(2/3), wood of 8 GPa and 900 kg/m^3; dampers
-/// of `ratio` on the inertia of each link's sub-tree, straightened.
+/// A crown: forks down to 2 mm twigs, length ~ radius^(2/3), wood of 8 GPa and 900 kg/m^3, and
+/// dampers of `ratio` on the inertia of each link's straightened sub-tree.
 inline std::vector<Link> crown(std::size_t count, double ratio, std::uint64_t seed = 1) {
   const Random random(seed);
   std::vector<Link> out;

@@ -10,8 +10,8 @@
 
 namespace vegetation_sim::physics {
 
-/// Damping of a tenth of the critical one, on the inertia of all that a joint carries if it hung
-/// straight: rough, but scaled as the right one.
+/// Sets a tenth of the critical damping, on the inertia of all that a joint carries if it hung
+/// straight. This is rough, but scales correctly.
 inline void damp(std::vector<Link>& links) {
   std::vector<double> mass(links.size()), moment(links.size()), second(links.size());
   for (std::size_t i = links.size(); i-- > 0;) {
@@ -28,8 +28,8 @@ inline void damp(std::vector<Link>& links) {
   }
 }
 
-/// The family of numerics_trees.md: a fractal tree of `n` links, trunk radius 9 cm, tips 2 mm,
-/// length ~ r^(2/3), some 8 m high.
+/// The family of fractal trees: `n` links, trunk radius 9 cm, tips 2 mm, length ~ r^(2/3), about 8
+/// m high.
 inline std::vector<Link> fractalTree(int n, std::uint64_t seed) {
   struct Share {
     int parent, links;
@@ -64,15 +64,15 @@ inline double radiusOf(const Link& link) {
   return std::sqrt(link.mass / (900.0 * PI * link.length));
 }
 
-/// The last link of at least 1 cm in radius, else the first.
+/// Returns the last link of at least 1 cm in radius, else the first.
 inline std::size_t thickEnough(const std::vector<Link>& links) {
   std::size_t i = links.size() - 1;
   while (i > 0 && radiusOf(links[i]) < 0.01) --i;
   return i;
 }
 
-/// A gust of `speed` [m/s] for a second, felt by each link relative to its own motion, and a pull
-/// of `pull` [N] for a second at the tip of the last link of at least 1 cm in radius.
+/// A gust of `speed` [m/s] for a second that acts on each link relative to its own motion, and a
+/// pull of `pull` [N] for a second at the tip of the last link of at least 1 cm in radius.
 inline Surroundings gustAndPull(const std::vector<Link>& links, double speed, double pull) {
   Surroundings out;
   std::vector<double> drag;  // [N s/m]
@@ -98,7 +98,7 @@ inline Surroundings gustAndPull(const std::vector<Link>& links, double speed, do
   return out;
 }
 
-/// A gust for a second whose drag goes with the square of the relative speed, off the links' axes.
+/// A gust for a second whose drag is quadratic in the relative speed and acts off the links' axes.
 inline Surroundings quadraticGust(const std::vector<Link>& links, double speed) {
   Surroundings out;
   out.loads = [&links, speed](const Kinematics& k, double time, Loads& loads) {
@@ -118,7 +118,7 @@ inline Surroundings quadraticGust(const std::vector<Link>& links, double speed) 
   return out;
 }
 
-/// Springs of a tree spread evenly in logarithms, the stiffest `ratio` times the softest.
+/// Spreads the springs of a tree evenly in logarithms; the stiffest is `ratio` times the softest.
 inline void spreadStiffness(std::vector<Link>& links, double ratio) {
   const double stiffest = links[0].stiffness, softest = links.back().stiffness;
   for (Link& link : links) {
@@ -129,7 +129,7 @@ inline void spreadStiffness(std::vector<Link>& links, double ratio) {
   }
 }
 
-/// A gripper's springs, far stiffer than what they hold, two of them on one link.
+/// The springs of a gripper, far stiffer than what they hold, two of them on one link.
 inline Surroundings gripper(const std::vector<Link>& links) {
   Surroundings out;
   const Kinematics rest = kinematicsAt(links, atRest(links.size()));

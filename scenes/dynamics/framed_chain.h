@@ -8,7 +8,7 @@
 namespace vegetation_sim::physics {
 
 /// Trees that step in frames of four, of which the first step averages velocity products and the
-/// others foretell their rates.
+/// others predict their rates.
 class FramedChain : public BatchChain {
  public:
   using BatchChain::BatchChain;

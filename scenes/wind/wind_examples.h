@@ -13,7 +13,7 @@ inline Nanoseconds at(double seconds) {
   return fromSeconds(seconds);
 }
 
-/// A source that blows at full strength from the first instant on, centred at the origin.
+/// A source at full strength from the first instant on, centred at the origin.
 inline Primitive example(Kind kind, const std::string& name = "source") {
   Primitive p;
   p.id = 1;
@@ -23,7 +23,7 @@ inline Primitive example(Kind kind, const std::string& name = "source") {
   return p;
 }
 
-/// The disk of the requirements' reference vector: r = 10 m, w = 2 rad/s, |F| = 5.
+/// The disk of the reference values: r = 10 m, w = 2 rad/s, |F| = 5.
 inline Primitive printedDisk() {
   Primitive p = example(Kind::DISK);
   p.envelope = Envelope::PAPER;
@@ -33,7 +33,7 @@ inline Primitive printedDisk() {
   return p;
 }
 
-/// The same source with all its stamps later.
+/// Returns the same source with all its stamps later.
 inline Primitive later(Primitive p, Nanoseconds shift) {
   p.epoch += shift;
   p.t_on += shift;
@@ -42,7 +42,7 @@ inline Primitive later(Primitive p, Nanoseconds shift) {
   return p;
 }
 
-/// One of each kind, with every feature of its own in use.
+/// Returns one source of each kind, with every feature of its own in use.
 inline std::vector<Primitive> oneOfEach() {
   std::vector<Primitive> all;
   for (int kind = 0; kind < static_cast<int>(kindNames().size()); ++kind) {

@@ -7,7 +7,7 @@
 namespace vegetation_sim::physics {
 namespace {
 
-// What rates add to the change of a link's spin; `spin`: of its parent.
+// Returns what the rates add to the change of a link's spin; `spin` is that of its parent.
 Vec3 biasOf(const ArticulatedBody::Joint& joint, const ChainState& state, std::size_t i,
             const Vec3& spin, const Vec3& own) {
   return bendBias(joint.bend, state.q[i], state.rate[i], joint.axes) + cross(spin, own - spin);
@@ -87,8 +87,8 @@ void ArticulatedBody::sweepOut(const Links& links, const Bases& bases, const Cha
   }
 }
 
-// An implicit spring resists the motion that accelerations of the joints add: a mass; what the
-// links do without them is in the predicted pose already.
+// An implicit spring resists the motion that accelerations of the joints add, like a mass. The
+// motion of the links without them is part of the predicted pose already.
 void ArticulatedBody::addLoads(const Loads& loads, const Implicitness& implicitness) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     bodies_[i].torque -= loads.wrench[i].torque;
@@ -189,7 +189,7 @@ void ArticulatedBody::solve(const std::vector<Link>& links, const std::vector<Ba
 
 namespace {
 
-// Each joint bears the wrenches of its link and of all beyond.
+// Each joint bears the wrenches of its link and of all links beyond.
 void sumTorques(const std::vector<Link>& links, const std::vector<ArticulatedBody::Joint>& joints,
                 const ChainState& state, std::vector<Wrench>& bias, std::vector<Vec2>& out) {
   out.resize(links.size());

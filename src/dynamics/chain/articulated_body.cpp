@@ -4,7 +4,7 @@
 
 namespace vegetation_sim::physics {
 
-// Mass `m` at `arm` from the joint: it counts against linear acceleration there.
+// Adds a mass `m` at `arm` from the joint, which counts against linear acceleration there.
 void addPointMass(ArticulatedBody::Body& body, const Symmetric3& m, const Vec3& arm) {
   const Vec3 mx(m.xx, m.xy, m.xz), my(m.xy, m.yy, m.yz), mz(m.xz, m.yz, m.zz);
   // b += [arm x] m: column j is arm x m_j.

@@ -8,9 +8,10 @@
 
 namespace vegetation_sim::physics {
 
-// Motion of joints; inertias about a joint: a rigid link's, a point's, a child's.
+// Motion of joints, and inertias about a joint: of a rigid link, a point, a child.
 
-// For what the sweeps call once a link: the compiler would rather pass vectors through memory.
+// Forces inlining in the sweeps: without it the compiler passes vectors through memory, once per
+// link.
 #define VEGETATION_SIM_INTO inline __attribute__((always_inline))
 
 inline const BaseMotion GROUND;
@@ -20,7 +21,7 @@ inline const BaseMotion& baseOf(const Link& link, const std::vector<BaseMotion>&
   return bases.empty() ? GROUND : bases[static_cast<std::size_t>(link.base)];
 }
 
-// Acceleration of a z axis that turns at `spin` and moves at `sweep` = spin x z.
+// Returns the acceleration of a z axis that turns at `spin` and moves at `sweep` = spin x z.
 VEGETATION_SIM_INTO Vec3 axisRate(const Vec3& spin_rate, const Vec3& spin, const Vec3& sweep,
                                   const Vec3& z, double products) {
   return cross(spin_rate, z) + products * cross(spin, sweep);
@@ -32,7 +33,8 @@ inline ArticulatedBody::FreeMotion freeMotionOf(const BaseMotion& base, double p
           axisRate(base.spin_rate, base.spin, cross(base.spin, z), z, products)};
 }
 
-// `change`: what the joint's rates add to the spin's rate; `spin`, `sweep`: own.
+// `change` is what the joint's rates add to the rate of the spin; `spin` and `sweep` are the link's
+// own.
 VEGETATION_SIM_INTO void freeMotion(const ArticulatedBody::FreeMotion& parent, double h,
                                     const Vec3& change, const Vec3& spin, const Vec3& sweep,
                                     const Vec3& z, double products,
@@ -50,7 +52,7 @@ VEGETATION_SIM_INTO Vec3 inAxes(const Axes& axes, const Vec3& v) {
   return v.x() * axes.x + v.y() * axes.y + v.z() * axes.z;
 }
 
-/// Leaves torque and force alone. Bars need no rotation of a full inertia.
+/// Leaves torque and force unchanged. Bars need no rotation of a full inertia.
 VEGETATION_SIM_INTO void rigidBody(const Link& link, const Axes& axes, ArticulatedBody::Body& out) {
   Vec3 moment;
   if (isBar(link)) {
@@ -67,7 +69,7 @@ VEGETATION_SIM_INTO void rigidBody(const Link& link, const Axes& axes, Articulat
   out.bz = Vec3(-moment.y(), moment.x(), 0.0);
 }
 
-/// What it takes to move a link so.
+/// Returns the wrench that this motion of a link takes.
 VEGETATION_SIM_INTO Wrench biasOf(const Link& link, const Axes& axes, const Vec3& spin,
                                   const Vec3& sweep, const ArticulatedBody::FreeMotion& free,
                                   double products) {
@@ -87,7 +89,7 @@ VEGETATION_SIM_INTO Wrench biasOf(const Link& link, const Axes& axes, const Vec3
           turning + cross(moment, free.linear)};
 }
 
-/// What `s` seconds of a drag count as against linear acceleration: a mass there.
+/// Adds the effect of a drag over `s` seconds against linear acceleration: a mass at its point.
 inline void addDrag(double s, const Drag& drag, ArticulatedBody::Body& body) {
   const double mass = s * drag.all;
   const Vec3 &arm = drag.arm, moment = mass * arm;
@@ -102,11 +104,11 @@ inline void addDrag(double s, const Drag& drag, ArticulatedBody::Body& body) {
   body.bz += Vec3(-moment.y(), moment.x(), 0.0) + turn.z() * pull;
 }
 
-/// Mass `m` at `arm` from the joint: it counts against linear acceleration there.
+/// Adds a mass `m` at `arm` from the joint, which counts against linear acceleration there.
 void addPointMass(ArticulatedBody::Body& body, const Symmetric3& m, const Vec3& arm);
 
-/// Adds an articulated body whose joint is at `d` from the parent's: with b' = b + [d x] m,
-/// a += child.a + [d x] b^T + b' [d x]^T, of which the upper half is enough.
+/// Adds an articulated body whose joint is at `d` from the parent's: with b' = b + [d x] m, a +=
+/// child.a + [d x] b^T + b' [d x]^T, of which the upper half is enough.
 VEGETATION_SIM_INTO void addChild(const ArticulatedBody::Body& child, const Vec3& d,
                                   ArticulatedBody::Body& parent) {
   const Symmetric3& m = child.m;

@@ -6,7 +6,7 @@
 
 namespace vegetation_sim::physics {
 
-/// Whether the link is a round bar with its centre on its axis: the usual case.
+/// Returns whether the link is a round bar with its centre on its axis, which is the usual case.
 inline bool isBar(const Link& link) {
   const Symmetric3& i = link.inertia;
   return link.centre.x() == 0.0 && link.centre.y() == 0.0 && i.xx == i.yy && i.xy == 0.0 &&

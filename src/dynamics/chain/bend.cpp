@@ -9,7 +9,7 @@
 namespace vegetation_sim::physics {
 namespace {
 
-// Up to this angle squared series are as exact as differences of sines, and faster.
+// Below this angle squared, series are as exact as differences of sines, and faster.
 constexpr double SMALL = 0.04;
 
 Bend smallBend(double u) {

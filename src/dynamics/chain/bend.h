@@ -34,15 +34,16 @@ inline Axes axesOf(const Quat& q) {
           Vec3(xz + wy, yz - wx, 1.0 - (xx + yy))};
 }
 
-/// The spin of the bent link per rate of each bend, in the axes that `axes` are given in. In the
-/// link's own axes the spin is (1 - b W + c W^2) times the rate, W the matrix of q x.
+/// Computes the spin of the bent link per rate of each bend, in the axes in which `axes` are given.
+/// In the link's own axes the spin is (1 - b W + c W^2) times the rate, where W is the matrix of q
+/// x.
 inline void bendAxes(const Bend& bend, const Vec2& q, const Axes& axes, Vec3& first, Vec3& second) {
   const Vec3 p = (bend.c * q.y()) * axes.x - (bend.c * q.x()) * axes.y - bend.b * axes.z;
   first = axes.x - q.y() * p;
   second = axes.y + q.x() * p;
 }
 
-/// Rate of change of the link's spin without acceleration of the bends [rad/s^2].
+/// Returns the rate of change of the link's spin without acceleration of the bends [rad/s^2].
 inline Vec3 bendBias(const Bend& bend, const Vec2& q, const Vec2& rate, const Axes& axes) {
   const double k = q.x() * rate.y() - q.y() * rate.x();
   const double swept = q.x() * rate.x() + q.y() * rate.y(), e = bend.dc * swept;

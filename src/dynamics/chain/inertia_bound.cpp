@@ -11,20 +11,21 @@
 namespace vegetation_sim::physics {
 namespace {
 
-constexpr int PASSES = 4;       // more change nothing
+constexpr int PASSES = 4;       // further passes change nothing
 constexpr double MARGIN = 0.8;  // for poses other than rest
-constexpr double SHRINK = 0.7;  // until the proof at rest holds
+constexpr double SHRINK = 0.7;  // factor until the proof at rest holds
 constexpr int MOST_TRIALS = 12;
 
-// A link's energy is at least that of turning about its centre of mass; on a base, its joint.
+// A link's energy is at least that of turning about its centre of mass; for a link on a base, about
+// its joint.
 double turningInertia(const Link& link) {
   Symmetric3 out = link.inertia;
   if (link.parent >= 0) add(out, -1.0, aboutJoint(scaledIdentity(link.mass), link.centre));
   return std::max(0.0, std::min(out.xx, out.yy));
 }
 
-/// What a joint's energy costs its link and its parent, per inertia that it gets: |a - b|^2 <=
-/// (1 + s) |a|^2 + (1 + 1/s) |b|^2, the lighter of both pays less.
+/// The energy that a joint takes from its link and its parent, per inertia that it gets: |a - b|^2
+/// <= (1 + s) |a|^2 + (1 + 1/s) |b|^2. The lighter of the two pays less.
 struct Price {
   double own{1.0}, parent{0.0};
 };
@@ -44,7 +45,8 @@ class Sharing {
       share_.push_back(budget_.back() > 0.0 ? link.stiffness : 0.0);
     }
   }
-  // Every joint takes what the scarcer of its two links can give; what is left goes round again.
+  // Every joint takes what the scarcer of its two links can give; the next pass distributes the
+  // rest.
   void grow() {
     spent_.assign(links_.size(), 0.0);
     for (std::size_t i = 0; i < links_.size(); ++i) {
@@ -73,7 +75,7 @@ class Sharing {
 
 using Body = ArticulatedBody::Body;
 
-// What is left of a body whose joint has given way about its own x and y, for its parent.
+// Eliminates a body's joint about its own x and y axes and leaves the rest for its parent.
 void giveWay(double pivot1, double pivot2, double coupling, Body& body) {
   const Vec3 a1(body.a.xx, body.a.xy, body.a.xz), b1 = body.bx;
   const Vec3 a2 = Vec3(body.a.xy, body.a.yy, body.a.yz) - coupling * a1;
@@ -86,7 +88,7 @@ void giveWay(double pivot1, double pivot2, double coupling, Body& body) {
   body.bz -= pa1.z() * b1 + pa2.z() * b2;
 }
 
-// From own axes to those that the own ones are given in.
+// Transforms a body from its own axes to those in which the axes are given.
 void turn(const Axes& axes, Body& body) {
   body.a = turned(body.a, axes.x, axes.y, axes.z);
   body.m = turned(body.m, axes.x, axes.y, axes.z);
@@ -96,8 +98,8 @@ void turn(const Axes& axes, Body& body) {
   body.bz = axes.x.z() * x + axes.y.z() * y + axes.z.z() * z;
 }
 
-// M - diag(sure_inertia) has no negative direction: elimination along the tree at rest meets no
-// pivot that is not positive. Each body is in its own axes, so that nothing else need be known.
+// Returns whether M - diag(guaranteed_inertia) has no negative direction: elimination along the
+// tree at rest finds positive pivots only. Each body is in its own axes.
 bool holdsAtRest(const std::vector<Link>& links) {
   const Axes own{Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
   std::vector<Body> bodies(links.size());

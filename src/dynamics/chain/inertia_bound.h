@@ -8,9 +8,10 @@
 
 namespace vegetation_sim::physics {
 
-/// Sets every link's `sure_inertia`: the sum of sure_inertia |rate|^2 over all joints stays below
-/// twice the kinetic energy, whatever the rates. Proved at the rest pose, with a margin for bends
-/// (docs/physics.md). The stiffer a joint against its inertia, the more it gets. O(N).
+/// Sets every link's `guaranteed_inertia`: the sum of guaranteed_inertia |rate|^2 over all joints
+/// stays below twice the kinetic energy, for any rates. It is proved at the rest pose, with a
+/// margin for bends (docs/physics.md). The stiffer a joint is relative to its inertia, the more it
+/// gets. O(N).
 void shareInertia(std::vector<Link>& links);
 
 }  // namespace vegetation_sim::physics

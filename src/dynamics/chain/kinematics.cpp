@@ -35,7 +35,7 @@ void kinematicsOf(const std::vector<Link>& links, const std::vector<BaseMotion>&
 
 namespace {
 
-// About the joint, world axes.
+// Returns the inertia about the joint, world axes.
 Symmetric3 inertiaOf(const Link& link, const Quat& q) {
   return turned(link.inertia, axisX(q), axisY(q), axisZ(q));
 }

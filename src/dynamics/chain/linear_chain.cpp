@@ -44,7 +44,7 @@ void LinearChain::motionOf(const double* x, std::vector<SmallMotion>& out) const
   }
 }
 
-// Momentum of every link as it moves by x, gathered towards the root, about each joint.
+// Sums the momentum of every link that moves by x towards the root, about each joint.
 void LinearChain::timesMass(const double* x, double* out) {
   motionOf(x, motion_);
   for (std::size_t i = 0; i < links_.size(); ++i) {

@@ -67,9 +67,9 @@ inline Symmetric3 aboutJoint(const Symmetric3& m, const Vec3& arm) {
   return {ax.x(), ay.y(), az.z(), ax.y(), ax.z(), ay.z()};
 }
 
-/// In other axes: x, y, z are the own axes in those.
+/// Returns the matrix in other axes, in which the own axes are x, y, z.
 inline Symmetric3 turned(const Symmetric3& m, const Vec3& x, const Vec3& y, const Vec3& z) {
-  Symmetric3 out = scaledIdentity(m.yy);  // x x^T + y y^T + z z^T is one
+  Symmetric3 out = scaledIdentity(m.yy);  // because x x^T + y y^T + z z^T is one
   addSquare(out, m.xx - m.yy, x);
   addSquare(out, m.zz - m.yy, z);
   if (m.xy != 0.0) addPair(out, m.xy, x, y);

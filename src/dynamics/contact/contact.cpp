@@ -11,14 +11,15 @@ namespace vegetation_sim::physics {
 namespace {
 
 constexpr int MOST_TRIALS = 24;
-// After these many trials contacts change their mind one at a time: no two can keep each other from
-// coming to rest.
+// After this many trials contacts change state one at a time, so that no two can alternate for
+// ever.
 constexpr int JOINT_TRIALS = 6;
-// Forces that differ less are the same: rounding decides nothing [N].
+// Forces that differ less count as equal, so that rounding decides nothing [N].
 constexpr double SLACK = 1e-5;
-// Forces rise at the law's rate, and by the spring for what comes in deeper than this [m].
+// Forces rise at the law's rate, and by the spring beyond this overlap [m].
 constexpr double DEEP = 1e-3;
-// No knock of wood ends faster: a force falls by at most the law's limit in this time [s].
+// Wood does not rebound faster than this: a force falls by at most the law's limit in this time
+// [s].
 constexpr double FALL_TIME = 32e-6;
 
 Symmetric3 along(const Vec3& n, double factor) {
@@ -35,7 +36,7 @@ void describe(FieldVisitor& v, ContactLaw& law) {
   v.number("contact_push_speed", law.push_speed, "m/s", {0.01, 100.0});
 }
 
-// Geometry and loads at q + theta h rate, once for all trials.
+// Computes geometry and loads at q + theta h rate, once for all trials.
 void ContactStepper::look(const std::vector<Link>& links, const Surroundings& outside, double time,
                           double h, double theta, const ChainState& state) {
   between_.rate = state.rate;
@@ -63,7 +64,8 @@ void ContactStepper::prepare(const ContactLaw& law, double h, double theta,
     const Vec3 velocity = kinematics_.velocity[i] + cross(kinematics_.spin[i], p.arm);
     p.speed = dot(contact.normal, velocity - contact.surface);
     p.gap = contact.gap + (1.0 - theta) * h * p.speed;
-    // Overlap that this step would add beyond DEEP: the force is continuous in all that it is of.
+    // This is the overlap that the step would add beyond DEEP. It makes the force continuous in all
+    // its arguments.
     const double gain =
         std::clamp(-DEEP / contact.bears - (p.gap + h * p.speed), 0.0, std::max(0.0, -h * p.speed));
     p.stiffness = contact.bears * law.stiffness;
@@ -79,9 +81,9 @@ void ContactStepper::prepare(const ContactLaw& law, double h, double theta,
   }
 }
 
-// The force falls with the speed at the end of the step along a line: of the spring, or of what
-// lets wood out no faster than at push_speed, whichever is the lower. Neither depends on the step's
-// length.
+// Returns the line on which the force falls with the speed at the end of the step: that of the
+// spring, or that which limits the rebound to push_speed, whichever is lower. Neither depends on
+// the length of the step.
 ContactStepper::Line ContactStepper::lineOf(const ContactLaw& law, double h, const Point& p,
                                             Mode mode) {
   if (mode == Mode::PRESSING) return {-p.stiffness * p.gap, p.stiffness * h};
@@ -98,8 +100,8 @@ double ContactStepper::forceOf(const ContactLaw& law, double h, const Point& p, 
   return lineOf(law, h, p, modeAt(law, h, p, speed)).at(speed);
 }
 
-// A contact that presses is a mass, h times its line's slope, that the step adds at the point,
-// along the normal, and the force at the speed that is there.
+// A pressing contact is a mass, h times the slope of its line, that the step adds at the point
+// along the normal, plus the force at the present speed.
 void ContactStepper::addAnchors(const ContactLaw& law, double h, double theta,
                                 const std::vector<Contact>& contacts) {
   for (std::size_t c = 0; c < contacts.size(); ++c) {
@@ -119,7 +121,8 @@ void ContactStepper::addAnchors(const ContactLaw& law, double h, double theta,
   }
 }
 
-// What the joints' accelerations add to the velocities of the links, per second: what anchors feel.
+// Computes what the accelerations of the joints add to the velocities of the links, per second, for
+// the anchors.
 void ContactStepper::spread(const std::vector<Link>& links) {
   turn_.resize(links.size());
   move_.resize(links.size());
@@ -133,13 +136,13 @@ void ContactStepper::spread(const std::vector<Link>& links) {
   }
 }
 
-// At the end of the step, along the normal, by the motion that the last trial gave [m/s].
+// Returns the speed at the end of the step along the normal, by the motion of the last trial [m/s].
 double ContactStepper::speedAfter(double h, const Point& p, const Contact& contact) const {
   const auto i = static_cast<std::size_t>(contact.link);
   return p.speed + h * dot(contact.normal, move_[i] + cross(turn_[i], p.arm));
 }
 
-// True if nothing changed.
+// Returns whether no contact changed.
 bool ContactStepper::revise(const ContactLaw& law, double h, bool one_by_one,
                             std::vector<Contact>& contacts) {
   bool settled = true;
@@ -151,7 +154,8 @@ bool ContactStepper::revise(const ContactLaw& law, double h, bool one_by_one,
     contacts[c].force = std::clamp(force, p.floor, p.limit);
     contacts[c].limited = force >= p.limit;
     Mode mode = p.mode;
-    // Step by step along the law: a leap over a piece of it may be answered by a leap back.
+    // The mode moves along the law one piece at a time, because skipping a piece may be answered by
+    // a jump back.
     const bool pressed = p.mode == Mode::PRESSING || p.mode == Mode::EASING;
     const double other = p.mode == Mode::FREE ? force - p.floor : p.limit - force;
     if ((pressed ? lineOf(law, h, p, p.mode).at(speed) - force : other) > SLACK)
@@ -167,7 +171,7 @@ bool ContactStepper::revise(const ContactLaw& law, double h, bool one_by_one,
   return settled;
 }
 
-// What bounces off in the middle of a step has as much force before as after it.
+// A contact that bounces off in the middle of a step has as much force before as after it.
 double ContactStepper::swingOf(double h, const Point& p, const Contact& contact) {
   const double change = std::fabs(contact.force - p.before);
   if (contact.limited) return change;
@@ -181,7 +185,7 @@ void ContactStepper::step(const std::vector<Link>& links, const Surroundings& ou
   look(links, outside, time, h, theta, state);
   prepare(law, h, theta, contacts);
   const std::size_t others = loads_.anchors.size();
-  // The rules of ChainStepper for motion too wild.
+  // These are the rules of ChainStepper for fast motion.
   const Implicitness predicted = implicitFor(theta, h, productsOf(state, h));
   agreed_ = false;
   for (trials_ = 0; trials_ < MOST_TRIALS && !agreed_; ++trials_) {

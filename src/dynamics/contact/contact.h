@@ -9,48 +9,50 @@
 
 namespace vegetation_sim::physics {
 
-/// A link that touches a moving body, or may during the step, where both are at its start.
+/// A link that touches a moving body, or may touch it during the step, with both at the start of
+/// the step.
 struct Contact {
   int link{0};
-  double along{0.0};           ///< of the point on the link's axis [m]
+  double along{0.0};           ///< position of the point on the link's axis [m]
   Vec3 normal{Vec3::UnitZ()};  ///< from body to link, unit, world axes
   double gap{0.0};             ///< between the surfaces, along the normal; negative: overlap [m]
   Vec3 surface{Vec3::Zero()};  ///< velocity of the body there, world [m/s]
-  double share{1.0};           ///< of the force limit that it may reach, 0 to 1
-  double bears{1.0};           ///< times the law's stiffness and limit: harder wood
-  std::size_t touch{0};        ///< whatever the caller knows it by
-  double force{0.0};           ///< on the link along the normal [N]: a guess, then what it was
-  bool limited{false};         ///< the force was at its limit
+  double share{1.0};           ///< share of the force limit that it may reach, 0 to 1
+  double bears{1.0};           ///< factor of the law's stiffness and limit, for harder wood
+  std::size_t touch{0};        ///< identifies the contact to the caller
+  double force{0.0};    ///< force on the link along the normal [N]: first a guess, then the result
+  bool limited{false};  ///< the force was at its limit
 };
 
 /// Steps chains that touch bodies: the linearly implicit step of ChainStepper with a force per
-/// contact that pushes and never pulls. Which contacts press is found by trial, from the last
-/// step's forces on. Keeps scratch only.
+/// contact that pushes and never pulls. Trials find which contacts press, starting from the forces
+/// of the last step. Keeps scratch memory only.
 class ContactStepper {
  public:
-  /// One step of `h` seconds from `time`. `theta`: 1/2 midpoint to 1 backward Euler, already
-  /// guarded. `contacts`: as at the start of the step; gives their forces.
+  /// Takes one step of `h` seconds from `time`. `theta` runs from 1/2, the midpoint, to 1, backward
+  /// Euler, and must be guarded already. `contacts` are as at the start of the step and receive
+  /// their forces.
   void step(const std::vector<Link>& links, const Surroundings& outside, const ContactLaw& law,
             double time, double h, double theta, ChainState& state, std::vector<Contact>& contacts);
-  /// Trials of the last step, and whether the last of them agreed with itself.
+  /// Number of trials of the last step, and whether the last of them changed no contact.
   int trials() const { return trials_; }
   bool agreed() const { return agreed_; }
-  /// By how much the forces on a link changed at most in the last step, to and fro, those of all
-  /// bodies together [N].
+  /// Returns the largest change of the forces on a link in the last step, up and down, with those
+  /// of all bodies summed [N].
   double swing() const { return swing_; }
 
  private:
-  enum class Mode { FREE, PRESSING, EASING, LIMITED };  // FREE: at the floor, mostly zero
+  enum class Mode { FREE, PRESSING, EASING, LIMITED };  // FREE: at its lowest force, mostly zero
   struct Point {
     Mode mode{Mode::FREE};
     Vec3 arm;
     double speed;            // along the normal, relative to the body [m/s]
-    double gap;              // the one that the step's last speed changes [m]
-    double stiffness, full;  // [N/m]; the most that it bears [N]
-    double floor, limit;     // of the force in this step [N]
-    double before;           // the force [N]
+    double gap;              // the gap that the speed at the end of the step changes [m]
+    double stiffness, full;  // [N/m]; largest force [N]
+    double floor, limit;     // lowest and highest force in this step [N]
+    double before;           // force at the start of the step [N]
   };
-  // Force over speed at the end of the step.
+  // Force as a linear function of the speed at the end of the step.
   struct Line {
     double at_rest, slope;  // [N], [N s/m]
     double at(double speed) const { return at_rest - slope * speed; }
@@ -78,7 +80,7 @@ class ContactStepper {
   std::vector<Point> points_;
   int trials_{0};
   bool agreed_{true};
-  std::vector<double> swings_;  // of links, by all bodies
+  std::vector<double> swings_;  // per link, over all bodies
   double swing_{0.0};
 };
 

@@ -7,10 +7,11 @@
 namespace vegetation_sim::physics {
 namespace {
 
-// Of a bar that lies flat on a face every point is nearest: a slight bowl picks the middle one.
+// Every point of a bar that lies flat on a face is nearest; this slight curvature selects the
+// middle one.
 constexpr double BOWL = 2e-3;  // [1/m]
 constexpr int HALVINGS = 36;
-// A side is free to change until the overlap is this part of the body's thickness.
+// The side of a contact may change until the overlap is this part of the body's thickness.
 constexpr double SHALLOW = 0.5;
 constexpr double TOUCHING = 1e-5;  // [m]
 constexpr int MOST_ADVANCES = 48;
@@ -51,7 +52,7 @@ double signedDistance(const RoundedBox& box, const Vec3& point, Vec3& normal) {
   return distance - box.radius;
 }
 
-// Distance along the bar is convex, so its slope has one zero.
+// The distance along the bar is convex, so its slope has one zero.
 Proximity nearest(const RoundedBox& box, const Bar& bar) {
   const double taper = (bar.tip_radius - bar.base_radius) / bar.length;
   double low = 0.0, high = bar.length;
@@ -62,7 +63,7 @@ Proximity nearest(const RoundedBox& box, const Bar& bar) {
     const double slope = dot(normal, bar.axis) - taper + 2.0 * BOWL * (along - 0.5 * bar.length);
     (slope > 0.0 ? high : low) = along;
   }
-  // Where the slope has one sign all along, the end itself.
+  // Where the slope has one sign all along, the nearest point is the end itself.
   const double along = low == 0.0 ? 0.0 : high == bar.length ? bar.length : 0.5 * (low + high);
   const double distance = signedDistance(box, bar.at(along), normal);
   return {along, normal, distance - bar.radiusAt(along)};
@@ -77,7 +78,7 @@ Proximity nearest(const RoundedBox& box, const Bar& bar, const Vec3& side) {
   return out;
 }
 
-// Conservative advancement: no point comes nearer faster than the faster end moves.
+// Conservative advancement: no point approaches faster than the faster end moves.
 Meeting sweep(const RoundedBox& box, const Bar& bar, const Vec3& base_velocity,
               const Vec3& tip_velocity, double horizon) {
   const Vec3 tip = bar.at(bar.length);

@@ -8,19 +8,19 @@
 
 namespace vegetation_sim::physics {
 
-/// All points within `radius` of a box. Half edges 0: a sphere; only the third edge: a capsule
-/// along z; radius 0: a box. Convex, so its signed distance is a convex function.
+/// All points within `radius` of a box. Zero half edges give a sphere, a third edge alone a capsule
+/// along z, and a zero radius a box. It is convex, so its signed distance is a convex function.
 struct RoundedBox {
   Vec3 half{Vec3::Zero()};  ///< [m]
   double radius{0.0};       ///< [m]
 
-  /// Of a ball about the origin that holds it [m].
+  /// Returns the radius of a ball about the origin that contains it [m].
   double reach() const { return length(half) + radius; }
-  /// Largest depth of any point below the surface [m].
+  /// Returns the largest depth of a point below the surface [m].
   double thickness() const { return std::min(half.x(), std::min(half.y(), half.z())) + radius; }
 };
 
-/// How far a box reaches to one side (unit; the box's axes) [m].
+/// Returns how far a box extends to one side (unit vector, in the axes of the box) [m].
 double supportOf(const RoundedBox& box, const Vec3& side);
 
 /// A tapered round bar: radius changes linearly from the first end to the other.
@@ -35,25 +35,26 @@ struct Bar {
   }
 };
 
-/// Where two surfaces are nearest, or overlap most.
+/// The points where two surfaces are nearest, or overlap most.
 struct Proximity {
-  double along{0.0};           ///< on the bar's axis [m]
+  double along{0.0};           ///< position on the bar's axis [m]
   Vec3 normal{Vec3::UnitZ()};  ///< from box to bar, unit
   double gap{0.0};             ///< between the surfaces; negative: depth of overlap [m]
 };
 
-/// Signed distance from the surface to a point; `normal`: its gradient. In the box's axes.
+/// Returns the signed distance from the surface to a point; `normal` receives its gradient. In the
+/// axes of the box.
 double signedDistance(const RoundedBox& box, const Vec3& point, Vec3& normal);
 
-/// Nearest points of a bar and a rounded box, in the box's axes.
+/// Returns the nearest points of a bar and a rounded box, in the axes of the box.
 Proximity nearest(const RoundedBox& box, const Bar& bar);
 
-/// The same for a bar that is known to be on one side (unit; the box's axes) of the box: a bar
-/// that overlaps deeply stays on that side, even beyond the box's axis.
+/// Does the same for a bar that is known to be on one side (unit vector, in the axes of the box): a
+/// bar that overlaps deeply stays on that side, even beyond the box's axis.
 Proximity nearest(const RoundedBox& box, const Bar& bar, const Vec3& side);
 
-/// First meeting of a bar whose ends move at constant velocities relative to the box [m/s]; within
-/// `horizon` [s].
+/// The first contact of a bar whose ends move at constant velocities relative to the box [m/s],
+/// within `horizon` [s].
 struct Meeting {
   bool met{false};
   double time{0.0};  ///< [s]

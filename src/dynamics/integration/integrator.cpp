@@ -67,8 +67,8 @@ void ChainStepper::evaluate(const std::vector<Link>& links, const Surroundings& 
   paper.accelerations(links, bases_, state, kinematics_, loads_, implicitness, out);
 }
 
-// Springs and loads where the joints will be after theta h at the present rates; what acceleration
-// adds to that is implicit.
+// Springs and loads are evaluated where the joints will be after theta h at the present rates; what
+// acceleration adds to that is implicit.
 void ChainStepper::implicitStep(const std::vector<Link>& links, const Surroundings& outside,
                                 double time, double h, double theta, ChainState& state) {
   addScaled(state.q, theta * h, state.rate, between_.q);

@@ -9,42 +9,44 @@
 
 namespace vegetation_sim::physics {
 
-/// Joints that turn farther than this in a step make the midpoint fall back to theta = 1 [rad].
+/// A joint that turns farther than this in a step makes the midpoint fall back to theta = 1 [rad].
 constexpr double GUARD_TURN = 0.2;
 
-/// Joints that turn farther than this in a step make implicit methods leave out velocity products,
-/// which are explicit and would feed energy in [rad].
+/// A joint that turns farther than this in a step makes implicit methods omit velocity products,
+/// which are explicit and would add energy [rad].
 constexpr double WILD_TURN = 0.5;
-/// Where implicit methods stop a joint, whatever drives it: a bend [rad], a turn per step [rad].
+/// Largest bend [rad] and largest turn per step [rad] that implicit methods allow a joint, whatever
+/// drives it.
 constexpr double LARGEST_BEND = 3.0, LARGEST_TURN = 1.0;
 
-/// Steps chains; keeps scratch only, so one stepper serves many chains.
+/// Steps chains. Keeps scratch memory only, so one stepper serves many chains.
 class ChainStepper {
  public:
-  /// Of the chains that follow; the full chain until told otherwise.
+  /// Selects the dynamics of later steps; the default is the full chain.
   void setDynamics(Dynamics dynamics) { dynamics_ = dynamics; }
   void setProducts(Products products) { products_ = products; }
 
-  /// One step of `h` seconds from `time`. `theta` belongs to the chain's state: 1/2 is the
-  /// midpoint, 1 backward Euler, between is on the way back; others than MIDPOINT leave it alone.
-  /// An explicit method runs in as many equal parts as its limit asks for (guardLimit), and not at
-  /// all beyond MOST_SUB_STEPS.
-  /// @return the parts; 0: refused, nothing has changed, take an implicit method.
+  /// Takes one step of `h` seconds from `time`. `theta` belongs to the chain's state: 1/2 is the
+  /// midpoint and 1 backward Euler, with values in between on the way back; only MIDPOINT changes
+  /// it. An explicit method runs in as many equal parts as its limit requires (guardLimit), and not
+  /// at all beyond MOST_SUB_STEPS.
+  /// @return the number of parts, or 0 if the step was rejected and nothing has changed: use an
+  /// implicit method.
   int step(Integrator integrator, const std::vector<Link>& links, const Surroundings& outside,
            double time, double h, ChainState& state, double& theta);
-  /// The same in one part whatever its limit, to measure where methods break.
+  /// Does the same in one part whatever its limit, to measure where methods break.
   void stepAsIs(Integrator integrator, const std::vector<Link>& links, const Surroundings& outside,
                 double time, double h, ChainState& state, double& theta);
 
  private:
   using Angles = std::vector<Vec2>;
 
-  /// Bases, kinematics and loads at a time and state.
+  /// Computes bases, kinematics and loads at a time and state.
   void look(const std::vector<Link>& links, const Surroundings& outside, double time,
             const ChainState& state);
   int partsOf(Integrator integrator, const std::vector<Link>& links, const Surroundings& outside,
               double time, double h, const ChainState& state);
-  /// Accelerations at a time and state; leaves the kinematics in kinematics_.
+  /// Computes the accelerations at a time and state; leaves the kinematics in kinematics_.
   void evaluate(const std::vector<Link>& links, const Surroundings& outside, double time,
                 const ChainState& state, const Implicitness& implicitness, Angles& out);
   void implicitStep(const std::vector<Link>& links, const Surroundings& outside, double time,
@@ -69,13 +71,13 @@ class ChainStepper {
   std::array<Slope, 4> slopes_;
 };
 
-/// 0 where the motion is too wild for velocity products, else 1.
+/// Returns 0 where the motion is too fast for velocity products, else 1.
 double productsOf(const ChainState& state, double h);
 
-/// Stops bends at LARGEST_BEND and turns at LARGEST_TURN a step.
+/// Limits bends to LARGEST_BEND and turns to LARGEST_TURN per step.
 void stopJoints(double h, ChainState& state);
 
-/// Theta of the guarded midpoint for the coming step (numerics: it never falls at once).
+/// Returns theta of the guarded midpoint for the coming step. It never falls at once.
 double guardedTheta(const ChainState& state, double h, double theta);
 
 }  // namespace vegetation_sim::physics

@@ -5,7 +5,7 @@
 
 namespace vegetation_sim::physics {
 
-// What the joints must do under the wrenches in bodies_ alone, inertias as they were.
+// Computes what the joints must do under the wrenches in bodies_ alone, with unchanged inertias.
 void ArticulatedBody::sweepWrenches(const Links& links) {
   for (std::size_t i = links.size(); i-- > 0;) {
     const Joint& joint = joints_[i];
@@ -22,7 +22,8 @@ void ArticulatedBody::sweepWrenches(const Links& links) {
   }
 }
 
-// The wrenches change by half of what the links' bias does; the chain answers as it did before.
+// The wrenches change by half of the change of the links' bias; the response of the chain stays the
+// same.
 void ArticulatedBody::averageProducts(const std::vector<Link>& links,
                                       const std::vector<BaseMotion>& bases, const ChainState& state,
                                       const Kinematics& k, double h, std::vector<Vec2>& out) {

@@ -11,9 +11,10 @@ namespace vegetation_sim::physics {
 namespace {
 
 constexpr int ROUNDS = 20;
-constexpr double PADDING = 1.15;  // what so many rounds may fall short of the largest eigenvalue
+// covers what this many rounds may miss of the largest eigenvalue
+constexpr double PADDING = 1.15;
 
-/// A chain stopped in its pose, to which torques are applied.
+/// A chain at rest in a pose, to which torques are applied.
 class Probe {
  public:
   Probe(const std::vector<Link>& links, const std::vector<BaseMotion>& bases,
@@ -27,7 +28,8 @@ class Probe {
     kinematicsOf(links_, bases_, state_, still_);
   }
 
-  /// Largest eigenvalue of M^-1 S, S being the springs' or dampers' matrix.
+  /// Returns the largest eigenvalue of M^-1 S, where S is the matrix of the springs or of the
+  /// dampers.
   double largest(double Link::*joint, Symmetric3 Anchor::*anchor) {
     const Random random(1);
     std::vector<Vec2> x(links_.size());
@@ -44,8 +46,8 @@ class Probe {
   }
 
  private:
-  // In the norm of the kinetic energy's metric growth per round never exceeds the eigenvalue; in
-  // that of S, as here for what springs hold, neither.
+  // In the norm of the kinetic energy's metric, growth per round never exceeds the eigenvalue. The
+  // same holds in the norm of S, used here for what springs hold.
   double sizeOf(const std::vector<Vec2>& x) const {
     double sum = 0.0;
     for (std::size_t i = 0; i < x.size(); ++i)
@@ -55,7 +57,8 @@ class Probe {
 
   void apply(double Link::*joint, Symmetric3 Anchor::*anchor, std::vector<Vec2>& x) {
     loads_.clear(links_.size());
-    for (std::size_t i = 0; i < links_.size(); ++i)  // the second undoes the spring of the pose
+    // the second term cancels the spring of the pose
+    for (std::size_t i = 0; i < links_.size(); ++i)
       loads_.joint_torque[i] = links_[i].*joint * x[i] + links_[i].stiffness * state_.q[i];
     if (!anchors_.empty()) {
       kinematicsOf(links_, bases_, {state_.q, x}, moved_);

@@ -13,10 +13,10 @@ namespace vegetation_sim::physics {
 namespace {
 
 constexpr double INFINITE = std::numeric_limits<double>::infinity();
-// Half-disc about 0 on the left that Runge and Kutta's region of stability contains.
+// Radius of a half disk about 0 on the left that the stability region of Runge-Kutta 4 contains.
 constexpr double RUNGE_KUTTA_RADIUS = 2.6155;
 
-// |1 + z + z^2/2 + z^3/6 + z^4/24| <= 1, by Horner's rule.
+// Returns whether |1 + z + z^2/2 + z^3/6 + z^4/24| <= 1, by Horner's rule.
 bool rungeKuttaHolds(double re, double im) {
   double a = 1.0, b = 0.0;
   for (const double n : {4.0, 3.0, 2.0, 1.0}) {
@@ -27,7 +27,7 @@ bool rungeKuttaHolds(double re, double im) {
   return a * a + b * b <= 1.0 + 1e-12;
 }
 
-// Along the ray of the faster root.
+// Follows the ray of the faster root.
 double rungeKuttaLimit(double w2, double c) {
   const double d = 0.25 * c * c - w2;
   const double re = -0.5 * c - std::sqrt(std::max(d, 0.0)), im = std::sqrt(std::max(-d, 0.0));
@@ -43,14 +43,15 @@ double semiImplicitLimit(double w2, double c) {
   return w2 > 0.0 ? (std::sqrt(c * c + 4.0 * w2) - c) / w2 : c > 0.0 ? 2.0 / c : INFINITE;
 }
 
-/// What one link's turn is held by and how heavy it is, own axes; see docs/physics.md.
+/// Stiffness and inertia of one link's turn, own axes; see docs/physics.md.
 struct Turn {
   Symmetric3 inertia;
   Symmetric3 spring, damper;
-  double pull{0.0}, drag{0.0};  // of anchors on the centre of mass, per mass
+  double pull{0.0}, drag{0.0};  // anchors on the centre of mass, per mass
 };
 
-// Largest eigenvalue of inertia^-1 w, or more: row sums with both scaled to unit inertia.
+// Returns an upper bound of the largest eigenvalue of inertia^-1 w: row sums with both scaled to
+// unit inertia.
 double largestOf(const Symmetric3& inertia, const Symmetric3& w) {
   const Vec3 ix(inertia.xx, inertia.xy, inertia.xz), iy(inertia.xy, inertia.yy, inertia.yz),
       iz(inertia.xz, inertia.yz, inertia.zz);
@@ -68,7 +69,8 @@ double largestOf(const Symmetric3& inertia, const Symmetric3& w) {
   return most;
 }
 
-// About the centre of mass; a link on a base turns about its joint, which is known to move.
+// Returns the inertia about the centre of mass, or about the joint for a link on a base, whose
+// motion is known.
 Symmetric3 inertiaOf(Dynamics dynamics, const Link& link) {
   if (dynamics != Dynamics::ARTICULATED) {
     const bool printed = dynamics == Dynamics::PAPER_PRINTED;
@@ -81,7 +83,7 @@ Symmetric3 inertiaOf(Dynamics dynamics, const Link& link) {
   return out;
 }
 
-// |a - b|^2 <= (1 + s) |a|^2 + (1 + 1/s) |b|^2 for any s > 0; the lighter link gets the more.
+// |a - b|^2 <= (1 + s) |a|^2 + (1 + 1/s) |b|^2 for any s > 0; the lighter link gets more.
 double shareOf(const Turn& own, const Turn& parent, const Vec3& axis) {
   const double along = axis.z() * axis.z();
   const double heavy = 1.0 / (along / std::min(parent.inertia.xx, parent.inertia.yy) +

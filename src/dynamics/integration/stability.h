@@ -8,7 +8,7 @@
 
 namespace vegetation_sim::physics {
 
-/// How a chain steps in time, from the most trusted to the one that only shows how it breaks.
+/// Time integration of a chain, ordered from the most robust method to the reference.
 enum class Integrator : int {
   MIDPOINT = 0,             ///< linearly implicit midpoint with a guard: second order (default)
   IMPLICIT_EULER = 1,       ///< linearly implicit: first order, over-damped
@@ -17,54 +17,56 @@ enum class Integrator : int {
   RUNGE_KUTTA_4 = 4         ///< the reference: fourth order, explicit
 };
 
-/// At which rates the midpoint feels velocity products (centrifugal, gyroscopic).
+/// The rates at which the midpoint evaluates velocity products (centrifugal, gyroscopic).
 enum class Products : int {
-  MEAN = 0,  ///< the mean of what they are before and after the step: second order (default)
-  START = 1  ///< before: first order in them, and faster
+  MEAN = 0,  ///< mean of the products before and after the step: second order (default)
+  START = 1  ///< products before the step: first order in them, and faster
 };
 
-/// What moves a chain.
+/// Equations of motion of a chain.
 enum class Dynamics : int {
   ARTICULATED = 0,   ///< the full chain
-  PAPER = 1,         ///< paper 1's, put right (E2, E11, E13)
-  PAPER_PRINTED = 2  ///< paper 1's, as printed
+  PAPER = 1,         ///< those of paper 1, corrected (E2, E11, E13)
+  PAPER_PRINTED = 2  ///< those of paper 1, as printed
 };
 
 inline bool isImplicit(Integrator integrator) {
   return integrator == Integrator::MIDPOINT || integrator == Integrator::IMPLICIT_EULER;
 }
 
-/// Theory of one joint q'' = -w^2 q - c q' (E12): the step at which `integrator` ceases to be
-/// stable [s]; infinite for implicit ones. `w2` in rad^2/s^2, `c` in 1/s.
+/// Returns, by the theory of one joint q'' = -w^2 q - c q' (E12), the step at which `integrator`
+/// becomes unstable [s]; infinite for implicit ones. `w2` in rad^2/s^2, `c` in 1/s.
 double jointLimit(Integrator integrator, double w2, double c);
 
-/// Bounds of a whole chain at a pose: no motion's Rayleigh quotients exceed them.
+/// Bounds of a whole chain at a pose: the Rayleigh quotients of any motion stay below them.
 struct ChainRates {
   double spring{0.0};  ///< largest w^2 [1/s^2]
   double damper{0.0};  ///< largest c [1/s]
   double beta{0.0};    ///< smallest damping per stiffness of any joint or anchor [s]
 };
 
-/// Gershgorin's bounds in the links' own turns (E12, docs/physics.md): only the energy of turning
-/// about centres of mass is counted, so lever arms cannot spoil them.
+/// Returns Gershgorin's bounds in the turns of the links (E12, docs/physics.md). Only the energy of
+/// turning about centres of mass is counted, so lever arms cannot weaken them.
 ChainRates guardRates(Dynamics dynamics, const std::vector<Link>& links,
                       const Kinematics& kinematics, const std::vector<Anchor>& anchors = {});
 
-/// The same by power iteration on the full chain, padded; no proof, but as tight as the chain
-/// allows, where the guard does not see that a link's whole sub-tree moves with it. O(N).
+/// Estimates the same by power iteration on the full chain, plus a margin. This is no proof, but
+/// tight where the guard ignores that a link's whole sub-tree moves with it. O(N).
 ChainRates estimatedRates(const std::vector<Link>& links, const std::vector<BaseMotion>& bases,
                           const ChainState& state, const std::vector<Anchor>& anchors);
 
-/// A step that is stable for sure while motion is small [s]; infinite for implicit methods.
+/// Returns a step that is stable for certain while motion is small [s]; infinite for implicit
+/// methods.
 double guardLimit(Integrator integrator, const ChainRates& rates);
 
-/// The smaller of both, bound for bound.
+/// Returns the smaller of both, bound by bound.
 ChainRates tighter(const ChainRates& guard, const ChainRates& estimate);
 
-constexpr double GUARD_MARGIN = 0.9;  ///< of the guard's limit, for motion that is not small
-constexpr int MOST_SUB_STEPS = 64;    ///< beyond, an explicit method is refused
+constexpr double GUARD_MARGIN = 0.9;  ///< share of the guard's limit, for motion that is not small
+constexpr int MOST_SUB_STEPS = 64;    ///< an explicit method that needs more is rejected
 
-/// Equal parts that a step of `h` must be run in to keep below `limit`; 0: refused.
+/// Returns the number of equal parts that a step of `h` must be run in to keep below `limit`, or 0
+/// if there are too many.
 int subSteps(double limit, double h);
 
 }  // namespace vegetation_sim::physics

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vegetation_sim/dynamics/modal/batch_modes.h"
 
-// Vectors without arithmetic operators are left out; their processors take the plain target.
+// Vectors without arithmetic operators are left out; their processors use the plain target.
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "dynamics/modal/batch_modes.cpp"
@@ -15,7 +15,8 @@ namespace vegetation_sim::physics::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::CappedTag<float, BatchModes::BLOCK / 2>;
 
-// Both bends of one block of joints, two vectors at once: one alone would wait for its sums.
+// Sums both bends of one block of joints, two vectors at once, because a single one would wait for
+// its sums.
 HWY_INLINE void sumBlock(const float* shapes, const float* amplitude, std::size_t modes,
                          float* first, float* second) {
   const Tag tag;

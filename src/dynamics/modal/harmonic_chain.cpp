@@ -38,8 +38,8 @@ void addCross(const Vec3& a, const Column& b, std::size_t from, Column& out, std
   }
 }
 
-// Columns: force and torque about the joint per unit of move and turn of what weighs `mass` with
-// its centre's moment, and turns as `inertia` does.
+// Columns are force and torque about the joint per unit of displacement and turn, for a body with
+// `mass`, with the moment of its centre, and with `inertia`.
 Block rigid(double mass, const Vec3& moment, const Symmetric3& inertia) {
   Block out{};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -57,7 +57,7 @@ Block rigid(double mass, const Vec3& moment, const Symmetric3& inertia) {
   return out;
 }
 
-// What a point that is held back by `drag` at `arm` costs.
+// Returns the impedance of a point that is held back by `drag` at `arm`.
 Block gripped(double drag, const Vec3& arm) {
   const double s = dot(arm, arm);
   const auto part = [&](int i, int j) { return drag * ((i == j ? s : 0.0) - arm[i] * arm[j]); };
@@ -65,18 +65,18 @@ Block gripped(double drag, const Vec3& arm) {
                {part(0, 0), part(1, 1), part(2, 2), part(0, 1), part(0, 2), part(1, 2)});
 }
 
-// Turns about an axis, of a force and torque.
+// Projects a force and torque on turns about an axis.
 Complex along(const Vec3& axis, const Column& column) {
   return axis.x() * column[3] + axis.y() * column[4] + axis.z() * column[5];
 }
 
-// A wrench about a joint, seen from the one that bears it.
+// Moves a wrench from a joint to the parent's joint.
 Column carried(Column wrench, const Vec3& offset) {
   addCross(offset, wrench, 0, wrench, 3);
   return wrench;
 }
 
-// The same of all columns and, since the block is symmetric, of all rows.
+// Does the same for all columns and, since the block is symmetric, for all rows.
 Block carried(const Block& block, const Vec3& offset) {
   Block half{}, out{};
   for (std::size_t k = 0; k < 6; ++k) half[k] = carried(block[k], offset);
@@ -127,7 +127,7 @@ void HarmonicChain::setFrequency(double w) {
   }
 }
 
-// What is left when the joint gives way.
+// Eliminates the joint from the impedance.
 void HarmonicChain::reduce(Node& node, Block& impedance) const {
   for (std::size_t a = 0; a < 2; ++a)
     for (std::size_t j = 0; j < 6; ++j)

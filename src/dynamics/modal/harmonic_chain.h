@@ -10,26 +10,28 @@
 
 namespace vegetation_sim::physics {
 
-/// A chain linearised about rest, on the ground, under loads that swing at one frequency for ever:
-/// (K + i w (C + air) - w^2 M) x = f, solved exactly. One pass from the tips to the ground per
-/// frequency, one back and forth per load, O(N) each, as articulated bodies go. Own arithmetic:
-/// the same bits on each processor.
+/// A chain linearised about rest, on the ground, under loads that oscillate at one frequency for
+/// ever: (K + i w (C + air) - w^2 M) x = f, solved exactly. It takes one pass from the tips to the
+/// ground per frequency and one pass in each direction per load, O(N) each, like the
+/// articulated-body algorithm. It uses its own complex arithmetic, for the same bits on each
+/// processor.
 class HarmonicChain {
  public:
-  /// @param[in] grips [links] what holds on to the air; their steady drag counts.
+  /// @param[in] grips [links] are the places where air acts; their linear drag counts.
   HarmonicChain(const std::vector<Link>& links, const std::vector<Grip>& grips);
 
-  /// From now on loads swing at `w` [rad/s].
+  /// Sets the angular frequency `w` of the loads [rad/s].
   void setFrequency(double w);
-  /// Joint torques [links][2] that go with the cosine and the sine of w t, to the bends that go
-  /// with them.
+  /// Replaces the joint torques [links][2] of the cosine and the sine of w t by the bends that they
+  /// cause.
   void answer(std::vector<double>& cosine, std::vector<double>& sine);
 
   struct Complex {
     double re{0.0}, im{0.0};
   };
   using Column =
-      std::array<Complex, 6>;  ///< moves of a joint and turns about it, or what they cost
+      /// displacement of a joint and turn about it, or the corresponding force and torque
+      std::array<Complex, 6>;
 
  private:
   using Block = std::array<Column, 6>;
@@ -39,8 +41,8 @@ class HarmonicChain {
     Vec3 offset;               // from the parent's joint
     Block mass, air;           // real: per acceleration, per velocity
     double stiffness, damping;
-    // At the frequency that was set.
-    std::array<Column, 2> lever;                 // what each bend costs
+    // Values at the frequency that was set.
+    std::array<Column, 2> lever;                 // impedance of each bend
     std::array<std::array<Complex, 2>, 2> give;  // bends per torque
   };
   void reduce(Node& node, Block& impedance) const;

@@ -11,9 +11,9 @@
 namespace vegetation_sim::physics {
 namespace {
 
-constexpr int FILTERED = 3;           // passes that rid a random vector of fast modes
+constexpr int FILTERED = 3;           // passes that remove fast modes from a random vector
 constexpr std::size_t EXPECTED = 80;  // vectors, for 20 modes
-constexpr double DEPENDENT = 1e-10;   // what is left of a vector that adds nothing
+constexpr double DEPENDENT = 1e-10;   // remainder of a vector that adds nothing
 
 }  // namespace
 
@@ -50,7 +50,7 @@ double Krylov::normalise(std::size_t i) {
 
 void Krylov::fillRandom(std::size_t i) {
   randomVector(vector(i));
-  for (int round = 0; round < 2; ++round) {  // twice is enough
+  for (int round = 0; round < 2; ++round) {  // two rounds are enough
     normalise(i);
     for (std::size_t j = 0; j < i; ++j)
       addScaled(-dotOf(vector(j), vector(i), length_), vector(j), length_, vector(i));
@@ -71,7 +71,8 @@ void Krylov::grow() {
   done_ = known_;
   std::fill(&beyond_[0][0], &beyond_[0][0] + BLOCK * BLOCK, 0.0);
   if (full()) return;
-  // What images share with the last two blocks is most of them; then little is left to take out.
+  // Most of what images share with the basis lies in the last two blocks; little remains to be
+  // removed after those.
   const std::size_t recent = done_ < BAND ? 0 : done_ - BAND;
   for (const std::size_t from : {recent, std::size_t{0}})
     for (std::size_t j = from; j < done_; ++j)
@@ -79,8 +80,8 @@ void Krylov::grow() {
   for (std::size_t i = 0; i < BLOCK; ++i) addImage(i, DEPENDENT * sizes[i]);
 }
 
-// The image of vector i of the last block becomes a vector, unless nothing is left of it: symmetric
-// trees may end a Krylov space early, and another starts.
+// The image of vector i of the last block becomes a new vector, unless nothing remains of it: a
+// Krylov space of a symmetric tree may end early, and another starts.
 void Krylov::addImage(std::size_t i, double least) {
   double* x = vector(known_);
   for (std::size_t j = 0; j < i; ++j) {
@@ -115,7 +116,8 @@ double Krylov::residual(const SymmetricEigen& ritz, std::size_t i) const {
 }
 
 void Krylov::shapes(const SymmetricEigen& ritz, std::size_t count, std::vector<double>& out) const {
-  constexpr std::size_t PART = 256;  // of a vector, so that all of its readers find it in the cache
+  // part of a vector that stays in the cache for all of its readers
+  constexpr std::size_t PART = 256;
   out.assign(count * length_, 0.0);
   for (std::size_t k = 0; k < length_; k += PART) {
     const std::size_t n = std::min(PART, length_ - k);

@@ -10,24 +10,25 @@
 
 namespace vegetation_sim::physics {
 
-/// Block Lanczos, two vectors at a time and all kept orthogonal, on K^-1/2 M K^-1/2 of a chain:
-/// its largest eigenvalues 1 / w^2 belong to the slowest modes. A single vector would find one of
-/// two equal modes only. The length of its vectors is even, so blocks are whole.
+/// Block Lanczos, two vectors at a time and all kept orthogonal, on K^-1/2 M K^-1/2 of a chain. Its
+/// largest eigenvalues 1 / w^2 belong to the slowest modes. A single vector would find only one of
+/// two equal modes. The length of its vectors is even, so blocks are whole.
 class Krylov {
  public:
   explicit Krylov(LinearChain& chain);
 
-  /// Two more vectors, as long as there are any.
+  /// Adds two more vectors, as long as there are any.
   void grow();
   std::size_t size() const { return done_; }
   bool full() const { return done_ == length_; }
   int passes() const { return passes_; }
 
-  /// Ritz values, falling, and vectors in terms of the basis.
+  /// Returns Ritz values, falling, and vectors in terms of the basis.
   SymmetricEigen ritz() const;
-  /// Of Ritz vector i, relative: what of its image lies outside the space.
+  /// Returns the relative residual of Ritz vector i: the part of its image that lies outside the
+  /// space.
   double residual(const SymmetricEigen& ritz, std::size_t i) const;
-  /// The first Ritz vectors as bends of unit modal mass: [count][length].
+  /// Returns the first Ritz vectors as bends of unit modal mass: [count][length].
   void shapes(const SymmetricEigen& ritz, std::size_t count, std::vector<double>& out) const;
 
  private:
@@ -41,11 +42,12 @@ class Krylov {
   void addImage(std::size_t i, double least);
 
   LinearChain& chain_;
-  std::size_t length_, done_{0}, known_{0};  // vectors whose image is known; vectors
-  std::vector<double> root_, scaled_;        // K^-1/2; scratch
-  std::vector<double> basis_;                // [known][length]
-  std::vector<double> band_;                 // [done][BAND] products of image and vectors before it
-  double beyond_[BLOCK][BLOCK];              // [image][new vector] of the last block
+  // number of vectors whose image is known; number of vectors
+  std::size_t length_, done_{0}, known_{0};
+  std::vector<double> root_, scaled_;  // K^-1/2; scratch
+  std::vector<double> basis_;          // [known][length]
+  std::vector<double> band_;           // [done][BAND] products of image and vectors before it
+  double beyond_[BLOCK][BLOCK];        // [image][new vector] of the last block
   std::uint64_t seed_{0};
   int passes_{0};
 };

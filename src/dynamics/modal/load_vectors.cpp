@@ -11,9 +11,9 @@
 namespace vegetation_sim::physics {
 namespace {
 
-constexpr double DEPENDENT = 1e-9;  // what is left of a vector that adds nothing
+constexpr double DEPENDENT = 1e-9;  // remainder of a vector that adds nothing
 
-/// Vectors of unit modal mass that share none with each other nor with the modes.
+/// Vectors of unit modal mass, orthogonal to each other and to the modes.
 class Basis {
  public:
   Basis(LinearChain& chain, const Modes& modes)
@@ -22,12 +22,12 @@ class Basis {
   std::size_t added() const { return vectors_.size() / length_ - modes_; }
   const double* vector(std::size_t i) const { return vectors_.data() + (modes_ + i) * length_; }
 
-  /// Adds what is new in `x` and gives M times that; false: there is nothing new.
+  /// Adds the new part of `x` and computes M times it. Returns false if nothing is new.
   bool add(std::vector<double>& x, std::vector<double>& momentum) {
     momentum.resize(length_);
     chain_.timesMass(x.data(), momentum.data());
     const double before = dotOf(x.data(), momentum.data(), length_);
-    for (int round = 0; round < 2; ++round) {  // twice is enough
+    for (int round = 0; round < 2; ++round) {  // two rounds are enough
       for (std::size_t j = 0; j < modes_ + added(); ++j) {
         const double* known = vectors_.data() + j * length_;
         share_.push_back(dotOf(known, momentum.data(), length_));
@@ -51,7 +51,7 @@ class Basis {
   std::vector<double> vectors_, share_;
 };
 
-// Rayleigh and Ritz: the new vectors among themselves as oscillators.
+// Rayleigh-Ritz: makes oscillators of the new vectors among themselves.
 SymmetricEigen oscillators(const LinearChain& chain, const Basis& basis) {
   const std::size_t n = basis.added(), length = chain.size();
   std::vector<double> stiffness(n * n), force(length);
@@ -65,7 +65,7 @@ SymmetricEigen oscillators(const LinearChain& chain, const Basis& basis) {
 
 }  // namespace
 
-// As a step of backward Euler foresees it.
+// The response is that of one step of backward Euler.
 std::vector<double> quickAnswer(const std::vector<Link>& links, const std::vector<double>& torque,
                                 double h) {
   const std::vector<Vec2> none(links.size(), Vec2::Zero());
@@ -92,7 +92,7 @@ void addLoadVectors(LinearChain& chain, const std::vector<LoadShape>& loads, Mod
     force = load.torque;
     for (int level = 0; level < load.depth; ++level) {
       for (std::size_t k = 0; k < length; ++k) x[k] = force[k] / chain.stiffness()[k];
-      if (!basis.add(x, force)) break;  // the next one answers to its inertia
+      if (!basis.add(x, force)) break;  // the next vector is the response to its inertia
     }
     if (load.quick.empty()) continue;
     x = load.quick;

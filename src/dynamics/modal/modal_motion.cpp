@@ -8,8 +8,8 @@
 namespace vegetation_sim::physics {
 namespace {
 
-// exp of the matrix (0 1; -w2 -c) times h: a series for a part of h, then squared as often as it
-// takes. Holds for any damping, where closed forms need a case each.
+// exp of the matrix (0 1; -w2 -c) times h: a series for a part of h, then squared as often as
+// needed. It holds for any damping, where closed forms need a case for each.
 struct Matrix {
   double aa, ab, ba, bb;
 };
@@ -25,7 +25,7 @@ Matrix exponential(double w2, double c, double h) {
   const double rate = std::sqrt(w2) + c;
   int bisection = 0;
   while (rate * h > PART && bisection < 1000) h *= 0.5, ++bisection;
-  // What the matrix leaves of one, so that slow modes keep their digits.
+  // The difference to the identity is kept, so that slow modes keep their digits.
   Matrix power{1.0, 0.0, 0.0, 1.0}, rest{0.0, 0.0, 0.0, 0.0};
   for (int n = 1; n <= TERMS; ++n) {
     power = product(power, {0.0, h / n, -w2 * h / n, -c * h / n});
@@ -87,8 +87,8 @@ void ModalStepper::prepare(double h) {
   step_ = h;
 }
 
-// Under a load f + s t the motion p(t) = (f + s t) / w^2 - c s / w^4 is a solution; what the state
-// is beyond it swings freely.
+// Under a load f + s t, the motion p(t) = (f + s t) / w^2 - c s / w^4 is a solution; the rest of
+// the state oscillates freely.
 void ModalStepper::step(const std::vector<double>& before, const std::vector<double>& after,
                         double h, ModalState& state) {
   prepare(h);

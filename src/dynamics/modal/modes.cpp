@@ -10,9 +10,10 @@
 namespace vegetation_sim::physics {
 namespace {
 
-constexpr std::size_t CHECK_EVERY = 8;  // vectors between looks at convergence, at least
+// least number of vectors between two checks of convergence
+constexpr std::size_t CHECK_EVERY = 8;
 
-// How many of `values` (1 / w^2, falling) are the first `count` without cutting a pair.
+// Returns how many of `values` (1 / w^2, falling) are the first `count` without splitting a pair.
 std::size_t uncut(const std::vector<double>& values, std::size_t count) {
   std::size_t i = 0;
   while (i < count && i < values.size()) {
@@ -48,7 +49,7 @@ Modes slowestModes(LinearChain& chain, int count) {
   if (wanted == 0) return out;
   Krylov krylov(chain);
   SymmetricEigen ritz;
-  // A look costs the cube of the vectors: of many modes, few are taken.
+  // A check costs the cube of the number of vectors, so they are few where modes are many.
   const std::size_t more = std::max(CHECK_EVERY, wanted / 2);
   std::size_t taken = 0, size = 2 * wanted + CHECK_EVERY;
   do {

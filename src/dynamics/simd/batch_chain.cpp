@@ -11,7 +11,7 @@
 namespace vegetation_sim::physics {
 namespace {
 
-// Trees step together up to so many links, so that the second-level cache holds them.
+// Trees step together up to this many links, so that the second-level cache holds them.
 constexpr std::size_t GROUP_LINKS = 2048;
 
 }  // namespace
@@ -23,8 +23,8 @@ BatchChain::~BatchChain() = default;
 BatchChain::BatchChain(const std::vector<Link>& tree)
     : BatchChain(std::vector<std::vector<Link>>{tree}) {}
 
-// Trees of bars alone take a shorter way; they do not share groups with others, so that the bits of
-// a tree do not depend on what else there is.
+// Trees that consist of bars take a shorter path. They do not share groups with others, so that the
+// bits of a tree do not depend on the other trees.
 BatchChain::BatchChain(const std::vector<std::vector<Link>>& trees)
     : store_(std::make_unique<ChainStore>()), trees_(trees.size()) {
   for (const bool bars : {true, false}) {
@@ -75,7 +75,7 @@ void BatchChain::sortGroup(const std::vector<std::vector<Link>>& trees, std::siz
   group.bases.resize(group.levels.empty() ? 0 : static_cast<std::size_t>(group.levels[0].count));
 }
 
-// Each member's links in the order of their slots.
+// Lists each member's links in the order of their slots.
 void BatchChain::sortBySlot(const ChainGroup& group) {
   constexpr std::size_t NOBODY = ~std::size_t{0};
   struct Owner {
@@ -130,7 +130,7 @@ void BatchChain::setState(int tree, const ChainState& state, double theta) {
     }
   }
   setTheta(member, theta, member.products);
-  groups_[member.group].calm = false;  // the guard looks for itself
+  groups_[member.group].calm = false;  // the guard checks the new state itself
 }
 
 void BatchChain::setProducts(Products products) {
@@ -185,7 +185,7 @@ void BatchChain::setTheta(Member& member, double theta, double products) {
   }
 }
 
-// Trees are looked at one by one only where one of them may be fast, or was.
+// Trees are checked one by one only where one of them may be fast, or was.
 void BatchChain::guard(ChainGroup& group, double h) {
   if (group.calm && thetaFor(group.fastest, h, 0.5) == 0.5) return;
   group.calm = true;
@@ -240,7 +240,7 @@ void BatchChain::step(const Surroundings& around, double time, double h, int num
   stepWithin(&around, 1, time, h, number);
 }
 
-// All steps of one group, then all of the next: the caches hold one.
+// All steps of one group run before those of the next, because the caches hold one group.
 void BatchChain::step(double h, int steps) {
   store_->trace = false;
   for (ChainGroup& group : groups_) {

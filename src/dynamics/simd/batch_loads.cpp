@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// What acts on the links of a BatchChain: bases, loads, air.
+// Loads on the links of a BatchChain: bases, loads, air.
 #include <algorithm>
 
 #include "dynamics/simd/batch_chain.h"
@@ -82,7 +82,7 @@ void BatchChain::setGrips(int tree, const std::vector<Grip>& grips) {
   }
 }
 
-// Rows know places relative to the bases.
+// Rows hold positions relative to the bases.
 void BatchChain::askAirOf(const ChainGroup& group) {
   for (const std::size_t t : group.trees) {
     const Member& member = trees_[t];

@@ -1,8 +1,8 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// The other two passes: back to the roots with Featherstone's articulated inertias, spring, damper
-// and theta scheme in the joint-space inertia; and out again with the accelerations. Included once
-// per instruction set.
+// The other two passes: back to the roots with Featherstone's articulated inertias, with spring,
+// damper and theta scheme in the joint-space inertia, and out again with the accelerations.
+// Included once per instruction set.
 
 #if defined(VEGETATION_SIM_PHYSICS_CHAIN_BACK_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef VEGETATION_SIM_PHYSICS_CHAIN_BACK_INL_H_
@@ -17,9 +17,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace vegetation_sim::physics::HWY_NAMESPACE {
 
-// To the parent's joint, `d` before the own.
+// Moves a body to the parent's joint, `d` before its own.
 HWY_INLINE void shift(const Lanes3& d, Articulated& p) {
-  const Lanes3 x = p.bx, y = p.by, z = p.bz;  // old b
+  const Lanes3 x = p.bx, y = p.by, z = p.bz;  // the old b
   p.bx = x + cross(d, {p.m.xx, p.m.xy, p.m.xz});
   p.by = y + cross(d, {p.m.xy, p.m.yy, p.m.yz});
   p.bz = z + cross(d, {p.m.xz, p.m.yz, p.m.zz});
@@ -36,8 +36,8 @@ HWY_INLINE Lanes3 transposed(const Articulated& p, const Lanes3& v) {
   return {dot(p.bx, v), dot(p.by, v), dot(p.bz, v)};
 }
 
-/// Takes the joint's freedom out of the inertia and bias of its body and all beyond, and moves what
-/// is left to the parent's joint.
+/// Eliminates the joint from the inertia and bias of its body and all beyond, and moves the rest to
+/// the parent's joint.
 HWY_INLINE void inward(const Joints& at, Lanes step, bool drag, Articulated& p) {
   const Lanes3 first = load3(at.work, W_FIRST), second = load3(at.work, W_SECOND);
   const Lanes rx = load(at.state, S_RATE), ry = load(at.state, S_RATE + 1);
@@ -48,7 +48,7 @@ HWY_INLINE void inward(const Joints& at, Lanes step, bool drag, Articulated& p) 
   addWrench(at, p);
   at.bars ? addBarInAir(at, ahead, p) : addBodyInAir(at, ahead, p);
   if (drag) addDrag(at, ahead, p);
-  // Stiff is a lower bound of both pivots, rounding or not.
+  // `stiff` is a lower bound of both pivots, even after rounding.
   const Lanes3 a1 = p.a * first, b1 = transposed(p, first);
   Lanes3 a2 = p.a * second, b2 = transposed(p, second);
   const Lanes inverse1 = all(1.f) / (hn::Max(dot(first, a1), zero) + stiff);
@@ -79,7 +79,7 @@ HWY_INLINE void inward(const Joints& at, Lanes step, bool drag, Articulated& p) 
 
 // ---- out again: accelerations, and the step ----------------------------------------------------
 
-/// Accelerations that joints cause, of the spin and of the joint's place.
+/// Accelerations of the spin and of the joint that joints cause.
 struct Push {
   Lanes3 spin, linear;
 };
@@ -90,13 +90,13 @@ HWY_INLINE void eachRow(const Push& push, const Put& put) {
   eachRow(push.linear, 3, put);
 }
 
-// Nothing smaller than this [rad, rad/s] lives on: a tree that comes to rest would slow down for
-// good on numbers below the smallest normal one.
+// Replaces values below this by zero [rad, rad/s]: otherwise a tree at rest would compute with
+// denormal numbers, which are slow.
 HWY_INLINE Lanes alive(Lanes value) {
   return hn::IfThenElseZero(hn::Abs(value) > all(1e-18f), value);
 }
 
-// stopJoints on lanes.
+// Does what ChainStepper::stopJoints does, on lanes.
 HWY_INLINE void stop(Lanes step, Lanes* q, Lanes* rate) {
   const Tag d;
   const Lanes bend = all(static_cast<float>(LARGEST_BEND));
@@ -119,7 +119,7 @@ HWY_INLINE void stop(Lanes step, Lanes* q, Lanes* rate) {
     rate[axis] = hn::IfThenElse(fast, rate[axis] * factor, rate[axis]);
 }
 
-/// Accelerations of a joint, and what it hands on.
+/// Accelerations of a joint, and what it passes to its children.
 struct Solution {
   Lanes first, second;
   Push push;
@@ -141,9 +141,9 @@ HWY_INLINE Solution solve(const Joints& at, const Push& parent) {
   return out;
 }
 
-/// Steps q and rate; `fastest` grows to the largest rate. `foretells`: leaves half of how rates
-/// have changed: until the middle of the next step they do so again, but for a term of second
-/// order.
+/// Steps q and rate; `fastest` grows to the largest rate. With `predicts`, stores half of the
+/// change of the rates: until the middle of the next step they change by as much again, up to a
+/// term of second order.
 HWY_INLINE Push settle(const Joints& at, const Push& parent, Lanes step, bool predicts,
                        Lanes& fastest) {
   const Solution solved = solve(at, parent);

@@ -1,7 +1,7 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// What a link, and what acts on it, adds to the articulated inertia of its joint. Included once per
-// instruction set.
+// Contribution of a link, and of what acts on it, to the articulated inertia of its joint. Included
+// once per instruction set.
 
 #if defined(VEGETATION_SIM_PHYSICS_CHAIN_BODY_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef VEGETATION_SIM_PHYSICS_CHAIN_BODY_INL_H_
@@ -15,8 +15,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace vegetation_sim::physics::HWY_NAMESPACE {
 
-/// torque = a spin' + b acceleration, force = b^T spin' + m acceleration, and the bias wrench; b by
-/// its columns.
+/// torque = a spin' + b acceleration, force = b^T spin' + m acceleration, plus the bias wrench; b
+/// by its columns.
 struct Articulated {
   Symmetric a;
   Lanes3 bx, by, bz;
@@ -31,7 +31,7 @@ HWY_INLINE Articulated nothing() {
   return {o6, o3, o3, o3, o6, o3, o3};
 }
 
-// A mass whose moment about the joint is `v`.
+// Adds a mass whose moment about the joint is `v`.
 HWY_INLINE void addMass(Lanes mass, const Lanes3& v, Articulated& sum) {
   sum.bx = {sum.bx.x, sum.bx.y + v.z, sum.bx.z - v.y};
   sum.by = {sum.by.x - v.z, sum.by.y, sum.by.z + v.x};
@@ -41,7 +41,7 @@ HWY_INLINE void addMass(Lanes mass, const Lanes3& v, Articulated& sum) {
   sum.m.zz = sum.m.zz + mass;
 }
 
-/// A round bar about its joint: its inertia is `across`, along the axis `excess` more.
+/// A round bar about its joint: its inertia is `across`, and greater by `excess` along the axis.
 struct Bar {
   Lanes mass, moment, across, excess;
 };
@@ -59,14 +59,14 @@ HWY_INLINE void addBar(const Bar& bar, const Lanes3& z, Articulated& sum) {
   addMass(bar.mass, bar.moment * z, sum);
 }
 
-// What acts on the body, after its bias. Sums begin at +0, so that none is ever -0.
+// Adds what acts on the body to its bias. Sums begin at +0, so that none is ever -0.
 HWY_INLINE void addWrench(const Joints& at, Articulated& sum) {
   sum.torque = sum.torque + (load3(at.bias, 0) - load3Of(at, L_TORQUE));
   sum.force = sum.force + (load3(at.bias, 3) - load3Of(at, L_FORCE));
 }
 
-// What an implicit step foresees of the drag: a mass against linear acceleration, `factor` times
-// along along^T; `turn` = arm x along.
+// Adds the implicit part of a drag: a mass against linear acceleration, `factor` times along
+// along^T; `turn` = arm x along.
 HWY_INLINE void addPull(Lanes factor, const Lanes3& turn, const Lanes3& along, Articulated& sum) {
   const Lanes3 swing = factor * turn, pull = factor * along;
   sum.a = sum.a + Symmetric{swing.x * turn.x, swing.x * turn.y, swing.x * turn.z,
@@ -78,7 +78,7 @@ HWY_INLINE void addPull(Lanes factor, const Lanes3& turn, const Lanes3& along, A
                             pull.y * along.y, pull.y * along.z, pull.z * along.z};
 }
 
-// And one that is the same in all directions, on a point `arm` from the joint.
+// Adds a mass that is the same in all directions, at a point `arm` from the joint.
 HWY_INLINE void addPoint(Lanes mass, const Lanes3& arm, Articulated& sum) {
   const Lanes3 v = mass * arm;
   const Lanes size = dot(v, arm);
@@ -87,10 +87,10 @@ HWY_INLINE void addPoint(Lanes mass, const Lanes3& arm, Articulated& sum) {
   addMass(mass, v, sum);
 }
 
-/// Drag of the air on its grip, whose force and derivative are those of PhysicalSubtree::addWind.
+/// Drag of the air on its grip; force and derivative are those of PhysicalSubtree::addWind.
 struct Blow {
-  Lanes3 wind;         ///< past the grip
-  Lanes drag, factor;  ///< force over wind; of its part along the wind, for addPull
+  Lanes3 wind;         ///< velocity relative to the grip
+  Lanes drag, factor;  ///< force over wind; factor of its part along the wind, for addPull
 };
 
 HWY_INLINE Blow blowOn(const Joints& at, Lanes steady, Lanes square, Lanes ahead) {
@@ -108,7 +108,7 @@ HWY_INLINE void addBlow(const Blow& blow, const Lanes3& turn, Articulated& sum) 
   addPull(blow.factor, turn, blow.wind, sum);
 }
 
-// On the axis of a bar: what is the same in all directions makes it a heavier bar.
+// On the axis of a bar, the isotropic part acts as a heavier bar.
 HWY_INLINE void addAirOnAxis(const Joints& at, const Lanes3& z, Lanes steady, Lanes square,
                              Lanes ahead, Bar& bar, Articulated& sum) {
   const Lanes g = load(at.grips, G_ALONG);
@@ -126,7 +126,7 @@ HWY_INLINE void addAirBeside(const Joints& at, Lanes steady, Lanes square, Lanes
   addBlow(blow, cross(arm, blow.wind), sum);
 }
 
-// Lanes that do not go a way grip nothing there.
+// Lanes that do not take this path have no drag there.
 HWY_INLINE void addBarInAir(const Joints& at, Lanes ahead, Articulated& sum) {
   const Lanes3 z = load3(at.work, W_AXIS);
   Bar bar = barOf(at);
@@ -151,7 +151,7 @@ HWY_INLINE void addBodyInAir(const Joints& at, Lanes ahead, Articulated& sum) {
   if (at.grips) addAirBeside(at, load(at.grips, G_STEADY), load(at.grips, G_SQUARE), ahead, sum);
 }
 
-// Of the loads: see Drag.
+// Adds the drag of the loads: see Drag.
 HWY_INLINE void addDrag(const Joints& at, Lanes ahead, Articulated& sum) {
   const Lanes3 arm = load3(at.loads, L_ARM), along = load3(at.loads, L_ALONG);
   addPoint(ahead * load(at.loads, L_ALL), arm, sum);

@@ -77,7 +77,7 @@ void fillGrip(const Grip& grip, float* rows, float* beside) {
     beside[axis * ROW] = narrow(grip.centre[axis]);
 }
 
-// The force at the point is the anchor's less (theta^2 h^2 K + theta h C) times what accelerations
+// The force at the point is the anchor's minus (theta^2 h^2 K + theta h C) times what accelerations
 // of the joints add to its own: a mass there, without bias.
 AnchorRows anchorRows(const Anchor& anchor, int slot, double ahead) {
   const auto mass = [&](double k, double c) { return ahead * (ahead * k + c); };

@@ -8,17 +8,17 @@
 
 namespace vegetation_sim::physics {
 
-// Between the plain types and lanes of rows; `rows` points to the lane in the first row.
+// Converts between the plain types and lanes of rows; `rows` points to the lane in the first row.
 
-/// What a root hangs on: F_ROWS numbers.
+/// The base of a root: F_ROWS numbers.
 struct BaseRows {
   float value[F_ROWS] = {};
 };
 BaseRows baseRows(const BaseMotion& base);
 
-/// `rows`: C_ROWS, or C_BAR_ROWS of a bar.
+/// `rows`: C_ROWS, or C_BAR_ROWS for a bar.
 void fillLink(const Link& link, int rows, float* constants);
-/// A lane without link: it never moves.
+/// Fills a lane without link, which never moves.
 void fillNobody(int rows, float* constants);
 inline void fillLoad(const Loads& loads, std::size_t link, float* rows) {
   const bool wrench = link < loads.wrench.size(), joint = link < loads.joint_torque.size();
@@ -36,10 +36,10 @@ inline void fillLoad(const Loads& loads, std::size_t link, float* rows) {
     rows[(L_JOINT + i) * ROW] = joint ? static_cast<float>(loads.joint_torque[link][i]) : 0.f;
 }
 
-/// `beside`: none where the grip is on the axis.
+/// `beside` is null where the grip is on the axis.
 void fillGrip(const Grip& grip, float* rows, float* beside);
 
-/// What an anchor adds to the articulated inertia and bias of the joint in `slot`.
+/// Contribution of an anchor to the articulated inertia and bias of the joint in `slot`.
 struct AnchorRows {
   int slot{0};
   float value[P_ROWS] = {};
@@ -59,9 +59,9 @@ inline void readMotion(const float* motion, const Vec3& base, std::size_t link, 
 }
 void resize(Kinematics& kinematics, std::size_t links);
 
-/// guardedTheta of a tree whose fastest rate is `fastest` [rad/s].
+/// Returns guardedTheta of a tree whose fastest rate is `fastest` [rad/s].
 double thetaFor(double fastest, double h, double theta);
-/// Likewise productsOf.
+/// Returns productsOf of such a tree.
 double productsFor(double fastest, double h);
 
 }  // namespace vegetation_sim::physics

@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// Vectors, rotations and inertias on lanes of floats; included once per instruction set.
+// Vectors, rotations and inertias on lanes of floats. Included once per instruction set.
 
 #if defined(VEGETATION_SIM_PHYSICS_CHAIN_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef VEGETATION_SIM_PHYSICS_CHAIN_LANES_INL_H_
@@ -36,7 +36,7 @@ HWY_INLINE Lanes all(float value) {
   return hn::Set(Tag(), value);
 }
 
-// `stride`: floats from one row to the next.
+// `stride` is the number of floats from one row to the next.
 HWY_INLINE Lanes load(const float* rows, int row, int stride = ROW) {
   return hn::LoadU(Tag(), rows + row * stride);
 }
@@ -94,7 +94,7 @@ HWY_INLINE Symmetric operator+(const Symmetric& a, const Symmetric& b) {
   return {a.xx + b.xx, a.xy + b.xy, a.xz + b.xz, a.yy + b.yy, a.yz + b.yz, a.zz + b.zz};
 }
 
-// a - p u u^T - q v v^T, with p u and q v given.
+// Returns a - p u u^T - q v v^T, with p u and q v given.
 HWY_INLINE Symmetric without(const Symmetric& a, const Lanes3& pu, const Lanes3& u,
                              const Lanes3& qv, const Lanes3& v) {
   return {a.xx - pu.x * u.x - qv.x * v.x, a.xy - pu.x * u.y - qv.x * v.y,
@@ -126,7 +126,7 @@ HWY_INLINE Lanes3 turned(const Axes& axes, const Lanes3& v) {
   return v.x * axes.x + v.y * axes.y + v.z * axes.z;
 }
 
-// R a R^T.
+// Returns R a R^T.
 HWY_INLINE Symmetric turnedInertia(const Axes& r, const Symmetric& a) {
   const Lanes3 x = turned(r, {a.xx, a.xy, a.xz}), y = turned(r, {a.xy, a.yy, a.yz}),
                z = turned(r, {a.xz, a.yz, a.zz});
@@ -135,13 +135,13 @@ HWY_INLINE Symmetric turnedInertia(const Axes& r, const Symmetric& a) {
           x.y * r.x.z + y.y * r.y.z + z.y * r.z.z, x.z * r.x.z + y.z * r.y.z + z.z * r.z.z};
 }
 
-// Series of the rotation vector of size a: cos(a/2), sin(a/2) / (a/2), b = (1 - cos a) / a^2,
-// c = (a - sin a) / a^3 and the derivatives of b and c by a, divided by a.
+// Series of the rotation vector of size a: cos(a/2), sin(a/2) / (a/2), b = (1 - cos a) / a^2, c =
+// (a - sin a) / a^3 and the derivatives of b and c by a, divided by a.
 struct RotationSeries {
   Lanes w, s, b, c, db, dc;
 };
 
-// Taylor for a <= 1: relative errors below 2e-7, of the derivatives 1e-6.
+// Taylor series for a <= 1: relative errors below 2e-7, those of the derivatives 1e-6.
 HWY_INLINE RotationSeries smallRotation(Lanes a2) {
   const Lanes u = all(0.25f) * a2;
   RotationSeries out;
@@ -157,7 +157,7 @@ HWY_INLINE RotationSeries smallRotation(Lanes a2) {
   return out;
 }
 
-// For a > 1: the half angle less whole half turns, then Taylor.
+// For a > 1: subtracts whole half turns from the half angle, then uses the Taylor series.
 inline HWY_NOINLINE RotationSeries largeRotation(Lanes a2) {
   const Lanes half = all(0.5f) * hn::Sqrt(a2), one = all(1.f);
   const Lanes n = hn::Round(half * all(0.318309886183790672f));

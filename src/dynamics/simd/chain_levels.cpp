@@ -9,7 +9,7 @@
 namespace vegetation_sim::physics {
 namespace {
 
-// The children of all joints in one list; joint i has those from first[i] up to first[i + 1].
+// The children of all joints in one list; those of joint i run from first[i] to first[i + 1].
 struct Children {
   std::vector<int> first, joints;
 
@@ -32,7 +32,8 @@ std::vector<int> heightsOf(const std::vector<int>& parents) {
   return out;
 }
 
-// The tallest child first: it is the one that most parents have, and those fill whole vectors.
+// Sorts children by height, tallest first: most parents have such a child, so these fill whole
+// vectors.
 Children childrenOf(const std::vector<int>& parents, std::vector<int>& roots) {
   const std::size_t n = parents.size();
   Children out{std::vector<int>(n + 1, 0), std::vector<int>(n)};
@@ -67,7 +68,7 @@ Brood broodOf(const std::vector<int>& level, const Children& children, std::size
     out.parents = static_cast<int>(i) + 1;
   }
   out.end = static_cast<int>(next.size());
-  // The widest vector reads on to the place after its last joint.
+  // The widest vector reads on to the entry after its last joint.
   const auto parents = static_cast<std::size_t>(out.parents);
   out.first.resize(parents);
   out.first.resize(parents + ROW + 1, out.end);

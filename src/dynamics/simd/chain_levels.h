@@ -7,13 +7,14 @@
 
 namespace vegetation_sim::physics {
 
-/// The r-th children of a level's joints, which stand side by side in the next level in their
-/// parents' order. So whatever the vector's width, the r-th children of neighbours are neighbours:
-/// values pass with one permutation and no gather, and parents sum their children by rank.
+/// The r-th children of a level's joints, side by side in the next level in the order of their
+/// parents. For any vector width, the r-th children of neighbours are neighbours: values pass with
+/// one permutation and no gather, and parents sum their children by rank.
 struct Brood {
-  int parents{0};                   ///< joints of the level up to the last that has such a child
-  int end{0};                       ///< one past the last such child in the next level
-  std::vector<std::int32_t> first;  ///< place in the next level of such children of joint i and on
+  int parents{0};  ///< number of joints of the level up to the last that has such a child
+  int end{0};      ///< one past the last such child in the next level
+  /// position in the next level of the first such child of joint i or later
+  std::vector<std::int32_t> first;
 };
 
 /// Joints of equal depth, padded to whole rows.
@@ -23,8 +24,9 @@ struct Level {
   std::vector<Brood> broods;  ///< by rank
 };
 
-/// Sorts the joints of some trees into levels that begin at slot `begin`. parents: [joints] below
-/// the own index, or -1. Appends the slot of each joint; returns one past the last slot.
+/// Sorts the joints of some trees into levels that begin at slot `begin`. `parents` [joints] are
+/// lower than the own index, or -1. Appends the slot of each joint and returns one past the last
+/// slot.
 int sortIntoLevels(const std::vector<int>& parents, int begin, std::vector<Level>& levels,
                    std::vector<int>& slots);
 

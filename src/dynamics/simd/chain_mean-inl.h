@@ -1,9 +1,9 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// Velocity products as the mean of what they are before and after the step: the accelerations that
-// they had before tell the rates after it; the links' bias wrenches change by half of the
-// difference, and the chain answers with the inertias that it has (ArticulatedBody::averageProducts
-// on lanes). Included once per instruction set.
+// Velocity products as the mean of their values before and after the step: the first accelerations
+// give the rates after it, the links' bias wrenches change by half of the difference, and the chain
+// responds with unchanged inertias (ArticulatedBody::averageProducts on lanes). Included once per
+// instruction set.
 
 #if defined(VEGETATION_SIM_PHYSICS_CHAIN_MEAN_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef VEGETATION_SIM_PHYSICS_CHAIN_MEAN_INL_H_
@@ -17,8 +17,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace vegetation_sim::physics::HWY_NAMESPACE {
 
-/// What a parent hands on: what its joints push, its spin after the step, and the accelerations of
-/// spin and joint at that spin if no joint accelerated.
+/// Data that a parent passes on: the push of its joints, its spin after the step, and the
+/// accelerations of spin and joint at that spin if no joint accelerated.
 struct Ahead {
   Push push;
   Lanes3 spin, spin_rate, acceleration;
@@ -39,7 +39,7 @@ HWY_INLINE Ahead loadAhead(const float* rows, int stride) {
           load3(rows, H_ACCELERATION, stride)};
 }
 
-// Of a base, from its F_ROWS.
+// Returns those of a base from its F_ROWS.
 HWY_INLINE Ahead aheadOfBase(const float* rows, int stride) {
   const Lanes o = hn::Zero(Tag());
   return {{{o, o, o}, {o, o, o}},
@@ -56,14 +56,14 @@ HWY_INLINE void eachRow(const Ahead& ahead, const Put& put) {
   eachRow(ahead.acceleration, H_ACCELERATION, put);
 }
 
-// Half where the guard sleeps, else nothing.
+// Returns a half where the guard is inactive, else 0.
 HWY_INLINE Lanes weightOf(const Joints& at) {
   const auto sleeps =
       hn::And(load(at.state, S_THETA) == all(0.5f), load(at.state, S_PRODUCTS) == all(1.f));
   return hn::IfThenElseZero(sleeps, all(0.5f));
 }
 
-/// Leaves the change of the bias wrench of the joint's link.
+/// Stores the change of the bias wrench of the joint's link.
 HWY_INLINE Ahead lookAhead(const Joints& at, const Ahead& parent, Lanes step) {
   const Solution solved = solve(at, parent.push);
   const Lanes rx = load(at.state, S_RATE), ry = load(at.state, S_RATE + 1);
@@ -87,8 +87,8 @@ HWY_INLINE Ahead lookAhead(const Joints& at, const Ahead& parent, Lanes step) {
   return {solved.push, frame.spin, frame.spin_rate, frame.acceleration};
 }
 
-/// Adds what the wrench on the link and all beyond asks of the joint; leaves what is left of it for
-/// the parent's joint.
+/// Adds the joint's part of the wrench on the link and all beyond; leaves the rest for the parent's
+/// joint.
 HWY_INLINE void inwardWrench(const Joints& at, Bias& sum) {
   sum.torque = sum.torque + load3(at.kept, K_BIAS);
   sum.force = sum.force + load3(at.kept, K_BIAS + 3);

@@ -1,9 +1,9 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
 // First pass of the articulated-body algorithm over a vector of joints, out to the twigs: geometry,
-// motion, rigid bodies, world axes, each about its own joint. The accelerations are split in those
-// that velocities and bases cause if no joint accelerated, summed here, and the rest: so no
-// articulated inertia meets a bias. Included once per instruction set.
+// motion and rigid bodies, world axes, each about its own joint. The accelerations are split into
+// those that velocities and bases cause if no joint accelerated, summed here, and the rest, so that
+// no articulated inertia meets a bias. Included once per instruction set.
 
 #if defined(VEGETATION_SIM_PHYSICS_CHAIN_OUT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef VEGETATION_SIM_PHYSICS_CHAIN_OUT_INL_H_
@@ -17,18 +17,18 @@
 HWY_BEFORE_NAMESPACE();
 namespace vegetation_sim::physics::HWY_NAMESPACE {
 
-/// Rows of the joints of one vector.
+/// The rows of the joints of one vector.
 struct Joints {
   const float* constants;
   float* state;
-  const float* loads;  ///< none: nothing acts
+  const float* loads;  ///< null: no loads
   float* work;
-  const float* grips;   ///< none: no air
+  const float* grips;   ///< null: no air
   const float* beside;  ///< read only where not all grips are `on_axis`
   const float* air;
   float* bias;   ///< of the link alone: six rows of `work`, or of `kept`
-  float* kept;   ///< none: velocity products are not averaged
-  bool bars;     ///< all of them
+  float* kept;   ///< null: velocity products are not averaged
+  bool bars;     ///< all joints are bars
   bool on_axis;  ///< air grips the axes of bars
 };
 
@@ -40,8 +40,8 @@ HWY_INLINE Lanes3 load3Of(const Joints& at, int row) {
   return {loadOf(at, row), loadOf(at, row + 1), loadOf(at, row + 2)};
 }
 
-/// What a parent hands on, see F_TURN and following, and its z axis, which follows from it: to hand
-/// on costs more than to compute.
+/// Data that a parent passes on, see F_TURN and following, and its z axis. The z axis is computed
+/// again by the receiver, because passing it on costs more.
 struct Frame {
   LanesQuat turn;
   Lanes3 axis, spin, spin_rate, acceleration;
@@ -54,13 +54,13 @@ HWY_INLINE Frame loadFrame(const float* rows, int stride) {
           load3(rows, F_ACCELERATION, stride)};
 }
 
-/// Second rate of its z axis.
+/// Returns the second derivative of its z axis.
 HWY_INLINE Lanes3 axisRate(const Frame& frame, Lanes products) {
   return cross(frame.spin_rate, frame.axis) +
          products * cross(frame.spin, cross(frame.spin, frame.axis));
 }
 
-// put(row, value) for each row.
+// Calls put(row, value) for each row.
 template <class Put>
 HWY_INLINE void eachRow(const Lanes3& v, int row, const Put& put) {
   put(row, v.x);
@@ -77,13 +77,14 @@ HWY_INLINE void eachRow(const Frame& frame, const Put& put) {
   eachRow(frame.acceleration, F_ACCELERATION, put);
 }
 
-/// With it, for those who ask for the motion: place and velocity of the joint, spin of the link,
-/// before the step.
+/// Position and velocity of the joint and spin of the link before the step, for callers that need
+/// the motion.
 struct Trace {
   Lanes3 position, velocity, spin;
 };
 
-// `frame`: the link's. PREDICTED: its spin is, and the parent hands on the other as well.
+// `frame` is the link's. With PREDICTED its spin is predicted, and the parent passes on the other
+// as well.
 template <bool PREDICTED>
 HWY_INLINE Trace traceOf(const Joints& at, const Frame& frame, const float* parent, int stride) {
   const Lanes3 arm = load3(at.work, W_ARM);
@@ -117,7 +118,7 @@ struct StoreRows {
   HWY_INLINE void operator()(int row, Lanes value) const { store(value, rows, row, stride); }
 };
 
-/// Wrench that it takes to move a link as its frame says, if no joint accelerates.
+/// Wrench that moves a link as its frame says, if no joint accelerates.
 struct Bias {
   Lanes3 torque, force;
 };
@@ -159,7 +160,7 @@ HWY_INLINE void keepBody(const Joints& at, const Axes& axes) {
   store3(turned(axes, momentOf(at)), at.work, W_MOMENT);
 }
 
-/// Rate of the spin that the joint adds while its rates are constant.
+/// Returns the rate of the spin that the joint adds while its rates are constant.
 HWY_INLINE Lanes3 bendBias(const RotationSeries& g, const Axes& axes, Lanes x, Lanes y, Lanes rx,
                            Lanes ry) {
   const Lanes k = x * ry - y * rx, swept = x * rx + y * ry, e = g.dc * swept;
@@ -167,7 +168,7 @@ HWY_INLINE Lanes3 bendBias(const RotationSeries& g, const Axes& axes, Lanes x, L
          (k * (g.db * swept)) * axes.z;
 }
 
-/// Right Jacobian of the rotation vector (x, y, 0): leaves the joint's axes, returns the spin.
+/// Right Jacobian of the rotation vector (x, y, 0): computes the joint's axes, returns the spin.
 HWY_INLINE Lanes3 jointSpin(const Joints& at, const Axes& axes, const RotationSeries& g, Lanes x,
                             Lanes y, Lanes rx, Lanes ry) {
   const Lanes3 p = (g.c * y) * axes.x - (g.c * x) * axes.y - g.b * axes.z;
@@ -177,14 +178,14 @@ HWY_INLINE Lanes3 jointSpin(const Joints& at, const Axes& axes, const RotationSe
   return rx * first + ry * second;
 }
 
-// For lookAhead.
+// Keeps the frame for predictBias.
 HWY_INLINE void keep(const Frame& frame, float* rows) {
   store(frame.turn.w, rows, K_TURN);
   store3({frame.turn.x, frame.turn.y, frame.turn.z}, rows, K_TURN + 1);
   store3(frame.spin, rows, K_SPIN);
 }
 
-// The rate of velocity products: before the step, or as foretold for its middle.
+// Returns the rate for velocity products: before the step, or as predicted for its middle.
 template <bool PREDICTED>
 HWY_INLINE Lanes rateOf(const Joints& at, int axis) {
   const Lanes now = load(at.state, S_RATE + axis);
@@ -193,7 +194,7 @@ HWY_INLINE Lanes rateOf(const Joints& at, int axis) {
   return now + hn::IfThenElseZero(sleeps, load(at.state, S_LEAD + axis));
 }
 
-/// Geometry at q + theta h rate; leaves the rigid bodies and their bias wrenches.
+/// Computes the geometry at q + theta h rate, the rigid bodies and their bias wrenches.
 template <bool PREDICTED>
 HWY_INLINE Frame outward(const Joints& at, const Frame& parent, Lanes step) {
   const Lanes ahead = load(at.state, S_THETA) * step;
@@ -228,20 +229,20 @@ HWY_INLINE Frame outward(const Joints& at, const Frame& parent, Lanes step) {
 
 // ---- air ---------------------------------------------------------------------------------------
 
-// Which way a joint of a bar goes depends on nobody else.
+// The path that a joint of a bar takes depends on no other joint.
 HWY_INLINE auto gripsAxis(const Joints& at) {
   const Lanes o = hn::Zero(Tag());
   return hn::And(load(at.beside, 0) == o, load(at.beside, 1) == o);
 }
 
-/// From the joint to where air grips the link.
+/// Returns the vector from the joint to the point where air acts on the link.
 HWY_INLINE Lanes3 gripArm(const Joints& at, const Frame& frame) {
   const Lanes along = load(at.grips, G_ALONG);
   if (at.on_axis) return along * frame.axis;
   return turned(axesOf(frame.turn), {load(at.beside, 0), load(at.beside, 1), along});
 }
 
-/// Leaves how fast the link moves where air grips it.
+/// Stores the velocity of the link at the point where air acts on it.
 HWY_INLINE void keepGrip(const Joints& at, const Frame& frame, const Trace& trace) {
   Lanes3 swept = load(at.grips, G_ALONG) * cross(trace.spin, frame.axis);
   if (!at.on_axis) {

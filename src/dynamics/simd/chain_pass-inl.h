@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// How values pass between a vector of parents and their children in the next level. Included once
+// Passing of values between a vector of parents and their children in the next level. Included once
 // per instruction set.
 
 #if defined(VEGETATION_SIM_PHYSICS_CHAIN_PASS_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -22,14 +22,14 @@ HWY_INLINE int width() {
   return static_cast<int>(hn::Lanes(Tag()));
 }
 
-// Which of the joints from `joint` on have a child in this brood.
+// Returns which of the joints from `joint` on have a child of this rank.
 HWY_INLINE auto haveChild(const std::int32_t* first) {
   const Places d;
   return hn::LoadU(d, first) < hn::LoadU(d, first + 1);
 }
 
-// Writes what joints of a vector hand to their children of one rank. It runs over into what the
-// next vector writes, but not into the next brood.
+// Writes what joints of a vector pass to their children of one rank. It may overwrite the start of
+// the next vector's output, but not the next rank.
 struct HandOn {
   float* target;
   int room;
@@ -48,7 +48,7 @@ struct HandOn {
   }
 };
 
-// each(put): calls put(row, value) for what the parents from `parent` on hand to their children.
+// `each(put)` calls put(row, value) for what the parents from `parent` on pass to their children.
 template <class Each>
 HWY_INLINE void handOn(const Level& level, int parent, const Each& each, int room, float* to) {
   for (const Brood& brood : level.broods) {
@@ -66,7 +66,7 @@ HWY_INLINE void handOn(const Level& level, int parent, const Each& each, int roo
   }
 }
 
-// add(row, sum): the sum and what is added to it.
+// `add(row, sum)` returns the sum plus the value in that row.
 template <class Add>
 HWY_INLINE void addTo(Lanes3& sum, int row, const Add& add) {
   sum = {add(row, sum.x), add(row + 1, sum.y), add(row + 2, sum.z)};
@@ -116,7 +116,8 @@ HWY_INLINE void addSiblings(const Siblings* of, int room, Sum& sum) {
   });
 }
 
-// The next rank from `brood` on that a vector of joints has; false: no more.
+// Finds the next rank from `child_rank` on that a vector of joints has. Returns false if there is
+// none.
 HWY_INLINE bool nextRank(const Level& level, const float* from, int parent, std::size_t& brood,
                          Siblings& out) {
   for (; brood < level.broods.size(); ++brood) {
@@ -132,7 +133,7 @@ HWY_INLINE bool nextRank(const Level& level, const float* from, int parent, std:
   return false;
 }
 
-// From children to parents, rank by rank; two ranks at once, which spares going through memory.
+// Sums from children to parents, rank by rank; two ranks at once avoid a round trip through memory.
 template <class Sum>
 HWY_INLINE void gatherChildren(const Level& level, const float* from, int room, int parent,
                                Sum& sum) {

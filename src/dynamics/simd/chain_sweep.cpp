@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-// Vectors without arithmetic operators are left out; their processors take the plain target.
+// Vectors without arithmetic operators are left out; their processors use the plain target.
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "dynamics/simd/chain_sweep.cpp"
@@ -32,7 +32,8 @@ HWY_INLINE Joints jointsAt(const ChainGroup& group, ChainStore& store, int slot)
           group.on_axis};
 }
 
-// Anchors are few: one by one, and apart, so that sums without any stay in registers.
+// Anchors are few, so they are added one by one, in a function of its own that keeps other sums in
+// registers.
 HWY_NOINLINE const AnchorRows* addAnchors(const AnchorRows* next, const AnchorRows* end, int slot,
                                           Articulated& sum) {
   for (; next != end && next->slot < slot + width(); ++next) {
@@ -51,7 +52,7 @@ void loadBases(const ChainGroup& group, LevelRows& out) {
       out.data()[static_cast<std::size_t>(row * out.room) + i] = group.bases[i].value[row];
 }
 
-// What of the motion is handed on.
+// The part of the motion that parents pass to their children.
 enum class Told { NOTHING, VELOCITY, ALL };
 
 template <Told PUBLISHED, bool PREDICTED>

@@ -62,7 +62,7 @@ void PaperBody::gather(const std::vector<Link>& links, const ChainState& state,
   }
 }
 
-// Acceleration of the joint as an affine function of how the parent turns.
+// Computes the acceleration of the joint as an affine function of the parent's turn.
 void PaperBody::solve(Node& node, const Vec3& torque) const {
   const Matrix& n = node.inertia;
   double m11, m12, m21, m22, r1, r2;
@@ -96,7 +96,7 @@ void PaperBody::solve(Node& node, const Vec3& torque) const {
   node.row2 = scale * (m11 * p2 - m21 * p1);
 }
 
-// What a joint's foreseen torque does to the parent, as a function of how that turns.
+// Adds the effect of a joint's implicit torque on the parent, as a function of the parent's turn.
 void PaperBody::passOn(const Node& node, Node& parent) const {
   const Vec3 first = node.k * node.first;
   const Vec3 second = (form_.reaction ? -node.k : node.k) * node.second;

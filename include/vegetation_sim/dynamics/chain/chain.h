@@ -16,23 +16,23 @@ struct Symmetric3 {
   double xx{0.0}, yy{0.0}, zz{0.0}, xy{0.0}, xz{0.0}, yz{0.0};
 };
 
-/// A joint of two bends about its own rest x and y (a rotation vector) and the rigid body that it
-/// turns: one piece of wood or several as one.
+/// A joint with two bends about its own rest x and y axes (a rotation vector), and the rigid body
+/// that it turns: one piece of wood, or several as one.
 struct Link {
-  int parent{-1};                    ///< index below the own; -1: hangs on `base`
-  int base{0};                       ///< index of a BaseMotion, for links without parent
-  double h{0.0};                     ///< of the joint along the z of what it hangs on [m]
-  Quat rest{};                       ///< rest rotation in the axes of what it hangs on
-  double length{1.0};                ///< along the own z [m]
-  double mass{1.0};                  ///< [kg]
-  Vec3 centre{Vec3(0.0, 0.0, 0.5)};  ///< of mass, from the joint, own axes [m]
+  int parent{-1};      ///< index, lower than the own one; -1: the link hangs on `base`
+  int base{0};         ///< index of a BaseMotion, for links without parent
+  double h{0.0};       ///< position of the joint along the z axis of its parent or base [m]
+  Quat rest{};         ///< rest rotation in the axes of the parent or base
+  double length{1.0};  ///< along the link's own z axis [m]
+  double mass{1.0};    ///< [kg]
+  Vec3 centre{Vec3(0.0, 0.0, 0.5)};  ///< centre of mass, from the joint, own axes [m]
   Symmetric3 inertia{1.0, 1.0, 0.0, 0.0, 0.0, 0.0};  ///< about the joint, own axes [kg m^2]
   double stiffness{1.0};                             ///< of both bends [N m/rad]
   double damping{0.0};                               ///< [N m s/rad]
   double guaranteed_inertia{0.0};  ///< see shareInertia; 0 is safe and less exact [kg m^2]
 };
 
-/// Prescribed motion of something that carries links and is not physical itself: the pose of its
+/// Prescribed motion of a body that carries links and is not simulated itself: the pose of its
 /// joint and how it moves, world axes. Default: the ground at the origin.
 struct BaseMotion {
   Pose pose;
@@ -47,20 +47,20 @@ struct ChainState {
   std::vector<Vec2> q, rate;
 };
 
-/// Where the links are and how they move, per link, world axes.
+/// Poses and velocities of the links, world axes.
 struct Kinematics {
   std::vector<Pose> pose;      ///< of the joint; z along the link
   std::vector<Vec3> spin;      ///< [rad/s]
   std::vector<Vec3> velocity;  ///< of the joint [m/s]
 };
 
-/// From outside on a link, about its joint, world axes [N], [N m].
+/// An external load on a link about its joint, world axes [N], [N m].
 struct Wrench {
   Vec3 force{Vec3::Zero()}, torque{Vec3::Zero()};
 };
 
-/// A stiff damped spring on a point of a link. `force` is the spring's and damper's where the
-/// kinematics hold; the rest lets an implicit step foresee how the force changes.
+/// A stiff damped spring on a point of a link. `force` is the force of spring and damper in the
+/// given kinematics; the other fields let an implicit step predict how the force changes.
 struct Anchor {
   int link{0};
   Vec3 arm{Vec3::Zero()};    ///< from the joint to the point, world axes [m]
@@ -70,25 +70,26 @@ struct Anchor {
 };
 
 /// How the force in a link's wrench falls as a point of the link gains speed: by `all` times the
-/// gain and `along` times its part along `along`. An implicit step foresees it; others need not.
+/// gain and `along` times its part along `along`. An implicit step uses it to predict the force;
+/// other steps ignore it.
 struct Drag {
   Vec3 arm{Vec3::Zero()};    ///< from the joint to the point, world axes [m]
   double all{0.0};           ///< [N s/m]
   Vec3 along{Vec3::Zero()};  ///< world axes [sqrt(N s/m)]
 };
 
-/// All that acts on a chain at one time.
+/// All loads on a chain at one time.
 struct Loads {
   std::vector<Wrench> wrench;      ///< per link
-  std::vector<Vec2> joint_torque;  ///< per link, besides spring and damper [N m]
+  std::vector<Vec2> joint_torque;  ///< per link, in addition to spring and damper [N m]
   std::vector<Anchor> anchors;
   std::vector<Drag> drag;  ///< per link, or empty
 
-  /// No load on any of `links` links; keeps memory.
+  /// Sets no load on any of `links` links; keeps memory.
   void clear(std::size_t links);
 };
 
-/// What the world does to a chain. Either may be empty: ground at rest, no load.
+/// The environment of a chain. Either function may be empty: ground at rest, no load.
 struct Surroundings {
   std::function<void(double time, std::vector<BaseMotion>& bases)> bases;
   std::function<void(const Kinematics& kinematics, double time, Loads& loads)> loads;

@@ -8,34 +8,34 @@
 
 namespace vegetation_sim::physics {
 
-/// Small motion: how a link turns about its joint and how that joint moves, world axes.
+/// Small motion of a link: its turn about its joint and the displacement of that joint, world axes.
 struct SmallMotion {
   Vec3 turn{Vec3::Zero()};  ///< [rad]
   Vec3 move{Vec3::Zero()};  ///< [m]
 };
 
-/// A chain linearised about rest, on the ground: M x'' + C x' + K x = f. A vector of it holds
-/// [links][2] bends [rad] or joint torques [N m]. K and C are diagonal: springs and dampers of the
-/// joints; M is the full chain's mass matrix, never formed. Keeps scratch: one thread at a time.
+/// A chain linearised about rest, on the ground: M x'' + C x' + K x = f. A vector holds [links][2]
+/// bends [rad] or joint torques [N m]. K and C are diagonal: springs and dampers of the joints. M
+/// is the full chain's mass matrix and is never formed. Keeps scratch memory: one thread at a time.
 class LinearChain {
  public:
   explicit LinearChain(const std::vector<Link>& links);
 
   std::size_t size() const { return 2 * links_.size(); }  ///< length of a vector
-  /// Springs and dampers, two alike a link [N m/rad], [N m s/rad].
+  /// Springs and dampers, two equal values per link [N m/rad], [N m s/rad].
   const std::vector<double>& stiffness() const { return stiffness_; }
   const std::vector<double>& damping() const { return damping_; }
-  /// out = M x, one pass out and one back.
+  /// out = M x, by one pass to the tips and one back.
   void timesMass(const double* x, double* out);
-  /// Joint torques of wrenches [links] about the joints at rest.
+  /// Returns the joint torques of wrenches [links] about the joints at rest.
   std::vector<double> torquesOf(const std::vector<Wrench>& wrenches) const;
-  /// What bends do to every link.
+  /// Computes the motion of every link for bends `x`.
   void motionOf(const double* x, std::vector<SmallMotion>& out) const;
-  /// Where the links are at rest.
+  /// Returns the poses of the links at rest.
   const std::vector<Pose>& rest() const { return rest_; }
 
  private:
-  // At rest, world axes.
+  // A link at rest, world axes.
   struct Node {
     int parent;
     Vec3 first, second;  // axes of the two bends

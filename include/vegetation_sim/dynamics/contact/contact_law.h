@@ -6,13 +6,14 @@
 
 namespace vegetation_sim::physics {
 
-/// Force between a body and a branch: a spring on the overlap, taken at the end of the step, whose
-/// force is limited (docs/contact.md). Wood of some contacts bears a multiple (Contact::bears).
+/// Force between a body and a branch: a spring on the overlap, evaluated at the end of the step,
+/// whose force is limited (docs/contact.md). In a contact with harder wood, limit and stiffness are
+/// a multiple (Contact::bears).
 struct ContactLaw {
-  double stiffness{5e5};       ///< [N/m]; no step is too long for it
+  double stiffness{5e5};       ///< [N/m]; a step of any length is stable
   double force_limit{2000.0};  ///< per contact [N]
-  double force_rate{1e5};      ///< at which the force of a contact rises at most [N/s]
-  double push_speed{1.0};      ///< at which an overlap is undone at most [m/s]
+  double force_rate{1e5};      ///< largest rate at which the force of a contact rises [N/s]
+  double push_speed{1.0};      ///< largest speed at which an overlap is undone [m/s]
 };
 void describe(FieldVisitor& visitor, ContactLaw& law);
 

@@ -15,9 +15,9 @@ struct BatchBends {
   std::vector<float> amplitude;  ///< scratch
 };
 
-/// Modes in single precision, read straight through: bends of all joints from a few amplitudes, in
-/// the widest instruction set of the processor. The same bits on each of them: products are added
-/// mode by mode, nothing fused.
+/// Modes in single precision, in the order in which they are read: computes the bends of all joints
+/// from a few amplitudes, in the widest instruction set of the processor. The bits are the same on
+/// each of them: products are added mode by mode, and nothing is fused.
 class BatchModes {
  public:
   explicit BatchModes(const Modes& modes);
@@ -28,12 +28,13 @@ class BatchModes {
   /// @param[out] out [joints and PADDING more], keeps its memory.
   void bends(const std::vector<double>& amplitude, BatchBends& out) const;
 
-  static constexpr std::size_t BLOCK = 32;  ///< joints side by side: two of the widest vectors
+  /// number of joints per block: two of the widest vectors
+  static constexpr std::size_t BLOCK = 32;
   static constexpr std::size_t PADDING = 32;
 
  private:
   static constexpr std::size_t LINE = 16;
-  struct alignas(LINE * sizeof(float)) Line {  // of the cache
+  struct alignas(LINE * sizeof(float)) Line {  // a cache line
     float lane[LINE] = {};
   };
 

@@ -8,46 +8,46 @@
 
 namespace vegetation_sim::physics {
 
-/// All that a tree in modes remembers: of each oscillator the amplitude and its rate.
+/// The whole state of a tree in modes: the amplitude of each oscillator and its rate.
 struct ModalState {
   std::vector<double> amplitude, rate;  ///< [modes]
 };
 
-/// Modes are small motion: where turns that gather along a way from the ground exceed this, tips
-/// are 10 % off and it grows fast (docs/modal.md) [rad].
+/// Largest turn for which modes hold [rad]. Modes are small motion: where turns along a path from
+/// the ground add up to more, tips are 10 % off, and the error grows fast (docs/modal.md).
 constexpr double MODAL_LIMIT = 1.0;
 
-/// Turns of the links where each mode turns most, from which the rotation that has gathered along
-/// any way from the ground is told without visiting every link.
+/// Turns of the links where each mode turns most. They give the largest turn along any path from
+/// the ground without visiting every link.
 struct RotationProbe {
-  std::vector<int> links;  ///< where it looks
+  std::vector<int> links;  ///< the links that are probed
   std::vector<Vec3> turn;  ///< [links][modes] world turn per amplitude [rad]
 
   RotationProbe() = default;
   RotationProbe(const LinearChain& chain, const Modes& modes);
-  /// Largest turn of any of them from rest [rad]. @param[in] amplitude [modes].
+  /// Returns the largest turn of a probed link from rest [rad]. @param[in] amplitude [modes].
   double largestTurn(const std::vector<double>& amplitude) const;
-  /// False: the tree should be physical.
+  /// Returns whether the modes hold; if not, the tree should be physical.
   bool holds(const ModalState& state) const { return largestTurn(state.amplitude) <= MODAL_LIMIT; }
 };
 
-/// Steps oscillators exactly, whatever the step, for loads that change linearly during it.
+/// Steps oscillators exactly, for any length of step, under loads that change linearly during it.
 class ModalStepper {
  public:
   explicit ModalStepper(const Modes& modes);
 
   std::size_t size() const { return square_.size(); }
   ModalState atRest() const;
-  /// @param[in] before, after modal loads [modes] at the start and the end of the step.
+  /// @param[in] before, after are the modal loads [modes] at the start and the end of the step.
   void step(const std::vector<double>& before, const std::vector<double>& after, double h,
             ModalState& state);
-  /// Accelerations under a modal load [modes].
+  /// Returns the accelerations under a modal load [modes].
   void accelerations(const ModalState& state, const std::vector<double>& load,
                      std::vector<double>& out) const;
 
  private:
   struct Propagator {
-    double aa, ab, ba, bb;  // amplitude and rate after h, of what they are
+    double aa, ab, ba, bb;  // amplitude and rate after h as functions of amplitude and rate before
   };
   void prepare(double h);
 
