@@ -15,6 +15,7 @@
 #include "grass/mesh/grass_geometry.h"
 #include "options.h"
 #include "processor_time.h"
+#include "reference/grass/blade_plain.h"
 #include "vegetation_sim/core/config/instruction_set.h"
 #include "vegetation_sim/core/math/math.h"
 #include "vegetation_sim/core/math/random.h"

@@ -12,6 +12,7 @@
 #include "grass/mesh/grass_geometry.h"
 #include "options.h"
 #include "processor_time.h"
+#include "reference/grass/blade_profile.h"
 #include "scenes/grass/grass_fixture.h"
 #include "table.h"
 #include "vegetation_sim/core/math/math.h"

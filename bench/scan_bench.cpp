@@ -8,6 +8,7 @@
 
 #include "options.h"
 #include "processor_time.h"
+#include "reference/sensors/cast_plain.h"
 #include "scenes/sensors/lidar_scene.h"
 #include "sensors/sweep.h"
 

@@ -1,6 +1,7 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scenes/grass_part.h"
+#include "reference/grass/blade_plain.h"
 
 #include <algorithm>
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "reference/grass/blade_plain.h"
 #include "vegetation_sim/grass/blades/blade_batch.h"
 
 namespace vegetation_sim::grass {

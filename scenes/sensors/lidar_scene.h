@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "crowd/walker/gait.h"
+#include "reference/grass/blade_plain.h"
 #include "scenes/forest/forest_fixture.h"
 #include "sensors/sensor_scene.h"
 #include "vegetation_sim/core/math/random.h"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reference/canopy/printed_view.h"
 #include "vegetation_sim/core/math/math.h"
 
 namespace vegetation_sim::canopy {

@@ -18,14 +18,11 @@ void People::set(const std::vector<Person>& people) {
 }
 
 void People::meet(const Ray& ray, Hit& nearest) const {
-  boxes_.visit(ray, nearest, [&](std::size_t limb) { meetLimb(limbs_[limb], ray, nearest); });
+  boxes_.visit(ray, nearest, [&](std::size_t limb) { meetLimb(limb, ray, nearest); });
 }
 
-void People::meetEach(const Ray& ray, Hit& nearest) const {
-  for (const Limb& limb : limbs_) meetLimb(limb, ray, nearest);
-}
-
-void People::meetLimb(const Limb& limb, const Ray& ray, Hit& nearest) const {
+void People::meetLimb(std::size_t index, const Ray& ray, Hit& nearest) const {
+  const Limb& limb = limbs_[index];
   Meeting meeting;
   if (scan::meet(ray, limb.rod, nearest.distance, meeting))
     nearest = {meeting.distance, Label::PERSON, limb.person, limb.part, meeting.cosine};

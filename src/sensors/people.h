@@ -20,8 +20,8 @@ class People {
   void set(const std::vector<Person>& people);
 
   void meet(const Ray& ray, Hit& nearest) const;
-  /// Looks at every limb: the reference of meet().
-  void meetEach(const Ray& ray, Hit& nearest) const;
+  void meetLimb(std::size_t index, const Ray& ray, Hit& nearest) const;
+  std::size_t limbs() const { return limbs_.size(); }
 
  private:
   struct Limb {
@@ -29,8 +29,6 @@ class People {
     int part{0};  ///< index into the skeleton
     Rod rod;
   };
-  void meetLimb(const Limb& limb, const Ray& ray, Hit& nearest) const;
-
   std::vector<Limb> limbs_;
   BoxTree boxes_;
 };

@@ -83,10 +83,6 @@ void PosedTree::meet(const Ray& ray, Hit& nearest) const {
   boxes_.visit(ray, nearest, [&](std::size_t branch) { meetBranch(branch, ray, nearest); });
 }
 
-void PosedTree::meetEach(const Ray& ray, Hit& nearest) const {
-  for (std::size_t i = 0; i < rods_.size(); ++i) meetBranch(i, ray, nearest);
-}
-
 void PosedTree::meetBranch(std::size_t branch, const Ray& ray, Hit& nearest) const {
   Meeting meeting;
   if (scan::meet(ray, rods_[branch], nearest.distance, meeting)) {

@@ -30,8 +30,7 @@ class PosedTree {
   const std::vector<Rod>& rods() const { return rods_; }
 
   void meet(const Ray& ray, Hit& nearest) const;
-  /// Looks at every branch: the reference of meet().
-  void meetEach(const Ray& ray, Hit& nearest) const;
+  void meetBranch(std::size_t branch, const Ray& ray, Hit& nearest) const;
 
  private:
   /// Around the axis of a leafy branch.
@@ -42,7 +41,6 @@ class PosedTree {
   };
   void addLeaves(const forest::Species& species);
   void fitBoxes();
-  void meetBranch(std::size_t branch, const Ray& ray, Hit& nearest) const;
   void meetLeaves(std::size_t branch, const Ray& ray, Hit& nearest) const;
 
   std::uint32_t id_;

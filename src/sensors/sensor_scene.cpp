@@ -5,40 +5,23 @@
 #include "terrain/ground_ray.h"
 
 namespace vegetation_sim::scan {
-namespace {
 
-void meetEarth(const terrain::HeightMap& ground, const Ray& ray, Hit& nearest) {
-  Vec3 place;
-  if (!terrain::meetGround(ground, ray.origin, ray.direction, nearest.distance, place)) return;
-  const double distance = length(place - ray.origin);
-  if (!(distance < nearest.distance)) return;
-  const double cosine = std::fabs(dot(ground.normal(place.x(), place.y()), ray.direction));
-  nearest = {distance, Label::GROUND, 0, -1, cosine};
-}
-
-Hit nothingWithin(double reach) {
+Hit castToGround(const Scene& scene, const Ray& ray, double reach) {
   Hit out;
   out.distance = reach;
-  return out;
+  Vec3 place;
+  if (!terrain::meetGround(*scene.ground, ray.origin, ray.direction, reach, place)) return out;
+  const double distance = length(place - ray.origin);
+  if (!(distance < reach)) return out;
+  const double cosine = std::fabs(dot(scene.ground->normal(place.x(), place.y()), ray.direction));
+  return {distance, Label::GROUND, 0, -1, cosine};
 }
 
-}  // namespace
-
-// Grass last: only what of the ray is left is marched through.
+// The grass comes last because it is marched through only up to the nearest hit.
 Hit cast(const Scene& scene, const Ray& ray, double reach) {
-  Hit out = nothingWithin(reach);
-  meetEarth(*scene.ground, ray, out);
+  Hit out = castToGround(scene, ray, reach);
   scene.trees.meet(ray, out);
   scene.people.meet(ray, out);
-  scene.grass.meet(ray, out);
-  return out;
-}
-
-Hit castPlain(const Scene& scene, const Ray& ray, double reach) {
-  Hit out = nothingWithin(reach);
-  meetEarth(*scene.ground, ray, out);
-  scene.trees.meetEach(ray, out);
-  scene.people.meetEach(ray, out);
   scene.grass.meet(ray, out);
   return out;
 }

@@ -20,7 +20,7 @@ struct Scene {
 
 /// The nearest thing within `reach` [m]; Label::NONE if there is none.
 Hit cast(const Scene& scene, const Ray& ray, double reach);
-/// The same, looking at every branch and limb: the reference.
-Hit castPlain(const Scene& scene, const Ray& ray, double reach);
+/// Returns the hit on the ground alone.
+Hit castToGround(const Scene& scene, const Ray& ray, double reach);
 
 }  // namespace vegetation_sim::scan

@@ -71,8 +71,4 @@ void Trees::meet(const Ray& ray, Hit& nearest) const {
   boxes_.visit(ray, nearest, [&](std::size_t tree) { trees_[tree]->meet(ray, nearest); });
 }
 
-void Trees::meetEach(const Ray& ray, Hit& nearest) const {
-  for (const auto& tree : trees_) tree->meetEach(ray, nearest);
-}
-
 }  // namespace vegetation_sim::scan

@@ -23,8 +23,6 @@ class Trees {
   void clear() { *this = Trees(most_branches_); }
 
   void meet(const Ray& ray, Hit& nearest) const;
-  /// Looks at every branch: the reference of meet().
-  void meetEach(const Ray& ray, Hit& nearest) const;
 
   const std::vector<std::shared_ptr<PosedTree>>& all() const { return trees_; }
   std::size_t branches() const { return branches_; }

@@ -6,6 +6,7 @@
 
 #include <numeric>
 
+#include "reference/sensors/cast_plain.h"
 #include "scenes/sensors/lidar_scene.h"
 
 namespace vegetation_sim::scan {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "reference/sensors/cast_plain.h"
 #include "scenes/sensors/lidar_scene.h"
 
 namespace vegetation_sim::scan {
@@ -38,7 +39,7 @@ TEST(Trees, AreMetAsIfEveryBranchWereLookedAt) {
   std::array<int, LABELS> labels{};
   for (std::uint64_t i = 0; i < RAYS; ++i) {
     Hit plain;
-    trees.meetEach(Ray(SENSOR, randomDirection(Random(1), i, -0.1, 0.6)), plain);
+    meetEachBranch(trees, Ray(SENSOR, randomDirection(Random(1), i, -0.1, 0.6)), plain);
     EXPECT_TRUE(same(castAt(trees, i), plain)) << i;
     ++labels[static_cast<std::size_t>(plain.label)];
   }

@@ -6,6 +6,7 @@
 
 #include "crowd/agents/crowd.h"
 #include "crowd/walker/gait.h"
+#include "reference/crowd/paper_decision.h"
 #include "vegetation_sim/core/math/math.h"
 #include "vegetation_sim/core/math/random.h"
 

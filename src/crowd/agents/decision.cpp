@@ -12,7 +12,6 @@
 namespace vegetation_sim::crowd {
 namespace {
 
-constexpr double LARGEST_TURN = 1.4;      ///< of the paper's law, at contact [rad]
 constexpr double LARGEST_PRINTED = 10.0;  ///< times the noise at the sensor's range
 constexpr double HORIZON = 1.5;           ///< where the wish leads, in ranges of the sensor
 constexpr double STOPPING = 0.5;          ///< time to stop before what is ahead [s]
@@ -37,10 +36,6 @@ struct Fan {
 const Fan& fan() {
   static const Fan FAN_OF_ALL;
   return FAN_OF_ALL;
-}
-
-Point turned(const Point& v, const SinCos& by) {
-  return {by.cos * v.x - by.sin * v.y, by.sin * v.x + by.cos * v.y};
 }
 
 double meeting(const Walker& walker, const Sight& sight, const Point& velocity) {
@@ -98,23 +93,6 @@ double normalNumber(std::uint64_t key, std::uint64_t index) {
   // Eight numbers of 16 bits: mean 4 * 65535, variance 8 / 12.
   return (static_cast<double>(sum) * (1.0 / 65536.0) - 4.0 * 65535.0 / 65536.0) *
          1.2247448713915890;
-}
-
-Command decideByPaper(const Walker& walker, const View& view, const CrowdSettings& s,
-                      const Wish& wish, Nanoseconds stamp) {
-  Command out{wish.direction, wish.speed};
-  double distance = s.sensor_range, turn = 0.0;
-  if (view.count > 0) {
-    const Sight& nearest = view.at(0);
-    distance = std::min(distance, std::max(0.0, nearest.gap));
-    const double near = 1.0 - distance / s.sensor_range;
-    const double left = wish.direction.x * nearest.normal.y - wish.direction.y * nearest.normal.x;
-    turn = (left < 0.0 ? 1.0 : -1.0) * LARGEST_TURN * near;
-    out.speed *= std::max(s.slowest, 1.0 - near);
-  }
-  turn += noiseAt(s, distance) * normalNumber(walker.key, static_cast<std::uint64_t>(stamp));
-  out.direction = turned(wish.direction, sinCos(turn));
-  return out;
 }
 
 Command decideByGoal(const Walker& walker, const View& view, const CrowdSettings& s,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "crowd/agents/perception.h"
+#include "vegetation_sim/core/math/math.h"
 
 namespace vegetation_sim::crowd {
 
@@ -18,6 +19,11 @@ struct Wish {
   double speed{0.0};          ///< [m/s]; 0: it stands
 };
 
+/// Returns a vector turned to the left by an angle.
+inline Point turned(const Point& v, const SinCos& by) {
+  return {by.cos * v.x - by.sin * v.y, by.sin * v.x + by.cos * v.y};
+}
+
 /// Standard deviation of the heading's noise at a distance [rad]: growing from 0 at contact to its
 /// largest at the sensor's range, or as printed the other way round, there bounded by ten times
 /// (S2-33, E7).
@@ -25,11 +31,6 @@ double noiseAt(const CrowdSettings& settings, double distance);
 
 /// A number with mean 0 and variance 1, near to normal: the sum of eight uniform ones.
 double normalNumber(std::uint64_t key, std::uint64_t index);
-
-/// The paper's law (S2-32): slower the nearer the nearest obstacle, turned away from its side; one
-/// straight ahead counts as left, so that one turns right.
-Command decideByPaper(const Walker& walker, const View& view, const CrowdSettings& settings,
-                      const Wish& wish, Nanoseconds stamp);
 
 /// Looks along a fan of directions for how far each is free of all that the view holds, as it
 /// moves, and takes the one that ends nearest to where the wish leads (in the manner of Moussaid,

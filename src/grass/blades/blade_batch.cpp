@@ -11,7 +11,7 @@
 #include <hwy/highway.h>
 
 #include "grass/blades/blade_lanes-inl.h"
-#include "reference/grass/blade_plain.h"
+#include "grass/blades/blade_root.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace vegetation_sim::grass::HWY_NAMESPACE {
@@ -33,7 +33,8 @@ HWY_INLINE void to(Lanes value, float* place) {
 }
 
 // First pass: random numbers and places.
-HWY_INLINE void rootLanes(const Tile& tile, const Plan<float>& plan, Words index, int i, Chunk& c) {
+HWY_INLINE void rootLanes(const Tile& tile, const TilePlan<float>& plan, Words index, int i,
+                          Chunk& c) {
   const WordTag tag;
   const Words base = mixLanes(hn::Xor(index, hn::Set(tag, static_cast<std::uint32_t>(tile.key)))) +
                      hn::Set(tag, static_cast<std::uint32_t>(tile.key >> 32));
@@ -62,7 +63,7 @@ struct LanesRoot {
   Lanes rest, compliance;  // of the species, if they are mixed
 };
 
-HWY_INLINE LanesRoot rootOf(const Tile& tile, const Plan<float>& plan, int i, const Chunk& c) {
+HWY_INLINE LanesRoot rootOf(const Tile& tile, const TilePlan<float>& plan, int i, const Chunk& c) {
   LanesRoot root;
   root.u = from(c.u + i);
   root.v = from(c.v + i);
@@ -108,7 +109,7 @@ HWY_INLINE LanesBent directed(Lanes x, Lanes y) {
   return {zero, size, hn::IfThenElse(any, x * inverse, one), hn::IfThenElseZero(any, y * inverse)};
 }
 
-HWY_INLINE LanesBent bendOf(const Plan<float>& plan, const LanesRoot& root, Lanes lean_x,
+HWY_INLINE LanesBent bendOf(const TilePlan<float>& plan, const LanesRoot& root, Lanes lean_x,
                             Lanes lean_y) {
   Lanes lean = at(plan.shape, root.u, root.v);
   Lanes x = at(plan.wind_x, root.u, root.v), y = at(plan.wind_y, root.u, root.v);
@@ -182,8 +183,8 @@ HWY_INLINE void putSloped(const LanesFrame& f, const LanesProfile& p, int lane, 
 }
 
 // Second pass: lengths and bends.
-HWY_INLINE void bendLanes(const Tile& tile, const Plan<float>& plan, const CrushPatch* crush, int i,
-                          Chunk& c) {
+HWY_INLINE void bendLanes(const Tile& tile, const TilePlan<float>& plan, const CrushPatch* crush,
+                          int i, Chunk& c) {
   const LanesRoot root = rootOf(tile, plan, i, c);
   LanesBent bent = bendOf(plan, root, from(c.lean_x + i), from(c.lean_y + i));
   if (crush) {
@@ -227,7 +228,7 @@ HWY_INLINE void stream(const BladeBlock& block, BladeBlock& out) {
 
 template <bool STREAMED>
 HWY_INLINE void poseAll(const Tile& tile, const TileMotion& motion, int count, BladeBlock* out) {
-  const Plan<float> plan(tile, motion);
+  const TilePlan<float> plan(tile, motion);
   const int step = static_cast<int>(hn::Lanes(Tag()));
   const CrushPatch* crush = motion.crush && motion.crush->cells > 0 ? motion.crush : nullptr;
   Words index = hn::Iota(WordTag(), 0);

@@ -12,7 +12,7 @@
 
 #include <hwy/highway.h>
 
-#include "reference/grass/blade_plain.h"
+#include "grass/blades/blade_root.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace vegetation_sim::grass::HWY_NAMESPACE {

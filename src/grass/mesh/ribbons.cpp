@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grass/blades/blade_root.h"
 #include "grass/mesh/mesh_writer.h"
-#include "reference/grass/blade_plain.h"
 
 namespace vegetation_sim::grass {
 namespace {
@@ -144,7 +144,7 @@ class Ribbons {
     const int lane = blade % BLOCK;
     const float u = block.x[0][lane] / tile_.size, v = block.y[0][lane] / tile_.size;
     const auto last = static_cast<std::size_t>(tile_.species_count - 1);
-    const float aim = Chance<float>(tile_.key, blade).kind() * plan_.shares[last].at(u, v);
+    const float aim = BladeRandom<float>(tile_.key, blade).kind() * plan_.shares[last].at(u, v);
     int kind = 0;
     for (std::size_t s = 1; s <= last; ++s)
       if (aim > plan_.shares[s - 1].at(u, v)) kind = static_cast<int>(s);
@@ -233,7 +233,7 @@ class Ribbons {
   const Tile& tile_;
   const RibbonStyle& style_;
   Float3 corner_, eye_;
-  Plan<float> plan_;
+  TilePlan<float> plan_;
   Bilinear<float> colour_;
   std::array<int, POINTS> kept_;
   std::vector<Look> looks_;

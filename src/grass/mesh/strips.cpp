@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "grass/blades/blade_root.h"
 #include "grass/mesh/mesh_writer.h"
-#include "reference/grass/blade_plain.h"
 #include "vegetation_sim/core/math/random.h"
 
 namespace vegetation_sim::grass {

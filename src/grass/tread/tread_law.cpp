@@ -5,13 +5,6 @@
 #include <cmath>
 
 namespace vegetation_sim::grass {
-namespace {
-
-double lengthOf(const Point& a, const Point& b) {
-  return std::sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y));
-}
-
-}  // namespace
 
 void describe(FieldVisitor& v, TreadLaw& law) {
   v.number("radius", law.radius, "m", {0.005, 5.0});
@@ -30,7 +23,7 @@ void check(TreadLaw law, const std::string& context, Faults& faults) {
 }
 
 double treadField(const Point& p, const Point& p0, const Point& p1, double eps) {
-  const double c = lengthOf(p0, p1);
+  const double c = distanceBetween(p0, p1);
   if (!(c > 0.0)) return 0.0;
   const double tx = (p1.x - p0.x) / c, ty = (p1.y - p0.y) / c;
   const double ax = p0.x - p.x, ay = p0.y - p.y;
@@ -40,19 +33,8 @@ double treadField(const Point& p, const Point& p0, const Point& p1, double eps) 
                         square);
 }
 
-double treadFieldPrinted(const Point& p, const Point& p0, const Point& p1) {
-  const double c = lengthOf(p0, p1);
-  if (!(c > 0.0)) return 0.0;
-  const double tx = (p1.x - p0.x) / c, ty = (p1.y - p0.y) / c;
-  const double along = (p.x - p0.x) * tx + (p.y - p0.y) * ty;
-  const Point foot{p0.x + along * tx, p0.y + along * ty};
-  const double height = lengthOf(p, foot);
-  const double sine0 = -along / lengthOf(p, p0), sine1 = (c - along) / lengthOf(p, p1);
-  return (sine1 - sine0) / (height * height);
-}
-
 Point treadVector(const Point& p, const Point& p0, const Point& p1, double field) {
-  const double c = lengthOf(p0, p1);
+  const double c = distanceBetween(p0, p1);
   if (!(c > SHORTEST_STROKE)) return {};
   const double tx = (p1.x - p0.x) / c, ty = (p1.y - p0.y) / c;
   const double side = (p.y - p0.y) * tx - (p.x - p0.x) * ty;
@@ -64,7 +46,7 @@ CompactField::CompactField(const Point& p0, const Point& p1, double reach, doubl
   parts_.p0 = p0;
   parts_.square_reach = reach * reach;
   parts_.square_softness = softness * softness;
-  const double length = lengthOf(p0, p1);
+  const double length = distanceBetween(p0, p1);
   if (length > SHORTEST_STROKE) {
     parts_.length = length;
     parts_.along = {(p1.x - p0.x) / length, (p1.y - p0.y) / length};

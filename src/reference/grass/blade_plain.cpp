@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reference/grass/blade_plain.h"
 
+#include "grass/blades/blade_root.h"
+#include "reference/grass/blade_profile.h"
+
 namespace vegetation_sim::grass {
 namespace {
 
@@ -33,7 +36,7 @@ Bend<T> directed(T x, T y) {
 }
 
 template <class T>
-Bend<T> bendOf(const Tile& tile, const Plan<T>& plan, const Root<T>& root) {
+Bend<T> bendOf(const Tile& tile, const TilePlan<T>& plan, const BladeRoot<T>& root) {
   T lean = plan.shape.at(root.u, root.v);
   T x = plan.wind_x.at(root.u, root.v), y = plan.wind_y.at(root.u, root.v);
   if (plan.mixed) {
@@ -42,7 +45,7 @@ Bend<T> bendOf(const Tile& tile, const Plan<T>& plan, const Root<T>& root) {
     x = x * T(kind.compliance);
     y = y * T(kind.compliance);
   }
-  Bend<T> bend = directed(lean * root.chance.lean_x + x, lean * root.chance.lean_y + y);
+  Bend<T> bend = directed(lean * root.random.lean_x + x, lean * root.random.lean_y + y);
   bend.size = bounded(bend.size);
   return bend;
 }
@@ -109,8 +112,8 @@ Ground<T> groundAt(const Tile& tile, T u, T v) {
 
 // Reach along the ground, rise straight away from it, so a slope never cuts a blade.
 template <class T, class Put>
-void place(const Tile& tile, const Root<T>& root, const Bent<T>& bent, const Profile<T>& profile,
-           Put&& put) {
+void place(const Tile& tile, const BladeRoot<T>& root, const Bent<T>& bent,
+           const Profile<T>& profile, Put&& put) {
   const Ground<T> ground = groundAt(tile, root.u, root.v);
   const T x = root.u * T(tile.size), y = root.v * T(tile.size);
   T tx = bent.direction.x, ty = bent.direction.y, tz = T(0), nx = T(0), ny = T(0), nz = T(1);
@@ -133,9 +136,9 @@ void place(const Tile& tile, const Root<T>& root, const Bent<T>& bent, const Pro
 }
 
 template <class T, class Put>
-void poseOne(const Tile& tile, const Plan<T>& plan, const TileMotion& motion, int blade,
+void poseOne(const Tile& tile, const TilePlan<T>& plan, const TileMotion& motion, int blade,
              Put&& put) {
-  const Root<T> root(tile, plan, blade);
+  const BladeRoot<T> root(tile, plan, blade);
   const Bend<T> bend = bendOf(tile, plan, root);
   Bent<T> bent{T(0), bend.size, bend.direction};
   if (motion.crush && motion.crush->cells > 0) bent = trodden(bend, *motion.crush, root.u, root.v);
@@ -145,7 +148,7 @@ void poseOne(const Tile& tile, const Plan<T>& plan, const TileMotion& motion, in
 }  // namespace
 
 void poseBladesPlain(const Tile& tile, const TileMotion& motion, int count, BladeBlock* out) {
-  const Plan<float> plan(tile, motion);
+  const TilePlan<float> plan(tile, motion);
   for (int blade = 0; blade < blocksFor(count) * BLOCK; ++blade) {
     BladeBlock& block = out[blade / BLOCK];
     const int lane = blade % BLOCK;
@@ -159,7 +162,7 @@ void poseBladesPlain(const Tile& tile, const TileMotion& motion, int count, Blad
 
 ReferenceBlade poseReference(const Tile& tile, const TileMotion& motion, int blade) {
   ReferenceBlade out;
-  poseOne<double>(tile, Plan<double>(tile, motion), motion, blade,
+  poseOne<double>(tile, TilePlan<double>(tile, motion), motion, blade,
                   [&](std::size_t i, double x, double y, double z) {
                     out.x[i] = x;
                     out.y[i] = y;
@@ -168,8 +171,8 @@ ReferenceBlade poseReference(const Tile& tile, const TileMotion& motion, int bla
   return out;
 }
 
-BladeLook bladeLook(const Tile& tile, int blade) {
-  const Root<float> root(tile, Plan<float>(tile, TileMotion()), blade);
+BladeTraits traitsOf(const Tile& tile, int blade) {
+  const BladeRoot<float> root(tile, TilePlan<float>(tile, TileMotion()), blade);
   return {root.u, root.v, root.length, root.species,
           Bilinear<float>(tile.colour).at(root.u, root.v)};
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "reference/canopy/printed_view.h"
 #include "scenes/canopy/plane_scene.h"
 
 namespace vegetation_sim::canopy {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "reference/crowd/paper_decision.h"
 #include "scenes/crowd/crowd_scenes.h"
 
 namespace vegetation_sim::crowd {

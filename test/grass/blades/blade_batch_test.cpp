@@ -7,6 +7,7 @@
 #include <cstring>
 #include <thread>
 
+#include "reference/grass/blade_plain.h"
 #include "scenes/grass/grass_fixture.h"
 #include "vegetation_sim/core/config/instruction_set.h"
 #include "vegetation_sim/core/math/math.h"
@@ -136,7 +137,7 @@ double chiSquare(const Tile& tile, bool first_half_only) {
   std::vector<double> counts(BINS * BINS, 0.0);
   const int count = first_half_only ? SAMPLES / 8 : SAMPLES;
   for (int i = 0; i < count; ++i) {
-    const BladeLook look = bladeLook(tile, i);
+    const BladeTraits look = traitsOf(tile, i);
     const int column = static_cast<int>(look.u * BINS), row = static_cast<int>(look.v * BINS);
     counts[static_cast<std::size_t>(row * BINS + column)] += 1.0;
   }
@@ -190,7 +191,7 @@ TEST(BladeBatch, DensityIsContinuousAcrossTheBorderOfTwoTiles) {
     for (int side = 0; side < 2; ++side) {
       tiles[side].key = Random(static_cast<std::uint64_t>(seed)).child(side).key();
       for (int i = 0; i < counts[side]; ++i) {
-        const float u = bladeLook(tiles[side], i).u;
+        const float u = traitsOf(tiles[side], i).u;
         if (side == 0 ? u > 1.f - BAND : u < BAND) density[side] += 1.0;
       }
     }
@@ -204,7 +205,7 @@ TEST(BladeBatch, NeighbouringTilesAreUncorrelated) {
   const Tile a = tileOf({1.f, 1.f, 1.f, 1.f}, 4, 4), b = tileOf({1.f, 1.f, 1.f, 1.f}, 5, 4);
   constexpr int N = 100000;
   double sum = 0.0;
-  for (int i = 0; i < N; ++i) sum += (bladeLook(a, i).u - 0.5) * (bladeLook(b, i).u - 0.5) * 12.0;
+  for (int i = 0; i < N; ++i) sum += (traitsOf(a, i).u - 0.5) * (traitsOf(b, i).u - 0.5) * 12.0;
   EXPECT_LT(std::fabs(sum / N), 4.0 / std::sqrt(N));
 }
 
@@ -220,7 +221,7 @@ TEST(BladeBatch, SpeciesComeInTheirShares) {
   constexpr int N = 200000;
   double east[3] = {}, west[3] = {};
   for (int i = 0; i < N; ++i) {
-    const BladeLook look = bladeLook(tile, i);
+    const BladeTraits look = traitsOf(tile, i);
     (look.u > 0.5f ? east : west)[look.species] += 1.0;
   }
   EXPECT_EQ(east[1] + west[1], 0.0);
@@ -240,7 +241,7 @@ TEST(BladeBatch, BladesKeepTheirLength) {
     if (scene.motion.model == BladeModel::PAPER) continue;
     const auto blocks = posed(scene.tile, scene.motion, COUNT);
     for (int blade = 0; blade < COUNT; ++blade) {
-      const double wanted = bladeLook(scene.tile, blade).length;
+      const double wanted = traitsOf(scene.tile, blade).length;
       const double length = polylineLength([&](int i) { return pointOf(blocks, blade, i); });
       // Coordinates of some metres carry 2e-7 m each.
       ASSERT_NEAR(length, wanted, 1e-5 * wanted + 2e-6);

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "reference/grass/blade_plain.h"
 #include "scenes/grass/grass_fixture.h"
 #include "vegetation_sim/wind/field.h"
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "reference/grass/blade_plain.h"
 #include "scenes/grass/grass_fixture.h"
 
 namespace vegetation_sim::grass {
@@ -116,7 +117,7 @@ TEST(Ribbons, FlowersStandAtTheTips) {
   GrassMesh mesh;
   appendRibbons(map, tile, blocks.data(), 500, RibbonStyle(), mesh);
   std::size_t flowers = 0;
-  for (int blade = 0; blade < 500; ++blade) flowers += bladeLook(tile, blade).species == 1;
+  for (int blade = 0; blade < 500; ++blade) flowers += traitsOf(tile, blade).species == 1;
   EXPECT_GT(flowers, 150u);
   EXPECT_EQ(mesh.indices.size(), 3 * (500 * 9 + 6 * flowers));
 }
@@ -192,7 +193,7 @@ TEST(Strips, FollowTheWindOfTheBlades) {
   Vec3 mean = Vec3::Zero();
   const auto blocks = posed(tile, motion, 1000);
   for (int i = 0; i < 1000; ++i)
-    mean += (pointOf(blocks, i, LINKS) - pointOf(blocks, i, 0)) / bladeLook(tile, i).length;
+    mean += (pointOf(blocks, i, LINKS) - pointOf(blocks, i, 0)) / traitsOf(tile, i).length;
   mean /= 1000.0;
   EXPECT_NEAR(lean.x() / 0.3, mean.x(), 0.03);  // the mean of bent blades against one sheet
   EXPECT_NEAR(lean.y() / 0.3, mean.y(), 0.03);
@@ -275,7 +276,7 @@ TEST(Ribbons, ShowColourAndHeightOfTheMap) {
   GrassMesh mesh;
   appendRibbons(map, tile, blocks.data(), 800, RibbonStyle(), mesh);
   for (int i = 0; i < 800; ++i) {
-    const BladeLook look = bladeLook(tile, i);
+    const BladeTraits look = traitsOf(tile, i);
     const int side = look.u > 0.5f;
     red[side] += mesh.colours[static_cast<std::size_t>(4 * (11 * i + 10))];
     length[side] += double{look.length};

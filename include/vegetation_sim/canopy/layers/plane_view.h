@@ -57,16 +57,6 @@ struct PlaneToView {
   Vec3 right{Vec3::UnitX()}, up{Vec3::UnitY()}, out{Vec3::UnitZ()};  ///< rows of the matrix
 };
 
-/// Paper 3, equations 1 and 2 as printed: with the plane's tilt and the angles between plane and
-/// view in XZ and YZ. Loses length at any angle but 0 (E8).
-Vec3 printedToView(const PlaneVector& in_plane, double tilt, double alpha, double beta);
-
-/// The three angles that the printed form asks for.
-struct PrintedAngles {
-  double tilt, alpha, beta;  ///< [rad]
-};
-PrintedAngles printedAngles(const Axes& plane, const Axes& view);
-
 /// Makes any square tile: the field and itself moved by half, linearly blended, first across and
 /// then up (S3-14). Weakens the motion where both halves count; a periodic field needs it not.
 void blendSeams(PlaneField& field);

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
-
 namespace vegetation_sim::grass {
 
 /// ARC: a hinge at the root plus an arc of equal links, whose length is constant by construction.
@@ -14,31 +12,5 @@ constexpr int LINKS = 5;            ///< segments of a blade (S2-08)
 constexpr int POINTS = LINKS + 1;   ///< root first
 constexpr double BEND_KNEE = 0.8;   ///< up to here a bend follows its causes [rad]
 constexpr double BEND_LIMIT = 1.5;  ///< no blade bends or is crushed further: 4 degrees from flat
-
-/// A blade in its own plane: distance from the root along the bend, height above the ground.
-template <class T>
-struct Profile {
-  std::array<T, POINTS> reach{}, rise{};
-};
-
-/// Shape of a blade of length `length` whose root is tilted by `hinge` [rad] from upright and which
-/// then bends by `arc` more up to its tip. Requires 0 <= hinge, arc and hinge + arc <= BEND_LIMIT;
-/// then the tip is never below the root, and within 10 degrees of the ground if hinge = BEND_LIMIT.
-template <class T>
-Profile<T> bladeProfile(T length, T hinge, T arc, BladeModel model);
-
-extern template Profile<float> bladeProfile(float, float, float, BladeModel);
-extern template Profile<double> bladeProfile(double, double, double, BladeModel);
-
-/// Point of the paper's curve at s in [0, 1]: Hermite from the root, tangent straight up, to the
-/// tip (x, z), tangent 2 tip - up.
-template <class T>
-struct PlanePoint {
-  T reach, rise;
-};
-PlanePoint<double> hermitePoint(double length, double tip_x, double tip_z, double s);
-
-/// The ordinate that the paper lowers when the abscissa grows: sqrt(length^2 - x^2).
-double loweredTip(double length, double tip_x);
 
 }  // namespace vegetation_sim::grass

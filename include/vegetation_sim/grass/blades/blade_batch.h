@@ -42,25 +42,6 @@ enum class Store { CACHED, STREAMED };
 void poseBlades(const Tile& tile, const TileMotion& motion, int count, BladeBlock* out,
                 Store store = Store::CACHED);
 
-/// The same, blade by blade.
-void poseBladesPlain(const Tile& tile, const TileMotion& motion, int count, BladeBlock* out);
-
-/// One blade in double precision: the reference for the error of the others. Its random numbers
-/// are the same.
-struct ReferenceBlade {
-  std::array<double, POINTS> x{}, y{}, z{};
-};
-ReferenceBlade poseReference(const Tile& tile, const TileMotion& motion, int blade);
-
-/// What of a blade does not move, for drawing.
-struct BladeLook {
-  float u{0.f}, v{0.f};  ///< place of the root in the tile, 0 to 1
-  float length{0.f};     ///< [m]
-  int species{0};
-  float colour{0.f};  ///< between the species' colour 0 and dry colour 1
-};
-BladeLook bladeLook(const Tile& tile, int blade);
-
 /// Blocks that hold `count` blades.
 constexpr int blocksFor(int count) {
   return (count + BLOCK - 1) / BLOCK;

@@ -15,6 +15,10 @@ struct Point {
   double x{0.0}, y{0.0};
 };
 
+inline double distanceBetween(const Point& a, const Point& b) {
+  return std::sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y));
+}
+
 /// How one source treads: a foot, a wheel, a mower deck (S2-21).
 struct TreadLaw {
   double radius{0.12};    ///< half width that a straight track crushes fully [m]
@@ -47,9 +51,6 @@ inline double kernelIntegral(const KernelEnd& lo, const KernelEnd& hi, double sq
   return both > 0.0 ? (hi.s - lo.s) * std::fabs(hi.s + lo.s) / (lo.r * hi.r * both)
                     : std::numeric_limits<double>::infinity();
 }
-
-/// The same as printed, sines taken as the formula reads: cancels near the line's extension.
-double treadFieldPrinted(const Point& p, const Point& p0, const Point& p1);
 
 /// The crushing vector E(P) = F (sign(A.N) N + C) of paper 2; pure C on the track itself.
 Point treadVector(const Point& p, const Point& p0, const Point& p1, double field);

@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vegetation_sim/grass/blades/blade.h"
+#include "reference/grass/blade_profile.h"
 
 #include <gtest/gtest.h>
 
