@@ -92,8 +92,8 @@ Path heldAir(const std::string& name, const Trees& trees, const wind::Field& win
   out.advance = [batch, wind](int steps) {
     for (int i = 0; i < steps; i += SUB_STEPS) {
       const forest::FloatWind now(wind.at(fromSeconds(0.3 + STEP * i)), 100.0);
-      batch->askAir([now](const float* places, float* air, std::size_t blocks) {
-        fillAir(now, places, air, blocks);
+      batch->queryWind([now](const float* places, float* air, std::size_t blocks) {
+        fillWind(now, places, air, blocks);
       });
       batch->step(STEP, SUB_STEPS);
     }

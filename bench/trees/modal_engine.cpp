@@ -20,7 +20,7 @@ physics::Modes findModes(const TestTree& tree, const TestLoad& load, int modes, 
   else if (vectors >= 2)
     quick = {0.5};
   for (const double part : quick)
-    shapes.push_back({torque, 0, physics::quickAnswer(links, torque, part * FRAME)});
+    shapes.push_back({torque, 0, physics::quickResponse(links, torque, part * FRAME)});
   if (vectors > 0) {
     shapes.insert(shapes.begin(), {torque, vectors - static_cast<int>(shapes.size())});
     physics::addLoadVectors(chain, shapes, out);

@@ -128,8 +128,8 @@ void Forest::predict(const TreeSeed& seed, const LevelTable& table, double view,
     off = besides = responseErrorOf(seed, swinging_.at(foot, reach), speed / air, pixels);
     // Discs are paper 1's winds, for which the whole of a tree's answer is its levels (S1-41): for
     // them nobody asks for more.
-    if (swinging_.hasDiscs())
-      besides = responseErrorOf(seed, swinging_.withoutDiscs(foot, reach), speed / air, pixels);
+    if (swinging_.hasDisks())
+      besides = responseErrorOf(seed, swinging_.withoutDisks(foot, reach), speed / air, pixels);
   }
   for (std::size_t tier = 0; tier < table.omitted.size(); ++tier) {
     const double omitted = speed * view * table.omitted[tier];

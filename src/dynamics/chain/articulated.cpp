@@ -15,8 +15,9 @@ Vec3 biasOf(const ArticulatedBody::Joint& joint, const ChainState& state, std::s
 
 }  // namespace
 
-void ArticulatedBody::look(const std::vector<Link>& links, const std::vector<BaseMotion>& bases,
-                           const ChainState& state, Kinematics& out) {
+void ArticulatedBody::updateKinematics(const std::vector<Link>& links,
+                                       const std::vector<BaseMotion>& bases,
+                                       const ChainState& state, Kinematics& out) {
   const std::size_t n = links.size();
   joints_.resize(n);
   out.pose.resize(n);

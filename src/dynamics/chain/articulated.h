@@ -52,8 +52,8 @@ inline Implicitness implicitFor(double theta, double h, double products) {
 class ArticulatedBody {
  public:
   /// Computes kinematicsOf and keeps what solve() needs of it.
-  void look(const std::vector<Link>& links, const std::vector<BaseMotion>& bases,
-            const ChainState& state, Kinematics& out);
+  void updateKinematics(const std::vector<Link>& links, const std::vector<BaseMotion>& bases,
+                        const ChainState& state, Kinematics& out);
   /// Computes the accelerations of all joints [rad/s^2] for the last kinematics.
   void solve(const std::vector<Link>& links, const std::vector<BaseMotion>& bases,
              const ChainState& state, const Kinematics& kinematics, const Loads& loads,

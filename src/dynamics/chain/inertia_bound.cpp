@@ -76,7 +76,7 @@ class Sharing {
 using Body = ArticulatedBody::Body;
 
 // Eliminates a body's joint about its own x and y axes and leaves the rest for its parent.
-void giveWay(double pivot1, double pivot2, double coupling, Body& body) {
+void eliminateJoint(double pivot1, double pivot2, double coupling, Body& body) {
   const Vec3 a1(body.a.xx, body.a.xy, body.a.xz), b1 = body.bx;
   const Vec3 a2 = Vec3(body.a.xy, body.a.yy, body.a.yz) - coupling * a1;
   const Vec3 b2 = body.by - coupling * b1;
@@ -114,7 +114,7 @@ bool holdsAtRest(const std::vector<Link>& links) {
     const double pivot2 = body.a.yy - link.guaranteed_inertia - coupling * body.a.xy;
     if (!(pivot1 > 0.0 && pivot2 > 0.0)) return false;
     if (link.parent < 0) continue;
-    giveWay(pivot1, pivot2, coupling, body);
+    eliminateJoint(pivot1, pivot2, coupling, body);
     turn(axesOf(link.rest), body);
     addChild(body, Vec3(0.0, 0.0, link.h), bodies[static_cast<std::size_t>(link.parent)]);
   }

@@ -37,8 +37,8 @@ void describe(FieldVisitor& v, ContactLaw& law) {
 }
 
 // Computes geometry and loads at q + theta h rate, once for all trials.
-void ContactStepper::look(const std::vector<Link>& links, const Surroundings& outside, double time,
-                          double h, double theta, const ChainState& state) {
+void ContactStepper::updateGeometry(const std::vector<Link>& links, const Surroundings& outside,
+                                    double time, double h, double theta, const ChainState& state) {
   between_.rate = state.rate;
   between_.q.resize(links.size());
   for (std::size_t i = 0; i < links.size(); ++i)
@@ -66,10 +66,10 @@ void ContactStepper::prepare(const ContactLaw& law, double h, double theta,
     p.gap = contact.gap + (1.0 - theta) * h * p.speed;
     // This is the overlap that the step would add beyond DEEP. It makes the force continuous in all
     // its arguments.
-    const double gain =
-        std::clamp(-DEEP / contact.bears - (p.gap + h * p.speed), 0.0, std::max(0.0, -h * p.speed));
-    p.stiffness = contact.bears * law.stiffness;
-    p.full = contact.bears * law.force_limit;
+    const double gain = std::clamp(-DEEP / contact.hardness - (p.gap + h * p.speed), 0.0,
+                                   std::max(0.0, -h * p.speed));
+    p.stiffness = contact.hardness * law.stiffness;
+    p.full = contact.hardness * law.force_limit;
     p.before = contact.force;
     const double risen = contact.force + h * law.force_rate + p.stiffness * gain;
     p.floor = std::max(0.0, contact.force - h * law.force_limit / FALL_TIME);
@@ -172,7 +172,7 @@ bool ContactStepper::revise(const ContactLaw& law, double h, bool one_by_one,
 }
 
 // A contact that bounces off in the middle of a step has as much force before as after it.
-double ContactStepper::swingOf(double h, const Point& p, const Contact& contact) {
+double ContactStepper::forceChangeOf(double h, const Point& p, const Contact& contact) {
   const double change = std::fabs(contact.force - p.before);
   if (contact.limited) return change;
   const double most = std::max(contact.force, p.before);
@@ -182,7 +182,7 @@ double ContactStepper::swingOf(double h, const Point& p, const Contact& contact)
 void ContactStepper::step(const std::vector<Link>& links, const Surroundings& outside,
                           const ContactLaw& law, double time, double h, double theta,
                           ChainState& state, std::vector<Contact>& contacts) {
-  look(links, outside, time, h, theta, state);
+  updateGeometry(links, outside, time, h, theta, state);
   prepare(law, h, theta, contacts);
   const std::size_t others = loads_.anchors.size();
   // These are the rules of ChainStepper for fast motion.
@@ -203,11 +203,11 @@ void ContactStepper::step(const std::vector<Link>& links, const Surroundings& ou
     }
   }
   stopJoints(h, state);
-  swing_ = 0.0;
-  swings_.assign(links.size(), 0.0);
+  force_change_ = 0.0;
+  force_changes_.assign(links.size(), 0.0);
   for (std::size_t c = 0; c < contacts.size(); ++c) {
-    double& of_link = swings_[static_cast<std::size_t>(contacts[c].link)];
-    swing_ = std::max(swing_, of_link += swingOf(h, points_[c], contacts[c]));
+    double& of_link = force_changes_[static_cast<std::size_t>(contacts[c].link)];
+    force_change_ = std::max(force_change_, of_link += forceChangeOf(h, points_[c], contacts[c]));
   }
 }
 

@@ -18,7 +18,7 @@ struct Contact {
   double gap{0.0};             ///< between the surfaces, along the normal; negative: overlap [m]
   Vec3 surface{Vec3::Zero()};  ///< velocity of the body there, world [m/s]
   double share{1.0};           ///< share of the force limit that it may reach, 0 to 1
-  double bears{1.0};           ///< factor of the law's stiffness and limit, for harder wood
+  double hardness{1.0};        ///< factor of the law's stiffness and limit, for harder wood
   std::size_t touch{0};        ///< identifies the contact to the caller
   double force{0.0};    ///< force on the link along the normal [N]: first a guess, then the result
   bool limited{false};  ///< the force was at its limit
@@ -39,7 +39,7 @@ class ContactStepper {
   bool agreed() const { return agreed_; }
   /// Returns the largest change of the forces on a link in the last step, up and down, with those
   /// of all bodies summed [N].
-  double swing() const { return swing_; }
+  double forceChange() const { return force_change_; }
 
  private:
   enum class Mode { FREE, PRESSING, EASING, LIMITED };  // FREE: at its lowest force, mostly zero
@@ -57,8 +57,8 @@ class ContactStepper {
     double at_rest, slope;  // [N], [N s/m]
     double at(double speed) const { return at_rest - slope * speed; }
   };
-  void look(const std::vector<Link>& links, const Surroundings& outside, double time, double h,
-            double theta, const ChainState& state);
+  void updateGeometry(const std::vector<Link>& links, const Surroundings& outside, double time,
+                      double h, double theta, const ChainState& state);
   void prepare(const ContactLaw& law, double h, double theta, const std::vector<Contact>& contacts);
   void addAnchors(const ContactLaw& law, double h, double theta,
                   const std::vector<Contact>& contacts);
@@ -66,7 +66,7 @@ class ContactStepper {
   static Line lineOf(const ContactLaw& law, double h, const Point& point, Mode mode);
   static Mode modeAt(const ContactLaw& law, double h, const Point& point, double speed);
   static double forceOf(const ContactLaw& law, double h, const Point& point, double speed);
-  static double swingOf(double h, const Point& point, const Contact& contact);
+  static double forceChangeOf(double h, const Point& point, const Contact& contact);
   double speedAfter(double h, const Point& point, const Contact& contact) const;
   bool revise(const ContactLaw& law, double h, bool one_by_one, std::vector<Contact>& contacts);
 
@@ -80,8 +80,8 @@ class ContactStepper {
   std::vector<Point> points_;
   int trials_{0};
   bool agreed_{true};
-  std::vector<double> swings_;  // per link, over all bodies
-  double swing_{0.0};
+  std::vector<double> force_changes_;  // per link, over all bodies
+  double force_change_{0.0};
 };
 
 }  // namespace vegetation_sim::physics

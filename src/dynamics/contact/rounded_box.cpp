@@ -10,7 +10,7 @@ namespace {
 // Every point of a bar that lies flat on a face is nearest; this slight curvature selects the
 // middle one.
 constexpr double BOWL = 2e-3;  // [1/m]
-constexpr int HALVINGS = 36;
+constexpr int BISECTIONS = 36;
 // The side of a contact may change until the overlap is this part of the body's thickness.
 constexpr double SHALLOW = 0.5;
 constexpr double TOUCHING = 1e-5;  // [m]
@@ -57,7 +57,7 @@ Proximity nearest(const RoundedBox& box, const Bar& bar) {
   const double taper = (bar.tip_radius - bar.base_radius) / bar.length;
   double low = 0.0, high = bar.length;
   Vec3 normal;
-  for (int i = 0; i < HALVINGS; ++i) {
+  for (int i = 0; i < BISECTIONS; ++i) {
     const double along = 0.5 * (low + high);
     signedDistance(box, bar.at(along), normal);
     const double slope = dot(normal, bar.axis) - taper + 2.0 * BOWL * (along - 0.5 * bar.length);

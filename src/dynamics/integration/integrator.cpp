@@ -48,11 +48,11 @@ void stopJoints(double h, ChainState& state) {
   }
 }
 
-void ChainStepper::look(const std::vector<Link>& links, const Surroundings& outside, double time,
-                        const ChainState& state) {
+void ChainStepper::updateKinematics(const std::vector<Link>& links, const Surroundings& outside,
+                                    double time, const ChainState& state) {
   if (outside.bases) outside.bases(time, bases_);
   if (!outside.bases) bases_.clear();
-  body_.look(links, bases_, state, kinematics_);
+  body_.updateKinematics(links, bases_, state, kinematics_);
   loads_.clear(links.size());
   if (outside.loads) outside.loads(kinematics_, time, loads_);
 }
@@ -60,7 +60,7 @@ void ChainStepper::look(const std::vector<Link>& links, const Surroundings& outs
 void ChainStepper::evaluate(const std::vector<Link>& links, const Surroundings& outside,
                             double time, const ChainState& state, const Implicitness& implicitness,
                             Angles& out) {
-  look(links, outside, time, state);
+  updateKinematics(links, outside, time, state);
   if (dynamics_ == Dynamics::ARTICULATED)
     return body_.solve(links, bases_, state, kinematics_, loads_, implicitness, out);
   PaperBody& paper = dynamics_ == Dynamics::PAPER ? paper_ : printed_;
@@ -123,7 +123,7 @@ void ChainStepper::rungeKuttaStep(const std::vector<Link>& links, const Surround
 int ChainStepper::partsOf(Integrator integrator, const std::vector<Link>& links,
                           const Surroundings& outside, double time, double h,
                           const ChainState& state) {
-  look(links, outside, time, state);
+  updateKinematics(links, outside, time, state);
   ChainRates rates = guardRates(dynamics_, links, kinematics_, loads_.anchors);
   const int parts = subSteps(guardLimit(integrator, rates), h);
   if (parts == 1 || dynamics_ != Dynamics::ARTICULATED) return parts;

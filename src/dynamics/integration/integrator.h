@@ -42,8 +42,8 @@ class ChainStepper {
   using Angles = std::vector<Vec2>;
 
   /// Computes bases, kinematics and loads at a time and state.
-  void look(const std::vector<Link>& links, const Surroundings& outside, double time,
-            const ChainState& state);
+  void updateKinematics(const std::vector<Link>& links, const Surroundings& outside, double time,
+                        const ChainState& state);
   int partsOf(Integrator integrator, const std::vector<Link>& links, const Surroundings& outside,
               double time, double h, const ChainState& state);
   /// Computes the accelerations at a time and state; leaves the kinematics in kinematics_.

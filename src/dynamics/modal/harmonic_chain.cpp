@@ -149,7 +149,7 @@ void HarmonicChain::reduce(Node& node, Block& impedance) const {
 }
 
 // A load C cos w t + S sin w t is the real part of (C - i S) exp(i w t).
-void HarmonicChain::answer(std::vector<double>& cosine, std::vector<double>& sine) {
+void HarmonicChain::solve(std::vector<double>& cosine, std::vector<double>& sine) {
   load_.assign(nodes_.size(), Column{});
   std::vector<std::array<Complex, 2>> torque(nodes_.size());
   for (std::size_t i = nodes_.size(); i-- > 0;) {

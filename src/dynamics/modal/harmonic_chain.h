@@ -24,7 +24,7 @@ class HarmonicChain {
   void setFrequency(double w);
   /// Replaces the joint torques [links][2] of the cosine and the sine of w t by the bends that they
   /// cause.
-  void answer(std::vector<double>& cosine, std::vector<double>& sine);
+  void solve(std::vector<double>& cosine, std::vector<double>& sine);
 
   struct Complex {
     double re{0.0}, im{0.0};

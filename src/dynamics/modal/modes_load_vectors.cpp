@@ -66,8 +66,8 @@ SymmetricEigen oscillators(const LinearChain& chain, const Basis& basis) {
 }  // namespace
 
 // The response is that of one step of backward Euler.
-std::vector<double> quickAnswer(const std::vector<Link>& links, const std::vector<double>& torque,
-                                double h) {
+std::vector<double> quickResponse(const std::vector<Link>& links, const std::vector<double>& torque,
+                                  double h) {
   const std::vector<Vec2> none(links.size(), Vec2::Zero());
   const ChainState rest{none, none};
   Kinematics kinematics;

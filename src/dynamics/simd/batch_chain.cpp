@@ -77,9 +77,9 @@ void BatchChain::sortGroup(const std::vector<std::vector<Link>>& trees, std::siz
 
 // Lists each member's links in the order of their slots.
 void BatchChain::sortBySlot(const ChainGroup& group) {
-  constexpr std::size_t NOBODY = ~std::size_t{0};
+  constexpr std::size_t NO_TREE = ~std::size_t{0};
   struct Owner {
-    std::size_t tree{NOBODY}, link{0};
+    std::size_t tree{NO_TREE}, link{0};
   };
   std::vector<Owner> owners(static_cast<std::size_t>(group.end - group.begin));
   for (const std::size_t t : group.trees)
@@ -87,7 +87,7 @@ void BatchChain::sortBySlot(const ChainGroup& group) {
       owners[static_cast<std::size_t>(slots_[trees_[t].first + i] - group.begin)] = {t, i};
   for (const std::size_t t : group.trees) trees_[t].by_slot.reserve(trees_[t].count);
   for (const Owner& owner : owners)
-    if (owner.tree != NOBODY) trees_[owner.tree].by_slot.push_back(owner.link);
+    if (owner.tree != NO_TREE) trees_[owner.tree].by_slot.push_back(owner.link);
 }
 
 std::size_t BatchChain::blocks() const {
@@ -106,7 +106,7 @@ void BatchChain::fill(const std::vector<std::vector<Link>>& trees) {
   store.work.assign(static_cast<std::size_t>(largest / ROW) * W_ROWS);
   store.kept.assign(static_cast<std::size_t>(largest / ROW) * K_ROWS);
   for (int slot = 0; slot < slot_count_; ++slot) {
-    fillNobody(store.constant_rows, store.constants.of(slot, store.constant_rows));
+    fillEmptyLane(store.constant_rows, store.constants.of(slot, store.constant_rows));
     store.state.of(slot, S_ROWS)[S_THETA * ROW] = 0.5f;
     store.state.of(slot, S_ROWS)[S_PRODUCTS * ROW] = 1.f;
   }
@@ -158,7 +158,8 @@ std::size_t BatchChain::bytes() const {
                     s.second.rows.bytes() + slots_.capacity() * sizeof(int);
   for (const ChainGroup& group : groups_)
     for (const Level& level : group.levels)
-      for (const Brood& brood : level.broods) out += brood.first.capacity() * sizeof(std::int32_t);
+      for (const ChildRank& child_rank : level.child_ranks)
+        out += child_rank.first.capacity() * sizeof(std::int32_t);
   return out;
 }
 
@@ -206,12 +207,12 @@ void BatchChain::stepGroup(ChainGroup& group, const Surroundings* around, double
   const auto at = [&](std::size_t t) { return time + trees_[t].theta * h; };
   guard(group, h);
   if (around)
-    for (const std::size_t t : group.trees) askBases(around[t], at(t), trees_[t]);
+    for (const std::size_t t : group.trees) updateBases(around[t], at(t), trees_[t]);
   sweepOut(group, step, *store_);
-  if (store_->asked) askAirOf(group);
+  if (store_->asked) queryWindOf(group);
   store_->anchors.clear();
   if (around)
-    for (const std::size_t t : group.trees) askLoads(around[t], at(t), h, trees_[t]);
+    for (const std::size_t t : group.trees) updateLoads(around[t], at(t), h, trees_[t]);
   std::stable_sort(store_->anchors.begin(), store_->anchors.end(),
                    [](const AnchorRows& a, const AnchorRows& b) { return a.slot < b.slot; });
   group.fastest = sweepBack(group, step, *store_);
@@ -226,10 +227,10 @@ void BatchChain::stepWithin(const Surroundings* around, std::size_t count, doubl
                               [](const Surroundings& s) { return static_cast<bool>(s.loads); });
   if (store_->trace && store_->motion.empty())
     store_->motion.assign(store_->work.count() / W_ROWS * M_ROWS);
-  store_->asked = ask_ && !store_->grips.empty();
+  store_->asked = query_ && !store_->grips.empty();
   for (ChainGroup& group : groups_)
     if (!group.levels.empty()) stepGroup(group, around, time, h, number);
-  ask_ = nullptr;
+  query_ = nullptr;
 }
 
 void BatchChain::step(const std::vector<Surroundings>& around, double time, double h, int number) {
@@ -245,13 +246,13 @@ void BatchChain::step(double h, int steps) {
   store_->trace = false;
   for (ChainGroup& group : groups_) {
     if (group.levels.empty()) continue;
-    store_->asked = ask_ && !store_->grips.empty();
+    store_->asked = query_ && !store_->grips.empty();
     for (int i = 0; i < steps; ++i) {
       stepGroup(group, nullptr, 0.0, h, i);
       store_->asked = false;
     }
   }
-  ask_ = nullptr;
+  query_ = nullptr;
 }
 
 }  // namespace vegetation_sim::physics

@@ -23,7 +23,7 @@ struct Grip {
 
 /// Computes the wind at joints: each of `blocks` blocks has three rows of 16 floats, x y z of
 /// positions [m] and of the wind velocities there, to be filled in [m/s]; world axes.
-using AskAir = std::function<void(const float* places, float* air, std::size_t blocks)>;
+using WindQuery = std::function<void(const float* places, float* air, std::size_t blocks)>;
 
 /// The guarded linearly implicit midpoint (ChainStepper's default) of many links at once in single
 /// precision, in the widest instruction set of the processor. Links of equal depth, of one tree or
@@ -59,10 +59,10 @@ class BatchChain {
   void step(const Surroundings& around, double time, double h, int number = 0);
 
   /// Lets air act on a tree's links, one grip each, in addition to loads. The air is still until
-  /// askAir().
+  /// queryWind().
   void setGrips(int tree, const std::vector<Grip>& grips);
   /// The next step asks for the wind. Later steps use the same velocities while the links move.
-  void askAir(AskAir ask) { ask_ = std::move(ask); }
+  void queryWind(WindQuery ask) { query_ = std::move(ask); }
 
   /// Takes a frame of so many steps under the bases and loads of the step before, without anchors.
   /// The first step asks for the wind.
@@ -93,16 +93,16 @@ class BatchChain {
   void guard(ChainGroup& group, double h);
   void stepGroup(ChainGroup& group, const Surroundings* around, double time, double h, int number);
   void stepWithin(const Surroundings* around, std::size_t count, double time, double h, int number);
-  void askAirOf(const ChainGroup& group);
-  void askBases(const Surroundings& around, double time, Member& member);
-  void askLoads(const Surroundings& around, double time, double h, Member& member);
+  void queryWindOf(const ChainGroup& group);
+  void updateBases(const Surroundings& around, double time, Member& member);
+  void updateLoads(const Surroundings& around, double time, double h, Member& member);
 
   std::unique_ptr<ChainStore> store_;
   std::vector<ChainGroup> groups_;
   std::vector<Member> trees_;
   std::vector<int> slots_;  ///< [links of all trees]
   int slot_count_{0};
-  AskAir ask_;
+  WindQuery query_;
   Kinematics kinematics_;
   Loads loads_;
 };

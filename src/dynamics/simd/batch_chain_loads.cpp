@@ -9,7 +9,7 @@
 
 namespace vegetation_sim::physics {
 
-void BatchChain::askBases(const Surroundings& around, double time, Member& member) {
+void BatchChain::updateBases(const Surroundings& around, double time, Member& member) {
   member.bases.clear();
   if (around.bases) around.bases(time, member.bases);
   fillBases(member);
@@ -38,7 +38,7 @@ void BatchChain::fillLoads(const Loads& loads, Member& member) {
   store_->drag = store_->drag || !loads.drag.empty();
 }
 
-void BatchChain::askLoads(const Surroundings& around, double time, double h, Member& member) {
+void BatchChain::updateLoads(const Surroundings& around, double time, double h, Member& member) {
   loads_.clear(member.count);
   if (around.loads) {
     resize(kinematics_, member.count);
@@ -83,7 +83,7 @@ void BatchChain::setGrips(int tree, const std::vector<Grip>& grips) {
 }
 
 // Rows hold positions relative to the bases.
-void BatchChain::askAirOf(const ChainGroup& group) {
+void BatchChain::queryWindOf(const ChainGroup& group) {
   for (const std::size_t t : group.trees) {
     const Member& member = trees_[t];
     for (std::size_t i = 0; i < member.count && !member.bases.empty(); ++i) {
@@ -92,8 +92,8 @@ void BatchChain::askAirOf(const ChainGroup& group) {
         place[axis * ROW] += static_cast<float>(baseOf(member, i).pose.position[axis]);
     }
   }
-  ask_(store_->places.at(0), store_->air.of(group.begin, V_ROWS),
-       static_cast<std::size_t>((group.end - group.begin) / ROW));
+  query_(store_->places.at(0), store_->air.of(group.begin, V_ROWS),
+         static_cast<std::size_t>((group.end - group.begin) / ROW));
 }
 
 }  // namespace vegetation_sim::physics

@@ -44,7 +44,8 @@ HWY_INLINE void inward(const Joints& at, Lanes step, bool drag, Articulated& p) 
   const Lanes k = load(at.constants, C_STIFFNESS), nu = load(at.constants, C_DAMPING);
   const Lanes theta = load(at.state, S_THETA), ahead = theta * step, zero = hn::Zero(Tag());
   const Lanes ease = (all(1.f) - theta) * (all(1.f / 3.f) * step * step);
-  const Lanes stiff = ahead * (ahead * k + nu) - hn::Min(ease * k, load(at.constants, C_SURE));
+  const Lanes stiff =
+      ahead * (ahead * k + nu) - hn::Min(ease * k, load(at.constants, C_GUARANTEED));
   addWrench(at, p);
   at.bars ? addBarInAir(at, ahead, p) : addBodyInAir(at, ahead, p);
   if (drag) addDrag(at, ahead, p);
@@ -92,7 +93,7 @@ HWY_INLINE void eachRow(const Push& push, const Put& put) {
 
 // Replaces values below this by zero [rad, rad/s]: otherwise a tree at rest would compute with
 // denormal numbers, which are slow.
-HWY_INLINE Lanes alive(Lanes value) {
+HWY_INLINE Lanes flushTiny(Lanes value) {
   return hn::IfThenElseZero(hn::Abs(value) > all(1e-18f), value);
 }
 
@@ -144,8 +145,8 @@ HWY_INLINE Solution solve(const Joints& at, const Push& parent) {
 /// Steps q and rate; `fastest` grows to the largest rate. With `predicts`, stores half of the
 /// change of the rates: until the middle of the next step they change by as much again, up to a
 /// term of second order.
-HWY_INLINE Push settle(const Joints& at, const Push& parent, Lanes step, bool predicts,
-                       Lanes& fastest) {
+HWY_INLINE Push stepJoint(const Joints& at, const Push& parent, Lanes step, bool predicts,
+                          Lanes& fastest) {
   const Solution solved = solve(at, parent);
   const Lanes ahead = load(at.state, S_THETA) * step;
   const Lanes acceleration[2] = {solved.first, solved.second};
@@ -157,10 +158,10 @@ HWY_INLINE Push settle(const Joints& at, const Push& parent, Lanes step, bool pr
   }
   stop(step, q, rate);
   for (int axis = 0; axis < 2; ++axis) {
-    rate[axis] = alive(rate[axis]);
+    rate[axis] = flushTiny(rate[axis]);
     const Lanes change = rate[axis] - load(at.state, S_RATE + axis);
     if (predicts) store(all(0.5f) * change, at.state, S_LEAD + axis);
-    store(alive(q[axis]), at.state, S_Q + axis);
+    store(flushTiny(q[axis]), at.state, S_Q + axis);
     store(rate[axis], at.state, S_RATE + axis);
     fastest = hn::Max(fastest, hn::Abs(rate[axis]));
   }

@@ -88,13 +88,13 @@ HWY_INLINE void addPoint(Lanes mass, const Lanes3& arm, Articulated& sum) {
 }
 
 /// Drag of the air on its grip; force and derivative are those of PhysicalSubtree::addWind.
-struct Blow {
+struct AirDrag {
   Lanes3 wind;         ///< velocity relative to the grip
   Lanes drag, factor;  ///< force over wind; factor of its part along the wind, for addPull
 };
 
-HWY_INLINE Blow blowOn(const Joints& at, Lanes steady, Lanes square, Lanes ahead) {
-  Blow out;
+HWY_INLINE AirDrag airDragOn(const Joints& at, Lanes steady, Lanes square, Lanes ahead) {
+  AirDrag out;
   out.wind = load3(at.air, 0) - load3(at.work, W_GRIPPED);
   const Lanes size = hn::Sqrt(dot(out.wind, out.wind));
   out.drag = steady + square * size;
@@ -102,28 +102,28 @@ HWY_INLINE Blow blowOn(const Joints& at, Lanes steady, Lanes square, Lanes ahead
   return out;
 }
 
-HWY_INLINE void addBlow(const Blow& blow, const Lanes3& turn, Articulated& sum) {
-  sum.torque = sum.torque - blow.drag * turn;
-  sum.force = sum.force - blow.drag * blow.wind;
-  addPull(blow.factor, turn, blow.wind, sum);
+HWY_INLINE void addAirDrag(const AirDrag& air, const Lanes3& turn, Articulated& sum) {
+  sum.torque = sum.torque - air.drag * turn;
+  sum.force = sum.force - air.drag * air.wind;
+  addPull(air.factor, turn, air.wind, sum);
 }
 
 // On the axis of a bar, the isotropic part acts as a heavier bar.
 HWY_INLINE void addAirOnAxis(const Joints& at, const Lanes3& z, Lanes steady, Lanes square,
                              Lanes ahead, Bar& bar, Articulated& sum) {
   const Lanes g = load(at.grips, G_ALONG);
-  const Blow blow = blowOn(at, steady, square, ahead);
-  const Lanes mass = ahead * blow.drag, moment = g * mass, second = g * moment;
+  const AirDrag air = airDragOn(at, steady, square, ahead);
+  const Lanes mass = ahead * air.drag, moment = g * mass, second = g * moment;
   bar = {bar.mass + mass, bar.moment + moment, bar.across + second, bar.excess - second};
-  addBlow(blow, g * cross(z, blow.wind), sum);
+  addAirDrag(air, g * cross(z, air.wind), sum);
 }
 
 HWY_INLINE void addAirBeside(const Joints& at, Lanes steady, Lanes square, Lanes ahead,
                              Articulated& sum) {
   const Lanes3 arm = load3(at.work, W_GRIP);
-  const Blow blow = blowOn(at, steady, square, ahead);
-  addPoint(ahead * blow.drag, arm, sum);
-  addBlow(blow, cross(arm, blow.wind), sum);
+  const AirDrag air = airDragOn(at, steady, square, ahead);
+  addPoint(ahead * air.drag, arm, sum);
+  addAirDrag(air, cross(arm, air.wind), sum);
 }
 
 // Lanes that do not take this path have no drag there.

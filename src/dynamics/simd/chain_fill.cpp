@@ -49,7 +49,7 @@ void fillLink(const Link& link, int rows, float* constants) {
   set(C_MASS, link.mass);
   set(C_STIFFNESS, link.stiffness);
   set(C_DAMPING, link.damping);
-  set(C_SURE, link.guaranteed_inertia);
+  set(C_GUARANTEED, link.guaranteed_inertia);
   set(C_MOMENT, link.mass * link.centre.z());
   set(C_XX, i.xx);
   set(C_ZZ, i.zz);
@@ -62,11 +62,11 @@ void fillLink(const Link& link, int rows, float* constants) {
   set(C_YZ, i.yz);
 }
 
-void fillNobody(int rows, float* constants) {
-  Link nobody;
-  nobody.mass = 0.0;
-  nobody.inertia = Symmetric3();
-  fillLink(nobody, rows, constants);
+void fillEmptyLane(int rows, float* constants) {
+  Link none;
+  none.mass = 0.0;
+  none.inertia = Symmetric3();
+  fillLink(none, rows, constants);
 }
 
 void fillGrip(const Grip& grip, float* rows, float* beside) {

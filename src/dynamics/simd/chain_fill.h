@@ -19,7 +19,7 @@ BaseRows baseRows(const BaseMotion& base);
 /// `rows`: C_ROWS, or C_BAR_ROWS for a bar.
 void fillLink(const Link& link, int rows, float* constants);
 /// Fills a lane without link, which never moves.
-void fillNobody(int rows, float* constants);
+void fillEmptyLane(int rows, float* constants);
 inline void fillLoad(const Loads& loads, std::size_t link, float* rows) {
   const bool wrench = link < loads.wrench.size(), joint = link < loads.joint_torque.size();
   for (int i = 0; i < 3; ++i) {

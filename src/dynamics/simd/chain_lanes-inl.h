@@ -181,7 +181,7 @@ inline HWY_NOINLINE RotationSeries largeRotation(Lanes a2) {
   return out;
 }
 
-HWY_INLINE RotationSeries swingOf(Lanes a2) {
+HWY_INLINE RotationSeries rotationSeries(Lanes a2) {
   RotationSeries out = smallRotation(a2);
   const auto large = a2 > all(1.f);
   if (HWY_LIKELY(hn::AllFalse(Tag(), large))) return out;

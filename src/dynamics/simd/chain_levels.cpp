@@ -57,9 +57,9 @@ Children childrenOf(const std::vector<int>& parents, std::vector<int>& roots) {
   return out;
 }
 
-Brood broodOf(const std::vector<int>& level, const Children& children, std::size_t rank,
-              std::vector<int>& next) {
-  Brood out;
+ChildRank broodOf(const std::vector<int>& level, const Children& children, std::size_t rank,
+                  std::vector<int>& next) {
+  ChildRank out;
   out.first.reserve(level.size() + ROW + 1);
   for (std::size_t i = 0; i < level.size(); ++i) {
     out.first.push_back(static_cast<std::int32_t>(next.size()));
@@ -93,7 +93,7 @@ int sortIntoLevels(const std::vector<int>& parents, int begin, std::vector<Level
       ranks = std::max(ranks, children.count(current[i]));
     }
     for (std::size_t rank = 0; rank < ranks; ++rank)
-      level.broods.push_back(broodOf(current, children, rank, next));
+      level.child_ranks.push_back(broodOf(current, children, rank, next));
     levels.push_back(std::move(level));
     begin += (static_cast<int>(current.size()) + ROW - 1) / ROW * ROW;
     current.swap(next);

@@ -19,7 +19,7 @@ namespace vegetation_sim::physics::HWY_NAMESPACE {
 
 /// Data that a parent passes on: the push of its joints, its spin after the step, and the
 /// accelerations of spin and joint at that spin if no joint accelerated.
-struct Ahead {
+struct NextMotion {
   Push push;
   Lanes3 spin, spin_rate, acceleration;
 };
@@ -32,7 +32,7 @@ enum : int {
 };
 static_assert(H_ACCELERATION + 3 <= int{P_ROWS}, "it fits where articulated inertias pass");
 
-HWY_INLINE Ahead loadAhead(const float* rows, int stride) {
+HWY_INLINE NextMotion loadNextMotion(const float* rows, int stride) {
   return {{load3(rows, H_PUSH, stride), load3(rows, H_PUSH + 3, stride)},
           load3(rows, H_SPIN, stride),
           load3(rows, H_SPIN_RATE, stride),
@@ -40,7 +40,7 @@ HWY_INLINE Ahead loadAhead(const float* rows, int stride) {
 }
 
 // Returns those of a base from its F_ROWS.
-HWY_INLINE Ahead aheadOfBase(const float* rows, int stride) {
+HWY_INLINE NextMotion nextMotionOfBase(const float* rows, int stride) {
   const Lanes o = hn::Zero(Tag());
   return {{{o, o, o}, {o, o, o}},
           load3(rows, F_SPIN, stride),
@@ -49,7 +49,7 @@ HWY_INLINE Ahead aheadOfBase(const float* rows, int stride) {
 }
 
 template <class Put>
-HWY_INLINE void eachRow(const Ahead& ahead, const Put& put) {
+HWY_INLINE void eachRow(const NextMotion& ahead, const Put& put) {
   eachRow(ahead.push, put);
   eachRow(ahead.spin, H_SPIN, put);
   eachRow(ahead.spin_rate, H_SPIN_RATE, put);
@@ -64,15 +64,15 @@ HWY_INLINE Lanes weightOf(const Joints& at) {
 }
 
 /// Stores the change of the bias wrench of the joint's link.
-HWY_INLINE Ahead lookAhead(const Joints& at, const Ahead& parent, Lanes step) {
+HWY_INLINE NextMotion predictBias(const Joints& at, const NextMotion& parent, Lanes step) {
   const Solution solved = solve(at, parent.push);
   const Lanes rx = load(at.state, S_RATE), ry = load(at.state, S_RATE + 1);
   const Lanes ahead = load(at.state, S_THETA) * step;
   const Lanes x = load(at.state, S_Q) + ahead * rx, y = load(at.state, S_Q + 1) + ahead * ry;
   const Axes axes = axesOf({load(at.kept, K_TURN), load(at.kept, K_TURN + 1),
                             load(at.kept, K_TURN + 2), load(at.kept, K_TURN + 3)});
-  const Lanes3 change = bendBias(swingOf(x * x + y * y), axes, x, y, rx + step * solved.first,
-                                 ry + step * solved.second);
+  const Lanes3 change = bendBias(rotationSeries(x * x + y * y), axes, x, y,
+                                 rx + step * solved.first, ry + step * solved.second);
   Frame frame;
   frame.axis = axes.z;
   frame.spin = load3(at.kept, K_SPIN) + step * solved.push.spin;

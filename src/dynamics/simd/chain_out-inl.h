@@ -201,7 +201,7 @@ HWY_INLINE Frame outward(const Joints& at, const Frame& parent, Lanes step) {
   const Lanes x = load(at.state, S_Q) + ahead * load(at.state, S_RATE),
               y = load(at.state, S_Q + 1) + ahead * load(at.state, S_RATE + 1);
   const Lanes rx = rateOf<PREDICTED>(at, 0), ry = rateOf<PREDICTED>(at, 1);
-  const RotationSeries g = swingOf(x * x + y * y);
+  const RotationSeries g = rotationSeries(x * x + y * y);
   const Lanes qx = all(0.5f) * g.s * x, qy = all(0.5f) * g.s * y;
   const LanesQuat r{load(at.constants, C_REST), load(at.constants, C_REST + 1),
                     load(at.constants, C_REST + 2), load(at.constants, C_REST + 3)};

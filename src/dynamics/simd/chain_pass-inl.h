@@ -30,7 +30,7 @@ HWY_INLINE auto haveChild(const std::int32_t* first) {
 
 // Writes what joints of a vector pass to their children of one rank. It may overwrite the start of
 // the next vector's output, but not the next rank.
-struct HandOn {
+struct ChildWriter {
   float* target;
   int room;
   int count;
@@ -50,10 +50,10 @@ struct HandOn {
 
 // `each(put)` calls put(row, value) for what the parents from `parent` on pass to their children.
 template <class Each>
-HWY_INLINE void handOn(const Level& level, int parent, const Each& each, int room, float* to) {
-  for (const Brood& brood : level.broods) {
-    if (parent >= brood.parents) continue;
-    const std::int32_t* first = brood.first.data() + parent;
+HWY_INLINE void passOn(const Level& level, int parent, const Each& each, int room, float* to) {
+  for (const ChildRank& child_rank : level.child_ranks) {
+    if (parent >= child_rank.parents) continue;
+    const std::int32_t* first = child_rank.first.data() + parent;
     const int count = first[width()] - first[0];
     if (count == 0) continue;
     float* target = to + first[0];
@@ -62,7 +62,7 @@ HWY_INLINE void handOn(const Level& level, int parent, const Each& each, int roo
       continue;
     }
     const auto order = hn::Compress(hn::Iota(Places(), 0), haveChild(first));
-    each(HandOn{target, room, count, first[0] + width() <= brood.end, order});
+    each(ChildWriter{target, room, count, first[0] + width() <= child_rank.end, order});
   }
 }
 
@@ -118,16 +118,16 @@ HWY_INLINE void addSiblings(const Siblings* of, int room, Sum& sum) {
 
 // Finds the next rank from `child_rank` on that a vector of joints has. Returns false if there is
 // none.
-HWY_INLINE bool nextRank(const Level& level, const float* from, int parent, std::size_t& brood,
+HWY_INLINE bool nextRank(const Level& level, const float* from, int parent, std::size_t& child_rank,
                          Siblings& out) {
-  for (; brood < level.broods.size(); ++brood) {
-    if (parent >= level.broods[brood].parents) continue;
-    const std::int32_t* first = level.broods[brood].first.data() + parent;
+  for (; child_rank < level.child_ranks.size(); ++child_rank) {
+    if (parent >= level.child_ranks[child_rank].parents) continue;
+    const std::int32_t* first = level.child_ranks[child_rank].first.data() + parent;
     if (first[width()] == first[0]) continue;
     out.source = from + first[0];
     out.places = hn::LoadU(Places(), first) - hn::Set(Places(), first[0]);
     out.present = hn::RebindMask(Tag(), haveChild(first));
-    ++brood;
+    ++child_rank;
     return true;
   }
   return false;
@@ -137,10 +137,10 @@ HWY_INLINE bool nextRank(const Level& level, const float* from, int parent, std:
 template <class Sum>
 HWY_INLINE void gatherChildren(const Level& level, const float* from, int room, int parent,
                                Sum& sum) {
-  std::size_t brood = 0;
+  std::size_t child_rank = 0;
   Siblings found[2];
-  while (nextRank(level, from, parent, brood, found[0])) {
-    if (nextRank(level, from, parent, brood, found[1])) {
+  while (nextRank(level, from, parent, child_rank, found[0])) {
+    if (nextRank(level, from, parent, child_rank, found[1])) {
       addSiblings<2>(found, room, sum);
     } else {
       addSiblings<1>(found, room, sum);

@@ -43,7 +43,7 @@ enum : int {
   C_MASS = C_REST + 4,  //
   C_STIFFNESS,          //
   C_DAMPING,            //
-  C_SURE,               // guaranteed inertia
+  C_GUARANTEED,         // guaranteed inertia
   C_MOMENT,             // mass times centre: z
   C_XX,                 // inertia
   C_ZZ,
@@ -76,7 +76,7 @@ enum : int {
 enum : int { G_ALONG, G_STEADY, G_SQUARE, G_ROWS };
 enum : int { B_ROWS = 2 };
 
-/// Rows of the position of a grip, or of the wind there, see AskAir.
+/// Rows of the position of a grip, or of the wind there, see WindQuery.
 enum : int { V_ROWS = 3 };
 
 /// Rows that one step keeps between its passes. The results of the sweep down the tree overwrite

@@ -53,9 +53,9 @@ void loadBases(const ChainGroup& group, LevelRows& out) {
 }
 
 // The part of the motion that parents pass to their children.
-enum class Told { NOTHING, VELOCITY, ALL };
+enum class Passed { NOTHING, VELOCITY, ALL };
 
-template <Told PUBLISHED, bool PREDICTED>
+template <Passed PASSED, bool PREDICTED>
 HWY_INLINE void outGroupAs(const ChainGroup& group, Lanes step, ChainStore& store) {
   float *received = store.first.data(), *handed = store.second.data();
   const int room = store.first.room;
@@ -64,23 +64,23 @@ HWY_INLINE void outGroupAs(const ChainGroup& group, Lanes step, ChainStore& stor
     for (int i = 0; i < level.count; i += width()) {
       const Joints at = jointsAt(group, store, level.begin + i);
       const Frame frame = outward<PREDICTED>(at, loadFrame(received + i, room), step);
-      if constexpr (PUBLISHED != Told::NOTHING) {
+      if constexpr (PASSED != Passed::NOTHING) {
         const Trace trace = traceOf<PREDICTED>(at, frame, received + i, room);
         const auto each = [&](const auto& put) HWY_ATTR __attribute__((always_inline)) {
           eachRow(frame, put);
           eachRow(trace.velocity, F_VELOCITY, put);
-          if constexpr (PUBLISHED == Told::ALL) eachRow(trace.position, F_POSITION, put);
+          if constexpr (PASSED == Passed::ALL) eachRow(trace.position, F_POSITION, put);
           if constexpr (PREDICTED) eachRow(trace.spin, F_NOW, put);
         };
         if (at.grips) keepGrip(at, frame, trace);
-        if (PUBLISHED == Told::ALL && store.asked)
+        if (PASSED == Passed::ALL && store.asked)
           store3(trace.position + gripArm(at, frame),
                  store.places.of(level.begin - group.begin + i, V_ROWS), 0);
-        if (PUBLISHED == Told::ALL && store.trace)
+        if (PASSED == Passed::ALL && store.trace)
           storeMotion(frame, trace, store.motion.of(level.begin - group.begin + i, M_ROWS));
-        handOn(level, i, each, room, handed);
+        passOn(level, i, each, room, handed);
       } else {
-        handOn(
+        passOn(
             level, i, [&](const auto& put) HWY_ATTR { eachRow(frame, put); }, room, handed);
       }
     }
@@ -91,11 +91,11 @@ HWY_INLINE void outGroupAs(const ChainGroup& group, Lanes step, ChainStore& stor
 template <bool PREDICTED>
 HWY_INLINE void outGroupAt(const ChainGroup& group, Lanes step, ChainStore& store) {
   if (store.trace || store.asked)
-    outGroupAs<Told::ALL, PREDICTED>(group, step, store);
+    outGroupAs<Passed::ALL, PREDICTED>(group, step, store);
   else if (!store.grips.empty())
-    outGroupAs<Told::VELOCITY, PREDICTED>(group, step, store);
+    outGroupAs<Passed::VELOCITY, PREDICTED>(group, step, store);
   else
-    outGroupAs<Told::NOTHING, PREDICTED>(group, step, store);
+    outGroupAs<Passed::NOTHING, PREDICTED>(group, step, store);
 }
 
 void outGroup(const ChainGroup& group, float step, ChainStore& store) {
@@ -127,7 +127,7 @@ void inwardGroup(const ChainGroup& group, float h, ChainStore& store) {
   }
 }
 
-void lookAheadGroup(const ChainGroup& group, float h, ChainStore& store) {
+void predictBiasGroup(const ChainGroup& group, float h, ChainStore& store) {
   const Lanes step = all(h);
   float *received = store.first.data(), *handed = store.second.data();
   const int room = store.first.room;
@@ -135,9 +135,10 @@ void lookAheadGroup(const ChainGroup& group, float h, ChainStore& store) {
   bool root = true;
   for (const Level& level : group.levels) {
     for (int i = 0; i < level.count; i += width()) {
-      const Ahead parent = root ? aheadOfBase(received + i, room) : loadAhead(received + i, room);
-      const Ahead own = lookAhead(jointsAt(group, store, level.begin + i), parent, step);
-      handOn(
+      const NextMotion parent =
+          root ? nextMotionOfBase(received + i, room) : loadNextMotion(received + i, room);
+      const NextMotion own = predictBias(jointsAt(group, store, level.begin + i), parent, step);
+      passOn(
           level, i, [&](const auto& put) HWY_ATTR { eachRow(own, put); }, room, handed);
     }
     root = false;
@@ -161,7 +162,7 @@ void inwardWrenches(const ChainGroup& group, ChainStore& store) {
   }
 }
 
-float settleGroup(const ChainGroup& group, float h, ChainStore& store) {
+float stepGroupJoints(const ChainGroup& group, float h, ChainStore& store) {
   const Lanes step = all(h);
   const int room = store.first.room;
   float *received = store.first.data(), *handed = store.second.data();
@@ -172,8 +173,8 @@ float settleGroup(const ChainGroup& group, float h, ChainStore& store) {
     for (int i = 0; i < level.count; i += width()) {
       const Push parent{load3(received + i, 0, room), load3(received + i, 3, room)};
       const Push push =
-          settle(jointsAt(group, store, level.begin + i), parent, step, store.averages, fastest);
-      handOn(
+          stepJoint(jointsAt(group, store, level.begin + i), parent, step, store.averages, fastest);
+      passOn(
           level, i, [&](const auto& put) HWY_ATTR { eachRow(push, put); }, room, handed);
     }
     std::swap(received, handed);
@@ -184,10 +185,10 @@ float settleGroup(const ChainGroup& group, float h, ChainStore& store) {
 float backGroup(const ChainGroup& group, float h, ChainStore& store) {
   inwardGroup(group, h, store);
   if (store.mean) {
-    lookAheadGroup(group, h, store);
+    predictBiasGroup(group, h, store);
     inwardWrenches(group, store);
   }
-  return settleGroup(group, h, store);
+  return stepGroupJoints(group, h, store);
 }
 
 }  // namespace vegetation_sim::physics::HWY_NAMESPACE

@@ -139,7 +139,7 @@ Contact contactOf(const Placed& placed, const Pair& pair, const Proximity& found
   out.gap = found.gap;
   const double radius = pair.bar.radiusAt(found.along);
   out.share = shareOf(placed, found, radius);
-  out.bears = THIN_BEARS - (THIN_BEARS - 1.0) * smootherStep((radius - THIN) / FADE);
+  out.hardness = THIN_BEARS - (THIN_BEARS - 1.0) * smootherStep((radius - THIN) / FADE);
   out.surface = placed.velocity(pair.bar.at(found.along) - (radius + found.gap) * out.normal);
   return out;
 }

@@ -54,8 +54,8 @@ void ModalForest::start(const wind::Field& wind, ModalTreeState& sway, Nanosecon
   WindWindow window;
   window.sampleAt(wind, stamp);
   for (std::size_t look = 0; look < loads.size(); ++look)
-    sway.loadOf(window.looks()[look], loads[look]);
-  sway.begin(loads, secondsBetween(0, LOOK), stamp);
+    sway.loadOf(window.instants()[look], loads[look]);
+  sway.begin(loads, secondsBetween(0, WINDOW_STEP), stamp);
 }
 
 void ModalForest::begin(const ModalContext& at, std::uint32_t tree, bool fine, Nanoseconds stamp) {

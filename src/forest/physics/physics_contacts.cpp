@@ -13,7 +13,8 @@ bool ForestPhysics::isNear(std::uint32_t tree) const {
 
 bool SubstepBisection::want(const physics::ContactStepper& stepper, const physics::ContactLaw& law,
                             Nanoseconds part) {
-  const bool coarse = stepper.swing() > MAX_FORCE_CHANGE * law.force_limit || !stepper.agreed();
+  const bool coarse =
+      stepper.forceChange() > MAX_FORCE_CHANGE * law.force_limit || !stepper.agreed();
   return coarse && part >= 2 * SHORTEST && ++wanted_ <= MOST;
 }
 

@@ -70,7 +70,7 @@ class Sample {
     even.modes = odd.modes = {wave};
     odd.modes[0].phase = 0.75;  // a quarter of a cycle later
     Pair right{torques(even), torques(odd)};
-    full_.answer(right.cosine, right.sine);
+    full_.solve(right.cosine, right.sine);
     const Pair shown{proceduralBends(even), proceduralBends(odd)};
     return {squares(right, shown), squares(right, modalBends(modal_, even, odd)),
             squares(right, modalBends(fine_, even, odd))};

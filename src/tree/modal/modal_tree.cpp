@@ -22,7 +22,7 @@ physics::Modes modesIn(const std::vector<physics::Link>& links, physics::LinearC
                        const std::vector<WindLoadPoint>& load_points, ModalDepth depth) {
   const auto shape = [&](const Vec3& direction, int vectors, bool quick) {
     physics::LoadShape out{uniformLoad(chain, load_points, direction), vectors};
-    if (quick) out.quick = physics::quickAnswer(links, out.torque, AT_ONCE);
+    if (quick) out.quick = physics::quickResponse(links, out.torque, AT_ONCE);
     return out;
   };
   physics::Modes out = physics::slowestModes(chain, depth.modes);

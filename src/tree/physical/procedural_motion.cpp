@@ -7,7 +7,7 @@
 namespace vegetation_sim::forest {
 namespace {
 
-constexpr double STEP = static_cast<double>(LOOK) * 1e-9;  // [s]
+constexpr double STEP = static_cast<double>(WINDOW_STEP) * 1e-9;  // [s]
 
 Quat difference(const Quat& a, const Quat& b) {
   return {a.w - b.w, a.x - b.x, a.y - b.y, a.z - b.z};
@@ -58,7 +58,8 @@ JointMotion motionOf(const JointAngles& a, const JointAngles& b, const JointAngl
 void ModalSamples::sampleAt(const ModalTreeState& at, Nanoseconds stamp) {
   sway = &at;
   for (std::size_t look = 0; look < amplitude.size(); ++look)
-    at.amplitudeBetween(stamp + (static_cast<Nanoseconds>(look) - 1) * LOOK, amplitude[look]);
+    at.amplitudeBetween(stamp + (static_cast<Nanoseconds>(look) - 1) * WINDOW_STEP,
+                        amplitude[look]);
 }
 
 ProceduralMotion::ProceduralMotion(const Tree& tree, const WindWindow& wind,
@@ -67,7 +68,7 @@ ProceduralMotion::ProceduralMotion(const Tree& tree, const WindWindow& wind,
     : tree(tree), wind(wind), modal(modal) {
   for (std::size_t look = 0; look < 3; ++look)
     weights[look] =
-        weightsAt(level, wind.stamp() + (static_cast<Nanoseconds>(look) - 1) * LOOK, law);
+        weightsAt(level, wind.stamp() + (static_cast<Nanoseconds>(look) - 1) * WINDOW_STEP, law);
 }
 
 JointMotion ProceduralMotion::at(int branch) const {

@@ -66,8 +66,8 @@ struct PhysicalSubtree::Step {
     const Nanoseconds middle = from + fromSeconds(part.theta_ * h);
     const bool own = loads.air == NEVER || part.compensates(from, settings.fade);
     const ProceduralMotion motion = scratch.motionOf(part.tree(), air, own ? middle : loads.air);
-    fillAir(FloatWind(motion.wind.now().relativeTo(part.tree().foot), LARGEST_REACH), places, rows,
-            blocks);
+    fillWind(FloatWind(motion.wind.now().relativeTo(part.tree().foot), LARGEST_REACH), places, rows,
+             blocks);
   }
   // All that acts besides the wind.
   void addOthers(const ProceduralMotion& motion, const physics::Kinematics& kinematics,
@@ -124,7 +124,7 @@ void PhysicalSubtree::stepBatched(const Step& context, double h) {
   chain.setState(0, state_, theta_);
   // What fades out is told against the air of each step.
   if (!context.loads.hold || compensates(context.from, context.settings.fade))
-    chain.askAir([&](const float* places, float* rows, std::size_t blocks) {
+    chain.queryWind([&](const float* places, float* rows, std::size_t blocks) {
       context.blow(h, places, rows, blocks);
     });
   const bool predicts = context.loads.hold && h * chain.fastest(0) <= PREDICTED_TURN;

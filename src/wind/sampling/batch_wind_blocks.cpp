@@ -38,7 +38,7 @@ namespace vegetation_sim::forest {
 
 HWY_EXPORT(fillBlocks);
 
-void fillAir(const FloatWind& wind, const float* places, float* air, std::size_t blocks) {
+void fillWind(const FloatWind& wind, const float* places, float* air, std::size_t blocks) {
   HWY_DYNAMIC_DISPATCH(fillBlocks)(wind, places, air, blocks);
 }
 

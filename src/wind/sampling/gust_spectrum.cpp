@@ -12,7 +12,7 @@
 namespace vegetation_sim::wind {
 namespace {
 
-constexpr Nanoseconds LOOK = NANOSECONDS_PER_SECOND / 10;
+constexpr Nanoseconds INTERVAL = NANOSECONDS_PER_SECOND / 10;
 // A rise by smootherStep in a time T has its steepest slope 15 / 8 T, as an oscillation of half its
 // height at this frequency times 1 / T.
 constexpr double RISE = 15.0 / (8.0 * PI);
@@ -31,8 +31,8 @@ std::pair<std::size_t, double> between(const std::array<double, N>& grid, double
 double passingOf(const Field& field, std::size_t index, Nanoseconds stamp, const Term& now,
                  double size) {
   Term next;
-  if (!field.termAt(index, stamp + LOOK, next)) return 0.0;
-  return length(next.centre - now.centre) / secondsBetween(0, LOOK) / (4.0 * size);
+  if (!field.termAt(index, stamp + INTERVAL, next)) return 0.0;
+  return length(next.centre - now.centre) / secondsBetween(0, INTERVAL) / (4.0 * size);
 }
 
 // Returns the frequency [Hz] of a term; a gust counts by its steeper side.
@@ -77,7 +77,7 @@ GustSpectrumField::GustSpectrumField(const Field& field, Nanoseconds stamp) {
     if (p.kind == Kind::BREEZE) addBreeze(p, fade(p, stamp), field.breezeOf(i));
     if (!field.termAt(i, stamp, term)) continue;
     const bool gust = term.kind == Kind::GUST, disk = term.kind == Kind::DISK;
-    has_discs_ |= disk;
+    has_disks_ |= disk;
     const double onset = gust || disk ? 0.0 : onsetOf(p, stamp);
     parts_.push_back({term, frequencyOf(field, i, stamp, term), gust ? 0.5 : 1.0, onset});
   }
@@ -93,11 +93,11 @@ void GustSpectrumField::addBreeze(const Primitive& p, double weight, const Breez
   }
 }
 
-GustSpectrum GustSpectrumField::atOf(const Vec3& position, double reach, bool discs) const {
+GustSpectrum GustSpectrumField::atOf(const Vec3& position, double reach, bool disks) const {
   GustSpectrum out = breezes_;
   double square = turbulence_;
   for (const Part& part : parts_) {
-    if (part.term.kind == Kind::DISK && !discs) continue;
+    if (part.term.kind == Kind::DISK && !disks) continue;
     const double bound = boundOf(part.term, position, reach), speed = part.share * bound;
     square += bound * bound;
     if (speed > 0.0) out.add(part.frequency, 0.0, speed * speed);

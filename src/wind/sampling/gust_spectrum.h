@@ -39,10 +39,10 @@ class GustSpectrumField {
   /// a cycle of the primitives.
   GustSpectrum at(const Vec3& position, double reach) const { return atOf(position, reach, true); }
   /// Returns the same without disks.
-  GustSpectrum withoutDiscs(const Vec3& position, double reach) const {
+  GustSpectrum withoutDisks(const Vec3& position, double reach) const {
     return atOf(position, reach, false);
   }
-  bool hasDiscs() const { return has_discs_; }
+  bool hasDisks() const { return has_disks_; }
 
  private:
   struct Part {
@@ -52,13 +52,13 @@ class GustSpectrumField {
     double onset;  // frequency at which half of it starts or ends; 0: it does neither
   };
   void addBreeze(const Primitive& p, double weight, const Breeze& breeze);
-  GustSpectrum atOf(const Vec3& position, double reach, bool discs) const;
+  GustSpectrum atOf(const Vec3& position, double reach, bool disks) const;
 
   GustSpectrum breezes_;
   double turbulence_{0.0};  // square of the breezes' peak
   Vec3 mean_{Vec3::Zero()};
   std::vector<Part> parts_;
-  bool has_discs_{false};
+  bool has_disks_{false};
 };
 
 }  // namespace vegetation_sim::wind

@@ -16,8 +16,8 @@ void WindSampler::add(const Vec3& point) {
   ++count_;
 }
 
-wind::WindSamples WindSampler::rows(std::size_t look) {
-  Rows& air = air_[look];
+wind::WindSamples WindSampler::rows(std::size_t instant) {
+  Rows& air = air_[instant];
   for (std::vector<double>* row : {&air.x, &air.y, &air.z})
     if (row->size() < points_.x.size()) row->resize(points_.x.size());
   return {points_.x.data(),
@@ -30,13 +30,13 @@ wind::WindSamples WindSampler::rows(std::size_t look) {
 }
 
 // Modes, of which there are many, are summed in vectors; the bounded primitives one by one.
-void WindSampler::sampleAt(std::size_t look, const wind::Instant& wind) {
-  wind::sampleBreeze(wind, rows(look));
-  addTerms(look, wind);
+void WindSampler::sampleAt(std::size_t instant, const wind::Instant& wind) {
+  wind::sampleBreeze(wind, rows(instant));
+  addTerms(instant, wind);
 }
 
-void WindSampler::addTerms(std::size_t look, const wind::Instant& wind) {
-  Rows& air = air_[look];
+void WindSampler::addTerms(std::size_t instant, const wind::Instant& wind) {
+  Rows& air = air_[instant];
   for (const wind::Term& term : wind.terms)
     for (std::size_t i = 0; i < count_; ++i) {
       const Vec3 v = wind::velocityOf(term, {points_.x[i], points_.y[i], points_.z[i]});
@@ -52,12 +52,14 @@ void WindSampler::sample(const wind::Instant& wind) {
 
 // One sine and cosine per mode serve all instants.
 void WindSampler::sample(const WindWindow& window) {
-  if (!window.turnsAlike()) {
-    for (std::size_t look = 0; look < air_.size(); ++look) sampleAt(look, window.looks()[look]);
+  if (!window.hasSameModes()) {
+    for (std::size_t instant = 0; instant < air_.size(); ++instant)
+      sampleAt(instant, window.instants()[instant]);
     return;
   }
-  wind::sampleBreeze(window.looks(), window.turns(), {rows(0), rows(1), rows(2)});
-  for (std::size_t look = 0; look < air_.size(); ++look) addTerms(look, window.looks()[look]);
+  wind::sampleBreeze(window.instants(), window.turns(), {rows(0), rows(1), rows(2)});
+  for (std::size_t instant = 0; instant < air_.size(); ++instant)
+    addTerms(instant, window.instants()[instant]);
 }
 
 }  // namespace vegetation_sim::forest

@@ -108,19 +108,19 @@ void sampleRows(const Instant& wind, const WindSamples& rows) {
   }
 }
 
-void sampleLooks(const std::array<Instant, 3>& looks,
-                 const std::array<std::vector<SinCos>, 2>& turns,
-                 const std::array<WindSamples, 3>& rows) {
+void sampleInstants(const std::array<Instant, 3>& instants,
+                    const std::array<std::vector<SinCos>, 2>& turns,
+                    const std::array<WindSamples, 3>& rows) {
   const std::size_t width = hn::Lanes(Tag());
   for (std::size_t i = 0; i < rows[1].count; i += width) {
     const Lanes3 p = load(rows[1], i);
-    Lanes3 before = mean(looks[0]), now = mean(looks[1]), after = mean(looks[2]);
-    for (std::size_t m = 0; m < looks[1].modes.size(); ++m) {
-      const LanesSinCos at = sinCosTurns(turnsOf(looks[1].modes[m], p));
+    Lanes3 before = mean(instants[0]), now = mean(instants[1]), after = mean(instants[2]);
+    for (std::size_t m = 0; m < instants[1].modes.size(); ++m) {
+      const LanesSinCos at = sinCosTurns(turnsOf(instants[1].modes[m], p));
       const SinCos &to_before = turns[0][m], &to_after = turns[1][m];
-      add(looks[0].modes[m], at.cos * all(to_before.cos) - at.sin * all(to_before.sin), before);
-      add(looks[1].modes[m], at.cos, now);
-      add(looks[2].modes[m], at.cos * all(to_after.cos) - at.sin * all(to_after.sin), after);
+      add(instants[0].modes[m], at.cos * all(to_before.cos) - at.sin * all(to_before.sin), before);
+      add(instants[1].modes[m], at.cos, now);
+      add(instants[2].modes[m], at.cos * all(to_after.cos) - at.sin * all(to_after.sin), after);
     }
     store(before, rows[0], i);
     store(now, rows[1], i);
@@ -136,16 +136,16 @@ HWY_AFTER_NAMESPACE();
 namespace vegetation_sim::wind {
 
 HWY_EXPORT(sampleRows);
-HWY_EXPORT(sampleLooks);
+HWY_EXPORT(sampleInstants);
 
 void sampleBreeze(const Instant& wind, const WindSamples& rows) {
   HWY_DYNAMIC_DISPATCH(sampleRows)(wind, rows);
 }
 
-void sampleBreeze(const std::array<Instant, 3>& looks,
+void sampleBreeze(const std::array<Instant, 3>& instants,
                   const std::array<std::vector<SinCos>, 2>& turns,
                   const std::array<WindSamples, 3>& rows) {
-  HWY_DYNAMIC_DISPATCH(sampleLooks)(looks, turns, rows);
+  HWY_DYNAMIC_DISPATCH(sampleInstants)(instants, turns, rows);
 }
 
 }  // namespace vegetation_sim::wind

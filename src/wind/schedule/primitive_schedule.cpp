@@ -27,7 +27,7 @@ std::string seconds(Nanoseconds stamp) {
 
 }  // namespace
 
-void PrimitiveSchedule::applyDelta(Entries entries, std::uint32_t next_id) {
+void PrimitiveSchedule::replaceEntries(Entries entries, std::uint32_t next_id) {
   std::vector<Primitive> primitives;
   for (const Entry& entry : entries) primitives.push_back(entry.primitive);
   field_ = Field(std::move(primitives), field_.seed());
@@ -44,7 +44,7 @@ void PrimitiveSchedule::start(const std::vector<Primitive>& primitives) {
     p.id = id++;
     entries.push_back({p, KEEP_EDITED});
   }
-  applyDelta(std::move(entries), id);
+  replaceEntries(std::move(entries), id);
 }
 
 PrimitiveSchedule::Entry* PrimitiveSchedule::latest(Entries& entries, const std::string& name) {
@@ -104,7 +104,7 @@ Primitive PrimitiveSchedule::put(Primitive p, Nanoseconds earliest, Change chang
   if (p.epoch == 0) p.epoch = default_epoch.value_or(p.t_on);
   p.id = next_id_;
   entries.push_back({p, change == Change::EDIT ? KEEP_EDITED : KEEP_PIECES});
-  applyDelta(std::move(entries), next_id_ + 1);
+  replaceEntries(std::move(entries), next_id_ + 1);
   return p;
 }
 
@@ -119,7 +119,7 @@ void PrimitiveSchedule::remove(const std::string& name, Nanoseconds earliest) {
   dropPending(entries, name, earliest);
   for (Entry& entry : entries)
     if (entry.primitive.name == name) end(entry.primitive, earliest, entry.primitive.fade_out);
-  applyDelta(std::move(entries), next_id_);
+  replaceEntries(std::move(entries), next_id_);
 }
 
 bool PrimitiveSchedule::prune(Nanoseconds now) {
@@ -130,7 +130,7 @@ bool PrimitiveSchedule::prune(Nanoseconds now) {
   Entries entries = entries_;
   entries.erase(std::remove_if(entries.begin(), entries.end(), forgotten), entries.end());
   if (entries.size() == entries_.size()) return false;
-  applyDelta(std::move(entries), next_id_);
+  replaceEntries(std::move(entries), next_id_);
   return true;
 }
 

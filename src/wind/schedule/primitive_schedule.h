@@ -65,7 +65,7 @@ class PrimitiveSchedule {
   static Entry* latest(Entries& entries, const std::string& name);
   static void dropPending(Entries& entries, const std::string& name, Nanoseconds earliest);
   /// Rebuilds the field first, and keeps the entries if it accepts them.
-  void applyDelta(Entries entries, std::uint32_t next_id);
+  void replaceEntries(Entries entries, std::uint32_t next_id);
 
   Entries entries_;
   std::uint32_t next_id_{1};

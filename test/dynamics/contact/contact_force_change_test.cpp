@@ -32,7 +32,7 @@ TEST(ContactSwing, OfALinkIsOfAllBodiesTogether) {
   ASSERT_TRUE(stepper.agreed());
   EXPECT_GT(contacts[0].force, 40.0);
   EXPECT_GT(contacts[2].force, 40.0);
-  EXPECT_GE(stepper.swing(), contacts[0].force + contacts[2].force - 1e-9);
+  EXPECT_GE(stepper.forceChange(), contacts[0].force + contacts[2].force - 1e-9);
 }
 
 }  // namespace

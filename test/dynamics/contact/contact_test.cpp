@@ -55,7 +55,7 @@ class Meeting {
     contact.gap = tip() - wall.place;
     contact.surface = wall.speed * Vec3::UnitX();
     contact.force = last_.force;
-    contact.bears = bears;
+    contact.hardness = hardness;
     std::vector<Contact> contacts{contact};
     theta_ = guardedTheta(state_, h, theta_);
     stepper_.step(links_, {}, law, 0.0, h, theta_, state_, contacts);
@@ -69,7 +69,7 @@ class Meeting {
   const ContactStepper& stepper() const { return stepper_; }
 
   ContactLaw law;
-  double bears{1.0};
+  double hardness{1.0};
 
  private:
   std::vector<Link> links_;
@@ -189,15 +189,15 @@ TEST(Contact, ForceRisesByRateAndSpringHoweverDeep) {
 
 // S1-W6. Harder wood: as many times the spring and the limit.
 TEST(Contact, HarderWoodPressesHarder) {
-  for (const double bears : {1.0, 5.0}) {
+  for (const double hardness : {1.0, 5.0}) {
     Meeting meeting(trunkOf(50000.0));
-    meeting.bears = bears;
+    meeting.hardness = hardness;
     Wall wall{-0.001, 0.02};
     while (wall.place < 0.001) meeting.step(1.0 / 960.0, wall);
-    EXPECT_NEAR(meeting.last().force, bears * 500.0, bears * 25.0);
+    EXPECT_NEAR(meeting.last().force, hardness * 500.0, hardness * 25.0);
     wall.speed = 1.0;
     while (wall.place < 0.02) meeting.step(1.0 / 960.0, wall);
-    EXPECT_EQ(meeting.last().force, bears * meeting.law.force_limit);
+    EXPECT_EQ(meeting.last().force, hardness * meeting.law.force_limit);
   }
 }
 
@@ -228,13 +228,13 @@ TEST(Contact, SwingTellsWhatAStepDoesNotResolve) {
   while (wall.place < 0.05) {
     meeting.step(1.0 / 960.0, wall);
     const double change = std::fabs(meeting.last().force - before);
-    EXPECT_GE(meeting.stepper().swing(), change);
+    EXPECT_GE(meeting.stepper().forceChange(), change);
     largest = std::max(largest, change);
     before = meeting.last().force;
   }
   EXPECT_GT(largest, 500.0);
   EXPECT_TRUE(meeting.last().limited);
-  EXPECT_EQ(meeting.stepper().swing(), 0.0);
+  EXPECT_EQ(meeting.stepper().forceChange(), 0.0);
   Meeting resting(twig());
   Wall still{0.0, 0.2};
   for (int i = 0; i < 480; ++i) {
@@ -242,7 +242,7 @@ TEST(Contact, SwingTellsWhatAStepDoesNotResolve) {
     resting.step(1.0 / 240.0, still);
   }
   EXPECT_GT(resting.last().force, 0.1);
-  EXPECT_LT(resting.stepper().swing(), 0.1);
+  EXPECT_LT(resting.stepper().forceChange(), 0.1);
 }
 
 TEST(Contact, WhatWouldEnterDeeplyIsStoppedAtOnce) {
@@ -254,12 +254,12 @@ TEST(Contact, WhatWouldEnterDeeplyIsStoppedAtOnce) {
 
 // Continuous in time also where a body is gone at once: the force falls by the limit in 32 us.
 TEST(Contact, ForceFallsNoFasterThanTheLimitIn32Microseconds) {
-  for (const double bears : {1.0, 5.0}) {
+  for (const double hardness : {1.0, 5.0}) {
     for (const double h : {2e-6, 8e-6, 32e-6, 1.0 / 240.0}) {
       Meeting meeting(trunkOf(50000.0));
-      meeting.bears = bears;
+      meeting.hardness = hardness;
       Wall wall{-0.001, 0.5};
-      while (meeting.last().force < bears * 1500.0) meeting.step(1e-4, wall);
+      while (meeting.last().force < hardness * 1500.0) meeting.step(1e-4, wall);
       wall = {-1.0, 0.0};
       double before = meeting.last().force, time = 0.0;
       for (const double first = before; before > 0.0; before = meeting.last().force) {
@@ -268,7 +268,7 @@ TEST(Contact, ForceFallsNoFasterThanTheLimitIn32Microseconds) {
         const double fall = std::min(before, h * meeting.law.force_limit / 32e-6);
         EXPECT_NEAR(before - meeting.last().force, fall, 1e-6) << first << " N, " << h << " s";
       }
-      EXPECT_LT(time, h + 32e-6 * bears);
+      EXPECT_LT(time, h + 32e-6 * hardness);
     }
   }
 }

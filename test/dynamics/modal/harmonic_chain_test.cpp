@@ -57,7 +57,7 @@ TEST(HarmonicChain, AnswersWhatItsEquationSays) {
   for (const double w : {0.0, 1.0, 8.0, 30.0}) {
     std::vector<double> x = cosine, y = sine;
     chain.setFrequency(w);
-    chain.answer(x, y);
+    chain.solve(x, y);
     // d/dt of x cos + y sin is w (y cos - x sin).
     const std::vector<double> even = equation.load(x, y, w), odd = equation.load(y, x, -w);
     for (std::size_t i = 0; i < x.size(); ++i) {

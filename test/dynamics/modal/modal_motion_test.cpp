@@ -126,7 +126,7 @@ class ModalCrown {
   double offInFirstFrame(int count, int depth, bool quick) {
     Modes modes = slowestModes(chain_, count);
     LoadShape shape{load_, depth + (quick ? 0 : 1)};
-    if (quick) shape.quick = quickAnswer(links_, load_, 0.5 * FRAME);
+    if (quick) shape.quick = quickResponse(links_, load_, 0.5 * FRAME);
     addLoadVectors(chain_, {shape}, modes);
     ModalStepper stepper(modes);
     ModalState state = stepper.atRest();
@@ -254,7 +254,7 @@ TEST(ModalMotion, GivesWayAtOnceToAPull) {
     Modes modes = slowestModes(chain, 8);
     std::vector<LoadShape> shapes{{torque, quick ? 4 : 6}};
     for (const double part : {0.25, 0.5})
-      if (quick) shapes.push_back({torque, 0, quickAnswer(links, torque, part * FRAME)});
+      if (quick) shapes.push_back({torque, 0, quickResponse(links, torque, part * FRAME)});
     addLoadVectors(chain, shapes, modes);
     ModalStepper stepper(modes);
     ModalState state = stepper.atRest();
@@ -286,10 +286,10 @@ TEST(QuickAnswer, GoesFromInertiaToSprings) {
   const Random random(6);
   std::vector<double> load(chain.size()), felt(chain.size());
   for (std::size_t k = 0; k < load.size(); ++k) load[k] = random.uniform(k, -1.0, 1.0);
-  chain.timesMass(quickAnswer(links, load, 1e-10).data(), felt.data());
+  chain.timesMass(quickResponse(links, load, 1e-10).data(), felt.data());
   for (std::size_t k = 0; k < load.size(); ++k) EXPECT_NEAR(felt[k], load[k], 1e-5) << k;
   const double h = 1e6;
-  const std::vector<double> slow = quickAnswer(links, load, h);
+  const std::vector<double> slow = quickResponse(links, load, h);
   for (std::size_t k = 0; k < load.size(); ++k)
     EXPECT_NEAR(h * h * chain.stiffness()[k] * slow[k], load[k], 1e-5) << k;
 }

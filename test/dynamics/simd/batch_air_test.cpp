@@ -21,7 +21,7 @@ std::vector<Grip> gripsOf(const std::vector<Link>& links) {
   return out;
 }
 
-AskAir uniform(const Vec3& wind) {
+WindQuery uniform(const Vec3& wind) {
   return [wind](const float*, float* air, std::size_t blocks) {
     for (std::size_t i = 0; i < 48 * blocks; ++i)
       air[i] = static_cast<float>(wind[static_cast<int>(i % 48 / 16)]);
@@ -63,8 +63,8 @@ std::vector<Vec3> tipsInBreeze(const std::vector<Link>& links, int every) {
   for (int i = 0; i < 1200; ++i) {
     if (i % every == 0) {
       const forest::FloatWind now(field.at(fromSeconds((i + 0.5 * every) * STEP)), 1e3);
-      chain.askAir([now](const float* places, float* air, std::size_t blocks) {
-        fillAir(now, places, air, blocks);
+      chain.queryWind([now](const float* places, float* air, std::size_t blocks) {
+        fillWind(now, places, air, blocks);
       });
     }
     chain.step(STEP);
@@ -103,7 +103,7 @@ TEST(BatchAir, IsTheQuadraticDragOfLoads) {
     const double time = i * STEP, swell = sinCos(PI * (time + 0.5 * STEP)).sin;
     const double speed = time < 1.0 ? 18.0 * swell * swell : 0.0;
     plain.step(around, time, STEP);
-    chain.askAir(uniform(speed * Vec3(1.0, 0.3, 0.1)));
+    chain.queryWind(uniform(speed * Vec3(1.0, 0.3, 0.1)));
     chain.step(STEP);
     const ChainState now = chain.state(0);
     for (std::size_t k = 0; k < links.size(); ++k) {
@@ -125,7 +125,7 @@ TEST(BatchAir, IsAskedForWhereGripsAreOnTheirBases) {
   Surroundings around;
   around.bases = [&](double, std::vector<BaseMotion>& out) { out = {base}; };
   std::vector<Vec3> places;
-  chain.askAir([&](const float* rows, float*, std::size_t blocks) {
+  chain.queryWind([&](const float* rows, float*, std::size_t blocks) {
     for (std::size_t i = 0; i < 16 * blocks; ++i)
       places.emplace_back(rows[i / 16 * 48 + i % 16], rows[i / 16 * 48 + 16 + i % 16],
                           rows[i / 16 * 48 + 32 + i % 16]);
@@ -175,7 +175,7 @@ TEST(BatchAir, OnTheAxesOfBarsIsTheSameBesideOthers) {
   std::vector<Grip> mixed = on_axis;
   for (std::size_t i = 0; i < links.size(); i += 3) mixed[i] = gripsOf(links)[i];
   const auto blow = [](BatchChain& chain) {
-    chain.askAir(uniform(Vec3(10.0, 3.0, 1.0)));
+    chain.queryWind(uniform(Vec3(10.0, 3.0, 1.0)));
     for (int i = 0; i < 120; ++i) chain.step(STEP);
   };
   BatchChain alone(links), beside({links, links}), back({links, links});
@@ -204,7 +204,7 @@ TEST(BatchAir, OnAndBesideTheAxesIsTheQuadraticDragOfLoads) {
     }
     chain.setGrips(0, grips);
     const Vec3 wind(12.0, 3.0, 1.0);
-    chain.askAir(uniform(wind));
+    chain.queryWind(uniform(wind));
     const Surroundings around = steadyDrag(links, grips, wind);
     for (int i = 0; i < 240; ++i) {
       plain.step(around, i * STEP, STEP);
@@ -228,7 +228,7 @@ TEST(BatchAir, StepsOfAFrameAreTheSameTogether) {
   BatchChain together(trees), apart(trees);
   const auto blow = [&](BatchChain& chain, double speed) {
     for (int t = 0; t < 3; ++t) chain.setGrips(t, gripsOf(trees[static_cast<std::size_t>(t)]));
-    chain.askAir(uniform(Vec3(speed, 3.0, 1.0)));
+    chain.queryWind(uniform(Vec3(speed, 3.0, 1.0)));
   };
   for (int frame = 0; frame < 10; ++frame) {
     blow(together, 2.0 * frame);

@@ -132,7 +132,7 @@ TEST_F(ContactFinderTest, ThinWoodIsHarder) {
   const auto bears = [&](double radius) {
     skeleton_.branches[0].base_radius = skeleton_.branches[0].tip_radius = radius;
     place(-0.02);
-    return find().at(0).bears;
+    return find().at(0).hardness;
   };
   EXPECT_EQ(bears(0.003), 5.0);
   EXPECT_EQ(bears(0.01), 5.0);

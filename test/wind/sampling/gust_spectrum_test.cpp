@@ -103,10 +103,10 @@ TEST(GustSpectrum, TellADiscThatRunsPast) {
   disk.orbit_period = 2.0;  // 9.4 m/s past 20 m: 0.47 Hz
   EXPECT_NEAR(sumOfDisk(), 16.0, 1e-9);
   const GustSpectrumField swinging(Field({disk}, 3), fromSeconds(1.0));
-  EXPECT_TRUE(swinging.hasDiscs());
-  EXPECT_EQ(sumOf(swinging.withoutDiscs(Vec3(2.0, 0.0, 0.0), 1.0)), 0.0);
+  EXPECT_TRUE(swinging.hasDisks());
+  EXPECT_EQ(sumOf(swinging.withoutDisks(Vec3(2.0, 0.0, 0.0), 1.0)), 0.0);
   EXPECT_NEAR(swinging.at(Vec3(2.0, 0.0, 0.0), 8.0).peak, 4.0, 1e-9);
-  EXPECT_EQ(swinging.withoutDiscs(Vec3(2.0, 0.0, 0.0), 8.0).peak, 0.0);
+  EXPECT_EQ(swinging.withoutDisks(Vec3(2.0, 0.0, 0.0), 8.0).peak, 0.0);
 }
 
 }  // namespace

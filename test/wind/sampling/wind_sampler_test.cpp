@@ -60,7 +60,7 @@ TEST(WindSampler, LooksOfAWindowAreThoseOfItsInstants) {
       for (const double time : {5.0, 8.7}) {
         WindWindow window;
         window.sampleAt(wind::Field(primitives, 3), wind::at(time));
-        turned += window.turnsAlike();
+        turned += window.hasSameModes();
         WindSampler sampler;
         for (const Vec3& point : points) sampler.add(point);
         sampler.sample(window);
@@ -69,7 +69,7 @@ TEST(WindSampler, LooksOfAWindowAreThoseOfItsInstants) {
           EXPECT_EQ(one[1], window.now().velocity(points[i]));
           for (std::size_t look = 0; look < 3; ++look) {
             ASSERT_EQ(sampler.velocity(i, look), one[look]) << set << ", look " << look;
-            const Vec3 law = window.looks()[look].velocity(points[i]);
+            const Vec3 law = window.instants()[look].velocity(points[i]);
             EXPECT_LE(length(one[look] - law), 1e-13 * length(law));
           }
         }

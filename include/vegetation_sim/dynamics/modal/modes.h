@@ -48,8 +48,8 @@ struct LoadShape {
 
 /// Returns the direction of the bends of a chain at rest after a load [2 per link] has acted for
 /// `h` seconds: (M + h C + h^2 K)^-1 times the load, in one O(N) pass (N13).
-std::vector<double> quickAnswer(const std::vector<Link>& links, const std::vector<double>& torque,
-                                double h);
+std::vector<double> quickResponse(const std::vector<Link>& links, const std::vector<double>& torque,
+                                  double h);
 
 /// Adds the motion that loads cause and the modes omit: the vectors of all loads together,
 /// orthogonal to the modes, as further oscillators at their Rayleigh frequencies. From depth 1 on

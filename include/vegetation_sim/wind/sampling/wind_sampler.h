@@ -23,18 +23,19 @@ class WindSampler {
   void sample(const wind::Instant& wind);
   /// Samples the three instants of a window.
   void sample(const WindWindow& window);
-  /// At point i, in a look of the window that was sampled last, or of one instant, 0, world [m/s].
-  Vec3 velocity(std::size_t i, std::size_t look = 0) const {
-    return {air_[look].x[i], air_[look].y[i], air_[look].z[i]};
+  /// At point i, in a instant of the window that was sampled last, or of one instant, 0, world
+  /// [m/s].
+  Vec3 velocity(std::size_t i, std::size_t instant = 0) const {
+    return {air_[instant].x[i], air_[instant].y[i], air_[instant].z[i]};
   }
 
  private:
   struct Rows {
     std::vector<double> x, y, z;  // padded to whole pairs of vectors
   };
-  void sampleAt(std::size_t look, const wind::Instant& wind);
-  void addTerms(std::size_t look, const wind::Instant& wind);
-  wind::WindSamples rows(std::size_t look);
+  void sampleAt(std::size_t instant, const wind::Instant& wind);
+  void addTerms(std::size_t instant, const wind::Instant& wind);
+  wind::WindSamples rows(std::size_t instant);
 
   std::size_t count_{0};
   Rows points_;

@@ -25,7 +25,7 @@ struct WindSamples {
 void sampleBreeze(const Instant& wind, const WindSamples& rows);
 /// Does the same for three instants of the same modes at the same points. The first and the last
 /// are reached from the middle one by rotating the phases [modes]; these two are off by 1e-15.
-void sampleBreeze(const std::array<Instant, 3>& looks,
+void sampleBreeze(const std::array<Instant, 3>& instants,
                   const std::array<std::vector<SinCos>, 2>& turns,
                   const std::array<WindSamples, 3>& rows);
 

@@ -12,21 +12,22 @@
 namespace vegetation_sim::forest {
 
 /// Time between the instants that rates and accelerations are differenced from. The relative error
-/// of motion at w rad/s is (w LOOK)^2 / 6.
-constexpr Nanoseconds LOOK = NANOSECONDS_PER_SECOND / PHYSICS_RATE;
+/// of motion at w rad/s is (w WINDOW_STEP)^2 / 6.
+constexpr Nanoseconds WINDOW_STEP = NANOSECONDS_PER_SECOND / PHYSICS_RATE;
 
-/// The wind LOOK before a stamp, at it, and LOOK after it, world; shared by all trees of a step.
+/// The wind WINDOW_STEP before a stamp, at it, and WINDOW_STEP after it, world; shared by all trees
+/// of a step.
 class WindWindow {
  public:
   /// Samples the field at `stamp`; keeps its memory from call to call.
   void sampleAt(const wind::Field& field, Nanoseconds stamp);
   Nanoseconds stamp() const { return stamp_; }
-  const wind::Instant& now() const { return looks_[1]; }
-  const std::array<wind::Instant, 3>& looks() const { return looks_; }
+  const wind::Instant& now() const { return instants_[1]; }
+  const std::array<wind::Instant, 3>& instants() const { return instants_; }
   /// Returns whether all instants have the same modes, so that only phases and amplitudes differ.
-  bool turnsAlike() const { return turns_alike_; }
-  /// Returns, for turnsAlike(), how the phase of each mode turns from the middle instant to the one
-  /// before and the one after.
+  bool hasSameModes() const { return same_modes_; }
+  /// Returns, for hasSameModes(), how the phase of each mode turns from the middle instant to the
+  /// one before and the one after.
   const std::array<std::vector<SinCos>, 2>& turns() const { return turns_; }
   /// Returns the wind velocities at a position at the three instants [m/s], world: the middle one
   /// with the bits of Instant::velocity, the others within 1e-13 of its size.
@@ -34,8 +35,8 @@ class WindWindow {
 
  private:
   Nanoseconds stamp_{0};
-  std::array<wind::Instant, 3> looks_;
-  bool turns_alike_{false};
+  std::array<wind::Instant, 3> instants_;
+  bool same_modes_{false};
   std::array<std::vector<SinCos>, 2> turns_;
 };
 
