@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "tree/physical/procedural_motion.h"
+#include "vegetation_sim/tree/growth/physics_settings.h"
 
 namespace vegetation_sim::forest {
 namespace {
