@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-# Builds the package into build/ (or $BUILD), again only what changed.
+# Builds the package into build/ (or $BUILD). Repeated builds compile only what changed.
 # usage: scripts/build.sh [--developer | --sanitize] [TARGET ...]
-#   --developer  warnings in our own code are errors
-#   --sanitize   into build/sanitize, with the address and undefined behaviour sanitizers
+#   --developer  makes warnings in the package's own code errors
+#   --sanitize   builds into build/sanitize with the address and undefined behaviour sanitizers
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 
@@ -16,7 +16,8 @@ case ${1:-} in
     ;;
   --sanitize)
     BUILD=$BUILD/sanitize
-    # A null or misaligned access stops the program anyway; to check for both doubles the time to compile.
+    # A null or misaligned access stops the program in any case, and checking for both would double
+    # the compile time.
     options=(-DCMAKE_BUILD_TYPE=None "-DCMAKE_CXX_FLAGS=-O1 -g1 -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize=null,alignment -fno-sanitize-recover=all")
     shift
     ;;

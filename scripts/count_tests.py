@@ -11,7 +11,7 @@ import xml.etree.ElementTree as tree
 
 
 def read(path):
-    """Cases of one result file; a file that is no XML is one failed case."""
+    """Returns the test cases of one result file. A file that is not XML is one failed case."""
     try:
         return list(tree.parse(path).iter('testcase'))
     except tree.ParseError as error:
@@ -27,7 +27,8 @@ def main():
         for case in read(path):
             problems = case.findall('failure') + case.findall('error')
             skipped = case.find('skipped') is not None or case.get('status') == 'notrun'
-            # rostest's own case only says that its tests ran, which are counted in files of their own.
+            # The case that rostest adds says only that its tests ran; those are counted in files of
+            # their own.
             if problems or not path.stem.startswith('rostest-'):
                 counts[1 if problems else 2 if skipped else 0] += 1
             for problem in problems:

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs what is missing, builds, and shows a scenario in rviz.
+# Installs missing dependencies, builds the package and shows a scenario in rviz.
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 
@@ -9,11 +9,11 @@ usage() {
   cat <<END
 usage: scripts/demo.sh [SCENARIO] [--headless] [--seconds N] [--screenshot FILE] [--series N] [--view NAME]
   SCENARIO           one of: $(scenarios) (forest if none is given)
-  --headless         on a virtual display and a ROS master of its own; succeeds only if rviz shows a
+  --headless         uses a virtual display and its own ROS master; succeeds only if rviz shows a
                      picture and no node dies
   --seconds N        ends after N seconds (20 if headless, else when rviz is closed)
   --screenshot FILE  picture of the rviz window at the end; with --headless
-  --view NAME        looks from there: a saved view of the scenario's rviz configuration; with --headless
+  --view NAME        starts with this saved view of the rviz configuration; with --headless
   --series N         N pictures instead, at equal times up to the end, -1 to -N before FILE's ending
 END
 }
@@ -65,7 +65,8 @@ rviz_config() {
   [ -e "$own" ] && echo "$own" || echo "$ROOT/rviz/default.rviz"
 }
 
-# usage: seen_from NAME: the configuration with that saved view as the one it starts with
+# usage: seen_from NAME. Prints the path of a copy of the rviz configuration that starts with the
+# saved view NAME.
 seen_from() {
   python3 - "$(rviz_config)" "$1" >"$WORK/view.rviz" <<'END' || fail "--view $1: $(rviz_config) has no such view"
 import sys, yaml
@@ -78,7 +79,7 @@ END
   echo "$WORK/view.rviz"
 }
 
-# A blank window, or one that shows menus alone, has few colours in its middle.
+# A window that is blank or shows only menus has few colours in its middle.
 check_picture() {
   local colours
   colours=$(convert "$1" -gravity center -crop 60%x60%+0+0 +repage -format %k info:)
@@ -86,7 +87,7 @@ check_picture() {
   say "Picture of $(identify -format '%w x %h' "$1") pixels, $colours colours in its middle"
 }
 
-# usage: run_until TIME, in microseconds
+# usage: run_until TIME. Waits until the time [us] while it checks that the launch still runs.
 run_until() {
   while [ "${EPOCHREALTIME/[.,]/}" -lt "$1" ]; do
     check_launch

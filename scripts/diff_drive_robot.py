@@ -1,8 +1,11 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""A differential-drive robot on flat ground, as simple as can be: cmd_vel in; odometry and the frames of
-its URDF (parameter robot_description) out. Grass that resists its wheels (grass/wrenches) slows it."""
+"""Simulates a differential-drive robot on flat ground with a minimal model.
+
+Subscribes to cmd_vel; publishes odometry and the frames of the URDF in the parameter
+robot_description. The drag of the grass on the wheels (grass/wrenches) slows the robot.
+"""
 import math
 import xml.etree.ElementTree
 
@@ -12,8 +15,8 @@ from nav_msgs.msg import Odometry
 from tf2_msgs.msg import TFMessage
 
 RATE = 50.0  # [Hz]
-LAG = 0.25  # of the motors [s]
-SILENCE = 0.5  # a command holds for this long [s]
+MOTOR_TIME_CONSTANT = 0.25  # Time constant of the motors. [s]
+COMMAND_TIMEOUT = 0.5  # A command expires after this time. [s]
 MASS = 60.0  # [kg]
 
 
@@ -22,7 +25,7 @@ def turned(x, y, yaw):
 
 
 def joints_of(urdf):
-    """Parent, child and place of every joint."""
+    """Returns parent, child and position of every joint."""
     out = []
     for joint in xml.etree.ElementTree.fromstring(urdf).iter('joint'):
         place = [float(number) for number in joint.find('origin').get('xyz').split()]
@@ -41,25 +44,25 @@ class DiffDriveRobot:
         self.last = None
         self.odom = rospy.Publisher('odom', Odometry, queue_size=10)
         self.tf = rospy.Publisher('/tf', TFMessage, queue_size=100)
-        rospy.Subscriber('cmd_vel', Twist, self.obey)
-        rospy.Subscriber('grass/wrenches', WrenchStamped, self.feel)
+        rospy.Subscriber('cmd_vel', Twist, self.on_command)
+        rospy.Subscriber('grass/wrenches', WrenchStamped, self.on_wrench)
 
-    def obey(self, command):
+    def on_command(self, command):
         self.command, self.commanded = command, rospy.Time.now()
 
-    def feel(self, wrench):
+    def on_wrench(self, wrench):
         self.drag[wrench.header.frame_id] = wrench.wrench.force.x
 
     def step(self, now):
         dt = (now - self.last).to_sec() if self.last else 0.0
         self.last = now
-        if not 0.0 < dt < 1.0:  # the first step, or time jumped
+        if not 0.0 < dt < 1.0:  # This is the first step, or the clock jumped.
             return
-        heard = self.commanded and 0.0 <= (now - self.commanded).to_sec() < SILENCE
-        speed, spin = (self.command.linear.x, self.command.angular.z) if heard else (0.0, 0.0)
-        lag = 1.0 - math.exp(-dt / LAG)
-        self.speed += lag * (speed - self.speed) + dt * sum(self.drag.values()) / MASS
-        self.spin += lag * (spin - self.spin)
+        active = self.commanded and 0.0 <= (now - self.commanded).to_sec() < COMMAND_TIMEOUT
+        speed, spin = (self.command.linear.x, self.command.angular.z) if active else (0.0, 0.0)
+        response = 1.0 - math.exp(-dt / MOTOR_TIME_CONSTANT)
+        self.speed += response * (speed - self.speed) + dt * sum(self.drag.values()) / MASS
+        self.spin += response * (spin - self.spin)
         middle = self.yaw + 0.5 * dt * self.spin
         self.x += dt * self.speed * math.cos(middle)
         self.y += dt * self.speed * math.sin(middle)
@@ -67,7 +70,7 @@ class DiffDriveRobot:
         for wheel, side in (('left_wheel', -1.0), ('right_wheel', 1.0)):
             self.rolled[wheel] += dt * (self.speed + side * 0.28 * self.spin) / 0.18
 
-    def tell(self, now):
+    def publish(self, now):
         odom = Odometry(child_frame_id='base_link')
         odom.header.stamp, odom.header.frame_id = now, self.world
         pose = odom.pose.pose
@@ -102,7 +105,7 @@ class DiffDriveRobot:
             now = rospy.Time.now()
             if now != self.last:
                 self.step(now)
-                self.tell(now)
+                self.publish(now)
             try:
                 rate.sleep()
             except rospy.ROSTimeMovedBackwardsException:

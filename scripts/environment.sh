@@ -1,6 +1,7 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-# Read by the other scripts: where things are, and the system's own Python in front of any other.
+# The other scripts source this file. It sets the paths of the package and puts the system's Python
+# first in PATH.
 ROOT=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 BUILD=${BUILD:-$ROOT/build}
 export PATH=/usr/bin:/usr/sbin:/bin:$PATH

@@ -1,13 +1,16 @@
 #!/usr/bin/env bash
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-# Frames a second that rviz draws of scenarios in a window of 1280 x 900 on a virtual display: with our
-# displays, beside the same nodes with stock markers as they are budgeted, with markers of which as
-# many triangles are in the picture as of our displays, moving as often, and with the finest markers
-# that the nodes publish, for markers know no camera but the nodes'. And how much levels of detail
-# change in pictures of our displays as the camera goes away.
+# Measures the frames per second that rviz draws of scenarios, in a window of 1280 x 900 on a
+# virtual display. It measures
+#   - the displays of this package,
+#   - the same nodes with stock markers at their default budgets,
+#   - markers at the rate of the displays with as many visible triangles as the displays show,
+#   - the finest markers that the nodes publish.
+# Markers are chosen for the camera of the node, not for that of rviz. The script also measures how
+# much a change of level of detail changes the picture while the camera moves away.
 # usage: scripts/frame_rates.sh [--seconds N] [--points N] SCENARIO ...
-#   --points N  of the markers that are to show as many triangles, if it is known: not searched for
+#   --points N  number of marker points that shows as many triangles; without it the script searches
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 
@@ -25,8 +28,8 @@ use_space "$BUILD/devel"
 trap 'stop_process "$launch_pid"; stop_process "$display_pid"; rm -rf "$WORK"' EXIT
 trap 'exit 130' INT TERM
 start_display
-MOST=3000000   # points that a node may publish
-UPDATE_RATE=30 # [Hz] of our displays
+MOST=3000000   # limit of the points that a node may publish
+UPDATE_RATE=30 # [Hz] update rate of the displays
 
 # usage: start_scenario SCENARIO [MARKER_POINTS]
 start_scenario() {
@@ -51,7 +54,8 @@ measure() {
     grep 'frames' | tee "$WORK/figures"
 }
 
-# usage: markers_of POINTS: of all nodes that have something to show, in equal parts
+# usage: markers_of POINTS. Starts the scenario with POINTS marker points, divided equally among all
+# nodes that publish markers.
 markers_of() {
   local parts
   parts=$(grep -cE '^(forest|grass|canopy|crowd):' "$ROOT/config/scenarios/$scenario.yaml") ||

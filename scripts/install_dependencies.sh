@@ -1,28 +1,28 @@
 #!/usr/bin/env bash
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs what building, testing and the demo need on Debian 12, and only what is missing: nothing
-# is asked of the network if all is there. docs/dependencies.md says why each is needed.
+# Installs the missing packages that building, testing and the demo need on Debian 12. If all are
+# installed, it does not use the network. docs/dependencies.md gives the reason for each package.
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 
 PACKAGES=(
-  # compiling
+  # These packages compile the code.
   catkin cmake g++ ninja-build python3-catkin-pkg ros-core-dev
   libroscpp-dev libtf2-ros-dev libsensor-msgs-dev liburdf-dev libvisualization-msgs-dev
   libdiagnostic-updater-dev
   libdynamic-reconfigure-config-init-mutex-dev python3-dynamic-reconfigure
   libgl-dev libnodeletlib-dev pluginlib-dev librviz-dev qtbase5-dev
   libassimp-dev libeigen3-dev libhwy-dev libpng-dev libresource-retriever-dev libyaml-cpp-dev
-  # running
+  # These packages run the nodes.
   libnodeletlib-tools python3-matplotlib python3-numpy python3-pil rviz
-  # testing, and looking at topics
+  # These packages run the tests and inspect topics.
   python3-rosbag python3-roslaunch python3-rosmsg python3-rosnode python3-rosparam
   python3-rosservice python3-rostest python3-rostopic rosbash librostest-dev libgmock-dev
   python3-diagnostic-msgs python3-geometry-msgs python3-nav-msgs python3-sensor-msgs python3-std-srvs python3-tf2-msgs
   python3-visualization-msgs
   catkin-lint clang-format clang-tidy
-  # a display of its own for the demo, and a picture of it
+  # These packages give the demo a virtual display and take screenshots.
   imagemagick libgl1-mesa-dri procps xdotool xvfb
 )
 

@@ -1,8 +1,8 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-# Read by the scripts that start a launch file: on a master of its own, and with nothing left behind.
-# Sets WORK, a temporary folder; LOG in it has all that the launch says.
-# start_display gives them a virtual display, of which display_pid is the process.
+# Scripts that start a launch file source this file. Each launch gets its own ROS master and leaves
+# no process behind. WORK is a temporary folder and $WORK/launch.log (LOG) has the output of the
+# launch. start_display starts a virtual display; display_pid is its process id.
 WORK=$(mktemp -d)
 LOG=$WORK/launch.log
 launch_pid= display_pid=
@@ -15,7 +15,7 @@ descendants() {
   done
 }
 
-# Ends a process as its user would, then by force, its children with it.
+# Ends a process and its children with SIGTERM and, after 30 s, with SIGKILL.
 stop_process() {
   local pid=$1 family waited=0
   [ -n "$pid" ] && kill -0 "$pid" 2>/dev/null || return 0
@@ -29,7 +29,8 @@ stop_process() {
   kill -KILL "$pid" $family 2>/dev/null || true
 }
 
-# usage: start_launch FILE [ARGUMENT ...], one of this package, with ROS already in the environment.
+# usage: start_launch FILE [ARGUMENT ...]. Starts a launch file of this package. ROS must be in the
+# environment.
 start_launch() { start_roslaunch vegetation_sim "$@"; }
 
 # usage: start_roslaunch [PACKAGE] FILE [ARGUMENT ...]
@@ -42,7 +43,8 @@ start_roslaunch() {
   launch_pid=$!
 }
 
-# usage: wait_until SECONDS WHAT COMMAND ...: until the command succeeds; fails when the launch ends.
+# usage: wait_until SECONDS WHAT COMMAND ... Waits until the command succeeds. Fails if the launch
+# ends or the time is over; WHAT names the condition in the error.
 wait_until() {
   local deadline=$((SECONDS + $1)) what=$2
   shift 2
@@ -55,7 +57,7 @@ wait_until() {
 
 topic_flows() { timeout 10 rostopic echo -n 1 --noarr "$1"; }
 
-# Every node still runs.
+# Fails unless every node still runs.
 check_launch() {
   kill -0 "$launch_pid" 2>/dev/null || give_up 'the launch ended by itself'
   ! grep -q 'has died\|REQUIRED process' "$LOG" || give_up 'a node died'
@@ -67,11 +69,11 @@ give_up() {
   fail "$*"
 }
 
-# The window of rviz on the virtual display.
+# Prints the id of rviz's window on the virtual display.
 rviz_window() { xdotool search --onlyvisible --name 'RViz$' | head -n 1 | grep .; }
 
 start_display() {
-  # The display says its number when it is ready.
+  # Xvfb writes the number of its display when it is ready.
   Xvfb -displayfd 3 -screen 0 1280x900x24 +extension GLX -nolisten tcp \
     3>"$WORK/display" >"$WORK/xvfb.log" 2>&1 &
   display_pid=$!

@@ -1,15 +1,16 @@
 #!/usr/bin/env bash
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-# Checks of the code that run nothing of it.
-# usage: scripts/lint.sh [format | tidy | catkin | structure | words | docs] ...; all if none is given
+# Runs the static checks of the code.
+# usage: scripts/lint.sh [format | tidy | catkin | structure | words | docs] ... Runs all checks if
+# none is given.
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 cd "$ROOT"
 
 code() { git ls-files 'include/*.h' 'src/*.h' 'src/*.cpp' 'test/*.h' 'test/*.cpp' 'bench/*.h' 'bench/*.cpp' 'scenes/*.h' 'scenes/*.cpp'; }
 
-# usage: none_match PATTERN PATH...: prints every line that matches, and fails if there is one.
+# usage: none_match PATTERN PATH ... Prints every line that matches, and fails if there is one.
 none_match() {
   local pattern=$1
   shift
@@ -18,14 +19,14 @@ none_match() {
 
 format() { code | xargs clang-format --dry-run -Werror; }
 
-# The core only: the headers of ROS would take many minutes.
+# Only the core is checked, because the headers of ROS would take many minutes.
 tidy() {
   git ls-files src/{canopy,core,crowd,dynamics,forest,grass,reference,sensors,terrain,tree,wind}'/*.cpp' |
     xargs -P "$(nproc)" -n 1 clang-tidy --quiet --extra-arg=-std=c++17 -p "$BUILD" 2>/dev/null
 }
 
 catkin() {
-  # A package is to stand in a folder of its own name.
+  # catkin_lint requires that the folder has the name of the package.
   local folder found
   folder=$(mktemp -d)
   ln -s "$ROOT" "$folder/vegetation_sim"
@@ -34,11 +35,12 @@ catkin() {
   [ -z "$found" ] || { printf '%s\n' "$found"; return 1; }
 }
 
-# Folders, includes, public headers and stems are as docs/folders.yaml says.
+# Checks folders, includes, public headers and file stems against docs/folders.yaml.
 structure() { python3 test/structure/check_structure.py; }
 
-# No left-over, and in the core nothing whose bits differ between machines. What only chooses how
-# finely a picture is drawn may use the platform's mathematics.
+# Forbids debugging leftovers and, in the core, functions and containers whose results differ
+# between machines. Code that only selects the level of detail of a picture may use the mathematics
+# of the platform.
 words() {
   local code_of_core=({include/vegetation_sim,src}/{canopy,core,crowd,dynamics,forest,grass,reference,terrain,tree,wind}
     ':!src/tree/mesh/geometry_level.cpp')

@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes config/terrain/hills.png: rolling hills with a gentle middle, 257 x 257 grey samples of 16 bit.
+"""Writes config/terrain/hills.png: rolling hills with a gentle middle, 257 x 257 grey 16-bit
+samples.
 
-A sum of plane waves of fixed seed, wavelengths 35 to 160 m, whose amplitude falls with the square
-of the wave number, damped near the origin. usage: scripts/make_hills.py FILE
+The height is a sum of plane waves with a fixed seed and wavelengths of 35 to 160 m. The amplitude
+falls with the square of the wave number, and it is damped near the origin.
+usage: scripts/make_hills.py FILE
 """
 import math
 import random
@@ -12,7 +14,7 @@ import struct
 import sys
 import zlib
 
-SIDE = 257  # samples, 1 m apart; the middle one is the world's origin
+SIDE = 257  # Number of samples per side, 1 m apart. The middle sample is the origin of the world.
 WAVES = 24
 WHITE = 65535
 CALM_RADIUS = 45.0  # [m]
@@ -29,13 +31,13 @@ def waves(seed):
 
 
 def calm(x, y):
-    """Share of the hills that is left at a place: a fifth at the origin, all of it far away."""
+    """Returns the damping factor of the hills: one fifth at the origin and one far away."""
     far = (x * x + y * y) / (CALM_RADIUS * CALM_RADIUS)
     return 1.0 - 0.8 * math.exp(-far)
 
 
 def hills():
-    """Samples from black to white, [SIDE][SIDE], north first, west to east."""
+    """Returns the samples from black to white as rows from north to south, west to east."""
     components = list(waves(seed=4))
     half = SIDE // 2
     rows = [[calm(x, y) * sum(a * math.sin(kx * x + ky * y + phase)
@@ -51,7 +53,7 @@ def chunk(kind, data):
 
 def png(rows):
     lines = b''.join(b'\0' + struct.pack('>%dH' % SIDE, *row) for row in rows)
-    header = struct.pack('>IIBBBBB', SIDE, SIDE, 16, 0, 0, 0, 0)  # 16 bit grey
+    header = struct.pack('>IIBBBBB', SIDE, SIDE, 16, 0, 0, 0, 0)  # 16-bit greyscale
     return (b'\x89PNG\r\n\x1a\n' + chunk(b'IHDR', header) + chunk(b'IDAT', zlib.compress(lines, 9)) +
             chunk(b'IEND', b''))
 

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes the pictures of config/meadow: 49 x 49 grey samples of 8 bit, 2 m apart, north first.
+"""Writes the images of config/meadow: 49 x 49 grey 8-bit samples, 2 m apart, north first.
 
-Smooth patches, sums of plane waves of fixed seeds; density is lower on two worn spots. The pictures
-are height, density, colour and the share of the flowers. usage: scripts/make_meadow.py FOLDER
+The patches are sums of plane waves with fixed seeds. Density is lower on two worn spots. The images
+are height, density, colour and the share of the flowers.
+usage: scripts/make_meadow.py FOLDER
 """
 import math
 import os
@@ -14,12 +15,12 @@ import sys
 import zlib
 
 SIDE = 49
-SPACING = 2.0  # [m]; the middle sample is the world's origin
+SPACING = 2.0  # [m]; the middle sample is the origin of the world
 WORN = [(9.0, 5.0, 5.0), (-14.0, -9.0, 4.0)]  # x, y, radius [m]
 
 
 def patches(seed, shortest, longest):
-    """A smooth function of the place, most of it within -1 to 1."""
+    """Returns a smooth function of the position with values mostly within -1 to 1."""
     draw = random.Random(seed).random
     parts = []
     for _ in range(10):
@@ -36,7 +37,7 @@ def picture(value):
 
 
 def worn(x, y):
-    """0 in the middle of a worn spot, 1 outside."""
+    """Returns 0 in the middle of a worn spot and 1 outside."""
     out = 1.0
     for at_x, at_y, radius in WORN:
         far = ((x - at_x) ** 2 + (y - at_y) ** 2) / radius ** 2
@@ -50,7 +51,7 @@ def chunk(kind, data):
 
 def png(rows):
     lines = b''.join(b'\0' + bytes(row) for row in rows)
-    header = struct.pack('>IIBBBBB', SIDE, SIDE, 8, 0, 0, 0, 0)  # 8 bit grey
+    header = struct.pack('>IIBBBBB', SIDE, SIDE, 8, 0, 0, 0, 0)  # 8-bit greyscale
     return (b'\x89PNG\r\n\x1a\n' + chunk(b'IHDR', header) + chunk(b'IDAT', zlib.compress(lines, 9)) +
             chunk(b'IEND', b''))
 

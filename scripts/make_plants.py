@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes media/plants: a fern as a mesh, and a cushion of leaves as slices. Needs numpy, Pillow."""
+"""Writes media/plants: a fern as a mesh, and a cushion of leaves as slices. It needs numpy and
+Pillow."""
 import math
 import pathlib
 
@@ -9,12 +10,12 @@ import numpy
 from PIL import Image
 
 FOLDER = pathlib.Path(__file__).absolute().parent.parent / 'media' / 'plants'
-FRONDS, PAIRS = 16, 13  # leaflets to the left and right of a frond
+FRONDS, PAIRS = 16, 13  # A frond has PAIRS pairs of leaflets.
 CELLS, SLICES = 40, 20
 
 
 class Mesh:
-    """Text of an OBJ file with two groups: rigid stems and leaflets."""
+    """Builds the text of an OBJ file with two groups: rigid stems and leaflets."""
 
     def __init__(self):
         self.vertices, self.faces = [], {'stem': [], 'leaflet': []}

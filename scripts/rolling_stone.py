@@ -1,8 +1,11 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""A stone that rolls over flat ground for ever, on a closed curve: the rolling stone of paper 2, figure 4.
-It broadcasts its frame and shows itself; grass_field treads under the frame."""
+"""Moves the rolling stone of paper 2, figure 4, on a closed curve over flat ground.
+
+Broadcasts the frame of the stone and publishes its marker. grass_field treads the grass under the
+frame.
+"""
 import math
 
 import rospy
@@ -12,8 +15,8 @@ from visualization_msgs.msg import Marker, MarkerArray
 
 RATE = 50.0  # [Hz]
 RADIUS = 0.45  # [m]
-WIDE, DEEP, PERIOD = 9.0, 5.0, 40.0  # half axes of the curve [m], time of one round [s]
-SIZES = (1.0, 0.88, 0.94)  # of the stone along its axes, in diameters
+WIDE, DEEP, PERIOD = 9.0, 5.0, 40.0  # Half axes of the curve [m] and time of one round [s].
+SIZES = (1.0, 0.88, 0.94)  # Diameters of the stone along its axes, relative to 2 RADIUS.
 
 
 def place(seconds):
@@ -22,7 +25,7 @@ def place(seconds):
 
 
 def product(a, b):
-    """Of quaternions x y z w."""
+    """Returns the product of two quaternions (x y z w)."""
     return (a[3] * b[0] + a[0] * b[3] + a[1] * b[2] - a[2] * b[1],
             a[3] * b[1] - a[0] * b[2] + a[1] * b[3] + a[2] * b[0],
             a[3] * b[2] + a[0] * b[1] - a[1] * b[0] + a[2] * b[3],
@@ -47,7 +50,7 @@ class RollingStone:
                                      math.cos(half)), self.turn)
         self.at = (x, y)
 
-    def tell(self, now):
+    def publish(self, now):
         out = TransformStamped(child_frame_id='stone')
         out.header.stamp, out.header.frame_id = now, self.world
         out.transform.translation.x, out.transform.translation.y = self.at
@@ -68,7 +71,7 @@ class RollingStone:
         while not rospy.is_shutdown():
             now = rospy.Time.now()
             self.roll(now)
-            self.tell(now)
+            self.publish(now)
             try:
                 rate.sleep()
             except rospy.ROSTimeMovedBackwardsException:

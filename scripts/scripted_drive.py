@@ -1,18 +1,20 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Drives a robot by cmd_vel, again and again through the parameter ~legs: a list of forward speed [m/s],
-turning speed [rad/s] and duration [s]. What a driver or a planner would send."""
+"""Repeats a list of driving commands on cmd_vel, in place of a driver or a planner.
+
+The parameter ~legs is a list of forward speed [m/s], turning speed [rad/s] and duration [s].
+"""
 import rospy
 from geometry_msgs.msg import Twist
 
 RATE = 20.0  # [Hz]
-# A figure of eight that is drawn out, so that tracks lie beside and across each other.
+# The default path is a stretched figure of eight, so that tracks lie beside and across each other.
 LEGS = [[1.4, 0.0, 3.0], [1.2, 0.55, 6.0], [1.4, 0.0, 3.0], [1.2, -0.55, 6.5], [1.5, 0.08, 4.0]]
 
 
 def leg_at(legs, seconds):
-    """The leg that it is in, `seconds` after the start."""
+    """Returns the leg that is active `seconds` after the start."""
     left = seconds % sum(duration for _, _, duration in legs)
     for speed, turn, duration in legs:
         if left < duration:
@@ -28,7 +30,7 @@ def main():
     start = rospy.Time.now()
     rate = rospy.Rate(RATE)
     while not rospy.is_shutdown():
-        start = min(start, rospy.Time.now())  # time may go back
+        start = min(start, rospy.Time.now())  # The clock may jump back.
         command = Twist()
         command.linear.x, command.angular.z = leg_at(legs, (rospy.Time.now() - start).to_sec())
         commands.publish(command)

@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""A gripper without a robot: again and again it comes to a branch, pulls it sideways, holds it in the
-wind and lets go. It shows what a robot has to do: broadcast its frame, call grab and release, listen
-to forest/wrenches."""
+"""Moves a gripper without a robot that repeatedly grabs, pulls, holds and releases a branch.
+
+It is an example of what a robot has to do: broadcast the frame of its gripper, call grab and
+release, and subscribe to forest/wrenches.
+"""
 import math
 
 import rospy
@@ -14,15 +16,15 @@ from vegetation_sim.srv import GetTree, Grab, Release
 from visualization_msgs.msg import Marker, MarkerArray
 
 RATE = 50.0  # [Hz]
-METRES_PER_NEWTON = 0.003  # of the arrow
+METRES_PER_NEWTON = 0.003  # Length of the force arrow per newton. [m/N]
 STEEL, ORANGE, RED = (0.25, 0.27, 0.30), (0.95, 0.45, 0.05), (0.80, 0.05, 0.05)
-# What it does, and for how long [s].
+# Steps of the motion and their durations [s].
 SCRIPT = [('come', 3.0), ('close', 0.5), ('pull', 3.0), ('hold', 4.0), ('open', 0.3), ('go', 3.0),
           ('wait', 5.0)]
 
 
 def smooth(x):
-    """From 0 to 1 with speed and acceleration 0 at both ends."""
+    """Returns a step from 0 to 1 with zero speed and acceleration at both ends."""
     x = min(max(x, 0.0), 1.0)
     return x * x * x * (10.0 + x * (6.0 * x - 15.0))
 
@@ -32,7 +34,7 @@ def mix(a, b, x):
 
 
 def along_z(pose, distance):
-    """Point at a distance from a pose's origin on its z axis."""
+    """Returns the point at a distance from the origin of a pose along its z axis."""
     p, q = pose.position, pose.orientation
     axis = (2 * (q.x * q.z + q.w * q.y), 2 * (q.y * q.z - q.w * q.x),
             1 - 2 * (q.x * q.x + q.y * q.y))
@@ -44,9 +46,11 @@ class ScriptedGripper:
         self.frame = rospy.get_param('~frame', 'gripper')
         self.world = rospy.get_param('~frame_id', 'map')
         self.tree = rospy.get_param('~tree', 0)
-        self.near = rospy.get_param('~near', [0.1, 2.4, 4.0])  # it takes a branch near to this [m]
+        # It grabs a branch near this point. [m]
+        self.near = rospy.get_param('~near', [0.1, 2.4, 4.0])
         self.motion = rospy.get_param('~pull', [-0.8, 0.2, -0.2])  # [m]
-        self.away = rospy.get_param('~away', [0.0, 2.0, -0.6])  # where it waits, from the branch [m]
+        # Its waiting position relative to the branch. [m]
+        self.away = rospy.get_param('~away', [0.0, 2.0, -0.6])
         self.force_limit = rospy.get_param('~force_limit', 500.0)  # [N]
         name = rospy.get_param('~animator', '/forest_animator')
         self.get_tree = rospy.ServiceProxy(name + '/get_tree', GetTree)
@@ -56,14 +60,14 @@ class ScriptedGripper:
         self.markers = rospy.Publisher('gripper/markers', MarkerArray, queue_size=1)
         self.step, self.since, self.grab_id = 0, None, None
         self.branch, self.held, self.place, self.wrench = None, None, None, None
-        rospy.Subscriber('forest/wrenches', WrenchStamped, self.feel)
+        rospy.Subscriber('forest/wrenches', WrenchStamped, self.on_wrench)
 
-    def feel(self, message):
+    def on_wrench(self, message):
         if message.header.frame_id == self.frame:
             self.wrench = message
 
     def choose(self):
-        """The thickest of the branches that pass near the point."""
+        """Chooses the thickest of the branches that pass near the point `near`."""
         tree = self.get_tree(tree=self.tree)
         if not tree.success:
             rospy.logwarn_throttle(5.0, 'no tree yet: ' + tree.message)
@@ -84,7 +88,7 @@ class ScriptedGripper:
         return along_z(self.get_tree(tree=self.tree).transforms.poses[self.branch], self.along)
 
     def enter(self, name):
-        """What happens once at the start of a step."""
+        """Runs the actions at the start of a step."""
         if name == 'come':
             self.held = self.branch_now()
         elif name == 'close':
@@ -112,7 +116,8 @@ class ScriptedGripper:
         now = event.current_real
         if self.branch is None and not self.choose():
             return
-        if self.since is None or now < self.since:  # the first time, or time went back
+        # This is the first tick, or the clock jumped back.
+        if self.since is None or now < self.since:
             self.step, self.since, self.grab_id = 0, now, None
             self.enter('come')
         name, duration = SCRIPT[self.step]
@@ -160,7 +165,7 @@ class ScriptedGripper:
         return out
 
     def force(self):
-        """Of the branch on the gripper [N]; nothing is felt for long after the last message."""
+        """Returns the force of the branch on the gripper [N], or zero if it holds none."""
         if self.wrench is None or self.grab_id is None:
             return [0.0, 0.0, 0.0]
         force = self.wrench.wrench.force

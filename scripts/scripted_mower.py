@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""A mower without a robot: it drives to and fro through branches that its hull and mast push aside. It
-shows what a robot has to do: broadcast its frame and listen to forest/wrenches; its bodies are the
-parameter ~bodies of forest_animator (config/mower.yaml)."""
+"""Drives a mower without a robot to and fro through branches, which its hull and mast push aside.
+
+It is an example of what a robot has to do: broadcast its frame and subscribe to forest/wrenches.
+Its bodies are the parameter ~bodies of forest_animator (config/mower.yaml).
+"""
 import math
 from collections import deque
 
@@ -14,8 +16,8 @@ from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import Marker, MarkerArray
 
 RATE = 50.0  # [Hz]
-METRES_PER_NEWTON = 0.01  # of the arrow
-SMOOTHING = 0.3  # [s] over which the label and the arrow are averaged
+METRES_PER_NEWTON = 0.01  # Length of the force arrow per newton. [m/N]
+SMOOTHING = 0.3  # Window of the mean that the label and the arrow show. [s]
 GREEN, BLACK, STEEL, RED = (0.15, 0.45, 0.18), (0.08, 0.08, 0.08), (0.55, 0.57, 0.60), (0.80, 0.05, 0.05)
 
 
@@ -24,24 +26,25 @@ class ScriptedMower:
         self.frame = rospy.get_param('~frame', 'mower')
         self.world = rospy.get_param('~frame_id', 'map')
         self.speed = rospy.get_param('~speed', 0.8)  # [m/s]
-        self.way = rospy.get_param('~way', 5.0)  # on either side of the middle [m]
+        # Distance of the turning points from the middle. [m]
+        self.way = rospy.get_param('~way', 5.0)
         self.place, self.start = -self.way, None
-        self.felt = deque()
+        self.wrenches = deque()
         self.tf = rospy.Publisher('/tf', TFMessage, queue_size=100)
         self.markers = rospy.Publisher('mower/markers', MarkerArray, queue_size=1)
-        rospy.Subscriber('forest/wrenches', WrenchStamped, self.feel, queue_size=1000)
+        rospy.Subscriber('forest/wrenches', WrenchStamped, self.on_wrench, queue_size=1000)
 
-    def feel(self, message):
+    def on_wrench(self, message):
         if message.header.frame_id == self.frame:
-            self.felt.append(message)
+            self.wrenches.append(message)
 
     def force(self, now):
-        """Of all branches on the mower, a mean over the last ticks [N]."""
-        while self.felt and (now - self.felt[0].header.stamp).to_sec() > SMOOTHING:
-            self.felt.popleft()
-        ticks = len({m.header.stamp for m in self.felt})
+        """Returns the force of all branches on the mower, averaged over the last ticks [N]."""
+        while self.wrenches and (now - self.wrenches[0].header.stamp).to_sec() > SMOOTHING:
+            self.wrenches.popleft()
+        ticks = len({m.header.stamp for m in self.wrenches})
         total = [0.0, 0.0, 0.0]
-        for message in list(self.felt):
+        for message in list(self.wrenches):
             f = message.wrench.force
             total = [a + b / ticks for a, b in zip(total, (f.x, f.y, f.z))]
         return total
@@ -50,7 +53,7 @@ class ScriptedMower:
         now = event.current_real
         if self.start is None or now < self.start:
             self.start = now
-        # To and fro at constant speed, slower where it turns.
+        # The mower moves to and fro at constant speed and slows down where it turns.
         phase = (now - self.start).to_sec() * self.speed / (2.0 * self.way)
         self.place = self.way * math.asin(0.999 * math.sin(math.pi * (phase - 0.5))) / (0.5 * math.pi)
         self.send(now)

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-# Moves a real mouse over rviz on a virtual display: a branch is grabbed, dragged and released, the grass
-# trodden, a gust drawn from the panel. Fails if the landscape does not answer.
-# usage: scripts/show_mouse.sh FOLDER    pictures and services.log go there
+# Moves a real mouse over rviz on a virtual display: it grabs, drags and releases a branch, treads
+# the grass and draws a gust with the panel. The script fails if the nodes do not react.
+# usage: scripts/show_mouse.sh FOLDER    writes screenshots and services.log into FOLDER
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""What soak_displays.sh has logged: a chart of memory, and the slopes in words.
+"""Draws a chart of the memory that soak_displays.sh logged, and prints the slopes.
 
 usage: soak_chart.py FOLDER FILE.png, with a table DISPLAY.csv for each display in the folder.
-Fails where memory grows: a leak is a slope."""
+Fails if memory grows, because the slope then shows a leak.
+"""
 import csv
 import os
 import sys
@@ -18,22 +19,24 @@ from charting import style  # noqa: E402
 COUNTS = ('textures', 'materials', 'meshes', 'programs', 'buffers', 'nodes', 'objects',
           'texture bytes')
 COLUMNS = ('what', 'time', 'resident', 'held') + COUNTS
-STEADY = 0.25  # of the run are left out: caches fill
-LEAST = 6      # points of a slope: with fewer its error says nothing
-MOST = 10.0    # [kB] that a cycle may leave: the smallest picture of ours has 16
+STEADY = 0.25  # This share at the start of the run is left out, because caches fill.
+LEAST = 6      # Minimum number of points: with fewer the error of a slope is meaningless.
+MOST = 10.0    # A cycle may leave this much [kB]; the smallest image of the displays has 16 kB.
 
 
 def read(path):
-    """Series of a display by what was done: columns by name."""
+    """Reads the series of a display: a dictionary of columns for each kind of test."""
     rows = [dict(zip(COLUMNS, row)) for row in csv.reader(path.open())]
     return {what: {name: numpy.array([float(r[name]) for r in rows if r['what'] == what])
                    for name in COLUMNS[1:]} for what in {r['what'] for r in rows}}
 
 
 def slope(series, name):
-    """Median slope of all pairs of points of the steady part, and between which it is but for three
-    standard errors (Sen 1968) [kB a time]; None if too short. A message that is on its way at one
-    point or another does not count."""
+    """Returns the median slope of all pairs of points in the steady part, and its interval of three
+    standard errors (Sen 1968) [kB per repetition], or None if there are too few points.
+
+    The median ignores a message that is in transit at single points.
+    """
     steady = series['time'] >= STEADY * series['time'][-1]
     count = numpy.count_nonzero(steady)
     if count < LEAST:
@@ -68,15 +71,15 @@ def main(folder, picture):
         for what, series in sorted(table.items()):
             ogre = [f'{name} {series[name].min():g} to {series[name].max():g}' for name in COUNTS
                     if series[name][-1] > series[name][len(series[name]) // 4]]
-            # One step after the last row.
+            # The run ends one step after the last row.
             times = series['time'][-1] + (series['time'][-1] - series['time'][-2:-1]).sum()
-            told = f'no slope: fewer than {LEAST} points after the first quarter'
+            text = f'no slope: fewer than {LEAST} points after the first quarter'
             held, resident = slope(series, 'held'), slope(series, 'resident')
             if held is not None:
                 grew |= held[1] > MOST
-                told = (f'{held[0]:+.2f} ({held[1]:+.2f} to {held[2]:+.2f}) kB allocated, '
+                text = (f'{held[0]:+.2f} ({held[1]:+.2f} to {held[2]:+.2f}) kB allocated, '
                         f'{resident[0]:+.2f} kB resident a time')
-            print(f'{display}: {times:g} {what}, {told}' + ''.join(f'; {o}' for o in ogre))
+            print(f'{display}: {times:g} {what}, {text}' + ''.join(f'; {o}' for o in ogre))
     draw(tables, Path(picture))
     return 1 if grew else 0
 

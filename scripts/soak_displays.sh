@@ -1,17 +1,17 @@
 #!/usr/bin/env bash
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-# Displays come and go, and nodes die, return with another scene and flood their topics, many times
-# over. Fails where a display crashes, shows what is no more, leaves an object of Ogre behind, or
-# where memory grows; says by how much, and draws it.
-# usage: scripts/soak_displays.sh [--cycles N] [--reloads N] [--sanitize] [--chart FILE.png] [DISPLAY ...]
-#   DISPLAY      canopy crowd forest grass wind landscape, which is all five in one rviz; all of
-#                them if none is given. With --sanitize also tools, which are the tools and the panel
-#   --cycles N   displays made and destroyed: 500 if not given, 40 with --sanitize
-#   --reloads N  of the node: 100 if not given, 20 with --sanitize
-#   --sanitize   the whole test of each display, built with the address and undefined behaviour
-#                sanitizers (into build/sanitize): our code writes, reads and frees rightly, and
-#                what it allocates it frees
+# Creates and destroys displays many times, and lets nodes die, return with another scene and flood
+# their topics. It fails if a display crashes, shows stale objects, leaves an object of Ogre behind,
+# or if memory grows. It prints and draws the growth.
+# usage: scripts/soak_displays.sh [--cycles N] [--reloads N] [--sanitize] [--chart FILE.png]
+# [DISPLAY ...]
+#   DISPLAY      canopy, crowd, forest, grass, wind or landscape (all five in one rviz);
+#                default: all of them, with --sanitize also tools (the tools and the panel)
+#   --cycles N   displays created and destroyed: default 500, with --sanitize 40
+#   --reloads N  restarts of the node: default 100, with --sanitize 20
+#   --sanitize   runs the whole test of each display, built into build/sanitize with the address
+#                and undefined behaviour sanitizers, which also report leaks of our own code
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs what is missing, builds with warnings as errors, and runs every test and check.
+# Installs missing dependencies, builds with warnings as errors, and runs every test and check.
 # usage: scripts/test.sh [--lint | --sanitize]
-#   --lint      only the checks that run nothing
-#   --sanitize  only the core's tests under the address and undefined behaviour sanitizers
+#   --lint      runs only the static checks
+#   --sanitize  runs only the core's tests under the address and undefined behaviour sanitizers
 # The last line counts test cases and checks; the exit code is 0 if none failed.
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
@@ -18,7 +18,7 @@ esac
 passed=0 failed=0 skipped=0
 failures=()
 
-# usage: check NAME COMMAND ...: one check, its output shown only if it fails.
+# usage: check NAME COMMAND ... Runs one check and shows its output only if it fails.
 check() {
   local name=$1 start=$SECONDS output
   shift
@@ -35,7 +35,8 @@ check() {
 run_tests() {
   say 'Unit tests and node tests'
   rm -rf "$BUILD/test_results"
-  # One at a time: tests that run nodes want the machine for themselves. Failures are in the results.
+  # Tests run one at a time, because tests of nodes need the machine for themselves. Failures are in
+  # the results.
   cmake --build "$BUILD" --parallel 1 --target run_tests >"$BUILD/tests.log" 2>&1 || true
   local counts
   counts=$(python3 "$ROOT/scripts/count_tests.py" "$BUILD/test_results")
@@ -51,7 +52,8 @@ lint() {
   for name in format catkin structure words docs tidy; do check "lint $name" "$ROOT/scripts/lint.sh" $name; done
 }
 
-# usage: in_shares COMMAND ...: a suite's tests dealt out to as many processes as there are cores.
+# usage: in_shares COMMAND ... Divides the tests of a suite among as many processes as there are
+# cores.
 in_shares() {
   local shares share pids=() bad=0
   shares=$(nproc)

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-# Takes the series of pictures of the scenario grab as a user would; they must differ.
+# Takes a series of screenshots of the scenario "grab" as a user would; they must differ.
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 

@@ -1,17 +1,18 @@
 #!/usr/bin/env bash
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs the build, draws a chart and runs scenarios from there, as nodes, as nodelets and with every
-# display in rviz, and removes it again.
+# Installs the build, draws a chart and runs scenarios from the installation, as nodes, as nodelets
+# and with every display in rviz, and removes the installation again.
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 
-# Start afresh: nothing of the build folder may be in the environment.
+# The script restarts itself without the environment, which may name the build folder.
 if [ "${1:-}" != --clean ]; then
   exec env -i HOME="$HOME" PATH="$PATH" BUILD="$BUILD" "$0" --clean
 fi
 
-# Removed at the end: in the source tree, roslaunch would find every file a second time there.
+# The installation is removed at the end, because roslaunch would find every file twice if build/
+# lies in the source tree.
 INSTALLED=$BUILD/install
 . "$ROOT/scripts/launching.sh"
 trap 'stop_process "$launch_pid"; stop_process "$display_pid"; rm -rf "$WORK" "$INSTALLED"' EXIT
@@ -32,7 +33,7 @@ for file in "$INSTALLED"/lib/*.so "$INSTALLED"/lib/vegetation_sim/*; do
   ! ldd "$file" | grep -E "not found|$BUILD/devel" || fail "$file lacks a library"
 done
 
-# Another package can include every installed header and link the libraries.
+# Another package must be able to include every installed header and link the libraries.
 (cd "$INSTALLED/include" && find vegetation_sim -name '*.h' -printf '#include <%p>\n' | sort) >"$WORK/consumer.cpp"
 echo 'int main() { return vegetation_sim::forest::ForestReplica().ready() ? 1 : 0; }' >>"$WORK/consumer.cpp"
 # shellcheck disable=SC2046
@@ -60,7 +61,8 @@ for nodelets in false true; do
   stop_process "$launch_pid"
 done
 
-# A display of ours publishes the view; rviz would say which class could not be loaded.
+# A display of this package publishes the view. rviz reports in its log which class could not be
+# loaded.
 start_display
 start_launch demo.launch scenario:=demo rviz_args:=--disable-anti-aliasing
 wait_until 60 'the rviz window' rviz_window
