@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "core/error_text.h"
-#include "reference/grass/printed_tread.h"
+#include "reference/grass/tread_field.h"
 #include "vegetation_sim/core/math/random.h"
 
 namespace vegetation_sim::grass {

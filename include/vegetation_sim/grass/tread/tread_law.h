@@ -33,11 +33,6 @@ void check(TreadLaw law, const std::string& context, Faults& faults);
 
 constexpr double PERMANENT_RECOVERY = 1e9;
 
-/// The convolution field of the segment p0-p1 at p, kernel (r^2 + eps^2)^(-3/2) [1/m^2]: paper 2,
-/// section 4.2, in the signed form that is right and does not cancel (E5). 0 for a segment of no
-/// length, infinite on the segment if eps = 0.
-double treadField(const Point& p, const Point& p0, const Point& p1, double eps);
-
 /// An end of an integral along a track: how far along, and its softened distance [m].
 struct KernelEnd {
   double s, r;
@@ -51,9 +46,6 @@ inline double kernelIntegral(const KernelEnd& lo, const KernelEnd& hi, double sq
   return both > 0.0 ? (hi.s - lo.s) * std::fabs(hi.s + lo.s) / (lo.r * hi.r * both)
                     : std::numeric_limits<double>::infinity();
 }
-
-/// The crushing vector E(P) = F (sign(A.N) N + C) of paper 2; pure C on the track itself.
-Point treadVector(const Point& p, const Point& p0, const Point& p1, double field);
 
 /// Field of many points under one segment, with a kernel that ends at `reach`: exactly additive
 /// over parts of a track, so it does not depend on the rate of the frames.
