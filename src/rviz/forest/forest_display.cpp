@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rviz/forest/forest_display.h"
 
+#include <array>
 #include <pluginlib/class_list_macros.hpp>
 
 namespace vegetation_sim {
@@ -10,6 +11,31 @@ namespace {
 constexpr int GROUND_RANK = 1;       // shows the floor and the shadows of a forest
 constexpr int GROUND_EDGE = 1024;    // [pixel] of the ground's picture
 constexpr double GROUND_CELL = 3.0;  // [m] of its mesh
+
+std::string describeTrees(const view::ForestReport& report) {
+  std::string out = std::to_string(report.trees) + " of " + std::to_string(report.wanted) +
+                    " trees, " + std::to_string(report.moving) + " moving; " +
+                    std::to_string(report.triangles) +
+                    " triangles in the picture; trees per level 0 to " +
+                    std::to_string(forest::GEOMETRY_LEVELS - 1) + ":";
+  for (const std::size_t count : report.per_level) out += " " + std::to_string(count);
+  return out;
+}
+
+std::string describeMotion(const forest::ForestReplica& replica, const view::TreeSet& tree_set) {
+  std::array<std::size_t, forest::MODAL_LEVEL + 1> trees{};
+  std::size_t physical = 0;
+  for (const auto& tree : tree_set.trees()) {
+    ++trees[static_cast<std::size_t>(replica.levels().of(tree->id()).level)];
+    physical += replica.promoted(tree->id()).branches.empty() ? 0 : 1;
+  }
+  std::string out = std::to_string(trees.front()) + " trees at rest, moving to depth 1 to " +
+                    std::to_string(forest::MAX_DEPTHS) + ":";
+  for (std::size_t depth = 1; depth < forest::MODAL_LEVEL; ++depth)
+    out += " " + std::to_string(trees[depth]);
+  return out + "; in modes: " + std::to_string(trees[forest::MODAL_LEVEL]) +
+         "; with physical branches: " + std::to_string(physical);
+}
 
 }  // namespace
 
@@ -110,11 +136,11 @@ void ForestDisplay::showInputs(view::StatusBoard& board, Nanoseconds now) const 
   board.show("State", source_->stateStatus(now));
   if (forest_->tree_set() != nullptr)
     board.show(rviz::StatusProperty::Ok, "Motion",
-               view::describeMotion(source_->replica(), *forest_->tree_set()));
+               describeMotion(source_->replica(), *forest_->tree_set()));
 }
 
 view::InputStatus ForestDisplay::describeDrawn() const {
-  return {drawn().trees > 0, view::describe(drawn())};
+  return {drawn().trees > 0, describeTrees(drawn())};
 }
 
 }  // namespace vegetation_sim

@@ -11,6 +11,13 @@ constexpr int GROUND_RANK = 2;          // shows the tracks
 constexpr int BARE_RANK = -1;           // of a meadow where nothing grows
 constexpr double PRUNING_PERIOD = 0.5;  // [s]
 
+std::string describeGrass(const view::GrassReport& report) {
+  return std::to_string(report.blades) + " blades on " + std::to_string(report.bladed) + " of " +
+         std::to_string(report.tiles) + " tiles, strips on " + std::to_string(report.stripped) +
+         "; " + std::to_string(report.triangles) + " triangles; " + std::to_string(report.trodden) +
+         " blocks of trodden ground";
+}
+
 }  // namespace
 
 GrassDisplay::GrassDisplay()
@@ -86,7 +93,7 @@ void GrassDisplay::showInputs(view::StatusBoard& board, Nanoseconds now) const {
 view::InputStatus GrassDisplay::describeDrawn() const {
   const bool painted = !grass_ || view::isPaintable(*source_->layout().map);
   return {drawn().tiles > 0,
-          view::describe(drawn()) + (painted ? "" : "; no ground: more than 2048 tiles a side")};
+          describeGrass(drawn()) + (painted ? "" : "; no ground: more than 2048 tiles a side")};
 }
 
 }  // namespace vegetation_sim

@@ -7,7 +7,6 @@
 #include <map>
 #include <string>
 
-#include "rviz/forest/forest_visual.h"
 #include "rviz/scenery/input_status.h"
 
 namespace vegetation_sim::view {
@@ -25,13 +24,5 @@ class StatusBoard {
   rviz::Display& display_;
   std::map<std::string, std::string> shown_;
 };
-
-/// One line: trees, triangles, levels.
-std::string describe(const ForestReport& report);
-/// Levels of motion of those trees that are drawn.
-std::string describeMotion(const forest::ForestReplica& replica, const TreeSet& tree_set);
-struct GrassReport;
-/// One line: blades, strips, triangles, trodden ground.
-std::string describe(const GrassReport& report);
 
 }  // namespace vegetation_sim::view
