@@ -19,6 +19,15 @@ void ForestReplica::setLayout(Layout layout, std::shared_ptr<const terrain::Heig
   why_ = "no key frame since the layout";
 }
 
+void ForestReplica::forgetState() {
+  levels_.reset({});
+  promoted_.clear();
+  modes_.clear();
+  in_sequence_ = false;
+  stamp_ = 0;
+  why_ = "time went back";
+}
+
 bool ForestReplica::apply(const StateUpdate& update) {
   if (!ready()) {
     why_ = "no layout yet";

@@ -25,9 +25,13 @@ class ForestReplica {
   bool apply(const StateUpdate& update);
   const std::string& why() const { return why_; }
 
+  /// Brings all trees to rest until the next key frame, because time jumped back.
+  void forgetState();
+
   bool ready() const { return layout_ != nullptr; }
   const Layout& layout() const { return *layout_; }
   const terrain::HeightMap& terrain() const { return *terrain_; }
+  std::shared_ptr<const terrain::HeightMap> terrainPtr() const { return terrain_; }
   const wind::Field& wind() const { return wind_; }
   const LevelMap& levels() const { return levels_; }
   Nanoseconds stamp() const { return stamp_; }

@@ -16,6 +16,10 @@ CanopyAnimator::CanopyAnimator(ros::NodeHandle handle, ros::NodeHandle private_h
       canopy_(std::make_unique<canopy::Canopy>(scene_.layout)),
       plants_(scene_.layout.plants),
       markers_(options_.marker_points),
+      forest_({options_.frame_id, false,
+               [this](const std::string& input, const std::string& why) {
+                 refusals_.add(input, why);
+               }}),
       tf_listener_(tf_buffer_),
       clock_("canopy_animator", scene_.layout.motion.rate,
              options_.replay ? options_.replay_delay : 0.0,
@@ -45,12 +49,8 @@ void CanopyAnimator::listen() {
   subscribers_.push_back(
       options_.replay ? handle_.subscribe("canopy/events", MANY, &CanopyAnimator::onEvent, this)
                       : handle_.subscribe("viewer", 10, &CanopyAnimator::onViewer, this));
-  if (!scene_.layout.crowns.empty()) {
-    subscribers_.push_back(
-        handle_.subscribe("forest/layout", 1, &CanopyAnimator::onForestLayout, this));
-    subscribers_.push_back(
-        handle_.subscribe("forest/state", 100, &CanopyAnimator::onForestState, this));
-  }
+  if (!scene_.layout.crowns.empty())
+    forest_.subscribe(handle_, {"forest/layout", "", "forest/state"});
   services_ = {private_handle_.advertiseService("sample", &CanopyAnimator::onSample, this),
                private_handle_.advertiseService("reset", &CanopyAnimator::onReset, this)};
   markers_timer_ = handle_.createTimer(ros::Duration(1.0 / options_.markers_rate),
@@ -65,6 +65,7 @@ void CanopyAnimator::tick(std::int64_t tick) {
   if (!begun_ && !options_.replay) publishBeginning(stamp);
   begun_ = true;
   forgetViewer();
+  updateCrowns();
   for (CanopyEvent& event : inputs_.take(stamp)) {
     event.header.frame_id = options_.frame_id;
     try {

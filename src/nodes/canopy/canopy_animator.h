@@ -9,8 +9,6 @@
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
 #include <vegetation_sim/CanopyEvent.h>
-#include <vegetation_sim/ForestLayout.h>
-#include <vegetation_sim/ForestState.h>
 #include <vegetation_sim/SampleCanopy.h>
 #include <vegetation_sim/Viewer.h>
 #include <vegetation_sim/WindField.h>
@@ -48,8 +46,7 @@ class CanopyAnimator {
   void lookFromFrame();
   void forgetViewer();
   void publishBeginning(Nanoseconds stamp);
-  void onForestLayout(const ForestLayout& message);
-  void onForestState(const ForestState& message);
+  void updateCrowns();
 
   // Time.
   void listen();
@@ -81,7 +78,7 @@ class CanopyAnimator {
   std::unique_ptr<canopy::Canopy> canopy_;
   canopy::PlantIndex plants_;
   CanopyMarkers markers_;
-  forest::ForestReplica forest_;  // the wood of crowns that the layout leafs
+  SubscribedForest forest_;  // whose crowns have leaves of the layout
   LeafedCrowns crowns_;
   std::deque<wind::Field> winds_;  // heard last, newest at the end: what events of wind may name
   struct Seen {

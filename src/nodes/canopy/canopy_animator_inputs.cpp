@@ -4,7 +4,6 @@
 
 #include "core/config/field_values.h"
 #include "nodes/canopy/canopy_animator.h"
-#include "ros/params/resources.h"
 #include "ros/services/requests.h"
 #include "vegetation_sim/ros/conversions/canopy_conversions.h"
 #include "vegetation_sim/ros/conversions/forest_conversions.h"
@@ -65,25 +64,11 @@ void CanopyAnimator::onWind(const WindField& message) {
   }
 }
 
-// The crowns are a view of the forest: nothing that the canopy remembers depends on them.
-void CanopyAnimator::onForestLayout(const ForestLayout& message) {
-  try {
-    checkFrame(message.header.frame_id, options_.frame_id);
-    forest_.setLayout(fromMsg(message), loadTerrain(message.terrain));
-    crowns_.grow(canopy_->layout(), forest_);
-    canopy_->setCrowns(crowns_.boxes());
-    markers_.setCrowns(canopy_->layout(), crowns_);
-  } catch (const std::exception& error) {
-    refusals_.add("forest layout", error.what());
-  }
-}
-
-void CanopyAnimator::onForestState(const ForestState& message) {
-  try {
-    forest_.apply(fromMsg(message));
-  } catch (const InvalidInput& error) {
-    refusals_.add("forest state", error.what());
-  }
+// The crowns are a view of the forest: no state of the canopy depends on them.
+void CanopyAnimator::updateCrowns() {
+  if (!crowns_.update(canopy_->layout(), forest_)) return;
+  canopy_->setCrowns(crowns_.boxes());
+  markers_.setCrowns(canopy_->layout(), crowns_);
 }
 
 // Layers are cut for one eye (S3-W8): the one that is named, or who came first and still looks.

@@ -27,7 +27,7 @@ std::vector<canopy::MovedLeaf> CanopyAnimator::crownLeaves(const canopy::Foliage
   std::vector<canopy::MovedLeaf> out;
   for (std::size_t i = 0; i < crowns_.crowns().size(); ++i) {
     const LeafedCrowns::Crown& crown = crowns_.crowns()[i];
-    const std::vector<Pose> wood = crowns_.wood(i, forest_, clock_.stamp());
+    const std::vector<Pose> wood = crowns_.wood(i, forest_.replica(), clock_.stamp());
     for (std::size_t k = 0; k < markers_.drawnOf(crown.leaves.size()); ++k) {
       const canopy::CrownLeaf& leaf = crown.leaves[k];
       out.push_back(carry(foliage, leaf, crown.rest[leaf.twig].pose, wood[leaf.twig]));

@@ -13,8 +13,10 @@ VegetationScanner::VegetationScanner(ros::NodeHandle handle, ros::NodeHandle pri
     : handle_(handle),
       private_handle_(private_handle),
       options_(loadScanOptions(private_handle)),
-      landscape_(options_.frame_id, [this](const std::string& what,
-                                           const std::string& why) { refusals_.add(what, why); }),
+      landscape_({options_.frame_id, true,
+                  [this](const std::string& input, const std::string& why) {
+                    refusals_.add(input, why);
+                  }}),
       tf_buffer_(ros::Duration(tf2::BufferCore::DEFAULT_CACHE_TIME), true),  // tells what it hears
       tf_listener_(tf_buffer_),
       clock_("vegetation_scanner", options_.rate, options_.delay,
@@ -34,7 +36,7 @@ VegetationScanner::VegetationScanner(ros::NodeHandle handle, ros::NodeHandle pri
 
 // Last of all: the first callbacks of a nodelet may come while it is still being built.
 void VegetationScanner::listen() {
-  landscape_.listen(handle_);
+  landscape_.subscribe(handle_);
   reset_service_ = private_handle_.advertiseService("reset", &VegetationScanner::onReset, this);
   diagnostics_timer_ = handle_.createWallTimer(
       ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); });
@@ -42,7 +44,7 @@ void VegetationScanner::listen() {
 }
 
 void VegetationScanner::tick(std::int64_t tick) {
-  landscape_.follow(clock_.stamp());
+  landscape_.advance(clock_.stamp());
   const bool wanted = cloud_publisher_.getNumSubscribers() > 0 ||
                       scan_publisher_.getNumSubscribers() > 0 ||
                       report_publisher_.getNumSubscribers() > 0;
@@ -62,7 +64,7 @@ void VegetationScanner::tick(std::int64_t tick) {
 }
 
 void VegetationScanner::sweep(const Pose& sensor, std::int64_t tick) {
-  landscape_.show(sensor.position, options_.beams.range_max, clock_.stamp(), scene_);
+  landscape_.update(sensor.position, options_.beams.range_max, clock_.stamp(), scene_);
   const auto noiseOf = [&](std::uint64_t sensor) {
     return scan::Noise{options_.seed, static_cast<std::uint64_t>(tick), sensor};
   };
@@ -120,7 +122,7 @@ void VegetationScanner::reportProblem(diagnostic_updater::DiagnosticStatusWrappe
              "messages lost that are stamped ahead of the clock");
   warnOfClock(status, counts_.clock, reported_.clock);
   warnOfMore(status, scene_.trees.leftOut(), 0, "trees in range beyond branch_budget, unseen");
-  if (const std::string why = landscape_.waitsFor(); !why.empty())
+  if (const std::string why = landscape_.why(); !why.empty())
     status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, "waits for a key frame: " + why);
   reported_ = counts_;
 }

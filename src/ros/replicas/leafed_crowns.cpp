@@ -62,6 +62,19 @@ void LeafedCrowns::grow(const canopy::Layout& layout, const forest::ForestReplic
     }
 }
 
+bool LeafedCrowns::update(const canopy::Layout& layout, const SubscribedForest& forest) {
+  if (forests_ == forest.layouts()) return false;
+  forests_ = forest.layouts();
+  grow(layout, forest.replica());
+  return true;
+}
+
+void LeafedCrowns::clear() {
+  crowns_.clear();
+  trees_.clear();
+  forests_ = 0;
+}
+
 std::vector<Pose> LeafedCrowns::wood(std::size_t crown, const forest::ForestReplica& forest,
                                      Nanoseconds stamp) const {
   const forest::Tree& tree = trees_[crown];

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "canopy/crown.h"
-#include "vegetation_sim/forest/forest_replica.h"
+#include "ros/replicas/subscribed_forest.h"
 
 namespace vegetation_sim {
 
@@ -26,7 +26,9 @@ class LeafedCrowns {
   /// Grows the crowns that a layout of leaves asks for on the trees that there are; those that are
   /// not have none.
   void grow(const canopy::Layout& layout, const forest::ForestReplica& forest);
-  void clear() { crowns_.clear(); }
+  /// Grows the crowns again if the layout of the forest has changed. Returns true if it has.
+  bool update(const canopy::Layout& layout, const SubscribedForest& forest);
+  void clear();
 
   const std::vector<Crown>& crowns() const { return crowns_; }
   /// Where the crowns are that have leaves.
@@ -38,6 +40,7 @@ class LeafedCrowns {
  private:
   std::vector<Crown> crowns_;
   std::vector<forest::Tree> trees_;
+  int forests_{0};  // layouts of the forest when the crowns were grown
 };
 
 }  // namespace vegetation_sim

@@ -20,7 +20,9 @@ CanopyDisplay::~CanopyDisplay() {
 }
 
 void CanopyDisplay::open() {
-  source_ = std::make_unique<view::CanopySource>(update_nh_, properties_->topics());
+  terrain_source_ = std::make_unique<view::GroundSource>(update_nh_);
+  source_ = std::make_unique<SubscribedCanopy>();
+  source_->subscribe(update_nh_, properties_->topics());
   layouts_ = 0;
 }
 
@@ -28,6 +30,7 @@ void CanopyDisplay::close() {
   dropGround();
   canopy_.reset();
   source_.reset();
+  terrain_source_.reset();
 }
 
 std::optional<std::string> CanopyDisplay::frame() const {
@@ -48,7 +51,7 @@ void CanopyDisplay::light(const view::Daylight& daylight, const view::Haze& haze
 }
 
 void CanopyDisplay::draw(Nanoseconds stamp, const view::View& view) {
-  source_->keepCrowns();
+  source_->updateCrowns();
   if (!canopy_ || layouts_ != source_->layouts()) {
     layouts_ = source_->layouts();
     dropGround();
@@ -57,7 +60,7 @@ void CanopyDisplay::draw(Nanoseconds stamp, const view::View& view) {
     canopy_->light(properties_->daylight(), properties_->hazeValues());
   }
   canopy_->update(*source_, stamp, view, properties_->options());
-  if (givesGround(source_->ground())) makeGround();
+  if (givesGround(terrain_source_->ground())) makeGround();
 }
 
 void CanopyDisplay::makeGround() {
@@ -65,8 +68,8 @@ void CanopyDisplay::makeGround() {
   const view::Daylight daylight = properties_->daylight();
   const view::Plot plot = canopy_->plot();
   const view::Shade shade =
-      canopy_->shadeOn(plot, view::PLAIN_EDGE, source_->ground(), daylight.to_sun);
-  ground_ = view::plainGround(*scene_node_, plot, shade, source_->ground(), daylight,
+      canopy_->shadeOn(plot, view::PLAIN_EDGE, terrain_source_->ground(), daylight.to_sun);
+  ground_ = view::plainGround(*scene_node_, plot, shade, terrain_source_->ground(), daylight,
                               properties_->groundTint());
   ground_->light(daylight, daylight.to_sun, properties_->hazeValues());
 }
@@ -78,14 +81,14 @@ view::CanopyReport CanopyDisplay::drawn() const {
 void CanopyDisplay::showInputs(view::StatusBoard& board, Nanoseconds now) const {
   board.show("Layout", source_->layoutStatus());
   board.show("State", source_->stateStatus(now));
-  if (const view::ForestSource* forest = source_->forest()) {
+  if (const SubscribedForest* forest = source_->forest()) {
     board.show("Forest Layout", forest->layoutStatus());
     board.show("Forest State", forest->stateStatus(now));
     board.show("Wind", forest->windStatus());
   }
 }
 
-view::InputStatus CanopyDisplay::describeDrawn() const {
+InputStatus CanopyDisplay::describeDrawn() const {
   const view::CanopyReport report = drawn();
   return {report.leaves > 0, std::to_string(report.drawn) + " of " + std::to_string(report.leaves) +
                                  " leaves of " + std::to_string(report.plants) + " plants and " +

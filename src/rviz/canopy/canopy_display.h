@@ -6,6 +6,7 @@
 #include <string>
 
 #include "rviz/canopy/canopy_properties.h"
+#include "rviz/ground/ground_source.h"
 #include "rviz/ground/ground_visual.h"
 #include "rviz/scenery/scenery_display.h"
 
@@ -30,16 +31,17 @@ class CanopyDisplay : public SceneryDisplay {
   void draw(Nanoseconds stamp, const view::View& view) override;
   void light(const view::Daylight& daylight, const view::Haze& haze) override;
   void dropGround() override { ground_.reset(); }
-  void forgetState(Nanoseconds now) override { source_->forgetState(now); }
+  void forgetState(Nanoseconds now) override { source_->forgetLater(now); }
   void showInputs(view::StatusBoard& board, Nanoseconds now) const override;
-  view::InputStatus describeDrawn() const override;
+  InputStatus describeDrawn() const override;
   void updateLook() override;
 
  private:
   void makeGround();
 
   std::unique_ptr<view::CanopyProperties> properties_;
-  std::unique_ptr<view::CanopySource> source_;
+  std::unique_ptr<SubscribedCanopy> source_;
+  std::unique_ptr<view::GroundSource> terrain_source_;
   std::unique_ptr<view::CanopyVisual> canopy_;
   std::unique_ptr<view::GroundVisual> ground_;
   Vec3 to_sun_{Vec3::Zero()};  // that leaves have been lit by

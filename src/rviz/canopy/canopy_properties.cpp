@@ -29,7 +29,7 @@ CanopyProperties::CanopyProperties(rviz::Display& display) {
   addScenery(display, "Draw grass with the plants' shadows, unless another display has a ground.");
 }
 
-CanopyTopics CanopyProperties::topics() const {
+SubscribedCanopy::Topics CanopyProperties::topics() const {
   return {layout_->getTopicStd(),
           state_->getTopicStd(),
           {forest_layout_->getTopicStd(), wind_->getTopicStd(), forest_state_->getTopicStd()}};

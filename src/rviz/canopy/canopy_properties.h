@@ -18,7 +18,7 @@ class CanopyProperties : public SceneryProperties {
   /// @param display a SceneryDisplay.
   explicit CanopyProperties(rviz::Display& display);
 
-  CanopyTopics topics() const;
+  SubscribedCanopy::Topics topics() const;
   CanopyVisual::Options options() const;
 
  private:

@@ -52,15 +52,16 @@ double wantedOf(const CanopyPatch& patch, const View& view, float tolerance) {
 
 }  // namespace
 
-CanopyVisual::CanopyVisual(Ogre::SceneNode& parent, const CanopySource& source, const Vec3& to_sun)
+CanopyVisual::CanopyVisual(Ogre::SceneNode& parent, const SubscribedCanopy& canopy,
+                           const Vec3& to_sun)
     : node_(parent.createChildSceneNode()),
       leaf_texture_(uniqueName("foliage_picture"), sharedFoliage()),
       stem_texture_(uniqueName("stem_picture"), sharedStems()),
       leaf_material_(Material::Kind::LEAVES, uniqueName("foliage_material"),
                      {leaf_texture_.name()}),
       stem_material_(Material::Kind::BARK, uniqueName("stem_material"), {stem_texture_.name()}) {
-  const canopy::Layout& layout = source.replica()->layout();
-  const std::vector<LeafedCrowns::Crown>& crowns = source.crowns().crowns();
+  const canopy::Layout& layout = canopy.replica()->layout();
+  const std::vector<LeafedCrowns::Crown>& crowns = canopy.crowns().crowns();
   if (!layout.plants.empty())
     origin_ = layout.plants.front().position;
   else if (!crowns.empty())
@@ -107,13 +108,13 @@ std::vector<CanopyPatch*> CanopyVisual::inPicture(const View& view) const {
   return out;
 }
 
-void CanopyVisual::update(CanopySource& source, Nanoseconds stamp, const View& view,
+void CanopyVisual::update(SubscribedCanopy& canopy, Nanoseconds stamp, const View& view,
                           const Options& options) {
   const bool swayed = report_.crowns > 0 && stamp != stamp_;
-  if (!swayed && states_ == source.states() && length(eye_ - view.eye.position) < STILL &&
+  if (!swayed && changes_ == canopy.changes() && length(eye_ - view.eye.position) < STILL &&
       length(forward_ - view.forward) < STILL)
     return;
-  states_ = source.states();
+  changes_ = canopy.changes();
   stamp_ = stamp;
   eye_ = view.eye.position;
   forward_ = view.forward;
@@ -122,7 +123,7 @@ void CanopyVisual::update(CanopySource& source, Nanoseconds stamp, const View& v
   for (const CanopyPatch* patch : seen) wanted += wantedOf(*patch, view, options.tolerance);
   const double share =
       std::min(1.0, static_cast<double>(options.most_leaves) / std::max(1.0, wanted));
-  const canopy::Foliage& foliage = source.replica()->foliage();
+  const canopy::Foliage& foliage = canopy.replica()->foliage();
   report_.drawn = 0;
   int rank = 0;
   for (CanopyPatch* patch : seen) {
@@ -130,7 +131,7 @@ void CanopyVisual::update(CanopySource& source, Nanoseconds stamp, const View& v
     const auto count =
         static_cast<std::size_t>(share * wantedOf(*patch, view, options.tolerance) + 0.5);
     if (const auto& crown = patch->crown())
-      patch->move(foliage, source.crowns().crowns()[*crown], source.wood(*crown, stamp), count);
+      patch->move(foliage, canopy.crowns().crowns()[*crown], canopy.wood(*crown, stamp), count);
     else
       patch->move(foliage, count);
     report_.drawn += patch->drawn();

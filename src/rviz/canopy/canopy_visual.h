@@ -7,8 +7,8 @@
 #include <memory>
 #include <vector>
 
+#include "ros/replicas/subscribed_canopy.h"
 #include "rviz/canopy/canopy_patch.h"
-#include "rviz/canopy/canopy_source.h"
 #include "rviz/ground/ground_texture.h"
 #include "rviz/render/material.h"
 #include "rviz/render/texture.h"
@@ -33,18 +33,19 @@ class CanopyVisual {
     float tolerance{7.f};  ///< smaller leaves become fewer and larger [pixel]
   };
 
-  /// @param parent node in the frame of the layout. @param source with a layout.
-  CanopyVisual(Ogre::SceneNode& parent, const CanopySource& source, const Vec3& to_sun);
+  /// @param parent node in the frame of the layout. @param canopy with a layout.
+  CanopyVisual(Ogre::SceneNode& parent, const SubscribedCanopy& canopy, const Vec3& to_sun);
   ~CanopyVisual();
   CanopyVisual(const CanopyVisual&) = delete;
   CanopyVisual& operator=(const CanopyVisual&) = delete;
 
   /// Draws the state told last; nothing is done if nothing has changed.
   /// @param stamp at which the wood of crowns is shown.
-  void update(CanopySource& source, Nanoseconds stamp, const View& view, const Options& options);
+  void update(SubscribedCanopy& canopy, Nanoseconds stamp, const View& view,
+              const Options& options);
   void light(const Daylight& daylight, const Haze& haze);
   /// Moves all anew at the next update.
-  void repaint() { states_ = -1; }
+  void repaint() { changes_ = -1; }
 
   /// Square around the plants, and what they keep from its ground. [edge x edge] pixels.
   Plot plot() const;
@@ -62,7 +63,7 @@ class CanopyVisual {
   Material leaf_material_, stem_material_;
   std::vector<std::unique_ptr<CanopyPatch>> patches_;
   Extent extent_;
-  int states_{-1};
+  int changes_{-1};
   Nanoseconds stamp_{0};
   Vec3 eye_{Vec3::Zero()}, forward_{Vec3::Zero()};
   CanopyReport report_;

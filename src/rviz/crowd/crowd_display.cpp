@@ -22,7 +22,9 @@ CrowdDisplay::~CrowdDisplay() {
 }
 
 void CrowdDisplay::open() {
-  source_ = std::make_unique<view::CrowdSource>(update_nh_, properties_->topic());
+  terrain_source_ = std::make_unique<view::GroundSource>(update_nh_);
+  source_ = std::make_unique<SubscribedCrowd>();
+  source_->subscribe(update_nh_, properties_->topic());
   people_ = std::make_unique<view::CrowdVisual>(*scene_node_);
 }
 
@@ -30,10 +32,11 @@ void CrowdDisplay::close() {
   dropGround();
   people_.reset();
   source_.reset();
+  terrain_source_.reset();
 }
 
 std::optional<std::string> CrowdDisplay::frame() const {
-  if (source_->messages() == 0) return {};
+  if (source_->changes() == 0) return {};
   return source_->frame();
 }
 
@@ -47,16 +50,16 @@ void CrowdDisplay::light(const view::Daylight& daylight, const view::Haze& haze)
 }
 
 void CrowdDisplay::draw(Nanoseconds stamp, const view::View& view) {
-  source_->watch(stamp);
-  people_->update(*source_, view, properties_->options());
-  if (!source_->people().empty() && givesGround(source_->ground())) makeGround();
+  source_->forgetSilent(stamp);
+  people_->update(*source_, terrain_source_->ground(), view, properties_->options());
+  if (!source_->people().empty() && givesGround(terrain_source_->ground())) makeGround();
 }
 
 // Where people were first seen.
 void CrowdDisplay::makeGround() {
   if (ground_) return;
   Vec3 low(1e9, 1e9, 0.0), high(-1e9, -1e9, 0.0);
-  for (const view::Person& person : source_->people()) {
+  for (const SubscribedCrowd::Person& person : source_->people()) {
     const crowd::Point& at = person.walker.position;
     low = Vec3(std::min(low.x(), at.x), std::min(low.y(), at.y), 0.0);
     high = Vec3(std::max(high.x(), at.x), std::max(high.y(), at.y), 0.0);
@@ -64,7 +67,7 @@ void CrowdDisplay::makeGround() {
   const double edge = std::max(SMALLEST, 1.6 * std::max(high.x() - low.x(), high.y() - low.y()));
   const view::Plot plot{0.5 * (low.x() + high.x() - edge), 0.5 * (low.y() + high.y() - edge), edge};
   const view::Daylight daylight = properties_->daylight();
-  ground_ = view::plainGround(*scene_node_, plot, {}, source_->ground(), daylight,
+  ground_ = view::plainGround(*scene_node_, plot, {}, terrain_source_->ground(), daylight,
                               properties_->groundTint());
   ground_->light(daylight, daylight.to_sun, properties_->hazeValues());
 }
@@ -77,7 +80,7 @@ void CrowdDisplay::showInputs(view::StatusBoard& board, Nanoseconds /*now*/) con
   board.show("People", source_->status());
 }
 
-view::InputStatus CrowdDisplay::describeDrawn() const {
+InputStatus CrowdDisplay::describeDrawn() const {
   const view::CrowdReport report = drawn();
   return {report.people > 0, std::to_string(report.drawn) + " of " + std::to_string(report.people) +
                                  " people in the picture; " + std::to_string(report.triangles) +

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "rviz/crowd/crowd_properties.h"
+#include "rviz/ground/ground_source.h"
 #include "rviz/ground/ground_visual.h"
 #include "rviz/scenery/scenery_display.h"
 
@@ -29,16 +30,17 @@ class CrowdDisplay : public SceneryDisplay {
   void draw(Nanoseconds stamp, const view::View& view) override;
   void light(const view::Daylight& daylight, const view::Haze& haze) override;
   void dropGround() override { ground_.reset(); }
-  void forgetState(Nanoseconds now) override { source_->forgetState(now); }
+  void forgetState(Nanoseconds now) override { source_->forgetLater(now); }
   void showInputs(view::StatusBoard& board, Nanoseconds now) const override;
-  view::InputStatus describeDrawn() const override;
+  InputStatus describeDrawn() const override;
   void updateLook() override;
 
  private:
   void makeGround();
 
   std::unique_ptr<view::CrowdProperties> properties_;
-  std::unique_ptr<view::CrowdSource> source_;
+  std::unique_ptr<SubscribedCrowd> source_;
+  std::unique_ptr<view::GroundSource> terrain_source_;
   std::unique_ptr<view::CrowdVisual> people_;
   std::unique_ptr<view::GroundVisual> ground_;
 };

@@ -20,7 +20,7 @@ constexpr double LIFT = 0.02;       // [m] of shadows over the ground
 constexpr double LONGEST = 2.5;     // of a shadow, in heights
 constexpr std::uint8_t DARK = 150;  // alpha of a shadow
 
-Vec3 placeOf(const Person& person) {
+Vec3 placeOf(const SubscribedCrowd::Person& person) {
   return {person.walker.position.x, person.walker.position.y, person.ground};
 }
 
@@ -51,10 +51,11 @@ void CrowdVisual::light(const Daylight& daylight, const Haze& haze) {
 }
 
 // The nearest of those in the picture.
-std::vector<const Person*> CrowdVisual::select(const CrowdSource& source, const View& view,
-                                               std::size_t most) const {
+std::vector<const SubscribedCrowd::Person*> CrowdVisual::select(const SubscribedCrowd& crowd,
+                                                                const View& view,
+                                                                std::size_t most) const {
   std::vector<const Person*> out;
-  for (const Person& person : source.people()) {
+  for (const Person& person : crowd.people()) {
     const Vec3 middle = placeOf(person) + Vec3(0.0, 0.0, 0.5 * person.walker.height);
     if (view.sees(middle, 2.0 * person.walker.height)) out.push_back(&person);
   }
@@ -66,37 +67,37 @@ std::vector<const Person*> CrowdVisual::select(const CrowdSource& source, const 
   return out;
 }
 
-void CrowdVisual::update(const CrowdSource& source, const View& view, const Options& options) {
-  if (drawn_ == source.messages() && length(eye_ - view.eye.position) < STILL &&
+void CrowdVisual::update(const SubscribedCrowd& crowd, const terrain::HeightMap& terrain,
+                         const View& view, const Options& options) {
+  if (drawn_ == crowd.changes() && length(eye_ - view.eye.position) < STILL &&
       length(forward_ - view.forward) < STILL)
     return;
-  drawn_ = source.messages();
+  drawn_ = crowd.changes();
   eye_ = view.eye.position;
   forward_ = view.forward;
   body_mesh_.clear();
   shadow_mesh_.clear();
   // Floats near their origin, wherever the crowd is.
-  const Vec3 origin =
-      source.people().empty() ? Vec3(Vec3::Zero()) : placeOf(source.people().front());
+  const Vec3 origin = crowd.people().empty() ? Vec3(Vec3::Zero()) : placeOf(crowd.people().front());
   body_mesh_.origin = shadow_mesh_.origin = origin;
   node_->setPosition(static_cast<float>(origin.x()), static_cast<float>(origin.y()),
                      static_cast<float>(origin.z()));
-  const std::vector<const Person*> people = select(source, view, options.most_people);
-  for (const Person* person : people) addPerson(source, *person, view, options);
+  const std::vector<const Person*> people = select(crowd, view, options.most_people);
+  for (const Person* person : people) addPerson(*person, terrain, view, options);
   bodies_.fill(body_mesh_);
   shadows_.fill(shadow_mesh_);
-  report_.people = source.people().size();
+  report_.people = crowd.people().size();
   report_.drawn = people.size();
   report_.triangles = (body_mesh_.indices.size() + shadow_mesh_.indices.size()) / 3;
   ++report_.rebuilds;
 }
 
-void CrowdVisual::addPerson(const CrowdSource& source, const Person& person, const View& view,
-                            const Options& options) {
+void CrowdVisual::addPerson(const Person& person, const terrain::HeightMap& terrain,
+                            const View& view, const Options& options) {
   const crowd::Walker& walker = person.walker;
-  crowd::Skeleton skeleton = skeletonOf(walker, source.ground());
+  crowd::Skeleton skeleton = skeletonOf(walker, terrain);
   // It stands where it was told, whatever ground is known here.
-  const double rise = person.ground - source.ground().height(walker.position.x, walker.position.y);
+  const double rise = person.ground - terrain.height(walker.position.x, walker.position.y);
   for (crowd::Limb& limb : skeleton) {
     limb.from.z() += rise;
     limb.to.z() += rise;
@@ -108,11 +109,11 @@ void CrowdVisual::addPerson(const CrowdSource& source, const Person& person, con
   style.left_x = -heading.sin;
   style.left_y = heading.cos;
   appendBody(skeleton, crowd::clothesOf(walker.id), style, daylight_, body_mesh_);
-  if (options.shadows) addShadow(source, person, skeleton);
+  if (options.shadows) addShadow(person, terrain, skeleton);
 }
 
 // A stripe that the picture makes soft, from under the feet away from the sun.
-void CrowdVisual::addShadow(const CrowdSource& source, const Person& person,
+void CrowdVisual::addShadow(const Person& person, const terrain::HeightMap& terrain,
                             const crowd::Skeleton& skeleton) {
   const Vec3& sun = daylight_.to_sun;
   const double flat = std::max(1e-6, std::hypot(sun.x(), sun.y()));
@@ -127,8 +128,8 @@ void CrowdVisual::addShadow(const CrowdSource& source, const Person& person,
     const double v = i / 2, u = i % 2;
     Vec3 at = foot + (-0.2 * height + v * (reach + 0.3 * height)) * away +
               wide * (2.0 * u - 1.0) * across;
-    const double rise = source.ground().height(at.x(), at.y()) -
-                        source.ground().height(person.walker.position.x, person.walker.position.y);
+    const double rise = terrain.height(at.x(), at.y()) -
+                        terrain.height(person.walker.position.x, person.walker.position.y);
     at.z() = person.ground + rise + LIFT;
     const Vec3 local = at - shadow_mesh_.origin;
     for (int k = 0; k < 3; ++k) shadow_mesh_.positions.push_back(static_cast<float>(local[k]));

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "crowd/walker/body_skeleton.h"
-#include "rviz/crowd/crowd_source.h"
+#include "ros/replicas/subscribed_crowd.h"
 #include "rviz/grass/grass_batch.h"
 #include "rviz/render/material.h"
 #include "rviz/render/texture.h"
@@ -38,8 +38,9 @@ class CrowdVisual {
   CrowdVisual(const CrowdVisual&) = delete;
   CrowdVisual& operator=(const CrowdVisual&) = delete;
 
-  /// Draws the people as they were told last; nothing is done if nothing has changed.
-  void update(const CrowdSource& source, const View& view, const Options& options);
+  /// Draws the people of the newest message, if anything has changed since the last call.
+  void update(const SubscribedCrowd& crowd, const terrain::HeightMap& terrain, const View& view,
+              const Options& options);
   void light(const Daylight& daylight, const Haze& haze);
   /// Draws all anew at the next update.
   void repaint() { drawn_ = -1; }
@@ -47,11 +48,13 @@ class CrowdVisual {
   const CrowdReport& report() const { return report_; }
 
  private:
-  std::vector<const Person*> select(const CrowdSource& source, const View& view,
+  using Person = SubscribedCrowd::Person;
+  std::vector<const Person*> select(const SubscribedCrowd& crowd, const View& view,
                                     std::size_t most) const;
-  void addPerson(const CrowdSource& source, const Person& person, const View& view,
+  void addPerson(const Person& person, const terrain::HeightMap& terrain, const View& view,
                  const Options& options);
-  void addShadow(const CrowdSource& source, const Person& person, const crowd::Skeleton& skeleton);
+  void addShadow(const Person& person, const terrain::HeightMap& terrain,
+                 const crowd::Skeleton& skeleton);
 
   Ogre::SceneNode* node_;  // Ogre's; destroyed by us
   Texture shadow_texture_;
@@ -59,7 +62,7 @@ class CrowdVisual {
   GrassBatch bodies_, shadows_;
   grass::GrassMesh body_mesh_, shadow_mesh_;
   Daylight daylight_;
-  int drawn_{-1};  // messages
+  int drawn_{-1};  // SubscribedCrowd::changes()
   Vec3 eye_{Vec3::Zero()}, forward_{Vec3::Zero()};
   CrowdReport report_;
 };

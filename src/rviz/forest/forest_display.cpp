@@ -49,7 +49,8 @@ ForestDisplay::~ForestDisplay() {
 }
 
 void ForestDisplay::open() {
-  source_ = std::make_unique<view::ForestSource>(update_nh_, properties_->topics());
+  source_ = std::make_unique<SubscribedForest>();
+  source_->subscribe(update_nh_, properties_->topics());
   forest_ = std::make_unique<view::ForestVisual>(*scene_node_);
   layouts_ = 0;
 }
@@ -139,7 +140,7 @@ void ForestDisplay::showInputs(view::StatusBoard& board, Nanoseconds now) const 
                describeMotion(source_->replica(), *forest_->tree_set()));
 }
 
-view::InputStatus ForestDisplay::describeDrawn() const {
+InputStatus ForestDisplay::describeDrawn() const {
   return {drawn().trees > 0, describeTrees(drawn())};
 }
 

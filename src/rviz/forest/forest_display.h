@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
+#include "ros/replicas/subscribed_forest.h"
 #include "rviz/forest/forest_properties.h"
-#include "rviz/forest/forest_source.h"
 #include "rviz/forest/forest_visual.h"
 #include "rviz/ground/ground_visual.h"
 #include "rviz/ground/shadow_visual.h"
@@ -33,9 +33,9 @@ class ForestDisplay : public SceneryDisplay {
   void draw(Nanoseconds stamp, const view::View& view) override;
   void light(const view::Daylight& daylight, const view::Haze& haze) override;
   void dropGround() override;
-  void forgetState(Nanoseconds now) override { source_->forgetState(now); }
+  void forgetState(Nanoseconds now) override { source_->forgetLater(now); }
   void showInputs(view::StatusBoard& board, Nanoseconds now) const override;
-  view::InputStatus describeDrawn() const override;
+  InputStatus describeDrawn() const override;
   void updateLook() override;
 
  private Q_SLOTS:
@@ -46,7 +46,7 @@ class ForestDisplay : public SceneryDisplay {
   void makeShadows();
 
   std::unique_ptr<view::ForestProperties> properties_;
-  std::unique_ptr<view::ForestSource> source_;
+  std::unique_ptr<SubscribedForest> source_;
   std::unique_ptr<view::ForestVisual> forest_;
   std::unique_ptr<view::GroundVisual> ground_;
   std::unique_ptr<view::ShadowVisual> shadows_;  // where another display gives the ground

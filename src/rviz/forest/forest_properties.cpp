@@ -43,7 +43,7 @@ void ForestProperties::addLook(rviz::Display& display) {
   addRate(display, "Trees move");
 }
 
-ForestTopics ForestProperties::topics() const {
+SubscribedForest::Topics ForestProperties::topics() const {
   return {layout_->getTopicStd(), wind_->getTopicStd(), state_->getTopicStd()};
 }
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "rviz/forest/forest_source.h"
+#include "ros/replicas/subscribed_forest.h"
 #include "rviz/forest/forest_visual.h"
 #include "rviz/scenery/scenery_properties.h"
 
@@ -26,7 +26,7 @@ class ForestProperties : public SceneryProperties {
   /// updateSky(), updateSun(), updateHaze() and updateViewer().
   explicit ForestProperties(rviz::Display& display);
 
-  ForestTopics topics() const;
+  SubscribedForest::Topics topics() const;
   ForestVisual::Options options() const;
 
  private:

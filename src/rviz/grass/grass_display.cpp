@@ -29,7 +29,8 @@ GrassDisplay::~GrassDisplay() {
 }
 
 void GrassDisplay::open() {
-  source_ = std::make_unique<view::GrassSource>(update_nh_, properties_->topics());
+  source_ = std::make_unique<SubscribedMeadow>();
+  source_->subscribe(update_nh_, properties_->topics());
   layouts_ = 0;
 }
 
@@ -90,7 +91,7 @@ void GrassDisplay::showInputs(view::StatusBoard& board, Nanoseconds now) const {
   board.show("State", source_->stateStatus(now));
 }
 
-view::InputStatus GrassDisplay::describeDrawn() const {
+InputStatus GrassDisplay::describeDrawn() const {
   const bool painted = !grass_ || view::isPaintable(*source_->layout().map);
   return {drawn().tiles > 0,
           describeGrass(drawn()) + (painted ? "" : "; no ground: more than 2048 tiles a side")};

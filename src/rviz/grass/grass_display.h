@@ -33,16 +33,16 @@ class GrassDisplay : public SceneryDisplay {
   void draw(Nanoseconds stamp, const view::View& view) override;
   void light(const view::Daylight& daylight, const view::Haze& haze) override;
   void dropGround() override { ground_.reset(); }
-  void forgetState(Nanoseconds now) override { source_->forgetState(now); }
+  void forgetState(Nanoseconds now) override { source_->forgetLater(now); }
   void showInputs(view::StatusBoard& board, Nanoseconds now) const override;
-  view::InputStatus describeDrawn() const override;
+  InputStatus describeDrawn() const override;
   void updateLook() override;
 
  private:
   void makeGround();
 
   std::unique_ptr<view::GrassProperties> properties_;
-  std::unique_ptr<view::GrassSource> source_;
+  std::unique_ptr<SubscribedMeadow> source_;
   std::unique_ptr<view::GrassVisual> grass_;
   std::unique_ptr<view::MeadowGround> ground_;
   int layouts_{0};

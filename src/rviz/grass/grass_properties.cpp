@@ -50,7 +50,7 @@ void GrassProperties::addLevels(rviz::Display& display) {
       addNumber("Transition", 0.5f, "Time from one level to the next [s].", 0.f, 60.f, display);
 }
 
-GrassTopics GrassProperties::topics() const {
+SubscribedMeadow::Topics GrassProperties::topics() const {
   return {layout_->getTopicStd(), wind_->getTopicStd(), state_->getTopicStd()};
 }
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "rviz/grass/grass_source.h"
+#include "ros/replicas/subscribed_meadow.h"
 #include "rviz/grass/grass_visual.h"
 #include "rviz/scenery/scenery_properties.h"
 
@@ -21,7 +21,7 @@ class GrassProperties : public SceneryProperties {
   /// updateSun() and updateHaze().
   explicit GrassProperties(rviz::Display& display);
 
-  GrassTopics topics() const;
+  SubscribedMeadow::Topics topics() const;
   GrassVisual::Options options() const;
 
  private:

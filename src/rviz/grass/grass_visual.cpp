@@ -70,11 +70,11 @@ void paint(grass::GrassMesh& mesh, std::uint8_t red, std::uint8_t blue) {
 
 }  // namespace
 
-GrassVisual::GrassVisual(Ogre::SceneNode& parent, const GrassSource& source)
+GrassVisual::GrassVisual(Ogre::SceneNode& parent, const SubscribedMeadow& meadow)
     : node_(parent.createChildSceneNode()),
-      origin_(originOf(source.layout().map->law(), *source.terrain())),
-      levels_(source.layout().map, source.terrain(), source.layout().seed, grass::MeadowSettings()),
-      full_density_(fullDensity(*source.layout().map)),
+      origin_(originOf(meadow.layout().map->law(), *meadow.terrain())),
+      levels_(meadow.layout().map, meadow.terrain(), meadow.layout().seed, grass::MeadowSettings()),
+      full_density_(fullDensity(*meadow.layout().map)),
       strip_texture_(uniqueName("strip_picture"), sharedStrips()),
       layer_texture_(uniqueName("layer_picture"), sharedLayers()),
       blade_material_(Material::Kind::BLADES, uniqueName("blade_material"), {}),
@@ -110,9 +110,9 @@ bool GrassVisual::isDrawn(const Drawn& wanted) const {
          length(drawn_.eye - wanted.eye) < STILL && length(drawn_.forward - wanted.forward) < STILL;
 }
 
-void GrassVisual::update(const GrassSource& source, Nanoseconds stamp, double wall,
+void GrassVisual::update(const SubscribedMeadow& meadow, Nanoseconds stamp, double wall,
                          const View& view, const Options& options) {
-  Drawn wanted{stamp, source.changes(), view.eye.position, view.forward, 0, true};
+  Drawn wanted{stamp, meadow.changes(), view.eye.position, view.forward, 0, true};
   if (isDrawn(wanted)) return;
   const Viewpoint eye = eyeOf(view);
   levels_.setSettings(options.levels);
@@ -121,7 +121,7 @@ void GrassVisual::update(const GrassSource& source, Nanoseconds stamp, double wa
   levels_.advance(now);
   const std::vector<grass::TileView> tiles = levels_.viewOf(eye, now);
   wanted.settled = haveArrived(levels_.snapshot(), options.levels.transition);
-  build(source, stamp, view, tiles, options);
+  build(meadow, stamp, view, tiles, options);
   // Two alike in a row: the number of blades has found its tolerance too.
   wanted.blades = report_.blades;
   const std::size_t gap =
@@ -141,7 +141,7 @@ Nanoseconds GrassVisual::levelClock(double wall, double transition) {
 }
 
 // Near tiles first: they hide the others cheaply.
-void GrassVisual::build(const GrassSource& source, Nanoseconds stamp, const View& view,
+void GrassVisual::build(const SubscribedMeadow& meadow, Nanoseconds stamp, const View& view,
                         const std::vector<grass::TileView>& tiles, const Options& options) {
   std::vector<grass::TileView> sorted = tiles;
   const Vec3& eye = view.eye.position;
@@ -153,14 +153,14 @@ void GrassVisual::build(const GrassSource& source, Nanoseconds stamp, const View
   places.reserve(sorted.size());
   for (const grass::TileView& tile : sorted) places.push_back({tile.column, tile.row});
   grass::NodeWind air(levels_.map(), levels_.terrain());
-  air.update(source.wind().at(stamp), {}, grass::MeadowLod::windowOf(sorted), &places);
+  air.update(meadow.wind().at(stamp), {}, grass::MeadowLod::windowOf(sorted), &places);
   for (grass::GrassMesh* mesh : {&blade_mesh_, &strip_mesh_, &layer_mesh_}) mesh->clear();
   report_.blades = report_.bladed = report_.stripped = 0;
   reach_ = 0.f;
   for (const grass::TileView& tile_view : sorted) {
     grass::TileMotion motion;
-    const grass::Tile tile = levels_.tileAt(tile_view, air, source.tread(), stamp, patch_, motion);
-    motion.model = static_cast<grass::BladeModel>(source.layout().blade_model);
+    const grass::Tile tile = levels_.tileAt(tile_view, air, meadow.tread(), stamp, patch_, motion);
+    motion.model = static_cast<grass::BladeModel>(meadow.layout().blade_model);
     if (tile_view.morph.blades && options.blades) {
       addBlades(tile, motion, tile_view, eye, options);
       const double distance = std::sqrt(squareDistance(tile_view, law, eye));
@@ -172,7 +172,7 @@ void GrassVisual::build(const GrassSource& source, Nanoseconds stamp, const View
   blades_.fill(blade_mesh_);
   strips_.fill(strip_mesh_);
   layers_.fill(layer_mesh_);
-  report_.trodden = source.tread().state().blocks.size();
+  report_.trodden = meadow.tread().state().blocks.size();
   report_.triangles =
       (blade_mesh_.indices.size() + strip_mesh_.indices.size() + layer_mesh_.indices.size()) / 3;
 }

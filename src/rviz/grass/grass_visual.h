@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "grass/lod/meadow_lod.h"
+#include "ros/replicas/subscribed_meadow.h"
 #include "rviz/grass/grass_batch.h"
-#include "rviz/grass/grass_source.h"
 #include "rviz/render/material.h"
 #include "rviz/render/texture.h"
 #include "rviz/trees/tree_set.h"
@@ -38,15 +38,15 @@ class GrassVisual {
     bool colour_by_level{false};  ///< blades red, strips blue
   };
 
-  /// @param parent node in the frame of the layout. @param source with a layout.
-  GrassVisual(Ogre::SceneNode& parent, const GrassSource& source);
+  /// @param parent node in the frame of the layout. @param meadow with a layout.
+  GrassVisual(Ogre::SceneNode& parent, const SubscribedMeadow& meadow);
   ~GrassVisual();
   GrassVisual(const GrassVisual&) = delete;
   GrassVisual& operator=(const GrassVisual&) = delete;
 
   /// Draws the grass of `stamp`; nothing is done if nothing has changed. Levels go on by `wall` [s]
   /// while simulation time stands.
-  void update(const GrassSource& source, Nanoseconds stamp, double wall, const View& view,
+  void update(const SubscribedMeadow& meadow, Nanoseconds stamp, double wall, const View& view,
               const Options& options);
   void light(const Daylight& daylight, const Haze& haze);
   /// Draws all anew at the next update.
@@ -67,7 +67,7 @@ class GrassVisual {
   };
   bool isDrawn(const Drawn& wanted) const;
   Nanoseconds levelClock(double wall, double transition);
-  void build(const GrassSource& source, Nanoseconds stamp, const View& view,
+  void build(const SubscribedMeadow& meadow, Nanoseconds stamp, const View& view,
              const std::vector<grass::TileView>& tiles, const Options& options);
   void addBlades(const grass::Tile& tile, const grass::TileMotion& motion,
                  const grass::TileView& view, const Vec3& eye, const Options& options);

@@ -12,9 +12,9 @@ constexpr int PRESSED_A_TIME = 8, IN_TURN_A_TIME = 2;  // tiles painted in one u
 
 }  // namespace
 
-MeadowGround::MeadowGround(Ogre::SceneNode& parent, const GrassSource& source,
+MeadowGround::MeadowGround(Ogre::SceneNode& parent, const SubscribedMeadow& meadow,
                            const Daylight& daylight, const Rgba& tint)
-    : map_(source.layout().map), terrain_(source.terrain()), daylight_(daylight) {
+    : map_(meadow.layout().map), terrain_(meadow.terrain()), daylight_(daylight) {
   painter_ = std::make_unique<MeadowPainter>(*map_, *terrain_, daylight_, tint);
   const Image picture = painter_->whole();
   const Plot& plot = painter_->plot();
@@ -28,9 +28,10 @@ void MeadowGround::light(const Daylight& daylight, const Haze& haze) {
   ground_->light(daylight, daylight.to_sun, haze);
 }
 
-void MeadowGround::paint(const GrassSource& source, std::pair<int, int> tile, Nanoseconds stamp) {
+void MeadowGround::paint(const SubscribedMeadow& meadow, std::pair<int, int> tile,
+                         Nanoseconds stamp) {
   const auto [row, column] = tile;
-  source.tread().patch(column, row, stamp, patch_);
+  meadow.tread().patch(column, row, stamp, patch_);
   ground_->repaint(painter_->left(column), painter_->top(row),
                    painter_->tile(column, row, &patch_));
   if (patch_.cells > 0)
@@ -40,14 +41,14 @@ void MeadowGround::paint(const GrassSource& source, std::pair<int, int> tile, Na
 }
 
 // All tiles that have tracks, or had them when they were painted.
-void MeadowGround::collect(const GrassSource& source) {
+void MeadowGround::collect(const SubscribedMeadow& meadow) {
   std::set<std::pair<int, int>> all = tracks_;
-  const double cells = map_->law().resolution / source.tread().spacing();
+  const double cells = map_->law().resolution / meadow.tread().spacing();
   constexpr int SIDE = grass::TreadBlock::SIDE;
   const auto tileOf = [&](int node, int most) {
     return std::min(most - 1, static_cast<int>(node / cells));
   };
-  for (const auto& [place, block] : source.tread().state().blocks)
+  for (const auto& [place, block] : meadow.tread().state().blocks)
     for (int row = tileOf(place.first * SIDE, map_->tileRows());
          row <= tileOf(place.first * SIDE + SIDE - 1, map_->tileRows()); ++row)
       for (int column = tileOf(place.second * SIDE, map_->tileColumns());
@@ -56,16 +57,16 @@ void MeadowGround::collect(const GrassSource& source) {
   round_.assign(all.begin(), all.end());
 }
 
-void MeadowGround::update(const GrassSource& source, const std::set<std::pair<int, int>>& pressed,
-                          Nanoseconds stamp) {
+void MeadowGround::update(const SubscribedMeadow& meadow,
+                          const std::set<std::pair<int, int>>& pressed, Nanoseconds stamp) {
   pressed_.insert(pressed.begin(), pressed.end());
   for (int i = 0; i < PRESSED_A_TIME && !pressed_.empty(); ++i) {
-    paint(source, *pressed_.begin(), stamp);
+    paint(meadow, *pressed_.begin(), stamp);
     pressed_.erase(pressed_.begin());
   }
-  if (round_.empty()) collect(source);
+  if (round_.empty()) collect(meadow);
   for (int i = 0; i < IN_TURN_A_TIME && !round_.empty(); ++i) {
-    paint(source, round_.back(), stamp);
+    paint(meadow, round_.back(), stamp);
     round_.pop_back();
   }
 }

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "rviz/grass/grass_source.h"
+#include "ros/replicas/subscribed_meadow.h"
 #include "rviz/ground/ground_visual.h"
 #include "rviz/ground/meadow_texture.h"
 
@@ -19,12 +19,12 @@ namespace vegetation_sim::view {
 /// in it. Render thread only.
 class MeadowGround {
  public:
-  /// @param source with a layout, which must outlive it until another is made.
-  MeadowGround(Ogre::SceneNode& parent, const GrassSource& source, const Daylight& daylight,
+  /// @param meadow with a layout, which must outlive it until another is made.
+  MeadowGround(Ogre::SceneNode& parent, const SubscribedMeadow& meadow, const Daylight& daylight,
                const Rgba& tint);
 
   /// Paints tiles whose tracks have changed: those in `pressed` first, and some of the others.
-  void update(const GrassSource& source, const std::set<std::pair<int, int>>& pressed,
+  void update(const SubscribedMeadow& meadow, const std::set<std::pair<int, int>>& pressed,
               Nanoseconds stamp);
   void light(const Daylight& daylight, const Haze& haze);
   /// [m] around the eye where blades stand on it.
@@ -33,8 +33,8 @@ class MeadowGround {
   std::size_t paintedTracks() const { return tracks_.size(); }  ///< tiles with tracks
 
  private:
-  void paint(const GrassSource& source, std::pair<int, int> tile, Nanoseconds stamp);
-  void collect(const GrassSource& source);
+  void paint(const SubscribedMeadow& meadow, std::pair<int, int> tile, Nanoseconds stamp);
+  void collect(const SubscribedMeadow& meadow);
 
   std::shared_ptr<const grass::FeatureMap> map_;
   std::shared_ptr<const terrain::HeightMap> terrain_;

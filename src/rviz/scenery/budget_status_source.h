@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "rviz/scenery/input_status.h"
+#include "ros/replicas/input_status.h"
 
 namespace vegetation_sim::view {
 

@@ -218,7 +218,7 @@ void SceneryDisplay::showStatus(Nanoseconds stamp) {
       others += (others.empty() ? "" : ", ") + std::string(name) + " by " +
                 ownership->giver().getNameStd();
   board_.show(rviz::StatusProperty::Ok, "Scenery", others.empty() ? "As set here" : others);
-  const view::InputStatus drawn = describeDrawn();
+  const InputStatus drawn = describeDrawn();
   ROS_DEBUG_STREAM(getNameStd() << ": " << drawn.text);
   board_.show("Drawn", drawn);
 }

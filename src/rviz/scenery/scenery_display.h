@@ -15,6 +15,7 @@
 #include "rviz/scenery/scenery_properties.h"
 #include "rviz/scenery/status_board.h"
 #include "rviz/scenery/viewer_publisher.h"
+#include "rviz/trees/tree_set.h"
 
 namespace vegetation_sim {
 
@@ -56,7 +57,7 @@ class SceneryDisplay : public rviz::Display {
   /// `now` is the time of the picture.
   virtual void showInputs(view::StatusBoard& board, Nanoseconds now) const = 0;
   /// Reports what was drawn last; it is good if anything was drawn.
-  virtual view::InputStatus describeDrawn() const = 0;
+  virtual InputStatus describeDrawn() const = 0;
 
   /// Returns whether this display draws this ground. When that ends, dropGround() is called.
   bool givesGround(const terrain::HeightMap& terrain);

@@ -7,7 +7,7 @@
 #include <map>
 #include <string>
 
-#include "rviz/scenery/input_status.h"
+#include "ros/replicas/input_status.h"
 
 namespace vegetation_sim::view {
 

@@ -23,7 +23,9 @@ WindDisplay::~WindDisplay() {
 }
 
 void WindDisplay::open() {
-  source_ = std::make_unique<view::WindSource>(update_nh_, properties_->topic());
+  terrain_source_ = std::make_unique<view::GroundSource>(update_nh_);
+  source_ = std::make_unique<SubscribedWind>();
+  source_->subscribe(update_nh_, properties_->topic());
   material_ = std::make_unique<view::Material>(
       view::Material::Kind::BLADES, view::uniqueName("wind_material"), std::vector<std::string>());
   batch_ = std::make_unique<view::GrassBatch>(view::uniqueName("wind"), material_->name(), 0);
@@ -41,6 +43,7 @@ void WindDisplay::close() {
   batch_.reset();
   material_.reset();
   source_.reset();
+  terrain_source_.reset();
   report_ = Report();
 }
 
@@ -56,7 +59,7 @@ void WindDisplay::light(const view::Daylight& daylight, const view::Haze& haze) 
 
 void WindDisplay::draw(Nanoseconds stamp, const view::View& view) {
   const view::WindStyle style = properties_->style();
-  source_->wind().at(stamp, instant_);
+  source_->field().at(stamp, instant_);
   mesh_.clear();
   const Vec3 ahead(view.forward.x(), view.forward.y(), 0.0);
   const Vec3 around = view.eye.position + AHEAD * style.extent * ahead;
@@ -64,16 +67,16 @@ void WindDisplay::draw(Nanoseconds stamp, const view::View& view) {
   node_->setPosition(static_cast<float>(around.x()), static_cast<float>(around.y()), 0.f);
   report_ = Report();
   if (properties_->arrows())
-    report_.arrows = appendArrows(instant_, source_->ground(), around, style, mesh_);
+    report_.arrows = appendArrows(instant_, terrain_source_->ground(), around, style, mesh_);
   report_.fastest = length(instant_.mean);
   for (const wind::Term& term : instant_.terms) {
     report_.fastest = std::max(report_.fastest, term.peak);
     if (!properties_->shapes()) continue;
-    appendTerm(term, source_->ground(), style, mesh_);
+    appendTerm(term, terrain_source_->ground(), style, mesh_);
     ++report_.shapes;
   }
   batch_->fill(mesh_);
-  if (givesGround(source_->ground())) makeGround(around);
+  if (givesGround(terrain_source_->ground())) makeGround(around);
 }
 
 void WindDisplay::makeGround(const Vec3& around) {
@@ -81,7 +84,7 @@ void WindDisplay::makeGround(const Vec3& around) {
   const double edge = std::max(60.0, properties_->style().extent);
   const view::Plot plot{around.x() - 0.5 * edge, around.y() - 0.5 * edge, edge};
   const view::Daylight daylight = properties_->daylight();
-  ground_ = view::plainGround(*scene_node_, plot, {}, source_->ground(), daylight,
+  ground_ = view::plainGround(*scene_node_, plot, {}, terrain_source_->ground(), daylight,
                               properties_->groundTint());
   ground_->light(daylight, daylight.to_sun, properties_->hazeValues());
 }
@@ -90,7 +93,7 @@ void WindDisplay::showInputs(view::StatusBoard& board, Nanoseconds /*now*/) cons
   board.show("Wind", source_->status());
 }
 
-view::InputStatus WindDisplay::describeDrawn() const {
+InputStatus WindDisplay::describeDrawn() const {
   if (source_->messages() == 0) return {false, "Nothing: there is no wind yet"};
   const auto tenths = static_cast<long>(10.0 * report_.fastest + 0.5);
   return {true, std::to_string(report_.arrows) + " arrows, " + std::to_string(report_.shapes) +

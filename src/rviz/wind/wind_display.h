@@ -5,11 +5,12 @@
 #include <memory>
 #include <string>
 
+#include "ros/replicas/subscribed_wind.h"
 #include "rviz/grass/grass_batch.h"
+#include "rviz/ground/ground_source.h"
 #include "rviz/ground/ground_visual.h"
 #include "rviz/scenery/scenery_display.h"
 #include "rviz/wind/wind_properties.h"
-#include "rviz/wind/wind_source.h"
 
 namespace vegetation_sim {
 
@@ -39,13 +40,14 @@ class WindDisplay : public SceneryDisplay {
   void dropGround() override { ground_.reset(); }
   void forgetState(Nanoseconds /*now*/) override {}  // a law knows all times
   void showInputs(view::StatusBoard& board, Nanoseconds now) const override;
-  view::InputStatus describeDrawn() const override;
+  InputStatus describeDrawn() const override;
 
  private:
   void makeGround(const Vec3& around);
 
   std::unique_ptr<view::WindProperties> properties_;
-  std::unique_ptr<view::WindSource> source_;
+  std::unique_ptr<SubscribedWind> source_;
+  std::unique_ptr<view::GroundSource> terrain_source_;
   std::unique_ptr<view::Material> material_;
   std::unique_ptr<view::GrassBatch> batch_;
   std::unique_ptr<view::GroundVisual> ground_;

@@ -186,7 +186,7 @@ TEST_F(CanopyDisplayTest, RefusesWhatCannotBeAndKeepsWhatItHas) {
   state.layout_hash ^= 1;
   rig.publish(state);
   EXPECT_TRUE(rig.until([&] {
-    return statusOf(*display, "Layout").rfind("Refused", 0) == 0 &&
+    return statusOf(*display, "Layout").rfind("Rejected", 0) == 0 &&
            statusOf(*display, "State").find("layout_hash") != std::string::npos;
   })) << statusOf(*display, "Layout")
       << "; " << statusOf(*display, "State");

@@ -189,14 +189,14 @@ TEST_F(GrassDisplayTest, RefusesWhatCannotBeAndKeepsWhatItHas) {
   stranger.layout_hash = 12345;
   rig.publish(stranger);
   EXPECT_TRUE(rig.until([&] {
-    return status("Layout").rfind("Refused", 0) == 0 && status("Wind").rfind("Refused", 0) == 0 &&
+    return status("Layout").rfind("Rejected", 0) == 0 && status("Wind").rfind("Rejected", 0) == 0 &&
            status("State").find("layout") != std::string::npos;
   })) << status("Layout")
       << "; " << status("Wind") << "; " << status("State");
   stranger.press_stamps.resize(1);
   stranger.press_recoveries = {std::numeric_limits<float>::quiet_NaN()};
   rig.publish(stranger);
-  EXPECT_TRUE(rig.until([&] { return status("State").rfind("Refused", 0) == 0; }))
+  EXPECT_TRUE(rig.until([&] { return status("State").rfind("Rejected", 0) == 0; }))
       << status("State");
   EXPECT_EQ(display->drawn().tiles, static_cast<std::size_t>(TILES) * TILES);
 }

@@ -86,7 +86,7 @@ TEST_F(WindDisplayTest, RefusesWhatIsNoNumberAndKeepsWhatItHas) {
   WindField bad = WindRig::windy();
   bad.primitives[0].velocity.x = std::numeric_limits<double>::quiet_NaN();
   rig.publish(bad);
-  EXPECT_TRUE(rig.until([&] { return statusOf(*display, "Wind").rfind("Refused", 0) == 0; }));
+  EXPECT_TRUE(rig.until([&] { return statusOf(*display, "Wind").rfind("Rejected", 0) == 0; }));
   EXPECT_GT(display->drawn().arrows, 0u);
 }
 

@@ -6,21 +6,22 @@
 
 #include "vegetation_sim/core/math/time.h"
 
-namespace vegetation_sim::view {
+namespace vegetation_sim {
 
-/// State of one input, for the status of a display.
+/// Whether an input of a replica is in use, and why not, for users.
 struct InputStatus {
   bool good{false};
   std::string text;
 };
 
-constexpr Nanoseconds SILENCE = 3 * NANOSECONDS_PER_SECOND;  ///< after which a warning is shown
+/// An input that is silent for longer is reported, and people are removed.
+constexpr Nanoseconds SILENCE = 3 * NANOSECONDS_PER_SECOND;
 
-/// Returns the status of an input at the time `now` of the picture. A message whose stamp is more
-/// than 3 s old is reported with its age.
+/// Returns the status at `now` of an input whose newest message has this stamp: a warning if it is
+/// older than SILENCE.
 inline InputStatus unlessSilent(const InputStatus& status, Nanoseconds stamp, Nanoseconds now) {
   if (!status.good || now - stamp <= SILENCE) return status;
   return {false, "No message for 3 s: drawn as it was then"};
 }
 
-}  // namespace vegetation_sim::view
+}  // namespace vegetation_sim

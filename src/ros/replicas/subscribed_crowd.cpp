@@ -1,0 +1,45 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/replicas/subscribed_crowd.h"
+
+#include "ros/conversions/crowd_conversions.h"
+
+namespace vegetation_sim {
+
+void SubscribedCrowd::subscribe(ros::NodeHandle handle, const std::string& topic) {
+  status_ = {false, "No people on " + handle.resolveName(topic)};
+  subscribeState(handle, topic, 10);
+}
+
+void SubscribedCrowd::apply(const AgentStates& message) {
+  receive("agents", status_, [&]() -> InputStatus {
+    requireFrame(message.header.frame_id);
+    check(message);
+    std::vector<Person> people;
+    people.reserve(message.agents.size());
+    for (const AgentState& agent : message.agents)
+      people.push_back({fromMsg(agent), agent.pose.position.z});
+    people_ = std::move(people);
+    stamp_ = fromMsg(message.header.stamp);
+    frame_ = message.header.frame_id;
+    ++changes_;
+    return {true, std::to_string(people_.size()) + " people"};
+  });
+}
+
+void SubscribedCrowd::forgetLater(Nanoseconds now) {
+  forgetDelayed(now);
+  if (changes_ > 0 && stamp_ > now) clear("Waiting for a message: time went back");
+}
+
+void SubscribedCrowd::forgetSilent(Nanoseconds now) {
+  if (!people_.empty() && now - stamp_ > SILENCE) clear("Waiting: no message for 3 s");
+}
+
+void SubscribedCrowd::clear(const char* why) {
+  people_.clear();
+  ++changes_;
+  status_ = {false, why};
+}
+
+}  // namespace vegetation_sim

@@ -1,0 +1,49 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vegetation_sim/ForestLayout.h>
+#include <vegetation_sim/ForestState.h>
+
+#include "ros/replicas/subscribed_wind.h"
+#include "vegetation_sim/forest/forest_replica.h"
+
+namespace vegetation_sim {
+
+/// The forest of another node, rebuilt from its layout, its state and the wind.
+class SubscribedForest : public SubscribedReplica<ForestState> {
+ public:
+  struct Topics {
+    std::string layout{"forest/layout"};
+    std::string wind{"wind"};  ///< empty: setWind() is called instead
+    std::string state{"forest/state"};
+  };
+
+  explicit SubscribedForest(const ReplicaOptions& options = {});
+
+  /// @throws ros::InvalidNameException
+  void subscribe(ros::NodeHandle handle, const Topics& topics);
+  void setLayout(const ForestLayout& message);
+  void setWind(const wind::Field& wind) { replica_.setWind(wind); }
+  void apply(const ForestState& message) override;
+  /// Time jumped back to `now`: a later state is dropped, and all trees are at rest until the next
+  /// key frame.
+  void forgetLater(Nanoseconds now);
+
+  const forest::ForestReplica& replica() const { return replica_; }
+  /// Number of accepted layouts.
+  int layouts() const { return layouts_; }
+  const InputStatus& layoutStatus() const { return layout_status_; }
+  const InputStatus& windStatus() const { return wind_.status(); }
+  InputStatus stateStatus(Nanoseconds now) const {
+    return unlessSilent(state_status_, replica_.stamp(), now);
+  }
+
+ private:
+  forest::ForestReplica replica_;
+  SubscribedWind wind_;
+  int layouts_{0};
+  InputStatus layout_status_, state_status_;
+};
+
+}  // namespace vegetation_sim

@@ -1,0 +1,98 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/replicas/subscribed_meadow.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ros/params/resources.h"
+#include "vegetation_sim/ros/conversions/grass_conversions.h"
+
+namespace vegetation_sim {
+namespace {
+
+constexpr double MEMORY_CAP = 1e9;  // [bytes] of trodden ground
+
+}  // namespace
+
+SubscribedMeadow::SubscribedMeadow(const ReplicaOptions& options)
+    : SubscribedReplica(options), wind_(options) {}
+
+void SubscribedMeadow::subscribe(ros::NodeHandle handle, const Topics& topics) {
+  layout_status_ = {false, "No layout on " + handle.resolveName(topics.layout)};
+  state_status_ = {false, "No state on " + handle.resolveName(topics.state) + ": nothing trodden"};
+  if (!topics.wind.empty()) wind_.subscribe(handle, topics.wind);
+  subscribers_ = {handle.subscribe(topics.layout, 1, &SubscribedMeadow::setLayout, this)};
+  subscribeState(handle, topics.state, 100);
+}
+
+void SubscribedMeadow::setLayout(const GrassLayout& message) {
+  receive("grass/layout", layout_status_, [&]() -> InputStatus {
+    requireFrame(message.header.frame_id);
+    grass::Layout layout = fromMsg(message);
+    auto terrain = loadTerrain(layout.terrain);
+    if (terrain->hash() != layout.terrain_hash)
+      throw InvalidInput("layout: terrain = '" + layout.terrain +
+                         "' has other heights here than where it was made");
+    grass::TreadSettings settings;
+    settings.spacing = layout.tread_spacing;
+    settings.memory_cap = MEMORY_CAP;
+    tread_ = std::make_unique<grass::TreadMap>(layout.map->law(), settings);
+    layout_ = std::move(layout);
+    layout_hash_ = layout_.hash();
+    terrain_ = std::move(terrain);
+    replica_.reset();
+    pressed_.clear();
+    frame_ = message.header.frame_id;
+    ++layouts_;
+    ++changes_;
+    const grass::FeatureMap& map = *layout_.map;
+    return {true, std::to_string(map.tileColumns()) + " x " + std::to_string(map.tileRows()) +
+                      " tiles, " + std::to_string(map.species().size()) + " species"};
+  });
+}
+
+void SubscribedMeadow::apply(const GrassState& message) {
+  receive("grass/state", state_status_, [&]() -> InputStatus {
+    const grass::TreadUpdate update = fromMsg(message);
+    if (!ready()) return {false, "Waiting for a layout"};
+    if (update.layout_hash != layout_hash_)
+      return {false, "Waiting: state belongs to another layout"};
+    if (!replica_.apply(update, *tread_))
+      return {false, "Waiting for a key frame: " + replica_.why()};
+    if (update.key_frame || !update.treads.blocks.empty()) ++changes_;
+    if (!update.key_frame) notePressed(update.treads);
+    return {true, "In step"};
+  });
+}
+
+void SubscribedMeadow::notePressed(const grass::TreadDelta& treads) {
+  const grass::MapLaw& law = layout_.map->law();
+  const int cells = static_cast<int>(std::lround(law.resolution / tread_->spacing()));
+  constexpr int SIDE = grass::TreadBlock::SIDE;
+  // A node on an edge belongs to the tiles on both sides.
+  const auto first = [&](int block) { return std::max(0, (block * SIDE - 1) / cells); };
+  const auto last = [&](int block, int most) {
+    return std::min(most - 1, (block * SIDE + SIDE - 1) / cells);
+  };
+  for (const grass::TreadBlockDelta& block : treads.blocks)
+    for (int row = first(block.row); row <= last(block.row, law.rows - 1); ++row)
+      for (int column = first(block.column); column <= last(block.column, law.columns - 1);
+           ++column)
+        pressed_.insert({row, column});
+}
+
+void SubscribedMeadow::prune(Nanoseconds stamp) {
+  if (ready()) tread_->prune(stamp);
+}
+
+void SubscribedMeadow::forgetLater(Nanoseconds now) {
+  forgetDelayed(now);
+  if (!ready() || replica_.stamp() <= now) return;
+  tread_->clear();
+  replica_.reset();
+  ++changes_;
+  state_status_ = {false, "Waiting for a key frame: time went back"};
+}
+
+}  // namespace vegetation_sim

@@ -1,0 +1,84 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros/node_handle.h>
+#include <ros/subscriber.h>
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ros/replicas/delay_buffer.h"
+#include "ros/replicas/input_status.h"
+#include "ros/services/requests.h"
+#include "vegetation_sim/ros/conversions/stamps.h"
+
+namespace vegetation_sim {
+
+struct ReplicaOptions {
+  /// Messages in other frames are rejected; if it is empty, all frames are accepted.
+  std::string frame_id;
+  /// State messages wait for advance(); otherwise they are applied on arrival.
+  bool delayed{false};
+  /// Called with the name of the input and the reason for each rejected message.
+  std::function<void(const std::string& input, const std::string& why)> on_rejected;
+};
+
+/// The common part of the replicas that are rebuilt from messages. A rejected message changes
+/// nothing but the status of its input. Callbacks run in the queue of the node handle.
+template <class State>
+class SubscribedReplica {
+ public:
+  explicit SubscribedReplica(ReplicaOptions options) : options_(std::move(options)) {}
+  virtual ~SubscribedReplica() = default;
+  SubscribedReplica(const SubscribedReplica&) = delete;
+  SubscribedReplica& operator=(const SubscribedReplica&) = delete;
+
+  virtual void apply(const State& message) = 0;
+  /// Applies the delayed states with stamps up to `stamp`.
+  void advance(Nanoseconds stamp) {
+    delayed_.take(stamp, [this](Nanoseconds, const auto& message) { apply(*message); });
+  }
+  /// Number of delayed states, and of those that were dropped because too many waited.
+  std::size_t waiting() const { return delayed_.size(); }
+  std::uint64_t lost() const { return delayed_.lost(); }
+  /// Frame of the newest layout, or of the newest state of an input without one.
+  const std::string& frame() const { return frame_; }
+
+ protected:
+  /// Calls `take`, which returns the new status of the input; what it throws rejects the message.
+  void receive(const char* input, InputStatus& status, const std::function<InputStatus()>& take) {
+    try {
+      status = take();
+    } catch (const std::exception& error) {
+      status = {false, std::string("Rejected a message: ") + error.what()};
+      if (options_.on_rejected) options_.on_rejected(input, error.what());
+    }
+  }
+  /// @throws InvalidInput for another frame than the one required.
+  void requireFrame(const std::string& frame) const {
+    if (!options_.frame_id.empty()) checkFrame(frame, options_.frame_id);
+  }
+  void subscribeState(ros::NodeHandle& handle, const std::string& topic, std::uint32_t queue) {
+    const boost::function<void(const boost::shared_ptr<const State>&)> callback =
+        [this](const boost::shared_ptr<const State>& message) {
+          if (options_.delayed)
+            delayed_.add(fromMsg(message->header.stamp), message);
+          else
+            apply(*message);
+        };
+    subscribers_.push_back(handle.subscribe<State>(topic, queue, callback));
+  }
+  void forgetDelayed(Nanoseconds now) { delayed_.forgetLater(now); }
+
+  ReplicaOptions options_;
+  std::string frame_;
+  std::vector<ros::Subscriber> subscribers_;
+
+ private:
+  DelayBuffer<boost::shared_ptr<const State>> delayed_;
+};
+
+}  // namespace vegetation_sim
