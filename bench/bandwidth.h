@@ -6,7 +6,7 @@
 
 namespace vegetation_sim::bench {
 
-/// Bytes per second of a[i] = b[i] + s c[i] on arrays far larger than any cache.
+/// Returns the bytes per second of a[i] = b[i] + s c[i] on arrays far larger than any cache.
 inline double memoryBandwidth() {
   const std::size_t n = std::size_t{1} << 25;
   std::vector<float> a(n, 0.f), b(n, 1.f), c(n, 2.f);

@@ -1,7 +1,7 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// What a breeze does in ten minutes at one point, against what docs/wind.md states of it: mean, rms
-// and spectral density.
+// Simulates a breeze for ten minutes at one point and compares mean, rms and spectral density with
+// the law in docs/wind.md.
 // usage: breeze_spectrum [--quick | --full] --csv FILE
 #include <array>
 #include <cmath>
@@ -75,11 +75,11 @@ void addDensity(Record x, Record& density) {
       c = next;
     }
     density[k] +=
-        2.0 * (re * re + im * im) / (n * n * 1.5) * DURATION;  // 1.5: window's mean square
+        2.0 * (re * re + im * im) / (n * n * 1.5) * DURATION;  // 1.5: mean square of the window
   }
 }
 
-/// Factor from von Karman's density to that of the band with the whole variance in it.
+/// Returns the factor from von Karman's density to that of the band with the whole variance in it.
 double bandFactor() {
   double sum = 0.0;
   const double ratio = 1.0005;

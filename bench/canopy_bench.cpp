@@ -1,9 +1,9 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// Measures leafy masses: a step of the air by scheme and size with its error, oscillators, layers,
-// a tick against the number of leaves, layers against leaves that each move on their own, and how
-// layers behind the first one are told its past. usage: canopy_bench [ROUNDS] [--quick]
-// [--part steps,errors,leaves,truth,delays] [--csv FILE]
+// Measures leafy masses: the cost of a fluid step by scheme and size with its error, oscillators,
+// layers, the cost of a tick over the number of leaves, layers against leaves that each move alone,
+// and two ways to give layers behind the first one its past.
+// usage: canopy_bench [ROUNDS] [--quick] [--part steps,errors,leaves,truth,delays] [--csv FILE]
 
 #include <cmath>
 #include <cstdio>
@@ -47,7 +47,7 @@ std::shared_ptr<Fluid> fluidWith(const FluidSettings& settings, const PlaneField
 
 void report(std::vector<Candidate>& candidates, int rounds, int cells, bench::Table& table) {
   bench::timeOnProcessor(candidates, rounds);
-  const double unit = candidates.back().seconds;  // the paper's step is the last
+  const double unit = candidates.back().seconds;  // the paper's step is the last one
   for (const Candidate& candidate : candidates) {
     std::printf("%4d  %-28s %9.4f ms   %7.2f x faster than the paper's step\n", cells,
                 candidate.name.c_str(), 1e3 * candidate.seconds, unit / candidate.seconds);
@@ -55,7 +55,7 @@ void report(std::vector<Candidate>& candidates, int rounds, int cells, bench::Ta
   }
 }
 
-// With viscosity, as scenes have it; the paper's solver then relaxes three times.
+// Measures steps with viscosity, as scenes have it; the paper's solver then relaxes three times.
 void benchSteps(const bench::Options& options, bench::Table& table) {
   for (const int cells : {64, 128, 256}) {
     std::vector<Candidate> candidates;
@@ -131,14 +131,14 @@ void benchErrors(const bench::Options& options, bench::Table& table) {
 
 struct Crowd {
   double faces;
-  int instances;  // of every plant, each moved on its own
+  int instances;  // of every plant, each moved alone
 };
 
 Layout threeShrubs(double faces) {
   Layout out = shrubScene(64);
   out.plants.push_back(out.plants[1]);
   out.plants[2].position = Vec3(1.0, -1.5, 0.0);
-  out.kinds[0].leaves = static_cast<int>(faces / 6.0);  // two faces a leaf
+  out.kinds[0].leaves = static_cast<int>(faces / 6.0);  // each leaf has two faces
   return out;
 }
 
@@ -157,7 +157,7 @@ double moveAll(const Foliage& foliage, const std::vector<GrownPlant>& grown, int
   return sum;
 }
 
-// S3-28: what a tick of the simulation costs, and moving every leaf, over the number of faces.
+// S3-28: measures a tick of the simulation and the motion of every leaf over the number of faces.
 void benchLeaves(const bench::Options& options, bench::Table& table) {
   std::printf("\nwhole tick (air, leaves, history, layers) and moving all leaves, 64 x 64\n");
   std::vector<Crowd> crowds{{80e3, 1}, {5e6, 1}, {5e6, 10}};
@@ -189,7 +189,7 @@ void benchLeaves(const bench::Options& options, bench::Table& table) {
   }
 }
 
-// S3-06: a shrub of 5 000 leaves in layers, against every leaf on its own.
+// S3-06: compares a shrub of 5 000 leaves in layers with leaves that each move alone.
 void benchTruth(const bench::Options& options, bench::Table& table) {
   const int leaves = options.quick ? 800 : 5000, from = 120, to = options.quick ? 240 : 480;
   std::printf("\nlayers against every leaf on its own, a shrub of %d leaves\n", leaves);
@@ -206,7 +206,8 @@ void benchTruth(const bench::Options& options, bench::Table& table) {
     }
 }
 
-// S3-18, S3-22: a layer some time behind the first, from the history and by the one look-up.
+// S3-18, S3-22: measures a layer some time behind the first, from the history and by the one
+// look-up.
 void benchDelays(const bench::Options& options, bench::Table& table) {
   History history(64, 31);
   for (int i = 0; i < 31; ++i) history.push(toFrame(smoothFlow(64, 1), 0.0));

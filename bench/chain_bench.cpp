@@ -27,8 +27,8 @@ constexpr double STEPS_A_SECOND = 60.0 * SUB_STEPS;
 
 struct Path {
   std::string name;
-  double links;                      ///< that one call steps
-  std::function<void(int)> advance;  ///< so many steps, whole frames
+  double links;                      ///< number of links that one call steps
+  std::function<void(int)> advance;  ///< advances by so many steps, whole frames
 };
 
 void frame(BatchChain& chain) {
@@ -69,7 +69,7 @@ wind::Field gust() {
   return wind::Field({out});
 }
 
-// Of 24 modes.
+// Returns a breeze of 24 modes.
 wind::Field breeze() {
   wind::Primitive out;
   out.kind = wind::Kind::BREEZE;
@@ -79,7 +79,8 @@ wind::Field breeze() {
   return wind::Field({out});
 }
 
-// Air is asked for once a frame of 60 Hz, where the links then are, and held for its four steps.
+// The wind is queried once per frame of 60 Hz, at the positions of the links then, and held for its
+// four steps.
 Path heldAir(const std::string& name, const Trees& trees, const wind::Field& wind) {
   Path out = batched<BatchChain>(name, trees);
   auto batch = std::make_shared<BatchChain>(trees);
@@ -161,7 +162,7 @@ void benchPaths(int rounds) {
   }
 }
 
-// A whole forest, far more than the caches hold.
+// Measures a whole forest, far more than the caches hold.
 void benchForests(int rounds) {
   std::printf(
       "\n100 000 links in trees of so many: median [ns], thousand links at 60 Hz, least, links\n");

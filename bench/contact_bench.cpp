@@ -1,10 +1,10 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// A capsule of 5 cm driven through crowns that are physical as a whole, where they have most thin
-// wood: how deep wood enters, and with which force; the worst of all drives of a tree and speed.
-// Then in a forest, as a robot has it: the wrenches that are told at 60 Hz.
-// usage: contact_bench [--quick | --full] [--part depth,told] [--csv FILE]: one, three or all ways
-// through each tree; the file is of the depths
+// Drives a capsule of 5 cm through crowns that are physical as a whole, where they have most thin
+// wood, and measures how deep wood enters and with which force, for the worst of all drives of a
+// tree and speed. Then measures the wrenches that a forest publishes to a robot at 60 Hz.
+// usage: contact_bench [--quick | --full] [--part depth,published] [--csv FILE]
+// The options choose one, three or all paths through each tree. The file holds the depths.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -19,11 +19,12 @@
 namespace vegetation_sim::forest {
 namespace {
 
-constexpr double RADIUS = 0.025, LENGTH = 0.6, WAY = 2.0;  // of the capsule, and how far [m]
-constexpr double CLEAR = 0.15;                             // to any wood where a way begins [m]
-constexpr double LANE = 0.1;                               // between ways that are looked at [m]
-constexpr double BAND = 0.5;                               // of heights, each with a way [m]
-constexpr double BAR = 0.005;  // depth that thin wood is to stay above [m]
+// size of the capsule and length of its path [m]
+constexpr double RADIUS = 0.025, LENGTH = 0.6, WAY = 2.0;
+constexpr double CLEAR = 0.15;  // distance to any wood where a path begins [m]
+constexpr double LANE = 0.1;    // between the paths that are tried [m]
+constexpr double BAND = 0.5;    // height of a band, each with a path [m]
+constexpr double BAR = 0.005;   // depth that thin wood must not exceed [m]
 
 bool isClear(const Skeleton& skeleton, const Vec3& start) {
   for (const Branch& b : skeleton.branches)
@@ -35,7 +36,7 @@ bool isClear(const Skeleton& skeleton, const Vec3& start) {
   return true;
 }
 
-// Middles of thin branches that a way sweeps over.
+// Returns the number of thin branches whose middle a path sweeps over.
 int thinWoodOn(const Skeleton& skeleton, const Vec3& start) {
   int out = 0;
   for (const Branch& b : skeleton.branches) {
@@ -51,7 +52,7 @@ struct Way {
   int wood{0};
 };
 
-// Of each band of heights the way that meets most thin wood; the busiest first.
+// Returns, of each band of heights, the path that meets most thin wood, the busiest first.
 std::vector<Way> busiestWays(const Skeleton& skeleton) {
   std::vector<Way> out;
   for (double low = BAND; low < skeleton.height; low += BAND) {
@@ -69,9 +70,9 @@ std::vector<Way> busiestWays(const Skeleton& skeleton) {
   return out;
 }
 
-/// The worst of several drives.
+/// The worst values of several drives.
 struct Worst {
-  int drives{0}, touched{0}, disagreed{0}, deeper{0};  ///< deeper: drives above the bar
+  int drives{0}, touched{0}, disagreed{0}, deeper{0};  ///< deeper: drives above LARGEST_DEPTH
   double thin{0.0}, own{0.0}, thick{0.0}, force{0.0}, rise{0.0}, fall{0.0};
   double parts{0.0};
 
@@ -110,11 +111,11 @@ void driveAll(const std::string& species, std::uint64_t seed, std::size_t most,
   }
 }
 
-/// Wrenches of branches as they are told, tick by tick: the worst of several drives.
+/// Wrenches of branches as they are published, tick by tick: the worst values of several drives.
 struct Told {
   double force{0.0}, rise{0.0}, fall{0.0};  ///< of one branch; from tick to tick [N]
   double whole{0.0}, jump{0.0};             ///< of the body; from tick to tick [N]
-  int ticks{0}, rises{0};                   ///< wrenches told; risen by more than MAX_FORCE_CHANGE
+  int ticks{0}, rises{0};  ///< wrenches published; those that rose by more than MAX_FORCE_CHANGE
 
   void drive(Drive& scene, double speed) {
     const double much = SubstepBisection::MAX_FORCE_CHANGE * physics::ContactLaw().force_limit;

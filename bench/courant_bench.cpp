@@ -1,7 +1,7 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the waves of a leaf field break: growth per step of the shortest wave over Courant's number
-// and the leaves' own frequency, beside docs/canopy.md's boundary.
+// Measures where the waves of a leaf field become unstable: growth per step of the shortest wave
+// over Courant's number and the leaves' own frequency, beside the boundary in docs/canopy.md.
 // usage: courant_bench [--quick | --full] --csv FILE
 
 #include <array>
@@ -17,10 +17,10 @@ namespace {
 
 constexpr int SIZE = 16;  // cells along a side of 1 m each; steps are of 1 s
 
-/// What a step makes of a small amplitude and rate: [[a a, a r], [r a, r r]].
+/// Effect of a step on a small amplitude and rate: [[a a, a r], [r a, r r]].
 struct StepMatrix {
   double aa, ar, ra, rr;
-  /// Largest of |eigenvalues|.
+  /// Returns the largest |eigenvalue|.
   double radius() const {
     const double half = 0.5 * (aa + rr), det = aa * rr - ar * ra, root = half * half - det;
     return root < 0.0 ? std::sqrt(det) : std::fabs(half) + std::sqrt(root);
@@ -31,7 +31,7 @@ WaveLaw lawOf(double courant, double own, double damping) {
   return {own, damping, courant, static_cast<double>(SIZE)};
 }
 
-/// Black and white cells: the shortest wave, the first to break.
+/// Returns black and white cells: the shortest wave, the first to become unstable.
 PlaneField chequered(double value) {
   PlaneField out(SIZE);
   for (int y = 0; y < SIZE; ++y)
@@ -51,14 +51,14 @@ double growthOfVerlet(double courant, double own, double damping) {
   return StepMatrix{bent[0], moving[0], bent[1], moving[1]}.radius();
 }
 
-/// The same wave by the exact step; its wave number is pi in both directions.
+/// Returns the growth of the same wave by the exact step; its wave number is pi in both directions.
 double growthOfModes(double courant, double own, double damping) {
   const double wave = M_PI * courant;
   const ModeStep step = modeStep(damping * own, own * own + 2.0 * wave * wave, 1.0);
   return StepMatrix{step.keep, step.from_rate, step.to_rate, step.keep_rate}.radius();
 }
 
-/// Largest Courant number that does not grow, by bisection.
+/// Returns the largest Courant number that does not grow, by bisection.
 double edgeOfVerlet(double own, double damping) {
   double low = 0.0, high = 2.0;
   for (int i = 0; i < 40; ++i) {

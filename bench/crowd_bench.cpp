@@ -1,8 +1,8 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-//
-// Measures walkers: distances of convex shapes, what a step of a crowd costs, how crowds fare.
-// usage: crowd_bench [queries [COUNT] | scale | behaviour [SEEDS]]; all if none is named
+// Measures walkers: distances of convex shapes, cost of a step of a crowd, outcome of experiments.
+// usage: crowd_bench [queries [COUNT] | scale | behaviour [SEEDS]]
+// Runs all parts if none is named.
 #include <cstdlib>
 #include <string>
 

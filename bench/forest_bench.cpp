@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Measures procedural motion: cost per branch of the plain and the batched path against each other
 // and against the machine's memory, and what levels of detail save at what error (S1-41).
-// usage: forest_bench [ROUNDS] [--quick | --full] [--part NAME,..] [--csv FILE], parts: poses,
-// levels (of which the file tells), growth
+// usage: forest_bench [ROUNDS] [--quick | --full] [--part poses,levels,growth] [--csv FILE]
+// The file holds the part `levels`.
 
 #include <cmath>
 #include <cstdio>
@@ -96,14 +96,14 @@ std::size_t poseAtLevel(const TreeBatch& grove, int level, const wind::Instant& 
   return posed;
 }
 
-// What is left of the motion and what it costs, for one choice of levels.
+// Remaining motion and its cost for one choice of levels.
 struct LevelPoint {
-  double seconds{0.0}, all_seconds{0.0};  ///< a frame: at levels, at full depth
+  double seconds{0.0}, all_seconds{0.0};  ///< per frame: at the chosen levels, at full depth
   std::size_t posed{0};
   LevelError worst;
 };
 
-// With `camera` none, every tree has the fixed level of `settings`.
+// Without `camera`, every tree has the fixed level of `settings`.
 LevelPoint measureLevels(const TreeBatch& grove, const Settings& settings, const Camera* camera,
                          double extent, const Options& options) {
   const Camera edge = edgeCamera(extent);
@@ -130,7 +130,7 @@ LevelPoint measureLevels(const TreeBatch& grove, const Settings& settings, const
                                 scratch);
        }},
       {"levels", [&] {
-         advance(1);  // what choosing costs is part of it
+         advance(1);  // the cost includes the choice of levels
          const Nanoseconds stamp = grid.timeOf(tick - 1);
          const wind::Instant wind = forest.snapshot().wind.at(stamp);
          out.posed = camera ? poseAtLevels(grove, forest, wind, stamp, scratch)
@@ -139,7 +139,7 @@ LevelPoint measureLevels(const TreeBatch& grove, const Settings& settings, const
   timeInterleaved(candidates, options.rounds);
   out.all_seconds = candidates[0].seconds;
   out.seconds = candidates[1].seconds;
-  const int instants = options.quick ? 5 : 20;  // over two periods of the discs
+  const int instants = options.quick ? 5 : 20;  // over two periods of the disks
   for (int i = 0; i < instants; ++i) {
     const Nanoseconds stamp = grid.timeOf(tick + 220 * i / instants);
     const LevelError now =

@@ -1,8 +1,8 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the time of a frame goes in the shipped scenarios, as nodes and displays do it, without ROS
-// and graphics card: levels, physics, state, poses and meshes of trees; treading, levels, air and
-// drawing of grass; air and layers of leafy masses; ways and bodies of people.
+// Measures the time of a frame in the shipped scenarios, as nodes and displays spend it, without
+// ROS and graphics card: levels, physics, state, poses and meshes of trees; treading, levels, wind
+// and drawing of grass; air and layers of leafy masses; paths and bodies of people.
 // usage: frame_bench [--quick | --full] [--part SCENARIO,..] [--csv FILE]
 
 #include <cstdio>
@@ -17,7 +17,7 @@
 namespace vegetation_sim::bench {
 namespace {
 
-/// Frames of one scenario, all its rooms together.
+/// Returns frames of one scenario with all its parts.
 std::vector<Laps> framesOf(const Scene& scene, int count) {
   std::unique_ptr<forest::ForestFrame> trees;
   std::unique_ptr<grass::MeadowFrame> meadow;

@@ -1,9 +1,8 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-//
-// The governor (N7): cost and error of ever more trees on one budget, and what choosing takes; a
-// still forest that nobody looks at; one held branch among thousands of trees; what is foretold of
-// the trees of the shipped scenarios against what they show.
+// Measures the governor (N7): cost and error of ever more trees on one budget and the time of the
+// choice; a still forest without viewer; one held branch among thousands of trees; predicted errors
+// of the trees of the shipped scenarios against measured ones.
 // usage: governor_bench [ROUNDS] [--quick | --full] [--part NAME,..] [--csv FILE]
 #include <algorithm>
 #include <cstdio>
@@ -21,10 +20,10 @@ namespace {
 
 using namespace forest;
 
-constexpr double BUDGET = 1.0;  // [ms] a frame
-constexpr int RATE = 30;        // ticks [Hz]
+constexpr double BUDGET = 1.0;  // [ms] per frame
+constexpr int RATE = 30;        // ticks per second [Hz]
 
-/// A square of trees in a breeze, and an eye in its middle.
+/// A square of trees in a breeze, and a viewer in its middle.
 struct Scene {
   Scene(int side, bool watched, bool windy)
       : watched(watched), forest(gridLayout(side, 9.0), flatTerrain(), settings()) {
@@ -46,7 +45,7 @@ struct Scene {
   void run(int ticks) {
     for (int i = 0; i < ticks; ++i) advance();
   }
-  /// Processor time of a tick [s].
+  /// Returns the processor time of a tick [s].
   double timeTicks(int ticks) {
     const double start = processorTime();
     run(ticks);
@@ -60,7 +59,7 @@ struct Scene {
   std::int64_t tick{TickGrid(RATE).tickAt(1700000000LL * NANOSECONDS_PER_SECOND)};
 };
 
-/// Over some seconds: most changes of tier of any tree, a second; cost and error at the worst.
+/// Results over some seconds: most changes of tier of any tree per second; worst cost and error.
 struct Watched {
   double changes{0.0}, least_cost{1e9}, most_cost{0.0}, error{0.0}, typical_error{0.0};
 };
@@ -90,7 +89,8 @@ Watched watch(Scene& scene, int duration) {
   return out;
 }
 
-/// Processor time of the poses of a picture, all trees that move on their tiers, median [s].
+/// Returns the median processor time of the poses of a picture, of all moving trees on their tiers
+/// [s].
 double timePoses(const Scene& scene, int pictures) {
   const Nanoseconds now = scene.grid.timeOf(scene.tick - 1);
   const wind::Instant wind = scene.forest.snapshot().wind.at(now);
@@ -160,12 +160,13 @@ void measureHand(const Options& options) {
       1e2 * candidates[0].seconds, candidates[1].seconds / candidates[0].seconds);
 }
 
-/// Of the trees of a scenario: how many, and how many looks at them show what.
+/// Counts over the trees of a scenario: how many there are, and how many samples of their errors
+/// fall in which class.
 struct Told {
   int trees{0}, modal{0}, fine{0}, within{0};
   double least{1e9}, most{0.0};
   int looks{0}, held{0};
-  int known{0}, missed{0};  ///< above the tolerance: as foretold, though foretold below
+  int known{0}, missed{0};  ///< errors above the tolerance: predicted, and not predicted
 
   void add(const std::vector<Prediction::Look>& each) {
     const double ratio = Prediction::ratioOf(each);
@@ -194,7 +195,8 @@ struct Told {
   }
 };
 
-/// Of each tree its largest error over some seconds, foretold and measured against the full chain.
+/// Compares the largest error of each tree over some seconds, predicted and measured against the
+/// full chain.
 void measurePrediction(const Options& options) {
   std::printf(
       "\n| scenario | begun after s | trees that move | in modes | in fine ones | foretold within "

@@ -1,7 +1,8 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// Measures what a hand costs a forest: each tick before, during and after one grab among 256 trees,
-// and a whole tree of 1 000 branches from its seed to its first physical step. Processor time.
+// Measures the cost of a grab for a forest: each tick before, during and after one grab among 256
+// trees, and a whole tree of 1 000 branches from its seed to its first physical step. Processor
+// time.
 // usage: grab_bench [ROUNDS]
 
 #include <cstdio>
@@ -75,7 +76,7 @@ void benchGrab() {
 
 // ---- promotion ---------------------------------------------------------------------------------
 
-// From the request to the end of the first step: grown, its wood weighed, all of it physical.
+// Measures from the request to the end of the first step: grown, weighed, all of it physical.
 void benchPromotion(int rounds) {
   PhysicsSettings settings;
   settings.promotion = static_cast<int>(Promotion::DEPTH);

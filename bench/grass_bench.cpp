@@ -1,8 +1,8 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// Measures grass: blades per second, plain and batched, against what the memory takes; treading per
+// Measures grass: blades per second, plain and batched, against the memory bandwidth; treading per
 // node and per frame of a crowd; frames of a square kilometre.
-// usage: grass_bench [ROUNDS] [--part NAME,..], parts: blades, walkers, strokes, kilometre
+// usage: grass_bench [ROUNDS] [--part blades,walkers,strokes,kilometre]
 
 #include <cstdio>
 #include <cstdlib>
@@ -35,7 +35,7 @@ using Blocks = std::unique_ptr<BladeBlock[], Free>;
 
 Blocks makeBlocks(std::size_t bytes) {
   Blocks out(static_cast<BladeBlock*>(std::aligned_alloc(64, bytes)));
-  std::memset(static_cast<void*>(out.get()), 1, bytes);  // touched, so that no page is new
+  std::memset(static_cast<void*>(out.get()), 1, bytes);  // written once, so that no page is new
   return out;
 }
 
@@ -103,7 +103,7 @@ MapLaw lawOf(int tiles) {
   return law;
 }
 
-// Walkers on circles of their own, 1.4 m/s, one step of 1/60 s a frame.
+// Walkers on circles of their own, 1.4 m/s, one step of 1/60 s per frame.
 struct Walkers {
   int count;
   double extent;
@@ -146,7 +146,8 @@ void benchWalkers(int rounds) {
       walkers.move();
       const double start = bench::processorTime();
       touched = walkers.tread(map);
-      if (i >= 120) times.push_back(bench::processorTime() - start);  // ground is down by then
+      // by then all the ground is trodden
+      if (i >= 120) times.push_back(bench::processorTime() - start);
     }
     std::sort(times.begin(), times.end());
     const double frame = times[times.size() / 2];
@@ -244,7 +245,8 @@ GrassMesh makeMesh(std::size_t tiles) {
   return out;
 }
 
-// 3 m/s at 60 frames a second; or ten times that, with a jump in the middle.
+// The viewer moves at 3 m/s with 60 frames per second, or at ten times that with a jump in the
+// middle.
 Viewpoint viewerAt(int frame, bool jumps) {
   Viewpoint eye;
   eye.cone_cosine = 0.8;

@@ -1,9 +1,8 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// What each tier of a tile of grass costs, and what it leaves out: segments of a blade, its shape,
-// and texture, strips or blades.
-// usage: grass_rung_bench [ROUNDS] [--quick | --full] [--part NAME,..] [--csv FILE], parts:
-// segments, tiles
+// Measures what each tier of a tile of grass costs and which error it leaves: segments of a blade,
+// its shape, and texture, strips or blades.
+// usage: grass_tile_bench [ROUNDS] [--quick | --full] [--part segments,tiles] [--csv FILE]
 
 #include <cmath>
 #include <cstdio>
@@ -53,7 +52,7 @@ struct Scene {
   void clear() { mesh.clear(); }
 };
 
-/// Where an arc of end angle `bend` is after the share `s` of its length.
+/// Returns the point of an arc of end angle `bend` at the share `s` of its length.
 std::array<double, 2> onArc(double bend, double s) {
   const SinCos at = sinCos(bend * s);
   return {(1.0 - at.cos) / bend * LENGTH, at.sin / bend * LENGTH};
@@ -67,11 +66,11 @@ double distanceToSegment(const std::array<double, 2>& p, const std::array<double
   return std::hypot(p[0] - a[0] - t * x, p[1] - a[1] - t * y);
 }
 
-/// The points of a blade that a ribbon of so many segments draws (geometry.cpp).
+/// The points of a blade that a ribbon of so many segments draws (ribbons.cpp).
 const std::map<int, std::vector<int>> DRAWN{
     {1, {0, 5}}, {2, {0, 3, 5}}, {3, {0, 2, 4, 5}}, {LINKS, {0, 1, 2, 3, 4, 5}}};
 
-/// Largest distance of points of the arc from a blade of `segments`, over its length.
+/// Returns the largest distance of points of the arc from a blade of `segments`, over its length.
 double shapeError(BladeModel model, int segments, double bend) {
   const Profile<double> profile = bladeProfile(LENGTH, 0.0, bend, model);
   std::vector<std::array<double, 2>> points;
@@ -90,7 +89,7 @@ double shapeError(BladeModel model, int segments, double bend) {
   return worst / LENGTH;
 }
 
-// Shapes at a bend of 1 rad; cost is that of posing and meshing a blade.
+// Compares shapes at a bend of 1 rad; the cost is that of posing and meshing a blade.
 void benchSegments(const Options& options, bench::Table& table) {
   Scene scene;
   std::vector<Candidate> candidates;
@@ -117,8 +116,8 @@ Vec3 tipOffset(const Scene& scene, int blade) {
   return pointOf(scene.blocks, blade, LINKS) - pointOf(scene.blocks, blade, 0);
 }
 
-// The error of a tier: mean distance [m] of a blade's tip, from its root, to that of what stands
-// for it.
+// Returns the error of a tier: the mean distance [m] of a blade's tip, from its root, to that of
+// its replacement.
 template <class StandIn>
 double meanError(const Scene& scene, const StandIn& stand_in) {
   double sum = 0.0;
@@ -126,7 +125,7 @@ double meanError(const Scene& scene, const StandIn& stand_in) {
   return sum / scene.count;
 }
 
-/// The nearest blade that is drawn stands for those that are not.
+/// The nearest drawn blade replaces those that are not drawn.
 double placeError(const Scene& scene, int drawn) {
   return meanError(scene, [&](int i) {
     const Vec3 root = pointOf(scene.blocks, i, 0);
@@ -140,7 +139,7 @@ double placeError(const Scene& scene, int drawn) {
   });
 }
 
-/// The nearest upright of a strip, whose vertices come in pairs, bottom and top.
+/// The nearest upright of a strip replaces a blade; its vertices come in pairs, bottom and top.
 double stripError(const Scene& scene, const GrassMesh& mesh) {
   const auto vertex = [&](std::size_t v) {
     return Vec3(double{mesh.positions[3 * v]}, double{mesh.positions[3 * v + 1]},
@@ -173,7 +172,7 @@ void report(bench::Table& table, const char* name, int tier, double seconds, dou
   table.row("tile", tier, name, seconds, error, 0);
 }
 
-// A whole tile as each tier of the ladder.
+// Measures a whole tile on each tier of the ladder.
 void benchTiles(const Options& options, bench::Table& table) {
   Scene scene;
   GrassMesh strips;

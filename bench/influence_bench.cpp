@@ -1,8 +1,8 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// What it costs, and how far off it is, to make only some branches of a pulled oak physical: by
-// predicted influence, and by the paper's rule of depth; the rest hangs on as rigid clusters. And
-// the same without clusters: all of it physical, which is the truth here.
+// Measures cost and error of making only some branches of a pulled oak physical, by predicted
+// influence and by the paper's rule of depth, while the rest hangs on as rigid clusters. The
+// reference has no clusters: all of it is physical.
 // usage: influence_bench [ROUNDS] [--quick | --full] [--csv FILE]
 
 #include <cstdio>
@@ -20,12 +20,13 @@ using bench::Options;
 constexpr double PULL = 1.0, WATCHED = 2.0;  // [s]
 
 struct Run {
-  std::vector<Vec3> tip;    ///< of the pulled branch from rest, each tick [m]
-  double seconds{0.0};      ///< of the processor, a tick while it is watched
-  std::size_t branches{0};  ///< most that were physical
+  /// displacement of the tip of the pulled branch from rest, each tick [m]
+  std::vector<Vec3> tip;
+  double seconds{0.0};      ///< processor time of a tick while it is observed
+  std::size_t branches{0};  ///< largest number of physical branches
 };
 
-/// Pulls a branch of depth `depth` by 20 N for a second; `all`: the whole tree is physical.
+/// Pulls a branch of depth `depth` by 20 N for a second. With `all`, the whole tree is physical.
 Run pull(const PhysicsSettings& settings, int depth, bool all) {
   PhysicsRig rig(settings);
   const int branch = rig.branchOfDepth(depth);
@@ -54,7 +55,7 @@ double rmsOf(const std::vector<Vec3>& values) {
   return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-/// The median cost of some runs of the same.
+/// Returns the median cost of some equal runs.
 Run repeated(const PhysicsSettings& settings, int depth, bool all, int rounds) {
   std::vector<double> times;
   Run out;

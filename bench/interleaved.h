@@ -18,8 +18,8 @@ struct Candidate {
   double least{0.0};    ///< [s]
 };
 
-/// Times candidates in turn, A B C A B C ..., so that a slow spell of a shared machine hits all of
-/// them alike; fills in each median after one round that is not counted.
+/// Times candidates in turn, A B C A B C ..., so that slow phases of a shared machine affect all of
+/// them alike. Fills in each median after one round that is not counted.
 inline void timeInterleaved(std::vector<Candidate>& candidates, int rounds) {
   using Clock = std::chrono::steady_clock;
   std::vector<std::vector<double>> times(candidates.size());

@@ -1,12 +1,10 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-//
-// The modal tier (N13): error against full dynamics by number of modes, beside the procedural tier
-// and paper 1's dynamics; what a step of the load does in one frame; rotation at which modes cease
-// to hold; levers that turn; cost of finding and of posing. usage: modal_bench [--quick | --full]
-// [--cache FOLDER]
-//   [--csv FILE]
-// --full: trees of 10 000 branches too.
+// Measures the modal tier (N13): error against full dynamics by number of modes, beside the
+// procedural tier and paper 1's dynamics; the first frame of a sudden load; the rotation at which
+// modes cease to hold; levers that turn; cost of finding and of posing.
+// usage: modal_bench [--quick | --full] [--cache FOLDER] [--csv FILE]
+// --full adds trees of 10 000 branches.
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
@@ -22,7 +20,7 @@ namespace {
 const std::vector<forest::ModalDepth> DEPTHS{
     {0, 1, 1, false}, {6, 1, 1, false}, {20, 1, 1, false}, {4, 4, 1}, {}};
 
-// What wind and step of a tree in modes cost besides.
+// Returns the additional cost of wind and step of a tree in modes.
 double breezeCost(const forest::Swaying& scene, forest::ModalDepth depth) {
   const forest::ModalTree modal(scene.tree(), scene.species(), depth);
   const wind::Instant air = scene.field().at(forest::MODAL_START);
@@ -83,7 +81,7 @@ int run(int argc, char** argv) {
     for (const TestLoad& load : {gust(tree), pull(tree)}) measureErrors(tree, load, options);
   }
   measureSpecies(options);
-  if (!csv.empty()) return 0;  // what follows has no rows in the table
+  if (!csv.empty()) return 0;  // the following parts have no rows in the table
   measureLimit(fractalTree(std::min(1000, options.branches.back())), options);
   measureBending();
   measurePosing(options.rounds);

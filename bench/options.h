@@ -11,12 +11,12 @@
 
 namespace vegetation_sim::bench {
 
-/// What every bench is told: [ROUNDS] [--quick | --full] [--part NAME,..] [--csv FILE].
+/// Options of every bench: [ROUNDS] [--quick | --full] [--part NAME,..] [--csv FILE].
 struct Options {
-  int rounds{15};     ///< of interleaved timing; fewer with --quick
+  int rounds{15};     ///< rounds of interleaved timing; fewer with --quick
   bool quick{false};  ///< smaller scenes, fewer points
   bool full{false};   ///< up to the largest sizes
-  std::string csv;    ///< figures for charts go here
+  std::string csv;    ///< file for the numbers of charts
   std::vector<std::string> parts;
 
   bool wants(const std::string& part) const {
@@ -24,10 +24,10 @@ struct Options {
   }
 };
 
-/// @param parts the names that --part may take; all of them are run without it.
-/// @throws std::invalid_argument naming what is wrong.
+/// @param parts are the names that --part may take; without it all of them are run.
+/// @throws std::invalid_argument that names the fault.
 inline Options readOptions(int argc, char** argv, const std::vector<std::string>& parts) {
-  std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);  // who reads along sees each line at once
+  std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);  // each line appears at once
   Options out;
   out.parts = parts;
   for (int i = 1; i < argc; ++i) {

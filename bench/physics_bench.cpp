@@ -1,10 +1,10 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-//
-// What a simulated second of a tree costs at equal accuracy, by our integrators and by the engines
-// of others. usage: physics_bench [--quick] [--branches N,..] [--trees NAME,..] [--loads gust,pull]
-//   [--engines PART,..] [--cap SECONDS] [--window SECONDS] [--tolerance ERROR] [--rounds N]
-//   [--csv FILE] [--cache FOLDER]
+// Measures the cost of a simulated second of a tree at equal accuracy, by our integrators and by
+// other engines.
+// usage: physics_bench [--quick] [--branches N,..] [--trees NAME,..] [--loads gust,pull]
+// [--engines PART,..] [--cap SECONDS] [--window SECONDS] [--tolerance ERROR] [--rounds N]
+// [--csv FILE] [--cache FOLDER]
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
@@ -20,11 +20,11 @@ namespace {
 struct Options {
   std::vector<std::string> trees{"fractal", "oak"}, loads{"gust", "pull"};
   std::vector<std::string> branches{"100", "1000", "10000"};
-  std::vector<std::string> engines;  ///< parts of names; none: all
+  std::vector<std::string> engines;  ///< parts of names; empty for all
   std::string csv, cache;
-  double cap{60.0};                     ///< of one run [s]
-  double tolerance{1e-8};               ///< of references
-  double window{INTERVALS * INTERVAL};  ///< that motions are compared over [s]
+  double cap{60.0};                     ///< limit of one run [s]
+  double tolerance{1e-8};               ///< tolerance of references
+  double window{INTERVALS * INTERVAL};  ///< time over which motions are compared [s]
   int rounds{7};
 };
 
@@ -97,7 +97,8 @@ struct Rival {
   std::unique_ptr<Engine> engine;
 };
 
-// Seconds of a step of one tree, `steps` of them an interval, with or without load.
+// Returns the seconds of a step of one tree, with `steps` of them per interval, with or without
+// load.
 double timeStep(const Rival& rival, double steps, bool loaded) {
   const double h = INTERVAL / std::max(1.0, steps), start = processorTime();
   double spent = 0.0;
@@ -109,7 +110,7 @@ double timeStep(const Rival& rival, double steps, bool loaded) {
   return spent / done;
 }
 
-// Rivals take turns, so that a slow spell of a shared machine hits all of them alike.
+// Rivals take turns, so that slow phases of a shared machine affect all of them alike.
 void timeInterleaved(const std::vector<Rival>& rivals, int rounds, int intervals,
                      std::vector<Row>& rows) {
   const double share = std::min(1.0, 1.0 * LOADED_INTERVALS / intervals);

@@ -8,14 +8,15 @@
 
 namespace vegetation_sim::bench {
 
-/// Processor time of this process [s]: what work costs, whoever else uses the machine.
+/// Returns the processor time of this process [s], which does not depend on other users of the
+/// machine.
 inline double processorTime() {
   timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// timeInterleaved in processor time, for work of one thread.
+/// Does timeInterleaved in processor time, for work of one thread.
 inline void timeOnProcessor(std::vector<Candidate>& candidates, int rounds) {
   std::vector<std::vector<double>> times(candidates.size());
   for (int round = -1; round < rounds; ++round)

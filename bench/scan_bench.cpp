@@ -1,7 +1,7 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// Measures what a sensor costs: rays through a wood, a lawn and both, against looking at every
-// branch, and bringing the scene to a stamp. Processor time of one thread.
+// Measures the cost of a sensor: rays through a wood, a lawn and both, against a test of every
+// branch, and the update of the scene to a stamp. Processor time of one thread.
 // usage: scan_bench [ROUNDS] [--quick]
 
 #include <cstdio>
@@ -28,7 +28,7 @@ struct Rays {
   Vec3 sensor{SENSOR};
 };
 
-// A few rays that look at everything stand for all.
+// A few rays that test everything represent all.
 void benchRays(const std::vector<Rays>& scenes, int rounds, int rays) {
   std::printf("%-24s %12s %12s %10s %10s\n", "rays", "per second", "plain", "ratio", "points");
   for (const Rays& one : scenes) {

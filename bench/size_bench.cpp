@@ -1,9 +1,9 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// What a frame costs over the number of trees, branches, physical branches, blades, trodden nodes,
-// walkers and cells of a leaf field, from one on.
-// usage: size_bench [--quick | --full] [--part NAME,..] [--csv FILE], parts: trees, branches,
-// physical, links, blades, nodes, walkers, cells
+// Measures the cost of a frame over the number of trees, branches, physical branches, blades,
+// trodden nodes, walkers and cells of a leaf field, from one on.
+// usage: size_bench [--quick | --full] [--part NAME,..] [--csv FILE]
+// Parts: trees, branches, physical, links, blades, nodes, walkers, cells.
 
 #include <cstdio>
 
@@ -26,7 +26,8 @@ namespace {
 using bench::Options;
 using bench::Table;
 
-/// Median processor time of `work` over some rounds, each long enough to be told [s].
+/// Returns the median processor time of `work` over some rounds, each long enough to be measured
+/// [s].
 template <class Work>
 double timeOf(const Options& options, const Work& work) {
   work();
@@ -48,14 +49,15 @@ void report(Table& table, const char* series, double size, double seconds) {
   table.row(series, size, seconds);
 }
 
-/// `most` for each of the three extents of a run.
+/// Returns the limit for each of the three extents of a run.
 double most(const Options& options, double quick, double usual, double full) {
   return options.quick ? quick : options.full ? full : usual;
 }
 
 // ---- forest -----------------------------------------------------------------------------------
 
-// Trees in tiles of 16, an eye among them, a breeze: a tick chooses levels and tells them.
+// Measures trees in tiles of 16 with a viewer among them in a breeze: a tick chooses levels and
+// publishes them.
 void growTrees(const Options& options, Table& table) {
   for (double count = 1; count <= most(options, 1024, 65536, 1048576); count *= 4) {
     forest::Layout layout = forest::gridLayout(1, 8.0);
@@ -81,7 +83,7 @@ void growTrees(const Options& options, Table& table) {
   }
 }
 
-// Batched poses at full depth.
+// Measures batched poses at full depth.
 void poseBranches(const Options& options, Table& table) {
   for (int side = 1; side * side <= most(options, 16, 256, 4096); side *= 2) {
     const forest::TreeBatch grove = forest::growTrees(forest::gridLayout(side, 8.0));
@@ -95,8 +97,8 @@ void poseBranches(const Options& options, Table& table) {
   }
 }
 
-// A tick of 1/60 s of a forest in a wind, with all branches physical down to a depth, in `trees` of
-// its trees.
+// Measures a tick of 1/60 s of a forest in a wind, with all branches physical down to a depth in
+// `trees` of its trees.
 void stepPhysical(const Options& options, Table& table) {
   forest::PhysicsSettings settings;
   settings.promotion = static_cast<int>(forest::Promotion::DEPTH);
@@ -115,13 +117,13 @@ void stepPhysical(const Options& options, Table& table) {
         push.until = rig.now() + forest::seconds(1e5);
         rig.forest.push(push);
       }
-      rig.run(1.0);  // the compensation has faded
+      rig.run(1.0);  // by then the compensation has faded
       const double seconds = timeOf(options, [&] { rig.advance(); });
       report(table, "physical", static_cast<double>(rig.forest.physicsFigures().branches), seconds);
     }
 }
 
-// A step of one tree's chain, plain and on wide vectors.
+// Measures a step of one tree's chain, plain and on wide vectors.
 void stepLinks(const Options& options, Table& table) {
   for (int count = 1; count <= most(options, 1000, 10000, 100000); count *= 10) {
     const auto links = physics::fractalTree(count, 3);
@@ -150,7 +152,7 @@ void poseBlades(const Options& options, Table& table) {
            }));
 }
 
-// Walkers on straight ways of 1.4 m/s, 60 frames a second, over nodes 5 cm apart.
+// Measures walkers on straight paths of 1.4 m/s, 60 frames per second, over nodes 5 cm apart.
 void treadNodes(const Options& options, Table& table) {
   using namespace grass;
   MapLaw law;
@@ -179,7 +181,7 @@ void treadNodes(const Options& options, Table& table) {
 
 // ---- walkers and leaf fields -------------------------------------------------------------------
 
-// A tick of 1/60 s of walkers who wander among ten trunks each, 90 m^2 a walker.
+// Measures a tick of 1/60 s of wandering walkers among ten trunks each, 90 m^2 per walker.
 void stepWalkers(const Options& options, Table& table) {
   using namespace crowd;
   for (int count = 1; count <= most(options, 256, 16384, 65536); count *= 4) {
@@ -205,7 +207,7 @@ void stepWalkers(const Options& options, Table& table) {
   }
 }
 
-// A step of 1/30 s of wind and leaves in the plane, over its cells.
+// Measures a step of 1/30 s of wind and leaves in the plane, over its cells.
 void stepCells(const Options& options, Table& table) {
   using namespace canopy;
   for (int side = SMALLEST_FIELD; side <= most(options, 64, 256, LARGEST_FIELD); side *= 2) {

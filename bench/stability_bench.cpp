@@ -1,10 +1,9 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// Where methods break: growth of one joint per step over damping and step, the largest stable step
-// over stiffness, damping and size of a tree, each beside what docs/physics.md says of it; and what
-// the default does in a storm beyond all of that.
-// usage: stability_bench [--quick | --full] [--part NAME,..] [--csv FILE], parts: growth, joints,
-// trees, storms
+// Measures where methods become unstable: growth of one joint per step over damping and step, the
+// largest stable step over stiffness, damping and size of a tree, each beside the bound in
+// docs/physics.md, and the default in a storm beyond all of that.
+// usage: stability_bench [--quick | --full] [--part growth,joints,trees,storms] [--csv FILE]
 
 #include <cmath>
 #include <cstdio>
@@ -32,10 +31,10 @@ constexpr Method IMPLICIT[] = {{"midpoint (default)", Integrator::MIDPOINT},
                                {"implicit Euler", Integrator::IMPLICIT_EULER}};
 constexpr double SMALL = 1e-7;  ///< a bend at which a joint is linear [rad]
 
-/// What one step makes of a small bend and rate of one joint: [[q q, q r], [r q, r r]].
+/// Effect of one step on a small bend and rate of one joint: [[q q, q r], [r q, r r]].
 struct StepMatrix {
   double qq, qr, rq, rr;
-  /// Largest of |eigenvalues|: growth per step.
+  /// Returns the largest |eigenvalue|: growth per step.
   double radius() const {
     const double half = 0.5 * (qq + rr), det = qq * rr - qr * rq, root = half * half - det;
     return root < 0.0 ? std::sqrt(det) : std::fabs(half) + std::sqrt(root);
@@ -53,13 +52,13 @@ StepMatrix stepMatrix(Integrator integrator, double w2, double c, double h) {
     run.step({}, 0.0, h);
     return Vec2(run.state.q[0].x() / SMALL, run.state.rate[0].x() / SMALL);
   };
-  const double w = std::sqrt(w2);  // a rate of w goes with a bend of 1
+  const double w = std::sqrt(w2);  // a rate of w corresponds to a bend of 1
   const Vec2 bent = after(1.0, 0.0), moving = after(0.0, w);
   return {bent.x(), moving.x(), bent.y() / w, moving.y() / w};
 }
 
-/// Largest step that `holds`, by bisection between `low`, which does, and `high`; infinite if that
-/// does too.
+/// Returns the largest step that `holds`, by bisection between `low`, which does, and `high`;
+/// infinite if `high` does too.
 template <class Holds>
 double largestStep(const Holds& holds, double low, double high, int bisection) {
   if (holds(high)) return std::numeric_limits<double>::infinity();
@@ -79,7 +78,7 @@ double jointStep(Integrator integrator, double w2, double c) {
   return largestStep(holds, 1e-4 / w, 1e3 / w, 40);
 }
 
-// Growth per step over damping ratio and h w, of one joint.
+// Measures growth per step over damping ratio and h w, of one joint.
 void mapGrowth(const Options& options, Table& table) {
   const int count = options.quick ? 40 : 80;
   for (const auto& methods : {std::vector<Method>(std::begin(EXPLICIT), std::end(EXPLICIT)),
@@ -94,7 +93,7 @@ void mapGrowth(const Options& options, Table& table) {
         }
 }
 
-// The edge of that map.
+// Measures the edge of that map.
 void mapEdge(Table& table) {
   for (const Method& method : EXPLICIT)
     for (double ratio = 0.01; ratio < 5.01; ratio *= 1.0641) {
@@ -104,7 +103,7 @@ void mapEdge(Table& table) {
     }
 }
 
-// Largest stable step of one joint over stiffness, at a damping ratio of 0.1.
+// Measures the largest stable step of one joint over stiffness, at a damping ratio of 0.1.
 void sweepStiffness(Table& table) {
   for (double w2 = 1.0; w2 < 1.1e8; w2 *= 10.0)
     for (const Method& method : EXPLICIT) {
@@ -114,7 +113,7 @@ void sweepStiffness(Table& table) {
     }
 }
 
-/// Whether small motion of a tree stays small for `steps`.
+/// Returns whether small motion of a tree stays small for `steps`.
 bool treeHolds(Dynamics dynamics, Integrator integrator, const std::vector<Link>& links, double h,
                int steps) {
   Simulation run{links, integrator};
@@ -128,8 +127,8 @@ bool treeHolds(Dynamics dynamics, Integrator integrator, const std::vector<Link>
   return true;
 }
 
-// Largest stable step of whole trees over their size, the guard that is proved and the estimate
-// that the node goes by.
+// Measures the largest stable step of whole trees over their size, beside the proved guard and the
+// estimate that the node uses.
 void sweepTrees(const Options& options, Table& table) {
   const int largest = options.quick ? 64 : options.full ? 4096 : 1024;
   for (int count = 7; count < largest; count = 2 * count + 1) {
@@ -156,7 +155,7 @@ void sweepTrees(const Options& options, Table& table) {
 
 // ---- storms ------------------------------------------------------------------------------------
 
-/// Largest bend during a storm, and after its ring-down [rad]; infinite: not a number.
+/// Largest bend during a storm, and after its ring-down [rad]; infinite if it is not a number.
 struct Storm {
   double worst{0.0}, last{0.0};
 
@@ -169,7 +168,7 @@ struct Storm {
   }
 };
 
-// 30 times the gust for a second, then ten seconds or a hundred steps without.
+// The load is 30 times the gust for a second, then nothing for ten seconds or a hundred steps.
 template <class Step, class State>
 Storm stormOf(double h, const Step& step, const State& state) {
   Storm out;
@@ -181,7 +180,7 @@ Storm stormOf(double h, const Step& step, const State& state) {
   return out;
 }
 
-// The default over step and how far stiffness is apart, in double and in float.
+// Measures the default over step and spread of stiffness, in double and in float.
 void sweepStorms(const Options& options, Table& table) {
   const double factor = options.quick ? 10.0 : 2.0;
   for (double apart = 1e2; apart < 1.1e12; apart *= options.quick ? 1e3 : 10.0) {

@@ -11,10 +11,10 @@
 namespace vegetation_sim::bench {
 
 /// A file of comma-separated values that `charts` draws from: named columns, one row at a time.
-/// Nothing is written without a name.
+/// Nothing is written without a path.
 class Table {
  public:
-  /// @throws std::runtime_error where the file cannot be written.
+  /// @throws std::runtime_error if the file cannot be written.
   Table(const std::string& path, const std::string& columns) {
     if (path.empty()) return;
     file_ = std::fopen(path.c_str(), "w");
@@ -35,14 +35,14 @@ class Table {
     const char* comma = "";
     ((line << comma, add(line, values), comma = ","), ...);
     std::fprintf(file_, "%s\n", line.str().c_str());
-    std::fflush(file_);  // what was measured is kept, whatever comes after
+    std::fflush(file_);  // completed rows survive a later failure
   }
 
  private:
   template <class Value>
   static void add(std::ostringstream& line, const Value& value) {
     if constexpr (std::is_convertible_v<Value, std::string>)
-      line << '"' << std::string(value) << '"';  // it may have commas
+      line << '"' << std::string(value) << '"';  // the value may contain commas
     else
       line << value;
   }
@@ -50,7 +50,7 @@ class Table {
   std::FILE* file_{nullptr};
 };
 
-/// Columns of a ladder: how far a tier is off, and what it costs; `chosen` is 1 for the default.
+/// Columns of a ladder: error and cost of each tier; `chosen` is 1 for the default.
 constexpr const char* LADDER_COLUMNS = "ladder,rung,setting,cost,error,chosen";
 /// Columns of cost against size.
 constexpr const char* SIZE_COLUMNS = "series,size,seconds";

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double TICK = 1.0 / 30.0;
 
-// Two passed each other within 30 s.
+// Counts the pairs that pass each other within 30 s.
 int headOnPasses(int seeds, const CrowdSettings& settings) {
   int passed = 0;
   for (int seed = 0; seed < seeds; ++seed) {
@@ -46,8 +46,8 @@ int trapEscapes(int seeds, const CrowdSettings& settings) {
   return out;
 }
 
-// Mean speed along the corridor over free speed while the two groups cross, and how often a
-// walker's turn changes its sign, per second; turns below 0.1 rad/s are none.
+// Measures the mean speed along the corridor over the free speed while the two groups cross, and
+// how often the turn of a walker changes its sign, per second; turns below 0.1 rad/s do not count.
 void corridorFlow(double width, int seeds, const CrowdSettings& settings, double& speed,
                   double& flips) {
   speed = flips = 0.0;

@@ -9,14 +9,15 @@
 
 namespace vegetation_sim::crowd::bench {
 
-/// Another library's answer: shapes are prepared once, then asked by number.
+/// A distance function of another library: shapes are prepared once, then queried by number.
 struct PeerDistance {
   const char* name;
   std::function<double(std::size_t)> distance;  ///< [m]
 };
 
 #ifdef WITH_FCL
-/// FCL with both of its solvers. Boxes, and capsules where a box is a segment with a radius.
+/// Returns FCL with both of its solvers, for boxes, and for capsules where a box is a segment with
+/// a radius.
 std::vector<PeerDistance> fclDistances(const std::vector<Box>& first,
                                        const std::vector<Box>& second);
 #endif

@@ -16,7 +16,7 @@ constexpr std::size_t PAIRS = 4000;
 struct Family {
   const char* name;
   int kind;
-  bool capsules;  ///< the second shape, segment with radius
+  bool capsules;  ///< the second shape is a segment with radius
 };
 constexpr Family FAMILIES[] = {{"boxes, any pose", 0, false},
                                {"boxes, upright", 1, false},
@@ -29,7 +29,7 @@ void fill(const Family& family, std::vector<Box>& first, std::vector<Box>& secon
     const Random random = Random(77).child(i);
     first.push_back(randomBox(random.child(0), family.kind));
     second.push_back(randomBox(random.child(1), family.kind));
-    // Apart, as most pairs are that survive a broad phase; every library then has a distance.
+    // The shapes are apart, as are most pairs after a broad phase, so every library has a distance.
     second.back().centre += Vec3(2.5, 0.0, 0.0);
     if (!family.capsules) continue;
     second.back().half = Vec3(0.0, 0.0, second.back().half.z());

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double TICK = 1.0 / 60.0;
 
-// Walkers and trunks as dense as 1 000 and 10 000 are on 300 m by 300 m.
+// Returns walkers and trunks as dense as 1 000 and 10 000 are on 300 m by 300 m.
 std::unique_ptr<Crowd> forestCrowd(int walkers, int trunks, double side, bool boxes) {
   auto out = std::make_unique<Crowd>(3, CrowdSettings(), Area{0.0, side, 0.0, side}, flatGround());
   const Random random(11);
@@ -45,19 +45,20 @@ double nearestGap(const View& view) {
   return view.count > 0 ? view.at(0).gap : view.beyond;
 }
 
-// Nearest obstacle of some walkers, by the grid and by measuring everything.
+// Finds the nearest obstacle of some walkers by the grid, and by measuring the distance to
+// everything.
 void againstAll(const Crowd& crowd, int rounds) {
   const std::vector<Walker>& walkers = crowd.walkers();
   WalkerGrid grid;
   grid.build(walkers, 3.5);
   const std::vector<Obstacle> robots;
   const Surroundings around{&crowd.obstacles(), &grid, &robots};
-  constexpr std::uint32_t ASKED = 50;  // of all, by measuring everything
+  constexpr std::uint32_t ASKED = 50;  // number of walkers that are measured without the grid
   std::vector<double> by_grid(ASKED), by_all(ASKED);
   std::vector<::vegetation_sim::bench::Candidate> candidates{
       {"grid",
        [&] {
-         // Neighbours one after the other, as in a step.
+         // Neighbours follow each other, as in a step.
          for (const WalkerGrid::Spot& spot : grid.spots()) {
            const View view = perceive(walkers[spot.index], spot.index, around, 3.0, 3);
            if (spot.index < ASKED) by_grid[spot.index] = nearestGap(view);

@@ -4,11 +4,11 @@
 
 namespace vegetation_sim::crowd::bench {
 
-/// Proofs of `count` random queries; cost beside other libraries.
+/// Measures proofs of `count` random queries and their cost beside other libraries.
 void benchQueries(double count, int rounds);
-/// Cost of a step against the size of the crowd.
+/// Measures the cost of a step against the size of the crowd.
 void benchScale(int rounds);
-/// How walkers fare: each experiment under the goal behaviour and under the paper's law.
+/// Runs each experiment with walkers under the goal behaviour and under the paper's law.
 void benchBehaviour(int seeds);
 
 }  // namespace vegetation_sim::crowd::bench

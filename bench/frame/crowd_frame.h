@@ -8,7 +8,7 @@
 
 namespace vegetation_sim::crowd {
 
-/// The people of a scenario among its walls: a tick of their ways, and their bodies.
+/// The people of a scenario among its walls: a tick of their motion, and their bodies.
 class CrowdFrame {
  public:
   explicit CrowdFrame(const bench::Scene& scene)

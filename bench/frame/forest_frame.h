@@ -9,7 +9,7 @@
 
 namespace vegetation_sim::forest {
 
-/// The trees of a scenario, tick by tick and picture by picture. In `grab` a hand pulls a branch.
+/// The trees of a scenario, tick by tick and picture by picture. In `grab` a branch is pulled.
 class ForestFrame {
  public:
   explicit ForestFrame(const bench::Scene& scene)
@@ -47,7 +47,7 @@ class ForestFrame {
   }
 
  private:
-  /// A tree as the display has it.
+  /// A tree as the display draws it.
   struct Drawn {
     PosedTree posed;
     TreeMesh mesh;
@@ -88,7 +88,7 @@ class ForestFrame {
   }
 
   wind::Field wind_;
-  Forest held_, free_;  ///< with the hand, and without: what physics costs is the difference
+  Forest held_, free_;  ///< with and without the grab; the difference is the cost of physics
   Viewer eye_;
   TickGrid grid_{bench::FRAME_RATE};
   std::int64_t tick_{0};

@@ -11,18 +11,18 @@
 
 namespace vegetation_sim::bench {
 
-/// Processor time of one frame, part by part in their order.
+/// Processor time of one frame, part by part in order.
 class Laps {
  public:
   Laps() : last_(processorTime()) {}
-  /// What was done since the last lap was this part.
+  /// Assigns the time since the last lap to a part.
   double lap(const std::string& part) {
     const double now = processorTime(), spent = now - last_;
     parts_.emplace_back(part, spent);
     last_ = now;
     return spent;
   }
-  /// The same, less the time that is known to be another's.
+  /// Does the same, minus the time that is known to belong to another part.
   void lapWithout(double seconds, const std::string& part) {
     lap(part);
     parts_.back().second = std::max(0.0, parts_.back().second - seconds);

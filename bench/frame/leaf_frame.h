@@ -8,7 +8,7 @@
 
 namespace vegetation_sim::canopy {
 
-/// Leafy masses of a scenario: the plane's air and layers, and pictures of the layers from which a
+/// Leafy masses of a scenario: the plane's air and layers, and images of the layers from which a
 /// graphics card moves the leaves.
 class LeafFrame {
  public:

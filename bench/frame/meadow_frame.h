@@ -9,7 +9,7 @@
 
 namespace vegetation_sim::grass {
 
-/// The grass of a scenario: a stone rolls through it, and all that the eye sees is drawn anew.
+/// The grass of a scenario: a stone rolls through it, and everything in view is drawn again.
 class MeadowFrame {
  public:
   explicit MeadowFrame(const bench::Scene& scene)
@@ -18,7 +18,7 @@ class MeadowFrame {
         eye_(bench::frameEye(scene)),
         meadow_(scene.grass->layout.map, scene.terrain, scene.grass->layout.seed, MeadowSettings()),
         treads_(scene.grass->layout.map->law(), scene.grass->treading) {
-    eye_.position.z() -= 1.4;  // of somebody who walks
+    eye_.position.z() -= 1.4;  // height of a walking person
     for (int i = 0; i < 2 * bench::FRAME_RATE; ++i) {
       bench::Laps unused;
       frame(unused);

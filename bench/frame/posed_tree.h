@@ -23,7 +23,7 @@ struct PosedTree {
         detail(meshDetail(geometryLevel(
             tree.skeleton.height * pixelsPerMetre(eye, length(tree.foot - eye.position)), -1))) {}
 
-  /// At the forest's moment, on the tier that was chosen for it.
+  /// Poses the tree at the forest's time, on the tier that was chosen for it.
   void pose(const Forest& forest, std::uint32_t id, const wind::Instant& wind, Nanoseconds now) {
     const ModalTreeState* sway = forest.sway(id);
     const auto weights = weightsAt(forest.snapshot().levels.of(id), now, forest.layout().motion);

@@ -18,9 +18,9 @@
 namespace vegetation_sim::bench {
 
 constexpr Nanoseconds FRAME_START = 1700000000LL * NANOSECONDS_PER_SECOND;
-constexpr int FRAME_RATE = 30;  ///< ticks and pictures a second
+constexpr int FRAME_RATE = 30;  ///< ticks and pictures per second
 
-/// A shipped scenario, as far as a frame is made of it.
+/// The parts of a shipped scenario that a frame is made of.
 struct Scene {
   std::string name;
   std::shared_ptr<const terrain::HeightMap> terrain = std::make_shared<terrain::HeightMap>();
@@ -36,7 +36,7 @@ inline std::string scenarioFolder() {
   return std::string(PACKAGE_FOLDER) + "/config/scenarios";
 }
 
-/// All shipped scenarios, by name.
+/// Returns the names of all shipped scenarios.
 inline std::vector<std::string> scenarioNames() {
   std::vector<std::string> out;
   for (const auto& entry : std::filesystem::directory_iterator(scenarioFolder()))
@@ -89,7 +89,7 @@ inline Scene loadScene(const std::string& name) {
   return out;
 }
 
-/// Who looks: 25 m south of the origin at eye height, northwards.
+/// Returns a camera 25 m south of the origin at the height of a person, facing north.
 inline Viewpoint frameEye(const Scene& scene) {
   Viewpoint out;
   out.position = Vec3(0.0, -25.0, 3.0 + scene.terrain->height(0.0, -25.0));

@@ -8,7 +8,7 @@
 namespace vegetation_sim::bench {
 namespace {
 
-constexpr double SKIP = 2.0, DURATION = 5.0;  // seconds 2 to 5 are looked at
+constexpr double SKIP = 2.0, DURATION = 5.0;  // seconds 2 to 5 are evaluated
 constexpr double STRENGTHS[] = {6.0, 15.0, 30.0};
 
 struct Bent {

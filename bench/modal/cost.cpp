@@ -48,7 +48,7 @@ class Posing {
       stepper->step(load_, load_, 1.0 / 60.0, state_);
     });
   }
-  /// Beside forward kinematics [ns].
+  /// Returns the cost in addition to forward kinematics [ns].
   double proceduralCost() {
     const std::size_t n = tree_.skeleton.branches.size();
     const double all =

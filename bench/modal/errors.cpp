@@ -9,16 +9,16 @@
 namespace vegetation_sim::bench {
 namespace {
 
-constexpr int STEPS = 3;   // an interval of 50 ms: 60 Hz
-constexpr int PARTS = 32;  // of a frame, for the full chain
+constexpr int STEPS = 3;   // per interval of 50 ms: 60 Hz
+constexpr int PARTS = 32;  // per frame, for the full chain
 constexpr double NO_CAP = 1e9;
 
 Reference referenceFor(const TestTree& tree, const TestLoad& load, const ModalOptions& options) {
   return referenceOf(tree, load, Bend::SWING, 1e-4, 60.0, options.cache);
 }
 
-// The first frame of a load that steps: farthest that any tip goes, and that it is from where the
-// full chain has it [mm].
+// The first frame of a sudden load: largest motion of a tip, and its largest distance from the full
+// chain [mm].
 struct FirstFrame {
   double way{0.0}, off{0.0};
 };
@@ -39,7 +39,7 @@ FirstFrame firstFrame(Engine& engine, Engine& full, int steps = 1) {
   return out;
 }
 
-// A load as strong from the first moment on.
+// Returns a load as strong from the first moment on.
 TestLoad stepping(TestLoad load) {
   load.kind = TestLoad::Kind::PULL;
   return load;
@@ -95,7 +95,7 @@ struct Scene {
   std::unique_ptr<Engine> full;
 };
 
-// Four steps a frame, as forest_animator takes them.
+// Returns the cost of four steps per frame, as forest_animator takes them.
 double costOfSteps(Engine& engine, const TestTree& tree) {
   engine.rest();
   return 4.0 * costOf([&] { engine.step(0, 0.0, 1.0 / 240.0); }, tree.links.size());

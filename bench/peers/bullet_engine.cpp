@@ -16,8 +16,9 @@ btQuaternion toBullet(const Quat& q) {
           static_cast<btScalar>(q.w)};
 }
 
-// Two hinges a branch, the first of which carries a body without mass; springs and dampers as joint
-// torques of the last state, as its world would apply them. The world itself adds only overhead.
+// Two hinges per branch, the first of which carries a body without mass. Springs and dampers are
+// joint torques of the last state, as the engine's world would apply them; the world itself adds
+// only overhead.
 class BulletEngine : public Engine {
  public:
   BulletEngine(const TestTree& tree, const TestLoad& load)
@@ -84,7 +85,7 @@ class BulletEngine : public Engine {
                         toBullet(Vec3(0.0, 0.0, centre)), true);
   }
 
-  // Forces act on centres of mass; elsewhere they bring a torque.
+  // Forces act on centres of mass, so a force elsewhere needs a torque.
   void push(double factor) {
     if (factor == 0.0) return;
     for (std::size_t i = 0; i < load_.links.size(); ++i) {

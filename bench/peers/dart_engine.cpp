@@ -12,8 +12,8 @@ namespace {
 using dart::dynamics::BodyNode;
 using dart::dynamics::UniversalJoint;
 
-// Springs and dampers are the joint's own, which its forward dynamics takes implicitly. The steps
-// of its world without collision and constraints.
+// Springs and dampers belong to the joint, whose forward dynamics takes them implicitly. Steps are
+// those of the engine's world without collision and constraints.
 class DartEngine : public Engine {
  public:
   DartEngine(const TestTree& tree, const TestLoad& load)

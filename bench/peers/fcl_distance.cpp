@@ -1,8 +1,7 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-//
-// Built for the plain processor: Debian's libfcl and a caller for wider vectors disagree about the
-// layout of Eigen's types without a word.
+// Built for the plain processor: Debian's libfcl and a caller for wider vectors silently disagree
+// about the layout of Eigen's types.
 #include <fcl/fcl.h>
 
 #include <memory>

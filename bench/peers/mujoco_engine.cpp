@@ -14,7 +14,7 @@
 namespace vegetation_sim::bench {
 namespace {
 
-// The tree as MuJoCo's own file, nested as its bodies are.
+// The tree in MuJoCo's file format, nested as its bodies are.
 class Description {
  public:
   explicit Description(const TestTree& tree) : tree_(tree), children_(tree.links.size()) {
@@ -49,7 +49,7 @@ class Description {
   std::ostringstream out_;
 };
 
-// Compiling 10 000 bodies takes most of a minute, so that the result is kept by the tree's hash.
+// Compiling 10 000 bodies takes most of a minute, so the result is kept by the tree's hash.
 mjModel* modelOf(const TestTree& tree, const std::string& cache) {
   namespace fs = std::filesystem;
   char name[40];
@@ -100,8 +100,7 @@ class MujocoEngine : public Engine {
     mjcb_control = nullptr;
     for (const int fault : {mjWARN_BADQPOS, mjWARN_BADQVEL, mjWARN_BADQACC})
       if (data_->warning[fault].number > 0)
-        data_->qpos[0] =
-            std::numeric_limits<double>::quiet_NaN();  // it went back to rest by itself
+        data_->qpos[0] = std::numeric_limits<double>::quiet_NaN();  // the engine has reset itself
   }
 
   std::vector<Vec3> tips() const override {
@@ -118,8 +117,8 @@ class MujocoEngine : public Engine {
     Vec3 force{Vec3::Zero()}, torque{Vec3::Zero()};
   };
 
-  // Generalised forces in one sweep towards the root; xfrc_applied would cost O(N nv). Called at
-  // every evaluation, so that Runge-Kutta sees the load of its stages.
+  // Sums the generalised forces in one sweep towards the root; xfrc_applied would cost O(N nv). It
+  // is called at every evaluation, so that Runge-Kutta uses the load of its stages.
   void push() {
     const double time = model_->opt.integrator == mjINT_RK4
                             ? data_->time

@@ -1,9 +1,9 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// Loads a configuration of rviz beside nodes that run, without rviz's window, and says how many
-// frames a second it draws, of how many triangles, in what time of all processors; and how much
-// levels of detail change in pictures as the camera goes away:
-//   rviz_frames FILE.rviz [--view FILE.rviz] [--seconds N] [--picture FILE] [--dolly FACTOR]
+// Loads a configuration of rviz beside running nodes, without rviz's window, and reports how many
+// frames per second it draws, of how many triangles, in what time of all processors, and how much
+// levels of detail change pictures as the camera moves away.
+// usage: rviz_frames FILE.rviz [--view FILE.rviz] [--seconds N] [--picture FILE] [--dolly FACTOR]
 #define GL_GLEXT_PROTOTYPES
 #include <GL/gl.h>
 #include <GL/glext.h>
@@ -36,13 +36,13 @@
 namespace {
 
 constexpr int WIDTH = 1280, HEIGHT = 900;  // [pixel]
-constexpr double SETTLING = 20.0;          // [s] until all has been drawn
-constexpr double LISTENING = 5.0;          // [s] to each topic of markers
-constexpr int BLOCK = 16;                  // [pixel] edge of what differences are meant over
-constexpr int STEPS = 6;                   // of the camera's way
+constexpr double SETTLING = 20.0;          // [s] until everything is drawn
+constexpr double LISTENING = 5.0;          // [s] for each topic of markers
+constexpr int BLOCK = 16;  // [pixel] edge of the blocks over which differences are averaged
+constexpr int STEPS = 6;   // number of steps of the camera
 constexpr int FRAMES_A_STEP = 20;
-constexpr int STILL_FRAMES = 15;     // alike: levels of detail have settled
-constexpr double STILL_TIME = 60.0;  // [s] they may take
+constexpr int STILL_FRAMES = 15;     // equal frames after which levels of detail count as settled
+constexpr double STILL_TIME = 60.0;  // [s] that this may take
 
 class Frames {
  public:
@@ -55,7 +55,7 @@ class Frames {
     manager_->startUpdate();
   }
 
-  /// @param view file whose view it has.
+  /// @param view is the file whose view is used.
   bool load(const char* file, const char* view) {
     rviz::YamlConfigReader reader;
     rviz::Config config, looks;
@@ -101,9 +101,9 @@ class Frames {
 
   void write(const char* file) { panel_.getRenderWindow()->writeContentsToFile(file); }
 
-  /// Steps back until the distance is `factor` times what it was, while time stands. Prints how
-  /// much pictures change after a step, when only levels of detail do: from one to the next at
-  /// most, and in all. False if pictures never rest before.
+  /// Moves back until the distance is `factor` times as large, while time stands still. Prints how
+  /// much pictures change after a step, when only levels of detail do: the largest change between
+  /// two pictures, and the total. Returns false if pictures do not settle before.
   bool dolly(double factor) {
     manager_->getFrameManager()->setPause(true);
     if (!settle()) {
@@ -116,7 +116,7 @@ class Frames {
     double step = 0.0, all = 0.0;
     for (int i = 1; i <= STEPS; ++i) {
       distance->setValue(start * std::pow(factor, static_cast<double>(i) / STEPS));
-      frames(2);  // displays see where the camera is one picture later
+      frames(2);  // displays receive the camera one picture later
       const std::vector<unsigned char> first = picture();
       std::vector<unsigned char> last = first;
       for (int frame = 0; frame < FRAMES_A_STEP; ++frame) {
@@ -135,8 +135,8 @@ class Frames {
   }
 
  private:
-  /// Of a frame, those that are not wholly outside: what clipping passes on to the rasteriser; but
-  /// not what fills up lists of markers.
+  /// Returns the triangles of a frame that are not wholly outside: those that clipping passes on to
+  /// the rasteriser, without those that fill up lists of markers.
   double trianglesInView() {
     GLuint query = 0, passed = 0;
     glGenQueries(1, &query);
@@ -150,7 +150,7 @@ class Frames {
     return passed / count - emptyOnesInView();
   }
 
-  /// Triangles without area in the newest markers of each display.
+  /// Returns the triangles without area in the newest markers of each display.
   double emptyOnesInView() {
     const rviz::DisplayGroup& displays = *manager_->getRootDisplayGroup();
     std::map<std::string, visualization_msgs::MarkerArray::ConstPtr> heard;
@@ -180,7 +180,7 @@ class Frames {
     return out;
   }
 
-  // Until pictures stay the same while time stands; false if they do not.
+  // Waits until pictures stay the same while time stands still; returns false if they do not.
   bool settle() {
     const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(STILL_TIME);
     std::vector<unsigned char> before;
@@ -245,7 +245,8 @@ int main(int argc, char** argv) {
                  "[--dolly FACTOR]\n");
     return 2;
   }
-  rviz::RenderSystem::disableAntiAliasing();  // without a graphics card it halves the rate
+  // without a graphics card anti-aliasing halves the rate
+  rviz::RenderSystem::disableAntiAliasing();
   Frames frames;
   if (!frames.load(argv[1], view)) return 1;
   frames.run(SETTLING);

@@ -44,7 +44,7 @@ Drive drive(Engine& engine, const Reference& reference, int steps, double cap) {
     out.motion.push_back(engine.tips());
     const double off =
         squaredDistance(out.motion.back(), reference.motion[static_cast<std::size_t>(interval)]);
-    out.broken = !(off < 4.0 * farthest);  // not a number counts as broken
+    out.broken = !(off < 4.0 * farthest);  // not a number counts as unstable
     if (processorTime() - start > cap) break;
   }
   out.seconds = processorTime() - start;

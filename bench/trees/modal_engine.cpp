@@ -14,7 +14,7 @@ physics::Modes findModes(const TestTree& tree, const TestLoad& load, int modes, 
   physics::Modes out = physics::slowestModes(chain, modes);
   const std::vector<double> torque = torquesOf(chain, load);
   std::vector<physics::LoadShape> shapes;
-  std::vector<double> quick;  // of a frame
+  std::vector<double> quick;  // per frame
   if (vectors >= 5 && load.links.size() == 1)
     quick = {0.25, 0.5};
   else if (vectors >= 2)

@@ -9,13 +9,13 @@
 
 namespace vegetation_sim::bench {
 
-/// The tree as the core has it.
+/// Returns the tree as links of the core.
 std::vector<physics::Link> coreLinks(const TestTree& tree);
-/// Joint torques of a load at factor 1, at rest.
+/// Returns the joint torques of a load at factor 1, at rest.
 std::vector<double> torquesOf(const physics::LinearChain& chain, const TestLoad& load);
 
-/// A tree in modes (N13): `modes` of them, and `vectors` drawn from the load. From 2 on the last of
-/// these is quick, of half a frame of 60 Hz; for a pull from 5 on one more, of a quarter.
+/// A tree in modes (N13): `modes` of them, and `vectors` of the load. From 2 on the last of these
+/// is quick, of half a frame of 60 Hz; for a pull from 5 on one more, of a quarter.
 class ModalEngine : public Engine {
  public:
   ModalEngine(const TestTree& tree, const TestLoad& load, int modes, int vectors);
@@ -24,7 +24,7 @@ class ModalEngine : public Engine {
   std::vector<Vec3> tips() const override;
 
   const physics::Modes& modes() const { return modes_; }
-  /// Since rest() [rad].
+  /// Returns the largest turn since rest() [rad].
   double largestTurn() const { return largest_turn_; }
 
  private:
@@ -34,11 +34,12 @@ class ModalEngine : public Engine {
   physics::RotationProbe probe_;
   physics::ModalStepper stepper_;
   physics::ModalState state_;
-  std::vector<double> push_, before_, after_;  // modal load at factor 1; around a step
+  std::vector<double> push_, before_, after_;  // modal load at factor 1; before and after a step
   double largest_turn_{0.0};
 };
 
-/// No memory: every joint where the load of the moment would hold it, as the procedural tier.
+/// A model without memory: every joint is where the present load would hold it, as on the
+/// procedural tier.
 class StaticEngine : public Engine {
  public:
   StaticEngine(const TestTree& tree, const TestLoad& load);

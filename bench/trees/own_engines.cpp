@@ -36,7 +36,7 @@ physics::ChainState atRest(std::size_t links) {
           std::vector<physics::Vec2>(links, physics::Vec2::Zero())};
 }
 
-// What all of ours share: the load as a function of kinematics and time.
+// Common part of our engines: the load as a function of kinematics and time.
 class OwnEngine : public Engine {
  public:
   OwnEngine(const TestTree& tree, const TestLoad& load) : tree_(tree), links_(linksOf(tree)) {
@@ -64,7 +64,7 @@ class OwnEngine : public Engine {
 
   const TestTree& tree_;
   std::vector<physics::Link> links_;
-  // Whoever has no load does not ask for kinematics either.
+  // Without load no kinematics are computed.
   const physics::Surroundings& around(int interval) {
     interval_ = interval;
     return interval < LOADED_INTERVALS ? outside_ : calm_;
@@ -74,7 +74,8 @@ class OwnEngine : public Engine {
   int interval_{0};
 };
 
-// One part a step whatever the stability limit: where a method breaks is what we want to see.
+// Takes each step in one part whatever the stability limit, to measure where a method becomes
+// unstable.
 template <Integrator INTEGRATOR, Dynamics DYNAMICS = Dynamics::ARTICULATED,
           Products PRODUCTS = Products::MEAN>
 class PlainEngine : public OwnEngine {

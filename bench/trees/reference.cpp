@@ -25,7 +25,7 @@ Mat3 matrixOf(const Quat& q) {
 }
 
 // Rotation and axes of two bends in the rest frame, and the part of the relative angular
-// acceleration, seen from that frame, that goes with the rates squared.
+// acceleration, in that frame, that is quadratic in the rates.
 struct Turn {
   Mat3 rotation;
   Axes axes;
@@ -41,7 +41,8 @@ Turn hinges(double a, double b, double ra, double rb) {
   return out;
 }
 
-// exp(q) and its left Jacobian 1 + A [q] + B [q]^2, A = (1 - cos t) / t^2, B = (t - sin t) / t^3.
+// Computes exp(q) and its left Jacobian 1 + A [q] + B [q]^2, A = (1 - cos t) / t^2, B = (t - sin t)
+// / t^3.
 Turn swing(double a, double b, double ra, double rb) {
   const Vec3 q(a, b, 0.0), rate(ra, rb, 0.0);
   const double t2 = q.squaredNorm(), t = std::sqrt(t2);
@@ -69,8 +70,8 @@ Turn swing(double a, double b, double ra, double rb) {
   return out;
 }
 
-// A force that sets on or ends at once has stiff twigs swing, which their dampers soon end: nearly
-// all of the error arises there. A gust is smooth.
+// A force that starts or ends at once makes stiff twigs oscillate, which their dampers soon end;
+// nearly all of the error arises there. A gust is smooth.
 int stepsOf(const TestLoad& load, int interval, int steps) {
   const int after = interval < LOADED_INTERVALS ? interval : interval - LOADED_INTERVALS;
   return load.kind == TestLoad::Kind::PULL && after < 8 ? 8 * steps / (1 + after) : steps;
@@ -84,7 +85,7 @@ const char* nameOf(Bend bend) {
 
 struct ReferenceChain::Joint {
   Mat3 rest, turn;            // rest in the parent's axes; world
-  Vec3 position, spin, zeta;  // zeta: angular acceleration that goes with the rates
+  Vec3 position, spin, zeta;  // zeta: angular acceleration from the rates
   Vec3 arm, centripetal;      // from the parent's joint; of the joint
   Axes axes;
   Mat3 A, B, M;        // articulated inertia about the joint: [A B; B^T M]

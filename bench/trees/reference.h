@@ -10,7 +10,7 @@
 namespace vegetation_sim::bench {
 
 /// How two angles turn a link: as one rotation vector about its rest x and y (ours), or about x and
-/// then about the turned y (two hinges, all that the peers can do). Equal to first order.
+/// then about the turned y (two hinges, as the peers have it). Equal to first order.
 enum class Bend : int { SWING = 0, HINGES = 1 };
 const char* nameOf(Bend bend);
 
@@ -24,10 +24,10 @@ class ReferenceChain {
   ReferenceChain(const TestTree& tree, const TestLoad& load, Bend bend);
   ~ReferenceChain();
 
-  /// Motion from rest over `intervals` of `steps` steps each; ends early once it is beyond all
-  /// bounds.
+  /// Returns the motion from rest over `intervals` of `steps` steps each; ends early once it
+  /// diverges.
   Motion run(int steps, int intervals = INTERVALS);
-  /// Tips for [links][q0 q1 rate0 rate1].
+  /// Returns the tips for [links][q0 q1 rate0 rate1].
   std::vector<Vec3> tips(const std::vector<double>& state);
 
  private:
@@ -50,22 +50,22 @@ class ReferenceChain {
   std::vector<int> tips_;
 };
 
-/// A reference and how well it has converged.
+/// A reference and its convergence.
 struct Reference {
   Motion motion, rest;    ///< rest: [1][tips]
   double converged{0.0};  ///< relative error by Richardson's rule
-  int steps{0};           ///< an interval
-  double seconds{0.0};    ///< that its finest run took
+  int steps{0};           ///< per interval
+  double seconds{0.0};    ///< of its finest run
 };
 
-/// Over the first `intervals`: the step is shortened by 1.5 until `tolerance` holds, or 1e-4 if the
-/// next run would cost more than `cap` seconds. Read from and written to `folder`, unless that is
-/// empty, by the hash of tree, load, bend, tolerance and intervals.
+/// Computes a reference over the first `intervals`: the step is shortened by 1.5 until `tolerance`
+/// holds, or 1e-4 if the next run would cost more than `cap` seconds. Reads it from and writes it
+/// to `folder`, unless that is empty, by the hash of tree, load, bend, tolerance and intervals.
 Reference referenceOf(const TestTree& tree, const TestLoad& load, Bend bend, double tolerance,
                       double cap, const std::string& folder, int intervals = INTERVALS);
 
-/// RMS over tips and the instants of `motion` of the distance between two motions over that of
-/// `reference` from rest; infinite without instants.
+/// Returns the RMS over tips and the instants of `motion` of the distance between two motions, over
+/// that of `reference` from rest; infinite without instants.
 double relativeError(const Motion& motion, const Reference& reference);
 
 }  // namespace vegetation_sim::bench

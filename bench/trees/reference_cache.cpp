@@ -66,7 +66,7 @@ int finer(int steps) {
   return steps + (steps + 1) / 2;
 }
 
-// Within the tolerance, or the next run would take more than `cap` seconds.
+// Returns whether the tolerance holds, or the next run would take more than `cap` seconds.
 bool isEnough(const Reference& reference, double tolerance, double cap) {
   return reference.converged <= tolerance ||
          (reference.converged < 1e-4 && 1.5 * reference.seconds > cap);
@@ -82,7 +82,7 @@ Reference referenceOf(const TestTree& tree, const TestLoad& load, Bend bend, dou
   const std::string path = folder + fileOf(tree, load, bend, tolerance, intervals),
                     whole = folder + fileOf(tree, load, bend, tolerance, INTERVALS);
   out.converged = 1.0;
-  // A window is the beginning of the whole, too.
+  // A shorter window is the beginning of the whole, so the file of the whole serves too.
   for (const std::string& kept : {whole, path}) {
     Reference found = out;
     if (folder.empty() || !read(kept, out.rest[0].size(), intervals, found)) continue;

@@ -13,20 +13,20 @@ namespace vegetation_sim::bench {
 
 constexpr std::array<double, 2> TARGETS{1e-2, 1e-3};  ///< relative error of tips
 
-/// What one engine did with one tree and load.
+/// Results of one engine for one tree and load.
 struct Row {
   std::string engine;
   bool peer{false}, fast{false};
   std::array<Answer, TARGETS.size()> answers;
-  /// A step of one tree at each answer, mean of the loaded third and the free rest [s].
+  /// Time of a step of one tree at each answer, mean of the loaded third and the free rest [s].
   std::array<double, TARGETS.size()> step_seconds{};
   std::vector<Point> points;
 
-  /// Processor time for a simulated second at TARGETS[k] [s].
+  /// Returns the processor time of a simulated second at TARGETS[k] [s].
   double cost(std::size_t k) const { return answers[k].steps / INTERVAL * step_seconds[k]; }
 };
 
-/// One tree and load with all engines, and how well their references have converged.
+/// One tree and load with all engines, and the convergence of their references.
 struct Cell {
   std::string tree, load;
   int branches{0};
@@ -34,20 +34,21 @@ struct Cell {
   std::vector<Row> rows;
 };
 
-/// The best peer's cost over ours. `bound`: the peer's is one from below, so that the ratio is too.
+/// The best peer's cost over ours. `bound`: the peer's cost is a lower bound, so the ratio is one
+/// too.
 struct Ratio {
   double value{0.0};
   bool bound{false};
   std::string peer;
 };
-/// Zero where there is no peer.
+/// Returns zero if there is no peer.
 Ratio ratioOf(const Cell& cell, const Row& own, std::size_t target);
 
-/// A table of the cell.
+/// Prints a table of the cell.
 void print(const Cell& cell);
-/// For each of ours: smallest and geometric mean of all ratios.
+/// Prints the smallest and the geometric mean of all ratios for each of our engines.
 void printSummary(const std::vector<Cell>& cells);
-/// One line a point and one line a target.
+/// Write one line per point and one per target.
 void writeHead(std::FILE* file);
 void write(const Cell& cell, std::FILE* file);
 

@@ -33,7 +33,7 @@ std::vector<Pose> restPoses(const TestTree& tree) {
   return out;
 }
 
-// nu = 2 zeta sqrt(k J), J the inertia of all that the joint bears about it, as a ball of points.
+// nu = 2 zeta sqrt(k J), where J is the inertia of all that the joint carries about it, as points.
 void damp(TestTree& tree) {
   const std::vector<Pose> rest = restPoses(tree);
   std::vector<double> mass(rest.size()), second(rest.size());
@@ -168,7 +168,7 @@ double TestLoad::factor(int interval, double time) const {
   if (interval >= LOADED_INTERVALS) return 0.0;
   if (kind == Kind::PULL) return 1.0;
   const double s = std::sin(PI * time);
-  return s * s * s * s;  // force goes with the square of an air speed that goes with s^2
+  return s * s * s * s;  // the force is quadratic in a wind speed that is proportional to s^2
 }
 
 TestLoad gust(const TestTree& tree) {

@@ -26,7 +26,7 @@ bool Explorer::affordable(int steps, double part) const {
   return per_step_ * steps * static_cast<double>(reference_.motion.size()) <= part * cap_;
 }
 
-// A first-order method would have come from one third of the steps with three times the error.
+// A first-order method would have needed one third of the steps for three times the error.
 bool Explorer::stalled(int steps) const {
   const double now = points_.at(steps).error;
   for (const auto& [fewer, point] : points_)
@@ -35,14 +35,15 @@ bool Explorer::stalled(int steps) const {
   return false;
 }
 
-// Where the line between two runs, in logarithms, meets the tolerance: whole steps an interval are
-// coarse where few hold.
+// Interpolates between two runs, in logarithms, where the line meets the tolerance, because whole
+// steps per interval are coarse where few suffice.
 double Explorer::between(int low, int high, double tolerance) {
   const double slope = std::log(at(low).error / at(high).error) / std::log(1.0 * low / high);
   return high * std::exp(std::log(tolerance / at(high).error) / slope);
 }
 
-// A third more; where a run is dear and the method has shown its order, as many as that asks for.
+// Returns a third more steps. Where a run is expensive and the method has shown its order, returns
+// as many as that requires.
 int Explorer::next(int low, double tolerance) {
   const int third = low < 4 ? low + 1 : low + (low + 1) / 3;
   const auto here = points_.find(low);
@@ -57,11 +58,11 @@ int Explorer::next(int low, double tolerance) {
 }
 
 Answer Explorer::longestStep(double tolerance) {
-  int low = 0, high = 1;  // low fails
+  int low = 0, high = 1;  // low does not hold
   while (at(high).error > tolerance) {
     low = high;
     if (stalled(low)) return {Answer::Kind::NEVER, static_cast<double>(low)};
-    // Unstable runs end early, so that a step beyond the cap may still be looked at.
+    // Unstable runs end early, so a step beyond the cap may still be tried.
     if (!affordable(low, std::isfinite(at(low).error) ? 1.0 : 4.0))
       return {Answer::Kind::AT_LEAST, static_cast<double>(low)};
     high = next(low, tolerance);

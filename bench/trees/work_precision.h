@@ -12,27 +12,27 @@ namespace vegetation_sim::bench {
 
 /// Error of one engine at one step.
 struct Point {
-  int steps{0};       ///< an interval
+  int steps{0};       ///< per interval
   double error{0.0};  ///< infinite: unstable
-  int instants{0};    ///< that were compared; fewer than INTERVALS where time ran out
+  int instants{0};    ///< instants that were compared; fewer than INTERVALS where time ran out
 };
 
 /// The longest step that holds a tolerance.
 struct Answer {
   enum class Kind : int {
-    FOUND = 0,     ///< bisected, and put on the line between the last two runs
-    BETWEEN = 1,   ///< put on the line between two runs, which are too dear to refine
+    FOUND = 0,     ///< bisected, and interpolated between the last two runs
+    BETWEEN = 1,   ///< interpolated between two runs that are too expensive to refine
     AT_LEAST = 2,  ///< no run within the time cap holds it: fewer steps do not
     NEVER = 3      ///< shorter steps change nothing: the model differs
   };
   Kind kind{Kind::FOUND};
-  double steps{0.0};  ///< an interval
+  double steps{0.0};  ///< per interval
 };
 
-/// Runs an engine against its reference and remembers.
+/// Runs an engine against its reference and remembers the points.
 class Explorer {
  public:
-  /// No run may take more than `cap` seconds of processor.
+  /// No run may take more than `cap` seconds of processor time.
   Explorer(Engine& engine, const Reference& reference, double cap)
       : engine_(engine), reference_(reference), cap_(cap) {}
 
