@@ -21,10 +21,10 @@ namespace {
 
 // size of the capsule and length of its path [m]
 constexpr double RADIUS = 0.025, LENGTH = 0.6, WAY = 2.0;
-constexpr double CLEAR = 0.15;  // distance to any wood where a path begins [m]
-constexpr double LANE = 0.1;    // between the paths that are tried [m]
-constexpr double BAND = 0.5;    // height of a band, each with a path [m]
-constexpr double BAR = 0.005;   // depth that thin wood must not exceed [m]
+constexpr double CLEAR = 0.15;           // distance to any wood where a path begins [m]
+constexpr double LANE = 0.1;             // between the paths that are tried [m]
+constexpr double BAND = 0.5;             // height of a band, each with a path [m]
+constexpr double LARGEST_DEPTH = 0.005;  // depth that thin wood must not exceed [m]
 
 bool isClear(const Skeleton& skeleton, const Vec3& start) {
   for (const Branch& b : skeleton.branches)
@@ -80,7 +80,7 @@ struct Worst {
     ++drives;
     touched += found.touched;
     disagreed += found.disagreed;
-    deeper += found.deepest_thin > BAR;
+    deeper += found.deepest_thin > LARGEST_DEPTH;
     thin = std::max(thin, found.deepest_thin);
     own = std::max(own, found.deepest_own);
     thick = std::max(thick, found.deepest_thick);
@@ -112,7 +112,7 @@ void driveAll(const std::string& species, std::uint64_t seed, std::size_t most,
 }
 
 /// Wrenches of branches as they are published, tick by tick: the worst values of several drives.
-struct Told {
+struct Published {
   double force{0.0}, rise{0.0}, fall{0.0};  ///< of one branch; from tick to tick [N]
   double whole{0.0}, jump{0.0};             ///< of the body; from tick to tick [N]
   int ticks{0}, rises{0};  ///< wrenches published; those that rose by more than MAX_FORCE_CHANGE
@@ -144,11 +144,11 @@ struct Told {
   }
 };
 
-void snapshotTreads(const std::string& species, std::uint64_t seed, std::size_t most) {
+void drivePublished(const std::string& species, std::uint64_t seed, std::size_t most) {
   std::vector<Way> ways = busiestWays(CrownScene(species, seed).skeleton());
   ways.resize(std::min(ways.size(), most));
   for (const double speed : {0.1, 0.5, 1.0, 3.0}) {
-    Told published;
+    Published published;
     for (const Way& way : ways) {
       Drive scene(speed, way.start, species, seed);
       published.drive(scene, speed);
@@ -172,11 +172,11 @@ void benchDepth(std::size_t most, const std::string& csv) {
 }
 
 void benchPublished(std::size_t most) {
-  std::printf("\ntold at %d Hz\n%-7s %4s %5s %6s %9s %9s %9s %9s %9s %8s %8s\n", TICKS, "species",
-              "seed", "[m/s]", "drives", "force [N]", "rise [N]", "fall [N]", "body [N]",
+  std::printf("\npublished at %d Hz\n%-7s %4s %5s %6s %9s %9s %9s %9s %9s %8s %8s\n", TICKS,
+              "species", "seed", "[m/s]", "drives", "force [N]", "rise [N]", "fall [N]", "body [N]",
               "jump [N]", "wrenches", "> 500 N");
   for (const std::string& species : speciesNames())
-    for (std::uint64_t seed = 7; seed < 10; ++seed) snapshotTreads(species, seed, most);
+    for (std::uint64_t seed = 7; seed < 10; ++seed) drivePublished(species, seed, most);
 }
 
 }  // namespace
@@ -185,10 +185,10 @@ void benchPublished(std::size_t most) {
 int main(int argc, char** argv) {
   using namespace vegetation_sim;
   try {
-    const bench::Options options = bench::readOptions(argc, argv, {"depth", "told"});
+    const bench::Options options = bench::readOptions(argc, argv, {"depth", "published"});
     const std::size_t most = options.full ? 1000 : options.quick ? 1 : 3;
     if (options.wants("depth")) forest::benchDepth(most, options.csv);
-    if (options.wants("told")) forest::benchPublished(most);
+    if (options.wants("published")) forest::benchPublished(most);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "contact_bench: %s\n", error.what());
     return 1;

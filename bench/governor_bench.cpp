@@ -28,8 +28,8 @@ struct Scene {
   Scene(int side, bool watched, bool windy)
       : watched(watched), forest(gridLayout(side, 9.0), flatTerrain(), settings()) {
     if (windy) forest.setWind(wind::Field({makeBreeze(1, Vec3(5.0, 1.0, 0.0))}, 3));
-    eye.id = "eye";
-    eye.eye.position = Vec3(4.5 * (side - 1), 4.5 * (side - 1), 3.0);
+    viewer.id = "eye";
+    viewer.eye.position = Vec3(4.5 * (side - 1), 4.5 * (side - 1), 3.0);
   }
   static Settings settings() {
     Settings out;
@@ -37,8 +37,8 @@ struct Scene {
     return out;
   }
   void advance() {
-    eye.stamp = grid.timeOf(tick);
-    if (watched) forest.setViewer(eye);
+    viewer.stamp = grid.timeOf(tick);
+    if (watched) forest.setViewer(viewer);
     forest.advance(grid.timeOf(tick++));
     forest.update(tick % RATE == 0);
   }
@@ -54,18 +54,18 @@ struct Scene {
 
   bool watched;
   Forest forest;
-  Viewer eye;
+  Viewer viewer;
   TickGrid grid{RATE};
   std::int64_t tick{TickGrid(RATE).tickAt(1700000000LL * NANOSECONDS_PER_SECOND)};
 };
 
 /// Results over some seconds: most changes of tier of any tree per second; worst cost and error.
-struct Watched {
+struct Observed {
   double changes{0.0}, least_cost{1e9}, most_cost{0.0}, error{0.0}, typical_error{0.0};
 };
 
-Watched watch(Scene& scene, int duration) {
-  Watched out;
+Observed observe(Scene& scene, int duration) {
+  Observed out;
   std::map<std::uint32_t, int> levels, changes;
   for (int i = 0; i < duration * RATE; ++i) {
     scene.advance();
@@ -96,7 +96,8 @@ double timePoses(const Scene& scene, int pictures) {
   const wind::Instant wind = scene.forest.snapshot().wind.at(now);
   std::map<std::uint32_t, PosedTree> trees;
   for (const Plant& plant : scene.forest.plants())
-    if (plant.chosen > 0) trees.emplace(plant.id, PosedTree(scene.forest, plant.id, scene.eye.eye));
+    if (plant.chosen > 0)
+      trees.emplace(plant.id, PosedTree(scene.forest, plant.id, scene.viewer.eye));
   std::vector<double> times;
   for (int i = 0; i < pictures; ++i) {
     const double start = processorTime();
@@ -120,7 +121,7 @@ void measureBudget(const Options& options) {
     Scene scene(side, true, true);
     scene.run(90);
     const double choice = 1e3 * scene.timeTicks(options.quick ? 10 : 60);
-    const Watched seen = watch(scene, options.quick ? 1 : 4);
+    const Observed seen = observe(scene, options.quick ? 1 : 4);
     const GovernorFigures& f = scene.forest.governor();
     const double poses = 1e3 * timePoses(scene, options.quick ? 10 : 60);
     std::printf(
@@ -162,10 +163,10 @@ void measureHand(const Options& options) {
 
 /// Counts over the trees of a scenario: how many there are, and how many samples of their errors
 /// fall in which class.
-struct Told {
+struct PredictionCounts {
   int trees{0}, modal{0}, fine{0}, within{0};
   double least{1e9}, most{0.0};
-  int looks{0}, held{0};
+  int samples{0}, held{0};
   int known{0}, missed{0};  ///< errors above the tolerance: predicted, and not predicted
 
   void add(const std::vector<Prediction::Look>& each) {
@@ -178,7 +179,7 @@ struct Told {
     most = std::max(most, ratio);
     for (const Prediction::Look& look : each) {
       const double tolerance = Settings().tolerance;
-      ++looks;
+      ++samples;
       held += look.measured <= tolerance;
       known += look.measured > tolerance && look.predicted > tolerance;
       missed += look.measured > tolerance && look.predicted <= tolerance;
@@ -190,7 +191,7 @@ struct Told {
         "| %-12s | %4.1f | %4d | %3d | %3d | %5.1f %% | %.2f to %.2f | %5.1f %% | %4.1f %% | %4.1f "
         "%% |\n",
         name.c_str(), settle, trees, modal, fine, share(within, trees), least, most,
-        share(held, looks), share(known, looks), share(missed, looks));
+        share(held, samples), share(known, samples), share(missed, samples));
     std::fflush(stdout);
   }
 };
@@ -199,21 +200,22 @@ struct Told {
 /// full chain.
 void measurePrediction(const Options& options) {
   std::printf(
-      "\n| scenario | begun after s | trees that move | in modes | in fine ones | foretold within "
-      "2 x | worst ratios | looks within the tolerance | above it: foretold | not foretold |\n");
-  Told all;
+      "\n| scenario | begun after s | trees that move | in modes | in fine ones | predicted within "
+      "2 x | worst ratios | samples within the tolerance | above it: predicted | not predicted "
+      "|\n");
+  PredictionCounts all;
   for (const std::string& name : scenarioNames()) {
     const bench::Scene scene = loadScene(name);
     if (!scene.forest) continue;
     for (const double settle : {0.5, 10.0}) {
-      Prediction prediction(*scene.forest, scene.terrain, scene.wind, frameEye(scene), FRAME_START,
-                            settle);
-      Told published;
+      Prediction prediction(*scene.forest, scene.terrain, scene.wind, frameViewpoint(scene),
+                            FRAME_START, settle);
+      PredictionCounts counts;
       for (const auto& [tree, each] : prediction.look(options.quick ? 3 : 10)) {
-        published.add(each);
+        counts.add(each);
         all.add(each);
       }
-      if (published.trees > 0) published.print(name, settle);
+      if (counts.trees > 0) counts.print(name, settle);
     }
   }
   all.print("all", 0.0);

@@ -157,7 +157,7 @@ void benchWalkers(int rounds) {
   }
 }
 
-// Nodes alone: long strokes, so that what a stroke costs by itself does not count.
+// Measures nodes alone: strokes are so long that their own cost does not count.
 void benchStrokes(int rounds) {
   std::printf("\nStrokes of 4 m, nodes 0.05 m, reach 1 m\n");
   TreadMap map(lawOf(100), TreadSettings());
@@ -234,7 +234,8 @@ Frame drawFrame(MeadowLod& meadow, const TreadMap& tread, const wind::Field& win
   return out;
 }
 
-// Room for the strips of so many tiles, touched, as a viewer keeps it from frame to frame.
+// Returns room for the strips of so many tiles, written once, as a viewer keeps it from frame to
+// frame.
 GrassMesh makeMesh(std::size_t tiles) {
   const std::size_t corners = 4 * (STRIP_CELLS + 1) * 2 * tiles;
   GrassMesh out;
@@ -280,7 +281,7 @@ void benchKilometre(bool jumps) {
   }
   std::sort(times.begin(), times.end());
   std::printf("\n1 km2 at 1 000 blades per m2, a viewer at %s, levels + wind + blades + strips\n",
-              jumps ? "30 m/s who jumps" : "3 m/s");
+              jumps ? "30 m/s with a jump" : "3 m/s");
   std::printf(
       "ms/frame from the first on: median %.2f, 99 %% %.2f, largest %.2f; %zu blades, %zu tiles of "
       "strips\n",

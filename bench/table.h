@@ -51,7 +51,7 @@ class Table {
 };
 
 /// Columns of a ladder: error and cost of each tier; `chosen` is 1 for the default.
-constexpr const char* LADDER_COLUMNS = "ladder,rung,setting,cost,error,chosen";
+constexpr const char* LADDER_COLUMNS = "ladder,tier,setting,cost,error,chosen";
 /// Columns of cost against size.
 constexpr const char* SIZE_COLUMNS = "series,size,seconds";
 

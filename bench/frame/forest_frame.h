@@ -16,8 +16,8 @@ class ForestFrame {
       : wind_(scene.wind),
         held_(*scene.forest, scene.terrain, Settings()),
         free_(*scene.forest, scene.terrain, Settings()) {
-    eye_.id = "eye";
-    eye_.eye = bench::frameEye(scene);
+    viewer_.id = "eye";
+    viewer_.eye = bench::frameViewpoint(scene);
     for (Forest* forest : {&held_, &free_}) {
       forest->setPhysics(scene.physics);
       forest->setWind(scene.wind);
@@ -55,7 +55,7 @@ class ForestFrame {
   };
 
   void grow(std::uint32_t id) {
-    PosedTree posed(held_, id, eye_.eye);
+    PosedTree posed(held_, id, viewer_.eye);
     const Species& species = held_.layout().species[posed.tree.seed.species];
     TreeMesh mesh = buildMesh(posed.tree.skeleton, species, posed.detail);
     std::vector<float> bark(3 * mesh.bark.size()), leaves(3 * LEAF_CORNERS * mesh.leaves.size());
@@ -72,10 +72,10 @@ class ForestFrame {
   }
   Nanoseconds now() const { return grid_.timeOf(tick_); }
   void advance(Forest& forest) const {
-    Viewer eye = eye_;
-    eye.stamp = grid_.timeOf(tick_ + 1);
-    forest.setViewer(eye);
-    forest.advance(eye.stamp);
+    Viewer viewer = viewer_;
+    viewer.stamp = grid_.timeOf(tick_ + 1);
+    forest.setViewer(viewer);
+    forest.advance(viewer.stamp);
   }
   void run(int ticks) {
     for (int i = 0; i < ticks; ++i, ++tick_)
@@ -89,7 +89,7 @@ class ForestFrame {
 
   wind::Field wind_;
   Forest held_, free_;  ///< with and without the grab; the difference is the cost of physics
-  Viewer eye_;
+  Viewer viewer_;
   TickGrid grid_{bench::FRAME_RATE};
   std::int64_t tick_{0};
   std::vector<Drawn> drawn_;

@@ -15,10 +15,10 @@ class MeadowFrame {
   explicit MeadowFrame(const bench::Scene& scene)
       : wind_(scene.wind),
         tread_(scene.grass->layout.tread),
-        eye_(bench::frameEye(scene)),
+        viewer_(bench::frameViewpoint(scene)),
         meadow_(scene.grass->layout.map, scene.terrain, scene.grass->layout.seed, MeadowSettings()),
         treads_(scene.grass->layout.map->law(), scene.grass->treading) {
-    eye_.position.z() -= 1.4;  // height of a walking person
+    viewer_.position.z() -= 1.4;  // height of a walking person
     for (int i = 0; i < 2 * bench::FRAME_RATE; ++i) {
       bench::Laps unused;
       frame(unused);
@@ -31,9 +31,9 @@ class MeadowFrame {
     const double turn = 0.02 * frame_;
     treads_.tread(1, tread_, {6.0 * std::cos(turn), 6.0 * std::sin(turn)}, stamp);
     laps.lap("treading");
-    meadow_.setEyes({eye_});
+    meadow_.setEyes({viewer_});
     meadow_.advance(stamp);
-    const auto views = meadow_.viewOf(eye_, stamp);
+    const auto views = meadow_.viewOf(viewer_, stamp);
     laps.lap("grass levels");
     NodeWind air(meadow_.map(), meadow_.terrain());
     std::vector<TilePlace> tiles;
@@ -59,7 +59,7 @@ class MeadowFrame {
         style.segments = view.segments;
         style.slide = view.morph.slide;
         style.width = 1.0 / view.share;
-        style.eye = eye_.position;
+        style.eye = viewer_.position;
         appendRibbons(meadow_.map(), tile, blocks_.data(), count, style, mesh_);
       }
       if (view.morph.strip > 0.0)
@@ -69,7 +69,7 @@ class MeadowFrame {
 
   wind::Field wind_;
   TreadLaw tread_;
-  Viewpoint eye_;
+  Viewpoint viewer_;
   MeadowLod meadow_;
   TreadMap treads_;
   std::vector<BladeBlock> blocks_;

@@ -17,20 +17,21 @@ struct PosedTree {
   MeshDetail detail;
   BatchPoses poses;
 
-  PosedTree(const Forest& forest, std::uint32_t id, const Viewpoint& eye)
+  PosedTree(const Forest& forest, std::uint32_t id, const Viewpoint& viewer)
       : tree(growTree(forest.layout(), id, forest.terrain())),
         poser(tree),
         detail(meshDetail(geometryLevel(
-            tree.skeleton.height * pixelsPerMetre(eye, length(tree.foot - eye.position)), -1))) {}
+            tree.skeleton.height * pixelsPerMetre(viewer, length(tree.foot - viewer.position)),
+            -1))) {}
 
   /// Poses the tree at the forest's time, on the tier that was chosen for it.
   void pose(const Forest& forest, std::uint32_t id, const wind::Instant& wind, Nanoseconds now) {
-    const ModalTreeState* sway = forest.sway(id);
+    const ModalTreeState* modal = forest.sway(id);
     const auto weights = weightsAt(forest.snapshot().levels.of(id), now, forest.layout().motion);
     const bool physical = !forest.promoted(id).branches.empty();
-    if (!physical && sway && modalWeight(weights) >= 1.0)
-      sway->pose(poser, now, poses);
-    else if (physical || sway)
+    if (!physical && modal && modalWeight(weights) >= 1.0)
+      modal->pose(poser, now, poses);
+    else if (physical || modal)
       narrow(forest.pose(tree, id, now), poses);
     else
       poser.pose(wind.relativeTo(tree.foot), weights, detail.depths, poses);

@@ -90,7 +90,7 @@ inline Scene loadScene(const std::string& name) {
 }
 
 /// Returns a camera 25 m south of the origin at the height of a person, facing north.
-inline Viewpoint frameEye(const Scene& scene) {
+inline Viewpoint frameViewpoint(const Scene& scene) {
   Viewpoint out;
   out.position = Vec3(0.0, -25.0, 3.0 + scene.terrain->height(0.0, -25.0));
   out.forward = Vec3::UnitY();

@@ -19,7 +19,7 @@ sys.path.insert(0, str(PROGRAM.parent))
 from charting import registry, style, tables  # noqa: E402
 from charting.chart import Refused  # noqa: E402
 
-LADDER = 'ladder,rung,setting,cost,error,chosen\n'
+LADDER = 'ladder,tier,setting,cost,error,chosen\n'
 
 
 def run(*command, **environment):
@@ -87,13 +87,13 @@ class Charts(unittest.TestCase):
         empty = str(self.folder)
         done = run(PROGRAM, '--only', 'grass_ladder', '--out', self.out, CMAKE_PREFIX_PATH=empty)
         self.assertEqual(done.returncode, 2)
-        self.assertIn('grass_rung_bench: no such program', done.stderr)
+        self.assertIn('grass_tile_bench: no such program', done.stderr)
         self.assertIn(empty, done.stderr)
         self.assertFalse(self.out.exists())
 
     def test_folders_that_cannot_be_are_refused_by_name(self):
         self.out.write_text('a file')
-        space = self.bench('grass_rung_bench', 'exit 0')
+        space = self.bench('grass_tile_bench', 'exit 0')
         for bad in (self.out, self.out / 'below'):
             done = run(PROGRAM, '--only', 'grass_ladder', '--out', bad, **space)
             self.assertEqual(done.returncode, 2)
@@ -101,16 +101,16 @@ class Charts(unittest.TestCase):
 
     # What fails is named, the others are drawn.
     def test_benches_that_fail_do_not_stop_the_others(self):
-        self.bench('grass_rung_bench', 'echo out of grass; exit 3')
+        self.bench('grass_tile_bench', 'echo out of grass; exit 3')
         space = self.bench('influence_bench', 'printf "%s" > $FILE' % (LADDER.replace('\n', '\\n')))
         for depth in '12':
-            for rung in range(4):
-                self.bench_line('influence_bench', 'influence %s' % depth, rung)
+            for tier in range(4):
+                self.bench_line('influence_bench', 'influence %s' % depth, tier)
             self.bench_line('influence_bench', 'depth %s' % depth, 4)
             self.bench_line('influence_bench', 'all %s' % depth, 5)
         done = run(PROGRAM, '--only', 'grass_ladder,influence_ladder', '--out', self.out, **space)
         self.assertEqual(done.returncode, 1, done.stderr)
-        self.assertIn('grass_rung_bench', done.stderr)
+        self.assertIn('grass_tile_bench', done.stderr)
         self.assertIn('code 3: out of grass', done.stderr)
         self.assertIn('1 of 2 charts', done.stdout)
         self.assert_drawn('influence_ladder')
@@ -118,8 +118,8 @@ class Charts(unittest.TestCase):
 
     # Each waits for the other, so one after the other neither would end.
     def test_quick_benches_run_two_at_a_time(self):
-        for name, other in (('grass_rung_bench', 'influence_bench'),
-                            ('influence_bench', 'grass_rung_bench')):
+        for name, other in (('grass_tile_bench', 'influence_bench'),
+                            ('influence_bench', 'grass_tile_bench')):
             space = self.bench(name, 'touch %s/%s.begun\nfor i in $(seq 100); do [ -e %s/%s.begun ] '
                                '&& exit 7; sleep 0.1; done\nexit 8' %
                                (self.folder, name, self.folder, other))
@@ -132,7 +132,7 @@ class Charts(unittest.TestCase):
     def test_an_interrupt_ends_the_benches(self):
         told = self.folder / 'pids'
         os.mkfifo(told)
-        for name in ('grass_rung_bench', 'influence_bench', 'governor_bench'):
+        for name in ('grass_tile_bench', 'influence_bench', 'governor_bench'):
             space = self.bench(name, 'echo $$ > %s\nexec sleep 100' % told)
         process = subprocess.Popen(
             [str(PROGRAM), '--quick', '--only', 'grass_ladder,influence_ladder,governor', '--out',
@@ -147,10 +147,10 @@ class Charts(unittest.TestCase):
                 os.kill(pid, 0)
         self.assertFalse((self.out / 'governor.log').exists())
 
-    def bench_line(self, name, ladder, rung):
+    def bench_line(self, name, ladder, tier):
         with open(self.folder / 'space/lib/vegetation_sim' / name, 'a') as script:
-            script.write('\necho "%s,%d,0.1,%g,%g,%d" >> $FILE' % (ladder, rung, 1e-5 * (rung + 1),
-                                                                   0.5 ** rung, rung == 2))
+            script.write('\necho "%s,%d,0.1,%g,%g,%d" >> $FILE' % (ladder, tier, 1e-5 * (tier + 1),
+                                                                   0.5 ** tier, tier == 2))
 
     # Converged references outlive a run: the bench is told where to keep them, for each of its runs.
     def test_references_are_kept_beside_the_charts(self):
@@ -167,7 +167,7 @@ class Charts(unittest.TestCase):
         self.assertIn('--quick', (self.out / 'work_precision.log').read_text())
 
     def test_tables_of_another_form_are_refused(self):
-        space = self.bench('grass_rung_bench', 'echo a,b > $FILE; echo 1,2 >> $FILE')
+        space = self.bench('grass_tile_bench', 'echo a,b > $FILE; echo 1,2 >> $FILE')
         done = run(PROGRAM, '--only', 'grass_ladder', '--out', self.out, **space)
         self.assertEqual(done.returncode, 1)
         self.assertIn('its columns are "a,b", wanted are "' + LADDER.strip(), done.stderr)

@@ -5,7 +5,7 @@ bench/table.h's LADDER_COLUMNS."""
 from charting import style
 from charting.tables import groups
 
-COLUMNS = {'ladder': str, 'rung': float, 'setting': str, 'cost': float, 'error': float,
+COLUMNS = {'ladder': str, 'tier': float, 'setting': str, 'cost': float, 'error': float,
            'chosen': float}
 
 

@@ -12,7 +12,7 @@ def draw(rows):
                          for row in rows if row.ladder != 'tile'],
                  names={'arc': 'arc of constant length (default)',
                         'paper': "the paper's curve"}.get,
-                 setting=lambda row: '%g' % row.rung, left=True)
+                 setting=lambda row: '%g' % row.tier, left=True)
     style.label(blade, 'processor time of a blade [ns]',
                 'largest distance from the arc [% of its length]',
                 'segments of a blade bent by 1 rad, 5 near by and fewer far away')
@@ -33,4 +33,4 @@ def draw(rows):
 
 
 CHART = Chart('grass_ladder', 'error and cost of grass: segments, strips, blades',
-              'grass_rung_bench', ladders.COLUMNS, draw)
+              'grass_tile_bench', ladders.COLUMNS, draw)

@@ -33,7 +33,7 @@ def draw(rows):
 
 def label(row):
     if not row.ladder.startswith('influence'):
-        return '%d branches' % row.rung
+        return '%d branches' % row.tier
     return '%g mm' % (1e3 * float(row.setting))
 
 

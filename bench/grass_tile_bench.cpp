@@ -213,7 +213,7 @@ int main(int argc, char** argv) {
     using namespace vegetation_sim;
     grass::run(bench::readOptions(argc, argv, {"segments", "tiles"}));
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "grass_rung_bench: %s\n", error.what());
+    std::fprintf(stderr, "grass_tile_bench: %s\n", error.what());
     return 1;
   }
   return 0;
