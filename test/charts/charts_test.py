@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""charts: what it writes, what it refuses, what its drawings hold on to."""
+"""Tests the program charts: its files, its errors and its rules for drawing."""
 import os
 import pathlib
 import signal
@@ -34,7 +34,8 @@ def size_of(png):
 
 
 def hear_interrupts():
-    """As at a terminal: what a shell starts in the background ignores them."""
+    """Restores the default handler, because processes that a shell starts in the background ignore
+    the signal."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
@@ -46,7 +47,7 @@ class Charts(unittest.TestCase):
         self.out = self.folder / 'out'
 
     def bench(self, name, script):
-        """A space with a bench that does what the script says; $FILE is where the table goes."""
+        """Returns an environment whose bench runs `script`; $FILE is the path of the table."""
         program = self.folder / 'space/lib/vegetation_sim' / name
         program.parent.mkdir(parents=True, exist_ok=True)
         program.write_text('#!/bin/sh\nwhile [ "$1" != --csv ]; do shift; done\nFILE=$2\n' + script)
@@ -61,7 +62,7 @@ class Charts(unittest.TestCase):
         self.assertGreater(height, 250)
         self.assertIn('</svg>', (self.out / (name + '.svg')).read_text())
 
-    # N9: the real program and the real benches.
+    # N9: the test runs the real program and the real benches.
     def test_quick_charts_are_measured_and_drawn(self):
         done = run('rosrun', 'vegetation_sim', 'charts', '--quick', '--only',
                    'grass_ladder,stability_limits', '--out', self.out)
@@ -99,7 +100,7 @@ class Charts(unittest.TestCase):
             self.assertEqual(done.returncode, 2)
             self.assertIn('--out %s: ' % bad, done.stderr)
 
-    # What fails is named, the others are drawn.
+    # The program reports the bench that fails and draws the other charts.
     def test_benches_that_fail_do_not_stop_the_others(self):
         self.bench('grass_tile_bench', 'echo out of grass; exit 3')
         space = self.bench('influence_bench', 'printf "%s" > $FILE' % (LADDER.replace('\n', '\\n')))
@@ -116,7 +117,7 @@ class Charts(unittest.TestCase):
         self.assert_drawn('influence_ladder')
         self.assertFalse((self.out / 'grass_ladder.png').exists())
 
-    # Each waits for the other, so one after the other neither would end.
+    # Each bench waits for the other one, so neither would end if they ran one after the other.
     def test_quick_benches_run_two_at_a_time(self):
         for name, other in (('grass_tile_bench', 'influence_bench'),
                             ('influence_bench', 'grass_tile_bench')):
@@ -128,7 +129,7 @@ class Charts(unittest.TestCase):
         self.assertEqual(done.returncode, 1)
         self.assertEqual(done.stderr.count('ended with code 7'), 2, done.stderr)
 
-    # An interrupted run leaves no bench behind and no file of what it had not begun.
+    # After an interrupt no bench still runs, and no file of a chart exists that had not begun.
     def test_an_interrupt_ends_the_benches(self):
         told = self.folder / 'pids'
         os.mkfifo(told)
@@ -138,7 +139,7 @@ class Charts(unittest.TestCase):
             [str(PROGRAM), '--quick', '--only', 'grass_ladder,influence_ladder,governor', '--out',
              str(self.out)], env={**os.environ, **space}, stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL, preexec_fn=hear_interrupts)
-        with open(os.open(told, os.O_RDWR)) as pids:  # of two that run
+        with open(os.open(told, os.O_RDWR)) as pids:  # Only two benches run at a time.
             running = [int(pids.readline()) for _ in range(2)]
         process.send_signal(signal.SIGINT)
         self.assertEqual(process.wait(), 130)
@@ -152,7 +153,7 @@ class Charts(unittest.TestCase):
             script.write('\necho "%s,%d,0.1,%g,%g,%d" >> $FILE' % (ladder, tier, 1e-5 * (tier + 1),
                                                                    0.5 ** tier, tier == 2))
 
-    # Converged references outlive a run: the bench is told where to keep them, for each of its runs.
+    # Converged references are kept between runs: the bench gets their folder as an argument.
     def test_references_are_kept_beside_the_charts(self):
         space = self.folder / 'space/lib/vegetation_sim'
         space.mkdir(parents=True)
@@ -179,7 +180,7 @@ class Charts(unittest.TestCase):
             with self.assertRaisesRegex(Refused, wanted):
                 tables.read(path, columns)
 
-    # The figures that the documentation shows can be drawn anew by anybody.
+    # The tables in the documentation are sufficient to draw its figures again.
     def test_documented_tables_draw(self):
         self.out.mkdir()
         names = []

@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Holds the documentation against the code, both ways; prints each difference, exits 1 if there is one.
+"""Compares the documentation with the code in both directions. Prints each difference and exits
+with 1 if there is one.
 
 Code to documentation: parameters and YAML keys, topics, services, dynamic_reconfigure parameters,
-launch arguments, scenarios, messages and services by name must be mentioned between backticks in
-README.md or docs/; every message field must be explained in its message or there.
-Documentation to code: links, code and tests named must exist, so must every long_word_with_underscore
-that stands between backticks, and a range "A to B" in a table must be the declared one. Each scenario
-has its rviz configuration.
+launch arguments, scenarios, messages and services must be mentioned between backticks in README.md
+or docs/; every message field must be explained in its message or there.
+Documentation to code: links, code and tests that are named must exist, and so must every
+long_word_with_underscore between backticks. A range "A to B" in a table must be the declared range.
+Each scenario has its rviz configuration.
 """
 import pathlib
 import re
@@ -21,7 +22,7 @@ FIELD = r'(?<!checker)\.(?:number|integer|vector|choice|text|flag|seed|integers|
 TOPIC = r'(?:advertise|subscribe)(?:<[\w:]+>)?\(\s*"([\w/]+)"'
 SERVICE = r'advertiseService\(\s*"(\w+)"'
 KNOWN_TOOLS = {'catkin_make', 'catkin_tools', 'catkin_lint'}
-# Explained once for all messages, in the package's conventions.
+# The conventions of the package explain these fields once for all messages.
 KNOWN_FIELDS = {'header', 'success', 'message'}
 
 
@@ -47,7 +48,7 @@ DOCS = {name: text(name) for name in files(r'README\.md|docs/.*\.md')}
 
 
 def spans(body):
-    """What stands between backticks, blocks of code among it."""
+    """Yields the texts between backticks and the blocks of code."""
     return re.findall(r'```.*?```|`[^`\n]+`', body, re.S)
 
 
@@ -80,7 +81,7 @@ def check_declarations():
 def check_messages():
     for source in files(r'(msg|srv)/.*'):
         want(pathlib.Path(source).stem, 'type', source)
-        explained = False  # by a comment line above; it covers the fields that follow it
+        explained = False  # A comment line above explains the fields that follow it.
         for line in text(source).split('\n'):
             field = re.match(r'[\w/\[\]]+ +(\w+)(=\S+)? *(#.*)?$', line)
             if line.startswith('#'):
@@ -88,7 +89,7 @@ def check_messages():
             elif not field:
                 explained = False
             elif field.group(2):
-                continue  # a constant explains itself
+                continue  # A constant needs no explanation.
             elif not (explained or field.group(3) or field.group(1) in KNOWN_FIELDS | MENTIONED):
                 faults.append('%s: field %s is not explained' % (source, field.group(1)))
 
@@ -120,7 +121,8 @@ def check_words():
 
 
 def check_ranges():
-    """A row "| `name` | unit | A to B | ..." shows a range that the code declares for such a name."""
+    """A row "| `name` | unit | A to B | ..." must show a range that the code declares for that
+    name."""
     code = {name: text(name) for name in files(r'(src|include)/.*\.(cpp|h)')}
     constants = dict(c for body in code.values() for c in re.findall(r'Range (\w+)(\{.*?\});', body))
     declared = {}
@@ -139,7 +141,7 @@ def check_ranges():
 
 
 def check_rows():
-    """The table of rows names code and tests without folder and ending."""
+    """The table of rows names code and tests without folder and extension."""
     for line in DOCS.get('docs/papers.md', '').split('\n'):
         cells = line.split('|')
         if len(cells) < 6:
@@ -154,7 +156,7 @@ def check_rows():
 
 
 def check_imports():
-    """What scripts and tests import of ROS is declared in package.xml."""
+    """The ROS packages that scripts and tests import must be declared in package.xml."""
     declared = set(re.findall(r'<\w*depend>(\w+)</', text('package.xml')))
     for name in files(r'(scripts|test)/.*\.py'):
         for module in re.findall(r'^(?:import|from) (\w+)', text(name), re.M):

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""canopy_animator when the clock jumps back, leaps and stands; and its run replayed (N6)."""
+"""Tests canopy_animator while the clock jumps back, jumps ahead and stops, and replays its run
+(N6)."""
 import unittest
 
 import rospy
@@ -26,7 +27,7 @@ class CanopyClockTest(unittest.TestCase):
     def tearDown(self):
         self.leaves.close()
 
-    # N6: back by a second is a fresh start: what it would be had it begun then.
+    # N6: after a jump back by one second the node has the state of a node that starts at that time.
     def test_time_going_back_is_a_fresh_start(self):
         self.clock.begin(self.leaves)
         self.clock.run(2 * RATE, self.leaves)
@@ -48,15 +49,15 @@ class CanopyClockTest(unittest.TestCase):
         self.assertEqual(passes[0], passes[1])
 
     def go_back(self, tick):
-        """Stamp of the first state thereafter."""
+        """Returns the stamp of the first state after the jump."""
         self.clock.show(tick)
         self.leaves.state.wait(lambda all: all[-1].sequence == 1, 'a fresh start',
                                lambda: self.clock.show(tick))
         return self.leaves.state.messages[-1].header.stamp
 
-    # Recorded events, the wind and the clock give the same memory to the bit, though the replay has
-    # ticked for half a second, under another eye, when the run begins. By its name the first test:
-    # the run has not begun.
+    # Recorded events, the wind and the clock give the same state to the bit, although the replay
+    # has already ticked for half a second with another viewer when the run begins. This test must
+    # run first, before the clock starts; its name is the first in alphabetical order.
     def test_a_run_replays_from_its_first_tick(self):
         process = start_leaves('/replay/canopy_animator', {'wind': '/wind'}, replay=True,
                                scenario=scene('shrubs'), replay_delay=DELAY)
@@ -98,7 +99,7 @@ class CanopyClockTest(unittest.TestCase):
         return event
 
     def record(self, again, events):
-        """As a bag's player would, in time."""
+        """Publishes events in time, as the player of a bag does."""
         for event in events:
             self.recorded.publish(event)
         again.settle()

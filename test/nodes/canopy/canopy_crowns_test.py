@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Crowns of the forest's trees with leaves of the canopy: what is held takes its leaves along (S3-W2)."""
+"""Tests crowns with canopy leaves on trees of the forest: a branch that is held moves its leaves
+(S3-W2)."""
 import unittest
 
 import rospy
@@ -29,7 +30,7 @@ class CanopyCrowns(unittest.TestCase):
         self.clock.run(3, self.hands, self.leaves)
 
     def newest(self):
-        """Points of the leaves, once there are some."""
+        """Returns the points of the leaves as soon as there are some."""
         def drawn(all_markers):
             points = [vector(p) for p in all_markers[-1].markers[3].points] if all_markers else []
             return points if sum(size(p) > 0.0 for p in points) > 6000 else None
@@ -48,7 +49,7 @@ class CanopyCrowns(unittest.TestCase):
             return ways if max(ways[i] for i in near) > 0.08 else None
         ways = self.markers.wait(carried, 'leaves that go with the limb', self.run_all)
         still = sum(way < 0.02 for way in ways)
-        self.assertGreater(still, len(ways) // 4)  # other limbs have other leaves
+        self.assertGreater(still, len(ways) // 4)  # The leaves of other limbs do not move.
         self.assertLess(max(ways), 0.6)
 
 

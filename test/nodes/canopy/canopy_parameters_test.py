@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""canopy_animator refuses to start with bad parameters or a bad scenario, all faults at once."""
+"""canopy_animator must reject bad parameters and scenarios at startup and report all faults at
+once."""
 import rospy
 import rostest
 
 from refusing_node import Ranges, RefusingNode
 
-# parameter: unit, least, most
+# Each parameter with its unit, minimum and maximum.
 NUMBERS = {
     'markers_rate': (' Hz', 0.1, 60), 'tolerance': (' pixel', 0.01, 1000),
     'replay_delay': (' s', 0, 10), 'turbulence': ('', 0, 1),
@@ -25,7 +26,7 @@ WHOLE_NUMBERS = {
 }
 OTHERS = {'scenario', 'frame_id', 'viewer_id', 'viewer_frame', 'replay'}
 
-# What is wrong with a scenario: its text, what the refusal says.
+# Text of a bad scenario and the expected part of the error.
 SCENARIOS = [
     ('{canopies: 3}', 'canopies is not a known key'),
     ('{canopy: {fluids: {}}}', 'canopy: fluids is not a known key'),

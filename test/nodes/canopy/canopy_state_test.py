@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""What canopy_animator tells and answers: layout, state, events, markers, samples; what it refuses."""
+"""Tests the topics and services of canopy_animator: layout, state, events, markers, samples and
+errors."""
 import math
 import unittest
 
@@ -18,7 +19,7 @@ from waiting import wait_for
 from watched_node import Log, publisher
 
 NAN = float('nan')
-TOP = (0.0, 0.0, 1.6)  # of the nearer shrub
+TOP = (0.0, 0.0, 1.6)  # top of the nearer shrub
 
 
 class CanopyStateTest(unittest.TestCase):
@@ -33,7 +34,7 @@ class CanopyStateTest(unittest.TestCase):
     def test_nothing_is_sampled_before_time_begins(self):
         self.assertEqual(self.early, 'no tick yet: the clock has not started')
 
-    # S3-12, S3-24: leaves follow the wind on the air, the foot stands.
+    # S3-12, S3-24: leaves follow the published wind and the foot does not move.
     def test_leaves_follow_the_wind_and_the_foot_stands(self):
         top, foot = self.leaves.samples(TOP, (0.0, 0.0, 0.0)).samples
         self.assertGreater(top.wind.y, 1.0)
@@ -41,7 +42,7 @@ class CanopyStateTest(unittest.TestCase):
         self.assertEqual((foot.displacement.x, foot.displacement.y, foot.displacement.z), (0, 0, 0))
         self.assertEqual((top.plant, self.leaves.at(2.2, 0.3, 1.0).plant), (0, 1))
 
-    # S3-05: the layers of the only region, the nearest first.
+    # S3-05: the layers of the only region are numbered from the nearest one.
     def test_layers_are_counted_from_the_viewer(self):
         answer = self.leaves.samples((-0.9, 0.0, 1.0), (2.9, 0.3, 1.0))
         self.assertEqual(answer.layers, 3)
@@ -54,12 +55,12 @@ class CanopyStateTest(unittest.TestCase):
         self.assertEqual((len(last.right), len(last.up)), (32 * 32, 32 * 32))
         self.assertEqual(last.layout_hash, self.leaves.layout.messages[-1].hash)
         mean = sum(half(bits) for bits in last.right) / 1024
-        self.assertLess(mean, -1.0)  # north is to the left of who looks east
+        self.assertLess(mean, -1.0)  # North is to the left of a camera that faces east.
         self.assertEqual(last.header.frame_id, 'map')
         told = [m for m in self.leaves.state.messages if m.hash]
         self.assertGreaterEqual(len(told), 3)
 
-    # Constant size, so that rviz updates in place; the budget holds.
+    # The lists have a constant size, so that rviz updates them in place, and they keep the budget.
     def test_markers_keep_their_size_and_move(self):
         log = Log('/canopy/markers', MarkerArray)
         log.wait(lambda all: len(all) >= 3, 'markers',
@@ -74,9 +75,10 @@ class CanopyStateTest(unittest.TestCase):
                  for a, b in zip(first.markers[0].points, last.markers[0].points)]
         self.assertGreater(max(moved), 1e-3)
         self.assertLess(max(moved), 1.0)
-        self.assertEqual(first.markers[1].points, last.markers[1].points)  # S3-02: stems stand
+        # S3-02: stems do not move.
+        self.assertEqual(first.markers[1].points, last.markers[1].points)
 
-    # N7: two shrubs of 200 leaves near by: all of them, within 6 000 points.
+    # N7: two near shrubs of 200 leaves are drawn completely within 6 000 points.
     def test_governor_tells_what_it_drew_and_why(self):
         log = Log('/canopy/markers', MarkerArray)
         log.wait(len, 'markers', lambda: self.clock.run(3, self.leaves))
@@ -90,12 +92,12 @@ class CanopyStateTest(unittest.TestCase):
         self.assertEqual(values['Plants: with 100 % of their leaves'], 2)
 
     def expect_viewer(self, fits):
-        """The newest event of a viewer is, or comes to be, one that fits."""
+        """Waits until the newest viewer event fulfils `fits`."""
         self.leaves.events.wait(
             lambda all: any(map(fits, [e for e in all if e.kind == CanopyEvent.VIEWER][-1:])),
             'a viewer')
 
-    # S3-04, S3-W8: layers are cut for one viewer; others are counted and left alone.
+    # S3-04, S3-W8: layers are cut for one viewer; other viewers are counted but have no effect.
     def test_layers_are_cut_for_one_viewer(self):
         one, other = Eye('one'), Eye('other')
         one.look(1.0, 0.0, 1.5, self.leaves)
@@ -105,18 +107,19 @@ class CanopyStateTest(unittest.TestCase):
         self.expect_viewer(lambda event: event.eye.position.x == 1.0)
         self.assertEqual(self.leaves.state.messages[-1].eye.position.x, 1.0)
         self.assertGreater(self.leaves.diagnostics()['Messages of other viewers'], 0)
-        self.clock.run(4 * RATE, self.leaves)  # silent: forgotten, the plane's own camera looks
+        # The silent viewer expires, and the plane's own camera is used.
+        self.clock.run(4 * RATE, self.leaves)
         self.expect_viewer(lambda event: event.gone)
         self.assertEqual(self.leaves.state.messages[-1].eye.position.x, -5.0)
         one.close(), other.close()
 
-    # S3-13, S3-29: a wind of its own from one side, live.
+    # S3-13, S3-29: wind from one side can be set while the node runs.
     def test_a_side_wind_can_be_set_live(self):
         server = Client('/canopy_animator', timeout=30)
         layouts = len(self.leaves.layout.messages)
         server.update_configuration({'law_gain': 0.0, 'rightward': 8.0, 'near_layers': 5})
         self.clock.run(5 * RATE, self.leaves)
-        self.assertLess(self.leaves.at(*TOP).displacement.y, -0.01)  # to the right is south
+        self.assertLess(self.leaves.at(*TOP).displacement.y, -0.01)  # South is to the right.
         self.assertEqual(self.leaves.samples(TOP).layers, 5)
         wait_for(lambda: len(self.leaves.layout.messages) > layouts, 'another layout')
         self.assertEqual(self.leaves.layout.messages[-1].hash,

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""agent_crowd refuses to start with bad parameters or a bad scenario, all faults at once."""
+"""agent_crowd must reject bad parameters and scenarios at startup and report all faults at once."""
 import rospy
 import rostest
 
 from refusing_node import NAN, RefusingNode
 
-# parameter: bad value, what the refusal says
+# Each parameter with a bad value and the expected part of the error.
 BAD = {
     'state_rate': (0, 'state_rate = 0 Hz is outside 1 to 240'),
     'markers_rate': (NAN, 'markers_rate = nan'),

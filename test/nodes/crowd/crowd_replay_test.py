@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""The events of a run, replayed, give the same hashes (N6), whatever is asked of it meanwhile."""
+"""The replayed events of a run give the same hashes (N6), whatever requests the run has
+received."""
 import unittest
 
 import rospy
@@ -16,7 +17,7 @@ from forest_rig import TickClock, time_of
 from waiting import wait_for
 from watched_node import listens, publisher
 
-START = 1700000000 * 30  # Unix time, where a float second has no fraction left
+START = 1700000000 * 30  # Unix time, at which single precision has no fraction of a second left
 
 
 class CrowdReplay(unittest.TestCase):
@@ -43,7 +44,8 @@ class CrowdReplay(unittest.TestCase):
             crowd.settle()
 
     def run_ticks(self, count):
-        """Each only after the replay has heard the events of the one before."""
+        """Runs single ticks; before each one the replay has received the events of the previous
+        tick."""
         for _ in range(count):
             self.clock.run(1, self.crowd)
             self.again.settle()
@@ -66,7 +68,7 @@ class CrowdReplay(unittest.TestCase):
         self.assertTrue(crowd.remove(ids=[2]).success)
         self.run_ticks(30)
         end = time_of(clock.tick)
-        self.run_ticks(16)  # the replay is half a second behind
+        self.run_ticks(16)  # The replay runs half a second behind.
         self.again.state.wait(lambda all: any(m.header.stamp == end for m in all), 'the end',
                               lambda: clock.show(clock.tick))
         for kind in (CrowdEvent.SPAWN, CrowdEvent.REMOVE, CrowdEvent.GOAL, CrowdEvent.ROBOT,

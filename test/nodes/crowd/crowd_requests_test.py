@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""S2-30, S2-36 and part 4's crowd list, as users of the node see them."""
+"""Tests S2-30, S2-36 and the requirements of part 4 for the crowd through the interface of the
+node."""
 import unittest
 
 import rospy
@@ -40,7 +41,7 @@ class CrowdRequests(unittest.TestCase):
         self.clock.run(60, self.crowd)
         after = self.crowd.agents()
         moved = [distance(before[i].pose.position, after[i].pose.position) for i in before]
-        self.assertGreater(sum(moved) / 8, 0.8)  # of 2 s
+        self.assertGreater(sum(moved) / 8, 0.8)  # in 2 s
         for a in after.values():
             self.assertLess(max(abs(a.pose.position.x), abs(a.pose.position.y)), 8.7)
             for b in after.values():
@@ -48,7 +49,7 @@ class CrowdRequests(unittest.TestCase):
                     self.assertGreater(distance(a.pose.position, b.pose.position), 0.5 - 1e-6)
         prints = [t for t in self.crowd.tread.messages if t.action == TreadEvent.STROKE]
         self.assertGreater(len(prints), 16)
-        for t in prints:  # from heel to ball
+        for t in prints:  # A footprint extends from heel to ball.
             self.assertTrue(0.15 < distance(t.start, t.position) < 0.3)
 
     def test_2_spawns_sends_and_removes(self):
@@ -90,7 +91,8 @@ class CrowdRequests(unittest.TestCase):
         self.assertEqual(crowd.state.messages[-1].hash, hash_before)
 
     def robot_near(self, x, y):
-        """As the crowd tells it, a tick behind tf at most: others pass until it does."""
+        """Returns the robot as the crowd reports it. The crowd may be one tick behind tf, so ticks
+        pass until it arrives."""
         def newest(events):
             robots = [e.robot for e in events if e.kind == CrowdEvent.ROBOT][-1:]
             return robots and distance(robots[0].position, at(x, y)) < 0.06 and robots[0]
@@ -111,7 +113,7 @@ class CrowdRequests(unittest.TestCase):
                     gap = distance(agent.pose.position, robot.position) - 0.5 - agent.radius
                     nearest = min(nearest, gap)
         self.assertGreater(nearest, -1e-6)
-        self.clock.run(40, self.crowd)  # tf falls silent
+        self.clock.run(40, self.crowd)  # The frame is no longer published.
         self.crowd.expect_event(CrowdEvent.REMOVE_ROBOT)
         cart.put(float('nan'), 0.0, time_of(self.clock.tick))
         self.clock.run(3, self.crowd)
@@ -132,7 +134,7 @@ class CrowdRequests(unittest.TestCase):
                   for m in log.messages]
         log.close()
         self.assertEqual({len(r) for r in rounds if r}, {3})
-        self.clock.run(40, self.crowd)  # tf falls silent
+        self.clock.run(40, self.crowd)  # The frame is no longer published.
         self.crowd.expect_event(CrowdEvent.REMOVE_ROBOT, lambda e: e.header.stamp > began)
 
     def test_5_governor_tells_what_it_drew_and_why(self):  # N7
@@ -140,13 +142,15 @@ class CrowdRequests(unittest.TestCase):
         markers.wait(len, 'people', lambda: self.clock.run(1, self.crowd))
         values = self.crowd.diagnostics('governor')
         markers.close()
-        self.assertEqual(values['Walkers: of 10 facets'], 8)  # nobody looks: all alike
+        # Without a viewer all walkers have the same level.
+        self.assertEqual(values['Walkers: of 10 facets'], 8)
         self.assertEqual(values['Walkers that the budget holds back'], 0)
         self.assertEqual(values['Cost [points]'], values['Marker points'])
         self.assertLessEqual(values['Cost [points]'], values['Budget [points]'])
         self.assertEqual(values['tf frames'], 3)
 
-    # Ids that were told are kept, and those to come count, though a reset comes between.
+    # A reset keeps the ids that were returned before, and walkers with a future stamp count towards
+    # the limit.
     def test_6_walkers_to_come_have_their_ids_and_room(self):
         later = Header(stamp=time_of(self.clock.tick + 60))
         first = self.crowd.spawn(header=later, like=AgentSpawn(position=at(5, 6)), count=30, spread=2.0)

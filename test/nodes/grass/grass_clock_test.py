@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""grass_field under a clock that waits, stands, runs, jumps back and jumps ahead (N6, S2-28)."""
+"""Tests grass_field while the clock waits, stops, runs, jumps back and jumps ahead (N6, S2-28)."""
 import unittest
 
 import rospy
@@ -10,7 +10,7 @@ import rostest
 from forest_rig import TickClock, scene, stop
 from grass_rig import FULL, RATE, Feet, Meadow, nodes_of, start_meadow, time_of
 
-START = 1700000000 * RATE  # Unix time, where a float second has no fraction left
+START = 1700000000 * RATE  # Unix time, at which single precision has no fraction of a second left
 
 
 class GrassClock(unittest.TestCase):
@@ -39,7 +39,7 @@ class GrassClock(unittest.TestCase):
         self.clock.run(1, self.grass)
         self.assertLess(self.grass.at(1.0, 0.0).tilt, held.tilt)
 
-    # After the jump: the hashes of a node that was started only then, given the same inputs.
+    # After the jump the hashes are those of a node that starts at that time with the same inputs.
     def test_ten_seconds_back_is_a_fresh_start(self):
         self.feet.walk(self.clock, 'a', (0.0, 5.0), (8.0, 5.0), 10 * RATE)
         self.assertGreater(self.grass.at(4.0, 5.0).tilt, 1.0)
@@ -72,7 +72,7 @@ class GrassClock(unittest.TestCase):
         self.clock.show(before + 30 * RATE)
         self.grass.state.wait_for_stamp(time_of(self.clock.tick))
         self.assertEqual(self.grass.diagnostics()['Ticks dropped'], dropped + 30 * RATE - 1)
-        s = (pressed.age + 30.0) / 60.0  # of the recovery
+        s = (pressed.age + 30.0) / 60.0  # share of the recovery time that has passed
         risen = FULL * (1.0 - s * s * (3.0 - 2.0 * s))
         self.assertAlmostEqual(self.grass.at(-7.0, -5.0).tilt, risen, delta=0.02)
 

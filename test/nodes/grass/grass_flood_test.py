@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""grass_field under more treads than there is room for: bounded, counted, and it goes on."""
+"""grass_field bounds and counts its inputs when it receives more treads than it accepts, and
+continues."""
 import unittest
 
 import rospy
@@ -10,7 +11,7 @@ import rostest
 from forest_rig import TickClock, memory_of
 from grass_rig import FULL, RATE, Feet, Meadow, step
 
-ROOM = 10000  # inputs that may wait for a tick
+ROOM = 10000  # limit of the inputs that may wait for a tick
 PER_SECOND = 10000
 
 
@@ -24,12 +25,14 @@ class GrassFlood(unittest.TestCase):
         cls.clock.run(1, cls.grass)
 
     def flood(self, count, prefix='s'):
-        """Many sources, each a step further; only now and then waits until they have been heard."""
+        """Sends steps of many sources and waits only after every 500 steps until they have been
+        received."""
         for first in range(0, count, 500):
             self.feet.send(*[step('%s%d' % (prefix, i % 100), -15.0 + 0.3 * (i % 100),
                                   -15.0 + 0.01 * (i // 100)) for i in range(first, first + 500)])
 
-    # Nothing is taken while the clock stands: what finds no room is dropped and counted.
+    # No input is applied while the clock stops. The inputs beyond the limit are dropped and
+    # counted.
     def test_1_what_finds_no_room_is_counted(self):
         self.flood(3 * ROOM)
         values = self.grass.diagnostics()
@@ -38,7 +41,7 @@ class GrassFlood(unittest.TestCase):
         self.clock.run(1, self.grass)
         self.assertEqual(self.grass.diagnostics()['Inputs taken'], before + ROOM)
 
-    # 10 000 events in each second of ROS time: all are taken, memory stays where it is.
+    # With 10 000 events per second of ROS time all events are applied, and memory does not grow.
     def test_2_ten_thousand_a_second_are_taken(self):
         lost = self.grass.diagnostics()['Inputs lost']
         self.flood(PER_SECOND // RATE * 10)
@@ -61,7 +64,7 @@ class GrassFlood(unittest.TestCase):
         values = self.grass.diagnostics()
         self.assertEqual(values['Sources'], 4096)
         self.assertGreaterEqual(values['Inputs refused'], refused + 5000 - 4096)
-        self.clock.run(4 * RATE, self.grass)  # longer than the lease of a source
+        self.clock.run(4 * RATE, self.grass)  # This is longer than the lease of a source.
         self.assertEqual(self.grass.diagnostics()['Sources'], 0)
         self.feet.send(step('late', 10.0, 10.0))
         self.clock.run(1, self.grass)

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""grass_field refuses to start with bad parameters or a bad scenario, all faults at once."""
+"""grass_field must reject bad parameters and scenarios at startup and report all faults at once."""
 import rospy
 import rostest
 
 from refusing_node import Ranges, RefusingNode
 
-# parameter: unit, least, most
+# Each parameter with its unit, minimum and maximum.
 NUMBERS = {
     'key_frame_period': (' s', 0.05, 60), 'markers_rate': (' Hz', 0.1, 60),
     'cover_rate': (' Hz', 0.1, 60), 'cover_resolution': (' m', 0.02, 100),
@@ -23,7 +23,7 @@ WHOLE_NUMBERS = {
 }
 OTHERS = {'scenario', 'frame_id', 'viewer_frame', 'replay', 'cover_layer', 'sources'}
 
-# What is wrong with a scenario: its text, what the refusal says.
+# Text of a bad scenario and the expected part of the error.
 SCENARIOS = [
     ('{grasses: 3}', 'grasses is not a known key; known are frame_id, seed, terrain'),
     ('{grass: {densty: 3}}', 'grass: densty is not a known key'),
@@ -40,7 +40,7 @@ SCENARIOS = [
     ('{terrain: nowhere.yaml, grass: {}}', '/nowhere.yaml: cannot be read'),
     ('{grass', 'not YAML'),
 ]
-# Likewise of the list of sources.
+# A bad list of sources and the expected part of the error.
 SOURCES = [
     ([{'radius': 0.2}], 'needs either frame or odometry'),
     ([{'frame': 'a', 'odometry': 'b'}], 'needs either frame or odometry'),
@@ -84,7 +84,7 @@ class GrassParameters(Ranges, RefusingNode):
             self.expect_scenario_refused(scenario, words, [('colour.png', COLOUR_PICTURE)])
 
 
-# One red pixel: a picture of the wrong kind.
+# The image has one red pixel and is not greyscale.
 COLOUR_PICTURE = bytes.fromhex(
     '89504e470d0a1a0a0000000d4948445200000001000000010802000000907753de0000000c49444154789c63'
     'f8cfc0000003010100c9fe92ef0000000049454e44ae426082')

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""A bag of grass/events and the clock replays the run, without tf and services (N6)."""
+"""A bag of grass/events and the clock replays the run without tf and services (N6)."""
 import math
 import os
 import subprocess
@@ -24,10 +24,11 @@ from waiting import wait_for
 from watched_node import listens, publisher, wait_for_readers
 
 SECONDS = 20
-TAIL = 3  # [s] recorded but not compared: a recorder that is stopped loses what is on its way
+# [s] recorded but not compared, because a recorder that is stopped loses messages in transit
+TAIL = 3
 TOPICS = ['/clock', '/grass/events']
-SPEED = 2  # of the replay over real time; a busy machine must keep up
-DELAY = 10.0  # [s] that events have to arrive in
+SPEED = 2  # rate of the replay relative to wall time; a busy machine must keep up
+DELAY = 10.0  # [s] of simulated time by which the replay runs behind its events
 
 
 class GrassReplay(unittest.TestCase):
@@ -39,7 +40,7 @@ class GrassReplay(unittest.TestCase):
         self.folder.cleanup()
 
     def drive(self, tick):
-        """A wheel on a circle, a walker, and now and then a request."""
+        """Moves a wheel on a circle and a walker, and sends a few requests."""
         frame = TransformStamped(child_frame_id='wheel')
         frame.header.frame_id, frame.header.stamp = 'map', time_of(self.clock.tick + 1)
         angle = 0.8 * tick / RATE
@@ -62,7 +63,7 @@ class GrassReplay(unittest.TestCase):
         self.assertTrue(answer.success, answer.message)
 
     def live_run(self):
-        """Its hashes by stamp."""
+        """Records a run. Returns its hashes by stamp."""
         self.grass, self.clock = Meadow(), TickClock(1000 * RATE)
         self.grass.wait_until_up()
         self.tf, self.feet = publisher('/tf', TFMessage), Feet(self.grass)
@@ -84,7 +85,7 @@ class GrassReplay(unittest.TestCase):
         return hashes
 
     def replay(self, last):
-        """Another node hears the bag only."""
+        """Runs another node that receives only the bag."""
         process = start_meadow('/replay/grass_field', {}, scenario=scene('lawn'), replay=True,
                                replay_delay=DELAY, key_frame_period=0.2)
         try:
@@ -96,7 +97,7 @@ class GrassReplay(unittest.TestCase):
             subprocess.run(['rosbag', 'play', '-q', '--clock', '-r', str(SPEED), '-d', '1', self.bag,
                             '--topics', '/grass/events', '/grass/events:=/replay/grass/events'],
                            check=True, timeout=100, stdout=subprocess.DEVNULL)
-            # The bag's clock ended before the delay: on from where it was.
+            # The clock of the bag ends before the delay has passed, so the test continues it.
             end = tick_after(self.bag, ['/grass/events'])
             for tick in range(1, int((DELAY + 1) * RATE)):
                 self.clock.show(end + tick)

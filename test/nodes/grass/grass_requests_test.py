@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Services of grass_field, and inputs that it refuses by name, unchanged."""
+"""Tests the services of grass_field. Bad inputs are rejected with an error that names the field and
+have no effect."""
 import unittest
 
 import rospy
@@ -33,7 +34,8 @@ class GrassRequests(unittest.TestCase):
         cls.feet = Feet(cls.grass)
         cls.clock.run(1, cls.grass)
 
-    # N7: nobody looks, so an eye above the lawn does; it would see far more blades than there may be.
+    # N7: without a viewer the default viewer above the lawn is used, whose demand exceeds the
+    # budget of blades.
     def test_governor_tells_what_it_drew_and_why(self):
         log = Log('/grass/markers', MarkerArray)
         log.wait(len, 'markers', lambda: self.clock.run(3, self.grass))
@@ -56,7 +58,7 @@ class GrassRequests(unittest.TestCase):
         return answer
 
     def ground(self):
-        """All that is trodden."""
+        """Returns the state of all trodden blocks."""
         self.grass.state.wait_for_stamp(time_of(self.clock.tick))
         while not self.grass.state.messages[-1].key_frame:
             self.clock.run(1, self.grass)
@@ -65,7 +67,7 @@ class GrassRequests(unittest.TestCase):
     def test_nothing_is_sampled_before_time_begins(self):
         self.assertEqual(self.early, 'no tick yet: the clock has not started')
 
-    # S2-21, S2-22: a path of any length at one tick, by a law of its own.
+    # S2-21, S2-22: a path of any length is applied at one tick with its own tread law.
     def test_a_path_is_trodden_at_one_tick(self):
         answer = self.call(self.grass.tread, points=points((-15, 10), (15, 10), (15, 12)),
                            law=TreadLaw(radius=0.3, recovery=1e9))
@@ -79,7 +81,7 @@ class GrassRequests(unittest.TestCase):
         self.assertEqual(len(stamps), 1)
         self.assertEqual(self.grass.diagnostics()['Jumps of sources'], 0)
 
-    # S2-21: one point is a footprint.
+    # S2-21: a single point is a footprint.
     def test_a_single_point_is_a_footprint(self):
         self.call(self.grass.tread, points=points((-10, -10)), law=TreadLaw(recovery=1e9))
         self.assertGreater(self.grass.at(-10.0, -10.05).tilt, FULL - 1e-6)
@@ -94,7 +96,7 @@ class GrassRequests(unittest.TestCase):
         self.clock.run(1, self.grass)
         self.assertGreater(self.grass.at(-10.0, -14.0).tilt, FULL - 1e-6)
 
-    # S2-02, S2-04: the features of the map; twice as dense in the east.
+    # S2-02, S2-04: a sample has the features of the map, which is twice as dense in the east.
     def test_a_sample_tells_all_of_a_place(self):
         west, east, outside = self.grass.samples([(-10.0, 5.0), (10.0, 5.0), (25.0, 0.0)])
         self.assertAlmostEqual(west.density, 800 * 128 / 255, places=6)
@@ -163,7 +165,7 @@ class GrassRequests(unittest.TestCase):
                  'the past is not kept')):
             self.assertIn(text, self.grass.refusal(**request).replace('-nan', 'nan'))
 
-    # Each by name in the log and the diagnostics; nothing changes.
+    # Log and diagnostics name each rejected input; the state does not change.
     def test_bad_treads_are_refused_and_counted(self):
         before, refused = self.ground(), self.grass.diagnostics()['Inputs refused']
         good = step('x', 1.0, 1.0)
@@ -181,7 +183,7 @@ class GrassRequests(unittest.TestCase):
         self.clock.run(1, self.grass)
         self.assertNotEqual(self.ground(), before)
 
-    # A zero-length step is none; one that is longer than any source can go leaves no track.
+    # A step of length zero has no effect. A step that is longer than the limit leaves no track.
     def test_zero_length_and_teleporting_steps(self):
         self.feet.walk(self.clock, 'robot', (-9.0, 15.0), (-7.0, 15.0), RATE)
         held = self.grass.at(-7.0, 15.0).tilt

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""The scenarios of the meadow, as the demo starts them but for rviz: the rolling stone (S2-29) and the
-robot leave tracks."""
+"""Runs the meadow scenarios of the demo without rviz: the rolling stone (S2-29) and the robot leave
+tracks."""
 import math
 import signal
 import subprocess
@@ -47,10 +47,11 @@ class GrassScenarios(unittest.TestCase):
             if condition():
                 return
             self.clock.run(1, self.meadow)
-            pace.wait(0.5 / RATE)  # the others are no faster than this
+            pace.wait(0.5 / RATE)  # The other nodes are no faster than this.
         self.fail('60 s passed without ' + what)
 
-    # S2-29: along the way of the stone grass is down, beside it grass stands; a tornado blows.
+    # S2-29: the grass lies flat on the path of the stone and stands beside it, while a tornado
+    # blows.
     def test_a_stone_rolls_through_the_meadow(self):
         self.start('meadow')
         self.run_until(lambda: len(self.meadow.entered('stone')) > 5, 'a rolling stone')

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Sources that grass_field finds by itself, from parameters alone: tf frames and odometry (N4); the
-drag on them (N3); the air below one that hovers (N11)."""
+"""Tests sources that grass_field reads from tf frames and odometry with parameters only (N4), the
+drag on them (N3), and the downwash below a hovering source (N11)."""
 import math
 import unittest
 
@@ -43,7 +43,8 @@ class GrassSources(unittest.TestCase):
         return out
 
     def fly(self, ticks, *frames_at):
-        """Sends the frames that each function gives for the part of the way, tick by tick."""
+        """Publishes one frame per function and tick; a function gets the completed share of the
+        path."""
         for i in range(ticks + 1):
             self.tf.publish(TFMessage([self.frame(*f(i / ticks)) for f in frames_at]))
             self.grass.settle()
@@ -55,26 +56,29 @@ class GrassSources(unittest.TestCase):
             (w.wrench for w in reversed(all) if w.header.frame_id == frame and
              w.header.stamp == stamp), None), 'the drag on ' + frame)
 
-    # N4: as wide as the wheels, and nothing between them.
+    # N4: each track is as wide as its wheel, and the grass between the wheels stands.
     def test_wheels_leave_two_tracks_of_their_width(self):
         self.fly(3 * RATE, lambda s: ('wheel_left', -6.0 + 4.0 * s, 3.0, 0.1),
                  lambda s: ('wheel_right', -6.0 + 4.0 * s, 2.0, 0.1))
         for y, low, high in ((3.0, 1.4, 1.6), (3.12, 1.4, 1.6), (2.0, 1.4, 1.6), (1.88, 1.4, 1.6),
                              (2.5, 0.0, 0.0), (3.5, 0.0, 0.0), (3.3, 0.0, 0.6)):
             self.assertTrue(low <= self.grass.at(-4.0, y).tilt <= high, (y, self.grass.at(-4.0, y).tilt))
-        # Left of the track it is pressed to the left and forward, to the right on the other side.
+        # Grass left of the track's middle is pressed to the left and forward, and on the right to
+        # the right.
         self.assertGreater(self.grass.at(-4.0, 3.1).direction.y, 0.6)
         self.assertLess(self.grass.at(-4.0, 2.9).direction.y, -0.6)
         self.assertGreater(self.grass.at(-4.0, 2.9).direction.x, 0.6)
 
     def test_an_offset_and_a_gate_of_its_own(self):
         self.fly(RATE, lambda s: ('mower', 2.0, 8.0 + s, 0.25, math.pi / 2))
-        self.assertGreater(self.grass.at(2.4, 9.0).tilt, 1.4)  # 0.5 m ahead, 0.05 m up: down
+        # The offset is 0.5 m ahead and 0.05 m up.
+        self.assertGreater(self.grass.at(2.4, 9.0).tilt, 1.4)
         self.assertEqual(self.grass.at(2.0, 6.5).tilt, 0.0)
         self.fly(RATE, lambda s: ('mower', 6.0, 8.0 + s, 0.35, math.pi / 2))
         self.assertEqual(self.grass.at(6.0, 9.0).tilt, 0.0)
 
-    # N3: against the motion in the frame's own axes, with density and speed; none above the gate.
+    # N3: drag points against the motion in the axes of the frame, grows with density and speed, and
+    # is zero above the gate.
     def test_drag_on_a_wheel(self):
         def pull(x, speed, yaw=0.0, z=0.1):
             self.grass.clear()
@@ -107,7 +111,8 @@ class GrassSources(unittest.TestCase):
         self.assertAlmostEqual(self.last_wrench('base_link').force.x, -0.4 * 0.2 * 800.0 * 0.3 * 3.0,
                                delta=0.5)
 
-    # N4: what tf tells no more has left; it comes down where it is told again.
+    # N4: a source whose frame is silent is removed. When the frame returns, the source starts
+    # there.
     def test_a_silent_frame_has_left(self):
         self.fly(RATE // 2, lambda s: ('wheel_right', -14.0 + 0.5 * s, 12.0, 0.0))
         self.clock.run(2 * RATE, self.grass)
@@ -119,7 +124,8 @@ class GrassSources(unittest.TestCase):
         self.assertEqual(self.grass.at(-12.8, 12.0).tilt, 0.0)
         self.assertGreater(self.grass.at(-11.8, 12.0).tilt, 1.4)
 
-    # N11: no track, and grass that bends outward all around and follows.
+    # N11: grass below a hovering drone bends outward in all directions, follows the drone and keeps
+    # no track.
     def test_a_hovering_drone_bends_grass_outward_and_leaves_no_track(self):
         blast = WindPrimitive(name='rotor', kind=WindPrimitive.BLAST, radius=5.0, core_radius=0.8,
                               speed=15.0, fade_in=0.2, fade_out=0.2, attached_frame='drone')
@@ -143,11 +149,11 @@ class GrassSources(unittest.TestCase):
         left = self.grass.at(-4.0 + 1.2, 14.0).bend
         self.assertLess(math.hypot(left.x, left.y), 1e-3)
         self.assertEqual(self.grass.at(1.0, 14.0).tilt, 0.0)
-        # Where it lands, it treads.
+        # A drone that lands treads the grass.
         self.fly(RATE, lambda s: ('drone', 6.0, 14.0, 1.0 - s))
         self.assertGreater(self.grass.at(6.0, 14.2).tilt, 1.4)
 
-    # A tread on the topic in a frame that tf knows, with a body that feels it.
+    # A tread on the topic may be in any known tf frame, and body_frame receives its drag.
     def test_a_tread_in_another_frame(self):
         self.fly(3, lambda s: ('cart_base', 10.0, 10.0, 0.0, math.pi / 2))
         feet = Feet(self.grass)

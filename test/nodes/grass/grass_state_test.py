@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""What grass_field tells: layout, trodden ground, events, cover map, markers; program and nodelet."""
+"""Tests the topics of grass_field: layout, trodden ground, events, cover map and markers, as
+program and as nodelet."""
 import unittest
 
 import rospy
@@ -34,7 +35,7 @@ class GrassState(unittest.TestCase):
         self.clock.run(ticks, self.grass, self.twin)
 
     def fresh_covers(self, logs):
-        """The first maps that were made after now, all at once."""
+        """Returns the first maps with a stamp after now, one of each log."""
         now = time_of(self.clock.tick)
 
         def first(log):
@@ -48,7 +49,7 @@ class GrassState(unittest.TestCase):
         self.assertEqual(len({m.header.stamp for m in maps.values()}), 1)
         return maps
 
-    # S2-03, S2-W2: the whole meadow, pictures and species, in one latched message.
+    # S2-03, S2-W2: one latched message has the whole meadow with images and species.
     def test_the_layout_holds_the_meadow(self):
         layout = self.grass.layout.wait(lambda all: all and all[-1], 'the layout')
         self.assertEqual(layout.header.frame_id, 'map')
@@ -60,7 +61,7 @@ class GrassState(unittest.TestCase):
         self.assertEqual(layout.hash, twin.hash)
         self.assertEqual(layout.hash, self.grass.state.messages[-1].layout_hash)
 
-    # S2-22, S2-28, N6: key frames and deltas say the same; program and nodelet too.
+    # S2-22, S2-28, N6: key frames and deltas give the same state, and so do program and nodelet.
     def test_deltas_add_up_to_the_next_key_frame(self):
         self.feet.walk(self.clock, 'a', (-8.0, -5.0), (-3.0, -4.0), 3 * RATE, self.twin)
         messages = self.grass.state.messages
@@ -87,7 +88,7 @@ class GrassState(unittest.TestCase):
         self.assertEqual([ours[s] for s in common], [theirs[s] for s in common])
         self.assertGreater(len(set(ours.values())), 1)
 
-    # S2-28: closed form of the stamps, at any stamp that is asked for.
+    # S2-28: at any requested stamp the recovery follows the closed form of the tread's stamps.
     def test_grass_rises_again_in_ros_time(self):
         self.feet.walk(self.clock, 'b', (2.0, 2.0), (4.0, 2.0), RATE, law={'recovery': 20.0})
         self.feet.send(step('b', 0.0, 0.0, action=TreadEvent.LIFT))
@@ -99,7 +100,7 @@ class GrassState(unittest.TestCase):
                 continue
             self.assertAlmostEqual(self.grass.at(3.0, 2.0, stamp).tilt, FULL * share, delta=2e-3)
 
-    # N4: who came to which tile, and all that was accepted.
+    # N4: events report which source entered which tile, and every accepted input.
     def test_events_tell_who_came_where(self):
         self.feet.walk(self.clock, 'mower', (-19.0, 9.0), (-13.0, 9.0), 2 * RATE)
 
@@ -110,11 +111,11 @@ class GrassState(unittest.TestCase):
         self.assertEqual(self.grass.entered('mower'), [(0, 14), (1, 14), (2, 14), (3, 14)])
         self.assertEqual(len(treads()), 2 * RATE + 1)
         first = treads()[0]
-        self.assertEqual(first.tread.law.radius, 0.12)  # nothing left to defaults
+        self.assertEqual(first.tread.law.radius, 0.12)  # No field is left at its default.
         self.assertEqual(first.tread.height_gate, 0.3)
         self.assertEqual(first.header.frame_id, 'map')
 
-    # N5: cells under the path, and back to zero when the grass has risen.
+    # N5: cells under the path are set, and they return to zero when the grass has risen.
     def test_the_cover_map_shows_the_track_and_forgets_it(self):
         logs = {name: Log('/grass/cover/' + name, OccupancyGrid) for name in LAYERS}
         logs['plain'] = Log('/grass/cover', OccupancyGrid)
@@ -147,7 +148,8 @@ class GrassState(unittest.TestCase):
         for log in logs.values():
             log.close()
 
-    # S2-08, S2-13: lists of constant size or none; ids stay; blades where somebody looks.
+    # S2-08, S2-13: each list is empty or has a constant size, ids do not change, and blades are
+    # drawn where a viewer looks.
     def test_markers_keep_their_size_and_ids(self):
         log = Log('/grass/markers', MarkerArray)
         wait_for(log.connected, log.topic)
@@ -164,7 +166,8 @@ class GrassState(unittest.TestCase):
             return {(m.ns, m.id, m.action, len(m.points), len(m.colors)) for m in array.markers}
         lists = (('ground', 0), ('strips', 1), ('blades', 2))
         full = {(ns, key, Marker.ADD, 30000, 30000) for ns, key in lists}
-        gone = {(ns, key, Marker.DELETE, 0, 0) for ns, key in lists}  # of which nothing is drawn
+        # a list without anything to draw
+        gone = {(ns, key, Marker.DELETE, 0, 0) for ns, key in lists}
         for array in log.messages:
             self.assertLessEqual(sizes(array), full | gone)
         self.assertEqual(sizes(log.messages[-1]), full)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""What dynamic_reconfigure changes in a meadow while it runs."""
+"""dynamic_reconfigure changes a meadow while it runs."""
 import unittest
 
 import rospy
@@ -36,12 +36,12 @@ class GrassTuning(unittest.TestCase):
         self.clock.run(1, self.grass)
 
     def tune(self, **settings):
-        """Takes effect at the next tick."""
+        """Changes settings and runs the tick at which they take effect."""
         self.server.update_configuration(settings)
         self.clock.run(1, self.grass)
 
     def print_at(self, x, y, z=0.0):
-        """A footprint by the node's own law; the sample at its middle."""
+        """Makes a footprint with the default law of the node. Returns the sample in its middle."""
         self.feet.send(step('foot', x, y, z))
         self.clock.run(1, self.grass)
         return self.grass.at(x, y)
@@ -70,7 +70,7 @@ class GrassTuning(unittest.TestCase):
         self.tune(drag=0.6)
         self.assertAlmostEqual(self.grass.at(7.0, 7.0).resistance, 3.0 * before)
 
-    # S2-15: what the markers show.
+    # S2-15: the markers follow the settings.
     def test_the_tolerance_of_the_view(self):
         log = Log('/grass/markers', MarkerArray)
         wait_for(log.connected, log.topic)
@@ -78,7 +78,8 @@ class GrassTuning(unittest.TestCase):
         eye.look(-10.0, 0.0, 6.0, self.grass)
 
         def expect(test, what):
-            """Until the newest markers have so many different points of blades."""
+            """Waits until `test` holds for the number of different blade points in the newest
+            markers."""
             def goes_on():
                 eye.look(-10.0, 0.0, 6.0, self.grass)
                 self.clock.run(6, self.grass)

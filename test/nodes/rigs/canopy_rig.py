@@ -1,6 +1,7 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the tests of canopy_animator share, beside forest_rig: the node as its users see it."""
+"""Fixtures for the tests of canopy_animator: the node through its ROS interface. forest_rig has the
+rest."""
 import struct
 import subprocess
 
@@ -15,7 +16,7 @@ from watched_node import Log, WatchedNode
 
 
 class Leaves(WatchedNode):
-    """One canopy_animator as its users see it."""
+    """Client of one canopy_animator."""
 
     def __init__(self, name='/canopy_animator', namespace='/'):
         self.layout = Log(namespace + 'canopy/layout', CanopyLayout)
@@ -24,7 +25,7 @@ class Leaves(WatchedNode):
         super().__init__(name, 'canopy', name + '/sample', SampleCanopy)
 
     def at(self, x, y, z):
-        """Leaves at one place."""
+        """Returns the sample at one point."""
         return self.samples((x, y, z)).samples[0]
 
     def samples(self, *places):
@@ -34,22 +35,22 @@ class Leaves(WatchedNode):
         return answer
 
     def refusal(self, *places, **header):
-        """Message with which sample refuses."""
+        """Returns the error of the service sample, or '' on success."""
         answer = self._probe(header=Header(**header), points=[Point(*place) for place in places])
         return '' if answer.success else answer.message
 
     def hashes(self):
-        """Hash of all that it remembers by stamp, where it was told."""
+        """Returns the published state hashes by stamp."""
         return {m.header.stamp: m.hash for m in self.state.messages if m.hash}
 
 
 def half(bits):
-    """A number in half precision."""
+    """Returns the value of a number in half precision."""
     return struct.unpack('<e', struct.pack('<H', bits))[0]
 
 
 def start_leaves(name, remappings, **parameters):
-    """Starts a canopy_animator that the test ends itself."""
+    """Starts a canopy_animator; the test must stop it."""
     rospy.set_param(name, parameters)
     executable = roslib.packages.find_node('vegetation_sim', 'canopy_animator')[0]
     namespace, _, node = name.rpartition('/')

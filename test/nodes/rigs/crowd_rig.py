@@ -1,6 +1,7 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the tests of agent_crowd share, beside forest_rig: the node as its users see it."""
+"""Fixtures for the tests of agent_crowd: the node through its ROS interface. forest_rig has the
+rest."""
 import math
 
 import rospy
@@ -15,7 +16,7 @@ from watched_node import Log, WatchedNode, publisher, wait_for_readers
 
 
 class Crowd(WatchedNode):
-    """One agent_crowd as its users see it."""
+    """Client of one agent_crowd."""
 
     LOGS = 'state', 'events', 'tread'
 
@@ -32,14 +33,14 @@ class Crowd(WatchedNode):
         return self._probe(**request)
 
     def agents(self):
-        """Those of the last tick, by id."""
+        """Returns the agents of the last tick by id."""
         return {agent.id: agent for agent in self.state.messages[-1].agents}
 
     def hashes(self):
         return {m.header.stamp: m.hash for m in self.state.messages}
 
     def expect_event(self, kind, fits=lambda event: True):
-        """The newest event of a kind that fits; waits for it."""
+        """Waits for an event of a kind that fulfils `fits`. Returns the newest one."""
         def newest():
             found = [e for e in self.events.messages if e.kind == kind and fits(e)]
             return found[-1] if found else None
@@ -47,7 +48,7 @@ class Crowd(WatchedNode):
 
 
 class Cart:
-    """A robot's frame."""
+    """Publishes the frame of a robot."""
 
     def __init__(self, crowd, frame='cart'):
         self.crowd = crowd
@@ -56,7 +57,8 @@ class Cart:
         wait_for_readers('/tf', crowd.process)
 
     def put(self, x, y, stamp, yaw=0.0):
-        """Returns when it is in the crowd's socket: its thread for tf may take it a tick later."""
+        """Publishes the frame. Returns when it is in the socket of the crowd, whose tf thread may
+        read it a tick later."""
         frame = TransformStamped(child_frame_id=self.frame)
         frame.header.frame_id = 'map'
         frame.header.stamp = stamp

@@ -1,6 +1,7 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the tests of forest_animator share: a clock that goes tick by tick, logs of topics, nodes."""
+"""Fixtures for the tests of forest_animator: a clock that advances tick by tick, logs of topics,
+nodes."""
 import signal
 import subprocess
 
@@ -13,16 +14,16 @@ from vegetation_sim.srv import GetTree, GetWindField, Pick, SetTf
 from waiting import DEADLINE, wait_for
 from watched_node import Log, WatchedNode, publisher, slave
 
-RATE = 30  # ticks [Hz]
+RATE = 30  # rate of ticks [Hz]
 
 
 def time_of(tick, rate=RATE):
-    """First nanosecond of a tick."""
+    """Returns the first nanosecond of a tick."""
     return rospy.Time(*divmod(-(-tick * 10 ** 9 // rate), 10 ** 9))
 
 
 class Animator(WatchedNode):
-    """One forest_animator as its users see it."""
+    """Client of one forest_animator."""
 
     def __init__(self, name='/forest_animator', namespace='/'):
         self.layout = Log(namespace + 'forest/layout', ForestLayout)
@@ -39,7 +40,7 @@ class Animator(WatchedNode):
         return answer
 
     def refusal(self, **request):
-        """Message with which get_tree refuses."""
+        """Returns the error of the service get_tree, or '' on success."""
         answer = self._probe(**request)
         return '' if answer.success else answer.message
 
@@ -47,13 +48,16 @@ class Animator(WatchedNode):
         return self.tree(tree).level
 
     def hashes(self):
-        """Hash of the state by stamp."""
+        """Returns the hashes of the state by stamp."""
         return {m.header.stamp: m.hash for m in self.state.messages}
 
 
 class TickClock:
-    """The clock of a test. It stands half a tick after a tick: every node has come to that tick
-    and none to the next, so that what is published now takes effect at the next one."""
+    """Publishes the clock of a test, always half a tick after a tick.
+
+    At that time every node has reached the tick and none has reached the next one, so messages
+    published now take effect at the next tick.
+    """
 
     def __init__(self, tick, rate=RATE):
         self.tick = tick
@@ -61,7 +65,7 @@ class TickClock:
         self._publisher = publisher('/clock', Clock)
 
     def show(self, tick):
-        """Shows the time of a tick without waiting for anything."""
+        """Publishes the time of a tick without waiting."""
         self.tick = tick
         self.show_time(time_of(tick, self.rate) + rospy.Duration.from_sec(0.5 / self.rate))
 
@@ -69,8 +73,8 @@ class TickClock:
         self._publisher.publish(Clock(clock=stamp))
 
     def run(self, ticks, *animators):
-        """Goes on tick by tick, each only after every animator has sent its state. Who was only
-        just about to listen gets the same time again."""
+        """Advances tick by tick and waits each time until every animator has sent its state. The
+        same time is published again for a node whose subscription was not complete."""
         for _ in range(ticks):
             self.show(self.tick + 1)
             for animator in animators:
@@ -85,12 +89,13 @@ class TickClock:
         raise AssertionError('100 s passed without ' + what)
 
     def begin(self, *animators):
-        """Starts time, and goes on until every animator moves by the wind that is on the air."""
+        """Starts time and advances until every animator uses the published wind."""
         wind = Log('/wind', WindField)
         for animator in animators:
             animator.wait_until_up('/wind')
         rospy.wait_for_service('/wind_broadcaster/get_field', DEADLINE)
-        rospy.ServiceProxy('/wind_broadcaster/get_field', GetWindField)()  # so it is up entirely
+        # After this call the broadcaster has started completely.
+        rospy.ServiceProxy('/wind_broadcaster/get_field', GetWindField)()
         wait_for(wind.connected, 'the wind')
         self.run(1, *animators)
         wind.wait(len, 'a wind', lambda: self.show(self.tick))
@@ -102,7 +107,7 @@ class TickClock:
 
 
 class Eye:
-    """A viewer that looks east from where it is put."""
+    """Publishes a viewer that faces east."""
 
     def __init__(self, name='eye', topic='/viewer', readers=1):
         self.message = Viewer(id=name, field_of_view=0.8, height=900)
@@ -112,7 +117,7 @@ class Eye:
         wait_for(lambda: self._publisher.get_num_connections() >= readers, 'readers of ' + topic)
 
     def look(self, x, y, z, *animators):
-        """Returns when the animators have heard it."""
+        """Publishes the viewer at a position. Returns when the animators have received it."""
         position = self.message.pose.position
         position.x, position.y, position.z = x, y, z
         self.send(self.message, *animators)
@@ -127,7 +132,7 @@ class Eye:
 
 
 def memory_of(node):
-    """Resident memory of a node's process [byte]."""
+    """Returns the resident memory of the process of a node [bytes]."""
     _, _, process = slave(node).getPid('/forest_rig')
     with open('/proc/%d/status' % process) as status:
         line = next(line for line in status if line.startswith('VmRSS:'))
@@ -135,7 +140,7 @@ def memory_of(node):
 
 
 def start_animator(name, remappings, **parameters):
-    """Starts a forest_animator that the test ends itself."""
+    """Starts a forest_animator; the test must stop it."""
     rospy.set_param(name, parameters)
     executable = roslib.packages.find_node('vegetation_sim', 'forest_animator')[0]
     namespace, _, node = name.rpartition('/')

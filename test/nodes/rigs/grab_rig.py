@@ -1,6 +1,6 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the tests of grabs share: a forest of one clock with somebody who grabs in it."""
+"""Fixtures for the tests of grabs: a forest with one clock and clients of its services."""
 import math
 
 import rospy
@@ -15,7 +15,7 @@ from watched_node import Log, publisher, wait_for_readers
 TREE = 0
 LIMB = 46  # outer third of a limb, 2.4 cm thick, 2.7 m above the ground
 OTHER_LIMB = 49
-STIFFNESS = 20000.0  # the limb's own is some 8000 [N/m]
+STIFFNESS = 20000.0  # [N/m]; the stiffness of the limb itself is about 8000
 
 
 def vector(v):
@@ -38,7 +38,7 @@ def along_z(pose, distance):
 
 
 class Hands(Animator):
-    """A forest_animator and the services that hold its branches."""
+    """Client of a forest_animator and of the services that hold its branches."""
 
     def __init__(self, clock, name='/forest_animator'):
         super().__init__(name)
@@ -57,7 +57,7 @@ class Hands(Animator):
         return along_z(self.tree(tree).transforms.poses[branch], along)
 
     def take(self, **request):
-        """Grabs; the answer."""
+        """Grabs a branch. Returns the reply."""
         answer = self.grab(**dict(dict(tree=TREE, lease=60.0, stiffness=STIFFNESS, damping=200.0,
                                      force_limit=5000.0), **request))
         if not answer.success:
@@ -65,13 +65,14 @@ class Hands(Animator):
         return answer
 
     def take_at(self, offset, branch=LIMB, along=0.3, **request):
-        """Grabs a branch and pulls the point held by `offset` [m]; answer and target."""
+        """Grabs a branch and pulls the held point by `offset` [m]. Returns the reply and the
+        target."""
         target = plus(self.point(branch, along), offset)
         request = dict(dict(branch=branch, along=along), **request)
         return self.take(target=stamped(target), **request), target
 
     def show_frame(self, name, place, turn=(0.0, 0.0, 0.0, 1.0), stamp=None):
-        """Broadcasts a frame; returns when tf of the node has it."""
+        """Broadcasts a frame as soon as the node subscribes to tf."""
         transform = TransformStamped(child_frame_id=name)
         transform.header.frame_id = 'map'
         transform.header.stamp = stamp or time_of(self.clock.tick)
@@ -82,7 +83,8 @@ class Hands(Animator):
         self._frames.publish([transform])
 
     def wait_for_frame(self, name, place):
-        """Until the node knows a frame: a probe that changes nothing says why it is refused."""
+        """Waits until the node knows a frame. It sends a request with an invalid stiffness, which
+        has no effect, and reads the error."""
         def known():
             self.show_frame(name, place)
             answer = self.grab(tree=TREE, branch=LIMB, frame=name, stiffness=-1.0)
@@ -90,7 +92,7 @@ class Hands(Animator):
         wait_for(known, 'the frame ' + name)
 
     def wrench(self):
-        """Force of the last tick's first wrench, by stamp."""
+        """Returns the first wrench of the last tick."""
         stamp = time_of(self.clock.tick)
         return self.wrenches.wait(
             lambda all: next((m for m in all if m.header.stamp == stamp), None), 'a wrench')
@@ -99,7 +101,7 @@ class Hands(Animator):
         return list(self.tree(tree).physical)
 
     def let_all_go(self):
-        """Until nothing is physical any more."""
+        """Releases all grabs and runs until no branch is physical."""
         self.release(all=True)
         self.run(1)
         self.clock.run_until(lambda: not self.physical(), 'a calm tree', self)

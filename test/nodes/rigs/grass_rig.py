@@ -1,6 +1,7 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the tests of grass_field share, beside forest_rig: the node as its users see it."""
+"""Fixtures for the tests of grass_field: the node through its ROS interface. forest_rig has the
+rest."""
 import subprocess
 
 import roslib.packages
@@ -13,12 +14,12 @@ from forest_rig import RATE, time_of
 from waiting import wait_for
 from watched_node import Log, WatchedNode, publisher
 
-FULL = 1.5  # tilt of grass that is crushed fully [rad]
-SIDE = 16  # nodes along a block
+FULL = 1.5  # tilt of fully crushed grass [rad]
+SIDE = 16  # nodes along a side of a block
 
 
 class Meadow(WatchedNode):
-    """One grass_field as its users see it."""
+    """Client of one grass_field."""
 
     def __init__(self, name='/grass_field', namespace='/'):
         self.layout = Log(namespace + 'grass/layout', GrassLayout)
@@ -29,7 +30,7 @@ class Meadow(WatchedNode):
         super().__init__(name, 'grass', name + '/sample', SampleGrass)
 
     def at(self, x, y, stamp=rospy.Time()):
-        """The grass at one place."""
+        """Returns the sample at one point."""
         return self.samples([(x, y)], stamp)[0]
 
     def samples(self, places, stamp=rospy.Time()):
@@ -42,22 +43,22 @@ class Meadow(WatchedNode):
         return answer.samples
 
     def refusal(self, **request):
-        """Message with which sample refuses."""
+        """Returns the error of the service sample, or '' on success."""
         answer = self._probe(**request)
         return '' if answer.success else answer.message
 
     def hashes(self):
-        """Hash of the trodden ground by stamp of the key frames."""
+        """Returns the hashes of the trodden ground by stamps of the key frames."""
         return {m.header.stamp: m.hash for m in self.state.messages if m.key_frame}
 
     def entered(self, source):
-        """Tiles that a source came to."""
+        """Returns the tiles that a source entered."""
         return [(e.column, e.row) for e in self.events.messages
                 if e.kind == GrassEvent.ENTER and e.source == source]
 
 
 class Feet:
-    """Sends treads."""
+    """Publishes treads."""
 
     def __init__(self, meadow, topic='/tread', readers=1):
         self.meadow = meadow
@@ -65,13 +66,13 @@ class Feet:
         wait_for(lambda: self._publisher.get_num_connections() >= readers, 'readers of ' + topic)
 
     def send(self, *messages):
-        """Returns when they have been heard."""
+        """Publishes messages. Returns when the node has received them."""
         for message in messages:
             self._publisher.publish(message)
         self.meadow.settle()
 
     def walk(self, clock, source, start, end, ticks, *others, **fields):
-        """From start to end in equal steps, one a tick."""
+        """Walks from start to end in equal steps, one per tick."""
         for i in range(ticks + 1):
             part = i / ticks
             self.send(step(source, start[0] + part * (end[0] - start[0]),
@@ -97,7 +98,7 @@ def step(source, x, y, z=0.0, **fields):
 
 
 def nodes_of(message):
-    """Told nodes of a GrassState: by row and column, what is told of them."""
+    """Returns the values of the published nodes of a GrassState by row and column."""
     out = {}
     for block in message.blocks:
         told = [i for i in range(SIDE * SIDE) if block.told[i // 8] >> i % 8 & 1]
@@ -110,7 +111,7 @@ def nodes_of(message):
 
 
 def start_meadow(name, remappings, **parameters):
-    """Starts a grass_field that the test ends itself."""
+    """Starts a grass_field; the test must stop it."""
     rospy.set_param(name, parameters)
     executable = roslib.packages.find_node('vegetation_sim', 'grass_field')[0]
     namespace, _, node = name.rpartition('/')

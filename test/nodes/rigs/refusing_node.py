@@ -1,6 +1,6 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the tests of parameters share: a node that must refuse to start, and says why."""
+"""Fixtures for the tests of parameters: a node that must stop at startup with an error."""
 import os
 import re
 import subprocess
@@ -11,11 +11,11 @@ import roslib.packages
 import rospy
 
 NAN, INF = float('nan'), float('inf')
-BY_ROS = {'diagnostic_period'}  # diagnostic_updater's own
+BY_ROS = {'diagnostic_period'}  # the parameter of diagnostic_updater
 
 
 class RefusingNode(unittest.TestCase):
-    """A node by its name."""
+    """Base of tests that start the node NODE with bad parameters."""
 
     NODE = None
     names = iter('started_%d' % i for i in range(1000))
@@ -25,18 +25,19 @@ class RefusingNode(unittest.TestCase):
         cls.executable = roslib.packages.find_node('vegetation_sim', cls.NODE)[0]
 
     def refusal(self, parameters):
-        """Starts the node, which must end with an error; returns what it wrote."""
+        """Starts the node, which must end with an error. Returns the error output."""
         name = next(self.names)
         rospy.set_param('/' + name, parameters)
         done = subprocess.run([self.executable, '__name:=' + name], stdout=subprocess.PIPE,
                               stderr=subprocess.PIPE, text=True, timeout=60)
         self.assertEqual(done.returncode, 1, parameters)
         self.assertIn(self.NODE + ' refuses to start', done.stderr)
-        plain = re.sub(r'\x1b\[\d+m', '', done.stderr)  # without the colours of the log
+        plain = re.sub(r'\x1b\[\d+m', '', done.stderr)  # Remove the colours of the log.
         return plain.replace('-nan', 'nan').replace('/' + name + '/', '~')
 
     def expect_scenario_refused(self, text, words, others=(), by_file=True):
-        """Of a scenario's text; `others` are files beside it: name, content."""
+        """Expects an error with `words` for the text of a scenario. `others` are pairs of name and
+        content of files beside it."""
         with self.subTest(words=words), tempfile.TemporaryDirectory() as folder:
             name = os.path.join(folder, 'scene.yaml')
             for path, content in ((name, text.encode()), *others):
@@ -49,12 +50,12 @@ class RefusingNode(unittest.TestCase):
 
 
 class Ranges:
-    """Tests of all parameters that are numbers, from tables: name to unit, least and most."""
+    """Tests of all numeric parameters. The tables map each name to unit, minimum and maximum."""
 
     NUMBERS, WHOLE_NUMBERS, OTHERS = {}, {}, set()
 
     def expect_out_of_range(self, values):
-        """All of them in one go, each by name, value and range."""
+        """Sets all values at once and expects an error for each with name, value and range."""
         refusal = self.refusal(values)
         for name, value in values.items():
             unit, least, most = {**self.NUMBERS, **self.WHOLE_NUMBERS}[name]
@@ -88,7 +89,7 @@ class Ranges:
         for name in self.WHOLE_NUMBERS:
             self.assertIn('~%s = 2.5 is not a whole number' % name, refusal)
 
-    # Every parameter that there is has been given a wrong value somewhere here.
+    # The tables must list every known parameter, so each one gets a wrong value in these tests.
     def test_unknown_parameters_are_refused_and_the_known_ones_are_these(self):
         refusal = self.refusal({'tolerence': 2.0, 'levels': {'fixed': 3}})
         for name in ('tolerence', 'levels/fixed'):

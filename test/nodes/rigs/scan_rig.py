@@ -1,6 +1,6 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the tests of vegetation_scanner share: the node as its users see it."""
+"""Fixtures for the tests of vegetation_scanner: the node through its ROS interface."""
 import math
 
 import numpy
@@ -21,7 +21,7 @@ INPUTS = ('/wind', '/forest/layout', '/forest/state', '/grass/layout', '/grass/s
 
 
 class Scanner(WatchedNode):
-    """One vegetation_scanner as its users see it."""
+    """Client of one vegetation_scanner."""
 
     LOGS = 'points', 'scan', 'report'
 
@@ -32,14 +32,15 @@ class Scanner(WatchedNode):
         super().__init__(name, 'scan', name + '/tf2_frames', FrameGraph)
 
     def has_heard(self, frame, stamp):
-        """Whether the newest that tf told it of a frame is of this stamp; to the ms."""
+        """Returns whether the newest transform of a frame in the node's tf buffer has this stamp,
+        to 2 ms."""
         told = yaml.safe_load(self._probe().frame_yaml) or {}
         newest = told.get(frame, {}).get('most_recent_transform', 0.0)
         return abs(newest - stamp.to_sec()) < 2e-3
 
 
 def cloud_of(message):
-    """Its points, an array of records."""
+    """Returns the points of a cloud as an array of records."""
     layout = numpy.dtype({'names': [f.name for f in message.fields],
                           'formats': [TYPES[f.datatype] for f in message.fields],
                           'offsets': [f.offset for f in message.fields],
@@ -48,7 +49,7 @@ def cloud_of(message):
 
 
 class Mast:
-    """The sensor's frame."""
+    """Publishes the frame of the sensor."""
 
     def __init__(self, scanner, frame='lidar'):
         self.scanner, self.frame = scanner, frame
@@ -56,8 +57,9 @@ class Mast:
         wait_for_readers('/tf', scanner.process)
 
     def put(self, x, y, z, stamp, yaw=0.0):
-        """Returns when the scanner's tf has it, which hears in a thread of its own."""
-        self.scanner.settle()  # so that time that went back is past
+        """Publishes the frame. Returns when the scanner's tf buffer has it; tf has its own
+        thread."""
+        self.scanner.settle()  # The node has then processed a jump back of the clock.
         frame = TransformStamped(child_frame_id=self.frame)
         frame.header.frame_id, frame.header.stamp = 'map', stamp
         at = frame.transform.translation

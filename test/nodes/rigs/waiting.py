@@ -1,17 +1,17 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the tests of the nodes share: waiting for conditions, driving the clock."""
+"""Fixtures for the tests of the nodes: waiting for conditions and publishing the clock."""
 import threading
 import time
 
 import rospy
 from rosgraph_msgs.msg import Clock
 
-DEADLINE = 60.0  # [s] of wall time; only a failing test takes it
+DEADLINE = 60.0  # [s] of wall time; only a test that fails waits this long
 
 
 def wait_for(condition, what):
-    """Returns the first value of `condition()` that is true; fails after the deadline."""
+    """Returns the first true value of `condition()`. Fails after the deadline."""
     pause = threading.Event()
     end = time.monotonic() + DEADLINE
     while time.monotonic() < end:
@@ -23,7 +23,7 @@ def wait_for(condition, what):
 
 
 class Latest:
-    """Keeps what a topic says."""
+    """Keeps the newest message of a topic."""
 
     def __init__(self, topic, message_type):
         self.count = 0
@@ -36,7 +36,7 @@ class Latest:
 
 
 class SimulatedClock:
-    """The clock of a test: time is what it says, and stands in between."""
+    """Publishes the clock of a test. Time stands still between calls."""
 
     def __init__(self):
         self.now = rospy.Time(0)
@@ -50,7 +50,7 @@ class SimulatedClock:
         self._publisher.publish(Clock(clock=stamp))
 
     def run(self, seconds, step=0.02, each=None):
-        """Lets time pass in steps, each of them at 20 times its own pace."""
+        """Advances time in steps, at 20 times the speed of wall time."""
         pause = threading.Event()
         for _ in range(int(round(seconds / step))):
             self.set(self.now + rospy.Duration.from_sec(step))

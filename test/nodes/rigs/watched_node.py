@@ -1,6 +1,7 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the rigs of all nodes with a clock share: logs of topics, links, the node as users see it."""
+"""Fixtures for all nodes with a clock: logs of topics, connections, and a node through its ROS
+interface."""
 import fcntl
 import struct
 import threading
@@ -13,12 +14,12 @@ from diagnostic_msgs.msg import DiagnosticArray
 
 from waiting import DEADLINE, wait_for
 
-REMINDER = 0.5  # [s] of wall time
-# Publishers without a queue: a message is in a socket before publish() returns.
+REMINDER = 0.5  # [s] of wall time between two reminders
+# Publishers have no queue, so a message is in a socket before publish() returns.
 warnings.simplefilter('ignore', SyntaxWarning)
 
 
-SIOCOUTQNSD = 0x894B  # how much of a socket the other end had no room for yet, tcp(7)
+SIOCOUTQNSD = 0x894B  # ioctl that returns the bytes of a socket that were not sent yet, tcp(7)
 
 publishers = []
 
@@ -29,7 +30,8 @@ def publisher(topic, message_type):
 
 
 def all_delivered():
-    """Whether the last byte of all that was published lies in its reader's socket."""
+    """Returns whether the last byte of all published messages is in the socket of its
+    subscriber."""
     sockets = [link.socket for publisher in publishers if publisher.impl
                for link in publisher.impl.connections
                if link.socket and link.socket.fileno() >= 0]
@@ -38,18 +40,19 @@ def all_delivered():
 
 
 def slave(node):
-    """The node's own XML-RPC interface."""
+    """Returns the XML-RPC interface of a node."""
     return xmlrpc.client.ServerProxy(rosgraph.Master('/watched_node').lookupNode(node))
 
 
 def links(address, direction, topic):
-    """Other ends of a node's links of a topic, 'i'n or 'o'ut."""
+    """Returns the other ends of a node's connections for a topic; direction is 'i' (in) or 'o'
+    (out)."""
     _, _, all_links = xmlrpc.client.ServerProxy(address).getBusInfo('/watched_node')
     return [link[1] for link in all_links if link[2] == direction and link[4] == topic]
 
 
 def listens(node, topic):
-    """Whether all that is published from now on will be heard: both ends hold the link."""
+    """Returns whether the node receives all messages from now on: both ends have the connection."""
     try:
         address = rosgraph.Master('/watched_node').lookupNode(node)
         sources = links(address, 'i', topic)
@@ -59,13 +62,13 @@ def listens(node, topic):
 
 
 def wait_for_readers(topic, *nodes):
-    """Until all that this test publishes will be heard by these nodes."""
+    """Waits until these nodes receive all messages that this test publishes."""
     own = rosgraph.Master('/watched_node').lookupNode(rospy.get_name())
     wait_for(lambda: set(nodes) <= set(links(own, 'o', topic)), '%s to hear %s' % (nodes, topic))
 
 
 class Log:
-    """All that a topic said."""
+    """Keeps all messages of a topic."""
 
     def __init__(self, topic, message_type):
         self.topic = topic
@@ -79,7 +82,8 @@ class Log:
             self._heard.notify_all()
 
     def wait(self, condition, what, remind=lambda: None):
-        """Waits until `condition(messages)` is true, and reminds now and then; returns its value."""
+        """Waits until `condition(messages)` is true, calls `remind` repeatedly, and returns the
+        value."""
         for _ in range(int(DEADLINE / REMINDER)):
             with self._heard:
                 value = self._heard.wait_for(lambda: condition(self.messages), REMINDER)
@@ -89,7 +93,7 @@ class Log:
         raise AssertionError('waited in vain for %s on %s' % (what, self.topic))
 
     def wait_for_stamp(self, stamp, remind=lambda: None):
-        """The newest message, once it has this stamp."""
+        """Returns the newest message as soon as it has this stamp."""
         return self.wait(lambda all: all and all[-1].header.stamp == stamp and all[-1],
                          str(stamp), remind)
 
@@ -109,44 +113,46 @@ def number_or_text(value):
 
 
 class WatchedNode:
-    """A node as its users see it. It has a service `probe` that changes nothing when it is called
-    without arguments."""
+    """A node through its ROS interface. Its service `probe` has no effect when it is called without
+    arguments."""
 
-    LOGS = 'layout', 'state', 'events'  # attributes
+    LOGS = 'layout', 'state', 'events'  # names of the attributes
 
     def __init__(self, name, status, probe, probe_type):
         self.name = name
-        self.process = name  # node that it lives in: a manager's, of a nodelet
+        self.process = name  # the name of the process: for a nodelet that of its manager
         self._status = name.lstrip('/') + ': ' + status
         self._reconnect = lambda: rospy.ServiceProxy(probe, probe_type, persistent=True)
         self.reconnect()
 
     def reconnect(self):
-        """To a node that was started anew."""
+        """Connects to a node that was restarted."""
         self._probe = self._reconnect()
 
     def logs(self):
         return [getattr(self, name) for name in self.LOGS]
 
     def wait_until_up(self, *topics):
-        """Until it listens to the clock and `topics`, and its first state will be heard here."""
+        """Waits until the node subscribes to the clock and `topics`, and this test receives its
+        first state."""
         self._probe.wait_for_service(DEADLINE)
         self.settle()
         for topic in ('/clock',) + topics:
             wait_for(lambda: listens(self.process, topic), '%s to hear %s' % (self.name, topic))
         for log in self.logs():
             wait_for(log.connected, log.topic)
-        self.settle()  # so it has what was latched
+        self.settle()  # The node has then received latched messages.
 
     def settle(self):
-        """Returns when it has taken all that was published before: it reads its sockets in turns,
-        so what lay in another socket at the first call is in its queue by the second."""
+        """Returns when the node has received all messages that were published before. A node reads
+        its sockets in turn, so a message that is in another socket at the first call is in the
+        queue by the second."""
         wait_for(all_delivered, 'all that was published to be in the sockets of its readers')
         for _ in range(2):
             self._probe()
 
     def diagnostics(self, part=None):
-        """The node's next diagnostics, by key; of another part than its own."""
+        """Returns the node's next diagnostics by key, of the node itself or of its part `part`."""
         name = self.name.lstrip('/') + ': ' + part if part else self._status
         log = Log('/diagnostics', DiagnosticArray)
         log.wait(lambda all: any(s.name == name for m in all for s in m.status), name)

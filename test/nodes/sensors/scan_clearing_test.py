@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a lidar sees of a clearing (N1): labels, wind, trodden grass, REP 117, time that goes back."""
+"""Tests the scans of a lidar in a clearing (N1): labels, wind, trodden grass, REP 117 and jumps
+back of the clock."""
 import math
 import unittest
 
@@ -43,27 +44,29 @@ class ScanClearing(unittest.TestCase):
 
     @classmethod
     def run_for(cls, seconds):
-        """All nodes; the sensor stands over the middle of the lawn at every tick."""
+        """Runs all nodes. The sensor stands over the middle of the lawn at every tick."""
         for _ in range(int(seconds * RATE)):
             cls.mast.put(0.0, 0.0, 1.2, time_of(cls.clock.tick + 1))
             cls.clock.run(1, cls.trees, cls.grass, cls.crowd)
 
     def sweep(self):
-        """A sweep of a moment when all that was sent before has been heard."""
+        """Returns a sweep at a time when all earlier messages have been received."""
         for node in (self.trees, self.grass, self.crowd, self.scanner):
             node.settle()
         self.run_for(2.0 / RATE)
         return cloud_of(self.scan_now(self.scanner.points))
 
     def scan_now(self, log):
-        """Of the clock's tick; goes on by one where the scanner did not do it."""
+        """Returns the message of the current tick. Time advances by a tick while the scanner has
+        not published it."""
         return log.wait(lambda all: all and all[-1].header.stamp == time_of(self.clock.tick) and
                         all[-1], 'a sweep', lambda: self.run_for(1.0 / RATE))
 
-    # N1: labels sum to totals.
+    # N1: the counts of the labels sum to the total.
     def test_1_labels_sum_to_the_number_of_rays(self):
         cloud = self.sweep()
-        report = self.scanner.report.wait_for_stamp(time_of(self.clock.tick))  # sent with it
+        # The report is sent with the cloud.
+        report = self.scanner.report.wait_for_stamp(time_of(self.clock.tick))
         counts = numpy.bincount(cloud['label'], minlength=7)
         self.assertEqual(list(counts[1:]), list(report.counts[1:]))
         self.assertEqual(sum(report.counts), report.rays)
@@ -81,7 +84,7 @@ class ScanClearing(unittest.TestCase):
         person = cloud[cloud['label'] == ScanReport.PERSON]
         self.assertLess(numpy.hypot(person['x'] - 3.0, person['y']).max(), 0.6)
 
-    # REP 117, REP 103: ranges of the plane are those of the world.
+    # REP 117, REP 103: the ranges of the planar scan agree with the distances in the scene.
     def test_2_a_planar_scan_has_infinities_and_no_nan(self):
         self.sweep()
         scan = self.scan_now(self.scanner.scan)
@@ -94,9 +97,9 @@ class ScanClearing(unittest.TestCase):
         angles = scan.angle_min + scan.angle_increment * numpy.arange(240)
         self.assertAlmostEqual(angles[-1], scan.angle_max, 4)
         ahead = ranges[numpy.abs(angles) < 0.06]
-        self.assertTrue(((2.5 < ahead) & (ahead < 3.0)).any(), ahead)  # who stands at 3 m
+        self.assertTrue(((2.5 < ahead) & (ahead < 3.0)).any(), ahead)  # A person stands at 3 m.
 
-    # N1: the same scan with the wind off and on.
+    # N1: the test compares scans with the wind off and on.
     def test_3_wind_changes_what_is_seen_and_still_air_does_not(self):
         one = self.sweep()
         self.run_for(0.3)
@@ -114,12 +117,13 @@ class ScanClearing(unittest.TestCase):
         self.assertFalse(crown(windy) == crown(later))
         rospy.ServiceProxy('/wind_broadcaster/remove_primitive', RemoveWindPrimitive)(name='breeze')
         self.run_for(2.0)
-        self.assertTrue(crown(self.sweep()) == crown(two))  # back at rest
+        self.assertTrue(crown(self.sweep()) == crown(two))  # The tree is back at rest.
 
     # N1: trodden grass lowers returns.
     def test_4_trodden_grass_returns_lower(self):
         def lane():
-            """Heights over the ground of all that is met on a lane beside the sensor."""
+            """Returns the heights above the ground of all points on a lane beside the sensor, and
+            the share of grass."""
             cloud = self.sweep()
             place = cloud[(numpy.abs(cloud['y'] - 3.0) < 0.5) & (numpy.abs(cloud['x']) < 4.0)]
             low = place[numpy.isin(place['label'], (ScanReport.GRASS, ScanReport.GROUND))]
@@ -139,7 +143,7 @@ class ScanClearing(unittest.TestCase):
         last = time_of(self.clock.tick)
         self.scanner.report.wait_for_stamp(last)
         before = self.scanner.diagnostics()['Sweeps without a place']
-        self.clock.run(5, self.trees)  # the frame is not told on
+        self.clock.run(5, self.trees)  # The frame is not published.
         dark = time_of(self.clock.tick)
         wait_for(lambda: self.scanner.diagnostics()['Sweeps without a place'] > before, 'blindness')
         self.sweep()
@@ -169,7 +173,8 @@ class ScanClearing(unittest.TestCase):
         trees = [c[numpy.isin(c['label'], WOOD)].tobytes() for c in (here, again)]
         self.assertTrue(trees[0] == trees[1])
         grass = [(1.2 + c['z'][c['label'] == ScanReport.GRASS]).mean() for c in (here, again)]
-        self.assertGreater(grass[1], grass[0])  # what was trodden later stands again
+        # Grass that was trodden at a later time stands again.
+        self.assertGreater(grass[1], grass[0])
 
     def test_8_reset_grows_the_same_trees_anew(self):
         here = self.sweep()

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""A cloud shows people where they are at its stamp (N1), however far it stays behind the clock."""
+"""A cloud shows people at their positions at its stamp (N1), however far it runs behind the
+clock."""
 import unittest
 
 import numpy
@@ -16,9 +17,10 @@ from scan_rig import Mast, Scanner, cloud_of
 
 START = 1000 * RATE
 SPEED = 1.4  # [m/s]
-# Of the trunk: what is seen of its far side lags by less than 2 cm, and its limbs' sway is small.
+# Only the trunk is used, because its visible surface is within 2 cm of the walker and it moves less
+# than the limbs.
 LIMBS = 0, 1, 2, 4  # head, neck, chest, pelvis
-CLOSE = 0.04  # [m]; a tick of the crowd is 4.7 cm of way, the delay 14 cm
+CLOSE = 0.04  # [m]; a walker moves 4.7 cm in a tick of the crowd and 14 cm in the delay
 
 
 class ScanDelay(unittest.TestCase):
@@ -29,7 +31,7 @@ class ScanDelay(unittest.TestCase):
         self.crowd.wait_until_up()
         self.mast = Mast(self.scanner)
 
-    # The scanner's ticks of 50 ms fall between those of the crowd, 33 ms.
+    # The scanner's ticks of 50 ms fall between the crowd's ticks of 33 ms.
     def test_who_walks_by_is_where_the_stamp_says(self):
         self.clock.run(1, self.crowd)
         walker = AgentSpawn(position=Point(5, -3, 0), heading=numpy.pi / 2, speed=SPEED,
@@ -54,7 +56,8 @@ class ScanDelay(unittest.TestCase):
         self.assertLess(abs(numpy.mean(errors)), CLOSE / 2, errors)
 
     def error_of(self, message):
-        """How far ahead of its place the walker is seen [m]; None: it is not just in front."""
+        """Returns how far the walker is seen ahead of its position [m], or None if it is not just
+        in front."""
         stamp = message.header.stamp.to_sec()
         told = [(m.header.stamp.to_sec(), m.agents[0].pose.position)
                 for m in self.crowd.state.messages if m.agents]

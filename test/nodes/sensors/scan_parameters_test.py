@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""vegetation_scanner refuses to start with bad parameters, all faults at once."""
+"""vegetation_scanner must reject bad parameters at startup and report all faults at once."""
 import rospy
 import rostest
 
 from refusing_node import Ranges, RefusingNode
 
-# parameter: unit, least, most
+# Each parameter with its unit, minimum and maximum.
 NUMBERS = {
     'delay': (' s', 0, 5), 'elevation_low': (' rad', -1.5707, 1.5707),
     'elevation_high': (' rad', -1.5707, 1.5707), 'azimuth_low': (' rad', -6.2832, 6.2832),

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""wind_broadcaster, as a node and as a nodelet, on a clock that waits, runs at 20 times its pace,
-stands, and goes back."""
+"""Tests wind_broadcaster as node and nodelet with a clock that waits, runs at 20 times wall time,
+stops and jumps back."""
 import math
 import signal
 import subprocess
@@ -35,29 +35,29 @@ class Broadcaster:
         self.set = rospy.ServiceProxy(prefix + 'set_primitive', SetWindPrimitive)
 
     def field_from(self, start):
-        """The field of a start at this stamp, once it is there."""
+        """Waits for the field of a start at this stamp and returns it."""
         def found():
             answer = self.get()
             return answer.success and answer.field.primitives[0].epoch == start and answer.field
         return wait_for(found, 'a start at %s' % start)
 
     def now_is(self, stamp):
-        """Waits until the broadcaster has seen this stamp."""
+        """Waits until the broadcaster has received this stamp."""
         wait_for(lambda: self.get().field.header.stamp == stamp, 'time %s' % stamp)
 
 
 class WindClock(unittest.TestCase):
-    # One story, in order of the names: a clock has only one life.
+    # The tests run in the order of their names, because they share one clock.
     @classmethod
     def setUpClass(cls):
         cls.clock = SimulatedClock()
         cls.topic = Latest('/node/wind', WindField)
         cls.node, cls.nodelet = Broadcaster(NODE), Broadcaster(NODELET)
         cls.both = [cls.node, cls.nodelet]
-        cls.clock.wait_for_listeners(3)  # the node, the manager, this test
+        cls.clock.wait_for_listeners(3)  # the node, the nodelet manager and this test
 
     def start_at(self, stamp):
-        """Makes the clock jump, and returns the common hash of the fields that start there."""
+        """Makes the clock jump. Returns the common hash of the fields that start at the stamp."""
         self.clock.set(stamp)
         hashes = [b.field_from(stamp).hash for b in self.both]
         self.assertEqual(hashes[0], hashes[1])
@@ -128,7 +128,7 @@ class WindClock(unittest.TestCase):
         self.assertLess(self.pieces(), 40)
 
         status = Latest('/diagnostics', DiagnosticArray)
-        self.clock.run(4.0)  # without the frame
+        self.clock.run(4.0)  # The frame is not published.
         self.node.now_is(self.clock.now)
         self.assertLess(self.downwash(), 1e-9)
         wait_for(lambda: self.warned(status.message, 'no tf of late for drone'), 'a warning')
@@ -148,7 +148,7 @@ class WindClock(unittest.TestCase):
 
     @staticmethod
     def drone(stamp):
-        """Flies a circle of 20 m at 5 m/s, 50 m east of everything else."""
+        """Returns the frame on a circle of 20 m at 5 m/s, 50 m east of the other sources."""
         angle = 0.25 * stamp.to_sec()
         out = TransformStamped()
         out.header.stamp = stamp
@@ -166,7 +166,8 @@ class WindClock(unittest.TestCase):
         return self.downwash()
 
     def downwash(self):
-        """Downward speed a core radius below the drone, less that of the nodelet, which has none."""
+        """Returns the downward speed a core radius below the drone, minus that of the nodelet,
+        which has no drone."""
         at = self.drone(self.clock.now).transform.translation
         below = [Point(at.x, at.y, at.z - 1.0)]
         air, rest = [b.sample(below, [self.clock.now]).velocities[0] for b in self.both]

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""wind_broadcaster refuses to start with bad parameters, and says why, all at once."""
+"""wind_broadcaster must reject bad parameters at startup and report all faults at once."""
 import signal
 import subprocess
 
@@ -12,7 +12,7 @@ from vegetation_sim.srv import GetWindField
 from refusing_node import INF, NAN, RefusingNode
 from waiting import wait_for
 
-# parameter, value, what the refusal says
+# Each parameter with a bad value and the expected part of the error.
 CASES = [
     ('lead', 'soon', 'lead = soon is not a number'),
     ('lead', -0.1, 'lead = -0.1 s is outside 0 to 10 s'),
@@ -40,7 +40,7 @@ CASES = [
     ('sceanrio', 'x.yaml', 'sceanrio is not a known parameter; known are'),
 ]
 
-# scenario, what the refusal says
+# A bad scenario and the expected part of the error.
 SCENARIOS = [
     ('{winds: 3}', 'winds is not a known key'),
     ('{wind: {primitives: [{name: a, kind: disk, radius: .nan}]}}',

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""wind_broadcaster's services, settings and markers: what is good works, what is bad is refused by
-name, counted, and changes nothing."""
+"""Tests services, settings and markers of wind_broadcaster. Valid requests take effect; bad ones
+are rejected with an error that names the field, are counted and have no effect."""
 import math
 import unittest
 
@@ -23,7 +23,7 @@ from waiting import Latest, wait_for
 NODE = '/wind_broadcaster/'
 NAN, INF = float('nan'), float('inf')
 
-# field, kinds that use it, values outside its range
+# Each field with the kinds that use it and values outside its range.
 NUMBERS = [
     ('fade_in', [0, 1, 2, 3, 4], [-0.1, 601.0]),
     ('fade_out', [0, 1, 2, 3, 4], [-0.1, 601.0]),
@@ -47,7 +47,7 @@ NUMBERS = [
 
 
 def primitive(kind=WindPrimitive.DISK, name='asked', **fields):
-    """A good request, but for the fields given."""
+    """Returns a valid request, apart from the given fields."""
     out = WindPrimitive(name=name, kind=kind, fade_in=0.5, fade_out=0.5, radius=8.0, omega=2.0,
                         length_scale=30.0, front_speed=5.0, rise_length=3.0, decay_length=9.0,
                         speed=7.0, core_radius=2.0)
@@ -104,7 +104,7 @@ class WindRequests(unittest.TestCase):
             self.assertEqual(self.last('new_%d' % kind).id, answer.id)
             self.assertEqual(self.last('new_%d' % kind).kind, kind)
 
-    # N2: who asks knows from when on the wind is another one.
+    # N2: the reply contains the time at which the wind changes.
     def test_says_when_an_edit_begins(self):
         first = self.set(primitive(fade_in=20.0))
         self.assertEqual(first.t_on, self.last('asked').t_on)

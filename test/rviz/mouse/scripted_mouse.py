@@ -1,9 +1,12 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""A user's hand in rviz: grabs a branch, drags and releases it, treads the grass, draws a gust from the
-panel. Real clicks by xdotool on the window; what nodes heard of it is checked and written to
-services.log, with pictures, into the folder that is the argument."""
+"""Operates rviz like a user: grabs, drags and releases a branch, treads the grass and draws a gust
+with the panel.
+
+xdotool sends real clicks to the window. The script checks the messages that the nodes receive, and
+writes them to services.log, with screenshots, in the folder that is its argument.
+"""
 import math
 import os
 import subprocess
@@ -16,7 +19,7 @@ from vegetation_sim.msg import ForestEvent, TreadEvent, Viewer, WindField
 from vegetation_sim.srv import GetTree, SampleGrass, SampleGrassRequest
 
 DEADLINE = 30.0  # [s] of wall time
-GUST_BUTTON = (80, 425)  # of the panel in mouse.rviz, pixels of the window
+GUST_BUTTON = (80, 425)  # position of the panel's button in mouse.rviz, in pixels of the window
 KINDS = {ForestEvent.GRAB: 'grab', ForestEvent.MOVE: 'move', ForestEvent.RELEASE: 'release'}
 
 
@@ -36,7 +39,7 @@ def until(what, done):
 
 
 def rotated(q, v):
-    """A vector turned by a quaternion."""
+    """Returns a vector rotated by a quaternion."""
     x, y, z = v
     tx, ty, tz = (2 * (q.y * z - q.z * y), 2 * (q.z * x - q.x * z), 2 * (q.x * y - q.y * x))
     return (x + q.w * tx + q.y * tz - q.z * ty, y + q.w * ty + q.z * tx - q.x * tz,
@@ -72,7 +75,8 @@ class Hand:
         run('import', '-window', 'root', os.path.join(self.folder, name + '.png'))
 
     def panel(self):
-        """Left and top of the picture of the scene, width and height: the only window in rviz's of the viewer's height."""
+        """Returns left, top, width and height of the 3D view: the only window in rviz with the
+        height of the viewer."""
         for line in run('xwininfo', '-tree', '-id', self.window).splitlines():
             words = line.replace('(has no name)', '').split()
             if len(words) < 4 or not words[0].startswith('0x'):
@@ -85,7 +89,7 @@ class Hand:
         return None
 
     def pixel(self, point):
-        """Of a point of the world, in the root window."""
+        """Returns the pixel of a world point in the root window."""
         left, top, width, height = self.panel()
         pose = self.viewer.pose
         away = [a - b for a, b in zip(point, (pose.position.x, pose.position.y, pose.position.z))]
@@ -96,7 +100,8 @@ class Hand:
         return int(left + 0.5 * width - to_left * scale), int(top + 0.5 * height - up * scale)
 
     def stroke(self, a, b, steps=12, shots=()):
-        """Button down at a, up at b; a picture half way if there is a name for it."""
+        """Presses the button at a and drags to b; then takes a screenshot for each name in
+        `shots`."""
         run('xdotool', 'mousemove', *a)
         rospy.rostime.wallsleep(0.4)
         run('xdotool', 'mousedown', 1)
@@ -124,7 +129,7 @@ class Hand:
 
 def grab(hand):
     tree = until('a tree', hand.tree)
-    # A strong limb that points sideways in the picture.
+    # A strong limb that is about horizontal in the image.
     limbs = [i for i, d in enumerate(tree.depths) if d == 1]
     limb = max(limbs, key=lambda i: tree.lengths[i])
     hand.picture('grab-1-before')
@@ -141,7 +146,7 @@ def grab(hand):
     end = time.monotonic() + 6.0
     while time.monotonic() < end:
         away_now = math.dist(hand.point(hand.tree(), taken.branch, taken.along), rest)
-        if not path or away_now != path[-1]:  # asked twice in a tick
+        if not path or away_now != path[-1]:  # Several requests may fall into one tick.
             path.append(away_now)
     least = min(path)
     hand.picture('grab-3-released')
@@ -191,7 +196,7 @@ def main():
     rospy.init_node('scripted_mouse', anonymous=True)
     hand = Hand(sys.argv[1])
     until('a viewer', lambda: hand.viewer and hand.panel())
-    rospy.rostime.wallsleep(6.0)  # until trees and ground are drawn
+    rospy.rostime.wallsleep(6.0)  # Trees and ground are drawn after this time.
     grab(hand)
     tread(hand)
     gust(hand)

@@ -1,7 +1,7 @@
 #!/bin/bash
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-# Runs a command on a virtual display of its own.
+# Runs a command on its own virtual display.
 set -e
 folder=$(mktemp -d)
 trap 'kill "$server" 2>/dev/null; rm -r "$folder"' EXIT

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""A body tied to a tf frame pushes a limb aside, feels it, and is forgotten when tf is silent."""
+"""A body attached to a tf frame pushes a limb aside, gets its wrench and is removed when tf is
+silent."""
 import math
 import unittest
 
@@ -18,7 +19,7 @@ from waiting import wait_for
 SPEED = 0.3  # [m/s]
 RADIUS = 0.06
 ALONG = 0.3  # [m]
-MOST_WAITING = 10000  # requests
+MOST_WAITING = 10000  # limit of the waiting requests
 TRUNK = 0
 OVERLAP, OVERLAP_AT = 'Deepest overlap with a body [m]', 'Deepest overlap, where'
 
@@ -40,7 +41,7 @@ class Bodies(unittest.TestCase):
         cls.clock.begin(cls.hands)
 
     def sideways(self):
-        """Level, and across the limb."""
+        """Returns the horizontal direction across the limb."""
         pose = self.hands.tree(TREE).transforms.poses[LIMB]
         axis = minus(along_z(pose, 1.0), vector(pose.position))
         across = (-axis[1], axis[0], 0.0)
@@ -50,7 +51,7 @@ class Bodies(unittest.TestCase):
         return [event.kind for event in self.hands.events.messages]
 
     def show_hand(self, place):
-        """Returns when the node has it: the next tick tells it as an event."""
+        """Returns when the node has received the frame; the next tick publishes it as an event."""
         self.hands.show_frame('hand', place)
         self.hands.settle()
 
@@ -72,7 +73,8 @@ class Bodies(unittest.TestCase):
             ticks += 1
         limb = hands.point(LIMB, ALONG)
         heard = [w for w in hands.wrenches.messages if w.header.frame_id == 'hand']
-        # It is in front of the hand, not in it or behind: 1 cm for where tf is a tick late.
+        # The limb is in front of the hand, not in it or behind it. The margin is 1 cm because tf
+        # may be a tick late.
         self.assertGreater(dot(minus(limb, place), side), RADIUS - 0.01)
         self.assertIn(LIMB, hands.physical())
         self.assertGreater(len(heard), 10)
@@ -80,7 +82,7 @@ class Bodies(unittest.TestCase):
         self.assertLess(dot(force, side), 0.0)
         self.assertTrue(all(math.isfinite(x) for x in force))
 
-        # tf falls silent: no body, and soon nothing physical.
+        # When tf is silent, the body is removed and soon no branch is physical.
         self.clock.run_until(lambda: ForestEvent.REMOVE_BODY in self.kinds(), 'the end of the body',
                              hands)
         self.clock.run_until(lambda: not hands.physical(), 'a calm tree', hands)
@@ -88,7 +90,8 @@ class Bodies(unittest.TestCase):
         hands.run(RATE)
         self.assertEqual(len(hands.wrenches.messages), count)
 
-    # Wood that cannot give way is overrun: how deep, of which body and where, is told.
+    # A body penetrates wood that cannot yield. The diagnostics report the depth, the body and the
+    # place.
     def test_overlap_is_told(self):
         hands = self.hands
         tree = hands.tree(TREE)
@@ -102,7 +105,7 @@ class Bodies(unittest.TestCase):
             return OVERLAP_AT in hands.diagnostics()
         wait_for(told, 'an overlap')
         figures = hands.diagnostics()
-        # The trunk leans and tapers by less than 1 cm where the hand is, and gives way by less.
+        # At the height of the hand the trunk leans, tapers and yields by less than 1 cm each.
         self.assertAlmostEqual(figures[OVERLAP], inside, delta=0.01)
         self.assertEqual(figures[OVERLAP_AT], 'palm in tree_%d/branch_%d' % (TREE, TRUNK))
         self.clock.run_until(lambda: not hands.physical(), 'a calm tree', hands)

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Grabs and forces that forest_animator refuses by name, value and range; they change nothing."""
+"""forest_animator rejects bad grabs and forces with an error that names field, value and range.
+They have no effect."""
 import unittest
 
 import rospy
@@ -84,7 +85,7 @@ class ForestGrabRefusals(unittest.TestCase):
         self.expect(self.hands.release, [(dict(id=77), 'id = 77 is unknown; nothing is held')])
         self.assertEqual(self.hands.release(all=True).message, '0 released')
 
-    # What is refused leaves the grab as it was.
+    # A rejected request leaves the grab unchanged.
     def test_bad_moves_of_a_good_grab(self):
         start = time_of(self.clock.tick + 50 * RATE)
         held = self.hands.take(**self.good(stamp=start))
@@ -97,7 +98,7 @@ class ForestGrabRefusals(unittest.TestCase):
         ])
         self.assertTrue(self.hands.release(id=held.id).success)
 
-    # What the forest would refuse at its tick is refused when it is asked for.
+    # A request that the forest would reject at its tick is rejected when it arrives.
     def test_what_no_tick_would_take(self):
         def service(node, name, kind):
             topic = '/%s/%s/%s' % (node, node, name)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Branches held by services and tf frames (S1-25, S1-33, S1-37, N3)."""
+"""Branches are held by services and tf frames (S1-25, S1-33, S1-37, N3)."""
 import math
 import signal
 import subprocess
@@ -20,11 +20,11 @@ from waiting import DEADLINE
 from watched_node import Log
 
 TF_BUDGET = 12
-TURN = (0.0, 0.0, math.sin(0.5), math.cos(0.5))  # by 1 rad about z
+TURN = (0.0, 0.0, math.sin(0.5), math.cos(0.5))  # rotation by 1 rad about z
 
 
 def into_turned(v):
-    """A world vector in the axes of a frame that is turned by TURN."""
+    """Returns a world vector in the axes of a frame that is rotated by TURN."""
     c, s = math.cos(1.0), math.sin(1.0)
     return (c * v[0] + s * v[1], -s * v[0] + c * v[1], v[2])
 
@@ -42,12 +42,12 @@ class ForestGrab(unittest.TestCase):
     def distance(self, branch, along, target):
         return size(minus(self.hands.point(branch, along), target))
 
-    # The spring's force on the holder points from the target to the branch.
+    # The spring force on the gripper points from the target to the branch.
     def expect_spring(self, wrench, held, target, into=lambda v: v):
         expected = into([STIFFNESS * x for x in minus(held, target)])
         force = vector(wrench.wrench.force)
         self.assertGreater(size(force), 5.0)
-        # The damper adds its share while wind moves the branch.
+        # The damper adds a force while wind moves the branch.
         self.assertLess(size(minus(force, expected)), 0.05 * size(force) + 1.0, (force, expected))
 
     def test_by_id_it_follows_and_is_forgotten_after(self):
@@ -91,13 +91,13 @@ class ForestGrab(unittest.TestCase):
         held, wrench = self.hands.point(LIMB, 0.3), self.hands.wrench()
         self.assertEqual(wrench.header.frame_id, 'hand')
         self.expect_spring(wrench, held, place_now, into_turned)
-        # Held at the frame's origin: hardly any lever arm about it.
+        # The branch is held at the origin of the frame, so the lever arm about it is small.
         self.assertLess(size(vector(wrench.wrench.torque)),
                         size(minus(held, place_now)) * size(vector(wrench.wrench.force)) + 0.01)
         events = [e for e in self.hands.events.messages if e.kind == ForestEvent.MOVE]
         self.assertGreater(len(events), 2 * RATE)
 
-    # A renewal says nothing of the target: the gripper's newest place stays the grab's.
+    # A renewal does not contain a target: the newest position of the gripper remains the target.
     def test_a_renewal_leaves_the_target_alone(self):
         place = self.hands.point(LIMB, 0.3)
         self.hands.wait_for_frame('hand', place)
@@ -112,7 +112,7 @@ class ForestGrab(unittest.TestCase):
             self.hands.run(1)
         events = self.hands.events.wait(lambda all: renewals(all) == RATE and all[first:],
                                         'all renewals')
-        # No tick has more than the frame's own move.
+        # Each tick has only the move of the frame.
         moves = [e.header.stamp for e in events if e.kind == ForestEvent.MOVE]
         self.assertGreater(len(moves), RATE // 2)
         self.assertEqual(len(moves), len(set(moves)))
@@ -207,7 +207,8 @@ class ForestGrab(unittest.TestCase):
         for _ in range(RATE):
             self.hands.run(1)
             after = self.hands.point(LIMB, 0.3)
-            self.assertLess(size(minus(after, before)), 0.02)  # 0.6 m/s, more than this wind moves
+            # 0.6 m/s is more than this wind moves the branch.
+            self.assertLess(size(minus(after, before)), 0.02)
             before = after
         self.assertFalse(blends())
         self.assertLess(self.distance(LIMB, 0.3, before), 0.02)
@@ -288,7 +289,7 @@ class ForestGrab(unittest.TestCase):
         _, target = self.hands.take_at((0.1, 0.0, 0.0))
         self.hands.run(2 * RATE)
         self.assertLess(self.distance(LIMB, 0.3, target), 0.05)
-        self.clock.show(self.clock.tick + 1000 * RATE)  # beyond the lease
+        self.clock.show(self.clock.tick + 1000 * RATE)  # The clock jumps beyond the lease.
         self.hands.state.wait_for_stamp(time_of(self.clock.tick))
         self.hands.run(RATE)
         tree = self.hands.tree(TREE)

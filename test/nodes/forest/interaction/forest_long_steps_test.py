@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Beyond its stable step an explicit integrator is not run: that is told, and the tree holds (E12)."""
+"""An explicit integrator does not run with steps beyond its stable step: diagnostics report it and
+the tree keeps its shape (E12)."""
 import math
 import unittest
 

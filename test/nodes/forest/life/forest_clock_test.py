@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""forest_animator under a clock that waits, stands, runs, jumps back and jumps ahead (N6)."""
+"""Tests forest_animator while the clock waits, stops, runs, jumps back and jumps ahead (N6)."""
 import threading
 import unittest
 
@@ -10,9 +10,9 @@ import rostest
 
 from forest_rig import RATE, Animator, Eye, TickClock, scene, start_animator, stop, time_of
 
-START = 1700000000 * RATE  # Unix time, where a float second has no fraction left
-SPEED = 20.0  # of the fast clock
-STEP = 0.05  # of the fast clock [s]
+START = 1700000000 * RATE  # Unix time, at which single precision has no fraction of a second left
+SPEED = 20.0  # ratio of the fast clock to wall time
+STEP = 0.05  # step of the fast clock [s]
 
 
 class ForestClock(unittest.TestCase):
@@ -52,7 +52,7 @@ class ForestClock(unittest.TestCase):
         self.clock.run(1, self.forest)
         self.assertNotEqual(self.forest.tree(2).transforms.poses, poses.poses)
 
-    # After the jump: the hashes of a node that was started only then, given the same inputs.
+    # After the jump the hashes are those of a node that starts at that time with the same inputs.
     def test_ten_seconds_back_is_a_fresh_start(self):
         self.run_watched(10 * RATE, self.forest)
         jumps = self.forest.diagnostics()['Clock jumps back']

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Diagnostics of forest_animator tell of trouble once, and a fresh start is one, whatever the cause."""
+"""Diagnostics of forest_animator report each problem once. A fresh start is the same whatever its
+cause."""
 import copy
 import unittest
 
@@ -30,7 +31,8 @@ class ForestHealth(unittest.TestCase):
         return [s for m in list(self.diagnostics.messages) for s in m.status if s.name == name]
 
     def expect_told_once(self, animator, count, text, key):
-        """A report warns of it; the next one without trouble is OK and still has the sum."""
+        """Expects one report with the warning, and then a report that is OK and still has the
+        total."""
         def find(level, words, begin):
             def found(_):
                 for i, status in list(enumerate(self.statuses(animator)))[begin:]:
@@ -62,7 +64,7 @@ class ForestHealth(unittest.TestCase):
         count = 100 * RATE - 1
         self.expect_told_once(self.forest, count, '%d ticks dropped' % count, 'Ticks dropped')
 
-    # A jump back and ~reset are the same fresh start: no frames are sent any more.
+    # After a jump back and after ~reset no frames are sent.
     def test_a_fresh_start_stops_frames(self):
         self.assertEqual(self.forest.set_tf(1, [0, 1], True).frames, 2)
         self.mark(self.forest)
@@ -75,7 +77,7 @@ class ForestHealth(unittest.TestCase):
         self.assertEqual(self.forest.set_tf(1, [3], True).frames, 1)
         self.forest.set_tf(1, [], False)
 
-    # N6: a replay that differs from its run does not do so in silence.
+    # N6: a replay that differs from its run reports it.
     def test_late_events_of_a_replay_are_told(self):
         process = start_animator('/replay/forest_animator', {'wind': '/wind'},
                                  scenario=scene('grove'), replay=True, replay_delay=0.0)

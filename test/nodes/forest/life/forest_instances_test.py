@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""forest_animator as program and nodelet, several at once, reset and restarted (N6)."""
+"""forest_animator runs as a program and as nodelets, in several instances, is reset and restarted
+(N6)."""
 import signal
 import subprocess
 import unittest
@@ -26,7 +27,7 @@ class ForestInstances(unittest.TestCase):
         cls.program = Animator()
         cls.twin = Animator('/twin/forest_animator', '/twin/')
         cls.other = Animator('/other/forest_animator', '/other/')
-        cls.other.state = Log('/other/levels', ForestState)  # remapped
+        cls.other.state = Log('/other/levels', ForestState)  # The topic is remapped.
         for nodelet in (cls.twin, cls.other):
             nodelet.process = '/manager'
         cls.all = cls.program, cls.twin, cls.other
@@ -42,7 +43,7 @@ class ForestInstances(unittest.TestCase):
     def settle(self):
         self.clock.run(8 * RATE, *self.all)
 
-    # The nodelet says what the program says, to the bit.
+    # The nodelet publishes the same data as the program, to the bit.
     def test_a_nodelet_is_the_twin_of_the_program(self):
         self.settle()
         start = self.clock.tick
@@ -56,7 +57,7 @@ class ForestInstances(unittest.TestCase):
         self.assertGreater(len({hashes[s] for s in stamps}), RATE)
         self.assertEqual(self.program.tree(3).transforms, self.twin.tree(3).transforms)
 
-    # Topics, services and settings of the one are not those of the other.
+    # The instances do not share topics, services or settings.
     def test_instances_do_not_disturb_each_other(self):
         self.settle()
         before = self.other.state.messages[-1].hash
@@ -70,7 +71,7 @@ class ForestInstances(unittest.TestCase):
         self.assertEqual([e.kind for e in self.other.events.messages if e.kind != ForestEvent.WIND],
                          [])
 
-    # After ~reset: what a fresh start is, from the next tick on.
+    # After ~reset the forest is in its initial state from the next tick on.
     def test_reset_starts_anew(self):
         self.run_watched(3, *self.all)
         self.assertNotEqual(self.program.level(0), FIXED_LEVEL)
@@ -92,9 +93,9 @@ class ForestInstances(unittest.TestCase):
         done = subprocess.run([nodelet, 'load', 'vegetation_sim/forest_animator', '/manager',
                                '__name:=refused'], timeout=60, stderr=subprocess.DEVNULL)
         self.assertNotEqual(done.returncode, 0)
-        self.clock.run(1, *self.all)  # the others go on
+        self.clock.run(1, *self.all)  # The other instances continue.
 
-    # Readers recover: layout again, then a key frame, then deltas without a gap.
+    # Subscribers recover: they get the layout again, then a key frame, then deltas without a gap.
     def test_readers_survive_restarts(self):
         reader = Animator('/mortal/forest_animator', '/mortal/')
         for i in range(RESTARTS):

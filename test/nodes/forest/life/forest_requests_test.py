@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Requests and messages that forest_animator refuses by name, and what it does not change then."""
+"""forest_animator rejects bad requests and messages with an error that names the field. They have
+no effect."""
 import copy
 import unittest
 
@@ -35,7 +36,7 @@ class ForestRequests(unittest.TestCase):
         cls.diagnostics = Log('/diagnostics', DiagnosticArray)
         wait_for(lambda: cls.wind.get_num_connections() > 0, 'readers of the wind')
 
-    # Nobody looks: the hash stays the same unless something was taken in.
+    # Without a viewer the hash stays the same unless an input was applied.
     def setUp(self):
         self.clock.run(5 * RATE, self.forest)
         self.hash = self.forest.state.messages[-1].hash
@@ -47,7 +48,7 @@ class ForestRequests(unittest.TestCase):
         self.assertEqual(len(self.forest.events.messages), self.events)
 
     def expect_refusal(self, *texts):
-        """Waits for diagnostics that tell of it."""
+        """Waits for diagnostics with these texts."""
         def tells(status):
             message = status.message.replace('-nan', 'nan')
             return all(text in message for text in texts)
@@ -82,7 +83,7 @@ class ForestRequests(unittest.TestCase):
             self.assertIn(name, all_at_once)
         self.expect_unchanged()
 
-    # S1-02: a branch is selected by a ray, in the world or in another frame.
+    # S1-02: a ray in the world or in another frame selects a branch.
     def test_pick_finds_a_branch(self):
         root = self.forest.tree(0).transforms.poses[0].position
         straight = self.forest.pick(origin=Point(root.x, root.y, 90.0), **DOWN)
@@ -171,7 +172,8 @@ class ForestRequests(unittest.TestCase):
             self.expect_refusal('refused input', *texts)
         self.expect_unchanged()
 
-    # dynamic_reconfigure clamps to the range; a NaN gets through its clamp, but not through ours.
+    # dynamic_reconfigure clamps values to the range. A NaN passes its clamp, and the node rejects
+    # it.
     def test_settings_that_are_no_numbers_are_refused(self):
         server = Client('/forest_animator', timeout=30)
         before = server.get_configuration()
@@ -201,7 +203,7 @@ class ForestRequests(unittest.TestCase):
         self.assertLessEqual(len(viewers), MOST_VIEWERS)
         if len(viewers) == MOST_VIEWERS:
             self.expect_refusal('is one more than the %d allowed at once' % MOST_VIEWERS)
-        # What still lay in a socket may look for a while yet.
+        # Viewers from messages that were still in a socket may be active for a while.
         self.clock.run_until(lambda: self.forest.state.messages[-1].hash == self.hash,
                              'the forest as it was before', self.forest)
 

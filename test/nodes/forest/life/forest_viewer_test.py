@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Who looks at the forest decides its levels (N8, S1-22)."""
+"""The viewers of the forest determine its levels of detail (N8, S1-22)."""
 import unittest
 
 import rospy
@@ -33,17 +33,17 @@ class ForestViewer(unittest.TestCase):
         wait_for_readers('/tf', *(a.process for a in cls.all))
 
     def setUp(self):
-        self.clock.run(6 * RATE, *self.all)  # until nobody looks and all have settled
+        self.clock.run(6 * RATE, *self.all)  # All viewers expire and all transitions end.
 
     def look(self, place, seconds=2, eye=None):
-        """For a while, as rviz would; ends with the levels of the two trees."""
+        """Publishes a viewer once a second, as rviz does. Returns the levels of the two trees."""
         for _ in range(seconds):
             (eye or self.eye).look(*place, self.forest)
             self.clock.run(RATE, *self.all)
         return self.forest.level(WEST), self.forest.level(EAST)
 
     def film(self, place):
-        """Puts the camera somewhere; returns when tf has it."""
+        """Moves the camera frame. Returns when tf of the node has it."""
         frame = TransformStamped(child_frame_id='camera')
         frame.header.frame_id, frame.header.stamp = 'map', time_of(self.clock.tick + 1)
         move = frame.transform.translation
@@ -76,7 +76,7 @@ class ForestViewer(unittest.TestCase):
         other.look(*BESIDE_WEST, self.forest)
         both, _ = self.look(FAR)
         self.assertGreater(both, far)
-        left, _ = self.look(FAR, 5)  # the other one is not heard any more
+        left, _ = self.look(FAR, 5)  # The other viewer has expired.
         self.assertEqual(left, far)
         other.close()
 
@@ -85,7 +85,7 @@ class ForestViewer(unittest.TestCase):
         self.assertGreater(self.filmed.level(WEST), self.filmed.level(EAST))
         self.film(BESIDE_EAST)
         self.assertLess(self.filmed.level(WEST), self.filmed.level(EAST))
-        self.assertEqual(self.forest.level(WEST), FIXED_LEVEL)  # the other node has no camera
+        self.assertEqual(self.forest.level(WEST), FIXED_LEVEL)  # The other node has no camera.
 
     def test_tolerance_and_highest_level_take_effect(self):
         west, _ = self.look(BESIDE_WEST)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""forest_animator by the time of day."""
+"""Tests forest_animator with wall time."""
 import unittest
 
 import rospy
@@ -15,7 +15,7 @@ TICKS = 2 * RATE
 
 
 class ForestLive(unittest.TestCase):
-    # Two seconds of ticks on the grid of Unix time, none left out, none ahead of its time.
+    # Two seconds of ticks lie on the grid of Unix time. None is missing and none is early.
     def test_state_comes_tick_by_tick(self):
         wind = Log('/wind', WindField)
         state = Log('/forest/state', ForestState)

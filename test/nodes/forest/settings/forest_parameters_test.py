@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""forest_animator refuses to start with bad parameters or a bad scenario, all faults at once."""
+"""forest_animator must reject bad parameters and scenarios at startup and report all faults at
+once."""
 import roslib.packages
 import rospy
 import rostest
 
 from refusing_node import Ranges, RefusingNode
 
-# parameter: unit, least, most
+# Each parameter with its unit, minimum and maximum.
 NUMBERS = {
     'key_frame_period': (' s', 0.05, 60), 'markers_rate': (' Hz', 0.1, 60),
     'tf_rate': (' Hz', 0.1, 240), 'branches_rate': (' Hz', 0.1, 240),
@@ -31,9 +32,10 @@ WHOLE_NUMBERS = {
     'state_bytes': (' B/s', 0, 100000000), 'modal_trees': ('', 0, 1000),
 }
 OTHERS = {'scenario', 'frame_id', 'viewer_frame', 'replay', 'branches_trees', 'tf_promoted', 'bodies',
-          'robot_description', 'robot_frame_prefix'}  # of the last three more in robot_bodies
+          # robot_bodies_test has more tests of the last three.
+          'robot_description', 'robot_frame_prefix'}
 
-# What is wrong with a scenario: its text, what the refusal says.
+# Text of a bad scenario and the expected part of the error.
 SCENARIOS = [
     ('{forests: 3}', 'forests is not a known key; known are frame_id, seed, terrain'),
     ('{forest: {trees: [{species: oak, x: 3}]}}', 'forest: trees[0]: x is not a known key'),

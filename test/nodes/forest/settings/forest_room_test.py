@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a full forest refuses when its tick comes is over, not waiting (N12)."""
+"""A grab that a full forest rejects at its tick is removed and does not wait (N12)."""
 import unittest
 
 import rospy
@@ -23,7 +23,7 @@ class ForestRoom(unittest.TestCase):
         self.hands.run(2)
         self.assertEqual(self.hands.physical(), [LIMB])
         refused = self.hands.diagnostics()['Inputs refused']
-        # There is no telling before its tick: room may come.
+        # The service cannot reject it before its tick, because a branch may become free.
         second, _ = self.hands.take_at((0.0, 0.0, 0.0), OTHER_LIMB, 0.1,
                                        stamp=time_of(self.clock.tick + 3))
         self.assertIn('held are %d, %d' % (first.id, second.id),

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""What dynamic_reconfigure changes in a forest while it runs (S1-10, S1-45)."""
+"""dynamic_reconfigure changes a forest while it runs (S1-10, S1-45)."""
 import math
 import unittest
 
@@ -13,20 +13,20 @@ from vegetation_sim.msg import ForestEvent
 
 from forest_rig import RATE, Animator, TickClock, time_of
 
-OAK = 0  # tree
+OAK = 0  # index of the tree
 PLAIN = dict(size=1.0, children=1.0, leaves=1.0, angle=1.0, noise=1.0, fixed_level=2,
              highest_level=6, transition=2.0)
 
 
 def axis(pose):
-    """z of a frame in the world."""
+    """Returns the z axis of a frame in the world."""
     q = pose.orientation
     return (2 * (q.x * q.z + q.w * q.y), 2 * (q.y * q.z - q.w * q.x),
             1 - 2 * (q.x * q.x + q.y * q.y))
 
 
 def joint_angles(tree, depth):
-    """Angles of the limbs of a depth to what bears them, at rest [rad]."""
+    """Returns the rest angles between limbs of a depth and their parents [rad]."""
     axes = [axis(pose) for pose in tree.transforms.poses]
     return [math.acos(max(-1.0, min(1.0, sum(a * b for a, b in zip(axes[i], axes[parent])))))
             for i, parent in enumerate(tree.parents) if parent >= 0 and tree.depths[i] == depth]
@@ -50,19 +50,19 @@ class ForestTuning(unittest.TestCase):
         self.plain = self.forest.tree(OAK)
 
     def tune(self, **settings):
-        """Takes effect at the next tick."""
+        """Changes settings and runs the tick at which they take effect."""
         self.server.update_configuration(settings)
         self.clock.run(1, self.forest)
 
     def newest_layout(self):
-        """The one that the state belongs to."""
+        """Returns the layout of the newest state."""
         wanted = self.forest.state.messages[-1].layout_hash
         return self.forest.layout.wait(lambda all: all[-1].hash == wanted and all[-1], 'a layout')
 
     def rules(self):
         return yaml.safe_load(self.newest_layout().species[0].rules)
 
-    # S1-10: each parameter changes what it says.
+    # S1-10: each parameter has the documented effect.
     def test_size_scales_the_trees(self):
         self.tune(size=1.5)
         self.assertAlmostEqual(self.forest.tree(OAK).height / self.plain.height, 1.5, delta=0.1)
@@ -110,7 +110,7 @@ class ForestTuning(unittest.TestCase):
         self.assertEqual(self.forest.tree(OAK).skeleton_hash, self.plain.skeleton_hash)
 
     def ticks_of_a_change(self, level):
-        """How long the trees take to settle at another fixed level."""
+        """Returns the number of ticks until the trees have reached another fixed level."""
         self.tune(fixed_level=level)
         start = self.clock.tick
         self.assertEqual(self.forest.level(OAK), level)
@@ -121,15 +121,15 @@ class ForestTuning(unittest.TestCase):
         self.clock.run_until(settled, 'a settled forest', self.forest)
         return self.clock.tick - start
 
-    # S1-45: a longer transition takes longer; levels of trees that nobody watches (N8).
+    # S1-45: a longer transition takes longer. Without a viewer the fixed level applies (N8).
     def test_transition_and_fixed_level_take_effect(self):
         self.clock.run(5 * RATE, self.forest)
         long = self.ticks_of_a_change(3)
-        self.assertGreaterEqual(long, 2 * RATE)  # the scenario's 2 s
+        self.assertGreaterEqual(long, 2 * RATE)  # The scenario sets 2 s.
         self.tune(transition=0.2)
         self.clock.run(RATE, self.forest)
         short = self.ticks_of_a_change(1)
-        # A key frame, which tells of it, may be a second away.
+        # The key frame that shows it may come up to a second later.
         self.assertLessEqual(short, 1.2 * RATE + 1)
         self.assertEqual(self.newest_layout().transition, 0.2)
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""A bag of topics replays the run: the same hash of the state at every tick (N6)."""
+"""A replayed bag of topics gives the same hash of the state at every tick (N6)."""
 import os
 import subprocess
 import tempfile
@@ -24,10 +24,12 @@ from waiting import wait_for
 from watched_node import listens, publisher, wait_for_readers
 
 SECONDS = 60
-TAIL = 5  # [s] recorded but not compared: a recorder that is stopped loses what is on its way
+# [s] recorded but not compared, because a recorder that is stopped loses messages in transit
+TAIL = 5
 TOPICS = ['/clock', '/wind', '/viewer', '/forest/layout', '/forest/state', '/forest/events']
-SPEED = 10  # of the replay over real time
-DELAY = 10.0  # [s] that events have to arrive in; a second of real time
+SPEED = 10  # rate of the replay relative to wall time
+# [s] of simulated time by which the replay runs behind its events; one second of wall time
+DELAY = 10.0
 
 
 class ForestReplay(unittest.TestCase):
@@ -39,7 +41,7 @@ class ForestReplay(unittest.TestCase):
         self.folder.cleanup()
 
     def edit(self, second):
-        """What users do meanwhile."""
+        """Changes settings as users do during a run."""
         self.hold(second)
         if second == 20:
             self.server.update_configuration({'size': 0.9, 'transition': 0.4})
@@ -52,7 +54,8 @@ class ForestReplay(unittest.TestCase):
             self.assertTrue(answer.success, answer.message)
 
     def hold(self, second):
-        """A holder that grabs, pulls, lets go and pushes; later one whose frame falls silent."""
+        """Grabs, moves, releases and pushes branches; later a gripper whose frame is no longer
+        published holds one."""
         def call(name, service, **request):
             answer = rospy.ServiceProxy('/forest_animator/' + name, service)(**request)
             self.assertTrue(answer.success, answer.message)
@@ -84,7 +87,7 @@ class ForestReplay(unittest.TestCase):
             call('grab', Grab, tree=13, branch=8, frame='hand', keep_offset=True, lease=1.0)
 
     def live_run(self):
-        """The forest with an eye that flies through it, recorded; its hashes by stamp."""
+        """Records the forest while a viewer flies through it. Returns the hashes by stamp."""
         forest, clock, eye = Animator(), TickClock(1000 * RATE), Eye()
         self.forest, self.clock, self.frames = forest, clock, publisher('/tf', TFMessage)
         forest.wait_until_up('/wind', '/viewer')
@@ -117,7 +120,7 @@ class ForestReplay(unittest.TestCase):
         return hashes, clock
 
     def replay(self, clock):
-        """Another node hears the bag's inputs only."""
+        """Runs another node that receives only the inputs in the bag."""
         process = start_animator('/replay/forest_animator', {}, scenario=scene('forest'),
                                  replay=True, replay_delay=DELAY)
         try:
@@ -127,7 +130,7 @@ class ForestReplay(unittest.TestCase):
                             '--topics', '/wind', '/forest/events', '/wind:=/replay/wind',
                             '/forest/events:=/replay/forest/events'], check=True, timeout=120,
                            stdout=subprocess.DEVNULL)
-            # The bag's clock ended before the delay: on from where it was.
+            # The clock of the bag ends before the delay has passed, so the test continues it.
             end = tick_after(self.bag, ['/wind', '/forest/events'])
             for tick in range(1, int((DELAY + 1) * RATE)):
                 clock.show(end + tick)

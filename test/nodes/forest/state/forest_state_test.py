@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""256 trees in wind: what forest_animator sends, how often and how much of it."""
+"""Tests content, rate and size of the messages of forest_animator for 256 trees in wind."""
 import io
 import unittest
 
@@ -16,8 +16,8 @@ from watched_node import Log
 
 SECONDS = 10
 TREES, LEAST_BRANCHES = 256, 200
-MOST_BYTES = 100e3  # per second, of forest/state with nothing promoted
-TF_BUDGET, MARKER_POINTS = 60, 30000  # as in forest_state.test
+MOST_BYTES = 100e3  # limit per second of forest/state while no tree is promoted
+TF_BUDGET, MARKER_POINTS = 60, 30000  # same values as in forest_state.test
 
 
 def size_of(message):
@@ -35,12 +35,12 @@ class ForestState(unittest.TestCase):
         cls.eye = Eye()
 
     def run_watched(self, seconds):
-        """An eye walks through the forest, so that levels change all the time."""
+        """Moves a viewer through the forest, so that levels change continuously."""
         for half in range(2 * seconds):
             self.eye.look(-60.0 + 3.0 * half, -10.0, 4.0, self.forest)
             self.clock.run(RATE // 2, self.forest)
 
-    # S1-02: any (tree, branch) id is there, of 256 trees of at least 200 branches.
+    # S1-02: the service knows every (tree, branch) id of 256 trees with at least 200 branches each.
     def test_every_branch_of_every_tree_can_be_asked_for(self):
         self.assertIn('there are %d, from 0' % TREES, self.forest.refusal(tree=TREES))
         for tree in range(TREES):
@@ -53,7 +53,7 @@ class ForestState(unittest.TestCase):
             self.assertIn('branch = %d is unknown' % count,
                           self.forest.set_tf(tree, [count], True).message)
 
-    # 30 messages a second of the clock, one per tick, and few bytes.
+    # There are 30 messages per second of the clock, one per tick, and they are small.
     def test_state_comes_at_its_rate_and_is_small(self):
         before, tick = len(self.forest.state.messages), self.clock.tick
         self.run_watched(SECONDS)
@@ -72,7 +72,7 @@ class ForestState(unittest.TestCase):
     def test_frames_stay_within_their_budget(self):
         count = len(self.forest.tree(7).transforms.poses)
         self.assertGreater(count, TF_BUDGET)
-        self.clock.run(6 * RATE, self.forest)  # until no level changes any more
+        self.clock.run(6 * RATE, self.forest)  # After this time no level changes any more.
         tf = Log('/tf', TFMessage)
         answer = self.forest.set_tf(7, list(range(TF_BUDGET)), True)
         self.assertTrue(answer.success, answer.message)
@@ -96,7 +96,7 @@ class ForestState(unittest.TestCase):
         self.assertEqual(self.forest.set_tf(7, [], False).frames, 0)
         tf.close()
 
-    # Stock markers: two lists of constant size, built only for a subscriber.
+    # The stock markers are two lists of constant size that are built only for a subscriber.
     def test_markers_are_few_constant_and_only_on_demand(self):
         self.run_watched(2)
         self.assertEqual(self.forest.diagnostics()['Marker points'], 0)
@@ -114,7 +114,7 @@ class ForestState(unittest.TestCase):
         self.assertGreater(self.forest.diagnostics()['Marker points'], 0.5 * MARKER_POINTS)
         markers.close()
 
-    # forest/branches: only the selected trees, equal to get_tree.
+    # forest/branches has only the selected trees, with the same poses as get_tree.
     def test_branches_of_selected_trees_are_sent(self):
         branches = Log('/forest/branches', BranchTransforms)
         self.clock.run_until(lambda: len(branches.messages) >= 10, 'branches', self.forest)
