@@ -83,56 +83,66 @@ class Drive {
   std::int64_t tick_{0};
 };
 
-/// Finds contacts as ever, adds up what they give to the trees and watches how those move.
-class PrimitiveSchedule : public ContactFinder {
+/// Records the contacts of a forest: the impulse on the trees and how these move.
+class ContactRecorder {
  public:
-  std::vector<physics::Contact> findContacts(const Wood& wood, const Bodies& bodies,
-                                             Nanoseconds from, Nanoseconds to,
-                                             Touches& touches) const override {
-    if (from > from_ && last_.pose.size() == wood.start.pose.size()) {
+  /// Returns a finder whose results are recorded here; it must not outlive this object.
+  std::shared_ptr<const ContactFinder> makeFinder() {
+    ContactTrace trace;
+    trace.on_search = [this](const ContactTree& tree, Nanoseconds from,
+                             const PersistentContacts& contacts) {
+      recordSearch(tree, from, contacts);
+    };
+    trace.on_step = [this](const ContactTree& tree, const std::vector<physics::Contact>& contacts,
+                           Nanoseconds to) { recordStep(tree, contacts, to); };
+    return std::make_shared<ContactFinder>(trace);
+  }
+  int searches{0};             ///< substeps, repeated ones included
+  Vec3 impulse{Vec3::Zero()};  ///< on the trees [N s]
+  double size{0.0};            ///< sum of the sizes of all contributions to `impulse` [N s]
+  double rise{0.0};            ///< largest rise of the force on a branch between substeps [N]
+  double shortest{1.0};        ///< substep [s]
+  double farthest{0.0};        ///< displacement of a joint in a substep [m]
+  double leap{0.0};     ///< largest part of a displacement that velocities do not explain [m]
+  int repeated{0};      ///< substeps that were repeated
+  int inconsistent{0};  ///< of these, begun with other persistent contacts than before
+
+ private:
+  void recordSearch(const ContactTree& tree, Nanoseconds from, const PersistentContacts& contacts) {
+    ++searches;
+    if (from > from_ && last_.pose.size() == tree.start.pose.size()) {
       const double h = secondsBetween(from_, from);
       for (std::size_t i = 0; i < last_.pose.size(); ++i) {
-        const Vec3 way = wood.start.pose[i].position - last_.pose[i].position;
-        const Vec3 mean = 0.5 * (wood.start.velocity[i] + last_.velocity[i]);
-        farthest_ = std::max(farthest_, length(way));
-        leap_ = std::max(leap_, length(way - h * mean));
+        const Vec3 way = tree.start.pose[i].position - last_.pose[i].position;
+        const Vec3 mean = 0.5 * (tree.start.velocity[i] + last_.velocity[i]);
+        farthest = std::max(farthest, length(way));
+        leap = std::max(leap, length(way - h * mean));
       }
     }
     const bool again = from == from_;
-    again_ += again;
-    strange_ += again && touches.size() != remembered_;
-    remembered_ = touches.size();
-    last_ = wood.start;
+    repeated += again;
+    inconsistent += again && contacts.size() != count_;
+    count_ = contacts.size();
+    last_ = tree.start;
     from_ = from;
-    return ContactFinder::findContacts(wood, bodies, from, to, touches);
   }
-  void settle(const Wood& wood, const Bodies& bodies, const std::vector<physics::Contact>& contacts,
-              Nanoseconds to, Touches& touches, std::vector<Reaction>& reactions) const override {
+  void recordStep(const ContactTree& tree, const std::vector<physics::Contact>& contacts,
+                  Nanoseconds to) {
     const double h = secondsBetween(from_, to);
-    shortest_ = std::min(shortest_, h);
+    shortest = std::min(shortest, h);
     std::map<int, double> forces;
     for (const physics::Contact& contact : contacts) {
-      given_ += h * contact.force * contact.normal, size_ += h * contact.force;
-      forces[wood.branches[static_cast<std::size_t>(contact.link)]] += contact.force;
+      impulse += h * contact.force * contact.normal, size += h * contact.force;
+      forces[tree.branches[static_cast<std::size_t>(contact.link)]] += contact.force;
     }
-    for (const auto& [branch, force] : forces) rise_ = std::max(rise_, force - forces_[branch]);
+    for (const auto& [branch, force] : forces) rise = std::max(rise, force - forces_[branch]);
     forces_ = forces;
-    ContactFinder::settle(wood, bodies, contacts, to, touches, reactions);
   }
-  mutable Vec3 given_{Vec3::Zero()};  ///< impulse [N s]
-  mutable double size_{0.0};          ///< sum of the sizes of all that it is of [N s]
-  mutable double rise_{0.0};          ///< of all forces on a branch, from part to part [N]
-  mutable double shortest_{1.0};      ///< part of a step [s]
-  mutable double farthest_{0.0};      ///< way of a joint in a part [m]
-  mutable double leap_{0.0};          ///< what its speeds do not tell of such a way [m]
-  mutable int again_{0};              ///< parts that were taken again
-  mutable int strange_{0};            ///< of these, begun with other touches than the first time
 
- private:
-  mutable Nanoseconds from_{0};
-  mutable std::size_t remembered_{0};
-  mutable physics::Kinematics last_;
-  mutable std::map<int, double> forces_;  // on branches
+  Nanoseconds from_{0};
+  std::size_t count_{0};
+  physics::Kinematics last_;
+  std::map<int, double> forces_;  // on branches
 };
 
 /// Balls at a birch's trunk, at a part of its length, from where they touch: so small that each has

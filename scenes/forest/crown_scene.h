@@ -11,6 +11,7 @@
 #include "dynamics/integration/integrator.h"
 #include "forest/contact/contact_body.h"
 #include "forest/contact/contact_finder.h"
+#include "forest/contact/substep_bisection.h"
 #include "scenes/forest/forest_fixture.h"
 #include "tree/growth/wood.h"
 #include "vegetation_sim/core/math/math.h"
@@ -108,12 +109,12 @@ class CrownScene {
  private:
   Nanoseconds timeOf(std::int64_t tick) const { return TickGrid(PHYSICS_RATE).timeOf(tick); }
 
-  ContactModel::Wood wood() const {
+  ContactTree contactTree() const {
     return {0, Vec3::Zero(), branches_, tree_.skeleton, kinematics_};
   }
   void step(const Bodies& bodies, CrownResult* result) {
     const Nanoseconds from = timeOf(tick_), to = timeOf(++tick_);
-    const int parts = finder_.partsOf(wood(), bodies, from, to);
+    const int parts = finder_.countSubsteps(contactTree(), bodies, from, to);
     bisection_ = SubstepBisection();
     for (int k = 0; k < parts; ++k)
       stepPart(bodies, from + (to - from) * k / parts, from + (to - from) * (k + 1) / parts,
@@ -121,22 +122,22 @@ class CrownScene {
   }
   void stepPart(const Bodies& bodies, Nanoseconds from, Nanoseconds to, CrownResult* result) {
     const double h = secondsBetween(from, to);
-    const Touches touches = touches_;
+    const PersistentContacts persistent = persistent_;
     const physics::ChainState state = state_;
     const double theta = theta_;
     std::vector<physics::Contact> contacts =
-        finder_.findContacts(wood(), bodies, from, to, touches_);
+        finder_.findContacts(contactTree(), bodies, from, to, persistent_);
     theta_ = physics::guardedTheta(state_, h, theta_);
     stepper_.step(links_, {}, law, 0.0, h, theta_, state_, contacts);
-    if (bisection_.want(stepper_, law, to - from)) {
+    if (bisection_.bisect(stepper_, law, to - from)) {
       const Nanoseconds middle = from + (to - from) / 2;
-      touches_ = touches, state_ = state, theta_ = theta;
+      persistent_ = persistent, state_ = state, theta_ = theta;
       stepPart(bodies, from, middle, result);
       return stepPart(bodies, middle, to, result);
     }
     const physics::Kinematics before = kinematics_;
     std::vector<Reaction> reactions;
-    finder_.settle(wood(), bodies, contacts, to, touches_, reactions);
+    finder_.recordForces(contactTree(), bodies, contacts, to, persistent_, reactions);
     physics::kinematicsOf(links_, {}, state_, kinematics_);
     if (!result) return;
     ++result->parts;
@@ -205,7 +206,8 @@ class CrownScene {
             bool out = true) const {
     const Branch& b = tree_.skeleton.branches[i];
     const Pose &p0 = before.pose[i], &p1 = kinematics_.pose[i];
-    const double start = out ? outsideBearer(tree_.skeleton, static_cast<int>(i)) / b.length : 0.0;
+    const double start =
+        out ? findExposedStart(tree_.skeleton, static_cast<int>(i)) / b.length : 0.0;
     const Vec3 joint = (1.0 - part) * p0.position + part * p1.position;
     const Vec3 tip = (1.0 - part) * tipOf(b, p0) + part * tipOf(b, p1);
     const Vec3 base = joint + start * (tip - joint);
@@ -261,7 +263,7 @@ class CrownScene {
   physics::Kinematics kinematics_;
   physics::ContactStepper stepper_;
   ContactFinder finder_;
-  Touches touches_;
+  PersistentContacts persistent_;
   Body body_;
   double theta_{0.5};
   SubstepBisection bisection_;  // of this step

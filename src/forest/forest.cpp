@@ -5,13 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "forest/contact/contact_finder.h"
 #include "vegetation_sim/core/math/math.h"
 
 namespace vegetation_sim::forest {
 namespace {
-
-constexpr double SMALLEST_SCALE = 0.7, LARGEST_SCALE = 1.3;  // of trees in tiles, seedInTile
 
 void addTo(Hash& hash, const Viewer& viewer) {
   hash.add(viewer.id);
@@ -33,8 +30,8 @@ void describe(FieldVisitor& v, Settings& s) {
   describe(v, s.budget);
 }
 
-Forest::Forest(Layout layout, std::shared_ptr<const terrain::HeightMap> terrain, Settings settings)
-    : contacts_(std::make_shared<ContactFinder>()) {
+Forest::Forest(Layout layout, std::shared_ptr<const terrain::HeightMap> terrain,
+               Settings settings) {
   memory_.settings = settings;
   setLayout(std::move(layout), std::move(terrain));
 }
@@ -81,7 +78,8 @@ void Forest::measureSpecies(std::size_t species, double scale) {
 void Forest::eachSize(const std::function<void(std::size_t, double)>& look) const {
   for (const TreeSeed& seed : layout_.trees) look(seed.species, seed.scale);
   for (std::size_t species = 0; species < tables_.size() && !layout_.tiles.empty(); ++species)
-    for (const double scale : {SMALLEST_SCALE, 1.0, LARGEST_SCALE}) look(species, scale);
+    for (const double scale : {SMALLEST_TILED_SCALE, 1.0, LARGEST_TILED_SCALE})
+      look(species, scale);
 }
 
 void Forest::precompute() {
@@ -105,6 +103,64 @@ void Forest::measure() {
     const Vec3 centre(tile.x + half, tile.y + half, terrain_->height(tile.x + half, tile.y + half));
     regions_.push_back({centre, half * 1.5 + relief + extent_, tile.first_tree, tile.count});
   }
+}
+
+StepContext Forest::stepContext() const {
+  return {layout_,        layout_hash_,  *terrain_,  memory_.wind,
+          memory_.levels, memory_.modes, *contacts_, memory_.stamp};
+}
+
+// Before the levels are chosen anew: those that hold now did so since the last tick.
+void Forest::advancePhysics(Nanoseconds stamp) {
+  for (const std::uint32_t tree : physicalTrees()) memory_.changed.insert(tree);
+  memory_.modes.advance(memory_.wind, memory_.stamp, stamp);
+  memory_.physics.advance(stepContext(), stamp);
+}
+
+std::uint32_t Forest::addGrab(const Grab& grab) {
+  return memory_.physics.addGrab(stepContext(), grab);
+}
+void Forest::moveGrab(std::uint32_t id, const Vec3& target) {
+  memory_.physics.moveGrab(id, target);
+}
+void Forest::renewGrab(std::uint32_t id) {
+  memory_.physics.renewGrab(id);
+}
+void Forest::release(std::uint32_t id) {
+  memory_.physics.release(id);
+}
+void Forest::push(const Push& push) {
+  memory_.physics.push(stepContext(), push);
+}
+void Forest::setBody(const Body& body) {
+  memory_.physics.setBody(body);
+}
+void Forest::removeBody(const std::string& id) {
+  memory_.physics.removeBody(id);
+}
+void Forest::setPhysics(const PhysicsSettings& settings) {
+  memory_.physics.setSettings(settings, memory_.stamp);
+}
+
+PhysicsFigures Forest::physicsFigures() const {
+  PhysicsFigures out = memory_.physics.figures();
+  out.bytes += contacts_->bytes();
+  return out;
+}
+
+PromotedTree Forest::promoted(std::uint32_t tree) const {
+  return memory_.physics.promoted(tree, memory_.stamp);
+}
+
+std::vector<std::uint32_t> Forest::physicalTrees() const {
+  std::vector<std::uint32_t> out;
+  for (const auto& [tree, subtree] : memory_.physics.subtrees())
+    if (!subtree.empty()) out.push_back(tree);
+  return out;
+}
+
+std::vector<Pose> Forest::pose(const Tree& tree, std::uint32_t id, Nanoseconds stamp) const {
+  return memory_.physics.pose(stepContext(), tree, id, stamp);
 }
 
 std::uint64_t Forest::hash() const {

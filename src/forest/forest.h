@@ -84,11 +84,13 @@ class Forest {
   void setBody(const Body& body);
   void removeBody(const std::string& id);
   void setPhysics(const PhysicsSettings& settings);
-  /// Who finds contacts, a ContactFinder at first; none: bodies touch nothing.
-  void setContactModel(std::shared_ptr<const ContactModel> model) { contacts_ = std::move(model); }
+  /// Replaces the finder of contacts by one that reports intermediate results.
+  void setContactFinder(std::shared_ptr<const ContactFinder> finder) {
+    contacts_ = std::move(finder);
+  }
 
   const PhysicsSettings& physicsSettings() const { return memory_.physics.settings(); }
-  const std::map<std::uint32_t, Grab>& grabs() const { return memory_.physics.grabs(); }
+  const HeldGrabs& grabs() const { return memory_.physics.grabs(); }
   const Bodies& bodies() const { return memory_.physics.bodies(); }
   /// Grabs that ended by themselves at the last tick: their lease ran out.
   const std::vector<Grab>& ended() const { return memory_.physics.ended(); }
@@ -120,7 +122,7 @@ class Forest {
     double reach;  // [m] around the centre, trees' own reach included
     std::uint32_t first, count;
   };
-  StepContext site() const;
+  StepContext stepContext() const;
   void advancePhysics(Nanoseconds stamp);
   /// Of all trees; of tiles, whose trees are drawn later, all that may come.
   void eachSize(const std::function<void(std::size_t species, double scale)>& look) const;
@@ -148,7 +150,7 @@ class Forest {
   double largest_omission_{0.0};     // of any tree, all joints fixed [m per m/s]
   double slowest_reference_{1.0};    // reference speed of any species [m/s]
   std::vector<Region> regions_;
-  std::shared_ptr<const ContactModel> contacts_;
+  std::shared_ptr<const ContactFinder> contacts_{std::make_shared<ContactFinder>()};
   ForestSnapshot memory_;
   wind::Instant now_;
   wind::GustSpectrumField swinging_;  // now

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "forest/contact/contact_finder.h"
-
 namespace vegetation_sim::forest {
 namespace {
 
@@ -25,7 +23,7 @@ std::optional<Nearest> nearestBranch(const Layout& layout, const terrain::Height
                                      const Vec3& point, double reach,
                                      const std::function<PosedTree(std::uint32_t)>& posed) {
   std::optional<Nearest> best;
-  for (const std::uint32_t id : treesNear(layout, terrain, point, reach)) {
+  for (const std::uint32_t id : findTreesNear(layout, terrain, point, reach)) {
     const PosedTree tree = posed(id);
     for (std::size_t i = 0; i < tree.poses.size(); ++i) {
       Nearest here =

@@ -60,16 +60,6 @@ bool passesTile(const Ray& ray, const Vec3& direction, const Tile& tile, double 
 
 }  // namespace
 
-double sizeBound(const Species& species) {
-  double chain = 1.0, sum = 1.0;
-  for (std::size_t depth = 1; depth < species.limbs.size(); ++depth) {
-    const LimbRule& rule = species.limbs[depth];
-    chain *= rule.length * (1.0 + rule.length_variation);
-    sum += chain;
-  }
-  return species.height * (1.0 + species.height_variation) * sum;
-}
-
 std::optional<Picked> pickBranch(const Tree& tree, const std::vector<Pose>& poses, const Ray& ray) {
   const Vec3 direction = ray.direction / length(ray.direction);
   std::optional<Picked> best;
@@ -96,7 +86,7 @@ std::optional<Picked> pickTree(const Layout& layout, const terrain::HeightMap& t
   double largest = 0.0;
   for (const Species& species : layout.species) largest = std::max(largest, sizeBound(species));
   for (const Tile& tile : layout.tiles) {
-    if (!passesTile(ray, direction, tile, 1.3 * largest)) continue;
+    if (!passesTile(ray, direction, tile, LARGEST_TILED_SCALE * largest)) continue;
     for (std::uint32_t i = 0; i < tile.count; ++i)
       addCandidate(layout, terrain, ray, tile.first_tree + i, seedInTile(tile, i), candidates);
   }

@@ -25,10 +25,6 @@ struct Picked {
   Vec3 point{Vec3::Zero()};  ///< on the axis of the branch, world [m]
 };
 
-/// No tree of a species and scale 1 reaches farther from its foot than this [m]: limbs reach at
-/// most as far as the longest chain of lengths, which check() bounds through `length`.
-double sizeBound(const Species& species);
-
 /// First branch of one tree that the ray meets. `poses` in the tree's frame.
 std::optional<Picked> pickBranch(const Tree& tree, const std::vector<Pose>& poses, const Ray& ray);
 

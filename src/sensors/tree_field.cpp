@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "forest/contact/contact_finder.h"
-
 namespace vegetation_sim::scan {
 namespace {
 
@@ -15,7 +13,7 @@ std::vector<std::uint32_t> nearestFirst(const forest::ForestReplica& forest, con
                                         double radius) {
   std::vector<std::pair<double, std::uint32_t>> sorted;
   for (const std::uint32_t id :
-       forest::treesNear(forest.layout(), forest.terrain(), centre, radius)) {
+       forest::findTreesNear(forest.layout(), forest.terrain(), centre, radius)) {
     const Vec3 foot = forest::footOf(seedOf(forest.layout(), id), forest.terrain());
     sorted.emplace_back(length(foot - centre), id);
   }

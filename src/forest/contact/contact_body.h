@@ -2,11 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <map>
+#include <string>
+
 #include "dynamics/contact/rounded_box.h"
 #include "tree/physical/interaction.h"
 #include "vegetation_sim/core/config/faults.h"
 
 namespace vegetation_sim::forest {
+
+using Bodies = std::map<std::string, Body>;  // by id
 
 /// No edge, radius or length of a body is larger or smaller [m].
 constexpr double LARGEST_BODY = 50.0, SMALLEST_BODY = 1e-3;

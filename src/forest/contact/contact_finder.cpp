@@ -27,11 +27,11 @@ constexpr double THIN = 0.01, FADE = 2e-3, THIN_BEARS = 5.0;
 
 // What a body had in the last step.
 struct Touched {
-  const Touch *first, *last;
+  const PersistentContact *first, *last;
 
-  Touched(const Touches& touches, const std::string& body) {
-    first = touches.data();
-    const Touch* end = first + touches.size();
+  Touched(const PersistentContacts& persistent, const std::string& body) {
+    first = persistent.data();
+    const PersistentContact* end = first + persistent.size();
     while (first != end && first->body != body) ++first;
     last = first;
     while (last != end && last->body == body) ++last;
@@ -41,18 +41,18 @@ struct Touched {
 // What a pair of a body and a branch had in the last step: one contact, two or none, and what
 // leaves.
 struct Held {
-  const Touch *first, *last;
+  const PersistentContact *first, *last;
 
   Held(const Touched& body, int branch) {
-    const auto before = [](const Touch& a, int b) { return a.branch < b; };
+    const auto before = [](const PersistentContact& a, int b) { return a.branch < b; };
     first = last = std::lower_bound(body.first, body.last, branch, before);
     while (last != body.last && last->branch == branch) ++last;
   }
   // The one that bears most, if any touches: its side is the branch's.
-  const Touch* touching() const {
-    const Touch* out = nullptr;
-    for (const Touch* t = first; t != last; ++t)
-      if (!t->leaving && (t->force > 0.0 || t->gap < HELD) && (!out || t->force > out->force))
+  const PersistentContact* touching() const {
+    const PersistentContact* out = nullptr;
+    for (const PersistentContact* t = first; t != last; ++t)
+      if (!t->released && (t->force > 0.0 || t->gap < HELD) && (!out || t->force > out->force))
         out = t;
     return out;
   }
@@ -60,9 +60,9 @@ struct Held {
   // lower.
   double at(double along, double other) const {
     double out = 0.0;
-    for (const Touch* t = first; t != last; ++t) {
+    for (const PersistentContact* t = first; t != last; ++t) {
       const double way = std::fabs(t->along - along), others = std::fabs(t->along - other);
-      if (!t->leaving && (way < others || (way == others && along < other))) out += t->force;
+      if (!t->released && (way < others || (way == others && along < other))) out += t->force;
     }
     return out;
   }
@@ -72,10 +72,10 @@ struct Held {
 bool meet(const Placed& placed, const Pair& pair, const Held& held, double horizon,
           Proximity& out) {
   const Bar local = placed.local(pair.bar);
-  if (const Touch* known = held.touching()) {
+  if (const PersistentContact* known = held.touching()) {
     const Proximity free = nearest(placed.shape, local);
-    if (dot(free.normal, known->side) < 0.0 && free.gap > LOST) return false;
-    out = nearest(placed.shape, local, known->side);
+    if (dot(free.normal, known->normal) < 0.0 && free.gap > LOST) return false;
+    out = nearest(placed.shape, local, known->normal);
     if (out.gap < SKIN || known->force > 0.0) return true;
   }
   const physics::Meeting meeting =
@@ -147,8 +147,8 @@ Contact contactOf(const Placed& placed, const Pair& pair, const Proximity& found
 }  // namespace
 
 // A thinner branch begins on its bearer's axis: until its far side comes out of the bearer, or past
-// the bearer's end, it is the bearer's wood.
-double outsideBearer(const Skeleton& skeleton, int branch) {
+// the bearer's end, it is the bearer's tree.
+double findExposedStart(const Skeleton& skeleton, int branch) {
   const Branch& b = skeleton.branches[static_cast<std::size_t>(branch)];
   if (b.parent < 0) return 0.0;
   const Branch& bearer = skeleton.branches[static_cast<std::size_t>(b.parent)];
@@ -164,18 +164,19 @@ double outsideBearer(const Skeleton& skeleton, int branch) {
   return out;
 }
 
-std::vector<Contact> ContactFinder::findContacts(const Wood& wood, const Bodies& bodies,
+std::vector<Contact> ContactFinder::findContacts(const ContactTree& tree, const Bodies& bodies,
                                                  Nanoseconds from, Nanoseconds to,
-                                                 Touches& touches) const {
+                                                 PersistentContacts& persistent) const {
+  if (trace_.on_search) trace_.on_search(tree, from, persistent);
   const double h = secondsBetween(from, to);
   std::vector<Contact> out;
-  Touches kept;
+  PersistentContacts kept;
   for (const auto& entry : bodies) {
-    const Placed placed(entry.second, wood.foot, from);
-    const Touched touched(touches, entry.first);
-    for (std::size_t i = 0; i < wood.branches.size(); ++i) {
-      const Pair pair(wood, i, placed);
-      const Held held(touched, wood.branches[i]);
+    const Placed placed(entry.second, tree.foot, from);
+    const Touched touched(persistent, entry.first);
+    for (std::size_t i = 0; i < tree.branches.size(); ++i) {
+      const Pair pair(tree, i, placed);
+      const Held held(touched, tree.branches[i]);
       Proximity found, far;
       const bool meets = leastGap(placed, pair.bar) <= pair.reach(h) &&
                          meet(placed, pair, held, LOOK_AHEAD * h, found);
@@ -186,36 +187,38 @@ std::vector<Contact> ContactFinder::findContacts(const Wood& wood, const Bodies&
         contact.touch = kept.size();
         contact.force = force;
         kept.push_back(
-            {entry.first, wood.branches[i], place.normal, place.gap, force, place.along, leaving});
+            {entry.first, tree.branches[i], place.normal, place.gap, force, place.along, leaving});
         out.push_back(contact);
       };
       if (meets) add(found, held.at(found.along, flat ? far.along : NOWHERE));
       if (flat) add(far, held.at(far.along, found.along));
       // Nothing presses there any more, and the force falls.
-      for (const Touch* t = held.first; t != held.last; ++t)
-        if (t->force > 0.0 && (t->leaving || !meets))
-          add({t->along, t->side, SKIN}, t->force, true);
+      for (const PersistentContact* t = held.first; t != held.last; ++t)
+        if (t->force > 0.0 && (t->released || !meets))
+          add({t->along, t->normal, SKIN}, t->force, true);
     }
   }
-  touches = std::move(kept);
+  persistent = std::move(kept);
   return out;
 }
 
-void ContactFinder::settle(const Wood& wood, const Bodies& bodies,
-                           const std::vector<Contact>& contacts, Nanoseconds, Touches& touches,
-                           std::vector<Reaction>& reactions) const {
+void ContactFinder::recordForces(const ContactTree& tree, const Bodies& bodies,
+                                 const std::vector<Contact>& contacts, Nanoseconds to,
+                                 PersistentContacts& persistent,
+                                 std::vector<Reaction>& reactions) const {
+  if (trace_.on_step) trace_.on_step(tree, contacts, to);
   for (const Contact& contact : contacts) {
-    Touch& touch = touches[contact.touch];
+    PersistentContact& touch = persistent[contact.touch];
     touch.force = contact.force;
     const auto body = bodies.find(touch.body);
     if (contact.force <= 0.0 || body == bodies.end()) continue;
-    const Pose& pose = wood.start.pose[static_cast<std::size_t>(contact.link)];
+    const Pose& pose = tree.start.pose[static_cast<std::size_t>(contact.link)];
     Reaction reaction;
     reaction.kind = Reaction::CONTACT;
     reaction.body = touch.body;
     reaction.frame = body->second.frame;
-    reaction.at = {wood.tree, touch.branch, contact.along};
-    reaction.point = wood.foot + pose.position + contact.along * axisZ(pose.orientation);
+    reaction.at = {tree.tree, touch.branch, contact.along};
+    reaction.point = tree.foot + pose.position + contact.along * axisZ(pose.orientation);
     reaction.force = -contact.force * contact.normal;
     reaction.limited = contact.limited;
     reaction.penetration = std::max(0.0, -contact.gap);

@@ -4,10 +4,8 @@
 
 #include <algorithm>
 
-#include "forest/contact/contact_body.h"
-#include "forest/contact/contact_model.h"
+#include "forest/contact/contact_finder.h"
 #include "vegetation_sim/dynamics/chain/chain.h"
-#include "vegetation_sim/tree/growth/skeleton.h"
 
 namespace vegetation_sim::forest {
 
@@ -42,11 +40,11 @@ struct Pair {
   physics::Bar bar;                  ///< tree's frame
   Vec3 base_velocity, tip_velocity;  ///< relative to the body there, tree's axes
 
-  Pair(const ContactModel::Wood& wood, std::size_t link, const Placed& placed) {
-    const Branch& b = wood.skeleton.branches[static_cast<std::size_t>(wood.branches[link])];
-    const Pose& pose = wood.start.pose[link];
+  Pair(const ContactTree& tree, std::size_t link, const Placed& placed) {
+    const Branch& b = tree.skeleton.branches[static_cast<std::size_t>(tree.branches[link])];
+    const Pose& pose = tree.start.pose[link];
     bar = {pose.position, axisZ(pose.orientation), b.length, b.base_radius, b.tip_radius};
-    const Vec3 &velocity = wood.start.velocity[link], &spin = wood.start.spin[link];
+    const Vec3 &velocity = tree.start.velocity[link], &spin = tree.start.spin[link];
     base_velocity = velocity - placed.velocity(bar.base);
     tip_velocity =
         velocity + cross(spin, Vec3(bar.length * bar.axis)) - placed.velocity(bar.at(bar.length));

@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "forest/contact/contact_model.h"
+#include "forest/contact/contact_finder.h"
+#include "forest/contact/substep_bisection.h"
 #include "tree/physical/interaction.h"
 #include "tree/physical/physical_subtree.h"
 #include "vegetation_sim/forest/physics/modal_forest.h"
@@ -16,109 +17,114 @@
 
 namespace vegetation_sim::forest {
 
-/// The forest in which physics happens: nothing of it is kept.
+/// The surroundings of a physics step. ForestPhysics keeps none of it.
 struct StepContext {
   const Layout& layout;
+  std::uint64_t layout_hash;
   const terrain::HeightMap& terrain;
   const wind::Field& wind;
   const LevelMap& levels;
   const ModalForest& modes;
-  const Forest& forest;
-  const ContactModel* contacts{nullptr};
+  const ContactFinder& contacts;
+  Nanoseconds stamp;  ///< of the last tick
 };
 
-/// What a forest of this layout refuses of a grab, a target or a push, whatever else it holds;
-/// `tree` is the one that is meant. All throw InvalidInput.
+/// A grab in force and its state between ticks.
+struct HeldGrab : Grab {
+  Vec3 last_target{Vec3::Zero()};   ///< at the last tick, world [m]
+  bool renewed_since_tick{true};    ///< moved or renewed since the last tick
+  double max_target_distance{0.0};  ///< from the tree's foot [m]
+  Vec3 foot{Vec3::Zero()};          ///< of the tree, world [m]
+  Vec3 force{Vec3::Zero()};         ///< on the branch, mean over the last tick [N]
+  Vec3 grip{Vec3::Zero()};          ///< position of the held point, tree's frame [m]
+  Vec3 impulse{Vec3::Zero()};       ///< on the branch since the last tick [N s]
+  bool limited{false};              ///< the force was at its limit since the last tick
+};
+using HeldGrabs = std::map<std::uint32_t, HeldGrab>;
+
+/// Checks a request against a layout and the tree that it names. All throw InvalidInput.
 void checkGrab(const Layout& layout, const Tree& tree, const Grab& grab);
 void checkTarget(const Tree& tree, const Vec3& target);
 void checkPush(const Layout& layout, const Tree& tree, const Push& push);
 
-/// What holds, pushes and touches the trees of a forest, and the parts of them that are physical
-/// for it. A value: copy it to save. Requests are checked first and change nothing if refused; they
-/// act from the last tick on.
+/// Grabs, pushes and bodies that act on the trees of a forest, and the physical parts of these
+/// trees. A value: a copy is a snapshot. Requests act from the last tick on; invalid ones throw
+/// InvalidInput and change nothing.
 class ForestPhysics {
  public:
-  std::uint32_t addGrab(const StepContext& at, Grab grab);
+  std::uint32_t addGrab(const StepContext& context, const Grab& grab);
   void moveGrab(std::uint32_t id, const Vec3& target);
   void renewGrab(std::uint32_t id);
   void release(std::uint32_t id);
-  void push(const StepContext& at, const Push& push);
+  void push(const StepContext& context, const Push& push);
   void setBody(const Body& body);
   void removeBody(const std::string& id);
   void setSettings(const PhysicsSettings& settings, Nanoseconds now);
-  /// @throws InvalidInput if a branch that `what` loads could not be physical now.
-  void checkRoom(const std::string& what, std::uint32_t tree, int branch) const;
-  /// Drops grabs, pushes, bodies and all that is physical.
+  /// Removes grabs, pushes, bodies and all physical subtrees; keeps the settings.
   void clear();
 
-  /// Steps from the last tick to this one: ceil(PHYSICS_RATE * time) equal steps.
-  void advance(const StepContext& at, Nanoseconds from, Nanoseconds to);
+  /// Steps from the last tick to `to` in ceil(PHYSICS_RATE * time) equal steps.
+  void advance(const StepContext& context, Nanoseconds to);
 
   const PhysicsSettings& settings() const { return settings_; }
-  const std::map<std::uint32_t, Grab>& grabs() const { return grabs_; }
+  const HeldGrabs& grabs() const { return grabs_; }
   const Bodies& bodies() const { return bodies_; }
   const std::vector<Grab>& ended() const { return ended_; }
   const std::vector<Reaction>& reactions() const { return reactions_; }
-  const std::map<std::uint32_t, PhysicalSubtree>& parts() const { return parts_; }
+  const std::map<std::uint32_t, PhysicalSubtree>& subtrees() const { return subtrees_; }
+  /// Physical joints of a tree at the last tick; `branches` is empty if there are none.
+  PromotedTree promoted(std::uint32_t tree, Nanoseconds last_tick) const;
+  /// Pose of every branch in the tree's frame, physical joints and modes included.
+  std::vector<Pose> pose(const StepContext& context, const Tree& tree, std::uint32_t id,
+                         Nanoseconds stamp) const;
   PhysicsFigures figures() const;
   void addTo(Hash& hash) const;
 
  private:
-  /// What a grab needs from one tick to the next.
-  struct Hold {
-    Vec3 target{Vec3::Zero()};   ///< at the last tick, world
-    bool renewed{true};          ///< since the last tick
-    double reach{0.0};           ///< its targets are no farther from the tree's foot [m]
-    Vec3 foot{Vec3::Zero()};     ///< of the tree [m]
-    Vec3 force{Vec3::Zero()};    ///< on the branch, mean of the last tick [N]
-    Vec3 place{Vec3::Zero()};    ///< of the point held, from the tree's foot [m]
-    Vec3 impulse{Vec3::Zero()};  ///< on the branch since the last tick [N s]
-    bool limited{false};         ///< at its limit somewhere since then
-  };
-
-  PhysicalSubtree& partOf(const StepContext& at, std::uint32_t tree);
-  TreeWind airOf(const StepContext& at, std::uint32_t tree) const;
+  void checkRoom(const std::string& what, std::uint32_t tree, int branch) const;
+  PhysicalSubtree& findOrAddSubtree(const StepContext& context, std::uint32_t tree);
+  TreeWind windOf(const StepContext& context, std::uint32_t tree) const;
   void endLeases(Nanoseconds stamp);
-  void stepAll(const StepContext& at, Nanoseconds from, Nanoseconds to);
-  void choose(const StepContext& at, Nanoseconds from, Nanoseconds to);
-  void chooseIn(const StepContext& at, std::uint32_t tree, PhysicalSubtree& part,
-                const std::vector<int>& loaded, Nanoseconds stamp);
-  std::vector<BranchLoad> expectedLoads(std::uint32_t tree, const PhysicalSubtree& part) const;
-  void step(const StepContext& at, Nanoseconds from, Nanoseconds to, std::size_t k, std::size_t n);
+  void stepAll(const StepContext& context, Nanoseconds to);
+  void promoteLoaded(const StepContext& context, Nanoseconds from, Nanoseconds to);
+  void promoteInTree(const StepContext& context, std::uint32_t tree, PhysicalSubtree& subtree,
+                     const std::vector<int>& loaded, Nanoseconds stamp);
+  std::vector<BranchLoad> predictLoads(std::uint32_t tree, const PhysicalSubtree& subtree) const;
+  void step(const StepContext& context, Nanoseconds from, Nanoseconds to, std::size_t k,
+            std::size_t n);
   bool isNear(std::uint32_t tree) const;
-  void stepTouching(const StepContext& at, std::uint32_t tree, PhysicalSubtree& part,
-                    Nanoseconds from, Nanoseconds to);
-  void stepAmong(const StepContext& at, const ContactModel::Wood& wood, PhysicalSubtree& part,
-                 Nanoseconds from, Nanoseconds to, Nanoseconds whole, SubstepBisection& bisection);
-  void addTouches(const std::vector<Reaction>& reactions);
-  void reactToBodies(std::size_t steps);
-  void decay(const std::vector<Reaction>& published, double duration);
-  void gather(std::uint32_t tree, const Vec3& foot, Nanoseconds from, Nanoseconds to);
+  void stepNearBodies(const StepContext& context, std::uint32_t tree, PhysicalSubtree& subtree,
+                      Nanoseconds from, Nanoseconds to);
+  void substep(const StepContext& context, const ContactTree& tree, PhysicalSubtree& subtree,
+               Nanoseconds from, Nanoseconds to, Nanoseconds whole, SubstepBisection& bisection);
+  void accumulateReactions(const std::vector<Reaction>& reactions);
+  void publishContactReactions();
+  void decayReactions(const std::vector<Reaction>& published, double duration);
+  void collectSprings(std::uint32_t tree, const Vec3& foot, Nanoseconds from, Nanoseconds to);
   void addPushes(std::uint32_t tree, Nanoseconds from, Nanoseconds to);
-  void accumulateLoads(const StepContext& at, std::uint32_t tree, const PhysicalSubtree& part,
-                       Nanoseconds from, Nanoseconds to);
-  void settle(const StepContext& at, Nanoseconds from, Nanoseconds to);
-  void react(std::uint32_t tree, const PhysicalSubtree& part, double duration);
+  void accumulateImpulses(const StepContext& context, std::uint32_t tree,
+                          const PhysicalSubtree& subtree, Nanoseconds from, Nanoseconds to);
+  void finishTick(const StepContext& context, Nanoseconds from, Nanoseconds to);
+  void publishGrabReactions(std::uint32_t tree, const PhysicalSubtree& subtree, double duration);
   bool isLoaded(std::uint32_t tree) const;
 
   PhysicsSettings settings_;
-  std::map<std::uint32_t, Grab> grabs_;
-  std::map<std::uint32_t, Hold> holds_;
+  HeldGrabs grabs_;
   std::vector<Push> pushes_;
   Bodies bodies_;
-  std::map<std::uint32_t, PhysicalSubtree> parts_;
-  std::map<std::uint32_t, Touches> touches_;
+  std::map<std::uint32_t, PhysicalSubtree> subtrees_;
+  std::map<std::uint32_t, PersistentContacts> persistent_contacts_;
   std::map<std::uint32_t, std::vector<BranchLoad>> contact_loads_;  // of the last tick
   std::vector<Grab> ended_;
   std::vector<Reaction> reactions_;
   std::uint32_t next_grab_{1};
   Nanoseconds next_review_{0};
   std::size_t steps_{0}, skipped_{0}, coarse_{0};
-  std::map<std::uint32_t, std::size_t> refused_;  // branches that loaded trees want: no room
-  std::vector<std::uint32_t> near_;  // trees that bodies may touch in this tick, rising
-  std::vector<Reaction> touching_;   // of bodies in this tick: sums over its steps
-  SubtreeLoads loads_;               // scratch
-  SubtreeScratch scratch_;           // dropped with the last part
+  std::map<std::uint32_t, std::size_t> refused_;  // branches that found no room, by tree
+  std::vector<std::uint32_t> near_;          // trees that bodies may touch in this tick, rising
+  std::vector<Reaction> contact_reactions_;  // of this tick, sums over its steps
+  SubtreeLoads loads_;                       // scratch
+  SubtreeScratch scratch_;                   // freed with the last subtree
 };
 
 }  // namespace vegetation_sim::forest

@@ -14,7 +14,6 @@ namespace vegetation_sim {
 namespace {
 
 constexpr double SMALLEST_PX = 3.0;         // of a tree that is drawn
-constexpr double LARGEST_SCALE = 1.3;       // of trees in tiles, seedInTile
 constexpr std::size_t LEAST_POINTS = 120;   // a tree in the budget; what is farther is not drawn
 constexpr double PIXELS_PER_RADIAN = 1000;  // of the middle of the forest, when nobody looks
 
@@ -53,7 +52,7 @@ std::vector<std::pair<double, const forest::Tile*>> tilesInOrder(
     const forest::Forest& forest, const std::vector<forest::Viewpoint>& eyes) {
   double tallest = 0.0;
   for (const forest::Species& species : forest.layout().species)
-    tallest = std::max(tallest, LARGEST_SCALE * species.height);
+    tallest = std::max(tallest, forest::LARGEST_TILED_SCALE * species.height);
   std::vector<std::pair<double, const forest::Tile*>> out;
   for (const forest::Tile& tile : forest.layout().tiles) {
     const double x = tile.x + 0.5 * tile.size, y = tile.y + 0.5 * tile.size;

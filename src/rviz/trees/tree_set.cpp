@@ -37,7 +37,7 @@ double addTile(const forest::Tile& tile, const Vec3& point, std::size_t most,
     out.resize(before);
     const double radius = std::min(all, least + way);
     std::size_t within = 0;
-    for (const std::uint32_t t : forest::treesInTile(tile, point, radius)) {
+    for (const std::uint32_t t : forest::findTreesInTile(tile, point, radius)) {
       const Vec3 at = forest::seedInTile(tile, t).position - point;
       out.push_back({std::hypot(at.x(), at.y()), tile.first_tree + t});
       within += out.back().distance <= radius;

@@ -63,6 +63,10 @@ std::uint16_t pickSpecies(const std::vector<float>& mix, double u) {
   return static_cast<std::uint16_t>(mix.size() - 1);
 }
 
+bool within(const Vec3& foot, const Vec3& centre, double distance) {
+  return length(foot - centre) <= distance;
+}
+
 }  // namespace
 
 void describe(FieldVisitor& v, MotionLaw& law) {
@@ -145,7 +149,7 @@ TreeSeed seedInTile(const Tile& tile, std::uint32_t index) {
   out.position.x() = tile.x + cell * (column + random.uniform(X, 0.15, 0.85));
   out.position.y() = tile.y + cell * (row + random.uniform(Y, 0.15, 0.85));
   out.yaw = random.uniform(YAW, 0.0, 2.0 * PI);
-  out.scale = random.uniform(SCALE, 0.7, 1.3);
+  out.scale = random.uniform(SCALE, SMALLEST_TILED_SCALE, LARGEST_TILED_SCALE);
   return out;
 }
 
@@ -167,7 +171,7 @@ TreeSeed seedOf(const Layout& layout, std::uint32_t tree) {
   return seedInTile(tile, tree - tile.first_tree);
 }
 
-std::vector<std::uint32_t> treesInTile(const Tile& tile, const Vec3& point, double radius) {
+std::vector<std::uint32_t> findTreesInTile(const Tile& tile, const Vec3& point, double radius) {
   const std::uint32_t side = cellsASide(tile);
   const double cell = tile.size / side, x = (point.x() - tile.x) / cell,
                y = (point.y() - tile.y) / cell, r = radius / cell;
@@ -189,6 +193,32 @@ std::vector<std::uint32_t> treesInTile(const Tile& tile, const Vec3& point, doub
 
 Vec3 footOf(const TreeSeed& seed, const terrain::HeightMap& terrain) {
   return seed.position + Vec3(0.0, 0.0, terrain.height(seed.position.x(), seed.position.y()));
+}
+
+std::vector<std::uint32_t> findTreesNear(const Layout& layout, const terrain::HeightMap& terrain,
+                                         const Vec3& centre, double radius) {
+  std::vector<double> size;
+  double largest = 0.0;
+  for (const Species& species : layout.species) size.push_back(sizeBound(species));
+  for (const double s : size) largest = std::max(largest, LARGEST_TILED_SCALE * s);
+  std::vector<std::uint32_t> out;
+  for (std::uint32_t i = 0; i < layout.trees.size(); ++i) {
+    const TreeSeed& seed = layout.trees[i];
+    if (within(footOf(seed, terrain), centre, seed.scale * size[seed.species] + radius))
+      out.push_back(i);
+  }
+  for (const Tile& tile : layout.tiles) {
+    const double room = largest + radius;
+    if (centre.x() < tile.x - room || centre.x() > tile.x + tile.size + room ||
+        centre.y() < tile.y - room || centre.y() > tile.y + tile.size + room)
+      continue;
+    for (const std::uint32_t i : findTreesInTile(tile, centre, room)) {
+      const TreeSeed seed = seedInTile(tile, i);
+      if (within(footOf(seed, terrain), centre, seed.scale * size[seed.species] + radius))
+        out.push_back(tile.first_tree + i);
+    }
+  }
+  return out;
 }
 
 }  // namespace vegetation_sim::forest

@@ -83,6 +83,16 @@ double largestAngle(const Species& s, double relative_diameter) {
   return s.angle_thin + (s.angle_thick - s.angle_thin) * saturate(relative_diameter);
 }
 
+double sizeBound(const Species& species) {
+  double chain = 1.0, sum = 1.0;
+  for (std::size_t depth = 1; depth < species.limbs.size(); ++depth) {
+    const LimbRule& rule = species.limbs[depth];
+    chain *= rule.length * (1.0 + rule.length_variation);
+    sum += chain;
+  }
+  return species.height * (1.0 + species.height_variation) * sum;
+}
+
 double expectedBranches(const Species& species) {
   double limbs = 1.0, branches = 0.0;
   for (int depth = 0; depth < species.depths(); ++depth) {

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "vegetation_sim/core/config/faults.h"
-#include "vegetation_sim/tree/state/promoted_branches.h"
 
 namespace vegetation_sim::forest {
 namespace {

@@ -31,22 +31,22 @@ class ContactFinderTest : public testing::Test {
   }
   void place(double x) { body_.pose.position = FOOT + Vec3(x, 0.0, 0.5); }
   std::vector<physics::Contact> find() {
-    return finder_.findContacts(wood(), {{body_.id, body_}}, 0, STEP, touches_);
+    return finder_.findContacts(contactTree(), {{body_.id, body_}}, 0, STEP, persistent_);
   }
-  ContactModel::Wood wood() const { return {3, FOOT, branches_, skeleton_, kinematics_}; }
+  ContactTree contactTree() const { return {3, FOOT, branches_, skeleton_, kinematics_}; }
 
   const Vec3 FOOT{100.0, 50.0, 2.0};
   Skeleton skeleton_;
   physics::Kinematics kinematics_;
   std::vector<int> branches_{0};
   Body body_;
-  Touches touches_;
+  PersistentContacts persistent_;
   ContactFinder finder_;
 };
 
 TEST_F(ContactFinderTest, FarBodyTouchesNothing) {
   EXPECT_TRUE(find().empty());
-  EXPECT_TRUE(touches_.empty());
+  EXPECT_TRUE(persistent_.empty());
 }
 
 TEST_F(ContactFinderTest, OverlapIsToldWithSideAndVelocity) {
@@ -75,7 +75,7 @@ TEST_F(ContactFinderTest, TwigThatLiesFlatTouchesAtTwoPlaces) {
     contact.force = 100.0 * contact.along;
   }
   std::vector<Reaction> reactions;
-  finder_.settle(wood(), {{body_.id, body_}}, contacts, STEP, touches_, reactions);
+  finder_.recordForces(contactTree(), {{body_.id, body_}}, contacts, STEP, persistent_, reactions);
   EXPECT_EQ(reactions.size(), 2u);
   contacts = find();  // each has its own force again
   ASSERT_EQ(contacts.size(), 2u);
@@ -115,7 +115,7 @@ TEST_F(ContactFinderTest, StepsBesideFastWoodAreTakenInParts) {
     place(x);
     body_.velocity = Vec3(body, 0.0, 0.0);
     kinematics_.velocity[0] = Vec3(twig, 0.0, 0.0);
-    return finder_.partsOf(wood(), {{body_.id, body_}}, 0, STEP);
+    return finder_.countSubsteps(contactTree(), {{body_.id, body_}}, 0, STEP);
   };
   EXPECT_EQ(parts(-0.03, 1.0, 0.0), 1);
   EXPECT_EQ(parts(-0.03, 2.3, 0.0), 1);
@@ -155,7 +155,7 @@ TEST_F(ContactFinderTest, TwigKeepsItsSideUntilItIsOverrun) {
   EXPECT_LT(last_share, 0.05);
   place(0.035);
   EXPECT_TRUE(find().empty());
-  EXPECT_TRUE(touches_.empty());
+  EXPECT_TRUE(persistent_.empty());
 }
 
 TEST_F(ContactFinderTest, ReactionIsOppositeAndInTheWorld) {
@@ -164,7 +164,7 @@ TEST_F(ContactFinderTest, ReactionIsOppositeAndInTheWorld) {
   ASSERT_EQ(contacts.size(), 1u);
   contacts[0].force = 12.0;
   std::vector<Reaction> reactions;
-  finder_.settle(wood(), {{body_.id, body_}}, contacts, STEP, touches_, reactions);
+  finder_.recordForces(contactTree(), {{body_.id, body_}}, contacts, STEP, persistent_, reactions);
   ASSERT_EQ(reactions.size(), 1u);
   const Reaction& reaction = reactions[0];
   EXPECT_EQ(reaction.kind, Reaction::CONTACT);
@@ -174,7 +174,7 @@ TEST_F(ContactFinderTest, ReactionIsOppositeAndInTheWorld) {
   EXPECT_NEAR(reaction.force.x(), -12.0, 1e-4);
   EXPECT_NEAR(length(reaction.point - (FOOT + Vec3(0.0, 0.0, 0.5))), 0.0, 1e-3);
   EXPECT_NEAR(reaction.penetration, 0.005, 1e-6);
-  EXPECT_EQ(touches_[0].force, 12.0);
+  EXPECT_EQ(persistent_[0].force, 12.0);
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ TEST(ContactInAForest, CapHoldsAlongTheWholeDrive) {
   EXPECT_GT(met.size(), 20u);
   for (int i = 0; i < 8 * TICKS; ++i) drive.tick();
   EXPECT_EQ(drive.forest().physicsFigures().refused, 0u);
-  EXPECT_TRUE(drive.forest().snapshot().physics.parts().empty());
+  EXPECT_TRUE(drive.forest().snapshot().physics.subtrees().empty());
 }
 
 TEST(ContactInAForest, ReactionsTellBodyPlaceAndForce) {
@@ -81,76 +81,65 @@ TEST(ContactInAForest, ReactionsTellBodyPlaceAndForce) {
   EXPECT_FALSE(found->limited);
 }
 
-/// Counts into how many parts steps are taken, those that are taken again included.
-class Counter : public ContactFinder {
- public:
-  std::vector<physics::Contact> findContacts(const Wood& wood, const Bodies& bodies,
-                                             Nanoseconds from, Nanoseconds to,
-                                             Touches& touches) const override {
-    ++parts;
-    return ContactFinder::findContacts(wood, bodies, from, to, touches);
-  }
-  mutable std::size_t parts{0};
-};
-
 // A knock costs a bounded number of parts, whatever the law: what wants more is counted, and steps
 // on. The default law wants none.
 TEST(ContactInAForest, HalvingsAreBounded) {
   for (const double stiffness : {5e5, 1e8}) {
     Drive drive(3.0);
-    const auto counter = std::make_shared<Counter>();
-    drive.forest().setContactModel(counter);
+    ContactRecorder recorder;
+    drive.forest().setContactFinder(recorder.makeFinder());
     PhysicsSettings settings = drive.forest().physicsSettings();
     settings.contact.stiffness = stiffness;
     settings.contact.force_limit = 100.0;
     if (stiffness > 1e6) drive.forest().setPhysics(settings);
-    std::size_t most = 0, steps = 1;
+    int most = 0;
+    std::size_t steps = 1;
     for (int i = 0; i < 26; ++i) {
-      const std::size_t before = counter->parts;
+      const int before = recorder.searches;
       drive.driveOn();
-      most = std::max(most, counter->parts - before);
+      most = std::max(most, recorder.searches - before);
       steps = std::max(steps, drive.forest().physicsFigures().steps);
     }
-    EXPECT_LE(most, steps * (2 * SubstepBisection::MOST + 4));
+    EXPECT_LE(static_cast<std::size_t>(most), steps * (2 * SubstepBisection::MAX_COUNT + 4));
     EXPECT_EQ(drive.forest().physicsFigures().coarse > 0, stiffness > 1e6) << most;
     EXPECT_LT(drive.depth(), 0.005) << stiffness;
   }
 }
 
 template <typename Scene>
-std::shared_ptr<PrimitiveSchedule> expectImpulseIsReported(Scene& scene, int ticks) {
-  const auto schedule = std::make_shared<PrimitiveSchedule>();
-  scene.forest().setContactModel(schedule);
+ContactRecorder expectImpulseIsReported(Scene& scene, int ticks) {
+  ContactRecorder recorder;
+  scene.forest().setContactFinder(recorder.makeFinder());
   Vec3 published = Vec3::Zero();
   for (int i = 0; i < ticks; ++i) {
     scene.driveOn();
     for (const Reaction& reaction : scene.forest().reactions()) published += reaction.force / TICKS;
   }
-  EXPECT_GT(length(schedule->given_), 1.0);
-  EXPECT_LT(length(published + schedule->given_), 1e-5 * schedule->size_);
-  return schedule;
+  EXPECT_GT(length(recorder.impulse), 1.0);
+  EXPECT_LT(length(published + recorder.impulse), 1e-5 * recorder.size);
+  return recorder;
 }
 
 // N3. Impulse for impulse: wrenches tell what the trees get, in however many parts a step is taken.
 // (physics/contact_test: the wood gains the momentum of the force that is told.)
 TEST(ContactInAForest, WrenchesCarryTheImpulseThatTheTreeGets) {
   Drive twigs(3.0);
-  EXPECT_LT(expectImpulseIsReported(twigs, 26)->shortest_, 0.6 / 240.0);  // parts of steps
+  EXPECT_LT(expectImpulseIsReported(twigs, 26).shortest, 0.6 / 240.0);  // parts of steps
   Ram trunk(3.0, TICKS);
-  EXPECT_LT(expectImpulseIsReported(trunk, 2)->shortest_, 0.2 / 240.0);  // their halves
+  EXPECT_LT(expectImpulseIsReported(trunk, 2).shortest, 0.2 / 240.0);  // their halves
 }
 
 // What is taken again in halves was taken back: wood moves on by its speeds from part to part.
 TEST(ContactInAForest, NothingOfAPartThatIsTakenAgainIsLeft) {
   Ram ram(3.0, TICKS, 0.95);
-  const auto schedule = std::make_shared<PrimitiveSchedule>();
-  ram.forest().setContactModel(schedule);
+  ContactRecorder recorder;
+  ram.forest().setContactFinder(recorder.makeFinder());
   for (int i = 0; i < 2; ++i) ram.driveOn();
-  EXPECT_LT(schedule->shortest_, 0.2 / 240.0);
-  EXPECT_GT(schedule->farthest_, 5e-4);
-  EXPECT_LT(schedule->leap_, 0.05 * schedule->farthest_);
-  EXPECT_GT(schedule->again_, 3);
-  EXPECT_EQ(schedule->strange_, 0);
+  EXPECT_LT(recorder.shortest, 0.2 / 240.0);
+  EXPECT_GT(recorder.farthest, 5e-4);
+  EXPECT_LT(recorder.leap, 0.05 * recorder.farthest);
+  EXPECT_GT(recorder.repeated, 3);
+  EXPECT_EQ(recorder.inconsistent, 0);
 }
 
 // Wrenches as they are told, tick by tick: a trunk's force comes up over several ticks that are no
@@ -247,11 +236,11 @@ TEST(ContactInAForest, TreesNearABallAreFoundInTilesToo) {
   tile.mix = {1.0f, 1.0f, 1.0f, 1.0f};
   layout.tiles = {tile};
   const terrain::HeightMap flat;
-  EXPECT_TRUE(treesNear(layout, flat, Vec3(-300.0, 0.0, 0.0), 1.0).empty());
-  const auto near = treesNear(layout, flat, Vec3(40.0, 40.0, 1.0), 1.0);
+  EXPECT_TRUE(findTreesNear(layout, flat, Vec3(-300.0, 0.0, 0.0), 1.0).empty());
+  const auto near = findTreesNear(layout, flat, Vec3(40.0, 40.0, 1.0), 1.0);
   EXPECT_TRUE(std::count(near.begin(), near.end(), 5u));
   const Vec3 foot = footOf(seedInTile(tile, 17), flat);
-  const auto tiled = treesNear(layout, flat, foot, 1.0);
+  const auto tiled = findTreesNear(layout, flat, foot, 1.0);
   EXPECT_TRUE(std::count(tiled.begin(), tiled.end(), 33u));
   EXPECT_TRUE(std::is_sorted(tiled.begin(), tiled.end()));
 }

@@ -86,11 +86,11 @@ TEST(Wrench, OfAHandIsTheSpringsOwnWhereTheClockLeaps) {
 /// What two bodies are told that meet a trunk from two sides, summed over some ticks [N s].
 struct TwoRams {
   std::map<std::string, Vec3> published;
-  std::shared_ptr<PrimitiveSchedule> schedule = std::make_shared<PrimitiveSchedule>();
+  ContactRecorder recorder;
 
   TwoRams(double first, double second) {
     Ram rams(1.0, TICKS, 0.3, {first, second});
-    rams.forest().setContactModel(schedule);
+    rams.forest().setContactFinder(recorder.makeFinder());
     for (int i = 0; i < 4; ++i) {
       rams.driveOn();
       for (const Reaction& reaction : rams.forest().reactions()) {
@@ -110,12 +110,12 @@ TEST(Wrench, OfTwoBodiesOnABranchIsEachOnesOwn) {
   for (TwoRams* rams : {&beside, &swapped, &pinch}) {
     ASSERT_EQ(rams->published.size(), 2u);
     const Vec3 sum = rams->published["arm0"] + rams->published["arm1"];
-    EXPECT_LT(length(sum + rams->schedule->given_), 1e-5 * rams->schedule->size_);
-    EXPECT_LE(rams->schedule->rise_, SubstepBisection::MAX_FORCE_CHANGE * limit * (1.0 + 1e-9));
+    EXPECT_LT(length(sum + rams->recorder.impulse), 1e-5 * rams->recorder.size);
+    EXPECT_LE(rams->recorder.rise, SubstepBisection::MAX_FORCE_CHANGE * limit * (1.0 + 1e-9));
   }
   EXPECT_LT(length(beside.published["arm0"] - swapped.published["arm1"]), 1e-3 * limit * tick);
   EXPECT_LT(length(beside.published["arm1"] - swapped.published["arm0"]), 1e-3 * limit * tick);
-  EXPECT_GT(length(beside.schedule->given_), 4.0 * limit * tick);  // more than one could do
+  EXPECT_GT(length(beside.recorder.impulse), 4.0 * limit * tick);  // more than one could do
   EXPECT_LT(beside.published["arm0"].y() * beside.published["arm1"].y(), 0.0);
   EXPECT_LT(pinch.published["arm0"].x(), -3.0 * limit * tick);
   EXPECT_GT(pinch.published["arm1"].x(), 3.0 * limit * tick);

@@ -84,7 +84,7 @@ TEST(Layout, TreesOfATileNearAPointAreFound) {
   tile.mix = {1.f};
   for (const Vec3& point : {Vec3(5, 7, 0), Vec3(-30, 80, 3), Vec3(49.9, 59.9, 0)}) {
     for (const double radius : {0.0, 1.0, 9.0, 40.0, 500.0}) {
-      const std::vector<std::uint32_t> found = treesInTile(tile, point, radius);
+      const std::vector<std::uint32_t> found = findTreesInTile(tile, point, radius);
       EXPECT_TRUE(std::is_sorted(found.begin(), found.end()));
       const double cell = 60.0 / 27.0;
       for (std::uint32_t i = 0; i < tile.count; ++i) {

@@ -169,7 +169,7 @@ TEST(ModalTreeState, HandsOverToPhysicsWithoutCompensation) {
     const PromotedTree promoted = scene.forest.promoted(0);
     ASSERT_FALSE(promoted.branches.empty());
     if (i == 0) {
-      for (const SubtreeJoint& joint : scene.forest.snapshot().physics.parts().at(0).joints())
+      for (const SubtreeJoint& joint : scene.forest.snapshot().physics.subtrees().at(0).joints())
         ASSERT_EQ(joint.compensation, 0.0);
       for (const PromotedBranch& b : promoted.branches)
         EXPECT_LT(difference(b.q, before[static_cast<std::size_t>(b.branch)]), 0.05);

@@ -103,8 +103,8 @@ TEST(Interaction, APushKeepsToItsTime) {
   EXPECT_GT(difference(rig.angles(rig.now())[0], {}), 0.0);
   while (rig.now() < push.until) rig.advance();
   rig.advance();
-  EXPECT_TRUE(std::all_of(rig.forest.snapshot().physics.parts().begin(),
-                          rig.forest.snapshot().physics.parts().end(), [](const auto& entry) {
+  EXPECT_TRUE(std::all_of(rig.forest.snapshot().physics.subtrees().begin(),
+                          rig.forest.snapshot().physics.subtrees().end(), [](const auto& entry) {
                             return !entry.second.joints().empty() &&
                                    !entry.second.joints()[0].wanted;
                           }));
@@ -210,8 +210,8 @@ TEST(Interaction, ThreeBandsInOneTree) {
   bool moved = false;
   for (std::size_t i = 0; i < angles.size(); ++i) {
     const int depth = rig.branches()[i].depth;
-    const bool physical = i < rig.forest.snapshot().physics.parts().at(0).mask().size() &&
-                          rig.forest.snapshot().physics.parts().at(0).mask()[i];
+    const bool physical = i < rig.forest.snapshot().physics.subtrees().at(0).mask().size() &&
+                          rig.forest.snapshot().physics.subtrees().at(0).mask()[i];
     EXPECT_EQ(physical, depth <= 1);
     if (depth < 2) continue;
     EXPECT_EQ(difference(angles[i], depth == 2 ? procedural[i] : JointAngles()), 0.0);
@@ -254,7 +254,7 @@ TEST(Interaction, ProceduralChildrenOfAPhysicalParentRideOnIt) {
   rig.run(1.0);
   const auto poses = rig.forest.pose(rig.tree, 0, rig.now());
   const auto procedural = rig.procedural(rig.now());
-  const auto& mask = rig.forest.snapshot().physics.parts().at(0).mask();
+  const auto& mask = rig.forest.snapshot().physics.subtrees().at(0).mask();
   int riders = 0;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const Branch& b = rig.branches()[i];
@@ -415,7 +415,7 @@ TEST(Interaction, CapHoldsAndIsTold) {
   rig.run(0.2);
   EXPECT_EQ(rig.forest.physicsFigures().branches, 10u);
   EXPECT_EQ(rig.forest.physicsFigures().refused, rig.branches().size() - 10);
-  EXPECT_TRUE(rig.forest.snapshot().physics.parts().at(0).holds(rig.twig()));
+  EXPECT_TRUE(rig.forest.snapshot().physics.subtrees().at(0).holds(rig.twig()));
   EXPECT_NE(errorOf([&] {
               rig.forest.addGrab(rig.grabOf(rig.twig() - 1));
             }).find("most_branches = 10 are physical already"),

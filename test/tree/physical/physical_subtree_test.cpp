@@ -176,7 +176,7 @@ TEST(PhysicalSubtree, StepsAllocateNothing) {
   grab.target += Vec3(0.1, 0.1, 0.0);
   rig.forest.addGrab(grab);
   rig.run(0.2);
-  PhysicalSubtree part = rig.forest.snapshot().physics.parts().at(0);
+  PhysicalSubtree part = rig.forest.snapshot().physics.subtrees().at(0);
   SubtreeScratch scratch;
   SubtreeLoads loads;
   loads.springs.push_back({grab.point, grab.target, Vec3(Vec3::Zero()), rig.now(), 2000, 40, 200});

@@ -235,7 +235,7 @@ TEST(HandOver, NothingIsHeldBeforeAndAfter) {
   PhysicsRig rig({}, 4);
   rig.run(0.2);
   EXPECT_EQ(rig.forest.physicsFigures().bytes, 0u);
-  const std::uint64_t untouched = rig.forest.snapshot().physics.parts().size();
+  const std::uint64_t untouched = rig.forest.snapshot().physics.subtrees().size();
   EXPECT_EQ(untouched, 0u);
   Grab grab = rig.grabOf(rig.branchOfDepth(1));
   grab.target += Vec3(0.3, 0.0, 0.0);
@@ -251,7 +251,7 @@ TEST(HandOver, NothingIsHeldBeforeAndAfter) {
   EXPECT_EQ(after.trees, 0u);
   EXPECT_EQ(after.branches, 0u);
   EXPECT_EQ(after.bytes, 0u);
-  EXPECT_TRUE(rig.forest.snapshot().physics.parts().empty());
+  EXPECT_TRUE(rig.forest.snapshot().physics.subtrees().empty());
   std::printf("during: %zu branches, %zu bytes\n", during.branches, during.bytes);
 }
 

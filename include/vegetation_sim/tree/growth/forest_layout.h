@@ -38,6 +38,8 @@ enum class Gain : int { COMPLIANCE = 0, PAPER = 1 };
 enum class Drag : int { LINEAR = 0, QUADRATIC = 1 };
 enum class TransitionShape : int { SMOOTH = 0, LINEAR = 1 };
 
+/// Bounds of the scale of trees in tiles.
+constexpr double SMALLEST_TILED_SCALE = 0.7, LARGEST_TILED_SCALE = 1.3;
 /// Most trees of a layout.
 constexpr std::uint32_t MOST_TREES = 1u << 24;
 
@@ -73,7 +75,11 @@ TreeSeed seedOf(const Layout& layout, std::uint32_t tree);
 TreeSeed seedInTile(const Tile& tile, std::uint32_t index);
 /// Trees of a tile that may stand within `radius` of a point, rising: one in each cell of a square
 /// grid, row by row, so others are not looked at.
-std::vector<std::uint32_t> treesInTile(const Tile& tile, const Vec3& point, double radius);
+std::vector<std::uint32_t> findTreesInTile(const Tile& tile, const Vec3& point, double radius);
+
+/// Ids of all trees that may reach into a ball, rising. Only the bounds of sizes are compared.
+std::vector<std::uint32_t> findTreesNear(const Layout& layout, const terrain::HeightMap& terrain,
+                                         const Vec3& centre, double radius);
 
 /// Foot of a tree in the world [m]: its seed's position on the terrain.
 Vec3 footOf(const TreeSeed& seed, const terrain::HeightMap& terrain);

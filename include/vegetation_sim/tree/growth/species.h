@@ -82,6 +82,10 @@ void describe(FieldVisitor& visitor, Design& design);
 /// from angle_thin to angle_thick (S1-11).
 double largestAngle(const Species& species, double relative_diameter);
 
+/// Upper bound of the distance of any tip from the foot of a tree of scale 1 [m]: limbs reach at
+/// most as far as the longest chain of lengths, which check() bounds through `length`.
+double sizeBound(const Species& species);
+
 /// Number of joints to expect of a tree of scale 1.
 double expectedBranches(const Species& species);
 

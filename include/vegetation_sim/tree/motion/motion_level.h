@@ -23,6 +23,9 @@ constexpr int MODAL_LEVEL = MAX_DEPTHS + 1;
 /// of the modes over the procedural motion.
 using Weights = std::array<double, MODAL_LEVEL>;
 
+/// States of a tick are extrapolated by at most this time [s].
+constexpr double LONGEST_LOOK_AHEAD = 0.05;
+
 /// Level of one tree as a function of time (S1-21..S1-24). Joints of depth below `level` move.
 /// blend[d] is where depth d was at `since`; from there it rises to 1 where d < level and falls to
 /// 0 elsewhere, at constant speed, so a change of mind turns round wherever it stands.

@@ -32,7 +32,6 @@ double blendWeight(const PromotedBranch& branch, Nanoseconds stamp, double durat
 /// Puts promoted joints over procedural ones: at the promoted tree's stamp exactly, up to
 /// LONGEST_LOOK_AHEAD later by their rates.
 void overlay(const PromotedTree& promoted, Nanoseconds stamp, std::vector<JointAngles>& angles);
-constexpr double LONGEST_LOOK_AHEAD = 0.05;  ///< [s]
 
 /// Pose of every branch in the tree's frame, physical ones and modes included (S1-35, N13).
 /// `sway`: none, the tree has no modes.

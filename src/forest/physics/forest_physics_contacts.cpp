@@ -11,71 +11,65 @@ bool ForestPhysics::isNear(std::uint32_t tree) const {
   return std::binary_search(near_.begin(), near_.end(), tree);
 }
 
-bool SubstepBisection::want(const physics::ContactStepper& stepper, const physics::ContactLaw& law,
-                            Nanoseconds part) {
-  const bool coarse =
-      stepper.forceChange() > MAX_FORCE_CHANGE * law.force_limit || !stepper.agreed();
-  return coarse && part >= 2 * SHORTEST && ++wanted_ <= MOST;
-}
-
-void ForestPhysics::stepTouching(const StepContext& at, std::uint32_t tree, PhysicalSubtree& part,
-                                 Nanoseconds from, Nanoseconds to) {
-  const ContactModel::Wood wood{tree, part.tree().foot, part.branches(), part.tree().skeleton,
-                                scratch_.start};
-  part.kinematicsAt(airOf(at, tree), from, scratch_, scratch_.start);
-  const int parts = at.contacts->partsOf(wood, bodies_, from, to);
+void ForestPhysics::stepNearBodies(const StepContext& context, std::uint32_t tree,
+                                   PhysicalSubtree& subtree, Nanoseconds from, Nanoseconds to) {
+  const ContactTree contact_tree{tree, subtree.tree().foot, subtree.branches(),
+                                 subtree.tree().skeleton, scratch_.start};
+  subtree.kinematicsAt(windOf(context, tree), from, scratch_, scratch_.start);
+  const int count = context.contacts.countSubsteps(contact_tree, bodies_, from, to);
   Nanoseconds now = from;
   SubstepBisection bisection;
-  for (int k = 1; k <= parts; ++k) {
-    const Nanoseconds next = from + (to - from) * k / parts;
-    if (k > 1) part.kinematicsAt(airOf(at, tree), now, scratch_, scratch_.start);
-    stepAmong(at, wood, part, now, next, to - from, bisection);
+  for (int k = 1; k <= count; ++k) {
+    const Nanoseconds next = from + (to - from) * k / count;
+    if (k > 1) subtree.kinematicsAt(windOf(context, tree), now, scratch_, scratch_.start);
+    substep(context, contact_tree, subtree, now, next, to - from, bisection);
     now = next;
   }
   coarse_ += bisection.ranOut();
 }
 
 // A part of a step `whole` long, from where scratch_.start tells.
-void ForestPhysics::stepAmong(const StepContext& at, const ContactModel::Wood& wood,
-                              PhysicalSubtree& part, Nanoseconds from, Nanoseconds to,
-                              Nanoseconds whole, SubstepBisection& bisection) {
-  Touches& touches = touches_[wood.tree];
-  const Touches before = touches;
+void ForestPhysics::substep(const StepContext& context, const ContactTree& tree,
+                            PhysicalSubtree& subtree, Nanoseconds from, Nanoseconds to,
+                            Nanoseconds whole, SubstepBisection& bisection) {
+  PersistentContacts& persistent = persistent_contacts_[tree.tree];
+  const PersistentContacts before = persistent;
   std::vector<physics::Contact> contacts =
-      at.contacts->findContacts(wood, bodies_, from, to, touches);
-  const TreeWind air = airOf(at, wood.tree);
+      context.contacts.findContacts(tree, bodies_, from, to, persistent);
+  const TreeWind air = windOf(context, tree.tree);
   if (contacts.empty()) {
-    part.step(air, loads_, settings_, from, to, scratch_);
-    return accumulateLoads(at, wood.tree, part, from, to);
+    subtree.step(air, loads_, settings_, from, to, scratch_);
+    return accumulateImpulses(context, tree.tree, subtree, from, to);
   }
-  const PhysicalSubtree::Moment start = part.moment();
-  part.stepTouching(air, loads_, settings_, from, to, scratch_, contacts);
-  if (bisection.want(scratch_.contact_stepper, settings_.contact, to - from)) {
+  const PhysicalSubtree::Moment start = subtree.moment();
+  subtree.stepTouching(air, loads_, settings_, from, to, scratch_, contacts);
+  if (bisection.bisect(scratch_.contact_stepper, settings_.contact, to - from)) {
     const Nanoseconds middle = from + (to - from) / 2;
-    part.goBack(start);
-    touches = before;
-    stepAmong(at, wood, part, from, middle, whole, bisection);
-    part.kinematicsAt(air, middle, scratch_, scratch_.start);
-    return stepAmong(at, wood, part, middle, to, whole, bisection);
+    subtree.goBack(start);
+    persistent = before;
+    substep(context, tree, subtree, from, middle, whole, bisection);
+    subtree.kinematicsAt(air, middle, scratch_, scratch_.start);
+    return substep(context, tree, subtree, middle, to, whole, bisection);
   }
-  accumulateLoads(at, wood.tree, part, from, to);
+  accumulateImpulses(context, tree.tree, subtree, from, to);
   std::vector<Reaction> reactions;
-  at.contacts->settle(wood, bodies_, contacts, to, touches, reactions);
+  context.contacts.recordForces(tree, bodies_, contacts, to, persistent, reactions);
   const double share = static_cast<double>(to - from) / static_cast<double>(whole);
   for (Reaction& reaction : reactions) reaction.force *= share;
-  addTouches(reactions);
+  accumulateReactions(reactions);
 }
 
 // One a body and branch: the sum of its forces where they have the same moment if they are
 // parallel, its worst.
-void ForestPhysics::addTouches(const std::vector<Reaction>& reactions) {
+void ForestPhysics::accumulateReactions(const std::vector<Reaction>& reactions) {
   for (const Reaction& reaction : reactions) {
-    const auto same = std::find_if(touching_.begin(), touching_.end(), [&](const Reaction& other) {
-      return other.at.tree == reaction.at.tree && other.at.branch == reaction.at.branch &&
-             other.body == reaction.body;
-    });
-    if (same == touching_.end()) {
-      touching_.push_back(reaction);
+    const auto same = std::find_if(
+        contact_reactions_.begin(), contact_reactions_.end(), [&](const Reaction& other) {
+          return other.at.tree == reaction.at.tree && other.at.branch == reaction.at.branch &&
+                 other.body == reaction.body;
+        });
+    if (same == contact_reactions_.end()) {
+      contact_reactions_.push_back(reaction);
       continue;
     }
     const Reaction before = *same;
@@ -90,20 +84,20 @@ void ForestPhysics::addTouches(const std::vector<Reaction>& reactions) {
 }
 
 // The mean force of the tick carries its whole impulse, however short a knock was.
-void ForestPhysics::reactToBodies(std::size_t steps) {
+void ForestPhysics::publishContactReactions() {
   contact_loads_.clear();
-  for (Reaction& reaction : touching_) {
-    reaction.force /= static_cast<double>(steps);
+  for (Reaction& reaction : contact_reactions_) {
+    reaction.force /= static_cast<double>(steps_);
     contact_loads_[reaction.at.tree].push_back(
         {reaction.at.branch, reaction.at.along, Vec3(-reaction.force)});
     reactions_.push_back(reaction);
   }
-  touching_.clear();
+  contact_reactions_.clear();
 }
 
 // Nobody feels a force vanish: what was told at the last tick falls no faster than contacts rise,
 // and what has ended is told down to zero. Bodies that are gone feel nothing.
-void ForestPhysics::decay(const std::vector<Reaction>& published, double duration) {
+void ForestPhysics::decayReactions(const std::vector<Reaction>& published, double duration) {
   const double most = settings_.contact.force_rate * std::max(0.0, duration);
   for (const Reaction& before : published) {
     const double force = length(before.force), left = std::max(0.0, force - most);

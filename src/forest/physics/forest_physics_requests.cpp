@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "forest/contact/contact_body.h"
 #include "forest/physics/forest_physics.h"
 
 namespace vegetation_sim::forest {
@@ -53,31 +52,31 @@ double reachOf(const Tree& tree) {
   return REACH_FACTOR * (tree.skeleton.height + tree.skeleton.reach);
 }
 
-// A part that is there to look at its tree: it goes again unless the request is accepted.
-class Provisional {
+// Removes a subtree that was added to check a request, unless the request is accepted.
+class SubtreeGuard {
  public:
-  using Parts = std::map<std::uint32_t, PhysicalSubtree>;
-  template <typename Make>
-  Provisional(Parts& parts, std::uint32_t tree, const Make& make)
-      : parts_(parts), tree_(tree), mine_(!parts.count(tree)) {
-    if (mine_) make();
+  using Subtrees = std::map<std::uint32_t, PhysicalSubtree>;
+  template <typename Add>
+  SubtreeGuard(Subtrees& subtrees, std::uint32_t tree, const Add& add)
+      : subtrees_(subtrees), tree_(tree), added_(!subtrees.count(tree)) {
+    if (added_) add();
   }
-  ~Provisional() {
-    if (mine_) parts_.erase(tree_);
+  ~SubtreeGuard() {
+    if (added_) subtrees_.erase(tree_);
   }
-  Provisional(const Provisional&) = delete;
-  Provisional& operator=(const Provisional&) = delete;
-  const PhysicalSubtree& get() const { return parts_.at(tree_); }
-  void keep() { mine_ = false; }
+  SubtreeGuard(const SubtreeGuard&) = delete;
+  SubtreeGuard& operator=(const SubtreeGuard&) = delete;
+  const Tree& tree() const { return subtrees_.at(tree_).tree(); }
+  void accept() { added_ = false; }
 
  private:
-  Parts& parts_;
+  Subtrees& subtrees_;
   std::uint32_t tree_;
-  bool mine_;
+  bool added_;
 };
 
 template <typename Map, typename Key>
-auto& known(Map& map, const Key& key, const std::string& what) {
+auto& findKnown(Map& map, const Key& key, const std::string& what) {
   const auto found = map.find(key);
   if (found != map.end()) return found->second;
   throw InvalidInput(what + " is unknown");
@@ -110,74 +109,77 @@ void checkPush(const Layout& layout, const Tree& tree, const Push& push) {
 
 // At least the loaded branch must find room.
 void ForestPhysics::checkRoom(const std::string& what, std::uint32_t tree, int branch) const {
-  const auto part = parts_.find(tree);
-  if (part != parts_.end() && part->second.linkOf(branch) >= 0) return;
+  const auto subtree = subtrees_.find(tree);
+  if (subtree != subtrees_.end() && subtree->second.linkOf(branch) >= 0) return;
   std::size_t held = 0;
-  for (const auto& entry : parts_) held += entry.second.joints().size();
+  for (const auto& entry : subtrees_) held += entry.second.joints().size();
   if (held >= static_cast<std::size_t>(settings_.most_branches))
     throw InvalidInput(what + ": most_branches = " + std::to_string(settings_.most_branches) +
                        " are physical already");
 }
 
-PhysicalSubtree& ForestPhysics::partOf(const StepContext& at, std::uint32_t tree) {
-  const auto found = parts_.find(tree);
-  if (found != parts_.end()) return found->second;
-  auto grown = std::make_shared<const Tree>(growTree(at.layout, tree, at.terrain));
-  const Species& species = at.layout.species[grown->seed.species];
+PhysicalSubtree& ForestPhysics::findOrAddSubtree(const StepContext& context, std::uint32_t tree) {
+  const auto found = subtrees_.find(tree);
+  if (found != subtrees_.end()) return found->second;
+  auto grown = std::make_shared<const Tree>(growTree(context.layout, tree, context.terrain));
+  const Species& species = context.layout.species[grown->seed.species];
   const auto material = static_cast<Material>(settings_.material);
-  return parts_.emplace(tree, PhysicalSubtree(std::move(grown), species, material)).first->second;
+  return subtrees_.emplace(tree, PhysicalSubtree(std::move(grown), species, material))
+      .first->second;
 }
 
-std::uint32_t ForestPhysics::addGrab(const StepContext& at, Grab grab) {
-  checkTree(at.layout, "grab", grab.point.tree);
+std::uint32_t ForestPhysics::addGrab(const StepContext& context, const Grab& request) {
+  HeldGrab grab{request};
+  checkTree(context.layout, "grab", grab.point.tree);
   if (grabs_.size() >= MOST_GRABS)
     throw InvalidInput("grab: there are " + count(grabs_.size()) + " grabs, allowed are " +
                        count(MOST_GRABS));
   if (grab.id == 0) grab.id = next_grab_;
   if (grabs_.count(grab.id))
     throw InvalidInput("grab: id = " + count(grab.id) + " is in use, allowed is 0 for a new one");
-  Provisional part(parts_, grab.point.tree, [&] { partOf(at, grab.point.tree); });
-  const Tree& grown = part.get().tree();
-  checkGrab(at.layout, grown, grab);
+  SubtreeGuard subtree(subtrees_, grab.point.tree,
+                       [&] { findOrAddSubtree(context, grab.point.tree); });
+  const Tree& tree = subtree.tree();
+  checkGrab(context.layout, tree, grab);
   checkRoom("grab", grab.point.tree, grab.point.branch);
-  part.keep();
+  subtree.accept();
   next_grab_ = std::max(next_grab_, grab.id + 1);
+  grab.last_target = grab.target;
+  grab.max_target_distance = reachOf(tree);
+  grab.foot = tree.foot;
   grabs_[grab.id] = grab;
-  holds_[grab.id] = {grab.target, true, reachOf(grown), grown.foot};
   next_review_ = 0;
   return grab.id;
 }
 
 void ForestPhysics::moveGrab(std::uint32_t id, const Vec3& target) {
-  Grab& grab = known(grabs_, id, "grab: id = " + count(id));
-  Hold& hold = holds_[id];
+  HeldGrab& grab = findKnown(grabs_, id, "grab: id = " + count(id));
   Faults faults;
-  checkTarget(target, hold.foot, hold.reach, faults);
+  checkTarget(target, grab.foot, grab.max_target_distance, faults);
   faults.throwIfAny();
   grab.target = target;
-  hold.renewed = true;
+  grab.renewed_since_tick = true;
 }
 
 void ForestPhysics::renewGrab(std::uint32_t id) {
-  known(grabs_, id, "grab: id = " + count(id));
-  holds_[id].renewed = true;
+  findKnown(grabs_, id, "grab: id = " + count(id)).renewed_since_tick = true;
 }
 
 void ForestPhysics::release(std::uint32_t id) {
-  known(grabs_, id, "grab: id = " + count(id));
+  findKnown(grabs_, id, "grab: id = " + count(id));
   grabs_.erase(id);
-  holds_.erase(id);
 }
 
-void ForestPhysics::push(const StepContext& at, const Push& push) {
-  checkTree(at.layout, "push", push.point.tree);
+void ForestPhysics::push(const StepContext& context, const Push& push) {
+  checkTree(context.layout, "push", push.point.tree);
   if (pushes_.size() >= MOST_PUSHES)
     throw InvalidInput("push: there are " + count(pushes_.size()) + " pushes, allowed are " +
                        count(MOST_PUSHES));
-  Provisional part(parts_, push.point.tree, [&] { partOf(at, push.point.tree); });
-  checkPush(at.layout, part.get().tree(), push);
+  SubtreeGuard subtree(subtrees_, push.point.tree,
+                       [&] { findOrAddSubtree(context, push.point.tree); });
+  checkPush(context.layout, subtree.tree(), push);
   checkRoom("push", push.point.tree, push.point.branch);
-  part.keep();
+  subtree.accept();
   pushes_.push_back(push);
   next_review_ = 0;
 }
@@ -192,7 +194,7 @@ void ForestPhysics::setBody(const Body& body) {
 }
 
 void ForestPhysics::removeBody(const std::string& id) {
-  known(bodies_, id, "body '" + id + "'");
+  findKnown(bodies_, id, "body '" + id + "'");
   bodies_.erase(id);
 }
 
@@ -202,11 +204,12 @@ void ForestPhysics::setSettings(const PhysicsSettings& settings, Nanoseconds now
   FieldChecker checker("physics: ", faults);
   describe(checker, copy);
   faults.throwIfAny();
-  for (auto& entry : parts_) entry.second.stretchBlends(now, settings_.blend, settings.blend);
+  for (auto& entry : subtrees_) entry.second.stretchBlends(now, settings_.blend, settings.blend);
   const bool other_wood = settings.material != settings_.material;
   settings_ = settings;
   if (other_wood)
-    for (auto& entry : parts_) entry.second.setMaterial(static_cast<Material>(settings.material));
+    for (auto& entry : subtrees_)
+      entry.second.setMaterial(static_cast<Material>(settings.material));
   next_review_ = 0;
 }
 

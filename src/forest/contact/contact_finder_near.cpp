@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "forest/contact/contact_body.h"
 #include "forest/contact/contact_finder.h"
-#include "forest/forest.h"
-#include "forest/pick.h"
 
 namespace vegetation_sim::forest {
 namespace {
 
-constexpr double LARGEST_TILED = 1.3;  // scale of trees in tiles, seedInTile
+// Branches within this distance, plus the travel of a tick, become physical [m].
+constexpr double PROMOTION_DISTANCE = 0.1;
 
 // A ball that holds a body during a tick, and what may come to it.
 struct Ball {
@@ -22,7 +20,7 @@ struct Ball {
 Ball ballOf(const Body& body, Nanoseconds from, Nanoseconds to) {
   const Vec3 first = poseAt(body, from).position, last = poseAt(body, to).position;
   const double way = length(last - first);
-  return {0.5 * (first + last), shapeOf(body).reach() + NEAR + 1.5 * way};
+  return {0.5 * (first + last), shapeOf(body).reach() + PROMOTION_DISTANCE + 1.5 * way};
 }
 
 bool holds(const Ball& ball, const Branch& branch, const Pose& pose, const Vec3& foot) {
@@ -47,63 +45,32 @@ void addWithBearers(const Skeleton& skeleton, int branch, std::vector<char>& cho
     chosen[static_cast<std::size_t>(i)] = 1;
 }
 
-bool within(const Vec3& foot, const Vec3& centre, double distance) {
-  return length(foot - centre) <= distance;
-}
-
 }  // namespace
 
-std::vector<std::uint32_t> treesNear(const Layout& layout, const terrain::HeightMap& terrain,
-                                     const Vec3& centre, double radius) {
-  std::vector<double> size;
-  double largest = 0.0;
-  for (const Species& species : layout.species) size.push_back(sizeBound(species));
-  for (const double s : size) largest = std::max(largest, LARGEST_TILED * s);
-  std::vector<std::uint32_t> out;
-  for (std::uint32_t i = 0; i < layout.trees.size(); ++i) {
-    const TreeSeed& seed = layout.trees[i];
-    if (within(footOf(seed, terrain), centre, seed.scale * size[seed.species] + radius))
-      out.push_back(i);
-  }
-  for (const Tile& tile : layout.tiles) {
-    const double room = largest + radius;
-    if (centre.x() < tile.x - room || centre.x() > tile.x + tile.size + room ||
-        centre.y() < tile.y - room || centre.y() > tile.y + tile.size + room)
-      continue;
-    for (const std::uint32_t i : treesInTile(tile, centre, room)) {
-      const TreeSeed seed = seedInTile(tile, i);
-      if (within(footOf(seed, terrain), centre, seed.scale * size[seed.species] + radius))
-        out.push_back(tile.first_tree + i);
-    }
-  }
-  return out;
-}
-
-void ContactFinder::findNear(const Forest& forest, const Bodies& bodies, Nanoseconds from,
+void ContactFinder::findNear(const ContactScene& scene, const Bodies& bodies, Nanoseconds from,
                              Nanoseconds to, BranchesOfTrees& near) const {
   // Joints as printed have no physical motion.
-  if (static_cast<JointModel>(forest.layout().motion.joint_model) != JointModel::SWING)
+  if (static_cast<JointModel>(scene.layout.motion.joint_model) != JointModel::SWING)
     return releaseTrees();
   std::map<std::uint32_t, std::vector<Ball>> balls;
   for (const auto& entry : bodies) {
     const Ball ball = ballOf(entry.second, from, to);
     for (const std::uint32_t tree :
-         treesNear(forest.layout(), forest.terrain(), ball.centre, ball.radius))
+         findTreesNear(scene.layout, scene.terrain, ball.centre, ball.radius))
       balls[tree].push_back(ball);
   }
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (layout_hash_ != forest.layoutHash()) trees_.clear();
-  layout_hash_ = forest.layoutHash();
+  if (layout_hash_ != scene.layout_hash) trees_.clear();
+  layout_hash_ = scene.layout_hash;
   for (auto it = trees_.begin(); it != trees_.end();)
     it = balls.count(it->first) ? std::next(it) : trees_.erase(it);
   for (const auto& [id, around] : balls) {
     std::shared_ptr<const Tree>& grown = trees_[id];
-    if (!grown)
-      grown = std::make_shared<const Tree>(growTree(forest.layout(), id, forest.terrain()));
+    if (!grown) grown = std::make_shared<const Tree>(growTree(scene.layout, id, scene.terrain));
     const Tree& tree = *grown;
     const auto reached = [&](const Ball& b) { return mayReach(tree.skeleton, tree.foot, b); };
     if (std::none_of(around.begin(), around.end(), reached)) continue;
-    const std::vector<Pose> poses = forest.pose(tree, id, from);
+    const std::vector<Pose> poses = scene.pose(tree, id, from);
     std::vector<char> chosen(poses.size(), 0);
     for (std::size_t i = 0; i < poses.size(); ++i)
       for (const Ball& ball : around)

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 
-#include "forest/contact/contact_finder.h"
 #include "forest/contact/contact_pair.h"
 
 namespace vegetation_sim::forest {
@@ -10,25 +9,25 @@ namespace {
 
 // Wood beside a body moves no farther relative to it in a part of a step [m]: as its springs and
 // other contacts turn it, it is somewhere else than its speed at the start foretold.
-constexpr double STRIDE = 10e-3;
-constexpr int MOST_PARTS = 4;
+constexpr double MAX_TRAVEL = 10e-3;
+constexpr int MAX_SUBSTEPS = 4;
 
 }  // namespace
 
-int ContactFinder::partsOf(const Wood& wood, const Bodies& bodies, Nanoseconds from,
-                           Nanoseconds to) const {
+int ContactFinder::countSubsteps(const ContactTree& tree, const Bodies& bodies, Nanoseconds from,
+                                 Nanoseconds to) const {
   const double h = secondsBetween(from, to);
   double way = 0.0;
   for (const auto& entry : bodies) {
-    const Placed placed(entry.second, wood.foot, from);
-    for (std::size_t i = 0; i < wood.branches.size(); ++i) {
-      const Pair pair(wood, i, placed);
+    const Placed placed(entry.second, tree.foot, from);
+    for (std::size_t i = 0; i < tree.branches.size(); ++i) {
+      const Pair pair(tree, i, placed);
       if (leastGap(placed, pair.bar) > pair.reach(h)) continue;
       if (nearest(placed.shape, placed.local(pair.bar)).gap > pair.reach(h)) continue;
       way = std::max(way, h * pair.fastest());
     }
   }
-  return std::clamp(static_cast<int>(std::ceil(std::min(way, 1.0) / STRIDE)), 1, MOST_PARTS);
+  return std::clamp(static_cast<int>(std::ceil(std::min(way, 1.0) / MAX_TRAVEL)), 1, MAX_SUBSTEPS);
 }
 
 }  // namespace vegetation_sim::forest

@@ -8,13 +8,13 @@ namespace vegetation_sim::forest {
 
 PhysicsFigures ForestPhysics::figures() const {
   PhysicsFigures out;
-  for (const auto& entry : parts_) {
-    const PhysicalSubtree& part = entry.second;
-    if (part.empty()) continue;
+  for (const auto& entry : subtrees_) {
+    const PhysicalSubtree& subtree = entry.second;
+    if (subtree.empty()) continue;
     ++out.trees;
-    out.branches += part.joints().size();
-    out.blending += part.blending();
-    out.bytes += part.bytes();
+    out.branches += subtree.joints().size();
+    out.blending += subtree.blending();
+    out.bytes += subtree.bytes();
   }
   out.steps = steps_;
   for (const auto& entry : refused_) out.refused += entry.second;
@@ -39,7 +39,7 @@ void ForestPhysics::addTo(Hash& hash) const {
     hash.add(static_cast<std::uint64_t>(id));
     add(grab.point);
     hash.add(grab.target);
-    hash.add(holds_.at(id).target);
+    hash.add(grab.last_target);
     for (const double v : {grab.stiffness, grab.damping, grab.force_limit, grab.lease}) hash.add(v);
     hash.add(grab.frame);
     hash.add(static_cast<std::uint64_t>(grab.renewed));
@@ -58,21 +58,21 @@ void ForestPhysics::addTo(Hash& hash) const {
     for (const double v : {q.w, q.x, q.y, q.z}) hash.add(v);
     hash.add(static_cast<std::uint64_t>(body.stamp));
   }
-  for (const auto& [tree, part] : parts_) {
-    if (part.empty()) continue;
+  for (const auto& [tree, subtree] : subtrees_) {
+    if (subtree.empty()) continue;
     hash.add(static_cast<std::uint64_t>(tree));
-    part.addTo(hash);
+    subtree.addTo(hash);
   }
-  for (const auto& [tree, touches] : touches_) {
-    for (const Touch& touch : touches) {
+  for (const auto& [tree, contacts] : persistent_contacts_) {
+    for (const PersistentContact& contact : contacts) {
       hash.add(static_cast<std::uint64_t>(tree));
-      hash.add(touch.body);
-      hash.add(static_cast<std::uint64_t>(touch.branch));
-      hash.add(touch.side);
-      hash.add(touch.along);
-      hash.add(touch.gap);
-      hash.add(touch.force);
-      hash.add(std::uint64_t{touch.leaving});
+      hash.add(contact.body);
+      hash.add(static_cast<std::uint64_t>(contact.branch));
+      hash.add(contact.normal);
+      hash.add(contact.along);
+      hash.add(contact.gap);
+      hash.add(contact.force);
+      hash.add(std::uint64_t{contact.released});
     }
   }
 }
