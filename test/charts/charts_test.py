@@ -17,7 +17,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = ROOT / 'scripts/charts/charts'
 sys.path.insert(0, str(PROGRAM.parent))
 from charting import registry, style, tables  # noqa: E402
-from charting.chart import Refused  # noqa: E402
+from charting.chart import RequestError  # noqa: E402
 
 LADDER = 'ladder,tier,setting,cost,error,chosen\n'
 
@@ -171,13 +171,13 @@ class Charts(unittest.TestCase):
         space = self.bench('grass_tile_bench', 'echo a,b > $FILE; echo 1,2 >> $FILE')
         done = run(PROGRAM, '--only', 'grass_ladder', '--out', self.out, **space)
         self.assertEqual(done.returncode, 1)
-        self.assertIn('its columns are "a,b", wanted are "' + LADDER.strip(), done.stderr)
+        self.assertIn('its columns are "a,b", expected are "' + LADDER.strip(), done.stderr)
         path = self.folder / 'table'
         columns = registry.all_charts()['grass_ladder'].columns
         for text, wanted in ((LADDER, 'has no row'), (LADDER + 'a,1,x,y,1,1\n', 'line 2'),
                              (LADDER + 'a,1\n', '2 values for 6 columns')):
             path.write_text(text)
-            with self.assertRaisesRegex(Refused, wanted):
+            with self.assertRaisesRegex(RequestError, wanted):
                 tables.read(path, columns)
 
     # The tables in the documentation are sufficient to draw its figures again.

@@ -1,4 +1,7 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Charts of speed against accuracy. A chart is one file in registry/: arguments of a bench, the
-columns of its file, a drawing. The rest finds and runs benches, reads files and keeps one style."""
+"""Charts of speed against accuracy.
+
+A chart is one file in registry/: the arguments of a bench, the columns of its file, and a drawing.
+The other modules find and run benches, read files and define the style.
+"""

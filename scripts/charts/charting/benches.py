@@ -8,14 +8,14 @@ import sys
 import threading
 import time
 
-from charting.chart import Refused
+from charting.chart import RequestError
 
 PACKAGE = 'vegetation_sim'
-QUIET = 30.0  # a line this often where there is no terminal to rewrite one on [s]
+QUIET = 30.0  # time between lines where there is no terminal to rewrite one on [s]
 
 
 def folders():
-    """Where programs of the package may be: beside this one, then in each space that is sourced."""
+    """Returns the folders of the package's programs: that of this one, then each sourced space."""
     out = [pathlib.Path(sys.argv[0]).absolute().parent]
     for space in os.environ.get('CMAKE_PREFIX_PATH', '').split(os.pathsep):
         if space:
@@ -28,13 +28,15 @@ def find(name):
         program = folder / name
         if program.is_file() and os.access(program, os.X_OK):
             return program
-    raise Refused('%s: no such program in %s; build it, or source setup.bash of the space that has '
+    raise RequestError('%s: no such program in %s; build it, or source setup.bash of the space that has '
                   'it' % (name, ', '.join(map(str, folders()))))
 
 
 class Progress:
-    """What a bench says, on one line of a terminal that is written again and again; nothing before
-    show(), since benches run beside each other."""
+    """Shows the last line of a bench's output, rewritten in place on a terminal.
+
+    Shows nothing before show(), because several benches run at the same time.
+    """
 
     def __init__(self, stream=sys.stdout):
         self.stream, self.terminal, self.shown = stream, stream.isatty(), False
@@ -49,7 +51,7 @@ class Progress:
     def show(self):
         self.shown = True
 
-    def tell(self, line):
+    def report(self, line):
         if not self.shown:
             return
         if self.terminal:
@@ -68,14 +70,14 @@ running, stopped = set(), threading.Event()
 
 
 def stop():
-    """Ends all benches."""
+    """Kills all running benches."""
     stopped.set()
     for bench in list(running):
         bench.kill()
 
 
 def run(program, arguments, log, progress):
-    """Runs a bench to its end, its words into `log`."""
+    """Runs a bench to its end and writes its output into `log`."""
     bench = subprocess.Popen([str(program), *arguments], stdout=subprocess.PIPE,
                              stderr=subprocess.STDOUT, text=True, errors='replace')
     running.add(bench)
@@ -86,7 +88,7 @@ def run(program, arguments, log, progress):
         for line in bench.stdout:
             log.write(line)
             last = line.strip() or last
-            progress.tell(last)
+            progress.report(last)
     except BaseException:
         bench.kill()
         raise
@@ -94,5 +96,5 @@ def run(program, arguments, log, progress):
         code = bench.wait()
         running.discard(bench)
     if code != 0:
-        raise Refused('%s %s: ended with code %d: %s'
+        raise RequestError('%s %s: ended with code %d: %s'
                       % (program.name, ' '.join(arguments), code, last))

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """charts [--quick | --full] [--only NAME,..] [--out DIR] [--redraw]
 
-Measures every method of the package that has a chart, and draws it: DIR/NAME.csv, .png and .svg,
-what the bench said in NAME.log, converged references in DIR/references.
+Measures every method of the package that has a chart, and draws it. Writes DIR/NAME.csv, .png and
+.svg, the output of the bench in NAME.log, and converged references in DIR/references.
 """
 import argparse
 from concurrent import futures
@@ -13,9 +13,9 @@ import sys
 import time
 
 from charting import benches, registry, style, tables
-from charting.chart import Refused
+from charting.chart import RequestError
 
-AT_ONCE = {'quick': 2, 'usual': 1, 'full': 1}  # benches: costs are of the processor's time
+AT_ONCE = {'quick': 2, 'usual': 1, 'full': 1}  # benches; they measure processor time
 
 
 def parser(charts):
@@ -42,7 +42,7 @@ def chosen(charts, only):
     names = list(dict.fromkeys(name for name in only.split(',') if name))
     unknown = [name for name in names if name not in charts]
     if unknown or not names:
-        raise Refused('--only %s: no such chart; there are %s'
+        raise RequestError('--only %s: no such chart; there are %s'
                       % (','.join(unknown) or "''", ', '.join(charts)))
     return [charts[name] for name in names]
 
@@ -51,14 +51,13 @@ def make_folder(path):
     try:
         path.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise Refused('--out %s: cannot be made: %s' % (path, error.strerror))
+        raise RequestError('--out %s: cannot be made: %s' % (path, error.strerror))
     if not os.access(path, os.W_OK):
-        raise Refused('--out %s: cannot be written' % path)
+        raise RequestError('--out %s: cannot be written' % path)
 
 
 def measure(chart, program, extent, out, progress):
-    """Runs the bench of a chart as often as the chart wants; its tables become one. The seconds
-    that it took."""
+    """Runs the bench of a chart for each of its runs and joins the tables; returns the seconds."""
     progress.begin()
     parts = []
     with open(out / (chart.name + '.log'), 'w') as log:
@@ -72,10 +71,10 @@ def measure(chart, program, extent, out, progress):
 
 
 def wait_for(measured, progress):
-    """Shows how a measurement gets on, if there is one; the seconds that it took."""
+    """Shows the progress of a measurement, if there is one, and returns the seconds it took."""
     progress.show()
     try:
-        # An interrupt that comes just before a wait without end would be heard at its end.
+        # A wait without timeout would delay an interrupt until its end.
         while measured and not measured.done():
             futures.wait([measured], timeout=0.2)
         return measured.result() if measured else 0.0
@@ -84,14 +83,14 @@ def wait_for(measured, progress):
 
 
 def begin(pool, chart, program, extent, out):
-    """Has the chart measured, unless there is no program to; the measurement and its progress."""
+    """Starts the measurement of a chart, if there is a program; returns it and its progress."""
     progress = benches.Progress()
     measured = pool.submit(measure, chart, program, extent, out, progress) if program else None
     return chart, measured, progress
 
 
 def draw_all(begun, out):
-    """Draws charts as they are measured; how many failed."""
+    """Draws charts as their measurements end; returns the number of failures."""
     failed = 0
     for number, (chart, measured, progress) in enumerate(begun, 1):
         print('[%d/%d] %s: %s' % (number, len(begun), chart.name, chart.about), flush=True)
@@ -100,7 +99,7 @@ def draw_all(begun, out):
             rows = tables.read(out / (chart.name + '.csv'), chart.columns)
             style.save(chart.draw(rows), out / chart.name)
             print('  %s.png and .svg, %.0f s' % (out / chart.name, seconds), flush=True)
-        except Refused as error:
+        except RequestError as error:
             failed += 1
             print('\ncharts: %s' % error, file=sys.stderr, flush=True)
     return failed
@@ -110,7 +109,7 @@ def run(arguments):
     charts = registry.all_charts()
     options = parser(charts).parse_args(arguments)
     wanted = chosen(charts, options.only)
-    # All that can be refused is refused before anything is measured.
+    # Every fault that can be found now is reported before anything is measured.
     programs = {chart.name: None if options.redraw else benches.find(chart.bench)
                 for chart in wanted}
     out = pathlib.Path(options.out)
@@ -122,7 +121,7 @@ def run(arguments):
                      for chart in wanted]
             failed = draw_all(begun, out)
         except BaseException:
-            pool.shutdown(wait=False, cancel_futures=True)  # first, or the next would begin
+            pool.shutdown(wait=False, cancel_futures=True)  # before stop(), or the next bench would begin
             benches.stop()
             raise
     print('%d of %d charts in %.0f s' % (len(wanted) - failed, len(wanted),
@@ -133,7 +132,7 @@ def run(arguments):
 def main(arguments):
     try:
         return run(arguments)
-    except Refused as error:
+    except RequestError as error:
         print('charts: %s' % error, file=sys.stderr)
         return 2
     except KeyboardInterrupt:

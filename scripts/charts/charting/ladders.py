@@ -1,7 +1,9 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Charts of ladders: the error of each rung against its cost. Benches write them in one form,
-bench/table.h's LADDER_COLUMNS."""
+"""Draws ladders: the error of each tier against its cost.
+
+Benches write them with the columns LADDER_COLUMNS of bench/table.h.
+"""
 from charting import style
 from charting.tables import groups
 
@@ -10,14 +12,17 @@ COLUMNS = {'ladder': str, 'tier': float, 'setting': str, 'cost': float, 'error':
 
 
 def draw(axes, rows, names=lambda ladder: ladder, setting=None, floor=None, left=False):
-    """One curve a ladder, the front of all, the default ringed. `setting`: words at each point, a
-    function of its row; `floor`: errors below are drawn there; `left`: "default" stands there."""
+    """Draws one curve per ladder, the Pareto front of all, and a ring around the default.
+
+    `setting` is a function from a row to the words at its point. Errors below `floor` are drawn at
+    it. With `left`, the word "default" stands on the left of its point.
+    """
     points = []
-    for number, (ladder, rungs) in enumerate(groups(rows, 'ladder').items()):
-        rungs = sorted(rungs, key=lambda row: row.cost)
-        errors = [max(row.error, floor) if floor else row.error for row in rungs]
-        costs = [row.cost for row in rungs]
-        points += [(row, cost, error) for row, cost, error in zip(rungs, costs, errors)]
+    for number, (ladder, tiers) in enumerate(groups(rows, 'ladder').items()):
+        tiers = sorted(tiers, key=lambda row: row.cost)
+        errors = [max(row.error, floor) if floor else row.error for row in tiers]
+        costs = [row.cost for row in tiers]
+        points += [(row, cost, error) for row, cost, error in zip(tiers, costs, errors)]
         axes.loglog(costs, errors, '-', marker=style.MARKERS[number],
                     color=style.COLOURS[number], label=names(ladder))
     for row, cost, error in points:
@@ -29,8 +34,7 @@ def draw(axes, rows, names=lambda ladder: ladder, setting=None, floor=None, left
 
 
 def write_settings(axes, points, setting, left):
-    """Words beside the points, where they cover no other point and no other words; the default has
-    its own."""
+    """Writes words beside the points where they cover no other point or words."""
     axes.autoscale_view()
     at = axes.transData.transform([point[1:] for point in points])
     taken = [style.box(x, y) for x, y in at]
@@ -39,7 +43,7 @@ def write_settings(axes, points, setting, left):
     said = set()
     for place, (row, cost, error) in zip(at, points):
         text = setting(row)
-        spot = (text, round(place[0] / 20.0), round(place[1] / 40.0))  # of two curves that meet, once
+        spot = (text, round(place[0] / 20.0), round(place[1] / 40.0))  # once where two curves meet
         if spot in said:
             continue
         said.add(spot)

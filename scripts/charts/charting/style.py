@@ -1,7 +1,10 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""One look for all charts: colours that the colour-blind can tell apart, the default ringed, the
-Pareto front drawn as a broad band underneath."""
+"""The style of all charts.
+
+Colours differ for colour-blind readers too, the default has a ring, and the Pareto front is a broad
+band underneath.
+"""
 import io
 import math
 
@@ -19,7 +22,7 @@ COLOURS = (BLUE, RED, GREEN, ORANGE, PINK, SKY, BLACK, GREY)
 MARKERS = 'osD^vPX<>*'
 FRONT = '#D9D9D9'
 DOTS_PER_INCH = 96
-HALO = [withStroke(linewidth=1.5, foreground='white')]  # of a word that a curve may cross
+HALO = [withStroke(linewidth=1.5, foreground='white')]  # behind words that a curve may cross
 
 plt.rcParams.update({
     'font.size': 9, 'axes.titlesize': 10, 'axes.grid': True, 'axes.axisbelow': True,
@@ -29,7 +32,7 @@ plt.rcParams.update({
 
 
 def figure(title, rows=1, columns=1, size=(5.6, 4.2), **options):
-    """A titled figure and its axes, [rows][columns]."""
+    """Returns a titled figure and its axes [rows][columns]."""
     out, axes = plt.subplots(rows, columns, figsize=(size[0] * columns, size[1] * rows),
                              squeeze=False, **options)
     out.suptitle(title, fontsize=11, fontweight='bold')
@@ -49,7 +52,7 @@ def label(axes, x, y, title=None):
 
 
 def front(points):
-    """Those of the points (cost, error) that no other beats in both, by cost."""
+    """Returns the points (cost, error) that no other beats in both, by cost."""
     out = []
     for cost, error in sorted(p for p in points if all(map(math.isfinite, p))):
         if not out or error < out[-1][1]:
@@ -58,7 +61,7 @@ def front(points):
 
 
 def draw_front(axes, points):
-    """The Pareto front as steps: at each cost, the least error to be had."""
+    """Draws the Pareto front as steps: the least error at each cost."""
     best = front(points)
     if len(best) < 2:
         return
@@ -67,7 +70,7 @@ def draw_front(axes, points):
 
 
 def ring(axes, x, y, text='default', left=False):
-    """Marks the default; `left`: the word stands there, not on the right."""
+    """Marks the default with a ring and a word on the right, or with `left` on the left."""
     axes.plot([x], [y], 'o', markersize=12, markerfacecolor='none', markeredgecolor=BLACK,
               markeredgewidth=1.6, zorder=5)
     axes.annotate(text, (x, y), textcoords='offset points',
@@ -78,7 +81,7 @@ def ring(axes, x, y, text='default', left=False):
 BESIDE = (6, 4), (6, -10), (-6, 4), (-6, -10)  # where words may stand at a point [points]
 
 
-TIGHTER = 1.3  # than now everything stands once titles and legends have their room
+TIGHTER = 1.3  # factor by which titles and legends later compress the axes
 
 
 def box(x, y, half=4.0):
@@ -86,7 +89,7 @@ def box(x, y, half=4.0):
 
 
 def box_of_words(x, y, text, offset, bold=False):
-    """Pixels that note() or ring() cover at (x, y), left, low, right, high."""
+    """Returns the pixels that note() or ring() cover at (x, y): left, low, right, high."""
     pixel = plt.rcParams['figure.dpi'] / 72.0 * TIGHTER
     size = 9.0 if bold else 7.5
     width, left = 0.58 * size * len(text), offset[0]
@@ -106,7 +109,7 @@ def note(axes, x, y, text, offset=(6, 4), **options):
 
 
 def legend_below(out, axes, columns=4):
-    """One legend for all axes, below them, each name once."""
+    """Draws one legend below all axes, with each name once."""
     handles = {}
     for each in axes:
         handles.update({name: line for line, name in zip(*each.get_legend_handles_labels())})
@@ -117,7 +120,7 @@ def legend_below(out, axes, columns=4):
 
 
 def save(out, path):
-    """As PNG and SVG; no date in either, so that the same figures give the same files."""
+    """Saves as PNG and SVG, without a date, so that equal figures give equal files."""
     picture = io.BytesIO()
     out.savefig(picture, format='png', dpi=DOTS_PER_INCH)
     few = Image.open(picture).convert('RGB').quantize(255, dither=Image.Dither.NONE)

@@ -3,26 +3,26 @@
 """Tables that benches write and charts are drawn from."""
 import csv
 
-from charting.chart import Refused
+from charting.chart import RequestError
 
 
 class Row(dict):
-    """A line of a table; row.error is row['error']."""
+    """A line of a table, where row.error is row['error']."""
     __getattr__ = dict.__getitem__
 
 
 def read(path, columns):
-    """Rows with numbers as numbers. Refused if the columns are not these, or there is no row."""
+    """Returns the rows, with numbers converted. Fails if the columns differ or no row exists."""
     try:
         with open(path, newline='') as file:
             lines = list(csv.reader(file))
     except OSError as error:
-        raise Refused('%s: %s' % (path, error.strerror))
+        raise RequestError('%s: %s' % (path, error.strerror))
     if not lines or lines[0] != list(columns):
-        raise Refused('%s: its columns are "%s", wanted are "%s"'
+        raise RequestError('%s: its columns are "%s", expected are "%s"'
                       % (path, ','.join(lines[0]) if lines else '', ','.join(columns)))
     if len(lines) == 1:
-        raise Refused('%s: has no row' % path)
+        raise RequestError('%s: has no row' % path)
     return [parse(path, number, line, columns) for number, line in enumerate(lines[1:], 2)]
 
 
@@ -32,11 +32,11 @@ def parse(path, number, line, columns):
             raise ValueError('%d values for %d columns' % (len(line), len(columns)))
         return Row((name, kind(value)) for (name, kind), value in zip(columns.items(), line))
     except ValueError as error:
-        raise Refused('%s, line %d: %s' % (path, number, error))
+        raise RequestError('%s, line %d: %s' % (path, number, error))
 
 
 def join(parts, path, columns):
-    """One table of several of the same columns; they go."""
+    """Joins several tables of the same columns into one, and deletes them."""
     lines = []
     for part in parts:
         read(part, columns)
@@ -46,7 +46,7 @@ def join(parts, path, columns):
 
 
 def groups(rows, *names):
-    """{value or values of the columns: rows}, in the order of their first rows."""
+    """Returns {value or values of the columns: rows}, in the order of their first rows."""
     out = {}
     for row in rows:
         key = tuple(row[name] for name in names)

@@ -1,6 +1,6 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a breeze does in ten minutes at a point, against what docs/wind.md states of it."""
+"""A breeze over ten minutes at a point, compared with the law in docs/wind.md."""
 from charting import style
 from charting.chart import Chart
 from charting.tables import groups

@@ -1,6 +1,6 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Layers of a leafy mass against every leaf on its own: error and cost by their number."""
+"""Layers of a leafy mass against leaves that move alone: error and cost by their number."""
 from charting import style
 from charting.chart import Chart, sized
 

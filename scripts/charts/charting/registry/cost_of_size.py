@@ -1,6 +1,6 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a frame costs over how much there is of a thing, with the slope."""
+"""Cost of a frame over the number of objects, with the slope."""
 import numpy as np
 
 from charting import style
@@ -17,7 +17,7 @@ FRAME = 1.0 / 60.0
 
 
 def slope(sizes, seconds):
-    """Exponent of the cost over the upper half of the sizes, on a logarithmic scale."""
+    """Returns the exponent of the cost over the upper half of the sizes, on a logarithmic scale."""
     high = sizes >= np.sqrt(sizes.max())
     if high.sum() < 2:
         high = sizes > 0
@@ -40,7 +40,7 @@ def draw(rows):
     axes.annotate('a frame of 1/60 s', (0.01, 1e3 * FRAME), xycoords=('axes fraction', 'data'),
                   xytext=(0, 3), textcoords='offset points', fontsize=8)
     style.label(axes, 'how many', 'processor time, one core [ms]',
-                'slope 1 is a straight price; exponents are fitted over the upper half')
+                'slope 1 is linear cost; exponents are fitted over the upper half')
     axes.legend(loc='center left', bbox_to_anchor=(1.01, 0.5), labelspacing=1.0)
     return figure
 

@@ -1,6 +1,6 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Layers behind the first one: told its past from the history, or by one look-up in the present."""
+"""Layers behind the first one, which follow its history or one look-up in the present."""
 from charting import style
 from charting.chart import Chart, sized
 from charting.tables import groups
@@ -36,6 +36,6 @@ def draw(rows):
     return figure
 
 
-CHART = Chart('delay_ladder', 'error and cost of telling layers the past of the first',
+CHART = Chart('delay_ladder', 'error and cost of delayed layers',
               'canopy_bench', {'what': str, 'size': float, 'value': float, 'ratio': float}, draw,
               sized('--part', 'delays'))

@@ -11,7 +11,7 @@ CHOSEN = ('reflection', 64, 4.0)  # at the default 64 cells wind of 4 m/s crosse
 
 
 def points(rows):
-    """Cost until the fastest air has crossed the square, and the error meanwhile."""
+    """Yields the cost until the fastest air has crossed the square, and the error meanwhile."""
     step = {(row.what[len('air, '):], row.size): row.value for row in rows
             if row.what.startswith('air, ')}
     for row in rows:

@@ -1,6 +1,6 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Where the time of a frame goes in each scenario."""
+"""Processor time of the parts of a frame in each scenario."""
 from charting import style
 from charting.chart import Chart
 from charting.tables import groups
@@ -15,7 +15,7 @@ PARTS = {'levels': ('choice of levels', style.BLUE), 'physics': ('physics', styl
          'layers of leaves': ('layers of leaves', '#44AA99'),
          'ways of people': ('ways of people', '#332288'),
          'bodies of people': ('bodies of people', '#DDCC77')}
-LATER = ('#AA4499', '#999933')  # colours of parts that come later (Tol)
+LATER = ('#AA4499', '#999933')  # colours of further parts (Tol)
 
 
 def draw(rows):
@@ -46,5 +46,5 @@ def draw(rows):
     return figure
 
 
-CHART = Chart('frame_time', 'where the time of a frame goes in each scenario', 'frame_bench',
+CHART = Chart('frame_time', 'processor time of the parts of a frame in each scenario', 'frame_bench',
               {'scenario': str, 'part': str, 'ms': float, 'ms_99': float}, draw)

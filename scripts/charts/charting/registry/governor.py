@@ -1,6 +1,6 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Ever more trees on one budget: what they cost, how far they are off, how often rungs change."""
+"""Ever more trees on one budget: their cost, their error, and how often tiers change."""
 from charting import style
 from charting.chart import Chart, sized
 
@@ -21,7 +21,7 @@ def draw(rows):
     costs.loglog(trees, [row.asked_ms for row in rows], 'o--', color=style.GREY,
                  label='what the tolerance asks for')
     costs.loglog(trees, [row.cost_ms for row in rows], 's-', color=style.BLUE,
-                 label='what the governor chose, as it reckons')
+                 label='what the governor chose, by its estimate')
     costs.fill_between(trees, [row.least_ms for row in rows], [row.cost_ms for row in rows],
                        color=style.BLUE, alpha=0.25)
     costs.loglog(trees, [row.choice_ms for row in rows], '^-', color=style.ORANGE,
@@ -41,7 +41,7 @@ def draw(rows):
                      label='of the tree that changes most')
     changes.set_ylim(0.0, 1.3)
     bound(changes, rows, 1.0, 'bar')
-    style.label(changes, 'trees', 'changes of rung a second', 'changes in a steady breeze')
+    style.label(changes, 'trees', 'changes of tier per second', 'changes in a steady breeze')
     for axes in (costs, errors, changes):
         axes.legend()
     return figure

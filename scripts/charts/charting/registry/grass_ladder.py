@@ -1,6 +1,6 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Segments of a blade of grass, and what a tile is drawn as."""
+"""Segments of a blade of grass, and tiers of a tile."""
 from charting import ladders, style
 from charting.chart import Chart
 

@@ -9,7 +9,7 @@ from charting.tables import groups
 NAMES = {'influence': 'in clusters beyond a predicted influence',
          'depth': "in clusters beyond a depth, the paper's rule",
          'all': 'without clusters: the truth, which has no error'}
-FLOOR = 1e-2  # where no error is drawn [%]
+FLOOR = 1e-2  # at which an error of zero is drawn [%]
 
 
 def draw(rows):

@@ -1,6 +1,6 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Levels of procedural motion: error seen against time of a frame."""
+"""Levels of procedural motion: visible error against time of a frame."""
 from charting import ladders, style
 from charting.chart import Chart, sized
 

@@ -1,6 +1,6 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""A tree in modes: error against full dynamics by how many, beside the other rungs."""
+"""A tree in modes: error against full dynamics by their number, beside the other tiers."""
 from charting import ladders, style
 from charting.chart import Chart
 from charting.tables import groups
@@ -20,7 +20,7 @@ OTHERS = {'procedural': ('procedural', style.PINK, 'h'),
 def draw(rows):
     loads = [name for name in LOADS if any(row.load == name for row in rows)]
     figure, panels = style.figure(
-        'A tree in modes (numbers: how many), beside the procedural and the physical rungs',
+        'A tree in modes (numbers: how many), beside the procedural and the physical tiers',
         (len(loads) + 1) // 2, 2, size=(5.2, 4.0))
     panels = [axes for line in panels for axes in line]
     for axes, load in zip(panels, loads):
@@ -37,10 +37,10 @@ def draw_load(axes, load, rows):
                      chosen=(row.modes, row.vectors) == DEFAULT)
            for row in rows if row.branches == branches]
     modal = [row for row in own if row.model == 'modes']
-    for vectors, rungs in groups(modal, 'vectors').items():
-        rungs = sorted(rungs, key=lambda row: row.modes)
+    for vectors, tiers in groups(modal, 'vectors').items():
+        tiers = sorted(tiers, key=lambda row: row.modes)
         name, colour, marker = VECTORS[vectors]
-        axes.loglog([row.cost_ns for row in rungs], [row.error for row in rungs], '-',
+        axes.loglog([row.cost_ns for row in tiers], [row.error for row in tiers], '-',
                     marker=marker, color=colour, label=name)
     for row in own:
         if row.model in OTHERS:
@@ -52,7 +52,7 @@ def draw_load(axes, load, rows):
     axes.margins(x=0.12, y=0.12)
     ladders.write_settings(axes, [(row, row.cost_ns, row.error) for row in modal],
                            lambda row: '%d' % row.modes, left=True)
-    style.label(axes, 'cost beside forward kinematics [ns a branch and frame]',
+    style.label(axes, 'cost beside forward kinematics [ns per branch and frame]',
                 'error of the tips, rms [% of their motion]',
                 '%s, %d branches' % (load, branches))
 

@@ -13,7 +13,7 @@ DEFAULT = 'midpoint (default)'
 
 
 def panel(axes, growth, edge):
-    """Colour: growth over x and y; the edge, measured and by theory."""
+    """Draws growth over x and y as colour, and the edge, measured and by theory."""
     x, y = (np.array(sorted({row[key] for row in growth})) for key in 'xy')
     order = sorted(growth, key=lambda row: (row.x, row.y))
     values = np.array([row.value for row in order]).reshape(len(x), len(y)).T

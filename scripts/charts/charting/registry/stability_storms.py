@@ -1,6 +1,6 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the default does in a storm, over step and how far stiffness is apart."""
+"""Bends of the default in a storm, over step and spread of stiffness."""
 import numpy as np
 
 from charting import style

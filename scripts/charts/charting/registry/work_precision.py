@@ -1,6 +1,6 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Work and precision of every integrator and dynamics of a tree, peers beside them."""
+"""Work and precision of every integrator and dynamics of a tree, beside peers."""
 import math
 
 from charting import style
@@ -22,7 +22,7 @@ STYLES = {
     'MuJoCo, RK4': (style.BLACK, 'X', '--', 'MuJoCo, RK4'),
 }
 DEFAULT = 'midpoint, plain double'
-STEPS = 240.0  # of the default, a second
+STEPS = 240.0  # per second, of the default
 COLUMNS = {'tree': str, 'branches': float, 'load': str, 'engine': str, 'kind': str, 'error': float,
            'steps_per_second': float, 'ms_per_simulated_second': float, 'instants': float,
            'note': str}
@@ -30,7 +30,7 @@ OWN = 'plain double,SIMD,implicit Euler,explicit Euler,Runge-Kutta 4,paper'  # p
 
 
 def curves(rows):
-    """{engine: [(ms, error, steps), ...]} of whole runs that were stable, by cost."""
+    """Returns {engine: [(ms, error, steps), ...]} of complete stable runs, by cost."""
     out = {}
     # Large trees are compared over less than 3 s.
     window = max((row.instants for row in rows if row.note == 'run'), default=0)
@@ -42,13 +42,13 @@ def curves(rows):
 
 
 def style_of(engine, number):
-    """Engines that came later get what is left over."""
+    """Returns the style of an engine; engines that are not listed get a remaining one."""
     return STYLES.get(engine) or (style.COLOURS[number % len(style.COLOURS)], style.MARKERS[-1],
                                   '-.', engine)
 
 
 def bounds(axes, rows):
-    """Engines of which no run within the time cap holds an accuracy: they cost at least so much."""
+    """Draws engines of which no run within the time cap holds an accuracy at their least cost."""
     for row in rows:
         if row.note == 'at_least' and math.isfinite(row.ms_per_simulated_second):
             colour = style_of(row.engine, 0)[0]
@@ -92,7 +92,7 @@ def draw(rows):
 
 
 def runs(extent):
-    """Peers on what they can do in time, the default on all."""
+    """Returns the runs: peers on what they can do in time, the default on everything."""
     tree = ['--trees', 'fractal', '--rounds', '3']
     if extent == 'quick':
         return [['--quick', *tree, '--cap', '1']]
