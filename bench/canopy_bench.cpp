@@ -30,7 +30,7 @@ const char* const NAMES[SCHEMES] = {"reflection", "fast", "paper"};
 
 FluidSettings settingsOf(int scheme, int cells, double width, double viscosity) {
   FluidSettings out;
-  out.scheme = scheme;
+  out.scheme = static_cast<Scheme>(scheme);
   out.cells = cells;
   out.width = width;
   out.viscosity = viscosity;
@@ -62,7 +62,7 @@ void benchSteps(const bench::Options& options, bench::Table& table) {
     const PlaneField flow = smoothFlow(cells, 1);
     auto leaves = std::make_shared<Oscillator>(OscillatorSettings(), cells, 4.0);
     OscillatorSettings verlet;
-    verlet.integrator = 1;
+    verlet.integrator = LeafIntegrator::VERLET;
     auto stepped = std::make_shared<Oscillator>(verlet, cells, 4.0);
     auto history = std::make_shared<History>(cells, 31);
     for (int i = 0; i < 31; ++i) history->push(toFrame(smoothFlow(cells, 1), 0.1));
@@ -214,7 +214,7 @@ void benchDelays(const bench::Options& options, bench::Table& table) {
   const auto layerBy = [&](int model) {
     return [&history, model] {
       LayerSettings settings;
-      settings.model = model;
+      settings.model = static_cast<LayerModel>(model);
       LayerMotion layer;
       layerMotion(viewOf(settings, history), 1.0, 1.0, 2.0, layer);
     };

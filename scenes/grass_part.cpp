@@ -18,7 +18,7 @@ GrassPart::GrassPart(const Scenario& scenario)
 grass::TreadInput GrassPart::inputOf(const std::string& source, grass::TreadAction action) const {
   grass::TreadInput out;
   out.source = source;
-  out.action = static_cast<int>(action);
+  out.action = action;
   out.law = field_.layout().tread;
   out.body_frame = source + "_link";
   return out;

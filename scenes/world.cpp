@@ -69,7 +69,7 @@ void World::addScan(Hash& hash) {
   }
   Pose pose;
   pose.position = sensor;
-  const scan::Noise noise{scenario_.seed, static_cast<std::uint64_t>(tick_), 1};
+  const scan::NoiseKeys noise{scenario_.seed, static_cast<std::uint64_t>(tick_), 1};
   for (const scan::Return& beam : scan::sweep(scene, *scenario_.scan, pose, noise, threads_)) {
     hash.add(beam.range);
     hash.add(static_cast<std::uint64_t>(beam.hit.label));

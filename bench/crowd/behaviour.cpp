@@ -111,10 +111,10 @@ void table(const char* name, const CrowdSettings& settings, int seeds) {
 void benchBehaviour(int seeds) {
   CrowdSettings settings;
   table("goal", settings, seeds);
-  settings.behaviour = static_cast<int>(Behaviour::PAPER);
+  settings.behaviour = Behaviour::PAPER;
   settings.neighbours = 1;
   table("paper's law", settings, seeds);
-  settings.noise = static_cast<int>(Noise::PRINTED);
+  settings.noise = NoiseLaw::PRINTED;
   table("paper's law, noise as printed", settings, seeds);
 }
 

@@ -56,7 +56,7 @@ inline GustErrors errorsInGusts(double delay) {
     out.nothing += square(truth.front());
     layerMotion(viewOf(settings, history), 2.0 * delay, 1.0, 2.0, layer);
     out.history += square(layer.plane);
-    settings.model = 1;
+    settings.model = LayerModel::LOOKUP;
     layerMotion(viewOf(settings, history), 2.0 * delay, 1.0, 2.0, layer);
     out.lookup += square(layer.plane);
   }

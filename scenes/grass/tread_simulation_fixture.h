@@ -16,7 +16,7 @@ class FieldTest : public Treading {
                           TreadAction action = TreadAction::MOVE) {
     TreadInput out;
     out.source = source;
-    out.action = static_cast<int>(action);
+    out.action = action;
     out.position = Vec3(x, y, z);
     out.body_frame = source + "_link";
     return out;

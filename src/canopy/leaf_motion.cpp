@@ -93,7 +93,7 @@ void Foliage::build(Cut& cut, const CutView& view, const History& history, doubl
     LayerMotion& layer = cut.layers[static_cast<std::size_t>(i)];
     layerMotion(layers, cut.cut.distance(i), cut.cut.last(),
                 delaySpeedOf(motion.layers, layout_.seed, i), layer);
-    if (motion.plane.tiling == 1) blendSeams(layer.plane);
+    if (motion.plane.tiling == Tiling::BLEND) blendSeams(layer.plane);
     limitFolding(layer, reach, layers.cell);
     cut.shares.push_back(depthShare(motion.warp, cut.cut.distance(i), cut.cut.last()));
   }
@@ -104,7 +104,7 @@ Vec3 Foliage::motionIn(const Cut& cut, const Vec3& anchor, const Vec3& point) co
   const int size = layer.plane.size;
   const PlaneVector cell = plane_.cellAt(point, size);
   const PlaneVector across = bilinear(layer.plane, cell.u, cell.v);
-  if (layout_.motion.plane.projection == 1) {
+  if (layout_.motion.plane.projection == Projection::PRINTED) {
     const PrintedAngles angles = printedAngles(plane_.axes, cut.cut.axes());
     return printedToView(across, angles.tilt, angles.alpha, angles.beta);
   }
@@ -153,7 +153,7 @@ Vec3 Foliage::displacement(const Vec3& anchor, const Vec3& point, std::size_t pl
   const double freedom = mobility(height, top, rigidity);
   if (!(freedom > 0.0)) return Vec3::Zero();
   Vec3 out = freedom * freeDisplacement(anchor, point, FARTHEST * top / std::max(1.0, rigidity));
-  if (layout_.motion.warp.method == 0) return out;
+  if (layout_.motion.warp.method == WarpMethod::WARP) return out;
   return bent(Vec3(point - layout_.plants[plant].position), out);
 }
 

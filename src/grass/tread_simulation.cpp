@@ -127,7 +127,7 @@ std::string TreadSimulation::move(TreadSourceState& source, const TreadInput& in
 }
 
 std::string TreadSimulation::apply(const TreadInput& input, Nanoseconds stamp) {
-  const auto action = static_cast<TreadAction>(input.action);
+  const TreadAction action = input.action;
   if (action == TreadAction::LIFT && !sources_.count(input.source)) return "";
   TreadSourceState& source = sourceOf(input);
   const Vec3& p = input.position;
@@ -254,7 +254,9 @@ std::uint64_t TreadSnapshot::hash() const {
     hash.add(name);
     for (const auto value : {s.heard, s.pressed, s.before_stamp}) add(value);
     add(s.id);
-    for (const int value : {s.last.action, s.column, s.row, static_cast<int>(s.down)}) add(value);
+    for (const int value :
+         {static_cast<int>(s.last.action), s.column, s.row, static_cast<int>(s.down)})
+      add(value);
     for (const Vec3& v : {s.last.start, s.last.position, s.last.velocity, s.velocity, s.before})
       hash.add(v);
     hash.add(s.last.height_gate);

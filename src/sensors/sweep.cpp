@@ -63,7 +63,7 @@ Beams planeOf(const Beams& beams) {
   return out;
 }
 
-double unitNoise(const Noise& noise, std::uint64_t ray) {
+double unitNoise(const NoiseKeys& noise, std::uint64_t ray) {
   const Random random = Random(noise.seed).child(noise.sensor).child(noise.sweep).child(ray);
   double sum = -6.0;
   for (std::uint64_t i = 0; i < 3; ++i)  // four numbers of 16 bits each
@@ -73,7 +73,7 @@ double unitNoise(const Noise& noise, std::uint64_t ray) {
 }
 
 std::vector<Return> sweep(const Scene& scene, const Beams& beams, const Pose& sensor,
-                          const Noise& noise, int most_threads) {
+                          const NoiseKeys& noise, int most_threads) {
   const int machine = static_cast<int>(std::thread::hardware_concurrency());  // 0: unknown
   const int threads = std::clamp(machine, 1, std::max(1, most_threads));
   std::vector<Return> out(static_cast<std::size_t>(beams.rings) *

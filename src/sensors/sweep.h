@@ -44,17 +44,17 @@ struct Return {
 
 /// What keys the noise: another number for each ray of each sweep of each sensor, whoever asks in
 /// whatever order.
-struct Noise {
+struct NoiseKeys {
   std::uint64_t seed{0}, sweep{0}, sensor{0};
 };
 /// Error of a range, over its standard deviation: mean 0, variance 1, the sum of twelve uniform
 /// numbers (Irwin 1927, Hall 1927), never beyond 6.
-double unitNoise(const Noise& noise, std::uint64_t ray);
+double unitNoise(const NoiseKeys& noise, std::uint64_t ray);
 
 /// All rays at one instant. [rings x columns] @param most_threads that share them, no
 /// more than the machine has; they change nothing.
 std::vector<Return> sweep(const Scene& scene, const Beams& beams, const Pose& sensor,
-                          const Noise& noise, int most_threads = 1);
+                          const NoiseKeys& noise, int most_threads = 1);
 
 /// Points by label; under NONE, rays without one: the sum is the number of rays.
 std::array<std::uint32_t, LABELS> countLabels(const std::vector<Return>& returns);

@@ -29,7 +29,7 @@ TEST(Layout, IsReadWithItsGroupsKindsPlantsAndBeds) {
       "  kinds: [{name: kelp, shape: kelp, leaves: 40, pieces: 5}]\n"
       "  plants: [{kind: kelp, position: [1, 2, 0], scale: 1.5}]\n"
       "  beds: [{kind: kelp, corner: [0, 0, 0], width: 4, depth: 3, count: 7}]\n");
-  EXPECT_EQ(layout.motion.fluid.scheme, static_cast<int>(Scheme::FAST));
+  EXPECT_EQ(layout.motion.fluid.scheme, Scheme::FAST);
   EXPECT_EQ(layout.motion.rate, 60);
   ASSERT_EQ(layout.plants.size(), 8U);
   EXPECT_EQ(layout.leafCount(), 8U * 200U);

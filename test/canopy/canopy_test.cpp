@@ -226,10 +226,10 @@ TEST(Canopy, GoesOnMovingWhenItsMotionIsChanged) {
   run(other, 0, 101);
   run(canopy, 100, 101);
   EXPECT_NE(canopy.snapshot().hash(), other.snapshot().hash());
-  for (const auto change :
-       {+[](Motion& m) { m.plane.distance = 9.0; }, +[](Motion& m) { m.fluid.cells = 64; },
-        +[](Motion& m) { m.rate = 20; }, +[](Motion& m) { m.oscillator.integrator = 1; },
-        +[](Motion& m) { m.layers.memory = 2.0; }}) {
+  for (const auto change : {+[](Motion& m) { m.plane.distance = 9.0; },
+                            +[](Motion& m) { m.fluid.cells = 64; }, +[](Motion& m) { m.rate = 20; },
+                            +[](Motion& m) { m.oscillator.integrator = LeafIntegrator::VERLET; },
+                            +[](Motion& m) { m.layers.memory = 2.0; }}) {
     Motion bad = motion;
     change(bad);
     EXPECT_THROW(canopy.setMotion(bad), InvalidInput);

@@ -174,7 +174,7 @@ TEST_F(FieldTest, RefusesOneSourceTooMany) {
 
 TEST(TreadInputTest, EveryFaultIsNamed) {
   TreadInput bad;
-  bad.action = 7;
+  bad.action = static_cast<TreadAction>(7);
   bad.position = Vec3(std::nan(""), 0.0, 2e7);
   bad.velocity = Vec3(std::numeric_limits<double>::infinity(), 0.0, 0.0);
   bad.law.radius = -1.0;

@@ -18,9 +18,9 @@ struct Layout {
   std::uint64_t seed{0};          ///< keys the random numbers of the blades
   std::string terrain;            ///< file of the height map; empty: flat
   std::uint64_t terrain_hash{0};  ///< of its samples
-  int blade_model{0};             ///< BladeModel
-  double tread_spacing{0.05};     ///< of the fine nodes, as TreadMap has it [m]
-  TreadLaw tread;                 ///< of a source that does not say its own
+  BladeModel blade_model{BladeModel::ARC};
+  double tread_spacing{0.05};  ///< of the fine nodes, as TreadMap has it [m]
+  TreadLaw tread;              ///< of a source that does not say its own
 
   std::uint64_t hash() const;
 };

@@ -90,7 +90,7 @@ void Fluid::substep(const Interval& interval, const PlaneAir* air) {
   given_ = 0.0;
   const double cells = interval.length * settings_.cells / settings_.width;
   const double decay = settings_.viscosity * interval.length / (settings_.width * settings_.width);
-  switch (static_cast<Scheme>(settings_.scheme)) {
+  switch (settings_.scheme) {
     case Scheme::REFLECTION:
       reflect(interval, air, cells, decay);
       break;

@@ -74,7 +74,7 @@ void Oscillator::restore(const OscillatorState& state) {
 
 void Oscillator::show() {
   motion_ = state_.amplitude;
-  if (settings_.integrator == 0) fourier_.inverse(motion_);
+  if (settings_.integrator == LeafIntegrator::EXACT) fourier_.inverse(motion_);
 }
 
 void Oscillator::load(const PlaneField& wind) {
@@ -93,7 +93,7 @@ void Oscillator::advance(double dt, const PlaneField& wind, double depth_wind) {
   const ModeStep step = modeStep(law_.damping * law_.omega, law_.omega * law_.omega, dt);
   state_.depth = rest + (step.keep * offset + step.from_rate * state_.depth_rate);
   state_.depth_rate = step.to_rate * offset + step.keep_rate * state_.depth_rate;
-  if (settings_.integrator == 0) {
+  if (settings_.integrator == LeafIntegrator::EXACT) {
     fourier_.forward(force_);
     modal_.step(dt, force_, state_.amplitude, state_.rate);
   } else {

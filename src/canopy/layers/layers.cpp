@@ -25,9 +25,9 @@ class Lookup {
   PlaneMotion at(std::size_t cell, const PlaneMotion& now) const {
     const LayerSettings& s = *view_.settings;
     const double vz = dot(view_.towards, Vec3(now.u, now.v, now.depth));
-    double delay = layerDelay(distance_, vz, delay_speed_, s.delay == 1);
-    if (s.delay == 0) delay = std::fabs(delay);  // the driver knows which way
-    if (s.model == 0) return view_.history->at(cell, delay / view_.tick);
+    double delay = layerDelay(distance_, vz, delay_speed_, s.delay == Formula::PRINTED);
+    if (s.delay == Formula::DERIVED) delay = std::fabs(delay);  // the driver knows which way
+    if (s.model == LayerModel::HISTORY) return view_.history->at(cell, delay / view_.tick);
     return elsewhere(cell, now, sign_ * delay);
   }
 
@@ -36,7 +36,7 @@ class Lookup {
     const double speed = std::sqrt(now.u * now.u + now.v * now.v);
     if (speed < STILL) return now;
     const LayerSettings& s = *view_.settings;
-    const double unit = s.direction == 0 ? 1.0 / speed : 1.0;
+    const double unit = s.direction == LookupDirection::UNIT ? 1.0 / speed : 1.0;
     const double cells = delay * s.wave_speed * unit / view_.cell;
     const int size = view_.history->size();
     const int column = static_cast<int>(cell) & (size - 1), row = static_cast<int>(cell) / size;
@@ -135,8 +135,9 @@ void layerMotion(const LayerView& view, double distance, double last, double del
   const int size = view.history->size();
   if (out.plane.size != size) out.plane = PlaneField(size);
   out.depth.resize(out.plane.area());
-  const double share = view.settings->delay == 1 ? 1.0 : smoothStep(view.front_share);
-  if (view.settings->model == 0 && view.settings->delay == 0) {
+  const double share =
+      view.settings->delay == Formula::PRINTED ? 1.0 : smoothStep(view.front_share);
+  if (view.settings->model == LayerModel::HISTORY && view.settings->delay == Formula::DERIVED) {
     FastLayer layer(view, delay_speed);
     layer.write(out, distance);
     if (share < 1.0) layer.mix(out, last - distance, 1.0 - share);
@@ -145,7 +146,7 @@ void layerMotion(const LayerView& view, double distance, double last, double del
   const Lookup front(view, distance, delay_speed, 1.0);
   // Equation 5 looks against the motion for a layer that is ahead; the history has no future, so
   // there the last layer drives and the others follow it.
-  const bool ahead = view.settings->model == 1;
+  const bool ahead = view.settings->model == LayerModel::LOOKUP;
   const Lookup back(view, ahead ? distance : last - distance, delay_speed, -1.0);
   for (std::size_t cell = 0; cell < out.depth.size(); ++cell) {
     const PlaneMotion now = view.history->at(cell, 0.0);

@@ -73,12 +73,12 @@ double mobility(double height, double top, double rigidity) {
 
 double depthShare(const WarpSettings& settings, double distance, double last) {
   const double ratio = last > 0.0 ? distance / last : 0.0;
-  if (settings.form == 1) return (1.0 - ratio * ratio) * settings.depth_loss;
+  if (settings.form == Formula::PRINTED) return (1.0 - ratio * ratio) * settings.depth_loss;
   return 1.0 - settings.depth_loss * ratio * ratio;
 }
 
 Vec3 displacement(const WarpSettings& settings, const Vec3& velocity, double share, double dt) {
-  const double time = share * (settings.form == 1 ? dt : settings.reference_time);
+  const double time = share * (settings.form == Formula::PRINTED ? dt : settings.reference_time);
   const Vec3& lambda = settings.lambda;
   return {time * (lambda.x() * velocity.x()),
           time * (lambda.y() * velocity.y() - lambda.z() * std::fabs(velocity.z())), 0.0};

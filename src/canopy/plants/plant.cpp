@@ -20,7 +20,7 @@ Vec3 unit(const Vec3& v, const Vec3& otherwise) {
 }
 
 bool isRibbon(const PlantKind& kind) {
-  return kind.shape == static_cast<int>(Shape::REED) || kind.shape == static_cast<int>(Shape::KELP);
+  return kind.shape == PlantShape::REED || kind.shape == PlantShape::KELP;
 }
 
 /// From a plant at the origin, unscaled, into the world.
@@ -85,7 +85,7 @@ class Grower {
         plant_(plant),
         random_(plant.seed),
         placing_(plant, plant.scale),
-        tufts_(tuftsOf(random_.child(2ULL << 40), kind.shape == static_cast<int>(Shape::CROWN))) {}
+        tufts_(tuftsOf(random_.child(2ULL << 40), kind.shape == PlantShape::CROWN)) {}
 
   GrownPlant grow() {
     out_.leaves.reserve(leafCount(kind_));
@@ -111,7 +111,7 @@ class Grower {
   Vec3 placed(const Vec3& v) const { return placing_.placed(v); }
 
   double crownBase() const {
-    return kind_.shape == static_cast<int>(Shape::CROWN) ? TRUNK_SHARE * kind_.height : 0.0;
+    return kind_.shape == PlantShape::CROWN ? TRUNK_SHARE * kind_.height : 0.0;
   }
 
   // Dark within the mass, and below it.
@@ -165,7 +165,7 @@ class Grower {
     const Vec3 foot(out * place.cos, out * place.sin, 0.0);
     const double top = kind_.height * random.uniform(3, 0.6, 1.0),
                  lean = random.uniform(4, 0.0, 0.2);
-    const bool wavy = kind_.shape == static_cast<int>(Shape::KELP);
+    const bool wavy = kind_.shape == PlantShape::KELP;
     const double sway = wavy ? 0.06 : 0.0, phase = random.uniform(5);
     const Vec3 side = 0.5 * kind_.leaf_width * Vec3(face.cos, face.sin, 0.0);
     const auto point = [&](int piece) {

@@ -197,7 +197,7 @@ void Crowd::reach(const Tick& tick, Walker& w) const {
 void Crowd::stepOne(std::size_t index, const Tick& tick, Walker& w) const {
   const CrowdSettings& s = memory_.settings;
   const auto self = static_cast<std::uint32_t>(index);
-  const bool by_paper = s.behaviour == static_cast<int>(Behaviour::PAPER);
+  const bool by_paper = s.behaviour == Behaviour::PAPER;
   const Point front = frontOf(w);
   const Wish wish = wishOf(w, front, index);
   const View view = perceive(w, self, tick.around, s.sensor_range, s.neighbours);

@@ -80,7 +80,7 @@ Command evade(const Walker& walker, const View& view, const Wish& wish) {
 
 double noiseAt(const CrowdSettings& s, double distance) {
   const double share = saturate(distance / s.sensor_range);
-  if (s.noise == static_cast<int>(Noise::GROWING)) return s.noise_heading * share;
+  if (s.noise == NoiseLaw::GROWING) return s.noise_heading * share;
   return s.noise_heading / std::max(share, 1.0 / LARGEST_PRINTED);
 }
 

@@ -17,12 +17,12 @@ namespace vegetation_sim::crowd {
 enum class Behaviour : int { GOAL = 0, PAPER = 1 };
 /// Noise of the command: growing with the distance, as the text means, or its inverse, as it is
 /// printed (E7).
-enum class Noise : int { GROWING = 0, PRINTED = 1 };
+enum class NoiseLaw : int { GROWING = 0, PRINTED = 1 };
 
 /// How every walker of a crowd perceives, decides and moves.
 struct CrowdSettings {
-  int behaviour{0};            ///< Behaviour
-  int noise{0};                ///< Noise
+  Behaviour behaviour{Behaviour::GOAL};
+  NoiseLaw noise{NoiseLaw::GROWING};
   double noise_heading{0.15};  ///< standard deviation at the sensor's range [rad]
   double sensor_range{3.0};    ///< between outlines [m]
   int neighbours{3};           ///< nearest obstacles that a decision fuses; `paper` takes one

@@ -17,11 +17,11 @@ void check(const TreadInput& input, const std::string& context, Faults& faults) 
     faults.add(context + "source = '" + input.source.substr(0, 40) + "' has " +
                std::to_string(input.source.size()) + " letters, allowed are 1 to " +
                std::to_string(LONGEST_NAME));
-  if (input.action < 0 || input.action > static_cast<int>(TreadAction::STROKE))
-    faults.add(context + "action = " + std::to_string(input.action) + " is outside 0 to 3");
-  if (input.action == static_cast<int>(TreadAction::LIFT)) return;
-  if (input.action == static_cast<int>(TreadAction::STROKE))
-    checker.vector("start", copy.start, "m", PLACES);
+  const int action = static_cast<int>(input.action);
+  if (action < 0 || action > static_cast<int>(TreadAction::STROKE))
+    faults.add(context + "action = " + std::to_string(action) + " is outside 0 to 3");
+  if (input.action == TreadAction::LIFT) return;
+  if (input.action == TreadAction::STROKE) checker.vector("start", copy.start, "m", PLACES);
   checker.vector("position", copy.position, "m", PLACES);
   checker.number("height_gate", copy.height_gate, "m", {0.0, 1000.0});
   checker.vector("velocity", copy.velocity, "m/s", SPEEDS);

@@ -59,7 +59,7 @@ void GrassField::publishWrenches(Nanoseconds stamp) {
 void GrassField::sendMarkers(const ros::TimerEvent&) {
   if (!clock_.hasBegun() || markers_publisher_.getNumSubscribers() == 0) return;
   const Nanoseconds stamp = field_->stamp();
-  const auto model = static_cast<grass::BladeModel>(field_->layout().blade_model);
+  const auto model = field_->layout().blade_model;
   markers_publisher_.publish(markers_.build(*meadow_, *tread_, viewers_.eyesAt(stamp), wind_, model,
                                             options_.frame_id, stamp));
 }

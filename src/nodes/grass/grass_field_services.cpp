@@ -86,7 +86,7 @@ void GrassField::queuePath(const std::vector<Vec3>& path, const grass::TreadLaw&
     event.tread = toMsg(input);
     inputs_.add(event);
   }
-  input.action = static_cast<int>(grass::TreadAction::LIFT);
+  input.action = grass::TreadAction::LIFT;
   event.tread = toMsg(input);
   inputs_.add(event);
 }

@@ -68,7 +68,7 @@ void GrassSources::say(const Followed& followed, grass::TreadAction action,
                        const ObservedSource& heard, std::vector<grass::TreadInput>& out) const {
   grass::TreadInput input;
   input.source = followed.source.name;
-  input.action = static_cast<int>(action);
+  input.action = action;
   input.position = heard.position;
   input.velocity = heard.velocity;
   input.law = fromMsg(toMsg(followed.source.law), own_);

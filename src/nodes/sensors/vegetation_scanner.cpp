@@ -66,7 +66,7 @@ void VegetationScanner::tick(std::int64_t tick) {
 void VegetationScanner::sweep(const Pose& sensor, std::int64_t tick) {
   landscape_.update(sensor.position, options_.beams.range_max, clock_.stamp(), scene_);
   const auto noiseOf = [&](std::uint64_t sensor) {
-    return scan::Noise{options_.seed, static_cast<std::uint64_t>(tick), sensor};
+    return scan::NoiseKeys{options_.seed, static_cast<std::uint64_t>(tick), sensor};
   };
   if (cloud_publisher_.getNumSubscribers() + report_publisher_.getNumSubscribers() > 0) {
     const auto returns = scan::sweep(scene_, options_.beams, sensor, noiseOf(0), options_.threads);

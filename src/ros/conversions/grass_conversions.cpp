@@ -67,11 +67,11 @@ grass::SpeciesInput speciesFromMsg(const GrassSpecies& message, Faults& faults) 
   return out;
 }
 
-int bladeModelOf(const std::string& name, Faults& faults) {
+grass::BladeModel bladeModelOf(const std::string& name, Faults& faults) {
   for (int i = 0; i < 2; ++i)
-    if (name == BLADE_MODELS[i]) return i;
+    if (name == BLADE_MODELS[i]) return static_cast<grass::BladeModel>(i);
   faults.add("layout: blade_model = '" + name + "' is none of arc, paper");
-  return 0;
+  return {};
 }
 
 grass::MapInput mapFromMsg(const GrassLayout& message, Faults& faults) {
@@ -127,7 +127,7 @@ GrassLayout toMsg(const grass::Layout& layout) {
   for (const grass::SpeciesInput& species : map.species) out.species.push_back(toMsg(species));
   out.terrain = layout.terrain;
   out.terrain_hash = layout.terrain_hash;
-  out.blade_model = BLADE_MODELS[layout.blade_model];
+  out.blade_model = BLADE_MODELS[static_cast<int>(layout.blade_model)];
   out.tread_spacing = layout.tread_spacing;
   out.tread = toMsg(layout.tread);
   return out;

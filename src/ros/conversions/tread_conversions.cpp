@@ -47,7 +47,7 @@ grass::TreadInput fromMsg(const TreadEvent& message, const grass::TreadLaw& own,
                           double height_gate) {
   grass::TreadInput out;
   out.source = message.source;
-  out.action = message.action;
+  out.action = static_cast<grass::TreadAction>(message.action);
   out.start = fromMsg(message.start);
   out.position = fromMsg(message.position);
   out.height_gate = message.height_gate != 0.0 ? message.height_gate : height_gate;

@@ -177,9 +177,9 @@ void loadForms(canopy::Layout& layout, const std::string& folder, Faults& faults
     if (!canopy::isRead(kind) || kind.file.empty()) continue;
     try {
       if (!isUrl(kind.file)) kind.file = resolveFile(kind.file, folder);
-      const bool mesh = kind.shape == static_cast<int>(canopy::Shape::MESH);
+      const bool mesh = kind.shape == canopy::PlantShape::MESH;
       auto form = std::make_shared<canopy::Form>(
-          mesh ? canopy::formOf(loadLeafMesh(kind.file), kind.up == 1)
+          mesh ? canopy::formOf(loadLeafMesh(kind.file), kind.up == canopy::UpAxis::Y)
                : canopy::formOf(loadSlices(kind.file), kind.solid));
       kind.radius = form->radius * kind.height;
       kind.form = std::move(form);

@@ -18,14 +18,13 @@ constexpr double WIDEST = 4.0;     // growth of leaves that stand for others
 constexpr double MARGIN = 1.0;     // [m] that leaves may leave the box by
 
 bool isRibbon(const canopy::PlantKind& kind) {
-  return kind.shape == static_cast<int>(canopy::Shape::REED) ||
-         kind.shape == static_cast<int>(canopy::Shape::KELP);
+  return kind.shape == canopy::PlantShape::REED || kind.shape == canopy::PlantShape::KELP;
 }
 
 // Pieces that join their neighbours have outlines of their own, others that of a picture.
 LeafCut cutOf(const canopy::PlantKind& kind, const canopy::Leaf& leaf) {
   if (leaf.joined) return LeafCut::PLAIN;
-  if (kind.shape == static_cast<int>(canopy::Shape::SLICES)) return LeafCut::SPRIG;
+  if (kind.shape == canopy::PlantShape::SLICES) return LeafCut::SPRIG;
   return isRibbon(kind) ? LeafCut::RIBBON : LeafCut::LEAF;
 }
 
@@ -37,8 +36,7 @@ bool joins(LeafCut cut) {
 Vec3 inBall(const canopy::Layout& layout, std::size_t plant, const Vec3& at) {
   const canopy::Plant& p = layout.plants[plant];
   const canopy::PlantKind& kind = layout.kinds[p.kind];
-  const double base =
-      kind.shape == static_cast<int>(canopy::Shape::CROWN) ? 0.35 * kind.height : 0.0;
+  const double base = kind.shape == canopy::PlantShape::CROWN ? 0.35 * kind.height : 0.0;
   const double half = 0.5 * (kind.height - base);
   const Vec3 local = (at - p.position) / p.scale;
   return {local.x() / kind.radius, local.y() / kind.radius, (local.z() - base - half) / half};

@@ -160,7 +160,7 @@ void GrassVisual::build(const SubscribedMeadow& meadow, Nanoseconds stamp, const
   for (const grass::TileView& tile_view : sorted) {
     grass::TileMotion motion;
     const grass::Tile tile = levels_.tileAt(tile_view, air, meadow.tread(), stamp, patch_, motion);
-    motion.model = static_cast<grass::BladeModel>(meadow.layout().blade_model);
+    motion.model = meadow.layout().blade_model;
     if (tile_view.morph.blades && options.blades) {
       addBlades(tile, motion, tile_view, eye, options);
       const double distance = std::sqrt(squareDistance(tile_view, law, eye));

@@ -19,7 +19,7 @@ constexpr double NAN_VALUE = std::numeric_limits<double>::quiet_NaN();
 
 FluidSettings ideal(Scheme scheme, int cells) {
   FluidSettings out;
-  out.scheme = static_cast<int>(scheme);
+  out.scheme = scheme;
   out.cells = cells;
   out.width = 1.0;
   out.viscosity = 0.0;

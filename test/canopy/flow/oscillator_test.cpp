@@ -61,7 +61,8 @@ PlaneField evenWind(int size, double u, double v) {
 
 OscillatorSettings with(const char* integrator) {
   OscillatorSettings out;
-  out.integrator = std::string(integrator) == "verlet" ? 1 : 0;
+  out.integrator =
+      std::string(integrator) == "verlet" ? LeafIntegrator::VERLET : LeafIntegrator::EXACT;
   out.limit = 200.0;
   return out;
 }

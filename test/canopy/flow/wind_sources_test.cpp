@@ -95,7 +95,7 @@ double swellAt(double rate, int scheme) {
   settings.sides[0] = {6.0, 0.5};
   settings.turbulence = 0.0;
   FluidSettings fluid_settings = small();
-  fluid_settings.scheme = scheme;
+  fluid_settings.scheme = static_cast<Scheme>(scheme);
   Fluid fluid(fluid_settings, settings, 1);
   double sum = 0.0, squares = 0.0;
   for (int i = 0; i < 24 * rate; ++i) {

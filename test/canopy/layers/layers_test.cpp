@@ -166,13 +166,13 @@ History travellingWave(double mean, double swing) {
 
 double differenceOfModels(const History& history, int direction) {
   LayerSettings settings;
-  settings.direction = direction;
+  settings.direction = static_cast<LookupDirection>(direction);
   LayerView view = viewOf(settings, history);
   settings.wave_speed = view.cell / view.tick;
   LayerMotion exact, looked;
   const double delay = 6.0 * view.tick;
   layerMotion(view, 2.0 * delay, 1.0, 2.0, exact);
-  settings.model = 1;
+  settings.model = LayerModel::LOOKUP;
   layerMotion(view, 2.0 * delay, 1.0, 2.0, looked);
   return relativeError(looked.plane, exact.plane);
 }

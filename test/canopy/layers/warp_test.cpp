@@ -32,7 +32,7 @@ TEST(DepthShare, FallsToWhatTheTextSays) {
   EXPECT_EQ(depthShare(settings, 2.0, 4.0), 0.875);
   EXPECT_EQ(depthShare(settings, 4.0, 4.0), 0.5);
   EXPECT_EQ(depthShare(settings, 0.0, 0.0), 1.0);  // one layer
-  settings.form = 1;
+  settings.form = Formula::PRINTED;
   EXPECT_EQ(depthShare(settings, 0.0, 4.0), 0.5);
   EXPECT_EQ(depthShare(settings, 4.0, 4.0), 0.0);
   settings.depth_loss = 0.0;
@@ -46,7 +46,7 @@ TEST(Displacement, DoesNotDependOnTheStep) {
   const Vec3 at15 = displacement(settings, velocity, 1.0, 1.0 / 15.0);
   EXPECT_EQ(displacement(settings, velocity, 1.0, 1.0 / 30.0), at15);
   EXPECT_EQ(displacement(settings, velocity, 1.0, 1.0 / 60.0), at15);
-  settings.form = 1;
+  settings.form = Formula::PRINTED;
   EXPECT_NEAR(displacement(settings, velocity, 1.0, 1.0 / 30.0).x(),
               0.5 * displacement(settings, velocity, 1.0, 1.0 / 15.0).x(), 1e-12);
 }

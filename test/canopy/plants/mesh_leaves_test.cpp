@@ -32,7 +32,7 @@ LeafMesh ladderOf(std::uint32_t leaves) {
 
 PlantKind kindOf(const LeafMesh& mesh) {
   PlantKind out;
-  out.shape = static_cast<int>(Shape::MESH);
+  out.shape = PlantShape::MESH;
   out.file = "none";
   out.height = 2.0;
   auto form = std::make_shared<Form>(formOf(mesh, false));
@@ -178,7 +178,7 @@ TEST(Slices, MakeALeafOfEachCellOnTheOutside) {
 TEST(Slices, DriftInLayersAsACloud) {
   Layout layout = shrubScene();
   layout.motion.warp.rigidity = 0.0;
-  layout.kinds[0].shape = static_cast<int>(Shape::SLICES);
+  layout.kinds[0].shape = PlantShape::SLICES;
   layout.kinds[0].file = "none";
   layout.kinds[0].form = std::make_shared<Form>(formOf(ballOf(12), 0.5));
   for (Plant& plant : layout.plants) plant.position.z() = 3.0;

@@ -11,16 +11,17 @@
 namespace vegetation_sim::canopy {
 namespace {
 
-PlantKind kindOf(Shape shape) {
+PlantKind kindOf(PlantShape shape) {
   PlantKind out;
-  out.shape = static_cast<int>(shape);
+  out.shape = shape;
   out.leaves = 300;
   return out;
 }
 
 // S3-30: shrub, crown, grass-like reeds, plants under water.
 TEST(Grow, KeepsEachShapeWithinItsSize) {
-  for (const Shape shape : {Shape::SHRUB, Shape::CROWN, Shape::REED, Shape::KELP}) {
+  for (const PlantShape shape :
+       {PlantShape::SHRUB, PlantShape::CROWN, PlantShape::REED, PlantShape::KELP}) {
     const PlantKind kind = kindOf(shape);
     Plant plant;
     plant.seed = 7;
@@ -37,14 +38,14 @@ TEST(Grow, KeepsEachShapeWithinItsSize) {
       top = std::max(top, leaf.tip.z() - plant.position.z());
     }
     EXPECT_GT(top, 1.6 * kind.height) << static_cast<int>(shape);
-    const bool ribbon = shape == Shape::REED || shape == Shape::KELP;
+    const bool ribbon = shape == PlantShape::REED || shape == PlantShape::KELP;
     EXPECT_EQ(grown.stems.empty(), ribbon);
   }
 }
 
 // S3-03: the pieces of a ribbon hang together on one root.
 TEST(Grow, HangsThePiecesOfARibbonOnOneRoot) {
-  const PlantKind kind = kindOf(Shape::KELP);
+  const PlantKind kind = kindOf(PlantShape::KELP);
   const GrownPlant grown = grow(kind, {});
   for (std::size_t i = 1; i < grown.leaves.size(); ++i) {
     if (i % static_cast<std::size_t>(kind.pieces) == 0) continue;
@@ -55,7 +56,7 @@ TEST(Grow, HangsThePiecesOfARibbonOnOneRoot) {
 
 // S3-W5: dark inside and below, light outside and above.
 TEST(Grow, GivesLessLightToLeavesInsideAndBelow) {
-  PlantKind kind = kindOf(Shape::SHRUB);
+  PlantKind kind = kindOf(PlantShape::SHRUB);
   kind.leaves = 4000;
   double inside = 0.0, outside = 0.0, below = 0.0, above = 0.0;
   int in = 0, out = 0, low = 0, high = 0;
@@ -76,7 +77,7 @@ TEST(Grow, GivesLessLightToLeavesInsideAndBelow) {
 
 // No two plants of a kind have the same outline.
 TEST(Grow, GivesEachPlantAnOutlineOfItsOwn) {
-  PlantKind kind = kindOf(Shape::SHRUB);
+  PlantKind kind = kindOf(PlantShape::SHRUB);
   kind.leaves = 3000;
   std::array<std::array<double, 8>, 2> reach{};
   for (std::size_t seed = 0; seed < 2; ++seed) {
@@ -95,7 +96,7 @@ TEST(Grow, GivesEachPlantAnOutlineOfItsOwn) {
 }
 
 TEST(Grow, IsAFunctionOfTheSeedAndOfEachLeafsNumber) {
-  PlantKind kind = kindOf(Shape::SHRUB);
+  PlantKind kind = kindOf(PlantShape::SHRUB);
   Plant plant;
   plant.seed = 3;
   const GrownPlant first = grow(kind, plant);

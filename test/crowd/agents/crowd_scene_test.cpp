@@ -26,7 +26,7 @@ groups: [{count: 20, x: -2, y: 4, spread: 1.0}]
 )",
                            faults);
   EXPECT_TRUE(faults.empty()) << faults.text();
-  EXPECT_EQ(scene.settings.behaviour, static_cast<int>(Behaviour::PAPER));
+  EXPECT_EQ(scene.settings.behaviour, Behaviour::PAPER);
   EXPECT_EQ(scene.area.max_y, 8.0);
   ASSERT_EQ(scene.spawns.size(), 21U);
   EXPECT_TRUE(scene.spawns[0].has_goal);

@@ -74,7 +74,7 @@ TEST(Crowd, TrapsAreLeft) {
   }
   // The nearest obstacle alone leads nobody out.
   CrowdSettings paper;
-  paper.behaviour = static_cast<int>(Behaviour::PAPER);
+  paper.behaviour = Behaviour::PAPER;
   paper.neighbours = 1;
   Crowd crowd = trap(0, 4.0, paper);
   EXPECT_FALSE(allArriveWithin(crowd, 90.0));

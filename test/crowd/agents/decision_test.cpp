@@ -21,7 +21,7 @@ View facing(double gap, const Point& normal) {
 
 CrowdSettings quiet() {
   CrowdSettings out;
-  out.behaviour = static_cast<int>(Behaviour::PAPER);
+  out.behaviour = Behaviour::PAPER;
   out.noise_heading = 0.0;
   return out;
 }
@@ -59,7 +59,7 @@ TEST(Decision, NoiseGrowsWithTheDistance) {
   EXPECT_EQ(noiseAt(settings, 0.0), 0.0);
   EXPECT_EQ(noiseAt(settings, settings.sensor_range), settings.noise_heading);
   EXPECT_LT(noiseAt(settings, 0.1 * settings.sensor_range), noiseAt(settings, 1.0));
-  settings.noise = static_cast<int>(Noise::PRINTED);
+  settings.noise = NoiseLaw::PRINTED;
   EXPECT_GT(noiseAt(settings, 0.1 * settings.sensor_range), noiseAt(settings, 1.0));
   EXPECT_EQ(noiseAt(settings, settings.sensor_range), settings.noise_heading);
   EXPECT_TRUE(std::isfinite(noiseAt(settings, 0.0)));
@@ -83,7 +83,7 @@ TEST(Decision, CommandsNearAnObstacleScatterLess) {
   const double range = settings.sensor_range;
   EXPECT_NEAR(spreadAt(range - 1e-9), 0.04, 0.004);  // 3 sigma of 4000 draws
   EXPECT_LT(spreadAt(0.1 * range), 0.1 * spreadAt(range - 1e-9));
-  settings.noise = static_cast<int>(Noise::PRINTED);
+  settings.noise = NoiseLaw::PRINTED;
   EXPECT_GT(spreadAt(0.1 * range), spreadAt(range - 1e-9));
 }
 

@@ -77,7 +77,7 @@ TEST(CanopyMarkers, RigidFacesAreNoLeaves) {
   form->leaves.resize(30);
   for (canopy::Leaf& leaf : form->leaves) leaf.root = leaf.tip = Vec3(0.1, 0.0, 0.5);
   form->rigid.resize(500);
-  row.layout.kinds[0].shape = static_cast<int>(canopy::Shape::MESH);
+  row.layout.kinds[0].shape = canopy::PlantShape::MESH;
   row.layout.kinds[0].file = "read.dae";
   row.layout.kinds[0].form = form;
   const TierAllocation balance = row.choose(200000, 0.01);

@@ -33,7 +33,7 @@ grass::Layout exampleLayout() {
   out.seed = 18446744073709551615ULL;
   out.terrain = "package://somewhere/hills.yaml";
   out.terrain_hash = 7;
-  out.blade_model = 1;
+  out.blade_model = grass::BladeModel::PAPER;
   out.tread_spacing = 0.0625;
   out.tread = {0.2, 0.5, 0.15, 0.7, 90.0};
   return out;

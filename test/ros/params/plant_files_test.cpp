@@ -106,7 +106,7 @@ TEST_F(PlantFiles, AreRefusedIfTheyAreTooLarge) {
 TEST_F(PlantFiles, GoThroughTheLayoutsMessage) {
   canopy::Layout layout;
   layout.kinds.resize(1);
-  layout.kinds[0].shape = static_cast<int>(canopy::Shape::MESH);
+  layout.kinds[0].shape = canopy::PlantShape::MESH;
   layout.kinds[0].file = "shrub.obj";
   layout.plants.resize(1);
   write("shrub.obj", SHRUB);

@@ -30,7 +30,7 @@ class CanopyRig : public DisplayRig {
     out.kinds.resize(2);
     out.kinds[0].leaves = 600;
     out.kinds[1].name = "reed";
-    out.kinds[1].shape = static_cast<int>(canopy::Shape::REED);
+    out.kinds[1].shape = canopy::PlantShape::REED;
     out.kinds[1].leaves = 40;
     for (int i = 0; i < count; ++i) {
       canopy::Plant plant;

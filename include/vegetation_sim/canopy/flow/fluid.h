@@ -20,7 +20,7 @@ enum class Scheme : int {
 };
 
 struct FluidSettings {
-  int scheme{0};           ///< Scheme
+  Scheme scheme{Scheme::REFLECTION};
   int cells{64};           ///< along a side, a power of two
   double width{4.0};       ///< of the square [m]
   double viscosity{1e-3};  ///< kinematic, what eddies below a cell do included [m^2/s]

@@ -10,8 +10,11 @@
 
 namespace vegetation_sim::canopy {
 
+/// EXACT integrates mode by mode; VERLET is the paper's scheme (S3-12).
+enum class LeafIntegrator { EXACT, VERLET };
+
 struct OscillatorSettings {
-  int integrator{0};      ///< 0 exact, mode by mode; 1 Verlet (S3-12)
+  LeafIntegrator integrator{LeafIntegrator::EXACT};
   double frequency{1.2};  ///< of a leaf or twig [Hz]
   double damping{0.15};   ///< share of the critical one
   double speed{0.4};      ///< of waves through the leaves [m/s]

@@ -13,11 +13,16 @@ namespace vegetation_sim::canopy {
 
 constexpr int MOST_LAYERS = 16;
 
+/// Motion of a layer from the history (equation 3), or by one look-up (equation 5).
+enum class LayerModel { HISTORY, LOOKUP };
+/// Direction of the look-up: of unit length, or as the paper prints it (E9b).
+enum class LookupDirection { UNIT, PRINTED };
+
 /// How the layers behind the first move (paper 3, section 3.5).
 struct LayerSettings {
-  int model{0};             ///< 0 from the history (eq. 3); 1 by one look-up (eq. 5)
-  int delay{0};             ///< 0 right, 1 as printed (E9)
-  int direction{0};         ///< of the look-up: 0 unit, 1 as printed (E9b)
+  LayerModel model{LayerModel::HISTORY};
+  Formula delay{Formula::DERIVED};  ///< of equation 4 (E9)
+  LookupDirection direction{LookupDirection::UNIT};
   double delay_speed{2.0};  ///< V_D, speed at which motion goes through the layers in a calm [m/s]
   double spread{0.2};       ///< of V_D between layers, fixed for each (S3-21)
   double wave_speed{0.4};   ///< s of the look-up [m/s]

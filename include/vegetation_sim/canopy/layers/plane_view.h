@@ -18,6 +18,13 @@ Axes axesOf(const Quat& orientation);
 Vec3 into(const Axes& axes, const Vec3& world);
 Vec3 outOf(const Axes& axes, const Vec3& components);
 
+/// From the plane to the view: by rotations, or by the angles that the paper prints (E8).
+enum class Projection { ROTATION, PRINTED };
+/// A periodic field, or the paper's blend of the field with itself moved by half (S3-14).
+enum class Tiling { PERIODIC, BLEND };
+/// A formula as derived, or as the paper prints it.
+enum class Formula { DERIVED, PRINTED };
+
 /// Where the simulation plane is: what a camera sees at a distance (S3-08).
 struct PlaneSettings {
   Vec3 camera{Vec3(-5.0, 0.0, 1.5)};  ///< [m], world
@@ -26,8 +33,8 @@ struct PlaneSettings {
   double roll{0.0};                   ///< [rad]
   double distance{5.0};               ///< of the plane from the camera [m]
   double field_of_view{0.8};          ///< that the square fills [rad]
-  int projection{0};                  ///< 0 by rotations, 1 by the printed angles (E8)
-  int tiling{0};                      ///< 0 periodic solver, 1 offset and blend as printed (S3-14)
+  Projection projection{Projection::ROTATION};
+  Tiling tiling{Tiling::PERIODIC};
 };
 void describe(FieldVisitor& visitor, PlaneSettings& settings);
 /// Of the camera; it looks along x.

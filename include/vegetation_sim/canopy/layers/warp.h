@@ -8,15 +8,19 @@
 
 namespace vegetation_sim::canopy {
 
+/// WARP moves the points of a grid; BEND turns leaves about their feet, so that no point leaves its
+/// foot (S3-W4).
+enum class WarpMethod { WARP, BEND };
+
 /// How far a motion carries a leaf (paper 3, equations 6 and 7).
 struct WarpSettings {
-  int form{0};  ///< 0 right, 1 as printed (E10)
+  Formula form{Formula::DERIVED};  ///< of depthShare() and of the displacement (E10)
   /// Scale across, up, and of the shrink that stands for motion in depth (S3-25, S3-26).
   Vec3 lambda{Vec3(1.0, 1.0, 0.5)};
   double reference_time{0.05};  ///< displacement per speed [s]
   double depth_loss{0.3};       ///< m: share that the last layer moves less
   double rigidity{1.5};         ///< r of equation 7; 0: every part moves alike
-  int method{0};                ///< 0 grid warp, 1 bend: no point leaves its foot (S3-W4)
+  WarpMethod method{WarpMethod::WARP};
   /// Tangent of a leaf's turn about its midrib per displacement of its tip across its face, over
   /// its length (S3-W3).
   double twist{0.3};

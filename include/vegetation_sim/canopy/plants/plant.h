@@ -17,12 +17,15 @@ constexpr std::size_t MOST_PLANTS = 65536;
 
 /// shrub: leaves on tufts from the ground up; crown: tufts on a bare trunk; reed: upright ribbons;
 /// kelp: wavy ribbons. Ribbons are chains of pieces. mesh, slices: read from a file.
-enum class Shape : int { SHRUB = 0, CROWN = 1, REED = 2, KELP = 3, MESH = 4, SLICES = 5 };
+enum class PlantShape : int { SHRUB = 0, CROWN = 1, REED = 2, KELP = 3, MESH = 4, SLICES = 5 };
+
+/// Axis of a mesh that points up.
+enum class UpAxis { Z, Y };
 
 /// What plants of one kind have in common (S3-30).
 struct PlantKind {
   std::string name{"shrub"};
-  int shape{0};                               ///< Shape
+  PlantShape shape{PlantShape::SHRUB};
   double height{1.6};                         ///< [m]
   double radius{1.0};                         ///< [m]
   int leaves{1500};                           ///< leaves, or ribbons
@@ -34,15 +37,14 @@ struct PlantKind {
   Vec3 colour{Vec3(0.16, 0.34, 0.09)};        ///< red, green, blue
   Vec3 colour_young{Vec3(0.42, 0.55, 0.18)};  ///< of the lightest leaves
   Vec3 stem_colour{Vec3(0.30, 0.23, 0.15)};
-  int up{0};                         ///< of a mesh: 0 its z, 1 its y
+  UpAxis up{UpAxis::Z};              ///< of a mesh
   double solid{0.5};                 ///< density from which a cell of a slice has a leaf
   std::string file;                  ///< of a mesh, or of the first slice; scaled to `height`
   std::shared_ptr<const Form> form;  ///< what was read from it; many plants and threads share it
 };
 /// Whether plants of this kind are read rather than grown.
 inline bool isRead(const PlantKind& kind) {
-  return kind.shape == static_cast<int>(Shape::MESH) ||
-         kind.shape == static_cast<int>(Shape::SLICES);
+  return kind.shape == PlantShape::MESH || kind.shape == PlantShape::SLICES;
 }
 void describe(FieldVisitor& visitor, PlantKind& kind);
 

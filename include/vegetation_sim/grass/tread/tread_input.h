@@ -15,8 +15,8 @@ enum class TreadAction : int { MOVE = 0, PLACE = 1, LIFT = 2, STROKE = 3 };
 
 /// A source of treading moved.
 struct TreadInput {
-  std::string source;           ///< its name
-  int action{0};                ///< TreadAction
+  std::string source;  ///< its name
+  TreadAction action{TreadAction::MOVE};
   Vec3 start{Vec3::Zero()};     ///< of a STROKE, world [m]
   Vec3 position{Vec3::Zero()};  ///< world [m]
   double height_gate{0.3};      ///< higher above the ground it treads nothing [m]
