@@ -33,7 +33,7 @@ def size_of(png):
     return struct.unpack('>II', head[16:24])
 
 
-def hear_interrupts():
+def accept_interrupts():
     """Restores the default handler, because processes that a shell starts in the background ignore
     the signal."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
@@ -76,7 +76,7 @@ class Charts(unittest.TestCase):
             self.assertIn(wanted, words)
         self.assertFalse(list(self.out.glob('*.part')))
 
-    def test_unknown_charts_are_refused_by_name(self):
+    def test_errors_name_unknown_charts(self):
         done = run(PROGRAM, '--only', 'grass_ladder,no_such', '--out', self.out)
         self.assertEqual(done.returncode, 2)
         self.assertIn('no_such: no such chart', done.stderr)
@@ -84,7 +84,7 @@ class Charts(unittest.TestCase):
         self.assertFalse(self.out.exists())
         self.assertEqual(run(PROGRAM, '--only', ',').returncode, 2)
 
-    def test_missing_benches_are_refused_by_name(self):
+    def test_errors_name_missing_benches(self):
         empty = str(self.folder)
         done = run(PROGRAM, '--only', 'grass_ladder', '--out', self.out, CMAKE_PREFIX_PATH=empty)
         self.assertEqual(done.returncode, 2)
@@ -92,7 +92,7 @@ class Charts(unittest.TestCase):
         self.assertIn(empty, done.stderr)
         self.assertFalse(self.out.exists())
 
-    def test_folders_that_cannot_be_are_refused_by_name(self):
+    def test_errors_name_invalid_folders(self):
         self.out.write_text('a file')
         space = self.bench('grass_tile_bench', 'exit 0')
         for bad in (self.out, self.out / 'below'):
@@ -131,15 +131,15 @@ class Charts(unittest.TestCase):
 
     # After an interrupt no bench still runs, and no file of a chart exists that had not begun.
     def test_an_interrupt_ends_the_benches(self):
-        told = self.folder / 'pids'
-        os.mkfifo(told)
+        pid_file = self.folder / 'pids'
+        os.mkfifo(pid_file)
         for name in ('grass_tile_bench', 'influence_bench', 'governor_bench'):
-            space = self.bench(name, 'echo $$ > %s\nexec sleep 100' % told)
+            space = self.bench(name, 'echo $$ > %s\nexec sleep 100' % pid_file)
         process = subprocess.Popen(
             [str(PROGRAM), '--quick', '--only', 'grass_ladder,influence_ladder,governor', '--out',
              str(self.out)], env={**os.environ, **space}, stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL, preexec_fn=hear_interrupts)
-        with open(os.open(told, os.O_RDWR)) as pids:  # Only two benches run at a time.
+            stderr=subprocess.DEVNULL, preexec_fn=accept_interrupts)
+        with open(os.open(pid_file, os.O_RDWR)) as pids:  # Only two benches run at a time.
             running = [int(pids.readline()) for _ in range(2)]
         process.send_signal(signal.SIGINT)
         self.assertEqual(process.wait(), 130)
@@ -193,7 +193,7 @@ class Charts(unittest.TestCase):
         for name in names:
             self.assert_drawn(name)
 
-    def test_front_has_what_nothing_beats(self):
+    def test_front_has_the_points_that_no_other_point_beats(self):
         points = [(1, 9), (2, 9), (2, 5), (3, 6), (4, 1), (5, float('nan')), (6, 1)]
         self.assertEqual(style.front(points), [(1, 9), (2, 5), (4, 1)])
 

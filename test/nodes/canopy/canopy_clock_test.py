@@ -11,7 +11,7 @@ from std_srvs.srv import Trigger
 from vegetation_sim.msg import CanopyEvent
 
 from canopy_rig import Leaves, start_leaves
-from forest_rig import RATE, Eye, TickClock, scene, stop, time_of
+from forest_rig import RATE, TickClock, ViewerClient, scene, stop, time_of
 from waiting import wait_for
 from watched_node import publisher
 
@@ -41,7 +41,7 @@ class CanopyClockTest(unittest.TestCase):
             wind = self.newest_wind()
             fresh = self.go_back(start)
             self.assertEqual(self.leaves.diagnostics()['Clock jumps back'], jumps + 1)
-            wait_for(lambda: self.newest_wind().header.stamp == fresh, 'the wind, told again')
+            wait_for(lambda: self.newest_wind().header.stamp == fresh, 'the republished wind')
             self.assertEqual(self.newest_wind().wind_hash, wind.wind_hash)
             self.clock.run(2 * RATE, self.leaves)
             end = self.leaves.state.messages[-1]
@@ -62,7 +62,7 @@ class CanopyClockTest(unittest.TestCase):
         process = start_leaves('/replay/canopy_animator', {'wind': '/wind'}, replay=True,
                                scenario=scene('shrubs'), replay_delay=DELAY)
         try:
-            again, eye = Leaves('/replay/canopy_animator', '/replay/'), Eye('eye')
+            again, viewer = Leaves('/replay/canopy_animator', '/replay/'), ViewerClient('eye')
             again.wait_until_up('/wind', '/replay/canopy/events')
             self.recorded = publisher('/replay/canopy/events', CanopyEvent)
             wait_for(lambda: self.recorded.get_num_connections() >= 2, 'the replay, and its log')
@@ -70,11 +70,11 @@ class CanopyClockTest(unittest.TestCase):
             sent = 0
             for tick in range(5 * RATE):
                 if tick % 20 == 10:
-                    eye.look(-6.0 + 0.02 * tick, 0.5, 1.5, self.leaves)
+                    viewer.move_to(-6.0 + 0.02 * tick, 0.5, 1.5, self.leaves)
                 self.clock.run(1, self.leaves)
-                heard = len(self.leaves.events.messages)
-                self.record(again, self.leaves.events.messages[sent:heard])
-                sent = heard
+                count = len(self.leaves.events.messages)
+                self.record(again, self.leaves.events.messages[sent:count])
+                sent = count
             refused = rospy.ServiceProxy('/replay/canopy_animator/reset', Trigger)()
             self.assertIn('by its recorded events only', refused.message)
             self.assertIn(1.0, [m.eye.position.x for m in again.state.messages])
@@ -85,7 +85,7 @@ class CanopyClockTest(unittest.TestCase):
             self.assertGreaterEqual(len(common), 4)
             self.assertEqual([s for s in common if replayed[s] != live[s]], [])
             again.close()
-            eye.close()
+            viewer.close()
         finally:
             stop(process)
 

@@ -54,7 +54,7 @@ class CanopyParameters(Ranges, RefusingNode):
     NODE = 'canopy_animator'
     NUMBERS, WHOLE_NUMBERS, OTHERS = NUMBERS, WHOLE_NUMBERS, OTHERS
 
-    def test_what_does_not_fit_together_is_refused(self):
+    def test_inconsistent_parameters_are_rejected(self):
         refusal = self.refusal({'frame_id': '', 'viewer_frame': '/camera', 'replay': 'yes'})
         self.assertIn("~frame_id = '' is empty", refusal)
         self.assertIn("~viewer_frame = '/camera' begins with '/'", refusal)

@@ -14,7 +14,7 @@ from vegetation_sim.msg import CanopyEvent, WindField
 from visualization_msgs.msg import MarkerArray
 
 from canopy_rig import Leaves, half
-from forest_rig import RATE, Eye, TickClock
+from forest_rig import RATE, TickClock, ViewerClient
 from waiting import wait_for
 from watched_node import Log, publisher
 
@@ -57,8 +57,8 @@ class CanopyStateTest(unittest.TestCase):
         mean = sum(half(bits) for bits in last.right) / 1024
         self.assertLess(mean, -1.0)  # North is to the left of a camera that faces east.
         self.assertEqual(last.header.frame_id, 'map')
-        told = [m for m in self.leaves.state.messages if m.hash]
-        self.assertGreaterEqual(len(told), 3)
+        with_hash = [m for m in self.leaves.state.messages if m.hash]
+        self.assertGreaterEqual(len(with_hash), 3)
 
     # The lists have a constant size, so that rviz updates them in place, and they keep the budget.
     def test_markers_keep_their_size_and_move(self):
@@ -79,7 +79,7 @@ class CanopyStateTest(unittest.TestCase):
         self.assertEqual(first.markers[1].points, last.markers[1].points)
 
     # N7: two near shrubs of 200 leaves are drawn completely within 6 000 points.
-    def test_governor_tells_what_it_drew_and_why(self):
+    def test_governor_reports_levels_and_reason(self):
         log = Log('/canopy/markers', MarkerArray)
         log.wait(len, 'markers', lambda: self.clock.run(3, self.leaves))
         values = self.leaves.diagnostics('governor')
@@ -99,10 +99,10 @@ class CanopyStateTest(unittest.TestCase):
 
     # S3-04, S3-W8: layers are cut for one viewer; other viewers are counted but have no effect.
     def test_layers_are_cut_for_one_viewer(self):
-        one, other = Eye('one'), Eye('other')
-        one.look(1.0, 0.0, 1.5, self.leaves)
+        one, other = ViewerClient('one'), ViewerClient('other')
+        one.move_to(1.0, 0.0, 1.5, self.leaves)
         self.clock.run(1, self.leaves)
-        other.look(-50.0, 0.0, 1.5, self.leaves)
+        other.move_to(-50.0, 0.0, 1.5, self.leaves)
         self.clock.run(1, self.leaves)
         self.expect_viewer(lambda event: event.eye.position.x == 1.0)
         self.assertEqual(self.leaves.state.messages[-1].eye.position.x, 1.0)
@@ -140,7 +140,7 @@ class CanopyStateTest(unittest.TestCase):
         self.clock.run(4 * RATE, self.leaves)
         self.assertGreater(self.leaves.at(*TOP).displacement.y, 0.01)
 
-    def test_bad_requests_and_messages_are_refused_by_name(self):
+    def test_bad_requests_and_messages_are_rejected_with_an_error_that_names_the_field(self):
         refused = self.leaves.diagnostics()['Inputs refused']
         self.assertIn('points has 0 entries, allowed are 1 to 100000', self.leaves.refusal())
         self.assertIn('points[1].z = nan m is not finite',
@@ -149,15 +149,15 @@ class CanopyStateTest(unittest.TestCase):
                       self.leaves.refusal(TOP, frame_id='nowhere'))
         self.assertIn('stamp is not that of the last tick',
                       self.leaves.refusal(TOP, stamp=rospy.Time(1)))
-        eye = Eye('bad')
-        eye.message.pose.orientation.w = 0.0
-        eye.send(eye.message, self.leaves)
+        viewer = ViewerClient('bad')
+        viewer.message.pose.orientation.w = 0.0
+        viewer.send(viewer.message, self.leaves)
         wind = publisher('/wind', WindField)
         wait_for(lambda: wind.get_num_connections() > 0, 'readers of the wind')
         wind.publish(WindField())
         self.leaves.settle()
         self.assertEqual(self.leaves.diagnostics()['Inputs refused'], refused + 2)
-        eye.close()
+        viewer.close()
         wind.unregister()
 
 

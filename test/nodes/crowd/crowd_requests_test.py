@@ -68,7 +68,7 @@ class CrowdRequests(unittest.TestCase):
         for kind in (CrowdEvent.SPAWN, CrowdEvent.GOAL, CrowdEvent.REMOVE):
             self.crowd.expect_event(kind)
 
-    def test_3_refuses_what_is_not_right(self):
+    def test_3_invalid_requests_are_rejected(self):
         hash_before = self.crowd.state.messages[-1].hash
 
         def refusal(answer):
@@ -119,7 +119,7 @@ class CrowdRequests(unittest.TestCase):
         self.clock.run(3, self.crowd)
         self.assertEqual(self.crowd.diagnostics()['Robots'], 0)
 
-    def test_5_frames_are_bounded_and_go_to_who_is_near_robots(self):  # N7
+    def test_5_frames_are_bounded_and_go_to_walkers_near_robots(self):  # N7
         began = time_of(self.clock.tick)
         log = Log('/tf', TFMessage)
         cart = Cart(self.crowd)
@@ -137,7 +137,7 @@ class CrowdRequests(unittest.TestCase):
         self.clock.run(40, self.crowd)  # The frame is no longer published.
         self.crowd.expect_event(CrowdEvent.REMOVE_ROBOT, lambda e: e.header.stamp > began)
 
-    def test_5_governor_tells_what_it_drew_and_why(self):  # N7
+    def test_5_governor_reports_levels_and_reason(self):  # N7
         markers = Log('/agents/markers', MarkerArray)
         markers.wait(len, 'people', lambda: self.clock.run(1, self.crowd))
         values = self.crowd.diagnostics('governor')
@@ -151,7 +151,7 @@ class CrowdRequests(unittest.TestCase):
 
     # A reset keeps the ids that were returned before, and walkers with a future stamp count towards
     # the limit.
-    def test_6_walkers_to_come_have_their_ids_and_room(self):
+    def test_6_future_walkers_keep_their_ids_and_count_towards_the_limit(self):
         later = Header(stamp=time_of(self.clock.tick + 60))
         first = self.crowd.spawn(header=later, like=AgentSpawn(position=at(5, 6)), count=30, spread=2.0)
         self.assertTrue(first.success, first.message)

@@ -11,7 +11,7 @@ import rostest
 from forest_rig import TickClock, memory_of
 from grass_rig import FULL, RATE, Feet, Meadow, step
 
-ROOM = 10000  # limit of the inputs that may wait for a tick
+MOST_WAITING = 10000  # limit of the inputs that may wait for a tick
 PER_SECOND = 10000
 
 
@@ -33,13 +33,13 @@ class GrassFlood(unittest.TestCase):
 
     # No input is applied while the clock stops. The inputs beyond the limit are dropped and
     # counted.
-    def test_1_what_finds_no_room_is_counted(self):
-        self.flood(3 * ROOM)
+    def test_1_inputs_beyond_the_limit_are_counted(self):
+        self.flood(3 * MOST_WAITING)
         values = self.grass.diagnostics()
-        self.assertEqual(values['Inputs lost'], 2 * ROOM)
+        self.assertEqual(values['Inputs lost'], 2 * MOST_WAITING)
         before = values['Inputs taken']
         self.clock.run(1, self.grass)
-        self.assertEqual(self.grass.diagnostics()['Inputs taken'], before + ROOM)
+        self.assertEqual(self.grass.diagnostics()['Inputs taken'], before + MOST_WAITING)
 
     # With 10 000 events per second of ROS time all events are applied, and memory does not grow.
     def test_2_ten_thousand_a_second_are_taken(self):

@@ -67,7 +67,7 @@ class GrassParameters(Ranges, RefusingNode):
                      "~cover_layer = 'red' is none of crush, density, resistance, age"):
             self.assertIn(text, refusal)
 
-    def test_what_does_not_fit_together_is_refused(self):
+    def test_inconsistent_parameters_are_rejected(self):
         refusal = self.refusal({'frame_id': '', 'viewer_frame': '/camera'})
         self.assertIn("~frame_id = '' is empty", refusal)
         self.assertIn("~viewer_frame = '/camera' begins with '/'", refusal)

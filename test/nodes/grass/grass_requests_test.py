@@ -36,7 +36,7 @@ class GrassRequests(unittest.TestCase):
 
     # N7: without a viewer the default viewer above the lawn is used, whose demand exceeds the
     # budget of blades.
-    def test_governor_tells_what_it_drew_and_why(self):
+    def test_governor_reports_levels_and_reason(self):
         log = Log('/grass/markers', MarkerArray)
         log.wait(len, 'markers', lambda: self.clock.run(3, self.grass))
         values = self.grass.diagnostics('governor')
@@ -97,7 +97,7 @@ class GrassRequests(unittest.TestCase):
         self.assertGreater(self.grass.at(-10.0, -14.0).tilt, FULL - 1e-6)
 
     # S2-02, S2-04: a sample has the features of the map, which is twice as dense in the east.
-    def test_a_sample_tells_all_of_a_place(self):
+    def test_a_sample_has_all_values_of_a_point(self):
         west, east, outside = self.grass.samples([(-10.0, 5.0), (10.0, 5.0), (25.0, 0.0)])
         self.assertAlmostEqual(west.density, 800 * 128 / 255, places=6)
         self.assertAlmostEqual(east.density, 800.0, places=6)
@@ -137,7 +137,7 @@ class GrassRequests(unittest.TestCase):
         self.clock.run(1, self.grass)
         self.assertEqual(self.ground(), before)
 
-    def test_bad_requests_are_refused_by_name(self):
+    def test_bad_requests_are_rejected_with_an_error_that_names_the_field(self):
         tread, clear = self.grass.tread, self.grass.clear
         self.expect_refused('points has 0 entries, allowed are 1 to 10000', tread)
         self.expect_refused('points[1].x = nan m is not finite', tread,

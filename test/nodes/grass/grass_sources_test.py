@@ -95,7 +95,7 @@ class GrassSources(unittest.TestCase):
         self.assertEqual(pull(-12.0, 1.0, z=0.5).x, 0.0)
         self.assertEqual(pull(30.0, 1.0).x, 0.0)
 
-    def test_odometry_treads_and_feels_its_own_speed(self):
+    def test_odometry_treads_and_sets_the_speed_of_the_drag(self):
         message = Odometry(child_frame_id='base_link')
         message.header.frame_id = 'map'
         message.pose.pose.orientation.w = 1.0

@@ -11,7 +11,7 @@ from nav_msgs.msg import OccupancyGrid
 from vegetation_sim.msg import GrassEvent, TreadEvent
 from visualization_msgs.msg import Marker, MarkerArray
 
-from forest_rig import Eye, TickClock
+from forest_rig import TickClock, ViewerClient
 from grass_rig import FULL, RATE, Feet, Meadow, nodes_of, step, time_of
 from waiting import wait_for
 from watched_node import Log
@@ -23,16 +23,16 @@ class GrassState(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.grass = Meadow()
-        cls.twin = Meadow('/twin/grass_field', '/twin/')
-        cls.twin.process = '/manager'
+        cls.nodelet = Meadow('/twin/grass_field', '/twin/')
+        cls.nodelet.process = '/manager'
         cls.clock = TickClock(1000 * RATE)
-        for meadow in (cls.grass, cls.twin):
+        for meadow in (cls.grass, cls.nodelet):
             meadow.wait_until_up()
         cls.feet = Feet(cls.grass, readers=2)
-        cls.clock.run(1, cls.grass, cls.twin)
+        cls.clock.run(1, cls.grass, cls.nodelet)
 
     def run_both(self, ticks):
-        self.clock.run(ticks, self.grass, self.twin)
+        self.clock.run(ticks, self.grass, self.nodelet)
 
     def fresh_covers(self, logs):
         """Returns the first maps with a stamp after now, one of each log."""
@@ -57,32 +57,32 @@ class GrassState(unittest.TestCase):
         self.assertEqual([s.name for s in layout.species], ['fescue', 'poppy'])
         self.assertEqual(len(layout.density.samples), 21 * 21)
         self.assertEqual(layout.tread_spacing, 0.05)
-        twin = self.twin.layout.wait(lambda all: all and all[-1], 'the layout of the nodelet')
-        self.assertEqual(layout.hash, twin.hash)
+        nodelet = self.nodelet.layout.wait(lambda all: all and all[-1], 'the layout of the nodelet')
+        self.assertEqual(layout.hash, nodelet.hash)
         self.assertEqual(layout.hash, self.grass.state.messages[-1].layout_hash)
 
     # S2-22, S2-28, N6: key frames and deltas give the same state, and so do program and nodelet.
     def test_deltas_add_up_to_the_next_key_frame(self):
-        self.feet.walk(self.clock, 'a', (-8.0, -5.0), (-3.0, -4.0), 3 * RATE, self.twin)
+        self.feet.walk(self.clock, 'a', (-8.0, -5.0), (-3.0, -4.0), 3 * RATE, self.nodelet)
         messages = self.grass.state.messages
         keys = [i for i, m in enumerate(messages) if m.key_frame]
         self.assertGreaterEqual(len(keys), 2)
         held = nodes_of(messages[keys[0]])
-        told = 0
+        count = 0
         for message in messages[keys[0] + 1:keys[-1]]:
             if message.key_frame:
                 continue
-            told += len(nodes_of(message))
+            count += len(nodes_of(message))
             held.update(nodes_of(message))
         key = nodes_of(messages[keys[-1]])
         held.update({place: node for place, node in key.items()
                      if node[3] == messages[keys[-1]].header.stamp})
-        self.assertGreater(told, 1000)
+        self.assertGreater(count, 1000)
         self.assertEqual(held, key)
         sequences = [m.sequence for m in messages]
         self.assertEqual(sequences, list(range(sequences[0], sequences[0] + len(sequences))))
         self.run_both(2 * RATE)
-        ours, theirs = self.grass.hashes(), self.twin.hashes()
+        ours, theirs = self.grass.hashes(), self.nodelet.hashes()
         common = sorted(set(ours) & set(theirs))
         self.assertGreater(len(common), 1)
         self.assertEqual([ours[s] for s in common], [theirs[s] for s in common])
@@ -101,7 +101,7 @@ class GrassState(unittest.TestCase):
             self.assertAlmostEqual(self.grass.at(3.0, 2.0, stamp).tilt, FULL * share, delta=2e-3)
 
     # N4: events report which source entered which tile, and every accepted input.
-    def test_events_tell_who_came_where(self):
+    def test_events_report_sources_and_tiles(self):
         self.feet.walk(self.clock, 'mower', (-19.0, 9.0), (-13.0, 9.0), 2 * RATE)
 
         def treads():
@@ -153,15 +153,16 @@ class GrassState(unittest.TestCase):
     def test_markers_keep_their_size_and_ids(self):
         log = Log('/grass/markers', MarkerArray)
         wait_for(log.connected, log.topic)
-        eye = Eye()
+        viewer = ViewerClient()
 
         def points():
             return [(p.x, p.y, p.z) for p in log.messages[-1].markers[2].points] if log.messages else []
         for x in (-10.0, 0.0, 5.0):
-            def look_on():
-                eye.look(x, 0.0, 1.0, self.grass)
+            def move_viewer():
+                viewer.move_to(x, 0.0, 1.0, self.grass)
                 self.run_both(6)
-            log.wait(lambda _: len({p for p in points() if x < p[0] < x + 8.0}) > 3000, 'blades', look_on)
+            log.wait(lambda _: len({p for p in points() if x < p[0] < x + 8.0}) > 3000,
+                     'blades', move_viewer)
         def sizes(array):
             return {(m.ns, m.id, m.action, len(m.points), len(m.colors)) for m in array.markers}
         lists = (('ground', 0), ('strips', 1), ('blades', 2))
@@ -176,7 +177,7 @@ class GrassState(unittest.TestCase):
         self.assertGreater(len(near), 0.7 * len(blades))
         self.assertLess(max(p[2] for p in blades), 0.5)
         log.close()
-        eye.close()
+        viewer.close()
 
 
 if __name__ == '__main__':

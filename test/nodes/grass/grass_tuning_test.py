@@ -10,7 +10,7 @@ from dynamic_reconfigure.client import Client
 from vegetation_sim.msg import GrassEvent
 from visualization_msgs.msg import MarkerArray
 
-from forest_rig import Eye, TickClock
+from forest_rig import TickClock, ViewerClient
 from grass_rig import FULL, RATE, Feet, Meadow, step
 from waiting import wait_for
 from watched_node import Log
@@ -74,14 +74,14 @@ class GrassTuning(unittest.TestCase):
     def test_the_tolerance_of_the_view(self):
         log = Log('/grass/markers', MarkerArray)
         wait_for(log.connected, log.topic)
-        eye = Eye()
-        eye.look(-10.0, 0.0, 6.0, self.grass)
+        viewer = ViewerClient()
+        viewer.move_to(-10.0, 0.0, 6.0, self.grass)
 
         def expect(test, what):
             """Waits until `test` holds for the number of different blade points in the newest
             markers."""
             def goes_on():
-                eye.look(-10.0, 0.0, 6.0, self.grass)
+                viewer.move_to(-10.0, 0.0, 6.0, self.grass)
                 self.clock.run(6, self.grass)
             log.wait(lambda all: all and test(len({(p.x, p.y, p.z)
                                                    for p in all[-1].markers[2].points})), what, goes_on)
@@ -92,15 +92,15 @@ class GrassTuning(unittest.TestCase):
         expect(lambda count: count > 3000, 'many blades again')
         self.tune(farthest=1.0)
         expect(lambda count: count < 1000, 'no blades as far as that')
-        eye.close()
+        viewer.close()
         log.close()
 
-    def test_what_cannot_be_is_refused_and_events_tell_the_rest(self):
+    def test_wrong_settings_are_rejected_and_events_report_the_others(self):
         refused = self.grass.diagnostics()['Inputs refused']
-        told = self.server.update_configuration({'tread_reach': 0.1})
-        self.assertEqual(told['tread_reach'], 0.35)
-        told = self.server.update_configuration({'drag': float('nan')})
-        self.assertEqual(told['drag'], 0.2)
+        settings = self.server.update_configuration({'tread_reach': 0.1})
+        self.assertEqual(settings['tread_reach'], 0.35)
+        settings = self.server.update_configuration({'drag': float('nan')})
+        self.assertEqual(settings['drag'], 0.2)
         self.assertEqual(self.grass.diagnostics()['Inputs refused'], refused + 2)
         self.tune(drag=0.7)
         event = self.grass.events.wait(

@@ -106,7 +106,7 @@ class TickClock:
         wind.close()
 
 
-class Eye:
+class ViewerClient:
     """Publishes a viewer that faces east."""
 
     def __init__(self, name='eye', topic='/viewer', readers=1):
@@ -116,7 +116,7 @@ class Eye:
         self._publisher = publisher(topic, Viewer)
         wait_for(lambda: self._publisher.get_num_connections() >= readers, 'readers of ' + topic)
 
-    def look(self, x, y, z, *animators):
+    def move_to(self, x, y, z, *animators):
         """Publishes the viewer at a position. Returns when the animators have received it."""
         position = self.message.pose.position
         position.x, position.y, position.z = x, y, z

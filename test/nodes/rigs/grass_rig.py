@@ -101,8 +101,8 @@ def nodes_of(message):
     """Returns the values of the published nodes of a GrassState by row and column."""
     out = {}
     for block in message.blocks:
-        told = [i for i in range(SIDE * SIDE) if block.told[i // 8] >> i % 8 & 1]
-        for k, i in enumerate(told):
+        present = [i for i in range(SIDE * SIDE) if block.told[i // 8] >> i % 8 & 1]
+        for k, i in enumerate(present):
             press = block.press[k]
             out[SIDE * block.row + i // SIDE, SIDE * block.column + i % SIDE] = (
                 block.tilt[k], block.x[k], block.y[k], message.press_stamps[press],

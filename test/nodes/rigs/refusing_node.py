@@ -73,7 +73,7 @@ class Ranges:
         values.update({name: most + 1 for name, (_, _, most) in self.WHOLE_NUMBERS.items()})
         self.expect_out_of_range(values)
 
-    def test_what_is_not_finite_is_refused(self):
+    def test_values_that_are_not_finite_are_rejected(self):
         for value, text in ((NAN, 'nan'), (INF, 'inf'), (-INF, '-inf')):
             refusal = self.refusal({name: value for name in self.NUMBERS})
             for name, (unit, least, most) in self.NUMBERS.items():

@@ -31,11 +31,11 @@ class Scanner(WatchedNode):
         self.report = Log('/lidar/report', ScanReport)
         super().__init__(name, 'scan', name + '/tf2_frames', FrameGraph)
 
-    def has_heard(self, frame, stamp):
+    def has_transform(self, frame, stamp):
         """Returns whether the newest transform of a frame in the node's tf buffer has this stamp,
         to 2 ms."""
-        told = yaml.safe_load(self._probe().frame_yaml) or {}
-        newest = told.get(frame, {}).get('most_recent_transform', 0.0)
+        frames = yaml.safe_load(self._probe().frame_yaml) or {}
+        newest = frames.get(frame, {}).get('most_recent_transform', 0.0)
         return abs(newest - stamp.to_sec()) < 2e-3
 
 
@@ -66,4 +66,4 @@ class Mast:
         at.x, at.y, at.z = x, y, z
         frame.transform.rotation.z, frame.transform.rotation.w = math.sin(yaw / 2), math.cos(yaw / 2)
         self._publisher.publish(TFMessage([frame]))
-        wait_for(lambda: self.scanner.has_heard(self.frame, stamp), self.frame)
+        wait_for(lambda: self.scanner.has_transform(self.frame, stamp), self.frame)

@@ -28,9 +28,9 @@ class Latest:
     def __init__(self, topic, message_type):
         self.count = 0
         self.message = None
-        self._subscriber = rospy.Subscriber(topic, message_type, self._hear, queue_size=100)
+        self._subscriber = rospy.Subscriber(topic, message_type, self._on_message, queue_size=100)
 
-    def _hear(self, message):
+    def _on_message(self, message):
         self.message = message
         self.count += 1
 

@@ -64,7 +64,8 @@ def listens(node, topic):
 def wait_for_readers(topic, *nodes):
     """Waits until these nodes receive all messages that this test publishes."""
     own = rosgraph.Master('/watched_node').lookupNode(rospy.get_name())
-    wait_for(lambda: set(nodes) <= set(links(own, 'o', topic)), '%s to hear %s' % (nodes, topic))
+    wait_for(lambda: set(nodes) <= set(links(own, 'o', topic)),
+             '%s to subscribe to %s' % (nodes, topic))
 
 
 class Log:
@@ -73,20 +74,20 @@ class Log:
     def __init__(self, topic, message_type):
         self.topic = topic
         self.messages = []
-        self._heard = threading.Condition()
-        self._subscriber = rospy.Subscriber(topic, message_type, self._hear, tcp_nodelay=True)
+        self._received = threading.Condition()
+        self._subscriber = rospy.Subscriber(topic, message_type, self._on_message, tcp_nodelay=True)
 
-    def _hear(self, message):
-        with self._heard:
+    def _on_message(self, message):
+        with self._received:
             self.messages.append(message)
-            self._heard.notify_all()
+            self._received.notify_all()
 
     def wait(self, condition, what, remind=lambda: None):
         """Waits until `condition(messages)` is true, calls `remind` repeatedly, and returns the
         value."""
         for _ in range(int(DEADLINE / REMINDER)):
-            with self._heard:
-                value = self._heard.wait_for(lambda: condition(self.messages), REMINDER)
+            with self._received:
+                value = self._received.wait_for(lambda: condition(self.messages), REMINDER)
             if value:
                 return value
             remind()
@@ -138,7 +139,8 @@ class WatchedNode:
         self._probe.wait_for_service(DEADLINE)
         self.settle()
         for topic in ('/clock',) + topics:
-            wait_for(lambda: listens(self.process, topic), '%s to hear %s' % (self.name, topic))
+            wait_for(lambda: listens(self.process, topic),
+                     '%s to subscribe to %s' % (self.name, topic))
         for log in self.logs():
             wait_for(log.connected, log.topic)
         self.settle()  # The node has then received latched messages.

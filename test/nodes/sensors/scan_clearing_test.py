@@ -100,7 +100,7 @@ class ScanClearing(unittest.TestCase):
         self.assertTrue(((2.5 < ahead) & (ahead < 3.0)).any(), ahead)  # A person stands at 3 m.
 
     # N1: the test compares scans with the wind off and on.
-    def test_3_wind_changes_what_is_seen_and_still_air_does_not(self):
+    def test_3_wind_changes_the_scan_and_still_air_does_not(self):
         one = self.sweep()
         self.run_for(0.3)
         two = self.sweep()
@@ -138,7 +138,7 @@ class ScanClearing(unittest.TestCase):
         self.assertLess(after.mean(), 0.5 * before.mean())
         self.assertLess(share_after, share)
 
-    def test_5_without_its_frame_it_sees_nothing_and_says_so(self):
+    def test_5_without_its_frame_it_publishes_no_sweep_and_reports_it(self):
         self.sweep()
         last = time_of(self.clock.tick)
         self.scanner.report.wait_for_stamp(last)
@@ -152,7 +152,7 @@ class ScanClearing(unittest.TestCase):
                  if last < m.header.stamp <= dark]
         self.assertEqual(blind, [])
 
-    def test_6_people_who_cannot_be_are_refused(self):
+    def test_6_invalid_people_are_rejected(self):
         people = publisher('/agents', AgentStates)
         wait_for_readers('/agents', self.scanner.process)
         before = self.scanner.diagnostics()['Inputs refused']

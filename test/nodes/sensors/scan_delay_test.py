@@ -32,7 +32,7 @@ class ScanDelay(unittest.TestCase):
         self.mast = Mast(self.scanner)
 
     # The scanner's ticks of 50 ms fall between the crowd's ticks of 33 ms.
-    def test_who_walks_by_is_where_the_stamp_says(self):
+    def test_a_walker_is_at_its_position_at_the_stamp(self):
         self.clock.run(1, self.crowd)
         walker = AgentSpawn(position=Point(5, -3, 0), heading=numpy.pi / 2, speed=SPEED,
                             has_goal=True, goal=Point(5, 30, 0))
@@ -59,9 +59,9 @@ class ScanDelay(unittest.TestCase):
         """Returns how far the walker is seen ahead of its position [m], or None if it is not just
         in front."""
         stamp = message.header.stamp.to_sec()
-        told = [(m.header.stamp.to_sec(), m.agents[0].pose.position)
+        states = [(m.header.stamp.to_sec(), m.agents[0].pose.position)
                 for m in self.crowd.state.messages if m.agents]
-        place = numpy.interp(stamp, [t for t, _ in told], [p.y for _, p in told])
+        place = numpy.interp(stamp, [t for t, _ in states], [p.y for _, p in states])
         points = cloud_of(message)
         trunk = points[(points['label'] == ScanReport.PERSON) & numpy.isin(points['branch'], LIMBS)]
         if abs(place) > 1.0 or len(trunk) < 20:

@@ -25,7 +25,7 @@ class ScanParameters(Ranges, RefusingNode):
     NODE = 'vegetation_scanner'
     NUMBERS, WHOLE_NUMBERS, OTHERS = NUMBERS, WHOLE_NUMBERS, OTHERS
 
-    def test_what_does_not_fit_together_is_refused(self):
+    def test_inconsistent_parameters_are_rejected(self):
         refusal = self.refusal({'frame_id': '', 'lidar_frame': '/lidar', 'seed': -1})
         self.assertIn("~frame_id = '' is empty", refusal)
         self.assertIn("~lidar_frame = '/lidar' begins with '/'", refusal)

@@ -55,7 +55,7 @@ SCENARIOS = [
 class WindParameters(RefusingNode):
     NODE = 'wind_broadcaster'
 
-    def test_each_bad_parameter_is_refused_by_name(self):
+    def test_each_bad_parameter_is_rejected_with_its_name(self):
         for name, value, text in CASES:
             with self.subTest(name=name, value=value):
                 self.assertIn(text, self.refusal({name: value}))
@@ -64,7 +64,7 @@ class WindParameters(RefusingNode):
         for scenario, words in SCENARIOS:
             self.expect_scenario_refused(scenario, words)
 
-    def test_all_faults_are_told_at_once(self):
+    def test_all_faults_are_reported_at_once(self):
         refusal = self.refusal({'lead': 99.0, 'markers_rate': 'often', 'sede': 3,
                                 'scenario': '/nowhere/scene.yaml'})
         for text in ['lead = 99 s', 'markers_rate = often', 'sede is not a known parameter',

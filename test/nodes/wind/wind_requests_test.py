@@ -118,7 +118,7 @@ class WindRequests(unittest.TestCase):
         tied = self.set(primitive(4, 'tied', attached_frame='drone'))
         self.assertEqual((tied.id, tied.t_on), (0, rospy.Time()))
 
-    def test_refuses_each_bad_number_by_name(self):
+    def test_refuses_each_bad_number_with_its_name(self):
         before = self.field().hash
         for name, kinds, outside in NUMBERS:
             for value in outside + [NAN, INF, -INF]:
@@ -126,7 +126,7 @@ class WindRequests(unittest.TestCase):
                     answer = self.set(primitive(kinds[-1], **{name: value}))
                     self.assert_refused(answer, "primitive 'asked': %s = " % name, before)
 
-    def test_refuses_each_bad_vector_by_name(self):
+    def test_refuses_each_bad_vector_with_its_name(self):
         before = self.field().hash
         for axis in 'xyz':
             for value in [NAN, INF, -201.0]:
@@ -137,7 +137,7 @@ class WindRequests(unittest.TestCase):
                 setattr(bad.trajectory[0].point, axis, value * 1e5)
                 self.assert_refused(self.set(bad), 'trajectory[0].position.%s = ' % axis, before)
 
-    def test_refuses_what_makes_no_sense(self):
+    def test_refuses_wrong_combinations_of_fields(self):
         before = self.field().hash
         point = PointStamped()
         point.header.frame_id = 'odom'
@@ -157,7 +157,7 @@ class WindRequests(unittest.TestCase):
             with self.subTest(text=text):
                 self.assert_refused(self.set(bad), text, before)
 
-    def test_tells_all_faults_at_once(self):
+    def test_validates_all_fields_at_once(self):
         answer = self.set(primitive(radius=NAN, omega=-1.0, t_on=rospy.Time(5), envelope=3,
                                     attached_frame='/drone'))
         for text in ['radius = ', 'omega = -1', 't_on = 5', 'envelope = 3', "begins with '/'"]:
@@ -172,7 +172,7 @@ class WindRequests(unittest.TestCase):
         self.assertTrue(self.remove('tied_0').success)
         self.assertTrue(self.set(primitive(4, 'tied_4', attached_frame='drone')).success)
 
-    def test_refuses_to_remove_what_is_not_there(self):
+    def test_refuses_to_remove_an_unknown_primitive(self):
         self.assert_refused(self.remove('fann'), "no source is named 'fann'; there is breeze, disc",
                             self.field().hash)
 
@@ -204,12 +204,12 @@ class WindRequests(unittest.TestCase):
         self.assertEqual(len(self.sample(points, []).velocities), 5)
         self.assertEqual(self.sample([], []).velocities, [])
 
-    def test_counts_what_it_refuses(self):
-        heard = []
-        rospy.Subscriber('/diagnostics', DiagnosticArray, heard.append)
+    def test_counts_rejected_inputs(self):
+        received = []
+        rospy.Subscriber('/diagnostics', DiagnosticArray, received.append)
 
         def status(key):
-            found = [v.value for a in heard[-1:] for s in a.status for v in s.values
+            found = [v.value for a in received[-1:] for s in a.status for v in s.values
                      if s.name == 'wind_broadcaster: wind law' and v.key == key]
             return found[0] if found else None
 
@@ -230,7 +230,7 @@ class WindRequests(unittest.TestCase):
         self.assertGreater(breeze.t_on, rospy.Time.now() - rospy.Duration(1))
         self.assertEqual(breeze.epoch, self.field().primitives[0].epoch)
 
-    def test_reconfiguration_refuses_what_is_no_number_and_clamps_the_rest(self):
+    def test_reconfiguration_rejects_nan_and_clamps_other_values(self):
         before = self.field().hash
         for name in ['breeze_speed', 'breeze_direction', 'breeze_turbulence']:
             value = rospy.get_param(NODE + name)
@@ -263,29 +263,29 @@ class WindRequests(unittest.TestCase):
         self.assertAlmostEqual(rospy.get_param(NODE + 'breeze_speed'), math.sqrt(17.0))
 
     def test_publishes_every_change(self):
-        heard = Latest('wind', WindField)
-        wait_for(lambda: heard.message, 'the latched field')
+        received = Latest('wind', WindField)
+        wait_for(lambda: received.message, 'the latched field')
         self.set(primitive(name='extra'))
-        wait_for(lambda: heard.message.hash == self.field().hash, 'the edited field')
+        wait_for(lambda: received.message.hash == self.field().hash, 'the edited field')
 
     def test_marks_every_source_where_it_is(self):
-        heard = Latest('wind/markers', MarkerArray)
+        received = Latest('wind/markers', MarkerArray)
 
         def together():
-            return heard.message and {m.ns for m in heard.message.markers} >= {
+            return received.message and {m.ns for m in received.message.markers} >= {
                 'wind/direction', 'wind/influence', 'wind/disc', 'wind/front', 'wind/core'}
 
         wait_for(together, 'markers of every kind')
 
         def disc():
-            return [m.pose.position for m in heard.message.markers
+            return [m.pose.position for m in received.message.markers
                     if m.ns == 'wind/disc' and m.id == 2][0]
 
         first = disc()
         self.assertAlmostEqual(math.hypot(first.x, first.y), 10.0)
         wait_for(lambda: math.hypot(disc().x - first.x, disc().y - first.y) > 0.5, 'a disc to move')
-        self.assertTrue(all(m.header.frame_id == 'map' for m in heard.message.markers))
-        self.assertTrue(all(m.lifetime > rospy.Duration(0) for m in heard.message.markers))
+        self.assertTrue(all(m.header.frame_id == 'map' for m in received.message.markers))
+        self.assertTrue(all(m.lifetime > rospy.Duration(0) for m in received.message.markers))
 
 
 if __name__ == '__main__':

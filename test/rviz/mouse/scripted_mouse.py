@@ -52,7 +52,7 @@ class Hand:
         self.log_file = open(os.path.join(folder, 'services.log'), 'w')
         self.viewer, self.events, self.treads, self.wind = None, [], [], None
         rospy.Subscriber('viewer', Viewer, lambda m: setattr(self, 'viewer', m))
-        rospy.Subscriber('forest/events', ForestEvent, self.hear, queue_size=1000)
+        rospy.Subscriber('forest/events', ForestEvent, self.on_event, queue_size=1000)
         rospy.Subscriber('tread', TreadEvent, self.treads.append, queue_size=1000)
         rospy.Subscriber('wind', WindField, lambda m: setattr(self, 'wind', m))
         self.get_tree = rospy.ServiceProxy('/forest_animator/get_tree', GetTree)
@@ -64,7 +64,7 @@ class Hand:
         self.log_file.write('%.3f %s\n' % (rospy.get_time(), text))
         self.log_file.flush()
 
-    def hear(self, event):
+    def on_event(self, event):
         if event.kind in KINDS:
             self.events.append(event)
             held = ', tree %d, branch %d' % (event.grab.tree, event.grab.branch)
@@ -151,7 +151,7 @@ def grab(hand):
     least = min(path)
     hand.picture('grab-3-released')
     turns = sum(1 for a, b, c in zip(path, path[1:], path[2:]) if b < a and b < c)
-    hand.log('released: it came back to %.3f m, swinging through %d times' % (least, turns))
+    hand.log('released: it came back to %.3f m, with %d turning points' % (least, turns))
     if away < 0.15 or least > 0.3 * away or turns < 2:
         sys.exit('scripted_mouse: the branch did not follow and recoil')
 

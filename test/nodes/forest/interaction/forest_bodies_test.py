@@ -55,15 +55,15 @@ class Bodies(unittest.TestCase):
         self.hands.show_frame('hand', place)
         self.hands.settle()
 
-    def test_limb_goes_aside_and_the_hand_feels_it(self):
+    def test_limb_is_pushed_aside_and_the_hand_gets_the_wrench(self):
         hands, side = self.hands, self.sideways()
         start = plus(hands.point(LIMB, ALONG), times(-0.25, side))
 
-        def told():
+        def reported():
             self.show_hand(start)
             hands.run(1)
             return ForestEvent.BODY in self.kinds()
-        wait_for(told, 'an event of the body')
+        wait_for(reported, 'an event of the body')
 
         ticks, place = 0, start
         while ticks < 1.2 * RATE:
@@ -72,13 +72,13 @@ class Bodies(unittest.TestCase):
             hands.run(1)
             ticks += 1
         limb = hands.point(LIMB, ALONG)
-        heard = [w for w in hands.wrenches.messages if w.header.frame_id == 'hand']
+        wrenches = [w for w in hands.wrenches.messages if w.header.frame_id == 'hand']
         # The limb is in front of the hand, not in it or behind it. The margin is 1 cm because tf
         # may be a tick late.
         self.assertGreater(dot(minus(limb, place), side), RADIUS - 0.01)
         self.assertIn(LIMB, hands.physical())
-        self.assertGreater(len(heard), 10)
-        force = vector(heard[-1].wrench.force)
+        self.assertGreater(len(wrenches), 10)
+        force = vector(wrenches[-1].wrench.force)
         self.assertLess(dot(force, side), 0.0)
         self.assertTrue(all(math.isfinite(x) for x in force))
 
@@ -92,18 +92,18 @@ class Bodies(unittest.TestCase):
 
     # A body penetrates wood that cannot yield. The diagnostics report the depth, the body and the
     # place.
-    def test_overlap_is_told(self):
+    def test_overlap_is_reported(self):
         hands = self.hands
         tree = hands.tree(TREE)
         radius = tree.radii[TRUNK]
         inside = 0.03  # [m]
         at = plus(hands.point(TRUNK, 0.3), (radius + RADIUS - inside, 0.0, 0.0))
 
-        def told():
+        def reported():
             self.show_hand(at)
             hands.run(1)
             return OVERLAP_AT in hands.diagnostics()
-        wait_for(told, 'an overlap')
+        wait_for(reported, 'an overlap')
         figures = hands.diagnostics()
         # At the height of the hand the trunk leans, tapers and yields by less than 1 cm each.
         self.assertAlmostEqual(figures[OVERLAP], inside, delta=0.01)
@@ -127,11 +127,11 @@ class Bodies(unittest.TestCase):
         self.assertIn('10000 requests wait for the next tick already', ask().message)
         bodies = self.kinds().count(ForestEvent.BODY)
 
-        def told():
+        def reported():
             self.show_hand(place)
             self.hands.run(1)
             return self.kinds().count(ForestEvent.BODY) > bodies
-        wait_for(told, 'the body in the flood')
+        wait_for(reported, 'the body in the flood')
         self.clock.show(self.clock.tick - 10 * RATE)
         self.hands.state.wait_for_stamp(time_of(self.clock.tick))
         self.assertTrue(ask().success)

@@ -99,7 +99,7 @@ class ForestGrabRefusals(unittest.TestCase):
         self.assertTrue(self.hands.release(id=held.id).success)
 
     # A request that the forest would reject at its tick is rejected when it arrives.
-    def test_what_no_tick_would_take(self):
+    def test_requests_that_every_tick_would_reject(self):
         def service(node, name, kind):
             topic = '/%s/%s/%s' % (node, node, name)
             rospy.wait_for_service(topic, DEADLINE)

@@ -78,7 +78,7 @@ class ForestGrab(unittest.TestCase):
         self.assertEqual((answer.tree, answer.branch), (TREE, OTHER_LIMB))
         self.assertAlmostEqual(answer.along, 0.2, delta=0.002)
 
-    def test_by_frame_it_follows_the_gripper_and_tells_the_wrench_there(self):
+    def test_by_frame_it_follows_the_gripper_and_sends_the_wrench_in_its_frame(self):
         place = self.hands.point(LIMB, 0.3)
         self.hands.wait_for_frame('hand', place)
         self.hands.show_frame('hand', place, TURN)
@@ -298,7 +298,7 @@ class ForestGrab(unittest.TestCase):
             self.assertTrue(math.isfinite(sum(vector(pose.position))))
 
     def test_frames_of_physical_branches_keep_to_the_budget(self):
-        heard = Log('/tf', TFMessage)
+        frames = Log('/tf', TFMessage)
         self.hands.take_at((0.2, 0.0, 0.0))
         self.hands.run(RATE)
         self.assertGreater(len(self.hands.physical()), TF_BUDGET)
@@ -306,10 +306,10 @@ class ForestGrab(unittest.TestCase):
         def rounds(messages):
             sent = [[t.child_frame_id for t in m.transforms] for m in messages]
             return [r for r in sent if r and r[0].startswith('tree_')]
-        newest = heard.wait(lambda all: rounds(all) and rounds(all)[-1], 'frames of branches')
-        heard.close()
+        newest = frames.wait(lambda all: rounds(all) and rounds(all)[-1], 'frames of branches')
+        frames.close()
         self.assertIn('tree_%d/branch_%d' % (TREE, LIMB), newest)
-        self.assertEqual(max(len(r) for r in rounds(heard.messages)), TF_BUDGET)
+        self.assertEqual(max(len(r) for r in rounds(frames.messages)), TF_BUDGET)
 
 
 if __name__ == '__main__':

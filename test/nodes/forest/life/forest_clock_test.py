@@ -8,7 +8,7 @@ import unittest
 import rospy
 import rostest
 
-from forest_rig import RATE, Animator, Eye, TickClock, scene, start_animator, stop, time_of
+from forest_rig import RATE, Animator, TickClock, ViewerClient, scene, start_animator, stop, time_of
 
 START = 1700000000 * RATE  # Unix time, at which single precision has no fraction of a second left
 SPEED = 20.0  # ratio of the fast clock to wall time
@@ -23,11 +23,11 @@ class ForestClock(unittest.TestCase):
         cls.forest.wait_until_up('/wind')
         cls.before_time = cls.forest.refusal(tree=0), list(cls.forest.state.messages)
         cls.clock.begin(cls.forest)
-        cls.eye = Eye()
+        cls.viewer = ViewerClient()
 
     def run_watched(self, ticks, *animators):
         for tick in range(0, ticks, 15):
-            self.eye.look(-20.0 + 10.0 * tick / RATE, 0.0, 5.0, *animators)
+            self.viewer.move_to(-20.0 + 10.0 * tick / RATE, 0.0, 5.0, *animators)
             self.clock.run(15, *animators)
 
     def stamps_since(self, index):

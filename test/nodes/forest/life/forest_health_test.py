@@ -12,7 +12,7 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from std_srvs.srv import Trigger
 from vegetation_sim.msg import ForestEvent
 
-from forest_rig import RATE, Animator, Eye, TickClock, scene, start_animator, stop, time_of
+from forest_rig import RATE, Animator, TickClock, ViewerClient, scene, start_animator, stop, time_of
 from waiting import wait_for
 from watched_node import Log, publisher
 
@@ -30,7 +30,7 @@ class ForestHealth(unittest.TestCase):
         name = animator.name.lstrip('/') + ': forest'
         return [s for m in list(self.diagnostics.messages) for s in m.status if s.name == name]
 
-    def expect_told_once(self, animator, count, text, key):
+    def expect_reported_once(self, animator, count, text, key):
         """Expects one report with the warning, and then a report that is OK and still has the
         total."""
         def find(level, words, begin):
@@ -48,21 +48,21 @@ class ForestHealth(unittest.TestCase):
     def mark(self, animator):
         self.before = len(self.statuses(animator))
 
-    def test_a_refusal_is_told_once(self):
+    def test_a_rejection_is_reported_once(self):
         self.mark(self.forest)
-        eye = Eye()
-        bad = copy.deepcopy(eye.message)
+        viewer = ViewerClient()
+        bad = copy.deepcopy(viewer.message)
         bad.height = 0
-        eye.send(bad, self.forest)
-        self.expect_told_once(self.forest, 1, '1 refused input: ', 'Inputs refused')
-        eye.close()
+        viewer.send(bad, self.forest)
+        self.expect_reported_once(self.forest, 1, '1 refused input: ', 'Inputs refused')
+        viewer.close()
 
-    def test_dropped_ticks_are_told_once(self):
+    def test_dropped_ticks_are_reported_once(self):
         self.mark(self.forest)
         self.clock.show(self.clock.tick + 100 * RATE)
         self.forest.state.wait_for_stamp(time_of(self.clock.tick))
         count = 100 * RATE - 1
-        self.expect_told_once(self.forest, count, '%d ticks dropped' % count, 'Ticks dropped')
+        self.expect_reported_once(self.forest, count, '%d ticks dropped' % count, 'Ticks dropped')
 
     # After a jump back and after ~reset no frames are sent.
     def test_a_fresh_start_stops_frames(self):
@@ -71,14 +71,14 @@ class ForestHealth(unittest.TestCase):
         self.clock.show(self.clock.tick - 5 * RATE)
         self.forest.state.wait_for_stamp(time_of(self.clock.tick))
         self.assertEqual(self.forest.set_tf(1, [2], True).frames, 1)
-        self.expect_told_once(self.forest, 1, '1 jumps back of the clock', 'Clock jumps back')
+        self.expect_reported_once(self.forest, 1, '1 jumps back of the clock', 'Clock jumps back')
         self.assertTrue(rospy.ServiceProxy('/forest_animator/reset', Trigger)().success)
         self.clock.run(1, self.forest)
         self.assertEqual(self.forest.set_tf(1, [3], True).frames, 1)
         self.forest.set_tf(1, [], False)
 
     # N6: a replay that differs from its run reports it.
-    def test_late_events_of_a_replay_are_told(self):
+    def test_late_events_of_a_replay_are_reported(self):
         process = start_animator('/replay/forest_animator', {'wind': '/wind'},
                                  scenario=scene('grove'), replay=True, replay_delay=0.0)
         again = Animator('/replay/forest_animator', '/replay/')
@@ -94,7 +94,7 @@ class ForestHealth(unittest.TestCase):
                 events.publish(event)
                 again.settle()
             self.clock.run(2, again)
-            self.expect_told_once(again, 1, '1 recorded events late', 'Recorded events late')
+            self.expect_reported_once(again, 1, '1 recorded events late', 'Recorded events late')
         finally:
             stop(process)
             again.close()

@@ -13,7 +13,7 @@ import rostest
 from std_srvs.srv import Trigger
 from vegetation_sim.msg import ForestEvent, ForestState
 
-from forest_rig import RATE, Animator, Eye, TickClock, scene, start_animator, stop, time_of
+from forest_rig import RATE, Animator, TickClock, ViewerClient, scene, start_animator, stop, time_of
 from waiting import wait_for
 from watched_node import Log
 
@@ -25,19 +25,19 @@ class ForestInstances(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.program = Animator()
-        cls.twin = Animator('/twin/forest_animator', '/twin/')
+        cls.nodelet = Animator('/twin/forest_animator', '/twin/')
         cls.other = Animator('/other/forest_animator', '/other/')
         cls.other.state = Log('/other/levels', ForestState)  # The topic is remapped.
-        for nodelet in (cls.twin, cls.other):
+        for nodelet in (cls.nodelet, cls.other):
             nodelet.process = '/manager'
-        cls.all = cls.program, cls.twin, cls.other
+        cls.all = cls.program, cls.nodelet, cls.other
         cls.clock = TickClock(1000 * RATE)
         cls.clock.begin(*cls.all)
-        cls.eye = Eye(readers=2)
+        cls.viewer = ViewerClient(readers=2)
 
     def run_watched(self, seconds, *animators):
         for half in range(2 * seconds):
-            self.eye.look(-20.0 + 10.0 * half, 0.0, 5.0, self.program, self.twin)
+            self.viewer.move_to(-20.0 + 10.0 * half, 0.0, 5.0, self.program, self.nodelet)
             self.clock.run(RATE // 2, *animators)
 
     def settle(self):
@@ -48,21 +48,21 @@ class ForestInstances(unittest.TestCase):
         self.settle()
         start = self.clock.tick
         self.run_watched(5, *self.all)
-        layouts = [a.layout.messages[-1] for a in (self.program, self.twin)]
+        layouts = [a.layout.messages[-1] for a in (self.program, self.nodelet)]
         self.assertEqual(layouts[0].hash, layouts[1].hash)
         self.assertEqual(layouts[0].species, layouts[1].species)
-        expected, hashes = self.program.hashes(), self.twin.hashes()
+        expected, hashes = self.program.hashes(), self.nodelet.hashes()
         stamps = [time_of(start + 1 + i) for i in range(5 * RATE)]
         self.assertEqual([hashes[s] for s in stamps], [expected[s] for s in stamps])
         self.assertGreater(len({hashes[s] for s in stamps}), RATE)
-        self.assertEqual(self.program.tree(3).transforms, self.twin.tree(3).transforms)
+        self.assertEqual(self.program.tree(3).transforms, self.nodelet.tree(3).transforms)
 
     # The instances do not share topics, services or settings.
     def test_instances_do_not_disturb_each_other(self):
         self.settle()
         before = self.other.state.messages[-1].hash
         self.run_watched(3, *self.all)
-        self.twin.set_tf(0, [1, 2], True)
+        self.nodelet.set_tf(0, [1, 2], True)
         self.assertTrue(rospy.ServiceProxy('/twin/forest_animator/reset', Trigger)().success)
         self.clock.run(5, *self.all)
         self.assertEqual(self.other.state.messages[-1].hash, before)
@@ -107,9 +107,9 @@ class ForestInstances(unittest.TestCase):
             self.clock.run(10 + i, *self.all, reader)
             reader.layout.wait(lambda all: len(all) > layouts, 'the layout')
             self.assertEqual(reader.layout.messages[-1].hash, self.program.layout.messages[-1].hash)
-            heard = reader.state.messages[first:]
-            self.assertTrue(heard[0].key_frame)
-            self.assertEqual([m.sequence for m in heard], list(range(10 + i)))
+            states = reader.state.messages[first:]
+            self.assertTrue(states[0].key_frame)
+            self.assertEqual([m.sequence for m in states], list(range(10 + i)))
             self.assertEqual(reader.tree(4).skeleton_hash, self.program.tree(4).skeleton_hash)
             stop(process, signal.SIGKILL if i % 2 else signal.SIGINT)
             wait_for(lambda: not reader.state.connected(), 'the end of the node')

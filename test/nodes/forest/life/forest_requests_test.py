@@ -15,7 +15,7 @@ from std_msgs.msg import Header
 from tf2_msgs.msg import TFMessage
 from vegetation_sim.msg import ForestEvent, Viewer, WindField
 
-from forest_rig import RATE, Animator, Eye, TickClock
+from forest_rig import RATE, Animator, TickClock, ViewerClient
 from waiting import wait_for
 from watched_node import Log, publisher
 
@@ -32,7 +32,7 @@ class ForestRequests(unittest.TestCase):
         cls.clock = TickClock(1000 * RATE)
         cls.clock.begin(cls.forest)
         cls.wind = publisher('/wind', WindField)
-        cls.eye = Eye()
+        cls.viewer = ViewerClient()
         cls.diagnostics = Log('/diagnostics', DiagnosticArray)
         wait_for(lambda: cls.wind.get_num_connections() > 0, 'readers of the wind')
 
@@ -49,11 +49,11 @@ class ForestRequests(unittest.TestCase):
 
     def expect_refusal(self, *texts):
         """Waits for diagnostics with these texts."""
-        def tells(status):
+        def matches(status):
             message = status.message.replace('-nan', 'nan')
             return all(text in message for text in texts)
         self.diagnostics.wait(
-            lambda heard: any(tells(status) for m in heard for status in m.status), texts)
+            lambda all: any(matches(status) for m in all for status in m.status), texts)
 
     def test_get_tree_refuses_an_unknown_tree(self):
         for tree in (TREES, 2 ** 32 - 1):
@@ -61,7 +61,7 @@ class ForestRequests(unittest.TestCase):
                              'tree = %d is unknown; there are %d, from 0' % (tree, TREES))
         self.expect_unchanged()
 
-    def test_pick_refuses_what_is_no_ray(self):
+    def test_pick_rejects_invalid_rays(self):
         cases = [
             (dict(DOWN, origin=Point(NAN, 0, 9)), 'origin.x = nan m is not finite'),
             (dict(DOWN, origin=Point(0, 1e8, 9)), 'origin.y = 1e+08 m is outside -1e+07 to 1e+07'),
@@ -101,7 +101,7 @@ class ForestRequests(unittest.TestCase):
         self.assertEqual((in_tool.tree, in_tool.branch, in_tool.point),
                          (straight.tree, straight.branch, straight.point))
 
-    def test_set_tf_refuses_and_keeps_what_is_sent(self):
+    def test_set_tf_rejects_requests_and_keeps_the_frames(self):
         self.assertEqual(self.forest.set_tf(1, [4, 5], True).frames, 2)
         cases = [
             ((TREES, [0], True), 'tree = 17 is unknown; there are 17, from 0'),
@@ -120,7 +120,7 @@ class ForestRequests(unittest.TestCase):
         self.expect_unchanged()
 
     def test_a_bad_viewer_is_refused(self):
-        good = self.eye.message
+        good = self.viewer.message
         cases = [
             (dict(field_of_view=0.0), 'viewer: field_of_view = 0 rad is outside 0.01 to 3.1 rad'),
             (dict(field_of_view=4.0), 'viewer: field_of_view = 4 rad is outside'),
@@ -132,30 +132,30 @@ class ForestRequests(unittest.TestCase):
                 message = copy.deepcopy(good)
                 for name, value in fields.items():
                     setattr(message, name, value)
-                self.eye.send(message, self.forest)
+                self.viewer.send(message, self.forest)
                 self.expect_refusal('refused input', text)
         message = copy.deepcopy(good)
         message.field_of_view = NAN
         message.pose.position.y = NAN
         message.pose.orientation.w = 2.0
         message.id = 'x' * 300
-        self.eye.send(message, self.forest)
+        self.viewer.send(message, self.forest)
         self.expect_refusal('pose.position.y', 'pose.orientation, its norm, = 2 is outside 0.99',
                             'field_of_view', 'id is longer than 256 characters')
         message = copy.deepcopy(good)
         message.field_of_view = -1.0
         message.pose.orientation.x = NAN
-        self.eye.send(message, self.forest)
+        self.viewer.send(message, self.forest)
         self.expect_refusal('field_of_view = -1 rad', 'pose.orientation, its norm,', 'not finite')
         self.expect_unchanged()
-        self.eye.look(-15, 0, 5, self.forest)
+        self.viewer.move_to(-15, 0, 5, self.forest)
         self.clock.run(3, self.forest)
         self.assertNotEqual(self.forest.state.messages[-1].hash, self.hash)
 
     def test_a_bad_wind_is_refused(self):
-        heard = Log('/wind', WindField)
-        good = heard.wait(lambda all: all and all[-1], 'the wind')
-        heard.close()
+        log = Log('/wind', WindField)
+        good = log.wait(lambda all: all and all[-1], 'the wind')
+        log.close()
         frame = copy.deepcopy(good)
         frame.header.frame_id = 'odom'
         nan = copy.deepcopy(good)
@@ -184,16 +184,16 @@ class ForestRequests(unittest.TestCase):
         server.close()
 
     def test_floods_are_weathered(self):
-        heard = Log('/wind', WindField)
-        wind = heard.wait(lambda all: all and all[-1], 'the wind')
-        heard.close()
+        log = Log('/wind', WindField)
+        wind = log.wait(lambda all: all and all[-1], 'the wind')
+        log.close()
         for _ in range(1000):
             self.wind.publish(wind)
-        flood = copy.deepcopy(self.eye.message)
+        flood = copy.deepcopy(self.viewer.message)
         flood.pose.position.x = -15.0
         for i in range(1000):
             flood.id = 'flood' if i % 2 else 'flood %d' % i
-            self.eye.send(flood)
+            self.viewer.send(flood)
         self.forest.settle()
         self.clock.run(RATE, self.forest)
         events = self.forest.events.messages[self.events:]

@@ -11,7 +11,7 @@ from dynamic_reconfigure.client import Client
 from geometry_msgs.msg import TransformStamped
 from tf2_msgs.msg import TFMessage
 
-from forest_rig import RATE, Animator, Eye, TickClock, time_of
+from forest_rig import RATE, Animator, TickClock, ViewerClient, time_of
 from watched_node import Log, publisher, wait_for_readers
 
 WEST, EAST = 0, 7  # trees at x = 0 m and 960 m
@@ -27,7 +27,7 @@ class ForestViewer(unittest.TestCase):
         cls.all = cls.forest, cls.filmed
         cls.clock = TickClock(1000 * RATE)
         cls.clock.begin(*cls.all)
-        cls.eye = Eye()
+        cls.viewer = ViewerClient()
         cls.frames = publisher('/tf', TFMessage)
         cls.server = Client('/forest_animator', timeout=30)
         wait_for_readers('/tf', *(a.process for a in cls.all))
@@ -35,10 +35,10 @@ class ForestViewer(unittest.TestCase):
     def setUp(self):
         self.clock.run(6 * RATE, *self.all)  # All viewers expire and all transitions end.
 
-    def look(self, place, seconds=2, eye=None):
+    def view_from(self, place, seconds=2, viewer=None):
         """Publishes a viewer once a second, as rviz does. Returns the levels of the two trees."""
         for _ in range(seconds):
-            (eye or self.eye).look(*place, self.forest)
+            (viewer or self.viewer).move_to(*place, self.forest)
             self.clock.run(RATE, *self.all)
         return self.forest.level(WEST), self.forest.level(EAST)
 
@@ -58,25 +58,25 @@ class ForestViewer(unittest.TestCase):
         self.clock.run(2 * RATE, *self.all)
 
     def test_levels_follow_the_viewer(self):
-        west, east = self.look(BESIDE_WEST)
+        west, east = self.view_from(BESIDE_WEST)
         self.assertGreater(west, east)
-        west, east = self.look(BESIDE_EAST)
+        west, east = self.view_from(BESIDE_EAST)
         self.assertLess(west, east)
 
-    def test_nobody_looks_and_every_tree_has_the_fixed_level(self):
-        self.look(BESIDE_WEST)
+    def test_no_viewer_gives_every_tree_the_fixed_level(self):
+        self.view_from(BESIDE_WEST)
         self.clock.run(6 * RATE, *self.all)
         self.assertEqual({self.forest.level(tree) for tree in range(17)}, {FIXED_LEVEL})
         last = [m for m in self.forest.state.messages if m.key_frame][-1]
         self.assertEqual((last.base_level, len(last.trees)), (FIXED_LEVEL, 0))
 
     def test_the_finest_of_several_viewers_wins(self):
-        far, _ = self.look(FAR)
-        other = Eye('other')
-        other.look(*BESIDE_WEST, self.forest)
-        both, _ = self.look(FAR)
+        far, _ = self.view_from(FAR)
+        other = ViewerClient('other')
+        other.move_to(*BESIDE_WEST, self.forest)
+        both, _ = self.view_from(FAR)
         self.assertGreater(both, far)
-        left, _ = self.look(FAR, 5)  # The other viewer has expired.
+        left, _ = self.view_from(FAR, 5)  # The other viewer has expired.
         self.assertEqual(left, far)
         other.close()
 
@@ -88,18 +88,18 @@ class ForestViewer(unittest.TestCase):
         self.assertEqual(self.forest.level(WEST), FIXED_LEVEL)  # The other node has no camera.
 
     def test_tolerance_and_highest_level_take_effect(self):
-        west, _ = self.look(BESIDE_WEST)
+        west, _ = self.view_from(BESIDE_WEST)
         self.server.update_configuration({'tolerance': 300.0})
-        coarse, _ = self.look(BESIDE_WEST)
+        coarse, _ = self.view_from(BESIDE_WEST)
         self.assertLess(coarse, west)
         self.server.update_configuration({'tolerance': 1.0, 'highest_level': 1})
-        limited, _ = self.look(BESIDE_WEST)
+        limited, _ = self.view_from(BESIDE_WEST)
         self.assertEqual(limited, 1)
         self.server.update_configuration({'highest_level': 6})
 
-    def test_the_governor_tells_what_it_chose_and_why(self):  # N7, N13
+    def test_the_governor_reports_levels_and_reason(self):  # N7, N13
         reports = Log('/diagnostics', DiagnosticArray)
-        self.look(BESIDE_WEST)
+        self.view_from(BESIDE_WEST)
 
         def modes(all_messages):
             found = [s for m in all_messages for s in m.status

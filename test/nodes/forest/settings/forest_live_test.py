@@ -8,7 +8,7 @@ import rospy
 import rostest
 from vegetation_sim.msg import ForestState, WindField
 
-from forest_rig import RATE, Eye, time_of
+from forest_rig import RATE, ViewerClient, time_of
 from watched_node import Log
 
 TICKS = 2 * RATE
@@ -19,19 +19,19 @@ class ForestLive(unittest.TestCase):
     def test_state_comes_tick_by_tick(self):
         wind = Log('/wind', WindField)
         state = Log('/forest/state', ForestState)
-        eye = Eye()
+        viewer = ViewerClient()
         field = wind.wait(lambda all: all and all[-1], 'the wind')
         state.wait(lambda all: all and all[-1].wind_hash == field.hash, 'its adoption')
-        eye.look(-60.0, -10.0, 4.0)
+        viewer.move_to(-60.0, -10.0, 4.0)
         first = len(state.messages)
         state.wait(lambda all: len(all) >= first + TICKS, 'states')
         self.assertGreaterEqual(rospy.Time.now(), state.messages[-1].header.stamp)
-        heard = state.messages[first:first + TICKS]
-        tick = int(round(heard[0].header.stamp.to_sec() * RATE))
-        self.assertEqual([m.header.stamp for m in heard],
+        states = state.messages[first:first + TICKS]
+        tick = int(round(states[0].header.stamp.to_sec() * RATE))
+        self.assertEqual([m.header.stamp for m in states],
                          [time_of(tick + i) for i in range(TICKS)])
-        self.assertEqual([m.sequence - heard[0].sequence for m in heard], list(range(TICKS)))
-        self.assertTrue(any(m.trees for m in heard), 'nobody looked')
+        self.assertEqual([m.sequence - states[0].sequence for m in states], list(range(TICKS)))
+        self.assertTrue(any(m.trees for m in states), 'no viewer had an effect')
 
 
 if __name__ == '__main__':

@@ -90,7 +90,7 @@ class ForestParameters(Ranges, RefusingNode):
             self.expect_scenario_refused(scenario.replace('SPECIES', species), words,
                                          by_file='frame_id' not in scenario)
 
-    def test_faults_of_parameters_and_scenario_are_told_together(self):
+    def test_faults_of_parameters_and_scenario_are_reported_together(self):
         refusal = self.refusal({'tolerance': 0, 'tf_rate': 'fast', 'lod': 3,
                                 'scenario': '/nowhere/scene.yaml'})
         for text in ('~tolerance = 0 pixel', '~tf_rate = fast', '~lod is not a known parameter',

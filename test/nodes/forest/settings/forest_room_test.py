@@ -40,9 +40,9 @@ class ForestRoom(unittest.TestCase):
         self.hands.release(id=held.id)
         self.hands.run(1)
         self.assertEqual(vector(self.hands.wrench().wrench.force), (0.0, 0.0, 0.0))
-        told = len(self.hands.wrenches.messages)
+        count = len(self.hands.wrenches.messages)
         self.hands.run(3)
-        self.assertEqual(len(self.hands.wrenches.messages), told)
+        self.assertEqual(len(self.hands.wrenches.messages), count)
 
     def tearDown(self):
         self.hands.let_all_go()

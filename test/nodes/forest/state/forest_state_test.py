@@ -11,7 +11,7 @@ from tf2_msgs.msg import TFMessage
 from vegetation_sim.msg import BranchTransforms
 from visualization_msgs.msg import Marker, MarkerArray
 
-from forest_rig import RATE, Animator, Eye, TickClock, time_of
+from forest_rig import RATE, Animator, TickClock, ViewerClient, time_of
 from watched_node import Log
 
 SECONDS = 10
@@ -32,12 +32,12 @@ class ForestState(unittest.TestCase):
         cls.forest = Animator()
         cls.clock = TickClock(1000 * RATE)
         cls.clock.begin(cls.forest)
-        cls.eye = Eye()
+        cls.viewer = ViewerClient()
 
     def run_watched(self, seconds):
         """Moves a viewer through the forest, so that levels change continuously."""
         for half in range(2 * seconds):
-            self.eye.look(-60.0 + 3.0 * half, -10.0, 4.0, self.forest)
+            self.viewer.move_to(-60.0 + 3.0 * half, -10.0, 4.0, self.forest)
             self.clock.run(RATE // 2, self.forest)
 
     # S1-02: the service knows every (tree, branch) id of 256 trees with at least 200 branches each.
@@ -57,15 +57,16 @@ class ForestState(unittest.TestCase):
     def test_state_comes_at_its_rate_and_is_small(self):
         before, tick = len(self.forest.state.messages), self.clock.tick
         self.run_watched(SECONDS)
-        heard = self.forest.state.messages[before:]
-        self.assertEqual([m.header.stamp for m in heard],
+        received = self.forest.state.messages[before:]
+        self.assertEqual([m.header.stamp for m in received],
                          [time_of(tick + 1 + i) for i in range(RATE * SECONDS)])
-        self.assertEqual([m.sequence - heard[0].sequence for m in heard], list(range(len(heard))))
-        self.assertEqual(sum(m.key_frame for m in heard), SECONDS)
-        self.assertTrue(any(m.trees for m in heard if not m.key_frame), 'no level changed')
-        sizes = [size_of(m) for m in heard]
+        self.assertEqual([m.sequence - received[0].sequence for m in received],
+                         list(range(len(received))))
+        self.assertEqual(sum(m.key_frame for m in received), SECONDS)
+        self.assertTrue(any(m.trees for m in received if not m.key_frame), 'no level changed')
+        sizes = [size_of(m) for m in received]
         print('forest/state: %d messages, %.1f kB/s, largest %.1f kB; layout %.1f kB' % (
-            len(heard), sum(sizes) / SECONDS / 1e3, max(sizes) / 1e3,
+            len(received), sum(sizes) / SECONDS / 1e3, max(sizes) / 1e3,
             size_of(self.forest.layout.messages[-1]) / 1e3))
         self.assertLess(sum(sizes) / SECONDS, MOST_BYTES)
 
@@ -84,14 +85,14 @@ class ForestState(unittest.TestCase):
                              r'frames = \d+ would pass the budget of %d' % TF_BUDGET)
             self.assertEqual(answer.frames, TF_BUDGET)
         self.clock.run_until(lambda: len(tf.messages) >= 10, 'frames', self.forest)
-        heard = list(tf.messages)
-        for message in heard:
+        received = list(tf.messages)
+        for message in received:
             self.assertEqual([t.child_frame_id for t in message.transforms],
                              ['tree_7/branch_%d' % i for i in range(TF_BUDGET)])
-        stamps = [m.transforms[0].header.stamp for m in heard]
+        stamps = [m.transforms[0].header.stamp for m in received]
         self.assertEqual(len(set(stamps)), len(stamps), 'a transform came twice')
         pose = self.forest.tree(7, stamps[-1]).transforms.poses[20]
-        sent = heard[-1].transforms[20].transform
+        sent = received[-1].transforms[20].transform
         self.assertEqual((pose.position.x, pose.orientation), (sent.translation.x, sent.rotation))
         self.assertEqual(self.forest.set_tf(7, [], False).frames, 0)
         tf.close()
