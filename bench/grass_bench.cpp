@@ -207,7 +207,7 @@ Frame drawFrame(MeadowLod& meadow, const TreadMap& tread, const wind::Field& win
                 const Viewpoint& eye, Nanoseconds stamp, BladeBlock* blocks, GrassMesh& strips) {
   const double start = bench::processorTime();
   Frame out;
-  meadow.setEyes({eye});
+  meadow.setViewpoints({eye});
   meadow.advance(stamp);
   const auto views = meadow.viewOf(eye, stamp);
   NodeWind air(meadow.map(), meadow.terrain());

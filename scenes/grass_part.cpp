@@ -47,7 +47,7 @@ void GrassPart::advance(Nanoseconds stamp, bool key_frame) {
   stamp_ = stamp;
   field_.advance(stamp);
   replica_.apply(field_.update(key_frame), shown_tread_);
-  meadow_.setEyes({eye_});
+  meadow_.setViewpoints({eye_});
   meadow_.advance(stamp);
   if (is_new_second) shown_tread_.prune(stamp);
 }

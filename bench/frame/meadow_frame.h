@@ -31,7 +31,7 @@ class MeadowFrame {
     const double turn = 0.02 * frame_;
     treads_.tread(1, tread_, {6.0 * std::cos(turn), 6.0 * std::sin(turn)}, stamp);
     laps.lap("treading");
-    meadow_.setEyes({viewer_});
+    meadow_.setViewpoints({viewer_});
     meadow_.advance(stamp);
     const auto views = meadow_.viewOf(viewer_, stamp);
     laps.lap("grass levels");

@@ -106,9 +106,9 @@ std::string TreadSimulation::move(TreadSourceState& source, const TreadInput& in
   const std::uint64_t jumps = tread_.state().counts.jumps;
   const double way = flatDistance(source.last.position, input.position);
   const double seconds = secondsBetween(source.pressed, stamp);
-  if (stamp > source.heard) {
+  if (stamp > source.updated) {
     source.before = source.last.position;
-    source.before_stamp = source.heard;
+    source.before_stamp = source.updated;
   }
   const double passed = secondsBetween(source.before_stamp, stamp);
   source.velocity = input.velocity != Vec3::Zero() ? input.velocity
@@ -155,7 +155,7 @@ std::string TreadSimulation::apply(const TreadInput& input, Nanoseconds stamp) {
   } else {
     source.last = input;
   }
-  source.heard = stamp;
+  source.updated = stamp;
   if (!source.down && action != TreadAction::MOVE) sources_.erase(input.source);
   return problem;
 }
@@ -171,7 +171,7 @@ void TreadSimulation::raise(const Point& centre, double radius) {
 std::vector<Entering> TreadSimulation::advance(Nanoseconds stamp) {
   for (auto entry = sources_.begin(); entry != sources_.end();) {
     TreadSourceState& source = entry->second;
-    if (secondsBetween(source.heard, stamp) > LEASE) {
+    if (secondsBetween(source.updated, stamp) > LEASE) {
       lift(source);
       entry = sources_.erase(entry);
       continue;
@@ -252,7 +252,7 @@ std::uint64_t TreadSnapshot::hash() const {
   add(next_id);
   for (const auto& [name, s] : sources) {
     hash.add(name);
-    for (const auto value : {s.heard, s.pressed, s.before_stamp}) add(value);
+    for (const auto value : {s.updated, s.pressed, s.before_stamp}) add(value);
     add(s.id);
     for (const int value :
          {static_cast<int>(s.last.action), s.column, s.row, static_cast<int>(s.down)})

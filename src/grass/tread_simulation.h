@@ -21,7 +21,7 @@ namespace vegetation_sim::grass {
 struct TreadSourceState {
   std::uint32_t id{0};  ///< in the TreadMap
   TreadInput last;
-  Nanoseconds heard{0};         ///< when it was told last
+  Nanoseconds updated{0};       ///< stamp of its last input
   Nanoseconds pressed{0};       ///< when its ground was
   bool down{false};             ///< it is on the ground
   Vec3 velocity{Vec3::Zero()};  ///< [m/s]

@@ -194,8 +194,8 @@ double GrassVolume::march(const Ray& ray, double from, Hit& nearest) const {
     const Vec3 middle = ray.at(0.5 * (from + to));
     const double height = above(middle);
     if (height > tallest_) return from;
-    const double chance = extinctionAt(middle, height, ray.direction);
-    const double way = chance > 0.0 ? depthOf(walk.cell(), key) / chance : Box::ENDLESS;
+    const double here = extinctionAt(middle, height, ray.direction);
+    const double way = here > 0.0 ? depthOf(walk.cell(), key) / here : Box::ENDLESS;
     if (from + way < to) {
       nearest = {from + way, Label::GRASS, 0, -1, MEAN_COSINE};
       return nearest.distance;

@@ -73,7 +73,7 @@ namespace vegetation_sim::canopy {
 
 HWY_EXPORT(cells);
 
-void lookBack(const LayerPass& pass) {
+void samplePast(const LayerPass& pass) {
   HWY_DYNAMIC_DISPATCH(cells)(pass);
 }
 

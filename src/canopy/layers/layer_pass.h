@@ -29,6 +29,6 @@ struct LayerPass {
 };
 
 /// Single precision, the same bits on every processor: the frames have eleven.
-void lookBack(const LayerPass& pass);
+void samplePast(const LayerPass& pass);
 
 }  // namespace vegetation_sim::canopy

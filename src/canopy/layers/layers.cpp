@@ -69,20 +69,20 @@ class FastLayer {
   }
 
   void write(LayerMotion& out, double distance) {
-    look(out, distance, [](float from, double& to) { to = static_cast<double>(from); });
+    evaluate(out, distance, [](float from, double& to) { to = static_cast<double>(from); });
   }
   void mix(LayerMotion& out, double distance, double share) {
-    look(out, distance, [share](float from, double& to) {
+    evaluate(out, distance, [share](float from, double& to) {
       to = (1.0 - share) * to + share * static_cast<double>(from);
     });
   }
 
  private:
   template <class Put>
-  void look(LayerMotion& out, double distance, Put put) {
+  void evaluate(LayerMotion& out, double distance, Put put) {
     pass_.distance = static_cast<float>(distance);
     for (pass_.begin = 0; pass_.begin < out.depth.size(); pass_.begin += PASS) {
-      lookBack(pass_);
+      samplePast(pass_);
       for (std::size_t i = 0; i < PASS; ++i) {
         put(u_[i], out.plane.u[pass_.begin + i]);
         put(v_[i], out.plane.v[pass_.begin + i]);

@@ -75,14 +75,14 @@ Vec3 MeadowLod::centreOf(int row, int column) const {
 double MeadowLod::scaleOf(const Vec3& centre) const {
   double scale = 0.0;
   const double half = 0.70710678 * map_->law().resolution;
-  for (const Viewpoint& eye : eyes_)
+  for (const Viewpoint& eye : viewpoints_)
     scale = std::max(scale, pixelsPerMetre(eye, length(eye.position - centre) - half));
   return scale;
 }
 
 bool MeadowLod::isSeen(const Vec3& centre) const {
   const double radius = 0.75 * map_->law().resolution + map_->tallest();
-  return std::any_of(eyes_.begin(), eyes_.end(),
+  return std::any_of(viewpoints_.begin(), viewpoints_.end(),
                      [&](const Viewpoint& eye) { return sees(eye, centre, radius); });
 }
 
@@ -98,7 +98,7 @@ std::pair<int, int> MeadowLod::columnsIn(int row) const {
   const MapLaw& law = map_->law();
   int first = map_->tileColumns(), last = -1;
   const double y = law.origin_y + law.resolution * (row + 0.5);
-  for (const Viewpoint& eye : eyes_) {
+  for (const Viewpoint& eye : viewpoints_) {
     const double dy = y - eye.position.y(), far = farthestOf(row, eye);
     if (!(dy * dy < far * far)) continue;
     const double half = std::sqrt(far * far - dy * dy), x = eye.position.x() - law.origin_x;
@@ -124,7 +124,7 @@ MeadowLod::Candidate MeadowLod::candidateOf(const TileLevel& level) const {
 }
 
 // All tiles that want to be more than a texture, in order, and those that still are.
-std::vector<MeadowLod::Candidate> MeadowLod::lookAround() const {
+std::vector<MeadowLod::Candidate> MeadowLod::findCandidates() const {
   std::vector<Candidate> out;
   out.reserve(levels_.size() + 64);
   auto old = levels_.cbegin();
@@ -177,7 +177,7 @@ double MeadowLod::coarsenessFor(const std::vector<Candidate>& tiles) const {
   return high;
 }
 
-void MeadowLod::note(const Candidate& tile, TileModel tier) {
+void MeadowLod::addToBalance(const Candidate& tile, TileModel tier) {
   if (!(tile.scale > 0.0)) return;  // bare, or out of sight
   const double error = tile.scale * omission(tile.detail, tier);
   balance_.cost += bladesAt(tile, coarseness_);
@@ -189,13 +189,13 @@ void MeadowLod::note(const Candidate& tile, TileModel tier) {
 }
 
 void MeadowLod::chooseLevels(Nanoseconds stamp) {
-  const std::vector<Candidate> tiles = lookAround();
+  const std::vector<Candidate> tiles = findCandidates();
   coarseness_ = coarsenessFor(tiles);
   balance_ = TierAllocation();
   levels_.clear();
   for (const Candidate& tile : tiles) {
     const TileModel tier = modelAt(tile, coarseness_);
-    note(tile, tier);
+    addToBalance(tile, tier);
     TileLevel level = tile.level;
     setTileModel(level.tier, tier, stamp, settings_.transition);
     if (tier != TileModel::TEXTURE || placeAt(level.tier, stamp, settings_.transition) > 0.0)
@@ -253,14 +253,14 @@ Tile MeadowLod::tileAt(const TileView& view, const NodeWind& air, const TreadMap
 }
 
 MeadowLodSnapshot MeadowLod::snapshot() const {
-  return {stamp_, coarseness_, levels_, eyes_};
+  return {stamp_, coarseness_, levels_, viewpoints_};
 }
 
-void MeadowLod::restore(MeadowLodSnapshot memory) {
-  stamp_ = memory.stamp;
-  coarseness_ = memory.coarseness;
-  levels_ = std::move(memory.levels);
-  eyes_ = std::move(memory.eyes);
+void MeadowLod::restore(MeadowLodSnapshot snapshot) {
+  stamp_ = snapshot.stamp;
+  coarseness_ = snapshot.coarseness;
+  levels_ = std::move(snapshot.levels);
+  viewpoints_ = std::move(snapshot.viewpoints);
 }
 
 void MeadowLodSnapshot::addTo(Hash& hash) const {
@@ -273,7 +273,7 @@ void MeadowLodSnapshot::addTo(Hash& hash) const {
     add(level.tier.since);
     hash.add(double{level.tier.place});
   }
-  for (const Viewpoint& eye : eyes) {
+  for (const Viewpoint& eye : viewpoints) {
     hash.add(eye.position);
     hash.add(eye.forward);
     hash.add(eye.pixels_per_radian);

@@ -20,7 +20,7 @@ struct MeadowSettings {
   double tolerance{1.5};    ///< what a level may leave out [pixel]
   double transition{0.5};   ///< from one tier to the next [s]
   double farthest{400.0};   ///< beyond, grass is a texture [m]
-  double most_blades{6e5};  ///< that the eyes see; for more, the tolerance is coarsened
+  double most_blades{6e5};  ///< that the viewpoints see; for more, the tolerance is coarsened
 };
 void describe(FieldVisitor& visitor, MeadowSettings& settings);
 
@@ -35,7 +35,7 @@ struct MeadowLodSnapshot {
   Nanoseconds stamp{0};
   double coarseness{1.0};         ///< factor on the tolerance that keeps the number of blades
   std::vector<TileLevel> levels;  ///< by row, then column
-  std::vector<Viewpoint> eyes;
+  std::vector<Viewpoint> viewpoints;
   void addTo(Hash& hash) const;
   std::uint64_t hash() const;
 };
@@ -64,7 +64,7 @@ class MeadowLod {
 
   /// Other settings from now on. @throws InvalidInput with all faults, then nothing is changed.
   void setSettings(const MeadowSettings& settings);
-  void setEyes(std::vector<Viewpoint> eyes) { eyes_ = std::move(eyes); }
+  void setViewpoints(std::vector<Viewpoint> viewpoints) { viewpoints_ = std::move(viewpoints); }
   /// Chooses levels at a stamp. If the stamp is before the last one, all tiles start as textures.
   void advance(Nanoseconds stamp);
 
@@ -82,7 +82,7 @@ class MeadowLod {
   const TierAllocation& balance() const { return balance_; }
 
   MeadowLodSnapshot snapshot() const;
-  void restore(MeadowLodSnapshot memory);
+  void restore(MeadowLodSnapshot snapshot);
   /// Memory of the state [bytes].
   std::size_t bytes() const { return levels_.capacity() * sizeof(TileLevel); }
 
@@ -99,11 +99,11 @@ class MeadowLod {
     double blades{0.0};  ///< all that grow on it; 0 if it wants none or nobody sees it
   };
   Candidate candidateOf(const TileLevel& level) const;
-  std::vector<Candidate> lookAround() const;
+  std::vector<Candidate> findCandidates() const;
   double bladesAt(const Candidate& tile, double coarseness) const;
   TileModel modelAt(const Candidate& tile, double coarseness) const;
   double coarsenessFor(const std::vector<Candidate>& tiles) const;
-  void note(const Candidate& tile, TileModel tier);
+  void addToBalance(const Candidate& tile, TileModel tier);
   void chooseLevels(Nanoseconds stamp);
   std::pair<int, int> columnsIn(int row) const;
   double farthestOf(int row, const Viewpoint& eye) const;
@@ -117,7 +117,7 @@ class MeadowLod {
   double coarseness_{1.0};
   TierAllocation balance_;
   std::vector<TileLevel> levels_;
-  std::vector<Viewpoint> eyes_;
+  std::vector<Viewpoint> viewpoints_;
 };
 
 }  // namespace vegetation_sim::grass

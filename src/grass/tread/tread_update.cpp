@@ -35,16 +35,16 @@ class Presses {
   const std::pair<const std::pair<Nanoseconds, float>, std::uint32_t>* last_{nullptr};
 };
 
-bool isIncludedIn(const TreadNode& node, const TreadInterval& telling) {
-  return node.stamp > telling.since && tiltAt(node, telling.stamp) > 0.f;
+bool isIncludedIn(const TreadNode& node, const TreadInterval& interval) {
+  return node.stamp > interval.since && tiltAt(node, interval.stamp) > 0.f;
 }
 
-void report(const std::pair<int, int>& place, const TreadBlock& block, const TreadInterval& telling,
-            Presses& presses, TreadDelta& out) {
+void report(const std::pair<int, int>& place, const TreadBlock& block,
+            const TreadInterval& interval, Presses& presses, TreadDelta& out) {
   TreadBlockDelta published{place.first, place.second, {}, {}};
   for (std::size_t i = 0; i < block.nodes.size(); ++i) {
     const TreadNode& node = block.nodes[i];
-    if (!isIncludedIn(node, telling)) continue;
+    if (!isIncludedIn(node, interval)) continue;
     published.included[i / 8] |= static_cast<std::uint8_t>(1u << (i % 8));
     published.nodes.push_back({node.tilt, node.x, node.y, presses.numberOf(node)});
   }
@@ -62,12 +62,12 @@ TreadDelta snapshotTreads(const TreadState& state, Nanoseconds stamp) {
 }
 
 TreadDelta makeDelta(const TreadState& state, const std::set<std::pair<int, int>>& blocks,
-                     const TreadInterval& telling) {
+                     const TreadInterval& interval) {
   TreadDelta out;
   Presses presses(out.presses);
   for (const auto& place : blocks) {
     const auto found = state.blocks.find(place);
-    if (found != state.blocks.end()) report(place, found->second, telling, presses, out);
+    if (found != state.blocks.end()) report(place, found->second, interval, presses, out);
   }
   return out;
 }
@@ -101,7 +101,7 @@ void check(const TreadDelta& treads, Faults& faults) {
       for (unsigned bits = byte; bits; bits &= bits - 1) ++published;
     if (published != block.nodes.size())
       faults.add(name + std::to_string(block.nodes.size()) + " nodes where " +
-                 std::to_string(published) + " are told");
+                 std::to_string(published) + " are included");
     for (const TreadNodeDelta& node : block.nodes) {
       if (node.press >= treads.presses.size())
         faults.add(name + "press = " + std::to_string(node.press) + " is outside 0 to " +

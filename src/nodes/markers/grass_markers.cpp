@@ -110,7 +110,7 @@ visualization_msgs::MarkerArray GrassMarkers::build(
     Nanoseconds stamp) {
   const std::vector<Viewpoint> eyes =
       viewers.empty() ? std::vector<Viewpoint>{eyeAbove(meadow)} : viewers;
-  meadow.setEyes(eyes);
+  meadow.setViewpoints(eyes);
   meadow.advance(stamp);
   addGround(meadow);
   std::vector<grass::TileView> views = meadow.viewOf(eyes[0], stamp);

@@ -116,7 +116,7 @@ void GrassVisual::update(const SubscribedMeadow& meadow, Nanoseconds stamp, doub
   if (isDrawn(wanted)) return;
   const Viewpoint eye = eyeOf(view);
   levels_.setSettings(options.levels);
-  levels_.setEyes({eye});
+  levels_.setViewpoints({eye});
   const Nanoseconds now = levelClock(wall, options.levels.transition);
   levels_.advance(now);
   const std::vector<grass::TileView> tiles = levels_.viewOf(eye, now);

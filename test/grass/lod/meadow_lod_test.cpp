@@ -26,7 +26,7 @@ Viewpoint eyeAt(double x, double y, double z) {
   return eye;
 }
 
-class MeadowOf : public testing::Test {
+class MeadowLodTest : public testing::Test {
  protected:
   static MeadowLod makeMeadow(double most_blades = 1e8) {
     MapInput input;
@@ -49,9 +49,9 @@ class MeadowOf : public testing::Test {
 };
 
 // S2-15: blades around the eye, strips in a ring about them, nothing but ground beyond.
-TEST_F(MeadowOf, ShowsBladesNearAndStripsFartherAway) {
+TEST_F(MeadowLodTest, ShowsBladesNearAndStripsFartherAway) {
   const Viewpoint eye = eyeAt(201.0, 201.0, 1.6);
-  meadow_.setEyes({eye});
+  meadow_.setViewpoints({eye});
   meadow_.advance(START);
   EXPECT_TRUE(meadow_.viewOf(eye, START).empty());  // all begin as ground
   const auto views = viewsOf(meadow_, eye, after(2.0));
@@ -66,9 +66,9 @@ TEST_F(MeadowOf, ShowsBladesNearAndStripsFartherAway) {
 }
 
 // S2-15: rows that are surely textures are not looked at; what is left is each tile's own choice.
-TEST_F(MeadowOf, LooksAtAllTilesThatAreMoreThanATexture) {
+TEST_F(MeadowLodTest, LooksAtAllTilesThatAreMoreThanATexture) {
   const Viewpoint eye = eyeAt(30.0, 201.0, 1.6);
-  meadow_.setEyes({eye});
+  meadow_.setViewpoints({eye});
   meadow_.advance(START);
   std::map<std::pair<int, int>, TileModel> chosen;
   for (const TileLevel& level : meadow_.snapshot().levels)
@@ -87,24 +87,24 @@ TEST_F(MeadowOf, LooksAtAllTilesThatAreMoreThanATexture) {
     }
 }
 
-TEST_F(MeadowOf, WithoutAnEyeIsAllGround) {
+TEST_F(MeadowLodTest, WithoutAnEyeIsAllGround) {
   meadow_.advance(START);
   meadow_.advance(after(5.0));
   EXPECT_TRUE(meadow_.snapshot().levels.empty());
 }
 
-TEST_F(MeadowOf, WithoutGrassIsAllGround) {
+TEST_F(MeadowLodTest, WithoutGrassIsAllGround) {
   MapInput input;
   input.density.value = 0.0;
   MeadowLod bare(std::make_shared<FeatureMap>(input), std::make_shared<terrain::HeightMap>(), 7,
                  MeadowSettings());
-  bare.setEyes({eyeAt(50.0, 50.0, 1.6)});
+  bare.setViewpoints({eyeAt(50.0, 50.0, 1.6)});
   bare.advance(START);
   EXPECT_TRUE(bare.snapshot().levels.empty());
 }
 
 // S2-05: the blades of a tile are the same before and after a walk that took it out of sight.
-TEST_F(MeadowOf, ShowsTheSameBladesAfterLeavingAndComingBack) {
+TEST_F(MeadowLodTest, ShowsTheSameBladesAfterLeavingAndComingBack) {
   const Viewpoint near = eyeAt(201.0, 201.0, 1.6), far = eyeAt(-60.0, -60.0, 1.6);
   const auto bladesNow = [&](Nanoseconds stamp) {
     NodeWind air(meadow_.map(), meadow_.terrain());
@@ -117,14 +117,14 @@ TEST_F(MeadowOf, ShowsTheSameBladesAfterLeavingAndComingBack) {
     const Tile tile = meadow_.tileAt(view, air, untrodden, stamp, patch, motion);
     return posed(tile, motion, tile.blades);
   };
-  meadow_.setEyes({near});
+  meadow_.setViewpoints({near});
   meadow_.advance(START);
   const auto before = bladesNow(after(3.0));
-  meadow_.setEyes({far});
+  meadow_.setViewpoints({far});
   meadow_.advance(after(4.0));
   meadow_.advance(after(8.0));
   EXPECT_EQ(viewsOf(meadow_, near, after(8.0)).count({100, 100}), 0u);
-  meadow_.setEyes({near});
+  meadow_.setViewpoints({near});
   meadow_.advance(after(9.0));
   const auto again = bladesNow(after(12.0));
   ASSERT_EQ(before.size(), again.size());
@@ -135,10 +135,10 @@ TEST_F(MeadowOf, ShowsTheSameBladesAfterLeavingAndComingBack) {
 }
 
 // The number of blades stays within its budget wherever the eye is.
-TEST_F(MeadowOf, KeepsTheBudgetOfBlades) {
+TEST_F(MeadowLodTest, KeepsTheBudgetOfBlades) {
   MeadowLod small = makeMeadow(50000.0);
   const Viewpoint eye = eyeAt(201.0, 201.0, 1.6);
-  small.setEyes({eye});
+  small.setViewpoints({eye});
   for (int k = 0; k < 60; ++k) small.advance(after(0.1 * k));
   double blades = 0.0;
   for (const TileView& view : small.viewOf(eye, after(6.0)))
@@ -149,11 +149,11 @@ TEST_F(MeadowOf, KeepsTheBudgetOfBlades) {
 
 // N7: tells what was chosen and why: with room the tolerance is held, without it tiles are held
 // back, and what they are off stays within the coarser tolerance.
-TEST_F(MeadowOf, TellsWhatItChoseAndWhy) {
+TEST_F(MeadowLodTest, TellsWhatItChoseAndWhy) {
   const Viewpoint eye = eyeAt(201.0, 201.0, 1.6);
   for (const double most : {1e8, 2e4}) {
     MeadowLod meadow = makeMeadow(most);
-    meadow.setEyes({eye});
+    meadow.setViewpoints({eye});
     for (int i = 0; i < 100; ++i) meadow.advance(after(0.1 * i));
     const TierAllocation& balance = meadow.balance();
     const bool binds = most < 1e8;
@@ -169,9 +169,9 @@ TEST_F(MeadowOf, TellsWhatItChoseAndWhy) {
 
 // N7: no limit cycle. A lawn that is seen from above is off by about the same everywhere; a still
 // eye sees it stand still from the first tick on, on its budget, and no tile comes and goes.
-TEST_F(MeadowOf, StandsStillOnItsBudget) {
+TEST_F(MeadowLodTest, StandsStillOnItsBudget) {
   MeadowLod meadow = makeMeadow(2e4);
-  meadow.setEyes({eyeAt(201.0, 201.0, 15.0)});
+  meadow.setViewpoints({eyeAt(201.0, 201.0, 15.0)});
   meadow.advance(START);
   const auto before = meadow.snapshot();
   EXPECT_LE(meadow.balance().cost, 2e4);
@@ -184,11 +184,11 @@ TEST_F(MeadowOf, StandsStillOnItsBudget) {
 }
 
 // N7: who moves makes no tile flicker: none changes its tier twice a second.
-TEST_F(MeadowOf, NoTileFlickers) {
+TEST_F(MeadowLodTest, NoTileFlickers) {
   MeadowLod meadow = makeMeadow(2e4);
   std::map<std::pair<int, int>, std::pair<TileModel, int>> seen;
   for (int i = 0; i < 30; ++i) {
-    meadow.setEyes({eyeAt(201.0 + (i % 2 ? 0.1 : 0.0), 201.0, 1.6)});
+    meadow.setViewpoints({eyeAt(201.0 + (i % 2 ? 0.1 : 0.0), 201.0, 1.6)});
     meadow.advance(after(0.1 * i));
     if (i < 10) continue;
     EXPECT_LE(meadow.balance().cost, 2e4);
@@ -204,10 +204,10 @@ TEST_F(MeadowOf, NoTileFlickers) {
 }
 
 // N7: what is asked for does not depend on what there is, and all that would be finer is counted.
-TEST_F(MeadowOf, TellsAllThatTheBudgetHoldsBack) {
+TEST_F(MeadowLodTest, TellsAllThatTheBudgetHoldsBack) {
   MeadowLod rich = makeMeadow(), poor = makeMeadow(2e4);
   for (MeadowLod* meadow : {&rich, &poor}) {
-    meadow->setEyes({eyeAt(201.0, 201.0, 1.6)});
+    meadow->setViewpoints({eyeAt(201.0, 201.0, 1.6)});
     for (int i = 0; i < 100; ++i) meadow->advance(after(0.1 * i));
   }
   EXPECT_EQ(poor.balance().wanted, rich.balance().wanted);
@@ -223,10 +223,10 @@ TEST_F(MeadowOf, TellsAllThatTheBudgetHoldsBack) {
   EXPECT_GT(poor.balance().over, poor.balance().counts[1]);  // textures too
 }
 
-TEST_F(MeadowOf, LeavesOutWhatTheEyeDoesNotSee) {
+TEST_F(MeadowLodTest, LeavesOutWhatTheEyeDoesNotSee) {
   Viewpoint eye = eyeAt(201.0, 201.0, 1.6);
   eye.cone_cosine = std::cos(0.5);
-  meadow_.setEyes({eye});
+  meadow_.setViewpoints({eye});
   meadow_.advance(START);
   const auto views = viewsOf(meadow_, eye, after(2.0));
   EXPECT_EQ(views.count({100, 110}), 1u);
@@ -234,9 +234,9 @@ TEST_F(MeadowOf, LeavesOutWhatTheEyeDoesNotSee) {
 }
 
 // S2-W3: views tell from how steep they are seen.
-TEST_F(MeadowOf, KnowsFromHowSteepATileIsSeen) {
+TEST_F(MeadowLodTest, KnowsFromHowSteepATileIsSeen) {
   const Viewpoint eye = eyeAt(201.0, 201.0, 30.0);
-  meadow_.setEyes({eye});
+  meadow_.setViewpoints({eye});
   meadow_.advance(START);
   const auto views = viewsOf(meadow_, eye, after(2.0));
   EXPECT_EQ(layerWeight(views.at({100, 100}).elevation), 1.0);
@@ -244,10 +244,10 @@ TEST_F(MeadowOf, KnowsFromHowSteepATileIsSeen) {
 }
 
 // N6: one structure is all the state; restored, the run goes on to the bit.
-TEST_F(MeadowOf, GoesOnFromARestoredMemory) {
+TEST_F(MeadowLodTest, GoesOnFromARestoredMemory) {
   const auto step = [](MeadowLod& meadow, int k) {
     const double x = 150.0 + 0.5 * k;
-    meadow.setEyes({eyeAt(x, 201.0, 1.6)});
+    meadow.setViewpoints({eyeAt(x, 201.0, 1.6)});
     meadow.advance(after(0.1 * k));
   };
   for (int k = 0; k < 20; ++k) step(meadow_, k);
@@ -264,9 +264,9 @@ TEST_F(MeadowOf, GoesOnFromARestoredMemory) {
   EXPECT_NE(meadow_.snapshot().hash(), before);
 }
 
-TEST_F(MeadowOf, StartsAnewWhenTimeGoesBack) {
+TEST_F(MeadowLodTest, StartsAnewWhenTimeGoesBack) {
   const Viewpoint eye = eyeAt(201.0, 201.0, 1.6);
-  meadow_.setEyes({eye});
+  meadow_.setViewpoints({eye});
   meadow_.advance(after(10.0));
   meadow_.advance(after(20.0));
   meadow_.advance(after(5.0));
@@ -274,7 +274,7 @@ TEST_F(MeadowOf, StartsAnewWhenTimeGoesBack) {
   EXPECT_FALSE(meadow_.viewOf(eye, after(6.0)).empty());
 }
 
-TEST_F(MeadowOf, RefusesBadSettingsByName) {
+TEST_F(MeadowLodTest, RefusesBadSettingsByName) {
   MeadowSettings settings;
   settings.tolerance = -1.0;
   settings.transition = std::nan("");

@@ -47,7 +47,7 @@ struct TreadInterval {
 TreadDelta snapshotTreads(const TreadState& state, Nanoseconds stamp);
 /// Nodes of these blocks that were pressed since.
 TreadDelta makeDelta(const TreadState& state, const std::set<std::pair<int, int>>& blocks,
-                     const TreadInterval& telling);
+                     const TreadInterval& interval);
 /// Of every value that is told; equal for equal ground, if all of it is told.
 std::uint64_t hashOf(const TreadDelta& treads);
 /// Adds a fault for whatever cannot be.
