@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// The test programs' own operator new and delete, which count.
+// Replaces operator new and delete of the test programs with versions that count.
 #include "heap.h"
 
 #include <malloc.h>

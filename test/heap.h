@@ -6,9 +6,9 @@
 
 namespace vegetation_sim {
 
-/// Bytes that the test program's operator new has handed out and not got back.
+/// Returns the bytes that operator new has allocated and that were not freed.
 long liveBytes();
-/// How often it was asked.
+/// Returns how often operator new was called.
 std::size_t allocationCount();
 
 }  // namespace vegetation_sim

@@ -4,8 +4,8 @@
 
 namespace vegetation_sim {
 
-/// True in builds that watch every access, twenty times as slow: tests that only repeat a step take
-/// fewer of them there.
+/// True in builds with sanitizers, which are twenty times as slow. Tests that only repeat a step
+/// take fewer steps in such builds.
 #ifdef __SANITIZE_ADDRESS__
 constexpr bool SANITIZED = true;
 #else

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int RATE = 30, BUDGET = 100000;
 
-/// Bytes a second of key frames of one size over ten minutes.
+/// Returns the bytes per second of key frames of one size over ten minutes.
 double bytesPerSecond(KeyFrames& frames, std::uint64_t size) {
   constexpr int SECONDS = 600;
   double sum = 0.0;
@@ -23,14 +23,14 @@ double bytesPerSecond(KeyFrames& frames, std::uint64_t size) {
 
 TEST(KeyFrames, ComeAsOftenAsAskedForWhileTheyAreSmall) {
   KeyFrames frames(2.0, RATE, BUDGET);
-  EXPECT_TRUE(frames.isDue(7));  // the first one at once
+  EXPECT_TRUE(frames.isDue(7));  // The first one is due at once.
   frames.sent(200000);
   for (std::int64_t tick = 8; tick < 200; ++tick) EXPECT_EQ(frames.isDue(tick), tick % 60 == 0);
   EXPECT_EQ(frames.period(), 2.0);
   EXPECT_EQ(frames.balance().held_back, 0u);
 }
 
-// N7: bytes a second stay on the budget, whatever there is to tell, up to 128 times as much.
+// N7: the rate stays within the budget for a state of up to 128 times the size.
 TEST(KeyFrames, KeepToTheirBudget) {
   for (const std::uint64_t size : {150000, 250000, 1000000, 20000000}) {
     KeyFrames frames(2.0, RATE, BUDGET);
@@ -49,7 +49,7 @@ TEST(KeyFrames, ComeMoreOftenAgainWhenThereIsLessToTell) {
   EXPECT_EQ(frames.period(), 2.0);
 }
 
-// Who comes late does not wait.
+// Late subscribers do not wait.
 TEST(KeyFrames, AreSentOnDemand) {
   KeyFrames frames(2.0, RATE, BUDGET);
   frames.isDue(1);

@@ -48,7 +48,7 @@ TEST_F(Watched, WhoSpokeBeforeTheFirstTickLivesFromThen) {
 TEST_F(Watched, OneTooManyIsRefusedAndTheOthersStay) {
   for (std::size_t i = 0; i < ViewerRegistry::MOST; ++i) hear(viewer(std::to_string(i)), SECOND);
   EXPECT_THROW(hear(viewer("late"), SECOND), InvalidInput);
-  hear(viewer("0"), SECOND);  // one of them
+  hear(viewer("0"), SECOND);  // This is one of the known viewers.
   EXPECT_EQ(viewers.size(), ViewerRegistry::MOST);
 }
 

@@ -1,6 +1,7 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// What dynamic_reconfigure offers is what the node's own structures allow; inputs wait in bounds.
+// The ranges of dynamic_reconfigure are those of the structures in the node, and queues of inputs
+// are bounded.
 #include <gtest/gtest.h>
 #include <vegetation_sim/GrassEvent.h>
 #include <vegetation_sim/GrassFieldConfig.h>
@@ -51,11 +52,11 @@ TEST(GrassRanges, SettingsSurviveTheirEventAndTheirConfig) {  // N6
   EXPECT_EQ(sent.defaults, reconfigured.defaults);
 }
 
-// N6: at its own tick an event of a replay is in time, after it it is late.
+// N6: an event of a replay is in time at its own tick and late after it.
 TEST(EventQueue, CountsLateEventsOfAReplay) {
   Queue queue(true);
   for (const std::int64_t tick : {101, 102, 104}) queue.addRecorded(at(tick));
-  EXPECT_TRUE(queue.add(at(0)));  // a live input has no effect
+  EXPECT_TRUE(queue.add(at(0)));  // A live input has no effect.
   EXPECT_TRUE(queue.take(100 * TICK).empty());
   EXPECT_EQ(queue.take(101 * TICK).size(), 1u);
   EXPECT_EQ(queue.take(102 * TICK).size(), 1u);
@@ -72,7 +73,7 @@ TEST(EventQueue, LiveInputsGetTheStampOfTheirTickAndKeepTheirOrder) {
     event.radius = radius;
     EXPECT_TRUE(queue.add(event));
   }
-  queue.addRecorded(at(1));  // its own events come back to it
+  queue.addRecorded(at(1));  // The node receives its own events.
   const std::vector<GrassEvent> now = queue.take(7 * TICK), later = queue.take(8 * TICK);
   ASSERT_EQ(now.size(), 2u);
   EXPECT_EQ(now[0].radius, 1.0);

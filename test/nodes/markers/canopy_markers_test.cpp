@@ -9,7 +9,7 @@
 namespace vegetation_sim {
 namespace {
 
-/// Shrubs in a row away from an eye, 4 m apart.
+/// Shrubs stand in a row away from a viewer, 4 m apart.
 struct Row {
   explicit Row(int shrubs) {
     layout.kinds.emplace_back();
@@ -30,7 +30,7 @@ struct Row {
     used = drawn(markers);
     return markers.balance();
   }
-  /// Points of leaves with an area, in a list of constant size.
+  /// Counts the points of leaves with an area, in a list of constant size.
   std::size_t drawn(CanopyMarkers& markers) {
     canopy::Canopy canopy(layout);
     const auto list = markers.build(canopy.foliage(), {}, "map").markers[0];
@@ -44,7 +44,7 @@ struct Row {
   std::size_t room{0}, used{0};
 };
 
-// N7: a plant has the smallest share of its leaves that holds the tolerance.
+// N7: a plant has the smallest share of its leaves that keeps the tolerance.
 TEST(CanopyMarkers, FarPlantsHaveFewerLeaves) {
   Row row(40);
   const TierAllocation fine = row.choose(200000, 1.0);
@@ -57,7 +57,8 @@ TEST(CanopyMarkers, FarPlantsHaveFewerLeaves) {
   EXPECT_EQ(coarse.counts[0], 0u);
 }
 
-// N7: the points bind; near plants keep more, far ones are thinned before any is left out.
+// N7: the limit of points applies. Near plants keep more leaves, and far ones are thinned before
+// any plant is left out.
 TEST(CanopyMarkers, PointsBindAndNoneIsLeftOutForTheSakeOfLeaves) {
   Row row(40);
   const double free = row.choose(200000, 1.0).cost;
@@ -65,12 +66,12 @@ TEST(CanopyMarkers, PointsBindAndNoneIsLeftOutForTheSakeOfLeaves) {
   EXPECT_LE(poor.cost, static_cast<double>(row.room));
   EXPECT_GE(poor.cost, 0.9 * static_cast<double>(row.room));
   EXPECT_EQ(static_cast<double>(row.used), poor.cost);
-  EXPECT_GT(poor.wanted, 0.9 * free);  // shares of leaves are others
+  EXPECT_GT(poor.wanted, 0.9 * free);  // The shares of leaves differ.
   EXPECT_GT(poor.held_back, 0u);
   EXPECT_EQ(poor.counts[0], 0u);
 }
 
-// Of a mesh that was read, faces that never move are stems: they take no leaf's place.
+// Faces of a mesh that never move are stems and do not count as leaves.
 TEST(CanopyMarkers, RigidFacesAreNoLeaves) {
   Row row(10);
   auto form = std::make_shared<canopy::Form>();
@@ -85,8 +86,8 @@ TEST(CanopyMarkers, RigidFacesAreNoLeaves) {
   EXPECT_EQ(static_cast<double>(row.used), balance.cost);
 }
 
-// rviz works on triangles without area as on others: of no plant there is none, and plants that
-// come again are drawn in lists as long as before.
+// rviz draws triangles without area like others, so without plants there must be none. Plants that
+// return are drawn in lists of the same length as before.
 TEST(CanopyMarkers, NoPlantsAreNotDrawn) {
   using visualization_msgs::Marker;
   const Row none(0), shrubs(4);

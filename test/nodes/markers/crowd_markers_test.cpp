@@ -11,7 +11,7 @@ namespace {
 
 constexpr Nanoseconds SECOND = NANOSECONDS_PER_SECOND;
 
-/// People in a row away from an eye, 2 m apart.
+/// People stand in a row away from a viewer, 2 m apart.
 struct Row {
   explicit Row(int people) : crowd(1, {}, {-1, 5000, -5, 5}, crowd::flatGround()) {
     for (int i = 0; i < people; ++i)
@@ -29,7 +29,7 @@ struct Row {
   Viewpoint eye;
 };
 
-// N7: a person has the fewest facets that hold the tolerance.
+// N7: a person has the fewest facets that keep the tolerance.
 TEST(CrowdMarkers, FarPeopleHaveFewerFacets) {
   Row row(200);
   const TierAllocation fine = row.build(400000, 1.0), coarse = row.build(400000, 4.0);
@@ -38,11 +38,11 @@ TEST(CrowdMarkers, FarPeopleHaveFewerFacets) {
     EXPECT_GT(fine.counts[tier], 0u) << tier;
   EXPECT_EQ(fine.counts[0], 0u);
   EXPECT_LT(coarse.cost, 0.9 * fine.cost);
-  // Only who stands nearer than the finest tier is meant for is above the tolerance.
+  // Only people who stand nearer than the range of the finest tier are above the tolerance.
   EXPECT_LE(fine.over, 4u);
 }
 
-// rviz works on triangles without area as on others: where nobody is there are none.
+// rviz draws triangles without area like others, so without people there must be none.
 TEST(CrowdMarkers, NobodyIsNotDrawn) {
   const Row nobody(0), one(1);
   CrowdMarkers markers(60000);
@@ -55,7 +55,8 @@ TEST(CrowdMarkers, NobodyIsNotDrawn) {
   EXPECT_EQ(markerOf(one).points.size(), 60000u);
 }
 
-// N7: the points bind; a few less coarsen somebody, half of them leave some out.
+// N7: the limit of points applies. With a few points less some people are coarser; with half of the
+// points some are left out.
 TEST(CrowdMarkers, PointsBindAndNobodyIsLeftOutForTheSakeOfFacets) {
   Row row(200);
   const TierAllocation free = row.build(400000, 1.0);
@@ -69,7 +70,7 @@ TEST(CrowdMarkers, PointsBindAndNobodyIsLeftOutForTheSakeOfFacets) {
   }
 }
 
-// N7: who moves a little does not make anybody else flicker.
+// N7: a small move of the viewer does not change the tiers of people.
 TEST(CrowdMarkers, NobodyFlickers) {
   Row row(200);
   CrowdMarkers markers(60000);

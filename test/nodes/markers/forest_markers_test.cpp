@@ -9,12 +9,12 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr std::size_t BRANCHES = 100000;  // that the cache may hold
+constexpr std::size_t BRANCHES = 100000;  // capacity of the cache
 constexpr int POINTS = 60000;
 
 using visualization_msgs::Marker;
 
-/// Action and number of points of bark and leaves.
+/// Action and number of points of the lists of bark and leaves.
 struct Lists {
   std::vector<int> actions;
   std::vector<std::size_t> points;
@@ -35,7 +35,7 @@ forest::Forest standing(forest::Layout layout) {
   return forest::Forest(std::move(layout), forest::flatTerrain(), forest::Settings());
 }
 
-/// A tree of a species that bears no leaf.
+/// Returns a tree of a species without leaves.
 forest::Layout bareTree() {
   forest::Layout out = forest::gridLayout(1, 10.0);
   for (forest::Species& species : out.species)
@@ -46,8 +46,8 @@ forest::Layout bareTree() {
 const std::vector<int> BOTH{Marker::ADD, Marker::ADD}, NEITHER{Marker::DELETE, Marker::DELETE};
 const std::vector<std::size_t> FULL{POINTS / 2, POINTS / 2}, EMPTY{0, 0};
 
-// rviz works on triangles without area as on others: where no tree is there are none, and trees
-// that come again are drawn in lists as long as before.
+// rviz draws triangles without area like others, so without trees there must be none. Trees that
+// return are drawn in lists of the same length as before.
 TEST(ForestMarkers, NoTreesAreNotDrawn) {
   const forest::Forest trees = standing(forest::gridLayout(2, 10.0)),
                        none = standing(forest::gridLayout(0, 10.0));
@@ -64,7 +64,7 @@ TEST(ForestMarkers, NoTreesAreNotDrawn) {
   }
 }
 
-// Each list by itself.
+// Each list is handled on its own.
 TEST(ForestMarkers, LeavesOfBareTreesAreNotDrawn) {
   const forest::Forest bare = standing(bareTree());
   ForestMarkers markers(POINTS);

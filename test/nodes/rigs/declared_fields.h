@@ -15,7 +15,7 @@ namespace vegetation_sim {
 
 using Values = std::map<std::string, double>;
 
-/// Ranges and values of a described structure of numbers.
+/// Collects ranges and values of a described structure of numbers.
 struct Declared : FieldVisitor {
   Values defaults, low, high;
 
@@ -34,7 +34,8 @@ struct Declared : FieldVisitor {
   }
 };
 
-/// What dynamic_reconfigure has, by name. @tparam Config a generated one.
+/// Returns the ranges and values of dynamic_reconfigure by name. @tparam Config is a generated
+/// class.
 template <class Config>
 Values offered(const Config& config) {
   dynamic_reconfigure::Config message;

@@ -19,7 +19,8 @@
 
 namespace vegetation_sim {
 
-/// Spins until a condition holds. The deadline [s] is of wall time; only a failing test takes it.
+/// Spins until a condition holds. The deadline [s] is wall time; only a test that fails waits that
+/// long.
 inline void spinUntil(const std::string& what, const std::function<bool()>& condition) {
   const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(60.0);
   while (!condition()) {
@@ -28,7 +29,7 @@ inline void spinUntil(const std::string& what, const std::function<bool()>& cond
   }
 }
 
-/// Everything that a topic said.
+/// Keeps all messages of a topic.
 template <class Message>
 class LatestMessage {
  public:
@@ -52,8 +53,8 @@ class LatestMessage {
   ros::Subscriber subscriber_;
 };
 
-/// A forest_animator whose clock this test is. Time stands half a tick after a tick: the node has
-/// come to that tick, and what is published now takes effect at the next one.
+/// A forest_animator whose clock the test sets. Time stands half a tick after a tick: the node has
+/// reached that tick, and messages published now take effect at the next one.
 class ClockedForest {
  public:
   explicit ClockedForest(std::int64_t first_tick) : tick_(first_tick) {
@@ -63,7 +64,7 @@ class ClockedForest {
       throw std::runtime_error("no forest_animator");
     settle();
     state.waitForPublisher();
-    // The node and this process.
+    // The subscribers are the node and this process.
     spinUntil("listeners of /clock", [this] { return clock_.getNumSubscribers() >= 2; });
   }
 
@@ -85,7 +86,7 @@ class ClockedForest {
     throw std::runtime_error("100 s passed without " + what);
   }
 
-  /// Returns when the node has taken what lay in its sockets before.
+  /// Returns when the node has taken the messages that were in its sockets before.
   void settle() {
     for (int i = 0; i < 2; ++i) ask(UINT32_MAX);
   }

@@ -1,6 +1,7 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// One wind law for everybody (N2): this process hears the field, wind_broadcaster is another.
+// All processes compute the same wind (N2): this process receives the field of wind_broadcaster,
+// which is another process.
 #include <gtest/gtest.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
@@ -18,9 +19,9 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr double DEADLINE = 30.0;  // [s] of wall time, which only a failing test takes
+constexpr double DEADLINE = 30.0;  // [s] of wall time; only a test that fails waits that long
 
-/// Hears the latched field as any other node does.
+/// Receives the latched field like any other node.
 class Listener {
  public:
   Listener() {
@@ -30,7 +31,7 @@ class Listener {
     subscriber_ = ros::NodeHandle().subscribe<WindField>("wind", 10, heard);
   }
 
-  /// Spins until a field of this hash has come; 0: any.
+  /// Spins until a field with this hash has arrived; 0 stands for any field.
   wind::Field wait(std::uint64_t hash) {
     const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(DEADLINE);
     while (!field_ || (hash != 0 && field_->hash() != hash)) {
@@ -60,7 +61,7 @@ std::uint64_t hashOfBroadcaster() {
   return call<GetWindField>("get_field", {}).field.hash;
 }
 
-/// Times near the start of ROS time, about now, and far beyond.
+/// Times near the start of ROS time, about now, and in the far future.
 Nanoseconds randomStamp(const Random& random, std::uint64_t i) {
   const Nanoseconds now = fromMsg(ros::Time::now());
   const Nanoseconds near = now + fromSeconds(random.uniform(4 * i, -5.0, 60.0));
@@ -97,7 +98,7 @@ void expectSameLaw(const wind::Field& field) {
     ASSERT_LE(length(difference), 1e-12) << "sample " << i;
     fastest = std::max(fastest, length(here));
   }
-  EXPECT_GT(fastest, 5.0);  // something did blow
+  EXPECT_GT(fastest, 5.0);  // There is wind.
 }
 
 WindPrimitive disk(const std::string& name) {
@@ -141,13 +142,14 @@ TEST(WindLaw, EditsNeitherThePastNorInSteps) {  // N2
   ASSERT_TRUE(response.success) << response.message;
   const wind::Field after = listener.wait(hashOfBroadcaster());
   const Nanoseconds begins = after.primitives().back().t_on;
-  EXPECT_GE(begins, asked + fromSeconds(0.2));  // the lead
+  EXPECT_GE(begins, asked + fromSeconds(0.2));  // This is the lead of an edit.
   EXPECT_EQ(after.primitives().back().epoch, before.primitives().at(0).epoch);
   const Vec3 position(1.0, 2.0, 3.0);
   for (double t = -20.0; t <= 0.0; t += 0.01)
     ASSERT_EQ(before.velocity(position, begins + fromSeconds(t)),
               after.velocity(position, begins + fromSeconds(t)));
-  const double h = 1e-4;  // [s]; 8 m/s times the fade's steepest 1.9 / s, the turbulence, the discs
+  // [s]; the limit is 8 m/s times the largest slope of the fade, 1.9 / s, plus turbulence and discs
+  const double h = 1e-4;
   for (double t = -0.1; t < 1.5; t += h)
     ASSERT_LT(length(after.velocity(position, begins + fromSeconds(t + h)) -
                      after.velocity(position, begins + fromSeconds(t))),

@@ -9,7 +9,7 @@
 namespace vegetation_sim {
 namespace {
 
-/// Ranges by the names of the fields.
+/// Collects ranges by the names of the fields.
 class Ranges : public FieldVisitor {
  public:
   void number(const char* name, double&, const char*, Range range) override {
@@ -69,7 +69,7 @@ TEST(FreshLedger, StartsAllStampsAtTheStart) {
   tied.attached_frame = "drone";
   settings.sources = {late, tied};
   const wind::Field field = initialSchedule(settings, fromSeconds(100.0)).field();
-  ASSERT_EQ(field.primitives().size(), 1u);  // the tied one waits for tf
+  ASSERT_EQ(field.primitives().size(), 1u);  // The attached primitive waits for tf.
   EXPECT_EQ(field.primitives()[0].t_on, fromSeconds(105.0));
   EXPECT_EQ(field.seed(), 9u);
 }

@@ -27,7 +27,7 @@ TEST(CanopyConversions, LayoutSurvivesTheRoundTrip) {
   EXPECT_THROW(fromMsg(message), InvalidInput);
 }
 
-// A replica that hears the messages moves every leaf to the same bits.
+// A replica that receives the messages moves every leaf to the same bits.
 TEST(CanopyConversions, StateRebuildsEveryLeafToTheBit) {
   canopy::Canopy sender(canopy::shrubScene());
   sender.setWind(canopy::breezeFrom(Vec3(2.0, 4.0, 0.0)));

@@ -23,7 +23,8 @@ AgentState standing(std::uint32_t id) {
   return out;
 }
 
-// What a stranger tells of walkers is refused with who it is, what, its value and the range.
+// Invalid walkers in a message are rejected with an error that names walker, field, value and
+// range.
 TEST(CrowdConversions, RefuseWalkersThatCannotBe) {
   constexpr double NONE = std::numeric_limits<double>::quiet_NaN();
   const std::vector<std::pair<std::string, std::function<void(AgentState&)>>> faults = {

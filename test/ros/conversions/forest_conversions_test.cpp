@@ -16,7 +16,7 @@ namespace {
 
 constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
 
-/// Every field set to something of its own.
+/// Returns a layout with a different value in every field.
 forest::Layout exampleLayout() {
   forest::Layout out = forest::gridLayout(2, 10.0);
   out.motion = {1, 1, 1, 3.25, 1};
@@ -29,12 +29,12 @@ forest::Layout exampleLayout() {
   return out;
 }
 
-TEST(ForestConversions, ReturnEveryFieldOfALayout) {  // S1-04: seeds are all that is sent
+TEST(ForestConversions, ReturnEveryFieldOfALayout) {  // S1-04: the message has only seeds
   const forest::Layout layout = exampleLayout();
   const ForestLayout message = toMsg(layout);
   const forest::Layout back = fromMsg(message);
   EXPECT_EQ(message.hash, layout.hash());
-  EXPECT_EQ(back.hash(), layout.hash());  // the hash is over every number
+  EXPECT_EQ(back.hash(), layout.hash());  // the hash covers every number
   EXPECT_EQ(back.terrain, layout.terrain);
   EXPECT_EQ(message.joint_model, "paper");
   EXPECT_EQ(message.gain, "paper");
@@ -179,7 +179,7 @@ Viewer exampleViewer() {
   out.id = "eye";
   out.header.stamp = ros::Time(12, 5);
   out.pose.position.x = 3.0;
-  out.pose.orientation.z = out.pose.orientation.w = std::sqrt(0.5);  // looks north
+  out.pose.orientation.z = out.pose.orientation.w = std::sqrt(0.5);  // faces north
   out.field_of_view = 1.0;
   out.height = 800;
   return out;
@@ -190,7 +190,7 @@ TEST(ForestConversions, ViewerBecomesAnEye) {  // N8
   EXPECT_EQ(viewer.id, "eye");
   EXPECT_EQ(viewer.stamp, 12000000005);
   EXPECT_EQ(viewer.eye.position.x(), 3.0);
-  // Half the height of the picture over the tangent of half the angle.
+  // The focal length is half the height of the image divided by the tangent of half the angle.
   EXPECT_NEAR(viewer.eye.pixels_per_radian, 400.0 / std::tan(0.5), 1e-9);
   EXPECT_NEAR(viewer.eye.forward.y(), 1.0, 1e-12);
   EXPECT_TRUE(sees(viewer.eye, Vec3(3.0, 50.0, 0.0), 1.0));

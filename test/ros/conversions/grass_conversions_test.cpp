@@ -14,7 +14,8 @@ namespace {
 
 constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
 
-/// Every field set to something of its own; pictures of one and of two bytes a sample.
+/// Returns a layout with a different value in every field and images of one and two bytes per
+/// sample.
 grass::Layout exampleLayout() {
   grass::MapInput map;
   map.law = {1.5, -3.0, 4.0, 3, 2};
@@ -42,7 +43,7 @@ grass::Layout exampleLayout() {
 TEST(GrassConversions, ReturnEveryFieldOfALayout) {  // S2-03, S2-W2
   const grass::Layout layout = exampleLayout();
   const grass::Layout back = fromMsg(toMsg(layout));
-  EXPECT_EQ(back.hash(), layout.hash());  // over every number
+  EXPECT_EQ(back.hash(), layout.hash());  // the hash covers every number
   EXPECT_EQ(back.terrain, layout.terrain);
   EXPECT_EQ(back.map->hash(), layout.map->hash());
   EXPECT_EQ(toMsg(layout).blade_model, "paper");
@@ -108,7 +109,7 @@ TEST(TreadConversions, ZerosBecomeTheNodesOwn) {
   EXPECT_EQ(input.law.radius, 0.1);
   EXPECT_EQ(input.law.recovery, 30.0);
   EXPECT_EQ(input.height_gate, 0.4);
-  message.law.radius = 0.2;  // reach and softness grow with it
+  message.law.radius = 0.2;  // reach and softness grow in proportion
   message.law.load = 0.5;
   message.height_gate = 0.1;
   input = fromMsg(message, own, 0.4);

@@ -11,7 +11,7 @@ namespace {
 
 TEST(WindConversions, ReturnEveryFieldToTheBit) {  // N2
   std::vector<wind::Primitive> sources = wind::oneOfEach();
-  double value = 0.1;  // all different, so that no two fields can be mixed up
+  double value = 0.1;  // All values differ, so that no two fields can be swapped.
   for (wind::Primitive& p : sources)
     for (double* number :
          {&p.fade_in, &p.fade_out, &p.orbit_radius, &p.orbit_period, &p.repeat, &p.radius, &p.omega,
@@ -24,7 +24,7 @@ TEST(WindConversions, ReturnEveryFieldToTheBit) {  // N2
   EXPECT_EQ(message.header.frame_id, "odom");
   EXPECT_EQ(message.header.stamp, ros::Time(17, 250000000));
   EXPECT_EQ(message.hash, field.hash());
-  EXPECT_EQ(fromMsg(message).hash(), field.hash());  // the hash is over every field
+  EXPECT_EQ(fromMsg(message).hash(), field.hash());  // the hash covers every field
 }
 
 TEST(WindConversions, RefuseAFieldThatTheSenderComputesDifferently) {  // N2

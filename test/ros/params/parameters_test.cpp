@@ -10,7 +10,7 @@
 namespace vegetation_sim {
 namespace {
 
-/// Everything that a reader can be asked for.
+/// One value of each type that a reader supports.
 struct Asked {
   double number{1.0};
   int integer{1}, choice{0};
@@ -20,7 +20,7 @@ struct Asked {
   std::uint64_t seed{1};
   std::vector<int> integers{1};
 
-  /// All faults, without the namespace.
+  /// Returns all faults without the namespace.
   std::string read(const ros::NodeHandle& handle) {
     Parameters parameters(handle);
     parameters.number("number", number, "m", {0.0, 10.0});
@@ -52,7 +52,7 @@ class ParametersTest : public testing::Test {
   ParametersTest() : handle_("~/case") {}
   ~ParametersTest() override { ros::param::del(handle_.getNamespace()); }
 
-  /// What is said of one bad value, everything else being absent.
+  /// Returns the error for one bad value while the other parameters are absent.
   template <class Value>
   std::string faultOf(const std::string& name, const Value& value) {
     handle_.setParam(name, value);
@@ -65,7 +65,7 @@ class ParametersTest : public testing::Test {
 };
 
 TEST_F(ParametersTest, GoodValuesAreTaken) {
-  handle_.setParam("number", 3);  // a whole number is a number too
+  handle_.setParam("number", 3);  // An integer is also a number.
   handle_.setParam("integer", 7);
   handle_.setParam("choice", "pine");
   handle_.setParam("vector", list({1.0, -2.5, 5.0}));

@@ -14,7 +14,7 @@
 namespace vegetation_sim {
 namespace {
 
-/// A folder of this test's own, gone afterwards.
+/// A folder of this test, which is deleted afterwards.
 class PlantFiles : public ::testing::Test {
  protected:
   PlantFiles()
@@ -32,7 +32,7 @@ class PlantFiles : public ::testing::Test {
   std::filesystem::path folder_;
 };
 
-// A leaf of two triangles and a trunk of one.
+// The mesh has a leaf of two triangles and a trunk of one.
 const char* const SHRUB =
     "v 0 0 1\nv 1 0 1\nv 0 0.2 2\nv 1 0.2 2\nv 0 0 0\nv 0.1 0 0\nv 0 0 1\n"
     "o leaf\nusemtl green\nf 1 2 3\nf 2 4 3\no old_trunk\nusemtl brown\nf 5 6 7\n";
@@ -43,7 +43,7 @@ std::string slice(int dark, int rows = 2) {
   return out;
 }
 
-// S3-02, S3-03, S3-29: leaves and rigid parts of a mesh, by the names in the file.
+// S3-02, S3-03, S3-29: the names in the file distinguish leaves and rigid parts of a mesh.
 TEST_F(PlantFiles, HaveLeavesAndRigidPartsOfAMesh) {
   const canopy::LeafMesh mesh = loadLeafMesh(write("shrub.obj", SHRUB));
   const canopy::Form form = canopy::formOf(mesh, false);
@@ -54,7 +54,7 @@ TEST_F(PlantFiles, HaveLeavesAndRigidPartsOfAMesh) {
             form.hash);
 }
 
-// A package's mesh, as other nodes name theirs.
+// The mesh of a package is named as in other nodes.
 TEST_F(PlantFiles, AreFoundInPackages) {
   const canopy::Form fern =
       canopy::formOf(loadLeafMesh("package://vegetation_sim/media/plants/fern.obj"), false);
@@ -65,7 +65,7 @@ TEST_F(PlantFiles, AreFoundInPackages) {
   EXPECT_GT(moss.leaves.size(), 500U);
 }
 
-// S3-29: an image stack.
+// S3-29: an image stack is a plant.
 TEST_F(PlantFiles, AreReadAsSlices) {
   write("s_9.pgm", slice(1));
   write("s_10.pgm", slice(0));
@@ -78,7 +78,7 @@ TEST_F(PlantFiles, AreReadAsSlices) {
             std::string::npos);
 }
 
-// Bad input: each names its file and what is wrong.
+// Each error names the file and the fault.
 TEST_F(PlantFiles, AreRefusedByName) {
   const auto text = [&](const std::string& name) {
     return errorOf([&] { canopy::formOf(loadLeafMesh(name), false); });
@@ -94,15 +94,15 @@ TEST_F(PlantFiles, AreRefusedByName) {
   EXPECT_FALSE(text(write("wild.obj", "v 0 0 0\nv 0 0 1\nv 1 1 1\nf 1 2 99\n")).empty());
 }
 
-// Before it is read.
+// The size is checked before the file is read.
 TEST_F(PlantFiles, AreRefusedIfTheyAreTooLarge) {
   const std::string name = write("huge.obj", "");
-  std::filesystem::resize_file(name, (std::uintmax_t{512} << 20) + 1);  // a hole on the disk
+  std::filesystem::resize_file(name, (std::uintmax_t{512} << 20) + 1);  // The file is sparse.
   const std::string text = errorOf([&] { loadLeafMesh(name); });
   EXPECT_NE(text.find("huge.obj: 536870913 bytes, more than 536870912"), std::string::npos) << text;
 }
 
-// A layout with a mesh goes through its message, and a changed file is noticed.
+// A layout with a mesh survives the conversion to a message, and a changed file is detected.
 TEST_F(PlantFiles, GoThroughTheLayoutsMessage) {
   canopy::Layout layout;
   layout.kinds.resize(1);

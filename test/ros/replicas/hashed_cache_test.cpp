@@ -7,7 +7,7 @@
 namespace vegetation_sim {
 namespace {
 
-// Whatever the hashes, the oldest one goes.
+// The oldest entry is removed, whatever its hash.
 TEST(HashedCache, ForgetsTheOldest) {
   HashedCache<int> heard;
   for (int i = 0; i < 12; ++i) heard.keep(static_cast<std::uint64_t>(1000 - i), i);

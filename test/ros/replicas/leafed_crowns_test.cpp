@@ -12,7 +12,7 @@
 namespace vegetation_sim {
 namespace {
 
-/// One oak with leaves of a canopy, in still air.
+/// One oak with canopy leaves stands in still air.
 class LeafedOak : public ::testing::Test {
  protected:
   LeafedOak() {
@@ -28,7 +28,7 @@ class LeafedOak : public ::testing::Test {
     crowns_.grow(layout_, forest_);
   }
 
-  /// The forest's state with a bend of one branch, as somebody holds it.
+  /// Returns the state of the forest with one bent branch, as if it were held.
   void bend(int branch, double angle) {
     forest::StateUpdate state;
     state.layout_hash = forest_.layoutHash();
@@ -61,7 +61,7 @@ class LeafedOak : public ::testing::Test {
   LeafedCrowns crowns_;
 };
 
-// S3-W2: a branch that is held takes its leaves along, and no others.
+// S3-W2: a held branch moves its own leaves and no others.
 TEST_F(LeafedOak, TakesLeavesAlongWithTheBranchThatIsHeld) {
   canopy::Canopy canopy(layout_);
   const auto& foliage = canopy.foliage();
@@ -87,7 +87,8 @@ TEST_F(LeafedOak, TakesLeavesAlongWithTheBranchThatIsHeld) {
   EXPECT_GT(carried, 0.1);
 }
 
-// S3-W2: the layers move leaves about wood that stands; they stay on it and keep their length.
+// S3-W2: the layers move leaves around wood at rest. The leaves stay on the wood and keep their
+// length.
 TEST_F(LeafedOak, HasLeavesThatMoveInLayersOnTheirWood) {
   canopy::Canopy canopy(layout_);
   canopy.setWind(canopy::breezeFrom(Vec3(1.0, 6.0, 0.0)));
@@ -104,8 +105,8 @@ TEST_F(LeafedOak, HasLeavesThatMoveInLayersOnTheirWood) {
   EXPECT_GT(moved, 0.2);
 }
 
-// S3-W2, S3-05: a crown is cut into layers also where no plant stands, and nothing that the canopy
-// remembers depends on it, though the viewer moves: a replay needs no forest.
+// S3-W2, S3-05: a crown is cut into layers also where no plant stands. The state of the canopy does
+// not depend on it, even while the viewer moves, so a replay needs no forest.
 TEST_F(LeafedOak, IsCutIntoLayersWithoutAnyPlant) {
   layout_.plants.clear();
   canopy::Canopy with(layout_), without(layout_);

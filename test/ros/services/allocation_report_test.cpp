@@ -32,7 +32,7 @@ TierAllocation balanceOf(double cost, double wanted, double largest, std::size_t
   return out;
 }
 
-// N7: the reason told is the true one.
+// N7: the reported reason is correct.
 TEST(BalanceReport, SaysWhy) {
   EXPECT_EQ(reasonFor(balanceOf(60, 60, 1, 0, 0, 2)), "the tolerance is held");
   EXPECT_EQ(reasonFor(balanceOf(60, 60, 3, 1, 0, 2)), "finer rungs there are none");
@@ -44,12 +44,13 @@ TEST(BalanceReport, ABudgetBindsThatPaysForNothing) {
   EXPECT_EQ(reasonFor(balanceOf(0, 120, 3, 2, 2, 0)), "marker_points binds");
 }
 
-// Blades grow fewer within their tier: nothing is held back, yet more is asked for than there is.
+// The number of blades is reduced within their tier: no upgrade is held back, but the demand
+// exceeds the budget.
 TEST(BalanceReport, ABudgetBindsThatThinsARung) {
   EXPECT_EQ(reasonFor(balanceOf(99, 120, 1, 0, 0, 2)), "marker_points binds");
 }
 
-// Strips have no price; who is small enough is seen well without any.
+// Strips cost nothing, and objects that are small enough need no cost at all.
 TEST(BalanceReport, WhatCostsNothingMayBeSeen) {
   EXPECT_EQ(reasonFor(balanceOf(0, 0, 0, 0, 0, 2)), "the tolerance is held");
   EXPECT_EQ(reasonFor(balanceOf(0, 0, 0.5, 0, 0, 0)), "the tolerance is held");

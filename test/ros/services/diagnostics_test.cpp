@@ -18,7 +18,7 @@ std::string publishedOf(int faults) {
   return status.message;
 }
 
-// A message of a hundred robots that all are wrong does not fill the screen.
+// A message with a hundred wrong robots does not fill the screen.
 TEST(Troubles, OfManyFaultsTheFirstAreToldAndHowManyMore) {
   EXPECT_EQ(publishedOf(1), "1 fault 1");
   EXPECT_EQ(publishedOf(5), "1 fault 1\nfault 2\nfault 3\nfault 4\nfault 5");

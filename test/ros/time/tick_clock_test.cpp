@@ -13,10 +13,10 @@ namespace {
 constexpr Nanoseconds SECOND = NANOSECONDS_PER_SECOND;
 constexpr Nanoseconds UNIX = 1700000000 * SECOND;
 
-/// N6: the rule of time of all nodes.
+/// N6: all nodes handle time by the same rule.
 class TickClockTest : public testing::Test {
  protected:
-  void SetUp() override { ros::Time::init(); }  // for its warnings
+  void SetUp() override { ros::Time::init(); }  // The warnings of the clock need ROS time.
   TickClock make(double delay = 0.0, LateTicks late = LateTicks::EACH) {
     TickCalls calls;
     calls.before = [this] { did_.push_back("before"); };
@@ -104,7 +104,7 @@ TEST_F(TickClockTest, ADelayedOneStaysBehindTheClock) {
   EXPECT_EQ(did_, (Did{"before", "45"}));
 }
 
-// The restarted node may ask for the clock: it has not begun.
+// The restarted node may ask for the clock, because its time has not begun.
 TEST_F(TickClockTest, HasNotBegunWhileItStartsAnew) {
   TickClock* seen = nullptr;
   bool begun = true;

@@ -10,12 +10,12 @@
 namespace vegetation_sim {
 namespace {
 
-/// rviz and some shrubs that the rig moves, or a forest with such leaves.
+/// rviz and shrubs that the rig moves, or a forest with canopy leaves.
 class CanopyRig : public DisplayRig {
  public:
   CanopyRig() { startNode(); }
 
-  /// A node that publishes the leaves; one that ran dies.
+  /// Starts a node that publishes the leaves. A node that already runs is stopped.
   void startNode() {
     for (ros::Publisher* publisher : {&layout_, &state_}) publisher->shutdown();
     layout_ = nh_.advertise<CanopyLayout>("canopy/layout", 1, true);
@@ -50,7 +50,7 @@ class CanopyRig : public DisplayRig {
     message.header.frame_id = "map";
     publish(message);
   }
-  /// Moves the leaves for a while, telling each tick.
+  /// Moves the leaves for some ticks and publishes the state of each tick.
   void blow(int ticks) {
     for (int i = 0; i < ticks; ++i) {
       setTime(now() + 0.05);
@@ -71,7 +71,8 @@ class CanopyRig : public DisplayRig {
   std::unique_ptr<canopy::Canopy> canopy_;
 };
 
-// rviz can only be started once in a process: one rig for all tests, a fresh display for each.
+// rviz can be started only once in a process, so all tests share one rig. Each test has its own
+// display.
 std::unique_ptr<CanopyRig> shared_rig;
 
 class CanopyDisplayTest : public testing::Test {
@@ -96,7 +97,7 @@ class CanopyDisplayTest : public testing::Test {
   CanopyDisplay* display{nullptr};
 };
 
-// S3-01, S3-30: leaves of each plant in front of a sky, on grass.
+// S3-01, S3-30: the leaves of each plant appear in front of a sky, on grass.
 TEST_F(CanopyDisplayTest, DrawsLeavesOnGrassUnderASky) {
   rig.frames(5);
   const Impression seen = rig.look();
@@ -106,7 +107,7 @@ TEST_F(CanopyDisplayTest, DrawsLeavesOnGrassUnderASky) {
   EXPECT_EQ(display->drawn().leaves, 2u * 600 + 2u * 40 * 6);
 }
 
-// S3-27: leaves move with the states that are told, and only with them.
+// S3-27: leaves move only with received states.
 TEST_F(CanopyDisplayTest, MovesWithTheStateAlone) {
   rig.frames(5);
   const std::vector<std::uint8_t> before = rig.picture();
@@ -116,8 +117,8 @@ TEST_F(CanopyDisplayTest, MovesWithTheStateAlone) {
   EXPECT_TRUE(rig.until([&] { return difference(before, rig.picture()) > 0.3; }));
 }
 
-// S3-W2: leaves on trees of the forest, in layers where no plant stands, go with their wood at
-// rviz's time, whatever the leaves' own state.
+// S3-W2: leaves on trees of the forest, in layers where no plant stands, move with their wood at
+// the time of rviz, whatever the state of the canopy is.
 TEST_F(CanopyDisplayTest, CrownsGoWithTheirForest) {
   canopy::Layout crowns = CanopyRig::shrubs(0);
   crowns.crowns.resize(1);
@@ -144,7 +145,7 @@ TEST_F(CanopyDisplayTest, CrownsGoWithTheirForest) {
   }));
 }
 
-// Names of the forest's topics are looked at before there are crowns.
+// The names of the forest's topics are checked before there are crowns.
 TEST_F(CanopyDisplayTest, ForestTopicsThatCannotBeAreSaid) {
   canopy::Layout crowns = CanopyRig::shrubs(0);
   crowns.crowns.resize(1);
@@ -162,7 +163,7 @@ TEST_F(CanopyDisplayTest, ForestTopicsThatCannotBeAreSaid) {
   }
 }
 
-// Far away fewer leaves stand for all, and the plants keep their size in the picture.
+// Far away fewer leaves represent all, and the plants keep their size in the image.
 TEST_F(CanopyDisplayTest, FarLeavesAreFewer) {
   rig.lookAt(0.8f, 0.25, 60.0);
   EXPECT_TRUE(rig.until([&] {

@@ -47,7 +47,7 @@ double distanceToTriangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec
       {distanceToSegment(p, a, b), distanceToSegment(p, b, c), distanceToSegment(p, c, a)});
 }
 
-/// How far the vertices of one mesh are from the surface of another at most [m].
+/// Returns the largest distance of the vertices of one mesh from the surface of another [m].
 double farthest(const grass::GrassMesh& from, const grass::GrassMesh& to) {
   double out = 0.0;
   for (std::size_t i = 0; i < from.vertexCount(); ++i) {
@@ -61,8 +61,8 @@ double farthest(const grass::GrassMesh& from, const grass::GrassMesh& to) {
   return out;
 }
 
-// From each size to one that is a thousandth smaller: by less than a twentieth of a pixel, and no
-// colour by more than a few of 255.
+// From each size to one that is smaller by a thousandth, the surface changes by less than a
+// twentieth of a pixel and each colour by at most a few of 255.
 TEST(BodyMesh, NothingPopsAsABodyGetsSmaller) {
   int switches = 0;
   double farthest_pixels = 0.0;

@@ -13,12 +13,12 @@
 namespace vegetation_sim {
 namespace {
 
-/// rviz and a crowd that the rig walks.
+/// rviz and a crowd that the rig moves.
 class CrowdRig : public ViewRig {
  public:
   CrowdRig() { startNode(); }
 
-  /// A node that publishes the people; one that ran dies.
+  /// Starts a node that publishes the people. A node that already runs is stopped.
   void startNode() {
     agents_.shutdown();
     agents_ = nh_.advertise<AgentStates>("agents", 10);
@@ -43,12 +43,13 @@ class CrowdRig : public ViewRig {
       out.agents.push_back(toMsg(walker, crowd_->terrain()));
     return out;
   }
-  /// Nobody moves: however often a slow rviz has to be told, all stay in the picture.
+  /// Publishes the crowd without motion. All people stay in the image, however often a slow rviz
+  /// needs the message.
   void report() {
     setTime(now() + 0.1);
     publish(message());
   }
-  /// Walks for a while and tells once.
+  /// Walks for some time and publishes once.
   void walk(double seconds) {
     for (double t = 0.0; t < seconds; t += 0.1) {
       setTime(now() + 0.1);
@@ -63,7 +64,8 @@ class CrowdRig : public ViewRig {
   std::unique_ptr<crowd::Crowd> crowd_;
 };
 
-// rviz can only be started once in a process: one rig for all tests, a fresh display for each.
+// rviz can be started only once in a process, so all tests share one rig. Each test has its own
+// display.
 std::unique_ptr<CrowdRig> shared_rig;
 
 class CrowdDisplayTest : public testing::Test {
@@ -89,7 +91,7 @@ class CrowdDisplayTest : public testing::Test {
   CrowdDisplay* display{nullptr};
 };
 
-// S2-35: bodies on a lit ground, more than one colour of them.
+// S2-35: bodies of several colours stand on a lit ground.
 TEST_F(CrowdDisplayTest, DrawsPeopleOnGrassUnderASky) {
   rig.frames(10);
   const Impression seen = rig.look();
@@ -109,7 +111,7 @@ TEST_F(CrowdDisplayTest, PeopleWalk) {
   EXPECT_TRUE(rig.until([&] { return difference(before, rig.picture()) > 0.3; }));
 }
 
-// S2-15 in spirit: who is far away is drawn with less.
+// This applies S2-15 to people: distant people are drawn with fewer triangles.
 TEST_F(CrowdDisplayTest, FarPeopleCostLess) {
   const std::size_t near = display->drawn().triangles;
   rig.lookAt(0.9f, 0.2, 120.0);
@@ -143,7 +145,7 @@ TEST_F(CrowdDisplayTest, SurvivesTimeGoingBack) {
   rig.setTime(rig.now() - 50.0);
   EXPECT_TRUE(rig.until([&] { return display->drawn().people == 0; }));
   EXPECT_TRUE(rig.until([&] {
-    rig.report();  // rviz listens anew
+    rig.report();  // rviz has subscribed again.
     return display->drawn().drawn == 8;
   }));
 }
@@ -154,7 +156,7 @@ TEST_F(CrowdDisplayTest, NobodyIsLeftWhenTheirNodeDies) {
   EXPECT_EQ(display->drawn().people, 8u);
   rig.setTime(rig.now() + 3.5);
   EXPECT_TRUE(rig.until([&] { return display->drawn().people == 0; }));
-  rig.report();  // it returns
+  rig.report();  // The node returns.
   EXPECT_TRUE(rig.until([&] { return display->drawn().people == 8; }));
 }
 
@@ -187,7 +189,7 @@ TEST_F(CrowdDisplayTest, TellsTheGovernorsChoice) {
 TEST_F(CrowdDisplayTest, EveryPropertyCanBeChanged) {
   expectEveryPropertyCanBeChanged(rig, *display);
   EXPECT_TRUE(rig.until([&] {
-    rig.report();  // another topic had nobody
+    rig.report();  // There were no people on the other topic.
     return display->drawn().drawn == 8;
   }));
 }
@@ -196,7 +198,8 @@ TEST_F(CrowdDisplayTest, SettingsSurviveSaveAndLoad) {
   expectSettingsSurvive(rig, *display, [&] { return rig.addDisplay(); });
 }
 
-// One ground, one sky: whoever came first draws them, and the other when that one goes.
+// There is one ground and one sky: the first display draws them, and another display takes over
+// when the first is removed.
 TEST_F(CrowdDisplayTest, TwoDrawOneScenery) {
   CrowdDisplay* other = rig.addDisplay();
   rig.report();
@@ -211,7 +214,7 @@ TEST_F(CrowdDisplayTest, TwoDrawOneScenery) {
   EXPECT_GT(rig.look().green, 0.2);
 }
 
-// The ground is made anew where the terrain is another.
+// The ground is built again for another terrain.
 TEST_F(CrowdDisplayTest, TheGroundFollowsTheTerrain) {
   ros::Publisher layout = rig.nodeHandle().advertise<ForestLayout>("forest/layout", 1, true);
   ForestLayout message;

@@ -15,7 +15,8 @@ namespace {
 
 constexpr int TREES = 16;
 
-// rviz can only be started once in a process: one rig for all tests, a fresh display for each.
+// rviz can be started only once in a process, so all tests share one rig. Each test has its own
+// display.
 std::unique_ptr<DisplayRig> shared_rig;
 
 class ForestDisplayTest : public testing::Test {
@@ -49,7 +50,7 @@ class ForestDisplayTest : public testing::Test {
   ForestDisplay* display{nullptr};
 };
 
-// S2-16: trees are built on the fly from the layout, and seen.
+// S2-16: trees are built from the layout at run time and are visible.
 TEST_F(ForestDisplayTest, DrawsAForestWithGroundAndSky) {
   ASSERT_TRUE(drawn());
   ASSERT_TRUE(advanceUntil([&] { return display->drawn().moving == TREES; }));
@@ -58,7 +59,7 @@ TEST_F(ForestDisplayTest, DrawsAForestWithGroundAndSky) {
   EXPECT_GT(seen.green, 0.15);
   EXPECT_GT(seen.blue, 0.05);
   EXPECT_GT(seen.spread, 15.0);
-  // Upwards: the sky has clouds and gets paler towards the horizon.
+  // The camera faces upwards: the sky has clouds and gets paler towards the horizon.
   rig.lookAt(9.f, -0.5, 4.0);
   rig.frames(3);
   EXPECT_LT(rig.look().commonest, 0.1);
@@ -68,7 +69,7 @@ TEST_F(ForestDisplayTest, NothingMovesWhileTheClockStands) {
   ASSERT_TRUE(drawn());
   ASSERT_TRUE(advanceUntil([&] { return display->drawn().moving == TREES; }));
   ASSERT_TRUE(rig.until([&] { return display->drawn().moving == 0; }));
-  // Levels of detail may still settle; then one frame is as the other.
+  // After the transitions of levels of detail have ended, all frames are equal.
   std::vector<std::uint8_t> before;
   EXPECT_TRUE(rig.until([&] {
     before = rig.picture();
@@ -79,13 +80,13 @@ TEST_F(ForestDisplayTest, NothingMovesWhileTheClockStands) {
   EXPECT_TRUE(rig.until([&] { return rig.picture() != before; }));
 }
 
-// Trees behind the eye are neither drawn nor moved; those that come into view are in their place at
-// once.
+// Trees behind the camera are neither drawn nor moved. Trees that come into view are in their place
+// at once.
 TEST_F(ForestDisplayTest, TreesBehindTheEyeAreLeftOutAndDoNotPop) {
-  display->subProp("Update Rate")->setValue(120.f);  // no picture without an update
-  display->subProp("Triangles")->setValue(1000);     // the coarsest, wherever one looks
+  display->subProp("Update Rate")->setValue(120.f);  // Every frame has an update.
+  display->subProp("Triangles")->setValue(1000);  // The coarsest level is used in every direction.
   ASSERT_TRUE(drawn());
-  // From within the box of all trees, at its corner.
+  // The camera is at a corner of the box of all trees.
   rig.lookAt(2.f, 0.0, 0.1);
   rig.manager().getViewManager()->getCurrent()->lookAt(30.f, 30.f, 2.f);
   const auto turn = [&](double yaw) {
@@ -134,8 +135,8 @@ TEST_F(ForestDisplayTest, SurvivesTimeGoingBack) {
   EXPECT_TRUE(advanceUntil([&] { return display->drawn().moving == TREES; }));
 }
 
-// The forest sends a key frame at once when time goes back; it may be here before the display knows
-// of the jump, and no other comes for a while.
+// The forest sends a key frame at once when the clock jumps back. It may arrive before the display
+// knows of the jump, and the next one comes much later.
 TEST_F(ForestDisplayTest, KeepsTheKeyFrameThatComesWithAJumpBack) {
   ASSERT_TRUE(drawn());
   const auto state = [&] {
@@ -145,16 +146,16 @@ TEST_F(ForestDisplayTest, KeepsTheKeyFrameThatComesWithAJumpBack) {
   };
   ASSERT_TRUE(rig.until([&] { return state() == "In step"; })) << state();
   rig.publishState(rig.now() - 50.0);
-  rig.frames(10);  // it is here
+  rig.frames(10);  // The key frame has arrived.
   rig.setTime(rig.now() - 49.98);
-  rig.frames(40);  // a status is shown twice a second
+  rig.frames(40);  // A status is updated twice a second.
   EXPECT_EQ(state(), "In step");
 }
 
-// Each step towards a number of triangles waits for fades of a dozen pictures [s].
+// [s]; each step towards a number of triangles waits for transitions of a dozen frames
 constexpr double LONG = 240.0;
 
-// S1-14: the picture's complexity follows what the user asks for.
+// S1-14: the complexity of the image follows the setting of the user.
 TEST_F(ForestDisplayTest, KeepsToTheTriangles) {
   ASSERT_TRUE(drawn());
   for (const double target : {60000.0, 30000.0, 60000.0}) {
@@ -169,8 +170,8 @@ TEST_F(ForestDisplayTest, KeepsToTheTriangles) {
   }
 }
 
-// Where there are more trees than are drawn, others become the nearest as the eye goes: none of
-// them is ever without a mesh.
+// There are more trees than may be drawn. While the camera moves, other trees become the nearest,
+// and none of them is ever without a mesh.
 TEST_F(ForestDisplayTest, OtherTreesTakeTheirPlaceWithoutAGap) {
   display->subProp("Most Trees")->setValue(300);
   rig.publishForest(forest::gridLayout(24, 4.0));
@@ -183,7 +184,7 @@ TEST_F(ForestDisplayTest, OtherTreesTakeTheirPlaceWithoutAGap) {
   ASSERT_TRUE(rig.until([&] { return standing() && display->drawn().waiting == 0; }, LONG));
   const int before = display->drawn().tree_sets;
   rviz::ViewController& view = *rig.manager().getViewManager()->getCurrent();
-  view.lookAt(60.f, 60.f, 2.f);  // turns there; the eye goes by the distance
+  view.lookAt(60.f, 60.f, 2.f);  // The camera turns there and moves with the distance.
   view.subProp("Distance")->setValue(10.0);
   int bare = 0;
   EXPECT_TRUE(rig.until(
@@ -195,8 +196,8 @@ TEST_F(ForestDisplayTest, OtherTreesTakeTheirPlaceWithoutAGap) {
   EXPECT_EQ(bare, 0);
 }
 
-// S1-13: nothing pops. An update shows at most a fifth of the way of each tree, and a few of them
-// at once; now and then two updates pass between two pictures.
+// S1-13: nothing pops. An update shows at most a fifth of the transition of each tree, and few
+// trees change at once. Sometimes two updates happen between two frames.
 TEST_F(ForestDisplayTest, LevelsFadeIntoOneAnother) {
   display->subProp("Triangles")->setValue(30000);
   ASSERT_TRUE(drawn());
@@ -228,7 +229,8 @@ TEST_F(ForestDisplayTest, LevelsFadeIntoOneAnother) {
   EXPECT_LT(step, 0.45 * all);
 }
 
-// N8: the pose of rviz's camera, x forward and z up, on change and at least each second.
+// N8: the display publishes the pose of rviz's camera, x forward and z up, on change and at least
+// once a second.
 TEST_F(ForestDisplayTest, TellsWhereTheViewLooksFrom) {
   std::vector<Viewer> heard;
   const ros::Subscriber subscriber = rig.nodeHandle().subscribe<Viewer>(
@@ -262,7 +264,8 @@ TEST_F(ForestDisplayTest, TellsWhereTheViewLooksFrom) {
   rig.panel().resize(480, 360);
   rig.frames(2);
   const std::size_t before = heard.size();
-  EXPECT_TRUE(rig.until([&] { return heard.size() >= before + 2; }, 10.0));  // still, yet heard
+  // The camera does not move, and messages still arrive.
+  EXPECT_TRUE(rig.until([&] { return heard.size() >= before + 2; }, 10.0));
 }
 
 TEST_F(ForestDisplayTest, RefusesWhatCannotBeAndKeepsWhatItHas) {
@@ -304,7 +307,8 @@ TEST_F(ForestDisplayTest, TellsThatNoStateComes) {
 }
 
 TEST_F(ForestDisplayTest, FollowsANodeThatDiesAndReturns) {
-  display->subProp("Triangles")->setValue(1000);  // one state of rest: all trees the coarsest
+  // All trees at the coarsest level are a defined state.
+  display->subProp("Triangles")->setValue(1000);
   expectReloadsAreFollowed(
       rig,
       [&](int scene) {
@@ -317,7 +321,7 @@ TEST_F(ForestDisplayTest, FollowsANodeThatDiesAndReturns) {
       });
 }
 
-// N7: how the forest moves, and what its governor says of it.
+// N7: the display shows how the forest moves and what its governor reports.
 TEST_F(ForestDisplayTest, TellsLevelsOfMotionAndTheGovernorsChoice) {
   ASSERT_TRUE(drawn());
   EXPECT_TRUE(rig.until([&] {
@@ -328,7 +332,7 @@ TEST_F(ForestDisplayTest, TellsLevelsOfMotionAndTheGovernorsChoice) {
   const std::string published =
       expectAllocationIsReported(rig, *display, "forest_animator", "Predicted frame time [ms]",
                                  "Frame time budget [ms]", "ms");
-  // A node that has died is missed although its clock stands.
+  // A node that has died is reported although its clock has stopped.
   const std::string missed = "Not heard for 5 s; last: " + published;
   EXPECT_TRUE(rig.until([&] { return statusOf(*display, "Governor") == missed; }))
       << statusOf(*display, "Governor");

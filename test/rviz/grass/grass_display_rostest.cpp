@@ -14,9 +14,10 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr int TILES = 20;  // along an edge
+constexpr int TILES = 20;  // number of tiles along an edge
 
-// rviz can only be started once in a process: one rig for all tests, a fresh display for each.
+// rviz can be started only once in a process, so all tests share one rig. Each test has its own
+// display.
 std::unique_ptr<GrassRig> shared_rig;
 
 class GrassDisplayTest : public testing::Test {
@@ -45,7 +46,7 @@ class GrassDisplayTest : public testing::Test {
   bool drawn() {
     return rig.until([&] { return display->drawn().blades > 0; });
   }
-  /// Drawn, and nothing more is done while the clock stands.
+  /// Returns whether all is drawn and nothing more will change while the clock stops.
   bool settled() {
     int before = -1;
     return drawn() && rig.until([&] {
@@ -56,7 +57,7 @@ class GrassDisplayTest : public testing::Test {
     });
   }
   std::string status(const char* name) { return statusOf(*display, name); }
-  /// Mean difference from another picture.
+  /// Returns the mean difference from another image.
   double changed(const std::vector<std::uint8_t>& before) {
     return difference(before, rig.picture());
   }
@@ -65,7 +66,7 @@ class GrassDisplayTest : public testing::Test {
   GrassDisplay* display{nullptr};
 };
 
-// S2-05, S2-13: blades, strips beyond them and a ground without holes are seen.
+// S2-05, S2-13: blades, strips beyond them and a ground without holes are visible.
 TEST_F(GrassDisplayTest, DrawsAMeadowWithGroundAndSky) {
   lookFrom(0.25, 12.0);
   display->subProp("Blades")->setValue(3000);
@@ -88,7 +89,7 @@ TEST_F(GrassDisplayTest, MovesWithTheClockAlone) {
   EXPECT_TRUE(rig.until([&] { return changed(before) > 0.5; }));
 }
 
-// S2-21: a track is seen among blades, among strips and on the ground's picture alone.
+// S2-21: a track is visible among blades, among strips and in the texture of the ground alone.
 TEST_F(GrassDisplayTest, ShowsTracksAtEveryLevel) {
   struct Level {
     bool blades, strips;
@@ -108,7 +109,7 @@ TEST_F(GrassDisplayTest, ShowsTracksAtEveryLevel) {
   }
 }
 
-// S2-28: tracks go as the grass rises.
+// S2-28: tracks disappear while the grass rises.
 TEST_F(GrassDisplayTest, TracksGoWhenTheGrassHasRisen) {
   ASSERT_TRUE(settled());
   rig.tread({-4.0, 0.0}, {4.0, 0.0}, 5.0);
@@ -119,7 +120,7 @@ TEST_F(GrassDisplayTest, TracksGoWhenTheGrassHasRisen) {
   }));
 }
 
-// S2-15: fewer blades, or farther away, make a coarser picture, never more than asked.
+// S2-15: fewer blades or a larger distance make a coarser image, never above the limit.
 TEST_F(GrassDisplayTest, KeepsToTheBlades) {
   for (const int most : {20000, 4000}) {
     display->subProp("Blades")->setValue(most);
@@ -132,7 +133,7 @@ TEST_F(GrassDisplayTest, KeepsToTheBlades) {
   EXPECT_TRUE(rig.until([&] { return display->drawn().blades == 0; }));
 }
 
-// S2-15: after a step back nothing but levels change, and no two pictures in a row show much of it.
+// S2-15: after a step back only levels change, and no two successive images show much of it.
 TEST_F(GrassDisplayTest, LevelsFadeIntoOneAnother) {
   lookFrom(0.25, 8.0);
   display->subProp("Blades")->setValue(3000);
@@ -148,7 +149,7 @@ TEST_F(GrassDisplayTest, LevelsFadeIntoOneAnother) {
   ASSERT_TRUE(rig.until([&] {
     rig.frames(1);
     const std::vector<std::uint8_t> next = rig.picture();
-    const double frames = rig.frameCount() - frame;  // a busy machine may draw two at once
+    const double frames = rig.frameCount() - frame;  // A busy machine may draw two frames at once.
     step = std::max(step, rig.largestChange(last, next) / frames);
     frame += frames;
     same = next == last ? same + 1 : 0;
@@ -167,7 +168,7 @@ TEST_F(GrassDisplayTest, SurvivesTimeGoingBack) {
   rig.tread({-4.0, 0.0}, {4.0, 0.0});
   ASSERT_TRUE(rig.until([&] { return display->drawn().trodden > 0; }));
   rig.setTime(rig.now() - 50.0);
-  rig.publishMeadow(GrassRig::meadow(TILES));  // as the node does
+  rig.publishMeadow(GrassRig::meadow(TILES));  // The node does the same.
   EXPECT_TRUE(
       rig.until([&] { return display->drawn().tiles > 0 && display->drawn().trodden == 0; }));
   rig.tread({-4.0, 1.0}, {4.0, 1.0});
@@ -241,7 +242,8 @@ TEST_F(GrassDisplayTest, SettingsSurviveSaveAndLoad) {
   expectSettingsSurvive(rig, *display, [&] { return rig.addDisplay(); });
 }
 
-// A node without a meadow tells one where nothing grows: whoever knows more gives the ground.
+// A node without a meadow publishes a layout without grass; a display with more information draws
+// the ground.
 TEST_F(GrassDisplayTest, ABareMeadowLeavesTheGroundToOthers) {
   ASSERT_TRUE(drawn());
   auto* forest = rig.add<ForestDisplay>("vegetation_sim/ForestDisplay");
@@ -266,7 +268,7 @@ TEST_F(GrassDisplayTest, ABareMeadowLeavesTheGroundToOthers) {
   rig.remove(forest);
 }
 
-// More tiles than a picture has pixels: drawn without a ground, not stalled.
+// There are more tiles than a texture has pixels: the display draws no ground and does not stall.
 TEST_F(GrassDisplayTest, AMeadowTooLongForAPictureHasNoGround) {
   ASSERT_TRUE(drawn());
   grass::MapInput input;

@@ -9,7 +9,7 @@
 namespace vegetation_sim::view {
 namespace {
 
-/// Dense in the east, bare in the west.
+/// Returns a map that is dense in the east and bare in the west.
 grass::FeatureMap halfBare() {
   grass::MapInput input;
   input.law.columns = input.law.rows = 11;
@@ -22,8 +22,8 @@ float lightness(const Rgba& c) {
   return (c[0] + c[1] + c[2]) / 3.f;
 }
 
-// S2-13: the ground has the colour of the map: soil where nothing grows, grass where it is dense,
-// and lets less light through to where grass stands.
+// S2-13: the ground has the colours of the map, soil where nothing grows and grass where it is
+// dense, and it is darker under grass.
 TEST(MeadowPainter, PaintsSoilAndGrass) {
   const grass::FeatureMap map = halfBare();
   const terrain::HeightMap flat;
@@ -40,7 +40,8 @@ TEST(MeadowPainter, PaintsSoilAndGrass) {
   EXPECT_LT(grass[3], 0.7f);
 }
 
-// S2-21: a track is seen in the picture; a tile painted alone is the whole picture's.
+// S2-21: a track is visible in the texture, and a tile that is painted alone equals the tile of the
+// whole texture.
 TEST(MeadowPainter, PaintsTracksInTiles) {
   const grass::FeatureMap map = halfBare();
   const terrain::HeightMap flat;
@@ -56,7 +57,8 @@ TEST(MeadowPainter, PaintsTracksInTiles) {
   patch.tilt.assign(25, 0.f);
   patch.tx.assign(25, 0.f);
   patch.ty.assign(25, 0.f);
-  for (std::size_t i = 10; i < 15; ++i) patch.tilt[i] = patch.tx[i] = 1.5f;  // west to east
+  // The direction is from west to east.
+  for (std::size_t i = 10; i < 15; ++i) patch.tilt[i] = patch.tx[i] = 1.5f;
   const Image trodden = painter.tile(8, 4, &patch);
   const int row = trodden.rows / 2, column = trodden.columns / 2;
   EXPECT_GT(std::fabs(lightness(trodden.at(column, row)) / lightness(plain.at(column, row)) - 1.f),
@@ -78,7 +80,7 @@ TEST(MeadowPainter, KnowsWhatItCanPaint) {
   EXPECT_FALSE(isPaintable(grass::FeatureMap(input)));
 }
 
-// S2-10, S2-11: smaller versions of the strips' picture show the same share for each density.
+// S2-10, S2-11: smaller mipmaps of the strips show the same share for each density.
 TEST(StripPictures, KeepTheirSharesWithDistance) {
   const std::vector<Image> pictures = stripPictures(256, 64, 60);
   ASSERT_EQ(pictures.back().columns, 1);
@@ -93,7 +95,7 @@ TEST(StripPictures, KeepTheirSharesWithDistance) {
           << level << " " << density;
 }
 
-// Roots are in the first row, where the texture's v is 0.
+// The first row has the roots, where the v coordinate is 0.
 TEST(StripPictures, StandOnTheirRoots) {
   const Image picture = stripPictures(256, 64, 60).front();
   int first = 0, last = 0;
@@ -105,7 +107,7 @@ TEST(StripPictures, StandOnTheirRoots) {
   EXPECT_EQ(last, 0);
 }
 
-// S2-W3: as many dots as the density asks for.
+// S2-W3: the number of dots follows the density.
 TEST(LayerPictures, ShowMoreDotsWhereItIsDenser) {
   const Image picture = layerPictures(64).front();
   int few = 0, many = 0;

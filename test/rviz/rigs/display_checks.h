@@ -20,10 +20,10 @@
 
 namespace vegetation_sim {
 
-// What every display promises, for the tests of each kind.
+// Checks of properties that every display has, for the tests of each kind.
 
-/// Each property there and back, at its limits too, names that cannot be among them, with help on
-/// each.
+/// Changes each property and back again, at its limits and with invalid names, and checks that each
+/// has a description.
 inline void expectEveryPropertyCanBeChanged(ViewRig& rig, rviz::Display& display) {
   for (auto* flag : propertiesOf<rviz::BoolProperty>(display)) {
     for (int i = 0; i < 2; ++i) {
@@ -66,7 +66,7 @@ inline void expectEveryPropertyCanBeChanged(ViewRig& rig, rviz::Display& display
   }
 }
 
-/// Another display that loads what one has saved has the same settings.
+/// A display that loads the saved settings of another display has the same settings.
 inline void expectSettingsSurvive(ViewRig& rig, rviz::Display& display, const MakeDisplay& make) {
   display.subProp("Update Rate")->setValue(17.f);
   display.subProp("Haze")->subProp("End")->setValue(777.f);
@@ -83,14 +83,14 @@ inline void expectSettingsSurvive(ViewRig& rig, rviz::Display& display, const Ma
   rig.remove(other);
 }
 
-/// What a status line of a display says.
+/// Returns the text of a status line of a display.
 inline std::string statusOf(rviz::Display& display, const char* name) {
   for (auto* property : propertiesOf<rviz::Property>(display))
     if (property->getName() == name) return property->getValue().toString().toStdString();
   return {};
 }
 
-/// A node that tells no state any more is missed until it does.
+/// The display reports a node that publishes no state until it publishes again.
 inline void expectSilenceIsReported(ViewRig& rig, rviz::Display& display,
                                     const std::function<void()>& report) {
   const auto says = [&](const char* text) {
@@ -104,8 +104,8 @@ inline void expectSilenceIsReported(ViewRig& rig, rviz::Display& display,
   EXPECT_TRUE(says("In step")) << statusOf(display, "State");
 }
 
-/// What the governor of a node chose is told.
-/// @param cost, budget keys of its diagnostics. @param unit of both. @return what is told.
+/// The display shows the allocation of the node's governor. @param cost and budget are keys of its
+/// diagnostics. @param unit is the unit of both. @return the text that is shown.
 inline std::string expectAllocationIsReported(ViewRig& rig, rviz::Display& display,
                                               const std::string& node, const char* cost,
                                               const char* budget, const std::string& unit) {
@@ -135,7 +135,7 @@ inline std::string expectAllocationIsReported(ViewRig& rig, rviz::Display& displ
   return published;
 }
 
-/// Mean difference of two pictures, 0 to 255.
+/// Returns the mean difference of two images, 0 to 255.
 inline double difference(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
   double sum = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i)
@@ -143,8 +143,8 @@ inline double difference(const std::vector<std::uint8_t>& a, const std::vector<s
   return sum / static_cast<double>(std::max<std::size_t>(1, a.size()));
 }
 
-/// The picture is the same whichever frame is the fixed one, turned and moved; of one that tf does
-/// not know yet the status tells the name, and nothing is drawn in a wrong place meanwhile.
+/// The image is the same in any fixed frame, also a rotated and moved one. While tf does not know a
+/// frame, the status names it and nothing is drawn in a wrong place.
 inline void expectStandsInAnyFixedFrame(ViewRig& rig, rviz::Display& display) {
   constexpr double TURN = 2.0;  // [rad] about z
   rviz::ViewController& view = *rig.manager().getViewManager()->getCurrent();
@@ -152,7 +152,7 @@ inline void expectStandsInAnyFixedFrame(ViewRig& rig, rviz::Display& display) {
   view.subProp("Target Frame")->setValue("map");
   rig.lookAt(1.5f, 0.4, 18.0);
   std::vector<std::uint8_t> before = rig.picture();
-  ASSERT_TRUE(rig.until([&] {  // all has come to rest
+  ASSERT_TRUE(rig.until([&] {  // The image does not change any more.
     rig.frames(10);
     const std::vector<std::uint8_t> last = std::move(before);
     before = rig.picture();
@@ -174,7 +174,7 @@ inline void expectStandsInAnyFixedFrame(ViewRig& rig, rviz::Display& display) {
   message.transforms = {place};
   const ros::Publisher tf = rig.nodeHandle().advertise<tf2_msgs::TFMessage>("/tf_static", 1, true);
   tf.publish(message);
-  // The view follows the place of its target, not how that is turned.
+  // The view follows the position of its target frame, but not its rotation.
   view.subProp("Yaw")->setValue(view.subProp("Yaw")->getValue().toDouble() + TURN);
   EXPECT_TRUE(rig.until([&] { return statusOf(display, "Transform") == "OK"; }));
   EXPECT_TRUE(rig.until([&] {

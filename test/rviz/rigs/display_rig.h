@@ -17,7 +17,7 @@ class DisplayRig : public ViewRig {
  public:
   DisplayRig() { startNode(); }
 
-  /// A node that publishes the forest; one that ran dies.
+  /// Starts a node that publishes the forest. A node that already runs is stopped.
   void startNode() {
     for (ros::Publisher* publisher : {&layout_, &wind_, &state_}) publisher->shutdown();
     layout_ = nh_.advertise<ForestLayout>("forest/layout", 1, true);
@@ -39,7 +39,7 @@ class DisplayRig : public ViewRig {
   void publish(const ForestLayout& message) { layout_.publish(message); }
   void publish(const WindField& message) { wind_.publish(message); }
   void publish(const ForestState& message) { state_.publish(message); }
-  /// All trees at full level.
+  /// Returns a state with all trees at the finest level.
   void publishState() { publishState(now()); }
   void publishState(double stamp) {
     forest::StateUpdate update;

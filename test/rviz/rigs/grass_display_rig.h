@@ -16,7 +16,7 @@ class GrassRig : public ViewRig {
  public:
   GrassRig() { startNode(); }
 
-  /// A node that publishes the meadow; one that ran dies.
+  /// Starts a node that publishes the meadow. A node that already runs is stopped.
   void startNode() {
     for (ros::Publisher* publisher : {&layout_, &wind_, &state_}) publisher->shutdown();
     layout_ = nh_.advertise<GrassLayout>("grass/layout", 1, true);
@@ -26,7 +26,8 @@ class GrassRig : public ViewRig {
 
   GrassDisplay* addDisplay() { return add<GrassDisplay>("vegetation_sim/GrassDisplay"); }
 
-  /// A flat meadow of `tiles` x `tiles` about the origin, two species and different heights in it.
+  /// Returns a flat meadow of `tiles` x `tiles` around the origin with two species of different
+  /// heights.
   static grass::Layout meadow(int tiles) {
     grass::MapInput input;
     input.law.columns = input.law.rows = tiles + 1;
@@ -58,7 +59,7 @@ class GrassRig : public ViewRig {
   void publish(const WindField& message) { wind_.publish(message); }
   void publish(const GrassState& message) { state_.publish(message); }
 
-  /// A track from a to b in steps of 5 cm, told at once in a key frame.
+  /// Treads a track from a to b in steps of 5 cm and publishes it at once in a key frame.
   void tread(const grass::Point& a, const grass::Point& b, double recovery = 1e9) {
     grass::TreadLaw law;
     law.recovery = recovery;

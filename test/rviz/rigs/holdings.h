@@ -18,12 +18,12 @@
 
 namespace vegetation_sim {
 
-/// What Ogre holds.
+/// Counts of the objects that Ogre holds.
 struct Holdings {
   std::size_t textures{0}, materials{0}, meshes{0}, programs{0}, buffers{0}, nodes{0}, objects{0};
   std::size_t texture_bytes{0};
 
-  /// Without what comes and goes with levels of detail.
+  /// Returns the counts without objects that depend on levels of detail.
   Holdings lasting() const {
     Holdings out = *this;
     out.buffers = out.objects = 0;
@@ -50,7 +50,7 @@ inline std::size_t countOf(Ogre::ResourceManager& manager) {
   return out;
 }
 
-/// Vertex and index buffers on the graphics card, which Ogre counts but does not tell.
+/// Gives access to Ogre's lists of vertex and index buffers, which have no public getter.
 struct BufferCounter : Ogre::HardwareBufferManagerBase {
   static std::size_t count(const Ogre::HardwareBufferManagerBase& manager) {
     return (manager.*(&BufferCounter::mVertexBuffers)).size() +
@@ -78,7 +78,7 @@ inline Holdings holdings(Ogre::SceneManager& scene) {
   return out;
 }
 
-/// Memory of this process [MB].
+/// Returns the resident memory of this process [MB].
 inline double residentMemory() {
   std::ifstream file("/proc/self/statm");
   double size = 0.0, resident = 0.0;
@@ -86,7 +86,7 @@ inline double residentMemory() {
   return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
 }
 
-/// What is allocated of it and not freed [MB].
+/// Returns the allocated memory that was not freed [MB].
 inline double heldMemory() {
 #if __GLIBC_PREREQ(2, 33)
   const struct mallinfo2 info = mallinfo2();

@@ -17,13 +17,13 @@ namespace vegetation_sim {
 
 using MakeDisplay = std::function<rviz::Display*()>;
 
-/// How often displays come and go, or nodes return: the environment says it for long runs.
+/// Returns the number of repetitions. The environment variable sets it for long runs.
 inline int timesOf(const char* variable) {
   const char* wanted = std::getenv(variable);
   return wanted != nullptr ? std::atoi(wanted) : 12;
 }
 
-/// Writes what is held, about a hundred times in a long run, to the table $VEGETATION_SIM_MEMORY.
+/// Writes the counts about a hundred times in a long run to the table $VEGETATION_SIM_MEMORY.
 class MemoryLog {
  public:
   MemoryLog(std::string what, int times, Ogre::SceneManager& scene)
@@ -44,7 +44,8 @@ class MemoryLog {
   std::ofstream out_;
 };
 
-/// Displays that come and go, some of them after they have drawn, leave nothing of Ogre's.
+/// Displays are created and removed, some of them after they have drawn. They leave no object of
+/// Ogre behind.
 inline void expectNothingLeftBehind(ViewRig& rig, const MakeDisplay& make,
                                     const std::function<bool(rviz::Display&)>& hasDrawn) {
   Ogre::SceneManager& scene = *rig.manager().getSceneManager();
@@ -67,7 +68,7 @@ inline void expectNothingLeftBehind(ViewRig& rig, const MakeDisplay& make,
   EXPECT_EQ(scene.getFogMode(), Ogre::FOG_NONE);
 }
 
-/// Runs rviz until Ogre has held the same for a while.
+/// Runs rviz until the counts of Ogre have been the same for some frames.
 inline void expectRest(ViewRig& rig) {
   constexpr int CALM = 15;  // [frames]
   Holdings last;
@@ -81,13 +82,13 @@ inline void expectRest(ViewRig& rig) {
   }));
 }
 
-/// A node that dies and returns with another of two scenes, again and again, and floods its topics:
-/// what it told last is seen, and nothing stays of what it told before.
-/// @param restart starts the node with scene 0 or 1. @param shows whether a scene is seen.
+/// A node repeatedly dies, returns with the other one of two scenes and floods its topics. The
+/// display shows the last scene, and no object of earlier ones remains.
+/// @param restart starts the node with scene 0 or 1. @param shows returns whether a scene is shown.
 inline void expectReloadsAreFollowed(ViewRig& rig, const std::function<void(int)>& restart,
                                      const std::function<bool(int)>& shows) {
-  // Within one process roscpp now and then leaves a publisher that comes at once without its
-  // subscribers: such a node dies again.
+  // Within one process roscpp sometimes leaves a publisher that restarts immediately without its
+  // subscribers. Such a node is restarted again.
   const auto see = [&](int scene) {
     for (int attempt = 0; attempt < 5; ++attempt) {
       restart(scene);
@@ -104,7 +105,8 @@ inline void expectReloadsAreFollowed(ViewRig& rig, const std::function<void(int)
   for (int i = 1; i < times; ++i) {
     if (i % 4 == 1) {
       ASSERT_TRUE(see(i % 2)) << "reload " << i;
-      // Always of the same scene, and not while messages or fades are on their way.
+      // The count is always taken with the same scene, and not while messages or transitions are
+      // under way.
       expectRest(rig);
       log.note(i);
     } else {

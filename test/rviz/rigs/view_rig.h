@@ -22,13 +22,13 @@
 
 namespace vegetation_sim {
 
-/// Share of pixels that look like leaves or grass, like sky, and of the commonest colour; and how
-/// much brightness varies.
+/// Shares of pixels with the colour of leaves or grass, of sky, and of the commonest colour; spread
+/// is the standard deviation of the green channel.
 struct Impression {
   double green{0.0}, blue{0.0}, commonest{0.0}, spread{0.0};
 };
 
-/// rviz without its window frame, and a clock that the test drives.
+/// rviz without its window frame, and a clock that the test sets.
 class ViewRig {
  public:
   ViewRig() {
@@ -52,7 +52,7 @@ class ViewRig {
   Ogre::Camera& camera() { return *manager_->getViewManager()->getCurrent()->getCamera(); }
   ros::NodeHandle& nodeHandle() { return nh_; }
 
-  /// Looks at a point over the origin, from the north-east.
+  /// Points the camera at a point above the origin, from the north-east.
   void lookAt(float height, double pitch, double distance) {
     rviz::ViewController& view = *manager_->getViewManager()->getCurrent();
     view.lookAt(0.f, 0.f, height);
@@ -61,7 +61,7 @@ class ViewRig {
     view.subProp("Distance")->setValue(distance);
   }
 
-  /// A display of the plugin `name`; null if there is none or it is of another class.
+  /// Adds a display of the plugin `name`. Returns null if there is none or it has another class.
   template <class Display>
   Display* add(const char* name) {
     return dynamic_cast<Display*>(manager_->createDisplay(name, name, true));
@@ -79,7 +79,7 @@ class ViewRig {
   }
   double now() const { return now_; }
 
-  /// Runs rviz until `done` holds; false after `deadline` wall seconds.
+  /// Runs rviz until `done` holds. Returns false after `deadline` seconds of wall time.
   bool until(const std::function<bool()>& done, double deadline = 60.0) {
     const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(deadline);
     while (!done()) {
@@ -88,9 +88,9 @@ class ViewRig {
     }
     return true;
   }
-  /// Frames of rviz so far.
+  /// Returns the number of frames of rviz so far.
   double frameCount() const { return static_cast<double>(manager_->getFrameCount()); }
-  /// Runs rviz for some of its frames.
+  /// Runs rviz for a number of frames.
   void frames(int count) {
     const std::uint64_t last = manager_->getFrameCount() + static_cast<std::uint64_t>(count);
     until([&] { return manager_->getFrameCount() >= last; });
@@ -109,7 +109,7 @@ class ViewRig {
     return out;
   }
 
-  /// Of two pictures: the largest mean difference of a block of 16 x 16 pixels, 0 to 255.
+  /// Returns the largest mean difference of a block of 16 x 16 pixels between two images, 0 to 255.
   double largestChange(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
     constexpr std::size_t BLOCK = 16;
     const std::size_t width = panel_.getRenderWindow()->getWidth();
@@ -156,7 +156,7 @@ class ViewRig {
   double now_{0.0};
 };
 
-/// All properties of a kind below one.
+/// Returns all properties of a type below a property.
 template <class T>
 std::vector<T*> propertiesOf(rviz::Property& parent) {
   std::vector<T*> out;

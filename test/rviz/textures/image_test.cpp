@@ -22,7 +22,7 @@ float brightness(const Rgba& colour) {
 TEST(Image, BlendsByAlpha) {
   Image picture(2, 1, {0.f, 0.f, 0.f, 1.f});
   picture.blend(0, 0, {1.f, 1.f, 1.f, 0.25f});
-  picture.blend(5, -3, {1.f, 1.f, 1.f, 1.f});  // outside: nothing
+  picture.blend(5, -3, {1.f, 1.f, 1.f, 1.f});  // A pixel outside of the image has no effect.
   EXPECT_FLOAT_EQ(picture.at(0, 0)[0], 0.25f);
   EXPECT_FLOAT_EQ(picture.at(1, 0)[0], 0.f);
   EXPECT_EQ(picture.bytes(), (std::vector<std::uint8_t>{64, 64, 64, 255, 0, 0, 0, 255}));
@@ -43,7 +43,7 @@ TEST(Noise, IsBoundedSmoothAndRepeats) {
     const float y = 0.61f * x;
     EXPECT_GE(noise.fractal(x, y, 4), 0.f);
     EXPECT_LE(noise.fractal(x, y, 4), 1.f);
-    // The steepest that the fade can be is 1.5 per unit.
+    // The largest slope of the fade is 1.5 per unit.
     EXPECT_NEAR(noise.smooth(x, y), noise.smooth(x + 0.01f, y), 0.0151f);
     EXPECT_NEAR(noise.smooth(x, y), noise.smooth(x + Noise::PERIOD, y), 1e-4f);
   }
@@ -66,18 +66,18 @@ TEST(LeafAtlas, MipmapsKeepTheCoverage) {
   ASSERT_EQ(levels.size(), 6u);
   for (const Image& level : levels) {
     EXPECT_EQ(level.columns, 2 * level.rows);
-    // One pixel of 32 x 16 is 0.2 %; ties in alpha may take a few.
+    // One pixel of 32 x 16 is 0.2 %, and ties in alpha may add a few pixels.
     EXPECT_NEAR(coverage(level), coverage(levels.front()), 0.04) << level.columns;
   }
 }
 
-/// Part of a card's picture: of its square that is drawn, and of its leaves that are.
+/// Share of a card's square that is drawn, and share of its leaves that is drawn.
 struct Cut {
   double drawn{0.0}, held{0.0};
 };
 
 Cut cutOf(const Image& atlas, int cell) {
-  constexpr int SAMPLES = 256;  // along the square
+  constexpr int SAMPLES = 256;  // samples along the square
   const forest::LeafOutline& outline = forest::leafOutline(cell % 4, cell >= 4);
   const auto holds = [&](float x, float y) {
     bool inside = true;
@@ -105,8 +105,9 @@ Cut cutOf(const Image& atlas, int cell) {
   return out;
 }
 
-// What is drawn of a card is its outline: nearly all of the leaves are in it, and it is no whole
-// square. In the smallest pictures, of 4 x 4 and 2 x 2 pixels, those at the border count for much.
+// A card is drawn as its outline, which contains nearly all of its leaves and is smaller than the
+// square. In the smallest images, of 4 x 4 and 2 x 2 pixels, the pixels at the border have a large
+// share.
 TEST(LeafAtlas, OutlinesHoldThePictures) {
   const std::vector<Image> levels = leafAtlas(128);
   ASSERT_EQ(levels.size(), 6u);
@@ -148,11 +149,11 @@ TEST(BarkPicture, ClosesAroundTheTrunk) {
     for (int r = 0; r < picture.rows; ++r)
       step +=
           std::abs(static_cast<double>(picture.at(0, r)[0] - picture.at(127, r)[0])) / picture.rows;
-    EXPECT_LT(step, 0.15);  // as between any two columns side by side
+    EXPECT_LT(step, 0.15);  // The step is as between any two neighbouring columns.
   }
 }
 
-// It goes on above as it ends below, without a renderer that mirrors.
+// The upper edge continues the lower edge without mirroring in the renderer.
 TEST(BarkAtlas, RepeatsAlongTheWood) {
   const Image atlas = barkAtlas(64);
   ASSERT_EQ(atlas.rows, 128);
@@ -164,10 +165,10 @@ TEST(BarkAtlas, RepeatsAlongTheWood) {
   };
   EXPECT_EQ(stepTo(127, 0), 0.0);
   EXPECT_EQ(stepTo(63, 64), 0.0);
-  EXPECT_GT(stepTo(0, 32), 0.02);  // and is not the same all along
+  EXPECT_GT(stepTo(0, 32), 0.02);  // The image differs along the column.
 }
 
-/// Mean lightness of a square of pixels, which goes on at the other side.
+/// Returns the mean lightness of a square of pixels, with periodic borders.
 double meanOf(const Image& picture, int column, int row, int edge) {
   double sum = 0.0;
   for (int r = row; r < row + edge; ++r)
@@ -177,7 +178,7 @@ double meanOf(const Image& picture, int column, int row, int edge) {
   return sum / (edge * edge);
 }
 
-// Across its border, either way, grain changes no more than elsewhere.
+// The grain changes across the border no more than elsewhere, in both directions.
 TEST(GrainPicture, RepeatsWithoutASeam) {
   constexpr int EDGE = 256, BLOCK = 8;
   const Image grain = grainPicture(EDGE);
@@ -208,7 +209,7 @@ TEST(SkyPicture, IsHazyBelowBlueAboveAndBrightAroundTheSun) {
   }
   EXPECT_GT(zenith, 0.2);
   EXPECT_LT(horizon, 0.5 * zenith);
-  int row = 0;  // of the sun
+  int row = 0;  // row of the sun
   while (skyElevation((row + 0.5) / sky.rows) > 0.7) ++row;
   EXPECT_GT(brightness(sky.at(32, row)), brightness(sky.at(96, row)));
 }

@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// All displays in one rviz, beside the nodes that they listen to.
+// All displays run in one rviz beside the nodes that they subscribe to.
 #include <OgreMaterialManager.h>
 #include <OgreTechnique.h>
 
@@ -32,7 +32,7 @@ struct Landscape {
   }
 };
 
-// rviz can only be started once in a process.
+// rviz can be started only once in a process.
 std::unique_ptr<ViewRig> shared_rig;
 
 class LandscapeTest : public testing::Test {
@@ -51,7 +51,7 @@ class LandscapeTest : public testing::Test {
     out.canopy = rig.add<CanopyDisplay>("vegetation_sim/CanopyDisplay");
     return out;
   }
-  /// Lets time pass with the pictures, so that nodes can follow, until something holds.
+  /// Advances time with each frame, so that nodes can follow, until a condition holds.
   bool goOnUntil(const std::function<bool()>& done) {
     return rig.until([&] {
       rig.setTime(rig.now() + 0.03);
@@ -63,7 +63,8 @@ class LandscapeTest : public testing::Test {
   ViewRig& rig{*shared_rig};
 };
 
-/// Who gives a thing that a scene has but once, as a display says it; "" if that is itself.
+/// Returns the display that draws an object which a scene has only once, as the status of a display
+/// names it; "" stands for the display itself.
 std::string giverOf(rviz::Display& display, const std::string& thing) {
   const std::string published = statusOf(display, "Scenery"), sought = thing + " by ";
   const std::size_t at = published.find(sought);
@@ -72,7 +73,7 @@ std::string giverOf(rviz::Display& display, const std::string& thing) {
   return published.substr(from, published.find(',', from) - from);
 }
 
-/// Materials with shaders take their other technique, as where a renderer has none; or again not.
+/// Disables or enables the techniques with shaders, as in a renderer without shaders.
 void forgetShaders(bool forget) {
   Ogre::ResourceManager::ResourceMapIterator all =
       Ogre::MaterialManager::getSingleton().getResourceIterator();
@@ -107,7 +108,8 @@ TEST_F(LandscapeTest, EveryKindDrawsAndWhatASceneHasOnceIsGivenOnce) {
   EXPECT_GT(seen.green, 0.15);
   EXPECT_GT(seen.blue, 0.05);
   EXPECT_GT(seen.spread, 15.0);
-  // Who gave the ground goes: another gives it, and the others go on.
+  // When the display that draws the ground is removed, another one draws it, and the others
+  // continue.
   rig.remove(scene.grass);
   EXPECT_TRUE(goOnUntil([&] { return giverOf(*scene.forest, "ground").empty(); }));
   const std::vector<std::uint8_t> before = rig.picture();
@@ -135,7 +137,7 @@ TEST_F(LandscapeTest, WithoutShadersTheSceneIsPlainerButThere) {
   for (rviz::Display* display : scene.all()) rig.remove(display);
 }
 
-// In whatever order they go.
+// The displays are removed in any order.
 TEST_F(LandscapeTest, LeavesNothingBehind) {
   Ogre::SceneManager& ogre = *rig.manager().getSceneManager();
   const Holdings before = holdings(ogre);

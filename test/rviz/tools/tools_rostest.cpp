@@ -31,7 +31,7 @@
 namespace vegetation_sim {
 namespace {
 
-// rviz can only be started once in a process.
+// rviz can be started only once in a process.
 std::unique_ptr<ViewRig> shared_rig;
 
 class ToolsTest : public testing::Test {
@@ -42,7 +42,8 @@ class ToolsTest : public testing::Test {
   void SetUp() override { look(1.0f); }
   void TearDown() override { putAway(); }
 
-  // From the south-west and above, 7 m from a point on the z axis; returns when rviz has drawn so.
+  // Sets a camera in the south-west and above, 7 m from a point on the z axis. Returns when rviz
+  // has drawn a frame with it.
   void look(float z) {
     rviz::ViewController& view = *rig.manager().getViewManager()->getCurrent();
     view.lookAt(0.f, 0.f, z);
@@ -98,7 +99,7 @@ Vec3 middleOf(const GetTree::Response& tree, std::size_t branch) {
   return transformed(pose, {0.0, 0.0, 0.5 * static_cast<double>(tree.lengths[branch])});
 }
 
-// S1-01, S1-27: the mouse takes a branch, pulls it and lets it go.
+// S1-01, S1-27: the mouse grabs a branch, pulls it and releases it.
 TEST_F(ToolsTest, TheMouseGrabsPullsAndReleasesABranch) {
   auto* tool = use<GrabTool>("vegetation_sim/GrabTool");
   ASSERT_NE(tool, nullptr);
@@ -146,7 +147,7 @@ TEST_F(ToolsTest, ANodeThatDoesNotAnswerIsSaid) {
   })) << tool->grip().message;
 }
 
-// A service that hangs stops neither the picture nor who puts the tool away.
+// A service that does not return blocks neither the view nor the removal of the tool.
 TEST_F(ToolsTest, ANodeThatHangsStopsNoPicture) {
   ros::CallbackQueue queue;
   ros::NodeHandle hung("/hung");
@@ -218,7 +219,7 @@ TEST_F(ToolsTest, TheMouseTreads) {
   EXPECT_LT((fromMsg(events[1].position) - end).norm(), 0.08);
 }
 
-// S2-20: a stroke sends a gust along it.
+// S2-20: a stroke starts a gust along it.
 TEST_F(ToolsTest, AStrokeSendsAGust) {
   WindField field;
   const boost::function<void(const WindField&)> heard = [&](const WindField& f) { field = f; };
@@ -241,7 +242,7 @@ TEST_F(ToolsTest, AStrokeSendsAGust) {
   EXPECT_NEAR(gust->velocity.y, 0.0, 0.1);
 }
 
-// The dial and the slider of the panel set the breeze, the button takes the tool.
+// The dial and the slider of the panel set the breeze, and the button activates the tool.
 TEST_F(ToolsTest, ThePanelSetsTheWind) {
   WindField field;
   const boost::function<void(const WindField&)> heard = [&](const WindField& f) { field = f; };
@@ -261,12 +262,12 @@ TEST_F(ToolsTest, ThePanelSetsTheWind) {
   EXPECT_NE(dynamic_cast<WindTool*>(rig.manager().getToolManager()->getCurrentTool()), nullptr);
   EXPECT_TRUE(rig.until([&] {
     for (QProgressBar* bar : panel.findChildren<QProgressBar*>())
-      if (bar->format().contains(" of 7")) return true;  // trees of the scene
+      if (bar->format().contains(" of 7")) return true;  // The scene has seven trees.
     return false;
   }));
 }
 
-// What the forest has is shown, what is turned comes there, each setting alone.
+// The panel shows the settings of the forest, and a change sets only its own parameter.
 TEST_F(ToolsTest, ThePanelSetsToleranceAndBudget) {
   std::map<std::string, double> there;
   const boost::function<void(const dynamic_reconfigure::Config&)> heard =
@@ -299,7 +300,8 @@ TEST_F(ToolsTest, ThePanelSetsToleranceAndBudget) {
   EXPECT_TRUE(rig.until([&] { return there == before; }));
 }
 
-// Bars tell how each tree moves: the classes sum to all; what no node tells is not shown.
+// Bars show how the trees move: the classes sum to the number of trees, and a value that no node
+// reports is hidden.
 TEST_F(ToolsTest, ThePanelTellsHowTreesMove) {
   LandscapePanel panel;
   panel.initialize(&rig.manager());
@@ -325,7 +327,7 @@ TEST_F(ToolsTest, ThePanelTellsHowTreesMove) {
   EXPECT_EQ(shown().count("Trees physical"), 1u);
   EXPECT_EQ(shown().count("Forest, of its tick"), 1u);
   EXPECT_EQ(shown().count("People"), 0u);
-  // A node that is heard has its bar, until it has been silent for some seconds.
+  // A node has a bar from its first message until some seconds after the last one.
   const ros::Publisher diagnostics =
       rig.nodeHandle().advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 1);
   diagnostic_msgs::DiagnosticArray people;
@@ -339,7 +341,7 @@ TEST_F(ToolsTest, ThePanelTellsHowTreesMove) {
   EXPECT_EQ(shown().count("Trees still"), 1u);
 }
 
-// What is set of a tool is what another one loads; each setting has its help.
+// Another tool loads the saved settings of a tool, and each setting has a description.
 TEST_F(ToolsTest, SettingsSurvive) {
   rviz::ToolManager& tools = *rig.manager().getToolManager();
   for (const char* name :

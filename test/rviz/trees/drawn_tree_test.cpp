@@ -11,7 +11,7 @@ namespace {
 
 using forest::PhysicsRig;
 
-/// A forest with a branch that is pulled, and who hears of it and draws it.
+/// A forest with a branch that is pulled, and a replica that draws it.
 struct RegisteredViewer {
   PhysicsRig rig;
   forest::ForestReplica replica;
@@ -33,7 +33,7 @@ struct RegisteredViewer {
     const wind::Instant wind = rig.forest.snapshot().wind.at(rig.now());
     return tree.move(replica, rig.now(), wind, TreeLook(), 1.0);
   }
-  /// Distance from the branch's tip, where the forest has it, to the nearest vertex of bark.
+  /// Returns the distance from the branch's tip in the forest to the nearest vertex of bark.
   double distanceAtTip(const DrawnTree& tree) const {
     const Vec3 tip = rig.tip(branch);
     double nearest = 1e9;
@@ -44,7 +44,7 @@ struct RegisteredViewer {
   }
 };
 
-// S1-35: what is drawn is where physics has it, not where the wind alone would.
+// S1-35: the branch is drawn in its physical pose, not in the pose of the wind alone.
 TEST(DrawnTree, PhysicalBranchesAreDrawnWhereTheForestHasThem) {
   RegisteredViewer viewer;
   DrawnTree tree(viewer.replica, 0, Vec3::Zero());
@@ -59,7 +59,7 @@ TEST(DrawnTree, PhysicalBranchesAreDrawnWhereTheForestHasThem) {
   const std::uint32_t id = viewer.rig.forest.addGrab(grab);
   viewer.run(1.0);
   ASSERT_GT(length(viewer.rig.tip(viewer.branch) - calm), 5.0 * radius);
-  EXPECT_GT(viewer.distanceAtTip(tree), 1.5 * radius);  // it has not moved yet
+  EXPECT_GT(viewer.distanceAtTip(tree), 1.5 * radius);  // It has not moved yet.
   ASSERT_TRUE(viewer.move(tree));
   EXPECT_LT(viewer.distanceAtTip(tree), 1.5 * radius);
   viewer.rig.forest.release(id);

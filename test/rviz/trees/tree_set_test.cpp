@@ -52,7 +52,7 @@ TEST(NearestTrees, AreAllWhereThereAreNoMore) {
   EXPECT_EQ(nearestTrees(layout, Vec3::Zero(), 100).size(), 9u);
 }
 
-// Many trees in a tile, few in others of other sizes.
+// Returns many trees in one tile and few in tiles of other sizes.
 Layout unevenLayout() {
   Layout out = tiledLayout();
   const std::pair<std::uint32_t, double> tiles[] = {{5000, 90.0}, {3, 300.0}, {700, 40.0}};
@@ -67,7 +67,7 @@ Layout unevenLayout() {
   return out;
 }
 
-// Against looking at every tree.
+// Compares with a search through all trees.
 void expectNearest(const Layout& layout) {
   for (const Vec3& eye :
        {Vec3(0, 0, 2), Vec3(120, 130, 2), Vec3(190, 210, 2), Vec3(400, -50, 30)}) {
@@ -91,7 +91,7 @@ TEST(NearestTrees, AreTheNearestOfTilesToo) {
   expectNearest(unevenLayout());
 }
 
-// Only those of a tile's trees are looked at that may be.
+// The search reads only the trees of a tile that are near enough.
 TEST(NearestTrees, OfATileOfMillionsAreAtHand) {
   Layout layout = tiledLayout();
   layout.trees.clear();
@@ -107,7 +107,7 @@ TEST(NearestTrees, OfATileOfMillionsAreAtHand) {
     farthest =
         std::max(farthest, length(forest::seedOf(layout, id).position + Vec3(0, 0, 2) - eye));
   const double mean = std::sqrt(100.0 * 40000.0 * 40000.0 / forest::MOST_TREES / M_PI);
-  EXPECT_NEAR(farthest, mean, 0.1 * mean);  // of the disc that 100 trees fill
+  EXPECT_NEAR(farthest, mean, 0.1 * mean);  // mean is the radius of the disc that 100 trees fill
 }
 
 TEST(View, SeesWhatIsInItsCone) {
@@ -115,9 +115,9 @@ TEST(View, SeesWhatIsInItsCone) {
   view.half_angle = 0.5;
   EXPECT_TRUE(view.sees(Vec3(10, 0, 0), 1.0));
   EXPECT_FALSE(view.sees(Vec3(-10, 0, 0), 1.0));
-  EXPECT_TRUE(view.sees(Vec3(-0.5, 0, 0), 1.0));  // within it
+  EXPECT_TRUE(view.sees(Vec3(-0.5, 0, 0), 1.0));  // within the sphere
   EXPECT_FALSE(view.sees(Vec3(10, 9, 0), 1.0));
-  EXPECT_TRUE(view.sees(Vec3(10, 9, 0), 6.0));  // its edge
+  EXPECT_TRUE(view.sees(Vec3(10, 9, 0), 6.0));  // at its edge
 }
 
 TEST(TreeSet, GrowsInStepsAndEndsWithLight) {
@@ -126,14 +126,14 @@ TEST(TreeSet, GrowsInStepsAndEndsWithLight) {
   EXPECT_FALSE(tree_set.ready());
   int steps = 0;
   while (!tree_set.grow(replica, FROM_SOUTH_WEST, true, 1e-9)) ++steps;
-  EXPECT_EQ(steps, 16);  // one tree each, then the light
+  EXPECT_EQ(steps, 16);  // one tree per step, and then the light
   EXPECT_TRUE(tree_set.ready());
   const Vec3 under(8.5, 8.5, 1.0), outside(-15.0, -15.0, 0.5);
   EXPECT_LT(tree_set.light().sky(under), 0.8);
   EXPECT_GT(tree_set.light().sky(outside), tree_set.light().sky(under));
 }
 
-// The fast float path of the display against the double one of the core.
+// Compares the single-precision path of the display with the double-precision path of the core.
 TEST(DrawnTree, StandsAsTheReplicaSays) {
   ForestReplica replica = replicaOf(forest::gridLayout(2, 12.0));
   replica.setWind(wind::Field({forest::makeDisk(1, Vec3(5, 5, 0), 40.0, Vec3(9.0, 4.0, 0.0))}));
@@ -158,7 +158,7 @@ TEST(DrawnTree, StandsAsTheReplicaSays) {
     const Vec3 expected = tree.foot() + pose.position +
                           rotate(pose.orientation, Vec3(v.local[0], v.local[1], v.local[2]));
     const float* at = &tree.shapes().front().bark.positions[3 * i];
-    // 1e-5 of the tree's height, and single precision at some ten metres.
+    // The limit is 1e-5 of the tree's height plus single precision at some ten metres.
     ASSERT_LT(length(tree_set.origin() + Vec3(at[0], at[1], at[2]) - expected), 2e-4);
   }
 }
@@ -167,13 +167,14 @@ TEST(DrawnTree, RestsWhereNothingMovesIt) {
   ForestReplica replica = replicaOf(forest::gridLayout(1, 12.0));
   const TreeSet tree_set = grown(replica, {0});
   DrawnTree& tree = *tree_set.trees()[0];
-  EXPECT_FALSE(tree.move(replica, 1, wind::Instant(), TreeLook(), 100.0));  // no mesh yet
+  EXPECT_FALSE(tree.move(replica, 1, wind::Instant(), TreeLook(), 100.0));  // There is no mesh yet.
   tree.setLevel(2, tree_set.light(), TreeLook());
   EXPECT_TRUE(tree.move(replica, 1, wind::Instant(), TreeLook(), 100.0));
   EXPECT_FALSE(tree.move(replica, 2, wind::Instant(), TreeLook(), 100.0));
 }
 
-// Paper 1, fig. 4: joints that move, those in transition and those at rest are told apart.
+// Paper 1, fig. 4: joints that move, joints in transition and joints at rest have different
+// colours.
 TEST(DrawnTree, IsPaintedByLevel) {
   Layout layout = forest::gridLayout(1, 12.0);
   layout.motion.transition = 2.0;
@@ -212,7 +213,7 @@ TEST(GroundPicture, IsDarkerUnderTreesAndInTheirShadow) {
   const TreeSet tree_set = grown(replica, {0});
   const Plot plot = plotAround(tree_set.extent());
   constexpr int EDGE = 128;
-  const Daylight light = daylightOf(-2.356194, 0.75);  // from the south-west
+  const Daylight light = daylightOf(-2.356194, 0.75);  // light from the south-west
   const std::vector<float> shadows =
       shadowsOn(plot, EDGE, tree_set, replica.terrain(), light.to_sun);
   const auto shadowAt = [&](double x, double y) {
@@ -220,7 +221,7 @@ TEST(GroundPicture, IsDarkerUnderTreesAndInTheirShadow) {
     const int r = static_cast<int>((y - plot.y) / plot.edge * EDGE);
     return shadows[static_cast<std::size_t>(r * EDGE + c)];
   };
-  EXPECT_LT(shadowAt(5.5, 5.5), 0.6f);  // the crown's, to the north-east
+  EXPECT_LT(shadowAt(5.5, 5.5), 0.6f);  // the shadow of the crown lies to the north-east
   EXPECT_GT(shadowAt(-6.0, -6.0), 0.95f);
   const Image picture =
       groundPicture(plot, EDGE, tree_set, replica.terrain(), light, {1.f, 1.f, 1.f, 1.f});

@@ -14,7 +14,7 @@ class WindRig : public ViewRig {
  public:
   WindRig() { startNode(); }
 
-  /// A node that publishes the wind; one that ran dies.
+  /// Starts a node that publishes the wind. A node that already runs is stopped.
   void startNode() {
     wind_.shutdown();
     wind_ = nh_.advertise<WindField>("wind", 10, true);
@@ -22,7 +22,7 @@ class WindRig : public ViewRig {
 
   WindDisplay* addDisplay() { return add<WindDisplay>("vegetation_sim/WindDisplay"); }
 
-  /// A breeze and a disc.
+  /// Returns a breeze and a disc.
   static WindField windy() {
     wind::Primitive disk;
     disk.id = 2;
@@ -36,7 +36,8 @@ class WindRig : public ViewRig {
   ros::Publisher wind_;
 };
 
-// rviz can only be started once in a process: one rig for all tests, a fresh display for each.
+// rviz can be started only once in a process, so all tests share one rig. Each test has its own
+// display.
 std::unique_ptr<WindRig> shared_rig;
 
 class WindDisplayTest : public testing::Test {
@@ -60,7 +61,7 @@ class WindDisplayTest : public testing::Test {
   WindDisplay* display{nullptr};
 };
 
-// N2: arrows of the law, and the disc's outline.
+// N2: arrows show the wind, and lines the outline of the disc.
 TEST_F(WindDisplayTest, DrawsArrowsAndShapes) {
   EXPECT_EQ(display->drawn().shapes, 1u);
   EXPECT_GT(display->drawn().arrows, 300u);

@@ -1,7 +1,7 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// Wrenches as bodies and grippers are told them: in their own frame, wherever it is and however it
-// is turned.
+// Tests that the wrenches of bodies and grippers are published in their own frame, for any position
+// and orientation of the frame.
 #include "nodes/forest/grab_manager.h"
 
 #include <gtest/gtest.h>
@@ -21,13 +21,14 @@ namespace {
 
 constexpr int RATE = 60;  // [Hz]
 
-/// About the axis (1, 2, 2) / 3 by 1 rad: no axis of one frame is one of the other.
+/// Returns a rotation about the axis (1, 2, 2) / 3 by 1 rad, which maps no axis of a frame to
+/// another axis.
 Quat turned() {
   const SinCos half = sinCos(0.5);
   return {half.cos, half.sin / 3.0, 2.0 * half.sin / 3.0, 2.0 * half.sin / 3.0};
 }
 
-/// An oak in still air, a desk at which its branches are held, and tf.
+/// An oak in still air, a grab manager and a tf buffer.
 class GrabManagerRig {
  public:
   GrabManagerRig() : forest_(layout(), forest::flatTerrain(), forest::Settings()) {
@@ -52,7 +53,7 @@ class GrabManagerRig {
     return tree_.foot + pose.position + along * axisZ(pose.orientation);
   }
 
-  /// What tf says of a frame at the next tick.
+  /// Sets the transform of a frame at the next tick.
   void show(const std::string& frame, const Pose& pose) {
     geometry_msgs::TransformStamped out;
     out.header.frame_id = options_.frame_id;
@@ -75,7 +76,7 @@ class GrabManagerRig {
     grabs_manager_.grab(request, response);
     return response.id;
   }
-  /// As forest_animator has it.
+  /// Same settings as in forest_animator.
   void tick() {
     ++tick_;
     grabs_manager_.follow(now(), [](const std::string& what, const std::string& why) {
@@ -105,14 +106,14 @@ class GrabManagerRig {
   GrabManager grabs_manager_{GrabDependencies{options_, forest_, cache_, inputs_, tf_}};
 };
 
-// Components along a frame's axes, told by dot products.
+// Returns the components along the axes of a frame, computed with dot products.
 Vec3 alongAxes(const Quat& frame, const Vec3& v) {
   return Vec3(dot(axisX(frame), v), dot(axisY(frame), v), dot(axisZ(frame), v));
 }
 
-// N3. A hand holds a limb 30 cm off its own origin, turned against the world, and goes aside and
-// turns on: at rest its wrench balances the spring, as a force and as a moment about the hand's
-// origin.
+// N3: a hand holds a limb 30 cm from its own origin in a rotated frame, moves aside and rotates. At
+// rest its wrench balances the spring, both as a force and as a moment about the origin of the
+// hand.
 TEST(GrabManager, HandFeelsForceAndTorqueInItsOwnFrame) {
   GrabManagerRig rig;
   const int limb = 46;
@@ -141,7 +142,7 @@ TEST(GrabManager, HandFeelsForceAndTorqueInItsOwnFrame) {
     rig.tick();
   }
   const Vec3 held = rig.pointOn(limb, along), target = transformed(hand, in_hand);
-  const Vec3 force = stiffness * (held - target);  // on the hand
+  const Vec3 force = stiffness * (held - target);  // force on the hand
   const Vec3 torque = cross(held - hand.position, force);
   ASSERT_GT(length(force), 20.0);
   ASSERT_GT(length(torque), 5.0);
@@ -149,15 +150,15 @@ TEST(GrabManager, HandFeelsForceAndTorqueInItsOwnFrame) {
   const geometry_msgs::WrenchStamped published = rig.wrenches()[0];
   EXPECT_EQ(published.header.frame_id, "hand");
   EXPECT_EQ(fromMsg(published.header.stamp), rig.now());
-  // What still swings after 20 s, and single precision.
+  // The margin covers the oscillation after 20 s and single precision.
   EXPECT_LT(length(fromMsg(published.wrench.force) - alongAxes(hand.orientation, force)),
             0.01 * length(force));
   EXPECT_LT(length(fromMsg(published.wrench.torque) - alongAxes(hand.orientation, torque)),
             0.01 * length(torque));
 }
 
-// N3. A body that turns and goes on, of which tf tells late: its wrench at a tick is in its frame
-// as it is at the tick, not as tf last told it.
+// N3: a body moves and rotates, and its tf is late. The wrench of a tick is in the frame's pose at
+// that tick, not in the last pose from tf.
 TEST(GrabManager, BodyFeelsItsWrenchInItsFrameOfTheTick) {
   constexpr double LATE = 0.1;  // [s]
   GrabManagerRig rig;

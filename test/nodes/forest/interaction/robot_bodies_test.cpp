@@ -135,7 +135,7 @@ class Following : public testing::Test {
     out.in_frame.position = Vec3(0.0, 0.0, 1.0);
     return out;
   }
-  // Sends until the body is seen with that stamp; empty if it never is.
+  // Sends until the body is known with that stamp. Returns an empty result if that never happens.
   std::vector<Body> follow(Nanoseconds stamp, double x, Nanoseconds now) {
     const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(30.0);
     while (ros::WallTime::now() < deadline) {
@@ -162,7 +162,7 @@ TEST_F(Following, TwoSamplesGiveTheVelocity) {
   found = follow(START + TENTH, 1.2, START + TENTH);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_NEAR(found[0].velocity.x(), 2.0, 1e-9);
-  // Nothing new: it goes on.
+  // Without a new transform the motion continues.
   found = bodies_.update(START + 2 * TENTH);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_NEAR(found[0].velocity.x(), 2.0, 1e-9);

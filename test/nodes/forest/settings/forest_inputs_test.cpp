@@ -18,7 +18,7 @@ ForestEvent resetAt(std::int64_t tick) {
   return out;
 }
 
-// N6: at its own tick an event of a replay is in time, after it it is late, whatever the reason.
+// N6: an event of a replay is in time at its own tick and late after it, whatever the reason.
 TEST(ForestInputs, CountLateEventsOfAReplay) {
   ForestInputs inputs(true);
   for (const std::int64_t tick : {101, 102, 104}) inputs.addEvent(resetAt(tick));
@@ -27,7 +27,7 @@ TEST(ForestInputs, CountLateEventsOfAReplay) {
   EXPECT_EQ(inputs.take(102 * TICK).size(), 1u);
   EXPECT_EQ(inputs.losses().late, 0u);
   inputs.addEvent(resetAt(99));
-  EXPECT_EQ(inputs.take(105 * TICK).size(), 2u);  // tick 104 was dropped; 99 came late
+  EXPECT_EQ(inputs.take(105 * TICK).size(), 2u);  // Tick 104 was dropped, and 99 arrived late.
   EXPECT_EQ(inputs.losses().late, 2u);
   EXPECT_EQ(inputs.losses().lost, 0u);
 }
@@ -49,7 +49,7 @@ TEST(ForestInputs, CountViewersThatFindNoRoom) {
   EXPECT_EQ(inputs.losses().lost, 2u);
 }
 
-// N6: a flood of requests for later shuts out neither the wind nor what the node does by itself.
+// N6: a flood of requests for later stamps blocks neither the wind nor the node's own events.
 TEST(ForestInputs, FindRoomForTheNodesOwnInAFlood) {
   ForestInputs inputs(false);
   ForestEvent force;
@@ -71,7 +71,7 @@ TEST(ForestInputs, FindRoomForTheNodesOwnInAFlood) {
   EXPECT_EQ(inputs.take(100 * TICK).size(), ForestInputs::MOST_WAITING);
 }
 
-// N3: the last move of a grab at a tick counts; a renewal leaves it alone.
+// N3: the last move of a grab at a tick counts. A renewal does not change it.
 TEST(ForestInputs, RenewalsLeaveMovesAlone) {
   ForestInputs inputs(false);
   ForestEvent move;

@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// What dynamic_reconfigure offers is what the node's own structures allow.
+// The ranges of dynamic_reconfigure are those of the structures in the node.
 #include <gtest/gtest.h>
 
 #include <vegetation_sim/ForestAnimatorConfig.h>

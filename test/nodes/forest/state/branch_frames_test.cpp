@@ -14,7 +14,8 @@ namespace {
 
 using Key = std::pair<std::uint32_t, std::uint32_t>;
 
-/// Two of four oaks: twigs of the first are touched, the last one is pulled hard at one branch.
+/// Two of four oaks move: twigs of the first one are touched, and one branch of the last one is
+/// pulled hard.
 struct Pulled {
   Pulled() : rig({}, 2) {
     for (int i = 0; i < 6; ++i) rig.touch(rig.twig() - i, 60.0);
@@ -41,7 +42,7 @@ struct Pulled {
   std::vector<forest::BranchPoint> held;
 };
 
-// N7: frames go to the branches that are farthest from their rest, whatever their trees' numbers.
+// N7: frames go to the branches that are farthest from rest, whatever the ids of their trees.
 TEST(BranchFrames, GoToTheBranchesThatAreFarthestFromRest) {
   Pulled scene;
   const auto first = scene.physical(0), last = scene.physical(3);
@@ -56,25 +57,25 @@ TEST(BranchFrames, GoToTheBranchesThatAreFarthestFromRest) {
   EXPECT_EQ(few.balance().held_back, first);
 }
 
-// Who holds a branch has its frame; who asks for frames has them before any physical branch.
+// A held branch has a frame, and requested frames have priority over other physical branches.
 TEST(BranchFrames, OfHeldAndAskedForBranchesComeFirst) {
   Pulled scene;
   scene.held = {{1, 5, 0.0}};
   BranchFrames frames(3);
   EXPECT_EQ(scene.choose(frames).count({1, 5}), 1u);
-  frames.set(2, {7, 8}, 100, true);  // while those of before still rest
+  frames.set(2, {7, 8}, 100, true);  // The earlier frames are still in their cool-down.
   EXPECT_EQ(scene.choose(frames), (std::set<Key>{{1, 5}, {2, 7}, {2, 8}}));
   frames.set(2, {9}, 100, true);
   EXPECT_EQ(scene.choose(frames), (std::set<Key>{{2, 7}, {2, 8}, {2, 9}}));
 }
 
-// N7: also within the second in which the frames of others rest; and what a branch lacks without a
-// frame is told in metres, if anything is left to be shared out.
+// N7: this also holds during the cool-down of other frames. The error of a branch without a frame
+// is reported in metres if any frame remains to be shared.
 TEST(BranchFrames, OfBranchesJustTakenInHandAreThereAtOnce) {
   Pulled scene;
   const std::size_t physical = scene.physical(0) + scene.physical(3);
   BranchFrames frames(3);
-  EXPECT_EQ(scene.choose(frames).size(), 3u);  // no room is left
+  EXPECT_EQ(scene.choose(frames).size(), 3u);  // All frames are in use.
   scene.held = {{1, 5, 0.0}};
   const std::set<Key> chosen = scene.choose(frames);
   EXPECT_EQ(chosen.size(), 3u);
@@ -88,7 +89,8 @@ TEST(BranchFrames, OfBranchesJustTakenInHandAreThereAtOnce) {
   EXPECT_TRUE(std::isnan(frames.balance().largest));
 }
 
-// N7: branches swing through their rest, and yet no frame comes and goes within a second.
+// N7: branches oscillate through their rest pose, and still no frame appears and disappears within
+// a second.
 TEST(BranchFrames, DoNotFlicker) {
   Pulled scene;
   scene.rig.forest.setWind(forest::steadyWind(Vec3(8.0, 0.0, 0.0), 6.0));

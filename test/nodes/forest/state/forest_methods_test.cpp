@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// The methods that a scenario chooses are those by which forest_animator moves its trees.
+// Tests that forest_animator moves its trees by the methods that the scenario selects.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -17,7 +17,7 @@ using forest::PhysicsSettings;
 
 constexpr char FILE_NAME[] = PACKAGE_FOLDER "/test/nodes/scenarios/methods.yaml";
 
-/// What the file says, by hand.
+/// Returns the settings of the file, written by hand.
 PhysicsSettings wanted() {
   PhysicsSettings out;
   out.dynamics = static_cast<int>(physics::Dynamics::PAPER);
@@ -38,7 +38,7 @@ PhysicsSettings wanted() {
   return out;
 }
 
-/// Of a forest of the same trees with these settings, at a stamp.
+/// Returns the hash of a forest of the same trees with these settings at a stamp.
 std::uint64_t hashWith(const PhysicsSettings& settings, Nanoseconds stamp) {
   const ForestScene scene = loadForestScene(FILE_NAME);
   forest::Forest out(scene.layout, scene.terrain, ForestTuning().settings);
@@ -47,8 +47,8 @@ std::uint64_t hashWith(const PhysicsSettings& settings, Nanoseconds stamp) {
   return out.hash();
 }
 
-// S1-30, S1-31, S1-33: the state that the node tells is that of a forest with the settings of the
-// file, and with no setting left at its default.
+// S1-30, S1-31, S1-33: the published state is that of a forest with the settings of the file, and
+// no setting keeps its default.
 TEST(ForestMethods, AreThoseOfTheScenario) {
   ClockedForest forest(3000);
   forest.run(3);

@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// A forest of a million trees, beside a node that has none.
+// Compares a forest of a million trees with a node without trees.
 #include <gtest/gtest.h>
 #include <ros/network.h>
 #include <ros/xmlrpc_manager.h>
@@ -19,9 +19,9 @@ namespace {
 
 constexpr std::uint32_t TREES = 1000000;
 constexpr double MOST_LAYOUT_BYTES = 1e6, MOST_BYTES_PER_TREE = 200.0;
-constexpr std::uint32_t MOST_STATE_BYTES = 100000;  // of one message
+constexpr std::uint32_t MOST_STATE_BYTES = 100000;  // limit for one message
 
-/// What the master or a node answers to a call with the caller and `argument`.
+/// Calls the XML-RPC method of the master or a node with the caller's name and `argument`.
 XmlRpc::XmlRpcValue ask(const std::string& host, int port, const char* method,
                         const std::string& argument) {
   XmlRpc::XmlRpcValue request, answer;
@@ -33,7 +33,7 @@ XmlRpc::XmlRpcValue ask(const std::string& host, int port, const char* method,
   return answer[2];
 }
 
-/// Resident memory of a node's process [B].
+/// Returns the resident memory of a node's process [B].
 double memoryOf(const std::string& node) {
   const std::string uri =
       ask(ros::master::getHost(), static_cast<int>(ros::master::getPort()), "lookupNode", node);
@@ -72,7 +72,7 @@ class ForestMillion : public testing::Test {
     delete forest_;
   }
 
-  /// An eye walks eastwards through the trees; one second a step.
+  /// Moves a viewer eastwards through the trees by one step per second.
   static void walk(int seconds) {
     for (int i = 0; i < seconds; ++i) {
       Viewer message;
@@ -99,7 +99,7 @@ ClockedForest* ForestMillion::forest_ = nullptr;
 ros::Publisher* ForestMillion::wind_ = nullptr;
 ros::Publisher* ForestMillion::viewer_ = nullptr;
 
-// The latched layout is a law: kilobytes.
+// The latched layout has the rules of tiles instead of trees, so it has kilobytes.
 TEST_F(ForestMillion, LayoutIsSmall) {
   const std::uint32_t size = ros::serialization::serializationLength(forest_->layout.last());
   printf("layout of a million trees: %.1f kB\n", size / 1e3);
@@ -107,7 +107,8 @@ TEST_F(ForestMillion, LayoutIsSmall) {
   EXPECT_EQ(fromMsg(forest_->layout.last()).treeCount(), TREES);
 }
 
-// State flows at its rate while somebody comes, walks and goes; no message is large. Memory stays.
+// State is published at its rate while a viewer appears, moves and leaves. No message is large and
+// memory does not grow.
 TEST_F(ForestMillion, StateFlowsAndNoTreeTakesMemory) {  // S1-04, S1-05, N8
   const double before = bytesPerTree();
   const std::size_t first = forest_->state.messages.size();
@@ -133,7 +134,7 @@ TEST_F(ForestMillion, StateFlowsAndNoTreeTakesMemory) {  // S1-04, S1-05, N8
   EXPECT_LT(after, MOST_BYTES_PER_TREE);
 }
 
-// S1-04, S1-06: any tree regrows from its seed, here as there, to the bit.
+// S1-04, S1-06: any tree grows from its seed to the same bits in both processes.
 TEST_F(ForestMillion, TreesRegrowToTheBit) {
   const forest::Layout layout = fromMsg(forest_->layout.last());
   std::uint64_t last = 0;
@@ -148,7 +149,7 @@ TEST_F(ForestMillion, TreesRegrowToTheBit) {
   EXPECT_FALSE(forest_->ask(TREES).success);
 }
 
-// Stock markers draw the nearest trees only, and let the state flow.
+// Stock markers draw only the nearest trees and do not delay the state.
 TEST_F(ForestMillion, MarkersStayWithinTheirBudget) {
   LatestMessage<visualization_msgs::MarkerArray> markers("forest/markers");
   markers.waitForPublisher();

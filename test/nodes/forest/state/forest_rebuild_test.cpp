@@ -1,7 +1,7 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// Another process rebuilds every branch from layout, wind and state alone, equal to forest_animator
-// (design: state is small, so replicate it).
+// Another process rebuilds every branch from layout, wind and state only, with the same result as
+// forest_animator, because displays and sensors replicate the forest from these messages.
 #include <gtest/gtest.h>
 #include <vegetation_sim/Grab.h>
 #include <vegetation_sim/Release.h>
@@ -23,11 +23,12 @@ namespace {
 
 using forest::Weights;
 
-// The same operations in the same order in both processes; what is left is the sum with the foot.
+// Both processes do the same operations in the same order. The error comes from adding the position
+// of the foot.
 constexpr double DOUBLE_BAR = 1e-9;  // [m]
-// Float keeps 6e-8 a step over some ten joints.
-constexpr double FLOAT_BAR = 1e-5;                 // of the tree's height
-constexpr std::int64_t KEY_FRAME = 1800 * 944444;  // a tick of key frames, at Unix times
+// Single precision has an error of 6e-8 per step over about ten joints.
+constexpr double FLOAT_BAR = 1e-5;                 // relative to the height of the tree
+constexpr std::int64_t KEY_FRAME = 1800 * 944444;  // A tick of key frames in Unix time.
 
 WindField allKinds() {
   std::vector<wind::Primitive> all{forest::makeBreeze(1, Vec3(4, -1, 0)),
@@ -44,7 +45,7 @@ WindField allKinds() {
 
 struct Errors {
   double metres{0.0}, turn{0.0}, of_height{0.0};
-  std::size_t physical{0};  // branches
+  std::size_t physical{0};  // number of physical branches
 };
 
 class ForestRebuild : public testing::Test {
@@ -74,7 +75,7 @@ class ForestRebuild : public testing::Test {
     delete forest_;
   }
 
-  /// An eye looks eastwards along the row of trees.
+  /// Moves a viewer eastwards along the row of trees.
   static void look(const std::string& id, double x) {
     Viewer message;
     message.id = id;
@@ -88,7 +89,7 @@ class ForestRebuild : public testing::Test {
     forest_->settle();
   }
 
-  /// A process that heard the latched layout, the wind and the key frame only.
+  /// A process that has received only the latched layout, the wind and the key frame.
   static forest::ForestReplica listener() {
     LatestMessage<ForestLayout> layout("forest/layout");
     LatestMessage<WindField> wind("wind");
@@ -100,7 +101,7 @@ class ForestRebuild : public testing::Test {
     return out;
   }
 
-  /// Largest errors of all branches of all trees at the stamp of the replica.
+  /// Returns the largest errors of all branches of all trees at the stamp of the replica.
   static Errors compare(const forest::ForestReplica& replica) {
     Errors out;
     for (std::uint32_t id = 0; id < replica.layout().treeCount(); ++id) {
@@ -116,7 +117,7 @@ class ForestRebuild : public testing::Test {
       const auto promoted = replica.promoted(id).branches;
       EXPECT_EQ(promoted.size(), published.physical.size());
       if (!promoted.empty() || replica.sway(id))
-        narrow(poses, fast);  // how displays pose such a tree
+        narrow(poses, fast);  // Displays pose such a tree in this way.
       out.physical += promoted.size();
       if (poses.size() != published.transforms.poses.size())
         throw std::runtime_error("other branches");
@@ -138,7 +139,7 @@ class ForestRebuild : public testing::Test {
         std::max(out.of_height, length(tree.foot + fast.position - at) / tree.skeleton.height);
   }
 
-  /// Takes hold of a limb and pulls it sideways.
+  /// Grabs a limb and pulls it sideways.
   static void grab(std::uint32_t tree, std::uint32_t branch) {
     Grab call;
     call.request.tree = tree;
@@ -160,7 +161,7 @@ class ForestRebuild : public testing::Test {
     return errors;
   }
 
-  /// The scene is no easy one: several levels, trees between two of them, and bent ones.
+  /// The scene is a demanding one: it has several levels, trees in transition and bent trees.
   static void expectLively(const forest::ForestReplica& replica) {
     std::set<int> levels;
     int between = 0;
@@ -182,7 +183,7 @@ class ForestRebuild : public testing::Test {
 
   static ClockedForest* forest_;
   static ros::Publisher *wind_, *viewer_;
-  static std::size_t key_frame_;  // index of its message
+  static std::size_t key_frame_;  // index of the message
 };
 ClockedForest* ForestRebuild::forest_ = nullptr;
 ros::Publisher* ForestRebuild::wind_ = nullptr;
@@ -198,14 +199,15 @@ bool sameBits(const forest::BatchPoses& a, const forest::BatchPoses& b) {
          same(a.qw, b.qw) && same(a.qx, b.qx) && same(a.qy, b.qy) && same(a.qz, b.qz);
 }
 
-// S1-04, S1-22, S1-23, N2: layout, wind and one key frame, heard while levels change.
+// S1-04, S1-22, S1-23, N2: layout, wind and one key frame are sufficient while levels change.
 TEST_F(ForestRebuild, OneKeyFrameIsEnough) {
   const forest::ForestReplica late = listener();
   expectLively(late);
   expectEqual(late, "one key frame");
 }
 
-// The same poses bit for bit in single precision, whatever instructions the reader's processor has.
+// The poses are the same bit for bit in single precision, whatever instruction set the reader's
+// processor has.
 TEST_F(ForestRebuild, FloatPosesHaveTheSameBitsOnEveryInstructionSet) {
   const forest::ForestReplica late = listener();
   const std::vector<std::string> sets = forest::instructionSets();
@@ -225,13 +227,13 @@ TEST_F(ForestRebuild, FloatPosesHaveTheSameBitsOnEveryInstructionSet) {
   }
 }
 
-// Deltas alone carry a reader on while eyes come, move and go.
+// A reader continues with deltas only while viewers appear, move and leave.
 TEST_F(ForestRebuild, DeltasAreFollowed) {
   forest::ForestReplica reader = listener();
   for (int second = 0; second < 8; ++second) {
     if (second < 6) look("eye", 40.0 * second);
     if (second == 2) look("other", 300.0);
-    forest_->run(second == 7 ? 20 : 30);  // ends while levels change
+    forest_->run(second == 7 ? 20 : 30);  // The run ends while levels change.
   }
   std::size_t changed = 0;
   for (std::size_t i = key_frame_ + 1; i < forest_->state.messages.size(); ++i) {
@@ -244,7 +246,7 @@ TEST_F(ForestRebuild, DeltasAreFollowed) {
   expectEqual(reader, "deltas");
 }
 
-// S1-34, S1-35: physical branches too, held and on their way back.
+// S1-34, S1-35: this also holds for physical branches, held and on their way back.
 TEST_F(ForestRebuild, GrabbedTreesAreFollowed) {
   forest::ForestReplica reader = listener();
   std::size_t next = key_frame_ + 1;
