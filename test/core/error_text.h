@@ -8,7 +8,7 @@
 
 namespace vegetation_sim {
 
-/// What a call refuses its input with; empty if it does not.
+/// Returns the text with which a call rejects its input, or an empty text if it does not.
 template <class Call>
 std::string errorOf(Call&& call) {
   try {

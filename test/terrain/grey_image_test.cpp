@@ -17,7 +17,7 @@ std::string refusal(const std::string& bytes) {
   return errorOf([&] { parseGreyImage(bytes, "hill.png"); });
 }
 
-/// Bytes of a number as PNG and 16-bit PGM have them: big end first.
+/// Returns the bytes of a number as in PNG and 16-bit PGM: the most significant first.
 std::string bigEndian(std::uint32_t value, int bytes) {
   std::string out;
   for (int i = bytes - 1; i >= 0; --i) out += static_cast<char>(value >> (8 * i));
@@ -48,13 +48,13 @@ TEST(GreyImage, PgmIsReadAsTextAndAsBytes) {
             (Samples{258, 65535}));
 }
 
-TEST(GreyImage, WhatIsNoImageIsRefusedByName) {
+TEST(GreyImage, OtherFilesAreRejectedWithTheirName) {
   EXPECT_EQ(refusal(""), "hill.png: neither a PNG nor a PGM (P2 or P5) image");
   EXPECT_EQ(refusal("GIF89a"), "hill.png: neither a PNG nor a PGM (P2 or P5) image");
   EXPECT_EQ(refusal("P6 1 1 255\nabc"), "hill.png: neither a PNG nor a PGM (P2 or P5) image");
 }
 
-TEST(GreyImage, FileThatIsMissingOrAFolderIsRefusedByName) {
+TEST(GreyImage, MissingFilesAndFoldersAreRejectedWithTheirName) {
   EXPECT_EQ(errorOf([] { loadGreyImage("nowhere/hill.png"); }),
             "nowhere/hill.png: cannot be read: No such file or directory");
   EXPECT_EQ(errorOf([] { loadGreyImage("/"); }), "/: cannot be read: Is a directory");
@@ -123,7 +123,7 @@ std::string mutate(std::string bytes, const Random& random) {
   return bytes;
 }
 
-/// Sets right the checksum of each PNG chunk, so that a changed one is not refused just for it.
+/// Corrects the checksum of each PNG chunk, so that a changed chunk is not rejected for it alone.
 std::string withChecksums(std::string bytes) {
   for (std::size_t at = 8; at + 12 <= bytes.size();) {
     std::uint32_t length = 0;

@@ -42,7 +42,7 @@ TEST(HeightMap, WithoutAFileIsFlat) {
   EXPECT_TRUE(std::isinf(flat.bounds().max_x));
 }
 
-// At a node its value, in a cell's middle the mean of four.
+// The height at a node is its value, in a cell's middle the mean of four.
 TEST(HeightMap, IsExactAtNodesAndTheMeanOfFourAtCentres) {
   const HeightMap map = smallMap();
   EXPECT_NEAR(map.height(10.0, 20.0), metres(1), ROUNDING);
@@ -110,7 +110,7 @@ TEST(HeightMap, OfOneSampleOrOneRowIsDefinedEverywhere) {
   EXPECT_EQ(row.normal(0.5, 0.0), Vec3(-1.0, 0.0, 1.0) * (1.0 / std::sqrt(2.0)));
 }
 
-TEST(HeightMap, HashTellsSamplesAndLawsApart) {
+TEST(HeightMap, HashDependsOnSamplesAndLaw) {
   const HeightMap one({}, {2, 1, 10, {0, 10}}), same({}, {2, 1, 10, {0, 10}});
   const HeightMap other({}, {2, 1, 10, {0, 9}}), upright({}, {1, 2, 10, {0, 10}});
   HeightMapLaw steeper;
@@ -149,7 +149,7 @@ TEST_F(HeightMapFile, NamesItsPictureRelativeToItself) {
   EXPECT_NEAR(HeightMap::load(file).height(-0.5, -2.0), 3.64, ROUNDING);
 }
 
-TEST_F(HeightMapFile, ReportsAllFaultsAtOnceByName) {
+TEST_F(HeightMapFile, ReportsAllFaultsAtOnceWithTheirNames) {
   const std::string error = refusal("{resolution: .nan, origin: [0, 0], hight_max: 3}");
   EXPECT_EQ(error,
             file_ + ": resolution = nan m is not finite, allowed is 0.001 to 1000 m\n" + file_ +

@@ -39,7 +39,7 @@ inline std::string grey16(const std::vector<std::uint16_t>& samples, int columns
   return pngOf(samples, columns, PNG_FORMAT_LINEAR_Y);
 }
 
-/// Folder of its own for a test, removed with it.
+/// A folder of its own for a test, removed with it.
 class Folder {
  public:
   Folder() { EXPECT_NE(mkdtemp(path_.data()), nullptr); }

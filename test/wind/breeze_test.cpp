@@ -22,7 +22,7 @@ Primitive breeze() {
   return p;
 }
 
-/// Ten minutes at one point: along, across and up [m/s].
+/// Returns ten minutes at one point: along, across and up [m/s].
 std::array<std::vector<double>, 3> record(const Primitive& p, std::uint64_t seed) {
   const Field field({p}, seed);
   std::array<std::vector<double>, 3> out;
@@ -49,8 +49,8 @@ double rmsOf(const std::vector<double>& x) {
 }
 
 TEST(Breeze, HasTheStatedMeanAndVarianceOverTenMinutes) {  // S2-20, S1-W1
-  // The slowest mode has a period of 100 s; a part of one, left over, shifts the mean of 600 s by
-  // up to its amplitude / (6 pi), and beating neighbours move the rms by a few per cent.
+  // The slowest mode has a period of 100 s; an incomplete one shifts the mean of 600 s by up to its
+  // amplitude / (6 pi), and beating neighbours change the rms by a few per cent.
   for (const std::uint64_t seed : {1u, 2u, 3u, 4u, 5u}) {
     const auto air = record(breeze(), seed);
     EXPECT_NEAR(meanOf(air[0]), 5.0, 0.05) << seed;
@@ -91,7 +91,7 @@ double bandVariance(std::vector<double> x, double low, double high) {
   return variance;
 }
 
-/// The stated spectrum's share of [low, high) Hz, of what it has in the whole band.
+/// Returns the share of the stated spectrum in [low, high) Hz, of its integral over the whole band.
 double statedShare(const Primitive& p, double low, double high) {
   const auto integral = [&](double from, double to) {
     double sum = 0.0;
@@ -117,7 +117,7 @@ TEST(Breeze, HasTheStatedSpectrumInOctaves) {  // S2-20
   double low = 0.02;
   for (const double share : measured) {
     // Three modes an octave, each anywhere in its bin: those of the bins at both edges are in or
-    // out by chance, which leaves sqrt(40 * 2 / 4) of 40 * 3 modes, 4 %, as standard deviation.
+    // out at random, which leaves sqrt(40 * 2 / 4) of 40 * 3 modes, 4 %, as standard deviation.
     EXPECT_NEAR(share / statedShare(breeze(), low, 2.0 * low), 1.0, 0.12) << low << " Hz";
     low *= 2.0;
   }
@@ -153,7 +153,8 @@ TEST(Breeze, CarriesItsGustsAlongWithTheMeanWind) {  // S2-20: frozen turbulence
   Primitive p = breeze();
   const Field field({p}, 9);
   Instant now = field.at(at(50.0)), later = field.at(at(52.0));
-  // Along the wind a point at 5 m/s sees the same air: only across it do points differ.
+  // A point that moves along the wind at 5 m/s has the same velocity at all times: only across the
+  // wind do points differ.
   for (const double x : {0.0, 3.0, 20.0}) {
     const Vec3 position(x, -x, 1.0), carried = position + p.velocity * 2.0;
     EXPECT_LT(length(later.velocity(carried) - now.velocity(position)), 1e-9);
@@ -172,13 +173,13 @@ TEST(Breeze, LosesCoherenceAcrossTheWindAsStated) {  // S2-20
         const double r = share * speed / (Breeze::DECAY * f);
         coherence += sinCosTurns(dot(mode.wave, Vec3(-0.8, 0.6, 0.0) * r)).cos / SEEDS;
       }
-      // Spread of a mean of cosines: 0.7 / sqrt(3000) = 0.013; the tails left out add 0.03.
+      // Spread of a mean of cosines: 0.7 / sqrt(3000) = 0.013; the omitted tails add 0.03.
       EXPECT_NEAR(coherence, std::exp(-share), 0.06) << "bin " << bin;
     }
   }
 }
 
-TEST(Breeze, NeighboursFeelMoreAlikeThanStrangers) {  // S2-20
+TEST(Breeze, IsMoreAlikeAtNearPointsThanAtFarOnes) {  // S2-20
   const auto likeness = [](double distance) {
     double product = 0.0, square = 0.0;
     for (std::uint64_t seed = 0; seed < 8; ++seed) {

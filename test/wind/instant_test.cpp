@@ -14,7 +14,7 @@
 namespace vegetation_sim::wind {
 namespace {
 
-/// A random source that a drawn set of kinds and sizes describes.
+/// Returns a random source of a random kind and size.
 Primitive randomSource(const Random& random, std::uint32_t id) {
   const auto draw = [&](std::uint64_t i, double low, double high) {
     return random.uniform(100 * id + i, low, high);
@@ -91,7 +91,7 @@ TEST(SpeedBound, IsNothingFarAway) {  // S1-22, S1-40
   EXPECT_GT(instant.speedBound(instant.terms[0].centre, 5.0), 0.0);
 }
 
-TEST(SpeedBound, DoesNotBlinkWithTheSineOfADisk) {  // S1-40
+TEST(SpeedBound, DoesNotFollowTheSineOfADisk) {  // S1-40
   const Field field({printedDisk()});
   EXPECT_EQ(field.velocity(Vec3(0.0, 0.0, 0.0), 0), Vec3(Vec3::Zero()));
   EXPECT_EQ(field.at(0).speedBound(Vec3::Zero(), 1.0), 5.0);

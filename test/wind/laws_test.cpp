@@ -92,7 +92,8 @@ TEST(Gust, FrontMovesAtItsSpeed) {  // S2-20, S1-W1
   gust.front_speed = 5.0;
   gust.radius = 10.0;
   const Field field({gust});
-  // Nothing ahead of the front, everything behind its rise (5 m), nothing behind the tail (40 m).
+  // There is no wind ahead of the front, everything within its rise (5 m), and none behind the tail
+  // (40 m).
   for (const double t : {0.0, 3.0, 20.0}) {
     const double front = 5.0 * t;
     EXPECT_EQ(length(field.velocity(Vec3(0.0, front + 0.01, 0.0), at(t))), 0.0);

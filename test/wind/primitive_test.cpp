@@ -70,7 +70,7 @@ const std::vector<NumberCase> NUMBERS = {
 
 class EveryNumber : public testing::TestWithParam<NumberCase> {};
 
-TEST_P(EveryNumber, IsRefusedByNameOutsideItsRange) {  // N2
+TEST_P(EveryNumber, IsRejectedWithItsNameOutsideItsRange) {  // N2
   const NumberCase& number = GetParam();
   const double wide = 1.0 + std::fabs(number.high);
   for (const double bad : {NAN_VALUE, INF_VALUE, -INF_VALUE, number.low - 0.001, number.high * 1.1,
@@ -100,7 +100,7 @@ TEST(Check, TakesOneOfEach) {
   for (const Primitive& p : oneOfEach()) EXPECT_EQ(faultsOf(p), "");
 }
 
-TEST(Check, AllowsOddNumbersOnlyWhereTheKindDoesNotLook) {
+TEST(Check, AllowsOddNumbersOnlyWhereTheKindDoesNotUseThem) {
   Primitive p = example(Kind::BREEZE);
   p.core_radius = 0.0;  // as in a message that a user left blank
   EXPECT_EQ(faultsOf(p), "");

@@ -25,7 +25,7 @@ void describe(FieldVisitor& v, Kite& kite) {
   v.choice("shape", kite.shape, {"diamond", "box"});
 }
 
-/// Reads a kite strictly; returns the faults.
+/// Reads a kite strictly and returns the faults.
 std::string read(const std::string& text, Kite& kite) {
   Faults faults;
   YamlSection yaml(parseYaml(text, "kite.yaml"), "kite.yaml", faults);
@@ -140,7 +140,7 @@ TEST(FieldChecker, NamesItsOwnerAndEachFault) {
   EXPECT_THROW(faults.throwIfAny(), InvalidInput);
 }
 
-TEST(FieldHasher, TellsEachFieldApart) {
+TEST(FieldHasher, GivesEachFieldItsOwnHash) {
   const auto hashOf = [](Kite kite) {
     Hash hash;
     FieldHasher hasher(hash);

@@ -7,7 +7,7 @@
 namespace vegetation_sim {
 namespace {
 
-// TreeModels cost 0, 1, 2 ... and leave errors of 8, 4, 2 ... times `scale`.
+// Returns an item whose tiers cost 0, 1, 2 ... and have errors of 8, 4, 2 ... times `scale`.
 TierChoice choiceOf(double scale, int wanted, int stepwise = MAX_TIERS) {
   TierChoice out;
   out.stepwise = std::min(stepwise, wanted);
@@ -19,8 +19,8 @@ TierChoice choiceOf(double scale, int wanted, int stepwise = MAX_TIERS) {
   return out;
 }
 
-// N7: what the tolerance asks for is taken while there is room for it.
-TEST(Governor, TakesTheCheapestRungsThatHoldTheTolerance) {
+// N7: the tiers that the tolerance asks for are chosen while there is room for them.
+TEST(Governor, TakesTheCheapestTiersThatHoldTheTolerance) {
   std::vector<TierChoice> choices{choiceOf(1.0, 3), choiceOf(0.5, 2), choiceOf(9.0, 7, 4)};
   const TierAllocation balance = allocateTiers(choices, 100.0, 1.0);
   EXPECT_EQ(choices[0].chosen, 3);
@@ -30,7 +30,7 @@ TEST(Governor, TakesTheCheapestRungsThatHoldTheTolerance) {
   EXPECT_EQ(balance.held_back, 0u);
 }
 
-// N7: when the budget binds, what is farthest off per cost goes first, and the errors that stay
+// N7: when the budget binds, the largest error per cost is removed first, and the remaining errors
 // are about equal.
 TEST(Governor, LargestErrorPerCostGoesFirst) {
   std::vector<TierChoice> choices;
@@ -42,8 +42,8 @@ TEST(Governor, LargestErrorPerCostGoesFirst) {
   EXPECT_EQ(balance.held_back, 8u);
 }
 
-// Where there is no room for the tier above the stair that is wanted, the one before it is taken.
-TEST(Governor, RungsAboveTheStairAreClimbedOneByOne) {
+// Where there is no room for the wanted tier above `stepwise`, the one before it is chosen.
+TEST(Governor, TiersAboveTheStepwiseOnesAreClimbedOneByOne) {
   TierChoice choice = choiceOf(1.0, 8, 3);
   choice.above = 7;
   for (const auto& [room, chosen] : {std::pair{8.0, 8}, {7.5, 7}, {6.5, 3}}) {
@@ -57,7 +57,7 @@ TEST(Governor, RungsAboveTheStairAreClimbedOneByOne) {
   EXPECT_EQ(choices[0].chosen, 3);
 }
 
-// N7: no limit cycle. Things that differ by less than what is held counts more take no turns.
+// N7: no limit cycle: items whose priorities differ by less than STICKY do not alternate.
 TEST(Governor, WhatIsHeldStays) {
   std::vector<TierChoice> choices;
   for (int i = 0; i < 20; ++i) choices.push_back(choiceOf(1.0 + 0.01 * i, 4));
@@ -80,11 +80,11 @@ TEST(Governor, WhatHasJustChangedRests) {
   EXPECT_EQ(choices[1].chosen, 1);
 }
 
-TEST(Governor, AFinerRungIsKeptUntilTheCoarserOneIsWellWithin) {
+TEST(Governor, AFinerTierIsKeptUntilTheCoarserOneIsWellWithin) {
   TierChoice choice = choiceOf(1.0, 0);
   EXPECT_EQ(tierWithin(choice, 7, 1.0), 3);
-  EXPECT_EQ(tierWithin(choice, 2, 1.0), 2);  // none holds it: the finest
-  choice.held = 4;                           // tier 3 leaves 1.0
+  EXPECT_EQ(tierWithin(choice, 2, 1.0), 2);  // none holds it, so the finest is chosen
+  choice.held = 4;                           // tier 3 has an error of 1.0
   EXPECT_EQ(tierWithin(choice, 7, 1.2), 4);
   EXPECT_EQ(tierWithin(choice, 7, 1.5), 3);
 }

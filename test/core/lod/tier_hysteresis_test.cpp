@@ -10,7 +10,8 @@ namespace {
 constexpr Nanoseconds START = 1700000000LL * NANOSECONDS_PER_SECOND;
 constexpr int FINEST = 3;
 
-/// Things with ids 10, 20 ... whose tiers cost 0, 1, 2, 3 and leave 8, 4, 2, 1 times their size.
+/// Items with ids 10, 20 ... whose tiers cost 0, 1, 2, 3 and have errors of 8, 4, 2, 1 times their
+/// size.
 struct Things {
   const std::vector<TierChoice>& choose(const std::vector<double>& sizes, double room,
                                         double tolerance, double seconds) {
@@ -22,7 +23,7 @@ struct Things {
         choice.error[tier] = static_cast<float>(sizes[i] * 8.0 / (1 << tier));
         choice.cost[tier] = static_cast<float>(tier);
       }
-      if (sizes[i] > 0.0) choices.push_back(choice);  // 0: is not there
+      if (sizes[i] > 0.0) choices.push_back(choice);  // 0: the item is absent
     }
     held.allocateTiers(choices, FINEST, room, tolerance, START + fromSeconds(seconds));
     return choices;
@@ -31,14 +32,15 @@ struct Things {
   std::vector<TierChoice> choices;
 };
 
-// N7: what has changed stays for a second while the budget binds, whatever the others do.
+// N7: an item that has changed keeps its tier for a second while the budget binds, whatever the
+// others do.
 TEST(TierHysteresis, WhatHasChangedRests) {
   Things things;
   things.choose({1.0, 0.1}, 3.0, 0.1, 0.0);
   ASSERT_EQ(things.choices[0].chosen, FINEST);
   things.choose({1.0, 9.0}, 3.0, 0.1, 0.9);
   EXPECT_TRUE(things.choices[0].resting);
-  EXPECT_FALSE(things.choices[1].resting);  // has never had more
+  EXPECT_FALSE(things.choices[1].resting);  // never had more
   EXPECT_EQ(things.choices[0].chosen, FINEST);
   things.choose({1.0, 9.0}, 3.0, 0.1, 1.1);
   EXPECT_FALSE(things.choices[0].resting);
@@ -48,7 +50,7 @@ TEST(TierHysteresis, WhatHasChangedRests) {
   EXPECT_EQ(things.choices[1].chosen, FINEST);
 }
 
-TEST(TierHysteresis, AFinerRungIsKeptUntilTheCoarserOneIsWellWithin) {
+TEST(TierHysteresis, AFinerTierIsKeptUntilTheCoarserOneIsWellWithin) {
   Things things;
   EXPECT_EQ(things.choose({1.0}, 9.0, 3.9, 0.0)[0].chosen, 2);
   EXPECT_EQ(things.choose({1.0}, 9.0, 4.1, 5.0)[0].chosen, 2);
@@ -65,7 +67,7 @@ TEST(TierHysteresis, ForgetsWhoIsNotThere) {
   EXPECT_EQ(things.choices[2].held, FINEST);
 }
 
-// As a fresh start then would be.
+// The outcome is that of a fresh start then.
 TEST(TierHysteresis, ForgetsAllWhenTimeGoesBack) {
   Things things;
   things.choose({1.0, 1.0}, 3.0, 0.1, 10.0);

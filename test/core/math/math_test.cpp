@@ -14,7 +14,8 @@ namespace {
 // Bounds that math.h states, plus half a unit in the last place for the reference's own rounding.
 constexpr double HALF_ULP = 1.2e-16;
 
-/// Sine of turns in extended precision: 64-bit mantissa, so its own error does not count.
+/// Returns the sine of turns in extended precision: a 64-bit mantissa, so that its own error does
+/// not count.
 long double referenceSine(double turns) {
   const long double fraction = static_cast<long double>(turns) - std::floor(turns);
   return std::sin(2.0L * 3.14159265358979323846264338327950288L * fraction);
@@ -43,7 +44,7 @@ TEST(Exponential, IsWithinItsBoundOverItsWholeRange) {
 TEST(Exponential, EndsInZeroAndInfinity) {
   EXPECT_EQ(exponential(0.0), 1.0);
   EXPECT_EQ(exponential(-1e300), 0.0);
-  EXPECT_GT(exponential(-740.0), 0.0);  // not yet nothing, though denormal
+  EXPECT_GT(exponential(-740.0), 0.0);  // denormal, but not zero
   EXPECT_TRUE(std::isinf(exponential(1e300)));
   EXPECT_TRUE(std::isnan(exponential(std::nan(""))));
 }
@@ -102,7 +103,7 @@ TEST(CubeRoot, IsWithinItsBound) {
   for (std::uint64_t i = 0; i < 20000; ++i) {
     const double x = std::pow(10.0, random.uniform(i, -200.0, 200.0));
     const long double root = cubeRoot(x);
-    // Cubed again: three times the root's relative error (std::cbrt itself is off by 5e-16).
+    // The cube has three times the root's relative error (std::cbrt itself is off by 5e-16).
     ASSERT_NEAR(static_cast<double>(root * root * root / x - 1.0L), 0.0, 3.0 * 4e-16) << x;
   }
   EXPECT_EQ(cubeRoot(0.0), 0.0);
@@ -148,7 +149,7 @@ double limited(double x) {
   return softLimit(x, KNEE, LIMIT);
 }
 
-// E16: whatever is summed up, the deviation is bounded.
+// E16: the deviation is bounded for any sum.
 TEST(SoftLimit, IsBoundedForAnyInput) {
   for (const double x : {1.0, 10.0, 1e6, 1e300}) {
     EXPECT_LE(limited(x), LIMIT);

@@ -9,7 +9,7 @@
 namespace vegetation_sim {
 namespace {
 
-// S1-12: the same seed is the same noise, another is another.
+// S1-12: equal seeds give equal noise, other seeds other noise.
 TEST(GradientNoise, IsAFunctionOfItsSeed) {
   EXPECT_EQ(gradientNoise(3, 1.37), gradientNoise(3, 1.37));
   EXPECT_NE(gradientNoise(3, 1.37), gradientNoise(4, 1.37));

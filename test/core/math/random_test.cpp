@@ -12,7 +12,7 @@ namespace {
 
 using Block = std::array<std::uint32_t, 4>;
 
-// Known answers that the authors of Philox publish with it, philox4x32 with 10 rounds.
+// Known answers that the authors of Philox publish for philox4x32 with 10 rounds.
 TEST(Philox, GivesThePublishedAnswers) {
   EXPECT_EQ(philox({0, 0, 0, 0}, {0, 0}), (Block{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8}));
   constexpr std::uint32_t ONES = 0xffffffff;

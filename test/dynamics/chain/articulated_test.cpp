@@ -25,7 +25,7 @@ Loads noLoads(std::size_t links) {
   return out;
 }
 
-/// Links whose bodies lie off their axes, as several pieces of wood in one do.
+/// Links whose bodies lie off their axes, as those of several pieces of wood do.
 std::vector<Link> lopsided(std::size_t count) {
   std::vector<Link> out = crown(count, 0.1);
   const Random random(3);
@@ -51,7 +51,8 @@ double kinetic(std::vector<Link> links, const ChainState& state) {
   return energyOf(links, state, kinematicsAt(links, state));
 }
 
-/// Generalised momentum dT/d(rate) of coordinate c, T being quadratic in the rates: exact.
+/// Generalised momentum dT/d(rate) of coordinate c; it is exact, because T is quadratic in the
+/// rates.
 double momentum(const std::vector<Link>& links, ChainState state, std::size_t c) {
   double& rate = state.rate[c / 2][static_cast<int>(c % 2)];
   const double here = rate;
@@ -61,7 +62,7 @@ double momentum(const std::vector<Link>& links, ChainState state, std::size_t c)
   return up - kinetic(links, state);
 }
 
-/// A little later or earlier by constant acceleration.
+/// Returns the state a little later or earlier under constant acceleration.
 ChainState moved(const ChainState& state, const std::vector<Vec2>& a, double dt) {
   ChainState out = state;
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -124,8 +125,8 @@ TEST(Articulated, LoadsDoTheirWork) {
   EXPECT_NEAR(power, expected, 1e-4 * std::fabs(expected));
 }
 
-// S1-31, E2: inner torques and forces cancel: what the ground gives is all that changes the whole
-// tree's momentum. Without ground (a heavy block in its place) momentum is kept.
+// S1-31, E2: inner torques and forces cancel: only the force of the ground changes the momentum of
+// the whole tree. Without ground (with a heavy block in its place) momentum is conserved.
 TEST(Articulated, MomentumIsBalanced) {
   const std::vector<Link> links = lopsided(15);
   const ChainState state = randomState(links.size(), 0.6, 2.0, 7);
@@ -138,7 +139,7 @@ TEST(Articulated, MomentumIsBalanced) {
     return momentumOf(links, kinematicsAt(links, s)).angular;
   };
   const Vec3 change = (at(e) - at(-e)) / (2.0 * e);
-  // Root joint: spring and damper along its axes; nothing else from outside but the force.
+  // Only spring and damper of the root joint, along its axes, and the force act from outside.
   const Kinematics k = kinematicsAt(links, state);
   const Vec3 outside = cross(k.pose[7].position, loads.wrench[7].force);
   const double scale = change.norm() + outside.norm();
@@ -175,12 +176,12 @@ TEST(Articulated, InverseDynamicsUndoesForward) {
     EXPECT_LT((torque[i] - loads.joint_torque[i]).norm(), 1e-9 * (1.0 + links[i].stiffness)) << i;
 }
 
-// S1-35: a chain on a moving base feels what the same chain feels whose first link is driven so.
+// S1-35: a chain on a moving base has the motion of the same chain whose first link is driven so.
 TEST(Articulated, MovingBaseIsAsADrivenLink) {
   const std::vector<Link> whole = lopsided(15);
   const ChainState state = randomState(whole.size(), 0.5, 2.0, 9);
   const auto a = accelerationsOf(whole, state, noLoads(whole.size()));
-  // Links that hang on link 0 become roots on a base that moves as link 0 does.
+  // Links on link 0 become roots on a base that moves as link 0 does.
   const Kinematics k = kinematicsAt(whole, state);
   const double e = 1e-6;
   const Kinematics up = kinematicsAt(whole, moved(state, a, e));
@@ -200,7 +201,7 @@ TEST(Articulated, MovingBaseIsAsADrivenLink) {
     EXPECT_LT((b[i] - a[i + 1]).norm(), 1e-6 * (1.0 + a[i + 1].norm())) << i;
 }
 
-// A tree turned as a whole moves the same, turned.
+// A tree that is rotated as a whole moves the same, rotated.
 TEST(Articulated, RotationOfTheWorldChangesNothing) {
   const std::vector<Link> links = lopsided(15);
   const ChainState state = randomState(links.size(), 0.5, 2.0, 10);
@@ -240,7 +241,7 @@ double firstFrequency(int n) {
 
 // E13: first frequency of a cantilever, 3.516 sqrt(E I / (rho A)) / L^2 [rad/s]; the error falls
 // with the square of the number of pieces.
-TEST(Articulated, CantileverSwingsAsABeam) {
+TEST(Articulated, CantileverOscillatesAsABeam) {
   const double theory = 3.51602 * std::sqrt(8e9 * 0.02 * 0.02 / (4.0 * 900.0)) / 4.0;
   const double coarse = std::fabs(firstFrequency(8) / theory - 1.0);
   const double fine = std::fabs(firstFrequency(16) / theory - 1.0);

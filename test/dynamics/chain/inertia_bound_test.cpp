@@ -21,7 +21,8 @@ double sureEnergy(const std::vector<Link>& links, const ChainState& state) {
   return out;
 }
 
-// Whatever moves, alone, all at once or a twig against all others, at bends up to 0.8 rad.
+// The bound holds for any motion: of one joint, of all at once, of a twig against all others, at
+// bends up to 0.8 rad.
 TEST(GuaranteedInertia, IsNeverMoreThanTheTreeHas) {
   for (const auto& links : {crown(63, 0.1), fractalTree(100, 3), beam(40, 3.0, 0.01, 8e9, 900.0)}) {
     double most = 0.0;
@@ -55,7 +56,7 @@ TEST(GuaranteedInertia, NothingAndMasslessThingsHaveNone) {
   EXPECT_EQ(links[1].guaranteed_inertia, 0.0);
 }
 
-// Angle of a joint of 3 rad/s, let go at 1e-3 rad, after `seconds` in `steps`.
+// Returns the angle of a joint of 3 rad/s, released at 1e-3 rad, after `seconds` in `steps`.
 double angleAfter(double seconds, int steps, bool eased) {
   Link link;
   link.stiffness = 9.0;
@@ -67,7 +68,7 @@ double angleAfter(double seconds, int steps, bool eased) {
   return run.state.q[0].x();
 }
 
-// Without it the period is right to second order only.
+// Without it the period is correct to second order only.
 TEST(GuaranteedInertia, MakesSlowMotionFourthOrder) {
   const double exact = 1e-3 * std::cos(15.0);
   const auto error = [&](int steps, bool eased) {
@@ -78,7 +79,7 @@ TEST(GuaranteedInertia, MakesSlowMotionFourthOrder) {
   EXPECT_LT(error(100, true), 0.02 * error(100, false));
 }
 
-// Small motion without any damper never grows, at no step, however stiff the twigs for it.
+// Small motion without any damper never grows, at any step, however stiff the twigs.
 TEST(GuaranteedInertia, LeavesTheMidpointStableAtAnyStep) {
   for (std::vector<Link> links : {crown(63, 0.0), fractalTree(100, 3)}) {
     for (Link& link : links) link.damping = 0.0;

@@ -18,7 +18,7 @@ std::vector<double> randomVector(std::size_t n, std::uint64_t seed) {
   return out;
 }
 
-// N13: the mass matrix is the one that inverse dynamics of the full chain knows at rest.
+// N13: the mass matrix is the one of the full chain's inverse dynamics at rest.
 TEST(LinearChain, HasTheMassMatrixOfTheFullChain) {
   const std::vector<Link> links = crown(LINKS, 0.1);
   LinearChain chain(links);
@@ -41,7 +41,7 @@ TEST(LinearChain, HasTheMassMatrixOfTheFullChain) {
   }
 }
 
-// The torques of wrenches do the work that the wrenches do, whatever the motion.
+// The torques of wrenches do the work of the wrenches, for any motion.
 TEST(LinearChain, TorquesDoTheWorkOfTheWrenches) {
   const std::vector<Link> links = crown(LINKS, 0.1);
   const LinearChain chain(links);
@@ -68,7 +68,7 @@ TEST(LinearChain, MotionIsTheSmallLimitOfTheKinematics) {
   const std::vector<double> x = randomVector(2 * LINKS, 3);
   std::vector<SmallMotion> motion;
   chain.motionOf(x.data(), motion);
-  constexpr double SMALL = 1e-5;  // what is left is of its square, times ten joints
+  constexpr double SMALL = 1e-5;  // the remainder is quadratic in it, times ten joints
   ChainState bent = atRest(LINKS);
   for (std::size_t i = 0; i < LINKS; ++i) bent.q[i] = SMALL * Vec2(x[2 * i], x[2 * i + 1]);
   const Kinematics k = kinematicsAt(links, bent);

@@ -7,9 +7,9 @@
 namespace vegetation_sim::physics {
 namespace {
 
-// A post that bears another, and contacts as two bodies give them that are driven at both: the
-// first body's on the lower and the upper one, then the second's on the lower.
-TEST(ContactSwing, OfALinkIsOfAllBodiesTogether) {
+// A post that bears another. Two bodies are driven at both: the first body's contacts are on the
+// lower and the upper one, then the second's is on the lower.
+TEST(ContactForceChange, OfALinkSumsAllBodies) {
   Link post;
   post.length = 0.5;
   post.mass = 100.0;

@@ -94,9 +94,9 @@ TEST(Contact, PressedTwigComesToRestWhereForcesBalance) {
   EXPECT_NEAR(wall.place - meeting.tip(), force / meeting.law.stiffness, 1e-8);
 }
 
-// Thirty thousand times apart in stiffness, at any step: no deeper than what the force asks for
-// (and what a tip loses on its arc in a step), and pressed without a break but for a bounce or two
-// of a few steps.
+// For stiffnesses thirty thousand times apart, at any step: the overlap is no deeper than the force
+// requires (plus what a tip loses on its arc in a step), and the contact presses without a break
+// but for a bounce or two of a few steps.
 TEST(Contact, NeitherSinksInNorRingsAtAnySpeedStepAndStiffness) {
   for (const double speed : {0.1, 0.5, 1.0, 2.0, 3.0}) {
     for (const double h : {1e-3, 1.0 / 240.0, 1.0 / 60.0}) {
@@ -125,7 +125,7 @@ TEST(Contact, NeitherSinksInNorRingsAtAnySpeedStepAndStiffness) {
   }
 }
 
-// A trunk answers with the limit and is overrun, whatever the step.
+// A trunk resists with the limit and is overrun, at any step.
 TEST(Contact, ForceIsLimited) {
   for (const double h : {1.0 / 240.0, 1.0 / 960.0, 1.0 / 3840.0}) {
     Link trunk = trunkOf(500.0);
@@ -144,7 +144,7 @@ TEST(Contact, ForceIsLimited) {
 }
 
 // Continuous in time: halving the step halves how much the force can rise in one, where a slow wall
-// meets wood that hardly gives way. What would enter by a millimetre is stopped at once instead.
+// meets wood that hardly yields. What would enter by a millimetre is stopped at once instead.
 TEST(Contact, ForceRisesNoFasterThanTheLawWhereItMayTakeItsTime) {
   for (const double h : {1.0 / 240.0, 1.0 / 480.0, 1.0 / 960.0}) {
     Meeting meeting(trunkOf(50000.0));
@@ -160,8 +160,8 @@ TEST(Contact, ForceRisesNoFasterThanTheLawWhereItMayTakeItsTime) {
   }
 }
 
-// Continuous in time at any speed and depth, with a body that is inside already too: the force
-// rises at the law's rate and by the spring for what comes in, so half the step halves the rise.
+// Continuous in time at any speed and depth, also with a body that is inside already: the force
+// rises at the law's rate and by the spring for the deeper part, so half the step halves the rise.
 TEST(Contact, ForceRisesByRateAndSpringHoweverDeep) {
   for (const double start : {-0.02, 0.02}) {
     for (const double speed : {0.0, 0.02, 0.1, 0.3, 1.0, 3.0}) {
@@ -177,7 +177,7 @@ TEST(Contact, ForceRisesByRateAndSpringHoweverDeep) {
           before = meeting.last().force;
           hardest = std::max(hardest, before);
         }
-        // A trunk that gives way a little comes back: its own speed counts as the wall's.
+        // A trunk that yields a little comes back: its own speed counts as the wall's.
         const double fastest = speed + 0.02;
         EXPECT_LE(rise, h * (meeting.law.force_rate + meeting.law.stiffness * fastest))
             << start << " m, " << speed << " m/s, " << h << " s";
@@ -201,8 +201,9 @@ TEST(Contact, HarderWoodPressesHarder) {
   }
 }
 
-// Momentum: what the twig's turning gains is the moment of the force that is told, less its spring.
-TEST(Contact, ForceToldIsWhatTheTwigGets) {
+// Momentum: the angular momentum that the twig gains is the moment of the returned force, less its
+// spring.
+TEST(Contact, ReturnedForceIsTheOneOnTheTwig) {
   Link free = twig();
   free.stiffness = 0.0;
   free.damping = 0.0;
@@ -220,8 +221,8 @@ TEST(Contact, ForceToldIsWhatTheTwigGets) {
   }
 }
 
-// A contact whose force changes much in a step says so; one that rests or is overrun does not.
-TEST(Contact, SwingTellsWhatAStepDoesNotResolve) {
+// A contact whose force changes much in a step reports it; one that rests or is overrun does not.
+TEST(Contact, ForceChangeShowsWhatAStepDoesNotResolve) {
   Meeting meeting(trunkOf(500.0));
   Wall wall{-0.02, 1.0};
   double before = 0.0, largest = 0.0;
@@ -252,7 +253,7 @@ TEST(Contact, WhatWouldEnterDeeplyIsStoppedAtOnce) {
   EXPECT_EQ(meeting.last().force, meeting.law.force_limit);
 }
 
-// Continuous in time also where a body is gone at once: the force falls by the limit in 32 us.
+// Continuous in time also where a body disappears: the force falls by the limit in 32 us.
 TEST(Contact, ForceFallsNoFasterThanTheLimitIn32Microseconds) {
   for (const double hardness : {1.0, 5.0}) {
     for (const double h : {2e-6, 8e-6, 32e-6, 1.0 / 240.0}) {
@@ -302,7 +303,7 @@ TEST(Contact, OverlapIsUndoneSlowly) {
   }
 }
 
-// Three links between walls on both sides: all contacts come to agree, and no wall is entered.
+// Three links between walls on both sides: all contacts agree in the end, and no wall is entered.
 TEST(Contact, ContactsOnBothSidesAgree) {
   std::vector<Link> links{twig(), twig(), twig()};
   links[1].parent = 0, links[1].h = 0.5;

@@ -15,7 +15,8 @@ const RoundedBox SPHERE{Vec3::Zero(), 0.1};
 const RoundedBox CAPSULE{Vec3(0, 0, 0.4), 0.05};
 const RoundedBox BOX{Vec3(0.3, 0.2, 0.1), 0.0};
 
-// The bowl that centres flat contacts tilts a normal by up to 2 * 2e-3 / m times half the length.
+// The curvature that centres flat contacts tilts a normal by up to 2 * 2e-3 / m times half the
+// length.
 constexpr double BOWL_TILT = 2e-3;
 
 Vec3 randomVector(const Random& random, std::uint64_t index, double size) {
@@ -30,7 +31,7 @@ Bar randomBar(const Random& random, std::uint64_t index) {
   return {randomVector(random, 2 * index, 0.8), span / length(span), length(span), 0.02, 0.01};
 }
 
-// The obvious way: look at many points.
+// The simple way: tries many points.
 double sampledGap(const RoundedBox& box, const Bar& bar) {
   double out = 1e9;
   Vec3 normal;
@@ -56,7 +57,7 @@ TEST(RoundedBox, NearestPointsAreThoseOfADenseSearch) {
   for (const RoundedBox& box : {SPHERE, CAPSULE, BOX}) {
     for (std::uint64_t i = 0; i < 300; ++i) {
       const Bar bar = randomBar(random, i);
-      // The bowl and the samples' spacing each cost less than a tenth of a millimetre.
+      // The curvature and the samples' spacing each cost less than a tenth of a millimetre.
       EXPECT_NEAR(nearest(box, bar).gap, sampledGap(box, bar), 5e-4);
     }
   }
@@ -88,7 +89,7 @@ TEST(RoundedBox, SideMayChangeWhereNothingOverlaps) {
   EXPECT_NEAR(length(found.normal - Vec3::UnitY()), 0.0, BOWL_TILT);
 }
 
-// A thin bar crosses the whole body between two instants and is met all the same.
+// A thin bar crosses the whole body between two instants and is met nevertheless.
 TEST(RoundedBox, SweepMissesNoFastBar) {
   const Bar bar{Vec3(-1.0, -0.3, 0.1), Vec3::UnitY(), 0.6, 0.002, 0.002};
   const Meeting meeting = sweep(CAPSULE, bar, Vec3(300, 0, 0), Vec3(300, 0, 0), 0.01);
@@ -97,7 +98,7 @@ TEST(RoundedBox, SweepMissesNoFastBar) {
   EXPECT_NEAR(length(meeting.there.normal + Vec3::UnitX()), 0.0, 1e-3);
 }
 
-TEST(RoundedBox, SweepTellsWhatPassesBeside) {
+TEST(RoundedBox, SweepExcludesWhatPassesBeside) {
   const Bar bar{Vec3(-1.0, 0.06, 0.1), Vec3::UnitY(), 0.6, 0.002, 0.002};
   EXPECT_FALSE(sweep(CAPSULE, bar, Vec3(300, 0, 0), Vec3(300, 0, 0), 0.01).met);
   EXPECT_FALSE(sweep(CAPSULE, bar, Vec3::Zero(), Vec3::Zero(), 0.01).met);

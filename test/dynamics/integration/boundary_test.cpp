@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// N9, E12: each boundary that docs/physics.md and docs/accuracy.md state, from both sides.
+// N9, E12: tests each boundary that docs/physics.md and docs/accuracy.md state, from both sides.
 #include <gtest/gtest.h>
 
 #include "dynamics/integration/stability.h"
@@ -62,7 +62,7 @@ TEST(Boundary, JointsStopAtTheirBendAndTurn) {
 TEST(Boundary, AFullyEasedSpringBreaksWhereNumerovDoes) {
   const auto swing = [](double h) {
     Link link = joint(1.0, 0.0);
-    link.guaranteed_inertia = 1e9;  // more than it has: shareInertia() never would
+    link.guaranteed_inertia = 1e9;  // more than the link has, which shareInertia() would never set
     Simulation run{{link}};
     run.state.q[0].x() = 1e-9;
     for (int i = 0; i < 300; ++i) run.step({}, 0.0, h);
@@ -93,7 +93,7 @@ TEST(Boundary, StepsArePartedAboveTheMarginAndRefusedAboveSixtyFourParts) {
   }
 }
 
-/// Whether a joint of w = 1 that is let go is smaller after so many steps of Runge-Kutta.
+/// Returns whether a released joint of w = 1 is smaller after so many steps of Runge-Kutta.
 bool rungeKuttaHolds(double ratio, double h) {
   Simulation run{{joint(1.0, 2.0 * ratio)}, Integrator::RUNGE_KUTTA_4};
   run.state.q[0] = Vec2(1e-9, 0.0);
@@ -106,7 +106,7 @@ bool rungeKuttaHolds(double ratio, double h) {
 }
 
 // "Runge-Kutta 4: a half-disc of radius 2.6155 lies inside its region", and no larger one.
-TEST(Boundary, HalfDiscOfRungeKuttaIsInsideAndATouchLargerOneIsNot) {
+TEST(Boundary, HalfDiskOfRungeKuttaIsInsideAndASlightlyLargerOneIsNot) {
   bool larger = true;
   for (double ratio = 0.0; ratio < 1.0; ratio += 0.02) {
     EXPECT_TRUE(rungeKuttaHolds(ratio, 2.6155)) << ratio;
@@ -168,7 +168,7 @@ bool smallMotionHolds(Integrator integrator, const std::vector<Link>& links, dou
   return true;
 }
 
-// docs/accuracy.md: steps to which methods are stable on the fractal tree of 100 branches.
+// docs/accuracy.md: the steps up to which methods are stable on the fractal tree of 100 branches.
 TEST(Boundary, MethodsBreakWhereTheGuideToAccuracySays) {
   const std::vector<Link> links = linksOf(bench::fractalTree(100));
   const std::pair<Integrator, double> stated[] = {{Integrator::SEMI_IMPLICIT_EULER, 3.4e-3},

@@ -17,7 +17,7 @@ std::vector<Vec3> tipsAfter(Integrator integrator, double seconds, int steps, do
   return run.tips();
 }
 
-// The default's error falls with the square of the step, against Runge and Kutta's converged.
+// The default's error is quadratic in the step, against converged Runge-Kutta.
 TEST(Integrator, MidpointIsSecondOrder) {
   const auto reference = tipsAfter(Integrator::RUNGE_KUTTA_4, 0.5, 8192, 3.0);
   const double coarse = rms(tipsAfter(Integrator::MIDPOINT, 0.5, 512, 3.0), reference);
@@ -79,7 +79,8 @@ std::vector<Vec3> draggedTips(Integrator integrator, bool quadratic, int steps) 
   return run.tips();
 }
 
-// S1-27: drag depends on rates, which are known before the step; foreseen, it is of second order.
+// S1-27: drag depends on rates, which are known before the step; the implicit part makes it second
+// order.
 TEST(Integrator, MidpointIsSecondOrderInDrag) {
   for (const bool quadratic : {false, true}) {
     const auto reference = draggedTips(Integrator::RUNGE_KUTTA_4, quadratic, 8192);
@@ -90,7 +91,7 @@ TEST(Integrator, MidpointIsSecondOrderInDrag) {
   }
 }
 
-// A leaf's drag on a twig of a gram: taken at the rates before the step it would swing up.
+// The drag of a leaf on a twig of a gram would grow without bound at the rates before the step.
 TEST(Integrator, StrongDragOnLightWoodOnlyBrakes) {
   Simulation run{crown(63, 0.02)};
   const Surroundings outside = gustAndPull(run.links, 0.0, 0.0);
@@ -145,7 +146,7 @@ bool staysBounded(Integrator integrator, double w, double c, double h) {
   return true;
 }
 
-// S1-W4: implicit methods hold at a hundred times the explicit bound and far beyond.
+// S1-W4: implicit methods are stable at a hundred times the explicit bound and far beyond.
 TEST(Integrator, ImplicitMethodsHoldAtAnyStep) {
   for (const Integrator integrator : {Integrator::MIDPOINT, Integrator::IMPLICIT_EULER})
     for (const double w : {1.0, 50.0, 1e4})
@@ -205,7 +206,7 @@ TEST(Integrator, GravityFindsItsEquilibrium) {
   }
 }
 
-// Energy: kept by the reference without damping, only lost with it, whatever the method.
+// Energy is conserved by the reference without damping, and only lost with it, by any method.
 TEST(Integrator, EnergyIsConservedAndDamped) {
   for (const double ratio : {0.0, 0.1}) {
     Simulation run{crown(31, ratio), Integrator::RUNGE_KUTTA_4};
@@ -232,7 +233,7 @@ double energyIn(const Simulation& run) {
   return energyOf(run.links, run.state, kinematicsAt(run.links, run.state));
 }
 
-/// Of the energy at the start: the most and the last of a run, nothing acting.
+/// Largest and last energy of a run without loads, over that at the start.
 struct Energies {
   double most{0.0}, last{0.0}, theta{0.5};
 };
@@ -251,8 +252,8 @@ Energies energiesOf(Simulation run, const Vec2& bend, double h, double seconds) 
   return out;
 }
 
-// Without dampers, ten seconds at the tick, of which the stiffest twigs swing many times in one.
-// Rates and bends are half a step out of phase there, so that their energy ripples.
+// Ten seconds at the tick without dampers, in which the stiffest twigs oscillate many times per
+// tick. Rates and bends are half a step out of phase there, so that their energy ripples.
 TEST(Integrator, MidpointKeepsTheEnergyOfAnUndampedTree) {
   const Energies small = energiesOf({crown(127, 0.0)}, Vec2(0.02, -0.01), 1.0 / 240.0, 10.0);
   EXPECT_EQ(small.theta, 0.5);
@@ -264,7 +265,7 @@ TEST(Integrator, MidpointKeepsTheEnergyOfAnUndampedTree) {
   EXPECT_LT(large.last, 0.5);
 }
 
-// And what it loses or gains falls with the square of the step.
+// The energy error is quadratic in the step.
 TEST(Integrator, EnergyErrorIsSecondOrder) {
   const auto error = [](double h) {
     const Energies out = energiesOf({crown(31, 0.0)}, Vec2(0.1, -0.05), h, 0.5);
@@ -276,8 +277,8 @@ TEST(Integrator, EnergyErrorIsSecondOrder) {
   EXPECT_NEAR(std::log2(coarse / fine), 2.0, 0.2);
 }
 
-// The default gains no energy without input: at the tick, a tree let go at large bends; the first
-// steps ripple.
+// The default gains no energy without input: a tree is released at large bends, at the tick; the
+// first steps ripple.
 TEST(Integrator, MidpointGainsNoEnergy) {
   const Energies out = energiesOf({crown(63, 0.02)}, Vec2(0.3, -0.2), 1.0 / 240.0, 10.0);
   EXPECT_LT(out.most, 1.05);

@@ -11,9 +11,9 @@ namespace {
 
 constexpr Integrator EXPLICIT[] = {Integrator::EXPLICIT_EULER, Integrator::SEMI_IMPLICIT_EULER,
                                    Integrator::RUNGE_KUTTA_4};
-constexpr int STEPS = 60000;  // enough to see what grows by 5e-5 a step
+constexpr int STEPS = 60000;  // enough steps to detect growth by 5e-5 per step
 
-/// A joint with w^2 and c, let go.
+/// Returns whether a released joint with w^2 and c stays bounded.
 bool jointHolds(Integrator integrator, double w2, double c, double h) {
   Link link;
   link.stiffness = w2;
@@ -42,8 +42,8 @@ double largestStep(const Holds& holds, double guess) {
   return std::sqrt(low * high);
 }
 
-// E12, N9: the largest stable step of a joint, found by bisection, is the theory's within 2 %:
-// eight decades of stiffness, light and over-damped.
+// E12, N9: the largest stable step of a joint, found by bisection, is that of the theory within 2
+// %: eight decades of stiffness, light and over-damped.
 TEST(Stability, JointsBreakWhereTheoryHasIt) {
   for (const Integrator integrator : EXPLICIT)
     for (const double w2 : {1.0, 1e4, 1e8})
@@ -68,7 +68,7 @@ TEST(Stability, SomeHaveNoLimitAndSomeNoStep) {
   }
 }
 
-/// Whether small motion of a chain stays small.
+/// Returns whether small motion of a chain stays small.
 bool treeHolds(Dynamics dynamics, Integrator integrator, const std::vector<Link>& links,
                const Surroundings& outside, double h, int steps) {
   Simulation run{links, integrator};
@@ -155,8 +155,8 @@ Surroundings heldTip(const std::vector<Link>& links, double stiffness, double da
   return out;
 }
 
-// The rule: an explicit method whose step would break is run in parts, and beyond so many refused
-// with nothing changed; a stiff grab counts too.
+// An explicit method whose step would be unstable is run in parts, and beyond so many rejected with
+// nothing changed; a stiff grab counts too.
 TEST(Stability, ExplicitMethodsAreSubSteppedOrRefused) {
   const std::vector<Link> links = crown(63, 0.1);
   const Surroundings held = heldTip(links, 5000.0, 20.0);
@@ -186,7 +186,7 @@ TEST(Stability, ExplicitMethodsAreSubSteppedOrRefused) {
   EXPECT_EQ(stepper.step(Integrator::EXPLICIT_EULER, undamped, {}, 0.0, 1e-6, state, theta), 0);
 }
 
-// Run by the rule, explicit methods survive what would break them at once: a gust at 60 Hz.
+// Run in parts, explicit methods survive a gust at 60 Hz that would break them at once.
 TEST(Stability, RuleKeepsExplicitMethodsAlive) {
   const std::vector<Link> links = crown(31, 0.1);
   const Surroundings outside = gust(links, 3.0);

@@ -43,7 +43,7 @@ TEST(BatchModes, AgreeWithThePlainSum) {
   }
 }
 
-// N13: amplitudes are state; what is drawn from them is the same everywhere.
+// N13: amplitudes are state; the bends that follow from them are the same everywhere.
 TEST(BatchModes, GiveTheSameBitsOnEveryInstructionSet) {
   const Rig rig(333);
   const BatchModes modes(rig.modes);

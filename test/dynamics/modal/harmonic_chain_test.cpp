@@ -9,12 +9,12 @@
 namespace vegetation_sim::physics {
 namespace {
 
-/// What a swinging chain costs, load by load: the terms of its equation.
+/// The equation of an oscillating chain: the loads of its terms.
 struct Equation {
   LinearChain chain;
   std::vector<Grip> grips;
 
-  // (K - w^2 M) x - w (C + air) y, where y goes with the other of cosine and sine.
+  // Returns (K - w^2 M) x - w (C + air) y, where y is the other one of cosine and sine.
   std::vector<double> load(const std::vector<double>& x, const std::vector<double>& y, double w) {
     std::vector<double> mass(x.size()), out(x.size());
     chain.timesMass(x.data(), mass.data());
@@ -37,9 +37,8 @@ struct Equation {
   }
 };
 
-// N7: what is answered solves the equation of motion: put back into it, it costs the load that was
-// asked for.
-TEST(HarmonicChain, AnswersWhatItsEquationSays) {
+// N7: the solution satisfies the equation of motion: its terms sum to the given load.
+TEST(HarmonicChain, SolvesItsEquation) {
   const std::vector<Link> links = crown(60, 0.1);
   const Random random(5);
   Equation equation{LinearChain(links), {}};

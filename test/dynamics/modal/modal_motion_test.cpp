@@ -29,7 +29,7 @@ double freeAmplitude(double w, double c, double a, double b, double t) {
   return ((b - q * a) * std::exp(p * t) - (b - p * a) * std::exp(q * t)) / (p - q);
 }
 
-// N13: exact whatever the step: slow and fast, light and over-damped, short steps and long.
+// N13: exact for any step: slow and fast, light and over-damped, short and long steps.
 TEST(ModalStepper, IsExactForAnyStep) {
   for (const double w : {0.5, 10.0, 900.0})
     for (const double ratio : {0.0, 0.05, 0.7, 3.0})
@@ -46,7 +46,7 @@ TEST(ModalStepper, IsExactForAnyStep) {
       }
 }
 
-// Loads that change linearly are answered exactly, so one long step equals many short ones.
+// Loads that change linearly are integrated exactly, so one long step equals many short ones.
 TEST(ModalStepper, TakesLinearLoadsInOneStep) {
   for (const double w : {3.0, 40.0}) {
     ModalStepper coarse(oscillator(w, 0.4 * w)), fine(oscillator(w, 0.4 * w));
@@ -90,7 +90,7 @@ class ModalCrown {
     }
   }
 
-  /// Relative error of all tips over two seconds; tells what the limit said.
+  /// Returns the relative error of all tips over two seconds; records the result of the limit.
   double error(int count, int depth) {
     const Modes modes = find(count, depth);
     const RotationProbe probe(chain_, modes);
@@ -111,7 +111,7 @@ class ModalCrown {
   }
   bool held() const { return held_; }
 
-  /// Farthest that a tip goes in a frame of a load that is there from the start [m].
+  /// Returns the largest motion of a tip in a frame of a load that acts from the start [m].
   double firstFrame(int count, int depth) {
     const Modes modes = find(count, depth);
     ModalStepper stepper(modes);
@@ -121,7 +121,7 @@ class ModalCrown {
     return farthest(tipsOf(modes, state));
   }
   double firstFrameOfTheFullChain() { return farthest(fullAfterAFrame()); }
-  /// Farthest that any tip is then from where the full chain has it [m], with a quick vector or one
+  /// Returns the largest distance of a tip from the full chain then [m], with a quick vector or one
   /// more of the others.
   double offInFirstFrame(int count, int depth, bool quick) {
     Modes modes = slowestModes(chain_, count);
@@ -187,9 +187,9 @@ class ModalCrown {
   bool held_{true};
 };
 
-// N13: the error against the full chain falls with the number of modes, and with what a load moves
-// beyond them. Measured: 0.134, 0.088, 0.052; 0.052 with the load's own vector, which is what loads
-// taken at rest leave.
+// N13: the error against the full chain falls with the number of modes, and with the vectors of the
+// load. Measured: 0.134, 0.088, 0.052; 0.052 with the load's own vector, which is the error of
+// loads taken at rest.
 TEST(ModalMotion, ComesNearerToTheFullChainWithEveryMode) {
   ModalCrown scene(1.5);
   const double one = scene.error(1, 0), five = scene.error(5, 0), many = scene.error(40, 0);
@@ -209,7 +209,7 @@ TEST(ModalMotion, SaysWhereItCeasesToHold) {
   EXPECT_FALSE(beyond.held());
 }
 
-// N13: where a load steps nothing jumps: no tip goes 2 mm farther in a frame than the full chain's.
+// N13: a sudden load causes no jump: no tip moves 2 mm farther in a frame than the full chain's.
 TEST(ModalMotion, DoesNotJumpWhereTheLoadSteps) {
   ModalCrown scene(1.5);
   const double full = scene.firstFrameOfTheFullChain();
@@ -219,7 +219,7 @@ TEST(ModalMotion, DoesNotJumpWhereTheLoadSteps) {
 }
 
 // N13: with a quick vector no tip is 2 mm off in the first frame, however few the others are; as
-// many without are farther off.
+// many without one are farther off.
 TEST(ModalMotion, GivesWayAtOnceAsTheFullChainDoes) {
   ModalCrown scene(1.5);
   for (const int count : {0, 5, 20})
@@ -232,7 +232,7 @@ TEST(ModalMotion, GivesWayAtOnceAsTheFullChainDoes) {
     }
 }
 
-// N13: two quick vectors of the very load that steps keep a pull at one branch within 2 mm of the
+// N13: two quick vectors of the sudden load itself keep a pull at one branch within 2 mm of the
 // full chain in the first frame; as many of slow motion are twice as far off.
 TEST(ModalMotion, GivesWayAtOnceToAPull) {
   constexpr double FRAME = 1.0 / 60.0;
@@ -279,8 +279,8 @@ TEST(ModalMotion, GivesWayAtOnceToAPull) {
   EXPECT_LT(off[1], 0.7 * off[0]);
 }
 
-// N13: in a moment a load has only inertia to move, in the end only springs.
-TEST(QuickAnswer, GoesFromInertiaToSprings) {
+// N13: at first only inertia resists a load, in the end only springs.
+TEST(QuickResponse, GoesFromInertiaToSprings) {
   const std::vector<Link> links = crown(200, 0.05);
   LinearChain chain(links);
   const Random random(6);
@@ -294,8 +294,8 @@ TEST(QuickAnswer, GoesFromInertiaToSprings) {
     EXPECT_NEAR(h * h * chain.stiffness()[k] * slow[k], load[k], 1e-5) << k;
 }
 
-// N13: the limit is told by a look at few links.
-TEST(RotationProbe, TellsTheLargestTurnOfAnyLink) {
+// N13: a few links give the largest turn.
+TEST(RotationProbe, FindsTheLargestTurnOfAnyLink) {
   LinearChain chain(crown(300, 0.05));
   const Modes modes = slowestModes(chain, 12);
   const RotationProbe probe(chain, modes);

@@ -18,7 +18,7 @@ double dotOf(const double* a, const double* b, std::size_t n) {
   return sum;
 }
 
-// All frequencies by forming the whole matrix.
+// Returns all frequencies by forming the whole matrix.
 std::vector<double> denseFrequencies(LinearChain& chain) {
   const std::size_t n = chain.size();
   std::vector<double> matrix(n * n), unit(n), column(n);
@@ -35,7 +35,8 @@ std::vector<double> denseFrequencies(LinearChain& chain) {
 }
 
 TEST(SymmetricEigen, SolvesMatricesWithEqualValues) {
-  // Of a reflection and a scale: values 7, 3, 3, 3 and vectors known up to turns among the equal.
+  // The matrix of a reflection and a scale has values 7, 3, 3, 3, and vectors that are determined
+  // up to rotations among the equal.
   const std::vector<double> v{0.5, 0.5, -0.5, 0.5};
   std::vector<double> matrix(16);
   for (std::size_t i = 0; i < 4; ++i)
@@ -50,9 +51,9 @@ TEST(SymmetricEigen, SolvesMatricesWithEqualValues) {
       EXPECT_NEAR(dotOf(out.vector(i), out.vector(j), 4), i == j ? 1.0 : 0.0, 1e-14);
 }
 
-// N13: a cantilever, every frequency twice, as beam theory has them: (1.8751, 4.6941, 7.8548)^2
-// sqrt(E I / rho A) / l^2. 100 pieces are off by 1/100^2 of the shape's curvature, and turn about
-// their axes, which the theory leaves out.
+// N13: a cantilever has every frequency of beam theory twice: (1.8751, 4.6941, 7.8548)^2 sqrt(E I /
+// rho A) / l^2. 100 pieces are off by 1/100^2 of the shape's curvature, and turn about their axes,
+// which the theory omits.
 TEST(Modes, OfACantileverAreThoseOfBeamTheoryTwice) {
   const double length = 4.0, radius = 0.02, modulus = 8e9, density = 900.0;
   LinearChain chain(beam(100, length, radius, modulus, density));
@@ -68,14 +69,14 @@ TEST(Modes, OfACantileverAreThoseOfBeamTheoryTwice) {
 
 class ModesOf : public testing::TestWithParam<std::size_t> {};
 
-// N13: none is skipped, equal to those of the whole matrix.
+// N13: no mode is missed, compared with those of the whole matrix.
 TEST_P(ModesOf, TreesAreThoseOfTheWholeMatrix) {
   LinearChain chain(crown(GetParam(), 0.1));
   const std::vector<double> all = denseFrequencies(chain);
   for (const int count : {1, 5, 20, 1000}) {
     const Modes modes = slowestModes(chain, count);
     ASSERT_GE(modes.size(), std::min<std::size_t>(static_cast<std::size_t>(count), all.size()));
-    // The error of a frequency goes with the residual squared.
+    // The error of a frequency is quadratic in the residual.
     for (std::size_t i = 0; i < modes.size(); ++i)
       EXPECT_NEAR(modes.frequency[i], all[i], 1e-7 * all[i]) << count << " " << i;
   }
@@ -129,8 +130,8 @@ TEST(Modes, OfNothingAreNone) {
   EXPECT_EQ(slowestModes(chain, -1).size(), 0u);
 }
 
-// N13: with one load vector the answer to the steady load is exact, however few modes.
-TEST(LoadVectors, MakeTheSteadyAnswerExact) {
+// N13: with one load vector the response to the constant load is exact, however few modes.
+TEST(LoadVectors, MakeTheSteadyResponseExact) {
   LinearChain chain(fractalTree(300, 3));
   const Random random(5);
   std::vector<double> load(chain.size());

@@ -55,7 +55,8 @@ wind::Field breeze() {
   return wind::Field({out});
 }
 
-/// Tips of a tree after 5 s in a breeze, asked for every so many steps in the middle of them.
+/// Returns the tips of a tree after 5 s in a breeze that is queried every so many steps, in the
+/// middle of them.
 std::vector<Vec3> tipsInBreeze(const std::vector<Link>& links, int every) {
   const wind::Field field = breeze();
   BatchChain chain(links);
@@ -90,8 +91,8 @@ TEST(BatchAir, TakesOneGripForEachLinkOrNone) {
   EXPECT_THROW(chain.setGrips(0, grips), InvalidInput);
 }
 
-// S1-26: the wind in a chain's own rows is the load that a caller would have computed. Bar as for
-// loads: float's rounding over 2 s.
+// S1-26: the wind in a chain's own rows is the load that a caller would have computed. The
+// tolerance is that of loads: float's rounding over 2 s.
 TEST(BatchAir, IsTheQuadraticDragOfLoads) {
   const std::vector<Link> links = fractalTree(100, 3);
   Simulation plain{links};
@@ -140,7 +141,7 @@ TEST(BatchAir, IsAskedForWhereGripsAreOnTheirBases) {
   }
 }
 
-// Air of 60 Hz serves steps of 240 Hz: measured 4e-4 of how far the tips are from rest.
+// Wind at 60 Hz serves steps of 240 Hz: measured 4e-4 of the tips' distance from rest.
 TEST(BatchAir, HeldForAFrameIsNearAirOfEachStep) {
   const std::vector<Link> links = fractalTree(200, 3);
   const std::vector<Vec3> each = tipsInBreeze(links, 1);
@@ -166,8 +167,8 @@ TEST(BatchAir, MovesTheSameBitsOnEveryInstructionSet) {
   }
 }
 
-// Bars that are gripped on their axes, the usual case, go a shorter way, in vectors of their own or
-// beside trees that are not gripped so; also after grips beside the axes were taken back.
+// Bars with air on their axes, the usual case, take a shorter path, in vectors of their own or
+// beside trees with other grips, also after grips beside the axes were removed.
 TEST(BatchAir, OnTheAxesOfBarsIsTheSameBesideOthers) {
   const std::vector<Link> links = fractalTree(100, 3);
   std::vector<Grip> on_axis = gripsOf(links);
@@ -191,7 +192,7 @@ TEST(BatchAir, OnTheAxesOfBarsIsTheSameBesideOthers) {
   EXPECT_TRUE(sameBits(alone.state(0), back.state(1)));
 }
 
-// Both ways are right: the plain stepper's error is float's rounding over a second.
+// Both paths are correct: the plain stepper's error is float's rounding over a second.
 TEST(BatchAir, OnAndBesideTheAxesIsTheQuadraticDragOfLoads) {
   const std::vector<Link> links = fractalTree(100, 3);
   for (const double beside : {0.0, 0.1}) {
@@ -220,11 +221,11 @@ TEST(BatchAir, OnAndBesideTheAxesIsTheQuadraticDragOfLoads) {
   }
 }
 
-// Four steps of one group, then of the next, are four steps of all; in groups of bars and others.
+// Four steps of one group, then of the next, equal four steps of all, in groups of bars and others.
 TEST(BatchAir, StepsOfAFrameAreTheSameTogether) {
   std::vector<std::vector<Link>> trees;
   for (const int n : {1500, 1001, 33}) trees.push_back(fractalTree(n, 7));
-  trees[2][5].inertia.xy = 1e-3 * trees[2][5].inertia.xx;  // no bar
+  trees[2][5].inertia.xy = 1e-3 * trees[2][5].inertia.xx;  // not a bar
   BatchChain together(trees), apart(trees);
   const auto blow = [&](BatchChain& chain, double speed) {
     for (int t = 0; t < 3; ++t) chain.setGrips(t, gripsOf(trees[static_cast<std::size_t>(t)]));

@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// Steps of a frame after its first: velocity products at foretold rates.
+// Steps of a frame after its first: velocity products at predicted rates.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,9 +32,8 @@ double errorAfter(const std::vector<Link>& links, const std::vector<Vec3>& exact
   return rms(tipsOf(links, chain.state(0)), exact);
 }
 
-// Measured: 2.2e-4 and 5.3e-5 m; with products of before the step, which are of first
-// order, 4.6e-4.
-TEST(BatchFrame, ForetoldProductsAreSecondOrder) {
+// Measured: 2.2e-4 and 5.3e-5 m; with products before the step, which are of first order, 4.6e-4.
+TEST(BatchFrame, PredictedProductsAreSecondOrder) {
   const std::vector<Link> links = crown(31, 0.02);
   const double seconds = 0.4;
   Simulation exact{links, Integrator::RUNGE_KUTTA_4};
@@ -43,12 +42,12 @@ TEST(BatchFrame, ForetoldProductsAreSecondOrder) {
   const double coarse = errorAfter(links, exact.tips(), seconds, 400),
                fine = errorAfter(links, exact.tips(), seconds, 800),
                before = errorAfter(links, exact.tips(), seconds, 800, Products::START);
-  EXPECT_GT(fine, 1e-6);  // far above what float rounds
+  EXPECT_GT(fine, 1e-6);  // far above the rounding of floats
   EXPECT_NEAR(std::log2(coarse / fine), 2.0, 0.15);
   EXPECT_LT(fine, 0.25 * before);
 }
 
-// Tips' error in two seconds over how far they are from rest.
+// Error of the tips in two seconds over their distance from rest.
 class Errors {
  public:
   Errors(const std::vector<Link>& links, const Surroundings& around)
@@ -84,7 +83,7 @@ class Errors {
 };
 
 // At the tick. Measured in the gust 1.14e-5 for 1.14e-5 (1 000 links: 8.3e-6 for 8.0e-6), where
-// products of before the step give 7.8e-5 (2.0e-4). A pull of 20 N rings in twigs that swing many
+// products before the step give 7.8e-5 (2.0e-4). A pull of 20 N rings in twigs that oscillate many
 // times a frame: 6.3e-4 for 2.8e-4 (1.28e-4 for 1.15e-4).
 TEST(BatchFrame, IsAsExactAsAveragingInEachStepInAGust) {
   const std::vector<Link> links = fractalTree(300, 3);
@@ -96,7 +95,7 @@ TEST(BatchFrame, IsAsExactAsAveragingInEachStepInAGust) {
   EXPECT_LT(Errors(links, pull).of<FramedChain>(), 1e-3);
 }
 
-// The most of its energy at the start that a tree without dampers has in twenty seconds.
+// Returns the largest energy in twenty seconds of a tree without dampers, over that at the start.
 double mostEnergy(double bend, Products products) {
   const std::vector<Link> links = crown(127, 0.0);
   const auto energyIn = [&](const ChainState& state) {
@@ -123,12 +122,12 @@ TEST(BatchFrame, GainsLittleEnergyEvenWithoutDampers) {
   EXPECT_GT(mostEnergy(0.3, Products::START), 2.0);
 }
 
-// So that the guard sleeps.
+// The motion is so slow that the guard stays inactive.
 ChainState gentle(std::size_t links) {
   return randomState(links, 0.002, 0.1, 5);
 }
 
-// A frame begins anew: what was foretold in the one before does not matter.
+// A frame starts afresh: the prediction of the frame before does not matter.
 TEST(BatchFrame, KeepsNothingFromOneToTheNext) {
   const std::vector<Link> links = fractalTree(100, 3);
   BatchChain along(links);

@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// The batched steppers in storms: the same bits everywhere, bounded, and at rest in the end.
+// The batched steppers in storms: equal bits everywhere, bounded, and at rest in the end.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -48,7 +48,7 @@ void expectSameBits(const Trees& trees) {
   double largest = 0.0;
   for (const ChainState& state : best)
     for (const Vec2& q : state.q) largest = std::max({largest, std::fabs(q.x()), std::fabs(q.y())});
-  EXPECT_GT(largest, 1.0);  // or the rotation series for large bends went unseen
+  EXPECT_GT(largest, 1.0);  // otherwise the rotation series for large bends would not be tested
   EXPECT_LT(largest, 1e3);
   for (const std::string& set : sets) {
     forceInstructionSet(set);
@@ -62,17 +62,17 @@ void expectSameBits(const Trees& trees) {
 TEST(BatchChain, GivesTheSameBitsOnEveryInstructionSet) {
   Trees trees;
   for (const int n : {1, 7, 33, 1001, 100, 2}) trees.push_back(fractalTree(n, 7));
-  trees[2][5].inertia.xy = 1e-3 * trees[2][5].inertia.xx;  // no bar
+  trees[2][5].inertia.xy = 1e-3 * trees[2][5].inertia.xx;  // not a bar
   expectSameBits<BatchChain>(trees);
   expectSameBits<FramedChain>(trees);
 }
 
-// Who else is in the batch, and in which lane a link ends up, does not matter.
+// The other trees of the batch, and the lane of a link, do not matter.
 template <class Batch>
 void expectNoFeeling() {
   Trees trees;
   for (const int n : {7, 100, 1001, 2500, 33}) trees.push_back(fractalTree(n, 7));
-  trees[1][5].inertia.xy = 1e-3 * trees[1][5].inertia.xx;  // no bar
+  trees[1][5].inertia.xy = 1e-3 * trees[1][5].inertia.xx;  // not a bar
   const std::vector<ChainState> together = storm<Batch>(trees);
   for (std::size_t t = 0; t < trees.size(); ++t) {
     Trees others(t, fractalTree(3, 1));  // the same index, and so the same start
@@ -81,7 +81,7 @@ void expectNoFeeling() {
   }
 }
 
-TEST(BatchChain, TreesDoNotFeelEachOther) {
+TEST(BatchChain, TreesDoNotAffectEachOther) {
   expectNoFeeling<BatchChain>();
   expectNoFeeling<FramedChain>();
 }
@@ -114,7 +114,7 @@ Bends bendsIn(const std::vector<Link>& links, const Surroundings& around, double
   return out;
 }
 
-// Issue 3: bounded in float for every step from 0.1 to 50 ms with stiffness 1e6 apart in one tree
+// Motion is bounded in float for every step from 0.1 to 50 ms with stiffness 1e6 apart in one tree
 // and storms of 30x gust; the bound is that of the plain stepper's test, and all joints come back.
 TYPED_TEST(BatchedStorm, StaysBoundedForEveryStepInAnyStorm) {
   std::vector<Link> links = crown(63, 0.1);
@@ -136,7 +136,7 @@ TYPED_TEST(BatchedStorm, StaysBoundedForEveryStepInAnyStorm) {
   }
 }
 
-// S1-W4: and far beyond in float too: stiffness 1e8 apart, steps up to half a second. Joints reach
+// S1-W4: far beyond in float too: stiffness 1e8 apart, steps up to half a second. Joints reach
 // their stops, stay finite, and come back.
 TYPED_TEST(BatchedStorm, StopsHoldFarBeyond) {
   std::vector<Link> links = crown(63, 0.1);
@@ -149,7 +149,7 @@ TYPED_TEST(BatchedStorm, StopsHoldFarBeyond) {
   }
 }
 
-// A tree left alone ends at rest for good: numbers too small to be normal would slow every step.
+// A tree without loads comes to rest exactly: denormal numbers would slow every step.
 TYPED_TEST(BatchedStorm, ComesToRestExactly) {
   const std::vector<Link> links = fractalTree(20, 9);
   TypeParam batch(Trees{links});

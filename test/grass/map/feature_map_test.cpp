@@ -145,7 +145,7 @@ TEST_F(FeatureMapFile, ReadsPicturesAndSpecies) {
   EXPECT_NEAR(map.at(0.2, 0.2).mix[1], 0.1, ROUNDING);
 }
 
-TEST_F(FeatureMapFile, ReportsAllFaultsAtOnceByName) {
+TEST_F(FeatureMapFile, ReportsAllFaultsAtOnceWithTheirNames) {
   const std::string error = refusal(
       "{resolution: 0, density: {image: hole.pgm}, height: {value: 0.2, image: dense.pgm},"
       " shape: {white: 0.5}, colour: {value: .nan}, hight: 1, species: [{lean: 3}]}");

@@ -14,7 +14,7 @@ double sumOf(const GustSpectrum& spectrum) {
   return out;
 }
 
-// N7: nothing is lost between the points of the grid; what is slow counts less.
+// N7: nothing is lost between the points of the grid; slow wind counts less.
 TEST(GustSpectrum, SharesOutWhatIsAdded) {
   GustSpectrum spectrum;
   spectrum.add(0.5, 0.3, 4.0);
@@ -26,9 +26,9 @@ TEST(GustSpectrum, SharesOutWhatIsAdded) {
   EXPECT_NEAR(spectrum.power[0][0], 1.0, 1e-12);
 }
 
-// N7: a breeze swings with what its modes have of variance, where it blows; a disc at its own
-// pulsation and within its radius; steady wind not at all.
-TEST(GustSpectrum, TellWhatComesAndGoesAndHowFast) {
+// N7: a breeze oscillates with the variance of its modes, where it blows, and a disk at its own
+// pulsation and within its radius; steady wind does not at all.
+TEST(GustSpectrum, HoldsVariableWindByFrequency) {
   Primitive breeze;
   breeze.id = 1;
   breeze.name = "breeze";
@@ -70,9 +70,10 @@ Primitive blast() {
   return out;
 }
 
-// N7: a blast that stands still swings plants while it sets on and shortly after, as half a swing
-// of its height at a frequency beyond all, and then no more; what comes slowly swings them less.
-TEST(GustSpectrum, TellAStepThatStandsStill) {
+// N7: a blast that stands still moves plants while it starts and shortly after, as half an
+// oscillation of its height at the highest frequency, and then no more; a slow start moves them
+// less.
+TEST(GustSpectrum, HoldsTheStartOfABlastThatStandsStill) {
   const auto sumAt = [](const Primitive& p, double time) {
     return sumOf(GustSpectrumField(Field({p}, 3), fromSeconds(time)).at(Vec3(2.0, 0.0, 0.0), 8.0));
   };
@@ -84,8 +85,8 @@ TEST(GustSpectrum, TellAStepThatStandsStill) {
   EXPECT_GT(sumAt(step, 29.0), 0.0);
 }
 
-// N7: a disc that runs past comes and goes as fast as it passes, though its air pulsates slowly.
-TEST(GustSpectrum, TellADiscThatRunsPast) {
+// N7: a disk that passes acts at the frequency of its passage, though its own pulsation is slow.
+TEST(GustSpectrum, HoldsADiskThatPasses) {
   Primitive disk;
   disk.id = 2;
   disk.name = "disk";

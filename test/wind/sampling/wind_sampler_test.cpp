@@ -21,7 +21,7 @@ std::vector<Vec3> scattered(std::size_t count) {
   return out;
 }
 
-// N6, S1-16: whatever the instruction set and number of points, the law to the bit.
+// N6, S1-16: for any instruction set and number of points, the results have the bits of the law.
 TEST(WindSampler, GivesTheInstantsVelocitiesToTheBit) {
   const wind::Field field(wind::oneOfEach(), 3);
   for (const std::string& set : instructionSets()) {
@@ -31,7 +31,7 @@ TEST(WindSampler, GivesTheInstantsVelocitiesToTheBit) {
       const std::vector<Vec3> points = scattered(count);
       sampler.clear();
       for (const Vec3& point : points) sampler.add(point);
-      for (const double time : {5.0, 8.7}) {  // points stay from look to look
+      for (const double time : {5.0, 8.7}) {  // points stay from call to call
         const wind::Instant wind = field.at(wind::at(time));
         sampler.sample(wind);
         for (std::size_t i = 0; i < count; ++i) {
@@ -45,12 +45,12 @@ TEST(WindSampler, GivesTheInstantsVelocitiesToTheBit) {
   forceInstructionSet("");
 }
 
-// The three looks of a window: turned phases or not, those of the instants; many as one, to the
-// bit.
-TEST(WindSampler, LooksOfAWindowAreThoseOfItsInstants) {
+// The three instants of a window are those of the field, with rotated phases or without, and many
+// points have the bits of one.
+TEST(WindSampler, WindowsHaveTheVelocitiesOfTheirInstants) {
   std::vector<wind::Primitive> changes = wind::oneOfEach();
   wind::Primitive late = makeBreeze(77, Vec3(3, 1, 0));
-  late.t_on = wind::at(8.7);  // after the first look of a window there
+  late.t_on = wind::at(8.7);  // after the first instant of a window there
   changes.push_back(late);
   const std::vector<Vec3> points = scattered(37);
   int turned = 0;
@@ -77,11 +77,11 @@ TEST(WindSampler, LooksOfAWindowAreThoseOfItsInstants) {
   }
   forceInstructionSet("");
   const int sets = static_cast<int>(instructionSets().size());
-  EXPECT_EQ(turned, 4 * sets);  // not where the breeze sets in between two looks
+  EXPECT_EQ(turned, 4 * sets);  // but where the breeze starts between two instants
 }
 
-// S1-36: what promotion starts from is the same for many branches as for one.
-TEST(WindSampler, CoursesOfManyBranchesAreThoseOfEach) {
+// S1-36: the motion before promotion is the same for many branches as for one.
+TEST(WindSampler, MotionOfManyBranchesIsThatOfEach) {
   PhysicsRig rig;
   wind::Primitive breeze = makeBreeze(1, Vec3(4, 2, 0));
   breeze.epoch = PHYSICS_START;

@@ -11,7 +11,7 @@
 namespace vegetation_sim::wind {
 namespace {
 
-// N6, S2-19: the breeze on vectors of any width is the law's to the bit.
+// N6, S2-19: the breeze on vectors of any width has the bits of the law.
 TEST(WindSamples, AreTheInstantsVelocitiesToTheBit) {
   Instant wind = Field(oneOfEach(), 3).at(at(5.0));
   wind.terms.clear();

@@ -53,7 +53,7 @@ TEST(Attachment, KeepsTheCentreOnTheFrame) {  // S1-W1, N12
       weight += term.speed / 10.0;
     }
     EXPECT_NEAR(weight, 1.0, 1e-7) << t;
-    // Half the acceleration, 1.25 m/s^2, times the square of 0.6 s that a piece looks ahead.
+    // Half the acceleration, 1.25 m/s^2, times the square of 0.6 s that a piece extrapolates.
     EXPECT_LT(length(centre / weight - drone(t + 0.1)), 0.3) << t;
   }
 }
@@ -117,7 +117,7 @@ TEST(Attachment, NeedsFewPrimitivesHoweverLongItFlies) {
   PrimitiveSchedule schedule;
   follow(attachment, schedule, 0.0, 100.0);
   EXPECT_LT(schedule.field().primitives().size(),
-            35u);  // 5 s of pieces at 5 Hz and the living ones
+            35u);  // 5 s of pieces at 5 Hz and the active ones
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ Primitive fading(Kind kind, const std::string& name) {
   return p;
 }
 
-/// A ledger with a disk and a breeze that have blown for long.
+/// A schedule with a disk and a breeze that have blown for a long time.
 PrimitiveSchedule blowing() {
   PrimitiveSchedule schedule(5);
   schedule.start({fading(Kind::DISK, "disk"), fading(Kind::BREEZE, "breeze")});
@@ -89,7 +89,7 @@ TEST(PrimitiveSchedule, ManyQuickEditsNeverAddUpToMoreThanOneSource) {  // N2
   EXPECT_LT(schedule.field().primitives().size(), 20u);
 }
 
-// An edit waits for the fade-in before it, says so by its t_on, and never for long.
+// An edit waits for the fade-in before it, reports that by its t_on, and never waits long.
 TEST(PrimitiveSchedule, EditWaitsForTheChangeBeforeItWithinALimit) {  // N2
   PrimitiveSchedule schedule = blowing();
   Primitive slow = fading(Kind::DISK, "disk");
@@ -111,7 +111,7 @@ TEST(PrimitiveSchedule, EditWaitsForTheChangeBeforeItWithinALimit) {  // N2
   for (double t = 45.0; t < 170.0; t += 0.1) EXPECT_NEAR(weightOf(schedule, "disk", t), 1.0, 1e-12);
 }
 
-// What is fading in can be ended at once.
+// A source that is fading in can be ended at once.
 TEST(PrimitiveSchedule, RemovingNeverWaits) {
   PrimitiveSchedule schedule = blowing();
   Primitive slow = fading(Kind::DISK, "slow");

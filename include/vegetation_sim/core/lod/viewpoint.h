@@ -15,10 +15,10 @@ struct Viewpoint {
   double cone_cosine{-1.0};  ///< of half the angle of the visible cone; -1 if all round is visible
 };
 /// Returns whether any part of a ball is visible.
-bool sees(const Viewpoint& eye, const Vec3& centre, double radius);
+bool sees(const Viewpoint& viewpoint, const Vec3& centre, double radius);
 /// Returns the pixels that one metre takes at `distance` [m], which counts as at least half a
 /// metre.
-double pixelsPerMetre(const Viewpoint& eye, double distance);
+double pixelsPerMetre(const Viewpoint& viewpoint, double distance);
 
 /// A finer level is kept until the error of the next coarser one falls to this share of the
 /// tolerance, so that a level at its border does not flicker.

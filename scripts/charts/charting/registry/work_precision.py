@@ -78,7 +78,7 @@ def draw(rows):
     cells = groups(rows, 'tree', 'branches', 'load')
     columns = 2 if len(cells) > 1 else 1
     lines = math.ceil(len(cells) / columns)
-    figure, panels = style.figure('Work and precision: a tree under a load, everybody on the same '
+    figure, panels = style.figure('Work and precision: a tree under a load, all on the same '
                                   'tree', lines, columns, size=(5.6, 3.7 if lines > 1 else 4.8))
     for axes, key in zip(panels.flat, sorted(cells)):
         panel(axes, curves(cells[key]))
