@@ -12,15 +12,15 @@
 
 namespace vegetation_sim::grass {
 
-/// A meadow as a law: who holds it knows where each blade stands.
+/// Describes a meadow completely: every blade follows from it.
 struct Layout {
   std::shared_ptr<const FeatureMap> map{std::make_shared<const FeatureMap>()};
-  std::uint64_t seed{0};          ///< keys the random numbers of the blades
+  std::uint64_t seed{0};          ///< key of the random numbers of the blades
   std::string terrain;            ///< file of the height map; empty: flat
-  std::uint64_t terrain_hash{0};  ///< of its samples
+  std::uint64_t terrain_hash{0};  ///< hash of the samples of the height map
   BladeModel blade_model{BladeModel::ARC};
-  double tread_spacing{0.05};  ///< of the fine nodes, as TreadMap has it [m]
-  TreadLaw tread;              ///< of a source that does not say its own
+  double tread_spacing{0.05};  ///< spacing of the fine nodes, as in TreadMap [m]
+  TreadLaw tread;              ///< default law of a source
 
   std::uint64_t hash() const;
 };
@@ -30,8 +30,8 @@ struct Scene {
   Layout layout;
   TreadSettings treading;
 };
-/// Relative file names count from `folder`. Left to the caller: finish(), the terrain and
-/// tread_spacing.
+/// Reads the section; relative file names count from `folder`. The caller sets the terrain and
+/// tread_spacing, and calls finish().
 Scene readScene(YamlSection& section, const std::string& folder, std::uint64_t seed,
                 Faults& faults);
 

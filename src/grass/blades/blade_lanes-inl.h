@@ -1,7 +1,7 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// The arithmetic of blade_plain.h and blade.cpp on vectors of floats, operation by operation;
-// included once per instruction set.
+// The arithmetic of blade_plain.cpp and blade_profile.cpp on vectors of floats, operation by
+// operation; included once per instruction set.
 
 #if defined(VEGETATION_SIM_GRASS_BLADE_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef VEGETATION_SIM_GRASS_BLADE_LANES_INL_H_
@@ -61,7 +61,7 @@ HWY_INLINE LanesSineCosine smallSineCosine(Lanes x) {
 
 // ---- random words ----------------------------------------------------------------------------
 
-// mix32 of common/random.h.
+// mix32 of core/math/random.h on vectors.
 HWY_INLINE Words mixLanes(Words x) {
   const WordTag tag;
   x = hn::Xor(x, hn::ShiftRight<16>(x));
@@ -139,7 +139,7 @@ HWY_INLINE void arcProfile(Lanes length, Lanes hinge, Lanes arc, bool upright, L
   const Lanes twice = all(2.f) - all(4.f) * half.sin * half.sin;
   const Lanes link = length * all(static_cast<float>(1.0 / LINKS));
   const Lanes ls = link * half.sin, lc = link * half.cos;
-  Lanes s = ls, s_before = hn::Zero(Tag()) - ls;  // what a hinge of 0 gives, to the bit
+  Lanes s = ls, s_before = hn::Zero(Tag()) - ls;  // equal to the bits of a hinge of 0
   Lanes c = lc, c_before = lc;
   if (!upright) {
     const LanesSineCosine root = sineCosine(hinge);

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Arithmetic of blades on one number; blade_lanes-inl.h has the same operations, in the same order,
-// on many, so that both give the same bits.
+// Arithmetic of blades on one number; blade_lanes-inl.h has the same operations in the same order
+// on vectors, so that both give the same bits.
 
 namespace vegetation_sim::grass {
 
@@ -12,7 +12,7 @@ struct SineCosine {
   T sin, cos;
 };
 
-/// Of an angle in [0, 1.6]: Taylor, errors 4e-8 and 4e-9.
+/// Returns sine and cosine of an angle in [0, 1.6] by Taylor series, with errors of 4e-8 and 4e-9.
 template <class T>
 SineCosine<T> sineCosine(T x) {
   const T u = x * x;
@@ -30,7 +30,7 @@ SineCosine<T> sineCosine(T x) {
   return {x + x * (u * s), T(1) + u * c};
 }
 
-/// Of an angle in [0, 0.16]: errors 5e-10 and 6e-12.
+/// Returns sine and cosine of an angle in [0, 0.16], with errors of 5e-10 and 6e-12.
 template <class T>
 SineCosine<T> smallSineCosine(T x) {
   const T u = x * x;

@@ -24,7 +24,8 @@ struct Bilinear {
   T base{0}, by_u{0}, by_v{0}, by_uv{0};
 };
 
-/// What all blades of a tile share at one instant. With one species its factors are in here.
+/// Values that all blades of a tile share at one instant; the factors of a single species are
+/// included.
 template <class T>
 struct TilePlan {
   TilePlan(const Tile& tile, const TileMotion& motion)
@@ -46,10 +47,10 @@ struct TilePlan {
   std::array<Bilinear<T>, MAX_SPECIES> shares{};
 };
 
-/// Distance of the words of one blade.
+/// Increment between the random words of one blade.
 constexpr std::uint32_t WORD_STEP = 0x9E3779B9U;
 
-/// Random numbers of a blade: functions of the tile's key and its index.
+/// Random numbers of a blade, which are functions of the tile's key and the blade's index.
 template <class T>
 struct BladeRandom {
   BladeRandom(std::uint64_t key, int blade)
@@ -59,20 +60,20 @@ struct BladeRandom {
     v = T(first >> 8) * T(1.0 / 16777216.0);
     u = T(second >> 8) * T(1.0 / 16777216.0);
     shortness = T(first & 0xff) * T(1.0 / 256.0);
-    // Sums of two bytes: small leans are likely, large ones rare, no direction stands out.
+    // Sums of two bytes make small leans likely, large ones rare and no direction special.
     lean_x = T((third & 0xff) + (third >> 8 & 0xff)) * T(1.0 / 255.0) - T(1);
     lean_y = T((third >> 16 & 0xff) + (third >> 24)) * T(1.0 / 255.0) - T(1);
   }
   std::uint32_t word(std::uint32_t i) const { return mix32(base + i * WORD_STEP); }
-  /// Chooses the species. Never 0, so that a share of 0 is never taken.
+  /// Returns the number that selects the species. It is never 0, so a share of 0 is never taken.
   T kind() const { return (T(word(3) >> 8) + T(0.5)) * T(1.0 / 16777216.0); }
 
   std::uint32_t base;
   T u, v, shortness, lean_x, lean_y;
 };
 
-/// Where a uniform number falls under a density that runs from a to b: inverse of its cumulative,
-/// in the form that does not cancel (as in pbrt's sampling of bilinear functions).
+/// Maps a uniform number to a place with a density that runs linearly from a to b: the inverse of
+/// its cumulative in a form that does not cancel (as pbrt samples bilinear functions).
 template <class T>
 T linearPlace(T uniform, T a, T b) {
   const T root = std::sqrt(std::max(T(0), a * a + (b - a) * (b + a) * uniform));

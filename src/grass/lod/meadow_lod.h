@@ -17,20 +17,20 @@
 namespace vegetation_sim::grass {
 
 struct MeadowSettings {
-  double tolerance{1.5};    ///< what a level may leave out [pixel]
-  double transition{0.5};   ///< from one tier to the next [s]
-  double farthest{400.0};   ///< beyond, grass is a texture [m]
-  double most_blades{6e5};  ///< that the viewpoints see; for more, the tolerance is coarsened
+  double tolerance{1.5};    ///< allowed omission of a model [pixel]
+  double transition{0.5};   ///< time from one model to the next [s]
+  double farthest{400.0};   ///< Beyond this distance grass is a texture [m].
+  double most_blades{6e5};  ///< limit for the visible blades; the tolerance is coarsened to keep it
 };
 void describe(FieldVisitor& visitor, MeadowSettings& settings);
 
-/// A tile that is more than a texture, or is on its way to or from it.
+/// A tile whose model is not the texture, or that moves between models.
 struct TileLevel {
   int row{0}, column{0};
   TileModelState tier;
 };
 
-/// State of the level of detail of a meadow (N6): which tiles are drawn how.
+/// State of the level of detail of a meadow (N6).
 struct MeadowLodSnapshot {
   Nanoseconds stamp{0};
   double coarseness{1.0};         ///< factor on the tolerance that keeps the number of blades
@@ -40,17 +40,17 @@ struct MeadowLodSnapshot {
   std::uint64_t hash() const;
 };
 
-/// What to draw of one tile at one instant, for one eye.
+/// How one tile is drawn at one instant for one viewpoint.
 struct TileView {
   int row{0}, column{0};
   Morph morph;
   int segments{LINKS};
-  double share{1.0};      ///< of the blades
-  double elevation{0.0};  ///< from which the tile is seen [rad]
+  double share{1.0};      ///< share of the blades that is drawn
+  double elevation{0.0};  ///< elevation angle from the tile to the viewpoint [rad]
 };
 
-/// Level of detail of the tiles of a meadow around its viewers. The trodden ground belongs to
-/// whoever simulates or replicates it. One thread at a time.
+/// Level of detail of the tiles of a meadow around the viewpoints. It does not own the trodden
+/// ground. One thread at a time.
 class MeadowLod {
  public:
   /// @throws InvalidInput with all faults.
@@ -62,23 +62,23 @@ class MeadowLod {
   const terrain::HeightMap& terrain() const { return *terrain_; }
   std::uint64_t seed() const { return seed_; }
 
-  /// Other settings from now on. @throws InvalidInput with all faults, then nothing is changed.
+  /// Replaces the settings. @throws InvalidInput with all faults, then nothing is changed.
   void setSettings(const MeadowSettings& settings);
   void setViewpoints(std::vector<Viewpoint> viewpoints) { viewpoints_ = std::move(viewpoints); }
   /// Chooses levels at a stamp. If the stamp is before the last one, all tiles start as textures.
   void advance(Nanoseconds stamp);
 
-  /// Tiles that an eye sees as more than a texture.
+  /// Returns the tiles that are drawn as more than a texture for a viewpoint.
   std::vector<TileView> viewOf(const Viewpoint& eye, Nanoseconds stamp) const;
-  /// Smallest window with all of these tiles.
+  /// Returns the smallest window that contains all of these tiles.
   static TileWindow windowOf(const std::vector<TileView>& views);
   /// Makes a tile from its seed and fills `motion` with its wind and its trodden ground, for which
   /// `patch` is the memory. Requires that the window of `air` contains the tile.
   Tile tileAt(const TileView& view, const NodeWind& air, const TreadMap& tread, Nanoseconds stamp,
               CrushPatch& patch, TileMotion& motion) const;
 
-  /// What was chosen at the last advance() for the tiles that are or want to be more than a
-  /// texture: costs are blades, errors what tiers leave out.
+  /// Allocation of the last advance(), over the tiles that are or want to be more than a texture:
+  /// costs are numbers of blades, errors are omissions of the models.
   const TierAllocation& balance() const { return balance_; }
 
   MeadowLodSnapshot snapshot() const;
@@ -92,11 +92,11 @@ class MeadowLod {
   Vec3 centreOf(int row, int column) const;
   /// A tile that is or wants to be more than a texture.
   struct Candidate {
-    TileLevel level{};  ///< as it was
+    TileLevel level{};  ///< level before this advance()
     TileDetail detail{};
-    double scale{0.0};                     ///< pixels a metre; 0: bare, or too far off
-    TileModel wanted{TileModel::TEXTURE};  ///< within the plain tolerance
-    double blades{0.0};  ///< all that grow on it; 0 if it wants none or nobody sees it
+    double scale{0.0};                     ///< pixels per metre; 0: bare or beyond `farthest`
+    TileModel wanted{TileModel::TEXTURE};  ///< model within the tolerance, without coarseness
+    double blades{0.0};  ///< number of its blades; 0 if it wants none or is not visible
   };
   Candidate candidateOf(const TileLevel& level) const;
   std::vector<Candidate> findCandidates() const;
@@ -112,7 +112,7 @@ class MeadowLod {
   std::shared_ptr<const terrain::HeightMap> terrain_;
   std::uint64_t seed_;
   MeadowSettings settings_;
-  std::vector<double> coarsest_;  ///< of each row of tiles: most that a texture leaves out [m]
+  std::vector<double> coarsest_;  ///< largest omission of a texture in each row of tiles [m]
   Nanoseconds stamp_{0};
   double coarseness_{1.0};
   TierAllocation balance_;

@@ -10,7 +10,7 @@
 
 namespace vegetation_sim::grass {
 
-/// Tiles from first to last, both included; empty if last < first.
+/// Range of tiles, both ends included; empty if last < first.
 struct TileWindow {
   int first_column{0}, last_column{-1}, first_row{0}, last_row{-1};
   bool has(int column, int row) const {
@@ -23,36 +23,37 @@ struct TilePlace {
   int column{0}, row{0};
 };
 
-/// A disc that colours the grass, strongest in its middle: a mown, dry or fertilised patch.
+/// A disc that colours the grass, strongest in its middle, such as a mown, dry or fertilised patch.
 struct ColourMask {
   Point centre{};      ///< [m]
   double radius{1.0};  ///< [m]
-  double colour{1.0};  ///< towards which it draws, 0 fresh to 1 dry
-  double weight{1.0};  ///< beside the grass itself, which has 1
+  double colour{1.0};  ///< colour of the disc, 0 fresh to 1 dry
+  double weight{1.0};  ///< weight relative to the grass, which has 1
 };
 
-/// What primitives send to the nodes under their masks (paper 2, section 4.1): displacements are
-/// summed, as air velocity, and bounded where a blade bends; colours are averaged (S2-18).
+/// Wind and colour at the nodes of tiles (paper 2, section 4.1): displacements of primitives are
+/// summed as wind velocity and bounded where a blade bends; colours of masks are averaged (S2-18).
 class NodeWind {
  public:
-  /// Both must outlive it.
+  /// The map and the terrain must outlive it.
   NodeWind(const FeatureMap& map, const terrain::HeightMap& terrain)
       : map_(map), terrain_(terrain) {}
 
-  /// Evaluates the wind law at the nodes of a window: the sum is Instant::velocity on the ground,
-  /// bit by bit, but a bounded primitive costs only the nodes that its mask covers (S2-17).
-  /// With `tiles`, nodes that are no corner of one of them are left without air.
+  /// Evaluates the wind at the nodes of a window. The sum equals Instant::velocity on the ground
+  /// bit by bit, but a bounded primitive costs only the nodes below its mask (S2-17). If `tiles` is
+  /// given, only the corners of these tiles get wind.
   void update(const wind::Instant& wind, const std::vector<ColourMask>& masks,
               const TileWindow& window, const std::vector<TilePlace>* tiles = nullptr);
 
-  /// Air at a node of the window [m/s].
+  /// Returns the wind at a node of the window [m/s].
   Vec3 at(int column, int row) const { return air_[indexOf(column, row)]; }
-  /// Colour at a node of the window, masks included.
+  /// Returns the colour at a node of the window, including masks.
   double colourAt(int column, int row) const;
-  /// Writes air and colour of a tile of the window.
+  /// Writes wind and colour into a tile of the window.
   void fill(Tile& tile, TileMotion& motion) const;
 
-  /// Nodes that bounded primitives and masks reached in the last update, each counted per mask.
+  /// Returns how many nodes bounded primitives and masks reached in the last update, counted per
+  /// mask.
   int touched() const { return touched_; }
 
  private:
@@ -76,12 +77,14 @@ class NodeWind {
   int touched_{0};
   std::vector<std::uint8_t> wanted_;  ///< [rows x columns] of nodes
   std::vector<Vec3> air_;             ///< [rows x columns] of nodes
-  std::vector<Tint> tints_;           ///< likewise
-  std::vector<std::size_t> asked_;    ///< nodes that the breeze is asked at: indices
-  std::vector<double> rows_;          ///< [6 x asked] their places and air, a row a component
+  std::vector<Tint> tints_;           ///< [rows x columns] of nodes
+  std::vector<std::size_t> asked_;    ///< indices of the nodes where the breeze is evaluated
+  /// [6 x size of asked_] their places and wind, one component a row
+  std::vector<double> rows_;
 };
 
-/// Bend of grass of this compliance [rad s/m] in this air [m/s], bounded (S2-W4, E16) [rad].
+/// Returns the bend [rad] of grass with this compliance [rad s/m] in this wind [m/s], bounded
+/// (S2-W4, E16).
 Point bendIn(const Vec3& air, double compliance);
 
 }  // namespace vegetation_sim::grass

@@ -18,16 +18,16 @@ constexpr LayerRule COLOUR_RULE{"colour", "", {0.0, 1.0}};
 constexpr LayerRule SHAPE_RULE{"shape", "", {0.0, 1.0}};
 constexpr LayerRule MIX_RULE{"mix", "", {0.0, 1000.0}};
 
-/// Value of a layer at a node, row 0 in the south.
+/// Returns the value of a layer at a node; row 0 is in the south.
 double valueAt(const LayerInput& layer, int column, int row);
-/// Largest value that the layer takes anywhere.
+/// Returns the largest value of the layer.
 double largestOf(const LayerInput& layer);
-/// Faults of one layer of a map of this size.
+/// Adds the faults of one layer of a map of this size.
 void checkLayer(const LayerInput& layer, const LayerRule& rule, const std::string& context,
                 const MapLaw& law, Faults& faults);
 
-/// Reads `name: {value: ...}` or `name: {image: ..., black: ..., white: ...}`; a picture's path is
-/// relative to `folder`.
+/// Reads `name: {value: ...}` or `name: {image: ..., black: ..., white: ...}`; the path of an image
+/// is relative to `folder`.
 void readLayer(YamlSection& map, const LayerRule& rule, const std::string& folder,
                LayerInput& layer);
 

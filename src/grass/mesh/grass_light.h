@@ -9,24 +9,25 @@
 
 namespace vegetation_sim::grass {
 
-/// Daylight on grass, for drawing: factors on its colours. Upright blades show the sun their edges,
-/// bent ones their faces and a shine, so that a gust runs over a meadow as a light wave.
+/// Daylight on grass as factors on its colours. Upright blades turn their edges to the sun, bent
+/// ones their faces, which shine; a gust is thus visible as a wave of light.
 struct GrassLight {
   Vec3 to_sun{Vec3(0.5, -0.6, 0.62)};  ///< unit
-  Vec3 sun{Vec3(1.46, 1.28, 0.96)};  ///< red, green, blue of the sun; above 1: brighter than paint
-  Vec3 sky{Vec3(0.50, 0.57, 0.66)};  ///< of the sky
-  double shine{0.16};                ///< of a blade that lies away from the eye
+  /// red, green, blue of the sun; above 1 it is brighter than the colour itself
+  Vec3 sun{Vec3(1.46, 1.28, 0.96)};
+  Vec3 sky{Vec3(0.50, 0.57, 0.66)};  ///< red, green, blue of the sky
+  double shine{0.16};                ///< shine of a blade that leans away from the viewer
 };
 
-/// How a piece of a blade lies.
+/// Orientation of a piece of a blade.
 struct BladePiece {
   float flat{0.f};     ///< 0 upright to 1 lying
-  float facing{0.6f};  ///< of its broad side to the sun, upright; 0 to 1
-  float away{0.f};     ///< 1: it leans straight away from the eye, -1: towards it
-  float way{1.f};      ///< from the root 0 to the tip 1
+  float facing{0.6f};  ///< how much its broad side faces the sun when upright, 0 to 1
+  float away{0.f};     ///< 1: it leans straight away from the viewer, -1: towards it
+  float way{1.f};      ///< position along the blade, root 0 to tip 1
 };
 
-/// Light on that piece: `factor` on its own colour, and `shine` of the sun's.
+/// Light on that piece: `factor` on its own colour, and `shine` of the sun's colour.
 struct PieceLight {
   float factor[3], shine[3];
 };
@@ -35,7 +36,7 @@ inline PieceLight lightOn(const GrassLight& light, const BladePiece& piece) {
   const auto up = static_cast<float>(light.to_sun.z());
   const float across = std::sqrt(std::max(0.f, 1.f - up * up));
   const float direct = (1.f - piece.flat) * across * (0.5f + 0.5f * piece.facing) + piece.flat * up;
-  // Neighbours keep the light from the roots, less so where they lie.
+  // Neighbours shade the roots, less so where blades lie.
   const float depth =
       (1.f - piece.flat) * (0.36f + 0.64f * piece.way) + piece.flat * (0.70f + 0.30f * piece.way);
   const float shine = static_cast<float>(light.shine) * piece.flat * depth *

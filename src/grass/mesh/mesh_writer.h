@@ -11,7 +11,7 @@ inline std::uint8_t byteOf(double part) {
   return static_cast<std::uint8_t>(255.0 * saturate(part) + 0.5);
 }
 
-/// Writes vertices and triangles behind those of a mesh, which makes room for all of them at once.
+/// Appends vertices and triangles to a mesh after reserving room for all of them.
 class MeshWriter {
  public:
   MeshWriter(GrassMesh& mesh, std::size_t vertices, std::size_t triangles)
@@ -21,7 +21,7 @@ class MeshWriter {
     colour_ = grown(mesh.colours, 4 * vertices);
     index_ = grown(mesh.indices, 3 * triangles);
   }
-  /// @return its index.
+  /// @return index of the vertex.
   std::uint32_t vertex(const Vec3& p, double u, double v, const Vec3& colour, double alpha) {
     for (int i = 0; i < 3; ++i) *position_++ = static_cast<float>(p[i]);
     *texture_++ = static_cast<float>(u);

@@ -16,7 +16,7 @@ inline int floorOf(double x) {
   return whole - (near < whole);
 }
 
-/// The fine grid: places of its nodes.
+/// Positions of the nodes of the fine grid.
 struct TreadGrid {
   double origin_x, origin_y, spacing, per_spacing;
   int last_column, last_row;
@@ -24,13 +24,13 @@ struct TreadGrid {
   double y(int row) const { return origin_y + row * spacing; }
 };
 
-/// Columns of a row, both included; none if last < first.
+/// Range of columns of a row, both ends included; empty if last < first.
 struct TreadSpan {
   int first, last;
 };
 
-/// Where the nodes of a row are beside a segment: CompactField::Place of column 0, and what each
-/// column adds [m].
+/// Positions of the nodes of a row relative to a segment: CompactField::Place of column 0, and the
+/// increments per column [m].
 struct TreadRow {
   TreadRow(const CompactField::Parts& segment, const TreadGrid& grid, int row) {
     const Point along = segment.along;
@@ -43,15 +43,15 @@ struct TreadRow {
   double start, side, start_step, side_step;
 };
 
-/// A segment and how it treads, in numbers that vectors take.
+/// Constants of a segment and its law for vectorised code.
 struct TreadLine {
   /// @param full dose of an endless straight track at the law's radius.
   TreadLine(const CompactField& segment, const TreadLaw& law, double full);
 
-  /// Columns of a row that may be within reach: what lies beside the segment and beyond its ends.
+  /// Returns the columns of a row that may be within reach.
   TreadSpan spanOf(const TreadGrid& grid, int row) const;
-  /// That the stroke asks for [rad], by the dose of this pass or by the print of a foot, which
-  /// crushes even where it stands.
+  /// Returns the tilt of the stroke [rad], by the dose of this pass or by the print of a foot,
+  /// which crushes even without motion.
   double tiltOf(double dose, double square_distance) const {
     double part = dose * per_full;
     if (dose < enough && square_distance < square_print)
@@ -60,25 +60,26 @@ struct TreadLine {
   }
 
   CompactField field;
-  Point low, high;  ///< box of the segment
-  double per_full;  ///< inverse of the dose that crushes fully
-  double enough;    ///< dose that crushes fully at this load
+  Point low, high;  ///< bounding box of the segment
+  double per_full;  ///< inverse of the dose of a full crush
+  double enough;    ///< dose of a full crush at this load
   double load;
-  double square_radius, square_print, per_print;  ///< where the print is full and ends, 1/between
-  double slant, widening;  ///< of the strip beside the segment: x per y, half its row [m]
+  /// squared radii where the print is full and ends, 1 / their difference
+  double square_radius, square_print, per_print;
+  double slant, widening;  ///< strip beside the segment: x per y, half the width of a row [m]
 };
 
-/// Rows of the grid with the doses of one source, whole vectors long.
+/// Rows of the grid with the doses of one source; a row has a whole number of vectors.
 struct TreadBand {
-  static constexpr int PITCH = 8;  ///< rows are a whole number of these [nodes]
+  static constexpr int PITCH = 8;  ///< divisor of the row length [nodes]
   int first_column, first_row, rows, pitch;
   double* doses;  ///< [rows x pitch] [1/m^2]
   double* dosesOf(int row) const { return doses + std::ptrdiff_t{row - first_row} * pitch; }
 };
 
-/// Takes the stroke to the nodes of a band: doses in; out are those that stay within reach of the
-/// segment's end. Runs on the widest vectors of the processor; the same bits on each of them, and
-/// without vectors.
+/// Applies the stroke to the nodes of a band: adds to the doses, then keeps those within reach of
+/// the segment's end. Uses the widest vectors of the processor, with the same bits on each of them
+/// and without vectors.
 void measureBand(const TreadLine& line, const TreadGrid& grid, const TreadBand& band,
                  TreadPresses& out);
 

@@ -19,8 +19,8 @@ inline int nodeBelow(double place, double origin, double per_spacing) {
   return floorOf((place - origin) * per_spacing);
 }
 
-/// One segment being pressed, and what becomes of a node under it. In a header so that the loop
-/// over the nodes is one piece of code.
+/// One segment and its effect on a node. It is in a header so that the loop over the nodes is
+/// inlined.
 struct TreadStroke {
   /// @param full dose of an endless straight track at the law's radius.
   TreadStroke(const TreadLaw& l, double full, const Point& from, TreadSource& source)
@@ -34,8 +34,7 @@ struct TreadStroke {
     after.has_moved = true;
   }
 
-  // Against what is there the larger tilt counts (E15); only a node that had risen takes a new
-  // direction (S2-27).
+  // The larger tilt counts (E15). Only a node that had recovered takes a new direction (S2-27).
   void press(float tilt, const TreadGrid& grid, std::uint64_t place, TreadBlock& block) {
     TreadNode& node = block.nodes[(place >> 28 & 0xF0) | (place & 0xF)];
     const auto now = static_cast<float>(double{node.tilt} * leftOf(node));
@@ -48,7 +47,7 @@ struct TreadStroke {
     node.stamp = after.stamp;
   }
 
-  // Neighbours were mostly pressed together: what is left of the one is left of the next.
+  // Caches the result, since neighbours were mostly pressed together.
   double leftOf(const TreadNode& node) {
     if (node.stamp != seen.stamp || node.recovery != seen.recovery) {
       seen = node;
@@ -57,7 +56,7 @@ struct TreadStroke {
     return left;
   }
 
-  // sign(A.N) N + C, or outward under a foot that came straight down.
+  // Sets the direction to sign(A.N) N + C, or outward below a foot that came straight down.
   void turn(const TreadGrid& grid, std::uint64_t place, TreadNode& node) const {
     const auto row = static_cast<int>(place >> 32), column = static_cast<int>(place & 0xFFFFFFFF);
     double x = grid.x(column) - after.position.x, y = grid.y(row) - after.position.y;
@@ -74,11 +73,11 @@ struct TreadStroke {
 
   const TreadLaw& law;
   TreadLine line;
-  float own;           ///< recovery [s]
-  Nanoseconds latest;  ///< when the last of the pressed nodes has recovered
+  float own;           ///< recovery of the law [s]
+  Nanoseconds latest;  ///< stamp at which the last pressed node has recovered
   TreadSource& after;
-  TreadNode seen{};  ///< the last node whose recovery was asked for
-  double left{0.0};  ///< of its tilt
+  TreadNode seen{};  ///< node of the cached result
+  double left{0.0};  ///< cached share of the tilt
 };
 
 }  // namespace vegetation_sim::grass

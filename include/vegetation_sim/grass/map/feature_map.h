@@ -23,9 +23,9 @@ struct MapLaw {
 };
 void describe(FieldVisitor& visitor, MapLaw& law);
 
-/// One quantity at the nodes: the same everywhere, or a grey picture, its top row in the north.
+/// One quantity at the nodes: a constant, or a grey image whose top row is in the north.
 struct LayerInput {
-  double value{0.0};  ///< without a picture
+  double value{0.0};  ///< value if there is no image
   terrain::GreyImage image{};
   double black{0.0};  ///< value of black
   double white{1.0};  ///< value of white
@@ -37,7 +37,7 @@ struct SpeciesInput {
   LayerInput mix{1.0, {}, 0.0, 1.0};
 };
 
-/// All that makes a meadow; no species means the default one.
+/// Inputs of a feature map; without species it has the default one.
 struct MapInput {
   MapLaw law{};
   LayerInput height{0.3, {}, 0.0, 0.5};        ///< [m]
@@ -47,11 +47,11 @@ struct MapInput {
   std::vector<SpeciesInput> species{};
 };
 
-/// Reads the keys of docs/grass.md; pictures' paths are relative to `folder`. Left to the caller:
-/// finish(), and what FeatureMap checks.
+/// Reads the keys of docs/grass.md; paths of images are relative to `folder`. The caller calls
+/// finish(); FeatureMap checks the values.
 MapInput readMapInput(YamlSection& yaml, const std::string& folder);
 
-/// Grass at one place; shares of species in the order of the map.
+/// Grass at one place; shares of species are in the order of the map.
 struct Features {
   double height{0.0};   ///< [m]
   double density{0.0};  ///< [blades/m^2]
@@ -66,31 +66,32 @@ struct TileMeans {
 };
 
 /// A meadow as a continuous medium (paper 2, section 3.1): features at the nodes of a uniform grid,
-/// bilinear between them, nothing beyond the border. Immutable; read it from any thread.
+/// bilinear between them, zero beyond the border. Immutable, hence safe to read from any thread.
 class FeatureMap {
  public:
-  /// The default meadow.
+  /// Makes the default meadow.
   FeatureMap() : FeatureMap(MapInput()) {}
   /// @throws InvalidInput with all faults.
   explicit FeatureMap(MapInput input);
-  /// Reads a YAML file with the keys of docs/grass.md and its pictures, whose paths are relative to
-  /// it. @throws InvalidInput naming file, key, value and allowed range, all faults at once.
+  /// Reads a YAML file with the keys of docs/grass.md and its images, whose paths are relative to
+  /// it. @throws InvalidInput with all faults, each with file, key, value and allowed range.
   static FeatureMap load(const std::string& file);
 
   const MapLaw& law() const { return input_.law; }
-  /// What it was made from.
+  /// Returns the inputs that the map was made from.
   const MapInput& input() const { return input_; }
   int tileColumns() const { return input_.law.columns - 1; }
   int tileRows() const { return input_.law.rows - 1; }
   const std::vector<SpeciesInput>& species() const { return input_.species; }
 
-  /// Features at a node. Requires 0 <= column < columns, 0 <= row < rows, row 0 in the south.
+  /// Returns the features at a node. Requires 0 <= column < columns, 0 <= row < rows; row 0 is in
+  /// the south.
   Features node(int column, int row) const;
-  /// Features at (x, y) [m]; density 0 beyond the border or for a coordinate that is no number.
+  /// Returns the features at (x, y) [m]; density is 0 beyond the border and for a NaN.
   Features at(double x, double y) const;
-  /// What levels of detail go by. Requires a tile of the map.
+  /// Returns the means that levels of detail depend on. Requires a tile of the map.
   TileMeans meansOf(int tile_column, int tile_row) const;
-  /// Largest height of any blade of the map [m].
+  /// Returns the largest height of any blade of the map [m].
   double tallest() const { return tallest_; }
   std::uint64_t hash() const { return hash_; }
 

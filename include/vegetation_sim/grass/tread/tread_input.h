@@ -9,22 +9,22 @@
 
 namespace vegetation_sim::grass {
 
-/// MOVE: from where it was, or down there; PLACE: down there, a new pass; LIFT: off the ground;
-/// STROKE: down at the start, to the position, and off.
+/// MOVE continues the track of a source, or puts it down. PLACE puts it down and begins a new pass.
+/// LIFT takes it off the ground. STROKE puts it down at the start, moves it and takes it off.
 enum class TreadAction : int { MOVE = 0, PLACE = 1, LIFT = 2, STROKE = 3 };
 
-/// A source of treading moved.
+/// An input of a source of treading.
 struct TreadInput {
-  std::string source;  ///< its name
+  std::string source;  ///< name of the source
   TreadAction action{TreadAction::MOVE};
-  Vec3 start{Vec3::Zero()};     ///< of a STROKE, world [m]
+  Vec3 start{Vec3::Zero()};     ///< start of a STROKE, world [m]
   Vec3 position{Vec3::Zero()};  ///< world [m]
-  double height_gate{0.3};      ///< higher above the ground it treads nothing [m]
-  Vec3 velocity{Vec3::Zero()};  ///< world [m/s]; zero: from its last two positions
+  double height_gate{0.3};      ///< A source higher than this above the ground does not tread [m].
+  Vec3 velocity{Vec3::Zero()};  ///< world [m/s]; zero: computed from the last two positions
   TreadLaw law;
-  std::string body_frame;  ///< of the body that feels the drag; empty: nobody asks
+  std::string body_frame;  ///< frame of the body that the drag acts on; empty: no drag is computed
 };
-/// Adds a fault for whatever is wrong; `context` names the input.
+/// Adds the faults of an input; `context` names the input.
 void check(const TreadInput& input, const std::string& context, Faults& faults);
 
 }  // namespace vegetation_sim::grass

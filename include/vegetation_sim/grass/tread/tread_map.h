@@ -16,14 +16,15 @@
 namespace vegetation_sim::grass {
 
 struct TreadSettings {
-  double spacing{0.05};        ///< wanted of the fine nodes; becomes a whole part of a tile [m]
-  double memory_cap{128e6};    ///< for trodden ground [bytes]
-  double longest_stroke{5.0};  ///< beyond, a source has jumped and leaves no track [m]
-  double top_speed{40.0};      ///< beyond, likewise [m/s]
+  /// wanted spacing of the fine nodes; rounded so that it divides a tile [m]
+  double spacing{0.05};
+  double memory_cap{128e6};    ///< limit for trodden ground [bytes]
+  double longest_stroke{5.0};  ///< A longer step is a jump, which leaves no track [m].
+  double top_speed{40.0};      ///< A faster step is a jump, too [m/s].
 };
 void describe(FieldVisitor& visitor, TreadSettings& settings);
 
-/// Trodden grass at a node: tilt at `stamp`, from which it rises again.
+/// Trodden grass at a node: its tilt at `stamp`, from which it recovers.
 struct TreadNode {
   float tilt{0.f};       ///< [rad]
   float x{0.f}, y{0.f};  ///< unit direction in which the blades lie
@@ -31,43 +32,44 @@ struct TreadNode {
   Nanoseconds stamp{0};
 };
 
-/// Nodes of a square of trodden ground.
+/// A square of nodes of trodden ground.
 struct TreadBlock {
   static constexpr int SIDE = 16;
-  Nanoseconds until{0};                                   ///< when the last of them has recovered
+  /// stamp at which the last node has recovered
+  Nanoseconds until{0};
   std::array<TreadNode, std::size_t{SIDE} * SIDE> nodes;  ///< row by row from the south
 };
 
-/// A source that is on the ground. Doses of the nodes within its reach add up as long as it stays
-/// near them: one pass.
+/// A source on the ground. The doses of the nodes within its reach add up while it stays near them,
+/// which is one pass.
 struct TreadSource {
   Point position, along;
-  bool has_moved{false};  ///< `along` means something
+  bool has_moved{false};  ///< `along` is valid
   Nanoseconds stamp{0};
-  int first_column{0}, first_row{0}, columns{0}, rows{0};  ///< of the window, whole vectors wide
+  int first_column{0}, first_row{0}, columns{0}, rows{0};  ///< window of nodes, whole vectors wide
   std::vector<double> doses;                               ///< [rows x columns] [1/m^2]
 };
 
-/// What happened so far.
+/// Counts since the start.
 struct TreadCounts {
-  std::uint64_t strokes{0};    ///< that were taken
-  std::uint64_t invalid{0};    ///< refused: not finite or back in time
-  std::uint64_t jumps{0};      ///< of a source, that left no track
+  std::uint64_t strokes{0};    ///< strokes that were applied
+  std::uint64_t invalid{0};    ///< inputs that were rejected: not finite or back in time
+  std::uint64_t jumps{0};      ///< jumps of a source, which leave no track
   std::uint64_t outside{0};    ///< strokes that touched no node of the map
   std::uint64_t no_memory{0};  ///< nodes that the memory cap left untrodden
 };
 
-/// All that has memory, to be saved, restored and compared.
+/// The state of a tread map, to be saved, restored and compared.
 struct TreadState {
-  std::map<std::pair<int, int>, TreadBlock> blocks;  ///< by row and column of blocks
+  std::map<std::pair<int, int>, TreadBlock> blocks;  ///< by row and column of the block
   std::map<std::uint32_t, TreadSource> sources;
   TreadCounts counts;
 
   std::uint64_t hash() const;
 };
 
-/// Where something was found lately, by a mixed key. Empty in a copy, since it points into one
-/// map's parts. @tparam Entry that is made from a key, with mixed(key...) and is(key...).
+/// Hash table of recently found entries. A copy is empty, since entries point into one map's parts.
+/// @tparam Entry is constructed from a key and has mixed(key...) and is(key...).
 template <class Entry, int BITS>
 class RecentTable {
  public:
@@ -77,7 +79,7 @@ class RecentTable {
     clear();
     return *this;
   }
-  /// The entry of a key; its pointers are null if nothing is known, and may be set.
+  /// Returns the entry of a key; its pointers are null if nothing is known, and may be set.
   template <class... Key>
   Entry& at(Key... key) {
     if (entries_.empty()) entries_.resize(std::size_t{1} << BITS);
@@ -102,7 +104,7 @@ struct RecentBlock {
     return row == other_row && column == other_column;
   }
   int row{-1}, column{-1};
-  bool is_known{false};  ///< that the block is there, or that it is not
+  bool is_known{false};  ///< `block` is valid, also if it is null
   TreadBlock* block{nullptr};
 };
 
@@ -115,10 +117,10 @@ struct RecentSource {
   TreadSource* source{nullptr};
 };
 
-/// Nodes that a stroke presses down, row by row; touched are all within its reach.
+/// Nodes that a stroke presses down, row by row, and the number of nodes within its reach.
 struct TreadPresses {
   std::vector<std::uint64_t> places;  ///< row << 32 | column
-  std::vector<double> tilts;          ///< that the stroke asks for [rad]
+  std::vector<double> tilts;          ///< tilts of the stroke [rad]
   std::size_t count{0};
   int touched{0};
 };
@@ -127,32 +129,32 @@ struct TreadBand;
 struct TreadGrid;
 struct TreadStroke;
 
-/// Trodden grass (paper 2, section 4.2; S2-21 to S2-28) on a fine grid that exists only where
-/// somebody trod (S2-W1). Nothing happens per frame: how far a node has recovered follows from its
-/// stamp. One thread at a time. Every value is the same on each processor.
+/// Trodden grass (paper 2, section 4.2; S2-21 to S2-28) on a fine grid that exists only where a
+/// source trod (S2-W1). Nothing happens per frame: the recovery of a node is a function of its
+/// stamp. One thread at a time. The values have the same bits on every processor.
 class TreadMap {
  public:
   /// @throws InvalidInput with all faults.
   TreadMap(const MapLaw& law, const TreadSettings& settings);
 
-  /// Puts or moves a source: presses the segment from where it was to `position` [m], and the
-  /// ground under it. A place that is not finite, a jump or a stamp before the last leaves no track
-  /// and is counted. Requires a checked law. @return number of touched nodes.
+  /// Moves a source, or puts it down, and presses the segment from its last position to `position`
+  /// [m]. A position that is not finite, a jump or a stamp before the last one leaves no track and
+  /// is counted. Requires a checked law. @return number of nodes within reach.
   int tread(std::uint32_t source, const TreadLaw& law, const Point& position, Nanoseconds stamp);
-  /// The source leaves the ground: its next tread() begins a new track.
+  /// Takes the source off the ground; its next tread() begins a new track.
   void lift(std::uint32_t source);
 
-  /// Tilt and direction of the nearest node at a stamp; nothing where it is untrodden.
+  /// Returns the nearest node as it is at a stamp; its tilt is 0 if it is untrodden.
   TreadNode at(const Point& place, Nanoseconds stamp) const;
-  /// Fills the patch of a tile: cells 0 if it is untrodden. `out` keeps its memory.
+  /// Fills the patch of a tile, with 0 cells if it is untrodden. `out` keeps its memory.
   void patch(int tile_column, int tile_row, Nanoseconds stamp, CrushPatch& out) const;
 
-  /// Frees ground that has recovered.
+  /// Frees blocks that have recovered.
   void prune(Nanoseconds stamp);
   void clear();
   /// Raises all nodes within `radius` [m] of a place.
   void raise(const Point& place, double radius);
-  /// Sets a node as another process told it. False: it is not on the map, or memory is full.
+  /// Sets a node of a replica. @return false if it is not on the map or memory is full.
   bool put(int row, int column, const TreadNode& node);
 
   const TreadState& state() const { return state_; }
@@ -161,7 +163,7 @@ class TreadMap {
   std::size_t bytes() const;
 
  private:
-  /// Nodes from first to last, both included.
+  /// Range of nodes, both ends included.
   struct Box {
     int first_column, last_column, first_row, last_row;
   };
@@ -185,26 +187,26 @@ class TreadMap {
   TreadState state_;
   RecentTable<RecentBlock, 16> recent_blocks_;
   RecentTable<RecentSource, 12> recent_sources_;
-  TreadSource before_;         ///< scratch: a window that was left
-  std::vector<double> doses_;  ///< scratch: on the way from window to window
+  TreadSource before_;         ///< scratch: the window before the step
+  std::vector<double> doses_;  ///< scratch: doses that are copied between windows
   TreadPresses presses_;       ///< scratch
-  TreadLaw last_law_{};        ///< of the last stroke
-  double last_full_{0.0};      ///< its fullDose()
+  TreadLaw last_law_{};        ///< law of the last stroke
+  double last_full_{0.0};      ///< fullDose() of last_law_
 };
 
-/// Share of its tilt that a node keeps: 1 - smoothStep((t - t0) / T); 0 before t0.
+/// Returns the share of its tilt that a node keeps: 1 - smoothStep((t - t0) / T), or 0 before t0.
 inline double tiltLeft(const TreadNode& node, Nanoseconds stamp) {
   if (stamp < node.stamp || !(node.recovery > 0.f)) return 0.0;
   if (node.recovery >= static_cast<float>(PERMANENT_RECOVERY)) return 1.0;
   return 1.0 - smoothStep(secondsBetween(node.stamp, stamp) / double{node.recovery});
 }
 
-/// Tilt of a node at a stamp [rad].
+/// Returns the tilt of a node at a stamp [rad].
 inline float tiltAt(const TreadNode& node, Nanoseconds stamp) {
   return static_cast<float>(double{node.tilt} * tiltLeft(node, stamp));
 }
 
-/// Below this tilt a node counts as untrodden [rad].
+/// A node with less tilt counts as untrodden [rad].
 constexpr float CRUNCHED = 0.0174533f;
 
 }  // namespace vegetation_sim::grass

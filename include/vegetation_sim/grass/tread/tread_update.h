@@ -13,7 +13,7 @@
 
 namespace vegetation_sim::grass {
 
-/// When nodes were pressed, and how long they take from then [s].
+/// Stamp at which nodes were pressed, and their recovery time [s].
 struct Press {
   Nanoseconds stamp{0};
   float recovery{0.f};
@@ -24,35 +24,36 @@ struct TreadNodeDelta {
   std::uint32_t press{0};           ///< index into TreadDelta::presses
 };
 
-/// Some nodes of a block, exactly.
+/// Some nodes of a block, without loss.
 struct TreadBlockDelta {
-  int row{0}, column{0};                    ///< of the block
-  std::array<std::uint8_t, 32> included{};  ///< bit i % 8 of byte i / 8: node i is told
-  std::vector<TreadNodeDelta> nodes;        ///< those, by rising i
+  int row{0}, column{0};  ///< index of the block
+  /// bit i % 8 of byte i / 8 is set if node i is included
+  std::array<std::uint8_t, 32> included{};
+  std::vector<TreadNodeDelta> nodes;  ///< included nodes in the order of i
 };
 static_assert(TreadBlock::SIDE * TreadBlock::SIDE == 8 * 32, "TreadBlockDelta::included");
 
-/// Trodden nodes as one process tells them to another: to the bit, 16 bytes each.
+/// Trodden nodes in a message: without loss, 16 bytes a node.
 struct TreadDelta {
   std::vector<Press> presses;
   std::vector<TreadBlockDelta> blocks;
 };
 
-/// What is told: nodes pressed later than `since` that are not upright at `stamp`.
+/// Selects nodes that were pressed after `since` and are not upright at `stamp`.
 struct TreadInterval {
   Nanoseconds since{0}, stamp{0};
 };
 
-/// Every node that is not upright.
+/// Returns all nodes that are not upright.
 TreadDelta snapshotTreads(const TreadState& state, Nanoseconds stamp);
-/// Nodes of these blocks that were pressed since.
+/// Returns the nodes of these blocks that belong to the interval.
 TreadDelta makeDelta(const TreadState& state, const std::set<std::pair<int, int>>& blocks,
                      const TreadInterval& interval);
-/// Of every value that is told; equal for equal ground, if all of it is told.
+/// Returns a hash of all values, which is equal for equal ground if all of it is included.
 std::uint64_t hashOf(const TreadDelta& treads);
-/// Adds a fault for whatever cannot be.
+/// Adds a fault for each value that is not possible.
 void check(const TreadDelta& treads, Faults& faults);
-/// Requires checked treads. @return nodes that are off the map or found no memory.
+/// Applies a checked delta. @return number of nodes that are off the map or found no memory.
 int applyDelta(const TreadDelta& treads, TreadMap& map);
 
 /// One message about trodden ground.
@@ -68,10 +69,10 @@ struct TreadUpdate {
 /// Keeps another process's trodden ground in a TreadMap of the same layout.
 class TreadReplica {
  public:
-  /// Takes a checked key frame, or the update that follows what is held. False: it is ignored until
-  /// the next key frame, because messages were lost; why() says so.
+  /// Applies a checked key frame, or the update that follows the last one. @return false if it was
+  /// ignored because messages were lost; why() has the reason. The next key frame ends that.
   bool apply(const TreadUpdate& update, TreadMap& map);
-  /// What is held is void: the layout changed or time went back.
+  /// Discards the state, after another layout or a jump back in time.
   void reset() { *this = TreadReplica(); }
 
   Nanoseconds stamp() const { return stamp_; }
