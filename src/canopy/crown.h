@@ -9,11 +9,11 @@
 
 namespace vegetation_sim::canopy {
 
-/// A straight piece of wood that leaves hang on, along the z axis of its pose.
+/// A straight branch with leaves, along the z axis of its pose.
 struct Twig {
-  Pose pose;  ///< of its base, world
+  Pose pose;  ///< pose of its base, world
   double length{0.0};
-  double share{0.0};  ///< of the crown's leaves, relative to the others
+  double share{0.0};  ///< relative share of the crown's leaves
 };
 
 /// A leaf on a twig, at rest in the world.
@@ -22,13 +22,13 @@ struct CrownLeaf {
   Leaf leaf;
 };
 
-/// Leaves of a kind, kind.leaves of them, along twigs at rest (S3-W2): a pure function of its
-/// arguments, none without twigs. Light is that of a crown about the middle of the twigs.
+/// Grows kind.leaves leaves along twigs at rest (S3-W2): a pure function of its arguments; no
+/// leaves without twigs. Light is that of a crown about the middle of the twigs.
 std::vector<CrownLeaf> growCrown(const PlantKind& kind, std::uint64_t seed,
                                  const std::vector<Twig>& rest);
 
-/// Where the leaf goes: its root and turn with its twig, from rest to now; then its tip with the
-/// layer of its root at rest, by at most REACH of its length.
+/// Moves a leaf: its root and orientation follow its twig from rest to now, then its tip follows
+/// the layer of its root at rest, by at most REACH of its length.
 MovedLeaf carry(const Foliage& foliage, const CrownLeaf& leaf, const Pose& rest, const Pose& now);
 constexpr double REACH = 0.6;
 

@@ -13,68 +13,69 @@
 
 namespace vegetation_sim::canopy {
 
-/// All that a canopy remembers: one structure that can be kept, restored and hashed (N6).
+/// The state of a canopy, to be saved, restored and hashed (N6).
 struct CanopySnapshot {
-  Nanoseconds stamp{0};  ///< of the last tick; 0: none yet
+  Nanoseconds stamp{0};  ///< stamp of the last tick; 0: none
   std::uint64_t ticks{0};
   FluidState fluid;
   OscillatorState oscillator;
   History history{SMALLEST_FIELD, 2};
   Driver driver;
   CutState cuts;
-  bool looked{false};  ///< whether layers have been cut
+  bool looked{false};  ///< layers have been cut
   std::uint64_t hash() const;
 };
 
-/// What others need of one tick to move every leaf as the animator does.
+/// Update that lets a replica move every leaf as the animator does.
 struct StateUpdate {
   Nanoseconds stamp{0};
-  std::uint64_t sequence{0};  ///< ticks before this one
+  std::uint64_t sequence{0};  ///< number of ticks before this one
   MotionFrame frame;
   double front_share{1.0};
   CutState cuts;
   std::uint64_t layout_hash{0}, wind_hash{0};
-  std::uint64_t hash{0};  ///< of the sender's memory; 0: not told
+  std::uint64_t hash{0};  ///< hash of the sender's state; 0: not computed
 };
 
-/// Wind and leaves in the plane, tick by tick, and the layers that they carry (paper 3). Knows
-/// nothing of ROS: time, wind and viewer are handed in.
+/// Wind and leaves in the plane, tick by tick, and the layers that move with them (paper 3). The
+/// core without ROS: time, wind and viewer are inputs.
 class Canopy {
  public:
   /// @throws InvalidInput with all faults of the layout.
   explicit Canopy(const Layout& layout);
-  Canopy(const Canopy&) = delete;  // the foliage looks at the layout
+  Canopy(const Canopy&) = delete;  // Not copyable, since the foliage refers to the layout.
   Canopy& operator=(const Canopy&) = delete;
 
   const Layout& layout() const { return layout_; }
   std::uint64_t layoutHash() const { return layout_hash_; }
   void setWind(const wind::Field& wind) { wind_ = wind; }
-  std::uint64_t windHash() const { return wind_.hash(); }  ///< of what blows
-  /// The only eye that layers are cut for (S3-W8); none: that of the simulation plane.
+  std::uint64_t windHash() const { return wind_.hash(); }  ///< hash of the wind field
+  /// Sets the viewpoint that layers are cut for (S3-W8); without one it is that of the simulation
+  /// plane.
   void setViewer(const std::optional<CutView>& viewer) { viewer_ = viewer; }
-  /// Crowns that hang in the layers beside the plants; nothing that is remembered depends on them.
+  /// Sets crowns that hang in the layers beside the plants. The state does not depend on them.
   void setCrowns(std::vector<LeafBox> crowns);
 
-  /// Other sources, leaves, layers and warp from the next tick on; what moves goes on moving.
-  /// @throws InvalidInput for faults, or another plane, grid, rate, memory or integrator: those
-  /// need a fresh start. Nothing has changed then.
+  /// Replaces the settings of sources, leaves, layers and warp from the next tick on. @throws
+  /// InvalidInput for faults, and for another plane, grid, rate, memory or integrator, which need a
+  /// fresh start. Nothing has changed then.
   void setMotion(const Motion& motion);
 
-  /// One tick. Time that does not go on does nothing; a gap of more than LONGEST_GAP is not stepped
-  /// through.
+  /// Advances by one tick. A stamp that is not later does nothing; a gap of more than LONGEST_GAP
+  /// is skipped.
   void advance(Nanoseconds stamp);
-  /// As fresh, with layout, wind and viewer as they are.
+  /// Starts again with the present layout, wind and viewer.
   void reset();
 
   const CanopySnapshot& snapshot() const { return memory_; }
-  /// @throws InvalidInput for a memory of another layout, or what is no number.
+  /// @throws InvalidInput for the state of another layout, or if a value is not finite.
   void restore(const CanopySnapshot& memory);
-  /// @param hashed with the memory's hash, which costs as much as a tick.
+  /// @param hashed adds the hash of the state, which costs as much as a tick.
   StateUpdate update(bool hashed) const;
 
-  /// Layers of the last tick.
+  /// Returns the layers of the last tick.
   const Foliage& foliage();
-  /// The wind law on the plane at a stamp.
+  /// Returns the wind on the plane at a stamp.
   PlaneAir airAt(Nanoseconds stamp) const;
   const PlaneField& wind() const { return fluid_.state().flow; }
   const Oscillator& oscillator() const { return oscillator_; }
@@ -92,14 +93,15 @@ class Canopy {
   Plane plane_;
   Fluid fluid_;
   Oscillator oscillator_;
-  CanopySnapshot memory_;  // fluid and oscillator hold their own parts between ticks
+  CanopySnapshot memory_;  // between ticks, fluid and oscillator hold their own parts of it
   wind::Field wind_;
   std::optional<CutView> viewer_;
   Foliage foliage_;
   bool stale_{true};
 };
 
-/// The same layers from messages. Exact once it has heard as many in a row as the history is long.
+/// Computes the same layers from messages. It is exact after as many messages in a row as the
+/// history has frames.
 class Replica {
  public:
   /// @throws InvalidInput with all faults of the layout.
@@ -110,9 +112,9 @@ class Replica {
   const Layout& layout() const { return layout_; }
   /// @throws InvalidInput for another layout or size; nothing has changed then.
   void apply(const StateUpdate& update);
-  /// Whether the whole history has been heard.
+  /// Returns whether the whole history has been received.
   bool exact() const { return heard_ >= history_.frames(); }
-  /// The same crowns as the animator's give the same layers.
+  /// Sets the crowns; the same crowns as the animator's give the same layers.
   void setCrowns(std::vector<LeafBox> crowns);
   const Foliage& foliage();
 

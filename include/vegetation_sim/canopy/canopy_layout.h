@@ -18,56 +18,57 @@
 
 namespace vegetation_sim::canopy {
 
-/// How everything in a layout moves.
+/// Settings of the motion of all vegetation of a layout.
 struct Motion {
   PlaneSettings plane;
-  FluidSettings fluid;  ///< its width is the plane's
+  FluidSettings fluid;  ///< settings whose width is that of the plane
   SourceSettings sources;
   OscillatorSettings oscillator;
   LayerSettings layers;
   CutSettings cuts;
   WarpSettings warp;
-  int rate{30};  ///< ticks, and frames of the history [Hz]
+  int rate{30};  ///< rate of ticks and of frames of the history [Hz]
 };
-/// A visit of every field, group after group; `begin` is called with each group's name first.
+/// Visits every field, group after group; calls `begin` with each group's name first.
 void describe(FieldVisitor& visitor, Motion& motion,
               const std::function<void(const char*)>& begin = {});
-/// The fluid's settings with the width of the plane.
+/// Returns the fluid's settings with the width of the plane.
 FluidSettings fluidOf(const Motion& motion);
-/// Frames that hold the memory of the layers.
+/// Returns the number of frames that the history of the layers has.
 int historyFrames(const Motion& motion);
 
-/// Trees of the forest whose crowns have leaves of a kind, on their own branches (S3-W2).
+/// Gives the trees of the forest leaves of a kind on their own branches (S3-W2).
 struct CrownRule {
-  std::uint16_t kind{0};  ///< index into the layout's kinds; its leaves are those of a tree
+  std::uint16_t kind{0};  ///< index into the layout's kinds; a kind's leaves are those of one tree
   int first_tree{0}, trees{1};
 };
 
 void describe(FieldVisitor& visitor, CrownRule& crown);
 
-/// Leafy vegetation as a law: who holds it can grow every leaf.
+/// Describes leafy vegetation completely: every leaf follows from it.
 struct Layout {
   Motion motion;
   std::vector<PlantKind> kinds;
-  std::vector<Plant> plants;  ///< ids 0, 1, 2 ...
+  std::vector<Plant> plants;  ///< The id of a plant is its index.
   std::vector<CrownRule> crowns;
-  std::uint64_t seed{0};  ///< of turbulence and of the layers' delays
+  std::uint64_t seed{0};  ///< seed of turbulence and of the layers' delays
 
   std::size_t leafCount() const;
   std::uint64_t hash() const;
 };
 
-/// Adds a fault for whatever is wrong: ranges, unknown kinds, too many leaves, a history beyond
-/// its memory.
+/// Adds the faults of a layout: ranges, unknown kinds, too many leaves, a history beyond its
+/// memory.
 void check(const Layout& layout, Faults& faults);
 
-/// Reads the `canopy` section of a scenario; plants stand on the terrain. Keys: docs/scenarios.md.
+/// Reads the `canopy` section of a scenario and places the plants on the terrain. Keys:
+/// docs/scenarios.md.
 Layout readLayout(YamlSection section, const terrain::HeightMap& terrain, std::uint64_t seed,
                   Faults& faults);
 
-/// Motion, kinds and crowns as text that parseLaw() reads, with 17 digits.
+/// Writes motion, kinds and crowns as text for parseLaw(), with 17 digits.
 std::string writeLaw(const Layout& layout);
-/// Layout without plants. @throws InvalidInput naming `name`, key, value and range.
+/// Returns the layout without plants. @throws InvalidInput with `name`, key, value and range.
 Layout parseLaw(const std::string& text, const std::string& name);
 
 }  // namespace vegetation_sim::canopy

@@ -13,54 +13,56 @@
 
 namespace vegetation_sim::canopy {
 
-/// For which views the layers are cut, and when from one to the other (S3-04).
+/// Views that the layers are cut for, and the transition between them (S3-04).
 struct CutState {
   CutView now, before;
   Nanoseconds since{0};  ///< start of the cross-fade
   void addTo(Hash& hash) const;
 };
 
-/// How much of the newer of the two cuts is seen at a stamp, 0 to 1.
+/// Returns the share of the newer of the two cuts at a stamp, 0 to 1.
 double cutShare(const CutState& state, const CutSettings& settings, Nanoseconds stamp);
 
-/// Space that leaves fill at rest.
+/// Box around leaves at rest.
 struct LeafBox {
   Vec3 low{Vec3::Zero()}, high{Vec3::Zero()};  ///< [m], world
 };
 
-/// Where a leaf has gone.
+/// Position of a leaf that has moved.
 struct MovedLeaf {
   Vec3 root, tip, side;  ///< [m], world
 };
 
-/// One tick of the whole foliage as its layers: built from what the animator remembers, or from
-/// its messages, to the same bits. Its cost depends on cells and layers, not on leaves (S3-28).
+/// The layers of the whole foliage at one tick, from the animator's state or from its messages,
+/// with the same bits. The cost depends on cells and layers, not on leaves (S3-28).
 class Foliage {
  public:
   explicit Foliage(const Layout& layout);
 
-  /// Crowns of the forest that hang in the layers too (S3-W2), from the next update on.
+  /// Sets crowns of the forest that hang in the layers, too (S3-W2), from the next update on.
   void setCrowns(std::vector<LeafBox> crowns) { crowns_ = std::move(crowns); }
-  /// @param history of the layout's size. @param front_share see Driver::share().
+  /// @param history has the size of the layout. @param front_share see Driver::share().
   void update(const History& history, double front_share, const CutState& cuts, Nanoseconds stamp);
 
-  /// The layers of all plants and crowns for a view.
+  /// Cuts all plants and crowns into layers for a view.
   LayerCut cutFor(const CutView& view) const { return cut(view, true); }
-  /// Those of the plants alone, which the layout knows: what is remembered depends on no crown.
+  /// Cuts the plants alone, which follow from the layout: the state must not depend on crowns.
   LayerCut cutOfPlants(const CutView& view) const { return cut(view, false); }
-  /// Displacement [m], world, of a point at rest that belongs to what hangs on `anchor`.
-  /// @param plant id, whose foot and height say how freely it moves.
+  /// Returns the displacement [m], world, of a point at rest whose leaf hangs at `anchor`. @param
+  /// plant id, whose foot and height determine how freely it moves.
   Vec3 displacement(const Vec3& anchor, const Vec3& point, std::size_t plant) const;
-  /// The same of what stands on no plant of the layout, but stays within about `limit` [m].
+  /// Returns the same for a leaf that is on no plant of the layout, limited to about `limit` [m].
   Vec3 freeDisplacement(const Vec3& anchor, const Vec3& point, double limit) const;
   MovedLeaf move(const Leaf& leaf, std::size_t plant) const;
-  /// Motion [m/s] of the layer of `anchor` at a point, in the view's axes: right, up, towards it.
+  /// Returns the velocity [m/s] of the layer of `anchor` at a point, in the view's axes: right, up,
+  /// towards the viewer.
   Vec3 motion(const Vec3& anchor, const Vec3& point) const;
-  /// Motion of a layer as a picture that a vertex shader looks up, periodic and bilinear (S3-W7):
-  /// [cells x cells x 3] right, up, towards the viewer, row after row from the lowest [m/s].
+  /// Returns the velocity of a layer as a texture for vertex shaders, periodic and bilinear
+  /// (S3-W7): [cells x cells x 3] right, up, towards the viewer, row after row from the lowest
+  /// [m/s].
   std::vector<float> sheet(int layer) const;
-  /// Numbers of the leaves from the last layer to the first: the order in which leaves with
-  /// transparent edges are laid over each other (S3-07).
+  /// Returns the indices of the leaves from the last layer to the first, the order in which leaves
+  /// with transparent edges are blended (S3-07).
   std::vector<std::uint32_t> backToFront(const std::vector<Leaf>& leaves) const;
   int layerAt(const Vec3& anchor) const { return cuts_[0].cut.layerAt(anchor); }
   int layers() const { return cuts_[0].cut.layers(); }
@@ -71,7 +73,7 @@ class Foliage {
     LayerCut cut;
     PlaneToView to_view;
     std::vector<LayerMotion> layers;
-    std::vector<double> shares;  // depthShare of each
+    std::vector<double> shares;  // depthShare() of each layer
   };
   LayerCut cut(const CutView& view, bool crowns) const;
   void build(Cut& cut, const CutView& view, const History& history, double front_share);
@@ -82,8 +84,8 @@ class Foliage {
   Plane plane_;
   std::vector<double> tops_;  // height of each plant [m]
   std::vector<LeafBox> crowns_;
-  std::array<Cut, 2> cuts_;  // the newer one first
-  double share_{1.0};        // of the newer one
+  std::array<Cut, 2> cuts_;  // cuts, the newer one first
+  double share_{1.0};        // share of the newer one
 };
 
 }  // namespace vegetation_sim::canopy

@@ -4,20 +4,20 @@
 
 namespace vegetation_sim::canopy {
 
-/// Columns that are transformed side by side: their work fits the first cache at 64 rows.
+/// Columns transformed side by side; their data fit the first-level cache at 64 rows.
 constexpr int BLOCK = 16;
 
-/// One pass over a square of complex numbers: every column is transformed.
+/// One pass over a square of complex numbers, which transforms every column.
 struct FourierPass {
   int size;
-  const double *cosine, *sine;  // of -k turns / size
-  const double *re, *im;        // in, row after row
-  double *out_re, *out_im;      // out, another place
-  bool transposed;              // whether the result is written with rows for columns
-  double* lanes;                // scratch, 4 * BLOCK * size
+  const double *cosine, *sine;  // cosine and sine of -k turns / size
+  const double *re, *im;        // input, row after row
+  double *out_re, *out_im;      // output, in other memory
+  bool transposed;              // the result is written transposed
+  double* lanes;                // scratch of 4 * BLOCK * size
 };
 
-/// Chooses the best instruction set that is here.
+/// Transforms with the best available instruction set.
 void transformColumns(const FourierPass& pass);
 
 }  // namespace vegetation_sim::canopy

@@ -10,7 +10,7 @@
 
 namespace vegetation_sim::canopy {
 
-/// Radius and hash of a form whose strips are there.
+/// Sets radius and hash of a form from its strips.
 inline void finish(Form& form) {
   Hash hash;
   for (const std::vector<Leaf>* part : {&form.leaves, &form.rigid}) {

@@ -9,12 +9,13 @@
 
 namespace vegetation_sim::canopy {
 
-/// Plants by where they stand, for many questions: a tree of two dimensions.
+/// Plants by position in a k-d tree of two dimensions.
 class PlantIndex {
  public:
   explicit PlantIndex(const std::vector<Plant>& plants);
 
-  /// Id of the plant whose foot is nearest across the ground, the lowest of several; -1: none.
+  /// Returns the id of the plant whose foot is nearest horizontally, the lowest of several; -1 if
+  /// there is none.
   int nearest(const Vec3& place) const;
 
  private:
@@ -23,13 +24,13 @@ class PlantIndex {
     int id;
   };
   struct Found {
-    double square{0.0};  // of the distance
+    double square{0.0};  // squared distance
     int id{-1};
   };
   void sort(std::size_t begin, std::size_t end, int axis);
   void search(std::size_t begin, std::size_t end, int axis, const Vec3& place, Found& best) const;
 
-  std::vector<Node> nodes_;  // of each stretch the middle one parts the others along an axis
+  std::vector<Node> nodes_;  // each range is split along an axis by its middle node
 };
 
 }  // namespace vegetation_sim::canopy

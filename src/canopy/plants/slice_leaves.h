@@ -9,15 +9,15 @@
 
 namespace vegetation_sim::canopy {
 
-/// Pictures of slices through a plant, the nearest first (S3-29): samples row after row from the
-/// top, slice after slice.
+/// Images of slices through a plant, the nearest first (S3-29): samples row after row from the top,
+/// slice after slice.
 struct SliceStack {
   int columns{0}, rows{0}, slices{0};
   std::vector<double> density;  ///< 0 to 1
 };
 
-/// A leaf for each cell of `solid` density or more that is not covered on all sides. The rows are
-/// the height; slices stand as far apart as they are wide in all. @throws InvalidInput with all
+/// Makes a leaf for each cell of density `solid` or more that is not covered on all sides. The rows
+/// give the height; the depth of all slices equals their width. @throws InvalidInput with all
 /// faults: sizes that do not fit, densities out of range, no solid cell, too many.
 Form formOf(const SliceStack& stack, double solid);
 

@@ -12,7 +12,7 @@
 
 namespace vegetation_sim::canopy {
 
-/// How the air in the plane is stepped. docs/canopy.md compares cost and error.
+/// Numerical scheme of the air in the plane. docs/canopy.md compares cost and error.
 enum class Scheme : int {
   REFLECTION = 0,  ///< advection-reflection, cubic: the default
   FAST = 1,        ///< bilinear advection and one exact projection
@@ -21,17 +21,17 @@ enum class Scheme : int {
 
 struct FluidSettings {
   Scheme scheme{Scheme::REFLECTION};
-  int cells{64};           ///< along a side, a power of two
-  double width{4.0};       ///< of the square [m]
-  double viscosity{1e-3};  ///< kinematic, what eddies below a cell do included [m^2/s]
-  int sweeps{20};          ///< of Gauss and Seidel, in the paper's scheme
+  int cells{64};           ///< cells along a side, a power of two
+  double width{4.0};       ///< side of the square [m]
+  double viscosity{1e-3};  ///< kinematic viscosity, including eddies below a cell [m^2/s]
+  int sweeps{20};          ///< Gauss-Seidel sweeps of the paper's scheme
 };
-/// All but the width, which is the plane's.
+/// Visits all fields but the width, which is the plane's.
 void describe(FieldVisitor& visitor, FluidSettings& settings);
-/// All faults, width and `cells` that is no power of two among them.
+/// Adds all faults, including the width and a number of cells that is not a power of two.
 void check(FluidSettings settings, const std::string& context, Faults& faults);
 
-/// What the air remembers.
+/// State of the air.
 struct FluidState {
   PlaneField flow;  ///< [m/s]
   Turbulence turbulence{};
@@ -39,18 +39,18 @@ struct FluidState {
   void addTo(Hash& hash) const;
 };
 
-/// What went wrong so far, and was contained.
+/// Faults that were contained so far.
 struct FluidFigures {
-  std::uint64_t resets{0};  ///< steps that gave no number: the flow before them was kept
-  double skipped{0.0};      ///< time beyond the longest step [s]
+  std::uint64_t resets{0};  ///< steps whose result was not finite; the flow before them was kept
+  double skipped{0.0};      ///< time skipped by steps that were too long [s]
 };
 
-/// Wind in a periodic square of the simulation plane (S3-09, S3-11). Stable for any step; a step
-/// that is too long is divided, one that leaves anything but numbers is undone.
+/// Wind in a periodic square of the simulation plane (S3-09, S3-11). Stable for any step: a step
+/// that is too long is divided, and one whose result is not finite is undone.
 class Fluid {
  public:
   static constexpr double LONGEST_SUBSTEP = 0.034;  ///< [s]
-  static constexpr int MOST_SUBSTEPS = 300;         ///< beyond, the rest of a step is skipped
+  static constexpr int MOST_SUBSTEPS = 300;         ///< The rest of a longer step is skipped.
 
   /// @throws InvalidInput for settings out of range.
   Fluid(const FluidSettings& settings, const SourceSettings& sources, std::uint64_t seed);
@@ -59,15 +59,15 @@ class Fluid {
   const FluidState& state() const { return state_; }
   const FluidFigures& figures() const { return figures_; }
 
-  /// Other winds from the next step on.
+  /// Replaces the wind sources from the next step on.
   void setSources(const Sources& sources) { sources_ = sources; }
-  /// Air at rest.
+  /// Sets the air to rest.
   void reset();
-  /// @throws InvalidInput for another size or for what is no number.
+  /// @throws InvalidInput for another size or if a value is not finite.
   void restore(const FluidState& state);
 
-  /// @param from start of the step since the epoch [s]. @param dt length; 0, less or no number:
-  /// nothing happens [s]. @param air the wind law on the plane, if any.
+  /// @param from start of the step since the epoch [s]. @param dt length [s]; 0, negative or NaN
+  /// does nothing. @param air wind on the plane, or null.
   void advance(double from, double dt, const PlaneAir* air = nullptr);
 
  private:
@@ -83,7 +83,7 @@ class Fluid {
   FluidState state_;
   FluidFigures figures_;
   PlaneField last_good_, half_, reflected_;
-  double given_{0.0};  // energy that the sources of a step have brought
+  double given_{0.0};  // energy that the sources added in this step
 };
 
 }  // namespace vegetation_sim::canopy

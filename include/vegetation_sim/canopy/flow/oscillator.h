@@ -15,41 +15,42 @@ enum class LeafIntegrator { EXACT, VERLET };
 
 struct OscillatorSettings {
   LeafIntegrator integrator{LeafIntegrator::EXACT};
-  double frequency{1.2};  ///< of a leaf or twig [Hz]
-  double damping{0.15};   ///< share of the critical one
-  double speed{0.4};      ///< of waves through the leaves [m/s]
-  double limit{12.0};     ///< force that even a storm does not pass: w / (1 + |w| / limit) [m/s]
+  double frequency{1.2};  ///< natural frequency of a leaf or twig [Hz]
+  double damping{0.15};   ///< share of the critical damping
+  double speed{0.4};      ///< speed of waves through the leaves [m/s]
+  double limit{12.0};     ///< limit of the force: w / (1 + |w| / limit) [m/s]
 };
 void describe(FieldVisitor& visitor, OscillatorSettings& settings);
 
-/// What the leaves remember: spectra of the exact integrator, cells of Verlet's.
+/// State of the leaves: spectra for the exact integrator, cells for Verlet's.
 struct OscillatorState {
   PlaneField amplitude, rate;
-  double depth{0.0}, depth_rate{0.0};  ///< of the motion along the plane's normal, all cells alike
+  double depth{0.0}, depth_rate{0.0};  ///< motion along the plane's normal, equal in all cells
   void addTo(Hash& hash) const;
 };
 
-/// The leaves as a field of damped oscillators that pull at their neighbours, driven by the wind in
-/// the plane (S3-12). Their amplitude is paper 3's velocity V_s [m/s].
+/// The leaves as a field of damped oscillators that are coupled to their neighbours and driven by
+/// the wind in the plane (S3-12). Their amplitude is V_s of paper 3 [m/s].
 class Oscillator {
  public:
-  static constexpr int MOST_SUBSTEPS = 4096;  ///< of Verlet; beyond, the rest of a step is skipped
+  /// limit for Verlet; the rest of a longer step is skipped
+  static constexpr int MOST_SUBSTEPS = 4096;
 
-  /// @param size a field size. @param width of the square [m]. @throws InvalidInput
+  /// @param size size of the field. @param width side of the square [m]. @throws InvalidInput
   Oscillator(const OscillatorSettings& settings, int size, double width);
 
   const OscillatorState& state() const { return state_; }
-  /// V_s, cell by cell [m/s].
+  /// Returns V_s of each cell [m/s].
   const PlaneField& motion() const { return motion_; }
-  /// V_s along the normal [m/s].
+  /// Returns V_s along the normal [m/s].
   double depth() const { return state_.depth; }
-  /// Steps that were longer than Verlet's limit, and divided.
+  /// Returns the number of steps longer than Verlet's limit, which were divided.
   std::uint64_t divided() const { return divided_; }
 
   void reset();
-  /// @throws InvalidInput for another size or for what is no number.
+  /// @throws InvalidInput for another size or if a value is not finite.
   void restore(const OscillatorState& state);
-  /// @param depth_wind wind along the normal [m/s]. A dt of 0, less or no number does nothing.
+  /// @param depth_wind wind along the normal [m/s]. A dt of 0, negative or NaN does nothing.
   void advance(double dt, const PlaneField& wind, double depth_wind);
 
  private:

@@ -8,9 +8,9 @@
 
 namespace vegetation_sim::canopy {
 
-/// Takes out of a flow what has divergence, exactly and mode by mode, and lets viscosity act
-/// exactly in the same pass. The mean flow stays; modes at the highest wave number are dropped,
-/// which have no direction. docs/canopy.md derives the formula.
+/// Removes the divergence of a flow exactly, mode by mode, and applies viscosity exactly in the
+/// same pass. The mean flow stays. Modes at the highest wave number have no direction and are
+/// dropped. docs/canopy.md derives the formula.
 class ProjectionStep {
  public:
   explicit ProjectionStep(int size);

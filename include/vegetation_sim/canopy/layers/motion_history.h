@@ -10,13 +10,13 @@
 
 namespace vegetation_sim::canopy {
 
-/// IEEE half precision, rounded to nearest; what is larger than 65504 becomes that.
+/// Converts to IEEE half precision, rounded to nearest; larger values become 65504.
 std::uint16_t toHalf(double value);
 double fromHalf(std::uint16_t half);
 
-/// The motion in the plane at one tick, as it is kept and sent: half precision.
+/// The motion in the plane at one tick in half precision, as it is stored and sent.
 struct MotionFrame {
-  std::vector<std::uint16_t> u, v;  ///< cell after cell, as in PlaneField [m/s]
+  std::vector<std::uint16_t> u, v;  ///< velocities, cell after cell as in PlaneField [m/s]
   std::uint16_t depth{0};           ///< along the plane's normal [m/s]
 };
 MotionFrame toFrame(const PlaneField& motion, double depth);
@@ -26,11 +26,12 @@ struct PlaneMotion {
   double u{0.0}, v{0.0}, depth{0.0};  ///< [m/s]
 };
 
-/// The last frames of the first layer, from which the layers behind it take theirs (S3-18). Who
-/// holds the same frames computes the same layers, to the bit.
+/// The last frames of the first layer, from which the layers behind it are computed (S3-18).
+/// Processes with the same frames compute the same bits.
 class History {
  public:
-  /// @param size field size. @param frames at least 2 that are kept. All are at rest at first.
+  /// @param size size of the field. @param frames number of frames kept, at least 2. All are at
+  /// rest at first.
   History(int size, int frames);
 
   int size() const { return size_; }
@@ -40,15 +41,16 @@ class History {
   /// @throws InvalidInput for a frame of another size.
   void push(const MotionFrame& frame);
   void clear();
-  /// The frame of `age` ticks ago.
+  /// Returns the frame of `age` ticks ago.
   const MotionFrame& frame(int age) const;
 
-  /// At a cell, `age` ticks ago: linear between ticks (S3-20), the oldest frame beyond them.
+  /// Returns the motion of a cell `age` ticks ago: linear between ticks (S3-20), and the oldest
+  /// frame for a larger age.
   PlaneMotion at(std::size_t cell, double age) const;
-  /// Bilinear in the newest frame at (x, y), in cells.
+  /// Interpolates the newest frame bilinearly at (x, y), in cells.
   PlaneMotion newestAt(double x, double y) const;
 
-  /// Of all frames since clear(), those that are no longer kept included.
+  /// Returns a hash of all frames since clear(), including those that are no longer kept.
   std::uint64_t hash() const { return chain_; }
 
  private:

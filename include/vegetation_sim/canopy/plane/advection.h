@@ -6,13 +6,13 @@
 
 namespace vegetation_sim::canopy {
 
-/// How the way back is followed and what is found at its end: straight and bilinear, as in Stam
-/// 1999, or by the velocity at half the way and with Catmull and Rom's cubic.
+/// Method of advection: straight backtracing and bilinear interpolation as in Stam 1999, or
+/// backtracing by the velocity at the midpoint and Catmull-Rom's cubic interpolation.
 enum class Lookup { BILINEAR, CUBIC };
 
-/// Semi-Lagrangian advection: `out` is, at each cell, the value of `field` where the air there came
-/// from. Stable for any step; a way back longer than the square is cut to it.
-/// @param cells cells passed in the step by air of 1 m/s, dt / dx. `out` is none of the others.
+/// Advects semi-Lagrangian: each cell of `out` gets the value of `field` at the place its air came
+/// from. Stable for any step; a displacement longer than the square is cut to it. `out` must be
+/// another field than the others. @param cells displacement of air of 1 m/s in cells, dt / dx.
 void advect(const PlaneField& field, const PlaneField& velocity, double cells, Lookup lookup,
             PlaneField& out);
 

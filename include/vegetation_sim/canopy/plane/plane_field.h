@@ -8,15 +8,15 @@
 
 namespace vegetation_sim::canopy {
 
-/// Sizes that a field may have: powers of two, since its transform halves.
+/// Sizes of a field are powers of two because of the Fourier transform.
 constexpr int SMALLEST_FIELD = 16, LARGEST_FIELD = 256;
 inline bool isFieldSize(int size) {
   return size >= SMALLEST_FIELD && size <= LARGEST_FIELD && (size & (size - 1)) == 0;
 }
 
 /// Vectors on a periodic square of size x size cells: component u to the right and v upwards, row
-/// after row from the lowest, value of cell (x, y) at index y * size + x. As complex numbers u + iv
-/// it is what FourierPlane transforms.
+/// after row from the lowest; cell (x, y) has index y * size + x. FourierPlane transforms it as
+/// complex numbers u + iv.
 struct PlaneField {
   PlaneField() = default;
   explicit PlaneField(int cells) : size(cells), u(area(), 0.0), v(area(), 0.0) {}
@@ -33,7 +33,7 @@ struct PlaneVector {
   double u{0.0}, v{0.0};
 };
 
-/// Mean over the cells of (u^2 + v^2) / 2. Not finite as soon as one cell is not.
+/// Returns the mean of (u^2 + v^2) / 2 over the cells; not finite if one cell is not.
 inline double energyOf(const PlaneField& field) {
   double sum = 0.0;
   for (std::size_t i = 0; i < field.u.size(); ++i)
@@ -41,7 +41,7 @@ inline double energyOf(const PlaneField& field) {
   return field.u.empty() ? 0.0 : 0.5 * sum / static_cast<double>(field.u.size());
 }
 
-/// Bilinear value at (x, y), in cells, of the field that repeats without end. |x|, |y| < 2^30.
+/// Returns the bilinear value at (x, y), in cells, of the periodic field. |x|, |y| < 2^30.
 inline PlaneVector bilinear(const PlaneField& field, double x, double y) {
   const double left = std::floor(x), low = std::floor(y);
   const double p = x - left, q = y - low;

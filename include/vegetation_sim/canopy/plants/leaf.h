@@ -9,18 +9,18 @@
 
 namespace vegetation_sim::canopy {
 
-/// A leaf, a piece of a ribbon or a face of a mesh, at rest in the world: a four-cornered strip
-/// from root to tip.
+/// A leaf, a piece of a ribbon or a face of a mesh at rest in the world: a quadrilateral strip from
+/// root to tip.
 struct Leaf {
-  /// Root of what hangs together; it alone chooses the layer (S3-03) [m].
+  /// Root of a connected group of leaves, which alone selects the layer (S3-03) [m].
   Vec3 anchor{Vec3::Zero()};
   Vec3 root{Vec3::Zero()}, tip{Vec3::Zero()};  ///< [m]
-  Vec3 side{Vec3::Zero()};                     ///< half the width across [m]
-  float root_width{0.6F};                      ///< of the strip's ends, over `side`
+  Vec3 side{Vec3::Zero()};                     ///< half of the width [m]
+  float root_width{0.6F};                      ///< widths of the strip's ends, relative to `side`
   float tip_width{0.6F};
-  float shade{0.0F};   ///< from colour to colour_young
-  float light{1.0F};   ///< share of daylight that gets there: less inside and below (S3-W5)
-  bool joined{false};  ///< a triangle, tip_width 0, whose corners other faces share
+  float shade{0.0F};   ///< mix of colour and colour_young
+  float light{1.0F};   ///< share of the daylight; less inside and below (S3-W5)
+  bool joined{false};  ///< a triangle (tip_width 0) that shares corners with other faces
 };
 
 /// A straight rigid part.
@@ -36,11 +36,11 @@ struct GrownPlant {
   std::vector<Leaf> rigid;  ///< faces that are never displaced (S3-02)
 };
 
-/// Leaves and rigid faces that were read, over the plant's height, with the foot at the origin.
+/// Leaves and rigid faces of a file, scaled to height 1, with the foot at the origin.
 struct Form {
   std::vector<Leaf> leaves, rigid;
-  double radius{0.0};     ///< of the circle about the foot that holds all of it
-  std::uint64_t hash{0};  ///< of everything above
+  double radius{0.0};     ///< radius of the circle about the foot that contains everything
+  std::uint64_t hash{0};  ///< hash of the leaves and faces
 };
 
 }  // namespace vegetation_sim::canopy

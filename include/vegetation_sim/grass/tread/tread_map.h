@@ -35,8 +35,7 @@ struct TreadNode {
 /// A square of nodes of trodden ground.
 struct TreadBlock {
   static constexpr int SIDE = 16;
-  /// stamp at which the last node has recovered
-  Nanoseconds until{0};
+  Nanoseconds until{0};  ///< stamp at which the last node has recovered
   std::array<TreadNode, std::size_t{SIDE} * SIDE> nodes;  ///< row by row from the south
 };
 
