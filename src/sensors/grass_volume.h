@@ -12,12 +12,12 @@
 
 namespace vegetation_sim::scan {
 
-/// Grass as a ray meets it: a medium as dense as the blades that stand there, as high as wind and
-/// feet leave them (docs/scan.md).
+/// Grass as a medium for rays: as dense as its blades, and as high as wind and treading leave them
+/// (docs/scan.md).
 class GrassVolume {
  public:
-  /// What grows and is trodden where, and the air that bends it, at a stamp and within `radius` of
-  /// a place. `tread` must stay as it is as long as rays are cast.
+  /// Sets grass, trodden ground and wind at a stamp within `radius` of a place. `tread` must not
+  /// change while rays are cast.
   void update(const grass::Layout& layout, const grass::TreadMap& tread,
               std::shared_ptr<const terrain::HeightMap> terrain, const wind::Field& wind,
               const Vec3& centre, double radius, Nanoseconds stamp);
@@ -25,7 +25,7 @@ class GrassVolume {
 
   void meet(const Ray& ray, Hit& nearest) const;
 
-  /// Chance per length that a ray of this direction meets a blade at a world place [1/m].
+  /// Returns the extinction of a ray of this direction at a world place [1/m].
   double extinction(const Vec3& place, const Vec3& direction) const;
 
  private:
@@ -46,8 +46,8 @@ class GrassVolume {
   grass::TileWindow window_;
   std::unique_ptr<grass::NodeWind> air_;
   bool still_{true};
-  double tallest_{0.0};      ///< [m] of the map
-  std::vector<float> tops_;  ///< [rows x columns] of tiles: no blade is higher there [m]
+  double tallest_{0.0};      ///< height of the tallest blade of the map [m]
+  std::vector<float> tops_;  ///< [rows x columns] of tiles: upper bound of the height of blades [m]
   Nanoseconds stamp_{0};
 };
 

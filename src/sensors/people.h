@@ -10,7 +10,7 @@
 
 namespace vegetation_sim::scan {
 
-/// Walkers as a ray meets them: their limbs.
+/// Limbs of people, for rays.
 class People {
  public:
   struct Person {
@@ -26,7 +26,7 @@ class People {
  private:
   struct Limb {
     std::uint32_t person{0};
-    int part{0};  ///< index into the skeleton
+    int part{0};  ///< index in the skeleton
     Rod rod;
   };
   std::vector<Limb> limbs_;

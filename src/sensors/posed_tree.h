@@ -11,8 +11,8 @@
 
 namespace vegetation_sim::scan {
 
-/// One tree as a ray meets it: a rod a branch, and around each leafy one a cloud of leaves that
-/// goes with it.
+/// One tree for rays: a rod per branch, and a cloud of leaves around each leafy branch that moves
+/// with it.
 class PosedTree {
  public:
   /// Grows the tree.
@@ -20,7 +20,7 @@ class PosedTree {
 
   /// Moves all branches to `stamp`. @param wind of that stamp.
   void pose(const forest::ForestReplica& forest, Nanoseconds stamp, const wind::Instant& wind);
-  /// The same if anything moves, or moved last time.
+  /// Does the same if the tree moves or moved last time.
   void follow(const forest::ForestReplica& forest, Nanoseconds stamp, const wind::Instant& wind);
 
   std::uint32_t id() const { return id_; }
@@ -33,10 +33,10 @@ class PosedTree {
   void meetBranch(std::size_t branch, const Ray& ray, Hit& nearest) const;
 
  private:
-  /// Around the axis of a leafy branch.
+  /// Cloud around the axis of a leafy branch.
   struct Leaves {
     double radius{0.0};      ///< [m]; 0: none
-    double extinction{0.0};  ///< [1/m]
+    double extinction{0.0};  ///< extinction [1/m]
     std::uint32_t key{0};
   };
   void addLeaves(const forest::Species& species);
@@ -54,9 +54,9 @@ class PosedTree {
   bool moved_{true};
 };
 
-/// Projection of leaves that look all ways: half of their one side (Ross 1981).
+/// Projected area of leaves of random orientation per one-sided area (Ross 1981).
 constexpr double LEAF_PROJECTION = 0.5;
-/// Clusters reach this far from their branch, over their edge.
+/// Reach of leaf clusters from their branch, relative to their edge.
 constexpr double LEAF_REACH = 0.6;
 /// Edge of the cells of a cloud of leaves [m].
 constexpr double LEAF_CELL = 0.03;

@@ -10,7 +10,7 @@
 
 namespace vegetation_sim::scan {
 
-/// All that a sensor sees at one stamp. What is cast may come from any thread.
+/// All objects that a sensor perceives at one stamp. Rays may be cast from any thread.
 struct Scene {
   Trees trees;
   GrassVolume grass;
@@ -18,7 +18,7 @@ struct Scene {
   std::shared_ptr<const terrain::HeightMap> ground{std::make_shared<const terrain::HeightMap>()};
 };
 
-/// The nearest thing within `reach` [m]; Label::NONE if there is none.
+/// Returns the nearest hit within `reach` [m], or Label::NONE.
 Hit cast(const Scene& scene, const Ray& ray, double reach);
 /// Returns the hit on the ground alone.
 Hit castToGround(const Scene& scene, const Ray& ray, double reach);

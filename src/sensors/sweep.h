@@ -12,9 +12,9 @@
 
 namespace vegetation_sim::scan {
 
-/// Rays of a lidar: rings of equal elevations, columns of equal azimuths, from the low end on, in
-/// the sensor's frame (x forward, y left, z up). The high end of the elevations has a ring, that of
-/// the azimuths no column: a full turn comes back to the first.
+/// Rays of a lidar: rings of equal elevation and columns of equal azimuth, in the sensor's frame (x
+/// forward, y left, z up). The upper limit of the elevations has a ring; that of the azimuths has
+/// no column, since a full turn comes back to the first.
 struct Beams {
   int rings{16};
   double elevation_low{-0.2618};  ///< [rad]
@@ -22,7 +22,7 @@ struct Beams {
   int columns{900};
   double azimuth_low{-3.14159};  ///< [rad]
   double azimuth_high{3.14159};  ///< [rad]
-  double range_min{0.3};         ///< what is nearer gives no return [m]
+  double range_min{0.3};         ///< Nearer objects give no return [m].
   double range_max{60.0};        ///< [m]
   double noise{0.01};            ///< standard deviation of ranges [m]
 };
@@ -30,37 +30,38 @@ void describe(FieldVisitor& visitor, Beams& beams);
 /// Adds a fault for each range whose ends are not in order.
 void check(const Beams& beams, const std::string& context, Faults& faults);
 
-/// Unit vector of a ray in the sensor's frame.
+/// Returns the unit vector of a ray in the sensor's frame.
 Vec3 directionOf(const Beams& beams, int ring, int column);
-/// The one ring of a planar scan of the same columns.
+/// Returns a planar scan with the same columns.
 Beams planeOf(const Beams& beams);
 
 /// One measurement.
 struct Return {
-  double range{0.0};  ///< with noise [m]; infinite: nothing within range_max; -infinite: too near
+  /// Range with noise [m]; infinite: nothing within range_max; -infinite: too near.
+  double range{0.0};
   Hit hit;
   bool isPoint() const { return range > 0.0 && range < std::numeric_limits<double>::infinity(); }
 };
 
-/// What keys the noise: another number for each ray of each sweep of each sensor, whoever asks in
-/// whatever order.
+/// Keys of the noise: a different number for each ray of each sweep of each sensor, independent of
+/// order and process.
 struct NoiseKeys {
   std::uint64_t seed{0}, sweep{0}, sensor{0};
 };
-/// Error of a range, over its standard deviation: mean 0, variance 1, the sum of twelve uniform
-/// numbers (Irwin 1927, Hall 1927), never beyond 6.
+/// Returns the error of a range over its standard deviation: mean 0, variance 1, the sum of twelve
+/// uniform numbers (Irwin 1927, Hall 1927), never beyond 6.
 double unitNoise(const NoiseKeys& noise, std::uint64_t ray);
 
-/// All rays at one instant. [rings x columns] @param most_threads that share them, no
-/// more than the machine has; they change nothing.
+/// Casts all rays at one instant. [rings x columns] @param most_threads limit for the threads,
+/// besides that of the machine; the result does not depend on it.
 std::vector<Return> sweep(const Scene& scene, const Beams& beams, const Pose& sensor,
                           const NoiseKeys& noise, int most_threads = 1);
 
-/// Points by label; under NONE, rays without one: the sum is the number of rays.
+/// Counts points by label, and rays without a point under NONE; the sum is the number of rays.
 std::array<std::uint32_t, LABELS> countLabels(const std::vector<Return>& returns);
 
-/// Share of the light that comes back, at 905 nm: of dry soil, bark, leaves, grass and clothes,
-/// roughly, times the cosine of incidence.
+/// Returns the approximate share of reflected light at 905 nm for dry soil, bark, leaves, grass and
+/// clothes, times the cosine of incidence.
 double intensityOf(const Hit& hit);
 
 }  // namespace vegetation_sim::scan

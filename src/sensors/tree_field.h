@@ -11,13 +11,14 @@
 
 namespace vegetation_sim::scan {
 
-/// The trees of a forest around a sensor, kept grown as long as they are within its range.
+/// The trees of a forest around a sensor, which stay grown while they are within its range.
 class Trees {
  public:
-  /// @param most_branches in all, at least one tree; beyond, the farthest trees are left out.
+  /// @param most_branches limit for all trees but at least one tree; the farthest trees are left
+  /// out.
   explicit Trees(std::size_t most_branches = 400000) : most_branches_(most_branches) {}
 
-  /// Brings the trees that reach into a ball to a stamp. Requires forest.ready().
+  /// Poses the trees that reach into a ball at a stamp. Requires forest.ready().
   void update(const forest::ForestReplica& forest, const Vec3& centre, double radius,
               Nanoseconds stamp);
   void clear() { *this = Trees(most_branches_); }
@@ -26,16 +27,16 @@ class Trees {
 
   const std::vector<std::shared_ptr<PosedTree>>& all() const { return trees_; }
   std::size_t branches() const { return branches_; }
-  /// Trees that the last update() had no room for.
+  /// Returns the number of trees that exceeded the limit in the last update().
   std::size_t leftOut() const { return left_out_; }
-  /// Trees grown so far.
+  /// Returns the number of trees grown so far.
   std::uint64_t grown() const { return grown_; }
 
  private:
   std::size_t most_branches_;
   std::uint64_t layout_hash_{0};
   std::vector<std::shared_ptr<PosedTree>> trees_;  ///< nearest first
-  std::map<std::uint32_t, std::size_t> sizes_;     ///< branches of trees that found no room
+  std::map<std::uint32_t, std::size_t> sizes_;     ///< branches of trees that exceeded the limit
   std::size_t branches_{0}, left_out_{0};
   std::uint64_t grown_{0};
   BoxTree boxes_;

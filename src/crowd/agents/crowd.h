@@ -14,76 +14,76 @@
 
 namespace vegetation_sim::crowd {
 
-/// Rectangle in which walkers that wander choose their goals [m].
+/// Rectangle in which wandering walkers choose their goals [m].
 struct Area {
   double min_x{-10.0}, max_x{10.0}, min_y{-10.0}, max_y{10.0};
 };
 void describe(FieldVisitor& visitor, Area& area);
 
-/// All that has memory in a crowd: copy it to save, assign it to restore (N6). What stands still,
-/// the terrain and the grass are inputs; with the same ones, what follows is the same to the bit.
+/// State of a crowd: copy it to save, assign it to restore (N6). Obstacles, terrain and grass are
+/// inputs; with equal inputs the continuation has the same bits.
 struct CrowdSnapshot {
   Nanoseconds stamp{0};
-  bool begun{false};  ///< `stamp` is of a tick
+  bool begun{false};  ///< `stamp` is valid
   std::uint64_t seed{0};
   CrowdSettings settings;
   Area area;
-  std::vector<Walker> walkers;          ///< ids rising
+  std::vector<Walker> walkers;          ///< by rising id
   std::map<std::string, Robot> robots;  ///< by id
   std::uint32_t next_id{0};
 
   std::uint64_t hash() const;
 };
 
-/// How hard the ground is to walk on at a place: 0 free to 1 the densest grass.
+/// Resistance of the ground at a place: 0 for free ground, 1 for the densest grass.
 using Resistance = std::function<double(const Point&)>;
 
-/// Most walkers of a crowd, most robots among them.
+/// Limits of a crowd.
 constexpr std::size_t MOST_WALKERS = 100000, MOST_ROBOTS = 64;
 
-/// Walkers who see, decide and move (paper 2, section 5; S2-30). Inputs take effect at the next
-/// tick. Each walker looks at the crowd as it was, so the order in which they are stepped, and on
-/// how many threads, changes nothing. Not thread-safe itself.
+/// Walkers that perceive, decide and move (paper 2, section 5; S2-30). Inputs take effect at the
+/// next tick. Each walker perceives the crowd as it was before the tick, so the result depends
+/// neither on the order of the walkers nor on the number of threads. Not thread-safe.
 class Crowd {
  public:
   /// @throws InvalidInput with all faults of the settings.
   Crowd(std::uint64_t seed, const CrowdSettings& settings, const Area& area,
         std::shared_ptr<const terrain::HeightMap> terrain);
 
-  /// Trunks and walls, instead of the former ones.
+  /// Replaces the trunks and walls.
   void setObstacles(std::vector<Obstacle> obstacles);
-  /// Asked from several threads.
+  /// Sets the resistance, which is called from several threads.
   void setResistance(Resistance resistance) { resistance_ = std::move(resistance); }
   void setThreads(int threads) { threads_ = std::max(1, threads); }
 
-  // Each throws InvalidInput naming thing, value and range, and then changes nothing.
-  /// With the next free id.
+  // The following throw InvalidInput with thing, value and range, and then change nothing.
+  /// Spawns a walker with the next free id.
   std::uint32_t spawn(const Spawn& spawn) { return this->spawn(spawn, memory_.next_id); }
-  /// With this one, which nobody may have.
+  /// Spawns a walker with this id, which must be free.
   std::uint32_t spawn(const Spawn& spawn, std::uint32_t id);
   void remove(std::uint32_t id);
-  /// @throws also where walls leave no way from the walker to the goal.
+  /// Also throws if walls leave no way from the walker to the goal.
   void checkGoal(std::uint32_t id, const Point& goal);
   void setGoal(std::uint32_t id, const Point& goal);
   void setWandering(std::uint32_t id);
-  /// Where a robot is now.
+  /// Adds or moves a robot.
   void setRobot(const Robot& robot);
   void removeRobot(const std::string& id);
   void setSettings(const CrowdSettings& settings);
-  /// Nobody is left; ids begin anew.
+  /// Removes all walkers; ids start again.
   void clear();
 
-  /// One tick. A stamp not after the last moves nobody.
+  /// Advances by one tick. A stamp that is not later moves no walker.
   void advance(Nanoseconds stamp);
 
   const CrowdSnapshot& snapshot() const { return memory_; }
   void restore(CrowdSnapshot memory);
   const std::vector<Walker>& walkers() const { return memory_.walkers; }
-  /// Null if unknown.
+  /// Returns null for an unknown id.
   const Walker* find(std::uint32_t id) const;
   const ObstacleGrid& obstacles() const { return still_; }
   const terrain::HeightMap& terrain() const { return *terrain_; }
-  /// Farthest that any outlines overlap now [m]; 0: none. For tests and diagnostics.
+  /// Returns the largest overlap of outlines [m]; 0: none. For tests and diagnostics.
   double deepestOverlap() const;
 
  private:
@@ -107,9 +107,9 @@ class Crowd {
   Resistance resistance_;
   int threads_{1};
   CrowdSnapshot memory_;
-  WalkerGrid grid_;  ///< all as they were at the last tick
+  WalkerGrid grid_;  ///< positions at the last tick
   std::vector<Obstacle> robots_;
-  std::vector<const FlowField*> fields_;  ///< of each walker that makes a detour
+  std::vector<const FlowField*> fields_;  ///< field of each walker on a detour
 };
 
 }  // namespace vegetation_sim::crowd

@@ -16,7 +16,7 @@ struct Wall {
   double thickness{0.1};  ///< [m]
 };
 
-/// What a scenario says of its people; all of it may be left out.
+/// People of a scenario; every part is optional.
 struct Scene {
   CrowdSettings settings;
   Area area;
@@ -24,17 +24,17 @@ struct Scene {
   std::vector<Spawn> spawns;
 };
 
-/// Reads the `crowd` section of a scenario: settings, `area`, `walls`, `walkers` one by one,
-/// `groups` that stand about a place. `seed` places the groups.
+/// Reads the `crowd` section of a scenario: settings, `area`, `walls`, single `walkers`, and
+/// `groups` around a place. `seed` places the groups.
 Scene readScene(YamlSection& section, std::uint64_t seed, Faults& faults);
 
-/// People like those of a street, about the place of the first: heights and speeds differ by a few
-/// percent, within what a walker may have. @param spread largest offset along x and y [m]. @param
-/// variety share of the speed.
+/// Makes varied people around the position of the first; heights and speeds differ by a few
+/// percent, within the limits of a walker. @param spread largest offset along x and y [m]. @param
+/// variety relative variation of the speed.
 std::vector<Spawn> groupOf(const Spawn& like, int count, double spread, double variety,
                            const Random& random);
 
-/// Walls as obstacles.
+/// Converts walls to obstacles.
 std::vector<Obstacle> obstaclesOf(const std::vector<Wall>& walls);
 
 }  // namespace vegetation_sim::crowd

@@ -13,31 +13,31 @@ namespace vegetation_sim::crowd {
 
 enum class Seen : int { STATIC, WALKER, ROBOT };
 
-/// One of the nearest obstacles. Without initial values, since most of a view stays unused.
+/// One of the nearest obstacles. Members have no initial values, since most of a view stays unused.
 struct Sight {
   Seen kind;
-  std::uint32_t index;       ///< of the static obstacle, walker or robot
-  double gap;                ///< between the outlines; below 0 they overlap [m]
-  double lower;              ///< proof: the gap is not less than this, up to rounding [m]
-  Point normal;              ///< unit, towards it; zero if the walker's centre is in it
+  std::uint32_t index;       ///< index of the static obstacle, walker or robot
+  double gap;                ///< distance of the outlines, below 0 if they overlap [m]
+  double lower;              ///< guaranteed lower bound of the gap, up to rounding [m]
+  Point normal;              ///< unit vector towards it; zero if the walker's centre is inside
   Point velocity;            ///< [m/s]
-  const Obstacle* obstacle;  ///< null: a disc
-  Point place;               ///< of a disc [m]
-  double radius;             ///< of a disc [m]
+  const Obstacle* obstacle;  ///< null for a disc
+  Point place;               ///< centre of a disc [m]
+  double radius;             ///< radius of a disc [m]
 };
 
-/// What a walker perceives: (d, theta) of paper 2, section 5.1 (S2-31), for the nearest.
+/// Perception of a walker: (d, theta) of paper 2, section 5.1 (S2-31), of the nearest obstacles.
 struct View {
   static constexpr int MOST = 8;
-  std::array<Sight, MOST> sights;  ///< nearest first
+  std::array<Sight, MOST> sights;  ///< sights, nearest first
   int count{0};
-  double beyond{0.0};  ///< every other obstacle is at least this far away [m]
+  double beyond{0.0};  ///< lower bound of the distance of all other obstacles [m]
 
   const Sight& at(int i) const { return sights[static_cast<std::size_t>(i)]; }
 };
 
-/// People by place: buckets of a grid that repeats itself, so that it takes the memory of its
-/// people wherever they are.
+/// People by position, in buckets of a periodic grid, so that the memory depends only on their
+/// number.
 class WalkerGrid {
  public:
   struct Spot {
@@ -46,7 +46,7 @@ class WalkerGrid {
     std::uint32_t index;
   };
   void build(const std::vector<Walker>& walkers, double cell);
-  /// Everybody, neighbours near each other.
+  /// Returns all people, neighbours near each other.
   const std::vector<Spot>& spots() const { return spots_; }
   template <class Visit>
   void visitNear(const Point& place, Visit visit) const;
@@ -68,19 +68,19 @@ class WalkerGrid {
   std::vector<Spot> spots_;
 };
 
-/// Everything that can be in the way at one tick.
+/// All possible obstacles at one tick.
 struct Surroundings {
   const ObstacleGrid* still{nullptr};
   const WalkerGrid* walkers{nullptr};
   const std::vector<Obstacle>* robots{nullptr};
 };
 
-/// The `most` nearest obstacles within the sensor's range: candidates from the grids, measured in
-/// the order of their circles' distances until the next cannot be nearer. The same answer as
-/// measuring all. @param self index of the walker.
+/// Returns the `most` nearest obstacles within the sensor's range. Candidates of the grids are
+/// measured in the order of their circles' distances until the next cannot be nearer; the result
+/// equals that of measuring all. @param self index of the walker.
 View perceive(const Walker& walker, std::uint32_t self, const Surroundings& around,
               double sensor_range, int most);
-/// The same by measuring all; for tests and benches.
+/// Returns the same by measuring all obstacles; for tests and benches.
 View perceiveAll(const Walker& walker, std::uint32_t self, const std::vector<Walker>& walkers,
                  const Surroundings& around, double sensor_range, int most);
 

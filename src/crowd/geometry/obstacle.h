@@ -10,8 +10,8 @@
 
 namespace vegetation_sim::crowd {
 
-/// A place or direction on the plan [m]. Point() is the origin; without brackets it has no value,
-/// since lists of what may be in view are made for each walker and mostly stay unused.
+/// A place or direction on the plan [m]. Point() is the origin; `Point p;` is uninitialised, since
+/// views are made for each walker and mostly stay unused.
 struct Point {
   double x, y;
 };
@@ -24,7 +24,7 @@ inline Point operator-(const Point& a, const Point& b) {
 inline Point operator*(double s, const Point& a) {
   return {s * a.x, s * a.y};
 }
-// Of vectors as well as of places on the plan.
+// Overloads for vectors and points.
 using vegetation_sim::dot;
 using vegetation_sim::length;
 
@@ -35,37 +35,37 @@ inline double length(const Point& a) {
   return std::sqrt(dot(a, a));
 }
 
-/// What walkers go around, seen from above: people, trunks, walls and robots all stand upright, so
-/// their outlines on the plan say everything.
+/// A static or moving obstacle, seen from above. People, trunks, walls and robots are upright, so
+/// their outlines on the plan suffice.
 struct Obstacle {
-  Box box;            ///< flat; holds the outline, of which it may be the whole
-  Hull hull;          ///< flat; without points the box is the outline
+  Box box;            ///< flat box that contains the outline, or is the outline
+  Hull hull;          ///< flat hull; if it has no points, the box is the outline
   Point velocity{};   ///< [m/s]
-  double reach{0.0};  ///< of a circle about the box' centre that holds the outline [m]
+  double reach{0.0};  ///< radius of a circle about the box' centre that contains the outline [m]
 
   bool isDisc() const { return box.half.x() == 0.0 && box.half.y() == 0.0; }
   Point centre() const { return {box.centre.x(), box.centre.y()}; }
 };
 
 Obstacle discObstacle(const Point& centre, double radius);
-/// Bounding box of a trunk, turned by `yaw` [rad].
+/// Makes the bounding box of a trunk, turned by `yaw` [rad].
 Obstacle boxObstacle(const Point& centre, double half_x, double half_y, double yaw);
 Obstacle wallObstacle(const Point& from, const Point& to, double thickness);
-/// Convex hull of the outline's corners, which are given in a frame at `centre`, turned by `yaw`.
+/// Makes the convex hull of corners that are given in a frame at `centre`, turned by `yaw`.
 Obstacle outlineObstacle(const std::vector<Point>& corners, const Point& centre, double yaw);
 
-/// Distance of a disc's edge from an obstacle; normal from the disc towards it.
+/// Returns the distance of a disc's edge from an obstacle; the normal points from the disc to it.
 Separation separation(const Point& centre, double radius, const Obstacle& obstacle,
                       double enough = std::numeric_limits<double>::infinity());
 
-/// Way out of an obstacle whose core holds the point: shortest move [m] to its outline.
+/// Returns the shortest move [m] to the outline of an obstacle whose core contains the point.
 Point wayOut(const Point& point, const Obstacle& obstacle);
 
-/// Time until a disc that is at `from` and moves at `velocity` relative to the obstacle's own box
-/// meets it [s]; infinity if never. For boxes a little early at corners.
+/// Returns the time until a disc at `from` with `velocity` relative to the obstacle meets its box
+/// [s]; infinity if never. For boxes it is slightly early at corners.
 double timeToMeet(const Point& from, double radius, const Point& velocity,
                   const Obstacle& obstacle);
-/// The same for a point and a disc whose centre is at `to` from it.
+/// Returns the same for a point and a disc whose centre is at `to` from it.
 inline double timeToMeet(const Point& to, double radius, const Point& velocity) {
   constexpr double NEVER = std::numeric_limits<double>::infinity();
   const double closing = dot(to, velocity), away = dot(to, to) - radius * radius;

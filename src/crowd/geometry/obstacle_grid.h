@@ -10,34 +10,34 @@
 
 namespace vegetation_sim::crowd {
 
-/// Obstacles that stand still, found by place: a uniform grid in which each stands in every cell
-/// that it covers. Immutable; any number of threads may ask.
+/// Static obstacles in a uniform grid; each is in all cells that it covers. Immutable, hence
+/// thread-safe.
 class ObstacleGrid {
  public:
   ObstacleGrid() = default;
-  /// @param cell wanted edge [m]; larger where there would be more than a million cells, or
-  /// obstacles would stand in more than two million, or nine each.
+  /// @param cell wanted edge [m]. It is increased if there would be more than a million cells, or
+  /// more than two million entries, or nine per obstacle.
   ObstacleGrid(std::vector<Obstacle> obstacles, double cell);
 
-  /// In the order of their cells, not in that of the constructor.
+  /// Returns the obstacles in the order of their cells, not in that of the constructor.
   const std::vector<Obstacle>& obstacles() const { return obstacles_; }
-  /// Circle about an obstacle, as it stands in the cells.
+  /// Entry of an obstacle in a cell, with its bounding circle.
   struct Spot {
     Point centre;
     double reach;  ///< [m]
     std::uint32_t index;
-    int column;                    ///< of this cell
-    bool is_disc;                  ///< the circle is all of it
-    bool first_column, first_row;  ///< of the obstacle's cells
+    int column;                    ///< column of this cell
+    bool is_disc;                  ///< the obstacle is a disc
+    bool first_column, first_row;  ///< the cell is in the first column or row of the obstacle
   };
   /// Calls `visit(spot)` once for each obstacle whose cells come within `range` of a place, in an
-  /// order that depends on the place alone.
+  /// order that depends only on the place.
   template <class Visit>
   void visitNear(const Point& place, double range, Visit visit) const {
     if (obstacles_.empty()) return;
     const int c0 = column(place.x - range), c1 = column(place.x + range);
     const int r0 = row(place.y - range), r1 = row(place.y + range);
-    // All rows are asked for at once, not one after the other.
+    // Reads all rows at once instead of one after the other.
     for (int r = r0; r <= r1; ++r)
       __builtin_prefetch(spots_.data() + starts_[static_cast<std::size_t>(r) * columns_ + c0]);
     for (int r = r0; r <= r1; ++r) {
@@ -45,7 +45,7 @@ class ObstacleGrid {
       const std::uint32_t end = starts_[row_start + c1 + 1];
       for (std::uint32_t i = starts_[row_start + c0]; i < end; ++i) {
         const Spot& spot = spots_[i];
-        // An obstacle in several of the cells is told of in the first of them only.
+        // An obstacle in several of the cells is visited only in the first of them.
         if ((spot.first_column || spot.column == c0) && (spot.first_row || r == r0)) visit(spot);
       }
     }
@@ -66,7 +66,7 @@ class ObstacleGrid {
   std::vector<Spot> spots_;
 };
 
-/// Box about an obstacle's outline.
+/// Bounding box of an obstacle's outline.
 struct Extent {
   Point low, high;
 };

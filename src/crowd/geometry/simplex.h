@@ -26,7 +26,7 @@ inline Triple cross(const Triple& a, const Triple& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// Up to four corners of the difference of two shapes; the newest is the last.
+/// Up to four points of the Minkowski difference of two shapes; the newest is the last.
 struct Simplex {
   std::array<Triple, 4> corners;
   int count{0};
@@ -35,8 +35,9 @@ struct Simplex {
   void add(const Triple& corner) { corners[static_cast<std::size_t>(count++)] = corner; }
 };
 
-/// The point of the simplex nearest to the origin; keeps only the corners that span it. A simplex
-/// that is degenerate to rounding counts as the best of its faces. `inside`: the origin is in it.
+/// Returns the point of the simplex nearest to the origin and keeps only the corners that span it.
+/// A degenerate simplex is replaced by the best of its faces. `inside` is set if it contains the
+/// origin.
 Triple nearestToOrigin(Simplex& simplex, bool& inside);
 
 }  // namespace vegetation_sim::crowd::simplex

@@ -11,26 +11,29 @@
 
 namespace vegetation_sim::crowd {
 
-/// Cells of the plan in which a walker's centre cannot be, because of obstacles that stand still.
+/// Cells of the plan that static obstacles block for a walker's centre.
 class PlanRaster {
  public:
   PlanRaster() = default;
-  /// @param clearance kept from every outline [m]. @param cell wanted edge [m]; larger where there
+  /// @param clearance kept from every outline [m]. @param cell wanted edge [m]; increased if there
   /// would be more than half a million cells.
   PlanRaster(const ObstacleGrid& still, double clearance, double cell);
 
   bool empty() const { return blocked_.empty(); }
-  /// There is an obstacle that is worth a detour.
+  /// Returns whether an obstacle is large enough for a detour.
   bool hasLarge() const { return has_large_; }
   int columns() const { return columns_; }
   int rows() const { return rows_; }
   double cell() const { return cell_; }
-  std::uint32_t cellAt(const Point& place) const;  ///< the nearest one, for a place beyond the rim
+  /// Returns the cell, or the nearest one for a place outside.
+  std::uint32_t cellAt(const Point& place) const;
   Point centreOf(std::uint32_t cell) const;
   bool isBlocked(std::uint32_t cell) const { return blocked_[cell] != 0; }
-  /// The straight way between two places crosses no blocked cell; of large obstacles only, or all.
+  /// Returns whether the straight line crosses no blocked cell, or none that a large obstacle
+  /// blocks.
   bool isClear(const Point& from, const Point& to, bool large_only) const;
-  /// The place itself, or the centre of the nearest free cell within 2 m; else the place.
+  /// Returns the place if it is free, else the centre of the nearest free cell within 2 m, else the
+  /// place.
   Point nearestFree(const Point& place) const;
 
  private:
@@ -43,13 +46,13 @@ class PlanRaster {
   std::vector<std::uint8_t> blocked_;  ///< 0 free, 1 a small obstacle, 2 a large one
 };
 
-/// Length of the way to one free cell from every cell, by steps to the eight neighbours (Dijkstra).
-/// All goals in it share the field.
+/// Lengths of the shortest ways from all cells to one free cell over eight neighbours (Dijkstra).
+/// All goals in that cell share the field.
 class FlowField {
  public:
   FlowField(const PlanRaster& raster, std::uint32_t cell);
-  /// A place on the way from here to a goal in the cell, as far along it as can be seen; the goal
-  /// itself where that can. @return false if no way leads there.
+  /// Finds the farthest visible place on the way to a goal in the cell, or the goal itself if it is
+  /// visible. @return false if there is no way.
   bool aimFrom(const PlanRaster& raster, const Point& from, const Point& goal, Point& aim) const;
   bool isReachable(const PlanRaster& raster, const Point& from) const;
 
@@ -60,17 +63,17 @@ class FlowField {
   std::vector<std::uint32_t> length_;  ///< in fifths of a cell
 };
 
-/// Ways around obstacles that stand still, made when somebody needs them. They follow from
-/// obstacles and goal alone, so what is kept changes only the cost.
+/// Ways around static obstacles, computed on demand. They depend only on obstacles and goal, so
+/// caching changes only the cost.
 class Ways {
  public:
   void setObstacles(const ObstacleGrid& still, double clearance, double cell);
   const PlanRaster& raster() const { return raster_; }
-  /// The field of a goal; made if it is not there. Not for several threads at once.
+  /// Returns the field of a goal, which is computed if necessary. Not thread-safe.
   const FlowField& fieldOf(const Point& goal);
-  /// Keeps no field.
+  /// Does not cache the field.
   bool isReachable(const Point& from, const Point& goal) const;
-  /// Forgets fields that were not asked for lately; at once where they take too much memory.
+  /// Frees fields that were not used for some ticks, and earlier if they take too much memory.
   void endTick();
   std::size_t count() const { return fields_.size(); }
 

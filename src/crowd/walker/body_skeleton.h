@@ -9,7 +9,7 @@
 
 namespace vegetation_sim::crowd {
 
-/// Parts of a body, two of most: left, then right.
+/// Parts of a body. Most exist twice: left, then right.
 enum class Part : int {
   HEAD,
   NECK,
@@ -32,9 +32,9 @@ struct Limb {
 };
 using Skeleton = std::array<Limb, PARTS>;
 
-/// A walker's body: arms by the gait's joints; legs by two-bone inverse kinematics from the pelvis,
-/// which goes as high as both legs allow, to feet that stay where they stand. `Part` + side is the
-/// index of a limb.
+/// Computes a walker's body: arms from the gait's joints; legs by two-bone inverse kinematics from
+/// the pelvis, which is as high as both legs allow, to the planted feet. The index of a limb is
+/// `Part` + side.
 Skeleton skeletonOf(const Walker& walker, const terrain::HeightMap& terrain);
 
 inline const Limb& limbOf(const Skeleton& skeleton, Part part, int side = 0) {

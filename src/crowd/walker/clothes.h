@@ -14,10 +14,10 @@ struct Clothes {
   Vec3 skin, hair, shirt, trousers, shoes;
 };
 
-/// By id, so that a person keeps them in every picture.
+/// Returns the clothes of an id, equal in every process.
 Clothes clothesOf(std::uint32_t id);
 
-/// Of a limb, an index into a Skeleton.
+/// Returns the colour of a limb, given by its index in a Skeleton.
 const Vec3& colourOf(const Clothes& clothes, std::size_t limb);
 
 }  // namespace vegetation_sim::crowd

@@ -6,60 +6,61 @@
 
 namespace vegetation_sim::crowd {
 
-/// Joints of one side at a phase of its own cycle, which begins when the heel strikes [rad].
+/// Joint angles of one side at a phase of its own cycle, which begins at heel strike [rad].
 struct Joints {
-  double hip{0.0};       ///< thigh from the trunk, flexion positive
+  double hip{0.0};       ///< thigh relative to the trunk, flexion positive
   double knee{0.0};      ///< flexion
   double ankle{0.0};     ///< dorsiflexion
   double shoulder{0.0};  ///< upper arm, flexion positive
   double elbow{0.0};     ///< flexion
 };
 
-/// Joints of a person who walks (S2-35), `phase` in cycles: key frames joined by cubic Bezier
-/// curves whose slopes agree at every key and across the cycle's end.
+/// Returns the joints of a walking person (S2-35) at `phase` in cycles: key frames joined by cubic
+/// Bezier curves, with continuous slopes at every key and across the cycle's end.
 Joints jointsAt(double phase);
-/// Slopes of the same [rad per cycle].
+/// Returns the derivatives of jointsAt() [rad per cycle].
 Joints jointRatesAt(double phase);
 
-/// Share of the cycle in which a foot stands.
+/// Share of the cycle during which a foot is on the ground.
 constexpr double STANCE = 0.6;
 
-/// Way walked in one cycle [m]: grows with the square root of the speed (cadence likewise), in
-/// proportion to the body.
+/// Returns the distance walked in one cycle [m]. It grows with the square root of the speed, like
+/// the cadence, and in proportion to the body.
 double strideLength(double speed, double height);
-/// Factor on the joint angles, such that a standing foot goes back as far as the body goes on.
+/// Returns the factor on the joint angles for which a standing foot moves back as fast as the body
+/// moves on.
 double gaitAmplitude(double speed, double height);
 
-/// Segments of a body, shares of its height (Drillis and Contini 1966).
+/// Lengths of body segments as shares of the height (Drillis and Contini 1966).
 struct Proportions {
   static constexpr double THIGH = 0.245, SHANK = 0.246, ANKLE = 0.039, HIP_HALF = 0.0525;
   static constexpr double FOOT_FRONT = 0.085, FOOT_BACK = 0.03;  ///< ball and heel from the ankle
-  static constexpr double SOLE = 0.018;  ///< half thickness of a foot, over which it rolls
+  static constexpr double SOLE = 0.018;  ///< half thickness of a foot, which rolls over it
   static constexpr double SHOULDER = 0.818, SHOULDER_HALF = 0.115, UPPER_ARM = 0.172;
   static constexpr double FOREARM = 0.157, NECK = 0.87, HEAD = 0.065;
 };
 
-/// One leg in the plane of walking, by its joints alone; forward and up of the hip, shares of the
-/// height.
+/// One leg in the plane of walking from its joints alone: positions forward and up relative to the
+/// hip, as shares of the height.
 struct LegPose {
   double ankle_forward{0.0}, ankle_up{0.0};
-  double pitch{0.0};  ///< of the foot, toes up positive [rad]
-  double stand{0.0};  ///< where the flat foot's ball stands that this pose belongs to, forward
-  double ankle_height{0.0};  ///< over the ground, of a foot pitched so that stands
+  double pitch{0.0};         ///< pitch of the foot, toes up positive [rad]
+  double stand{0.0};         ///< forward position of the flat foot's ball
+  double ankle_height{0.0};  ///< height of the ankle above the ground for a foot of this pitch
 };
 LegPose legPose(double phase, double amplitude);
 
-/// The ankle from the place where the flat foot's ball stands: the foot rolls over its heel while
-/// the toes are up, and over its ball while they are down. Shares of the height.
+/// Moves the ankle relative to the flat foot's ball: the foot rolls over its heel while the toes
+/// are up, and over its ball while they are down. Shares of the height.
 void rollOver(double pitch, double& forward, double& up);
 
-/// Goes on with the cycle by a way that was walked and sets the feet; the walker is where it is
-/// now.
+/// Advances the cycle by a distance that was walked and sets the feet. The walker must be at its
+/// new position.
 void advanceGait(double way, Walker& walker);
 
-/// Where the flat foot's ball stands or is carried over [m], plan.
+/// Returns the position of the flat foot's ball, planted or in swing [m].
 Point footPlace(const Walker& walker, int foot);
-/// Phase of a foot in its own cycle, 0 to 1.
+/// Returns the phase of a foot in its own cycle, 0 to 1.
 double footPhase(const Walker& walker, int foot);
 double speedOf(const Walker& walker);
 

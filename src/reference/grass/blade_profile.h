@@ -14,24 +14,25 @@ struct Profile {
   std::array<T, POINTS> reach{}, rise{};
 };
 
-/// Shape of a blade of length `length` whose root is tilted by `hinge` [rad] from upright and which
-/// then bends by `arc` more up to its tip. Requires 0 <= hinge, arc and hinge + arc <= BEND_LIMIT;
-/// then the tip is never below the root, and within 10 degrees of the ground if hinge = BEND_LIMIT.
+/// Returns the shape of a blade of length `length` whose root is tilted by `hinge` [rad] from
+/// upright and which bends by another `arc` up to its tip. Requires 0 <= hinge, arc and hinge + arc
+/// <= BEND_LIMIT; then the tip is never below the root, and for hinge = BEND_LIMIT within 10
+/// degrees of the ground.
 template <class T>
 Profile<T> bladeProfile(T length, T hinge, T arc, BladeModel model);
 
 extern template Profile<float> bladeProfile(float, float, float, BladeModel);
 extern template Profile<double> bladeProfile(double, double, double, BladeModel);
 
-/// Point of the paper's curve at s in [0, 1]: Hermite from the root, tangent straight up, to the
-/// tip (x, z), tangent 2 tip - up.
+/// Point of the paper's Hermite curve at s in [0, 1] from the root, with an upright tangent, to the
+/// tip (x, z), with the tangent 2 tip - up.
 template <class T>
 struct PlanePoint {
   T reach, rise;
 };
 PlanePoint<double> hermitePoint(double length, double tip_x, double tip_z, double s);
 
-/// The ordinate that the paper lowers when the abscissa grows: sqrt(length^2 - x^2).
+/// Returns the paper's lowered ordinate sqrt(length^2 - x^2).
 double loweredTip(double length, double tip_x);
 
 }  // namespace vegetation_sim::grass

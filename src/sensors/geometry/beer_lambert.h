@@ -10,11 +10,11 @@
 
 namespace vegetation_sim::scan {
 
-// Leaves and blades are media: a ray comes through a length l of them with the chance exp(-s l).
-// The chance is bound to the place, not to the ray or the time, so that what stands still looks
-// still, from wherever one looks.
+// Leaves and blades are media: the probability that a ray passes a length l of them is exp(-s l).
+// The random number belongs to the place, not to the ray or the time, so that a static scene gives
+// static returns from every viewpoint.
 
-/// Cube of space with one number of its own.
+/// Cube of space with one random number.
 struct Cell {
   std::int32_t x{0}, y{0}, z{0};
 };
@@ -26,7 +26,7 @@ inline Cell cellAt(const Vec3& place, double size) {
   return {index(place.x()), index(place.y()), index(place.z())};
 }
 
-/// Optical depth that a cell lets through: exponentially distributed, mean 1.
+/// Returns the optical depth that a cell transmits: exponentially distributed, mean 1.
 inline double depthOf(const Cell& cell, std::uint32_t key) {
   const std::uint32_t bits = mix32(
       mix32(mix32(static_cast<std::uint32_t>(cell.x) ^ key) + static_cast<std::uint32_t>(cell.y)) +

@@ -10,7 +10,7 @@
 
 namespace vegetation_sim::scan {
 
-/// Box along the axes of the world [m]; empty at first.
+/// Axis-aligned box [m]; empty at first.
 struct Box {
   static constexpr double ENDLESS = std::numeric_limits<double>::infinity();
   Vec3 low{Vec3::Constant(ENDLESS)}, high{Vec3::Constant(-ENDLESS)};
@@ -24,13 +24,13 @@ struct Box {
     low = low.cwiseMin(Vec3(centre.array() - radius));
     high = high.cwiseMax(Vec3(centre.array() + radius));
   }
-  /// Distance at which a ray comes in, 0 from inside; infinite if it misses the box.
+  /// Returns the distance at which a ray enters: 0 from inside, infinite if it misses the box.
   double entry(const Ray& ray) const {
     double from = 0.0, to = ENDLESS;
     for (int i = 0; i < 3; ++i) {
       const double a = (low[i] - ray.origin[i]) * ray.inverse[i];
       const double b = (high[i] - ray.origin[i]) * ray.inverse[i];
-      // A ray in the plane of a face gives no number there, which both comparisons pass over.
+      // A ray in the plane of a face gives NaN there, which both comparisons ignore.
       from = std::max(from, std::min(a, b));
       to = std::min(to, std::max(a, b));
     }
@@ -38,18 +38,19 @@ struct Box {
   }
 };
 
-/// Tree of boxes over items that move a little and keep their neighbours: its order is chosen once,
-/// its boxes follow the items' in time linear in their number.
+/// Bounding volume hierarchy of items that move little. Its order is chosen once; its boxes are
+/// refitted in linear time.
 class BoxTree {
  public:
-  /// Chooses the order: halves by the middle of the longest side.
+  /// Chooses the order by halving along the longest side.
   void build(const std::vector<Box>& items);
-  /// Requires as many items as built.
+  /// Updates the boxes. Requires as many items as built.
   void refit(const std::vector<Box>& items);
-  /// Box of all items.
+  /// Returns the box of all items.
   Box bounds() const { return nodes_.empty() ? Box() : nodes_.front().box; }
 
-  /// Calls meet(item), which may bring `nearest` nearer, for each item that could; near ones first.
+  /// Calls meet(item), which may reduce `nearest`, for each item that a ray may hit; near ones
+  /// first.
   template <class Meet>
   void visit(const Ray& ray, const Hit& nearest, Meet&& meet) const;
 
@@ -58,8 +59,8 @@ class BoxTree {
   static constexpr int DEEPEST = 64;
   struct Node {
     Box box;
-    int first{0}, count{0};  // of a leaf: items in order_
-    int right{0};            // else: its second half; the first half follows the node
+    int first{0}, count{0};  // of a leaf: its items in order_
+    int right{0};            // of an inner node: its second half; the first half follows the node
   };
   struct Waiting {
     int node;

@@ -9,11 +9,11 @@
 
 namespace vegetation_sim::scan {
 
-/// What a ray met; numbers as in ScanReport.msg.
+/// Class of the object that a ray hit, with the numbers of ScanReport.msg.
 enum class Label : std::uint16_t { NONE, GROUND, TRUNK, BRANCH, LEAF, GRASS, PERSON, COUNT };
 constexpr std::size_t LABELS = static_cast<std::size_t>(Label::COUNT);
 
-/// From the sensor into the world.
+/// Ray from the sensor into the world.
 struct Ray {
   /// @param towards unit vector.
   Ray(const Vec3& from, const Vec3& towards)
@@ -22,16 +22,16 @@ struct Ray {
 
   Vec3 origin;     ///< world [m]
   Vec3 direction;  ///< unit
-  Vec3 inverse;    ///< of each component, infinite where that is 0
+  Vec3 inverse;    ///< 1 / component, infinite for 0
 };
 
-/// The nearest thing that a ray has met so far.
+/// The nearest hit of a ray so far.
 struct Hit {
   double distance{std::numeric_limits<double>::infinity()};  ///< [m]
   Label label{Label::NONE};
   std::uint32_t plant{0};  ///< id of the tree or walker
-  int branch{-1};          ///< of the tree; limb of the walker
-  double cosine{0.0};      ///< of the angle between ray and normal
+  int branch{-1};          ///< branch of the tree, or limb of the walker
+  double cosine{0.0};      ///< cosine of the angle between ray and normal
 };
 
 }  // namespace vegetation_sim::scan

@@ -6,7 +6,7 @@
 
 namespace vegetation_sim::scan {
 
-/// Tapered round bar with a ball at each end: a branch, a person's limb, a piece of a blade.
+/// Tapered cylinder with a ball at each end: a branch, a person's limb, a piece of a blade.
 struct Rod {
   Vec3 base{Vec3::Zero()};                                ///< [m]
   Vec3 axis{Vec3::UnitZ()};                               ///< unit, from base to tip
@@ -15,19 +15,20 @@ struct Rod {
 Rod rodBetween(const Vec3& base, const Vec3& tip, double base_radius, double tip_radius);
 Box boxOf(const Rod& rod);
 
-/// Where a ray comes in.
+/// Entry of a ray into a rod.
 struct Meeting {
   double distance{0.0};  ///< [m]
-  double cosine{0.0};    ///< of the angle between ray and normal
+  double cosine{0.0};    ///< cosine of the angle between ray and normal
 };
-/// False if it does not before `reach`, or starts inside.
+/// Intersects a ray and a rod. @return false if there is no entry before `reach`, or the ray starts
+/// inside.
 bool meet(const Ray& ray, const Rod& rod, double reach, Meeting& out);
 
-/// Part of a ray, as distances along it [m]; empty if from >= to.
+/// Interval of a ray, as distances along it [m]; empty if from >= to.
 struct Stretch {
   double from{0.0}, to{0.0};
 };
-/// What of a ray, from its origin on, is within `radius` of the rod's axis.
+/// Returns the interval of a ray, from its origin on, within `radius` of the rod's axis.
 Stretch within(const Ray& ray, const Rod& rod, double radius);
 
 }  // namespace vegetation_sim::scan

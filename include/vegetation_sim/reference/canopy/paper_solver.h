@@ -6,20 +6,20 @@
 
 namespace vegetation_sim::canopy {
 
-/// The solver of Stam 1999 as paper 3 takes it over (S3-11): bilinear advection, then viscosity and
-/// pressure each by a fixed number of sweeps of Gauss and Seidel. Second best, and why is charted
-/// in docs/performance.md: twenty sweeps leave most of the divergence of large eddies.
+/// The solver of Stam 1999 as paper 3 uses it (S3-11): bilinear advection, then viscosity and
+/// pressure each by a fixed number of Gauss-Seidel sweeps. It is less accurate than the others:
+/// twenty sweeps leave most of the divergence of large eddies (docs/performance.md).
 class PaperSolver {
  public:
-  /// @param warm whether the pressure starts from that of the step before, else from zero.
+  /// @param warm starts the pressure from the last step's instead of zero.
   PaperSolver(int size, int sweeps, bool warm);
 
   /// One step without sources: advection, viscosity, projection.
   /// @param decay viscosity * dt / width^2 [-]. @param cells dt / dx: cells passed at 1 m/s.
   void step(PlaneField& flow, double decay, double cells);
-  /// Subtracts the gradient of the pressure that the sweeps arrive at.
+  /// Subtracts the gradient of the pressure that the sweeps find.
   void project(PlaneField& flow);
-  /// Forgets the pressure of the step before.
+  /// Resets the stored pressure.
   void reset();
 
  private:
