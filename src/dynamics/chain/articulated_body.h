@@ -3,7 +3,6 @@
 #pragma once
 
 #include "dynamics/chain/articulated.h"
-#include "dynamics/chain/bar.h"
 #include "dynamics/chain/symmetric.h"
 
 namespace vegetation_sim::physics {
@@ -105,7 +104,16 @@ inline void addDrag(double s, const Drag& drag, ArticulatedBody::Body& body) {
 }
 
 /// Adds a mass `m` at `arm` from the joint, which counts against linear acceleration there.
-void addPointMass(ArticulatedBody::Body& body, const Symmetric3& m, const Vec3& arm);
+inline void addPointMass(ArticulatedBody::Body& body, const Symmetric3& m, const Vec3& arm) {
+  const Vec3 mx(m.xx, m.xy, m.xz), my(m.xy, m.yy, m.yz), mz(m.xz, m.yz, m.zz);
+  // b += [arm x] m: column j is arm x m_j.
+  const Vec3 cx = cross(arm, mx), cy = cross(arm, my), cz = cross(arm, mz);
+  body.bx += Vec3(cx.x(), cy.x(), cz.x());
+  body.by += Vec3(cx.y(), cy.y(), cz.y());
+  body.bz += Vec3(cx.z(), cy.z(), cz.z());
+  add(body.a, 1.0, aboutJoint(m, arm));
+  add(body.m, 1.0, m);
+}
 
 /// Adds an articulated body whose joint is at `d` from the parent's: with b' = b + [d x] m, a +=
 /// child.a + [d x] b^T + b' [d x]^T, of which the upper half is enough.

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "dynamics/chain/bar.h"
 #include "dynamics/simd/batch_chain.h"
 #include "dynamics/simd/chain_rows.h"
 

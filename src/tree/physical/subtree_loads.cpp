@@ -7,7 +7,7 @@
 #include "dynamics/chain/bend.h"
 #include "tree/physical/physical_subtree.h"
 #include "vegetation_sim/core/math/math.h"
-#include "wind/sampling/batch_wind_blocks.h"
+#include "wind/sampling/batch_wind.h"
 
 namespace vegetation_sim::forest {
 namespace {

@@ -35,4 +35,8 @@ struct FloatWind {
   std::vector<FloatTerm> terms;
 };
 
+/// Fills the wind velocities at `places`, in the layout of physics::WindQuery, in single precision
+/// and the widest instruction set of the processor. The bits are the same on every instruction set.
+void fillWind(const FloatWind& wind, const float* places, float* air, std::size_t blocks);
+
 }  // namespace vegetation_sim::forest

@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "wind/sampling/batch_wind_blocks.h"
+#include "wind/sampling/batch_wind.h"
 
 // Vectors without arithmetic operators are left out; their processors use the plain target.
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)

@@ -6,7 +6,7 @@
 #include "scenes/dynamics/chain_scene.h"
 #include "vegetation_sim/core/config/instruction_set.h"
 #include "vegetation_sim/wind/field.h"
-#include "wind/sampling/batch_wind_blocks.h"
+#include "wind/sampling/batch_wind.h"
 
 namespace vegetation_sim::physics {
 namespace {

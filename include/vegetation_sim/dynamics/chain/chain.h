@@ -32,6 +32,13 @@ struct Link {
   double guaranteed_inertia{0.0};  ///< see shareInertia; 0 is safe and less exact [kg m^2]
 };
 
+/// Returns whether the link is a round bar with its centre on its axis, which is the usual case.
+inline bool isBar(const Link& link) {
+  const Symmetric3& i = link.inertia;
+  return link.centre.x() == 0.0 && link.centre.y() == 0.0 && i.xx == i.yy && i.xy == 0.0 &&
+         i.xz == 0.0 && i.yz == 0.0;
+}
+
 /// Prescribed motion of a body that carries links and is not simulated itself: the pose of its
 /// joint and how it moves, world axes. Default: the ground at the origin.
 struct BaseMotion {
@@ -86,7 +93,12 @@ struct Loads {
   std::vector<Drag> drag;  ///< per link, or empty
 
   /// Sets no load on any of `links` links; keeps memory.
-  void clear(std::size_t links);
+  void clear(std::size_t links) {
+    wrench.assign(links, Wrench());
+    joint_torque.assign(links, Vec2::Zero());
+    anchors.clear();
+    drag.clear();
+  }
 };
 
 /// The environment of a chain. Either function may be empty: ground at rest, no load.
