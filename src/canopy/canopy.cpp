@@ -77,7 +77,7 @@ void Canopy::setMotion(const Motion& motion) {
   next.motion = motion;
   checked(next);
   const Motion& now = layout_.motion;
-  Motion same = motion;  // but for what may change
+  Motion same = motion;  // copies what may change
   same.sources = now.sources;
   same.cuts = now.cuts;
   same.warp = now.warp;
@@ -139,14 +139,14 @@ void Canopy::advance(Nanoseconds stamp) {
   stale_ = true;
 }
 
-// Phases of the swell count from ROS time's own epoch: the same for whoever starts when.
+// Phases of the swell count from the epoch of ROS time, so that they do not depend on the start.
 void Canopy::step(Nanoseconds stamp, double dt) {
   const PlaneAir air = airAt(stamp);
   fluid_.advance(secondsBetween(0, memory_.stamp), dt, &air);
   oscillator_.advance(dt, fluid_.state().flow, layout_.motion.sources.law_gain * air.depth);
 }
 
-// Layers are cut anew for a view that has left theirs, one cross-fade at a time.
+// Cuts the layers again if the view differs enough from theirs, one transition at a time.
 void Canopy::look(Nanoseconds stamp) {
   const CutView now = view();
   CutState& cuts = memory_.cuts;
@@ -194,7 +194,7 @@ void Replica::apply(const StateUpdate& update) {
     History fresh(history_.size(), history_.frames());
     fresh.push(update.frame);
     history_ = std::move(fresh);
-    heard_ = first ? history_.frames() : 1;  // before its first tick everything was at rest
+    heard_ = first ? history_.frames() : 1;  // before the first tick everything is at rest
   } else {
     history_.push(update.frame);
     ++heard_;

@@ -103,7 +103,7 @@ class LayoutReader {
     add(plant);
   }
 
-  // Plants strewn over a rectangle: anywhere in it, each with its own turn and size.
+  // Scatters plants over a rectangle, each with its own yaw and scale.
   void readBed(YamlSection& section) {
     std::uint64_t seed = nextSeed();
     const std::uint16_t kind = readKind(section, out_.kinds);

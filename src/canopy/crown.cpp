@@ -10,7 +10,7 @@
 namespace vegetation_sim::canopy {
 namespace {
 
-/// Ball about the middle of the twigs that leaves far from get more light.
+/// Ball about the middle of the twigs; leaves far from its centre get more light.
 struct Ball {
   explicit Ball(const std::vector<Twig>& twigs) {
     for (const Twig& twig : twigs) centre += twig.pose.position / static_cast<double>(twigs.size());
@@ -76,7 +76,7 @@ MovedLeaf carry(const Foliage& foliage, const CrownLeaf& leaf, const Pose& rest,
   const double size = length(along);
   const Vec3 moved = foliage.freeDisplacement(leaf.leaf.anchor, leaf.leaf.root, REACH * size);
   const Vec3 side = twisted(foliage.warp(), along, rotate(turn, leaf.leaf.side), moved);
-  return {root, root + along + bent(along, moved), side};  // it grows no longer
+  return {root, root + along + bent(along, moved), side};  // the length of the leaf is constant
 }
 
 }  // namespace vegetation_sim::canopy

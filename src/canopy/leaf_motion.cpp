@@ -11,7 +11,7 @@
 namespace vegetation_sim::canopy {
 namespace {
 
-constexpr double FARTHEST = 0.4;  // share of a plant's height that nothing is displaced beyond
+constexpr double FARTHEST = 0.4;  // limit of displacements as a share of a plant's height
 
 void addView(Hash& hash, const CutView& view) {
   hash.add(view.position);
@@ -20,7 +20,7 @@ void addView(Hash& hash, const CutView& view) {
     hash.add(value);
 }
 
-// Cells of all layers with equal weight; the motion a tile further is the same.
+// Interpolates between the four cells; the field is periodic.
 double bilinearDepth(const std::vector<double>& values, int size, double x, double y) {
   const double left = std::floor(x), low = std::floor(y), p = x - left, q = y - low;
   const int mask = size - 1, x0 = static_cast<int>(left) & mask, y0 = static_cast<int>(low) & mask;
@@ -165,7 +165,7 @@ Vec3 Foliage::freeDisplacement(const Vec3& anchor, const Vec3& point, double lim
 }
 
 MovedLeaf Foliage::move(const Leaf& leaf, std::size_t plant) const {
-  if (leaf.joined) {  // each corner by its own place, as in the faces that share it
+  if (leaf.joined) {  // each corner by its own position, as in the faces that share it
     const Vec3 left = leaf.root - leaf.side, right = leaf.root + leaf.side;
     const Vec3 to_left = left + displacement(leaf.anchor, left, plant);
     const Vec3 to_right = right + displacement(leaf.anchor, right, plant);

@@ -7,7 +7,7 @@
 namespace vegetation_sim::grass {
 namespace {
 
-// Of a file of its own, or of the keys right here.
+// Reads the map from a file of its own or from the keys of the section.
 std::shared_ptr<const FeatureMap> readMap(YamlSection& section, const std::string& folder,
                                           Faults& faults) {
   std::string file;

@@ -47,7 +47,7 @@ TreadSourceState& TreadSimulation::sourceOf(const TreadInput& input) {
   return source;
 }
 
-// Blocks that a segment may have changed.
+// Marks the blocks that a segment may have changed.
 void TreadSimulation::touch(const Vec3& from, const Vec3& to, double reach) {
   const MapLaw& law = layout_.map->law();
   const double spacing = tread_.spacing();
@@ -74,7 +74,7 @@ void TreadSimulation::press(TreadSourceState& source, const Vec3& to, Nanosecond
   source.pressed = stamp;
 }
 
-// Every tile on the way.
+// Records every tile on the way.
 void TreadSimulation::enter(TreadSourceState& source, const Vec3& from, const Vec3& to) {
   const MapLaw& law = layout_.map->law();
   const int steps =
@@ -99,7 +99,7 @@ void TreadSimulation::lift(TreadSourceState& source) {
   source.column = source.row = -1;
 }
 
-// The step of a source that is on the ground.
+// Moves a source that is on the ground.
 std::string TreadSimulation::move(TreadSourceState& source, const TreadInput& input,
                                   Nanoseconds stamp) {
   std::string problem;
@@ -223,7 +223,7 @@ std::vector<Drag> TreadSimulation::drags() const {
     const Vec3 flat(source.velocity.x(), source.velocity.y(), 0.0);
     const double speed = length(flat);
     if (source.down && speed > 0.0) {
-      // What it meets, not what it has trodden down already.
+      // The drag is that of the grass ahead, not of what is trodden already.
       const Vec3 ahead = source.last.position + (source.last.law.reach / speed) * flat;
       const double width = 2.0 * source.last.law.radius;
       drag.force = -width * resistanceAt({ahead.x(), ahead.y()}, stamp_) * flat;

@@ -14,7 +14,7 @@
 namespace vegetation_sim::scan {
 namespace {
 
-constexpr double MEAN_COSINE = 0.5;  // of blades that look all ways
+constexpr double MEAN_COSINE = 0.5;  // mean over blades of random orientation
 
 int indexOf(double x, double origin, double resolution, int most) {
   return static_cast<int>(std::clamp(std::floor((x - origin) / resolution), 0.0, double(most)));
@@ -32,9 +32,8 @@ grass::TileWindow windowAround(const grass::FeatureMap& map, const Vec3& centre,
           row(centre.y() + radius)};
 }
 
-/// Blades of lengths evenly spread over [least, most] that stand at one place: what of their width
-/// is left at `way` along them, mean over all. A blade has the width 1 - (way / length)^2 of its
-/// root's.
+/// Returns the mean remaining width at `way` along blades whose lengths are evenly distributed over
+/// [least, most]. A blade has the width 1 - (way / length)^2 of its root's.
 double widthAt(double way, double least, double most) {
   if (way >= most) return 0.0;
   const double from = std::max(least, way);
@@ -42,7 +41,7 @@ double widthAt(double way, double least, double most) {
   return ((most - from) - way * way * (1.0 / from - 1.0 / most)) / (most - least);
 }
 
-/// A ray through cells of space, from one to the next.
+/// Steps a ray through a grid of cells.
 class Walk {
  public:
   Walk(const Ray& ray, double from, double size) : cell_(cellAt(ray.at(from), size)) {
@@ -56,7 +55,7 @@ class Walk {
     }
   }
   const Cell& cell() const { return cell_; }
-  /// Where the ray leaves the cell.
+  /// Returns the distance at which the ray leaves the cell.
   double end() const { return std::min({next_[0], next_[1], next_[2]}); }
   void advance() {
     const int axis =
@@ -109,7 +108,7 @@ void GrassVolume::takeMap() {
     }
 }
 
-// Above it there is no blade; below 0 beyond the map.
+// Returns the upper bound of the height of blades, or -1 outside of the map.
 double GrassVolume::topAt(double x, double y) const {
   const grass::MapLaw& law = layout_.map->law();
   const double u = (x - law.origin_x) / law.resolution, v = (y - law.origin_y) / law.resolution;
@@ -122,7 +121,7 @@ double GrassVolume::above(const Vec3& place) const {
   return place.z() - terrain_->height(place.x(), place.y());
 }
 
-// Between the corners of the tile, as its blades have it.
+// Interpolates between the corners of the tile, like poseBlades().
 Vec3 GrassVolume::airAt(double x, double y) const {
   const grass::MapLaw& law = layout_.map->law();
   const double u = (x - law.origin_x) / law.resolution, v = (y - law.origin_y) / law.resolution;
@@ -133,14 +132,14 @@ Vec3 GrassVolume::airAt(double x, double y) const {
          q * ((1.0 - p) * air_->at(column, row + 1) + p * air_->at(column + 1, row + 1));
 }
 
-// Blades are taken as straight from root to tip, and as wide from all sides, which is how they are
-// drawn. Lean has a random direction: its square is the sum of two means of 1/6.
+// Blades are taken as straight from root to tip and equally wide from all sides, as they are drawn.
+// Lean has a random direction: its square is the sum of two means of 1/6.
 double GrassVolume::extinction(const Vec3& place, const Vec3& direction) const {
   return extinctionAt(place, above(place), direction);
 }
 
 double GrassVolume::extinctionAt(const Vec3& place, double height, const Vec3& direction) const {
-  // Most of a flat ray's way is over the grass of its place.
+  // Most of a flat ray is above the grass.
   if (!(height >= 0.0 && height <= topAt(place.x(), place.y()))) return 0.0;
   const grass::Features here = layout_.map->at(place.x(), place.y());
   if (!(here.density > 0.0)) return 0.0;
@@ -161,7 +160,7 @@ double GrassVolume::extinctionAt(const Vec3& place, double height, const Vec3& d
     const double rise = sinCos(hinge + 0.5 * (both - hinge)).cos;
     const double most = here.height * kind.height;
     const double width = kind.width * widthAt(height / rise, most * (1.0 - kind.spread), most);
-    // Mean squared cosine between ray and blades that lean all ways.
+    // Mean squared cosine between the ray and blades of random direction.
     const double steep = direction.z() * direction.z();
     const double along = rise * rise * steep + 0.5 * (1.0 - rise * rise) * (1.0 - steep);
     sum += here.mix[k] * width / rise * std::sqrt(1.0 - along);
@@ -169,7 +168,7 @@ double GrassVolume::extinctionAt(const Vec3& place, double height, const Vec3& d
   return shares > 0.0 ? here.density * sum / shares : 0.0;
 }
 
-// Comes down into the layer of the grass, goes through it, and perhaps down into it again.
+// Enters the layer of the grass, marches through it, and may enter it again.
 void GrassVolume::meet(const Ray& ray, Hit& nearest) const {
   if (!tread_) return;
   double from = 0.0;
@@ -185,7 +184,7 @@ void GrassVolume::meet(const Ray& ray, Hit& nearest) const {
   }
 }
 
-// @return where it leaves the layer or meets something.
+// Returns the distance at which the ray leaves the layer or hits a blade.
 double GrassVolume::march(const Ray& ray, double from, Hit& nearest) const {
   Walk walk(ray, from, GRASS_CELL);
   const auto key = static_cast<std::uint32_t>(layout_.seed);

@@ -12,7 +12,7 @@
 namespace vegetation_sim::scan {
 namespace {
 
-constexpr double MEAN_COSINE = 0.5;  // of leaves that look all ways
+constexpr double MEAN_COSINE = 0.5;  // mean over leaves of random orientation
 
 }  // namespace
 
@@ -31,7 +31,7 @@ PosedTree::PosedTree(const forest::ForestReplica& forest, std::uint32_t id)
   boxes_.build(items_);
 }
 
-// Clusters of a twig spread evenly over all that they reach.
+// The leaf clusters of a twig are spread evenly over their reach.
 void PosedTree::addLeaves(const forest::Species& species) {
   const std::vector<forest::Branch>& branches = tree_.skeleton.branches;
   leaves_.resize(branches.size());
@@ -93,7 +93,7 @@ void PosedTree::meetBranch(std::size_t branch, const Ray& ray, Hit& nearest) con
   if (leaves_[branch].radius > 0.0) meetLeaves(branch, ray, nearest);
 }
 
-// The cells are fixed to the branch, so leaves go with it.
+// The cells are fixed to the branch, so that leaves move with it.
 void PosedTree::meetLeaves(std::size_t branch, const Ray& ray, Hit& nearest) const {
   const Leaves& leaves = leaves_[branch];
   const Stretch part = within(ray, rods_[branch], leaves.radius);

@@ -95,7 +95,7 @@ std::vector<Return> sweep(const Scene& scene, const Beams& beams, const Pose& se
     others.reserve(static_cast<std::size_t>(threads));
     for (; next < threads; ++next) others.emplace_back(part, next);
   } catch (const std::system_error&) {
-    // The machine has no more threads: their parts are done here.
+    // The machine has no more threads; this thread does their parts.
   }
   part(0);
   for (; next < threads; ++next) part(next);

@@ -8,7 +8,7 @@
 namespace vegetation_sim::scan {
 namespace {
 
-// Those that may reach into a ball, nearest first.
+// Returns the trees that may reach into a ball, nearest first.
 std::vector<std::uint32_t> nearestFirst(const forest::ForestReplica& forest, const Vec3& centre,
                                         double radius) {
   std::vector<std::pair<double, std::uint32_t>> sorted;

@@ -8,7 +8,7 @@
 namespace vegetation_sim::canopy {
 namespace {
 
-constexpr double MOST_ENERGY = 1e8;  // [m^2/s^2] no wind has more; catches what runs away
+constexpr double MOST_ENERGY = 1e8;  // [m^2/s^2] limit against runaway, far above any wind
 
 const FluidSettings& checked(const FluidSettings& settings) {
   Faults faults;
@@ -113,9 +113,9 @@ void Fluid::substep(const Interval& interval, const PlaneAir* air) {
 }
 
 // Zehnder, Narain and Thomaszewski, "An advection-reflection solver for detail-preserving fluid
-// simulation", ACM TOG 37(4), 2018: what the projection takes away at half time is not dropped but
-// turned round, so that the second half of the step gives it back. Sources blow on both sides of
-// the reflection: pressure spreads their push over the plane while they act, not only afterwards.
+// simulation", ACM TOG 37(4), 2018: what the projection removes at half time is reflected, so that
+// the second half of the step gives it back. Sources act on both sides of the reflection, so that
+// pressure spreads their push over the plane while they act.
 void Fluid::reflect(const Interval& interval, const PlaneAir* air, double cells, double decay) {
   const double half = 0.5 * interval.length;
   advect(state_.flow, state_.flow, 0.5 * cells, Lookup::CUBIC, reflected_);
@@ -137,7 +137,7 @@ void Fluid::blow(const Interval& interval, const PlaneAir* air, PlaneField& flow
   given_ += energyOf(flow) - before;
 }
 
-// Only sources add energy, but a cubic may overshoot a little.
+// Only sources add energy, but the cubic interpolation may overshoot slightly.
 void Fluid::limitEnergy(double most) {
   const double now = energyOf(state_.flow);
   if (!(now > most)) return;

@@ -10,8 +10,9 @@
 namespace vegetation_sim::canopy {
 namespace {
 
-constexpr double MOST_ENERGY = 1e16;  // of spectra, which are size^2 times as large as cells
-constexpr double MARGIN = 0.95;       // of Verlet's longest step
+// Limit for spectra, which are size^2 times as large as cells.
+constexpr double MOST_ENERGY = 1e16;
+constexpr double MARGIN = 0.95;  // share of Verlet's longest step
 
 WaveLaw lawOf(OscillatorSettings settings, double width) {
   Faults faults;

@@ -32,8 +32,8 @@ void ProjectionStep::setDecay(double decay) {
           0.5 * along[static_cast<std::size_t>(i)] * along[static_cast<std::size_t>(j)];
 }
 
-// With Z = U + iV and K = kx + i ky: Z(k) <- (Z(k) - K^2/|K|^2 conj Z(-k)) / 2. K^2/|K|^2 is the
-// same for k and -k, and a pair is done at once.
+// With Z = U + iV and K = kx + i ky: Z(k) <- (Z(k) - K^2/|K|^2 conj Z(-k)) / 2. K^2/|K|^2 is equal
+// for k and -k, and a pair is computed at once.
 void ProjectionStep::project(PlaneField& flow, double decay) {
   setDecay(decay);
   fourier_.forward(flow);

@@ -10,13 +10,13 @@
 namespace vegetation_sim::canopy {
 namespace {
 
-// exp(-alpha dt) times the two solutions that start with (1, 0) and (0, 1) when alpha is 0.
+// The two solutions that start with (1, 0) and (0, 1) when alpha is 0, times exp(-alpha dt).
 struct Solutions {
   double cosine, sine;
 };
 
-// Near critical damping sine and cosine, or their hyperbolic twins, are series in x = -(W^2 -
-// alpha^2) dt^2 that have no root to divide by; the first term left out is below 1e-18.
+// Near critical damping, sine and cosine or their hyperbolic forms are series in x = -(W^2 -
+// alpha^2) dt^2 without a division by a root; the first omitted term is below 1e-18.
 Solutions nearCritical(double x, double decay, double dt) {
   double cosine = 1.0, sine = 1.0, power = 1.0;
   for (int n = 1; n <= 8; ++n) {
@@ -36,8 +36,8 @@ Solutions solutions(double alpha, double stiffness, double dt) {
     const SinCos turn = sinCos(root * dt);
     return {decay * turn.cos, decay * turn.sin / root};
   }
-  // Exponents are joined first: alone, exp(root dt) would overflow. The slow one without a
-  // difference of large numbers.
+  // Exponents are added first, since exp(root dt) alone would overflow. The slow exponent is
+  // computed without a difference of large numbers.
   const double slow = exponential(-stiffness / (alpha + root) * dt);
   const double fast = exponential(-(alpha + root) * dt);
   return {0.5 * (slow + fast), 0.5 * (slow - fast) / root};
@@ -56,7 +56,7 @@ ModalStep::ModalStep(const WaveLaw& law, int size) : law_(law), size_(size) {
   compliance_.resize(cells * cells);
 }
 
-// Most modes share their stiffness with seven others.
+// The last mode is cached, since most modes share their stiffness with seven others.
 void ModalStep::setStep(double dt) {
   if (dt == dt_) return;
   dt_ = dt;

@@ -14,7 +14,8 @@ constexpr std::array<const char*, SIDES> FREQUENCIES{"rightward_frequency", "lef
                                                      "upward_frequency", "downward_frequency"};
 constexpr int LEAST_BAND = 2;  // [cells]
 
-// Mean 0, variance 1, bounded: four sums of pieces of a random word (Irwin and Hall).
+// Returns a bounded random number with mean 0 and variance 1: the sum of four parts of a random
+// word (Irwin and Hall).
 double normal(const Random& random, std::uint64_t index) {
   double sum = 0.0;
   for (std::uint64_t half = 0; half < 2; ++half) {
@@ -25,7 +26,7 @@ double normal(const Random& random, std::uint64_t index) {
   return sum * std::sqrt(12.0 / 8.0);
 }
 
-// Share of the way that is made at `rate` in `length`.
+// Returns the share of the difference that relaxation at `rate` removes in `length`.
 double share(double rate, double length) {
   return 1.0 - exponential(-rate * length);
 }
@@ -60,7 +61,8 @@ void Sources::apply(const Interval& interval, const PlaneAir* air, const Turbule
       applySide(side, interval, turbulence, flow);
 }
 
-// The exact step of an Ornstein-Uhlenbeck process: any length gives the same distribution.
+// Makes the exact step of an Ornstein-Uhlenbeck process, whose distribution does not depend on the
+// length.
 void Sources::carryOn(const Interval& interval, Turbulence& turbulence) const {
   const double keep = exponential(-interval.length / settings_.turbulence_time);
   const double kick = std::sqrt(1.0 - keep * keep) / std::sqrt(1.0 * TURBULENCE_MODES);
@@ -69,7 +71,7 @@ void Sources::carryOn(const Interval& interval, Turbulence& turbulence) const {
         keep * turbulence[i] + kick * normal(random_, interval.number * turbulence.size() + i);
 }
 
-// The mean over the step, so that a swell faster than the steps does not come out as a slow one.
+// Returns the mean over the step, so that a swell faster than the steps is not aliased.
 double Sources::swell(int side, const Interval& interval) const {
   const SideWind& wind = settings_.sides[static_cast<std::size_t>(side)];
   const double b = settings_.steadiness, turns = wind.frequency * interval.length;

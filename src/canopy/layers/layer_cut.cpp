@@ -9,7 +9,7 @@
 namespace vegetation_sim::canopy {
 namespace {
 
-constexpr double NEAR_PLANE = 0.05;  // [m] nothing is seen closer
+constexpr double NEAR_PLANE = 0.05;  // [m] nothing nearer is visible
 
 }  // namespace
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-// Vectors without arithmetic operators are left out; their processors take the plain target.
+// Vectors without arithmetic operators are not used; their processors run the plain target.
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "canopy/layers/layer_pass.cpp"
@@ -38,7 +38,7 @@ HWY_INLINE Lanes agesOf(const LayerPass& pass, std::size_t cell) {
   return hn::Min(delay * all(pass.rate), all(oldest));
 }
 
-// Neighbours look at nearly the same time, so few frames serve all lanes.
+// Neighbours have nearly the same delay, so few frames serve all lanes.
 void cells(const LayerPass& pass) {
   const FramesByAge& frames = *pass.frames;
   const std::size_t last = frames.u.size() - 1;

@@ -13,10 +13,10 @@
 namespace vegetation_sim::canopy {
 namespace {
 
-constexpr double LONGEST_DELAY = 1e4;  // [s] of the printed form at its pole
-constexpr double STILL = 1e-6;         // [m/s] motion that has no direction
+constexpr double LONGEST_DELAY = 1e4;  // [s] limit of the printed form at its pole
+constexpr double STILL = 1e-6;         // [m/s] slower motion has no direction
 
-/// One cell of one layer with one of the two drivers.
+/// Motion of one cell of one layer with one of the two drivers.
 class Lookup {
  public:
   Lookup(const LayerView& view, double distance, double delay_speed, double sign)
@@ -26,7 +26,7 @@ class Lookup {
     const LayerSettings& s = *view_.settings;
     const double vz = dot(view_.towards, Vec3(now.u, now.v, now.depth));
     double delay = layerDelay(distance_, vz, delay_speed_, s.delay == Formula::PRINTED);
-    if (s.delay == Formula::DERIVED) delay = std::fabs(delay);  // the driver knows which way
+    if (s.delay == Formula::DERIVED) delay = std::fabs(delay);  // the driver determines the sign
     if (s.model == LayerModel::HISTORY) return view_.history->at(cell, delay / view_.tick);
     return elsewhere(cell, now, sign_ * delay);
   }
@@ -48,7 +48,7 @@ class Lookup {
   double distance_, delay_speed_, sign_;
 };
 
-/// The default, from the history with the right delay: many cells at once.
+/// The default, from the history with the derived delay, for many cells at once.
 class FastLayer {
  public:
   FastLayer(const LayerView& view, double delay_speed) : pass_() {
@@ -144,7 +144,7 @@ void layerMotion(const LayerView& view, double distance, double last, double del
     return;
   }
   const Lookup front(view, distance, delay_speed, 1.0);
-  // Equation 5 looks against the motion for a layer that is ahead; the history has no future, so
+  // Equation 5 looks up against the motion for a layer that is ahead. The history has no future, so
   // there the last layer drives and the others follow it.
   const bool ahead = view.settings->model == LayerModel::LOOKUP;
   const Lookup back(view, ahead ? distance : last - distance, delay_speed, -1.0);

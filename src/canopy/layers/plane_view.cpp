@@ -9,7 +9,7 @@
 namespace vegetation_sim::canopy {
 namespace {
 
-constexpr double LONGEST_WAY = 1e8;  // [cells] still an int after rounding
+constexpr double LONGEST_WAY = 1e8;  // [cells] limit for the conversion to int
 
 Quat turn(double angle, int axis) {
   const SinCos half = sinCos(0.5 * angle);
@@ -17,8 +17,8 @@ Quat turn(double angle, int axis) {
           axis == 2 ? half.sin : 0.0};
 }
 
-// Weight of the field itself, the rest is of the field moved by half: 1 in the middle, where the
-// moved one has its seam, 0 at the edges.
+// Returns the weight of the field itself: 1 in the middle, where the moved field has its seam, 0 at
+// the edges.
 double ownShare(int cell, int size) {
   const double from_edge = std::min(cell, size - cell) / (0.5 * size);
   return saturate(2.0 * from_edge - 0.5);

@@ -12,7 +12,8 @@ namespace {
 
 constexpr double STEEPEST = 0.5;
 
-// x^power on [0, 1] with + - * / and square roots alone, so that every processor agrees.
+// Returns x^power on [0, 1] by + - * / and square roots alone, so that every processor gives the
+// same bits.
 double powerOf(double x, double power) {
   double out = 1.0;
   const double whole = std::floor(power);
@@ -28,7 +29,7 @@ double powerOf(double x, double power) {
   return out;
 }
 
-/// Largest difference between neighbours to the right, and above.
+/// Largest differences between horizontal and vertical neighbours.
 struct Steepness {
   double right{0.0}, above{0.0};
 };

@@ -12,7 +12,8 @@ struct Weights {
   std::array<double, 4> of;
 };
 
-// Catmull and Rom's spline at p in [0, 1) between the second and the third of four points.
+// Returns the weights of Catmull and Rom's spline at p in [0, 1) between the second and the third
+// of four points.
 Weights cubicWeights(double p) {
   const double p2 = p * p, p3 = p2 * p;
   return {{-0.5 * p3 + p2 - 0.5 * p, 1.5 * p3 - 2.5 * p2 + 1.0, -1.5 * p3 + 2.0 * p2 + 0.5 * p,
@@ -37,7 +38,7 @@ PlaneVector cubic(const PlaneField& field, double x, double y) {
   return out;
 }
 
-// The clamp also keeps the conversion to int within bounds.
+// The clamp also keeps the conversion to int within its range.
 double wayBack(double speed, double cells, double limit) {
   return std::min(limit, std::max(-limit, speed * cells));
 }

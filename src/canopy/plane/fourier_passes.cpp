@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <utility>
 
-// Vectors without arithmetic operators are left out; their processors take the plain target.
+// Vectors without arithmetic operators are not used; their processors run the plain target.
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "canopy/plane/fourier_passes.cpp"
@@ -53,8 +53,8 @@ HWY_INLINE Twiddle twiddleOf(const FourierPass& pass, int k) {
   return {hn::Set(Tag(), pass.cosine[k]), hn::Set(Tag(), pass.sine[k])};
 }
 
-// One step of Stockham's transform, which sorts on its way, by four (Van Loan 1992, section 1.7):
-// `length` points that lie `stride` rows apart become four transforms of a quarter of the points.
+// One radix-4 step of Stockham's transform, which needs no sorting (Van Loan 1992, section 1.7):
+// `length` points at a distance of `stride` rows become four transforms of a quarter of the points.
 HWY_INLINE void quarter(const FourierPass& pass, int length, int stride, Rows in, Rows out) {
   const int n = length / 4, turn = pass.size / length;
   for (int p = 0; p < n; ++p) {

@@ -25,8 +25,8 @@ FourierPlane::FourierPlane(int size) : size_(size) {
   lanes_.resize(4 * BLOCK * cells);
 }
 
-// Columns, then what were rows. The first pass writes rows for columns, so both read and write
-// along the memory.
+// Transforms columns, then what were rows. The first pass writes the transpose, so that both passes
+// access memory in order.
 void FourierPlane::transform(std::vector<double>& re, std::vector<double>& im) {
   FourierPass pass{size_,      cosine_.data(), sine_.data(), re.data(),    im.data(),
                    re_.data(), im_.data(),     true,         lanes_.data()};
@@ -39,7 +39,7 @@ void FourierPlane::transform(std::vector<double>& re, std::vector<double>& im) {
   transformColumns(pass);
 }
 
-// Real for imaginary parts before and after turns the transform round.
+// Exchanging real and imaginary parts before and after inverts the transform.
 void FourierPlane::inverse(PlaneField& field) {
   transform(field.v, field.u);
   const double scale = 1.0 / (static_cast<double>(size_) * size_);

@@ -15,14 +15,14 @@
 namespace vegetation_sim::canopy {
 namespace {
 
-constexpr double LARGEST = 1e9;    // coordinate that a mesh may have
-constexpr double FLATTEST = 1e-6;  // height over width
+constexpr double LARGEST = 1e9;    // largest coordinate of a mesh
+constexpr double FLATTEST = 1e-6;  // least height over width
 
 std::string firstOf(std::size_t count, const char* what, std::size_t first) {
   return std::to_string(count) + " " + what + ", the first is number " + std::to_string(first);
 }
 
-/// Counts what is wrong, and knows the first.
+/// Counts faults and keeps the first.
 struct Wrong {
   std::size_t count{0}, first{0};
   void add(std::size_t index) {
@@ -56,7 +56,7 @@ void check(const LeafMesh& mesh, Faults& faults) {
     faults.add(firstOf(corners.count, "corners of faces are no vertices", corners.first));
 }
 
-/// Sets that grow together; each is known by its smallest member.
+/// Disjoint sets; the smallest member represents a set.
 class Sets {
  public:
   explicit Sets(std::size_t size) : of_(size) { std::iota(of_.begin(), of_.end(), 0U); }
@@ -73,7 +73,7 @@ class Sets {
   std::vector<std::uint32_t> of_;
 };
 
-/// For each vertex the first one at the same place.
+/// Returns for each vertex the first one at the same position.
 std::vector<std::uint32_t> samePlaces(const std::vector<Vec3>& vertices) {
   std::vector<std::uint32_t> order(vertices.size()), out(vertices.size());
   std::iota(order.begin(), order.end(), 0U);
@@ -97,7 +97,7 @@ struct Edge {
   std::array<std::uint32_t, 3> key() const { return {low, high, rigid ? 1U : 0U}; }
 };
 
-/// Turns a mesh into the measure of Form.
+/// Scales a mesh to the units of Form.
 class Measure {
  public:
   Measure(const LeafMesh& mesh, bool y_up) : y_up_(y_up), low_(Vec3::Zero()), high_(low_) {
@@ -127,7 +127,7 @@ class Measure {
   Vec3 low_, high_;
 };
 
-/// Vertex that each leaf hangs on, by the leaf's number.
+/// Returns the root vertex of each leaf.
 std::vector<std::uint32_t> rootsOf(const LeafMesh& mesh, const std::vector<std::uint32_t>& leaves,
                                    const Measure& measure) {
   std::vector<std::uint32_t> out;
@@ -135,7 +135,7 @@ std::vector<std::uint32_t> rootsOf(const LeafMesh& mesh, const std::vector<std::
     if (mesh.uv.empty()) return measure(mesh.vertices[vertex]).z();
     const auto& uv = mesh.uv[vertex];
     const double square = uv[0] * uv[0] + uv[1] * uv[1];
-    return square >= 0.0 ? square : LARGEST;  // no number: last
+    return square >= 0.0 ? square : LARGEST;  // not finite: last
   };
   for (std::size_t face = 0; face < leaves.size(); ++face)
     for (const std::uint32_t vertex : mesh.faces[face]) {
@@ -172,7 +172,7 @@ std::vector<std::uint32_t> leavesOf(const LeafMesh& mesh) {
   for (std::size_t i = 1; i < edges.size(); ++i)
     if (edges[i].key() == edges[i - 1].key()) sets.join(edges[i - 1].face, edges[i].face);
   std::vector<std::uint32_t> out(mesh.faces.size());
-  std::uint32_t count = 0;  // a set's smallest face comes before its others
+  std::uint32_t count = 0;  // the smallest face of a set comes first
   for (std::uint32_t i = 0; i < out.size(); ++i)
     out[i] = sets.find(i) == i ? count++ : out[sets.find(i)];
   return out;

@@ -11,7 +11,7 @@
 namespace vegetation_sim::canopy {
 namespace {
 
-constexpr double TRUNK_SHARE = 0.35;  // of a crown's height
+constexpr double TRUNK_SHARE = 0.35;  // share of a crown's height
 constexpr double SHORTEST = 1e-9;     // [m]
 
 Vec3 unit(const Vec3& v, const Vec3& otherwise) {
@@ -23,7 +23,7 @@ bool isRibbon(const PlantKind& kind) {
   return kind.shape == PlantShape::REED || kind.shape == PlantShape::KELP;
 }
 
-/// From a plant at the origin, unscaled, into the world.
+/// Transforms a plant at the origin into the world.
 class Placing {
  public:
   Placing(const Plant& plant, double scale)
@@ -56,13 +56,13 @@ GrownPlant placeForm(const PlantKind& kind, const Plant& plant) {
   return out;
 }
 
-/// A ball of leaves within a ball of radius 1, in the same measure.
+/// A ball of leaves within a ball of radius 1, in the same unit.
 struct Tuft {
   Vec3 centre;
   double radius;
 };
 
-// One at the top, the others around and below it: no two plants have the same outline.
+// Places one tuft at the top and the others around and below it, so that outlines vary.
 std::vector<Tuft> tuftsOf(const Random& random, bool crown) {
   std::vector<Tuft> out{{Vec3(0.0, 0.0, 0.45), 0.55}};
   const int count = 6 + static_cast<int>(5.0 * random.uniform(0));
@@ -114,11 +114,11 @@ class Grower {
     return kind_.shape == PlantShape::CROWN ? TRUNK_SHARE * kind_.height : 0.0;
   }
 
-  // Dark within the mass, and below it.
+  // Less light inside and below the mass.
   double lightAt(const Vec3& place, const Vec3& outward) const {
     double cover = 0.0;
     for (const Tuft& tuft : tufts_) {
-      const Vec3 above = place + Vec3(0.0, 0.0, 0.25);  // most light comes from up there
+      const Vec3 above = place + Vec3(0.0, 0.0, 0.25);  // most light comes from above
       cover += std::max(0.0, 1.0 - length(Vec3(place - tuft.centre)) / tuft.radius) +
                0.8 * std::max(0.0, 1.0 - length(Vec3(above - tuft.centre)) / tuft.radius);
     }
@@ -126,7 +126,7 @@ class Grower {
     return saturate(open * (0.72 + 0.28 * outward.z()) * (0.88 + 0.12 * place.z()) * 1.2 + 0.1);
   }
 
-  // Most leaves near the surface of a tuft, where the light is.
+  // Most leaves are near the surface of a tuft, where the light is.
   void addLeaf(const Random& random) {
     const double base = crownBase(), half = 0.5 * (kind_.height - base);
     const auto last = static_cast<double>(tufts_.size());
@@ -142,7 +142,8 @@ class Grower {
     const Vec3 jitter(random.uniform(3, -1.0, 1.0), random.uniform(4, -1.0, 1.0),
                       random.uniform(5, -0.9, 0.5));
     Vec3 along = unit(outward + 1.1 * jitter, Vec3::UnitZ());
-    if (root.z() < kind_.leaf_length) along.z() = std::fabs(along.z());  // none into the ground
+    // No leaf points into the ground.
+    if (root.z() < kind_.leaf_length) along.z() = std::fabs(along.z());
     const Vec3 across =
         unit(cross(along, Vec3(random.uniform(6, -1.0, 1.0), random.uniform(7, -1.0, 1.0), 1.5)),
              Vec3::UnitX());
@@ -158,7 +159,7 @@ class Grower {
         leaf);
   }
 
-  // A chain of pieces from the ground; kelp swings from side to side on its way up.
+  // Adds a chain of pieces from the ground; kelp is wavy.
   void addRibbon(const Random& random) {
     const double out = kind_.radius * std::sqrt(random.uniform(0));
     const SinCos place = sinCosTurns(random.uniform(1)), face = sinCosTurns(random.uniform(2));
@@ -189,7 +190,7 @@ class Grower {
     }
   }
 
-  // Stems from the foot into the leaves; a crown's trunk first.
+  // Adds stems from the foot into the leaves; a crown's trunk is the first.
   void addStems() {
     const double base = crownBase();
     const Vec3 fork(0.0, 0.0, base);

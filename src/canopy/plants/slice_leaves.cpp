@@ -15,9 +15,9 @@
 namespace vegetation_sim::canopy {
 namespace {
 
-constexpr int MOST_CELLS = 4096;   // along a side
-constexpr double LEAF_SIZE = 2.2;  // of a leaf over its cell
-constexpr double COVERED = 0.09;   // light that each covered side takes
+constexpr int MOST_CELLS = 4096;   // limit along a side
+constexpr double LEAF_SIZE = 2.2;  // size of a leaf over that of its cell
+constexpr double COVERED = 0.09;   // share of light that each covered side removes
 
 struct Cell {
   int column, row, slice;
@@ -61,7 +61,7 @@ class Stack {
       out += isSolid({c.column + d.column, c.row + d.row, c.slice + d.slice}) ? 1 : 0;
     return out;
   }
-  // Pictures stand across x; the first is nearest to who looks along y.
+  // Slices are perpendicular to y; the first is nearest to a viewer who looks along y.
   Vec3 place(const Cell& c) const {
     const double cell = 1.0 / stack_.rows, width = stack_.columns * cell;
     return {(c.column + 0.5) * cell - 0.5 * width, ((c.slice + 0.5) / stack_.slices - 0.5) * width,

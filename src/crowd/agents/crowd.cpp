@@ -12,7 +12,8 @@
 namespace vegetation_sim::crowd {
 namespace {
 
-constexpr double WIDEST = 0.3;  // walker that ways around walls are made for, with clearance [m]
+// Widest walker, with clearance, that ways around walls are made for [m]
+constexpr double WIDEST = 0.3;
 constexpr double FARTHEST = 1e5;
 
 void add(Hash& hash, const Point& p) {
@@ -151,7 +152,7 @@ std::uint32_t Crowd::spawn(const Spawn& spawn, std::uint32_t id) {
   return w.id;
 }
 
-// Of the first walker with this id or a larger one.
+// Returns the index of the first walker with this id or a larger one.
 std::size_t Crowd::indexOf(std::uint32_t id) const {
   const auto& all = memory_.walkers;
   const auto found = std::lower_bound(all.begin(), all.end(), id,

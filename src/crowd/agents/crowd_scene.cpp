@@ -39,7 +39,7 @@ Spawn readWalker(YamlSection& section) {
   return out;
 }
 
-// Brings fields back into their ranges.
+// Limits fields to their ranges.
 class Limiter : public FieldVisitor {
  public:
   void number(const char* /*name*/, double& value, const char* /*unit*/, Range range) override {

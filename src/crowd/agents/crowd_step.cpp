@@ -13,22 +13,22 @@
 namespace vegetation_sim::crowd {
 namespace {
 
-constexpr double PATIENCE = 4.0;        // without coming nearer, before a detour [s]
-constexpr double LONG_PATIENCE = 10.0;  // where only trunks can be in the way [s]
+constexpr double PATIENCE = 4.0;        // time without progress before a detour [s]
+constexpr double LONG_PATIENCE = 10.0;  // the same where only trunks can be in the way [s]
 constexpr Nanoseconds LOOK_PERIOD = NANOSECONDS_PER_SECOND;
-constexpr double NEARER = 0.5;            // that counts as progress [m]
-constexpr double THRONG = 1.0;            // time in one, before stepping aside [s]
-constexpr double SLOW = 0.25;             // share of the wanted speed that is one
-constexpr double ASIDE = -1.9;            // to the right of the goal [rad]
-constexpr double GIVE_UP = 30.0;          // without progress, before another goal [s]
-constexpr int DRAWS = 8;                  // for a goal that is free
-constexpr std::size_t FEW = 256;          // walkers that are not worth a thread
-constexpr std::size_t AHEAD = 4;          // walkers for which memory is asked early
-constexpr double JUST_SAFE = 1.0 - 1e-9;  // of what is known to be free
-constexpr double GETTING_OUT = 0.1;       // of the radius, a step
+constexpr double NEARER = 0.5;            // distance that counts as progress [m]
+constexpr double THRONG = 1.0;            // time in a throng before stepping aside [s]
+constexpr double SLOW = 0.25;             // share of the wanted speed that counts as a throng
+constexpr double ASIDE = -1.9;            // direction of stepping aside, relative to the goal [rad]
+constexpr double GIVE_UP = 30.0;          // time without progress before another goal [s]
+constexpr int DRAWS = 8;                  // attempts to draw a free goal
+constexpr std::size_t FEW = 256;          // A thread takes at least this many walkers.
+constexpr std::size_t AHEAD = 4;          // walkers ahead for which memory is prefetched
+constexpr double JUST_SAFE = 1.0 - 1e-9;  // share of a safe distance, for rounding
+constexpr double GETTING_OUT = 0.1;       // step out of an overlap, as a share of the radius
 constexpr double STANDS_STILL = 0.05;     // slower than this the body does not turn [m/s]
 
-// Those who are neighbours now may be anywhere in memory.
+// Prefetches neighbours, which may be anywhere in memory.
 void prefetch(const Walker& walker) {
   constexpr std::size_t LINE = 64;
   const char* begin = reinterpret_cast<const char*>(&walker);
@@ -37,7 +37,7 @@ void prefetch(const Walker& walker) {
 
 }  // namespace
 
-/// What all walkers look at while they are stepped.
+/// Inputs of all walkers during a tick.
 struct Crowd::Tick {
   Nanoseconds before{0}, stamp{0};
   double dt{0.0};
@@ -65,7 +65,7 @@ void Crowd::advance(Nanoseconds stamp) {
   memory_.begun = true;
   if (dt == 0.0) return;
   look();
-  // Neighbours one after the other: what one looks at is at hand for the next.
+  // Neighbours are processed one after the other, since they share data in the cache.
   const auto& spots = grid_.spots();
   forAll(spots.size(), [&](std::size_t i) {
     if (i + AHEAD < spots.size()) prefetch(memory_.walkers[spots[i + AHEAD].index]);
@@ -114,7 +114,7 @@ void Crowd::chooseGoal(Walker& w) const {
   w.no_progress = 0.0;
 }
 
-// Where to, before looking around. Standing walkers keep their front.
+// Returns the wanted motion before perception. Standing walkers keep their front.
 Wish Crowd::wishOf(Walker& w, const Point& front, std::size_t index) const {
   Wish out{front, 0.0};
   const auto behaviour = static_cast<Behaviour>(memory_.settings.behaviour);
@@ -122,7 +122,7 @@ Wish Crowd::wishOf(Walker& w, const Point& front, std::size_t index) const {
     if (behaviour == Behaviour::GOAL)
       chooseGoal(w);
     else
-      out.speed = w.speed;  // the paper's walkers just walk on
+      out.speed = w.speed;  // walkers of PAPER walk on
   }
   if (!w.has_goal || w.arrived) {
     out.speed *= paceAt(w, out.direction);
@@ -154,8 +154,8 @@ void Crowd::keepSide(int taken, double dt, Walker& w) const {
   if (w.side_left == 0.0) w.side = 0;
 }
 
-// People who press on from all sides hold each other up: all step aside to the same hand for a
-// while, each for another time.
+// People who push from all sides block each other: each steps aside to the same hand for a while of
+// its own length.
 void Crowd::loosen(double wanted, const Tick& tick, Walker& w) const {
   if (w.held_up < 0.0) {
     w.held_up = std::min(0.0, w.held_up + tick.dt);
@@ -168,7 +168,7 @@ void Crowd::loosen(double wanted, const Tick& tick, Walker& w) const {
   }
 }
 
-// Whether the goal is reached, and whether the straight way leads there.
+// Checks whether the goal is reached, and whether the straight way leads there.
 void Crowd::reach(const Tick& tick, Walker& w) const {
   if (!w.has_goal || w.arrived) return;
   const double left = length(w.goal - w.position);
@@ -183,7 +183,7 @@ void Crowd::reach(const Tick& tick, Walker& w) const {
     w.no_progress = 0.0;
   }
   if (w.wanders && w.no_progress > GIVE_UP) w.has_goal = false;
-  // A look along the straight way once a second, each walker at another time.
+  // The straight way is checked once a second, each walker at another time.
   const auto second = [&](Nanoseconds stamp) {
     return (stamp + static_cast<Nanoseconds>(w.key % static_cast<std::uint64_t>(LOOK_PERIOD))) /
            LOOK_PERIOD;
@@ -208,7 +208,7 @@ void Crowd::stepOne(std::size_t index, const Tick& tick, Walker& w) const {
   std::array<Limit, View::MOST> limits;
   const int count = limitsOf(self, view, s, tick.dt, limits);
   const Point velocity = followed(w, front, command, s, tick.dt);
-  // Who is in others already gets out by small steps, whatever else is there.
+  // A walker that overlaps others moves out by small steps, regardless of other obstacles.
   const bool overlaps = view.count > 0 && view.at(0).gap < 0.0;
   const double farthest =
       std::max(0.5 * JUST_SAFE * view.beyond, overlaps ? GETTING_OUT * w.radius : 0.0);
@@ -216,7 +216,8 @@ void Crowd::stepOne(std::size_t index, const Tick& tick, Walker& w) const {
   w.position = w.position + step;
   w.velocity = (1.0 / tick.dt) * step;
   const double fastest = 2.0 * w.speed, speed = length(w.velocity);
-  if (speed > fastest) w.velocity = (fastest / speed) * w.velocity;  // pushed
+  // Limits a velocity by pushing.
+  if (speed > fastest) w.velocity = (fastest / speed) * w.velocity;
   if (speed > STANDS_STILL) turnTowards(command.direction, front, s, tick.dt, w);
   advanceGait(std::min(length(step), fastest * tick.dt), w);
   if (!by_paper) loosen(wish.speed, tick, w);

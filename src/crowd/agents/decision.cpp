@@ -12,17 +12,17 @@
 namespace vegetation_sim::crowd {
 namespace {
 
-constexpr double LARGEST_PRINTED = 10.0;  ///< times the noise at the sensor's range
-constexpr double HORIZON = 1.5;           ///< where the wish leads, in ranges of the sensor
-constexpr double STOPPING = 0.5;          ///< time to stop before what is ahead [s]
-constexpr double SIDE_KEPT = 0.35;        ///< how much the other side seems farther, squared
+constexpr double LARGEST_PRINTED = 10.0;  ///< limit, times the noise at the sensor's range
+constexpr double HORIZON = 1.5;           ///< distance of the wanted place, in ranges of the sensor
+constexpr double STOPPING = 0.5;          ///< time in which a walker stops before an obstacle [s]
+constexpr double SIDE_KEPT = 0.35;        ///< relative squared cost of the other side
 constexpr double CREEP = 0.15;            ///< share of the speed that remains in a throng
-constexpr double WARNING = 2.0;           ///< a robot that comes sooner is evaded [s]
-constexpr double HURRY = 1.4;             ///< of the speed, out of a robot's way
-constexpr double WOBBLE_PERIOD = 2.5;     ///< of the smooth noise [s]
-constexpr double WOBBLE_DEVIATION = 0.3;  ///< of gradientNoise()
+constexpr double WARNING = 2.0;  ///< time before a robot arrives from which on it is evaded [s]
+constexpr double HURRY = 1.4;    ///< factor on the speed out of a robot's way
+constexpr double WOBBLE_PERIOD = 2.5;     ///< period of the smooth noise [s]
+constexpr double WOBBLE_DEVIATION = 0.3;  ///< standard deviation of gradientNoise()
 
-// Of the fan, to the left; [0] is straight ahead.
+// Angles of the fan to the left; [0] is straight ahead.
 constexpr int FAN = 9;
 constexpr double ANGLES[FAN] = {0.0, 0.12, 0.26, 0.42, 0.62, 0.86, 1.15, 1.5, 2.1};
 
@@ -60,7 +60,7 @@ bool isThreatened(const Walker& walker, const View& view, const Point& velocity)
   return false;
 }
 
-// Out of a robot's way: where nothing is met for longest, all round.
+// Evades a robot in the direction, of all around, that meets nothing for longest.
 Command evade(const Walker& walker, const View& view, const Wish& wish) {
   constexpr int ROUND = 16;
   Command out{wish.direction, HURRY * walker.speed};
@@ -90,7 +90,7 @@ double normalNumber(std::uint64_t key, std::uint64_t index) {
       {static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(key >> 32)});
   std::uint32_t sum = 0;
   for (const std::uint32_t word : words) sum += (word & 0xFFFFU) + (word >> 16);
-  // Eight numbers of 16 bits: mean 4 * 65535, variance 8 / 12.
+  // Eight numbers of 16 bits have the mean 4 * 65535 and the variance 8 / 12.
   return (static_cast<double>(sum) * (1.0 / 65536.0) - 4.0 * 65535.0 / 65536.0) *
          1.2247448713915890;
 }
@@ -113,7 +113,7 @@ Command decideByGoal(const Walker& walker, const View& view, const CrowdSettings
     const SinCos& turn = fan().turns[step];
     double cost = 0.0;
     if (step > 0) {
-      // No direction that is free all along would be better than what was found.
+      // Stops if even a direction without obstacles would not be better.
       const double most = std::min(seen, std::max(0.0, far * turn.cos));
       const double least = far * far + most * (most - 2.0 * far * turn.cos);
       if (least + far * far * bonus >= best) break;

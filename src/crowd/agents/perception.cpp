@@ -10,19 +10,19 @@ namespace {
 
 constexpr Point STANDS{};
 
-// What may be in view. Without initial values: most of the list stays unused.
+// A possible obstacle. Members have no initial values, since most of the list stays unused.
 struct Candidate {
-  double square;             ///< of the centre's distance
-  double bound;              ///< of the gap, from circles; of a disc the gap itself
-  const Obstacle* obstacle;  ///< null: a disc
+  double square;             ///< squared distance of the centre
+  double bound;              ///< lower bound of the gap from circles; the gap itself for a disc
+  const Obstacle* obstacle;  ///< null for a disc
   Point place;
-  double radius;  ///< of the circle
+  double radius;  ///< radius of the circle
   const Point* velocity;
   Seen kind;
   std::uint32_t index;
 };
 
-// Asks for all of it at once.
+// Prefetches all of an obstacle.
 void prefetchLines(const Obstacle* obstacle) {
   const char* at = reinterpret_cast<const char*>(obstacle);
   if (at)
@@ -56,7 +56,7 @@ Sight sightOf(const Walker& walker, const Obstacle& obstacle, Seen kind, std::ui
   return out;
 }
 
-// What is not kept is at least as far as its proof says.
+// Keeps the nearest; the others are at least as far as their bounds.
 void keep(const Sight& sight, int most, double range, View& view) {
   const bool full = view.count == most;
   if (sight.gap >= range || (full && !isBefore(sight, view.at(most - 1)))) {
@@ -73,13 +73,13 @@ void keep(const Sight& sight, int most, double range, View& view) {
   view.sights[static_cast<std::size_t>(at)] = sight;
 }
 
-// Collects what may be in a walker's view, then measures from the nearest on.
+// Collects the candidates of a walker's view, then measures from the nearest on.
 class Look {
  public:
   Look(const Walker& walker, double range)
       : walker_(walker), range_(range), room_(range + walker.radius), beyond_(range) {}
 
-  // No branch on the distance, which nothing foretells. The velocity stays where it is.
+  // There is no branch on the distance, since it would be mispredicted. The velocity is read later.
   void offer(const Point& place, double reach, const Point& velocity, const Obstacle* obstacle,
              Seen kind, std::uint32_t index) {
     if (count_ == MOST) dropFarthest();
@@ -162,7 +162,7 @@ void WalkerGrid::build(const std::vector<Walker>& walkers, double cell) {
     ++starts_[buckets_[i] + 1];
   }
   for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
-  // Filled from the back, so that the starts end up where they began.
+  // Filled from the back, so that the starts end at their final values.
   for (std::size_t i = walkers.size(); i-- > 0;) {
     const Walker& w = walkers[i];
     spots_[--starts_[buckets_[i] + 1]] = {w.position, w.velocity, w.radius,
@@ -177,7 +177,7 @@ void WalkerGrid::visitNear(const Point& place, Visit visit) const {
   const std::int64_t column = cellOf(place.x), row = cellOf(place.y);
   for (std::int64_t r = row - 1; r <= row + 1; ++r)
     for (std::int64_t c = column - 1; c <= column + 1;) {
-      // Columns are neighbours in memory too, up to where the grid repeats itself.
+      // Columns are neighbours in memory, too, up to the period of the grid.
       const std::uint32_t first = bucketOf(c, r), left = mask_ + 1 - (first & mask_);
       const std::uint32_t run = std::min(static_cast<std::uint32_t>(column + 2 - c), left);
       for (std::uint32_t i = starts_[first]; i < starts_[first + run]; ++i) visit(spots_[i]);

@@ -13,12 +13,12 @@ namespace {
 
 constexpr int SWEEPS = 6;
 constexpr double UNBOUNDED = 1e9;         // [m]
-constexpr double JUST_LESS = 1.0 - 1e-9;  // of a hard limit, for rounding
+constexpr double JUST_LESS = 1.0 - 1e-9;  // share of a hard limit, for rounding
 constexpr double BACKWARDS = 0.35;        // share of the speed across and against the body's front
 constexpr double TURN_LAG = 0.7;          // [s]
-constexpr double TURN_SLACK = 0.05;       // for which a body does not turn [rad]
+constexpr double TURN_SLACK = 0.05;       // angle below which a body does not turn [rad]
 
-// Two walkers in one place part along a line that both know.
+// Returns a direction by which two walkers at one place part, equal for both.
 Point partingLine(std::uint32_t self, std::uint32_t other) {
   const std::uint32_t low = std::min(self, other), high = std::max(self, other);
   const double turns = static_cast<double>(mix32(low * 0x9E3779B9U + high)) / 4294967296.0;
@@ -33,7 +33,7 @@ bool project(const Limit& limit, double bound, Point& step) {
   return true;
 }
 
-// Onto one limit after the other, until the step is within all or they share it well enough.
+// Projects onto one limit after the other until the step is within all or violates them evenly.
 void projectOnAll(const std::array<Limit, View::MOST>& limits, int count, double Limit::*bound,
                   Point& step) {
   bool crosses = true;
@@ -50,7 +50,7 @@ double wrapped(double angle) {
   return angle - 2.0 * PI * std::floor(angle * (0.5 / PI) + 0.5);
 }
 
-// Within 0.005 rad and 6 %, which is enough to steer by.
+// Approximates the angle within 0.005 rad and 6 %, which suffices for steering.
 double roughAngle(double y, double x) {
   const double ax = std::fabs(x), ay = std::fabs(y), big = std::max(ax, ay);
   if (!(big > 0.0)) return 0.0;
@@ -79,7 +79,7 @@ int limitsOf(std::uint32_t self, const View& view, const CrowdSettings& s, doubl
     const double share = sight.kind == Seen::WALKER ? 0.5 : 1.0;
     limit.wanted = share * (sight.gap - s.clearance);
     limit.hard = share * JUST_LESS * std::max(0.0, std::min(sight.gap, sight.lower));
-    // Of what overlaps already, only one that stands still holds its ground.
+    // Of overlapping obstacles, only a static one is a hard limit.
     if (sight.gap < 0.0 && (i > 0 || sight.kind != Seen::STATIC)) limit.hard = UNBOUNDED;
     if (sight.kind == Seen::ROBOT)
       limit.wanted -= dt * std::max(0.0, -dot(sight.velocity, limit.normal));

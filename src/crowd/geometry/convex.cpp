@@ -16,7 +16,7 @@ using simplex::Simplex;
 using simplex::Triple;
 
 constexpr int MOST_ROUNDS = 64;
-constexpr double PRECISION = 1e-14;  ///< of the bounds, relative
+constexpr double PRECISION = 1e-14;  ///< relative precision of the bounds
 constexpr double TOUCHING = 1e-15;   ///< relative to the size of the simplex
 
 Triple toTriple(const Vec3& v) {
@@ -27,7 +27,7 @@ double clampTo(double x, double half) {
   return std::min(half, std::max(-half, x));
 }
 
-// In the frame of a box: its corners, and the way from it to a place.
+// A box in its own frame: its corners, and the vector from it to a place.
 struct Brick {
   explicit Brick(const Box& box) : half(toTriple(box.half)) {}
   Triple wayTo(const Triple& p) const {
@@ -48,7 +48,7 @@ Vec3 toWorld(const Box& box, const Triple& v) {
   return v.x * box.axes[0] + v.y * box.axes[1] + v.z * box.axes[2];
 }
 
-// A point minus a box, in the frame of the box: the start is the answer, a round proves it.
+// A point minus a box in the frame of the box: the start is the result, one iteration proves it.
 struct BoxPointPair {
   BoxPointPair(const Box& a, const Vec3& b) : brick(a), point(inFrame(a, b - a.centre)) {}
   Triple start() const { return brick.wayTo(point); }
@@ -58,15 +58,15 @@ struct BoxPointPair {
   Triple point;
 };
 
-// Second minus first box, in the frame of the first.
+// Second minus first box in the frame of the first.
 struct BoxPair {
   BoxPair(const Box& a, const Box& b)
       : brick(a),
         centre(inFrame(a, b.centre - a.centre)),
         axes{inFrame(a, b.axes[0]), inFrame(a, b.axes[1]), inFrame(a, b.axes[2])},
         half{b.half.x(), b.half.y(), b.half.z()} {}
-  // From the first box to the place in the second that is nearest to the first's place nearest to
-  // the second's centre: two times out of three no two places are nearer.
+  // Starts with the vector from the first box to the place in the second that is nearest to the
+  // first's place nearest to the second's centre. In two thirds of all cases this is the result.
   Triple start() const {
     const Triple way = brick.wayTo(centre);
     Triple place = centre;
@@ -75,7 +75,7 @@ struct BoxPair {
     const Triple v = brick.wayTo(place);
     return dot(v, v) > 0.0 ? v : centre;
   }
-  // The corner that is farthest against v.
+  // Returns the corner that is farthest against v.
   Triple support(const Triple& v) const {
     Triple out = centre - brick.cornerAlong(v);
     for (std::size_t i = 0; i < 3; ++i)
@@ -149,7 +149,7 @@ struct Cores {
 };
 
 // The iteration on the difference of two shapes. `v` is a point of it, so its length is an upper
-// bound; no point lies below the support w, so v.w / |v| is a lower one.
+// bound; no point lies below the support w, so v.w / |v| is a lower bound.
 template <class Pair>
 Cores iterate(const Pair& pair, double enough) {
   Cores out;
@@ -161,8 +161,8 @@ Cores iterate(const Pair& pair, double enough) {
     square = dot(v, v);
   }
   out.v = v;
-  double best = square, low = 0.0, low_square = 1.0;  // the lower bound: low / sqrt(low_square)
-  double largest = 0.0;                               // of the simplex' corners, squared
+  double best = square, low = 0.0, low_square = 1.0;  // the lower bound is low / sqrt(low_square)
+  double largest = 0.0;                               // largest squared corner of the simplex
   for (out.rounds = 1; out.rounds <= MOST_ROUNDS && square > 0.0; ++out.rounds) {
     const Triple w = pair.support(v);
     const double bound = dot(v, w);
@@ -183,7 +183,7 @@ Cores iterate(const Pair& pair, double enough) {
       best = square;
       out.v = v;
     }
-    // Only from the first, arbitrary point on does every round come nearer.
+    // Only from the second iteration on each one must come nearer.
     if (out.rounds > 1 && square >= before) break;
   }
   out.upper = std::sqrt(best);

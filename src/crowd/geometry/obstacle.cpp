@@ -26,7 +26,7 @@ Point fromFrame(const Box& box, const Point& v) {
           box.axes[0].y() * v.x + box.axes[1].y() * v.y};
 }
 
-// Stretch of time in which one coordinate is within `half` of 0.
+// Returns the interval of time in which one coordinate is within `half` of 0.
 void slab(double at, double speed, double half, double& enter, double& leave) {
   if (speed == 0.0) {
     if (std::fabs(at) >= half) leave = -NEVER;
@@ -110,7 +110,7 @@ double timeToMeet(const Point& from, double radius, const Point& velocity,
   slab(at.y, speed.y, box.half.y() + radius, enter, leave);
   if (!(leave > enter) || leave <= 0.0) return NEVER;
   if (enter > 0.0) return enter;
-  // Already within the box' margin: only a way that leads further in meets it.
+  // Within the margin of the box, only a velocity further into it meets it.
   return dot(to, velocity) > 0.0 ? 0.0 : NEVER;
 }
 

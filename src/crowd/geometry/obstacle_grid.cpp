@@ -10,8 +10,8 @@ namespace vegetation_sim::crowd {
 namespace {
 
 constexpr double MOST_CELLS = 1e6;
-constexpr double MOST_SPOTS = 2e6;  // 80 MB; long walls that lie aslant cover very many cells
-constexpr double FEW_SPOTS = 9.0;   // of an obstacle that is smaller than a cell, and then some
+constexpr double MOST_SPOTS = 2e6;  // 80 MB; long diagonal walls cover very many cells
+constexpr double FEW_SPOTS = 9.0;   // limit per obstacle; small ones need fewer
 
 std::vector<Extent> extentsOf(const std::vector<Obstacle>& obstacles) {
   std::vector<Extent> out;
@@ -24,7 +24,7 @@ double cellsIn(const Point& size, double cell) {
   return (size.x / cell + 1.0) * (size.y / cell + 1.0);
 }
 
-// `wanted`, doubled until cells and what stands in them fit the memory.
+// Doubles `wanted` until cells and entries fit the memory.
 double affordableCell(const Point& size, const std::vector<Extent>& extents, double wanted) {
   const double most = std::max(MOST_SPOTS, FEW_SPOTS * static_cast<double>(extents.size()));
   const auto spots = [&](double cell) {
@@ -65,7 +65,7 @@ ObstacleGrid::ObstacleGrid(std::vector<Obstacle> obstacles, double cell)
   per_metre_ = 1.0 / affordableCell(size, extents, cell);
   columns_ = static_cast<int>(size.x * per_metre_) + 1;
   rows_ = static_cast<int>(size.y * per_metre_) + 1;
-  // Neighbours are neighbours in memory too.
+  // Neighbours are near each other in memory, too.
   const auto place = [this](const Extent& e) {
     return std::make_pair(row(e.low.y), column(e.low.x));
   };
@@ -73,7 +73,7 @@ ObstacleGrid::ObstacleGrid(std::vector<Obstacle> obstacles, double cell)
     return place(extentOf(a)) < place(extentOf(b));
   });
   extents = extentsOf(obstacles_);
-  // Counted, then filled: cells of one vector.
+  // Entries are counted, then filled, so that all cells share one vector.
   starts_.assign(static_cast<std::size_t>(columns_) * rows_ + 1, 0);
   const auto cover = [&](const Extent& e, auto each) {
     for (int r = row(e.low.y); r <= row(e.high.y); ++r)

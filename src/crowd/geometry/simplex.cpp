@@ -7,7 +7,7 @@
 namespace vegetation_sim::crowd::simplex {
 namespace {
 
-// Below this share of its largest possible size an area or volume is rounding.
+// An area or volume below this share of its largest possible size is rounding.
 constexpr double FLAT = 1e-13;
 
 /// A point of a face of the simplex, and the corners that span the face, as bits.
@@ -28,7 +28,7 @@ Foot ofSegment(const Simplex& s, int i, int j) {
   return {a + (along / square) * edge, 1U << i | 1U << j};
 }
 
-// The origin is beyond at least one edge, by the signs of the areas that it makes with them.
+// The origin is beyond at least one edge, by the signs of the areas that it forms with them.
 Foot ofEdges(const Simplex& s, int i, int j, int k, const bool (&beyond)[3]) {
   Foot out{};
   bool any = false;
@@ -43,8 +43,7 @@ Foot ofEdges(const Simplex& s, int i, int j, int k, const bool (&beyond)[3]) {
   return out;
 }
 
-// Over the face itself by the height of the origin over its plane, so that the direction is the
-// plane's normal whatever the shape of the triangle.
+// The direction is the plane's normal, which is exact for any shape of the triangle.
 Foot ofTriangle(const Simplex& s, int i, int j, int k) {
   const Triple &a = s.at(i), &b = s.at(j), &c = s.at(k);
   const Triple ab = b - a, ac = c - a, n = cross(ab, ac);
@@ -57,7 +56,7 @@ Foot ofTriangle(const Simplex& s, int i, int j, int k) {
   return {(dot(n, a) / square) * n, 1U << i | 1U << j | 1U << k};
 }
 
-// True if the origin is beyond the face pqr, seen from the opposite corner.
+// Returns whether the origin is beyond the face pqr, seen from the opposite corner.
 bool isBeyond(const Triple& p, const Triple& q, const Triple& r, const Triple& opposite,
               bool& flat) {
   const Triple n = cross(q - p, r - p), arm = opposite - p;

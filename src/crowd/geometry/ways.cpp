@@ -8,11 +8,11 @@
 namespace vegetation_sim::crowd {
 namespace {
 
-constexpr std::uint32_t STRAIGHT = 5, DIAGONAL = 7;       // fifths of a cell
-constexpr int LOOK_AHEAD = 32;                            // cells along the way
-constexpr std::size_t MOST_FIELDS = 32;                   // kept beyond those in use
+constexpr std::uint32_t STRAIGHT = 5, DIAGONAL = 7;       // cost in fifths of a cell
+constexpr int LOOK_AHEAD = 32;                            // limit in cells along the way
+constexpr std::size_t MOST_FIELDS = 32;                   // cached beyond those in use
 constexpr std::uint64_t IN_USE = 119;                     // ticks
-constexpr std::size_t MOST_CELLS = std::size_t{1} << 25;  // of all fields, 128 MB
+constexpr std::size_t MOST_CELLS = std::size_t{1} << 25;  // cells of all fields, 128 MB
 
 struct Step {
   int column, row;
@@ -22,7 +22,7 @@ constexpr Step STEPS[8] = {{1, 0, STRAIGHT},   {0, 1, STRAIGHT}, {-1, 0, STRAIGH
                            {0, -1, STRAIGHT},  {1, 1, DIAGONAL}, {-1, 1, DIAGONAL},
                            {-1, -1, DIAGONAL}, {1, -1, DIAGONAL}};
 
-// Calls `each(cell, cost)` for the free neighbours; none across a blocked corner.
+// Calls `each(cell, cost)` for the free neighbours; diagonal steps do not cut blocked corners.
 template <class Each>
 void visitNeighbours(const PlanRaster& raster, std::uint32_t cell, Each each) {
   const int width = raster.columns();
@@ -39,9 +39,9 @@ void visitNeighbours(const PlanRaster& raster, std::uint32_t cell, Each each) {
 }
 
 constexpr double MOST_RASTER_CELLS = 524288.0;
-constexpr double RIM = 3.0;     ///< free ground around all obstacles [m]
-constexpr double LARGE = 0.9;   ///< reach of an obstacle that is worth a detour [m]
-constexpr double SEARCH = 2.0;  ///< for a free cell [m]
+constexpr double RIM = 3.0;     ///< margin around all obstacles [m]
+constexpr double LARGE = 0.9;   ///< least reach of an obstacle that is worth a detour [m]
+constexpr double SEARCH = 2.0;  ///< radius of the search for a free cell [m]
 
 }  // namespace
 
@@ -91,7 +91,7 @@ Point PlanRaster::centreOf(std::uint32_t cell) const {
   return {origin_.x + (column + 0.5) * cell_, origin_.y + (row + 0.5) * cell_};
 }
 
-// Samples every half cell: what they step over is the corner of a cell.
+// Samples every half cell; the samples can only miss the corner of a cell.
 bool PlanRaster::isClear(const Point& from, const Point& to, bool large_only) const {
   if (empty()) return true;
   const Point span = to - from;
@@ -128,7 +128,7 @@ Point PlanRaster::nearestFree(const Point& place) const {
   return out;
 }
 
-// Costs are small whole numbers, so that waiting cells sort into eight buckets that take turns.
+// Costs are small integers, so that waiting cells are sorted into eight buckets in turn.
 FlowField::FlowField(const PlanRaster& raster, std::uint32_t cell) {
   length_.assign(static_cast<std::size_t>(raster.columns()) * raster.rows(), FAR);
   constexpr std::uint32_t BUCKETS = DIAGONAL + 1;
@@ -141,7 +141,7 @@ FlowField::FlowField(const PlanRaster& raster, std::uint32_t cell) {
     now.swap(buckets[length % BUCKETS]);
     waiting -= now.size();
     for (const std::uint32_t at : now) {
-      if (length_[at] != length) continue;  // found shorter since
+      if (length_[at] != length) continue;  // a shorter way was found since
       visitNeighbours(raster, at, [&](std::uint32_t next, std::uint32_t cost) {
         if (length + cost >= length_[next]) return;
         length_[next] = length + cost;

@@ -12,8 +12,9 @@ namespace {
 
 using P = Proportions;
 
-constexpr double STRETCHED = 0.999;  // of a leg; a straight one has no side to bend to
-constexpr double LEAN = 0.04;        // of the trunk per m/s [rad]
+// Largest share of a leg's length; a straight leg has no direction of bending.
+constexpr double STRETCHED = 0.999;
+constexpr double LEAN = 0.04;  // lean of the trunk per m/s [rad]
 
 // Directions of a walker's body.
 struct Axes {
@@ -30,7 +31,7 @@ Axes axesOf(const Walker& w) {
   return {Vec3(turn.cos, turn.sin, 0.0), Vec3(-turn.sin, turn.cos, 0.0), Vec3::UnitZ()};
 }
 
-// The foot rolls where it stands; on its way it is as high over the other as the joints lift it.
+// A planted foot rolls. A swinging foot is as much higher than the other as the joints lift it.
 Ankle ankleOf(const Walker& w, int side, const Axes& axes, const terrain::HeightMap& terrain) {
   const double amplitude = gaitAmplitude(speedOf(w), w.height);
   const LegPose own = legPose(footPhase(w, side), amplitude);
@@ -38,7 +39,7 @@ Ankle ankleOf(const Walker& w, int side, const Axes& axes, const terrain::Height
   double forward, up;
   rollOver(own.pitch, forward, up);
   if (footPhase(w, side) >= STANCE) {
-    // Pelvis over the ground by either leg: what this one is shorter is what its foot is lifted.
+    // Height of the pelvis by either leg; the difference is the lift of the foot.
     const double pelvis =
         std::max(own.ankle_height - own.ankle_up, other.ankle_height - other.ankle_up);
     const double phase = footPhase(w, side), fade = 0.08;
@@ -51,13 +52,13 @@ Ankle ankleOf(const Walker& w, int side, const Axes& axes, const terrain::Height
   return {place, own.pitch};
 }
 
-// Highest pelvis from which a leg reaches its ankle.
+// Returns the highest pelvis from which a leg reaches its ankle.
 double reachOf(const Vec3& ankle, const Vec3& hip, double leg) {
   const double x = ankle.x() - hip.x(), y = ankle.y() - hip.y();
   return ankle.z() + std::sqrt(std::max(0.0, leg * leg - x * x - y * y));
 }
 
-// The knee, in front of the line from hip to ankle.
+// Returns the knee, in front of the line from hip to ankle.
 Vec3 kneeOf(const Vec3& hip, const Vec3& ankle, const Vec3& front, double thigh, double shank) {
   const Vec3 span = ankle - hip;
   const double size = std::max(1e-6, length(span));
@@ -94,7 +95,7 @@ struct Body {
   void putArm(int side, const Vec3& shoulder, double amplitude) const {
     const double h = walker.height;
     const Joints joints = jointsAt(footPhase(walker, side));
-    // An arm hangs slightly bent and swings more the faster one walks.
+    // An arm is slightly bent and swings more at a higher speed.
     const SinCos upper = sinCos(amplitude * joints.shoulder);
     const SinCos fore = sinCos(amplitude * (joints.shoulder + joints.elbow) + 0.1);
     const double outward = side == 0 ? 0.12 : -0.12;

@@ -30,14 +30,15 @@ constexpr Curve<4> SHOULDER{{{0, -24}, {25, -9}, {50, 8}, {75, -8}}};
 constexpr Curve<4> ELBOW{{{0, 18}, {25, 26}, {50, 38}, {75, 28}}};
 
 constexpr double RADIANS = PI / 180.0;
-constexpr double SHORTEST = 0.02;       ///< speed that still has a stride [m/s]
-constexpr double FARTHEST_FOOT = 0.42;  ///< from below the hip before it is set anew, of the height
+constexpr double SHORTEST = 0.02;  ///< least speed that has a stride [m/s]
+/// Distance from below the hip from which on it is placed again, relative to the height.
+constexpr double FARTHEST_FOOT = 0.42;
 
 double fractionOf(double cycles) {
   return cycles - std::floor(cycles);
 }
 
-// Slope at a key by its neighbours, around the end of the cycle [degrees per percent].
+// Returns the slope at a key from its neighbours, periodic in the cycle [degrees per percent].
 template <std::size_t N>
 double slopeAt(const Curve<N>& curve, std::size_t i) {
   const Key &before = curve[(i + N - 1) % N], &after = curve[(i + 1) % N];
@@ -46,7 +47,7 @@ double slopeAt(const Curve<N>& curve, std::size_t i) {
   return (after.degrees - before.degrees) / span;
 }
 
-// Value and slope of the Bezier segment that holds the phase [rad], [rad per cycle].
+// Returns value and slope of the Bezier segment at the phase [rad], [rad per cycle].
 template <std::size_t N>
 void evaluate(const Curve<N>& curve, double phase, double& value, double& rate) {
   const double percent = 100.0 * fractionOf(phase);
@@ -70,7 +71,8 @@ void evaluateAll(double phase, Joints& values, Joints& rates) {
   evaluate(ELBOW, phase, values.elbow, rates.elbow);
 }
 
-// How far a foot goes back while it stands, at full amplitude; of the height.
+// Returns the distance that a foot moves back while it stands, at full amplitude, relative to the
+// height.
 double fullReach() {
   static const double REACH = legPose(0.0, 1.0).stand - legPose(STANCE, 1.0).stand;
   return REACH;
@@ -88,7 +90,7 @@ Point toLocal(const Walker& w, const Point& place) {
   return {turn.cos * v.x + turn.sin * v.y, turn.cos * v.y - turn.sin * v.x};
 }
 
-// Where the gait alone has a foot, forward and left of the walker [m].
+// Returns the position of a foot by the gait alone, forward and left of the walker [m].
 Point gaitPlace(const Walker& w, int foot) {
   const double amplitude = gaitAmplitude(speedOf(w), w.height);
   const double side = foot == 0 ? 1.0 : -1.0;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vegetation_sim/grass/blades/blade_batch.h"
 
-// Vectors without arithmetic operators are left out; their processors take the plain target.
+// Vectors without arithmetic operators are not used; their processors run the plain target.
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "grass/blades/blade_batch.cpp"
@@ -16,8 +16,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace vegetation_sim::grass::HWY_NAMESPACE {
 
-// Some blades on their way, in the first cache. The work is done in passes over them, since one
-// long chain of operations per vector would leave the processor waiting for each result.
+// Intermediate values of some blades, in the first-level cache. The work is done in passes over
+// them, since one long chain of operations per vector would wait for each result.
 constexpr int CHUNK = 128;
 struct alignas(64) Chunk {
   float u[CHUNK], v[CHUNK], shortness[CHUNK], lean_x[CHUNK], lean_y[CHUNK], kind[CHUNK];
@@ -140,7 +140,7 @@ HWY_INLINE LanesBent trodden(const LanesBent& bend, const CrushPatch& crush,
   return both;
 }
 
-// Where the blades stand, and the directions along and away from the ground.
+// Positions of the blades, and the directions along the ground and away from it.
 struct LanesFrame {
   Lanes x, y, z, tx, ty, tz, nx, ny, nz;
 };
@@ -218,7 +218,7 @@ HWY_INLINE void pointLanes(const Tile& tile, BladeModel model, bool crushed, int
   putSloped(frame, profile, i % BLOCK, out);
 }
 
-// Past the caches, one whole line of 64 bytes after the other.
+// Writes past the caches, one line of 64 bytes after the other.
 HWY_INLINE void stream(const BladeBlock& block, BladeBlock& out) {
   const float* from = block.x[0];
   float* line = out.x[0];

@@ -13,7 +13,7 @@ namespace vegetation_sim::grass {
 namespace {
 
 constexpr double MOST_COARSENESS = 64.0;
-constexpr int COARSENESS_STEPS = 24;  // of bisection: a millionth
+constexpr int COARSENESS_STEPS = 24;  // steps of bisection, for a precision of 1e-6
 
 int clamped(double x, int low, int high) {
   return static_cast<int>(std::min(double(high), std::max(double(low), x)));
@@ -71,7 +71,7 @@ Vec3 MeadowLod::centreOf(int row, int column) const {
   return {x, y, terrain_->height(x, y)};
 }
 
-// Largest scale of any eye, from the nearest point of the tile.
+// Returns the largest scale of any viewpoint, from the nearest point of the tile.
 double MeadowLod::scaleOf(const Vec3& centre) const {
   double scale = 0.0;
   const double half = 0.70710678 * map_->law().resolution;
@@ -86,14 +86,14 @@ bool MeadowLod::isSeen(const Vec3& centre) const {
                      [&](const Viewpoint& eye) { return sees(eye, centre, radius); });
 }
 
-// From where on all tiles of a row are surely textures, however many blades there may be.
+// Returns the distance from which on all tiles of a row are textures for any number of blades.
 double MeadowLod::farthestOf(int row, const Viewpoint& eye) const {
   const double pixels = HYSTERESIS * settings_.tolerance;
   const double apart = coarsest_[static_cast<std::size_t>(row)] * eye.pixels_per_radian / pixels;
   return std::min(settings_.farthest, apart + 2.0 * map_->law().resolution);
 }
 
-// Columns of a row that any eye is near enough to.
+// Returns the columns of a row that are near enough to a viewpoint.
 std::pair<int, int> MeadowLod::columnsIn(int row) const {
   const MapLaw& law = map_->law();
   int first = map_->tileColumns(), last = -1;
@@ -108,7 +108,7 @@ std::pair<int, int> MeadowLod::columnsIn(int row) const {
   return {first, last};
 }
 
-// A tile as it was, with what it takes to choose its tier.
+// Makes the candidate of a tile from its last level.
 MeadowLod::Candidate MeadowLod::candidateOf(const TileLevel& level) const {
   Candidate out;
   out.level = level;
@@ -123,7 +123,7 @@ MeadowLod::Candidate MeadowLod::candidateOf(const TileLevel& level) const {
   return out;
 }
 
-// All tiles that want to be more than a texture, in order, and those that still are.
+// Returns all tiles that want to be more than a texture or still are, in order.
 std::vector<MeadowLod::Candidate> MeadowLod::findCandidates() const {
   std::vector<Candidate> out;
   out.reserve(levels_.size() + 64);
@@ -144,7 +144,7 @@ std::vector<MeadowLod::Candidate> MeadowLod::findCandidates() const {
   return out;
 }
 
-// Blades that are drawn of a tile, and its tier, at so many times the tolerance.
+// Return the number of drawn blades of a tile, and its model, at `coarseness` times the tolerance.
 double MeadowLod::bladesAt(const Candidate& tile, double coarseness) const {
   if (!(tile.blades > 0.0) || modelAt(tile, coarseness) != TileModel::BLADES) return 0.0;
   return tile.blades * bladeShare(tile.detail, tile.scale, settings_.tolerance * coarseness);
@@ -156,8 +156,8 @@ TileModel MeadowLod::modelAt(const Candidate& tile, double coarseness) const {
                          tile.level.tier.target);
 }
 
-// The least factor on the tolerance that leaves no more blades than there may be: whatever is off
-// by more than that has its blades. Tiles that hold theirs count as farther off, so that the same
+// Returns the least factor on the tolerance that keeps the limit for blades: tiles with a larger
+// omission have blades. Hysteresis makes tiles with blades count as farther away, so that the same
 // view gives the same factor again.
 double MeadowLod::coarsenessFor(const std::vector<Candidate>& tiles) const {
   std::vector<const Candidate*> bearing;
@@ -178,7 +178,7 @@ double MeadowLod::coarsenessFor(const std::vector<Candidate>& tiles) const {
 }
 
 void MeadowLod::addToBalance(const Candidate& tile, TileModel tier) {
-  if (!(tile.scale > 0.0)) return;  // bare, or out of sight
+  if (!(tile.scale > 0.0)) return;  // bare or out of range
   const double error = tile.scale * omission(tile.detail, tier);
   balance_.cost += bladesAt(tile, coarseness_);
   balance_.wanted += bladesAt(tile, 1.0);

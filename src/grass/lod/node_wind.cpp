@@ -30,7 +30,7 @@ Vec3 NodeWind::placeOf(int column, int row) const {
   return {x, y, terrain_.height(x, y)};
 }
 
-// Nodes of the window within a box, both ends included.
+// Returns the nodes of the window within a box, both ends included.
 NodeWind::Span NodeWind::spanOf(double min_x, double max_x, double min_y, double max_y) const {
   const MapLaw& law = map_.law();
   const auto first = [&](double x, double origin) {
@@ -45,12 +45,13 @@ NodeWind::Span NodeWind::spanOf(double min_x, double max_x, double min_y, double
           std::min(last(max_y, law.origin_y), window_.last_row + 1)};
 }
 
-// Box around what a primitive can move; a hair larger, so that rounding leaves no node out.
+// Returns the nodes that a primitive can move. The box is slightly larger, so that rounding omits
+// no node.
 NodeWind::Span NodeWind::maskOf(const wind::Term& term) const {
   constexpr double HAIR = 1e-6;
   const double x = term.centre.x(), y = term.centre.y(), r = term.radius + HAIR;
   if (term.kind != wind::Kind::GUST) return spanOf(x - r, x + r, y - r, y + r);
-  // A strip behind the front, as wide as the gust.
+  // The mask is a strip behind the front, as wide as the gust.
   const double length = term.rise + term.plateau + term.decay + HAIR;
   const double back_x = -length * term.direction.x(), back_y = -length * term.direction.y();
   const double side_x = r * std::fabs(term.direction.y()) + HAIR;
@@ -67,7 +68,7 @@ void NodeWind::want(const std::vector<TilePlace>* tiles) {
       wanted_[indexOf(tile.column + corner % 2, tile.row + corner / 2)] = 1;
 }
 
-// The breeze at all wanted nodes, many at a time.
+// Adds the breeze at all wanted nodes, vectorised.
 void NodeWind::blow(const wind::Instant& wind) {
   asked_.clear();
   for (std::size_t i = 0; i < air_.size(); ++i)

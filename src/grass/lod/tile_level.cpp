@@ -11,11 +11,11 @@
 namespace vegetation_sim::grass {
 namespace {
 
-// From where single blades are this many tolerances apart, all are drawn.
+// All blades are drawn if their spacing is at least this many tolerances.
 constexpr double APART = 8.0;
-// Largest distance of an arc of 90 degrees from n chords, times n^2, per length of the arc.
+// Largest distance of a 90 degree arc from n chords, times n^2, per length of the arc.
 constexpr double CHORD_ERROR = PI / 16.0;
-// Elevations between which layers replace strips [rad].
+// Layers replace strips between these elevations [rad].
 constexpr double FLAT_VIEW = 0.5, STEEP_VIEW = 0.9;
 
 }  // namespace

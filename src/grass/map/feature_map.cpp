@@ -13,7 +13,7 @@
 namespace vegetation_sim::grass {
 namespace {
 
-// Visits the layers of a map with their rules, the mix of each species last.
+// Visits the layers of a map with their rules; the mix of each species comes last.
 template <class Input, class Visit>
 void forEachLayer(Input& input, const std::string& context, Visit&& visit) {
   visit(input.height, HEIGHT_RULE, context);
@@ -61,7 +61,7 @@ std::uint64_t hashOf(MapInput& input) {
   return hash.value();
 }
 
-// The first picture sets the number of nodes.
+// Takes the number of nodes from the first image.
 void takeSize(MapInput& input) {
   bool taken = false;
   forEachLayer(input, "", [&](const LayerInput& layer, const LayerRule&, const std::string&) {

@@ -31,7 +31,7 @@ StripPicture makeStripPicture(int columns, int rows, int blades, std::uint64_t s
   StripPicture out{columns, rows, {}};
   out.pixels.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows) * 4, 0);
   const Random random(seed);
-  // From faint to strong, so that a blade that is kept is never cut by one that is not.
+  // Blades are painted from faint to strong, so that no blade hides a stronger one.
   for (int blade = 0; blade < blades; ++blade) {
     const auto k = static_cast<std::uint64_t>(blade) * 4;
     const double x = random.uniform(k, 0.0, columns), top = rows * random.uniform(k + 1, 0.55, 1.0);

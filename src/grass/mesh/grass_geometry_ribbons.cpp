@@ -1,7 +1,7 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// Batched blades as triangles. What a blade looks like is read from where it stands, so that no
-// random number is drawn twice.
+// Batched blades as triangles. The traits of a blade are computed from the position of its root, so
+// that no random number is drawn twice.
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 namespace vegetation_sim::grass {
 namespace {
 
-constexpr int PETALS = 6;  ///< corners of a flower, around its middle
+constexpr int PETALS = 6;  ///< corners of a flower around its middle
 
 struct Float3 {
   float x, y, z;
@@ -30,7 +30,7 @@ Float3 narrow(const Vec3& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
 }
 
-// Unit vector across `along` that turns a ribbon's face to the eye.
+// Returns the unit vector across `along` that turns a ribbon's face to the viewer.
 Float3 sideOf(const Float3& along, const Float3& view) {
   const Float3 c{along.y * view.z - along.z * view.y, along.z * view.x - along.x * view.z,
                  along.x * view.y - along.y * view.x};
@@ -38,7 +38,7 @@ Float3 sideOf(const Float3& along, const Float3& view) {
   return square > 1e-20f ? c * (1.f / std::sqrt(square)) : Float3{1.f, 0.f, 0.f};
 }
 
-// Points of the six that a ribbon of so many segments keeps.
+// Returns which of the six points a ribbon of this many segments keeps.
 std::array<int, POINTS> keptPoints(int segments) {
   switch (segments) {
     case 1:
@@ -52,7 +52,7 @@ std::array<int, POINTS> keptPoints(int segments) {
   }
 }
 
-// Way of a root at (x, y) of its tile to the nearest edge.
+// Returns the vector from a root at (x, y) of its tile to the nearest edge.
 Float3 wayToEdge(float x, float y, float size) {
   const float east = size - x, north = size - y, least = std::min({x, east, y, north});
   if (x == least) return {-x, 0.f, 0.f};
@@ -61,11 +61,11 @@ Float3 wayToEdge(float x, float y, float size) {
 }
 
 std::uint8_t byteOfUnit(float part) {
-  constexpr float HALF = 0.5f;  // rounds; std::lround would call the library
+  constexpr float HALF = 0.5f;  // for rounding, since std::lround would call the library
   return static_cast<std::uint8_t>(255.f * std::min(1.f, std::max(0.f, part)) + HALF);
 }
 
-/// Writes into the room that a mesh has made.
+/// Writes into reserved memory of a mesh.
 struct Writer {
   float* position;
   float* texture;
@@ -164,7 +164,7 @@ class Ribbons {
     const Look& look = looks_[static_cast<std::size_t>(kinds_[static_cast<std::size_t>(blade)])];
     const Float3 root = point(0), tip = point(LINKS);
     const Float3 side = sideOf(tip - root, eye_ - root);
-    // Blades of one colour look like plastic: some are lighter, some drier than the map says.
+    // Lightness and dryness vary, since blades of one colour look like plastic.
     const std::uint32_t dice =
         mix32(static_cast<std::uint32_t>(blade) ^ static_cast<std::uint32_t>(tile_.key >> 32));
     const float chance = static_cast<float>(dice & 0xffff) / 65535.f;
@@ -192,7 +192,7 @@ class Ribbons {
     if (look.flower > 0.f) flower(tip, side, width * look.flower, look, out);
   }
 
-  // Without light: dark at the root, where neighbours keep it away.
+  // Without light a blade is dark at the root, where neighbours shade it.
   Float3 shaded(const Float3& own, const Float3& p, const Float3& root, float way,
                 float facing) const {
     if (!style_.light) return own * (0.45f + 0.55f * way);
@@ -212,7 +212,7 @@ class Ribbons {
             own.z * l.factor[2] + l.shine[2]};
   }
 
-  // A disc that looks half up and half to the eye.
+  // Adds a disc that faces half upwards and half to the viewer.
   void flower(const Float3& tip, const Float3& side, float r, const Look& look, Writer& out) const {
     const Float3 across{side.x * r, side.y * r, side.z * r};
     const Float3 up = Float3{-side.y * 0.5f, side.x * 0.5f, 0.8f} * r;
@@ -220,7 +220,7 @@ class Ribbons {
     const std::uint32_t first = out.next;
     constexpr std::array<std::array<float, 2>, PETALS> CORNERS{
         {{-1.f, 0.f}, {-0.5f, -0.8f}, {0.5f, -0.8f}, {1.f, 0.f}, {0.5f, 0.8f}, {-0.5f, 0.8f}}};
-    // Pale flowers have a yellow heart, others a dark one.
+    // Pale flowers have a yellow centre, others a dark one.
     const bool pale = std::min({look.petal.x, look.petal.y, look.petal.z}) > 0.6f;
     out.vertex(tip, 0.5f, 0.5f, pale ? Float3{0.95f, 0.75f, 0.15f} : light * 0.35f);
     for (const auto& corner : CORNERS)

@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// The drawing of tiles that are too far away for single blades.
+// Strips and layers of tiles that are too far away for single blades.
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@
 namespace vegetation_sim::grass {
 namespace {
 
-// Grass of a tile as one soft sheet: at each place what the middle of a blade would do.
+// The grass of a tile as one continuous sheet: the motion of the middle of a blade at each place.
 class Sheet {
  public:
   Sheet(const FeatureMap& map, const Tile& tile, const TileMotion& motion, double full_density,
@@ -45,7 +45,7 @@ class Sheet {
     return corner_ + Vec3(u * size, v * size, groundHeight(u, v));
   }
 
-  // Of the top of grass `height` high: leaned by wind and tread without growing.
+  // Returns the offset of the top of grass of this height by wind and tread, without stretching.
   Vec3 offsetAt(double u, double v, double height) const {
     const Point bend{bend_x_.at(u, v), bend_y_.at(u, v)};
     double tilt = 0.0, tx = 0.0, ty = 0.0;
@@ -55,7 +55,8 @@ class Sheet {
       tx = double{crush_->tx[i]};
       ty = double{crush_->ty[i]};
     }
-    const double left = 0.5 * (1.0 - tilt / BEND_LIMIT);  // a chord leans half as far as its arc
+    // The chord of an arc leans half as far as its tip.
+    const double left = 0.5 * (1.0 - tilt / BEND_LIMIT);
     const double x = tx + left * bend.x, y = ty + left * bend.y, lean = std::sqrt(x * x + y * y);
     const SineCosine<double> turn = sineCosine(std::min(lean, BEND_LIMIT));
     const double reach = lean > 0.0 ? height * turn.sin / lean : 0.0;
@@ -63,7 +64,7 @@ class Sheet {
   }
 
   double heightAt(double u, double v) const { return height_.at(u, v); }
-  // Colour of grass that leans by `offset` in this light.
+  // Returns the colour of grass that leans by `offset` in this light.
   Vec3 litAt(double u, double v, const Vec3& offset, const GrassLight* light) const {
     Vec3 own = colourAt(u, v);
     if (!light) return own;
@@ -79,7 +80,7 @@ class Sheet {
 
   double coverAt(double u, double v) const { return saturate(density_.at(u, v) / full_density_); }
 
-  // Between those of the corners.
+  // Interpolates the colours of the corners.
   Vec3 colourAt(double u, double v) const {
     return (1.0 - v) * ((1.0 - u) * colours_[0] + u * colours_[1]) +
            v * ((1.0 - u) * colours_[2] + u * colours_[3]);
@@ -89,7 +90,7 @@ class Sheet {
   Vec3 cornerColour(const FeatureMap& map, std::size_t corner) const {
     const int k = static_cast<int>(corner);
     Features f = map.node(tile_.column + k % 2, tile_.row + k / 2);
-    f.colour = double{tile_.colour[corner]};  // masks included
+    f.colour = double{tile_.colour[corner]};  // includes masks
     return meanColour(map, f);
   }
   std::size_t nodeOf(double u, double v) const {
@@ -114,10 +115,10 @@ class Sheet {
   double full_density_;
   Bilinear<double> density_, height_, bend_x_, bend_y_;
   const CrushPatch* crush_;
-  std::array<Vec3, 4> colours_;  ///< of the corners, along x first
+  std::array<Vec3, 4> colours_;  ///< colours of the corners, along x first
 };
 
-// Uprights in a row, each joined to the one before.
+// A row of vertical lines, each joined to the one before.
 class Fence {
  public:
   Fence(GrassMesh& mesh, int rows, int cells)

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-// Vectors without arithmetic operators are left out; their processors take the plain target.
+// Vectors without arithmetic operators are not used; their processors run the plain target.
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "grass/tread/tread_lanes.cpp"
@@ -16,12 +16,13 @@
 #define VEGETATION_SIM_GRASS_TREAD_LANES_ONCE
 namespace vegetation_sim::grass {
 
-/// A node by row and column; one more is the next column.
+/// Packs row and column; adding 1 gives the next column.
 inline std::uint64_t packed(int row, int column) {
   return (static_cast<std::uint64_t>(row) << 32) + static_cast<std::uint64_t>(column);
 }
 
-/// Columns of a band's row that may be within reach. One that is a vector wide is looked at whole.
+/// Returns the columns of a band's row that may be within reach; all of a row that is one vector
+/// wide.
 inline TreadSpan spanIn(const TreadBand& band, const TreadLine& line, const TreadGrid& grid,
                         int row) {
   const TreadSpan all{band.first_column, band.first_column + band.pitch - 1};
@@ -39,11 +40,11 @@ namespace {
 
 #if HWY_TARGET == HWY_SCALAR
 
-// Node by node: what vectors are held to, and what runs where there are none.
+// Plain version of the row, which the vectorised one equals, and which runs without vectors.
 void measureRow(const TreadLine& line, const TreadGrid& grid, const TreadBand& band, int row,
                 TreadPresses& out) {
   const TreadSpan span = spanIn(band, line, grid, row);
-  const TreadLine own = line;  // what is written cannot change it
+  const TreadLine own = line;  // a copy, which writes cannot change
   const TreadRow beside(own.field.parts(), grid, row);
   const double reach = own.field.parts().square_reach;
   double* const doses = band.dosesOf(row) - band.first_column;
@@ -84,7 +85,7 @@ HWY_INLINE Lanes all(double value) {
   return hn::Set(Tag(), value);
 }
 
-// Where nodes are beside the segment.
+// Positions of nodes relative to the segment.
 struct LanesPlace {
   Lanes start, end, side, square;
 };
@@ -121,7 +122,7 @@ HWY_INLINE Lanes fieldAt(const CompactField::Parts& field, const LanesPlace& pla
   return hn::IfThenElse(hi > lo, sum, none);
 }
 
-// Of the print of a foot, which crushes even where it stands.
+// Returns the tilt of a foot print, which crushes even without motion.
 HWY_INLINE Lanes printOf(const TreadLine& line, Lanes square) {
   const Lanes none = hn::Zero(Tag()), one = all(1.0);
   const Lanes outside = (square - all(line.square_radius)) * all(line.per_print);
@@ -129,7 +130,7 @@ HWY_INLINE Lanes printOf(const TreadLine& line, Lanes square) {
   return one - u * u * (all(3.0) - all(2.0) * u);
 }
 
-// Of the dose within this pass, or of the print.
+// Returns the tilt by the dose of this pass or by the print.
 HWY_INLINE Lanes tiltOf(const TreadLine& line, Lanes dose, Lanes square) {
   Lanes part = dose * all(line.per_full);
   const auto printed = hn::And(dose < all(line.enough), square < all(line.square_print));
@@ -138,7 +139,7 @@ HWY_INLINE Lanes tiltOf(const TreadLine& line, Lanes dose, Lanes square) {
   return all(BEND_LIMIT) * hn::Min(all(1.0), all(line.load) * part);
 }
 
-// Appends those that are pressed; in a whole vector nothing foretells which.
+// Appends the pressed nodes with masks, since branches on them would be mispredicted.
 HWY_INLINE void append(Mask pressed, std::uint64_t place, Lanes tilt, TreadPresses& out) {
   const Tag tag;
   HWY_ALIGN double tilts[TreadBand::PITCH];
@@ -176,7 +177,7 @@ void measureRow(const TreadLine& line, const TreadGrid& grid, const TreadBand& b
       continue;
     }
     Lanes dose = hn::LoadU(tag, doses + i);
-    // No dose crushes more than fully.
+    // A dose above `enough` does not increase the tilt.
     const auto grows = hn::And(dose < all(line.enough), touched);
     if (!hn::AllFalse(tag, grows)) dose = hn::IfThenElse(grows, dose + fieldAt(field, place), dose);
     const auto ends = place.end * place.end + place.side * place.side < reach;
@@ -218,14 +219,14 @@ TreadLine::TreadLine(const CompactField& segment, const TreadLaw& law, double fu
   const Point p0 = f.p0, p1{p0.x + f.length * f.along.x, p0.y + f.length * f.along.y};
   low = {std::min(p0.x, p1.x), std::min(p0.y, p1.y)};
   high = {std::max(p0.x, p1.x), std::max(p0.y, p1.y)};
-  constexpr double FLAT = 1e-3;  // lies in its row
+  constexpr double FLAT = 1e-3;  // a segment this flat lies in its row
   const bool is_steep = std::fabs(f.along.y) > FLAT;
   slant = is_steep ? f.along.x / f.along.y : 0.0;
   widening = is_steep ? std::sqrt(f.square_reach) / std::fabs(f.along.y) : 1e9;
 }
 
 TreadSpan TreadLine::spanOf(const TreadGrid& grid, int row) const {
-  constexpr double HAIR = 1e-9;  // whatever rounding does
+  constexpr double HAIR = 1e-9;  // margin for rounding
   const double y = grid.y(row);
   const double over = std::max(0.0, std::max(low.y - y, y - high.y));
   const double half = std::sqrt(std::max(0.0, field.parts().square_reach - over * over)) + HAIR;
@@ -238,7 +239,7 @@ TreadSpan TreadLine::spanOf(const TreadGrid& grid, int row) const {
 
 void measureBand(const TreadLine& line, const TreadGrid& grid, const TreadBand& band,
                  TreadPresses& out) {
-  // A vector more, since whole ones are written.
+  // There is room for one more vector, since whole ones are written.
   const std::size_t room = static_cast<std::size_t>(band.rows) * band.pitch + TreadBand::PITCH;
   if (out.places.size() < room) {
     out.places.resize(room);

@@ -13,7 +13,7 @@ namespace vegetation_sim::grass {
 namespace {
 
 constexpr int SIDE = TreadBlock::SIDE;
-constexpr int MAX_CELLS = 512;  // along a tile
+constexpr int MAX_CELLS = 512;  // fine cells along a tile
 constexpr std::size_t BLOCK_BYTES = sizeof(TreadBlock) + 64;
 
 int blockOf(int node) {
@@ -76,8 +76,8 @@ std::size_t TreadMap::bytes() const {
   return sum;
 }
 
-// Most strokes fall on the blocks of the ones before: a table in front of the tree. Null if it is
-// not there and is not wanted or finds no memory.
+// Looks up a block in a table first, since most strokes press the blocks of the ones before.
+// Returns null if it does not exist and is not wanted, or finds no memory.
 TreadBlock* TreadMap::blockAt(int row, int column, bool make) {
   RecentBlock& recent = recent_blocks_.at(row, column);
   if (!recent.is_known) {
@@ -91,7 +91,7 @@ TreadBlock* TreadMap::blockAt(int row, int column, bool make) {
   return recent.block;
 }
 
-// Null if it is not on the ground.
+// Returns null if the source is not on the ground.
 TreadSource* TreadMap::sourceOf(std::uint32_t id) {
   RecentSource& known = recent_sources_.at(id);
   if (known.source) return known.source;
@@ -139,7 +139,7 @@ int TreadMap::tread(std::uint32_t id, const TreadLaw& law, const Point& position
   return touched;
 }
 
-// The last one's, where many sources tread alike.
+// Caches the result, since many sources have the same law.
 double TreadMap::fullDose(const TreadLaw& law) {
   if (law.radius != last_law_.radius || law.reach != last_law_.reach ||
       law.softness != last_law_.softness || !(last_full_ > 0.0)) {
@@ -149,11 +149,11 @@ double TreadMap::fullDose(const TreadLaw& law) {
   return last_full_;
 }
 
-// Puts the window around the source. If it is another one than before, that is in `before_`.
+// Puts the window around the source. If it has moved, the last one is in `before_`.
 bool TreadMap::moveWindow(TreadSource& source, double reach) {
   const int first_column = nodeBelow(source.position.x - reach, law_.origin_x, per_spacing_);
   const int first_row = nodeBelow(source.position.y - reach, law_.origin_y, per_spacing_);
-  const int rows = floorOf(2.0 * reach * per_spacing_) + 3;  // one more, whatever rounding does
+  const int rows = floorOf(2.0 * reach * per_spacing_) + 3;  // one row more, for rounding
   const int columns = wholeVectors(rows);
   if (source.first_column == first_column && source.first_row == first_row &&
       source.columns == columns && source.rows == rows)
@@ -182,7 +182,7 @@ TreadMap::Box TreadMap::boxOf(const Point& low, const Point& high, double reach)
           std::min((law_.rows - 1) * cells_, row(high.y + reach) + 1)};
 }
 
-// A short step: all happens within the window, in place.
+// Presses a short step, which stays within the window.
 int TreadMap::pressWindow(TreadStroke& stroke) {
   TreadSource& s = stroke.after;
   const int first = std::max(0, s.first_row);
@@ -192,10 +192,10 @@ int TreadMap::pressWindow(TreadStroke& stroke) {
                             s.doses.data() + (first - s.first_row) * s.columns});
 }
 
-// From window to window, some rows at a time: doses come from the one and stay in the other; what
-// the source leaves behind begins a new pass when it comes back.
+// Presses a longer step, some rows at a time: doses are copied from the old window to the new one.
+// Doses outside of the new window are lost, so a source that comes back begins a new pass.
 int TreadMap::pressBands(TreadStroke& stroke) {
-  constexpr int WANTED = 1024;  // nodes at a time
+  constexpr int WANTED = 1024;  // wanted nodes of a band
   const Box box = boxOf(stroke.line.low, stroke.line.high, stroke.law.reach);
   if (box.first_column > box.last_column || box.first_row > box.last_row) return 0;
   const int pitch = wholeVectors(box.last_column - box.first_column + 1);
@@ -234,7 +234,7 @@ int TreadMap::pressBand(TreadStroke& stroke, const TreadBand& band) {
   return presses_.touched;
 }
 
-// Each source treads elsewhere: ask for its nodes at once, not one after the other.
+// Prefetches the nodes, since each source treads at another place.
 void TreadMap::prefetch(const TreadBand& band) {
   const int last_row = band.first_row + band.rows - 1,
             first_column = std::max(0, band.first_column);

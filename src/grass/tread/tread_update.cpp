@@ -14,7 +14,8 @@ namespace {
 
 constexpr int SIDE = TreadBlock::SIDE;
 
-// Presses that were told, by number. Neighbours were mostly pressed together.
+// Numbers the presses of a delta. The last one is cached, since neighbours were mostly pressed
+// together.
 class Presses {
  public:
   explicit Presses(std::vector<Press>& list) : list_(list) {}

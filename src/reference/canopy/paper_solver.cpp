@@ -18,8 +18,8 @@ void PaperSolver::reset() {
   std::fill(pressure_.begin(), pressure_.end(), 0.0);
 }
 
-// Sweeps over (1 + 4 weight) x - weight * (sum of the four neighbours) = right.
-// With `weight` infinite, marked by 0: 4 x - sum = right.
+// Solves (1 + 4 weight) x - weight * (sum of the four neighbours) = right by sweeps. A weight of 0
+// stands for infinity: 4 x - sum = right.
 void PaperSolver::relax(std::vector<double>& x, const std::vector<double>& right,
                         double weight) const {
   const double share = weight > 0.0 ? weight : 1.0;

@@ -13,7 +13,7 @@ struct Plane {
   T x, y;
 };
 
-// Bend at rest plus that of the wind, bounded together (S2-W4, E16); its size and direction.
+// Size and direction of the sum of the bends at rest and by wind, which is bounded (S2-W4, E16).
 template <class T>
 struct Bend {
   T size;
@@ -50,7 +50,7 @@ Bend<T> bendOf(const Tile& tile, const TilePlan<T>& plan, const BladeRoot<T>& ro
   return bend;
 }
 
-// Place of (u, v) in a grid of cells.
+// Position of (u, v) in a grid of cells.
 template <class T>
 struct CellPlace {
   CellPlace(T u, T v, int cells) : side(cells + 1) {
@@ -77,7 +77,7 @@ struct Bent {
   Plane<T> direction;
 };
 
-// The more a blade is crushed, the more it is hinge and the less arc.
+// Adds the crush. The more a blade is crushed, the more of its bend is in the hinge.
 template <class T>
 Bent<T> trodden(const Bend<T>& bend, const CrushPatch& crush, T u, T v) {
   const CellPlace<T> place(u, v, crush.cells);
@@ -92,7 +92,7 @@ Bent<T> trodden(const Bend<T>& bend, const CrushPatch& crush, T u, T v) {
   return {hinge, both.size - hinge, both.direction};
 }
 
-// Ground under a blade: height of its root, slope along x and y.
+// Ground under a blade: height of its root and slope along x and y.
 template <class T>
 struct Ground {
   T z{0}, slope_x{0}, slope_y{0};
@@ -110,7 +110,8 @@ Ground<T> groundAt(const Tile& tile, T u, T v) {
   return {c.at(tile.ground), east * per_metre, north * per_metre};
 }
 
-// Reach along the ground, rise straight away from it, so a slope never cuts a blade.
+// Places the points: reach goes along the ground and rise perpendicular to it, so that no slope
+// cuts a blade.
 template <class T, class Put>
 void place(const Tile& tile, const BladeRoot<T>& root, const Bent<T>& bent,
            const Profile<T>& profile, Put&& put) {

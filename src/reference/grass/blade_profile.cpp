@@ -10,8 +10,8 @@
 namespace vegetation_sim::grass {
 namespace {
 
-// Links of equal length; link i is tilted by hinge + arc (i + 1/2) / LINKS. Sines of equal steps
-// follow from the two before: sin(a + d) = 2 cos(d) sin(a) - sin(a - d).
+// Links have equal length; link i is tilted by hinge + arc (i + 1/2) / LINKS. The sines of equal
+// steps follow from the two before: sin(a + d) = 2 cos(d) sin(a) - sin(a - d).
 template <class T>
 Profile<T> arcProfile(T length, T hinge, T arc) {
   const SineCosine<T> root = sineCosine(hinge);
@@ -34,7 +34,7 @@ Profile<T> arcProfile(T length, T hinge, T arc) {
   return out;
 }
 
-// With its end tangent the curve is s^2 tip + (s - s^2) up.
+// With the end tangent of the paper the curve is s^2 tip + (s - s^2) up.
 template <class T>
 Profile<T> paperProfile(T length, T hinge, T arc) {
   const T x = length * sineCosine(hinge + T(0.5) * arc).sin;

@@ -17,7 +17,7 @@ void BoxTree::build(const std::vector<Box>& items) {
   refit(items);
 }
 
-// Depth first, so that a node comes before all that it holds.
+// Nodes are in depth-first order, so that a node precedes its children.
 int BoxTree::buildNode(const std::vector<Box>& items, int first, int count) {
   const int index = static_cast<int>(nodes_.size());
   nodes_.emplace_back();

@@ -8,9 +8,9 @@
 namespace vegetation_sim::scan {
 namespace {
 
-constexpr double ALONG = 1e-9;  // squared sine: such a ray meets an end of a rod, not its side
+constexpr double ALONG = 1e-9;  // squared sine below which a ray can only meet an end of a rod
 
-// A ray's line through a ball; empty if it misses.
+// Returns the interval of a ray's line in a ball; empty if it misses.
 Stretch through(const Ray& ray, const Vec3& centre, double radius) {
   const Vec3 offset = ray.origin - centre;
   const double b = dot(offset, ray.direction);
@@ -32,7 +32,7 @@ void meetBall(const Ray& ray, const Vec3& centre, double radius, Meeting& out) {
     improve(part.from, (ray.at(part.from) - centre) / radius, ray, out);
 }
 
-// A ray's line through an endless cylinder around the axis, cut off at both ends.
+// Returns the interval of a ray's line in a cylinder around the axis, cut off at both ends.
 Stretch throughCylinder(const Ray& ray, const Rod& rod, double radius) {
   const Vec3 offset = ray.origin - rod.base;
   const double da = dot(ray.direction, rod.axis), oa = dot(offset, rod.axis);
@@ -67,7 +67,8 @@ Box boxOf(const Rod& rod) {
   return out;
 }
 
-// Points y along the axis of a cone with radius r(y) = r0 + k y: |x|^2 - y^2 = r(y)^2.
+// For a point at height y along the axis of a cone with radius r(y) = r0 + k y: |x|^2 - y^2 =
+// r(y)^2.
 bool meet(const Ray& ray, const Rod& rod, double reach, Meeting& out) {
   const Vec3 offset = ray.origin - rod.base;
   const double slope = rod.length > 0.0 ? (rod.tip_radius - rod.base_radius) / rod.length : 0.0;
@@ -78,9 +79,9 @@ bool meet(const Ray& ray, const Rod& rod, double reach, Meeting& out) {
   const double c = dot(offset, offset) - oa * oa * more - 2.0 * slope * r0 * oa - r0 * r0;
   const double square = b * b - a * c;
   out.distance = reach;
-  if (a > ALONG && !(square >= 0.0)) return false;  // balls stand out by slope^2 of their size
+  if (a > ALONG && !(square >= 0.0)) return false;  // the balls protrude by slope^2 of their size
   if (square >= 0.0) {
-    // Where the ray comes in, also if it is steeper than the side and never goes out of it.
+    // This is the entry also if the ray is steeper than the side and never leaves the cone.
     const double distance = c / (std::sqrt(square) - b), along = oa + distance * da;
     if (along >= 0.0 && along <= rod.length) {
       const Vec3 across = ray.at(distance) - rod.base - along * rod.axis;
