@@ -79,7 +79,7 @@ void benchGrab() {
 // Measures from the request to the end of the first step: grown, weighed, all of it physical.
 void benchPromotion(int rounds) {
   PhysicsSettings settings;
-  settings.promotion = static_cast<int>(Promotion::DEPTH);
+  settings.promotion = Promotion::DEPTH;
   PhysicsRig rig(settings);
   const Layout layout = richLayout(1, 12.0, 1000);
   rig.forest.setLayout(layout, flatTerrain());

@@ -77,7 +77,7 @@ class Ladders {
   }
   static PhysicsSettings byDepth() {
     PhysicsSettings out;
-    out.promotion = static_cast<int>(Promotion::DEPTH);
+    out.promotion = Promotion::DEPTH;
     return out;
   }
 

@@ -101,7 +101,7 @@ void poseBranches(const Options& options, Table& table) {
 // `trees` of its trees.
 void stepPhysical(const Options& options, Table& table) {
   forest::PhysicsSettings settings;
-  settings.promotion = static_cast<int>(forest::Promotion::DEPTH);
+  settings.promotion = forest::Promotion::DEPTH;
   settings.most_branches = 1000000;
   for (int side = 1; side <= most(options, 2, 8, 16); side *= 2)
     for (int depth = side == 1 ? 0 : 3; depth < 4; ++depth) {

@@ -6,7 +6,7 @@
 
 #include "tree/mesh/geometry_level.h"
 #include "tree/mesh/skin.h"
-#include "tree/motion/narrow_poses.h"
+#include "vegetation_sim/tree/motion/batch_poser.h"
 
 namespace vegetation_sim::scenes {
 namespace {
@@ -71,13 +71,13 @@ void ForestPart::addTo(Hashes& hashes) {
 
 void ForestPart::poseAsDrawn(std::uint32_t id, const wind::Instant& wind, Nanoseconds stamp,
                              forest::BatchPoses& out) const {
-  const auto* modes = replica_.sway(id);
+  const auto* modes = replica_.modalState(id);
   const forest::Weights weights = replica_.weights(id, stamp);
   const bool physical = !replica_.promoted(id).branches.empty();
   if (!physical && modes && forest::modalWeight(weights) >= 1.0)
     modes->pose(posers_[id], stamp, out);
   else if (physical || modes)
-    forest::narrow(replica_.pose(trees_[id], id, stamp), out);
+    forest::narrowPoses(replica_.pose(trees_[id], id, stamp), out);
   else
     posers_[id].pose(wind.relativeTo(trees_[id].foot), weights, forest::MAX_DEPTHS, out);
 }

@@ -49,7 +49,7 @@ struct Clearing {
     std::vector<JointAngles> out =
         modalAngles(tree, forest.snapshot().wind.at(stamp).relativeTo(tree.foot),
                     weightsAt(forest.snapshot().levels.of(id), stamp, forest.layout().motion),
-                    forest.sway(id), stamp);
+                    forest.modalState(id), stamp);
     overlay(forest.promoted(id), stamp, out);
     return out;
   }

@@ -9,7 +9,7 @@
 #include "dynamics/integration/integrator.h"
 #include "scenes/forest/forest_fixture.h"
 #include "tree/growth/wood.h"
-#include "vegetation_sim/tree/modal/modal_state.h"
+#include "vegetation_sim/tree/modal/modal_tree_state.h"
 
 // One tree in a wind, on every tier; shared by tests and bench.
 
@@ -67,17 +67,17 @@ class Swaying {
   }
   /// `turning`: levers turn as the tree bends.
   Off modal(double skip, ModalDepth depth = {}, bool turning = true) const {
-    ModalTreeState sway(std::make_shared<const ModalTree>(tree_, species_, depth));
+    ModalTreeState modal_state(std::make_shared<const ModalTree>(tree_, species_, depth));
     std::vector<ModalLoad> loads(2);
-    sway.loadOf(field_.at(MODAL_START), loads[0]);
-    sway.restore(sway.state(), loads[0], MODAL_START);
+    modal_state.loadOf(field_.at(MODAL_START), loads[0]);
+    modal_state.restore(modal_state.state(), loads[0], MODAL_START);
     return error(skip, [&](int frame) {
-      sway.loadOf(field_.at(stampOf(frame)), loads[1]);
+      modal_state.loadOf(field_.at(stampOf(frame)), loads[1]);
       if (!turning)
         for (ModalLoad& load : loads) load.air.setZero();
-      sway.step(loads, stampOf(frame));
+      modal_state.step(loads, stampOf(frame));
       loads[0] = loads[1];
-      return sway.modes().bendsOf(sway.state().amplitude);
+      return modal_state.modes().bendsOf(modal_state.state().amplitude);
     });
   }
 

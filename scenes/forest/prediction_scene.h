@@ -26,7 +26,7 @@ class Prediction {
     eye_.id = "eye";
     eye_.eye = eye;
     PhysicsSettings whole;
-    whole.promotion = static_cast<int>(Promotion::DEPTH);
+    whole.promotion = Promotion::DEPTH;
     whole.most_branches = 1000000;
     exact_.setPhysics(whole);
     for (Forest* forest : {&chosen_, &exact_}) forest->setWind(wind);

@@ -32,7 +32,7 @@ void describe(FieldVisitor& v, Settings& s) {
 
 Forest::Forest(Layout layout, std::shared_ptr<const terrain::HeightMap> terrain,
                Settings settings) {
-  memory_.settings = settings;
+  snapshot_.settings = settings;
   setLayout(std::move(layout), std::move(terrain));
 }
 
@@ -43,28 +43,28 @@ void Forest::setLayout(Layout layout, std::shared_ptr<const terrain::HeightMap> 
   faults.throwIfAny();
   const bool same_trees = layout.treeCount() == layout_.treeCount();
   // What is on its way goes on from where it is, at the new layout's pace.
-  memory_.levels.anchor(memory_.stamp, layout_.motion.transition);
+  snapshot_.levels.anchor(snapshot_.stamp, layout_.motion.transition);
   layout_ = std::move(layout);
   layout_hash_ = layout_.hash();
   terrain_ = std::move(terrain);
   measure();
-  memory_.modes.clear();  // their wood may be another
+  snapshot_.modes.clear();  // their wood may be another
   if (!same_trees)
     reset();
   else
-    memory_.physics.clear();
+    snapshot_.physics.clear();
 }
 
 void Forest::reset() {
-  memory_.viewers.clear();
-  const int level = std::min(memory_.settings.fixed_level, memory_.settings.highest_level);
-  memory_.levels.reset(LevelState::settled(level));
-  memory_.stamp = 0;
-  memory_.modes.clear();
-  memory_.physics.clear();
-  memory_.changed.clear();
-  memory_.begun.clear();
-  memory_.sequence = 0;
+  snapshot_.viewers.clear();
+  const int level = std::min(snapshot_.settings.fixed_level, snapshot_.settings.highest_level);
+  snapshot_.levels.reset(LevelState::settled(level));
+  snapshot_.stamp = 0;
+  snapshot_.modes.clear();
+  snapshot_.physics.clear();
+  snapshot_.changed.clear();
+  snapshot_.begun.clear();
+  snapshot_.sequence = 0;
 }
 
 void Forest::measureSpecies(std::size_t species, double scale) {
@@ -75,7 +75,7 @@ void Forest::measureSpecies(std::size_t species, double scale) {
   slowest_reference_ = std::min(slowest_reference_, layout_.species[species].reference_speed);
 }
 
-void Forest::eachSize(const std::function<void(std::size_t, double)>& look) const {
+void Forest::forEachSize(const std::function<void(std::size_t, double)>& look) const {
   for (const TreeSeed& seed : layout_.trees) look(seed.species, seed.scale);
   for (std::size_t species = 0; species < tables_.size() && !layout_.tiles.empty(); ++species)
     for (const double scale : {SMALLEST_TILED_SCALE, 1.0, LARGEST_TILED_SCALE})
@@ -83,7 +83,7 @@ void Forest::eachSize(const std::function<void(std::size_t, double)>& look) cons
 }
 
 void Forest::precompute() {
-  eachSize([this](std::size_t species, double scale) {
+  forEachSize([this](std::size_t species, double scale) {
     tables_[species].responseErrorAt(layout_.species[species], layout_.motion, scale, {});
   });
 }
@@ -92,7 +92,7 @@ void Forest::measure() {
   tables_.assign(layout_.species.size(), LevelScales());
   extent_ = largest_omission_ = 0.0;
   slowest_reference_ = 1e9;
-  eachSize([this](std::size_t species, double scale) { measureSpecies(species, scale); });
+  forEachSize([this](std::size_t species, double scale) { measureSpecies(species, scale); });
   const terrain::Bounds bounds = terrain_->bounds();
   const double relief = bounds.max_z - bounds.min_z;
   regions_.clear();
@@ -106,100 +106,100 @@ void Forest::measure() {
 }
 
 StepContext Forest::stepContext() const {
-  return {layout_,        layout_hash_,  *terrain_,  memory_.wind,
-          memory_.levels, memory_.modes, *contacts_, memory_.stamp};
+  return {layout_,          layout_hash_,    *terrain_,  snapshot_.wind,
+          snapshot_.levels, snapshot_.modes, *contacts_, snapshot_.stamp};
 }
 
 // Before the levels are chosen anew: those that hold now did so since the last tick.
 void Forest::advancePhysics(Nanoseconds stamp) {
-  for (const std::uint32_t tree : physicalTrees()) memory_.changed.insert(tree);
-  memory_.modes.advance(memory_.wind, memory_.stamp, stamp);
-  memory_.physics.advance(stepContext(), stamp);
+  for (const std::uint32_t tree : physicalTrees()) snapshot_.changed.insert(tree);
+  snapshot_.modes.advance(snapshot_.wind, snapshot_.stamp, stamp);
+  snapshot_.physics.advance(stepContext(), stamp);
 }
 
 std::uint32_t Forest::addGrab(const Grab& grab) {
-  return memory_.physics.addGrab(stepContext(), grab);
+  return snapshot_.physics.addGrab(stepContext(), grab);
 }
 void Forest::moveGrab(std::uint32_t id, const Vec3& target) {
-  memory_.physics.moveGrab(id, target);
+  snapshot_.physics.moveGrab(id, target);
 }
 void Forest::renewGrab(std::uint32_t id) {
-  memory_.physics.renewGrab(id);
+  snapshot_.physics.renewGrab(id);
 }
 void Forest::release(std::uint32_t id) {
-  memory_.physics.release(id);
+  snapshot_.physics.release(id);
 }
 void Forest::push(const Push& push) {
-  memory_.physics.push(stepContext(), push);
+  snapshot_.physics.push(stepContext(), push);
 }
 void Forest::setBody(const Body& body) {
-  memory_.physics.setBody(body);
+  snapshot_.physics.setBody(body);
 }
 void Forest::removeBody(const std::string& id) {
-  memory_.physics.removeBody(id);
+  snapshot_.physics.removeBody(id);
 }
 void Forest::setPhysics(const PhysicsSettings& settings) {
-  memory_.physics.setSettings(settings, memory_.stamp);
+  snapshot_.physics.setSettings(settings, snapshot_.stamp);
 }
 
 PhysicsFigures Forest::physicsFigures() const {
-  PhysicsFigures out = memory_.physics.figures();
+  PhysicsFigures out = snapshot_.physics.figures();
   out.bytes += contacts_->bytes();
   return out;
 }
 
 PromotedTree Forest::promoted(std::uint32_t tree) const {
-  return memory_.physics.promoted(tree, memory_.stamp);
+  return snapshot_.physics.promoted(tree, snapshot_.stamp);
 }
 
 std::vector<std::uint32_t> Forest::physicalTrees() const {
   std::vector<std::uint32_t> out;
-  for (const auto& [tree, subtree] : memory_.physics.subtrees())
+  for (const auto& [tree, subtree] : snapshot_.physics.subtrees())
     if (!subtree.empty()) out.push_back(tree);
   return out;
 }
 
 std::vector<Pose> Forest::pose(const Tree& tree, std::uint32_t id, Nanoseconds stamp) const {
-  return memory_.physics.pose(stepContext(), tree, id, stamp);
+  return snapshot_.physics.pose(stepContext(), tree, id, stamp);
 }
 
 std::uint64_t Forest::hash() const {
   Hash out;
   out.add(layout_hash_);
-  out.add(memory_.wind.hash());
-  Settings settings = memory_.settings;
+  out.add(snapshot_.wind.hash());
+  Settings settings = snapshot_.settings;
   FieldHasher hasher(out);
   describe(hasher, settings);
-  for (const auto& entry : memory_.viewers) addTo(out, entry.second);
-  memory_.levels.addTo(out, memory_.stamp, layout_.motion.transition);
-  memory_.modes.addTo(out);
-  memory_.physics.addTo(out);
+  for (const auto& entry : snapshot_.viewers) addTo(out, entry.second);
+  snapshot_.levels.addTo(out, snapshot_.stamp, layout_.motion.transition);
+  snapshot_.modes.addTo(out);
+  snapshot_.physics.addTo(out);
   return out.value();
 }
 
 StateUpdate Forest::update(bool key_frame) {
   StateUpdate out;
-  out.stamp = memory_.stamp;
-  out.sequence = memory_.sequence++;
+  out.stamp = snapshot_.stamp;
+  out.sequence = snapshot_.sequence++;
   out.key_frame = key_frame;
-  out.base = memory_.levels.base();
+  out.base = snapshot_.levels.base();
   out.layout_hash = layout_hash_;
-  out.wind_hash = memory_.wind.hash();
+  out.wind_hash = snapshot_.wind.hash();
   out.hash = hash();
-  out.blend = memory_.physics.settings().blend;
+  out.blend = snapshot_.physics.settings().blend;
   std::set<std::uint32_t> published;
   if (key_frame)
-    for (const auto& entry : memory_.levels.held()) published.insert(entry.first);
+    for (const auto& entry : snapshot_.levels.held()) published.insert(entry.first);
   else
-    published = memory_.changed;
+    published = snapshot_.changed;
   for (const std::uint32_t tree : physicalTrees()) published.insert(tree);
   for (const std::uint32_t tree : published) {
-    const bool amplitudes = sway(tree) && (key_frame || memory_.begun.count(tree));
-    out.trees.push_back({tree, memory_.levels.of(tree), promoted(tree).branches,
-                         amplitudes ? sway(tree)->state() : physics::ModalState()});
+    const bool amplitudes = modalState(tree) && (key_frame || snapshot_.begun.count(tree));
+    out.trees.push_back({tree, snapshot_.levels.of(tree), promoted(tree).branches,
+                         amplitudes ? modalState(tree)->state() : physics::ModalState()});
   }
-  memory_.changed.clear();
-  memory_.begun.clear();
+  snapshot_.changed.clear();
+  snapshot_.begun.clear();
   return out;
 }
 

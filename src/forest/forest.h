@@ -54,14 +54,14 @@ class Forest {
   const Layout& layout() const { return layout_; }
   std::uint64_t layoutHash() const { return layout_hash_; }
   const terrain::HeightMap& terrain() const { return *terrain_; }
-  const ForestSnapshot& snapshot() const { return memory_; }
+  const ForestSnapshot& snapshot() const { return snapshot_; }
 
-  void setWind(const wind::Field& wind) { memory_.wind = wind; }
-  void setViewer(const Viewer& viewer) { memory_.viewers[viewer.id] = viewer; }
-  void setSettings(const Settings& settings) { memory_.settings = settings; }
+  void setWind(const wind::Field& wind) { snapshot_.wind = wind; }
+  void setViewer(const Viewer& viewer) { snapshot_.viewers[viewer.id] = viewer; }
+  void setSettings(const Settings& settings) { snapshot_.settings = settings; }
   /// Other trees, same ids: levels start anew where the number of trees changed.
   void setLayout(Layout layout, std::shared_ptr<const terrain::HeightMap> terrain);
-  void restore(ForestSnapshot memory) { memory_ = std::move(memory); }
+  void restore(ForestSnapshot memory) { snapshot_ = std::move(memory); }
   /// Computes now how the species lag, some 30 ms for each of a few sizes, not at the tick at which
   /// an eye first meets one.
   void precompute();
@@ -89,20 +89,20 @@ class Forest {
     contacts_ = std::move(finder);
   }
 
-  const PhysicsSettings& physicsSettings() const { return memory_.physics.settings(); }
-  const HeldGrabs& grabs() const { return memory_.physics.grabs(); }
-  const Bodies& bodies() const { return memory_.physics.bodies(); }
+  const PhysicsSettings& physicsSettings() const { return snapshot_.physics.settings(); }
+  const HeldGrabs& grabs() const { return snapshot_.physics.grabs(); }
+  const Bodies& bodies() const { return snapshot_.physics.bodies(); }
   /// Grabs that ended by themselves at the last tick: their lease ran out.
-  const std::vector<Grab>& ended() const { return memory_.physics.ended(); }
+  const std::vector<Grab>& ended() const { return snapshot_.physics.ended(); }
   /// On the bodies that hold or touch branches, at the end of the last tick.
-  const std::vector<Reaction>& reactions() const { return memory_.physics.reactions(); }
+  const std::vector<Reaction>& reactions() const { return snapshot_.physics.reactions(); }
   PhysicsFigures physicsFigures() const;
   /// Physical joints of a tree at the last tick; none: `branches` is empty.
   PromotedTree promoted(std::uint32_t tree) const;
   /// Trees that have physical joints, rising.
   std::vector<std::uint32_t> physicalTrees() const;
-  /// Nullptr: the tree does not sway in modes.
-  const ModalTreeState* sway(std::uint32_t tree) const { return memory_.modes.find(tree); }
+  /// Nullptr: the tree does not modal_state in modes.
+  const ModalTreeState* modalState(std::uint32_t tree) const { return snapshot_.modes.find(tree); }
   /// What the governor chose at the last tick.
   const GovernorFigures& governor() const { return governor_; }
   /// The trees that it chose for, with what it predicts of them; none where there are very many.
@@ -125,22 +125,22 @@ class Forest {
   StepContext stepContext() const;
   void advancePhysics(Nanoseconds stamp);
   /// Of all trees; of tiles, whose trees are drawn later, all that may come.
-  void eachSize(const std::function<void(std::size_t species, double scale)>& look) const;
+  void forEachSize(const std::function<void(std::size_t species, double scale)>& look) const;
   void measure();
   void measureSpecies(std::size_t species, double scale);
   double bendingSpeed(double speed, double reference_speed) const;
-  double viewOf(const Vec3& centre, double reach) const;
+  double pixelsPerMetreAt(const Vec3& centre, double reach) const;
   void chooseLevels();
   void chooseRegion(const Region& region);
   void chooseTree(std::uint32_t tree);
   void predict(const TreeSeed& seed, const LevelTable& table, double view, Plant& plant);
-  void wantModes(const PredictedError& off, Plant& plant) const;
+  void requestModes(const PredictedError& off, Plant& plant) const;
   PredictedError responseErrorOf(const TreeSeed& seed, const wind::GustSpectrum& spectrum,
                                  double bending, double pixels);
   bool haveModes() const;
-  void applyDelta();
-  void beginModes();
-  void aim(std::uint32_t tree, int level);
+  void applyTiers();
+  void startModes();
+  void setTreeLevel(std::uint32_t tree, int level);
 
   Layout layout_;
   std::uint64_t layout_hash_{0};
@@ -151,7 +151,7 @@ class Forest {
   double slowest_reference_{1.0};    // reference speed of any species [m/s]
   std::vector<Region> regions_;
   std::shared_ptr<const ContactFinder> contacts_{std::make_shared<ContactFinder>()};
-  ForestSnapshot memory_;
+  ForestSnapshot snapshot_;
   wind::Instant now_;
   wind::GustSpectrumField swinging_;  // now
   bool fine_due_{false};              // a tree may get fine modes at this tick

@@ -22,7 +22,7 @@ constexpr double BETTER = 0.9;
 constexpr std::size_t MANY_PLANTS = 20000;
 
 // Of errors of two kinds that come together.
-double both(double a, double b) {
+double combine(double a, double b) {
   return std::sqrt(a * a + b * b);
 }
 
@@ -30,22 +30,22 @@ double both(double a, double b) {
 
 // Speed that a bend is proportional to.
 double Forest::bendingSpeed(double speed, double reference_speed) const {
-  const bool linear = static_cast<Drag>(layout_.motion.drag) == Drag::LINEAR;
+  const bool linear = layout_.motion.drag == Drag::LINEAR;
   return linear ? speed : speed * speed / reference_speed;
 }
 
 // Pixels per metre of table of the eye that sees a disc best: the finest wins. A robot near by sees
 // its tolerance in metres as an eye sees its own in pixels.
-double Forest::viewOf(const Vec3& centre, double reach) const {
+double Forest::pixelsPerMetreAt(const Vec3& centre, double reach) const {
   double out = 0.0;
-  for (const auto& entry : memory_.viewers) {
+  for (const auto& entry : snapshot_.viewers) {
     const Viewpoint& eye = entry.second.eye;
     if (!sees(eye, centre, 2.0 * reach)) continue;  // twice: the whole tree, and a margin
     const double distance = length(eye.position - centre) - reach;
     out = std::max(out, pixelsPerMetre(eye, distance));
   }
-  const Settings& settings = memory_.settings;
-  for (const auto& entry : memory_.physics.bodies()) {
+  const Settings& settings = snapshot_.settings;
+  for (const auto& entry : snapshot_.physics.bodies()) {
     const double distance = length(entry.second.pose.position - centre) - reach;
     if (distance < settings.robot_range)
       out = std::max(out, settings.tolerance / settings.robot_tolerance);
@@ -55,28 +55,28 @@ double Forest::viewOf(const Vec3& centre, double reach) const {
 
 void Forest::advance(Nanoseconds stamp) {
   advancePhysics(stamp);
-  fine_due_ = ModalForest::fineDue(memory_.stamp, stamp);
-  memory_.stamp = stamp;
-  for (auto it = memory_.viewers.begin(); it != memory_.viewers.end();)
-    it = stamp - it->second.stamp > VIEWER_LIFE ? memory_.viewers.erase(it) : std::next(it);
+  fine_due_ = ModalForest::fineDue(snapshot_.stamp, stamp);
+  snapshot_.stamp = stamp;
+  for (auto it = snapshot_.viewers.begin(); it != snapshot_.viewers.end();)
+    it = stamp - it->second.stamp > VIEWER_LIFE ? snapshot_.viewers.erase(it) : std::next(it);
   chooseLevels();
-  memory_.levels.prune(stamp, layout_.motion.transition);
-  memory_.modes.settle(memory_.levels, stamp, layout_.motion.transition);
+  snapshot_.levels.prune(stamp, layout_.motion.transition);
+  snapshot_.modes.removeFaded(snapshot_.levels, stamp, layout_.motion.transition);
 }
 
 void Forest::chooseLevels() {
-  const Settings& settings = memory_.settings;
-  const bool watched = !memory_.viewers.empty();
+  const Settings& settings = snapshot_.settings;
+  const bool watched = !snapshot_.viewers.empty();
   const int base = watched ? 0 : std::min(settings.fixed_level, settings.highest_level);
-  last_base_ = memory_.levels.base().level;
-  memory_.levels.rebase(base, memory_.stamp, layout_.motion.transition);
+  last_base_ = snapshot_.levels.base().level;
+  snapshot_.levels.changeBase(base, snapshot_.stamp, layout_.motion.transition);
   plants_.clear();
-  if (watched || !memory_.physics.bodies().empty()) {
-    now_ = memory_.wind.at(memory_.stamp);
-    swinging_ = wind::GustSpectrumField(memory_.wind, memory_.stamp);
+  if (watched || !snapshot_.physics.bodies().empty()) {
+    now_ = snapshot_.wind.at(snapshot_.stamp);
+    swinging_ = wind::GustSpectrumField(snapshot_.wind, snapshot_.stamp);
     for (const Region& region : regions_) chooseRegion(region);
   }
-  applyDelta();
+  applyTiers();
 }
 
 // A whole tile at a time: where even its nearest, largest tree may stand still, no tree is looked
@@ -85,8 +85,8 @@ void Forest::chooseRegion(const Region& region) {
   if (region.count == 1) return chooseTree(region.first);
   const double speed =
       bendingSpeed(now_.speedBound(region.centre, region.reach), slowest_reference_);
-  const double error = largest_omission_ * speed * viewOf(region.centre, region.reach);
-  if (error <= HYSTERESIS * memory_.settings.tolerance) return;
+  const double error = largest_omission_ * speed * pixelsPerMetreAt(region.centre, region.reach);
+  if (error <= HYSTERESIS * snapshot_.settings.tolerance) return;
   for (std::uint32_t i = 0; i < region.count; ++i) chooseTree(region.first + i);
 }
 
@@ -95,18 +95,18 @@ void Forest::chooseTree(std::uint32_t tree) {
   const LevelTable table = tables_[seed.species].at(seed.scale);
   const Vec3 foot = footOf(seed, *terrain_);
   const Vec3 middle = foot + Vec3(0.0, 0.0, 0.5 * table.height);
-  const double view = viewOf(middle, 0.5 * table.reach);  // where most of its twigs are
-  const auto known = memory_.levels.held().find(tree);
-  const bool held = known != memory_.levels.held().end();
+  const double view = pixelsPerMetreAt(middle, 0.5 * table.reach);  // where most of its twigs are
+  const auto known = snapshot_.levels.held().find(tree);
+  const bool held = known != snapshot_.levels.held().end();
   Plant plant;
   plant.id = tree;
   plant.held = held ? known->second.level : last_base_;
-  const ModalTreeState* modal_states = memory_.modes.find(tree);
+  const ModalTreeState* modal_states = snapshot_.modes.find(tree);
   if (plant.held == MODAL_LEVEL && modal_states && modal_states->fine())
     plant.held = FINE_MODAL_TIER;
-  plant.resting = held && secondsBetween(known->second.since, memory_.stamp) < TIER_HOLD;
+  plant.resting = held && secondsBetween(known->second.since, snapshot_.stamp) < TIER_HOLD;
   predict(seed, table, view, plant);
-  const int base = memory_.levels.base().level;
+  const int base = snapshot_.levels.base().level;
   plant.stepwise = std::max(plant.stepwise, base);
   plant.wanted = std::max(plant.wanted, base);
   if (plant.wanted != base || plant.held != base) plants_.push_back(plant);
@@ -114,7 +114,7 @@ void Forest::chooseTree(std::uint32_t tree) {
 
 // Errors and costs of all tiers, and which of them the tolerance asks for.
 void Forest::predict(const TreeSeed& seed, const LevelTable& table, double view, Plant& plant) {
-  const Settings& settings = memory_.settings;
+  const Settings& settings = snapshot_.settings;
   const Budget& budget = settings.budget;
   const Species& species = layout_.species[seed.species];
   const Vec3 foot = footOf(seed, *terrain_);
@@ -145,13 +145,13 @@ void Forest::predict(const TreeSeed& seed, const LevelTable& table, double view,
   };
   report(MODAL_LEVEL, off.modal, budget.modal_cost);
   report(FINE_MODAL_TIER, std::min(off.modal, off.fine), budget.fine_cost);
-  wantModes(besides, plant);
+  requestModes(besides, plant);
 }
 
 // Modes where the procedural motion is off by more than is tolerated, and they by less; fine ones
 // where plain ones are too. Once fine a tree stays so while it has modes: the way back would jump.
-void Forest::wantModes(const PredictedError& off, Plant& plant) const {
-  const double tolerance = memory_.settings.tolerance;
+void Forest::requestModes(const PredictedError& off, Plant& plant) const {
+  const double tolerance = snapshot_.settings.tolerance;
   const bool has = plant.held >= MODAL_LEVEL;
   if (!haveModes() || off.procedural <= (has ? HYSTERESIS : 1.0) * tolerance) return;
   const double alike = ALIKE * (has ? 1.05 : 1.0) * off.procedural;
@@ -177,17 +177,19 @@ PredictedError Forest::responseErrorOf(const TreeSeed& seed, const wind::GustSpe
                mean = bendingSpeed(length(now_.mean), species.reference_speed);
   const double mended = std::max(0.0, lag.bend.procedural - lag.bend.modal) * mean * mean;
   const double rest = lag.bend.procedural * peak * peak, turned = rest - mended;
-  return {pixels * both(bending * lag.procedural, rest), pixels * both(bending * lag.modal, rest),
-          pixels * both(bending * lag.fine, turned), lag.bend};
+  return {pixels * combine(bending * lag.procedural, rest),
+          pixels * combine(bending * lag.modal, rest), pixels * combine(bending * lag.fine, turned),
+          lag.bend};
 }
 
 bool Forest::haveModes() const {
-  return memory_.settings.budget.modal_trees > 0 && memory_.settings.highest_level == MAX_DEPTHS &&
-         static_cast<JointModel>(layout_.motion.joint_model) == JointModel::SWING;
+  return snapshot_.settings.budget.modal_trees > 0 &&
+         snapshot_.settings.highest_level == MAX_DEPTHS &&
+         layout_.motion.joint_model == JointModel::SWING;
 }
 
-void Forest::applyDelta() {
-  const Settings& settings = memory_.settings;
+void Forest::applyTiers() {
+  const Settings& settings = snapshot_.settings;
   const Budget& budget = settings.budget;
   const double physical =
       1e-6 * budget.physical_cost * static_cast<double>(physicsFigures().branches);
@@ -197,18 +199,18 @@ void Forest::applyDelta() {
   governor_.physical = physical;
   governor_.cost += physical;
   governor_.budget = budget.frame_time;
-  governor_.strained = memory_.modes.strained();
-  beginModes();
+  governor_.strained = snapshot_.modes.countStrained();
+  startModes();
   std::vector<std::uint32_t> chosen, held;
   for (const Plant& plant : plants_) {
-    aim(plant.id, std::min(plant.chosen, MODAL_LEVEL));
+    setTreeLevel(plant.id, std::min(plant.chosen, MODAL_LEVEL));
     chosen.push_back(plant.id);
   }
   std::sort(chosen.begin(), chosen.end());
-  for (const auto& entry : memory_.levels.held()) held.push_back(entry.first);
+  for (const auto& entry : snapshot_.levels.held()) held.push_back(entry.first);
   for (const std::uint32_t tree : held)
     if (!std::binary_search(chosen.begin(), chosen.end(), tree))
-      aim(tree, memory_.levels.base().level);
+      setTreeLevel(tree, snapshot_.levels.base().level);
   if (plants_.size() > MANY_PLANTS) std::vector<Plant>().swap(plants_);
 }
 
@@ -216,7 +218,7 @@ void Forest::applyDelta() {
 // first; where none does, one gets fine ones when it is their turn. The others wait on the tier
 // that they have, and one that has had fine ones on its stair until they have faded: the way back
 // would jump.
-void Forest::beginModes() {
+void Forest::startModes() {
   Plant *plain = nullptr, *finer = nullptr;
   const auto wait = [](Plant& plant, int tier, Plant*& first) {
     plant.chosen = tier;
@@ -224,28 +226,29 @@ void Forest::beginModes() {
   };
   for (Plant& plant : plants_) {
     if (plant.chosen < MODAL_LEVEL) continue;
-    const ModalTreeState* sway = memory_.modes.find(plant.id);
-    if (!sway)
+    const ModalTreeState* modal_state = snapshot_.modes.find(plant.id);
+    if (!modal_state)
       wait(plant, plant.stepwise, plant.chosen == FINE_MODAL_TIER ? finer : plain);
-    else if (!sway->fine() && plant.chosen == FINE_MODAL_TIER)
+    else if (!modal_state->fine() && plant.chosen == FINE_MODAL_TIER)
       wait(plant, MODAL_LEVEL, finer);
-    else if (sway->fine() && plant.chosen == MODAL_LEVEL)
+    else if (modal_state->fine() && plant.chosen == MODAL_LEVEL)
       plant.chosen = plant.stepwise;
   }
   Plant* const next = plain ? plain : fine_due_ ? finer : nullptr;
   if (!next) return;
-  memory_.modes.begin({layout_, *terrain_, memory_.wind}, next->id, next == finer, memory_.stamp);
-  memory_.changed.insert(next->id);
-  memory_.begun.insert(next->id);
+  snapshot_.modes.addTree({layout_, *terrain_, snapshot_.wind}, next->id, next == finer,
+                          snapshot_.stamp);
+  snapshot_.changed.insert(next->id);
+  snapshot_.begun.insert(next->id);
   next->chosen = next == finer ? FINE_MODAL_TIER : MODAL_LEVEL;
 }
 
-void Forest::aim(std::uint32_t tree, int level) {
-  LevelState state = memory_.levels.of(tree);
+void Forest::setTreeLevel(std::uint32_t tree, int level) {
+  LevelState state = snapshot_.levels.of(tree);
   if (state.level == level) return;
-  setLevel(state, level, memory_.stamp, layout_.motion.transition);
-  memory_.levels.set(tree, state);
-  memory_.changed.insert(tree);
+  setLevel(state, level, snapshot_.stamp, layout_.motion.transition);
+  snapshot_.levels.set(tree, state);
+  snapshot_.changed.insert(tree);
 }
 
 }  // namespace vegetation_sim::forest

@@ -50,7 +50,7 @@ bool ForestReplica::apply(const StateUpdate& update) {
   if (update.key_frame) promoted_.clear();
   for (const StateUpdate::Entry& entry : update.trees) {
     if (entry.state == update.base)
-      levels_.follow(entry.tree);  // told for its physical joints
+      levels_.resetToBase(entry.tree);  // told for its physical joints
     else
       levels_.set(entry.tree, entry.state);
     if (entry.promoted.empty())
@@ -60,7 +60,7 @@ bool ForestReplica::apply(const StateUpdate& update) {
   }
   blend_ = update.blend;
   levels_.prune(update.stamp, layout_->motion.transition);
-  in_sequence_ = takeModalStates(update);
+  in_sequence_ = updateModes(update);
   sequence_ = update.sequence;
   stamp_ = update.stamp;
   if (in_sequence_) why_.clear();
@@ -68,43 +68,43 @@ bool ForestReplica::apply(const StateUpdate& update) {
 }
 
 // Between key frames modes are stepped here as they are there.
-bool ForestReplica::takeModalStates(const StateUpdate& update) {
+bool ForestReplica::updateModes(const StateUpdate& update) {
   std::set<std::uint32_t> published;
   for (const StateUpdate::Entry& entry : update.trees)
-    if (!entry.sway.amplitude.empty()) published.insert(entry.tree);
+    if (!entry.modal.amplitude.empty()) published.insert(entry.tree);
   if (update.key_frame)
-    modes_.keepOnly(published);
+    modes_.retain(published);
   else
     modes_.advance(wind_, stamp_, update.stamp);
   try {
-    restoreModalState(update);
+    restoreModes(update);
   } catch (const std::exception& error) {
     why_ = "tree in modes: " + std::string(error.what());
     return false;
   }
-  modes_.settle(levels_, update.stamp, layout_->motion.transition);
+  modes_.removeFaded(levels_, update.stamp, layout_->motion.transition);
   return true;
 }
 
-void ForestReplica::restoreModalState(const StateUpdate& update) {
+void ForestReplica::restoreModes(const StateUpdate& update) {
   const ModalContext at{*layout_, *terrain_, wind_};
   bool due = update.key_frame || ModalForest::fineDue(stamp_, update.stamp);
   for (const StateUpdate::Entry& entry : update.trees) {
-    const std::size_t modes = entry.sway.amplitude.size();
+    const std::size_t modes = entry.modal.amplitude.size();
     if (modes == 0) continue;
     const bool ready = modes_.isReady(entry.tree, modes);
     if (ready || due)
-      modes_.restore(at, entry.tree, entry.sway, update.stamp);
+      modes_.restore(at, entry.tree, entry.modal, update.stamp);
     else
-      modes_.await(entry.tree);
+      modes_.queueFineModes(entry.tree);
     due = due && ready;
   }
   if (due) modes_.prepareNext(at);  // shown from the next key frame on
 }
 
 std::vector<Pose> ForestReplica::pose(const Tree& tree, std::uint32_t id, Nanoseconds stamp) const {
-  return poseBranches(tree, wind_.at(stamp).relativeTo(tree.foot), weights(id, stamp), sway(id),
-                      promoted(id), stamp);
+  return poseBranches(tree, wind_.at(stamp).relativeTo(tree.foot), weights(id, stamp),
+                      modalState(id), promoted(id), stamp);
 }
 
 PromotedTree ForestReplica::promoted(std::uint32_t tree) const {

@@ -6,8 +6,8 @@
 
 #include "sensors/geometry/beer_lambert.h"
 #include "tree/mesh/mesh.h"
-#include "tree/motion/narrow_poses.h"
 #include "vegetation_sim/core/math/math.h"
+#include "vegetation_sim/tree/motion/batch_poser.h"
 
 namespace vegetation_sim::scan {
 namespace {
@@ -62,8 +62,8 @@ void PosedTree::fitBoxes() {
 
 void PosedTree::pose(const forest::ForestReplica& forest, Nanoseconds stamp,
                      const wind::Instant& wind) {
-  if (forest.sway(id_) || !forest.promoted(id_).branches.empty())
-    narrow(forest.pose(tree_, id_, stamp), poses_);
+  if (forest.modalState(id_) || !forest.promoted(id_).branches.empty())
+    narrowPoses(forest.pose(tree_, id_, stamp), poses_);
   else
     poser_.pose(wind.relativeTo(tree_.foot), forest.weights(id_, stamp), tree_.skeleton.depths(),
                 poses_);
@@ -74,7 +74,7 @@ void PosedTree::pose(const forest::ForestReplica& forest, Nanoseconds stamp,
 void PosedTree::follow(const forest::ForestReplica& forest, Nanoseconds stamp,
                        const wind::Instant& wind) {
   const bool moves = forest::movingDepths(forest.weights(id_, stamp)) > 0 ||
-                     forest.sway(id_) != nullptr || !forest.promoted(id_).branches.empty();
+                     forest.modalState(id_) != nullptr || !forest.promoted(id_).branches.empty();
   if (moves || moved_) pose(forest, stamp, wind);
   moved_ = moves;
 }

@@ -20,7 +20,7 @@ TEST(ModalTreeState, ReplicasSwayToTheBit) {
     if (i == 2 * TICK_RATE - 20) scene.look(false);
     scene.advance();
     const StateUpdate update = scene.forest.update(i % TICK_RATE == 0);
-    for (const auto& entry : update.trees) published += !entry.sway.amplitude.empty();
+    for (const auto& entry : update.trees) published += !entry.modal.amplitude.empty();
     ASSERT_TRUE(steady.apply(update)) << steady.why();
     const bool joined = i >= TICK_RATE;
     ASSERT_EQ(joined && late.apply(update), joined) << late.why();
@@ -46,8 +46,8 @@ TEST(ModalTreeState, WhoJoinsLateFindsFineModesOneByOne) {
   Clearing scene(breeze(), 0.05);
   scene.run(2.0);
   for (std::uint32_t id = 0; id < 4; ++id) {
-    ASSERT_NE(scene.forest.sway(id), nullptr) << id;
-    ASSERT_TRUE(scene.forest.sway(id)->fine()) << id;
+    ASSERT_NE(scene.forest.modalState(id), nullptr) << id;
+    ASSERT_TRUE(scene.forest.modalState(id)->fine()) << id;
   }
   ForestReplica late;
   scene.introduce(late);
@@ -55,7 +55,7 @@ TEST(ModalTreeState, WhoJoinsLateFindsFineModesOneByOne) {
     scene.advance();
     ASSERT_TRUE(late.apply(scene.forest.update(i % TICK_RATE == 0))) << late.why();
     int found = 0;
-    for (std::uint32_t id = 0; id < 4; ++id) found += late.sway(id) != nullptr;
+    for (std::uint32_t id = 0; id < 4; ++id) found += late.modalState(id) != nullptr;
     EXPECT_EQ(found, i < TICK_RATE ? 1 : 4) << i;
   }
   for (std::uint32_t id = 0; id < 4; ++id) {
@@ -75,19 +75,20 @@ TEST(ModalTreeState, NothingStaleIsShownWhileFineModesAreAwaited) {
   ForestReplica replica;
   scene.introduce(replica);
   ASSERT_TRUE(replica.apply(scene.forest.update(true)));
-  for (std::uint32_t id = 0; id < 4; ++id) ASSERT_NE(replica.sway(id), nullptr);
+  for (std::uint32_t id = 0; id < 4; ++id) ASSERT_NE(replica.modalState(id), nullptr);
   scene.publishAtMost(1000000);
   scene.run(2.0);  // of which nothing is told
-  for (std::uint32_t id = 0; id < 4; ++id) ASSERT_TRUE(scene.forest.sway(id)->fine()) << id;
+  for (std::uint32_t id = 0; id < 4; ++id) ASSERT_TRUE(scene.forest.modalState(id)->fine()) << id;
   for (int i = 0; i < 5; ++i) {
     scene.advance();
     ASSERT_TRUE(replica.apply(scene.forest.update(i == 0))) << replica.why();
     int shown = 0;
     for (std::uint32_t id = 0; id < 4; ++id) {
-      if (!replica.sway(id)) continue;
+      if (!replica.modalState(id)) continue;
       ++shown;
-      EXPECT_TRUE(replica.sway(id)->fine()) << id;
-      EXPECT_EQ(replica.sway(id)->state().amplitude, scene.forest.sway(id)->state().amplitude);
+      EXPECT_TRUE(replica.modalState(id)->fine()) << id;
+      EXPECT_EQ(replica.modalState(id)->state().amplitude,
+                scene.forest.modalState(id)->state().amplitude);
     }
     EXPECT_EQ(shown, 1);
   }
@@ -109,7 +110,7 @@ TEST(ModalTreeState, AHeldTreeTellsItsAmplitudesInKeyFramesOnly) {
     for (const auto& entry : scene.forest.update(i == 30).trees) {
       if (entry.tree != 0) continue;
       held = !entry.promoted.empty();
-      EXPECT_EQ(entry.sway.amplitude.empty(), i < 30) << i;
+      EXPECT_EQ(entry.modal.amplitude.empty(), i < 30) << i;
     }
     EXPECT_TRUE(held) << i;
   }
@@ -123,8 +124,8 @@ TEST(ModalTreeState, BatchedPoseIsThePlainOne) {
   const Nanoseconds stamp = scene.now() + seconds(0.01);
   const auto plain = scene.forest.pose(tree, 0, stamp);
   BatchPoses fast;
-  ASSERT_NE(scene.forest.sway(0), nullptr);
-  scene.forest.sway(0)->pose(BatchPoser(tree), stamp, fast);
+  ASSERT_NE(scene.forest.modalState(0), nullptr);
+  scene.forest.modalState(0)->pose(BatchPoser(tree), stamp, fast);
   for (std::size_t b = 0; b < plain.size(); ++b)
     ASSERT_LT(length(plain[b].position - fast.at(static_cast<int>(b)).position),
               1e-5 * tree.skeleton.height);

@@ -45,15 +45,15 @@ class ForestReplica {
   PromotedTree promoted(std::uint32_t tree) const;
   /// Trees that have physical joints, rising.
   std::vector<std::uint32_t> physicalTrees() const;
-  /// Nullptr: the tree does not sway in modes, or they are still to be found: who joins late finds
-  /// fine ones of one tree every 0.1 s, and shows the others procedural.
-  const ModalTreeState* sway(std::uint32_t tree) const { return modes_.find(tree); }
+  /// Nullptr: the tree does not modal_state in modes, or they are still to be found: who joins late
+  /// finds fine ones of one tree every 0.1 s, and shows the others procedural.
+  const ModalTreeState* modalState(std::uint32_t tree) const { return modes_.find(tree); }
   /// Every branch in the tree's frame, physical ones and modes included, double precision.
   std::vector<Pose> pose(const Tree& tree, std::uint32_t id, Nanoseconds stamp) const;
 
  private:
-  bool takeModalStates(const StateUpdate& update);
-  void restoreModalState(const StateUpdate& update);
+  bool updateModes(const StateUpdate& update);
+  void restoreModes(const StateUpdate& update);
 
   std::shared_ptr<const Layout> layout_;
   std::shared_ptr<const terrain::HeightMap> terrain_;

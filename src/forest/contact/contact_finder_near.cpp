@@ -50,8 +50,7 @@ void addWithBearers(const Skeleton& skeleton, int branch, std::vector<char>& cho
 void ContactFinder::findNear(const ContactScene& scene, const Bodies& bodies, Nanoseconds from,
                              Nanoseconds to, BranchesOfTrees& near) const {
   // Joints as printed have no physical motion.
-  if (static_cast<JointModel>(scene.layout.motion.joint_model) != JointModel::SWING)
-    return releaseTrees();
+  if (scene.layout.motion.joint_model != JointModel::SWING) return releaseTrees();
   std::map<std::uint32_t, std::vector<Ball>> balls;
   for (const auto& entry : bodies) {
     const Ball ball = ballOf(entry.second, from, to);

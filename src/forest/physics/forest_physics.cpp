@@ -90,7 +90,7 @@ void ForestPhysics::promoteLoaded(const StepContext& context, Nanoseconds from, 
   const bool review = from >= next_review_;
   if (review) next_review_ = from + REVIEW;
   for (auto& [tree, subtree] : subtrees_)
-    if (!loaded.count(tree)) subtree.releaseTrees();
+    if (!loaded.count(tree)) subtree.releaseJoints();
   for (auto it = refused_.begin(); it != refused_.end();)
     it = loaded.count(it->first) ? std::next(it) : refused_.erase(it);
   for (const auto& [tree, branches] : loaded) {
@@ -106,7 +106,7 @@ void ForestPhysics::promoteInTree(const StepContext& context, std::uint32_t tree
                                   PhysicalSubtree& subtree, const std::vector<int>& loaded,
                                   Nanoseconds stamp) {
   const Skeleton& skeleton = subtree.tree().skeleton;
-  const bool by_depth = static_cast<Promotion>(settings_.promotion) == Promotion::DEPTH;
+  const bool by_depth = settings_.promotion == Promotion::DEPTH;
   std::vector<double> score;
   if (by_depth)
     score = scoreByDepth(skeleton, loaded);

@@ -41,11 +41,11 @@ void ForestPhysics::substep(const StepContext& context, const ContactTree& tree,
     subtree.step(air, loads_, settings_, from, to, scratch_);
     return accumulateImpulses(context, tree.tree, subtree, from, to);
   }
-  const PhysicalSubtree::Moment start = subtree.moment();
-  subtree.stepTouching(air, loads_, settings_, from, to, scratch_, contacts);
+  const PhysicalSubtree::SavedState start = subtree.saveState();
+  subtree.stepWithContacts(air, loads_, settings_, from, to, scratch_, contacts);
   if (bisection.bisect(scratch_.contact_stepper, settings_.contact, to - from)) {
     const Nanoseconds middle = from + (to - from) / 2;
-    subtree.goBack(start);
+    subtree.restoreState(start);
     persistent = before;
     substep(context, tree, subtree, from, middle, whole, bisection);
     subtree.kinematicsAt(air, middle, scratch_, scratch_.start);

@@ -21,7 +21,7 @@ void checkTree(const Layout& layout, const std::string& what, std::uint32_t tree
   if (tree >= layout.treeCount())
     throw InvalidInput(what + ": tree = " + count(tree) + " is unknown, allowed are 0 to " +
                        count(layout.treeCount() - 1));
-  if (static_cast<JointModel>(layout.motion.joint_model) != JointModel::SWING)
+  if (layout.motion.joint_model != JointModel::SWING)
     throw InvalidInput(what + ": joint_model = paper has no physical motion, allowed is swing");
 }
 
@@ -123,7 +123,7 @@ PhysicalSubtree& ForestPhysics::findOrAddSubtree(const StepContext& context, std
   if (found != subtrees_.end()) return found->second;
   auto grown = std::make_shared<const Tree>(growTree(context.layout, tree, context.terrain));
   const Species& species = context.layout.species[grown->seed.species];
-  const auto material = static_cast<Material>(settings_.material);
+  const auto material = settings_.material;
   return subtrees_.emplace(tree, PhysicalSubtree(std::move(grown), species, material))
       .first->second;
 }
@@ -208,8 +208,7 @@ void ForestPhysics::setSettings(const PhysicsSettings& settings, Nanoseconds now
   const bool other_wood = settings.material != settings_.material;
   settings_ = settings;
   if (other_wood)
-    for (auto& entry : subtrees_)
-      entry.second.setMaterial(static_cast<Material>(settings.material));
+    for (auto& entry : subtrees_) entry.second.setMaterial(settings.material);
   next_review_ = 0;
 }
 

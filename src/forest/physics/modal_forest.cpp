@@ -40,26 +40,27 @@ void ModalForest::advance(const wind::Field& wind, Nanoseconds from, Nanoseconds
     wind.at(from + (to - from) * static_cast<Nanoseconds>(i) / static_cast<Nanoseconds>(steps),
             instants_[i]);
   loads_.resize(steps + 1);
-  for (auto& [tree, sway] : modal_states_) {
-    if (sway.stamp() != from) {
-      start(wind, sway, to);
+  for (auto& [tree, modal_state] : modal_states_) {
+    if (modal_state.stamp() != from) {
+      start(wind, modal_state, to);
       continue;
     }
-    for (std::size_t i = 0; i <= steps; ++i) sway.loadOf(instants_[i], loads_[i]);
-    sway.step(loads_, to);
+    for (std::size_t i = 0; i <= steps; ++i) modal_state.loadOf(instants_[i], loads_[i]);
+    modal_state.step(loads_, to);
   }
 }
 
-void ModalForest::start(const wind::Field& wind, ModalTreeState& sway, Nanoseconds stamp) {
+void ModalForest::start(const wind::Field& wind, ModalTreeState& modal_state, Nanoseconds stamp) {
   std::array<ModalLoad, 3> loads;
   WindWindow window;
   window.sampleAt(wind, stamp);
   for (std::size_t look = 0; look < loads.size(); ++look)
-    sway.loadOf(window.instants()[look], loads[look]);
-  sway.begin(loads, secondsBetween(0, WINDOW_STEP), stamp);
+    modal_state.loadOf(window.instants()[look], loads[look]);
+  modal_state.begin(loads, secondsBetween(0, WINDOW_STEP), stamp);
 }
 
-void ModalForest::begin(const ModalContext& at, std::uint32_t tree, bool fine, Nanoseconds stamp) {
+void ModalForest::addTree(const ModalContext& at, std::uint32_t tree, bool fine,
+                          Nanoseconds stamp) {
   const auto found = modal_states_.find(tree);
   if (found == modal_states_.end())
     start(at.wind, modal_states_.emplace(tree, modalStateOf(at, tree, fine)).first->second, stamp);
@@ -69,24 +70,25 @@ void ModalForest::begin(const ModalContext& at, std::uint32_t tree, bool fine, N
 
 // Nothing jumps: the same bends, and the same rates, told by more oscillators. Those that are too
 // fast for a tick begin as the load holds them: left to ring they would jerk.
-void ModalForest::refine(const ModalContext& at, std::uint32_t tree, ModalTreeState& sway) {
+void ModalForest::refine(const ModalContext& at, std::uint32_t tree, ModalTreeState& modal_state) {
   ModalTreeState fine = modalStateOf(at, tree, true);
   const auto published = [&](const std::vector<double>& amplitudes) {
-    return fine.modes().amplitudesOf(sway.modes().bendsOf(amplitudes));
+    return fine.modes().amplitudesOf(modal_state.modes().bendsOf(amplitudes));
   };
   ModalLoad load;
-  fine.loadOf(at.wind.at(sway.stamp()), load);
-  physics::ModalState state{published(sway.state().amplitude), published(sway.state().rate)};
+  fine.loadOf(at.wind.at(modal_state.stamp()), load);
+  physics::ModalState state{published(modal_state.state().amplitude),
+                            published(modal_state.state().rate)};
   std::vector<double> force;
-  fine.bent(load, state.amplitude, force);
+  fine.addLeverForces(load, state.amplitude, force);
   for (std::size_t m = 0; m < force.size(); ++m) {
     const double frequency = fine.modes().modes().frequency[m];
     if (frequency < QUICK) continue;
     state.amplitude[m] = force[m] / (frequency * frequency);
     state.rate[m] = 0.0;
   }
-  fine.restore(state, load, sway.stamp());
-  sway = std::move(fine);
+  fine.restore(state, load, modal_state.stamp());
+  modal_state = std::move(fine);
 }
 
 bool ModalForest::isReady(std::uint32_t tree, std::size_t modes) const {
@@ -97,7 +99,7 @@ bool ModalForest::isReady(std::uint32_t tree, std::size_t modes) const {
   return modes <= ModalDepth{}.most() || held(modal_states_) || held(prepared_);
 }
 
-void ModalForest::await(std::uint32_t tree) {
+void ModalForest::queueFineModes(std::uint32_t tree) {
   modal_states_.erase(tree);
   awaited_.insert(tree);
 }
@@ -123,29 +125,29 @@ void ModalForest::restore(const ModalContext& at, std::uint32_t tree,
                                                                   : modalStateOf(at, tree, fine));
   if (prepared != prepared_.end()) prepared_.erase(prepared);
   awaited_.erase(tree);
-  ModalTreeState& sway = modal_states_.at(tree);
+  ModalTreeState& modal_state = modal_states_.at(tree);
   ModalLoad load;
-  sway.loadOf(at.wind.at(stamp), load);
-  sway.restore(state, load, stamp);
+  modal_state.loadOf(at.wind.at(stamp), load);
+  modal_state.restore(state, load, stamp);
 }
 
-void ModalForest::settle(const LevelMap& levels, Nanoseconds stamp, double transition) {
-  keepIf([&](std::uint32_t tree) {
+void ModalForest::removeFaded(const LevelMap& levels, Nanoseconds stamp, double transition) {
+  retainIf([&](std::uint32_t tree) {
     const LevelState level = levels.of(tree);
     return level.level >= MODAL_LEVEL || modalWeight(blendAt(level, stamp, transition)) > 0.0;
   });
 }
 
-void ModalForest::keepOnly(const std::set<std::uint32_t>& trees) {
-  keepIf([&](std::uint32_t tree) { return trees.count(tree) > 0; });
+void ModalForest::retain(const std::set<std::uint32_t>& trees) {
+  retainIf([&](std::uint32_t tree) { return trees.count(tree) > 0; });
 }
 
 void ModalForest::clear() {
-  keepIf([](std::uint32_t) { return false; });
+  retainIf([](std::uint32_t) { return false; });
 }
 
 template <class Wanted>
-void ModalForest::keepIf(const Wanted& wanted) {
+void ModalForest::retainIf(const Wanted& wanted) {
   for (auto* each : {&modal_states_, &prepared_})
     for (auto it = each->begin(); it != each->end();)
       it = wanted(it->first) ? std::next(it) : each->erase(it);
@@ -165,17 +167,17 @@ std::size_t ModalForest::bytes() const {
   return out;
 }
 
-std::size_t ModalForest::strained() const {
+std::size_t ModalForest::countStrained() const {
   return static_cast<std::size_t>(std::count_if(
       modal_states_.begin(), modal_states_.end(),
       [](const auto& entry) { return !entry.second.modes().probe().holds(entry.second.state()); }));
 }
 
 void ModalForest::addTo(Hash& hash) const {
-  for (const auto& [tree, sway] : modal_states_) {
+  for (const auto& [tree, modal_state] : modal_states_) {
     hash.add(static_cast<std::uint64_t>(tree));
-    for (const double a : sway.state().amplitude) hash.add(a);
-    for (const double r : sway.state().rate) hash.add(r);
+    for (const double a : modal_state.state().amplitude) hash.add(a);
+    for (const double r : modal_state.state().rate) hash.add(r);
   }
 }
 

@@ -7,8 +7,8 @@
 
 #include "nodes/markers/triangle_list.h"
 #include "tree/mesh/skin.h"
-#include "tree/motion/narrow_poses.h"
 #include "vegetation_sim/ros/conversions/forest_conversions.h"
+#include "vegetation_sim/tree/motion/batch_poser.h"
 
 namespace vegetation_sim {
 namespace {
@@ -121,14 +121,14 @@ void ForestMarkers::addTree(const forest::Forest& forest, forest::TreeCache& cac
   const wind::Instant wind = forest.snapshot().wind.at(stamp).relativeTo(grown->tree.foot);
   const forest::Weights weights =
       forest::weightsAt(forest.snapshot().levels.of(id), stamp, forest.layout().motion);
-  const forest::ModalTreeState* sway = forest.sway(id);
+  const forest::ModalTreeState* modal_state = forest.modalState(id);
   const bool physical = !forest.promoted(id).branches.empty();
-  if (!physical && sway && forest::modalWeight(weights) >= 1.0)
-    sway->pose(grown->poser, stamp, poses_);
-  else if (!physical && !sway)
+  if (!physical && modal_state && forest::modalWeight(weights) >= 1.0)
+    modal_state->pose(grown->poser, stamp, poses_);
+  else if (!physical && !modal_state)
     grown->poser.pose(wind, weights, forest::MAX_DEPTHS, poses_);
   else
-    narrow(forest.pose(grown->tree, id, stamp), poses_);
+    narrowPoses(forest.pose(grown->tree, id, stamp), poses_);
   const std::array<float, 3> foot{static_cast<float>(grown->tree.foot.x()),
                                   static_cast<float>(grown->tree.foot.y()),
                                   static_cast<float>(grown->tree.foot.z())};

@@ -43,19 +43,21 @@ const Choices& choicesOfMotion() {
   return CHOICES;
 }
 
-const std::string& wordOf(const std::string& name, int index) {
-  return choicesOfMotion().of(name).at(static_cast<std::size_t>(index));
+template <class Enum>
+const std::string& wordOf(const std::string& name, Enum value) {
+  return choicesOfMotion().of(name).at(static_cast<std::size_t>(value));
 }
 
-int indexOf(const std::string& name, const std::string& word, Faults& faults) {
+template <class Enum>
+Enum valueOf(const std::string& name, const std::string& word, Faults& faults) {
   const std::vector<std::string>& names = choicesOfMotion().of(name);
   std::string allowed;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    if (names[i] == word) return static_cast<int>(i);
+    if (names[i] == word) return static_cast<Enum>(i);
     allowed += (i ? ", " : "") + names[i];
   }
   faults.add("layout: " + name + " = '" + word + "' is none of " + allowed);
-  return 0;
+  return Enum{};
 }
 
 ForestTile tileToMsg(const forest::Tile& tile) {
@@ -120,8 +122,8 @@ TreeState entryToMsg(const forest::StateUpdate::Entry& entry, Nanoseconds now) {
   out.blend = blendToMsg(entry.state, now);
   out.promoted.reserve(entry.promoted.size());
   for (const forest::PromotedBranch& branch : entry.promoted) out.promoted.push_back(toMsg(branch));
-  out.amplitude = entry.sway.amplitude;
-  out.rate = entry.sway.rate;
+  out.amplitude = entry.modal.amplitude;
+  out.rate = entry.modal.rate;
   return out;
 }
 
@@ -243,11 +245,12 @@ forest::Layout fromMsg(const ForestLayout& message) {
   }
   out.terrain = message.terrain;
   out.terrain_hash = message.terrain_hash;
-  out.motion.joint_model = indexOf("joint_model", message.joint_model, faults);
-  out.motion.gain = indexOf("gain", message.gain, faults);
-  out.motion.drag = indexOf("drag", message.drag, faults);
+  out.motion.joint_model = valueOf<forest::JointModel>("joint_model", message.joint_model, faults);
+  out.motion.gain = valueOf<forest::Gain>("gain", message.gain, faults);
+  out.motion.drag = valueOf<forest::Drag>("drag", message.drag, faults);
   out.motion.transition = message.transition;
-  out.motion.transition_shape = indexOf("transition_shape", message.transition_shape, faults);
+  out.motion.transition_shape =
+      valueOf<forest::TransitionShape>("transition_shape", message.transition_shape, faults);
   for (const TreeSeed& seed : message.trees) out.trees.push_back(fromMsg(seed));
   for (const ForestTile& tile : message.tiles) out.tiles.push_back(tileFromMsg(tile));
   if (faults.empty()) check(out, faults);

@@ -7,8 +7,8 @@
 
 #include "rviz/textures/bark_texture.h"
 #include "rviz/textures/leaf_atlas.h"
-#include "tree/motion/narrow_poses.h"
 #include "vegetation_sim/core/math/math.h"
+#include "vegetation_sim/tree/motion/batch_poser.h"
 
 namespace vegetation_sim::view {
 namespace {
@@ -124,15 +124,15 @@ bool DrawnTree::move(const forest::ForestReplica& replica, Nanoseconds stamp,
       moves = true;
     }
   }
-  const bool remembers = !replica.promoted(id_).branches.empty() || replica.sway(id_);
+  const bool remembers = !replica.promoted(id_).branches.empty() || replica.modalState(id_);
   moves = moves || remembers;
   if (!moves && !moved_) return false;
   moved_ = moves;
-  const forest::ModalTreeState* sway = replica.sway(id_);
-  if (sway && replica.promoted(id_).branches.empty() && forest::modalWeight(weights) >= 1.0)
-    sway->pose(poser_, stamp, poses_);
+  const forest::ModalTreeState* modal_state = replica.modalState(id_);
+  if (modal_state && replica.promoted(id_).branches.empty() && forest::modalWeight(weights) >= 1.0)
+    modal_state->pose(poser_, stamp, poses_);
   else if (remembers)
-    narrow(replica.pose(tree_, id_, stamp), poses_);
+    narrowPoses(replica.pose(tree_, id_, stamp), poses_);
   else
     poser_.pose(wind.relativeTo(tree_.foot), weights, depths(), poses_);
   skin(flutter);

@@ -45,8 +45,8 @@ double jointStiffness(const Branch& b, const Species& s) {
 
 std::vector<Response> windResponse(const Skeleton& skeleton, const Species& species,
                                    const MotionLaw& law) {
-  const bool paper_gain = static_cast<Gain>(law.gain) == Gain::PAPER;
-  const bool paper_joint = static_cast<JointModel>(law.joint_model) == JointModel::PAPER;
+  const bool paper_gain = law.gain == Gain::PAPER;
+  const bool paper_joint = law.joint_model == JointModel::PAPER;
   std::vector<Vec3> levers;
   if (!paper_gain) levers = subtreeLevers(skeleton, species);
   std::vector<Response> out(skeleton.branches.size());

@@ -202,7 +202,7 @@ PredictedError ResponseError::in(const GustSpectrum& spectrum) const {
 
 ResponseError measureResponseError(const Species& species, const MotionLaw& law, double scale) {
   ResponseError out;
-  if (static_cast<JointModel>(law.joint_model) != JointModel::SWING) return out;
+  if (law.joint_model != JointModel::SWING) return out;
   for (int i = 0; i < SAMPLES; ++i) {
     TreeSeed seed;
     seed.seed = static_cast<std::uint64_t>(i) + 1;
@@ -219,7 +219,7 @@ ResponseError measureResponseError(const Species& species, const MotionLaw& law,
     }
     for (std::size_t s = 0; s < rows.size(); ++s)
       addRow(rows[s], GustSpectrum::SLOWNESSES[s] > 0.0, out.squares[s]);
-    if (static_cast<Gain>(law.gain) == Gain::COMPLIANCE) {
+    if (law.gain == Gain::COMPLIANCE) {
       const Bending bending = sample.bending(along);
       out.bend.procedural += bending.procedural / SAMPLES;
       out.bend.modal += bending.modal / SAMPLES;

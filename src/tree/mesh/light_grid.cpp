@@ -26,7 +26,7 @@ struct Between {
   double weight;
 };
 
-Between between(double x, std::size_t cells) {
+Between interpolate(double x, std::size_t cells) {
   const double held = std::clamp(x, 0.0, static_cast<double>(cells - 1));
   const auto first = static_cast<std::size_t>(held);
   return {first, std::min(first + 1, cells - 1), held - static_cast<double>(first)};
@@ -70,7 +70,7 @@ void LightGrid::sweep(const Vec3& direction, std::vector<float>& out) const {
       const double up_y = static_cast<double>(y) + dy;
       for (std::size_t x = 0; x < columns_; ++x) {
         const double up_x = static_cast<double>(x) + dx;
-        const Between i = between(up_x, columns_), j = between(up_y, rows_);
+        const Between i = interpolate(up_x, columns_), j = interpolate(up_y, rows_);
         const auto above = [&](const std::vector<float>& grid) {
           const float* layer = grid.data() + (z + 1) * rows_ * columns_;
           const float *a = layer + j.first * columns_, *b = layer + j.second * columns_;
@@ -104,8 +104,8 @@ void LightGrid::cast(const Vec3& to_sun) {
 double LightGrid::sample(const std::vector<float>& grid, const Vec3& point) const {
   if (grid.empty() || !point.allFinite()) return 1.0;
   const Vec3 at = (point - low_) / cell_;
-  const Between i = between(at.x(), columns_), j = between(at.y(), rows_),
-                k = between(at.z(), layers_);
+  const Between i = interpolate(at.x(), columns_), j = interpolate(at.y(), rows_),
+                k = interpolate(at.z(), layers_);
   const auto get = [&](std::size_t x, std::size_t y, std::size_t z) {
     return static_cast<double>(grid[index(x, y, z)]);
   };

@@ -62,21 +62,6 @@ Flutter::Flutter(double seconds, double wind_speed, double largest) {
     turns_[kind] = leafFlutter(kind * 0x9e3779b9u, seconds, wind_speed, largest);
 }
 
-BatchPoses narrowPoses(const std::vector<Pose>& poses) {
-  BatchPoses out;
-  out.count = static_cast<int>(poses.size());
-  for (const Pose& pose : poses) {
-    out.x.push_back(static_cast<float>(pose.position.x()));
-    out.y.push_back(static_cast<float>(pose.position.y()));
-    out.z.push_back(static_cast<float>(pose.position.z()));
-    out.qw.push_back(static_cast<float>(pose.orientation.w));
-    out.qx.push_back(static_cast<float>(pose.orientation.x));
-    out.qy.push_back(static_cast<float>(pose.orientation.y));
-    out.qz.push_back(static_cast<float>(pose.orientation.z));
-  }
-  return out;
-}
-
 void skinBark(const TreeMesh& mesh, const BatchPoses& poses, const std::array<float, 3>& foot,
               float* positions) {
   int branch = -1;

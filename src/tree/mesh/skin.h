@@ -30,9 +30,6 @@ class Flutter {
   std::array<std::array<float, 2>, KINDS> turns_{};
 };
 
-/// Poses of forwardKinematics() in single precision, as the functions below take them.
-BatchPoses narrowPoses(const std::vector<Pose>& poses);
-
 /// Writes where the bark's vertices are: [3 per vertex, mesh.bark.size()] x y z [m], in the tree's
 /// frame moved by `foot`. `poses` holds at least the branches that the mesh draws.
 void skinBark(const TreeMesh& mesh, const BatchPoses& poses, const std::array<float, 3>& foot,

@@ -93,7 +93,7 @@ std::size_t ModalTree::bytes() const {
 }
 
 // Where sources come and go, what is known of the waves that stay is kept.
-void ModalTree::lookAtWaves(const wind::Instant& wind, ModalAir& air) const {
+void ModalTree::updateWaves(const wind::Instant& wind, ModalAir& air) const {
   const auto same = [](const Vec3& wave, const wind::Mode& mode) { return wave == mode.wave; };
   if (air.waves.size() == wind.modes.size() &&
       std::equal(air.waves.begin(), air.waves.end(), wind.modes.begin(), same))
@@ -135,7 +135,7 @@ void ModalTree::loadOf(const wind::Instant& wind, ModalAir& air, std::vector<dou
   std::vector<Vec3>& velocities = air.velocities;
   out.assign(row, 0.0);
   if (drag_ == Drag::LINEAR) {
-    lookAtWaves(wind, air);
+    updateWaves(wind, air);
     velocities.clear();
     for (const wind::Mode& mode : wind.modes) {
       const SinCos turn = sinCosTurns(mode.phase);

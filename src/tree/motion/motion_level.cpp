@@ -27,7 +27,7 @@ Weights blendAt(const LevelState& state, Nanoseconds stamp, double transition) {
 
 Weights weightsAt(const LevelState& state, Nanoseconds stamp, const MotionLaw& law) {
   Weights out = blendAt(state, stamp, law.transition);
-  if (static_cast<TransitionShape>(law.transition_shape) == TransitionShape::SMOOTH)
+  if (law.transition_shape == TransitionShape::SMOOTH)
     for (double& weight : out) weight = smoothStep(weight);
   return out;
 }

@@ -9,7 +9,7 @@ Tree growTree(const TreeSeed& seed, const Species& species, const MotionLaw& law
   out.seed = seed;
   out.skeleton = grow(seed, species);
   out.response = windResponse(out.skeleton, species, law);
-  out.joint_model = static_cast<JointModel>(law.joint_model);
+  out.joint_model = law.joint_model;
   return out;
 }
 
@@ -17,7 +17,7 @@ Tree growTree(const Layout& layout, std::uint32_t id, const terrain::HeightMap& 
   const TreeSeed seed = seedOf(layout, id);
   const Species& species = layout.species.at(seed.species);
   Tree out = growTree(seed, species, layout.motion);
-  out.drag = static_cast<Drag>(layout.motion.drag);
+  out.drag = layout.motion.drag;
   out.reference_speed = species.reference_speed;
   out.foot = footOf(out.seed, terrain);
   return out;

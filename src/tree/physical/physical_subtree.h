@@ -9,7 +9,7 @@
 #include "tree/physical/influence.h"
 #include "tree/physical/interaction.h"
 #include "tree/physical/procedural_motion.h"
-#include "tree/physical/substep_bisection.h"
+#include "tree/physical/subtree_scratch.h"
 #include "vegetation_sim/tree/state/promoted_branches.h"
 
 namespace vegetation_sim::forest {
@@ -94,7 +94,7 @@ class PhysicalSubtree {
   std::size_t promote(const std::vector<int>& branches, const std::vector<double>& score,
                       double keep, const ProceduralMotion& motion, const PhysicsSettings& settings);
   /// Nothing is needed any more.
-  void releaseTrees();
+  void releaseJoints();
   /// Starts blends of branches that are not needed and calm, or have waited long enough; ends those
   /// that are over.
   void demote(const ProceduralMotion& motion, const PhysicsSettings& settings,
@@ -108,16 +108,16 @@ class PhysicalSubtree {
             Nanoseconds from, Nanoseconds to, SubtreeScratch& scratch);
   /// One step of a part that touches bodies; gives the forces of `contacts`. An explicit method
   /// cannot hold a contact, so this is always a linearly implicit one.
-  void stepTouching(const TreeWind& air, const SubtreeLoads& loads, const PhysicsSettings& settings,
-                    Nanoseconds from, Nanoseconds to, SubtreeScratch& scratch,
-                    std::vector<physics::Contact>& contacts);
+  void stepWithContacts(const TreeWind& air, const SubtreeLoads& loads,
+                        const PhysicsSettings& settings, Nanoseconds from, Nanoseconds to,
+                        SubtreeScratch& scratch, std::vector<physics::Contact>& contacts);
   /// All that `stepTouching` changes, to go back to.
-  struct Moment {
+  struct SavedState {
     physics::ChainState state;
     double theta{0.5};
   };
-  Moment moment() const { return {state_, theta_}; }
-  void goBack(const Moment& moment) { state_ = moment.state, theta_ = moment.theta; }
+  SavedState saveState() const { return {state_, theta_}; }
+  void restoreState(const SavedState& saved) { state_ = saved.state, theta_ = saved.theta; }
   /// Where the links are and how they move, tree's frame.
   void kinematicsAt(const TreeWind& air, Nanoseconds stamp, SubtreeScratch& scratch,
                     physics::Kinematics& out) const;
@@ -137,16 +137,16 @@ class PhysicalSubtree {
   };
   struct Step;
   void stepBatched(const Step& context, double h);
-  void grip();
+  void createChain();
   bool compensates(Nanoseconds stamp, double fade) const;
-  void stopJoints();
+  void limitJoints();
   void rebuild(const std::vector<Joined>& joints);
   void findCarriers();
   physics::Link linkFor(std::size_t link, const Composite& body) const;
-  bool wouldGap(const std::vector<char>& mask, int branch) const;
-  void takeBack(int link, const ProceduralMotion& motion, double duration);
-  bool mayGo(std::size_t link, Nanoseconds stamp, const ProceduralMotions& motions,
-             const PhysicsSettings& settings) const;
+  bool leavesGap(const std::vector<char>& mask, int branch) const;
+  void cancelBlend(int link, const ProceduralMotion& motion, double duration);
+  bool canBlend(std::size_t link, Nanoseconds stamp, const ProceduralMotions& motions,
+                const PhysicsSettings& settings) const;
   double compensationAt(std::size_t link, Nanoseconds stamp, double fade) const;
   void baseMotions(const ProceduralMotion& motion, SubtreeScratch& scratch,
                    std::vector<physics::BaseMotion>& out) const;

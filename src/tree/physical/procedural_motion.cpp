@@ -29,7 +29,8 @@ JointAngles bendOf(const Tree& tree, int branch, const Vec3& air, double weight)
 // `share` of the way from what is procedural to what the modes say.
 JointAngles inModes(const ModalSamples& modal, int branch, std::size_t look, double share,
                     const JointAngles& procedural) {
-  return between(procedural, bendOf(modal.sway->modes(), modal.amplitude[look], branch), share);
+  return interpolate(procedural, bendOf(modal.modal_state->modes(), modal.amplitude[look], branch),
+                     share);
 }
 
 // In this air, and in the modes.
@@ -56,10 +57,10 @@ JointMotion motionOf(const JointAngles& a, const JointAngles& b, const JointAngl
 }  // namespace
 
 void ModalSamples::sampleAt(const ModalTreeState& at, Nanoseconds stamp) {
-  sway = &at;
+  modal_state = &at;
   for (std::size_t look = 0; look < amplitude.size(); ++look)
-    at.amplitudeBetween(stamp + (static_cast<Nanoseconds>(look) - 1) * WINDOW_STEP,
-                        amplitude[look]);
+    at.interpolateAmplitude(stamp + (static_cast<Nanoseconds>(look) - 1) * WINDOW_STEP,
+                            amplitude[look]);
 }
 
 ProceduralMotion::ProceduralMotion(const Tree& tree, const WindWindow& wind,
@@ -80,7 +81,7 @@ JointMotion ProceduralMotion::at(int branch) const {
   return motionOf(angles[0], angles[1], angles[2]);
 }
 
-void ProceduralMotions::look(const ProceduralMotion& motion, const std::vector<int>& branches) {
+void ProceduralMotions::update(const ProceduralMotion& motion, const std::vector<int>& branches) {
   const Tree& tree = motion.tree;
   air_.clear();
   for (const int branch : branches)

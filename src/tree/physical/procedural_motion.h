@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "vegetation_sim/tree/modal/modal_state.h"
+#include "vegetation_sim/tree/modal/modal_tree_state.h"
 #include "vegetation_sim/tree/motion/pose.h"
 #include "vegetation_sim/wind/sampling/wind_sampler.h"
 #include "vegetation_sim/wind/sampling/wind_window.h"
@@ -14,7 +14,7 @@ namespace vegetation_sim::forest {
 
 /// Amplitudes of a tree in modes at the three looks; keeps its memory from look to look.
 struct ModalSamples {
-  const ModalTreeState* sway{nullptr};
+  const ModalTreeState* modal_state{nullptr};
   std::array<std::vector<double>, 3> amplitude;
 
   void sampleAt(const ModalTreeState& at, Nanoseconds stamp);
@@ -47,7 +47,7 @@ struct ProceduralMotion {
 /// Keeps its memory from look to look.
 class ProceduralMotions {
  public:
-  void look(const ProceduralMotion& motion, const std::vector<int>& branches);
+  void update(const ProceduralMotion& motion, const std::vector<int>& branches);
   /// Of branches[i], at look 0, 1 or 2.
   const JointAngles& angles(std::size_t i, std::size_t look) const { return angles_[look][i]; }
   JointMotion at(std::size_t i) const;

@@ -21,7 +21,7 @@ void LevelMap::reset(const LevelState& base) {
   held_.clear();
 }
 
-void LevelMap::rebase(int level, Nanoseconds stamp, double transition) {
+void LevelMap::changeBase(int level, Nanoseconds stamp, double transition) {
   if (level != base_.level) setLevel(base_, level, stamp, transition);
 }
 

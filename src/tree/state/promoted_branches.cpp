@@ -28,9 +28,9 @@ void overlay(const PromotedTree& promoted, Nanoseconds stamp, std::vector<JointA
 }
 
 std::vector<Pose> poseBranches(const Tree& tree, const wind::Instant& wind, const Weights& weights,
-                               const ModalTreeState* sway, const PromotedTree& promoted,
+                               const ModalTreeState* modal_state, const PromotedTree& promoted,
                                Nanoseconds stamp) {
-  std::vector<JointAngles> angles = modalAngles(tree, wind, weights, sway, stamp);
+  std::vector<JointAngles> angles = modalAngles(tree, wind, weights, modal_state, stamp);
   overlay(promoted, stamp, angles);
   return forwardKinematics(tree, angles);
 }

@@ -25,7 +25,7 @@ struct TwigPull {
 
   explicit TwigPull(int rate) : impulse(WINDOWS, Vec3(Vec3::Zero())), last(WINDOWS) {
     PhysicsSettings settings;
-    settings.promotion = static_cast<int>(Promotion::DEPTH);  // the same branches whatever the rate
+    settings.promotion = Promotion::DEPTH;  // the same branches whatever the rate
     PhysicsRig rig(settings);
     rig.grid = TickGrid(rate);
     rig.tick = rig.grid.tickAt(rig.forest.snapshot().stamp);

@@ -21,11 +21,11 @@ TEST(ModalForest, WhatIsAwaitedIsCountedAndDropped) {
   LevelMap modal, still;
   for (std::uint32_t id = 0; id < 4; ++id) modal.set(id, LevelState::settled(MODAL_LEVEL));
   ModalForest source;
-  for (const std::uint32_t id : {0u, 1u}) source.begin(at, id, true, seconds(1.0));
+  for (const std::uint32_t id : {0u, 1u}) source.addTree(at, id, true, seconds(1.0));
   const std::size_t all = source.find(1)->modes().size();
   ModalForest modes;
-  modes.begin(at, 0, false, seconds(1.0));
-  for (const std::uint32_t id : {0u, 1u, 2u}) modes.await(id);
+  modes.addTree(at, 0, false, seconds(1.0));
+  for (const std::uint32_t id : {0u, 1u, 2u}) modes.queueFineModes(id);
   EXPECT_EQ(modes.find(0), nullptr);  // what it had would be stale
   EXPECT_EQ(modes.bytes(), 0u);
   modes.restore(at, 0, source.find(0)->state(), seconds(1.0));  // no longer awaited
@@ -34,9 +34,9 @@ TEST(ModalForest, WhatIsAwaitedIsCountedAndDropped) {
   EXPECT_FALSE(modes.isReady(2, all));
   EXPECT_TRUE(modes.isReady(1, all));
   EXPECT_GT(modes.bytes(), one);
-  modes.settle(modal, seconds(1.0), 1.0);
+  modes.removeFaded(modal, seconds(1.0), 1.0);
   EXPECT_TRUE(modes.isReady(1, all));
-  modes.settle(still, seconds(1.0), 1.0);
+  modes.removeFaded(still, seconds(1.0), 1.0);
   EXPECT_FALSE(modes.isReady(1, all));
   modes.prepareNext(at);  // of no tree: 2 has left modes
   EXPECT_EQ(modes.bytes(), 0u);
@@ -49,8 +49,8 @@ TEST(ModalForest, StartAgainWhatStandsAtAnotherStamp) {
   const wind::Field wind = breeze();
   const ModalContext at{layout, flat, wind};
   ModalForest early, late;
-  early.begin(at, 0, false, seconds(1.0));
-  late.begin(at, 0, false, seconds(9.0));
+  early.addTree(at, 0, false, seconds(1.0));
+  late.addTree(at, 0, false, seconds(9.0));
   early.advance(wind, seconds(8.9), seconds(9.0));
   EXPECT_EQ(early.find(0)->stamp(), seconds(9.0));
   EXPECT_EQ(early.find(0)->state().amplitude, late.find(0)->state().amplitude);
@@ -68,13 +68,13 @@ TEST(ModalForest, TreesOfFewBranchesHaveAllOfTheirModes) {
     layout.species[0].limbs[0].leaves = 20.0;
     const ModalContext at{layout, flat, wind};
     ModalForest modes, late;
-    modes.begin(at, 0, false, seconds(1.0));
+    modes.addTree(at, 0, false, seconds(1.0));
     EXPECT_EQ(modes.find(0)->fine(), branches <= 11) << branches;
-    modes.begin(at, 0, true, seconds(1.0));
+    modes.addTree(at, 0, true, seconds(1.0));
     const ModalTreeState& here = *modes.find(0);
     EXPECT_TRUE(here.fine()) << branches;
     const ModalTree* found = &here.modes();
-    modes.begin(at, 0, true, seconds(1.0));
+    modes.addTree(at, 0, true, seconds(1.0));
     EXPECT_EQ(&modes.find(0)->modes(), found) << branches;
     late.restore(at, 0, here.state(), here.stamp());
     const auto right = here.modes().bendsOf(here.state().amplitude);
@@ -94,8 +94,8 @@ TEST(ModalForest, LeversThatTurnStayBoundedInStormsOverLongTicks) {
   std::vector<wind::Primitive> three;
   for (std::uint32_t id = 1; id <= 3; ++id) three.push_back(makeBreeze(id, Vec3(90.0, 10.0, 0.0)));
   const wind::Field storm(three, 3);
-  const auto largestTurn = [](const ModalTreeState& sway) {
-    return sway.modes().probe().largestTurn(sway.state().amplitude);
+  const auto largestTurn = [](const ModalTreeState& modal_state) {
+    return modal_state.modes().probe().largestTurn(modal_state.state().amplitude);
   };
   for (std::uint32_t id = 0; id < 4; ++id) {
     const Tree tree = growTree(layout, id, terrain::HeightMap());
@@ -111,10 +111,10 @@ TEST(ModalForest, LeversThatTurnStayBoundedInStormsOverLongTicks) {
           turning.loadOf(storm.at(stamp(i)), loads[static_cast<std::size_t>(i)]);
         rest = loads;
         for (ModalLoad& load : rest) load.air.setZero();
-        for (ModalTreeState* sway : {&turning, &stiff}) {
-          const std::vector<ModalLoad>& of = sway == &turning ? loads : rest;
-          if (tick == 0) sway->restore(sway->state(), of[0], stamp(0));
-          sway->step(of, stamp(steps));
+        for (ModalTreeState* modal_state : {&turning, &stiff}) {
+          const std::vector<ModalLoad>& of = modal_state == &turning ? loads : rest;
+          if (tick == 0) modal_state->restore(modal_state->state(), of[0], stamp(0));
+          modal_state->step(of, stamp(steps));
         }
         most = std::max(most, largestTurn(turning));
         least = std::max(least, largestTurn(stiff));

@@ -19,7 +19,8 @@ constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
 /// Returns a layout with a different value in every field.
 forest::Layout exampleLayout() {
   forest::Layout out = forest::gridLayout(2, 10.0);
-  out.motion = {1, 1, 1, 3.25, 1};
+  out.motion = {forest::JointModel::PAPER, forest::Gain::PAPER, forest::Drag::QUADRATIC, 3.25,
+                forest::TransitionShape::LINEAR};
   out.terrain = "package://somewhere/hills.yaml";
   out.terrain_hash = 18446744073709551615ULL;
   out.trees[1].position = Vec3(0.1, -2.2, 3.3);

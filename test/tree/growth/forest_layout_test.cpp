@@ -123,7 +123,7 @@ TEST(Layout, HashSeesEveryField) {
   differs([](Layout& l) { l.trees[0].seed += 1; });
   differs([](Layout& l) { l.trees[0].position.z() += 1e-9; });
   differs([](Layout& l) { l.species[1].limbs[0].taper += 1e-12; });
-  differs([](Layout& l) { l.motion.joint_model = 1; });
+  differs([](Layout& l) { l.motion.joint_model = JointModel::PAPER; });
   differs([](Layout& l) { l.terrain_hash = 7; });
 }
 

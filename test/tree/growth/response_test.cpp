@@ -37,8 +37,8 @@ Skeleton poleSkeleton(double theta, double phi) {
 
 MotionLaw lawOf(JointModel joint, Gain gain) {
   MotionLaw out;
-  out.joint_model = static_cast<int>(joint);
-  out.gain = static_cast<int>(gain);
+  out.joint_model = joint;
+  out.gain = gain;
   return out;
 }
 

@@ -9,6 +9,12 @@
 namespace vegetation_sim::forest {
 namespace {
 
+BatchPoses narrowed(const std::vector<Pose>& poses) {
+  BatchPoses out;
+  narrowPoses(poses, out);
+  return out;
+}
+
 constexpr std::array<float, 3> FOOT{30.f, -20.f, 5.f};
 constexpr double TOLERANCE = 2e-5;  // [m] single precision at 50 m
 
@@ -39,8 +45,8 @@ struct BentTree : testing::Test {
 // S1-08: float skinning against the same in double precision.
 TEST_F(BentTree, BarkFollowsItsBranches) {
   std::vector<float> positions(3 * mesh.bark.size()), normals(positions.size());
-  skinBark(mesh, narrowPoses(poses), FOOT, positions.data());
-  turnBarkNormals(mesh, narrowPoses(poses), normals.data());
+  skinBark(mesh, narrowed(poses), FOOT, positions.data());
+  turnBarkNormals(mesh, narrowed(poses), normals.data());
   double bent = 0.0;
   for (std::size_t i = 0; i < mesh.bark.size(); ++i) {
     const BarkVertex& v = mesh.bark[i];
@@ -57,7 +63,7 @@ TEST_F(BentTree, BarkFollowsItsBranches) {
 
 TEST_F(BentTree, LeafCardsLieInSquaresOnTheirBranches) {
   std::vector<float> positions(3 * LEAF_CORNERS * mesh.leaves.size());
-  skinLeaves(mesh, narrowPoses(poses), FOOT, Flutter(), positions.data());
+  skinLeaves(mesh, narrowed(poses), FOOT, Flutter(), positions.data());
   for (std::size_t i = 0; i < mesh.leaves.size(); ++i) {
     const LeafCard& leaf = mesh.leaves[i];
     const Pose& pose = poses[static_cast<std::size_t>(leaf.branch)];
@@ -90,7 +96,7 @@ Vec3 BentTree::footOf(const std::vector<float>& positions, std::size_t card) con
 // S1-W5: flutter turns the cards, by no more than its angle, and leaves their feet in place.
 TEST_F(BentTree, FlutterTurnsLeavesAboutTheirFeet) {
   std::vector<float> still(3 * LEAF_CORNERS * mesh.leaves.size()), moved(still.size());
-  const BatchPoses narrow = narrowPoses(poses);
+  const BatchPoses narrow = narrowed(poses);
   skinLeaves(mesh, narrow, FOOT, Flutter(), still.data());
   skinLeaves(mesh, narrow, FOOT, Flutter(12.3, 8.0, 0.2), moved.data());
   double largest = 0.0;

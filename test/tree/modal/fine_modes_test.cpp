@@ -38,11 +38,11 @@ TEST(ModalTreeState, GoesOnInFineModesWithoutAJump) {
       ASSERT_EQ(here[b].position, there[b].position) << i << " " << b;
     }
     if (i == 2 * TICK_RATE - 1) {
-      ASSERT_NE(scene.forest.sway(0), nullptr);
-      EXPECT_FALSE(scene.forest.sway(0)->fine());
+      ASSERT_NE(scene.forest.modalState(0), nullptr);
+      EXPECT_FALSE(scene.forest.modalState(0)->fine());
     }
   }
-  EXPECT_TRUE(scene.forest.sway(0)->fine());
+  EXPECT_TRUE(scene.forest.modalState(0)->fine());
   std::printf("largest jump %.1e rad of %.2f\n", jump, peak);
   EXPECT_LT(jump, 0.1 / 57.3);
 }
@@ -54,8 +54,8 @@ TEST(ModalTreeState, FineModesThatAreLostDoNotFlicker) {
   scene.advance();
   scene.tolerate(0.9 * static_cast<double>(scene.forest.plants().front().error[MODAL_LEVEL]));
   scene.run(2.0);
-  ASSERT_NE(scene.forest.sway(0), nullptr);
-  ASSERT_TRUE(scene.forest.sway(0)->fine());
+  ASSERT_NE(scene.forest.modalState(0), nullptr);
+  ASSERT_TRUE(scene.forest.modalState(0)->fine());
   scene.publishAtMost(500);
   std::map<std::uint32_t, int> changes, published;
   for (int i = 0; i < 5 * TICK_RATE; ++i) {
@@ -64,7 +64,7 @@ TEST(ModalTreeState, FineModesThatAreLostDoNotFlicker) {
     for (std::uint32_t tree = 0; tree < 4; ++tree)
       changes[tree] += scene.forest.snapshot().levels.of(tree).level != before.of(tree).level;
     for (const auto& entry : scene.forest.update(false).trees)
-      published[entry.tree] += !entry.sway.amplitude.empty();
+      published[entry.tree] += !entry.modal.amplitude.empty();
   }
   for (std::uint32_t tree = 0; tree < 4; ++tree) {
     EXPECT_LE(changes[tree], 2) << tree;  // to its stair, to plain modes

@@ -229,7 +229,7 @@ TEST(ModalTree, BatchedPoseAgreesWithThePlainOneOnEveryInstructionSet) {
 
 TEST(ModalTree, RefusesJointsThatDoNotBend) {
   Layout layout = gridLayout(1, 12.0);
-  layout.motion.joint_model = static_cast<int>(JointModel::PAPER);
+  layout.motion.joint_model = JointModel::PAPER;
   const Tree tree = groundedTree(layout, 0);
   EXPECT_THROW(ModalTree(tree, layout.species[0]), InvalidInput);
 }

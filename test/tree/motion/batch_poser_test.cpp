@@ -39,8 +39,8 @@ class BatchPoserOf : public testing::TestWithParam<Model> {
  protected:
   Layout layout() const {
     Layout out = gridLayout(3, 8.0);
-    out.motion.joint_model = static_cast<int>(GetParam().joint);
-    out.motion.drag = static_cast<int>(GetParam().drag);
+    out.motion.joint_model = GetParam().joint;
+    out.motion.drag = GetParam().drag;
     return out;
   }
 };

@@ -20,7 +20,7 @@ constexpr double TRANSITION = 2.0;
 MotionLaw lawOf(TransitionShape shape) {
   MotionLaw out;
   out.transition = TRANSITION;
-  out.transition_shape = static_cast<int>(shape);
+  out.transition_shape = shape;
   return out;
 }
 

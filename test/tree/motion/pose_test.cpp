@@ -14,7 +14,7 @@ namespace {
 
 Tree growOne(int species, JointModel model = JointModel::SWING) {
   Layout layout = gridLayout(2, 10.0);
-  layout.motion.joint_model = static_cast<int>(model);
+  layout.motion.joint_model = model;
   return growTree(layout, static_cast<std::uint32_t>(species), terrain::HeightMap());
 }
 

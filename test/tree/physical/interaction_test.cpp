@@ -13,7 +13,7 @@ namespace {
 
 PhysicsSettings byDepth() {
   PhysicsSettings out;
-  out.promotion = static_cast<int>(Promotion::DEPTH);
+  out.promotion = Promotion::DEPTH;
   return out;
 }
 

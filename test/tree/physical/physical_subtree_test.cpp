@@ -67,9 +67,9 @@ TEST(PhysicalSubtree, EveryInstructionSetHasTheSameHash) {
 // recoil its tips stay with the plain double reference.
 TEST(PhysicalSubtree, SinglePrecisionFollowsTheReference) {
   PhysicsSettings settings;
-  EXPECT_EQ(settings.precision, static_cast<int>(Precision::SINGLE));
+  EXPECT_EQ(settings.precision, Precision::SINGLE);
   PhysicsRig single = windyRig(settings);
-  settings.precision = static_cast<int>(Precision::DOUBLE);
+  settings.precision = Precision::DOUBLE;
   PhysicsRig reference = windyRig(settings);
   std::vector<std::vector<Vec3>> tips[2];
   pull(single, 3.0, [&] { tips[0].push_back(tipsOf(single)); });
@@ -183,7 +183,7 @@ TEST(PhysicalSubtree, StepsAllocateNothing) {
   const TreeWind air{rig.forest.snapshot().wind, rig.forest.snapshot().levels.of(0),
                      rig.forest.layout().motion};
   PhysicsSettings settings;
-  settings.precision = static_cast<int>(Precision::DOUBLE);
+  settings.precision = Precision::DOUBLE;
   std::size_t before = 0;
   for (int i = 0; i < 20; ++i) {
     if (i == 3) before = allocationCount();
@@ -199,7 +199,7 @@ TEST(PhysicalSubtree, StepsAllocateNothing) {
 // quarter of the step and no hand-over at all have it.
 TEST(PhysicalSubtree, AfterTheFadeItIsFullDynamics) {
   PhysicsSettings all;
-  all.promotion = static_cast<int>(Promotion::DEPTH);
+  all.promotion = Promotion::DEPTH;
   PhysicsRig rig(all), reference(all);
   PhysicsSettings at_once = all;
   at_once.fade = 0.0;
@@ -261,10 +261,10 @@ std::vector<Vec3> pulledTip(const PhysicsSettings& settings, bool all, std::size
 // the tree fully physical.
 TEST(PhysicalSubtree, ClusteredErrorFallsWithTheBranchesThatArePhysical) {
   PhysicsSettings settings;
-  settings.promotion = static_cast<int>(Promotion::DEPTH);
+  settings.promotion = Promotion::DEPTH;
   std::size_t everything = 0;
   const auto truth = pulledTip(settings, true, everything);
-  settings.promotion = static_cast<int>(Promotion::INFLUENCE);
+  settings.promotion = Promotion::INFLUENCE;
   std::vector<Clustered> curve;
   for (const double tolerance : {0.3, 0.1, 0.03, 0.01, 0.005, 0.002, 0.0005}) {
     settings.influence_tolerance = tolerance;
@@ -310,8 +310,8 @@ TEST(PhysicalSubtree, StiffWoodIsRunByTheMidpointAndCounted) {
   for (int integrator = 0; integrator < 5; ++integrator) {
     PhysicsSettings settings;
     settings.integrator = integrator;
-    settings.precision = static_cast<int>(Precision::DOUBLE);
-    settings.promotion = static_cast<int>(Promotion::DEPTH);
+    settings.precision = Precision::DOUBLE;
+    settings.promotion = Promotion::DEPTH;
     PhysicsRig rig(settings);
     Layout stiff = rig.forest.layout();
     stiff.species[0].youngs_modulus = 1e12;
@@ -356,12 +356,12 @@ Vec3 pulledTip(const PhysicsSettings& settings) {
 // integrators agree.
 TEST(PhysicalSubtree, MovesByTheMethodThatIsChosen) {
   std::vector<Vec3> tips;
-  for (int material = 0; material < 2; ++material)
+  for (const Material material : {Material::BEAM, Material::PAPER})
     for (int dynamics = 0; dynamics < 3; ++dynamics)
       for (int integrator = 0; integrator < 5; ++integrator) {
         PhysicsSettings settings;
-        settings.promotion = static_cast<int>(Promotion::DEPTH);
-        settings.precision = static_cast<int>(Precision::DOUBLE);
+        settings.promotion = Promotion::DEPTH;
+        settings.precision = Precision::DOUBLE;
         settings.material = material;
         settings.dynamics = dynamics;
         settings.integrator = integrator;

@@ -46,10 +46,10 @@ struct Foretold {
 
   explicit Foretold(const Vec3& shove) {
     PhysicsSettings settings;
-    settings.promotion = static_cast<int>(Promotion::DEPTH);
+    settings.promotion = Promotion::DEPTH;
     settings.fade = 0.0;
     const Swinging in_ticks(settings, shove, 1), in_steps(settings, shove, 4);
-    settings.precision = static_cast<int>(Precision::DOUBLE);
+    settings.precision = Precision::DOUBLE;
     const Swinging exact(settings, shove, 64);
     way = rms(exact.tips);
     ticks = rmsBetween(in_ticks.tips, exact.tips) / way;

@@ -21,7 +21,7 @@ std::uint64_t hashOf(const LevelMap& levels, Nanoseconds stamp) {
 TEST(LevelMap, BaseChangesContinuously) {
   LevelMap levels;
   levels.reset(LevelState::settled(2));
-  levels.rebase(0, seconds(10.0), TRANSITION);
+  levels.changeBase(0, seconds(10.0), TRANSITION);
   EXPECT_TRUE(levels.held().empty());
   const LevelState tree = levels.of(123456);
   EXPECT_EQ(tree.level, 0);
@@ -34,8 +34,8 @@ TEST(LevelMap, BaseChangesContinuously) {
 TEST(LevelMap, BaseTurnsRound) {
   LevelMap levels;
   levels.reset(LevelState::settled(2));
-  levels.rebase(0, seconds(10.0), TRANSITION);
-  levels.rebase(2, seconds(11.0), TRANSITION);
+  levels.changeBase(0, seconds(10.0), TRANSITION);
+  levels.changeBase(2, seconds(11.0), TRANSITION);
   EXPECT_DOUBLE_EQ(blendAt(levels.of(1), seconds(11.0), TRANSITION)[0], 0.5);
   EXPECT_EQ(blendAt(levels.of(1), seconds(12.0), TRANSITION)[0], 1.0);
 }
@@ -43,7 +43,7 @@ TEST(LevelMap, BaseTurnsRound) {
 TEST(LevelMap, HeldTreesKeepTheirLevelsWhenTheBaseChanges) {
   LevelMap levels;
   levels.set(7, LevelState::settled(3));
-  levels.rebase(2, seconds(10.0), TRANSITION);
+  levels.changeBase(2, seconds(10.0), TRANSITION);
   EXPECT_EQ(levels.of(7).level, 3);
   EXPECT_EQ(levels.of(8).level, 2);
 }
@@ -64,7 +64,7 @@ TEST(LevelMap, CountsTheTreesOfEachLevel) {
 TEST(LevelMap, ForgetsWhatIsLikeTheBase) {
   LevelMap levels;
   levels.reset(LevelState::settled(2));
-  levels.rebase(0, seconds(10.0), TRANSITION);
+  levels.changeBase(0, seconds(10.0), TRANSITION);
   levels.set(7, LevelState::settled(0));
   levels.prune(seconds(11.0), TRANSITION);
   EXPECT_EQ(levels.of(7).blend[0], 0.f);
@@ -82,7 +82,7 @@ TEST(LevelMap, HashIsTheSameWhetherOrNotPruned) {
     setLevel(state, static_cast<int>(tree), seconds(5.0), TRANSITION);
     levels.set(tree, state);
   }
-  levels.rebase(2, seconds(6.0), TRANSITION);
+  levels.changeBase(2, seconds(6.0), TRANSITION);
   for (const double now : {6.0, 6.9, 7.5, 8.0, 9.0}) {
     LevelMap pruned = levels;
     pruned.prune(seconds(now), TRANSITION);

@@ -9,7 +9,7 @@
 
 #include "vegetation_sim/core/math/hash.h"
 #include "vegetation_sim/terrain/height_map.h"
-#include "vegetation_sim/tree/modal/modal_state.h"
+#include "vegetation_sim/tree/modal/modal_tree_state.h"
 #include "vegetation_sim/tree/state/level_map.h"
 #include "vegetation_sim/wind/field.h"
 
@@ -22,8 +22,9 @@ struct ModalContext {
   const wind::Field& wind;
 };
 
-/// The trees of a forest that sway in modes. Forest and replica step them with this same code, so
-/// that between key frames nobody needs to be told of amplitudes. A value: copy it to save.
+/// The trees of a forest that modal_state in modes. Forest and replica step them with this same
+/// code, so that between key frames nobody needs to be told of amplitudes. A value: copy it to
+/// save.
 class ModalForest {
  public:
   /// Wind is looked at so often [Hz]; a tick takes the nearest whole number of such steps.
@@ -35,7 +36,7 @@ class ModalForest {
   void advance(const wind::Field& wind, Nanoseconds from, Nanoseconds to);
   /// Takes a tree up, on its procedural motion: finds its modes, a few milliseconds; fine ones take
   /// some tens. One in plain modes goes on in fine ones, which can do all that it does.
-  void begin(const ModalContext& at, std::uint32_t tree, bool fine, Nanoseconds stamp);
+  void addTree(const ModalContext& at, std::uint32_t tree, bool fine, Nanoseconds stamp);
   /// Fine modes take longer to find than a tick: one tree gets some every 0.1 s, for who draws too.
   static bool fineDue(Nanoseconds from, Nanoseconds to) {
     constexpr Nanoseconds PAUSE = NANOSECONDS_PER_SECOND / 10;
@@ -44,7 +45,7 @@ class ModalForest {
   /// Whether a state of so many modes can be taken over at once, or without finding fine ones.
   bool isReady(std::uint32_t tree, std::size_t modes) const;
   /// A tree whose fine modes are to be found; until a state of it is restored it has none.
-  void await(std::uint32_t tree);
+  void queueFineModes(std::uint32_t tree);
   /// Finds the fine modes of one awaited tree, for a state that is told later.
   void prepareNext(const ModalContext& at);
   /// Takes over a state that was told; modes that are held or prepared are not found again.
@@ -52,8 +53,8 @@ class ModalForest {
   void restore(const ModalContext& at, std::uint32_t tree, const physics::ModalState& state,
                Nanoseconds stamp);
   /// Drops the trees whose modes have no weight any more, nor will have.
-  void settle(const LevelMap& levels, Nanoseconds stamp, double transition);
-  void keepOnly(const std::set<std::uint32_t>& trees);
+  void removeFaded(const LevelMap& levels, Nanoseconds stamp, double transition);
+  void retain(const std::set<std::uint32_t>& trees);
   void clear();
 
   /// Nullptr: not in modes.
@@ -62,14 +63,14 @@ class ModalForest {
   std::size_t bytes() const;  ///< of all that was found
   /// Trees that bend farther than modes hold (physics::MODAL_LIMIT). They saturate: joints stop at
   /// their limit, and nothing else is as near to the full chain at this cost.
-  std::size_t strained() const;
+  std::size_t countStrained() const;
   void addTo(Hash& hash) const;
 
  private:
-  void refine(const ModalContext& at, std::uint32_t tree, ModalTreeState& sway);
-  void start(const wind::Field& wind, ModalTreeState& sway, Nanoseconds stamp);
+  void refine(const ModalContext& at, std::uint32_t tree, ModalTreeState& modal_state);
+  void start(const wind::Field& wind, ModalTreeState& modal_state, Nanoseconds stamp);
   template <class Wanted>
-  void keepIf(const Wanted& wanted);
+  void retainIf(const Wanted& wanted);
 
   std::map<std::uint32_t, ModalTreeState> modal_states_;
   std::map<std::uint32_t, ModalTreeState> prepared_;  // found, not told of yet

@@ -45,11 +45,11 @@ constexpr std::uint32_t MOST_TREES = 1u << 24;
 
 /// How every tree of a layout moves; part of the law that replicas share.
 struct MotionLaw {
-  int joint_model{0};       ///< JointModel
-  int gain{0};              ///< Gain
-  int drag{0};              ///< Drag
-  double transition{1.0};   ///< duration of a change of level (S1-45) [s]
-  int transition_shape{0};  ///< TransitionShape
+  JointModel joint_model{JointModel::SWING};
+  Gain gain{Gain::COMPLIANCE};
+  Drag drag{Drag::LINEAR};
+  double transition{1.0};  ///< duration of a change of level (S1-45) [s]
+  TransitionShape transition_shape{TransitionShape::SMOOTH};
 };
 void describe(FieldVisitor& visitor, MotionLaw& law);
 

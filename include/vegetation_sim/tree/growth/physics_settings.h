@@ -26,12 +26,12 @@ constexpr Nanoseconds LONGEST_GAP = NANOSECONDS_PER_SECOND;
 
 /// How branches are physical, and which.
 struct PhysicsSettings {
-  int dynamics{0};                    ///< physics::Dynamics
-  int integrator{0};                  ///< physics::Integrator
-  int precision{0};                   ///< Precision
-  int material{0};                    ///< Material
-  int wind_forcing{0};                ///< WindForcing
-  int promotion{0};                   ///< Promotion
+  int dynamics{0};    ///< physics::Dynamics
+  int integrator{0};  ///< physics::Integrator
+  Precision precision{Precision::SINGLE};
+  Material material{Material::BEAM};
+  WindForcing wind_forcing{WindForcing::COMPENSATED};
+  Promotion promotion{Promotion::INFLUENCE};
   double influence_tolerance{0.005};  ///< branches that a load moves less stay procedural [m]
   int most_branches{20000};           ///< physical at once, in all trees
   double fade{0.5};                   ///< from the procedural load to the real one [s]

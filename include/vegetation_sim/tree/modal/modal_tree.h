@@ -82,7 +82,7 @@ class ModalTree {
   std::vector<double> amplitudesOf(const std::vector<JointAngles>& bends) const;
 
  private:
-  void lookAtWaves(const wind::Instant& wind, ModalAir& air) const;
+  void updateWaves(const wind::Instant& wind, ModalAir& air) const;
   void pushOf(const Vec3& wave, double* out) const;
   void velocitiesAt(const wind::Instant& wind, ModalAir& air) const;
 

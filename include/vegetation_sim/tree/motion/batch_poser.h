@@ -22,6 +22,9 @@ struct BatchPoses {
   Pose at(int branch) const;
 };
 
+/// Converts poses to single precision. Reuses the memory of `out`.
+void narrowPoses(const std::vector<Pose>& poses, BatchPoses& out);
+
 /// Branches begin to end of one depth; first_parent: of `begin`, if the parents of all stand side
 /// by side, else -1.
 struct BatchGroup {

@@ -26,12 +26,12 @@ class LevelMap {
 
   void set(std::uint32_t tree, const LevelState& state) { held_[tree] = state; }
   /// Gives a tree the base's level, now and later.
-  void follow(std::uint32_t tree) { held_.erase(tree); }
+  void resetToBase(std::uint32_t tree) { held_.erase(tree); }
   /// Drops every tree and gives all of them the base's level.
   void reset(const LevelState& base);
   void setBase(const LevelState& base) { base_ = base; }
   /// Starts a change of the base to `level`; the trees that are held keep theirs.
-  void rebase(int level, Nanoseconds stamp, double transition);
+  void changeBase(int level, Nanoseconds stamp, double transition);
   /// Restarts every change from where it stands, so that its duration may change.
   void anchor(Nanoseconds stamp, double transition);
   /// Forgets the trees that have settled at the base, once it has settled itself.
@@ -57,7 +57,7 @@ struct StateUpdate {
     LevelState state;
     std::vector<PromotedBranch> promoted{};  ///< by rising branch; none
     /// Of its modes, in key frames and when they begin; empty: as steps from then on have it.
-    physics::ModalState sway{};
+    physics::ModalState modal{};
   };
   std::vector<Entry> trees;
 };

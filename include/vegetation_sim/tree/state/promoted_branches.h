@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "vegetation_sim/tree/modal/modal_state.h"
+#include "vegetation_sim/tree/modal/modal_tree_state.h"
 
 namespace vegetation_sim::forest {
 
@@ -34,9 +34,9 @@ double blendWeight(const PromotedBranch& branch, Nanoseconds stamp, double durat
 void overlay(const PromotedTree& promoted, Nanoseconds stamp, std::vector<JointAngles>& angles);
 
 /// Pose of every branch in the tree's frame, physical ones and modes included (S1-35, N13).
-/// `sway`: none, the tree has no modes.
+/// `modal_state`: none, the tree has no modes.
 std::vector<Pose> poseBranches(const Tree& tree, const wind::Instant& wind, const Weights& weights,
-                               const ModalTreeState* sway, const PromotedTree& promoted,
+                               const ModalTreeState* modal_state, const PromotedTree& promoted,
                                Nanoseconds stamp);
 
 }  // namespace vegetation_sim::forest

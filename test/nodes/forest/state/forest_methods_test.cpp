@@ -22,10 +22,10 @@ PhysicsSettings wanted() {
   PhysicsSettings out;
   out.dynamics = static_cast<int>(physics::Dynamics::PAPER);
   out.integrator = static_cast<int>(physics::Integrator::EXPLICIT_EULER);
-  out.precision = static_cast<int>(forest::Precision::DOUBLE);
-  out.material = static_cast<int>(forest::Material::PAPER);
-  out.wind_forcing = static_cast<int>(forest::WindForcing::PAPER);
-  out.promotion = static_cast<int>(forest::Promotion::DEPTH);
+  out.precision = forest::Precision::DOUBLE;
+  out.material = forest::Material::PAPER;
+  out.wind_forcing = forest::WindForcing::PAPER;
+  out.promotion = forest::Promotion::DEPTH;
   out.influence_tolerance = 0.007;
   out.most_branches = 777;
   out.fade = 0.6;

@@ -13,7 +13,6 @@
 
 #include "nodes/rigs/forest_rig.h"
 #include "scenes/forest/forest_fixture.h"
-#include "tree/motion/narrow_poses.h"
 #include "vegetation_sim/forest/forest_replica.h"
 #include "vegetation_sim/ros/conversions/wind_conversions.h"
 #include "vegetation_sim/tree/motion/batch_poser.h"
@@ -116,8 +115,8 @@ class ForestRebuild : public testing::Test {
                                     replica.weights(id, replica.stamp()), forest::MAX_DEPTHS, fast);
       const auto promoted = replica.promoted(id).branches;
       EXPECT_EQ(promoted.size(), published.physical.size());
-      if (!promoted.empty() || replica.sway(id))
-        narrow(poses, fast);  // Displays pose such a tree in this way.
+      if (!promoted.empty() || replica.modalState(id))
+        narrowPoses(poses, fast);  // Displays pose such a tree in this way.
       out.physical += promoted.size();
       if (poses.size() != published.transforms.poses.size())
         throw std::runtime_error("other branches");

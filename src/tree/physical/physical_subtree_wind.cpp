@@ -86,7 +86,7 @@ void PhysicalSubtree::addCompensation(const ProceduralMotion& motion,
   s.procedural.q.resize(n);
   s.procedural.rate.resize(n);
   s.acceleration.resize(n);
-  s.motions.look(motion, branches_);
+  s.motions.update(motion, branches_);
   for (std::size_t i = 0; i < n; ++i) {
     const JointMotion at = s.motions.at(i);
     s.procedural.q[i] = {at.q.first, at.q.second};
@@ -97,7 +97,7 @@ void PhysicalSubtree::addCompensation(const ProceduralMotion& motion,
   s.loads.clear(n);
   addWind(motion, s.kinematics, settings, s, s.loads);
   s.body.torques(links_, s.bases, s.procedural, s.kinematics, s.loads, s.acceleration, s.torque);
-  const bool printed = static_cast<WindForcing>(settings.wind_forcing) == WindForcing::PAPER;
+  const bool printed = settings.wind_forcing == WindForcing::PAPER;
   for (std::size_t i = 0; i < n; ++i) {
     const double share = compensationAt(i, stamp, settings.fade);
     physics::Vec2 torque = s.torque[i];

@@ -35,7 +35,8 @@ class ModalTreeState {
 
   void loadOf(const wind::Instant& wind, ModalLoad& out);
   /// Modal forces [modes] of a load on the tree as it is bent.
-  void bent(const ModalLoad& load, const std::vector<double>& amplitude, std::vector<double>& out);
+  void addLeverForces(const ModalLoad& load, const std::vector<double>& amplitude,
+                      std::vector<double>& out);
   /// Starts as the procedural motion is under loads `step` seconds before the stamp, at it, and
   /// after.
   void begin(const std::array<ModalLoad, 3>& loads, double step, Nanoseconds stamp);
@@ -50,10 +51,10 @@ class ModalTreeState {
   /// Poses all branches in single precision, as displays do while the modes have all the weight.
   void pose(const BatchPoser& poser, Nanoseconds stamp, BatchPoses& out) const;
   /// Amplitudes between the last two ticks, as a cubic that has their values and rates.
-  void amplitudeBetween(Nanoseconds stamp, std::vector<double>& out) const;
+  void interpolateAmplitude(Nanoseconds stamp, std::vector<double>& out) const;
 
  private:
-  void land(const ModalLoad& load, Nanoseconds stamp);
+  void finishStep(const ModalLoad& load, Nanoseconds stamp);
 
   std::shared_ptr<const ModalTree> modes_;
   std::shared_ptr<const physics::BatchModes> batch_;  // of modes_
@@ -67,14 +68,14 @@ class ModalTreeState {
 };
 
 /// Deviation of each joint: procedural, or modal, or between them, as the weights say. `wind` is
-/// relative to the foot; `sway`: none, all procedural.
+/// relative to the foot; `modal_state`: none, all procedural.
 std::vector<JointAngles> modalAngles(const Tree& tree, const wind::Instant& wind,
-                                     const Weights& weights, const ModalTreeState* sway,
+                                     const Weights& weights, const ModalTreeState* modal_state,
                                      Nanoseconds stamp);
 
 /// Bends of one joint in the modes, within what joints do.
 JointAngles bendOf(const ModalTree& modes, const std::vector<double>& amplitude, int branch);
 /// `weight` of the way from one to the other.
-JointAngles between(const JointAngles& from, const JointAngles& to, double weight);
+JointAngles interpolate(const JointAngles& from, const JointAngles& to, double weight);
 
 }  // namespace vegetation_sim::forest

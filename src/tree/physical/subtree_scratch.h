@@ -15,7 +15,7 @@ struct TreeWind {
   const wind::Field& field;
   LevelState level;
   const MotionLaw& law;
-  const ModalTreeState* sway{nullptr};
+  const ModalTreeState* modal_state{nullptr};
 };
 
 /// Memory that stepping needs and nothing else: what is in it between steps does not matter. One
@@ -49,9 +49,9 @@ struct SubtreeScratch {
   }
   /// The motion of a tree around a stamp, where it is not physical.
   ProceduralMotion motionOf(const Tree& tree, const TreeWind& around, Nanoseconds stamp) {
-    if (around.sway) modal.sampleAt(*around.sway, stamp);
+    if (around.modal_state) modal.sampleAt(*around.modal_state, stamp);
     return {tree, sampleAt(around.field, stamp), around.level, around.law,
-            around.sway ? &modal : nullptr};
+            around.modal_state ? &modal : nullptr};
   }
 };
 

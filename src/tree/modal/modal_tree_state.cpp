@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vegetation_sim/tree/modal/modal_state.h"
+#include "vegetation_sim/tree/modal/modal_tree_state.h"
 
 #include <algorithm>
 
@@ -30,15 +30,15 @@ void ModalTreeState::loadOf(const wind::Instant& wind, ModalLoad& out) {
   out.air = modes_->airOn(wind);
 }
 
-void ModalTreeState::bent(const ModalLoad& load, const std::vector<double>& amplitude,
-                          std::vector<double>& out) {
+void ModalTreeState::addLeverForces(const ModalLoad& load, const std::vector<double>& amplitude,
+                                    std::vector<double>& out) {
   out = load.force;
   modes_->bendLevers(load.air, amplitude, air_, out);
 }
 
 // By the state alone, however it was come by: who is told of it looks ahead to the same bits.
-void ModalTreeState::land(const ModalLoad& load, Nanoseconds stamp) {
-  bent(load, state_.amplitude, after_load_);
+void ModalTreeState::finishStep(const ModalLoad& load, Nanoseconds stamp) {
+  addLeverForces(load, state_.amplitude, after_load_);
   stepper_.accelerations(state_, after_load_, acceleration_);
   stamp_ = stamp;
 }
@@ -56,7 +56,7 @@ void ModalTreeState::begin(const std::array<ModalLoad, 3>& loads, double step, N
   }
   before_ = state_;
   before_stamp_ = stamp;
-  land(loads[1], stamp);
+  finishStep(loads[1], stamp);
 }
 
 void ModalTreeState::restore(const physics::ModalState& state, const ModalLoad& load,
@@ -67,7 +67,7 @@ void ModalTreeState::restore(const physics::ModalState& state, const ModalLoad& 
                        std::to_string(modes_->size()));
   state_ = before_ = state;
   before_stamp_ = stamp;
-  land(load, stamp);
+  finishStep(load, stamp);
 }
 
 // Levers are turned by the bends that a step with those before it ends in.
@@ -77,16 +77,16 @@ void ModalTreeState::step(const std::vector<ModalLoad>& loads, Nanoseconds stamp
   const auto steps = static_cast<Nanoseconds>(loads.size()) - 1;
   const double h = wholeMicroseconds((stamp - stamp_) / steps);
   for (std::size_t i = 0; i + 1 < loads.size(); ++i) {
-    bent(loads[i], state_.amplitude, before_load_);
+    addLeverForces(loads[i], state_.amplitude, before_load_);
     trial_ = state_;
     after_load_ = before_load_;
     for (std::size_t m = 0; m < after_load_.size(); ++m)
       after_load_[m] += loads[i + 1].force[m] - loads[i].force[m];
     stepper_.step(before_load_, after_load_, h, trial_);
-    bent(loads[i + 1], trial_.amplitude, after_load_);
+    addLeverForces(loads[i + 1], trial_.amplitude, after_load_);
     stepper_.step(before_load_, after_load_, h, state_);
   }
-  land(loads.back(), stamp);
+  finishStep(loads.back(), stamp);
 }
 
 std::vector<double> ModalTreeState::amplitudeAt(Nanoseconds stamp) const {
@@ -104,7 +104,7 @@ void ModalTreeState::pose(const BatchPoser& poser, Nanoseconds stamp, BatchPoses
   poser.pose(bends, out);
 }
 
-void ModalTreeState::amplitudeBetween(Nanoseconds stamp, std::vector<double>& out) const {
+void ModalTreeState::interpolateAmplitude(Nanoseconds stamp, std::vector<double>& out) const {
   if (stamp_ == before_stamp_) {
     out = amplitudeAt(stamp);
     return;
@@ -129,21 +129,21 @@ JointAngles bendOf(const ModalTree& modes, const std::vector<double>& amplitude,
   return limited(out);
 }
 
-JointAngles between(const JointAngles& from, const JointAngles& to, double weight) {
+JointAngles interpolate(const JointAngles& from, const JointAngles& to, double weight) {
   return {(1.0 - weight) * from.first + weight * to.first,
           (1.0 - weight) * from.second + weight * to.second};
 }
 
 std::vector<JointAngles> modalAngles(const Tree& tree, const wind::Instant& wind,
-                                     const Weights& weights, const ModalTreeState* sway,
+                                     const Weights& weights, const ModalTreeState* modal_state,
                                      Nanoseconds stamp) {
-  const double weight = sway ? modalWeight(weights) : 0.0;
+  const double weight = modal_state ? modalWeight(weights) : 0.0;
   if (weight <= 0.0) return proceduralAngles(tree, wind, weights);
-  std::vector<JointAngles> out = sway->modes().bendsOf(sway->amplitudeAt(stamp));
+  std::vector<JointAngles> out = modal_state->modes().bendsOf(modal_state->amplitudeAt(stamp));
   for (JointAngles& bends : out) bends = limited(bends);
   if (weight >= 1.0) return out;
   const std::vector<JointAngles> from = proceduralAngles(tree, wind, weights);
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = between(from[i], out[i], weight);
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = interpolate(from[i], out[i], weight);
   return out;
 }
 

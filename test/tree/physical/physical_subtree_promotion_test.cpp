@@ -12,7 +12,7 @@ constexpr double HELD = 3600.0;  // [s] a fade that does not end
 
 PhysicsSettings allOfIt() {
   PhysicsSettings out;
-  out.promotion = static_cast<int>(Promotion::DEPTH);
+  out.promotion = Promotion::DEPTH;
   out.linger = 0.0;
   return out;
 }
@@ -47,7 +47,7 @@ TEST(HandOver, CompensatedWindKeepsTheProceduralMotion) {
   PhysicsSettings settings = allOfIt();
   settings.fade = HELD;
   const double compensated = differenceFromProcedural(settings);
-  settings.wind_forcing = static_cast<int>(WindForcing::PAPER);
+  settings.wind_forcing = WindForcing::PAPER;
   const double printed = differenceFromProcedural(settings);
   std::printf("RMS difference from procedural over amplitude: compensated %.2e, printed %.2f\n",
               compensated, printed);
@@ -84,7 +84,7 @@ struct Limit {
   }
 };
 
-Jump between(const Limit& left, const Limit& right, double peak) {
+Jump interpolate(const Limit& left, const Limit& right, double peak) {
   Jump out;
   for (std::size_t i = 0; i < left.q.size(); ++i)
     out.add({difference(left.q[i], right.q[i]), difference(left.rate[i], right.rate[i]) / peak});
@@ -106,7 +106,7 @@ Jump jumpAt(PhysicsRig& rig, double peak, const std::function<void(PhysicsRig&)>
   change(with);
   const Angles first = sampleAt(with, stamp + FINE), after = sampleAt(with, stamp + 2 * FINE);
   rig.advance();
-  return between({before, last, 1.0, FINE}, {after, first, 1.0, -FINE}, peak);
+  return interpolate({before, last, 1.0, FINE}, {after, first, 1.0, -FINE}, peak);
 }
 
 double peakRate(PhysicsRig rig, double duration) {
@@ -167,7 +167,7 @@ Jump jumpsIn(PhysicsRig rig, Nanoseconds duration, double peak) {
   for (Nanoseconds t = APART; t <= duration; t += APART) {
     looks.push_back(sampleAt(rig, start + t));
     if (looks.size() < 4) continue;
-    out.add(between({looks[0], looks[1], 0.5, APART}, {looks[3], looks[2], 0.5, -APART}, peak));
+    out.add(interpolate({looks[0], looks[1], 0.5, APART}, {looks[3], looks[2], 0.5, -APART}, peak));
     looks.erase(looks.begin());
   }
   return out;

@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vegetation_sim/tree/modal/modal_state.h"
+#include "vegetation_sim/tree/modal/modal_tree_state.h"
 
 #include <gtest/gtest.h>
 
@@ -94,7 +94,7 @@ TEST(ModalTreeState, SaturatesAndSaysSoBeyondTheLimit) {
     double bend = 0.0, turn = 0.0;
     for (int i = 0; i < TICK_RATE; ++i) {
       scene.advance();
-      const ModalTreeState& birch = *scene.forest.sway(2);
+      const ModalTreeState& birch = *scene.forest.modalState(2);
       turn = std::max(turn, birch.modes().probe().largestTurn(birch.state().amplitude));
       for (const JointAngles& joint : scene.angles(scene.tree(2), 2, scene.now()))
         bend = std::max(bend, difference(joint, {}));
@@ -154,7 +154,7 @@ TEST(ModalTreeState, IsSavedRestoredAndHashed) {
 TEST(ModalTreeState, HandsOverToPhysicsWithoutCompensation) {
   Clearing scene;
   PhysicsSettings physics;
-  physics.promotion = static_cast<int>(Promotion::DEPTH);
+  physics.promotion = Promotion::DEPTH;
   scene.forest.setPhysics(physics);
   scene.run(3.0);
   const Tree tree = scene.tree(0);
@@ -174,8 +174,8 @@ TEST(ModalTreeState, HandsOverToPhysicsWithoutCompensation) {
       for (const PromotedBranch& b : promoted.branches)
         EXPECT_LT(difference(b.q, before[static_cast<std::size_t>(b.branch)]), 0.05);
     }
-    std::vector<JointAngles> modal =
-        scene.forest.sway(0)->modes().bendsOf(scene.forest.sway(0)->amplitudeAt(scene.now()));
+    std::vector<JointAngles> modal = scene.forest.modalState(0)->modes().bendsOf(
+        scene.forest.modalState(0)->amplitudeAt(scene.now()));
     std::vector<JointAngles> real = modal;
     overlay(promoted, scene.now(), real);
     const std::vector<Pose> a = forwardKinematics(tree, modal), b = forwardKinematics(tree, real);

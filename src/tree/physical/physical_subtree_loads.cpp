@@ -46,13 +46,13 @@ struct PhysicalSubtree::Step {
   ProceduralMotion motionAt(double time) const {
     return scratch.motionOf(part.tree(), air, from + fromSeconds(time));
   }
-  void lookAtBases(const ProceduralMotion& motion) const {
+  void updateBases(const ProceduralMotion& motion) const {
     if (based == motion.wind.stamp()) return;
     part.baseMotions(motion, scratch, scratch.bases);
     based = motion.wind.stamp();
   }
   void bases(double time, std::vector<physics::BaseMotion>& out) const {
-    lookAtBases(motionAt(time));
+    updateBases(motionAt(time));
     out = scratch.bases;
   }
   void load(const physics::Kinematics& kinematics, double time, physics::Loads& out) const {
@@ -62,7 +62,7 @@ struct PhysicalSubtree::Step {
     addOthers(motion, kinematics, out);
   }
   // Air for a chain's rows.
-  void blow(double h, const float* places, float* rows, std::size_t blocks) const {
+  void fillWindRows(double h, const float* places, float* rows, std::size_t blocks) const {
     const Nanoseconds middle = from + fromSeconds(part.theta_ * h);
     const bool own = loads.air == NEVER || part.compensates(from, settings.fade);
     const ProceduralMotion motion = scratch.motionOf(part.tree(), air, own ? middle : loads.air);
@@ -72,7 +72,7 @@ struct PhysicalSubtree::Step {
   // All that acts besides the wind.
   void addOthers(const ProceduralMotion& motion, const physics::Kinematics& kinematics,
                  physics::Loads& out) const {
-    lookAtBases(motion);
+    updateBases(motion);
     part.addCompensation(motion, settings, scratch, out);
     part.addSprings(loads, motion.wind.stamp(), kinematics, out);
     part.addForces(loads, kinematics, out);
@@ -105,8 +105,8 @@ void PhysicalSubtree::step(const TreeWind& air, const SubtreeLoads& loads,
   const double h = secondsBetween(from, to);
   const auto dynamics = static_cast<physics::Dynamics>(settings.dynamics);
   const auto wanted = static_cast<physics::Integrator>(settings.integrator);
-  if (static_cast<Precision>(settings.precision) == Precision::SINGLE &&
-      dynamics == physics::Dynamics::ARTICULATED && wanted == physics::Integrator::MIDPOINT)
+  if (settings.precision == Precision::SINGLE && dynamics == physics::Dynamics::ARTICULATED &&
+      wanted == physics::Integrator::MIDPOINT)
     return stepBatched(context, h);
   const physics::Surroundings outside = context.outside();
   scratch.stepper.setDynamics(dynamics);
@@ -114,27 +114,27 @@ void PhysicalSubtree::step(const TreeWind& air, const SubtreeLoads& loads,
     ++scratch.replaced;  // beyond the bound of an explicit method
     scratch.stepper.step(physics::Integrator::MIDPOINT, links_, outside, 0.0, h, state_, theta_);
   }
-  stopJoints();
+  limitJoints();
 }
 
 // The state lives here in double precision; what the chain keeps is gone with the step.
 void PhysicalSubtree::stepBatched(const Step& context, double h) {
-  if (!chain_.held) grip();
+  if (!chain_.held) createChain();
   physics::BatchChain& chain = *chain_.held;
   chain.setState(0, state_, theta_);
   // What fades out is told against the air of each step.
   if (!context.loads.hold || compensates(context.from, context.settings.fade))
     chain.queryWind([&](const float* places, float* rows, std::size_t blocks) {
-      context.blow(h, places, rows, blocks);
+      context.fillWindRows(h, places, rows, blocks);
     });
   const bool predicts = context.loads.hold && h * chain.fastest(0) <= PREDICTED_TURN;
   chain.step(context.outsideWind(), 0.0, h, predicts ? 1 : 0);
   state_ = chain.state(0);
   theta_ = chain.theta(0);
-  stopJoints();
+  limitJoints();
 }
 
-void PhysicalSubtree::grip() {
+void PhysicalSubtree::createChain() {
   chain_.held = std::make_unique<physics::BatchChain>(links_);
   const bool linear = tree_->drag == Drag::LINEAR;
   std::vector<physics::Grip> grips;
@@ -146,7 +146,7 @@ void PhysicalSubtree::grip() {
 
 // Whatever happens, angles stay where the chain and the messages hold: the printed dynamics flutter
 // without bound (E2), and a hand may wring a twig off.
-void PhysicalSubtree::stopJoints() {
+void PhysicalSubtree::limitJoints() {
   constexpr double MOST = 1.0 + 1e-6;  // chains stop there themselves, as they round
   for (std::size_t i = 0; i < links_.size(); ++i) {
     physics::Vec2 &q = state_.q[i], &rate = state_.rate[i];
@@ -161,17 +161,17 @@ void PhysicalSubtree::stopJoints() {
   }
 }
 
-void PhysicalSubtree::stepTouching(const TreeWind& air, const SubtreeLoads& loads,
-                                   const PhysicsSettings& settings, Nanoseconds from,
-                                   Nanoseconds to, SubtreeScratch& scratch,
-                                   std::vector<physics::Contact>& contacts) {
+void PhysicalSubtree::stepWithContacts(const TreeWind& air, const SubtreeLoads& loads,
+                                       const PhysicsSettings& settings, Nanoseconds from,
+                                       Nanoseconds to, SubtreeScratch& scratch,
+                                       std::vector<physics::Contact>& contacts) {
   const Step context{*this, air, loads, settings, scratch, from};
   const double h = secondsBetween(from, to);
   theta_ = physics::guardedTheta(state_, h, theta_);
   const bool euler = settings.integrator == static_cast<int>(physics::Integrator::IMPLICIT_EULER);
   scratch.contact_stepper.step(links_, context.outside(), settings.contact, 0.0, h,
                                euler ? 1.0 : theta_, state_, contacts);
-  stopJoints();
+  limitJoints();
 }
 
 void PhysicalSubtree::kinematicsAt(const TreeWind& air, Nanoseconds stamp, SubtreeScratch& scratch,
@@ -209,7 +209,7 @@ void PhysicalSubtree::baseMotions(const ProceduralMotion& motion, SubtreeScratch
   out.resize(1 + carriers_.size());
   out[0] = physics::BaseMotion();
   if (carriers_.empty()) return;
-  scratch.carrier_motions.look(motion, carriers_);
+  scratch.carrier_motions.update(motion, carriers_);
   moveCarriers(*tree_, carriers_, scratch.carrier_motions, scratch.carrier_poses, scratch.carriers);
   for (std::size_t i = 0; i < carriers_.size(); ++i) {
     const CarrierMotion& motion = scratch.carriers[i];

@@ -48,7 +48,7 @@ std::size_t PhysicalSubtree::promote(const std::vector<int>& branches,
   std::size_t refused = 0;
   for (const int branch : branches) {  // rising: bearers come first
     if (mask[index(branch)]) continue;
-    if (wouldGap(mask, branch)) {
+    if (leavesGap(mask, branch)) {
       ++refused;
       continue;
     }
@@ -57,7 +57,7 @@ std::size_t PhysicalSubtree::promote(const std::vector<int>& branches,
   }
   if (!added.empty()) {
     ProceduralMotions motions;
-    motions.look(motion, added);
+    motions.update(motion, added);
     for (std::size_t i = 0; i < added.size(); ++i) {
       const JointMotion at = motions.at(i);
       all.push_back({{added[i], stamp, stamp, NEVER, motion.missing(), true},
@@ -70,17 +70,17 @@ std::size_t PhysicalSubtree::promote(const std::vector<int>& branches,
   }
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     joints_[i].wanted = score[index(joints_[i].branch)] > keep;
-    if (joints_[i].wanted) takeBack(static_cast<int>(i), motion, settings.blend);
+    if (joints_[i].wanted) cancelBlend(static_cast<int>(i), motion, settings.blend);
   }
   return refused;
 }
 
-void PhysicalSubtree::releaseTrees() {
+void PhysicalSubtree::releaseJoints() {
   for (SubtreeJoint& joint : joints_) joint.wanted = false;
 }
 
 // True if a bearer of the branch is physical, but not the one right below it.
-bool PhysicalSubtree::wouldGap(const std::vector<char>& mask, int branch) const {
+bool PhysicalSubtree::leavesGap(const std::vector<char>& mask, int branch) const {
   const auto& branches = tree_->skeleton.branches;
   int parent = branches[index(branch)].parent;
   if (parent < 0 || mask[index(parent)]) return false;
@@ -91,7 +91,7 @@ bool PhysicalSubtree::wouldGap(const std::vector<char>& mask, int branch) const 
 
 // A branch in the middle of its blend goes on from where it is seen, and so does all that bears it:
 // no jump in angle or rate (S1-38).
-void PhysicalSubtree::takeBack(int link, const ProceduralMotion& motion, double duration) {
+void PhysicalSubtree::cancelBlend(int link, const ProceduralMotion& motion, double duration) {
   const Nanoseconds stamp = motion.wind.stamp();
   for (; link >= 0; link = links_[index(link)].parent) {
     SubtreeJoint& joint = joints_[index(link)];
@@ -118,11 +118,11 @@ void PhysicalSubtree::demote(const ProceduralMotion& motion, const PhysicsSettin
     if (joint.wanted) joint.needed = stamp;
     waiting = waiting || (!joint.wanted && joint.blend == NEVER);
   }
-  if (waiting) scratch.motions.look(motion, branches_);
+  if (waiting) scratch.motions.update(motion, branches_);
   std::vector<char> bears(joints_.size(), 0);  // what is physical for good
   for (std::size_t i = joints_.size(); i-- > 0;) {
     SubtreeJoint& joint = joints_[i];
-    if (joint.blend == NEVER && !bears[i] && mayGo(i, stamp, scratch.motions, settings))
+    if (joint.blend == NEVER && !bears[i] && canBlend(i, stamp, scratch.motions, settings))
       joint.blend = stamp;
     if ((joint.blend == NEVER || bears[i]) && links_[i].parent >= 0)
       bears[index(links_[i].parent)] = 1;
@@ -138,8 +138,9 @@ void PhysicalSubtree::demote(const ProceduralMotion& motion, const PhysicsSettin
 }
 
 // Nothing needs it, and it moves as it would procedurally, or has had its time.
-bool PhysicalSubtree::mayGo(std::size_t link, Nanoseconds stamp, const ProceduralMotions& motions,
-                            const PhysicsSettings& settings) const {
+bool PhysicalSubtree::canBlend(std::size_t link, Nanoseconds stamp,
+                               const ProceduralMotions& motions,
+                               const PhysicsSettings& settings) const {
   const SubtreeJoint& joint = joints_[link];
   if (joint.wanted) return false;
   if (secondsBetween(joint.needed, stamp) >= settings.linger) return true;
