@@ -32,14 +32,14 @@ parse() {
     case $1 in
       --headless) headless=true ;;
       --seconds | --screenshot | --series | --view)
-        [ $# -ge 2 ] || refuse "$1 wants a value"
+        [ $# -ge 2 ] || refuse "$1 requires a value"
         printf -v "${1#--}" %s "$2"
         shift
         ;;
       -h | --help) usage; exit 0 ;;
       -*) refuse "unknown option $1" ;;
       *)
-        [ -z "$scenario" ] || refuse "a second scenario: $1"
+        [ -z "$scenario" ] || refuse "more than one scenario: $1"
         scenario=$1
         ;;
     esac
@@ -47,13 +47,13 @@ parse() {
   done
   scenario=${scenario:-forest}
   [ -e "$ROOT/config/scenarios/$scenario.yaml" ] || refuse "unknown scenario $scenario"
-  [[ $seconds =~ ^[0-9]*$ && ! $seconds =~ ^0+$ ]] || refuse "--seconds $seconds is no whole number above 0"
-  [[ $series =~ ^[0-9]{1,3}$ && ! $series =~ ^0+$ ]] || refuse "--series $series is none of 1 to 999"
+  [[ $seconds =~ ^[0-9]*$ && ! $seconds =~ ^0+$ ]] || refuse "--seconds $seconds is not a whole number above 0"
+  [[ $series =~ ^[0-9]{1,3}$ && ! $series =~ ^0+$ ]] || refuse "--series $series is not within 1 to 999"
   series=$((10#$series))
-  [ "$series" = 1 ] || [ -n "$screenshot" ] || refuse '--series goes with --screenshot'
-  [ -z "$screenshot" ] || $headless || refuse '--screenshot goes with --headless'
-  [ -z "$view" ] || $headless || refuse '--view goes with --headless'
-  $headless || [ -n "${DISPLAY:-}" ] || refuse 'there is no display; add --headless'
+  [ "$series" = 1 ] || [ -n "$screenshot" ] || refuse '--series requires --screenshot'
+  [ -z "$screenshot" ] || $headless || refuse '--screenshot requires --headless'
+  [ -z "$view" ] || $headless || refuse '--view requires --headless'
+  $headless || [ -n "${DISPLAY:-}" ] || refuse 'no display is available; add --headless'
   if [ -n "$screenshot" ]; then
     screenshot=$(realpath -m -- "$screenshot")
     [ -d "$(dirname "$screenshot")" ] || refuse "no folder for --screenshot $screenshot"
@@ -68,7 +68,7 @@ rviz_config() {
 # usage: seen_from NAME. Prints the path of a copy of the rviz configuration that starts with the
 # saved view NAME.
 seen_from() {
-  python3 - "$(rviz_config)" "$1" >"$WORK/view.rviz" <<'END' || fail "--view $1: $(rviz_config) has no such view"
+  python3 - "$(rviz_config)" "$1" >"$WORK/view.rviz" <<'END' || fail "--view $1: $(rviz_config) has no saved view of that name"
 import sys, yaml
 with open(sys.argv[1]) as file:
     config = yaml.safe_load(file)

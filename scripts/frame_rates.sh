@@ -59,7 +59,7 @@ measure() {
 markers_of() {
   local parts
   parts=$(grep -cE '^(forest|grass|canopy|crowd):' "$ROOT/config/scenarios/$scenario.yaml") ||
-    fail "$scenario has nothing to show"
+    fail "$scenario has no plants or people"
   start_scenario "$scenario" $(($1 / parts))
   measure "stock markers of $1 points" "$ROOT/rviz/markers.rviz" --view "$config"
   stop_process "$launch_pid"
@@ -73,7 +73,7 @@ for scenario in "$@"; do
   start_scenario "$scenario"
   measure 'our displays' "$config" --dolly 3
   wanted=$(in_picture)
-  [ "${wanted:-0}" -gt 0 ] || fail "our displays draw nothing of $scenario"
+  [ "${wanted:-0}" -gt 0 ] || fail "the displays draw nothing of $scenario"
   measure 'stock markers' "$ROOT/rviz/markers.rviz" --view "$config"
   stop_process "$launch_pid"
   points=${given:-$((3 * wanted))}
@@ -81,7 +81,7 @@ for scenario in "$@"; do
     markers_of "$points"
     [ -z "$given" ] || break
     shown=$(in_picture)
-    [ "${shown:-0}" -gt 0 ] || fail "markers of $points points show nothing of $scenario"
+    [ "${shown:-0}" -gt 0 ] || fail "the markers of $points points show nothing of $scenario"
     ((10 * shown < 9 * wanted || 10 * shown > 11 * wanted)) || break
     points=$((points * wanted / shown))
     ((points <= MOST)) || points=$MOST

@@ -27,7 +27,7 @@ PACKAGES=(
 )
 
 if ! command -v dpkg-query >/dev/null || ! grep -q '^VERSION_CODENAME=bookworm' /etc/os-release; then
-  say 'This is no Debian 12: docs/dependencies.md says how to install the dependencies here.'
+  say 'This system is not Debian 12: see docs/dependencies.md for its dependencies.'
   exit 0
 fi
 

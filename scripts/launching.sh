@@ -59,7 +59,7 @@ topic_flows() { timeout 10 rostopic echo -n 1 --noarr "$1"; }
 
 # Fails unless every node still runs.
 check_launch() {
-  kill -0 "$launch_pid" 2>/dev/null || give_up 'the launch ended by itself'
+  kill -0 "$launch_pid" 2>/dev/null || give_up 'the launch ended unexpectedly'
   ! grep -q 'has died\|REQUIRED process' "$LOG" || give_up 'a node died'
 }
 

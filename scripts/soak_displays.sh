@@ -20,7 +20,7 @@ while [[ ${1:-} == --* ]]; do
   case $1 in
     --sanitize) sanitize=true ;;
     --cycles | --reloads | --chart)
-      printf -v "${1#--}" %s "${2:?$1 wants a value}"
+      printf -v "${1#--}" %s "${2:?$1 requires a value}"
       shift
       ;;
     *) fail "unknown option $1" ;;

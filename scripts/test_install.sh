@@ -20,7 +20,7 @@ rm -rf "$INSTALLED"
 cmake --install "$BUILD" >"$WORK/install.log"
 use_space "$INSTALLED"
 
-[ "$(rospack find vegetation_sim)" = "$INSTALLED/share/vegetation_sim" ] || fail 'rospack finds another copy'
+[ "$(rospack find vegetation_sim)" = "$INSTALLED/share/vegetation_sim" ] || fail 'rospack finds another copy of the package'
 for host in nodelet rviz; do
   description=$(rospack plugins --attrib=plugin "$host" | sed -n 's/^vegetation_sim //p')
   [ -e "$description" ] || fail "no plugin description for $host"
@@ -46,11 +46,11 @@ rosrun vegetation_sim charts --quick --only grass_ladder --out "$WORK/charts" >"
 
 rosrun vegetation_sim export_forest package://vegetation_sim/config/scenarios/single_tree.yaml "$WORK/model"
 python3 -c 'import sys, xml.etree.ElementTree as e; assert len(e.parse(sys.argv[1]).findall("model/link")) == 1' "$WORK/model/model.sdf" ||
-  fail 'the exported model is no SDF of one tree'
+  fail 'the exported model is not an SDF file of one tree'
 mkdir -p "$WORK/taken/model.sdf"
 ! rosrun vegetation_sim export_forest package://vegetation_sim/config/scenarios/single_tree.yaml "$WORK/taken" 2>"$WORK/taken.log" ||
   fail 'a model was written over a folder'
-! ls "$WORK"/taken/*.part 2>/dev/null || fail 'a refused model leaves a part of it'
+! ls "$WORK"/taken/*.part 2>/dev/null || fail 'a rejected model leaves a partial file'
 
 for nodelets in false true; do
   start_launch demo.launch scenario:=crowd lidar:=true rviz:=false nodelets:=$nodelets
@@ -68,4 +68,4 @@ start_launch demo.launch scenario:=demo rviz_args:=--disable-anti-aliasing
 wait_until 60 'the rviz window' rviz_window
 wait_until 60 'a message on viewer' topic_flows /viewer
 check_launch
-! grep -rh 'failed to load' "$LOG" "$ROS_LOG_DIR" || fail 'rviz lacks a display'
+! grep -rh 'failed to load' "$LOG" "$ROS_LOG_DIR" || fail 'rviz cannot load a display'

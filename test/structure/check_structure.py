@@ -32,7 +32,7 @@ faults = []
 
 
 def list_files():
-    """All files of the package that git tracks or would track."""
+    """Returns all files of the package that git tracks or would track."""
     names = subprocess.check_output(
         ['git', '-C', str(ROOT), 'ls-files', '-co', '--exclude-standard'], text=True).split('\n')
     return [name for name in names if name and (ROOT / name).is_file()]
@@ -43,13 +43,13 @@ SOURCES = [name for name in FILES if re.match(r'(src|include)/.*\.(h|cpp)$', nam
 
 
 def folder_of(name):
-    """Folder of a file below src/ or include/vegetation_sim/."""
+    """Returns the folder of a file below src/ or include/vegetation_sim/."""
     path = name[len(PUBLIC):] if name.startswith(PUBLIC) else name.split('/', 1)[1]
     return path.rsplit('/', 1)[0]
 
 
 def resolve(included):
-    """The file that an include names, or None if it is not one of ours."""
+    """Returns the file that an include names, or None if the package has no such file."""
     for name in ('include/' + included, 'src/' + included):
         if name in SOURCE_SET:
             return name
@@ -62,12 +62,12 @@ INCLUDES = {name: re.findall(r'^#include [<"]([^>"]+)[>"]', (ROOT / name).read_t
 
 
 def matches(entry, folder):
-    """Whether an entry such as forest or core/* stands for a folder."""
+    """Returns whether an entry such as forest or core/* stands for a folder."""
     return folder.startswith(entry[:-1]) if entry.endswith('/*') else folder == entry
 
 
 def allowed_folders(folder):
-    """Folders that the row of `folder` allows."""
+    """Returns the folders that the row of `folder` allows."""
     return {name for entry in FOLDERS[folder]['includes'] for name in FOLDERS if matches(entry, name)}
 
 
@@ -100,7 +100,8 @@ def check_includes():
 
 
 def check_circles():
-    """No circle, but for a reference folder and the one folder whose variants it holds."""
+    """Finds circles of folders, except a reference folder with the one folder whose variants it
+    holds."""
     done, path = set(), []
 
     def visit(folder):
@@ -140,7 +141,8 @@ def check_public_headers():
 
 
 def continues(stem, others):
-    """A part of a class, forest_levels.cpp, has the name of its header, forest.h, and one word more."""
+    """Returns whether a file continues a class of a header: forest_levels.cpp continues
+    forest.h."""
     return any(stem.startswith(other + '_') for other in others)
 
 
@@ -194,7 +196,7 @@ def draw_table():
 
 
 def draw_matrix():
-    """The allowed includes as a picture: a mark in the row of a folder and the column of another."""
+    """Draws the allowed includes: a mark in the row of a folder and the column of another."""
     names, cell, left, top = list(FOLDERS), 12, 130, 130
     size = cell * len(names)
     out = ['<svg xmlns="http://www.w3.org/2000/svg" width="%d" height="%d" font-family="sans-serif" '

@@ -19,7 +19,7 @@ def wait_for(condition, what):
         if value:
             return value
         pause.wait(0.01)
-    raise AssertionError('waited in vain for ' + what)
+    raise AssertionError('timed out waiting for ' + what)
 
 
 class Latest:

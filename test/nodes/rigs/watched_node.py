@@ -91,7 +91,7 @@ class Log:
             if value:
                 return value
             remind()
-        raise AssertionError('waited in vain for %s on %s' % (what, self.topic))
+        raise AssertionError('timed out waiting for %s on %s' % (what, self.topic))
 
     def wait_for_stamp(self, stamp, remind=lambda: None):
         """Returns the newest message as soon as it has this stamp."""
