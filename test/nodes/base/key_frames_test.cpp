@@ -21,7 +21,7 @@ double bytesPerSecond(KeyFrames& frames, std::uint64_t size) {
   return sum / SECONDS;
 }
 
-TEST(KeyFrames, ComeAsOftenAsAskedForWhileTheyAreSmall) {
+TEST(KeyFrames, HaveTheRequestedPeriodWhileTheyAreSmall) {
   KeyFrames frames(2.0, RATE, BUDGET);
   EXPECT_TRUE(frames.isDue(7));  // The first one is due at once.
   frames.sent(200000);
@@ -41,7 +41,7 @@ TEST(KeyFrames, KeepToTheirBudget) {
   }
 }
 
-TEST(KeyFrames, ComeMoreOftenAgainWhenThereIsLessToTell) {
+TEST(KeyFrames, ComeMoreOftenAgainWhenTheStateIsSmaller) {
   KeyFrames frames(2.0, RATE, BUDGET);
   frames.sent(1000000);
   EXPECT_EQ(frames.period(), 16.0);

@@ -23,8 +23,8 @@ Viewer viewer(const std::string& id) {
   return out;
 }
 
-struct Watched : testing::Test {
-  void hear(const Viewer& message, Nanoseconds stamp) {
+struct ViewerRegistryTest : testing::Test {
+  void receive(const Viewer& message, Nanoseconds stamp) {
     viewers.hear(message, buffer, "map", stamp);
   }
   tf2_ros::Buffer buffer{ros::Duration(10.0), false};
@@ -32,32 +32,32 @@ struct Watched : testing::Test {
 };
 
 // N8
-TEST_F(Watched, WhoIsSilentIsForgotten) {
-  hear(viewer("eye"), 10 * SECOND);
+TEST_F(ViewerRegistryTest, SilentViewersExpire) {
+  receive(viewer("eye"), 10 * SECOND);
   EXPECT_EQ(viewers.eyesAt(13 * SECOND).size(), 1u);
   EXPECT_EQ(viewers.eyesAt(13 * SECOND + 1).size(), 0u);
 }
 
-TEST_F(Watched, WhoSpokeBeforeTheFirstTickLivesFromThen) {
-  hear(viewer("eye"), 0);
+TEST_F(ViewerRegistryTest, ViewersBeforeTheFirstTickExpireAfterIt) {
+  receive(viewer("eye"), 0);
   EXPECT_EQ(viewers.eyesAt(1000 * SECOND).size(), 1u);
   EXPECT_EQ(viewers.eyesAt(1003 * SECOND).size(), 1u);
   EXPECT_EQ(viewers.eyesAt(1003 * SECOND + 1).size(), 0u);
 }
 
-TEST_F(Watched, OneTooManyIsRefusedAndTheOthersStay) {
-  for (std::size_t i = 0; i < ViewerRegistry::MOST; ++i) hear(viewer(std::to_string(i)), SECOND);
-  EXPECT_THROW(hear(viewer("late"), SECOND), InvalidInput);
-  hear(viewer("0"), SECOND);  // This is one of the known viewers.
+TEST_F(ViewerRegistryTest, OneAboveTheLimitIsRejectedAndTheOthersStay) {
+  for (std::size_t i = 0; i < ViewerRegistry::MOST; ++i) receive(viewer(std::to_string(i)), SECOND);
+  EXPECT_THROW(receive(viewer("late"), SECOND), InvalidInput);
+  receive(viewer("0"), SECOND);  // This is one of the known viewers.
   EXPECT_EQ(viewers.size(), ViewerRegistry::MOST);
 }
 
-TEST_F(Watched, BadViewersAreRefused) {
+TEST_F(ViewerRegistryTest, BadViewersAreRefused) {
   Viewer of_nowhere = viewer("eye"), not_a_number = viewer("eye");
   of_nowhere.header.frame_id = "nowhere";
   not_a_number.field_of_view = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(hear(of_nowhere, SECOND), InvalidInput);
-  EXPECT_THROW(hear(not_a_number, SECOND), InvalidInput);
+  EXPECT_THROW(receive(of_nowhere, SECOND), InvalidInput);
+  EXPECT_THROW(receive(not_a_number, SECOND), InvalidInput);
   EXPECT_EQ(viewers.size(), 0u);
 }
 

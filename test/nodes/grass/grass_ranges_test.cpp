@@ -25,7 +25,7 @@ GrassEvent at(std::int64_t tick) {
   return out;
 }
 
-TEST(GrassRanges, OfReconfigureAreThoseOfTheStructures) {
+TEST(GrassRanges, MatchDynamicReconfigure) {
   GrassTuning tuning;
   Declared declared;
   describe(declared, tuning);
@@ -83,7 +83,7 @@ TEST(EventQueue, LiveInputsGetTheStampOfTheirTickAndKeepTheirOrder) {
   EXPECT_EQ(later[0].radius, 2.0);
 }
 
-TEST(EventQueue, IsBoundedAndCountsWhatFindsNoRoom) {
+TEST(EventQueue, IsBoundedAndCountsRejectedInputs) {
   Queue live(false), replay(true);
   for (std::size_t i = 0; i < Queue::MOST_WAITING; ++i) EXPECT_TRUE(live.add(at(0)));
   EXPECT_EQ(live.room(), 0u);

@@ -20,13 +20,13 @@ struct Row {
       plant.position = Vec3(4.0 * (i + 1), 0.0, 0.0);
       layout.plants.push_back(plant);
     }
-    eye.position = Vec3(0.0, 0.0, 1.6);
+    viewer.position = Vec3(0.0, 0.0, 1.6);
   }
   TierAllocation choose(int points, double tolerance) {
     CanopyMarkers markers(points);
     markers.setLayout(layout);
-    markers.choose(layout, eye, tolerance, 0);
-    room = markers.room();
+    markers.choose(layout, viewer, tolerance, 0);
+    limit = markers.room();
     used = drawn(markers);
     return markers.balance();
   }
@@ -40,8 +40,8 @@ struct Row {
     return out;
   }
   canopy::Layout layout;
-  Viewpoint eye;
-  std::size_t room{0}, used{0};
+  Viewpoint viewer;
+  std::size_t limit{0}, used{0};
 };
 
 // N7: a plant has the smallest share of its leaves that keeps the tolerance.
@@ -59,12 +59,12 @@ TEST(CanopyMarkers, FarPlantsHaveFewerLeaves) {
 
 // N7: the limit of points applies. Near plants keep more leaves, and far ones are thinned before
 // any plant is left out.
-TEST(CanopyMarkers, PointsBindAndNoneIsLeftOutForTheSakeOfLeaves) {
+TEST(CanopyMarkers, LimitOfPointsThinsPlantsBeforeAnyIsLeftOut) {
   Row row(40);
   const double free = row.choose(200000, 1.0).cost;
   const TierAllocation poor = row.choose(static_cast<int>(0.5 * free), 1.0);
-  EXPECT_LE(poor.cost, static_cast<double>(row.room));
-  EXPECT_GE(poor.cost, 0.9 * static_cast<double>(row.room));
+  EXPECT_LE(poor.cost, static_cast<double>(row.limit));
+  EXPECT_GE(poor.cost, 0.9 * static_cast<double>(row.limit));
   EXPECT_EQ(static_cast<double>(row.used), poor.cost);
   EXPECT_GT(poor.wanted, 0.9 * free);  // The shares of leaves differ.
   EXPECT_GT(poor.held_back, 0u);
@@ -72,7 +72,7 @@ TEST(CanopyMarkers, PointsBindAndNoneIsLeftOutForTheSakeOfLeaves) {
 }
 
 // Faces of a mesh that never move are stems and do not count as leaves.
-TEST(CanopyMarkers, RigidFacesAreNoLeaves) {
+TEST(CanopyMarkers, RigidFacesAreNotLeaves) {
   Row row(10);
   auto form = std::make_shared<canopy::Form>();
   form->leaves.resize(30);
@@ -94,7 +94,7 @@ TEST(CanopyMarkers, NoPlantsAreNotDrawn) {
   CanopyMarkers markers(60000);
   const auto listsOf = [&](const Row& row) {
     markers.setLayout(row.layout);
-    markers.choose(row.layout, row.eye, 1.0, 0);
+    markers.choose(row.layout, row.viewer, 1.0, 0);
     return markers.build(canopy::Canopy(row.layout).foliage(), {}, "map").markers;
   };
   for (const Marker& list : listsOf(none)) {

@@ -16,17 +16,17 @@ struct Row {
   explicit Row(int people) : crowd(1, {}, {-1, 5000, -5, 5}, crowd::flatGround()) {
     for (int i = 0; i < people; ++i)
       crowd::spawnAt(crowd, {2.0 + 2.0 * i, 0.0}, {2.0 + 2.0 * i, 1.0});
-    eye.position = Vec3(0.0, 0.0, 1.6);
+    viewer.position = Vec3(0.0, 0.0, 1.6);
   }
   TierAllocation build(int points, double tolerance, Nanoseconds stamp = 0) {
     CrowdMarkers markers(points);
-    const auto array = markers.build(crowd, {eye}, tolerance, "map", stamp);
+    const auto array = markers.build(crowd, {viewer}, tolerance, "map", stamp);
     EXPECT_EQ(array.markers[0].points.size(), static_cast<std::size_t>(points) / 3 * 3);
     EXPECT_EQ(static_cast<double>(markers.points()), markers.balance().cost);
     return markers.balance();
   }
   crowd::Crowd crowd;
-  Viewpoint eye;
+  Viewpoint viewer;
 };
 
 // N7: a person has the fewest facets that keep the tolerance.
@@ -43,21 +43,21 @@ TEST(CrowdMarkers, FarPeopleHaveFewerFacets) {
 }
 
 // rviz draws triangles without area like others, so without people there must be none.
-TEST(CrowdMarkers, NobodyIsNotDrawn) {
-  const Row nobody(0), one(1);
+TEST(CrowdMarkers, NothingIsDrawnWithoutPeople) {
+  const Row empty(0), one(1);
   CrowdMarkers markers(60000);
   const auto markerOf = [&](const Row& row) {
-    return markers.build(row.crowd, {row.eye}, 1.0, "map", 0).markers[0];
+    return markers.build(row.crowd, {row.viewer}, 1.0, "map", 0).markers[0];
   };
-  EXPECT_EQ(markerOf(nobody).action, visualization_msgs::Marker::DELETE);
-  EXPECT_TRUE(markerOf(nobody).points.empty());
+  EXPECT_EQ(markerOf(empty).action, visualization_msgs::Marker::DELETE);
+  EXPECT_TRUE(markerOf(empty).points.empty());
   EXPECT_EQ(markerOf(one).action, visualization_msgs::Marker::ADD);
   EXPECT_EQ(markerOf(one).points.size(), 60000u);
 }
 
 // N7: the limit of points applies. With a few points less some people are coarser; with half of the
 // points some are left out.
-TEST(CrowdMarkers, PointsBindAndNobodyIsLeftOutForTheSakeOfFacets) {
+TEST(CrowdMarkers, LimitOfPointsCoarsensPeopleBeforeAnyIsLeftOut) {
   Row row(200);
   const TierAllocation free = row.build(400000, 1.0);
   for (const double share : {0.95, 0.5}) {
@@ -71,14 +71,14 @@ TEST(CrowdMarkers, PointsBindAndNobodyIsLeftOutForTheSakeOfFacets) {
 }
 
 // N7: a small move of the viewer does not change the tiers of people.
-TEST(CrowdMarkers, NobodyFlickers) {
+TEST(CrowdMarkers, TiersDoNotFlicker) {
   Row row(200);
   CrowdMarkers markers(60000);
-  markers.build(row.crowd, {row.eye}, 1.0, "map", 0);
+  markers.build(row.crowd, {row.viewer}, 1.0, "map", 0);
   const auto before = markers.balance().counts;
   for (int i = 1; i < 20; ++i) {
-    row.eye.position.x() = i % 2 ? 0.1 : 0.0;
-    markers.build(row.crowd, {row.eye}, 1.0, "map", i * SECOND);
+    row.viewer.position.x() = i % 2 ? 0.1 : 0.0;
+    markers.build(row.crowd, {row.viewer}, 1.0, "map", i * SECOND);
     EXPECT_EQ(markers.balance().counts, before) << i;
   }
 }

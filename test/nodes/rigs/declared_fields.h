@@ -34,8 +34,8 @@ struct Declared : FieldVisitor {
   }
 };
 
-/// Returns the ranges and values of dynamic_reconfigure by name. @tparam Config is a generated
-/// class.
+/// Returns the ranges and values of dynamic_reconfigure for each name. @tparam Config is a
+/// generated class.
 template <class Config>
 Values offered(const Config& config) {
   dynamic_reconfigure::Config message;

@@ -24,7 +24,7 @@ namespace vegetation_sim {
 inline void spinUntil(const std::string& what, const std::function<bool()>& condition) {
   const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(60.0);
   while (!condition()) {
-    if (ros::WallTime::now() > end) throw std::runtime_error("waited in vain for " + what);
+    if (ros::WallTime::now() > end) throw std::runtime_error("timed out waiting for " + what);
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.05));
   }
 }
@@ -34,10 +34,10 @@ template <class Message>
 class LatestMessage {
  public:
   explicit LatestMessage(const std::string& topic) : topic_(topic) {
-    const boost::function<void(const Message&)> hear = [this](const Message& message) {
+    const boost::function<void(const Message&)> receive = [this](const Message& message) {
       messages.push_back(message);
     };
-    subscriber_ = ros::NodeHandle().subscribe<Message>(topic, 10000, hear);
+    subscriber_ = ros::NodeHandle().subscribe<Message>(topic, 10000, receive);
   }
   const Message& last() {
     spinUntil(topic_, [this] { return !messages.empty(); });

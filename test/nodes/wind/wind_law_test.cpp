@@ -25,10 +25,10 @@ constexpr double DEADLINE = 30.0;  // [s] of wall time; only a test that fails w
 class Listener {
  public:
   Listener() {
-    const boost::function<void(const WindField&)> heard = [this](const WindField& message) {
+    const boost::function<void(const WindField&)> receive = [this](const WindField& message) {
       field_ = fromMsg(message);
     };
-    subscriber_ = ros::NodeHandle().subscribe<WindField>("wind", 10, heard);
+    subscriber_ = ros::NodeHandle().subscribe<WindField>("wind", 10, receive);
   }
 
   /// Spins until a field with this hash has arrived; 0 stands for any field.
@@ -129,7 +129,7 @@ TEST(WindLaw, IsTheSameForALatecomer) {  // N2
   expectSameLaw(field);
 }
 
-TEST(WindLaw, EditsNeitherThePastNorInSteps) {  // N2
+TEST(WindLaw, EditsChangeTheFutureWithoutAStep) {  // N2
   Listener listener;
   const wind::Field before = listener.wait(hashOfBroadcaster());
   const Nanoseconds asked = fromMsg(ros::Time::now());

@@ -59,7 +59,7 @@ TEST(BreezeSettings, KeepTheDirectionOfACalm) {
   EXPECT_EQ(BreezeSettings::of(calm, 1.2).direction, 1.2);
 }
 
-TEST(FreshLedger, StartsAllStampsAtTheStart) {
+TEST(FreshSchedule, StartsAllStampsAtTheStart) {
   WindSettings settings;
   settings.seed = 9;
   wind::Source late, tied;

@@ -45,7 +45,7 @@ TEST(CanopyConversions, StateRebuildsEveryLeafToTheBit) {
   }
 }
 
-TEST(CanopyConversions, StatesThatCannotBeAreRefused) {
+TEST(CanopyConversions, InvalidStatesAreRejected) {
   canopy::Canopy sender(canopy::shrubScene());
   sender.advance(canopy::tickStamp(0));
   const CanopyState good = toMsg(sender.update(false));

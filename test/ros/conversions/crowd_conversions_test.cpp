@@ -25,7 +25,7 @@ AgentState standing(std::uint32_t id) {
 
 // Invalid walkers in a message are rejected with an error that names walker, field, value and
 // range.
-TEST(CrowdConversions, RefuseWalkersThatCannotBe) {
+TEST(CrowdConversions, RejectInvalidWalkers) {
   constexpr double NONE = std::numeric_limits<double>::quiet_NaN();
   const std::vector<std::pair<std::string, std::function<void(AgentState&)>>> faults = {
       {"position", [](AgentState& a) { a.pose.position.y = NONE; }},

@@ -60,7 +60,7 @@ TEST(ForestConversions, RefuseALayoutWithAllItsFaults) {
     EXPECT_NE(faults.find(part), std::string::npos) << part << " in " << faults;
 }
 
-TEST(ForestConversions, RefuseALayoutThatCannotBe) {
+TEST(ForestConversions, RejectAnInvalidLayout) {
   ForestLayout message = toMsg(exampleLayout());
   message.trees[0].species = 9;
   message.trees[1].yaw = NOT_A_NUMBER;
@@ -134,7 +134,7 @@ TEST(ForestConversions, ReturnPhysicalBranchesToTheBit) {  // S1-34, S1-37
   }
 }
 
-TEST(ForestConversions, RefusePhysicalBranchesThatCannotBe) {
+TEST(ForestConversions, RejectInvalidPhysicalBranches) {
   forest::StateUpdate update;
   update.trees = {{4, forest::LevelState::settled(2), {bent(3, 0), bent(3, 0), bent(20000, 0)}}};
   ForestState message = toMsg(update);
@@ -186,7 +186,7 @@ Viewer exampleViewer() {
   return out;
 }
 
-TEST(ForestConversions, ViewerBecomesAnEye) {  // N8
+TEST(ForestConversions, ViewerBecomesAViewpoint) {  // N8
   const forest::Viewer viewer = fromMsg(exampleViewer());
   EXPECT_EQ(viewer.id, "eye");
   EXPECT_EQ(viewer.stamp, 12000000005);

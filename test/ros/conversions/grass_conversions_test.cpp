@@ -88,7 +88,7 @@ TEST_F(GrassStateConversions, ReturnTroddenGroundToTheBit) {
   EXPECT_EQ(back.layout_hash, layout_.hash());
 }
 
-TEST_F(GrassStateConversions, RefuseWhatCannotBe) {
+TEST_F(GrassStateConversions, RejectInvalidStates) {
   drive("a", 3.0, 5.0, 1.0, 5);
   GrassState message = toMsg(field_.update(true));
   GrassState lists = message, presses = message, nodes = message;
@@ -100,7 +100,7 @@ TEST_F(GrassStateConversions, RefuseWhatCannotBe) {
   EXPECT_NE(errorOf([&] { fromMsg(nodes); }).find("press = 77"), std::string::npos);
 }
 
-TEST(TreadConversions, ZerosBecomeTheNodesOwn) {
+TEST(TreadConversions, ZerosBecomeTheDefaultsOfTheNode) {
   const grass::TreadLaw own{0.1, 0.3, 0.08, 0.9, 30.0};
   TreadEvent message;
   message.source = "wheel";
@@ -123,7 +123,7 @@ TEST(TreadConversions, ZerosBecomeTheNodesOwn) {
   EXPECT_EQ(back.position, input.position);
 }
 
-TEST(TreadConversions, RefuseAllThatIsWrong) {
+TEST(TreadConversions, RejectEachInvalidField) {
   TreadEvent message;
   message.action = 9;
   message.position.y = NOT_A_NUMBER;

@@ -33,7 +33,7 @@ TEST(WindConversions, RefuseAFieldThatTheSenderComputesDifferently) {  // N2
   EXPECT_THROW(fromMsg(message), InvalidInput);
 }
 
-TEST(WindConversions, RefuseAFieldThatCannotBe) {  // N2
+TEST(WindConversions, RejectAnInvalidField) {  // N2
   WindField message = toMsg(wind::Field(wind::oneOfEach(), 3), "map", 5);
   message.primitives[0].radius = -1.0;
   EXPECT_THROW(fromMsg(message), InvalidInput);

@@ -93,7 +93,7 @@ TEST_F(ParametersTest, AbsentOnesKeepTheirDefaults) {
   EXPECT_EQ(asked.text, "none");
 }
 
-TEST_F(ParametersTest, BadValuesAreRefusedByName) {
+TEST_F(ParametersTest, ErrorsNameBadValues) {
   EXPECT_EQ(faultOf("number", 11.0), "number = 11 m is outside 0 to 10 m");
   EXPECT_EQ(faultOf("number", "two"), "number = two is not a number");
   EXPECT_EQ(faultOf("number", true), "number = 1 is not a number");
@@ -109,13 +109,13 @@ TEST_F(ParametersTest, BadValuesAreRefusedByName) {
   EXPECT_EQ(faultOf("integers", 3), "integers = 3 is not a list of whole numbers");
 }
 
-TEST_F(ParametersTest, UnknownOnesAreRefusedWithTheKnownOnes) {
+TEST_F(ParametersTest, ErrorsNameUnknownAndKnownParameters) {
   EXPECT_EQ(faultOf("numbre", 1.0),
             "numbre is not a known parameter; known are choice, diagnostic_period, elsewhere, "
             "flag, integer, integers, number, seed, text, vector");
 }
 
-TEST_F(ParametersTest, AllFaultsAreTold) {
+TEST_F(ParametersTest, AllFaultsAreReported) {
   handle_.setParam("number", "two");
   handle_.setParam("integer", 99);
   handle_.setParam("inetger", 9);

@@ -79,7 +79,7 @@ TEST_F(PlantFiles, AreReadAsSlices) {
 }
 
 // Each error names the file and the fault.
-TEST_F(PlantFiles, AreRefusedByName) {
+TEST_F(PlantFiles, AreRejectedWithTheNameOfTheFile) {
   const auto text = [&](const std::string& name) {
     return errorOf([&] { canopy::formOf(loadLeafMesh(name), false); });
   };

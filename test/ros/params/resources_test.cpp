@@ -30,7 +30,7 @@ TEST_F(Resources, PackagesAreFound) {
             FOLDER + "/config/terrain/hills.yaml");
 }
 
-TEST_F(Resources, UnknownPackageIsRefusedByName) {
+TEST_F(Resources, ErrorNamesTheUnknownPackage) {
   EXPECT_EQ(errorOf([] { resolveFile("package://no_such_package/hills.yaml"); }),
             "package://no_such_package/hills.yaml: package 'no_such_package' is not known here");
 }
@@ -43,7 +43,7 @@ TEST_F(Resources, TerrainIsTheSameByPathAndByPackage) {
   EXPECT_TRUE(loadTerrain("")->isFlat());
 }
 
-TEST_F(Resources, MissingTerrainIsRefusedByName) {
+TEST_F(Resources, ErrorNamesTheMissingTerrain) {
   EXPECT_NE(errorOf([] { loadTerrain("/nowhere/hills.yaml"); }).find("/nowhere/hills.yaml"),
             std::string::npos);
 }

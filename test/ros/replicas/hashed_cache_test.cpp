@@ -9,10 +9,10 @@ namespace {
 
 // The oldest entry is removed, whatever its hash.
 TEST(HashedCache, ForgetsTheOldest) {
-  HashedCache<int> heard;
-  for (int i = 0; i < 12; ++i) heard.keep(static_cast<std::uint64_t>(1000 - i), i);
+  HashedCache<int> cache;
+  for (int i = 0; i < 12; ++i) cache.keep(static_cast<std::uint64_t>(1000 - i), i);
   for (int i = 0; i < 12; ++i) {
-    const int* found = heard.find(static_cast<std::uint64_t>(1000 - i));
+    const int* found = cache.find(static_cast<std::uint64_t>(1000 - i));
     ASSERT_EQ(found != nullptr, i >= 4) << i;
     if (found) {
       EXPECT_EQ(*found, i);
@@ -20,14 +20,14 @@ TEST(HashedCache, ForgetsTheOldest) {
   }
 }
 
-TEST(HashedCache, WhatComesAgainIsTheNewest) {
-  HashedCache<int> heard;
-  heard.keep(1, 10);
-  heard.keep(2, 20);
-  EXPECT_FALSE(heard.isNewest(1));
-  heard.keep(1, 10);
-  EXPECT_TRUE(heard.isNewest(1));
-  EXPECT_EQ(*heard.find(2), 20);
+TEST(HashedCache, ARepeatedEntryIsTheNewest) {
+  HashedCache<int> cache;
+  cache.keep(1, 10);
+  cache.keep(2, 20);
+  EXPECT_FALSE(cache.isNewest(1));
+  cache.keep(1, 10);
+  EXPECT_TRUE(cache.isNewest(1));
+  EXPECT_EQ(*cache.find(2), 20);
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ class LeafedOak : public ::testing::Test {
 };
 
 // S3-W2: a held branch moves its own leaves and no others.
-TEST_F(LeafedOak, TakesLeavesAlongWithTheBranchThatIsHeld) {
+TEST_F(LeafedOak, MovesLeavesWithTheHeldBranch) {
   canopy::Canopy canopy(layout_);
   const auto& foliage = canopy.foliage();
   const auto before = leaves(foliage);
@@ -135,7 +135,7 @@ TEST_F(LeafedOak, IsCutIntoLayersWithoutAnyPlant) {
   EXPECT_EQ(replica.foliage().layers(), 3);
 }
 
-TEST_F(LeafedOak, GrowsNothingOnTreesThatAreNotThere) {
+TEST_F(LeafedOak, IgnoresCrownsOfUnknownTrees) {
   layout_.crowns[0].first_tree = 7;
   crowns_.grow(layout_, forest_);
   EXPECT_TRUE(crowns_.crowns().empty());

@@ -33,25 +33,25 @@ TierAllocation balanceOf(double cost, double wanted, double largest, std::size_t
 }
 
 // N7: the reported reason is correct.
-TEST(BalanceReport, SaysWhy) {
+TEST(BalanceReport, GivesTheReason) {
   EXPECT_EQ(reasonFor(balanceOf(60, 60, 1, 0, 0, 2)), "the tolerance is held");
   EXPECT_EQ(reasonFor(balanceOf(60, 60, 3, 1, 0, 2)), "finer rungs there are none");
   EXPECT_EQ(reasonFor(balanceOf(90, 120, 3, 2, 2, 2)), "marker_points binds");
   EXPECT_EQ(reasonFor(TierAllocation()), "nothing is seen");
 }
 
-TEST(BalanceReport, ABudgetBindsThatPaysForNothing) {
+TEST(BalanceReport, ABudgetThatIsTooSmallForAnythingBinds) {
   EXPECT_EQ(reasonFor(balanceOf(0, 120, 3, 2, 2, 0)), "marker_points binds");
 }
 
 // The number of blades is reduced within their tier: no upgrade is held back, but the demand
 // exceeds the budget.
-TEST(BalanceReport, ABudgetBindsThatThinsARung) {
+TEST(BalanceReport, ABudgetThatThinsATierBinds) {
   EXPECT_EQ(reasonFor(balanceOf(99, 120, 1, 0, 0, 2)), "marker_points binds");
 }
 
 // Strips cost nothing, and objects that are small enough need no cost at all.
-TEST(BalanceReport, WhatCostsNothingMayBeSeen) {
+TEST(BalanceReport, ObjectsWithoutCostAreVisible) {
   EXPECT_EQ(reasonFor(balanceOf(0, 0, 0, 0, 0, 2)), "the tolerance is held");
   EXPECT_EQ(reasonFor(balanceOf(0, 0, 0.5, 0, 0, 0)), "the tolerance is held");
 }

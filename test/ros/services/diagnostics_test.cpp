@@ -19,14 +19,14 @@ std::string publishedOf(int faults) {
 }
 
 // A message with a hundred wrong robots does not fill the screen.
-TEST(Troubles, OfManyFaultsTheFirstAreToldAndHowManyMore) {
+TEST(Diagnostics, ReportTheFirstFaultsAndTheNumberOfOthers) {
   EXPECT_EQ(publishedOf(1), "1 fault 1");
   EXPECT_EQ(publishedOf(5), "1 fault 1\nfault 2\nfault 3\nfault 4\nfault 5");
   EXPECT_EQ(publishedOf(7), "1 fault 1\nfault 2\nfault 3\nfault 4\nfault 5\nand 2 more");
   EXPECT_EQ(publishedOf(100).substr(publishedOf(100).size() - 11), "and 95 more");
 }
 
-TEST(Troubles, WhatWasReportedIsNotToldAgain) {
+TEST(Diagnostics, ReportEachFaultOnce) {
   diagnostic_updater::DiagnosticStatusWrapper status;
   status.summary(diagnostic_msgs::DiagnosticStatus::OK, "running");
   warnOfMore(status, 3, 3, "ticks dropped");
@@ -34,7 +34,7 @@ TEST(Troubles, WhatWasReportedIsNotToldAgain) {
   EXPECT_EQ(status.level, diagnostic_msgs::DiagnosticStatus::OK);
 }
 
-TEST(Troubles, RefusalsAreToldOnceWithTheLastReason) {
+TEST(Diagnostics, ReportRejectionsOnceWithTheLastReason) {
   Refusals refusals("forest_animator");
   refusals.add("wind", "speed = nan");
   refusals.add("viewer", "height = 0");

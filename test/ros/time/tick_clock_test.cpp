@@ -54,7 +54,7 @@ TEST_F(TickClockTest, DoesEachTickOnceAndCatchesUpForASecond) {
   EXPECT_EQ(clock.counts().dropped, 0u);
 }
 
-TEST_F(TickClockTest, DropsAndCountsWhatALeapLeavesOut) {
+TEST_F(TickClockTest, DropsAndCountsTicksThatAJumpSkips) {
   TickClock clock = make();
   clock.see(5 * SECOND);
   clock.see(6 * SECOND + SECOND / 10);
@@ -63,7 +63,7 @@ TEST_F(TickClockTest, DropsAndCountsWhatALeapLeavesOut) {
   EXPECT_EQ(clock.counts().ticks, 2u);
 }
 
-TEST_F(TickClockTest, OneThatDoesOnlyTheNewestDropsAndCountsThoseBefore) {
+TEST_F(TickClockTest, ALatestOnlyClockDropsAndCountsEarlierTicks) {
   TickClock clock = make(0.0, LateTicks::NEWEST);
   clock.see(5 * SECOND);
   clock.see(5 * SECOND + SECOND / 10);
@@ -77,7 +77,7 @@ TEST_F(TickClockTest, OneThatDoesOnlyTheNewestDropsAndCountsThoseBefore) {
   EXPECT_EQ(clock.counts().dropped, 3u);
 }
 
-TEST_F(TickClockTest, BackIsAFreshStartThere) {
+TEST_F(TickClockTest, AJumpBackIsAFreshStart) {
   TickClock clock = make();
   clock.see(5 * SECOND);
   clock.see(5 * SECOND - 1);
@@ -88,7 +88,7 @@ TEST_F(TickClockTest, BackIsAFreshStartThere) {
   EXPECT_EQ(did_.back(), "50");
 }
 
-TEST_F(TickClockTest, BackWithinATickIsNone) {
+TEST_F(TickClockTest, AJumpBackWithinATickHasNoEffect) {
   TickClock clock = make();
   clock.see(5 * SECOND + SECOND / 20);
   clock.see(5 * SECOND);
@@ -96,7 +96,7 @@ TEST_F(TickClockTest, BackWithinATickIsNone) {
   EXPECT_EQ(clock.counts().jumps, 0u);
 }
 
-TEST_F(TickClockTest, ADelayedOneStaysBehindTheClock) {
+TEST_F(TickClockTest, ADelayedClockStaysBehind) {
   TickClock clock = make(0.5);
   clock.see(SECOND / 2);
   EXPECT_FALSE(clock.hasBegun());
@@ -105,7 +105,7 @@ TEST_F(TickClockTest, ADelayedOneStaysBehindTheClock) {
 }
 
 // The restarted node may ask for the clock, because its time has not begun.
-TEST_F(TickClockTest, HasNotBegunWhileItStartsAnew) {
+TEST_F(TickClockTest, HasNotBegunWhileItRestarts) {
   TickClock* seen = nullptr;
   bool begun = true;
   TickCalls calls;

@@ -100,7 +100,7 @@ class CanopyDisplayTest : public testing::Test {
 // S3-01, S3-30: the leaves of each plant appear in front of a sky, on grass.
 TEST_F(CanopyDisplayTest, DrawsLeavesOnGrassUnderASky) {
   rig.frames(5);
-  const Impression seen = rig.look();
+  const ImageStatistics seen = rig.imageStatistics();
   EXPECT_GT(seen.green, 0.2);
   EXPECT_GT(seen.blue, 0.05);
   EXPECT_EQ(display->drawn().drawn, display->drawn().leaves);
@@ -146,7 +146,7 @@ TEST_F(CanopyDisplayTest, CrownsGoWithTheirForest) {
 }
 
 // The names of the forest's topics are checked before there are crowns.
-TEST_F(CanopyDisplayTest, ForestTopicsThatCannotBeAreSaid) {
+TEST_F(CanopyDisplayTest, InvalidForestTopicsAreReported) {
   canopy::Layout crowns = CanopyRig::shrubs(0);
   crowns.crowns.resize(1);
   crowns.crowns[0].trees = 4;
@@ -178,7 +178,7 @@ TEST_F(CanopyDisplayTest, KeepsToTheLeaves) {
   })) << display->drawn().drawn;
 }
 
-TEST_F(CanopyDisplayTest, RefusesWhatCannotBeAndKeepsWhatItHas) {
+TEST_F(CanopyDisplayTest, RejectsInvalidMessagesAndKeepsItsState) {
   CanopyLayout layout = toMsg(CanopyRig::shrubs(2));
   layout.header.frame_id = "map";
   layout.plants[0].position.x = std::numeric_limits<double>::quiet_NaN();
@@ -210,7 +210,7 @@ TEST_F(CanopyDisplayTest, SurvivesTimeGoingBack) {
   EXPECT_TRUE(rig.until([&] { return display->drawn().plants == 2; }));
 }
 
-TEST_F(CanopyDisplayTest, TellsThatNoStateComes) {
+TEST_F(CanopyDisplayTest, ReportsMissingStates) {
   ASSERT_TRUE(rig.until([&] { return display->drawn().drawn > 0; }));
   expectSilenceIsReported(rig, *display, [&] { rig.blow(1); });
 }
@@ -229,7 +229,7 @@ TEST_F(CanopyDisplayTest, FollowsANodeThatDiesAndReturns) {
 }
 
 // N7
-TEST_F(CanopyDisplayTest, TellsTheGovernorsChoice) {
+TEST_F(CanopyDisplayTest, ShowsTheGovernorsChoice) {
   expectAllocationIsReported(rig, *display, "canopy_animator", "Cost [points]", "Budget [points]",
                              "points");
 }

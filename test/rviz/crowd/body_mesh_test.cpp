@@ -61,8 +61,8 @@ double farthest(const grass::GrassMesh& from, const grass::GrassMesh& to) {
   return out;
 }
 
-// From each size to one that is smaller by a thousandth, the surface changes by less than a
-// twentieth of a pixel and each colour by at most a few of 255.
+// When a body is smaller by a thousandth, its surface changes by less than a twentieth of a pixel
+// and each colour by at most a few of 255.
 TEST(BodyMesh, NothingPopsAsABodyGetsSmaller) {
   int switches = 0;
   double farthest_pixels = 0.0;

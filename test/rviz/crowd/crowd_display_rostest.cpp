@@ -94,7 +94,7 @@ class CrowdDisplayTest : public testing::Test {
 // S2-35: bodies of several colours stand on a lit ground.
 TEST_F(CrowdDisplayTest, DrawsPeopleOnGrassUnderASky) {
   rig.frames(10);
-  const Impression seen = rig.look();
+  const ImageStatistics seen = rig.imageStatistics();
   EXPECT_GT(seen.green, 0.2);
   EXPECT_GT(seen.blue, 0.05);
   const std::vector<std::uint8_t> with = rig.picture();
@@ -127,7 +127,7 @@ TEST_F(CrowdDisplayTest, DrawsTheNearestOnly) {
   EXPECT_EQ(display->drawn().people, 8u);
 }
 
-TEST_F(CrowdDisplayTest, RefusesWhatIsNoNumberAndKeepsWhatItHas) {
+TEST_F(CrowdDisplayTest, RejectsInvalidNumbersAndKeepsItsState) {
   AgentStates bad = rig.message();
   bad.agents[2].pose.position.x = std::numeric_limits<double>::quiet_NaN();
   rig.publish(bad);
@@ -150,7 +150,7 @@ TEST_F(CrowdDisplayTest, SurvivesTimeGoingBack) {
   }));
 }
 
-TEST_F(CrowdDisplayTest, NobodyIsLeftWhenTheirNodeDies) {
+TEST_F(CrowdDisplayTest, PeopleDisappearWhenTheirNodeDies) {
   rig.setTime(rig.now() + 1.0);
   rig.frames(10);
   EXPECT_EQ(display->drawn().people, 8u);
@@ -181,7 +181,7 @@ TEST_F(CrowdDisplayTest, FollowsANodeThatDiesAndReturns) {
 }
 
 // N7
-TEST_F(CrowdDisplayTest, TellsTheGovernorsChoice) {
+TEST_F(CrowdDisplayTest, ShowsTheGovernorsChoice) {
   expectAllocationIsReported(rig, *display, "agent_crowd", "Cost [points]", "Budget [points]",
                              "points");
 }
@@ -211,7 +211,7 @@ TEST_F(CrowdDisplayTest, TwoDrawOneScenery) {
   rig.remove(display);
   display = other;
   EXPECT_TRUE(rig.until([&] { return statusOf(*other, "Scenery") == "As set here"; }));
-  EXPECT_GT(rig.look().green, 0.2);
+  EXPECT_GT(rig.imageStatistics().green, 0.2);
 }
 
 // The ground is built again for another terrain.

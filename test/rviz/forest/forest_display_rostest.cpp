@@ -55,14 +55,14 @@ TEST_F(ForestDisplayTest, DrawsAForestWithGroundAndSky) {
   ASSERT_TRUE(drawn());
   ASSERT_TRUE(advanceUntil([&] { return display->drawn().moving == TREES; }));
   rig.frames(3);
-  const Impression seen = rig.look();
+  const ImageStatistics seen = rig.imageStatistics();
   EXPECT_GT(seen.green, 0.15);
   EXPECT_GT(seen.blue, 0.05);
   EXPECT_GT(seen.spread, 15.0);
   // The camera faces upwards: the sky has clouds and gets paler towards the horizon.
   rig.lookAt(9.f, -0.5, 4.0);
   rig.frames(3);
-  EXPECT_LT(rig.look().commonest, 0.1);
+  EXPECT_LT(rig.imageStatistics().commonest, 0.1);
 }
 
 TEST_F(ForestDisplayTest, NothingMovesWhileTheClockStands) {
@@ -82,7 +82,7 @@ TEST_F(ForestDisplayTest, NothingMovesWhileTheClockStands) {
 
 // Trees behind the camera are neither drawn nor moved. Trees that come into view are in their place
 // at once.
-TEST_F(ForestDisplayTest, TreesBehindTheEyeAreLeftOutAndDoNotPop) {
+TEST_F(ForestDisplayTest, TreesBehindTheCameraAreLeftOutAndDoNotPop) {
   display->subProp("Update Rate")->setValue(120.f);  // Every frame has an update.
   display->subProp("Triangles")->setValue(1000);  // The coarsest level is used in every direction.
   ASSERT_TRUE(drawn());
@@ -231,11 +231,11 @@ TEST_F(ForestDisplayTest, LevelsFadeIntoOneAnother) {
 
 // N8: the display publishes the pose of rviz's camera, x forward and z up, on change and at least
 // once a second.
-TEST_F(ForestDisplayTest, TellsWhereTheViewLooksFrom) {
-  std::vector<Viewer> heard;
+TEST_F(ForestDisplayTest, PublishesThePoseOfTheCamera) {
+  std::vector<Viewer> received;
   const ros::Subscriber subscriber = rig.nodeHandle().subscribe<Viewer>(
-      "viewer", 100, [&](const Viewer::ConstPtr& message) { heard.push_back(*message); });
-  ASSERT_TRUE(rig.until([&] { return !heard.empty(); }));
+      "viewer", 100, [&](const Viewer::ConstPtr& message) { received.push_back(*message); });
+  ASSERT_TRUE(rig.until([&] { return !received.empty(); }));
   const auto forwardOf = [](const Viewer& viewer) {
     const auto& q = viewer.pose.orientation;
     return axisX(Quat{q.w, q.x, q.y, q.z});
@@ -244,41 +244,41 @@ TEST_F(ForestDisplayTest, TellsWhereTheViewLooksFrom) {
   EXPECT_TRUE(rig.until([&] {
     const Ogre::Vector3 at = rig.camera().getDerivedPosition();
     const Ogre::Vector3 to = rig.camera().getDerivedDirection();
-    const Viewer& last = heard.back();
+    const Viewer& last = received.back();
     const auto& p = last.pose.position;
     return std::hypot(p.x - static_cast<double>(at.x), p.y - static_cast<double>(at.y)) < 0.02 &&
            length(forwardOf(last) - Vec3(static_cast<double>(to.x), static_cast<double>(to.y),
                                          static_cast<double>(to.z))) < 0.02;
   }));
-  EXPECT_EQ(heard.back().header.frame_id, "map");
-  EXPECT_EQ(heard.back().height, 360u);
-  EXPECT_EQ(heard.back().id.rfind("rviz_", 0), 0u);
+  EXPECT_EQ(received.back().header.frame_id, "map");
+  EXPECT_EQ(received.back().height, 360u);
+  EXPECT_EQ(received.back().id.rfind("rviz_", 0), 0u);
   const Ogre::Radian wide = rig.camera().getFOVy();
-  EXPECT_NEAR(heard.back().field_of_view, static_cast<double>(wide.valueRadians()), 1e-6);
+  EXPECT_NEAR(received.back().field_of_view, static_cast<double>(wide.valueRadians()), 1e-6);
   rig.camera().setFOVy(Ogre::Radian(0.4f));
   rig.panel().resize(480, 300);
   EXPECT_TRUE(rig.until([&] {
-    return std::fabs(heard.back().field_of_view - 0.4) < 1e-6 && heard.back().height == 300u;
-  })) << heard.back();
+    return std::fabs(received.back().field_of_view - 0.4) < 1e-6 && received.back().height == 300u;
+  })) << received.back();
   rig.camera().setFOVy(wide);
   rig.panel().resize(480, 360);
   rig.frames(2);
-  const std::size_t before = heard.size();
+  const std::size_t before = received.size();
   // The camera does not move, and messages still arrive.
-  EXPECT_TRUE(rig.until([&] { return heard.size() >= before + 2; }, 10.0));
+  EXPECT_TRUE(rig.until([&] { return received.size() >= before + 2; }, 10.0));
 }
 
-TEST_F(ForestDisplayTest, RefusesWhatCannotBeAndKeepsWhatItHas) {
+TEST_F(ForestDisplayTest, RejectsInvalidMessagesAndKeepsItsState) {
   ASSERT_TRUE(drawn());
   ForestLayout layout = toMsg(forest::gridLayout(2, 9.0));
   layout.header.frame_id = "map";
   layout.trees[1].position.x = std::numeric_limits<double>::quiet_NaN();
   rig.publish(layout);
-  ForestState stranger;
-  stranger.header.stamp.fromSec(rig.now());
-  stranger.key_frame = true;
-  stranger.layout_hash = 12345;
-  rig.publish(stranger);
+  ForestState unknown;
+  unknown.header.stamp.fromSec(rig.now());
+  unknown.key_frame = true;
+  unknown.layout_hash = 12345;
+  rig.publish(unknown);
   WindField wind = toMsg(wind::Field({forest::makeBreeze(1, Vec3(3.0, 0.0, 0.0))}), "map", 0);
   wind.primitives[0].velocity.x = std::numeric_limits<double>::infinity();
   rig.publish(wind);
@@ -301,7 +301,7 @@ TEST_F(ForestDisplayTest, FollowsALayoutThatChanges) {
   EXPECT_TRUE(rig.until([&] { return display->drawn().trees == 1; }));
 }
 
-TEST_F(ForestDisplayTest, TellsThatNoStateComes) {
+TEST_F(ForestDisplayTest, ReportsMissingStates) {
   ASSERT_TRUE(drawn());
   expectSilenceIsReported(rig, *display, [&] { rig.publishState(); });
 }
@@ -322,7 +322,7 @@ TEST_F(ForestDisplayTest, FollowsANodeThatDiesAndReturns) {
 }
 
 // N7: the display shows how the forest moves and what its governor reports.
-TEST_F(ForestDisplayTest, TellsLevelsOfMotionAndTheGovernorsChoice) {
+TEST_F(ForestDisplayTest, ShowsLevelsOfMotionAndTheGovernorsChoice) {
   ASSERT_TRUE(drawn());
   EXPECT_TRUE(rig.until([&] {
     return statusOf(*display, "Motion") ==

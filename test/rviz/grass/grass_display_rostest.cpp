@@ -30,13 +30,13 @@ class GrassDisplayTest : public testing::Test {
     rig.publishMeadow(GrassRig::meadow(TILES));
     display = rig.addDisplay();
     ASSERT_NE(display, nullptr) << "the plugin is not found or is another class";
-    lookFrom(0.5, 9.0);
+    setCamera(0.5, 9.0);
   }
   void TearDown() override {
     if (display != nullptr) rig.remove(display);
   }
 
-  void lookFrom(double pitch, double distance) {
+  void setCamera(double pitch, double distance) {
     rviz::ViewController& view = *rig.manager().getViewManager()->getCurrent();
     view.lookAt(0.f, 0.f, 0.3f);
     view.subProp("Pitch")->setValue(pitch);
@@ -68,12 +68,12 @@ class GrassDisplayTest : public testing::Test {
 
 // S2-05, S2-13: blades, strips beyond them and a ground without holes are visible.
 TEST_F(GrassDisplayTest, DrawsAMeadowWithGroundAndSky) {
-  lookFrom(0.25, 12.0);
+  setCamera(0.25, 12.0);
   display->subProp("Blades")->setValue(3000);
   ASSERT_TRUE(settled());
   EXPECT_GT(display->drawn().bladed, 0u);
   EXPECT_GT(display->drawn().stripped, 0u);
-  const Impression seen = rig.look();
+  const ImageStatistics seen = rig.imageStatistics();
   EXPECT_GT(seen.green, 0.3);
   EXPECT_GT(seen.blue, 0.05);
   EXPECT_GT(seen.spread, 15.0);
@@ -129,17 +129,17 @@ TEST_F(GrassDisplayTest, KeepsToTheBlades) {
              display->drawn().blades < 1.15 * static_cast<double>(most);
     })) << display->drawn().blades;
   }
-  lookFrom(0.3, 300.0);
+  setCamera(0.3, 300.0);
   EXPECT_TRUE(rig.until([&] { return display->drawn().blades == 0; }));
 }
 
 // S2-15: after a step back only levels change, and no two successive images show much of it.
 TEST_F(GrassDisplayTest, LevelsFadeIntoOneAnother) {
-  lookFrom(0.25, 8.0);
+  setCamera(0.25, 8.0);
   display->subProp("Blades")->setValue(3000);
   ASSERT_TRUE(settled());
   const int rebuilds = display->drawn().rebuilds;
-  lookFrom(0.25, 14.0);
+  setCamera(0.25, 14.0);
   ASSERT_TRUE(rig.until([&] { return display->drawn().rebuilds > rebuilds; }));
   rig.frames(1);
   const std::vector<std::uint8_t> before = rig.picture();
@@ -175,7 +175,7 @@ TEST_F(GrassDisplayTest, SurvivesTimeGoingBack) {
   EXPECT_TRUE(rig.until([&] { return display->drawn().trodden > 0; }));
 }
 
-TEST_F(GrassDisplayTest, RefusesWhatCannotBeAndKeepsWhatItHas) {
+TEST_F(GrassDisplayTest, RejectsInvalidMessagesAndKeepsItsState) {
   ASSERT_TRUE(settled());
   GrassLayout layout = toMsg(GrassRig::meadow(4));
   layout.header.frame_id = "map";
@@ -184,19 +184,19 @@ TEST_F(GrassDisplayTest, RefusesWhatCannotBeAndKeepsWhatItHas) {
   WindField wind = toMsg(wind::Field({forest::makeBreeze(1, Vec3(3.0, 0.0, 0.0))}), "map", 0);
   wind.primitives[0].velocity.x = std::numeric_limits<double>::infinity();
   rig.publish(wind);
-  GrassState stranger;
-  stranger.header.stamp.fromSec(rig.now());
-  stranger.key_frame = true;
-  stranger.layout_hash = 12345;
-  rig.publish(stranger);
+  GrassState unknown;
+  unknown.header.stamp.fromSec(rig.now());
+  unknown.key_frame = true;
+  unknown.layout_hash = 12345;
+  rig.publish(unknown);
   EXPECT_TRUE(rig.until([&] {
     return status("Layout").rfind("Rejected", 0) == 0 && status("Wind").rfind("Rejected", 0) == 0 &&
            status("State").find("layout") != std::string::npos;
   })) << status("Layout")
       << "; " << status("Wind") << "; " << status("State");
-  stranger.press_stamps.resize(1);
-  stranger.press_recoveries = {std::numeric_limits<float>::quiet_NaN()};
-  rig.publish(stranger);
+  unknown.press_stamps.resize(1);
+  unknown.press_recoveries = {std::numeric_limits<float>::quiet_NaN()};
+  rig.publish(unknown);
   EXPECT_TRUE(rig.until([&] { return status("State").rfind("Rejected", 0) == 0; }))
       << status("State");
   EXPECT_EQ(display->drawn().tiles, static_cast<std::size_t>(TILES) * TILES);
@@ -208,7 +208,7 @@ TEST_F(GrassDisplayTest, FollowsALayoutThatChanges) {
   EXPECT_TRUE(rig.until([&] { return display->drawn().tiles == 36; }));
 }
 
-TEST_F(GrassDisplayTest, TellsThatNoStateComes) {
+TEST_F(GrassDisplayTest, ReportsMissingStates) {
   ASSERT_TRUE(drawn());
   expectSilenceIsReported(rig, *display, [&] { rig.publishState(); });
 }
@@ -226,7 +226,7 @@ TEST_F(GrassDisplayTest, FollowsANodeThatDiesAndReturns) {
 }
 
 // N7
-TEST_F(GrassDisplayTest, TellsTheGovernorsChoice) {
+TEST_F(GrassDisplayTest, ShowsTheGovernorsChoice) {
   ASSERT_TRUE(drawn());
   expectAllocationIsReported(rig, *display, "grass_field", "Cost [blades]", "Budget [blades]",
                              "blades");
@@ -244,7 +244,7 @@ TEST_F(GrassDisplayTest, SettingsSurviveSaveAndLoad) {
 
 // A node without a meadow publishes a layout without grass; a display with more information draws
 // the ground.
-TEST_F(GrassDisplayTest, ABareMeadowLeavesTheGroundToOthers) {
+TEST_F(GrassDisplayTest, ABareMeadowLeavesTheGroundToOtherDisplays) {
   ASSERT_TRUE(drawn());
   auto* forest = rig.add<ForestDisplay>("vegetation_sim/ForestDisplay");
   ASSERT_NE(forest, nullptr);
@@ -269,7 +269,7 @@ TEST_F(GrassDisplayTest, ABareMeadowLeavesTheGroundToOthers) {
 }
 
 // There are more tiles than a texture has pixels: the display draws no ground and does not stall.
-TEST_F(GrassDisplayTest, AMeadowTooLongForAPictureHasNoGround) {
+TEST_F(GrassDisplayTest, AMeadowTooLongForATextureHasNoGround) {
   ASSERT_TRUE(drawn());
   grass::MapInput input;
   input.law = GrassRig::meadow(2).map->law();

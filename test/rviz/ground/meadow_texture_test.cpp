@@ -67,7 +67,7 @@ TEST(MeadowPainter, PaintsTracksInTiles) {
   EXPECT_EQ(trodden.at(column, 0), plain.at(column, 0));
 }
 
-TEST(MeadowPainter, KnowsWhatItCanPaint) {
+TEST(MeadowPainter, RejectsMapsThatAreTooLarge) {
   EXPECT_FALSE(isBare(halfBare()));
   EXPECT_TRUE(isPaintable(halfBare()));
   grass::MapInput input;

@@ -24,7 +24,7 @@ namespace vegetation_sim {
 
 /// Shares of pixels with the colour of leaves or grass, of sky, and of the commonest colour; spread
 /// is the standard deviation of the green channel.
-struct Impression {
+struct ImageStatistics {
   double green{0.0}, blue{0.0}, commonest{0.0}, spread{0.0};
 };
 
@@ -126,10 +126,10 @@ class ViewRig {
     return largest;
   }
 
-  Impression look() {
+  ImageStatistics imageStatistics() {
     const std::vector<std::uint8_t> pixels = picture();
     const double count = static_cast<double>(pixels.size()) / 3.0;
-    Impression out;
+    ImageStatistics out;
     double sum = 0.0, squares = 0.0;
     std::map<std::array<std::uint8_t, 3>, double> colours;
     for (std::size_t i = 0; i + 2 < pixels.size(); i += 3) {

@@ -87,7 +87,7 @@ void forgetShaders(bool forget) {
   }
 }
 
-TEST_F(LandscapeTest, EveryKindDrawsAndWhatASceneHasOnceIsGivenOnce) {
+TEST_F(LandscapeTest, EveryKindDrawsAndSharedSceneryIsDrawnOnce) {
   Landscape scene = add();
   ASSERT_TRUE(goOnUntil([&] { return scene.drawn(); }));
   EXPECT_TRUE(goOnUntil([&] {
@@ -104,7 +104,7 @@ TEST_F(LandscapeTest, EveryKindDrawsAndWhatASceneHasOnceIsGivenOnce) {
         << ": " << testing::PrintToString(givers);
   }
   rig.frames(3);
-  const Impression seen = rig.look();
+  const ImageStatistics seen = rig.imageStatistics();
   EXPECT_GT(seen.green, 0.15);
   EXPECT_GT(seen.blue, 0.05);
   EXPECT_GT(seen.spread, 15.0);
@@ -114,20 +114,20 @@ TEST_F(LandscapeTest, EveryKindDrawsAndWhatASceneHasOnceIsGivenOnce) {
   EXPECT_TRUE(goOnUntil([&] { return giverOf(*scene.forest, "ground").empty(); }));
   const std::vector<std::uint8_t> before = rig.picture();
   EXPECT_TRUE(goOnUntil([&] { return difference(before, rig.picture()) > 0.5; }));
-  EXPECT_GT(rig.look().green, 0.15);
+  EXPECT_GT(rig.imageStatistics().green, 0.15);
   for (rviz::Display* display : scene.all())
     if (display != scene.grass) rig.remove(display);
 }
 
-TEST_F(LandscapeTest, WithoutShadersTheSceneIsPlainerButThere) {
+TEST_F(LandscapeTest, WithoutShadersTheSceneIsSimplerButVisible) {
   const Landscape scene = add();
   ASSERT_TRUE(goOnUntil([&] { return scene.drawn(); }));
   rig.frames(3);
-  const Impression shaded = rig.look();
+  const ImageStatistics shaded = rig.imageStatistics();
   const std::vector<std::uint8_t> before = rig.picture();
   forgetShaders(true);
   rig.frames(3);
-  const Impression plain = rig.look();
+  const ImageStatistics plain = rig.imageStatistics();
   const std::vector<std::uint8_t> after = rig.picture();
   forgetShaders(false);
   EXPECT_GT(difference(before, after), 0.5);

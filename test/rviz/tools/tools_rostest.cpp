@@ -39,12 +39,12 @@ class ToolsTest : public testing::Test {
   static void SetUpTestSuite() { shared_rig = std::make_unique<ViewRig>(); }
   static void TearDownTestSuite() { shared_rig.reset(); }
 
-  void SetUp() override { look(1.0f); }
+  void SetUp() override { setCamera(1.0f); }
   void TearDown() override { putAway(); }
 
   // Sets a camera in the south-west and above, 7 m from a point on the z axis. Returns when rviz
   // has drawn a frame with it.
-  void look(float z) {
+  void setCamera(float z) {
     rviz::ViewController& view = *rig.manager().getViewManager()->getCurrent();
     view.lookAt(0.f, 0.f, z);
     view.subProp("Distance")->setValue(7.0);
@@ -126,7 +126,7 @@ TEST_F(ToolsTest, TheMouseGrabsPullsAndReleasesABranch) {
   EXPECT_FALSE(tool->grip().holding);
 }
 
-TEST_F(ToolsTest, AToolPutAwayLetsGo) {
+TEST_F(ToolsTest, DeactivatingTheToolReleasesTheBranch) {
   auto* tool = use<GrabTool>("vegetation_sim/GrabTool");
   GetTree tree;
   ASSERT_TRUE(rig.until([&] { return getTree(tree); }));
@@ -136,29 +136,29 @@ TEST_F(ToolsTest, AToolPutAwayLetsGo) {
   EXPECT_TRUE(rig.until([&] { return getTree(tree) && tree.response.grabs.empty(); }));
 }
 
-TEST_F(ToolsTest, ANodeThatDoesNotAnswerIsSaid) {
+TEST_F(ToolsTest, ANodeThatDoesNotReplyIsReported) {
   auto* tool = use<GrabTool>("vegetation_sim/GrabTool");
   putAway();
-  tool->getPropertyContainer()->subProp("Node")->setValue("/nobody");
+  tool->getPropertyContainer()->subProp("Node")->setValue("/no_node");
   rig.manager().getToolManager()->setCurrentTool(tool);
   mouse(*tool, QEvent::MouseButtonPress, {240, 180});
   EXPECT_TRUE(rig.until([&] {
-    return tool->grip().message.find("/nobody/pick") != std::string::npos;
+    return tool->grip().message.find("/no_node/pick") != std::string::npos;
   })) << tool->grip().message;
 }
 
 // A service that does not return blocks neither the view nor the removal of the tool.
-TEST_F(ToolsTest, ANodeThatHangsStopsNoPicture) {
+TEST_F(ToolsTest, ANodeThatHangsDoesNotBlockTheView) {
   ros::CallbackQueue queue;
   ros::NodeHandle hung("/hung");
   hung.setCallbackQueue(&queue);
   std::promise<void> enough;
   std::future<void> waited = enough.get_future();
-  std::atomic<bool> asked{false}, answered{false};
+  std::atomic<bool> called{false}, returned{false};
   const boost::function<bool(Pick::Request&, Pick::Response&)> hang = [&](auto&, auto&) {
-    asked = true;
+    called = true;
     waited.wait_for(std::chrono::seconds(20));
-    return answered = true;
+    return returned = true;
   };
   const ros::ServiceServer server = hung.advertiseService("pick", hang);
   ros::AsyncSpinner spinner(1, &queue);
@@ -168,15 +168,15 @@ TEST_F(ToolsTest, ANodeThatHangsStopsNoPicture) {
   tool->getPropertyContainer()->subProp("Node")->setValue("/hung");
   rig.manager().getToolManager()->setCurrentTool(tool);
   mouse(*tool, QEvent::MouseButtonPress, {240, 180});
-  ASSERT_TRUE(rig.until([&] { return asked.load(); }));
+  ASSERT_TRUE(rig.until([&] { return called.load(); }));
   putAway();
   rig.frames(3);
-  EXPECT_FALSE(answered);
+  EXPECT_FALSE(returned);
   enough.set_value();
-  EXPECT_TRUE(rig.until([&] { return answered.load(); }));
+  EXPECT_TRUE(rig.until([&] { return returned.load(); }));
 }
 
-TEST_F(ToolsTest, NamesThatCannotBeAreRefused) {
+TEST_F(ToolsTest, InvalidNamesAreRejected) {
   for (const char* name : {"no name!", "~x", ""}) {
     auto* grab = use<GrabTool>("vegetation_sim/GrabTool");
     auto* wind = use<WindTool>("vegetation_sim/WindTool");
@@ -199,10 +199,10 @@ TEST_F(ToolsTest, NamesThatCannotBeAreRefused) {
 // S2-21: a stroke of the mouse on the ground treads along it.
 TEST_F(ToolsTest, TheMouseTreads) {
   std::vector<TreadEvent> events;
-  const boost::function<void(const TreadEvent&)> heard = [&](const TreadEvent& e) {
+  const boost::function<void(const TreadEvent&)> receive = [&](const TreadEvent& e) {
     events.push_back(e);
   };
-  const ros::Subscriber listener = rig.nodeHandle().subscribe<TreadEvent>("tread", 100, heard);
+  const ros::Subscriber listener = rig.nodeHandle().subscribe<TreadEvent>("tread", 100, receive);
   auto* tool = use<TreadTool>("vegetation_sim/TreadTool");
   ASSERT_NE(tool, nullptr);
   ASSERT_TRUE(rig.until([&] { return listener.getNumPublishers() > 0; }));
@@ -220,10 +220,10 @@ TEST_F(ToolsTest, TheMouseTreads) {
 }
 
 // S2-20: a stroke starts a gust along it.
-TEST_F(ToolsTest, AStrokeSendsAGust) {
+TEST_F(ToolsTest, AStrokeStartsAGust) {
   WindField field;
-  const boost::function<void(const WindField&)> heard = [&](const WindField& f) { field = f; };
-  const ros::Subscriber listener = rig.nodeHandle().subscribe<WindField>("wind", 1, heard);
+  const boost::function<void(const WindField&)> receive = [&](const WindField& f) { field = f; };
+  const ros::Subscriber listener = rig.nodeHandle().subscribe<WindField>("wind", 1, receive);
   auto* tool = use<WindTool>("vegetation_sim/WindTool");
   ASSERT_NE(tool, nullptr);
   rig.until([&] { return !field.primitives.empty(); });
@@ -245,8 +245,8 @@ TEST_F(ToolsTest, AStrokeSendsAGust) {
 // The dial and the slider of the panel set the breeze, and the button activates the tool.
 TEST_F(ToolsTest, ThePanelSetsTheWind) {
   WindField field;
-  const boost::function<void(const WindField&)> heard = [&](const WindField& f) { field = f; };
-  const ros::Subscriber listener = rig.nodeHandle().subscribe<WindField>("wind", 1, heard);
+  const boost::function<void(const WindField&)> receive = [&](const WindField& f) { field = f; };
+  const ros::Subscriber listener = rig.nodeHandle().subscribe<WindField>("wind", 1, receive);
   LandscapePanel panel;
   panel.initialize(&rig.manager());
   panel.findChild<QDial*>()->setValue(180);   // towards the south
@@ -270,12 +270,12 @@ TEST_F(ToolsTest, ThePanelSetsTheWind) {
 // The panel shows the settings of the forest, and a change sets only its own parameter.
 TEST_F(ToolsTest, ThePanelSetsToleranceAndBudget) {
   std::map<std::string, double> there;
-  const boost::function<void(const dynamic_reconfigure::Config&)> heard =
+  const boost::function<void(const dynamic_reconfigure::Config&)> receive =
       [&](const dynamic_reconfigure::Config& config) {
         for (const auto& value : config.doubles) there[value.name] = value.value;
       };
   const ros::Subscriber listener = rig.nodeHandle().subscribe<dynamic_reconfigure::Config>(
-      "/forest_animator/parameter_updates", 1, heard);
+      "/forest_animator/parameter_updates", 1, receive);
   LandscapePanel panel;
   panel.initialize(&rig.manager());
   const auto box = [&](const char* unit) {
@@ -302,7 +302,7 @@ TEST_F(ToolsTest, ThePanelSetsToleranceAndBudget) {
 
 // Bars show how the trees move: the classes sum to the number of trees, and a value that no node
 // reports is hidden.
-TEST_F(ToolsTest, ThePanelTellsHowTreesMove) {
+TEST_F(ToolsTest, ThePanelShowsHowTreesMove) {
   LandscapePanel panel;
   panel.initialize(&rig.manager());
   const auto shown = [&] {

@@ -23,11 +23,11 @@ struct RegisteredViewer {
     branch = rig.branchOfDepth(1);
     replica.setLayout(rig.forest.layout(), forest::flatTerrain());
     replica.setWind(rig.forest.snapshot().wind);
-    hear(true);
+    update(true);
   }
-  void hear(bool key_frame) { ASSERT_TRUE(replica.apply(rig.forest.update(key_frame))); }
+  void update(bool key_frame) { ASSERT_TRUE(replica.apply(rig.forest.update(key_frame))); }
   void run(double duration) {
-    rig.run(duration, [&] { hear(false); });
+    rig.run(duration, [&] { update(false); });
   }
   bool move(DrawnTree& tree) {
     const wind::Instant wind = rig.forest.snapshot().wind.at(rig.now());

@@ -46,7 +46,7 @@ TreeSet grown(const ForestReplica& replica, std::vector<std::uint32_t> ids, bool
   return out;
 }
 
-TEST(NearestTrees, AreAllWhereThereAreNoMore) {
+TEST(NearestTrees, AreAllTreesOfASmallForest) {
   const Layout layout = forest::gridLayout(3, 5.0);
   EXPECT_EQ(nearestTrees(layout, Vec3::Zero(), 9).size(), 9u);
   EXPECT_EQ(nearestTrees(layout, Vec3::Zero(), 100).size(), 9u);
@@ -69,48 +69,48 @@ Layout unevenLayout() {
 
 // Compares with a search through all trees.
 void expectNearest(const Layout& layout) {
-  for (const Vec3& eye :
+  for (const Vec3& viewer :
        {Vec3(0, 0, 2), Vec3(120, 130, 2), Vec3(190, 210, 2), Vec3(400, -50, 30)}) {
     for (const std::size_t most : {1u, 7u, 100u, 600u}) {
       std::vector<std::pair<double, std::uint32_t>> all;
       for (std::uint32_t i = 0; i < layout.treeCount(); ++i) {
-        const Vec3 at = forest::seedOf(layout, i).position - eye;
+        const Vec3 at = forest::seedOf(layout, i).position - viewer;
         all.emplace_back(std::hypot(at.x(), at.y()), i);
       }
       std::sort(all.begin(), all.end());
       std::vector<std::uint32_t> expected;
       for (std::size_t i = 0; i < most; ++i) expected.push_back(all[i].second);
       std::sort(expected.begin(), expected.end());
-      EXPECT_EQ(nearestTrees(layout, eye, most), expected) << most;
+      EXPECT_EQ(nearestTrees(layout, viewer, most), expected) << most;
     }
   }
 }
 
-TEST(NearestTrees, AreTheNearestOfTilesToo) {
+TEST(NearestTrees, AreTheNearestOfTiles) {
   expectNearest(tiledLayout());
   expectNearest(unevenLayout());
 }
 
 // The search reads only the trees of a tile that are near enough.
-TEST(NearestTrees, OfATileOfMillionsAreAtHand) {
+TEST(NearestTrees, AreFoundFastInATileOfMillions) {
   Layout layout = tiledLayout();
   layout.trees.clear();
   layout.tiles.resize(1);
   layout.tiles[0].first_tree = 0;
   layout.tiles[0].count = forest::MOST_TREES;
   layout.tiles[0].size = 40000.0;
-  const Vec3 eye(23456.0, 12345.0, 2.0);
-  const auto near = nearestTrees(layout, eye, 100);
+  const Vec3 viewer(23456.0, 12345.0, 2.0);
+  const auto near = nearestTrees(layout, viewer, 100);
   ASSERT_EQ(near.size(), 100u);
   double farthest = 0.0;
   for (const std::uint32_t id : near)
     farthest =
-        std::max(farthest, length(forest::seedOf(layout, id).position + Vec3(0, 0, 2) - eye));
+        std::max(farthest, length(forest::seedOf(layout, id).position + Vec3(0, 0, 2) - viewer));
   const double mean = std::sqrt(100.0 * 40000.0 * 40000.0 / forest::MOST_TREES / M_PI);
   EXPECT_NEAR(farthest, mean, 0.1 * mean);  // mean is the radius of the disc that 100 trees fill
 }
 
-TEST(View, SeesWhatIsInItsCone) {
+TEST(View, SeesSpheresInItsCone) {
   View view;
   view.half_angle = 0.5;
   EXPECT_TRUE(view.sees(Vec3(10, 0, 0), 1.0));

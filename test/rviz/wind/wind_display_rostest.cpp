@@ -83,7 +83,7 @@ TEST_F(WindDisplayTest, MovesWithTheClockAlone) {
   EXPECT_TRUE(rig.until([&] { return difference(before, rig.picture()) > 0.1; }));
 }
 
-TEST_F(WindDisplayTest, RefusesWhatIsNoNumberAndKeepsWhatItHas) {
+TEST_F(WindDisplayTest, RejectsInvalidNumbersAndKeepsItsState) {
   WindField bad = WindRig::windy();
   bad.primitives[0].velocity.x = std::numeric_limits<double>::quiet_NaN();
   rig.publish(bad);

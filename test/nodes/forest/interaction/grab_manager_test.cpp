@@ -114,7 +114,7 @@ Vec3 alongAxes(const Quat& frame, const Vec3& v) {
 // N3: a hand holds a limb 30 cm from its own origin in a rotated frame, moves aside and rotates. At
 // rest its wrench balances the spring, both as a force and as a moment about the origin of the
 // hand.
-TEST(GrabManager, HandFeelsForceAndTorqueInItsOwnFrame) {
+TEST(GrabManager, HandGetsForceAndTorqueInItsOwnFrame) {
   GrabManagerRig rig;
   const int limb = 46;
   const double along = 0.5 * rig.branch(limb).length, stiffness = 5000.0;
@@ -159,7 +159,7 @@ TEST(GrabManager, HandFeelsForceAndTorqueInItsOwnFrame) {
 
 // N3: a body moves and rotates, and its tf is late. The wrench of a tick is in the frame's pose at
 // that tick, not in the last pose from tf.
-TEST(GrabManager, BodyFeelsItsWrenchInItsFrameOfTheTick) {
+TEST(GrabManager, BodyGetsItsWrenchInItsFrameOfTheTick) {
   constexpr double LATE = 0.1;  // [s]
   GrabManagerRig rig;
   const forest::Branch& trunk = rig.branch(0);

@@ -51,7 +51,7 @@ class RobotBodiesTest : public testing::Test {
   ros::NodeHandle handle_;
 };
 
-TEST_F(RobotBodiesTest, NothingIsNoBody) {
+TEST_F(RobotBodiesTest, NoParameterGivesNoBody) {
   EXPECT_TRUE(read().parts.empty());
 }
 
@@ -76,7 +76,7 @@ TEST_F(RobotBodiesTest, ListIsRead) {
   EXPECT_NEAR(length(axisZ(part.in_frame.orientation) + Vec3::UnitY()), 0.0, 1e-12);
 }
 
-TEST_F(RobotBodiesTest, FaultsOfTheListAreTold) {
+TEST_F(RobotBodiesTest, FaultsOfTheListAreReported) {
   XmlRpc::XmlRpcValue body;
   body["shape"] = "cone";
   body["radius"] = -1.0;
@@ -109,7 +109,7 @@ TEST_F(RobotBodiesTest, CollisionGeometryOfAUrdfIsRead) {
   EXPECT_EQ(found.left_out, std::vector<std::string>{"camera"});
 }
 
-TEST_F(RobotBodiesTest, WhatIsNoUrdfIsRefused) {
+TEST_F(RobotBodiesTest, TextsThatAreNotUrdfAreRejected) {
   handle_.setParam("robot_description", "no_such_parameter");
   EXPECT_NE(errorOf([&] { read(); }).find("'no_such_parameter' is no parameter of text"),
             std::string::npos);
@@ -169,13 +169,13 @@ TEST_F(Following, TwoSamplesGiveTheVelocity) {
   EXPECT_TRUE(bodies_.missing().empty());
 }
 
-TEST_F(Following, FrameThatFallsSilentIsNoBody) {
+TEST_F(Following, SilentFrameRemovesTheBody) {
   ASSERT_EQ(follow(START, 1.0, START).size(), 1u);
   EXPECT_TRUE(bodies_.update(START + NANOSECONDS_PER_SECOND).empty());
   EXPECT_EQ(bodies_.missing(), std::vector<std::string>{"hand"});
 }
 
-TEST_F(Following, LeapIsNoSpeed) {
+TEST_F(Following, JumpIsNotASpeed) {
   ASSERT_EQ(follow(START, 1.0, START).size(), 1u);
   const std::vector<Body> found = follow(START + TENTH, 500.0, START + TENTH);
   ASSERT_EQ(found.size(), 1u);

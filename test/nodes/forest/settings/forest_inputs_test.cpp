@@ -32,14 +32,14 @@ TEST(ForestInputs, CountLateEventsOfAReplay) {
   EXPECT_EQ(inputs.losses().lost, 0u);
 }
 
-TEST(ForestInputs, CountEventsThatFindNoRoom) {
+TEST(ForestInputs, CountEventsAboveTheLimit) {
   ForestInputs inputs(true);
   for (std::size_t i = 0; i < ForestInputs::MOST_WAITING + 3; ++i) inputs.addEvent(resetAt(7));
   EXPECT_EQ(inputs.losses().lost, 3u);
   EXPECT_EQ(inputs.take(7 * TICK).size(), ForestInputs::MOST_WAITING);
 }
 
-TEST(ForestInputs, CountViewersThatFindNoRoom) {
+TEST(ForestInputs, CountViewersAboveTheLimit) {
   ForestInputs inputs(false);
   Viewer viewer;
   for (std::size_t i = 0; i < ForestInputs::MOST_WAITING + 2; ++i) {
@@ -50,7 +50,7 @@ TEST(ForestInputs, CountViewersThatFindNoRoom) {
 }
 
 // N6: a flood of requests for later stamps blocks neither the wind nor the node's own events.
-TEST(ForestInputs, FindRoomForTheNodesOwnInAFlood) {
+TEST(ForestInputs, AcceptTheNodesOwnEventsInAFlood) {
   ForestInputs inputs(false);
   ForestEvent force;
   force.kind = ForestEvent::FORCE;

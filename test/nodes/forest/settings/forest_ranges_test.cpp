@@ -14,7 +14,7 @@
 namespace vegetation_sim {
 namespace {
 
-TEST(ForestRanges, OfReconfigureAreThoseOfTheStructures) {  // S1-10, S1-45
+TEST(ForestRanges, MatchDynamicReconfigure) {  // S1-10, S1-45
   ForestTuning tuning;
   Declared declared;
   describe(declared, tuning);

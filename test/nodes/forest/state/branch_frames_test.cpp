@@ -58,7 +58,7 @@ TEST(BranchFrames, GoToTheBranchesThatAreFarthestFromRest) {
 }
 
 // A held branch has a frame, and requested frames have priority over other physical branches.
-TEST(BranchFrames, OfHeldAndAskedForBranchesComeFirst) {
+TEST(BranchFrames, GoToHeldAndRequestedBranchesFirst) {
   Pulled scene;
   scene.held = {{1, 5, 0.0}};
   BranchFrames frames(3);
@@ -71,7 +71,7 @@ TEST(BranchFrames, OfHeldAndAskedForBranchesComeFirst) {
 
 // N7: this also holds during the cool-down of other frames. The error of a branch without a frame
 // is reported in metres if any frame remains to be shared.
-TEST(BranchFrames, OfBranchesJustTakenInHandAreThereAtOnce) {
+TEST(BranchFrames, GoAtOnceToBranchesThatAreGrabbed) {
   Pulled scene;
   const std::size_t physical = scene.physical(0) + scene.physical(3);
   BranchFrames frames(3);

@@ -49,7 +49,7 @@ std::uint64_t hashWith(const PhysicsSettings& settings, Nanoseconds stamp) {
 
 // S1-30, S1-31, S1-33: the published state is that of a forest with the settings of the file, and
 // no setting keeps its default.
-TEST(ForestMethods, AreThoseOfTheScenario) {
+TEST(ForestMethods, MatchTheScenario) {
   ClockedForest forest(3000);
   forest.run(3);
   const Nanoseconds stamp = fromMsg(forest.state.last().header.stamp);

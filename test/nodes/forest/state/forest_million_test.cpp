@@ -109,7 +109,7 @@ TEST_F(ForestMillion, LayoutIsSmall) {
 
 // State is published at its rate while a viewer appears, moves and leaves. No message is large and
 // memory does not grow.
-TEST_F(ForestMillion, StateFlowsAndNoTreeTakesMemory) {  // S1-04, S1-05, N8
+TEST_F(ForestMillion, StateKeepsItsRateAndTreesTakeNoMemory) {  // S1-04, S1-05, N8
   const double before = bytesPerTree();
   const std::size_t first = forest_->state.messages.size();
   walk(5);
@@ -135,7 +135,7 @@ TEST_F(ForestMillion, StateFlowsAndNoTreeTakesMemory) {  // S1-04, S1-05, N8
 }
 
 // S1-04, S1-06: any tree grows from its seed to the same bits in both processes.
-TEST_F(ForestMillion, TreesRegrowToTheBit) {
+TEST_F(ForestMillion, TreesGrowToTheSameBits) {
   const forest::Layout layout = fromMsg(forest_->layout.last());
   std::uint64_t last = 0;
   for (const std::uint32_t id : {0u, 1u, 499999u, 765432u, TREES - 1}) {

@@ -64,7 +64,7 @@ class ForestRebuild : public testing::Test {
     forest_->runUntil("the second before a key frame", [] {
       return fromMsg(forest_->state.last().header.stamp) >= forest_->grid().timeOf(KEY_FRAME - 30);
     });
-    look("eye", -15.0);
+    publishViewer("eye", -15.0);
     forest_->runUntil("a key frame", [] { return forest_->state.last().key_frame; });
     key_frame_ = forest_->state.messages.size() - 1;
   }
@@ -75,7 +75,7 @@ class ForestRebuild : public testing::Test {
   }
 
   /// Moves a viewer eastwards along the row of trees.
-  static void look(const std::string& id, double x) {
+  static void publishViewer(const std::string& id, double x) {
     Viewer message;
     message.id = id;
     message.header.frame_id = "map";
@@ -230,8 +230,8 @@ TEST_F(ForestRebuild, FloatPosesHaveTheSameBitsOnEveryInstructionSet) {
 TEST_F(ForestRebuild, DeltasAreFollowed) {
   forest::ForestReplica reader = listener();
   for (int second = 0; second < 8; ++second) {
-    if (second < 6) look("eye", 40.0 * second);
-    if (second == 2) look("other", 300.0);
+    if (second < 6) publishViewer("eye", 40.0 * second);
+    if (second == 2) publishViewer("other", 300.0);
     forest_->run(second == 7 ? 20 : 30);  // The run ends while levels change.
   }
   std::size_t changed = 0;
