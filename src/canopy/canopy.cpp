@@ -36,7 +36,7 @@ std::uint64_t CanopySnapshot::hash() const {
   hash.add(driver.share());
   hash.add(static_cast<std::uint64_t>(driver.front()));
   cuts.addTo(hash);
-  hash.add(static_cast<std::uint64_t>(looked));
+  hash.add(static_cast<std::uint64_t>(has_cuts));
   return hash.value();
 }
 
@@ -129,7 +129,7 @@ void Canopy::advance(Nanoseconds stamp) {
   memory_.stamp = stamp;
   ++memory_.ticks;
   memory_.history.push(toFrame(oscillator_.motion(), oscillator_.depth()));
-  look(stamp);
+  updateCuts(stamp);
   const PlaneMotion mean = meanOf(oscillator_.motion());
   const Vec3 towards = PlaneToView(plane_.axes, axesOf(memory_.cuts.now.orientation)).out;
   memory_.driver.advance(dt, dot(towards, Vec3(mean.u, mean.v, oscillator_.depth())),
@@ -147,13 +147,13 @@ void Canopy::step(Nanoseconds stamp, double dt) {
 }
 
 // Cuts the layers again if the view differs enough from theirs, one transition at a time.
-void Canopy::look(Nanoseconds stamp) {
+void Canopy::updateCuts(Nanoseconds stamp) {
   const CutView now = view();
   CutState& cuts = memory_.cuts;
-  if (!memory_.looked) {
+  if (!memory_.has_cuts) {
     const Nanoseconds fade = fromSeconds(layout_.motion.cuts.cross_fade);
     cuts = {now, now, stamp > fade ? stamp - fade : 0};
-    memory_.looked = true;
+    memory_.has_cuts = true;
     return;
   }
   if (cutShare(cuts, layout_.motion.cuts, stamp) < 1.0) return;
@@ -188,16 +188,16 @@ void Replica::apply(const StateUpdate& update) {
   if (update.layout_hash != layout_hash_)
     throw InvalidInput("state: layout_hash = " + std::to_string(update.layout_hash) +
                        " is not that of the layout, " + std::to_string(layout_hash_));
-  const bool next = heard_ > 0 && update.sequence == last_.sequence + 1;
+  const bool next = received_ > 0 && update.sequence == last_.sequence + 1;
   const bool first = update.sequence <= 1;
   if (!next || first) {
     History fresh(history_.size(), history_.frames());
     fresh.push(update.frame);
     history_ = std::move(fresh);
-    heard_ = first ? history_.frames() : 1;  // before the first tick everything is at rest
+    received_ = first ? history_.frames() : 1;  // before the first tick everything is at rest
   } else {
     history_.push(update.frame);
-    ++heard_;
+    ++received_;
   }
   last_ = update;
   stale_ = true;

@@ -22,7 +22,7 @@ struct CanopySnapshot {
   History history{SMALLEST_FIELD, 2};
   Driver driver;
   CutState cuts;
-  bool looked{false};  ///< layers have been cut
+  bool has_cuts{false};  ///< layers have been cut
   std::uint64_t hash() const;
 };
 
@@ -85,7 +85,7 @@ class Canopy {
 
  private:
   void step(Nanoseconds stamp, double dt);
-  void look(Nanoseconds stamp);
+  void updateCuts(Nanoseconds stamp);
   CutView view() const;
 
   Layout layout_;
@@ -113,7 +113,7 @@ class Replica {
   /// @throws InvalidInput for another layout or size; nothing has changed then.
   void apply(const StateUpdate& update);
   /// Returns whether the whole history has been received.
-  bool exact() const { return heard_ >= history_.frames(); }
+  bool exact() const { return received_ >= history_.frames(); }
   /// Sets the crowns; the same crowns as the animator's give the same layers.
   void setCrowns(std::vector<LeafBox> crowns);
   const Foliage& foliage();
@@ -123,7 +123,7 @@ class Replica {
   std::uint64_t layout_hash_;
   History history_;
   StateUpdate last_;
-  int heard_{0};
+  int received_{0};
   Foliage foliage_;
   bool stale_{true};
 };

@@ -35,7 +35,7 @@ void add(Hash& hash, const Walker& w) {
   add(hash, w.goal);
   for (const Foot& foot : w.feet) {
     add(hash, foot.planted);
-    add(hash, foot.lag);
+    add(hash, foot.offset);
     hash.add(std::uint64_t{foot.stands});
   }
 }

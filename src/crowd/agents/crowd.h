@@ -90,7 +90,7 @@ class Crowd {
   struct Tick;
   std::size_t indexOf(std::uint32_t id) const;
   Walker& at(std::uint32_t id);
-  void look();
+  void updateSurroundings();
   Wish wishOf(Walker& walker, const Point& front, std::size_t index) const;
   void stepOne(std::size_t index, const Tick& tick, Walker& walker) const;
   void keepSide(int taken, double dt, Walker& walker) const;

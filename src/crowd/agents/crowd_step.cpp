@@ -64,7 +64,7 @@ void Crowd::advance(Nanoseconds stamp) {
   memory_.stamp = stamp;
   memory_.begun = true;
   if (dt == 0.0) return;
-  look();
+  updateSurroundings();
   // Neighbours are processed one after the other, since they share data in the cache.
   const auto& spots = grid_.spots();
   forAll(spots.size(), [&](std::size_t i) {
@@ -74,7 +74,7 @@ void Crowd::advance(Nanoseconds stamp) {
   ways_.endTick();
 }
 
-void Crowd::look() {
+void Crowd::updateSurroundings() {
   const std::vector<Walker>& walkers = memory_.walkers;
   robots_.clear();
   for (const auto& entry : memory_.robots) robots_.push_back(obstacleOf(entry.second));

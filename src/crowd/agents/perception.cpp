@@ -74,9 +74,9 @@ void keep(const Sight& sight, int most, double range, View& view) {
 }
 
 // Collects the candidates of a walker's view, then measures from the nearest on.
-class Look {
+class CandidateList {
  public:
-  Look(const Walker& walker, double range)
+  CandidateList(const Walker& walker, double range)
       : walker_(walker), range_(range), room_(range + walker.radius), beyond_(range) {}
 
   // There is no branch on the distance, since it would be mispredicted. The velocity is read later.
@@ -187,23 +187,23 @@ void WalkerGrid::visitNear(const Point& place, Visit visit) const {
 
 View perceive(const Walker& walker, std::uint32_t self, const Surroundings& around,
               double sensor_range, int most) {
-  Look look(walker, sensor_range);
+  CandidateList candidates(walker, sensor_range);
   around.walkers->visitNear(walker.position, [&](const WalkerGrid::Spot& s) {
     if (s.index != self)
-      look.offer(s.position, s.radius, s.velocity, nullptr, Seen::WALKER, s.index);
+      candidates.offer(s.position, s.radius, s.velocity, nullptr, Seen::WALKER, s.index);
   });
   const Obstacle* still = around.still->obstacles().data();
   around.still->visitNear(
       walker.position, sensor_range + walker.radius, [&](const ObstacleGrid::Spot& s) {
-        look.offer(s.centre, s.reach, STANDS, s.is_disc ? nullptr : still + s.index, Seen::STATIC,
-                   s.index);
+        candidates.offer(s.centre, s.reach, STANDS, s.is_disc ? nullptr : still + s.index,
+                         Seen::STATIC, s.index);
       });
   for (std::uint32_t i = 0; i < around.robots->size(); ++i) {
     const Obstacle& o = (*around.robots)[i];
-    look.offer(o.centre(), o.reach, o.velocity, o.isDisc() ? nullptr : &o, Seen::ROBOT, i);
+    candidates.offer(o.centre(), o.reach, o.velocity, o.isDisc() ? nullptr : &o, Seen::ROBOT, i);
   }
   View out;
-  look.measure(most, out);
+  candidates.measure(most, out);
   return out;
 }
 

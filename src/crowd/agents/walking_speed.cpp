@@ -15,7 +15,7 @@ constexpr int SWEEPS = 6;
 constexpr double UNBOUNDED = 1e9;         // [m]
 constexpr double JUST_LESS = 1.0 - 1e-9;  // share of a hard limit, for rounding
 constexpr double BACKWARDS = 0.35;        // share of the speed across and against the body's front
-constexpr double TURN_LAG = 0.7;          // [s]
+constexpr double TURN_TIME = 0.7;         // [s]
 constexpr double TURN_SLACK = 0.05;       // angle below which a body does not turn [rad]
 
 // Returns a direction by which two walkers at one place part, equal for both.
@@ -125,8 +125,8 @@ void turnTowards(const Point& direction, const Point& front, const CrowdSettings
   const double off =
       roughAngle(front.x * direction.y - front.y * direction.x, dot(front, direction));
   const double beyond = std::copysign(std::max(0.0, std::fabs(off) - TURN_SLACK), off);
-  const double wanted = std::min(s.turn_rate, std::max(-s.turn_rate, beyond / TURN_LAG));
-  walker.turn_rate += (dt / (dt + 0.5 * TURN_LAG)) * (wanted - walker.turn_rate);
+  const double wanted = std::min(s.turn_rate, std::max(-s.turn_rate, beyond / TURN_TIME));
+  walker.turn_rate += (dt / (dt + 0.5 * TURN_TIME)) * (wanted - walker.turn_rate);
   double turn = walker.turn_rate * dt;
   if (std::fabs(turn) > std::fabs(off) && turn * off > 0.0) turn = off;
   walker.heading = wrapped(walker.heading + turn);

@@ -105,8 +105,8 @@ void setFoot(Walker& w, int index, bool struck) {
     const bool lost = length(foot.planted - w.position) > FARTHEST_FOOT * w.height;
     if (struck || !foot.stands || lost) foot.planted = toWorld(w, gaitPlace(w, index));
   } else if (foot.stands || struck) {
-    foot.lag = toLocal(w, foot.planted) - gaitPlace(w, index);
-    if (length(foot.lag) > FARTHEST_FOOT * w.height) foot.lag = Point();
+    foot.offset = toLocal(w, foot.planted) - gaitPlace(w, index);
+    if (length(foot.offset) > FARTHEST_FOOT * w.height) foot.offset = Point();
   }
   foot.stands = stands;
 }
@@ -184,7 +184,7 @@ Point footPlace(const Walker& walker, int index) {
   const Foot& foot = walker.feet[static_cast<std::size_t>(index)];
   if (foot.stands) return foot.planted;
   const double part = (footPhase(walker, index) - STANCE) / (1.0 - STANCE);
-  return toWorld(walker, gaitPlace(walker, index) + (1.0 - smoothStep(part)) * foot.lag);
+  return toWorld(walker, gaitPlace(walker, index) + (1.0 - smoothStep(part)) * foot.offset);
 }
 
 }  // namespace vegetation_sim::crowd

@@ -46,7 +46,7 @@ void describe(FieldVisitor& visitor, CrowdSettings& settings);
 struct Foot {
   Point planted{};  ///< position where it stands, or stood last [m]
   /// Lift-off position relative to that of the gait alone; forward and left of the walker [m]
-  Point lag{};
+  Point offset{};
   bool stands{true};
 };
 

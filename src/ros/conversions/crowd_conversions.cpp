@@ -66,7 +66,7 @@ AgentState toMsg(const crowd::Walker& w, const terrain::HeightMap& terrain) {
     const crowd::Point& foot = w.feet[i].planted;
     out.feet[i] = pointOf(foot, terrain.height(foot.x, foot.y));
     out.feet_stand[i] = w.feet[i].stands;
-    out.feet_lag[i] = vectorOf(w.feet[i].lag);
+    out.feet_lag[i] = vectorOf(w.feet[i].offset);
   }
   out.has_goal = w.has_goal;
   out.arrived = w.arrived;
