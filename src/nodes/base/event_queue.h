@@ -14,52 +14,59 @@
 
 namespace vegetation_sim {
 
-/// Inputs that did not do what they should.
+/// Counts of inputs that were late or lost.
 struct QueueLosses {
   std::uint64_t late{0};  ///< recorded events that came after the tick they are stamped with
-  std::uint64_t lost{0};  ///< events that found no room to wait
+  std::uint64_t lost{0};  ///< events that found the queue full
 };
 
 /// Warns on /diagnostics of losses since the last report.
 void warnOfLosses(diagnostic_updater::DiagnosticStatusWrapper& status, const QueueLosses& now,
                   const QueueLosses& reported);
-/// Warns on the node's console of losses that are not in `told`, and puts them there.
+/// Warns on the node's console of losses that are not yet in `published`, and adds them to it.
 void warnOfLosses(const char* node, const QueueLosses& losses, QueueLosses& published);
 
-/// Accepted inputs of a node wait here for their tick: live ones as events that get the stamp of
-/// the tick at which they are applied, in a replay the recorded ones, applied at their own ticks.
-/// Bounded, whatever comes in. @tparam Event a message with a header.
-template <class Event>
+/// Accepted inputs of a node wait here for their tick. Live inputs become events that get the stamp
+/// of the tick at which they are applied; a replay applies recorded events at their own ticks. The
+/// queue is bounded. @tparam Message a message with a header.
+template <class Message>
 class EventQueue {
  public:
+  using Event = Message;
   static constexpr std::size_t MOST_WAITING = 10000;
 
   explicit EventQueue(bool replay) : replay_(replay) {}
 
   bool replay() const { return replay_; }
-  /// A live input, already checked; its stamp says when, zero: at the next tick. Without effect in
-  /// a replay. False: there is no room, it is lost and counted.
+  /// Adds a live input that has been checked. Its stamp says when it takes effect; zero: at the
+  /// next tick. Does nothing in a replay. @return false if the queue is full: the input is lost.
   bool add(Event event) {
     if (replay_) return true;
-    if (waiting_.size() >= MOST_WAITING) {
+    if (room() == 0) {
       ++losses_.lost;
       return false;
     }
     waiting_.push_back(std::move(event));
     return true;
   }
-  /// A recorded event; ignored live, since it is the node's own.
+  /// Adds a live input before all that wait, even if the queue is full.
+  void addFirst(const Event& event) {
+    if (!replay_) waiting_.push_front(event);
+  }
+  /// Adds a recorded event; the oldest is lost if the queue is full. Ignored live, since it is the
+  /// node's own.
   void addRecorded(const Event& event) {
     if (!replay_) return;
-    if (waiting_.size() >= MOST_WAITING) {
+    if (room() == 0) {
       waiting_.pop_front();
       ++losses_.lost;
     }
     waiting_.push_back(event);
   }
-  std::size_t room() const { return MOST_WAITING - waiting_.size(); }
+  std::size_t room() const { return MOST_WAITING - std::min(MOST_WAITING, waiting_.size()); }
 
-  /// Events that take effect at the tick `stamp`, in order, stamped with it.
+  /// Returns the events that take effect at the tick `stamp`, in order, stamped with it. Recorded
+  /// events that come after their own tick are among them and counted as late.
   std::vector<Event> take(Nanoseconds stamp) {
     std::vector<Event> out;
     std::deque<Event> later;
@@ -76,19 +83,19 @@ class EventQueue {
     waiting_ = std::move(later);
     return out;
   }
-  /// Forgets events for which `is_void(event)` is true.
+  /// Drops the events for which `is_void(event)` is true.
   template <class Test>
   void forget(Test is_void) {
     waiting_.erase(std::remove_if(waiting_.begin(), waiting_.end(), is_void), waiting_.end());
   }
-  /// Calls `visit(event)` for each that waits.
+  /// Calls `visit(event)` for each event that waits.
   template <class Visit>
   void each(Visit visit) const {
     for (const Event& event : waiting_) visit(event);
   }
   const QueueLosses& losses() const { return losses_; }
 
- private:
+ protected:
   bool replay_;
   QueueLosses losses_;
   std::deque<Event> waiting_;

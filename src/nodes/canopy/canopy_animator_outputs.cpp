@@ -8,18 +8,18 @@ namespace vegetation_sim {
 
 void CanopyAnimator::publishState(std::int64_t tick) {
   if (state_publisher_.getNumSubscribers() == 0) return;
-  CanopyState message = toMsg(canopy_->update(tick % clock_.grid().rate() == 0));
+  CanopyState message = toMsg(canopy_.update(tick % clock_.grid().rate() == 0));
   message.header.frame_id = options_.frame_id;
-  counts_.state_bytes += ros::serialization::serializationLength(message);
+  state_bytes_ += ros::serialization::serializationLength(message);
   state_publisher_.publish(message);
 }
 
 void CanopyAnimator::sendMarkers(const ros::TimerEvent&) {
   if (!clock_.hasBegun() || markers_publisher_.getNumSubscribers() == 0) return;
-  const canopy::Foliage& foliage = canopy_->foliage();
+  const canopy::Foliage& foliage = canopy_.foliage();
   Viewpoint eye;
-  eye.position = canopy_->snapshot().cuts.now.position;
-  markers_.choose(canopy_->layout(), eye, options_.tolerance, clock_.stamp());
+  eye.position = canopy_.snapshot().cuts.now.position;
+  markers_.choose(canopy_.layout(), eye, options_.tolerance, clock_.stamp());
   markers_publisher_.publish(markers_.build(foliage, crownLeaves(foliage), options_.frame_id));
 }
 
@@ -36,44 +36,26 @@ std::vector<canopy::MovedLeaf> CanopyAnimator::crownLeaves(const canopy::Foliage
   return out;
 }
 
-// What has happened since the last report, and only that.
-void CanopyAnimator::reportProblem(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  counts_.clock = clock_.counts();
-  counts_.inputs = inputs_.losses();
-  counts_.resets = canopy_->figures().resets;
-  refusals_.warn(status);
-  warnOfClock(status, counts_.clock, reported_.clock);
-  warnOfLosses(status, counts_.inputs, reported_.inputs);
-  warnOfMore(status, counts_.resets, reported_.resets,
-             "steps of the wind gave no number and were undone");
-  reported_ = counts_;
-}
-
-void CanopyAnimator::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  using diagnostic_msgs::DiagnosticStatus;
-  status.summary(DiagnosticStatus::OK, "running");
-  if (!clock_.hasBegun()) status.summary(DiagnosticStatus::WARN, "waiting for the clock");
-  reportProblem(status);
-  status.add("Plants", canopy_->layout().plants.size());
-  status.add("Leaves", canopy_->layout().leafCount());
+void CanopyAnimator::addDiagnostics(Status& status) {
+  status.add("Plants", canopy_.layout().plants.size());
+  status.add("Leaves", canopy_.layout().leafCount());
   std::size_t crown_leaves = 0;
   for (const LeafedCrowns::Crown& crown : crowns_.crowns()) crown_leaves += crown.leaves.size();
   status.add("Leafed crowns", crowns_.crowns().size());
   status.add("Leaves of crowns", crown_leaves);
-  status.add("Layers", canopy_->foliage().layers());
+  status.add("Layers", canopy_.foliage().layers());
   status.add("Viewers", viewer_ ? 1 : 0);
-  status.add("Messages of other viewers", counts_.other_viewers);
-  clock_.report(status);
-  status.add("Inputs refused", refusals_.count());
-  status.add("Inputs lost", counts_.inputs.lost);
-  status.add("Recorded events late", counts_.inputs.late);
-  status.add("Steps undone", counts_.resets);
-  status.add("Memory of the layers [B]", canopy_->snapshot().history.bytes());
-  status.add("State sent [B]", counts_.state_bytes);
+  status.add("Messages of other viewers", other_viewers_);
+  const std::uint64_t resets = canopy_.figures().resets;
+  warnOfMore(status, resets, reported_resets_, "steps of the wind gave no number and were undone");
+  reported_resets_ = resets;
+  status.add("Steps undone", resets);
+  status.add("Memory of the layers [B]", canopy_.snapshot().history.bytes());
+  status.add("State sent [B]", state_bytes_);
 }
 
 // Of the markers; how leaves move is the same for all of them.
-void CanopyAnimator::diagnoseGovernor(diagnostic_updater::DiagnosticStatusWrapper& status) {
+void CanopyAnimator::diagnoseGovernor(Status& status) {
   report(markers_.balance(),
          {"Plants", options_.tolerance, "marker_points", "points",
           static_cast<double>(markers_.room()), markers_.tiers()},

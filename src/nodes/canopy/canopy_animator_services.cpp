@@ -3,8 +3,6 @@
 #include <algorithm>
 
 #include "nodes/canopy/canopy_animator.h"
-#include "ros/services/requests.h"
-#include "ros/services/service_replies.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
 
@@ -35,14 +33,14 @@ std::vector<Vec3> placesOf(const SampleCanopy::Request& request, const Pose& to_
 }  // namespace
 
 CanopySample CanopyAnimator::sampleAt(const Vec3& place) {
-  const canopy::Layout& layout = canopy_->layout();
-  const canopy::Foliage& foliage = canopy_->foliage();
+  const canopy::Layout& layout = canopy_.layout();
+  const canopy::Foliage& foliage = canopy_.foliage();
   const canopy::Plane plane(layout.motion.plane);
   const canopy::PlaneVector cell = plane.cellAt(place, layout.motion.fluid.cells);
-  const canopy::PlaneVector wind = canopy::bilinear(canopy_->wind(), cell.u, cell.v);
+  const canopy::PlaneVector wind = canopy::bilinear(canopy_.wind(), cell.u, cell.v);
   CanopySample out;
   out.wind = toVector(canopy::outOf(plane.axes, Vec3(wind.u, wind.v, 0.0)));
-  const canopy::CutView& eye = canopy_->snapshot().cuts.now;
+  const canopy::CutView& eye = canopy_.snapshot().cuts.now;
   out.motion =
       toVector(canopy::outOf(canopy::axesOf(eye.orientation), foliage.motion(place, place)));
   out.layer = static_cast<std::uint8_t>(foliage.layerAt(place));
@@ -55,24 +53,13 @@ CanopySample CanopyAnimator::sampleAt(const Vec3& place) {
 
 bool CanopyAnimator::onSample(SampleCanopy::Request& request, SampleCanopy::Response& response) {
   return answer(response, [&] {
-    if (!clock_.hasBegun()) throw InvalidInput("no tick yet: the clock has not started");
+    requireTick();
     if (!request.header.stamp.isZero() && fromMsg(request.header.stamp) != clock_.stamp())
       throw InvalidInput("stamp is not that of the last tick; others are not kept");
-    for (const Vec3& place :
-         placesOf(request, poseInWorld(tf_buffer_, options_.frame_id, request.header.frame_id)))
+    for (const Vec3& place : placesOf(request, poseOf(request.header.frame_id)))
       response.samples.push_back(sampleAt(place));
-    response.layers = static_cast<std::uint8_t>(canopy_->foliage().layers());
+    response.layers = static_cast<std::uint8_t>(canopy_.foliage().layers());
     return std::to_string(response.samples.size()) + " samples";
-  });
-}
-
-bool CanopyAnimator::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-  return answer(response, [&]() -> std::string {
-    if (options_.replay) throw InvalidInput("a replay is reset by its recorded events only");
-    CanopyEvent event;
-    event.kind = CanopyEvent::RESET;
-    inputs_.add(event);
-    return "takes effect at the next tick";
   });
 }
 

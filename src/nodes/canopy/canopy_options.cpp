@@ -15,7 +15,8 @@ namespace vegetation_sim {
 namespace {
 
 // A parameter holds against what the scenario says.
-void readScene(CanopyOptions& options, CanopyScene& scene, Faults& faults) {
+void readScene(CanopyOptions& options, Faults& faults) {
+  CanopyScene& scene = options.scene;
   try {
     scene = loadCanopyScene(options.scenario);
     if (!scene.frame_id.empty()) options.frame_id = scene.frame_id;
@@ -146,21 +147,23 @@ CanopyScene loadCanopyScene(const std::string& file) {
   return out;
 }
 
-CanopyOptions loadCanopyOptions(const ros::NodeHandle& private_handle, CanopyScene& scene) {
+CanopyOptions loadCanopyOptions(const ros::NodeHandle& private_handle) {
   CanopyOptions out;
   Parameters parameters(private_handle);
   parameters.text("scenario", out.scenario);
-  readScene(out, scene, parameters.faults());
+  readScene(out, parameters.faults());
   parameters.frame("frame_id", out.frame_id);
   parameters.text("viewer_id", out.viewer_id);
   parameters.frame("viewer_frame", out.viewer_frame, true);
   parameters.flag("replay", out.replay);
   describe(parameters, out);
-  CanopyTuning tuning = tuningOf(scene.layout.motion);
+  canopy::Layout& layout = out.scene.layout;
+  CanopyTuning tuning = tuningOf(layout.motion);
   describe(parameters, tuning);
-  scene.layout.motion = withTuning(scene.layout.motion, tuning);
-  if (parameters.faults().empty()) canopy::check(scene.layout, parameters.faults());
+  layout.motion = withTuning(layout.motion, tuning);
+  if (parameters.faults().empty()) canopy::check(layout, parameters.faults());
   parameters.finish();
+  out.state_rate = layout.motion.rate;
   return out;
 }
 

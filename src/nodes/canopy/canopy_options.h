@@ -7,6 +7,7 @@
 
 #include <string>
 
+#include "nodes/base/node_options.h"
 #include "vegetation_sim/canopy/canopy_layout.h"
 
 namespace vegetation_sim {
@@ -27,20 +28,6 @@ CanopyTuning fromConfig(const CanopyAnimatorConfig& config);
 /// Writes the tuning into what dynamic_reconfigure shows.
 void toConfig(const CanopyTuning& tuning, CanopyAnimatorConfig& config);
 
-/// Parameters of canopy_animator; see docs/reference.md.
-struct CanopyOptions {
-  std::string scenario;         ///< file; empty: no plants
-  std::string frame_id{"map"};  ///< world frame
-  double markers_rate{10.0};    ///< [Hz]
-  int marker_points{90000};     ///< budget of the marker lists together
-  double tolerance{1.0};        ///< error of what is drawn, at 1000 pixels a radian [pixel]
-  std::string viewer_id;        ///< the viewer to cut layers for; empty: the first that speaks
-  std::string viewer_frame;     ///< tf frame (x forward) that looks instead; empty: none
-  bool replay{false};           ///< recorded canopy/events instead of live inputs
-  double replay_delay{0.5};     ///< how far ticks stay behind the clock in a replay [s]
-};
-void describe(FieldVisitor& visitor, CanopyOptions& options);
-
 /// The plants of a scenario file, and its world frame.
 struct CanopyScene {
   canopy::Layout layout;
@@ -49,8 +36,17 @@ struct CanopyScene {
 /// No file or no `canopy` in it gives no plants. @throws InvalidInput with all faults of the file.
 CanopyScene loadCanopyScene(const std::string& file);
 
+/// Parameters of canopy_animator; see docs/reference.md.
+struct CanopyOptions : NodeOptions {
+  double markers_rate{10.0};  ///< [Hz]
+  int marker_points{90000};   ///< budget of the marker lists together
+  double tolerance{1.0};      ///< error of what is drawn, at 1000 pixels a radian [pixel]
+  CanopyScene scene;
+};
+void describe(FieldVisitor& visitor, CanopyOptions& options);
+
 /// Reads and checks all private parameters and the scenario that they name; where both say the same
 /// thing, the parameter holds. @throws InvalidInput with all faults of both.
-CanopyOptions loadCanopyOptions(const ros::NodeHandle& private_handle, CanopyScene& scene);
+CanopyOptions loadCanopyOptions(const ros::NodeHandle& private_handle);
 
 }  // namespace vegetation_sim

@@ -2,10 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 
-#include "core/config/field_values.h"
 #include "nodes/crowd/agent_crowd.h"
-#include "ros/services/requests.h"
-#include "ros/services/service_replies.h"
 #include "vegetation_sim/core/math/math.h"
 #include "vegetation_sim/ros/conversions/forest_conversions.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
@@ -16,70 +13,64 @@ namespace {
 constexpr std::uint32_t MOST_AT_ONCE = 1000;
 constexpr double VARIETY = 0.12;  // of people who come together
 
+crowd::Point placeInWorld(const geometry_msgs::Point& point, const Pose& to_world) {
+  const Vec3 out = transformed(to_world, Vec3(point.x, point.y, 0.0));
+  return {out.x(), out.y()};
+}
+
 }  // namespace
 
-void AgentCrowd::queue(CrowdEvent event) {
-  if (!inputs_.add(std::move(event)))
-    throw InvalidInput("10000 inputs wait for the next tick already");
+void AgentCrowd::enqueueHash(std::uint8_t kind, std::uint64_t hash) {
+  CrowdEvent event;
+  event.kind = kind;
+  event.input_hash = hash;
+  enqueue(event);
 }
 
 void AgentCrowd::onLayout(const ForestLayout& message) {
-  try {
+  acceptInput("forest/layout", [&] {
     checkFrame(message.header.frame_id, options_.frame_id);
     const std::uint64_t hash = fromMsg(message).hash();
     layouts_.keep(hash, message);
-    CrowdEvent event;
-    event.kind = CrowdEvent::TRUNKS;
-    event.input_hash = hash;
-    queue(event);
-  } catch (const InvalidInput& error) {
-    refusals_.add("forest/layout", error.what());
-  }
+    enqueueHash(CrowdEvent::TRUNKS, hash);
+  });
 }
 
 void AgentCrowd::onCover(const nav_msgs::OccupancyGrid& message) {
-  try {
+  acceptInput("grass/cover/resistance", [&] {
     checkFrame(message.header.frame_id, options_.frame_id);
     resistanceOf(message);  // checks it
     const std::uint64_t hash = hashOf(message);
     if (covers_.isNewest(hash)) return;
     covers_.keep(hash, message);
-    CrowdEvent event;
-    event.kind = CrowdEvent::COVER;
-    event.input_hash = hash;
-    queue(event);
-  } catch (const InvalidInput& error) {
-    refusals_.add("grass/cover/resistance", error.what());
-  }
+    enqueueHash(CrowdEvent::COVER, hash);
+  });
 }
 
-// Looks only: the state does not depend on it, so it is no event.
+// The state does not depend on viewers, so they are no events.
 void AgentCrowd::onViewer(const Viewer& message) {
-  try {
-    viewers_.hear(message, tf_buffer_, options_.frame_id, clock_.hasBegun() ? clock_.stamp() : 0);
-  } catch (const InvalidInput& error) {
-    refusals_.add("viewer", error.what());
-  }
+  acceptInput("viewer",
+              [&] { viewers_.hear(message, tf_buffer_, options_.frame_id, lastStamp()); });
 }
 
 void AgentCrowd::followRobots(Nanoseconds stamp) {
-  for (const CrowdRobots::Change& change : robots_->update(stamp)) {
+  for (const CrowdRobots::Change& change : robots_.update(stamp)) {
     CrowdEvent event;
     event.kind = change.gone ? CrowdEvent::REMOVE_ROBOT : CrowdEvent::ROBOT;
     event.robot = toMsg(change.robot);
-    if (change.gone && !crowd_->snapshot().robots.count(change.robot.id)) continue;
+    if (change.gone && !crowd_.snapshot().robots.count(change.robot.id)) continue;
     inputs_.add(event);
   }
 }
 
-crowd::Point AgentCrowd::placeInWorld(const geometry_msgs::Point& point,
-                                      const Pose& to_world) const {
-  const Vec3 out = transformed(to_world, Vec3(point.x, point.y, 0.0));
-  return {out.x(), out.y()};
-}
-
-void AgentCrowd::refuseInReplay() const {
-  if (options_.replay) throw InvalidInput("a replay follows its recorded events only");
+void AgentCrowd::enqueueEach(CrowdEvent event, const std::vector<std::uint32_t>& ids) {
+  if (ids.size() > inputs_.room())
+    throw InvalidInput("ids has " + std::to_string(ids.size()) + " entries, room is for " +
+                       std::to_string(inputs_.room()));
+  for (const std::uint32_t id : ids) {
+    event.id = id;
+    enqueue(event);
+  }
 }
 
 void AgentCrowd::checkKnown(const std::vector<std::uint32_t>& ids) const {
@@ -87,7 +78,7 @@ void AgentCrowd::checkKnown(const std::vector<std::uint32_t>& ids) const {
   if (ids.empty() || ids.size() > EventQueue<CrowdEvent>::MOST_WAITING)
     faults.add("ids has " + std::to_string(ids.size()) + " entries, allowed are 1 to 10000");
   for (const std::uint32_t id : ids)
-    if (!crowd_->find(id)) faults.add("walker " + std::to_string(id) + " is unknown");
+    if (!crowd_.find(id)) faults.add("walker " + std::to_string(id) + " is unknown");
   faults.throwIfAny();
 }
 
@@ -96,14 +87,14 @@ bool AgentCrowd::onSpawn(SpawnAgents::Request& request, SpawnAgents::Response& r
     refuseInReplay();
     const std::uint32_t count = std::max(1U, request.count);
     const auto most = static_cast<std::size_t>(options_.most_walkers);
-    const std::size_t room = most - std::min(crowd_->walkers().size() + awaited(), most);
+    const std::size_t room = most - std::min(crowd_.walkers().size() + waitingWalkers(), most);
     if (count > MOST_AT_ONCE || count > room || count > inputs_.room())
       throw InvalidInput("count = " + std::to_string(count) + " is outside 1 to " +
                          std::to_string(std::min<std::size_t>(MOST_AT_ONCE, room)) + ": " +
-                         std::to_string(crowd_->walkers().size()) +
+                         std::to_string(crowd_.walkers().size()) +
                          " of most_walkers = " + std::to_string(most) + " are there, " +
-                         std::to_string(awaited()) + " are to come");
-    const Pose to_world = poseInWorld(tf_buffer_, options_.frame_id, request.header.frame_id);
+                         std::to_string(waitingWalkers()) + " are to come");
+    const Pose to_world = poseOf(request.header.frame_id);
     const Vec3 front = axisX(to_world.orientation);
     crowd::Spawn like = fromMsg(request.like);
     like.position = placeInWorld(request.like.position, to_world);
@@ -119,14 +110,14 @@ bool AgentCrowd::onSpawn(SpawnAgents::Request& request, SpawnAgents::Response& r
     std::vector<crowd::Spawn> all{like};
     if (count > 1)
       all = crowd::groupOf(like, static_cast<int>(count), request.spread, VARIETY,
-                           Random(scene_.seed).child(promised_));
+                           Random(options_.scene.seed).child(next_id_));
     CrowdEvent event;
     event.kind = CrowdEvent::SPAWN;
     event.header.stamp = effectOf(request.header.stamp, clock_);
     for (const crowd::Spawn& spawn : all) {
-      event.id = promised_++;
+      event.id = next_id_++;
       event.spawn = toMsg(spawn);
-      queue(event);
+      enqueue(event);
       response.ids.push_back(event.id);
     }
     return std::to_string(all.size()) + " walkers from the next tick on, or from the stamp";
@@ -139,19 +130,13 @@ bool AgentCrowd::onRemove(RemoveAgents::Request& request, RemoveAgents::Response
     std::vector<std::uint32_t> ids = request.ids;
     if (request.all) {
       ids.clear();
-      for (const crowd::Walker& walker : crowd_->walkers()) ids.push_back(walker.id);
-      if (ids.empty()) return "nobody is there";
+      for (const crowd::Walker& walker : crowd_.walkers()) ids.push_back(walker.id);
+      if (ids.empty()) return "there are no walkers";
     }
     checkKnown(ids);
-    if (ids.size() > inputs_.room())
-      throw InvalidInput("ids has " + std::to_string(ids.size()) + " entries, room is for " +
-                         std::to_string(inputs_.room()));
     CrowdEvent event;
     event.kind = CrowdEvent::REMOVE;
-    for (const std::uint32_t id : ids) {
-      event.id = id;
-      queue(event);
-    }
+    enqueueEach(event, ids);
     return std::to_string(ids.size()) + " walkers go at the next tick";
   });
 }
@@ -165,56 +150,22 @@ bool AgentCrowd::onSetGoal(SetAgentGoal::Request& request, SetAgentGoal::Respons
     event.spawn.has_goal = !request.wander;
     if (!request.wander) {
       const crowd::Point goal =
-          placeInWorld(request.goal.point,
-                       poseInWorld(tf_buffer_, options_.frame_id, request.goal.header.frame_id));
+          placeInWorld(request.goal.point, poseOf(request.goal.header.frame_id));
       event.spawn.goal = toPoint(Vec3(goal.x, goal.y, 0.0));
-      for (const std::uint32_t id : request.ids) crowd_->checkGoal(id, goal);
+      for (const std::uint32_t id : request.ids) crowd_.checkGoal(id, goal);
     }
-    if (request.ids.size() > inputs_.room())
-      throw InvalidInput("ids has " + std::to_string(request.ids.size()) +
-                         " entries, room is for " + std::to_string(inputs_.room()));
-    for (const std::uint32_t id : request.ids) {
-      event.id = id;
-      queue(event);
-    }
+    enqueueEach(event, request.ids);
     return "takes effect at the next tick";
   });
 }
 
-bool AgentCrowd::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-  return answer(response, [&]() -> std::string {
-    refuseInReplay();
-    CrowdEvent event;
-    event.kind = CrowdEvent::RESET;
-    queue(event);
-    return "takes effect at the next tick";
-  });
-}
-
-void AgentCrowd::onTuning(AgentCrowdConfig& config) {
-  if (!shown_) {
-    toConfig(options_.tuning, config);  // some may come from the scenario
-    shown_ = config;
-    return;
-  }
-  try {
-    refuseInReplay();
-    crowd::CrowdSettings settings = fromConfig(config, options_.tuning);
-    Faults faults;
-    FieldChecker checker("", faults);
-    describe(checker, settings);  // the server's own clamp lets NaN pass
-    faults.throwIfAny();
-    NamedValues named = namedValues(settings);
-    CrowdEvent event;
-    event.kind = CrowdEvent::SETTINGS;
-    event.names = std::move(named.names);
-    event.values = std::move(named.values);
-    queue(event);
-    shown_ = config;
-  } catch (const InvalidInput& error) {
-    refusals_.add("settings", error.what());
-    config = *shown_;
-  }
+CrowdEvent AgentCrowd::tuningEvent(const AgentCrowdConfig& config) const {
+  crowd::CrowdSettings settings = fromConfig(config, options_.tuning);
+  Faults faults;
+  FieldChecker checker("", faults);
+  describe(checker, settings);  // the server's own clamp lets NaN pass
+  faults.throwIfAny();
+  return settingsEvent<CrowdEvent>(settings);
 }
 
 }  // namespace vegetation_sim

@@ -23,23 +23,23 @@ void AgentCrowd::publishAgents(Nanoseconds stamp) {
   AgentStates message;
   message.header.stamp = toStamp(stamp);
   message.header.frame_id = options_.frame_id;
-  message.hash = crowd_->snapshot().hash();
-  for (const crowd::Walker& walker : crowd_->walkers())
-    message.agents.push_back(toMsg(walker, crowd_->terrain()));
-  counts_.state_bytes += ros::serialization::serializationLength(message);
+  message.hash = crowd_.snapshot().hash();
+  for (const crowd::Walker& walker : crowd_.walkers())
+    message.agents.push_back(toMsg(walker, crowd_.terrain()));
+  state_bytes_ += ros::serialization::serializationLength(message);
   agents_publisher_.publish(message);
 }
 
 void AgentCrowd::publishTreads(Nanoseconds stamp) {
   if (options_.tread == static_cast<int>(Treading::NONE)) return;
-  for (const crowd::Walker& walker : crowd_->walkers()) {
+  for (const crowd::Walker& walker : crowd_.walkers()) {
     if (options_.tread == static_cast<int>(Treading::BODY))
       treadOfBody(walker, stamp);
     else
       treadOfFeet(walker, stamp);
   }
   for (auto entry = trodden_.begin(); entry != trodden_.end();)
-    entry = crowd_->find(entry->first) ? std::next(entry) : trodden_.erase(entry);
+    entry = crowd_.find(entry->first) ? std::next(entry) : trodden_.erase(entry);
 }
 
 // A track: the meadow adds up the parts of a way, so a few places of it are enough.
@@ -52,12 +52,12 @@ void AgentCrowd::treadOfBody(const crowd::Walker& walker, Nanoseconds stamp) {
   event.source = "walker_" + std::to_string(walker.id);
   event.action = last.seen ? TreadEvent::MOVE : TreadEvent::PLACE;
   const crowd::Point& p = walker.position;
-  event.position = toPoint(Vec3(p.x, p.y, crowd_->terrain().height(p.x, p.y)));
+  event.position = toPoint(Vec3(p.x, p.y, crowd_.terrain().height(p.x, p.y)));
   event.velocity = toVector(Vec3(walker.velocity.x, walker.velocity.y, 0.0));
   event.law.radius = options_.tread_radius > 0.0 ? options_.tread_radius : BODY_RADIUS;
   last.place = p;
   last.seen = true;
-  ++counts_.treads;
+  ++treads_;
   tread_publisher_.publish(event);
 }
 
@@ -74,7 +74,7 @@ void AgentCrowd::treadOfFeet(const crowd::Walker& walker, Nanoseconds stamp) {
     const crowd::Point heel =
         foot.planted - (walker.height * sole) * crowd::Point{front.cos, front.sin};
     const auto onGround = [&](const crowd::Point& p) {
-      return toPoint(Vec3(p.x, p.y, crowd_->terrain().height(p.x, p.y)));
+      return toPoint(Vec3(p.x, p.y, crowd_.terrain().height(p.x, p.y)));
     };
     TreadEvent event;
     event.header.stamp = toStamp(stamp);
@@ -84,7 +84,7 @@ void AgentCrowd::treadOfFeet(const crowd::Walker& walker, Nanoseconds stamp) {
     event.start = onGround(heel);
     event.position = onGround(foot.planted);
     event.law.radius = options_.tread_radius > 0.0 ? options_.tread_radius : FOOT_RADIUS;
-    ++counts_.treads;
+    ++treads_;
     tread_publisher_.publish(event);
   }
   last.seen = true;
@@ -94,9 +94,9 @@ void AgentCrowd::treadOfFeet(const crowd::Walker& walker, Nanoseconds stamp) {
 std::vector<TierChoice> AgentCrowd::chooseFrames(Nanoseconds stamp) {
   std::vector<TierChoice> out;
   if (options_.tf_budget == 0) return out;
-  for (const crowd::Walker& walker : crowd_->walkers()) {
+  for (const crowd::Walker& walker : crowd_.walkers()) {
     double nearest = FAR;
-    for (const auto& robot : crowd_->snapshot().robots)
+    for (const auto& robot : crowd_.snapshot().robots)
       nearest = std::min(nearest, length(robot.second.position - walker.position));
     TierChoice choice;
     choice.id = walker.id;
@@ -109,15 +109,15 @@ std::vector<TierChoice> AgentCrowd::chooseFrames(Nanoseconds stamp) {
 }
 
 void AgentCrowd::sendFrames(const ros::TimerEvent&) {
-  const Nanoseconds stamp = crowd_->snapshot().stamp;
+  const Nanoseconds stamp = crowd_.snapshot().stamp;
   if (!clock_.hasBegun() || stamp == framed_) return;  // tf warns of a stamp that comes twice
   framed_ = stamp;
   std::vector<geometry_msgs::TransformStamped> frames;
   const std::vector<TierChoice> choices = chooseFrames(stamp);
   for (std::size_t i = 0; i < choices.size(); ++i) {
     if (choices[i].chosen == 0) continue;
-    const crowd::Walker& walker = crowd_->walkers()[i];
-    const AgentState state = toMsg(walker, crowd_->terrain());
+    const crowd::Walker& walker = crowd_.walkers()[i];
+    const AgentState state = toMsg(walker, crowd_.terrain());
     geometry_msgs::TransformStamped frame;
     frame.header.stamp = toStamp(stamp);
     frame.header.frame_id = options_.frame_id;
@@ -132,49 +132,30 @@ void AgentCrowd::sendFrames(const ros::TimerEvent&) {
 
 void AgentCrowd::sendMarkers(const ros::TimerEvent&) {
   if (!clock_.hasBegun() || markers_publisher_.getNumSubscribers() == 0) return;
-  const Nanoseconds stamp = crowd_->snapshot().stamp;
-  markers_publisher_.publish(markers_.build(*crowd_, viewers_.eyesAt(stamp), options_.tolerance,
+  const Nanoseconds stamp = crowd_.snapshot().stamp;
+  markers_publisher_.publish(markers_.build(crowd_, viewers_.eyesAt(stamp), options_.tolerance,
                                             options_.frame_id, stamp));
 }
 
-// What has happened since the last report, and only that.
-void AgentCrowd::reportProblem(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  counts_.clock = clock_.counts();
-  counts_.inputs = inputs_.losses();
-  refusals_.warn(status);
-  warnOfClock(status, counts_.clock, reported_.clock);
-  warnOfLosses(status, counts_.inputs, reported_.inputs);
-  if (!robots_->missing().empty())
+void AgentCrowd::addDiagnostics(Status& status) {
+  if (!robots_.missing().empty())
     status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN,
-                        "tf does not tell " + robots_->missing().front());
-  reported_ = counts_;
-}
-
-void AgentCrowd::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  using diagnostic_msgs::DiagnosticStatus;
-  status.summary(DiagnosticStatus::OK, "running");
-  if (!clock_.hasBegun()) status.summary(DiagnosticStatus::WARN, "waiting for the clock");
-  reportProblem(status);
+                        "no recent transform of " + robots_.missing().front());
   std::size_t arrived = 0;
-  for (const crowd::Walker& walker : crowd_->walkers()) arrived += walker.arrived;
-  clock_.report(status);
-  status.add("Inputs taken", counts_.events);
-  status.add("Inputs refused", refusals_.count());
-  status.add("Inputs lost", counts_.inputs.lost);
-  status.add("Recorded events late", counts_.inputs.late);
-  status.add("Walkers", crowd_->walkers().size());
+  for (const crowd::Walker& walker : crowd_.walkers()) arrived += walker.arrived;
+  status.add("Walkers", crowd_.walkers().size());
   status.add("Walkers arrived", arrived);
-  status.add("Walls and trunks", crowd_->obstacles().obstacles().size());
+  status.add("Walls and trunks", crowd_.obstacles().obstacles().size());
   status.add("Trunks", trunks_);
-  status.add("Robots", crowd_->snapshot().robots.size());
-  status.add("Robots not told by tf", robots_->missing().size());
-  status.add("Deepest overlap [mm]", static_cast<int>(1e3 * crowd_->deepestOverlap()));
-  status.add("Treads sent", counts_.treads);
-  status.add("State sent [B]", counts_.state_bytes);
+  status.add("Robots", crowd_.snapshot().robots.size());
+  status.add("Robots without a transform", robots_.missing().size());
+  status.add("Deepest overlap [mm]", static_cast<int>(1e3 * crowd_.deepestOverlap()));
+  status.add("Treads sent", treads_);
+  status.add("State sent [B]", state_bytes_);
 }
 
 // Of what is drawn and framed; how people walk is the same for all of them.
-void AgentCrowd::diagnoseGovernor(diagnostic_updater::DiagnosticStatusWrapper& status) {
+void AgentCrowd::diagnoseGovernor(Status& status) {
   report(markers_.balance(),
          {"Walkers", options_.tolerance, "marker_points", "points",
           static_cast<double>(markers_.budget()), CrowdMarkers::tiers()},

@@ -49,7 +49,8 @@ std::vector<crowd::Robot> readRobots(YamlSection& section) {
   return out;
 }
 
-void readScene(CrowdOptions& options, CrowdScene& scene, Faults& faults) {
+void readScene(CrowdOptions& options, Faults& faults) {
+  CrowdScene& scene = options.scene;
   try {
     scene = loadCrowdScene(options.scenario);
     if (!scene.frame_id.empty()) options.frame_id = scene.frame_id;
@@ -104,11 +105,11 @@ CrowdScene loadCrowdScene(const std::string& file) {
   return out;
 }
 
-CrowdOptions loadCrowdOptions(const ros::NodeHandle& private_handle, CrowdScene& scene) {
+CrowdOptions loadCrowdOptions(const ros::NodeHandle& private_handle) {
   CrowdOptions out;
   Parameters parameters(private_handle);
   parameters.text("scenario", out.scenario);
-  readScene(out, scene, parameters.faults());
+  readScene(out, parameters.faults());
   parameters.frame("frame_id", out.frame_id);
   parameters.flag("replay", out.replay);
   describe(parameters, out);
@@ -117,10 +118,10 @@ CrowdOptions loadCrowdOptions(const ros::NodeHandle& private_handle, CrowdScene&
     YamlSection section(list, private_handle.getNamespace(), parameters.faults());
     out.robots = readRobots(section);
   }
-  if (scene.crowd.spawns.size() > static_cast<std::size_t>(out.most_walkers))
+  if (out.scene.crowd.spawns.size() > static_cast<std::size_t>(out.most_walkers))
     parameters.fault("most_walkers", "= " + std::to_string(out.most_walkers) +
                                          " is below the scenario's " +
-                                         std::to_string(scene.crowd.spawns.size()));
+                                         std::to_string(out.scene.crowd.spawns.size()));
   parameters.finish();
   return out;
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "crowd/agents/crowd_scene.h"
+#include "nodes/base/node_options.h"
 #include "ros/conversions/crowd_conversions.h"
 
 namespace vegetation_sim {
@@ -17,29 +18,6 @@ namespace vegetation_sim {
 /// How walkers tread (S2-36): not at all, as one source a walker, or with each foot where it comes
 /// down.
 enum class Treading : int { NONE = 0, BODY = 1, FEET = 2 };
-
-/// Parameters of agent_crowd; see docs/reference.md.
-struct CrowdOptions {
-  std::string scenario;              ///< file; empty: nobody
-  std::string frame_id{"map"};       ///< world frame
-  int state_rate{30};                ///< ticks [Hz]
-  double markers_rate{10.0};         ///< [Hz]
-  int marker_points{120000};         ///< budget of the list
-  double tolerance{1.0};             ///< error of who is drawn [pixel]
-  double tf_rate{15.0};              ///< [Hz]
-  int tf_budget{20};                 ///< frames: nearest to robots, then lowest ids
-  int tread{1};                      ///< Treading
-  double tread_radius{0.0};          ///< 0: 0.16 of a body, 0.06 of a foot [m]
-  int trunks{0};                     ///< TrunkShape
-  int most_trunks{100000};           ///< near the area
-  int most_walkers{5000};            ///< further ones are refused
-  int threads{1};                    ///< of a tick
-  bool replay{false};                ///< recorded agents/events instead of live inputs
-  double replay_delay{0.5};          ///< how far ticks stay behind the clock in a replay [s]
-  std::vector<crowd::Robot> robots;  ///< id: tf frame; footprint
-  crowd::CrowdSettings tuning;       ///< starting values of what dynamic_reconfigure changes
-};
-void describe(FieldVisitor& visitor, CrowdOptions& options);
 
 /// The people of a scenario file, their terrain and world frame.
 struct CrowdScene {
@@ -52,9 +30,28 @@ struct CrowdScene {
 /// No file or no `crowd` in it gives nobody. @throws InvalidInput with all faults of the file.
 CrowdScene loadCrowdScene(const std::string& file);
 
+/// Parameters of agent_crowd; see docs/reference.md.
+struct CrowdOptions : NodeOptions {
+  double markers_rate{10.0};         ///< [Hz]
+  int marker_points{120000};         ///< budget of the list
+  double tolerance{1.0};             ///< error of who is drawn [pixel]
+  double tf_rate{15.0};              ///< [Hz]
+  int tf_budget{20};                 ///< frames: nearest to robots, then lowest ids
+  int tread{1};                      ///< Treading
+  double tread_radius{0.0};          ///< 0: 0.16 of a body, 0.06 of a foot [m]
+  int trunks{0};                     ///< TrunkShape
+  int most_trunks{100000};           ///< near the area
+  int most_walkers{5000};            ///< further ones are refused
+  int threads{1};                    ///< of a tick
+  std::vector<crowd::Robot> robots;  ///< id: tf frame; footprint
+  crowd::CrowdSettings tuning;       ///< starting values of what dynamic_reconfigure changes
+  CrowdScene scene;
+};
+void describe(FieldVisitor& visitor, CrowdOptions& options);
+
 /// Reads and checks all private parameters and the scenario that they name; where both say the same
 /// thing, the parameter holds. @throws InvalidInput with all faults of both.
-CrowdOptions loadCrowdOptions(const ros::NodeHandle& private_handle, CrowdScene& scene);
+CrowdOptions loadCrowdOptions(const ros::NodeHandle& private_handle);
 
 /// What dynamic_reconfigure shows, and back; `other` has what it does not show.
 void toConfig(const crowd::CrowdSettings& settings, AgentCrowdConfig& config);

@@ -12,9 +12,9 @@ void ForestAnimator::sendFrames(const ros::TimerEvent&) {
   if (!clock_.hasBegun() || last_framed_ == clock_.tick()) return;
   last_framed_ = clock_.tick();
   PosedTrees trees(*forest_, cache_, forest_->snapshot().stamp);
-  const BranchFrames::Wanted wanted =
-      options_.tf_promoted ? frames_.withPhysical(trees, grabs_manager_->heldPoints())
-                           : frames_.wanted();
+  const BranchFrames::Wanted wanted = options_.tf_promoted
+                                          ? frames_.withPhysical(trees, grab_manager_.heldPoints())
+                                          : frames_.wanted();
   frames_sent_ = 0;
   for (const auto& entry : wanted) frames_sent_ += entry.second.size();
   if (frames_sent_ > 0)
@@ -48,21 +48,7 @@ void ForestAnimator::sendMarkers(const ros::TimerEvent&) {
       markers_.build(*forest_, cache_, options_.frame_id, forest_->snapshot().stamp));
 }
 
-// What has happened since the last report, and only that.
-void ForestAnimator::reportProblem(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  counts_.clock = clock_.counts();
-  counts_.inputs = inputs_.losses();
-  refusals_.warn(status);
-  warnOfClock(status, counts_.clock, reported_.clock);
-  warnOfLosses(status, counts_.inputs, reported_.inputs);
-  reported_ = counts_;
-}
-
-void ForestAnimator::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  using diagnostic_msgs::DiagnosticStatus;
-  status.summary(DiagnosticStatus::OK, "running");
-  if (!clock_.hasBegun()) status.summary(DiagnosticStatus::WARN, "waiting for the clock");
-  reportProblem(status);
+void ForestAnimator::addDiagnostics(Status& status) {
   const auto& memory = forest_->snapshot();
   const std::size_t trees = forest_->layout().treeCount();
   const auto at = memory.levels.counts(trees);
@@ -73,15 +59,11 @@ void ForestAnimator::diagnose(diagnostic_updater::DiagnosticStatusWrapper& statu
   status.add("Trees not at the base level", memory.levels.held().size());
   status.add("Base level", memory.levels.base().level);
   status.add("Viewers", memory.viewers.size());
-  clock_.report(status);
-  status.add("Inputs refused", refusals_.count());
-  status.add("Inputs lost", counts_.inputs.lost);
-  status.add("Recorded events late", counts_.inputs.late);
-  status.add("State sent [B]", counts_.state_bytes);
+  status.add("State sent [B]", state_bytes_);
   status.add("Grown branches held", cache_.branches());
   addPhysics(status);
   deepest_ = {};
-  noteOverlaps();
+  updateDeepestOverlap();
   status.add("tf frames", frames_sent_);
   status.add("tf budget [frames]", frames_.budget());
   status.add("Marker points", markers_.points());
@@ -89,15 +71,15 @@ void ForestAnimator::diagnose(diagnostic_updater::DiagnosticStatusWrapper& statu
 }
 
 // What was chosen at the last tick, and why.
-void ForestAnimator::diagnoseGovernor(diagnostic_updater::DiagnosticStatusWrapper& status) {
+void ForestAnimator::diagnoseGovernor(Status& status) {
   const forest::GovernorFigures& figures = forest_->governor();
   const auto& settings = forest_->snapshot().settings;
   std::string why = "the tolerance is held";
-  if (figures.over > 0) why = "finer rungs there are none, or no room for modes";
+  if (figures.over > 0) why = "there are no finer tiers, or no room for modes";
   if (figures.strained > 0) why = "trees bend too far for their modes";
   if (figures.held_back > 0 || figures.cost > figures.budget) why = "frame_time binds";
   if (figures.wanted + figures.physical <= 0.0) why = "nothing is seen to move";
-  if (forest_->snapshot().viewers.empty()) why = "nobody looks: fixed_level";
+  if (forest_->snapshot().viewers.empty()) why = "no viewer: fixed_level";
   status.summary(diagnostic_msgs::DiagnosticStatus::OK, why);
   status.add("Tolerance [pixel]", settings.tolerance);
   status.add("Largest predicted error [pixel]", figures.largest);
@@ -125,13 +107,13 @@ void ForestAnimator::diagnoseGovernor(diagnostic_updater::DiagnosticStatusWrappe
   status.add("Memory of modes [B]", forest_->snapshot().modes.bytes());
 }
 
-void ForestAnimator::addPhysics(diagnostic_updater::DiagnosticStatusWrapper& status) const {
+void ForestAnimator::addPhysics(Status& status) const {
   const forest::PhysicsFigures figures = forest_->physicsFigures();
   status.add("Grabs", forest_->grabs().size());
-  status.add("Grabs whose frame is silent", grabs_manager_->silent());
-  status.add("Grabs ended by their lease", counts_.leases_ended);
+  status.add("Grabs whose frame is silent", grab_manager_.silent());
+  status.add("Grabs ended by their lease", leases_ended_);
   status.add("Bodies", forest_->bodies().size());
-  status.add("Frames of bodies not told", bodies_->missing().size());
+  status.add("Frames of bodies without a transform", bodies_.missing().size());
   status.add("Physical trees", figures.trees);
   status.add("Physical branches", figures.branches);
   status.add("Physical branches that blend back", figures.blending);
@@ -149,7 +131,7 @@ void ForestAnimator::addPhysics(diagnostic_updater::DiagnosticStatusWrapper& sta
                                              std::to_string(deepest_.at.branch));
 }
 
-void ForestAnimator::noteOverlaps() {
+void ForestAnimator::updateDeepestOverlap() {
   for (const forest::Reaction& reaction : forest_->reactions())
     if (reaction.penetration > deepest_.penetration) deepest_ = reaction;
 }

@@ -1,28 +1,12 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cmath>
-#include <stdexcept>
-
 #include "forest/pick.h"
 #include "nodes/forest/forest_animator.h"
 #include "vegetation_sim/ros/conversions/forest_conversions.h"
+#include "vegetation_sim/ros/conversions/geometry_conversions.h"
 
 namespace vegetation_sim {
 namespace {
-
-/// Runs the body of a service; what it throws becomes success = false and the message.
-template <class Response, class Body>
-bool answer(Response& response, Body body) {
-  try {
-    response.success = true;
-    response.message = body();
-  } catch (const std::exception& error) {
-    response = Response();
-    response.success = false;
-    response.message = error.what();
-  }
-  return true;  // false would look like a dead service
-}
 
 constexpr double SHORTEST_DIRECTION = 1e-9;
 
@@ -45,7 +29,7 @@ forest::Ray checkedRay(const Pick::Request& request) {
 
 Nanoseconds ForestAnimator::stampOf(const ros::Time& stamp) const {
   if (!stamp.isZero()) return fromMsg(stamp);
-  if (!clock_.hasBegun()) throw InvalidInput("no tick yet: the clock has not started");
+  requireTick();
   return forest_->snapshot().stamp;
 }
 
@@ -69,7 +53,7 @@ bool ForestAnimator::onGetTree(GetTree::Request& request, GetTree::Response& res
         toMsg(request.tree, grown->tree.foot, posesOf(*forest_, grown->tree, request.tree, stamp));
     for (const forest::PromotedBranch& branch : forest_->promoted(request.tree).branches)
       response.physical.push_back(static_cast<std::uint32_t>(branch.branch));
-    response.grabs = grabs_manager_->grabsOf(request.tree);
+    response.grabs = grab_manager_.grabsOf(request.tree);
     response.transforms.header.stamp = toStamp(stamp);
     response.transforms.header.frame_id = options_.frame_id;
     return std::to_string(skeleton.branches.size()) + " branches";
@@ -80,11 +64,9 @@ forest::Ray ForestAnimator::rayOf(const Pick::Request& request) const {
   forest::Ray ray = checkedRay(request);
   const std::string& frame = request.header.frame_id;
   if (frame.empty() || frame == options_.frame_id) return ray;
-  const geometry_msgs::Transform by = toWorld(frame, request.header.stamp);
-  const Quat turn{by.rotation.w, by.rotation.x, by.rotation.y, by.rotation.z};
-  ray.origin =
-      rotate(turn, ray.origin) + Vec3(by.translation.x, by.translation.y, by.translation.z);
-  ray.direction = rotate(turn, ray.direction);
+  const Pose pose = poseOf(frame, request.header.stamp);
+  ray.origin = transformed(pose, ray.origin);
+  ray.direction = rotate(pose.orientation, ray.direction);
   return ray;
 }
 
@@ -122,27 +104,19 @@ bool ForestAnimator::onSetTf(SetTf::Request& request, SetTf::Response& response)
 }
 
 bool ForestAnimator::onGrab(Grab::Request& request, Grab::Response& response) {
-  return answer(response, [&] { return grabs_manager_->grab(request, response); });
+  return answer(response, [&] { return grab_manager_.grab(request, response); });
 }
 
 bool ForestAnimator::onMoveGrab(MoveGrab::Request& request, MoveGrab::Response& response) {
-  return answer(response, [&] { return grabs_manager_->move(request, response); });
+  return answer(response, [&] { return grab_manager_.move(request, response); });
 }
 
 bool ForestAnimator::onRelease(Release::Request& request, Release::Response& response) {
-  return answer(response, [&] { return grabs_manager_->release(request); });
+  return answer(response, [&] { return grab_manager_.release(request); });
 }
 
 bool ForestAnimator::onApplyForce(ApplyForce::Request& request, ApplyForce::Response& response) {
-  return answer(response, [&] { return grabs_manager_->push(request, response); });
-}
-
-bool ForestAnimator::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-  return answer(response, [&]() -> std::string {
-    if (options_.replay) throw InvalidInput("a replay is reset by its recorded events only");
-    inputs_.addReset();
-    return "takes effect at the next tick";
-  });
+  return answer(response, [&] { return grab_manager_.push(request, response); });
 }
 
 }  // namespace vegetation_sim

@@ -3,14 +3,6 @@
 #pragma once
 
 #include <vegetation_sim/ForestEvent.h>
-#include <vegetation_sim/WindField.h>
-
-#include <deque>
-#include <functional>
-#include <map>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "forest/forest.h"
 #include "nodes/base/event_queue.h"
@@ -26,56 +18,21 @@ struct ForestTuning {
 };
 void describe(FieldVisitor& visitor, ForestTuning& tuning);
 
-/// Names and values of all fields, and back. @throws InvalidInput for an unknown name or a value
+/// Names and values of the fields in an event. @throws InvalidInput for an unknown name or a value
 /// out of range.
-void toEvent(const ForestTuning& tuning, ForestEvent& event);
 ForestTuning tuningOf(const ForestEvent& event);
 
-/// Inputs wait here for the next tick. Live, each becomes an event stamped with the tick at which
-/// it is applied; in a replay the recorded events are applied at their own ticks instead.
-class ForestInputs {
+/// The queue of forest_animator. An input replaces an earlier one that it makes void at its tick.
+class ForestInputs : public EventQueue<ForestEvent> {
  public:
-  static constexpr std::size_t MOST_WAITING = 10000;
+  using EventQueue::EventQueue;
 
-  explicit ForestInputs(bool replay) : replay_(replay) {}
-
-  bool replay() const { return replay_; }
-  // Live inputs, already checked. Without effect in a replay.
-  void addViewer(const Viewer& viewer_in_world);
-  void addTuning(const ForestTuning& tuning);
-  void addReset();
-  /// A grab, move, renewal, release or force; a stamp says when, zero: at the next tick. Of the
-  /// moves of one grab at one tick only the last counts. @throws InvalidInput if too many wait.
-  void addInteraction(const ForestEvent& event);
-  /// For the next tick, before all that waits, however much: what grabs in force and bodies do by
-  /// themselves.
-  void addFirst(const ForestEvent& event);
-  /// Forgets what waits about a grab.
+  /// Of winds, settings, resets and the poses of one viewer only the last counts, as does the last
+  /// move and the last renewal of a grab for the same stamp. Winds, settings and resets are added
+  /// even if the queue is full. @return false if the queue is full.
+  bool add(const ForestEvent& event);
+  /// Drops what waits about a grab.
   void forgetGrab(std::uint32_t id);
-  /// A checked wind; in a replay it is kept until an event asks for it.
-  void addWind(wind::Field wind);
-  /// A recorded event; ignored live, since it is the node's own.
-  void addEvent(const ForestEvent& event);
-
-  /// Events that take effect at the tick `stamp`, in order, stamped with it. A recorded event that
-  /// comes after its own tick is among them, and counted: from there on the replay differs. Live
-  /// events of winds are only complete with windOf().
-  std::vector<ForestEvent> take(Nanoseconds stamp);
-  /// The wind that an event adopts; none if it was never heard.
-  std::optional<wind::Field> windOf(const ForestEvent& event) const;
-  const QueueLosses& losses() const { return losses_; }
-  /// Time went back to `now`: live, only settings, winds and resets still wait; in a replay, events
-  /// stamped later are forgotten.
-  void startAnew(Nanoseconds now);
-
- private:
-  void addLast(const ForestEvent& event);
-
-  bool replay_;
-  QueueLosses losses_;
-  std::deque<ForestEvent> waiting_;
-  std::map<std::uint64_t, wind::Field> winds_;  // by hash
-  std::deque<std::uint64_t> wind_order_;
 };
 
 }  // namespace vegetation_sim

@@ -17,8 +17,8 @@ forest::Species defaultSpecies() {
   return out;
 }
 
-void checkTrees(const ForestOptions& options, const ForestScene& scene, Parameters& parameters) {
-  const std::uint32_t count = scene.layout.treeCount();
+void checkTrees(const ForestOptions& options, Parameters& parameters) {
+  const std::uint32_t count = options.scene.layout.treeCount();
   for (const int tree : options.branches_trees)
     if (static_cast<std::uint32_t>(tree) >= count)
       parameters.fault("branches_trees", "= " + std::to_string(tree) + " is unknown; there are " +
@@ -26,7 +26,8 @@ void checkTrees(const ForestOptions& options, const ForestScene& scene, Paramete
 }
 
 // A parameter holds against what the scenario says.
-void readScene(ForestOptions& options, ForestScene& scene, Faults& faults) {
+void readScene(ForestOptions& options, Faults& faults) {
+  ForestScene& scene = options.scene;
   try {
     scene = loadForestScene(options.scenario);
     if (!scene.frame_id.empty()) options.frame_id = scene.frame_id;
@@ -91,11 +92,11 @@ ForestScene loadForestScene(const std::string& file) {
   return out;
 }
 
-ForestOptions loadForestOptions(const ros::NodeHandle& private_handle, ForestScene& scene) {
+ForestOptions loadForestOptions(const ros::NodeHandle& private_handle) {
   ForestOptions out;
   Parameters parameters(private_handle);
   parameters.text("scenario", out.scenario);
-  readScene(out, scene, parameters.faults());
+  readScene(out, parameters.faults());
   parameters.frame("frame_id", out.frame_id);
   parameters.frame("viewer_frame", out.viewer_frame, true);
   parameters.flag("tf_promoted", out.tf_promoted);
@@ -103,7 +104,7 @@ ForestOptions loadForestOptions(const ros::NodeHandle& private_handle, ForestSce
   parameters.integers("branches_trees", out.branches_trees, {0, 1 << 24});
   describe(parameters, out);
   out.robot = readRobotParts(private_handle, parameters);
-  if (parameters.faults().empty()) checkTrees(out, scene, parameters);
+  if (parameters.faults().empty()) checkTrees(out, parameters);
   parameters.finish();
   return out;
 }

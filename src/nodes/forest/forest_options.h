@@ -9,37 +9,11 @@
 #include <vector>
 
 #include "forest/forest.h"
+#include "nodes/base/node_options.h"
 #include "nodes/forest/forest_inputs.h"
 #include "nodes/forest/robot_bodies.h"
 
 namespace vegetation_sim {
-
-/// Parameters of forest_animator; see docs/reference.md.
-struct ForestOptions {
-  std::string scenario;              ///< file; empty: no trees
-  std::string frame_id{"map"};       ///< world frame
-  int state_rate{30};                ///< ticks [Hz]
-  double key_frame_period{1.0};      ///< [s]
-  double markers_rate{5.0};          ///< [Hz]
-  int marker_points{60000};          ///< budget of both marker lists together
-  double tf_rate{30.0};              ///< [Hz]
-  int tf_budget{100};                ///< frames
-  double branches_rate{10.0};        ///< [Hz]
-  std::vector<int> branches_trees;   ///< trees on forest/branches
-  int branches_budget{20000};        ///< branches per round of messages
-  int cache_budget{400000};          ///< branches of grown trees held in memory
-  std::string viewer_frame;          ///< tf frame (x forward) that looks; empty: none
-  double viewer_field_of_view{0.8};  ///< [rad]
-  int viewer_height{900};            ///< [pixel]
-  double grab_lease{5.0};            ///< of a grab that names none [s]
-  double grab_distance{10.0};        ///< farthest target from the point held [m]
-  bool tf_promoted{true};            ///< frames of physical branches, where tf_budget has room
-  RobotParts robot;                  ///< what of a robot pushes branches aside
-  bool replay{false};                ///< recorded forest/events instead of live inputs
-  double replay_delay{0.5};          ///< how far ticks stay behind the clock in a replay [s]
-  ForestTuning tuning;               ///< starting values of what dynamic_reconfigure changes
-};
-void describe(FieldVisitor& visitor, ForestOptions& options);
 
 /// The layout of a scenario file, its terrain and its world frame.
 struct ForestScene {
@@ -51,8 +25,28 @@ struct ForestScene {
 /// No file or no `forest` in it gives no trees. @throws InvalidInput with all faults of the file.
 ForestScene loadForestScene(const std::string& file);
 
+/// Parameters of forest_animator; see docs/reference.md.
+struct ForestOptions : NodeOptions {
+  double key_frame_period{1.0};     ///< [s]
+  double markers_rate{5.0};         ///< [Hz]
+  int marker_points{60000};         ///< budget of both marker lists together
+  double tf_rate{30.0};             ///< [Hz]
+  int tf_budget{100};               ///< frames
+  double branches_rate{10.0};       ///< [Hz]
+  std::vector<int> branches_trees;  ///< trees on forest/branches
+  int branches_budget{20000};       ///< branches per round of messages
+  int cache_budget{400000};         ///< branches of grown trees held in memory
+  double grab_lease{5.0};           ///< of a grab that names none [s]
+  double grab_distance{10.0};       ///< farthest target from the point held [m]
+  bool tf_promoted{true};           ///< frames of physical branches, where tf_budget has room
+  RobotParts robot;                 ///< what of a robot pushes branches aside
+  ForestTuning tuning;              ///< starting values of what dynamic_reconfigure changes
+  ForestScene scene;
+};
+void describe(FieldVisitor& visitor, ForestOptions& options);
+
 /// Reads and checks all private parameters and the scenario that they name; where both say the same
 /// thing, the parameter holds. @throws InvalidInput with all faults of both.
-ForestOptions loadForestOptions(const ros::NodeHandle& private_handle, ForestScene& scene);
+ForestOptions loadForestOptions(const ros::NodeHandle& private_handle);
 
 }  // namespace vegetation_sim

@@ -59,6 +59,12 @@ ForestEvent GrabManager::eventAt(std::uint8_t kind, const ros::Time& stamp) cons
   return event;
 }
 
+void GrabManager::enqueue(const ForestEvent& event) {
+  if (!room_.inputs.add(event))
+    throw InvalidInput(std::to_string(ForestInputs::MOST_WAITING) +
+                       " inputs wait for the next tick already");
+}
+
 std::shared_ptr<const forest::Tree> GrabManager::grown(std::uint32_t tree) const {
   const auto found = room_.cache.get(room_.forest.layout(), room_.forest.terrain(), tree);
   return {found, &found->tree};
@@ -175,7 +181,7 @@ std::string GrabManager::grab(const Grab::Request& request, Grab::Response& resp
   forest::checkGrab(room_.forest.layout(), *grown(grab.tree), fromMsg(grab));
   checkRoom("grab", place, request.stamp);
   event.grab = grab;
-  room_.inputs.addInteraction(event);
+  enqueue(event);
   held_[++last_id_] = held;
   response.id = last_id_;
   response.tree = grab.tree;
@@ -226,7 +232,7 @@ std::string GrabManager::move(const MoveGrab::Request& request, MoveGrab::Respon
   event.grab.id = moved.id;
   event.grab.target = moved.target;
   event.grab.holder = moved.holder;
-  room_.inputs.addInteraction(event);
+  enqueue(event);
   return request.renew_only ? "lease renewed" : "moved";
 }
 
@@ -242,7 +248,7 @@ std::string GrabManager::release(const Release::Request& request) {
         !held.in_force && (request.stamp.isZero() || request.stamp <= held.begins);
     if (meant && never) room_.inputs.forgetGrab(id);
     event.grab.id = id;
-    if (meant && !never) room_.inputs.addInteraction(event);
+    if (meant && !never) enqueue(event);
     count += meant ? 1 : 0;
     entry = meant && never ? held_.erase(entry) : std::next(entry);
   }
@@ -267,7 +273,7 @@ std::string GrabManager::push(const ApplyForce::Request& request, ApplyForce::Re
   }
   forest::checkPush(room_.forest.layout(), *grown(place.at.tree), fromMsg(event.force, 0));
   checkRoom("push", place, request.stamp);
-  room_.inputs.addInteraction(event);
+  enqueue(event);
   response.tree = place.at.tree;
   response.branch = event.force.branch;
   response.along = place.at.along;

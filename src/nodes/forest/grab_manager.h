@@ -96,6 +96,7 @@ class GrabManager {
   Held& find(std::uint32_t id);
   std::map<std::uint32_t, Held>::iterator forget(std::map<std::uint32_t, Held>::iterator entry);
   ForestEvent eventAt(std::uint8_t kind, const ros::Time& stamp) const;
+  void enqueue(const ForestEvent& event);
   void requireLive() const;
   Pose frameOf(const forest::Reaction& reaction) const;
 

@@ -1,27 +1,24 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include <geometry_msgs/WrenchStamped.h>
-
 #include <algorithm>
 
 #include "nodes/grass/grass_field.h"
 #include "ros/services/allocation_report.h"
-#include "ros/services/requests.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
 #include "vegetation_sim/ros/conversions/grass_conversions.h"
 
 namespace vegetation_sim {
+
 void GrassField::publishEntering(Nanoseconds stamp) {
   GrassEvent event;
   event.kind = GrassEvent::ENTER;
   event.header.stamp = toStamp(stamp);
   event.header.frame_id = options_.frame_id;
   for (const grass::Entering& entering : field_->advance(stamp)) {
-    if (options_.replay) continue;
     event.source = entering.source;
     event.column = static_cast<std::uint32_t>(entering.column);
     event.row = static_cast<std::uint32_t>(entering.row);
-    events_publisher_.publish(event);
+    publishEvent(event);
   }
 }
 
@@ -31,8 +28,8 @@ void GrassField::publishState(std::int64_t tick) {
   message.header.frame_id = options_.frame_id;
   const std::uint64_t bytes = ros::serialization::serializationLength(message);
   if (key_frame) key_frames_.sent(bytes);
-  counts_.state_bytes += bytes;
-  counts_.largest_state = std::max(counts_.largest_state, bytes);
+  state_bytes_ += bytes;
+  largest_state_ = std::max(largest_state_, bytes);
   state_publisher_.publish(message);
 }
 
@@ -41,7 +38,7 @@ void GrassField::publishWrenches(Nanoseconds stamp) {
   if (wrenches_publisher_.getNumSubscribers() == 0) return;
   for (const grass::Drag& drag : field_->drags()) {
     try {
-      const Pose to_world = poseInWorld(tf_buffer_, options_.frame_id, drag.body_frame);
+      const Pose to_world = poseOf(drag.body_frame);
       const Quat back = conjugate(to_world.orientation);
       const Vec3 arm = drag.at - to_world.position;
       geometry_msgs::WrenchStamped message;
@@ -51,7 +48,7 @@ void GrassField::publishWrenches(Nanoseconds stamp) {
       message.wrench.torque = toVector(rotate(back, cross(arm, drag.force)));
       wrenches_publisher_.publish(message);
     } catch (const InvalidInput&) {
-      // Of a body without a frame nobody can feel the drag.
+      // The drag on a body without a frame cannot be reported.
     }
   }
 }
@@ -78,46 +75,28 @@ void GrassField::sendCover(const ros::TimerEvent&) {
     send(layer_publishers_[i], static_cast<int>(i));
 }
 
-// What has happened since the last report, and only that.
-void GrassField::reportProblem(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  counts_.clock = clock_.counts();
-  counts_.inputs = inputs_.losses();
-  counts_.tread = tread_->state().counts;
-  refusals_.warn(status);
-  warnOfClock(status, counts_.clock, reported_.clock);
-  warnOfLosses(status, counts_.inputs, reported_.inputs);
-  warnOfMore(status, counts_.tread.no_memory, reported_.tread.no_memory,
-             "nodes left untrodden by the memory cap");
-  reported_ = counts_;
-}
-
-void GrassField::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  using diagnostic_msgs::DiagnosticStatus;
-  status.summary(DiagnosticStatus::OK, "running");
-  if (!clock_.hasBegun()) status.summary(DiagnosticStatus::WARN, "waiting for the clock");
-  reportProblem(status);
+void GrassField::addDiagnostics(Status& status) {
   const grass::TreadState& tread = tread_->state();
-  clock_.report(status);
-  status.add("Inputs taken", counts_.events);
-  status.add("Inputs refused", refusals_.count());
-  status.add("Inputs lost", counts_.inputs.lost);
-  status.add("Recorded events late", counts_.inputs.late);
+  warnOfMore(status, tread.counts.no_memory, reported_no_memory_,
+             "nodes left untrodden by the memory cap");
+  reported_no_memory_ = tread.counts.no_memory;
   status.add("Sources", field_->sources().size());
-  status.add("Sources not told", sources_->missing().size());
+  status.add("Sources without a position", sources_.missing().size());
   status.add("Strokes", tread.counts.strokes);
   status.add("Strokes off the map", tread.counts.outside);
   status.add("Jumps of sources", tread.counts.jumps);
   status.add("Trodden blocks", tread.blocks.size());
   status.add("Trodden ground [B]", tread_->bytes());
-  status.add("Memory cap [B]", static_cast<std::uint64_t>(scene_.grass.treading.memory_cap));
+  status.add("Memory cap [B]",
+             static_cast<std::uint64_t>(options_.scene.grass.treading.memory_cap));
   status.add("Nodes left out by the cap", tread.counts.no_memory);
-  status.add("State sent [B]", counts_.state_bytes);
-  status.add("Largest state [B]", counts_.largest_state);
+  status.add("State sent [B]", state_bytes_);
+  status.add("Largest state [B]", largest_state_);
   status.add("Viewers", viewers_.size());
 }
 
 // Of the markers, whose tiers all have the same trodden ground, and of complete states.
-void GrassField::diagnoseGovernor(diagnostic_updater::DiagnosticStatusWrapper& status) {
+void GrassField::diagnoseGovernor(Status& status) {
   report(meadow_->balance(),
          {"Tiles",
           tuning_.view.tolerance,

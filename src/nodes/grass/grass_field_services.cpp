@@ -4,8 +4,6 @@
 
 #include "grass/lod/node_wind.h"
 #include "nodes/grass/grass_field.h"
-#include "ros/services/requests.h"
-#include "ros/services/service_replies.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
 #include "vegetation_sim/ros/conversions/grass_conversions.h"
 
@@ -34,14 +32,10 @@ double flatLength(const Vec3& a, const Vec3& b) {
 
 }  // namespace
 
-void GrassField::refuseInReplay() const {
-  if (options_.replay) throw InvalidInput("a replay follows its recorded events only");
-}
-
 // On the ground of the map, in the world.
 std::vector<Vec3> GrassField::pathOf(const Tread::Request& request) const {
   checkCount(request.points.size(), MOST_PATH_POINTS);
-  const Pose to_world = poseInWorld(tf_buffer_, options_.frame_id, request.header.frame_id);
+  const Pose to_world = poseOf(request.header.frame_id);
   const grass::MapLaw& law = field_->layout().map->law();
   const Range x_range{law.origin_x, law.origin_x + law.resolution * (law.columns - 1)};
   const Range y_range{law.origin_y, law.origin_y + law.resolution * (law.rows - 1)};
@@ -64,7 +58,7 @@ std::vector<Vec3> GrassField::pathOf(const Tread::Request& request) const {
 // A source of its own that comes down, walks and leaves within one tick.
 void GrassField::queuePath(const std::vector<Vec3>& path, const grass::TreadLaw& law,
                            const ros::Time& stamp) {
-  const double longest = 0.5 * scene_.grass.treading.longest_stroke;
+  const double longest = 0.5 * options_.scene.grass.treading.longest_stroke;
   std::vector<Vec3> steps{path[0]};
   for (std::size_t i = 1; i < path.size(); ++i) {
     const double pieces = 1.0 + std::floor(flatLength(path[i - 1], path[i]) / longest);
@@ -74,21 +68,21 @@ void GrassField::queuePath(const std::vector<Vec3>& path, const grass::TreadLaw&
     for (int k = 1; k <= static_cast<int>(pieces); ++k)
       steps.push_back(path[i - 1] + (k / pieces) * (path[i] - path[i - 1]));
   }
-  GrassEvent event;
-  event.kind = GrassEvent::TREAD;
-  event.header.stamp = stamp;
   grass::TreadInput input;
   input.source = "path_" + std::to_string(++paths_);
   input.law = law;
   input.height_gate = 1000.0;  // a path is on the ground
+  const auto add = [&] {
+    GrassEvent event = treadEvent(input);
+    event.header.stamp = stamp;
+    inputs_.add(std::move(event));
+  };
   for (const Vec3& step : steps) {
     input.position = step;
-    event.tread = toMsg(input);
-    inputs_.add(event);
+    add();
   }
   input.action = grass::TreadAction::LIFT;
-  event.tread = toMsg(input);
-  inputs_.add(event);
+  add();
 }
 
 bool GrassField::onTreadPath(Tread::Request& request, Tread::Response& response) {
@@ -144,14 +138,14 @@ GrassSample GrassField::sampleAt(const Vec3& place, Nanoseconds stamp) const {
 
 bool GrassField::onSample(SampleGrass::Request& request, SampleGrass::Response& response) {
   return answer(response, [&]() -> std::string {
-    if (!clock_.hasBegun()) throw InvalidInput("no tick yet: the clock has not started");
+    requireTick();
     checkCount(request.points.size(), MOST_SAMPLES);
     const Nanoseconds last = field_->stamp();
     const Nanoseconds stamp = request.header.stamp.isZero() ? last : fromMsg(request.header.stamp);
     if (stamp < last)
       throw InvalidInput("stamp is " + std::to_string(secondsBetween(stamp, last)) +
                          " s before the last tick: the past is not kept");
-    const Pose to_world = poseInWorld(tf_buffer_, options_.frame_id, request.header.frame_id);
+    const Pose to_world = poseOf(request.header.frame_id);
     Faults faults;
     for (std::size_t i = 0; i < request.points.size(); ++i)
       checkPoint(i, fromMsg(request.points[i]), faults);
@@ -177,22 +171,9 @@ bool GrassField::onClear(ClearGrass::Request& request, ClearGrass::Response& res
     GrassEvent event;
     event.kind = GrassEvent::CLEAR;
     event.centre = toPoint(
-        transformed(poseInWorld(tf_buffer_, options_.frame_id, request.centre.header.frame_id,
-                                request.centre.header.stamp),
-                    centre));
+        transformed(poseOf(request.centre.header.frame_id, request.centre.header.stamp), centre));
     event.radius = request.radius;
-    if (!inputs_.add(std::move(event)))
-      throw InvalidInput("10000 inputs wait for the next tick already");
-    return "takes effect at the next tick";
-  });
-}
-
-bool GrassField::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-  return answer(response, [&]() -> std::string {
-    refuseInReplay();
-    GrassEvent event;
-    event.kind = GrassEvent::RESET;
-    inputs_.add(std::move(event));
+    enqueue(std::move(event));
     return "takes effect at the next tick";
   });
 }

@@ -51,7 +51,8 @@ std::vector<FollowedSource> readSources(YamlSection& section) {
 }
 
 // A parameter holds against what the scenario says.
-void readScene(GrassOptions& options, GrassScene& scene, Faults& faults) {
+void readScene(GrassOptions& options, Faults& faults) {
+  GrassScene& scene = options.scene;
   try {
     scene = loadGrassScene(options.scenario);
     if (!scene.frame_id.empty()) options.frame_id = scene.frame_id;
@@ -69,8 +70,8 @@ void checkSources(const GrassOptions& options, Parameters& parameters) {
                  "source '" + source.name + "': ", parameters.faults());
 }
 
-void checkCover(const GrassOptions& options, const GrassScene& scene, Parameters& parameters) {
-  const grass::MapLaw& law = scene.grass.layout.map->law();
+void checkCover(const GrassOptions& options, Parameters& parameters) {
+  const grass::MapLaw& law = options.scene.grass.layout.map->law();
   const double size = law.resolution / options.cover_resolution;
   const double cells = std::ceil(size * (law.columns - 1)) * std::ceil(size * (law.rows - 1));
   if (cells > MOST_COVER_CELLS)
@@ -176,11 +177,11 @@ GrassScene loadGrassScene(const std::string& file) {
   return out;
 }
 
-GrassOptions loadGrassOptions(const ros::NodeHandle& private_handle, GrassScene& scene) {
+GrassOptions loadGrassOptions(const ros::NodeHandle& private_handle) {
   GrassOptions out;
   Parameters parameters(private_handle);
   parameters.text("scenario", out.scenario);
-  readScene(out, scene, parameters.faults());
+  readScene(out, parameters.faults());
   parameters.frame("frame_id", out.frame_id);
   parameters.frame("viewer_frame", out.viewer_frame, true);
   parameters.flag("replay", out.replay);
@@ -190,11 +191,11 @@ GrassOptions loadGrassOptions(const ros::NodeHandle& private_handle, GrassScene&
     YamlSection section(list, private_handle.getNamespace(), parameters.faults());
     out.sources = readSources(section);
   }
-  if (parameters.faults().empty()) checkCover(out, scene, parameters);
+  if (parameters.faults().empty()) checkCover(out, parameters);
   if (parameters.faults().empty()) grass::check(out.tuning.tread, "tread_", parameters.faults());
   if (parameters.faults().empty()) checkSources(out, parameters);
   parameters.finish();
-  scene.grass.layout.tread = out.tuning.tread;
+  out.scene.grass.layout.tread = out.tuning.tread;
   out.tuning.view.most_blades =
       std::max(LEAST_BLADES, out.marker_points / (3.0 * POINTS_PER_BLADE));
   return out;

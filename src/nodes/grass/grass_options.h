@@ -11,6 +11,7 @@
 
 #include "grass/lod/meadow_lod.h"
 #include "grass/tread_simulation.h"
+#include "nodes/base/node_options.h"
 
 namespace vegetation_sim {
 
@@ -39,29 +40,6 @@ struct FollowedSource {
 };
 constexpr std::size_t MOST_FOLLOWED_SOURCES = 256;
 
-/// Parameters of grass_field; see docs/reference.md.
-struct GrassOptions {
-  std::string scenario;              ///< file; empty: the default meadow
-  std::string frame_id{"map"};       ///< world frame
-  int state_rate{30};                ///< ticks [Hz]
-  double key_frame_period{2.0};      ///< [s]
-  int state_bytes{5000000};          ///< of key frames, a second: larger ones come less often [B/s]
-  double markers_rate{10.0};         ///< [Hz]
-  int marker_points{90000};          ///< of the three lists together
-  double cover_rate{2.0};            ///< [Hz]
-  double cover_resolution{0.25};     ///< [m] side of a cell
-  double cover_age{600.0};           ///< age that counts as 100 [s]
-  int cover_layer{0};                ///< of grass/cover: crush, density, resistance, age
-  std::string viewer_frame;          ///< tf frame (x forward) that looks; empty: none
-  double viewer_field_of_view{0.8};  ///< [rad]
-  int viewer_height{900};            ///< [pixel]
-  bool replay{false};                ///< recorded grass/events instead of live inputs
-  double replay_delay{0.5};          ///< how far ticks stay behind the clock in a replay [s]
-  std::vector<FollowedSource> sources;
-  GrassTuning tuning;  ///< starting values of what dynamic_reconfigure changes
-};
-void describe(FieldVisitor& visitor, GrassOptions& options);
-
 /// The meadow of a scenario file, its terrain and its world frame.
 struct GrassScene {
   grass::Scene grass;
@@ -73,8 +51,24 @@ struct GrassScene {
 /// @throws InvalidInput with all faults of the file.
 GrassScene loadGrassScene(const std::string& file);
 
+/// Parameters of grass_field; see docs/reference.md.
+struct GrassOptions : NodeOptions {
+  double key_frame_period{2.0};   ///< [s]
+  int state_bytes{5000000};       ///< of key frames, a second: larger ones come less often [B/s]
+  double markers_rate{10.0};      ///< [Hz]
+  int marker_points{90000};       ///< of the three lists together
+  double cover_rate{2.0};         ///< [Hz]
+  double cover_resolution{0.25};  ///< [m] side of a cell
+  double cover_age{600.0};        ///< age that counts as 100 [s]
+  int cover_layer{0};             ///< of grass/cover: crush, density, resistance, age
+  std::vector<FollowedSource> sources;
+  GrassTuning tuning;  ///< starting values of what dynamic_reconfigure changes
+  GrassScene scene;
+};
+void describe(FieldVisitor& visitor, GrassOptions& options);
+
 /// Reads and checks all private parameters and the scenario that they name; where both say the same
 /// thing, the parameter holds. @throws InvalidInput with all faults of both.
-GrassOptions loadGrassOptions(const ros::NodeHandle& private_handle, GrassScene& scene);
+GrassOptions loadGrassOptions(const ros::NodeHandle& private_handle);
 
 }  // namespace vegetation_sim

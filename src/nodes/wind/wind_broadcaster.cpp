@@ -9,42 +9,33 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr double DIAGNOSTICS_PERIOD = 1.0;  // [s] of wall time
-constexpr double FORGET_PERIOD = 1.0;       // [s]
-constexpr double MARKER_PERIODS = 3.0;      // that a marker survives
+constexpr double PRUNE_RATE = 1.0;      // [Hz]
+constexpr double MARKER_PERIODS = 3.0;  // that a marker survives
 
 }  // namespace
 
-WindBroadcaster::WindBroadcaster(ros::NodeHandle nh, ros::NodeHandle private_nh)
-    : settings_(readWindSettings(private_nh)),
-      nh_(nh),
-      private_nh_(private_nh),
+WindBroadcaster::WindBroadcaster(const ros::NodeHandle& handle,
+                                 const ros::NodeHandle& private_handle)
+    : NodeBase("wind_broadcaster", handle, private_handle),
+      settings_(readWindSettings(private_handle)),
       schedule_(settings_.seed),
-      follower_(nh, settings_),
+      follower_(handle, settings_),
       breeze_(settings_.breeze),
-      field_publisher_(nh.advertise<WindField>("wind", 1, true)),
-      marker_publisher_(nh.advertise<visualization_msgs::MarkerArray>("wind/markers", 1)),
-      diagnostics_(nh, private_nh, private_nh.getNamespace()),
-      reconfigure_(mutex_, private_nh),
-      clock_(nh, [this](Nanoseconds now) { begin(now); }) {
+      field_publisher_(handle_.advertise<WindField>("wind", 1, true)),
+      marker_publisher_(handle_.advertise<visualization_msgs::MarkerArray>("wind/markers", 1)),
+      reconfigure_(mutex_, private_handle),
+      clock_(handle, [this](Nanoseconds now) { begin(now); }) {
   const Lock lock(mutex_);
-  services_ = {
-      private_nh.advertiseService("set_primitive", &WindBroadcaster::setPrimitive, this),
-      private_nh.advertiseService("remove_primitive", &WindBroadcaster::removePrimitive, this),
-      private_nh.advertiseService("get_field", &WindBroadcaster::getField, this),
-      private_nh.advertiseService("sample", &WindBroadcaster::sample, this),
-      private_nh.advertiseService("reset", &WindBroadcaster::reset, this)};
-  follow_timer_ = nh.createTimer(ros::Duration(1.0 / settings_.attach_rate),
-                                 [this](const ros::TimerEvent&) { follow(); });
-  forget_timer_ =
-      nh.createTimer(ros::Duration(FORGET_PERIOD), [this](const ros::TimerEvent&) { forget(); });
-  marker_timer_ = nh.createTimer(ros::Duration(1.0 / settings_.markers_rate),
-                                 [this](const ros::TimerEvent&) { publishMarkers(); });
-  diagnostics_timer_ =
-      nh.createWallTimer(ros::WallDuration(DIAGNOSTICS_PERIOD),
-                         [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); });
-  diagnostics_.setHardwareID("none");
+  serve("set_primitive", &WindBroadcaster::setPrimitive);
+  serve("remove_primitive", &WindBroadcaster::removePrimitive);
+  serve("get_field", &WindBroadcaster::getField);
+  serve("sample", &WindBroadcaster::sample);
+  serve("reset", &WindBroadcaster::reset);
+  repeat(settings_.attach_rate, &WindBroadcaster::follow);
+  repeat(PRUNE_RATE, &WindBroadcaster::prune);
+  repeat(settings_.markers_rate, &WindBroadcaster::publishMarkers);
   diagnostics_.add("wind law", this, &WindBroadcaster::diagnose);
+  startDiagnostics();
   reconfigure_.setCallback(
       [this](WindBroadcasterConfig& config, std::uint32_t level) { reconfigure(config, level); });
 }
@@ -89,17 +80,15 @@ void WindBroadcaster::remove(const std::string& name) {
   follower_.remove(name);
 }
 
-void WindBroadcaster::follow() {
+void WindBroadcaster::follow(const ros::TimerEvent&) {
   const Lock lock(mutex_);
   if (!clock_.running()) return;
-  try {
+  acceptInput("followed frame", [&] {
     if (follower_.update(schedule_, clock_.now())) publishField();
-  } catch (const InvalidInput& error) {
-    refuse("followed frame", error.what());
-  }
+  });
 }
 
-void WindBroadcaster::forget() {
+void WindBroadcaster::prune(const ros::TimerEvent&) {
   const Lock lock(mutex_);
   if (clock_.running() && schedule_.prune(clock_.now())) publishField();
 }
@@ -108,7 +97,7 @@ void WindBroadcaster::publishField() {
   field_publisher_.publish(toMsg(schedule_.field(), settings_.frame_id, clock_.now()));
 }
 
-void WindBroadcaster::publishMarkers() {
+void WindBroadcaster::publishMarkers(const ros::TimerEvent&) {
   const Lock lock(mutex_);
   if (!clock_.running() || marker_publisher_.getNumSubscribers() == 0) return;
   marker_publisher_.publish(windMarkers(schedule_.field(), settings_.frame_id, clock_.now(),
@@ -120,7 +109,7 @@ void WindBroadcaster::showBreeze(const BreezeSettings& breeze) {
   reconfigure_.updateConfig(toConfig(breeze_));
 }
 
-void WindBroadcaster::noteBreeze() {
+void WindBroadcaster::updateBreeze() {
   BreezeSettings now = breeze_;
   now.speed = 0.0;
   if (const auto found = schedule_.find(BreezeSettings::NAME, earliest()))
@@ -128,13 +117,7 @@ void WindBroadcaster::noteBreeze() {
   if (now != breeze_) showBreeze(now);
 }
 
-void WindBroadcaster::refuse(const std::string& what, const std::string& why) {
-  ++refused_;
-  last_refusal_ = what + ": " + why;
-  ROS_WARN_STREAM_THROTTLE(1.0, "refused " << last_refusal_);
-}
-
-void WindBroadcaster::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
+void WindBroadcaster::diagnose(Status& status) {
   const Lock lock(mutex_);
   using diagnostic_msgs::DiagnosticStatus;
   status.summary(DiagnosticStatus::OK, "blowing");
@@ -142,14 +125,15 @@ void WindBroadcaster::diagnose(diagnostic_updater::DiagnosticStatusWrapper& stat
   std::string missing;
   for (const std::string& frame : follower_.missing())
     missing += (missing.empty() ? "" : ", ") + frame;
-  if (!missing.empty()) status.mergeSummary(DiagnosticStatus::WARN, "no tf of late for " + missing);
+  if (!missing.empty())
+    status.mergeSummary(DiagnosticStatus::WARN, "no recent transform of " + missing);
   status.add("primitives", schedule_.field().primitives().size());
   status.add("sources", schedule_.names(clock_.now()).size());
   status.add("followed frames", follower_.names().size());
   status.add("missing frames", missing);
   status.add("hash", schedule_.field().hash());
-  status.add("refused inputs", refused_);
-  status.add("last refusal", last_refusal_);
+  status.add("refused inputs", refusals_.count());
+  status.add("last refusal", refusals_.last());
   status.add("jumps back in time", clock_.jumps());
 }
 

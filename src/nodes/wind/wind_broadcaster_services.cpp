@@ -1,6 +1,7 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/wind/wind_broadcaster.h"
+#include "ros/services/service_replies.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
 #include "vegetation_sim/ros/conversions/wind_conversions.h"
 #include "wind/limits.h"
@@ -31,41 +32,34 @@ void checkSamples(const SampleWind::Request& request) {
 
 }  // namespace
 
-template <class Response>
-bool WindBroadcaster::answer(const char* service, Response& response,
-                             const std::function<void()>& action) {
+template <class Response, class Body>
+bool WindBroadcaster::reply(const char* service, Response& response, Body body) {
   const Lock lock(mutex_);
-  try {
+  answer(response, [&]() -> std::string {
     if (!clock_.running()) throw InvalidInput("time has not begun, is /clock published?");
-    action();
-    response.success = true;
-  } catch (const InvalidInput& error) {
-    response.success = false;
-    response.message = error.what();
-    refuse(service, error.what());
-  }
+    return body();
+  });
+  if (!response.success) refusals_.add(service, response.message);
   return true;
 }
 
 bool WindBroadcaster::setPrimitive(SetWindPrimitive::Request& request,
                                    SetWindPrimitive::Response& response) {
-  return answer("set_primitive", response, [&] {
+  return reply("set_primitive", response, [&]() -> std::string {
     Faults faults;
     const wind::Source source = sourceFromMsg(request.primitive, settings_.frame_id, faults);
-    if (const auto published = apply(source, faults)) {
-      response.id = published->id;
-      response.t_on = toStamp(published->t_on);
-      response.message = "begins at " + std::to_string(secondsBetween(0, published->t_on)) + " s";
-    } else {
-      response.message = "blows once tf knows " + source.attached_frame;
-    }
-    noteBreeze();
+    const auto published = apply(source, faults);
+    updateBreeze();
+    if (!published) return "begins once tf has a transform of " + source.attached_frame;
+    response.id = published->id;
+    response.t_on = toStamp(published->t_on);
+    return "begins at " + std::to_string(secondsBetween(0, published->t_on)) + " s";
   });
 }
 
 bool WindBroadcaster::removePrimitive(RemoveWindPrimitive::Request& request,
                                       RemoveWindPrimitive::Response& response) {
-  return answer("remove_primitive", response, [&] {
+  return reply("remove_primitive", response, [&] {
     if (!request.name.empty()) {
       remove(request.name);
     } else {
@@ -73,14 +67,15 @@ bool WindBroadcaster::removePrimitive(RemoveWindPrimitive::Request& request,
       for (const std::string& name : follower_.names()) remove(name);
     }
     publishField();
-    noteBreeze();
+    updateBreeze();
+    return "";
   });
 }
 
 void WindBroadcaster::reconfigure(WindBroadcasterConfig& config, std::uint32_t level) {
   if (level != ~0u) {
     std_srvs::Trigger::Response response;
-    answer("reconfigure", response, [&] {
+    reply("reconfigure", response, [&] {
       BreezeSettings wanted = fromConfig(config);
       Faults faults;
       FieldChecker checker("", faults);  // a NaN passes the server's clamp
@@ -92,19 +87,21 @@ void WindBroadcaster::reconfigure(WindBroadcasterConfig& config, std::uint32_t l
       base.t_on = base.t_off = 0;
       apply({wanted.applyTo(base), ""});
       breeze_ = wanted;
+      return "";
     });
   }
   config = toConfig(breeze_);
 }
 
 bool WindBroadcaster::getField(GetWindField::Request&, GetWindField::Response& response) {
-  return answer("get_field", response, [&] {
+  return reply("get_field", response, [&] {
     response.field = toMsg(schedule_.field(), settings_.frame_id, clock_.now());
+    return "";
   });
 }
 
 bool WindBroadcaster::sample(SampleWind::Request& request, SampleWind::Response& response) {
-  return answer("sample", response, [&] {
+  return reply("sample", response, [&] {
     checkSamples(request);
     const auto stampOf = [&](std::size_t i) {
       const Nanoseconds stamp = request.stamps.empty()       ? 0
@@ -124,11 +121,15 @@ bool WindBroadcaster::sample(SampleWind::Request& request, SampleWind::Response&
       out.z = velocity.z();
       response.velocities.push_back(out);
     }
+    return "";
   });
 }
 
 bool WindBroadcaster::reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-  return answer("reset", response, [&] { begin(clock_.now()); });
+  return reply("reset", response, [&] {
+    begin(clock_.now());
+    return "";
+  });
 }
 
 }  // namespace vegetation_sim

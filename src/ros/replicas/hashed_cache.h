@@ -13,15 +13,15 @@ namespace vegetation_sim {
 template <class Message>
 class HashedCache {
  public:
-  static constexpr std::size_t MOST = 8;
+  explicit HashedCache(std::size_t most = 8) : most_(most) {}
 
-  /// Forgets the oldest where there are more than MOST.
+  /// Forgets the oldest if there are more than `most`.
   void keep(std::uint64_t hash, const Message& message) {
     all_.erase(std::remove_if(all_.begin(), all_.end(),
                               [&](const auto& one) { return one.first == hash; }),
                all_.end());
     all_.emplace_back(hash, message);
-    if (all_.size() > MOST) all_.pop_front();
+    if (all_.size() > most_) all_.pop_front();
   }
   bool isNewest(std::uint64_t hash) const { return !all_.empty() && all_.back().first == hash; }
   /// Null if it is not there.
@@ -32,6 +32,7 @@ class HashedCache {
   }
 
  private:
+  std::size_t most_;
   std::deque<std::pair<std::uint64_t, Message>> all_;  ///< oldest first
 };
 

@@ -29,6 +29,7 @@ class Refusals {
   /// Of those since it last did, with the reason for the last.
   void warn(diagnostic_updater::DiagnosticStatusWrapper& status);
   std::uint64_t count() const { return count_; }
+  const std::string& last() const { return last_; }
 
  private:
   std::string node_, last_;

@@ -43,6 +43,11 @@ class TickClock {
   /// Begins to follow the clock. The last thing that a node's constructor does: a nodelet's first
   /// ticks may come while it is still being built.
   void listen(ros::NodeHandle handle);
+  /// Stops following the clock.
+  void stop() {
+    clock_.shutdown();
+    timer_.stop();
+  }
   /// The clock shows this: runs what is due.
   void see(Nanoseconds clock);
 

@@ -116,7 +116,7 @@ class GrassSources(unittest.TestCase):
     def test_a_silent_frame_has_left(self):
         self.fly(RATE // 2, lambda s: ('wheel_right', -14.0 + 0.5 * s, 12.0, 0.0))
         self.clock.run(2 * RATE, self.grass)
-        self.assertGreaterEqual(self.grass.diagnostics()['Sources not told'], 1)
+        self.assertGreaterEqual(self.grass.diagnostics()['Sources without a position'], 1)
         self.grass.events.wait(
             lambda all: any(e.tread.source == 'wheel_right' and e.tread.action == TreadEvent.LIFT
                             for e in all), 'a wheel that lifts')

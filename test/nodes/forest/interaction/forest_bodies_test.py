@@ -124,7 +124,7 @@ class Bodies(unittest.TestCase):
                                stamp=time_of(self.clock.tick + 50 * RATE))
         for _ in range(MOST_WAITING):
             self.assertTrue(ask().success)
-        self.assertIn('10000 requests wait for the next tick already', ask().message)
+        self.assertIn('10000 inputs wait for the next tick already', ask().message)
         bodies = self.kinds().count(ForestEvent.BODY)
 
         def reported():

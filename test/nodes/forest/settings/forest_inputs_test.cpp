@@ -21,12 +21,12 @@ ForestEvent resetAt(std::int64_t tick) {
 // N6: an event of a replay is in time at its own tick and late after it, whatever the reason.
 TEST(ForestInputs, CountLateEventsOfAReplay) {
   ForestInputs inputs(true);
-  for (const std::int64_t tick : {101, 102, 104}) inputs.addEvent(resetAt(tick));
+  for (const std::int64_t tick : {101, 102, 104}) inputs.addRecorded(resetAt(tick));
   EXPECT_TRUE(inputs.take(100 * TICK).empty());
   EXPECT_EQ(inputs.take(101 * TICK).size(), 1u);
   EXPECT_EQ(inputs.take(102 * TICK).size(), 1u);
   EXPECT_EQ(inputs.losses().late, 0u);
-  inputs.addEvent(resetAt(99));
+  inputs.addRecorded(resetAt(99));
   EXPECT_EQ(inputs.take(105 * TICK).size(), 2u);  // Tick 104 was dropped, and 99 arrived late.
   EXPECT_EQ(inputs.losses().late, 2u);
   EXPECT_EQ(inputs.losses().lost, 0u);
@@ -34,17 +34,18 @@ TEST(ForestInputs, CountLateEventsOfAReplay) {
 
 TEST(ForestInputs, CountEventsAboveTheLimit) {
   ForestInputs inputs(true);
-  for (std::size_t i = 0; i < ForestInputs::MOST_WAITING + 3; ++i) inputs.addEvent(resetAt(7));
+  for (std::size_t i = 0; i < ForestInputs::MOST_WAITING + 3; ++i) inputs.addRecorded(resetAt(7));
   EXPECT_EQ(inputs.losses().lost, 3u);
   EXPECT_EQ(inputs.take(7 * TICK).size(), ForestInputs::MOST_WAITING);
 }
 
 TEST(ForestInputs, CountViewersAboveTheLimit) {
   ForestInputs inputs(false);
-  Viewer viewer;
+  ForestEvent event;
+  event.kind = ForestEvent::VIEWER;
   for (std::size_t i = 0; i < ForestInputs::MOST_WAITING + 2; ++i) {
-    viewer.id = std::to_string(i);
-    inputs.addViewer(viewer);
+    event.viewer.id = std::to_string(i);
+    EXPECT_EQ(inputs.add(event), i < ForestInputs::MOST_WAITING);
   }
   EXPECT_EQ(inputs.losses().lost, 2u);
 }
@@ -55,14 +56,16 @@ TEST(ForestInputs, AcceptTheNodesOwnEventsInAFlood) {
   ForestEvent force;
   force.kind = ForestEvent::FORCE;
   force.header.stamp = toStamp(100 * TICK);
-  for (std::size_t i = 0; i < ForestInputs::MOST_WAITING; ++i) inputs.addInteraction(force);
-  EXPECT_THROW(inputs.addInteraction(force), InvalidInput);
+  for (std::size_t i = 0; i < ForestInputs::MOST_WAITING; ++i) EXPECT_TRUE(inputs.add(force));
+  EXPECT_FALSE(inputs.add(force));
   ForestEvent body;
   body.kind = ForestEvent::BODY;
   inputs.addFirst(body);
-  inputs.addWind(wind::Field());
-  inputs.addTuning({});
-  inputs.addReset();
+  for (const std::uint8_t kind : {ForestEvent::WIND, ForestEvent::SETTINGS, ForestEvent::RESET}) {
+    ForestEvent event;
+    event.kind = kind;
+    EXPECT_TRUE(inputs.add(event));
+  }
   std::vector<int> kinds;
   for (const ForestEvent& event : inputs.take(TICK)) kinds.push_back(event.kind);
   EXPECT_EQ(kinds, (std::vector<int>{ForestEvent::BODY, ForestEvent::WIND, ForestEvent::SETTINGS,
@@ -78,14 +81,14 @@ TEST(ForestInputs, RenewalsLeaveMovesAlone) {
   move.kind = ForestEvent::MOVE;
   move.grab.id = 1;
   move.grab.target.x = 1.0;
-  inputs.addInteraction(move);
+  inputs.add(move);
   move.grab.target.x = 2.0;
-  inputs.addInteraction(move);
+  inputs.add(move);
   ForestEvent renewal;
   renewal.kind = ForestEvent::RENEW;
   renewal.grab.id = 1;
-  inputs.addInteraction(renewal);
-  inputs.addInteraction(renewal);
+  inputs.add(renewal);
+  inputs.add(renewal);
   const std::vector<ForestEvent> taken = inputs.take(TICK);
   ASSERT_EQ(taken.size(), 2u);
   EXPECT_EQ(taken[0].kind, ForestEvent::MOVE);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <string>
 
+#include "nodes/base/event_node.h"
 #include "nodes/forest/forest_inputs.h"
 #include "nodes/rigs/declared_fields.h"
 
@@ -28,8 +29,7 @@ TEST(ForestRanges, SettingsSurviveTheirEvent) {  // N6
   tuning.settings = {2.5, 4, 5, 0.1, 2.0, {4.0, 1000, 3, 10.0, 11.0, 1000.0}};
   tuning.design = {0.5, 1.5, 0.0, 1.25, 2.0};
   tuning.transition = 7.0;
-  ForestEvent event;
-  toEvent(tuning, event);
+  const auto event = settingsEvent<ForestEvent>(tuning);
   ForestTuning back = tuningOf(event);
   Declared sent, received;
   describe(sent, tuning);
@@ -39,8 +39,7 @@ TEST(ForestRanges, SettingsSurviveTheirEvent) {  // N6
 }
 
 TEST(ForestRanges, EventsOfBadSettingsAreRefused) {
-  ForestEvent event;
-  toEvent(ForestTuning(), event);
+  const auto event = settingsEvent<ForestEvent>(ForestTuning());
   const auto refused = [](const ForestEvent& bad) {
     try {
       tuningOf(bad);

@@ -1,0 +1,68 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/ros.h>
+#include <std_srvs/Trigger.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ros/services/diagnostics.h"
+#include "vegetation_sim/core/config/faults.h"
+
+namespace vegetation_sim {
+
+/// Connections, diagnostics and the count of rejected inputs of a node. All callbacks come from one
+/// queue and one thread, but in a nodelet manager not from the thread that constructs the node.
+class NodeBase {
+ protected:
+  using Status = diagnostic_updater::DiagnosticStatusWrapper;
+
+  NodeBase(const std::string& name, const ros::NodeHandle& handle,
+           const ros::NodeHandle& private_handle);
+  virtual ~NodeBase() = default;
+
+  template <class Node, class Message>
+  void subscribe(const char* topic, unsigned queue, void (Node::*callback)(const Message&)) {
+    subscribers_.push_back(handle_.subscribe(topic, queue, callback, static_cast<Node*>(this)));
+  }
+  template <class Node, class Request, class Response>
+  void serve(const char* name, bool (Node::*callback)(Request&, Response&)) {
+    services_.push_back(private_handle_.advertiseService(name, callback, static_cast<Node*>(this)));
+  }
+  template <class Node>
+  void repeat(double rate, void (Node::*callback)(const ros::TimerEvent&)) {
+    timers_.push_back(
+        handle_.createTimer(ros::Duration(1.0 / rate), callback, static_cast<Node*>(this)));
+  }
+  /// Publishes diagnostics once per second of wall time from now on.
+  void startDiagnostics();
+  /// Ends all callbacks. To be called before anything that they use is destroyed.
+  void stopCallbacks();
+
+  /// Runs `body`; an InvalidInput that it throws is counted and reported as a rejected `what`.
+  template <class Body>
+  void acceptInput(const std::string& what, Body body) {
+    try {
+      body();
+    } catch (const InvalidInput& error) {
+      refusals_.add(what, error.what());
+    }
+  }
+
+  const std::string name_;
+  ros::NodeHandle handle_, private_handle_;
+  Refusals refusals_;
+  diagnostic_updater::Updater diagnostics_;
+
+ private:
+  std::vector<ros::Subscriber> subscribers_;
+  std::vector<ros::ServiceServer> services_;
+  std::vector<ros::Timer> timers_;
+  ros::WallTimer diagnostics_timer_;
+};
+
+}  // namespace vegetation_sim
