@@ -92,7 +92,8 @@ GreyImage parsePng(const std::string& bytes, const std::string& name) {
                        std::to_string(png.rows()) + " pixels, more than " +
                        std::to_string(LONGEST_SIDE) + " a side");
   if (!png.isGrey())
-    throw InvalidInput(name + ": PNG image is coloured or transparent; wanted is grey alone");
+    throw InvalidInput(name +
+                       ": PNG image is coloured or transparent; only grey images are supported");
 
   GreyImage out;
   out.columns = png.columns();

@@ -15,7 +15,8 @@ void checkFrame(const Source& source, Faults& faults) {
   const std::string context =
       "primitive '" + p.name + "': attached_frame = '" + source.attached_frame + "' ";
   if (p.kind == Kind::BREEZE) faults.add(context + "is given, but a breeze is everywhere");
-  if (!p.trajectory.empty()) faults.add(context + "and a trajectory are given, allowed is one");
+  if (!p.trajectory.empty())
+    faults.add(context + "and a trajectory are both given; only one is allowed");
   if (source.attached_frame.front() == '/')
     faults.add(context + "begins with '/', which tf2 does not allow");
 }

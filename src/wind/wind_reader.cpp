@@ -25,7 +25,8 @@ std::vector<Waypoint> readTrajectory(YamlSection& section) {
     points.push_back(point);
   }
   if (!section.has("position")) return points;
-  if (!points.empty()) section.fault("position", "and trajectory are given, allowed is one");
+  if (!points.empty())
+    section.fault("position", "and trajectory are both given; only one is allowed");
   Waypoint point;
   section.vector("position", point.position, "m", POSITIONS);
   return {point};
@@ -70,7 +71,7 @@ std::vector<Source> readWind(YamlSection& section, std::uint64_t& seed) {
     sources.push_back(readSource(entry));
     const std::string& name = sources.back().primitive.name;
     if (!name.empty() && !names.insert(name).second)
-      entry.fault("name", "= '" + name + "' is taken already");
+      entry.fault("name", "= '" + name + "' is already in use");
   }
   section.finish();
   return sources;

@@ -76,7 +76,8 @@ TEST(GreyImage, PngOfHugeSizeIsRefusedBeforeMemoryIsTaken) {
 }
 
 TEST(GreyImage, ColouredAndTransparentPngAreRefused) {
-  const std::string wanted = "hill.png: PNG image is coloured or transparent; wanted is grey alone";
+  const std::string wanted =
+      "hill.png: PNG image is coloured or transparent; only grey images are supported";
   EXPECT_EQ(refusal(pngOf(std::vector<std::uint8_t>{1, 2, 3}, 1, PNG_FORMAT_RGB)), wanted);
   EXPECT_EQ(refusal(pngOf(std::vector<std::uint8_t>{1, 2}, 1, PNG_FORMAT_GA)), wanted);
 }

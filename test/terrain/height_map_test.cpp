@@ -153,7 +153,7 @@ TEST_F(HeightMapFile, ReportsAllFaultsAtOnceWithTheirNames) {
   const std::string error = refusal("{resolution: .nan, origin: [0, 0], hight_max: 3}");
   EXPECT_EQ(error,
             file_ + ": resolution = nan m is not finite, allowed is 0.001 to 1000 m\n" + file_ +
-                ": origin has 2 numbers where 3 are wanted\n" + file_ +
+                ": origin has 2 numbers; 3 are expected\n" + file_ +
                 ": image is missing: the path of a PNG or PGM file\n" + file_ +
                 ": height_max is missing\n" + file_ +
                 ": hight_max is not a known key; known are height_max, height_min, image, origin, "

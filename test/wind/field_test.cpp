@@ -148,7 +148,7 @@ TEST(Field, RefusesTwoSourcesOfOneId) {
     Field{twins};
     FAIL() << "took them";
   } catch (const InvalidInput& error) {
-    EXPECT_STREQ(error.what(), "primitive 'breeze': id = 1 is taken already");
+    EXPECT_STREQ(error.what(), "primitive 'breeze': id = 1 is already in use");
   }
 }
 

@@ -121,7 +121,7 @@ wind:
         "primitives[4]: position and trajectory are given",
         "primitives[5]: trajectory[0]: position is missing",
         "primitives[5]: trajectory[1]: pose is not a known key", "trajectory[1].stamp = 1.000000 s",
-        "primitives[6]: name = 'e' is taken already", "velocity has no horizontal part",
+        "primitives[6]: name = 'e' is already in use", "velocity has no horizontal part",
         "is given, but a breeze is everywhere"})
     EXPECT_NE(faults.find(part), faults.npos) << part << "\nnot in\n" << faults;
 }

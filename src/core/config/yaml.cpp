@@ -21,7 +21,7 @@ std::string shown(const YAML::Node& node) {
 YamlSection::YamlSection(const YAML::Node& node, std::string path, Faults& faults)
     : node_(node), path_(std::move(path)), faults_(&faults) {
   if (node_.IsDefined() && !node_.IsNull() && !node_.IsMap()) {
-    faults_->add(path_ + ": " + shown(node_) + " where a map of keys is wanted");
+    faults_->add(path_ + ": " + shown(node_) + " is not a map of keys");
     node_ = YAML::Node();
   }
 }
@@ -76,7 +76,7 @@ void YamlSection::vector(const char* name, Vec3& value, const char* unit, Range 
   std::vector<double> list;
   if (!read(name, "a list of three numbers", list)) return;
   if (list.size() != 3)
-    return fault(name, "has " + std::to_string(list.size()) + " numbers where 3 are wanted");
+    return fault(name, "has " + std::to_string(list.size()) + " numbers; 3 are expected");
   const Vec3 read_value(list[0], list[1], list[2]);
   for (int i = 0; i < 3; ++i) {
     const std::string problem =
@@ -136,7 +136,7 @@ void YamlSection::finish() {
   std::set<std::string> seen;
   for (const auto& entry : node_)
     if (entry.first.IsScalar() && !seen.insert(entry.first.Scalar()).second)
-      fault(entry.first.Scalar(), "stands there twice");
+      fault(entry.first.Scalar(), "is given twice");
   for (const auto& entry : node_) {
     const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "(not a word)";
     if (asked_.count(key)) continue;

@@ -63,7 +63,7 @@ void readLayer(YamlSection& map, const LayerRule& rule, const std::string& folde
       if (section.has(key)) section.fault(key, "is given without image");
     return;
   }
-  if (section.has("value")) section.fault("value", "and image are given, allowed is one");
+  if (section.has("value")) section.fault("value", "and image are both given; only one is allowed");
   try {
     layer.image = terrain::loadGreyImage((std::filesystem::path(folder) / image).string());
   } catch (const InvalidInput& error) {

@@ -114,7 +114,7 @@ void check(const Layout& layout, Faults& faults) {
   for (const Species& species : layout.species) {
     check(species, faults);
     if (!names.insert(species.name).second)
-      faults.add("layout: species " + species.name + " stands there twice");
+      faults.add("layout: species " + species.name + " is given twice");
   }
   MotionLaw law = layout.motion;
   FieldChecker checker("layout: ", faults);

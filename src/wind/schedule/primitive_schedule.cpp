@@ -40,7 +40,7 @@ void PrimitiveSchedule::start(const std::vector<Primitive>& primitives) {
   std::uint32_t id = next_id_;
   for (Primitive p : primitives) {
     if (latest(entries, p.name) != nullptr)
-      throw InvalidInput("primitive '" + p.name + "': name is taken already");
+      throw InvalidInput("primitive '" + p.name + "': name is already in use");
     p.id = id++;
     entries.push_back({p, KEEP_EDITED});
   }
@@ -84,7 +84,7 @@ Primitive PrimitiveSchedule::put(Primitive p, Nanoseconds earliest, Change chang
   Faults faults;
   if (p.t_on != 0 && p.t_on < earliest)
     faults.add("primitive '" + p.name + "': t_on = " + seconds(p.t_on) + " is before " +
-               seconds(earliest) + ", the earliest at which everyone can know");
+               seconds(earliest) + ", the earliest stamp that all subscribers can receive in time");
   if (p.t_on == 0) p.t_on = earliest;
   check(p, faults);
   faults.throwIfAny();
@@ -112,8 +112,8 @@ void PrimitiveSchedule::remove(const std::string& name, Nanoseconds earliest) {
   if (!find(name, earliest)) {
     std::string known;
     for (const std::string& other : names(earliest)) known += (known.empty() ? "" : ", ") + other;
-    throw InvalidInput("no source is named '" + name + "'; there is " +
-                       (known.empty() ? "none" : known));
+    throw InvalidInput("no source is named '" + name +
+                       "'; known sources: " + (known.empty() ? "none" : known));
   }
   Entries entries = entries_;
   dropPending(entries, name, earliest);

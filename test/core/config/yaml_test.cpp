@@ -58,12 +58,12 @@ TEST(YamlSection, NamesFileKeyValueAndRangeOfEachFault) {
   EXPECT_EQ(faultsOf("height: [1]"), "kite.yaml: height = a list is not a number");
   EXPECT_EQ(faultsOf("tails: 1.5"), "kite.yaml: tails = '1.5' is not a whole number");
   EXPECT_EQ(faultsOf("tails: 12"), "kite.yaml: tails = 12 is outside 0 to 9");
-  EXPECT_EQ(faultsOf("pull: [1, 2]"), "kite.yaml: pull has 2 numbers where 3 are wanted");
+  EXPECT_EQ(faultsOf("pull: [1, 2]"), "kite.yaml: pull has 2 numbers; 3 are expected");
   EXPECT_EQ(faultsOf("pull: [1, 2, 70]"), "kite.yaml: pull[2] = 70 N is outside -50 to 50 N");
   EXPECT_EQ(faultsOf("shape: round"), "kite.yaml: shape = 'round' is none of diamond, box");
   EXPECT_EQ(faultsOf("colour: red"),
             "kite.yaml: colour is not a known key; known are height, pull, shape, tails");
-  EXPECT_EQ(faultsOf("[1, 2]"), "kite.yaml: a list where a map of keys is wanted");
+  EXPECT_EQ(faultsOf("[1, 2]"), "kite.yaml: a list is not a map of keys");
 }
 
 TEST(YamlSection, ReportsAllFaultsAndChangesNoFaultyField) {

@@ -152,7 +152,8 @@ TEST_F(FeatureMapFile, ReportsAllFaultsAtOnceWithTheirNames) {
   for (const char* part :
        {"resolution = 0 m is outside 0.1 to 100 m", "species[0]: name is missing",
         "species[0]: lean = 3 rad is outside 0 to 1.4 rad", "density: ", "hole.pgm: cannot be read",
-        "height: value and image are given, allowed is one", "shape: white is given without image",
+        "height: value and image are both given; only one is allowed",
+        "shape: white is given without image",
         "colour: value = nan is not finite, allowed is 0 to 1", "hight is not a known key"})
     EXPECT_NE(error.find(part), std::string::npos) << part << " in\n" << error;
 }

@@ -47,7 +47,7 @@ SCENARIOS = [
      'wind: primitives[0]: radius = nan m is not finite'),
     ('{wind: {primitives: [{name: a, kind: disk, colour: red}]}}', 'colour is not a known key'),
     ('{wind: {seed: many}}', "seed = 'many' is not a whole number"),
-    ('{wind: [1]}', 'a list where a map of keys is wanted'),
+    ('{wind: [1]}', 'a list is not a map of keys'),
     ('{wind', 'not YAML'),
 ]
 

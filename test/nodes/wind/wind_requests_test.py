@@ -152,7 +152,7 @@ class WindRequests(unittest.TestCase):
                 (primitive(trajectory=[PointStamped(), PointStamped()]), 'is not after'),
                 (primitive(trajectory=[PointStamped()] * 4097), 'has 4097 way points'),
                 (primitive(kind=1, attached_frame='drone'), 'but a breeze is everywhere'),
-                (primitive(trajectory=[PointStamped()], attached_frame='drone'), 'allowed is one'),
+                (primitive(trajectory=[PointStamped()], attached_frame='drone'), 'only one is allowed'),
                 (primitive(attached_frame='/drone'), "begins with '/'")]:
             with self.subTest(text=text):
                 self.assert_refused(self.set(bad), text, before)
@@ -173,7 +173,7 @@ class WindRequests(unittest.TestCase):
         self.assertTrue(self.set(primitive(4, 'tied_4', attached_frame='drone')).success)
 
     def test_refuses_to_remove_an_unknown_primitive(self):
-        self.assert_refused(self.remove('fann'), "no source is named 'fann'; there is breeze, disc",
+        self.assert_refused(self.remove('fann'), "no source is named 'fann'; known sources: breeze, disc",
                             self.field().hash)
 
     def test_removes_one_or_all(self):

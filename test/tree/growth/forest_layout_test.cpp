@@ -149,7 +149,7 @@ INSTANTIATE_TEST_SUITE_P(
         std::pair("forest: {species: [{name: oak}], trees: [{species: oak, colour: 1}]}",
                   "colour is not a known key"),
         std::pair("forest: {species: [{name: oak}], trees: [{species: oak, position: [1, 2]}]}",
-                  "position has 2 numbers where 3 are wanted"),
+                  "position has 2 numbers; 3 are expected"),
         std::pair("forest: {species: [{name: oak}], tiles: [{count: 99999999, mix: {oak: 1}}]}",
                   "count = 1e+08 is outside 0 to"),
         std::pair(
@@ -157,8 +157,8 @@ INSTANTIATE_TEST_SUITE_P(
             " mix: {oak: 1}}]}",
             "4096 rows x 4096 columns x 1000 trees pass"),
         std::pair("forest: {species: [{name: oak}], trees: [{species: oak, yaw: 1, yaw: 2}]}",
-                  "yaw stands there twice"),
-        std::pair("forest: {species: [{name: oak}, {name: oak}]}", "oak stands there twice"),
+                  "yaw is given twice"),
+        std::pair("forest: {species: [{name: oak}, {name: oak}]}", "oak is given twice"),
         std::pair("forest: {species: [{name: oak}], motion: {drag: cubic}}",
                   "drag = 'cubic' is none of linear, quadratic"),
         std::pair("forest: {species: oak}", "species = 'oak' is not a list")));

@@ -177,7 +177,7 @@ TEST(PrimitiveSchedule, RefusesToRemoveWhatIsNotThere) {
     schedule.remove("brezee", at(50.0));
     FAIL() << "removed it";
   } catch (const InvalidInput& error) {
-    EXPECT_STREQ(error.what(), "no source is named 'brezee'; there is disk, breeze");
+    EXPECT_STREQ(error.what(), "no source is named 'brezee'; known sources: disk, breeze");
   }
   EXPECT_EQ(schedule.field().hash(), hash);
 }
