@@ -120,8 +120,8 @@ void Forest::advancePhysics(Nanoseconds stamp) {
 std::uint32_t Forest::addGrab(const Grab& grab) {
   return snapshot_.physics.addGrab(stepContext(), grab);
 }
-void Forest::moveGrab(std::uint32_t id, const Vec3& target) {
-  snapshot_.physics.moveGrab(id, target);
+void Forest::moveGrab(std::uint32_t id, const Vec3& target, const Pose& holder) {
+  snapshot_.physics.moveGrab(id, target, holder);
 }
 void Forest::renewGrab(std::uint32_t id) {
   snapshot_.physics.renewGrab(id);

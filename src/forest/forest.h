@@ -77,7 +77,7 @@ class Forest {
   /// Takes hold; gives the id of the grab.
   std::uint32_t addGrab(const Grab& grab);
   /// Where the grab shall be at the next tick; renews its lease.
-  void moveGrab(std::uint32_t id, const Vec3& target);
+  void moveGrab(std::uint32_t id, const Vec3& target, const Pose& holder = {});
   void renewGrab(std::uint32_t id);
   void release(std::uint32_t id);
   void push(const Push& push);

@@ -283,6 +283,7 @@ void ForestPhysics::publishGrabReactions(std::uint32_t tree, const PhysicalSubtr
     Reaction out;
     out.grab = id;
     out.frame = grab.frame;
+    out.holder = grab.holder;
     out.at = grab.point;
     out.point = subtree.tree().foot + grab.grip;
     out.force = -grab.force;

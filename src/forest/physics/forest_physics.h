@@ -53,13 +53,16 @@ void checkPush(const Layout& layout, const Tree& tree, const Push& push);
 class ForestPhysics {
  public:
   std::uint32_t addGrab(const StepContext& context, const Grab& grab);
-  void moveGrab(std::uint32_t id, const Vec3& target);
+  /// @param holder world pose of the grab's frame.
+  void moveGrab(std::uint32_t id, const Vec3& target, const Pose& holder);
   void renewGrab(std::uint32_t id);
   void release(std::uint32_t id);
   void push(const StepContext& context, const Push& push);
   void setBody(const Body& body);
   void removeBody(const std::string& id);
   void setSettings(const PhysicsSettings& settings, Nanoseconds now);
+  /// @throws InvalidInput if a branch that `what` loads could not be physical now.
+  void checkRoom(const std::string& what, std::uint32_t tree, int branch) const;
   /// Removes grabs, pushes, bodies and all physical subtrees; keeps the settings.
   void clear();
 
@@ -81,7 +84,6 @@ class ForestPhysics {
   void addTo(Hash& hash) const;
 
  private:
-  void checkRoom(const std::string& what, std::uint32_t tree, int branch) const;
   PhysicalSubtree& findOrAddSubtree(const StepContext& context, std::uint32_t tree);
   TreeWind windOf(const StepContext& context, std::uint32_t tree) const;
   void endLeases(Nanoseconds stamp);

@@ -152,12 +152,13 @@ std::uint32_t ForestPhysics::addGrab(const StepContext& context, const Grab& req
   return grab.id;
 }
 
-void ForestPhysics::moveGrab(std::uint32_t id, const Vec3& target) {
+void ForestPhysics::moveGrab(std::uint32_t id, const Vec3& target, const Pose& holder) {
   HeldGrab& grab = findKnown(grabs_, id, "grab: id = " + count(id));
   Faults faults;
   checkTarget(target, grab.foot, grab.max_target_distance, faults);
   faults.throwIfAny();
   grab.target = target;
+  grab.holder = holder;
   grab.renewed_since_tick = true;
 }
 

@@ -9,6 +9,7 @@ namespace {
 
 constexpr Range ANYWHERE{-1e7, 1e7};  // [m]
 constexpr Range FORCE{-1e5, 1e5};     // [N]
+constexpr Range OFFSETS{-1e3, 1e3};   // [m]
 constexpr std::size_t LONGEST_NAME = 256;
 
 }  // namespace
@@ -19,8 +20,9 @@ void check(const Grab& grab, Faults& faults) {
   checker.vector("target", copy.target, "m", ANYWHERE);
   checker.number("stiffness", copy.stiffness, "N/m", {1.0, 1e6});
   checker.number("damping", copy.damping, "N s/m", {0.0, 1e5});
-  checker.number("force_limit", copy.force_limit, "N", {0.001, 1e5});
-  checker.number("lease", copy.lease, "s", {0.0, 3600.0});
+  checker.number("force_limit", copy.force_limit, "N", {0.01, 1e5});
+  if (copy.lease != 0.0) checker.number("lease", copy.lease, "s", {0.1, 3600.0});
+  checker.vector("offset", copy.offset, "m", OFFSETS);
   if (grab.frame.size() > LONGEST_NAME)
     faults.add("grab: frame is longer than " + std::to_string(LONGEST_NAME) + " characters");
 }

@@ -26,10 +26,12 @@ struct Grab {
   double stiffness{2000.0};   ///< [N/m]
   double damping{40.0};       ///< [N s/m]
   double force_limit{200.0};  ///< [N]
-  std::string frame;          ///< of the body that holds; empty: nobody's, a point of the world
+  std::string frame;          ///< tf frame of the body that holds; empty: a point of the world
   double lease{0.0};          ///< ends this long after it was last moved or renewed; 0: never [s]
   std::uint32_t id{0};        ///< 0 when it is added: the forest gives one
   Nanoseconds renewed{0};     ///< kept by the forest
+  Vec3 offset{Vec3::Zero()};  ///< of the target in `frame` [m]
+  Pose holder;                ///< world pose of `frame` when the target was last set
 };
 
 /// A force on a branch for a while.
@@ -54,6 +56,7 @@ struct Body {
   Vec3 velocity{Vec3::Zero()};  ///< of the pose's origin, world [m/s]
   Vec3 spin{Vec3::Zero()};      ///< world [rad/s]
   Nanoseconds stamp{0};
+  Pose in_frame;  ///< of the body in its frame
 };
 
 /// What a branch does to the body that holds or touches it.
@@ -63,6 +66,7 @@ struct Reaction {
   std::uint32_t grab{0};      ///< id of the grab; 0: a contact
   std::string body;           ///< contact: Body::id
   std::string frame;          ///< Grab::frame or Body::frame
+  Pose holder;                ///< grab with a frame: Grab::holder
   BranchPoint at;             ///< where on the branch
   Vec3 point{Vec3::Zero()};   ///< world [m]
   Vec3 force{Vec3::Zero()};   ///< on the body, world [N]
