@@ -40,12 +40,13 @@ Event settingsEvent(const Tuning& tuning) {
 /// dynamic_reconfigure, the viewer that follows a tf frame, service ~reset and diagnostics.
 ///
 /// A node calls start() at the end of its constructor and stop() in its destructor.
-/// @tparam Queue EventQueue of a message. @tparam Config of dynamic_reconfigure.
+/// @tparam Queue EventQueue or derived from it. @tparam Config of dynamic_reconfigure.
 /// @tparam Options derived from NodeOptions.
 template <class Queue, class Config, class Options>
 class EventNode : public NodeBase {
  protected:
   using Event = typename Queue::Event;
+  using Message = typename Queue::Message;
 
   /// @param topic of the events.
   EventNode(const char* name, const char* topic, const ros::NodeHandle& handle,
@@ -58,7 +59,7 @@ class EventNode : public NodeBase {
                {[this] { followViewerFrame(); }, [this](std::int64_t tick) { this->tick(tick); },
                 [this](Nanoseconds now) { onJumpBack(now); }}),
         events_topic_(topic),
-        events_publisher_(handle_.advertise<Event>(topic, Queue::MOST_WAITING)) {}
+        events_publisher_(handle_.advertise<Message>(topic, Queue::MOST_WAITING)) {}
 
   /// Adds the node's subscribers, services and timers.
   virtual void connect() = 0;
@@ -110,7 +111,6 @@ class EventNode : public NodeBase {
   /// Applies the events of a tick in order, and publishes them unless this is a replay.
   void applyInputs(Nanoseconds stamp) {
     for (Event& event : inputs_.take(stamp)) {
-      event.header.frame_id = options_.frame_id;
       acceptInput("event", [&] {
         apply(event);
         ++applied_;
@@ -120,7 +120,10 @@ class EventNode : public NodeBase {
     warnOfLosses(name_.c_str(), inputs_.losses(), warned_);
   }
   void publishEvent(const Event& event) {
-    if (!options_.replay) events_publisher_.publish(event);
+    if (options_.replay) return;
+    Message message = eventToMsg(event);
+    message.header.frame_id = options_.frame_id;
+    events_publisher_.publish(message);
   }
   /// Pose of a frame in the world frame. @throws InvalidInput if tf has no transform.
   Pose poseOf(const std::string& frame, const ros::Time& stamp = ros::Time(0)) const {
@@ -158,8 +161,11 @@ class EventNode : public NodeBase {
   TickClock clock_;
 
  private:
-  void onRecordedEvent(const Event& event) {
-    if (isInput(event)) inputs_.addRecorded(event);
+  void onRecordedEvent(const Message& message) {
+    acceptInput("event", [&] {
+      const Event& event = eventFromMsg(message);
+      if (isInput(event)) inputs_.addRecorded(event);
+    });
   }
 
   void onTuning(Config& config) {
@@ -201,7 +207,7 @@ class EventNode : public NodeBase {
 
   void onJumpBack(Nanoseconds now) {
     inputs_.forget([&](const Event& event) {
-      return options_.replay ? fromMsg(event.header.stamp) > now : isOutdated(event);
+      return options_.replay ? stampOf(event) > now : isOutdated(event);
     });
     tf_buffer_.clear();
     restart();

@@ -26,13 +26,33 @@ void warnOfLosses(diagnostic_updater::DiagnosticStatusWrapper& status, const Que
 /// Warns on the node's console of losses that are not yet in `published`, and adds them to it.
 void warnOfLosses(const char* node, const QueueLosses& losses, QueueLosses& published);
 
+/// Stamp of an event, and its message, where the event is not itself the message.
+template <class Event>
+Nanoseconds stampOf(const Event& event) {
+  return fromMsg(event.header.stamp);
+}
+template <class Event>
+void setStamp(Event& event, Nanoseconds stamp) {
+  event.header.stamp = toStamp(stamp);
+}
+template <class Event>
+const Event& eventToMsg(const Event& event) {
+  return event;
+}
+template <class Event>
+const Event& eventFromMsg(const Event& message) {
+  return message;
+}
+
 /// Accepted inputs of a node wait here for their tick. Live inputs become events that get the stamp
 /// of the tick at which they are applied; a replay applies recorded events at their own ticks. The
-/// queue is bounded. @tparam Message a message with a header.
-template <class Message>
+/// queue is bounded. @tparam EventType has a stamp; zero: the next tick.
+/// @tparam MessageType in which events are published.
+template <class EventType, class MessageType = EventType>
 class EventQueue {
  public:
-  using Event = Message;
+  using Event = EventType;
+  using Message = MessageType;
   static constexpr std::size_t MOST_WAITING = 10000;
 
   explicit EventQueue(bool replay) : replay_(replay) {}
@@ -71,13 +91,13 @@ class EventQueue {
     std::vector<Event> out;
     std::deque<Event> later;
     for (Event& event : waiting_) {
-      const Nanoseconds own = fromMsg(event.header.stamp);
+      const Nanoseconds own = stampOf(event);
       if (own > stamp) {
         later.push_back(std::move(event));
         continue;
       }
       if (replay_ && own < stamp) ++losses_.late;
-      event.header.stamp = toStamp(stamp);
+      setStamp(event, stamp);
       out.push_back(std::move(event));
     }
     waiting_ = std::move(later);

@@ -92,7 +92,6 @@ void CanopyAnimator::publishBeginning(Nanoseconds stamp) {
   for (CanopyEvent event :
        {reset, noViewerEvent(), settingsEvent<CanopyEvent>(tuning), windEvent(canopy_.windHash())}) {
     event.header.stamp = toStamp(stamp);
-    event.header.frame_id = options_.frame_id;
     publishEvent(event);
   }
 }

@@ -82,7 +82,6 @@ void AgentCrowd::publishBeginning(Nanoseconds stamp) {
   CrowdEvent event;
   event.kind = CrowdEvent::RESET;
   event.header.stamp = toStamp(stamp);
-  event.header.frame_id = options_.frame_id;
   publishEvent(event);
 }
 

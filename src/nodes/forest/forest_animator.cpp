@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "ros/conversions/grab_conversions.h"
 #include "vegetation_sim/ros/conversions/forest_conversions.h"
 #include "vegetation_sim/ros/conversions/wind_conversions.h"
 
@@ -75,13 +74,13 @@ void ForestAnimator::resetForest() {
   force_key_frame_ = true;
 }
 
-bool ForestAnimator::isOutdated(const ForestEvent& event) const {
-  return event.kind == ForestEvent::VIEWER || event.kind >= ForestEvent::GRAB;
+bool ForestAnimator::isOutdated(const ForestInput& event) const {
+  return event.kind == ForestInput::VIEWER || event.kind >= ForestInput::GRAB;
 }
 
 void ForestAnimator::restart() {
   resetForest();
-  grab_manager_.clear(true);
+  grab_manager_.clear();
   bodies_.clear();
   last_framed_.reset();
   publishLayout();
@@ -105,22 +104,12 @@ void ForestAnimator::tick(std::int64_t tick) {
   force_key_frame_ = false;
 }
 
-void ForestAnimator::apply(ForestEvent& event) {
-  try {
-    grab_manager_.aim(event);
-    applyToForest(event);
-    grab_manager_.applyDelta(event);
-  } catch (const InvalidInput&) {
-    grab_manager_.drop(event);
-    throw;
-  }
-}
-
-void ForestAnimator::applyToForest(const ForestEvent& event) {
+void ForestAnimator::apply(ForestInput& event) {
+  grab_manager_.followFrame(event);
   switch (event.kind) {
-    case ForestEvent::VIEWER: {
+    case ForestInput::VIEWER: {
       forest::Viewer viewer = fromMsg(event.viewer);
-      viewer.stamp = fromMsg(event.header.stamp);
+      viewer.stamp = event.stamp;
       const auto& known = forest_->snapshot().viewers;
       if (known.size() >= MOST_VIEWERS && !known.count(viewer.id))
         throw InvalidInput("viewer '" + viewer.id + "' is one more than the " +
@@ -128,7 +117,7 @@ void ForestAnimator::applyToForest(const ForestEvent& event) {
       forest_->setViewer(viewer);
       break;
     }
-    case ForestEvent::WIND: {
+    case ForestInput::WIND: {
       const wind::Field* wind = winds_.find(event.wind_hash);
       if (!wind)
         throw InvalidInput("wind_hash = " + std::to_string(event.wind_hash) +
@@ -136,10 +125,10 @@ void ForestAnimator::applyToForest(const ForestEvent& event) {
       forest_->setWind(*wind);
       break;
     }
-    case ForestEvent::SETTINGS:
+    case ForestInput::SETTINGS:
       applyTuning(tuningOf(event));
       break;
-    case ForestEvent::RESET:
+    case ForestInput::RESET:
       resetForest();
       break;
     default:
@@ -147,27 +136,28 @@ void ForestAnimator::applyToForest(const ForestEvent& event) {
   }
 }
 
-void ForestAnimator::applyInteraction(const ForestEvent& event) {
+void ForestAnimator::applyInteraction(const ForestInput& event) {
   switch (event.kind) {
-    case ForestEvent::GRAB:
-      forest_->addGrab(fromMsg(event.grab));
+    case ForestInput::GRAB:
+      forest_->addGrab(event.grab);
       break;
-    case ForestEvent::MOVE:
-      forest_->moveGrab(event.grab.id, fromMsg(event.grab.target));
+    case ForestInput::MOVE:
+      forest_->moveGrab(event.grab.id, event.grab.target, event.grab.holder);
       break;
-    case ForestEvent::RENEW:
+    case ForestInput::RENEW:
       forest_->renewGrab(event.grab.id);
       break;
-    case ForestEvent::RELEASE:
+    case ForestInput::RELEASE:
       forest_->release(event.grab.id);
       break;
-    case ForestEvent::FORCE:
-      forest_->push(fromMsg(event.force, fromMsg(event.header.stamp)));
+    case ForestInput::FORCE:
+      forest_->push(
+          {event.push.point, event.push.force, event.stamp + event.push.until, event.stamp});
       break;
-    case ForestEvent::BODY:
-      forest_->setBody(fromMsg(event.body));
+    case ForestInput::BODY:
+      forest_->setBody(event.body);
       break;
-    case ForestEvent::REMOVE_BODY:
+    case ForestInput::REMOVE_BODY:
       forest_->removeBody(event.body.id);
       break;
     default:
@@ -175,30 +165,29 @@ void ForestAnimator::applyInteraction(const ForestEvent& event) {
   }
 }
 
-// Bodies that have moved or appeared, and those whose frame tf no longer tells.
+// Bodies that have moved or appeared, and those without a recent transform.
 void ForestAnimator::followBodies(Nanoseconds stamp) {
   const std::vector<forest::Body> now = bodies_.update(stamp);
   const auto& known = forest_->bodies();
-  ForestEvent event;
-  event.kind = ForestEvent::BODY;
-  for (const RobotPart& part : options_.robot.parts) {
+  for (const forest::Body& part : options_.robot.parts) {
     const auto body = std::find_if(now.begin(), now.end(),
-                                   [&](const forest::Body& b) { return b.id == part.body.id; });
-    const auto old = known.find(part.body.id);
+                                   [&](const forest::Body& b) { return b.id == part.id; });
+    const auto old = known.find(part.id);
+    ForestInput event;
     if (body != now.end() && (old == known.end() || old->second.stamp != body->stamp)) {
-      event.body = toMsg(*body, part.in_frame);
+      event.kind = ForestInput::BODY;
+      event.body = *body;
       inputs_.addFirst(event);
     } else if (body == now.end() && old != known.end()) {
-      ForestEvent gone;
-      gone.kind = ForestEvent::REMOVE_BODY;
-      gone.body.id = part.body.id;
-      inputs_.addFirst(gone);
+      event.kind = ForestInput::REMOVE_BODY;
+      event.body.id = part.id;
+      inputs_.addFirst(event);
     }
   }
 }
 
 void ForestAnimator::updateGrabs() {
-  for (const forest::Grab& grab : grab_manager_.settle()) {
+  for (const forest::Grab& grab : grab_manager_.update()) {
     ++leases_ended_;
     ROS_WARN("forest_animator: grab %u ended: not moved or renewed for its lease of %g s", grab.id,
              grab.lease);

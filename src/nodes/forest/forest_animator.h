@@ -41,16 +41,15 @@ class ForestAnimator final : public EventNode<ForestInputs, ForestAnimatorConfig
   void onWind(const WindField& message);
   void onViewer(const Viewer& message) override;
   void showTuning(ForestAnimatorConfig& config) const override;
-  ForestEvent tuningEvent(const ForestAnimatorConfig& config) const override;
-  bool isOutdated(const ForestEvent& event) const override;
+  ForestInput tuningEvent(const ForestAnimatorConfig& config) const override;
+  bool isOutdated(const ForestInput& event) const override;
 
   // Time.
   void restart() override;
   void resetForest();
   void tick(std::int64_t tick) override;
-  void apply(ForestEvent& event) override;
-  void applyToForest(const ForestEvent& event);
-  void applyInteraction(const ForestEvent& event);
+  void apply(ForestInput& event) override;
+  void applyInteraction(const ForestInput& event);
   void updateGrabs();
   void followBodies(Nanoseconds stamp);
   void applyTuning(const ForestTuning& tuning);

@@ -34,8 +34,8 @@ void ForestAnimator::onWind(const WindField& message) {
   acceptInput("wind", [&] {
     checkFrame(message.header.frame_id, options_.frame_id);
     const wind::Field wind = fromMsg(message);
-    ForestEvent event;
-    event.kind = ForestEvent::WIND;
+    ForestInput event;
+    event.kind = ForestInput::WIND;
     event.wind_hash = wind.hash();
     winds_.keep(event.wind_hash, wind);
     enqueue(event);
@@ -45,8 +45,8 @@ void ForestAnimator::onWind(const WindField& message) {
 void ForestAnimator::onViewer(const Viewer& message) {
   acceptInput("viewer", [&] {
     fromMsg(message);  // checks it
-    ForestEvent event;
-    event.kind = ForestEvent::VIEWER;
+    ForestInput event;
+    event.kind = ForestInput::VIEWER;
     event.viewer = message;
     const std::string& frame = message.header.frame_id;
     if (!frame.empty() && frame != options_.frame_id)
@@ -61,10 +61,10 @@ void ForestAnimator::showTuning(ForestAnimatorConfig& config) const {
   config.transition = options_.tuning.transition;  // the only one that a scenario sets
 }
 
-ForestEvent ForestAnimator::tuningEvent(const ForestAnimatorConfig& config) const {
+ForestInput ForestAnimator::tuningEvent(const ForestAnimatorConfig& config) const {
   const ForestTuning tuning = fromConfig(config);
   check(tuning);
-  return settingsEvent<ForestEvent>(tuning);
+  return settingsEvent<ForestInput>(tuning);
 }
 
 }  // namespace vegetation_sim

@@ -5,20 +5,21 @@
 #include <algorithm>
 
 #include "core/config/field_values.h"
+#include "ros/conversions/grab_conversions.h"
 
 namespace vegetation_sim {
 namespace {
 
-bool isInteraction(const ForestEvent& event) {
-  return event.kind >= ForestEvent::GRAB;
+bool isInteraction(const ForestInput& input) {
+  return input.kind >= ForestInput::GRAB;
 }
 
-// Whether `event` makes the waiting event void.
-bool replaces(const ForestEvent& event, const ForestEvent& waiting) {
-  if (event.kind != waiting.kind) return false;
-  if (!isInteraction(event)) return event.viewer.id == waiting.viewer.id;
-  return (event.kind == ForestEvent::MOVE || event.kind == ForestEvent::RENEW) &&
-         event.header.stamp == waiting.header.stamp && event.grab.id == waiting.grab.id;
+// Whether `input` makes the waiting input void.
+bool replaces(const ForestInput& input, const ForestInput& waiting) {
+  if (input.kind != waiting.kind) return false;
+  if (!isInteraction(input)) return input.viewer.id == waiting.viewer.id;
+  return (input.kind == ForestInput::MOVE || input.kind == ForestInput::RENEW) &&
+         input.stamp == waiting.stamp && input.grab.id == waiting.grab.id;
 }
 
 }  // namespace
@@ -29,28 +30,83 @@ void describe(FieldVisitor& v, ForestTuning& t) {
   v.number("transition", t.transition, "s", {0.01, 60.0});
 }
 
-ForestTuning tuningOf(const ForestEvent& event) {
-  return fromNamedValues<ForestTuning>({event.names, event.values});
+ForestEvent eventToMsg(const ForestInput& input) {
+  ForestEvent out;
+  out.kind = input.kind;
+  out.header.stamp = toStamp(input.stamp);
+  out.viewer = input.viewer;
+  out.wind_hash = input.wind_hash;
+  out.names = input.names;
+  out.values = input.values;
+  switch (input.kind) {
+    case ForestInput::GRAB:
+      out.grab = toMsg(input.grab);
+      break;
+    case ForestInput::MOVE:
+      out.grab.target = toPoint(input.grab.target);
+      out.grab.holder = toMsg(input.grab.holder);
+      [[fallthrough]];
+    case ForestInput::RELEASE:
+    case ForestInput::RENEW:
+      out.grab.id = input.grab.id;
+      break;
+    case ForestInput::FORCE:
+      out.force = toMsg(input.push);
+      break;
+    case ForestInput::BODY:
+      out.body = toMsg(input.body);
+      break;
+    case ForestInput::REMOVE_BODY:
+      out.body.id = input.body.id;
+      break;
+    default:
+      break;
+  }
+  return out;
 }
 
-bool ForestInputs::add(const ForestEvent& event) {
+ForestInput eventFromMsg(const ForestEvent& message) {
+  ForestInput out;
+  out.kind = message.kind;
+  out.stamp = fromMsg(message.header.stamp);
+  out.viewer = message.viewer;
+  out.wind_hash = message.wind_hash;
+  out.names = message.names;
+  out.values = message.values;
+  out.grab = fromMsg(message.grab);
+  if (message.kind == ForestEvent::FORCE) out.push = fromMsg(message.force);
+  out.body = fromMsg(message.body);
+  return out;
+}
+
+ForestTuning tuningOf(const ForestInput& input) {
+  return fromNamedValues<ForestTuning>({input.names, input.values});
+}
+
+bool ForestInputs::add(const ForestInput& input) {
   if (replay_) return true;
-  for (ForestEvent& waiting : waiting_)
-    if (replaces(event, waiting)) {
-      waiting = event;
+  for (ForestInput& waiting : waiting_)
+    if (replaces(input, waiting)) {
+      waiting = input;
       return true;
     }
-  const bool bounded = isInteraction(event) || event.kind == ForestEvent::VIEWER;
+  const bool bounded = isInteraction(input) || input.kind == ForestInput::VIEWER;
   if (bounded && room() == 0) {
-    losses_.lost += event.kind == ForestEvent::VIEWER;  // a request gets an error instead
+    losses_.lost += input.kind == ForestInput::VIEWER;  // a request gets an error instead
     return false;
   }
-  waiting_.push_back(event);
+  waiting_.push_back(input);
   return true;
 }
 
+const forest::Grab* ForestInputs::waitingGrab(std::uint32_t id) const {
+  for (const ForestInput& input : waiting_)
+    if (input.kind == ForestInput::GRAB && input.grab.id == id) return &input.grab;
+  return nullptr;
+}
+
 void ForestInputs::forgetGrab(std::uint32_t id) {
-  forget([&](const ForestEvent& event) { return event.grab.id == id; });  // 0 in all other kinds
+  forget([&](const ForestInput& input) { return input.grab.id == id; });  // 0 in all other kinds
 }
 
 }  // namespace vegetation_sim

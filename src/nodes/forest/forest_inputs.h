@@ -4,6 +4,9 @@
 
 #include <vegetation_sim/ForestEvent.h>
 
+#include <string>
+#include <vector>
+
 #include "forest/forest.h"
 #include "nodes/base/event_queue.h"
 
@@ -18,19 +21,57 @@ struct ForestTuning {
 };
 void describe(FieldVisitor& visitor, ForestTuning& tuning);
 
-/// Names and values of the fields in an event. @throws InvalidInput for an unknown name or a value
-/// out of range.
-ForestTuning tuningOf(const ForestEvent& event);
+/// An accepted input of forest_animator and the tick at which it takes effect.
+struct ForestInput {
+  /// Values of ForestEvent::kind.
+  enum Kind : std::uint8_t {
+    VIEWER,
+    WIND,
+    SETTINGS,
+    RESET,
+    GRAB,
+    MOVE,
+    RELEASE,
+    FORCE,
+    BODY,
+    REMOVE_BODY,
+    RENEW
+  };
+  std::uint8_t kind{VIEWER};
+  Nanoseconds stamp{0};  ///< 0: the next tick
+  Viewer viewer;         ///< VIEWER: in the world frame
+  std::uint64_t wind_hash{0};
+  std::vector<std::string> names;  ///< SETTINGS: all fields of ForestTuning
+  std::vector<double> values;
+  forest::Grab grab;  ///< GRAB: all of it; MOVE: id, target and holder; RELEASE, RENEW: id
+  forest::Push push;  ///< FORCE: from 0 until its duration
+  forest::Body body;  ///< BODY: all of it; REMOVE_BODY: id
+};
+inline Nanoseconds stampOf(const ForestInput& input) {
+  return input.stamp;
+}
+inline void setStamp(ForestInput& input, Nanoseconds stamp) {
+  input.stamp = stamp;
+}
+ForestEvent eventToMsg(const ForestInput& input);
+/// @throws InvalidInput for a force whose duration is out of range.
+ForestInput eventFromMsg(const ForestEvent& message);
+
+/// Tuning from the names and values of an input. @throws InvalidInput for an unknown name or a
+/// value out of range.
+ForestTuning tuningOf(const ForestInput& input);
 
 /// The queue of forest_animator. An input replaces an earlier one that it makes void at its tick.
-class ForestInputs : public EventQueue<ForestEvent> {
+class ForestInputs : public EventQueue<ForestInput, ForestEvent> {
  public:
   using EventQueue::EventQueue;
 
   /// Of winds, settings, resets and the poses of one viewer only the last counts, as does the last
   /// move and the last renewal of a grab for the same stamp. Winds, settings and resets are added
   /// even if the queue is full. @return false if the queue is full.
-  bool add(const ForestEvent& event);
+  bool add(const ForestInput& input);
+  /// Returns a grab that waits for its tick; null if there is none.
+  const forest::Grab* waitingGrab(std::uint32_t id) const;
   /// Drops what waits about a grab.
   void forgetGrab(std::uint32_t id);
 };

@@ -16,10 +16,10 @@ namespace {
 constexpr double NEAREST_REACH = 2.0;    // [m] from a point to the branch that it means
 constexpr double LONGEST_NOTICE = 60.0;  // [s] a request may be that far ahead
 constexpr std::size_t MOST_GRABS = 256;  // waiting ones among them
-constexpr double STIFFNESS = 2000.0, DAMPING = 40.0, FORCE_LIMIT = 200.0;
 
-double orElse(double value, double otherwise) {
-  return value == 0.0 ? otherwise : value;
+// Zero in a request leaves the default.
+void setIfGiven(double value, double& field) {
+  if (value != 0.0) field = value;
 }
 
 void checkFinite(const char* name, Vec3 value, Range range) {
@@ -28,30 +28,30 @@ void checkFinite(const char* name, Vec3 value, Range range) {
   faults.throwIfAny();
 }
 
-geometry_msgs::TransformStamped lookUp(const GrabDependencies& room, const std::string& frame,
+geometry_msgs::TransformStamped lookUp(const GrabDependencies& node, const std::string& frame,
                                        const ros::Time& stamp, const char* name) {
   try {
-    return room.tf.lookupTransform(room.options.frame_id, frame, stamp);
+    return node.tf.lookupTransform(node.options.frame_id, frame, stamp);
   } catch (const tf2::TransformException& error) {
     throw InvalidInput(std::string(name) + " = '" + frame + "' is not known in '" +
-                       room.options.frame_id + "': " + error.what());
+                       node.options.frame_id + "': " + error.what());
   }
 }
 
 }  // namespace
 
 void GrabManager::requireLive() const {
-  if (room_.options.replay) throw InvalidInput("a replay follows its recorded events only");
-  if (room_.forest.snapshot().stamp == 0)
+  if (node_.options.replay) throw InvalidInput("a replay follows its recorded events only");
+  if (node_.forest.snapshot().stamp == 0)
     throw InvalidInput("no tick yet: the clock has not started");
 }
 
-ForestEvent GrabManager::eventAt(std::uint8_t kind, const ros::Time& stamp) const {
-  ForestEvent event;
+ForestInput GrabManager::eventAt(ForestInput::Kind kind, const ros::Time& stamp) const {
+  ForestInput event;
   event.kind = kind;
-  event.header.stamp = stamp;
+  event.stamp = fromMsg(stamp);
   if (stamp.isZero()) return event;
-  double ahead = secondsBetween(room_.forest.snapshot().stamp, fromMsg(stamp));
+  double ahead = secondsBetween(node_.forest.snapshot().stamp, fromMsg(stamp));
   Faults faults;
   FieldChecker("", faults)
       .number("stamp, ahead of the last tick,", ahead, "s", {0.0, LONGEST_NOTICE});
@@ -59,14 +59,14 @@ ForestEvent GrabManager::eventAt(std::uint8_t kind, const ros::Time& stamp) cons
   return event;
 }
 
-void GrabManager::enqueue(const ForestEvent& event) {
-  if (!room_.inputs.add(event))
+void GrabManager::enqueue(const ForestInput& event) {
+  if (!node_.inputs.add(event))
     throw InvalidInput(std::to_string(ForestInputs::MOST_WAITING) +
                        " inputs wait for the next tick already");
 }
 
 std::shared_ptr<const forest::Tree> GrabManager::grown(std::uint32_t tree) const {
-  const auto found = room_.cache.get(room_.forest.layout(), room_.forest.terrain(), tree);
+  const auto found = node_.cache.get(node_.forest.layout(), node_.forest.terrain(), tree);
   return {found, &found->tree};
 }
 
@@ -81,25 +81,30 @@ GrabManager::Place GrabManager::placeOf(std::uint32_t tree, std::uint32_t branch
   Faults faults;
   FieldChecker("", faults).number("along", along, "m", {0.0, branches[branch].length});
   faults.throwIfAny();
-  const Pose pose = room_.forest.pose(*found, tree, room_.forest.snapshot().stamp)[branch];
+  const Pose pose = node_.forest.pose(*found, tree, node_.forest.snapshot().stamp)[branch];
   return {{tree, static_cast<int>(branch), along},
           found->foot + pose.position + along * axisZ(pose.orientation)};
+}
+
+Vec3 GrabManager::pointOf(const forest::Grab& grab) const {
+  return placeOf(grab.point.tree, static_cast<std::uint32_t>(grab.point.branch), grab.point.along)
+      .point;
 }
 
 GrabManager::Place GrabManager::nearestTo(const geometry_msgs::PointStamped& stamped) const {
   const Vec3 point = inWorld(stamped, "point");
   const auto found = forest::nearestBranch(
-      room_.forest.layout(), room_.forest.terrain(), point, NEAREST_REACH,
+      node_.forest.layout(), node_.forest.terrain(), point, NEAREST_REACH,
       [&](std::uint32_t id) -> forest::PosedTree {
         const auto tree = grown(id);
-        return {tree, room_.forest.pose(*tree, id, room_.forest.snapshot().stamp)};
+        return {tree, node_.forest.pose(*tree, id, node_.forest.snapshot().stamp)};
       });
   if (!found) throw InvalidInput("no branch within 2 m of point");
   return {found->at, found->point};
 }
 
-template <class Request>
-GrabManager::Place GrabManager::choose(const Request& request) const {
+template <class ServiceRequest>
+GrabManager::Place GrabManager::choose(const ServiceRequest& request) const {
   if (request.nearest) return nearestTo(request.point);
   return placeOf(request.tree, request.branch, request.along);
 }
@@ -108,174 +113,171 @@ Vec3 GrabManager::inWorld(const geometry_msgs::PointStamped& stamped, const char
   const Vec3 point = fromMsg(stamped.point);
   checkFinite(name, point, {-1e7, 1e7});
   const std::string& frame = stamped.header.frame_id;
-  if (frame.empty() || frame == room_.options.frame_id) return point;
+  if (frame.empty() || frame == node_.options.frame_id) return point;
   const auto by =
-      lookUp(room_, frame, stamped.header.stamp, (std::string(name) + ".frame_id").c_str());
+      lookUp(node_, frame, stamped.header.stamp, (std::string(name) + ".frame_id").c_str());
   return transformed(fromMsg(by.transform), point);
 }
 
-// @return [m] from the point held to the target
-double GrabManager::checkTarget(const BranchGrab& grab, const Vec3& point) const {
-  double distance = length(fromMsg(grab.target) - point);
+// Returns the distance from the point held to the target [m].
+double GrabManager::checkTarget(const forest::Grab& grab, const Vec3& point) const {
+  double distance = length(grab.target - point);
   Faults faults;
   FieldChecker("", faults)
       .number("target, its distance from the point held,", distance, "m",
-              {0.0, room_.options.grab_distance});
+              {0.0, node_.options.grab_distance});
   faults.throwIfAny();
-  forest::checkTarget(*grown(grab.tree), fromMsg(grab.target));
+  forest::checkTarget(*grown(grab.point.tree), grab.target);
   return distance;
 }
 
-// Who asks ahead may find room by then.
+// A request for a later tick may find room by then.
 void GrabManager::checkRoom(const char* what, const Place& place, const ros::Time& stamp) const {
   if (stamp.isZero())
-    room_.forest.snapshot().physics.checkRoom(what, place.at.tree, place.at.branch);
+    node_.forest.snapshot().physics.checkRoom(what, place.at.tree, place.at.branch);
 }
 
-// Where its frame is, and the target in it. What tf last said of the frame must be younger than the
-// lease: a dead gripper holds nothing.
-void GrabManager::tie(const Vec3& point, Held& out) const {
-  BranchGrab& grab = out.grab;
-  const auto newest = lookUp(room_, grab.frame, ros::Time(0), "frame");
-  const Pose frame = fromMsg(newest.transform);
-  out.published = newest.header.stamp;
-  if (!out.published.isZero()) {  // else static
-    const double age = secondsBetween(fromMsg(out.published), room_.forest.snapshot().stamp);
+// Sets the holder's pose and the target from the grab's frame. The newest transform must be younger
+// than the lease: a gripper that is no longer reported holds nothing.
+void GrabManager::setByFrame(const Vec3& point, forest::Grab& grab, Request& request) const {
+  const auto newest = lookUp(node_, grab.frame, ros::Time(0), "frame");
+  request.published = newest.header.stamp;
+  if (!request.published.isZero()) {  // else static
+    const double age = secondsBetween(fromMsg(request.published), node_.forest.snapshot().stamp);
     if (age > grab.lease)
-      throw InvalidInput("frame = '" + grab.frame + "' was last told " + std::to_string(age) +
-                         " s ago, longer than the lease of " + std::to_string(grab.lease) + " s");
+      throw InvalidInput("frame = '" + grab.frame + "' has a transform that is " +
+                         std::to_string(age) + " s old, longer than the lease of " +
+                         std::to_string(grab.lease) + " s");
   }
-  if (out.keep_offset) grab.offset = toPoint(transformed(inverse(frame), point));
-  checkFinite("offset", fromMsg(grab.offset), {-1e3, 1e3});
-  grab.holder = toMsg(frame);
-  grab.target = toPoint(transformed(frame, fromMsg(grab.offset)));
+  grab.holder = fromMsg(newest.transform);
+  if (request.keep_offset) grab.offset = transformed(inverse(grab.holder), point);
+  checkFinite("offset", grab.offset, {-1e3, 1e3});
+  grab.target = transformed(grab.holder, grab.offset);
 }
 
 std::string GrabManager::grab(const Grab::Request& request, Grab::Response& response) {
   requireLive();
-  ForestEvent event = eventAt(ForestEvent::GRAB, request.stamp);
-  if (held_.size() >= MOST_GRABS)
-    throw InvalidInput("grabs = " + std::to_string(held_.size() + 1) + " is outside 0 to " +
+  ForestInput event = eventAt(ForestInput::GRAB, request.stamp);
+  if (requests_.size() >= MOST_GRABS)
+    throw InvalidInput("grabs = " + std::to_string(requests_.size() + 1) + " is outside 0 to " +
                        std::to_string(MOST_GRABS));
   const Place place = choose(request);
-  Held held;
-  held.begins = request.stamp;
-  held.keep_offset = request.keep_offset;
-  BranchGrab& grab = held.grab;
+  Request accepted{request.keep_offset != 0, event.stamp, ros::Time()};
+  forest::Grab& grab = event.grab;
   grab.id = last_id_ + 1;
-  grab.tree = place.at.tree;
-  grab.branch = static_cast<std::uint32_t>(place.at.branch);
-  grab.along = place.at.along;
-  grab.stiffness = orElse(request.stiffness, STIFFNESS);
-  grab.damping = orElse(request.damping, DAMPING);
-  grab.force_limit = orElse(request.force_limit, FORCE_LIMIT);
-  grab.lease = orElse(request.lease, room_.options.grab_lease);
+  grab.point = place.at;
+  grab.lease = node_.options.grab_lease;
   grab.frame = request.frame;
-  grab.offset = request.offset;
-  grab.holder.orientation.w = 1.0;
-  if (request.frame.empty())
-    grab.target = toPoint(inWorld(request.target, "target"));
-  else
-    tie(place.point, held);
+  setIfGiven(request.stiffness, grab.stiffness);
+  setIfGiven(request.damping, grab.damping);
+  setIfGiven(request.force_limit, grab.force_limit);
+  setIfGiven(request.lease, grab.lease);
+  if (grab.frame.empty()) {
+    grab.target = inWorld(request.target, "target");
+  } else {
+    grab.offset = fromMsg(request.offset);
+    setByFrame(place.point, grab, accepted);
+  }
   checkTarget(grab, place.point);
-  forest::checkGrab(room_.forest.layout(), *grown(grab.tree), fromMsg(grab));
+  forest::checkGrab(node_.forest.layout(), *grown(grab.point.tree), grab);
   checkRoom("grab", place, request.stamp);
-  event.grab = grab;
   enqueue(event);
-  held_[++last_id_] = held;
+  requests_[++last_id_] = accepted;
   response.id = last_id_;
-  response.tree = grab.tree;
-  response.branch = grab.branch;
-  response.along = grab.along;
+  response.tree = place.at.tree;
+  response.branch = static_cast<std::uint32_t>(place.at.branch);
+  response.along = place.at.along;
   response.point = toPoint(place.point);
   return "grab " + std::to_string(last_id_) + " of tree_" + std::to_string(response.tree) +
          "/branch_" + std::to_string(response.branch);
 }
 
-GrabManager::Held& GrabManager::find(std::uint32_t id) {
-  const auto found = held_.find(id);
-  if (found != held_.end()) return found->second;
+GrabManager::Request& GrabManager::find(std::uint32_t id) {
+  const auto found = requests_.find(id);
+  if (found != requests_.end()) return found->second;
   std::string known;
-  for (const auto& entry : held_)
+  for (const auto& entry : requests_)
     known += (known.empty() ? "" : ", ") + std::to_string(entry.first);
   throw InvalidInput(
       "id = " + std::to_string(id) +
       (known.empty() ? " is unknown; nothing is held" : " is unknown; held are " + known));
 }
 
-// A grab that takes hold after `stamp`, zero: after the next tick.
-bool GrabManager::waitsLonger(const Held& held, const ros::Time& stamp) {
-  return !held.in_force && !held.begins.isZero() && (stamp.isZero() || stamp < held.begins);
+const forest::Grab& GrabManager::grabOf(std::uint32_t id) const {
+  const auto found = node_.forest.grabs().find(id);
+  if (found != node_.forest.grabs().end()) return found->second;
+  if (const forest::Grab* waiting = node_.inputs.waitingGrab(id)) return *waiting;
+  throw InvalidInput("id = " + std::to_string(id) + " is over");
 }
 
 std::string GrabManager::move(const MoveGrab::Request& request, MoveGrab::Response& response) {
   requireLive();
-  Held& held = find(request.id);
-  ForestEvent event =
-      eventAt(request.renew_only ? ForestEvent::RENEW : ForestEvent::MOVE, request.stamp);
-  if (waitsLonger(held, request.stamp))
+  const Nanoseconds begins = find(request.id).begins;
+  ForestInput event =
+      eventAt(request.renew_only ? ForestInput::RENEW : ForestInput::MOVE, request.stamp);
+  if (!isInForce(request.id) && begins != 0 && (event.stamp == 0 || event.stamp < begins))
     throw InvalidInput("id = " + std::to_string(request.id) + " takes hold at " +
-                       std::to_string(held.begins.toSec()) + " s; allowed is a stamp from then on");
-  BranchGrab moved = held.grab;
+                       std::to_string(toStamp(begins).toSec()) +
+                       " s; allowed is a stamp from then on");
+  event.grab = grabOf(request.id);
+  forest::Grab& moved = event.grab;
   if (!request.renew_only) {
-    if (!held.grab.frame.empty())
-      throw InvalidInput("id = " + std::to_string(request.id) + " follows frame '" +
-                         held.grab.frame + "'; allowed is renew_only");
-    moved.target = toPoint(inWorld(request.target, "target"));
+    if (!moved.frame.empty())
+      throw InvalidInput("id = " + std::to_string(request.id) + " follows frame '" + moved.frame +
+                         "'; allowed is renew_only");
+    moved.target = inWorld(request.target, "target");
   }
-  const Place place = placeOf(moved.tree, moved.branch, moved.along);
-  const double distance = length(fromMsg(moved.target) - place.point);
-  response.distance = request.renew_only ? distance : checkTarget(moved, place.point);
-  response.point = toPoint(place.point);
-  for (const forest::Reaction& reaction : room_.forest.reactions())
+  const Vec3 point = pointOf(moved);
+  response.distance = request.renew_only ? length(moved.target - point) : checkTarget(moved, point);
+  response.point = toPoint(point);
+  for (const forest::Reaction& reaction : node_.forest.reactions())
     if (reaction.grab == request.id) response.force = toVector(reaction.force);
-  event.grab.id = moved.id;
-  event.grab.target = moved.target;
-  event.grab.holder = moved.holder;
   enqueue(event);
   return request.renew_only ? "lease renewed" : "moved";
 }
 
 std::string GrabManager::release(const Release::Request& request) {
   requireLive();
-  ForestEvent event = eventAt(ForestEvent::RELEASE, request.stamp);
+  ForestInput event = eventAt(ForestInput::RELEASE, request.stamp);
   if (!request.all) find(request.id);
   std::size_t count = 0;
-  for (auto entry = held_.begin(); entry != held_.end();) {
-    const auto& [id, held] = *entry;
-    const bool meant = request.all || id == request.id;
-    const bool never =  // takes hold
-        !held.in_force && (request.stamp.isZero() || request.stamp <= held.begins);
-    if (meant && never) room_.inputs.forgetGrab(id);
-    event.grab.id = id;
-    if (meant && !never) enqueue(event);
-    count += meant ? 1 : 0;
-    entry = meant && never ? held_.erase(entry) : std::next(entry);
+  for (auto entry = requests_.begin(); entry != requests_.end();) {
+    const auto [id, held] = *entry;
+    ++entry;
+    if (!request.all && id != request.id) continue;
+    ++count;
+    const bool never_begins = !isInForce(id) && (event.stamp == 0 || event.stamp <= held.begins);
+    if (never_begins) {
+      node_.inputs.forgetGrab(id);
+      requests_.erase(id);
+    } else {
+      event.grab.id = id;
+      enqueue(event);
+    }
   }
   return std::to_string(count) + " released";
 }
 
 std::string GrabManager::push(const ApplyForce::Request& request, ApplyForce::Response& response) {
   requireLive();
-  ForestEvent event = eventAt(ForestEvent::FORCE, request.stamp);
+  ForestInput event = eventAt(ForestInput::FORCE, request.stamp);
   const Place place = choose(request);
-  event.force.tree = place.at.tree;
-  event.force.branch = static_cast<std::uint32_t>(place.at.branch);
-  event.force.along = place.at.along;
-  event.force.force = request.force.vector;
-  event.force.duration = request.duration;
-  fromMsg(event.force, 0);  // checks it
+  BranchForce asked;
+  asked.duration = request.duration;
+  asked.force = request.force.vector;
+  event.push = fromMsg(asked);
+  event.push.point = place.at;
   const std::string& frame = request.force.header.frame_id;
-  if (!frame.empty() && frame != room_.options.frame_id) {
+  if (!frame.empty() && frame != node_.options.frame_id) {
     const Pose by =
-        fromMsg(lookUp(room_, frame, request.force.header.stamp, "force.frame_id").transform);
-    event.force.force = toVector(rotate(by.orientation, fromMsg(request.force.vector)));
+        fromMsg(lookUp(node_, frame, request.force.header.stamp, "force.frame_id").transform);
+    event.push.force = rotate(by.orientation, event.push.force);
   }
-  forest::checkPush(room_.forest.layout(), *grown(place.at.tree), fromMsg(event.force, 0));
+  forest::checkPush(node_.forest.layout(), *grown(place.at.tree), event.push);
   checkRoom("push", place, request.stamp);
   enqueue(event);
   response.tree = place.at.tree;
-  response.branch = event.force.branch;
+  response.branch = static_cast<std::uint32_t>(place.at.branch);
   response.along = place.at.along;
   response.point = toPoint(place.point);
   return "pushes tree_" + std::to_string(response.tree) + "/branch_" +

@@ -22,7 +22,7 @@
 
 namespace vegetation_sim {
 
-/// What a desk needs of its node.
+/// What GrabManager uses of its node.
 struct GrabDependencies {
   const ForestOptions& options;
   const forest::Forest& forest;
@@ -31,52 +31,48 @@ struct GrabDependencies {
   const tf2_ros::Buffer& tf;
 };
 
-/// Takes requests to grab, move, release and push, checks them and makes them events of the next
-/// tick; moves the grabs that follow a tf frame; tells the wrenches on those who hold.
+/// Checks requests to grab, move, release and push, and queues them as events; moves the grabs that
+/// follow a tf frame; reports the wrenches on the bodies that hold or touch branches. A grab itself
+/// is an event until its tick and then an entry of Forest::grabs().
 class GrabManager {
  public:
-  explicit GrabManager(GrabDependencies room) : room_(room) {}
+  explicit GrabManager(GrabDependencies node) : node_(node) {}
 
-  // Bodies of the services; what they return is their message. All throw InvalidInput, and then
-  // nothing has changed.
+  // Bodies of the services; each returns its message. All throw InvalidInput, and then nothing has
+  // changed.
   std::string grab(const Grab::Request& request, Grab::Response& response);
   std::string move(const MoveGrab::Request& request, MoveGrab::Response& response);
   std::string release(const Release::Request& request);
   std::string push(const ApplyForce::Request& request, ApplyForce::Response& response);
 
-  /// Before the tick `stamp`: moves every grab whose frame tf has told anew since the last call.
-  /// Told of what keeps a frame from being followed: its name and why.
+  /// Before the tick `stamp`: moves every grab whose frame has a new transform since the last call.
+  /// Calls `report` with the name and the fault of each frame that cannot be followed.
   using Report = std::function<void(const std::string&, const std::string&)>;
   void follow(Nanoseconds stamp, const Report& report);
-  /// Before the forest takes an event: a grab that is tied to a frame begins where that is by now.
-  /// @throws InvalidInput if tf does not tell it any more, or it is too far away.
-  void aim(ForestEvent& event);
-  /// An event that the forest has taken.
-  void applyDelta(const ForestEvent& event);
-  /// One that it refused: a grab that waited for it is over.
-  void drop(const ForestEvent& event);
-  /// After a tick: forgets grabs that are over. @return those that ended by themselves.
-  std::vector<forest::Grab> settle();
-  /// All that is in force, or what only waits too.
-  void clear(bool waiting_too);
+  /// Before the forest applies an event: a grab with a frame begins where that is now.
+  /// @throws InvalidInput if tf has no recent transform, or it is too far away.
+  void followFrame(ForestInput& event);
+  /// After a tick: forgets grabs that are over. Returns those that their lease has ended.
+  std::vector<forest::Grab> update();
+  /// Forgets all grabs.
+  void clear();
 
-  /// On every body that holds or touches a branch, at the last tick, in its frame. Held by nobody's
-  /// frame: world axes, about the point held.
+  /// Wrenches at the last tick on every body that holds or touches a branch, in its frame. Without
+  /// a frame: in world axes, about the point held.
   std::vector<geometry_msgs::WrenchStamped> wrenches() const;
-  /// Grabs of a tree, those in force.
+  /// Grabs in force of a tree.
   std::vector<BranchGrab> grabsOf(std::uint32_t tree) const;
-  /// Branches that are held.
+  /// Points of the grabs in force.
   std::vector<forest::BranchPoint> heldPoints() const;
-  /// Grabs whose frame was not told anew at the last tick.
+  /// Number of grabs whose frame had no new transform at the last tick.
   std::size_t silent() const { return silent_; }
 
  private:
-  struct Held {
-    BranchGrab grab;
-    bool in_force{false};
+  /// What is known of a requested grab besides the grab itself.
+  struct Request {
     bool keep_offset{false};
-    ros::Time begins;     ///< zero: at the next tick
-    ros::Time published;  ///< newest transform used
+    Nanoseconds begins{0};  ///< 0: at the next tick
+    ros::Time published;    ///< newest transform of its frame that was used
   };
   struct Place {
     forest::BranchPoint at;
@@ -84,26 +80,25 @@ class GrabManager {
   };
   std::shared_ptr<const forest::Tree> grown(std::uint32_t tree) const;
   Place placeOf(std::uint32_t tree, std::uint32_t branch, double along) const;
+  Vec3 pointOf(const forest::Grab& grab) const;
   Place nearestTo(const geometry_msgs::PointStamped& point) const;
-  template <class Request>
-  Place choose(const Request& request) const;
+  template <class ServiceRequest>
+  Place choose(const ServiceRequest& request) const;
   Vec3 inWorld(const geometry_msgs::PointStamped& point, const char* name) const;
-  void tie(const Vec3& point, Held& out) const;
-  double checkTarget(const BranchGrab& grab, const Vec3& point) const;
+  void setByFrame(const Vec3& point, forest::Grab& grab, Request& request) const;
+  double checkTarget(const forest::Grab& grab, const Vec3& point) const;
   void checkRoom(const char* what, const Place& place, const ros::Time& stamp) const;
-  static bool waitsLonger(const Held& held, const ros::Time& stamp);
-  bool followOne(Held& held, Nanoseconds stamp);
-  Held& find(std::uint32_t id);
-  std::map<std::uint32_t, Held>::iterator forget(std::map<std::uint32_t, Held>::iterator entry);
-  ForestEvent eventAt(std::uint8_t kind, const ros::Time& stamp) const;
-  void enqueue(const ForestEvent& event);
+  bool isInForce(std::uint32_t id) const { return node_.forest.grabs().count(id) > 0; }
+  bool followOne(const forest::Grab& grab, Request& request, Nanoseconds stamp);
+  Request& find(std::uint32_t id);
+  const forest::Grab& grabOf(std::uint32_t id) const;
+  ForestInput eventAt(ForestInput::Kind kind, const ros::Time& stamp) const;
+  void enqueue(const ForestInput& event);
   void requireLive() const;
   Pose frameOf(const forest::Reaction& reaction) const;
 
-  GrabDependencies room_;
-  std::map<std::uint32_t, Held> held_;        // waiting ones among them
-  std::map<std::uint32_t, Pose> gone_;        // holders of grabs that are over, still told
-  std::map<std::string, ForestBody> bodies_;  // by id, as last told
+  GrabDependencies node_;
+  std::map<std::uint32_t, Request> requests_;  // by id, of grabs that wait or are in force
   std::uint32_t last_id_{0};
   std::size_t silent_{0};
 };

@@ -5,17 +5,11 @@
 #include <algorithm>
 
 #include "forest/contact/contact_body.h"
+#include "vegetation_sim/ros/conversions/geometry_conversions.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
 
 namespace vegetation_sim {
 namespace {
-
-Pose worldPose(const geometry_msgs::Transform& frame, const Pose& in_frame) {
-  const auto& t = frame.translation;
-  const auto& r = frame.rotation;
-  const Quat turn{r.w, r.x, r.y, r.z};
-  return {Vec3(t.x, t.y, t.z) + rotate(turn, in_frame.position), turn * in_frame.orientation};
-}
 
 bool isSame(const Pose& a, const Pose& b) {
   const Quat &p = a.orientation, &q = b.orientation;
@@ -31,9 +25,9 @@ bool isSound(const forest::Body& body) {
 }  // namespace
 
 RobotBodies::RobotBodies(const ros::NodeHandle& nh, std::string frame_id,
-                         std::vector<RobotPart> parts)
+                         std::vector<forest::Body> parts)
     : frame_id_(std::move(frame_id)) {
-  for (RobotPart& part : parts) followed_.push_back({std::move(part), {}});
+  for (forest::Body& part : parts) followed_.push_back({std::move(part), {}});
   if (!followed_.empty()) listener_ = std::make_unique<tf2_ros::TransformListener>(buffer_, nh);
 }
 
@@ -44,10 +38,10 @@ void RobotBodies::clear() {
 }
 
 bool RobotBodies::sample(Followed& followed, Nanoseconds now) {
-  forest::Body body = followed.part.body;
+  forest::Body body = followed.part;
   try {
     const auto found = buffer_.lookupTransform(frame_id_, body.frame, ros::Time(0));
-    body.pose = worldPose(found.transform, followed.part.in_frame);
+    body.pose = compose(fromMsg(found.transform), body.in_frame);
     // What only static transforms connect has no stamp: it is there now, and told once.
     const Nanoseconds stamp = fromMsg(found.header.stamp);
     if (stamp == 0 && followed.last && isSame(followed.last->pose, body.pose)) return true;
@@ -76,7 +70,7 @@ std::vector<forest::Body> RobotBodies::update(Nanoseconds now) {
       continue;
     }
     followed.last.reset();
-    const std::string& frame = followed.part.body.frame;
+    const std::string& frame = followed.part.frame;
     if (std::find(missing_.begin(), missing_.end(), frame) == missing_.end())
       missing_.push_back(frame);
   }

@@ -15,15 +15,9 @@
 
 namespace vegetation_sim {
 
-/// A simple shape that is fixed in a tf frame.
-struct RobotPart {
-  forest::Body body;  ///< id, frame, shape and size
-  Pose in_frame;
-};
-
 /// Parts of a robot, and what of it cannot touch anything.
 struct RobotParts {
-  std::vector<RobotPart> parts;
+  std::vector<forest::Body> parts;    ///< id, frame, shape, size and in_frame
   std::vector<std::string> left_out;  ///< links whose collision geometry is a mesh
 };
 /// Most parts in all.
@@ -43,7 +37,7 @@ RobotParts readRobotParts(const ros::NodeHandle& private_handle, Parameters& par
 /// Follows the parts' frames. The node asks at each tick; nobody else looks up tf for them.
 class RobotBodies {
  public:
-  RobotBodies(const ros::NodeHandle& nh, std::string frame_id, std::vector<RobotPart> parts);
+  RobotBodies(const ros::NodeHandle& nh, std::string frame_id, std::vector<forest::Body> parts);
 
   /// Bodies as tf knows them last, with the velocity between the last two samples.
   std::vector<forest::Body> update(Nanoseconds now);
@@ -54,7 +48,7 @@ class RobotBodies {
 
  private:
   struct Followed {
-    RobotPart part;
+    forest::Body part;
     std::optional<forest::Body> last;
   };
   bool sample(Followed& followed, Nanoseconds now);

@@ -62,21 +62,20 @@ bool setShape(const urdf::Geometry& geometry, forest::Body& body) {
 void addLink(const urdf::Link& link, const std::string& prefix, RobotParts& out) {
   for (std::size_t i = 0; i < link.collision_array.size(); ++i) {
     const urdf::Collision& collision = *link.collision_array[i];
-    RobotPart part;
-    part.body.id = prefix + link.name + (i ? "_" + std::to_string(i) : "");
-    part.body.frame = prefix + link.name;
+    forest::Body part;
+    part.id = prefix + link.name + (i ? "_" + std::to_string(i) : "");
+    part.frame = prefix + link.name;
     part.in_frame = fromUrdf(collision.origin);
-    if (collision.geometry && setShape(*collision.geometry, part.body))
+    if (collision.geometry && setShape(*collision.geometry, part))
       out.parts.push_back(part);
     else
       out.left_out.push_back(link.name);
   }
 }
 
-RobotPart readPart(YamlSection section) {
+forest::Body readPart(YamlSection section) {
   const Range sizes{forest::SMALLEST_BODY, forest::LARGEST_BODY};
-  RobotPart out;
-  forest::Body& body = out.body;
+  forest::Body body;
   section.text("frame", body.frame);
   body.id = body.frame;
   section.text("id", body.id);
@@ -90,13 +89,13 @@ RobotPart readPart(YamlSection section) {
       section.number("length", body.size.z(), "m", {0.0, forest::LARGEST_BODY});
   }
   Vec3 angles = Vec3::Zero();
-  section.vector("position", out.in_frame.position, "m", {-1000.0, 1000.0});
+  section.vector("position", body.in_frame.position, "m", {-1000.0, 1000.0});
   section.vector("rotation", angles, "rad", {-2.0 * PI, 2.0 * PI});
-  out.in_frame.orientation = fromAngles(angles);
+  body.in_frame.orientation = fromAngles(angles);
   if (body.frame.empty() || body.frame[0] == '/')
     section.fault("frame", "= '" + body.frame + "' is empty or begins with '/'");
   section.finish();
-  return out;
+  return body;
 }
 
 void readList(const ros::NodeHandle& handle, Parameters& parameters, RobotParts& out) {
@@ -139,10 +138,9 @@ RobotParts readRobotParts(const ros::NodeHandle& private_handle, Parameters& par
   readList(private_handle, parameters, out);
   readRobot(private_handle, parameters, out);
   std::set<std::string> ids;
-  for (const RobotPart& part : out.parts) {
-    forest::check(part.body, parameters.faults());
-    if (!ids.insert(part.body.id).second)
-      parameters.fault("bodies", "names '" + part.body.id + "' twice");
+  for (const forest::Body& part : out.parts) {
+    forest::check(part, parameters.faults());
+    if (!ids.insert(part.id).second) parameters.fault("bodies", "names '" + part.id + "' twice");
   }
   if (out.parts.size() > MOST_PARTS)
     parameters.fault("bodies", "are " + std::to_string(out.parts.size()) + " parts, allowed are " +

@@ -13,7 +13,6 @@ void GrassField::publishEntering(Nanoseconds stamp) {
   GrassEvent event;
   event.kind = GrassEvent::ENTER;
   event.header.stamp = toStamp(stamp);
-  event.header.frame_id = options_.frame_id;
   for (const grass::Entering& entering : field_->advance(stamp)) {
     event.source = entering.source;
     event.column = static_cast<std::uint32_t>(entering.column);

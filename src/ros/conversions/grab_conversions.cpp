@@ -2,16 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/conversions/grab_conversions.h"
 
-#include "forest/contact/contact_body.h"
 #include "vegetation_sim/core/config/fields.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
 
 namespace vegetation_sim {
-namespace {
-
-constexpr Range POSITIONS{-1e7, 1e7};  // [m]
-
-}  // namespace
 
 forest::Grab fromMsg(const BranchGrab& message) {
   forest::Grab out;
@@ -23,15 +17,8 @@ forest::Grab fromMsg(const BranchGrab& message) {
   out.force_limit = message.force_limit;
   out.lease = message.lease;
   out.frame = message.frame;
-  Faults faults;
-  FieldChecker checker("", faults);
-  checker.vector("target", out.target, "m", POSITIONS);
-  checker.number("along", out.point.along, "m", {0.0, 1e4});
-  checker.number("stiffness", out.stiffness, "N/m", {1.0, 1e6});
-  checker.number("damping", out.damping, "N s/m", {0.0, 1e5});
-  checker.number("force_limit", out.force_limit, "N", {0.01, 1e5});
-  checker.number("lease", out.lease, "s", {0.1, 3600.0});
-  faults.throwIfAny();
+  out.offset = fromMsg(message.offset);
+  out.holder = fromMsg(message.holder);
   return out;
 }
 
@@ -47,23 +34,30 @@ BranchGrab toMsg(const forest::Grab& grab) {
   out.force_limit = grab.force_limit;
   out.lease = grab.lease;
   out.frame = grab.frame;
-  out.holder.orientation.w = 1.0;
+  out.offset = toPoint(grab.offset);
+  out.holder = toMsg(grab.holder);
   return out;
 }
 
-forest::Push fromMsg(const BranchForce& message, Nanoseconds start) {
+forest::Push fromMsg(const BranchForce& message) {
   forest::Push out;
   out.point = {message.tree, static_cast<int>(message.branch), message.along};
   out.force = fromMsg(message.force);
   double duration = message.duration;
   Faults faults;
-  FieldChecker checker("", faults);
-  checker.vector("force", out.force, "N", {-1e5, 1e5});
-  checker.number("along", out.point.along, "m", {0.0, 1e4});
-  checker.number("duration", duration, "s", {0.001, 3600.0});
+  FieldChecker("", faults).number("duration", duration, "s", {0.001, 3600.0});
   faults.throwIfAny();
-  out.from = start;
-  out.until = start + fromSeconds(duration);
+  out.until = fromSeconds(duration);
+  return out;
+}
+
+BranchForce toMsg(const forest::Push& push) {
+  BranchForce out;
+  out.tree = push.point.tree;
+  out.branch = static_cast<std::uint32_t>(push.point.branch);
+  out.along = push.point.along;
+  out.force = toVector(push.force);
+  out.duration = secondsBetween(push.from, push.until);
   return out;
 }
 
@@ -77,19 +71,17 @@ forest::Body fromMsg(const ForestBody& message) {
   out.velocity = fromMsg(message.twist.linear);
   out.spin = fromMsg(message.twist.angular);
   out.stamp = fromMsg(message.stamp);
-  Faults faults;
-  forest::check(out, faults);
-  faults.throwIfAny();
+  out.in_frame = fromMsg(message.offset);
   return out;
 }
 
-ForestBody toMsg(const forest::Body& body, const Pose& in_frame) {
+ForestBody toMsg(const forest::Body& body) {
   ForestBody out;
   out.id = body.id;
   out.frame = body.frame;
   out.shape = static_cast<std::uint8_t>(body.shape);
   out.size = toVector(body.size);
-  out.offset = toMsg(in_frame);
+  out.offset = toMsg(body.in_frame);
   out.pose = toMsg(body.pose);
   out.twist.linear = toVector(body.velocity);
   out.twist.angular = toVector(body.spin);

@@ -11,19 +11,15 @@
 
 namespace vegetation_sim {
 
-/// @throws InvalidInput with all values that are not finite or out of range.
 forest::Grab fromMsg(const BranchGrab& message);
-/// `holder` and `offset` are left to the sender.
 BranchGrab toMsg(const forest::Grab& grab);
 
-/// @param start tick at which it begins. @throws InvalidInput
-forest::Push fromMsg(const BranchForce& message, Nanoseconds start);
+/// A push from 0 until its duration. @throws InvalidInput for a duration out of range.
+forest::Push fromMsg(const BranchForce& message);
+BranchForce toMsg(const forest::Push& push);
 
-/// @throws InvalidInput for an unknown shape or numbers that are not finite.
 forest::Body fromMsg(const ForestBody& message);
-
-/// @param in_frame pose of the body in its frame.
-ForestBody toMsg(const forest::Body& body, const Pose& in_frame);
+ForestBody toMsg(const forest::Body& body);
 
 /// Force and torque of a reaction as geometry_msgs/Wrench wants them: in the axes of `frame` (world
 /// pose) and about its origin.

@@ -65,10 +65,11 @@ class GrabManagerRig {
     out.transform.rotation.y = q.y, out.transform.rotation.z = q.z;
     tf_.setTransform(out, "test");
   }
-  void report(const forest::Body& body, const Pose& in_frame) {
-    ForestEvent event;
-    event.kind = ForestEvent::BODY;
-    event.body = toMsg(body, in_frame);
+  void report(forest::Body body, const Pose& in_frame) {
+    ForestInput event;
+    event.kind = ForestInput::BODY;
+    event.body = body;
+    event.body.in_frame = in_frame;
     inputs_.addFirst(event);
   }
   std::uint32_t grab(const Grab::Request& request) {
@@ -82,16 +83,15 @@ class GrabManagerRig {
     grabs_manager_.follow(now(), [](const std::string& what, const std::string& why) {
       ADD_FAILURE() << what << ": " << why;
     });
-    for (ForestEvent& event : inputs_.take(now())) {
-      grabs_manager_.aim(event);
-      if (event.kind == ForestEvent::GRAB) forest_.addGrab(fromMsg(event.grab));
-      if (event.kind == ForestEvent::MOVE)
-        forest_.moveGrab(event.grab.id, fromMsg(event.grab.target));
-      if (event.kind == ForestEvent::BODY) forest_.setBody(fromMsg(event.body));
-      grabs_manager_.applyDelta(event);
+    for (ForestInput& event : inputs_.take(now())) {
+      grabs_manager_.followFrame(event);
+      if (event.kind == ForestInput::GRAB) forest_.addGrab(event.grab);
+      if (event.kind == ForestInput::MOVE)
+        forest_.moveGrab(event.grab.id, event.grab.target, event.grab.holder);
+      if (event.kind == ForestInput::BODY) forest_.setBody(event.body);
     }
     forest_.advance(now());
-    grabs_manager_.settle();
+    grabs_manager_.update();
   }
   std::vector<geometry_msgs::WrenchStamped> wrenches() const { return grabs_manager_.wrenches(); }
 

@@ -19,9 +19,9 @@ namespace {
 using forest::Body;
 using forest::Shape;
 
-const RobotPart* find(const RobotParts& parts, const std::string& id) {
-  for (const RobotPart& part : parts.parts)
-    if (part.body.id == id) return &part;
+const forest::Body* find(const RobotParts& parts, const std::string& id) {
+  for (const forest::Body& part : parts.parts)
+    if (part.id == id) return &part;
   return nullptr;
 }
 
@@ -67,11 +67,11 @@ TEST_F(RobotBodiesTest, ListIsRead) {
   setBody(body);
   const RobotParts found = read();
   ASSERT_EQ(found.parts.size(), 1u);
-  const RobotPart& part = found.parts[0];
-  EXPECT_EQ(part.body.id, "boom");
-  EXPECT_EQ(part.body.frame, "boom_link");
-  EXPECT_EQ(part.body.shape, static_cast<int>(Shape::CAPSULE));
-  EXPECT_EQ(part.body.size, Vec3(0.05, 0.0, 2.0));
+  const forest::Body& part = found.parts[0];
+  EXPECT_EQ(part.id, "boom");
+  EXPECT_EQ(part.frame, "boom_link");
+  EXPECT_EQ(part.shape, static_cast<int>(Shape::CAPSULE));
+  EXPECT_EQ(part.size, Vec3(0.05, 0.0, 2.0));
   EXPECT_EQ(part.in_frame.position, Vec3(0.0, 0.5, 1.0));
   EXPECT_NEAR(length(axisZ(part.in_frame.orientation) + Vec3::UnitY()), 0.0, 1e-12);
 }
@@ -92,20 +92,20 @@ TEST_F(RobotBodiesTest, CollisionGeometryOfAUrdfIsRead) {
   handle_.setParam("robot_frame_prefix", "r1/");
   const RobotParts found = read();
   ASSERT_EQ(found.parts.size(), 4u);
-  const RobotPart* base = find(found, "r1/base");
-  const RobotPart* arm = find(found, "r1/arm");
-  const RobotPart* hand = find(found, "r1/arm_1");
-  const RobotPart* wheel = find(found, "r1/wheel");
+  const forest::Body* base = find(found, "r1/base");
+  const forest::Body* arm = find(found, "r1/arm");
+  const forest::Body* hand = find(found, "r1/arm_1");
+  const forest::Body* wheel = find(found, "r1/wheel");
   ASSERT_TRUE(base && arm && hand && wheel);
-  EXPECT_EQ(base->body.shape, static_cast<int>(Shape::BOX));
-  EXPECT_EQ(base->body.size, Vec3(0.8, 0.6, 0.4));
+  EXPECT_EQ(base->shape, static_cast<int>(Shape::BOX));
+  EXPECT_EQ(base->size, Vec3(0.8, 0.6, 0.4));
   EXPECT_EQ(base->in_frame.position, Vec3(0.0, 0.0, 0.2));
-  EXPECT_EQ(arm->body.frame, "r1/arm");
-  EXPECT_EQ(arm->body.shape, static_cast<int>(Shape::CAPSULE));
-  EXPECT_NEAR(length(arm->body.size - Vec3(0.05, 0.0, 0.9)), 0.0, 1e-12);
+  EXPECT_EQ(arm->frame, "r1/arm");
+  EXPECT_EQ(arm->shape, static_cast<int>(Shape::CAPSULE));
+  EXPECT_NEAR(length(arm->size - Vec3(0.05, 0.0, 0.9)), 0.0, 1e-12);
   EXPECT_NEAR(length(axisZ(arm->in_frame.orientation) - Vec3::UnitX()), 0.0, 1e-12);
-  EXPECT_EQ(hand->body.shape, static_cast<int>(Shape::SPHERE));
-  EXPECT_EQ(wheel->body.shape, static_cast<int>(Shape::BOX));
+  EXPECT_EQ(hand->shape, static_cast<int>(Shape::SPHERE));
+  EXPECT_EQ(wheel->shape, static_cast<int>(Shape::BOX));
   EXPECT_EQ(found.left_out, std::vector<std::string>{"camera"});
 }
 
@@ -129,9 +129,9 @@ class Following : public testing::Test {
  protected:
   Following() : bodies_(ros::NodeHandle(), "map", {part()}) {}
 
-  static RobotPart part() {
-    RobotPart out;
-    out.body.id = out.body.frame = "hand";
+  static forest::Body part() {
+    forest::Body out;
+    out.id = out.frame = "hand";
     out.in_frame.position = Vec3(0.0, 0.0, 1.0);
     return out;
   }

@@ -4,17 +4,15 @@
 
 #include <gtest/gtest.h>
 
-#include "vegetation_sim/ros/conversions/stamps.h"
-
 namespace vegetation_sim {
 namespace {
 
 constexpr Nanoseconds TICK = NANOSECONDS_PER_SECOND / 25;
 
-ForestEvent resetAt(std::int64_t tick) {
-  ForestEvent out;
-  out.kind = ForestEvent::RESET;
-  out.header.stamp = toStamp(tick * TICK);
+ForestInput resetAt(std::int64_t tick) {
+  ForestInput out;
+  out.kind = ForestInput::RESET;
+  out.stamp = tick * TICK;
   return out;
 }
 
@@ -41,8 +39,8 @@ TEST(ForestInputs, CountEventsAboveTheLimit) {
 
 TEST(ForestInputs, CountViewersAboveTheLimit) {
   ForestInputs inputs(false);
-  ForestEvent event;
-  event.kind = ForestEvent::VIEWER;
+  ForestInput event;
+  event.kind = ForestInput::VIEWER;
   for (std::size_t i = 0; i < ForestInputs::MOST_WAITING + 2; ++i) {
     event.viewer.id = std::to_string(i);
     EXPECT_EQ(inputs.add(event), i < ForestInputs::MOST_WAITING);
@@ -53,23 +51,23 @@ TEST(ForestInputs, CountViewersAboveTheLimit) {
 // N6: a flood of requests for later stamps blocks neither the wind nor the node's own events.
 TEST(ForestInputs, AcceptTheNodesOwnEventsInAFlood) {
   ForestInputs inputs(false);
-  ForestEvent force;
-  force.kind = ForestEvent::FORCE;
-  force.header.stamp = toStamp(100 * TICK);
+  ForestInput force;
+  force.kind = ForestInput::FORCE;
+  force.stamp = 100 * TICK;
   for (std::size_t i = 0; i < ForestInputs::MOST_WAITING; ++i) EXPECT_TRUE(inputs.add(force));
   EXPECT_FALSE(inputs.add(force));
-  ForestEvent body;
-  body.kind = ForestEvent::BODY;
+  ForestInput body;
+  body.kind = ForestInput::BODY;
   inputs.addFirst(body);
-  for (const std::uint8_t kind : {ForestEvent::WIND, ForestEvent::SETTINGS, ForestEvent::RESET}) {
-    ForestEvent event;
+  for (const std::uint8_t kind : {ForestInput::WIND, ForestInput::SETTINGS, ForestInput::RESET}) {
+    ForestInput event;
     event.kind = kind;
     EXPECT_TRUE(inputs.add(event));
   }
   std::vector<int> kinds;
-  for (const ForestEvent& event : inputs.take(TICK)) kinds.push_back(event.kind);
-  EXPECT_EQ(kinds, (std::vector<int>{ForestEvent::BODY, ForestEvent::WIND, ForestEvent::SETTINGS,
-                                     ForestEvent::RESET}));
+  for (const ForestInput& event : inputs.take(TICK)) kinds.push_back(event.kind);
+  EXPECT_EQ(kinds, (std::vector<int>{ForestInput::BODY, ForestInput::WIND, ForestInput::SETTINGS,
+                                     ForestInput::RESET}));
   EXPECT_EQ(inputs.losses().lost, 0u);
   EXPECT_EQ(inputs.take(100 * TICK).size(), ForestInputs::MOST_WAITING);
 }
@@ -77,23 +75,23 @@ TEST(ForestInputs, AcceptTheNodesOwnEventsInAFlood) {
 // N3: the last move of a grab at a tick counts. A renewal does not change it.
 TEST(ForestInputs, RenewalsLeaveMovesAlone) {
   ForestInputs inputs(false);
-  ForestEvent move;
-  move.kind = ForestEvent::MOVE;
+  ForestInput move;
+  move.kind = ForestInput::MOVE;
   move.grab.id = 1;
-  move.grab.target.x = 1.0;
+  move.grab.target.x() = 1.0;
   inputs.add(move);
-  move.grab.target.x = 2.0;
+  move.grab.target.x() = 2.0;
   inputs.add(move);
-  ForestEvent renewal;
-  renewal.kind = ForestEvent::RENEW;
+  ForestInput renewal;
+  renewal.kind = ForestInput::RENEW;
   renewal.grab.id = 1;
   inputs.add(renewal);
   inputs.add(renewal);
-  const std::vector<ForestEvent> taken = inputs.take(TICK);
+  const std::vector<ForestInput> taken = inputs.take(TICK);
   ASSERT_EQ(taken.size(), 2u);
-  EXPECT_EQ(taken[0].kind, ForestEvent::MOVE);
-  EXPECT_EQ(taken[0].grab.target.x, 2.0);
-  EXPECT_EQ(taken[1].kind, ForestEvent::RENEW);
+  EXPECT_EQ(taken[0].kind, ForestInput::MOVE);
+  EXPECT_EQ(taken[0].grab.target.x(), 2.0);
+  EXPECT_EQ(taken[1].kind, ForestInput::RENEW);
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ TEST(ForestRanges, SettingsSurviveTheirEvent) {  // N6
   tuning.settings = {2.5, 4, 5, 0.1, 2.0, {4.0, 1000, 3, 10.0, 11.0, 1000.0}};
   tuning.design = {0.5, 1.5, 0.0, 1.25, 2.0};
   tuning.transition = 7.0;
-  const auto event = settingsEvent<ForestEvent>(tuning);
+  const auto event = settingsEvent<ForestInput>(tuning);
   ForestTuning back = tuningOf(event);
   Declared sent, received;
   describe(sent, tuning);
@@ -39,8 +39,8 @@ TEST(ForestRanges, SettingsSurviveTheirEvent) {  // N6
 }
 
 TEST(ForestRanges, EventsOfBadSettingsAreRefused) {
-  const auto event = settingsEvent<ForestEvent>(ForestTuning());
-  const auto refused = [](const ForestEvent& bad) {
+  const auto event = settingsEvent<ForestInput>(ForestTuning());
+  const auto refused = [](const ForestInput& bad) {
     try {
       tuningOf(bad);
     } catch (const InvalidInput& error) {
@@ -48,7 +48,7 @@ TEST(ForestRanges, EventsOfBadSettingsAreRefused) {
     }
     return std::string("taken");
   };
-  ForestEvent unknown = event, range = event, count = event;
+  ForestInput unknown = event, range = event, count = event;
   unknown.names[0] = "colour";
   EXPECT_EQ(refused(unknown), "event: colour is not known");
   const auto name = std::find(range.names.begin(), range.names.end(), "transition");
