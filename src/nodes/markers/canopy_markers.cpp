@@ -7,9 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "nodes/markers/triangle_list.h"
 #include "vegetation_sim/core/math/math.h"
-#include "vegetation_sim/ros/conversions/geometry_conversions.h"
 
 namespace vegetation_sim {
 namespace {
@@ -33,13 +31,11 @@ std_msgs::ColorRGBA darkened(std_msgs::ColorRGBA colour, double light) {
   return colour;
 }
 
-/// Two corners at the root, then two at the tip.
-void addStrip(visualization_msgs::Marker& list, const std::array<Vec3, 4>& corner,
+/// Adds a strip with two corners at the root and two at the tip.
+void addStrip(TriangleLists& lists, std::size_t list, const std::array<Vec3, 4>& corner,
               const std_msgs::ColorRGBA& at_root, const std_msgs::ColorRGBA& at_tip) {
-  for (const std::size_t i : {0, 1, 2, 2, 1, 3}) {
-    list.points.push_back(toPoint(corner[i]));
-    list.colors.push_back(i < 2 ? at_root : at_tip);
-  }
+  for (const std::size_t i : {0, 1, 2, 2, 1, 3})
+    lists.add(list, corner[i], i < 2 ? at_root : at_tip);
 }
 
 std::array<Vec3, 4> cornersOf(const canopy::Leaf& leaf, const canopy::MovedLeaf& moved) {
@@ -59,33 +55,22 @@ std::size_t leavesOf(const canopy::Layout& layout, const canopy::CrownRule& rule
          static_cast<std::size_t>(layout.kinds[rule.kind].leaves);
 }
 
-// A list as long as ever: rviz then writes over the old one.
-void fill(visualization_msgs::Marker& list, std::size_t points) {
-  const std::size_t used = list.points.size();
-  list.points.resize(points);
-  list.colors.resize(points, opaque(Vec3::Zero()));
-  list.action = visualization_msgs::Marker::ADD;
-  takeAwayIfUnused(list, used);
-}
-
 }  // namespace
 
 CanopyMarkers::CanopyMarkers(int points)
-    : leaf_points_(static_cast<std::size_t>(points) * 5 / 6 / POINTS_PER_LEAF * POINTS_PER_LEAF),
-      stem_points_(static_cast<std::size_t>(points) * 9 / 60 / POINTS_PER_STEM * POINTS_PER_STEM),
-      shade_points_(static_cast<std::size_t>(points) / 60 / POINTS_PER_SHADE * POINTS_PER_SHADE),
-      leaf_list_(triangleList("leaves", 0, 0)),
-      stem_list_(triangleList("stems", 1, 0)),
-      shade_list_(triangleList("shade", 2, 0)),
-      crown_list_(triangleList("crowns", 3, 0)) {}
+    : leaf_points_(static_cast<std::size_t>(points) * 5 / 6 / POINTS_PER_LEAF * POINTS_PER_LEAF) {
+  const auto all = static_cast<std::size_t>(points);
+  lists_.addList("leaves", leaf_points_);
+  lists_.addList("stems", all * 9 / 60 / POINTS_PER_STEM * POINTS_PER_STEM);
+  lists_.addList("shade", all / 60 / POINTS_PER_SHADE * POINTS_PER_SHADE);
+  lists_.addList("crowns", 0);
+}
 
 void CanopyMarkers::setLayout(const canopy::Layout& layout) {
   plants_.assign(layout.plants.size(), {});
   held_ = {};
-  for (visualization_msgs::Marker* list : {&stem_list_, &shade_list_}) {
-    list->points.clear();
-    list->colors.clear();
-  }
+  lists_.clear(STEMS);
+  lists_.clear(SHADE);
   std::size_t leaves = 0;
   for (const canopy::Plant& plant : layout.plants) leaves += movingLeaves(layout.kinds[plant.kind]);
   for (const canopy::CrownRule& rule : layout.crowns) leaves += leavesOf(layout, rule);
@@ -93,10 +78,12 @@ void CanopyMarkers::setLayout(const canopy::Layout& layout) {
   share_ = wanted > 0.0 ? std::min(1.0, static_cast<double>(leaf_points_) / wanted) : 1.0;
   setLadders(layout);
   for (std::size_t id = 0; id < layout.plants.size(); ++id) addPlant(layout, id);
-  crown_points_ = 0;
+  std::size_t crown_points = 0;
   for (const canopy::CrownRule& rule : layout.crowns)
-    crown_points_ += POINTS_PER_LEAF * static_cast<std::size_t>(rule.trees) *
-                     drawnOf(static_cast<std::size_t>(layout.kinds[rule.kind].leaves));
+    crown_points += POINTS_PER_LEAF * static_cast<std::size_t>(rule.trees) *
+                    drawnOf(static_cast<std::size_t>(layout.kinds[rule.kind].leaves));
+  lists_.setSize(CROWNS, crown_points);
+  lists_.setSize(LEAVES, leaf_points_ - crown_points);
 }
 
 // Fewer leaves leave gaps as wide as the next leaf is farther off; none leave the whole plant out.
@@ -140,9 +127,9 @@ void CanopyMarkers::addPlant(const canopy::Layout& layout, std::size_t id) {
   addStems(grown.stems, kind.stem_colour);
   addShade(layout.plants[id], 0.9 * layout.plants[id].scale * kind.radius);
   for (const canopy::Leaf& face : grown.rigid) {
-    if (stem_list_.points.size() + POINTS_PER_LEAF > stem_points_) return;
+    if (!lists_.hasRoom(STEMS, POINTS_PER_LEAF)) return;
     const std_msgs::ColorRGBA paint = darkened(opaque(kind.stem_colour), face.light);
-    addStrip(stem_list_, cornersOf(face, {face.root, face.tip, face.side}), paint, paint);
+    addStrip(lists_, STEMS, cornersOf(face, {face.root, face.tip, face.side}), paint, paint);
   }
 }
 
@@ -197,7 +184,7 @@ CanopyMarkers::DrawnPlant CanopyMarkers::drawPlant(const canopy::Layout& layout,
 
 // Darker ground under a plant, softly ending.
 void CanopyMarkers::addShade(const canopy::Plant& plant, double radius) {
-  if (shade_list_.points.size() + POINTS_PER_SHADE > shade_points_) return;
+  if (!lists_.hasRoom(SHADE, POINTS_PER_SHADE)) return;
   const Vec3 middle = plant.position + Vec3(0.0, 0.0, SHADE_HEIGHT);
   std_msgs::ColorRGBA dark = opaque(Vec3(0.05, 0.06, 0.02)), clear = dark;
   dark.a = 0.75F;
@@ -207,9 +194,9 @@ void CanopyMarkers::addShade(const canopy::Plant& plant, double radius) {
     return Vec3(middle + radius * Vec3(turn.cos, turn.sin, 0.0));
   };
   for (std::size_t edge = 0; edge < SHADE_EDGES; ++edge) {
-    for (const Vec3& point : {middle, rim(edge), rim(edge + 1)})
-      shade_list_.points.push_back(toPoint(point));
-    for (const auto& colour : {dark, clear, clear}) shade_list_.colors.push_back(colour);
+    lists_.add(SHADE, middle, dark);
+    lists_.add(SHADE, rim(edge), clear);
+    lists_.add(SHADE, rim(edge + 1), clear);
   }
 }
 
@@ -217,9 +204,9 @@ void CanopyMarkers::addShade(const canopy::Plant& plant, double radius) {
 void CanopyMarkers::addStems(const std::vector<canopy::Stem>& stems, const Vec3& colour) {
   const std_msgs::ColorRGBA paint = opaque(colour), shaded = darkened(paint, 0.6);
   for (const canopy::Stem& stem : stems) {
-    if (stem_list_.points.size() + POINTS_PER_STEM > stem_points_) return;
+    if (!lists_.hasRoom(STEMS, POINTS_PER_STEM)) return;
     for (const Vec3& side : {Vec3(stem.radius, 0.0, 0.0), Vec3(0.0, stem.radius, 0.0)})
-      addStrip(stem_list_, {stem.from - side, stem.from + side, stem.to - side, stem.to + side},
+      addStrip(lists_, STEMS, {stem.from - side, stem.from + side, stem.to - side, stem.to + side},
                paint, shaded);
   }
 }
@@ -227,35 +214,19 @@ void CanopyMarkers::addStems(const std::vector<canopy::Stem>& stems, const Vec3&
 visualization_msgs::MarkerArray CanopyMarkers::build(const canopy::Foliage& foliage,
                                                      const std::vector<canopy::MovedLeaf>& crowns,
                                                      const std::string& frame_id) {
-  for (visualization_msgs::Marker* list : {&leaf_list_, &crown_list_}) {
-    list->points.clear();
-    list->colors.clear();
-  }
-  const auto add = [](visualization_msgs::Marker& list, const Drawn& drawn,
-                      const canopy::MovedLeaf& moved) {
+  lists_.clear(LEAVES);
+  lists_.clear(CROWNS);
+  const auto add = [&](List list, const Drawn& drawn, const canopy::MovedLeaf& moved) {
     const bool sprouts = !drawn.leaf.joined && drawn.leaf.root == drawn.leaf.anchor;
-    addStrip(list, cornersOf(drawn.leaf, moved), darkened(drawn.colour, sprouts ? DARK_ROOT : 1.0),
-             drawn.colour);
+    addStrip(lists_, list, cornersOf(drawn.leaf, moved),
+             darkened(drawn.colour, sprouts ? DARK_ROOT : 1.0), drawn.colour);
   };
   for (std::size_t plant = 0; plant < plants_.size(); ++plant)
     for (const Drawn& drawn : plants_[plant].leaves)
-      add(leaf_list_, drawn, foliage.move(drawn.leaf, plant));
+      add(LEAVES, drawn, foliage.move(drawn.leaf, plant));
   for (std::size_t i = 0; i < std::min(crowns.size(), crown_leaves_.size()); ++i)
-    add(crown_list_, crown_leaves_[i], crowns[i]);
-  used_ = leaf_list_.points.size() + crown_list_.points.size() + stem_list_.points.size() +
-          shade_list_.points.size();
-  fill(leaf_list_, room());
-  fill(crown_list_, crown_points_);
-  visualization_msgs::MarkerArray out;
-  out.markers = {leaf_list_, stem_list_, shade_list_};
-  fill(out.markers[1], stem_points_);
-  fill(out.markers[2], shade_points_);
-  if (crown_points_ > 0) out.markers.push_back(crown_list_);
-  for (visualization_msgs::Marker& marker : out.markers) {
-    marker.header.frame_id = frame_id;
-    marker.header.stamp = ros::Time();  // the newest transform; keeps out of tf's waiting queue
-  }
-  return out;
+    add(CROWNS, crown_leaves_[i], crowns[i]);
+  return lists_.message(frame_id);
 }
 
 }  // namespace vegetation_sim

@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <visualization_msgs/MarkerArray.h>
-
 #include <array>
 #include <string>
 #include <vector>
 
 #include "core/lod/tier_hysteresis.h"
+#include "nodes/markers/triangle_lists.h"
 #include "ros/replicas/leafed_crowns.h"
 #include "vegetation_sim/canopy/leaf_motion.h"
 #include "vegetation_sim/core/lod/viewpoint.h"
@@ -44,10 +43,10 @@ class CanopyMarkers {
   const TierAllocation& balance() const { return balance_; }
   std::vector<std::string> tiers() const;
   /// Points in use at the last build.
-  std::size_t points() const { return used_; }
-  std::size_t budget() const { return leaf_points_ + stem_points_ + shade_points_; }
+  std::size_t points() const { return lists_.used(); }
+  std::size_t budget() const { return leaf_points_ + lists_.size(STEMS) + lists_.size(SHADE); }
   /// Of these, points that leaves of plants share.
-  std::size_t room() const { return leaf_points_ - crown_points_; }
+  std::size_t room() const { return lists_.size(LEAVES); }
 
  private:
   struct Drawn {
@@ -68,8 +67,9 @@ class CanopyMarkers {
   void addShade(const canopy::Plant& plant, double radius);
   void addStems(const std::vector<canopy::Stem>& stems, const Vec3& colour);
 
-  std::size_t leaf_points_, stem_points_, shade_points_, used_{0};
-  std::size_t crown_points_{0};      // of leaf_points_
+  enum List : std::size_t { LEAVES, STEMS, SHADE, CROWNS };
+  std::size_t leaf_points_;  // of plants and crowns
+  TriangleLists lists_;
   double share_{1.0};                // of a crown's leaves
   std::vector<double> shares_;       // of a plant's leaves, by tier
   std::vector<Ladder> ladders_;      // by kind
@@ -78,7 +78,6 @@ class CanopyMarkers {
   std::vector<Drawn> crown_leaves_;
   TierHysteresis held_;
   TierAllocation balance_;
-  visualization_msgs::Marker leaf_list_, stem_list_, shade_list_, crown_list_;
 };
 
 }  // namespace vegetation_sim

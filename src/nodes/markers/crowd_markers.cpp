@@ -6,10 +6,9 @@
 #include <array>
 #include <cmath>
 
+#include "crowd/walker/body_skeleton.h"
 #include "crowd/walker/clothes.h"
-#include "nodes/markers/triangle_list.h"
 #include "vegetation_sim/core/math/math.h"
-#include "vegetation_sim/ros/conversions/geometry_conversions.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
 
 namespace vegetation_sim {
@@ -40,10 +39,8 @@ std::size_t pointsOf(int sides) {
   return bands * static_cast<std::size_t>(sides) * 6;
 }
 
-}  // namespace
-
 /// A circle across a limb.
-struct CrowdMarkers::Ring {
+struct Ring {
   Vec3 centre, u, v;
   Vec3 at(int side, int sides) const {
     const SinCos turn = sinCosTurns(static_cast<double>(side) / sides);
@@ -51,26 +48,17 @@ struct CrowdMarkers::Ring {
   }
 };
 
-CrowdMarkers::CrowdMarkers(int points)
-    : list_(triangleList("people", 0, static_cast<std::size_t>(points) / 3 * 3)) {}
-
-void CrowdMarkers::addPoint(const Vec3& point, const std_msgs::ColorRGBA& colour) {
-  list_.points[used_] = toPoint(point);
-  list_.colors[used_++] = colour;
-}
-
-void CrowdMarkers::addBand(const Ring& low, const Ring& high, int sides,
-                           const std_msgs::ColorRGBA& colour) {
+void addBand(TriangleLists& lists, const Ring& low, const Ring& high, int sides,
+             const std_msgs::ColorRGBA& colour) {
   for (int i = 0; i < sides; ++i) {
     const Vec3 corners[4] = {low.at(i, sides), low.at(i + 1, sides), high.at(i + 1, sides),
                              high.at(i, sides)};
-    for (const int k : {0, 1, 2, 0, 2, 3}) addPoint(corners[k], colour);
+    for (const int k : {0, 1, 2, 0, 2, 3}) lists.add(0, corners[k], colour);
   }
 }
 
-void CrowdMarkers::addLimb(const crowd::Limb& limb, std::size_t part, int sides,
-                           const std_msgs::ColorRGBA& colour,
-                           const std_msgs::ColorRGBA& end_colour) {
+void addLimb(TriangleLists& lists, const crowd::Limb& limb, std::size_t part, int sides,
+             const std_msgs::ColorRGBA& colour, const std_msgs::ColorRGBA& end_colour) {
   const Cap& cap = capOf(part);
   const Vec3 span = limb.to - limb.from;
   const double size = length(span);
@@ -84,10 +72,16 @@ void CrowdMarkers::addLimb(const crowd::Limb& limb, std::size_t part, int sides,
     return Ring{end + sign * limb.radius * cap.heights[step] * along, r * u, r * v};
   };
   for (int step = cap.rings - 1; step > 0; --step)
-    addBand(ring(limb.from, -1.0, step), ring(limb.from, -1.0, step - 1), sides, colour);
-  addBand(ring(limb.from, -1.0, 0), ring(limb.to, 1.0, 0), sides, colour);
+    addBand(lists, ring(limb.from, -1.0, step), ring(limb.from, -1.0, step - 1), sides, colour);
+  addBand(lists, ring(limb.from, -1.0, 0), ring(limb.to, 1.0, 0), sides, colour);
   for (int step = 0; step < cap.rings - 1; ++step)
-    addBand(ring(limb.to, 1.0, step), ring(limb.to, 1.0, step + 1), sides, end_colour);
+    addBand(lists, ring(limb.to, 1.0, step), ring(limb.to, 1.0, step + 1), sides, end_colour);
+}
+
+}  // namespace
+
+CrowdMarkers::CrowdMarkers(int points) {
+  lists_.addList("people", static_cast<std::size_t>(points) / 3 * 3);
 }
 
 void CrowdMarkers::addPerson(const crowd::Walker& walker, const terrain::HeightMap& terrain,
@@ -96,7 +90,7 @@ void CrowdMarkers::addPerson(const crowd::Walker& walker, const terrain::HeightM
   const crowd::Skeleton skeleton = skeletonOf(walker, terrain);
   for (std::size_t i = 0; i < crowd::PARTS; ++i) {
     const std_msgs::ColorRGBA own = opaque(colourOf(clothes, i));
-    addLimb(skeleton[i], i, sides, own,
+    addLimb(lists_, skeleton[i], i, sides, own,
             i == static_cast<std::size_t>(Part::HEAD) ? opaque(clothes.hair) : own);
   }
 }
@@ -136,22 +130,14 @@ visualization_msgs::MarkerArray CrowdMarkers::build(const crowd::Crowd& crowd,
                                                     const std::vector<Viewpoint>& eyes,
                                                     double tolerance, const std::string& frame_id,
                                                     Nanoseconds stamp) {
-  used_ = 0;
+  lists_.clear(0);
   choose(crowd, eyes, tolerance, stamp);
   for (std::size_t i = 0; i < choices_.size(); ++i) {
     const int sides = SIDES[static_cast<std::size_t>(choices_[i].chosen)];
-    if (sides > 0 && used_ + pointsOf(sides) <= budget())
+    if (sides > 0 && lists_.hasRoom(0, pointsOf(sides)))
       addPerson(crowd.walkers()[i], crowd.terrain(), sides);
   }
-  // What is left has no area.
-  std::fill(list_.points.begin() + static_cast<std::ptrdiff_t>(used_), list_.points.end(),
-            geometry_msgs::Point());
-  list_.header.frame_id = frame_id;
-  list_.header.stamp = toStamp(stamp);
-  visualization_msgs::MarkerArray out;
-  out.markers.push_back(list_);
-  takeAwayIfUnused(out.markers.back(), used_);
-  return out;
+  return lists_.message(frame_id, toStamp(stamp));
 }
 
 }  // namespace vegetation_sim

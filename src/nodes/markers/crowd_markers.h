@@ -2,14 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <visualization_msgs/MarkerArray.h>
-
 #include <string>
 #include <vector>
 
 #include "core/lod/tier_hysteresis.h"
 #include "crowd/agents/crowd.h"
-#include "crowd/walker/body_skeleton.h"
+#include "nodes/markers/triangle_lists.h"
 #include "vegetation_sim/core/lod/viewpoint.h"
 
 namespace vegetation_sim {
@@ -31,24 +29,18 @@ class CrowdMarkers {
   const TierAllocation& balance() const { return balance_; }
   static std::vector<std::string> tiers();
   /// Points in use at the last build, of how many.
-  std::size_t points() const { return used_; }
-  std::size_t budget() const { return list_.points.size(); }
+  std::size_t points() const { return lists_.used(); }
+  std::size_t budget() const { return lists_.size(0); }
 
  private:
-  struct Ring;
   void choose(const crowd::Crowd& crowd, const std::vector<Viewpoint>& eyes, double tolerance,
               Nanoseconds stamp);
   void addPerson(const crowd::Walker& walker, const terrain::HeightMap& terrain, int sides);
-  void addLimb(const crowd::Limb& limb, std::size_t part, int sides,
-               const std_msgs::ColorRGBA& colour, const std_msgs::ColorRGBA& end_colour);
-  void addBand(const Ring& low, const Ring& high, int sides, const std_msgs::ColorRGBA& colour);
-  void addPoint(const Vec3& point, const std_msgs::ColorRGBA& colour);
 
   std::vector<TierChoice> choices_;  // as the crowd has its walkers
   TierHysteresis held_;
   TierAllocation balance_;
-  std::size_t used_{0};
-  visualization_msgs::Marker list_;
+  TriangleLists lists_;
 };
 
 }  // namespace vegetation_sim

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "nodes/markers/triangle_list.h"
 #include "tree/mesh/skin.h"
 #include "vegetation_sim/ros/conversions/forest_conversions.h"
 #include "vegetation_sim/tree/motion/batch_poser.h"
@@ -17,12 +16,8 @@ constexpr double SMALLEST_PX = 3.0;         // of a tree that is drawn
 constexpr std::size_t LEAST_POINTS = 120;   // a tree in the budget; what is farther is not drawn
 constexpr double PIXELS_PER_RADIAN = 1000;  // of the middle of the forest, when nobody looks
 
-geometry_msgs::Point pointAt(const std::vector<float>& xyz, std::size_t vertex) {
-  geometry_msgs::Point out;
-  out.x = xyz[3 * vertex];
-  out.y = xyz[3 * vertex + 1];
-  out.z = xyz[3 * vertex + 2];
-  return out;
+Vec3 pointAt(const std::vector<float>& xyz, std::size_t vertex) {
+  return Vec3(xyz[3 * vertex], xyz[3 * vertex + 1], xyz[3 * vertex + 2]);
 }
 
 Vec3 middleOf(const forest::Layout& layout) {
@@ -66,11 +61,10 @@ std::vector<std::pair<double, const forest::Tile*>> tilesInOrder(
 
 }  // namespace
 
-ForestMarkers::ForestMarkers(int points)
-    : bark_points_(static_cast<std::size_t>(points) / 2 / 3 * 3),
-      leaf_points_(static_cast<std::size_t>(points) / 2 / 6 * 6),
-      bark_(triangleList("bark", 0, 0)),
-      leaves_(triangleList("leaves", 1, 0)) {}
+ForestMarkers::ForestMarkers(int points) {
+  lists_.addList("bark", static_cast<std::size_t>(points) / 2 / 3 * 3);
+  lists_.addList("leaves", static_cast<std::size_t>(points) / 2 / 6 * 6);
+}
 
 void ForestMarkers::reset() {
   drawn_.clear();
@@ -115,8 +109,8 @@ void ForestMarkers::addTree(const forest::Forest& forest, forest::TreeCache& cac
   const forest::TreeMesh& mesh = *drawn_[id].mesh;
   wanted_bark_ += mesh.triangles.size();
   wanted_leaves_ += 6 * mesh.leaves.size();
-  if (bark_.points.size() + mesh.triangles.size() > bark_points_ ||
-      leaves_.points.size() + 6 * mesh.leaves.size() > leaf_points_)
+  if (!lists_.hasRoom(BARK, mesh.triangles.size()) ||
+      !lists_.hasRoom(LEAVES, 6 * mesh.leaves.size()))
     return;
   const wind::Instant wind = forest.snapshot().wind.at(stamp).relativeTo(grown->tree.foot);
   const forest::Weights weights =
@@ -135,10 +129,10 @@ void ForestMarkers::addTree(const forest::Forest& forest, forest::TreeCache& cac
   scratch_.resize(3 * mesh.bark.size());
   skinBark(mesh, poses_, foot, scratch_.data());
   for (const std::uint32_t vertex : mesh.triangles) {
-    bark_.points.push_back(pointAt(scratch_, vertex));
     const auto branch = static_cast<std::size_t>(mesh.bark[vertex].branch);
     const bool trunk = grown->tree.skeleton.branches[branch].depth == 0;
-    bark_.colors.push_back(opaque(trunk ? species.bark_colour : species.twig_colour));
+    lists_.add(BARK, pointAt(scratch_, vertex),
+               opaque(trunk ? species.bark_colour : species.twig_colour));
   }
   const double speed = length(wind.velocity(Vec3(0.0, 0.0, 0.5 * grown->tree.skeleton.height)));
   const forest::Flutter flutter(static_cast<double>(stamp % (3600 * NANOSECONDS_PER_SECOND)) * 1e-9,
@@ -149,20 +143,9 @@ void ForestMarkers::addTree(const forest::Forest& forest, forest::TreeCache& cac
     const double shade = mesh.leaves[i].shade;
     const auto paint =
         opaque(species.leaf_colour * (1.0 - shade) + species.leaf_colour_young * shade);
-    for (const std::uint32_t corner : forest::LEAF_TRIANGLES) {
-      leaves_.points.push_back(pointAt(scratch_, 4 * i + corner));
-      leaves_.colors.push_back(paint);
-    }
+    for (const std::uint32_t corner : forest::LEAF_TRIANGLES)
+      lists_.add(LEAVES, pointAt(scratch_, 4 * i + corner), paint);
   }
-}
-
-void ForestMarkers::finish(visualization_msgs::Marker& marker, std::size_t points) {
-  const std::size_t used = marker.points.size();
-  used_ += used;
-  marker.points.resize(points);
-  marker.colors.resize(points, opaque(Vec3::Zero()));
-  marker.action = visualization_msgs::Marker::ADD;
-  takeAwayIfUnused(marker, used);
 }
 
 visualization_msgs::MarkerArray ForestMarkers::build(const forest::Forest& forest,
@@ -170,13 +153,9 @@ visualization_msgs::MarkerArray ForestMarkers::build(const forest::Forest& fores
                                                      const std::string& frame_id,
                                                      Nanoseconds stamp) {
   chooseTrees(forest);
-  for (visualization_msgs::Marker* list : {&bark_, &leaves_}) {
-    list->points.clear();
-    list->colors.clear();
-    list->header.frame_id = frame_id;
-    list->header.stamp = ros::Time();  // the newest transform; keeps out of tf's waiting queue
-  }
-  wanted_bark_ = wanted_leaves_ = used_ = 0;
+  lists_.clear(BARK);
+  lists_.clear(LEAVES);
+  wanted_bark_ = wanted_leaves_ = 0;
   std::map<std::uint32_t, Drawn> drawn;
   for (const auto& [height_px, id] : order_) {
     Drawn& entry = drawn[id] = drawn_[id];
@@ -195,11 +174,7 @@ visualization_msgs::MarkerArray ForestMarkers::build(const forest::Forest& fores
   // By the fuller list, each of half the budget: else trees stand there without their leaves.
   feedback_.update(2.0 * static_cast<double>(std::max(wanted_bark_, wanted_leaves_)),
                    0.85 * static_cast<double>(budget()));
-  finish(bark_, bark_points_);
-  finish(leaves_, leaf_points_);
-  visualization_msgs::MarkerArray out;
-  out.markers = {bark_, leaves_};
-  return out;
+  return lists_.message(frame_id);
 }
 
 }  // namespace vegetation_sim

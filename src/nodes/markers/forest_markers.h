@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <visualization_msgs/MarkerArray.h>
-
 #include <map>
 #include <memory>
 #include <string>
@@ -11,6 +9,7 @@
 
 #include "forest/forest.h"
 #include "forest/tree_cache.h"
+#include "nodes/markers/triangle_lists.h"
 #include "tree/mesh/mesh.h"
 
 namespace vegetation_sim {
@@ -29,8 +28,8 @@ class ForestMarkers {
   visualization_msgs::MarkerArray build(const forest::Forest& forest, forest::TreeCache& cache,
                                         const std::string& frame_id, Nanoseconds stamp);
   /// Points in use at the last build.
-  std::size_t points() const { return used_; }
-  std::size_t budget() const { return bark_points_ + leaf_points_; }
+  std::size_t points() const { return lists_.used(); }
+  std::size_t budget() const { return lists_.size(BARK) + lists_.size(LEAVES); }
   void reset();
 
  private:
@@ -42,15 +41,14 @@ class ForestMarkers {
   void keepLargest(std::size_t count);
   void addTree(const forest::Forest& forest, forest::TreeCache& cache, std::uint32_t id,
                Nanoseconds stamp);
-  void finish(visualization_msgs::Marker& marker, std::size_t points);
 
-  std::size_t bark_points_, leaf_points_;
-  std::size_t used_{0}, wanted_bark_{0}, wanted_leaves_{0};
+  enum List : std::size_t { BARK, LEAVES };
+  TriangleLists lists_;
+  std::size_t wanted_bark_{0}, wanted_leaves_{0};  // points
   forest::ComplexityFeedback feedback_;
   std::map<std::uint32_t, Drawn> drawn_;
   std::vector<std::pair<double, std::uint32_t>> order_;  // height [pixel], tree
   double least_{0.0};                                    // smaller trees are not drawn [pixel]
-  visualization_msgs::Marker bark_, leaves_;
   forest::BatchPoses poses_;
   std::vector<float> scratch_;
 };

@@ -5,15 +5,21 @@
 #include <algorithm>
 #include <cmath>
 
-#include "nodes/markers/triangle_list.h"
-#include "vegetation_sim/ros/conversions/geometry_conversions.h"
-
 namespace vegetation_sim {
 namespace {
 
 constexpr double PIXELS_PER_RADIAN = 1000.0;  // of the eye above the middle, when nobody looks
 constexpr double EYE_HEIGHT = 20.0;           // [m] of it
-constexpr float BYTE = 255.f;
+
+std_msgs::ColorRGBA colourOf(const std::uint8_t* rgb, std::uint8_t alpha) {
+  constexpr float BYTE = 255.f;
+  std_msgs::ColorRGBA out;
+  out.r = rgb[0] / BYTE;
+  out.g = rgb[1] / BYTE;
+  out.b = rgb[2] / BYTE;
+  out.a = alpha / BYTE;
+  return out;
+}
 
 double largestDensity(const grass::FeatureMap& map) {
   double out = 1.0;
@@ -32,11 +38,9 @@ Viewpoint eyeAbove(const grass::MeadowLod& meadow) {
 
 }  // namespace
 
-GrassMarkers::GrassMarkers(int points)
-    : list_points_(static_cast<std::size_t>(points) / 9 * 3),
-      ground_(triangleList("ground", 0, list_points_)),
-      strips_(triangleList("strips", 1, list_points_)),
-      blades_(triangleList("blades", 2, list_points_)) {}
+GrassMarkers::GrassMarkers(int points) : list_points_(static_cast<std::size_t>(points) / 9 * 3) {
+  for (const char* ns : {"ground", "strips", "blades"}) lists_.addList(ns, list_points_);
+}
 
 // The whole map in squares as small as the budget allows.
 void GrassMarkers::addGround(const grass::MeadowLod& meadow) {
@@ -50,23 +54,17 @@ void GrassMarkers::addGround(const grass::MeadowLod& meadow) {
   const auto cells = [&](int nodes) { return (nodes - 1 + step - 1) / step; };
   while (6.0 * cells(law.columns) * cells(law.rows) > static_cast<double>(list_points_)) ++step;
   const std::vector<std::uint8_t> colours = grass::groundColours(map, full_density_);
-  const auto put = [&](int column, int row, std::size_t at) {
+  const auto add = [&](int column, int row) {
     const int c = std::min(column, law.columns - 1), r = std::min(row, law.rows - 1);
     const double x = law.origin_x + c * law.resolution, y = law.origin_y + r * law.resolution;
-    ground_.points[at] = toPoint(Vec3(x, y, meadow.terrain().height(x, y)));
     const std::uint8_t* rgb = &colours[3 * (static_cast<std::size_t>(r) * law.columns + c)];
-    ground_.colors[at].r = rgb[0] / BYTE;
-    ground_.colors[at].g = rgb[1] / BYTE;
-    ground_.colors[at].b = rgb[2] / BYTE;
-    ground_.colors[at].a = 1.f;
+    lists_.add(GROUND, Vec3(x, y, meadow.terrain().height(x, y)), colourOf(rgb, 255));
   };
-  std::fill(ground_.points.begin(), ground_.points.end(), geometry_msgs::Point());
-  std::size_t at = 0;
+  lists_.clear(GROUND);
   for (int row = 0; row < law.rows - 1; row += step)
     for (int column = 0; column < law.columns - 1; column += step)
       for (const auto& [c, r] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}})
-        put(column + c * step, row + r * step, at++);
-  ground_points_ = at;
+        add(column + c * step, row + r * step);
 }
 
 void GrassMarkers::addTile(const grass::MeadowLod& meadow, const grass::TileView& view,
@@ -86,22 +84,15 @@ void GrassMarkers::addTile(const grass::MeadowLod& meadow, const grass::TileView
   grass::appendRibbons(meadow.map(), tile, blocks_.data(), count, style, blade_mesh_);
 }
 
-// Points beyond those in use become the first one: triangles without area. Returns how many are.
-std::size_t GrassMarkers::copy(const grass::GrassMesh& mesh, visualization_msgs::Marker& marker) {
+void GrassMarkers::copy(const grass::GrassMesh& mesh, std::size_t list) {
+  lists_.clear(list);
   const std::size_t count = std::min(mesh.indices.size(), list_points_);
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t vertex = mesh.indices[i];
     const float* p = &mesh.positions[3 * vertex];
     const std::uint8_t* rgba = &mesh.colours[4 * vertex];
-    marker.points[i] = toPoint(mesh.origin + Vec3(p[0], p[1], p[2]));
-    marker.colors[i].r = rgba[0] / BYTE;
-    marker.colors[i].g = rgba[1] / BYTE;
-    marker.colors[i].b = rgba[2] / BYTE;
-    marker.colors[i].a = rgba[3] / BYTE;
+    lists_.add(list, mesh.origin + Vec3(p[0], p[1], p[2]), colourOf(rgba, rgba[3]));
   }
-  const geometry_msgs::Point rest = count > 0 ? marker.points[0] : toPoint(mesh.origin);
-  std::fill(marker.points.begin() + static_cast<std::ptrdiff_t>(count), marker.points.end(), rest);
-  return count;
 }
 
 visualization_msgs::MarkerArray GrassMarkers::build(
@@ -136,17 +127,9 @@ visualization_msgs::MarkerArray GrassMarkers::build(
     motion.model = model;
     addTile(meadow, view, tile, motion, eyes[0].position);
   }
-  const std::size_t used[] = {ground_points_, copy(strip_mesh_, strips_),
-                              copy(blade_mesh_, blades_)};
-  used_ = used[0] + used[1] + used[2];
-  visualization_msgs::MarkerArray out;
-  out.markers = {ground_, strips_, blades_};
-  for (std::size_t i = 0; i < 3; ++i) takeAwayIfUnused(out.markers[i], used[i]);
-  for (visualization_msgs::Marker& marker : out.markers) {
-    marker.header.frame_id = frame_id;
-    marker.header.stamp = ros::Time();  // the newest transform; keeps out of tf's waiting queue
-  }
-  return out;
+  copy(strip_mesh_, STRIPS);
+  copy(blade_mesh_, BLADES);
+  return lists_.message(frame_id);
 }
 
 }  // namespace vegetation_sim

@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <visualization_msgs/MarkerArray.h>
-
 #include <string>
 #include <vector>
 
 #include "grass/lod/meadow_lod.h"
 #include "grass/mesh/grass_geometry.h"
+#include "nodes/markers/triangle_lists.h"
 #include "vegetation_sim/wind/field.h"
 
 namespace vegetation_sim {
@@ -28,20 +27,20 @@ class GrassMarkers {
                                         const wind::Field& wind, grass::BladeModel model,
                                         const std::string& frame_id, Nanoseconds stamp);
   /// Points in use at the last build.
-  std::size_t points() const { return used_; }
+  std::size_t points() const { return lists_.used(); }
   std::size_t budget() const { return 3 * list_points_; }
 
  private:
   void addGround(const grass::MeadowLod& meadow);
   void addTile(const grass::MeadowLod& meadow, const grass::TileView& view, const grass::Tile& tile,
                const grass::TileMotion& motion, const Vec3& eye);
-  std::size_t copy(const grass::GrassMesh& mesh, visualization_msgs::Marker& marker);
+  void copy(const grass::GrassMesh& mesh, std::size_t list);
 
+  enum List : std::size_t { GROUND, STRIPS, BLADES };
   std::size_t list_points_;  // of one list
-  std::size_t used_{0}, ground_points_{0};
+  TriangleLists lists_;
   std::uint64_t ground_of_{0};  // hash of map and terrain
   double full_density_{1.0};    // [1/m^2]
-  visualization_msgs::Marker ground_, strips_, blades_;
   grass::GrassMesh strip_mesh_, blade_mesh_;
   std::vector<grass::BladeBlock> blocks_;
   grass::CrushPatch patch_;

@@ -1,0 +1,52 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/replicas/subscribed_crowd.h"
+
+#include <gtest/gtest.h>
+
+#include "ros/conversions/crowd_conversions.h"
+
+namespace vegetation_sim {
+namespace {
+
+constexpr Nanoseconds SECOND = NANOSECONDS_PER_SECOND;
+
+AgentStates onePerson(Nanoseconds stamp, const char* frame = "map") {
+  AgentStates out;
+  out.header.stamp = toStamp(stamp);
+  out.header.frame_id = frame;
+  out.agents.push_back(toMsg(crowd::Walker(), terrain::HeightMap()));
+  return out;
+}
+
+TEST(SubscribedCrowd, RejectsOtherFrames) {
+  std::string reason;
+  SubscribedCrowd crowd(
+      {"map", false, [&](const std::string&, const std::string& why) { reason = why; }});
+  crowd.apply(onePerson(SECOND, "odom"));
+  EXPECT_TRUE(crowd.people().empty());
+  EXPECT_EQ(crowd.changes(), 0);
+  EXPECT_FALSE(crowd.status().good);
+  EXPECT_NE(reason.find("odom"), std::string::npos);
+  crowd.apply(onePerson(SECOND));
+  EXPECT_EQ(crowd.people().size(), 1u);
+  EXPECT_EQ(crowd.frame(), "map");
+  EXPECT_TRUE(crowd.status().good);
+}
+
+TEST(SubscribedCrowd, ForgetsPeopleOfTheFutureAndSilentPeople) {
+  SubscribedCrowd crowd;
+  crowd.apply(onePerson(10 * SECOND));
+  crowd.forgetLater(10 * SECOND);
+  crowd.forgetSilent(10 * SECOND + SILENCE);
+  EXPECT_EQ(crowd.people().size(), 1u);
+  crowd.forgetLater(9 * SECOND);
+  EXPECT_TRUE(crowd.people().empty());
+  EXPECT_FALSE(crowd.status().good);
+  crowd.apply(onePerson(10 * SECOND));
+  crowd.forgetSilent(10 * SECOND + SILENCE + 1);
+  EXPECT_TRUE(crowd.people().empty());
+}
+
+}  // namespace
+}  // namespace vegetation_sim

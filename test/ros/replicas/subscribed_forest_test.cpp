@@ -1,0 +1,69 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/replicas/subscribed_forest.h"
+
+#include <gtest/gtest.h>
+
+#include "scenes/forest/forest_fixture.h"
+#include "vegetation_sim/ros/conversions/forest_conversions.h"
+
+namespace vegetation_sim {
+namespace {
+
+constexpr Nanoseconds SECOND = NANOSECONDS_PER_SECOND;
+
+ForestLayout twoByTwo() {
+  ForestLayout out = toMsg(forest::gridLayout(2, 10.0));
+  out.header.frame_id = "map";
+  return out;
+}
+
+ForestState keyFrame(const SubscribedForest& forest, Nanoseconds stamp) {
+  forest::StateUpdate out;
+  out.layout_hash = forest.replica().layoutHash();
+  out.stamp = stamp;
+  out.base.level = 2;
+  return toMsg(out);
+}
+
+TEST(SubscribedForest, SaysWhyItIsNotInStep) {
+  SubscribedForest forest;
+  forest.apply(keyFrame(forest, SECOND));
+  EXPECT_EQ(forest.stateStatus(SECOND).text, "Waiting for a key frame: no layout yet");
+  forest.setLayout(twoByTwo());
+  EXPECT_EQ(forest.layouts(), 1);
+  EXPECT_TRUE(forest.layoutStatus().good);
+  forest.apply(keyFrame(forest, SECOND));
+  EXPECT_TRUE(forest.stateStatus(SECOND).good) << forest.stateStatus(SECOND).text;
+  EXPECT_FALSE(forest.stateStatus(SECOND + SILENCE + 1).good);
+}
+
+TEST(SubscribedForest, RejectedLayoutChangesNothing) {
+  SubscribedForest forest;
+  forest.setLayout(twoByTwo());
+  const std::uint64_t hash = forest.replica().layoutHash();
+  ForestLayout other = twoByTwo();
+  other.terrain = "no_such_terrain.png";
+  forest.setLayout(other);
+  EXPECT_EQ(forest.replica().layoutHash(), hash);
+  EXPECT_EQ(forest.layouts(), 1);
+  EXPECT_FALSE(forest.layoutStatus().good);
+}
+
+// After a jump back in time all trees are at rest, until the next key frame.
+TEST(SubscribedForest, ForgetsLaterStates) {
+  SubscribedForest forest;
+  forest.setLayout(twoByTwo());
+  forest.apply(keyFrame(forest, 5 * SECOND));
+  EXPECT_EQ(forest.replica().levels().of(0).level, 2);
+  forest.forgetLater(5 * SECOND);
+  EXPECT_EQ(forest.replica().levels().of(0).level, 2);
+  forest.forgetLater(4 * SECOND);
+  EXPECT_EQ(forest.replica().levels().of(0).level, 0);
+  EXPECT_FALSE(forest.stateStatus(4 * SECOND).good);
+  forest.apply(keyFrame(forest, 4 * SECOND));
+  EXPECT_EQ(forest.replica().levels().of(0).level, 2);
+}
+
+}  // namespace
+}  // namespace vegetation_sim
