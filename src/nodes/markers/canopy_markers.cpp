@@ -44,7 +44,7 @@ std::array<Vec3, 4> cornersOf(const canopy::Leaf& leaf, const canopy::MovedLeaf&
   return {moved.root - low, moved.root + low, moved.tip - high, moved.tip + high};
 }
 
-// Of a plant, without what of a mesh never moves: that is among the stems.
+// Rigid faces of a mesh are counted as stems.
 std::size_t movingLeaves(const canopy::PlantKind& kind) {
   const std::size_t rigid = kind.form ? kind.form->rigid.size() : 0;
   return canopy::leafCount(kind) - (isRead(kind) ? rigid : 0);
@@ -86,7 +86,7 @@ void CanopyMarkers::setLayout(const canopy::Layout& layout) {
   lists_.setSize(LEAVES, leaf_points_ - crown_points);
 }
 
-// Fewer leaves leave gaps as wide as the next leaf is farther off; none leave the whole plant out.
+// The error of a tier is the gap to the next leaf, or the height of a plant without leaves.
 void CanopyMarkers::setLadders(const canopy::Layout& layout) {
   shares_ = {0.0};
   for (double share = LEAST_SHARE * share_; share < 1.0 && shares_.size() + 1 < MAX_TIERS;)
@@ -182,7 +182,7 @@ CanopyMarkers::DrawnPlant CanopyMarkers::drawPlant(const canopy::Layout& layout,
   return out;
 }
 
-// Darker ground under a plant, softly ending.
+// Adds a disc of darker ground under a plant, transparent at its rim.
 void CanopyMarkers::addShade(const canopy::Plant& plant, double radius) {
   if (!lists_.hasRoom(SHADE, POINTS_PER_SHADE)) return;
   const Vec3 middle = plant.position + Vec3(0.0, 0.0, SHADE_HEIGHT);
@@ -200,7 +200,7 @@ void CanopyMarkers::addShade(const canopy::Plant& plant, double radius) {
   }
 }
 
-// Two crossed strips each.
+// Adds two crossed strips for each stem.
 void CanopyMarkers::addStems(const std::vector<canopy::Stem>& stems, const Vec3& colour) {
   const std_msgs::ColorRGBA paint = opaque(colour), shaded = darkened(paint, 0.6);
   for (const canopy::Stem& stem : stems) {

@@ -14,38 +14,37 @@
 
 namespace vegetation_sim {
 
-/// Leaves (id 0), rigid stems (id 1), the shade on the ground (id 2) and leaves of the forest's
-/// crowns, if the layout asks for any (id 3), as TRIANGLE_LISTs of constant size, which rviz
-/// updates in place. Each plant has the smallest share of its leaves that holds the tolerance,
-/// made wider as they are fewer; where the points do not suffice, they go to the plants whose error
-/// each point lessens most (N7). Crowns have an even part of theirs. Degenerate triangles fill
-/// up, and a list of nothing is deleted.
+/// Builds the marker lists of a canopy: leaves (id 0), rigid stems (id 1), shade on the ground
+/// (id 2) and, if the layout has crowns, their leaves (id 3). Each plant has the smallest share of
+/// its leaves that holds the tolerance, with wider leaves the fewer there are. If the budget does
+/// not suffice, points go to the plants whose error each point reduces most. All crowns have the
+/// same share.
 class CanopyMarkers {
  public:
   /// @param points of all lists together, at least 600.
   explicit CanopyMarkers(int points);
 
-  /// Grows what of the plants of a layout never moves.
+  /// Builds the parts of the plants that never move.
   void setLayout(const canopy::Layout& layout);
-  /// Leaves of the forest's crowns that the same layout asks for.
+  /// Sets the leaves of the crowns of the same layout.
   void setCrowns(const canopy::Layout& layout, const LeafedCrowns& crowns);
-  /// How many of a crown's leaves are drawn: the first ones.
+  /// Returns how many leaves of a crown are drawn. They are its first ones.
   std::size_t drawnOf(std::size_t leaves) const;
-  /// Chooses what is drawn of each plant of the layout that was set. @param tolerance [pixel]
+  /// Chooses the tier of each plant. Requires the layout of setLayout(). @param tolerance [pixel]
   void choose(const canopy::Layout& layout, const Viewpoint& eye, double tolerance,
               Nanoseconds stamp);
-  /// The leaves where `foliage` carries them, and those of the crowns, crown by crown the drawn
-  /// ones, where they are.
+  /// Builds the array with the leaves as `foliage` moves them.
+  /// @param crowns places of the drawn leaves of all crowns, crown by crown.
   visualization_msgs::MarkerArray build(const canopy::Foliage& foliage,
                                         const std::vector<canopy::MovedLeaf>& crowns,
                                         const std::string& frame_id);
-  /// What was chosen for plants [points], and the names of the tiers.
+  /// The tiers chosen last, with costs in points, and their names.
   const TierAllocation& balance() const { return balance_; }
   std::vector<std::string> tiers() const;
   /// Points in use at the last build.
   std::size_t points() const { return lists_.used(); }
   std::size_t budget() const { return leaf_points_ + lists_.size(STEMS) + lists_.size(SHADE); }
-  /// Of these, points that leaves of plants share.
+  /// The part of the budget that is for leaves of plants [points].
   std::size_t room() const { return lists_.size(LEAVES); }
 
  private:
@@ -57,7 +56,7 @@ class CanopyMarkers {
     int tier{0};
     std::vector<Drawn> leaves;
   };
-  /// Of plants of scale 1, by tier.
+  /// Errors and costs of the tiers of a plant of scale 1.
   struct Ladder {
     std::array<float, MAX_TIERS> gaps{}, points{};  ///< [m], leaves only
   };

@@ -18,7 +18,7 @@ using crowd::Part;
 
 constexpr std::array<int, 5> SIDES{0, 3, 4, 6, 10};  // of a limb, by tier; 0: not drawn
 constexpr double GIRTH = 0.17;                       // radius of a body [m]
-constexpr double SEEN_ALIKE = 100.0;                 // pixels per metre when nobody looks
+constexpr double DEFAULT_SCALE = 100.0;              // [pixel/m] without a viewer
 // Rings of a cap, from its limb outwards: a head's is round and closed, the others end in joints.
 struct Cap {
   int rings;
@@ -95,14 +95,15 @@ void CrowdMarkers::addPerson(const crowd::Walker& walker, const terrain::HeightM
   }
 }
 
-// What is wrong with a tier: all of the body, or what a polygon leaves of its girth.
+// The error of a tier is the height of a body that is not drawn, or the gap between the polygon
+// and the circle of its girth.
 void CrowdMarkers::choose(const crowd::Crowd& crowd, const std::vector<Viewpoint>& eyes,
                           double tolerance, Nanoseconds stamp) {
   choices_.clear();
   for (const crowd::Walker& walker : crowd.walkers()) {
     const crowd::Point& p = walker.position;
     const Vec3 middle(p.x, p.y, crowd.terrain().height(p.x, p.y) + 0.5 * walker.height);
-    double scale = eyes.empty() ? SEEN_ALIKE : 0.0;
+    double scale = eyes.empty() ? DEFAULT_SCALE : 0.0;
     for (const Viewpoint& eye : eyes)
       scale = std::max(scale, pixelsPerMetre(eye, length(eye.position - middle)));
     TierChoice choice;

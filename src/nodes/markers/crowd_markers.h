@@ -12,23 +12,23 @@
 
 namespace vegetation_sim {
 
-/// Walkers as one TRIANGLE_LIST of constant size, a person fifteen limbs: rviz updates such a list
-/// in place; it is deleted when nobody is drawn. Each walker has the fewest facets that hold the
-/// tolerance; where the points do not suffice, they go to the walkers whose error each point
-/// lessens most (N7).
+/// Builds the marker list of a crowd, with fifteen limbs for each walker. Each has the fewest
+/// facets that hold the tolerance. If the budget does not suffice, points go to the walkers whose
+/// error each point reduces most.
 class CrowdMarkers {
  public:
   /// @param points of the list.
   explicit CrowdMarkers(int points);
 
-  /// @param eyes who looks; none: all are seen alike. @param tolerance [pixel]
+  /// @param eyes of the viewers; if there are none, all walkers have the same size in the picture.
+  /// @param tolerance [pixel]
   visualization_msgs::MarkerArray build(const crowd::Crowd& crowd,
                                         const std::vector<Viewpoint>& eyes, double tolerance,
                                         const std::string& frame_id, Nanoseconds stamp);
-  /// What was chosen at the last build [points], and the names of the tiers.
+  /// The tiers chosen at the last build, with costs in points, and their names.
   const TierAllocation& balance() const { return balance_; }
   static std::vector<std::string> tiers();
-  /// Points in use at the last build, of how many.
+  /// Points in use at the last build, and the largest number.
   std::size_t points() const { return lists_.used(); }
   std::size_t budget() const { return lists_.size(0); }
 

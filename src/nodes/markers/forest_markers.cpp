@@ -12,9 +12,9 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr double SMALLEST_PX = 3.0;         // of a tree that is drawn
-constexpr std::size_t LEAST_POINTS = 120;   // a tree in the budget; what is farther is not drawn
-constexpr double PIXELS_PER_RADIAN = 1000;  // of the middle of the forest, when nobody looks
+constexpr double SMALLEST_PX = 3.0;         // smallest height of a drawn tree
+constexpr std::size_t LEAST_POINTS = 120;   // for each drawn tree
+constexpr double PIXELS_PER_RADIAN = 1000;  // of the default viewer
 
 Vec3 pointAt(const std::vector<float>& xyz, std::size_t vertex) {
   return Vec3(xyz[3 * vertex], xyz[3 * vertex + 1], xyz[3 * vertex + 2]);
@@ -171,7 +171,7 @@ visualization_msgs::MarkerArray ForestMarkers::build(const forest::Forest& fores
     addTree(forest, cache, id, stamp);
   }
   drawn_ = std::move(drawn);
-  // By the fuller list, each of half the budget: else trees stand there without their leaves.
+  // The fuller of the two lists counts, so that trees keep their leaves.
   feedback_.update(2.0 * static_cast<double>(std::max(wanted_bark_, wanted_leaves_)),
                    0.85 * static_cast<double>(budget()));
   return lists_.message(frame_id);

@@ -14,17 +14,16 @@
 
 namespace vegetation_sim {
 
-/// The forest as two TRIANGLE_LISTs, bark (id 0) and leaves (id 1), of constant size: rviz updates
-/// such a list in place. Where the trees need more than the budget their geometry levels fall, by
-/// the feedback of S1-14, and the farthest are left out; where they need less, degenerate triangles
-/// fill up, and a list of nothing is deleted.
+/// Builds the marker lists of a forest: bark (id 0) and leaves (id 1). A feedback lowers the
+/// geometry levels of the trees until they fit into the budget; the farthest that do not fit are
+/// left out.
 class ForestMarkers {
  public:
   /// @param points most points of both lists together, at least 600.
   explicit ForestMarkers(int points);
 
-  /// Builds the array at `stamp`. `seen_from`: viewers see the nearest trees finest; none: from the
-  /// middle of the forest.
+  /// Builds the array at `stamp`, with the trees next to the viewers finest. Without viewers, it
+  /// uses the middle of the forest.
   visualization_msgs::MarkerArray build(const forest::Forest& forest, forest::TreeCache& cache,
                                         const std::string& frame_id, Nanoseconds stamp);
   /// Points in use at the last build.

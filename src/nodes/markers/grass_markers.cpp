@@ -8,8 +8,8 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr double PIXELS_PER_RADIAN = 1000.0;  // of the eye above the middle, when nobody looks
-constexpr double EYE_HEIGHT = 20.0;           // [m] of it
+constexpr double PIXELS_PER_RADIAN = 1000.0;  // of the default viewer
+constexpr double EYE_HEIGHT = 20.0;           // [m] of the default viewer
 
 std_msgs::ColorRGBA colourOf(const std::uint8_t* rgb, std::uint8_t alpha) {
   constexpr float BYTE = 255.f;
@@ -42,7 +42,7 @@ GrassMarkers::GrassMarkers(int points) : list_points_(static_cast<std::size_t>(p
   for (const char* ns : {"ground", "strips", "blades"}) lists_.addList(ns, list_points_);
 }
 
-// The whole map in squares as small as the budget allows.
+// Adds the whole map in squares as small as the budget allows.
 void GrassMarkers::addGround(const grass::MeadowLod& meadow) {
   const grass::FeatureMap& map = meadow.map();
   const std::uint64_t wanted = map.hash() ^ meadow.terrain().hash();

@@ -12,16 +12,15 @@
 
 namespace vegetation_sim {
 
-/// A meadow as three TRIANGLE_LISTs of constant size: ground (id 0), strips (id 1) and the blades
-/// nearest to the viewers (id 2); rviz updates such a list in place. What the budget does not hold
-/// is left out, the farthest first; degenerate triangles fill up, and a list of nothing is deleted.
+/// Builds the marker lists of a meadow: ground (id 0), strips (id 1) and single blades near the
+/// viewers (id 2). The farthest grass is left out if the budget does not suffice.
 class GrassMarkers {
  public:
   /// @param points of the three lists together, at least 900.
   explicit GrassMarkers(int points);
 
-  /// Builds the array at `stamp`, after choosing levels for the viewers; none: for an eye above the
-  /// middle of the map.
+  /// Chooses levels for the viewers and builds the array at `stamp`. Without viewers, it uses a
+  /// place above the middle of the map.
   visualization_msgs::MarkerArray build(grass::MeadowLod& meadow, const grass::TreadMap& tread,
                                         const std::vector<Viewpoint>& viewers,
                                         const wind::Field& wind, grass::BladeModel model,

@@ -19,10 +19,10 @@ using visualization_msgs::Marker;
 using wind::Kind;
 using wind::Term;
 
-constexpr int CORNERS = 48;            // of a ring
+constexpr int CORNERS = 48;            // number in a ring
 constexpr double LINE = 0.15;          // [m] width
 constexpr double SHAFT = 0.4;          // [m] width of an arrow
-constexpr double BREEZE_HEIGHT = 8.0;  // [m] where the arrow of a breeze hangs
+constexpr double BREEZE_HEIGHT = 8.0;  // [m] of the arrow of a breeze
 constexpr double TORNADO_HEIGHT = 20.0;
 
 std_msgs::ColorRGBA colourOf(Kind kind, double alpha) {

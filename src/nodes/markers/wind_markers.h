@@ -10,9 +10,9 @@
 
 namespace vegetation_sim {
 
-/// What blows at a stamp, for rviz: discs, fronts, cores and spheres of influence where they are
-/// now, and an arrow along the air with 1 m for 1 m/s. Ids are those of the primitives.
-/// @param lifetime after which a marker that is not sent again disappears [s].
+/// Builds the markers of a wind field at a stamp: discs, fronts, cores and spheres of influence,
+/// and an arrow along the velocity, 1 m for 1 m/s. Markers have the ids of their primitives.
+/// @param lifetime [s] after which a marker disappears unless it is published again.
 visualization_msgs::MarkerArray windMarkers(const wind::Field& field, const std::string& frame_id,
                                             Nanoseconds stamp, double lifetime);
 

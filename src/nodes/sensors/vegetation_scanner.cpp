@@ -17,7 +17,8 @@ VegetationScanner::VegetationScanner(ros::NodeHandle handle, ros::NodeHandle pri
                   [this](const std::string& input, const std::string& why) {
                     refusals_.add(input, why);
                   }}),
-      tf_buffer_(ros::Duration(tf2::BufferCore::DEFAULT_CACHE_TIME), true),  // tells what it hears
+      tf_buffer_(ros::Duration(tf2::BufferCore::DEFAULT_CACHE_TIME),
+                 true),  // with the service that shows its frames
       tf_listener_(tf_buffer_),
       clock_("vegetation_scanner", options_.rate, options_.delay,
              {{},
@@ -25,7 +26,7 @@ VegetationScanner::VegetationScanner(ros::NodeHandle handle, ros::NodeHandle pri
               [this](Nanoseconds now) { restart(now); }},
              LateTicks::NEWEST),
       diagnostics_(handle, private_handle, private_handle.getNamespace()) {
-  startAnew();
+  restartScene();
   cloud_publisher_ = handle_.advertise<sensor_msgs::PointCloud2>("lidar/points", 10);
   scan_publisher_ = handle_.advertise<sensor_msgs::LaserScan>("lidar/scan", 10);
   report_publisher_ = handle_.advertise<ScanReport>("lidar/report", 10);
@@ -34,7 +35,7 @@ VegetationScanner::VegetationScanner(ros::NodeHandle handle, ros::NodeHandle pri
   listen();
 }
 
-// Last of all: the first callbacks of a nodelet may come while it is still being built.
+// This is called last: the callbacks of a nodelet may start before its constructor has ended.
 void VegetationScanner::listen() {
   landscape_.subscribe(handle_);
   reset_service_ = private_handle_.advertiseService("reset", &VegetationScanner::onReset, this);
@@ -57,9 +58,9 @@ void VegetationScanner::tick(std::int64_t tick) {
     cost_ = (ros::WallTime::now() - start).toSec();
     ++counts_.sweeps;
   } catch (const InvalidInput& error) {
-    ++counts_.blind;
-    blindness_ = error.what();
-    ROS_WARN_THROTTLE(5.0, "vegetation_scanner sees nothing: %s", blindness_.c_str());
+    ++counts_.unplaced;
+    missing_transform_ = error.what();
+    ROS_WARN_THROTTLE(5.0, "vegetation_scanner makes no sweep: %s", missing_transform_.c_str());
   }
 }
 
@@ -93,37 +94,38 @@ std_msgs::Header VegetationScanner::header() const {
   return out;
 }
 
-void VegetationScanner::startAnew() {
+void VegetationScanner::restartScene() {
   scene_ = scan::Scene();
   scene_.trees = scan::Trees(static_cast<std::size_t>(options_.branch_budget));
 }
 
 void VegetationScanner::restart(Nanoseconds now) {
   landscape_.forgetLater(now);
-  startAnew();
+  restartScene();
   tf_buffer_.clear();
 }
 
 bool VegetationScanner::onReset(std_srvs::Trigger::Request&,
                                 std_srvs::Trigger::Response& response) {
   return answer(response, [&]() -> std::string {
-    startAnew();
-    return "trees are grown anew at the next sweep";
+    restartScene();
+    return "trees are grown again at the next sweep";
   });
 }
 
-// What has happened since the last report, and only that.
+// Reports only what has happened since the last report.
 void VegetationScanner::reportProblem(diagnostic_updater::DiagnosticStatusWrapper& status) {
   counts_.clock = clock_.counts();
   refusals_.warn(status);
-  warnOfMore(status, counts_.blind, reported_.blind, "sweeps without a place: " + blindness_);
+  warnOfMore(status, counts_.unplaced, reported_.unplaced,
+             "sweeps without a transform of the sensor: " + missing_transform_);
   counts_.lost = landscape_.lost();
   warnOfMore(status, counts_.lost, reported_.lost,
              "messages lost that are stamped ahead of the clock");
   warnOfClock(status, counts_.clock, reported_.clock);
-  warnOfMore(status, scene_.trees.leftOut(), 0, "trees in range beyond branch_budget, unseen");
+  warnOfMore(status, scene_.trees.leftOut(), 0, "trees in range left out because of branch_budget");
   if (const std::string why = landscape_.why(); !why.empty())
-    status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, "waits for a key frame: " + why);
+    status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, "waiting for a key frame: " + why);
   reported_ = counts_;
 }
 
@@ -133,7 +135,7 @@ void VegetationScanner::diagnose(diagnostic_updater::DiagnosticStatusWrapper& st
   if (!clock_.hasBegun()) status.summary(DiagnosticStatus::WARN, "waiting for the clock");
   reportProblem(status);
   status.add("Sweeps", counts_.sweeps);
-  status.add("Sweeps without a place", counts_.blind);
+  status.add("Sweeps without a place", counts_.unplaced);
   status.add("Points", points_);
   status.add("Wall time of a sweep [ms]", 1e3 * cost_);
   status.add("Trees", scene_.trees.all().size());

@@ -18,23 +18,23 @@
 
 namespace vegetation_sim {
 
-/// A lidar on ROS: at each tick it rebuilds what grows and walks around a tf frame, casts its rays
-/// and publishes what they meet. It changes nothing of what it sees. One thread calls everything.
+/// Simulates a lidar at a tf frame. At each tick it brings its replicas of the landscape to the
+/// stamp, casts the rays and publishes their returns. One thread calls everything.
 class VegetationScanner {
  public:
-  /// @throws InvalidInput for parameters that are refused.
+  /// @throws InvalidInput for invalid parameters.
   VegetationScanner(ros::NodeHandle handle, ros::NodeHandle private_handle);
 
  private:
   void listen();
   void tick(std::int64_t tick);
   void sweep(const Pose& sensor, std::int64_t tick);
-  void startAnew();
+  void restartScene();
   void restart(Nanoseconds now);
   bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   void reportProblem(diagnostic_updater::DiagnosticStatusWrapper& status);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
-  /// Header of what is measured now.
+  /// Header of the current sweep.
   std_msgs::Header header() const;
 
   ros::NodeHandle handle_, private_handle_;
@@ -42,11 +42,11 @@ class VegetationScanner {
   LandscapeReplica landscape_;
   scan::Scene scene_;
   struct Counts {
-    std::uint64_t sweeps{0}, blind{0}, lost{0};
+    std::uint64_t sweeps{0}, unplaced{0}, lost{0};
     TickClock::Counts clock;
   } counts_, reported_;  // so far, and when diagnostics were last sent
   Refusals refusals_{"vegetation_scanner"};
-  std::string blindness_;
+  std::string missing_transform_;
   double cost_{0.0};         // wall time of the last sweep [s]
   std::uint32_t points_{0};  // of the last sweep
 

@@ -11,21 +11,21 @@
 
 namespace vegetation_sim {
 
-/// What was told of moments to which a node that stays behind the clock has not come yet; in the
-/// order in which it came. Bounded: where there is no room, the oldest is lost and counted.
-template <class Told>
+/// Messages that wait, in the order of their arrival, until a node that runs behind the clock
+/// reaches their stamps. The oldest is dropped and counted if too many wait.
+template <class Message>
 class DelayBuffer {
  public:
   static constexpr std::size_t MOST_WAITING = 2000;
 
-  void add(Nanoseconds stamp, Told published) {
+  void add(Nanoseconds stamp, Message message) {
     if (waiting_.size() >= MOST_WAITING) {
       waiting_.pop_front();
       ++lost_;
     }
-    waiting_.emplace_back(stamp, std::move(published));
+    waiting_.emplace_back(stamp, std::move(message));
   }
-  /// Hands over, in order, what is due at `stamp`: `take(stamp, told)`.
+  /// Removes the messages up to `stamp`, in order, and calls `take(stamp, message)` for each.
   template <class Take>
   void take(Nanoseconds stamp, Take take) {
     while (!waiting_.empty() && waiting_.front().first <= stamp) {
@@ -34,7 +34,7 @@ class DelayBuffer {
       take(due.first, due.second);
     }
   }
-  /// Time went back to `now`: what was told of a later time is void.
+  /// Drops the messages of later stamps, because time jumped back to `now`.
   void forgetLater(Nanoseconds now) {
     waiting_.erase(std::remove_if(waiting_.begin(), waiting_.end(),
                                   [now](const auto& one) { return one.first > now; }),
@@ -44,7 +44,7 @@ class DelayBuffer {
   std::uint64_t lost() const { return lost_; }
 
  private:
-  std::deque<std::pair<Nanoseconds, Told>> waiting_;
+  std::deque<std::pair<Nanoseconds, Message>> waiting_;
   std::uint64_t lost_{0};
 };
 

@@ -9,13 +9,13 @@
 
 namespace vegetation_sim {
 
-/// The newest messages of a topic by their hashes: events name what they need of them.
+/// The newest messages of a topic by their hashes, to which events refer.
 template <class Message>
 class HashedCache {
  public:
   explicit HashedCache(std::size_t most = 8) : most_(most) {}
 
-  /// Forgets the oldest if there are more than `most`.
+  /// Adds a message, and drops the oldest if there are more than `most`.
   void keep(std::uint64_t hash, const Message& message) {
     all_.erase(std::remove_if(all_.begin(), all_.end(),
                               [&](const auto& one) { return one.first == hash; }),
@@ -24,7 +24,7 @@ class HashedCache {
     if (all_.size() > most_) all_.pop_front();
   }
   bool isNewest(std::uint64_t hash) const { return !all_.empty() && all_.back().first == hash; }
-  /// Null if it is not there.
+  /// Returns null if there is no message with this hash.
   const Message* find(std::uint64_t hash) const {
     for (const auto& one : all_)
       if (one.first == hash) return &one.second;

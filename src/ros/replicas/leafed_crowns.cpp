@@ -5,7 +5,7 @@
 namespace vegetation_sim {
 namespace {
 
-// Leaves hang where the species has them; one without any has them on its last limbs.
+// Leaves hang where the species has them, or on the last limbs of a species without leaves.
 std::vector<canopy::Twig> twigsOf(const forest::Tree& tree) {
   const forest::Skeleton& skeleton = tree.skeleton;
   bool leafed = false;

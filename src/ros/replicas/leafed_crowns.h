@@ -10,9 +10,8 @@
 
 namespace vegetation_sim {
 
-/// Crowns of the forest's own trees with leaves of a canopy layout (S3-W2): wood moves by the
-/// forest's law and physics, leaves with their wood, and in layers on top. What is held or pushed
-/// takes its leaves along.
+/// Crowns of the trees of a forest with leaves of a canopy layout: the wood moves as in the forest,
+/// each leaf moves with its branch, and the motion of its layer is added.
 class LeafedCrowns {
  public:
   struct Crown {
@@ -23,17 +22,16 @@ class LeafedCrowns {
     canopy::LeafBox box;
   };
 
-  /// Grows the crowns that a layout of leaves asks for on the trees that there are; those that are
-  /// not have none.
+  /// Grows the crowns of a layout. Trees that the forest does not have are left out.
   void grow(const canopy::Layout& layout, const forest::ForestReplica& forest);
   /// Grows the crowns again if the layout of the forest has changed. Returns true if it has.
   bool update(const canopy::Layout& layout, const SubscribedForest& forest);
   void clear();
 
   const std::vector<Crown>& crowns() const { return crowns_; }
-  /// Where the crowns are that have leaves.
+  /// Returns the boxes of the crowns that have leaves.
   std::vector<canopy::LeafBox> boxes() const;
-  /// Base of each branch of a crown's tree in the world at a stamp.
+  /// Returns the base of each branch of a crown's tree in the world at a stamp.
   std::vector<Pose> wood(std::size_t crown, const forest::ForestReplica& forest,
                          Nanoseconds stamp) const;
 

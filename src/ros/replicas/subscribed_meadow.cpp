@@ -20,7 +20,7 @@ SubscribedMeadow::SubscribedMeadow(const ReplicaOptions& options)
 
 void SubscribedMeadow::subscribe(ros::NodeHandle handle, const Topics& topics) {
   layout_status_ = {false, "No layout on " + handle.resolveName(topics.layout)};
-  state_status_ = {false, "No state on " + handle.resolveName(topics.state) + ": nothing trodden"};
+  state_status_ = {false, "No state on " + handle.resolveName(topics.state) + ": no tracks"};
   if (!topics.wind.empty()) wind_.subscribe(handle, topics.wind);
   subscribers_ = {handle.subscribe(topics.layout, 1, &SubscribedMeadow::setLayout, this)};
   subscribeState(handle, topics.state, 100);

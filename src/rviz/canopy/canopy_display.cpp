@@ -7,7 +7,7 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr int GROUND_RANK = 0;  // knows nothing of what else grows there
+constexpr int GROUND_RANK = 0;  // plain grass
 
 }  // namespace
 
@@ -42,7 +42,7 @@ void CanopyDisplay::updateLook() {
   if (canopy_) canopy_->repaint();
 }
 
-// The light among the leaves is theirs: they are grown anew under another sun.
+// Leaves are lit when they are grown, so they are grown again for another sun.
 void CanopyDisplay::light(const view::Daylight& daylight, const view::Haze& haze) {
   if (daylight.to_sun != to_sun_) layouts_ = 0;
   to_sun_ = daylight.to_sun;

@@ -12,15 +12,14 @@
 
 namespace vegetation_sim {
 
-/// Rebuilds leafy masses from their layout and their state and draws every leaf where its layer has
-/// it (paper 3): dense leaves, darker inside.
+/// Rebuilds plants and their leaves from layout and state, and draws each leaf as its layer moves
+/// it (paper 3).
 class CanopyDisplay : public SceneryDisplay {
   Q_OBJECT
  public:
   CanopyDisplay();
   ~CanopyDisplay() override;
 
-  /// What was drawn last.
   view::CanopyReport drawn() const;
 
  protected:
@@ -44,7 +43,7 @@ class CanopyDisplay : public SceneryDisplay {
   std::unique_ptr<view::GroundSource> terrain_source_;
   std::unique_ptr<view::CanopyVisual> canopy_;
   std::unique_ptr<view::GroundVisual> ground_;
-  Vec3 to_sun_{Vec3::Zero()};  // that leaves have been lit by
+  Vec3 to_sun_{Vec3::Zero()};  // for which leaves are lit
   int layouts_{0};
 };
 

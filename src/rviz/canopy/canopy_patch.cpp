@@ -13,15 +13,15 @@ namespace vegetation_sim::view {
 namespace {
 
 constexpr int STEM_SIDES = 5;
-constexpr double SUN_DEPTH = 2.2;  // optical, of a radius of leaves
-constexpr double WIDEST = 4.0;     // growth of leaves that stand for others
-constexpr double MARGIN = 1.0;     // [m] that leaves may leave the box by
+constexpr double SUN_DEPTH = 2.2;  // optical depth of the radius of the ball
+constexpr double WIDEST = 4.0;     // largest factor of the width of leaves
+constexpr double MARGIN = 1.0;     // [m] around the bounding box
 
 bool isRibbon(const canopy::PlantKind& kind) {
   return kind.shape == canopy::PlantShape::REED || kind.shape == canopy::PlantShape::KELP;
 }
 
-// Pieces that join their neighbours have outlines of their own, others that of a picture.
+// Joined pieces have their own outline, others that of a texture.
 LeafCut cutOf(const canopy::PlantKind& kind, const canopy::Leaf& leaf) {
   if (leaf.joined) return LeafCut::PLAIN;
   if (kind.shape == canopy::PlantShape::SLICES) return LeafCut::SPRIG;
@@ -32,7 +32,7 @@ bool joins(LeafCut cut) {
   return cut == LeafCut::RIBBON || cut == LeafCut::PLAIN;
 }
 
-// Place in the ball of leaves, whose surface is at 1.
+// Returns the place of a leaf in the unit ball of leaves.
 Vec3 inBall(const canopy::Layout& layout, std::size_t plant, const Vec3& at) {
   const canopy::Plant& p = layout.plants[plant];
   const canopy::PlantKind& kind = layout.kinds[p.kind];
@@ -42,7 +42,7 @@ Vec3 inBall(const canopy::Layout& layout, std::size_t plant, const Vec3& at) {
   return {local.x() / kind.radius, local.y() / kind.radius, (local.z() - base - half) / half};
 }
 
-// Way from a point in the unit ball to its surface.
+// Returns the distance from a point in the unit ball to its surface.
 double wayOut(const Vec3& at, const Vec3& direction) {
   const double b = dot(at, direction), c = dot(at, at) - 1.0;
   return std::max(0.0, -b + std::sqrt(std::max(0.0, b * b - c)));
@@ -111,7 +111,8 @@ void CanopyPatch::setRank(int rank) {
   stem_batch_.setRank(rank);
 }
 
-// By how many leaves of the same plant are farther out, or ribbons earlier: a share of each plant.
+// Leaves are ordered by the share of their plant that is farther out, so that the first leaves are
+// an even part of all plants. Ribbons keep their order.
 void CanopyPatch::grow(const canopy::Layout& layout, std::size_t plant) {
   const canopy::Plant& p = layout.plants[plant];
   const canopy::PlantKind& kind = layout.kinds[p.kind];
@@ -135,7 +136,7 @@ void CanopyPatch::grow(const canopy::Layout& layout, std::size_t plant) {
       std::max(reach_, length(p.position - middle_) + p.scale * std::max(kind.height, kind.radius));
 }
 
-// Faces of wood that were read with the leaves.
+// Adds the rigid faces of a mesh.
 void CanopyPatch::addRigid(const canopy::GrownPlant& grown, const Vec3& colour) {
   for (const canopy::Leaf& face : grown.rigid) {
     const auto first = static_cast<std::uint32_t>(stem_paint_.size());
@@ -150,14 +151,14 @@ void CanopyPatch::addRigid(const canopy::GrownPlant& grown, const Vec3& colour) 
       setColour(1.3 * colour, static_cast<double>(face.light), paint);
       stem_paint_.push_back(paint);
     }
-    // Both sides: nobody said which is outside.
+    // Both sides are drawn because the outer side is unknown.
     stem_triangles_.insert(stem_triangles_.end(),
                            {first, first + 1, first + 3, first, first + 3, first + 2, first + 3,
                             first + 1, first, first + 2, first + 3, first});
   }
 }
 
-// Prisms that taper a little.
+// Adds tapering prisms.
 void CanopyPatch::addStems(const canopy::GrownPlant& grown, const Vec3& colour) {
   for (const canopy::Stem& stem : grown.stems) {
     const Vec3 along = unit(stem.to - stem.from, Vec3::UnitZ());
@@ -187,7 +188,7 @@ void CanopyPatch::addStems(const canopy::GrownPlant& grown, const Vec3& colour) 
   }
 }
 
-// Darker inside: the sun by the way through the leaves in front of this one, the sky by its light.
+// Inner leaves are darker: sunlight is absorbed along the path through the leaves.
 VertexPaint CanopyPatch::paintOf(const canopy::Layout& layout, const Drawn& drawn,
                                  const Vec3& to_sun) const {
   const canopy::PlantKind& kind = layout.kinds[drawn.kind];

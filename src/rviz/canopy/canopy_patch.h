@@ -16,36 +16,36 @@
 
 namespace vegetation_sim::view {
 
-/// Plants that stand together, or a crown of the forest, drawn with two batches, leaves and stems.
-/// The outer leaves of each plant come first: they hide the others, and fewer, larger ones are
-/// drawn far away. Render thread only.
+/// Neighbouring plants, or a crown of the forest, in two batches of leaves and stems. The outer
+/// leaves of each plant come first because they hide the others. Fewer, larger leaves are drawn at
+/// a distance. Render thread only.
 class CanopyPatch {
  public:
-  /// @param plants ids in the layout. @param node whose frame is at `origin` [m].
+  /// @param plants ids in the layout. @param node with its frame at `origin` [m].
   CanopyPatch(const canopy::Layout& layout, const std::vector<std::size_t>& plants,
               const Vec3& origin, Ogre::SceneNode& node, const std::string& leaf_material,
               const std::string& stem_material, const Vec3& to_sun);
-  /// Leaves of a crown; its wood is for others to draw. @param number of the crown.
+  /// Builds the leaves of a crown without its wood. @param number of the crown.
   CanopyPatch(const canopy::Layout& layout, const LeafedCrowns::Crown& crown, std::size_t number,
               const Vec3& origin, Ogre::SceneNode& node, const std::string& leaf_material,
               const std::string& stem_material, const Vec3& to_sun);
 
-  /// Number of the crown; none: plants.
+  /// Number of the crown; without a value for plants.
   const std::optional<std::size_t>& crown() const { return crown_; }
   std::size_t leafCount() const { return leaves_.size(); }
   const Vec3& middle() const { return middle_; }
-  double reach() const { return reach_; }         ///< [m] from the middle to all of it
+  double reach() const { return reach_; }         ///< [m] radius around the middle
   double leafSize() const { return leaf_size_; }  ///< [m] mean length
   bool takeSeen() { return leaf_batch_.takeSeen(); }
   void setRank(int rank);
 
-  /// Moves the first `count` leaves, wider where they are a part of all, and draws only these.
+  /// Moves and draws the first `count` leaves, wider if they are not all.
   void move(const canopy::Foliage& foliage, std::size_t count);
-  /// The same of a crown whose branches have their bases at `wood`.
+  /// Moves the leaves of a crown whose branches have their bases at `wood`.
   void move(const canopy::Foliage& foliage, const LeafedCrowns::Crown& crown,
             const std::vector<Pose>& wood, std::size_t count);
   std::size_t drawn() const { return drawn_; }
-  /// Tells all that throws a shadow: place, radius, depth.
+  /// Calls `drop(place, radius, depth)` for leaves that cast a shadow.
   template <class Drop>
   void setShadows(const Drop& drop) const {
     for (std::size_t i = 0; i < leaves_.size(); i += 2)
@@ -55,11 +55,11 @@ class CanopyPatch {
  private:
   struct Drawn {
     canopy::Leaf leaf;
-    std::size_t owner;  // its plant, or its own number in the crown
+    std::size_t owner;  // plant, or number in the crown
     std::size_t kind;
-    Vec3 in_ball;  // place in the ball of leaves, whose surface is at 1
+    Vec3 in_ball;  // place in the unit ball of leaves
     LeafCut cut;
-    float order;  // drawn in rising order
+    float order;  // leaves are drawn in rising order
   };
   void grow(const canopy::Layout& layout, std::size_t plant);
   void finish(const canopy::Layout& layout, Ogre::SceneNode& node, const Vec3& to_sun);

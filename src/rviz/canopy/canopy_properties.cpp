@@ -16,10 +16,11 @@ CanopyProperties::CanopyProperties(rviz::Display& display) {
                                           "Trees whose crowns the layout gives leaves.", display);
   forest_state_ = addTopic<ForestState>("Forest State Topic", "forest/state",
                                         "Which joints of these trees move.", display);
-  wind_ = addTopic<WindField>("Wind Topic", "wind", "What these trees sway in.", display);
+  wind_ = addTopic<WindField>("Wind Topic", "wind", "Wind of these trees.", display);
   most_leaves_ = new rviz::IntProperty(
-      "Leaves", 40000, "How many leaves to draw in the picture at most. Others become larger.",
-      &display, SLOT(updateLook()), &display);
+      "Leaves", 40000,
+      "Largest number of leaves in the picture. With fewer leaves, each becomes larger.", &display,
+      SLOT(updateLook()), &display);
   most_leaves_->setMin(100);
   most_leaves_->setMax(2000000);
   tolerance_ =

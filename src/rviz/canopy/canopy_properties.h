@@ -11,11 +11,9 @@ class IntProperty;
 
 namespace vegetation_sim::view {
 
-/// What the user of CanopyDisplay sets, and its values in our terms. The properties are children of
-/// the display, which owns them.
+/// The properties of CanopyDisplay. They are children of the display, which owns them.
 class CanopyProperties : public SceneryProperties {
  public:
-  /// @param display a SceneryDisplay.
   explicit CanopyProperties(rviz::Display& display);
 
   SubscribedCanopy::Topics topics() const;

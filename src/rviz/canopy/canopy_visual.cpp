@@ -15,10 +15,10 @@ namespace vegetation_sim::view {
 namespace {
 
 constexpr int LEAF_EDGE = 128, BARK_EDGE = 256;  // [pixel]
-constexpr double PATCH = 5.0;                    // [m] edge of the plants of one patch
-constexpr double STILL = 1e-4;                   // [m], [rad] of an eye
+constexpr double PATCH = 5.0;                    // [m] edge of a patch
+constexpr double STILL = 1e-4;                   // [m], [rad] a viewer moves without effect
 
-// Painted once in a process.
+// Painted once per process.
 const std::vector<Image>& sharedFoliage() {
   static const std::vector<Image> atlas = foliageAtlas(LEAF_EDGE);
   return atlas;
@@ -42,7 +42,7 @@ Cells cellsOf(const canopy::Layout& layout) {
   return out;
 }
 
-// Leaves that are worth drawing of a patch: all where they are large enough in the picture.
+// Returns the wanted number of leaves: fewer if leaves are smaller than the tolerance.
 double wantedOf(const CanopyPatch& patch, const View& view, float tolerance) {
   const double distance = length(patch.middle() - view.eye.position) - 0.5 * patch.reach();
   const double pixels = patch.leafSize() * pixelsPerMetre(view.eye, distance);
@@ -97,7 +97,7 @@ void CanopyVisual::light(const Daylight& daylight, const Haze& haze) {
   stem_material_.light(daylight, daylight.to_sun, haze);
 }
 
-// The nearest first: they hide the others.
+// Returns the visible patches. Near ones come first because they hide others.
 std::vector<CanopyPatch*> CanopyVisual::inPicture(const View& view) const {
   std::vector<CanopyPatch*> out;
   for (const auto& patch : patches_)
@@ -150,7 +150,7 @@ Shade CanopyVisual::shadeOn(const Plot& plot, int edge, const terrain::HeightMap
   out.sun = castShadows(plot, edge, ground, to_sun, [&](const ShadowDrop& drop) {
     for (const auto& patch : patches_) patch->setShadows(drop);
   });
-  // The sky from straight above: shadows of its zenith, soft by what they are of.
+  // Light of the sky comes from the zenith, with soft shadows.
   const std::vector<float> zenith =
       castShadows(plot, edge, ground, Vec3::UnitZ(), [&](const ShadowDrop& drop) {
         for (const auto& patch : patches_)

@@ -16,16 +16,15 @@
 
 namespace vegetation_sim::view {
 
-/// What was drawn last.
+/// Figures of the last update.
 struct CanopyReport {
-  std::size_t plants{0}, crowns{0}, leaves{0};  ///< that there are
+  std::size_t plants{0}, crowns{0}, leaves{0};  ///< in the layout
   std::size_t drawn{0};                         ///< leaves in the picture
   int layers{0};
-  int rebuilds{0};  ///< how often anything was moved
+  int rebuilds{0};  ///< number of updates with changes
 };
 
-/// The plants and crowns of a layout as Ogre shows them. All of it goes with this object. Render
-/// thread only.
+/// The OGRE objects of the plants and crowns of a layout, which it owns. Render thread only.
 class CanopyVisual {
  public:
   struct Options {
@@ -39,15 +38,14 @@ class CanopyVisual {
   CanopyVisual(const CanopyVisual&) = delete;
   CanopyVisual& operator=(const CanopyVisual&) = delete;
 
-  /// Draws the state told last; nothing is done if nothing has changed.
-  /// @param stamp at which the wood of crowns is shown.
+  /// Draws the newest state if anything has changed. @param stamp of the wood of crowns.
   void update(SubscribedCanopy& canopy, Nanoseconds stamp, const View& view,
               const Options& options);
   void light(const Daylight& daylight, const Haze& haze);
-  /// Moves all anew at the next update.
+  /// Moves all leaves again at the next update.
   void repaint() { changes_ = -1; }
 
-  /// Square around the plants, and what they keep from its ground. [edge x edge] pixels.
+  /// Square around the plants, and the light that reaches its ground in [edge x edge] pixels.
   Plot plot() const;
   Shade shadeOn(const Plot& plot, int edge, const terrain::HeightMap& ground,
                 const Vec3& to_sun) const;

@@ -13,13 +13,13 @@ namespace {
 
 using crowd::Part;
 
-constexpr double CLOTH = 0.72;  // of the clothes' colours, which sunlight makes brighter
+constexpr double CLOTH = 0.72;  // factor of the colours, which sunlight makes brighter
 constexpr int MOST_SIDES = 12;
-// Heights from which on limbs have all sides, half of them and round ends [pixel].
+// Heights [pixel] above which limbs have all sides, half of them, and round ends.
 constexpr double FINE = 120.0, COARSE = 24.0, CAPS = 35.0;
-constexpr std::array<double, 3> CAP_ANGLES{0.0, 0.6, 1.15};  // [rad] of rings from a limb's end
+constexpr std::array<double, 3> CAP_ANGLES{0.0, 0.6, 1.15};  // [rad] of the rings of a cap
 
-// How a limb differs from a capsule: radius at its start and end, breadth and depth.
+// Factors on a capsule: radius at the start and the end, breadth and depth.
 struct Form {
   double from{1.0}, to{1.0}, broad{1.0}, deep{1.0};
 };
@@ -45,7 +45,7 @@ Form formOf(std::size_t limb) {
   return {1.05, 0.85, 1.0, 1.0};
 }
 
-// From 0 at a height to 1 at one and a half of it.
+// Rises from 0 at a height to 1 at 1.5 times the height.
 double risen(double pixels, double from) {
   return smootherStep((pixels / from - 1.0) / 0.5);
 }
@@ -70,8 +70,8 @@ class LimbWriter {
     back_ = cross(along_, side_);
   }
 
-  /// A ring at the limb's start (0) or end (1), `rise` [rad] up its round cap. @param behind colour
-  /// of what looks back.
+  /// Adds a ring at the start (0) or the end (1) of the limb, `rise` [rad] up its cap.
+  /// @param behind colour of the back.
   void ring(bool end, double rise, const Vec3& colour, const Vec3& behind) {
     const SinCos up = sinCos(rise);
     const double sign = end ? 1.0 : -1.0;

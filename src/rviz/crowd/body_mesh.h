@@ -9,18 +9,17 @@
 
 namespace vegetation_sim::view {
 
-/// How finely a body is drawn.
+/// Level of detail of a body, and its heading.
 struct BodyStyle {
   int sides{12};     ///< of a limb: 12, 6 or 3
-  double odd{1.0};   ///< 0: every other side's edge is halfway between the others, as with half
-  double caps{1.0};  ///< how round limbs end; 0: not at all, but for the head
-  double left_x{0.0},
-      left_y{1.0};  ///< unit, to the left of the walker: bodies are broader that way
+  double odd{1.0};   ///< 0: odd edges lie between their neighbours, as with half the sides
+  double caps{1.0};  ///< roundness of the ends of limbs; 0: flat, except the head
+  double left_x{0.0}, left_y{1.0};  ///< unit vector to the left of the walker
 };
-/// Of a body that is so many pixels high. What changes with it changes without a step.
+/// Returns the style of a body of this height in the picture. It is continuous in the height.
 BodyStyle bodyStyle(double pixels);
 
-/// Appends a lit body: limbs that taper, a flat chest, hair and hands. No Ogre in it.
+/// Appends a lit body with tapering limbs, a flat chest, hair and hands.
 void appendBody(const crowd::Skeleton& skeleton, const crowd::Clothes& clothes,
                 const BodyStyle& style, const Daylight& daylight, grass::GrassMesh& mesh);
 

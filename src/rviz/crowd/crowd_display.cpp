@@ -8,8 +8,8 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr int GROUND_RANK = 0;     // knows nothing of what grows there
-constexpr double SMALLEST = 60.0;  // [m] edge of the ground's picture
+constexpr int GROUND_RANK = 0;     // plain grass
+constexpr double SMALLEST = 60.0;  // [m] edge of the ground
 
 }  // namespace
 
@@ -55,7 +55,7 @@ void CrowdDisplay::draw(Nanoseconds stamp, const view::View& view) {
   if (!source_->people().empty() && givesGround(terrain_source_->ground())) makeGround();
 }
 
-// Where people were first seen.
+// The ground lies around the first people.
 void CrowdDisplay::makeGround() {
   if (ground_) return;
   Vec3 low(1e9, 1e9, 0.0), high(-1e9, -1e9, 0.0);

@@ -12,14 +12,13 @@
 
 namespace vegetation_sim {
 
-/// Draws people from the state of a crowd: bodies with the gait, clothes by id, shadows.
+/// Draws people from the state of a crowd, with gait, clothes by id and shadows.
 class CrowdDisplay : public SceneryDisplay {
   Q_OBJECT
  public:
   CrowdDisplay();
   ~CrowdDisplay() override;
 
-  /// What was drawn last.
   view::CrowdReport drawn() const;
 
  protected:

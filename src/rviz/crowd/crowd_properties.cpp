@@ -12,11 +12,11 @@ CrowdProperties::CrowdProperties(rviz::Display& display) {
   topic_ =
       addTopic<AgentStates>("Topic", "agents", "vegetation_sim/AgentStates: all walkers.", display);
   most_people_ =
-      new rviz::IntProperty("Most People", 500, "The nearest so many in the picture are drawn.",
+      new rviz::IntProperty("Most People", 500, "Number of people that are drawn, nearest first.",
                             &display, SLOT(updateLook()), &display);
   most_people_->setMin(1);
   most_people_->setMax(100000);
-  detail_ = addNumber("Detail", 1.f, "Bodies are drawn as finely as if so many times as large.",
+  detail_ = addNumber("Detail", 1.f, "Factor of the size from which the detail of a body follows.",
                       0.01f, 100.f, display);
   shadows_ = addFlag("Shadows", true, "Draw shadows on the ground.", display);
   addRate(display, "People move");

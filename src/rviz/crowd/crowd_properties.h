@@ -11,11 +11,9 @@ class IntProperty;
 
 namespace vegetation_sim::view {
 
-/// What the user of CrowdDisplay sets, and its values in our terms. The properties are children of
-/// the display, which owns them.
+/// The properties of CrowdDisplay. They are children of the display, which owns them.
 class CrowdProperties : public SceneryProperties {
  public:
-  /// @param display a SceneryDisplay.
   explicit CrowdProperties(rviz::Display& display);
 
   std::string topic() const;

@@ -15,9 +15,9 @@
 namespace vegetation_sim::view {
 namespace {
 
-constexpr double STILL = 1e-4;      // [m], [rad] of an eye
+constexpr double STILL = 1e-4;      // [m], [rad] a viewer moves without effect
 constexpr double LIFT = 0.02;       // [m] of shadows over the ground
-constexpr double LONGEST = 2.5;     // of a shadow, in heights
+constexpr double LONGEST = 2.5;     // length of a shadow in heights
 constexpr std::uint8_t DARK = 150;  // alpha of a shadow
 
 Vec3 placeOf(const SubscribedCrowd::Person& person) {
@@ -50,7 +50,7 @@ void CrowdVisual::light(const Daylight& daylight, const Haze& haze) {
   repaint();
 }
 
-// The nearest of those in the picture.
+// Returns the nearest people in the picture.
 std::vector<const SubscribedCrowd::Person*> CrowdVisual::select(const SubscribedCrowd& crowd,
                                                                 const View& view,
                                                                 std::size_t most) const {
@@ -77,7 +77,7 @@ void CrowdVisual::update(const SubscribedCrowd& crowd, const terrain::HeightMap&
   forward_ = view.forward;
   body_mesh_.clear();
   shadow_mesh_.clear();
-  // Floats near their origin, wherever the crowd is.
+  // Positions are relative to the first person: floats are exact enough far from the world origin.
   const Vec3 origin = crowd.people().empty() ? Vec3(Vec3::Zero()) : placeOf(crowd.people().front());
   body_mesh_.origin = shadow_mesh_.origin = origin;
   node_->setPosition(static_cast<float>(origin.x()), static_cast<float>(origin.y()),
@@ -96,7 +96,7 @@ void CrowdVisual::addPerson(const Person& person, const terrain::HeightMap& terr
                             const View& view, const Options& options) {
   const crowd::Walker& walker = person.walker;
   crowd::Skeleton skeleton = skeletonOf(walker, terrain);
-  // It stands where it was told, whatever ground is known here.
+  // The message gives the height of the ground, which may differ from the terrain known here.
   const double rise = person.ground - terrain.height(walker.position.x, walker.position.y);
   for (crowd::Limb& limb : skeleton) {
     limb.from.z() += rise;
@@ -112,7 +112,7 @@ void CrowdVisual::addPerson(const Person& person, const terrain::HeightMap& terr
   if (options.shadows) addShadow(person, terrain, skeleton);
 }
 
-// A stripe that the picture makes soft, from under the feet away from the sun.
+// Adds a quad with a soft texture from the feet away from the sun.
 void CrowdVisual::addShadow(const Person& person, const terrain::HeightMap& terrain,
                             const crowd::Skeleton& skeleton) {
   const Vec3& sun = daylight_.to_sun;

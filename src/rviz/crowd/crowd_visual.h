@@ -15,20 +15,20 @@
 
 namespace vegetation_sim::view {
 
-/// What was drawn last.
+/// Figures of the last update.
 struct CrowdReport {
-  std::size_t people{0}, drawn{0};  ///< there are; in the picture
+  std::size_t people{0}, drawn{0};  ///< in the message; in the picture
   std::size_t triangles{0};
-  int rebuilds{0};  ///< how often anything was drawn anew
+  int rebuilds{0};  ///< number of meshes built
 };
 
-/// People as Ogre shows them: bodies in one batch, their shadows in another. All of it goes with
-/// this object. Render thread only.
+/// The OGRE objects of people, which it owns: bodies in one batch, shadows in another. Render
+/// thread only.
 class CrowdVisual {
  public:
   struct Options {
     std::size_t most_people{500};
-    float detail{1.f};  ///< factor on the size that decides how finely a body is drawn
+    float detail{1.f};  ///< factor of the size from which detail follows
     bool shadows{true};
   };
 
@@ -42,7 +42,7 @@ class CrowdVisual {
   void update(const SubscribedCrowd& crowd, const terrain::HeightMap& terrain, const View& view,
               const Options& options);
   void light(const Daylight& daylight, const Haze& haze);
-  /// Draws all anew at the next update.
+  /// Builds the meshes again at the next update.
   void repaint() { drawn_ = -1; }
 
   const CrowdReport& report() const { return report_; }

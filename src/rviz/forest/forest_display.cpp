@@ -8,9 +8,9 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr int GROUND_RANK = 1;       // shows the floor and the shadows of a forest
-constexpr int GROUND_EDGE = 1024;    // [pixel] of the ground's picture
-constexpr double GROUND_CELL = 3.0;  // [m] of its mesh
+constexpr int GROUND_RANK = 1;       // the ground has floor and shadows of a forest
+constexpr int GROUND_EDGE = 1024;    // [pixel] of the ground texture
+constexpr double GROUND_CELL = 3.0;  // [m] of the ground mesh
 
 std::string describeTrees(const view::ForestReport& report) {
   std::string out = std::to_string(report.trees) + " of " + std::to_string(report.wanted) +
@@ -66,7 +66,7 @@ std::optional<std::string> ForestDisplay::frame() const {
   return source_->frame();
 }
 
-// Grown anew: other trees, or other light among them.
+// The trees are grown again, with another selection or other light.
 void ForestDisplay::updateTrees() {
   layouts_ = 0;
 }

@@ -14,15 +14,13 @@
 
 namespace vegetation_sim {
 
-/// Rebuilds a forest from its layout, its wind and its state, and draws it as it stands at rviz's
-/// time.
+/// Rebuilds a forest from its layout, its wind and its state, and draws it at the time of rviz.
 class ForestDisplay : public SceneryDisplay {
   Q_OBJECT
  public:
   ForestDisplay();
   ~ForestDisplay() override;
 
-  /// What was drawn last.
   view::ForestReport drawn() const;
 
  protected:
@@ -49,10 +47,10 @@ class ForestDisplay : public SceneryDisplay {
   std::unique_ptr<SubscribedForest> source_;
   std::unique_ptr<view::ForestVisual> forest_;
   std::unique_ptr<view::GroundVisual> ground_;
-  std::unique_ptr<view::ShadowVisual> shadows_;  // where another display gives the ground
-  Vec3 to_sun_{Vec3::Zero()};                    // that trees have been lit by
+  std::unique_ptr<view::ShadowVisual> shadows_;  // if another display draws the ground
+  Vec3 to_sun_{Vec3::Zero()};                    // for which trees are lit
   int layouts_{0};
-  int grounded_{-1};  // stock of trees that ground or shadows were made for
+  int grounded_{-1};  // tree set for which ground or shadows were made
 };
 
 }  // namespace vegetation_sim

@@ -17,8 +17,8 @@ ForestProperties::ForestProperties(rviz::Display& display) {
 void ForestProperties::addTopics(rviz::Display& display) {
   layout_ = addTopic<ForestLayout>("Layout Topic", "forest/layout",
                                    "vegetation_sim/ForestLayout: seeds of all trees.", display);
-  wind_ = addTopic<WindField>("Wind Topic", "wind",
-                              "vegetation_sim/WindField: the law of the wind.", display);
+  wind_ = addTopic<WindField>("Wind Topic", "wind", "vegetation_sim/WindField: the wind field.",
+                              display);
   state_ = addTopic<ForestState>("State Topic", "forest/state",
                                  "vegetation_sim/ForestState: which joints move.", display);
 }
@@ -26,11 +26,12 @@ void ForestProperties::addTopics(rviz::Display& display) {
 void ForestProperties::addLook(rviz::Display& display) {
   triangles_ = new rviz::IntProperty(
       "Triangles", 80000,
-      "How many triangles of trees in the picture to aim for. Levels of detail follow.", &display);
+      "Target number of triangles of trees in the picture. Levels of detail follow.", &display);
   triangles_->setMin(1000);
   triangles_->setMax(20000000);
-  most_trees_ = new rviz::IntProperty("Most Trees", 1000, "The nearest so many trees are drawn.",
-                                      &display, SLOT(updateTrees()), &display);
+  most_trees_ =
+      new rviz::IntProperty("Most Trees", 1000, "Number of trees that are drawn, nearest first.",
+                            &display, SLOT(updateTrees()), &display);
   most_trees_->setMin(1);
   most_trees_->setMax(20000);
   leaves_ = new rviz::BoolProperty("Leaves", true, "Draw leaves.", &display, SLOT(updateTrees()),

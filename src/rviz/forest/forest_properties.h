@@ -18,8 +18,7 @@ class RosTopicProperty;
 
 namespace vegetation_sim::view {
 
-/// What the user of ForestDisplay sets, and its values in our terms. The properties are children of
-/// the display, which owns them.
+/// The properties of ForestDisplay. They are children of the display, which owns them.
 class ForestProperties : public SceneryProperties {
  public:
   /// @param display with the slots updateTopics(), updateTrees(), updateLook(), updateGround(),

@@ -16,21 +16,21 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int LEAF_EDGE = 256, BARK_EDGE = 512;  // [pixel]
-constexpr std::size_t TREES_PER_GROVE = 4;
-// [s] of one update: growing while nothing is drawn and while something is; choosing levels while
-// trees have no mesh yet and later.
+constexpr std::size_t TREES_PER_BATCH = 4;
+// [s] of one update: growing while nothing is drawn (GROW) or trees are (SIDE), choosing levels
+// while trees have no mesh (FIRST) or later (LEVEL).
 constexpr double GROW_TIME = 0.025, SIDE_TIME = 0.006, FIRST_TIME = 0.06, LEVEL_TIME = 0.010;
 constexpr double FADE_TIME = 0.5;     // [s] from one level to another
-constexpr double LARGEST_FADE = 0.1;  // of it between two updates
-constexpr std::size_t FADERS = 8;     // one tree in 8, or 8 if more, fades at a time: it costs two
-constexpr double RESELECT = 25.0;     // [m] of the eye's way until other trees are the nearest
+constexpr double LARGEST_FADE = 0.1;  // part of a fade between two updates
+constexpr std::size_t FADERS = 8;     // 8 trees, or one in 8, fade at a time: each costs two
+constexpr double RESELECT = 25.0;     // [m] the viewer moves until trees are selected again
 
 double pixelsOf(const DrawnTree& tree, const View& view) {
   const Vec3 middle = tree.foot() + Vec3(0.0, 0.0, 0.5 * tree.height());
   return forest::pixelsPerMetre(view.eye, length(middle - view.eye.position) - tree.reach());
 }
 
-// Painted once in a process.
+// Painted once per process.
 const std::vector<Image>& sharedLeafAtlas() {
   static const std::vector<Image> atlas = leafAtlas(LEAF_EDGE);
   return atlas;
@@ -46,10 +46,10 @@ bool isSeen(const DrawnTree& tree, const View& view) {
                    tree.reach() + 0.5 * tree.height());
 }
 
-// By a camera a moment ago or in this view now: what comes into view is in its place at once.
-bool isSeen(TreeBatch& grove, const View& view) {
-  return grove.takeSeen() ||
-         std::any_of(grove.trees().begin(), grove.trees().end(),
+// Returns whether a camera has drawn the batch, or the viewer is about to.
+bool isSeen(TreeBatch& batch, const View& view) {
+  return batch.takeSeen() ||
+         std::any_of(batch.trees().begin(), batch.trees().end(),
                      [&](const DrawnTree* tree) { return isSeen(*tree, view); });
 }
 
@@ -90,8 +90,8 @@ void ForestVisual::select(const forest::ForestReplica& replica, const View& view
   report_.wanted = next_->wanted();
 }
 
-// Trees that follow others have a mesh before they take their place, the same if it is the same
-// tree: nothing is bare in between.
+// Builds the meshes of the next trees before they replace the current ones, so that none is
+// missing. A tree that is in both sets keeps its level.
 bool ForestVisual::prepare(const View& view, const Options& options) {
   if (!tree_set_) return true;
   const auto end = Clock::now() + std::chrono::duration<double>(SIDE_TIME);
@@ -107,7 +107,7 @@ bool ForestVisual::prepare(const View& view, const Options& options) {
   return true;
 }
 
-// The trees that have grown take the place of those drawn so far.
+// Replaces the trees that are drawn with those that have grown.
 void ForestVisual::applyDelta() {
   const bool follows = tree_set_ != nullptr;
   tree_batches_.clear();
@@ -122,10 +122,10 @@ void ForestVisual::applyDelta() {
   if (trees.empty()) return;
   const TreeMaterials materials{bark_material_.name(), leaf_material_.name(),
                                 fading_bark_material_.name(), fading_leaf_material_.name()};
-  for (auto& group : splitByPlace(std::move(trees), TREES_PER_GROVE))
+  for (auto& group : splitByPlace(std::move(trees), TREES_PER_BATCH))
     tree_batches_.push_back(std::make_unique<TreeBatch>(std::move(group), *node_, materials));
   if (!follows) return;
-  for (const auto& grove : tree_batches_) grove->rebuild();
+  for (const auto& batch : tree_batches_) batch->rebuild();
 }
 
 void ForestVisual::repaint() {
@@ -155,7 +155,7 @@ void ForestVisual::update(const forest::ForestReplica& replica, Nanoseconds stam
   measure(view, options);
 }
 
-// A fade takes FADE_TIME, or more where pictures are rare: no picture shows much of it at once.
+// A fade takes FADE_TIME, or longer at a low frame rate, to avoid steps.
 void ForestVisual::runFadeClock(double wall) {
   fade_clock_ += std::clamp((wall - wall_) / FADE_TIME, 0.0, LARGEST_FADE);
   if (report_.fading == 0) fade_clock_ = 1.0;
@@ -164,8 +164,8 @@ void ForestVisual::runFadeClock(double wall) {
   fading_bark_material_.setFadeClock(static_cast<float>(fade_clock_));
 }
 
-// One level after the other fades; what nobody sees changes at once, and all do until the levels
-// have settled for the first time.
+// Visible trees fade from level to level. Others change at once, and so do all trees until the
+// levels have settled for the first time.
 bool ForestVisual::changeLevel(DrawnTree& tree, const View& view, const Options& options,
                                bool in_time) {
   const auto clock = static_cast<float>(fade_clock_);
@@ -184,7 +184,7 @@ bool ForestVisual::changeLevel(DrawnTree& tree, const View& view, const Options&
   return true;
 }
 
-// Near groves first: they are drawn first, and the first to get their level when time is short.
+// Near batches are drawn first, and are the first to get their level if time is short.
 void ForestVisual::chooseLevels(const View& view, const Options& options) {
   const bool bare = report_.triangles == 0 || report_.waiting > tree_batches_.size();
   const auto end = Clock::now() + std::chrono::duration<double>(bare ? FIRST_TIME : LEVEL_TIME);
@@ -193,46 +193,46 @@ void ForestVisual::chooseLevels(const View& view, const Options& options) {
            (b->middle() - view.eye.position).squaredNorm();
   });
   report_.waiting = report_.fading = 0;
-  for (const auto& grove : tree_batches_)
-    for (const DrawnTree* tree : grove->trees()) report_.fading += tree->fading() ? 1 : 0;
+  for (const auto& batch : tree_batches_)
+    for (const DrawnTree* tree : batch->trees()) report_.fading += tree->fading() ? 1 : 0;
   int rank = 0;
   bool still = true;
-  for (const auto& grove : tree_batches_) {
-    grove->setRank(rank++);
+  for (const auto& batch : tree_batches_) {
+    batch->setRank(rank++);
     bool changed = false;
-    for (DrawnTree* tree : grove->trees()) {
+    for (DrawnTree* tree : batch->trees()) {
       const int before = tree->fading() ? 1 : 0;
       changed = changeLevel(*tree, view, options, Clock::now() < end) || changed;
       report_.fading += (tree->fading() ? 1 : 0) - before;
     }
     still = still && !changed;
     if (changed) {
-      grove->rebuild();
-      grove->moved_to = -1;
+      batch->rebuild();
+      batch->moved_to = -1;
     }
-    if (Clock::now() < end) grove->sortFor(view.eye.position);
+    if (Clock::now() < end) batch->sortFor(view.eye.position);
   }
   repaint_ = false;
   settled_ = settled_ || (still && report_.waiting == 0);
 }
 
-// While time stands still nothing moves, and nothing is computed.
+// Batches whose stamp has not changed are skipped.
 void ForestVisual::move(const forest::ForestReplica& replica, Nanoseconds stamp, const View& view,
                         const Options& options) {
   const wind::Instant wind = replica.wind().at(stamp);
   report_.moving = 0;
-  for (const auto& grove : tree_batches_) {
-    if (!isSeen(*grove, view) || grove->moved_to == stamp) continue;
-    grove->moved_to = stamp;
+  for (const auto& batch : tree_batches_) {
+    if (!isSeen(*batch, view) || batch->moved_to == stamp) continue;
+    batch->moved_to = stamp;
     bool moved = false, painted = false;
-    for (DrawnTree* tree : grove->trees()) {
+    for (DrawnTree* tree : batch->trees()) {
       const bool moves = tree->move(replica, stamp, wind, options.look, pixelsOf(*tree, view));
       report_.moving += moves ? 1 : 0;
       moved = moved || moves;
       painted = tree->paintLevels(replica, stamp, options.look) || painted;
     }
-    if (moved) grove->takePositions();
-    if (painted) grove->takePaint();
+    if (moved) batch->takePositions();
+    if (painted) batch->takePaint();
   }
 }
 
@@ -246,7 +246,7 @@ void ForestVisual::measure(const View& view, const Options& options) {
     ++report_.per_level[static_cast<std::size_t>(tree->level())];
     if (isSeen(*tree, view)) report_.triangles += tree->triangleCount();
   }
-  // What is on its way to another level is not yet what that level costs.
+  // Trees that change their level do not yet have its number of triangles.
   if (report_.waiting == 0 && report_.fading == 0 && report_.triangles > 0)
     feedback_.update(static_cast<double>(report_.triangles), options.target_triangles);
 }

@@ -15,18 +15,18 @@
 
 namespace vegetation_sim::view {
 
-/// What was drawn last.
+/// Figures of the last update.
 struct ForestReport {
-  std::size_t trees{0}, wanted{0};  ///< drawn, asked for
+  std::size_t trees{0}, wanted{0};  ///< drawn, selected
   std::size_t triangles{0};         ///< of trees in the picture
-  std::size_t moving{0};            ///< trees that were moved
-  std::size_t waiting{0};           ///< trees whose geometry level is still to change
-  std::size_t fading{0};            ///< trees that go from one level to another
-  int tree_sets{0};                 ///< selections of trees so far
+  std::size_t moving{0};            ///< trees with new positions
+  std::size_t waiting{0};           ///< trees whose level changes later
+  std::size_t fading{0};            ///< trees between two levels
+  int tree_sets{0};                 ///< number of selections of trees
   std::array<std::size_t, forest::GEOMETRY_LEVELS> per_level{};
 };
 
-/// The trees of a layout as Ogre shows them; all of it goes with this object. Render thread only.
+/// The OGRE objects of the trees of a layout, which it owns. Render thread only.
 class ForestVisual {
  public:
   struct Options {
@@ -39,19 +39,19 @@ class ForestVisual {
   explicit ForestVisual(Ogre::SceneNode& parent);
   ~ForestVisual();
 
-  /// Another layout, or other trees of it: grows them anew over the next updates.
+  /// Grows the trees of a layout during the next updates.
   void restart(const forest::ForestReplica& replica, const View& view, const Options& options);
-  /// Draws the forest of `stamp`. Work that cannot be done in time is left to later updates.
-  /// @param wall [s], in which levels fade into one another.
+  /// Draws the forest at `stamp`. Work beyond a time limit is left to later updates.
+  /// @param wall [s] clock of the fades between levels.
   void update(const forest::ForestReplica& replica, Nanoseconds stamp, double wall,
               const View& view, const Daylight& daylight, const Options& options);
-  /// The trees will be painted and built anew, as after a change of look.
+  /// Builds and paints all trees again, as after a change of options.
   void repaint();
   void light(const Daylight& daylight, const Vec3& to_sun, const Haze& haze);
 
-  /// The trees that are drawn; null until all of them stand.
+  /// Returns the trees that are drawn; null until all are grown.
   const TreeSet* tree_set() const { return tree_set_.get(); }
-  /// Counts the stocks so far.
+  /// Number of tree sets that have been drawn.
   int tree_sets() const { return tree_sets_; }
   const ForestReport& report() const { return report_; }
 
@@ -70,13 +70,13 @@ class ForestVisual {
   Texture leaf_texture_, bark_texture_;
   Material leaf_material_, bark_material_, fading_leaf_material_, fading_bark_material_;
   std::unique_ptr<TreeSet> tree_set_, next_;  // drawn; growing
-  std::size_t prepared_{0};                   // of the next trees: they have a mesh
+  std::size_t prepared_{0};                   // number of the next trees with a mesh
   std::vector<std::unique_ptr<TreeBatch>> tree_batches_;
-  Vec3 selected_at_{Vec3::Zero()};  // eye when the trees were selected
+  Vec3 selected_at_{Vec3::Zero()};  // viewer at the selection
   bool selected_all_{true};
   forest::ComplexityFeedback feedback_;
   bool repaint_{false};
-  bool settled_{false};  // no level has changed in an update
+  bool settled_{false};  // an update has changed no level
   double fade_clock_{1.0}, wall_{0.0};
   int tree_sets_{0};
   ForestReport report_;

@@ -9,11 +9,11 @@
 namespace vegetation_sim::view {
 namespace {
 
-constexpr float SWAY = 0.25f;  // of a tree's height: how far wind takes its tips
+constexpr float MARGIN = 0.25f;  // tips move by this part of the height of a tree
 
 using Part = DrawnTree::Part DrawnTree::Shape::*;
 
-// Something of each vertex of a part, tree by tree and shape by shape.
+// Concatenates an attribute of the vertices of a part, tree by tree and shape by shape.
 template <class T>
 std::vector<T> gathered(const std::vector<DrawnTree*>& trees, Part part,
                         std::vector<T> DrawnTree::Part::*what) {
@@ -51,7 +51,7 @@ std::vector<std::uint32_t> barkTriangles(const std::vector<DrawnTree*>& trees) {
   return out;
 }
 
-// Triangles of all leaf cards, front to back for an eye in this place.
+// Returns the triangles of all leaf cards, sorted front to back for a viewer.
 std::vector<std::uint32_t> leafTriangles(const std::vector<DrawnTree*>& trees, const Vec3& eye) {
   if (trees.empty()) return {};
   const Vec3 from = eye - trees.front()->origin();
@@ -88,7 +88,7 @@ TreeBatch::TreeBatch(std::vector<DrawnTree*> trees, Ogre::SceneNode& node,
 void TreeBatch::rebuild() {
   double tallest = 0.0;
   for (const DrawnTree* tree : trees_) tallest = std::max(tallest, tree->height());
-  const float margin = SWAY * static_cast<float>(tallest);
+  const float margin = MARGIN * static_cast<float>(tallest);
   bark_.build(positionsOf(trees_, &DrawnTree::Shape::bark),
               paintOf(trees_, &DrawnTree::Shape::bark), barkTriangles(trees_), margin);
   leaves_.build(positionsOf(trees_, &DrawnTree::Shape::leaves),

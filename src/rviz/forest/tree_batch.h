@@ -13,7 +13,7 @@
 
 namespace vegetation_sim::view {
 
-/// Names of the materials of trees, of those that fade too.
+/// Names of the materials of trees, and of trees that fade.
 struct TreeMaterials {
   std::string bark, leaves, fading_bark, fading_leaves;
 };
@@ -21,25 +21,25 @@ struct TreeMaterials {
 /// Trees that stand together and are drawn with two batches, bark and leaves. Render thread only.
 class TreeBatch {
  public:
-  /// @param node whose frame is the trees' origin.
+  /// @param node at the origin of the trees.
   TreeBatch(std::vector<DrawnTree*> trees, Ogre::SceneNode& node, const TreeMaterials& materials);
 
   const std::vector<DrawnTree*>& trees() const { return trees_; }
-  /// Middle of the feet, layout's frame [m].
+  /// Middle of the feet in the frame of the layout [m].
   const Vec3& middle() const { return middle_; }
 
-  /// Takes the meshes of its trees, which have changed.
+  /// Copies the changed meshes of the trees.
   void rebuild();
-  /// Takes the positions of its trees, and their paint.
+  /// Copies the positions or the colours of the trees.
   void takePositions();
   void takePaint();
   bool takeSeen();
   void setRank(int rank);
-  /// Draws leaves front to back for this eye (layout's frame), as hidden ones cost little then.
-  /// False if the order for an eye in about this direction is there already.
+  /// Sorts leaves front to back for a viewer (frame of the layout), so that hidden ones cost
+  /// little. Returns false if they are sorted for about this direction already.
   bool sortFor(const Vec3& eye);
 
-  /// Stamp that its trees were moved to.
+  /// Stamp of the positions of the trees.
   Nanoseconds moved_to{-1};
 
  private:
@@ -48,11 +48,10 @@ class TreeBatch {
   TreeMaterials materials_;
   Batch bark_, leaves_;
   bool built_{false};
-  Vec3 sorted_for_{Vec3::Zero()};  // direction to the eye
+  Vec3 sorted_for_{Vec3::Zero()};  // direction to the viewer
 };
 
-/// Splits trees into groups of at most `most` that stand together: half by half, across the longer
-/// side each time.
+/// Splits trees into groups of at most `most` neighbours, by halving across the longer side.
 std::vector<std::vector<DrawnTree*>> splitByPlace(std::vector<DrawnTree*> trees, std::size_t most);
 
 }  // namespace vegetation_sim::view

@@ -14,9 +14,9 @@ namespace vegetation_sim::view {
 namespace {
 
 constexpr unsigned short POSITIONS = 0, TEXTURE = 1, COLOURS = 2;  // streams
-constexpr std::size_t LEAST_ROOM = 4096;                           // vertices, indices
+constexpr std::size_t LEAST_ROOM = 4096;  // smallest capacity in vertices or indices
 
-// A quarter more than asked, so that a picture that grows slowly seldom asks.
+// A quarter is added, so that a slowly growing mesh is rarely reallocated.
 std::size_t roomFor(std::size_t wanted) {
   return std::max(LEAST_ROOM, wanted + wanted / 4);
 }
@@ -40,7 +40,7 @@ GrassBatch::GrassBatch(const std::string& name, const std::string& material, int
 }
 
 GrassBatch::~GrassBatch() {
-  delete mRenderOp.vertexData;  // Ogre's structure holds raw pointers
+  delete mRenderOp.vertexData;  // the structure of OGRE holds raw pointers
   delete mRenderOp.indexData;
 }
 

@@ -11,15 +11,15 @@
 
 namespace vegetation_sim::view {
 
-/// Triangles that are all made anew whenever grass moves, in one draw call. Attach it to a scene
-/// node; it leaves it when destroyed. Render thread only.
+/// Triangles in one draw call that are all replaced when grass moves. It detaches itself from its
+/// scene node when it is destroyed. Render thread only.
 class GrassBatch : public Ogre::SimpleRenderable {
  public:
-  /// @param name of the Ogre object, unique. @param material that exists. @param rank as for Batch.
+  /// @param name unique name of the OGRE object. @param material existing. @param rank as in Batch.
   GrassBatch(const std::string& name, const std::string& material, int rank);
   ~GrassBatch() override;
 
-  /// Takes all of the mesh in place of what it had. Positions are relative to the node.
+  /// Replaces the triangles. Positions are relative to the node.
   void fill(const grass::GrassMesh& mesh);
 
   void _updateRenderQueue(Ogre::RenderQueue* queue) override;

@@ -7,7 +7,7 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr int GROUND_RANK = 2;          // shows the tracks
+constexpr int GROUND_RANK = 2;          // the ground has tracks
 constexpr int BARE_RANK = -1;           // of a meadow where nothing grows
 constexpr double PRUNING_PERIOD = 0.5;  // [s]
 

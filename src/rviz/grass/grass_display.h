@@ -11,18 +11,16 @@
 
 namespace vegetation_sim {
 
-/// Rebuilds a meadow from its layout, its wind and its state, and draws it as it stands at rviz's
-/// time: blades near the eye, strips farther away, a picture of the ground under and beyond them
-/// (paper 2).
+/// Rebuilds a meadow from its layout, its wind and its state, and draws it at the time of rviz:
+/// blades near the viewer, strips farther away, and a texture on the ground (paper 2).
 class GrassDisplay : public SceneryDisplay {
   Q_OBJECT
  public:
   GrassDisplay();
   ~GrassDisplay() override;
 
-  /// What was drawn last.
   view::GrassReport drawn() const;
-  /// Tiles of the ground's picture that have tracks in them.
+  /// Number of tiles of the ground texture with tracks.
   std::size_t paintedTracks() const { return ground_ ? ground_->paintedTracks() : 0; }
 
  protected:

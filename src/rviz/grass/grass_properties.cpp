@@ -18,21 +18,21 @@ GrassProperties::GrassProperties(rviz::Display& display) {
 void GrassProperties::addTopics(rviz::Display& display) {
   layout_ = addTopic<GrassLayout>("Layout Topic", "grass/layout",
                                   "vegetation_sim/GrassLayout: the map of the meadow.", display);
-  wind_ = addTopic<WindField>("Wind Topic", "wind",
-                              "vegetation_sim/WindField: the law of the wind.", display);
+  wind_ = addTopic<WindField>("Wind Topic", "wind", "vegetation_sim/WindField: the wind field.",
+                              display);
   state_ = addTopic<GrassState>("State Topic", "grass/state",
-                                "vegetation_sim/GrassState: what is trodden.", display);
+                                "vegetation_sim/GrassState: trodden grass.", display);
 }
 
 void GrassProperties::addLook(rviz::Display& display) {
   most_blades_ = new rviz::IntProperty(
       "Blades", 25000,
-      "How many single blades to draw in the picture at most. Farther blades become fewer and "
-      "wider, then strips.",
+      "Largest number of single blades in the picture. Farther blades become fewer and wider, "
+      "then strips.",
       &display, SLOT(updateLook()), &display);
   most_blades_->setMin(1000);
   most_blades_->setMax(2000000);
-  blades_ = addFlag("Single Blades", true, "Draw blades near the eye.", display);
+  blades_ = addFlag("Single Blades", true, "Draw single blades near the viewer.", display);
   strips_ = addFlag("Strips", true, "Draw strips and layers farther away.", display);
   variety_ =
       addNumber("Variety", 1.f, "How much colours differ from blade to blade.", 0.f, 2.f, display);
@@ -42,10 +42,10 @@ void GrassProperties::addLook(rviz::Display& display) {
 }
 
 void GrassProperties::addLevels(rviz::Display& display) {
-  tolerance_ = addNumber("Tolerance", 2.f, "What a level of detail may leave out [pixel].", 0.1f,
+  tolerance_ = addNumber("Tolerance", 2.f, "Largest error of a level of detail [pixel].", 0.1f,
                          100.f, display);
-  farthest_ = addNumber("Farthest", 160.f, "Beyond, grass is only a picture on the ground [m].",
-                        1.f, 10000.f, display);
+  farthest_ = addNumber("Farthest", 160.f, "Beyond this distance grass is only a texture [m].", 1.f,
+                        10000.f, display);
   transition_ =
       addNumber("Transition", 0.5f, "Time from one level to the next [s].", 0.f, 60.f, display);
 }

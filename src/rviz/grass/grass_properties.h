@@ -13,8 +13,7 @@ class RosTopicProperty;
 
 namespace vegetation_sim::view {
 
-/// What the user of GrassDisplay sets, and its values in our terms. The properties are children of
-/// the display, which owns them.
+/// The properties of GrassDisplay. They are children of the display, which owns them.
 class GrassProperties : public SceneryProperties {
  public:
   /// @param display with the slots updateTopics(), updateLook(), updateGround(), updateSky(),

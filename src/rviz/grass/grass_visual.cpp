@@ -14,13 +14,13 @@ namespace vegetation_sim::view {
 namespace {
 
 constexpr int STRIP_COLUMNS = 512, STRIP_ROWS = 128, STRIP_BLADES = 130, LAYER_EDGE = 128;
-constexpr int MOST_LAYERS = 5;         // more would cost the rasteriser more than they show
+constexpr int MOST_LAYERS = 5;         // more are too slow to rasterise
 constexpr int ROWS = 3;                // of strips in a tile, each way
-constexpr double STILL = 1e-4;         // [m], [rad] of an eye
-constexpr double LARGEST_FADE = 0.05;  // of a transition between two updates
-constexpr double LEAVING = 0.5;        // of the blades drawn: the narrower, the sooner they go
+constexpr double STILL = 1e-4;         // [m], [rad] a viewer moves without effect
+constexpr double LARGEST_FADE = 0.05;  // part of a transition between two updates
+constexpr double LEAVING = 0.5;        // part of the blades that become narrower
 
-// Painted once in a process.
+// Painted once per process.
 const std::vector<Image>& sharedStrips() {
   static const std::vector<Image> pictures = stripPictures(STRIP_COLUMNS, STRIP_ROWS, STRIP_BLADES);
   return pictures;
@@ -46,7 +46,7 @@ Vec3 originOf(const grass::MapLaw& law, const terrain::HeightMap& terrain) {
   return {x, y, terrain.height(x, y)};
 }
 
-// A tile on its way from texture to blades passes by strips: its place alone does not tell.
+// A tile between texture and blades passes strips, so its target must be compared.
 bool haveArrived(const grass::MeadowLodSnapshot& memory, double transition) {
   return std::all_of(memory.levels.begin(), memory.levels.end(),
                      [&](const grass::TileLevel& level) {
@@ -122,7 +122,7 @@ void GrassVisual::update(const SubscribedMeadow& meadow, Nanoseconds stamp, doub
   const std::vector<grass::TileView> tiles = levels_.viewOf(eye, now);
   wanted.settled = haveArrived(levels_.snapshot(), options.levels.transition);
   build(meadow, stamp, view, tiles, options);
-  // Two alike in a row: the number of blades has found its tolerance too.
+  // The picture is settled only if the number of blades has not changed either.
   wanted.blades = report_.blades;
   const std::size_t gap =
       std::max(drawn_.blades, wanted.blades) - std::min(drawn_.blades, wanted.blades);
@@ -132,7 +132,7 @@ void GrassVisual::update(const SubscribedMeadow& meadow, Nanoseconds stamp, doub
   ++report_.rebuilds;
 }
 
-// Wall time, slower where pictures are rare: none shows much of a transition at once.
+// The clock is wall time, but slower at a low frame rate, to avoid steps.
 Nanoseconds GrassVisual::levelClock(double wall, double transition) {
   const double passed = std::max(wall - wall_, 0.0);
   clock_ += transition > 0.0 ? std::min(passed, LARGEST_FADE * transition) : passed;
@@ -140,7 +140,7 @@ Nanoseconds GrassVisual::levelClock(double wall, double transition) {
   return fromSeconds(clock_);
 }
 
-// Near tiles first: they hide the others cheaply.
+// Near tiles are drawn first because they hide others.
 void GrassVisual::build(const SubscribedMeadow& meadow, Nanoseconds stamp, const View& view,
                         const std::vector<grass::TileView>& tiles, const Options& options) {
   std::vector<grass::TileView> sorted = tiles;
@@ -185,7 +185,7 @@ void GrassVisual::addBlades(const grass::Tile& tile, const grass::TileMotion& mo
   grass::RibbonStyle style;
   style.segments = view.segments;
   style.leaving = std::min(LEAVING, (1.0 - view.share) / view.share);
-  // Fewer hide each other less. What arrives at the edge of its tile is gone.
+  // Fewer blades hide each other less. Blades at the edge of their tile have width 0.
   style.width = std::pow(view.share * (1.0 - 0.5 * style.leaving), -0.95) *
                 (1.0 - view.morph.slide * view.morph.slide);
   style.slide = view.morph.slide;
@@ -197,7 +197,7 @@ void GrassVisual::addBlades(const grass::Tile& tile, const grass::TileMotion& mo
   ++report_.bladed;
 }
 
-// Strips seen from the side, layers seen from above.
+// Adds strips for a view from the side, and layers for a view from above.
 void GrassVisual::addFlat(const grass::Tile& tile, const grass::TileMotion& motion,
                           const grass::TileView& view) {
   const double from_above = grass::layerWeight(view.elevation);

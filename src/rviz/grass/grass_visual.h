@@ -16,7 +16,7 @@
 
 namespace vegetation_sim::view {
 
-/// What was drawn last.
+/// Figures of the last update.
 struct GrassReport {
   std::size_t tiles{0};     ///< of the map
   std::size_t blades{0};    ///< single ones
@@ -24,16 +24,16 @@ struct GrassReport {
   std::size_t stripped{0};  ///< tiles of strips or layers
   std::size_t trodden{0};   ///< blocks of trodden ground
   std::size_t triangles{0};
-  int rebuilds{0};  ///< how often anything was drawn anew
+  int rebuilds{0};  ///< number of meshes built
 };
 
-/// The grass of a layout as Ogre shows it: blades near the eye, strips and layers farther away
-/// (paper 2, section 3). All of it goes with this object. Render thread only.
+/// The OGRE objects of the grass of a layout, which it owns: blades near the viewer, strips and
+/// layers farther away (paper 2, section 3). Render thread only.
 class GrassVisual {
  public:
   struct Options {
     grass::MeadowSettings levels;
-    float variety{1.f};  ///< of blades, RibbonStyle::variety
+    float variety{1.f};  ///< see RibbonStyle::variety
     bool blades{true}, strips{true};
     bool colour_by_level{false};  ///< blades red, strips blue
   };
@@ -44,20 +44,20 @@ class GrassVisual {
   GrassVisual(const GrassVisual&) = delete;
   GrassVisual& operator=(const GrassVisual&) = delete;
 
-  /// Draws the grass of `stamp`; nothing is done if nothing has changed. Levels go on by `wall` [s]
-  /// while simulation time stands.
+  /// Draws the grass at `stamp` if anything has changed. Levels follow the clock `wall` [s], also
+  /// while simulation time is paused.
   void update(const SubscribedMeadow& meadow, Nanoseconds stamp, double wall, const View& view,
               const Options& options);
   void light(const Daylight& daylight, const Haze& haze);
-  /// Draws all anew at the next update.
+  /// Builds all meshes again at the next update.
   void repaint() { drawn_ = Drawn(); }
 
   const GrassReport& report() const { return report_; }
-  /// [m] around the eye within which most grass is blades; 0: none.
+  /// Distance [m] to which most grass is single blades; 0: none.
   float bladesReach() const { return reach_; }
 
  private:
-  /// What the picture was made of.
+  /// Inputs of the meshes.
   struct Drawn {
     Nanoseconds stamp{-1};
     int changes{-1};
@@ -87,7 +87,7 @@ class GrassVisual {
   std::vector<grass::BladeBlock> blocks_;
   grass::CrushPatch patch_;
   Drawn drawn_;
-  double clock_{0.0}, wall_{0.0};  // of levels; of the last update [s]
+  double clock_{0.0}, wall_{0.0};  // [s] of levels; of the last update
   float reach_{0.f};
   GrassReport report_;
 };

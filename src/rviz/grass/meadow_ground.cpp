@@ -40,7 +40,7 @@ void MeadowGround::paint(const SubscribedMeadow& meadow, std::pair<int, int> til
     tracks_.erase(tile);
 }
 
-// All tiles that have tracks, or had them when they were painted.
+// Collects all tiles that have tracks now, or had them when they were painted.
 void MeadowGround::collect(const SubscribedMeadow& meadow) {
   std::set<std::pair<int, int>> all = tracks_;
   const double cells = map_->law().resolution / meadow.tread().spacing();

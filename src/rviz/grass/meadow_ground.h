@@ -15,19 +15,18 @@
 
 namespace vegetation_sim::view {
 
-/// The ground of a meadow: its picture is under everything and beyond all strips, with the tracks
-/// in it. Render thread only.
+/// The ground of a meadow with a texture of its grass and tracks. Render thread only.
 class MeadowGround {
  public:
-  /// @param meadow with a layout, which must outlive it until another is made.
+  /// @param meadow with a layout.
   MeadowGround(Ogre::SceneNode& parent, const SubscribedMeadow& meadow, const Daylight& daylight,
                const Rgba& tint);
 
-  /// Paints tiles whose tracks have changed: those in `pressed` first, and some of the others.
+  /// Paints tiles whose tracks have changed: those in `pressed` first, then some others.
   void update(const SubscribedMeadow& meadow, const std::set<std::pair<int, int>>& pressed,
               Nanoseconds stamp);
   void light(const Daylight& daylight, const Haze& haze);
-  /// [m] around the eye where blades stand on it.
+  /// Darkens the ground under blades. @param distance [m] from the viewer.
   void darken(float distance) { ground_->darken(distance); }
 
   std::size_t paintedTracks() const { return tracks_.size(); }  ///< tiles with tracks
@@ -41,8 +40,8 @@ class MeadowGround {
   Daylight daylight_;
   std::unique_ptr<MeadowPainter> painter_;
   std::unique_ptr<GroundVisual> ground_;
-  std::set<std::pair<int, int>> tracks_;    // tiles that have tracks in the picture
-  std::set<std::pair<int, int>> pressed_;   // to be painted soon
+  std::set<std::pair<int, int>> tracks_;    // tiles with tracks in the texture
+  std::set<std::pair<int, int>> pressed_;   // to be painted first
   std::vector<std::pair<int, int>> round_;  // to be painted in turn
   grass::CrushPatch patch_;
 };

@@ -10,8 +10,8 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr int GROUND_RANK = -1;  // shows nothing that stands on it
-constexpr double AHEAD = 0.4;    // where the arrows' middle is before the eye, in extents
+constexpr int GROUND_RANK = -1;  // plain grass
+constexpr double AHEAD = 0.4;    // distance of the arrows before the viewer, in extents
 
 }  // namespace
 
@@ -94,7 +94,7 @@ void WindDisplay::showInputs(view::StatusBoard& board, Nanoseconds /*now*/) cons
 }
 
 InputStatus WindDisplay::describeDrawn() const {
-  if (source_->messages() == 0) return {false, "Nothing: there is no wind yet"};
+  if (source_->messages() == 0) return {false, "Nothing: no wind field has been received"};
   const auto tenths = static_cast<long>(10.0 * report_.fastest + 0.5);
   return {true, std::to_string(report_.arrows) + " arrows, " + std::to_string(report_.shapes) +
                     " shapes; fastest primitive " + std::to_string(tenths / 10) + "." +

@@ -14,15 +14,15 @@
 
 namespace vegetation_sim {
 
-/// Shows the wind law at rviz's time: arrows of the air's velocity around the view, and what bounds
-/// each gust, disc, tornado and blast.
+/// Draws the wind field at the time of rviz: arrows of the velocity around the viewer, and the
+/// bounds of each gust, disc, tornado and blast.
 class WindDisplay : public SceneryDisplay {
   Q_OBJECT
  public:
-  /// What was drawn last.
+  /// Figures of the last update.
   struct Report {
     std::size_t arrows{0}, shapes{0};
-    double fastest{0.0};  ///< of the primitives [m/s]
+    double fastest{0.0};  ///< [m/s] peak of the primitives
   };
 
   WindDisplay();
@@ -38,7 +38,7 @@ class WindDisplay : public SceneryDisplay {
   void draw(Nanoseconds stamp, const view::View& view) override;
   void light(const view::Daylight& daylight, const view::Haze& haze) override;
   void dropGround() override { ground_.reset(); }
-  void forgetState(Nanoseconds /*now*/) override {}  // a law knows all times
+  void forgetState(Nanoseconds /*now*/) override {}  // the field has no state
   void showInputs(view::StatusBoard& board, Nanoseconds now) const override;
   InputStatus describeDrawn() const override;
 

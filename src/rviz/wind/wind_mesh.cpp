@@ -11,8 +11,8 @@
 namespace vegetation_sim::view {
 namespace {
 
-constexpr double SHORTEST = 1e-3;    // [m] of an arrow
-constexpr double RING_WIDTH = 0.02;  // of its radius
+constexpr double SHORTEST = 1e-3;    // [m] length of an arrow
+constexpr double RING_WIDTH = 0.02;  // as a part of the radius
 constexpr double LIFT = 0.1;         // [m] over the ground
 constexpr int RING_SIDES = 64;
 
@@ -42,7 +42,7 @@ void addBlade(const Vec3& from, const Vec3& vector, const Vec3& side, const Vec3
   mesh.indices.insert(mesh.indices.end(), {a, a + 1, a + 3, a, a + 3, a + 2, a + 4, a + 5, a + 6});
 }
 
-// A band on the ground between two radii.
+// Adds a band on the ground.
 void addRing(const Vec3& centre, double radius, double width, const Vec3& colour,
              const terrain::HeightMap& ground, grass::GrassMesh& mesh) {
   const auto first = static_cast<std::uint32_t>(mesh.vertexCount());

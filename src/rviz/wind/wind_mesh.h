@@ -10,30 +10,29 @@
 
 namespace vegetation_sim::view {
 
-/// How wind is drawn.
+/// Style of arrows and shapes.
 struct WindStyle {
   double spacing{3.0};      ///< of the arrows [m]
-  double extent{60.0};      ///< edge of their square [m]
+  double extent{60.0};      ///< edge of the square of arrows [m]
   double height{2.0};       ///< over the ground [m]
-  double scale{0.25};       ///< length of an arrow a speed [s]
-  double full_speed{12.0};  ///< that has the last colour [m/s]
+  double scale{0.25};       ///< length of an arrow over its speed [s]
+  double full_speed{12.0};  ///< speed of the last colour [m/s]
 };
 
-/// Most arrows: beyond, they are farther apart.
+/// Largest number of arrows. The spacing grows so that it is not exceeded.
 constexpr int MOST_ARROWS = 4096;
 
-/// Blue in a calm over green and yellow to red, by share of the full speed.
+/// Returns a colour from blue over green and yellow to red. @param share of the full speed.
 Vec3 colourOfSpeed(double share);
 
-/// Appends an arrow of two crossed blades. Nothing for a vector of less than 1 mm.
+/// Appends an arrow of two crossed blades, unless the vector is shorter than 1 mm.
 void appendArrow(const Vec3& from, const Vec3& vector, const Vec3& colour, grass::GrassMesh& mesh);
 
-/// Appends arrows on a grid around a place, which stays where it is when the place moves.
-/// @return their number.
+/// Appends arrows around a place, on a grid that is fixed in the world. Returns their number.
 std::size_t appendArrows(const wind::Instant& wind, const terrain::HeightMap& ground,
                          const Vec3& around, const WindStyle& style, grass::GrassMesh& mesh);
 
-/// Appends what bounds a primitive on the ground, with an arrow of its own.
+/// Appends the bounds of a primitive on the ground, and its arrow.
 void appendTerm(const wind::Term& term, const terrain::HeightMap& ground, const WindStyle& style,
                 grass::GrassMesh& mesh);
 

@@ -9,17 +9,18 @@
 namespace vegetation_sim::view {
 
 WindProperties::WindProperties(rviz::Display& display) {
-  topic_ = addTopic<WindField>("Topic", "wind", "vegetation_sim/WindField: the law of the wind.",
-                               display);
-  arrows_ = addFlag("Arrows", true, "Draw the air's velocity on a grid around the view.", display);
+  topic_ =
+      addTopic<WindField>("Topic", "wind", "vegetation_sim/WindField: the wind field.", display);
+  arrows_ = addFlag("Arrows", true, "Draw the wind velocity on a grid around the viewer.", display);
   spacing_ = addNumber("Spacing", 3.f, "Distance of the arrows [m].", 0.1f, 1000.f, display);
-  extent_ =
-      addNumber("Extent", 60.f, "Edge of the square that they fill [m].", 1.f, 10000.f, display);
-  height_ = addNumber("Height", 2.f, "Where they stand over the ground [m].", 0.f, 1000.f, display);
+  extent_ = addNumber("Extent", 60.f, "Edge of the square of arrows [m].", 1.f, 10000.f, display);
+  height_ =
+      addNumber("Height", 2.f, "Height of the arrows over the ground [m].", 0.f, 1000.f, display);
   scale_ =
-      addNumber("Scale", 0.25f, "Length of an arrow for its speed [s].", 0.001f, 100.f, display);
-  full_speed_ = addNumber("Full Speed", 12.f, "Speed that is red; a calm is blue [m/s].", 0.1f,
-                          200.f, display);
+      addNumber("Scale", 0.25f, "Length of an arrow over its speed [s].", 0.001f, 100.f, display);
+  full_speed_ =
+      addNumber("Full Speed", 12.f, "Speed of red arrows; arrows of slow wind are blue [m/s].",
+                0.1f, 200.f, display);
   shapes_ = addFlag("Shapes", true,
                     "Draw each gust, disc, tornado and blast on the ground, with its direction.",
                     display);

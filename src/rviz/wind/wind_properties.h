@@ -7,11 +7,9 @@
 
 namespace vegetation_sim::view {
 
-/// What the user of WindDisplay sets, and its values in our terms. The properties are children of
-/// the display, which owns them.
+/// The properties of WindDisplay. They are children of the display, which owns them.
 class WindProperties : public SceneryProperties {
  public:
-  /// @param display a SceneryDisplay.
   explicit WindProperties(rviz::Display& display);
 
   std::string topic() const;
