@@ -33,7 +33,7 @@ inline std::uint32_t spawnAt(Crowd& crowd, const Point& from, const Point& goal,
   return crowd.spawn(spawn);
 }
 
-/// Two who walk straight towards each other.
+/// Two walkers who approach each other on one line.
 inline Crowd headOn(std::uint64_t seed, const CrowdSettings& settings) {
   Crowd out(seed, settings, {-20, 20, -20, 20}, flatGround());
   spawnAt(out, {-5, 0}, {5, 0});
@@ -83,7 +83,7 @@ inline Crowd corridor(double width, std::uint64_t seed, const CrowdSettings& set
   return out;
 }
 
-/// Ten in a room of 10 m, who wander.
+/// Ten wandering walkers in a room of 10 m.
 inline Crowd crowdedRoom(std::uint64_t seed, const CrowdSettings& settings) {
   Crowd out(seed, settings, {-4.5, 4.5, -4.5, 4.5}, flatGround());
   out.setObstacles(room(-5, -5, 5, 5));
@@ -96,7 +96,7 @@ inline Crowd crowdedRoom(std::uint64_t seed, const CrowdSettings& settings) {
   return out;
 }
 
-/// Steps for `seconds`; `look` sees the crowd after each.
+/// Steps for `seconds` and calls `look` with the crowd after each step.
 template <class Look>
 void run(Crowd& crowd, double seconds, double dt, Look look) {
   const Nanoseconds start = crowd.snapshot().stamp;

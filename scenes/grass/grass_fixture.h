@@ -32,8 +32,9 @@ inline terrain::HeightMap slopedGround(double slope_x, double slope_y) {
   return terrain::HeightMap(law, image);
 }
 
-/// Chance that chi-square with `degrees` degrees of freedom is above `x` (Wilson and Hilferty 1931;
-/// good to a few percent of itself from 30 degrees on, enough for bounds of 1e-4).
+/// Returns the probability that chi-square with `degrees` degrees of freedom is above `x` (Wilson
+/// and Hilferty 1931; good to a few percent of itself from 30 degrees on, enough for bounds of
+/// 1e-4).
 inline double chiSquareTail(double x, double degrees) {
   const double t = 2.0 / (9.0 * degrees);
   const double z = (std::cbrt(x / degrees) - (1.0 - t)) / std::sqrt(t);

@@ -39,7 +39,7 @@ TEST(Layout, IsReadWithItsGroupsKindsPlantsAndBeds) {
   }
 }
 
-TEST(Layout, IsRefusedWithAllItsFaults) {
+TEST(Layout, IsRejectedWithAllItsFaults) {
   const std::string text = errorOf([] {
     read(
         "canopy:\n"
@@ -55,7 +55,7 @@ TEST(Layout, IsRefusedWithAllItsFaults) {
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
 }
 
-TEST(Layout, IsRefusedAsAWhole) {
+TEST(Layout, IsRejectedAsAWhole) {
   EXPECT_NE(errorOf([] { read("canopy: {fluid: {cells: 48}}"); }).find("no power of two"),
             std::string::npos);
   EXPECT_NE(errorOf([] {

@@ -64,7 +64,7 @@ double swingAt(int rate) {
 
 // E10: air, leaves and layers, not the warp alone, whose printed form would give a half and a
 // quarter. What is left, half a percent, is the sources' step.
-TEST(Canopy, SwingsTheSameAtAnyRate) {
+TEST(Canopy, MovesTheSameAtAnyRate) {
   const double swing = swingAt(60);
   EXPECT_GT(swing, 0.005);
   for (const int rate : {120, 30, 15}) EXPECT_NEAR(swingAt(rate) / swing, 1.0, 0.01) << rate;
@@ -277,7 +277,7 @@ TEST(Replica, MovesEveryLeafAsTheAnimatorDoes) {
   EXPECT_GT(length(want[0]), 0.0);
 }
 
-TEST(Replica, RefusesAnotherLayout) {
+TEST(Replica, RejectsAnotherLayout) {
   Canopy canopy(shrubScene());
   canopy.advance(tickStamp(0));
   Layout other = shrubScene();
@@ -290,7 +290,7 @@ TEST(Replica, RefusesAnotherLayout) {
 }
 
 // S3-W7: what a vertex shader needs, looked up as it would, is the motion of every leaf.
-TEST(Foliage, IsToldToAGraphicsCardAsPictures) {
+TEST(Foliage, IsAvailableAsTexturesForShaders) {
   const Layout layout = shrubScene();
   Canopy canopy(layout);
   canopy.setWind(breezeFrom(Vec3(1.0, 5.0, 0.0)));

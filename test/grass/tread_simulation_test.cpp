@@ -38,7 +38,7 @@ TEST_F(FieldTest, AHoveringSourceLeavesNoTrack) {
   EXPECT_NEAR(map_.at({9.5, 10.0}, now()).tilt, 1.5, RISEN);
 }
 
-// S2-28: grass stays down as long as somebody stands on it, also if it would recover sooner.
+// S2-28: grass stays down below a standing source, also if it would recover sooner.
 TEST_F(FieldTest, GrassStaysDownUnderAStandingFoot) {
   TreadInput foot = input("foot", 10.0, 10.0);
   foot.law.recovery = 2.0;
@@ -48,7 +48,7 @@ TEST_F(FieldTest, GrassStaysDownUnderAStandingFoot) {
     field_.advance(now());
     ASSERT_GT(map_.at({10.0, 10.0}, now()).tilt, 1.4f) << i;
   }
-  tick_ += 150;  // told no more for 5 s: its lease is over
+  tick_ += 150;  // no input for 5 s, longer than its lease
   field_.advance(now());
   EXPECT_TRUE(field_.sources().empty());
   EXPECT_EQ(map_.at({10.0, 10.0}, now()).tilt, 0.f);
@@ -77,7 +77,7 @@ TEST_F(FieldTest, AJumpLeavesNoTrackAndIsNamed) {
   EXPECT_EQ(field_.drags()[0].force, Vec3::Zero());
 }
 
-TEST_F(FieldTest, SaysWhoCameToWhichTile) {
+TEST_F(FieldTest, ReportsWhichSourceEnteredWhichTile) {
   field_.advance(now());
   std::vector<Entering> entered;
   const auto take = [&] {
@@ -165,7 +165,7 @@ TEST_F(FieldTest, ADiscOrAllIsRaised) {
   EXPECT_TRUE(map_.state().blocks.empty());
 }
 
-TEST_F(FieldTest, RefusesOneSourceTooMany) {
+TEST_F(FieldTest, RejectsOneSourceTooMany) {
   for (std::size_t i = 0; i < TreadSimulation::MOST_SOURCES; ++i)
     field_.apply(input("s" + std::to_string(i), 10.0, 10.0, 1.0), now());
   EXPECT_EQ(errorOf([&] { field_.apply(input("x", 1.0, 1.0), now()); }),

@@ -73,7 +73,7 @@ TEST(GrassVolume, ThatIsTroddenReturnsLower) {
   GrassVolume before, after;
   upright.show(before);
   trodden.show(after);
-  const auto top = [](const GrassVolume& grass_volume) {  // rays from a robot that looks ahead
+  const auto top = [](const GrassVolume& grass_volume) {  // rays of a robot, forward
     double sum = 0.0;
     for (int i = 0; i < 1000; ++i) {
       const Vec3 from(5.0 + 0.005 * i, 10.3, 1.0);
@@ -97,7 +97,7 @@ TEST(GrassVolume, BentByWindIsLower) {
   EXPECT_LT(meetings(windy, 0.1, 0.3).height, meetings(still, 0.1, 0.3).height - 0.005);
 }
 
-// What stands still looks still, from one scan to the next.
+// A static scene gives the same returns in every scan.
 TEST(GrassVolume, InStillAirLooksTheSameAtAnyTime) {
   const Lawn lawn;
   GrassVolume now, later;

@@ -25,7 +25,7 @@ Beams coarse() {
   return out;
 }
 
-// Trees, a lawn and one who stands between them.
+// Trees, a lawn and a person between them.
 void fill(Scene& scene, const Lawn& lawn) {
   const auto forest = movingForest(forest::gridLayout(2, 9.0), breezeOf(Vec3(4, 0, 0)));
   scene.trees.update(forest, Vec3(10, 10, 1), 60.0, START);
@@ -137,7 +137,7 @@ TEST(Sweep, RaysStandWhereTheyAreAskedFor) {
   EXPECT_NEAR(directionOf(planeOf(beams), 0, 1).z(), 0.0, 1e-15);
 }
 
-TEST(Sweep, BeamsThatAreNoneAreRefused) {
+TEST(Sweep, InvalidBeamsAreRejected) {
   Beams beams;
   beams.elevation_low = 0.3;
   beams.azimuth_high = beams.azimuth_low;

@@ -25,7 +25,7 @@ Trees seen(const forest::ForestReplica& forest, double after) {
   return out;
 }
 
-// Rays whose answer differs.
+// Returns the number of rays whose hits differ.
 int differences(const Trees& a, const Trees& b) {
   int out = 0;
   for (std::uint64_t i = 0; i < RAYS; ++i) out += same(castAt(a, i), castAt(b, i)) ? 0 : 1;

@@ -217,7 +217,7 @@ TEST(Fluid, DividesAndSkipsJustBeyondItsBoundsAndNotBefore) {
   EXPECT_NEAR(after(1.001 * most).second, 0.001 * most, 1e-9);
 }
 
-TEST(Fluid, RefusesWhatCannotBe) {
+TEST(Fluid, RejectsImpossibleValues) {
   FluidSettings settings;
   settings.cells = 48;
   settings.width = -1.0;

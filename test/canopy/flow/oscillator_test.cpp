@@ -84,7 +84,7 @@ TEST(Oscillator, OneStepIsSixteenOfASixteenth) {
 }
 
 // S3-12
-TEST(Oscillator, SwaysAndComesToRestWhereTheWindHoldsIt) {
+TEST(Oscillator, OscillatesAndComesToRestWhereTheWindHoldsIt) {
   for (const char* integrator : {"exact", "verlet"}) {
     Oscillator leaves(with(integrator), 32, 4.0);
     const PlaneField wind = evenWind(32, 2.0, -1.0);
@@ -211,7 +211,7 @@ TEST(Oscillator, DividesJustBeyondTheLimitOfVerletAndNotBefore) {
 }
 
 // N6, and bad input.
-TEST(Oscillator, IsRestoredToTheSameBitsAndRefusesWhatIsNoState) {
+TEST(Oscillator, IsRestoredToTheSameBitsAndRejectsInvalidStates) {
   for (const char* integrator : {"exact", "verlet"}) {
     Oscillator first(with(integrator), 32, 4.0), second(with(integrator), 32, 4.0);
     first.advance(0.5, smoothFlow(32, 5), 1.0);

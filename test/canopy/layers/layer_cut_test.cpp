@@ -86,21 +86,21 @@ TEST(LayerCut, IsLeftOnlyByAViewThatDiffersEnough) {
   }
 }
 
-// Bad input: one layer, no depth, an eye among the leaves.
+// Bad input: one layer, no depth, a viewer among the leaves.
 TEST(LayerCut, HoldsWithoutDepthAndFromWithin) {
   const CutSettings settings;
   const LayerCut flat(eastwardFrom(0.0), settings, 3.0, 3.0);
   EXPECT_EQ(flat.layers(), 1);
   EXPECT_EQ(flat.last(), 0.0);
   const LayerCut within(eastwardFrom(5.0), settings, -1.0, 2.0);
-  EXPECT_EQ(within.layerAt(Vec3(4.2, 0.0, 0.0)), 0);  // behind the eye
+  EXPECT_EQ(within.layerAt(Vec3(4.2, 0.0, 0.0)), 0);  // behind the viewer
   EXPECT_EQ(within.layerAt(Vec3(6.9, 0.0, 0.0)), within.layers() - 1);
   const LayerCut behind(eastwardFrom(50.0), settings, -10.0, -2.0);
   EXPECT_EQ(behind.layers(), 1);
   EXPECT_EQ(LayerCut().layers(), 1);
 }
 
-TEST(CutSettings, AreRefusedWithAllFaults) {
+TEST(CutSettings, AreRejectedWithAllFaults) {
   const auto text = [](const CutSettings& settings) {
     Faults faults;
     check(settings, "layers: ", faults);

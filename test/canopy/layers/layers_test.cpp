@@ -206,7 +206,7 @@ TEST(LayerMotion, CorrelatesWithTheFirstLayerWithoutBeingIt) {
   EXPECT_LT(errors.nothing, 0.9);
 }
 
-TEST(History, RefusesFramesOfAnotherSize) {
+TEST(History, RejectsFramesOfAnotherSize) {
   History history(16, 4);
   EXPECT_THROW(history.push(toFrame(PlaneField(32), 0.0)), InvalidInput);
   EXPECT_THROW(History(16, 1), InvalidInput);

@@ -134,7 +134,7 @@ TEST(LimitFolding, LeavesAMapThatCanBeInverted) {
     kept = std::min(kept, smallestDeterminant(motion, reach, cell));
     double mean = 0.0;
     for (const double value : motion.plane.u) mean += value / 256.0;
-    ASSERT_NEAR(mean, 5.0, 1e-9);  // the sway of the whole stays
+    ASSERT_NEAR(mean, 5.0, 1e-9);  // the mean motion stays
   }
   EXPECT_LT(folded, 0.0);
   EXPECT_GT(kept, 0.0);

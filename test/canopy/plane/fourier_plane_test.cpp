@@ -67,7 +67,7 @@ TEST(FourierPlane, HasTheSameBitsOnEveryInstructionSet) {
   for (const std::uint64_t hash : hashes) EXPECT_EQ(hash, hashes.front());
 }
 
-TEST(FourierPlane, RefusesSizesThatAreNoPowerOfTwo) {
+TEST(FourierPlane, RejectsSizesThatAreNoPowerOfTwo) {
   for (const int size : {0, -64, 8, 48, 63, 512})
     EXPECT_THROW(FourierPlane{size}, std::invalid_argument) << size;
 }

@@ -66,7 +66,7 @@ TEST(FormOf, HangsEachLeafOnItsRoot) {
     EXPECT_NEAR(std::fmod(leaf.anchor.z() * 3.4, 1.0), 0.4, 1e-9);
 }
 
-// S3-02: rigid faces are apart and never displaced; names tell them.
+// S3-02: rigid faces are separate, marked by names, and never displaced.
 TEST(FormOf, KeepsRigidPartsApart) {
   LeafMesh mesh = ladderOf(2);
   mesh.rigid = {true, true, false, false};
@@ -117,7 +117,7 @@ TEST(Mesh, StaysWholeInTheWind) {
 }
 
 // Bad input: each fault by name.
-TEST(FormOf, RefusesWhatIsNoPlant) {
+TEST(FormOf, RejectsInvalidMeshes) {
   EXPECT_NE(errorOf([] { formOf(LeafMesh(), false); }).find("no faces"), std::string::npos);
   LeafMesh mesh = ladderOf(3);
   mesh.vertices[7].x() = std::numeric_limits<double>::quiet_NaN();
@@ -196,7 +196,7 @@ TEST(Slices, DriftInLayersAsACloud) {
   EXPECT_GT(length(Vec3(first.front() - first.back())), 1e-3);
 }
 
-TEST(Slices, AreRefusedIfTheyHoldNothing) {
+TEST(Slices, AreRejectedIfTheyAreEmpty) {
   EXPECT_THROW(formOf(SliceStack(), 0.5), InvalidInput);
   EXPECT_THROW(formOf(SliceStack{2, 2, 1, {0.0, 0.1, 0.2, 0.3}}, 0.5), InvalidInput);
   EXPECT_THROW(formOf(SliceStack{2, 2, 2, {0.0, 0.1, 0.2, 0.3}}, 0.2), InvalidInput);

@@ -53,7 +53,7 @@ TEST(CrowdScene, GroupsKeepWithinWhatAWalkerMayHave) {
   EXPECT_LT(fastest, 40);
 }
 
-TEST(CrowdScene, TellsAllFaultsAtOnce) {
+TEST(CrowdScene, ReportsAllFaultsAtOnce) {
   Faults faults;
   read(R"(
 sensor_range: 500

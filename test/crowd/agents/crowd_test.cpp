@@ -36,7 +36,7 @@ TEST(Crowd, NothingIsPenetratedAtAnyStep) {
   }
 }
 
-// S2-30: ten minutes on a slope; nobody leaves the walls, nobody overlaps, everybody moves.
+// S2-30: ten minutes on a slope; no walker leaves the walls or overlaps, and all move.
 TEST(Crowd, TenMinutesBetweenVirtualWalls) {
   Crowd crowd = crowdedRoom(2, CrowdSettings());
   std::vector<double> way(10, 0.0);
@@ -72,7 +72,7 @@ TEST(Crowd, TrapsAreLeft) {
     Crowd crowd = trap(seed, 4.0, CrowdSettings());
     EXPECT_TRUE(allArriveWithin(crowd, 90.0)) << seed;
   }
-  // The nearest obstacle alone leads nobody out.
+  // The nearest obstacle alone leads no walker out.
   CrowdSettings paper;
   paper.behaviour = Behaviour::PAPER;
   paper.neighbours = 1;
@@ -225,7 +225,7 @@ TEST(Crowd, FeetComeDownAStrideApart) {
   }
 }
 
-TEST(Crowd, RefusesWhatIsNotRight) {
+TEST(Crowd, RejectsInvalidInputs) {
   Crowd crowd = crowdedRoom(1, CrowdSettings());
   const std::uint64_t before = crowd.snapshot().hash();
   Spawn spawn;
@@ -275,7 +275,7 @@ TEST(Crowd, CrossingWallsAreWalls) {
   run(crowd, 60.0, 0.1, [&](const Crowd& c) { ASSERT_LT(c.deepestOverlap(), 1e-9); });
 }
 
-TEST(Crowd, TimeThatStandsMovesNobody) {
+TEST(Crowd, MovesNoWalkerWhileTimeStands) {
   Crowd crowd = crowdedRoom(1, CrowdSettings());
   run(crowd, 1.0, TICK);
   const std::uint64_t before = crowd.snapshot().hash();

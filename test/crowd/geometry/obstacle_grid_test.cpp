@@ -26,7 +26,7 @@ bool touches(const Obstacle& obstacle, const Point& place, double range) {
 }
 
 // S2-30: whatever a scenario has, what comes near is found, each once.
-TEST(ObstacleGrid, TellsOfEachThatIsNearOnce) {
+TEST(ObstacleGrid, VisitsEachNearObstacleOnce) {
   const ObstacleGrid grid(aslantWalls(60, 100.0), 3.0);
   for (int i = 0; i < 200; ++i) {
     const Random random = Random(4).child(i);

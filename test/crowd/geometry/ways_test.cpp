@@ -56,7 +56,7 @@ TEST(Ways, AClosedRoomHasNoWayOut) {
   EXPECT_TRUE(field.isReachable(raster, {6, 3}));
 }
 
-// N6: what was asked before, and by whom, changes no answer.
+// N6: earlier queries change no result.
 TEST(Ways, GoalsInOneCellAreNotMixedUp) {
   Ways ways;
   ways.setObstacles(pocket(), 0.3, 0.25);
@@ -71,7 +71,7 @@ TEST(Ways, GoalsInOneCellAreNotMixedUp) {
   }
 }
 
-TEST(Ways, FieldsThatNobodyAsksForGo) {
+TEST(Ways, UnusedFieldsAreFreed) {
   Ways ways;
   ways.setObstacles(pocket(), 0.3, 0.25);
   for (int i = 0; i < 200; ++i) {

@@ -48,7 +48,7 @@ class MeadowLodTest : public testing::Test {
   MeadowLod meadow_{makeMeadow()};
 };
 
-// S2-15: blades around the eye, strips in a ring about them, nothing but ground beyond.
+// S2-15: there are blades around the viewer, strips in a ring around them, and only ground beyond.
 TEST_F(MeadowLodTest, ShowsBladesNearAndStripsFartherAway) {
   const Viewpoint eye = eyeAt(201.0, 201.0, 1.6);
   meadow_.setViewpoints({eye});
@@ -65,8 +65,8 @@ TEST_F(MeadowLodTest, ShowsBladesNearAndStripsFartherAway) {
   EXPECT_LT(views.at({100, 108}).share, 1.0);
 }
 
-// S2-15: rows that are surely textures are not looked at; what is left is each tile's own choice.
-TEST_F(MeadowLodTest, LooksAtAllTilesThatAreMoreThanATexture) {
+// S2-15: rows of textures are skipped; every other tile gets its own choice.
+TEST_F(MeadowLodTest, FindsAllTilesThatAreMoreThanATexture) {
   const Viewpoint eye = eyeAt(30.0, 201.0, 1.6);
   meadow_.setViewpoints({eye});
   meadow_.advance(START);
@@ -134,7 +134,7 @@ TEST_F(MeadowLodTest, ShowsTheSameBladesAfterLeavingAndComingBack) {
         ASSERT_EQ(before[i].x[point][lane], again[i].x[point][lane]);
 }
 
-// The number of blades stays within its budget wherever the eye is.
+// The number of blades stays within its budget for every viewpoint.
 TEST_F(MeadowLodTest, KeepsTheBudgetOfBlades) {
   MeadowLod small = makeMeadow(50000.0);
   const Viewpoint eye = eyeAt(201.0, 201.0, 1.6);
@@ -147,9 +147,9 @@ TEST_F(MeadowLodTest, KeepsTheBudgetOfBlades) {
   EXPECT_GT(blades, 10000.0);
 }
 
-// N7: tells what was chosen and why: with room the tolerance is held, without it tiles are held
+// N7: reports what was chosen and why: with room the tolerance is held, without it tiles are held
 // back, and what they are off stays within the coarser tolerance.
-TEST_F(MeadowLodTest, TellsWhatItChoseAndWhy) {
+TEST_F(MeadowLodTest, ReportsWhatItChoseAndWhy) {
   const Viewpoint eye = eyeAt(201.0, 201.0, 1.6);
   for (const double most : {1e8, 2e4}) {
     MeadowLod meadow = makeMeadow(most);
@@ -183,7 +183,7 @@ TEST_F(MeadowLodTest, StandsStillOnItsBudget) {
   }
 }
 
-// N7: who moves makes no tile flicker: none changes its tier twice a second.
+// N7: a moving viewer makes no tile flicker: none changes its model twice a second.
 TEST_F(MeadowLodTest, NoTileFlickers) {
   MeadowLod meadow = makeMeadow(2e4);
   std::map<std::pair<int, int>, std::pair<TileModel, int>> seen;
@@ -204,7 +204,7 @@ TEST_F(MeadowLodTest, NoTileFlickers) {
 }
 
 // N7: what is asked for does not depend on what there is, and all that would be finer is counted.
-TEST_F(MeadowLodTest, TellsAllThatTheBudgetHoldsBack) {
+TEST_F(MeadowLodTest, ReportsAllThatTheBudgetHoldsBack) {
   MeadowLod rich = makeMeadow(), poor = makeMeadow(2e4);
   for (MeadowLod* meadow : {&rich, &poor}) {
     meadow->setViewpoints({eyeAt(201.0, 201.0, 1.6)});
@@ -233,7 +233,7 @@ TEST_F(MeadowLodTest, LeavesOutWhatTheEyeDoesNotSee) {
   EXPECT_EQ(views.count({100, 90}), 0u);  // behind
 }
 
-// S2-W3: views tell from how steep they are seen.
+// S2-W3: views contain the elevation of the viewer.
 TEST_F(MeadowLodTest, KnowsFromHowSteepATileIsSeen) {
   const Viewpoint eye = eyeAt(201.0, 201.0, 30.0);
   meadow_.setViewpoints({eye});
@@ -274,7 +274,7 @@ TEST_F(MeadowLodTest, StartsAnewWhenTimeGoesBack) {
   EXPECT_FALSE(meadow_.viewOf(eye, after(6.0)).empty());
 }
 
-TEST_F(MeadowLodTest, RefusesBadSettingsByName) {
+TEST_F(MeadowLodTest, RejectsBadSettingsWithTheirNames) {
   MeadowSettings settings;
   settings.tolerance = -1.0;
   settings.transition = std::nan("");

@@ -73,7 +73,7 @@ TEST(FeatureMap, OfASquareKilometreHoldsABillionBlades) {
   EXPECT_EQ(area * map.at(500.0, 500.0).density, 1e9);
 }
 
-TEST(FeatureMap, HashTellsMapsApart) {
+TEST(FeatureMap, HashDistinguishesMaps) {
   MapInput other = smallMap();
   other.density.image.samples[3] = 3;
   MapInput species = smallMap();
@@ -93,7 +93,7 @@ TEST(FeatureMap, KnowsItsTallestBlade) {
   EXPECT_NEAR(FeatureMap(input).tallest(), 0.9, ROUNDING);
 }
 
-TEST(FeatureMap, RefusesBadLayersByName) {
+TEST(FeatureMap, RejectsBadLayersWithTheirNames) {
   MapInput input = smallMap();
   input.height.value = std::nan("");
   input.colour = {0.0, {2, 2, 255, {1, 2, 3, 4}}, 0.0, 1.0};
@@ -104,14 +104,14 @@ TEST(FeatureMap, RefusesBadLayersByName) {
             "grass: colour: image is 2 x 2 with 4 samples where the map has 3 x 2 nodes");
 }
 
-TEST(FeatureMap, RefusesMoreBladesThanATileHolds) {
+TEST(FeatureMap, RejectsMoreBladesThanATileHolds) {
   MapInput input;
   input.law.resolution = 100.0;
   const std::string error = errorOf([&] { FeatureMap map(input); });
   EXPECT_NE(error.find("blades in a tile, allowed are fewer than 1048576"), std::string::npos);
 }
 
-TEST(FeatureMap, RefusesTwinSpecies) {
+TEST(FeatureMap, RejectsSpeciesWithEqualNames) {
   MapInput input;
   input.species.resize(2);
   EXPECT_EQ(errorOf([&] { FeatureMap map(input); }), "grass: species 'grass' is there twice");
@@ -158,14 +158,14 @@ TEST_F(FeatureMapFile, ReportsAllFaultsAtOnceWithTheirNames) {
     EXPECT_NE(error.find(part), std::string::npos) << part << " in\n" << error;
 }
 
-TEST_F(FeatureMapFile, RefusesPicturesThatDoNotFitTogether) {
+TEST_F(FeatureMapFile, RejectsPicturesThatDoNotFitTogether) {
   folder_.write("other.pgm", "P2 2 2 10 5 6 9 1");
   const std::string error =
       refusal("{density: {image: dense.pgm}, height: {image: other.pgm, white: 0.5}}");
   EXPECT_NE(error.find("meadow.yaml: grass: density: image is 3 x 2"), std::string::npos) << error;
 }
 
-TEST_F(FeatureMapFile, RefusesAFileThatIsNoPicture) {
+TEST_F(FeatureMapFile, RejectsAFileThatIsNoPicture) {
   folder_.write("words.png", "words");
   const std::string error = refusal("{density: {image: words.png}}");
   EXPECT_NE(error.find("words.png: neither a PNG nor a PGM"), std::string::npos) << error;

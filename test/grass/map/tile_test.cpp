@@ -53,7 +53,7 @@ TEST(Tile, CountIsUnbiased) {
   EXPECT_LT(std::fabs(counted - expected), 3.0 * std::sqrt(variance));
 }
 
-// S2-05: the seed of a tile is a function of the map's seed and its place, whoever asks when.
+// S2-05: the seed of a tile is a function of the map's seed and its place only.
 TEST(Tile, IsTheSameAfterLeavingAndComingBack) {
   const FeatureMap map(rampMap());
   const Tile before = makeTile(map, terrain::HeightMap(), 9, 17, 31);

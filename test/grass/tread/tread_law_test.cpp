@@ -200,7 +200,7 @@ TEST(CompactField, KnowsDistanceAndSide) {
   EXPECT_EQ(CompactField({1, 1}, {1, 1}, 0.5, 0.1).fieldAt(Point{1, 1.2}), 0.0);
 }
 
-TEST(TreadLaw, RefusesBadValuesByName) {
+TEST(TreadLaw, RejectsBadValuesWithTheirNames) {
   Faults faults;
   TreadLaw law;
   law.radius = 0.3;

@@ -27,8 +27,8 @@ TEST_F(TreadTime, RecoversOverItsInterval) {
   EXPECT_EQ(map_.at(p, after(1e6)).tilt, 0.f);
 }
 
-// S2-28: who asks, and how often, changes nothing; while the clock stands nothing moves.
-TEST_F(TreadTime, RecoveryDoesNotDependOnWhoAsks) {
+// S2-28: queries change nothing, and nothing moves while the clock stands.
+TEST_F(TreadTime, RecoveryDoesNotDependOnQueries) {
   walk(map_, TreadLaw(), {5.0, 10.0}, {9.0, 10.0}, 50, START);
   TreadMap watched = map_;
   CrushPatch patch;
@@ -51,7 +51,7 @@ TEST_F(TreadTime, RecoveryStartsAgainWhenTroddenAgain) {
 }
 
 // S2-21: each source by its own law.
-TEST_F(TreadTime, RecoversAtOnceOrNeverIfToldSo) {
+TEST_F(TreadTime, RecoversAtOnceOrNeverByItsLaw) {
   TreadLaw at_once;
   at_once.recovery = 0.0;
   walk(map_, at_once, {5.0, 10.0}, {9.0, 10.0}, 50, START, 1);
@@ -75,7 +75,7 @@ TEST_F(TreadTime, IsUntroddenBeforeTheStampOfTheStroke) {
 
 // ---- memory ----------------------------------------------------------------------------------
 
-// S2-W1: fine nodes exist only where somebody trod, and go when the grass has risen.
+// S2-W1: fine nodes exist only where a source trod, and are freed when the grass has recovered.
 TEST_F(TreadTime, HoldsMemoryOnlyWhereGrassIsDown) {
   EXPECT_EQ(map_.bytes(), 0u);
   walk(map_, TreadLaw(), {5.0, 10.0}, {9.0, 10.0}, 50, START);
@@ -143,7 +143,7 @@ TEST_F(TreadTime, IsClippedAtTheBorderOfTheMap) {
   EXPECT_EQ(map_.at({20.1, 10.0}, START).tilt, 0.f);
 }
 
-TEST_F(TreadTime, RefusesBadSettingsByName) {
+TEST_F(TreadTime, RejectsBadSettingsWithTheirNames) {
   TreadSettings settings;
   settings.spacing = 0.0;
   settings.memory_cap = -1.0;

@@ -62,7 +62,7 @@ TEST_F(Treading, KeepsTheDosesOfSourcesApart) {
     turns.tread(1, light, {5.0 + 0.004 * k, 10.0}, START);
     turns.tread(2, light, {5.0 + 0.004 * k, 10.1}, START);
   }
-  // Directions belong to whoever comes first, so only tilts are equal.
+  // The first source sets the direction, so only tilts are equal.
   EXPECT_LT(differenceOf(once, turns, after(1.0)).tilt, 1e-5);
 }
 

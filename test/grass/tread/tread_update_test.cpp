@@ -12,7 +12,7 @@ namespace vegetation_sim::grass {
 namespace {
 
 /// Trodden ground as another process rebuilds it (design: state is small, so replicate it).
-class Told : public FieldTest {
+class TreadUpdateTest : public FieldTest {
  protected:
   std::uint64_t groundHash(const TreadMap& map) const {
     return hashOf(snapshotTreads(map.state(), now()));
@@ -21,7 +21,7 @@ class Told : public FieldTest {
   TreadReplica replica_;
 };
 
-TEST_F(Told, KeyFrameAndDeltasRebuildTheGroundToTheBit) {
+TEST_F(TreadUpdateTest, KeyFrameAndDeltasRebuildTheGroundToTheBit) {
   drive("a", 3.0, 5.0, 1.0, 20);
   EXPECT_TRUE(replica_.apply(field_.update(true), other_));
   for (int i = 0; i < 60; ++i) {
@@ -38,7 +38,7 @@ TEST_F(Told, KeyFrameAndDeltasRebuildTheGroundToTheBit) {
   EXPECT_EQ(replica_.stamp(), now());
 }
 
-TEST_F(Told, ADeltaTellsOnlyWhatWasPressedSince) {
+TEST_F(TreadUpdateTest, ADeltaHoldsOnlyWhatWasPressedSince) {
   drive("a", 3.0, 5.0, 2.0, 150);
   std::size_t all = 0, few = 0;
   for (const TreadBlockDelta& block : field_.update(true).treads.blocks) all += block.nodes.size();
@@ -50,7 +50,7 @@ TEST_F(Told, ADeltaTellsOnlyWhatWasPressedSince) {
   EXPECT_TRUE(field_.update(false).treads.blocks.empty());
 }
 
-TEST_F(Told, AfterALostMessageItWaitsForAKeyFrame) {
+TEST_F(TreadUpdateTest, AfterALostMessageItWaitsForAKeyFrame) {
   drive("a", 3.0, 5.0, 1.0, 20);
   const TreadUpdate first = field_.update(false);
   EXPECT_FALSE(replica_.apply(first, other_));
@@ -65,15 +65,15 @@ TEST_F(Told, AfterALostMessageItWaitsForAKeyFrame) {
   EXPECT_EQ(groundHash(other_), groundHash(map_));
 }
 
-// What has risen is told no more, and a replica frees it by itself.
-TEST_F(Told, RisenGrassIsNotTold) {
+// Recovered grass is not included, and a replica frees it by itself.
+TEST_F(TreadUpdateTest, RecoveredGrassIsNotIncluded) {
   drive("a", 3.0, 5.0, 1.0, 20);
   tick_ += 30 * 61;
   EXPECT_TRUE(snapshotTreads(map_.state(), now()).blocks.empty());
   EXPECT_TRUE(snapshotTreads(map_.state(), now()).presses.empty());
 }
 
-TEST_F(Told, WhatCannotBeIsRefused) {
+TEST_F(TreadUpdateTest, ImpossibleValuesAreRejected) {
   drive("a", 3.0, 5.0, 1.0, 5);
   TreadDelta bad = field_.update(true).treads;
   Faults none;
@@ -90,7 +90,7 @@ TEST_F(Told, WhatCannotBeIsRefused) {
     EXPECT_NE(faults.text().find(part), std::string::npos) << part << " in " << faults.text();
 }
 
-TEST_F(Told, NodesOffTheMapOrWithoutMemoryAreLeftOut) {
+TEST_F(TreadUpdateTest, NodesOffTheMapOrWithoutMemoryAreLeftOut) {
   EXPECT_TRUE(map_.put(400, 400, {1.f, 1.f, 0.f, 60.f, START}));
   EXPECT_FALSE(map_.put(401, 400, {1.f, 1.f, 0.f, 60.f, START}));
   EXPECT_FALSE(map_.put(-1, 0, {1.f, 1.f, 0.f, 60.f, START}));

@@ -56,7 +56,7 @@ TEST(Blade, OfThePaperGrowsAsItBends) {
 // times better, in the same table.
 TEST(Blade, ErrorsOfBothModelsStandInOneTable) {
   for (double x = 0.0; x <= 0.8; x += 0.1) {
-    const double arc = 2.0 * arcTangent(x, loweredTip(1.0, x));  // whose chord points at that tip
+    const double arc = 2.0 * arcTangent(x, loweredTip(1.0, x));  // its chord points at that tip
     EXPECT_LT(paperLength(x) - 1.0, 0.11);
     if (arc <= BEND_LIMIT) {
       EXPECT_NEAR(lengthOf(bladeProfile(1.0, 0.0, arc, BladeModel::ARC)), 1.0, 1e-7);
