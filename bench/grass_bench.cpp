@@ -204,19 +204,19 @@ struct Frame {
 };
 
 Frame drawFrame(MeadowLod& meadow, const TreadMap& tread, const wind::Field& wind,
-                const Viewpoint& eye, Nanoseconds stamp, BladeBlock* blocks, GrassMesh& strips) {
+                const Viewpoint& viewer, Nanoseconds stamp, BladeBlock* blocks, GrassMesh& strips) {
   const double start = bench::processorTime();
   Frame out;
-  meadow.setViewpoints({eye});
+  meadow.setViewpoints({viewer});
   meadow.advance(stamp);
-  const auto views = meadow.viewOf(eye, stamp);
+  const auto views = meadow.viewOf(viewer, stamp);
   NodeWind air(meadow.map(), meadow.terrain());
   std::vector<TilePlace> tiles;
   for (const TileView& view : views) tiles.push_back({view.column, view.row});
   air.update(wind.at(stamp), {}, MeadowLod::windowOf(views), &tiles);
   CrushPatch patch;
   strips.clear();
-  strips.origin = eye.position;
+  strips.origin = viewer.position;
   for (const TileView& view : views) {
     TileMotion motion;
     const Tile tile = meadow.tileAt(view, air, tread, stamp, patch, motion);
@@ -249,12 +249,12 @@ GrassMesh makeMesh(std::size_t tiles) {
 // The viewer moves at 3 m/s with 60 frames per second, or at ten times that with a jump in the
 // middle.
 Viewpoint viewerAt(int frame, bool jumps) {
-  Viewpoint eye;
-  eye.cone_cosine = 0.8;
-  eye.position = !jumps        ? Vec3(300.0 + 0.05 * frame, 500.0, 1.6)
-                 : frame < 150 ? Vec3(300.0 + 0.5 * frame, 500.0, 1.6)
-                               : Vec3(700.0 - 0.5 * frame, 300.0, 6.0);
-  return eye;
+  Viewpoint viewer;
+  viewer.cone_cosine = 0.8;
+  viewer.position = !jumps        ? Vec3(300.0 + 0.05 * frame, 500.0, 1.6)
+                    : frame < 150 ? Vec3(300.0 + 0.5 * frame, 500.0, 1.6)
+                                  : Vec3(700.0 - 0.5 * frame, 300.0, 6.0);
+  return viewer;
 }
 
 void benchKilometre(bool jumps) {

@@ -159,7 +159,7 @@ void sweepTrees(const Options& options, Table& table) {
 struct Storm {
   double worst{0.0}, last{0.0};
 
-  void look(const ChainState& state) {
+  void observe(const ChainState& state) {
     last = 0.0;
     for (const Vec2& q : state.q)
       last = std::isfinite(q.norm()) ? std::max(last, q.norm())
@@ -175,7 +175,7 @@ Storm stormOf(double h, const Step& step, const State& state) {
   const int steps = static_cast<int>(std::max(11.0, 1.0 + 100.0 * h) / h);
   for (int i = 0; i < steps; ++i) {
     step(i * h);
-    out.look(state());
+    out.observe(state());
   }
   return out;
 }

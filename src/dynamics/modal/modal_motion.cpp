@@ -94,11 +94,11 @@ void ModalStepper::step(const std::vector<double>& before, const std::vector<dou
   prepare(h);
   for (std::size_t i = 0; i < size(); ++i) {
     const double slope = (after[i] - before[i]) / (h * square_[i]);
-    const double lag = damping_[i] * slope / square_[i];
-    const double a = state.amplitude[i] - (before[i] / square_[i] - lag);
+    const double offset = damping_[i] * slope / square_[i];
+    const double a = state.amplitude[i] - (before[i] / square_[i] - offset);
     const double b = state.rate[i] - slope;
     const Propagator& p = propagators_[i];
-    state.amplitude[i] = p.aa * a + p.ab * b + (after[i] / square_[i] - lag);
+    state.amplitude[i] = p.aa * a + p.ab * b + (after[i] / square_[i] - offset);
     state.rate[i] = p.ba * a + p.bb * b + slope;
   }
 }

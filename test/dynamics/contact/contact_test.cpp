@@ -30,7 +30,7 @@ Link twig() {
   return out;
 }
 
-/// As long as the twig, far heavier.
+/// Returns a link as long as the twig and far heavier.
 Link trunkOf(double mass) {
   Link out = twig();
   out.mass = mass;

@@ -67,10 +67,10 @@ TEST(WindSampler, WindowsHaveTheVelocitiesOfTheirInstants) {
         for (std::size_t i = 0; i < points.size(); ++i) {
           const auto one = window.velocities(points[i]);
           EXPECT_EQ(one[1], window.now().velocity(points[i]));
-          for (std::size_t look = 0; look < 3; ++look) {
-            ASSERT_EQ(sampler.velocity(i, look), one[look]) << set << ", look " << look;
-            const Vec3 law = window.instants()[look].velocity(points[i]);
-            EXPECT_LE(length(one[look] - law), 1e-13 * length(law));
+          for (std::size_t instant = 0; instant < 3; ++instant) {
+            ASSERT_EQ(sampler.velocity(i, instant), one[instant]) << set << ", instant " << instant;
+            const Vec3 law = window.instants()[instant].velocity(points[i]);
+            EXPECT_LE(length(one[instant] - law), 1e-13 * length(law));
           }
         }
       }
