@@ -92,7 +92,7 @@ TEST(WindSampler, MotionOfManyBranchesIsThatOfEach) {
   std::vector<int> branches;
   for (int i = 0; i < static_cast<int>(rig.branches().size()); i += 3) branches.push_back(i);
   ProceduralMotions motions;
-  motions.look(motion, branches);
+  motions.update(motion, branches);
   int moving = 0;
   for (std::size_t i = 0; i < branches.size(); ++i) {
     const JointMotion one = motion.at(branches[i]), many = motions.at(i);
