@@ -63,7 +63,7 @@ void Canopy::reset() {
 void Canopy::restore(const CanopySnapshot& memory) {
   if (memory.history.size() != layout_.motion.fluid.cells ||
       memory.history.frames() != historyFrames(layout_.motion))
-    throw InvalidInput("memory: its history is of another layout");
+    throw InvalidInput("snapshot: the history belongs to another layout");
   Fluid fluid = fluid_;
   fluid.restore(memory.fluid);
   oscillator_.restore(memory.oscillator);

@@ -36,7 +36,7 @@ void readKinds(YamlSection& section, std::vector<PlantKind>& kinds) {
     describe(entry, kind);
     entry.finish();
     for (const PlantKind& other : kinds)
-      if (other.name == kind.name) entry.fault("name", "= '" + kind.name + "' is there already");
+      if (other.name == kind.name) entry.fault("name", "= '" + kind.name + "' is defined twice");
     kinds.push_back(kind);
   }
 }

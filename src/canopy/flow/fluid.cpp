@@ -65,7 +65,7 @@ void Fluid::restore(const FluidState& state) {
                        std::to_string(settings_.cells));
   double sum = energyOf(state.flow);
   for (const double value : state.turbulence) sum += value * value;
-  if (!(sum < MOST_ENERGY)) throw InvalidInput("state: its flow is not finite, or beyond all wind");
+  if (!(sum < MOST_ENERGY)) throw InvalidInput("state: its flow is not finite or too large");
   state_ = state;
 }
 

@@ -125,7 +125,7 @@ std::uint32_t Crowd::spawn(const Spawn& spawn, std::uint32_t id) {
   if (memory_.walkers.size() >= MOST_WALKERS)
     throw InvalidInput("spawn: walkers = " + std::to_string(MOST_WALKERS) +
                        " are there, which is the most allowed");
-  if (find(id)) throw InvalidInput("spawn: walker " + std::to_string(id) + " is there already");
+  if (find(id)) throw InvalidInput("spawn: walker " + std::to_string(id) + " exists already");
   memory_.next_id = std::max(memory_.next_id, id + 1);
   Walker w;
   w.id = id;

@@ -30,7 +30,7 @@ void checkSpecies(MapInput& input, const std::string& context, Faults& faults) {
     FieldChecker checker(context + "species '" + entry.species.name + "': ", faults);
     describe(checker, entry.species);
     if (!names.insert(entry.species.name).second)
-      faults.add(context + "species '" + entry.species.name + "' is there twice");
+      faults.add(context + "species '" + entry.species.name + "' is defined twice");
   }
   if (input.species.size() > MAX_SPECIES)
     faults.add(context + std::to_string(input.species.size()) + " species, allowed are 1 to " +

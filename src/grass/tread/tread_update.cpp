@@ -109,7 +109,7 @@ void check(const TreadDelta& treads, Faults& faults) {
                    std::to_string(treads.presses.size()) + " less one");
       const bool sound = node.tilt >= 0.f && double{node.tilt} <= BEND_LIMIT &&
                          std::fabs(node.x) <= 1.001f && std::fabs(node.y) <= 1.001f;
-      if (!sound) faults.add(name + "a tilt or direction cannot be");
+      if (!sound) faults.add(name + "a tilt or direction is impossible");
     }
   }
 }

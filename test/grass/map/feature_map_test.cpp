@@ -114,7 +114,7 @@ TEST(FeatureMap, RejectsMoreBladesThanATileHolds) {
 TEST(FeatureMap, RejectsSpeciesWithEqualNames) {
   MapInput input;
   input.species.resize(2);
-  EXPECT_EQ(errorOf([&] { FeatureMap map(input); }), "grass: species 'grass' is there twice");
+  EXPECT_EQ(errorOf([&] { FeatureMap map(input); }), "grass: species 'grass' is defined twice");
 }
 
 class FeatureMapFile : public ::testing::Test {

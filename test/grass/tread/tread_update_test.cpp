@@ -86,7 +86,7 @@ TEST_F(TreadUpdateTest, ImpossibleValuesAreRejected) {
   Faults faults;
   check(bad, faults);
   for (const char* part :
-       {"press = 99", "a tilt or direction cannot be", "nodes where", "recovery = -1 s"})
+       {"press = 99", "a tilt or direction is impossible", "nodes where", "recovery = -1 s"})
     EXPECT_NE(faults.text().find(part), std::string::npos) << part << " in " << faults.text();
 }
 

@@ -35,7 +35,7 @@ SCENARIOS = [
     ('{canopy: {oscillator: {frequency: .nan}}}', 'frequency = nan Hz is not finite'),
     ('{canopy: {warp: {rigidity: 11}}}', 'rigidity = 11 is outside 0 to 10'),
     ('{canopy: {layers: {delay_speed: 0}}}', 'delay_speed = 0 m/s is outside'),
-    ('{canopy: {kinds: [{name: a}, {name: a}]}}', "name = 'a' is there already"),
+    ('{canopy: {kinds: [{name: a}, {name: a}]}}', "name = 'a' is defined twice"),
     ('{canopy: {plants: [{kind: b}]}}', "kind = 'b' is none of"),
     ('{canopy: {kinds: [{name: a, leaves: 1000000}], beds: [{kind: a, count: 4}]}}',
      '4000000 leaves, more than the 3000000 allowed'),
