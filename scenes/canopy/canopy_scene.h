@@ -7,7 +7,7 @@
 
 namespace vegetation_sim::canopy {
 
-/// Two shrubs, one behind the other as seen from the west, in a plane that looks east.
+/// Makes two shrubs, one behind the other as seen from the west, in a plane that faces east.
 inline Layout shrubScene(int cells = 32) {
   Layout out;
   out.seed = 5;

@@ -10,7 +10,7 @@
 #include "vegetation_sim/canopy/flow/oscillator.h"
 #include "vegetation_sim/canopy/layers/layers.h"
 
-// A layer behind the first one in gusts; shared by tests and bench.
+// A layer behind the first one in gusts; shared by tests and benches.
 
 namespace vegetation_sim::canopy {
 
@@ -18,12 +18,12 @@ inline LayerView viewOf(const LayerSettings& settings, const History& history) {
   return {&settings, &history, 1.0 / 30.0, Vec3(0.0, 0.0, 1.0), 1.0, 4.0 / history.size()};
 }
 
-/// Relative error of a layer some time behind in a gusty wind, against what the first layer did,
-/// kept in double precision at four times the rate.
+/// Relative error of a delayed layer in a gusty wind, compared with the motion of the first layer
+/// in double precision at four times the rate.
 struct GustErrors {
   double history{0.0}, lookup{0.0}, nothing{0.0};
 };
-/// @param delay [s], whole quarters of a tick of 1/30 s, below a second.
+/// @param delay [s], a multiple of a quarter of a tick of 1/30 s, below 1 s.
 inline GustErrors errorsInGusts(double delay) {
   constexpr int FINE = 4;
   constexpr double TICK = 1.0 / 30.0;

@@ -11,7 +11,7 @@
 
 namespace vegetation_sim::canopy {
 
-/// One shrub in a gusty wind from the side, with layers of equal thickness.
+/// Makes a shrub in a gusty wind from the side, with layers of equal thickness.
 inline Layout lonelyShrub(int leaves, int layers) {
   Layout out = shrubScene(64);
   out.plants.resize(1);
@@ -23,11 +23,11 @@ inline Layout lonelyShrub(int leaves, int layers) {
   motion.cuts.mid_layers = motion.cuts.far_layers = 0;
   motion.layers.spread = 0.0;
   motion.warp.depth_loss = 0.0;
-  motion.warp.reference_time = 0.02;  // small motion: nothing has to be kept from folding
+  motion.warp.reference_time = 0.02;  // small motion, which needs no limit against folding
   return out;
 }
 
-/// Air in the plane of a layout, tick by tick: computed once for all that is compared.
+/// Air in the plane of a layout, tick by tick, computed once for all comparisons.
 class AirRecord {
  public:
   AirRecord(const Layout& layout, int ticks) : rate_(layout.motion.rate) {
@@ -37,7 +37,7 @@ class AirRecord {
       frames_.push_back(fluid.state().flow);
     }
   }
-  /// At a place in cells, linear between ticks; at rest before the first one.
+  /// Returns the air at a place in cells, linear between ticks; at rest before the first one.
   PlaneVector at(const PlaneVector& cell, double time) const {
     const double tick = time * rate_ - 1.0;
     if (tick < 0.0) return {};
@@ -54,15 +54,15 @@ class AirRecord {
   std::vector<PlaneField> frames_;
 };
 
-/// Every leaf of a plant on its own: an oscillator at its place in space, with a frequency of its
-/// own, driven by the air that has come to its depth at V_D, and pulled at by its six nearest
-/// neighbours in three dimensions. No plane, no layers, no cells.
+/// Every leaf of a plant on its own: an oscillator at its place in space with its own frequency,
+/// driven by the air that has reached its depth at V_D, and coupled to its six nearest neighbours
+/// in three dimensions. There are no plane, layers or cells.
 class LeafTruth {
  public:
   static constexpr int NEIGHBOURS = 6, SUBSTEPS = 8;
 
-  /// @param variety largest share by which a leaf's frequency differs from the layout's.
-  /// @param origin depth whose air is the plane's own [m].
+  /// @param variety largest relative difference of a leaf's frequency. @param origin depth whose
+  /// air is that of the plane [m].
   LeafTruth(const Layout& layout, const AirRecord& air, double variety, const LayerCut& cut,
             double origin)
       : motion_(layout.motion), air_(air) {
@@ -85,7 +85,7 @@ class LeafTruth {
   const Vec3& place(std::size_t leaf) const { return leaves_[leaf].place; }
   PlaneVector motion(std::size_t leaf) const { return leaves_[leaf].amplitude; }
 
-  /// A tick that ends at `time`, by velocity-first steps of an eighth of it.
+  /// Advances by a tick that ends at `time`, by semi-implicit steps of an eighth of it.
   void advance(double time) {
     const double dt = 1.0 / (motion_.rate * SUBSTEPS);
     for (int i = SUBSTEPS - 1; i >= 0; --i) step(time - i * dt, dt);
@@ -99,8 +99,8 @@ class LeafTruth {
     std::array<std::size_t, NEIGHBOURS> near{};
   };
 
-  // Laplace's operator from neighbours: six times the mean difference over the mean square
-  // distance.
+  // Approximates the Laplace operator from neighbours: six times the mean difference over the mean
+  // square distance.
   void join(std::size_t index) {
     std::vector<std::pair<double, std::size_t>> others;
     for (std::size_t j = 0; j < leaves_.size(); ++j)
@@ -115,7 +115,7 @@ class LeafTruth {
       squares += others[k].first / NEIGHBOURS;
     }
     const double speed = motion_.oscillator.speed;
-    // What lies closer than the step can follow pulls no harder than this.
+    // Limits the coupling of close neighbours, which the step could not resolve.
     leaves_[index].pull = std::min(6.0 * speed * speed / squares, STIFFEST) / NEIGHBOURS;
   }
 
@@ -149,14 +149,14 @@ class LeafTruth {
   std::vector<One> leaves_;
 };
 
-/// How far the layers' leaves are from those that move on their own.
+/// Difference between the leaves of the layers and those that move on their own.
 struct TruthError {
-  double error{0.0};  ///< rms of the difference / rms of what leaves move about their mean
+  double error{0.0};  ///< rms of the difference / rms of the motion about the mean
   double model{0.0};  ///< processor time of a tick of the plane, its layers and all leaves [s]
-  double truth{0.0};  ///< of a tick of every leaf on its own [s]
+  double truth{0.0};  ///< processor time of a tick of every leaf on its own [s]
 };
 
-/// @param clock processor time now [s]. @param from, to ticks that count.
+/// @param clock returns the processor time [s]. @param from, to range of ticks that count.
 template <class Clock>
 TruthError compareWithTruth(int leaves, int layers, double variety, int from, int to,
                             const AirRecord& air, Clock clock) {

@@ -12,7 +12,7 @@
 
 namespace vegetation_sim::canopy {
 
-/// White noise in [-1, 1].
+/// Makes white noise in [-1, 1].
 inline PlaneField noiseField(int size, std::uint64_t seed) {
   const Random random(seed);
   PlaneField out(size);
@@ -23,8 +23,8 @@ inline PlaneField noiseField(int size, std::uint64_t seed) {
   return out;
 }
 
-/// Smooth flow without divergence: waves of up to four periods across a square of 1 m, large ones
-/// stronger in proportion, rms 1 m/s. The same flow at every size.
+/// Makes a smooth flow without divergence: waves of up to four periods across a square of 1 m, long
+/// ones with a larger amplitude, rms 1 m/s. The flow is the same at every size.
 inline PlaneField smoothFlow(int size, std::uint64_t seed) {
   const Random random(seed);
   PlaneField out(size);
@@ -49,7 +49,7 @@ inline PlaneField smoothFlow(int size, std::uint64_t seed) {
   return out;
 }
 
-/// Norm of the difference over the norm of `want`.
+/// Returns the norm of the difference over the norm of `want`.
 inline double relativeError(const PlaneField& got, const PlaneField& want) {
   PlaneField difference = got;
   for (std::size_t i = 0; i < want.u.size(); ++i) {

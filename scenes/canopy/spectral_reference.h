@@ -10,8 +10,8 @@
 
 namespace vegetation_sim::canopy {
 
-/// Euler's equations on a periodic square of 1 m, by a spectral method without aliasing and Runge
-/// and Kutta's fourth order: slow, and exact to far below what it is compared with.
+/// Euler's equations on a periodic square of 1 m by a dealiased spectral method and the
+/// fourth-order Runge-Kutta method: slow, but its error is far below those it is compared with.
 class SpectralReference {
  public:
   explicit SpectralReference(const PlaneField& flow)
@@ -29,7 +29,7 @@ class SpectralReference {
       modes_[i] = start[i] + dt / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]);
   }
 
-  /// At every `stride`-th cell.
+  /// Returns the flow at every `stride`-th cell.
   PlaneField flow(int stride = 1) {
     const PlaneField fine = toCells(modes_);
     PlaneField out(size_ / stride);
@@ -54,7 +54,7 @@ class SpectralReference {
   }
 
   std::size_t index(int i, int j) const { return static_cast<std::size_t>(i * size_ + j); }
-  // Modes of the real fields u and v, from those of u + iv.
+  // Return the modes of the real fields u and v from those of u + iv.
   Complex modeU(const Modes& z, int i, int j) const {
     return 0.5 * (z[index(i, j)] + std::conj(opposite(z, i, j)));
   }
@@ -75,8 +75,8 @@ class SpectralReference {
     return out;
   }
 
-  // (v w, -u w) with the vorticity w, without what has divergence and without the upper third of
-  // the modes.
+  // Returns (v w, -u w) with the vorticity w, without its divergence and the upper third of the
+  // modes.
   Modes rate(const Modes& z) {
     Modes vorticity(z.size());
     for (int i = 0; i < size_; ++i)
@@ -111,8 +111,8 @@ class SpectralReference {
   Modes modes_;
 };
 
-/// Norm of the divergence over the norm that the modes have times their wave numbers, both
-/// spectral; the highest wave number, which has no sign, is left out.
+/// Returns the norm of the divergence over the norm of the modes times their wave numbers. The
+/// highest wave number has no sign and is left out.
 inline double relativeDivergence(const PlaneField& flow) {
   PlaneField z = flow;
   FourierPlane(flow.size).forward(z);

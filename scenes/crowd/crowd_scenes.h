@@ -15,7 +15,7 @@ inline std::shared_ptr<const terrain::HeightMap> flatGround() {
   return std::make_shared<terrain::HeightMap>();
 }
 
-/// Walls around a rectangle.
+/// Makes walls around a rectangle.
 inline std::vector<Obstacle> room(double x0, double y0, double x1, double y1) {
   return {wallObstacle({x0, y0}, {x1, y0}, 0.1), wallObstacle({x1, y0}, {x1, y1}, 0.1),
           wallObstacle({x1, y1}, {x0, y1}, 0.1), wallObstacle({x0, y1}, {x0, y0}, 0.1)};
@@ -41,7 +41,7 @@ inline Crowd headOn(std::uint64_t seed, const CrowdSettings& settings) {
   return out;
 }
 
-/// Each to the far side of a circle.
+/// Each walker goes to the far side of a circle.
 inline Crowd circle(int count, double radius, std::uint64_t seed, const CrowdSettings& settings) {
   Crowd out(seed, settings, {-40, 40, -40, 40}, flatGround());
   for (int i = 0; i < count; ++i) {
@@ -67,7 +67,7 @@ inline Crowd trap(std::uint64_t seed, double width, const CrowdSettings& setting
   return out;
 }
 
-/// Ten walk east, ten west, in a corridor of 30 m.
+/// Ten walkers go east and ten west in a corridor of 30 m.
 inline Crowd corridor(double width, std::uint64_t seed, const CrowdSettings& settings) {
   Crowd out(seed, settings, {-20, 20, -20, 20}, flatGround());
   const double y = 0.5 * width;

@@ -10,9 +10,9 @@
 
 namespace vegetation_sim::crowd {
 
-/// Pairs that are hard for a distance algorithm, by the index's last digit: general ones, upright
-/// ones, axis-aligned ones with faces and edges that are parallel, flat ones, segments, points,
-/// concentric ones, far away from the origin.
+/// Pairs that are difficult for a distance algorithm, by the index's last digit: general ones,
+/// upright ones, axis-aligned ones with parallel faces and edges, flat ones, segments, points,
+/// concentric ones, and ones far away from the origin.
 struct ShapePair {
   Box a, b;
 };
@@ -35,10 +35,10 @@ inline Box randomBox(const Random& random, int kind) {
   out.centre = randomPoint(random, 0, 2.0);
   out.half = Vec3(random.uniform(3, 0.05, 1.0), random.uniform(4, 0.05, 1.0),
                   random.uniform(5, 0.05, 1.0));
-  const int flat = static_cast<int>(random.uniform(6) * 4.0);  // 0 to 3 directions
+  const int flat = static_cast<int>(random.uniform(6) * 4.0);  // flat in 0 to 3 directions
   if (kind >= 3 && kind <= 5)
     for (int i = 0; i < flat; ++i) out.half[(i + static_cast<int>(random.bits(7) % 3)) % 3] = 0.0;
-  if (kind == 2 || kind == 4) {  // whole tenths: faces and edges on one plane or line
+  if (kind == 2 || kind == 4) {  // whole tenths put faces and edges on one plane or line
     for (int i = 0; i < 3; ++i) {
       out.centre[i] = 0.25 * std::floor(4.0 * out.centre[i]);
       out.half[i] = 0.25 * std::ceil(4.0 * out.half[i]);

@@ -10,7 +10,7 @@
 
 namespace vegetation_sim::grass {
 
-/// A tile of a flat meadow whose corners have these densities [blades/m^2].
+/// Makes a tile of a flat meadow whose corners have these densities [blades/m^2].
 inline Tile tileOf(const Corners& density, int column = 0, int row = 0, std::uint64_t seed = 5) {
   Tile tile = makeTile(FeatureMap(), terrain::HeightMap(), seed, column, row);
   tile.density = density;
@@ -18,7 +18,7 @@ inline Tile tileOf(const Corners& density, int column = 0, int row = 0, std::uin
   return tile;
 }
 
-/// Ground that rises along x by `slope_x` and along y by `slope_y`, and bulges a little.
+/// Makes ground that rises along x by `slope_x` and along y by `slope_y`, slightly uneven.
 inline terrain::HeightMap slopedGround(double slope_x, double slope_y) {
   terrain::HeightMapLaw law;
   law.resolution = 1.0;
@@ -41,7 +41,7 @@ inline double chiSquareTail(double x, double degrees) {
   return 0.5 * std::erfc(z / std::sqrt(2.0));
 }
 
-/// Length of the polyline of a blade.
+/// Returns the length of the polyline of a blade.
 template <class At>
 double polylineLength(At&& at) {
   double sum = 0.0;
@@ -68,8 +68,8 @@ inline std::vector<BladeBlock> posedPlain(const Tile& tile, const TileMotion& mo
   return out;
 }
 
-/// A patch whose tilt grows from nothing in the west to `tilt` [rad] in the east, pressed along
-/// (x, y).
+/// Makes a patch whose tilt rises from 0 in the west to `tilt` [rad] in the east, pressed along (x,
+/// y).
 inline CrushPatch rampPatch(float tilt, float x, float y, int cells = 10) {
   CrushPatch patch;
   patch.cells = cells;

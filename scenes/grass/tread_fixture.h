@@ -35,7 +35,7 @@ class Treading : public testing::Test {
     return TreadMap(mapLaw(), settings);
   }
 
-  // A walk from a to b in equal steps, all at one stamp.
+  // Walks from a to b in equal steps, all at one stamp.
   static void walk(TreadMap& map, const TreadLaw& law, const Point& a, const Point& b, int steps,
                    Nanoseconds stamp, std::uint32_t source = 1) {
     for (int k = 0; k <= steps; ++k) {

@@ -9,7 +9,7 @@
 
 namespace vegetation_sim::grass {
 
-/// A flat meadow of 20 m that sources tread on, 30 ticks a second.
+/// A flat meadow of 20 m with sources, at 30 ticks a second.
 class FieldTest : public Treading {
  protected:
   static TreadInput input(const std::string& source, double x, double y, double z = 0.0,

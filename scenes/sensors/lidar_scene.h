@@ -22,7 +22,7 @@ inline wind::Field breezeOf(const Vec3& velocity) {
   return wind::Field({out});
 }
 
-/// A forest of which every depth moves, as a node that listens rebuilds it.
+/// Makes a replica of a forest whose branches move at every depth.
 inline forest::ForestReplica movingForest(const forest::Layout& layout, const wind::Field& wind) {
   forest::ForestReplica out;
   out.setLayout(layout, forest::flatTerrain());
@@ -47,7 +47,7 @@ inline bool same(const Hit& a, const Hit& b) {
          a.branch == b.branch && a.cosine == b.cosine;
 }
 
-/// A lawn with what was trodden on it.
+/// A lawn with trodden ground.
 struct Lawn {
   explicit Lawn(double height = 0.3, double density = 400.0) : layout(layoutOf(height, density)) {}
   static grass::Layout layoutOf(double height, double density) {
@@ -60,7 +60,7 @@ struct Lawn {
     out.seed = 5;
     return out;
   }
-  /// A lane along x in the middle of the lawn.
+  /// Treads a lane along x in the middle of the lawn.
   void treadLane() {
     grass::TreadLaw law;
     law.recovery = grass::PERMANENT_RECOVERY;
@@ -78,7 +78,7 @@ struct Lawn {
   grass::TreadMap tread{layout.map->law(), grass::TreadSettings()};
 };
 
-/// Blades one by one, as bars as thick as they are wide: what GrassVolume stands for.
+/// The blades one by one as bars, which GrassVolume approximates.
 class Blades {
  public:
   Blades(const Lawn& lawn, const wind::Field& wind, Nanoseconds stamp, int first, int last) {

@@ -79,7 +79,7 @@ int limitsOf(std::uint32_t self, const View& view, const CrowdSettings& s, doubl
     const double share = sight.kind == Seen::WALKER ? 0.5 : 1.0;
     limit.wanted = share * (sight.gap - s.clearance);
     limit.hard = share * JUST_LESS * std::max(0.0, std::min(sight.gap, sight.lower));
-    // Of overlapping obstacles, only a static one is a hard limit.
+    // Only static ones among the overlapping obstacles are hard limits.
     if (sight.gap < 0.0 && (i > 0 || sight.kind != Seen::STATIC)) limit.hard = UNBOUNDED;
     if (sight.kind == Seen::ROBOT)
       limit.wanted -= dt * std::max(0.0, -dot(sight.velocity, limit.normal));

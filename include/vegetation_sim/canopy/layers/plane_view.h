@@ -18,7 +18,7 @@ Axes axesOf(const Quat& orientation);
 Vec3 into(const Axes& axes, const Vec3& world);
 Vec3 outOf(const Axes& axes, const Vec3& components);
 
-/// From the plane to the view by rotations, or by the angles that the paper prints (E8).
+/// Mapping from the plane to the view: by rotations, or by the angles that the paper prints (E8).
 enum class Projection { ROTATION, PRINTED };
 /// A periodic field, or the paper's blend of the field with itself moved by half (S3-14).
 enum class Tiling { PERIODIC, BLEND };
