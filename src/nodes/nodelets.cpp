@@ -15,7 +15,7 @@
 namespace vegetation_sim {
 namespace {
 
-/// A node inside a nodelet manager, which does not load it if it refuses to start.
+/// A node inside a nodelet manager, which does not load it if its constructor throws.
 template <class Node>
 class NodeletOf : public nodelet::Nodelet {
   void onInit() override {

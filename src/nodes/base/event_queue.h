@@ -26,7 +26,7 @@ void warnOfLosses(diagnostic_updater::DiagnosticStatusWrapper& status, const Que
 /// Warns on the node's console of losses that are not yet in `published`, and adds them to it.
 void warnOfLosses(const char* node, const QueueLosses& losses, QueueLosses& published);
 
-/// Stamp of an event, and its message, where the event is not itself the message.
+/// Stamp and message of an event. An event that is not itself a message has its own overloads.
 template <class Event>
 Nanoseconds stampOf(const Event& event) {
   return fromMsg(event.header.stamp);

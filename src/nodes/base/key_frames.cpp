@@ -9,7 +9,7 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr int FINEST = 7;  // halvings of the longest time between two
+constexpr int FINEST = 7;  // number of times the wanted period can be doubled
 static_assert(FINEST < static_cast<int>(MAX_TIERS));
 
 }  // namespace

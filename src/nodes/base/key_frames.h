@@ -8,32 +8,32 @@
 
 namespace vegetation_sim {
 
-/// When complete states come on a thin wire (N7): as often as asked for, or half, a quarter ... as
-/// often, as their size lets them on a budget. What is off meanwhile is a replica that has lost a
-/// message, for as long as the next one takes. A function of ticks and sizes, not of a clock.
+/// Chooses the ticks at which complete states are published (N7). The period is the wanted one, or
+/// the smallest power of two times it whose data rate fits the budget. A replica that has lost a
+/// message is wrong until the next complete state. The choice depends on ticks and sizes only.
 class KeyFrames {
  public:
   /// @param period wanted [s]. @param rate ticks [Hz]. @param budget [B/s].
   KeyFrames(double period, int rate, int budget);
 
-  /// True once after demand(), and at every tick that period() divides.
+  /// Returns true once after demand(), and at every tick that is a multiple of period().
   bool isDue(std::int64_t tick);
-  /// The next tick has one, whatever it costs.
+  /// Requests a complete state at the next tick, whatever the budget.
   void demand() { demanded_ = true; }
-  /// What the last one took; so will the next one.
+  /// Sets the size of the last complete state, which predicts the size of the next.
   void sent(std::uint64_t bytes);
 
   double period() const;  ///< [s]
-  /// Of the choice: costs are bytes a second, errors seconds.
+  /// Returns the last choice; costs are in B/s, errors in seconds.
   const TierAllocation& balance() const { return balance_; }
   double budget() const { return budget_; }
 
  private:
   std::int64_t ticks() const;
 
-  int ticks_, rate_;  // a period as it is wanted, a second
+  int ticks_, rate_;  // ticks of the wanted period, ticks per second
   double budget_;
-  int bisection_{0};  // of how often they come
+  int bisection_{0};  // number of times the period is doubled
   bool demanded_{true};
   TierAllocation balance_;
 };

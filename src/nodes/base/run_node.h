@@ -9,11 +9,11 @@
 
 namespace vegetation_sim {
 
-/// The program of a node: runs until it is told to stop; what it refuses to start for is logged.
+/// Runs a node until ROS shuts down. An exception of its constructor is logged as fatal.
 template <class Node>
 int runNode(int argc, char** argv, const char* name) {
   ros::init(argc, argv, name);
-  ros::NodeHandle handle, private_handle("~");  // out here, since the last one closes the log
+  ros::NodeHandle handle, private_handle("~");  // must outlive the log message
   try {
     Node node(handle, private_handle);
     ros::spin();

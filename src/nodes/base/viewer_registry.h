@@ -14,17 +14,17 @@
 
 namespace vegetation_sim {
 
-/// Who looks at what a node draws, where nothing that it remembers depends on it: grass, people.
+/// The viewers of what a node draws, for nodes whose state does not depend on them.
 class ViewerRegistry {
  public:
   static constexpr std::size_t MOST = 32;
-  static constexpr double LIFE = 3.0;  ///< of a viewer that is not heard [s]
+  static constexpr double LIFE = 3.0;  ///< of a viewer without messages [s]
 
-  /// @param stamp of the node's clock, 0 before it has begun. @throws InvalidInput for a bad
-  /// viewer, one of an unknown frame, and one too many.
+  /// @param stamp of the node's clock, 0 before it has begun. @throws InvalidInput for an invalid
+  /// viewer, an unknown frame, or more than MOST viewers.
   void hear(const Viewer& message, const tf2_ros::Buffer& buffer, const std::string& frame_id,
             Nanoseconds stamp);
-  /// Their eyes, by id; forgets those that are silent.
+  /// Returns the viewpoints in order of ids. Forgets viewers without messages for LIFE.
   std::vector<Viewpoint> eyesAt(Nanoseconds stamp);
   std::size_t size() const { return seen_.size(); }
   void clear() { seen_.clear(); }

@@ -52,7 +52,7 @@ class CanopyAnimator final
   void publishLayout();
   void publishState(std::int64_t tick);
   void sendMarkers(const ros::TimerEvent& event);
-  /// Of the forest's crowns, as many as markers_ draws.
+  /// Leaves of the forest's crowns, as many as markers_ draws.
   std::vector<canopy::MovedLeaf> crownLeaves(const canopy::Foliage& foliage) const;
   void addDiagnostics(Status& status) override;
   void diagnoseGovernor(Status& status);

@@ -84,13 +84,13 @@ void CanopyAnimator::forgetViewer() {
   inputs_.add(noViewerEvent());
 }
 
-// A replay does not know when this run began: it becomes what this run was then.
+// A replay gets the state at the beginning of this run from these events.
 void CanopyAnimator::publishBeginning(Nanoseconds stamp) {
   CanopyEvent reset;
   reset.kind = CanopyEvent::RESET;
   const CanopyTuning tuning = tuningOf(canopy_.layout().motion);
-  for (CanopyEvent event :
-       {reset, noViewerEvent(), settingsEvent<CanopyEvent>(tuning), windEvent(canopy_.windHash())}) {
+  for (CanopyEvent event : {reset, noViewerEvent(), settingsEvent<CanopyEvent>(tuning),
+                            windEvent(canopy_.windHash())}) {
     event.header.stamp = toStamp(stamp);
     publishEvent(event);
   }

@@ -54,7 +54,7 @@ void CanopyAnimator::addDiagnostics(Status& status) {
   status.add("State sent [B]", state_bytes_);
 }
 
-// Of the markers; how leaves move is the same for all of them.
+// Reports the tiers of the markers; all of them share one motion of leaves.
 void CanopyAnimator::diagnoseGovernor(Status& status) {
   report(markers_.balance(),
          {"Plants", options_.tolerance, "marker_points", "points",

@@ -14,7 +14,7 @@
 namespace vegetation_sim {
 namespace {
 
-// A parameter holds against what the scenario says.
+// Parameters override the scenario.
 void readScene(CanopyOptions& options, Faults& faults) {
   CanopyScene& scene = options.scene;
   try {

@@ -12,7 +12,7 @@
 
 namespace vegetation_sim {
 
-/// What can be reconfigured while canopy_animator runs (S3-29): a part of canopy::Motion.
+/// The part of canopy::Motion that can be reconfigured while canopy_animator runs (S3-29).
 struct CanopyTuning {
   canopy::SourceSettings sources;
   canopy::OscillatorSettings oscillator;
@@ -31,7 +31,7 @@ void toConfig(const CanopyTuning& tuning, CanopyAnimatorConfig& config);
 /// The plants of a scenario file, and its world frame.
 struct CanopyScene {
   canopy::Layout layout;
-  std::string frame_id;  ///< empty: not said
+  std::string frame_id;  ///< empty: not given
 };
 /// No file or no `canopy` in it gives no plants. @throws InvalidInput with all faults of the file.
 CanopyScene loadCanopyScene(const std::string& file);
@@ -45,8 +45,8 @@ struct CanopyOptions : NodeOptions {
 };
 void describe(FieldVisitor& visitor, CanopyOptions& options);
 
-/// Reads and checks all private parameters and the scenario that they name; where both say the same
-/// thing, the parameter holds. @throws InvalidInput with all faults of both.
+/// Reads and checks all private parameters and the scenario that they name. Parameters override the
+/// scenario. @throws InvalidInput with all faults of both.
 CanopyOptions loadCanopyOptions(const ros::NodeHandle& private_handle);
 
 }  // namespace vegetation_sim

@@ -45,7 +45,7 @@ void AgentCrowd::connect() {
   repeat(options_.tf_rate, &AgentCrowd::sendFrames);
 }
 
-// The scenario's people are there from the first tick on, so they are no events.
+// Walkers of the scenario exist from the first tick on, so they are no events.
 void AgentCrowd::populate() {
   for (const crowd::Spawn& spawn : options_.scene.crowd.spawns) crowd_.spawn(spawn);
   updateNextId();
@@ -77,7 +77,7 @@ void AgentCrowd::tick(std::int64_t) {
   publishTreads(stamp);
 }
 
-// A replay does not know when this run began: it begins anew then.
+// A replay resets itself at the beginning of this run by this event.
 void AgentCrowd::publishBeginning(Nanoseconds stamp) {
   CrowdEvent event;
   event.kind = CrowdEvent::RESET;

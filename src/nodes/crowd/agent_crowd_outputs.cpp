@@ -42,7 +42,7 @@ void AgentCrowd::publishTreads(Nanoseconds stamp) {
     entry = crowd_.find(entry->first) ? std::next(entry) : trodden_.erase(entry);
 }
 
-// A track: the meadow adds up the parts of a way, so a few places of it are enough.
+// The meadow joins the places of a track, so a place per PUBLISH_EVERY is enough.
 void AgentCrowd::treadOfBody(const crowd::Walker& walker, Nanoseconds stamp) {
   Trodden& last = trodden_[walker.id];
   if (last.seen && length(walker.position - last.place) < PUBLISH_EVERY) return;
@@ -61,7 +61,7 @@ void AgentCrowd::treadOfBody(const crowd::Walker& walker, Nanoseconds stamp) {
   tread_publisher_.publish(event);
 }
 
-// A print, from heel to ball, as each foot comes down.
+// Each foot that lands makes a stroke from heel to ball.
 void AgentCrowd::treadOfFeet(const crowd::Walker& walker, Nanoseconds stamp) {
   Trodden& last = trodden_[walker.id];
   const SinCos front = sinCos(walker.heading);
@@ -90,7 +90,7 @@ void AgentCrowd::treadOfFeet(const crowd::Walker& walker, Nanoseconds stamp) {
   last.seen = true;
 }
 
-// Walkers near a robot have frames first: without one, it does not know where they are.
+// Walkers nearest to a robot get frames first.
 std::vector<TierChoice> AgentCrowd::chooseFrames(Nanoseconds stamp) {
   std::vector<TierChoice> out;
   if (options_.tf_budget == 0) return out;
@@ -133,8 +133,8 @@ void AgentCrowd::sendFrames(const ros::TimerEvent&) {
 void AgentCrowd::sendMarkers(const ros::TimerEvent&) {
   if (!clock_.hasBegun() || markers_publisher_.getNumSubscribers() == 0) return;
   const Nanoseconds stamp = crowd_.snapshot().stamp;
-  markers_publisher_.publish(markers_.build(crowd_, viewers_.eyesAt(stamp), options_.tolerance,
-                                            options_.frame_id, stamp));
+  markers_publisher_.publish(
+      markers_.build(crowd_, viewers_.eyesAt(stamp), options_.tolerance, options_.frame_id, stamp));
 }
 
 void AgentCrowd::addDiagnostics(Status& status) {
@@ -154,7 +154,7 @@ void AgentCrowd::addDiagnostics(Status& status) {
   status.add("State sent [B]", state_bytes_);
 }
 
-// Of what is drawn and framed; how people walk is the same for all of them.
+// Reports the tiers of the markers and the tf frames; they do not affect the walkers.
 void AgentCrowd::diagnoseGovernor(Status& status) {
   report(markers_.balance(),
          {"Walkers", options_.tolerance, "marker_points", "points",

@@ -24,36 +24,36 @@ struct CrowdScene {
   crowd::Scene crowd;
   std::uint64_t seed{0};
   std::shared_ptr<const terrain::HeightMap> terrain{std::make_shared<terrain::HeightMap>()};
-  std::string frame_id;  ///< empty: not said
+  std::string frame_id;  ///< empty: not given
   std::vector<crowd::Robot> robots;
 };
-/// No file or no `crowd` in it gives nobody. @throws InvalidInput with all faults of the file.
+/// No file or no `crowd` in it gives no walkers. @throws InvalidInput with all faults of the file.
 CrowdScene loadCrowdScene(const std::string& file);
 
 /// Parameters of agent_crowd; see docs/reference.md.
 struct CrowdOptions : NodeOptions {
   double markers_rate{10.0};         ///< [Hz]
   int marker_points{120000};         ///< budget of the list
-  double tolerance{1.0};             ///< error of who is drawn [pixel]
+  double tolerance{1.0};             ///< error of drawn walkers [pixel]
   double tf_rate{15.0};              ///< [Hz]
   int tf_budget{20};                 ///< frames: nearest to robots, then lowest ids
   int tread{1};                      ///< Treading
   double tread_radius{0.0};          ///< 0: 0.16 of a body, 0.06 of a foot [m]
   int trunks{0};                     ///< TrunkShape
   int most_trunks{100000};           ///< near the area
-  int most_walkers{5000};            ///< further ones are refused
+  int most_walkers{5000};            ///< requests for more are rejected
   int threads{1};                    ///< of a tick
   std::vector<crowd::Robot> robots;  ///< id: tf frame; footprint
-  crowd::CrowdSettings tuning;       ///< starting values of what dynamic_reconfigure changes
+  crowd::CrowdSettings tuning;       ///< initial values for dynamic_reconfigure
   CrowdScene scene;
 };
 void describe(FieldVisitor& visitor, CrowdOptions& options);
 
-/// Reads and checks all private parameters and the scenario that they name; where both say the same
-/// thing, the parameter holds. @throws InvalidInput with all faults of both.
+/// Reads and checks all private parameters and the scenario that they name. Parameters override the
+/// scenario. @throws InvalidInput with all faults of both.
 CrowdOptions loadCrowdOptions(const ros::NodeHandle& private_handle);
 
-/// What dynamic_reconfigure shows, and back; `other` has what it does not show.
+/// Converts to and from dynamic_reconfigure; `other` has the fields that it does not show.
 void toConfig(const crowd::CrowdSettings& settings, AgentCrowdConfig& config);
 crowd::CrowdSettings fromConfig(const AgentCrowdConfig& config, const crowd::CrowdSettings& other);
 

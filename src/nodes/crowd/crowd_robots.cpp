@@ -11,7 +11,7 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr double FASTEST = 50.0;  // beyond, it was put there [m/s]
+constexpr double FASTEST = 50.0;  // beyond, it is a jump [m/s]
 
 bool isSound(const crowd::Robot& robot) {
   Faults faults;
@@ -45,7 +45,7 @@ bool CrowdRobots::sample(Followed& followed, Nanoseconds now, bool& moved) const
   } catch (const tf2::TransformException&) {
     return false;
   }
-  if (stamp == 0) stamp = now;  // only static transforms lead there: it is there now
+  if (stamp == 0) stamp = now;  // a chain of static transforms
   if (secondsBetween(stamp, now) > STALE || !isSound(robot)) return false;
   moved = !followed.known || stamp > followed.stamp;
   if (!moved) return true;

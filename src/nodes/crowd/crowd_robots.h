@@ -12,11 +12,11 @@
 
 namespace vegetation_sim {
 
-/// Robots among the walkers, where tf has them now. The node asks at each tick; nobody else looks
-/// up tf for them, so that a bag of events replays.
+/// Follows the frames of robots among the walkers in tf, once per tick. A replay needs no tf, since
+/// changes of robots are events.
 class CrowdRobots {
  public:
-  /// A frame that tf has not moved for this long is no robot any more [s].
+  /// A robot whose newest transform is older than this is removed [s].
   static constexpr double STALE = 0.5;
 
   /// `buffer` must outlive it.
@@ -27,11 +27,12 @@ class CrowdRobots {
     bool gone{false};
     crowd::Robot robot;
   };
-  /// Robots that moved, came or went since the last call; a pose that is no number is gone.
+  /// Returns robots that moved, came or went since the last call. One whose pose is not finite is
+  /// gone.
   std::vector<Change> update(Nanoseconds now);
-  /// Frames that tf did not know, or not of late, at the last update.
+  /// Frames without a recent transform at the last update.
   const std::vector<std::string>& missing() const { return missing_; }
-  /// Time jumped.
+  /// Forgets all transforms, after a jump of time.
   void clear();
 
  private:

@@ -48,7 +48,7 @@ std::size_t BranchFrames::count() const {
   return out;
 }
 
-// What lacks without a frame is computed only if not all can have one.
+// The error of a missing frame is computed only if not all branches can have one.
 std::vector<TierChoice> BranchFrames::choicesOf(const std::vector<Key>& keys, PosedTrees& trees,
                                                 std::size_t room) const {
   std::vector<TierChoice> out(keys.size());
@@ -73,7 +73,7 @@ std::vector<TierChoice> BranchFrames::choicesOf(const std::vector<Key>& keys, Po
   return out;
 }
 
-// Of branches that come after those wanted and held.
+// Choices for the branches that come after those wanted and held.
 std::vector<BranchFrames::Key> BranchFrames::choose(const std::vector<Key>& keys, PosedTrees& trees,
                                                     std::size_t room) {
   balance_ = TierAllocation();

@@ -57,7 +57,7 @@ class BranchFrames {
   /// rest, as far as the budget goes (N7): without a frame a listener has them there.
   Wanted withPhysical(PosedTrees& trees, const std::vector<forest::BranchPoint>& held);
   /// What was chosen then: costs are frames, errors metres. The largest is not a number where
-  /// wanted and held branches leave no room: nobody has looked.
+  /// wanted and held branches leave no room: it is not computed then.
   const TierAllocation& balance() const { return balance_; }
 
  private:

@@ -8,7 +8,7 @@
 namespace vegetation_sim {
 
 void ForestAnimator::sendFrames(const ros::TimerEvent&) {
-  // Every listener warns of a transform that comes twice.
+  // tf listeners warn of repeated transforms.
   if (!clock_.hasBegun() || last_framed_ == clock_.tick()) return;
   last_framed_ = clock_.tick();
   PosedTrees trees(*forest_, cache_, forest_->snapshot().stamp);
@@ -70,7 +70,7 @@ void ForestAnimator::addDiagnostics(Status& status) {
   status.add("Marker budget [points]", markers_.budget());
 }
 
-// What was chosen at the last tick, and why.
+// Reports the choice of levels at the last tick and its reason.
 void ForestAnimator::diagnoseGovernor(Status& status) {
   const forest::GovernorFigures& figures = forest_->governor();
   const auto& settings = forest_->snapshot().settings;

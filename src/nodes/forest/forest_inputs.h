@@ -66,9 +66,9 @@ class ForestInputs : public EventQueue<ForestInput, ForestEvent> {
  public:
   using EventQueue::EventQueue;
 
-  /// Of winds, settings, resets and the poses of one viewer only the last counts, as does the last
-  /// move and the last renewal of a grab for the same stamp. Winds, settings and resets are added
-  /// even if the queue is full. @return false if the queue is full.
+  /// Adds an input, or replaces an earlier wind, tuning or reset, an earlier pose of the same
+  /// viewer, or an earlier move or renewal of the same grab for the same stamp. Winds, settings and
+  /// resets are added even if the queue is full. @return false if the queue is full.
   bool add(const ForestInput& input);
   /// Returns a grab that waits for its tick; null if there is none.
   const forest::Grab* waitingGrab(std::uint32_t id) const;

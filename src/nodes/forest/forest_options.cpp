@@ -25,7 +25,7 @@ void checkTrees(const ForestOptions& options, Parameters& parameters) {
                                              std::to_string(count) + " trees, from 0");
 }
 
-// A parameter holds against what the scenario says.
+// Parameters override the scenario.
 void readScene(ForestOptions& options, Faults& faults) {
   ForestScene& scene = options.scene;
   try {
@@ -87,7 +87,7 @@ ForestScene loadForestScene(const std::string& file) {
     scenario.faults().add(path + ": terrain: " + error.what());
   }
   scenario.finish();
-  // A package's name holds on other machines too, a path does not.
+  // The name of a package is valid on other machines too, a path is not.
   if (terrain.find("://") != std::string::npos) out.layout.terrain = terrain;
   return out;
 }

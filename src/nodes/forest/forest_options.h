@@ -20,7 +20,7 @@ struct ForestScene {
   forest::Layout layout;
   forest::PhysicsSettings physics;
   std::shared_ptr<const terrain::HeightMap> terrain{std::make_shared<terrain::HeightMap>()};
-  std::string frame_id;  ///< empty: not said
+  std::string frame_id;  ///< empty: not given
 };
 /// No file or no `forest` in it gives no trees. @throws InvalidInput with all faults of the file.
 ForestScene loadForestScene(const std::string& file);
@@ -36,17 +36,17 @@ struct ForestOptions : NodeOptions {
   std::vector<int> branches_trees;  ///< trees on forest/branches
   int branches_budget{20000};       ///< branches per round of messages
   int cache_budget{400000};         ///< branches of grown trees held in memory
-  double grab_lease{5.0};           ///< of a grab that names none [s]
+  double grab_lease{5.0};           ///< of a grab without a lease of its own [s]
   double grab_distance{10.0};       ///< farthest target from the point held [m]
   bool tf_promoted{true};           ///< frames of physical branches, where tf_budget has room
-  RobotParts robot;                 ///< what of a robot pushes branches aside
-  ForestTuning tuning;              ///< starting values of what dynamic_reconfigure changes
+  RobotParts robot;                 ///< bodies that push branches aside
+  ForestTuning tuning;              ///< initial values for dynamic_reconfigure
   ForestScene scene;
 };
 void describe(FieldVisitor& visitor, ForestOptions& options);
 
-/// Reads and checks all private parameters and the scenario that they name; where both say the same
-/// thing, the parameter holds. @throws InvalidInput with all faults of both.
+/// Reads and checks all private parameters and the scenario that they name. Parameters override the
+/// scenario. @throws InvalidInput with all faults of both.
 ForestOptions loadForestOptions(const ros::NodeHandle& private_handle);
 
 }  // namespace vegetation_sim

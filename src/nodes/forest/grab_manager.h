@@ -22,7 +22,7 @@
 
 namespace vegetation_sim {
 
-/// What GrabManager uses of its node.
+/// Parts of the node that GrabManager uses.
 struct GrabDependencies {
   const ForestOptions& options;
   const forest::Forest& forest;
@@ -68,7 +68,7 @@ class GrabManager {
   std::size_t silent() const { return silent_; }
 
  private:
-  /// What is known of a requested grab besides the grab itself.
+  /// Data of a requested grab besides the grab itself.
   struct Request {
     bool keep_offset{false};
     Nanoseconds begins{0};  ///< 0: at the next tick

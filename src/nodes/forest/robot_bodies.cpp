@@ -42,7 +42,7 @@ bool RobotBodies::sample(Followed& followed, Nanoseconds now) {
   try {
     const auto found = buffer_.lookupTransform(frame_id_, body.frame, ros::Time(0));
     body.pose = compose(fromMsg(found.transform), body.in_frame);
-    // What only static transforms connect has no stamp: it is there now, and told once.
+    // A chain of static transforms has no stamp: the pose is reported once, for the current time.
     const Nanoseconds stamp = fromMsg(found.header.stamp);
     if (stamp == 0 && followed.last && isSame(followed.last->pose, body.pose)) return true;
     body.stamp = stamp == 0 ? now : stamp;
@@ -52,9 +52,9 @@ bool RobotBodies::sample(Followed& followed, Nanoseconds now) {
   if (secondsBetween(body.stamp, now) > STALE_BODY || !isSound(body)) return false;
   if (followed.last) {
     const double passed = secondsBetween(followed.last->stamp, body.stamp);
-    if (passed <= 0.0) return true;  // nothing new: it goes on as it went
+    if (passed <= 0.0) return true;  // without a new transform the motion continues
     if (passed < STALE_BODY) setMotion(body, followed.last->pose, body.pose, passed);
-    // Faster than any robot: it was put there.
+    // A speed beyond any robot is a jump.
     if (!isSound(body)) body.velocity = body.spin = Vec3::Zero();
   }
   followed.last = body;

@@ -15,14 +15,14 @@
 
 namespace vegetation_sim {
 
-/// Parts of a robot, and what of it cannot touch anything.
+/// Parts of a robot that touch branches, and links that cannot.
 struct RobotParts {
   std::vector<forest::Body> parts;    ///< id, frame, shape, size and in_frame
   std::vector<std::string> left_out;  ///< links whose collision geometry is a mesh
 };
 /// Most parts in all.
 constexpr std::size_t MOST_PARTS = 200;
-/// A frame that tf has not moved for this long is no body any more [s].
+/// A body whose newest transform is older than this is removed [s].
 constexpr double STALE_BODY = 0.5;
 
 /// Collision geometry of a URDF: spheres and boxes as they are; a cylinder becomes a capsule of the
@@ -34,16 +34,16 @@ RobotParts partsOfUrdf(const std::string& urdf, const std::string& prefix, Fault
 /// `robot_frame_prefix`.
 RobotParts readRobotParts(const ros::NodeHandle& private_handle, Parameters& parameters);
 
-/// Follows the parts' frames. The node asks at each tick; nobody else looks up tf for them.
+/// Follows the frames of the parts in tf, once per tick.
 class RobotBodies {
  public:
   RobotBodies(const ros::NodeHandle& nh, std::string frame_id, std::vector<forest::Body> parts);
 
-  /// Bodies as tf knows them last, with the velocity between the last two samples.
+  /// Returns the bodies at their newest transforms, with the velocity between the last two.
   std::vector<forest::Body> update(Nanoseconds now);
-  /// Frames that tf did not know, or not of late, at the last update.
+  /// Frames without a recent transform at the last update.
   const std::vector<std::string>& missing() const { return missing_; }
-  /// Time jumped.
+  /// Forgets all transforms, after a jump of time.
   void clear();
 
  private:

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int SIDE = grass::TreadBlock::SIDE;
 
-/// Of each cell: the largest crush (0 to 1), and the stamp of the newest press; 0: none.
+/// Largest crush (0 to 1) of each cell, and the stamp of its newest press; 0: none.
 struct Trodden {
   std::vector<float> crush;
   std::vector<Nanoseconds> stamp;
@@ -68,7 +68,7 @@ class CoverMaker {
     return out;
   }
 
-  // Only where somebody trod: the rest of the map costs nothing.
+  // Only trodden blocks are visited.
   Trodden findTrodden() const {
     Trodden out{std::vector<float>(cells()), std::vector<Nanoseconds>(cells())};
     const double spacing = field_.tread().spacing() / settings_.resolution;

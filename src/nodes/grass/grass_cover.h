@@ -11,7 +11,7 @@
 
 namespace vegetation_sim {
 
-/// What a cell of the cover map tells (N5): tilt of its most trodden node, blades per area, drag,
+/// Value of a cell of the cover map (N5): tilt of its most trodden node, blades per area, drag,
 /// or time since it was trodden.
 enum class CoverLayer : int { CRUSH = 0, DENSITY = 1, RESISTANCE = 2, AGE = 3 };
 constexpr std::array<const char*, 4> COVER_LAYERS = {"crush", "density", "resistance", "age"};

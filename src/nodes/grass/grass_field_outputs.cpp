@@ -32,7 +32,7 @@ void GrassField::publishState(std::int64_t tick) {
   state_publisher_.publish(message);
 }
 
-// In the axes of the body's frame, which tf must know; the force acts where the source is.
+// Wrenches are in the body's frame; the force acts at the source.
 void GrassField::publishWrenches(Nanoseconds stamp) {
   if (wrenches_publisher_.getNumSubscribers() == 0) return;
   for (const grass::Drag& drag : field_->drags()) {
@@ -94,7 +94,7 @@ void GrassField::addDiagnostics(Status& status) {
   status.add("Viewers", viewers_.size());
 }
 
-// Of the markers, whose tiers all have the same trodden ground, and of complete states.
+// Reports the choice of tiers of the markers and the period of complete states.
 void GrassField::diagnoseGovernor(Status& status) {
   report(meadow_->balance(),
          {"Tiles",

@@ -32,7 +32,7 @@ double flatLength(const Vec3& a, const Vec3& b) {
 
 }  // namespace
 
-// On the ground of the map, in the world.
+// Returns the points of the request on the ground, in the world frame.
 std::vector<Vec3> GrassField::pathOf(const Tread::Request& request) const {
   checkCount(request.points.size(), MOST_PATH_POINTS);
   const Pose to_world = poseOf(request.header.frame_id);
@@ -55,7 +55,7 @@ std::vector<Vec3> GrassField::pathOf(const Tread::Request& request) const {
   return out;
 }
 
-// A source of its own that comes down, walks and leaves within one tick.
+// The path is a source of its own that comes down, moves and leaves within one tick.
 void GrassField::queuePath(const std::vector<Vec3>& path, const grass::TreadLaw& law,
                            const ros::Time& stamp) {
   const double longest = 0.5 * options_.scene.grass.treading.longest_stroke;

@@ -50,7 +50,7 @@ std::vector<FollowedSource> readSources(YamlSection& section) {
   return out;
 }
 
-// A parameter holds against what the scenario says.
+// Parameters override the scenario.
 void readScene(GrassOptions& options, Faults& faults) {
   GrassScene& scene = options.scene;
   try {
@@ -63,7 +63,7 @@ void readScene(GrassOptions& options, Faults& faults) {
   }
 }
 
-// With what is left to the node.
+// Zeros of a source stand for the tuning of the node.
 void checkSources(const GrassOptions& options, Parameters& parameters) {
   for (const FollowedSource& source : options.sources)
     grass::check(fromMsg(toMsg(source.law), options.tuning.tread),
@@ -172,7 +172,7 @@ GrassScene loadGrassScene(const std::string& file) {
     scenario.faults().add(path + ": terrain: " + error.what());
   }
   scenario.finish();
-  // A package's name holds on other machines too, a path does not.
+  // The name of a package is valid on other machines too, a path is not.
   if (terrain.find("://") != std::string::npos) out.grass.layout.terrain = terrain;
   return out;
 }

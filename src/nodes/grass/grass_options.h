@@ -18,7 +18,7 @@ namespace vegetation_sim {
 /// Everything that can be reconfigured while grass_field runs.
 struct GrassTuning {
   double drag{0.2};            ///< of grass, see Field::resistanceAt [N s/m]
-  double height_gate{0.3};     ///< of a source that does not say its own [m]
+  double height_gate{0.3};     ///< of a source without its own [m]
   grass::TreadLaw tread;       ///< likewise
   grass::MeadowSettings view;  ///< of the markers; most_blades follows from their budget
 };
@@ -32,7 +32,7 @@ void toConfig(const GrassTuning& tuning, GrassFieldConfig& config);
 /// A source that the node finds by itself (N4).
 struct FollowedSource {
   std::string name;
-  std::string frame;          ///< tf frame; empty: `odometry` says
+  std::string frame;          ///< tf frame; empty: `odometry` is used
   std::string odometry;       ///< topic of nav_msgs/Odometry
   Vec3 offset{Vec3::Zero()};  ///< in the frame, or in the odometry's child frame [m]
   double height_gate{0.0};    ///< 0: the node's [m]
@@ -44,7 +44,7 @@ constexpr std::size_t MOST_FOLLOWED_SOURCES = 256;
 struct GrassScene {
   grass::Scene grass;
   std::shared_ptr<const terrain::HeightMap> terrain{std::make_shared<terrain::HeightMap>()};
-  std::string frame_id;  ///< empty: not said
+  std::string frame_id;  ///< empty: not given
   std::vector<FollowedSource> sources;
 };
 /// No file gives the default meadow, a file without `grass` one without grass.
@@ -62,13 +62,13 @@ struct GrassOptions : NodeOptions {
   double cover_age{600.0};        ///< age that counts as 100 [s]
   int cover_layer{0};             ///< of grass/cover: crush, density, resistance, age
   std::vector<FollowedSource> sources;
-  GrassTuning tuning;  ///< starting values of what dynamic_reconfigure changes
+  GrassTuning tuning;  ///< initial values for dynamic_reconfigure
   GrassScene scene;
 };
 void describe(FieldVisitor& visitor, GrassOptions& options);
 
-/// Reads and checks all private parameters and the scenario that they name; where both say the same
-/// thing, the parameter holds. @throws InvalidInput with all faults of both.
+/// Reads and checks all private parameters and the scenario that they name. Parameters override the
+/// scenario. @throws InvalidInput with all faults of both.
 GrassOptions loadGrassOptions(const ros::NodeHandle& private_handle);
 
 }  // namespace vegetation_sim

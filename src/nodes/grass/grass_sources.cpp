@@ -48,7 +48,7 @@ GrassSources::ObservedSource GrassSources::findOdometry(const Followed& followed
   if (frame != frame_id_)
     to_world = fromMsg(buffer_.lookupTransform(frame_id_, frame, ros::Time(0)).transform);
   base = compose(to_world, base);
-  // Velocity of the offset point: the twist is in the child frame.
+  // The twist is in the child frame; the velocity is that of the offset point.
   const Vec3 spin = fromMsg(message.twist.twist.angular), &arm = followed.source.offset;
   const Vec3 velocity = fromMsg(message.twist.twist.linear) + cross(spin, arm);
   const Nanoseconds stamp = fromMsg(message.header.stamp);
@@ -58,7 +58,7 @@ GrassSources::ObservedSource GrassSources::findOdometry(const Followed& followed
 GrassSources::ObservedSource GrassSources::find(const Followed& followed, Nanoseconds now) const {
   if (!followed.source.odometry.empty()) return findOdometry(followed, now);
   const auto found = buffer_.lookupTransform(frame_id_, followed.source.frame, ros::Time(0));
-  // What only static transforms connect has no stamp: it is there now.
+  // A chain of static transforms has no stamp; the current time stands for it.
   const Nanoseconds stamp = fromMsg(found.header.stamp);
   return {stamp == 0 ? now : stamp, transformed(fromMsg(found.transform), followed.source.offset),
           Vec3::Zero()};

@@ -15,25 +15,25 @@
 namespace vegetation_sim {
 
 /// Sources of treading that the node finds by itself (N4): tf frames and odometry. The node asks at
-/// each tick; nobody else looks up tf for them, so that a bag of events replays.
+/// each tick; a replay needs no tf, since the treads are events.
 class GrassSources {
  public:
-  /// A source that nobody has told of for this long has left the ground [s].
+  /// A source without a position for this long has left the ground [s].
   static constexpr double STALE = 0.5;
-  /// One that stands is told again so often [s].
+  /// Period at which a source at rest is repeated [s].
   static constexpr double REMINDER = 1.0;
 
   /// `buffer` must outlive it.
   GrassSources(ros::NodeHandle handle, std::string frame_id, std::vector<FollowedSource> sources,
                const tf2_ros::Buffer& buffer);
 
-  /// What each did since the last call: moved, left, or stands and is told again. Positions in the
-  /// world, nothing left to defaults but for `own` and `height_gate`.
+  /// Returns the treads of each source since the last call: it moved, left, or is repeated at rest.
+  /// Positions are in the world frame; `own` and `height_gate` replace zeros.
   std::vector<grass::TreadInput> update(Nanoseconds now, const grass::TreadLaw& own,
                                         double height_gate);
-  /// Frames and topics that did not say anything of late, at the last update.
+  /// Frames and topics without recent data at the last update.
   const std::vector<std::string>& missing() const { return missing_; }
-  /// Time jumped.
+  /// Forgets all positions, after a jump of time.
   void clear();
 
  private:

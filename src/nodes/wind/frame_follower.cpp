@@ -35,7 +35,7 @@ bool FrameFollower::sample(wind::Attachment& attachment, Nanoseconds now) {
   try {
     const auto transform =
         buffer_.lookupTransform(frame_id_, attachment.source().attached_frame, ros::Time(0));
-    // What only static transforms connect has no stamp: it is there now.
+    // A chain of static transforms has no stamp; the current time stands for it.
     const Nanoseconds stamp = fromMsg(transform.header.stamp);
     const auto& at = transform.transform.translation;
     wind::Waypoint point{stamp == 0 ? now : stamp, Vec3(at.x, at.y, at.z)};

@@ -17,7 +17,7 @@
 namespace vegetation_sim {
 
 /// Sources whose centre is a tf frame. The broadcaster alone looks up tf, at update(), and
-/// publishes pieces of trajectory, so that nobody else needs tf for wind and a bag replays.
+/// publishes pieces of trajectory, so that wind needs no tf elsewhere and a bag replays.
 class FrameFollower {
  public:
   FrameFollower(const ros::NodeHandle& nh, const WindSettings& settings);
@@ -29,12 +29,12 @@ class FrameFollower {
   void remove(const std::string& name) { attachments_.erase(name); }
   void clear();
 
-  /// Samples every frame and puts the next pieces into the ledger. @return whether any was put.
-  /// @throws InvalidInput if the ledger has no room.
+  /// Samples every frame and adds the next pieces to the schedule. @return whether any was added.
+  /// @throws InvalidInput if the schedule is full.
   bool update(wind::PrimitiveSchedule& schedule, Nanoseconds now);
 
   std::vector<std::string> names() const;
-  /// Frames that tf did not know, or not of late, at the last update.
+  /// Frames without a recent transform at the last update.
   const std::vector<std::string>& missing() const { return missing_; }
 
  private:

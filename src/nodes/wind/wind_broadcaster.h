@@ -41,10 +41,10 @@ class WindBroadcaster final : public NodeBase {
   bool reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   void reconfigure(WindBroadcasterConfig& config, std::uint32_t level);
 
-  /// Becomes what a fresh start at `now` is.
+  /// Restores the state of a start at `now`.
   void begin(Nanoseconds now);
-  /// Edits the law, with the faults found so far. @return id, 0 for a frame that is to be followed.
-  /// @throws InvalidInput with those and its own, before anything has changed.
+  /// Applies a source. @return its primitive; none if it follows a frame.
+  /// @throws InvalidInput with `faults` and its own; nothing has changed then.
   std::optional<wind::Primitive> apply(const wind::Source& source, Faults faults = {});
   void remove(const std::string& name);
   void follow(const ros::TimerEvent& event);

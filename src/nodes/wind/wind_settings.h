@@ -19,12 +19,12 @@ struct BreezeSettings {
   static constexpr const char* NAME = "breeze";
 
   double speed{0.0};       ///< [m/s]
-  double direction{0.0};   ///< where the air goes, from east, counter-clockwise [rad]
+  double direction{0.0};   ///< of the velocity, from east, counter-clockwise [rad]
   double turbulence{0.2};  ///< rms along the wind / mean
 
-  /// @param base of which everything else is kept.
+  /// @param base has all other fields.
   wind::Primitive applyTo(wind::Primitive base) const;
-  /// @param direction_in_a_calm kept where the speed is zero [rad].
+  /// @param direction_in_a_calm result for a speed of zero [rad].
   static BreezeSettings of(const wind::Primitive& primitive, double direction_in_a_calm);
 
   bool operator==(const BreezeSettings& other) const {
@@ -38,7 +38,7 @@ BreezeSettings fromConfig(const WindBroadcasterConfig& config);
 
 void describe(FieldVisitor& visitor, BreezeSettings& breeze);
 
-/// What a wind_broadcaster is started with.
+/// Parameters and scenario of wind_broadcaster.
 struct WindSettings {
   /// Frames that may be followed at once: their pieces share the field's limit with all sources.
   static constexpr std::size_t MAX_FOLLOWED = 4;
@@ -53,12 +53,12 @@ struct WindSettings {
   BreezeSettings breeze;              ///< of the source named "breeze", if there is one
 };
 
-/// Reads the private parameters, and the scenario that they name. Parameters win over the scenario,
-/// but for its own source named "breeze", which wins over what dynamic_reconfigure left behind.
+/// Reads the private parameters and the scenario that they name. Parameters override the scenario,
+/// except its source named "breeze", which overrides the values that dynamic_reconfigure has left.
 /// @throws InvalidInput with all faults of both.
 WindSettings readWindSettings(const ros::NodeHandle& private_nh);
 
-/// The law of a fresh start at a stamp, but for the sources that follow a frame.
+/// Returns the schedule of a start at a stamp, without the sources that follow a frame.
 /// @throws InvalidInput if the sources do not fit in one field.
 wind::PrimitiveSchedule initialSchedule(const WindSettings& settings, Nanoseconds start);
 

@@ -63,7 +63,7 @@ canopy::CutView eyeFromMsg(const geometry_msgs::Pose& pose) {
   double norm = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
   checker.number("orientation, its norm,", norm, "", {0.99, 1.01});
   faults.throwIfAny();
-  // As it stands if it is good: a replica gets the bits of the sender.
+  // A valid layout is kept as it is, so that a replica gets the bits of the sender.
   const double scale = std::fabs(norm - 1.0) < 1e-12 ? 1.0 : 1.0 / norm;
   return {place, {scale * q.w, scale * q.x, scale * q.y, scale * q.z}};
 }

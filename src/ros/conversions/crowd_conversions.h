@@ -16,15 +16,15 @@
 
 namespace vegetation_sim {
 
-/// A walker as it stands on the terrain, and back, as far as its body goes.
+/// Converts a walker on the terrain, and its body back.
 AgentState toMsg(const crowd::Walker& walker, const terrain::HeightMap& terrain);
 crowd::Walker fromMsg(const AgentState& message);
-/// What a stranger says of walkers. @throws InvalidInput with all faults, each with id, value and
+/// Converts received walkers. @throws InvalidInput with all faults, each with id, value and
 /// range.
 void check(const AgentStates& message);
 
 AgentSpawn toMsg(const crowd::Spawn& spawn);
-/// Zeros become the defaults. Not checked: Crowd::spawn() does that.
+/// Zeros become the defaults. Crowd::spawn() checks the result.
 crowd::Spawn fromMsg(const AgentSpawn& message);
 
 CrowdRobot toMsg(const crowd::Robot& robot);

@@ -18,7 +18,7 @@ constexpr double LARGEST_BEND = 100.0;      // [rad]
 constexpr double LARGEST_RATE = 1e5;        // [rad/s]
 constexpr std::size_t MOST_MODES = 256;     // of a tree
 
-/// The words of a structure's choices, by field.
+/// Names of the values of each choice of a structure, by field.
 class Choices : public FieldVisitor {
  public:
   void number(const char*, double&, const char*, Range) override {}

@@ -7,7 +7,7 @@
 namespace vegetation_sim {
 namespace {
 
-/// Visits the numbers that message and primitive share by name, so that both ways list them once.
+/// Visits the numbers that message and primitive share, so that both directions list them once.
 template <class Message, class Primitive, class Visit>
 void visitNumbers(Message& message, Primitive& p, Visit visit) {
   visit(message.fade_in, p.fade_in);

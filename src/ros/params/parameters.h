@@ -14,7 +14,7 @@
 namespace vegetation_sim {
 
 /// Strict reader of a node's private parameters: a wrong type, a value out of range and, after
-/// finish(), a key that nobody asked for are faults that name key, value and allowed range. A key
+/// finish(), a key that was not read are faults that name key, value and allowed range. A key
 /// that is absent leaves the default. Visits a `describe` function as well as single keys.
 class Parameters : public FieldVisitor {
  public:
@@ -39,7 +39,7 @@ class Parameters : public FieldVisitor {
 
   /// Makes a key legal that is read elsewhere.
   void allow(const std::string& name) { asked_.insert(name); }
-  /// Adds an own fault about the value of `name`.
+  /// Adds a fault about the value of `name`.
   void fault(const std::string& name, const std::string& problem);
   Faults& faults() { return faults_; }
   /// @throws InvalidInput with all faults, unknown keys among them.

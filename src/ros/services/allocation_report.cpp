@@ -7,7 +7,7 @@
 namespace vegetation_sim {
 namespace {
 
-// What is seen costs something, is off by something or stands on a tier.
+// Returns whether any object in view has a cost, an error or a tier above the lowest.
 bool seesAny(const TierAllocation& balance) {
   return balance.wanted > 0.0 || balance.largest > 0.0 ||
          std::any_of(balance.counts.begin() + 1, balance.counts.end(),

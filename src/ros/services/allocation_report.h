@@ -11,16 +11,16 @@
 
 namespace vegetation_sim {
 
-/// What a governor had to go by, in words.
+/// Names and limits of an allocation, for its report.
 struct BalanceTerms {
-  std::string what;                ///< it chose for: "Walkers"
+  std::string what;                ///< kind of objects: "Walkers"
   double tolerance{1.0};           ///< [pixel]
   std::string budget_name;         ///< parameter that may bind
   std::string unit;                ///< of budget and costs
   double budget{0.0};              ///< in that unit
   std::vector<std::string> tiers;  ///< names, coarsest first
 };
-/// Says on /diagnostics what was chosen and why.
+/// Reports on /diagnostics the choice and its reason.
 void report(const TierAllocation& balance, const BalanceTerms& terms,
             diagnostic_updater::DiagnosticStatusWrapper& status);
 

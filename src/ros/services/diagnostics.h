@@ -13,20 +13,20 @@
 
 namespace vegetation_sim {
 
-/// Warns on /diagnostics of what has happened since the last report, and only of that. Of text of
-/// many lines the first few, and how many more.
+/// Warns on /diagnostics of events since the last report. A text of many lines is cut, with the
+/// number of lines left out.
 void warnOfMore(diagnostic_updater::DiagnosticStatusWrapper& status, std::uint64_t now,
                 std::uint64_t reported, const std::string& what);
 void warnOfClock(diagnostic_updater::DiagnosticStatusWrapper& status, const TickClock::Counts& now,
                  const TickClock::Counts& reported);
 
-/// Inputs that a node refuses: told on the console at most once a second, and on /diagnostics.
+/// Rejected inputs of a node, reported on the console at most once a second and on /diagnostics.
 class Refusals {
  public:
   explicit Refusals(std::string node) : node_(std::move(node)) {}
 
   void add(const std::string& what, const std::string& why);
-  /// Of those since it last did, with the reason for the last.
+  /// Warns of those since the last warning, with the reason for the last one.
   void warn(diagnostic_updater::DiagnosticStatusWrapper& status);
   std::uint64_t count() const { return count_; }
   const std::string& last() const { return last_; }

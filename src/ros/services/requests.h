@@ -11,16 +11,16 @@
 
 namespace vegetation_sim {
 
-/// Where a request's frame is in the world's; an empty one is the world's itself.
-/// @throws InvalidInput naming both if tf does not tell.
+/// Returns the pose of a request's frame in the world frame; an empty name is the world frame.
+/// @throws InvalidInput that names both if tf has no transform.
 Pose poseInWorld(const tf2_ros::Buffer& buffer, const std::string& world, const std::string& frame,
                  const ros::Time& stamp = ros::Time(0));
 
-/// @throws InvalidInput naming both if a message is not in the world's frame.
+/// @throws InvalidInput that names both if a message is not in the world frame.
 void checkFrame(const std::string& frame, const std::string& world);
 
-/// When a request takes effect: at its stamp if that is yet to come, else at the next tick, which
-/// is zero. @throws InvalidInput for a stamp more than a minute ahead.
+/// Returns when a request takes effect: its stamp if that is in the future, else zero for the next
+/// tick. @throws InvalidInput for a stamp more than a minute ahead.
 ros::Time effectOf(const ros::Time& stamp, const TickClock& clock);
 
 }  // namespace vegetation_sim

@@ -11,18 +11,18 @@
 
 namespace vegetation_sim {
 
-/// ROS time for a node: waits while it is zero, and tells when it goes backwards, by however
-/// little. In simulation it goes by the messages of /clock in the order in which they come, in the
-/// node's own queue, so that nothing is computed for a time that the node has not yet seen begin.
+/// ROS time for a node. It waits while time is zero and reports every jump back. With simulated
+/// time it follows the messages of /clock in the node's own callback queue, so that a callback
+/// never computes for a time that has not yet begun for the node.
 class ClockWatch {
  public:
-  /// @param begin called with the time that begins: the first one, and any after a jump back. In
-  /// the time of day already here.
+  /// @param begin called with the first time and with any after a jump back; with wall time, by the
+  /// constructor.
   ClockWatch(ros::NodeHandle nh, std::function<void(Nanoseconds now)> begin);
 
   /// False until the first stamp that is not zero.
   bool running() const { return last_ > 0; }
-  /// In simulation the last stamp seen, else the time of day.
+  /// Returns the last stamp of /clock with simulated time, else the wall time.
   Nanoseconds now() const;
   int jumps() const { return jumps_; }
 

@@ -14,25 +14,24 @@
 
 namespace vegetation_sim {
 
-/// What a node does as time goes on; each may be empty but `tick`.
+/// Callbacks of a TickClock; all but `tick` may be empty.
 struct TickCalls {
-  /// Once before the ticks that are due, if any.
+  /// Called once before the ticks that are due, if any.
   std::function<void()> before{};
-  /// Tick number `tick` of the grid, in order; TickClock::stamp() is its stamp.
+  /// Runs tick number `tick` of the grid; TickClock::stamp() is its stamp.
   std::function<void(std::int64_t tick)> tick;
-  /// Time went back to `clock`: become what a fresh start would be. The tick due then follows.
+  /// Called when time jumps back to `clock`, before the tick that is due then.
   std::function<void(Nanoseconds clock)> back{};
 };
 
-/// Which ticks a late node does: each one, or without state only the newest.
+/// Ticks that a late node runs: each one, or only the newest if it has no state.
 enum class LateTicks { EACH, NEWEST };
 
-/// The one rule by which nodes follow ROS time: ticks of an integer grid, none before the clock has
-/// begun, late ones caught up one by one for up to a second; where the clock leaps farther, those
-/// between are dropped and counted; back by a tick or more is a fresh start. In simulation it goes
-/// by every message of /clock, in the order and in the queue of the node's other inputs. With
-/// LateTicks::NEWEST it catches up with nothing: what is not done when the next is due is dropped
-/// and counted, and of /clock it takes the newest message.
+/// Runs a node's ticks on an integer grid of ROS time. Late ticks are caught up one by one for up
+/// to LONGEST_CATCH_UP; after a larger leap the ticks between are dropped and counted. A jump back
+/// by a tick or more is a restart. With simulated time it follows every message of /clock in the
+/// queue of the node's other inputs. With LateTicks::NEWEST all late ticks but the newest are
+/// dropped and counted, and only the newest message of /clock is used.
 class TickClock {
  public:
   /// @param name of the node, in its warnings. @param rate ticks per second [Hz].
@@ -40,28 +39,28 @@ class TickClock {
   TickClock(std::string name, int rate, double delay, TickCalls calls,
             LateTicks late = LateTicks::EACH);
 
-  /// Begins to follow the clock. The last thing that a node's constructor does: a nodelet's first
-  /// ticks may come while it is still being built.
+  /// Starts to follow the clock. To be called at the end of a node's constructor: the first ticks
+  /// of a nodelet may come from another thread.
   void listen(ros::NodeHandle handle);
   /// Stops following the clock.
   void stop() {
     clock_.shutdown();
     timer_.stop();
   }
-  /// The clock shows this: runs what is due.
+  /// Runs the ticks that are due at this time.
   void see(Nanoseconds clock);
 
-  /// A tick has been begun, since the last jump back.
+  /// Whether a tick was begun since the last jump back.
   bool hasBegun() const { return last_ != NEVER; }
-  /// The tick that was begun last. Requires hasBegun().
+  /// Returns the last tick that was begun. Requires hasBegun().
   std::int64_t tick() const { return last_; }
   Nanoseconds stamp() const { return grid_.timeOf(last_); }
   const TickGrid& grid() const { return grid_; }
 
   struct Counts {
     std::uint64_t ticks{0};    ///< done
-    std::uint64_t dropped{0};  ///< left out, the node was late or the clock leapt
-    std::uint64_t jumps{0};    ///< of the clock back
+    std::uint64_t dropped{0};  ///< because the node was late or the clock leapt
+    std::uint64_t jumps{0};    ///< back, of the clock
   };
   const Counts& counts() const { return counts_; }
   /// Adds the counts and the wall time of a tick to a node's diagnostics.

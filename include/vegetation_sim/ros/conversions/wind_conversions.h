@@ -13,10 +13,10 @@
 namespace vegetation_sim {
 
 WindPrimitive toMsg(const wind::Primitive& primitive);
-/// As it stands, unchecked; the headers of the way points are not looked at.
+/// Converts without checks; the headers of the waypoints are ignored.
 wind::Primitive fromMsg(const WindPrimitive& message);
 
-/// A user's request. Adds a fault for a way point in another frame than `frame_id` or none.
+/// Converts a request. Adds a fault for a waypoint in another frame than `frame_id` or none.
 wind::Source sourceFromMsg(const WindPrimitive& message, const std::string& frame_id,
                            Faults& faults);
 
