@@ -122,7 +122,7 @@ class WindClock(unittest.TestCase):
                               speed=20.0, fade_in=0.5, fade_out=0.5, attached_frame='drone')
         answer = self.node.set(blast)
         self.assertTrue(answer.success, answer.message)
-        self.assertEqual(answer.message, 'blows once tf knows drone')
+        self.assertEqual(answer.message, 'begins once tf has a transform of drone')
         wait_for(lambda: tf.get_num_connections() > 0, 'a listener of /tf')
         wait_for(lambda: self.downwash_after(0.5, tf) > 12.0, 'wind below the drone')
         self.assertLess(self.pieces(), 40)
@@ -131,7 +131,7 @@ class WindClock(unittest.TestCase):
         self.clock.run(4.0)  # The frame is not published.
         self.node.now_is(self.clock.now)
         self.assertLess(self.downwash(), 1e-9)
-        wait_for(lambda: self.warned(status.message, 'no tf of late for drone'), 'a warning')
+        wait_for(lambda: self.warned(status.message, 'no recent transform of drone'), 'a warning')
 
         self.clock.run(8.0)
         wait_for(lambda: self.downwash_after(0.5, tf) > 12.0, 'the wind to come back')

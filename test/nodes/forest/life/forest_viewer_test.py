@@ -108,7 +108,7 @@ class ForestViewer(unittest.TestCase):
             return values.get('Trees in modes', 0) > 0 and (found[-1].message, values)
         why, values = reports.wait(modes, 'trees in modes')
         reports.close()
-        self.assertIn(why, ('the tolerance is held', 'finer rungs there are none, or no room for modes'))
+        self.assertIn(why, ('the tolerance is held', 'there are no finer tiers, or no room for modes'))
         self.assertLessEqual(values['Predicted frame time [ms]'], values['Frame time budget [ms]'])
         self.assertEqual(self.forest.level(WEST), 7)
 
