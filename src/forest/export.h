@@ -10,22 +10,24 @@
 
 namespace vegetation_sim::forest {
 
-/// What of a forest other programs are told.
+/// Options of an export.
 struct ExportRule {
   std::string name{"forest"};              ///< of the model
-  double thinnest{0.05};                   ///< radius at the base of the thinnest wood told [m]
-  std::uint64_t most_branches{1'000'000};  ///< in all; a model with more is refused
+  double thinnest{0.05};                   ///< minimum radius at the base of exported branches [m]
+  std::uint64_t most_branches{1'000'000};  ///< maximum in all; a model with more is rejected
 };
-/// Adds a fault for whatever is out of range.
+/// Adds a fault for each value out of range.
 void check(const ExportRule& rule, Faults& faults);
 
-/// The trees at rest as one static SDF model: a link a tree, a cylinder a branch, as thick as the
-/// branch in its middle (N14). World frame. A tree too thin for the rule keeps its trunk's foot.
-/// @return cylinders written. @throws InvalidInput if there are more than the rule allows.
+/// Writes the trees at rest as one static SDF model: a link per tree, a cylinder per branch with
+/// the radius at its middle (N14). World frame. A tree below the minimum radius keeps the foot of
+/// its trunk.
+/// @return cylinders written. @throws InvalidInput if there are more than allowed.
 std::uint64_t writeSdf(const Layout& layout, const terrain::HeightMap& terrain,
                        const ExportRule& rule, std::ostream& out);
 
-/// A line a tree: number, species, foot [m], radius of the trunk at the foot [m], height [m].
+/// Writes one line per tree: number, species, foot [m], radius of the trunk at the foot [m], height
+/// [m].
 void writeTable(const Layout& layout, const terrain::HeightMap& terrain, std::ostream& out);
 
 }  // namespace vegetation_sim::forest

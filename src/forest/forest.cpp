@@ -42,13 +42,13 @@ void Forest::setLayout(Layout layout, std::shared_ptr<const terrain::HeightMap> 
   check(layout, faults);
   faults.throwIfAny();
   const bool same_trees = layout.treeCount() == layout_.treeCount();
-  // What is on its way goes on from where it is, at the new layout's pace.
+  // Transitions continue from their present blend with the duration of the new layout.
   snapshot_.levels.anchor(snapshot_.stamp, layout_.motion.transition);
   layout_ = std::move(layout);
   layout_hash_ = layout_.hash();
   terrain_ = std::move(terrain);
   measure();
-  snapshot_.modes.clear();  // their wood may be another
+  snapshot_.modes.clear();  // the wood may have changed
   if (!same_trees)
     reset();
   else
@@ -110,7 +110,7 @@ StepContext Forest::stepContext() const {
           snapshot_.levels, snapshot_.modes, *contacts_, snapshot_.stamp};
 }
 
-// Before the levels are chosen anew: those that hold now did so since the last tick.
+// Runs before the choice of levels: the present levels hold since the last tick.
 void Forest::advancePhysics(Nanoseconds stamp) {
   for (const std::uint32_t tree : physicalTrees()) snapshot_.changed.insert(tree);
   snapshot_.modes.advance(snapshot_.wind, snapshot_.stamp, stamp);

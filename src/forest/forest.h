@@ -18,19 +18,19 @@
 
 namespace vegetation_sim::forest {
 
-/// What users tune while it runs.
+/// Settings that can change at run time.
 struct Settings {
   double tolerance{1.0};  ///< error that a viewer may see [pixel]
-  int fixed_level{2};     ///< of every tree while nobody looks
+  int fixed_level{2};     ///< of every tree while there are no viewers
   int highest_level{MAX_DEPTHS};
-  double robot_tolerance{0.05};  ///< error of what a robot may touch [m]
-  double robot_range{3.0};       ///< trees so near to a body of a robot hold it [m]
+  double robot_tolerance{0.05};  ///< error near the bodies of robots [m]
+  double robot_range{3.0};       ///< distance to a body within which robot_tolerance holds [m]
   Budget budget;
 };
 void describe(FieldVisitor& visitor, Settings& settings);
 
-/// All that has memory in a forest: copy it to save, assign it to restore (N6). What follows then
-/// is the same to the bit, messages included.
+/// The complete state of a forest: copy it to save, assign it to restore (N6). What follows has the
+/// same bits, messages included.
 struct ForestSnapshot {
   Nanoseconds stamp{0};
   Settings settings;
@@ -39,9 +39,10 @@ struct ForestSnapshot {
   LevelMap levels;
   ModalForest modes;
   ForestPhysics physics;
-  std::set<std::uint32_t> changed;  ///< trees to tell of in the next update
-  std::set<std::uint32_t> begun;    ///< of these, with amplitudes: their modes are new
-  std::uint32_t sequence{0};        ///< of the next update
+  std::set<std::uint32_t> changed;  ///< trees of the next update
+  std::set<std::uint32_t>
+      begun;                  ///< of these, trees with new modes; the update has their amplitudes
+  std::uint32_t sequence{0};  ///< of the next update
 };
 
 /// The animated forest. Inputs take effect at the next tick; between ticks it does not change, and
@@ -59,24 +60,24 @@ class Forest {
   void setWind(const wind::Field& wind) { snapshot_.wind = wind; }
   void setViewer(const Viewer& viewer) { snapshot_.viewers[viewer.id] = viewer; }
   void setSettings(const Settings& settings) { snapshot_.settings = settings; }
-  /// Other trees, same ids: levels start anew where the number of trees changed.
+  /// Replaces the layout. Levels restart if the number of trees changes.
   void setLayout(Layout layout, std::shared_ptr<const terrain::HeightMap> terrain);
   void restore(ForestSnapshot memory) { snapshot_ = std::move(memory); }
-  /// Computes now how the species lag, some 30 ms for each of a few sizes, not at the tick at which
-  /// an eye first meets one.
+  /// Computes the response errors of all species now, some 30 ms for each of a few sizes, instead
+  /// of at the first tick with a viewer nearby.
   void precompute();
-  /// As a fresh start; keeps layout, wind and settings.
+  /// Resets the state; keeps layout, wind and settings.
   void reset();
 
-  /// One tick: chooses the level of every tree from wind, viewers and tolerance; steps what is
-  /// physical.
+  /// Advances one tick: steps physics and modes, then chooses the tier of every tree from wind,
+  /// viewers and tolerance.
   void advance(Nanoseconds stamp);
 
-  // What holds, pushes or touches branches. All of these throw InvalidInput naming thing, value and
-  // range, and then change nothing.
-  /// Takes hold; gives the id of the grab.
+  // Inputs of physics. All throw InvalidInput that names field, value and range, and then change
+  // nothing.
+  /// Adds a grab and returns its id.
   std::uint32_t addGrab(const Grab& grab);
-  /// Where the grab shall be at the next tick; renews its lease.
+  /// Sets the target of a grab at the next tick; renews its lease.
   void moveGrab(std::uint32_t id, const Vec3& target, const Pose& holder = {});
   void renewGrab(std::uint32_t id);
   void release(std::uint32_t id);
@@ -92,39 +93,40 @@ class Forest {
   const PhysicsSettings& physicsSettings() const { return snapshot_.physics.settings(); }
   const HeldGrabs& grabs() const { return snapshot_.physics.grabs(); }
   const Bodies& bodies() const { return snapshot_.physics.bodies(); }
-  /// Grabs that ended by themselves at the last tick: their lease ran out.
+  /// Grabs whose lease ran out at the last tick.
   const std::vector<Grab>& ended() const { return snapshot_.physics.ended(); }
-  /// On the bodies that hold or touch branches, at the end of the last tick.
+  /// Reactions on bodies that hold or touch branches, at the end of the last tick.
   const std::vector<Reaction>& reactions() const { return snapshot_.physics.reactions(); }
   PhysicsFigures physicsFigures() const;
-  /// Physical joints of a tree at the last tick; none: `branches` is empty.
+  /// Returns the physical joints of a tree at the last tick; `branches` is empty if there are none.
   PromotedTree promoted(std::uint32_t tree) const;
-  /// Trees that have physical joints, rising.
+  /// Returns the ids of the trees with physical joints, sorted.
   std::vector<std::uint32_t> physicalTrees() const;
-  /// Nullptr: the tree does not modal_state in modes.
+  /// Returns the modal state of a tree, or nullptr if it has none.
   const ModalTreeState* modalState(std::uint32_t tree) const { return snapshot_.modes.find(tree); }
-  /// What the governor chose at the last tick.
+  /// Figures of the tier allocation at the last tick.
   const GovernorFigures& governor() const { return governor_; }
-  /// The trees that it chose for, with what it predicts of them; none where there are very many.
+  /// The trees of that allocation with their predicted errors; empty if there are very many.
   const std::vector<Plant>& plants() const { return plants_; }
-  /// Every branch in the tree's frame, physical ones and modes included, double precision.
+  /// Returns the pose of every branch in the tree's frame, physical joints and modes included, in
+  /// double precision.
   std::vector<Pose> pose(const Tree& tree, std::uint32_t id, Nanoseconds stamp) const;
 
-  /// Complete state, or what changed since the last update of either kind.
+  /// Returns the complete state, or the changes since the last update of either kind.
   StateUpdate update(bool key_frame);
-  /// Of all that what comes depends on, viewers included; not of how updates are numbered, so that
-  /// a latecomer's is the same.
+  /// Returns a hash of all state that determines the future, viewers included, but not the numbers
+  /// of updates, so that late subscribers compute the same.
   std::uint64_t hash() const;
 
  private:
   struct Region {
     Vec3 centre;
-    double reach;  // [m] around the centre, trees' own reach included
+    double reach;  // [m] around the centre, including the reach of trees
     std::uint32_t first, count;
   };
   StepContext stepContext() const;
   void advancePhysics(Nanoseconds stamp);
-  /// Of all trees; of tiles, whose trees are drawn later, all that may come.
+  /// Calls `visit` for the sizes of all trees; for tiles, for the range of their sizes.
   void forEachSize(const std::function<void(std::size_t species, double scale)>& look) const;
   void measure();
   void measureSpecies(std::size_t species, double scale);
@@ -147,14 +149,14 @@ class Forest {
   std::shared_ptr<const terrain::HeightMap> terrain_;
   std::vector<LevelScales> tables_;  // per species
   double extent_{0.0};               // height plus reach of the largest tree [m]
-  double largest_omission_{0.0};     // of any tree, all joints fixed [m per m/s]
+  double largest_omission_{0.0};     // of any tree with all joints fixed [m per m/s]
   double slowest_reference_{1.0};    // reference speed of any species [m/s]
   std::vector<Region> regions_;
   std::shared_ptr<const ContactFinder> contacts_{std::make_shared<ContactFinder>()};
   ForestSnapshot snapshot_;
   wind::Instant now_;
   wind::GustSpectrumField swinging_;  // now
-  bool fine_due_{false};              // a tree may get fine modes at this tick
+  bool fine_due_{false};              // one tree may get fine modes in this tick
   int last_base_{0};                  // level of the trees that were not held before this tick
   std::vector<Plant> plants_;
   GovernorFigures governor_;

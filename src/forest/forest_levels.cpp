@@ -1,6 +1,4 @@
-// Copyright 2026 vegetation_sim developers
-// SPDX-License-Identifier: BSD-3-Clause
-// Which tier each tree of a forest has.
+// Choice of the tier of each tree.
 #include <algorithm>
 #include <cmath>
 
@@ -11,36 +9,36 @@
 namespace vegetation_sim::forest {
 namespace {
 
-// A level table speaks of the worst tip of the worst tree across the wind; in a picture, a forest
-// shows so much of that. Measured: forest_test, PredictedErrorIsTheMeasuredOne.
+// Ratio of the visible error of a forest to that of a level table, which is the worst tip of the
+// worst tree across the wind. Measured by forest_test, PredictedErrorIsTheMeasuredOne.
 constexpr double SEEN = 0.57;
-// Errors so near are alike: which is the larger is not foretold.
+// Errors within this ratio count as equal.
 constexpr double ALIKE = 1.1;
-// Fine modes are worth their price where they leave so much less than plain ones.
+// Fine modes are used where their error is below this fraction of that of plain modes.
 constexpr double BETTER = 0.9;
-// More are not kept room for: few scenes have as many near trees.
+// Memory for more is released: few scenes have as many near trees.
 constexpr std::size_t MANY_PLANTS = 20000;
 
-// Of errors of two kinds that come together.
+// Combines two independent errors.
 double combine(double a, double b) {
   return std::sqrt(a * a + b * b);
 }
 
 }  // namespace
 
-// Speed that a bend is proportional to.
+// Returns the speed to which bends are proportional.
 double Forest::bendingSpeed(double speed, double reference_speed) const {
   const bool linear = layout_.motion.drag == Drag::LINEAR;
   return linear ? speed : speed * speed / reference_speed;
 }
 
-// Pixels per metre of table of the eye that sees a disc best: the finest wins. A robot near by sees
-// its tolerance in metres as an eye sees its own in pixels.
+// Returns the pixels per metre of a level table of the camera that sees the ball best. A near robot
+// counts as a camera with its tolerance in metres.
 double Forest::pixelsPerMetreAt(const Vec3& centre, double reach) const {
   double out = 0.0;
   for (const auto& entry : snapshot_.viewers) {
     const Viewpoint& eye = entry.second.eye;
-    if (!sees(eye, centre, 2.0 * reach)) continue;  // twice: the whole tree, and a margin
+    if (!sees(eye, centre, 2.0 * reach)) continue;  // twice: the whole tree with a margin
     const double distance = length(eye.position - centre) - reach;
     out = std::max(out, pixelsPerMetre(eye, distance));
   }
@@ -79,8 +77,8 @@ void Forest::chooseLevels() {
   applyTiers();
 }
 
-// A whole tile at a time: where even its nearest, largest tree may stand still, no tree is looked
-// at.
+// Visits a tile as a whole: if even its nearest and largest tree may stand still, its trees are not
+// visited.
 void Forest::chooseRegion(const Region& region) {
   if (region.count == 1) return chooseTree(region.first);
   const double speed =
@@ -112,7 +110,7 @@ void Forest::chooseTree(std::uint32_t tree) {
   if (plant.wanted != base || plant.held != base) plants_.push_back(plant);
 }
 
-// Errors and costs of all tiers, and which of them the tolerance asks for.
+// Predicts errors and costs of all tiers, and which of them the tolerance requires.
 void Forest::predict(const TreeSeed& seed, const LevelTable& table, double view, Plant& plant) {
   const Settings& settings = snapshot_.settings;
   const Budget& budget = settings.budget;
@@ -126,8 +124,8 @@ void Forest::predict(const TreeSeed& seed, const LevelTable& table, double view,
   PredictedError off, besides;
   if (plant.stepwise > 0) {
     off = besides = responseErrorOf(seed, swinging_.at(foot, reach), speed / air, pixels);
-    // Discs are paper 1's winds, for which the whole of a tree's answer is its levels (S1-41): for
-    // them nobody asks for more.
+    // Disks are the winds of paper 1, whose complete response is in the levels (S1-41), so they do
+    // not request modes.
     if (swinging_.hasDisks())
       besides = responseErrorOf(seed, swinging_.withoutDisks(foot, reach), speed / air, pixels);
   }
@@ -148,8 +146,9 @@ void Forest::predict(const TreeSeed& seed, const LevelTable& table, double view,
   requestModes(besides, plant);
 }
 
-// Modes where the procedural motion is off by more than is tolerated, and they by less; fine ones
-// where plain ones are too. Once fine a tree stays so while it has modes: the way back would jump.
+// Requests modes where the error of the procedural motion exceeds the tolerance and that of modes
+// is smaller; fine ones where plain modes exceed it too. A tree with fine modes keeps them while it
+// has modes, because the change back would be visible.
 void Forest::requestModes(const PredictedError& off, Plant& plant) const {
   const double tolerance = snapshot_.settings.tolerance;
   const bool has = plant.held >= MODAL_LEVEL;
@@ -164,10 +163,10 @@ void Forest::requestModes(const PredictedError& off, Plant& plant) const {
     plant.wanted = MODAL_LEVEL;
 }
 
-// How far a tree is off where the wind there comes and goes, and bends it [pixel]; `bending`:
-// bending speed per speed of the air. What levers that turn mend is known of steady air: a tree
-// that swings has its inertia bent too, which modes leave out. So fine modes are foretold what
-// plain ones leave of the mean wind, and these as if levers were at rest.
+// Returns the error of a tree in gusts and by its bend [pixel]; `bending` is the bending speed per
+// wind speed. The correction by rotated lever arms is known for steady wind only: modes omit that a
+// moving tree has a bent inertia too. Fine modes are therefore predicted with the bend error of
+// plain modes in the mean wind, and plain modes as if lever arms were fixed.
 PredictedError Forest::responseErrorOf(const TreeSeed& seed, const wind::GustSpectrum& spectrum,
                                        double bending, double pixels) {
   const Species& species = layout_.species[seed.species];
@@ -214,10 +213,10 @@ void Forest::applyTiers() {
   if (plants_.size() > MANY_PLANTS) std::vector<Plant>().swap(plants_);
 }
 
-// Modes take milliseconds to find: one tree a tick gets plain ones, the one that is farthest off
-// first; where none does, one gets fine ones when it is their turn. The others wait on the tier
-// that they have, and one that has had fine ones on its stair until they have faded: the way back
-// would jump.
+// Computing modes takes milliseconds: one tree per tick gets plain modes, that with the largest
+// error first; if none does, one gets fine modes at its turn. Other trees wait on their present
+// tier. A tree with fine modes that is to have plain ones returns to its levels until the modes
+// have faded, because the change would be visible.
 void Forest::startModes() {
   Plant *plain = nullptr, *finer = nullptr;
   const auto wait = [](Plant& plant, int tier, Plant*& first) {

@@ -50,7 +50,7 @@ bool ForestReplica::apply(const StateUpdate& update) {
   if (update.key_frame) promoted_.clear();
   for (const StateUpdate::Entry& entry : update.trees) {
     if (entry.state == update.base)
-      levels_.resetToBase(entry.tree);  // told for its physical joints
+      levels_.resetToBase(entry.tree);  // listed for its physical joints
     else
       levels_.set(entry.tree, entry.state);
     if (entry.promoted.empty())
@@ -67,7 +67,7 @@ bool ForestReplica::apply(const StateUpdate& update) {
   return in_sequence_;
 }
 
-// Between key frames modes are stepped here as they are there.
+// Between key frames modes are stepped as in the forest.
 bool ForestReplica::updateModes(const StateUpdate& update) {
   std::set<std::uint32_t> published;
   for (const StateUpdate::Entry& entry : update.trees)
@@ -99,7 +99,7 @@ void ForestReplica::restoreModes(const StateUpdate& update) {
       modes_.queueFineModes(entry.tree);
     due = due && ready;
   }
-  if (due) modes_.prepareNext(at);  // shown from the next key frame on
+  if (due) modes_.prepareNext(at);  // used from the next key frame on
 }
 
 std::vector<Pose> ForestReplica::pose(const Tree& tree, std::uint32_t id, Nanoseconds stamp) const {

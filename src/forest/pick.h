@@ -13,10 +13,11 @@ namespace vegetation_sim::forest {
 struct Ray {
   Vec3 origin{Vec3::Zero()};             ///< world [m]
   Vec3 direction{Vec3(0.0, 0.0, -1.0)};  ///< any length but zero
-  double tolerance{0.0};  ///< a branch is met within this distance of its surface [m]
+  double tolerance{
+      0.0};  ///< largest distance from the surface of a branch that counts as a hit [m]
 };
 
-/// Where a ray meets a branch.
+/// A hit of a ray on a branch.
 struct Picked {
   std::uint32_t tree{0};
   int branch{0};
@@ -25,10 +26,10 @@ struct Picked {
   Vec3 point{Vec3::Zero()};  ///< on the axis of the branch, world [m]
 };
 
-/// First branch of one tree that the ray meets. `poses` in the tree's frame.
+/// Returns the first branch of one tree that the ray hits. `poses` are in the tree's frame.
 std::optional<Picked> pickBranch(const Tree& tree, const std::vector<Pose>& poses, const Ray& ray);
 
-/// First branch of all trees near the ray. `posed` grows and poses a tree.
+/// Returns the first branch of all trees that the ray hits. `posed` grows and poses a tree.
 struct PosedTree {
   std::shared_ptr<const Tree> tree;
   std::vector<Pose> poses;

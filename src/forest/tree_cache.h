@@ -11,8 +11,8 @@
 
 namespace vegetation_sim::forest {
 
-/// Trees that are in use, grown on demand and forgotten when others need the room: only seeds are
-/// permanent (S1-04).
+/// A cache of grown trees that drops the least recently used ones: only seeds are permanent
+/// (S1-04).
 class TreeCache {
  public:
   struct Grown {
@@ -21,10 +21,10 @@ class TreeCache {
     BatchPoser poser;
   };
 
-  /// @param capacity most branches held in all; at least one tree is.
+  /// @param capacity maximum number of branches in all; the cache holds at least one tree.
   explicit TreeCache(std::size_t capacity) : capacity_(capacity) {}
 
-  /// The tree, grown now if it is not held. @throws std::out_of_range for an unknown id.
+  /// Returns the tree and grows it if necessary. @throws std::out_of_range for an unknown id.
   std::shared_ptr<const Grown> get(const Layout& layout, const terrain::HeightMap& terrain,
                                    std::uint32_t tree);
   void clear();

@@ -12,16 +12,16 @@
 
 namespace vegetation_sim::forest {
 
-/// The forest as any other process rebuilds it: layout, wind and state messages in, every branch
-/// out, equal to what forest_animator computes.
+/// Rebuilds the forest of forest_animator from messages: layout, wind and state in, the pose of
+/// every branch out, with equal values.
 class ForestReplica {
  public:
   /// @throws InvalidInput for a layout that check() refuses.
   void setLayout(Layout layout, std::shared_ptr<const terrain::HeightMap> terrain);
   void setWind(const wind::Field& wind) { wind_ = wind; }
-  /// Takes a key frame, or the delta that follows what is held; trees in modes are stepped to its
-  /// stamp in the wind that is held. False: `trees` are ignored until
-  /// the next key frame, because messages were lost or belong to another layout; why() says which.
+  /// Applies a key frame or the next delta; modal trees are stepped to its stamp in the current
+  /// wind. Returns false if messages were lost or belong to another layout; trees are then ignored
+  /// until the next key frame, and why() returns the reason.
   bool apply(const StateUpdate& update);
   const std::string& why() const { return why_; }
 
@@ -41,14 +41,15 @@ class ForestReplica {
   Weights weights(std::uint32_t tree, Nanoseconds stamp) const {
     return weightsAt(levels_.of(tree), stamp, layout_->motion);
   }
-  /// Physical joints of a tree at stamp(); none: `branches` is empty.
+  /// Returns the physical joints of a tree at stamp(); `branches` is empty if there are none.
   PromotedTree promoted(std::uint32_t tree) const;
-  /// Trees that have physical joints, rising.
+  /// Returns the ids of the trees that have physical joints, sorted.
   std::vector<std::uint32_t> physicalTrees() const;
-  /// Nullptr: the tree does not modal_state in modes, or they are still to be found: who joins late
-  /// finds fine ones of one tree every 0.1 s, and shows the others procedural.
+  /// Returns the modal state of a tree, or nullptr if it has none yet. Late subscribers compute the
+  /// fine modes of one tree per 0.1 s; the other trees move procedurally until then.
   const ModalTreeState* modalState(std::uint32_t tree) const { return modes_.find(tree); }
-  /// Every branch in the tree's frame, physical ones and modes included, double precision.
+  /// Returns the pose of every branch in the tree's frame, physical joints and modes included, in
+  /// double precision.
   std::vector<Pose> pose(const Tree& tree, std::uint32_t id, Nanoseconds stamp) const;
 
  private:

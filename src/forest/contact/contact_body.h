@@ -13,24 +13,24 @@ namespace vegetation_sim::forest {
 
 using Bodies = std::map<std::string, Body>;  // by id
 
-/// No edge, radius or length of a body is larger or smaller [m].
+/// Limits of edges, radii and lengths of a body [m].
 constexpr double LARGEST_BODY = 50.0, SMALLEST_BODY = 1e-3;
-/// Faster bodies are refused [m/s], [rad/s].
+/// Limits of velocity [m/s] and angular velocity [rad/s].
 constexpr double FASTEST_BODY = 100.0, FASTEST_SPIN = 100.0;
 
-/// Adds a fault for whatever is wrong with a body.
+/// Adds a fault for each invalid value of a body.
 void check(const Body& body, Faults& faults);
 
-/// A body's shape in its own axes.
+/// Returns the shape of a body in its own axes.
 physics::RoundedBox shapeOf(const Body& body);
 
-/// Where a body is at a time near its stamp: velocity and spin are constant.
+/// Returns the pose of a body at a time near its stamp, with constant velocities.
 Pose poseAt(const Body& body, Nanoseconds stamp);
 
-/// Velocity of a point (world) of a body that is at `pose` [m/s].
+/// Returns the velocity of a point (world) of a body at `pose` [m/s].
 Vec3 velocityAt(const Body& body, const Pose& pose, const Vec3& point);
 
-/// Velocity and spin that carry a body from one pose to another in `seconds`.
+/// Sets the velocities that carry a body from one pose to another in `seconds`.
 void setMotion(Body& body, const Pose& from, const Pose& to, double seconds);
 
 }  // namespace vegetation_sim::forest

@@ -14,18 +14,19 @@ using physics::Bar;
 using physics::Contact;
 using physics::Proximity;
 
-// What was this near has a side that it keeps [m].
+// Pairs within this gap keep their normal [m].
 constexpr double HELD = 1e-3;
-// A branch that is beyond the body by more than this has been passed through [m].
+// A branch farther beyond the body than this has been passed [m].
 constexpr double LOST = 5e-3;
-// A bar lies flat on a body where they part by less than this slope, over more than this length.
+// A bar lies flat on a body where the gap changes by less than this slope over more than this
+// length.
 constexpr double FLAT = 0.1, SPREAD = 0.02;  // [m/m], [m]
 constexpr double NOWHERE = 1e9;              // [m]
-// Thin wood is never let in: where it stands on stout wood, or is whipped by it, it presses harder.
-// Thin is a radius of at most 1 cm; from 1.2 cm on wood is stout [m].
+// Contacts of thin wood are harder, so that it does not penetrate where thick wood presses it.
+// Radii up to THIN are thin, from THIN + FADE on thick [m].
 constexpr double THIN = 0.01, FADE = 2e-3, THIN_BEARS = 5.0;
 
-// What a body had in the last step.
+// The persistent contacts of a body.
 struct Touched {
   const PersistentContact *first, *last;
 
@@ -38,8 +39,7 @@ struct Touched {
   }
 };
 
-// What a pair of a body and a branch had in the last step: one contact, two or none, and what
-// leaves.
+// The persistent contacts of a body and a branch: up to two, and released ones.
 struct Held {
   const PersistentContact *first, *last;
 
@@ -48,7 +48,7 @@ struct Held {
     first = last = std::lower_bound(body.first, body.last, branch, before);
     while (last != body.last && last->branch == branch) ++last;
   }
-  // The one that bears most, if any touches: its side is the branch's.
+  // Returns the one with the largest force among those that touch; its normal is the branch's.
   const PersistentContact* touching() const {
     const PersistentContact* out = nullptr;
     for (const PersistentContact* t = first; t != last; ++t)
@@ -56,8 +56,8 @@ struct Held {
         out = t;
     return out;
   }
-  // The force that goes on at `along`: each goes to the nearer of the two places, of equals to the
-  // lower.
+  // Returns the force that continues at `along`: each contact goes to the nearer of two places, the
+  // lower one if equal.
   double at(double along, double other) const {
     double out = 0.0;
     for (const PersistentContact* t = first; t != last; ++t) {
@@ -68,7 +68,7 @@ struct Held {
   }
 };
 
-// Where they touch or shall touch first; none if they do not within the horizon.
+// Finds where a pair touches or will touch first; returns false if it does not within the horizon.
 bool meet(const Placed& placed, const Pair& pair, const Held& held, double horizon,
           Proximity& out) {
   const Bar local = placed.local(pair.bar);
@@ -85,7 +85,7 @@ bool meet(const Placed& placed, const Pair& pair, const Held& held, double horiz
     out = nearest(placed.shape, local);
     return out.gap < SKIN;
   }
-  // How far they are apart now, along the normal that they shall have then.
+  // The present gap along the normal of the predicted contact.
   out = meeting.there;
   const double part = out.along / pair.bar.length;
   const Vec3 velocity = (1.0 - part) * pair.base_velocity + part * pair.tip_velocity;
@@ -93,13 +93,14 @@ bool meet(const Placed& placed, const Pair& pair, const Held& held, double horiz
   return true;
 }
 
-// How steeply a bar leaves the body, going from its base to its tip; rises, as distance is convex.
+// Returns the slope of the distance from the body along the bar; it increases, because distance is
+// convex.
 double slopeAt(const Placed& placed, const Bar& local, double along, Vec3& normal) {
   signedDistance(placed.shape, local.at(along), normal);
   return dot(normal, local.axis);
 }
 
-// The end of the stretch over which a bar lies flat, from a point of it towards `end`.
+// Returns the end of the flat part of a bar, from a point of it towards `end`.
 double endOfFlat(const Placed& placed, const Bar& local, double along, double end) {
   Vec3 normal;
   double outside = end;
@@ -111,8 +112,7 @@ double endOfFlat(const Placed& placed, const Bar& local, double along, double en
   return along;
 }
 
-// A bar that lies flat turns about the one point where it is nearest: the far end of the stretch
-// that lies is a contact as well.
+// A flat bar turns about its nearest point, so the far end of the flat part is a contact as well.
 bool liesFlat(const Placed& placed, const Pair& pair, const Proximity& found, double near,
               Proximity& out) {
   const Bar local = placed.local(pair.bar);
@@ -125,8 +125,8 @@ bool liesFlat(const Placed& placed, const Pair& pair, const Proximity& found, do
   return out.gap < near && dot(out.normal, found.normal) > 0.5;
 }
 
-// A branch that has got beyond the middle of the body is let through softly: the limit fades until
-// it is out on the far side.
+// A branch beyond the middle of the body passes softly: the force limit fades until it leaves the
+// far side.
 double shareOf(const Placed& placed, const Proximity& found, double radius) {
   const double half = supportOf(placed.shape, found.normal) + radius;
   return 1.0 - smootherStep(-found.gap / half - 1.0);
@@ -146,8 +146,8 @@ Contact contactOf(const Placed& placed, const Pair& pair, const Proximity& found
 
 }  // namespace
 
-// A thinner branch begins on its bearer's axis: until its far side comes out of the bearer, or past
-// the bearer's end, it is the bearer's tree.
+// The base of a branch lies on the axis of its parent. The branch emerges where its far side leaves
+// the side or the end of the parent.
 double findExposedStart(const Skeleton& skeleton, int branch) {
   const Branch& b = skeleton.branches[static_cast<std::size_t>(branch)];
   if (b.parent < 0) return 0.0;
@@ -192,7 +192,7 @@ std::vector<Contact> ContactFinder::findContacts(const ContactTree& tree, const 
       };
       if (meets) add(found, held.at(found.along, flat ? far.along : NOWHERE));
       if (flat) add(far, held.at(far.along, found.along));
-      // Nothing presses there any more, and the force falls.
+      // Contacts without pressure decay.
       for (const PersistentContact* t = held.first; t != held.last; ++t)
         if (t->force > 0.0 && (t->released || !meets))
           add({t->along, t->normal, SKIN}, t->force, true);

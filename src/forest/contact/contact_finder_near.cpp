@@ -11,7 +11,7 @@ namespace {
 // Branches within this distance, plus the travel of a tick, become physical [m].
 constexpr double PROMOTION_DISTANCE = 0.1;
 
-// A ball that holds a body during a tick, and what may come to it.
+// A ball that contains a body during a tick, with a margin.
 struct Ball {
   Vec3 centre;
   double radius;
@@ -29,7 +29,7 @@ bool holds(const Ball& ball, const Branch& branch, const Pose& pose, const Vec3&
   return length(offset - along * axis) <= ball.radius + branch.base_radius;
 }
 
-// True if a tree may reach into the ball: a cylinder, and room for its bends.
+// Returns true if a tree may reach into the ball, by a cylinder with a margin for its bends.
 bool mayReach(const Skeleton& skeleton, const Vec3& foot, const Ball& ball) {
   const double room = skeleton.height + ball.radius;
   const Vec3 offset = ball.centre - foot;
@@ -38,7 +38,7 @@ bool mayReach(const Skeleton& skeleton, const Vec3& foot, const Ball& ball) {
          std::fabs(offset.z()) <= room;
 }
 
-// With all that bears it: the way to the ground carries the lever arm of the contact.
+// Adds a branch and its ancestors: all of them carry the load to the ground.
 void addWithBearers(const Skeleton& skeleton, int branch, std::vector<char>& chosen) {
   for (int i = branch; i >= 0 && !chosen[static_cast<std::size_t>(i)];
        i = skeleton.branches[static_cast<std::size_t>(i)].parent)

@@ -7,8 +7,8 @@
 namespace vegetation_sim::forest {
 namespace {
 
-// Wood beside a body moves no farther relative to it in a part of a step [m]: as its springs and
-// other contacts turn it, it is somewhere else than its speed at the start foretold.
+// Largest displacement of a branch relative to a near body in a substep [m]. Springs and other
+// contacts turn branches away from the path that the initial velocity predicts.
 constexpr double MAX_TRAVEL = 10e-3;
 constexpr int MAX_SUBSTEPS = 4;
 

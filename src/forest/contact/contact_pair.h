@@ -9,10 +9,9 @@
 
 namespace vegetation_sim::forest {
 
-/// What is this near is a contact even if it does not come nearer by its own speed: its springs may
-/// drive it [m].
+/// Within this gap a pair is a contact even without approach: springs may close it [m].
 constexpr double SKIN = 5e-3;
-/// The law looks at the gap half a step after the step's end.
+/// The contact law evaluates the gap half a step after the end of the step.
 constexpr double LOOK_AHEAD = 1.5;  // [steps]
 
 /// A body at the start of a step, in the tree's frame.
@@ -35,10 +34,10 @@ struct Placed {
   }
 };
 
-/// One link beside one body.
+/// One link and one body.
 struct Pair {
   physics::Bar bar;                  ///< tree's frame
-  Vec3 base_velocity, tip_velocity;  ///< relative to the body there, tree's axes
+  Vec3 base_velocity, tip_velocity;  ///< relative to the body at the same point, tree's axes
 
   Pair(const ContactTree& tree, std::size_t link, const Placed& placed) {
     const Branch& b = tree.skeleton.branches[static_cast<std::size_t>(tree.branches[link])];
@@ -50,11 +49,12 @@ struct Pair {
         velocity + cross(spin, Vec3(bar.length * bar.axis)) - placed.velocity(bar.at(bar.length));
   }
   double fastest() const { return std::max(length(base_velocity), length(tip_velocity)); }
-  /// No contact in a step of `h` seconds if they are farther apart [m].
+  /// A larger gap cannot close in a step of `h` seconds [m].
   double reach(double h) const { return SKIN + LOOK_AHEAD * h * fastest(); }
 };
 
-/// The gap between a body and a bar is no less: distance grows no faster than the way.
+/// Returns a lower bound of the gap between a body and a bar: distance grows no faster than the
+/// position along the bar.
 inline double leastGap(const Placed& placed, const physics::Bar& bar) {
   Vec3 normal;
   const double half = 0.5 * bar.length;

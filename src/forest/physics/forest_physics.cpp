@@ -8,14 +8,14 @@
 namespace vegetation_sim::forest {
 namespace {
 
-/// How often is looked which branches a load needs.
+/// Interval of the choice of physical branches.
 constexpr Nanoseconds REVIEW = NANOSECONDS_PER_SECOND / 10;
-/// Steps that the air of one moment serves: 60 Hz.
+/// Steps that use the wind of one stamp: 60 Hz.
 constexpr std::size_t AIR_STEPS = 4;
-/// Branches that are physical stay so down to this share of the tolerance (hysteresis).
+/// Physical branches stay so down to this fraction of the tolerance (hysteresis).
 constexpr double KEEP = 0.5;
 
-// Equal steps in whole nanoseconds: no rounded time adds up.
+// Steps are equal in whole nanoseconds, so no rounding accumulates.
 std::size_t stepsBetween(Nanoseconds from, Nanoseconds to) {
   const Nanoseconds gap = to - from;
   return static_cast<std::size_t>((gap * PHYSICS_RATE + NANOSECONDS_PER_SECOND - 1) /
@@ -34,7 +34,7 @@ void ForestPhysics::advance(const StepContext& context, Nanoseconds to) {
   reactions_.clear();
   steps_ = 0;
   scratch_.replaced = 0;
-  scratch_.window = WindWindow();  // the wind may be another by now
+  scratch_.window = WindWindow();  // the wind may have changed
   endLeases(to);
   if (!subtrees_.empty() || !grabs_.empty() || !pushes_.empty() || !bodies_.empty())
     stepAll(context, to);
@@ -101,7 +101,7 @@ void ForestPhysics::promoteLoaded(const StepContext& context, Nanoseconds from, 
   }
 }
 
-// Which branches of a tree its loads need, and that they are physical from now on.
+// Makes the branches physical that the loads of a tree need.
 void ForestPhysics::promoteInTree(const StepContext& context, std::uint32_t tree,
                                   PhysicalSubtree& subtree, const std::vector<int>& loaded,
                                   Nanoseconds stamp) {
@@ -113,7 +113,7 @@ void ForestPhysics::promoteInTree(const StepContext& context, std::uint32_t tree
   else
     score = predictDeflection(skeleton, subtree.wood(), predictLoads(tree, subtree));
   for (const int branch : loaded) score[static_cast<std::size_t>(branch)] = LOADED;
-  std::vector<double> rank = score;  // what is physical already counts before what is not
+  std::vector<double> rank = score;  // physical branches rank before others
   for (const SubtreeJoint& joint : subtree.joints()) {
     double& held = rank[static_cast<std::size_t>(joint.branch)];
     held = std::max(held, LOADED * (1.0 - 0.5 / (1.0 + held)));
@@ -126,7 +126,7 @@ void ForestPhysics::promoteInTree(const StepContext& context, std::uint32_t tree
   const Selection selection = selectBranches(skeleton, rank, threshold, KEEP * threshold,
                                              subtree.mask(), most > others ? most - others : 0);
   for (const SubtreeJoint& joint :
-       subtree.joints())  // beyond the cap: makes room for what is loaded
+       subtree.joints())  // beyond the cap: makes room for loaded branches
     if (!std::binary_search(selection.branches.begin(), selection.branches.end(), joint.branch))
       score[static_cast<std::size_t>(joint.branch)] = 0.0;
   const ProceduralMotion motion = scratch_.motionOf(subtree.tree(), windOf(context, tree), stamp);
@@ -134,8 +134,8 @@ void ForestPhysics::promoteInTree(const StepContext& context, std::uint32_t tree
                    subtree.promote(selection.branches, score, KEEP * threshold, motion, settings_);
 }
 
-// What the springs, pushes and bodies do to a tree now, or will as soon as they have pulled it to
-// their targets.
+// Returns the present loads of a tree, or those that springs will have when they have reached their
+// targets.
 std::vector<BranchLoad> ForestPhysics::predictLoads(std::uint32_t tree,
                                                     const PhysicalSubtree& subtree) const {
   std::vector<BranchLoad> out;
@@ -187,7 +187,7 @@ void ForestPhysics::step(const StepContext& context, Nanoseconds from, Nanosecon
   }
 }
 
-// Springs on a tree. Targets move in a straight line from tick to tick.
+// Collects the springs on a tree. Targets move in a straight line between ticks.
 void ForestPhysics::collectSprings(std::uint32_t tree, const Vec3& foot, Nanoseconds from,
                                    Nanoseconds to) {
   loads_.springs.clear();
@@ -202,7 +202,7 @@ void ForestPhysics::collectSprings(std::uint32_t tree, const Vec3& foot, Nanosec
   }
 }
 
-// Forces on a tree in a step: means, such that each push gives its whole impulse.
+// Adds forces on a tree as means over a step, so that each push has its whole impulse.
 void ForestPhysics::addPushes(std::uint32_t tree, Nanoseconds from, Nanoseconds to) {
   for (const Push& push : pushes_) {
     const Nanoseconds begin = std::max(push.from, from), end = std::min(push.until, to);
@@ -212,7 +212,7 @@ void ForestPhysics::addPushes(std::uint32_t tree, Nanoseconds from, Nanoseconds 
   }
 }
 
-// After the last step: what the bodies feel, and who may be procedural again.
+// Publishes reactions and demotes branches after the last step.
 void ForestPhysics::finishTick(const StepContext& context, Nanoseconds from, Nanoseconds to) {
   publishContactReactions();
   for (auto& [tree, subtree] : subtrees_) {
@@ -243,9 +243,8 @@ bool ForestPhysics::isLoaded(std::uint32_t tree) const {
                      [&](const Push& push) { return push.point.tree == tree; });
 }
 
-// What the hands on a tree give it between two moments: springs by where the points are at both,
-// dampers by the way between. So the damper's impulse is exact, and the spring's the step's own. Of
-// one moment: a tick begins.
+// Adds the impulse of the grabs on a tree between two stamps: springs by the positions at both,
+// dampers by the displacement. Equal stamps begin a tick.
 void ForestPhysics::accumulateImpulses(const StepContext& context, std::uint32_t tree,
                                        const PhysicalSubtree& subtree, Nanoseconds from,
                                        Nanoseconds to) {
@@ -273,8 +272,8 @@ void ForestPhysics::accumulateImpulses(const StepContext& context, std::uint32_t
   }
 }
 
-// Reactions of the springs on a tree: means over the tick, which carry their whole impulse; where
-// time has leapt, what the springs have now.
+// Publishes the reactions of the springs on a tree: means over the tick, with their whole impulse;
+// after a gap in time, the present forces.
 void ForestPhysics::publishGrabReactions(std::uint32_t tree, const PhysicalSubtree& subtree,
                                          double duration) {
   for (auto& [id, grab] : grabs_) {

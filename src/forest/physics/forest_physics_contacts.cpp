@@ -1,6 +1,4 @@
-// Copyright 2026 vegetation_sim developers
-// SPDX-License-Identifier: BSD-3-Clause
-// Steps of trees that bodies touch, and what the bodies feel.
+// Steps of trees near bodies, and the reactions on the bodies.
 #include <algorithm>
 
 #include "forest/physics/forest_physics.h"
@@ -28,7 +26,7 @@ void ForestPhysics::stepNearBodies(const StepContext& context, std::uint32_t tre
   coarse_ += bisection.ranOut();
 }
 
-// A part of a step `whole` long, from where scratch_.start tells.
+// Takes a substep of a step of duration `whole`, from the state in scratch_.start.
 void ForestPhysics::substep(const StepContext& context, const ContactTree& tree,
                             PhysicalSubtree& subtree, Nanoseconds from, Nanoseconds to,
                             Nanoseconds whole, SubstepBisection& bisection) {
@@ -59,8 +57,8 @@ void ForestPhysics::substep(const StepContext& context, const ContactTree& tree,
   accumulateReactions(reactions);
 }
 
-// One a body and branch: the sum of its forces where they have the same moment if they are
-// parallel, its worst.
+// Keeps one reaction per body and branch: the sum of forces, at the point of equal moment if they
+// are parallel, with the largest penetration.
 void ForestPhysics::accumulateReactions(const std::vector<Reaction>& reactions) {
   for (const Reaction& reaction : reactions) {
     const auto same = std::find_if(
@@ -83,7 +81,7 @@ void ForestPhysics::accumulateReactions(const std::vector<Reaction>& reactions) 
   }
 }
 
-// The mean force of the tick carries its whole impulse, however short a knock was.
+// The mean force over the tick has the whole impulse of a short impact.
 void ForestPhysics::publishContactReactions() {
   contact_loads_.clear();
   for (Reaction& reaction : contact_reactions_) {
@@ -95,8 +93,8 @@ void ForestPhysics::publishContactReactions() {
   contact_reactions_.clear();
 }
 
-// Nobody feels a force vanish: what was told at the last tick falls no faster than contacts rise,
-// and what has ended is told down to zero. Bodies that are gone feel nothing.
+// A published reaction decays no faster than the contact law allows, also after its contact or grab
+// has ended. Reactions of removed bodies become zero at once.
 void ForestPhysics::decayReactions(const std::vector<Reaction>& published, double duration) {
   const double most = settings_.contact.force_rate * std::max(0.0, duration);
   for (const Reaction& before : published) {

@@ -1,6 +1,4 @@
-// Copyright 2026 vegetation_sim developers
-// SPDX-License-Identifier: BSD-3-Clause
-// What is told of the physics of a forest: its figures and its hash.
+// Figures and hash of the physics of a forest.
 #include "forest/physics/forest_physics.h"
 #include "vegetation_sim/core/config/fields.h"
 

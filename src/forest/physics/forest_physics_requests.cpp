@@ -9,13 +9,13 @@ namespace vegetation_sim::forest {
 namespace {
 
 constexpr std::size_t MOST_GRABS = 256, MOST_PUSHES = 256, MOST_BODIES = 256;
-constexpr double REACH_FACTOR = 2.0;  // a target is at most so many tree sizes from the foot
+constexpr double REACH_FACTOR = 2.0;  // maximum distance of a target from the foot in tree sizes
 
 std::string count(std::size_t value) {
   return std::to_string(value);
 }
 
-// The tree of a point is there, and can be physical.
+// Throws unless the tree exists and can be physical.
 void checkTree(const Layout& layout, const std::string& what, std::uint32_t tree) {
   if (layout.treeCount() == 0) throw InvalidInput(what + ": there are no trees");
   if (tree >= layout.treeCount())
@@ -47,7 +47,7 @@ void checkTarget(const Vec3& target, const Vec3& foot, double reach, Faults& fau
   if (!fault.empty()) faults.add(fault);
 }
 
-// Targets are no farther from the tree's foot [m].
+// Maximum distance of targets from the tree's foot [m].
 double reachOf(const Tree& tree) {
   return REACH_FACTOR * (tree.skeleton.height + tree.skeleton.reach);
 }
@@ -107,7 +107,7 @@ void checkPush(const Layout& layout, const Tree& tree, const Push& push) {
   faults.throwIfAny();
 }
 
-// At least the loaded branch must find room.
+// Throws InvalidInput unless the loaded branch can become physical.
 void ForestPhysics::checkRoom(const std::string& what, std::uint32_t tree, int branch) const {
   const auto subtree = subtrees_.find(tree);
   if (subtree != subtrees_.end() && subtree->second.linkOf(branch) >= 0) return;

@@ -18,7 +18,7 @@ std::size_t stepsBetween(Nanoseconds from, Nanoseconds to) {
   return static_cast<std::size_t>(std::max<Nanoseconds>(1, steps));
 }
 
-// Of a tree of few branches plain modes would be nearly all: it has all.
+// A tree with few branches gets all its modes.
 ModalTreeState modalStateOf(const ModalContext& at, std::uint32_t id, bool fine) {
   const Tree tree = growTree(at.layout, id, at.terrain);
   const bool few = 2 * tree.skeleton.branches.size() <= ModalDepth{}.most();
@@ -68,8 +68,8 @@ void ModalForest::addTree(const ModalContext& at, std::uint32_t tree, bool fine,
     refine(at, tree, found->second);
 }
 
-// Nothing jumps: the same bends, and the same rates, told by more oscillators. Those that are too
-// fast for a tick begin as the load holds them: left to ring they would jerk.
+// Bends and rates are continuous. Modes that are too fast for a tick start at the equilibrium of
+// the load, otherwise they would oscillate visibly.
 void ModalForest::refine(const ModalContext& at, std::uint32_t tree, ModalTreeState& modal_state) {
   ModalTreeState fine = modalStateOf(at, tree, true);
   const auto published = [&](const std::vector<double>& amplitudes) {
@@ -111,7 +111,7 @@ void ModalForest::prepareNext(const ModalContext& at) {
   awaited_.erase(tree);
 }
 
-// Their number tells which modes they are.
+// The number of amplitudes identifies the kind of modes.
 void ModalForest::restore(const ModalContext& at, std::uint32_t tree,
                           const physics::ModalState& state, Nanoseconds stamp) {
   const std::size_t count = state.amplitude.size();

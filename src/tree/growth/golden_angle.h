@@ -4,7 +4,7 @@
 
 namespace vegetation_sim::forest {
 
-/// From one lateral, or leaf, to the next around its bearer [rad]: pi (3 - sqrt 5).
+/// Angle between successive laterals or leaves around their parent [rad]: pi (3 - sqrt 5).
 constexpr double GOLDEN_ANGLE = 2.399963229728653;
 
 }  // namespace vegetation_sim::forest

@@ -10,7 +10,7 @@
 
 namespace vegetation_sim::forest {
 
-/// A rigid piece of wood or several as one, about a joint, in the axes of the branch there.
+/// Mass properties of rigid wood about a joint, in the axes of its branch.
 struct Composite {
   double mass{0.0};                 ///< [kg]
   Vec3 moment{Vec3::Zero()};        ///< mass times centre of mass [kg m]
@@ -18,32 +18,32 @@ struct Composite {
   double drag{0.0};                 ///< force per air speed [kg/s]
   Vec3 drag_moment{Vec3::Zero()};   ///< drag times its centre [kg m/s]
 
-  /// The same wood seen from a joint that it hangs on: `turn` of its axes there, `offset` of its
-  /// origin.
+  /// Returns the same wood seen from a parent joint: `turn` is the rotation of its axes there,
+  /// `offset` its origin.
   Composite movedBy(const Quat& turn, const Vec3& offset) const;
   void add(const Composite& other);
 };
 
-/// What physics needs to know of every branch of a tree, built from its geometry when the tree is
-/// touched (S1-25).
+/// Physical properties of every branch of a tree, computed from its geometry when it is touched
+/// (S1-25).
 struct Wood {
-  std::vector<Composite> own;      ///< of the branch alone, its leaves included
-  std::vector<Composite> subtree;  ///< with all that it bears, at rest
+  std::vector<Composite> own;      ///< of the branch with its leaves
+  std::vector<Composite> subtree;  ///< of the whole sub-tree at rest
   std::vector<double> stiffness;   ///< of the joint [N m/rad]
   std::vector<double> damping;     ///< of the joint [N m s/rad]
   std::vector<double> reach;       ///< of the farthest tip of the sub-tree from the joint [m]
 };
 
-/// `beam`: k = E I / l of a solid bar (E13, S1-W2), damping from the species' ratio and the inertia
-/// of the sub-tree. `paper`: m ~ l d^2 and k ~ d^2 / l (S1-28, S1-29), as stiff as the beam at
-/// PAPER_RADIUS, nu = ratio * PAPER_DAMPING * k.
+/// Computes the wood of a tree. `beam`: k = E I / l of a solid bar (E13, S1-W2), damping from the
+/// species' ratio and the inertia of the sub-tree. `paper`: m ~ l d^2 and k ~ d^2 / l (S1-28,
+/// S1-29), as stiff as the beam at PAPER_RADIUS, nu = ratio * PAPER_DAMPING * k.
 Wood woodOf(const Skeleton& skeleton, const Species& species, Material material);
 
 constexpr double PAPER_RADIUS = 0.02;  ///< [m]
 constexpr double PAPER_DAMPING = 0.1;  ///< [s]
 
-/// Each branch with the unpromoted wood that it carries, straight or by other unpromoted wood, at
-/// rest: clustering (S1-W9). `own` wood and `promoted` per branch.
+/// Computes for each branch its wood with all unpromoted wood that it carries at rest: clustering
+/// (S1-W9). `own` and `promoted` are per branch.
 void clusterWood(const Skeleton& skeleton, const std::vector<Composite>& own,
                  const std::vector<char>& promoted, std::vector<Composite>& out);
 

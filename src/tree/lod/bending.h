@@ -10,10 +10,10 @@
 
 namespace vegetation_sim::forest {
 
-/// The procedural motion with nothing left out.
+/// Returns the procedural angles with all depths moving.
 std::vector<JointAngles> allDepths(const Tree& tree, const wind::Instant& air);
 
-/// One tree as each of its tiers has it.
+/// One tree in each of its models.
 struct TreeModels {
   const Tree& tree;
   const std::vector<physics::Link>& links;
@@ -22,7 +22,8 @@ struct TreeModels {
   const ModalTree& modal;
 };
 
-/// Farthest tips from where a steady wind along a unit vector holds the full chain.
+/// Returns the largest distance of tips from where a steady wind along a unit vector holds the full
+/// chain.
 Bending bendingOf(const TreeModels& tiers, const Vec3& along);
 
 }  // namespace vegetation_sim::forest

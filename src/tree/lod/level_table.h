@@ -10,25 +10,25 @@
 
 namespace vegetation_sim::forest {
 
-/// What a level leaves out, measured on sample trees of a species and scale in uniform wind from
-/// several sides: the largest displacement of any tip per wind speed if only depths below n move
-/// [m per m/s]. Index n; falls to 0.
+/// Error of each level, measured on sample trees of a species and scale in uniform wind from
+/// several directions: the largest displacement of any tip per wind speed if only depths below n
+/// move [m per m/s]. Index n; decreases to 0.
 struct LevelTable {
   std::array<double, MAX_DEPTHS + 1> omitted{};
-  std::array<double, MAX_DEPTHS + 1> branches{};  ///< of depth below n, mean of the samples
+  std::array<double, MAX_DEPTHS + 1> branches{};  ///< of depths below n, mean of the samples
   double height{1.0}, reach{1.0};                 ///< largest of the samples [m]
 };
 LevelTable measureLevels(const Species& species, const MotionLaw& law, double scale);
 
-/// Level tables of one species over the scales that its trees have: leaves and twigs do not grow in
-/// proportion, so neither does the motion. Between measured scales, interpolated.
+/// Level tables of one species over scales: leaves and twigs do not grow in proportion, so the
+/// motion does not either. Interpolated between measured scales.
 class LevelScales {
  public:
-  /// Makes at(scale) known.
+  /// Measures what at(scale) needs.
   void measure(const Species& species, const MotionLaw& law, double scale);
   LevelTable at(double scale) const;
-  /// ResponseError (lag.h) in a wind at a known scale; measured when it is first asked for, some
-  /// 150 ms.
+  /// Returns the response error in a wind at a measured scale. The first call for a scale takes
+  /// some 150 ms.
   PredictedError responseErrorAt(const Species& species, const MotionLaw& law, double scale,
                                  const wind::GustSpectrum& spectrum);
 
@@ -37,9 +37,9 @@ class LevelScales {
   std::map<std::size_t, LevelTable> tables_;  // by index into the grid of scales
 };
 
-/// Smallest level whose predicted error [pixel] holds the tolerance (S1-22, S1-40): 0 without wind
-/// or out of sight. `current` is kept while the error at the next lower level is above
-/// HYSTERESIS * tolerance, so that a level at its border does not flicker.
+/// Returns the smallest level whose predicted error [pixel] is within the tolerance (S1-22, S1-40):
+/// 0 without wind or out of sight. `current` is kept while the error at the next lower level is
+/// above HYSTERESIS * tolerance, so that levels do not flicker.
 int chooseLevel(const LevelTable& table, double speed, double pixels_per_metre, double tolerance,
                 int current);
 

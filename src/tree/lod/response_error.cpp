@@ -36,12 +36,12 @@ wind::Mode waveOf(double frequency, double slowness, const Vec3& along) {
   return out;
 }
 
-/// What goes with the cosine of a wave and what with its sine.
+/// Parts in phase with the cosine and the sine of a wave.
 struct Pair {
   std::vector<double> cosine, sine;
 };
 
-/// Of each tip, in one wave.
+/// Values of each tip in one wave.
 struct TipSquares {
   std::vector<double> procedural, modal, fine;
 };
@@ -97,7 +97,7 @@ class Sample {
     return out;
   }
 
-  // Of the air on all of the crown at rest.
+  // Load of uniform wind on the crown at rest.
   std::vector<double> torques(const wind::Instant& air) const {
     std::vector<physics::Wrench> out(links_.size());
     for (std::size_t i = 0; i < out.size(); ++i) {

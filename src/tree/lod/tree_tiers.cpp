@@ -9,8 +9,8 @@
 namespace vegetation_sim::forest {
 namespace {
 
-// What a tree in modes takes of a key frame, by its amplitudes and rates; key frames come once a
-// second [B/s].
+// Bytes of a modal tree in a key frame, by its amplitudes and rates; key frames come once a second
+// [B/s].
 int bytesOf(int tier) {
   constexpr int HEAD = 48;
   const ModalDepth depth = tier == FINE_MODAL_TIER ? FINE_MODES : ModalDepth{};

@@ -8,8 +8,8 @@
 
 namespace vegetation_sim::forest {
 
-/// The leaf cards of a mesh: a pure function of skeleton, species and detail. Fewer are a subset of
-/// more, so that trees do not reshuffle their leaves from level to level.
+/// Returns the leaf cards of a mesh: a pure function of skeleton, species and detail. Fewer cards
+/// are a subset of more, so that leaves stay in place between levels.
 std::vector<LeafCard> placeLeaves(const Skeleton& skeleton, const Species& species,
                                   const MeshDetail& detail);
 

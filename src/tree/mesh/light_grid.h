@@ -9,22 +9,22 @@
 
 namespace vegetation_sim::forest {
 
-/// How much of the sun and of the sky reaches a point among leaves: Beer's law through a coarse
-/// grid of leaf area. For pictures only; a stated approximation, smooth on the scale of a cell.
+/// Sunlight and skylight at points among leaves: Beer's law through a coarse grid of leaf area. For
+/// display only; an approximation that is smooth on the scale of a cell.
 class LightGrid {
  public:
-  /// @param low, high corners of the box [m]. @param cell edge [m]; enlarged where the grid would
+  /// @param low, high corners of the box [m]. @param cell edge [m]; enlarged if the grid would
   /// exceed MOST_CELLS. @throws std::invalid_argument unless low < high and cell > 0.
   LightGrid(const Vec3& low, const Vec3& high, double cell);
 
-  /// Adds `area` [m^2] of leaf at a point; outside the box it is ignored.
+  /// Adds `area` [m^2] of leaf at a point; points outside the box are ignored.
   void addLeaf(const Vec3& point, double area);
-  /// Sends light through the leaves, from the sun in direction `to_sun` (upwards) and from the sky.
+  /// Computes the light of the sun in direction `to_sun` (upwards) and of the sky.
   void cast(const Vec3& to_sun);
 
-  /// Part of the sunlight that arrives, 0 to 1; 1 before cast().
+  /// Returns the fraction of sunlight at a point; 1 before cast().
   double sun(const Vec3& point) const { return sample(sun_, point); }
-  /// Part of the skylight that arrives, 0 to 1; 1 before cast().
+  /// Returns the fraction of skylight at a point; 1 before cast().
   double sky(const Vec3& point) const { return sample(sky_, point); }
 
   static constexpr std::size_t MOST_CELLS = 6000000;
@@ -33,7 +33,7 @@ class LightGrid {
   std::size_t index(std::size_t x, std::size_t y, std::size_t z) const {
     return (z * rows_ + y) * columns_ + x;
   }
-  /// Transmission from `direction` of every cell, from the top layer down.
+  /// Computes the transmission from `direction` for every cell, from the top layer down.
   void sweep(const Vec3& direction, std::vector<float>& out) const;
   double sample(const std::vector<float>& grid, const Vec3& point) const;
 

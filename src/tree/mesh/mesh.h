@@ -19,28 +19,28 @@ struct BarkVertex {
   std::array<float, 2> uv{};      ///< around (0 to 1), along [m]
 };
 
-/// Corners of a leaf card: left and right of its foot, then right and left of its tip.
+/// Corners of a leaf card: left and right at its foot, then right and left at its tip.
 constexpr int LEAF_CORNERS = 4;
-/// Where they are in the square that the card's picture fills: along x and along the midrib, in
-/// edges, the foot at (0.5, 0).
+/// Corners in the square of the card's image: along x and along the midrib, in edges, with the foot
+/// at (0.5, 0).
 using LeafOutline = std::array<std::array<float, 2>, LEAF_CORNERS>;
-/// The part of the square that holds the picture of a leaf shape's clusters or boughs.
+/// Returns the part of the square that holds the image of a leaf shape's clusters or boughs.
 const LeafOutline& leafOutline(int leaf_shape, bool boughs);
 
-/// Share of the square of a cluster that its leaves fill.
+/// Fraction of a cluster's square that its leaves cover.
 constexpr double LEAF_COVERAGE = 0.4;
 
-/// One leaf cluster: a card fixed to a branch, of which the outline is drawn.
+/// One leaf cluster: a card fixed to a branch.
 struct LeafCard {
   std::int32_t branch{0};
   std::array<float, 3> local{};     ///< foot of the card in the branch's frame [m]
   std::array<float, 4> rotation{};  ///< of the card in the branch's frame, w x y z; y is its midrib
   float size{0.3f};                 ///< edge of the square [m]
   float shade{0.5f};                ///< 0: leaf_colour (inside), 1: leaf_colour_young (outside)
-  std::uint32_t key{0};             ///< of its flutter
+  std::uint32_t key{0};             ///< key of its flutter
 };
 
-/// Mesh of one tree at one level of detail: bark tubes whose rings two successive branches share,
+/// Mesh of one tree at one level of detail: bark tubes, whose rings two successive branches share
 /// so that they stay closed when the joint bends (S1-08), and leaf cards.
 struct TreeMesh {
   std::vector<BarkVertex> bark;
@@ -54,12 +54,12 @@ struct TreeMesh {
   std::size_t triangleCount() const { return triangles.size() / 3 + 2 * leaves.size(); }
 };
 
-/// Builds the mesh: a pure function of skeleton, species and detail.
+/// Builds the mesh, a pure function of skeleton, species and detail.
 TreeMesh buildMesh(const Skeleton& skeleton, const Species& species, const MeshDetail& detail);
 
-/// Turn of a leaf card about its midrib and its base [rad] (S1-W5): zero mean over time, grows with
-/// the wind speed [m/s] and saturates at the species' flutter. `seconds`: any clock that replicas
-/// share; reduced inside.
+/// Returns the rotation of a leaf card about its midrib and its base [rad] (S1-W5): its mean over
+/// time is zero, it grows with the wind speed [m/s] and saturates at `largest`. `seconds` is any
+/// clock that replicas share.
 std::array<float, 2> leafFlutter(std::uint32_t key, double seconds, double wind_speed,
                                  double largest);
 

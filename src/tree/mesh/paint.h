@@ -15,12 +15,12 @@ using Colour = std::array<float, 3>;
 
 Colour mixColours(const Colour& a, const Colour& b, double weight_of_b);
 
-/// Colours of one tree without light: its species' colours, varied a little from tree to tree.
+/// Unlit colours of one tree: those of its species with a variation per tree.
 class TreePaint {
  public:
   TreePaint(const Species& species, std::uint64_t tree_seed);
 
-  /// @param radius of the wood there [m]. Thick wood has the bark's colour, twigs their own.
+  /// @param radius of the wood [m]; thick wood has the colour of bark, twigs their own.
   Colour bark(double radius) const;
   Colour leaf(const LeafCard& card) const;
 

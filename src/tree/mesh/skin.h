@@ -11,16 +11,17 @@
 
 namespace vegetation_sim::forest {
 
-/// The two triangles of a card by corner.
+/// Triangles of a card by corner.
 constexpr std::array<std::uint32_t, 6> LEAF_TRIANGLES{0, 1, 2, 0, 2, 3};
 
-/// Turns of leaf cards at one stamp and wind speed, for 64 kinds of card: cheap for many.
+/// Rotations of leaf cards at one stamp and wind speed, for 64 kinds of cards, so that many cards
+/// are cheap.
 class Flutter {
  public:
   static constexpr int KINDS = 64;
-  /// No flutter.
+  /// Creates a flutter of zero.
   Flutter() = default;
-  /// @param seconds, wind_speed, largest as of leafFlutter().
+  /// @param seconds, wind_speed, largest as in leafFlutter().
   Flutter(double seconds, double wind_speed, double largest);
 
   /// About the midrib and about the foot [rad].
@@ -30,14 +31,14 @@ class Flutter {
   std::array<std::array<float, 2>, KINDS> turns_{};
 };
 
-/// Writes where the bark's vertices are: [3 per vertex, mesh.bark.size()] x y z [m], in the tree's
-/// frame moved by `foot`. `poses` holds at least the branches that the mesh draws.
+/// Writes the positions of the bark's vertices: [3 per vertex, mesh.bark.size()] x y z [m], in the
+/// tree's frame moved by `foot`. `poses` holds at least the branches of the mesh.
 void skinBark(const TreeMesh& mesh, const BatchPoses& poses, const std::array<float, 3>& foot,
               float* positions);
-/// Unit normals of the bark under `poses`: [3 per vertex].
+/// Writes the unit normals of the bark: [3 per vertex].
 void turnBarkNormals(const TreeMesh& mesh, const BatchPoses& poses, float* normals);
 
-/// Writes where the corners of the leaf cards are: [4 corners x 3 per card].
+/// Writes the corners of the leaf cards: [4 corners x 3 per card].
 void skinLeaves(const TreeMesh& mesh, const BatchPoses& poses, const std::array<float, 3>& foot,
                 const Flutter& flutter, float* positions);
 

@@ -9,14 +9,14 @@
 
 namespace vegetation_sim::forest {
 
-/// Modes side by side: rows are filled up to whole ones of these.
+/// Number of modes in a vector; rows are padded to multiples of it.
 constexpr std::size_t MODES_ABREAST = 8;
 inline std::size_t modalRow(std::size_t modes) {
   return (modes + MODES_ABREAST - 1) / MODES_ABREAST * MODES_ABREAST;
 }
 
-/// out [row] += push [count][3][row] times velocity [count], in the widest instruction set of the
-/// processor. The same bits on each of them: velocities in order, nothing fused.
+/// Computes out [row] += push [count][3][row] * velocity [count] in the widest instruction set of
+/// the processor. The bits are the same in all of them: velocities in order, no fused operations.
 void addPushes(const double* push, std::size_t row, const Vec3* velocity, std::size_t count,
                double* out);
 

@@ -168,7 +168,7 @@ void ModalTree::bendLevers(const Vec3& velocity, const std::vector<double>& ampl
   load.resize(size());
 }
 
-// At the coarse points, of all that waves do not tell.
+// Loads at the coarse points, of all wind but the waves.
 void ModalTree::velocitiesAt(const wind::Instant& wind, ModalAir& air) const {
   air.velocities.assign(coarse_.at.size(), Vec3::Zero());
   if (drag_ == Drag::LINEAR) {

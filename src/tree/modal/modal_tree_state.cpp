@@ -9,8 +9,8 @@
 namespace vegetation_sim::forest {
 namespace {
 
-// Steps are told in whole microseconds: a grid of ticks whose period is no whole number of
-// nanoseconds then has one step, whose propagators are computed once.
+// Rounds a step to whole microseconds, so that a tick period that is no whole number of nanoseconds
+// has one step, whose propagators are computed once.
 double wholeMicroseconds(Nanoseconds step) {
   const Nanoseconds microseconds = (step + 500) / 1000;
   return 1e-6 * static_cast<double>(microseconds);
@@ -36,7 +36,8 @@ void ModalTreeState::addLeverForces(const ModalLoad& load, const std::vector<dou
   modes_->bendLevers(load.air, amplitude, air_, out);
 }
 
-// By the state alone, however it was come by: who is told of it looks ahead to the same bits.
+// Accelerations depend on the state alone, so that replicas that receive it extrapolate with the
+// same bits.
 void ModalTreeState::finishStep(const ModalLoad& load, Nanoseconds stamp) {
   addLeverForces(load, state_.amplitude, after_load_);
   stepper_.accelerations(state_, after_load_, acceleration_);
@@ -47,7 +48,7 @@ bool ModalTreeState::fine() const {
   return modes_->size() > ModalDepth{}.most() || modes_->size() == modes_->modes().length;
 }
 
-// The static answer to each load; its rate by central difference.
+// Starts at the static response to each load; its rate is the central difference.
 void ModalTreeState::begin(const std::array<ModalLoad, 3>& loads, double step, Nanoseconds stamp) {
   for (std::size_t m = 0; m < state_.amplitude.size(); ++m) {
     const double w = modes_->modes().frequency[m], stiffness = w * w;
@@ -70,7 +71,7 @@ void ModalTreeState::restore(const physics::ModalState& state, const ModalLoad& 
   finishStep(load, stamp);
 }
 
-// Levers are turned by the bends that a step with those before it ends in.
+// Lever arms rotate by the bends at the end of a trial step.
 void ModalTreeState::step(const std::vector<ModalLoad>& loads, Nanoseconds stamp) {
   before_ = state_;
   before_stamp_ = stamp_;

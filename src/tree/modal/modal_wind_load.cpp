@@ -72,7 +72,7 @@ void appendPush(const WindLoadPoint* begin, const WindLoadPoint* end, const Moti
   }
 }
 
-// What hangs on a joint and beyond: its drag, and that times its arms from the joint.
+// Drag of a sub-tree, and drag times its arms from the joint.
 struct Held {
   double drag{0.0};
   Vec3 moment{Vec3::Zero()};

@@ -9,7 +9,7 @@
 
 namespace vegetation_sim::forest {
 
-/// What the air holds on to: drag and its centre, per branch with leaves or wood.
+/// Drag of a branch and its centre.
 struct WindLoadPoint {
   std::size_t branch;
   double drag;  // [kg/s]
@@ -21,23 +21,23 @@ std::vector<WindLoadPoint> windLoadPoints(const Skeleton& skeleton, const Wood& 
 
 using Motions = std::vector<std::vector<physics::SmallMotion>>;  // [modes][links]
 
-/// How far the centre of a sail goes per amplitude.
+/// Returns the displacement of the centre of drag per amplitude.
 Vec3 wayOf(const WindLoadPoint& load_point, const std::vector<physics::SmallMotion>& motion);
 
-/// Joint torques of a uniform wind of 1 m/s.
+/// Returns the joint torques of a uniform wind of 1 m/s.
 std::vector<double> uniformLoad(const physics::LinearChain& chain,
                                 const std::vector<WindLoadPoint>& load_points,
                                 const Vec3& direction);
 
-/// [3][row] modal loads per velocity of the same air on all sails [kg/s].
+/// Returns [3][row] modal loads per velocity of a uniform wind [kg/s].
 std::vector<double> uniformWindLoad(const std::vector<WindLoadPoint>& load_points,
                                     const Motions& motions);
 
-/// The crown in halves of equal drag, again and again; puts the sails in their order.
+/// Divides the crown `bisection` times into halves of equal drag; reorders the load points.
 WindPoints pointsOf(std::vector<WindLoadPoint>& load_points, const Motions& motions, int bisection);
 
-/// How uniformPush() changes as the tree bends, to the first order: [modes][3][row] per amplitude
-/// of each mode [kg/s]. Levers turn with the branches that bear them; the change is symmetric.
+/// Returns the first-order change of uniformWindLoad() as the tree bends: [modes][3][row] per
+/// amplitude of each mode [kg/s]. Lever arms rotate with the branches; the change is symmetric.
 std::vector<double> leverArmChange(const std::vector<physics::Link>& links,
                                    const physics::LinearChain& chain, const physics::Modes& modes,
                                    const std::vector<WindLoadPoint>& load_points,

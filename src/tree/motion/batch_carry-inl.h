@@ -1,6 +1,4 @@
-// Copyright 2026 vegetation_sim developers
-// SPDX-License-Identifier: BSD-3-Clause
-// How branches carry branches, on vectors of floats; included once per instruction set.
+// Forward kinematics on vectors of floats; included once per instruction set.
 
 #if defined(VEGETATION_SIM_FOREST_BATCH_CARRY_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef VEGETATION_SIM_FOREST_BATCH_CARRY_INL_H_
@@ -60,7 +58,7 @@ HWY_INLINE void carry(const Parents& parent, const LanesQuat& local, Lanes h, in
   store(world.z, out.qz, i);
 }
 
-// Where limbs go on, parents stand side by side and need no gathering.
+// Parents of continued limbs are consecutive and need no gather.
 HWY_INLINE Parents parentsOf(const BatchTree& tree, const BatchGroup& group, const BatchPoses& out,
                              int i) {
   return group.first_parent >= 0 ? loadParents(out, group.first_parent + i - group.begin)

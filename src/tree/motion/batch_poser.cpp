@@ -40,7 +40,7 @@ HWY_INLINE LanesQuat localRotation(const BatchTree& tree, const FloatWind& wind,
   return swing ? swingJoint(rest, a, b, all(weight)) : paperJoint(rest, a, b, all(weight));
 }
 
-// The last vector of a group runs over into the next one, which is written after it.
+// The last vector of a group overlaps the next group, which is written after it.
 void poseGroup(const BatchTree& tree, const FloatWind& wind, const BatchGroup& group, float weight,
                BatchPoses& out) {
   const int step = static_cast<int>(hn::Lanes(Tag()));
@@ -50,7 +50,7 @@ void poseGroup(const BatchTree& tree, const FloatWind& wind, const BatchGroup& g
   }
 }
 
-// The same for bends that are known already.
+// Poses a group for given bends.
 void poseBends(const BatchTree& tree, const BatchBends& bends, const BatchGroup& group,
                BatchPoses& out) {
   const int step = static_cast<int>(hn::Lanes(Tag()));
@@ -93,7 +93,7 @@ void setRest(const Branch& branch, JointModel model, std::size_t i, BatchTree& o
   out.r3[i] = narrow(rest.z);
 }
 
-// Never shrinks: poses are reused for trees of all sizes.
+// Never shrinks, because poses are reused for trees of all sizes.
 void grow(std::size_t n, std::initializer_list<std::vector<float>*> arrays) {
   for (std::vector<float>* array : arrays)
     if (array->size() < n) array->resize(n);
@@ -105,7 +105,7 @@ BatchGroup batchGroup(const Group& group, const std::vector<std::int32_t>& paren
   for (int i = group.begin; i < group.end; ++i)
     if (parent[static_cast<std::size_t>(i)] != out.first_parent + i - group.begin)
       out.first_parent = -1;
-  // The vector that starts at the ground's slot would run over the end.
+  // A vector that starts at the slot of the ground would exceed the end.
   if (group.begin == 0) out.first_parent = -1;
   return out;
 }
@@ -138,7 +138,7 @@ void narrowPoses(const std::vector<Pose>& poses, BatchPoses& out) {
 BatchPoser::BatchPoser(const Tree& tree) {
   const std::size_t n = tree.skeleton.branches.size(), size = n + PADDING;
   BatchTree& t = tree_;
-  // The ground stands in the last slot, which no vector of the last group reaches.
+  // The ground has the last slot, which no vector of the last group reaches.
   t.parent.assign(size, static_cast<std::int32_t>(size - 1));
   grow(size, {&t.h, &t.x, &t.y, &t.z, &t.r0, &t.r1, &t.r2, &t.r3});
   grow(size, {&t.ax, &t.ay, &t.az, &t.bx, &t.by, &t.bz});

@@ -12,7 +12,8 @@ std::size_t index(int branch) {
   return static_cast<std::size_t>(branch);
 }
 
-// Bend of a joint under a torque, world axes at rest [rad]: joints do not twist (S1-A1).
+// Returns the bend of a joint under a torque, world axes at rest [rad]: joints do not twist
+// (S1-A1).
 Vec3 bendOf(const Branch& b, double stiffness, const Vec3& torque) {
   const Vec3 z = axisZ(b.rest.orientation);
   return (torque - dot(torque, z) * z) / stiffness;
@@ -36,7 +37,7 @@ std::vector<Vec3> staticBends(const Skeleton& skeleton, const Wood& wood,
   return out;
 }
 
-// Static displacement of every branch: of its joint, and its turn.
+// Static displacement of a branch: of its joint, and its rotation.
 struct Shift {
   Vec3 move{Vec3::Zero()}, turn{Vec3::Zero()};
 };
@@ -55,7 +56,7 @@ std::vector<Shift> shiftsOf(const Skeleton& skeleton, const std::vector<Vec3>& b
   return out;
 }
 
-// Square of Rayleigh's frequency: twice the strain energy over sum m u^2 [1/s^2].
+// Returns the square of Rayleigh's frequency: twice the strain energy over sum m u^2 [1/s^2].
 double frequencySquared(const Skeleton& skeleton, const Wood& wood, const std::vector<Vec3>& bends,
                         const std::vector<Shift>& shifts) {
   double strain = 0.0, motion = 0.0;
@@ -70,7 +71,7 @@ double frequencySquared(const Skeleton& skeleton, const Wood& wood, const std::v
   return motion > 0.0 ? strain / motion : 0.0;
 }
 
-// A branch with one of its bearers, but not all between: that bearer and those below it go.
+// Removes ancestors below a gap: a branch must be connected to its highest physical ancestor.
 void dropAboveGaps(const Skeleton& skeleton, std::vector<int>& wanted) {
   std::vector<char> kept(skeleton.branches.size(), 0);
   for (const int i : wanted) kept[index(i)] = 1;
@@ -83,8 +84,8 @@ void dropAboveGaps(const Skeleton& skeleton, std::vector<int>& wanted) {
                wanted.end());
 }
 
-// On the way from a branch to the ground, each joint counts with all those that count less: whoever
-// leaves out some of them misses their sum.
+// Adds to each joint between a branch and the ground the sum of all smaller deflections, because
+// omitting several joints adds their errors.
 void addUp(const Skeleton& skeleton, int branch, std::vector<double>& deflection) {
   std::vector<int> way;
   for (int i = branch; i >= 0; i = skeleton.branches[index(i)].parent) way.push_back(i);
@@ -111,7 +112,7 @@ std::vector<double> predictDeflection(const Skeleton& skeleton, const Wood& wood
     const Branch& b = skeleton.branches[i];
     const Composite& body = wood.subtree[i];
     const Vec3 moment = rotate(b.rest.orientation, body.moment);
-    const Vec3 turn = shifts[i].turn - bends[i];  // of what bears it
+    const Vec3 turn = shifts[i].turn - bends[i];  // of the parent
     const double across = std::max(body.inertia[0], body.inertia[1]);
     const Vec3 torque = frequency * (cross(moment, shifts[i].move) + across * turn);
     const double inertial = length(bendOf(b, wood.stiffness[i], torque));
@@ -137,7 +138,7 @@ Selection selectBranches(const Skeleton& skeleton, const std::vector<double>& sc
                          double threshold, double keep, const std::vector<char>& promoted,
                          std::size_t cap) {
   const std::size_t n = score.size();
-  // highest[i]: highest score wanted in the sub-tree of i; 0: none.
+  // highest[i]: highest requested score in the sub-tree of i; 0: none.
   std::vector<double> rank(n, 0.0), highest(n, 0.0);
   for (std::size_t i = n; i-- > 0;) {
     if (score[i] > (promoted[i] ? keep : threshold)) rank[i] = score[i];
@@ -145,13 +146,13 @@ Selection selectBranches(const Skeleton& skeleton, const std::vector<double>& sc
     const int parent = skeleton.branches[i].parent;
     if (parent >= 0) highest[index(parent)] = std::max(highest[index(parent)], highest[i]);
   }
-  std::vector<char> below(n, 0);  // a wanted branch is on the way to the ground, or it is one
+  std::vector<char> below(n, 0);  // a requested branch is an ancestor or the branch itself
   std::vector<int> wanted;
   for (std::size_t i = 0; i < n; ++i) {
     const int parent = skeleton.branches[i].parent;
     below[i] = rank[i] > 0.0 || (parent >= 0 && below[index(parent)]);
     if (below[i] && highest[i] > 0.0) {
-      rank[i] = std::max(rank[i], highest[i]);  // gaps count as what they carry
+      rank[i] = std::max(rank[i], highest[i]);  // gaps have the score of what they carry
       wanted.push_back(static_cast<int>(i));
     }
   }

@@ -15,34 +15,35 @@ struct BranchLoad {
   Vec3 force{Vec3::Zero()};  ///< [N]
 };
 
-/// How far loads move the tree by each joint [m]: its bend times the reach of what it bears (N12,
-/// S1-W8). On the way to the ground the bend is the static one, lever x force / k; there a joint
-/// counts with all that count less, so that leaving out those below a tolerance misplaces the
-/// loaded point by no more. Everywhere else, and there on top, it is what the wood's own inertia
-/// does when the loads come or go at once: the tree swings with u cos(w t), u the static
-/// displacement and w Rayleigh's frequency of that shape.
+/// Returns how far each joint moves the tree under loads [m]: its bend times the reach of its
+/// sub-tree (N12, S1-W8). Between a load and the ground the bend is the static one, lever x force /
+/// k, and a joint counts with the sum of all smaller ones, so that leaving out joints below a
+/// tolerance misplaces the loaded point by at most this tolerance. Added everywhere is the bend by
+/// the inertia of the wood when loads start or end suddenly: the tree oscillates with u cos(w t),
+/// where u is the static displacement and w Rayleigh's frequency of that shape.
 std::vector<double> predictDeflection(const Skeleton& skeleton, const Wood& wood,
                                       const std::vector<BranchLoad>& loads);
 
-/// Displacement of a branch's point per force along a unit direction, all joints together [m/N].
+/// Returns the displacement of a point of a branch per force along a unit direction, over all
+/// joints [m/N].
 double compliance(const Skeleton& skeleton, const Wood& wood, int branch, double along,
                   const Vec3& direction);
 
-/// The branches that shall be physical, rising.
+/// The branches to be physical, sorted.
 struct Selection {
   std::vector<int> branches;
-  std::size_t refused{0};  ///< wanted and not physical, but beyond the cap
+  std::size_t refused{0};  ///< requested and not physical, because of the cap
 };
 
-/// Branches whose score is above `threshold`, or above `keep` where they are physical already
-/// (`promoted`, per branch; hysteresis), and whatever lies between two of them; the highest scores
-/// first, at most `cap`, and only as many new ones as find room beside all that is physical.
+/// Selects branches whose score is above `threshold`, or above `keep` where they are physical
+/// already (`promoted`, per branch; hysteresis), and all branches between two of them. The highest
+/// scores come first, at most `cap`, and new ones only as room permits.
 Selection selectBranches(const Skeleton& skeleton, const std::vector<double>& score,
                          double threshold, double keep, const std::vector<char>& promoted,
                          std::size_t cap);
 
-/// Scores of the paper's rule (S1-43): 1 and less, falling from the ground on, for every joint not
-/// deeper than the deepest loaded one; 0 for all others.
+/// Returns the scores of the paper's rule (S1-43): 1 and less, decreasing from the ground on, for
+/// every joint not deeper than the deepest loaded one; 0 for all others.
 std::vector<double> scoreByDepth(const Skeleton& skeleton, const std::vector<int>& loaded);
 
 /// Score of a loaded branch: above any other.

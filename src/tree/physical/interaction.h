@@ -11,15 +11,15 @@
 
 namespace vegetation_sim::forest {
 
-/// A place on the wood of a forest.
+/// A point on a branch of a forest.
 struct BranchPoint {
   std::uint32_t tree{0};
   int branch{0};
   double along{0.0};  ///< from the branch's base [m], 0 to its length
 };
 
-/// Holds a point of a branch to a target by a damped spring whose force is limited. Between ticks
-/// the target moves in a straight line, so the spring's damper knows its velocity.
+/// Holds a point of a branch to a target by a damped spring with a force limit. Between ticks the
+/// target moves in a straight line, whose velocity the damper uses.
 struct Grab {
   BranchPoint point;
   Vec3 target{Vec3::Zero()};  ///< world [m]
@@ -27,30 +27,30 @@ struct Grab {
   double damping{40.0};       ///< [N s/m]
   double force_limit{200.0};  ///< [N]
   std::string frame;          ///< tf frame of the body that holds; empty: a point of the world
-  double lease{0.0};          ///< ends this long after it was last moved or renewed; 0: never [s]
-  std::uint32_t id{0};        ///< 0 when it is added: the forest gives one
-  Nanoseconds renewed{0};     ///< kept by the forest
+  double lease{0.0};          ///< duration from the last renewal to its end; 0: unlimited [s]
+  std::uint32_t id{0};        ///< 0 in a request: the forest assigns one
+  Nanoseconds renewed{0};     ///< of the last renewal, set by the forest
   Vec3 offset{Vec3::Zero()};  ///< of the target in `frame` [m]
   Pose holder;                ///< world pose of `frame` when the target was last set
 };
 
-/// A force on a branch for a while.
+/// A force on a branch during an interval.
 struct Push {
   BranchPoint point;
   Vec3 force{Vec3::Zero()};  ///< world [N]
-  Nanoseconds until{0};      ///< the force acts up to here
-  Nanoseconds from{0};       ///< and from here on; in the past: from the last tick on
+  Nanoseconds until{0};      ///< end of the interval
+  Nanoseconds from{0};       ///< start; a stamp in the past means the last tick
 };
 
 enum class Shape : int { SPHERE = 0, CAPSULE = 1, BOX = 2 };
 
-/// A body of a robot that pushes branches aside.
+/// A robot body that pushes branches.
 struct Body {
-  std::string id;     ///< reactions are told in the body's frame under this name
-  std::string frame;  ///< of tf that it is tied to
+  std::string id;     ///< names the body in reactions
+  std::string frame;  ///< tf frame to which it is attached
   int shape{0};       ///< Shape
-  /// Sphere: radius, -, -. Capsule along the own z: radius, -, length between the centres of its
-  /// caps. Box: edges. [m]
+  /// Sphere: radius, -, -. Capsule along its z axis: radius, -, distance of the cap centres. Box:
+  /// edges. [m]
   Vec3 size{Vec3(0.05, 0.0, 0.0)};
   Pose pose;                    ///< world, at `stamp`
   Vec3 velocity{Vec3::Zero()};  ///< of the pose's origin, world [m/s]
@@ -59,7 +59,7 @@ struct Body {
   Pose in_frame;  ///< of the body in its frame
 };
 
-/// What a branch does to the body that holds or touches it.
+/// Reaction of a branch on the body that holds or touches it.
 struct Reaction {
   enum Kind : int { GRAB = 0, CONTACT = 1 };
   Kind kind{GRAB};
@@ -67,7 +67,7 @@ struct Reaction {
   std::string body;           ///< contact: Body::id
   std::string frame;          ///< Grab::frame or Body::frame
   Pose holder;                ///< grab with a frame: Grab::holder
-  BranchPoint at;             ///< where on the branch
+  BranchPoint at;             ///< point on the branch
   Vec3 point{Vec3::Zero()};   ///< world [m]
   Vec3 force{Vec3::Zero()};   ///< on the body, world [N]
   Vec3 torque{Vec3::Zero()};  ///< on the body about `point`, world [N m]
@@ -75,23 +75,23 @@ struct Reaction {
   double penetration{0.0};    ///< contact: depth [m]
 };
 
-/// Adds a fault for whatever is wrong with the numbers of a grab or a push; the place on the tree
-/// is for checkPoint.
+/// Adds a fault for each invalid number of a grab or a push; their branch points are checked by
+/// ForestPhysics.
 void check(const Grab& grab, Faults& faults);
 void check(const Push& push, Faults& faults);
 
-/// What physics takes at the moment.
+/// Current cost of the physics.
 struct PhysicsFigures {
   std::size_t trees{0};          ///< with physical branches
-  std::size_t branches{0};       ///< physical, those that blend back included
-  std::size_t blending{0};       ///< of these, on their way back
-  std::size_t bytes{0};          ///< held for them, and for trees that bodies are near to
+  std::size_t branches{0};       ///< physical, including those that blend back
+  std::size_t blending{0};       ///< of these, blending back
+  std::size_t bytes{0};          ///< used by them and by cached trees near bodies
   std::size_t steps{0};          ///< taken at the last tick
-  std::size_t refused{0};        ///< branches that loads want and the cap leaves procedural
+  std::size_t refused{0};        ///< branches that loads need and the cap keeps procedural
   std::size_t capped_forces{0};  ///< grabs and contacts at their limit
-  std::size_t replaced{0};  ///< steps of a tree at the last tick, beyond the bound of an explicit
-                            ///< integrator, that midpoint took
-  std::size_t coarse{0};    ///< steps of trees whose contacts wanted more halvings than there are
+  std::size_t replaced{0};  ///< tree steps of the last tick that midpoint took because an explicit
+                            ///< integrator was beyond its bound
+  std::size_t coarse{0};    ///< tree steps whose contacts needed more bisections than allowed
   std::size_t skipped{0};   ///< gaps in time that were not stepped through
 };
 

@@ -61,7 +61,7 @@ void PhysicalSubtree::setMaterial(Material material) {
   rebuild(all);
 }
 
-// Lays everything out anew for these joints, by rising branch. Nothing is kept for others.
+// Rebuilds all arrays for these joints, sorted by branch, without spare capacity.
 void PhysicalSubtree::rebuild(const std::vector<Joined>& joints) {
   const std::size_t n = joints.size();
   mask_.assign(mask_.size(), 0);

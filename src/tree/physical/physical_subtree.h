@@ -14,13 +14,13 @@
 
 namespace vegetation_sim::forest {
 
-/// A branch that is physical.
+/// A physical branch.
 struct SubtreeJoint {
   int branch{0};
   Nanoseconds promoted{0};   ///< when it became physical
   Nanoseconds needed{0};     ///< when a load last needed it to be
   Nanoseconds blend{NEVER};  ///< start of its blend back
-  double compensation{1.0};  ///< share of the procedural load at `promoted`; it fades from there
+  double compensation{1.0};  ///< share of the procedural load at `promoted`; it fades from then on
   bool wanted{true};         ///< a load needs it now
 };
 
@@ -33,17 +33,17 @@ struct SubtreeSpring {
   double stiffness{0.0}, damping{0.0}, force_limit{0.0};
 };
 
-/// What acts on a part in a step besides the wind.
+/// Loads on a subtree in a step besides the wind.
 struct SubtreeLoads {
   std::vector<SubtreeSpring> springs;
   std::vector<BranchLoad> forces;
-  /// Single precision: the stamp whose air this step asks for, and those after it that say `hold`.
-  /// NEVER: each step asks for its own.
+  /// Single precision: stamp of the wind that this step and the following ones with `hold` use.
+  /// NEVER: each step evaluates its own wind.
   Nanoseconds air{NEVER};
-  bool hold{false};  ///< the air that the step before asked for is good enough
+  bool hold{false};  ///< the step uses the wind of the step before
 };
 
-/// Built from what stands beside it: a copy starts without.
+/// Derived data that is rebuilt on demand: a copy starts empty.
 template <typename T>
 struct Rebuilt {
   std::unique_ptr<T> held;
@@ -59,16 +59,17 @@ struct Rebuilt {
   Rebuilt& operator=(Rebuilt&&) noexcept = default;
 };
 
-/// The physical part of one tree: any of its branches, without gaps from each to the next that
-/// bears it, so that the lowest ones hang on procedural wood or the ground. Physical branches carry
-/// their unpromoted sub-trees rigidly (S1-W9); those move procedurally on top (S1-35).
+/// The physical part of one tree: any set of branches that is connected between each branch and its
+/// highest physical ancestor, so that its lowest branches hang on procedural wood or the ground.
+/// Physical branches carry their unpromoted sub-trees rigidly (S1-W9); those move procedurally on
+/// top (S1-35).
 ///
-/// Promotion matches angles and rates (S1-36). The load is the real one plus, fading, what is
-/// missing to keep the procedural motion going (E1). Demotion blends angles (S1-37) and may turn
-/// round at any time (S1-38). A branch only blends when all that is physical on it does too, so
-/// what is held is always where physics has it. docs/forest.md derives all of it.
+/// Promotion matches angles and rates (S1-36). The load is the real one plus, fading, the remainder
+/// that keeps the procedural motion (E1). Demotion blends angles (S1-37) and can be cancelled at
+/// any time (S1-38). A branch blends only when all its physical children do, so a held point is
+/// always where physics has it. docs/forest.md has the derivations.
 ///
-/// A value; copies share the grown tree, which never changes.
+/// A value; copies share the immutable grown tree.
 class PhysicalSubtree {
  public:
   PhysicalSubtree(std::shared_ptr<const Tree> tree, const Species& species, Material material);
@@ -81,47 +82,46 @@ class PhysicalSubtree {
   const std::vector<int>& branches() const { return branches_; }       ///< [links] rising
   const std::vector<physics::Link>& links() const { return links_; }   ///< [links]
   const physics::ChainState& state() const { return state_; }          ///< [links]
-  int linkOf(int branch) const;                                        ///< -1: not physical
-  bool holds(int branch) const;  ///< physical and not on its way back
+  int linkOf(int branch) const;                                        ///< -1 if not physical
+  bool holds(int branch) const;  ///< physical and not blending back
   std::size_t blending() const;
   std::size_t bytes() const;
   void addTo(Hash& hash) const;
   PromotedTree promoted(Nanoseconds stamp, double duration) const;
 
-  /// Makes `branches` (rising) physical as well and takes back those that blend but are needed:
-  /// whose score [branches of the tree] is above `keep`. Returns how many were refused, because a
-  /// bearer was missing.
+  /// Makes `branches` (sorted) physical and cancels the blends of those whose score [branches of
+  /// the tree] is above `keep`. Returns how many were refused because their parent is missing.
   std::size_t promote(const std::vector<int>& branches, const std::vector<double>& score,
                       double keep, const ProceduralMotion& motion, const PhysicsSettings& settings);
-  /// Nothing is needed any more.
+  /// Marks all joints as not needed.
   void releaseJoints();
-  /// Starts blends of branches that are not needed and calm, or have waited long enough; ends those
-  /// that are over.
+  /// Starts blends of branches that are not needed and calm, or have waited long enough; ends
+  /// completed blends.
   void demote(const ProceduralMotion& motion, const PhysicsSettings& settings,
               SubtreeScratch& scratch);
-  /// Another duration of blends: those that run go on from where they are.
+  /// Changes the duration of blends; running ones continue from their progress.
   void stretchBlends(Nanoseconds stamp, double from, double to);
   void setMaterial(Material material);
 
-  /// One step.
+  /// Takes one step.
   void step(const TreeWind& air, const SubtreeLoads& loads, const PhysicsSettings& settings,
             Nanoseconds from, Nanoseconds to, SubtreeScratch& scratch);
-  /// One step of a part that touches bodies; gives the forces of `contacts`. An explicit method
-  /// cannot hold a contact, so this is always a linearly implicit one.
+  /// Takes one step with contacts and sets the forces of `contacts`. Always linearly implicit,
+  /// because an explicit method cannot hold a contact.
   void stepWithContacts(const TreeWind& air, const SubtreeLoads& loads,
                         const PhysicsSettings& settings, Nanoseconds from, Nanoseconds to,
                         SubtreeScratch& scratch, std::vector<physics::Contact>& contacts);
-  /// All that `stepTouching` changes, to go back to.
+  /// The state that stepWithContacts changes.
   struct SavedState {
     physics::ChainState state;
     double theta{0.5};
   };
   SavedState saveState() const { return {state_, theta_}; }
   void restoreState(const SavedState& saved) { state_ = saved.state, theta_ = saved.theta; }
-  /// Where the links are and how they move, tree's frame.
+  /// Computes poses and velocities of the links, tree's frame.
   void kinematicsAt(const TreeWind& air, Nanoseconds stamp, SubtreeScratch& scratch,
                     physics::Kinematics& out) const;
-  /// Where the points are that springs hold, tree's frame; anywhere for branches that are not
+  /// Computes the points that springs hold, tree's frame; undefined for branches that are not
   /// physical.
   void placesAt(const std::vector<SubtreeSpring>& springs, const TreeWind& air, Nanoseconds stamp,
                 SubtreeScratch& scratch, std::vector<Vec3>& out) const;
@@ -170,17 +170,17 @@ class PhysicalSubtree {
   std::vector<int> branches_;
   std::vector<physics::Link> links_;
   std::vector<LinkDrag> drags_;
-  std::vector<int> carriers_;  // unpromoted bearers of promoted branches, rising
+  std::vector<int> carriers_;  // unpromoted ancestors of promoted branches, sorted
   physics::ChainState state_;
   double theta_{0.5};
   Rebuilt<physics::BatchChain> chain_;  // of links_
 };
 
-/// No physical joint bends farther [rad] or faster [rad/s].
+/// Limits of bend [rad] and rate [rad/s] of physical joints.
 constexpr double LARGEST_BEND = 3.0, FASTEST_BEND = 1e4;
 
-/// Force of a spring on its branch where the point is at `point` and moves with `velocity`; how
-/// much its law is scaled down to stay within its limit: 1 below it.
+/// Force of a spring on its branch at `point` with `velocity`, and the factor that keeps its law
+/// within the force limit (1 below it).
 struct SpringForce {
   Vec3 force{Vec3::Zero()};
   double scale{1.0};

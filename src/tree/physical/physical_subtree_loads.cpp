@@ -1,6 +1,4 @@
-// Copyright 2026 vegetation_sim developers
-// SPDX-License-Identifier: BSD-3-Clause
-// What acts on the physical part of a tree, and its step.
+// Loads on the physical part of a tree, and its step.
 #include <algorithm>
 #include <cmath>
 
@@ -12,10 +10,10 @@
 namespace vegetation_sim::forest {
 namespace {
 
-// No tree reaches farther from its foot [m].
+// Largest distance of any branch from its tree's foot [m].
 constexpr double LARGEST_REACH = 1e3;
 
-// Where no joint turns farther in a step, velocity products are foretold as well as averaged [rad].
+// Velocity products are predicted instead of averaged where no joint turns farther in a step [rad].
 constexpr double PREDICTED_TURN = 0.01;
 
 physics::Symmetric3 uniform(double value) {
@@ -33,7 +31,7 @@ void addForce(const Vec3& force, const Vec3& arm, physics::Wrench& wrench) {
 
 }  // namespace
 
-/// What the stepper asks for during one step.
+/// Callbacks of the stepper during one step.
 struct PhysicalSubtree::Step {
   const PhysicalSubtree& part;
   const TreeWind& air;
@@ -61,7 +59,7 @@ struct PhysicalSubtree::Step {
     part.addWind(motion, kinematics, settings, scratch, out);
     addOthers(motion, kinematics, out);
   }
-  // Air for a chain's rows.
+  // Fills the wind rows of a chain.
   void fillWindRows(double h, const float* places, float* rows, std::size_t blocks) const {
     const Nanoseconds middle = from + fromSeconds(part.theta_ * h);
     const bool own = loads.air == NEVER || part.compensates(from, settings.fade);
@@ -69,7 +67,7 @@ struct PhysicalSubtree::Step {
     fillWind(FloatWind(motion.wind.now().relativeTo(part.tree().foot), LARGEST_REACH), places, rows,
              blocks);
   }
-  // All that acts besides the wind.
+  // Adds all loads but the wind.
   void addOthers(const ProceduralMotion& motion, const physics::Kinematics& kinematics,
                  physics::Loads& out) const {
     updateBases(motion);
@@ -85,7 +83,7 @@ struct PhysicalSubtree::Step {
     };
     return out;
   }
-  // For a chain that has the wind in its own rows.
+  // Surroundings of a chain that has the wind in its own rows.
   physics::Surroundings outsideWind() const {
     physics::Surroundings out;
     out.bases = [this](double time, std::vector<physics::BaseMotion>& to) { bases(time, to); };
@@ -111,18 +109,18 @@ void PhysicalSubtree::step(const TreeWind& air, const SubtreeLoads& loads,
   const physics::Surroundings outside = context.outside();
   scratch.stepper.setDynamics(dynamics);
   if (scratch.stepper.step(wanted, links_, outside, 0.0, h, state_, theta_) == 0) {
-    ++scratch.replaced;  // beyond the bound of an explicit method
+    ++scratch.replaced;  // beyond the bound of the explicit method
     scratch.stepper.step(physics::Integrator::MIDPOINT, links_, outside, 0.0, h, state_, theta_);
   }
   limitJoints();
 }
 
-// The state lives here in double precision; what the chain keeps is gone with the step.
+// The state is kept here in double precision; the chain keeps nothing between steps.
 void PhysicalSubtree::stepBatched(const Step& context, double h) {
   if (!chain_.held) createChain();
   physics::BatchChain& chain = *chain_.held;
   chain.setState(0, state_, theta_);
-  // What fades out is told against the air of each step.
+  // Compensation needs the wind of each step.
   if (!context.loads.hold || compensates(context.from, context.settings.fade))
     chain.queryWind([&](const float* places, float* rows, std::size_t blocks) {
       context.fillWindRows(h, places, rows, blocks);
@@ -144,10 +142,10 @@ void PhysicalSubtree::createChain() {
   chain_.held->setGrips(0, grips);
 }
 
-// Whatever happens, angles stay where the chain and the messages hold: the printed dynamics flutter
-// without bound (E2), and a hand may wring a twig off.
+// Keeps angles and rates within the limits of chains and messages: the printed dynamics oscillate
+// without bound (E2), and a grab may bend a twig beyond any limit.
 void PhysicalSubtree::limitJoints() {
-  constexpr double MOST = 1.0 + 1e-6;  // chains stop there themselves, as they round
+  constexpr double MOST = 1.0 + 1e-6;  // chains limit themselves up to rounding
   for (std::size_t i = 0; i < links_.size(); ++i) {
     physics::Vec2 &q = state_.q[i], &rate = state_.rate[i];
     const double bend = std::sqrt(q.x() * q.x() + q.y() * q.y());
@@ -194,7 +192,7 @@ void PhysicalSubtree::placesAt(const std::vector<SubtreeSpring>& springs, const 
   }
 }
 
-// As physics::kinematicsOf, of what bears the link alone.
+// Computes the pose of one link as physics::kinematicsOf does for all.
 Pose PhysicalSubtree::poseOf(int link, const std::vector<physics::BaseMotion>& bases) const {
   const physics::Link& own = links_[index(link)];
   const Pose from = own.parent < 0 ? bases[index(own.base)].pose : poseOf(own.parent, bases);
@@ -228,7 +226,7 @@ SpringForce forceOf(const SubtreeSpring& spring, Nanoseconds stamp, const Vec3& 
   return out;
 }
 
-// At its limit a spring acts as a softer one that has the same force here: an implicit step cannot
+// At its limit a spring acts as a softer one with the same force, so that an implicit step cannot
 // overshoot, however light the branch.
 void PhysicalSubtree::addSprings(const SubtreeLoads& loads, Nanoseconds stamp,
                                  const physics::Kinematics& kinematics, physics::Loads& out) const {

@@ -1,6 +1,4 @@
-// Copyright 2026 vegetation_sim developers
-// SPDX-License-Identifier: BSD-3-Clause
-// From procedural to physical and back.
+// Promotion and demotion.
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +7,7 @@
 namespace vegetation_sim::forest {
 namespace {
 
-/// A motion is calm if it would carry nothing farther than the tolerance within this time [s].
+/// A motion is calm if it would carry no point farther than the tolerance in this time [s].
 constexpr double CALM_TIME = 0.1;
 
 std::size_t index(int i) {
@@ -24,7 +22,7 @@ physics::Vec2 vectorOf(const JointAngles& a) {
   return {a.first, a.second};
 }
 
-// Rate of smoothStep's weight [1/s].
+// Returns the rate of smoothStep's weight [1/s].
 double blendRate(const SubtreeJoint& joint, Nanoseconds stamp, double duration) {
   const double u = secondsBetween(joint.blend, stamp) / duration;
   return u <= 0.0 || u >= 1.0 ? 0.0 : 6.0 * u * (1.0 - u) / duration;
@@ -32,8 +30,7 @@ double blendRate(const SubtreeJoint& joint, Nanoseconds stamp, double duration) 
 
 }  // namespace
 
-// Joins what is physical already and what shall be; new joints start on the procedural motion
-// (S1-36).
+// Merges old and new joints; new ones start on the procedural motion (S1-36).
 std::size_t PhysicalSubtree::promote(const std::vector<int>& branches,
                                      const std::vector<double>& score, double keep,
                                      const ProceduralMotion& motion,
@@ -46,7 +43,7 @@ std::size_t PhysicalSubtree::promote(const std::vector<int>& branches,
   std::vector<char> mask = mask_;
   std::vector<int> added;
   std::size_t refused = 0;
-  for (const int branch : branches) {  // rising: bearers come first
+  for (const int branch : branches) {  // sorted: parents come first
     if (mask[index(branch)]) continue;
     if (leavesGap(mask, branch)) {
       ++refused;
@@ -79,7 +76,7 @@ void PhysicalSubtree::releaseJoints() {
   for (SubtreeJoint& joint : joints_) joint.wanted = false;
 }
 
-// True if a bearer of the branch is physical, but not the one right below it.
+// Returns true if an ancestor of the branch is physical, but not its parent.
 bool PhysicalSubtree::leavesGap(const std::vector<char>& mask, int branch) const {
   const auto& branches = tree_->skeleton.branches;
   int parent = branches[index(branch)].parent;
@@ -89,8 +86,8 @@ bool PhysicalSubtree::leavesGap(const std::vector<char>& mask, int branch) const
   return false;
 }
 
-// A branch in the middle of its blend goes on from where it is seen, and so does all that bears it:
-// no jump in angle or rate (S1-38).
+// Cancels the blend of a branch and its ancestors from the visible motion, without a jump in angle
+// or rate (S1-38).
 void PhysicalSubtree::cancelBlend(int link, const ProceduralMotion& motion, double duration) {
   const Nanoseconds stamp = motion.wind.stamp();
   for (; link >= 0; link = links_[index(link)].parent) {
@@ -113,13 +110,13 @@ void PhysicalSubtree::cancelBlend(int link, const ProceduralMotion& motion, doub
 void PhysicalSubtree::demote(const ProceduralMotion& motion, const PhysicsSettings& settings,
                              SubtreeScratch& scratch) {
   const Nanoseconds stamp = motion.wind.stamp();
-  bool waiting = false;  // for the calm
+  bool waiting = false;  // for calm motion
   for (SubtreeJoint& joint : joints_) {
     if (joint.wanted) joint.needed = stamp;
     waiting = waiting || (!joint.wanted && joint.blend == NEVER);
   }
   if (waiting) scratch.motions.update(motion, branches_);
-  std::vector<char> bears(joints_.size(), 0);  // what is physical for good
+  std::vector<char> bears(joints_.size(), 0);  // has physical children that do not blend
   for (std::size_t i = joints_.size(); i-- > 0;) {
     SubtreeJoint& joint = joints_[i];
     if (joint.blend == NEVER && !bears[i] && canBlend(i, stamp, scratch.motions, settings))
@@ -137,7 +134,8 @@ void PhysicalSubtree::demote(const ProceduralMotion& motion, const PhysicsSettin
   rebuild(left);
 }
 
-// Nothing needs it, and it moves as it would procedurally, or has had its time.
+// Returns true if no load needs the joint and it is close to its procedural motion or has waited
+// long enough.
 bool PhysicalSubtree::canBlend(std::size_t link, Nanoseconds stamp,
                                const ProceduralMotions& motions,
                                const PhysicsSettings& settings) const {

@@ -1,6 +1,4 @@
-// Copyright 2026 vegetation_sim developers
-// SPDX-License-Identifier: BSD-3-Clause
-// Wind on the physical part of a tree, and what makes up for it while a hand-over fades.
+// Wind on the physical part of a tree, and the compensation after promotion.
 #include <algorithm>
 #include <cmath>
 
@@ -10,11 +8,12 @@
 namespace vegetation_sim::forest {
 namespace {
 
-// Where steps do not foresee it, drag takes at most half of a link's speed in a step, however light
-// the link is.
+// Without prediction, drag takes at most half of a link's speed in a step, however light the link
+// is.
 constexpr double STRONGEST_DRAG = 0.5 * PHYSICS_RATE;  // [1/s]
 
-// Contacts step implicitly whatever is chosen, and so do explicit methods beyond their bounds.
+// Returns true if steps predict drag. Contacts always step implicitly, and so do explicit methods
+// beyond their bounds.
 bool predictsDrag(const PhysicsSettings& settings) {
   return static_cast<physics::Dynamics>(settings.dynamics) == physics::Dynamics::ARTICULATED &&
          physics::isImplicit(static_cast<physics::Integrator>(settings.integrator));
@@ -22,7 +21,7 @@ bool predictsDrag(const PhysicsSettings& settings) {
 
 }  // namespace
 
-// Drag of each link with the wood that it carries, where it is and as it moves.
+// Adds the drag of each link with the wood that it carries, at its present position and velocity.
 void PhysicalSubtree::addWind(const ProceduralMotion& motion, const physics::Kinematics& kinematics,
                               const PhysicsSettings& settings, SubtreeScratch& scratch,
                               physics::Loads& loads) const {
@@ -52,7 +51,7 @@ void PhysicalSubtree::addWind(const ProceduralMotion& motion, const physics::Kin
   }
 }
 
-// The derivative of its force.
+// Returns the derivative of the drag force.
 physics::Drag PhysicalSubtree::dragAt(double force, const Vec3& wind, const Vec3& arm) const {
   if (tree_->drag == Drag::LINEAR) return {arm, force, Vec3::Zero()};
   const double speed = length(wind), slope = force / tree_->reference_speed;
@@ -73,14 +72,14 @@ bool PhysicalSubtree::compensates(Nanoseconds stamp, double fade) const {
   return false;
 }
 
-// Joint torques that turn the real load into the one of the procedural motion: inverse dynamics of
-// that motion under the real load (E1), times what has not faded. `paper`: without what spring and
-// damper need, as printed (S1-26).
+// Adds the joint torques that turn the real load into that of the procedural motion: inverse
+// dynamics of this motion under the real load (E1), times the fading share. `paper`: without spring
+// and damper torques, as printed (S1-26).
 void PhysicalSubtree::addCompensation(const ProceduralMotion& motion,
                                       const PhysicsSettings& settings, SubtreeScratch& s,
                                       physics::Loads& loads) const {
   const Nanoseconds stamp = motion.wind.stamp();
-  // Paper 1's dynamics have no inverse here: their branches meet the real load at once.
+  // The dynamics of paper 1 have no inverse here: their branches meet the real load at once.
   if (settings.dynamics != 0 || !compensates(stamp, settings.fade)) return;
   const std::size_t n = links_.size();
   s.procedural.q.resize(n);

@@ -13,8 +13,8 @@ Quat difference(const Quat& a, const Quat& b) {
   return {a.w - b.w, a.x - b.x, a.y - b.y, a.z - b.z};
 }
 
-// Vector part of 2 change * conj(q): the spin where `change` is q's rate, and the spin's own rate
-// where it is q's second rate, because rate * conj(rate) has no vector part.
+// Returns the vector part of 2 change * conj(q): the angular velocity if `change` is the rate of q,
+// its rate if `change` is the second rate, because rate * conj(rate) has no vector part.
 Vec3 spinOf(const Quat& change, const Quat& q) {
   const Quat product = change * conjugate(q);
   return {2.0 * product.x, 2.0 * product.y, 2.0 * product.z};
@@ -26,14 +26,14 @@ JointAngles bendOf(const Tree& tree, int branch, const Vec3& air, double weight)
                    tree.joint_model);
 }
 
-// `share` of the way from what is procedural to what the modes say.
+// Blends procedural angles with modal ones.
 JointAngles inModes(const ModalSamples& modal, int branch, std::size_t look, double share,
                     const JointAngles& procedural) {
   return interpolate(procedural, bendOf(modal.modal_state->modes(), modal.amplitude[look], branch),
                      share);
 }
 
-// In this air, and in the modes.
+// Returns the angles in this wind and in the modes.
 JointAngles anglesAt(const ProceduralMotion& motion, int branch, std::size_t look,
                      const Vec3& air) {
   const Branch& b = motion.tree.skeleton.branches[static_cast<std::size_t>(branch)];
@@ -45,7 +45,7 @@ JointAngles anglesAt(const ProceduralMotion& motion, int branch, std::size_t loo
   return out;
 }
 
-// Central differences.
+// Computes central differences.
 JointMotion motionOf(const JointAngles& a, const JointAngles& b, const JointAngles& c) {
   const double twice = 2.0 * STEP, square = STEP * STEP;
   return {b,

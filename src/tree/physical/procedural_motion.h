@@ -12,7 +12,7 @@
 
 namespace vegetation_sim::forest {
 
-/// Amplitudes of a tree in modes at the three looks; keeps its memory from look to look.
+/// Modal amplitudes of a tree at the three stamps of a wind window. Reuses its memory.
 struct ModalSamples {
   const ModalTreeState* modal_state{nullptr};
   std::array<std::vector<double>, 3> amplitude;
@@ -20,35 +20,34 @@ struct ModalSamples {
   void sampleAt(const ModalTreeState& at, Nanoseconds stamp);
 };
 
-/// Motion of a joint that is not physical at a stamp, by central differences: bends [rad], rates
-/// [rad/s], accelerations [rad/s^2].
+/// Motion of a joint that is not physical, by central differences: bends [rad], rates [rad/s],
+/// accelerations [rad/s^2].
 struct JointMotion {
   JointAngles q, rate, acceleration;
 };
 
-/// Motion of one tree around a stamp, procedural or in modes: window and level's weights at its
-/// three looks.
+/// Motion of one tree around a stamp, procedural or modal, from a wind window and the weights of
+/// its level at three stamps.
 struct ProceduralMotion {
   const Tree& tree;
   const WindWindow& wind;
   std::array<Weights, 3> weights;
-  const ModalSamples* modal;  // none: all procedural
+  const ModalSamples* modal;  // null: all procedural
 
   ProceduralMotion(const Tree& tree, const WindWindow& wind, const LevelState& level,
                    const MotionLaw& law, const ModalSamples* modal = nullptr);
-  /// Weight of the modes at a look.
+  /// Returns the weight of the modes at one of the three stamps.
   double modalShare(std::size_t look) const { return modal ? modalWeight(weights[look]) : 0.0; }
-  /// Share of the motion that no law of motion brings about: what compensation starts at (E1).
+  /// Returns the share of the motion that no dynamics produces: the initial compensation (E1).
   double missing() const { return 1.0 - modalShare(1); }
   JointMotion at(int branch) const;
 };
 
-/// Motion of many branches of a tree at once: to the bit what ProceduralMotion gives one by one.
-/// Keeps its memory from look to look.
+/// Motion of many branches of a tree at once, with the bits of ProceduralMotion. Reuses its memory.
 class ProceduralMotions {
  public:
   void update(const ProceduralMotion& motion, const std::vector<int>& branches);
-  /// Of branches[i], at look 0, 1 or 2.
+  /// Returns the angles of branches[i] at stamp 0, 1 or 2 of the window.
   const JointAngles& angles(std::size_t i, std::size_t look) const { return angles_[look][i]; }
   JointMotion at(std::size_t i) const;
 
@@ -57,7 +56,7 @@ class ProceduralMotions {
   std::array<std::vector<JointAngles>, 3> angles_;
 };
 
-/// How a branch moves that is not physical itself but bears what is (S1-35), tree's frame.
+/// Motion of a branch that is not physical but carries physical ones (S1-35), tree's frame.
 struct CarrierMotion {
   Pose pose;
   Vec3 spin{Vec3::Zero()};          ///< [rad/s]
@@ -65,10 +64,10 @@ struct CarrierMotion {
   Vec3 spin_rate{Vec3::Zero()};     ///< [rad/s^2]
   Vec3 acceleration{Vec3::Zero()};  ///< [m/s^2]
 };
-/// @param[in] carriers rising; with each branch all that bear it.
-/// @param courses their angles, looked at.
+/// @param[in] carriers sorted; all ancestors of each are included.
+/// @param motions angles of the carriers, updated.
 /// @param[out] out [carriers]
-/// @param scratch [3 * carriers] poses, kept from call to call.
+/// @param scratch [3 * carriers] poses, reused from call to call.
 void moveCarriers(const Tree& tree, const std::vector<int>& carriers,
                   const ProceduralMotions& motions, std::vector<Pose>& scratch,
                   std::vector<CarrierMotion>& out);

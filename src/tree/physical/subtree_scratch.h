@@ -10,7 +10,7 @@
 
 namespace vegetation_sim::forest {
 
-/// The air around a tree, as its level tells it, and its modes where it sways in them.
+/// Wind on a tree, its level, and its modal state if it has one.
 struct TreeWind {
   const wind::Field& field;
   LevelState level;
@@ -18,13 +18,13 @@ struct TreeWind {
   const ModalTreeState* modal_state{nullptr};
 };
 
-/// Memory that stepping needs and nothing else: what is in it between steps does not matter. One
-/// serves all the trees of a forest, so that a step allocates nothing.
+/// Scratch memory of steps; its content between steps does not matter. One instance serves all
+/// trees of a forest, so that a step does not allocate.
 struct SubtreeScratch {
   WindWindow window;
   ModalSamples modal;
   WindSampler air;
-  std::vector<Vec3> arms;     // from joints to where the air grips
+  std::vector<Vec3> arms;     // from joints to centres of drag
   ProceduralMotions motions;  // of links
   ProceduralMotions carrier_motions;
   physics::ChainStepper stepper;
@@ -40,14 +40,14 @@ struct SubtreeScratch {
   physics::Kinematics start;  // of a step with contacts
   std::vector<Vec3> places;   // of points that springs hold
 
-  std::size_t replaced{0};  ///< steps of a tree that another integrator had to take
+  std::size_t replaced{0};  ///< tree steps that another integrator had to take
 
-  /// Looks at a stamp, unless that is where it looks already.
+  /// Moves the wind window to a stamp, unless it is there already.
   const WindWindow& sampleAt(const wind::Field& field, Nanoseconds stamp) {
     if (window.stamp() != stamp) window.sampleAt(field, stamp);
     return window;
   }
-  /// The motion of a tree around a stamp, where it is not physical.
+  /// Returns the motion of the parts of a tree that are not physical.
   ProceduralMotion motionOf(const Tree& tree, const TreeWind& around, Nanoseconds stamp) {
     if (around.modal_state) modal.sampleAt(*around.modal_state, stamp);
     return {tree, sampleAt(around.field, stamp), around.level, around.law,

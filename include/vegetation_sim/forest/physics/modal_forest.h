@@ -15,54 +15,55 @@
 
 namespace vegetation_sim::forest {
 
-/// Where trees in modes stand: nothing of it is kept.
+/// The surroundings of modal trees. ModalForest keeps none of it.
 struct ModalContext {
   const Layout& layout;
   const terrain::HeightMap& terrain;
   const wind::Field& wind;
 };
 
-/// The trees of a forest that modal_state in modes. Forest and replica step them with this same
-/// code, so that between key frames nobody needs to be told of amplitudes. A value: copy it to
-/// save.
+/// The modal states of the trees of a forest. Forest and replica step them with the same code, so
+/// amplitudes are sent in key frames only. A value: a copy is a snapshot.
 class ModalForest {
  public:
-  /// Wind is looked at so often [Hz]; a tick takes the nearest whole number of such steps.
+  /// Rate of modal steps [Hz]; a tick takes the nearest whole number of steps.
   static constexpr int RATE = 60;
 
-  /// From the last tick to this one. After a gap that is not stepped through, and when time has
-  /// gone back, every tree starts again on its procedural motion; so does one that stands
-  /// elsewhere.
+  /// Steps from the last tick to this one. All trees restart on their procedural motion after a gap
+  /// that is not stepped through or when time has gone back; so does a tree whose state has another
+  /// stamp.
   void advance(const wind::Field& wind, Nanoseconds from, Nanoseconds to);
-  /// Takes a tree up, on its procedural motion: finds its modes, a few milliseconds; fine ones take
-  /// some tens. One in plain modes goes on in fine ones, which can do all that it does.
+  /// Starts a tree on its procedural motion. Computing its modes takes a few milliseconds, fine
+  /// modes some tens. A tree in plain modes continues in fine ones.
   void addTree(const ModalContext& at, std::uint32_t tree, bool fine, Nanoseconds stamp);
-  /// Fine modes take longer to find than a tick: one tree gets some every 0.1 s, for who draws too.
+  /// Returns true if one tree may get fine modes in this tick. Computing them takes longer than a
+  /// tick, so one tree gets them every 0.1 s; replicas keep the same pace.
   static bool fineDue(Nanoseconds from, Nanoseconds to) {
     constexpr Nanoseconds PAUSE = NANOSECONDS_PER_SECOND / 10;
     return from / PAUSE != to / PAUSE;
   }
-  /// Whether a state of so many modes can be taken over at once, or without finding fine ones.
+  /// Returns true if a state of so many modes can be restored without computing fine modes.
   bool isReady(std::uint32_t tree, std::size_t modes) const;
-  /// A tree whose fine modes are to be found; until a state of it is restored it has none.
+  /// Queues a tree for the computation of its fine modes; it has no modal state until one is
+  /// restored.
   void queueFineModes(std::uint32_t tree);
-  /// Finds the fine modes of one awaited tree, for a state that is told later.
+  /// Computes the fine modes of one queued tree, for a state that arrives later.
   void prepareNext(const ModalContext& at);
-  /// Takes over a state that was told; modes that are held or prepared are not found again.
+  /// Sets the state of a tree. Modes that are held or prepared are not computed again.
   /// @throws InvalidInput for a tree without modes, or with another number of them.
   void restore(const ModalContext& at, std::uint32_t tree, const physics::ModalState& state,
                Nanoseconds stamp);
-  /// Drops the trees whose modes have no weight any more, nor will have.
+  /// Removes the trees whose modes have lost all weight.
   void removeFaded(const LevelMap& levels, Nanoseconds stamp, double transition);
   void retain(const std::set<std::uint32_t>& trees);
   void clear();
 
-  /// Nullptr: not in modes.
+  /// Returns nullptr if the tree has no modal state.
   const ModalTreeState* find(std::uint32_t tree) const;
   const std::map<std::uint32_t, ModalTreeState>& modal_states() const { return modal_states_; }
-  std::size_t bytes() const;  ///< of all that was found
-  /// Trees that bend farther than modes hold (physics::MODAL_LIMIT). They saturate: joints stop at
-  /// their limit, and nothing else is as near to the full chain at this cost.
+  std::size_t bytes() const;  ///< of all computed modes
+  /// Number of trees that bend farther than modes are valid (physics::MODAL_LIMIT). Their bends are
+  /// limited as those of other joints are.
   std::size_t countStrained() const;
   void addTo(Hash& hash) const;
 
@@ -73,9 +74,9 @@ class ModalForest {
   void retainIf(const Wanted& wanted);
 
   std::map<std::uint32_t, ModalTreeState> modal_states_;
-  std::map<std::uint32_t, ModalTreeState> prepared_;  // found, not told of yet
-  std::set<std::uint32_t> awaited_;                   // still to be found
-  std::vector<wind::Instant> instants_;               // scratch from here on
+  std::map<std::uint32_t, ModalTreeState> prepared_;  // computed before their state arrives
+  std::set<std::uint32_t> awaited_;                   // trees whose fine modes are not computed yet
+  std::vector<wind::Instant> instants_;               // scratch, as is the next
   std::vector<ModalLoad> loads_;
 };
 

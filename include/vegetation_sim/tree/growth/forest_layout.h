@@ -11,9 +11,9 @@
 
 namespace vegetation_sim::forest {
 
-/// All that is permanent of one tree (S1-04).
+/// The permanent data of one tree (S1-04).
 struct TreeSeed {
-  std::uint64_t seed{0};        ///< keys every random number of the tree
+  std::uint64_t seed{0};        ///< key of all random numbers of the tree
   std::uint16_t species{0};     ///< index into Layout::species
   Vec3 position{Vec3::Zero()};  ///< foot of the trunk, z above the terrain [m]
   double yaw{0.0};              ///< [rad]
@@ -21,7 +21,7 @@ struct TreeSeed {
 };
 static_assert(sizeof(TreeSeed) < 1024, "S1-05: a unique tree takes less than 1 kB");
 
-/// A square of forest as a law: tree i of it is a pure function of this record and i.
+/// A square of forest by rule: tree i is a pure function of this record and i.
 struct Tile {
   std::uint32_t first_tree{0}, count{0};
   std::uint64_t seed{0};
@@ -40,10 +40,10 @@ enum class TransitionShape : int { SMOOTH = 0, LINEAR = 1 };
 
 /// Bounds of the scale of trees in tiles.
 constexpr double SMALLEST_TILED_SCALE = 0.7, LARGEST_TILED_SCALE = 1.3;
-/// Most trees of a layout.
+/// Maximum number of trees of a layout.
 constexpr std::uint32_t MOST_TREES = 1u << 24;
 
-/// How every tree of a layout moves; part of the law that replicas share.
+/// How every tree of a layout moves. Replicas share it.
 struct MotionLaw {
   JointModel joint_model{JointModel::SWING};
   Gain gain{Gain::COMPLIANCE};
@@ -53,38 +53,40 @@ struct MotionLaw {
 };
 void describe(FieldVisitor& visitor, MotionLaw& law);
 
-/// The forest as a law: who holds it can rebuild every tree.
+/// A forest, from which every tree can be rebuilt.
 struct Layout {
   std::vector<Species> species;
   MotionLaw motion;
-  std::string terrain;            ///< file of the height map; empty: flat
-  std::uint64_t terrain_hash{0};  ///< of its samples, so that replicas know they stand on the same
-  std::vector<TreeSeed> trees;    ///< ids 0, 1, 2 ...
-  std::vector<Tile> tiles;        ///< ids go on
+  std::string terrain;  ///< file of the height map; empty: flat
+  std::uint64_t terrain_hash{
+      0};  ///< of its samples, so that replicas check that they stand on the same terrain
+  std::vector<TreeSeed> trees;  ///< ids 0, 1, 2 ...
+  std::vector<Tile> tiles;      ///< their ids follow
 
   std::uint32_t treeCount() const;
   std::uint64_t hash() const;
 };
 
-/// Adds a fault for whatever is wrong: ranges, unknown species, ids with gaps, more than 2^24
-/// trees.
+/// Adds a fault for each value out of range, unknown species, gap in ids, and for more than
+/// MOST_TREES trees.
 void check(const Layout& layout, Faults& faults);
 
-/// The seed of a tree. @throws std::out_of_range for an unknown id.
+/// Returns the seed of a tree. @throws std::out_of_range for an unknown id.
 TreeSeed seedOf(const Layout& layout, std::uint32_t tree);
 TreeSeed seedInTile(const Tile& tile, std::uint32_t index);
-/// Trees of a tile that may stand within `radius` of a point, rising: one in each cell of a square
-/// grid, row by row, so others are not looked at.
+/// Returns the trees of a tile that may stand within `radius` of a point, sorted. A tile has one
+/// tree in each cell of a square grid, row by row, so other cells are not visited.
 std::vector<std::uint32_t> findTreesInTile(const Tile& tile, const Vec3& point, double radius);
 
-/// Ids of all trees that may reach into a ball, rising. Only the bounds of sizes are compared.
+/// Returns the ids of all trees that may reach into a ball, sorted. It compares bounds of sizes
+/// only.
 std::vector<std::uint32_t> findTreesNear(const Layout& layout, const terrain::HeightMap& terrain,
                                          const Vec3& centre, double radius);
 
-/// Foot of a tree in the world [m]: its seed's position on the terrain.
+/// Returns the foot of a tree in the world [m]: the position of its seed on the terrain.
 Vec3 footOf(const TreeSeed& seed, const terrain::HeightMap& terrain);
 
-/// Reads the `forest` section of a scenario. Relative file names count from `folder`.
+/// Reads the `forest` section of a scenario. File names are relative to `folder`.
 Layout readLayout(YamlSection section, const std::string& folder, std::uint64_t seed,
                   Faults& faults);
 

@@ -10,21 +10,22 @@ namespace vegetation_sim::forest {
 
 /// `beam`: k = E I / l, bar inertia (E13). `paper`: k ~ d^2 / l, m ~ l d^2.
 enum class Material : int { BEAM = 0, PAPER = 1 };
-/// What fades out after promotion: the torque that keeps the procedural motion (E1), or only its
-/// inertial part, as printed.
+/// Selects the torque that fades out after promotion: all that keeps the procedural motion (E1), or
+/// only its inertial part, as printed.
 enum class WindForcing : int { COMPENSATED = 0, PAPER = 1 };
-/// Which branches go physical: those that the load deflects (N12), or all down to the depth of the
-/// loaded one (S1-43).
+/// Selects the branches that become physical: those that the load deflects (N12), or all down to
+/// the depth of the loaded one (S1-43).
 enum class Promotion : int { INFLUENCE = 0, DEPTH = 1 };
 
-/// How the default, the midpoint of full chains, is computed: many joints at once in single
-/// precision, or one by one in double, the reference. Everything else is always double.
+/// Selects how the default, the midpoint rule of full chains, is computed: many joints at once in
+/// single precision, or one by one in double precision as a reference. All other methods use double
+/// precision.
 enum class Precision : int { SINGLE = 0, DOUBLE = 1 };
 
 /// A longer time between ticks is not stepped through.
 constexpr Nanoseconds LONGEST_GAP = NANOSECONDS_PER_SECOND;
 
-/// How branches are physical, and which.
+/// Which branches become physical, and how they are stepped.
 struct PhysicsSettings {
   int dynamics{0};    ///< physics::Dynamics
   int integrator{0};  ///< physics::Integrator
@@ -33,7 +34,7 @@ struct PhysicsSettings {
   WindForcing wind_forcing{WindForcing::COMPENSATED};
   Promotion promotion{Promotion::INFLUENCE};
   double influence_tolerance{0.005};  ///< branches that a load moves less stay procedural [m]
-  int most_branches{20000};           ///< physical at once, in all trees
+  int most_branches{20000};           ///< maximum number of physical branches in all trees
   double fade{0.5};                   ///< from the procedural load to the real one [s]
   double linger{4.0};                 ///< longest wait for a released branch to calm down [s]
   double blend{1.5};                  ///< from physical to procedural (S1-37) [s]

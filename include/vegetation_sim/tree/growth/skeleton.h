@@ -10,26 +10,26 @@
 
 namespace vegetation_sim::forest {
 
-/// One joint and the straight piece of wood that it carries; several make a limb.
+/// One joint and the straight piece of wood that it carries; a limb has several.
 struct Branch {
-  int parent{-1};           ///< index of the bearing branch, below the own; -1: the ground
-  int next{-1};             ///< index of the branch that goes on the same limb; -1: its tip
+  int parent{-1};           ///< index of the parent, below the own index; -1: the ground
+  int next{-1};             ///< index of the next branch of the same limb; -1: none
   int depth{0};             ///< recursion depth of its limb: 0 is the trunk
-  double h{0.0};            ///< where it sprouts along its parent [m]
+  double h{0.0};            ///< position of its joint along its parent [m]
   double theta{0.0};        ///< rest turn about the parent's z, paper 1 fig. 1 [rad]
   double phi{0.0};          ///< rest turn about the own y [rad]
   double length{0.0};       ///< [m]
   double base_radius{0.0};  ///< [m]
   double tip_radius{0.0};   ///< [m]
-  double roll{0.0};         ///< turn about z that undoes the twist along the limb, for meshes [rad]
-  int leaves{0};            ///< leaf clusters on it
-  std::uint64_t key{0};     ///< of its random numbers
-  Quat turn;                ///< Rz(theta) Ry(phi): its joint at rest, in its parent's frame
-  Pose rest;  ///< base at rest in the tree's frame: origin at the foot, axes as the world's
+  double roll{0.0};      ///< turn about z that removes the twist along the limb, for meshes [rad]
+  int leaves{0};         ///< leaf clusters on it
+  std::uint64_t key{0};  ///< key of its random numbers
+  Quat turn;             ///< Rz(theta) Ry(phi): its joint at rest, in its parent's frame
+  Pose rest;             ///< at rest, in the tree's frame: origin at the foot, axes as the world's
 };
 
-/// Branches of one depth and one place in their limbs: none is another's parent, so all can be
-/// posed at once. Their parents are in earlier groups.
+/// Branches of one depth and one position in their limbs. None is a parent of another, so all can
+/// be posed at once; their parents are in earlier groups.
 struct Group {
   int begin{0}, end{0}, depth{0};
 };
@@ -47,13 +47,14 @@ struct Skeleton {
   std::uint64_t hash() const;
 };
 
-/// Grows a tree: a pure function of seed and species, the same bits everywhere (S1-04, S1-07).
+/// Grows a tree. A pure function of seed and species, with the same bits on every machine (S1-04,
+/// S1-07).
 Skeleton grow(const TreeSeed& seed, const Species& species);
 
-/// Rotation Rz(theta) Ry(phi) of a child in its parent's frame.
+/// Returns Rz(theta) Ry(phi), the rotation of a child in the frame of its parent.
 Quat restRotation(double theta, double phi);
 
-/// End of a branch's axis in the frame of `pose`.
+/// Returns the end of a branch's axis in the frame of `pose`.
 Vec3 tipOf(const Branch& branch, const Pose& pose);
 
 }  // namespace vegetation_sim::forest

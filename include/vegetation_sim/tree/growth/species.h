@@ -10,51 +10,53 @@
 
 namespace vegetation_sim::forest {
 
-/// Most recursion depths of a tree: trunk, limbs, ... twigs.
+/// Maximum number of recursion depths of a tree: trunk, limbs, ... twigs.
 constexpr int MAX_DEPTHS = 6;
-/// Most joints of a tree; growth stops there.
+/// Maximum number of joints of a tree; growth stops there.
 constexpr int MAX_BRANCHES = 16384;
 
-/// How the length of limbs varies along the limb that bears them.
+/// How the length of limbs varies along their parent.
 enum class Crown : int { EVEN = 0, CONICAL = 1, ROUND = 2, FLAME = 3 };
 enum class LeafShape : int { BROAD = 0, NEEDLE = 1, SMALL = 2, LONG = 3 };
 
-/// How limbs of one recursion depth grow. The trunk (depth 0) ignores what relates to a bearer.
+/// Growth rules of the limbs of one recursion depth. The trunk (depth 0) ignores those that refer
+/// to a parent.
 struct LimbRule {
   double children{1.0};          ///< limbs per bearing limb
-  int whorl{1};                  ///< limbs that sprout at one height
-  double start{0.2}, end{1.0};   ///< bearing part of the bearer
-  double length{0.5};            ///< over the bearer's length
+  int whorl{1};                  ///< limbs at the same height
+  double start{0.2}, end{1.0};   ///< part of the parent that has children, as fractions
+  double length{0.5};            ///< relative to the parent's length
   double length_variation{0.1};  ///< +- fraction
   int crown{0};                  ///< Crown
-  double radius{0.5};            ///< over the bearer's radius where it sprouts
+  double radius{0.5};            ///< relative to the parent's radius at the joint
   double taper{0.4};             ///< tip radius / base radius
-  double angle_low{1.0};         ///< to the bearer, at the low end of its bearing part [rad]
+  double angle_low{1.0};         ///< to the parent, at the low end of its part with children [rad]
   double angle_high{0.7};        ///< the same at its upper end [rad]
   double angle_variation{0.1};   ///< +- [rad]
-  double rise{0.0};              ///< total turn towards the sky; negative: droops [rad]
+  double rise{0.0};              ///< total turn upwards; negative: downwards [rad]
   double wander{0.2};            ///< amplitude of the noise in direction, per limb [rad]
   int segments{2};               ///< joints per limb
   double leaves{0.0};            ///< leaf clusters per limb
 };
 
-/// What trees of one kind share: growth rules, wood, leaves. One file in config/species each.
+/// Properties of all trees of a species: growth rules, wood, leaves. One file in config/species
+/// each.
 struct Species {
   std::string name;
   double height{8.0};             ///< of the trunk [m]
   double height_variation{0.15};  ///< +- fraction
   double trunk_radius{0.15};      ///< at the ground, for `height` [m]
-  double twig_radius{0.004};      ///< no wood is thinner [m]
-  double slenderness{90.0};       ///< no limb is longer than this many of its base radii
+  double twig_radius{0.004};      ///< minimum radius of wood [m]
+  double slenderness{90.0};       ///< maximum length of a limb in its base radii
   double lean{0.03};              ///< largest lean of the trunk [rad]
-  double angle_thin{1.4};  ///< largest angle to the bearer for a limb of no relative diameter [rad]
+  double angle_thin{1.4};  ///< largest angle to the parent for a limb of relative diameter 0 [rad]
   double angle_thick{0.35};      ///< the same for relative diameter 1 (S1-11) [rad]
   double noise{1.0};             ///< amplitude of all growth noise; 0: the bare rules (S1-12)
   double youngs_modulus{8e9};    ///< [Pa]
   double density{900.0};         ///< [kg/m^3]
-  double damping_ratio{0.1};     ///< of each joint against the inertia of all that it bears
+  double damping_ratio{0.1};     ///< of each joint, for the inertia of its sub-tree
   double drag_coefficient{0.3};  ///< of branches and leaves, sheltering included
-  double reference_speed{8.0};   ///< wind at which linear drag equals quadratic drag [m/s]
+  double reference_speed{8.0};   ///< wind speed at which linear and quadratic drag are equal [m/s]
   double leaf_size{0.35};        ///< edge of a leaf cluster [m]
   double leaf_area{0.02};        ///< drag area of a leaf cluster [m^2]
   double leaf_mass{0.004};       ///< of a leaf cluster [kg]
@@ -69,7 +71,8 @@ struct Species {
   int depths() const { return static_cast<int>(limbs.size()); }
 };
 
-/// The designer's live factors on every species (S1-10); 1 leaves the species as it is.
+/// Factors on every species that a user may change at run time (S1-10); 1 leaves the species as it
+/// is.
 struct Design {
   double size{1.0}, children{1.0}, leaves{1.0}, angle{1.0}, noise{1.0};
 };
@@ -78,26 +81,26 @@ void describe(FieldVisitor& visitor, LimbRule& rule);
 void describe(FieldVisitor& visitor, Species& species);
 void describe(FieldVisitor& visitor, Design& design);
 
-/// Largest angle [rad] between a limb and its bearer, for their ratio of diameters: falls linearly
-/// from angle_thin to angle_thick (S1-11).
+/// Returns the largest angle [rad] between a limb and its parent for their ratio of diameters; it
+/// falls linearly from angle_thin to angle_thick (S1-11).
 double largestAngle(const Species& species, double relative_diameter);
 
-/// Upper bound of the distance of any tip from the foot of a tree of scale 1 [m]: limbs reach at
-/// most as far as the longest chain of lengths, which check() bounds through `length`.
+/// Returns an upper bound of the distance of any tip from the foot of a tree of scale 1 [m]: limbs
+/// reach at most as far as the longest chain of lengths, which check() bounds through `length`.
 double sizeBound(const Species& species);
 
-/// Number of joints to expect of a tree of scale 1.
+/// Returns the expected number of joints of a tree of scale 1.
 double expectedBranches(const Species& species);
 
-/// Adds a fault for whatever is wrong with a species.
+/// Adds a fault for each invalid value of a species.
 void check(Species species, Faults& faults);
 
-/// Species with the designer's factors applied, kept inside the ranges.
+/// Returns the species with the factors applied, clamped to the ranges.
 Species applyDesign(const Species& species, const Design& design);
 
-/// Reads a species from its YAML. Faults name path and key.
+/// Reads a species from YAML. Faults name path and key.
 Species readSpecies(YamlSection section);
-/// The YAML of a species: readSpecies gives the same species back, to the bit.
+/// Returns the YAML of a species, from which readSpecies returns a species with the same bits.
 std::string writeSpecies(const Species& species);
 /// @throws InvalidInput with all faults.
 Species parseSpecies(const std::string& yaml, const std::string& name);

@@ -10,36 +10,36 @@
 
 namespace vegetation_sim::forest {
 
-/// What a tree gets: its slowest modes, vectors for each horizontal direction of the wind, and for
-/// the vertical. In crowns wind moves many twigs alike, which no slow mode does: vectors tell more
-/// than as many modes (docs/modal.md).
+/// Numbers of oscillators of a tree: its slowest modes, load-dependent vectors for each horizontal
+/// direction of the wind, and vertical ones. Wind moves many twigs of a crown alike, which no slow
+/// mode does, so vectors represent more than as many modes would (docs/modal.md).
 struct ModalDepth {
   int modes{8}, sideways{5}, upwards{1};
-  bool quick{true};  ///< one more for each horizontal direction: how the tree gives way at once
+  bool quick{true};  ///< one more for each horizontal direction, of the immediate response
 
-  /// Most oscillators that it makes: a pair of modes is never cut.
+  /// Maximum number of oscillators; a pair of modes is never split.
   constexpr std::size_t most() const {
     return static_cast<std::size_t>(modes + 1 + 2 * (sideways + (quick ? 1 : 0)) + upwards);
   }
 };
-/// For trees of which these leave more than is tolerated. It spans all that ModalDepth{} does.
+/// For trees whose error with ModalDepth{} exceeds the tolerance. Spans all that ModalDepth{} does.
 constexpr ModalDepth FINE_MODES{40, 9, 1, true};
 
-/// A point of a crown whose wind stands for that on the wood and leaves around it.
+/// A point of a crown; its wind stands for that on the wood and leaves around it.
 struct WindPoint {
   Vec3 position{Vec3::Zero()};  ///< at rest, tree's frame [m]
-  double drag{0.0};             ///< per air speed, of all that it stands for [kg/s]
+  double drag{0.0};             ///< per air speed, of the wood and leaves that it represents [kg/s]
 };
 
-/// Points of a crown, and what the air there does: modal load per velocity [points][3][row], the
-/// modes filled up to whole vectors [kg/s].
+/// Points of a crown and the modal load per velocity at each, [points][3][row], with modes padded
+/// to whole vectors [kg/s].
 struct WindPoints {
   std::vector<WindPoint> at;
   std::vector<double> push;
 };
 
-/// What looks at the wind of one tree keep from look to look: what each wave of the breezes does to
-/// it, which changes with the wave's phase only.
+/// Cache of the wind of one tree: the load of each wave of the breezes, of which only the phase
+/// changes.
 struct ModalAir {
   WindSampler sampler;
   std::vector<Vec3> waves;       ///< [turns/m]
@@ -52,33 +52,35 @@ struct ModalAir {
   }
 };
 
-/// A tree between procedural and physical (N13): its slowest modes, what a wind from each side
-/// moves beyond them, and how wind loads them. Computed from the grown tree in milliseconds, kept
-/// for near trees only; never changes. Trees whose joints bend (`swing`) only.
+/// Modal model of a tree (N13), between procedural and physical: its slowest modes, load-dependent
+/// vectors, and how wind loads them. It is computed from the grown tree in milliseconds, is kept
+/// for near trees only and is immutable. Only trees with `swing` joints have one.
 class ModalTree {
  public:
   /// @throws InvalidInput for a tree of another joint model.
   ModalTree(const Tree& tree, const Species& species, ModalDepth depth = {});
 
-  /// Load-dependent vectors follow the modes; dampers are the joints' and the air's.
+  /// Load-dependent vectors follow the modes; damping is that of joints and air.
   const physics::Modes& modes() const { return modes_; }
   const physics::RotationProbe& probe() const { return probe_; }
   std::size_t size() const { return modes_.size(); }
   std::size_t bytes() const;
 
-  /// Modal loads [modes] of a wind. Linear drag: breezes on all of the crown, the rest at
-  /// a few points; quadratic: all there. `air`: of this tree only.
+  /// Computes the modal loads [modes] of a wind. With linear drag, breezes act on the whole crown
+  /// and other winds at the coarse points; with quadratic drag, all act there. `air` belongs to
+  /// this tree.
   void loadOf(const wind::Instant& wind, ModalAir& air, std::vector<double>& out) const;
-  /// The air that turns levers as the tree bends, at the middle of the crown [m/s].
+  /// Returns the wind at the middle of the crown, which acts on the lever arms as the tree bends
+  /// [m/s].
   Vec3 airOn(const wind::Instant& wind) const;
-  /// Adds to modal loads what bending changes in them in a wind whose airOn() is `velocity`, to the
-  /// first order. What is bent beyond MODAL_LIMIT counts as bent so far, whatever the wind: else a
-  /// storm would bend on what it bends.
+  /// Adds the first-order change of modal loads by bending, in a wind whose airOn() is `velocity`.
+  /// Bends beyond MODAL_LIMIT count as that limit; otherwise the load of a storm would grow with
+  /// the bend that it causes.
   void bendLevers(const Vec3& velocity, const std::vector<double>& amplitude, ModalAir& air,
                   std::vector<double>& load) const;
-  /// Bends of all joints for amplitudes, or their rates for rates; not limited.
+  /// Returns the bends of all joints for amplitudes, or their rates for rates; not limited.
   std::vector<JointAngles> bendsOf(const std::vector<double>& amplitude) const;
-  /// Amplitudes [modes] that come nearest to bends, in the energy of the springs.
+  /// Returns the amplitudes [modes] nearest to the bends in the energy norm of the springs.
   std::vector<double> amplitudesOf(const std::vector<JointAngles>& bends) const;
 
  private:
@@ -91,17 +93,17 @@ class ModalTree {
   double reference_speed_;
   physics::Modes modes_;
   physics::RotationProbe probe_;
-  WindPoints coarse_, fine_;       // for all winds, for waves
-  std::vector<double> uniform_;    // [3][row] load per velocity of the same air everywhere [kg/s]
+  WindPoints coarse_, fine_;       // for all winds; for waves
+  std::vector<double> uniform_;    // [3][row] load per velocity of uniform wind [kg/s]
   std::vector<double> levers_;     // [modes][3][row] its change per amplitude
-  Vec3 middle_{Vec3::Zero()};      // of all drag, at rest, tree's frame [m]
+  Vec3 middle_{Vec3::Zero()};      // centre of all drag at rest, tree's frame [m]
   std::vector<double> stiffness_;  // [branches][2]
 };
 
-/// Bends within what joints do (E16): deviation()'s limit, exact up to the knee.
+/// Returns the bends within the limits of joints (E16): exact up to the knee.
 JointAngles limited(const JointAngles& bends);
 
-/// The links of a whole tree, one a branch, as physics has them when all are promoted.
+/// Returns the links of a whole tree, one per branch, as physics has them when all are promoted.
 std::vector<physics::Link> chainOf(const Skeleton& skeleton, const Species& species);
 
 }  // namespace vegetation_sim::forest

@@ -12,8 +12,8 @@
 
 namespace vegetation_sim::forest {
 
-/// Poses of many branches, structure of arrays, in the tree's frame. Entries beyond `count` are
-/// scratch.
+/// Poses of many branches as a structure of arrays, in the tree's frame. Entries from `count` on
+/// are scratch.
 struct BatchPoses {
   int count{0};                       ///< branches that hold a pose
   std::vector<float> x, y, z;         ///< [branches] base [m]
@@ -25,13 +25,13 @@ struct BatchPoses {
 /// Converts poses to single precision. Reuses the memory of `out`.
 void narrowPoses(const std::vector<Pose>& poses, BatchPoses& out);
 
-/// Branches begin to end of one depth; first_parent: of `begin`, if the parents of all stand side
-/// by side, else -1.
+/// Branches begin to end, of one depth. first_parent is the parent of `begin` if all parents are
+/// consecutive, else -1.
 struct BatchGroup {
   int begin{0}, end{0}, depth{0}, first_parent{-1};
 };
 
-/// Rest data of one tree, structure of arrays, in single precision; padded to the widest vector.
+/// Rest data of one tree as a structure of arrays in single precision, padded to the widest vector.
 struct BatchTree {
   std::vector<std::int32_t> parent;  ///< -1: the ground
   std::vector<float> h;              ///< along the parent [m]
@@ -50,18 +50,17 @@ struct BatchTree {
 using physics::BatchBends;
 
 /// Forward kinematics of one tree in single precision, many branches of one group at a time, in the
-/// widest instruction set of the processor. The same bits on each of them: only + - * / sqrt, no
-/// fused operations. Within 1e-5 of the tree's height of poseBranches.
+/// widest instruction set of the processor. The bits are the same in all of them: only + - * /
+/// sqrt, no fused operations. Within 1e-5 of the tree's height of poseBranches.
 class BatchPoser {
  public:
   explicit BatchPoser(const Tree& tree);
 
-  /// Poses the branches of the first `depths` recursion depths; those that carry no weight are
-  /// carried at rest by their parents. `wind` is relative to the tree's foot. `out` keeps its
-  /// memory from call to call.
+  /// Poses the branches of the first `depths` recursion depths; their parents carry branches
+  /// without weight at rest. `wind` is relative to the tree's foot. Reuses the memory of `out`.
   void pose(const wind::Instant& wind, const Weights& weights, int depths, BatchPoses& out) const;
 
-  /// Poses all branches for bends of all joints, limited as every joint's (E16); `swing` only.
+  /// Poses all branches for bends of all joints, limited as every joint (E16); `swing` only.
   void pose(const BatchBends& bends, BatchPoses& out) const;
 
   /// Bytes of permanent rest data per branch.

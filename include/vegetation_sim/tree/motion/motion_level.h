@@ -17,18 +17,18 @@ using vegetation_sim::pixelsPerMetre;
 using vegetation_sim::sees;
 using vegetation_sim::Viewpoint;
 
-/// The level above all depths: every joint moves, and as the tree's modes do (N13).
+/// The level above all depths: every joint moves, by the modes of the tree (N13).
 constexpr int MODAL_LEVEL = MAX_DEPTHS + 1;
-/// Weight of the joints of each recursion depth, 0 (fixed at rest) to 1 (moves); the last is that
-/// of the modes over the procedural motion.
+/// Weight of the joints of each recursion depth, from 0 (fixed at rest) to 1 (moves); the last is
+/// the weight of the modes against the procedural motion.
 using Weights = std::array<double, MODAL_LEVEL>;
 
 /// States of a tick are extrapolated by at most this time [s].
 constexpr double LONGEST_LOOK_AHEAD = 0.05;
 
 /// Level of one tree as a function of time (S1-21..S1-24). Joints of depth below `level` move.
-/// blend[d] is where depth d was at `since`; from there it rises to 1 where d < level and falls to
-/// 0 elsewhere, at constant speed, so a change of mind turns round wherever it stands.
+/// blend[d] is the blend of depth d at `since`; from there it rises to 1 where d < level and falls
+/// to 0 elsewhere at constant speed, so a new change starts from the current blend.
 struct LevelState {
   int level{0};
   Nanoseconds since{0};
@@ -37,20 +37,20 @@ struct LevelState {
   bool operator==(const LevelState& other) const {
     return level == other.level && since == other.since && blend == other.blend;
   }
-  /// Settled at a level for ever.
+  /// Returns a state without a transition.
   static LevelState settled(int level);
 };
 
-/// How far each depth is at `stamp`, before shaping: alpha of paper 1.
+/// Returns the blend of each depth at `stamp` before shaping: alpha of paper 1.
 Weights blendAt(const LevelState& state, Nanoseconds stamp, double transition);
-/// Weights at `stamp`: alpha itself, or smoothStep(alpha), which starts and ends at rest.
+/// Returns the weights at `stamp`: alpha, or smoothStep(alpha), whose rate is 0 at both ends.
 Weights weightsAt(const LevelState& state, Nanoseconds stamp, const MotionLaw& law);
-/// Starts a change to `level` at `stamp`; continuous at any time.
+/// Starts a change to `level` at `stamp`. The blend is continuous.
 void setLevel(LevelState& state, int level, Nanoseconds stamp, double transition);
 bool isSettled(const LevelState& state, Nanoseconds stamp, double transition);
-/// Number of depths that carry any weight.
+/// Returns the number of depths with any weight.
 int movingDepths(const Weights& weights);
-/// Weight of the modes over the procedural motion.
+/// Returns the weight of the modes against the procedural motion.
 inline double modalWeight(const Weights& weights) {
   return weights[MAX_DEPTHS];
 }

@@ -11,7 +11,7 @@
 
 namespace vegetation_sim::forest {
 
-/// A grown tree with its responses: what the pose at any time is computed from.
+/// A grown tree with its responses, from which its pose at any time is computed.
 struct Tree {
   TreeSeed seed;
   Skeleton skeleton;
@@ -22,21 +22,21 @@ struct Tree {
   Vec3 foot{Vec3::Zero()};      ///< world [m]
 };
 
-/// Grows a tree of a layout. Pure: the same layout and id give the same tree, to the bit.
+/// Grows a tree of a layout. A pure function: the same layout and id give the same bits.
 Tree growTree(const Layout& layout, std::uint32_t id, const terrain::HeightMap& terrain);
-/// A tree of no layout: at the origin, its drag linear.
+/// Grows a tree at the origin, with linear drag.
 Tree growTree(const TreeSeed& seed, const Species& species, const MotionLaw& law);
 
-/// Deviation of each joint of the first `depths` depths (equations 1 and 2): independent of every
-/// other branch and of any step (S1-19). `wind` is relative to the foot.
+/// Returns the deviation of each joint (equations 1 and 2), independent of all other branches and
+/// of earlier steps (S1-19). `wind` is relative to the foot.
 std::vector<JointAngles> proceduralAngles(const Tree& tree, const wind::Instant& wind,
                                           const Weights& weights);
 
-/// Pose of every branch in the tree's frame (origin at the foot, axes as the world's): the plain
-/// version in double precision, reference of BatchPoser.
+/// Returns the pose of every branch in the tree's frame (origin at the foot, axes as the world's).
+/// The scalar version in double precision, reference of BatchPoser.
 std::vector<Pose> poseBranches(const Tree& tree, const wind::Instant& wind, const Weights& weights);
 
-/// Poses for given joint deviations.
+/// Returns the poses for given joint deviations.
 std::vector<Pose> forwardKinematics(const Tree& tree, const std::vector<JointAngles>& angles);
 
 }  // namespace vegetation_sim::forest

@@ -8,10 +8,10 @@
 
 namespace vegetation_sim::forest {
 
-/// Stamp of what has not happened.
+/// Stamp of an event that has not happened.
 constexpr Nanoseconds NEVER = -1;
 
-/// A physical joint as others need to know it (S1-34: four numbers).
+/// State of a physical joint for replicas (S1-34: four numbers).
 struct PromotedBranch {
   int branch{0};
   JointAngles q;             ///< bends about the own rest x and y [rad]
@@ -19,22 +19,23 @@ struct PromotedBranch {
   Nanoseconds blend{NEVER};  ///< start of its blend back to the procedural motion
 };
 
-/// Physical joints of one tree at a stamp, by rising branch.
+/// Physical joints of one tree at a stamp, sorted by branch.
 struct PromotedTree {
   Nanoseconds stamp{0};
   double duration{1.5};  ///< of blends [s]
   std::vector<PromotedBranch> branches;
 };
 
-/// Weight of the procedural motion, 0 to 1: smoothStep of the blend's progress (S1-37).
+/// Returns the weight of the procedural motion, 0 to 1: smoothStep of the progress of the blend
+/// (S1-37).
 double blendWeight(const PromotedBranch& branch, Nanoseconds stamp, double duration);
 
-/// Puts promoted joints over procedural ones: at the promoted tree's stamp exactly, up to
-/// LONGEST_LOOK_AHEAD later by their rates.
+/// Replaces procedural angles by promoted ones: exact at the stamp of `promoted`, extrapolated by
+/// rates over at most LONGEST_LOOK_AHEAD.
 void overlay(const PromotedTree& promoted, Nanoseconds stamp, std::vector<JointAngles>& angles);
 
-/// Pose of every branch in the tree's frame, physical ones and modes included (S1-35, N13).
-/// `modal_state`: none, the tree has no modes.
+/// Returns the pose of every branch in the tree's frame, physical joints and modes included (S1-35,
+/// N13). `modal_state` is null for a tree without modes.
 std::vector<Pose> poseBranches(const Tree& tree, const wind::Instant& wind, const Weights& weights,
                                const ModalTreeState* modal_state, const PromotedTree& promoted,
                                Nanoseconds stamp);

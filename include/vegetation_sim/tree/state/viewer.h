@@ -9,13 +9,13 @@
 
 namespace vegetation_sim::forest {
 
-/// An eye that asked for detail.
+/// A camera that determines levels of detail.
 struct Viewer {
   std::string id;
   Viewpoint eye;
-  Nanoseconds stamp{0};  ///< last heard
+  Nanoseconds stamp{0};  ///< of its last message
 };
-/// A viewer not heard for this long is forgotten.
+/// A viewer without a message for this long is removed.
 constexpr Nanoseconds VIEWER_LIFE = 3 * NANOSECONDS_PER_SECOND;
 
 }  // namespace vegetation_sim::forest
