@@ -88,7 +88,7 @@ std::uint64_t Layout::hash() const {
   FieldHasher hasher(out);
   MotionLaw law = motion;
   describe(hasher, law);
-  out.add(terrain_hash);  // what it is, not where this machine keeps it
+  out.add(terrain_hash);  // the content, not the path of the file
   for (const TreeSeed& seed : trees) {
     out.add(seed.seed);
     out.add(static_cast<std::uint64_t>(seed.species));
@@ -155,7 +155,8 @@ TreeSeed seedInTile(const Tile& tile, std::uint32_t index) {
 
 TreeSeed seedOf(const Layout& layout, std::uint32_t tree) {
   if (tree < layout.trees.size()) return layout.trees[tree];
-  // Tiles are in order of their first tree: the last one that starts at or before it.
+  // Tiles are sorted by their first tree: this finds the last one that starts at or before the
+  // tree.
   std::size_t low = 0, high = layout.tiles.size();
   while (low < high) {
     const std::size_t middle = (low + high) / 2;

@@ -10,7 +10,8 @@
 namespace vegetation_sim::forest {
 namespace {
 
-// Torque on a joint per air velocity v is `lever` x v: drag of the sub-tree times its arm [kg m/s].
+// Torque on a joint per wind velocity v is `lever` x v: drag of the sub-tree times its arm [kg
+// m/s].
 std::vector<Vec3> subtreeLevers(const Skeleton& skeleton, const Species& species) {
   const std::size_t n = skeleton.branches.size();
   std::vector<double> drag(n);

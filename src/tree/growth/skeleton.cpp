@@ -17,7 +17,7 @@ enum Draw : std::uint64_t { LENGTH, PLACE, AZIMUTH, ANGLE, COUNT, LEAVES, LEAN, 
 
 struct Limb {
   int bearer{-1};  // index among the limbs one depth below
-  int segment{0};  // of the bearer
+  int segment{0};  // segment of the parent
   double h{0.0};   // along that segment
   double theta{0.0}, phi{0.0};
   double length{0.0}, base_radius{0.0}, tip_radius{0.0};
@@ -65,7 +65,7 @@ class Grower {
  private:
   const LimbRule& rule(int depth) const { return species_.limbs[static_cast<std::size_t>(depth)]; }
 
-  // In [-1, 1], scaled by the species' noise: 0 leaves the bare rules (S1-12).
+  // Returns a value in [-1, 1] times the species' noise; 0 leaves the bare rules (S1-12).
   double vary(const Random& random, Draw draw) const {
     return std::min(1.0, species_.noise) * random.uniform(draw, -1.0, 1.0);
   }
@@ -87,7 +87,7 @@ class Grower {
     return static_cast<int>(rule(depth).leaves + 0.5 + 0.5 * vary(limb, LEAVES));
   }
 
-  // Limbs of the next depth, those of one bearer together. `grown`: branches there are so far.
+  // Adds the limbs of the next depth, grouped by parent. `grown` is the number of branches so far.
   std::vector<Limb> sprout(const std::vector<Limb>& bearers, int depth, std::size_t grown) const {
     std::vector<Limb> out;
     const LimbRule& next = rule(depth + 1);
@@ -171,7 +171,7 @@ class Grower {
     double b = step * 2.0 * gradientNoise(random.bits(ANGLE), 0.71 + 0.61 * s);
     const Vec3 up(
         axisX(before.rest.orientation).z(), axisY(before.rest.orientation).z(),
-        axisZ(before.rest.orientation).z());  // the sky in the frame of the segment before
+        axisZ(before.rest.orientation).z());  // upwards in the frame of the segment before
     const double across = std::sqrt(up.x() * up.x() + up.y() * up.y());
     if (across > 1e-9) {
       const double turn = r.rise / r.segments, left = arcTangent(across, up.z());

@@ -143,7 +143,8 @@ Species applyDesign(const Species& species, const Design& design) {
   FieldClamper clamper;
   describe(clamper, out);
   for (LimbRule& rule : out.limbs) describe(clamper, rule);
-  // Thin out rather than refuse a slider; ends, since without laterals a trunk is left.
+  // Reduces the number of children instead of rejecting a slider value; terminates, because without
+  // laterals a trunk remains.
   const double limit = 0.8 * MAX_BRANCHES;
   while (expectedBranches(out) > limit)
     for (LimbRule& rule : out.limbs) rule.children *= 0.95;

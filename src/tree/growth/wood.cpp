@@ -13,7 +13,7 @@ namespace {
 
 using Rows = std::array<Vec3, 3>;
 
-// Inertia of a body as seen in other axes: turn * inertia * turn^T, in written order.
+// Returns the inertia in other axes: turn * inertia * turn^T, in written order.
 std::array<double, 6> turned(const std::array<double, 6>& i, const Quat& turn) {
   const Vec3 x = axisX(turn), y = axisY(turn), z = axisZ(turn);
   const Rows rows{Vec3(i[0], i[3], i[4]), Vec3(i[3], i[1], i[5]), Vec3(i[4], i[5], i[2])};
@@ -38,7 +38,7 @@ Composite bar(const Branch& b, const Species& s) {
   return out;
 }
 
-// Where a branch's joint is in the axes of its parent, and how it is turned there at rest.
+// Position and rotation of a branch's joint in the axes of its parent at rest.
 Composite onParent(const Branch& b, const Composite& body) {
   return body.movedBy(b.turn, Vec3(0.0, 0.0, b.h));
 }
@@ -53,7 +53,7 @@ Composite Composite::movedBy(const Quat& turn, const Vec3& o) const {
   out.moment = m + mass * o;
   out.drag_moment = rotate(turn, drag_moment) + drag * o;
   out.inertia = turned(inertia, turn);
-  // Parallel axes: 2 (m.o) 1 - (m o^T + o m^T) + mass (o.o 1 - o o^T)
+  // Parallel axes: 2 (m.o) 1 - (m o^T + o m^T) + mass (o.o 1 - o o^T).
   const double spread = 2.0 * dot(m, o) + mass * dot(o, o);
   const auto cross = [&](int a, int b) { return m[a] * o[b] + o[a] * m[b] + mass * o[a] * o[b]; };
   for (int a = 0; a < 3; ++a) out.inertia[static_cast<std::size_t>(a)] += spread - cross(a, a);

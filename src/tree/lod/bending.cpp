@@ -10,8 +10,8 @@ namespace vegetation_sim::forest {
 namespace {
 
 constexpr double PROBE = 0.5;  // [m/s] weak enough that no joint nears its limit
-constexpr double BENT = 0.3;   // [rad] turn at which bending is looked at, well above rounding
-constexpr int ROUNDS = 20;     // leave a millionth of the way
+constexpr double BENT = 0.3;   // [rad] rotation at which bending is measured, well above rounding
+constexpr int ROUNDS = 20;     // [iterations] leave a millionth of the error
 
 wind::Instant steady(const Vec3& velocity) {
   wind::Instant out;
@@ -19,7 +19,7 @@ wind::Instant steady(const Vec3& velocity) {
   return out;
 }
 
-// Largest turn that gathers on a way from the ground, per speed.
+// Returns the largest accumulated rotation from the ground, per speed.
 double turn(const TreeModels& tiers, const Vec3& along) {
   std::vector<double> bends;
   for (const JointAngles& bend : allDepths(tiers.tree, steady(PROBE * along)))
@@ -31,7 +31,7 @@ double turn(const TreeModels& tiers, const Vec3& along) {
   return out / PROBE;
 }
 
-// Bends at which springs hold a steady wind, by going half of the way again and again.
+// Returns the bends at which springs balance a steady wind, by damped iteration.
 std::vector<JointAngles> balance(const TreeModels& tiers, const wind::Instant& air) {
   const std::size_t n = tiers.links.size();
   physics::ChainState state{std::vector<physics::Vec2>(n, physics::Vec2::Zero()), {}};
@@ -56,7 +56,7 @@ std::vector<JointAngles> balance(const TreeModels& tiers, const wind::Instant& a
   return out;
 }
 
-// The same of a tree in modes.
+// Does the same for a modal tree.
 std::vector<JointAngles> balance(const ModalTree& tree, const wind::Instant& air) {
   ModalAir kept;
   std::vector<double> rest, force, amplitude(tree.size(), 0.0);

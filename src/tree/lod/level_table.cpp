@@ -12,14 +12,14 @@ namespace vegetation_sim::forest {
 namespace {
 
 constexpr int SAMPLES = 6;        // trees measured per species
-constexpr int DIRECTIONS = 4;     // of the wind that each is measured in
+constexpr int DIRECTIONS = 4;     // wind directions per tree
 constexpr double PROBE = 0.5;     // [m/s] weak enough that no joint nears its limit
-constexpr double STRANGER = 1.1;  // trees that were not measured may move so much more
+constexpr double STRANGER = 1.1;  // margin for trees that were not measured
 
-// Scales of trees that are measured; a species' table at any other is interpolated.
+// Scales of measured trees; tables at other scales are interpolated.
 constexpr std::array<double, 11> GRID{0.05, 0.1, 0.2, 0.35, 0.6, 1.0, 1.6, 2.5, 4.0, 8.0, 20.0};
 
-// Last point of the grid at or below a scale that has one above it.
+// Returns the last grid point at or below a scale that has one above it.
 std::size_t gridIndex(double scale) {
   std::size_t i = 0;
   while (i + 2 < GRID.size() && GRID[i + 1] <= scale) ++i;

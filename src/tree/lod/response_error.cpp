@@ -21,8 +21,8 @@ using wind::GustSpectrum;
 constexpr int SAMPLES = 2;     // trees measured per species and scale
 constexpr double PROBE = 0.5;  // [m/s] weak enough that no joint nears its limit
 
-// A wave of the breezes, at unit speed: its parts along and across, and how it is spread
-// (wind/breeze.h). Of a wind that is everywhere the same, along only.
+// A wave of the breezes at unit speed: its parts along and across, and its spread (wind/breeze.h).
+// For uniform wind, along only.
 wind::Mode waveOf(double frequency, double slowness, const Vec3& along) {
   using wind::Breeze;
   const Vec3 across(-along.y(), along.x(), 0.0), up = Vec3::UnitZ();
@@ -47,7 +47,7 @@ struct TipSquares {
 };
 using Row = std::array<TipSquares, GustSpectrum::FREQUENCIES.size()>;
 
-/// A sample tree, and how all of its tiers answer a wave.
+/// A sample tree and the responses of all its tiers to a wave.
 class Sample {
  public:
   Sample(const Tree& tree, const Species& species)
@@ -81,7 +81,7 @@ class Sample {
   }
 
  private:
-  /// The tree in modes, and what it keeps of the waves.
+  /// The modal tree and its cache of waves.
   struct ModalTreeRig {
     ModalTree modes;
     ModalAir air;
@@ -161,7 +161,8 @@ class Sample {
   double w_{0.0};
 };
 
-// The tip that is farthest off in a breeze, whose power falls with f^(-2/3) a band of frequencies.
+// Returns the largest error of any tip in a breeze, whose power decreases with f^(-2/3) per band of
+// frequencies.
 std::size_t farthestIn(const Row& row, std::vector<double> TipSquares::*kind) {
   std::vector<double> sum((row[0].*kind).size(), 0.0);
   for (std::size_t f = 0; f < row.size(); ++f) {
@@ -171,8 +172,8 @@ std::size_t farthestIn(const Row& row, std::vector<double> TipSquares::*kind) {
   return static_cast<std::size_t>(std::max_element(sum.begin(), sum.end()) - sum.begin());
 }
 
-// A breeze swings at all frequencies at once, so that one tip is the farthest; air that moves as
-// one swings at one, and each has its own.
+// A breeze excites all frequencies at once, so one tip has the largest error; uniform wind has one
+// frequency, with a different tip at each.
 template <std::size_t N>
 void addRow(const Row& row, bool breeze, std::array<ErrorSquares, N>& out) {
   using Kinds = std::pair<std::vector<double> TipSquares::*, double ErrorSquares::*>;

@@ -18,11 +18,11 @@ constexpr double LARGEST_PREFERENCE = 1.6;
 
 enum Draw : std::uint64_t { KEPT, PLACE, AZIMUTH, ANGLE, TURN, SIZE, SHADE, FLUTTER };
 
-// How clusters of one shape stand on their branch [rad].
+// Orientation of clusters of one shape on their branch [rad].
 struct LeafHabit {
   double least_angle, largest_angle;  // between the midrib and the branch
   double turn;                        // +- about the midrib
-  double inner;                       // preference for innermost leaves when some are left out
+  double inner;                       // preference for innermost leaves when some are omitted
   bool hangs;                         // boughs hang straight down
 };
 constexpr std::array<LeafHabit, 4> HABITS{{{0.4, 1.3, 1.2, 0.4, false},     // broad
@@ -34,7 +34,7 @@ float narrow(double x) {
   return static_cast<float>(x);
 }
 
-// Turn about an axis that stands at (cos, sin) of half the angle.
+// Returns the rotation about an axis, from cosine and sine of half the angle.
 Quat aboutX(double angle) {
   const SinCos half = sinCos(0.5 * angle);
   return {half.cos, half.sin, 0.0, 0.0};
@@ -48,11 +48,11 @@ Quat aboutZ(double angle) {
   return {half.cos, 0.0, 0.0, half.sin};
 }
 
-// Shortest turn of the y axis to a unit direction.
+// Returns the shortest rotation of the y axis to a unit direction.
 Quat turnYTo(const Vec3& d) {
   const Quat sum{1.0 + d.y(), d.z(), 0.0, -d.x()};  // 1 + y . d, y x d
   const double norm = std::sqrt(sum.w * sum.w + sum.x * sum.x + sum.z * sum.z);
-  if (norm < 1e-6) return {0.0, 0.0, 0.0, 1.0};  // straight back: half a turn
+  if (norm < 1e-6) return {0.0, 0.0, 0.0, 1.0};  // opposite direction: half a turn
   return {sum.w / norm, sum.x / norm, 0.0, sum.z / norm};
 }
 
@@ -80,7 +80,7 @@ class Foliage {
       const Branch& branch = skeleton_.branches[i];
       for (int l = 0; l < branch.leaves; ++l) {
         const Random random = Random(branch.key).child(static_cast<std::uint64_t>(l));
-        // Cheap first: at low levels nearly all are left out.
+        // The cheap test comes first: at low levels nearly all are omitted.
         if (random.uniform(KEPT) >= detail_.leaf_fraction * LARGEST_PREFERENCE) continue;
         LeafCard leaf = card(static_cast<int>(i), l, random);
         if (random.uniform(KEPT) >= detail_.leaf_fraction * preference(leaf)) continue;
@@ -111,7 +111,7 @@ class Foliage {
                     aboutY(random.uniform(TURN, -habit_.turn, habit_.turn)),
                 out);
     if (hangs()) setRotation(conjugate(b.rest.orientation) * hanging(random), out);
-    // Short branches, as at the tip of a cone, bear small clusters.
+    // Short branches, as at the tip of a cone, have small clusters.
     const double fit = std::clamp(std::sqrt(b.length / mean_leafy_length_), 0.4, 1.25);
     out.size = narrow(species_.leaf_size * leaf_scale_ * detail_.leaf_growth * fit *
                       random.uniform(SIZE, 0.8, 1.2));
@@ -129,16 +129,16 @@ class Foliage {
            aboutX(-0.5 * PI + random.uniform(ANGLE, -0.15, 0.15));
   }
 
-  // Leaves inside the crown are hidden by those outside: they are the first to be left out.
+  // Outer leaves hide those inside the crown, which are omitted first.
   double preference(const LeafCard& leaf) const {
     if (detail_.leaf_fraction >= 1.0) return LARGEST_PREFERENCE;
     return habit_.inner + 2.0 * (1.0 - habit_.inner) * static_cast<double>(leaf.shade);
   }
 
-  // A card on a branch that is not drawn is fixed to the nearest one below that is, where it was at
-  // rest: joints that no vertex needs are then not posed either (S1-09).
+  // A card on a branch that is not drawn is fixed to the nearest drawn ancestor at its rest pose:
+  // joints without vertices are then not posed either (S1-09).
   void carryToDrawn(LeafCard& leaf, const Random& random) const {
-    int root = leaf.branch;  // the first branch on the way down that is not drawn
+    int root = leaf.branch;  // the lowest ancestor that is not drawn
     while (at(at(root).parent).depth >= detail_.depths) root = at(root).parent;
     const Pose& from = at(leaf.branch).rest;
     const Pose& to = at(at(root).parent).rest;
@@ -153,8 +153,8 @@ class Foliage {
     setRotation(back * turn, leaf);
   }
 
-  // A bough stands for the limb that is left out: it starts nearer to where that sprouts and points
-  // along it, so that no leaves hang in mid-air.
+  // A bough replaces the omitted limb: it starts near the limb's joint and points along it, so that
+  // no leaves float.
   void rootBough(const Vec3& sprout, const Random& random, Vec3& place, Quat& turn,
                  LeafCard& leaf) const {
     const Vec3 along = place - sprout;

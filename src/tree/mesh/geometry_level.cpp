@@ -23,7 +23,7 @@ constexpr std::array<Step, GEOMETRY_LEVELS> STEPS{{{0.0, {1, 3, 1, 0.016, 3.4, t
 constexpr double BORDER = 0.15;  // hysteresis, fraction of the size
 constexpr double DEAD_BAND = 0.05;
 constexpr double LEAST_EXPONENT = 0.1;  // overshot three times
-constexpr double MOST_ERROR = 0.7;      // logarithm; what a step answers to
+constexpr double MOST_ERROR = 0.7;      // logarithm; maximum error used in a step
 constexpr double LEAST_FACTOR = 1.0 / 64.0, LARGEST_FACTOR = 64.0;
 
 }  // namespace

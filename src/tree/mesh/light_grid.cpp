@@ -12,7 +12,7 @@
 namespace vegetation_sim::forest {
 namespace {
 
-constexpr double EXTINCTION = 0.4;  // leaves face all ways, and pass some light on
+constexpr double EXTINCTION = 0.4;  // leaves of all orientations that transmit some light
 constexpr double LOWEST_SUN =
     0.1;  // vertical part of a unit direction; below, shadows leave the grid
 
@@ -63,7 +63,7 @@ void LightGrid::addLeaf(const Vec3& point, double area) {
 void LightGrid::sweep(const Vec3& direction, std::vector<float>& out) const {
   out.assign(leaf_.size(), 1.f);
   const double dx = direction.x() / direction.z(), dy = direction.y() / direction.z();
-  const double way = std::sqrt(dx * dx + dy * dy + 1.0);    // through a layer, in cells
+  const double way = std::sqrt(dx * dx + dy * dy + 1.0);    // path through a layer [cells]
   const double depth = EXTINCTION * way / (cell_ * cell_);  // optical depth per leaf area
   for (std::size_t z = layers_ - 1; z-- > 0;) {
     for (std::size_t y = 0; y < rows_; ++y) {
@@ -89,7 +89,7 @@ void LightGrid::cast(const Vec3& to_sun) {
   Vec3 direction = to_sun / std::max(length(to_sun), 1e-9);
   direction.z() = std::max(direction.z(), LOWEST_SUN);
   sweep(direction, sun_);
-  // The sky as its zenith and four points half way up, weighed by how steeply they shine.
+  // The sky is its zenith and four points at half height, weighted by their elevation.
   const std::array<Vec3, 5> points{Vec3(0, 0, 1), Vec3(1, 0, 1), Vec3(-1, 0, 1), Vec3(0, 1, 1),
                                    Vec3(0, -1, 1)};
   sky_.assign(leaf_.size(), 0.f);

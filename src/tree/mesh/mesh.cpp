@@ -13,8 +13,8 @@ namespace {
 
 constexpr int FEWEST_SIDES = 3;
 
-// Clusters of the four shapes, then their boughs: 48 to 86 % of the square, for pixels without
-// leaves cost as much as others. A hundredth of the leaves is cut off.
+// Clusters of the four shapes, then their boughs: 48 to 86 % of the square, because pixels without
+// leaves cost as much as others. One percent of the leaves is cut off.
 constexpr std::array<LeafOutline, 8> OUTLINES{
     {{{{0.14f, 0.14f}, {0.94f, 0.01f}, {0.75f, 1.00f}, {0.23f, 1.00f}}},
      {{{0.12f, 0.08f}, {1.00f, 0.04f}, {0.84f, 0.96f}, {0.03f, 0.90f}}},
@@ -75,7 +75,7 @@ class MeshBuilder {
     joinRings(sides);
   }
 
-  // The trunk stands in the ground, so that no slope shows its end, and flares above its roots.
+  // The trunk extends into the ground, so that no slope shows its end, and flares above its roots.
   void addFoot(int branch, int sides) {
     const double radius = at(branch).base_radius;
     if (at(branch).parent >= 0) return addRing(branch, 0.0, radius, 0.0, sides);

@@ -8,7 +8,8 @@
 namespace vegetation_sim::forest {
 namespace {
 
-constexpr double THICK = 0.4;        // of the trunk's radius: from here on it is bark
+constexpr double THICK =
+    0.4;  // fraction of the trunk's radius from which wood has the colour of bark
 constexpr double BRIGHTNESS = 0.12;  // +- from tree to tree
 constexpr double WARMTH = 0.09;      // +- red against blue
 
@@ -41,7 +42,7 @@ Colour TreePaint::bark(double radius) const {
 }
 
 Colour TreePaint::leaf(const LeafCard& card) const {
-  // The key's own bits: two clusters side by side are never quite alike.
+  // The bits of the key vary the colour of neighbouring clusters.
   const double own = 0.1 * (static_cast<double>(card.key & 0xffff) / 65536.0 - 0.5);
   return mixColours(leaf_old_, leaf_young_, saturate(card.shade + own));
 }

@@ -43,7 +43,8 @@ std::array<float, 3> baseOf(const BatchPoses& poses, int branch) {
   return {poses.x[i], poses.y[i], poses.z[i]};
 }
 
-// The corners of one card. Flutter is a turn by small angles: the axes lean towards the normal.
+// Computes the corners of one card. Flutter is a rotation by small angles: the axes tilt towards
+// the normal.
 void writeCard(const LeafCard& card, const LeafOutline& outline, const std::array<float, 3>& foot,
                const Axes& axes, const std::array<float, 2>& turn, float* out) {
   for (std::size_t i = 0; i < 3; ++i) {
@@ -68,7 +69,7 @@ void skinBark(const TreeMesh& mesh, const BatchPoses& poses, const std::array<fl
   Axes axes{};
   std::array<float, 3> base{};
   for (const BarkVertex& vertex : mesh.bark) {
-    if (vertex.branch != branch) {  // vertices of one ring follow each other
+    if (vertex.branch != branch) {  // vertices of one ring are consecutive
       branch = vertex.branch;
       axes = axesOf(turnOf(poses, branch));
       base = baseOf(poses, branch);

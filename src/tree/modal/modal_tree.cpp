@@ -15,8 +15,8 @@
 namespace vegetation_sim::forest {
 namespace {
 
-constexpr int COARSE = 5, FINE = 10;    // halvings of the crown: 32 points and 1 024
-constexpr double AT_ONCE = 0.5 / 60.0;  // of quick vectors: half a frame [s]
+constexpr int COARSE = 5, FINE = 10;    // bisections of the crown: 32 and 1024 points
+constexpr double AT_ONCE = 0.5 / 60.0;  // time of the immediate response: half a frame [s]
 
 physics::Modes modesIn(const std::vector<physics::Link>& links, physics::LinearChain& chain,
                        const std::vector<WindLoadPoint>& load_points, ModalDepth depth) {
@@ -69,8 +69,7 @@ ModalTree::ModalTree(const Tree& tree, const Species& species, ModalDepth depth)
   Motions motions(size());
   for (std::size_t m = 0; m < size(); ++m) {
     chain.motionOf(modes_.shapeOf(m), motions[m]);
-    for (const WindLoadPoint& load_point :
-         load_points) {  // the air that is at rest holds back what moves in it
+    for (const WindLoadPoint& load_point : load_points) {  // still air damps motion
       const Vec3 way = wayOf(load_point, motions[m]);
       modes_.damping[m] += load_point.drag * dot(way, way);
     }
@@ -92,7 +91,7 @@ std::size_t ModalTree::bytes() const {
          sizeof(Vec3) * probe_.turn.size();
 }
 
-// Where sources come and go, what is known of the waves that stay is kept.
+// Waves that remain keep their cached loads when wind primitives change.
 void ModalTree::updateWaves(const wind::Instant& wind, ModalAir& air) const {
   const auto same = [](const Vec3& wave, const wind::Mode& mode) { return wave == mode.wave; };
   if (air.waves.size() == wind.modes.size() &&
@@ -116,8 +115,8 @@ void ModalTree::updateWaves(const wind::Instant& wind, ModalAir& air) const {
   }
 }
 
-// A wave a cos(2 pi (k . x + phase)) is what its cosine at rest does times cos(2 pi phase), less
-// what its sine does times the other.
+// The load of a wave a cos(2 pi (k . x + phase)) is that of its cosine at phase 0 times cos(2 pi
+// phase), minus that of its sine times sin(2 pi phase).
 void ModalTree::pushOf(const Vec3& wave, double* out) const {
   const std::size_t row = modalRow(size());
   for (std::size_t i = 0; i < fine_.at.size(); ++i) {
@@ -196,7 +195,7 @@ std::vector<JointAngles> ModalTree::bendsOf(const std::vector<double>& amplitude
   return out;
 }
 
-// Shapes of unit modal mass have frequency^2 as their stiffness, and share none.
+// Shapes of unit modal mass have the stiffness frequency^2 and are orthogonal in it.
 std::vector<double> ModalTree::amplitudesOf(const std::vector<JointAngles>& bends) const {
   std::vector<double> out(size(), 0.0);
   for (std::size_t m = 0; m < size(); ++m) {

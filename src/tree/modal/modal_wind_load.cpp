@@ -25,7 +25,7 @@ int longestAxis(Range begin, Range end) {
   return axis;
 }
 
-// Halves of equal drag, again and again.
+// Bisects a range into halves of equal drag, recursively.
 void divide(Range begin, Range end, int bisection, std::vector<std::pair<Range, Range>>& out) {
   if (bisection == 0 || end - begin < 2) {
     if (begin != end) out.emplace_back(begin, end);
@@ -57,7 +57,7 @@ WindPoint pointOf(Range begin, Range end) {
   return out;
 }
 
-// [3][row] modal loads per velocity of the air on a range.
+// Adds [3][row] modal loads per wind velocity on a range.
 void appendPush(const WindLoadPoint* begin, const WindLoadPoint* end, const Motions& motions,
                 std::vector<double>& out) {
   const std::size_t row = modalRow(motions.size());
@@ -92,7 +92,7 @@ std::vector<Held> heldOf(const std::vector<physics::Link>& links, const std::vec
   return out;
 }
 
-// How the moments change per amplitude of a motion.
+// Returns the change of moments per amplitude of a motion.
 std::vector<Vec3> momentChange(const std::vector<physics::Link>& links,
                                const std::vector<Held>& held,
                                const std::vector<WindLoadPoint>& load_points,
@@ -109,8 +109,8 @@ std::vector<Vec3> momentChange(const std::vector<physics::Link>& links,
   return out;
 }
 
-// Torque about an axis per velocity v of the air is (axis x moment) . v. A bend's axis turns with
-// all that bears the joint and half as far as the joint itself (a rotation vector's).
+// The torque about an axis per wind velocity v is (axis x moment) . v. The axis of a bend rotates
+// with the parents of the joint and half as far as the joint itself (a rotation vector).
 void torqueChange(const std::vector<physics::Link>& links, const std::vector<Pose>& rest,
                   const std::vector<Held>& held, const std::vector<Vec3>& change,
                   const std::vector<physics::SmallMotion>& motion,
