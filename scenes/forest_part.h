@@ -29,7 +29,7 @@ class ForestPart {
   /// The last branch of a recursion depth, at most the deepest one.
   int lastBranch(std::uint32_t tree, int depth) const;
   forest::BranchPoint tipPoint(std::uint32_t tree, int branch) const;
-  /// Where a point of a branch is now, world [m].
+  /// Returns the world position of a point of a branch [m].
   Vec3 place(const forest::BranchPoint& point) const;
   /// Height of the highest tip of a tree above its foot [m].
   double height(std::uint32_t tree) const;

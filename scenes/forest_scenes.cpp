@@ -10,7 +10,7 @@ void standAside(World& world) {
   world.setCamera(Vec3(-15.0, 10.0, 3.0), 0.0);
 }
 
-/// The camera goes round the trees, so that their levels of detail change.
+/// The camera circles the trees, so that their levels of detail change.
 void walkRound(World& world) {
   const SinCos at = sinCosTurns(world.nextSeconds() / 10.0);
   const double radius = 14.0 + 60.0 * world.nextSeconds() / 10.0;
@@ -19,7 +19,7 @@ void walkRound(World& world) {
   if (world.tick() == 300) world.changeWind();
 }
 
-/// The camera stays near, for which trees get modes; then it goes far off.
+/// The camera stays near, so that trees get modes; then it moves far away.
 void stayNear(World& world) {
   const double away = world.tick() < 450 ? 12.0 : 150.0;
   world.setCamera(Vec3(-away, 4.0, 3.0), 0.0);

@@ -1,6 +1,4 @@
-// Copyright 2026 vegetation_sim developers
-// SPDX-License-Identifier: BSD-3-Clause
-// Bodies that are driven at the trees of a forest, and a look at what these get.
+// Bodies that are driven at the trees of a forest, and records of the contacts.
 #pragma once
 
 #include <algorithm>
@@ -48,7 +46,7 @@ class Drive {
     return 100 * NANOSECONDS_PER_SECOND + TickGrid(TICKS).timeOf(tick);
   }
   void tick() { forest_.advance(stampOf(++tick_)); }
-  /// One tick with the body where tf would tell it to be.
+  /// Advances one tick with the body at the pose that tf would give.
   void driveOn() {
     Body now = body_;
     now.pose = poseAt(body_, stampOf(tick_ + 1));
@@ -56,7 +54,7 @@ class Drive {
     forest_.setBody(now);
     tick();
   }
-  /// Deepest overlap of thin wood with the body at this tick [m].
+  /// Returns the deepest overlap of thin wood with the body at this tick [m].
   double depth() const {
     const Pose at = poseAt(body_, stampOf(tick_));
     const std::vector<Pose> poses = forest_.pose(tree_, 0, stampOf(tick_));
@@ -145,8 +143,8 @@ class ContactRecorder {
   std::map<int, double> forces_;  // on branches
 };
 
-/// Balls at a birch's trunk, at a part of its length, from where they touch: so small that each has
-/// one contact. `from`: the directions they come from, turned so far about the trunk [rad].
+/// Spheres that touch a birch's trunk at a fraction `part` of its length, so small that each has
+/// one contact. `from` is the direction of each about the trunk [rad].
 class Ram {
  public:
   Ram(double speed, int ticks, double part = 0.0, const std::vector<double>& from = {0.0})

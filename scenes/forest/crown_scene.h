@@ -18,7 +18,7 @@
 
 namespace vegetation_sim::forest {
 
-/// A whole tree as physical links, one a branch.
+/// Returns a whole tree as physical links, one per branch.
 inline std::vector<physics::Link> linksOf(const Skeleton& skeleton, const Wood& wood) {
   std::vector<physics::Link> out(skeleton.branches.size());
   for (std::size_t i = 0; i < out.size(); ++i) {
@@ -38,21 +38,21 @@ inline std::vector<physics::Link> linksOf(const Skeleton& skeleton, const Wood& 
   return out;
 }
 
-/// What a drive through a crown showed.
+/// Result of a drive through a crown.
 struct CrownResult {
   double deepest_thin{0.0};   ///< overlap of wood thinner than 1 cm in radius [m]
-  double deepest_own{0.0};    ///< the same, of wood's surface that is not inside its bearer [m]
+  double deepest_own{0.0};    ///< the same, of surface that is not inside the parent [m]
   double deepest_thick{0.0};  ///< of other wood [m]
   double hardest{0.0};        ///< force of one contact [N]
-  double steepest_rise{0.0};  ///< of the force of one contact from part to part of a step [N/s]
-  double largest_rise{0.0};   ///< of the force on one branch, from part to part [N]
-  double largest_fall{0.0};   ///< the same, downwards [N]
-  double largest_jump{0.0};   ///< of the body's whole force from step to step [N]
-  double largest_force{0.0};  ///< of the body's whole force [N]
-  int touched{0};             ///< branches that bore a force
+  double steepest_rise{0.0};  ///< of the force of one contact between substeps [N/s]
+  double largest_rise{0.0};   ///< of the force on one branch between substeps [N]
+  double largest_fall{0.0};   ///< largest fall of it [N]
+  double largest_jump{0.0};   ///< of the body's total force between steps [N]
+  double largest_force{0.0};  ///< of the body's total force [N]
+  int touched{0};             ///< branches with a force
   int parts{0};               ///< of steps
-  int limited{0};             ///< parts of contacts at the limit
-  int disagreed{0};           ///< steps whose contacts did not come to agree
+  int limited{0};             ///< substeps of contacts at the limit
+  int disagreed{0};           ///< substeps whose contact forces did not converge
   double trials{0.0};         ///< per step in contact
   double left_over{0.0};      ///< largest displacement of a tip after the rest [m]
 };
@@ -83,7 +83,7 @@ class CrownScene {
   const physics::Kinematics& kinematics() const { return kinematics_; }
   physics::ContactLaw law;
 
-  /// From `from` along x for `way` metres, then gone.
+  /// Drives the capsule from `from` along x for `way` metres, then removes it.
   CrownResult drive(const Vec3& from, double radius, double length, double speed, double way) {
     body_.size = Vec3(radius, 0.0, length);
     body_.pose = {from, Quat{std::sqrt(0.5), std::sqrt(0.5), 0.0, 0.0}};  // its z along -y
@@ -95,7 +95,7 @@ class CrownScene {
     out.trials = contact_steps_ ? out.trials / contact_steps_ : 0.0;
     return out;
   }
-  /// Lets go and waits; the largest displacement of a tip from rest [m].
+  /// Waits without the body; returns the largest displacement of a tip from rest [m].
   double leftOver(double seconds) {
     for (int i = 0; i < seconds * PHYSICS_RATE; ++i) step({}, nullptr);
     double out = 0.0;
@@ -176,8 +176,8 @@ class CrownScene {
     last_force_ = force;
   }
 
-  /// The overlap between two states, sampled on straight ways between them: an own look, not the
-  /// finder's.
+  /// Measures the overlap between two states, sampled on straight paths, independently of the
+  /// finder.
   void look(std::size_t i, const physics::Kinematics& before, Nanoseconds from, Nanoseconds to,
             CrownResult& result) {
     const Branch& b = tree_.skeleton.branches[i];
@@ -200,8 +200,8 @@ class CrownScene {
   }
 
   using Bar = physics::Bar;
-  /// A branch at a part of a step, in the body's axes, from its joint on or, if `out`, from where
-  /// it stands out of its bearer.
+  /// Returns a branch at a fraction of a step in the body's axes, from its joint or, if `out`, from
+  /// where it emerges from its parent.
   Bar barAt(std::size_t i, const physics::Kinematics& before, double part, const Pose& at,
             bool out = true) const {
     const Branch& b = tree_.skeleton.branches[i];
@@ -221,9 +221,8 @@ class CrownScene {
     const Bar bar = barAt(static_cast<std::size_t>(branch), before, part, at, false);
     return physics::nearest(shapeOf(body_), bar).gap < 0.0;
   }
-  /// Where a twig stands on wood that is overrun: how deep that part of its round surface is inside
-  /// the body that is not inside its bearer. (The ball about the end of its axis reaches back into
-  /// the bearer.)
+  /// Returns how deep the part of a twig's round surface that is outside its parent is inside the
+  /// body. (The sphere at the end of its axis reaches back into the parent.)
   double ownDepth(std::size_t i, const physics::Kinematics& before, double part,
                   const Pose& at) const {
     const Bar twig = barAt(i, before, part, at, false);

@@ -9,7 +9,7 @@
 #include "scenes/forest/forest_fixture.h"
 #include "vegetation_sim/core/math/math.h"
 
-// The scene of S1-41, shared by test and bench: a square forest of rich trees, three wind discs
+// The scene of S1-41, shared by test and bench: a square forest of rich trees, three wind disks
 // over a third of it, one camera at its edge.
 
 namespace vegetation_sim::forest {
@@ -54,7 +54,7 @@ constexpr double PICTURE_HEIGHT = 900, PICTURE_WIDTH = 1280;
 struct Camera {
   Viewpoint eye;
   Vec3 forward, left, up;
-  /// Pixel of a point; false if it is behind the camera or outside the picture.
+  /// Computes the pixel of a point; returns false if it is behind the camera or outside the image.
   bool project(const Vec3& point, double& x, double& y) const {
     const Vec3 offset = point - eye.position;
     const double depth = dot(offset, forward);
@@ -77,7 +77,7 @@ inline Camera edgeCamera(double extent) {
   return out;
 }
 
-/// Three discs that cover about a third of the square.
+/// Returns three disks that cover about a third of the square.
 inline wind::Field threeDiscs(double extent) {
   const double r = std::sqrt(extent * extent / 3.0 / 3.0 / PI);
   return wind::Field({makeDisk(1, Vec3(0.2, 0.25, 0) * extent, r, Vec3(5, 1, 0)),
@@ -122,7 +122,7 @@ inline void settle(Forest& forest, const Camera& camera, const TickGrid& grid, s
   }
 }
 
-/// Poses every branch that moves; returns how many.
+/// Poses every moving branch; returns their number.
 inline std::size_t poseAtLevels(const TreeBatch& grove, const Forest& forest,
                                 const wind::Instant& wind, Nanoseconds stamp, BatchPoses& scratch) {
   std::size_t posed = 0;

@@ -10,7 +10,7 @@ inline wind::Field breeze() {
   return wind::Field({makeBreeze(1, Vec3(5.0, 1.0, 0.0))}, 3);
 }
 
-/// Four trees in a breeze, and an eye that comes and goes.
+/// Four trees in a breeze, and a camera that comes and goes.
 struct Clearing {
   explicit Clearing(const wind::Field& field = breeze(), double tolerance = Settings().tolerance) {
     forest.setWind(field);
@@ -30,7 +30,7 @@ struct Clearing {
     eye.id = "eye";
     eye.eye.position = near ? Vec3(6.0, 6.0, 3.0) : Vec3(4000.0, 0.0, 3.0);
   }
-  /// Tells what does not come in updates.
+  /// Sends the inputs that are not part of updates.
   void introduce(ForestReplica& replica) const {
     replica.setLayout(forest.layout(), flatTerrain());
     replica.setWind(forest.snapshot().wind);

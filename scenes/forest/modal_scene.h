@@ -11,7 +11,7 @@
 #include "tree/growth/wood.h"
 #include "vegetation_sim/tree/modal/modal_tree_state.h"
 
-// One tree in a wind, on every tier; shared by tests and bench.
+// One tree in a wind on every tier; shared by tests and bench.
 
 namespace vegetation_sim::forest {
 
@@ -32,8 +32,7 @@ inline std::vector<Vec3> tipsOf(const Tree& tree, const std::vector<JointAngles>
   return out;
 }
 
-/// One species in a wind: its tips as procedural, modal and full dynamics have them, each started
-/// at rest.
+/// One species in a wind: its tips by procedural, modal and full dynamics, each started at rest.
 class Swaying {
  public:
   Swaying(std::uint32_t id, const wind::Field& field, double duration)
@@ -55,9 +54,9 @@ class Swaying {
   double proceduralError() const { return procedural(0.0).relative; }
   double modalError(ModalDepth depth = {}) const { return modal(0.0, depth).relative; }
 
-  /// Against the full chain, after `skip` seconds.
+  /// Errors against the full chain, after `skip` seconds.
   struct Off {
-    double relative;  ///< RMS of all tips, of their motion
+    double relative;  ///< RMS over all tips, relative to their motion
     double farthest;  ///< of any tip [m]
   };
   Off procedural(double skip) const {
@@ -65,7 +64,7 @@ class Swaying {
       return proceduralAngles(tree_, field_.at(stampOf(frame)), fullWeights());
     });
   }
-  /// `turning`: levers turn as the tree bends.
+  /// `turning`: lever arms rotate as the tree bends.
   Off modal(double skip, ModalDepth depth = {}, bool turning = true) const {
     ModalTreeState modal_state(std::make_shared<const ModalTree>(tree_, species_, depth));
     std::vector<ModalLoad> loads(2);

@@ -13,14 +13,14 @@
 #include "vegetation_sim/core/math/math.h"
 #include "vegetation_sim/forest/forest_replica.h"
 
-// One tree, or a square of them, in a steady wind; shared by the tests of hand-over.
+// One tree, or a square of them, in a steady wind; shared by the tests of promotion.
 
 namespace vegetation_sim::forest {
 
 constexpr Nanoseconds PHYSICS_START = 1700000000LL * NANOSECONDS_PER_SECOND;
 constexpr int TICK_RATE = 60;
 
-/// A disc that covers everything: the same air everywhere up to 1 %, `omega` rad/s.
+/// Returns a disk that covers everything: uniform wind up to 1 %, `omega` rad/s.
 inline wind::Field steadyWind(const Vec3& velocity, double omega = 2.0) {
   wind::Primitive out = makeDisk(1, Vec3::Zero(), 2000.0, velocity);
   out.omega = omega;
@@ -65,7 +65,7 @@ struct PhysicsRig {
   }
 
   const std::vector<Branch>& branches() const { return tree.skeleton.branches; }
-  /// The last branch of the first limb of a depth: a twig for the deepest.
+  /// Returns the last branch of the first limb of a depth: a twig for the deepest.
   int branchOfDepth(int depth) const {
     int out = tree.skeleton.depth_end[static_cast<std::size_t>(depth)] - 1;
     return out;
@@ -76,7 +76,7 @@ struct PhysicsRig {
         tree, forest.snapshot().wind.at(stamp).relativeTo(tree.foot),
         weightsAt(forest.snapshot().levels.of(0), stamp, forest.layout().motion));
   }
-  /// Angles as they are seen, physical ones included.
+  /// Returns the displayed angles, physical ones included.
   std::vector<JointAngles> angles(Nanoseconds stamp) const {
     std::vector<JointAngles> out = procedural(stamp);
     overlay(forest.promoted(0), stamp, out);
@@ -106,14 +106,14 @@ inline double difference(const JointAngles& a, const JointAngles& b) {
   return std::hypot(a.first - b.first, a.second - b.second);
 }
 
-/// Root of the mean square length.
+/// Returns the root mean square length.
 inline double rms(const std::vector<Vec3>& values) {
   double sum = 0.0;
   for (const Vec3& v : values) sum += dot(v, v);
   return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-/// How far tips are from where they rest [m].
+/// Returns the displacements of tips from rest [m].
 inline std::vector<Vec3> tipsOf(const PhysicsRig& rig) {
   const auto poses = rig.forest.pose(rig.tree, 0, rig.forest.snapshot().stamp);
   std::vector<Vec3> out;

@@ -11,13 +11,13 @@
 
 namespace vegetation_sim::forest {
 
-/// What the governor foretells of the trees of a forest against what they show: their motion on the
-/// tiers that it chose, beside that of the full chain.
+/// Predicted errors of the chosen tiers of a forest against measured ones, relative to the full
+/// chain.
 class Prediction {
  public:
   static constexpr int RATE = 30;    ///< ticks [Hz]
-  static constexpr int WARM_UP = 5;  ///< until modes are found and the hand-over is forgotten [s]
-  static constexpr double LEAST = 0.05;  ///< what moves less is not looked at [pixel]
+  static constexpr int WARM_UP = 5;  ///< until modes are computed and the transition is over [s]
+  static constexpr double LEAST = 0.05;  ///< trees that move less are not measured [pixel]
 
   Prediction(const Layout& layout, std::shared_ptr<const terrain::HeightMap> terrain,
              const wind::Field& wind, const Viewpoint& eye, Nanoseconds start, double settle = 0.5,
@@ -31,20 +31,20 @@ class Prediction {
     exact_.setPhysics(whole);
     for (Forest* forest : {&chosen_, &exact_}) forest->setWind(wind);
     tick_ = grid_.tickAt(start);
-    run(static_cast<int>(settle * RATE));  // chooses; those that move by then are looked at
+    run(static_cast<int>(settle * RATE));  // trees that move by then are measured
     for (const Plant& plant : chosen_.plants())
       if (plant.error[0] > LEAST) makeWhole(plant.id);
     run(WARM_UP * RATE);
   }
 
-  /// Errors of one tree at one look [pixel].
+  /// Errors of one tree at one tick [pixel].
   struct Look {
     double predicted, measured;
     int tier;
   };
-  using Looks = std::map<std::uint32_t, std::vector<Look>>;  // by tree that moves
+  using Looks = std::map<std::uint32_t, std::vector<Look>>;  // by moving tree
 
-  /// Looks at every tick, for some seconds.
+  /// Measures at every tick for some seconds.
   Looks look(int seconds) {
     Looks out;
     for (int i = 0; i < RATE * seconds; ++i) {
@@ -57,7 +57,7 @@ class Prediction {
     return out;
   }
 
-  /// Largest predicted over largest measured error of a tree.
+  /// Returns the ratio of the largest predicted and measured errors of a tree.
   static double ratioOf(const std::vector<Look>& looks) {
     double predicted = 0.0, measured = 0.0;
     for (const Look& look : looks) {
@@ -68,7 +68,7 @@ class Prediction {
   }
 
  private:
-  // All joints physical from now on, under the wind alone.
+  // Makes all joints physical, under the wind alone.
   void makeWhole(std::uint32_t id) {
     const Tree& tree =
         trees_.emplace(id, growTree(exact_.layout(), id, exact_.terrain())).first->second;
@@ -84,7 +84,7 @@ class Prediction {
       for (Forest* forest : {&chosen_, &exact_}) forest->advance(eye_.stamp);
     }
   }
-  // Farthest that any tip of a tree is from where the full chain has it.
+  // Returns the largest distance of any tip of a tree from the full chain.
   double measured(std::uint32_t id) const {
     const Tree& tree = trees_.at(id);
     const Nanoseconds stamp = chosen_.snapshot().stamp;
@@ -104,7 +104,7 @@ class Prediction {
   Viewer eye_;
   TickGrid grid_{RATE};
   std::int64_t tick_{0};
-  std::map<std::uint32_t, Tree> trees_;  // that are whole
+  std::map<std::uint32_t, Tree> trees_;  // fully physical trees
 };
 
 }  // namespace vegetation_sim::forest

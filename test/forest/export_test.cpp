@@ -13,7 +13,7 @@
 namespace vegetation_sim::forest {
 namespace {
 
-// Numbers of every match's first group.
+// Returns the numbers of the first group of every match.
 std::vector<std::vector<double>> numbersOf(const std::string& text, const std::string& pattern) {
   std::vector<std::vector<double>> out;
   const std::regex expression(pattern);
@@ -31,7 +31,7 @@ std::string sdfOf(const Layout& layout, const ExportRule& rule) {
   return out.str();
 }
 
-// N14: trunks stand where everybody else has them.
+// N14: trunks stand where the layout has them.
 TEST(Export, LinksStandAtTheFeetOfTheTrees) {
   const Layout layout = gridLayout(3, 7.0);
   const auto links = numbersOf(sdfOf(layout, {}), "<link name=\"tree_[0-9]+\"><pose>([^<]*)<");
@@ -42,7 +42,7 @@ TEST(Export, LinksStandAtTheFeetOfTheTrees) {
   }
 }
 
-// N14: each cylinder goes from the base of its branch to its tip, however it leans.
+// N14: each cylinder goes from the base of its branch to its tip at any inclination.
 TEST(Export, CylindersLieOnTheirBranches) {
   Layout layout = gridLayout(1, 1.0);
   ExportRule rule;

@@ -49,7 +49,7 @@ TEST(Forest, FixedLevelWithoutViewer) {
   EXPECT_TRUE(forest.snapshot().levels.held().empty());
 }
 
-// S1-01, S1-22, N8: two trees at different distances get different levels; moving the eye swaps
+// S1-01, S1-22, N8: two trees at different distances get different levels; moving the camera swaps
 // them.
 TEST(Forest, LevelsFollowTheViewer) {
   Layout layout = gridLayout(1, 1.0);
@@ -64,7 +64,7 @@ TEST(Forest, LevelsFollowTheViewer) {
   EXPECT_LT(forest.snapshot().levels.of(0).level, forest.snapshot().levels.of(1).level);
 }
 
-// S1-40: what is out of sight stands still, and moves again when the eye turns to it.
+// S1-40: trees out of sight stand still, and move again when the camera turns to them.
 TEST(Forest, TreesOutOfSightStandStill) {
   Forest forest = makeForest(gridLayout(2, 60.0));
   forest.setWind(wind::Field({makeBreeze(1, Vec3(5, 0, 0))}));
@@ -81,7 +81,7 @@ TEST(Forest, TreesOutOfSightStandStill) {
   EXPECT_EQ(forest.snapshot().levels.of(1).level, 0);
 }
 
-// N8: several viewers, the finest wins; a silent one is forgotten.
+// N8: of several viewers, the finest wins; a silent one is removed.
 TEST(Forest, FinestOfSeveralViewersWins) {
   Forest forest = makeForest();
   forest.setWind(wind::Field({makeBreeze(1, Vec3(5, 0, 0))}));
@@ -95,7 +95,7 @@ TEST(Forest, FinestOfSeveralViewersWins) {
   EXPECT_TRUE(forest.snapshot().viewers.empty());
 }
 
-// S1-22, S1-40: level 0 where no wind reaches; the middle of a disc asks for more than its rim.
+// S1-22, S1-40: level 0 without wind; the middle of a disk requires more than its rim.
 TEST(Forest, LevelsFollowTheWind) {
   Forest forest = makeForest(gridLayout(8, 20.0));
   forest.setWind(wind::Field({makeDisk(1, Vec3(0, 0, 0), 60.0, Vec3(11, 0, 0))}));
@@ -122,7 +122,7 @@ bool same(const StateUpdate& a, const StateUpdate& b) {
          std::equal(a.trees.begin(), a.trees.end(), b.trees.begin(), b.trees.end(), alike);
 }
 
-// N6: the same inputs give the same hashes; a saved and restored memory goes on alike.
+// N6: the same inputs give the same hashes; a restored snapshot continues alike.
 TEST(Forest, IsDeterministicAndRestores) {
   Forest a = makeForest(), b = makeForest();
   const wind::Field field({makeBreeze(1, Vec3(5, 0, 0))});
@@ -132,7 +132,7 @@ TEST(Forest, IsDeterministicAndRestores) {
   run(b, START, 3.0, &eye);
   EXPECT_EQ(a.hash(), b.hash());
   const ForestSnapshot saved = a.snapshot();
-  run(a, START + seconds(3), 5.0);  // the viewer is forgotten meanwhile
+  run(a, START + seconds(3), 5.0);  // the viewer is removed meanwhile
   const std::uint64_t later = a.hash();
   EXPECT_NE(later, b.hash());
   a.restore(saved);
@@ -141,7 +141,7 @@ TEST(Forest, IsDeterministicAndRestores) {
   EXPECT_EQ(a.hash(), later);
 }
 
-// Every message of a forest that runs on with an eye in front of it.
+// Collects every message of a forest with a camera in front of it.
 std::vector<StateUpdate> messages(Forest& forest, std::int64_t first, int count) {
   const TickGrid grid(30);
   std::vector<StateUpdate> out;
@@ -153,8 +153,7 @@ std::vector<StateUpdate> messages(Forest& forest, std::int64_t first, int count)
   return out;
 }
 
-// N6: what is restored says what was said, message by message, and so does another forest that
-// takes the memory over.
+// N6: a restored forest sends the same messages, and so does another forest with the same snapshot.
 TEST(Forest, RestoredMemorySendsTheSameMessages) {
   Forest forest = makeForest();
   forest.setWind(wind::Field({makeBreeze(1, Vec3(5, 0, 0))}));
@@ -175,7 +174,7 @@ TEST(Forest, RestoredMemorySendsTheSameMessages) {
   }
 }
 
-// Time going backwards: after reset() the forest is what a fresh start there would be.
+// Time going backwards: after reset() the forest equals a fresh start.
 TEST(Forest, ResetEqualsAFreshStart) {
   Forest used = makeForest(), fresh = makeForest();
   const Viewer eye = lookFrom(Vec3(-20, 10, 5), 0);
@@ -188,7 +187,7 @@ TEST(Forest, ResetEqualsAFreshStart) {
   EXPECT_EQ(used.hash(), fresh.hash());
 }
 
-// S1-23, S1-45: a new duration of transitions changes the pace, not the place.
+// S1-23, S1-45: a new duration of transitions changes the rate but not the present blend.
 TEST(Forest, NewTransitionTimeMovesNoTree) {
   Forest forest = makeForest();
   forest.setWind(wind::Field({makeBreeze(1, Vec3(5, 0, 0))}));
@@ -217,7 +216,7 @@ TEST(Forest, HashSeesEveryPartOfTheState) {
   EXPECT_EQ(forest.hash(), before);
   forest.setWind(wind::Field({makeBreeze(1, Vec3(5, 0, 0))}));
   EXPECT_NE(forest.hash(), before);
-  // Viewers: every field, since each has a say in levels to come.
+  // Every field of viewers is hashed, because each affects future levels.
   std::set<std::uint64_t> seen{forest.hash()};
   const Viewer eye = lookFrom(Vec3(-20, 10, 5), START);
   std::vector<Viewer> eyes(7, eye);
@@ -233,7 +232,7 @@ TEST(Forest, HashSeesEveryPartOfTheState) {
   }
 }
 
-// A replica that heard one key frame, or a key frame and the deltas, holds the same levels.
+// A replica with one key frame, or with a key frame and deltas, holds the same levels.
 TEST(Forest, ReplicaFollowsKeyFramesAndDeltas) {
   Forest forest = makeForest();
   const wind::Field field(
@@ -275,7 +274,7 @@ TEST(Forest, ReplicaIgnoresAGapUntilTheNextKeyFrame) {
   EXPECT_TRUE(replica.apply(forest.update(true)));
 }
 
-// Largest error in the picture over two periods of the discs, levels having settled.
+// Returns the largest visible error over two periods of the disks with settled levels.
 double worstPixels(const TreeBatch& grove, const Forest& forest, const Camera& camera,
                    std::int64_t settled, int instants) {
   const TickGrid grid(30);
@@ -288,8 +287,8 @@ double worstPixels(const TreeBatch& grove, const Forest& forest, const Camera& c
   return out;
 }
 
-// S1-40: the tolerance is the error that is seen: no tip in a picture is farther off than it says,
-// by more than a little, and not so much less that work is wasted.
+// S1-40: the tolerance is the visible error: no tip exceeds it by more than a little, and it is not
+// so much smaller that work is wasted.
 TEST(Forest, PredictedErrorIsTheMeasuredOne) {
   const double spacing = 9.0, extent = 8 * spacing;
   const TreeBatch grove = growTrees(richLayout(8, spacing, 400));
@@ -312,9 +311,8 @@ TEST(Forest, PredictedErrorIsTheMeasuredOne) {
   }
 }
 
-// S1-41: at the tolerance that is the default, levels pose at least 27 times fewer branches than
-// the whole forest has, and no tip in the picture is more than a pixel away from where it would be
-// with all of them.
+// S1-41: at the default tolerance, levels pose at least 27 times fewer branches than the whole
+// forest has, and no visible tip is more than a pixel from its place with all of them.
 TEST(Forest, LevelsSaveWorkAtAPixel) {
   const double spacing = 8.0, extent = 16 * spacing;
   const TreeBatch grove = growTrees(richLayout(16, spacing, 2000));
@@ -333,7 +331,7 @@ TEST(Forest, LevelsSaveWorkAtAPixel) {
   EXPECT_LE(worstPixels(grove, forest, camera, start + ticks, 20), 1.0);
 }
 
-// Of a million trees, one grows again bit by bit.
+// One tree of a million grows again with the same bits.
 TEST(Forest, TreesOfTilesGrowAgainTheSame) {
   Layout layout = gridLayout(1, 1.0);
   layout.trees.clear();

@@ -7,11 +7,11 @@
 namespace vegetation_sim::forest {
 namespace {
 
-// N13: key frames tell amplitudes; between them a replica steps the modes itself. Whoever comes
-// late and whoever was there from the beginning pose every branch as the forest does, to the bit.
+// N13: key frames have amplitudes; between them a replica steps the modes itself. Late and early
+// subscribers pose every branch with the bits of the forest.
 TEST(ModalTreeState, ReplicasSwayToTheBit) {
   Clearing scene;
-  scene.publishAtMost(1600);  // plain modes, which are found at once
+  scene.publishAtMost(1600);  // plain modes, computed at once
   ForestReplica steady, late;
   for (ForestReplica* replica : {&steady, &late}) scene.introduce(*replica);
   const Tree tree = scene.tree(2);
@@ -24,7 +24,7 @@ TEST(ModalTreeState, ReplicasSwayToTheBit) {
     ASSERT_TRUE(steady.apply(update)) << steady.why();
     const bool joined = i >= TICK_RATE;
     ASSERT_EQ(joined && late.apply(update), joined) << late.why();
-    if (i % 7 && i % TICK_RATE) continue;  // key frames too: ahead of those too they are alike
+    if (i % 7 && i % TICK_RATE) continue;  // key frames too: extrapolation gives the same bits
     const Nanoseconds stamp = scene.now() + seconds(0.005);
     const auto here = scene.forest.pose(tree, 2, stamp);
     for (const ForestReplica* replica : {&steady, &late}) {
@@ -36,12 +36,12 @@ TEST(ModalTreeState, ReplicasSwayToTheBit) {
       }
     }
   }
-  // Of 3 s at 60 Hz: 180 would be if every tick told.
+  // If every tick of 3 s at 60 Hz sent amplitudes there would be 180.
   EXPECT_LT(published, 4u * 15u);
 }
 
-// N13: who joins late finds fine modes one by one, not all at once: ticks would be dropped. The
-// trees that wait are shown procedural, and all are to the bit in the end.
+// N13: late subscribers compute fine modes one by one, so that no ticks are dropped. Waiting trees
+// move procedurally, and all have the same bits in the end.
 TEST(ModalTreeState, WhoJoinsLateFindsFineModesOneByOne) {
   Clearing scene(breeze(), 0.05);
   scene.run(2.0);
@@ -66,8 +66,8 @@ TEST(ModalTreeState, WhoJoinsLateFindsFineModesOneByOne) {
   }
 }
 
-// N13: who was told of plain modes, lost messages and is told of fine ones at a key frame does not
-// go on from the old ones, over steps as long as what was lost.
+// N13: a replica with plain modes that lost messages and gets fine ones in a key frame does not
+// continue the old ones over a long step.
 TEST(ModalTreeState, NothingStaleIsShownWhileFineModesAreAwaited) {
   Clearing scene(breeze(), 0.05);
   scene.publishAtMost(1600);  // plain modes
@@ -77,7 +77,7 @@ TEST(ModalTreeState, NothingStaleIsShownWhileFineModesAreAwaited) {
   ASSERT_TRUE(replica.apply(scene.forest.update(true)));
   for (std::uint32_t id = 0; id < 4; ++id) ASSERT_NE(replica.modalState(id), nullptr);
   scene.publishAtMost(1000000);
-  scene.run(2.0);  // of which nothing is told
+  scene.run(2.0);  // without messages
   for (std::uint32_t id = 0; id < 4; ++id) ASSERT_TRUE(scene.forest.modalState(id)->fine()) << id;
   for (int i = 0; i < 5; ++i) {
     scene.advance();
@@ -94,7 +94,7 @@ TEST(ModalTreeState, NothingStaleIsShownWhileFineModesAreAwaited) {
   }
 }
 
-// What a hand moves is told at every tick, the amplitudes of the tree it is on are not.
+// Grabbed branches are sent at every tick, the amplitudes of their tree are not.
 TEST(ModalTreeState, AHeldTreeTellsItsAmplitudesInKeyFramesOnly) {
   Clearing scene(breeze(), 0.1);
   scene.run(1.0);
@@ -116,7 +116,7 @@ TEST(ModalTreeState, AHeldTreeTellsItsAmplitudesInKeyFramesOnly) {
   }
 }
 
-// Displays pose such a tree in single precision: within the bar of the batched path.
+// Displays pose such a tree in single precision, within the tolerance of the batched path.
 TEST(ModalTreeState, BatchedPoseIsThePlainOne) {
   Clearing scene;
   scene.run(3.0);

@@ -86,7 +86,7 @@ TEST(Pick, TreesBehindTheHitAreNotGrown) {
   EXPECT_LT(grown, 100);  // of 144
 }
 
-// S1-04, S1-25 in spirit: grown trees are forgotten when others need the room.
+// S1-04, S1-25: grown trees are dropped when others need the room.
 TEST(TreeCache, HoldsNoMoreThanItsCapacity) {
   const Layout layout = gridLayout(4, 10.0);
   TreeCache cache(2000);

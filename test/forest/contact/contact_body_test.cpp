@@ -54,7 +54,7 @@ TEST(ContactBody, MotionJoinsTwoPoses) {
   const Vec3 point(0.4, -0.2, 0.9);
   const Vec3 fixed = rotate(conjugate(body.pose.orientation), Vec3(point - body.pose.position));
   const Vec3 moved = later.position + rotate(later.orientation, fixed);
-  // One microsecond's way is told to its square.
+  // The displacement of one microsecond is exact up to its square.
   EXPECT_NEAR(length(velocityAt(body, body.pose, point) - (moved - point) / 1e-6), 0.0, 1e-4);
 }
 

@@ -1,6 +1,4 @@
-// Copyright 2026 vegetation_sim developers
-// SPDX-License-Identifier: BSD-3-Clause
-// A capsule of 5 cm driven through crowns that are physical as a whole.
+// A capsule of 5 cm is driven through fully physical crowns.
 #include <gtest/gtest.h>
 
 #include <utility>
@@ -15,23 +13,23 @@ namespace {
 struct Way {
   const char* species;
   std::uint64_t seed;
-  double x, y, z;  // where it starts [m]
+  double x, y, z;  // start [m]
   double length;   // [m]
 };
 
 constexpr Way BIRCH{"birch", 7, -1.5, 0.3, 6.5, 1.2};
-// The busiest ways through an oak, a pine and a willow.
+// Paths with the most contacts through an oak, a pine and a willow.
 constexpr Way BUSY_OAK{"oak", 7, -1.795, 0.555, 8.3, 1.1};
 constexpr Way BUSY_PINE{"pine", 7, -0.624, -0.074, 9.7, 1.1};
 constexpr Way BUSY_WILLOW{"willow", 7, -0.237, -2.187, 7.4, 1.1};
 constexpr Way OAK{"oak", 7, -2.0, 0.0, 7.45, 1.5};
 constexpr Way PINE{"pine", 9, -2.58, -0.4, 7.091, 2.0};
 constexpr Way FLAT{"pine", 8, -1.192, 0.4, 8.819, 2.0};   // a stiff twig lies on the capsule
-constexpr Way FOOT{"pine", 7, -1.524, -0.3, 7.673, 2.0};  // a twig stands on what is overrun
+constexpr Way FOOT{"pine", 7, -1.524, -0.3, 7.673, 2.0};  // a twig grows on wood that is overrun
 constexpr Way OFF{"oak", 8, -0.29028100474258256, -0.54028100474258178, 3.8, 2.0};
 constexpr Way THROWN{"oak", 8, -0.090281004742582549, -1.0402810047425817, 3.4, 2.0};
-constexpr Way STEM{"oak", 9, -0.13, 0.12, 4.8, 2.0};    // stout wood lies on the capsule
-constexpr Way WHIP{"oak", 8, -0.986, 1.3, 6.186, 2.0};  // 1 cm of oak whips past at 9 m/s
+constexpr Way STEM{"oak", 9, -0.13, 0.12, 4.8, 2.0};    // thick wood lies on the capsule
+constexpr Way WHIP{"oak", 8, -0.986, 1.3, 6.186, 2.0};  // a branch of 1 cm passes at 9 m/s
 
 CrownResult driveAt(double speed, const Way& way) {
   CrownScene scene(way.species, way.seed);
@@ -43,7 +41,7 @@ std::vector<double> speeds(std::vector<double> all) {
   return all;
 }
 
-// Wrenches are continuous in time: from part to part of a step none changes by more than this.
+// Wrenches are continuous in time: none changes by more than this between substeps.
 void expectGentle(const CrownResult& found, double speed) {
   for (const double change : {found.largest_rise, found.largest_fall}) {
     EXPECT_LE(change, SubstepBisection::MAX_FORCE_CHANGE * 2000.0 + 1e-6) << speed << " m/s";
@@ -51,7 +49,7 @@ void expectGentle(const CrownResult& found, double speed) {
   }
 }
 
-// S1-W6. At every speed of a robot, thin wood goes aside: no deeper than 5 mm at any instant.
+// S1-W6. At every speed of a robot, thin wood moves aside: the overlap never exceeds 5 mm.
 TEST(ContactInACrown, ThinWoodGoesAsideAtAnySpeed) {
   for (const double speed : speeds({0.1, 0.5, 1.0, 2.0, 3.0})) {
     const CrownResult found = driveAt(speed, BIRCH);
@@ -64,14 +62,14 @@ TEST(ContactInACrown, ThinWoodGoesAsideAtAnySpeed) {
   }
 }
 
-// S1-W6. So does that of the other species, where their crowns are densest; some of it stands on
+// S1-W6. The same holds for the other species where their crowns are densest; some twigs grow on
 // wood that is overrun.
 TEST(ContactInACrown, ThinWoodOfEverySpeciesGoesAside) {
   for (const Way& way : {BUSY_OAK, BUSY_PINE, BUSY_WILLOW}) {
     double deepest = 0.0, fall = 0.0;
     for (const double speed :
          SANITIZED ? std::vector<double>{1.0} : speeds({0.1, 0.5, 1.0, 2.0, 3.0})) {
-      const bool slow = speed < 0.2;  // takes long: not so far
+      const bool slow = speed < 0.2;  // takes long, so the path is shorter
       Way driven = way;
       driven.length *= slow ? 0.6 : 1.0;
       const CrownResult found = driveAt(speed, driven);
@@ -86,8 +84,8 @@ TEST(ContactInACrown, ThinWoodOfEverySpeciesGoesAside) {
   }
 }
 
-// S1-W6. Stiff twigs on wood that is overrun: their part outside their bearer stays out, because
-// what would enter deeply is stopped at once.
+// S1-W6. Stiff twigs on overrun wood: their part outside the parent stays outside the body, because
+// deep contacts are stopped at once.
 TEST(ContactInACrown, TwigsOnOverrunWoodStayOut) {
   for (const Way& way : {PINE, FLAT}) {
     for (const double speed : speeds({1.0, 3.0})) {
@@ -100,8 +98,8 @@ TEST(ContactInACrown, TwigsOnOverrunWoodStayOut) {
   }
 }
 
-// A twig's foot is inside wood that is overrun: it holds that wood off before it is entered itself.
-// Wood that slides along the body faster than it drives is followed in parts of a step.
+// The base of a twig is inside overrun wood, which it holds off before it is entered itself. Wood
+// that slides along the body faster than the body moves is followed in substeps.
 TEST(ContactInACrown, FeetOfTwigsAndWhippingWoodStayOut) {
   std::vector<std::pair<double, Way>> drives{{0.5, FOOT}, {1.0, FOOT}, {3.0, WHIP}};
   if (SANITIZED) drives.erase(drives.begin());
@@ -115,7 +113,7 @@ TEST(ContactInACrown, FeetOfTwigsAndWhippingWoodStayOut) {
   }
 }
 
-// Stout wood at its limit that slides off the end of the capsule lets go as gently.
+// Thick wood at its force limit that slides off the end of the capsule is released smoothly.
 TEST(ContactInACrown, WoodThatSlidesOffLetsGoGently) {
   for (const auto& [speed, way] : {std::pair<double, Way>{0.5, OFF}, {3.0, OFF}, {3.0, THROWN}}) {
     const CrownResult found = driveAt(speed, way);
@@ -125,7 +123,8 @@ TEST(ContactInACrown, WoodThatSlidesOffLetsGoGently) {
   }
 }
 
-// Wood that cannot give way answers with the limit, while the thin wood around it still goes aside.
+// Wood that cannot move aside reacts with the force limit, while the thin wood around it still
+// moves aside.
 TEST(ContactInACrown, ThickWoodAnswersWithTheLimit) {
   for (const double speed : speeds({0.5, 3.0})) {
     const CrownResult found = driveAt(speed, OAK);
@@ -137,7 +136,7 @@ TEST(ContactInACrown, ThickWoodAnswersWithTheLimit) {
   }
 }
 
-// What lies flat has two contacts: it is their sum that no part lets rise too far.
+// A flat branch has two contacts, whose sum no substep lets rise too far.
 TEST(ContactInACrown, StoutWoodThatLiesFlatIsMetAsGently) {
   for (const double speed : speeds({1.0, 3.0})) {
     const CrownResult found = driveAt(speed, STEM);
@@ -152,7 +151,7 @@ TEST(ContactInACrown, EverythingReturns) {
   const Vec3 start(BIRCH.x, BIRCH.y, BIRCH.z);
   EXPECT_GT(scene.drive(start, 0.025, 0.6, 3.0, BIRCH.length).touched, 5);
   const double left_over = scene.leftOver(SANITIZED ? 0.1 : 30.0);
-  EXPECT_LT(left_over, SANITIZED ? 1.0 : 2e-3);  // what still swings after half a minute
+  EXPECT_LT(left_over, SANITIZED ? 1.0 : 2e-3);  // remaining oscillation after half a minute
 }
 
 }  // namespace

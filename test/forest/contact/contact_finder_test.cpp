@@ -62,7 +62,7 @@ TEST_F(ContactFinderTest, OverlapIsToldWithSideAndVelocity) {
   EXPECT_EQ(contacts[0].share, 1.0);
 }
 
-// S1-W6: else it would turn about the one place into the body.
+// S1-W6: with one contact it would rotate about it into the body.
 TEST_F(ContactFinderTest, TwigThatLiesFlatTouchesAtTwoPlaces) {
   body_.pose.orientation = Quat();
   place(-0.02);
@@ -70,7 +70,7 @@ TEST_F(ContactFinderTest, TwigThatLiesFlatTouchesAtTwoPlaces) {
   ASSERT_EQ(contacts.size(), 2u);
   EXPECT_GT(std::fabs(contacts[1].along - contacts[0].along), 0.2);
   for (physics::Contact& contact : contacts) {
-    EXPECT_NEAR(contact.gap, -0.005, 2e-4);  // the farther one is on the cap a little
+    EXPECT_NEAR(contact.gap, -0.005, 2e-4);  // the farther one is slightly on the cap
     EXPECT_EQ(contact.force, 0.0);
     contact.force = 100.0 * contact.along;
   }
@@ -83,7 +83,7 @@ TEST_F(ContactFinderTest, TwigThatLiesFlatTouchesAtTwoPlaces) {
     EXPECT_NEAR(contact.force, 100.0 * contact.along, 1e-6);
   const double both = contacts[0].force + contacts[1].force;
   body_.pose.orientation = Quat{std::sqrt(0.5), std::sqrt(0.5), 0.0, 0.0};
-  contacts = find();  // crosswise: one, with the force of both
+  contacts = find();  // crosswise: one contact with the force of both
   ASSERT_EQ(contacts.size(), 1u);
   EXPECT_NEAR(contacts[0].force, both, 1e-9);
 }
@@ -108,8 +108,8 @@ TEST_F(ContactFinderTest, FastTwigMeetsWhatItWouldJumpOver) {
   EXPECT_NEAR(contacts[0].gap, 0.035, 1e-4);
 }
 
-// Through the axis the side is kept and the limit fades, until the twig is out and forgotten.
-// A centimetre of relative way a part; what is far away does not count, and there is an end.
+// Beyond the axis the normal is kept and the limit fades until the twig has left. Substeps have one
+// centimetre of relative motion; distant branches do not count, and the number is limited.
 TEST_F(ContactFinderTest, StepsBesideFastWoodAreTakenInParts) {
   const auto parts = [&](double x, double body, double twig) {
     place(x);
@@ -127,7 +127,7 @@ TEST_F(ContactFinderTest, StepsBesideFastWoodAreTakenInParts) {
   EXPECT_EQ(parts(-0.5, 6.0, 0.0), 1);
 }
 
-// S1-W6. Thin wood is hard to enter; from 1 to 1.2 cm of radius on it is as the law says.
+// S1-W6. Contacts of thin wood are harder; from 1 to 1.2 cm of radius on the law holds.
 TEST_F(ContactFinderTest, ThinWoodIsHarder) {
   const auto bears = [&](double radius) {
     skeleton_.branches[0].base_radius = skeleton_.branches[0].tip_radius = radius;

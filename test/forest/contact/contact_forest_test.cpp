@@ -1,6 +1,4 @@
-// Copyright 2026 vegetation_sim developers
-// SPDX-License-Identifier: BSD-3-Clause
-// Bodies among the trees of a forest, from promotion to the end of all that is physical.
+// Bodies among the trees of a forest, from promotion to the end of the last blend.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,8 +12,8 @@
 namespace vegetation_sim::forest {
 namespace {
 
-// S1-W6, N12: only what is near is physical, nothing thin is entered,
-// and after the drive and its blend nothing is held.
+// S1-W6, N12: only near branches are physical, thin wood is not penetrated, and after the drive and
+// the blend nothing is held.
 TEST(ContactInAForest, BranchesGoAsideAndAllReturns) {
   for (const double speed : {0.5, 3.0}) {
     Drive drive(speed);
@@ -38,8 +36,8 @@ TEST(ContactInAForest, BranchesGoAsideAndAllReturns) {
   }
 }
 
-// N12: bodies that touch one branch after the other never make more physical than the cap, and what
-// is left behind makes room.
+// N12: bodies that touch one branch after the other never exceed the cap, and released branches
+// make room.
 TEST(ContactInAForest, CapHoldsAlongTheWholeDrive) {
   PhysicsSettings settings;
   settings.most_branches = 20;
@@ -81,8 +79,8 @@ TEST(ContactInAForest, ReactionsTellBodyPlaceAndForce) {
   EXPECT_FALSE(found->limited);
 }
 
-// A knock costs a bounded number of parts, whatever the law: what wants more is counted, and steps
-// on. The default law wants none.
+// An impact takes a bounded number of substeps with any law: excess requests are counted. The
+// default law has none.
 TEST(ContactInAForest, HalvingsAreBounded) {
   for (const double stiffness : {5e5, 1e8}) {
     Drive drive(3.0);
@@ -120,16 +118,16 @@ ContactRecorder expectImpulseIsReported(Scene& scene, int ticks) {
   return recorder;
 }
 
-// N3. Impulse for impulse: wrenches tell what the trees get, in however many parts a step is taken.
-// (physics/contact_test: the wood gains the momentum of the force that is told.)
+// N3. Published wrenches carry the impulse on the trees, whatever the substeps.
+// (dynamics/contact_test: the wood gains the momentum of the reported force.)
 TEST(ContactInAForest, WrenchesCarryTheImpulseThatTheTreeGets) {
   Drive twigs(3.0);
-  EXPECT_LT(expectImpulseIsReported(twigs, 26).shortest, 0.6 / 240.0);  // parts of steps
+  EXPECT_LT(expectImpulseIsReported(twigs, 26).shortest, 0.6 / 240.0);  // substeps
   Ram trunk(3.0, TICKS);
-  EXPECT_LT(expectImpulseIsReported(trunk, 2).shortest, 0.2 / 240.0);  // their halves
+  EXPECT_LT(expectImpulseIsReported(trunk, 2).shortest, 0.2 / 240.0);  // bisected substeps
 }
 
-// What is taken again in halves was taken back: wood moves on by its speeds from part to part.
+// A repeated substep leaves no trace: displacements agree with velocities between substeps.
 TEST(ContactInAForest, NothingOfAPartThatIsTakenAgainIsLeft) {
   Ram ram(3.0, TICKS, 0.95);
   ContactRecorder recorder;
@@ -142,9 +140,9 @@ TEST(ContactInAForest, NothingOfAPartThatIsTakenAgainIsLeft) {
   EXPECT_EQ(recorder.inconsistent, 0);
 }
 
-// Wrenches as they are told, tick by tick: a trunk's force comes up over several ticks that are no
-// shorter than parts of steps, as the law says, and to its limit; and falls, when the body is
-// through the trunk, at no more than the law's rate.
+// Wrenches tick by tick: the force of a trunk rises over several ticks that are no shorter than
+// substeps, as the law says, up to its limit; it falls at no more than the law's rate when the body
+// has passed the trunk.
 TEST(ContactInAForest, WrenchesRiseAndFallAsTheLawSays) {
   const physics::ContactLaw law;
   for (const auto& [speed, ticks] : {std::pair(0.1, 240), {1.0, 1920}, {3.0, 3840}}) {
@@ -192,8 +190,7 @@ TEST(ContactInAForest, BodyFarAwayWakesNoTree) {
   EXPECT_TRUE(drive.forest().physicalTrees().empty());
 }
 
-// N12: a tree that a body is near to is at hand, grown, and counted; it is let go with the first
-// tick at which no body is.
+// N12: a tree near a body is cached and counted until the first tick without a near body.
 TEST(ContactInAForest, TreesAreAtHandOnlyWhileABodyIsNear) {
   Drive drive(0.0, Vec3(-4.0, 0.0, 2.0));  // touches nothing
   Forest& forest = drive.forest();

@@ -1,6 +1,4 @@
-// Copyright 2026 vegetation_sim developers
-// SPDX-License-Identifier: BSD-3-Clause
-// What hands and bodies feel, tick by tick.
+// Reactions on grippers and bodies, tick by tick.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,15 +15,15 @@ namespace {
 
 constexpr int WINDOWS = 6;  // of 1/60 s
 
-/// What a hand is told that carries a twig 2 cm aside in one tick of 60 Hz and holds it there, at
-/// `rate` Hz.
+/// Reactions on a gripper that moves a twig 2 cm aside in one tick of 60 Hz and holds it, at `rate`
+/// Hz.
 struct TwigPull {
   std::vector<Vec3> impulse;  ///< of windows of 1/60 s [N s]
-  std::vector<Vec3> last;     ///< force told at the end of each [N]
+  std::vector<Vec3> last;     ///< published force at the end of each [N]
 
   explicit TwigPull(int rate) : impulse(WINDOWS, Vec3(Vec3::Zero())), last(WINDOWS) {
     PhysicsSettings settings;
-    settings.promotion = Promotion::DEPTH;  // the same branches whatever the rate
+    settings.promotion = Promotion::DEPTH;  // the same branches at every rate
     PhysicsRig rig(settings);
     rig.grid = TickGrid(rate);
     rig.tick = rig.grid.tickAt(rig.forest.snapshot().stamp);
@@ -44,8 +42,8 @@ struct TwigPull {
   }
 };
 
-// N3. What is told at 60 Hz is the mean of the tick: the impulse of a run whose ticks and steps are
-// 64 and 16 times finer. What a sample at the tick's end would tell is something else.
+// N3. The reaction at 60 Hz is the mean of the tick: it has the impulse of runs whose ticks and
+// steps are 64 and 16 times finer, unlike a sample at the end of the tick.
 TEST(Wrench, OfAHandIsTheMeanOfItsTick) {
   const TwigPull coarse(TICK_RATE), fine(64 * TICK_RATE);
   double largest = 0.0, worst = 0.0, sampled = 0.0;
@@ -59,8 +57,8 @@ TEST(Wrench, OfAHandIsTheMeanOfItsTick) {
   EXPECT_GT(sampled, 0.1 * largest);
 }
 
-// N3. A clock that leaps has no mean: what is told is the spring's force at where the point is
-// seen.
+// N3. After a gap in time there is no mean: the reaction is the spring's force at the visible
+// point.
 TEST(Wrench, OfAHandIsTheSpringsOwnWhereTheClockLeaps) {
   PhysicsRig rig;
   Grab grab = rig.grabOf(rig.twig());
@@ -83,7 +81,7 @@ TEST(Wrench, OfAHandIsTheSpringsOwnWhereTheClockLeaps) {
   }
 }
 
-/// What two bodies are told that meet a trunk from two sides, summed over some ticks [N s].
+/// Sums of the reactions on two bodies that meet a trunk from two sides, over some ticks [N s].
 struct TwoRams {
   std::map<std::string, Vec3> published;
   ContactRecorder recorder;
@@ -102,8 +100,8 @@ struct TwoRams {
   }
 };
 
-// N3. Each body gets the reaction to what it does itself, up to a limit of its own, whichever comes
-// first; the branch feels the sum, as resolved from part to part of a step as that of one.
+// N3. Each body gets its own reaction with its own limit; the branch gets their sum, with the same
+// substep resolution as for one.
 TEST(Wrench, OfTwoBodiesOnABranchIsEachOnesOwn) {
   const double limit = physics::ContactLaw().force_limit, tick = 1.0 / TICKS;
   TwoRams beside(-0.8, 0.8), swapped(0.8, -0.8), pinch(0.0, PI);
@@ -115,7 +113,7 @@ TEST(Wrench, OfTwoBodiesOnABranchIsEachOnesOwn) {
   }
   EXPECT_LT(length(beside.published["arm0"] - swapped.published["arm1"]), 1e-3 * limit * tick);
   EXPECT_LT(length(beside.published["arm1"] - swapped.published["arm0"]), 1e-3 * limit * tick);
-  EXPECT_GT(length(beside.recorder.impulse), 4.0 * limit * tick);  // more than one could do
+  EXPECT_GT(length(beside.recorder.impulse), 4.0 * limit * tick);  // more than one body could give
   EXPECT_LT(beside.published["arm0"].y() * beside.published["arm1"].y(), 0.0);
   EXPECT_LT(pinch.published["arm0"].x(), -3.0 * limit * tick);
   EXPECT_GT(pinch.published["arm1"].x(), 3.0 * limit * tick);

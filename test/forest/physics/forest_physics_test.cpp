@@ -1,6 +1,4 @@
-// Copyright 2026 vegetation_sim developers
-// SPDX-License-Identifier: BSD-3-Clause
-// What a million trees take, counted at the allocator.
+// Memory of a million trees and of physics, counted at the allocator.
 #include <gtest/gtest.h>
 
 #include "heap.h"
@@ -11,7 +9,7 @@ namespace vegetation_sim::forest {
 namespace {
 
 constexpr Nanoseconds START = 1700000000LL * NANOSECONDS_PER_SECOND;
-constexpr long MOST_PER_TREE = 200;  // [byte] that stay, of each of a million trees
+constexpr long MOST_PER_TREE = 200;  // permanently, per tree [byte]
 constexpr long TREES = 1000000;
 
 Layout millionTrees() {
@@ -31,12 +29,12 @@ Layout millionTrees() {
   return out;
 }
 
-// A million trees as a law: nothing per tree while nobody looks; not too much even if every one of
-// them is held at a level of its own.
+// A million trees in tiles: no memory per tree without viewers, and little even if each has its own
+// level.
 TEST(Memory, MillionTreesStayWithinTheirBytes) {
   const long before = liveBytes();
   Settings settings;
-  settings.budget.frame_time = 1e6;  // no tree is held back
+  settings.budget.frame_time = 1e6;  // no limit
   Forest forest(millionTrees(), flatTerrain(), settings);
   ASSERT_EQ(forest.layout().treeCount(), static_cast<std::uint32_t>(TREES));
   forest.setWind(wind::Field({makeBreeze(1, Vec3(5, 0, 0))}));
@@ -46,22 +44,22 @@ TEST(Memory, MillionTreesStayWithinTheirBytes) {
   Viewer eye;
   eye.id = "eye";
   eye.eye.position = Vec3(3000, 3000, 100);
-  eye.eye.pixels_per_radian = 1e6;  // sees every twig of the farthest tree
+  eye.eye.pixels_per_radian = 1e6;  // every twig of the farthest tree is visible
   eye.stamp = START;
   forest.setViewer(eye);
   forest.advance(START + NANOSECONDS_PER_SECOND / 30);
   ASSERT_EQ(forest.snapshot().levels.held().size(), static_cast<std::size_t>(TREES));
   forest.update(false);
   const long watched = liveBytes() - before;
-  EXPECT_GT(watched, 40 * TREES);  // else nothing was counted
+  EXPECT_GT(watched, 40 * TREES);  // otherwise nothing was counted
   EXPECT_LT(watched, MOST_PER_TREE * TREES);
   RecordProperty("bytes_unwatched", std::to_string(unwatched));
   std::printf("a million trees: %ld bytes unwatched, %.1f bytes a tree with all of them held\n",
               unwatched, static_cast<double>(watched) / TREES);
 }
 
-// S1-25, N12: of 256 trees in a wind, a grab makes physical what it moves of one of them; released
-// and blended back, that has given back every byte it took.
+// S1-25, N12: of 256 trees in wind, a grab makes branches of one tree physical; after release and
+// blend all its memory is freed.
 TEST(Memory, OneGrabIn256TreesGivesAllBack) {
   PhysicsRig rig({}, 16);
   ASSERT_EQ(rig.forest.layout().treeCount(), 256u);
@@ -79,7 +77,7 @@ TEST(Memory, OneGrabIn256TreesGivesAllBack) {
   EXPECT_EQ(during.trees, 1u);
   EXPECT_GT(during.branches, 1u);
   EXPECT_LT(during.branches, rig.branches().size() / 2);
-  // What is told is what is held, but for scratch memory of the steps.
+  // The reported bytes are those held, except for scratch memory of the steps.
   EXPECT_LE(static_cast<long>(during.bytes), held);
   EXPECT_GT(2 * static_cast<long>(during.bytes), held);
   rig.forest.release(id);

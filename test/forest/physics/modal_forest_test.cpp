@@ -11,8 +11,8 @@
 namespace vegetation_sim::forest {
 namespace {
 
-// N13: modes that are found before they are told of are counted, and neither they nor the wish for
-// them outlive what they are for.
+// N13: modes that are computed before their state arrives are counted; they and their requests end
+// with their purpose.
 TEST(ModalForest, WhatIsAwaitedIsCountedAndDropped) {
   const Layout layout = gridLayout(2, 12.0);
   const terrain::HeightMap flat;
@@ -26,9 +26,9 @@ TEST(ModalForest, WhatIsAwaitedIsCountedAndDropped) {
   ModalForest modes;
   modes.addTree(at, 0, false, seconds(1.0));
   for (const std::uint32_t id : {0u, 1u, 2u}) modes.queueFineModes(id);
-  EXPECT_EQ(modes.find(0), nullptr);  // what it had would be stale
+  EXPECT_EQ(modes.find(0), nullptr);  // its former state would be stale
   EXPECT_EQ(modes.bytes(), 0u);
-  modes.restore(at, 0, source.find(0)->state(), seconds(1.0));  // no longer awaited
+  modes.restore(at, 0, source.find(0)->state(), seconds(1.0));  // no longer queued
   const std::size_t one = modes.bytes();
   modes.prepareNext(at);
   EXPECT_FALSE(modes.isReady(2, all));
@@ -42,7 +42,7 @@ TEST(ModalForest, WhatIsAwaitedIsCountedAndDropped) {
   EXPECT_EQ(modes.bytes(), 0u);
 }
 
-// N13: a tree that stands at another stamp starts again on its procedural motion.
+// N13: a tree with another stamp restarts on its procedural motion.
 TEST(ModalForest, StartAgainWhatStandsAtAnotherStamp) {
   const Layout layout = gridLayout(2, 12.0);
   const terrain::HeightMap flat;
@@ -56,8 +56,8 @@ TEST(ModalForest, StartAgainWhatStandsAtAnotherStamp) {
   EXPECT_EQ(early.find(0)->state().amplitude, late.find(0)->state().amplitude);
 }
 
-// N13: a tree of few branches has all of its modes at once; they are not looked for again, and
-// whoever is told of them has the same.
+// N13: a tree with few branches has all its modes at once; they are not computed again, and
+// replicas have the same.
 TEST(ModalForest, TreesOfFewBranchesHaveAllOfTheirModes) {
   const wind::Field wind = breeze();
   const terrain::HeightMap flat;
@@ -87,8 +87,8 @@ TEST(ModalForest, TreesOfFewBranchesHaveAllOfTheirModes) {
   }
 }
 
-// N13: levers that turn feed back on what turns them; however strong the storm and long the tick,
-// the tree stays near where levers at rest have it.
+// N13: rotated lever arms feed back on the bend; in any storm and tick length the tree stays near
+// the result for lever arms at rest.
 TEST(ModalForest, LeversThatTurnStayBoundedInStormsOverLongTicks) {
   const Layout layout = gridLayout(2, 12.0);
   std::vector<wind::Primitive> three;
