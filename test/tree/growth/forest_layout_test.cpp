@@ -22,7 +22,7 @@ std::string faultsOf(const Layout& layout) {
   return faults.text();
 }
 
-// S1-05: what is permanent of a tree, as sent, is far below 1 kB.
+// S1-05: the permanent data of a tree in a message is far below 1 kB.
 TEST(Layout, SeedIsSmall) {
   EXPECT_LT(sizeof(TreeSeed), 200u);
 }
@@ -75,7 +75,7 @@ TEST(Layout, FaultsNameFieldValueAndRange) {
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
 }
 
-// Against the place of every tree.
+// Compares with the positions of all trees.
 TEST(Layout, TreesOfATileNearAPointAreFound) {
   Tile tile;
   tile.count = 700;

@@ -92,7 +92,7 @@ TEST(Response, ComplianceGainBalancesTheDrag) {
   }
 }
 
-// S1-20: turning the force by 90 degrees moves the answer from one angle to the other.
+// S1-20: rotating the force by 90 degrees moves the response from one angle to the other.
 TEST(Response, DirectionShowsInTheAngles) {
   const Skeleton skeleton = poleSkeleton(0.0, 0.4);
   const auto response = windResponse(skeleton, pole(), lawOf(JointModel::PAPER, Gain::COMPLIANCE));
@@ -112,8 +112,9 @@ double tipTravel(JointModel model, double phi, double azimuth) {
                 tipOf(skeleton.branches[0], skeleton.branches[0].rest));
 }
 
-// E4: anisotropy over 36 directions of wind. The printed joint answers sideways wind with sin^2 phi
-// of the in-plane travel and not at all where a branch goes on straight; `swing` is isotropic.
+// E4: anisotropy over 36 wind directions. The response of the printed joint to lateral wind is
+// sin^2 phi of the in-plane motion, and zero where a branch continues straight; `swing` is
+// isotropic.
 TEST(Response, SwingIsIsotropicWherePaperIsDegenerate) {
   for (const double phi : {0.0, 10.0 * PI / 180.0}) {
     double bending_low = 1e9, bending_high = 0.0, paper_low = 1e9, paper_high = 0.0;
@@ -129,11 +130,11 @@ TEST(Response, SwingIsIsotropicWherePaperIsDegenerate) {
     const double s = std::sin(phi);
     EXPECT_NEAR(paper_low / paper_high, s * s / std::cos(phi), 0.002) << phi;
     EXPECT_GT(bending_low / bending_high, std::cos(phi) - 0.01)
-        << phi;  // cos: the wind's own slant
+        << phi;  // cos: inclination of the wind
   }
 }
 
-// E16: any storm leaves every joint inside its limit, and small angles are exactly linear.
+// E16: in any storm every joint stays within its limit, and small angles are exactly linear.
 TEST(Response, AnglesAreBounded) {
   Response response;
   response.first = Vec3(0.1, 0.0, 0.0);
@@ -149,7 +150,7 @@ TEST(Response, AnglesAreBounded) {
   }
 }
 
-// S1-A1: bending only: no wind turns a swinging branch about its own axis.
+// S1-A1: joints only bend: no wind rotates a branch about its own axis.
 TEST(Response, SwingDoesNotTwist) {
   Skeleton skeleton = poleSkeleton(0.7, 0.5);
   const Branch& b = skeleton.branches[0];

@@ -25,7 +25,8 @@ TEST(Skeleton, ChildIsPlacedAsInFigureOne) {
   const Quat child = restRotation(PI / 2.0, PI / 2.0);
   EXPECT_NEAR(axisZ(child).y(), 1.0, 1e-15);  // axis = +y of the parent
   EXPECT_NEAR(length(axisZ(child) - Vec3(0, 1, 0)), 0.0, 1e-15);
-  // The same of every branch of a tree: its rest pose follows from the parent's by (h, theta, phi).
+  // Every branch of a tree follows the same rule: its rest pose is that of its parent by (h, theta,
+  // phi).
   const Skeleton skeleton = growShipped("oak", 3);
   for (const Branch& b : skeleton.branches) {
     if (b.parent < 0) continue;
@@ -38,7 +39,7 @@ TEST(Skeleton, ChildIsPlacedAsInFigureOne) {
   }
 }
 
-// S1-04: destroy and rebuild from the seed gives the same bits.
+// S1-04: a tree rebuilt from its seed has the same bits.
 TEST_P(SkeletonOfSpecies, RegrowsBitIdentical) {
   for (std::uint64_t seed = 0; seed < 20; ++seed)
     EXPECT_EQ(growShipped(GetParam(), seed).hash(), growShipped(GetParam(), seed).hash());
@@ -58,7 +59,7 @@ TEST_P(SkeletonOfSpecies, HasAtLeastTwoHundredBranches) {
     EXPECT_GE(growShipped(GetParam(), seed).branches.size(), 200u) << seed;
 }
 
-// S1-11: for every joint grown, and the bound falls with the relative diameter.
+// S1-11: the bound holds for every joint and falls with the relative diameter.
 TEST_P(SkeletonOfSpecies, AngleIsBoundedByRelativeDiameter) {
   const Species species = shippedSpecies(GetParam());
   for (double ratio = 0.0; ratio < 1.0; ratio += 0.1)
@@ -105,7 +106,7 @@ TEST_P(SkeletonOfSpecies, LimbsTaperWithoutSteps) {
   }
 }
 
-// S1-12: amplitude 0 leaves the bare rules, whatever the seed; more noise, more difference.
+// S1-12: amplitude 0 leaves the bare rules for any seed; more noise makes more difference.
 TEST_P(SkeletonOfSpecies, NoNoiseLeavesTheBareRules) {
   Species species = shippedSpecies(GetParam());
   species.noise = 0.0;

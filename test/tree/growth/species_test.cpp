@@ -43,7 +43,7 @@ std::size_t leaves(const Species& s) {
   return count(s, [](const Branch& b) { return b.leaves; });
 }
 
-// S1-10: each of the designer's factors changes what it says.
+// S1-10: each design factor changes its property.
 TEST(Species, DesignersFactorsChangeTheTree) {
   const Species oak = shippedSpecies("oak");
   const auto with = [&](double Design::*factor, double value) {
@@ -71,7 +71,7 @@ TEST(Species, DesignNeverLeavesTheAllowedRanges) {
   }
 }
 
-// Even where the last depth is small.
+// This holds even where the last depth is small.
 TEST(Species, DesignThinsOutWhateverDepthIsLarge) {
   const Species wide = parseSpecies(
       "{name: wide, limbs: [{segments: 4}, {children: 60, segments: 2}, {children: 60, segments: "

@@ -27,14 +27,14 @@ Skeleton oak() {
 
 constexpr double SIZES[5][2] = {{1.0, 0.1}, {2.0, 0.1}, {0.5, 0.05}, {0.3, 0.004}, {4.0, 0.3}};
 
-// S1-W2, E13: a slender bar on its joint swings with w0 = sqrt(3 E / rho) d / (4 l^2).
+// S1-W2, E13: a slender bar on its joint oscillates with w0 = sqrt(3 E / rho) d / (4 l^2).
 TEST(Wood, BeamsSwingAsThickAsTheyAreAndAsShortSquared) {
   const Species species = shippedSpecies("oak");
   for (const auto& [length, diameter] : SIZES) {
     const Wood wood = woodOf(bar(length, diameter), species, Material::BEAM);
     const double expected = std::sqrt(3.0 * species.youngs_modulus / species.density) * diameter /
                             (4.0 * length * length);
-    // A bar as thick as a tenth of its length is heavier to turn by 3/16 d^2 / l^2.
+    // A bar with a diameter of a tenth of its length has a larger inertia by 3/16 d^2 / l^2.
     EXPECT_NEAR(std::sqrt(wood.stiffness[0] / wood.own[0].inertia[0]), expected, 1e-3 * expected);
     EXPECT_NEAR(wood.damping[0],
                 2.0 * species.damping_ratio * std::sqrt(wood.stiffness[0] * wood.own[0].inertia[0]),
@@ -42,7 +42,7 @@ TEST(Wood, BeamsSwingAsThickAsTheyAreAndAsShortSquared) {
   }
 }
 
-// S1-28, S1-29: k / m ~ 1 / l^2 whatever the diameter, nu ~ k.
+// S1-28, S1-29: k / m ~ 1 / l^2 for any diameter, nu ~ k.
 TEST(Wood, PaperMaterialSwingsWithoutRegardToThickness) {
   const Species species = shippedSpecies("oak");
   const double scale = species.youngs_modulus * PAPER_RADIUS * PAPER_RADIUS / 4.0 / species.density;
@@ -54,7 +54,7 @@ TEST(Wood, PaperMaterialSwingsWithoutRegardToThickness) {
   }
 }
 
-// The whole tree as points along its branches: mass, moment and inertia about a joint by summing.
+// The reference: mass, moment and inertia about a joint, summed over points along the branches.
 TEST(Wood, SubtreesWeighWhatTheirPartsWeigh) {
   const Skeleton skeleton = oak();
   const Wood wood = woodOf(skeleton, shippedSpecies("oak"), Material::BEAM);
@@ -84,7 +84,7 @@ TEST(Wood, SubtreesWeighWhatTheirPartsWeigh) {
   EXPECT_NEAR(wood.subtree[root].inertia[2], zz, 1e-2 * zz);  // points have no thickness
 }
 
-// S1-W9: what is not promoted hangs on what is; nothing gets lost.
+// S1-W9: unpromoted wood is carried by promoted wood; nothing is lost.
 TEST(Wood, ClustersLoseNothing) {
   const Skeleton skeleton = oak();
   const Wood wood = woodOf(skeleton, shippedSpecies("oak"), Material::BEAM);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr Nanoseconds START = 1700000000LL * NANOSECONDS_PER_SECOND;
 
-/// Trees of all species in a row, of seeds and sizes that nothing was measured on.
+/// Trees of all species in a row, with seeds and sizes that were not used for measurements.
 Layout strangers(std::uint64_t seed, int count, double spacing) {
   Layout out = gridLayout(0, spacing);
   for (int i = 0; i < count; ++i) {
@@ -34,7 +34,7 @@ Viewpoint eyeBefore(double distance) {
   return out;
 }
 
-/// Of all trees, how many were foretold within a factor of two.
+/// Returns how many trees were predicted within a factor of two.
 double shareWithinTwo(const Prediction::Looks& looks) {
   double within = 0.0;
   for (const auto& [tree, each] : looks) {
@@ -46,9 +46,9 @@ double shareWithinTwo(const Prediction::Looks& looks) {
   return within / static_cast<double>(looks.size());
 }
 
-// N7: what the governor foretells of the tiers that it chose, procedural or modal, is what the full
-// chain shows within a factor of two, for nine trees in ten, in breeze, swaying disc and gust
-// together; of trees and a wind that nothing was measured on or fitted to.
+// N7: the predicted error of the chosen tiers, procedural or modal, is that against the full chain
+// within a factor of two for nine trees in ten, in breeze, oscillating disk and gust together;
+// trees and wind were not used for measurements.
 TEST(Prediction, OfChosenRungsIsWhatTheFullChainShows) {
   wind::Primitive gust = makeBreeze(2, Vec3(1.0, 5.0, 0.0));
   gust.name = "gust";
@@ -67,7 +67,8 @@ TEST(Prediction, OfChosenRungsIsWhatTheFullChainShows) {
   EXPECT_GE(shareWithinTwo(looks), 0.9);
 }
 
-// N7: in a steady storm nothing lags, and still all levers are those at rest: that is foretold too.
+// N7: in a steady storm the response has no delay, but all lever arms are those at rest, which is
+// predicted too.
 TEST(Prediction, KnowsThatSteadyStormsBendLevers) {
   wind::Primitive storm = makeBreeze(1, Vec3(40.0, 0.0, 0.0));
   storm.turbulence = 0.0;
@@ -79,8 +80,8 @@ TEST(Prediction, KnowsThatSteadyStormsBendLevers) {
   EXPECT_GE(shareWithinTwo(looks), 0.9);
 }
 
-// N7: in gusts levers that turn mend less than in steady air: an oak as in the shipped grove, which
-// fine modes do not hold to a pixel this near, and that is foretold.
+// N7: in gusts rotated lever arms correct less than in steady wind: an oak as in the shipped
+// forest, which fine modes do not hold to a pixel this near, as predicted.
 TEST(Prediction, KnowsThatGustsBendWhatSwings) {
   Layout layout = gridLayout(0, 1.0);
   TreeSeed oak;

@@ -17,7 +17,7 @@ Tree stranger(const Species& species, const MotionLaw& law, std::uint64_t seed, 
   return growTree(out, species, law);
 }
 
-/// A tree and a wind that nothing was fitted to.
+/// A tree and a wind that were not used for measurements.
 struct Strange {
   std::uint64_t seed;
   double scale;
@@ -28,11 +28,11 @@ bool withinTwo(double predicted, double measured) {
   return predicted > 0.5 * measured && predicted < 2.0 * measured;
 }
 
-// N7: what is predicted of a tree in a breeze is what the full chain shows, within a factor of two
-// for nine plants in ten, on the procedural tier and in modes. Measured on
-// seeds 1 and 2 at the grid's sizes; these are others, of other sizes, in other winds.
+// N7: the predicted error of a tree in a breeze is that against the full chain within a factor of
+// two for nine trees in ten, procedural and modal. Measurements used seeds 1 and 2 at the grid's
+// sizes; these are others, of other sizes, in other winds.
 TEST(ResponseError, OfStrangersIsPredictedWithinAFactorOfTwo) {
-  constexpr double WARM_UP = 3.0, DURATION = 7.0;  // until starts at rest are forgotten
+  constexpr double WARM_UP = 3.0, DURATION = 7.0;  // until initial transients have decayed
   const Strange strangers[] = {{101, 0.85, Vec3(1.8, -2.4, 0.0)},
                                {202, 1.0, Vec3(-7.0, 0.5, 0.0)},
                                {303, 1.15, Vec3(2.0, 3.0, 0.0)}};

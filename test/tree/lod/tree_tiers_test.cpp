@@ -16,7 +16,7 @@ namespace {
 
 constexpr Nanoseconds START = 1700000000LL * NANOSECONDS_PER_SECOND;
 
-// Its tiers leave 8, 4, 2 ... times `scale` pixels.
+// The errors of its tiers are 8, 4, 2 ... times `scale` pixels.
 Plant inModes(double scale, int held) {
   Plant out;
   out.stepwise = 3;
@@ -33,13 +33,13 @@ TEST(Governor, ModesGoToTheTreesThatAreFarthestOff) {
   EXPECT_EQ(plants[0].wanted, 3);
   EXPECT_EQ(plants[1].wanted, MODAL_LEVEL);
   EXPECT_EQ(plants[2].wanted, 3);
-  // A little more error somewhere else does not take them away.
+  // Slightly larger errors of other trees do not take the modes away.
   plants = {inModes(3.1, 3), inModes(3.0, MODAL_LEVEL)};
   shareModes(plants, 1, 100000);
   EXPECT_EQ(plants[1].wanted, MODAL_LEVEL);
 }
 
-// Fine modes take more bytes; where those are missing plain ones do, unless these do not help.
+// Fine modes need more bytes; without them trees get plain modes, unless these do not help.
 TEST(Governor, FineModesGoToWhomBytesAreLeftFor) {
   constexpr int PLAIN = 48 + 16 * 22, FINE = 48 + 16 * 62;
   const auto wanted = [](int bytes) {
@@ -59,7 +59,7 @@ TEST(Governor, FineModesGoToWhomBytesAreLeftFor) {
   EXPECT_EQ(wanted(PLAIN - 1), (std::vector<int>{3, 3, 3}));
 }
 
-/// `side`^2 trees in a breeze around an eye, on a budget.
+/// `side`^2 trees in a breeze around a camera, with a budget.
 struct Park {
   Park(int side, double frame_time)
       : forest(gridLayout(side, 9.0), flatTerrain(), settingsFor(frame_time)) {
@@ -85,10 +85,10 @@ struct Park {
   std::int64_t tick{TickGrid(10).tickAt(START)};
 };
 
-// N7: more trees, the same cost: it stays within a tenth of the budget, errors grow no more than
-// they must, and in steady wind no tier changes more than once a second.
+// N7: more trees cost the same: the cost stays within a tenth of the budget, errors grow no more
+// than necessary, and in steady wind no tier changes more than once a second.
 TEST(Governor, CostStaysOnTheBudgetFromFewTreesToThousands) {
-  constexpr double BUDGET = 0.1;  // less than 16 trees ask for
+  constexpr double BUDGET = 0.1;  // less than 16 trees need
   double last = 0.0;
   for (const int side : {4, 16, 64}) {
     Park park(side, BUDGET);
@@ -114,15 +114,15 @@ TEST(Governor, CostStaysOnTheBudgetFromFewTreesToThousands) {
   }
 }
 
-// N7: where the budget allows it the tolerance is held, except by trees so near that even their
-// finest tier shows; and a larger one costs less.
+// N7: where the budget allows it the tolerance is held, except by trees so near that the error of
+// their finest tier is visible; a larger tolerance costs less.
 TEST(Governor, ToleranceIsHeldWhereTheBudgetAllowsIt) {
   Park park(8, 1000.0);
   Settings settings = park.forest.snapshot().settings;
   settings.budget.modal_trees = 64;
   settings.tolerance = 1.0;
   park.forest.setSettings(settings);
-  for (int i = 0; i < 100; ++i) park.advance();  // a tree a tick gets its modes
+  for (int i = 0; i < 100; ++i) park.advance();  // one tree per tick gets its modes
   const double fine = park.forest.governor().cost;
   EXPECT_EQ(park.forest.governor().held_back, 0u);
   for (const Plant& plant : park.forest.plants()) {
@@ -141,7 +141,7 @@ TEST(Governor, ToleranceIsHeldWhereTheBudgetAllowsIt) {
   EXPECT_EQ(park.forest.governor().over, 0u);
 }
 
-// N13: a worse tier is never taken over a better one, in no storm, though it costs more.
+// N13: a worse tier that costs more is never chosen over a better one, in any storm.
 TEST(Governor, ModesAreNeverPredictedWorseThanWhatTheyReplace) {
   for (const double speed : {2.0, 5.0, 15.0, 40.0, 90.0}) {
     Park park(4, 1000.0);
@@ -159,7 +159,7 @@ TEST(Governor, ModesAreNeverPredictedWorseThanWhatTheyReplace) {
   }
 }
 
-// N7: a robot near by is told of trees in metres, whoever looks.
+// N7: a near robot has a tolerance in metres, independent of viewers.
 TEST(Governor, ARobotNearByWantsItsTreesExact) {
   Park park(4, 8.0);
   Settings settings = park.forest.snapshot().settings;
@@ -175,7 +175,7 @@ TEST(Governor, ARobotNearByWantsItsTreesExact) {
   EXPECT_EQ(park.forest.snapshot().levels.of(15).level, 1);  // far off
 }
 
-// Farthest that any tip of a tree is from where it would be with all depths [pixel].
+// Returns the largest distance of any tip from its place with all depths [pixel].
 double measuredError(const Tree& tree, std::uint32_t id, const Forest& forest, const Camera& camera,
                      Nanoseconds stamp) {
   const auto air = forest.snapshot().wind.at(stamp).relativeTo(tree.foot);
@@ -192,15 +192,15 @@ double measuredError(const Tree& tree, std::uint32_t id, const Forest& forest, c
   return out;
 }
 
-// A disc over everything, whose wind turns round every few seconds.
+// A disk over everything, whose wind reverses every few seconds.
 wind::Field oneWind() {
   wind::Primitive out = makeDisk(1, Vec3(50.0, 50.0, 0.0), 2000.0, Vec3(4, 2, 0));
   out.omega = 2.0;
   return wind::Field({out});
 }
 
-// N7: what is predicted of a tree is what is measured on it, within a factor of two for nine in
-// ten; and the tolerance is held. Trees that leave nothing out have no error to speak of.
+// N7: the predicted error of a tree is the measured one within a factor of two for nine in ten, and
+// the tolerance is held. Trees without omitted depths have no error.
 TEST(Governor, PredictedErrorsAreTheMeasuredOnes) {
   const double spacing = 9.0, extent = 12 * spacing;
   const TreeBatch grove = growTrees(gridLayout(12, spacing));
@@ -239,7 +239,7 @@ TEST(Governor, PredictedErrorsAreTheMeasuredOnes) {
   EXPECT_GE(held, 0.99 * all);
 }
 
-// Farthest that any tip is from where its modes have it, without lag [pixel].
+// Returns the largest distance of any tip from that of its modes, without delay [pixel].
 double measuredError(const Tree& tree, std::uint32_t id, const Forest& forest,
                      const Viewpoint& eye) {
   const Nanoseconds stamp = forest.snapshot().stamp;
@@ -257,7 +257,7 @@ double measuredError(const Tree& tree, std::uint32_t id, const Forest& forest,
   return out;
 }
 
-// N7: so is the lag of trees that follow the wind at once, tree by tree.
+// N7: so is the error of trees that respond to the wind immediately, tree by tree.
 TEST(Governor, PredictedLagIsTheMeasuredOne) {
   Park park(4, 1000.0);
   Settings settings = park.forest.snapshot().settings;

@@ -14,7 +14,7 @@
 namespace vegetation_sim::forest {
 namespace {
 
-// Triangles of one oak by level.
+// Returns the triangles of one oak by level.
 const std::vector<double>& triangles() {
   static const std::vector<double> counts = [] {
     const Species species = shippedSpecies("oak");
@@ -28,7 +28,7 @@ const std::vector<double>& triangles() {
   return counts;
 }
 
-/// A forest as a display draws it: levels by projected size, complexity fed back.
+/// A forest as a display draws it: levels by projected size, with feedback of the complexity.
 class DrawnForest {
  public:
   explicit DrawnForest(double scale, std::uint64_t trees = 256) {
@@ -38,7 +38,7 @@ class DrawnForest {
     levels_.assign(sizes_.size(), -1);
   }
 
-  /// Draws a frame. Returns its complexity.
+  /// Draws a frame; returns its complexity.
   double frame(double target) {
     double out = 0.0;
     for (std::size_t i = 0; i < sizes_.size(); ++i) {
@@ -51,7 +51,8 @@ class DrawnForest {
   void approach(double factor) {
     for (double& size : sizes_) size *= factor;
   }
-  /// Nearer than what one tree adds at its next level, or all trees are at the last one that helps.
+  /// Returns true if the complexity is within the step of one tree to its next level, or if no
+  /// level helps any more.
   bool near(double drawn, double target) const {
     double most = 0.05 * target;
     bool last = true;
@@ -85,7 +86,7 @@ TEST(GeometryLevel, RisesWithProjectedSize) {
   EXPECT_EQ(level, GEOMETRY_LEVELS - 1);
 }
 
-// S1-13: what crosses a border comes back only when it is well past it.
+// S1-13: a level that crossed a border changes back only well beyond it.
 TEST(GeometryLevel, HasHysteresis) {
   for (int level = 0; level + 1 < GEOMETRY_LEVELS; ++level) {
     double border = 1.0;
@@ -125,8 +126,8 @@ TEST(ComplexityFeedback, ComesToRest) {
   }
 }
 
-// S1-14: so it does where the step of one tree is a good part of the target; what it rests at is no
-// farther from the target than such a step.
+// S1-14: this also holds where the step of one tree is a large part of the target; the remaining
+// distance is no larger than such a step.
 TEST(ComplexityFeedback, ComesToRestInSmallForests) {
   for (const std::uint64_t trees : {1u, 4u, 16u, 40u}) {
     for (double target = 1000.0; target < 50000.0; target *= 1.13) {
@@ -143,7 +144,7 @@ TEST(ComplexityFeedback, ComesToRestInSmallForests) {
   }
 }
 
-// S1-14: what rests wakes when the target or the scene changes.
+// S1-14: a settled factor changes again with the target or the scene.
 TEST(ComplexityFeedback, WakesFromRest) {
   DrawnForest forest(1.0, 16);
   for (int i = 0; i < 500; ++i) forest.frame(9000.0);
@@ -165,7 +166,8 @@ TEST(ComplexityFeedback, FollowsTheScene) {
   EXPECT_NEAR(drawn, 130000.0, 13000.0);
 }
 
-// S1-14: where complexity can only jump over the target, it settles instead of swinging.
+// S1-14: where the complexity can only jump over the target, the factor settles instead of
+// oscillating.
 TEST(ComplexityFeedback, SettlesWhereTheTargetCannotBeMet) {
   ComplexityFeedback feedback;
   const auto jump = [&]() { return feedback.factor() > 1.37 ? 2000.0 : 500.0; };

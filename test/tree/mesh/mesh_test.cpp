@@ -83,12 +83,12 @@ TEST_P(MeshOfSpecies, TriangleCountFollowsFromTheDetail) {
 }
 
 // S1-08: sections share their rings, so that a tube has no hole but its two ends, however it bends:
-// an edge is used once only on the ring at a limb's base or tip.
+// an edge is used only once on the ring at a limb's base or tip.
 TEST_P(MeshOfSpecies, TubesAreClosedAtTheirJoints) {
   const MeshDetail detail = meshDetail(GEOMETRY_LEVELS - 1);
   const Skeleton skeleton = growShipped(GetParam(), 6);
   const TreeMesh mesh = buildMesh(skeleton, shippedSpecies(GetParam()), detail);
-  // Vertices that lie in one place of one branch move as one: the seam of the picture.
+  // Vertices at the same place of a branch move as one: the seam of the texture.
   using Place = std::tuple<int, float, float, float>;
   std::map<Place, int> places;
   std::vector<int> welded;
@@ -139,7 +139,7 @@ TEST_P(MeshOfSpecies, TopologyIsSimplifiedLevelByLevel) {
   EXPECT_EQ(branches_before, growShipped(GetParam(), 8).branches.size());
 }
 
-// S1-09: a cluster on a branch that is not drawn stays in its place on one that is.
+// S1-09: a cluster on a branch that is not drawn keeps its place on one that is drawn.
 TEST_P(MeshOfSpecies, LeavesOfBranchesLeftOutStayInPlace) {
   const Skeleton skeleton = growShipped(GetParam(), 9);
   MeshDetail all{MAX_DEPTHS, 8, 8, 1.0}, few = all;

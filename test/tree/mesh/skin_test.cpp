@@ -42,7 +42,7 @@ struct BentTree : testing::Test {
   std::vector<Pose> poses;
 };
 
-// S1-08: float skinning against the same in double precision.
+// S1-08: skinning in single precision agrees with double precision.
 TEST_F(BentTree, BarkFollowsItsBranches) {
   std::vector<float> positions(3 * mesh.bark.size()), normals(positions.size());
   skinBark(mesh, narrowed(poses), FOOT, positions.data());
@@ -79,7 +79,7 @@ TEST_F(BentTree, LeafCardsLieInSquaresOnTheirBranches) {
   }
 }
 
-// Where three corners of a card say that the foot of its midrib is.
+// Returns the foot of the midrib from three corners of a card.
 Vec3 BentTree::footOf(const std::vector<float>& positions, std::size_t card) const {
   const auto corner = [&](std::size_t c) {
     return Vec3(mesh.outline[c][0] - 0.5f, mesh.outline[c][1], 0.0);
@@ -93,7 +93,7 @@ Vec3 BentTree::footOf(const std::vector<float>& positions, std::size_t card) con
          along_v * (point(positions, 4 * card + 2) - at);
 }
 
-// S1-W5: flutter turns the cards, by no more than its angle, and leaves their feet in place.
+// S1-W5: flutter rotates the cards by at most its angle and keeps their feet in place.
 TEST_F(BentTree, FlutterTurnsLeavesAboutTheirFeet) {
   std::vector<float> still(3 * LEAF_CORNERS * mesh.leaves.size()), moved(still.size());
   const BatchPoses narrow = narrowed(poses);

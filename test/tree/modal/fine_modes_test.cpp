@@ -10,8 +10,8 @@
 namespace vegetation_sim::forest {
 namespace {
 
-// N7, N13: a tree whose modes leave too much goes on in fine ones. Nothing jumps, and a replica
-// that was told poses it to the bit.
+// N7, N13: a tree whose plain modes have too large an error continues in fine ones without a jump,
+// and a replica poses it with the same bits.
 TEST(ModalTreeState, GoesOnInFineModesWithoutAJump) {
   Clearing probe;
   probe.advance();
@@ -47,8 +47,8 @@ TEST(ModalTreeState, GoesOnInFineModesWithoutAJump) {
   EXPECT_LT(jump, 0.1 / 57.3);
 }
 
-// N7: who loses fine modes because bytes are short gets plain ones once those have faded, and keeps
-// them: no tier changes more than once a second, and what is told is short.
+// N7: a tree that loses fine modes for lack of bytes gets plain ones once those have faded, and
+// keeps them: no tier changes more than once a second, and messages are short.
 TEST(ModalTreeState, FineModesThatAreLostDoNotFlicker) {
   Clearing scene;
   scene.advance();
@@ -67,10 +67,10 @@ TEST(ModalTreeState, FineModesThatAreLostDoNotFlicker) {
       published[entry.tree] += !entry.modal.amplitude.empty();
   }
   for (std::uint32_t tree = 0; tree < 4; ++tree) {
-    EXPECT_LE(changes[tree], 2) << tree;  // to its stair, to plain modes
+    EXPECT_LE(changes[tree], 2) << tree;  // to its levels, to plain modes
     EXPECT_LE(published[tree], 3) << tree;
   }
-  ASSERT_EQ(scene.forest.snapshot().modes.modal_states().size(), 1u);  // whom the bytes suffice for
+  ASSERT_EQ(scene.forest.snapshot().modes.modal_states().size(), 1u);  // the bytes suffice for one
   EXPECT_FALSE(scene.forest.snapshot().modes.modal_states().begin()->second.fine());
 }
 

@@ -12,7 +12,7 @@
 namespace vegetation_sim::forest {
 namespace {
 
-// N13: near trees get their modes when the tolerance asks for it, and lose them after.
+// N13: near trees get modes when the tolerance requires it, and lose them afterwards.
 TEST(ModalTreeState, NearTreesHaveModesAndFarOnesHaveNone) {
   Clearing scene(breeze(), 0.1);
   scene.run(2.0);
@@ -26,7 +26,7 @@ TEST(ModalTreeState, NearTreesHaveModesAndFarOnesHaveNone) {
   EXPECT_TRUE(scene.forest.snapshot().modes.modal_states().empty());
 }
 
-// Steady wind has no lag to show, and no budget has no modes.
+// Steady wind needs no modes, and without a budget there are none.
 TEST(ModalTreeState, NoTreeHasModesThatNobodyAskedFor) {
   Clearing steady(wind::Field({makeDisk(1, Vec3::Zero(), 2000.0, Vec3(5, 1, 0))}));
   steady.run(1.0);
@@ -43,8 +43,8 @@ TEST(ModalTreeState, NoTreeHasModesThatNobodyAskedFor) {
   EXPECT_GT(poor.forest.snapshot().levels.of(0).level, 0);
 }
 
-// A disc asks for no modes, and takes none from trees that it does not reach: what the breeze does
-// to these, bending included, goes on to be held against the tolerance.
+// A disk requests no modes, and takes none from trees that it does not reach: the error of these in
+// the breeze, bending included, is still compared with the tolerance.
 TEST(ModalTreeState, ADiscFarAwayTakesNoModes) {
   wind::Primitive steady = makeBreeze(1, Vec3(15.0, 3.0, 0.0));
   steady.turbulence = 0.02;
@@ -67,7 +67,7 @@ TEST(ModalTreeState, ADiscFarAwayTakesNoModes) {
   EXPECT_GT(plain, 0);
 }
 
-// What is kept for a tree is counted, the table of the breeze's waves too.
+// The memory of a tree is counted, with the table of the breeze's waves.
 TEST(ModalTreeState, CountsWhatItKeepsOfTheWaves) {
   const auto bytes = [](const wind::Field& field) {
     Clearing scene(field, 0.1);
@@ -83,8 +83,8 @@ TEST(ModalTreeState, CountsWhatItKeepsOfTheWaves) {
   EXPECT_GE(two, one + 24 * 6 * 20 * sizeof(double));  // waves, loads of each, oscillators
 }
 
-// N13: beyond MODAL_LIMIT the forest says so, predicts so much more error, and saturates: no joint
-// passes its limit in any storm. Below, nothing of it.
+// N13: beyond MODAL_LIMIT the forest reports it, predicts a larger error and saturates: no joint
+// exceeds its limit in any storm. Below the limit none of this happens.
 TEST(ModalTreeState, SaturatesAndSaysSoBeyondTheLimit) {
   double share[2];
   for (const bool storm : {false, true}) {
@@ -108,8 +108,8 @@ TEST(ModalTreeState, SaturatesAndSaysSoBeyondTheLimit) {
   EXPECT_GT(share[1], share[0] + 0.1);
 }
 
-// N13, S1-24: no pop. At every tick, what was seen up to it and what is seen from it on agree
-// within 0.1 degree, and their rates within 1 % of the largest rate.
+// N13, S1-24: the motion is continuous. At every tick, the visible motion before and after it
+// agrees within 0.1 degree, and its rates within 1 % of the largest rate.
 TEST(ModalTreeState, NothingJumpsGoingUpOrDown) {
   Clearing scene;
   const Tree tree = scene.tree(0);
@@ -134,7 +134,7 @@ TEST(ModalTreeState, NothingJumpsGoingUpOrDown) {
   EXPECT_LT(kick, 0.01 * peak);
 }
 
-// N6: what is restored sways as what went on.
+// N6: a restored forest moves as the one that continued.
 TEST(ModalTreeState, IsSavedRestoredAndHashed) {
   Clearing scene;
   scene.run(1.0);
@@ -149,8 +149,8 @@ TEST(ModalTreeState, IsSavedRestoredAndHashed) {
   EXPECT_EQ(scene.forest.hash(), hash);
 }
 
-// N13: physics starts from the modal angles and rates, without compensation, and goes on as the
-// modes do while motion is small.
+// N13: physics starts from the modal angles and rates without compensation, and moves as the modes
+// while motion is small.
 TEST(ModalTreeState, HandsOverToPhysicsWithoutCompensation) {
   Clearing scene;
   PhysicsSettings physics;

@@ -18,9 +18,9 @@ wind::Field breeze() {
   return wind::Field({makeBreeze(1, Vec3(5.0, 1.0, 0.0))}, 3);
 }
 
-// N13: in wind a tree in modes is far nearer to the full chain than the procedural one, which knows
-// neither lag nor resonance. Measured over 2 s of breeze: oak .063 (procedural .25), pine .031
-// (.31), birch .041 (.32), willow .18 (.27; long limbs that hang side by side).
+// N13: in wind a modal tree is far nearer to the full chain than a procedural one, which has
+// neither delay nor resonance. Measured over 2 s of breeze: oak .063 (procedural .25), pine .031
+// (.31), birch .041 (.32), willow .18 (.27; long limbs side by side).
 TEST(ModalTree, SwaysAsTheFullChainDoes) {
   const double bar[] = {0.4, 0.2, 0.2, 0.8};
   for (std::uint32_t id = 0; id < 4; ++id) {
@@ -41,7 +41,7 @@ TEST(ModalTree, ComesNearerWithMoreModes) {
   EXPECT_LT(usual, many);
 }
 
-// Uniform steady wind: where the modes settle is what the procedural tier, the static answer, says.
+// In uniform steady wind the modes settle at the procedural motion, the static response.
 TEST(ModalTree, SettlesWhereTheProceduralMotionIs) {
   Layout layout = gridLayout(2, 12.0);
   for (std::uint32_t id = 0; id < 4; ++id) {
@@ -61,15 +61,15 @@ TEST(ModalTree, SettlesWhereTheProceduralMotionIs) {
       EXPECT_NEAR(limited(bends[i]).first, calm[i].first, 1e-6) << id << " " << i;
       EXPECT_NEAR(limited(bends[i]).second, calm[i].second, 1e-6) << id << " " << i;
     }
-    // And the way back: bends that are within reach of the modes are found again.
+    // Bends in the span of the modes are recovered.
     const std::vector<double> back = modal.amplitudesOf(bends);
     for (std::size_t m = 0; m < back.size(); ++m)
       EXPECT_NEAR(back[m], state.amplitude[m],
-                  1e-6);  // modes are found to 1e-4, which counts twice
+                  1e-6);  // modes are accurate to 1e-4, which counts twice
   }
 }
 
-/// Modal loads as they are: the air at every branch, with what it holds on to.
+/// Computes the exact modal loads: wind and drag at every branch.
 std::vector<double> plainLoads(const Tree& tree, const Species& species, const ModalTree& modal,
                                const wind::Instant& air) {
   physics::LinearChain chain(chainOf(tree.skeleton, species));
@@ -90,8 +90,8 @@ std::vector<double> plainLoads(const Tree& tree, const Species& species, const M
   return out;
 }
 
-// N13: a breeze is felt all over the crown, other winds at a few points of it; on every instruction
-// set with the same bits, and whatever was looked at before.
+// N13: a breeze acts on the whole crown, other winds at a few points of it; with the same bits on
+// every instruction set and independent of earlier calls.
 TEST(ModalTree, LoadsAreThoseOnAllBranches) {
   Layout layout = gridLayout(2, 12.0);
   const wind::Field swirl(
@@ -113,7 +113,7 @@ TEST(ModalTree, LoadsAreThoseOnAllBranches) {
         off += (load[m] - plain[m]) * (load[m] - plain[m]);
         size += plain[m] * plain[m];
       }
-      // Measured: 0.052 and 2e-4 at most; 0.013 while halves could be empty.
+      // Measured: at most 0.052 and 2e-4; 0.013 while halves could be empty.
       EXPECT_LT(std::sqrt(off / size), gusty ? 0.08 : 0.001) << id;
       for (const std::string& set : instructionSets()) {
         forceInstructionSet(set);
@@ -127,7 +127,7 @@ TEST(ModalTree, LoadsAreThoseOnAllBranches) {
   }
 }
 
-/// What steady air on a bent tree does: how the work of it changes with each amplitude.
+/// Work of steady wind on a bent tree per amplitude.
 std::vector<double> bentLoads(const Tree& tree, const Wood& wood, const ModalTree& modal,
                               const std::vector<double>& amplitude, const Vec3& air) {
   const auto work = [&](const std::vector<double>& at) {
@@ -149,7 +149,7 @@ std::vector<double> bentLoads(const Tree& tree, const Wood& wood, const ModalTre
   return out;
 }
 
-// N13: what bending changes in the loads, to the first order: against the tree as it is bent.
+// N13: the first-order change of loads by bending agrees with the bent tree.
 TEST(ModalTree, LoadsChangeAsTheTreeBends) {
   const Layout layout = gridLayout(2, 12.0);
   wind::Instant wind;
@@ -179,11 +179,11 @@ TEST(ModalTree, LoadsChangeAsTheTreeBends) {
       size += change * change;
     }
     EXPECT_GT(size, 0.0);
-    EXPECT_LT(std::sqrt(off / size), 0.01) << id;  // the second order is left
+    EXPECT_LT(std::sqrt(off / size), 0.01) << id;  // the second order remains
   }
 }
 
-// A young oak in a strong wind: 7.6 % with levers at rest, 3.1 % as they turn.
+// A young oak in strong wind: 7.6 % with fixed lever arms, 3.1 % with rotated ones.
 TEST(ModalTree, OfABentTreeIsNearerAsLeversTurn) {
   TreeSeed seed;
   seed.seed = 32;
@@ -215,7 +215,7 @@ TEST(ModalTree, BatchedPoseAgreesWithThePlainOneOnEveryInstructionSet) {
       poser.pose(batch, fast);
       forceInstructionSet("");
       ASSERT_EQ(fast.count, static_cast<int>(plain.size()));
-      for (int i = 0; i < fast.count; ++i)  // bar of the batched path, see batch_poser_test
+      for (int i = 0; i < fast.count; ++i)  // tolerance of the batched path, see batch_poser_test
         ASSERT_LT(length(fast.at(i).position - plain[static_cast<std::size_t>(i)].position),
                   1e-5 * tree.skeleton.height);
       if (first.count == 0) first = fast;

@@ -11,8 +11,8 @@
 namespace vegetation_sim::forest {
 namespace {
 
-// Bar of the batched path: 1e-5 of the tree's height. Measured 7e-7; float keeps 6e-8 a step over
-// some ten joints.
+// Tolerance of the batched path: 1e-5 of the tree's height. Measured 7e-7; float has 6e-8 per step
+// over some ten joints.
 constexpr double BAR = 1e-5;
 
 wind::Field everyKind() {
@@ -146,7 +146,7 @@ TEST(BatchPoser, PosesOnlyTheDepthsAsked) {
   EXPECT_GT(moved, 0.01);
 }
 
-// Every set that is offered can be forced, is then used, and an unknown one is refused.
+// Every available instruction set can be forced and is then used; an unknown one is rejected.
 TEST(BatchPoser, UsesTheInstructionSetThatIsForced) {
   for (const std::string& set : instructionSets()) {
     forceInstructionSet(set);

@@ -37,7 +37,7 @@ TEST(Level, LinearTransitionRunsBothWays) {
     EXPECT_NEAR(weightsAt(state, seconds(20 + u * TRANSITION), law)[0], 1.0 - u, 1e-7);
 }
 
-// S1-24: turned round at alpha = 0.37, the weight goes back from there without a jump.
+// S1-24: reversed at alpha = 0.37, the weight continues from there without a jump.
 TEST(Level, TransitionReversesAtAnyTime) {
   for (const TransitionShape shape : {TransitionShape::LINEAR, TransitionShape::SMOOTH}) {
     const MotionLaw law = lawOf(shape);
@@ -52,7 +52,7 @@ TEST(Level, TransitionReversesAtAnyTime) {
   }
 }
 
-// E6: the smooth shape starts and ends at rest; the linear one steps in speed.
+// E6: the smooth shape has zero rate at both ends; the rate of the linear one jumps.
 TEST(Level, SmoothTransitionHasNoStepInSpeed) {
   LevelState state = LevelState::settled(0);
   setLevel(state, 1, seconds(0), TRANSITION);
@@ -96,7 +96,7 @@ LevelTable table() {
   return out;
 }
 
-// S1-22, S1-40: none without wind; finer with more wind, nearer eyes, larger trees.
+// S1-22, S1-40: level 0 without wind; finer with more wind, nearer cameras, larger trees.
 TEST(Level, ChoiceFollowsWindDistanceAndSize) {
   EXPECT_EQ(chooseLevel(table(), 0.0, 1e6, 1.0, 0), 0);
   EXPECT_EQ(chooseLevel(table(), 5.0, 0.0, 1.0, 0), 0);
@@ -106,7 +106,7 @@ TEST(Level, ChoiceFollowsWindDistanceAndSize) {
   EXPECT_EQ(chooseLevel(table(), 5.0, 30.0, 100.0, 0), 0);
 }
 
-// Against the angles themselves.
+// Compares with the angles themselves.
 TEST(Level, EyeSeesWhatIsInItsCone) {
   const Random random(3);
   int seen = 0;
@@ -140,7 +140,7 @@ TEST(Level, BorderDoesNotFlicker) {
   EXPECT_EQ(flips, 2);  // up twice at the start, then never again
 }
 
-// The table bounds what the levels leave out: measured on trees that it has not seen.
+// The table bounds the omitted motion of trees that were not measured.
 // Species and scale.
 class LevelTableOf : public testing::TestWithParam<std::tuple<int, double>> {};
 TEST_P(LevelTableOf, PredictsTheOmittedMotion) {
@@ -166,7 +166,7 @@ TEST_P(LevelTableOf, PredictsTheOmittedMotion) {
         worst = std::max(worst, length(tipOf(b, full[i]) - tipOf(b, cut[i])));
       }
       const double predicted = measured.omitted[static_cast<std::size_t>(level)];
-      // Six sample trees speak for all; a stranger may exceed them a little, never by half.
+      // Six sample trees represent all; other trees may exceed them slightly, never by half.
       EXPECT_LT(worst, 1.5 * predicted) << id << " level " << level;
       EXPECT_GT(worst, 0.05 * predicted) << id << " level " << level;
     }

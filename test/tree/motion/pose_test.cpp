@@ -40,7 +40,7 @@ TEST(Pose, PrimitivesAddUp) {
   EXPECT_GT(largest, 1e-3);
 }
 
-// S1-19: a function of time alone, in whatever order it is asked.
+// S1-19: poses are a function of time alone, in any order of calls.
 TEST(Pose, AnglesDoNotDependOnHistory) {
   const Tree tree = growOne(2);
   const std::vector<wind::Primitive> wind{makeBreeze(1, Vec3(5, 2, 0))};
@@ -53,7 +53,7 @@ TEST(Pose, AnglesDoNotDependOnHistory) {
   }
 }
 
-// S1-20: pulsation, magnitude and direction of the wind are in the motion of the tip.
+// S1-20: the motion of the tip has the frequency, magnitude and direction of the wind.
 TEST(Pose, TipFollowsPulsationMagnitudeAndDirection) {
   const Tree tree = growOne(1);
   const auto tipAt = [&](double t, const Vec3& v) {
@@ -136,7 +136,7 @@ TEST(Pose, BranchesKeepTheirLengthAndHoldTogether) {
   }
 }
 
-// S2-16, S2-19: every tree of a forest answers the same gust, later where it arrives later.
+// S2-16, S2-19: every tree of a forest responds to the same gust, later where it arrives later.
 TEST(Pose, GustReachesTreesInTurn) {
   const Layout layout = gridLayout(6, 10.0);
   wind::Primitive gust;

@@ -32,7 +32,7 @@ bool has(const std::vector<int>& list, int branch) {
   return std::binary_search(list.begin(), list.end(), branch);
 }
 
-// Every branch whose bearer is not in the list has no bearer in it at all.
+// Expects that a branch whose parent is not in the list has no ancestor in it.
 bool hasNoGaps(const Skeleton& skeleton, const std::vector<int>& list) {
   for (const int i : list) {
     int parent = skeleton.branches[i].parent;
@@ -43,7 +43,7 @@ bool hasNoGaps(const Skeleton& skeleton, const std::vector<int>& list) {
   return true;
 }
 
-// S1-W7, S1-W8, N12: a bird on a twig leaves the trunk alone, a heavy pull there takes it.
+// S1-W7, S1-W8, N12: a bird on a twig leaves the trunk procedural, a strong pull there does not.
 TEST(Influence, TwigLoadLeavesTheTrunkAloneHeavyLoadTakesIt) {
   const Case c;
   const std::vector<int> light = c.select(c.twig(), 0.2), heavy = c.select(c.twig(), 3000.0);
@@ -58,7 +58,7 @@ TEST(Influence, TwigLoadLeavesTheTrunkAloneHeavyLoadTakesIt) {
   EXPECT_TRUE(hasNoGaps(c.skeleton, heavy));
 }
 
-// N12: twice the load, twice the deflection; ancestors and others alike.
+// N12: twice the load gives twice the deflection, for ancestors and others.
 TEST(Influence, PredictionIsLinear) {
   const Case c;
   const auto once = predictDeflection(c.skeleton, c.wood, {{c.twig(), 0.1, Vec3(1, 2, 0)}});
@@ -66,7 +66,7 @@ TEST(Influence, PredictionIsLinear) {
   for (std::size_t i = 0; i < once.size(); ++i) EXPECT_NEAR(twice[i], 2 * once[i], 1e-9 * twice[i]);
 }
 
-// S1-W8: the static part is lever x force / k: a pull across the tip of the trunk's last piece.
+// S1-W8: the static part is lever x force / k, for a pull across the tip of the trunk's last piece.
 TEST(Influence, PathDeflectionIsLeverTimesForceOverStiffness) {
   Skeleton pole;
   Branch branch;
@@ -80,7 +80,7 @@ TEST(Influence, PathDeflectionIsLeverTimesForceOverStiffness) {
   EXPECT_NEAR(compliance(pole, wood, 0, 2.0, Vec3(0, 0, 1)), 0.0, 1e-15);
 }
 
-// S1-43: with the paper's rule all joints as deep as the grabbed one, or less deep.
+// S1-43: the paper's rule selects all joints up to the depth of the grabbed one.
 TEST(Influence, DepthRuleTakesEveryJointUpToTheGrabbedDepth) {
   const Case c;
   int limb = 0;
@@ -91,7 +91,7 @@ TEST(Influence, DepthRuleTakesEveryJointUpToTheGrabbedDepth) {
     EXPECT_EQ(has(list, i), c.skeleton.branches[i].depth <= 2) << i;
 }
 
-// N12: never more than the cap, the most deflected first, the loaded one always, no gaps.
+// N12: never more than the cap, the most deflected first, the loaded one always, without gaps.
 TEST(Influence, CapKeepsTheMostDeflected) {
   const Case c;
   const std::vector<int> all = c.select(c.twig(), 3000.0);
@@ -105,8 +105,8 @@ TEST(Influence, CapKeepsTheMostDeflected) {
   }
 }
 
-// N12: what is physical keeps its place until it is procedural again: new ones only find what room
-// is left beside it, the loaded one first.
+// N12: physical branches keep their place until they are procedural again; new ones get the
+// remaining room, the loaded one first.
 TEST(Influence, CapCountsWhatIsPhysicalButNotWanted) {
   const Case c;
   const int loaded = c.twig(), other = loaded - 1;
@@ -127,7 +127,7 @@ TEST(Influence, CapCountsWhatIsPhysicalButNotWanted) {
   EXPECT_TRUE(pick(0).branches.empty());
 }
 
-// N12: what is physical stays so until its deflection is well below the threshold.
+// N12: branches stay physical until their deflection is well below the threshold.
 TEST(Influence, HysteresisKeepsWhatIsPhysical) {
   const Case c;
   std::vector<double> score(c.none.size(), 0.0);

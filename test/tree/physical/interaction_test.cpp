@@ -1,6 +1,4 @@
-// Copyright 2026 vegetation_sim developers
-// SPDX-License-Identifier: BSD-3-Clause
-// Hands on branches: what is grabbed, pushed and let go.
+// Grabs and pushes.
 #include "tree/physical/interaction.h"
 
 #include <gtest/gtest.h>
@@ -36,8 +34,8 @@ PhysicsRig poleRig() {
   return out;
 }
 
-// S1-27, S1-28, E17, N3: held still, the hand feels k (q - q0) over the lever, and a push of that
-// size bends the joint as much.
+// S1-27, S1-28, E17, N3: at rest, the gripper gets k (q - q0) over the lever arm, and a push of
+// that size bends the joint as much.
 TEST(Interaction, WrenchIsTheJointsSpringOverItsLever) {
   PhysicsRig rig = poleRig();
   const double k = jointStiffness(rig.branches()[0], rig.forest.layout().species[0]), lever = 2.0;
@@ -65,7 +63,7 @@ TEST(Interaction, WrenchIsTheJointsSpringOverItsLever) {
   EXPECT_NEAR(rig.angles(rig.now())[0].second, q.second, 0.01 * q.second);
 }
 
-// N3: a push gives force times duration, however short and wherever its ends fall between steps.
+// N3: a push gives force times duration, however short and wherever its ends lie between steps.
 TEST(Interaction, APushGivesItsImpulse) {
   const auto peak = [](double duration, Nanoseconds late) {
     PhysicsRig rig = poleRig();
@@ -86,7 +84,7 @@ TEST(Interaction, APushGivesItsImpulse) {
       EXPECT_NEAR(peak(duration, late), shortest, 0.02 * shortest) << duration << " " << late;
 }
 
-// N3: and nothing before its time, nor for longer.
+// N3: a push has no effect before its start or after its end.
 TEST(Interaction, APushKeepsToItsTime) {
   PhysicsRig rig = poleRig();
   Push push;
@@ -110,7 +108,7 @@ TEST(Interaction, APushKeepsToItsTime) {
                           }));
 }
 
-// S1-44, S1-27: wind and hand add up, E17.
+// S1-44, S1-27: the effects of wind and grab add up, E17.
 TEST(Interaction, WindAndForceAddUp) {
   const auto bend = [](double wind, double force) {
     PhysicsRig rig = poleRig();
@@ -135,7 +133,7 @@ TEST(Interaction, WindAndForceAddUp) {
   EXPECT_LT(error, 0.01 * largest);  // the joint is linear, its geometry not quite
 }
 
-// S1-42: what is physical comes back to rest once the gust is over.
+// S1-42: physical branches return to rest after the gust.
 TEST(Interaction, PhysicalBranchesReturnToRestAfterAGust) {
   PhysicsRig rig(byDepth());
   rig.forest.setWind(steadyWind(Vec3(6, 2, 0), 3.0));
@@ -166,7 +164,7 @@ TEST(Interaction, DepthRuleMakesAllUpToTheGrabbedDepthPhysical) {
     EXPECT_LE(rig.branches()[b.branch].depth, 2);
 }
 
-// S1-W3, S1-W7: a touch takes the named branch and nothing else.
+// S1-W3, S1-W7: a light touch makes only the named branch physical.
 TEST(Interaction, OnlyWhatIsNamedIsPhysical) {
   PhysicsRig rig;
   const int a = rig.twig(), b = rig.branchOfDepth(2);
@@ -220,7 +218,8 @@ TEST(Interaction, ThreeBandsInOneTree) {
   EXPECT_TRUE(moved);
 }
 
-// S1-35: a physical twig feels its procedural bearer move: the air only blows on the bearer.
+// S1-35: a physical twig follows the motion of its procedural parent when the wind acts on the
+// parent only.
 TEST(Interaction, PhysicalChildOfAProceduralParentFeelsItMove) {
   PhysicsRig rig;
   const int twig = rig.twig(), parent = rig.branches()[twig].parent;
@@ -243,7 +242,7 @@ TEST(Interaction, PhysicalChildOfAProceduralParentFeelsItMove) {
   EXPECT_GT(twig_moves, 1e-3 * parent_moves);
 }
 
-// S1-35, the reverse: procedural wood goes where its physical bearer goes, and bends as before.
+// S1-35, the reverse: procedural wood follows its physical parent and bends as before.
 TEST(Interaction, ProceduralChildrenOfAPhysicalParentRideOnIt) {
   PhysicsRig rig;
   rig.forest.setWind(steadyWind(Vec3(3, 1, 0)));
@@ -268,7 +267,7 @@ TEST(Interaction, ProceduralChildrenOfAPhysicalParentRideOnIt) {
   EXPECT_GT(riders, 0);
 }
 
-// A spring of 5 kN/m that may pull 3 N only: a light twig torn at from 4 m away stays calm.
+// A spring of 5 kN/m with a limit of 3 N: a light twig pulled from 4 m away stays calm.
 TEST(Interaction, ForceIsLimitedAndTold) {
   PhysicsRig rig;
   Grab grab = rig.grabOf(rig.twig());
@@ -308,7 +307,7 @@ TEST(Interaction, LeaseEndsAGrabThatNobodyRenews) {
   EXPECT_EQ(rig.forest.physicsFigures().branches, 0u);
 }
 
-// N3: what a hand that opens feels falls at the stated rate, down to a last zero.
+// N3: the reaction on a gripper that opens falls at the stated rate to a final zero.
 TEST(Interaction, WrenchFallsAfterAReleaseAndEndsAtZero) {
   PhysicsSettings settings;
   settings.contact.force_rate = 600.0;
@@ -406,7 +405,7 @@ TEST(Interaction, RefusedRequestsSayWhyAndChangeNothing) {
   EXPECT_EQ(rig.forest.hash(), hash);
 }
 
-// N12: the cap holds whatever is asked for, and who finds no room is told.
+// N12: the cap holds for any request, and a refused request gets an error.
 TEST(Interaction, CapHoldsAndIsTold) {
   PhysicsSettings settings = byDepth();
   settings.most_branches = 10;

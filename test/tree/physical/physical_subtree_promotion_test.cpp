@@ -1,6 +1,4 @@
-// Copyright 2026 vegetation_sim developers
-// SPDX-License-Identifier: BSD-3-Clause
-// From procedural to physical and back.
+// Promotion and demotion.
 #include <gtest/gtest.h>
 
 #include "scenes/forest/physics_scene.h"
@@ -17,7 +15,7 @@ PhysicsSettings allOfIt() {
   return out;
 }
 
-/// Largest over all joints of RMS(q - q~) over the amplitude of q~.
+/// Returns the largest RMS(q - q~) over the amplitude of q~ of all joints.
 double differenceFromProcedural(const PhysicsSettings& settings) {
   PhysicsRig rig(settings);
   rig.forest.setWind(steadyWind(Vec3(2, 1, 0)));
@@ -41,8 +39,8 @@ double differenceFromProcedural(const PhysicsSettings& settings) {
   return worst;
 }
 
-// N10, E1, S1-26: a whole tree made physical in steady wind moves as before; the printed form does
-// not.
+// N10, E1, S1-26: a whole tree made physical in steady wind moves as before; in the printed form it
+// does not.
 TEST(HandOver, CompensatedWindKeepsTheProceduralMotion) {
   PhysicsSettings settings = allOfIt();
   settings.fade = HELD;
@@ -55,8 +53,8 @@ TEST(HandOver, CompensatedWindKeepsTheProceduralMotion) {
   EXPECT_GT(printed, 0.5);
 }
 
-/// Left and right limits of what is seen at a switch: the largest difference of angles [rad], and
-/// of rates over the peak rate; over all joints.
+/// Left and right limits of the visible motion at a switch: the largest difference of angles [rad],
+/// and of rates over the peak rate, over all joints.
 struct Jump {
   double angle{0.0}, rate{0.0};
 
@@ -66,15 +64,15 @@ struct Jump {
   }
 };
 
-constexpr Nanoseconds FINE = 10000;  // [ns] between looks
+constexpr Nanoseconds FINE = 10000;  // between samples [ns]
 
 using Angles = std::vector<JointAngles>;
 
-/// Angles and rates at a moment, from two looks to one side of it.
+/// Returns angles and rates at a stamp, from two samples on one side of it.
 struct Limit {
   Angles q, rate;
 
-  /// @param from,to angles of two looks; the moment is `way` times their distance beyond `to`.
+  /// @param from,to angles of two samples; the stamp is `way` times their distance beyond `to`.
   Limit(const Angles& from, const Angles& to, double way, Nanoseconds apart) : q(to), rate(to) {
     const double h = apart * 1e-9;
     for (std::size_t i = 0; i < to.size(); ++i) {
@@ -96,7 +94,8 @@ Angles sampleAt(PhysicsRig& rig, Nanoseconds stamp) {
   return rig.angles(stamp);
 }
 
-// Goes on to the next tick and throws a switch there: what is seen just before and just after.
+// Advances to the next tick and applies a change there; returns the visible motion before and
+// after.
 Jump jumpAt(PhysicsRig& rig, double peak, const std::function<void(PhysicsRig&)>& change) {
   const Nanoseconds stamp = rig.grid.timeOf(rig.tick + 1);
   PhysicsRig with = rig;
@@ -121,10 +120,10 @@ double peakRate(PhysicsRig rig, double duration) {
   return out;
 }
 
-// The bar is 0.1 degree, 1.7e-3. Joints bend little here, so far less is asked [rad].
+// The tolerance is 0.1 degree, 1.7e-3. Joints bend little here, so this one is far smaller [rad].
 constexpr double LARGEST_JUMP = 1e-6;
 
-// S1-36: going up, at any phase of the wind.
+// S1-36: promotion at any phase of the wind.
 TEST(HandOver, PromotionJumpsNeitherInAngleNorInRate) {
   PhysicsRig rig(allOfIt());
   rig.forest.setWind(steadyWind(Vec3(3, 1, 0)));
@@ -139,7 +138,7 @@ TEST(HandOver, PromotionJumpsNeitherInAngleNorInRate) {
   EXPECT_LT(worst.rate, 0.01);
 }
 
-/// A branch pulled aside and let go: in mid-recoil the blend starts.
+/// A branch is pulled aside and released; the blend starts in mid-recoil.
 PhysicsRig recoiling() {
   PhysicsSettings settings;
   settings.linger = 0.3;
@@ -157,8 +156,8 @@ PhysicsRig recoiling() {
   return rig;
 }
 
-// The same at every moment of a while, in the middle of four looks that are 5e-5 s apart: whenever
-// in it something is switched.
+// Checks every stamp of an interval, with four samples that are 5e-5 s apart, whenever something is
+// switched.
 Jump jumpsIn(PhysicsRig rig, Nanoseconds duration, double peak) {
   constexpr Nanoseconds APART = 50000;
   const Nanoseconds start = rig.now();
@@ -173,11 +172,11 @@ Jump jumpsIn(PhysicsRig rig, Nanoseconds duration, double peak) {
   return out;
 }
 
-// S1-37: going down, where branches start to blend and where they have blended.
+// S1-37: demotion, at the start and the end of blends.
 TEST(HandOver, DemotionJumpsNeitherInAngleNorInRate) {
   PhysicsRig rig = recoiling();
   const double peak = peakRate(rig, 1.0);
-  rig.run(0.1);  // letting go is a step of force, not of ours
+  rig.run(0.1);  // the release is a step of force
   Jump worst;
   int switches = 0;
   for (int i = 0; i < 4 * TICK_RATE; ++i) {
@@ -196,7 +195,7 @@ TEST(HandOver, DemotionJumpsNeitherInAngleNorInRate) {
   EXPECT_LT(worst.rate, 0.01);
 }
 
-// S1-37: what is seen is (1 - a) physical + a procedural with a = 3 u^2 - 2 u^3 over 1.5 s.
+// S1-37: the visible motion is (1 - a) physical + a procedural with a = 3 u^2 - 2 u^3 over 1.5 s.
 TEST(HandOver, BlendIsThePapersSmoothStep) {
   PromotedBranch branch{0, {}, {}, PHYSICS_START};
   const auto at = [&](double u) {
@@ -210,7 +209,7 @@ TEST(HandOver, BlendIsThePapersSmoothStep) {
   EXPECT_EQ(PhysicsSettings().blend, 1.5);
 }
 
-// S1-37, S1-38: the blend starts, is taken back and ends without a jump, at any instant of it.
+// S1-37, S1-38: the blend starts, is cancelled and ends without a jump, at any time.
 TEST(HandOver, RegrabInTheBlendJumpsNeitherInAngleNorInRate) {
   PhysicsRig rig = recoiling();
   const double peak = peakRate(rig, 1.0);
@@ -230,7 +229,7 @@ TEST(HandOver, RegrabInTheBlendJumpsNeitherInAngleNorInRate) {
   EXPECT_LT(worst.rate, 0.01);
 }
 
-// S1-25: nothing is held before a branch is touched, and nothing after it has blended back.
+// S1-25: nothing is held before a branch is touched or after it has blended back.
 TEST(HandOver, NothingIsHeldBeforeAndAfter) {
   PhysicsRig rig({}, 4);
   rig.run(0.2);

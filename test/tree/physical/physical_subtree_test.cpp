@@ -1,6 +1,4 @@
-// Copyright 2026 vegetation_sim developers
-// SPDX-License-Identifier: BSD-3-Clause
-// Physical parts of trees as state: the same again, the same elsewhere, and how near to the truth.
+// Physical subtrees as state: reproducibility, replicas and accuracy.
 #include "tree/physical/physical_subtree.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +10,7 @@
 namespace vegetation_sim::forest {
 namespace {
 
-/// A pull sideways at a limb for one second, then the recoil; in wind.
+/// A lateral pull at a limb for one second, then the recoil; in wind.
 void pull(PhysicsRig& rig, double duration, const std::function<void()>& each = {}) {
   Grab grab = rig.grabOf(rig.branchOfDepth(2));
   const std::uint32_t id = rig.forest.addGrab(grab);
@@ -34,7 +32,7 @@ PhysicsRig windyRig(const PhysicsSettings& settings = {}) {
   return out;
 }
 
-// N6: the same inputs give the same hash at every tick; a changed one does not.
+// N6: the same inputs give the same hash at every tick; a changed input does not.
 TEST(PhysicalSubtree, RepeatedRunsHaveTheSameHash) {
   const auto hashes = [](double more) {
     PhysicsRig rig = windyRig();
@@ -48,7 +46,7 @@ TEST(PhysicalSubtree, RepeatedRunsHaveTheSameHash) {
   EXPECT_NE(a, c);
 }
 
-// N6: vectors of any width move a tree to the same bits.
+// N6: a tree moves with the same bits for vectors of any width.
 TEST(PhysicalSubtree, EveryInstructionSetHasTheSameHash) {
   const auto hashes = [](const std::string& set) {
     forceInstructionSet(set);
@@ -64,7 +62,7 @@ TEST(PhysicalSubtree, EveryInstructionSetHasTheSameHash) {
 }
 
 // S1-30: the default computes many joints at once in single precision. Through a pull, wind and
-// recoil its tips stay with the plain double reference.
+// recoil its tips stay with the double reference.
 TEST(PhysicalSubtree, SinglePrecisionFollowsTheReference) {
   PhysicsSettings settings;
   EXPECT_EQ(settings.precision, Precision::SINGLE);
@@ -86,7 +84,7 @@ TEST(PhysicalSubtree, SinglePrecisionFollowsTheReference) {
   EXPECT_LT(worst, 1e-3 * motion);
 }
 
-// N6: saved in the middle of a recoil, restored after other things have happened.
+// N6: a snapshot in mid-recoil is restored after other events.
 TEST(PhysicalSubtree, RestoredForestGoesOnAsBefore) {
   PhysicsRig rig = windyRig();
   pull(rig, 1.5);
@@ -103,7 +101,7 @@ TEST(PhysicalSubtree, RestoredForestGoesOnAsBefore) {
   EXPECT_EQ(first, second);
 }
 
-// Whoever hears the messages has the same branches, from the first touch to the end of the blend.
+// A replica has the same branches, from the first touch to the end of the blend.
 TEST(PhysicalSubtree, ReplicaPosesAreTheForests) {
   PhysicsSettings settings;
   settings.linger = 0.3;
@@ -137,7 +135,7 @@ TEST(PhysicalSubtree, ReplicaPosesAreTheForests) {
   EXPECT_TRUE(late.physicalTrees().empty());
 }
 
-// A leap of the clock is not stepped through, and nothing breaks.
+// A gap in time is not stepped through and breaks nothing.
 TEST(PhysicalSubtree, LongGapsAreNotSteppedThrough) {
   PhysicsRig rig = windyRig();
   pull(rig, 0.5);
@@ -153,7 +151,7 @@ TEST(PhysicalSubtree, LongGapsAreNotSteppedThrough) {
   EXPECT_TRUE(rig.forest.grabs().empty());
 }
 
-// Steps are whole and equal: ceil(240 Hz * time).
+// Steps are equal: ceil(240 Hz * time).
 TEST(PhysicalSubtree, StepsAreAtLeast240AHertz) {
   PhysicsRig rig = windyRig();
   rig.touch(0, 10.0);
@@ -168,7 +166,7 @@ TEST(PhysicalSubtree, StepsAreAtLeast240AHertz) {
   EXPECT_EQ(rig.forest.physicsFigures().steps, 240u);
 }
 
-// Nothing is allocated in a plain step once one has run (S1-34: four numbers a branch are the
+// A plain step does not allocate after the first one (S1-34: four numbers per branch are the
 // state).
 TEST(PhysicalSubtree, StepsAllocateNothing) {
   PhysicsRig rig = windyRig();
@@ -195,8 +193,8 @@ TEST(PhysicalSubtree, StepsAllocateNothing) {
   EXPECT_EQ(sizeof(part.state().q[0]) + sizeof(part.state().rate[0]), 4 * sizeof(double));
 }
 
-// E1, the default fade: once it is over, the tree is where full dynamics with the real load, a
-// quarter of the step and no hand-over at all have it.
+// E1, the default fade: after it, the tree is where full dynamics with the real load, a quarter of
+// the step and no promotion have it.
 TEST(PhysicalSubtree, AfterTheFadeItIsFullDynamics) {
   PhysicsSettings all;
   all.promotion = Promotion::DEPTH;
@@ -257,8 +255,8 @@ std::vector<Vec3> pulledTip(const PhysicsSettings& settings, bool all, std::size
   return out;
 }
 
-// S1-W9, N12: fewer branches cost less and are less right; the default is within a few per cent of
-// the tree fully physical.
+// S1-W9, N12: fewer branches cost less and are less accurate; the default is within a few per cent
+// of the fully physical tree.
 TEST(PhysicalSubtree, ClusteredErrorFallsWithTheBranchesThatArePhysical) {
   PhysicsSettings settings;
   settings.promotion = Promotion::DEPTH;
@@ -283,7 +281,7 @@ TEST(PhysicalSubtree, ClusteredErrorFallsWithTheBranchesThatArePhysical) {
   EXPECT_LT(curve[4].branches, everything / 2);
 }
 
-// S1-30, S1-33: whatever is chosen runs in a forest, in steps that its own method takes.
+// S1-30, S1-33: every method runs in a forest with its own steps.
 TEST(PhysicalSubtree, EveryDynamicsAndIntegratorStaysBounded) {
   for (int dynamics = 0; dynamics < 3; ++dynamics) {
     for (int integrator = 0; integrator < 5; ++integrator) {
@@ -303,8 +301,8 @@ TEST(PhysicalSubtree, EveryDynamicsAndIntegratorStaysBounded) {
   }
 }
 
-// S1-33: of wood so stiff that explicit methods would need more parts of a step than they get, each
-// step is the midpoint's, whichever was chosen, and counted.
+// S1-33: if wood is too stiff for the substeps of explicit methods, midpoint takes each step and it
+// is counted.
 TEST(PhysicalSubtree, StiffWoodIsRunByTheMidpointAndCounted) {
   std::vector<Vec3> tips;
   for (int integrator = 0; integrator < 5; ++integrator) {
@@ -330,11 +328,11 @@ TEST(PhysicalSubtree, StiffWoodIsRunByTheMidpointAndCounted) {
   }
   EXPECT_EQ(length(tips[2] - tips[3]), 0.0);
   EXPECT_EQ(length(tips[3] - tips[4]), 0.0);
-  // Chosen, the midpoint foresees drag besides.
+  // The midpoint as chosen method also predicts drag.
   EXPECT_LT(length(tips[2] - tips[0]), 1e-4);
 }
 
-/// Tip of a limb that is pulled for 0.1 s, in steps so short that every method may take them.
+/// Returns the tip of a limb that is pulled for 0.1 s, in steps short enough for every method.
 Vec3 pulledTip(const PhysicsSettings& settings) {
   constexpr int RATE = 64 * PHYSICS_RATE;
   PhysicsRig rig(settings);
@@ -351,9 +349,8 @@ Vec3 pulledTip(const PhysicsSettings& settings) {
   return rig.tip(limb);
 }
 
-// S1-30, S1-31, S1-33: it is the dynamics, the integrator, the precision and the material that are
-// asked for that move the wood: no two choices have the same motion, and where steps are short the
-// integrators agree.
+// S1-30, S1-31, S1-33: the chosen dynamics, integrator, precision and material determine the
+// motion: no two choices have the same, and for short steps the integrators agree.
 TEST(PhysicalSubtree, MovesByTheMethodThatIsChosen) {
   std::vector<Vec3> tips;
   for (const Material material : {Material::BEAM, Material::PAPER})

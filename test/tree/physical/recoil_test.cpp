@@ -1,7 +1,5 @@
-// Copyright 2026 vegetation_sim developers
-// SPDX-License-Identifier: BSD-3-Clause
-// Velocity products of physical branches: foretold within a tick, averaged where branches are
-// thrown.
+// Velocity products of physical branches: predicted within a tick, averaged where branches move
+// fast.
 #include <gtest/gtest.h>
 
 #include "scenes/forest/physics_scene.h"
@@ -10,14 +8,14 @@
 namespace vegetation_sim::forest {
 namespace {
 
-/// A tree, physical throughout, that swings free after a shove [N]; in still air, where nothing but
-/// velocity products is held for a tick.
+/// A fully physical tree that oscillates freely after a push [N], in still air, where only velocity
+/// products are kept for a tick.
 struct Swinging {
-  static constexpr Nanoseconds TICK = 16666664;  ///< four steps, the same of four parts
+  static constexpr Nanoseconds TICK = 16666664;  ///< four equal steps
   PhysicsRig rig;
   std::vector<Vec3> tips;  ///< of all ticks
 
-  // `parts`: a tick is advanced in so many.
+  // `parts` is the number of calls per tick.
   Swinging(const PhysicsSettings& settings, const Vec3& shove, int parts) : rig(settings) {
     rig.touch(rig.twig(), 9.0);
     Push push;
@@ -39,8 +37,8 @@ double rmsBetween(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   return rms(out);
 }
 
-/// How far ticks, and steps on their own, are off what is converged and off each other, over the
-/// way.
+/// Errors of ticks and of single steps against the converged motion and each other, relative to the
+/// motion.
 struct Foretold {
   double ticks, steps, between, way;
 
@@ -60,8 +58,8 @@ struct Foretold {
   }
 };
 
-// A tick's steps after its first foretell the rates of velocity products; ticks as short as a step
-// average them, and are the same to the bit where nobody foretells.
+// Steps after the first of a tick predict the rates of velocity products; ticks of one step average
+// them, with the same bits as without prediction.
 TEST(PhysicalSubtree, StepsOfATickForetellVelocityProducts) {
   const Foretold shoved(Vec3(0.0, 150.0, -50.0));
   EXPECT_GT(shoved.way, 0.005);
@@ -69,7 +67,7 @@ TEST(PhysicalSubtree, StepsOfATickForetellVelocityProducts) {
   EXPECT_LT(shoved.ticks, 1.1 * shoved.steps);
 }
 
-// What is thrown is averaged in each step: foretold, it was 9.0e-3 off.
+// Fast motion is averaged in each step; predicted, the error was 9.0e-3.
 TEST(PhysicalSubtree, BranchesThatAreThrownAreAsRightInTicksAsInSteps) {
   const Foretold thrown(Vec3(0.0, 600.0, -200.0));
   EXPECT_GT(thrown.way, 0.02);

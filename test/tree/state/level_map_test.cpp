@@ -30,7 +30,7 @@ TEST(LevelMap, BaseChangesContinuously) {
   EXPECT_EQ(blendAt(tree, seconds(12.0), TRANSITION)[1], 0.0);
 }
 
-// S1-24: the base may change its mind on the way, as a tree may.
+// S1-24: the base may change again during a transition, as a tree may.
 TEST(LevelMap, BaseTurnsRound) {
   LevelMap levels;
   levels.reset(LevelState::settled(2));
@@ -60,7 +60,7 @@ TEST(LevelMap, CountsTheTreesOfEachLevel) {
   EXPECT_EQ(counts.back(), 1u);
 }
 
-// A tree that rests at the base's level is forgotten only when the base has come to rest there too.
+// A tree at the base's level is removed only when the base has settled too.
 TEST(LevelMap, ForgetsWhatIsLikeTheBase) {
   LevelMap levels;
   levels.reset(LevelState::settled(2));
