@@ -49,7 +49,7 @@ TEST_F(ContactFinderTest, FarBodyTouchesNothing) {
   EXPECT_TRUE(persistent_.empty());
 }
 
-TEST_F(ContactFinderTest, OverlapIsToldWithSideAndVelocity) {
+TEST_F(ContactFinderTest, OverlapHasNormalAndVelocity) {
   place(-0.02);
   body_.velocity = Vec3(0.5, 0.0, 0.0);
   const auto contacts = find();

@@ -81,7 +81,7 @@ TEST(ContactInAForest, ReactionsTellBodyPlaceAndForce) {
 
 // An impact takes a bounded number of substeps with any law: excess requests are counted. The
 // default law has none.
-TEST(ContactInAForest, HalvingsAreBounded) {
+TEST(ContactInAForest, BisectionsAreBounded) {
   for (const double stiffness : {5e5, 1e8}) {
     Drive drive(3.0);
     ContactRecorder recorder;

@@ -27,7 +27,7 @@ TEST(ModalTreeState, NearTreesHaveModesAndFarOnesHaveNone) {
 }
 
 // Steady wind needs no modes, and without a budget there are none.
-TEST(ModalTreeState, NoTreeHasModesThatNobodyAskedFor) {
+TEST(ModalTreeState, TreesWithoutNeedHaveNoModes) {
   Clearing steady(wind::Field({makeDisk(1, Vec3::Zero(), 2000.0, Vec3(5, 1, 0))}));
   steady.run(1.0);
   EXPECT_TRUE(steady.forest.snapshot().modes.modal_states().empty());

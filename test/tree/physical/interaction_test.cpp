@@ -268,7 +268,7 @@ TEST(Interaction, ProceduralChildrenOfAPhysicalParentRideOnIt) {
 }
 
 // A spring of 5 kN/m with a limit of 3 N: a light twig pulled from 4 m away stays calm.
-TEST(Interaction, ForceIsLimitedAndTold) {
+TEST(Interaction, ForceIsLimitedAndReported) {
   PhysicsRig rig;
   Grab grab = rig.grabOf(rig.twig());
   grab.stiffness = 5000.0;
@@ -290,7 +290,7 @@ TEST(Interaction, ForceIsLimitedAndTold) {
   EXPECT_LT(still, 0.5);
 }
 
-TEST(Interaction, LeaseEndsAGrabThatNobodyRenews) {
+TEST(Interaction, LeaseEndsAGrabThatIsNotRenewed) {
   PhysicsRig rig;
   Grab grab = rig.grabOf(rig.twig());
   grab.lease = 0.5;
@@ -406,7 +406,7 @@ TEST(Interaction, RefusedRequestsSayWhyAndChangeNothing) {
 }
 
 // N12: the cap holds for any request, and a refused request gets an error.
-TEST(Interaction, CapHoldsAndIsTold) {
+TEST(Interaction, CapHoldsAndIsReported) {
   PhysicsSettings settings = byDepth();
   settings.most_branches = 10;
   PhysicsRig rig(settings);
