@@ -61,7 +61,7 @@ class Stack {
       out += isSolid({c.column + d.column, c.row + d.row, c.slice + d.slice}) ? 1 : 0;
     return out;
   }
-  // Slices are perpendicular to y; the first is nearest to a viewer who looks along y.
+  // Slices are perpendicular to y; the first is nearest to a viewer in the direction of -y.
   Vec3 place(const Cell& c) const {
     const double cell = 1.0 / stack_.rows, width = stack_.columns * cell;
     return {(c.column + 0.5) * cell - 0.5 * width, ((c.slice + 0.5) / stack_.slices - 0.5) * width,
