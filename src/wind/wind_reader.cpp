@@ -50,6 +50,7 @@ Source readSource(YamlSection& section) {
   int kind = -1;
   section.choice("kind", kind, kindNames());
   if (kind < 0) return source;  // the kind decides which keys are allowed
+  p.kind = static_cast<Kind>(kind);
   describe(section, p);
   section.text("attached_frame", source.attached_frame);
   readTimes(section, p);
