@@ -118,7 +118,7 @@ wind:
         "primitives[0]: primitive 0: name is empty",
         "primitives[1]: kind = 'whirl' is none of disk, breeze, gust, tornado, blast",
         "primitives[2]: kind is missing", "primitives[3]: end is not after start",
-        "primitives[4]: position and trajectory are given",
+        "primitives[4]: position and trajectory are both given",
         "primitives[5]: trajectory[0]: position is missing",
         "primitives[5]: trajectory[1]: pose is not a known key", "trajectory[1].stamp = 1.000000 s",
         "primitives[6]: name = 'e' is already in use", "velocity has no horizontal part",
