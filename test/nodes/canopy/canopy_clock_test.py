@@ -76,7 +76,7 @@ class CanopyClockTest(unittest.TestCase):
                 self.record(again, self.leaves.events.messages[sent:count])
                 sent = count
             refused = rospy.ServiceProxy('/replay/canopy_animator/reset', Trigger)()
-            self.assertIn('by its recorded events only', refused.message)
+            self.assertIn('follows its recorded events only', refused.message)
             self.assertIn(1.0, [m.eye.position.x for m in again.state.messages])
             self.expect_beginning()
             live, replayed = self.leaves.hashes(), again.hashes()
