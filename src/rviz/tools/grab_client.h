@@ -22,7 +22,7 @@ struct Spring {
   double force_limit{200.0};  ///< [N]
 };
 
-/// What the client holds, in the world frame of the forest.
+/// State of the held branch, in the world frame of the forest.
 struct Grip {
   bool holding{false};
   std::uint32_t id{0}, tree{0}, branch{0};
