@@ -23,6 +23,7 @@ class SubscribedCanopy : public SubscribedReplica<CanopyState> {
   };
 
   explicit SubscribedCanopy(const ReplicaOptions& options = {}) : SubscribedReplica(options) {}
+  ~SubscribedCanopy() override { subscribers_.clear(); }
 
   /// @throws ros::InvalidNameException also for the topics of the forest.
   void subscribe(ros::NodeHandle handle, const Topics& topics);

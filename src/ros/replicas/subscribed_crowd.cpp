@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/replicas/subscribed_crowd.h"
 
+#include <algorithm>
+
 #include "ros/conversions/crowd_conversions.h"
 
 namespace vegetation_sim {
@@ -29,11 +31,21 @@ void SubscribedCrowd::apply(const AgentStates& message) {
 
 void SubscribedCrowd::forgetLater(Nanoseconds now) {
   forgetDelayed(now);
+  changed_ = std::min(changed_, now);
   if (changes_ > 0 && stamp_ > now) clear("Waiting for a message: time went back");
 }
 
 void SubscribedCrowd::forgetSilent(Nanoseconds now) {
   if (!people_.empty() && now - stamp_ > SILENCE) clear("Waiting: no message for 3 s");
+}
+
+void SubscribedCrowd::forgetUnchanged(Nanoseconds now) {
+  if (changes_ != seen_changes_) {
+    seen_changes_ = changes_;
+    changed_ = now;
+  } else if (!people_.empty() && now - changed_ > SILENCE) {
+    clear("Waiting: no message for 3 s");
+  }
 }
 
 void SubscribedCrowd::clear(const char* why) {

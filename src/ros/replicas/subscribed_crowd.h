@@ -20,6 +20,7 @@ class SubscribedCrowd : public SubscribedReplica<AgentStates> {
   };
 
   explicit SubscribedCrowd(const ReplicaOptions& options = {}) : SubscribedReplica(options) {}
+  ~SubscribedCrowd() override { subscribers_.clear(); }
 
   /// @throws ros::InvalidNameException
   void subscribe(ros::NodeHandle handle, const std::string& topic);
@@ -28,6 +29,9 @@ class SubscribedCrowd : public SubscribedReplica<AgentStates> {
   void forgetLater(Nanoseconds now);
   /// Removes all people if the newest message is older than SILENCE.
   void forgetSilent(Nanoseconds now);
+  /// Removes all people if nothing has changed for longer than SILENCE in the time of the calls.
+  /// Stamps have no effect: the clock of the picture may differ from them.
+  void forgetUnchanged(Nanoseconds now);
 
   const std::vector<Person>& people() const { return people_; }
   Nanoseconds stamp() const { return stamp_; }
@@ -40,7 +44,8 @@ class SubscribedCrowd : public SubscribedReplica<AgentStates> {
 
   std::vector<Person> people_;
   Nanoseconds stamp_{0};
-  int changes_{0};
+  int changes_{0}, seen_changes_{0};
+  Nanoseconds changed_{0};  // time of the call of forgetUnchanged() after the last change
   InputStatus status_;
 };
 

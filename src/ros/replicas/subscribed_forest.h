@@ -20,6 +20,7 @@ class SubscribedForest : public SubscribedReplica<ForestState> {
   };
 
   explicit SubscribedForest(const ReplicaOptions& options = {});
+  ~SubscribedForest() override { subscribers_.clear(); }
 
   /// @throws ros::InvalidNameException
   void subscribe(ros::NodeHandle handle, const Topics& topics);

@@ -26,6 +26,7 @@ class SubscribedMeadow : public SubscribedReplica<GrassState> {
   };
 
   explicit SubscribedMeadow(const ReplicaOptions& options = {});
+  ~SubscribedMeadow() override { subscribers_.clear(); }
 
   /// @throws ros::InvalidNameException
   void subscribe(ros::NodeHandle handle, const Topics& topics);

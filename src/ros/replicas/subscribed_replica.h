@@ -27,7 +27,8 @@ struct ReplicaOptions {
 };
 
 /// The common part of the replicas that are rebuilt from messages. A rejected message changes
-/// nothing but the status of its input. Callbacks run in the queue of the node handle.
+/// nothing but the status of its input. Callbacks run in the queue of the node handle, in a nodelet
+/// not in the thread that destroys it: destructors of derived classes end the subscriptions first.
 template <class State>
 class SubscribedReplica {
  public:

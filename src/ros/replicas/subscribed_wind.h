@@ -18,6 +18,7 @@ class SubscribedWind : public SubscribedReplica<WindField> {
                           std::function<void(const wind::Field&)> on_change = {})
       : SubscribedReplica({options.frame_id, false, options.on_rejected}),
         on_change_(std::move(on_change)) {}
+  ~SubscribedWind() override { subscribers_.clear(); }
 
   /// @throws ros::InvalidNameException
   void subscribe(ros::NodeHandle handle, const std::string& topic);

@@ -48,5 +48,20 @@ TEST(SubscribedCrowd, ForgetsPeopleOfTheFutureAndSilentPeople) {
   EXPECT_TRUE(crowd.people().empty());
 }
 
+TEST(SubscribedCrowd, ForgetsUnchangedPeopleWhateverTheirStamps) {
+  SubscribedCrowd crowd;
+  const Nanoseconds now = 1000 * SECOND;  // of a picture whose clock is far ahead of the stamps
+  crowd.apply(onePerson(10 * SECOND));
+  crowd.forgetUnchanged(now);
+  crowd.forgetUnchanged(now + SILENCE);
+  EXPECT_EQ(crowd.people().size(), 1u);
+  crowd.apply(onePerson(11 * SECOND));
+  crowd.forgetUnchanged(now + SILENCE + 1);
+  EXPECT_EQ(crowd.people().size(), 1u);
+  crowd.forgetUnchanged(now + 2 * SILENCE + 2);
+  EXPECT_TRUE(crowd.people().empty());
+  EXPECT_FALSE(crowd.status().good);
+}
+
 }  // namespace
 }  // namespace vegetation_sim
