@@ -167,7 +167,10 @@ void ForestPhysics::renewGrab(std::uint32_t id) {
 }
 
 void ForestPhysics::release(std::uint32_t id) {
-  findKnown(grabs_, id, "grab: id = " + count(id));
+  const HeldGrab& grab = findKnown(grabs_, id, "grab: id = " + count(id));
+  // The force that decays from now on acts on the holder where it was last.
+  for (Reaction& reaction : reactions_)
+    if (reaction.kind == Reaction::GRAB && reaction.grab == id) reaction.holder = grab.holder;
   grabs_.erase(id);
 }
 
