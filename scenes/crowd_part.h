@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "crowd/agents/crowd.h"
-#include "crowd/walker/body_skeleton.h"
+#include "crowd/body/body_skeleton.h"
 #include "scenes/hashing.h"
 #include "scenes/scenario.h"
 

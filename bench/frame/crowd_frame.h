@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "crowd/walker/body_skeleton.h"
+#include "crowd/body/body_skeleton.h"
 #include "frame/laps.h"
 #include "frame/scene.h"
 

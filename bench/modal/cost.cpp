@@ -7,7 +7,7 @@
 #include "processor_time.h"
 #include "scenes/forest/modal_scene.h"
 #include "trees/modal_engine.h"
-#include "vegetation_sim/dynamics/modal/batch_modes.h"
+#include "vegetation_sim/dynamics/modes/batch_modes.h"
 
 namespace vegetation_sim::bench {
 namespace {

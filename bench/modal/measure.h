@@ -8,7 +8,7 @@
 
 #include "table.h"
 #include "trees/test_trees.h"
-#include "vegetation_sim/dynamics/modal/modes.h"
+#include "vegetation_sim/dynamics/modes/modes.h"
 
 namespace vegetation_sim::bench {
 

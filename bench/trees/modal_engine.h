@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "trees/engine.h"
-#include "vegetation_sim/dynamics/modal/modal_motion.h"
+#include "vegetation_sim/dynamics/modes/modal_motion.h"
 
 namespace vegetation_sim::bench {
 

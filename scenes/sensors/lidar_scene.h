@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "crowd/walker/gait.h"
+#include "crowd/body/gait.h"
 #include "reference/grass/blade_plain.h"
 #include "scenes/forest/forest_fixture.h"
 #include "sensors/sensor_scene.h"

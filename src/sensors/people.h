@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "crowd/walker/body_skeleton.h"
+#include "crowd/body/body_skeleton.h"
 #include "sensors/geometry/rod.h"
 
 namespace vegetation_sim::scan {

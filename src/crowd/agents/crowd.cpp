@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "crowd/walker/gait.h"
+#include "crowd/body/gait.h"
 #include "vegetation_sim/core/math/hash.h"
 #include "vegetation_sim/core/math/math.h"
 #include "vegetation_sim/core/math/random.h"

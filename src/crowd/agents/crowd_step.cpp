@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "crowd/agents/crowd.h"
-#include "crowd/walker/gait.h"
+#include "crowd/body/gait.h"
 #include "reference/crowd/paper_decision.h"
 #include "vegetation_sim/core/math/math.h"
 #include "vegetation_sim/core/math/random.h"

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "crowd/body/walker.h"
 #include "crowd/geometry/obstacle_grid.h"
-#include "crowd/walker/walker.h"
 
 namespace vegetation_sim::crowd {
 

@@ -3,7 +3,7 @@
 #include <vegetation_sim/AgentStates.h>
 #include <vegetation_sim/TreadEvent.h>
 
-#include "crowd/walker/gait.h"
+#include "crowd/body/gait.h"
 #include "nodes/crowd/agent_crowd.h"
 #include "ros/services/allocation_report.h"
 #include "vegetation_sim/core/math/math.h"

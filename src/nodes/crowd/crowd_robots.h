@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "crowd/walker/walker.h"
+#include "crowd/body/walker.h"
 
 namespace vegetation_sim {
 

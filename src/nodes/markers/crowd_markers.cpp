@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 
-#include "crowd/walker/body_skeleton.h"
-#include "crowd/walker/clothes.h"
+#include "crowd/body/body_skeleton.h"
+#include "crowd/body/clothes.h"
 #include "vegetation_sim/core/math/math.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
 

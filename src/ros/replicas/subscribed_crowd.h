@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "crowd/walker/walker.h"
+#include "crowd/body/walker.h"
 #include "ros/replicas/subscribed_replica.h"
 
 namespace vegetation_sim {

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "crowd/walker/body_skeleton.h"
-#include "crowd/walker/clothes.h"
+#include "crowd/body/body_skeleton.h"
+#include "crowd/body/clothes.h"
 #include "grass/mesh/grass_geometry.h"
 #include "rviz/textures/sky_texture.h"
 

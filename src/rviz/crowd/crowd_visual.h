@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "crowd/walker/body_skeleton.h"
+#include "crowd/body/body_skeleton.h"
 #include "ros/replicas/subscribed_crowd.h"
 #include "rviz/grass/grass_batch.h"
 #include "rviz/render/material.h"

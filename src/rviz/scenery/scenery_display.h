@@ -11,7 +11,7 @@
 #include "rviz/ground/sky_visual.h"
 #include "rviz/render/fog.h"
 #include "rviz/scenery/budget_status_source.h"
-#include "rviz/scenery/scene_claim.h"
+#include "rviz/scenery/scene_ownership.h"
 #include "rviz/scenery/scenery_properties.h"
 #include "rviz/scenery/status_board.h"
 #include "rviz/scenery/viewer_publisher.h"

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "dynamics/modal/harmonic_chain.h"
+#include "dynamics/modes/harmonic_chain.h"
 #include "tree/lod/response_error.h"
 #include "vegetation_sim/tree/modal/modal_tree.h"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dynamics/modal/harmonic_chain.h"
+#include "dynamics/modes/harmonic_chain.h"
 #include "tree/growth/wood.h"
 #include "tree/lod/bending.h"
 #include "vegetation_sim/core/math/math.h"

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "core/error_text.h"
-#include "crowd/walker/gait.h"
+#include "crowd/body/gait.h"
 #include "scenes/crowd/crowd_scenes.h"
 
 namespace vegetation_sim::crowd {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "crowd/walker/walker.h"
+#include "crowd/body/walker.h"
 
 namespace vegetation_sim::view {
 namespace {

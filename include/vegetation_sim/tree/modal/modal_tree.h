@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "vegetation_sim/dynamics/modal/modal_motion.h"
+#include "vegetation_sim/dynamics/modes/modal_motion.h"
 #include "vegetation_sim/tree/motion/pose.h"
 #include "vegetation_sim/wind/sampling/wind_sampler.h"
 

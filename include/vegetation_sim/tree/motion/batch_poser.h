@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "vegetation_sim/core/config/instruction_set.h"
-#include "vegetation_sim/dynamics/modal/batch_modes.h"
+#include "vegetation_sim/dynamics/modes/batch_modes.h"
 #include "vegetation_sim/tree/motion/pose.h"
 
 namespace vegetation_sim::forest {

@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/modal/krylov.h"
+#include "dynamics/modes/krylov.h"
 
 #include <algorithm>
 #include <cmath>

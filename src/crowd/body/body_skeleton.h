@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "crowd/walker/gait.h"
+#include "crowd/body/gait.h"
 #include "vegetation_sim/terrain/height_map.h"
 
 namespace vegetation_sim::crowd {

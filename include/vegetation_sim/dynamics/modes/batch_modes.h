@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "vegetation_sim/dynamics/modal/modes.h"
+#include "vegetation_sim/dynamics/modes/modes.h"
 
 namespace vegetation_sim::physics {
 

@@ -1,10 +1,10 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "crowd/walker/gait.h"
+#include "crowd/body/gait.h"
 
 #include <gtest/gtest.h>
 
-#include "crowd/walker/body_skeleton.h"
+#include "crowd/body/body_skeleton.h"
 #include "scenes/crowd/crowd_scenes.h"
 
 namespace vegetation_sim::crowd {

@@ -1,11 +1,11 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vegetation_sim/dynamics/modal/batch_modes.h"
+#include "vegetation_sim/dynamics/modes/batch_modes.h"
 
 // Vectors without arithmetic operators are left out; their processors use the plain target.
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "dynamics/modal/batch_modes.cpp"
+#define HWY_TARGET_INCLUDE "dynamics/modes/batch_modes.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 

@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rviz/scenery/scene_claim.h"
+#include "rviz/scenery/scene_ownership.h"
 
 #include <algorithm>
 #include <vector>

@@ -1,11 +1,11 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vegetation_sim/dynamics/modal/modes.h"
+#include "vegetation_sim/dynamics/modes/modes.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "dynamics/modal/krylov.h"
+#include "dynamics/modes/krylov.h"
 
 namespace vegetation_sim::physics {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "vegetation_sim/dynamics/modal/modes.h"
+#include "vegetation_sim/dynamics/modes/modes.h"
 
 namespace vegetation_sim::physics {
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "crowd/walker/walker.h"
+#include "crowd/body/walker.h"
 
 namespace vegetation_sim::crowd {
 

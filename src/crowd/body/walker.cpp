@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "crowd/walker/walker.h"
+#include "crowd/body/walker.h"
 
 #include <cmath>
 

@@ -1,8 +1,8 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "crowd/walker/clothes.h"
+#include "crowd/body/clothes.h"
 
-#include "crowd/walker/body_skeleton.h"
+#include "crowd/body/body_skeleton.h"
 #include "vegetation_sim/core/math/random.h"
 
 namespace vegetation_sim::crowd {

@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "crowd/walker/body_skeleton.h"
+#include "crowd/body/body_skeleton.h"
 
 #include <algorithm>
 #include <cmath>

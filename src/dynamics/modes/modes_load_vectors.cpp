@@ -6,7 +6,7 @@
 #include "core/math/symmetric_eigen.h"
 #include "core/math/vector_sums.h"
 #include "dynamics/chain/articulated.h"
-#include "vegetation_sim/dynamics/modal/modes.h"
+#include "vegetation_sim/dynamics/modes/modes.h"
 
 namespace vegetation_sim::physics {
 namespace {

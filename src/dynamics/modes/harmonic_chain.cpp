@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/modal/harmonic_chain.h"
+#include "dynamics/modes/harmonic_chain.h"
 
 #include "dynamics/chain/articulated.h"
 #include "dynamics/chain/symmetric.h"
