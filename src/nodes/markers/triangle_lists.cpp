@@ -49,8 +49,9 @@ visualization_msgs::MarkerArray TriangleLists::message(const std::string& frame_
     if (marker.points.empty()) {
       marker.action = Marker::DELETE;
     } else {
-      marker.points.resize(list.size);
-      marker.colors.resize(list.size, opaque(Vec3::Zero()));
+      // Copies of the first point keep the bounding box of the list.
+      marker.points.resize(list.size, marker.points.front());
+      marker.colors.resize(list.size, marker.colors.front());
     }
   }
   return out;

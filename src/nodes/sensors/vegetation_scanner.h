@@ -39,13 +39,13 @@ class VegetationScanner {
 
   ros::NodeHandle handle_, private_handle_;
   ScanOptions options_;
+  Refusals refusals_{"vegetation_scanner"};  // used by callbacks of landscape_
   LandscapeReplica landscape_;
   scan::Scene scene_;
   struct Counts {
     std::uint64_t sweeps{0}, unplaced{0}, lost{0};
     TickClock::Counts clock;
   } counts_, reported_;  // so far, and when diagnostics were last sent
-  Refusals refusals_{"vegetation_scanner"};
   std::string missing_transform_;
   double cost_{0.0};         // wall time of the last sweep [s]
   std::uint32_t points_{0};  // of the last sweep

@@ -44,6 +44,13 @@ void SubscribedCanopy::setLayout(const CanopyLayout& message) {
   });
 }
 
+bool SubscribedCanopy::accepts(const CanopyState& message) {
+  return receive("canopy/state", state_status_, [&] {
+    fromMsg(message);
+    return state_status_;
+  });
+}
+
 void SubscribedCanopy::apply(const CanopyState& message) {
   receive("canopy/state", state_status_, [&]() -> InputStatus {
     if (!replica_) return {false, "Waiting for a layout"};

@@ -29,6 +29,7 @@ class SubscribedCanopy : public SubscribedReplica<CanopyState> {
   void subscribe(ros::NodeHandle handle, const Topics& topics);
   void setLayout(const CanopyLayout& message);
   void apply(const CanopyState& message) override;
+  bool accepts(const CanopyState& message) override;
   /// Grows the crowns if the layout of the forest has changed.
   void updateCrowns();
   /// Time jumped back to `now`: a later state is dropped, and all leaves are at rest until the next

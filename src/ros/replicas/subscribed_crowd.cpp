@@ -13,6 +13,14 @@ void SubscribedCrowd::subscribe(ros::NodeHandle handle, const std::string& topic
   subscribeState(handle, topic, 10);
 }
 
+bool SubscribedCrowd::accepts(const AgentStates& message) {
+  return receive("agents", status_, [&] {
+    requireFrame(message.header.frame_id);
+    check(message);
+    return status_;
+  });
+}
+
 void SubscribedCrowd::apply(const AgentStates& message) {
   receive("agents", status_, [&]() -> InputStatus {
     requireFrame(message.header.frame_id);

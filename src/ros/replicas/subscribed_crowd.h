@@ -25,6 +25,7 @@ class SubscribedCrowd : public SubscribedReplica<AgentStates> {
   /// @throws ros::InvalidNameException
   void subscribe(ros::NodeHandle handle, const std::string& topic);
   void apply(const AgentStates& message) override;
+  bool accepts(const AgentStates& message) override;
   /// Time jumped back to `now`: people of a later stamp are removed.
   void forgetLater(Nanoseconds now);
   /// Removes all people if the newest message is older than SILENCE.

@@ -30,6 +30,13 @@ void SubscribedForest::setLayout(const ForestLayout& message) {
   });
 }
 
+bool SubscribedForest::accepts(const ForestState& message) {
+  return receive("forest/state", state_status_, [&] {
+    fromMsg(message);
+    return state_status_;
+  });
+}
+
 void SubscribedForest::apply(const ForestState& message) {
   receive("forest/state", state_status_, [&]() -> InputStatus {
     if (replica_.apply(fromMsg(message))) return {true, "In step"};

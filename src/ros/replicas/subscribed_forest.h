@@ -27,6 +27,7 @@ class SubscribedForest : public SubscribedReplica<ForestState> {
   void setLayout(const ForestLayout& message);
   void setWind(const wind::Field& wind) { replica_.setWind(wind); }
   void apply(const ForestState& message) override;
+  bool accepts(const ForestState& message) override;
   /// Time jumped back to `now`: a later state is dropped, and all trees are at rest until the next
   /// key frame.
   void forgetLater(Nanoseconds now);

@@ -52,6 +52,13 @@ void SubscribedMeadow::setLayout(const GrassLayout& message) {
   });
 }
 
+bool SubscribedMeadow::accepts(const GrassState& message) {
+  return receive("grass/state", state_status_, [&] {
+    fromMsg(message);
+    return state_status_;
+  });
+}
+
 void SubscribedMeadow::apply(const GrassState& message) {
   receive("grass/state", state_status_, [&]() -> InputStatus {
     const grass::TreadUpdate update = fromMsg(message);

@@ -33,6 +33,7 @@ class SubscribedMeadow : public SubscribedReplica<GrassState> {
   /// Rejects a layout whose terrain has other heights here than where it was made.
   void setLayout(const GrassLayout& message);
   void apply(const GrassState& message) override;
+  bool accepts(const GrassState& message) override;
   /// Time jumped back to `now`: later tracks are dropped until the next key frame.
   void forgetLater(Nanoseconds now);
   /// Frees the memory of ground that has recovered at a stamp.

@@ -38,6 +38,8 @@ class SubscribedReplica {
   SubscribedReplica& operator=(const SubscribedReplica&) = delete;
 
   virtual void apply(const State& message) = 0;
+  /// Returns whether a message that is to be delayed is valid; an invalid one is rejected.
+  virtual bool accepts(const State& message) = 0;
   /// Applies the delayed states with stamps up to `stamp`.
   void advance(Nanoseconds stamp) {
     delayed_.take(stamp, [this](Nanoseconds, const auto& message) { apply(*message); });
@@ -50,12 +52,15 @@ class SubscribedReplica {
 
  protected:
   /// Calls `take`, which returns the new status of the input; what it throws rejects the message.
-  void receive(const char* input, InputStatus& status, const std::function<InputStatus()>& take) {
+  /// @return false if it was rejected.
+  bool receive(const char* input, InputStatus& status, const std::function<InputStatus()>& take) {
     try {
       status = take();
+      return true;
     } catch (const std::exception& error) {
       status = {false, std::string("Rejected a message: ") + error.what()};
       if (options_.on_rejected) options_.on_rejected(input, error.what());
+      return false;
     }
   }
   /// @throws InvalidInput for another frame than the one required.
@@ -65,10 +70,10 @@ class SubscribedReplica {
   void subscribeState(ros::NodeHandle& handle, const std::string& topic, std::uint32_t queue) {
     const boost::function<void(const boost::shared_ptr<const State>&)> callback =
         [this](const boost::shared_ptr<const State>& message) {
-          if (options_.delayed)
-            delayed_.add(fromMsg(message->header.stamp), message);
-          else
+          if (!options_.delayed)
             apply(*message);
+          else if (accepts(*message))
+            delayed_.add(fromMsg(message->header.stamp), message);
         };
     subscribers_.push_back(handle.subscribe<State>(topic, queue, callback));
   }

@@ -11,6 +11,14 @@ void SubscribedWind::subscribe(ros::NodeHandle handle, const std::string& topic)
   subscribeState(handle, topic, 10);
 }
 
+bool SubscribedWind::accepts(const WindField& message) {
+  return receive("wind", status_, [&] {
+    requireFrame(message.header.frame_id);
+    fromMsg(message);
+    return status_;
+  });
+}
+
 void SubscribedWind::apply(const WindField& message) {
   receive("wind", status_, [&]() -> InputStatus {
     requireFrame(message.header.frame_id);

@@ -23,6 +23,7 @@ class SubscribedWind : public SubscribedReplica<WindField> {
   /// @throws ros::InvalidNameException
   void subscribe(ros::NodeHandle handle, const std::string& topic);
   void apply(const WindField& message) override;
+  bool accepts(const WindField& message) override;
 
   const wind::Field& field() const { return field_; }
   /// Number of accepted messages.

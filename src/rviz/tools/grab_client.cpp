@@ -45,7 +45,7 @@ void GrabClient::say(const std::string& message) {
 
 void GrabClient::take(const Ray& ray, double tolerance, const Spring& spring) {
   tasks_.add([self = shared_from_this(), ray, tolerance, spring] {
-    self->releaseTrees();
+    self->releaseHeld();
     self->pickAndGrab(ray, tolerance, spring);
   });
 }
@@ -65,7 +65,7 @@ void GrabClient::keep() {
 }
 
 void GrabClient::release() {
-  tasks_.add([self = shared_from_this()] { self->releaseTrees(); });
+  tasks_.add([self = shared_from_this()] { self->releaseHeld(); });
 }
 
 void GrabClient::pickAndGrab(const Ray& ray, double tolerance, const Spring& spring) {
@@ -116,7 +116,7 @@ void GrabClient::move() {
   grip_.force = fromMsg(move.response.force);
 }
 
-void GrabClient::releaseTrees() {
+void GrabClient::releaseHeld() {
   const Grip held = grip();
   if (!held.holding) return;
   Release release;

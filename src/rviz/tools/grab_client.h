@@ -55,7 +55,7 @@ class GrabClient : public std::enable_shared_from_this<GrabClient> {
  private:
   void pickAndGrab(const Ray& ray, double tolerance, const Spring& spring);
   void move();
-  void releaseTrees();
+  void releaseHeld();
   void say(const std::string& message);
 
   ros::ServiceClient pick_, grab_, move_, release_;
