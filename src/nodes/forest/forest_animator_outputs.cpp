@@ -99,7 +99,7 @@ void ForestAnimator::diagnoseGovernor(Status& status) {
              std::isnan(farthest) ? "not computed: no room" : std::to_string(farthest));
   status.add("Marker points", markers_.points());
   status.add("Marker budget [points]", markers_.budget());
-  const auto& modal_states = forest_->snapshot().modes.modal_states();
+  const auto& modal_states = forest_->snapshot().modes.modalStates();
   status.add("Trees in modes", modal_states.size());
   status.add("Of these in fine modes",
              std::count_if(modal_states.begin(), modal_states.end(),

@@ -70,8 +70,8 @@ TEST(ModalTreeState, FineModesThatAreLostDoNotFlicker) {
     EXPECT_LE(changes[tree], 2) << tree;  // to its levels, to plain modes
     EXPECT_LE(published[tree], 3) << tree;
   }
-  ASSERT_EQ(scene.forest.snapshot().modes.modal_states().size(), 1u);  // the bytes suffice for one
-  EXPECT_FALSE(scene.forest.snapshot().modes.modal_states().begin()->second.fine());
+  ASSERT_EQ(scene.forest.snapshot().modes.modalStates().size(), 1u);  // the bytes suffice for one
+  EXPECT_FALSE(scene.forest.snapshot().modes.modalStates().begin()->second.fine());
 }
 
 }  // namespace

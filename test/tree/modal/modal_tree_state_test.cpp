@@ -16,30 +16,30 @@ namespace {
 TEST(ModalTreeState, NearTreesHaveModesAndFarOnesHaveNone) {
   Clearing scene(breeze(), 0.1);
   scene.run(2.0);
-  EXPECT_EQ(scene.forest.snapshot().modes.modal_states().size(), 4u);
+  EXPECT_EQ(scene.forest.snapshot().modes.modalStates().size(), 4u);
   for (std::uint32_t id = 0; id < 4; ++id)
     EXPECT_EQ(scene.forest.snapshot().levels.of(id).level, MODAL_LEVEL) << id;
   scene.look(false);
   scene.run(0.5);
-  EXPECT_EQ(scene.forest.snapshot().modes.modal_states().size(), 4u);  // they still fade
+  EXPECT_EQ(scene.forest.snapshot().modes.modalStates().size(), 4u);  // they still fade
   scene.run(1.0);
-  EXPECT_TRUE(scene.forest.snapshot().modes.modal_states().empty());
+  EXPECT_TRUE(scene.forest.snapshot().modes.modalStates().empty());
 }
 
 // Steady wind needs no modes, and without a budget there are none.
 TEST(ModalTreeState, TreesWithoutNeedHaveNoModes) {
   Clearing steady(wind::Field({makeDisk(1, Vec3::Zero(), 2000.0, Vec3(5, 1, 0))}));
   steady.run(1.0);
-  EXPECT_TRUE(steady.forest.snapshot().modes.modal_states().empty());
+  EXPECT_TRUE(steady.forest.snapshot().modes.modalStates().empty());
   wind::Primitive trace = makeBreeze(2, Vec3(1e-6, 0.0, 0.0));
   Clearing besides(wind::Field({makeDisk(1, Vec3::Zero(), 2000.0, Vec3(5, 1, 0)), trace}));
   besides.run(1.0);
-  EXPECT_TRUE(besides.forest.snapshot().modes.modal_states().empty());
+  EXPECT_TRUE(besides.forest.snapshot().modes.modalStates().empty());
   Clearing poor;
   poor.settings.budget.modal_trees = 0;
   poor.use();
   poor.run(1.0);
-  EXPECT_TRUE(poor.forest.snapshot().modes.modal_states().empty());
+  EXPECT_TRUE(poor.forest.snapshot().modes.modalStates().empty());
   EXPECT_GT(poor.forest.snapshot().levels.of(0).level, 0);
 }
 
@@ -72,9 +72,9 @@ TEST(ModalTreeState, CountsWhatItKeepsOfTheWaves) {
   const auto bytes = [](const wind::Field& field) {
     Clearing scene(field, 0.1);
     scene.run(1.0);
-    EXPECT_FALSE(scene.forest.snapshot().modes.modal_states().empty());
+    EXPECT_FALSE(scene.forest.snapshot().modes.modalStates().empty());
     return scene.forest.snapshot().modes.bytes() /
-           scene.forest.snapshot().modes.modal_states().size();
+           scene.forest.snapshot().modes.modalStates().size();
   };
   const wind::Primitive first = makeBreeze(1, Vec3(5.0, 1.0, 0.0));
   const wind::Primitive second = makeBreeze(2, Vec3(4.0, 1.0, 0.0));
@@ -90,7 +90,7 @@ TEST(ModalTreeState, SaturatesAndSaysSoBeyondTheLimit) {
   for (const bool storm : {false, true}) {
     Clearing scene(wind::Field({makeBreeze(1, Vec3(storm ? 90.0 : 5.0, 1.0, 0.0))}, 3), 0.1);
     scene.run(3.0);
-    ASSERT_EQ(scene.forest.snapshot().modes.modal_states().size(), 4u);
+    ASSERT_EQ(scene.forest.snapshot().modes.modalStates().size(), 4u);
     double bend = 0.0, turn = 0.0;
     for (int i = 0; i < TICK_RATE; ++i) {
       scene.advance();

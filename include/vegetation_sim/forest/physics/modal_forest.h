@@ -60,7 +60,7 @@ class ModalForest {
 
   /// Returns nullptr if the tree has no modal state.
   const ModalTreeState* find(std::uint32_t tree) const;
-  const std::map<std::uint32_t, ModalTreeState>& modal_states() const { return modal_states_; }
+  const std::map<std::uint32_t, ModalTreeState>& modalStates() const { return modal_states_; }
   std::size_t bytes() const;  ///< of all computed modes
   /// Number of trees that bend farther than modes are valid (physics::MODAL_LIMIT). Their bends are
   /// limited as those of other joints are.
