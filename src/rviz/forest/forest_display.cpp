@@ -90,7 +90,7 @@ void ForestDisplay::draw(Nanoseconds stamp, const view::View& view) {
   }
   forest_->update(source_->replica(), stamp, wall(), view, properties_->daylight(),
                   properties_->options());
-  if (forest_->tree_set() == nullptr || !properties_->ground()) return;
+  if (forest_->treeSet() == nullptr || !properties_->ground()) return;
   if (givesGround(source_->replica().terrain()))
     makeGround();
   else
@@ -103,18 +103,18 @@ void ForestDisplay::dropGround() {
 }
 
 void ForestDisplay::makeShadows() {
-  if (shadows_ && grounded_ == forest_->tree_sets()) return;
+  if (shadows_ && grounded_ == forest_->treeSets()) return;
   const view::Daylight daylight = properties_->daylight();
-  shadows_ = std::make_unique<view::ShadowVisual>(*scene_node_, *forest_->tree_set(),
+  shadows_ = std::make_unique<view::ShadowVisual>(*scene_node_, *forest_->treeSet(),
                                                   source_->replica().terrain(), daylight);
   shadows_->light(daylight, properties_->hazeValues());
-  grounded_ = forest_->tree_sets();
+  grounded_ = forest_->treeSets();
 }
 
 void ForestDisplay::makeGround() {
-  if (ground_ && grounded_ == forest_->tree_sets()) return;
+  if (ground_ && grounded_ == forest_->treeSets()) return;
   dropGround();
-  const view::TreeSet& tree_set = *forest_->tree_set();
+  const view::TreeSet& tree_set = *forest_->treeSet();
   const view::Daylight daylight = properties_->daylight();
   const terrain::HeightMap& terrain = source_->replica().terrain();
   const view::Plot plot = view::plotAround(tree_set.extent());
@@ -124,7 +124,7 @@ void ForestDisplay::makeGround() {
   const view::Land land{plot, picture, terrain, tree_set.origin(), GROUND_CELL, tint};
   ground_ = std::make_unique<view::GroundVisual>(*scene_node_, land, daylight);
   ground_->light(daylight, daylight.to_sun, properties_->hazeValues());
-  grounded_ = forest_->tree_sets();
+  grounded_ = forest_->treeSets();
 }
 
 view::ForestReport ForestDisplay::drawn() const {
@@ -135,9 +135,9 @@ void ForestDisplay::showInputs(view::StatusBoard& board, Nanoseconds now) const 
   board.show("Layout", source_->layoutStatus());
   board.show("Wind", source_->windStatus());
   board.show("State", source_->stateStatus(now));
-  if (forest_->tree_set() != nullptr)
+  if (forest_->treeSet() != nullptr)
     board.show(rviz::StatusProperty::Ok, "Motion",
-               describeMotion(source_->replica(), *forest_->tree_set()));
+               describeMotion(source_->replica(), *forest_->treeSet()));
 }
 
 InputStatus ForestDisplay::describeDrawn() const {

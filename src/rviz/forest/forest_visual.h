@@ -50,9 +50,9 @@ class ForestVisual {
   void light(const Daylight& daylight, const Vec3& to_sun, const Haze& haze);
 
   /// Returns the trees that are drawn; null until all are grown.
-  const TreeSet* tree_set() const { return tree_set_.get(); }
+  const TreeSet* treeSet() const { return tree_set_.get(); }
   /// Number of tree sets that have been drawn.
-  int tree_sets() const { return tree_sets_; }
+  int treeSets() const { return tree_sets_; }
   const ForestReport& report() const { return report_; }
 
  private:
