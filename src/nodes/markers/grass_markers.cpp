@@ -39,7 +39,8 @@ Viewpoint eyeAbove(const grass::MeadowLod& meadow) {
 }  // namespace
 
 GrassMarkers::GrassMarkers(int points) : list_points_(static_cast<std::size_t>(points) / 9 * 3) {
-  for (const char* ns : {"ground", "strips", "blades"}) lists_.addList(ns, list_points_);
+  for (const char* ns : {"ground", "strips", "blades"})
+    lists_.addList(ns, list_points_, TriangleLists::Padding::FIRST_POINT);
 }
 
 // Adds the whole map in squares as small as the budget allows.

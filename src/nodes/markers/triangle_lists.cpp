@@ -8,7 +8,7 @@ namespace vegetation_sim {
 
 using visualization_msgs::Marker;
 
-void TriangleLists::addList(const std::string& ns, std::size_t size) {
+void TriangleLists::addList(const std::string& ns, std::size_t size, Padding padding) {
   Marker marker;
   marker.ns = ns;
   marker.id = static_cast<std::int32_t>(lists_.size());
@@ -18,7 +18,7 @@ void TriangleLists::addList(const std::string& ns, std::size_t size) {
   marker.color = opaque(Vec3::Ones());
   marker.points.reserve(size);
   marker.colors.reserve(size);
-  lists_.push_back({marker, size});
+  lists_.push_back({marker, size, padding});
 }
 
 void TriangleLists::clear(std::size_t list) {
@@ -49,9 +49,9 @@ visualization_msgs::MarkerArray TriangleLists::message(const std::string& frame_
     if (marker.points.empty()) {
       marker.action = Marker::DELETE;
     } else {
-      // Copies of the first point keep the bounding box of the list.
-      marker.points.resize(list.size, marker.points.front());
-      marker.colors.resize(list.size, marker.colors.front());
+      const bool first = list.padding == Padding::FIRST_POINT;
+      marker.points.resize(list.size, first ? marker.points.front() : geometry_msgs::Point());
+      marker.colors.resize(list.size);
     }
   }
   return out;

@@ -17,8 +17,11 @@ namespace vegetation_sim {
 /// rviz updates such lists in place. A list without triangles is deleted.
 class TriangleLists {
  public:
+  /// Position of unused points; the first point keeps the bounding box of the list.
+  enum class Padding { ORIGIN, FIRST_POINT };
+
   /// Adds a list of `size` points; a list of size 0 is not published.
-  void addList(const std::string& ns, std::size_t size);
+  void addList(const std::string& ns, std::size_t size, Padding padding = Padding::ORIGIN);
   void setSize(std::size_t list, std::size_t size) { lists_[list].size = size; }
   void clear(std::size_t list);
 
@@ -40,6 +43,7 @@ class TriangleLists {
   struct List {
     visualization_msgs::Marker marker;
     std::size_t size{0};
+    Padding padding{Padding::ORIGIN};
   };
   std::vector<List> lists_;
 };
