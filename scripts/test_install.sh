@@ -37,8 +37,9 @@ done
 (cd "$INSTALLED/include" && find vegetation_sim -name '*.h' -printf '#include <%p>\n' | sort) >"$WORK/consumer.cpp"
 echo 'int main() { return vegetation_sim::forest::ForestReplica().ready() ? 1 : 0; }' >>"$WORK/consumer.cpp"
 # shellcheck disable=SC2046
-g++ -std=c++17 "$WORK/consumer.cpp" -o "$WORK/consumer" $(pkg-config --cflags --libs vegetation_sim) \
-  $(pkg-config --cflags eigen3) >"$WORK/consumer.log" 2>&1 && "$WORK/consumer" ||
+g++ -std=c++17 -I"$INSTALLED/include" $(pkg-config --cflags eigen3 roscpp) "$WORK/consumer.cpp" -o "$WORK/consumer" \
+  -L"$INSTALLED/lib" -lvegetation_sim_ros -lvegetation_sim_core $(pkg-config --libs roscpp yaml-cpp) \
+  >"$WORK/consumer.log" 2>&1 && "$WORK/consumer" ||
   fail "a program of another package: $(tail -n 20 "$WORK/consumer.log")"
 
 rosrun vegetation_sim charts --quick --only grass_ladder --out "$WORK/charts" >"$WORK/charts.log" 2>&1 ||
