@@ -12,6 +12,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "package_folder.h"
 #include "trees/report.h"
 
 namespace vegetation_sim::bench {

@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "options.h"
+#include "package_folder.h"
 #include "processor_time.h"
 #include "reference/sensors/cast_plain.h"
 #include "scenes/sensors/lidar_scene.h"

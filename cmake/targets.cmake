@@ -66,13 +66,15 @@ foreach(target ${ros_targets})
   add_dependencies(${target} ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})
 endforeach()
 
-# Benches share the folder scenes with the tests.
+# Benches share the folder scenes with the tests. Only the files that need the folder of the package
+# include its path, so that a compiler cache serves every clone.
+set(generated_folder ${PROJECT_BINARY_DIR}/generated)
+configure_file(cmake/package_folder.h.in ${generated_folder}/package_folder.h @ONLY)
 foreach(source ${bench_sources})
   get_filename_component(bench ${source} NAME_WE)
   add_executable(${bench} ${source})
   set_own_options(${bench})
-  target_include_directories(${bench} PRIVATE bench ${PROJECT_SOURCE_DIR})
-  target_compile_definitions(${bench} PRIVATE PACKAGE_FOLDER="${PROJECT_SOURCE_DIR}")
+  target_include_directories(${bench} PRIVATE bench ${PROJECT_SOURCE_DIR} ${generated_folder})
   target_link_libraries(${bench} PRIVATE ${PROJECT_NAME}_core)
   list(APPEND bench_targets ${bench})
 endforeach()

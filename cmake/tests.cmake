@@ -6,8 +6,7 @@ find_package(rostest REQUIRED)
 
 function(set_test_options target)
   set_own_options(${target})
-  target_include_directories(${target} PRIVATE test ${PROJECT_SOURCE_DIR})
-  target_compile_definitions(${target} PRIVATE PACKAGE_FOLDER="${PROJECT_SOURCE_DIR}")
+  target_include_directories(${target} PRIVATE test ${PROJECT_SOURCE_DIR} ${generated_folder})
 endfunction()
 
 foreach(folder ${core_folders})

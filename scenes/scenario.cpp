@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "package_folder.h"
 #include "vegetation_sim/core/config/yaml.h"
 #include "wind/wind_reader.h"
 

@@ -10,6 +10,7 @@
 
 #include "core/config/scenario.h"
 #include "crowd/agents/crowd_scene.h"
+#include "package_folder.h"
 #include "scenes/forest/level_scene.h"
 #include "vegetation_sim/canopy/canopy_layout.h"
 #include "vegetation_sim/grass/grass_layout.h"

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "forest/forest.h"
+#include "package_folder.h"
 #include "vegetation_sim/tree/motion/batch_poser.h"
 
 namespace vegetation_sim::forest {

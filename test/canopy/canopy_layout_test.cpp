@@ -6,6 +6,7 @@
 
 #include "core/config/scenario.h"
 #include "core/error_text.h"
+#include "package_folder.h"
 #include "scenes/canopy/canopy_scene.h"
 
 namespace vegetation_sim::canopy {

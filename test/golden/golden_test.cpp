@@ -9,6 +9,7 @@
 #include <ostream>
 
 #include "golden/golden_file.h"
+#include "package_folder.h"
 #include "vegetation_sim/core/config/instruction_set.h"
 
 namespace vegetation_sim::golden {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/error_text.h"
+#include "package_folder.h"
 #include "terrain/image_fixture.h"
 #include "vegetation_sim/core/math/random.h"
 

@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "core/error_text.h"
+#include "package_folder.h"
 
 namespace vegetation_sim {
 namespace {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 
+#include "package_folder.h"
 #include "scenes/canopy/canopy_scene.h"
 
 namespace vegetation_sim {

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "core/config/scenario.h"
+#include "package_folder.h"
 #include "scenes/forest/forest_fixture.h"
 
 namespace vegetation_sim::forest {

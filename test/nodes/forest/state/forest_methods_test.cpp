@@ -9,6 +9,7 @@
 #include "dynamics/integration/integrator.h"
 #include "nodes/forest/forest_options.h"
 #include "nodes/rigs/forest_rig.h"
+#include "package_folder.h"
 
 namespace vegetation_sim {
 namespace {
