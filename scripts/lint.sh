@@ -35,8 +35,9 @@ catkin() {
   [ -z "$found" ] || { printf '%s\n' "$found"; return 1; }
 }
 
-# Checks folders, includes, public headers and file stems against docs/folders.yaml.
-structure() { python3 test/structure/check_structure.py; }
+# Checks folders, includes, public headers and file stems against docs/folders.yaml, and the programs
+# that launch files name.
+structure() { python3 test/structure/check_structure.py && python3 test/structure/check_launch_files.py; }
 
 # Forbids debugging leftovers and, in the core, functions and containers whose results differ
 # between machines. Code that only selects the level of detail of a picture may use the mathematics
