@@ -9,9 +9,9 @@
 
 namespace vegetation_sim {
 
-VegetationScanner::VegetationScanner(ros::NodeHandle handle, ros::NodeHandle private_handle)
-    : handle_(handle),
-      private_handle_(private_handle),
+VegetationScanner::VegetationScanner(const ros::NodeHandle& handle,
+                                     const ros::NodeHandle& private_handle)
+    : NodeBase("vegetation_scanner", handle, private_handle),
       options_(loadScanOptions(private_handle)),
       landscape_({options_.frame_id, true,
                   [this](const std::string& input, const std::string& why) {
@@ -20,28 +20,26 @@ VegetationScanner::VegetationScanner(ros::NodeHandle handle, ros::NodeHandle pri
       tf_buffer_(ros::Duration(tf2::BufferCore::DEFAULT_CACHE_TIME),
                  true),  // with the service that shows its frames
       tf_listener_(tf_buffer_),
-      clock_("vegetation_scanner", options_.rate, options_.delay,
+      clock_(name_, options_.rate, options_.delay,
              {{},
               [this](std::int64_t tick) { this->tick(tick); },
               [this](Nanoseconds now) { restart(now); }},
-             LateTicks::NEWEST),
-      diagnostics_(handle, private_handle, private_handle.getNamespace()) {
+             LateTicks::NEWEST) {
   restartScene();
   cloud_publisher_ = handle_.advertise<sensor_msgs::PointCloud2>("lidar/points", 10);
   scan_publisher_ = handle_.advertise<sensor_msgs::LaserScan>("lidar/scan", 10);
   report_publisher_ = handle_.advertise<ScanReport>("lidar/report", 10);
-  diagnostics_.setHardwareID("none");
   diagnostics_.add("scan", this, &VegetationScanner::diagnose);
-  listen();
+  // The callbacks of a nodelet may start from here on.
+  landscape_.subscribe(handle_);
+  serve("reset", &VegetationScanner::onReset);
+  startDiagnostics();
+  clock_.listen(handle_);
 }
 
-// This is called last: the callbacks of a nodelet may start before its constructor has ended.
-void VegetationScanner::listen() {
-  landscape_.subscribe(handle_);
-  reset_service_ = private_handle_.advertiseService("reset", &VegetationScanner::onReset, this);
-  diagnostics_timer_ = handle_.createWallTimer(
-      ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); });
-  clock_.listen(handle_);
+VegetationScanner::~VegetationScanner() {
+  clock_.stop();
+  stopCallbacks();
 }
 
 void VegetationScanner::tick(std::int64_t tick) {
@@ -114,7 +112,7 @@ bool VegetationScanner::onReset(std_srvs::Trigger::Request&,
 }
 
 // Reports only what has happened since the last report.
-void VegetationScanner::reportProblem(diagnostic_updater::DiagnosticStatusWrapper& status) {
+void VegetationScanner::reportProblem(Status& status) {
   counts_.clock = clock_.counts();
   refusals_.warn(status);
   warnOfMore(status, counts_.unplaced, reported_.unplaced,
@@ -129,7 +127,7 @@ void VegetationScanner::reportProblem(diagnostic_updater::DiagnosticStatusWrappe
   reported_ = counts_;
 }
 
-void VegetationScanner::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
+void VegetationScanner::diagnose(Status& status) {
   using diagnostic_msgs::DiagnosticStatus;
   status.summary(DiagnosticStatus::OK, "running");
   if (!clock_.hasBegun()) status.summary(DiagnosticStatus::WARN, "waiting for the clock");
