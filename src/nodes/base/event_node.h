@@ -16,6 +16,8 @@
 #include "nodes/base/event_queue.h"
 #include "nodes/base/node_base.h"
 #include "nodes/base/node_options.h"
+#include "nodes/base/viewer_registry.h"
+#include "nodes/markers/marker_publisher.h"
 #include "ros/services/requests.h"
 #include "ros/services/service_replies.h"
 #include "ros/time/tick_clock.h"
@@ -37,7 +39,8 @@ Event settingsEvent(const Tuning& tuning) {
 /// A simulation on the tick grid of ROS time whose state is a function of its events. Inputs wait
 /// in a queue as events; at their tick they are applied and published, and a replay applies the
 /// published ones instead. The base has what such nodes share: clock, tf, queue, tuning by
-/// dynamic_reconfigure, the viewer that follows a tf frame, service ~reset and diagnostics.
+/// dynamic_reconfigure, viewers and the one that follows a tf frame, markers, service ~reset and
+/// diagnostics.
 ///
 /// A node calls start() at the end of its constructor and stop() in its destructor.
 /// @tparam Queue EventQueue or derived from it. @tparam Config of dynamic_reconfigure.
@@ -72,18 +75,32 @@ class EventNode : public NodeBase {
   virtual bool isOutdated(const Event& event) const = 0;
   /// Whether a replay applies this recorded event.
   virtual bool isInput(const Event&) const { return true; }
-  virtual void onViewer(const Viewer&) {}
+  /// Takes a viewer of the markers. A node whose state depends on viewers makes events of them.
+  virtual void onViewer(const Viewer& message) {
+    acceptInput("viewer",
+                [&] { viewers_.hear(message, tf_buffer_, options_.frame_id, lastStamp()); });
+  }
+  /// Viewers of the markers at the last tick.
+  virtual std::vector<Viewpoint> markerViewers(Nanoseconds stamp) { return viewers_.eyesAt(stamp); }
   /// Writes the tuning in force into what dynamic_reconfigure shows first.
   virtual void showTuning(Config& config) const = 0;
   /// Event of a new tuning. @throws InvalidInput for values out of range.
   virtual Event tuningEvent(const Config& config) const = 0;
   virtual void addDiagnostics(NodeBase::Status& status) = 0;
+  /// Reports what the node chooses within its budgets, and why.
+  virtual void addGovernor(NodeBase::Status& status) = 0;
 
-  void start() {
+  /// @param what the node simulates, in diagnostics. @param topic of the markers.
+  void start(const char* what, const char* topic, MarkerBuilder& markers) {
+    markers_.emplace(handle_, topic, options_.frame_id, markers);
+    diagnostics_.add(what, this, &EventNode::diagnose);
+    diagnostics_.add("governor", this, &EventNode::diagnoseGovernor);
     // The server writes its values back to the parameters: they are the checked ones by then.
     tuning_server_ = std::make_unique<dynamic_reconfigure::Server<Config>>(private_handle_);
     tuning_server_->setCallback([this](Config& config, std::uint32_t) { onTuning(config); });
     connect();
+    subscribe("viewer", 10, &EventNode::onViewer);
+    repeat(options_.markers_rate, &EventNode::sendMarkers);
     if (options_.replay)
       subscribe(events_topic_, 2 * Queue::MOST_WAITING, &EventNode::onRecordedEvent);
     serve("reset", &EventNode::onReset);
@@ -132,7 +149,7 @@ class EventNode : public NodeBase {
   /// Stamp of the last tick, 0 before the first.
   Nanoseconds lastStamp() const { return clock_.hasBegun() ? clock_.stamp() : 0; }
 
-  /// Summary, warnings since the last report and the values that all such nodes have.
+  // Summary, warnings since the last report and the values that all such nodes have.
   void diagnose(NodeBase::Status& status) {
     using diagnostic_msgs::DiagnosticStatus;
     status.summary(DiagnosticStatus::OK, "running");
@@ -153,6 +170,7 @@ class EventNode : public NodeBase {
   Options options_;
   Queue inputs_;
   tf2_ros::Buffer tf_buffer_;
+  ViewerRegistry viewers_;  // of the markers
 
  private:
   tf2_ros::TransformListener tf_listener_;
@@ -194,6 +212,16 @@ class EventNode : public NodeBase {
     });
   }
 
+  void sendMarkers(const ros::TimerEvent&) {
+    if (!clock_.hasBegun() || !markers_->isWanted()) return;
+    markers_->publish(markerViewers(clock_.stamp()), clock_.stamp());
+  }
+
+  void diagnoseGovernor(NodeBase::Status& status) {
+    addGovernor(status);
+    markers_->report(status);
+  }
+
   void followViewerFrame() {
     if (options_.viewer_frame.empty()) return;
     Viewer viewer;
@@ -210,11 +238,13 @@ class EventNode : public NodeBase {
       return options_.replay ? stampOf(event) > now : isOutdated(event);
     });
     tf_buffer_.clear();
+    viewers_.clear();
     restart();
   }
 
   const char* events_topic_;
   ros::Publisher events_publisher_;
+  std::optional<MarkerPublisher> markers_;
   std::unique_ptr<dynamic_reconfigure::Server<Config>> tuning_server_;
   std::optional<Config> shown_;  // what the server shows or has accepted last
   std::uint64_t applied_{0};     // events

@@ -11,6 +11,8 @@ struct NodeOptions {
   std::string scenario;              ///< file; empty: the node's default scene
   std::string frame_id{"map"};       ///< world frame
   int state_rate{30};                ///< ticks [Hz]
+  double markers_rate{10.0};         ///< [Hz]
+  int marker_points{90000};          ///< budget of all marker lists together
   bool replay{false};                ///< applies recorded events instead of live inputs
   double replay_delay{0.5};          ///< how far ticks stay behind the clock in a replay [s]
   std::string viewer_id;             ///< viewer that the node follows; empty: any

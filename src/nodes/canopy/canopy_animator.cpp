@@ -18,29 +18,23 @@ CanopyAnimator::CanopyAnimator(const ros::NodeHandle& handle, const ros::NodeHan
                 loadCanopyOptions(private_handle)),
       canopy_(options_.scene.layout),
       plants_(options_.scene.layout.plants),
-      markers_(options_.marker_points),
       forest_({options_.frame_id, false,
                [this](const std::string& input, const std::string& why) {
                  refusals_.add(input, why);
                }}),
+      markers_(canopy_, crowns_, forest_.replica(), options_.marker_points, options_.tolerance),
       winds_(MOST_WINDS) {
-  markers_.setLayout(options_.scene.layout);
   layout_publisher_ = handle_.advertise<CanopyLayout>("canopy/layout", 1, true);
   state_publisher_ = handle_.advertise<CanopyState>("canopy/state", 1000);
-  markers_publisher_ = handle_.advertise<visualization_msgs::MarkerArray>("canopy/markers", 1);
   publishLayout();
-  diagnostics_.add<CanopyAnimator>("canopy", this, &CanopyAnimator::diagnose);
-  diagnostics_.add("governor", this, &CanopyAnimator::diagnoseGovernor);
-  start();
+  start("canopy", "canopy/markers", markers_);
 }
 
 void CanopyAnimator::connect() {
   subscribe("wind", 10, &CanopyAnimator::onWind);
-  if (!options_.replay) subscribe("viewer", 10, &CanopyAnimator::onViewer);
   if (!options_.scene.layout.crowns.empty())
     forest_.subscribe(handle_, {"forest/layout", "", "forest/state"});
   serve("sample", &CanopyAnimator::onSample);
-  repeat(options_.markers_rate, &CanopyAnimator::sendMarkers);
 }
 
 void CanopyAnimator::tick(std::int64_t tick) {

@@ -51,11 +51,9 @@ class CanopyAnimator final
   // Outputs.
   void publishLayout();
   void publishState(std::int64_t tick);
-  void sendMarkers(const ros::TimerEvent& event);
-  /// Leaves of the forest's crowns, as many as markers_ draws.
-  std::vector<canopy::MovedLeaf> crownLeaves(const canopy::Foliage& foliage) const;
+  std::vector<Viewpoint> markerViewers(Nanoseconds stamp) override;
   void addDiagnostics(Status& status) override;
-  void diagnoseGovernor(Status& status);
+  void addGovernor(Status& status) override { markers_.reportTiers(status); }
 
   // Services.
   bool onSample(SampleCanopy::Request& request, SampleCanopy::Response& response);
@@ -63,9 +61,9 @@ class CanopyAnimator final
 
   canopy::Canopy canopy_;
   canopy::PlantIndex plants_;
-  CanopyMarkers markers_;
   SubscribedForest forest_;  // whose crowns have leaves of the layout
   LeafedCrowns crowns_;
+  CanopyMarkers markers_;
   HashedCache<wind::Field> winds_;
   struct Seen {
     std::string id;
@@ -77,7 +75,7 @@ class CanopyAnimator final
   std::uint64_t state_bytes_{0}, other_viewers_{0};
   std::uint64_t reported_resets_{0};  // of the fluid, when diagnostics were last sent
 
-  ros::Publisher layout_publisher_, state_publisher_, markers_publisher_;
+  ros::Publisher layout_publisher_, state_publisher_;
 };
 
 }  // namespace vegetation_sim

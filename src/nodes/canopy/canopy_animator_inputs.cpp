@@ -52,7 +52,7 @@ void CanopyAnimator::onWind(const WindField& message) {
 void CanopyAnimator::updateCrowns() {
   if (!crowns_.update(canopy_.layout(), forest_)) return;
   canopy_.setCrowns(crowns_.boxes());
-  markers_.setCrowns(canopy_.layout(), crowns_);
+  markers_.updateCrowns();
 }
 
 // Layers are cut for one viewer (S3-W8): the one that is named, or else the first that is present.

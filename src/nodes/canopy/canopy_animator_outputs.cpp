@@ -1,7 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/canopy/canopy_animator.h"
-#include "ros/services/allocation_report.h"
 #include "vegetation_sim/ros/conversions/canopy_conversions.h"
 
 namespace vegetation_sim {
@@ -14,26 +13,11 @@ void CanopyAnimator::publishState(std::int64_t tick) {
   state_publisher_.publish(message);
 }
 
-void CanopyAnimator::sendMarkers(const ros::TimerEvent&) {
-  if (!clock_.hasBegun() || markers_publisher_.getNumSubscribers() == 0) return;
-  const canopy::Foliage& foliage = canopy_.foliage();
-  Viewpoint eye;
-  eye.position = canopy_.snapshot().cuts.now.position;
-  markers_.choose(canopy_.layout(), eye, options_.tolerance, clock_.stamp());
-  markers_publisher_.publish(markers_.build(foliage, crownLeaves(foliage), options_.frame_id));
-}
-
-std::vector<canopy::MovedLeaf> CanopyAnimator::crownLeaves(const canopy::Foliage& foliage) const {
-  std::vector<canopy::MovedLeaf> out;
-  for (std::size_t i = 0; i < crowns_.crowns().size(); ++i) {
-    const LeafedCrowns::Crown& crown = crowns_.crowns()[i];
-    const std::vector<Pose> wood = crowns_.wood(i, forest_.replica(), clock_.stamp());
-    for (std::size_t k = 0; k < markers_.drawnOf(crown.leaves.size()); ++k) {
-      const canopy::CrownLeaf& leaf = crown.leaves[k];
-      out.push_back(carry(foliage, leaf, crown.rest[leaf.twig].pose, wood[leaf.twig]));
-    }
-  }
-  return out;
+// The markers are for the viewer that layers are cut for.
+std::vector<Viewpoint> CanopyAnimator::markerViewers(Nanoseconds) {
+  Viewpoint out;
+  out.position = canopy_.snapshot().cuts.now.position;
+  return {out};
 }
 
 void CanopyAnimator::addDiagnostics(Status& status) {
@@ -52,16 +36,6 @@ void CanopyAnimator::addDiagnostics(Status& status) {
   status.add("Steps undone", resets);
   status.add("Memory of the layers [B]", canopy_.snapshot().history.bytes());
   status.add("State sent [B]", state_bytes_);
-}
-
-// Reports the tiers of the markers; all of them share one motion of leaves.
-void CanopyAnimator::diagnoseGovernor(Status& status) {
-  report(markers_.balance(),
-         {"Plants", options_.tolerance, "marker_points", "points",
-          static_cast<double>(markers_.room()), markers_.tiers()},
-         status);
-  status.add("Marker points", markers_.points());
-  status.add("Marker budget [points]", markers_.budget());
 }
 
 }  // namespace vegetation_sim

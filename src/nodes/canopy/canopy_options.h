@@ -38,9 +38,7 @@ CanopyScene loadCanopyScene(const std::string& file);
 
 /// Parameters of canopy_animator; see docs/reference.md.
 struct CanopyOptions : NodeOptions {
-  double markers_rate{10.0};  ///< [Hz]
-  int marker_points{90000};   ///< budget of the marker lists together
-  double tolerance{1.0};      ///< error of what is drawn, at 1000 pixels a radian [pixel]
+  double tolerance{1.0};  ///< error of what is drawn, at 1000 pixels a radian [pixel]
   CanopyScene scene;
 };
 void describe(FieldVisitor& visitor, CanopyOptions& options);

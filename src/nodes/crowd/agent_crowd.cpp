@@ -21,27 +21,22 @@ AgentCrowd::AgentCrowd(const ros::NodeHandle& handle, const ros::NodeHandle& pri
                 loadCrowdOptions(private_handle)),
       crowd_(options_.scene.seed, options_.tuning, options_.scene.crowd.area,
              options_.scene.terrain),
-      markers_(options_.marker_points),
+      markers_(crowd_, options_.marker_points, options_.tolerance),
       robots_(options_.frame_id, options_.robots, tf_buffer_) {
   crowd_.setThreads(options_.threads);
   crowd_.setObstacles(obstaclesOf(options_.scene.crowd.walls));
   populate();
   agents_publisher_ = handle_.advertise<AgentStates>("agents", 100);
   tread_publisher_ = handle_.advertise<TreadEvent>("tread", 10000);
-  markers_publisher_ = handle_.advertise<visualization_msgs::MarkerArray>("agents/markers", 1);
-  diagnostics_.add<AgentCrowd>("crowd", this, &AgentCrowd::diagnose);
-  diagnostics_.add("governor", this, &AgentCrowd::diagnoseGovernor);
-  start();
+  start("crowd", "agents/markers", markers_);
 }
 
 void AgentCrowd::connect() {
   subscribe("forest/layout", 4, &AgentCrowd::onLayout);
   subscribe("grass/cover/resistance", 4, &AgentCrowd::onCover);
-  subscribe("viewer", 10, &AgentCrowd::onViewer);
   serve("spawn", &AgentCrowd::onSpawn);
   serve("remove", &AgentCrowd::onRemove);
   serve("set_goal", &AgentCrowd::onSetGoal);
-  repeat(options_.markers_rate, &AgentCrowd::sendMarkers);
   repeat(options_.tf_rate, &AgentCrowd::sendFrames);
 }
 
@@ -168,7 +163,6 @@ bool AgentCrowd::isOutdated(const CrowdEvent& event) const {
 
 void AgentCrowd::restart() {
   resetCrowd();
-  viewers_.clear();
   begun_ = false;
 }
 

@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "nodes/base/event_node.h"
-#include "nodes/base/viewer_registry.h"
 #include "nodes/crowd/crowd_options.h"
 #include "nodes/crowd/crowd_robots.h"
 #include "nodes/markers/crowd_markers.h"
@@ -35,7 +34,6 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   void connect() override;
   void onLayout(const ForestLayout& message);
   void onCover(const nav_msgs::OccupancyGrid& message);
-  void onViewer(const Viewer& message) override;
   void showTuning(AgentCrowdConfig& config) const override { toConfig(options_.tuning, config); }
   CrowdEvent tuningEvent(const AgentCrowdConfig& config) const override;
   bool isOutdated(const CrowdEvent& event) const override;
@@ -64,9 +62,8 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   void treadOfFeet(const crowd::Walker& walker, Nanoseconds stamp);
   std::vector<TierChoice> chooseFrames(Nanoseconds stamp);
   void sendFrames(const ros::TimerEvent& event);
-  void sendMarkers(const ros::TimerEvent& event);
   void addDiagnostics(Status& status) override;
-  void diagnoseGovernor(Status& status);
+  void addGovernor(Status& status) override;
 
   // Services.
   bool onSpawn(SpawnAgents::Request& request, SpawnAgents::Response& response);
@@ -78,7 +75,6 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
 
   crowd::Crowd crowd_;
   CrowdMarkers markers_;
-  ViewerRegistry viewers_;
   CrowdRobots robots_;
   std::uint32_t next_id_{0};  // of the next walker that a request adds
   HashedCache<ForestLayout> layouts_;
@@ -97,7 +93,7 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   std::uint64_t treads_{0}, state_bytes_{0};
 
   tf2_ros::TransformBroadcaster tf_broadcaster_;
-  ros::Publisher agents_publisher_, tread_publisher_, markers_publisher_;
+  ros::Publisher agents_publisher_, tread_publisher_;
 };
 
 }  // namespace vegetation_sim

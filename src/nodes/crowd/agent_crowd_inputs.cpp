@@ -47,12 +47,6 @@ void AgentCrowd::onCover(const nav_msgs::OccupancyGrid& message) {
   });
 }
 
-// The state does not depend on viewers, so they are no events.
-void AgentCrowd::onViewer(const Viewer& message) {
-  acceptInput("viewer",
-              [&] { viewers_.hear(message, tf_buffer_, options_.frame_id, lastStamp()); });
-}
-
 void AgentCrowd::followRobots(Nanoseconds stamp) {
   for (const CrowdRobots::Change& change : robots_.update(stamp)) {
     CrowdEvent event;

@@ -5,7 +5,6 @@
 
 #include "crowd/body/gait.h"
 #include "nodes/crowd/agent_crowd.h"
-#include "ros/services/allocation_report.h"
 #include "vegetation_sim/core/math/math.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
 
@@ -130,13 +129,6 @@ void AgentCrowd::sendFrames(const ros::TimerEvent&) {
   if (!frames.empty()) tf_broadcaster_.sendTransform(frames);
 }
 
-void AgentCrowd::sendMarkers(const ros::TimerEvent&) {
-  if (!clock_.hasBegun() || markers_publisher_.getNumSubscribers() == 0) return;
-  const Nanoseconds stamp = crowd_.snapshot().stamp;
-  markers_publisher_.publish(
-      markers_.build(crowd_, viewers_.eyesAt(stamp), options_.tolerance, options_.frame_id, stamp));
-}
-
 void AgentCrowd::addDiagnostics(Status& status) {
   if (!robots_.missing().empty())
     status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN,
@@ -154,15 +146,10 @@ void AgentCrowd::addDiagnostics(Status& status) {
   status.add("State sent [B]", state_bytes_);
 }
 
-// Reports the tiers of the markers and the tf frames; they do not affect the walkers.
-void AgentCrowd::diagnoseGovernor(Status& status) {
-  report(markers_.balance(),
-         {"Walkers", options_.tolerance, "marker_points", "points",
-          static_cast<double>(markers_.budget()), CrowdMarkers::tiers()},
-         status);
+// The tf frames do not affect the walkers.
+void AgentCrowd::addGovernor(Status& status) {
+  markers_.reportTiers(status);
   status.add("Viewers", viewers_.size());
-  status.add("Marker points", markers_.points());
-  status.add("Marker budget [points]", markers_.budget());
   status.add("tf frames", frames_sent_);
   status.add("tf budget [frames]", options_.tf_budget);
 }

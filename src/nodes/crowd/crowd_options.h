@@ -32,8 +32,8 @@ CrowdScene loadCrowdScene(const std::string& file);
 
 /// Parameters of agent_crowd; see docs/reference.md.
 struct CrowdOptions : NodeOptions {
-  double markers_rate{10.0};         ///< [Hz]
-  int marker_points{120000};         ///< budget of the list
+  CrowdOptions() { marker_points = 120000; }
+
   double tolerance{1.0};             ///< error of drawn walkers [pixel]
   double tf_rate{15.0};              ///< [Hz]
   int tf_budget{20};                 ///< frames: nearest to robots, then lowest ids

@@ -39,21 +39,17 @@ ForestAnimator::ForestAnimator(const ros::NodeHandle& handle, const ros::NodeHan
       grab_manager_({options_, *forest_, cache_, inputs_, tf_buffer_}),
       bodies_(handle, options_.frame_id, options_.robot.parts),
       frames_(options_.tf_budget),
-      markers_(options_.marker_points) {
+      markers_(*forest_, cache_, options_.marker_points) {
   layout_publisher_ = handle_.advertise<ForestLayout>("forest/layout", 1, true);
   state_publisher_ = handle_.advertise<ForestState>("forest/state", 1000);
   branches_publisher_ = handle_.advertise<BranchTransforms>("forest/branches", 60);
-  markers_publisher_ = handle_.advertise<visualization_msgs::MarkerArray>("forest/markers", 1);
   wrenches_publisher_ = handle_.advertise<geometry_msgs::WrenchStamped>("forest/wrenches", 1000);
   publishLayout();
-  diagnostics_.add<ForestAnimator>("forest", this, &ForestAnimator::diagnose);
-  diagnostics_.add("governor", this, &ForestAnimator::diagnoseGovernor);
-  start();
+  start("forest", "forest/markers", markers_);
 }
 
 void ForestAnimator::connect() {
   subscribe("wind", 10, &ForestAnimator::onWind);
-  if (!options_.replay) subscribe("viewer", 10, &ForestAnimator::onViewer);
   serve("get_tree", &ForestAnimator::onGetTree);
   serve("pick", &ForestAnimator::onPick);
   serve("set_tf", &ForestAnimator::onSetTf);
@@ -63,7 +59,6 @@ void ForestAnimator::connect() {
   serve("apply_force", &ForestAnimator::onApplyForce);
   repeat(options_.tf_rate, &ForestAnimator::sendFrames);
   repeat(options_.branches_rate, &ForestAnimator::sendBranches);
-  repeat(options_.markers_rate, &ForestAnimator::sendMarkers);
 }
 
 // Layout, wind and settings stay in force.

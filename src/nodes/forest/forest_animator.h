@@ -58,9 +58,9 @@ class ForestAnimator final : public EventNode<ForestInputs, ForestAnimatorConfig
   void publishLayout();
   void sendFrames(const ros::TimerEvent& event);
   void sendBranches(const ros::TimerEvent& event);
-  void sendMarkers(const ros::TimerEvent& event);
+  std::vector<Viewpoint> markerViewers(Nanoseconds stamp) override;
   void addDiagnostics(Status& status) override;
-  void diagnoseGovernor(Status& status);
+  void addGovernor(Status& status) override;
   void addPhysics(Status& status) const;
   void updateDeepestOverlap();
 
@@ -90,8 +90,7 @@ class ForestAnimator final : public EventNode<ForestInputs, ForestAnimatorConfig
   forest::Reaction deepest_;  // of the contacts since diagnostics were last sent
 
   tf2_ros::TransformBroadcaster tf_broadcaster_;
-  ros::Publisher layout_publisher_, state_publisher_, branches_publisher_, markers_publisher_,
-      wrenches_publisher_;
+  ros::Publisher layout_publisher_, state_publisher_, branches_publisher_, wrenches_publisher_;
 };
 
 }  // namespace vegetation_sim

@@ -43,6 +43,7 @@ void ForestAnimator::onWind(const WindField& message) {
 }
 
 void ForestAnimator::onViewer(const Viewer& message) {
+  if (options_.replay) return;
   acceptInput("viewer", [&] {
     fromMsg(message);  // checks it
     ForestInput event;

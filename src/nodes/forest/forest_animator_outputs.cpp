@@ -42,10 +42,10 @@ void ForestAnimator::sendBranches(const ros::TimerEvent&) {
   }
 }
 
-void ForestAnimator::sendMarkers(const ros::TimerEvent&) {
-  if (!clock_.hasBegun() || markers_publisher_.getNumSubscribers() == 0) return;
-  markers_publisher_.publish(
-      markers_.build(*forest_, cache_, options_.frame_id, forest_->snapshot().stamp));
+std::vector<Viewpoint> ForestAnimator::markerViewers(Nanoseconds) {
+  std::vector<Viewpoint> out;
+  for (const auto& entry : forest_->snapshot().viewers) out.push_back(entry.second.eye);
+  return out;
 }
 
 void ForestAnimator::addDiagnostics(Status& status) {
@@ -66,12 +66,10 @@ void ForestAnimator::addDiagnostics(Status& status) {
   updateDeepestOverlap();
   status.add("tf frames", frames_sent_);
   status.add("tf budget [frames]", frames_.budget());
-  status.add("Marker points", markers_.points());
-  status.add("Marker budget [points]", markers_.budget());
 }
 
 // Reports the choice of levels at the last tick and its reason.
-void ForestAnimator::diagnoseGovernor(Status& status) {
+void ForestAnimator::addGovernor(Status& status) {
   const forest::GovernorFigures& figures = forest_->governor();
   const auto& settings = forest_->snapshot().settings;
   std::string why = "the tolerance is held";
@@ -97,8 +95,6 @@ void ForestAnimator::diagnoseGovernor(Status& status) {
   const double farthest = frames_.balance().largest;
   status.add("Farthest of these from its rest [m]",
              std::isnan(farthest) ? "not computed: no room" : std::to_string(farthest));
-  status.add("Marker points", markers_.points());
-  status.add("Marker budget [points]", markers_.budget());
   const auto& modal_states = forest_->snapshot().modes.modalStates();
   status.add("Trees in modes", modal_states.size());
   status.add("Of these in fine modes",

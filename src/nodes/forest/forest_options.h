@@ -27,9 +27,12 @@ ForestScene loadForestScene(const std::string& file);
 
 /// Parameters of forest_animator; see docs/reference.md.
 struct ForestOptions : NodeOptions {
-  double key_frame_period{1.0};     ///< [s]
-  double markers_rate{5.0};         ///< [Hz]
-  int marker_points{60000};         ///< budget of both marker lists together
+  double key_frame_period{1.0};  ///< [s]
+  ForestOptions() {
+    markers_rate = 5.0;
+    marker_points = 60000;
+  }
+
   double tf_rate{30.0};             ///< [Hz]
   int tf_budget{100};               ///< frames
   double branches_rate{10.0};       ///< [Hz]

@@ -12,43 +12,37 @@ GrassField::GrassField(const ros::NodeHandle& handle, const ros::NodeHandle& pri
     : EventNode("grass_field", "grass/events", handle, private_handle,
                 loadGrassOptions(private_handle)),
       tuning_(options_.tuning),
-      markers_(options_.marker_points),
       key_frames_(options_.key_frame_period, options_.state_rate, options_.state_bytes),
       sources_(handle_, options_.frame_id, options_.sources, tf_buffer_) {
   const GrassScene& scene = options_.scene;
   grass::Layout layout = scene.grass.layout;
-  meadow_ =
-      std::make_unique<grass::MeadowLod>(layout.map, scene.terrain, layout.seed, tuning_.view);
   tread_ = std::make_unique<grass::TreadMap>(layout.map->law(), scene.grass.treading);
   layout.tread_spacing = tread_->spacing();
   field_ = std::make_unique<grass::TreadSimulation>(layout, scene.terrain, scene.grass.treading,
                                                     *tread_);
   field_->setDrag(tuning_.drag);
+  markers_ = std::make_unique<GrassMarkers>(*field_, scene.terrain, wind_, tuning_.view,
+                                            options_.marker_points);
   layout_publisher_ = handle_.advertise<GrassLayout>("grass/layout", 1, true);
   // A late subscriber gets a key frame at the next tick.
   state_publisher_ = handle_.advertise<GrassState>(
       "grass/state", 1000, [this](const ros::SingleSubscriberPublisher&) { key_frames_.demand(); });
-  markers_publisher_ = handle_.advertise<visualization_msgs::MarkerArray>("grass/markers", 1);
   wrenches_publisher_ = handle_.advertise<geometry_msgs::WrenchStamped>("grass/wrenches", 1000);
   cover_publisher_ = handle_.advertise<nav_msgs::OccupancyGrid>("grass/cover", 1);
   for (std::size_t i = 0; i < COVER_LAYERS.size(); ++i)
     layer_publishers_[i] = handle_.advertise<nav_msgs::OccupancyGrid>(
         std::string("grass/cover/") + COVER_LAYERS[i], 1);
   publishLayout();
-  diagnostics_.add<GrassField>("grass", this, &GrassField::diagnose);
-  diagnostics_.add("governor", this, &GrassField::diagnoseGovernor);
-  start();
+  start("grass", "grass/markers", *markers_);
 }
 
 void GrassField::connect() {
   subscribe("wind", 10, &GrassField::onWind);
-  subscribe("viewer", 10, &GrassField::onViewer);
   if (!options_.replay)
     subscribe("tread", 2 * EventQueue<GrassEvent>::MOST_WAITING, &GrassField::onTread);
   serve("tread", &GrassField::onTreadPath);
   serve("sample", &GrassField::onSample);
   serve("clear", &GrassField::onClear);
-  repeat(options_.markers_rate, &GrassField::sendMarkers);
   repeat(options_.cover_rate, &GrassField::sendCover);
 }
 
@@ -91,7 +85,7 @@ void GrassField::applyTuning(GrassTuning tuning) {
   check(tuning);
   tuning.view.most_blades = options_.tuning.view.most_blades;
   field_->setDrag(tuning.drag);
-  meadow_->setSettings(tuning.view);
+  markers_->setSettings(tuning.view);
   tuning_ = tuning;
   const std::uint64_t before = field_->layout().hash();
   field_->setTreadLaw(tuning.tread);
@@ -113,7 +107,6 @@ bool GrassField::isOutdated(const GrassEvent& event) const {
 
 void GrassField::restart() {
   resetGround();
-  viewers_.clear();
   publishLayout();
 }
 

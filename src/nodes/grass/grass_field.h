@@ -16,7 +16,6 @@
 
 #include "nodes/base/event_node.h"
 #include "nodes/base/key_frames.h"
-#include "nodes/base/viewer_registry.h"
 #include "nodes/grass/grass_cover.h"
 #include "nodes/grass/grass_options.h"
 #include "nodes/grass/grass_sources.h"
@@ -36,7 +35,6 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   // Inputs.
   void connect() override;
   void onWind(const WindField& message);
-  void onViewer(const Viewer& message) override;
   void onTread(const TreadEvent& message);
   void showTuning(GrassFieldConfig& config) const override { toConfig(tuning_, config); }
   GrassEvent tuningEvent(const GrassFieldConfig& config) const override;
@@ -59,10 +57,9 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   void publishState(std::int64_t tick);
   void publishEntering(Nanoseconds stamp);
   void publishWrenches(Nanoseconds stamp);
-  void sendMarkers(const ros::TimerEvent& event);
   void sendCover(const ros::TimerEvent& event);
   void addDiagnostics(Status& status) override;
-  void diagnoseGovernor(Status& status);
+  void addGovernor(Status& status) override;
 
   // Services.
   bool onTreadPath(Tread::Request& request, Tread::Response& response);
@@ -73,21 +70,18 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   GrassSample sampleAt(const Vec3& place, Nanoseconds stamp) const;
 
   GrassTuning tuning_;
-  std::unique_ptr<grass::MeadowLod> meadow_;  // of the markers
   std::unique_ptr<grass::TreadMap> tread_;
   std::unique_ptr<grass::TreadSimulation> field_;
   wind::Field wind_;
-  GrassMarkers markers_;
+  std::unique_ptr<GrassMarkers> markers_;
   KeyFrames key_frames_;
-  ViewerRegistry viewers_;
   GrassSources sources_;
 
   std::uint64_t paths_{0};  // trodden by service, for the names of their sources
   std::uint64_t state_bytes_{0}, largest_state_{0};
   std::uint64_t reported_no_memory_{0};  // of TreadCounts, when diagnostics were last sent
 
-  ros::Publisher layout_publisher_, state_publisher_, markers_publisher_, wrenches_publisher_,
-      cover_publisher_;
+  ros::Publisher layout_publisher_, state_publisher_, wrenches_publisher_, cover_publisher_;
   std::array<ros::Publisher, COVER_LAYERS.size()> layer_publishers_;
 };
 

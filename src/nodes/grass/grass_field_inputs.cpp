@@ -14,12 +14,6 @@ void GrassField::onWind(const WindField& message) {
   });
 }
 
-// The state does not depend on viewers, so they are no events.
-void GrassField::onViewer(const Viewer& message) {
-  acceptInput("viewer",
-              [&] { viewers_.hear(message, tf_buffer_, options_.frame_id, lastStamp()); });
-}
-
 TreadEvent GrassField::inWorld(const TreadEvent& message) const {
   TreadEvent out = message;
   const std::string& frame = message.header.frame_id;

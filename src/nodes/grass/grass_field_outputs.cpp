@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "nodes/grass/grass_field.h"
-#include "ros/services/allocation_report.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
 #include "vegetation_sim/ros/conversions/grass_conversions.h"
 
@@ -52,14 +51,6 @@ void GrassField::publishWrenches(Nanoseconds stamp) {
   }
 }
 
-void GrassField::sendMarkers(const ros::TimerEvent&) {
-  if (!clock_.hasBegun() || markers_publisher_.getNumSubscribers() == 0) return;
-  const Nanoseconds stamp = field_->stamp();
-  const auto model = field_->layout().blade_model;
-  markers_publisher_.publish(markers_.build(*meadow_, *tread_, viewers_.eyesAt(stamp), wind_, model,
-                                            options_.frame_id, stamp));
-}
-
 void GrassField::sendCover(const ros::TimerEvent&) {
   if (!clock_.hasBegun()) return;
   const auto send = [&](const ros::Publisher& publisher, int layer) {
@@ -95,17 +86,8 @@ void GrassField::addDiagnostics(Status& status) {
 }
 
 // Reports the choice of tiers of the markers and the period of complete states.
-void GrassField::diagnoseGovernor(Status& status) {
-  report(meadow_->balance(),
-         {"Tiles",
-          tuning_.view.tolerance,
-          "marker_points",
-          "blades",
-          options_.tuning.view.most_blades,
-          {"of texture", "of strips", "of blades"}},
-         status);
-  status.add("Marker points", markers_.points());
-  status.add("Marker budget [points]", markers_.budget());
+void GrassField::addGovernor(Status& status) {
+  markers_->reportTiers(status);
   const TierAllocation& states = key_frames_.balance();
   if (states.held_back > 0) status.summary(status.level, status.message + "; state_bytes binds");
   status.add("Complete states every [s]", key_frames_.period());

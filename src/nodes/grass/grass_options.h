@@ -55,8 +55,6 @@ GrassScene loadGrassScene(const std::string& file);
 struct GrassOptions : NodeOptions {
   double key_frame_period{2.0};   ///< [s]
   int state_bytes{5000000};       ///< of key frames, a second: larger ones come less often [B/s]
-  double markers_rate{10.0};      ///< [Hz]
-  int marker_points{90000};       ///< of the three lists together
   double cover_rate{2.0};         ///< [Hz]
   double cover_resolution{0.25};  ///< [m] side of a cell
   double cover_age{600.0};        ///< age that counts as 100 [s]

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "ros/services/allocation_report.h"
 #include "vegetation_sim/core/math/math.h"
 
 namespace vegetation_sim {
@@ -57,43 +58,47 @@ std::size_t leavesOf(const canopy::Layout& layout, const canopy::CrownRule& rule
 
 }  // namespace
 
-CanopyMarkers::CanopyMarkers(int points)
-    : leaf_points_(static_cast<std::size_t>(points) * 5 / 6 / POINTS_PER_LEAF * POINTS_PER_LEAF) {
+CanopyMarkers::CanopyMarkers(canopy::Canopy& canopy, const LeafedCrowns& crowns,
+                             const forest::ForestReplica& forest, int points, double tolerance)
+    : canopy_(canopy),
+      layout_(canopy.layout()),
+      crowns_(crowns),
+      forest_(forest),
+      tolerance_(tolerance),
+      leaf_points_(static_cast<std::size_t>(points) * 5 / 6 / POINTS_PER_LEAF * POINTS_PER_LEAF),
+      plants_(layout_.plants.size()) {
   const auto all = static_cast<std::size_t>(points);
   lists_.addList("leaves", leaf_points_);
   lists_.addList("stems", all * 9 / 60 / POINTS_PER_STEM * POINTS_PER_STEM);
   lists_.addList("shade", all / 60 / POINTS_PER_SHADE * POINTS_PER_SHADE);
   lists_.addList("crowns", 0);
+  shareLeaves();
+  setLadders();
+  for (std::size_t id = 0; id < plants_.size(); ++id) addPlant(id);
 }
 
-void CanopyMarkers::setLayout(const canopy::Layout& layout) {
-  plants_.assign(layout.plants.size(), {});
-  held_ = {};
-  lists_.clear(STEMS);
-  lists_.clear(SHADE);
-  std::size_t leaves = 0;
-  for (const canopy::Plant& plant : layout.plants) leaves += movingLeaves(layout.kinds[plant.kind]);
-  for (const canopy::CrownRule& rule : layout.crowns) leaves += leavesOf(layout, rule);
+// Divides the points of leaves between plants and crowns.
+void CanopyMarkers::shareLeaves() {
+  std::size_t leaves = 0, crown_points = 0;
+  for (const canopy::Plant& plant : layout_.plants)
+    leaves += movingLeaves(layout_.kinds[plant.kind]);
+  for (const canopy::CrownRule& rule : layout_.crowns) leaves += leavesOf(layout_, rule);
   const auto wanted = static_cast<double>(leaves * POINTS_PER_LEAF);
   share_ = wanted > 0.0 ? std::min(1.0, static_cast<double>(leaf_points_) / wanted) : 1.0;
-  setLadders(layout);
-  for (std::size_t id = 0; id < layout.plants.size(); ++id) addPlant(layout, id);
-  std::size_t crown_points = 0;
-  for (const canopy::CrownRule& rule : layout.crowns)
+  for (const canopy::CrownRule& rule : layout_.crowns)
     crown_points += POINTS_PER_LEAF * static_cast<std::size_t>(rule.trees) *
-                    drawnOf(static_cast<std::size_t>(layout.kinds[rule.kind].leaves));
+                    drawnOf(static_cast<std::size_t>(layout_.kinds[rule.kind].leaves));
   lists_.setSize(CROWNS, crown_points);
   lists_.setSize(LEAVES, leaf_points_ - crown_points);
 }
 
 // The error of a tier is the gap to the next leaf, or the height of a plant without leaves.
-void CanopyMarkers::setLadders(const canopy::Layout& layout) {
+void CanopyMarkers::setLadders() {
   shares_ = {0.0};
   for (double share = LEAST_SHARE * share_; share < 1.0 && shares_.size() + 1 < MAX_TIERS;)
     shares_.push_back(share), share *= 2.0;
   shares_.push_back(1.0);
-  ladders_.clear();
-  for (const canopy::PlantKind& kind : layout.kinds) {
+  for (const canopy::PlantKind& kind : layout_.kinds) {
     Ladder ladder;
     for (std::size_t tier = 0; tier < shares_.size(); ++tier) {
       const double share = shares_[tier];
@@ -110,10 +115,10 @@ std::size_t CanopyMarkers::drawnOf(std::size_t leaves) const {
   return static_cast<std::size_t>(share_ * static_cast<double>(leaves));
 }
 
-void CanopyMarkers::setCrowns(const canopy::Layout& layout, const LeafedCrowns& crowns) {
+void CanopyMarkers::updateCrowns() {
   crown_leaves_.clear();
-  for (const LeafedCrowns::Crown& crown : crowns.crowns()) {
-    const canopy::PlantKind& kind = layout.kinds[crown.kind];
+  for (const LeafedCrowns::Crown& crown : crowns_.crowns()) {
+    const canopy::PlantKind& kind = layout_.kinds[crown.kind];
     for (std::size_t i = 0; i < drawnOf(crown.leaves.size()); ++i) {
       const canopy::Leaf& leaf = crown.leaves[i].leaf;
       crown_leaves_.push_back({leaf, opaque(leafColour(kind, leaf))});
@@ -121,11 +126,11 @@ void CanopyMarkers::setCrowns(const canopy::Layout& layout, const LeafedCrowns& 
   }
 }
 
-void CanopyMarkers::addPlant(const canopy::Layout& layout, std::size_t id) {
-  const canopy::PlantKind& kind = layout.kinds[layout.plants[id].kind];
-  const canopy::GrownPlant grown = canopy::grow(kind, layout.plants[id]);
+void CanopyMarkers::addPlant(std::size_t id) {
+  const canopy::PlantKind& kind = layout_.kinds[layout_.plants[id].kind];
+  const canopy::GrownPlant grown = canopy::grow(kind, layout_.plants[id]);
   addStems(grown.stems, kind.stem_colour);
-  addShade(layout.plants[id], 0.9 * layout.plants[id].scale * kind.radius);
+  addShade(layout_.plants[id], 0.9 * layout_.plants[id].scale * kind.radius);
   for (const canopy::Leaf& face : grown.rigid) {
     if (!lists_.hasRoom(STEMS, POINTS_PER_LEAF)) return;
     const std_msgs::ColorRGBA paint = darkened(opaque(kind.stem_colour), face.light);
@@ -133,25 +138,26 @@ void CanopyMarkers::addPlant(const canopy::Layout& layout, std::size_t id) {
   }
 }
 
-std::vector<std::string> CanopyMarkers::tiers() const {
-  std::vector<std::string> out;
+void CanopyMarkers::reportTiers(diagnostic_updater::DiagnosticStatusWrapper& status) const {
+  std::vector<std::string> tiers;
   for (const double share : shares_) {
     char name[40];
     std::snprintf(name, sizeof name, "with %.3g %% of their leaves", 100.0 * share);
-    out.push_back(name);
+    tiers.emplace_back(name);
   }
-  return out;
+  report(balance_,
+         {"Plants", tolerance_, "marker_points", "points", static_cast<double>(room()), tiers},
+         status);
 }
 
-void CanopyMarkers::choose(const canopy::Layout& layout, const Viewpoint& eye, double tolerance,
-                           Nanoseconds stamp) {
-  choices_.resize(layout.plants.size());
-  for (std::size_t id = 0; id < layout.plants.size(); ++id) {
-    const canopy::Plant& plant = layout.plants[id];
-    const canopy::PlantKind& kind = layout.kinds[plant.kind];
+void CanopyMarkers::choose(const std::vector<Viewpoint>& viewers, Nanoseconds stamp) {
+  choices_.resize(layout_.plants.size());
+  for (std::size_t id = 0; id < layout_.plants.size(); ++id) {
+    const canopy::Plant& plant = layout_.plants[id];
+    const canopy::PlantKind& kind = layout_.kinds[plant.kind];
     const Vec3 middle = plant.position + Vec3(0.0, 0.0, 0.5 * plant.scale * kind.height);
-    const double distance = length(eye.position - middle) - plant.scale * kind.radius;
-    const auto scale = static_cast<float>(plant.scale * pixelsPerMetre(eye, distance));
+    const auto scale =
+        static_cast<float>(plant.scale * largestScale(viewers, middle, plant.scale * kind.radius));
     TierChoice& choice = choices_[id] = TierChoice();
     choice.id = static_cast<std::uint32_t>(id);
     choice.cost = ladders_[plant.kind].points;
@@ -159,20 +165,19 @@ void CanopyMarkers::choose(const canopy::Layout& layout, const Viewpoint& eye, d
       choice.error[tier] = scale * ladders_[plant.kind].gaps[tier];
   }
   const int finest = static_cast<int>(shares_.size()) - 1;
-  balance_ = held_.allocateTiers(choices_, finest, static_cast<double>(room()), tolerance, stamp);
+  balance_ = held_.allocateTiers(choices_, finest, static_cast<double>(room()), tolerance_, stamp);
   for (const TierChoice& choice : choices_)
     if (plants_[choice.id].tier != choice.chosen)
-      plants_[choice.id] = drawPlant(layout, choice.id, choice.chosen);
+      plants_[choice.id] = drawPlant(choice.id, choice.chosen);
 }
 
-CanopyMarkers::DrawnPlant CanopyMarkers::drawPlant(const canopy::Layout& layout, std::size_t id,
-                                                   int tier) const {
-  const canopy::PlantKind& kind = layout.kinds[layout.plants[id].kind];
+CanopyMarkers::DrawnPlant CanopyMarkers::drawPlant(std::size_t id, int tier) const {
+  const canopy::PlantKind& kind = layout_.kinds[layout_.plants[id].kind];
   const double share = shares_[static_cast<std::size_t>(tier)];
   DrawnPlant out;
   out.tier = tier;
   if (share <= 0.0) return out;
-  const canopy::GrownPlant grown = canopy::grow(kind, layout.plants[id]);
+  const canopy::GrownPlant grown = canopy::grow(kind, layout_.plants[id]);
   const auto count = static_cast<std::size_t>(share * static_cast<double>(grown.leaves.size()));
   for (std::size_t i = 0; i < count; ++i) {
     Drawn drawn{grown.leaves[i], opaque(leafColour(kind, grown.leaves[i]))};
@@ -211,22 +216,34 @@ void CanopyMarkers::addStems(const std::vector<canopy::Stem>& stems, const Vec3&
   }
 }
 
-visualization_msgs::MarkerArray CanopyMarkers::build(const canopy::Foliage& foliage,
-                                                     const std::vector<canopy::MovedLeaf>& crowns,
-                                                     const std::string& frame_id) {
+void CanopyMarkers::addLeaf(std::size_t list, const Drawn& drawn, const canopy::MovedLeaf& moved) {
+  const bool sprouts = !drawn.leaf.joined && drawn.leaf.root == drawn.leaf.anchor;
+  addStrip(lists_, list, cornersOf(drawn.leaf, moved),
+           darkened(drawn.colour, sprouts ? DARK_ROOT : 1.0), drawn.colour);
+}
+
+void CanopyMarkers::addCrowns(const canopy::Foliage& foliage, Nanoseconds stamp) {
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < crowns_.crowns().size(); ++i) {
+    const LeafedCrowns::Crown& crown = crowns_.crowns()[i];
+    const std::vector<Pose> wood = crowns_.wood(i, forest_, stamp);
+    for (std::size_t k = 0; k < drawnOf(crown.leaves.size()); ++k) {
+      const canopy::CrownLeaf& leaf = crown.leaves[k];
+      addLeaf(CROWNS, crown_leaves_[next++],
+              carry(foliage, leaf, crown.rest[leaf.twig].pose, wood[leaf.twig]));
+    }
+  }
+}
+
+void CanopyMarkers::build(const std::vector<Viewpoint>& viewers, Nanoseconds stamp) {
+  choose(viewers, stamp);
   lists_.clear(LEAVES);
   lists_.clear(CROWNS);
-  const auto add = [&](List list, const Drawn& drawn, const canopy::MovedLeaf& moved) {
-    const bool sprouts = !drawn.leaf.joined && drawn.leaf.root == drawn.leaf.anchor;
-    addStrip(lists_, list, cornersOf(drawn.leaf, moved),
-             darkened(drawn.colour, sprouts ? DARK_ROOT : 1.0), drawn.colour);
-  };
+  const canopy::Foliage& foliage = canopy_.foliage();
   for (std::size_t plant = 0; plant < plants_.size(); ++plant)
     for (const Drawn& drawn : plants_[plant].leaves)
-      add(LEAVES, drawn, foliage.move(drawn.leaf, plant));
-  for (std::size_t i = 0; i < std::min(crowns.size(), crown_leaves_.size()); ++i)
-    add(CROWNS, crown_leaves_[i], crowns[i]);
-  return lists_.message(frame_id);
+      addLeaf(LEAVES, drawn, foliage.move(drawn.leaf, plant));
+  addCrowns(foliage, stamp);
 }
 
 }  // namespace vegetation_sim

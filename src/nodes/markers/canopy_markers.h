@@ -3,14 +3,12 @@
 #pragma once
 
 #include <array>
-#include <string>
 #include <vector>
 
 #include "core/lod/tier_hysteresis.h"
-#include "nodes/markers/triangle_lists.h"
+#include "nodes/markers/marker_publisher.h"
 #include "ros/replicas/leafed_crowns.h"
-#include "vegetation_sim/canopy/leaf_motion.h"
-#include "vegetation_sim/core/lod/viewpoint.h"
+#include "vegetation_sim/canopy/canopy.h"
 
 namespace vegetation_sim {
 
@@ -19,33 +17,22 @@ namespace vegetation_sim {
 /// its leaves that holds the tolerance, with wider leaves the fewer there are. If the budget does
 /// not suffice, points go to the plants whose error each point reduces most. All crowns have the
 /// same share.
-class CanopyMarkers {
+class CanopyMarkers : public MarkerBuilder {
  public:
-  /// @param points of all lists together, at least 600.
-  explicit CanopyMarkers(int points);
+  /// @param forest has the trees of the crowns. @param points of all lists together, at least 600.
+  /// @param tolerance [pixel]
+  CanopyMarkers(canopy::Canopy& canopy, const LeafedCrowns& crowns,
+                const forest::ForestReplica& forest, int points, double tolerance);
 
-  /// Builds the parts of the plants that never move.
-  void setLayout(const canopy::Layout& layout);
-  /// Sets the leaves of the crowns of the same layout.
-  void setCrowns(const canopy::Layout& layout, const LeafedCrowns& crowns);
-  /// Returns how many leaves of a crown are drawn. They are its first ones.
-  std::size_t drawnOf(std::size_t leaves) const;
-  /// Chooses the tier of each plant. Requires the layout of setLayout(). @param tolerance [pixel]
-  void choose(const canopy::Layout& layout, const Viewpoint& eye, double tolerance,
-              Nanoseconds stamp);
-  /// Builds the array with the leaves as `foliage` moves them.
-  /// @param crowns places of the drawn leaves of all crowns, crown by crown.
-  visualization_msgs::MarkerArray build(const canopy::Foliage& foliage,
-                                        const std::vector<canopy::MovedLeaf>& crowns,
-                                        const std::string& frame_id);
-  /// The tiers chosen last, with costs in points, and their names.
+  /// Without viewers, all plants are out of sight.
+  void build(const std::vector<Viewpoint>& viewers, Nanoseconds stamp) override;
+  /// Takes the leaves of the crowns, which have changed.
+  void updateCrowns();
+  /// The tiers chosen at the last build, with costs in points.
   const TierAllocation& balance() const { return balance_; }
-  std::vector<std::string> tiers() const;
-  /// Points in use at the last build.
-  std::size_t points() const { return lists_.used(); }
-  std::size_t budget() const { return leaf_points_ + lists_.size(STEMS) + lists_.size(SHADE); }
   /// The part of the budget that is for leaves of plants [points].
   std::size_t room() const { return lists_.size(LEAVES); }
+  void reportTiers(diagnostic_updater::DiagnosticStatusWrapper& status) const;
 
  private:
   struct Drawn {
@@ -60,15 +47,25 @@ class CanopyMarkers {
   struct Ladder {
     std::array<float, MAX_TIERS> gaps{}, points{};  ///< [m], leaves only
   };
-  void setLadders(const canopy::Layout& layout);
-  void addPlant(const canopy::Layout& layout, std::size_t id);
-  DrawnPlant drawPlant(const canopy::Layout& layout, std::size_t id, int tier) const;
+  void shareLeaves();
+  void setLadders();
+  void addPlant(std::size_t id);
+  /// Returns how many leaves of a crown are drawn. They are its first ones.
+  std::size_t drawnOf(std::size_t leaves) const;
+  void choose(const std::vector<Viewpoint>& viewers, Nanoseconds stamp);
+  DrawnPlant drawPlant(std::size_t id, int tier) const;
+  void addLeaf(std::size_t list, const Drawn& drawn, const canopy::MovedLeaf& moved);
+  void addCrowns(const canopy::Foliage& foliage, Nanoseconds stamp);
   void addShade(const canopy::Plant& plant, double radius);
   void addStems(const std::vector<canopy::Stem>& stems, const Vec3& colour);
 
   enum List : std::size_t { LEAVES, STEMS, SHADE, CROWNS };
-  std::size_t leaf_points_;  // of plants and crowns
-  TriangleLists lists_;
+  canopy::Canopy& canopy_;
+  const canopy::Layout& layout_;
+  const LeafedCrowns& crowns_;
+  const forest::ForestReplica& forest_;
+  double tolerance_;
+  std::size_t leaf_points_;          // of plants and crowns
   double share_{1.0};                // of a crown's leaves
   std::vector<double> shares_;       // of a plant's leaves, by tier
   std::vector<Ladder> ladders_;      // by kind

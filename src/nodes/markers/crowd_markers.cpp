@@ -8,8 +8,8 @@
 
 #include "crowd/body/body_skeleton.h"
 #include "crowd/body/clothes.h"
+#include "ros/services/allocation_report.h"
 #include "vegetation_sim/core/math/math.h"
-#include "vegetation_sim/ros/conversions/stamps.h"
 
 namespace vegetation_sim {
 namespace {
@@ -80,14 +80,14 @@ void addLimb(TriangleLists& lists, const crowd::Limb& limb, std::size_t part, in
 
 }  // namespace
 
-CrowdMarkers::CrowdMarkers(int points) {
+CrowdMarkers::CrowdMarkers(const crowd::Crowd& crowd, int points, double tolerance)
+    : crowd_(crowd), tolerance_(tolerance) {
   lists_.addList("people", static_cast<std::size_t>(points) / 3 * 3);
 }
 
-void CrowdMarkers::addPerson(const crowd::Walker& walker, const terrain::HeightMap& terrain,
-                             int sides) {
+void CrowdMarkers::addPerson(const crowd::Walker& walker, int sides) {
   const crowd::Clothes clothes = crowd::clothesOf(walker.id);
-  const crowd::Skeleton skeleton = skeletonOf(walker, terrain);
+  const crowd::Skeleton skeleton = skeletonOf(walker, crowd_.terrain());
   for (std::size_t i = 0; i < crowd::PARTS; ++i) {
     const std_msgs::ColorRGBA own = opaque(colourOf(clothes, i));
     addLimb(lists_, skeleton[i], i, sides, own,
@@ -97,15 +97,12 @@ void CrowdMarkers::addPerson(const crowd::Walker& walker, const terrain::HeightM
 
 // The error of a tier is the height of a body that is not drawn, or the gap between the polygon
 // and the circle of its girth.
-void CrowdMarkers::choose(const crowd::Crowd& crowd, const std::vector<Viewpoint>& eyes,
-                          double tolerance, Nanoseconds stamp) {
+void CrowdMarkers::choose(const std::vector<Viewpoint>& viewers, Nanoseconds stamp) {
   choices_.clear();
-  for (const crowd::Walker& walker : crowd.walkers()) {
+  for (const crowd::Walker& walker : crowd_.walkers()) {
     const crowd::Point& p = walker.position;
-    const Vec3 middle(p.x, p.y, crowd.terrain().height(p.x, p.y) + 0.5 * walker.height);
-    double scale = eyes.empty() ? DEFAULT_SCALE : 0.0;
-    for (const Viewpoint& eye : eyes)
-      scale = std::max(scale, pixelsPerMetre(eye, length(eye.position - middle)));
+    const Vec3 middle(p.x, p.y, crowd_.terrain().height(p.x, p.y) + 0.5 * walker.height);
+    const double scale = viewers.empty() ? DEFAULT_SCALE : largestScale(viewers, middle);
     TierChoice choice;
     choice.id = walker.id;
     for (std::size_t tier = 0; tier < SIDES.size(); ++tier) {
@@ -116,29 +113,27 @@ void CrowdMarkers::choose(const crowd::Crowd& crowd, const std::vector<Viewpoint
     }
     choices_.push_back(choice);
   }
-  balance_ = held_.allocateTiers(choices_, SIDES.size() - 1, static_cast<double>(budget()),
-                                 tolerance, stamp);
+  balance_ = held_.allocateTiers(choices_, SIDES.size() - 1, static_cast<double>(lists_.budget()),
+                                 tolerance_, stamp);
 }
 
-std::vector<std::string> CrowdMarkers::tiers() {
-  std::vector<std::string> out{"not drawn"};
+void CrowdMarkers::reportTiers(diagnostic_updater::DiagnosticStatusWrapper& status) const {
+  std::vector<std::string> tiers{"not drawn"};
   for (std::size_t tier = 1; tier < SIDES.size(); ++tier)
-    out.push_back("of " + std::to_string(SIDES[tier]) + " facets");
-  return out;
+    tiers.push_back("of " + std::to_string(SIDES[tier]) + " facets");
+  report(balance_,
+         {"Walkers", tolerance_, "marker_points", "points", static_cast<double>(lists_.budget()),
+          tiers},
+         status);
 }
 
-visualization_msgs::MarkerArray CrowdMarkers::build(const crowd::Crowd& crowd,
-                                                    const std::vector<Viewpoint>& eyes,
-                                                    double tolerance, const std::string& frame_id,
-                                                    Nanoseconds stamp) {
+void CrowdMarkers::build(const std::vector<Viewpoint>& viewers, Nanoseconds stamp) {
   lists_.clear(0);
-  choose(crowd, eyes, tolerance, stamp);
+  choose(viewers, stamp);
   for (std::size_t i = 0; i < choices_.size(); ++i) {
     const int sides = SIDES[static_cast<std::size_t>(choices_[i].chosen)];
-    if (sides > 0 && lists_.hasRoom(0, pointsOf(sides)))
-      addPerson(crowd.walkers()[i], crowd.terrain(), sides);
+    if (sides > 0 && lists_.hasRoom(0, pointsOf(sides))) addPerson(crowd_.walkers()[i], sides);
   }
-  return lists_.message(frame_id, toStamp(stamp));
 }
 
 }  // namespace vegetation_sim

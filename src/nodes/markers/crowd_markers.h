@@ -2,45 +2,37 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "core/lod/tier_hysteresis.h"
 #include "crowd/agents/crowd.h"
-#include "nodes/markers/triangle_lists.h"
-#include "vegetation_sim/core/lod/viewpoint.h"
+#include "nodes/markers/marker_publisher.h"
 
 namespace vegetation_sim {
 
 /// Builds the marker list of a crowd, with fifteen limbs for each walker. Each has the fewest
 /// facets that hold the tolerance. If the budget does not suffice, points go to the walkers whose
 /// error each point reduces most.
-class CrowdMarkers {
+class CrowdMarkers : public MarkerBuilder {
  public:
-  /// @param points of the list.
-  explicit CrowdMarkers(int points);
+  /// @param points of the list. @param tolerance [pixel]
+  CrowdMarkers(const crowd::Crowd& crowd, int points, double tolerance);
 
-  /// @param eyes of the viewers; if there are none, all walkers have the same size in the picture.
-  /// @param tolerance [pixel]
-  visualization_msgs::MarkerArray build(const crowd::Crowd& crowd,
-                                        const std::vector<Viewpoint>& eyes, double tolerance,
-                                        const std::string& frame_id, Nanoseconds stamp);
-  /// The tiers chosen at the last build, with costs in points, and their names.
+  /// Without viewers, all walkers have the same size in the picture.
+  void build(const std::vector<Viewpoint>& viewers, Nanoseconds stamp) override;
+  /// The tiers chosen at the last build, with costs in points.
   const TierAllocation& balance() const { return balance_; }
-  static std::vector<std::string> tiers();
-  /// Points in use at the last build, and the largest number.
-  std::size_t points() const { return lists_.used(); }
-  std::size_t budget() const { return lists_.size(0); }
+  void reportTiers(diagnostic_updater::DiagnosticStatusWrapper& status) const;
 
  private:
-  void choose(const crowd::Crowd& crowd, const std::vector<Viewpoint>& eyes, double tolerance,
-              Nanoseconds stamp);
-  void addPerson(const crowd::Walker& walker, const terrain::HeightMap& terrain, int sides);
+  void choose(const std::vector<Viewpoint>& viewers, Nanoseconds stamp);
+  void addPerson(const crowd::Walker& walker, int sides);
 
+  const crowd::Crowd& crowd_;
+  double tolerance_;
   std::vector<TierChoice> choices_;  // as the crowd has its walkers
   TierHysteresis held_;
   TierAllocation balance_;
-  TriangleLists lists_;
 };
 
 }  // namespace vegetation_sim

@@ -35,16 +35,9 @@ Vec3 middleOf(const forest::Layout& layout) {
   return count > 0.0 ? Vec3(sum / count) : sum;
 }
 
-double finest(const std::vector<forest::Viewpoint>& eyes, const Vec3& position, double reach) {
-  double out = 0.0;
-  for (const forest::Viewpoint& eye : eyes)
-    out = std::max(out, forest::pixelsPerMetre(eye, length(eye.position - position) - reach));
-  return out;
-}
-
 /// Tiles with the largest height [pixel] that any tree of theirs may have, largest first.
 std::vector<std::pair<double, const forest::Tile*>> tilesInOrder(
-    const forest::Forest& forest, const std::vector<forest::Viewpoint>& eyes) {
+    const forest::Forest& forest, const std::vector<Viewpoint>& viewers) {
   double tallest = 0.0;
   for (const forest::Species& species : forest.layout().species)
     tallest = std::max(tallest, forest::LARGEST_TILED_SCALE * species.height);
@@ -52,7 +45,7 @@ std::vector<std::pair<double, const forest::Tile*>> tilesInOrder(
   for (const forest::Tile& tile : forest.layout().tiles) {
     const double x = tile.x + 0.5 * tile.size, y = tile.y + 0.5 * tile.size;
     const Vec3 middle(x, y, forest.terrain().height(x, y));
-    out.emplace_back(tallest * finest(eyes, middle, 0.75 * tile.size), &tile);
+    out.emplace_back(tallest * largestScale(viewers, middle, 0.75 * tile.size), &tile);
   }
   std::stable_sort(out.begin(), out.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
@@ -61,7 +54,8 @@ std::vector<std::pair<double, const forest::Tile*>> tilesInOrder(
 
 }  // namespace
 
-ForestMarkers::ForestMarkers(int points) {
+ForestMarkers::ForestMarkers(const forest::Forest& forest, forest::TreeCache& cache, int points)
+    : forest_(forest), cache_(cache) {
   lists_.addList("bark", static_cast<std::size_t>(points) / 2 / 3 * 3);
   lists_.addList("leaves", static_cast<std::size_t>(points) / 2 / 6 * 6);
 }
@@ -71,25 +65,24 @@ void ForestMarkers::reset() {
   feedback_.reset();
 }
 
-void ForestMarkers::chooseTrees(const forest::Forest& forest) {
-  std::vector<forest::Viewpoint> eyes;
-  for (const auto& entry : forest.snapshot().viewers) eyes.push_back(entry.second.eye);
-  const forest::Layout& layout = forest.layout();
-  if (eyes.empty()) eyes.push_back({middleOf(layout), PIXELS_PER_RADIAN});
+void ForestMarkers::chooseTrees(std::vector<Viewpoint> viewers) {
+  const forest::Layout& layout = forest_.layout();
+  if (viewers.empty()) viewers.push_back({middleOf(layout), PIXELS_PER_RADIAN});
+  const std::size_t most = lists_.budget() / LEAST_POINTS;
   order_.clear();
   const auto consider = [&](std::uint32_t id, const forest::TreeSeed& seed) {
-    const double view = finest(eyes, footOf(seed, forest.terrain()), 0.0);
+    const double view = largestScale(viewers, footOf(seed, forest_.terrain()));
     const double height = seed.scale * layout.species[seed.species].height;
     if (view * height >= SMALLEST_PX) order_.emplace_back(view * height, id);
   };
   for (std::uint32_t i = 0; i < layout.trees.size(); ++i) consider(i, layout.trees[i]);
-  for (const auto& [largest, tile] : tilesInOrder(forest, eyes)) {
-    keepLargest(budget() / LEAST_POINTS);
+  for (const auto& [largest, tile] : tilesInOrder(forest_, viewers)) {
+    keepLargest(most);
     if (largest < least_) break;
     for (std::uint32_t i = 0; i < tile->count; ++i)
       consider(tile->first_tree + i, seedInTile(*tile, i));
   }
-  keepLargest(budget() / LEAST_POINTS);
+  keepLargest(most);
   std::sort(order_.begin(), order_.end(), std::greater<>());
 }
 
@@ -102,27 +95,26 @@ void ForestMarkers::keepLargest(std::size_t count) {
   least_ = order_.back().first;
 }
 
-void ForestMarkers::addTree(const forest::Forest& forest, forest::TreeCache& cache,
-                            std::uint32_t id, Nanoseconds stamp) {
-  const auto grown = cache.get(forest.layout(), forest.terrain(), id);
-  const forest::Species& species = forest.layout().species[grown->tree.seed.species];
+void ForestMarkers::addTree(std::uint32_t id, Nanoseconds stamp) {
+  const auto grown = cache_.get(forest_.layout(), forest_.terrain(), id);
+  const forest::Species& species = forest_.layout().species[grown->tree.seed.species];
   const forest::TreeMesh& mesh = *drawn_[id].mesh;
   wanted_bark_ += mesh.triangles.size();
   wanted_leaves_ += 6 * mesh.leaves.size();
   if (!lists_.hasRoom(BARK, mesh.triangles.size()) ||
       !lists_.hasRoom(LEAVES, 6 * mesh.leaves.size()))
     return;
-  const wind::Instant wind = forest.snapshot().wind.at(stamp).relativeTo(grown->tree.foot);
+  const wind::Instant wind = forest_.snapshot().wind.at(stamp).relativeTo(grown->tree.foot);
   const forest::Weights weights =
-      forest::weightsAt(forest.snapshot().levels.of(id), stamp, forest.layout().motion);
-  const forest::ModalTreeState* modal_state = forest.modalState(id);
-  const bool physical = !forest.promoted(id).branches.empty();
+      forest::weightsAt(forest_.snapshot().levels.of(id), stamp, forest_.layout().motion);
+  const forest::ModalTreeState* modal_state = forest_.modalState(id);
+  const bool physical = !forest_.promoted(id).branches.empty();
   if (!physical && modal_state && forest::modalWeight(weights) >= 1.0)
     modal_state->pose(grown->poser, stamp, poses_);
   else if (!physical && !modal_state)
     grown->poser.pose(wind, weights, forest::MAX_DEPTHS, poses_);
   else
-    narrowPoses(forest.pose(grown->tree, id, stamp), poses_);
+    narrowPoses(forest_.pose(grown->tree, id, stamp), poses_);
   const std::array<float, 3> foot{static_cast<float>(grown->tree.foot.x()),
                                   static_cast<float>(grown->tree.foot.y()),
                                   static_cast<float>(grown->tree.foot.z())};
@@ -148,11 +140,8 @@ void ForestMarkers::addTree(const forest::Forest& forest, forest::TreeCache& cac
   }
 }
 
-visualization_msgs::MarkerArray ForestMarkers::build(const forest::Forest& forest,
-                                                     forest::TreeCache& cache,
-                                                     const std::string& frame_id,
-                                                     Nanoseconds stamp) {
-  chooseTrees(forest);
+void ForestMarkers::build(const std::vector<Viewpoint>& viewers, Nanoseconds stamp) {
+  chooseTrees(viewers);
   lists_.clear(BARK);
   lists_.clear(LEAVES);
   wanted_bark_ = wanted_leaves_ = 0;
@@ -161,20 +150,19 @@ visualization_msgs::MarkerArray ForestMarkers::build(const forest::Forest& fores
     Drawn& entry = drawn[id] = drawn_[id];
     const int level = forest::geometryLevel(height_px * feedback_.factor(), entry.level);
     if (level != entry.level || !entry.mesh) {
-      const auto grown = cache.get(forest.layout(), forest.terrain(), id);
+      const auto grown = cache_.get(forest_.layout(), forest_.terrain(), id);
       entry.level = level;
       entry.mesh = std::make_shared<const forest::TreeMesh>(
-          buildMesh(grown->tree.skeleton, forest.layout().species[grown->tree.seed.species],
+          buildMesh(grown->tree.skeleton, forest_.layout().species[grown->tree.seed.species],
                     forest::meshDetail(level)));
     }
     drawn_[id] = entry;
-    addTree(forest, cache, id, stamp);
+    addTree(id, stamp);
   }
   drawn_ = std::move(drawn);
   // The fuller of the two lists counts, so that trees keep their leaves.
   feedback_.update(2.0 * static_cast<double>(std::max(wanted_bark_, wanted_leaves_)),
-                   0.85 * static_cast<double>(budget()));
-  return lists_.message(frame_id);
+                   0.85 * static_cast<double>(lists_.budget()));
 }
 
 }  // namespace vegetation_sim

@@ -4,12 +4,11 @@
 
 #include <map>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "forest/forest.h"
 #include "forest/tree_cache.h"
-#include "nodes/markers/triangle_lists.h"
+#include "nodes/markers/marker_publisher.h"
 #include "tree/mesh/mesh.h"
 
 namespace vegetation_sim {
@@ -17,18 +16,14 @@ namespace vegetation_sim {
 /// Builds the marker lists of a forest: bark (id 0) and leaves (id 1). A feedback lowers the
 /// geometry levels of the trees until they fit into the budget; the farthest that do not fit are
 /// left out.
-class ForestMarkers {
+class ForestMarkers : public MarkerBuilder {
  public:
-  /// @param points most points of both lists together, at least 600.
-  explicit ForestMarkers(int points);
+  /// @param cache of grown trees. @param points most points of both lists together, at least 600.
+  ForestMarkers(const forest::Forest& forest, forest::TreeCache& cache, int points);
 
-  /// Builds the array at `stamp`, with the trees next to the viewers finest. Without viewers, it
-  /// uses the middle of the forest.
-  visualization_msgs::MarkerArray build(const forest::Forest& forest, forest::TreeCache& cache,
-                                        const std::string& frame_id, Nanoseconds stamp);
-  /// Points in use at the last build.
-  std::size_t points() const { return lists_.used(); }
-  std::size_t budget() const { return lists_.size(BARK) + lists_.size(LEAVES); }
+  /// The trees next to the viewers are finest. Without viewers, it uses the middle of the forest.
+  void build(const std::vector<Viewpoint>& viewers, Nanoseconds stamp) override;
+  /// Forgets the meshes, because the layout has changed.
   void reset();
 
  private:
@@ -36,13 +31,13 @@ class ForestMarkers {
     int level{-1};
     std::shared_ptr<const forest::TreeMesh> mesh;
   };
-  void chooseTrees(const forest::Forest& forest);
+  void chooseTrees(std::vector<Viewpoint> viewers);
   void keepLargest(std::size_t count);
-  void addTree(const forest::Forest& forest, forest::TreeCache& cache, std::uint32_t id,
-               Nanoseconds stamp);
+  void addTree(std::uint32_t id, Nanoseconds stamp);
 
   enum List : std::size_t { BARK, LEAVES };
-  TriangleLists lists_;
+  const forest::Forest& forest_;
+  forest::TreeCache& cache_;
   std::size_t wanted_bark_{0}, wanted_leaves_{0};  // points
   forest::ComplexityFeedback feedback_;
   std::map<std::uint32_t, Drawn> drawn_;

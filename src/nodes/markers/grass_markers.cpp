@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "ros/services/allocation_report.h"
 
 namespace vegetation_sim {
 namespace {
@@ -38,15 +41,39 @@ Viewpoint eyeAbove(const grass::MeadowLod& meadow) {
 
 }  // namespace
 
-GrassMarkers::GrassMarkers(int points) : list_points_(static_cast<std::size_t>(points) / 9 * 3) {
+GrassMarkers::GrassMarkers(const grass::TreadSimulation& field,
+                           std::shared_ptr<const terrain::HeightMap> terrain,
+                           const wind::Field& wind, const grass::MeadowSettings& settings,
+                           int points)
+    : field_(field),
+      wind_(wind),
+      settings_(settings),
+      meadow_(field.layout().map, std::move(terrain), field.layout().seed, settings),
+      list_points_(static_cast<std::size_t>(points) / 9 * 3) {
   for (const char* ns : {"ground", "strips", "blades"})
     lists_.addList(ns, list_points_, TriangleLists::Padding::FIRST_POINT);
 }
 
+void GrassMarkers::setSettings(const grass::MeadowSettings& settings) {
+  meadow_.setSettings(settings);
+  settings_ = settings;
+}
+
+void GrassMarkers::reportTiers(diagnostic_updater::DiagnosticStatusWrapper& status) const {
+  report(meadow_.balance(),
+         {"Tiles",
+          settings_.tolerance,
+          "marker_points",
+          "blades",
+          settings_.most_blades,
+          {"of texture", "of strips", "of blades"}},
+         status);
+}
+
 // Adds the whole map in squares as small as the budget allows.
-void GrassMarkers::addGround(const grass::MeadowLod& meadow) {
-  const grass::FeatureMap& map = meadow.map();
-  const std::uint64_t wanted = map.hash() ^ meadow.terrain().hash();
+void GrassMarkers::addGround() {
+  const grass::FeatureMap& map = meadow_.map();
+  const std::uint64_t wanted = map.hash() ^ meadow_.terrain().hash();
   if (ground_of_ == wanted) return;
   ground_of_ = wanted;
   full_density_ = largestDensity(map);
@@ -59,7 +86,7 @@ void GrassMarkers::addGround(const grass::MeadowLod& meadow) {
     const int c = std::min(column, law.columns - 1), r = std::min(row, law.rows - 1);
     const double x = law.origin_x + c * law.resolution, y = law.origin_y + r * law.resolution;
     const std::uint8_t* rgb = &colours[3 * (static_cast<std::size_t>(r) * law.columns + c)];
-    lists_.add(GROUND, Vec3(x, y, meadow.terrain().height(x, y)), colourOf(rgb, 255));
+    lists_.add(GROUND, Vec3(x, y, meadow_.terrain().height(x, y)), colourOf(rgb, 255));
   };
   lists_.clear(GROUND);
   for (int row = 0; row < law.rows - 1; row += step)
@@ -68,11 +95,10 @@ void GrassMarkers::addGround(const grass::MeadowLod& meadow) {
         add(column + c * step, row + r * step);
 }
 
-void GrassMarkers::addTile(const grass::MeadowLod& meadow, const grass::TileView& view,
-                           const grass::Tile& tile, const grass::TileMotion& motion,
-                           const Vec3& eye) {
+void GrassMarkers::addTile(const grass::TileView& view, const grass::Tile& tile,
+                           const grass::TileMotion& motion, const Vec3& eye) {
   if (view.morph.strip > 0.0 && strip_mesh_.indices.size() < list_points_)
-    grass::appendStrips(meadow.map(), tile, motion, view.morph.strip, full_density_, strip_mesh_);
+    grass::appendStrips(meadow_.map(), tile, motion, view.morph.strip, full_density_, strip_mesh_);
   if (!view.morph.blades || blade_mesh_.indices.size() >= list_points_) return;
   const int count = static_cast<int>(view.share * tile.blades);
   blocks_.resize(static_cast<std::size_t>(grass::blocksFor(count)));
@@ -82,7 +108,7 @@ void GrassMarkers::addTile(const grass::MeadowLod& meadow, const grass::TileView
   style.width = 1.0 / std::max(view.share, 1e-3);
   style.slide = view.morph.slide;
   style.eye = eye;
-  grass::appendRibbons(meadow.map(), tile, blocks_.data(), count, style, blade_mesh_);
+  grass::appendRibbons(meadow_.map(), tile, blocks_.data(), count, style, blade_mesh_);
 }
 
 void GrassMarkers::copy(const grass::GrassMesh& mesh, std::size_t list) {
@@ -96,41 +122,37 @@ void GrassMarkers::copy(const grass::GrassMesh& mesh, std::size_t list) {
   }
 }
 
-visualization_msgs::MarkerArray GrassMarkers::build(
-    grass::MeadowLod& meadow, const grass::TreadMap& tread, const std::vector<Viewpoint>& viewers,
-    const wind::Field& wind, grass::BladeModel model, const std::string& frame_id,
-    Nanoseconds stamp) {
+void GrassMarkers::build(const std::vector<Viewpoint>& viewers, Nanoseconds stamp) {
   const std::vector<Viewpoint> eyes =
-      viewers.empty() ? std::vector<Viewpoint>{eyeAbove(meadow)} : viewers;
-  meadow.setViewpoints(eyes);
-  meadow.advance(stamp);
-  addGround(meadow);
-  std::vector<grass::TileView> views = meadow.viewOf(eyes[0], stamp);
-  const double size = meadow.map().law().resolution;
+      viewers.empty() ? std::vector<Viewpoint>{eyeAbove(meadow_)} : viewers;
+  meadow_.setViewpoints(eyes);
+  meadow_.advance(stamp);
+  addGround();
+  std::vector<grass::TileView> views = meadow_.viewOf(eyes[0], stamp);
+  const double size = meadow_.map().law().resolution;
   const auto distance = [&](const grass::TileView& v) {
-    const double x = meadow.map().law().origin_x + (v.column + 0.5) * size - eyes[0].position.x();
-    const double y = meadow.map().law().origin_y + (v.row + 0.5) * size - eyes[0].position.y();
+    const double x = meadow_.map().law().origin_x + (v.column + 0.5) * size - eyes[0].position.x();
+    const double y = meadow_.map().law().origin_y + (v.row + 0.5) * size - eyes[0].position.y();
     return x * x + y * y;
   };
   std::stable_sort(views.begin(), views.end(),
                    [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
   std::vector<grass::TilePlace> places;
   for (const grass::TileView& view : views) places.push_back({view.column, view.row});
-  grass::NodeWind air(meadow.map(), meadow.terrain());
-  air.update(wind.at(stamp), {}, grass::MeadowLod::windowOf(views), &places);
+  grass::NodeWind air(meadow_.map(), meadow_.terrain());
+  air.update(wind_.at(stamp), {}, grass::MeadowLod::windowOf(views), &places);
   for (grass::GrassMesh* mesh : {&strip_mesh_, &blade_mesh_}) {
     mesh->clear();
     mesh->origin = Vec3(eyes[0].position.x(), eyes[0].position.y(), 0.0);
   }
   for (const grass::TileView& view : views) {
     grass::TileMotion motion;
-    const grass::Tile tile = meadow.tileAt(view, air, tread, stamp, patch_, motion);
-    motion.model = model;
-    addTile(meadow, view, tile, motion, eyes[0].position);
+    const grass::Tile tile = meadow_.tileAt(view, air, field_.tread(), stamp, patch_, motion);
+    motion.model = field_.layout().blade_model;
+    addTile(view, tile, motion, eyes[0].position);
   }
   copy(strip_mesh_, STRIPS);
   copy(blade_mesh_, BLADES);
-  return lists_.message(frame_id);
 }
 
 }  // namespace vegetation_sim

@@ -37,15 +37,19 @@ std::size_t TriangleLists::used() const {
   return out;
 }
 
-visualization_msgs::MarkerArray TriangleLists::message(const std::string& frame_id,
-                                                       const ros::Time& stamp) const {
+std::size_t TriangleLists::budget() const {
+  std::size_t out = 0;
+  for (const List& list : lists_) out += list.size;
+  return out;
+}
+
+visualization_msgs::MarkerArray TriangleLists::message(const std::string& frame_id) const {
   visualization_msgs::MarkerArray out;
   for (const List& list : lists_) {
     if (list.size == 0) continue;
     out.markers.push_back(list.marker);
     Marker& marker = out.markers.back();
     marker.header.frame_id = frame_id;
-    marker.header.stamp = stamp;
     if (marker.points.empty()) {
       marker.action = Marker::DELETE;
     } else {

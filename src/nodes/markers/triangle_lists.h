@@ -32,12 +32,12 @@ class TriangleLists {
     return lists_[list].marker.points.size() + points <= lists_[list].size;
   }
   std::size_t size(std::size_t list) const { return lists_[list].size; }
-  /// Number of points in use, in all lists.
+  /// Number of points in use in all lists, and the largest number.
   std::size_t used() const;
+  std::size_t budget() const;
 
-  /// @param stamp zero: rviz uses the newest transform, and tf does not wait for another.
-  visualization_msgs::MarkerArray message(const std::string& frame_id,
-                                          const ros::Time& stamp = ros::Time()) const;
+  /// The stamp is zero: rviz uses the newest transform, and tf does not wait for another.
+  visualization_msgs::MarkerArray message(const std::string& frame_id) const;
 
  private:
   struct List {

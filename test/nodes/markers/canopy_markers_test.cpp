@@ -22,35 +22,33 @@ struct Row {
     }
     viewer.position = Vec3(0.0, 0.0, 1.6);
   }
-  TierAllocation choose(int points, double tolerance) {
-    CanopyMarkers markers(points);
-    markers.setLayout(layout);
-    markers.choose(layout, viewer, tolerance, 0);
-    limit = markers.room();
-    used = drawn(markers);
-    return markers.balance();
-  }
   /// Counts the points of leaves, which are away from the origin, in a list of constant size.
-  std::size_t drawn(CanopyMarkers& markers) {
+  TierAllocation build(int points, double tolerance) {
     canopy::Canopy canopy(layout);
-    const auto list = markers.build(canopy.foliage(), {}, "map").markers[0];
-    EXPECT_EQ(list.points.size(), markers.room());
-    std::size_t out = 0;
-    for (const geometry_msgs::Point& p : list.points) out += p.x != 0.0;
-    return out;
+    CanopyMarkers markers(canopy, crowns, forest, points, tolerance);
+    markers.build({viewer}, 0);
+    lists = markers.lists().message("map").markers;
+    limit = markers.room();
+    used = 0;
+    for (const geometry_msgs::Point& p : lists[0].points) used += p.x != 0.0;
+    return markers.balance();
   }
   canopy::Layout layout;
   Viewpoint viewer;
+  LeafedCrowns crowns;
+  forest::ForestReplica forest;
+  std::vector<visualization_msgs::Marker> lists;
   std::size_t limit{0}, used{0};
 };
 
 // N7: a plant has the smallest share of its leaves that keeps the tolerance.
 TEST(CanopyMarkers, FarPlantsHaveFewerLeaves) {
   Row row(40);
-  const TierAllocation fine = row.choose(200000, 1.0);
+  const TierAllocation fine = row.build(200000, 1.0);
+  EXPECT_EQ(row.lists[0].points.size(), row.limit);
   EXPECT_EQ(static_cast<double>(row.used), fine.cost);
   EXPECT_EQ(fine.held_back, 0u);
-  const TierAllocation coarse = row.choose(200000, 8.0);
+  const TierAllocation coarse = row.build(200000, 8.0);
   EXPECT_EQ(static_cast<double>(row.used), coarse.cost);
   EXPECT_LT(coarse.cost, 0.9 * fine.cost);
   EXPECT_EQ(coarse.over, 0u);
@@ -61,8 +59,8 @@ TEST(CanopyMarkers, FarPlantsHaveFewerLeaves) {
 // any plant is left out.
 TEST(CanopyMarkers, LimitOfPointsThinsPlantsBeforeAnyIsLeftOut) {
   Row row(40);
-  const double free = row.choose(200000, 1.0).cost;
-  const TierAllocation poor = row.choose(static_cast<int>(0.5 * free), 1.0);
+  const double free = row.build(200000, 1.0).cost;
+  const TierAllocation poor = row.build(static_cast<int>(0.5 * free), 1.0);
   EXPECT_LE(poor.cost, static_cast<double>(row.limit));
   EXPECT_GE(poor.cost, 0.9 * static_cast<double>(row.limit));
   EXPECT_EQ(static_cast<double>(row.used), poor.cost);
@@ -81,32 +79,25 @@ TEST(CanopyMarkers, RigidFacesAreNotLeaves) {
   row.layout.kinds[0].shape = canopy::PlantShape::MESH;
   row.layout.kinds[0].file = "read.dae";
   row.layout.kinds[0].form = form;
-  const TierAllocation balance = row.choose(200000, 0.01);
+  const TierAllocation balance = row.build(200000, 0.01);
   EXPECT_EQ(balance.cost, 10 * 30 * 6);
   EXPECT_EQ(static_cast<double>(row.used), balance.cost);
 }
 
-// rviz draws triangles without area like others, so without plants there must be none. Plants that
-// return are drawn in lists of the same length as before.
+// rviz draws triangles without area like others, so without plants there must be none.
 TEST(CanopyMarkers, NoPlantsAreNotDrawn) {
   using visualization_msgs::Marker;
-  const Row none(0), shrubs(4);
-  CanopyMarkers markers(60000);
-  const auto listsOf = [&](const Row& row) {
-    markers.setLayout(row.layout);
-    markers.choose(row.layout, row.viewer, 1.0, 0);
-    return markers.build(canopy::Canopy(row.layout).foliage(), {}, "map").markers;
-  };
-  for (const Marker& list : listsOf(none)) {
+  Row none(0), shrubs(4);
+  none.build(60000, 1.0);
+  for (const Marker& list : none.lists) {
     EXPECT_EQ(list.action, Marker::DELETE) << list.ns;
     EXPECT_TRUE(list.points.empty() && list.colors.empty()) << list.ns;
   }
-  for (const Marker& list : listsOf(shrubs)) {
+  shrubs.build(60000, 1.0);
+  for (const Marker& list : shrubs.lists) {
     EXPECT_EQ(list.action, Marker::ADD) << list.ns;
     EXPECT_EQ(list.points.size(), list.colors.size()) << list.ns;
-    EXPECT_TRUE(list.ns != "leaves" || list.points.size() == markers.room());
   }
-  for (const Marker& list : listsOf(none)) EXPECT_EQ(list.action, Marker::DELETE) << list.ns;
 }
 
 }  // namespace

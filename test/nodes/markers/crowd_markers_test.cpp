@@ -19,10 +19,11 @@ struct Row {
     viewer.position = Vec3(0.0, 0.0, 1.6);
   }
   TierAllocation build(int points, double tolerance, Nanoseconds stamp = 0) {
-    CrowdMarkers markers(points);
-    const auto array = markers.build(crowd, {viewer}, tolerance, "map", stamp);
-    EXPECT_EQ(array.markers[0].points.size(), static_cast<std::size_t>(points) / 3 * 3);
-    EXPECT_EQ(static_cast<double>(markers.points()), markers.balance().cost);
+    CrowdMarkers markers(crowd, points, tolerance);
+    markers.build({viewer}, stamp);
+    EXPECT_EQ(markers.lists().message("map").markers[0].points.size(),
+              static_cast<std::size_t>(points) / 3 * 3);
+    EXPECT_EQ(static_cast<double>(markers.lists().used()), markers.balance().cost);
     return markers.balance();
   }
   crowd::Crowd crowd;
@@ -34,8 +35,7 @@ TEST(CrowdMarkers, FarPeopleHaveFewerFacets) {
   Row row(200);
   const TierAllocation fine = row.build(400000, 1.0), coarse = row.build(400000, 4.0);
   EXPECT_EQ(fine.held_back, 0u);
-  for (std::size_t tier = 1; tier < CrowdMarkers::tiers().size(); ++tier)
-    EXPECT_GT(fine.counts[tier], 0u) << tier;
+  for (std::size_t tier = 1; tier < 5; ++tier) EXPECT_GT(fine.counts[tier], 0u) << tier;
   EXPECT_EQ(fine.counts[0], 0u);
   EXPECT_LT(coarse.cost, 0.9 * fine.cost);
   // Only people who stand nearer than the range of the finest tier are above the tolerance.
@@ -44,15 +44,17 @@ TEST(CrowdMarkers, FarPeopleHaveFewerFacets) {
 
 // rviz draws triangles without area like others, so without people there must be none.
 TEST(CrowdMarkers, NothingIsDrawnWithoutPeople) {
-  const Row empty(0), one(1);
-  CrowdMarkers markers(60000);
-  const auto markerOf = [&](const Row& row) {
-    return markers.build(row.crowd, {row.viewer}, 1.0, "map", 0).markers[0];
+  Row row(0);
+  CrowdMarkers markers(row.crowd, 60000, 1.0);
+  const auto marker = [&] {
+    markers.build({row.viewer}, 0);
+    return markers.lists().message("map").markers[0];
   };
-  EXPECT_EQ(markerOf(empty).action, visualization_msgs::Marker::DELETE);
-  EXPECT_TRUE(markerOf(empty).points.empty());
-  EXPECT_EQ(markerOf(one).action, visualization_msgs::Marker::ADD);
-  EXPECT_EQ(markerOf(one).points.size(), 60000u);
+  EXPECT_EQ(marker().action, visualization_msgs::Marker::DELETE);
+  EXPECT_TRUE(marker().points.empty());
+  crowd::spawnAt(row.crowd, {2.0, 0.0}, {2.0, 1.0});
+  EXPECT_EQ(marker().action, visualization_msgs::Marker::ADD);
+  EXPECT_EQ(marker().points.size(), 60000u);
 }
 
 // N7: the limit of points applies. With a few points less some people are coarser; with half of the
@@ -73,12 +75,12 @@ TEST(CrowdMarkers, LimitOfPointsCoarsensPeopleBeforeAnyIsLeftOut) {
 // N7: a small move of the viewer does not change the tiers of people.
 TEST(CrowdMarkers, TiersDoNotFlicker) {
   Row row(200);
-  CrowdMarkers markers(60000);
-  markers.build(row.crowd, {row.viewer}, 1.0, "map", 0);
+  CrowdMarkers markers(row.crowd, 60000, 1.0);
+  markers.build({row.viewer}, 0);
   const auto before = markers.balance().counts;
   for (int i = 1; i < 20; ++i) {
     row.viewer.position.x() = i % 2 ? 0.1 : 0.0;
-    markers.build(row.crowd, {row.viewer}, 1.0, "map", i * SECOND);
+    markers.build({row.viewer}, i * SECOND);
     EXPECT_EQ(markers.balance().counts, before) << i;
   }
 }

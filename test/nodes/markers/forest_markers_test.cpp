@@ -20,20 +20,29 @@ struct Lists {
   std::vector<std::size_t> points;
 };
 
-Lists listsOf(ForestMarkers& markers, const forest::Forest& forest) {
-  forest::TreeCache cache(BRANCHES);
-  Lists out;
-  for (const Marker& marker : markers.build(forest, cache, "map", 0).markers) {
-    EXPECT_EQ(marker.points.size(), marker.colors.size()) << marker.ns;
-    out.actions.push_back(marker.action);
-    out.points.push_back(marker.points.size());
+/// A forest that nobody views, and its markers.
+struct Drawing {
+  explicit Drawing(forest::Layout layout)
+      : forest(std::move(layout), forest::flatTerrain(), forest::Settings()) {}
+  void setLayout(forest::Layout layout) {
+    forest.setLayout(std::move(layout), forest::flatTerrain());
+    cache.clear();
+    markers.reset();
   }
-  return out;
-}
-
-forest::Forest standing(forest::Layout layout) {
-  return forest::Forest(std::move(layout), forest::flatTerrain(), forest::Settings());
-}
+  Lists build() {
+    Lists out;
+    markers.build({}, 0);
+    for (const Marker& marker : markers.lists().message("map").markers) {
+      EXPECT_EQ(marker.points.size(), marker.colors.size()) << marker.ns;
+      out.actions.push_back(marker.action);
+      out.points.push_back(marker.points.size());
+    }
+    return out;
+  }
+  forest::Forest forest;
+  forest::TreeCache cache{BRANCHES};
+  ForestMarkers markers{forest, cache, POINTS};
+};
 
 /// Returns a tree of a species without leaves.
 forest::Layout bareTree() {
@@ -49,26 +58,24 @@ const std::vector<std::size_t> FULL{POINTS / 2, POINTS / 2}, EMPTY{0, 0};
 // rviz draws triangles without area like others, so without trees there must be none. Trees that
 // return are drawn in lists of the same length as before.
 TEST(ForestMarkers, NoTreesAreNotDrawn) {
-  const forest::Forest trees = standing(forest::gridLayout(2, 10.0)),
-                       none = standing(forest::gridLayout(0, 10.0));
-  ForestMarkers markers(POINTS);
+  Drawing drawing(forest::gridLayout(2, 10.0));
   for (int again = 0; again < 2; ++again) {
-    const Lists drawn = listsOf(markers, trees);
+    const Lists drawn = drawing.build();
     EXPECT_EQ(drawn.actions, BOTH);
     EXPECT_EQ(drawn.points, FULL);
-    EXPECT_GT(markers.points(), 0u);
-    const Lists gone = listsOf(markers, none);
+    EXPECT_GT(drawing.markers.lists().used(), 0u);
+    drawing.setLayout(forest::gridLayout(0, 10.0));
+    const Lists gone = drawing.build();
     EXPECT_EQ(gone.actions, NEITHER);
     EXPECT_EQ(gone.points, EMPTY);
-    EXPECT_EQ(markers.points(), 0u);
+    EXPECT_EQ(drawing.markers.lists().used(), 0u);
+    drawing.setLayout(forest::gridLayout(2, 10.0));
   }
 }
 
 // Each list is handled on its own.
 TEST(ForestMarkers, LeavesOfBareTreesAreNotDrawn) {
-  const forest::Forest bare = standing(bareTree());
-  ForestMarkers markers(POINTS);
-  const Lists drawn = listsOf(markers, bare);
+  const Lists drawn = Drawing(bareTree()).build();
   EXPECT_EQ(drawn.actions, (std::vector<int>{Marker::ADD, Marker::DELETE}));
   EXPECT_EQ(drawn.points, (std::vector<std::size_t>{POINTS / 2, 0}));
 }
