@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include "ros/params/parameters.h"
+
 namespace vegetation_sim {
 
 /// Parameters that every node of a simulation on the tick grid has.
@@ -20,5 +22,26 @@ struct NodeOptions {
   double viewer_field_of_view{0.8};  ///< [rad]
   int viewer_height{900};            ///< [pixel]
 };
+
+/// Reads the parameters that have the same name and range in every node.
+void readCommon(Parameters& parameters, NodeOptions& options);
+/// Reads the viewer that follows a tf frame, of a node whose viewers see pixels.
+void readFollowedViewer(Parameters& parameters, NodeOptions& options);
+
+/// Reads a node's scenario and common parameters; parameters override the scenario. Faults of the
+/// scenario are added to those of the parameters. @tparam Options derived from NodeOptions, with a
+/// member `scene` derived from SceneBase. @param load returns the scene of a file; an empty name
+/// stands for the node's default scene.
+template <class Options, class Load>
+void readScenario(Parameters& parameters, Options& options, Load load) {
+  parameters.text("scenario", options.scenario);
+  try {
+    options.scene = load(options.scenario);
+    if (!options.scene.frame_id.empty()) options.frame_id = options.scene.frame_id;
+  } catch (const InvalidInput& error) {
+    parameters.faults().add(error.what());
+  }
+  readCommon(parameters, options);
+}
 
 }  // namespace vegetation_sim

@@ -2,31 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/canopy/canopy_options.h"
 
-#include <filesystem>
 #include <map>
 
 #include "core/config/field_values.h"
-#include "core/config/scenario.h"
-#include "ros/params/parameters.h"
 #include "ros/params/plant_files.h"
-#include "ros/params/resources.h"
 
 namespace vegetation_sim {
-namespace {
-
-// Parameters override the scenario.
-void readScene(CanopyOptions& options, Faults& faults) {
-  CanopyScene& scene = options.scene;
-  try {
-    scene = loadCanopyScene(options.scenario);
-    if (!scene.frame_id.empty()) options.frame_id = scene.frame_id;
-  } catch (const InvalidInput& error) {
-    faults.add(error.what());
-  }
-}
-
-}  // namespace
-
 void describe(FieldVisitor& v, CanopyTuning& t) {
   constexpr std::array<const char*, canopy::SIDES> SIDE{"rightward", "leftward", "upward",
                                                         "downward"};
@@ -114,48 +95,32 @@ void toConfig(const CanopyTuning& tuning, CanopyAnimatorConfig& config) {
 }
 
 void describe(FieldVisitor& v, CanopyOptions& o) {
-  v.number("markers_rate", o.markers_rate, "Hz", {0.1, 60.0});
   v.integer("marker_points", o.marker_points, "", {600, 3000000});
   v.number("tolerance", o.tolerance, "pixel", {0.01, 1000.0});
-  v.number("replay_delay", o.replay_delay, "s", {0.0, 10.0});
 }
 
-CanopyScene loadCanopyScene(const std::string& file) {
+CanopyScene loadCanopyScene(const std::string& name) {
   CanopyScene out;
-  if (file.empty()) return out;
-  const std::string path = resolveFile(file);
-  Scenario scenario = Scenario::load(path);
-  std::uint64_t seed = 0;
-  std::string terrain;
-  scenario.top().text("frame_id", out.frame_id);
-  scenario.top().seed("seed", seed);
-  scenario.top().text("terrain", terrain);
-  try {
-    const std::string folder = std::filesystem::path(path).parent_path().string();
-    const auto ground = loadTerrain(resolveFile(terrain, folder));
-    if (scenario.has("canopy")) {
-      out.layout = canopy::readLayout(scenario.section("canopy"), *ground, seed, scenario.faults());
-      Faults forms;
-      loadForms(out.layout, folder, forms);
-      if (forms.empty() && scenario.faults().empty()) canopy::check(out.layout, forms);
-      for (const std::string& fault : forms.list()) scenario.faults().add(path + ": " + fault);
-    }
-  } catch (const InvalidInput& error) {
-    scenario.faults().add(path + ": terrain: " + error.what());
+  if (name.empty()) return out;
+  SceneFile file(name, out);
+  file.loadTerrain();
+  if (file.has("canopy")) {
+    out.layout = canopy::readLayout(file.section("canopy"), *out.terrain, out.seed, file.faults());
+    Faults forms;
+    loadForms(out.layout, file.folder(), forms);
+    if (forms.empty() && file.faults().empty()) canopy::check(out.layout, forms);
+    for (const std::string& fault : forms.list()) file.faults().add(file.path() + ": " + fault);
   }
-  scenario.finish();
+  file.finish();
   return out;
 }
 
 CanopyOptions loadCanopyOptions(const ros::NodeHandle& private_handle) {
   CanopyOptions out;
   Parameters parameters(private_handle);
-  parameters.text("scenario", out.scenario);
-  readScene(out, parameters.faults());
-  parameters.frame("frame_id", out.frame_id);
+  readScenario(parameters, out, loadCanopyScene);
   parameters.text("viewer_id", out.viewer_id);
   parameters.frame("viewer_frame", out.viewer_frame, true);
-  parameters.flag("replay", out.replay);
   describe(parameters, out);
   canopy::Layout& layout = out.scene.layout;
   CanopyTuning tuning = tuningOf(layout.motion);

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "nodes/base/node_options.h"
+#include "ros/params/scene_file.h"
 #include "vegetation_sim/canopy/canopy_layout.h"
 
 namespace vegetation_sim {
@@ -28,13 +29,12 @@ CanopyTuning fromConfig(const CanopyAnimatorConfig& config);
 /// Writes the tuning into what dynamic_reconfigure shows.
 void toConfig(const CanopyTuning& tuning, CanopyAnimatorConfig& config);
 
-/// The plants of a scenario file, and its world frame.
-struct CanopyScene {
+/// The plants of a scenario file.
+struct CanopyScene : SceneBase {
   canopy::Layout layout;
-  std::string frame_id;  ///< empty: not given
 };
 /// No file or no `canopy` in it gives no plants. @throws InvalidInput with all faults of the file.
-CanopyScene loadCanopyScene(const std::string& file);
+CanopyScene loadCanopyScene(const std::string& name);
 
 /// Parameters of canopy_animator; see docs/reference.md.
 struct CanopyOptions : NodeOptions {

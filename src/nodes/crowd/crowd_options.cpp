@@ -2,12 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/crowd/crowd_options.h"
 
-#include <filesystem>
 #include <set>
-
-#include "core/config/scenario.h"
-#include "ros/params/parameters.h"
-#include "ros/params/resources.h"
 
 namespace vegetation_sim {
 namespace {
@@ -49,23 +44,10 @@ std::vector<crowd::Robot> readRobots(YamlSection& section) {
   return out;
 }
 
-void readScene(CrowdOptions& options, Faults& faults) {
-  CrowdScene& scene = options.scene;
-  try {
-    scene = loadCrowdScene(options.scenario);
-    if (!scene.frame_id.empty()) options.frame_id = scene.frame_id;
-    options.tuning = scene.crowd.settings;
-    options.robots = scene.robots;
-  } catch (const InvalidInput& error) {
-    faults.add(error.what());
-  }
-}
-
 }  // namespace
 
 void describe(FieldVisitor& v, CrowdOptions& o) {
   v.integer("state_rate", o.state_rate, "Hz", {1, 240});
-  v.number("markers_rate", o.markers_rate, "Hz", {0.1, 60.0});
   v.integer("marker_points", o.marker_points, "", {3000, 3000000});
   v.number("tolerance", o.tolerance, "pixel", {0.01, 1000.0});
   v.number("tf_rate", o.tf_rate, "Hz", {0.1, 240.0});
@@ -76,42 +58,30 @@ void describe(FieldVisitor& v, CrowdOptions& o) {
   v.integer("most_trunks", o.most_trunks, "", {0, 1000000});
   v.integer("most_walkers", o.most_walkers, "", {0, static_cast<double>(crowd::MOST_WALKERS)});
   v.integer("threads", o.threads, "", {1, 64});
-  v.number("replay_delay", o.replay_delay, "s", {0.0, 10.0});
   describe(v, o.tuning);
 }
 
-CrowdScene loadCrowdScene(const std::string& file) {
+CrowdScene loadCrowdScene(const std::string& name) {
   CrowdScene out;
-  if (file.empty()) return out;
-  const std::string path = resolveFile(file);
-  Scenario scenario = Scenario::load(path);
-  const std::string folder = std::filesystem::path(path).parent_path().string();
-  std::string terrain;
-  scenario.top().text("frame_id", out.frame_id);
-  scenario.top().seed("seed", out.seed);
-  scenario.top().text("terrain", terrain);
-  if (scenario.has("crowd")) {
-    YamlSection section = scenario.section("crowd");
-    out.crowd = crowd::readScene(section, out.seed, scenario.faults());
+  if (name.empty()) return out;
+  SceneFile file(name, out);
+  if (file.has("crowd")) {
+    YamlSection section = file.section("crowd");
+    out.crowd = crowd::readScene(section, out.seed, file.faults());
     out.robots = readRobots(section);
     section.finish();
   }
-  try {
-    out.terrain = loadTerrain(resolveFile(terrain, folder));
-  } catch (const InvalidInput& error) {
-    scenario.faults().add(path + ": terrain: " + error.what());
-  }
-  scenario.finish();
+  file.loadTerrain();
+  file.finish();
   return out;
 }
 
 CrowdOptions loadCrowdOptions(const ros::NodeHandle& private_handle) {
   CrowdOptions out;
   Parameters parameters(private_handle);
-  parameters.text("scenario", out.scenario);
-  readScene(out, parameters.faults());
-  parameters.frame("frame_id", out.frame_id);
-  parameters.flag("replay", out.replay);
+  readScenario(parameters, out, loadCrowdScene);
+  out.tuning = out.scene.crowd.settings;
+  out.robots = out.scene.robots;
   describe(parameters, out);
   YAML::Node list;
   if (parameters.list("robots", list)) {

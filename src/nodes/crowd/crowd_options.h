@@ -5,13 +5,13 @@
 #include <ros/node_handle.h>
 #include <vegetation_sim/AgentCrowdConfig.h>
 
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "crowd/agents/crowd_scene.h"
 #include "nodes/base/node_options.h"
 #include "ros/conversions/crowd_conversions.h"
+#include "ros/params/scene_file.h"
 
 namespace vegetation_sim {
 
@@ -19,16 +19,13 @@ namespace vegetation_sim {
 /// down.
 enum class Treading : int { NONE = 0, BODY = 1, FEET = 2 };
 
-/// The people of a scenario file, their terrain and world frame.
-struct CrowdScene {
+/// The people of a scenario file.
+struct CrowdScene : SceneBase {
   crowd::Scene crowd;
-  std::uint64_t seed{0};
-  std::shared_ptr<const terrain::HeightMap> terrain{std::make_shared<terrain::HeightMap>()};
-  std::string frame_id;  ///< empty: not given
   std::vector<crowd::Robot> robots;
 };
 /// No file or no `crowd` in it gives no walkers. @throws InvalidInput with all faults of the file.
-CrowdScene loadCrowdScene(const std::string& file);
+CrowdScene loadCrowdScene(const std::string& name);
 
 /// Parameters of agent_crowd; see docs/reference.md.
 struct CrowdOptions : NodeOptions {

@@ -4,7 +4,6 @@
 
 #include <ros/node_handle.h>
 
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -12,18 +11,17 @@
 #include "nodes/base/node_options.h"
 #include "nodes/forest/forest_inputs.h"
 #include "nodes/forest/robot_bodies.h"
+#include "ros/params/scene_file.h"
 
 namespace vegetation_sim {
 
-/// The layout of a scenario file, its terrain and its world frame.
-struct ForestScene {
+/// The forest of a scenario file.
+struct ForestScene : SceneBase {
   forest::Layout layout;
   forest::PhysicsSettings physics;
-  std::shared_ptr<const terrain::HeightMap> terrain{std::make_shared<terrain::HeightMap>()};
-  std::string frame_id;  ///< empty: not given
 };
 /// No file or no `forest` in it gives no trees. @throws InvalidInput with all faults of the file.
-ForestScene loadForestScene(const std::string& file);
+ForestScene loadForestScene(const std::string& name);
 
 /// Parameters of forest_animator; see docs/reference.md.
 struct ForestOptions : NodeOptions {

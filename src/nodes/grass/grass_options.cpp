@@ -4,12 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <set>
 
-#include "core/config/scenario.h"
-#include "ros/params/parameters.h"
-#include "ros/params/resources.h"
 #include "vegetation_sim/ros/conversions/grass_conversions.h"
 
 namespace vegetation_sim {
@@ -48,19 +44,6 @@ std::vector<FollowedSource> readSources(YamlSection& section) {
     section.fault("sources", "are " + std::to_string(out.size()) + ", allowed are " +
                                  std::to_string(MOST_FOLLOWED_SOURCES));
   return out;
-}
-
-// Parameters override the scenario.
-void readScene(GrassOptions& options, Faults& faults) {
-  GrassScene& scene = options.scene;
-  try {
-    scene = loadGrassScene(options.scenario);
-    if (!scene.frame_id.empty()) options.frame_id = scene.frame_id;
-    options.tuning.tread = scene.grass.layout.tread;
-    options.sources = scene.sources;
-  } catch (const InvalidInput& error) {
-    faults.add(error.what());
-  }
 }
 
 // Zeros of a source stand for the tuning of the node.
@@ -131,32 +114,21 @@ void describe(FieldVisitor& v, GrassOptions& o) {
   v.integer("state_rate", o.state_rate, "Hz", {1, 240});
   v.number("key_frame_period", o.key_frame_period, "s", {0.05, 60.0});
   v.integer("state_bytes", o.state_bytes, "B/s", {1000, 1000000000});
-  v.number("markers_rate", o.markers_rate, "Hz", {0.1, 60.0});
   v.integer("marker_points", o.marker_points, "", {900, 3000000});
   v.number("cover_rate", o.cover_rate, "Hz", {0.1, 60.0});
   v.number("cover_resolution", o.cover_resolution, "m", {0.02, 100.0});
   v.number("cover_age", o.cover_age, "s", {1.0, 1e9});
   v.choice("cover_layer", o.cover_layer, {"crush", "density", "resistance", "age"});
-  v.number("viewer_field_of_view", o.viewer_field_of_view, "rad", {0.01, 3.1});
-  v.integer("viewer_height", o.viewer_height, "pixel", {1, 100000});
-  v.number("replay_delay", o.replay_delay, "s", {0.0, 10.0});
   describe(v, o.tuning);
 }
 
-GrassScene loadGrassScene(const std::string& file) {
+GrassScene loadGrassScene(const std::string& name) {
   GrassScene out;
-  if (file.empty()) return out;
-  const std::string path = resolveFile(file);
-  Scenario scenario = Scenario::load(path);
-  const std::string folder = std::filesystem::path(path).parent_path().string();
-  std::uint64_t seed = 0;
-  std::string terrain;
-  scenario.top().text("frame_id", out.frame_id);
-  scenario.top().seed("seed", seed);
-  scenario.top().text("terrain", terrain);
-  if (scenario.has("grass")) {
-    YamlSection section = scenario.section("grass");
-    out.grass = grass::readScene(section, folder, seed, scenario.faults());
+  if (name.empty()) return out;
+  SceneFile file(name, out);
+  if (file.has("grass")) {
+    YamlSection section = file.section("grass");
+    out.grass = grass::readScene(section, file.folder(), out.seed, file.faults());
     out.sources = readSources(section);
     section.finish();
   } else {
@@ -164,27 +136,20 @@ GrassScene loadGrassScene(const std::string& file) {
     bare.density.value = 0.0;
     out.grass.layout.map = std::make_shared<const grass::FeatureMap>(bare);
   }
-  try {
-    out.grass.layout.terrain = resolveFile(terrain, folder);
-    out.terrain = loadTerrain(out.grass.layout.terrain);
-    out.grass.layout.terrain_hash = out.terrain->hash();
-  } catch (const InvalidInput& error) {
-    scenario.faults().add(path + ": terrain: " + error.what());
-  }
-  scenario.finish();
-  // The name of a package is valid on other machines too, a path is not.
-  if (terrain.find("://") != std::string::npos) out.grass.layout.terrain = terrain;
+  file.loadTerrain();
+  file.finish();
+  out.grass.layout.terrain = file.terrainName();
+  out.grass.layout.terrain_hash = out.terrain->hash();
   return out;
 }
 
 GrassOptions loadGrassOptions(const ros::NodeHandle& private_handle) {
   GrassOptions out;
   Parameters parameters(private_handle);
-  parameters.text("scenario", out.scenario);
-  readScene(out, parameters.faults());
-  parameters.frame("frame_id", out.frame_id);
-  parameters.frame("viewer_frame", out.viewer_frame, true);
-  parameters.flag("replay", out.replay);
+  readScenario(parameters, out, loadGrassScene);
+  out.tuning.tread = out.scene.grass.layout.tread;
+  out.sources = out.scene.sources;
+  readFollowedViewer(parameters, out);
   describe(parameters, out);
   YAML::Node list;
   if (parameters.list("sources", list)) {

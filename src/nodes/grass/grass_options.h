@@ -5,13 +5,13 @@
 #include <ros/node_handle.h>
 #include <vegetation_sim/GrassFieldConfig.h>
 
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "grass/lod/meadow_lod.h"
 #include "grass/tread_simulation.h"
 #include "nodes/base/node_options.h"
+#include "ros/params/scene_file.h"
 
 namespace vegetation_sim {
 
@@ -40,16 +40,14 @@ struct FollowedSource {
 };
 constexpr std::size_t MOST_FOLLOWED_SOURCES = 256;
 
-/// The meadow of a scenario file, its terrain and its world frame.
-struct GrassScene {
+/// The meadow of a scenario file.
+struct GrassScene : SceneBase {
   grass::Scene grass;
-  std::shared_ptr<const terrain::HeightMap> terrain{std::make_shared<terrain::HeightMap>()};
-  std::string frame_id;  ///< empty: not given
   std::vector<FollowedSource> sources;
 };
 /// No file gives the default meadow, a file without `grass` one without grass.
 /// @throws InvalidInput with all faults of the file.
-GrassScene loadGrassScene(const std::string& file);
+GrassScene loadGrassScene(const std::string& name);
 
 /// Parameters of grass_field; see docs/reference.md.
 struct GrassOptions : NodeOptions {

@@ -4,8 +4,7 @@
 
 #include <algorithm>
 
-#include "core/config/scenario.h"
-#include "ros/params/resources.h"
+#include "ros/params/scene_file.h"
 #include "vegetation_sim/core/math/math.h"
 #include "wind/limits.h"
 #include "wind/wind_reader.h"
@@ -19,13 +18,14 @@ wind::Source* findBreeze(std::vector<wind::Source>& sources) {
   return nullptr;
 }
 
-void readScenario(const std::string& file, WindSettings& settings) {
-  Scenario scenario = Scenario::load(file);
-  scenario.top().text("frame_id", settings.frame_id);
-  scenario.top().seed("seed", settings.seed);
-  YamlSection section = scenario.section("wind");
+void readScene(const std::string& name, WindSettings& settings) {
+  SceneBase scene;
+  SceneFile file(name, scene);
+  if (!scene.frame_id.empty()) settings.frame_id = scene.frame_id;
+  settings.seed = scene.seed;
+  YamlSection section = file.section("wind");
   settings.sources = wind::readWind(section, settings.seed);
-  scenario.finish();
+  file.finish();
 }
 
 void readNumbers(Parameters& parameters, WindSettings& settings) {
@@ -120,7 +120,7 @@ WindSettings readWindSettings(const ros::NodeHandle& private_nh) {
   parameters.text("scenario", scenario);
   if (!scenario.empty()) {
     try {
-      readScenario(resolveFile(scenario), settings);
+      readScene(scenario, settings);
     } catch (const InvalidInput& error) {
       parameters.faults().add(error.what());
     }
