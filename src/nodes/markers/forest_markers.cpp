@@ -12,9 +12,8 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr double SMALLEST_PX = 3.0;         // smallest height of a drawn tree
-constexpr std::size_t LEAST_POINTS = 120;   // for each drawn tree
-constexpr double PIXELS_PER_RADIAN = 1000;  // of the default viewer
+constexpr double SMALLEST_PX = 3.0;        // smallest height of a drawn tree
+constexpr std::size_t LEAST_POINTS = 120;  // for each drawn tree
 
 Vec3 pointAt(const std::vector<float>& xyz, std::size_t vertex) {
   return Vec3(xyz[3 * vertex], xyz[3 * vertex + 1], xyz[3 * vertex + 2]);
@@ -67,7 +66,7 @@ void ForestMarkers::reset() {
 
 void ForestMarkers::chooseTrees(std::vector<Viewpoint> viewers) {
   const forest::Layout& layout = forest_.layout();
-  if (viewers.empty()) viewers.push_back({middleOf(layout), PIXELS_PER_RADIAN});
+  if (viewers.empty()) viewers.push_back({middleOf(layout)});
   const std::size_t most = lists_.budget() / LEAST_POINTS;
   order_.clear();
   const auto consider = [&](std::uint32_t id, const forest::TreeSeed& seed) {

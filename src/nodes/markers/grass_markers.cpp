@@ -11,8 +11,7 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr double PIXELS_PER_RADIAN = 1000.0;  // of the default viewer
-constexpr double EYE_HEIGHT = 20.0;           // [m] of the default viewer
+constexpr double EYE_HEIGHT = 20.0;  // [m] of the default viewer
 
 std_msgs::ColorRGBA colourOf(const std::uint8_t* rgb, std::uint8_t alpha) {
   constexpr float BYTE = 255.f;
@@ -36,7 +35,7 @@ Viewpoint eyeAbove(const grass::MeadowLod& meadow) {
   const grass::MapLaw& law = meadow.map().law();
   const double x = law.origin_x + 0.5 * law.resolution * (law.columns - 1);
   const double y = law.origin_y + 0.5 * law.resolution * (law.rows - 1);
-  return {Vec3(x, y, meadow.terrain().height(x, y) + EYE_HEIGHT), PIXELS_PER_RADIAN};
+  return {Vec3(x, y, meadow.terrain().height(x, y) + EYE_HEIGHT)};
 }
 
 }  // namespace
