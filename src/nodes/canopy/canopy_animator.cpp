@@ -35,7 +35,7 @@ CanopyAnimator::CanopyAnimator(const ros::NodeHandle& handle, const ros::NodeHan
 }
 
 void CanopyAnimator::connect() {
-  subscribe("wind", 10, &CanopyAnimator::onWind);
+  subscribeToOwner("wind", 10, &CanopyAnimator::onWind);
   if (!options_.replay) subscribe("viewer", 10, &CanopyAnimator::onViewer);
   if (!options_.scene.layout.crowns.empty())
     forest_.subscribe(handle_, {"forest/layout", "", "forest/state"});

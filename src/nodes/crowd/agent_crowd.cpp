@@ -35,8 +35,8 @@ AgentCrowd::AgentCrowd(const ros::NodeHandle& handle, const ros::NodeHandle& pri
 }
 
 void AgentCrowd::connect() {
-  subscribe("forest/layout", 4, &AgentCrowd::onLayout);
-  subscribe("grass/cover/resistance", 4, &AgentCrowd::onCover);
+  subscribeToOwner("forest/layout", 4, &AgentCrowd::onLayout);
+  subscribeToOwner("grass/cover/resistance", 4, &AgentCrowd::onCover);
   subscribe("viewer", 10, &AgentCrowd::onViewer);
   serve("spawn", &AgentCrowd::onSpawn);
   serve("remove", &AgentCrowd::onRemove);
