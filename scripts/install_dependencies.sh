@@ -13,7 +13,7 @@ PACKAGES=(
   libdiagnostic-updater-dev
   libdynamic-reconfigure-config-init-mutex-dev python3-dynamic-reconfigure
   libgl-dev libnodeletlib-dev pluginlib-dev librviz-dev qtbase5-dev
-  libassimp-dev libeigen3-dev libhwy-dev libpng-dev libresource-retriever-dev libyaml-cpp-dev
+  libassimp-dev libeigen3-dev libhwy-dev libpng-dev libyaml-cpp-dev
   # These packages run the nodes.
   libnodeletlib-tools python3-matplotlib python3-numpy python3-pil rviz
   # These packages run the tests and inspect topics.

@@ -3,6 +3,13 @@
 #include "vegetation_sim/forest/forest_replica.h"
 
 namespace vegetation_sim::forest {
+namespace {
+
+// Branches of trees that are grown to check one message; it bounds the time that a message takes.
+constexpr std::size_t MOST_GROWN = 2000000;
+constexpr std::size_t MOST_COUNTS = 65536;  // branch counts that are kept
+
+}  // namespace
 
 void ForestReplica::setLayout(Layout layout, std::shared_ptr<const terrain::HeightMap> terrain) {
   Faults faults;
@@ -14,6 +21,8 @@ void ForestReplica::setLayout(Layout layout, std::shared_ptr<const terrain::Heig
   layout_hash_ = layout.hash();
   layout_ = std::make_shared<const Layout>(std::move(layout));
   terrain_ = std::move(terrain);
+  promoted_.clear();  // its branches may be missing in the new trees
+  branch_counts_.clear();
   modes_.clear();
   in_sequence_ = false;
   why_ = "no key frame since the layout";
@@ -43,6 +52,11 @@ bool ForestReplica::apply(const StateUpdate& update) {
     in_sequence_ = false;
     return false;
   }
+  if (!fitsLayout(update)) {
+    why_ = "the branches of its physical trees are being counted";
+    in_sequence_ = false;
+    return false;
+  }
   if (update.key_frame)
     levels_.reset(update.base);
   else
@@ -65,6 +79,34 @@ bool ForestReplica::apply(const StateUpdate& update) {
   stamp_ = update.stamp;
   if (in_sequence_) why_.clear();
   return in_sequence_;
+}
+
+// Returns false if there are too many unknown trees for one message; the next one finds them known.
+bool ForestReplica::fitsLayout(const StateUpdate& update) {
+  Faults faults;
+  const std::uint32_t trees = layout_->treeCount();
+  if (branch_counts_.size() > MOST_COUNTS) branch_counts_.clear();
+  std::size_t grown = 0;
+  for (const StateUpdate::Entry& entry : update.trees) {
+    const std::string name = "state: tree " + std::to_string(entry.tree);
+    if (entry.tree >= trees) {
+      faults.add(name + " is not below the " + std::to_string(trees) + " trees of the layout");
+      continue;
+    }
+    if (entry.promoted.empty()) continue;
+    auto count = branch_counts_.find(entry.tree);
+    if (count == branch_counts_.end()) {
+      if (grown > MOST_GROWN) return false;
+      count = branch_counts_.emplace(entry.tree, grow(entry.tree).skeleton.branches.size()).first;
+      grown += count->second;
+    }
+    const int last = entry.promoted.back().branch;
+    if (static_cast<std::size_t>(last) >= count->second)
+      faults.add(name + ": branch " + std::to_string(last) + " is not below its " +
+                 std::to_string(count->second) + " branches");
+  }
+  faults.throwIfAny();
+  return true;
 }
 
 // Between key frames modes are stepped as in the forest.

@@ -12,6 +12,8 @@
 namespace vegetation_sim::forest {
 namespace {
 
+constexpr std::size_t MOST_PICKED = 1000000;  // branches of trees that a ray passes before a hit
+
 struct Closest {
   double on_ray, on_axis, distance;
 };
@@ -48,14 +50,32 @@ void addCandidate(const Layout& layout, const terrain::HeightMap& terrain, const
     out.emplace_back(std::max(0.0, dot(foot - ray.origin, direction) - reach), id);
 }
 
-// Heights inside the tile are unknown: a tall cylinder, tested in the plane.
-bool passesTile(const Ray& ray, const Vec3& direction, const Tile& tile, double tree_size) {
-  const double x = tile.x + 0.5 * tile.size, y = tile.y + 0.5 * tile.size;
+// Adds the trees of a tile that may stand within `reach` of the ray in the plane, sorted. Pieces of
+// the ray keep the number of others small that are visited.
+std::vector<std::uint32_t> findTreesAlong(const Tile& tile, const Ray& ray, const Vec3& direction,
+                                          double reach) {
+  constexpr double PIECES = 64.0;  // of a ray through the whole tile
   const Vec3 flat(direction.x(), direction.y(), 0.0);
   const double across = length(flat);
-  const Vec3 offset(x - ray.origin.x(), y - ray.origin.y(), 0.0);
-  const double t = across > 1e-9 ? std::max(0.0, dot(offset, flat) / (across * across)) : 0.0;
-  return length(offset - t * flat) <= 0.75 * tile.size + tree_size + ray.tolerance;
+  if (across < 1e-9) return findTreesInTile(tile, ray.origin, reach);
+  const Vec3 along = flat / across;
+  const Vec3 offset(tile.x + 0.5 * tile.size - ray.origin.x(),
+                    tile.y + 0.5 * tile.size - ray.origin.y(), 0.0);
+  const double middle = dot(offset, along), aside = length(offset - middle * along);
+  const double radius = 0.75 * tile.size + reach;
+  std::vector<std::uint32_t> out;
+  if (aside > radius) return out;
+  const double half = std::sqrt(radius * radius - aside * aside), end = middle + half;
+  const double piece = std::max(2.0 * reach, tile.size / PIECES);
+  for (double from = std::max(0.0, middle - half); from <= end; from += piece) {
+    const Vec3 centre = ray.origin + (from + 0.5 * piece) * along;
+    const auto found =
+        findTreesInTile(tile, centre, std::sqrt(0.25 * piece * piece + reach * reach));
+    out.insert(out.end(), found.begin(), found.end());
+  }
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
 }
 
 }  // namespace
@@ -85,17 +105,21 @@ std::optional<Picked> pickTree(const Layout& layout, const terrain::HeightMap& t
     addCandidate(layout, terrain, ray, i, layout.trees[i], candidates);
   double largest = 0.0;
   for (const Species& species : layout.species) largest = std::max(largest, sizeBound(species));
-  for (const Tile& tile : layout.tiles) {
-    if (!passesTile(ray, direction, tile, LARGEST_TILED_SCALE * largest)) continue;
-    for (std::uint32_t i = 0; i < tile.count; ++i)
+  for (const Tile& tile : layout.tiles)
+    for (const std::uint32_t i :
+         findTreesAlong(tile, ray, direction, LARGEST_TILED_SCALE * largest + ray.tolerance))
       addCandidate(layout, terrain, ray, tile.first_tree + i, seedInTile(tile, i), candidates);
-  }
   // Nearest first: once a branch is met, trees that begin behind it need no growing.
   std::sort(candidates.begin(), candidates.end());
   std::optional<Picked> best;
+  std::size_t branches = 0;
   for (const auto& [nearest_distance, id] : candidates) {
     if (best && best->distance < nearest_distance) break;
+    if (branches > MOST_PICKED)
+      throw InvalidInput("the ray passes more trees than are searched at once: it meets none of " +
+                         std::to_string(branches) + " branches");
     const PosedTree tree = posed(id);
+    branches += tree.poses.size();
     std::optional<Picked> hit = pickBranch(*tree.tree, tree.poses, ray);
     if (!hit || (best && best->distance <= hit->distance)) continue;
     hit->tree = id;

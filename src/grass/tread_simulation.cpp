@@ -15,6 +15,10 @@ double flatDistance(const Vec3& a, const Vec3& b) {
   return std::sqrt(x * x + y * y);
 }
 
+std::string wholeNumber(double value) {
+  return std::to_string(static_cast<std::int64_t>(value));
+}
+
 int blockOf(double coordinate, double origin, double spacing) {
   const double node = (coordinate - origin) / spacing;
   return static_cast<int>(
@@ -61,6 +65,37 @@ void TreadSimulation::touch(const Vec3& from, const Vec3& to, double reach) {
   for (int r = std::max(0, row(std::min(from.y(), to.y()) - reach)); r <= last_row; ++r)
     for (int c = std::max(0, column(std::min(from.x(), to.x()) - reach)); c <= last_column; ++c)
       touched_.insert({r, c});
+}
+
+TreadSimulation::StrokeSteps TreadSimulation::stepsOf(const TreadInput& stroke) const {
+  const MapLaw& law = layout_.map->law();
+  const Vec3 way = stroke.position - stroke.start;
+  const double longest = 0.5 * treading_.longest_stroke, margin = stroke.law.reach + longest;
+  StrokeSteps out;
+  out.count = 1.0 + std::floor(length(way) / longest);
+  const Vec3 low(law.origin_x, law.origin_y, 0.0);
+  const Vec3 size(law.resolution * (law.columns - 1), law.resolution * (law.rows - 1), 0.0);
+  double begin = 0.0, end = 1.0;
+  for (int axis = 0; axis < 2; ++axis) {
+    const double below = low[axis] - margin - stroke.start[axis];
+    const double above = below + size[axis] + 2.0 * margin;
+    if (way[axis] == 0.0) {
+      if (below > 0.0 || above < 0.0) return out;
+      continue;
+    }
+    const auto [enters, leaves] = std::minmax(below / way[axis], above / way[axis]);
+    begin = std::max(begin, enters), end = std::min(end, leaves);
+  }
+  if (begin > end) return out;
+  out.first = std::floor(begin * out.count);
+  out.last = std::min(out.count, std::ceil(end * out.count));
+  const double side = 2.0 * stroke.law.reach / tread_.spacing() + 3.0;
+  const double nodes = (out.last - out.first + 1.0) * side * side;
+  if (nodes > MOST_STROKE_NODES)
+    throw InvalidInput("stroke of source '" + stroke.source + "': " + wholeNumber(nodes) +
+                       " nodes to press, more than the " + wholeNumber(MOST_STROKE_NODES) +
+                       " allowed");
+  return out;
 }
 
 void TreadSimulation::press(TreadSourceState& source, const Vec3& to, Nanoseconds stamp) {
@@ -129,6 +164,7 @@ std::string TreadSimulation::move(TreadSourceState& source, const TreadInput& in
 std::string TreadSimulation::apply(const TreadInput& input, Nanoseconds stamp) {
   const TreadAction action = input.action;
   if (action == TreadAction::LIFT && !sources_.count(input.source)) return "";
+  const StrokeSteps steps = action == TreadAction::STROKE ? stepsOf(input) : StrokeSteps();
   TreadSourceState& source = sourceOf(input);
   const Vec3& p = input.position;
   const bool high = p.z() - terrain_->height(p.x(), p.y()) > input.height_gate;
@@ -137,10 +173,8 @@ std::string TreadSimulation::apply(const TreadInput& input, Nanoseconds stamp) {
   if (action == TreadAction::STROKE) {
     source.last = input;
     const Vec3 from = input.start, way = p - from;
-    const double longest = 0.5 * treading_.longest_stroke;
-    const int steps = 1 + static_cast<int>(std::min(1e6, length(way) / longest));
-    for (int i = 0; i <= steps; ++i)
-      press(source, from + (static_cast<double>(i) / steps) * way, stamp);
+    for (double i = steps.first; i <= steps.last; ++i)
+      press(source, from + (i / steps.count) * way, stamp);
     lift(source);
   } else if (action != TreadAction::LIFT && !high) {
     if (source.down) {
@@ -161,6 +195,12 @@ std::string TreadSimulation::apply(const TreadInput& input, Nanoseconds stamp) {
 }
 
 void TreadSimulation::raise(const Point& centre, double radius) {
+  Faults faults;
+  FieldChecker checker("clear: ", faults);
+  Vec3 place(centre.x, centre.y, 0.0);
+  checker.vector("centre", place, "m", {-1e7, 1e7});
+  checker.number("radius", radius, "m", {0.0, 1e4});
+  faults.throwIfAny();
   if (radius > 0.0) return tread_.raise(centre, radius);
   TreadState state;
   state.counts = tread_.state().counts;

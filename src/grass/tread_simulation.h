@@ -58,6 +58,8 @@ struct Drag {
 class TreadSimulation {
  public:
   static constexpr std::size_t MOST_SOURCES = 4096;
+  /// Limit of the work of one stroke; a hundred thousand take about a millisecond.
+  static constexpr double MOST_STROKE_NODES = 5e7;
   /// A source without inputs for this time is removed [s].
   static constexpr double LEASE = 3.0;
   static constexpr double RENEWAL = 0.25;  ///< A standing source presses again after this time [s].
@@ -74,7 +76,11 @@ class TreadSimulation {
   /// Applies a checked input. @return a description of a problem of the step, such as a jump that
   /// left no track; empty if there is none. @throws InvalidInput if there are too many sources.
   std::string apply(const TreadInput& input, Nanoseconds stamp);
+  /// @throws InvalidInput for a checked stroke that presses more than MOST_STROKE_NODES times a
+  /// node.
+  void checkStroke(const TreadInput& input) const { stepsOf(input); }
   /// Raises the grass within a disc; with radius 0 everywhere, and sources begin new passes.
+  /// @throws InvalidInput for a disc out of range.
   void raise(const Point& centre, double radius);
   /// Ends a tick: removes silent sources, presses again below standing ones, frees what has
   /// recovered. @return the tiles that sources entered since the last call, in order.
@@ -99,6 +105,11 @@ class TreadSimulation {
   const terrain::HeightMap& terrain() const { return *terrain_; }
 
  private:
+  /// The presses `first` to `last` of a stroke, of 0 to `count`, are those near the map.
+  struct StrokeSteps {
+    double count{1.0}, first{0.0}, last{-1.0};
+  };
+  StrokeSteps stepsOf(const TreadInput& stroke) const;
   TreadSourceState& sourceOf(const TreadInput& input);
   void press(TreadSourceState& source, const Vec3& to, Nanoseconds stamp);
   void enter(TreadSourceState& source, const Vec3& from, const Vec3& to);

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <system_error>
 #include <thread>
 
+#include "core/math/parallel.h"
 #include "vegetation_sim/core/math/random.h"
 
 namespace vegetation_sim::scan {
@@ -78,8 +78,8 @@ std::vector<Return> sweep(const Scene& scene, const Beams& beams, const Pose& se
   const int threads = std::clamp(machine, 1, std::max(1, most_threads));
   std::vector<Return> out(static_cast<std::size_t>(beams.rings) *
                           static_cast<std::size_t>(beams.columns));
-  const auto part = [&](int first) {
-    for (int column = first; column < beams.columns; column += threads)
+  const auto part = [&](std::size_t first) {
+    for (int column = static_cast<int>(first); column < beams.columns; column += threads)
       for (int ring = 0; ring < beams.rings; ++ring) {
         const auto i = static_cast<std::size_t>(ring) * static_cast<std::size_t>(beams.columns) +
                        static_cast<std::size_t>(column);
@@ -89,17 +89,7 @@ std::vector<Return> sweep(const Scene& scene, const Beams& beams, const Pose& se
         out[i].range = measured(out[i].hit, beams, error);
       }
   };
-  std::vector<std::thread> others;
-  int next = 1;
-  try {
-    others.reserve(static_cast<std::size_t>(threads));
-    for (; next < threads; ++next) others.emplace_back(part, next);
-  } catch (const std::system_error&) {
-    // The machine has no more threads; this thread does their parts.
-  }
-  part(0);
-  for (; next < threads; ++next) part(next);
-  for (std::thread& other : others) other.join();
+  runInParallel(static_cast<std::size_t>(threads), part);
   return out;
 }
 

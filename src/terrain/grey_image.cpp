@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vegetation_sim/terrain/grey_image.h"
 
-#include <filesystem>
-#include <fstream>
-
+#include "core/config/files.h"
 #include "terrain/image_formats.h"
 #include "vegetation_sim/core/config/faults.h"
 
@@ -17,17 +15,7 @@ GreyImage parseGreyImage(const std::string& bytes, const std::string& name) {
 }
 
 GreyImage loadGreyImage(const std::string& file) {
-  std::error_code error;
-  const auto size = std::filesystem::file_size(file, error);
-  if (error) throw InvalidInput(file + ": cannot be read: " + error.message());
-  if (size > LARGEST_IMAGE_FILE)
-    throw InvalidInput(file + ": " + std::to_string(size) + " bytes, more than the " +
-                       std::to_string(LARGEST_IMAGE_FILE) + " allowed");
-  std::ifstream in(file, std::ios::binary);
-  std::string bytes(static_cast<std::size_t>(size), '\0');
-  in.read(bytes.data(), static_cast<std::streamsize>(size));
-  if (!in) throw InvalidInput(file + ": cannot be read");
-  return parseGreyImage(bytes, file);
+  return parseGreyImage(readFile(file, LARGEST_IMAGE_FILE), file);
 }
 
 }  // namespace vegetation_sim::terrain

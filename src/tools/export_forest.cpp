@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iostream>
 
+#include "core/config/numbers.h"
 #include "forest/export.h"
 #include "nodes/forest/forest_options.h"
 
@@ -37,12 +38,7 @@ void writeWhole(const std::filesystem::path& file, const Write& write) {
 }
 
 double readRadius(const std::string& text) {
-  std::size_t end = 0;
-  try {
-    const double out = std::stod(text, &end);
-    if (end == text.size()) return out;
-  } catch (const std::logic_error&) {
-  }
+  if (const auto radius = parseNumber(text)) return *radius;
   throw InvalidInput("THINNEST = '" + text + "' is no number of metres");
 }
 

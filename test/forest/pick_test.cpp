@@ -86,6 +86,33 @@ TEST(Pick, TreesBehindTheHitAreNotGrown) {
   EXPECT_LT(grown, 100);  // of 144
 }
 
+// One request must not grow a whole forest.
+TEST(Pick, RayThatPassesTooManyTreesIsRejected) {
+  Layout layout = gridLayout(1, 1.0);
+  const PosedTree away = [&] {
+    auto tree = std::make_shared<Tree>(growTree(layout, 0, terrain::HeightMap()));
+    tree->foot.z() += 1000.0;
+    return PosedTree{tree, poseBranches(*tree, wind::Instant(), Weights{})};
+  }();
+  layout.trees.clear();
+  Tile tile;
+  tile.count = 100000;
+  tile.size = 20.0;
+  tile.mix = {1.f, 1.f, 1.f, 1.f};
+  layout.tiles = {tile};
+  Ray ray;
+  ray.origin = Vec3(-30.0, 10.0, 0.3);
+  ray.direction = Vec3(1.0, 0.0, 0.0);
+  std::size_t grown = 0;
+  EXPECT_THROW(pickTree(layout, terrain::HeightMap(), ray,
+                        [&](std::uint32_t) {
+                          ++grown;
+                          return away;
+                        }),
+               InvalidInput);
+  EXPECT_LE(grown * away.poses.size(), 1000000u + 2 * away.poses.size());
+}
+
 // S1-04, S1-25: grown trees are dropped when others need the room.
 TEST(TreeCache, HoldsNoMoreThanItsCapacity) {
   const Layout layout = gridLayout(4, 10.0);

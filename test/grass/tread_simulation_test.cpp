@@ -64,6 +64,45 @@ TEST_F(FieldTest, AStrokeIsOneWholePassHoweverLong) {  // S2-22: longer than lon
   EXPECT_EQ(map_.state().counts.jumps, 0u);
 }
 
+// One message must not stop the node: presses that cannot reach the map are skipped.
+TEST_F(FieldTest, AStrokeCostsWhatItPressesOnTheMap) {
+  TreadInput stroke = input("path", 9e6, 10.0, 0.0, TreadAction::STROKE);
+  stroke.start = Vec3(-9e6, 10.0, 0.0);
+  stroke.law.reach = 10.0;
+  EXPECT_EQ(field_.apply(stroke, now()), "");
+  EXPECT_LT(map_.state().counts.strokes + map_.state().counts.outside, 40u);
+  EXPECT_NEAR(map_.at({10.0, 10.0}, now()).tilt, 1.5, RISEN);
+  EXPECT_EQ(map_.state().counts.jumps, 0u);
+  stroke.start = Vec3(-9e6, 2000.0, 0.0);  // it passes the map
+  stroke.position.y() = 2000.0;
+  const std::uint64_t before = map_.state().counts.outside;
+  EXPECT_EQ(field_.apply(stroke, now()), "");
+  EXPECT_EQ(map_.state().counts.outside, before);
+}
+
+TEST_F(FieldTest, AStrokeOfTooMuchWorkIsRejected) {
+  TreadSettings settings;
+  settings.longest_stroke = 0.01;
+  TreadSimulation field(field_.layout(), std::make_shared<const terrain::HeightMap>(), settings,
+                        map_);
+  TreadInput stroke = input("path", 18.0, 10.0, 0.0, TreadAction::STROKE);
+  stroke.start = Vec3(2.0, 10.0, 0.0);
+  EXPECT_EQ(errorOf([&] { field.checkStroke(stroke); }), "");
+  stroke.law.reach = 10.0;
+  EXPECT_EQ(errorOf([&] { field.apply(stroke, now()); }),
+            "stroke of source 'path': 521072409 nodes to press, more than the 50000000 allowed");
+  EXPECT_TRUE(field.sources().empty());
+}
+
+TEST_F(FieldTest, ADiscOutOfRangeClearsNothing) {
+  drive("a", 3.0, 5.0, 1.0, 20);
+  const auto blocks = map_.state().blocks.size();
+  for (const double radius : {std::nan(""), -1.0, 1e9})
+    EXPECT_NE(errorOf([&] { field_.raise({3.0, 5.0}, radius); }), "") << radius;
+  EXPECT_NE(errorOf([&] { field_.raise({std::nan(""), 5.0}, 1.0); }), "");
+  EXPECT_EQ(map_.state().blocks.size(), blocks);
+}
+
 // S2-27, N4: a teleporting source leaves no track between, and it is said by name.
 TEST_F(FieldTest, AJumpLeavesNoTrackAndIsNamed) {
   drive("robot", 3.0, 10.0, 1.0, 30);

@@ -22,6 +22,8 @@ class ForestReplica {
   /// Applies a key frame or the next delta; modal trees are stepped to its stamp in the current
   /// wind. Returns false if messages were lost or belong to another layout; trees are then ignored
   /// until the next key frame, and why() returns the reason.
+  /// @throws InvalidInput, and then nothing has changed, for a tree or a branch that the layout
+  /// does not have.
   bool apply(const StateUpdate& update);
   const std::string& why() const { return why_; }
 
@@ -53,6 +55,7 @@ class ForestReplica {
   std::vector<Pose> pose(const Tree& tree, std::uint32_t id, Nanoseconds stamp) const;
 
  private:
+  bool fitsLayout(const StateUpdate& update);
   bool updateModes(const StateUpdate& update);
   void restoreModes(const StateUpdate& update);
 
@@ -62,6 +65,7 @@ class ForestReplica {
   wind::Field wind_;
   LevelMap levels_;
   std::map<std::uint32_t, std::vector<PromotedBranch>> promoted_;
+  std::map<std::uint32_t, std::size_t> branch_counts_;  // of trees that were physical once
   ModalForest modes_;
   double blend_{1.5};
   bool in_sequence_{false};

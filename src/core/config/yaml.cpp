@@ -2,18 +2,41 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vegetation_sim/core/config/yaml.h"
 
-#include <filesystem>
-#include <fstream>
-#include <sstream>
+#include <algorithm>
+#include <cstring>
+
+#include "core/config/files.h"
 
 namespace vegetation_sim {
 namespace {
 
 constexpr std::uintmax_t LARGEST_FILE = 4u << 20;
+// Limits of a text in a message [bytes] and of its separators , : [ { ? and line ends: a parsed
+// value takes some hundred bytes.
+constexpr std::size_t LARGEST_TEXT = 1u << 20, MOST_MARKS = 200000;
+constexpr std::size_t LONGEST_SHOWN = 60;  // letters of a value in a fault
+
+std::string shortened(const std::string& text) {
+  return text.size() <= LONGEST_SHOWN ? text : text.substr(0, LONGEST_SHOWN) + "...";
+}
+
+// Each value has a mark before or after it, so this is a bound of the number of values.
+std::size_t countMarks(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(
+      text.begin(), text.end(), [](char c) { return std::strchr(",:[{?\n", c) != nullptr; }));
+}
 
 std::string shown(const YAML::Node& node) {
-  if (node.IsScalar()) return "'" + node.Scalar() + "'";
+  if (node.IsScalar()) return "'" + shortened(node.Scalar()) + "'";
   return node.IsMap() ? "a map" : node.IsSequence() ? "a list" : "nothing";
+}
+
+YAML::Node parse(const std::string& text, const std::string& name) {
+  try {
+    return YAML::Load(text);
+  } catch (const YAML::Exception& error) {
+    throw InvalidInput(name + ": not YAML: " + error.what());
+  }
 }
 
 }  // namespace
@@ -97,7 +120,7 @@ void YamlSection::choice(const char* name, int& value, const std::vector<std::st
     }
     allowed += (i ? ", " : "") + names[i];
   }
-  fault(name, "= '" + word + "' is none of " + allowed);
+  fault(name, "= '" + shortened(word) + "' is none of " + allowed);
 }
 
 void YamlSection::text(const char* name, std::string& value) {
@@ -136,36 +159,29 @@ void YamlSection::finish() {
   std::set<std::string> seen;
   for (const auto& entry : node_)
     if (entry.first.IsScalar() && !seen.insert(entry.first.Scalar()).second)
-      fault(entry.first.Scalar(), "is given twice");
+      fault(shortened(entry.first.Scalar()), "is given twice");
   for (const auto& entry : node_) {
     const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "(not a word)";
     if (asked_.count(key)) continue;
     std::string known;
     for (const auto& name : asked_) known += (known.empty() ? "" : ", ") + name;
-    fault(key, "is not a known key; known are " + known);
+    fault(shortened(key), "is not a known key; known are " + known);
   }
 }
 
 YAML::Node parseYaml(const std::string& text, const std::string& name) {
-  try {
-    return YAML::Load(text);
-  } catch (const YAML::Exception& error) {
-    throw InvalidInput(name + ": not YAML: " + error.what());
-  }
+  if (text.size() > LARGEST_TEXT)
+    throw InvalidInput(name + ": " + std::to_string(text.size()) + " bytes, more than the " +
+                       std::to_string(LARGEST_TEXT) + " allowed");
+  if (const std::size_t marks = countMarks(text); marks > MOST_MARKS)
+    throw InvalidInput(name + ": " + std::to_string(marks) +
+                       " signs that separate values, more than the " + std::to_string(MOST_MARKS) +
+                       " allowed");
+  return parse(text, name);
 }
 
 YAML::Node loadYamlFile(const std::string& file) {
-  std::error_code error;
-  const auto size = std::filesystem::file_size(file, error);
-  if (error) throw InvalidInput(file + ": cannot be read: " + error.message());
-  if (size > LARGEST_FILE)
-    throw InvalidInput(file + ": " + std::to_string(size) +
-                       " bytes, more than the 4194304 allowed");
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  if (!in) throw InvalidInput(file + ": cannot be read");
-  return parseYaml(text.str(), file);
+  return parse(readFile(file, LARGEST_FILE), file);
 }
 
 void YamlFieldWriter::number(const char* name, double& value, const char*, Range) {

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
-#include <thread>
 
+#include "core/math/parallel.h"
 #include "crowd/agents/crowd.h"
 #include "crowd/body/gait.h"
 #include "reference/crowd/paper_decision.h"
@@ -51,10 +51,7 @@ void Crowd::forAll(std::size_t count, Each each) const {
   const auto run = [&](std::size_t part) {
     for (std::size_t i = count * part / parts; i < count * (part + 1) / parts; ++i) each(i);
   };
-  std::vector<std::thread> others;
-  for (std::size_t part = 1; part < parts; ++part) others.emplace_back(run, part);
-  run(0);
-  for (std::thread& other : others) other.join();
+  runInParallel(parts, run);
 }
 
 void Crowd::advance(Nanoseconds stamp) {

@@ -15,6 +15,7 @@ namespace {
 constexpr int SIDE = TreadBlock::SIDE;
 constexpr int MAX_CELLS = 512;  // fine cells along a tile
 constexpr std::size_t BLOCK_BYTES = sizeof(TreadBlock) + 64;
+constexpr std::size_t SOURCE_BYTES = sizeof(TreadSource) + 64;
 
 int blockOf(int node) {
   return node >> 4;  // rounds down
@@ -71,9 +72,12 @@ TreadMap::TreadMap(const MapLaw& law, const TreadSettings& settings)
 }
 
 std::size_t TreadMap::bytes() const {
-  std::size_t sum = state_.blocks.size() * BLOCK_BYTES;
-  for (const auto& entry : state_.sources) sum += entry.second.doses.size() * sizeof(double) + 128;
-  return sum;
+  return state_.blocks.size() * BLOCK_BYTES + state_.sources.size() * SOURCE_BYTES +
+         doses_count_ * sizeof(double);
+}
+
+bool TreadMap::hasRoom(std::size_t more) const {
+  return static_cast<double>(bytes() + more) <= settings_.memory_cap;
 }
 
 // Looks up a block in a table first, since most strokes press the blocks of the ones before.
@@ -86,8 +90,7 @@ TreadBlock* TreadMap::blockAt(int row, int column, bool make) {
     recent.is_known = true;
   }
   if (recent.block || !make) return recent.block;
-  const double size = static_cast<double>((state_.blocks.size() + 1) * BLOCK_BYTES);
-  if (size <= settings_.memory_cap) recent.block = &state_.blocks[{row, column}];
+  if (hasRoom(BLOCK_BYTES)) recent.block = &state_.blocks[{row, column}];
   return recent.block;
 }
 
@@ -101,7 +104,10 @@ TreadSource* TreadMap::sourceOf(std::uint32_t id) {
 
 void TreadMap::lift(std::uint32_t source) {
   recent_sources_.at(source).source = nullptr;
-  state_.sources.erase(source);
+  const auto found = state_.sources.find(source);
+  if (found == state_.sources.end()) return;
+  doses_count_ -= found->second.doses.size();
+  state_.sources.erase(found);
 }
 
 void TreadMap::forgetRecent() {
@@ -134,7 +140,12 @@ int TreadMap::tread(std::uint32_t id, const TreadLaw& law, const Point& position
   source.position = position;
   source.stamp = stamp;
   TreadStroke stroke(law, fullDose(law), from, source);
-  const int touched = moveWindow(source, law.reach) ? pressBands(stroke) : pressWindow(stroke);
+  const bool moved = moveWindow(source, law.reach);
+  if (source.doses.empty()) {
+    ++state_.counts.no_memory;
+    return 0;
+  }
+  const int touched = moved ? pressBands(stroke) : pressWindow(stroke);
   ++(touched > 0 ? state_.counts.strokes : state_.counts.outside);
   return touched;
 }
@@ -149,7 +160,8 @@ double TreadMap::fullDose(const TreadLaw& law) {
   return last_full_;
 }
 
-// Puts the window around the source. If it has moved, the last one is in `before_`.
+// Puts the window around the source. If it has moved, the last one is in `before_`. A source that
+// finds no memory has no window.
 bool TreadMap::moveWindow(TreadSource& source, double reach) {
   const int first_column = nodeBelow(source.position.x - reach, law_.origin_x, per_spacing_);
   const int first_row = nodeBelow(source.position.y - reach, law_.origin_y, per_spacing_);
@@ -163,8 +175,20 @@ bool TreadMap::moveWindow(TreadSource& source, double reach) {
   before_.columns = std::exchange(source.columns, columns);
   before_.rows = std::exchange(source.rows, rows);
   before_.doses.swap(source.doses);
-  source.doses.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0.0);
+  doses_count_ -= before_.doses.size();
+  resizeDoses(source, static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+  doses_count_ += source.doses.size();
   return true;
+}
+
+// A buffer that is much too large would be memory that is not counted.
+void TreadMap::resizeDoses(TreadSource& source, std::size_t count) {
+  if (source.doses.capacity() > 2 * count) source.doses = {};
+  if (hasRoom(count * sizeof(double)))
+    source.doses.assign(count, 0.0);
+  else
+    source.doses = {};
+  if (source.doses.empty()) source.columns = source.rows = 0;
 }
 
 TreadGrid TreadMap::grid() const {

@@ -103,6 +103,8 @@ void TreadMap::clear() {
 void TreadMap::restore(TreadState state) {
   forgetRecent();
   state_ = std::move(state);
+  doses_count_ = 0;
+  for (const auto& entry : state_.sources) doses_count_ += entry.second.doses.size();
 }
 
 std::uint64_t TreadState::hash() const {

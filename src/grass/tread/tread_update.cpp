@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vegetation_sim/grass/tread/tread_update.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -13,6 +14,7 @@ namespace vegetation_sim::grass {
 namespace {
 
 constexpr int SIDE = TreadBlock::SIDE;
+constexpr int LAST_BLOCK = 1 << 24;  // its nodes have whole numbers
 
 // Numbers the presses of a delta. The last one is cached, since neighbours were mostly pressed
 // together.
@@ -97,6 +99,8 @@ void check(const TreadDelta& treads, Faults& faults) {
   for (const TreadBlockDelta& block : treads.blocks) {
     const std::string name =
         "state: block " + std::to_string(block.row) + ", " + std::to_string(block.column) + ": ";
+    if (std::min(block.row, block.column) < 0 || std::max(block.row, block.column) > LAST_BLOCK)
+      faults.add(name + "row and column are outside 0 to " + std::to_string(LAST_BLOCK));
     std::size_t published = 0;
     for (const unsigned byte : block.included)
       for (unsigned bits = byte; bits; bits &= bits - 1) ++published;

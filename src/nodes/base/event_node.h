@@ -59,8 +59,9 @@ class EventNode : public NodeBase {
         inputs_(options_.replay),
         tf_listener_(tf_buffer_),
         clock_(name_, options_.state_rate, options_.replay ? options_.replay_delay : 0.0,
-               {[this] { followViewerFrame(); }, [this](std::int64_t tick) { this->tick(tick); },
-                [this](Nanoseconds now) { onJumpBack(now); }}),
+               {[this] { acceptInput("viewer", [this] { followViewerFrame(); }); },
+                [this](std::int64_t tick) { acceptInput("tick", [&] { this->tick(tick); }); },
+                [this](Nanoseconds now) { acceptInput("clock", [&] { onJumpBack(now); }); }}),
         events_topic_(topic),
         events_publisher_(handle_.advertise<Message>(topic, Queue::MOST_WAITING)) {}
 
@@ -121,9 +122,7 @@ class EventNode : public NodeBase {
   }
   /// @throws InvalidInput if the queue is full.
   void enqueue(Event event) {
-    if (!inputs_.add(std::move(event)))
-      throw InvalidInput(std::to_string(Queue::MOST_WAITING) +
-                         " inputs wait for the next tick already");
+    if (!inputs_.add(std::move(event))) throw InvalidInput(Queue::describeFull());
   }
   /// Applies the events of a tick in order, and publishes them unless this is a replay.
   void applyInputs(Nanoseconds stamp) {
@@ -155,6 +154,7 @@ class EventNode : public NodeBase {
     status.summary(DiagnosticStatus::OK, "running");
     if (!clock_.hasBegun()) status.summary(DiagnosticStatus::WARN, "waiting for the clock");
     refusals_.warn(status);
+    warnOfRivals(status);
     warnOfClock(status, clock_.counts(), reported_clock_);
     warnOfLosses(status, inputs_.losses(), reported_losses_);
     reported_clock_ = clock_.counts();
@@ -196,7 +196,7 @@ class EventNode : public NodeBase {
       refuseInReplay();
       enqueue(tuningEvent(config));
       shown_ = config;
-    } catch (const InvalidInput& error) {
+    } catch (const std::exception& error) {
       refusals_.add("settings", error.what());
       config = *shown_;
     }

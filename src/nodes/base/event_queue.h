@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <deque>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -54,6 +55,9 @@ class EventQueue {
   using Event = EventType;
   using Message = MessageType;
   static constexpr std::size_t MOST_WAITING = 10000;
+  /// Live inputs for later stamps fill this much of the queue at most, so that they cannot close it
+  /// to requests for the next tick.
+  static constexpr std::size_t MOST_AHEAD = MOST_WAITING / 2;
 
   explicit EventQueue(bool replay) : replay_(replay) {}
 
@@ -62,11 +66,11 @@ class EventQueue {
   /// next tick. Does nothing in a replay. @return false if the queue is full: the input is lost.
   bool add(Event event) {
     if (replay_) return true;
-    if (room() == 0) {
+    if (room(stampOf(event)) == 0) {
       ++losses_.lost;
       return false;
     }
-    waiting_.push_back(std::move(event));
+    push(std::move(event));
     return true;
   }
   /// Adds a live input before all that wait, even if the queue is full.
@@ -83,7 +87,16 @@ class EventQueue {
     }
     waiting_.push_back(event);
   }
-  std::size_t room() const { return MOST_WAITING - std::min(MOST_WAITING, waiting_.size()); }
+  /// Returns how many live inputs still fit: for the next tick (0), or for a later stamp.
+  std::size_t room(Nanoseconds stamp = 0) const {
+    const std::size_t all = MOST_WAITING - std::min(MOST_WAITING, waiting_.size());
+    return stamp == 0 ? all : std::min(all, MOST_AHEAD - std::min(MOST_AHEAD, ahead_));
+  }
+
+  static std::string describeFull() {
+    return "too many inputs wait already, allowed are " + std::to_string(MOST_WAITING) + ", and " +
+           std::to_string(MOST_AHEAD) + " for later stamps";
+  }
 
   /// Returns the events that take effect at the tick `stamp`, in order, stamped with it. Recorded
   /// events that come after their own tick are among them and counted as late.
@@ -101,12 +114,15 @@ class EventQueue {
       out.push_back(std::move(event));
     }
     waiting_ = std::move(later);
+    ahead_ = waiting_.size();
     return out;
   }
   /// Drops the events for which `is_void(event)` is true.
   template <class Test>
   void forget(Test is_void) {
     waiting_.erase(std::remove_if(waiting_.begin(), waiting_.end(), is_void), waiting_.end());
+    ahead_ = static_cast<std::size_t>(std::count_if(
+        waiting_.begin(), waiting_.end(), [](const Event& event) { return stampOf(event) != 0; }));
   }
   /// Calls `visit(event)` for each event that waits.
   template <class Visit>
@@ -116,9 +132,15 @@ class EventQueue {
   const QueueLosses& losses() const { return losses_; }
 
  protected:
+  void push(Event event) {
+    ahead_ += stampOf(event) != 0;
+    waiting_.push_back(std::move(event));
+  }
+
   bool replay_;
   QueueLosses losses_;
   std::deque<Event> waiting_;
+  std::size_t ahead_{0};  ///< waiting for a stamp of their own
 };
 
 }  // namespace vegetation_sim

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/base/node_base.h"
 
+#include "ros/services/rivals.h"
+
 namespace vegetation_sim {
 
 NodeBase::NodeBase(const std::string& name, const ros::NodeHandle& handle,
@@ -15,15 +17,25 @@ NodeBase::NodeBase(const std::string& name, const ros::NodeHandle& handle,
 }
 
 void NodeBase::startDiagnostics() {
-  diagnostics_timer_ = handle_.createWallTimer(
-      ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); });
+  diagnostics_timer_ =
+      handle_.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) {
+        acceptInput("diagnostics", [this] { diagnostics_.force_update(); });
+      });
 }
 
 void NodeBase::stopCallbacks() {
   diagnostics_timer_.stop();
   timers_.clear();
   services_.clear();
+  owned_.clear();
   subscribers_.clear();
+}
+
+void NodeBase::warnOfRivals(Status& status) const {
+  const std::string rivals = describeRivals(owned_);
+  if (!rivals.empty())
+    status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN,
+                        rivals + ": the last message wins");
 }
 
 }  // namespace vegetation_sim

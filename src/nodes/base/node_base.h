@@ -6,6 +6,7 @@
 #include <ros/ros.h>
 #include <std_srvs/Trigger.h>
 
+#include <exception>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,6 +18,8 @@ namespace vegetation_sim {
 
 /// Connections, diagnostics and the count of rejected inputs of a node. All callbacks come from one
 /// queue and one thread, but in a nodelet manager not from the thread that constructs the node.
+/// An exception is reported and ends in its callback, since it must not end a process of several
+/// nodes.
 class NodeBase {
  protected:
   using Status = diagnostic_updater::DiagnosticStatusWrapper;
@@ -27,28 +30,49 @@ class NodeBase {
 
   template <class Node, class Message>
   void subscribe(const char* topic, unsigned queue, void (Node::*callback)(const Message&)) {
-    subscribers_.push_back(handle_.subscribe(topic, queue, callback, static_cast<Node*>(this)));
+    const boost::function<void(const Message&)> guarded = [this, topic,
+                                                           callback](const Message& message) {
+      acceptInput(topic, [&] { (static_cast<Node*>(this)->*callback)(message); });
+    };
+    subscribers_.push_back(handle_.subscribe<Message>(topic, queue, guarded));
+  }
+  /// Subscribes to a topic that one node owns; diagnose with warnOfRivals().
+  template <class Node, class Message>
+  void subscribeToOwner(const char* topic, unsigned queue, void (Node::*callback)(const Message&)) {
+    subscribe(topic, queue, callback);
+    owned_.push_back(subscribers_.back());
   }
   template <class Node, class Request, class Response>
   void serve(const char* name, bool (Node::*callback)(Request&, Response&)) {
-    services_.push_back(private_handle_.advertiseService(name, callback, static_cast<Node*>(this)));
+    const boost::function<bool(Request&, Response&)> guarded =
+        [this, name, callback](Request& request, Response& response) {
+          bool answered = false;
+          acceptInput(name,
+                      [&] { answered = (static_cast<Node*>(this)->*callback)(request, response); });
+          return answered;
+        };
+    services_.push_back(private_handle_.advertiseService<Request, Response>(name, guarded));
   }
   template <class Node>
   void repeat(double rate, void (Node::*callback)(const ros::TimerEvent&)) {
-    timers_.push_back(
-        handle_.createTimer(ros::Duration(1.0 / rate), callback, static_cast<Node*>(this)));
+    const auto guarded = [this, callback](const ros::TimerEvent& event) {
+      acceptInput("timer", [&] { (static_cast<Node*>(this)->*callback)(event); });
+    };
+    timers_.push_back(handle_.createTimer(ros::Duration(1.0 / rate), guarded));
   }
   /// Publishes diagnostics once per second of wall time from now on.
   void startDiagnostics();
   /// Ends all callbacks. To be called before anything that they use is destroyed.
   void stopCallbacks();
+  /// Warns of topics with one owner that have several publishers.
+  void warnOfRivals(Status& status) const;
 
-  /// Runs `body`; an InvalidInput that it throws is counted and reported as a rejected `what`.
+  /// Runs `body`; what it throws is counted and reported as a rejected `what`.
   template <class Body>
   void acceptInput(const std::string& what, Body body) {
     try {
       body();
-    } catch (const InvalidInput& error) {
+    } catch (const std::exception& error) {  // also for lack of memory
       refusals_.add(what, error.what());
     }
   }
@@ -59,7 +83,7 @@ class NodeBase {
   diagnostic_updater::Updater diagnostics_;
 
  private:
-  std::vector<ros::Subscriber> subscribers_;
+  std::vector<ros::Subscriber> subscribers_, owned_;
   std::vector<ros::ServiceServer> services_;
   std::vector<ros::Timer> timers_;
   ros::WallTimer diagnostics_timer_;

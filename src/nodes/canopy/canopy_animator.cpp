@@ -31,7 +31,7 @@ CanopyAnimator::CanopyAnimator(const ros::NodeHandle& handle, const ros::NodeHan
 }
 
 void CanopyAnimator::connect() {
-  subscribe("wind", 10, &CanopyAnimator::onWind);
+  subscribeToOwner("wind", 10, &CanopyAnimator::onWind);
   if (!options_.scene.layout.crowns.empty())
     forest_.subscribe(handle_, {"forest/layout", "", "forest/state"});
   serve("sample", &CanopyAnimator::onSample);

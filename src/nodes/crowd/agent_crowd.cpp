@@ -32,8 +32,8 @@ AgentCrowd::AgentCrowd(const ros::NodeHandle& handle, const ros::NodeHandle& pri
 }
 
 void AgentCrowd::connect() {
-  subscribe("forest/layout", 4, &AgentCrowd::onLayout);
-  subscribe("grass/cover/resistance", 4, &AgentCrowd::onCover);
+  subscribeToOwner("forest/layout", 4, &AgentCrowd::onLayout);
+  subscribeToOwner("grass/cover/resistance", 4, &AgentCrowd::onCover);
   serve("spawn", &AgentCrowd::onSpawn);
   serve("remove", &AgentCrowd::onRemove);
   serve("set_goal", &AgentCrowd::onSetGoal);

@@ -82,7 +82,8 @@ bool AgentCrowd::onSpawn(SpawnAgents::Request& request, SpawnAgents::Response& r
     const std::uint32_t count = std::max(1U, request.count);
     const auto most = static_cast<std::size_t>(options_.most_walkers);
     const std::size_t room = most - std::min(crowd_.walkers().size() + waitingWalkers(), most);
-    if (count > MOST_AT_ONCE || count > room || count > inputs_.room())
+    const ros::Time stamp = effectOf(request.header.stamp, clock_);
+    if (count > MOST_AT_ONCE || count > room || count > inputs_.room(fromMsg(stamp)))
       throw InvalidInput("count = " + std::to_string(count) + " is outside 1 to " +
                          std::to_string(std::min<std::size_t>(MOST_AT_ONCE, room)) + ": " +
                          std::to_string(crowd_.walkers().size()) +
@@ -107,7 +108,7 @@ bool AgentCrowd::onSpawn(SpawnAgents::Request& request, SpawnAgents::Response& r
                            Random(options_.scene.seed).child(next_id_));
     CrowdEvent event;
     event.kind = CrowdEvent::SPAWN;
-    event.header.stamp = effectOf(request.header.stamp, clock_);
+    event.header.stamp = stamp;
     for (const crowd::Spawn& spawn : all) {
       event.id = next_id_++;
       event.spawn = toMsg(spawn);

@@ -49,7 +49,7 @@ ForestAnimator::ForestAnimator(const ros::NodeHandle& handle, const ros::NodeHan
 }
 
 void ForestAnimator::connect() {
-  subscribe("wind", 10, &ForestAnimator::onWind);
+  subscribeToOwner("wind", 10, &ForestAnimator::onWind);
   serve("get_tree", &ForestAnimator::onGetTree);
   serve("pick", &ForestAnimator::onPick);
   serve("set_tf", &ForestAnimator::onSetTf);
@@ -191,11 +191,20 @@ void ForestAnimator::updateGrabs() {
     wrenches_publisher_.publish(wrench);
 }
 
+// Trees of another design have other branches.
+void ForestAnimator::reportLostGrabs() {
+  const std::size_t count = forest_->grabs().size();
+  if (count == 0) return;
+  grabs_lost_ += count;
+  ROS_WARN("forest_animator: %zu grabs ended: the trees have another design", count);
+}
+
 void ForestAnimator::applyTuning(const ForestTuning& tuning) {
   forest::Layout layout = designed(options_.scene.layout, tuning);
   layout.terrain_hash = options_.scene.terrain->hash();
   const bool same = layout.hash() == forest_->layoutHash();
   if (!same) {
+    reportLostGrabs();
     forest_->setLayout(std::move(layout), options_.scene.terrain);
     forest_->precompute();
   }

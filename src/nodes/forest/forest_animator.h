@@ -52,6 +52,7 @@ class ForestAnimator final : public EventNode<ForestInputs, ForestAnimatorConfig
   void applyInteraction(const ForestInput& event);
   void updateGrabs();
   void followBodies(Nanoseconds stamp);
+  void reportLostGrabs();
   void applyTuning(const ForestTuning& tuning);
 
   // Outputs.
@@ -87,6 +88,7 @@ class ForestAnimator final : public EventNode<ForestInputs, ForestAnimatorConfig
   std::size_t frames_sent_{0};               // at the last round
   bool force_key_frame_{true};
   std::uint64_t state_bytes_{0}, leases_ended_{0};
+  std::uint64_t grabs_lost_{0}, reported_grabs_lost_{0};  // to another design
   forest::Reaction deepest_;  // of the contacts since diagnostics were last sent
 
   tf2_ros::TransformBroadcaster tf_broadcaster_;

@@ -62,6 +62,9 @@ void ForestAnimator::addDiagnostics(Status& status) {
   status.add("State sent [B]", state_bytes_);
   status.add("Grown branches held", cache_.branches());
   addPhysics(status);
+  warnOfMore(status, grabs_lost_, reported_grabs_lost_,
+             "grabs ended: the trees have another design");
+  reported_grabs_lost_ = grabs_lost_;
   deepest_ = {};
   updateDeepestOverlap();
   status.add("tf frames", frames_sent_);
@@ -108,6 +111,7 @@ void ForestAnimator::addPhysics(Status& status) const {
   status.add("Grabs", forest_->grabs().size());
   status.add("Grabs whose frame is silent", grab_manager_.silent());
   status.add("Grabs ended by their lease", leases_ended_);
+  status.add("Grabs ended by a new design", grabs_lost_);
   status.add("Bodies", forest_->bodies().size());
   status.add("Frames of bodies without a transform", bodies_.missing().size());
   status.add("Physical trees", figures.trees);

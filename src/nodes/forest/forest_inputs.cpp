@@ -91,11 +91,11 @@ bool ForestInputs::add(const ForestInput& input) {
       return true;
     }
   const bool bounded = isInteraction(input) || input.kind == ForestInput::VIEWER;
-  if (bounded && room() == 0) {
+  if (bounded && room(input.stamp) == 0) {
     losses_.lost += input.kind == ForestInput::VIEWER;  // a request gets an error instead
     return false;
   }
-  waiting_.push_back(input);
+  push(input);
   return true;
 }
 

@@ -60,9 +60,7 @@ ForestInput GrabManager::eventAt(ForestInput::Kind kind, const ros::Time& stamp)
 }
 
 void GrabManager::enqueue(const ForestInput& event) {
-  if (!node_.inputs.add(event))
-    throw InvalidInput(std::to_string(ForestInputs::MOST_WAITING) +
-                       " inputs wait for the next tick already");
+  if (!node_.inputs.add(event)) throw InvalidInput(ForestInputs::describeFull());
 }
 
 std::shared_ptr<const forest::Tree> GrabManager::grown(std::uint32_t tree) const {
@@ -240,22 +238,24 @@ std::string GrabManager::release(const Release::Request& request) {
   requireLive();
   ForestInput event = eventAt(ForestInput::RELEASE, request.stamp);
   if (!request.all) find(request.id);
-  std::size_t count = 0;
-  for (auto entry = requests_.begin(); entry != requests_.end();) {
-    const auto [id, held] = *entry;
-    ++entry;
+  std::vector<std::uint32_t> in_force, waiting;
+  for (const auto& [id, held] : requests_) {
     if (!request.all && id != request.id) continue;
-    ++count;
     const bool never_begins = !isInForce(id) && (event.stamp == 0 || event.stamp <= held.begins);
-    if (never_begins) {
-      node_.inputs.forgetGrab(id);
-      requests_.erase(id);
-    } else {
-      event.grab.id = id;
-      enqueue(event);
-    }
+    (never_begins ? waiting : in_force).push_back(id);
   }
-  return std::to_string(count) + " released";
+  if (in_force.size() > node_.inputs.room(event.stamp))
+    throw InvalidInput(std::to_string(in_force.size()) + " grabs to release, and " +
+                       std::to_string(node_.inputs.room(event.stamp)) + " inputs that still fit");
+  for (const std::uint32_t id : waiting) {
+    node_.inputs.forgetGrab(id);
+    requests_.erase(id);
+  }
+  for (const std::uint32_t id : in_force) {
+    event.grab.id = id;
+    enqueue(event);
+  }
+  return std::to_string(waiting.size() + in_force.size()) + " released";
 }
 
 std::string GrabManager::push(const ApplyForce::Request& request, ApplyForce::Response& response) {

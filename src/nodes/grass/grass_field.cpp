@@ -37,7 +37,7 @@ GrassField::GrassField(const ros::NodeHandle& handle, const ros::NodeHandle& pri
 }
 
 void GrassField::connect() {
-  subscribe("wind", 10, &GrassField::onWind);
+  subscribeToOwner("wind", 10, &GrassField::onWind);
   if (!options_.replay)
     subscribe("tread", 2 * EventQueue<GrassEvent>::MOST_WAITING, &GrassField::onTread);
   serve("tread", &GrassField::onTreadPath);

@@ -37,14 +37,20 @@ GrassEvent GrassField::treadEvent(const grass::TreadInput& input) const {
 
 void GrassField::onTread(const TreadEvent& message) {
   acceptInput("tread", [&] {
-    GrassEvent event = treadEvent(fromMsg(inWorld(message), tuning_.tread, tuning_.height_gate));
+    const grass::TreadInput input = fromMsg(inWorld(message), tuning_.tread, tuning_.height_gate);
+    if (input.action == grass::TreadAction::STROKE) field_->checkStroke(input);
+    GrassEvent event = treadEvent(input);
     event.header.stamp = effectOf(message.header.stamp, clock_);
     inputs_.add(std::move(event));
   });
 }
 
 void GrassField::followSources(Nanoseconds stamp) {
-  for (const grass::TreadInput& input : sources_.update(stamp, tuning_.tread, tuning_.height_gate))
+  const auto report = [this](const std::string& what, const std::string& why) {
+    refusals_.add(what, why);
+  };
+  for (const grass::TreadInput& input :
+       sources_.update(stamp, tuning_.tread, tuning_.height_gate, report))
     acceptInput("source '" + input.source + "'", [&] {
       Faults faults;
       check(input, "source: ", faults);

@@ -59,12 +59,13 @@ std::vector<Vec3> GrassField::pathOf(const Tread::Request& request) const {
 void GrassField::queuePath(const std::vector<Vec3>& path, const grass::TreadLaw& law,
                            const ros::Time& stamp) {
   const double longest = 0.5 * options_.scene.grass.treading.longest_stroke;
+  const std::size_t room = inputs_.room(fromMsg(stamp));
   std::vector<Vec3> steps{path[0]};
   for (std::size_t i = 1; i < path.size(); ++i) {
     const double pieces = 1.0 + std::floor(flatLength(path[i - 1], path[i]) / longest);
-    if (pieces + static_cast<double>(steps.size() + 2) > static_cast<double>(inputs_.room()))
+    if (pieces + static_cast<double>(steps.size() + 2) > static_cast<double>(room))
       throw InvalidInput("the path needs more steps of " + std::to_string(longest) +
-                         " m than the " + std::to_string(inputs_.room()) + " that have room");
+                         " m than the " + std::to_string(room) + " that have room");
     for (int k = 1; k <= static_cast<int>(pieces); ++k)
       steps.push_back(path[i - 1] + (k / pieces) * (path[i] - path[i - 1]));
   }

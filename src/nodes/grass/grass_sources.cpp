@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "ros/conversions/orientation.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
 #include "vegetation_sim/ros/conversions/grass_conversions.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
@@ -42,7 +43,10 @@ GrassSources::ObservedSource GrassSources::findOdometry(const Followed& followed
                                                         Nanoseconds now) const {
   if (!followed.odometry) throw tf2::LookupException("nothing heard");
   const nav_msgs::Odometry& message = *followed.odometry;
-  Pose base = fromMsg(message.pose.pose);
+  Faults faults;
+  Pose base{fromMsg(message.pose.pose.position),
+            orientationOf(message.pose.pose.orientation, "pose.orientation", faults)};
+  faults.throwIfAny();
   const std::string& frame = message.header.frame_id;
   Pose to_world;
   if (frame != frame_id_)
@@ -80,7 +84,7 @@ void GrassSources::say(const Followed& followed, grass::TreadAction action,
 }
 
 std::vector<grass::TreadInput> GrassSources::update(Nanoseconds now, const grass::TreadLaw& own,
-                                                    double height_gate) {
+                                                    double height_gate, const Report& report) {
   std::vector<grass::TreadInput> out;
   own_ = own;
   height_gate_ = height_gate;
@@ -93,6 +97,9 @@ std::vector<grass::TreadInput> GrassSources::update(Nanoseconds now, const grass
       known = secondsBetween(heard.stamp, now) <= STALE;
     } catch (const tf2::TransformException&) {
       known = false;
+    } catch (const InvalidInput& error) {
+      known = false;
+      report("source '" + followed.source.name + "'", error.what());
     }
     if (!known) {
       missing_.push_back(followed.source.frame.empty() ? followed.source.odometry

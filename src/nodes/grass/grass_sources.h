@@ -6,6 +6,7 @@
 #include <ros/node_handle.h>
 #include <tf2_ros/buffer.h>
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,9 +29,11 @@ class GrassSources {
                const tf2_ros::Buffer& buffer);
 
   /// Returns the treads of each source since the last call: it moved, left, or is repeated at rest.
-  /// Positions are in the world frame; `own` and `height_gate` replace zeros.
+  /// Positions are in the world frame; `own` and `height_gate` replace zeros. Calls `report` with
+  /// the name and the fault of each source whose odometry is invalid.
+  using Report = std::function<void(const std::string&, const std::string&)>;
   std::vector<grass::TreadInput> update(Nanoseconds now, const grass::TreadLaw& own,
-                                        double height_gate);
+                                        double height_gate, const Report& report);
   /// Frames and topics without recent data at the last update.
   const std::vector<std::string>& missing() const { return missing_; }
   /// Forgets all positions, after a jump of time.

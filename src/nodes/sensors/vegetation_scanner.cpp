@@ -124,6 +124,9 @@ void VegetationScanner::reportProblem(Status& status) {
   warnOfMore(status, scene_.trees.leftOut(), 0, "trees in range left out because of branch_budget");
   if (const std::string why = landscape_.why(); !why.empty())
     status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, "waiting for a key frame: " + why);
+  if (const std::string rivals = landscape_.rivals(); !rivals.empty())
+    status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN,
+                        rivals + ": the last message wins");
   reported_ = counts_;
 }
 

@@ -24,7 +24,7 @@ WindBroadcaster::WindBroadcaster(const ros::NodeHandle& handle,
       field_publisher_(handle_.advertise<WindField>("wind", 1, true)),
       marker_publisher_(handle_.advertise<visualization_msgs::MarkerArray>("wind/markers", 1)),
       reconfigure_(mutex_, private_handle),
-      clock_(handle, [this](Nanoseconds now) { begin(now); }) {
+      clock_(handle, [this](Nanoseconds now) { acceptInput("clock", [&] { begin(now); }); }) {
   const Lock lock(mutex_);
   serve("set_primitive", &WindBroadcaster::setPrimitive);
   serve("remove_primitive", &WindBroadcaster::removePrimitive);

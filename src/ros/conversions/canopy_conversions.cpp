@@ -4,7 +4,9 @@
 
 #include <cmath>
 
+#include "ros/conversions/orientation.h"
 #include "ros/params/plant_files.h"
+#include "ros/params/resources.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
 
@@ -39,13 +41,13 @@ CanopyLayout toMsg(const canopy::Layout& layout) {
   return out;
 }
 
-canopy::Layout fromMsg(const CanopyLayout& message) {
+canopy::Layout fromMsg(const CanopyLayout& message, const std::vector<std::string>& folders) {
   canopy::Layout out = canopy::parseLaw(message.law, "layout");
   out.seed = message.seed;
   for (const CanopyPlant& plant : message.plants)
     out.plants.push_back({plant.seed, plant.kind, fromMsg(plant.position), plant.yaw, plant.scale});
   Faults faults;
-  loadForms(out, "", faults);
+  loadPublishedForms(out, folders, faults);
   canopy::check(out, faults);
   if (faults.empty() && out.hash() != message.hash)
     faults.add("layout: its hash is " + std::to_string(out.hash()) + ", the sender's " +
@@ -59,13 +61,9 @@ canopy::CutView eyeFromMsg(const geometry_msgs::Pose& pose) {
   Vec3 place = fromMsg(pose.position);
   FieldChecker checker("eye: ", faults);
   checker.vector("position", place, "m", ANYWHERE);
-  const auto& q = pose.orientation;
-  double norm = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
-  checker.number("orientation, its norm,", norm, "", {0.99, 1.01});
+  const Quat orientation = orientationOf(pose.orientation, "eye: orientation", faults);
   faults.throwIfAny();
-  // A valid layout is kept as it is, so that a replica gets the bits of the sender.
-  const double scale = std::fabs(norm - 1.0) < 1e-12 ? 1.0 : 1.0 / norm;
-  return {place, {scale * q.w, scale * q.x, scale * q.y, scale * q.z}};
+  return {place, orientation};
 }
 
 geometry_msgs::Pose eyeToMsg(const canopy::CutView& eye) {
@@ -90,6 +88,10 @@ CanopyState toMsg(const canopy::StateUpdate& update) {
   out.wind_hash = update.wind_hash;
   out.hash = update.hash;
   return out;
+}
+
+canopy::Layout fromMsg(const CanopyLayout& message) {
+  return fromMsg(message, resourceFolders());
 }
 
 canopy::StateUpdate fromMsg(const CanopyState& message) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "ros/conversions/orientation.h"
 #include "vegetation_sim/core/config/fields.h"
 #include "vegetation_sim/core/math/hash.h"
 #include "vegetation_sim/core/math/math.h"
@@ -12,7 +13,7 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr Range PLACES{-1e7, 1e7}, HEIGHTS{0.1, 5.0}, UNIT{-1.01, 1.01};
+constexpr Range PLACES{-1e7, 1e7}, HEIGHTS{0.1, 5.0};
 
 geometry_msgs::Point pointOf(const crowd::Point& p, double z) {
   return toPoint(Vec3(p.x, p.y, z));
@@ -40,9 +41,8 @@ void check(const AgentState& agent, Faults& faults) {
   checker.number("gait", gait, "", PLACES);
   Vec3 velocity = fromMsg(agent.velocity);
   checker.vector("velocity", velocity, "m/s", PLACES);
-  double turn = agent.pose.orientation.z, half = agent.pose.orientation.w;
-  checker.number("orientation.z", turn, "", UNIT);
-  checker.number("orientation.w", half, "", UNIT);
+  orientationOf(agent.pose.orientation, "agent " + std::to_string(agent.id) + ": orientation",
+                faults);
   for (std::size_t i = 0; i < 2; ++i) {
     place("feet", fromMsg(agent.feet[i]));
     place("feet_lag", fromMsg(agent.feet_lag[i]));
@@ -152,16 +152,23 @@ crowd::Robot fromMsg(const CrowdRobot& message) {
 std::vector<crowd::Obstacle> trunksOf(const forest::Layout& layout, TrunkShape shape,
                                       const crowd::Area& area, double margin, std::size_t most) {
   std::vector<crowd::Obstacle> out;
-  const std::uint32_t count = layout.treeCount();
-  for (std::uint32_t i = 0; i < count && out.size() < most; ++i) {
-    const forest::TreeSeed tree = seedOf(layout, i);
+  const auto add = [&](const forest::TreeSeed& tree) {
     const crowd::Point at{tree.position.x(), tree.position.y()};
-    if (at.x < area.min_x - margin || at.x > area.max_x + margin || at.y < area.min_y - margin ||
-        at.y > area.max_y + margin)
-      continue;
+    if (out.size() >= most || at.x < area.min_x - margin || at.x > area.max_x + margin ||
+        at.y < area.min_y - margin || at.y > area.max_y + margin)
+      return;
     const double radius = layout.species[tree.species].trunk_radius * tree.scale;
     out.push_back(shape == TrunkShape::ROUND ? crowd::discObstacle(at, radius)
                                              : crowd::boxObstacle(at, radius, radius, tree.yaw));
+  };
+  for (const forest::TreeSeed& tree : layout.trees) add(tree);
+  // A small message can have millions of trees in tiles.
+  const Vec3 centre(0.5 * (area.min_x + area.max_x), 0.5 * (area.min_y + area.max_y), 0.0);
+  const double radius =
+      std::hypot(area.max_x - centre.x() + margin, area.max_y - centre.y() + margin);
+  for (const forest::Tile& tile : layout.tiles) {
+    if (out.size() >= most) break;
+    for (const std::uint32_t i : findTreesInTile(tile, centre, radius)) add(seedInTile(tile, i));
   }
   return out;
 }

@@ -6,6 +6,7 @@
 #include <map>
 #include <tuple>
 
+#include "ros/conversions/orientation.h"
 #include "vegetation_sim/core/math/math.h"
 
 namespace vegetation_sim {
@@ -330,9 +331,7 @@ forest::Viewer fromMsg(const Viewer& message) {
   check_number("pose.position.x", p.x, "m", {-1e7, 1e7});
   check_number("pose.position.y", p.y, "m", {-1e7, 1e7});
   check_number("pose.position.z", p.z, "m", {-1e7, 1e7});
-  const auto& q = message.pose.orientation;
-  check_number("pose.orientation, its norm,",
-               std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z), "", {0.99, 1.01});
+  const Quat turn = orientationOf(message.pose.orientation, "viewer: pose.orientation", faults);
   check_number("field_of_view", message.field_of_view, "rad", {0.01, 3.1});
   check_number("height", message.height, "pixel", {1.0, 100000.0});
   if (message.id.size() > 256) faults.add("viewer: id is longer than 256 characters");
@@ -343,7 +342,6 @@ forest::Viewer fromMsg(const Viewer& message) {
   out.eye.position = Vec3(p.x, p.y, p.z);
   const SinCos half = sinCos(0.5 * message.field_of_view);
   out.eye.pixels_per_radian = 0.5 * message.height * half.cos / half.sin;
-  const Quat turn{q.w, q.x, q.y, q.z};
   out.eye.forward = axisX(turn) / length(axisX(turn));
   // The cone around the whole picture, whatever its width up to VIEW_ASPECT, and a margin for
   // turning.

@@ -4,11 +4,11 @@
 
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
-#include <resource_retriever/retriever.h>
 
 #include <assimp/Importer.hpp>
 #include <filesystem>
 
+#include "core/config/files.h"
 #include "ros/params/resources.h"
 #include "vegetation_sim/terrain/grey_image.h"
 
@@ -21,33 +21,8 @@ constexpr std::size_t MOST_CELLS = std::size_t{1} << 25;  // of all slices
 constexpr std::size_t MOST_CORNERS = 16000000;            // and as many faces
 constexpr int MOST_DEPTH = 256;                           // of nodes in nodes
 
-bool isUrl(const std::string& name) {
-  return name.find("://") != std::string::npos;
-}
-
-void checkSize(const std::string& name, std::size_t bytes) {
-  if (bytes > LARGEST_FILE)
-    throw InvalidInput(name + ": " + std::to_string(bytes) + " bytes, more than " +
-                       std::to_string(LARGEST_FILE));
-}
-
-std::size_t sizeOf(const std::string& name) {
-  std::error_code unknown;
-  const std::uintmax_t size = std::filesystem::file_size(name, unknown);
-  return unknown ? 0 : static_cast<std::size_t>(size);
-}
-
 std::string read(const std::string& name) {
-  const std::string url =
-      isUrl(name) ? name : "file://" + std::filesystem::absolute(name).lexically_normal().string();
-  checkSize(name, isUrl(name) ? 0 : sizeOf(name));
-  try {
-    const resource_retriever::MemoryResource resource = resource_retriever::Retriever().get(url);
-    checkSize(name, resource.size);
-    return {reinterpret_cast<const char*>(resource.data.get()), resource.size};
-  } catch (const resource_retriever::Exception& error) {
-    throw InvalidInput(name + ": cannot be read: " + error.what());
-  }
+  return readFile(resolveFile(name), LARGEST_FILE);
 }
 
 /// Collects the triangles of a scene, each where its node puts it.
@@ -138,6 +113,15 @@ void append(const terrain::GreyImage& image, const std::string& name, canopy::Sl
   ++out.slices;
 }
 
+void loadForm(const std::string& file, canopy::PlantKind& kind) {
+  const bool mesh = kind.shape == canopy::PlantShape::MESH;
+  auto form = std::make_shared<canopy::Form>(
+      mesh ? canopy::formOf(loadLeafMesh(file), kind.up == canopy::UpAxis::Y)
+           : canopy::formOf(loadSlices(file), kind.solid));
+  kind.radius = form->radius * kind.height;
+  kind.form = std::move(form);
+}
+
 }  // namespace
 
 canopy::LeafMesh loadLeafMesh(const std::string& name) {
@@ -176,13 +160,25 @@ void loadForms(canopy::Layout& layout, const std::string& folder, Faults& faults
   for (canopy::PlantKind& kind : layout.kinds) {
     if (!canopy::isRead(kind) || kind.file.empty()) continue;
     try {
-      if (!isUrl(kind.file)) kind.file = resolveFile(kind.file, folder);
-      const bool mesh = kind.shape == canopy::PlantShape::MESH;
-      auto form = std::make_shared<canopy::Form>(
-          mesh ? canopy::formOf(loadLeafMesh(kind.file), kind.up == canopy::UpAxis::Y)
-               : canopy::formOf(loadSlices(kind.file), kind.solid));
-      kind.radius = form->radius * kind.height;
-      kind.form = std::move(form);
+      if (!isPackageAddress(kind.file)) kind.file = resolveFile(kind.file, folder);
+      loadForm(kind.file, kind);
+    } catch (const InvalidInput& error) {
+      faults.add("kind " + kind.name + ": " + error.what());
+    }
+  }
+}
+
+void loadPublishedForms(canopy::Layout& layout, const std::vector<std::string>& folders,
+                        Faults& faults) {
+  for (canopy::PlantKind& kind : layout.kinds) {
+    if (!canopy::isRead(kind) || kind.file.empty()) continue;
+    try {
+      const std::string file = findPublishedFile(kind.file, folders);
+      try {
+        loadForm(file, kind);
+      } catch (const InvalidInput&) {  // its text may show what is in the file
+        throw InvalidInput("'" + kind.file + "' is no plant here");
+      }
     } catch (const InvalidInput& error) {
       faults.add("kind " + kind.name + ": " + error.what());
     }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "canopy/plants/mesh_leaves.h"
 #include "canopy/plants/slice_leaves.h"
@@ -10,8 +11,8 @@
 
 namespace vegetation_sim {
 
-/// The faces of any file that assimp reads, named as a path or as resource_retriever takes it
-/// (package://, file://, http://). @throws InvalidInput naming the file.
+/// The faces of any file that assimp reads, named as resolveFile() takes it. @throws InvalidInput
+/// naming the file.
 canopy::LeafMesh loadLeafMesh(const std::string& name);
 
 /// Grey pictures, the first of which is named; the others have the numbers after its own.
@@ -21,5 +22,9 @@ canopy::SliceStack loadSlices(const std::string& name);
 /// Reads what kinds of the shapes mesh and slices are made of. Files named without a folder are
 /// looked for in `folder`, and named in full then. Adds a fault for each that cannot be read.
 void loadForms(canopy::Layout& layout, const std::string& folder, Faults& faults);
+/// The same for a layout out of a message, whose files findPublishedFile() finds. Faults show
+/// nothing of the contents of a file.
+void loadPublishedForms(canopy::Layout& layout, const std::vector<std::string>& folders,
+                        Faults& faults);
 
 }  // namespace vegetation_sim

@@ -5,14 +5,16 @@
 #include <algorithm>
 #include <cstdint>
 #include <deque>
+#include <iterator>
 #include <utility>
 
 #include "vegetation_sim/core/math/time.h"
 
 namespace vegetation_sim {
 
-/// Messages that wait, in the order of their arrival, until a node that runs behind the clock
-/// reaches their stamps. The oldest is dropped and counted if too many wait.
+/// Messages that wait until a node that runs behind the clock reaches their stamps. Those that are
+/// due are taken in the order of their arrival; one of a far future does not hold back the others.
+/// The oldest is dropped and counted if too many wait.
 template <class Message>
 class DelayBuffer {
  public:
@@ -28,11 +30,12 @@ class DelayBuffer {
   /// Removes the messages up to `stamp`, in order, and calls `take(stamp, message)` for each.
   template <class Take>
   void take(Nanoseconds stamp, Take take) {
-    while (!waiting_.empty() && waiting_.front().first <= stamp) {
-      const auto due = std::move(waiting_.front());
-      waiting_.pop_front();
-      take(due.first, due.second);
-    }
+    const auto later = std::stable_partition(waiting_.begin(), waiting_.end(),
+                                             [&](const auto& one) { return one.first <= stamp; });
+    const std::deque<std::pair<Nanoseconds, Message>> due(std::make_move_iterator(waiting_.begin()),
+                                                          std::make_move_iterator(later));
+    waiting_.erase(waiting_.begin(), later);
+    for (const auto& one : due) take(one.first, one.second);
   }
   /// Drops the messages of later stamps, because time jumped back to `now`.
   void forgetLater(Nanoseconds now) {

@@ -91,4 +91,8 @@ std::string LandscapeReplica::why() const {
   return out;
 }
 
+std::string LandscapeReplica::rivals() const {
+  return forest_.rivals() + meadow_.rivals() + crowd_.rivals();
+}
+
 }  // namespace vegetation_sim

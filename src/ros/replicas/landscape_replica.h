@@ -35,6 +35,8 @@ class LandscapeReplica {
   std::uint64_t lost() const;
   /// Why states of forest and grass are ignored; empty if they are not, or if there are none.
   std::string why() const;
+  /// Topics that have several publishers; empty if there are none.
+  std::string rivals() const;
 
  private:
   std::shared_ptr<const terrain::HeightMap> ground() const;

@@ -51,6 +51,9 @@ class SubscribedCanopy : public SubscribedReplica<CanopyState> {
   int layouts() const { return layouts_; }
   int changes() const { return changes_; }
 
+  std::string rivals() const override {
+    return SubscribedReplica::rivals() + (forest_ ? forest_->rivals() : "");
+  }
   const InputStatus& layoutStatus() const { return layout_status_; }
   InputStatus stateStatus(Nanoseconds now) const {
     return unlessSilent(state_status_, stamp_, now);

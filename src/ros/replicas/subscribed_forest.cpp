@@ -22,7 +22,7 @@ void SubscribedForest::subscribe(ros::NodeHandle handle, const Topics& topics) {
 void SubscribedForest::setLayout(const ForestLayout& message) {
   receive("forest/layout", layout_status_, [&]() -> InputStatus {
     requireFrame(message.header.frame_id);
-    replica_.setLayout(fromMsg(message), loadTerrain(message.terrain));
+    replica_.setLayout(fromMsg(message), loadPublishedTerrain(message.terrain));
     frame_ = message.header.frame_id;
     ++layouts_;
     return {true, std::to_string(replica_.layout().treeCount()) + " trees of " +

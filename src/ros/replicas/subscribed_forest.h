@@ -36,6 +36,7 @@ class SubscribedForest : public SubscribedReplica<ForestState> {
   /// Number of accepted layouts.
   int layouts() const { return layouts_; }
   const InputStatus& layoutStatus() const { return layout_status_; }
+  std::string rivals() const override { return SubscribedReplica::rivals() + wind_.rivals(); }
   const InputStatus& windStatus() const { return wind_.status(); }
   InputStatus stateStatus(Nanoseconds now) const {
     return unlessSilent(state_status_, replica_.stamp(), now);

@@ -30,7 +30,7 @@ void SubscribedMeadow::setLayout(const GrassLayout& message) {
   receive("grass/layout", layout_status_, [&]() -> InputStatus {
     requireFrame(message.header.frame_id);
     grass::Layout layout = fromMsg(message);
-    auto terrain = loadTerrain(layout.terrain);
+    auto terrain = loadPublishedTerrain(layout.terrain);
     if (terrain->hash() != layout.terrain_hash)
       throw InvalidInput("layout: terrain = '" + layout.terrain +
                          "' has other heights here than where it was made");

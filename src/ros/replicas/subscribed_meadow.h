@@ -52,6 +52,7 @@ class SubscribedMeadow : public SubscribedReplica<GrassState> {
   std::set<std::pair<int, int>> takePressed() { return std::exchange(pressed_, {}); }
 
   const InputStatus& layoutStatus() const { return layout_status_; }
+  std::string rivals() const override { return SubscribedReplica::rivals() + wind_.rivals(); }
   const InputStatus& windStatus() const { return wind_.status(); }
   InputStatus stateStatus(Nanoseconds now) const {
     return unlessSilent(state_status_, replica_.stamp(), now);

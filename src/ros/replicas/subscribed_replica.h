@@ -13,6 +13,7 @@
 #include "ros/replicas/delay_buffer.h"
 #include "ros/replicas/input_status.h"
 #include "ros/services/requests.h"
+#include "ros/services/rivals.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
 
 namespace vegetation_sim {
@@ -49,6 +50,13 @@ class SubscribedReplica {
   std::uint64_t lost() const { return delayed_.lost(); }
   /// Frame of the newest layout, or of the newest state of an input without one.
   const std::string& frame() const { return frame_; }
+  /// Whether each topic has no more than its one owner.
+  InputStatus publishers() const {
+    const std::string rivals = this->rivals();
+    if (rivals.empty()) return {true, "One of each topic"};
+    return {false, rivals + ": the last message wins"};
+  }
+  virtual std::string rivals() const { return describeRivals(subscribers_); }
 
  protected:
   /// Calls `take`, which returns the new status of the input; what it throws rejects the message.

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/time/clock_watch.h"
 
+#include <algorithm>
+
 #include "vegetation_sim/ros/conversions/stamps.h"
 
 namespace vegetation_sim {
@@ -27,12 +29,12 @@ ClockWatch::ClockWatch(ros::NodeHandle nh, std::function<void(Nanoseconds)> begi
 }
 
 Nanoseconds ClockWatch::now() const {
-  return ros::Time::isSimTime() ? last_ : fromMsg(ros::Time::now());
+  const Nanoseconds newest = clock_times_.newest();
+  return ros::Time::isSimTime() ? newest : std::max(newest, fromMsg(ros::Time::now()));
 }
 
 void ClockWatch::see(Nanoseconds now) {
-  const bool begins = last_ == 0 && now > 0, back = now < last_;
-  last_ = now;
+  const bool begins = !running() && now > 0, back = clock_times_.jumpsBackTo(now);
   if (back) ++jumps_;
   if ((begins || back) && now > 0) begin_(now);
 }

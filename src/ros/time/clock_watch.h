@@ -7,13 +7,14 @@
 
 #include <functional>
 
+#include "ros/time/clock_jumps.h"
 #include "vegetation_sim/core/math/time.h"
 
 namespace vegetation_sim {
 
-/// ROS time for a node. It waits while time is zero and reports every jump back. With simulated
-/// time it follows the messages of /clock in the node's own callback queue, so that a callback
-/// never computes for a time that has not yet begun for the node.
+/// ROS time for a node. It waits while time is zero and reports every jump back (ClockJumps). With
+/// simulated time it follows the messages of /clock in the node's own callback queue, so that a
+/// callback never computes for a time that has not yet begun for the node.
 class ClockWatch {
  public:
   /// @param begin called with the first time and with any after a jump back; with wall time, by the
@@ -21,8 +22,9 @@ class ClockWatch {
   ClockWatch(ros::NodeHandle nh, std::function<void(Nanoseconds now)> begin);
 
   /// False until the first stamp that is not zero.
-  bool running() const { return last_ > 0; }
-  /// Returns the last stamp of /clock with simulated time, else the wall time.
+  bool running() const { return clock_times_.newest() > 0; }
+  /// Returns the newest stamp of /clock with simulated time, else the wall time. It does not go
+  /// back but by a jump.
   Nanoseconds now() const;
   int jumps() const { return jumps_; }
 
@@ -30,7 +32,7 @@ class ClockWatch {
   void see(Nanoseconds now);
 
   std::function<void(Nanoseconds)> begin_;
-  Nanoseconds last_{0};
+  ClockJumps clock_times_;
   int jumps_{0};
   ros::Subscriber clock_;
   ros::WallTimer poll_;

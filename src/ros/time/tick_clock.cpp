@@ -63,7 +63,7 @@ void TickClock::see(Nanoseconds clock) {
   const Nanoseconds now = clock - delay_;
   if (now <= 0) return;  // no clock yet
   const std::int64_t due = grid_.tickAt(now);
-  if (hasBegun() && due < last_) {
+  if (clock_times_.jumpsBackTo(clock) && hasBegun()) {
     ROS_WARN("%s: time went back; starting anew", name_.c_str());
     ++counts_.jumps;
     last_ = NEVER;
@@ -73,7 +73,7 @@ void TickClock::see(Nanoseconds clock) {
                            ? std::int64_t{1}
                            : static_cast<std::int64_t>(LONGEST_CATCH_UP * grid_.rate());
   if (hasBegun() && due - last_ > longest) drop(due);
-  if (hasBegun() && due == last_) return;
+  if (hasBegun() && due <= last_) return;
   if (calls_.before) calls_.before();
   for (std::int64_t tick = hasBegun() ? last_ + 1 : due; tick <= due; ++tick) run(tick);
 }

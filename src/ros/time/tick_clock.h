@@ -10,6 +10,7 @@
 #include <functional>
 #include <string>
 
+#include "ros/time/clock_jumps.h"
 #include "vegetation_sim/core/math/time.h"
 
 namespace vegetation_sim {
@@ -29,9 +30,10 @@ enum class LateTicks { EACH, NEWEST };
 
 /// Runs a node's ticks on an integer grid of ROS time. Late ticks are caught up one by one for up
 /// to LONGEST_CATCH_UP; after a larger leap the ticks between are dropped and counted. A jump back
-/// by a tick or more is a restart. With simulated time it follows every message of /clock in the
-/// queue of the node's other inputs. With LateTicks::NEWEST all late ticks but the newest are
-/// dropped and counted, and only the newest message of /clock is used.
+/// (ClockJumps) is a restart; no tick runs during a smaller step back. With simulated time it
+/// follows every message of /clock in the queue of the node's other inputs. With LateTicks::NEWEST
+/// all late ticks but the newest are dropped and counted, and only the newest message of /clock is
+/// used.
 class TickClock {
  public:
   /// @param name of the node, in its warnings. @param rate ticks per second [Hz].
@@ -79,6 +81,7 @@ class TickClock {
   Nanoseconds delay_;
   TickCalls calls_;
   LateTicks late_;
+  ClockJumps clock_times_;
   std::int64_t last_{NEVER};
   Counts counts_;
   double cost_{0.0};

@@ -80,6 +80,7 @@ view::CanopyReport CanopyDisplay::drawn() const {
 
 void CanopyDisplay::showInputs(view::StatusBoard& board, Nanoseconds now) const {
   board.show("Layout", source_->layoutStatus());
+  board.show("Publishers", source_->publishers());
   board.show("State", source_->stateStatus(now));
   if (const SubscribedForest* forest = source_->forest()) {
     board.show("Forest Layout", forest->layoutStatus());

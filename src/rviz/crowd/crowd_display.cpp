@@ -78,6 +78,7 @@ view::CrowdReport CrowdDisplay::drawn() const {
 
 void CrowdDisplay::showInputs(view::StatusBoard& board, Nanoseconds /*now*/) const {
   board.show("People", source_->status());
+  board.show("Publishers", source_->publishers());
 }
 
 InputStatus CrowdDisplay::describeDrawn() const {

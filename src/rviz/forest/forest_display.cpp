@@ -133,6 +133,7 @@ view::ForestReport ForestDisplay::drawn() const {
 
 void ForestDisplay::showInputs(view::StatusBoard& board, Nanoseconds now) const {
   board.show("Layout", source_->layoutStatus());
+  board.show("Publishers", source_->publishers());
   board.show("Wind", source_->windStatus());
   board.show("State", source_->stateStatus(now));
   if (forest_->treeSet() != nullptr)

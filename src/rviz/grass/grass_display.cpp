@@ -87,6 +87,7 @@ view::GrassReport GrassDisplay::drawn() const {
 
 void GrassDisplay::showInputs(view::StatusBoard& board, Nanoseconds now) const {
   board.show("Layout", source_->layoutStatus());
+  board.show("Publishers", source_->publishers());
   board.show("Wind", source_->windStatus());
   board.show("State", source_->stateStatus(now));
 }

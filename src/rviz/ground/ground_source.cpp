@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rviz/ground/ground_source.h"
 
+#include <exception>
+
 #include "ros/params/resources.h"
-#include "vegetation_sim/core/config/faults.h"
 
 namespace vegetation_sim::view {
 
@@ -24,9 +25,9 @@ void GroundSource::take(const std::string& frame, const std::string& terrain) {
   frame_ = frame;
   if (terrain == terrain_) return;
   try {
-    ground_ = loadTerrain(terrain);
+    ground_ = loadPublishedTerrain(terrain);
     terrain_ = terrain;
-  } catch (const InvalidInput& error) {
+  } catch (const std::exception& error) {
     ROS_WARN("The mouse meets the ground as it was before: %s", error.what());
   }
 }

@@ -18,8 +18,7 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr double STATUS_PERIOD = 0.5;                           // [s]
-constexpr Nanoseconds JUMP_BACK = NANOSECONDS_PER_SECOND / 10;  // smaller jumps are jitter
+constexpr double STATUS_PERIOD = 0.5;  // [s]
 
 }  // namespace
 
@@ -56,7 +55,7 @@ void SceneryDisplay::start() {
     return;
   }
   open_ = true;
-  last_stamp_ = 0;
+  clock_times_ = ClockJumps();
   updateSun();
   updateViewer();
 }
@@ -158,8 +157,13 @@ void SceneryDisplay::update(float wall_dt, float /*ros_dt*/) {
   since_update_ = 0.0;
   const auto stamp = static_cast<Nanoseconds>(context_->getFrameManager()->getTime().toNSec());
   watchTime(stamp);
-  keepScenery();
-  if (stamp > 0) drawAt(stamp);
+  try {
+    keepScenery();
+    if (stamp > 0) drawAt(stamp);
+    problem_.clear();
+  } catch (const std::exception& error) {  // it must not end rviz
+    problem_ = error.what();
+  }
   if (since_status_ < STATUS_PERIOD) return;
   since_status_ = 0.0;
   showStatus(stamp);
@@ -176,8 +180,7 @@ void SceneryDisplay::drawAt(Nanoseconds stamp) {
 
 void SceneryDisplay::watchTime(Nanoseconds stamp) {
   // The state may be ahead of the picture's clock by less than the jump, hence half of it.
-  if (stamp + JUMP_BACK < last_stamp_) forgetState(stamp + JUMP_BACK / 2);
-  last_stamp_ = stamp;
+  if (clock_times_.jumpsBackTo(stamp)) forgetState(stamp + ClockJumps::LARGEST_STEP / 2);
 }
 
 void SceneryDisplay::publishViewer() {
@@ -218,7 +221,8 @@ void SceneryDisplay::showStatus(Nanoseconds stamp) {
       others += (others.empty() ? "" : ", ") + std::string(name) + " by " +
                 ownership->giver().getNameStd();
   board_.show(rviz::StatusProperty::Ok, "Scenery", others.empty() ? "As set here" : others);
-  const InputStatus drawn = describeDrawn();
+  const InputStatus drawn =
+      problem_.empty() ? describeDrawn() : InputStatus{false, "Not drawn: " + problem_};
   ROS_DEBUG_STREAM(getNameStd() << ": " << drawn.text);
   board_.show("Drawn", drawn);
 }

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "ros/time/clock_jumps.h"
 #include "rviz/ground/sky_visual.h"
 #include "rviz/render/fog.h"
 #include "rviz/scenery/budget_status_source.h"
@@ -97,7 +98,8 @@ class SceneryDisplay : public rviz::Display {
   std::unique_ptr<view::ViewerPublisher> viewer_;
   std::unique_ptr<view::GovernorSource> governor_;
   view::StatusBoard board_;
-  Nanoseconds last_stamp_{0};
+  ClockJumps clock_times_;
+  std::string problem_;                                       // that ended the last update early
   double since_update_{0.0}, since_status_{1e9}, wall_{1.0};  // [s]
 };
 

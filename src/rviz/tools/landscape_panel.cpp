@@ -10,8 +10,9 @@
 #include <QSignalBlocker>
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <pluginlib/class_list_macros.hpp>
+
+#include "core/config/numbers.h"
 
 namespace vegetation_sim {
 namespace {
@@ -28,7 +29,7 @@ constexpr double DEGREE = 0.017453292519943295;
 double valueOf(const diagnostic_msgs::DiagnosticStatus& status, const std::string& key,
                double other) {
   for (const diagnostic_msgs::KeyValue& entry : status.values)
-    if (entry.key == key) return std::strtod(entry.value.c_str(), nullptr);
+    if (entry.key == key) return parseNumber(entry.value).value_or(other);
   return other;
 }
 

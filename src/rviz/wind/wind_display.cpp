@@ -91,6 +91,7 @@ void WindDisplay::makeGround(const Vec3& around) {
 
 void WindDisplay::showInputs(view::StatusBoard& board, Nanoseconds /*now*/) const {
   board.show("Wind", source_->status());
+  board.show("Publishers", source_->publishers());
 }
 
 InputStatus WindDisplay::describeDrawn() const {

@@ -44,6 +44,9 @@ LightGrid::LightGrid(const Vec3& low, const Vec3& high, double cell) : low_(low)
     throw std::invalid_argument("LightGrid: the box or the cell is empty");
   const double volume = extent.x() * extent.y() * extent.z();
   cell_ = std::max(cell_, cubeRoot(1.2 * volume / static_cast<double>(MOST_CELLS)));
+  // A thin box has more cells than its volume says.
+  const auto count = [&] { return ((extent / cell_).array().ceil() + 1.0).prod(); };
+  while (count() > static_cast<double>(MOST_CELLS)) cell_ *= 1.2;
   columns_ = cellsOf(extent.x(), cell_);
   rows_ = cellsOf(extent.y(), cell_);
   layers_ = cellsOf(extent.z(), cell_);

@@ -26,6 +26,7 @@ class LightGrid {
   double sun(const Vec3& point) const { return sample(sun_, point); }
   /// Returns the fraction of skylight at a point; 1 before cast().
   double sky(const Vec3& point) const { return sample(sky_, point); }
+  std::size_t cells() const { return leaf_.size(); }
 
   static constexpr std::size_t MOST_CELLS = 6000000;
 

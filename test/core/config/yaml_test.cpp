@@ -110,6 +110,22 @@ TEST(LoadYaml, NamesTheFileThatIsMissingOrNoYaml) {
   EXPECT_EQ(errorOf([] { parseYaml("a: [1, 2", "k.yaml"); }).rfind("k.yaml: not YAML: ", 0), 0u);
 }
 
+// A parsed value takes some hundred bytes, so few bytes of text can take much memory.
+TEST(ParseYaml, TextIsLimitedBeforeItIsParsed) {
+  EXPECT_EQ(errorOf([] { parseYaml(std::string((1u << 20) + 1, ' '), "rules"); }),
+            "rules: 1048577 bytes, more than the 1048576 allowed");
+  EXPECT_EQ(errorOf([&] { parseYaml(std::string(200001, '['), "rules"); }),
+            "rules: 200001 signs that separate values, more than the 200000 allowed");
+  EXPECT_EQ(errorOf([] { parseYaml("[1, 2]", "rules"); }), "");
+}
+
+TEST(ParseYaml, FaultsQuoteTheBeginningOfALongValue) {
+  Kite kite;
+  const std::string fault = read("height: " + std::string(100000, 'x'), kite);
+  EXPECT_LT(fault.size(), 200u);
+  EXPECT_NE(fault.find("height"), std::string::npos);
+}
+
 TEST(YamlFieldWriter, WritesWhatIsReadBackToTheBit) {
   Kite kite;
   kite.height = 1.0 / 3.0;

@@ -100,6 +100,22 @@ TEST_F(TreadTime, ResolvesASmallFoot) {
   EXPECT_EQ(map_.at({7.1, 10.0}, START).tilt, 0.f);
 }
 
+// The doses of a wide source take more than the ground that it presses.
+TEST_F(TreadTime, TheMemoryCapIncludesSources) {
+  TreadMap small = makeMap(0.05, 4e6);
+  TreadLaw wide = permanent();
+  wide.reach = 10.0;
+  for (std::uint32_t source = 1; source <= 100; ++source) {
+    small.tread(source, wide, {10.0, 10.0}, START);
+    ASSERT_LE(small.bytes(), 4000000u) << source;
+  }
+  EXPECT_GT(small.state().counts.no_memory, 90u);
+  for (std::uint32_t source = 1; source <= 100; ++source) small.lift(source);
+  const std::uint64_t left_out = small.state().counts.no_memory;
+  small.tread(1, permanent(), {10.0, 10.0}, START);
+  EXPECT_EQ(small.state().counts.no_memory, left_out);
+}
+
 TEST_F(TreadTime, CountsWhatTheMemoryCapLeavesOut) {
   TreadMap small = makeMap(0.05, 1e5);
   walk(small, permanent(), {1.0, 10.0}, {19.0, 10.0}, 400, START);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "scenes/grass/tread_simulation_fixture.h"
 
@@ -82,11 +83,12 @@ TEST_F(TreadUpdateTest, ImpossibleValuesAreRejected) {
   bad.blocks[0].nodes[0].press = 99;
   bad.blocks[0].nodes[1].tilt = std::nanf("");
   bad.blocks[0].nodes.pop_back();
+  bad.blocks[0].row = std::numeric_limits<int>::max();  // its nodes would have no whole numbers
   bad.presses[0].recovery = -1.f;
   Faults faults;
   check(bad, faults);
-  for (const char* part :
-       {"press = 99", "a tilt or direction is impossible", "nodes where", "recovery = -1 s"})
+  for (const char* part : {"press = 99", "a tilt or direction is impossible", "nodes where",
+                           "recovery = -1 s", "row and column are outside 0 to"})
     EXPECT_NE(faults.text().find(part), std::string::npos) << part << " in " << faults.text();
 }
 

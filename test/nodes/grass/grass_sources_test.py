@@ -111,6 +111,23 @@ class GrassSources(unittest.TestCase):
         self.assertAlmostEqual(self.last_wrench('base_link').force.x, -0.4 * 0.2 * 800.0 * 0.3 * 3.0,
                                delta=0.5)
 
+    # An orientation that is not normalised would stretch the offset of the source.
+    def test_odometry_without_a_unit_quaternion_is_refused_by_name(self):
+        message = Odometry(child_frame_id='base_link')
+        message.header.frame_id = 'map'
+        message.pose.pose.orientation.w = 8.0
+        message.pose.pose.position.x, message.pose.pose.position.y = 10.0, -12.0
+
+        def refused():
+            message.header.stamp = time_of(self.clock.tick + 1)
+            self.odom.publish(message)
+            self.grass.settle()
+            self.clock.run(1, self.grass)
+            return self.grass.diagnostics()['Inputs refused'] > before
+        before = self.grass.diagnostics()['Inputs refused']
+        wait_for(refused, 'a refusal')
+        self.assertEqual(self.grass.at(10.0, -12.0).tilt, 0.0)
+
     # N4: a source whose frame is silent is removed. When the frame returns, the source starts
     # there.
     def test_a_silent_frame_has_left(self):

@@ -111,10 +111,16 @@ class WindClock(unittest.TestCase):
         wait_for(lambda: self.topic.message.hash == after, 'the new field on the topic')
         self.assertEqual(after, self.hash_of_a_fresh_node(back))
 
-    def test_7_so_is_back_by_a_nanosecond(self):
+    def test_7_so_is_back_by_a_tenth_of_a_second_but_no_smaller_step(self):
         self.clock.run(1.0)
         now = self.clock.now
-        self.start_at(now - rospy.Duration(0, 1))
+        before = [b.get().field for b in self.both]
+        self.clock.set(now - rospy.Duration(0, 100000000))
+        self.clock.set(now + rospy.Duration(0, 1))
+        for broadcaster, field in zip(self.both, before):
+            broadcaster.now_is(now + rospy.Duration(0, 1))
+            self.assertEqual(broadcaster.get().field.hash, field.hash)
+        self.start_at(now - rospy.Duration(0, 100000000))
 
     def test_8_blows_where_a_frame_goes_until_it_is_lost(self):
         tf = rospy.Publisher('/tf', TFMessage, queue_size=100)
@@ -135,6 +141,13 @@ class WindClock(unittest.TestCase):
 
         self.clock.run(8.0)
         wait_for(lambda: self.downwash_after(0.5, tf) > 12.0, 'the wind to come back')
+
+    # No stamp after this one fits a message.
+    def test_9_lives_on_at_the_end_of_time(self):
+        self.clock.set(rospy.Time(4294967295, 900000000))
+        self.clock.set(START)
+        for broadcaster in self.both:
+            self.assertEqual(broadcaster.field_from(START).header.frame_id, 'map')
 
     def hash_of_a_fresh_node(self, stamp):
         executable = roslib.packages.find_node('vegetation_sim', 'wind_broadcaster')[0]

@@ -32,7 +32,7 @@ TEST(CrowdConversions, RejectInvalidWalkers) {
       {"height = 9 m is outside 0.1 to 5 m", [](AgentState& a) { a.height = 9.0; }},
       {"gait", [](AgentState& a) { a.gait = NONE; }},
       {"velocity", [](AgentState& a) { a.velocity.x = 1e9; }},
-      {"orientation.w = 2", [](AgentState& a) { a.pose.orientation.w = 2.0; }},
+      {"orientation, its norm, = 2", [](AgentState& a) { a.pose.orientation.w = 2.0; }},
       {"feet", [](AgentState& a) { a.feet[1].z = NONE; }},
       {"feet_lag", [](AgentState& a) { a.feet_lag[0].x = -NONE; }}};
   AgentStates message;

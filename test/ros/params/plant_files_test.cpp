@@ -86,7 +86,7 @@ TEST_F(PlantFiles, AreRejectedWithTheNameOfTheFile) {
   EXPECT_NE(text((folder_ / "none.obj").string()).find("none.obj: cannot be read"),
             std::string::npos);
   EXPECT_NE(text("package://vegetation_sim/none.obj").find("cannot be read"), std::string::npos);
-  EXPECT_NE(text("package://no_such_package/none.obj").find("cannot be read"), std::string::npos);
+  EXPECT_NE(text("package://no_such_package/none.obj").find("not known"), std::string::npos);
   EXPECT_FALSE(text(write("empty.obj", "")).empty());
   EXPECT_FALSE(text(write("points.obj", "v 0 0 0\nv 0 0 1\n")).empty());
   EXPECT_FALSE(text(write("odd.obj", "v nan 0 0\nv 0 nan 1\nv 1 1 1\nf 1 2 3\n")).empty());
@@ -99,7 +99,8 @@ TEST_F(PlantFiles, AreRefusedIfTheyAreTooLarge) {
   const std::string name = write("huge.obj", "");
   std::filesystem::resize_file(name, (std::uintmax_t{512} << 20) + 1);  // The file is sparse.
   const std::string text = errorOf([&] { loadLeafMesh(name); });
-  EXPECT_NE(text.find("huge.obj: 536870913 bytes, more than 536870912"), std::string::npos) << text;
+  EXPECT_NE(text.find("huge.obj: 536870913 bytes, more than the 536870912"), std::string::npos)
+      << text;
 }
 
 // A layout with a mesh survives the conversion to a message, and a changed file is detected.
@@ -115,12 +116,15 @@ TEST_F(PlantFiles, GoThroughTheLayoutsMessage) {
   ASSERT_TRUE(faults.empty());
   EXPECT_EQ(layout.leafCount(), 3U);
   const CanopyLayout message = toMsg(layout);
-  EXPECT_EQ(fromMsg(message).leafCount(), 3U);
+  EXPECT_NE(errorOf([&] { fromMsg(message); }).find("resource_folders"), std::string::npos);
+  const std::vector<std::string> folders{folder_.string()};
+  EXPECT_EQ(fromMsg(message, folders).leafCount(), 3U);
   std::string other = SHRUB;
   write("shrub.obj", other.replace(0, 7, "v 0 0.3 1"));
-  EXPECT_NE(errorOf([&] { fromMsg(message); }).find("hash"), std::string::npos);
+  EXPECT_NE(errorOf([&] { fromMsg(message, folders); }).find("hash"), std::string::npos);
   std::filesystem::remove(folder_ / "shrub.obj");
-  EXPECT_NE(errorOf([&] { fromMsg(message); }).find("cannot be read"), std::string::npos);
+  EXPECT_NE(errorOf([&] { fromMsg(message, folders); }).find("is no plant here"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -80,20 +80,32 @@ TEST_F(TickClockTest, ALatestOnlyClockDropsAndCountsEarlierTicks) {
 TEST_F(TickClockTest, AJumpBackIsAFreshStart) {
   TickClock clock = make();
   clock.see(5 * SECOND);
-  clock.see(5 * SECOND - 1);
-  EXPECT_EQ(did_, (Did{"before", "50", "back to 4", "before", "49"}));
+  clock.see(5 * SECOND - ClockJumps::LARGEST_STEP - 1);
+  EXPECT_EQ(did_, (Did{"before", "50", "back to 4", "before", "48"}));
   EXPECT_EQ(clock.counts().jumps, 1u);
   EXPECT_EQ(clock.counts().dropped, 0u);
   clock.see(5 * SECOND);
   EXPECT_EQ(did_.back(), "50");
 }
 
-TEST_F(TickClockTest, AJumpBackWithinATickHasNoEffect) {
+// A step of time synchronisation does not end what people have built.
+TEST_F(TickClockTest, NoTickRunsUntilASmallStepBackIsMadeUp) {
   TickClock clock = make();
-  clock.see(5 * SECOND + SECOND / 20);
   clock.see(5 * SECOND);
+  clock.see(5 * SECOND - ClockJumps::LARGEST_STEP);
+  clock.see(5 * SECOND - 1);
   EXPECT_EQ(did_, (Did{"before", "50"}));
+  clock.see(5 * SECOND + SECOND / 10);
+  EXPECT_EQ(did_, (Did{"before", "50", "before", "51"}));
   EXPECT_EQ(clock.counts().jumps, 0u);
+  EXPECT_EQ(clock.counts().dropped, 0u);
+}
+
+// Steps add up to a jump: they are measured from the newest time.
+TEST_F(TickClockTest, AClockThatRunsBackwardsIsAJump) {
+  TickClock clock = make();
+  for (int i = 0; i < 4; ++i) clock.see(5 * SECOND - i * SECOND / 25);
+  EXPECT_EQ(clock.counts().jumps, 1u);
 }
 
 TEST_F(TickClockTest, ADelayedClockStaysBehind) {

@@ -75,6 +75,13 @@ TEST(LightGrid, LargeScenesGetLargerCells) {
   EXPECT_NEAR(grid.sun(Vec3(10000, 10000, 10)), 1.0, 1e-5);
 }
 
+// Trees of a message may stand anywhere, for example all on one line.
+TEST(LightGrid, HasNoMoreCellsThanAllowed) {
+  for (const Vec3& extent : {Vec3(2e7, 0.5, 0.5), Vec3(2e7, 2e7, 0.1), Vec3(2e7, 2e7, 1e5),
+                             Vec3(300, 300, 40), Vec3(1e-3, 1e-3, 1e7)})
+    EXPECT_LE(LightGrid(Vec3(0, 0, 0), extent, 0.8).cells(), LightGrid::MOST_CELLS) << extent;
+}
+
 TEST(LightGrid, RefusesAnEmptyBox) {
   EXPECT_THROW(LightGrid(Vec3(0, 0, 0), Vec3(0, 1, 1), 1.0), std::invalid_argument);
   EXPECT_THROW(LightGrid(Vec3(0, 0, 0), Vec3(1, 1, 1), 0.0), std::invalid_argument);

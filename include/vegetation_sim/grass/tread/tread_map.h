@@ -18,7 +18,7 @@ namespace vegetation_sim::grass {
 struct TreadSettings {
   /// wanted spacing of the fine nodes; rounded so that it divides a tile [m]
   double spacing{0.05};
-  double memory_cap{128e6};    ///< limit for trodden ground [bytes]
+  double memory_cap{128e6};    ///< limit for trodden ground and the doses of sources [bytes]
   double longest_stroke{5.0};  ///< A longer step is a jump, which leaves no track [m].
   double top_speed{40.0};      ///< A faster step is a jump, too [m/s].
 };
@@ -138,7 +138,8 @@ class TreadMap {
 
   /// Moves a source, or puts it down, and presses the segment from its last position to `position`
   /// [m]. A position that is not finite, a jump or a stamp before the last one leaves no track and
-  /// is counted. Requires a checked law. @return number of nodes within reach.
+  /// is counted, as does a source for whose doses there is no memory. Requires a checked law.
+  /// @return number of nodes within reach.
   int tread(std::uint32_t source, const TreadLaw& law, const Point& position, Nanoseconds stamp);
   /// Takes the source off the ground; its next tread() begins a new track.
   void lift(std::uint32_t source);
@@ -169,7 +170,9 @@ class TreadMap {
   TreadBlock* blockAt(int row, int column, bool make);
   TreadSource* sourceOf(std::uint32_t id);
   bool isJump(const TreadSource& from, const Point& to, Nanoseconds stamp) const;
+  bool hasRoom(std::size_t more) const;
   bool moveWindow(TreadSource& source, double reach);
+  void resizeDoses(TreadSource& source, std::size_t count);
   TreadGrid grid() const;
   Box boxOf(const Point& low, const Point& high, double reach) const;
   double fullDose(const TreadLaw& law);
@@ -184,6 +187,7 @@ class TreadMap {
   int cells_;  ///< fine cells along a tile
   double spacing_, per_spacing_;
   TreadState state_;
+  std::size_t doses_count_{0};  ///< of all sources
   RecentTable<RecentBlock, 16> recent_blocks_;
   RecentTable<RecentSource, 12> recent_sources_;
   TreadSource before_;         ///< scratch: the window before the step

@@ -5,14 +5,19 @@
 #include <vegetation_sim/CanopyLayout.h>
 #include <vegetation_sim/CanopyState.h>
 
+#include <string>
+#include <vector>
+
 #include "vegetation_sim/canopy/canopy.h"
 
 namespace vegetation_sim {
 
 /// The header is left to the sender.
 CanopyLayout toMsg(const canopy::Layout& layout);
-/// @throws InvalidInput with all faults: a law that does not parse, numbers out of range, and if
-/// the hash is another than the sender's.
+/// @param folders whose files the message may name, besides those of packages; without it they are
+/// those of the parameter resource_folders. @throws InvalidInput with all faults: a law that does
+/// not parse, numbers out of range, files elsewhere, and if the hash is another than the sender's.
+canopy::Layout fromMsg(const CanopyLayout& message, const std::vector<std::string>& folders);
 canopy::Layout fromMsg(const CanopyLayout& message);
 
 /// The header's frame is left to the sender.

@@ -19,7 +19,7 @@ from waiting import wait_for
 SPEED = 0.3  # [m/s]
 RADIUS = 0.06
 ALONG = 0.3  # [m]
-MOST_WAITING = 10000  # limit of the waiting requests
+MOST_AHEAD = 5000  # limit of the requests that wait for later stamps
 TRUNK = 0
 OVERLAP, OVERLAP_AT = 'Deepest overlap with a body [m]', 'Deepest overlap, where'
 
@@ -119,12 +119,14 @@ class Bodies(unittest.TestCase):
                                          persistent=True)
         push = Vector3Stamped(vector=Vector3(1.0, 0.0, 0.0))
 
-        def ask():
+        def ask(ahead=50 * RATE):
+            stamp = time_of(self.clock.tick + ahead) if ahead else rospy.Time()
             return apply_force(tree=TREE, branch=LIMB, along=0.1, force=push, duration=0.1,
-                               stamp=time_of(self.clock.tick + 50 * RATE))
-        for _ in range(MOST_WAITING):
+                               stamp=stamp)
+        for _ in range(MOST_AHEAD):
             self.assertTrue(ask().success)
-        self.assertIn('10000 inputs wait for the next tick already', ask().message)
+        self.assertIn('too many inputs wait already', ask().message)
+        self.assertTrue(ask(0).success, 'a request for the next tick')
         bodies = self.kinds().count(ForestEvent.BODY)
 
         def reported():

@@ -94,6 +94,12 @@ class GrabManagerRig {
     grabs_manager_.update();
   }
   std::vector<geometry_msgs::WrenchStamped> wrenches() const { return grabs_manager_.wrenches(); }
+  std::string releaseAll() {
+    Release::Request request;
+    request.all = true;
+    return grabs_manager_.release(request);
+  }
+  ForestInputs& inputs() { return inputs_; }
 
  private:
   std::int64_t tick_{6000};
@@ -199,6 +205,27 @@ TEST(GrabManager, BodyGetsItsWrenchInItsFrameOfTheTick) {
     }
   }
   EXPECT_GT(published, 5);
+}
+
+// A rejected request changes nothing.
+TEST(GrabManager, AllGrabsAreReleasedOrNone) {
+  GrabManagerRig rig;
+  Grab::Request request;
+  request.tree = 0;
+  request.branch = 46;
+  request.lease = 60.0;
+  for (int i = 0; i < 3; ++i) rig.grab(request);
+  rig.tick();
+  ASSERT_EQ(rig.forest().grabs().size(), 3u);
+  rig.grab(request);  // waits for its tick
+  ForestInput force;
+  force.kind = ForestInput::FORCE;
+  while (rig.inputs().room() > 2) rig.inputs().add(force);
+  EXPECT_THROW(rig.releaseAll(), InvalidInput);
+  EXPECT_EQ(rig.inputs().room(), 2u);
+  rig.tick();
+  EXPECT_EQ(rig.forest().grabs().size(), 4u);
+  EXPECT_EQ(rig.releaseAll(), "4 released");
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ TEST(ForestInputs, AcceptTheNodesOwnEventsInAFlood) {
   ForestInput force;
   force.kind = ForestInput::FORCE;
   force.stamp = 100 * TICK;
-  for (std::size_t i = 0; i < ForestInputs::MOST_WAITING; ++i) EXPECT_TRUE(inputs.add(force));
+  for (std::size_t i = 0; i < ForestInputs::MOST_AHEAD; ++i) EXPECT_TRUE(inputs.add(force));
   EXPECT_FALSE(inputs.add(force));
   ForestInput body;
   body.kind = ForestInput::BODY;

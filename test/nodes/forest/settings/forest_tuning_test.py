@@ -10,6 +10,7 @@ import rostest
 import yaml
 from dynamic_reconfigure.client import Client
 from vegetation_sim.msg import ForestEvent
+from vegetation_sim.srv import Grab
 
 from forest_rig import RATE, Animator, TickClock, time_of
 
@@ -61,6 +62,18 @@ class ForestTuning(unittest.TestCase):
 
     def rules(self):
         return yaml.safe_load(self.newest_layout().species[0].rules)
+
+    # Trees of another design have other branches, so nothing can stay held.
+    def test_a_design_that_ends_grabs_says_so(self):
+        grab = rospy.ServiceProxy('/forest_animator/grab', Grab)
+        answer = grab(tree=OAK, branch=1, along=0.1, lease=60.0)
+        self.assertTrue(answer.success, answer.message)
+        self.clock.run(1, self.forest)
+        before = self.forest.diagnostics()['Grabs ended by a new design']
+        self.tune(children=0.5)
+        diagnostics = self.forest.diagnostics()
+        self.assertEqual(diagnostics['Grabs'], 0)
+        self.assertEqual(diagnostics['Grabs ended by a new design'], before + 1)
 
     # S1-10: each parameter has the documented effect.
     def test_size_scales_the_trees(self):

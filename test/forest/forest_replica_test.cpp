@@ -1,0 +1,55 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vegetation_sim/forest/forest_replica.h"
+
+#include <gtest/gtest.h>
+
+#include "core/error_text.h"
+#include "scenes/forest/forest_fixture.h"
+
+namespace vegetation_sim::forest {
+namespace {
+
+constexpr Nanoseconds START = 1700000000LL * NANOSECONDS_PER_SECOND;
+
+// Returns a key frame in which a branch of tree 0 is physical.
+StateUpdate withPhysicalBranch(const ForestReplica& replica, int branch) {
+  StateUpdate update;
+  update.layout_hash = replica.layoutHash();
+  update.stamp = START;
+  update.trees = {{0, LevelState(), {{branch, {0.1, 0.1}, {}, NEVER}}, {}}};
+  return update;
+}
+
+// A physical branch has no meaning in another layout, whose trees may have fewer branches.
+TEST(ForestReplica, DropsPhysicalBranchesWhenTheLayoutChanges) {
+  ForestReplica replica;
+  replica.setLayout(gridLayout(4, 10.0), flatTerrain());
+  const int last = static_cast<int>(replica.grow(0).skeleton.branches.size()) - 1;
+  ASSERT_TRUE(replica.apply(withPhysicalBranch(replica, last))) << replica.why();
+  ASSERT_EQ(replica.promoted(0).branches.size(), 1u);
+  Layout bare = replica.layout();
+  for (Species& species : bare.species) species.limbs.resize(1);
+  replica.setLayout(bare, flatTerrain());
+  EXPECT_TRUE(replica.promoted(0).branches.empty());
+  const Tree tree = replica.grow(0);
+  ASSERT_LT(tree.skeleton.branches.size(), static_cast<std::size_t>(last));
+  EXPECT_EQ(replica.pose(tree, 0, START).size(), tree.skeleton.branches.size());
+}
+
+TEST(ForestReplica, RejectsAStateThatDoesNotFitItsLayout) {
+  ForestReplica replica;
+  replica.setLayout(gridLayout(4, 10.0), flatTerrain());
+  const int count = static_cast<int>(replica.grow(0).skeleton.branches.size());
+  EXPECT_EQ(errorOf([&] { replica.apply(withPhysicalBranch(replica, count)); }),
+            "state: tree 0: branch " + std::to_string(count) + " is not below its " +
+                std::to_string(count) + " branches");
+  StateUpdate stranger = withPhysicalBranch(replica, 0);
+  stranger.trees[0].tree = 16;
+  EXPECT_EQ(errorOf([&] { replica.apply(stranger); }),
+            "state: tree 16 is not below the 16 trees of the layout");
+  EXPECT_TRUE(replica.physicalTrees().empty());
+}
+
+}  // namespace
+}  // namespace vegetation_sim::forest
