@@ -1,6 +1,7 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "forest/pick.h"
+#include "forest/trees_around.h"
 #include "nodes/forest/forest_animator.h"
 #include "vegetation_sim/ros/conversions/forest_conversions.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
@@ -9,6 +10,7 @@ namespace vegetation_sim {
 namespace {
 
 constexpr double SHORTEST_DIRECTION = 1e-9;
+constexpr int LARGEST_PAGE = 100;  // trees; each of them is grown for its height
 
 forest::Ray checkedRay(const Pick::Request& request) {
   const auto& o = request.origin;
@@ -57,6 +59,44 @@ bool ForestAnimator::onGetTree(GetTree::Request& request, GetTree::Response& res
     response.transforms.header.stamp = toStamp(stamp);
     response.transforms.header.frame_id = options_.frame_id;
     return std::to_string(skeleton.branches.size()) + " branches";
+  });
+}
+
+FoundTree ForestAnimator::foundTree(std::uint32_t id) {
+  const auto grown = cache_.get(forest_->layout(), forest_->terrain(), id);
+  FoundTree out;
+  out.id = id;
+  out.position = toPoint(grown->tree.foot);
+  out.height = grown->tree.skeleton.height;
+  out.species = forest_->layout().species[grown->tree.seed.species].name;
+  return out;
+}
+
+bool ForestAnimator::onFindTrees(FindTrees::Request& request, FindTrees::Response& response) {
+  return answer(response, [&] {
+    Vec3 centre = fromMsg(request.centre.point);
+    int limit = static_cast<int>(std::min(request.limit, std::uint32_t{INT32_MAX}));
+    Faults faults;
+    FieldChecker checker("", faults);
+    checker.integer("limit", limit, "", {1, LARGEST_PAGE});
+    if (!request.all) {
+      checker.vector("centre", centre, "m", {-1e7, 1e7});
+      checker.number("radius", request.radius, "m", {0.0, 1e7});
+    }
+    faults.throwIfAny();
+    std::vector<std::uint32_t> around;
+    response.total = forest_->layout().treeCount();
+    if (!request.all) {
+      const auto& header = request.centre.header;
+      centre = transformed(poseOf(header.frame_id, header.stamp), centre);
+      around = forest::treesAround(forest_->layout(), centre, request.radius);
+      response.total = static_cast<std::uint32_t>(around.size());
+    }
+    const std::uint64_t end = std::uint64_t{request.offset} + request.limit;
+    for (std::uint32_t i = request.offset; i < std::min<std::uint64_t>(end, response.total); ++i)
+      response.trees.push_back(foundTree(request.all ? i : around[i]));
+    return std::to_string(response.trees.size()) + " of " + std::to_string(response.total) +
+           " trees";
   });
 }
 

@@ -162,7 +162,7 @@ std::string GrabManager::grab(const Grab::Request& request, Grab::Response& resp
     throw InvalidInput("grabs = " + std::to_string(requests_.size() + 1) + " is outside 0 to " +
                        std::to_string(MOST_GRABS));
   const Place place = choose(request);
-  Request accepted{request.keep_offset != 0, event.stamp, ros::Time()};
+  Request accepted{request.keep_offset != 0, event.stamp, ros::Time(), false};
   forest::Grab& grab = event.grab;
   grab.id = last_id_ + 1;
   grab.point = place.at;
@@ -249,6 +249,7 @@ std::string GrabManager::release(const Release::Request& request) {
     const bool never_begins = !isInForce(id) && (event.stamp == 0 || event.stamp <= held.begins);
     if (never_begins) {
       node_.inputs.forgetGrab(id);
+      history_.addUnheld(id, GrabStatus::RELEASED, node_.forest.snapshot().stamp);
       requests_.erase(id);
     } else {
       event.grab.id = id;
