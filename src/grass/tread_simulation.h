@@ -74,8 +74,10 @@ class TreadSimulation {
   /// Applies a checked input. @return a description of a problem of the step, such as a jump that
   /// left no track; empty if there is none. @throws InvalidInput if there are too many sources.
   std::string apply(const TreadInput& input, Nanoseconds stamp);
-  /// Raises the grass within a disc; with radius 0 everywhere, and sources begin new passes.
+  /// Raises the grass within a disc.
   void raise(const Point& centre, double radius);
+  /// Raises the grass everywhere; sources begin new passes.
+  void raiseAll();
   /// Ends a tick: removes silent sources, presses again below standing ones, frees what has
   /// recovered. @return the tiles that sources entered since the last call, in order.
   std::vector<Entering> advance(Nanoseconds stamp);

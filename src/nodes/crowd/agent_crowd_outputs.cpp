@@ -53,6 +53,7 @@ void AgentCrowd::treadOfBody(const crowd::Walker& walker, Nanoseconds stamp) {
   event.action = last.seen ? TreadEvent::MOVE : TreadEvent::PLACE;
   const crowd::Point& p = walker.position;
   event.position = toPoint(Vec3(p.x, p.y, crowd_.terrain().height(p.x, p.y)));
+  event.has_velocity = event.law.has_radius = true;
   event.velocity = toVector(Vec3(walker.velocity.x, walker.velocity.y, 0.0));
   event.law.radius = options_.tread_radius > 0.0 ? options_.tread_radius : BODY_RADIUS;
   last.place = p;
@@ -83,6 +84,7 @@ void AgentCrowd::treadOfFeet(const crowd::Walker& walker, Nanoseconds stamp) {
     event.action = TreadEvent::STROKE;
     event.start = onGround(heel);
     event.position = onGround(foot.planted);
+    event.law.has_radius = true;
     event.law.radius = options_.tread_radius > 0.0 ? options_.tread_radius : FOOT_RADIUS;
     ++treads_;
     tread_publisher_.publish(event);

@@ -18,10 +18,10 @@ const PosedTrees::Posed& PosedTrees::of(std::uint32_t tree) {
   return posed_[tree] = {grown, posesOf(forest_, grown->tree, tree, stamp_)};
 }
 
-void BranchFrames::set(std::uint32_t tree, std::vector<std::uint32_t> branches, std::size_t count,
-                       bool enable) {
+void BranchFrames::set(std::uint32_t tree, const std::vector<std::uint32_t>& branches,
+                       std::size_t count, bool enable) {
   if (branches.empty())
-    for (std::uint32_t i = 0; i < count; ++i) branches.push_back(i);
+    throw InvalidInput("branches has 0 entries; all = true stands for every branch");
   for (const std::uint32_t branch : branches)
     if (branch >= count)
       throw InvalidInput("branch = " + std::to_string(branch) + " is unknown; tree " +

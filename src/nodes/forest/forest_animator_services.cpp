@@ -1,5 +1,7 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include <numeric>
+
 #include "forest/pick.h"
 #include "forest/trees_around.h"
 #include "nodes/forest/forest_animator.h"
@@ -134,8 +136,12 @@ bool ForestAnimator::onPick(Pick::Request& request, Pick::Response& response) {
 bool ForestAnimator::onSetTf(SetTf::Request& request, SetTf::Response& response) {
   answer(response, [&] {
     const auto grown = cache_.get(forest_->layout(), forest_->terrain(), request.tree);
-    frames_.set(request.tree, request.branches, grown->tree.skeleton.branches.size(),
-                request.enable);
+    const std::size_t count = grown->tree.skeleton.branches.size();
+    if (request.all) {
+      request.branches.resize(count);
+      std::iota(request.branches.begin(), request.branches.end(), 0U);
+    }
+    frames_.set(request.tree, request.branches, count, request.enable);
     return std::to_string(frames_.count()) + " frames";
   });
   response.frames = static_cast<std::uint32_t>(frames_.count());

@@ -71,7 +71,10 @@ void GrassField::apply(GrassEvent& event) {
       break;
     }
     case GrassEvent::CLEAR:
-      field_->raise({event.centre.x, event.centre.y}, event.radius);
+      if (event.all)
+        field_->raiseAll();
+      else
+        field_->raise({event.centre.x, event.centre.y}, event.radius);
       key_frames_.demand();
       break;
     case GrassEvent::SETTINGS:

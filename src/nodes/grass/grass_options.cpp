@@ -19,6 +19,19 @@ constexpr double MOST_COVER_CELLS = 16e6;
 constexpr int POINTS_PER_BLADE = 27;     // of 9 triangles
 constexpr double LEAST_BLADES = 1000.0;  // that a meadow can aim at
 
+// A key that is there is the source's own value, even if it is 0.
+TreadLaw readLaw(YamlSection& section) {
+  grass::TreadLaw law{0.0, 0.0, 0.0, 0.0, 0.0};
+  describe(section, law);
+  TreadLaw out = toMsg(law);
+  out.has_radius = section.has("radius");
+  out.has_reach = section.has("reach");
+  out.has_softness = section.has("softness");
+  out.has_load = section.has("load");
+  out.has_recovery = section.has("recovery");
+  return out;
+}
+
 FollowedSource readSource(YamlSection& section) {
   FollowedSource out;
   section.text("frame", out.frame);
@@ -29,9 +42,10 @@ FollowedSource readSource(YamlSection& section) {
   if (!out.frame.empty() && out.frame[0] == '/')
     section.fault("frame", "= '" + out.frame + "' begins with '/'");
   section.vector("offset", out.offset, "m", {-100.0, 100.0});
-  section.number("height_gate", out.height_gate, "m", {0.0, 1000.0});
-  out.law = {0.0, 0.0, 0.0, 0.0, 0.0};  // the node's
-  describe(section, out.law);
+  double height_gate = 0.0;
+  section.number("height_gate", height_gate, "m", {0.0, 1000.0});
+  if (section.has("height_gate")) out.height_gate = height_gate;
+  out.law = readLaw(section);
   section.finish();
   return out;
 }
@@ -63,11 +77,14 @@ void readScene(GrassOptions& options, Faults& faults) {
   }
 }
 
-// Zeros of a source stand for the tuning of the node.
+// Values that a source does not give are those of the node.
 void checkSources(const GrassOptions& options, Parameters& parameters) {
-  for (const FollowedSource& source : options.sources)
-    grass::check(fromMsg(toMsg(source.law), options.tuning.tread),
-                 "source '" + source.name + "': ", parameters.faults());
+  for (const FollowedSource& source : options.sources) {
+    const std::string context = "source '" + source.name + "': ";
+    const grass::TreadLaw law =
+        fromMsg(source.law, options.tuning.tread, context, parameters.faults());
+    grass::check(law, context, parameters.faults());
+  }
 }
 
 void checkCover(const GrassOptions& options, Parameters& parameters) {

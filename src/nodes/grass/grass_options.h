@@ -4,8 +4,10 @@
 
 #include <ros/node_handle.h>
 #include <vegetation_sim/GrassFieldConfig.h>
+#include <vegetation_sim/TreadLaw.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,11 +34,11 @@ void toConfig(const GrassTuning& tuning, GrassFieldConfig& config);
 /// A source that the node finds by itself (N4).
 struct FollowedSource {
   std::string name;
-  std::string frame;          ///< tf frame; empty: `odometry` is used
-  std::string odometry;       ///< topic of nav_msgs/Odometry
-  Vec3 offset{Vec3::Zero()};  ///< in the frame, or in the odometry's child frame [m]
-  double height_gate{0.0};    ///< 0: the node's [m]
-  grass::TreadLaw law;        ///< zeros: the node's
+  std::string frame;                  ///< tf frame; empty: `odometry` is used
+  std::string odometry;               ///< topic of nav_msgs/Odometry
+  Vec3 offset{Vec3::Zero()};          ///< in the frame, or in the odometry's child frame [m]
+  std::optional<double> height_gate;  ///< none: the node's [m]
+  TreadLaw law;                       ///< numbers without their flags are the node's
 };
 constexpr std::size_t MOST_FOLLOWED_SOURCES = 256;
 

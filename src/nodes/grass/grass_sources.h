@@ -28,7 +28,8 @@ class GrassSources {
                const tf2_ros::Buffer& buffer);
 
   /// Returns the treads of each source since the last call: it moved, left, or is repeated at rest.
-  /// Positions are in the world frame; `own` and `height_gate` replace zeros.
+  /// Positions are in the world frame; `own` and `height_gate` are for sources
+  /// without values of their own.
   std::vector<grass::TreadInput> update(Nanoseconds now, const grass::TreadLaw& own,
                                         double height_gate);
   /// Frames and topics without recent data at the last update.
@@ -39,7 +40,8 @@ class GrassSources {
  private:
   struct ObservedSource {
     Nanoseconds stamp{0};
-    Vec3 position{Vec3::Zero()}, velocity{Vec3::Zero()};
+    Vec3 position{Vec3::Zero()};
+    std::optional<Vec3> velocity;
   };
   struct Followed {
     FollowedSource source;

@@ -60,7 +60,7 @@ bool WindBroadcaster::setPrimitive(SetWindPrimitive::Request& request,
 bool WindBroadcaster::removePrimitive(RemoveWindPrimitive::Request& request,
                                       RemoveWindPrimitive::Response& response) {
   return reply("remove_primitive", response, [&] {
-    if (!request.name.empty()) {
+    if (!request.all) {
       remove(request.name);
     } else {
       for (const std::string& name : schedule_.names(earliest())) remove(name);

@@ -81,7 +81,7 @@ class GrassSources(unittest.TestCase):
     # is zero above the gate.
     def test_drag_on_a_wheel(self):
         def pull(x, speed, yaw=0.0, z=0.1):
-            self.grass.clear()
+            self.grass.clear(all=True)
             self.fly(RATE // 2, lambda s: ('wheel_left', x + 0.5 * speed * s, -8.0, z, yaw))
             return self.last_wrench('wheel_left').force
         slow, fast, dense = pull(-12.0, 1.0), pull(-12.0, 2.0), pull(8.0, 1.0)

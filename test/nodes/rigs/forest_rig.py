@@ -31,7 +31,7 @@ class Animator(WatchedNode):
         self.events = Log(namespace + 'forest/events', ForestEvent)
         super().__init__(name, 'forest', name + '/get_tree', GetTree)
         self.pick = rospy.ServiceProxy(name + '/pick', Pick)
-        self.set_tf = rospy.ServiceProxy(name + '/set_tf', SetTf)
+        self._set_tf = rospy.ServiceProxy(name + '/set_tf', SetTf)
 
     def tree(self, tree, stamp=rospy.Time()):
         answer = self._probe(tree=tree, stamp=stamp)
@@ -43,6 +43,11 @@ class Animator(WatchedNode):
         """Returns the error of the service get_tree, or '' on success."""
         answer = self._probe(**request)
         return '' if answer.success else answer.message
+
+    def set_tf(self, tree, branches, enable):
+        """Starts or stops frames of branches, or of all of them if `branches` is 'all'."""
+        chosen = dict(all=True) if branches == 'all' else dict(branches=branches)
+        return self._set_tf(tree=tree, enable=enable, **chosen)
 
     def level(self, tree):
         return self.tree(tree).level

@@ -65,7 +65,8 @@ def service(name, kind):
 class WindRequests(unittest.TestCase):
     def setUp(self):
         self.set = service('set_primitive', SetWindPrimitive)
-        self.remove = service('remove_primitive', RemoveWindPrimitive)
+        remove = service('remove_primitive', RemoveWindPrimitive)
+        self.remove = lambda name='', all=False: remove(name=name, all=all)
         self.get = service('get_field', GetWindField)
         self.sample = service('sample', SampleWind)
         self.reset = service('reset', Trigger)
@@ -173,13 +174,15 @@ class WindRequests(unittest.TestCase):
         self.assertTrue(self.set(primitive(4, 'tied_4', attached_frame='drone')).success)
 
     def test_refuses_to_remove_an_unknown_primitive(self):
+        self.assert_refused(self.remove(), "no source is named ''; known sources: breeze, disc",
+                            self.field().hash)
         self.assert_refused(self.remove('fann'), "no source is named 'fann'; known sources: breeze, disc",
                             self.field().hash)
 
     def test_removes_one_or_all(self):
         self.assertTrue(self.remove('fan').success)
         self.assertGreater(self.last('fan').t_off, rospy.Time.now())
-        self.assertTrue(self.remove('').success)
+        self.assertTrue(self.remove(all=True).success)
         self.assertTrue(all(p.t_off > rospy.Time(0) for p in self.field().primitives))
 
     def test_refuses_bad_samples(self):

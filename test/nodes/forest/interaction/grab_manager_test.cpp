@@ -126,6 +126,8 @@ TEST(GrabManager, HandGetsForceAndTorqueInItsOwnFrame) {
   request.along = along;
   request.frame = "hand";
   request.keep_offset = true;
+  request.has_stiffness = request.has_damping = true;
+  request.has_force_limit = request.has_lease = true;
   request.stiffness = stiffness;
   request.damping = 200.0;
   request.force_limit = 1e4;
@@ -160,6 +162,23 @@ TEST(GrabManager, HandGetsForceAndTorqueInItsOwnFrame) {
             0.01 * length(force));
   EXPECT_LT(length(fromMsg(published.wrench.torque) - alongAxes(hand.orientation, torque)),
             0.01 * length(torque));
+}
+
+// A number that is given counts, even if it is 0; the others have their defaults.
+TEST(GrabManager, ZeroIsNotTheDefault) {
+  GrabManagerRig rig;
+  Grab::Request request;
+  request.branch = 46;
+  request.target.point = toPoint(rig.pointOn(46, 0.0));
+  const std::uint32_t plain = rig.grab(request);
+  request.has_damping = true;
+  const std::uint32_t undamped = rig.grab(request);
+  rig.tick();
+  const auto& grabs = rig.forest().grabs();
+  EXPECT_EQ(grabs.at(plain).damping, 40.0);
+  EXPECT_EQ(grabs.at(plain).stiffness, 2000.0);
+  EXPECT_EQ(grabs.at(undamped).damping, 0.0);
+  EXPECT_EQ(grabs.at(undamped).stiffness, 2000.0);
 }
 
 // N3: a body moves and rotates, and its tf is late. The wrench of a tick is in the frame's pose at

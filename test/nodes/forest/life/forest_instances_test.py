@@ -85,7 +85,7 @@ class ForestInstances(unittest.TestCase):
                          (0, True, FIXED_LEVEL, []))
         event = self.program.events.wait_for_stamp(time_of(tick + 1))
         self.assertEqual(event.kind, ForestEvent.RESET)
-        self.assertEqual(self.program.set_tf(0, [], False).frames, 0)
+        self.assertEqual(self.program.set_tf(0, 'all', False).frames, 0)
 
     def test_a_nodelet_that_refuses_is_not_loaded(self):
         rospy.set_param('/refused', {'tolerance': -1.0})

@@ -156,7 +156,8 @@ class ForestRequests(unittest.TestCase):
             ((1, [6, 99999], True), 'branch = 99999 is unknown; tree 1 has '),
             ((1, [99999], False), 'branch = 99999 is unknown'),
             ((1, list(range(6, 15)), True), 'frames = 11 would pass the budget of 10'),
-            ((2, [], True), 'would pass the budget of 10'),
+            ((2, 'all', True), 'would pass the budget of 10'),
+            ((2, [], True), 'branches has 0 entries; all = true stands for every branch'),
         ]
         for request, text in cases:
             with self.subTest(text=text):
@@ -164,7 +165,7 @@ class ForestRequests(unittest.TestCase):
                 self.assertFalse(answer.success)
                 self.assertIn(text, answer.message)
                 self.assertEqual(answer.frames, 2)
-        self.assertEqual(self.forest.set_tf(1, [], False).frames, 0)
+        self.assertEqual(self.forest.set_tf(1, 'all', False).frames, 0)
         self.expect_unchanged()
 
     def test_a_bad_viewer_is_refused(self):
