@@ -19,6 +19,12 @@ void NodeBase::startDiagnostics() {
       ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); });
 }
 
+void NodeBase::openServices() {
+  open_ = true;
+  for (const auto& advertise : closed_) services_.push_back(advertise());
+  closed_.clear();
+}
+
 void NodeBase::stopCallbacks() {
   diagnostics_timer_.stop();
   timers_.clear();

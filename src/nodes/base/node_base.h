@@ -6,6 +6,7 @@
 #include <ros/ros.h>
 #include <std_srvs/Trigger.h>
 
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,10 +30,18 @@ class NodeBase {
   void subscribe(const char* topic, unsigned queue, void (Node::*callback)(const Message&)) {
     subscribers_.push_back(handle_.subscribe(topic, queue, callback, static_cast<Node*>(this)));
   }
+  /// Adds a service. It is advertised by openServices(), or at once after that.
   template <class Node, class Request, class Response>
   void serve(const char* name, bool (Node::*callback)(Request&, Response&)) {
-    services_.push_back(private_handle_.advertiseService(name, callback, static_cast<Node*>(this)));
+    const std::string service = name;
+    closed_.push_back([this, service, callback] {
+      return private_handle_.advertiseService(service, callback, static_cast<Node*>(this));
+    });
+    if (open_) openServices();
   }
+  /// Advertises the services. A node calls it once time has begun for it, so that a client that
+  /// waits for a service waits for that too.
+  void openServices();
   template <class Node>
   void repeat(double rate, void (Node::*callback)(const ros::TimerEvent&)) {
     timers_.push_back(
@@ -60,6 +69,8 @@ class NodeBase {
 
  private:
   std::vector<ros::Subscriber> subscribers_;
+  std::vector<std::function<ros::ServiceServer()>> closed_;  // services that wait for time to begin
+  bool open_{false};
   std::vector<ros::ServiceServer> services_;
   std::vector<ros::Timer> timers_;
   ros::WallTimer diagnostics_timer_;

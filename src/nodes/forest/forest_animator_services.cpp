@@ -32,9 +32,7 @@ forest::Ray checkedRay(const Pick::Request& request) {
 }  // namespace
 
 Nanoseconds ForestAnimator::stampOf(const ros::Time& stamp) const {
-  if (!stamp.isZero()) return fromMsg(stamp);
-  requireTick();
-  return forest_->snapshot().stamp;
+  return stamp.isZero() ? forest_->snapshot().stamp : fromMsg(stamp);
 }
 
 bool ForestAnimator::onGetTree(GetTree::Request& request, GetTree::Response& response) {

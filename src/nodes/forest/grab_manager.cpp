@@ -49,8 +49,6 @@ geometry_msgs::TransformStamped lookUp(const GrabDependencies& node, const std::
 
 void GrabManager::requireLive() const {
   if (node_.options.replay) throw InvalidInput("a replay follows its recorded events only");
-  if (node_.forest.snapshot().stamp == 0)
-    throw InvalidInput("no tick yet: the clock has not started");
 }
 
 ForestInput GrabManager::eventAt(ForestInput::Kind kind, const ros::Time& stamp) const {

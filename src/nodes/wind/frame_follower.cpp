@@ -12,7 +12,9 @@ FrameFollower::FrameFollower(const ros::NodeHandle& nh, const WindSettings& sett
       frame_id_(settings.frame_id),
       period_(1.0 / settings.attach_rate),
       horizon_(settings.attach_horizon),
-      lead_(settings.lead) {}
+      lead_(settings.lead),
+      buffer_(ros::Duration(tf2::BufferCore::DEFAULT_CACHE_TIME), true) {
+}  // with the service that shows its frames
 
 void FrameFollower::set(const wind::Source& source) {
   const std::string& name = source.primitive.name;

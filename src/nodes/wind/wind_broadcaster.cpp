@@ -48,6 +48,7 @@ void WindBroadcaster::begin(Nanoseconds now) {
     if (!source.attached_frame.empty()) follower_.set(wind::startedAt(source, now));
   publishField();
   showBreeze(settings_.breeze);
+  openServices();
 }
 
 Nanoseconds WindBroadcaster::earliest() const {

@@ -35,10 +35,7 @@ void checkSamples(const SampleWind::Request& request) {
 template <class Response, class Body>
 bool WindBroadcaster::reply(const char* service, Response& response, Body body) {
   const Lock lock(mutex_);
-  answer(response, [&]() -> std::string {
-    if (!clock_.running()) throw InvalidInput("time has not begun, is /clock published?");
-    return body();
-  });
+  answer(response, body);
   if (!response.success) refusals_.add(service, response.message);
   return true;
 }
@@ -76,6 +73,7 @@ void WindBroadcaster::reconfigure(WindBroadcasterConfig& config, std::uint32_t l
   if (level != ~0u) {
     std_srvs::Trigger::Response response;
     reply("reconfigure", response, [&] {
+      if (!clock_.running()) throw InvalidInput("time has not begun, is /clock published?");
       BreezeSettings wanted = fromConfig(config);
       Faults faults;
       FieldChecker checker("", faults);  // a NaN passes the server's clamp

@@ -8,8 +8,9 @@ import subprocess
 import roslib.packages
 import rospy
 from rosgraph_msgs.msg import Clock
+from tf2_msgs.srv import FrameGraph
 from vegetation_sim.msg import ForestEvent, ForestLayout, ForestState, Viewer, WindField
-from vegetation_sim.srv import GetTree, GetWindField, Pick, SetTf
+from vegetation_sim.srv import GetTree, Pick, SetTf
 
 from waiting import DEADLINE, wait_for
 from watched_node import Log, WatchedNode, publisher, slave
@@ -98,9 +99,9 @@ class TickClock:
         wind = Log('/wind', WindField)
         for animator in animators:
             animator.wait_until_up('/wind')
-        rospy.wait_for_service('/wind_broadcaster/get_field', DEADLINE)
+        rospy.wait_for_service('/wind_broadcaster/tf2_frames', DEADLINE)
         # After this call the broadcaster has started completely.
-        rospy.ServiceProxy('/wind_broadcaster/get_field', GetWindField)()
+        rospy.ServiceProxy('/wind_broadcaster/tf2_frames', FrameGraph)()
         wait_for(wind.connected, 'the wind')
         self.run(1, *animators)
         wind.wait(len, 'a wind', lambda: self.show(self.tick))
