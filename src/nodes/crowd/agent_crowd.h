@@ -65,6 +65,8 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   void treadOfFeet(const crowd::Walker& walker, Nanoseconds stamp);
   std::vector<TierChoice> chooseFrames(Nanoseconds stamp);
   void sendFrames(const ros::TimerEvent& event);
+  /// Name of a walker's frame, and of the source by which it treads.
+  std::string nameOf(const crowd::Walker& walker) const;
   void sendMarkers(const ros::TimerEvent& event);
   void addDiagnostics(Status& status) override;
   void diagnoseGovernor(Status& status);

@@ -18,6 +18,10 @@ constexpr double FAR = 1000.0, ARM = 0.5;                 // of walkers from rob
 
 }  // namespace
 
+std::string AgentCrowd::nameOf(const crowd::Walker& walker) const {
+  return options_.frame_prefix + "walker_" + std::to_string(walker.id);
+}
+
 void AgentCrowd::publishAgents(Nanoseconds stamp) {
   if (agents_publisher_.getNumSubscribers() == 0) return;
   AgentStates message;
@@ -49,7 +53,7 @@ void AgentCrowd::treadOfBody(const crowd::Walker& walker, Nanoseconds stamp) {
   TreadEvent event;
   event.header.stamp = toStamp(stamp);
   event.header.frame_id = options_.frame_id;
-  event.source = "walker_" + std::to_string(walker.id);
+  event.source = nameOf(walker);
   event.action = last.seen ? TreadEvent::MOVE : TreadEvent::PLACE;
   const crowd::Point& p = walker.position;
   event.position = toPoint(Vec3(p.x, p.y, crowd_.terrain().height(p.x, p.y)));
@@ -80,7 +84,7 @@ void AgentCrowd::treadOfFeet(const crowd::Walker& walker, Nanoseconds stamp) {
     TreadEvent event;
     event.header.stamp = toStamp(stamp);
     event.header.frame_id = options_.frame_id;
-    event.source = "walker_" + std::to_string(walker.id) + (i == 0 ? "_left" : "_right");
+    event.source = nameOf(walker) + (i == 0 ? "_left" : "_right");
     event.action = TreadEvent::STROKE;
     event.start = onGround(heel);
     event.position = onGround(foot.planted);
@@ -123,7 +127,7 @@ void AgentCrowd::sendFrames(const ros::TimerEvent&) {
     geometry_msgs::TransformStamped frame;
     frame.header.stamp = toStamp(stamp);
     frame.header.frame_id = options_.frame_id;
-    frame.child_frame_id = "walker_" + std::to_string(walker.id);
+    frame.child_frame_id = nameOf(walker);
     frame.transform.translation = toVector(fromMsg(state.pose.position));
     frame.transform.rotation = state.pose.orientation;
     frames.push_back(frame);

@@ -111,6 +111,7 @@ CrowdOptions loadCrowdOptions(const ros::NodeHandle& private_handle) {
   parameters.text("scenario", out.scenario);
   readScene(out, parameters.faults());
   parameters.frame("frame_id", out.frame_id);
+  parameters.frame("frame_prefix", out.frame_prefix, true);
   parameters.flag("replay", out.replay);
   describe(parameters, out);
   YAML::Node list;

@@ -122,7 +122,8 @@ std::vector<Pose> posesOf(const forest::Forest& forest, const forest::Tree& tree
 
 std::vector<geometry_msgs::TransformStamped> branchTransforms(const BranchFrames::Wanted& wanted,
                                                               PosedTrees& trees,
-                                                              const std::string& frame_id) {
+                                                              const std::string& frame_id,
+                                                              const std::string& prefix) {
   std::vector<geometry_msgs::TransformStamped> out;
   for (const auto& [id, branches] : wanted) {
     const PosedTrees::Posed& tree = trees.of(id);
@@ -132,7 +133,8 @@ std::vector<geometry_msgs::TransformStamped> branchTransforms(const BranchFrames
       geometry_msgs::TransformStamped transform;
       transform.header.stamp = toStamp(trees.stamp());
       transform.header.frame_id = frame_id;
-      transform.child_frame_id = "tree_" + std::to_string(id) + "/branch_" + std::to_string(branch);
+      transform.child_frame_id =
+          prefix + "tree_" + std::to_string(id) + "/branch_" + std::to_string(branch);
       transform.transform.translation.x = pose.position.x;
       transform.transform.translation.y = pose.position.y;
       transform.transform.translation.z = pose.position.z;

@@ -81,9 +81,10 @@ class BranchFrames {
 std::vector<Pose> posesOf(const forest::Forest& forest, const forest::Tree& tree, std::uint32_t id,
                           Nanoseconds stamp);
 
-/// Transforms of every wanted branch, all to be sent at once.
+/// Transforms of every wanted branch, all to be sent at once. `prefix` precedes their names.
 std::vector<geometry_msgs::TransformStamped> branchTransforms(const BranchFrames::Wanted& wanted,
                                                               PosedTrees& trees,
-                                                              const std::string& frame_id);
+                                                              const std::string& frame_id,
+                                                              const std::string& prefix);
 
 }  // namespace vegetation_sim

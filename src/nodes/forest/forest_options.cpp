@@ -99,6 +99,7 @@ ForestOptions loadForestOptions(const ros::NodeHandle& private_handle) {
   readScene(out, parameters.faults());
   parameters.frame("frame_id", out.frame_id);
   parameters.frame("viewer_frame", out.viewer_frame, true);
+  parameters.frame("frame_prefix", out.frame_prefix, true);
   parameters.flag("tf_promoted", out.tf_promoted);
   parameters.flag("replay", out.replay);
   parameters.integers("branches_trees", out.branches_trees, {0, 1 << 24});

@@ -13,6 +13,7 @@ import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Point, TransformStamped
+from std_msgs.msg import Header
 from tf2_msgs.msg import TFMessage
 from vegetation_sim.msg import WindField, WindPrimitive
 from vegetation_sim.srv import GetWindField, SampleWind, SetWindPrimitive
@@ -75,24 +76,24 @@ class WindClock(unittest.TestCase):
         wait_for(lambda: self.topic.message, 'the field')
         self.assertEqual(self.topic.message.hash, field_hash)
         self.assertEqual(self.topic.message.header.stamp, START)
-        self.assertEqual(self.node.sample(POINTS, [START + rospy.Duration(7)]).velocities,
-                         self.nodelet.sample(POINTS, [START + rospy.Duration(7)]).velocities)
+        self.assertEqual(self.node.sample(Header(), POINTS, [START + rospy.Duration(7)]).velocities,
+                         self.nodelet.sample(Header(), POINTS, [START + rospy.Duration(7)]).velocities)
 
     def test_3_runs_at_20_times_its_pace(self):
         self.clock.run(10.0)
         end = START + rospy.Duration(10)
         for broadcaster in self.both:
             broadcaster.now_is(end)
-            self.assertEqual(broadcaster.sample(POINTS, []).velocities,
-                             broadcaster.sample(POINTS, [end]).velocities)
-        self.assertNotEqual(self.node.sample(POINTS, []).velocities,
-                            self.node.sample(POINTS, [START]).velocities)
+            self.assertEqual(broadcaster.sample(Header(), POINTS, []).velocities,
+                             broadcaster.sample(Header(), POINTS, [end]).velocities)
+        self.assertNotEqual(self.node.sample(Header(), POINTS, []).velocities,
+                            self.node.sample(Header(), POINTS, [START]).velocities)
 
     def test_4_moves_nothing_while_time_stands(self):
-        first = self.node.sample(POINTS, []).velocities
+        first = self.node.sample(Header(), POINTS, []).velocities
         published = self.topic.count
         for _ in range(100):
-            self.assertEqual(self.node.sample(POINTS, []).velocities, first)
+            self.assertEqual(self.node.sample(Header(), POINTS, []).velocities, first)
         self.assertEqual(self.topic.count, published)
 
     def test_5_edits_take_effect_by_the_lead_in_simulated_time(self):
@@ -169,7 +170,7 @@ class WindClock(unittest.TestCase):
         which has no drone."""
         at = self.drone(self.clock.now).transform.translation
         below = [Point(at.x, at.y, at.z - 1.0)]
-        air, rest = [b.sample(below, [self.clock.now]).velocities[0] for b in self.both]
+        air, rest = [b.sample(Header(), below, [self.clock.now]).velocities[0] for b in self.both]
         return rest.z - air.z
 
     def pieces(self):
