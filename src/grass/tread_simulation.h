@@ -68,6 +68,7 @@ class TreadSimulation {
   const Layout& layout() const { return layout_; }
   /// Sets the drag of grass [N s/m], see resistanceAt().
   void setDrag(double drag) { drag_ = drag; }
+  double drag() const { return drag_; }
   /// Sets the default law of sources, which is part of the layout.
   void setTreadLaw(const TreadLaw& law);
 

@@ -30,6 +30,8 @@ GrassField::GrassField(const ros::NodeHandle& handle, const ros::NodeHandle& pri
       "grass/state", 1000, [this](const ros::SingleSubscriberPublisher&) { key_frames_.demand(); });
   markers_publisher_ = handle_.advertise<visualization_msgs::MarkerArray>("grass/markers", 1);
   wrenches_publisher_ = handle_.advertise<geometry_msgs::WrenchStamped>("grass/wrenches", 1000);
+  forces_publisher_ = handle_.advertise<GrassForces>("grass/forces", 1000);
+  values_publisher_ = handle_.advertise<GrassCover>("grass/cover/values", 1);
   cover_publisher_ = handle_.advertise<nav_msgs::OccupancyGrid>("grass/cover", 1);
   for (std::size_t i = 0; i < COVER_LAYERS.size(); ++i)
     layer_publishers_[i] = handle_.advertise<nav_msgs::OccupancyGrid>(
@@ -58,7 +60,7 @@ void GrassField::tick(std::int64_t tick) {
   applyInputs(stamp);
   publishEntering(stamp);
   publishState(tick);
-  publishWrenches(stamp);
+  publishForces(stamp);
 }
 
 void GrassField::apply(GrassEvent& event) {

@@ -15,9 +15,9 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr double MOST_COVER_CELLS = 16e6;
-constexpr int POINTS_PER_BLADE = 27;     // of 9 triangles
-constexpr double LEAST_BLADES = 1000.0;  // that a meadow can aim at
+constexpr double MOST_COVER_CELLS = 4e6;  // of 20 bytes in grass/cover/values
+constexpr int POINTS_PER_BLADE = 27;      // of 9 triangles
+constexpr double LEAST_BLADES = 1000.0;   // that a meadow can aim at
 
 // A key that is there is the source's own value, even if it is 0.
 TreadLaw readLaw(YamlSection& section) {
@@ -152,7 +152,9 @@ void describe(FieldVisitor& v, GrassOptions& o) {
   v.integer("marker_points", o.marker_points, "", {900, 3000000});
   v.number("cover_rate", o.cover_rate, "Hz", {0.1, 60.0});
   v.number("cover_resolution", o.cover_resolution, "m", {0.02, 100.0});
-  v.number("cover_age", o.cover_age, "s", {1.0, 1e9});
+  v.number("cover_density", o.cover_scale.density, "1/m^2", {1.0, 20000.0});
+  v.number("cover_resistance", o.cover_scale.resistance, "N s/m", {0.001, 1e8});
+  v.number("cover_age", o.cover_scale.age, "s", {1.0, 1e9});
   v.choice("cover_layer", o.cover_layer, {"crush", "density", "resistance", "age"});
   v.number("viewer_field_of_view", o.viewer_field_of_view, "rad", {0.01, 3.1});
   v.integer("viewer_height", o.viewer_height, "pixel", {1, 100000});

@@ -14,6 +14,7 @@
 #include "grass/lod/meadow_lod.h"
 #include "grass/tread_simulation.h"
 #include "nodes/base/node_options.h"
+#include "nodes/grass/grass_cover.h"
 
 namespace vegetation_sim {
 
@@ -61,7 +62,7 @@ struct GrassOptions : NodeOptions {
   int marker_points{90000};       ///< of the three lists together
   double cover_rate{2.0};         ///< [Hz]
   double cover_resolution{0.25};  ///< [m] side of a cell
-  double cover_age{600.0};        ///< age that counts as 100 [s]
+  CoverScale cover_scale;         ///< values that count as 100
   int cover_layer{0};             ///< of grass/cover: crush, density, resistance, age
   std::vector<FollowedSource> sources;
   GrassTuning tuning;  ///< initial values for dynamic_reconfigure
