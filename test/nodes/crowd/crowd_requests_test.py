@@ -50,6 +50,7 @@ class CrowdRequests(unittest.TestCase):
                     self.assertGreater(distance(a.pose.position, b.pose.position), 0.5 - 1e-6)
         prints = [t for t in self.crowd.tread.messages if t.action == TreadEvent.STROKE]
         self.assertGreater(len(prints), 16)
+        self.assertTrue(all(t.source.startswith('hall/walker_') for t in prints))
         for t in prints:  # A footprint extends from heel to ball.
             self.assertTrue(0.15 < distance(t.start, t.position) < 0.3)
 
@@ -135,9 +136,9 @@ class CrowdRequests(unittest.TestCase):
             last = self.crowd.agents()[7].pose.position
             cart.put(last.x - 2.0, last.y, time_of(self.clock.tick))
             self.clock.run(1, self.crowd)
-        log.wait(lambda all: any(t.child_frame_id == 'walker_7' for m in all for t in m.transforms),
+        log.wait(lambda all: any(t.child_frame_id == 'hall/walker_7' for m in all for t in m.transforms),
                  'the walker beside the robot', come)
-        rounds = [[t for t in m.transforms if t.child_frame_id.startswith('walker')]
+        rounds = [[t for t in m.transforms if t.child_frame_id.startswith('hall/walker_')]
                   for m in log.messages]
         log.close()
         self.assertEqual({len(r) for r in rounds if r}, {3})

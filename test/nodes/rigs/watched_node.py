@@ -117,9 +117,9 @@ def number_or_text(value):
 def serves(service):
     """Returns whether a node advertises the service: time has begun for it."""
     try:
-        rosgraph.Master('/watched_node').lookupService(service)
+        rospy.wait_for_service(service, timeout=0.01)
         return True
-    except rosgraph.MasterException:
+    except rospy.ROSException:
         return False
 
 

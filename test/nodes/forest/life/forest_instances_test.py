@@ -11,6 +11,7 @@ import roslib.packages
 import rospy
 import rostest
 from std_srvs.srv import Trigger
+from tf2_msgs.msg import TFMessage
 from vegetation_sim.msg import ForestEvent, ForestState
 
 from forest_rig import RATE, Animator, TickClock, ViewerClient, scene, start_animator, stop, time_of
@@ -70,6 +71,17 @@ class ForestInstances(unittest.TestCase):
         self.assertEqual(self.other.set_tf(0, [1], False).frames, 0)
         self.assertEqual([e.kind for e in self.other.events.messages if e.kind != ForestEvent.WIND],
                          [])
+
+    def test_frames_of_instances_have_their_prefixes(self):
+        frames = Log('/tf', TFMessage)
+        for animator in (self.program, self.other):
+            self.assertEqual(animator.set_tf(0, [1], True).frames, 1)
+        wanted = {'tree_0/branch_1', 'other/tree_0/branch_1'}
+        frames.wait(lambda all: wanted <= {t.child_frame_id for m in all for t in m.transforms},
+                    'the frames', lambda: self.clock.run(1, *self.all))
+        frames.close()
+        for animator in (self.program, self.other):
+            animator.set_tf(0, 'all', False)
 
     # After ~reset the forest is in its initial state from the next tick on.
     def test_reset_starts_anew(self):
