@@ -95,8 +95,10 @@ class ScriptedGripper:
             self.held = self.branch_now()
         elif name == 'pull':
             answer = self.grab(tree=self.tree, branch=self.branch, along=self.along,
-                               frame=self.frame, keep_offset=True, stiffness=5000.0, damping=100.0,
-                               force_limit=self.force_limit, lease=1.0)
+                               frame=self.frame, keep_offset=True, has_stiffness=True,
+                               stiffness=5000.0, has_damping=True, damping=100.0,
+                               has_force_limit=True, force_limit=self.force_limit,
+                               has_lease=True, lease=1.0)
             self.grab_id = answer.id if answer.success else None
             rospy.loginfo('grab: %s', answer.message)
         elif name == 'open' and self.grab_id is not None:

@@ -146,15 +146,15 @@ std::string TreadSimulation::move(TreadSourceState& source, const TreadInput& in
     source.before_stamp = source.updated;
   }
   const double passed = secondsBetween(source.before_stamp, stamp);
-  source.velocity = input.velocity != Vec3::Zero() ? input.velocity
-                    : passed > 0.0                 ? Vec3((input.position - source.before) / passed)
-                                                   : Vec3::Zero();
+  const Vec3 mean =
+      passed > 0.0 ? Vec3((input.position - source.before) / passed) : Vec3(Vec3::Zero());
+  source.velocity = input.velocity.value_or(mean);
   const Vec3 from = source.last.position;
   source.last = input;
   source.last.position = from;
   press(source, input.position, stamp);
   if (tread_.state().counts.jumps == jumps) return problem;
-  source.velocity = input.velocity;
+  source.velocity = input.velocity.value_or(Vec3::Zero());
   return "source '" + input.source + "' jumped by " + std::to_string(way) + " m in " +
          std::to_string(seconds) + " s and left no track, allowed are longest_stroke = " +
          std::to_string(treading_.longest_stroke) +
@@ -181,7 +181,7 @@ std::string TreadSimulation::apply(const TreadInput& input, Nanoseconds stamp) {
       problem = move(source, input, stamp);
     } else {
       source.last = input;
-      source.velocity = input.velocity;
+      source.velocity = input.velocity.value_or(Vec3::Zero());
       press(source, p, stamp);
       source.before = p;
       source.before_stamp = stamp;
@@ -201,7 +201,10 @@ void TreadSimulation::raise(const Point& centre, double radius) {
   checker.vector("centre", place, "m", {-1e7, 1e7});
   checker.number("radius", radius, "m", {0.0, 1e4});
   faults.throwIfAny();
-  if (radius > 0.0) return tread_.raise(centre, radius);
+  tread_.raise(centre, radius);
+}
+
+void TreadSimulation::raiseAll() {
   TreadState state;
   state.counts = tread_.state().counts;
   tread_.restore(std::move(state));
@@ -297,8 +300,8 @@ std::uint64_t TreadSnapshot::hash() const {
     for (const int value :
          {static_cast<int>(s.last.action), s.column, s.row, static_cast<int>(s.down)})
       add(value);
-    for (const Vec3& v : {s.last.start, s.last.position, s.last.velocity, s.velocity, s.before})
-      hash.add(v);
+    const Vec3 given = s.last.velocity.value_or(Vec3::Zero());
+    for (const Vec3& v : {s.last.start, s.last.position, given, s.velocity, s.before}) hash.add(v);
     hash.add(s.last.height_gate);
     hash.add(s.last.body_frame);
     FieldHasher hasher(hash);

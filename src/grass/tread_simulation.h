@@ -70,6 +70,7 @@ class TreadSimulation {
   const Layout& layout() const { return layout_; }
   /// Sets the drag of grass [N s/m], see resistanceAt().
   void setDrag(double drag) { drag_ = drag; }
+  double drag() const { return drag_; }
   /// Sets the default law of sources, which is part of the layout.
   void setTreadLaw(const TreadLaw& law);
 
@@ -79,9 +80,11 @@ class TreadSimulation {
   /// @throws InvalidInput for a checked stroke that presses more than MOST_STROKE_NODES times a
   /// node.
   void checkStroke(const TreadInput& input) const { stepsOf(input); }
-  /// Raises the grass within a disc; with radius 0 everywhere, and sources begin new passes.
-  /// @throws InvalidInput for a disc out of range.
+  /// Raises the grass within a disc; @throws InvalidInput for a disc out of
+  /// range.
   void raise(const Point& centre, double radius);
+  /// Raises the grass everywhere; sources begin new passes.
+  void raiseAll();
   /// Ends a tick: removes silent sources, presses again below standing ones, frees what has
   /// recovered. @return the tiles that sources entered since the last call, in order.
   std::vector<Entering> advance(Nanoseconds stamp);

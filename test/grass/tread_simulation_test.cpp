@@ -199,7 +199,7 @@ TEST_F(FieldTest, ADiscOrAllIsRaised) {
   field_.raise({5.0, 5.0}, 0.5);
   EXPECT_EQ(map_.at({5.4, 5.0}, now()).tilt, 0.f);
   EXPECT_NEAR(map_.at({5.6, 5.0}, now()).tilt, 1.5, RISEN);
-  field_.raise({0.0, 0.0}, 0.0);
+  field_.raiseAll();
   EXPECT_EQ(map_.at({5.6, 5.0}, now()).tilt, 0.f);
   EXPECT_TRUE(map_.state().blocks.empty());
 }

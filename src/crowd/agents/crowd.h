@@ -35,7 +35,7 @@ struct CrowdSnapshot {
   std::uint64_t hash() const;
 };
 
-/// Resistance of the ground at a place: 0 for free ground, 1 for the densest grass.
+/// Resistance of the ground at a place over a reference: 0 for free ground; above 1 it counts as 1.
 using Resistance = std::function<double(const Point&)>;
 
 /// Limits of a crowd.

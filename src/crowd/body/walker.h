@@ -36,7 +36,7 @@ struct CrowdSettings {
   double slowest{0.2};         ///< share of the speed that a walker of PAPER keeps at contact
   double push_speed{3.0};      ///< speed at which overlaps are resolved [m/s]
   double field_cell{0.25};     ///< cell of the ways around walls [m]
-  double grass_drag{0.6};      ///< share of the speed that the densest grass removes
+  double grass_drag{0.6};      ///< share of the speed that grass of resistance 1 removes
   double pace{1.0};            ///< factor on the speed of every walker
   double arrival{0.4};         ///< distance at which a goal is reached [m]
 };

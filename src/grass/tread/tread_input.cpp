@@ -24,7 +24,7 @@ void check(const TreadInput& input, const std::string& context, Faults& faults) 
   if (input.action == TreadAction::STROKE) checker.vector("start", copy.start, "m", PLACES);
   checker.vector("position", copy.position, "m", PLACES);
   checker.number("height_gate", copy.height_gate, "m", {0.0, 1000.0});
-  checker.vector("velocity", copy.velocity, "m/s", SPEEDS);
+  if (copy.velocity) checker.vector("velocity", *copy.velocity, "m/s", SPEEDS);
   check(input.law, context, faults);
 }
 

@@ -57,10 +57,12 @@ class EventNode : public NodeBase {
       : NodeBase(name, handle, private_handle),
         options_(std::move(options)),
         inputs_(options_.replay),
+        tf_buffer_(ros::Duration(tf2::BufferCore::DEFAULT_CACHE_TIME),
+                   true),  // with the service that shows its frames
         tf_listener_(tf_buffer_),
         clock_(name_, options_.state_rate, options_.replay ? options_.replay_delay : 0.0,
                {[this] { acceptInput("viewer", [this] { followViewerFrame(); }); },
-                [this](std::int64_t tick) { acceptInput("tick", [&] { this->tick(tick); }); },
+                [this](std::int64_t tick) { acceptInput("tick", [&] { onTick(tick); }); },
                 [this](Nanoseconds now) { acceptInput("clock", [&] { onJumpBack(now); }); }}),
         events_topic_(topic),
         events_publisher_(handle_.advertise<Message>(topic, Queue::MOST_WAITING)) {}
@@ -116,9 +118,6 @@ class EventNode : public NodeBase {
 
   void refuseInReplay() const {
     if (options_.replay) throw InvalidInput("a replay follows its recorded events only");
-  }
-  void requireTick() const {
-    if (!clock_.hasBegun()) throw InvalidInput("no tick yet: the clock has not started");
   }
   /// @throws InvalidInput if the queue is full.
   void enqueue(Event event) {
@@ -179,6 +178,11 @@ class EventNode : public NodeBase {
   TickClock clock_;
 
  private:
+  void onTick(std::int64_t tick) {
+    this->tick(tick);
+    openServices();
+  }
+
   void onRecordedEvent(const Message& message) {
     acceptInput("event", [&] {
       const Event& event = eventFromMsg(message);

@@ -23,6 +23,12 @@ void NodeBase::startDiagnostics() {
       });
 }
 
+void NodeBase::openServices() {
+  open_ = true;
+  for (const auto& advertise : closed_) services_.push_back(advertise());
+  closed_.clear();
+}
+
 void NodeBase::stopCallbacks() {
   diagnostics_timer_.stop();
   timers_.clear();

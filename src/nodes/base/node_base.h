@@ -7,6 +7,7 @@
 #include <std_srvs/Trigger.h>
 
 #include <exception>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -42,6 +43,7 @@ class NodeBase {
     subscribe(topic, queue, callback);
     owned_.push_back(subscribers_.back());
   }
+  /// Adds a service. It is advertised by openServices(), or at once after that.
   template <class Node, class Request, class Response>
   void serve(const char* name, bool (Node::*callback)(Request&, Response&)) {
     const boost::function<bool(Request&, Response&)> guarded =
@@ -51,8 +53,15 @@ class NodeBase {
                       [&] { answered = (static_cast<Node*>(this)->*callback)(request, response); });
           return answered;
         };
-    services_.push_back(private_handle_.advertiseService<Request, Response>(name, guarded));
+    const std::string service = name;
+    closed_.push_back([this, service, guarded] {
+      return private_handle_.advertiseService<Request, Response>(service, guarded);
+    });
+    if (open_) openServices();
   }
+  /// Advertises the services. A node calls it once time has begun for it, so that a client that
+  /// waits for a service waits for that too.
+  void openServices();
   template <class Node>
   void repeat(double rate, void (Node::*callback)(const ros::TimerEvent&)) {
     const auto guarded = [this, callback](const ros::TimerEvent& event) {
@@ -84,6 +93,8 @@ class NodeBase {
 
  private:
   std::vector<ros::Subscriber> subscribers_, owned_;
+  std::vector<std::function<ros::ServiceServer()>> closed_;  // services that wait for time to begin
+  bool open_{false};
   std::vector<ros::ServiceServer> services_;
   std::vector<ros::Timer> timers_;
   ros::WallTimer diagnostics_timer_;

@@ -112,7 +112,7 @@ void AgentCrowd::apply(CrowdEvent& event) {
 void AgentCrowd::applyToWalker(const CrowdEvent& event) {
   switch (event.kind) {
     case CrowdEvent::SPAWN:
-      crowd_.spawn(fromMsg(event.spawn), event.id);
+      spawn(event);
       break;
     case CrowdEvent::REMOVE:
       crowd_.remove(event.id);
@@ -126,6 +126,13 @@ void AgentCrowd::applyToWalker(const CrowdEvent& event) {
     default:
       throw InvalidInput("kind = " + std::to_string(event.kind) + " is outside 0 to 8");
   }
+}
+
+void AgentCrowd::spawn(const CrowdEvent& event) {
+  Faults faults;
+  const crowd::Spawn spawn = fromMsg(event.spawn, "spawn: ", faults);
+  faults.throwIfAny();
+  crowd_.spawn(spawn, event.id);
 }
 
 void AgentCrowd::applyTrunks(std::uint64_t hash) {

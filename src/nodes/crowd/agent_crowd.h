@@ -50,6 +50,7 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   void publishBeginning(Nanoseconds stamp);
   void apply(CrowdEvent& event) override;
   void applyToWalker(const CrowdEvent& event);
+  void spawn(const CrowdEvent& event);
   void applyTrunks(std::uint64_t hash);
   void applyCover(std::uint64_t hash);
   void resetCrowd();
@@ -62,6 +63,8 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   void treadOfFeet(const crowd::Walker& walker, Nanoseconds stamp);
   std::vector<TierChoice> chooseFrames(Nanoseconds stamp);
   void sendFrames(const ros::TimerEvent& event);
+  /// Name of a walker's frame, and of the source by which it treads.
+  std::string nameOf(const crowd::Walker& walker) const;
   void addDiagnostics(Status& status) override;
   void addGovernor(Status& status) override;
 

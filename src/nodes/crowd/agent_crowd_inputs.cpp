@@ -79,11 +79,12 @@ void AgentCrowd::checkKnown(const std::vector<std::uint32_t>& ids) const {
 bool AgentCrowd::onSpawn(SpawnAgents::Request& request, SpawnAgents::Response& response) {
   return answer(response, [&]() -> std::string {
     refuseInReplay();
-    const std::uint32_t count = std::max(1U, request.count);
+    const std::uint32_t count = request.count;
     const auto most = static_cast<std::size_t>(options_.most_walkers);
     const std::size_t room = most - std::min(crowd_.walkers().size() + waitingWalkers(), most);
     const ros::Time stamp = effectOf(request.header.stamp, clock_);
-    if (count > MOST_AT_ONCE || count > room || count > inputs_.room(fromMsg(stamp)))
+    if (count == 0 || count > MOST_AT_ONCE || count > room ||
+        count > inputs_.room(fromMsg(stamp)))
       throw InvalidInput("count = " + std::to_string(count) + " is outside 1 to " +
                          std::to_string(std::min<std::size_t>(MOST_AT_ONCE, room)) + ": " +
                          std::to_string(crowd_.walkers().size()) +
@@ -91,11 +92,11 @@ bool AgentCrowd::onSpawn(SpawnAgents::Request& request, SpawnAgents::Response& r
                          std::to_string(waitingWalkers()) + " are to come");
     const Pose to_world = poseOf(request.header.frame_id);
     const Vec3 front = axisX(to_world.orientation);
-    crowd::Spawn like = fromMsg(request.like);
+    Faults faults;
+    crowd::Spawn like = fromMsg(request.like, "like: ", faults);
     like.position = placeInWorld(request.like.position, to_world);
     like.goal = placeInWorld(request.like.goal, to_world);
     like.heading += arcTangent(front.y(), front.x());
-    Faults faults;
     FieldChecker checker("like: ", faults);
     describe(checker, like);
     checker.number("goal.x", like.goal.x, "m", {-1e5, 1e5});

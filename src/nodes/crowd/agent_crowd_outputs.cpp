@@ -17,6 +17,10 @@ constexpr double FAR = 1000.0, ARM = 0.5;                 // of walkers from rob
 
 }  // namespace
 
+std::string AgentCrowd::nameOf(const crowd::Walker& walker) const {
+  return options_.frame_prefix + "walker_" + std::to_string(walker.id);
+}
+
 void AgentCrowd::publishAgents(Nanoseconds stamp) {
   if (agents_publisher_.getNumSubscribers() == 0) return;
   AgentStates message;
@@ -48,10 +52,11 @@ void AgentCrowd::treadOfBody(const crowd::Walker& walker, Nanoseconds stamp) {
   TreadEvent event;
   event.header.stamp = toStamp(stamp);
   event.header.frame_id = options_.frame_id;
-  event.source = "walker_" + std::to_string(walker.id);
+  event.source = nameOf(walker);
   event.action = last.seen ? TreadEvent::MOVE : TreadEvent::PLACE;
   const crowd::Point& p = walker.position;
   event.position = toPoint(Vec3(p.x, p.y, crowd_.terrain().height(p.x, p.y)));
+  event.has_velocity = event.law.has_radius = true;
   event.velocity = toVector(Vec3(walker.velocity.x, walker.velocity.y, 0.0));
   event.law.radius = options_.tread_radius > 0.0 ? options_.tread_radius : BODY_RADIUS;
   last.place = p;
@@ -78,10 +83,11 @@ void AgentCrowd::treadOfFeet(const crowd::Walker& walker, Nanoseconds stamp) {
     TreadEvent event;
     event.header.stamp = toStamp(stamp);
     event.header.frame_id = options_.frame_id;
-    event.source = "walker_" + std::to_string(walker.id) + (i == 0 ? "_left" : "_right");
+    event.source = nameOf(walker) + (i == 0 ? "_left" : "_right");
     event.action = TreadEvent::STROKE;
     event.start = onGround(heel);
     event.position = onGround(foot.planted);
+    event.law.has_radius = true;
     event.law.radius = options_.tread_radius > 0.0 ? options_.tread_radius : FOOT_RADIUS;
     ++treads_;
     tread_publisher_.publish(event);
@@ -120,7 +126,7 @@ void AgentCrowd::sendFrames(const ros::TimerEvent&) {
     geometry_msgs::TransformStamped frame;
     frame.header.stamp = toStamp(stamp);
     frame.header.frame_id = options_.frame_id;
-    frame.child_frame_id = "walker_" + std::to_string(walker.id);
+    frame.child_frame_id = nameOf(walker);
     frame.transform.translation = toVector(fromMsg(state.pose.position));
     frame.transform.rotation = state.pose.orientation;
     frames.push_back(frame);

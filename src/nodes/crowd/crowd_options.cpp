@@ -82,6 +82,7 @@ CrowdOptions loadCrowdOptions(const ros::NodeHandle& private_handle) {
   readScenario(parameters, out, loadCrowdScene);
   out.tuning = out.scene.crowd.settings;
   out.robots = out.scene.robots;
+  parameters.frame("frame_prefix", out.frame_prefix, true);
   describe(parameters, out);
   YAML::Node list;
   if (parameters.list("robots", list)) {

@@ -34,6 +34,7 @@ struct CrowdOptions : NodeOptions {
   double tolerance{1.0};             ///< error of drawn walkers [pixel]
   double tf_rate{15.0};              ///< [Hz]
   int tf_budget{20};                 ///< frames: nearest to robots, then lowest ids
+  std::string frame_prefix;          ///< precedes walker_<id>
   int tread{1};                      ///< Treading
   double tread_radius{0.0};          ///< 0: 0.16 of a body, 0.06 of a foot [m]
   int trunks{0};                     ///< TrunkShape

@@ -18,10 +18,10 @@ const PosedTrees::Posed& PosedTrees::of(std::uint32_t tree) {
   return posed_[tree] = {grown, posesOf(forest_, grown->tree, tree, stamp_)};
 }
 
-void BranchFrames::set(std::uint32_t tree, std::vector<std::uint32_t> branches, std::size_t count,
-                       bool enable) {
+void BranchFrames::set(std::uint32_t tree, const std::vector<std::uint32_t>& branches,
+                       std::size_t count, bool enable) {
   if (branches.empty())
-    for (std::uint32_t i = 0; i < count; ++i) branches.push_back(i);
+    throw InvalidInput("branches has 0 entries; all = true stands for every branch");
   for (const std::uint32_t branch : branches)
     if (branch >= count)
       throw InvalidInput("branch = " + std::to_string(branch) + " is unknown; tree " +
@@ -122,7 +122,8 @@ std::vector<Pose> posesOf(const forest::Forest& forest, const forest::Tree& tree
 
 std::vector<geometry_msgs::TransformStamped> branchTransforms(const BranchFrames::Wanted& wanted,
                                                               PosedTrees& trees,
-                                                              const std::string& frame_id) {
+                                                              const std::string& frame_id,
+                                                              const std::string& prefix) {
   std::vector<geometry_msgs::TransformStamped> out;
   for (const auto& [id, branches] : wanted) {
     const PosedTrees::Posed& tree = trees.of(id);
@@ -132,7 +133,8 @@ std::vector<geometry_msgs::TransformStamped> branchTransforms(const BranchFrames
       geometry_msgs::TransformStamped transform;
       transform.header.stamp = toStamp(trees.stamp());
       transform.header.frame_id = frame_id;
-      transform.child_frame_id = "tree_" + std::to_string(id) + "/branch_" + std::to_string(branch);
+      transform.child_frame_id =
+          prefix + "tree_" + std::to_string(id) + "/branch_" + std::to_string(branch);
       transform.transform.translation.x = pose.position.x;
       transform.transform.translation.y = pose.position.y;
       transform.transform.translation.z = pose.position.z;

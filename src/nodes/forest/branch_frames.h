@@ -43,9 +43,10 @@ class BranchFrames {
  public:
   explicit BranchFrames(int budget) : budget_(static_cast<std::size_t>(budget)) {}
 
-  /// Adds or removes branches of a tree; empty: all of its `count`. A request that would pass the
-  /// budget, or that names an unknown branch, changes nothing. @throws InvalidInput
-  void set(std::uint32_t tree, std::vector<std::uint32_t> branches, std::size_t count, bool enable);
+  /// Adds or removes branches of a tree that has `count`. A request that would pass the budget, or
+  /// that names no branch or an unknown one, changes nothing. @throws InvalidInput
+  void set(std::uint32_t tree, const std::vector<std::uint32_t>& branches, std::size_t count,
+           bool enable);
   void clear() { *this = BranchFrames(static_cast<int>(budget_)); }
   std::size_t count() const;
   std::size_t budget() const { return budget_; }
@@ -80,9 +81,10 @@ class BranchFrames {
 std::vector<Pose> posesOf(const forest::Forest& forest, const forest::Tree& tree, std::uint32_t id,
                           Nanoseconds stamp);
 
-/// Transforms of every wanted branch, all to be sent at once.
+/// Transforms of every wanted branch, all to be sent at once. `prefix` precedes their names.
 std::vector<geometry_msgs::TransformStamped> branchTransforms(const BranchFrames::Wanted& wanted,
                                                               PosedTrees& trees,
-                                                              const std::string& frame_id);
+                                                              const std::string& frame_id,
+                                                              const std::string& prefix);
 
 }  // namespace vegetation_sim

@@ -44,6 +44,8 @@ ForestAnimator::ForestAnimator(const ros::NodeHandle& handle, const ros::NodeHan
   state_publisher_ = handle_.advertise<ForestState>("forest/state", 1000);
   branches_publisher_ = handle_.advertise<BranchTransforms>("forest/branches", 60);
   wrenches_publisher_ = handle_.advertise<geometry_msgs::WrenchStamped>("forest/wrenches", 1000);
+  forces_publisher_ = handle_.advertise<ContactForces>("forest/forces", 1000);
+  grabs_publisher_ = handle_.advertise<GrabStatuses>("forest/grabs", 100, true);
   publishLayout();
   start("forest", "forest/markers", markers_);
 }
@@ -51,6 +53,7 @@ ForestAnimator::ForestAnimator(const ros::NodeHandle& handle, const ros::NodeHan
 void ForestAnimator::connect() {
   subscribeToOwner("wind", 10, &ForestAnimator::onWind);
   serve("get_tree", &ForestAnimator::onGetTree);
+  serve("find_trees", &ForestAnimator::onFindTrees);
   serve("pick", &ForestAnimator::onPick);
   serve("set_tf", &ForestAnimator::onSetTf);
   serve("grab", &ForestAnimator::onGrab);
@@ -63,6 +66,7 @@ void ForestAnimator::connect() {
 
 // Layout, wind and settings stay in force.
 void ForestAnimator::resetForest() {
+  grab_manager_.explainEnds(GrabStatus::RESET);
   forest_->reset();
   frames_.clear();
   deepest_ = {};
@@ -95,7 +99,8 @@ void ForestAnimator::tick(std::int64_t tick) {
   message.header.frame_id = options_.frame_id;
   state_bytes_ += ros::serialization::serializationLength(message);
   state_publisher_.publish(message);
-  updateGrabs();
+  updateGrabs(tick);
+  publishForces();
   force_key_frame_ = false;
 }
 
@@ -144,6 +149,7 @@ void ForestAnimator::applyInteraction(const ForestInput& event) {
       break;
     case ForestInput::RELEASE:
       forest_->release(event.grab.id);
+      grab_manager_.explainEnd(event.grab.id, GrabStatus::RELEASED);
       break;
     case ForestInput::FORCE:
       forest_->push(
@@ -181,14 +187,29 @@ void ForestAnimator::followBodies(Nanoseconds stamp) {
   }
 }
 
-void ForestAnimator::updateGrabs() {
-  for (const forest::Grab& grab : grab_manager_.update()) {
+void ForestAnimator::updateGrabs(std::int64_t tick) {
+  for (const forest::Grab& grab : forest_->ended()) {
     ++leases_ended_;
     ROS_WARN("forest_animator: grab %u ended: not moved or renewed for its lease of %g s", grab.id,
              grab.lease);
   }
-  for (const geometry_msgs::WrenchStamped& wrench : grab_manager_.wrenches())
-    wrenches_publisher_.publish(wrench);
+  // Renewals are no change of the grabs, so the ends of leases are published each second.
+  const bool renewed = !forest_->grabs().empty() && tick % options_.state_rate == 0;
+  if (grab_manager_.update() || renewed || !grabs_published_)
+    grabs_publisher_.publish(grab_manager_.statuses());
+  grabs_published_ = true;
+}
+
+void ForestAnimator::publishForces() {
+  const ContactForces forces = grab_manager_.forces();
+  forces_publisher_.publish(forces);
+  for (const ContactForce& force : forces.forces) {
+    geometry_msgs::WrenchStamped message;
+    message.header = forces.header;
+    if (!force.frame.empty()) message.header.frame_id = force.frame;
+    message.wrench = force.wrench;
+    wrenches_publisher_.publish(message);
+  }
 }
 
 // Trees of another design have other branches.
@@ -205,6 +226,7 @@ void ForestAnimator::applyTuning(const ForestTuning& tuning) {
   const bool same = layout.hash() == forest_->layoutHash();
   if (!same) {
     reportLostGrabs();
+    grab_manager_.explainEnds(GrabStatus::TREES_CHANGED);
     forest_->setLayout(std::move(layout), options_.scene.terrain);
     forest_->precompute();
   }

@@ -4,6 +4,7 @@
 
 #include <tf2_ros/transform_broadcaster.h>
 #include <vegetation_sim/ApplyForce.h>
+#include <vegetation_sim/FindTrees.h>
 #include <vegetation_sim/ForestAnimatorConfig.h>
 #include <vegetation_sim/GetTree.h>
 #include <vegetation_sim/Grab.h>
@@ -50,7 +51,8 @@ class ForestAnimator final : public EventNode<ForestInputs, ForestAnimatorConfig
   void tick(std::int64_t tick) override;
   void apply(ForestInput& event) override;
   void applyInteraction(const ForestInput& event);
-  void updateGrabs();
+  void updateGrabs(std::int64_t tick);
+  void publishForces();
   void followBodies(Nanoseconds stamp);
   void reportLostGrabs();
   void applyTuning(const ForestTuning& tuning);
@@ -67,6 +69,8 @@ class ForestAnimator final : public EventNode<ForestInputs, ForestAnimatorConfig
 
   // Services.
   bool onGetTree(GetTree::Request& request, GetTree::Response& response);
+  bool onFindTrees(FindTrees::Request& request, FindTrees::Response& response);
+  FoundTree foundTree(std::uint32_t id);
   bool onPick(Pick::Request& request, Pick::Response& response);
   bool onSetTf(SetTf::Request& request, SetTf::Response& response);
   bool onGrab(Grab::Request& request, Grab::Response& response);
@@ -86,13 +90,14 @@ class ForestAnimator final : public EventNode<ForestInputs, ForestAnimatorConfig
 
   std::optional<std::int64_t> last_framed_;  // tick
   std::size_t frames_sent_{0};               // at the last round
-  bool force_key_frame_{true};
+  bool force_key_frame_{true}, grabs_published_{false};
   std::uint64_t state_bytes_{0}, leases_ended_{0};
   std::uint64_t grabs_lost_{0}, reported_grabs_lost_{0};  // to another design
   forest::Reaction deepest_;  // of the contacts since diagnostics were last sent
 
   tf2_ros::TransformBroadcaster tf_broadcaster_;
-  ros::Publisher layout_publisher_, state_publisher_, branches_publisher_, wrenches_publisher_;
+  ros::Publisher layout_publisher_, state_publisher_, branches_publisher_, wrenches_publisher_,
+      forces_publisher_, grabs_publisher_;
 };
 
 }  // namespace vegetation_sim

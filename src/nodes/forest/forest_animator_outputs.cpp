@@ -18,7 +18,8 @@ void ForestAnimator::sendFrames(const ros::TimerEvent&) {
   frames_sent_ = 0;
   for (const auto& entry : wanted) frames_sent_ += entry.second.size();
   if (frames_sent_ > 0)
-    tf_broadcaster_.sendTransform(branchTransforms(wanted, trees, options_.frame_id));
+    tf_broadcaster_.sendTransform(
+        branchTransforms(wanted, trees, options_.frame_id, options_.frame_prefix));
 }
 
 void ForestAnimator::sendBranches(const ros::TimerEvent&) {

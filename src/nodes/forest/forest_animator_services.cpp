@@ -1,6 +1,9 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include <numeric>
+
 #include "forest/pick.h"
+#include "forest/trees_around.h"
 #include "nodes/forest/forest_animator.h"
 #include "vegetation_sim/ros/conversions/forest_conversions.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
@@ -9,6 +12,7 @@ namespace vegetation_sim {
 namespace {
 
 constexpr double SHORTEST_DIRECTION = 1e-9;
+constexpr int LARGEST_PAGE = 100;  // trees; each of them is grown for its height
 
 forest::Ray checkedRay(const Pick::Request& request) {
   const auto& o = request.origin;
@@ -28,9 +32,7 @@ forest::Ray checkedRay(const Pick::Request& request) {
 }  // namespace
 
 Nanoseconds ForestAnimator::stampOf(const ros::Time& stamp) const {
-  if (!stamp.isZero()) return fromMsg(stamp);
-  requireTick();
-  return forest_->snapshot().stamp;
+  return stamp.isZero() ? forest_->snapshot().stamp : fromMsg(stamp);
 }
 
 bool ForestAnimator::onGetTree(GetTree::Request& request, GetTree::Response& response) {
@@ -57,6 +59,44 @@ bool ForestAnimator::onGetTree(GetTree::Request& request, GetTree::Response& res
     response.transforms.header.stamp = toStamp(stamp);
     response.transforms.header.frame_id = options_.frame_id;
     return std::to_string(skeleton.branches.size()) + " branches";
+  });
+}
+
+FoundTree ForestAnimator::foundTree(std::uint32_t id) {
+  const auto grown = cache_.get(forest_->layout(), forest_->terrain(), id);
+  FoundTree out;
+  out.id = id;
+  out.position = toPoint(grown->tree.foot);
+  out.height = grown->tree.skeleton.height;
+  out.species = forest_->layout().species[grown->tree.seed.species].name;
+  return out;
+}
+
+bool ForestAnimator::onFindTrees(FindTrees::Request& request, FindTrees::Response& response) {
+  return answer(response, [&] {
+    Vec3 centre = fromMsg(request.centre.point);
+    int limit = static_cast<int>(std::min(request.limit, std::uint32_t{INT32_MAX}));
+    Faults faults;
+    FieldChecker checker("", faults);
+    checker.integer("limit", limit, "", {1, LARGEST_PAGE});
+    if (!request.all) {
+      checker.vector("centre", centre, "m", {-1e7, 1e7});
+      checker.number("radius", request.radius, "m", {0.0, 1e7});
+    }
+    faults.throwIfAny();
+    std::vector<std::uint32_t> around;
+    response.total = forest_->layout().treeCount();
+    if (!request.all) {
+      const auto& header = request.centre.header;
+      centre = transformed(poseOf(header.frame_id, header.stamp), centre);
+      around = forest::treesAround(forest_->layout(), centre, request.radius);
+      response.total = static_cast<std::uint32_t>(around.size());
+    }
+    const std::uint64_t end = std::uint64_t{request.offset} + request.limit;
+    for (std::uint32_t i = request.offset; i < std::min<std::uint64_t>(end, response.total); ++i)
+      response.trees.push_back(foundTree(request.all ? i : around[i]));
+    return std::to_string(response.trees.size()) + " of " + std::to_string(response.total) +
+           " trees";
   });
 }
 
@@ -94,8 +134,12 @@ bool ForestAnimator::onPick(Pick::Request& request, Pick::Response& response) {
 bool ForestAnimator::onSetTf(SetTf::Request& request, SetTf::Response& response) {
   answer(response, [&] {
     const auto grown = cache_.get(forest_->layout(), forest_->terrain(), request.tree);
-    frames_.set(request.tree, request.branches, grown->tree.skeleton.branches.size(),
-                request.enable);
+    const std::size_t count = grown->tree.skeleton.branches.size();
+    if (request.all) {
+      request.branches.resize(count);
+      std::iota(request.branches.begin(), request.branches.end(), 0U);
+    }
+    frames_.set(request.tree, request.branches, count, request.enable);
     return std::to_string(frames_.count()) + " frames";
   });
   response.frames = static_cast<std::uint32_t>(frames_.count());

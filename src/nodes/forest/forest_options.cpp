@@ -59,6 +59,7 @@ ForestOptions loadForestOptions(const ros::NodeHandle& private_handle) {
   readScenario(parameters, out, loadForestScene);
   out.tuning.transition = out.scene.layout.motion.transition;
   readFollowedViewer(parameters, out);
+  parameters.frame("frame_prefix", out.frame_prefix, true);
   parameters.flag("tf_promoted", out.tf_promoted);
   parameters.integers("branches_trees", out.branches_trees, {0, 1 << 24});
   describe(parameters, out);

@@ -33,6 +33,7 @@ struct ForestOptions : NodeOptions {
 
   double tf_rate{30.0};             ///< [Hz]
   int tf_budget{100};               ///< frames
+  std::string frame_prefix;         ///< precedes tree_<id>/branch_<id>
   double branches_rate{10.0};       ///< [Hz]
   std::vector<int> branches_trees;  ///< trees on forest/branches
   int branches_budget{20000};       ///< branches per round of messages

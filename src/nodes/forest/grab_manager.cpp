@@ -8,6 +8,7 @@
 
 #include "forest/nearest.h"
 #include "ros/conversions/grab_conversions.h"
+#include "ros/conversions/optional_numbers.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
 
 namespace vegetation_sim {
@@ -17,9 +18,15 @@ constexpr double NEAREST_REACH = 2.0;    // [m] from a point to the branch that 
 constexpr double LONGEST_NOTICE = 60.0;  // [s] a request may be that far ahead
 constexpr std::size_t MOST_GRABS = 256;  // waiting ones among them
 
-// Zero in a request leaves the default.
-void setIfGiven(double value, double& field) {
-  if (value != 0.0) field = value;
+// Reads the numbers that the request gives; the others keep their defaults.
+void readSpring(const Grab::Request& request, forest::Grab& grab) {
+  Faults faults;
+  OptionalNumbers numbers("", faults);
+  numbers.read("stiffness", request.has_stiffness, request.stiffness, grab.stiffness);
+  numbers.read("damping", request.has_damping, request.damping, grab.damping);
+  numbers.read("force_limit", request.has_force_limit, request.force_limit, grab.force_limit);
+  numbers.read("lease", request.has_lease, request.lease, grab.lease);
+  faults.throwIfAny();
 }
 
 void checkFinite(const char* name, Vec3 value, Range range) {
@@ -42,8 +49,6 @@ geometry_msgs::TransformStamped lookUp(const GrabDependencies& node, const std::
 
 void GrabManager::requireLive() const {
   if (node_.options.replay) throw InvalidInput("a replay follows its recorded events only");
-  if (node_.forest.snapshot().stamp == 0)
-    throw InvalidInput("no tick yet: the clock has not started");
 }
 
 ForestInput GrabManager::eventAt(ForestInput::Kind kind, const ros::Time& stamp) const {
@@ -160,16 +165,13 @@ std::string GrabManager::grab(const Grab::Request& request, Grab::Response& resp
     throw InvalidInput("grabs = " + std::to_string(requests_.size() + 1) + " is outside 0 to " +
                        std::to_string(MOST_GRABS));
   const Place place = choose(request);
-  Request accepted{request.keep_offset != 0, event.stamp, ros::Time()};
+  Request accepted{request.keep_offset != 0, event.stamp, ros::Time(), false};
   forest::Grab& grab = event.grab;
   grab.id = last_id_ + 1;
   grab.point = place.at;
   grab.lease = node_.options.grab_lease;
   grab.frame = request.frame;
-  setIfGiven(request.stiffness, grab.stiffness);
-  setIfGiven(request.damping, grab.damping);
-  setIfGiven(request.force_limit, grab.force_limit);
-  setIfGiven(request.lease, grab.lease);
+  readSpring(request, grab);
   if (grab.frame.empty()) {
     grab.target = inWorld(request.target, "target");
   } else {
@@ -249,6 +251,7 @@ std::string GrabManager::release(const Release::Request& request) {
                        std::to_string(node_.inputs.room(event.stamp)) + " inputs that still fit");
   for (const std::uint32_t id : waiting) {
     node_.inputs.forgetGrab(id);
+    history_.addUnheld(id, GrabStatus::RELEASED, node_.forest.snapshot().stamp);
     requests_.erase(id);
   }
   for (const std::uint32_t id : in_force) {

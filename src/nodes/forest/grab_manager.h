@@ -3,9 +3,9 @@
 #pragma once
 
 #include <geometry_msgs/PointStamped.h>
-#include <geometry_msgs/WrenchStamped.h>
 #include <tf2_ros/buffer.h>
 #include <vegetation_sim/ApplyForce.h>
+#include <vegetation_sim/ContactForces.h>
 #include <vegetation_sim/Grab.h>
 #include <vegetation_sim/MoveGrab.h>
 #include <vegetation_sim/Release.h>
@@ -19,6 +19,7 @@
 #include "forest/tree_cache.h"
 #include "nodes/forest/forest_inputs.h"
 #include "nodes/forest/forest_options.h"
+#include "nodes/forest/grab_history.h"
 
 namespace vegetation_sim {
 
@@ -52,14 +53,19 @@ class GrabManager {
   /// Before the forest applies an event: a grab with a frame begins where that is now.
   /// @throws InvalidInput if tf has no recent transform, or it is too far away.
   void followFrame(ForestInput& event);
-  /// After a tick: forgets grabs that are over. Returns those that their lease has ended.
-  std::vector<forest::Grab> update();
-  /// Forgets all grabs.
+  /// Says why a grab, or all grabs, will not be in force after this tick: GrabStatus::RELEASED and
+  /// so on.
+  void explainEnd(std::uint32_t id, std::uint8_t reason) { history_.explain(id, reason); }
+  void explainEnds(std::uint8_t reason) { history_.explainAll(reason); }
+  /// After a tick: forgets grabs that are over. @return whether any has begun or ended.
+  bool update();
+  /// Forgets all grabs, after a jump of the clock back.
   void clear();
 
-  /// Wrenches at the last tick on every body that holds or touches a branch, in its frame. Without
-  /// a frame: in world axes, about the point held.
-  std::vector<geometry_msgs::WrenchStamped> wrenches() const;
+  /// Forces at the last tick on everything that holds or touches a branch.
+  ContactForces forces() const;
+  /// Grabs at the last tick.
+  GrabStatuses statuses() const;
   /// Grabs in force of a tree.
   std::vector<BranchGrab> grabsOf(std::uint32_t tree) const;
   /// Points of the grabs in force.
@@ -73,6 +79,7 @@ class GrabManager {
     bool keep_offset{false};
     Nanoseconds begins{0};  ///< 0: at the next tick
     ros::Time published;    ///< newest transform of its frame that was used
+    bool begun{false};      ///< it was in force at an update
   };
   struct Place {
     forest::BranchPoint at;
@@ -99,6 +106,7 @@ class GrabManager {
 
   GrabDependencies node_;
   std::map<std::uint32_t, Request> requests_;  // by id, of grabs that wait or are in force
+  GrabHistory history_;
   std::uint32_t last_id_{0};
   std::size_t silent_{0};
 };

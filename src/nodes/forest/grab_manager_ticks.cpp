@@ -55,15 +55,21 @@ void GrabManager::followFrame(ForestInput& event) {
   checkTarget(event.grab, point);
 }
 
-std::vector<forest::Grab> GrabManager::update() {
+bool GrabManager::update() {
+  const Nanoseconds stamp = node_.forest.snapshot().stamp;
   for (auto entry = requests_.begin(); entry != requests_.end();) {
-    const bool over = !isInForce(entry->first) && !node_.inputs.waitingGrab(entry->first);
+    auto& [id, request] = *entry;
+    request.begun = request.begun || isInForce(id);
+    const bool over = !isInForce(id) && !node_.inputs.waitingGrab(id);
+    if (over && !request.begun) history_.addUnheld(id, GrabStatus::REFUSED, stamp);
     entry = over ? requests_.erase(entry) : std::next(entry);
   }
-  return node_.forest.ended();
+  return history_.update(node_.forest.grabs(), stamp);
 }
 
 void GrabManager::clear() {
+  for (const auto& [id, request] : requests_)
+    if (!request.begun) history_.addUnheld(id, GrabStatus::RESET, node_.forest.snapshot().stamp);
   requests_.clear();
   silent_ = 0;
 }
@@ -81,17 +87,18 @@ Pose GrabManager::frameOf(const forest::Reaction& reaction) const {
   return {reaction.point, {}};
 }
 
-std::vector<geometry_msgs::WrenchStamped> GrabManager::wrenches() const {
-  std::vector<geometry_msgs::WrenchStamped> out;
-  for (const forest::Reaction& reaction : node_.forest.reactions()) {
-    const FramedWrench wrench = wrenchIn(frameOf(reaction), reaction);
-    geometry_msgs::WrenchStamped message;
-    message.header.stamp = toStamp(node_.forest.snapshot().stamp);
-    message.header.frame_id = reaction.frame.empty() ? node_.options.frame_id : reaction.frame;
-    message.wrench.force = toVector(wrench.force);
-    message.wrench.torque = toVector(wrench.torque);
-    out.push_back(message);
-  }
+ContactForces GrabManager::forces() const {
+  ContactForces out;
+  out.header.stamp = toStamp(node_.forest.snapshot().stamp);
+  out.header.frame_id = node_.options.frame_id;
+  for (const forest::Reaction& reaction : node_.forest.reactions())
+    out.forces.push_back(toMsg(reaction, frameOf(reaction)));
+  return out;
+}
+
+GrabStatuses GrabManager::statuses() const {
+  GrabStatuses out = history_.message(node_.forest.snapshot().stamp);
+  out.header.frame_id = node_.options.frame_id;
   return out;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "vegetation_sim/ros/conversions/stamps.h"
@@ -13,102 +14,79 @@ namespace {
 
 constexpr int SIDE = grass::TreadBlock::SIDE;
 
-/// Largest crush (0 to 1) of each cell, and the stamp of its newest press; 0: none.
-struct Trodden {
-  std::vector<float> crush;
-  std::vector<Nanoseconds> stamp;
-};
+int cellsAlong(const grass::MapLaw& law, int nodes, double resolution) {
+  return static_cast<int>(std::ceil(law.resolution / resolution * (nodes - 1) - 1e-9));
+}
 
-class CoverMaker {
- public:
-  CoverMaker(const grass::TreadSimulation& field, const CoverSettings& settings)
-      : field_(field), law_(field.layout().map->law()), settings_(settings) {
-    const double size = law_.resolution / settings.resolution;
-    columns_ = static_cast<int>(std::ceil(size * (law_.columns - 1) - 1e-9));
-    rows_ = static_cast<int>(std::ceil(size * (law_.rows - 1) - 1e-9));
-  }
-
-  nav_msgs::OccupancyGrid make(CoverLayer layer) const {
-    nav_msgs::OccupancyGrid out;
-    out.header.stamp = toStamp(field_.stamp());
-    out.info.resolution = static_cast<float>(settings_.resolution);
-    out.info.width = static_cast<std::uint32_t>(columns_);
-    out.info.height = static_cast<std::uint32_t>(rows_);
-    out.info.origin.position.x = law_.origin_x;
-    out.info.origin.position.y = law_.origin_y;
-    out.info.origin.orientation.w = 1.0;
-    out.data = dataOf(layer);
-    return out;
-  }
-
- private:
-  std::vector<std::int8_t> dataOf(CoverLayer layer) const {
-    std::vector<std::int8_t> out(cells());
-    if (layer == CoverLayer::CRUSH || layer == CoverLayer::AGE) {
-      const Trodden trodden = findTrodden();
-      for (std::size_t i = 0; i < out.size(); ++i)
-        out[i] = layer == CoverLayer::CRUSH ? percent(double{trodden.crush[i]}, 1.0)
-                                            : age(trodden.stamp[i]);
-      return out;
+// Only trodden blocks are visited.
+void addTreads(const grass::TreadSimulation& field, GrassCover& cover) {
+  const int rows = static_cast<int>(cover.info.height),
+            columns = static_cast<int>(cover.info.width);
+  const double spacing = field.tread().spacing() / double{cover.info.resolution};
+  cover.crush.assign(cover.density.size(), 0.f);
+  cover.age.assign(cover.density.size(), -1.f);
+  for (const auto& [place, block] : field.tread().state().blocks)
+    for (int i = 0; i < SIDE * SIDE; ++i) {
+      const grass::TreadNode& node = block.nodes[static_cast<std::size_t>(i)];
+      const float tilt = tiltAt(node, field.stamp());
+      if (!(tilt > 0.f)) continue;
+      const int column = static_cast<int>((place.second * SIDE + i % SIDE) * spacing);
+      const int row = static_cast<int>((place.first * SIDE + i / SIDE) * spacing);
+      const std::size_t cell = static_cast<std::size_t>(std::min(row, rows - 1)) * columns +
+                               std::min(column, columns - 1);
+      const auto age = static_cast<float>(secondsBetween(node.stamp, field.stamp()));
+      cover.crush[cell] = std::max(cover.crush[cell], tilt / static_cast<float>(grass::BEND_LIMIT));
+      cover.age[cell] = cover.age[cell] < 0.f ? age : std::min(cover.age[cell], age);
     }
-    const Trodden trodden = layer == CoverLayer::RESISTANCE ? findTrodden() : Trodden();
-    std::vector<double> values(cells());
-    for (int row = 0; row < rows_; ++row)
-      for (int column = 0; column < columns_; ++column) {
-        const std::size_t i = static_cast<std::size_t>(row) * columns_ + column;
-        const grass::Features f =
-            field_.layout().map->at(law_.origin_x + (column + 0.5) * settings_.resolution,
-                                    law_.origin_y + (row + 0.5) * settings_.resolution);
-        values[i] = layer == CoverLayer::DENSITY ? f.density : f.density * f.height;
-      }
-    const double most = *std::max_element(values.begin(), values.end());
-    for (std::size_t i = 0; i < out.size(); ++i)
-      out[i] = percent(
-          trodden.crush.empty() ? values[i] : values[i] * (1.0 - double{trodden.crush[i]}), most);
-    return out;
-  }
+}
 
-  // Only trodden blocks are visited.
-  Trodden findTrodden() const {
-    Trodden out{std::vector<float>(cells()), std::vector<Nanoseconds>(cells())};
-    const double spacing = field_.tread().spacing() / settings_.resolution;
-    for (const auto& [place, block] : field_.tread().state().blocks)
-      for (int i = 0; i < SIDE * SIDE; ++i) {
-        const grass::TreadNode& node = block.nodes[static_cast<std::size_t>(i)];
-        const float tilt = tiltAt(node, field_.stamp());
-        if (!(tilt > 0.f)) continue;
-        const int column = static_cast<int>((place.second * SIDE + i % SIDE) * spacing);
-        const int row = static_cast<int>((place.first * SIDE + i / SIDE) * spacing);
-        const std::size_t cell = static_cast<std::size_t>(std::min(row, rows_ - 1)) * columns_ +
-                                 std::min(column, columns_ - 1);
-        out.crush[cell] = std::max(out.crush[cell], tilt / static_cast<float>(grass::BEND_LIMIT));
-        out.stamp[cell] = std::max(out.stamp[cell], node.stamp);
-      }
-    return out;
-  }
-
-  std::size_t cells() const { return static_cast<std::size_t>(columns_) * rows_; }
-  std::int8_t age(Nanoseconds stamp) const {
-    if (stamp == 0) return -1;
-    return percent(secondsBetween(stamp, field_.stamp()), settings_.full_age);
-  }
-  static std::int8_t percent(double value, double of) {
-    if (!(of > 0.0)) return 0;
-    return static_cast<std::int8_t>(
-        std::floor(100.0 * std::min(1.0, std::max(0.0, value / of)) + 0.5));
-  }
-
-  const grass::TreadSimulation& field_;
-  const grass::MapLaw& law_;
-  CoverSettings settings_;
-  int columns_, rows_;
-};
+std::int8_t percent(double share) {
+  return static_cast<std::int8_t>(std::floor(100.0 * std::clamp(share, 0.0, 1.0) + 0.5));
+}
 
 }  // namespace
 
-nav_msgs::OccupancyGrid coverOf(const grass::TreadSimulation& field, CoverLayer layer,
-                                const CoverSettings& settings) {
-  return CoverMaker(field, settings).make(layer);
+GrassCover groundOf(const grass::FeatureMap& map, double resolution) {
+  const grass::MapLaw& law = map.law();
+  GrassCover out;
+  out.info.resolution = static_cast<float>(resolution);
+  out.info.width = static_cast<std::uint32_t>(cellsAlong(law, law.columns, resolution));
+  out.info.height = static_cast<std::uint32_t>(cellsAlong(law, law.rows, resolution));
+  out.info.origin.position.x = law.origin_x;
+  out.info.origin.position.y = law.origin_y;
+  out.info.origin.orientation.w = 1.0;
+  for (std::uint32_t row = 0; row < out.info.height; ++row)
+    for (std::uint32_t column = 0; column < out.info.width; ++column) {
+      const grass::Features features = map.at(law.origin_x + (column + 0.5) * resolution,
+                                              law.origin_y + (row + 0.5) * resolution);
+      out.density.push_back(static_cast<float>(features.density));
+      out.height.push_back(static_cast<float>(features.height));
+    }
+  return out;
+}
+
+GrassCover coverOf(const grass::TreadSimulation& field, GrassCover ground) {
+  GrassCover out = std::move(ground);
+  out.header.stamp = toStamp(field.stamp());
+  addTreads(field, out);
+  for (std::size_t i = 0; i < out.density.size(); ++i)
+    out.resistance.push_back(static_cast<float>(field.drag()) * out.density[i] * out.height[i] *
+                             std::max(0.f, 1.f - out.crush[i]));
+  return out;
+}
+
+nav_msgs::OccupancyGrid percentOf(const GrassCover& cover, CoverLayer layer,
+                                  const CoverScale& scale) {
+  const std::vector<float>* const values[] = {&cover.crush, &cover.density, &cover.resistance,
+                                              &cover.age};
+  const double full[] = {1.0, scale.density, scale.resistance, scale.age};
+  const auto index = static_cast<std::size_t>(layer);
+  nav_msgs::OccupancyGrid out;
+  out.header = cover.header;
+  out.info = cover.info;
+  for (const float value : *values[index])
+    out.data.push_back(value < 0.f ? std::int8_t{-1} : percent(double{value} / full[index]));
+  return out;
 }
 
 }  // namespace vegetation_sim

@@ -3,27 +3,36 @@
 #pragma once
 
 #include <nav_msgs/OccupancyGrid.h>
+#include <vegetation_sim/GrassCover.h>
 
 #include <array>
-#include <string>
 
 #include "grass/tread_simulation.h"
 
 namespace vegetation_sim {
 
-/// Value of a cell of the cover map (N5): tilt of its most trodden node, blades per area, drag,
-/// or time since it was trodden.
+/// A layer of the cover map (N5): tilt of the most trodden node of a cell, blades per area, drag
+/// per speed, or time since it was trodden.
 enum class CoverLayer : int { CRUSH = 0, DENSITY = 1, RESISTANCE = 2, AGE = 3 };
 constexpr std::array<const char*, 4> COVER_LAYERS = {"crush", "density", "resistance", "age"};
 
-struct CoverSettings {
-  double resolution{0.25};  ///< side of a cell [m]
-  double full_age{600.0};   ///< age that counts as 100 [s]
+/// Values that the layers in percent show as 100. They do not depend on the meadow, so equal grass
+/// has equal percentages on every map.
+struct CoverScale {
+  double density{1000.0};    ///< [1/m^2]
+  double resistance{100.0};  ///< [N/(m/s)], on one metre of width
+  double age{600.0};         ///< [s]
 };
 
-/// A layer in percent: CRUSH of the largest tilt, DENSITY and RESISTANCE of the largest on the map,
-/// AGE of full_age; -1: not trodden (AGE). The header's frame is left to the caller.
-nav_msgs::OccupancyGrid coverOf(const grass::TreadSimulation& field, CoverLayer layer,
-                                const CoverSettings& settings);
+/// Computes the grid, density and height, which do not change. @param resolution edge of a cell
+/// [m].
+GrassCover groundOf(const grass::FeatureMap& map, double resolution);
+/// Completes the ground by the layers that treading changes. Left to the caller: the frame.
+GrassCover coverOf(const grass::TreadSimulation& field, GrassCover ground);
+
+/// Returns a layer in percent of its scale, at most 100; CRUSH of the largest tilt. -1: untrodden
+/// (AGE).
+nav_msgs::OccupancyGrid percentOf(const GrassCover& cover, CoverLayer layer,
+                                  const CoverScale& scale);
 
 }  // namespace vegetation_sim

@@ -28,6 +28,8 @@ GrassField::GrassField(const ros::NodeHandle& handle, const ros::NodeHandle& pri
   state_publisher_ = handle_.advertise<GrassState>(
       "grass/state", 1000, [this](const ros::SingleSubscriberPublisher&) { key_frames_.demand(); });
   wrenches_publisher_ = handle_.advertise<geometry_msgs::WrenchStamped>("grass/wrenches", 1000);
+  forces_publisher_ = handle_.advertise<GrassForces>("grass/forces", 1000);
+  values_publisher_ = handle_.advertise<GrassCover>("grass/cover/values", 1);
   cover_publisher_ = handle_.advertise<nav_msgs::OccupancyGrid>("grass/cover", 1);
   for (std::size_t i = 0; i < COVER_LAYERS.size(); ++i)
     layer_publishers_[i] = handle_.advertise<nav_msgs::OccupancyGrid>(
@@ -52,7 +54,7 @@ void GrassField::tick(std::int64_t tick) {
   applyInputs(stamp);
   publishEntering(stamp);
   publishState(tick);
-  publishWrenches(stamp);
+  publishForces(stamp);
 }
 
 void GrassField::apply(GrassEvent& event) {
@@ -65,7 +67,10 @@ void GrassField::apply(GrassEvent& event) {
       break;
     }
     case GrassEvent::CLEAR:
-      field_->raise({event.centre.x, event.centre.y}, event.radius);
+      if (event.all)
+        field_->raiseAll();
+      else
+        field_->raise({event.centre.x, event.centre.y}, event.radius);
       key_frames_.demand();
       break;
     case GrassEvent::SETTINGS:

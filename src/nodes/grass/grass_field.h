@@ -6,6 +6,7 @@
 #include <nav_msgs/OccupancyGrid.h>
 #include <vegetation_sim/ClearGrass.h>
 #include <vegetation_sim/GrassEvent.h>
+#include <vegetation_sim/GrassForces.h>
 #include <vegetation_sim/SampleGrass.h>
 #include <vegetation_sim/Tread.h>
 #include <vegetation_sim/WindField.h>
@@ -56,7 +57,8 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   void publishLayout();
   void publishState(std::int64_t tick);
   void publishEntering(Nanoseconds stamp);
-  void publishWrenches(Nanoseconds stamp);
+  GrassForces forcesAt(Nanoseconds stamp) const;
+  void publishForces(Nanoseconds stamp);
   void sendCover(const ros::TimerEvent& event);
   void addDiagnostics(Status& status) override;
   void addGovernor(Status& status) override;
@@ -76,12 +78,14 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   std::unique_ptr<GrassMarkers> markers_;
   KeyFrames key_frames_;
   GrassSources sources_;
+  GrassCover ground_;  // of the cover map, once it is wanted
 
   std::uint64_t paths_{0};  // trodden by service, for the names of their sources
   std::uint64_t state_bytes_{0}, largest_state_{0};
   std::uint64_t reported_no_memory_{0};  // of TreadCounts, when diagnostics were last sent
 
-  ros::Publisher layout_publisher_, state_publisher_, wrenches_publisher_, cover_publisher_;
+  ros::Publisher layout_publisher_, state_publisher_, wrenches_publisher_,
+      forces_publisher_, cover_publisher_, values_publisher_;
   std::array<ros::Publisher, COVER_LAYERS.size()> layer_publishers_;
 };
 

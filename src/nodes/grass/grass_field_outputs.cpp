@@ -32,33 +32,55 @@ void GrassField::publishState(std::int64_t tick) {
 }
 
 // Wrenches are in the body's frame; the force acts at the source.
-void GrassField::publishWrenches(Nanoseconds stamp) {
-  if (wrenches_publisher_.getNumSubscribers() == 0) return;
+GrassForces GrassField::forcesAt(Nanoseconds stamp) const {
+  GrassForces out;
+  out.header.stamp = toStamp(stamp);
+  out.header.frame_id = options_.frame_id;
   for (const grass::Drag& drag : field_->drags()) {
     try {
       const Pose to_world = poseOf(drag.body_frame);
       const Quat back = conjugate(to_world.orientation);
       const Vec3 arm = drag.at - to_world.position;
-      geometry_msgs::WrenchStamped message;
-      message.header.stamp = toStamp(stamp);
-      message.header.frame_id = drag.body_frame;
-      message.wrench.force = toVector(rotate(back, drag.force));
-      message.wrench.torque = toVector(rotate(back, cross(arm, drag.force)));
-      wrenches_publisher_.publish(message);
+      GrassForce force;
+      force.source = drag.source;
+      force.frame = drag.body_frame;
+      force.point = toPoint(drag.at);
+      force.force = toVector(drag.force);
+      force.wrench.force = toVector(rotate(back, drag.force));
+      force.wrench.torque = toVector(rotate(back, cross(arm, drag.force)));
+      out.forces.push_back(std::move(force));
     } catch (const InvalidInput&) {
       // The drag on a body without a frame cannot be reported.
     }
   }
+  return out;
+}
+
+void GrassField::publishForces(Nanoseconds stamp) {
+  if (wrenches_publisher_.getNumSubscribers() + forces_publisher_.getNumSubscribers() == 0) return;
+  const GrassForces forces = forcesAt(stamp);
+  forces_publisher_.publish(forces);
+  for (const GrassForce& force : forces.forces) {
+    geometry_msgs::WrenchStamped message;
+    message.header.stamp = forces.header.stamp;
+    message.header.frame_id = force.frame;
+    message.wrench = force.wrench;
+    wrenches_publisher_.publish(message);
+  }
 }
 
 void GrassField::sendCover(const ros::TimerEvent&) {
-  if (!clock_.hasBegun()) return;
+  std::uint32_t subscribers =
+      cover_publisher_.getNumSubscribers() + values_publisher_.getNumSubscribers();
+  for (const ros::Publisher& layer : layer_publishers_) subscribers += layer.getNumSubscribers();
+  if (!clock_.hasBegun() || subscribers == 0) return;
+  if (ground_.density.empty()) ground_ = groundOf(*field_->layout().map, options_.cover_resolution);
+  GrassCover cover = coverOf(*field_, ground_);
+  cover.header.frame_id = options_.frame_id;
+  if (values_publisher_.getNumSubscribers() > 0) values_publisher_.publish(cover);
   const auto send = [&](const ros::Publisher& publisher, int layer) {
-    if (publisher.getNumSubscribers() == 0) return;
-    nav_msgs::OccupancyGrid message = coverOf(*field_, static_cast<CoverLayer>(layer),
-                                              {options_.cover_resolution, options_.cover_age});
-    message.header.frame_id = options_.frame_id;
-    publisher.publish(message);
+    if (publisher.getNumSubscribers() > 0)
+      publisher.publish(percentOf(cover, static_cast<CoverLayer>(layer), options_.cover_scale));
   };
   send(cover_publisher_, options_.cover_layer);
   for (std::size_t i = 0; i < layer_publishers_.size(); ++i)

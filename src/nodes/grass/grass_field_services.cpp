@@ -89,8 +89,8 @@ void GrassField::queuePath(const std::vector<Vec3>& path, const grass::TreadLaw&
 bool GrassField::onTreadPath(Tread::Request& request, Tread::Response& response) {
   return answer(response, [&]() -> std::string {
     refuseInReplay();
-    const grass::TreadLaw law = fromMsg(request.law, tuning_.tread);
     Faults faults;
+    const grass::TreadLaw law = fromMsg(request.law, tuning_.tread, "law: ", faults);
     check(law, "law: ", faults);
     faults.throwIfAny();
     const ros::Time stamp = effectOf(request.header.stamp, clock_);
@@ -139,7 +139,6 @@ GrassSample GrassField::sampleAt(const Vec3& place, Nanoseconds stamp) const {
 
 bool GrassField::onSample(SampleGrass::Request& request, SampleGrass::Response& response) {
   return answer(response, [&]() -> std::string {
-    requireTick();
     checkCount(request.points.size(), MOST_SAMPLES);
     const Nanoseconds last = field_->stamp();
     const Nanoseconds stamp = request.header.stamp.isZero() ? last : fromMsg(request.header.stamp);
@@ -163,17 +162,20 @@ bool GrassField::onSample(SampleGrass::Request& request, SampleGrass::Response& 
 bool GrassField::onClear(ClearGrass::Request& request, ClearGrass::Response& response) {
   return answer(response, [&]() -> std::string {
     refuseInReplay();
-    Faults faults;
-    FieldChecker checker("", faults);
-    Vec3 centre = fromMsg(request.centre.point);
-    checker.vector("centre", centre, "m", PLACES);
-    checker.number("radius", request.radius, "m", {0.0, 10000.0});
-    faults.throwIfAny();
     GrassEvent event;
     event.kind = GrassEvent::CLEAR;
-    event.centre = toPoint(
-        transformed(poseOf(request.centre.header.frame_id, request.centre.header.stamp), centre));
-    event.radius = request.radius;
+    event.all = request.all;
+    if (!request.all) {
+      Faults faults;
+      FieldChecker checker("", faults);
+      Vec3 centre = fromMsg(request.centre.point);
+      checker.vector("centre", centre, "m", PLACES);
+      checker.number("radius", request.radius, "m", {0.0, 10000.0});
+      faults.throwIfAny();
+      const auto& header = request.centre.header;
+      event.centre = toPoint(transformed(poseOf(header.frame_id, header.stamp), centre));
+      event.radius = request.radius;
+    }
     enqueue(std::move(event));
     return "takes effect at the next tick";
   });

@@ -11,9 +11,22 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr double MOST_COVER_CELLS = 16e6;
-constexpr int POINTS_PER_BLADE = 27;     // of 9 triangles
-constexpr double LEAST_BLADES = 1000.0;  // that a meadow can aim at
+constexpr double MOST_COVER_CELLS = 4e6;  // of 20 bytes in grass/cover/values
+constexpr int POINTS_PER_BLADE = 27;      // of 9 triangles
+constexpr double LEAST_BLADES = 1000.0;   // that a meadow can aim at
+
+// A key that is there is the source's own value, even if it is 0.
+TreadLaw readLaw(YamlSection& section) {
+  grass::TreadLaw law{0.0, 0.0, 0.0, 0.0, 0.0};
+  describe(section, law);
+  TreadLaw out = toMsg(law);
+  out.has_radius = section.has("radius");
+  out.has_reach = section.has("reach");
+  out.has_softness = section.has("softness");
+  out.has_load = section.has("load");
+  out.has_recovery = section.has("recovery");
+  return out;
+}
 
 FollowedSource readSource(YamlSection& section) {
   FollowedSource out;
@@ -25,9 +38,10 @@ FollowedSource readSource(YamlSection& section) {
   if (!out.frame.empty() && out.frame[0] == '/')
     section.fault("frame", "= '" + out.frame + "' begins with '/'");
   section.vector("offset", out.offset, "m", {-100.0, 100.0});
-  section.number("height_gate", out.height_gate, "m", {0.0, 1000.0});
-  out.law = {0.0, 0.0, 0.0, 0.0, 0.0};  // the node's
-  describe(section, out.law);
+  double height_gate = 0.0;
+  section.number("height_gate", height_gate, "m", {0.0, 1000.0});
+  if (section.has("height_gate")) out.height_gate = height_gate;
+  out.law = readLaw(section);
   section.finish();
   return out;
 }
@@ -46,11 +60,14 @@ std::vector<FollowedSource> readSources(YamlSection& section) {
   return out;
 }
 
-// Zeros of a source stand for the tuning of the node.
+// Values that a source does not give are those of the node.
 void checkSources(const GrassOptions& options, Parameters& parameters) {
-  for (const FollowedSource& source : options.sources)
-    grass::check(fromMsg(toMsg(source.law), options.tuning.tread),
-                 "source '" + source.name + "': ", parameters.faults());
+  for (const FollowedSource& source : options.sources) {
+    const std::string context = "source '" + source.name + "': ";
+    const grass::TreadLaw law =
+        fromMsg(source.law, options.tuning.tread, context, parameters.faults());
+    grass::check(law, context, parameters.faults());
+  }
 }
 
 void checkCover(const GrassOptions& options, Parameters& parameters) {
@@ -117,7 +134,9 @@ void describe(FieldVisitor& v, GrassOptions& o) {
   v.integer("marker_points", o.marker_points, "", {900, 3000000});
   v.number("cover_rate", o.cover_rate, "Hz", {0.1, 60.0});
   v.number("cover_resolution", o.cover_resolution, "m", {0.02, 100.0});
-  v.number("cover_age", o.cover_age, "s", {1.0, 1e9});
+  v.number("cover_density", o.cover_scale.density, "1/m^2", {1.0, 20000.0});
+  v.number("cover_resistance", o.cover_scale.resistance, "N s/m", {0.001, 1e8});
+  v.number("cover_age", o.cover_scale.age, "s", {1.0, 1e9});
   v.choice("cover_layer", o.cover_layer, {"crush", "density", "resistance", "age"});
   describe(v, o.tuning);
 }

@@ -4,13 +4,16 @@
 
 #include <ros/node_handle.h>
 #include <vegetation_sim/GrassFieldConfig.h>
+#include <vegetation_sim/TreadLaw.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "grass/lod/meadow_lod.h"
 #include "grass/tread_simulation.h"
 #include "nodes/base/node_options.h"
+#include "nodes/grass/grass_cover.h"
 #include "ros/params/scene_file.h"
 
 namespace vegetation_sim {
@@ -32,11 +35,11 @@ void toConfig(const GrassTuning& tuning, GrassFieldConfig& config);
 /// A source that the node finds by itself (N4).
 struct FollowedSource {
   std::string name;
-  std::string frame;          ///< tf frame; empty: `odometry` is used
-  std::string odometry;       ///< topic of nav_msgs/Odometry
-  Vec3 offset{Vec3::Zero()};  ///< in the frame, or in the odometry's child frame [m]
-  double height_gate{0.0};    ///< 0: the node's [m]
-  grass::TreadLaw law;        ///< zeros: the node's
+  std::string frame;                  ///< tf frame; empty: `odometry` is used
+  std::string odometry;               ///< topic of nav_msgs/Odometry
+  Vec3 offset{Vec3::Zero()};          ///< in the frame, or in the odometry's child frame [m]
+  std::optional<double> height_gate;  ///< none: the node's [m]
+  TreadLaw law;                       ///< numbers without their flags are the node's
 };
 constexpr std::size_t MOST_FOLLOWED_SOURCES = 256;
 
@@ -55,7 +58,7 @@ struct GrassOptions : NodeOptions {
   int state_bytes{5000000};       ///< of key frames, a second: larger ones come less often [B/s]
   double cover_rate{2.0};         ///< [Hz]
   double cover_resolution{0.25};  ///< [m] side of a cell
-  double cover_age{600.0};        ///< age that counts as 100 [s]
+  CoverScale cover_scale;         ///< values that count as 100
   int cover_layer{0};             ///< of grass/cover: crush, density, resistance, age
   std::vector<FollowedSource> sources;
   GrassTuning tuning;  ///< initial values for dynamic_reconfigure

@@ -65,7 +65,7 @@ GrassSources::ObservedSource GrassSources::find(const Followed& followed, Nanose
   // A chain of static transforms has no stamp; the current time stands for it.
   const Nanoseconds stamp = fromMsg(found.header.stamp);
   return {stamp == 0 ? now : stamp, transformed(fromMsg(found.transform), followed.source.offset),
-          Vec3::Zero()};
+          std::nullopt};
 }
 
 void GrassSources::say(const Followed& followed, grass::TreadAction action,
@@ -75,9 +75,9 @@ void GrassSources::say(const Followed& followed, grass::TreadAction action,
   input.action = action;
   input.position = heard.position;
   input.velocity = heard.velocity;
-  input.law = fromMsg(toMsg(followed.source.law), own_);
-  input.height_gate =
-      followed.source.height_gate > 0.0 ? followed.source.height_gate : height_gate_;
+  Faults faults;  // none: the law was checked at the start
+  input.law = fromMsg(followed.source.law, own_, "", faults);
+  input.height_gate = followed.source.height_gate.value_or(height_gate_);
   input.body_frame =
       followed.source.frame.empty() ? followed.odometry->child_frame_id : followed.source.frame;
   out.push_back(std::move(input));

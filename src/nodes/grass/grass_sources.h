@@ -29,8 +29,8 @@ class GrassSources {
                const tf2_ros::Buffer& buffer);
 
   /// Returns the treads of each source since the last call: it moved, left, or is repeated at rest.
-  /// Positions are in the world frame; `own` and `height_gate` replace zeros. Calls `report` with
-  /// the name and the fault of each source whose odometry is invalid.
+  /// Positions are in the world frame; `own` and `height_gate` are for sources without values of
+  /// their own. Calls `report` with the name and the fault of each source whose odometry is invalid.
   using Report = std::function<void(const std::string&, const std::string&)>;
   std::vector<grass::TreadInput> update(Nanoseconds now, const grass::TreadLaw& own,
                                         double height_gate, const Report& report);
@@ -42,7 +42,8 @@ class GrassSources {
  private:
   struct ObservedSource {
     Nanoseconds stamp{0};
-    Vec3 position{Vec3::Zero()}, velocity{Vec3::Zero()};
+    Vec3 position{Vec3::Zero()};
+    std::optional<Vec3> velocity;
   };
   struct Followed {
     FollowedSource source;

@@ -7,8 +7,8 @@
 
 namespace vegetation_sim {
 
-FrameFollower::FrameFollower(const ros::NodeHandle& nh, const WindSettings& settings)
-    : nh_(nh),
+FrameFollower::FrameFollower(const tf2_ros::Buffer& buffer, const WindSettings& settings)
+    : buffer_(buffer),
       frame_id_(settings.frame_id),
       period_(1.0 / settings.attach_rate),
       horizon_(settings.attach_horizon),
@@ -20,7 +20,6 @@ void FrameFollower::set(const wind::Source& source) {
     throw InvalidInput("primitive '" + name + "': " + std::to_string(attachments_.size()) +
                        " frames are followed already, allowed are " +
                        std::to_string(WindSettings::MAX_FOLLOWED));
-  if (!listener_) listener_ = std::make_unique<tf2_ros::TransformListener>(buffer_, nh_);
   attachments_.erase(name);
   attachments_.emplace(name, wind::Attachment(source, period_, horizon_));
 }
@@ -28,7 +27,6 @@ void FrameFollower::set(const wind::Source& source) {
 void FrameFollower::clear() {
   attachments_.clear();
   missing_.clear();
-  buffer_.clear();
 }
 
 bool FrameFollower::sample(wind::Attachment& attachment, Nanoseconds now) {

@@ -3,10 +3,8 @@
 #pragma once
 
 #include <tf2_ros/buffer.h>
-#include <tf2_ros/transform_listener.h>
 
 #include <map>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -20,7 +18,7 @@ namespace vegetation_sim {
 /// publishes pieces of trajectory, so that wind needs no tf elsewhere and a bag replays.
 class FrameFollower {
  public:
-  FrameFollower(const ros::NodeHandle& nh, const WindSettings& settings);
+  FrameFollower(const tf2_ros::Buffer& buffer, const WindSettings& settings);
 
   /// Follows a frame for this source, instead of any source of the same name.
   /// @throws InvalidInput if too many are followed.
@@ -40,12 +38,10 @@ class FrameFollower {
  private:
   bool sample(wind::Attachment& attachment, Nanoseconds now);
 
-  ros::NodeHandle nh_;
+  const tf2_ros::Buffer& buffer_;
   std::string frame_id_;
-  double period_, horizon_, lead_;  // [s]
-  tf2_ros::Buffer buffer_;
-  std::unique_ptr<tf2_ros::TransformListener> listener_;  // once the first frame is followed
-  std::map<std::string, wind::Attachment> attachments_;   // by name of the source
+  double period_, horizon_, lead_;                       // [s]
+  std::map<std::string, wind::Attachment> attachments_;  // by name of the source
   std::vector<std::string> missing_;
 };
 

@@ -19,10 +19,15 @@ WindBroadcaster::WindBroadcaster(const ros::NodeHandle& handle,
     : NodeBase("wind_broadcaster", handle, private_handle),
       settings_(readWindSettings(private_handle)),
       schedule_(settings_.seed),
-      follower_(handle, settings_),
+      tf_buffer_(ros::Duration(tf2::BufferCore::DEFAULT_CACHE_TIME),
+                 true),  // with the service that shows its frames
+      tf_listener_(tf_buffer_, handle_),
+      follower_(tf_buffer_, settings_),
+      probes_(tf_buffer_, settings_.frame_id, settings_.sample_frames),
       breeze_(settings_.breeze),
       field_publisher_(handle_.advertise<WindField>("wind", 1, true)),
       marker_publisher_(handle_.advertise<visualization_msgs::MarkerArray>("wind/markers", 1)),
+      samples_publisher_(handle_.advertise<WindSamples>("wind/samples", 10)),
       reconfigure_(mutex_, private_handle),
       clock_(handle, [this](Nanoseconds now) { acceptInput("clock", [&] { begin(now); }); }) {
   const Lock lock(mutex_);
@@ -34,6 +39,7 @@ WindBroadcaster::WindBroadcaster(const ros::NodeHandle& handle,
   repeat(settings_.attach_rate, &WindBroadcaster::follow);
   repeat(PRUNE_RATE, &WindBroadcaster::prune);
   repeat(settings_.markers_rate, &WindBroadcaster::publishMarkers);
+  repeat(settings_.sample_rate, &WindBroadcaster::publishSamples);
   diagnostics_.add("wind law", this, &WindBroadcaster::diagnose);
   startDiagnostics();
   reconfigure_.setCallback(
@@ -43,11 +49,13 @@ WindBroadcaster::WindBroadcaster(const ros::NodeHandle& handle,
 void WindBroadcaster::begin(Nanoseconds now) {
   const Lock lock(mutex_);
   schedule_ = initialSchedule(settings_, now);
+  tf_buffer_.clear();
   follower_.clear();
   for (const wind::Source& source : settings_.sources)
     if (!source.attached_frame.empty()) follower_.set(wind::startedAt(source, now));
   publishField();
   showBreeze(settings_.breeze);
+  openServices();
 }
 
 Nanoseconds WindBroadcaster::earliest() const {
@@ -104,6 +112,12 @@ void WindBroadcaster::publishMarkers(const ros::TimerEvent&) {
                                         MARKER_PERIODS / settings_.markers_rate));
 }
 
+void WindBroadcaster::publishSamples(const ros::TimerEvent&) {
+  const Lock lock(mutex_);
+  if (!clock_.running() || probes_.empty()) return;
+  samples_publisher_.publish(probes_.sample(schedule_.field(), clock_.now()));
+}
+
 void WindBroadcaster::showBreeze(const BreezeSettings& breeze) {
   breeze_ = breeze;
   reconfigure_.updateConfig(toConfig(breeze_));
@@ -123,8 +137,8 @@ void WindBroadcaster::diagnose(Status& status) {
   status.summary(DiagnosticStatus::OK, "blowing");
   if (!clock_.running()) status.summary(DiagnosticStatus::WARN, "waiting for time to begin");
   std::string missing;
-  for (const std::string& frame : follower_.missing())
-    missing += (missing.empty() ? "" : ", ") + frame;
+  for (const auto* frames : {&follower_.missing(), &probes_.missing()})
+    for (const std::string& frame : *frames) missing += (missing.empty() ? "" : ", ") + frame;
   if (!missing.empty())
     status.mergeSummary(DiagnosticStatus::WARN, "no recent transform of " + missing);
   status.add("primitives", schedule_.field().primitives().size());

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <dynamic_reconfigure/server.h>
+#include <tf2_ros/transform_listener.h>
 #include <vegetation_sim/GetWindField.h>
 #include <vegetation_sim/RemoveWindPrimitive.h>
 #include <vegetation_sim/SampleWind.h>
@@ -15,6 +16,7 @@
 
 #include "nodes/base/node_base.h"
 #include "nodes/wind/frame_follower.h"
+#include "nodes/wind/wind_probes.h"
 #include "nodes/wind/wind_settings.h"
 #include "ros/time/clock_watch.h"
 
@@ -30,7 +32,7 @@ class WindBroadcaster final : public NodeBase {
  private:
   using Lock = boost::recursive_mutex::scoped_lock;
 
-  /// Runs the body of a service once time has begun; an error is counted as a rejected input.
+  /// Runs the body of a service; an error is counted as a rejected input.
   template <class Response, class Body>
   bool reply(const char* service, Response& response, Body body);
   bool setPrimitive(SetWindPrimitive::Request& request, SetWindPrimitive::Response& response);
@@ -51,6 +53,7 @@ class WindBroadcaster final : public NodeBase {
   void prune(const ros::TimerEvent& event);
   void publishField();
   void publishMarkers(const ros::TimerEvent& event);
+  void publishSamples(const ros::TimerEvent& event);
   /// Shows the breeze in dynamic_reconfigure.
   void showBreeze(const BreezeSettings& breeze);
   /// Shows the breeze of the schedule if an edit has changed it.
@@ -61,9 +64,12 @@ class WindBroadcaster final : public NodeBase {
   boost::recursive_mutex mutex_;  // of all callbacks: they may come during construction
   WindSettings settings_;
   wind::PrimitiveSchedule schedule_;
+  tf2_ros::Buffer tf_buffer_;
+  tf2_ros::TransformListener tf_listener_;
   FrameFollower follower_;
+  WindProbes probes_;
   BreezeSettings breeze_;  // as dynamic_reconfigure shows it
-  ros::Publisher field_publisher_, marker_publisher_;
+  ros::Publisher field_publisher_, marker_publisher_, samples_publisher_;
   dynamic_reconfigure::Server<WindBroadcasterConfig> reconfigure_;
   ClockWatch clock_;  // last: it may call begin()
 };

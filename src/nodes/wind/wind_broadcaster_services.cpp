@@ -1,7 +1,9 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/wind/wind_broadcaster.h"
+#include "ros/services/requests.h"
 #include "ros/services/service_replies.h"
+#include "vegetation_sim/ros/conversions/geometry_conversions.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
 #include "vegetation_sim/ros/conversions/wind_conversions.h"
 #include "wind/limits.h"
@@ -35,10 +37,7 @@ void checkSamples(const SampleWind::Request& request) {
 template <class Response, class Body>
 bool WindBroadcaster::reply(const char* service, Response& response, Body body) {
   const Lock lock(mutex_);
-  answer(response, [&]() -> std::string {
-    if (!clock_.running()) throw InvalidInput("time has not begun, is /clock published?");
-    return body();
-  });
+  answer(response, body);
   if (!response.success) refusals_.add(service, response.message);
   return true;
 }
@@ -60,7 +59,7 @@ bool WindBroadcaster::setPrimitive(SetWindPrimitive::Request& request,
 bool WindBroadcaster::removePrimitive(RemoveWindPrimitive::Request& request,
                                       RemoveWindPrimitive::Response& response) {
   return reply("remove_primitive", response, [&] {
-    if (!request.name.empty()) {
+    if (!request.all) {
       remove(request.name);
     } else {
       for (const std::string& name : schedule_.names(earliest())) remove(name);
@@ -76,6 +75,7 @@ void WindBroadcaster::reconfigure(WindBroadcasterConfig& config, std::uint32_t l
   if (level != ~0u) {
     std_srvs::Trigger::Response response;
     reply("reconfigure", response, [&] {
+      if (!clock_.running()) throw InvalidInput("time has not begun, is /clock published?");
       BreezeSettings wanted = fromConfig(config);
       Faults faults;
       FieldChecker checker("", faults);  // a NaN passes the server's clamp
@@ -103,23 +103,24 @@ bool WindBroadcaster::getField(GetWindField::Request&, GetWindField::Response& r
 bool WindBroadcaster::sample(SampleWind::Request& request, SampleWind::Response& response) {
   return reply("sample", response, [&] {
     checkSamples(request);
+    const ros::Time& common = request.header.stamp;
+    const Pose to_world =
+        poseInWorld(tf_buffer_, settings_.frame_id, request.header.frame_id, common);
+    const Nanoseconds now = common.isZero() ? clock_.now() : fromMsg(common);
+    response.header.frame_id = settings_.frame_id;
+    response.header.stamp = toStamp(now);
     const auto stampOf = [&](std::size_t i) {
       const Nanoseconds stamp = request.stamps.empty()       ? 0
                                 : request.stamps.size() == 1 ? fromMsg(request.stamps[0])
                                                              : fromMsg(request.stamps[i]);
-      return stamp == 0 ? clock_.now() : stamp;
+      return stamp == 0 ? now : stamp;
     };
     Nanoseconds stamp = 0;
     wind::Instant instant;
     for (std::size_t i = 0; i < request.positions.size(); ++i) {
       if (i == 0 || stampOf(i) != stamp) instant = schedule_.field().at(stamp = stampOf(i));
-      const auto& at = request.positions[i];
-      const Vec3 velocity = instant.velocity(Vec3(at.x, at.y, at.z));
-      geometry_msgs::Vector3 out;
-      out.x = velocity.x();
-      out.y = velocity.y();
-      out.z = velocity.z();
-      response.velocities.push_back(out);
+      const Vec3 position = transformed(to_world, fromMsg(request.positions[i]));
+      response.velocities.push_back(toVector(instant.velocity(position)));
     }
     return "";
   });

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "nodes/wind/wind_probes.h"
 #include "ros/params/scene_file.h"
 #include "vegetation_sim/core/math/math.h"
 #include "wind/limits.h"
@@ -35,6 +36,8 @@ void readNumbers(Parameters& parameters, WindSettings& settings) {
   parameters.number("attach_rate", settings.attach_rate, "Hz", {0.5, 10.0});
   parameters.number("attach_horizon", settings.attach_horizon, "s", {0.5, 30.0});
   parameters.number("markers_rate", settings.markers_rate, "Hz", {0.1, 60.0});
+  parameters.number("sample_rate", settings.sample_rate, "Hz", {0.1, 240.0});
+  parameters.frames("sample_frames", settings.sample_frames, WindProbes::MOST_FRAMES);
   describe(parameters, settings.breeze);
   const double least = 4.0 * std::max(settings.lead, 1.0 / settings.attach_rate);
   if (settings.attach_horizon < least)

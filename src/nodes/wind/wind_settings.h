@@ -43,14 +43,16 @@ struct WindSettings {
   /// Frames that may be followed at once: their pieces share the field's limit with all sources.
   static constexpr std::size_t MAX_FOLLOWED = 4;
 
-  std::string frame_id{"map"};        ///< world frame
-  std::uint64_t seed{0};              ///< of the turbulence
-  double lead{0.2};                   ///< how far ahead an edit takes effect [s]
-  double attach_rate{5.0};            ///< samples and pieces of followed frames [Hz]
-  double attach_horizon{2.0};         ///< how long a piece outlasts its last sample [s]
-  double markers_rate{10.0};          ///< [Hz]
-  std::vector<wind::Source> sources;  ///< stamps from 0, the start of the node
-  BreezeSettings breeze;              ///< of the source named "breeze", if there is one
+  std::string frame_id{"map"};             ///< world frame
+  std::uint64_t seed{0};                   ///< of the turbulence
+  double lead{0.2};                        ///< how far ahead an edit takes effect [s]
+  double attach_rate{5.0};                 ///< samples and pieces of followed frames [Hz]
+  double attach_horizon{2.0};              ///< how long a piece outlasts its last sample [s]
+  double markers_rate{10.0};               ///< [Hz]
+  double sample_rate{30.0};                ///< [Hz]
+  std::vector<std::string> sample_frames;  ///< tf frames at which the wind is published
+  std::vector<wind::Source> sources;       ///< stamps from 0, the start of the node
+  BreezeSettings breeze;                   ///< of the source named "breeze", if there is one
 };
 
 /// Reads the private parameters and the scenario that they name. Parameters override the scenario,

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "ros/conversions/orientation.h"
+#include "ros/conversions/optional_numbers.h"
 #include "vegetation_sim/core/config/fields.h"
 #include "vegetation_sim/core/math/hash.h"
 #include "vegetation_sim/core/math/math.h"
@@ -26,10 +27,6 @@ geometry_msgs::Vector3 vectorOf(const crowd::Point& p) {
 template <class Message>
 crowd::Point planOf(const Message& message) {
   return {message.x, message.y};
-}
-
-double orDefault(double value, double fallback) {
-  return value == 0.0 ? fallback : value;
 }
 
 void check(const AgentState& agent, Faults& faults) {
@@ -105,6 +102,7 @@ AgentSpawn toMsg(const crowd::Spawn& spawn) {
   AgentSpawn out;
   out.position = pointOf(spawn.position, 0.0);
   out.heading = spawn.heading;
+  out.has_speed = out.has_radius = out.has_height = true;
   out.speed = spawn.speed;
   out.radius = spawn.radius;
   out.height = spawn.height;
@@ -114,13 +112,14 @@ AgentSpawn toMsg(const crowd::Spawn& spawn) {
   return out;
 }
 
-crowd::Spawn fromMsg(const AgentSpawn& message) {
+crowd::Spawn fromMsg(const AgentSpawn& message, const std::string& context, Faults& faults) {
+  OptionalNumbers numbers(context, faults);
   crowd::Spawn out;
   out.position = planOf(message.position);
   out.heading = message.heading;
-  out.speed = orDefault(message.speed, out.speed);
-  out.radius = orDefault(message.radius, out.radius);
-  out.height = orDefault(message.height, out.height);
+  numbers.read("speed", message.has_speed, message.speed, out.speed);
+  numbers.read("radius", message.has_radius, message.radius, out.radius);
+  numbers.read("height", message.has_height, message.height, out.height);
   out.has_goal = message.has_goal;
   out.goal = planOf(message.goal);
   out.wanders = !message.has_goal && !message.stands;

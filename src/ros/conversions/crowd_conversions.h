@@ -24,8 +24,9 @@ crowd::Walker fromMsg(const AgentState& message);
 void check(const AgentStates& message);
 
 AgentSpawn toMsg(const crowd::Spawn& spawn);
-/// Zeros become the defaults. Crowd::spawn() checks the result.
-crowd::Spawn fromMsg(const AgentSpawn& message);
+/// Numbers that are not given have their defaults. Adds a fault for a number without its flag;
+/// Crowd::spawn() checks ranges.
+crowd::Spawn fromMsg(const AgentSpawn& message, const std::string& context, Faults& faults);
 
 CrowdRobot toMsg(const crowd::Robot& robot);
 crowd::Robot fromMsg(const CrowdRobot& message);

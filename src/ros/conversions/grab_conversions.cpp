@@ -96,4 +96,22 @@ FramedWrench wrenchIn(const Pose& frame, const forest::Reaction& reaction) {
           rotate(back, reaction.torque + cross(lever, reaction.force))};
 }
 
+ContactForce toMsg(const forest::Reaction& reaction, const Pose& frame) {
+  const FramedWrench wrench = wrenchIn(frame, reaction);
+  ContactForce out;
+  out.grab = reaction.grab;
+  out.body = reaction.body;
+  out.tree = reaction.at.tree;
+  out.branch = static_cast<std::uint32_t>(reaction.at.branch);
+  out.along = reaction.at.along;
+  out.point = toPoint(reaction.point);
+  out.force = toVector(reaction.force);
+  out.frame = reaction.frame;
+  out.wrench.force = toVector(wrench.force);
+  out.wrench.torque = toVector(wrench.torque);
+  out.limited = reaction.limited;
+  out.penetration = reaction.penetration;
+  return out;
+}
+
 }  // namespace vegetation_sim

@@ -4,6 +4,7 @@
 
 #include <vegetation_sim/BranchForce.h>
 #include <vegetation_sim/BranchGrab.h>
+#include <vegetation_sim/ContactForce.h>
 #include <vegetation_sim/ForestBody.h>
 
 #include "tree/physical/interaction.h"
@@ -27,5 +28,8 @@ struct FramedWrench {
   Vec3 force, torque;
 };
 FramedWrench wrenchIn(const Pose& frame, const forest::Reaction& reaction);
+
+/// @param frame world pose of the frame of the holder or body.
+ContactForce toMsg(const forest::Reaction& reaction, const Pose& frame);
 
 }  // namespace vegetation_sim

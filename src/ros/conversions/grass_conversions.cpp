@@ -142,7 +142,7 @@ grass::Layout fromMsg(const GrassLayout& message) {
   out.terrain_hash = message.terrain_hash;
   out.blade_model = bladeModelOf(message.blade_model, faults);
   out.tread_spacing = message.tread_spacing;
-  out.tread = fromMsg(message.tread, grass::TreadLaw());
+  out.tread = fromMsg(message.tread, grass::TreadLaw(), "layout: tread: ", faults);
   check(out.tread, "layout: tread: ", faults);
   FieldChecker checker("layout: ", faults);
   checker.number("tread_spacing", out.tread_spacing, "m", {0.001, 100.0});

@@ -1,5 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "ros/conversions/optional_numbers.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
 #include "vegetation_sim/ros/conversions/grass_conversions.h"
 
@@ -7,6 +8,7 @@ namespace vegetation_sim {
 
 TreadLaw toMsg(const grass::TreadLaw& law) {
   TreadLaw out;
+  out.has_radius = out.has_reach = out.has_softness = out.has_load = out.has_recovery = true;
   out.radius = law.radius;
   out.reach = law.reach;
   out.softness = law.softness;
@@ -15,18 +17,18 @@ TreadLaw toMsg(const grass::TreadLaw& law) {
   return out;
 }
 
-grass::TreadLaw fromMsg(const TreadLaw& message, const grass::TreadLaw& own) {
+grass::TreadLaw fromMsg(const TreadLaw& message, const grass::TreadLaw& own,
+                        const std::string& context, Faults& faults) {
+  OptionalNumbers numbers(context, faults);
   grass::TreadLaw out = own;
-  if (message.radius != 0.0) {
-    const double size = message.radius / own.radius;
-    out.radius = message.radius;
-    out.reach = own.reach * size;
-    out.softness = own.softness * size;
+  if (numbers.read("radius", message.has_radius, message.radius, out.radius)) {
+    out.reach = own.reach * (message.radius / own.radius);
+    out.softness = own.softness * (message.radius / own.radius);
   }
-  if (message.reach != 0.0) out.reach = message.reach;
-  if (message.softness != 0.0) out.softness = message.softness;
-  if (message.load != 0.0) out.load = message.load;
-  if (message.recovery != 0.0) out.recovery = message.recovery;
+  numbers.read("reach", message.has_reach, message.reach, out.reach);
+  numbers.read("softness", message.has_softness, message.softness, out.softness);
+  numbers.read("load", message.has_load, message.load, out.load);
+  numbers.read("recovery", message.has_recovery, message.recovery, out.recovery);
   return out;
 }
 
@@ -36,8 +38,10 @@ TreadEvent toMsg(const grass::TreadInput& input) {
   out.action = static_cast<std::uint8_t>(input.action);
   out.start = toPoint(input.start);
   out.position = toPoint(input.position);
+  out.has_height_gate = true;
   out.height_gate = input.height_gate;
-  out.velocity = toVector(input.velocity);
+  out.has_velocity = input.velocity.has_value();
+  out.velocity = toVector(input.velocity.value_or(Vec3::Zero()));
   out.law = toMsg(input.law);
   out.body_frame = input.body_frame;
   return out;
@@ -50,11 +54,17 @@ grass::TreadInput fromMsg(const TreadEvent& message, const grass::TreadLaw& own,
   out.action = static_cast<grass::TreadAction>(message.action);
   out.start = fromMsg(message.start);
   out.position = fromMsg(message.position);
-  out.height_gate = message.height_gate != 0.0 ? message.height_gate : height_gate;
-  out.velocity = fromMsg(message.velocity);
-  out.law = fromMsg(message.law, own);
   out.body_frame = message.body_frame;
   Faults faults;
+  out.height_gate = height_gate;
+  OptionalNumbers("tread: ", faults)
+      .read("height_gate", message.has_height_gate, message.height_gate, out.height_gate);
+  const Vec3 velocity = fromMsg(message.velocity);
+  if (message.has_velocity)
+    out.velocity = velocity;
+  else if (!(velocity == Vec3::Zero()))
+    faults.add("tread: velocity needs has_velocity = true");
+  out.law = fromMsg(message.law, own, "tread: ", faults);
   check(out, "tread: ", faults);
   faults.throwIfAny();
   return out;

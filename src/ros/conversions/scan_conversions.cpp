@@ -34,7 +34,7 @@ ScanPoint pointOf(const scan::Return& one, const scan::Beams& beams, int ring, i
   out.z = static_cast<float>(place.z());
   out.intensity = static_cast<float>(scan::intensityOf(one.hit));
   out.ring = static_cast<std::uint16_t>(ring);
-  out.label = static_cast<std::uint16_t>(one.hit.label);
+  out.label = static_cast<std::uint32_t>(one.hit.label);
   out.plant = one.hit.plant;
   out.branch = one.hit.branch;
   return out;
@@ -49,10 +49,11 @@ sensor_msgs::PointCloud2 toCloud(const std::vector<scan::Return>& returns,
                 fieldOf("y", offsetof(ScanPoint, y), PointField::FLOAT32),
                 fieldOf("z", offsetof(ScanPoint, z), PointField::FLOAT32),
                 fieldOf("intensity", offsetof(ScanPoint, intensity), PointField::FLOAT32),
-                fieldOf("ring", offsetof(ScanPoint, ring), PointField::UINT16),
-                fieldOf("label", offsetof(ScanPoint, label), PointField::UINT16),
+                fieldOf("label", offsetof(ScanPoint, label), PointField::UINT32),
                 fieldOf("plant", offsetof(ScanPoint, plant), PointField::UINT32),
-                fieldOf("branch", offsetof(ScanPoint, branch), PointField::INT32)};
+                fieldOf("branch", offsetof(ScanPoint, branch), PointField::INT32),
+                fieldOf("time", offsetof(ScanPoint, time), PointField::FLOAT32),
+                fieldOf("ring", offsetof(ScanPoint, ring), PointField::UINT16)};
   std::vector<ScanPoint> points;
   points.reserve(returns.size());
   for (std::size_t i = 0; i < returns.size(); ++i)

@@ -12,15 +12,18 @@
 
 namespace vegetation_sim {
 
-/// One point of a cloud, as its bytes are. Fields of the cloud have these names; `branch` is -1
-/// where there is none.
+/// One point of a cloud, as its bytes are. Fields of the cloud have these names and the types that
+/// PCL has for them; `branch` is -1 where there is none.
 struct ScanPoint {
   float x{0.f}, y{0.f}, z{0.f}, intensity{0.f};  ///< sensor's frame [m]; share of the light
-  std::uint16_t ring{0}, label{0};               ///< ring 0 is the lowest; ScanReport
+  std::uint32_t label{0};                        ///< ScanReport
   std::uint32_t plant{0};                        ///< id of the tree or walker
   std::int32_t branch{0};                        ///< of the tree; limb of the walker
+  float time{0.f};                               ///< after the stamp of the cloud [s]
+  std::uint16_t ring{0};                         ///< 0 is the lowest
+  std::uint16_t unused{0};
 };
-static_assert(sizeof(ScanPoint) == 28, "no gaps");
+static_assert(sizeof(ScanPoint) == 36, "no gaps");
 
 /// The rays that have a point, ring by ring. Left to the caller: the header.
 sensor_msgs::PointCloud2 toCloud(const std::vector<scan::Return>& returns,

@@ -136,6 +136,26 @@ void Parameters::frame(const char* name, std::string& value, bool may_be_empty) 
   if (!value.empty() && value[0] == '/') fault(name, "= '" + value + "' begins with '/'");
 }
 
+void Parameters::frames(const char* name, std::vector<std::string>& values, std::size_t most) {
+  XmlRpc::XmlRpcValue found;
+  if (!find(name, found)) return;
+  if (found.getType() != XmlRpc::XmlRpcValue::TypeArray)
+    return wrongType(name, found, "a list of frames");
+  if (static_cast<std::size_t>(found.size()) > most)
+    fault(name,
+          "has " + std::to_string(found.size()) + " entries, allowed are " + std::to_string(most));
+  std::set<std::string> read;
+  for (int i = 0; i < found.size(); ++i) {
+    if (found[i].getType() != XmlRpc::XmlRpcValue::TypeString)
+      return wrongType(name, found, "a list of frames");
+    const std::string frame = static_cast<std::string>(found[i]);
+    if (frame.empty() || frame[0] == '/')
+      fault(name, "has '" + frame + "', which is empty or begins with '/'");
+    if (!read.insert(frame).second) fault(name, "has '" + frame + "' twice");
+    values.push_back(frame);
+  }
+}
+
 void Parameters::flag(const char* name, bool& value) {
   XmlRpc::XmlRpcValue found;
   if (!find(name, found)) return;

@@ -80,6 +80,8 @@ void GrabClient::pickAndGrab(const Ray& ray, double tolerance, const Spring& spr
   grab.request.branch = pick.response.branch;
   grab.request.along = pick.response.along;
   grab.request.target.point = pick.response.point;
+  grab.request.has_stiffness = grab.request.has_damping = true;
+  grab.request.has_force_limit = grab.request.has_lease = true;
   grab.request.stiffness = spring.stiffness;
   grab.request.damping = spring.damping;
   grab.request.force_limit = spring.force_limit;

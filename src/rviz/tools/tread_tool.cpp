@@ -81,7 +81,9 @@ void TreadTool::tread(const rviz::ViewportMouseEvent& event, bool first) {
   message.action = first || !down_ ? TreadEvent::PLACE : TreadEvent::MOVE;
   message.position = toPoint(place);
   message.law.radius = static_cast<double>(radius_->getFloat());
+  message.law.has_radius = true;
   message.law.recovery = static_cast<double>(recovery_->getFloat());
+  message.law.has_recovery = message.law.recovery > 0.0;
   publisher_.publish(message);
   last_ = place;
   down_ = true;

@@ -26,6 +26,7 @@ BAD = {
     'neighbours': (99, 'neighbours = 99 is outside 1 to 8'),
     'behaviour': ('panic', 'behaviour'),
     'frame_id': ('/map', "frame_id"),
+    'frame_prefix': ('/left/', "frame_prefix = '/left/' begins with '/'"),
     'robots': ([{'radius': 0.4}], 'needs a frame'),
     'speeed': (1.0, 'speeed'),
 }

@@ -15,6 +15,7 @@ from vegetation_sim.msg import AgentSpawn, CrowdEvent, TreadEvent
 
 from crowd_rig import Cart, Crowd, at, distance
 from forest_rig import TickClock, time_of
+from given import given
 from watched_node import Log
 
 START = 3000  # tick
@@ -49,6 +50,7 @@ class CrowdRequests(unittest.TestCase):
                     self.assertGreater(distance(a.pose.position, b.pose.position), 0.5 - 1e-6)
         prints = [t for t in self.crowd.tread.messages if t.action == TreadEvent.STROKE]
         self.assertGreater(len(prints), 16)
+        self.assertTrue(all(t.source.startswith('hall/walker_') for t in prints))
         for t in prints:  # A footprint extends from heel to ball.
             self.assertTrue(0.15 < distance(t.start, t.position) < 0.3)
 
@@ -77,8 +79,14 @@ class CrowdRequests(unittest.TestCase):
 
         nan = float('nan')
         spawn, crowd = self.crowd.spawn, self.crowd
-        self.assertIn('like: x = nan', refusal(spawn(like=AgentSpawn(position=at(nan, 0)))))
-        self.assertIn('speed = 40', refusal(spawn(like=AgentSpawn(speed=40.0))))
+        self.assertIn('like: x = nan', refusal(spawn(like=AgentSpawn(position=at(nan, 0)), count=1)))
+        self.assertIn('speed = 40', refusal(spawn(like=AgentSpawn(**given(speed=40.0)), count=1)))
+        self.assertIn('speed = 0 m/s is outside 0.1 to 3',
+                      refusal(spawn(like=AgentSpawn(**given(speed=0.0)), count=1)))
+        for field in ('speed', 'radius', 'height'):
+            self.assertIn('like: %s = 1 needs has_%s = true' % (field, field),
+                          refusal(spawn(like=AgentSpawn(**{field: 1.0}), count=1)))
+        self.assertIn('count = 0 is outside 1 to ', refusal(spawn()))
         self.assertIn('count = 100000', refusal(spawn(count=100000)))
         self.assertIn('most_walkers = 50', refusal(spawn(count=60)))
         self.assertIn('walker 77 is unknown', refusal(crowd.remove(ids=[77])))
@@ -128,9 +136,9 @@ class CrowdRequests(unittest.TestCase):
             last = self.crowd.agents()[7].pose.position
             cart.put(last.x - 2.0, last.y, time_of(self.clock.tick))
             self.clock.run(1, self.crowd)
-        log.wait(lambda all: any(t.child_frame_id == 'walker_7' for m in all for t in m.transforms),
+        log.wait(lambda all: any(t.child_frame_id == 'hall/walker_7' for m in all for t in m.transforms),
                  'the walker beside the robot', come)
-        rounds = [[t for t in m.transforms if t.child_frame_id.startswith('walker')]
+        rounds = [[t for t in m.transforms if t.child_frame_id.startswith('hall/walker_')]
                   for m in log.messages]
         log.close()
         self.assertEqual({len(r) for r in rounds if r}, {3})
@@ -160,7 +168,7 @@ class CrowdRequests(unittest.TestCase):
         self.assertIn('8 of most_walkers = 50 are there, 30 are to come', refused.message)
         self.assertTrue(self.crowd.reset().success)
         self.clock.run(1, self.crowd)
-        second = self.crowd.spawn(like=AgentSpawn(position=at(5, -6)))
+        second = self.crowd.spawn(like=AgentSpawn(position=at(5, -6)), count=1)
         self.assertTrue(second.success, second.message)
         self.clock.run(70, self.crowd)
         self.assertEqual(sorted(self.crowd.agents()), sorted([*range(8), *first.ids, *second.ids]))

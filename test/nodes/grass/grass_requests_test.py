@@ -7,15 +7,16 @@ import unittest
 
 import rospy
 import rostest
-from geometry_msgs.msg import Point, PointStamped
+from geometry_msgs.msg import Point, PointStamped, Vector3
 from std_msgs.msg import Header
 from std_srvs.srv import Trigger
 from vegetation_sim.msg import TreadEvent, TreadLaw
 from visualization_msgs.msg import MarkerArray
 
 from forest_rig import TickClock
+from given import given
 from grass_rig import FULL, RATE, Feet, Meadow, nodes_of, step, time_of
-from watched_node import Log
+from watched_node import Log, serves
 
 NAN, INF = float('nan'), float('inf')
 
@@ -30,7 +31,7 @@ class GrassRequests(unittest.TestCase):
         cls.grass = Meadow()
         cls.clock = TickClock(1000 * RATE)
         cls.grass.wait_until_up()
-        cls.early = cls.grass.refusal(points=points((0, 0)))
+        cls.early = serves('/grass_field/sample')
         cls.feet = Feet(cls.grass)
         cls.clock.run(1, cls.grass)
 
@@ -65,12 +66,12 @@ class GrassRequests(unittest.TestCase):
         return nodes_of(self.grass.state.messages[-1])
 
     def test_nothing_is_sampled_before_time_begins(self):
-        self.assertEqual(self.early, 'no tick yet: the clock has not started')
+        self.assertFalse(self.early)
 
     # S2-21, S2-22: a path of any length is applied at one tick with its own tread law.
     def test_a_path_is_trodden_at_one_tick(self):
         answer = self.call(self.grass.tread, points=points((-15, 10), (15, 10), (15, 12)),
-                           law=TreadLaw(radius=0.3, recovery=1e9))
+                           law=TreadLaw(**given(radius=0.3, recovery=1e9)))
         self.assertAlmostEqual(answer.length, 32.0)
         for x in (-15.0, -7.3, 0.0, 14.9):
             self.assertGreater(self.grass.at(x, 10.2).tilt, FULL - 1e-6)
@@ -83,9 +84,14 @@ class GrassRequests(unittest.TestCase):
 
     # S2-21: a single point is a footprint.
     def test_a_single_point_is_a_footprint(self):
-        self.call(self.grass.tread, points=points((-10, -10)), law=TreadLaw(recovery=1e9))
+        self.call(self.grass.tread, points=points((-10, -10)), law=TreadLaw(**given(recovery=1e9)))
         self.assertGreater(self.grass.at(-10.0, -10.05).tilt, FULL - 1e-6)
         self.assertEqual(self.grass.at(-10.0, -9.5).tilt, 0.0)
+
+    # A given 0 is no default: a source without load leaves no track.
+    def test_a_load_of_zero_treads_nothing(self):
+        self.call(self.grass.tread, points=points((-10, -17)), law=TreadLaw(**given(load=0.0)))
+        self.assertEqual(self.grass.at(-10.0, -17.0).tilt, 0.0)
 
     def test_a_stamped_request_waits_for_its_stamp(self):
         later = time_of(self.clock.tick + 10)
@@ -112,11 +118,13 @@ class GrassRequests(unittest.TestCase):
 
     def test_clear_raises_a_disc_or_all(self):
         self.call(self.grass.tread, points=points((-5, -5), (5, -5)))
+        self.call(self.grass.clear, centre=PointStamped(point=Point(0, -5, 0)), radius=0.0)
+        self.assertGreater(self.grass.at(1.9, -5.0).tilt, 1.4)
         self.call(self.grass.clear, centre=PointStamped(point=Point(0, -5, 0)), radius=2.0)
         self.assertEqual(self.grass.at(1.9, -5.0).tilt, 0.0)
         self.assertGreater(self.grass.at(2.2, -5.0).tilt, 1.4)
         self.assertTrue(self.grass.state.messages[-1].key_frame)
-        self.call(self.grass.clear)
+        self.call(self.grass.clear, all=True)
         self.assertEqual(self.ground(), {})
 
     def test_reset_is_a_fresh_start(self):
@@ -145,9 +153,13 @@ class GrassRequests(unittest.TestCase):
         self.expect_refused('points[1].y = 20.5 m is outside -20 to 20 m', tread,
                             points=points((0, 0), (0, 20.5)))
         self.expect_refused('radius = -1 m is outside', tread, points=points((0, 0)),
-                            law=TreadLaw(radius=-1))
+                            law=TreadLaw(**given(radius=-1)))
         self.expect_refused('reach = 0.2', tread, points=points((0, 0)),
-                            law=TreadLaw(radius=0.2, reach=0.2))
+                            law=TreadLaw(**given(radius=0.2, reach=0.2)))
+        self.expect_refused('law: radius = 0 m is outside 0.005 to 5 m', tread,
+                            points=points((0, 0)), law=TreadLaw(**given(radius=0.0)))
+        self.expect_refused('law: radius = 0.3 needs has_radius = true', tread,
+                            points=points((0, 0)), law=TreadLaw(radius=0.3))
         self.expect_refused("frame_id = 'nowhere' is not known in 'map'", tread,
                             header=Header(frame_id='nowhere'), points=points((0, 0)))
         self.expect_refused('s ahead, allowed are 60', tread, points=points((0, 0)),
@@ -172,7 +184,9 @@ class GrassRequests(unittest.TestCase):
         bad = [step('', 1.0, 1.0), step('x', NAN, 1.0), step('x', 1.0, INF), step('x', 1e9, 0.0),
                step('x' * 300, 1.0, 1.0), step('x', 1.0, 1.0, action=9),
                step('x', 1.0, 1.0, law={'radius': -0.1}), step('x', 1.0, 1.0, law={'load': NAN}),
-               step('x', 1.0, 1.0, height_gate=-2.0)]
+               step('x', 1.0, 1.0, height_gate=-2.0),
+               TreadEvent(source='x', height_gate=1.0),
+               TreadEvent(source='x', velocity=Vector3(1.0, 0.0, 0.0))]
         lost = TreadEvent(source='x')
         lost.header.frame_id = 'no_such_frame'
         self.feet.send(*(bad + [lost]))

@@ -11,7 +11,7 @@ import rostest
 from geometry_msgs.msg import TransformStamped, WrenchStamped
 from nav_msgs.msg import Odometry
 from tf2_msgs.msg import TFMessage
-from vegetation_sim.msg import TreadEvent, WindPrimitive
+from vegetation_sim.msg import GrassForces, TreadEvent, WindPrimitive
 from vegetation_sim.srv import SetWindPrimitive
 
 from forest_rig import TickClock
@@ -31,7 +31,9 @@ class GrassSources(unittest.TestCase):
         wait_for_readers('/tf', cls.grass.process)
         wait_for_readers('/odom', cls.grass.process)
         cls.wrenches = Log('/grass/wrenches', WrenchStamped)
+        cls.forces = Log('/grass/forces', GrassForces)
         wait_for(cls.wrenches.connected, 'wrenches')
+        wait_for(cls.forces.connected, 'forces')
         cls.clock.run(1, cls.grass)
 
     def frame(self, name, x, y, z, yaw=0.0):
@@ -81,7 +83,7 @@ class GrassSources(unittest.TestCase):
     # is zero above the gate.
     def test_drag_on_a_wheel(self):
         def pull(x, speed, yaw=0.0, z=0.1):
-            self.grass.clear()
+            self.grass.clear(all=True)
             self.fly(RATE // 2, lambda s: ('wheel_left', x + 0.5 * speed * s, -8.0, z, yaw))
             return self.last_wrench('wheel_left').force
         slow, fast, dense = pull(-12.0, 1.0), pull(-12.0, 2.0), pull(8.0, 1.0)
@@ -108,8 +110,13 @@ class GrassSources(unittest.TestCase):
             self.grass.settle()
             self.clock.run(1, self.grass)
         self.assertGreater(self.grass.at(11.5, -4.1).tilt, 1.4)
-        self.assertAlmostEqual(self.last_wrench('base_link').force.x, -0.4 * 0.2 * 800.0 * 0.3 * 3.0,
-                               delta=0.5)
+        drag = -0.4 * 0.2 * 800.0 * 0.3 * 3.0
+        self.assertAlmostEqual(self.last_wrench('base_link').force.x, drag, delta=0.5)
+        forces = self.forces.wait_for_stamp(time_of(self.clock.tick))
+        mine = next(f for f in forces.forces if f.frame == 'base_link')
+        self.assertEqual((forces.header.frame_id, mine.source), ('map', 'cart'))
+        self.assertAlmostEqual(mine.force.x, drag, delta=0.5)
+        self.assertAlmostEqual(mine.point.x, message.pose.pose.position.x, delta=0.2)
 
     # An orientation that is not normalised would stretch the offset of the source.
     def test_odometry_without_a_unit_quaternion_is_refused_by_name(self):

@@ -8,7 +8,7 @@ import unittest
 import rospy
 import rostest
 from nav_msgs.msg import OccupancyGrid
-from vegetation_sim.msg import GrassEvent, TreadEvent
+from vegetation_sim.msg import GrassCover, GrassEvent, TreadEvent
 from visualization_msgs.msg import Marker, MarkerArray
 
 from forest_rig import TickClock, ViewerClient
@@ -115,10 +115,24 @@ class GrassState(unittest.TestCase):
         self.assertEqual(first.tread.height_gate, 0.3)
         self.assertEqual(first.header.frame_id, 'map')
 
+    # N5: the values at the centre of a cell are those of a sample.
+    def expect_values(self, values, grid):
+        self.assertEqual((values.header.frame_id, values.info), ('map', grid))
+        for x, y in ((6.125, -8.125), (-6.125, -8.125)):
+            cell = int((y + 20.0) / 0.25) * 160 + int((x + 20.0) / 0.25)
+            sample = self.grass.at(x, y)
+            for name in ('density', 'height', 'crush', 'resistance', 'age'):
+                self.assertAlmostEqual(getattr(values, name)[cell], getattr(sample, name), places=4)
+        track = int((-9.9 + 20.0) / 0.25) * 160 + int((6.0 + 20.0) / 0.25)
+        self.assertGreater(values.crush[track], 0.6)
+        self.assertLess(values.resistance[track], 20.0)
+        self.assertGreaterEqual(values.age[track], 0.0)
+
     # N5: cells under the path are set, and they return to zero when the grass has risen.
     def test_the_cover_map_shows_the_track_and_forgets_it(self):
         logs = {name: Log('/grass/cover/' + name, OccupancyGrid) for name in LAYERS}
         logs['plain'] = Log('/grass/cover', OccupancyGrid)
+        logs['values'] = Log('/grass/cover/values', GrassCover)
         for log in logs.values():
             wait_for(log.connected, log.topic)
         self.feet.walk(self.clock, 'c', (4.0, -10.0), (8.0, -10.0), 2 * RATE, law={'recovery': 5.0})
@@ -133,12 +147,14 @@ class GrassState(unittest.TestCase):
             return maps[layer].data[int((y + 20.0) / 0.25) * 160 + int((x + 20.0) / 0.25)]
         self.assertGreater(cell('crush', 6.0, -9.9), 60)
         self.assertEqual(cell('crush', 6.0, -8.0), 0)
-        self.assertEqual(cell('density', 6.0, -8.0), 100)
-        self.assertEqual(cell('density', -6.0, -8.0), 50)
-        self.assertEqual(cell('resistance', 6.0, -8.0), 100)
-        self.assertLess(cell('resistance', 6.0, -9.9), 40)
+        # In percent of 1000 blades per m^2 and of 100 N s/m, whatever is densest on the map.
+        self.assertEqual(cell('density', 6.0, -8.0), 80)
+        self.assertEqual(cell('density', -6.0, -8.0), 40)
+        self.assertEqual(cell('resistance', 6.0, -8.0), 48)
+        self.assertLess(cell('resistance', 6.0, -9.9), 20)
         self.assertEqual(cell('age', 6.0, -8.0), -1)
         self.assertIn(cell('age', 6.0, -9.9), (0, 1))
+        self.expect_values(maps['values'], grid)
         self.assertEqual(maps['plain'].info, grid)
         self.assertEqual(maps['plain'].data[:2], maps['crush'].data[:2])
         self.run_both(6 * RATE)

@@ -32,7 +32,7 @@ class GrassTuning(unittest.TestCase):
 
     def setUp(self):
         self.tune(**PLAIN)
-        self.grass.clear()
+        self.grass.clear(all=True)
         self.clock.run(1, self.grass)
 
     def tune(self, **settings):

@@ -5,6 +5,7 @@
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <rosgraph_msgs/Clock.h>
+#include <tf2_msgs/FrameGraph.h>
 #include <vegetation_sim/GetTree.h>
 
 #include <functional>
@@ -60,9 +61,11 @@ class ClockedForest {
   explicit ClockedForest(std::int64_t first_tick) : tick_(first_tick) {
     clock_ = ros::NodeHandle().advertise<rosgraph_msgs::Clock>("/clock", 100);
     tree_ = ros::NodeHandle().serviceClient<GetTree>("forest_animator/get_tree");
-    if (!ros::service::waitForService("forest_animator/get_tree", ros::Duration(-1)))
+    // Before time begins the node answers only this service.
+    if (!ros::service::waitForService("forest_animator/tf2_frames", ros::Duration(-1)))
       throw std::runtime_error("no forest_animator");
-    settle();
+    tf2_msgs::FrameGraph graph;
+    for (int i = 0; i < 2; ++i) ros::service::call("forest_animator/tf2_frames", graph);
     state.waitForPublisher();
     // The subscribers are the node and this process.
     spinUntil("listeners of /clock", [this] { return clock_.getNumSubscribers() >= 2; });

@@ -8,8 +8,9 @@ import subprocess
 import roslib.packages
 import rospy
 from rosgraph_msgs.msg import Clock
+from tf2_msgs.srv import FrameGraph
 from vegetation_sim.msg import ForestEvent, ForestLayout, ForestState, Viewer, WindField
-from vegetation_sim.srv import GetTree, GetWindField, Pick, SetTf
+from vegetation_sim.srv import GetTree, Pick, SetTf
 
 from waiting import DEADLINE, wait_for
 from watched_node import Log, WatchedNode, publisher, slave
@@ -31,7 +32,7 @@ class Animator(WatchedNode):
         self.events = Log(namespace + 'forest/events', ForestEvent)
         super().__init__(name, 'forest', name + '/get_tree', GetTree)
         self.pick = rospy.ServiceProxy(name + '/pick', Pick)
-        self.set_tf = rospy.ServiceProxy(name + '/set_tf', SetTf)
+        self._set_tf = rospy.ServiceProxy(name + '/set_tf', SetTf)
 
     def tree(self, tree, stamp=rospy.Time()):
         answer = self._probe(tree=tree, stamp=stamp)
@@ -43,6 +44,11 @@ class Animator(WatchedNode):
         """Returns the error of the service get_tree, or '' on success."""
         answer = self._probe(**request)
         return '' if answer.success else answer.message
+
+    def set_tf(self, tree, branches, enable):
+        """Starts or stops frames of branches, or of all of them if `branches` is 'all'."""
+        chosen = dict(all=True) if branches == 'all' else dict(branches=branches)
+        return self._set_tf(tree=tree, enable=enable, **chosen)
 
     def level(self, tree):
         return self.tree(tree).level
@@ -93,9 +99,9 @@ class TickClock:
         wind = Log('/wind', WindField)
         for animator in animators:
             animator.wait_until_up('/wind')
-        rospy.wait_for_service('/wind_broadcaster/get_field', DEADLINE)
+        rospy.wait_for_service('/wind_broadcaster/tf2_frames', DEADLINE)
         # After this call the broadcaster has started completely.
-        rospy.ServiceProxy('/wind_broadcaster/get_field', GetWindField)()
+        rospy.ServiceProxy('/wind_broadcaster/tf2_frames', FrameGraph)()
         wait_for(wind.connected, 'the wind')
         self.run(1, *animators)
         wind.wait(len, 'a wind', lambda: self.show(self.tick))

@@ -9,6 +9,7 @@ from tf2_msgs.msg import TFMessage
 from vegetation_sim.srv import ApplyForce, Grab, MoveGrab, Release
 
 from forest_rig import Animator, time_of
+from given import given
 from waiting import wait_for
 from watched_node import Log, publisher, wait_for_readers
 
@@ -58,8 +59,9 @@ class Hands(Animator):
 
     def take(self, **request):
         """Grabs a branch. Returns the reply."""
-        answer = self.grab(**dict(dict(tree=TREE, lease=60.0, stiffness=STIFFNESS, damping=200.0,
-                                     force_limit=5000.0), **request))
+        numbers = dict(lease=60.0, stiffness=STIFFNESS, damping=200.0, force_limit=5000.0)
+        numbers.update((name, request.pop(name)) for name in list(request) if name in numbers)
+        answer = self.grab(**dict(dict(tree=TREE), **given(**numbers), **request))
         if not answer.success:
             raise AssertionError(answer.message)
         return answer
@@ -87,7 +89,8 @@ class Hands(Animator):
         has no effect, and reads the error."""
         def known():
             self.show_frame(name, place)
-            answer = self.grab(tree=TREE, branch=LIMB, frame=name, stiffness=-1.0)
+            answer = self.grab(tree=TREE, branch=LIMB, frame=name,
+                               **given(stiffness=-1.0))
             return 'stiffness' in answer.message
         wait_for(known, 'the frame ' + name)
 

@@ -7,10 +7,11 @@ import subprocess
 import roslib.packages
 import rospy
 from geometry_msgs.msg import Point
-from vegetation_sim.msg import GrassEvent, GrassLayout, GrassState, TreadEvent
+from vegetation_sim.msg import GrassEvent, GrassLayout, GrassState, TreadEvent, TreadLaw
 from vegetation_sim.srv import ClearGrass, SampleGrass, Tread
 
 from forest_rig import RATE, time_of
+from given import given
 from waiting import wait_for
 from watched_node import Log, WatchedNode, publisher
 
@@ -90,8 +91,9 @@ def step(source, x, y, z=0.0, **fields):
     message.position = Point(x, y, z)
     for name, value in fields.items():
         if name == 'law':
-            for key, number in value.items():
-                setattr(message.law, key, number)
+            message.law = TreadLaw(**given(**value))
+        elif name == 'height_gate':
+            message.has_height_gate, message.height_gate = True, value
         else:
             setattr(message, name, value)
     return message

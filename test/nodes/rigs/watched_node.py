@@ -11,6 +11,7 @@ import xmlrpc.client
 import rosgraph
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray
+from tf2_msgs.srv import FrameGraph
 
 from waiting import DEADLINE, wait_for
 
@@ -113,9 +114,18 @@ def number_or_text(value):
         return value
 
 
+def serves(service):
+    """Returns whether a node advertises the service: time has begun for it."""
+    try:
+        rospy.wait_for_service(service, timeout=0.01)
+        return True
+    except rospy.ROSException:
+        return False
+
+
 class WatchedNode:
     """A node through its ROS interface. Its service `probe` has no effect when it is called without
-    arguments."""
+    arguments. Until time has begun for the node, its process answers only ~tf2_frames."""
 
     LOGS = 'layout', 'state', 'events'  # names of the attributes
 
@@ -123,12 +133,14 @@ class WatchedNode:
         self.name = name
         self.process = name  # the name of the process: for a nodelet that of its manager
         self._status = name.lstrip('/') + ': ' + status
+        self._probe_name = probe
         self._reconnect = lambda: rospy.ServiceProxy(probe, probe_type, persistent=True)
         self.reconnect()
 
     def reconnect(self):
         """Connects to a node that was restarted."""
         self._probe = self._reconnect()
+        self._begun = False
 
     def logs(self):
         return [getattr(self, name) for name in self.LOGS]
@@ -136,7 +148,7 @@ class WatchedNode:
     def wait_until_up(self, *topics):
         """Waits until the node subscribes to the clock and `topics`, and this test receives its
         first state."""
-        self._probe.wait_for_service(DEADLINE)
+        rospy.wait_for_service(self.process + '/tf2_frames', DEADLINE)
         self.settle()
         for topic in ('/clock',) + topics:
             wait_for(lambda: listens(self.process, topic),
@@ -150,8 +162,10 @@ class WatchedNode:
         its sockets in turn, so a message that is in another socket at the first call is in the
         queue by the second."""
         wait_for(all_delivered, 'all that was published to be in the sockets of its readers')
+        self._begun = self._begun or serves(self._probe_name)
+        early = rospy.ServiceProxy(self.process + '/tf2_frames', FrameGraph)
         for _ in range(2):
-            self._probe()
+            self._probe() if self._begun else early()
 
     def diagnostics(self, part=None):
         """Returns the node's next diagnostics by key, of the node itself or of its part `part`."""

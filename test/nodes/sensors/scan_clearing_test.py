@@ -16,6 +16,7 @@ from vegetation_sim.srv import RemoveWindPrimitive, SetWindPrimitive
 
 from crowd_rig import Crowd
 from forest_rig import RATE, Animator, TickClock, time_of
+from given import given
 from grass_rig import Meadow
 from scan_rig import INPUTS, Mast, Scanner, cloud_of
 from waiting import wait_for
@@ -130,7 +131,7 @@ class ScanClearing(unittest.TestCase):
             return 1.2 + low['z'], (low['label'] == ScanReport.GRASS).mean()
         before, share = lane()
         self.assertGreater(len(before), 50)
-        law = TreadLaw(radius=1.0, reach=1.6, softness=0.1, load=1.0, recovery=1e9)
+        law = TreadLaw(**given(radius=1.0, reach=1.6, softness=0.1, load=1.0, recovery=1e9))
         answer = self.grass.tread(points=[Point(-6, 3, 0), Point(6, 3, 0)], law=law)
         self.assertTrue(answer.success, answer.message)
         self.run_for(0.5)

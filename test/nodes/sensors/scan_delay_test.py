@@ -34,8 +34,8 @@ class ScanDelay(unittest.TestCase):
     # The scanner's ticks of 50 ms fall between the crowd's ticks of 33 ms.
     def test_a_walker_is_at_its_position_at_the_stamp(self):
         self.clock.run(1, self.crowd)
-        walker = AgentSpawn(position=Point(5, -3, 0), heading=numpy.pi / 2, speed=SPEED,
-                            has_goal=True, goal=Point(5, 30, 0))
+        walker = AgentSpawn(position=Point(5, -3, 0), heading=numpy.pi / 2, has_speed=True,
+                            speed=SPEED, has_goal=True, goal=Point(5, 30, 0))
         answer = self.crowd.spawn(like=walker, count=1)
         self.assertTrue(answer.success, answer.message)
         errors, stamps = [], set()

@@ -11,9 +11,11 @@ import rostest
 from diagnostic_msgs.msg import DiagnosticArray
 from dynamic_reconfigure.msg import Config, DoubleParameter
 from dynamic_reconfigure.srv import Reconfigure
-from geometry_msgs.msg import Point, PointStamped
+from geometry_msgs.msg import Point, PointStamped, TransformStamped
+from std_msgs.msg import Header
 from std_srvs.srv import Trigger
-from vegetation_sim.msg import WindField, WindPrimitive
+from tf2_msgs.msg import TFMessage
+from vegetation_sim.msg import WindField, WindPrimitive, WindSamples
 from vegetation_sim.srv import (GetWindField, RemoveWindPrimitive, SampleWind, SampleWindRequest,
                                 SetWindPrimitive)
 from visualization_msgs.msg import MarkerArray
@@ -65,7 +67,8 @@ def service(name, kind):
 class WindRequests(unittest.TestCase):
     def setUp(self):
         self.set = service('set_primitive', SetWindPrimitive)
-        self.remove = service('remove_primitive', RemoveWindPrimitive)
+        remove = service('remove_primitive', RemoveWindPrimitive)
+        self.remove = lambda name='', all=False: remove(name=name, all=all)
         self.get = service('get_field', GetWindField)
         self.sample = service('sample', SampleWind)
         self.reset = service('reset', Trigger)
@@ -173,13 +176,15 @@ class WindRequests(unittest.TestCase):
         self.assertTrue(self.set(primitive(4, 'tied_4', attached_frame='drone')).success)
 
     def test_refuses_to_remove_an_unknown_primitive(self):
+        self.assert_refused(self.remove(), "no source is named ''; known sources: breeze, disc",
+                            self.field().hash)
         self.assert_refused(self.remove('fann'), "no source is named 'fann'; known sources: breeze, disc",
                             self.field().hash)
 
     def test_removes_one_or_all(self):
         self.assertTrue(self.remove('fan').success)
         self.assertGreater(self.last('fan').t_off, rospy.Time.now())
-        self.assertTrue(self.remove('').success)
+        self.assertTrue(self.remove(all=True).success)
         self.assertTrue(all(p.t_off > rospy.Time(0) for p in self.field().primitives))
 
     def test_refuses_bad_samples(self):
@@ -199,10 +204,55 @@ class WindRequests(unittest.TestCase):
     def test_samples_at_one_stamp_for_all(self):
         at = rospy.Time.now()
         points = [Point(x=float(i)) for i in range(5)]
-        together = self.sample(points, [at]).velocities
-        self.assertEqual(together, self.sample(points, [at] * 5).velocities)
-        self.assertEqual(len(self.sample(points, []).velocities), 5)
-        self.assertEqual(self.sample([], []).velocities, [])
+        together = self.sample(Header(), points, [at]).velocities
+        self.assertEqual(together, self.sample(Header(), points, [at] * 5).velocities)
+        self.assertEqual(len(self.sample(Header(), points, []).velocities), 5)
+        self.assertEqual(self.sample(Header(), [], []).velocities, [])
+
+    def show(self, **places):
+        """Broadcasts static frames that are turned by 90 degrees about z."""
+        frames = []
+        for name, place in places.items():
+            frame = TransformStamped(child_frame_id=name)
+            frame.header.frame_id = 'map'
+            at, q = frame.transform.translation, frame.transform.rotation
+            at.x, at.y, at.z = place
+            q.z = q.w = math.sqrt(0.5)
+            frames.append(frame)
+        self.frames = rospy.Publisher('/tf_static', TFMessage, queue_size=1, latch=True)
+        self.frames.publish(frames)
+
+    def test_samples_in_any_frame(self):
+        self.show(mast=(1.0, 2.0, 3.0), rotor=(-4.0, 0.0, 2.0))
+        at = rospy.Time.now()
+        header = Header(frame_id='mast')
+        wait_for(lambda: self.sample(header, [], []).success, 'the frame mast')
+        # The frame is static, so that it has a transform at each stamp.
+        header.stamp = at
+        found = self.sample(header, [Point(x=2.0)], [])
+        world = self.sample(Header(stamp=at), [Point(1.0, 4.0, 3.0)], [])
+        for name in 'xyz':
+            self.assertAlmostEqual(getattr(found.velocities[0], name),
+                                   getattr(world.velocities[0], name), places=9)
+        self.assertEqual((found.header.frame_id, found.header.stamp), ('map', at))
+        refused = self.sample(Header(frame_id='nowhere'), [Point()], [])
+        self.assert_refused(refused, "frame_id = 'nowhere' is not known in 'map'", self.field().hash)
+
+    # The frame `lost` has no transform.
+    def test_publishes_the_wind_at_frames(self):
+        self.show(mast=(1.0, 2.0, 3.0), rotor=(-4.0, 0.0, 2.0))
+        samples = Latest('/wind/samples', WindSamples)
+        message = wait_for(lambda: samples.message and len(samples.message.samples) == 2 and
+                           samples.message, 'samples of two frames')
+        self.assertEqual([s.frame for s in message.samples], ['mast', 'rotor'])
+        self.assertEqual(message.header.frame_id, 'map')
+        self.assertEqual(message.samples[0].position, Point(1.0, 2.0, 3.0))
+        places = [s.position for s in message.samples]
+        expected = self.sample(Header(), places, [message.header.stamp]).velocities
+        self.assertEqual([s.velocity for s in message.samples], expected)
+        status = Latest('/diagnostics', DiagnosticArray)
+        wait_for(lambda: status.message and any(
+            'no recent transform of lost' in s.message for s in status.message.status), 'a warning')
 
     def test_counts_rejected_inputs(self):
         received = []

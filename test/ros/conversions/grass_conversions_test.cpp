@@ -100,7 +100,7 @@ TEST_F(GrassStateConversions, RejectInvalidStates) {
   EXPECT_NE(errorOf([&] { fromMsg(nodes); }).find("press = 77"), std::string::npos);
 }
 
-TEST(TreadConversions, ZerosBecomeTheDefaultsOfTheNode) {
+TEST(TreadConversions, NumbersThatAreNotGivenAreThoseOfTheNode) {
   const grass::TreadLaw own{0.1, 0.3, 0.08, 0.9, 30.0};
   TreadEvent message;
   message.source = "wheel";
@@ -109,14 +109,16 @@ TEST(TreadConversions, ZerosBecomeTheDefaultsOfTheNode) {
   EXPECT_EQ(input.law.radius, 0.1);
   EXPECT_EQ(input.law.recovery, 30.0);
   EXPECT_EQ(input.height_gate, 0.4);
+  message.law.has_radius = message.law.has_load = message.has_height_gate = true;
   message.law.radius = 0.2;  // reach and softness grow in proportion
-  message.law.load = 0.5;
-  message.height_gate = 0.1;
   input = fromMsg(message, own, 0.4);
   EXPECT_NEAR(input.law.reach, 0.6, 1e-12);
   EXPECT_NEAR(input.law.softness, 0.16, 1e-12);
-  EXPECT_EQ(input.law.load, 0.5);
-  EXPECT_EQ(input.height_gate, 0.1);
+  EXPECT_EQ(input.law.load, 0.0);  // a given 0 is no default
+  EXPECT_EQ(input.height_gate, 0.0);
+  EXPECT_FALSE(input.velocity.has_value());
+  message.has_velocity = true;
+  EXPECT_EQ(fromMsg(message, own, 0.4).velocity, Vec3(Vec3::Zero()));
   const grass::TreadInput back = fromMsg(toMsg(input), grass::TreadLaw(), 9.0);
   EXPECT_EQ(back.law.reach, input.law.reach);
   EXPECT_EQ(back.height_gate, input.height_gate);
@@ -127,10 +129,14 @@ TEST(TreadConversions, RejectEachInvalidField) {
   TreadEvent message;
   message.action = 9;
   message.position.y = NOT_A_NUMBER;
+  message.law.has_recovery = true;
   message.law.recovery = -1.0;
+  message.law.softness = 0.5;
+  message.velocity.x = 1.0;
   const std::string faults = errorOf([&] { fromMsg(message, grass::TreadLaw(), 0.3); });
   for (const char* part :
-       {"source = '' has 0 letters", "action = 9", "position.y = nan", "recovery = -1 s"})
+       {"source = '' has 0 letters", "action = 9", "position.y = nan", "recovery = -1 s",
+        "softness = 0.5 needs has_softness = true", "velocity needs has_velocity = true"})
     EXPECT_NE(faults.find(part), std::string::npos) << part << " in " << faults;
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "vegetation_sim/core/config/faults.h"
@@ -20,7 +21,8 @@ struct TreadInput {
   Vec3 start{Vec3::Zero()};     ///< start of a STROKE, world [m]
   Vec3 position{Vec3::Zero()};  ///< world [m]
   double height_gate{0.3};      ///< A source higher than this above the ground does not tread [m].
-  Vec3 velocity{Vec3::Zero()};  ///< world [m/s]; zero: computed from the last two positions
+  /// World [m/s]; if there is none, it follows from the last two positions.
+  std::optional<Vec3> velocity;
   TreadLaw law;
   std::string body_frame;  ///< frame of the body that the drag acts on; empty: no drag is computed
 };

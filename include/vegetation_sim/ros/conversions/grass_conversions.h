@@ -27,12 +27,14 @@ GrassState toMsg(const grass::TreadUpdate& update);
 grass::TreadUpdate fromMsg(const GrassState& message);
 
 TreadLaw toMsg(const grass::TreadLaw& law);
-/// Zeros become what the node has; reach and softness in proportion to the radius. Unchecked.
-grass::TreadLaw fromMsg(const TreadLaw& message, const grass::TreadLaw& own);
+/// Numbers that are not given are the node's `own`; reach and softness then are in proportion to
+/// the radius. Adds a fault for a number without its flag; ranges are left to grass::check().
+grass::TreadLaw fromMsg(const TreadLaw& message, const grass::TreadLaw& own,
+                        const std::string& context, Faults& faults);
 
 /// The header is left to the sender.
 TreadEvent toMsg(const grass::TreadInput& input);
-/// Positions as they stand: the frame is the caller's. Zeros become what the node has.
+/// Positions as they stand: the frame is the caller's. Numbers that are not given are the node's.
 /// @throws InvalidInput with all values that are not finite or out of range.
 grass::TreadInput fromMsg(const TreadEvent& message, const grass::TreadLaw& own,
                           double height_gate);

@@ -12,6 +12,7 @@ from geometry_msgs.msg import PointStamped, Vector3, Vector3Stamped
 from vegetation_sim.srv import ApplyForce, GetTree, Grab, MoveGrab, Release
 
 from forest_rig import RATE, TickClock, time_of
+from given import given
 from grab_rig import LIMB, TREE, Hands, plus, stamped
 from waiting import DEADLINE, wait_for
 
@@ -64,18 +65,23 @@ class ForestGrabRefusals(unittest.TestCase):
              'target, its distance from the point held, = 1000 m is outside 0 to 10 m'),
             (self.good(target=odom), "target.frame_id = 'nowhere' is not known in 'map'"),
             (self.good(frame='nowhere'), "frame = 'nowhere' is not known in 'map'"),
-            (self.good(stiffness=-5.0), 'stiffness = -5 N/m is outside 1 to 1e+06 N/m'),
-            (self.good(damping=NAN), 'damping = nan N s/m is not finite'),
-            (self.good(force_limit=1e9), 'force_limit = 1e+09 N is outside 0.01 to 100000 N'),
-            (self.good(lease=INF), 'lease = inf s is not finite'),
-            (self.good(lease=-1.0), 'lease = -1 s is outside 0.1 to 3600 s'),
+            (self.good(**given(stiffness=-5.0)), 'stiffness = -5 N/m is outside 1 to 1e+06 N/m'),
+            (self.good(**given(damping=NAN)), 'damping = nan N s/m is not finite'),
+            (self.good(**given(force_limit=1e9)), 'force_limit = 1e+09 N is outside 0.01 to 100000 N'),
+            (self.good(**given(lease=INF)), 'lease = inf s is not finite'),
+            (self.good(**given(lease=-1.0)), 'lease = -1 s is outside 0.1 to 3600 s'),
+            (self.good(**given(stiffness=0.0)), 'stiffness = 0 N/m is outside 1 to 1e+06 N/m'),
+            (self.good(stiffness=500.0), 'stiffness = 500 needs has_stiffness = true'),
+            (self.good(damping=NAN), 'damping = nan needs has_damping = true'),
+            (self.good(force_limit=-1.0, lease=2.0),
+             'force_limit = -1 needs has_force_limit = true\nlease = 2 needs has_lease = true'),
             (self.good(stamp=last - rospy.Duration(1)), 'ahead of the last tick, = -1 s is outside 0'),
             (self.good(stamp=last + rospy.Duration(100)), '= 100 s is outside 0 to 60 s'),
             (self.good(nearest=True, point=stamped((500.0, 0.0, 0.0))),
              'no branch within 2 m of point'),
             (self.good(nearest=True, point=stamped((0.0, INF, 0.0))), 'point.y = inf m is not finite'),
         ])
-        all_at_once = self.hands.grab(**self.good(stiffness=-1.0, lease=NAN)).message
+        all_at_once = self.hands.grab(**self.good(**given(stiffness=-1.0, lease=NAN))).message
         for name in ('stiffness', 'lease'):
             self.assertIn(name, all_at_once)
 

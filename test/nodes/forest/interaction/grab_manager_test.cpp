@@ -93,7 +93,7 @@ class GrabManagerRig {
     forest_.advance(now());
     grabs_manager_.update();
   }
-  std::vector<geometry_msgs::WrenchStamped> wrenches() const { return grabs_manager_.wrenches(); }
+  std::vector<ContactForce> forces() const { return grabs_manager_.forces().forces; }
   std::string releaseAll() {
     Release::Request request;
     request.all = true;
@@ -132,11 +132,13 @@ TEST(GrabManager, HandGetsForceAndTorqueInItsOwnFrame) {
   request.along = along;
   request.frame = "hand";
   request.keep_offset = true;
+  request.has_stiffness = request.has_damping = true;
+  request.has_force_limit = request.has_lease = true;
   request.stiffness = stiffness;
   request.damping = 200.0;
   request.force_limit = 1e4;
   request.lease = 60.0;
-  rig.grab(request);
+  const std::uint32_t id = rig.grab(request);
   const Vec3 in_hand = transformed(inverse(start), rig.pointOn(limb, along));
   Pose hand = start;
   for (int i = 0; i < 20 * RATE; ++i) {
@@ -152,15 +154,37 @@ TEST(GrabManager, HandGetsForceAndTorqueInItsOwnFrame) {
   const Vec3 torque = cross(held - hand.position, force);
   ASSERT_GT(length(force), 20.0);
   ASSERT_GT(length(torque), 5.0);
-  ASSERT_EQ(rig.wrenches().size(), 1u);
-  const geometry_msgs::WrenchStamped published = rig.wrenches()[0];
-  EXPECT_EQ(published.header.frame_id, "hand");
-  EXPECT_EQ(fromMsg(published.header.stamp), rig.now());
+  ASSERT_EQ(rig.forces().size(), 1u);
+  const ContactForce published = rig.forces()[0];
+  EXPECT_EQ(published.frame, "hand");
+  EXPECT_EQ(published.grab, id);
+  EXPECT_EQ(published.body, "");
+  EXPECT_EQ(published.branch, request.branch);
+  EXPECT_EQ(published.along, along);
+  EXPECT_LT(length(fromMsg(published.point) - held), 1e-6);
+  EXPECT_LT(length(fromMsg(published.force) - force), 0.01 * length(force));
   // The margin covers the oscillation after 20 s and single precision.
   EXPECT_LT(length(fromMsg(published.wrench.force) - alongAxes(hand.orientation, force)),
             0.01 * length(force));
   EXPECT_LT(length(fromMsg(published.wrench.torque) - alongAxes(hand.orientation, torque)),
             0.01 * length(torque));
+}
+
+// A number that is given counts, even if it is 0; the others have their defaults.
+TEST(GrabManager, ZeroIsNotTheDefault) {
+  GrabManagerRig rig;
+  Grab::Request request;
+  request.branch = 46;
+  request.target.point = toPoint(rig.pointOn(46, 0.0));
+  const std::uint32_t plain = rig.grab(request);
+  request.has_damping = true;
+  const std::uint32_t undamped = rig.grab(request);
+  rig.tick();
+  const auto& grabs = rig.forest().grabs();
+  EXPECT_EQ(grabs.at(plain).damping, 40.0);
+  EXPECT_EQ(grabs.at(plain).stiffness, 2000.0);
+  EXPECT_EQ(grabs.at(undamped).damping, 0.0);
+  EXPECT_EQ(grabs.at(undamped).stiffness, 2000.0);
 }
 
 // N3: a body moves and rotates, and its tf is late. The wrench of a tick is in the frame's pose at
@@ -191,15 +215,18 @@ TEST(GrabManager, BodyGetsItsWrenchInItsFrameOfTheTick) {
     rig.tick();
     const Pose frame = compose(at(seen), inverse(in_frame));
     const auto& reactions = rig.forest().reactions();
-    const auto wrenches = rig.wrenches();
-    ASSERT_EQ(wrenches.size(), reactions.size());
-    for (std::size_t k = 0; k < wrenches.size(); ++k) {
+    const auto forces = rig.forces();
+    ASSERT_EQ(forces.size(), reactions.size());
+    for (std::size_t k = 0; k < forces.size(); ++k) {
       const forest::Reaction& reaction = reactions[k];
       const Vec3 torque = cross(reaction.point - frame.position, reaction.force);
       const Vec3 force = alongAxes(frame.orientation, reaction.force);
-      EXPECT_EQ(wrenches[k].header.frame_id, "hand");
-      EXPECT_LT(length(fromMsg(wrenches[k].wrench.force) - force), 1e-6 * length(force) + 1e-9);
-      EXPECT_LT(length(fromMsg(wrenches[k].wrench.torque) - alongAxes(frame.orientation, torque)),
+      EXPECT_EQ(forces[k].frame, "hand");
+      EXPECT_EQ(forces[k].grab, 0u);
+      EXPECT_EQ(forces[k].body, "palm");
+      EXPECT_EQ(fromMsg(forces[k].force), reaction.force);
+      EXPECT_LT(length(fromMsg(forces[k].wrench.force) - force), 1e-6 * length(force) + 1e-9);
+      EXPECT_LT(length(fromMsg(forces[k].wrench.torque) - alongAxes(frame.orientation, torque)),
                 1e-6 * length(force) + 1e-9);
       published += length(force) > 100.0;
     }

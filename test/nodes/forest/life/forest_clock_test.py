@@ -8,7 +8,11 @@ import unittest
 import rospy
 import rostest
 
+from vegetation_sim.srv import GetTree
+
 from forest_rig import RATE, Animator, TickClock, ViewerClient, scene, start_animator, stop, time_of
+from waiting import DEADLINE
+from watched_node import serves
 
 START = 1700000000 * RATE  # Unix time, at which single precision has no fraction of a second left
 SPEED = 20.0  # ratio of the fast clock to wall time
@@ -21,8 +25,16 @@ class ForestClock(unittest.TestCase):
         cls.forest = Animator()
         cls.clock = TickClock(START)
         cls.forest.wait_until_up('/wind')
-        cls.before_time = cls.forest.refusal(tree=0), list(cls.forest.state.messages)
+        cls.before_time = serves('/forest_animator/get_tree'), list(cls.forest.state.messages)
+        early = rospy.ServiceProxy('/forest_animator/get_tree', GetTree)
+
+        def ask():
+            early.wait_for_service(DEADLINE)
+            cls.early_answer = early(tree=0)
+        client = threading.Thread(target=ask)
+        client.start()
         cls.clock.begin(cls.forest)
+        client.join()
         cls.viewer = ViewerClient()
 
     def run_watched(self, ticks, *animators):
@@ -38,8 +50,11 @@ class ForestClock(unittest.TestCase):
         self.assertEqual(sequences, list(range(sequences[0], sequences[0] + len(sequences))))
 
     def test_nothing_happens_before_time_begins(self):
-        self.assertEqual(self.before_time,
-                         ('no tick yet: the clock has not started', []))
+        self.assertEqual(self.before_time, (False, []))
+
+    def test_a_client_that_waits_for_a_service_waits_for_the_first_tick(self):
+        self.assertTrue(self.early_answer.success, self.early_answer.message)
+        self.assertGreaterEqual(self.early_answer.transforms.header.stamp, time_of(START + 1))
 
     def test_nothing_moves_while_the_clock_stands(self):
         self.run_watched(RATE, self.forest)

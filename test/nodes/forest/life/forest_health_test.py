@@ -75,7 +75,7 @@ class ForestHealth(unittest.TestCase):
         self.assertTrue(rospy.ServiceProxy('/forest_animator/reset', Trigger)().success)
         self.clock.run(1, self.forest)
         self.assertEqual(self.forest.set_tf(1, [3], True).frames, 1)
-        self.forest.set_tf(1, [], False)
+        self.forest.set_tf(1, 'all', False)
 
     # N6: a replay that differs from its run reports it.
     def test_late_events_of_a_replay_are_reported(self):

@@ -11,6 +11,7 @@ import roslib.packages
 import rospy
 import rostest
 from std_srvs.srv import Trigger
+from tf2_msgs.msg import TFMessage
 from vegetation_sim.msg import ForestEvent, ForestState
 
 from forest_rig import RATE, Animator, TickClock, ViewerClient, scene, start_animator, stop, time_of
@@ -71,6 +72,17 @@ class ForestInstances(unittest.TestCase):
         self.assertEqual([e.kind for e in self.other.events.messages if e.kind != ForestEvent.WIND],
                          [])
 
+    def test_frames_of_instances_have_their_prefixes(self):
+        frames = Log('/tf', TFMessage)
+        for animator in (self.program, self.other):
+            self.assertEqual(animator.set_tf(0, [1], True).frames, 1)
+        wanted = {'tree_0/branch_1', 'other/tree_0/branch_1'}
+        frames.wait(lambda all: wanted <= {t.child_frame_id for m in all for t in m.transforms},
+                    'the frames', lambda: self.clock.run(1, *self.all))
+        frames.close()
+        for animator in (self.program, self.other):
+            animator.set_tf(0, 'all', False)
+
     # After ~reset the forest is in its initial state from the next tick on.
     def test_reset_starts_anew(self):
         self.run_watched(3, *self.all)
@@ -85,7 +97,7 @@ class ForestInstances(unittest.TestCase):
                          (0, True, FIXED_LEVEL, []))
         event = self.program.events.wait_for_stamp(time_of(tick + 1))
         self.assertEqual(event.kind, ForestEvent.RESET)
-        self.assertEqual(self.program.set_tf(0, [], False).frames, 0)
+        self.assertEqual(self.program.set_tf(0, 'all', False).frames, 0)
 
     def test_a_nodelet_that_refuses_is_not_loaded(self):
         rospy.set_param('/refused', {'tolerance': -1.0})

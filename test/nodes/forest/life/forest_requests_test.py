@@ -4,16 +4,18 @@
 """forest_animator rejects bad requests and messages with an error that names the field. They have
 no effect."""
 import copy
+import math
 import unittest
 
 import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray
 from dynamic_reconfigure.client import Client
-from geometry_msgs.msg import Point, TransformStamped, Vector3
+from geometry_msgs.msg import Point, PointStamped, TransformStamped, Vector3
 from std_msgs.msg import Header
 from tf2_msgs.msg import TFMessage
 from vegetation_sim.msg import ForestEvent, Viewer, WindField
+from vegetation_sim.srv import FindTrees
 
 from forest_rig import RATE, Animator, TickClock, ViewerClient
 from waiting import wait_for
@@ -33,6 +35,7 @@ class ForestRequests(unittest.TestCase):
         cls.clock.begin(cls.forest)
         cls.wind = publisher('/wind', WindField)
         cls.viewer = ViewerClient()
+        cls.find_trees = rospy.ServiceProxy('/forest_animator/find_trees', FindTrees)
         cls.diagnostics = Log('/diagnostics', DiagnosticArray)
         wait_for(lambda: cls.wind.get_num_connections() > 0, 'readers of the wind')
 
@@ -101,6 +104,51 @@ class ForestRequests(unittest.TestCase):
         self.assertEqual((in_tool.tree, in_tool.branch, in_tool.point),
                          (straight.tree, straight.branch, straight.point))
 
+    def find(self, **request):
+        """Returns the trees that the service finds, and their number on all pages."""
+        answer = self.find_trees(**request)
+        self.assertTrue(answer.success, answer.message)
+        return answer.trees, answer.total
+
+    def test_find_trees_lists_pages_of_all_trees(self):
+        pages = [self.find(all=True, offset=i, limit=5) for i in range(0, TREES + 5, 5)]
+        found = [tree for trees, _ in pages for tree in trees]
+        self.assertEqual([total for _, total in pages], [TREES] * 5)
+        self.assertEqual([tree.id for tree in found], list(range(TREES)))
+        for tree in found:
+            known = self.forest.tree(tree.id)
+            self.assertEqual((tree.height, tree.species), (known.height, known.species))
+            self.assertEqual(tree.position, known.transforms.poses[0].position)
+
+    def test_find_trees_finds_those_within_a_radius_nearest_first(self):
+        all_trees, _ = self.find(all=True, limit=100)
+        centre = all_trees[3].position
+
+        def distance(tree):
+            return math.hypot(tree.position.x - centre.x, tree.position.y - centre.y)
+        expected = sorted(all_trees, key=distance)
+        radius = 0.5 * (distance(expected[4]) + distance(expected[5]))
+        request = dict(centre=PointStamped(point=centre), radius=radius)
+        self.assertEqual(self.find(limit=100, **request), (expected[:5], 5))
+        self.assertEqual(self.find(limit=2, offset=2, **request), (expected[2:4], 5))
+        self.assertEqual(self.find(limit=1, offset=2 ** 32 - 1, **request), ([], 5))
+
+    def test_find_trees_rejects_bad_requests(self):
+        nowhere = PointStamped(header=Header(frame_id='nowhere'))
+        cases = [
+            (dict(all=True), 'limit = 0 is outside 1 to 100'),
+            (dict(all=True, limit=101), 'limit = 101 is outside 1 to 100'),
+            (dict(limit=1, radius=-1.0), 'radius = -1 m is outside 0 to 1e+07 m'),
+            (dict(limit=1, radius=NAN), 'radius = nan m is not finite'),
+            (dict(limit=1, centre=PointStamped(point=Point(INF, 0, 0))), 'centre.x = inf m is not finite'),
+            (dict(limit=1, centre=nowhere), "frame_id = 'nowhere' is not known in 'map'"),
+        ]
+        for request, text in cases:
+            with self.subTest(text=text):
+                answer = self.find_trees(**request)
+                self.assertFalse(answer.success)
+                self.assertIn(text, answer.message.replace('-nan', 'nan'))
+
     def test_set_tf_rejects_requests_and_keeps_the_frames(self):
         self.assertEqual(self.forest.set_tf(1, [4, 5], True).frames, 2)
         cases = [
@@ -108,7 +156,8 @@ class ForestRequests(unittest.TestCase):
             ((1, [6, 99999], True), 'branch = 99999 is unknown; tree 1 has '),
             ((1, [99999], False), 'branch = 99999 is unknown'),
             ((1, list(range(6, 15)), True), 'frames = 11 would pass the budget of 10'),
-            ((2, [], True), 'would pass the budget of 10'),
+            ((2, 'all', True), 'would pass the budget of 10'),
+            ((2, [], True), 'branches has 0 entries; all = true stands for every branch'),
         ]
         for request, text in cases:
             with self.subTest(text=text):
@@ -116,7 +165,7 @@ class ForestRequests(unittest.TestCase):
                 self.assertFalse(answer.success)
                 self.assertIn(text, answer.message)
                 self.assertEqual(answer.frames, 2)
-        self.assertEqual(self.forest.set_tf(1, [], False).frames, 0)
+        self.assertEqual(self.forest.set_tf(1, 'all', False).frames, 0)
         self.expect_unchanged()
 
     def test_a_bad_viewer_is_refused(self):

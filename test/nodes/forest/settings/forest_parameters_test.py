@@ -31,7 +31,8 @@ WHOLE_NUMBERS = {
     'fixed_level': ('', 0, 6), 'highest_level': ('', 0, 6),
     'state_bytes': (' B/s', 0, 100000000), 'modal_trees': ('', 0, 1000),
 }
-OTHERS = {'scenario', 'frame_id', 'viewer_frame', 'replay', 'branches_trees', 'tf_promoted', 'bodies',
+OTHERS = {'scenario', 'frame_id', 'frame_prefix', 'viewer_frame', 'replay', 'branches_trees',
+          'tf_promoted', 'bodies',
           # robot_bodies_test has more tests of the last three.
           'robot_description', 'robot_frame_prefix'}
 
@@ -78,9 +79,10 @@ class ForestParameters(Ranges, RefusingNode):
         self.assertIn('branches_trees = ', self.refusal({'branches_trees': [1, 'two']}))
 
     def test_frames_and_trees_that_cannot_be_are_refused(self):
-        refusal = self.refusal({'frame_id': '', 'viewer_frame': '/camera'})
+        refusal = self.refusal({'frame_id': '', 'viewer_frame': '/camera', 'frame_prefix': '/a/'})
         self.assertIn("~frame_id = '' is empty", refusal)
         self.assertIn("~viewer_frame = '/camera' begins with '/'", refusal)
+        self.assertIn("~frame_prefix = '/a/' begins with '/'", refusal)
         self.assertIn('~branches_trees = 3 is unknown; there are 0 trees, from 0',
                       self.refusal({'branches_trees': [3]}))
 

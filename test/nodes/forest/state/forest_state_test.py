@@ -78,7 +78,7 @@ class ForestState(unittest.TestCase):
         answer = self.forest.set_tf(7, list(range(TF_BUDGET)), True)
         self.assertTrue(answer.success, answer.message)
         self.assertEqual((answer.frames, answer.budget), (TF_BUDGET, TF_BUDGET))
-        for request in ((7, [], True), (8, [0], True)):
+        for request in ((7, 'all', True), (8, [0], True)):
             answer = self.forest.set_tf(*request)
             self.assertFalse(answer.success)
             self.assertRegex(answer.message,
@@ -94,7 +94,7 @@ class ForestState(unittest.TestCase):
         pose = self.forest.tree(7, stamps[-1]).transforms.poses[20]
         sent = received[-1].transforms[20].transform
         self.assertEqual((pose.position.x, pose.orientation), (sent.translation.x, sent.rotation))
-        self.assertEqual(self.forest.set_tf(7, [], False).frames, 0)
+        self.assertEqual(self.forest.set_tf(7, 'all', False).frames, 0)
         tf.close()
 
     # The stock markers are two lists of constant size that are built only for a subscriber.

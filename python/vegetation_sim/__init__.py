@@ -1,0 +1,10 @@
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Clients of the nodes of vegetation_sim; docs/python.md describes them."""
+from vegetation_sim.client import VegetationError
+from vegetation_sim.crowd import Crowd
+from vegetation_sim.forest import Forest, Hold
+from vegetation_sim.grass import Grass
+from vegetation_sim.wind import Wind
+
+__all__ = ['Crowd', 'Forest', 'Grass', 'Hold', 'VegetationError', 'Wind']

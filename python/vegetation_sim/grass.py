@@ -1,0 +1,31 @@
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Client of grass_field."""
+from vegetation_sim.client import Client, given, header, point, stamped
+from vegetation_sim.msg import TreadLaw
+from vegetation_sim.srv import ClearGrass, SampleGrass, Tread
+
+
+class Grass(Client):
+    """A meadow that can be trodden. Places are (x, y) in the world frame [m]."""
+
+    def __init__(self, node='/grass_field', timeout=30.0):
+        super().__init__(node, timeout)
+
+    def tread(self, *places, radius=None, reach=None, softness=None, load=None, recovery=None):
+        """Treads a path. What is None is the node's. Returns the length of the path [m]."""
+        law = TreadLaw(**given(radius=radius, reach=reach, softness=softness, load=load,
+                               recovery=recovery))
+        return self.call('tread', Tread, points=[point(place) for place in places], law=law).length
+
+    def at(self, *places, frame=''):
+        """Returns the grass at each place (GrassSample) at the last tick."""
+        return self.call('sample', SampleGrass, header=header(frame),
+                         points=[point(place) for place in places]).samples
+
+    def clear(self, centre=None, radius=0.0):
+        """Raises the grass of a disc, or everywhere without a centre."""
+        if centre is None:
+            self.call('clear', ClearGrass, all=True)
+        else:
+            self.call('clear', ClearGrass, centre=stamped(centre), radius=radius)

@@ -1,0 +1,72 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/forest/grab_history.h"
+
+#include <utility>
+
+#include "ros/conversions/grab_conversions.h"
+#include "vegetation_sim/ros/conversions/stamps.h"
+
+namespace vegetation_sim {
+
+void GrabHistory::explainAll(std::uint8_t reason) {
+  for (const auto& entry : held_) explain(entry.first, reason);
+}
+
+void GrabHistory::addEnded(GrabStatus status) {
+  ended_.push_back(std::move(status));
+  if (ended_.size() > MOST_ENDED) ended_.pop_front();
+  changed_ = true;
+}
+
+void GrabHistory::addUnheld(std::uint32_t id, std::uint8_t reason, Nanoseconds stamp) {
+  const auto explained = reasons_.find(id);
+  GrabStatus status;
+  status.status = explained != reasons_.end() ? explained->second : reason;
+  status.grab.id = id;
+  status.until = toStamp(stamp);
+  addEnded(std::move(status));
+}
+
+bool GrabHistory::update(const forest::HeldGrabs& held, Nanoseconds stamp) {
+  for (auto entry = held_.begin(); entry != held_.end();) {
+    const auto& [id, last] = *entry;
+    if (held.count(id) && !reasons_.count(id)) {
+      ++entry;
+      continue;
+    }
+    const auto reason = reasons_.find(id);
+    GrabStatus status;
+    status.status = reason != reasons_.end() ? reason->second : GrabStatus::LEASE_EXPIRED;
+    status.grab = toMsg(last.grab);
+    status.since = toStamp(last.since);
+    status.until = toStamp(stamp);
+    addEnded(std::move(status));
+    entry = held_.erase(entry);
+  }
+  reasons_.clear();
+  for (const auto& [id, grab] : held) {
+    const auto [entry, begins] = held_.insert({id, {grab, stamp}});
+    entry->second.grab = grab;
+    changed_ = changed_ || begins;
+  }
+  return std::exchange(changed_, false);
+}
+
+GrabStatuses GrabHistory::message(Nanoseconds stamp) const {
+  GrabStatuses out;
+  out.header.stamp = toStamp(stamp);
+  for (const auto& entry : held_) {
+    const Held& held = entry.second;
+    GrabStatus status;
+    status.status = GrabStatus::HELD;
+    status.grab = toMsg(held.grab);
+    status.since = toStamp(held.since);
+    status.until = toStamp(held.grab.renewed + fromSeconds(held.grab.lease));
+    out.held.push_back(std::move(status));
+  }
+  out.ended.assign(ended_.begin(), ended_.end());
+  return out;
+}
+
+}  // namespace vegetation_sim

@@ -1,0 +1,155 @@
+#!/usr/bin/env python3
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""The Python clients hold branches, ask and tell the nodes, and report errors. Every snippet of
+docs/python.md runs."""
+import math
+import re
+import threading
+import unittest
+
+import roslib.packages
+import rospy
+import rostest
+from vegetation_sim import Crowd, Forest, Grass, VegetationError, Wind
+from vegetation_sim.msg import GrabStatus
+
+TREE, LIMB = 0, 46
+DEADLINE = 60.0  # [s]
+
+
+def snippets(document):
+    """Returns the indented blocks of a page."""
+    lines = open('%s/docs/%s' % (roslib.packages.get_pkg_dir('vegetation_sim'), document)).readlines()
+    blocks, block = [], []
+    for line in lines + ['end']:
+        if line.startswith('    ') or (block and not line.strip()):
+            block.append(line[4:] or '\n')
+        elif block:
+            blocks.append(''.join(block))
+            block = []
+    return blocks
+
+
+def wait_for(condition, what):
+    end = rospy.Time.now() + rospy.Duration.from_sec(DEADLINE)
+    while not condition():
+        if rospy.Time.now() > end:
+            raise AssertionError('timed out waiting for ' + what)
+        threading.Event().wait(0.02)
+
+
+class PythonClients(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.forest, cls.wind, cls.grass, cls.crowd = Forest(), Wind(), Grass(), Crowd()
+
+    def held(self):
+        return {status.grab.id for status in self.forest.grabs().held}
+
+    def status_of(self, grab):
+        return [s.status for s in self.forest.grabs().ended if s.grab.id == grab]
+
+    def test_a_grab_follows_its_target_and_reports_the_force(self):
+        with self.forest.grab(tree=TREE, branch=LIMB, along=0.3, stiffness=20000.0, damping=200.0,
+                              force_limit=5000.0) as hold:
+            start = hold.point
+            self.assertEqual((hold.tree, hold.branch, hold.along), (TREE, LIMB, 0.3))
+            self.assertLess(math.dist(hold.force, (0, 0, 0)), 50.0)
+            target = (start[0] + 0.2, start[1], start[2])
+            hold.move(target)
+            wait_for(lambda: math.dist(hold.point, target) < 0.1, 'the branch to follow')
+            self.assertLess(hold.force[0], -100.0)  # It pulls back.
+            grab = hold.id
+        wait_for(lambda: grab not in self.held(), 'the release')
+        self.assertEqual(self.status_of(grab), [GrabStatus.RELEASED])
+
+    def test_the_lease_is_renewed_and_an_exception_releases(self):
+        with self.assertRaises(ZeroDivisionError):
+            with self.forest.grab(tree=TREE, branch=LIMB, lease=0.5) as hold:
+                wait_for(lambda: hold.id in self.held(), 'the grab')
+                begin = rospy.Time.now()
+                wait_for(lambda: rospy.Time.now() - begin > rospy.Duration(2), 'four leases')
+                self.assertIn(hold.id, self.held())
+                1 / 0
+        wait_for(lambda: hold.id not in self.held(), 'the release')
+
+    def test_a_hold_that_has_ended_raises_the_message_of_the_service(self):
+        hold = self.forest.grab(tree=TREE, branch=LIMB)
+        self.forest.release_all()
+        wait_for(lambda: self.status_of(hold.id) == [GrabStatus.RELEASED], 'the release')
+        with self.assertRaisesRegex(VegetationError, 'move_grab: id = %d is unknown' % hold.id):
+            hold.move((0, 0, 0))
+        with self.assertRaisesRegex(VegetationError, 'release: id = %d is unknown' % hold.id):
+            hold.release()
+
+    def test_errors_are_the_messages_of_the_services(self):
+        cases = [
+            (lambda: self.forest.grab(tree=99, branch=0), 'tree = 99 is unknown'),
+            (lambda: self.forest.grab(tree=TREE, branch=LIMB, stiffness=0.0),
+             'stiffness = 0 N/m is outside'),
+            (lambda: self.forest.grab(frame='nowhere'), "'nowhere' is not known"),
+            (lambda: self.forest.push((1e9, 0, 0), 1.0, tree=TREE, branch=LIMB), 'force.x = 1e'),
+            (lambda: list(self.forest.trees((0, 0), -1.0)), 'radius = -1 m is outside'),
+            (lambda: self.wind.breeze((900, 0, 0)), 'velocity.x = 900 m/s is outside'),
+            (lambda: self.wind.remove('nothing'), "no source is named 'nothing'"),
+            (lambda: self.grass.tread((0, 0), radius=0.0), 'radius = 0 m is outside'),
+            (lambda: self.grass.clear((0, 0), -1.0), 'radius = -1 m is outside'),
+            (lambda: self.crowd.spawn((0, 0), count=0), 'count = 0 is outside'),
+            (lambda: self.crowd.send([9999], (0, 0)), 'walker 9999 is unknown'),
+        ]
+        for call, text in cases:
+            with self.subTest(text=text), self.assertRaisesRegex(VegetationError, re.escape(text)):
+                call()
+        with self.assertRaises(ValueError):
+            self.forest.grab()
+        with self.assertRaises(ValueError):
+            self.forest.grab(tree=3)
+
+    def test_a_service_that_does_not_come_is_named(self):
+        with self.assertRaisesRegex(VegetationError, 'no service /nobody/get_tree within 0.1 s'):
+            Forest('/nobody', timeout=0.1).tree(0)
+
+    def test_damping_of_zero_and_defaults_reach_the_node(self):
+        with self.forest.grab(tree=TREE, branch=LIMB, damping=0.0) as hold:
+            wait_for(lambda: hold.id in self.held(), 'the grab')
+            grab = next(g.grab for g in self.forest.grabs().held if g.grab.id == hold.id)
+        self.assertEqual((grab.stiffness, grab.damping, grab.force_limit), (2000.0, 0.0, 200.0))
+
+    def test_wind_grass_and_people(self):
+        self.grass.tread((-5, 1), (5, 1), radius=0.3, recovery=1e9)
+        wait_for(lambda: self.grass.at((0, 1))[0].crush > 0.9, 'the track')
+        self.grass.clear()
+        wait_for(lambda: self.grass.at((0, 1))[0].crush == 0.0, 'grass that stands')
+        self.wind.set('steady', kind=0, velocity=(7, 0, 0), radius=1000.0)
+        wait_for(lambda: self.wind.at((0, 0, 2))[0][0] > 4.0, 'the wind')
+        self.wind.remove('steady')
+        ids = self.crowd.spawn((5, 6), count=2, spread=0.5, stands=True)
+        self.assertEqual(len(ids), 2)
+
+        def known():
+            try:
+                self.crowd.wander(ids)
+                return True
+            except VegetationError:
+                return False
+        wait_for(known, 'the walkers')
+        self.crowd.remove(ids)
+
+    def test_every_snippet_of_the_page_runs(self):
+        blocks = snippets('python.md')
+        self.assertGreater(len(blocks), 5)
+        names = {}
+        for block in blocks:
+            code = '\n'.join(line for line in block.split('\n') if 'rospy.init_node' not in line)
+            with self.subTest(code=code):
+                exec(compile(code, 'docs/python.md', 'exec'), names)
+
+    def test_a_grab_takes_at_most_eight_lines(self):
+        block = next(b for b in snippets('python.md') if 'hold.force' in b)
+        self.assertLessEqual(len(block.strip().split('\n')), 8)
+
+
+if __name__ == '__main__':
+    rospy.init_node('python_clients_test')
+    rostest.rosrun('vegetation_sim', 'python_clients', PythonClients)

@@ -1,0 +1,96 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/conversions/scan_conversions.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <string>
+
+namespace vegetation_sim {
+namespace {
+
+using sensor_msgs::PointField;
+
+/// Returns the returns of two rings of one beam, a branch and a person.
+std::vector<scan::Return> twoReturns() {
+  std::vector<scan::Return> out(2);
+  out[0].range = 4.0;
+  out[0].hit.label = scan::Label::BRANCH;
+  out[0].hit.plant = 70000;
+  out[0].hit.branch = 12;
+  out[1].range = 2.0;
+  out[1].hit.label = scan::Label::PERSON;
+  out[1].hit.plant = 3;
+  out[1].hit.branch = -1;
+  return out;
+}
+
+scan::Beams twoBeams() {
+  scan::Beams out;
+  out.rings = 2;
+  out.columns = 1;
+  return out;
+}
+
+const PointField* findField(const sensor_msgs::PointCloud2& cloud, const std::string& name) {
+  for (const PointField& field : cloud.fields)
+    if (field.name == name) return &field;
+  return nullptr;
+}
+
+template <class T>
+T valueOf(const sensor_msgs::PointCloud2& cloud, std::size_t point, const std::string& name) {
+  T out;
+  std::memcpy(&out, &cloud.data[point * cloud.point_step + findField(cloud, name)->offset],
+              sizeof(out));
+  return out;
+}
+
+// pcl::fromROSMsg takes a field only if its name, type and count are those of the point type. These
+// are registered in pcl/impl/point_types.hpp: PointXYZL and PointXYZI.
+TEST(ScanConversions, FieldsAreThoseOfPclPointTypes) {
+  const sensor_msgs::PointCloud2 cloud = toCloud(twoReturns(), twoBeams());
+  const std::pair<const char*, std::uint8_t> wanted[] = {
+      {"x", PointField::FLOAT32},         {"y", PointField::FLOAT32},
+      {"z", PointField::FLOAT32},         {"label", PointField::UINT32},
+      {"intensity", PointField::FLOAT32}, {"time", PointField::FLOAT32},
+      {"ring", PointField::UINT16}};
+  for (const auto& [name, type] : wanted) {
+    const PointField* field = findField(cloud, name);
+    ASSERT_TRUE(field) << name;
+    EXPECT_EQ(field->datatype, type) << name;
+    EXPECT_EQ(field->count, 1u) << name;
+  }
+  // x, y and z lie one after the other, as PCL copies them.
+  EXPECT_EQ(findField(cloud, "y")->offset, findField(cloud, "x")->offset + 4);
+  EXPECT_EQ(findField(cloud, "z")->offset, findField(cloud, "x")->offset + 8);
+}
+
+TEST(ScanConversions, FieldsNeitherOverlapNorLeaveThePoint) {
+  const sensor_msgs::PointCloud2 cloud = toCloud(twoReturns(), twoBeams());
+  std::vector<int> used(cloud.point_step);
+  for (const PointField& field : cloud.fields) {
+    const std::uint32_t size = field.datatype == PointField::UINT16 ? 2 : 4;
+    ASSERT_LE(field.offset + size, cloud.point_step) << field.name;
+    for (std::uint32_t i = 0; i < size; ++i) EXPECT_EQ(used[field.offset + i]++, 0) << field.name;
+  }
+  EXPECT_EQ(cloud.row_step, cloud.width * cloud.point_step);
+  EXPECT_EQ(cloud.data.size(), cloud.row_step);
+}
+
+TEST(ScanConversions, APointHasTheValuesOfItsReturn) {
+  const sensor_msgs::PointCloud2 cloud = toCloud(twoReturns(), twoBeams());
+  ASSERT_EQ(cloud.width, 2u);
+  EXPECT_EQ(valueOf<std::uint32_t>(cloud, 0, "label"), std::uint32_t{ScanReport::BRANCH});
+  EXPECT_EQ(valueOf<std::uint32_t>(cloud, 0, "plant"), 70000u);
+  EXPECT_EQ(valueOf<std::int32_t>(cloud, 0, "branch"), 12);
+  EXPECT_EQ(valueOf<std::uint16_t>(cloud, 0, "ring"), 0);
+  EXPECT_EQ(valueOf<std::uint32_t>(cloud, 1, "label"), std::uint32_t{ScanReport::PERSON});
+  EXPECT_EQ(valueOf<std::int32_t>(cloud, 1, "branch"), -1);
+  EXPECT_EQ(valueOf<std::uint16_t>(cloud, 1, "ring"), 1);
+  EXPECT_EQ(valueOf<float>(cloud, 1, "time"), 0.f);  // all rays of a sweep share one instant
+}
+
+}  // namespace
+}  // namespace vegetation_sim
