@@ -38,7 +38,7 @@ void CanopyAnimator::connect() {
   subscribe("wind", 10, &CanopyAnimator::onWind);
   if (!options_.replay) subscribe("viewer", 10, &CanopyAnimator::onViewer);
   if (!options_.scene.layout.crowns.empty())
-    forest_.subscribe(handle_, {"forest/layout", "", "forest/state"});
+    forest_.subscribe(handle_, {"forest/layout", "", "forest/view"});
   serve("sample", &CanopyAnimator::onSample);
   repeat(options_.markers_rate, &CanopyAnimator::sendMarkers);
 }

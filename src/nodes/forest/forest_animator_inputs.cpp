@@ -42,17 +42,21 @@ void ForestAnimator::onWind(const WindField& message) {
   });
 }
 
+// The state does not depend on viewers, so they are no events.
 void ForestAnimator::onViewer(const Viewer& message) {
-  acceptInput("viewer", [&] {
-    fromMsg(message);  // checks it
+  acceptInput("viewer",
+              [&] { viewers_.hear(message, tf_buffer_, options_.frame_id, lastStamp()); });
+}
+
+void ForestAnimator::onSensor(const SensorInterest& message) {
+  acceptInput("sensor", [&] {
     ForestInput event;
-    event.kind = ForestInput::VIEWER;
-    event.viewer = message;
+    event.kind = ForestInput::SENSOR;
+    event.stamp = fromMsg(message.header.stamp);
+    event.sensor = fromMsg(message);
     const std::string& frame = message.header.frame_id;
     if (!frame.empty() && frame != options_.frame_id)
-      event.viewer.pose = toMsg(compose(poseOf(frame), fromMsg(message.pose)));
-    event.viewer.header.frame_id = options_.frame_id;
-    fromMsg(event.viewer);
+      event.sensor.position = transformed(poseOf(frame), event.sensor.position);
     inputs_.add(event);  // a full queue counts it as lost
   });
 }

@@ -72,8 +72,7 @@ void ForestMarkers::reset() {
 }
 
 void ForestMarkers::chooseTrees(const forest::Forest& forest) {
-  std::vector<forest::Viewpoint> eyes;
-  for (const auto& entry : forest.snapshot().viewers) eyes.push_back(entry.second.eye);
+  std::vector<forest::Viewpoint> eyes = forest.snapshot().viewers;
   const forest::Layout& layout = forest.layout();
   if (eyes.empty()) eyes.push_back({middleOf(layout), PIXELS_PER_RADIAN});
   order_.clear();
@@ -114,15 +113,15 @@ void ForestMarkers::addTree(const forest::Forest& forest, forest::TreeCache& cac
     return;
   const wind::Instant wind = forest.snapshot().wind.at(stamp).relativeTo(grown->tree.foot);
   const forest::Weights weights =
-      forest::weightsAt(forest.snapshot().levels.of(id), stamp, forest.layout().motion);
-  const forest::ModalTreeState* modal_state = forest.modalState(id);
+      forest::weightsAt(forest.view().levels.of(id), stamp, forest.layout().motion);
+  const forest::ModalTreeState* modal_state = forest.view().modes.find(id);
   const bool physical = !forest.promoted(id).branches.empty();
   if (!physical && modal_state && forest::modalWeight(weights) >= 1.0)
     modal_state->pose(grown->poser, stamp, poses_);
   else if (!physical && !modal_state)
     grown->poser.pose(wind, weights, forest::MAX_DEPTHS, poses_);
   else
-    narrowPoses(forest.pose(grown->tree, id, stamp), poses_);
+    narrowPoses(forest.poseInView(grown->tree, id, stamp), poses_);
   const std::array<float, 3> foot{static_cast<float>(grown->tree.foot.x()),
                                   static_cast<float>(grown->tree.foot.y()),
                                   static_cast<float>(grown->tree.foot.z())};

@@ -28,6 +28,7 @@ class VegetationScanner {
  private:
   void listen();
   void tick(std::int64_t tick);
+  void announce(const Pose& sensor);
   void sweep(const Pose& sensor, std::int64_t tick);
   void restartScene();
   void restart(Nanoseconds now);
@@ -52,7 +53,7 @@ class VegetationScanner {
 
   tf2_ros::Buffer tf_buffer_;
   tf2_ros::TransformListener tf_listener_;
-  ros::Publisher cloud_publisher_, scan_publisher_, report_publisher_;
+  ros::Publisher interest_publisher_, cloud_publisher_, scan_publisher_, report_publisher_;
   ros::ServiceServer reset_service_;
   TickClock clock_;
   diagnostic_updater::Updater diagnostics_;

@@ -8,7 +8,7 @@ import unittest
 import rospy
 import rostest
 
-from forest_rig import RATE, Animator, TickClock, ViewerClient, scene, start_animator, stop, time_of
+from forest_rig import RATE, Animator, SensorClient, TickClock, scene, start_animator, stop, time_of
 
 START = 1700000000 * RATE  # Unix time, at which single precision has no fraction of a second left
 SPEED = 20.0  # ratio of the fast clock to wall time
@@ -23,11 +23,11 @@ class ForestClock(unittest.TestCase):
         cls.forest.wait_until_up('/wind')
         cls.before_time = cls.forest.refusal(tree=0), list(cls.forest.state.messages)
         cls.clock.begin(cls.forest)
-        cls.viewer = ViewerClient()
+        cls.sensor = SensorClient()
 
-    def run_watched(self, ticks, *animators):
+    def run_sensed(self, ticks, *animators):
         for tick in range(0, ticks, 15):
-            self.viewer.move_to(-20.0 + 10.0 * tick / RATE, 0.0, 5.0, *animators)
+            self.sensor.move_to(-20.0 + 10.0 * tick / RATE, 0.0, 5.0, *animators)
             self.clock.run(15, *animators)
 
     def stamps_since(self, index):
@@ -42,7 +42,7 @@ class ForestClock(unittest.TestCase):
                          ('no tick yet: the clock has not started', []))
 
     def test_nothing_moves_while_the_clock_stands(self):
-        self.run_watched(RATE, self.forest)
+        self.run_sensed(RATE, self.forest)
         count, poses = len(self.forest.state.messages), self.forest.tree(2).transforms
         for _ in range(60):
             self.clock.show(self.clock.tick)
@@ -54,7 +54,7 @@ class ForestClock(unittest.TestCase):
 
     # After the jump the hashes are those of a node that starts at that time with the same inputs.
     def test_ten_seconds_back_is_a_fresh_start(self):
-        self.run_watched(10 * RATE, self.forest)
+        self.run_sensed(10 * RATE, self.forest)
         jumps = self.forest.diagnostics()['Clock jumps back']
         self.clock.show(self.clock.tick - 10 * RATE)
         self.forest.state.wait_for_stamp(time_of(self.clock.tick))
@@ -62,11 +62,11 @@ class ForestClock(unittest.TestCase):
         self.assertEqual(self.forest.state.messages[-1].sequence, 0)
         after = len(self.forest.state.messages)
         process = start_animator('/fresh/forest_animator',
-                                 {'wind': '/wind', 'viewer': '/viewer'}, scenario=scene('grove'))
+                                 {'wind': '/wind', 'forest/sensors': '/forest/sensors'}, scenario=scene('grove'))
         fresh = Animator('/fresh/forest_animator', '/fresh/')
         try:
-            fresh.wait_until_up('/wind', '/viewer')
-            self.run_watched(5 * RATE, self.forest, fresh)
+            fresh.wait_until_up('/wind', '/forest/sensors')
+            self.run_sensed(5 * RATE, self.forest, fresh)
         finally:
             stop(process)
             fresh.close()
@@ -93,7 +93,7 @@ class ForestClock(unittest.TestCase):
         self.assertEqual(self.forest.diagnostics()['Ticks dropped'], dropped)
 
     def test_a_jump_ahead_is_counted_and_it_goes_on(self):
-        self.run_watched(RATE, self.forest)
+        self.run_sensed(RATE, self.forest)
         dropped, before = self.forest.diagnostics()['Ticks dropped'], self.clock.tick
         index = len(self.forest.state.messages)
         self.clock.run(1, self.forest)
