@@ -28,8 +28,7 @@ struct Scene {
   Scene(int side, bool watched, bool windy)
       : watched(watched), forest(gridLayout(side, 9.0), flatTerrain(), settings()) {
     if (windy) forest.setWind(wind::Field({makeBreeze(1, Vec3(5.0, 1.0, 0.0))}, 3));
-    viewer.id = "eye";
-    viewer.eye.position = Vec3(4.5 * (side - 1), 4.5 * (side - 1), 3.0);
+    viewer.position = Vec3(4.5 * (side - 1), 4.5 * (side - 1), 3.0);
   }
   static Settings settings() {
     Settings out;
@@ -37,10 +36,9 @@ struct Scene {
     return out;
   }
   void advance() {
-    viewer.stamp = grid.timeOf(tick);
-    if (watched) forest.setViewer(viewer);
+    if (watched) forest.setViewers({viewer});
     forest.advance(grid.timeOf(tick++));
-    forest.update(tick % RATE == 0);
+    forest.updateView(tick % RATE == 0);
   }
   void run(int ticks) {
     for (int i = 0; i < ticks; ++i) advance();
@@ -54,7 +52,7 @@ struct Scene {
 
   bool watched;
   Forest forest;
-  Viewer viewer;
+  Viewpoint viewer;
   TickGrid grid{RATE};
   std::int64_t tick{TickGrid(RATE).tickAt(1700000000LL * NANOSECONDS_PER_SECOND)};
 };
@@ -69,12 +67,12 @@ Observed observe(Scene& scene, int duration) {
   std::map<std::uint32_t, int> levels, changes;
   for (int i = 0; i < duration * RATE; ++i) {
     scene.advance();
-    const GovernorFigures& figures = scene.forest.governor();
+    const GovernorFigures& figures = scene.forest.viewChoice().figures();
     out.least_cost = std::min(out.least_cost, figures.cost);
     out.most_cost = std::max(out.most_cost, figures.cost);
     out.error = std::max(out.error, figures.largest);
     std::vector<double> errors;
-    for (const Plant& plant : scene.forest.plants()) {
+    for (const Plant& plant : scene.forest.viewChoice().plants()) {
       errors.push_back(plant.error[static_cast<std::size_t>(plant.chosen)]);
       const auto known = levels.find(plant.id);
       if (known != levels.end() && known->second != plant.chosen) ++changes[plant.id];
@@ -95,7 +93,7 @@ double timePoses(const Scene& scene, int pictures) {
   const Nanoseconds now = scene.grid.timeOf(scene.tick - 1);
   const wind::Instant wind = scene.forest.snapshot().wind.at(now);
   std::map<std::uint32_t, PosedTree> trees;
-  for (const Plant& plant : scene.forest.plants())
+  for (const Plant& plant : scene.forest.viewChoice().plants())
     if (plant.chosen > 0)
       trees.emplace(plant.id, PosedTree(scene.forest, plant.id, scene.viewer.eye));
   std::vector<double> times;
@@ -122,7 +120,7 @@ void measureBudget(const Options& options) {
     scene.run(90);
     const double choice = 1e3 * scene.timeTicks(options.quick ? 10 : 60);
     const Observed seen = observe(scene, options.quick ? 1 : 4);
-    const GovernorFigures& f = scene.forest.governor();
+    const GovernorFigures& f = scene.forest.viewChoice().figures();
     const double poses = 1e3 * timePoses(scene, options.quick ? 10 : 60);
     std::printf(
         "| %5d | %12.3f | %5.3f to %5.3f | %16.2f | %9.2f | %9zu | %9.2f | %9.3f | %8.3f |\n",

@@ -19,7 +19,8 @@ constexpr Nanoseconds AFTER_TICK = 5000000;
 ForestPart::ForestPart(const Scenario& scenario)
     : forest_(*scenario.forest, scenario.terrain, scenario.levels) {
   forest_.setPhysics(scenario.physics);
-  replica_.setLayout(*scenario.forest, scenario.terrain);
+  for (forest::ForestReplica* replica : {&replica_, &shown_})
+    replica->setLayout(*scenario.forest, scenario.terrain);
   for (std::uint32_t id = 0; id < forest_.layout().treeCount(); ++id) {
     trees_.push_back(forest::growTree(forest_.layout(), id, forest_.terrain()));
     posers_.emplace_back(trees_.back());
@@ -32,20 +33,14 @@ ForestPart::ForestPart(const Scenario& scenario)
 void ForestPart::setWind(const wind::Field& wind) {
   forest_.setWind(wind);
   replica_.setWind(wind);
-}
-
-void ForestPart::setEye(const Viewpoint& eye, Nanoseconds stamp) {
-  forest::Viewer viewer;
-  viewer.id = "camera";
-  viewer.eye = eye;
-  viewer.stamp = stamp;
-  forest_.setViewer(viewer);
+  shown_.setWind(wind);
 }
 
 void ForestPart::advance(Nanoseconds stamp, bool key_frame) {
   stamp_ = stamp;
   forest_.advance(stamp);
   replica_.apply(forest_.update(key_frame));
+  shown_.apply(forest_.updateView(key_frame));
 }
 
 void ForestPart::addTo(Hashes& hashes) {
@@ -56,7 +51,7 @@ void ForestPart::addTo(Hashes& hashes) {
     hashes.reference.add(reaction.torque);
   }
   const Nanoseconds shown = stamp_ + AFTER_TICK;
-  const wind::Instant wind = replica_.wind().at(shown);
+  const wind::Instant wind = shown_.wind().at(shown);
   forest::BatchPoses drawn;
   for (std::uint32_t id = 0; id < trees_.size(); ++id) {
     for (const Pose& pose : forest_.pose(trees_[id], id, stamp_)) addPose(pose, hashes.reference);
@@ -71,13 +66,13 @@ void ForestPart::addTo(Hashes& hashes) {
 
 void ForestPart::poseAsDrawn(std::uint32_t id, const wind::Instant& wind, Nanoseconds stamp,
                              forest::BatchPoses& out) const {
-  const auto* modes = replica_.modalState(id);
-  const forest::Weights weights = replica_.weights(id, stamp);
-  const bool physical = !replica_.promoted(id).branches.empty();
+  const auto* modes = shown_.modalState(id);
+  const forest::Weights weights = shown_.weights(id, stamp);
+  const bool physical = !shown_.promoted(id).branches.empty();
   if (!physical && modes && forest::modalWeight(weights) >= 1.0)
     modes->pose(posers_[id], stamp, out);
   else if (physical || modes)
-    forest::narrowPoses(replica_.pose(trees_[id], id, stamp), out);
+    forest::narrowPoses(shown_.pose(trees_[id], id, stamp), out);
   else
     posers_[id].pose(wind.relativeTo(trees_[id].foot), weights, forest::MAX_DEPTHS, out);
 }

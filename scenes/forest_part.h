@@ -13,17 +13,19 @@
 
 namespace vegetation_sim::scenes {
 
-/// The trees of a scene, and a replica that follows them by their updates as a display does.
+/// The trees of a scene, and two replicas that follow them by their updates: one as sensors do, one
+/// as displays do.
 class ForestPart {
  public:
   explicit ForestPart(const Scenario& scenario);
 
   void setWind(const wind::Field& wind);
-  void setEye(const Viewpoint& eye, Nanoseconds stamp);
+  void setEye(const Viewpoint& eye) { forest_.setViewers({eye}); }
   void advance(Nanoseconds stamp, bool key_frame);
   void addTo(Hashes& hashes);
 
   forest::Forest& forest() { return forest_; }
+  /// What sensors perceive.
   const forest::ForestReplica& replica() const { return replica_; }
   const forest::Tree& tree(std::uint32_t id) const { return trees_[id]; }
   /// The last branch of a recursion depth, at most the deepest one.
@@ -40,7 +42,7 @@ class ForestPart {
   void addMesh(const forest::BatchPoses& poses, Hash& hash) const;
 
   forest::Forest forest_;
-  forest::ForestReplica replica_;
+  forest::ForestReplica replica_, shown_;
   std::vector<forest::Tree> trees_;
   std::vector<forest::BatchPoser> posers_;
   forest::TreeMesh mesh_;  ///< of tree 0

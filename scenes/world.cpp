@@ -39,9 +39,13 @@ void World::setCamera(const Vec3& from, double yaw) {
   eye.position = from;
   eye.forward = Vec3(turn.cos, turn.sin, 0.0);
   eye.cone_cosine = 0.7;
-  if (forest) forest->setEye(eye, next());
+  if (forest) forest->setEye(eye);
   if (grass) grass->setEye(eye);
   if (canopy) canopy->setView(canopy::CutView{from, Quat{half.cos, 0.0, 0.0, half.sin}});
+}
+
+void World::setSensor(const Vec3& place, double range, double tolerance) {
+  if (forest) forest->forest().setSensor({"sensor", place, range, tolerance, next()});
 }
 
 void World::addTo(Hashes& hashes) {

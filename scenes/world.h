@@ -33,6 +33,8 @@ class World {
   void changeWind();
   /// Places the camera that levels of detail and layers are chosen for; it looks horizontally.
   void setCamera(const Vec3& from, double yaw);
+  /// Places the sensor within whose range [m] trees move with at most an error [m].
+  void setSensor(const Vec3& place, double range, double tolerance);
 
   std::unique_ptr<ForestPart> forest;
   std::unique_ptr<GrassPart> grass;

@@ -72,10 +72,8 @@ class ForestFrame {
   }
   Nanoseconds now() const { return grid_.timeOf(tick_); }
   void advance(Forest& forest) const {
-    Viewer viewer = viewer_;
-    viewer.stamp = grid_.timeOf(tick_ + 1);
-    forest.setViewer(viewer);
-    forest.advance(viewer.stamp);
+    forest.setViewers({viewer_});
+    forest.advance(grid_.timeOf(tick_ + 1));
   }
   void run(int ticks) {
     for (int i = 0; i < ticks; ++i, ++tick_)
@@ -89,7 +87,7 @@ class ForestFrame {
 
   wind::Field wind_;
   Forest held_, free_;  ///< with and without the grab; the difference is the cost of physics
-  Viewer viewer_;
+  Viewpoint viewer_;
   TickGrid grid_{bench::FRAME_RATE};
   std::int64_t tick_{0};
   std::vector<Drawn> drawn_;

@@ -26,13 +26,13 @@ struct PosedTree {
 
   /// Poses the tree at the forest's time, on the tier that was chosen for it.
   void pose(const Forest& forest, std::uint32_t id, const wind::Instant& wind, Nanoseconds now) {
-    const ModalTreeState* modal = forest.modalState(id);
-    const auto weights = weightsAt(forest.snapshot().levels.of(id), now, forest.layout().motion);
+    const ModalTreeState* modal = forest.view().modes.find(id);
+    const auto weights = weightsAt(forest.view().levels.of(id), now, forest.layout().motion);
     const bool physical = !forest.promoted(id).branches.empty();
     if (!physical && modal && modalWeight(weights) >= 1.0)
       modal->pose(poser, now, poses);
     else if (physical || modal)
-      narrowPoses(forest.pose(tree, id, now), poses);
+      narrowPoses(forest.poseInView(tree, id, now), poses);
     else
       poser.pose(wind.relativeTo(tree.foot), weights, detail.depths, poses);
   }

@@ -97,7 +97,7 @@ inline LevelError errorOfLevels(const TreeBatch& grove, const Forest& forest, co
     const auto local = wind.relativeTo(tree.foot);
     const auto full = poseBranches(tree, local, fullWeights());
     const auto cut = poseBranches(
-        tree, local, weightsAt(forest.snapshot().levels.of(id), stamp, forest.layout().motion));
+        tree, local, weightsAt(forest.view().levels.of(id), stamp, forest.layout().motion));
     for (std::size_t b = 0; b < full.size(); ++b) {
       const Vec3 a = tree.foot + tipOf(tree.skeleton.branches[b], full[b]);
       const Vec3 c = tree.foot + tipOf(tree.skeleton.branches[b], cut[b]);
@@ -113,11 +113,7 @@ inline LevelError errorOfLevels(const TreeBatch& grove, const Forest& forest, co
 inline void settle(Forest& forest, const Camera& camera, const TickGrid& grid, std::int64_t first,
                    int ticks) {
   for (std::int64_t k = first; k < first + ticks; ++k) {
-    Viewer viewer;
-    viewer.id = "camera";
-    viewer.eye = camera.eye;
-    viewer.stamp = grid.timeOf(k);
-    forest.setViewer(viewer);
+    forest.setViewers({camera.eye});
     forest.advance(grid.timeOf(k));
   }
 }
@@ -126,7 +122,7 @@ inline void settle(Forest& forest, const Camera& camera, const TickGrid& grid, s
 inline std::size_t poseAtLevels(const TreeBatch& grove, const Forest& forest,
                                 const wind::Instant& wind, Nanoseconds stamp, BatchPoses& scratch) {
   std::size_t posed = 0;
-  for (const auto& [id, state] : forest.snapshot().levels.held()) {
+  for (const auto& [id, state] : forest.view().levels.held()) {
     const Weights weights = weightsAt(state, stamp, forest.layout().motion);
     const int depths = movingDepths(weights);
     grove.posers[id].pose(wind.relativeTo(grove.trees[id].foot), weights, depths, scratch);

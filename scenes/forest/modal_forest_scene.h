@@ -10,16 +10,19 @@ inline wind::Field breeze() {
   return wind::Field({makeBreeze(1, Vec3(5.0, 1.0, 0.0))}, 3);
 }
 
-/// Four trees in a breeze, and a camera that comes and goes.
+/// Four trees in a breeze, and a sensor that comes and goes.
 struct Clearing {
+  static constexpr double PIXELS_PER_METRE = 170.0;
   explicit Clearing(const wind::Field& field = breeze(), double tolerance = Settings().tolerance) {
     forest.setWind(field);
     look(true);
     tolerate(tolerance);
   }
   void use() { forest.setSettings(settings); }
-  void tolerate(double pixels) {
-    settings.tolerance = pixels;
+  /// @param error of trees near the sensor [1/PIXELS_PER_METRE m].
+  void tolerate(double error) {
+    settings.tolerance = error;
+    sensor.tolerance = error / PIXELS_PER_METRE;
     use();
   }
   void publishAtMost(double bytes) {
@@ -27,8 +30,9 @@ struct Clearing {
     use();
   }
   void look(bool near) {
-    eye.id = "eye";
-    eye.eye.position = near ? Vec3(6.0, 6.0, 3.0) : Vec3(4000.0, 0.0, 3.0);
+    sensor.id = "sensor";
+    sensor.range = 30.0;
+    sensor.position = near ? Vec3(6.0, 6.0, 3.0) : Vec3(4000.0, 0.0, 3.0);
   }
   /// Sends the inputs that are not part of updates.
   void introduce(ForestReplica& replica) const {
@@ -37,8 +41,8 @@ struct Clearing {
   }
   Nanoseconds now() const { return grid.timeOf(tick); }
   void advance() {
-    eye.stamp = grid.timeOf(++tick);
-    forest.setViewer(eye);
+    sensor.stamp = grid.timeOf(++tick);
+    forest.setSensor(sensor);
     forest.advance(now());
   }
   void run(double duration) {
@@ -48,15 +52,15 @@ struct Clearing {
   std::vector<JointAngles> angles(const Tree& tree, std::uint32_t id, Nanoseconds stamp) const {
     std::vector<JointAngles> out =
         modalAngles(tree, forest.snapshot().wind.at(stamp).relativeTo(tree.foot),
-                    weightsAt(forest.snapshot().levels.of(id), stamp, forest.layout().motion),
-                    forest.modalState(id), stamp);
+                    weightsAt(forest.world().levels.of(id), stamp, forest.layout().motion),
+                    forest.world().modes.find(id), stamp);
     overlay(forest.promoted(id), stamp, out);
     return out;
   }
 
   Forest forest{gridLayout(2, 12.0), flatTerrain(), Settings()};
   Settings settings;
-  Viewer eye;
+  Sensor sensor;
   TickGrid grid{TICK_RATE};
   std::int64_t tick{TickGrid(TICK_RATE).tickAt(PHYSICS_START)};
 };

@@ -72,9 +72,8 @@ struct PhysicsRig {
   }
   int twig() const { return branchOfDepth(tree.skeleton.depths() - 1); }
   std::vector<JointAngles> procedural(Nanoseconds stamp) const {
-    return proceduralAngles(
-        tree, forest.snapshot().wind.at(stamp).relativeTo(tree.foot),
-        weightsAt(forest.snapshot().levels.of(0), stamp, forest.layout().motion));
+    return proceduralAngles(tree, forest.snapshot().wind.at(stamp).relativeTo(tree.foot),
+                            weightsAt(forest.world().levels.of(0), stamp, forest.layout().motion));
   }
   /// Returns the displayed angles, physical ones included.
   std::vector<JointAngles> angles(Nanoseconds stamp) const {

@@ -23,8 +23,7 @@ class Prediction {
              const wind::Field& wind, const Viewpoint& eye, Nanoseconds start, double settle = 0.5,
              const Settings& settings = {})
       : chosen_(layout, terrain, settings), exact_(layout, terrain, settings) {
-    eye_.id = "eye";
-    eye_.eye = eye;
+    eye_ = eye;
     PhysicsSettings whole;
     whole.promotion = Promotion::DEPTH;
     whole.most_branches = 1000000;
@@ -32,7 +31,7 @@ class Prediction {
     for (Forest* forest : {&chosen_, &exact_}) forest->setWind(wind);
     tick_ = grid_.tickAt(start);
     run(static_cast<int>(settle * RATE));  // trees that move by then are measured
-    for (const Plant& plant : chosen_.plants())
+    for (const Plant& plant : chosen_.viewChoice().plants())
       if (plant.error[0] > LEAST) makeWhole(plant.id);
     run(WARM_UP * RATE);
   }
@@ -49,7 +48,7 @@ class Prediction {
     Looks out;
     for (int i = 0; i < RATE * seconds; ++i) {
       run(1);
-      for (const Plant& plant : chosen_.plants())
+      for (const Plant& plant : chosen_.viewChoice().plants())
         if (trees_.count(plant.id))
           out[plant.id].push_back({plant.error[static_cast<std::size_t>(plant.chosen)],
                                    measured(plant.id), plant.chosen});
@@ -79,29 +78,28 @@ class Prediction {
   }
   void run(int ticks) {
     for (int i = 0; i < ticks; ++i, ++tick_) {
-      eye_.stamp = grid_.timeOf(tick_);
-      chosen_.setViewer(eye_);
-      for (Forest* forest : {&chosen_, &exact_}) forest->advance(eye_.stamp);
+      chosen_.setViewers({eye_});
+      for (Forest* forest : {&chosen_, &exact_}) forest->advance(grid_.timeOf(tick_));
     }
   }
   // Returns the largest distance of any tip of a tree from the full chain.
   double measured(std::uint32_t id) const {
     const Tree& tree = trees_.at(id);
     const Nanoseconds stamp = chosen_.snapshot().stamp;
-    const auto right = exact_.pose(tree, id, stamp), shown = chosen_.pose(tree, id, stamp);
+    const auto right = exact_.pose(tree, id, stamp), shown = chosen_.poseInView(tree, id, stamp);
     double out = 0.0;
     for (std::size_t b = 0; b < right.size(); ++b) {
       const Branch& branch = tree.skeleton.branches[b];
       const Vec3 tip = tipOf(branch, right[b]);
-      const double distance = length(tree.foot + tip - eye_.eye.position);
+      const double distance = length(tree.foot + tip - eye_.position);
       const double off = length(tip - tipOf(branch, shown[b]));
-      out = std::max(out, off * pixelsPerMetre(eye_.eye, distance));
+      out = std::max(out, off * pixelsPerMetre(eye_, distance));
     }
     return out;
   }
 
   Forest chosen_, exact_;
-  Viewer eye_;
+  Viewpoint eye_;
   TickGrid grid_{RATE};
   std::int64_t tick_{0};
   std::map<std::uint32_t, Tree> trees_;  // fully physical trees

@@ -10,25 +10,15 @@
 namespace vegetation_sim::forest {
 namespace {
 
-void addTo(Hash& hash, const Viewer& viewer) {
-  hash.add(viewer.id);
-  hash.add(static_cast<std::uint64_t>(viewer.stamp));
-  hash.add(viewer.eye.position);
-  hash.add(viewer.eye.forward);
-  hash.add(viewer.eye.pixels_per_radian);
-  hash.add(viewer.eye.cone_cosine);
+void addTo(Hash& hash, const Sensor& sensor) {
+  hash.add(sensor.id);
+  hash.add(static_cast<std::uint64_t>(sensor.stamp));
+  hash.add(sensor.position);
+  hash.add(sensor.range);
+  hash.add(sensor.tolerance);
 }
 
 }  // namespace
-
-void describe(FieldVisitor& v, Settings& s) {
-  v.number("tolerance", s.tolerance, "pixel", {0.01, 1000.0});
-  v.integer("fixed_level", s.fixed_level, "", {0, MAX_DEPTHS});
-  v.integer("highest_level", s.highest_level, "", {0, MAX_DEPTHS});
-  v.number("robot_tolerance", s.robot_tolerance, "m", {1e-4, 10.0});
-  v.number("robot_range", s.robot_range, "m", {0.0, 100.0});
-  describe(v, s.budget);
-}
 
 Forest::Forest(Layout layout, std::shared_ptr<const terrain::HeightMap> terrain,
                Settings settings) {
@@ -43,12 +33,15 @@ void Forest::setLayout(Layout layout, std::shared_ptr<const terrain::HeightMap> 
   faults.throwIfAny();
   const bool same_trees = layout.treeCount() == layout_.treeCount();
   // Transitions continue from their present blend with the duration of the new layout.
-  snapshot_.levels.anchor(snapshot_.stamp, layout_.motion.transition);
+  for (TreeDetail* detail : {&snapshot_.world, &snapshot_.view})
+    detail->levels.anchor(snapshot_.stamp, layout_.motion.transition);
   layout_ = std::move(layout);
   layout_hash_ = layout_.hash();
   terrain_ = std::move(terrain);
-  measure();
-  snapshot_.modes.clear();  // the wood may have changed
+  errors_.measure(layout_, *terrain_);
+  for (TreeDetail* detail : {&snapshot_.world, &snapshot_.view})
+    detail->modes.clear();  // the wood may have changed
+  snapshot_.offsets.clear();
   if (!same_trees)
     reset();
   else
@@ -56,65 +49,84 @@ void Forest::setLayout(Layout layout, std::shared_ptr<const terrain::HeightMap> 
 }
 
 void Forest::reset() {
-  snapshot_.viewers.clear();
   const int level = std::min(snapshot_.settings.fixed_level, snapshot_.settings.highest_level);
-  snapshot_.levels.reset(LevelState::settled(level));
+  for (TreeDetail* detail : {&snapshot_.world, &snapshot_.view}) detail->reset(level);
+  snapshot_.sensors.clear();
+  snapshot_.viewers.clear();
   snapshot_.stamp = 0;
-  snapshot_.modes.clear();
   snapshot_.physics.clear();
-  snapshot_.changed.clear();
-  snapshot_.begun.clear();
-  snapshot_.sequence = 0;
-}
-
-void Forest::measureSpecies(std::size_t species, double scale) {
-  tables_[species].measure(layout_.species[species], layout_.motion, scale);
-  const LevelTable table = tables_[species].at(scale);
-  extent_ = std::max(extent_, table.reach + table.height);
-  largest_omission_ = std::max(largest_omission_, table.omitted[0]);
-  slowest_reference_ = std::min(slowest_reference_, layout_.species[species].reference_speed);
-}
-
-void Forest::forEachSize(const std::function<void(std::size_t, double)>& look) const {
-  for (const TreeSeed& seed : layout_.trees) look(seed.species, seed.scale);
-  for (std::size_t species = 0; species < tables_.size() && !layout_.tiles.empty(); ++species)
-    for (const double scale : {SMALLEST_TILED_SCALE, 1.0, LARGEST_TILED_SCALE})
-      look(species, scale);
-}
-
-void Forest::precompute() {
-  forEachSize([this](std::size_t species, double scale) {
-    tables_[species].responseErrorAt(layout_.species[species], layout_.motion, scale, {});
-  });
-}
-
-void Forest::measure() {
-  tables_.assign(layout_.species.size(), LevelScales());
-  extent_ = largest_omission_ = 0.0;
-  slowest_reference_ = 1e9;
-  forEachSize([this](std::size_t species, double scale) { measureSpecies(species, scale); });
-  const terrain::Bounds bounds = terrain_->bounds();
-  const double relief = bounds.max_z - bounds.min_z;
-  regions_.clear();
-  for (std::uint32_t i = 0; i < layout_.trees.size(); ++i)
-    regions_.push_back({footOf(layout_.trees[i], *terrain_), extent_, i, 1});
-  for (const Tile& tile : layout_.tiles) {
-    const double half = 0.5 * tile.size;
-    const Vec3 centre(tile.x + half, tile.y + half, terrain_->height(tile.x + half, tile.y + half));
-    regions_.push_back({centre, half * 1.5 + relief + extent_, tile.first_tree, tile.count});
-  }
+  snapshot_.offsets.clear();
 }
 
 StepContext Forest::stepContext() const {
-  return {layout_,          layout_hash_,    *terrain_,  snapshot_.wind,
-          snapshot_.levels, snapshot_.modes, *contacts_, snapshot_.stamp};
+  return {layout_,        layout_hash_,           *terrain_,
+          snapshot_.wind, snapshot_.world.levels, snapshot_.world.modes,
+          *contacts_,     snapshot_.stamp};
+}
+
+void Forest::advance(Nanoseconds stamp) {
+  const Nanoseconds before = snapshot_.stamp;
+  advancePhysics(stamp);
+  auto& sensors = snapshot_.sensors;
+  for (auto it = sensors.begin(); it != sensors.end();)
+    it = stamp - it->second.stamp > SENSOR_LIFE ? sensors.erase(it) : std::next(it);
+  chooseDetail(before);
 }
 
 // Runs before the choice of levels: the present levels hold since the last tick.
 void Forest::advancePhysics(Nanoseconds stamp) {
-  for (const std::uint32_t tree : physicalTrees()) snapshot_.changed.insert(tree);
-  snapshot_.modes.advance(snapshot_.wind, snapshot_.stamp, stamp);
+  std::map<std::uint32_t, PromotedTree> world, view;
+  for (const std::uint32_t tree : physicalTrees()) {
+    world[tree] = promoted(tree);
+    view[tree] = promotedInView(tree);
+  }
+  for (TreeDetail* detail : {&snapshot_.world, &snapshot_.view}) {
+    for (const auto& entry : world) detail->changed.insert(entry.first);
+    detail->modes.advance(snapshot_.wind, snapshot_.stamp, stamp);
+  }
   snapshot_.physics.advance(stepContext(), stamp);
+  snapshot_.stamp = stamp;
+  snapshot_.offsets.prune(stamp, layout_.motion.transition);
+  for (const auto& [id, subtree] : snapshot_.physics.subtrees()) {
+    const auto differences = [&, id = id, &tree = subtree.tree()] {
+      std::vector<JointAngles> out = anglesIn(snapshot_.view, tree, id, view[id]);
+      const auto base = anglesIn(snapshot_.world, tree, id, world[id]);
+      for (std::size_t i = 0; i < out.size(); ++i) {
+        out[i].first -= base[i].first;
+        out[i].second -= base[i].second;
+      }
+      return out;
+    };
+    snapshot_.offsets.update(id, world[id], promoted(id), differences);
+  }
+}
+
+// The displays' choice comes second and starts modes only if the world's has not, so that a tick
+// computes modes once.
+void Forest::chooseDetail(Nanoseconds before) {
+  const Nanoseconds stamp = snapshot_.stamp;
+  const Settings& settings = snapshot_.settings;
+  const Bodies& bodies = snapshot_.physics.bodies();
+  const double physical =
+      1e-6 * settings.budget.physical_cost * static_cast<double>(physicsFigures().branches);
+  const PredictionContext context{layout_, *terrain_, snapshot_.wind, settings, errors_, stamp};
+  using Start = DetailChooser::Start;
+  const Start due = ModalForest::fineDue(before, stamp) ? Start::ANY : Start::PLAIN;
+  world_chooser_.choose(context, worldDemand(settings, bodies, snapshot_.sensors), physical, due,
+                        snapshot_.world);
+  view_chooser_.choose(context, viewDemand(settings, bodies, snapshot_.viewers), physical,
+                       world_chooser_.started() ? Start::NONE : due, snapshot_.view);
+}
+
+// Returns the angles of all joints at the last tick.
+std::vector<JointAngles> Forest::anglesIn(const TreeDetail& detail, const Tree& tree,
+                                          std::uint32_t id, const PromotedTree& promoted) const {
+  const Nanoseconds stamp = snapshot_.stamp;
+  std::vector<JointAngles> out = modalAngles(tree, snapshot_.wind.at(stamp).relativeTo(tree.foot),
+                                             weightsAt(detail.levels.of(id), stamp, layout_.motion),
+                                             detail.modes.find(id), stamp);
+  overlay(promoted, stamp, out);
+  return out;
 }
 
 std::uint32_t Forest::addGrab(const Grab& grab) {
@@ -163,6 +175,19 @@ std::vector<Pose> Forest::pose(const Tree& tree, std::uint32_t id, Nanoseconds s
   return snapshot_.physics.pose(stepContext(), tree, id, stamp);
 }
 
+std::vector<Pose> Forest::poseInView(const Tree& tree, std::uint32_t id, Nanoseconds stamp) const {
+  const TreeDetail& view = snapshot_.view;
+  return poseBranches(tree, snapshot_.wind.at(stamp).relativeTo(tree.foot),
+                      weightsAt(view.levels.of(id), stamp, layout_.motion), view.modes.find(id),
+                      promotedInView(id), stamp);
+}
+
+PromotedTree Forest::promotedInView(std::uint32_t tree) const {
+  PromotedTree out = promoted(tree);
+  snapshot_.offsets.addTo(tree, layout_.motion.transition, out);
+  return out;
+}
+
 std::uint64_t Forest::hash() const {
   Hash out;
   out.add(layout_hash_);
@@ -170,36 +195,34 @@ std::uint64_t Forest::hash() const {
   Settings settings = snapshot_.settings;
   FieldHasher hasher(out);
   describe(hasher, settings);
-  for (const auto& entry : snapshot_.viewers) addTo(out, entry.second);
-  snapshot_.levels.addTo(out, snapshot_.stamp, layout_.motion.transition);
-  snapshot_.modes.addTo(out);
+  for (const auto& entry : snapshot_.sensors) addTo(out, entry.second);
+  snapshot_.world.levels.addTo(out, snapshot_.stamp, layout_.motion.transition);
+  snapshot_.world.modes.addTo(out);
   snapshot_.physics.addTo(out);
   return out.value();
 }
 
-StateUpdate Forest::update(bool key_frame) {
+StateUpdate Forest::updateHead(bool key_frame) const {
   StateUpdate out;
   out.stamp = snapshot_.stamp;
-  out.sequence = snapshot_.sequence++;
   out.key_frame = key_frame;
-  out.base = snapshot_.levels.base();
   out.layout_hash = layout_hash_;
   out.wind_hash = snapshot_.wind.hash();
   out.hash = hash();
   out.blend = snapshot_.physics.settings().blend;
-  std::set<std::uint32_t> published;
-  if (key_frame)
-    for (const auto& entry : snapshot_.levels.held()) published.insert(entry.first);
-  else
-    published = snapshot_.changed;
-  for (const std::uint32_t tree : physicalTrees()) published.insert(tree);
-  for (const std::uint32_t tree : published) {
-    const bool amplitudes = modalState(tree) && (key_frame || snapshot_.begun.count(tree));
-    out.trees.push_back({tree, snapshot_.levels.of(tree), promoted(tree).branches,
-                         amplitudes ? modalState(tree)->state() : physics::ModalState()});
-  }
-  snapshot_.changed.clear();
-  snapshot_.begun.clear();
+  return out;
+}
+
+StateUpdate Forest::update(bool key_frame) {
+  StateUpdate out = updateHead(key_frame);
+  snapshot_.world.addTo(out, physicalTrees(), [this](std::uint32_t id) { return promoted(id); });
+  return out;
+}
+
+StateUpdate Forest::updateView(bool key_frame) {
+  StateUpdate out = updateHead(key_frame);
+  snapshot_.view.addTo(out, physicalTrees(),
+                       [this](std::uint32_t id) { return promotedInView(id); });
   return out;
 }
 

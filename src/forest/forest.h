@@ -2,32 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <functional>
 #include <map>
 #include <memory>
-#include <set>
 #include <string>
 #include <vector>
 
+#include "forest/detail/detail_chooser.h"
+#include "forest/detail/promotion_offsets.h"
 #include "forest/physics/forest_physics.h"
-#include "tree/lod/level_table.h"
-#include "tree/lod/tree_tiers.h"
-#include "vegetation_sim/tree/state/level_map.h"
-#include "vegetation_sim/tree/state/viewer.h"
-#include "vegetation_sim/wind/field.h"
 
 namespace vegetation_sim::forest {
-
-/// Settings that can change at run time.
-struct Settings {
-  double tolerance{1.0};  ///< error that a viewer may see [pixel]
-  int fixed_level{2};     ///< of every tree while there are no viewers
-  int highest_level{MAX_DEPTHS};
-  double robot_tolerance{0.05};  ///< error near the bodies of robots [m]
-  double robot_range{3.0};       ///< distance to a body within which robot_tolerance holds [m]
-  Budget budget;
-};
-void describe(FieldVisitor& visitor, Settings& settings);
 
 /// The complete state of a forest: copy it to save, assign it to restore (N6). What follows has the
 /// same bits, messages included.
@@ -35,18 +19,19 @@ struct ForestSnapshot {
   Nanoseconds stamp{0};
   Settings settings;
   wind::Field wind;
-  std::map<std::string, Viewer> viewers;
-  LevelMap levels;
-  ModalForest modes;
+  std::map<std::string, Sensor> sensors;
+  TreeDetail world;
   ForestPhysics physics;
-  std::set<std::uint32_t> changed;  ///< trees of the next update
-  std::set<std::uint32_t>
-      begun;                  ///< of these, trees with new modes; the update has their amplitudes
-  std::uint32_t sequence{0};  ///< of the next update
+  // For displays only, and in no hash:
+  std::vector<Viewpoint> viewers;
+  TreeDetail view;
+  PromotionOffsets offsets;
 };
 
 /// The animated forest. Inputs take effect at the next tick; between ticks it does not change, and
-/// the poses of any stamp follow from layout, wind and levels. Not thread-safe.
+/// the poses of any stamp follow from layout, wind and levels. Trees have two details: that of the
+/// world, which physics, sensors and the hash know, and that of displays, which viewers require and
+/// which affects nothing else. Not thread-safe.
 class Forest {
  public:
   /// @throws InvalidInput for a layout that check() refuses.
@@ -58,19 +43,19 @@ class Forest {
   const ForestSnapshot& snapshot() const { return snapshot_; }
 
   void setWind(const wind::Field& wind) { snapshot_.wind = wind; }
-  void setViewer(const Viewer& viewer) { snapshot_.viewers[viewer.id] = viewer; }
+  void setSensor(const Sensor& sensor) { snapshot_.sensors[sensor.id] = sensor; }
+  void setViewers(std::vector<Viewpoint> viewers) { snapshot_.viewers = std::move(viewers); }
   void setSettings(const Settings& settings) { snapshot_.settings = settings; }
   /// Replaces the layout. Levels restart if the number of trees changes.
   void setLayout(Layout layout, std::shared_ptr<const terrain::HeightMap> terrain);
   void restore(ForestSnapshot memory) { snapshot_ = std::move(memory); }
-  /// Computes the response errors of all species now, some 30 ms for each of a few sizes, instead
-  /// of at the first tick with a viewer nearby.
-  void precompute();
+  /// Computes now what the first tick with a listener nearby would otherwise compute.
+  void precompute() { errors_.precompute(layout_); }
   /// Resets the state; keeps layout, wind and settings.
   void reset();
 
-  /// Advances one tick: steps physics and modes, then chooses the tier of every tree from wind,
-  /// viewers and tolerance.
+  /// Advances one tick: steps physics and modes, then chooses the tiers of every tree from wind,
+  /// listeners and their tolerances.
   void advance(Nanoseconds stamp);
 
   // Inputs of physics. All throw InvalidInput that names field, value and range, and then change
@@ -102,64 +87,42 @@ class Forest {
   PromotedTree promoted(std::uint32_t tree) const;
   /// Returns the ids of the trees with physical joints, sorted.
   std::vector<std::uint32_t> physicalTrees() const;
-  /// Returns the modal state of a tree, or nullptr if it has none.
-  const ModalTreeState* modalState(std::uint32_t tree) const { return snapshot_.modes.find(tree); }
-  /// Figures of the tier allocation at the last tick.
-  const GovernorFigures& governor() const { return governor_; }
-  /// The trees of that allocation with their predicted errors; empty if there are very many.
-  const std::vector<Plant>& plants() const { return plants_; }
+  /// What the world has, and what displays draw.
+  const TreeDetail& world() const { return snapshot_.world; }
+  const TreeDetail& view() const { return snapshot_.view; }
+  /// The choices of the last tick.
+  const DetailChooser& worldChoice() const { return world_chooser_; }
+  const DetailChooser& viewChoice() const { return view_chooser_; }
   /// Returns the pose of every branch in the tree's frame, physical joints and modes included, in
   /// double precision.
   std::vector<Pose> pose(const Tree& tree, std::uint32_t id, Nanoseconds stamp) const;
+  /// Returns the pose and the physical joints as displays draw them.
+  std::vector<Pose> poseInView(const Tree& tree, std::uint32_t id, Nanoseconds stamp) const;
+  PromotedTree promotedInView(std::uint32_t tree) const;
 
-  /// Returns the complete state, or the changes since the last update of either kind.
+  /// Returns the complete state of the world, or the changes since the last update of either kind.
   StateUpdate update(bool key_frame);
-  /// Returns a hash of all state that determines the future, viewers included, but not the numbers
-  /// of updates, so that late subscribers compute the same.
+  /// Returns the same for displays.
+  StateUpdate updateView(bool key_frame);
+  /// Returns a hash of all state that determines the future of the world, sensors included, but not
+  /// the numbers of updates, so that late subscribers compute the same.
   std::uint64_t hash() const;
 
  private:
-  struct Region {
-    Vec3 centre;
-    double reach;  // [m] around the centre, including the reach of trees
-    std::uint32_t first, count;
-  };
   StepContext stepContext() const;
   void advancePhysics(Nanoseconds stamp);
-  /// Calls `visit` for the sizes of all trees; for tiles, for the range of their sizes.
-  void forEachSize(const std::function<void(std::size_t species, double scale)>& look) const;
-  void measure();
-  void measureSpecies(std::size_t species, double scale);
-  double bendingSpeed(double speed, double reference_speed) const;
-  double pixelsPerMetreAt(const Vec3& centre, double reach) const;
-  void chooseLevels();
-  void chooseRegion(const Region& region);
-  void chooseTree(std::uint32_t tree);
-  void predict(const TreeSeed& seed, const LevelTable& table, double view, Plant& plant);
-  void requestModes(const PredictedError& off, Plant& plant) const;
-  PredictedError responseErrorOf(const TreeSeed& seed, const wind::GustSpectrum& spectrum,
-                                 double bending, double pixels);
-  bool haveModes() const;
-  void applyTiers();
-  void startModes();
-  void setTreeLevel(std::uint32_t tree, int level);
+  void chooseDetail(Nanoseconds before);
+  std::vector<JointAngles> anglesIn(const TreeDetail& detail, const Tree& tree, std::uint32_t id,
+                                    const PromotedTree& promoted) const;
+  StateUpdate updateHead(bool key_frame) const;
 
   Layout layout_;
   std::uint64_t layout_hash_{0};
   std::shared_ptr<const terrain::HeightMap> terrain_;
-  std::vector<LevelScales> tables_;  // per species
-  double extent_{0.0};               // height plus reach of the largest tree [m]
-  double largest_omission_{0.0};     // of any tree with all joints fixed [m per m/s]
-  double slowest_reference_{1.0};    // reference speed of any species [m/s]
-  std::vector<Region> regions_;
+  TreeErrors errors_;
   std::shared_ptr<const ContactFinder> contacts_{std::make_shared<ContactFinder>()};
   ForestSnapshot snapshot_;
-  wind::Instant now_;
-  wind::GustSpectrumField swinging_;  // now
-  bool fine_due_{false};              // one tree may get fine modes in this tick
-  int last_base_{0};                  // level of the trees that were not held before this tick
-  std::vector<Plant> plants_;
-  GovernorFigures governor_;
+  DetailChooser world_chooser_, view_chooser_;
 };
 
 }  // namespace vegetation_sim::forest

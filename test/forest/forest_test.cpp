@@ -15,38 +15,36 @@ namespace {
 
 constexpr Nanoseconds START = 1700000000LL * NANOSECONDS_PER_SECOND;
 
-Viewer lookFrom(const Vec3& position, Nanoseconds stamp, const std::string& id = "eye") {
-  Viewer out;
-  out.id = id;
-  out.eye.position = position;
-  out.eye.pixels_per_radian = 1000.0;
-  out.stamp = stamp;
+Viewpoint lookFrom(const Vec3& position) {
+  Viewpoint out;
+  out.position = position;
+  out.pixels_per_radian = 1000.0;
   return out;
+}
+
+Sensor sensorAt(const Vec3& position, Nanoseconds stamp) {
+  return {"lidar", position, 15.0, 0.02, stamp};
 }
 
 Forest makeForest(Layout layout = gridLayout(4, 10.0)) {
   return Forest(std::move(layout), flatTerrain(), Settings());
 }
 
-void run(Forest& forest, Nanoseconds from, double for_seconds, const Viewer* viewer = nullptr) {
+void run(Forest& forest, Nanoseconds from, double for_seconds,
+         std::vector<Viewpoint> viewers = {}) {
   const TickGrid grid(30);
   const std::int64_t first = grid.tickAt(from);
-  for (std::int64_t k = first; k < first + static_cast<std::int64_t>(30 * for_seconds); ++k) {
-    if (viewer && k % 15 == 0) {
-      Viewer fresh = *viewer;
-      fresh.stamp = grid.timeOf(k);
-      forest.setViewer(fresh);
-    }
+  forest.setViewers(std::move(viewers));
+  for (std::int64_t k = first; k < first + static_cast<std::int64_t>(30 * for_seconds); ++k)
     forest.advance(grid.timeOf(k));
-  }
 }
 
 // N8: without a viewer every tree has the fixed level, and takes no memory for it.
 TEST(Forest, FixedLevelWithoutViewer) {
   Forest forest = makeForest();
   run(forest, START, 1.0);
-  EXPECT_EQ(forest.snapshot().levels.of(3).level, 2);
-  EXPECT_TRUE(forest.snapshot().levels.held().empty());
+  EXPECT_EQ(forest.view().levels.of(3).level, 2);
+  EXPECT_TRUE(forest.view().levels.held().empty());
 }
 
 // S1-01, S1-22, N8: two trees at different distances get different levels; moving the camera swaps
@@ -57,52 +55,51 @@ TEST(Forest, LevelsFollowTheViewer) {
   layout.trees[1].position = Vec3(400, 0, 0);
   Forest forest = makeForest(layout);
   forest.setWind(wind::Field({makeBreeze(1, Vec3(5, 0, 0))}));
-  const Viewer here = lookFrom(Vec3(-10, 0, 2), 0), there = lookFrom(Vec3(410, 0, 2), 0);
-  run(forest, START, 2.0, &here);
-  EXPECT_GT(forest.snapshot().levels.of(0).level, forest.snapshot().levels.of(1).level);
-  run(forest, START + seconds(2), 5.0, &there);
-  EXPECT_LT(forest.snapshot().levels.of(0).level, forest.snapshot().levels.of(1).level);
+  const Viewpoint here = lookFrom(Vec3(-10, 0, 2)), there = lookFrom(Vec3(410, 0, 2));
+  run(forest, START, 2.0, {here});
+  EXPECT_GT(forest.view().levels.of(0).level, forest.view().levels.of(1).level);
+  run(forest, START + seconds(2), 5.0, {there});
+  EXPECT_LT(forest.view().levels.of(0).level, forest.view().levels.of(1).level);
 }
 
 // S1-40: trees out of sight stand still, and move again when the camera turns to them.
 TEST(Forest, TreesOutOfSightStandStill) {
   Forest forest = makeForest(gridLayout(2, 60.0));
   forest.setWind(wind::Field({makeBreeze(1, Vec3(5, 0, 0))}));
-  Viewer eye = lookFrom(Vec3(30, 0, 2), START);
-  eye.eye.cone_cosine = 0.88;
-  forest.setViewer(eye);
+  Viewpoint eye = lookFrom(Vec3(30, 0, 2));
+  eye.cone_cosine = 0.88;
+  forest.setViewers({eye});
   forest.advance(START);
-  EXPECT_EQ(forest.snapshot().levels.of(0).level, 0);  // at x = 0, behind
-  EXPECT_GT(forest.snapshot().levels.of(1).level, 0);  // at x = 60, in front
-  eye.eye.forward = Vec3(-1, 0, 0);
-  forest.setViewer(eye);
+  EXPECT_EQ(forest.view().levels.of(0).level, 0);  // at x = 0, behind
+  EXPECT_GT(forest.view().levels.of(1).level, 0);  // at x = 60, in front
+  eye.forward = Vec3(-1, 0, 0);
+  forest.setViewers({eye});
   forest.advance(START + seconds(0.1));
-  EXPECT_GT(forest.snapshot().levels.of(0).level, 0);
-  EXPECT_EQ(forest.snapshot().levels.of(1).level, 0);
+  EXPECT_GT(forest.view().levels.of(0).level, 0);
+  EXPECT_EQ(forest.view().levels.of(1).level, 0);
 }
 
-// N8: of several viewers, the finest wins; a silent one is removed.
+// N8: of several viewers, the finest wins; without any, trees return to the fixed level.
 TEST(Forest, FinestOfSeveralViewersWins) {
   Forest forest = makeForest();
   forest.setWind(wind::Field({makeBreeze(1, Vec3(5, 0, 0))}));
-  forest.setViewer(lookFrom(Vec3(5000, 0, 0), START, "far"));
-  forest.advance(START);
-  const int far_level = forest.snapshot().levels.of(0).level;
-  forest.setViewer(lookFrom(Vec3(5, 5, 2), START, "near"));
-  forest.advance(START + seconds(0.1));
-  EXPECT_GT(forest.snapshot().levels.of(0).level, far_level);
-  run(forest, START + seconds(4), 3.0);
-  EXPECT_TRUE(forest.snapshot().viewers.empty());
+  const Viewpoint far = lookFrom(Vec3(5000, 0, 0));
+  run(forest, START, 0.1, {far});
+  const int far_level = forest.view().levels.of(0).level;
+  run(forest, START + seconds(0.1), 0.1, {far, lookFrom(Vec3(5, 5, 2))});
+  EXPECT_GT(forest.view().levels.of(0).level, far_level);
+  run(forest, START + seconds(0.2), 0.1);
+  EXPECT_EQ(forest.view().levels.of(0).level, Settings().fixed_level);
 }
 
 // S1-22, S1-40: level 0 without wind; the middle of a disk requires more than its rim.
 TEST(Forest, LevelsFollowTheWind) {
   Forest forest = makeForest(gridLayout(8, 20.0));
   forest.setWind(wind::Field({makeDisk(1, Vec3(0, 0, 0), 60.0, Vec3(11, 0, 0))}));
-  forest.setViewer(lookFrom(Vec3(70, 70, 150), START));
+  forest.setViewers({lookFrom(Vec3(70, 70, 150))});
   forest.advance(START);
   const auto level = [&](std::uint32_t x, std::uint32_t y) {
-    return forest.snapshot().levels.of(y * 8 + x).level;
+    return forest.view().levels.of(y * 8 + x).level;
   };
   EXPECT_EQ(level(7, 7), 0);
   EXPECT_GT(level(0, 0), 0);
@@ -126,13 +123,14 @@ bool same(const StateUpdate& a, const StateUpdate& b) {
 TEST(Forest, IsDeterministicAndRestores) {
   Forest a = makeForest(), b = makeForest();
   const wind::Field field({makeBreeze(1, Vec3(5, 0, 0))});
-  const Viewer eye = lookFrom(Vec3(-20, 10, 5), 0);
-  for (Forest* forest : {&a, &b}) forest->setWind(field);
-  run(a, START, 3.0, &eye);
-  run(b, START, 3.0, &eye);
+  for (Forest* forest : {&a, &b}) {
+    forest->setWind(field);
+    forest->setSensor(sensorAt(Vec3(5, 5, 2), START));
+    run(*forest, START, 3.0);
+  }
   EXPECT_EQ(a.hash(), b.hash());
   const ForestSnapshot saved = a.snapshot();
-  run(a, START + seconds(3), 5.0);  // the viewer is removed meanwhile
+  run(a, START + seconds(3), 5.0);  // the sensor is removed meanwhile
   const std::uint64_t later = a.hash();
   EXPECT_NE(later, b.hash());
   a.restore(saved);
@@ -146,9 +144,9 @@ std::vector<StateUpdate> messages(Forest& forest, std::int64_t first, int count)
   const TickGrid grid(30);
   std::vector<StateUpdate> out;
   for (std::int64_t tick = first; tick < first + count; ++tick) {
-    if (tick % 15 == 0) forest.setViewer(lookFrom(Vec3(-20, 10, 5), grid.timeOf(tick)));
+    forest.setViewers({lookFrom(Vec3(-20, 10, 5))});
     forest.advance(grid.timeOf(tick));
-    out.push_back(forest.update(tick % 30 == 0));
+    out.push_back(forest.updateView(tick % 30 == 0));
   }
   return out;
 }
@@ -159,16 +157,16 @@ TEST(Forest, RestoredMemorySendsTheSameMessages) {
   forest.setWind(wind::Field({makeBreeze(1, Vec3(5, 0, 0))}));
   const std::int64_t start = TickGrid(30).tickAt(START);
   messages(forest, start, 20);
-  forest.setViewer(lookFrom(Vec3(60, 60, 5), START));
+  forest.setViewers({lookFrom(Vec3(60, 60, 5))});
   forest.advance(TickGrid(30).timeOf(start + 20));  // its changes are not sent yet
   const ForestSnapshot saved = forest.snapshot();
-  const StateUpdate unsent = forest.update(false);
+  const StateUpdate unsent = forest.updateView(false);
   EXPECT_FALSE(unsent.trees.empty());
   const std::vector<StateUpdate> before = messages(forest, start + 21, 60);
   Forest other = makeForest();
   for (Forest* again : {&forest, &other}) {
     again->restore(saved);
-    EXPECT_TRUE(same(again->update(false), unsent));
+    EXPECT_TRUE(same(again->updateView(false), unsent));
     const std::vector<StateUpdate> after = messages(*again, start + 21, 60);
     for (std::size_t i = 0; i < before.size(); ++i) EXPECT_TRUE(same(after[i], before[i])) << i;
   }
@@ -177,13 +175,14 @@ TEST(Forest, RestoredMemorySendsTheSameMessages) {
 // Time going backwards: after reset() the forest equals a fresh start.
 TEST(Forest, ResetEqualsAFreshStart) {
   Forest used = makeForest(), fresh = makeForest();
-  const Viewer eye = lookFrom(Vec3(-20, 10, 5), 0);
   used.setWind(wind::Field({makeBreeze(1, Vec3(5, 0, 0))}));
   fresh.setWind(wind::Field({makeBreeze(1, Vec3(5, 0, 0))}));
-  run(used, START + seconds(10), 3.0, &eye);
+  used.setSensor(sensorAt(Vec3(5, 5, 2), START + seconds(10)));
+  run(used, START + seconds(10), 3.0);
+  EXPECT_FALSE(used.world().levels.held().empty());
   used.reset();
-  run(used, START, 1.0, &eye);
-  run(fresh, START, 1.0, &eye);
+  run(used, START, 1.0);
+  run(fresh, START, 1.0);
   EXPECT_EQ(used.hash(), fresh.hash());
 }
 
@@ -192,15 +191,15 @@ TEST(Forest, NewTransitionTimeMovesNoTree) {
   Forest forest = makeForest();
   forest.setWind(wind::Field({makeBreeze(1, Vec3(5, 0, 0))}));
   forest.advance(START);
-  forest.setViewer(lookFrom(Vec3(-20, 10, 5), START));
+  forest.setViewers({lookFrom(Vec3(-20, 10, 5))});
   forest.advance(START);
   const Nanoseconds midway = START + seconds(0.5 * forest.layout().motion.transition);
   forest.advance(midway);
-  const auto before = weightsAt(forest.snapshot().levels.of(0), midway, forest.layout().motion);
+  const auto before = weightsAt(forest.view().levels.of(0), midway, forest.layout().motion);
   Layout slow = forest.layout();
   slow.motion.transition = 30.0;
   forest.setLayout(slow, flatTerrain());
-  const auto after = weightsAt(forest.snapshot().levels.of(0), midway, forest.layout().motion);
+  const auto after = weightsAt(forest.view().levels.of(0), midway, forest.layout().motion);
   for (std::size_t d = 0; d < MAX_DEPTHS; ++d) EXPECT_NEAR(after[d], before[d], 1e-6) << d;
 }
 
@@ -216,18 +215,17 @@ TEST(Forest, HashSeesEveryPartOfTheState) {
   EXPECT_EQ(forest.hash(), before);
   forest.setWind(wind::Field({makeBreeze(1, Vec3(5, 0, 0))}));
   EXPECT_NE(forest.hash(), before);
-  // Every field of viewers is hashed, because each affects future levels.
+  // Every field of sensors is hashed, because each affects future levels.
   std::set<std::uint64_t> seen{forest.hash()};
-  const Viewer eye = lookFrom(Vec3(-20, 10, 5), START);
-  std::vector<Viewer> eyes(7, eye);
-  eyes[1].stamp = START + 1;
-  eyes[2].eye.position.y() = 11;
-  eyes[3].eye.pixels_per_radian = 900.0;
-  eyes[4].eye.forward = Vec3::UnitY();
-  eyes[5].eye.cone_cosine = 0.5;
-  eyes[6].id = "other";
-  for (const Viewer& viewer : eyes) {
-    forest.setViewer(viewer);
+  const Sensor sensor = sensorAt(Vec3(5, 5, 2), START);
+  std::vector<Sensor> sensors(6, sensor);
+  sensors[1].stamp = START + 1;
+  sensors[2].position.y() = 11;
+  sensors[3].range = 16.0;
+  sensors[4].tolerance = 0.03;
+  sensors[5].id = "other";
+  for (const Sensor& each : sensors) {
+    forest.setSensor(each);
     EXPECT_TRUE(seen.insert(forest.hash()).second) << seen.size();
   }
 }
@@ -246,15 +244,15 @@ TEST(Forest, ReplicaFollowsKeyFramesAndDeltas) {
   const TickGrid grid(30);
   for (int k = 0; k < 150; ++k) {
     const Nanoseconds now = START + grid.timeOf(k);
-    if (k == 40 || k == 100) forest.setViewer(lookFrom(Vec3(-20, 0, 5), now));
-    if (k == 70) forest.setViewer(lookFrom(Vec3(60, 60, 5), now));
+    if (k == 40 || k == 100) forest.setViewers({lookFrom(Vec3(-20, 0, 5))});
+    if (k == 70) forest.setViewers({lookFrom(Vec3(60, 60, 5))});
     forest.advance(now);
-    const StateUpdate update = forest.update(k % 30 == 0);
+    const StateUpdate update = forest.updateView(k % 30 == 0);
     EXPECT_TRUE(steady.apply(update)) << steady.why();
     EXPECT_EQ(late.apply(k < 95 ? StateUpdate() : update), k >= 120) << k;
     for (std::uint32_t id = 0; id < 16; ++id) {
       EXPECT_EQ(steady.weights(id, now),
-                weightsAt(forest.snapshot().levels.of(id), now, forest.layout().motion))
+                weightsAt(forest.view().levels.of(id), now, forest.layout().motion))
           << k << " " << id;
     }
   }

@@ -46,8 +46,8 @@ TEST(ModalTreeState, WhoJoinsLateFindsFineModesOneByOne) {
   Clearing scene(breeze(), 0.05);
   scene.run(2.0);
   for (std::uint32_t id = 0; id < 4; ++id) {
-    ASSERT_NE(scene.forest.modalState(id), nullptr) << id;
-    ASSERT_TRUE(scene.forest.modalState(id)->fine()) << id;
+    ASSERT_NE(scene.forest.world().modes.find(id), nullptr) << id;
+    ASSERT_TRUE(scene.forest.world().modes.find(id)->fine()) << id;
   }
   ForestReplica late;
   scene.introduce(late);
@@ -78,7 +78,8 @@ TEST(ModalTreeState, NothingStaleIsShownWhileFineModesAreAwaited) {
   for (std::uint32_t id = 0; id < 4; ++id) ASSERT_NE(replica.modalState(id), nullptr);
   scene.publishAtMost(1000000);
   scene.run(2.0);  // without messages
-  for (std::uint32_t id = 0; id < 4; ++id) ASSERT_TRUE(scene.forest.modalState(id)->fine()) << id;
+  for (std::uint32_t id = 0; id < 4; ++id)
+    ASSERT_TRUE(scene.forest.world().modes.find(id)->fine()) << id;
   for (int i = 0; i < 5; ++i) {
     scene.advance();
     ASSERT_TRUE(replica.apply(scene.forest.update(i == 0))) << replica.why();
@@ -88,7 +89,7 @@ TEST(ModalTreeState, NothingStaleIsShownWhileFineModesAreAwaited) {
       ++shown;
       EXPECT_TRUE(replica.modalState(id)->fine()) << id;
       EXPECT_EQ(replica.modalState(id)->state().amplitude,
-                scene.forest.modalState(id)->state().amplitude);
+                scene.forest.world().modes.find(id)->state().amplitude);
     }
     EXPECT_EQ(shown, 1);
   }
@@ -124,8 +125,8 @@ TEST(ModalTreeState, BatchedPoseIsThePlainOne) {
   const Nanoseconds stamp = scene.now() + seconds(0.01);
   const auto plain = scene.forest.pose(tree, 0, stamp);
   BatchPoses fast;
-  ASSERT_NE(scene.forest.modalState(0), nullptr);
-  scene.forest.modalState(0)->pose(BatchPoser(tree), stamp, fast);
+  ASSERT_NE(scene.forest.world().modes.find(0), nullptr);
+  scene.forest.world().modes.find(0)->pose(BatchPoser(tree), stamp, fast);
   for (std::size_t b = 0; b < plain.size(); ++b)
     ASSERT_LT(length(plain[b].position - fast.at(static_cast<int>(b)).position),
               1e-5 * tree.skeleton.height);

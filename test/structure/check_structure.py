@@ -10,7 +10,7 @@ Prints one line for each fault and exits 1 if there is one. Checks that
 - the rows allow no circle of folders;
 - the core and the ROS layer include no library that the table keeps from them;
 - public headers include only public headers, and no more of them are installed than allowed;
-- a source has a header of its stem, or continues a class of a header (forest_levels.cpp: forest.h);
+- a source has a header of its stem, or continues a class of a header (grab_manager_ticks.cpp: grab_manager.h);
 - a test program mirrors a folder of src/;
 - no folder below src/, include/ or test/ holds more files than allowed;
 - the table and the picture in docs/architecture.md show the same rows (--write updates them).
@@ -141,8 +141,8 @@ def check_public_headers():
 
 
 def continues(stem, others):
-    """Returns whether a file continues a class of a header: forest_levels.cpp continues
-    forest.h."""
+    """Returns whether a file continues a class of a header: grab_manager_ticks.cpp continues
+    grab_manager.h."""
     return any(stem.startswith(other + '_') for other in others)
 
 

@@ -33,7 +33,7 @@ CanopyAnimator::CanopyAnimator(const ros::NodeHandle& handle, const ros::NodeHan
 void CanopyAnimator::connect() {
   subscribeToOwner("wind", 10, &CanopyAnimator::onWind);
   if (!options_.scene.layout.crowns.empty())
-    forest_.subscribe(handle_, {"forest/layout", "", "forest/state"});
+    forest_.subscribe(handle_, {"forest/layout", "", "forest/view"});
   serve("sample", &CanopyAnimator::onSample);
 }
 

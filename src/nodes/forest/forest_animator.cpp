@@ -10,7 +10,7 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr std::size_t MOST_VIEWERS = 32;
+constexpr std::size_t MOST_SENSORS = 32;
 constexpr std::size_t MOST_WINDS = 256;  // that events can name
 
 forest::Layout designed(const forest::Layout& layout, const ForestTuning& tuning) {
@@ -42,6 +42,7 @@ ForestAnimator::ForestAnimator(const ros::NodeHandle& handle, const ros::NodeHan
       markers_(*forest_, cache_, options_.marker_points) {
   layout_publisher_ = handle_.advertise<ForestLayout>("forest/layout", 1, true);
   state_publisher_ = handle_.advertise<ForestState>("forest/state", 1000);
+  view_publisher_ = handle_.advertise<ForestState>("forest/view", 1000);
   branches_publisher_ = handle_.advertise<BranchTransforms>("forest/branches", 60);
   wrenches_publisher_ = handle_.advertise<geometry_msgs::WrenchStamped>("forest/wrenches", 1000);
   forces_publisher_ = handle_.advertise<ContactForces>("forest/forces", 1000);
@@ -52,6 +53,7 @@ ForestAnimator::ForestAnimator(const ros::NodeHandle& handle, const ros::NodeHan
 
 void ForestAnimator::connect() {
   subscribeToOwner("wind", 10, &ForestAnimator::onWind);
+  if (!options_.replay) subscribe("forest/sensors", 100, &ForestAnimator::onSensor);
   serve("get_tree", &ForestAnimator::onGetTree);
   serve("find_trees", &ForestAnimator::onFindTrees);
   serve("pick", &ForestAnimator::onPick);
@@ -74,7 +76,7 @@ void ForestAnimator::resetForest() {
 }
 
 bool ForestAnimator::isOutdated(const ForestInput& event) const {
-  return event.kind == ForestInput::VIEWER || event.kind >= ForestInput::GRAB;
+  return event.kind == ForestInput::SENSOR || event.kind >= ForestInput::GRAB;
 }
 
 void ForestAnimator::restart() {
@@ -91,30 +93,37 @@ void ForestAnimator::tick(std::int64_t tick) {
   grab_manager_.follow(
       stamp, [this](const std::string& what, const std::string& why) { refusals_.add(what, why); });
   applyInputs(stamp);
+  forest_->setViewers(viewers_.eyesAt(stamp));
   forest_->advance(stamp);
   updateDeepestOverlap();
   const auto period = static_cast<std::int64_t>(options_.key_frame_period * options_.state_rate);
-  const bool key_frame = force_key_frame_ || tick % std::max<std::int64_t>(1, period) == 0;
-  ForestState message = toMsg(forest_->update(key_frame));
-  message.header.frame_id = options_.frame_id;
-  state_bytes_ += ros::serialization::serializationLength(message);
-  state_publisher_.publish(message);
+  publishState(force_key_frame_ || tick % std::max<std::int64_t>(1, period) == 0);
   updateGrabs(tick);
   publishForces();
   force_key_frame_ = false;
 }
 
+void ForestAnimator::publishState(bool key_frame) {
+  const auto publish = [&](const forest::StateUpdate& update, ros::Publisher& publisher) {
+    ForestState message = toMsg(update);
+    message.header.frame_id = options_.frame_id;
+    state_bytes_ += ros::serialization::serializationLength(message);
+    publisher.publish(message);
+  };
+  publish(forest_->update(key_frame), state_publisher_);
+  publish(forest_->updateView(key_frame), view_publisher_);
+}
+
 void ForestAnimator::apply(ForestInput& event) {
   grab_manager_.followFrame(event);
   switch (event.kind) {
-    case ForestInput::VIEWER: {
-      forest::Viewer viewer = fromMsg(event.viewer);
-      viewer.stamp = event.stamp;
-      const auto& known = forest_->snapshot().viewers;
-      if (known.size() >= MOST_VIEWERS && !known.count(viewer.id))
-        throw InvalidInput("viewer '" + viewer.id + "' is one more than the " +
-                           std::to_string(MOST_VIEWERS) + " allowed at once");
-      forest_->setViewer(viewer);
+    case ForestInput::SENSOR: {
+      event.sensor.stamp = event.stamp;
+      const auto& known = forest_->snapshot().sensors;
+      if (known.size() >= MOST_SENSORS && !known.count(event.sensor.id))
+        throw InvalidInput("sensor '" + event.sensor.id + "' is one more than the " +
+                           std::to_string(MOST_SENSORS) + " allowed at once");
+      forest_->setSensor(event.sensor);
       break;
     }
     case ForestInput::WIND: {

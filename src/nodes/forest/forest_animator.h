@@ -11,6 +11,7 @@
 #include <vegetation_sim/MoveGrab.h>
 #include <vegetation_sim/Pick.h>
 #include <vegetation_sim/Release.h>
+#include <vegetation_sim/SensorInterest.h>
 #include <vegetation_sim/SetTf.h>
 #include <vegetation_sim/WindField.h>
 
@@ -19,6 +20,7 @@
 
 #include "forest/pick.h"
 #include "nodes/base/event_node.h"
+#include "nodes/base/viewer_registry.h"
 #include "nodes/forest/branch_frames.h"
 #include "nodes/forest/forest_inputs.h"
 #include "nodes/forest/forest_options.h"
@@ -40,7 +42,7 @@ class ForestAnimator final : public EventNode<ForestInputs, ForestAnimatorConfig
   // Inputs.
   void connect() override;
   void onWind(const WindField& message);
-  void onViewer(const Viewer& message) override;
+  void onSensor(const SensorInterest& message);
   void showTuning(ForestAnimatorConfig& config) const override;
   ForestInput tuningEvent(const ForestAnimatorConfig& config) const override;
   bool isOutdated(const ForestInput& event) const override;
@@ -59,11 +61,12 @@ class ForestAnimator final : public EventNode<ForestInputs, ForestAnimatorConfig
 
   // Outputs.
   void publishLayout();
+  void publishState(bool key_frame);
   void sendFrames(const ros::TimerEvent& event);
   void sendBranches(const ros::TimerEvent& event);
-  std::vector<Viewpoint> markerViewers(Nanoseconds stamp) override;
   void addDiagnostics(Status& status) override;
   void addGovernor(Status& status) override;
+  void addWorldDetail(Status& status) const;
   void addPhysics(Status& status) const;
   void updateDeepestOverlap();
 
@@ -96,8 +99,8 @@ class ForestAnimator final : public EventNode<ForestInputs, ForestAnimatorConfig
   forest::Reaction deepest_;  // of the contacts since diagnostics were last sent
 
   tf2_ros::TransformBroadcaster tf_broadcaster_;
-  ros::Publisher layout_publisher_, state_publisher_, branches_publisher_, wrenches_publisher_,
-      forces_publisher_, grabs_publisher_;
+  ros::Publisher layout_publisher_, state_publisher_, view_publisher_, branches_publisher_,
+      wrenches_publisher_, forces_publisher_, grabs_publisher_;
 };
 
 }  // namespace vegetation_sim

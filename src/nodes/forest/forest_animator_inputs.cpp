@@ -42,18 +42,15 @@ void ForestAnimator::onWind(const WindField& message) {
   });
 }
 
-void ForestAnimator::onViewer(const Viewer& message) {
-  if (options_.replay) return;
-  acceptInput("viewer", [&] {
-    fromMsg(message);  // checks it
+void ForestAnimator::onSensor(const SensorInterest& message) {
+  acceptInput("sensor", [&] {
     ForestInput event;
-    event.kind = ForestInput::VIEWER;
-    event.viewer = message;
+    event.kind = ForestInput::SENSOR;
+    event.stamp = fromMsg(message.header.stamp);
+    event.sensor = fromMsg(message);
     const std::string& frame = message.header.frame_id;
     if (!frame.empty() && frame != options_.frame_id)
-      event.viewer.pose = toMsg(compose(poseOf(frame), fromMsg(message.pose)));
-    event.viewer.header.frame_id = options_.frame_id;
-    fromMsg(event.viewer);
+      event.sensor.position = transformed(poseOf(frame), event.sensor.position);
     inputs_.add(event);  // a full queue counts it as lost
   });
 }

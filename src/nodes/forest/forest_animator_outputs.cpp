@@ -6,6 +6,19 @@
 #include "vegetation_sim/ros/conversions/forest_conversions.h"
 
 namespace vegetation_sim {
+namespace {
+
+void addModes(diagnostic_updater::DiagnosticStatusWrapper& status, const std::string& whose,
+              const forest::TreeDetail& detail) {
+  const auto& modal_states = detail.modes.modalStates();
+  status.add(whose + "Trees in modes", modal_states.size());
+  status.add(whose + "Of these in fine modes",
+             std::count_if(modal_states.begin(), modal_states.end(),
+                           [](const auto& tree) { return tree.second.fine(); }));
+  status.add(whose + "Memory of modes [B]", detail.modes.bytes());
+}
+
+}  // namespace
 
 void ForestAnimator::sendFrames(const ros::TimerEvent&) {
   // tf listeners warn of repeated transforms.
@@ -43,22 +56,17 @@ void ForestAnimator::sendBranches(const ros::TimerEvent&) {
   }
 }
 
-std::vector<Viewpoint> ForestAnimator::markerViewers(Nanoseconds) {
-  std::vector<Viewpoint> out;
-  for (const auto& entry : forest_->snapshot().viewers) out.push_back(entry.second.eye);
-  return out;
-}
-
 void ForestAnimator::addDiagnostics(Status& status) {
   const auto& memory = forest_->snapshot();
   const std::size_t trees = forest_->layout().treeCount();
-  const auto at = memory.levels.counts(trees);
+  const auto at = memory.world.levels.counts(trees);
   status.add("Trees", trees);
   status.add("Trees at rest", at.front());
   status.add("Trees that move by procedure", trees - at.front() - at.back());
   status.add("Trees that move in modes", at.back());
-  status.add("Trees not at the base level", memory.levels.held().size());
-  status.add("Base level", memory.levels.base().level);
+  status.add("Trees not at the base level", memory.world.levels.held().size());
+  status.add("Base level", memory.world.levels.base().level);
+  status.add("Sensors", memory.sensors.size());
   status.add("Viewers", memory.viewers.size());
   status.add("State sent [B]", state_bytes_);
   status.add("Grown branches held", cache_.branches());
@@ -72,9 +80,10 @@ void ForestAnimator::addDiagnostics(Status& status) {
   status.add("tf budget [frames]", frames_.budget());
 }
 
-// Reports the choice of levels at the last tick and its reason.
+// Reports the choice of levels for displays at the last tick and its reason, then that of the
+// world.
 void ForestAnimator::addGovernor(Status& status) {
-  const forest::GovernorFigures& figures = forest_->governor();
+  const forest::GovernorFigures& figures = forest_->viewChoice().figures();
   const auto& settings = forest_->snapshot().settings;
   std::string why = "the tolerance is held";
   if (figures.over > 0) why = "there are no finer tiers, or no room for modes";
@@ -99,12 +108,18 @@ void ForestAnimator::addGovernor(Status& status) {
   const double farthest = frames_.balance().largest;
   status.add("Farthest of these from its rest [m]",
              std::isnan(farthest) ? "not computed: no room" : std::to_string(farthest));
-  const auto& modal_states = forest_->snapshot().modes.modalStates();
-  status.add("Trees in modes", modal_states.size());
-  status.add("Of these in fine modes",
-             std::count_if(modal_states.begin(), modal_states.end(),
-                           [](const auto& tree) { return tree.second.fine(); }));
-  status.add("Memory of modes [B]", forest_->snapshot().modes.bytes());
+  addModes(status, "", forest_->view());
+  addWorldDetail(status);
+}
+
+// What bodies and sensors require; viewers do not affect it.
+void ForestAnimator::addWorldDetail(Status& status) const {
+  const forest::GovernorFigures& figures = forest_->worldChoice().figures();
+  status.add("World: largest predicted error [tolerance]",
+             figures.largest / forest_->snapshot().settings.tolerance);
+  status.add("World: trees above the tolerance", figures.over);
+  status.add("World: trees that bend too far for modes", figures.strained);
+  addModes(status, "World: ", forest_->world());
 }
 
 void ForestAnimator::addPhysics(Status& status) const {

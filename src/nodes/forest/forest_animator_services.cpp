@@ -42,7 +42,11 @@ bool ForestAnimator::onGetTree(GetTree::Request& request, GetTree::Response& res
     const forest::Skeleton& skeleton = grown->tree.skeleton;
     response.seed = toMsg(grown->tree.seed);
     response.species = forest_->layout().species[grown->tree.seed.species].name;
-    response.level = static_cast<std::uint8_t>(forest_->snapshot().levels.of(request.tree).level);
+    const auto level_in = [&](const forest::TreeDetail& detail) {
+      return static_cast<std::uint8_t>(detail.levels.of(request.tree).level);
+    };
+    response.level = level_in(forest_->world());
+    response.view_level = level_in(forest_->view());
     response.skeleton_hash = skeleton.hash();
     response.height = skeleton.height;
     for (const forest::Branch& branch : skeleton.branches) {
@@ -118,7 +122,7 @@ bool ForestAnimator::onPick(Pick::Request& request, Pick::Response& response) {
         forest_->layout(), forest_->terrain(), ray, [&](std::uint32_t id) -> forest::PosedTree {
           const auto grown = cache_.get(forest_->layout(), forest_->terrain(), id);
           return {std::shared_ptr<const forest::Tree>(grown, &grown->tree),
-                  posesOf(*forest_, grown->tree, id, stamp)};
+                  forest_->poseInView(grown->tree, id, stamp)};
         });
     if (!hit) throw InvalidInput("the ray meets no branch");
     response.tree = hit->tree;

@@ -17,7 +17,9 @@ bool isInteraction(const ForestInput& input) {
 // Whether `input` makes the waiting input void.
 bool replaces(const ForestInput& input, const ForestInput& waiting) {
   if (input.kind != waiting.kind) return false;
-  if (!isInteraction(input)) return input.viewer.id == waiting.viewer.id;
+  if (input.kind == ForestInput::SENSOR)
+    return input.stamp == waiting.stamp && input.sensor.id == waiting.sensor.id;
+  if (!isInteraction(input)) return true;
   return (input.kind == ForestInput::MOVE || input.kind == ForestInput::RENEW) &&
          input.stamp == waiting.stamp && input.grab.id == waiting.grab.id;
 }
@@ -34,11 +36,13 @@ ForestEvent eventToMsg(const ForestInput& input) {
   ForestEvent out;
   out.kind = input.kind;
   out.header.stamp = toStamp(input.stamp);
-  out.viewer = input.viewer;
   out.wind_hash = input.wind_hash;
   out.names = input.names;
   out.values = input.values;
   switch (input.kind) {
+    case ForestInput::SENSOR:
+      out.sensor = toMsg(input.sensor);
+      break;
     case ForestInput::GRAB:
       out.grab = toMsg(input.grab);
       break;
@@ -69,11 +73,11 @@ ForestInput eventFromMsg(const ForestEvent& message) {
   ForestInput out;
   out.kind = message.kind;
   out.stamp = fromMsg(message.header.stamp);
-  out.viewer = message.viewer;
   out.wind_hash = message.wind_hash;
   out.names = message.names;
   out.values = message.values;
   out.grab = fromMsg(message.grab);
+  if (message.kind == ForestEvent::SENSOR) out.sensor = fromMsg(message.sensor);
   if (message.kind == ForestEvent::FORCE) out.push = fromMsg(message.force);
   out.body = fromMsg(message.body);
   return out;
@@ -90,9 +94,9 @@ bool ForestInputs::add(const ForestInput& input) {
       waiting = input;
       return true;
     }
-  const bool bounded = isInteraction(input) || input.kind == ForestInput::VIEWER;
+  const bool bounded = isInteraction(input) || input.kind == ForestInput::SENSOR;
   if (bounded && room(input.stamp) == 0) {
-    losses_.lost += input.kind == ForestInput::VIEWER;  // a request gets an error instead
+    losses_.lost += input.kind == ForestInput::SENSOR;  // a request gets an error instead
     return false;
   }
   push(input);

@@ -25,7 +25,7 @@ void describe(FieldVisitor& visitor, ForestTuning& tuning);
 struct ForestInput {
   /// Values of ForestEvent::kind.
   enum Kind : std::uint8_t {
-    VIEWER,
+    SENSOR,
     WIND,
     SETTINGS,
     RESET,
@@ -37,9 +37,9 @@ struct ForestInput {
     REMOVE_BODY,
     RENEW
   };
-  std::uint8_t kind{VIEWER};
-  Nanoseconds stamp{0};  ///< 0: the next tick
-  Viewer viewer;         ///< VIEWER: in the world frame
+  std::uint8_t kind{SENSOR};
+  Nanoseconds stamp{0};   ///< 0: the next tick
+  forest::Sensor sensor;  ///< SENSOR: in the world frame
   std::uint64_t wind_hash{0};
   std::vector<std::string> names;  ///< SETTINGS: all fields of ForestTuning
   std::vector<double> values;
@@ -66,8 +66,8 @@ class ForestInputs : public EventQueue<ForestInput, ForestEvent> {
  public:
   using EventQueue::EventQueue;
 
-  /// Adds an input, or replaces an earlier wind, tuning or reset, an earlier pose of the same
-  /// viewer, or an earlier move or renewal of the same grab for the same stamp. Winds, settings and
+  /// Adds an input, or replaces an earlier wind, tuning or reset, or for the same stamp an earlier
+  /// message of the same sensor, move or renewal of the same grab. Winds, settings and
   /// resets are added even if the queue is full. @return false if the queue is full.
   bool add(const ForestInput& input);
   /// Returns a grab that waits for its tick; null if there is none.

@@ -105,15 +105,15 @@ void ForestMarkers::addTree(std::uint32_t id, Nanoseconds stamp) {
     return;
   const wind::Instant wind = forest_.snapshot().wind.at(stamp).relativeTo(grown->tree.foot);
   const forest::Weights weights =
-      forest::weightsAt(forest_.snapshot().levels.of(id), stamp, forest_.layout().motion);
-  const forest::ModalTreeState* modal_state = forest_.modalState(id);
+      forest::weightsAt(forest_.view().levels.of(id), stamp, forest_.layout().motion);
+  const forest::ModalTreeState* modal_state = forest_.view().modes.find(id);
   const bool physical = !forest_.promoted(id).branches.empty();
   if (!physical && modal_state && forest::modalWeight(weights) >= 1.0)
     modal_state->pose(grown->poser, stamp, poses_);
   else if (!physical && !modal_state)
     grown->poser.pose(wind, weights, forest::MAX_DEPTHS, poses_);
   else
-    narrowPoses(forest_.pose(grown->tree, id, stamp), poses_);
+    narrowPoses(forest_.poseInView(grown->tree, id, stamp), poses_);
   const std::array<float, 3> foot{static_cast<float>(grown->tree.foot.x()),
                                   static_cast<float>(grown->tree.foot.y()),
                                   static_cast<float>(grown->tree.foot.z())};

@@ -9,6 +9,7 @@ namespace vegetation_sim {
 void describe(FieldVisitor& v, ScanOptions& o) {
   v.integer("rate", o.rate, "Hz", {1, 100});
   v.number("delay", o.delay, "s", {0.0, 5.0});
+  v.number("tolerance", o.tolerance, "m", {1e-4, 10.0});
   v.integer("branch_budget", o.branch_budget, "", {1000, 20000000});
   v.integer("threads", o.threads, "", {1, 64});
   describe(v, o.beams);

@@ -17,6 +17,7 @@ struct ScanOptions {
   std::uint64_t seed{0};             ///< of the noise
   int rate{10};                      ///< sweeps [Hz]
   double delay{0.1};                 ///< how far sweeps stay behind the clock [s]
+  double tolerance{0.05};            ///< error that branches in range may have [m]
   int branch_budget{400000};         ///< most branches that rays can meet
   int threads{1};                    ///< of a sweep
   scan::Beams beams;

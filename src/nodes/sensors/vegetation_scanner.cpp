@@ -5,9 +5,16 @@
 #include "ros/conversions/scan_conversions.h"
 #include "ros/services/requests.h"
 #include "ros/services/service_replies.h"
+#include "vegetation_sim/ros/conversions/forest_conversions.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
 
 namespace vegetation_sim {
+namespace {
+
+// How far ahead of the clock an announcement takes effect, so that it arrives before its tick.
+constexpr double ANNOUNCED_AHEAD = 0.2;  // [s]
+
+}  // namespace
 
 VegetationScanner::VegetationScanner(const ros::NodeHandle& handle,
                                      const ros::NodeHandle& private_handle)
@@ -26,6 +33,7 @@ VegetationScanner::VegetationScanner(const ros::NodeHandle& handle,
               [this](Nanoseconds now) { restart(now); }},
              LateTicks::NEWEST) {
   restartScene();
+  interest_publisher_ = handle_.advertise<SensorInterest>("forest/sensors", 10);
   cloud_publisher_ = handle_.advertise<sensor_msgs::PointCloud2>("lidar/points", 10);
   scan_publisher_ = handle_.advertise<sensor_msgs::LaserScan>("lidar/scan", 10);
   report_publisher_ = handle_.advertise<ScanReport>("lidar/report", 10);
@@ -43,14 +51,16 @@ VegetationScanner::~VegetationScanner() {
 }
 
 void VegetationScanner::tick(std::int64_t tick) {
+  openServices();
   landscape_.advance(clock_.stamp());
   const bool wanted = cloud_publisher_.getNumSubscribers() > 0 ||
                       scan_publisher_.getNumSubscribers() > 0 ||
                       report_publisher_.getNumSubscribers() > 0;
-  if (!wanted) return;
   try {
     const Pose sensor =
         poseInWorld(tf_buffer_, options_.frame_id, options_.lidar_frame, toStamp(clock_.stamp()));
+    announce(sensor);
+    if (!wanted) return;
     const ros::WallTime start = ros::WallTime::now();
     sweep(sensor, tick);
     cost_ = (ros::WallTime::now() - start).toSec();
@@ -60,6 +70,15 @@ void VegetationScanner::tick(std::int64_t tick) {
     missing_transform_ = error.what();
     ROS_WARN_THROTTLE(5.0, "vegetation_scanner makes no sweep: %s", missing_transform_.c_str());
   }
+}
+
+// Announces the sensor whether or not anybody listens to it, so that listening changes nothing.
+void VegetationScanner::announce(const Pose& sensor) {
+  SensorInterest message = toMsg(forest::Sensor{
+      private_handle_.getNamespace(), sensor.position, options_.beams.range_max, options_.tolerance,
+      clock_.stamp() + fromSeconds(options_.delay + ANNOUNCED_AHEAD)});
+  message.header.frame_id = options_.frame_id;
+  interest_publisher_.publish(message);
 }
 
 void VegetationScanner::sweep(const Pose& sensor, std::int64_t tick) {

@@ -24,6 +24,7 @@ class VegetationScanner final : public NodeBase {
 
  private:
   void tick(std::int64_t tick);
+  void announce(const Pose& sensor);
   void sweep(const Pose& sensor, std::int64_t tick);
   void restartScene();
   void restart(Nanoseconds now);
@@ -46,7 +47,7 @@ class VegetationScanner final : public NodeBase {
 
   tf2_ros::Buffer tf_buffer_;
   tf2_ros::TransformListener tf_listener_;
-  ros::Publisher cloud_publisher_, scan_publisher_, report_publisher_;
+  ros::Publisher interest_publisher_, cloud_publisher_, scan_publisher_, report_publisher_;
   TickClock clock_;
 };
 

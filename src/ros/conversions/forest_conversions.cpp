@@ -350,4 +350,28 @@ forest::Viewer fromMsg(const Viewer& message) {
   return out;
 }
 
+forest::Sensor fromMsg(const SensorInterest& message) {
+  const auto& p = message.position;
+  forest::Sensor out{message.id, Vec3(p.x, p.y, p.z), message.range, message.tolerance,
+                     fromMsg(message.header.stamp)};
+  Faults faults;
+  FieldChecker checker("sensor: ", faults);
+  checker.vector("position", out.position, "m", {-1e7, 1e7});
+  checker.number("range", out.range, "m", {0.0, 1000.0});
+  checker.number("tolerance", out.tolerance, "m", {1e-4, 10.0});
+  if (message.id.size() > 256) faults.add("sensor: id is longer than 256 characters");
+  faults.throwIfAny();
+  return out;
+}
+
+SensorInterest toMsg(const forest::Sensor& sensor) {
+  SensorInterest out;
+  out.header.stamp = toStamp(sensor.stamp);
+  out.id = sensor.id;
+  out.position = toPoint(sensor.position);
+  out.range = sensor.range;
+  out.tolerance = sensor.tolerance;
+  return out;
+}
+
 }  // namespace vegetation_sim

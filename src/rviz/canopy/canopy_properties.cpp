@@ -14,7 +14,7 @@ CanopyProperties::CanopyProperties(rviz::Display& display) {
                                  "vegetation_sim/CanopyState: how the leaves move.", display);
   forest_layout_ = addTopic<ForestLayout>("Forest Layout Topic", "forest/layout",
                                           "Trees whose crowns the layout gives leaves.", display);
-  forest_state_ = addTopic<ForestState>("Forest State Topic", "forest/state",
+  forest_state_ = addTopic<ForestState>("Forest State Topic", "forest/view",
                                         "Which joints of these trees move.", display);
   wind_ = addTopic<WindField>("Wind Topic", "wind", "Wind of these trees.", display);
   most_leaves_ = new rviz::IntProperty(

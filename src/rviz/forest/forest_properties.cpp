@@ -19,7 +19,7 @@ void ForestProperties::addTopics(rviz::Display& display) {
                                    "vegetation_sim/ForestLayout: seeds of all trees.", display);
   wind_ = addTopic<WindField>("Wind Topic", "wind", "vegetation_sim/WindField: the wind field.",
                               display);
-  state_ = addTopic<ForestState>("State Topic", "forest/state",
+  state_ = addTopic<ForestState>("State Topic", "forest/view",
                                  "vegetation_sim/ForestState: which joints move.", display);
 }
 

@@ -41,15 +41,13 @@ TEST(Memory, MillionTreesStayWithinTheirBytes) {
   forest.advance(START);
   const long unwatched = liveBytes() - before;
   EXPECT_LT(unwatched, TREES);  // less than a byte each
-  Viewer eye;
-  eye.id = "eye";
-  eye.eye.position = Vec3(3000, 3000, 100);
-  eye.eye.pixels_per_radian = 1e6;  // every twig of the farthest tree is visible
-  eye.stamp = START;
-  forest.setViewer(eye);
+  Viewpoint eye;
+  eye.position = Vec3(3000, 3000, 100);
+  eye.pixels_per_radian = 1e6;  // every twig of the farthest tree is visible
+  forest.setViewers({eye});
   forest.advance(START + NANOSECONDS_PER_SECOND / 30);
-  ASSERT_EQ(forest.snapshot().levels.held().size(), static_cast<std::size_t>(TREES));
-  forest.update(false);
+  ASSERT_EQ(forest.view().levels.held().size(), static_cast<std::size_t>(TREES));
+  forest.updateView(false);
   const long watched = liveBytes() - before;
   EXPECT_GT(watched, 40 * TREES);  // otherwise nothing was counted
   EXPECT_LT(watched, MOST_PER_TREE * TREES);

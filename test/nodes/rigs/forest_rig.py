@@ -9,7 +9,7 @@ import roslib.packages
 import rospy
 from rosgraph_msgs.msg import Clock
 from tf2_msgs.srv import FrameGraph
-from vegetation_sim.msg import ForestEvent, ForestLayout, ForestState, Viewer, WindField
+from vegetation_sim.msg import ForestEvent, ForestLayout, ForestState, SensorInterest, Viewer, WindField
 from vegetation_sim.srv import GetTree, Pick, SetTf
 
 from waiting import DEADLINE, wait_for
@@ -26,9 +26,12 @@ def time_of(tick, rate=RATE):
 class Animator(WatchedNode):
     """Client of one forest_animator."""
 
+    LOGS = 'layout', 'state', 'view', 'events'
+
     def __init__(self, name='/forest_animator', namespace='/'):
         self.layout = Log(namespace + 'forest/layout', ForestLayout)
         self.state = Log(namespace + 'forest/state', ForestState)
+        self.view = Log(namespace + 'forest/view', ForestState)
         self.events = Log(namespace + 'forest/events', ForestEvent)
         super().__init__(name, 'forest', name + '/get_tree', GetTree)
         self.pick = rospy.ServiceProxy(name + '/pick', Pick)
@@ -52,6 +55,9 @@ class Animator(WatchedNode):
 
     def level(self, tree):
         return self.tree(tree).level
+
+    def view_level(self, tree):
+        return self.tree(tree).view_level
 
     def hashes(self):
         """Returns the hashes of the state by stamp."""
@@ -112,20 +118,18 @@ class TickClock:
         wind.close()
 
 
-class ViewerClient:
-    """Publishes a viewer that faces east."""
+class Listener:
+    """Publishes a message with a place, for which animators choose levels of detail."""
 
-    def __init__(self, name='eye', topic='/viewer', readers=1):
-        self.message = Viewer(id=name, field_of_view=0.8, height=900)
+    def __init__(self, message, position, topic, readers):
+        self.message, self._position = message, position
         self.message.header.frame_id = 'map'
-        self.message.pose.orientation.w = 1.0
-        self._publisher = publisher(topic, Viewer)
+        self._publisher = publisher(topic, type(message))
         wait_for(lambda: self._publisher.get_num_connections() >= readers, 'readers of ' + topic)
 
     def move_to(self, x, y, z, *animators):
-        """Publishes the viewer at a position. Returns when the animators have received it."""
-        position = self.message.pose.position
-        position.x, position.y, position.z = x, y, z
+        """Publishes the message with this place. Returns when the animators have received it."""
+        self._position.x, self._position.y, self._position.z = x, y, z
         self.send(self.message, *animators)
 
     def send(self, message, *animators):
@@ -135,6 +139,23 @@ class ViewerClient:
 
     def close(self):
         self._publisher.unregister()
+
+
+class ViewerClient(Listener):
+    """A viewer that faces east."""
+
+    def __init__(self, name='eye', topic='/viewer', readers=1):
+        message = Viewer(id=name, field_of_view=0.8, height=900)
+        message.pose.orientation.w = 1.0
+        super().__init__(message, message.pose.position, topic, readers)
+
+
+class SensorClient(Listener):
+    """A sensor that requires fine levels of detail around it."""
+
+    def __init__(self, name='lidar', topic='/forest/sensors', readers=1):
+        message = SensorInterest(id=name, range=25.0, tolerance=0.01)
+        super().__init__(message, message.position, topic, readers)
 
 
 def memory_of(node):
@@ -147,8 +168,13 @@ def memory_of(node):
 
 def start_animator(name, remappings, **parameters):
     """Starts a forest_animator; the test must stop it."""
+    return start_node('forest_animator', name, remappings, **parameters)
+
+
+def start_node(program, name, remappings, **parameters):
+    """Starts a node of the package; the test must stop it."""
     rospy.set_param(name, parameters)
-    executable = roslib.packages.find_node('vegetation_sim', 'forest_animator')[0]
+    executable = roslib.packages.find_node('vegetation_sim', program)[0]
     namespace, _, node = name.rpartition('/')
     return subprocess.Popen([executable, '__name:=' + node, '__ns:=' + (namespace or '/')] +
                             ['%s:=%s' % pair for pair in remappings.items()])

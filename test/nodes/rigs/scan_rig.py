@@ -25,10 +25,10 @@ class Scanner(WatchedNode):
 
     LOGS = 'points', 'scan', 'report'
 
-    def __init__(self, name='/vegetation_scanner'):
-        self.points = Log('/lidar/points', PointCloud2)
-        self.scan = Log('/lidar/scan', LaserScan)
-        self.report = Log('/lidar/report', ScanReport)
+    def __init__(self, name='/vegetation_scanner', namespace='/'):
+        self.points = Log(namespace + 'lidar/points', PointCloud2)
+        self.scan = Log(namespace + 'lidar/scan', LaserScan)
+        self.report = Log(namespace + 'lidar/report', ScanReport)
         super().__init__(name, 'scan', name + '/tf2_frames', FrameGraph)
 
     def has_transform(self, frame, stamp):

@@ -198,6 +198,29 @@ TEST(ForestConversions, ViewerBecomesAViewpoint) {  // N8
   EXPECT_FALSE(sees(viewer.eye, Vec3(3.0, -50.0, 0.0), 1.0));
 }
 
+TEST(ForestConversions, SensorSurvivesTheRoundTrip) {  // N1
+  const forest::Sensor sensor{"lidar", Vec3(1.0, 2.0, 3.0), 30.0, 0.02, 12000000005};
+  const forest::Sensor back = fromMsg(toMsg(sensor));
+  EXPECT_EQ(back.id, sensor.id);
+  EXPECT_EQ(back.position, sensor.position);
+  EXPECT_EQ(back.range, sensor.range);
+  EXPECT_EQ(back.tolerance, sensor.tolerance);
+  EXPECT_EQ(back.stamp, sensor.stamp);
+}
+
+TEST(ForestConversions, RefuseASensorWithAllItsFaults) {
+  SensorInterest message;
+  message.position.x = NOT_A_NUMBER;
+  message.range = -1.0;
+  message.tolerance = 0.0;
+  message.id.assign(257, 'x');
+  const std::string faults = errorOf([&] { fromMsg(message); });
+  for (const char* part :
+       {"sensor: position", "range = -1 m is outside 0 to 1000 m",
+        "tolerance = 0 m is outside 0.0001 to 10 m", "id is longer than 256 characters"})
+    EXPECT_NE(faults.find(part), std::string::npos) << part << " in " << faults;
+}
+
 TEST(ForestConversions, RefuseAViewerWithAllItsFaults) {
   Viewer message = exampleViewer();
   message.pose.position.y = NOT_A_NUMBER;

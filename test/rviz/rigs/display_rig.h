@@ -22,7 +22,7 @@ class DisplayRig : public ViewRig {
     for (ros::Publisher* publisher : {&layout_, &wind_, &state_}) publisher->shutdown();
     layout_ = nh_.advertise<ForestLayout>("forest/layout", 1, true);
     wind_ = nh_.advertise<WindField>("wind", 1, true);
-    state_ = nh_.advertise<ForestState>("forest/state", 10, true);
+    state_ = nh_.advertise<ForestState>("forest/view", 10, true);
   }
 
   ForestDisplay* addDisplay() { return add<ForestDisplay>("vegetation_sim/ForestDisplay"); }

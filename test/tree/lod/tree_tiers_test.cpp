@@ -64,8 +64,7 @@ struct Park {
   Park(int side, double frame_time)
       : forest(gridLayout(side, 9.0), flatTerrain(), settingsFor(frame_time)) {
     forest.setWind(wind::Field({makeBreeze(1, Vec3(5, 1, 0))}, 3));
-    eye.id = "eye";
-    eye.eye.position = Vec3(4.5 * (side - 1), 4.5 * (side - 1), 3.0);  // between trees
+    eye.position = Vec3(4.5 * (side - 1), 4.5 * (side - 1), 3.0);  // between trees
   }
   static Settings settingsFor(double frame_time) {
     Settings out;
@@ -74,13 +73,12 @@ struct Park {
     return out;
   }
   void advance() {
-    eye.stamp = grid.timeOf(tick);
-    forest.setViewer(eye);
+    forest.setViewers({eye});
     forest.advance(grid.timeOf(tick++));
   }
 
   Forest forest;
-  Viewer eye;
+  Viewpoint eye;
   TickGrid grid{10};
   std::int64_t tick{TickGrid(10).tickAt(START)};
 };
@@ -96,19 +94,19 @@ TEST(Governor, CostStaysOnTheBudgetFromFewTreesToThousands) {
     std::map<std::uint32_t, int> changes, levels;
     for (int i = 0; i < 40; ++i) {
       park.advance();
-      const GovernorFigures& figures = park.forest.governor();
+      const GovernorFigures& figures = park.forest.viewChoice().figures();
       EXPECT_LE(figures.cost, 1.1 * BUDGET) << side;
       EXPECT_GE(figures.cost, 0.9 * BUDGET) << side;
-      for (const Plant& plant : park.forest.plants()) {
+      for (const Plant& plant : park.forest.viewChoice().plants()) {
         changes[plant.id] += i > 0 && plant.chosen != levels[plant.id];
         levels[plant.id] = plant.chosen;
       }
     }
     for (const auto& [tree, count] : changes) EXPECT_LE(count, 4) << tree;
-    const double error = park.forest.governor().largest;
+    const double error = park.forest.viewChoice().figures().largest;
     std::printf("%4d trees: cost %.3f ms of %.3f, asked for %.3f, largest error %.2f pixel\n",
-                side * side, park.forest.governor().cost, BUDGET, park.forest.governor().wanted,
-                error);
+                side * side, park.forest.viewChoice().figures().cost, BUDGET,
+                park.forest.viewChoice().figures().wanted, error);
     EXPECT_GE(error, last);
     last = error;
   }
@@ -123,22 +121,22 @@ TEST(Governor, ToleranceIsHeldWhereTheBudgetAllowsIt) {
   settings.tolerance = 1.0;
   park.forest.setSettings(settings);
   for (int i = 0; i < 100; ++i) park.advance();  // one tree per tick gets its modes
-  const double fine = park.forest.governor().cost;
-  EXPECT_EQ(park.forest.governor().held_back, 0u);
-  for (const Plant& plant : park.forest.plants()) {
+  const double fine = park.forest.viewChoice().figures().cost;
+  EXPECT_EQ(park.forest.viewChoice().figures().held_back, 0u);
+  for (const Plant& plant : park.forest.viewChoice().plants()) {
     const double error = plant.error[static_cast<std::size_t>(plant.chosen)];
     EXPECT_TRUE(error <= settings.tolerance || plant.chosen == FINE_MODAL_TIER) << plant.id;
   }
   settings.tolerance = 6.0;
   park.forest.setSettings(settings);
   for (int i = 0; i < 30; ++i) park.advance();
-  EXPECT_LT(park.forest.governor().cost, 0.8 * fine);
+  EXPECT_LT(park.forest.viewChoice().figures().cost, 0.8 * fine);
   park.eye.eye.position = Vec3(-20.0, 31.5, 6.0);
   settings.tolerance = 1.0;
   park.forest.setSettings(settings);
   for (int i = 0; i < 100; ++i) park.advance();
-  EXPECT_GT(park.forest.governor().counts[MODAL_LEVEL], 0u);
-  EXPECT_EQ(park.forest.governor().over, 0u);
+  EXPECT_GT(park.forest.viewChoice().figures().counts[MODAL_LEVEL], 0u);
+  EXPECT_EQ(park.forest.viewChoice().figures().over, 0u);
 }
 
 // N13: a worse tier that costs more is never chosen over a better one, in any storm.
@@ -148,7 +146,7 @@ TEST(Governor, ModesAreNeverPredictedWorseThanWhatTheyReplace) {
     park.forest.setWind(wind::Field({makeBreeze(1, Vec3(speed, 1, 0))}, 3));
     for (int i = 0; i < 30; ++i) park.advance();
     std::size_t modal = 0;
-    for (const Plant& plant : park.forest.plants()) {
+    for (const Plant& plant : park.forest.viewChoice().plants()) {
       if (plant.chosen < MODAL_LEVEL) continue;
       ++modal;
       const float chosen = plant.error[static_cast<std::size_t>(plant.chosen)];
@@ -171,8 +169,8 @@ TEST(Governor, ARobotNearByWantsItsTreesExact) {
   robot.stamp = park.grid.timeOf(park.tick);
   park.forest.setBody(robot);
   park.forest.advance(park.grid.timeOf(park.tick++));
-  EXPECT_GT(park.forest.snapshot().levels.of(0).level, 1);   // beside the arm
-  EXPECT_EQ(park.forest.snapshot().levels.of(15).level, 1);  // far off
+  EXPECT_GT(park.forest.view().levels.of(0).level, 1);   // beside the arm
+  EXPECT_EQ(park.forest.view().levels.of(15).level, 1);  // far off
 }
 
 // Returns the largest distance of any tip from its place with all depths [pixel].
@@ -181,7 +179,7 @@ double measuredError(const Tree& tree, std::uint32_t id, const Forest& forest, c
   const auto air = forest.snapshot().wind.at(stamp).relativeTo(tree.foot);
   const auto full = poseBranches(tree, air, fullWeights());
   const auto cut = poseBranches(
-      tree, air, weightsAt(forest.snapshot().levels.of(id), stamp, forest.layout().motion));
+      tree, air, weightsAt(forest.view().levels.of(id), stamp, forest.layout().motion));
   double out = 0.0;
   for (std::size_t b = 0; b < full.size(); ++b) {
     const Vec3 right = tipOf(tree.skeleton.branches[b], full[b]);
@@ -216,7 +214,7 @@ TEST(Governor, PredictedErrorsAreTheMeasuredOnes) {
       Camera camera = edgeCamera(extent);
       camera.eye.position.x() = x;
       settle(forest, camera, grid, start, 40);
-      for (const Plant& plant : forest.plants()) {
+      for (const Plant& plant : forest.viewChoice().plants()) {
         const Tree& tree = grove.trees[plant.id];
         if (plant.chosen >= tree.skeleton.depths()) continue;
         double measured = 0.0;
@@ -270,7 +268,7 @@ TEST(Governor, PredictedLagIsTheMeasuredOne) {
   for (int i = 0; i < 300; ++i) {
     park.advance();
     if (i % 6 > 0) continue;
-    for (const Plant& plant : park.forest.plants()) {
+    for (const Plant& plant : park.forest.viewChoice().plants()) {
       ASSERT_GE(plant.chosen, MODAL_LEVEL);
       const Tree tree = growTree(park.forest.layout(), plant.id, park.forest.terrain());
       predicted[plant.id] = plant.error[static_cast<std::size_t>(plant.stepwise)];

@@ -178,7 +178,7 @@ TEST(PhysicalSubtree, StepsAllocateNothing) {
   SubtreeScratch scratch;
   SubtreeLoads loads;
   loads.springs.push_back({grab.point, grab.target, Vec3(Vec3::Zero()), rig.now(), 2000, 40, 200});
-  const TreeWind air{rig.forest.snapshot().wind, rig.forest.snapshot().levels.of(0),
+  const TreeWind air{rig.forest.snapshot().wind, rig.forest.world().levels.of(0),
                      rig.forest.layout().motion};
   PhysicsSettings settings;
   settings.precision = Precision::DOUBLE;

@@ -5,6 +5,7 @@
 #include <vegetation_sim/BranchTransforms.h>
 #include <vegetation_sim/ForestLayout.h>
 #include <vegetation_sim/ForestState.h>
+#include <vegetation_sim/SensorInterest.h>
 #include <vegetation_sim/Viewer.h>
 
 #include <string>
@@ -40,5 +41,9 @@ geometry_msgs::Pose toMsg(const Vec3& foot, const Pose& pose);
 /// @throws InvalidInput for NaN, an unnormalised quaternion, a field of view or height out of
 /// range.
 forest::Viewer fromMsg(const Viewer& message);
+
+/// A sensor, in the frame of the message. @throws InvalidInput for values out of range.
+forest::Sensor fromMsg(const SensorInterest& message);
+SensorInterest toMsg(const forest::Sensor& sensor);
 
 }  // namespace vegetation_sim

@@ -9,13 +9,24 @@
 
 namespace vegetation_sim::forest {
 
-/// A camera that determines levels of detail.
+/// A camera that determines the levels of detail of displays.
 struct Viewer {
   std::string id;
   Viewpoint eye;
   Nanoseconds stamp{0};  ///< of its last message
 };
-/// A viewer without a message for this long is removed.
-constexpr Nanoseconds VIEWER_LIFE = 3 * NANOSECONDS_PER_SECOND;
+
+/// A sensor that determines the levels of detail of the world: in its range, the error of trees may
+/// not exceed its tolerance.
+struct Sensor {
+  std::string id;
+  Vec3 position{Vec3::Zero()};
+  double range{0.0};       ///< [m]
+  double tolerance{0.05};  ///< [m]
+  Nanoseconds stamp{0};    ///< of its last message
+};
+
+/// A sensor without a message for this long is removed.
+constexpr Nanoseconds SENSOR_LIFE = 3 * NANOSECONDS_PER_SECOND;
 
 }  // namespace vegetation_sim::forest

@@ -10,7 +10,7 @@ import rostest
 
 from vegetation_sim.srv import GetTree
 
-from forest_rig import RATE, Animator, TickClock, ViewerClient, scene, start_animator, stop, time_of
+from forest_rig import RATE, Animator, SensorClient, TickClock, scene, start_animator, stop, time_of
 from waiting import DEADLINE
 from watched_node import serves
 
@@ -35,11 +35,11 @@ class ForestClock(unittest.TestCase):
         client.start()
         cls.clock.begin(cls.forest)
         client.join()
-        cls.viewer = ViewerClient()
+        cls.sensor = SensorClient()
 
-    def run_watched(self, ticks, *animators):
+    def run_sensed(self, ticks, *animators):
         for tick in range(0, ticks, 15):
-            self.viewer.move_to(-20.0 + 10.0 * tick / RATE, 0.0, 5.0, *animators)
+            self.sensor.move_to(-20.0 + 10.0 * tick / RATE, 0.0, 5.0, *animators)
             self.clock.run(15, *animators)
 
     def stamps_since(self, index):
@@ -57,7 +57,7 @@ class ForestClock(unittest.TestCase):
         self.assertGreaterEqual(self.early_answer.transforms.header.stamp, time_of(START + 1))
 
     def test_nothing_moves_while_the_clock_stands(self):
-        self.run_watched(RATE, self.forest)
+        self.run_sensed(RATE, self.forest)
         count, poses = len(self.forest.state.messages), self.forest.tree(2).transforms
         for _ in range(60):
             self.clock.show(self.clock.tick)
@@ -69,7 +69,7 @@ class ForestClock(unittest.TestCase):
 
     # After the jump the hashes are those of a node that starts at that time with the same inputs.
     def test_ten_seconds_back_is_a_fresh_start(self):
-        self.run_watched(10 * RATE, self.forest)
+        self.run_sensed(10 * RATE, self.forest)
         jumps = self.forest.diagnostics()['Clock jumps back']
         self.clock.show(self.clock.tick - 10 * RATE)
         self.forest.state.wait_for_stamp(time_of(self.clock.tick))
@@ -77,11 +77,11 @@ class ForestClock(unittest.TestCase):
         self.assertEqual(self.forest.state.messages[-1].sequence, 0)
         after = len(self.forest.state.messages)
         process = start_animator('/fresh/forest_animator',
-                                 {'wind': '/wind', 'viewer': '/viewer'}, scenario=scene('grove'))
+                                 {'wind': '/wind', 'forest/sensors': '/forest/sensors'}, scenario=scene('grove'))
         fresh = Animator('/fresh/forest_animator', '/fresh/')
         try:
-            fresh.wait_until_up('/wind', '/viewer')
-            self.run_watched(5 * RATE, self.forest, fresh)
+            fresh.wait_until_up('/wind', '/forest/sensors')
+            self.run_sensed(5 * RATE, self.forest, fresh)
         finally:
             stop(process)
             fresh.close()
@@ -108,7 +108,7 @@ class ForestClock(unittest.TestCase):
         self.assertEqual(self.forest.diagnostics()['Ticks dropped'], dropped)
 
     def test_a_jump_ahead_is_counted_and_it_goes_on(self):
-        self.run_watched(RATE, self.forest)
+        self.run_sensed(RATE, self.forest)
         dropped, before = self.forest.diagnostics()['Ticks dropped'], self.clock.tick
         index = len(self.forest.state.messages)
         self.clock.run(1, self.forest)

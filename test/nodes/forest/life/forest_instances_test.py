@@ -14,7 +14,7 @@ from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
 from vegetation_sim.msg import ForestEvent, ForestState
 
-from forest_rig import RATE, Animator, TickClock, ViewerClient, scene, start_animator, stop, time_of
+from forest_rig import RATE, Animator, SensorClient, TickClock, scene, start_animator, stop, time_of
 from waiting import wait_for
 from watched_node import Log
 
@@ -34,11 +34,11 @@ class ForestInstances(unittest.TestCase):
         cls.all = cls.program, cls.nodelet, cls.other
         cls.clock = TickClock(1000 * RATE)
         cls.clock.begin(*cls.all)
-        cls.viewer = ViewerClient(readers=2)
+        cls.sensor = SensorClient(readers=2)
 
-    def run_watched(self, seconds, *animators):
+    def run_sensed(self, seconds, *animators):
         for half in range(2 * seconds):
-            self.viewer.move_to(-20.0 + 10.0 * half, 0.0, 5.0, self.program, self.nodelet)
+            self.sensor.move_to(-20.0 + 10.0 * half, 0.0, 5.0, self.program, self.nodelet)
             self.clock.run(RATE // 2, *animators)
 
     def settle(self):
@@ -48,7 +48,7 @@ class ForestInstances(unittest.TestCase):
     def test_a_nodelet_is_the_twin_of_the_program(self):
         self.settle()
         start = self.clock.tick
-        self.run_watched(5, *self.all)
+        self.run_sensed(5, *self.all)
         layouts = [a.layout.messages[-1] for a in (self.program, self.nodelet)]
         self.assertEqual(layouts[0].hash, layouts[1].hash)
         self.assertEqual(layouts[0].species, layouts[1].species)
@@ -62,7 +62,7 @@ class ForestInstances(unittest.TestCase):
     def test_instances_do_not_disturb_each_other(self):
         self.settle()
         before = self.other.state.messages[-1].hash
-        self.run_watched(3, *self.all)
+        self.run_sensed(3, *self.all)
         self.nodelet.set_tf(0, [1, 2], True)
         self.assertTrue(rospy.ServiceProxy('/twin/forest_animator/reset', Trigger)().success)
         self.clock.run(5, *self.all)
@@ -85,7 +85,7 @@ class ForestInstances(unittest.TestCase):
 
     # After ~reset the forest is in its initial state from the next tick on.
     def test_reset_starts_anew(self):
-        self.run_watched(3, *self.all)
+        self.run_sensed(3, *self.all)
         self.assertNotEqual(self.program.level(0), FIXED_LEVEL)
         self.program.set_tf(0, [1, 2], True)
         tick, sequence = self.clock.tick, self.program.state.messages[-1].sequence

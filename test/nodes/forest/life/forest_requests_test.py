@@ -14,16 +14,16 @@ from dynamic_reconfigure.client import Client
 from geometry_msgs.msg import Point, PointStamped, TransformStamped, Vector3
 from std_msgs.msg import Header
 from tf2_msgs.msg import TFMessage
-from vegetation_sim.msg import ForestEvent, Viewer, WindField
+from vegetation_sim.msg import ForestEvent, WindField
 from vegetation_sim.srv import FindTrees
 
-from forest_rig import RATE, Animator, TickClock, ViewerClient
+from forest_rig import RATE, Animator, SensorClient, TickClock, ViewerClient
 from waiting import wait_for
 from watched_node import Log, publisher
 
 NAN, INF = float('nan'), float('inf')
 TREES = 17
-MOST_VIEWERS = 32
+MOST_SENSORS = 32
 DOWN = dict(direction=Vector3(0.0, 0.0, -1.0), tolerance=0.1)
 
 
@@ -34,12 +34,12 @@ class ForestRequests(unittest.TestCase):
         cls.clock = TickClock(1000 * RATE)
         cls.clock.begin(cls.forest)
         cls.wind = publisher('/wind', WindField)
-        cls.viewer = ViewerClient()
+        cls.viewer, cls.sensor = ViewerClient(), SensorClient()
         cls.find_trees = rospy.ServiceProxy('/forest_animator/find_trees', FindTrees)
         cls.diagnostics = Log('/diagnostics', DiagnosticArray)
         wait_for(lambda: cls.wind.get_num_connections() > 0, 'readers of the wind')
 
-    # Without a viewer the hash stays the same unless an input was applied.
+    # Without a sensor the hash stays the same unless an input was applied.
     def setUp(self):
         self.clock.run(5 * RATE, self.forest)
         self.hash = self.forest.state.messages[-1].hash
@@ -198,6 +198,25 @@ class ForestRequests(unittest.TestCase):
         self.expect_refusal('field_of_view = -1 rad', 'pose.orientation, its norm,', 'not finite')
         self.expect_unchanged()
         self.viewer.move_to(-15, 0, 5, self.forest)
+        self.expect_unchanged()  # A good viewer does not affect the state of the world either.
+        self.assertNotEqual(self.forest.view_level(0), self.forest.level(0))
+
+    def test_a_bad_sensor_is_refused(self):
+        message = copy.deepcopy(self.sensor.message)
+        message.position.z = NAN
+        message.range = -1.0
+        message.tolerance = 0.0
+        message.id = 'x' * 300
+        self.sensor.send(message, self.forest)
+        self.expect_refusal('refused input', 'sensor: position', 'range = -1 m is outside 0 to 1000 m',
+                            'tolerance = 0 m is outside 0.0001 to 10 m',
+                            'id is longer than 256 characters')
+        message = copy.deepcopy(self.sensor.message)
+        message.header.frame_id = 'nowhere'
+        self.sensor.send(message, self.forest)
+        self.expect_refusal("frame_id = 'nowhere' is not known")
+        self.expect_unchanged()
+        self.sensor.move_to(-15, 0, 5, self.forest)
         self.clock.run(3, self.forest)
         self.assertNotEqual(self.forest.state.messages[-1].hash, self.hash)
 
@@ -238,21 +257,21 @@ class ForestRequests(unittest.TestCase):
         log.close()
         for _ in range(1000):
             self.wind.publish(wind)
-        flood = copy.deepcopy(self.viewer.message)
-        flood.pose.position.x = -15.0
+        flood = copy.deepcopy(self.sensor.message)
+        flood.position.x = -15.0
         for i in range(1000):
             flood.id = 'flood' if i % 2 else 'flood %d' % i
-            self.viewer.send(flood)
+            self.sensor.send(flood)
         self.forest.settle()
         self.clock.run(RATE, self.forest)
         events = self.forest.events.messages[self.events:]
-        words = [(e.header.stamp, e.kind, e.viewer.id) for e in events]
+        words = [(e.header.stamp, e.kind, e.sensor.id) for e in events]
         self.assertEqual(len(words), len(set(words)), 'more than the last word at a tick')
-        viewers = {e.viewer.id for e in events if e.kind == ForestEvent.VIEWER}
-        self.assertLessEqual(len(viewers), MOST_VIEWERS)
-        if len(viewers) == MOST_VIEWERS:
-            self.expect_refusal('is one more than the %d allowed at once' % MOST_VIEWERS)
-        # Viewers from messages that were still in a socket may be active for a while.
+        sensors = {e.sensor.id for e in events if e.kind == ForestEvent.SENSOR}
+        self.assertLessEqual(len(sensors), MOST_SENSORS)
+        if len(sensors) == MOST_SENSORS:
+            self.expect_refusal('is one more than the %d allowed at once' % MOST_SENSORS)
+        # Sensors from messages that were still in a socket may be active for a while.
         self.clock.run_until(lambda: self.forest.state.messages[-1].hash == self.hash,
                              'the forest as it was before', self.forest)
 

@@ -37,12 +37,12 @@ TEST(ForestInputs, CountEventsAboveTheLimit) {
   EXPECT_EQ(inputs.take(7 * TICK).size(), ForestInputs::MOST_WAITING);
 }
 
-TEST(ForestInputs, CountViewersAboveTheLimit) {
+TEST(ForestInputs, CountSensorsAboveTheLimit) {
   ForestInputs inputs(false);
   ForestInput event;
-  event.kind = ForestInput::VIEWER;
+  event.kind = ForestInput::SENSOR;
   for (std::size_t i = 0; i < ForestInputs::MOST_WAITING + 2; ++i) {
-    event.viewer.id = std::to_string(i);
+    event.sensor.id = std::to_string(i);
     EXPECT_EQ(inputs.add(event), i < ForestInputs::MOST_WAITING);
   }
   EXPECT_EQ(inputs.losses().lost, 2u);

@@ -8,7 +8,7 @@ import rospy
 import rostest
 from vegetation_sim.msg import ForestState, WindField
 
-from forest_rig import RATE, ViewerClient, time_of
+from forest_rig import RATE, SensorClient, time_of
 from watched_node import Log
 
 TICKS = 2 * RATE
@@ -19,10 +19,10 @@ class ForestLive(unittest.TestCase):
     def test_state_comes_tick_by_tick(self):
         wind = Log('/wind', WindField)
         state = Log('/forest/state', ForestState)
-        viewer = ViewerClient()
+        sensor = SensorClient()
         field = wind.wait(lambda all: all and all[-1], 'the wind')
         state.wait(lambda all: all and all[-1].wind_hash == field.hash, 'its adoption')
-        viewer.move_to(-60.0, -10.0, 4.0)
+        sensor.move_to(-60.0, -10.0, 4.0)
         first = len(state.messages)
         state.wait(lambda all: len(all) >= first + TICKS, 'states')
         self.assertGreaterEqual(rospy.Time.now(), state.messages[-1].header.stamp)
@@ -31,7 +31,7 @@ class ForestLive(unittest.TestCase):
         self.assertEqual([m.header.stamp for m in states],
                          [time_of(tick + i) for i in range(TICKS)])
         self.assertEqual([m.sequence - states[0].sequence for m in states], list(range(TICKS)))
-        self.assertTrue(any(m.trees for m in states), 'no viewer had an effect')
+        self.assertTrue(any(m.trees for m in states), 'no sensor had an effect')
 
 
 if __name__ == '__main__':

@@ -55,11 +55,11 @@ class ForestMillion : public testing::Test {
     forest_ = new ClockedForest(30000);
     ros::NodeHandle handle;
     wind_ = new ros::Publisher(handle.advertise<WindField>("wind", 1, true));
-    viewer_ = new ros::Publisher(handle.advertise<Viewer>("viewer", 10));
+    sensor_ = new ros::Publisher(handle.advertise<SensorInterest>("forest/sensors", 10));
     const wind::Field field({forest::makeBreeze(1, Vec3(4, 1, 0)),
                              forest::makeDisk(2, Vec3(100, 0, 0), 60.0, Vec3(5, 0, 0))});
     wind_->publish(toMsg(field, "map", 0));
-    for (const ros::Publisher* topic : {wind_, viewer_})
+    for (const ros::Publisher* topic : {wind_, sensor_})
       spinUntil(topic->getTopic(), [&] { return topic->getNumSubscribers() > 0; });
     forest_->runUntil("the wind", [&] {
       return !forest_->state.messages.empty() &&
@@ -67,22 +67,21 @@ class ForestMillion : public testing::Test {
     });
   }
   static void TearDownTestSuite() {
-    delete viewer_;
+    delete sensor_;
     delete wind_;
     delete forest_;
   }
 
-  /// Moves a viewer eastwards through the trees by one step per second.
+  /// Moves a sensor eastwards through the trees by one step per second.
   static void walk(int seconds) {
     for (int i = 0; i < seconds; ++i) {
-      Viewer message;
-      message.id = "eye";
-      message.pose.position.x = i;
-      message.pose.position.z = 2.0;
-      message.pose.orientation.w = 1.0;
-      message.field_of_view = 0.8;
-      message.height = 900;
-      viewer_->publish(message);
+      SensorInterest message;
+      message.id = "lidar";
+      message.position.x = i;
+      message.position.z = 2.0;
+      message.range = 50.0;
+      message.tolerance = 0.02;
+      sensor_->publish(message);
       forest_->settle();
       forest_->run(30);
     }
@@ -93,11 +92,11 @@ class ForestMillion : public testing::Test {
   }
 
   static ClockedForest* forest_;
-  static ros::Publisher *wind_, *viewer_;
+  static ros::Publisher *wind_, *sensor_;
 };
 ClockedForest* ForestMillion::forest_ = nullptr;
 ros::Publisher* ForestMillion::wind_ = nullptr;
-ros::Publisher* ForestMillion::viewer_ = nullptr;
+ros::Publisher* ForestMillion::sensor_ = nullptr;
 
 // The latched layout has the rules of tiles instead of trees, so it has kilobytes.
 TEST_F(ForestMillion, LayoutIsSmall) {
@@ -107,7 +106,7 @@ TEST_F(ForestMillion, LayoutIsSmall) {
   EXPECT_EQ(fromMsg(forest_->layout.last()).treeCount(), TREES);
 }
 
-// State is published at its rate while a viewer appears, moves and leaves. No message is large and
+// State is published at its rate while a sensor appears, moves and leaves. No message is large and
 // memory does not grow.
 TEST_F(ForestMillion, StateKeepsItsRateAndTreesTakeNoMemory) {  // S1-04, S1-05, N8
   const double before = bytesPerTree();

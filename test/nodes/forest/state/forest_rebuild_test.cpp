@@ -53,9 +53,9 @@ class ForestRebuild : public testing::Test {
     forest_ = new ClockedForest(KEY_FRAME - 120);
     ros::NodeHandle handle;
     wind_ = new ros::Publisher(handle.advertise<WindField>("wind", 1, true));
-    viewer_ = new ros::Publisher(handle.advertise<Viewer>("viewer", 10));
+    sensor_ = new ros::Publisher(handle.advertise<SensorInterest>("forest/sensors", 10));
     wind_->publish(allKinds());
-    for (const ros::Publisher* topic : {wind_, viewer_})
+    for (const ros::Publisher* topic : {wind_, sensor_})
       spinUntil(topic->getTopic(), [&] { return topic->getNumSubscribers() > 0; });
     forest_->runUntil("the wind", [] {
       return !forest_->state.messages.empty() &&
@@ -64,27 +64,26 @@ class ForestRebuild : public testing::Test {
     forest_->runUntil("the second before a key frame", [] {
       return fromMsg(forest_->state.last().header.stamp) >= forest_->grid().timeOf(KEY_FRAME - 30);
     });
-    publishViewer("eye", -15.0);
+    publishSensor("lidar", -15.0);
     forest_->runUntil("a key frame", [] { return forest_->state.last().key_frame; });
     key_frame_ = forest_->state.messages.size() - 1;
   }
   static void TearDownTestSuite() {
-    delete viewer_;
+    delete sensor_;
     delete wind_;
     delete forest_;
   }
 
-  /// Moves a viewer eastwards along the row of trees.
-  static void publishViewer(const std::string& id, double x) {
-    Viewer message;
+  /// Moves a sensor eastwards along the row of trees.
+  static void publishSensor(const std::string& id, double x) {
+    SensorInterest message;
     message.id = id;
     message.header.frame_id = "map";
-    message.pose.position.x = x;
-    message.pose.position.z = 5.0;
-    message.pose.orientation.w = 1.0;
-    message.field_of_view = 0.8;
-    message.height = 900;
-    viewer_->publish(message);
+    message.position.x = x;
+    message.position.z = 5.0;
+    message.range = 60.0;
+    message.tolerance = 0.03;
+    sensor_->publish(message);
     forest_->settle();
   }
 
@@ -181,12 +180,12 @@ class ForestRebuild : public testing::Test {
   }
 
   static ClockedForest* forest_;
-  static ros::Publisher *wind_, *viewer_;
+  static ros::Publisher *wind_, *sensor_;
   static std::size_t key_frame_;  // index of the message
 };
 ClockedForest* ForestRebuild::forest_ = nullptr;
 ros::Publisher* ForestRebuild::wind_ = nullptr;
-ros::Publisher* ForestRebuild::viewer_ = nullptr;
+ros::Publisher* ForestRebuild::sensor_ = nullptr;
 std::size_t ForestRebuild::key_frame_ = 0;
 
 bool sameBits(const forest::BatchPoses& a, const forest::BatchPoses& b) {
@@ -226,12 +225,12 @@ TEST_F(ForestRebuild, FloatPosesHaveTheSameBitsOnEveryInstructionSet) {
   }
 }
 
-// A reader continues with deltas only while viewers appear, move and leave.
+// A reader continues with deltas only while sensors appear, move and leave.
 TEST_F(ForestRebuild, DeltasAreFollowed) {
   forest::ForestReplica reader = listener();
   for (int second = 0; second < 8; ++second) {
-    if (second < 6) publishViewer("eye", 40.0 * second);
-    if (second == 2) publishViewer("other", 300.0);
+    if (second < 6) publishSensor("lidar", 40.0 * second);
+    if (second == 2) publishSensor("other", 300.0);
     forest_->run(second == 7 ? 20 : 30);  // The run ends while levels change.
   }
   std::size_t changed = 0;

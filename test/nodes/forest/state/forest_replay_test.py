@@ -18,7 +18,7 @@ from tf2_msgs.msg import TFMessage
 from vegetation_sim.msg import ForestEvent, WindPrimitive
 from vegetation_sim.srv import ApplyForce, Grab, MoveGrab, Release, SetWindPrimitive
 
-from forest_rig import RATE, Animator, TickClock, ViewerClient, scene, start_animator, stop, time_of
+from forest_rig import RATE, Animator, SensorClient, TickClock, scene, start_animator, stop, time_of
 from replaying import tick_after
 from waiting import wait_for
 from watched_node import listens, publisher, wait_for_readers
@@ -26,7 +26,7 @@ from watched_node import listens, publisher, wait_for_readers
 SECONDS = 60
 # [s] recorded but not compared, because a recorder that is stopped loses messages in transit
 TAIL = 5
-TOPICS = ['/clock', '/wind', '/viewer', '/forest/layout', '/forest/state', '/forest/events']
+TOPICS = ['/clock', '/wind', '/forest/sensors', '/forest/layout', '/forest/state', '/forest/events']
 SPEED = 10  # rate of the replay relative to wall time
 # [s] of simulated time by which the replay runs behind its events; one second of wall time
 DELAY = 10.0
@@ -87,21 +87,21 @@ class ForestReplay(unittest.TestCase):
             call('grab', Grab, tree=13, branch=8, frame='hand', keep_offset=True, lease=1.0)
 
     def live_run(self):
-        """Records the forest while a viewer flies through it. Returns the hashes by stamp."""
-        forest, clock, viewer = Animator(), TickClock(1000 * RATE), ViewerClient()
+        """Records the forest while a sensor flies through it. Returns the hashes by stamp."""
+        forest, clock, sensor = Animator(), TickClock(1000 * RATE), SensorClient()
         self.forest, self.clock, self.frames = forest, clock, publisher('/tf', TFMessage)
-        forest.wait_until_up('/wind', '/viewer')
+        forest.wait_until_up('/wind', '/forest/sensors')
         self.server = Client('/forest_animator', timeout=30)
         record = roslib.packages.find_node('rosbag', 'record')[0]
         recorder = subprocess.Popen([record, '-q', '-O', self.bag, '__name:=recorder'] + TOPICS)
-        viewer.move_to(-60.0, -10.0, 4.0, forest)
+        sensor.move_to(-60.0, -10.0, 4.0, forest)
         for topic in TOPICS:
             wait_for(lambda: listens('/recorder', topic), 'the recorder of ' + topic)
         clock.run(1, forest)
         wait_for(lambda: os.path.exists(self.bag + '.active'), 'the recorder to begin')
         for half in range(2 * SECONDS):
             self.edit(half / 2)
-            viewer.move_to(-60.0 + half, -10.0, 4.0, forest)
+            sensor.move_to(-60.0 + half, -10.0, 4.0, forest)
             clock.run(RATE // 2, forest)
         self.assertEqual(len(forest.state.messages), SECONDS * RATE + 1)
         winds = [m.wind_hash for m in forest.state.messages]

@@ -11,7 +11,7 @@ from tf2_msgs.msg import TFMessage
 from vegetation_sim.msg import BranchTransforms
 from visualization_msgs.msg import Marker, MarkerArray
 
-from forest_rig import RATE, Animator, TickClock, ViewerClient, time_of
+from forest_rig import RATE, Animator, SensorClient, TickClock, time_of
 from watched_node import Log
 
 SECONDS = 10
@@ -32,12 +32,12 @@ class ForestState(unittest.TestCase):
         cls.forest = Animator()
         cls.clock = TickClock(1000 * RATE)
         cls.clock.begin(cls.forest)
-        cls.viewer = ViewerClient()
+        cls.sensor = SensorClient()
 
-    def run_watched(self, seconds):
-        """Moves a viewer through the forest, so that levels change continuously."""
+    def run_sensed(self, seconds):
+        """Moves a sensor through the forest, so that levels change continuously."""
         for half in range(2 * seconds):
-            self.viewer.move_to(-60.0 + 3.0 * half, -10.0, 4.0, self.forest)
+            self.sensor.move_to(-60.0 + 3.0 * half, -10.0, 4.0, self.forest)
             self.clock.run(RATE // 2, self.forest)
 
     # S1-02: the service knows every (tree, branch) id of 256 trees with at least 200 branches each.
@@ -56,7 +56,7 @@ class ForestState(unittest.TestCase):
     # There are 30 messages per second of the clock, one per tick, and they are small.
     def test_state_comes_at_its_rate_and_is_small(self):
         before, tick = len(self.forest.state.messages), self.clock.tick
-        self.run_watched(SECONDS)
+        self.run_sensed(SECONDS)
         received = self.forest.state.messages[before:]
         self.assertEqual([m.header.stamp for m in received],
                          [time_of(tick + 1 + i) for i in range(RATE * SECONDS)])
@@ -99,11 +99,11 @@ class ForestState(unittest.TestCase):
 
     # The stock markers are two lists of constant size that are built only for a subscriber.
     def test_markers_are_few_constant_and_only_on_demand(self):
-        self.run_watched(2)
+        self.run_sensed(2)
         self.assertEqual(self.forest.diagnostics()['Marker points'], 0)
         markers = Log('/forest/markers', MarkerArray)
         while len(markers.messages) < 10:
-            self.run_watched(1)
+            self.run_sensed(1)
         for array in markers.messages:
             self.assertEqual([(m.ns, m.id, m.type, m.action) for m in array.markers],
                              [('bark', 0, Marker.TRIANGLE_LIST, Marker.ADD),

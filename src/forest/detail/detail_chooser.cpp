@@ -1,0 +1,122 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "forest/detail/detail_chooser.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace vegetation_sim::forest {
+namespace {
+
+// Memory for more is released: few scenes have as many near trees.
+constexpr std::size_t MANY_PLANTS = 20000;
+
+}  // namespace
+
+void DetailChooser::choose(const PredictionContext& context, const DetailDemand& demand,
+                           double physical_cost, Start allowed, TreeDetail& detail) {
+  const double transition = context.layout.motion.transition;
+  const int last_base = detail.levels.base().level;
+  detail.levels.changeBase(demand.base, context.stamp, transition);
+  plants_.clear();
+  if (!demand.empty()) findPlants(context, demand, last_base, detail);
+  allocate(context.settings, demand, physical_cost);
+  figures_.strained = detail.modes.countStrained();
+  startModes(context, allowed, detail);
+  setLevels(context, detail);
+  detail.prune(context.stamp, transition);
+  if (plants_.size() > MANY_PLANTS) std::vector<Plant>().swap(plants_);
+}
+
+// Visits a tile as a whole: if even its nearest and largest tree may stand still, its trees are not
+// visited.
+void DetailChooser::findPlants(const PredictionContext& context, const DetailDemand& demand,
+                               int last_base, const TreeDetail& detail) {
+  const TierPredictor predictor(context);
+  for (const TreeErrors::Region& region : context.errors.regions()) {
+    if (region.count > 1 && predictor.mayRest(region, demand)) continue;
+    for (std::uint32_t i = 0; i < region.count; ++i)
+      addPlant(predictor, context, demand, last_base, detail, region.first + i);
+  }
+}
+
+// Adds a tree unless it is and stays at the base level. `last_base` was the level of the trees that
+// are not held.
+void DetailChooser::addPlant(const TierPredictor& predictor, const PredictionContext& context,
+                             const DetailDemand& demand, int last_base, const TreeDetail& detail,
+                             std::uint32_t tree) {
+  const auto known = detail.levels.held().find(tree);
+  const bool held = known != detail.levels.held().end();
+  Plant plant;
+  plant.id = tree;
+  plant.held = held ? known->second.level : last_base;
+  const ModalTreeState* modal_state = detail.modes.find(tree);
+  if (plant.held == MODAL_LEVEL && modal_state && modal_state->fine()) plant.held = FINE_MODAL_TIER;
+  plant.resting = held && secondsBetween(known->second.since, context.stamp) < TIER_HOLD;
+  predictor.predict(seedOf(context.layout, tree), demand, plant);
+  plant.stepwise = std::max(plant.stepwise, demand.base);
+  plant.wanted = std::max(plant.wanted, demand.base);
+  if (plant.wanted != demand.base || plant.held != demand.base) plants_.push_back(plant);
+}
+
+void DetailChooser::allocate(const Settings& settings, const DetailDemand& demand,
+                             double physical_cost) {
+  const Budget& budget = settings.budget;
+  const double room = demand.frame_time_binds ? std::max(0.0, budget.frame_time - physical_cost)
+                                              : std::numeric_limits<double>::infinity();
+  shareModes(plants_, budget.modal_trees, budget.state_bytes);
+  static_cast<TierAllocation&>(figures_) = allocateTiers(plants_, room, settings.tolerance);
+  figures_.physical = physical_cost;
+  figures_.cost += physical_cost;
+  figures_.budget = budget.frame_time;
+}
+
+// One tree per tick gets plain modes, that with the largest error first; if none does, one gets
+// fine modes at its turn. Other trees wait on their present tier. A tree with fine modes that is to
+// have plain ones returns to its levels until the modes have faded, because the change would be
+// visible.
+void DetailChooser::startModes(const PredictionContext& context, Start allowed,
+                               TreeDetail& detail) {
+  Plant *plain = nullptr, *finer = nullptr;
+  const auto wait = [](Plant& plant, int tier, Plant*& first) {
+    plant.chosen = tier;
+    if (!first || plant.error[0] > first->error[0]) first = &plant;
+  };
+  for (Plant& plant : plants_) {
+    if (plant.chosen < MODAL_LEVEL) continue;
+    const ModalTreeState* modal_state = detail.modes.find(plant.id);
+    if (!modal_state)
+      wait(plant, plant.stepwise, plant.chosen == FINE_MODAL_TIER ? finer : plain);
+    else if (!modal_state->fine() && plant.chosen == FINE_MODAL_TIER)
+      wait(plant, MODAL_LEVEL, finer);
+    else if (modal_state->fine() && plant.chosen == MODAL_LEVEL)
+      plant.chosen = plant.stepwise;
+  }
+  Plant* next = plain ? plain : allowed == Start::ANY ? finer : nullptr;
+  if (allowed == Start::NONE) next = nullptr;
+  started_ = next != nullptr;
+  if (!next) return;
+  const bool fine = next == finer;
+  detail.modes.addTree({context.layout, context.terrain, context.wind}, next->id, fine,
+                       context.stamp);
+  detail.changed.insert(next->id);
+  detail.begun.insert(next->id);
+  next->chosen = fine ? FINE_MODAL_TIER : MODAL_LEVEL;
+}
+
+// Trees that are not among the plants return to the base.
+void DetailChooser::setLevels(const PredictionContext& context, TreeDetail& detail) const {
+  const double transition = context.layout.motion.transition;
+  std::vector<std::uint32_t> chosen, held;
+  for (const Plant& plant : plants_) {
+    detail.setLevel(plant.id, std::min(plant.chosen, MODAL_LEVEL), context.stamp, transition);
+    chosen.push_back(plant.id);
+  }
+  std::sort(chosen.begin(), chosen.end());
+  for (const auto& entry : detail.levels.held()) held.push_back(entry.first);
+  for (const std::uint32_t tree : held)
+    if (!std::binary_search(chosen.begin(), chosen.end(), tree))
+      detail.setLevel(tree, detail.levels.base().level, context.stamp, transition);
+}
+
+}  // namespace vegetation_sim::forest

@@ -1,0 +1,52 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "forest/contact/contact_body.h"
+#include "tree/lod/tree_tiers.h"
+#include "vegetation_sim/tree/state/viewer.h"
+
+namespace vegetation_sim::forest {
+
+/// Settings that can change at run time.
+struct Settings {
+  double tolerance{1.0};  ///< error that a viewer may see [pixel]
+  int fixed_level{2};     ///< of the trees that no robot or sensor is near
+  int highest_level{MAX_DEPTHS};
+  double robot_tolerance{0.05};  ///< error near the bodies of robots [m]
+  double robot_range{3.0};       ///< distance to a body within which robot_tolerance holds [m]
+  Budget budget;
+};
+void describe(FieldVisitor& visitor, Settings& settings);
+
+/// The detail that one group of listeners requires of the trees.
+struct DetailDemand {
+  /// A ball in which errors may not exceed a tolerance [m].
+  struct Place {
+    Vec3 centre;
+    double range, tolerance;
+  };
+  std::vector<Viewpoint> eyes;
+  std::vector<Place> places;
+  int base{0};                  ///< level of the trees that neither eyes nor places require
+  bool frame_time_binds{true};  ///< limits the cost of all tiers to Budget::frame_time
+
+  bool empty() const { return eyes.empty() && places.empty(); }
+  /// Returns the pixels that a metre of error in a ball counts as: those of the viewer that sees it
+  /// best, or the tolerance of viewers per tolerance of a place.
+  double pixelsPerMetre(const Vec3& centre, double reach, double tolerance) const;
+};
+
+/// The detail that the state of the world has: what settings, bodies and sensors require, whoever
+/// watches.
+DetailDemand worldDemand(const Settings& settings, const Bodies& bodies,
+                         const std::map<std::string, Sensor>& sensors);
+/// The detail that displays draw. Without viewers, trees have the level of the settings.
+DetailDemand viewDemand(const Settings& settings, const Bodies& bodies,
+                        const std::vector<Viewpoint>& viewers);
+
+}  // namespace vegetation_sim::forest

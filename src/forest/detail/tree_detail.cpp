@@ -1,0 +1,48 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "forest/detail/tree_detail.h"
+
+namespace vegetation_sim::forest {
+
+void TreeDetail::reset(int level) {
+  levels.reset(LevelState::settled(level));
+  modes.clear();
+  changed.clear();
+  begun.clear();
+  sequence = 0;
+}
+
+void TreeDetail::setLevel(std::uint32_t tree, int level, Nanoseconds stamp, double transition) {
+  LevelState state = levels.of(tree);
+  if (state.level == level) return;
+  forest::setLevel(state, level, stamp, transition);
+  levels.set(tree, state);
+  changed.insert(tree);
+}
+
+void TreeDetail::prune(Nanoseconds stamp, double transition) {
+  levels.prune(stamp, transition);
+  modes.removeFaded(levels, stamp, transition);
+}
+
+void TreeDetail::addTo(StateUpdate& update, const std::vector<std::uint32_t>& physical,
+                       const std::function<PromotedTree(std::uint32_t tree)>& promoted) {
+  update.sequence = sequence++;
+  update.base = levels.base();
+  std::set<std::uint32_t> published;
+  if (update.key_frame)
+    for (const auto& entry : levels.held()) published.insert(entry.first);
+  else
+    published = changed;
+  published.insert(physical.begin(), physical.end());
+  for (const std::uint32_t tree : published) {
+    const ModalTreeState* state = modes.find(tree);
+    const bool amplitudes = state && (update.key_frame || begun.count(tree));
+    update.trees.push_back({tree, levels.of(tree), promoted(tree).branches,
+                            amplitudes ? state->state() : physics::ModalState()});
+  }
+  changed.clear();
+  begun.clear();
+}
+
+}  // namespace vegetation_sim::forest

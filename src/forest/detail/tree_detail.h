@@ -1,0 +1,34 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <set>
+
+#include "vegetation_sim/forest/physics/modal_forest.h"
+#include "vegetation_sim/tree/state/level_map.h"
+
+namespace vegetation_sim::forest {
+
+/// Levels and modes of all trees for one group of listeners, and what updates for them have to
+/// contain. A value: a copy is a snapshot.
+struct TreeDetail {
+  LevelMap levels;
+  ModalForest modes;
+  std::set<std::uint32_t> changed;  ///< trees of the next update
+  std::set<std::uint32_t>
+      begun;                  ///< of these, trees with new modes; the update has their amplitudes
+  std::uint32_t sequence{0};  ///< of the next update
+
+  /// Settles all trees at a level without modes.
+  void reset(int level);
+  void setLevel(std::uint32_t tree, int level, Nanoseconds stamp, double transition);
+  /// Removes what has no more effect at `stamp`.
+  void prune(Nanoseconds stamp, double transition);
+  /// Completes an update, whose stamp is set, by the detail of the trees with physical joints and
+  /// of those that are not at the base, or that have changed since the last update.
+  void addTo(StateUpdate& update, const std::vector<std::uint32_t>& physical,
+             const std::function<PromotedTree(std::uint32_t tree)>& promoted);
+};
+
+}  // namespace vegetation_sim::forest

@@ -1,0 +1,47 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "tree/lod/level_table.h"
+#include "vegetation_sim/terrain/height_map.h"
+#include "vegetation_sim/tree/growth/forest_layout.h"
+
+namespace vegetation_sim::forest {
+
+/// Errors of the models of all trees of a layout, measured per species and size, and the regions in
+/// which these trees stand.
+class TreeErrors {
+ public:
+  struct Region {
+    Vec3 centre;
+    double reach;  ///< [m] around the centre, including the reach of trees
+    std::uint32_t first, count;
+  };
+
+  void measure(const Layout& layout, const terrain::HeightMap& terrain);
+  /// Computes the response errors of all species now, some 30 ms for each of a few sizes, instead
+  /// of at the first tick with a listener nearby.
+  void precompute(const Layout& layout);
+
+  const std::vector<Region>& regions() const { return regions_; }
+  LevelTable tableOf(const TreeSeed& seed) const { return tables_[seed.species].at(seed.scale); }
+  PredictedError responseErrorOf(const Layout& layout, const TreeSeed& seed,
+                                 const wind::GustSpectrum& spectrum);
+  /// Error of any tree with all joints fixed [m per m/s].
+  double largestOmission() const { return largest_omission_; }
+  double slowestReference() const { return slowest_reference_; }  ///< speed, of any species [m/s]
+
+ private:
+  void measureSpecies(const Layout& layout, std::size_t species, double scale);
+
+  std::vector<LevelScales> tables_;  // per species
+  double extent_{0.0};               // height plus reach of the largest tree [m]
+  double largest_omission_{0.0};
+  double slowest_reference_{1.0};
+  std::vector<Region> regions_;
+};
+
+}  // namespace vegetation_sim::forest
