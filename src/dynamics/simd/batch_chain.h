@@ -44,9 +44,14 @@ class BatchChain {
   int treeCount() const { return static_cast<int>(trees_.size()); }
   void setState(int tree, const ChainState& state, double theta = 0.5);
   ChainState state(int tree) const;
+  void readState(int tree, ChainState& out) const;
+  Vec2 bend(int tree, std::size_t link) const;
   double theta(int tree) const { return trees_[static_cast<std::size_t>(tree)].theta; }
   /// Returns the largest rate of a joint about an axis [rad/s].
   double fastest(int tree) const { return fastestOf(trees_[static_cast<std::size_t>(tree)]); }
+  /// Returns true if all joints of all trees are finite, bent by at most `bend` [rad] and no faster
+  /// than `rate` [rad/s]; it may return false if one is within 1e-6 of a limit.
+  bool isWithin(double bend, double rate) const;
   std::size_t bytes() const;
 
   void setProducts(Products products);

@@ -39,7 +39,7 @@ std::size_t PhysicalSubtree::promote(const std::vector<int>& branches,
   std::vector<Joined> all;
   all.reserve(joints_.size() + branches.size());
   for (std::size_t i = 0; i < joints_.size(); ++i)
-    all.push_back({joints_[i], state_.q[i], state_.rate[i]});
+    all.push_back({joints_[i], state_.get().q[i], state_.get().rate[i]});
   std::vector<char> mask = mask_;
   std::vector<int> added;
   std::size_t refused = 0;
@@ -97,25 +97,28 @@ void PhysicalSubtree::cancelBlend(int link, const ProceduralMotion& motion, doub
     const double weight = blendWeight({joint.branch, {}, {}, joint.blend}, stamp, duration);
     const double change = blendRate(joint, stamp, duration);
     const JointMotion to = motion.at(joint.branch);
-    physics::Vec2 &q = state_.q[index(link)], &rate = state_.rate[index(link)];
+    physics::ChainState& state = state_.change();
+    physics::Vec2 &q = state.q[index(link)], &rate = state.rate[index(link)];
     const physics::Vec2 away = vectorOf(to.q) - q;
     rate = (1.0 - weight) * rate + weight * vectorOf(to.rate) + change * away;
     q += weight * away;
     joint.blend = NEVER;
     joint.promoted = stamp;
+    last_promoted_ = std::max(last_promoted_, stamp);
     joint.compensation = weight * motion.missing();
   }
 }
 
-void PhysicalSubtree::demote(const ProceduralMotion& motion, const PhysicsSettings& settings,
-                             SubtreeScratch& scratch) {
-  const Nanoseconds stamp = motion.wind.stamp();
-  bool waiting = false;  // for calm motion
+void PhysicalSubtree::demote(const TreeWind& air, Nanoseconds stamp,
+                             const PhysicsSettings& settings, SubtreeScratch& scratch) {
+  bool waiting = false, blending = false;  // for calm motion
   for (SubtreeJoint& joint : joints_) {
     if (joint.wanted) joint.needed = stamp;
     waiting = waiting || (!joint.wanted && joint.blend == NEVER);
+    blending = blending || joint.blend != NEVER;
   }
-  if (waiting) scratch.motions.update(motion, branches_);
+  if (!waiting && !blending) return;
+  if (waiting) scratch.motions.update(scratch.motionOf(*tree_, air, stamp), branches_);
   std::vector<char> bears(joints_.size(), 0);  // has physical children that do not blend
   for (std::size_t i = joints_.size(); i-- > 0;) {
     SubtreeJoint& joint = joints_[i];
@@ -130,7 +133,7 @@ void PhysicalSubtree::demote(const ProceduralMotion& motion, const PhysicsSettin
   if (std::none_of(joints_.begin(), joints_.end(), over)) return;
   std::vector<Joined> left;
   for (std::size_t i = 0; i < joints_.size(); ++i)
-    if (!over(joints_[i])) left.push_back({joints_[i], state_.q[i], state_.rate[i]});
+    if (!over(joints_[i])) left.push_back({joints_[i], state_.get().q[i], state_.get().rate[i]});
   rebuild(left);
 }
 
@@ -143,8 +146,8 @@ bool PhysicalSubtree::canBlend(std::size_t link, Nanoseconds stamp,
   if (joint.wanted) return false;
   if (secondsBetween(joint.needed, stamp) >= settings.linger) return true;
   const JointMotion at = motions.at(link);
-  const double off = magnitude(state_.q[link] - vectorOf(at.q));
-  const double speed = magnitude(state_.rate[link] - vectorOf(at.rate));
+  const double off = magnitude(state_.get().q[link] - vectorOf(at.q));
+  const double speed = magnitude(state_.get().rate[link] - vectorOf(at.rate));
   const double reach = wood_.reach[index(joint.branch)];
   return (off + CALM_TIME * speed) * reach < settings.influence_tolerance;
 }
