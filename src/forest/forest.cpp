@@ -46,6 +46,7 @@ void Forest::setLayout(Layout layout, std::shared_ptr<const terrain::HeightMap> 
   snapshot_.levels.anchor(snapshot_.stamp, layout_.motion.transition);
   layout_ = std::move(layout);
   layout_hash_ = layout_.hash();
+  grid_ = TreeGrid(layout_);
   terrain_ = std::move(terrain);
   measure();
   snapshot_.modes.clear();  // the wood may have changed
@@ -106,8 +107,8 @@ void Forest::measure() {
 }
 
 StepContext Forest::stepContext() const {
-  return {layout_,          layout_hash_,    *terrain_,  snapshot_.wind,
-          snapshot_.levels, snapshot_.modes, *contacts_, snapshot_.stamp};
+  return {layout_,         layout_hash_, *terrain_, snapshot_.wind, snapshot_.levels,
+          snapshot_.modes, *contacts_,   grid_,     *threads_,      snapshot_.stamp};
 }
 
 // Runs before the choice of levels: the present levels hold since the last tick.

@@ -85,6 +85,8 @@ class Forest {
   void setBody(const Body& body);
   void removeBody(const std::string& id);
   void setPhysics(const PhysicsSettings& settings);
+  /// Sets the number of threads that step physical trees. It changes no result.
+  void setThreads(int threads) { threads_ = std::make_shared<ThreadPool>(threads); }
   /// Replaces the finder of contacts by one that reports intermediate results.
   void setContactFinder(std::shared_ptr<const ContactFinder> finder) {
     contacts_ = std::move(finder);
@@ -147,12 +149,14 @@ class Forest {
   Layout layout_;
   std::uint64_t layout_hash_{0};
   std::shared_ptr<const terrain::HeightMap> terrain_;
+  TreeGrid grid_;
   std::vector<LevelScales> tables_;  // per species
   double extent_{0.0};               // height plus reach of the largest tree [m]
   double largest_omission_{0.0};     // of any tree with all joints fixed [m per m/s]
   double slowest_reference_{1.0};    // reference speed of any species [m/s]
   std::vector<Region> regions_;
   std::shared_ptr<const ContactFinder> contacts_{std::make_shared<ContactFinder>()};
+  std::shared_ptr<ThreadPool> threads_{std::make_shared<ThreadPool>()};
   ForestSnapshot snapshot_;
   wind::Instant now_;
   wind::GustSpectrumField swinging_;  // now

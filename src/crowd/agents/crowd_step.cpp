@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
-#include <thread>
 
 #include "crowd/agents/crowd.h"
 #include "crowd/body/gait.h"
@@ -46,15 +45,10 @@ struct Crowd::Tick {
 
 template <class Each>
 void Crowd::forAll(std::size_t count, Each each) const {
-  const std::size_t parts =
-      std::min<std::size_t>(static_cast<std::size_t>(threads_), count / FEW + 1);
-  const auto run = [&](std::size_t part) {
+  const std::size_t parts = std::min(threads_->size(), count / FEW + 1);
+  threads_->run(parts, [&](std::size_t part) {
     for (std::size_t i = count * part / parts; i < count * (part + 1) / parts; ++i) each(i);
-  };
-  std::vector<std::thread> others;
-  for (std::size_t part = 1; part < parts; ++part) others.emplace_back(run, part);
-  run(0);
-  for (std::thread& other : others) other.join();
+  });
 }
 
 void Crowd::advance(Nanoseconds stamp) {

@@ -262,6 +262,7 @@ void BatchChain::stepWithin(const Surroundings* around, std::size_t count, doubl
   for (ChainGroup& group : groups_)
     if (!group.levels.empty()) stepGroup(group, around, time, h, number);
   query_ = nullptr;
+  loaded_ = nullptr;
 }
 
 void BatchChain::step(const std::vector<Surroundings>& around, double time, double h, int number) {

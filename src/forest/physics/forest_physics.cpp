@@ -20,6 +20,20 @@ std::size_t stepsBetween(Nanoseconds from, Nanoseconds to) {
                                   NANOSECONDS_PER_SECOND);
 }
 
+// Splits trees into ranges with about equally many branches; returns the end of each.
+std::vector<std::size_t> splitByBranches(const std::vector<TreeSteps>& trees, std::size_t parts) {
+  std::size_t all = 0, sum = 0;
+  for (const TreeSteps& steps : trees) all += steps.branchCount();
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < trees.size(); ++i) {
+    const std::size_t middle = sum + trees[i].branchCount() / 2;
+    while (out.size() + 1 < parts && middle * parts >= all * (out.size() + 1)) out.push_back(i);
+    sum += trees[i].branchCount();
+  }
+  out.resize(parts, trees.size());
+  return out;
+}
+
 Vec3 pointOn(const Pose& pose, double along) {
   return pose.position + along * axisZ(pose.orientation);
 }
@@ -31,8 +45,10 @@ void ForestPhysics::advance(const StepContext& context, Nanoseconds to) {
   const std::vector<Reaction> published = std::move(reactions_);
   reactions_.clear();
   steps_ = 0;
-  scratch_.replaced = 0;
-  scratch_.windows.clear();
+  for (SubtreeScratch& scratch : scratches_) {
+    scratch.replaced = 0;
+    scratch.windows.clear();
+  }
   endLeases(to);
   if (!subtrees_.empty() || !grabs_.empty() || !pushes_.empty() || !bodies_.empty())
     stepAll(context, to);
@@ -52,7 +68,7 @@ void ForestPhysics::stepAll(const StepContext& context, Nanoseconds to) {
   finishTick(to);
 }
 
-// Steps tree after tree, so that each stays in the caches during its steps.
+// Each thread steps tree after tree, so that each tree stays in the caches during its steps.
 void ForestPhysics::stepTrees(const TickContext& tick) {
   std::vector<TreeSteps> trees;
   for (auto& [tree, subtree] : subtrees_)
@@ -69,7 +85,12 @@ void ForestPhysics::stepTrees(const TickContext& tick) {
     if (TreeSteps* steps = stepsOf(push.point.tree)) steps->add(push);
   for (const std::uint32_t tree : near_)
     if (TreeSteps* steps = stepsOf(tree)) steps->setContacts(persistent_contacts_[tree]);
-  for (TreeSteps& steps : trees) steps.run(tick, scratch_);
+  const std::vector<std::size_t> ends = splitByBranches(trees, tick.forest.threads.size());
+  if (scratches_.size() < ends.size()) scratches_.resize(ends.size());
+  tick.forest.threads.run(ends.size(), [&](std::size_t part) {
+    for (std::size_t i = part ? ends[part - 1] : 0; i < ends[part]; ++i)
+      trees[i].run(tick, scratches_[part]);
+  });
   for (const TreeSteps& steps : trees) coarse_ += steps.coarseSteps();
   publishContactReactions(trees);
   for (const TreeSteps& steps : trees)
@@ -96,8 +117,9 @@ void ForestPhysics::promoteLoaded(const StepContext& context, Nanoseconds from, 
   const auto pose_tree = [&](const Tree& tree, std::uint32_t id, Nanoseconds stamp) {
     return pose(context, tree, id, stamp);
   };
-  context.contacts.findNear({context.layout, context.layout_hash, context.terrain, pose_tree},
-                            bodies_, from, to, loaded);
+  context.contacts.findNear(
+      {context.layout, context.layout_hash, context.terrain, pose_tree, &context.grid}, bodies_,
+      from, to, loaded);
   near_.clear();
   for (const auto& entry : loaded) near_.push_back(entry.first);
   for (auto it = persistent_contacts_.begin(); it != persistent_contacts_.end();)
@@ -150,7 +172,8 @@ void ForestPhysics::promoteInTree(const StepContext& context, std::uint32_t tree
        subtree.joints())  // beyond the cap: makes room for loaded branches
     if (!std::binary_search(selection.branches.begin(), selection.branches.end(), joint.branch))
       score[static_cast<std::size_t>(joint.branch)] = 0.0;
-  const ProceduralMotion motion = scratch_.motionOf(subtree.tree(), context.windOf(tree), stamp);
+  const ProceduralMotion motion =
+      scratches_[0].motionOf(subtree.tree(), context.windOf(tree), stamp);
   refused_[tree] = selection.refused +
                    subtree.promote(selection.branches, score, KEEP * threshold, motion, settings_);
 }
@@ -191,7 +214,7 @@ void ForestPhysics::finishTick(Nanoseconds to) {
   for (auto it = subtrees_.begin(); it != subtrees_.end();)
     it = it->second.empty() && !isLoaded(it->first) ? subtrees_.erase(it) : std::next(it);
   if (!subtrees_.empty()) return;
-  scratch_ = SubtreeScratch();
+  scratches_ = std::vector<SubtreeScratch>(1);
 }
 
 bool ForestPhysics::isLoaded(std::uint32_t tree) const {

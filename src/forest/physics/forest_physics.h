@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/threads/thread_pool.h"
 #include "forest/contact/contact_finder.h"
 #include "forest/contact/substep_bisection.h"
 #include "tree/physical/interaction.h"
@@ -26,6 +27,8 @@ struct StepContext {
   const LevelMap& levels;
   const ModalForest& modes;
   const ContactFinder& contacts;
+  const TreeGrid& grid;
+  ThreadPool& threads;
   Nanoseconds stamp;  ///< of the last tick
 
   TreeWind windOf(std::uint32_t tree) const {
@@ -117,8 +120,8 @@ class ForestPhysics {
   Nanoseconds next_review_{0};
   std::size_t steps_{0}, skipped_{0}, coarse_{0};
   std::map<std::uint32_t, std::size_t> refused_;  // branches that found no room, by tree
-  std::vector<std::uint32_t> near_;  // trees that bodies may touch in this tick, rising
-  SubtreeScratch scratch_;           // freed with the last subtree
+  std::vector<std::uint32_t> near_;           // trees that bodies may touch in this tick, rising
+  std::vector<SubtreeScratch> scratches_{1};  // of threads; freed with the last subtree
 };
 
 }  // namespace vegetation_sim::forest

@@ -36,6 +36,7 @@ class TreeSteps {
  public:
   TreeSteps(std::uint32_t tree, PhysicalSubtree& subtree) : tree_(tree), subtree_(&subtree) {}
   std::uint32_t tree() const { return tree_; }
+  std::size_t branchCount() const { return subtree_->joints().size(); }
   void add(HeldGrab& grab) { grabs_.push_back(&grab); }  ///< in the order of their ids
   void add(const Push& push) { pushes_.push_back(&push); }
   /// Bodies may touch the tree.

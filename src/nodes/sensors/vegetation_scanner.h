@@ -42,6 +42,7 @@ class VegetationScanner {
   Refusals refusals_{"vegetation_scanner"};  // used by callbacks of landscape_
   LandscapeReplica landscape_;
   scan::Scene scene_;
+  ThreadPool threads_;
   struct Counts {
     std::uint64_t sweeps{0}, unplaced{0}, lost{0};
     TickClock::Counts clock;

@@ -133,8 +133,13 @@ class PhysicalSubtree {
   physics::Link linkFor(std::size_t link, const Composite& body) const;
   bool leavesGap(const std::vector<char>& mask, int branch) const;
   void cancelBlend(int link, const ProceduralMotion& motion, double duration);
-  bool canBlend(std::size_t link, Nanoseconds stamp, const ProceduralMotions& motions,
-                const PhysicsSettings& settings) const;
+  static bool isWaiting(const SubtreeJoint& joint) { return !joint.wanted && joint.blend == NEVER; }
+  void startBlends(const TreeWind& air, Nanoseconds stamp, const PhysicsSettings& settings,
+                   SubtreeScratch& scratch);
+  void findCalm(const TreeWind& air, Nanoseconds stamp, const PhysicsSettings& settings,
+                SubtreeScratch& scratch) const;
+  void dropFarJoints(const ProceduralMotion& motion, const PhysicsSettings& settings,
+                     SubtreeScratch& scratch) const;
   double compensationAt(std::size_t link, Nanoseconds stamp, double fade) const;
   void baseMotions(const TreeWind& air, Nanoseconds stamp, SubtreeScratch& scratch,
                    std::vector<physics::BaseMotion>& out) const;
@@ -148,6 +153,8 @@ class PhysicalSubtree {
                   const physics::Kinematics& kinematics, physics::Loads& out) const;
   void addForces(const SubtreeLoads& loads, const physics::Kinematics& kinematics,
                  physics::Loads& out) const;
+  const std::vector<std::size_t>& listLoaded(const SubtreeLoads& loads,
+                                             SubtreeScratch& scratch) const;
   Pose poseOf(int link, const std::vector<physics::BaseMotion>& bases) const;
 
   std::shared_ptr<const Tree> tree_;
@@ -166,6 +173,8 @@ class PhysicalSubtree {
 
 /// Limits of bend [rad] and rate [rad/s] of physical joints.
 constexpr double LARGEST_BEND = 3.0, FASTEST_BEND = 1e4;
+/// Largest distance of any branch from its tree's foot [m].
+constexpr double LARGEST_TREE = 1e3;
 
 /// Force of a spring on its branch at `point` with `velocity`, and the factor that keeps its law
 /// within the force limit (1 below it).

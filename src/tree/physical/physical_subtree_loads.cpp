@@ -10,9 +10,6 @@
 namespace vegetation_sim::forest {
 namespace {
 
-// Largest distance of any branch from its tree's foot [m].
-constexpr double LARGEST_REACH = 1e3;
-
 // Chains limit the bends of their joints up to rounding.
 constexpr double BEND_ROUNDING = 1.0 + 1e-6;
 
@@ -64,7 +61,7 @@ struct PhysicalSubtree::Step {
     const bool own = loads.air == NEVER || part.compensates(from, settings.fade);
     const Nanoseconds stamp = own ? stampAt(part.theta_ * h) : loads.air;
     const wind::Instant& now = scratch.sampleAt(air.field, stamp).now();
-    fillWind(FloatWind(now.relativeTo(part.tree().foot), LARGEST_REACH), places, rows, blocks);
+    fillWind(FloatWind(now.relativeTo(part.tree().foot), LARGEST_TREE), places, rows, blocks);
   }
   // Adds all loads but the wind.
   void addOthers(Nanoseconds stamp, const physics::Kinematics& kinematics,
@@ -126,6 +123,8 @@ void PhysicalSubtree::stepBatched(const Step& context, double h) {
     chain.queryWind([&](const float* places, float* rows, std::size_t blocks) {
       context.fillWindRows(h, places, rows, blocks);
     });
+  if (!compensates(context.from, context.settings.fade))
+    chain.setLoadedLinks(&listLoaded(context.loads, context.scratch));
   const bool predicts = context.loads.hold && h * chain.fastest(0) <= PREDICTED_TURN;
   chain.step(context.outsideWind(), 0.0, h, predicts ? 1 : 0);
   state_.followChain();
@@ -243,6 +242,22 @@ void PhysicalSubtree::addSprings(const SubtreeLoads& loads, Nanoseconds stamp,
     out.anchors.push_back({link, arm, f.force, uniform(f.scale * spring.stiffness),
                            uniform(f.scale * spring.damping)});
   }
+}
+
+// Lists the links that springs and forces act on.
+const std::vector<std::size_t>& PhysicalSubtree::listLoaded(const SubtreeLoads& loads,
+                                                            SubtreeScratch& scratch) const {
+  std::vector<std::size_t>& out = scratch.loaded;
+  out.clear();
+  const auto add = [&](int branch) {
+    const int link = linkOf(branch);
+    if (link >= 0) out.push_back(index(link));
+  };
+  for (const SubtreeSpring& spring : loads.springs) add(spring.point.branch);
+  for (const BranchLoad& load : loads.forces) add(load.branch);
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
 }
 
 void PhysicalSubtree::addForces(const SubtreeLoads& loads, const physics::Kinematics& kinematics,

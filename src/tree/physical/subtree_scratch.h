@@ -8,6 +8,7 @@
 
 #include "dynamics/contact/contact.h"
 #include "dynamics/integration/integrator.h"
+#include "dynamics/simd/chain_rows.h"
 #include "tree/physical/procedural_motion.h"
 
 namespace vegetation_sim::forest {
@@ -59,8 +60,15 @@ struct SubtreeScratch {
   physics::Kinematics kinematics;
   physics::Loads loads;
   physics::ContactStepper contact_stepper;
-  physics::Kinematics start;  // of a step with contacts
-  std::vector<Vec3> places;   // of points that springs hold
+  physics::Kinematics start;        // of a step with contacts
+  std::vector<Vec3> places;         // of points that springs hold
+  std::vector<std::size_t> loaded;  // links
+  // Of demotion: links that wait for calm motion and their branches; flags of all links; positions
+  // at rest and the wind there.
+  std::vector<std::size_t> waiting;
+  std::vector<int> branches;
+  std::vector<char> calm, bears;
+  physics::Rows rest, rest_air;
 
   std::size_t replaced{0};  ///< tree steps that another integrator had to take
 
