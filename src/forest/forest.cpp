@@ -37,6 +37,7 @@ void Forest::setLayout(Layout layout, std::shared_ptr<const terrain::HeightMap> 
     detail->levels.anchor(snapshot_.stamp, layout_.motion.transition);
   layout_ = std::move(layout);
   layout_hash_ = layout_.hash();
+  grid_ = TreeGrid(layout_);
   terrain_ = std::move(terrain);
   errors_.measure(layout_, *terrain_);
   for (TreeDetail* detail : {&snapshot_.world, &snapshot_.view})
@@ -59,9 +60,16 @@ void Forest::reset() {
 }
 
 StepContext Forest::stepContext() const {
-  return {layout_,        layout_hash_,           *terrain_,
-          snapshot_.wind, snapshot_.world.levels, snapshot_.world.modes,
-          *contacts_,     snapshot_.stamp};
+  return {layout_,
+          layout_hash_,
+          *terrain_,
+          snapshot_.wind,
+          snapshot_.world.levels,
+          snapshot_.world.modes,
+          *contacts_,
+          grid_,
+          *threads_,
+          snapshot_.stamp};
 }
 
 void Forest::advance(Nanoseconds stamp) {

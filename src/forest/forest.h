@@ -70,6 +70,8 @@ class Forest {
   void setBody(const Body& body);
   void removeBody(const std::string& id);
   void setPhysics(const PhysicsSettings& settings);
+  /// Sets the number of threads that step physical trees. It changes no result.
+  void setThreads(int threads) { threads_ = std::make_shared<ThreadPool>(threads); }
   /// Replaces the finder of contacts by one that reports intermediate results.
   void setContactFinder(std::shared_ptr<const ContactFinder> finder) {
     contacts_ = std::move(finder);
@@ -119,8 +121,10 @@ class Forest {
   Layout layout_;
   std::uint64_t layout_hash_{0};
   std::shared_ptr<const terrain::HeightMap> terrain_;
+  TreeGrid grid_;
   TreeErrors errors_;
   std::shared_ptr<const ContactFinder> contacts_{std::make_shared<ContactFinder>()};
+  std::shared_ptr<ThreadPool> threads_{std::make_shared<ThreadPool>()};
   ForestSnapshot snapshot_;
   DetailChooser world_chooser_, view_chooser_;
 };

@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <thread>
 
-#include "core/math/parallel.h"
 #include "vegetation_sim/core/math/random.h"
 
 namespace vegetation_sim::scan {
@@ -73,13 +71,12 @@ double unitNoise(const NoiseKeys& noise, std::uint64_t ray) {
 }
 
 std::vector<Return> sweep(const Scene& scene, const Beams& beams, const Pose& sensor,
-                          const NoiseKeys& noise, int most_threads) {
-  const int machine = static_cast<int>(std::thread::hardware_concurrency());  // 0: unknown
-  const int threads = std::clamp(machine, 1, std::max(1, most_threads));
+                          const NoiseKeys& noise, ThreadPool& threads) {
   std::vector<Return> out(static_cast<std::size_t>(beams.rings) *
                           static_cast<std::size_t>(beams.columns));
-  const auto part = [&](std::size_t first) {
-    for (int column = static_cast<int>(first); column < beams.columns; column += threads)
+  const auto stride = static_cast<int>(threads.size());
+  threads.run(threads.size(), [&](std::size_t first) {
+    for (int column = static_cast<int>(first); column < beams.columns; column += stride)
       for (int ring = 0; ring < beams.rings; ++ring) {
         const auto i = static_cast<std::size_t>(ring) * static_cast<std::size_t>(beams.columns) +
                        static_cast<std::size_t>(column);
@@ -88,8 +85,7 @@ std::vector<Return> sweep(const Scene& scene, const Beams& beams, const Pose& se
         const double error = beams.noise > 0.0 ? beams.noise * unitNoise(noise, i) : 0.0;
         out[i].range = measured(out[i].hit, beams, error);
       }
-  };
-  runInParallel(static_cast<std::size_t>(threads), part);
+  });
   return out;
 }
 

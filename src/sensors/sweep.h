@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/threads/thread_pool.h"
 #include "sensors/sensor_scene.h"
 #include "vegetation_sim/core/config/fields.h"
 #include "vegetation_sim/core/math/math.h"
@@ -52,10 +53,10 @@ struct NoiseKeys {
 /// uniform numbers (Irwin 1927, Hall 1927), never beyond 6.
 double unitNoise(const NoiseKeys& noise, std::uint64_t ray);
 
-/// Casts all rays at one instant. [rings x columns] @param most_threads limit for the threads,
-/// besides that of the machine; the result does not depend on it.
+/// Casts all rays at one instant. [rings x columns] The result does not depend on the number of
+/// threads.
 std::vector<Return> sweep(const Scene& scene, const Beams& beams, const Pose& sensor,
-                          const NoiseKeys& noise, int most_threads = 1);
+                          const NoiseKeys& noise, ThreadPool& threads);
 
 /// Counts points by label, and rays without a point under NONE; the sum is the number of rays.
 std::array<std::uint32_t, LABELS> countLabels(const std::vector<Return>& returns);

@@ -12,6 +12,8 @@
 namespace vegetation_sim::scan {
 namespace {
 
+ThreadPool alone, three_threads(3);
+
 Pose sensorAt(const Vec3& place) {
   Pose out;
   out.position = place;
@@ -40,7 +42,7 @@ TEST(Sweep, LabelsSumToTheNumberOfRays) {
   Scene scene;
   const Lawn lawn(0.15, 100.0);
   fill(scene, lawn);
-  const auto returns = sweep(scene, coarse(), sensorAt(Vec3(10, 10, 1.2)), {});
+  const auto returns = sweep(scene, coarse(), sensorAt(Vec3(10, 10, 1.2)), {}, alone);
   ASSERT_EQ(returns.size(), 16u * 120u);
   const auto counts = countLabels(returns);
   EXPECT_EQ(std::accumulate(counts.begin(), counts.end(), 0u), 16u * 120u);
@@ -68,8 +70,8 @@ TEST(Sweep, IsTheSameForAnyNumberOfThreads) {
   fill(scene, lawn);
   Beams beams = coarse();
   beams.noise = 0.02;
-  const auto one = sweep(scene, beams, sensorAt(Vec3(10, 10, 1.2)), {3, 9}, 1);
-  const auto three = sweep(scene, beams, sensorAt(Vec3(10, 10, 1.2)), {3, 9}, 3);
+  const auto one = sweep(scene, beams, sensorAt(Vec3(10, 10, 1.2)), {3, 9}, alone);
+  const auto three = sweep(scene, beams, sensorAt(Vec3(10, 10, 1.2)), {3, 9}, three_threads);
   for (std::size_t i = 0; i < one.size(); ++i) {
     EXPECT_EQ(one[i].range, three[i].range);
     EXPECT_TRUE(same(one[i].hit, three[i].hit));
@@ -82,8 +84,8 @@ TEST(Sweep, TooNearIsMinusInfinityAndNothingIsInfinity) {
   Beams beams = coarse();
   beams.range_min = 0.5;
   beams.range_max = 10.0;
-  const auto near = sweep(scene, beams, sensorAt(Vec3(0, 0, 0.05)), {});
-  const auto high = sweep(scene, beams, sensorAt(Vec3(0, 0, 9.0)), {});
+  const auto near = sweep(scene, beams, sensorAt(Vec3(0, 0, 0.05)), {}, alone);
+  const auto high = sweep(scene, beams, sensorAt(Vec3(0, 0, 9.0)), {}, alone);
   const auto infinity = std::numeric_limits<double>::infinity();
   EXPECT_EQ(near.front().range, -infinity);  // the lowest ring
   EXPECT_EQ(near.back().range, infinity);
@@ -96,7 +98,7 @@ TEST(Sweep, TooNearIsMinusInfinityAndNothingIsInfinity) {
 TEST(Sweep, GroundIsMetWhereItIs) {
   const Scene scene;
   const Beams beams = coarse();
-  const auto returns = sweep(scene, beams, sensorAt(Vec3(0, 0, 1.0)), {});
+  const auto returns = sweep(scene, beams, sensorAt(Vec3(0, 0, 1.0)), {}, alone);
   for (int ring = 0; ring < 8; ++ring) {
     const Vec3 direction = directionOf(beams, ring, 5);
     const Return& one = returns[static_cast<std::size_t>(ring * beams.columns + 5)];

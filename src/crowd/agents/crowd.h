@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/threads/thread_pool.h"
 #include "crowd/agents/walking_speed.h"
 #include "crowd/geometry/ways.h"
 #include "vegetation_sim/terrain/height_map.h"
@@ -54,7 +55,7 @@ class Crowd {
   void setObstacles(std::vector<Obstacle> obstacles);
   /// Sets the resistance, which is called from several threads.
   void setResistance(Resistance resistance) { resistance_ = std::move(resistance); }
-  void setThreads(int threads) { threads_ = std::max(1, threads); }
+  void setThreads(int threads) { threads_ = std::make_shared<ThreadPool>(threads); }
 
   // The following throw InvalidInput with thing, value and range, and then change nothing.
   /// Spawns a walker with the next free id.
@@ -105,7 +106,7 @@ class Crowd {
   ObstacleGrid still_;
   Ways ways_;
   Resistance resistance_;
-  int threads_{1};
+  std::shared_ptr<ThreadPool> threads_{std::make_shared<ThreadPool>()};
   CrowdSnapshot memory_;
   WalkerGrid grid_;  ///< positions at the last tick
   std::vector<Obstacle> robots_;

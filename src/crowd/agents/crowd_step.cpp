@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/math/parallel.h"
 #include "crowd/agents/crowd.h"
 #include "crowd/body/gait.h"
 #include "reference/crowd/paper_decision.h"
@@ -46,12 +45,10 @@ struct Crowd::Tick {
 
 template <class Each>
 void Crowd::forAll(std::size_t count, Each each) const {
-  const std::size_t parts =
-      std::min<std::size_t>(static_cast<std::size_t>(threads_), count / FEW + 1);
-  const auto run = [&](std::size_t part) {
+  const std::size_t parts = std::min(threads_->size(), count / FEW + 1);
+  threads_->run(parts, [&](std::size_t part) {
     for (std::size_t i = count * part / parts; i < count * (part + 1) / parts; ++i) each(i);
-  };
-  runInParallel(parts, run);
+  });
 }
 
 void Crowd::advance(Nanoseconds stamp) {

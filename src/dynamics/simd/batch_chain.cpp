@@ -130,7 +130,7 @@ void BatchChain::setState(int tree, const ChainState& state, double theta) {
     }
   }
   setTheta(member, theta, member.products);
-  groups_[member.group].calm = false;  // the guard checks the new state itself
+  groups_[member.group].calm = groups_[member.group].stepped = false;  // the guard checks itself
 }
 
 void BatchChain::setProducts(Products products) {
@@ -138,16 +138,44 @@ void BatchChain::setProducts(Products products) {
 }
 
 ChainState BatchChain::state(int tree) const {
-  const Member& member = trees_[static_cast<std::size_t>(tree)];
   ChainState out;
-  out.q.reserve(member.count);
-  out.rate.reserve(member.count);
+  readState(tree, out);
+  return out;
+}
+
+void BatchChain::readState(int tree, ChainState& out) const {
+  const Member& member = trees_[static_cast<std::size_t>(tree)];
+  out.q.resize(member.count);
+  out.rate.resize(member.count);
   for (std::size_t i = 0; i < member.count; ++i) {
     const float* rows = store_->state.of(slots_[member.first + i], S_ROWS);
-    out.q.emplace_back(rows[S_Q * ROW], rows[(S_Q + 1) * ROW]);
-    out.rate.emplace_back(rows[S_RATE * ROW], rows[(S_RATE + 1) * ROW]);
+    out.q[i] = Vec2(rows[S_Q * ROW], rows[(S_Q + 1) * ROW]);
+    out.rate[i] = Vec2(rows[S_RATE * ROW], rows[(S_RATE + 1) * ROW]);
   }
-  return out;
+}
+
+Vec2 BatchChain::bend(int tree, std::size_t link) const {
+  const Member& member = trees_[static_cast<std::size_t>(tree)];
+  const float* rows = store_->state.of(slots_[member.first + link], S_ROWS);
+  return {rows[S_Q * ROW], rows[(S_Q + 1) * ROW]};
+}
+
+// Comparisons with NaN are false, so it is counted as beyond.
+bool BatchChain::isWithin(double bend, double rate) const {
+  constexpr double ROUNDING = 1.0 - 1e-6;
+  const float most_bend = static_cast<float>(ROUNDING * bend * bend),
+              most_rate = static_cast<float>(ROUNDING * rate * rate);
+  int within = 0;
+  for (std::size_t block = 0; block < blocks(); ++block) {
+    const float* rows = store_->state.at(block * S_ROWS);
+    for (int lane = 0; lane < ROW; ++lane) {
+      const float x = rows[S_Q * ROW + lane], y = rows[(S_Q + 1) * ROW + lane];
+      const float u = rows[S_RATE * ROW + lane], v = rows[(S_RATE + 1) * ROW + lane];
+      within += static_cast<int>(x * x + y * y <= most_bend) &
+                static_cast<int>(u * u + v * v <= most_rate);
+    }
+  }
+  return within == slot_count_;
 }
 
 std::size_t BatchChain::bytes() const {
@@ -166,6 +194,8 @@ std::size_t BatchChain::bytes() const {
 // ---- guard -------------------------------------------------------------------------------------
 
 double BatchChain::fastestOf(const Member& member) const {
+  const ChainGroup& group = groups_[member.group];
+  if (group.stepped && group.trees.size() == 1) return group.fastest;
   float out = 0.f;
   for (std::size_t i = 0; i < member.count; ++i) {
     const float* rows = store_->state.of(slots_[member.first + i], S_ROWS);
@@ -216,6 +246,7 @@ void BatchChain::stepGroup(ChainGroup& group, const Surroundings* around, double
   std::stable_sort(store_->anchors.begin(), store_->anchors.end(),
                    [](const AnchorRows& a, const AnchorRows& b) { return a.slot < b.slot; });
   group.fastest = sweepBack(group, step, *store_);
+  group.stepped = true;
 }
 
 void BatchChain::stepWithin(const Surroundings* around, std::size_t count, double time, double h,
@@ -231,6 +262,7 @@ void BatchChain::stepWithin(const Surroundings* around, std::size_t count, doubl
   for (ChainGroup& group : groups_)
     if (!group.levels.empty()) stepGroup(group, around, time, h, number);
   query_ = nullptr;
+  loaded_ = nullptr;
 }
 
 void BatchChain::step(const std::vector<Surroundings>& around, double time, double h, int number) {

@@ -44,9 +44,14 @@ class BatchChain {
   int treeCount() const { return static_cast<int>(trees_.size()); }
   void setState(int tree, const ChainState& state, double theta = 0.5);
   ChainState state(int tree) const;
+  void readState(int tree, ChainState& out) const;
+  Vec2 bend(int tree, std::size_t link) const;
   double theta(int tree) const { return trees_[static_cast<std::size_t>(tree)].theta; }
   /// Returns the largest rate of a joint about an axis [rad/s].
   double fastest(int tree) const { return fastestOf(trees_[static_cast<std::size_t>(tree)]); }
+  /// Returns true if all joints of all trees are finite, bent by at most `bend` [rad] and no faster
+  /// than `rate` [rad/s]; it may return false if one is within 1e-6 of a limit.
+  bool isWithin(double bend, double rate) const;
   std::size_t bytes() const;
 
   void setProducts(Products products);
@@ -57,6 +62,10 @@ class BatchChain {
   /// the rates that it predicts for their middle, of second order too, for two thirds of the cost.
   void step(const std::vector<Surroundings>& around, double time, double h, int number = 0);
   void step(const Surroundings& around, double time, double h, int number = 0);
+
+  /// Names the only links that the loads of the next step read and act on, in every tree; null:
+  /// all. It saves time only.
+  void setLoadedLinks(const std::vector<std::size_t>* links) { loaded_ = links; }
 
   /// Lets air act on a tree's links, one grip each, in addition to loads. The air is still until
   /// queryWind().
@@ -77,8 +86,8 @@ class BatchChain {
     std::vector<int> base;             ///< [links] base of the root of each
     std::vector<int> roots;            ///< links
     std::vector<BaseMotion> bases;
-    bool loaded{false};
-    bool on_axis{true};  ///< all grips are on the links' axes
+    std::vector<std::size_t> loaded;  ///< links whose rows may hold loads
+    bool on_axis{true};               ///< all grips are on the links' axes
   };
   Member& member(int tree) { return trees_[static_cast<std::size_t>(tree)]; }
   void sortGroup(const std::vector<std::vector<Link>>& trees, std::size_t index);
@@ -86,7 +95,8 @@ class BatchChain {
   void fill(const std::vector<std::vector<Link>>& trees);
   void sortBySlot(const ChainGroup& group);
   void fillBases(const Member& member);
-  void fillLoads(const Loads& loads, Member& member);
+  void fillLoads(const std::vector<std::size_t>& links, Member& member);
+  void evaluateLoads(const Surroundings& around, double time, Member& member);
   const BaseMotion& baseOf(const Member& member, std::size_t link) const;
   double fastestOf(const Member& member) const;
   void setTheta(Member& member, double theta, double products);
@@ -103,8 +113,10 @@ class BatchChain {
   std::vector<int> slots_;  ///< [links of all trees]
   int slot_count_{0};
   WindQuery query_;
+  const std::vector<std::size_t>* loaded_{nullptr};  ///< in the next step
   Kinematics kinematics_;
-  Loads loads_;
+  Loads loads_;  ///< scratch; no loads between steps unless it is `loads_used_`
+  bool loads_used_{false};
 };
 
 }  // namespace vegetation_sim::physics

@@ -30,30 +30,51 @@ void BatchChain::fillBases(const Member& member) {
   }
 }
 
-void BatchChain::fillLoads(const Loads& loads, Member& member) {
+// Fills the rows of all links that have loads, or had some.
+void BatchChain::fillLoads(const std::vector<std::size_t>& links, Member& member) {
+  static const Loads NONE;
   if (store_->loads.empty()) store_->loads.assign(blocks() * L_ROWS);
-  for (const std::size_t i : member.by_slot)
-    fillLoad(loads, i, store_->loads.of(slots_[member.first + i], L_ROWS));
-  member.loaded = true;
-  store_->drag = store_->drag || !loads.drag.empty();
+  const auto fill = [&](const Loads& loads, std::size_t link) {
+    fillLoad(loads, link, store_->loads.of(slots_[member.first + link], L_ROWS));
+  };
+  if (links.size() < member.count)
+    for (const std::size_t link : member.loaded) fill(NONE, link);
+  for (const std::size_t link : links) fill(loads_, link);
+  if (member.loaded.size() != member.count || links.size() != member.count) member.loaded = links;
+  store_->drag = store_->drag || !loads_.drag.empty();
+}
+
+void BatchChain::evaluateLoads(const Surroundings& around, double time, Member& member) {
+  const bool few = loaded_ != nullptr;
+  const std::vector<std::size_t>& links = few ? *loaded_ : member.by_slot;
+  if (!few || loads_used_ || loads_.wrench.size() != member.count) loads_.clear(member.count);
+  loads_used_ = !few;
+  resize(kinematics_, member.count);
+  const int begin = groups_[member.group].begin;
+  for (const std::size_t i : links)
+    readMotion(store_->motion.of(slots_[member.first + i] - begin, M_ROWS),
+               baseOf(member, i).pose.position, i, kinematics_);
+  around.loads(kinematics_, time, loads_);
+  fillLoads(links, member);
 }
 
 void BatchChain::updateLoads(const Surroundings& around, double time, double h, Member& member) {
-  loads_.clear(member.count);
-  if (around.loads) {
-    resize(kinematics_, member.count);
-    const int begin = groups_[member.group].begin;
-    for (const std::size_t i : member.by_slot)
-      readMotion(store_->motion.of(slots_[member.first + i] - begin, M_ROWS),
-                 baseOf(member, i).pose.position, i, kinematics_);
-    around.loads(kinematics_, time, loads_);
+  if (!around.loads) {
+    if (!member.loaded.empty()) fillLoads({}, member);
+    return;
   }
-  if (around.loads || member.loaded) fillLoads(loads_, member);
-  member.loaded = static_cast<bool>(around.loads);
+  evaluateLoads(around, time, member);
   for (const Anchor& anchor : loads_.anchors) {
     const int slot = slots_[member.first + static_cast<std::size_t>(anchor.link)];
     store_->anchors.push_back(anchorRows(anchor, slot, member.theta * h));
   }
+  if (!loaded_) return;
+  for (const std::size_t link : *loaded_) {
+    loads_.wrench[link] = Wrench();
+    loads_.joint_torque[link] = Vec2::Zero();
+  }
+  loads_.anchors.clear();
+  loads_.drag.clear();
 }
 
 // ---- air ---------------------------------------------------------------------------------------

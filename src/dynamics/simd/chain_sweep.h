@@ -19,7 +19,8 @@ struct ChainGroup {
   bool bars{true};              ///< only round bars
   bool on_axis{true};           ///< air grips the axes of bars
   bool calm{true};              ///< all trees at theta = 1/2
-  float fastest{0.f};           ///< largest rate [rad/s]
+  float fastest{0.f};           ///< largest rate after the last step [rad/s]
+  bool stepped{false};          ///< `fastest` is that of the present state
 
   int workRows() const { return bars && on_axis ? W_BAR_ROWS : W_ROWS; }
 };

@@ -11,6 +11,7 @@
 
 #include "dynamics/contact/contact.h"
 #include "forest/contact/contact_body.h"
+#include "tree/growth/tree_grid.h"
 #include "vegetation_sim/tree/motion/pose.h"
 
 namespace vegetation_sim::forest {
@@ -38,6 +39,7 @@ struct ContactScene {
   const terrain::HeightMap& terrain;
   /// Returns the pose of every branch of a tree, in the tree's frame.
   std::function<std::vector<Pose>(const Tree&, std::uint32_t tree, Nanoseconds stamp)> pose;
+  const TreeGrid* grid{nullptr};  ///< of the layout; null: all trees are compared with each body
 };
 
 /// The physical branches of one tree at the start of a step; link i is branches[i].

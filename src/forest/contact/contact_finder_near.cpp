@@ -55,7 +55,7 @@ void ContactFinder::findNear(const ContactScene& scene, const Bodies& bodies, Na
   for (const auto& entry : bodies) {
     const Ball ball = ballOf(entry.second, from, to);
     for (const std::uint32_t tree :
-         findTreesNear(scene.layout, scene.terrain, ball.centre, ball.radius))
+         findTreesNear(scene.layout, scene.grid, scene.terrain, ball.centre, ball.radius))
       balls[tree].push_back(ball);
   }
   const std::lock_guard<std::mutex> lock(mutex_);

@@ -3,23 +3,35 @@
 #include "forest/physics/forest_physics.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "forest/physics/tree_steps.h"
 
 namespace vegetation_sim::forest {
 namespace {
 
 /// Interval of the choice of physical branches.
 constexpr Nanoseconds REVIEW = NANOSECONDS_PER_SECOND / 10;
-/// Steps that use the wind of one stamp: 60 Hz.
-constexpr std::size_t AIR_STEPS = 4;
 /// Physical branches stay so down to this fraction of the tolerance (hysteresis).
 constexpr double KEEP = 0.5;
 
-// Steps are equal in whole nanoseconds, so no rounding accumulates.
 std::size_t stepsBetween(Nanoseconds from, Nanoseconds to) {
   const Nanoseconds gap = to - from;
   return static_cast<std::size_t>((gap * PHYSICS_RATE + NANOSECONDS_PER_SECOND - 1) /
                                   NANOSECONDS_PER_SECOND);
+}
+
+// Splits trees into ranges with about equally many branches; returns the end of each.
+std::vector<std::size_t> splitByBranches(const std::vector<TreeSteps>& trees, std::size_t parts) {
+  std::size_t all = 0, sum = 0;
+  for (const TreeSteps& steps : trees) all += steps.branchCount();
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < trees.size(); ++i) {
+    const std::size_t middle = sum + trees[i].branchCount() / 2;
+    while (out.size() + 1 < parts && middle * parts >= all * (out.size() + 1)) out.push_back(i);
+    sum += trees[i].branchCount();
+  }
+  out.resize(parts, trees.size());
+  return out;
 }
 
 Vec3 pointOn(const Pose& pose, double along) {
@@ -33,8 +45,10 @@ void ForestPhysics::advance(const StepContext& context, Nanoseconds to) {
   const std::vector<Reaction> published = std::move(reactions_);
   reactions_.clear();
   steps_ = 0;
-  scratch_.replaced = 0;
-  scratch_.window = WindWindow();  // the wind may have changed
+  for (SubtreeScratch& scratch : scratches_) {
+    scratch.replaced = 0;
+    scratch.windows.clear();
+  }
   endLeases(to);
   if (!subtrees_.empty() || !grabs_.empty() || !pushes_.empty() || !bodies_.empty())
     stepAll(context, to);
@@ -49,10 +63,38 @@ void ForestPhysics::stepAll(const StepContext& context, Nanoseconds to) {
   if (gap && !subtrees_.empty()) ++skipped_;
   const Nanoseconds start = gap ? to : from;
   promoteLoaded(context, start, to);
-  const std::size_t steps = subtrees_.empty() ? 0 : stepsBetween(start, to);
-  for (std::size_t k = 0; k < steps; ++k) step(context, start, to, k, steps);
-  steps_ = steps;
-  finishTick(context, start, to);
+  steps_ = subtrees_.empty() ? 0 : stepsBetween(start, to);
+  stepTrees({context, settings_, bodies_, {start, to, steps_}});
+  finishTick(to);
+}
+
+// Each thread steps tree after tree, so that each tree stays in the caches during its steps.
+void ForestPhysics::stepTrees(const TickContext& tick) {
+  std::vector<TreeSteps> trees;
+  for (auto& [tree, subtree] : subtrees_)
+    if (!subtree.empty()) trees.emplace_back(tree, subtree);
+  const auto stepsOf = [&](std::uint32_t tree) {
+    const auto found = std::lower_bound(
+        trees.begin(), trees.end(), tree,
+        [](const TreeSteps& steps, std::uint32_t id) { return steps.tree() < id; });
+    return found != trees.end() && found->tree() == tree ? &*found : nullptr;
+  };
+  for (auto& entry : grabs_)
+    if (TreeSteps* steps = stepsOf(entry.second.point.tree)) steps->add(entry.second);
+  for (const Push& push : pushes_)
+    if (TreeSteps* steps = stepsOf(push.point.tree)) steps->add(push);
+  for (const std::uint32_t tree : near_)
+    if (TreeSteps* steps = stepsOf(tree)) steps->setContacts(persistent_contacts_[tree]);
+  const std::vector<std::size_t> ends = splitByBranches(trees, tick.forest.threads.size());
+  if (scratches_.size() < ends.size()) scratches_.resize(ends.size());
+  tick.forest.threads.run(ends.size(), [&](std::size_t part) {
+    for (std::size_t i = part ? ends[part - 1] : 0; i < ends[part]; ++i)
+      trees[i].run(tick, scratches_[part]);
+  });
+  for (const TreeSteps& steps : trees) coarse_ += steps.coarseSteps();
+  publishContactReactions(trees);
+  for (const TreeSteps& steps : trees)
+    reactions_.insert(reactions_.end(), steps.grabReactions().begin(), steps.grabReactions().end());
 }
 
 void ForestPhysics::endLeases(Nanoseconds stamp) {
@@ -75,8 +117,9 @@ void ForestPhysics::promoteLoaded(const StepContext& context, Nanoseconds from, 
   const auto pose_tree = [&](const Tree& tree, std::uint32_t id, Nanoseconds stamp) {
     return pose(context, tree, id, stamp);
   };
-  context.contacts.findNear({context.layout, context.layout_hash, context.terrain, pose_tree},
-                            bodies_, from, to, loaded);
+  context.contacts.findNear(
+      {context.layout, context.layout_hash, context.terrain, pose_tree, &context.grid}, bodies_,
+      from, to, loaded);
   near_.clear();
   for (const auto& entry : loaded) near_.push_back(entry.first);
   for (auto it = persistent_contacts_.begin(); it != persistent_contacts_.end();)
@@ -129,7 +172,8 @@ void ForestPhysics::promoteInTree(const StepContext& context, std::uint32_t tree
        subtree.joints())  // beyond the cap: makes room for loaded branches
     if (!std::binary_search(selection.branches.begin(), selection.branches.end(), joint.branch))
       score[static_cast<std::size_t>(joint.branch)] = 0.0;
-  const ProceduralMotion motion = scratch_.motionOf(subtree.tree(), windOf(context, tree), stamp);
+  const ProceduralMotion motion =
+      scratches_[0].motionOf(subtree.tree(), context.windOf(tree), stamp);
   refused_[tree] = selection.refused +
                    subtree.promote(selection.branches, score, KEEP * threshold, motion, settings_);
 }
@@ -162,68 +206,7 @@ std::vector<BranchLoad> ForestPhysics::predictLoads(std::uint32_t tree,
   return out;
 }
 
-// Step number k of n between two ticks.
-void ForestPhysics::step(const StepContext& context, Nanoseconds from, Nanoseconds to,
-                         std::size_t k, std::size_t n) {
-  const auto stamp_of = [&](std::size_t i) {
-    return from + (to - from) * static_cast<Nanoseconds>(i) / static_cast<Nanoseconds>(n);
-  };
-  for (auto& [tree, subtree] : subtrees_) {
-    if (subtree.empty()) continue;
-    collectSprings(tree, subtree.tree().foot, from, to);
-    addPushes(tree, stamp_of(k), stamp_of(k + 1));
-    if (k == 0) accumulateImpulses(context, tree, subtree, from, from);
-    loads_.air = NEVER;
-    loads_.hold = false;
-    if (isNear(tree)) {
-      stepNearBodies(context, tree, subtree, stamp_of(k), stamp_of(k + 1));
-      continue;
-    }
-    const std::size_t first = k - k % AIR_STEPS, last = std::min(first + AIR_STEPS, n);
-    loads_.air = (stamp_of(first) + stamp_of(last)) / 2;
-    loads_.hold = k != first;
-    subtree.step(windOf(context, tree), loads_, settings_, stamp_of(k), stamp_of(k + 1), scratch_);
-    accumulateImpulses(context, tree, subtree, stamp_of(k), stamp_of(k + 1));
-  }
-}
-
-// Collects the springs on a tree. Targets move in a straight line between ticks.
-void ForestPhysics::collectSprings(std::uint32_t tree, const Vec3& foot, Nanoseconds from,
-                                   Nanoseconds to) {
-  loads_.springs.clear();
-  loads_.forces.clear();
-  const double seconds = secondsBetween(from, to);
-  for (const auto& [id, grab] : grabs_) {
-    if (grab.point.tree != tree) continue;
-    Vec3 velocity = Vec3::Zero();
-    if (seconds > 0.0) velocity = (grab.target - grab.last_target) / seconds;
-    loads_.springs.push_back({grab.point, grab.target - foot, velocity, to, grab.stiffness,
-                              grab.damping, grab.force_limit});
-  }
-}
-
-// Adds forces on a tree as means over a step, so that each push has its whole impulse.
-void ForestPhysics::addPushes(std::uint32_t tree, Nanoseconds from, Nanoseconds to) {
-  for (const Push& push : pushes_) {
-    const Nanoseconds begin = std::max(push.from, from), end = std::min(push.until, to);
-    if (push.point.tree != tree || end <= begin) continue;
-    const double share = secondsBetween(begin, end) / secondsBetween(from, to);
-    loads_.forces.push_back({push.point.branch, push.point.along, share * push.force});
-  }
-}
-
-// Publishes reactions and demotes branches after the last step.
-void ForestPhysics::finishTick(const StepContext& context, Nanoseconds from, Nanoseconds to) {
-  publishContactReactions();
-  for (auto& [tree, subtree] : subtrees_) {
-    if (to <= from) {
-      collectSprings(tree, subtree.tree().foot, from, to);
-      accumulateImpulses(context, tree, subtree, to, to);
-    }
-    publishGrabReactions(tree, subtree, secondsBetween(from, to));
-    subtree.demote(scratch_.motionOf(subtree.tree(), windOf(context, tree), to), settings_,
-                   scratch_);
-  }
+void ForestPhysics::finishTick(Nanoseconds to) {
   for (auto& [id, grab] : grabs_) grab.last_target = grab.target;
   pushes_.erase(std::remove_if(pushes_.begin(), pushes_.end(),
                                [&](const Push& push) { return push.until <= to; }),
@@ -231,8 +214,7 @@ void ForestPhysics::finishTick(const StepContext& context, Nanoseconds from, Nan
   for (auto it = subtrees_.begin(); it != subtrees_.end();)
     it = it->second.empty() && !isLoaded(it->first) ? subtrees_.erase(it) : std::next(it);
   if (!subtrees_.empty()) return;
-  scratch_ = SubtreeScratch();
-  loads_ = SubtreeLoads();
+  scratches_ = std::vector<SubtreeScratch>(1);
 }
 
 bool ForestPhysics::isLoaded(std::uint32_t tree) const {
@@ -241,58 +223,6 @@ bool ForestPhysics::isLoaded(std::uint32_t tree) const {
     if (entry.second.point.tree == tree) return true;
   return std::any_of(pushes_.begin(), pushes_.end(),
                      [&](const Push& push) { return push.point.tree == tree; });
-}
-
-// Adds the impulse of the grabs on a tree between two stamps: springs by the positions at both,
-// dampers by the displacement. Equal stamps begin a tick.
-void ForestPhysics::accumulateImpulses(const StepContext& context, std::uint32_t tree,
-                                       const PhysicalSubtree& subtree, Nanoseconds from,
-                                       Nanoseconds to) {
-  if (loads_.springs.empty()) return;
-  subtree.placesAt(loads_.springs, windOf(context, tree), to, scratch_, scratch_.places);
-  const double h = secondsBetween(from, to);
-  std::size_t index = 0;
-  for (auto& [id, grab] : grabs_) {
-    if (grab.point.tree != tree) continue;
-    const SubtreeSpring& spring = loads_.springs[index];
-    const Vec3 before = grab.grip;
-    grab.grip = scratch_.places[index++];
-    if (subtree.linkOf(grab.point.branch) < 0) continue;
-    if (h <= 0.0) {
-      const SpringForce now = forceOf(spring, to, grab.grip, spring.velocity);
-      grab.force = now.force;
-      grab.impulse = Vec3::Zero();
-      grab.limited = now.scale < 1.0;
-      continue;
-    }
-    const SpringForce mean = forceOf(spring, from + (to - from) / 2, 0.5 * (before + grab.grip),
-                                     (grab.grip - before) / h);
-    grab.impulse += h * mean.force;
-    grab.limited = grab.limited || mean.scale < 1.0;
-  }
-}
-
-// Publishes the reactions of the springs on a tree: means over the tick, with their whole impulse;
-// after a gap in time, the present forces.
-void ForestPhysics::publishGrabReactions(std::uint32_t tree, const PhysicalSubtree& subtree,
-                                         double duration) {
-  for (auto& [id, grab] : grabs_) {
-    if (grab.point.tree != tree || subtree.linkOf(grab.point.branch) < 0) continue;
-    if (duration > 0.0) grab.force = grab.impulse / duration;
-    Reaction out;
-    out.grab = id;
-    out.frame = grab.frame;
-    out.holder = grab.holder;
-    out.at = grab.point;
-    out.point = subtree.tree().foot + grab.grip;
-    out.force = -grab.force;
-    out.limited = grab.limited;
-    reactions_.push_back(out);
-  }
-}
-
-TreeWind ForestPhysics::windOf(const StepContext& context, std::uint32_t tree) const {
-  return {context.wind, context.levels.of(tree), context.layout.motion, context.modes.find(tree)};
 }
 
 PromotedTree ForestPhysics::promoted(std::uint32_t tree, Nanoseconds last_tick) const {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/threads/thread_pool.h"
 #include "forest/contact/contact_finder.h"
 #include "forest/contact/substep_bisection.h"
 #include "tree/physical/interaction.h"
@@ -26,8 +27,16 @@ struct StepContext {
   const LevelMap& levels;
   const ModalForest& modes;
   const ContactFinder& contacts;
+  const TreeGrid& grid;
+  ThreadPool& threads;
   Nanoseconds stamp;  ///< of the last tick
+
+  TreeWind windOf(std::uint32_t tree) const {
+    return {wind, levels.of(tree), layout.motion, modes.find(tree)};
+  }
 };
+struct TickContext;
+class TreeSteps;
 
 /// A grab in force and its state between ticks.
 struct HeldGrab : Grab {
@@ -85,29 +94,17 @@ class ForestPhysics {
 
  private:
   PhysicalSubtree& findOrAddSubtree(const StepContext& context, std::uint32_t tree);
-  TreeWind windOf(const StepContext& context, std::uint32_t tree) const;
   void endLeases(Nanoseconds stamp);
   void stepAll(const StepContext& context, Nanoseconds to);
   void promoteLoaded(const StepContext& context, Nanoseconds from, Nanoseconds to);
   void promoteInTree(const StepContext& context, std::uint32_t tree, PhysicalSubtree& subtree,
                      const std::vector<int>& loaded, Nanoseconds stamp);
   std::vector<BranchLoad> predictLoads(std::uint32_t tree, const PhysicalSubtree& subtree) const;
-  void step(const StepContext& context, Nanoseconds from, Nanoseconds to, std::size_t k,
-            std::size_t n);
   bool isNear(std::uint32_t tree) const;
-  void stepNearBodies(const StepContext& context, std::uint32_t tree, PhysicalSubtree& subtree,
-                      Nanoseconds from, Nanoseconds to);
-  void substep(const StepContext& context, const ContactTree& tree, PhysicalSubtree& subtree,
-               Nanoseconds from, Nanoseconds to, Nanoseconds whole, SubstepBisection& bisection);
-  void accumulateReactions(const std::vector<Reaction>& reactions);
-  void publishContactReactions();
+  void stepTrees(const TickContext& tick);
+  void publishContactReactions(const std::vector<TreeSteps>& trees);
   void decayReactions(const std::vector<Reaction>& published, double duration);
-  void collectSprings(std::uint32_t tree, const Vec3& foot, Nanoseconds from, Nanoseconds to);
-  void addPushes(std::uint32_t tree, Nanoseconds from, Nanoseconds to);
-  void accumulateImpulses(const StepContext& context, std::uint32_t tree,
-                          const PhysicalSubtree& subtree, Nanoseconds from, Nanoseconds to);
-  void finishTick(const StepContext& context, Nanoseconds from, Nanoseconds to);
-  void publishGrabReactions(std::uint32_t tree, const PhysicalSubtree& subtree, double duration);
+  void finishTick(Nanoseconds to);
   bool isLoaded(std::uint32_t tree) const;
 
   PhysicsSettings settings_;
@@ -123,10 +120,8 @@ class ForestPhysics {
   Nanoseconds next_review_{0};
   std::size_t steps_{0}, skipped_{0}, coarse_{0};
   std::map<std::uint32_t, std::size_t> refused_;  // branches that found no room, by tree
-  std::vector<std::uint32_t> near_;          // trees that bodies may touch in this tick, rising
-  std::vector<Reaction> contact_reactions_;  // of this tick, sums over its steps
-  SubtreeLoads loads_;                       // scratch
-  SubtreeScratch scratch_;                   // freed with the last subtree
+  std::vector<std::uint32_t> near_;           // trees that bodies may touch in this tick, rising
+  std::vector<SubtreeScratch> scratches_{1};  // of threads; freed with the last subtree
 };
 
 }  // namespace vegetation_sim::forest

@@ -18,7 +18,7 @@ PhysicsFigures ForestPhysics::figures() const {
   for (const auto& entry : refused_) out.refused += entry.second;
   out.skipped = skipped_;
   out.coarse = coarse_;
-  out.replaced = scratch_.replaced;
+  for (const SubtreeScratch& scratch : scratches_) out.replaced += scratch.replaced;
   for (const Reaction& reaction : reactions_) out.capped_forces += reaction.limited ? 1 : 0;
   return out;
 }

@@ -24,6 +24,7 @@ std::unique_ptr<forest::Forest> makeForest(const ForestOptions& options) {
   auto out = std::make_unique<forest::Forest>(designed(options.scene.layout, options.tuning),
                                               options.scene.terrain, options.tuning.settings);
   out->setPhysics(options.scene.physics);
+  out->setThreads(options.threads);
   out->precompute();
   return out;
 }

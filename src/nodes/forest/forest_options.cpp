@@ -30,6 +30,7 @@ void describe(FieldVisitor& v, ForestOptions& o) {
   v.number("branches_rate", o.branches_rate, "Hz", {0.1, 240.0});
   v.integer("branches_budget", o.branches_budget, "branches", {0, 1000000});
   v.integer("cache_budget", o.cache_budget, "branches", {1000, 20000000});
+  v.integer("threads", o.threads, "", {1, 64});
   v.number("grab_lease", o.grab_lease, "s", {0.1, 3600.0});
   v.number("grab_distance", o.grab_distance, "m", {0.1, 1000.0});
   describe(v, o.tuning);

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/sensors/vegetation_scanner.h"
 
+#include <algorithm>
+#include <thread>
+
 #include "ros/conversions/scan_conversions.h"
 #include "ros/services/requests.h"
 #include "ros/services/service_replies.h"
@@ -24,6 +27,8 @@ VegetationScanner::VegetationScanner(const ros::NodeHandle& handle,
                   [this](const std::string& input, const std::string& why) {
                     refusals_.add(input, why);
                   }}),
+      threads_(
+          std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, options_.threads)),
       tf_buffer_(ros::Duration(tf2::BufferCore::DEFAULT_CACHE_TIME),
                  true),  // with the service that shows its frames
       tf_listener_(tf_buffer_),
@@ -87,7 +92,7 @@ void VegetationScanner::sweep(const Pose& sensor, std::int64_t tick) {
     return scan::NoiseKeys{options_.seed, static_cast<std::uint64_t>(tick), sensor};
   };
   if (cloud_publisher_.getNumSubscribers() + report_publisher_.getNumSubscribers() > 0) {
-    const auto returns = scan::sweep(scene_, options_.beams, sensor, noiseOf(0), options_.threads);
+    const auto returns = scan::sweep(scene_, options_.beams, sensor, noiseOf(0), threads_);
     sensor_msgs::PointCloud2 cloud = toCloud(returns, options_.beams);
     ScanReport report = toReport(returns, scene_.trees);
     cloud.header = report.header = header();
@@ -98,7 +103,7 @@ void VegetationScanner::sweep(const Pose& sensor, std::int64_t tick) {
   if (scan_publisher_.getNumSubscribers() == 0) return;
   const scan::Beams plane = scan::planeOf(options_.beams);
   sensor_msgs::LaserScan scan =
-      toScan(scan::sweep(scene_, plane, sensor, noiseOf(1), options_.threads), plane);
+      toScan(scan::sweep(scene_, plane, sensor, noiseOf(1), threads_), plane);
   scan.header = header();
   scan.scan_time = static_cast<float>(1.0 / options_.rate);
   scan_publisher_.publish(scan);

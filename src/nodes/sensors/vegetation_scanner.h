@@ -37,6 +37,7 @@ class VegetationScanner final : public NodeBase {
   ScanOptions options_;
   LandscapeReplica landscape_;
   scan::Scene scene_;
+  ThreadPool threads_;
   struct Counts {
     std::uint64_t sweeps{0}, unplaced{0}, lost{0};
     TickClock::Counts clock;

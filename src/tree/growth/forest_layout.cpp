@@ -63,10 +63,6 @@ std::uint16_t pickSpecies(const std::vector<float>& mix, double u) {
   return static_cast<std::uint16_t>(mix.size() - 1);
 }
 
-bool within(const Vec3& foot, const Vec3& centre, double distance) {
-  return length(foot - centre) <= distance;
-}
-
 }  // namespace
 
 void describe(FieldVisitor& v, MotionLaw& law) {
@@ -194,32 +190,6 @@ std::vector<std::uint32_t> findTreesInTile(const Tile& tile, const Vec3& point, 
 
 Vec3 footOf(const TreeSeed& seed, const terrain::HeightMap& terrain) {
   return seed.position + Vec3(0.0, 0.0, terrain.height(seed.position.x(), seed.position.y()));
-}
-
-std::vector<std::uint32_t> findTreesNear(const Layout& layout, const terrain::HeightMap& terrain,
-                                         const Vec3& centre, double radius) {
-  std::vector<double> size;
-  double largest = 0.0;
-  for (const Species& species : layout.species) size.push_back(sizeBound(species));
-  for (const double s : size) largest = std::max(largest, LARGEST_TILED_SCALE * s);
-  std::vector<std::uint32_t> out;
-  for (std::uint32_t i = 0; i < layout.trees.size(); ++i) {
-    const TreeSeed& seed = layout.trees[i];
-    if (within(footOf(seed, terrain), centre, seed.scale * size[seed.species] + radius))
-      out.push_back(i);
-  }
-  for (const Tile& tile : layout.tiles) {
-    const double room = largest + radius;
-    if (centre.x() < tile.x - room || centre.x() > tile.x + tile.size + room ||
-        centre.y() < tile.y - room || centre.y() > tile.y + tile.size + room)
-      continue;
-    for (const std::uint32_t i : findTreesInTile(tile, centre, room)) {
-      const TreeSeed seed = seedInTile(tile, i);
-      if (within(footOf(seed, terrain), centre, seed.scale * size[seed.species] + radius))
-        out.push_back(tile.first_tree + i);
-    }
-  }
-  return out;
 }
 
 }  // namespace vegetation_sim::forest

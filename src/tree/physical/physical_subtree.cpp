@@ -47,17 +47,19 @@ std::size_t PhysicalSubtree::blending() const {
 PromotedTree PhysicalSubtree::promoted(Nanoseconds stamp, double duration) const {
   PromotedTree out{stamp, duration, {}};
   out.branches.reserve(joints_.size());
+  const physics::ChainState& state = state_.get();
   for (std::size_t i = 0; i < joints_.size(); ++i)
     out.branches.push_back(
-        {joints_[i].branch, anglesOf(state_.q[i]), anglesOf(state_.rate[i]), joints_[i].blend});
+        {joints_[i].branch, anglesOf(state.q[i]), anglesOf(state.rate[i]), joints_[i].blend});
   return out;
 }
 
 void PhysicalSubtree::setMaterial(Material material) {
   wood_ = woodOf(tree_->skeleton, species_, material);
   std::vector<Joined> all;
+  const physics::ChainState& state = state_.get();
   for (std::size_t i = 0; i < joints_.size(); ++i)
-    all.push_back({joints_[i], state_.q[i], state_.rate[i]});
+    all.push_back({joints_[i], state.q[i], state.rate[i]});
   rebuild(all);
 }
 
@@ -67,19 +69,21 @@ void PhysicalSubtree::rebuild(const std::vector<Joined>& joints) {
   mask_.assign(mask_.size(), 0);
   joints_.clear();
   branches_.clear();
-  chain_.held.reset();
-  state_ = physics::ChainState();
+  state_.setChain(nullptr);
+  physics::ChainState& state = state_.change();
+  state = physics::ChainState();
   joints_.reserve(n);
   branches_.reserve(n);
-  state_.q.reserve(n);
-  state_.rate.reserve(n);
+  state.q.reserve(n);
+  state.rate.reserve(n);
   for (const Joined& joined : joints) {
     mask_[index(joined.joint.branch)] = 1;
     joints_.push_back(joined.joint);
     branches_.push_back(joined.joint.branch);
-    state_.q.push_back(joined.q);
-    state_.rate.push_back(joined.rate);
+    state.q.push_back(joined.q);
+    state.rate.push_back(joined.rate);
   }
+  findLastPromoted();
   findCarriers();
   std::vector<Composite> clusters;
   const bool whole = n == mask_.size();
@@ -95,6 +99,12 @@ void PhysicalSubtree::rebuild(const std::vector<Joined>& joints) {
     drags_.push_back({body.drag, centre});
   }
   physics::shareInertia(links_);
+}
+
+void PhysicalSubtree::findLastPromoted() {
+  last_promoted_ = NEVER;
+  for (const SubtreeJoint& joint : joints_)
+    if (last_promoted_ == NEVER || joint.promoted > last_promoted_) last_promoted_ = joint.promoted;
 }
 
 void PhysicalSubtree::findCarriers() {
@@ -131,7 +141,7 @@ physics::Link PhysicalSubtree::linkFor(std::size_t link, const Composite& body) 
 
 std::size_t PhysicalSubtree::bytes() const {
   const std::size_t n = mask_.capacity();
-  return sizeof(*this) + n + (chain_.held ? chain_.held->bytes() : 0) +
+  return sizeof(*this) + n + (state_.chain() ? state_.chain()->bytes() : 0) +
          joints_.capacity() * (sizeof(SubtreeJoint) + sizeof(int) + 2 * sizeof(physics::Vec2)) +
          links_.capacity() * (sizeof(physics::Link) + sizeof(LinkDrag)) +
          carriers_.capacity() * sizeof(int) +
@@ -141,6 +151,7 @@ std::size_t PhysicalSubtree::bytes() const {
 
 void PhysicalSubtree::addTo(Hash& hash) const {
   hash.add(theta_);
+  const physics::ChainState& state = state_.get();
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     const SubtreeJoint& joint = joints_[i];
     hash.add(static_cast<std::uint64_t>(joint.branch));
@@ -148,7 +159,7 @@ void PhysicalSubtree::addTo(Hash& hash) const {
       hash.add(static_cast<std::uint64_t>(stamp));
     hash.add(joint.compensation);
     hash.add(static_cast<std::uint64_t>(joint.wanted));
-    for (const physics::Vec2& v : {state_.q[i], state_.rate[i]}) hash.add(v.x()), hash.add(v.y());
+    for (const physics::Vec2& v : {state.q[i], state.rate[i]}) hash.add(v.x()), hash.add(v.y());
   }
 }
 

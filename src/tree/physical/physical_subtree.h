@@ -5,11 +5,11 @@
 #include <memory>
 #include <vector>
 
-#include "dynamics/simd/batch_chain.h"
 #include "tree/physical/influence.h"
 #include "tree/physical/interaction.h"
 #include "tree/physical/procedural_motion.h"
 #include "tree/physical/subtree_scratch.h"
+#include "tree/physical/subtree_state.h"
 #include "vegetation_sim/tree/state/promoted_branches.h"
 
 namespace vegetation_sim::forest {
@@ -43,22 +43,6 @@ struct SubtreeLoads {
   bool hold{false};  ///< the step uses the wind of the step before
 };
 
-/// Derived data that is rebuilt on demand: a copy starts empty.
-template <typename T>
-struct Rebuilt {
-  std::unique_ptr<T> held;
-
-  Rebuilt() = default;
-  Rebuilt(const Rebuilt&) {}
-  Rebuilt(Rebuilt&&) noexcept = default;
-  ~Rebuilt() = default;
-  Rebuilt& operator=(const Rebuilt&) {
-    held.reset();
-    return *this;
-  }
-  Rebuilt& operator=(Rebuilt&&) noexcept = default;
-};
-
 /// The physical part of one tree: any set of branches that is connected between each branch and its
 /// highest physical ancestor, so that its lowest branches hang on procedural wood or the ground.
 /// Physical branches carry their unpromoted sub-trees rigidly (S1-W9); those move procedurally on
@@ -81,7 +65,7 @@ class PhysicalSubtree {
   const std::vector<SubtreeJoint>& joints() const { return joints_; }  ///< [links]
   const std::vector<int>& branches() const { return branches_; }       ///< [links] rising
   const std::vector<physics::Link>& links() const { return links_; }   ///< [links]
-  const physics::ChainState& state() const { return state_; }          ///< [links]
+  const physics::ChainState& state() const { return state_.get(); }    ///< [links]
   int linkOf(int branch) const;                                        ///< -1 if not physical
   bool holds(int branch) const;  ///< physical and not blending back
   std::size_t blending() const;
@@ -97,7 +81,7 @@ class PhysicalSubtree {
   void releaseJoints();
   /// Starts blends of branches that are not needed and calm, or have waited long enough; ends
   /// completed blends.
-  void demote(const ProceduralMotion& motion, const PhysicsSettings& settings,
+  void demote(const TreeWind& air, Nanoseconds stamp, const PhysicsSettings& settings,
               SubtreeScratch& scratch);
   /// Changes the duration of blends; running ones continue from their progress.
   void stretchBlends(Nanoseconds stamp, double from, double to);
@@ -116,8 +100,11 @@ class PhysicalSubtree {
     physics::ChainState state;
     double theta{0.5};
   };
-  SavedState saveState() const { return {state_, theta_}; }
-  void restoreState(const SavedState& saved) { state_ = saved.state, theta_ = saved.theta; }
+  SavedState saveState() const { return {state_.get(), theta_}; }
+  void restoreState(const SavedState& saved) {
+    state_.change() = saved.state;
+    theta_ = saved.theta;
+  }
   /// Computes poses and velocities of the links, tree's frame.
   void kinematicsAt(const TreeWind& air, Nanoseconds stamp, SubtreeScratch& scratch,
                     physics::Kinematics& out) const;
@@ -142,24 +129,32 @@ class PhysicalSubtree {
   void limitJoints();
   void rebuild(const std::vector<Joined>& joints);
   void findCarriers();
+  void findLastPromoted();
   physics::Link linkFor(std::size_t link, const Composite& body) const;
   bool leavesGap(const std::vector<char>& mask, int branch) const;
   void cancelBlend(int link, const ProceduralMotion& motion, double duration);
-  bool canBlend(std::size_t link, Nanoseconds stamp, const ProceduralMotions& motions,
-                const PhysicsSettings& settings) const;
+  static bool isWaiting(const SubtreeJoint& joint) { return !joint.wanted && joint.blend == NEVER; }
+  void startBlends(const TreeWind& air, Nanoseconds stamp, const PhysicsSettings& settings,
+                   SubtreeScratch& scratch);
+  void findCalm(const TreeWind& air, Nanoseconds stamp, const PhysicsSettings& settings,
+                SubtreeScratch& scratch) const;
+  void dropFarJoints(const ProceduralMotion& motion, const PhysicsSettings& settings,
+                     SubtreeScratch& scratch) const;
   double compensationAt(std::size_t link, Nanoseconds stamp, double fade) const;
-  void baseMotions(const ProceduralMotion& motion, SubtreeScratch& scratch,
+  void baseMotions(const TreeWind& air, Nanoseconds stamp, SubtreeScratch& scratch,
                    std::vector<physics::BaseMotion>& out) const;
-  void addWind(const ProceduralMotion& motion, const physics::Kinematics& kinematics,
+  void addWind(const WindWindow& wind, const physics::Kinematics& kinematics,
                const PhysicsSettings& settings, SubtreeScratch& scratch,
                physics::Loads& loads) const;
   physics::Drag dragAt(double force, const Vec3& wind, const Vec3& arm) const;
-  void addCompensation(const ProceduralMotion& motion, const PhysicsSettings& settings,
+  void addCompensation(const TreeWind& air, Nanoseconds stamp, const PhysicsSettings& settings,
                        SubtreeScratch& scratch, physics::Loads& loads) const;
   void addSprings(const SubtreeLoads& loads, Nanoseconds stamp,
                   const physics::Kinematics& kinematics, physics::Loads& out) const;
   void addForces(const SubtreeLoads& loads, const physics::Kinematics& kinematics,
                  physics::Loads& out) const;
+  const std::vector<std::size_t>& listLoaded(const SubtreeLoads& loads,
+                                             SubtreeScratch& scratch) const;
   Pose poseOf(int link, const std::vector<physics::BaseMotion>& bases) const;
 
   std::shared_ptr<const Tree> tree_;
@@ -171,13 +166,15 @@ class PhysicalSubtree {
   std::vector<physics::Link> links_;
   std::vector<LinkDrag> drags_;
   std::vector<int> carriers_;  // unpromoted ancestors of promoted branches, sorted
-  physics::ChainState state_;
+  SubtreeState state_;         // with the chain of links_
   double theta_{0.5};
-  Rebuilt<physics::BatchChain> chain_;  // of links_
+  Nanoseconds last_promoted_{NEVER};  // latest of joints_
 };
 
 /// Limits of bend [rad] and rate [rad/s] of physical joints.
 constexpr double LARGEST_BEND = 3.0, FASTEST_BEND = 1e4;
+/// Largest distance of any branch from its tree's foot [m].
+constexpr double LARGEST_TREE = 1e3;
 
 /// Force of a spring on its branch at `point` with `velocity`, and the factor that keeps its law
 /// within the force limit (1 below it).

@@ -10,8 +10,8 @@
 namespace vegetation_sim::forest {
 namespace {
 
-// Largest distance of any branch from its tree's foot [m].
-constexpr double LARGEST_REACH = 1e3;
+// Chains limit the bends of their joints up to rounding.
+constexpr double BEND_ROUNDING = 1.0 + 1e-6;
 
 // Velocity products are predicted instead of averaged where no joint turns farther in a step [rad].
 constexpr double PREDICTED_TURN = 0.01;
@@ -41,38 +41,34 @@ struct PhysicalSubtree::Step {
   Nanoseconds from;
   mutable Nanoseconds based{NEVER};  // stamp of scratch.bases
 
-  ProceduralMotion motionAt(double time) const {
-    return scratch.motionOf(part.tree(), air, from + fromSeconds(time));
-  }
-  void updateBases(const ProceduralMotion& motion) const {
-    if (based == motion.wind.stamp()) return;
-    part.baseMotions(motion, scratch, scratch.bases);
-    based = motion.wind.stamp();
+  Nanoseconds stampAt(double time) const { return from + fromSeconds(time); }
+  void updateBases(Nanoseconds stamp) const {
+    if (based == stamp) return;
+    part.baseMotions(air, stamp, scratch, scratch.bases);
+    based = stamp;
   }
   void bases(double time, std::vector<physics::BaseMotion>& out) const {
-    updateBases(motionAt(time));
+    updateBases(stampAt(time));
     out = scratch.bases;
   }
   void load(const physics::Kinematics& kinematics, double time, physics::Loads& out) const {
-    const ProceduralMotion motion = motionAt(time);
     out.clear(part.links_.size());
-    part.addWind(motion, kinematics, settings, scratch, out);
-    addOthers(motion, kinematics, out);
+    part.addWind(scratch.sampleAt(air.field, stampAt(time)), kinematics, settings, scratch, out);
+    addOthers(stampAt(time), kinematics, out);
   }
   // Fills the wind rows of a chain.
   void fillWindRows(double h, const float* places, float* rows, std::size_t blocks) const {
-    const Nanoseconds middle = from + fromSeconds(part.theta_ * h);
     const bool own = loads.air == NEVER || part.compensates(from, settings.fade);
-    const ProceduralMotion motion = scratch.motionOf(part.tree(), air, own ? middle : loads.air);
-    fillWind(FloatWind(motion.wind.now().relativeTo(part.tree().foot), LARGEST_REACH), places, rows,
-             blocks);
+    const Nanoseconds stamp = own ? stampAt(part.theta_ * h) : loads.air;
+    const wind::Instant& now = scratch.sampleAt(air.field, stamp).now();
+    fillWind(FloatWind(now.relativeTo(part.tree().foot), LARGEST_TREE), places, rows, blocks);
   }
   // Adds all loads but the wind.
-  void addOthers(const ProceduralMotion& motion, const physics::Kinematics& kinematics,
+  void addOthers(Nanoseconds stamp, const physics::Kinematics& kinematics,
                  physics::Loads& out) const {
-    updateBases(motion);
-    part.addCompensation(motion, settings, scratch, out);
-    part.addSprings(loads, motion.wind.stamp(), kinematics, out);
+    updateBases(stamp);
+    part.addCompensation(air, stamp, settings, scratch, out);
+    part.addSprings(loads, stamp, kinematics, out);
     part.addForces(loads, kinematics, out);
   }
   physics::Surroundings outside() const {
@@ -86,11 +82,12 @@ struct PhysicalSubtree::Step {
   // Surroundings of a chain that has the wind in its own rows.
   physics::Surroundings outsideWind() const {
     physics::Surroundings out;
-    out.bases = [this](double time, std::vector<physics::BaseMotion>& to) { bases(time, to); };
+    if (!part.carriers_.empty())
+      out.bases = [this](double time, std::vector<physics::BaseMotion>& to) { bases(time, to); };
     if (loads.springs.empty() && loads.forces.empty() && !part.compensates(from, settings.fade))
       return out;
     out.loads = [this](const physics::Kinematics& kinematics, double time, physics::Loads& to) {
-      addOthers(motionAt(time), kinematics, to);
+      addOthers(stampAt(time), kinematics, to);
     };
     return out;
   }
@@ -108,49 +105,53 @@ void PhysicalSubtree::step(const TreeWind& air, const SubtreeLoads& loads,
     return stepBatched(context, h);
   const physics::Surroundings outside = context.outside();
   scratch.stepper.setDynamics(dynamics);
-  if (scratch.stepper.step(wanted, links_, outside, 0.0, h, state_, theta_) == 0) {
+  physics::ChainState& state = state_.change();
+  if (scratch.stepper.step(wanted, links_, outside, 0.0, h, state, theta_) == 0) {
     ++scratch.replaced;  // beyond the bound of the explicit method
-    scratch.stepper.step(physics::Integrator::MIDPOINT, links_, outside, 0.0, h, state_, theta_);
+    scratch.stepper.step(physics::Integrator::MIDPOINT, links_, outside, 0.0, h, state, theta_);
   }
   limitJoints();
 }
 
-// The state is kept here in double precision; the chain keeps nothing between steps.
+// The state stays in the chain. Only rows that follow from the state are there besides, except for
+// those that steps of one tick share, so that a copy without chain continues with the same bits.
 void PhysicalSubtree::stepBatched(const Step& context, double h) {
-  if (!chain_.held) createChain();
-  physics::BatchChain& chain = *chain_.held;
-  chain.setState(0, state_, theta_);
+  if (!state_.chain()) createChain();
+  physics::BatchChain& chain = state_.loadChain(theta_);
   // Compensation needs the wind of each step.
   if (!context.loads.hold || compensates(context.from, context.settings.fade))
     chain.queryWind([&](const float* places, float* rows, std::size_t blocks) {
       context.fillWindRows(h, places, rows, blocks);
     });
+  if (!compensates(context.from, context.settings.fade))
+    chain.setLoadedLinks(&listLoaded(context.loads, context.scratch));
   const bool predicts = context.loads.hold && h * chain.fastest(0) <= PREDICTED_TURN;
   chain.step(context.outsideWind(), 0.0, h, predicts ? 1 : 0);
-  state_ = chain.state(0);
+  state_.followChain();
   theta_ = chain.theta(0);
-  limitJoints();
+  if (!chain.isWithin(BEND_ROUNDING * LARGEST_BEND, FASTEST_BEND)) limitJoints();
 }
 
 void PhysicalSubtree::createChain() {
-  chain_.held = std::make_unique<physics::BatchChain>(links_);
+  auto chain = std::make_unique<physics::BatchChain>(links_);
   const bool linear = tree_->drag == Drag::LINEAR;
   std::vector<physics::Grip> grips;
   for (const LinkDrag& drag : drags_)
     grips.push_back({drag.centre, linear ? drag.force : 0.0,
                      linear ? 0.0 : drag.force / tree_->reference_speed});
-  chain_.held->setGrips(0, grips);
+  chain->setGrips(0, grips);
+  state_.setChain(std::move(chain));
 }
 
 // Keeps angles and rates within the limits of chains and messages: the printed dynamics oscillate
 // without bound (E2), and a grab may bend a twig beyond any limit.
 void PhysicalSubtree::limitJoints() {
-  constexpr double MOST = 1.0 + 1e-6;  // chains limit themselves up to rounding
+  physics::ChainState& state = state_.change();
   for (std::size_t i = 0; i < links_.size(); ++i) {
-    physics::Vec2 &q = state_.q[i], &rate = state_.rate[i];
+    physics::Vec2 &q = state.q[i], &rate = state.rate[i];
     const double bend = std::sqrt(q.x() * q.x() + q.y() * q.y());
     const double speed = std::sqrt(rate.x() * rate.x() + rate.y() * rate.y());
-    if (bend <= MOST * LARGEST_BEND && speed <= FASTEST_BEND) continue;  // false for NaN
+    if (bend <= BEND_ROUNDING * LARGEST_BEND && speed <= FASTEST_BEND) continue;  // false for NaN
     const bool finite = std::isfinite(bend) && std::isfinite(speed);
     if (!finite || bend > LARGEST_BEND) rate = {0.0, 0.0};
     if (!finite) q = {0.0, 0.0};
@@ -165,24 +166,24 @@ void PhysicalSubtree::stepWithContacts(const TreeWind& air, const SubtreeLoads& 
                                        std::vector<physics::Contact>& contacts) {
   const Step context{*this, air, loads, settings, scratch, from};
   const double h = secondsBetween(from, to);
-  theta_ = physics::guardedTheta(state_, h, theta_);
+  physics::ChainState& state = state_.change();
+  theta_ = physics::guardedTheta(state, h, theta_);
   const bool euler = settings.integrator == static_cast<int>(physics::Integrator::IMPLICIT_EULER);
   scratch.contact_stepper.step(links_, context.outside(), settings.contact, 0.0, h,
-                               euler ? 1.0 : theta_, state_, contacts);
+                               euler ? 1.0 : theta_, state, contacts);
   limitJoints();
 }
 
 void PhysicalSubtree::kinematicsAt(const TreeWind& air, Nanoseconds stamp, SubtreeScratch& scratch,
                                    physics::Kinematics& out) const {
-  const ProceduralMotion motion = scratch.motionOf(*tree_, air, stamp);
-  baseMotions(motion, scratch, scratch.bases);
-  physics::kinematicsOf(links_, scratch.bases, state_, out);
+  baseMotions(air, stamp, scratch, scratch.bases);
+  physics::kinematicsOf(links_, scratch.bases, state_.get(), out);
 }
 
 void PhysicalSubtree::placesAt(const std::vector<SubtreeSpring>& springs, const TreeWind& air,
                                Nanoseconds stamp, SubtreeScratch& scratch,
                                std::vector<Vec3>& out) const {
-  baseMotions(scratch.motionOf(*tree_, air, stamp), scratch, scratch.bases);
+  baseMotions(air, stamp, scratch, scratch.bases);
   out.resize(springs.size());
   for (std::size_t i = 0; i < springs.size(); ++i) {
     const int link = linkOf(springs[i].point.branch);
@@ -196,18 +197,18 @@ void PhysicalSubtree::placesAt(const std::vector<SubtreeSpring>& springs, const 
 Pose PhysicalSubtree::poseOf(int link, const std::vector<physics::BaseMotion>& bases) const {
   const physics::Link& own = links_[index(link)];
   const Pose from = own.parent < 0 ? bases[index(own.base)].pose : poseOf(own.parent, bases);
-  const physics::Vec2& q = state_.q[index(link)];
+  const physics::Vec2 q = state_.bend(index(link));
   return {from.position + own.h * axisZ(from.orientation),
           from.orientation * (own.rest * physics::rotationOf(physics::bendOf(q), q))};
 }
 
 // Base 0 is the ground; the carriers follow.
-void PhysicalSubtree::baseMotions(const ProceduralMotion& motion, SubtreeScratch& scratch,
+void PhysicalSubtree::baseMotions(const TreeWind& air, Nanoseconds stamp, SubtreeScratch& scratch,
                                   std::vector<physics::BaseMotion>& out) const {
   out.resize(1 + carriers_.size());
   out[0] = physics::BaseMotion();
   if (carriers_.empty()) return;
-  scratch.carrier_motions.update(motion, carriers_);
+  scratch.carrier_motions.update(scratch.motionOf(*tree_, air, stamp), carriers_);
   moveCarriers(*tree_, carriers_, scratch.carrier_motions, scratch.carrier_poses, scratch.carriers);
   for (std::size_t i = 0; i < carriers_.size(); ++i) {
     const CarrierMotion& motion = scratch.carriers[i];
@@ -241,6 +242,22 @@ void PhysicalSubtree::addSprings(const SubtreeLoads& loads, Nanoseconds stamp,
     out.anchors.push_back({link, arm, f.force, uniform(f.scale * spring.stiffness),
                            uniform(f.scale * spring.damping)});
   }
+}
+
+// Lists the links that springs and forces act on.
+const std::vector<std::size_t>& PhysicalSubtree::listLoaded(const SubtreeLoads& loads,
+                                                            SubtreeScratch& scratch) const {
+  std::vector<std::size_t>& out = scratch.loaded;
+  out.clear();
+  const auto add = [&](int branch) {
+    const int link = linkOf(branch);
+    if (link >= 0) out.push_back(index(link));
+  };
+  for (const SubtreeSpring& spring : loads.springs) add(spring.point.branch);
+  for (const BranchLoad& load : loads.forces) add(load.branch);
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
 }
 
 void PhysicalSubtree::addForces(const SubtreeLoads& loads, const physics::Kinematics& kinematics,

@@ -1,21 +1,13 @@
-// Promotion and demotion.
+// Promotion.
 #include <algorithm>
-#include <cmath>
 
 #include "tree/physical/physical_subtree.h"
 
 namespace vegetation_sim::forest {
 namespace {
 
-/// A motion is calm if it would carry no point farther than the tolerance in this time [s].
-constexpr double CALM_TIME = 0.1;
-
 std::size_t index(int i) {
   return static_cast<std::size_t>(i);
-}
-
-double magnitude(const physics::Vec2& a) {
-  return std::sqrt(a.x() * a.x() + a.y() * a.y());
 }
 
 physics::Vec2 vectorOf(const JointAngles& a) {
@@ -39,7 +31,7 @@ std::size_t PhysicalSubtree::promote(const std::vector<int>& branches,
   std::vector<Joined> all;
   all.reserve(joints_.size() + branches.size());
   for (std::size_t i = 0; i < joints_.size(); ++i)
-    all.push_back({joints_[i], state_.q[i], state_.rate[i]});
+    all.push_back({joints_[i], state_.get().q[i], state_.get().rate[i]});
   std::vector<char> mask = mask_;
   std::vector<int> added;
   std::size_t refused = 0;
@@ -97,56 +89,16 @@ void PhysicalSubtree::cancelBlend(int link, const ProceduralMotion& motion, doub
     const double weight = blendWeight({joint.branch, {}, {}, joint.blend}, stamp, duration);
     const double change = blendRate(joint, stamp, duration);
     const JointMotion to = motion.at(joint.branch);
-    physics::Vec2 &q = state_.q[index(link)], &rate = state_.rate[index(link)];
+    physics::ChainState& state = state_.change();
+    physics::Vec2 &q = state.q[index(link)], &rate = state.rate[index(link)];
     const physics::Vec2 away = vectorOf(to.q) - q;
     rate = (1.0 - weight) * rate + weight * vectorOf(to.rate) + change * away;
     q += weight * away;
     joint.blend = NEVER;
     joint.promoted = stamp;
+    last_promoted_ = std::max(last_promoted_, stamp);
     joint.compensation = weight * motion.missing();
   }
-}
-
-void PhysicalSubtree::demote(const ProceduralMotion& motion, const PhysicsSettings& settings,
-                             SubtreeScratch& scratch) {
-  const Nanoseconds stamp = motion.wind.stamp();
-  bool waiting = false;  // for calm motion
-  for (SubtreeJoint& joint : joints_) {
-    if (joint.wanted) joint.needed = stamp;
-    waiting = waiting || (!joint.wanted && joint.blend == NEVER);
-  }
-  if (waiting) scratch.motions.update(motion, branches_);
-  std::vector<char> bears(joints_.size(), 0);  // has physical children that do not blend
-  for (std::size_t i = joints_.size(); i-- > 0;) {
-    SubtreeJoint& joint = joints_[i];
-    if (joint.blend == NEVER && !bears[i] && canBlend(i, stamp, scratch.motions, settings))
-      joint.blend = stamp;
-    if ((joint.blend == NEVER || bears[i]) && links_[i].parent >= 0)
-      bears[index(links_[i].parent)] = 1;
-  }
-  const auto over = [&](const SubtreeJoint& joint) {
-    return joint.blend != NEVER && secondsBetween(joint.blend, stamp) >= settings.blend;
-  };
-  if (std::none_of(joints_.begin(), joints_.end(), over)) return;
-  std::vector<Joined> left;
-  for (std::size_t i = 0; i < joints_.size(); ++i)
-    if (!over(joints_[i])) left.push_back({joints_[i], state_.q[i], state_.rate[i]});
-  rebuild(left);
-}
-
-// Returns true if no load needs the joint and it is close to its procedural motion or has waited
-// long enough.
-bool PhysicalSubtree::canBlend(std::size_t link, Nanoseconds stamp,
-                               const ProceduralMotions& motions,
-                               const PhysicsSettings& settings) const {
-  const SubtreeJoint& joint = joints_[link];
-  if (joint.wanted) return false;
-  if (secondsBetween(joint.needed, stamp) >= settings.linger) return true;
-  const JointMotion at = motions.at(link);
-  const double off = magnitude(state_.q[link] - vectorOf(at.q));
-  const double speed = magnitude(state_.rate[link] - vectorOf(at.rate));
-  const double reach = wood_.reach[index(joint.branch)];
-  return (off + CALM_TIME * speed) * reach < settings.influence_tolerance;
 }
 
 void PhysicalSubtree::stretchBlends(Nanoseconds stamp, double from, double to) {

@@ -22,7 +22,7 @@ bool predictsDrag(const PhysicsSettings& settings) {
 }  // namespace
 
 // Adds the drag of each link with the wood that it carries, at its present position and velocity.
-void PhysicalSubtree::addWind(const ProceduralMotion& motion, const physics::Kinematics& kinematics,
+void PhysicalSubtree::addWind(const WindWindow& wind, const physics::Kinematics& kinematics,
                               const PhysicsSettings& settings, SubtreeScratch& scratch,
                               physics::Loads& loads) const {
   const std::size_t n = links_.size();
@@ -33,7 +33,7 @@ void PhysicalSubtree::addWind(const ProceduralMotion& motion, const physics::Kin
     scratch.arms[i] = rotate(pose.orientation, drags_[i].centre);
     scratch.air.add(tree_->foot + pose.position + scratch.arms[i]);
   }
-  scratch.air.sample(motion.wind.now());
+  scratch.air.sample(wind.now());
   const bool predicted = predictsDrag(settings);
   if (predicted) loads.drag.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
@@ -43,11 +43,12 @@ void PhysicalSubtree::addWind(const ProceduralMotion& motion, const physics::Kin
     const Vec3 own = kinematics.velocity[i] + cross(kinematics.spin[i], arm);
     const double share =
         predicted ? 1.0 : std::min(1.0, STRONGEST_DRAG * links_[i].mass / drag.force);
-    const Vec3 wind = scratch.air.velocity(i) - share * own;
-    const Vec3 force = drag.force * effectiveVelocity(wind, tree_->drag, tree_->reference_speed);
+    const Vec3 relative = scratch.air.velocity(i) - share * own;
+    const Vec3 force =
+        drag.force * effectiveVelocity(relative, tree_->drag, tree_->reference_speed);
     loads.wrench[i].force += force;
     loads.wrench[i].torque += cross(arm, force);
-    if (predicted) loads.drag[i] = dragAt(drag.force, wind, arm);
+    if (predicted) loads.drag[i] = dragAt(drag.force, relative, arm);
   }
 }
 
@@ -67,6 +68,8 @@ double PhysicalSubtree::compensationAt(std::size_t link, Nanoseconds stamp, doub
 }
 
 bool PhysicalSubtree::compensates(Nanoseconds stamp, double fade) const {
+  // The share of the joint that was promoted last is the last to become zero.
+  if (fade <= 0.0 || secondsBetween(last_promoted_, stamp) / fade >= 1.0) return false;
   for (std::size_t i = 0; i < joints_.size(); ++i)
     if (compensationAt(i, stamp, fade) > 0.0) return true;
   return false;
@@ -75,16 +78,16 @@ bool PhysicalSubtree::compensates(Nanoseconds stamp, double fade) const {
 // Adds the joint torques that turn the real load into that of the procedural motion: inverse
 // dynamics of this motion under the real load (E1), times the fading share. `paper`: without spring
 // and damper torques, as printed (S1-26).
-void PhysicalSubtree::addCompensation(const ProceduralMotion& motion,
+void PhysicalSubtree::addCompensation(const TreeWind& air, Nanoseconds stamp,
                                       const PhysicsSettings& settings, SubtreeScratch& s,
                                       physics::Loads& loads) const {
-  const Nanoseconds stamp = motion.wind.stamp();
   // The dynamics of paper 1 have no inverse here: their branches meet the real load at once.
   if (settings.dynamics != 0 || !compensates(stamp, settings.fade)) return;
   const std::size_t n = links_.size();
   s.procedural.q.resize(n);
   s.procedural.rate.resize(n);
   s.acceleration.resize(n);
+  const ProceduralMotion motion = s.motionOf(*tree_, air, stamp);
   s.motions.update(motion, branches_);
   for (std::size_t i = 0; i < n; ++i) {
     const JointMotion at = s.motions.at(i);
@@ -94,7 +97,7 @@ void PhysicalSubtree::addCompensation(const ProceduralMotion& motion,
   }
   physics::kinematicsOf(links_, s.bases, s.procedural, s.kinematics);
   s.loads.clear(n);
-  addWind(motion, s.kinematics, settings, s, s.loads);
+  addWind(motion.wind, s.kinematics, settings, s, s.loads);
   s.body.torques(links_, s.bases, s.procedural, s.kinematics, s.loads, s.acceleration, s.torque);
   const bool printed = settings.wind_forcing == WindForcing::PAPER;
   for (std::size_t i = 0; i < n; ++i) {

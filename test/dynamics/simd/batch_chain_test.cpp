@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "scenes/dynamics/chain_scene.h"
 #include "vegetation_sim/core/config/faults.h"
@@ -213,6 +214,47 @@ TYPED_TEST(Batched, LoadsEndWithTheFunctionThatGaveThem) {
   for (int t = 0; t < 3; ++t) fresh.setState(t, loaded.state(t));
   for (TypeParam* chain : {&loaded, &fresh}) chain->step(std::vector<Surroundings>(3), 0.0, STEP);
   for (int t = 0; t < 3; ++t) EXPECT_TRUE(sameBits(loaded.state(t), fresh.state(t)));
+}
+
+// The loads depend on the motion of the links that have them.
+TYPED_TEST(Batched, LoadsOnAFewNamedLinksGiveTheBitsOfLoadsOnAll) {
+  const Trees trees(2, fractalTree(60, 4));
+  TypeParam few(trees), all(trees);
+  for (int i = 0; i < 60; ++i) {
+    const std::vector<std::size_t> links =
+        i < 20 ? std::vector<std::size_t>{3, 41} : std::vector<std::size_t>{0, 41, 59};
+    Surroundings around;
+    if (i < 40)
+      around.loads = [&](const Kinematics& k, double, Loads& out) {
+        for (const std::size_t link : links) {
+          out.wrench[link].force += Vec3(0.3, 0.1, 0.0) - 0.2 * k.velocity[link];
+          out.joint_torque[link] += Vec2(0.01, 0.02);
+        }
+        const Vec3 arm(0.0, 0.0, 0.1), force = -50.0 * (k.pose[41].position + arm);
+        out.anchors.push_back({41, arm, force, {50.0, 50.0, 50.0, 0.0, 0.0, 0.0}, {}});
+      };
+    all.step(std::vector<Surroundings>(2, around), i * STEP, STEP);
+    few.setLoadedLinks(&links);
+    few.step(std::vector<Surroundings>(2, around), i * STEP, STEP);
+    for (int t = 0; t < 2; ++t) ASSERT_TRUE(sameBits(few.state(t), all.state(t))) << "step " << i;
+  }
+  EXPECT_GT(few.state(1).q[41].norm(), 1e-3);
+}
+
+TYPED_TEST(Batched, KnowsWhetherAJointIsBeyondALimit) {
+  const Trees trees(2, fractalTree(40, 4));
+  TypeParam chain(trees);
+  ChainState state = chain.state(1);
+  const auto isWithin = [&](double q, double rate) {
+    state.q[30] = Vec2(0.0, q);
+    state.rate[30] = Vec2(rate, 0.0);
+    chain.setState(1, state);
+    return chain.isWithin(3.0, 100.0);
+  };
+  EXPECT_TRUE(isWithin(2.999, 99.9));
+  EXPECT_FALSE(isWithin(3.001, 0.0));
+  EXPECT_FALSE(isWithin(0.0, -100.1));
+  EXPECT_FALSE(isWithin(std::nan(""), 0.0));
 }
 
 TYPED_TEST(Batched, RefusesSurroundingsForOtherTrees) {

@@ -27,7 +27,8 @@ NUMBERS = {
 WHOLE_NUMBERS = {
     'state_rate': (' Hz', 1, 240), 'marker_points': ('', 600, 3000000),
     'tf_budget': (' frames', 0, 10000), 'branches_budget': (' branches', 0, 1000000),
-    'cache_budget': (' branches', 1000, 20000000), 'viewer_height': (' pixel', 1, 100000),
+    'cache_budget': (' branches', 1000, 20000000), 'threads': ('', 1, 64),
+    'viewer_height': (' pixel', 1, 100000),
     'fixed_level': ('', 0, 6), 'highest_level': ('', 0, 6),
     'state_bytes': (' B/s', 0, 100000000), 'modal_trees': ('', 0, 1000),
 }

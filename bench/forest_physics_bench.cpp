@@ -1,0 +1,140 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+// Measures a tick of a forest whose branches are all physical, in a breeze of 24 modes at 60 Hz:
+// processor time per branch and tick, while nothing acts on the trees and while a hand holds each.
+// usage: forest_physics_bench [ROUNDS] [--quick | --full] [--part free,held] [--csv FILE]
+#include <cstdio>
+
+#include "options.h"
+#include "processor_time.h"
+#include "scenes/forest/forest_fixture.h"
+#include "table.h"
+
+namespace vegetation_sim::forest {
+namespace {
+
+using bench::Options;
+
+constexpr Nanoseconds START = 1700000000LL * NANOSECONDS_PER_SECOND;
+constexpr int RATE = 60;                  // [Hz]
+constexpr int PUSHED_AT_A_TIME = 200;     // trees
+constexpr int MOST_HELD = 256;            // trees: there is a limit of grabs
+constexpr int SETTLING_TICKS = RATE;      // longer than the fade after promotion
+constexpr double SAMPLED_BRANCHES = 4e5;  // branches and ticks of one round
+
+/// Oaks of so many branches or a few more, enough of them for `total` branches.
+Layout oaks(std::size_t branches, std::size_t total) {
+  Layout out;
+  const Species plain = shippedSpecies("oak");
+  TreeSeed seed;
+  Design design;
+  std::size_t grown = 0;
+  for (design.children = 0.3; grown < branches; design.children *= 1.02) {
+    out.species = {applyDesign(plain, design)};
+    grown = grow(seed, out.species[0]).branches.size();
+  }
+  for (std::size_t sum = 0; sum < total; sum += grown) {
+    const std::size_t i = out.trees.size();
+    seed.position = Vec3(15.0 * static_cast<double>(i % 20), 15.0 * static_cast<double>(i / 20), 0);
+    out.trees.push_back(seed);
+  }
+  return out;
+}
+
+/// A forest whose branches are physical and stay so.
+class PhysicalForest {
+ public:
+  PhysicalForest(std::size_t branches, std::size_t total)
+      : forest_(oaks(branches, total), flatTerrain(), Settings()), tick_(grid_.tickAt(START)) {
+    PhysicsSettings physics;
+    physics.promotion = Promotion::DEPTH;
+    physics.influence_tolerance = 1e-6;
+    physics.linger = 3600.0;
+    physics.most_branches = 1000000;
+    forest_.setPhysics(physics);
+    wind::Primitive breeze = makeBreeze(1, Vec3(4.0, 2.0, 0.0));
+    breeze.turbulence = 0.2;
+    forest_.setWind(wind::Field({breeze}));
+    forest_.advance(grid_.timeOf(tick_));
+    twig_ = static_cast<int>(
+                growTree(forest_.layout(), 0, forest_.terrain()).skeleton.branches.size()) -
+            1;
+    for (std::uint32_t tree = 0; tree < treeCount(); ++tree) {
+      Push push;
+      push.point = {tree, twig_, 0.0};
+      push.until = grid_.timeOf(tick_ + 1);
+      forest_.push(push);
+      if (tree % PUSHED_AT_A_TIME == PUSHED_AT_A_TIME - 1) advance();
+    }
+    for (int i = 0; i < SETTLING_TICKS; ++i) advance();
+  }
+  std::uint32_t treeCount() const { return forest_.layout().treeCount(); }
+  std::size_t branchCount() const { return forest_.physicsFigures().branches; }
+  /// Holds a twig of every tree.
+  void hold() {
+    for (std::uint32_t id = 0; id < treeCount() && id < MOST_HELD; ++id) {
+      const Tree tree = growTree(forest_.layout(), id, forest_.terrain());
+      const auto twig = static_cast<std::size_t>(twig_);
+      Grab grab;
+      grab.point = {id, twig_, 0.0};
+      grab.target = tree.foot + forest_.pose(tree, id, forest_.snapshot().stamp)[twig].position;
+      forest_.addGrab(grab);
+    }
+    for (int i = 0; i < RATE / 10; ++i) advance();
+  }
+  void advance() { forest_.advance(grid_.timeOf(++tick_)); }
+  std::uint64_t hash() const { return forest_.hash(); }
+
+ private:
+  TickGrid grid_{RATE};
+  Forest forest_;
+  std::int64_t tick_;
+  int twig_{0};
+};
+
+void report(const char* load, PhysicalForest& forest, int rounds, bench::Table& table) {
+  const auto branches = static_cast<double>(forest.branchCount());
+  const int ticks = std::max(1, static_cast<int>(SAMPLED_BRANCHES / branches));
+  std::vector<bench::Candidate> ticking{{load, [&] {
+                                           for (int i = 0; i < ticks; ++i) forest.advance();
+                                         }}};
+  bench::timeOnProcessor(ticking, rounds);
+  const double each = 1e9 / (branches * ticks);
+  std::printf("%-6s %6u %9.0f %10.1f %10.1f   %016llx\n", load, forest.treeCount(), branches,
+              each * ticking[0].seconds, each * ticking[0].least,
+              static_cast<unsigned long long>(forest.hash()));
+  table.row(std::string(load) + ", " + std::to_string(forest.treeCount()) + " trees", branches,
+            ticking[0].seconds / ticks);
+}
+
+void benchForests(const Options& options, bench::Table& table) {
+  std::printf("A tick at 60 Hz in a breeze, all branches physical: ns per branch, state\n");
+  std::printf("%-6s %6s %9s %10s %10s\n", "load", "trees", "branches", "median", "least");
+  const std::vector<std::size_t> totals = options.quick
+                                              ? std::vector<std::size_t>{5000}
+                                              : std::vector<std::size_t>{5000, 40000, 100000};
+  for (const std::size_t branches : {256u, 6000u})
+    for (const std::size_t total : totals) {
+      PhysicalForest forest(branches, total);
+      if (options.wants("free")) report("free", forest, options.rounds, table);
+      if (!options.wants("held")) continue;
+      forest.hold();
+      report("held", forest, options.rounds, table);
+    }
+}
+
+}  // namespace
+}  // namespace vegetation_sim::forest
+
+int main(int argc, char** argv) {
+  try {
+    using namespace vegetation_sim;
+    const bench::Options options = bench::readOptions(argc, argv, {"free", "held"});
+    bench::Table table(options.csv, bench::SIZE_COLUMNS);
+    forest::benchForests(options, table);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "forest_physics_bench: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}
