@@ -49,6 +49,7 @@ void ForestAnimator::sendMarkers(const ros::TimerEvent&) {
 }
 
 void ForestAnimator::addDiagnostics(Status& status) {
+  bodies_.missing().warn(name_, status);
   const auto& memory = forest_->snapshot();
   const std::size_t trees = forest_->layout().treeCount();
   const auto at = memory.levels.counts(trees);

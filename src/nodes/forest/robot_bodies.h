@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "ros/params/parameters.h"
+#include "ros/services/missing_inputs.h"
 #include "tree/physical/interaction.h"
 
 namespace vegetation_sim {
@@ -41,8 +42,8 @@ class RobotBodies {
 
   /// Returns the bodies at their newest transforms, with the velocity between the last two.
   std::vector<forest::Body> update(Nanoseconds now);
-  /// Frames without a recent transform at the last update.
-  const std::vector<std::string>& missing() const { return missing_; }
+  /// Transforms that the last update missed.
+  MissingInputs& missing() { return missing_; }
   /// Forgets all transforms, after a jump of time.
   void clear();
 
@@ -57,7 +58,7 @@ class RobotBodies {
   std::vector<Followed> followed_;
   tf2_ros::Buffer buffer_;
   std::unique_ptr<tf2_ros::TransformListener> listener_;  // if there is anything to follow
-  std::vector<std::string> missing_;
+  MissingInputs missing_;
 };
 
 }  // namespace vegetation_sim

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "nodes/grass/grass_options.h"
+#include "ros/services/missing_inputs.h"
 
 namespace vegetation_sim {
 
@@ -31,8 +32,8 @@ class GrassSources {
   /// Positions are in the world frame; `own` and `height_gate` replace zeros.
   std::vector<grass::TreadInput> update(Nanoseconds now, const grass::TreadLaw& own,
                                         double height_gate);
-  /// Frames and topics without recent data at the last update.
-  const std::vector<std::string>& missing() const { return missing_; }
+  /// Transforms and odometry that the last update missed.
+  MissingInputs& missing() { return missing_; }
   /// Forgets all positions, after a jump of time.
   void clear();
 
@@ -49,6 +50,7 @@ class GrassSources {
   };
   ObservedSource find(const Followed& followed, Nanoseconds now) const;
   ObservedSource findOdometry(const Followed& followed, Nanoseconds now) const;
+  std::string describeMissing(const Followed& followed) const;
   void say(const Followed& followed, grass::TreadAction action, const ObservedSource& heard,
            std::vector<grass::TreadInput>& out) const;
 
@@ -56,7 +58,7 @@ class GrassSources {
   std::vector<Followed> followed_;
   const tf2_ros::Buffer& buffer_;
   std::vector<ros::Subscriber> subscribers_;
-  std::vector<std::string> missing_;
+  MissingInputs missing_;
   grass::TreadLaw own_;
   double height_gate_{0.3};
 };

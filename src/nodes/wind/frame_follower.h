@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "nodes/wind/wind_settings.h"
+#include "ros/services/missing_inputs.h"
 #include "wind/schedule/attachment.h"
 #include "wind/schedule/primitive_schedule.h"
 
@@ -34,8 +35,8 @@ class FrameFollower {
   bool update(wind::PrimitiveSchedule& schedule, Nanoseconds now);
 
   std::vector<std::string> names() const;
-  /// Frames without a recent transform at the last update.
-  const std::vector<std::string>& missing() const { return missing_; }
+  /// Transforms that the last update missed.
+  MissingInputs& missing() { return missing_; }
 
  private:
   bool sample(wind::Attachment& attachment, Nanoseconds now);
@@ -46,7 +47,7 @@ class FrameFollower {
   tf2_ros::Buffer buffer_;
   std::unique_ptr<tf2_ros::TransformListener> listener_;  // once the first frame is followed
   std::map<std::string, wind::Attachment> attachments_;   // by name of the source
-  std::vector<std::string> missing_;
+  MissingInputs missing_;
 };
 
 }  // namespace vegetation_sim

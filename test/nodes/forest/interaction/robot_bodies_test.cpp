@@ -166,13 +166,14 @@ TEST_F(Following, TwoSamplesGiveTheVelocity) {
   found = bodies_.update(START + 2 * TENTH);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_NEAR(found[0].velocity.x(), 2.0, 1e-9);
-  EXPECT_TRUE(bodies_.missing().empty());
+  EXPECT_TRUE(bodies_.missing().list().empty());
 }
 
 TEST_F(Following, SilentFrameRemovesTheBody) {
   ASSERT_EQ(follow(START, 1.0, START).size(), 1u);
   EXPECT_TRUE(bodies_.update(START + NANOSECONDS_PER_SECOND).empty());
-  EXPECT_EQ(bodies_.missing(), std::vector<std::string>{"hand"});
+  EXPECT_EQ(bodies_.missing().list(),
+            std::vector<std::string>{"no transform from 'hand' to 'map'"});
 }
 
 TEST_F(Following, JumpIsNotASpeed) {
