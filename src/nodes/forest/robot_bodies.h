@@ -30,9 +30,9 @@ constexpr double STALE_BODY = 0.5;
 /// same length or, if it is flat, a box of the same section. Frames get `prefix` in front.
 RobotParts partsOfUrdf(const std::string& urdf, const std::string& prefix, Faults& faults);
 
-/// Reads the parameters `bodies` (list of id, frame, shape, its sizes, position, rotation about
-/// x, y, z in the frame), `robot_description` (name of the parameter that holds a URDF) and
-/// `robot_frame_prefix`.
+/// Reads the parameter `bodies`, one list or a map of lists. An entry is a shape (id, frame, shape,
+/// its sizes, position, rotation about x, y, z in the frame) or a robot (`robot_description`, the
+/// name of the parameter that holds its URDF, and `prefix` of its frames).
 RobotParts readRobotParts(const ros::NodeHandle& private_handle, Parameters& parameters);
 
 /// Follows the frames of the parts in tf, once per tick.

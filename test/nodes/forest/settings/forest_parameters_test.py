@@ -31,9 +31,8 @@ WHOLE_NUMBERS = {
     'fixed_level': ('', 0, 6), 'highest_level': ('', 0, 6),
     'state_bytes': (' B/s', 0, 100000000), 'modal_trees': ('', 0, 1000),
 }
-OTHERS = {'scenario', 'frame_id', 'viewer_frame', 'replay', 'branches_trees', 'tf_promoted', 'bodies',
-          # robot_bodies_test has more tests of the last three.
-          'robot_description', 'robot_frame_prefix'}
+OTHERS = {'scenario', 'frame_id', 'viewer_frame', 'replay', 'branches_trees', 'tf_promoted',
+          'bodies'}  # robot_bodies_test has more tests of bodies
 
 # Text of a bad scenario and the expected part of the error.
 SCENARIOS = [
