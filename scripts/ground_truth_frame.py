@@ -9,9 +9,9 @@ in the world, while map and odom keep their estimates. The frame names of the me
 since simulators disagree on them.
 """
 import rospy
-import tf2_ros
 from geometry_msgs.msg import TransformStamped
 from nav_msgs.msg import Odometry
+from tf2_msgs.msg import TFMessage
 
 
 def rotated(q, v):
@@ -41,7 +41,7 @@ class GroundTruthFrame:
         self.world = rospy.get_param('~world_frame')
         self.base = rospy.get_param('~base_frame')
         self.stamp = None
-        self.broadcaster = tf2_ros.TransformBroadcaster()
+        self.tf = rospy.Publisher('/tf', TFMessage, queue_size=100)
         rospy.Subscriber('ground_truth', Odometry, self.on_pose, queue_size=10, tcp_nodelay=True)
 
     def on_pose(self, message):
@@ -57,7 +57,7 @@ class GroundTruthFrame:
         at = frame.transform.translation
         at.x, at.y, at.z = place
         self.stamp = message.header.stamp
-        self.broadcaster.sendTransform(frame)
+        self.tf.publish(TFMessage([frame]))
 
 
 if __name__ == '__main__':

@@ -11,9 +11,9 @@ import math
 import xml.etree.ElementTree
 
 import rospy
-import tf2_ros
 from geometry_msgs.msg import TransformStamped
 from nav_msgs.msg import Odometry
+from tf2_msgs.msg import TFMessage
 
 WHEEL_RADIUS = 0.15  # [m]
 LOCALISER_ERROR = 1.5, -0.4, 0.1  # map -> odom; x, y [m] and yaw [rad]
@@ -30,13 +30,13 @@ def transform(stamp, parent, child, xyz, axis=(0.0, 0.0, 1.0), angle=0.0):
 
 
 class SkidSteerRobot:
-    def __init__(self, prefix, urdf, x, y, yaw, broadcaster=None):
+    def __init__(self, prefix, urdf, x, y, yaw, tf=None):
         self.prefix, self.x, self.y, self.yaw = prefix, x, y, yaw
         self.driven, self.way = (0.0, 0.0, 0.0), 0.0
         self.joints = [(joint.find('parent').get('link'), joint.find('child').get('link'),
                         tuple(map(float, joint.find('origin').get('xyz').split())))
                        for joint in xml.etree.ElementTree.fromstring(urdf).iter('joint')]
-        self.tf = broadcaster or tf2_ros.TransformBroadcaster()
+        self.tf = tf or rospy.Publisher('/tf', TFMessage, queue_size=100)
         self.truth = rospy.Publisher(prefix + 'truth', Odometry, queue_size=10, tcp_nodelay=True)
 
     def drive(self, speed, spin, seconds):
@@ -59,7 +59,7 @@ class SkidSteerRobot:
         for parent, child, xyz in self.joints:
             angle = self.way / WHEEL_RADIUS if child.startswith('wheel') else 0.0
             frames.append(transform(stamp, p + parent, p + child, xyz, (0.0, 1.0, 0.0), angle))
-        self.tf.sendTransform(frames)
+        self.tf.publish(TFMessage(frames))
         truth = Odometry(child_frame_id='ground_truth_link')
         truth.header.stamp, truth.header.frame_id = stamp, 'simulator'
         pose = truth.pose.pose

@@ -28,17 +28,6 @@ WOOD = ScanReport.TRUNK, ScanReport.BRANCH, ScanReport.LEAF
 NODES = '/forest_animator', '/grass_field', '/agent_crowd', '/vegetation_scanner', '/cart_scanner'
 
 
-class Broadcaster:
-    """Publishes transforms on a connection without a queue."""
-
-    def __init__(self):
-        self.publisher = publisher('/tf', TFMessage)
-        wait_for_readers('/tf', *NODES)
-
-    def sendTransform(self, frames):
-        self.publisher.publish(TFMessage(frames))
-
-
 class RobotLaunch(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -49,9 +38,10 @@ class RobotLaunch(unittest.TestCase):
         cls.clouds = {name: Log(topic, PointCloud2) for name, topic in
                       (('scout', '/lidar/points'), ('cart', '/cart/lidar/points'))}
         cls.frames = Log('/tf', TFMessage)
-        cls.broadcaster = Broadcaster()
+        cls.tf = publisher('/tf', TFMessage)
+        wait_for_readers('/tf', *NODES)
         cls.robot = SkidSteerRobot('scout/', rospy.get_param('scout/robot_description'), 0.0, -4.0,
-                                   math.pi / 2, cls.broadcaster)
+                                   math.pi / 2, cls.tf)
         for log in (cls.wrenches, cls.frames, *cls.clouds.values()):
             wait_for(log.connected, log.topic)
         wait_for_readers('/scout/truth', '/scout_ground_truth')
@@ -67,9 +57,9 @@ class RobotLaunch(unittest.TestCase):
         for _ in range(int(8.0 / SPEED * RATE)):
             stamp = time_of(cls.clock.tick + 1)
             cls.robot.drive(SPEED, 0.0, 1.0 / RATE)
-            cls.broadcaster.sendTransform([
+            cls.tf.publish(TFMessage([
                 transform(stamp, 'world', 'cart/base', (4.0, cls.robot.y, 0.0)),
-                transform(stamp, 'cart/base', 'cart/laser', (0.0, 0.0, 1.0))])
+                transform(stamp, 'cart/base', 'cart/laser', (0.0, 0.0, 1.0))]))
             cls.robot.publish(stamp)
             cls.frames.wait(lambda all: any(t.child_frame_id == 'world' and t.header.stamp == stamp
                                             for m in all for t in m.transforms), 'the world')
