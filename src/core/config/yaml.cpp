@@ -86,25 +86,6 @@ void YamlSection::vector(const char* name, Vec3& value, const char* unit, Range 
   value = read_value;
 }
 
-void YamlSection::pairs(const char* name, std::vector<std::array<double, 2>>& value,
-                        const char* unit, Range range) {
-  std::vector<std::vector<double>> list;
-  if (!read(name, "a list of pairs [x, y]", list)) return;
-  std::vector<std::array<double, 2>> read_value;
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    const std::string path = path_ + ": " + name + "[" + std::to_string(i) + "]";
-    if (list[i].size() != 2)
-      return faults_->add(path + " has " + std::to_string(list[i].size()) +
-                          " numbers; 2 are expected");
-    read_value.push_back({list[i][0], list[i][1]});
-    for (const double number : read_value.back()) {
-      const std::string problem = rangeFault(path, number, unit, range);
-      if (!problem.empty()) return faults_->add(problem);
-    }
-  }
-  value = read_value;
-}
-
 void YamlSection::choice(const char* name, int& value, const std::vector<std::string>& names) {
   std::string word;
   if (!read(name, "a word", word)) return;
@@ -139,36 +120,15 @@ YamlSection YamlSection::section(const char* name) {
 std::vector<YamlSection> YamlSection::sections(const char* name) {
   asked_.insert(name);
   std::vector<YamlSection> out;
-  if (has(name)) append(node_[name], path_ + ": " + name, nullptr, out);
-  return out;
-}
-
-std::vector<YamlSection> YamlSection::sectionsOfLists(const char* name, const char* key) {
-  asked_.insert(name);
-  std::vector<YamlSection> out;
   if (!has(name)) return out;
-  const YAML::Node node = node_[name];
-  const std::string path = path_ + ": " + name;
-  if (!node.IsMap()) {
-    append(node, path, key, out);
+  const YAML::Node list = node_[name];
+  if (!list.IsSequence()) {
+    fault(name, "= " + shown(list) + " is not a list");
     return out;
   }
-  for (const auto& entry : node)
-    append(entry.second, path + "/" + entry.first.as<std::string>(""), key, out);
+  for (std::size_t i = 0; i < list.size(); ++i)
+    out.emplace_back(list[i], path_ + ": " + name + "[" + std::to_string(i) + "]", *faults_);
   return out;
-}
-
-void YamlSection::append(const YAML::Node& list, const std::string& path, const char* key,
-                         std::vector<YamlSection>& out) {
-  if (!list.IsSequence()) return faults_->add(path + " = " + shown(list) + " is not a list");
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    YAML::Node entry = list[i];
-    if (key && entry.IsScalar()) {
-      entry = YAML::Node(YAML::NodeType::Map);
-      entry[key] = list[i].Scalar();
-    }
-    out.emplace_back(entry, path + "[" + std::to_string(i) + "]", *faults_);
-  }
 }
 
 void YamlSection::finish() {

@@ -21,9 +21,13 @@ crowd::Robot readRobot(YamlSection& section) {
   if (!out.id.empty() && out.id[0] == '/')
     section.fault("frame", "= '" + out.id + "' begins with '/'");
   section.number("radius", out.radius, "m", {0.01, 20.0});
-  std::vector<std::array<double, 2>> corners;
-  section.pairs("outline", corners, "m", CORNERS);
-  for (const auto& corner : corners) out.outline.push_back({corner[0], corner[1]});
+  for (YamlSection& corner : section.sections("outline")) {
+    crowd::Point p{};
+    corner.number("x", p.x, "m", CORNERS);
+    corner.number("y", p.y, "m", CORNERS);
+    corner.finish();
+    out.outline.push_back(p);
+  }
   Faults faults;
   crowd::check(out, faults);
   for (const std::string& fault : faults.list()) section.fault(fault);
@@ -34,7 +38,7 @@ crowd::Robot readRobot(YamlSection& section) {
 std::vector<crowd::Robot> readRobots(YamlSection& section) {
   std::vector<crowd::Robot> out;
   std::set<std::string> names;
-  for (YamlSection& entry : section.sectionsOfLists("robots", "frame")) {
+  for (YamlSection& entry : section.sections("robots")) {
     out.push_back(readRobot(entry));
     if (!names.insert(out.back().id).second)
       section.fault("robots", "names '" + out.back().id + "' twice");

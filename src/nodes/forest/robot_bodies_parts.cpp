@@ -117,7 +117,7 @@ void readList(const ros::NodeHandle& handle, Parameters& parameters, RobotParts&
   YAML::Node top;
   if (!parameters.list("bodies", top)) return;
   YamlSection section(top, handle.getNamespace(), parameters.faults());
-  for (YamlSection& entry : section.sectionsOfLists("bodies", nullptr)) {
+  for (YamlSection& entry : section.sections("bodies")) {
     if (entry.has("robot_description"))
       readRobot(handle, entry, parameters.faults(), out);
     else

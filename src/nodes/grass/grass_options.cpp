@@ -39,7 +39,7 @@ FollowedSource readSource(YamlSection& section) {
 std::vector<FollowedSource> readSources(YamlSection& section) {
   std::vector<FollowedSource> out;
   std::set<std::string> names;
-  for (YamlSection& entry : section.sectionsOfLists("sources", "frame")) {
+  for (YamlSection& entry : section.sections("sources")) {
     out.push_back(readSource(entry));
     if (!names.insert(out.back().name).second)
       section.fault("sources", "names '" + out.back().name + "' twice");

@@ -85,45 +85,6 @@ TEST(YamlSection, NamesTheEntryOfAList) {
   EXPECT_EQ(faults.text(), "k.yaml: kites[1]: height = 200 m is outside 0 to 100 m");
 }
 
-std::vector<std::string> framesOf(const std::string& yaml, Faults& faults) {
-  YamlSection section(YAML::Load(yaml), "~", faults);
-  std::vector<std::string> out;
-  for (YamlSection& entry : section.sectionsOfLists("sources", "frame")) {
-    out.emplace_back();
-    entry.text("frame", out.back());
-    entry.finish();
-  }
-  section.finish();
-  return out;
-}
-
-TEST(YamlSection, ReadsOneListOrAMapOfListsWhoseEntriesMayBeText) {
-  const std::vector<std::string> wanted{"left", "right"};
-  Faults faults;
-  EXPECT_EQ(framesOf("{sources: [left, {frame: right}]}", faults), wanted);
-  EXPECT_EQ(framesOf("{sources: {a: [left], b: [right]}}", faults), wanted);
-  EXPECT_TRUE(framesOf("{}", faults).empty());
-  EXPECT_TRUE(faults.empty());
-  framesOf("{sources: {a: 3, b: [{frames: x}]}}", faults);
-  EXPECT_NE(faults.text().find("~: sources/a = '3' is not a list"), std::string::npos);
-  EXPECT_NE(faults.text().find("~: sources/b[0]: frames is not a known key"), std::string::npos);
-}
-
-TEST(YamlSection, ReadsPairs) {
-  Faults faults;
-  YamlSection section(YAML::Load("{a: [[1, 2], [3, 4.5]], b: [[1, 2, 3]], c: [[1, 9]], d: [x]}"),
-                      "~", faults);
-  std::vector<std::array<double, 2>> read;
-  section.pairs("a", read, "m", {0.0, 5.0});
-  EXPECT_EQ(read, (std::vector<std::array<double, 2>>{{1.0, 2.0}, {3.0, 4.5}}));
-  EXPECT_TRUE(faults.empty());
-  for (const char* name : {"b", "c", "d"}) section.pairs(name, read, "m", {0.0, 5.0});
-  EXPECT_EQ(faults.text(),
-            "~: b[0] has 3 numbers; 2 are expected\n~: c[0] = 9 m is outside 0 to 5 m\n"
-            "~: d = a list is not a list of pairs [x, y]");
-  EXPECT_EQ(read.size(), 2u);
-}
-
 TEST(YamlSection, ReadsTextFlagsAndSeeds) {
   Faults faults;
   YamlSection yaml(parseYaml("{name: red, on: true, seed: 18446744073709551615, bad: -1}", "k"),

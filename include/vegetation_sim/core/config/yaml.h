@@ -4,7 +4,6 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include <array>
 #include <memory>
 #include <set>
 #include <string>
@@ -30,9 +29,6 @@ class YamlSection : public FieldVisitor {
   void vector(const char* name, Vec3& value, const char* unit, Range range) override;
   using FieldVisitor::choice;
   void choice(const char* name, int& value, const std::vector<std::string>& names) override;
-  /// Reads a list of pairs [x, y].
-  void pairs(const char* name, std::vector<std::array<double, 2>>& value, const char* unit,
-             Range range);
   void text(const char* name, std::string& value);
   void flag(const char* name, bool& value);
   void seed(const char* name, std::uint64_t& value);
@@ -41,9 +37,6 @@ class YamlSection : public FieldVisitor {
   YamlSection section(const char* name);
   /// Returns the maps in the list under `name`, or none if it is absent.
   std::vector<YamlSection> sections(const char* name);
-  /// The same for a list that may also be a map of such lists, for instance one per robot. An entry
-  /// that is text stands for a map in which `key` has this value.
-  std::vector<YamlSection> sectionsOfLists(const char* name, const char* key);
 
   /// Adds a fault of the caller about the value of `name`.
   void fault(const std::string& name, const std::string& problem);
@@ -53,8 +46,6 @@ class YamlSection : public FieldVisitor {
   void finish();
 
  private:
-  void append(const YAML::Node& list, const std::string& path, const char* key,
-              std::vector<YamlSection>& out);
   template <class T>
   bool read(const char* name, const char* type, T& value);
 
