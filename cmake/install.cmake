@@ -7,6 +7,7 @@ install(TARGETS ${own_targets}
 install(DIRECTORY include/${PROJECT_NAME}/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION})
 install(DIRECTORY config icons launch media rviz DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
 catkin_install_python(PROGRAMS scripts/charts/charts scripts/diff_drive_robot.py
+  scripts/ground_truth_frame.py
   scripts/rolling_stone.py scripts/scripted_drive.py scripts/scripted_gripper.py scripts/scripted_mower.py
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY scripts/charts/charting DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION}

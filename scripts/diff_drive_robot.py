@@ -5,12 +5,17 @@
 
 Subscribes to cmd_vel; publishes odometry and the frames of the URDF in the parameter
 robot_description. The drag of the grass on the wheels (grass/wrenches) slows the robot.
+
+The frames follow REP 105: odom -> base_link is where the robot believes that it is, from wheels
+that it takes for a little larger and closer together than they are, so it drifts. The true pose is
+on the topic base_pose_ground_truth; ground_truth_frame.py makes the frame world of it, in which
+odom is seen to move.
 """
 import math
 import xml.etree.ElementTree
 
 import rospy
-from geometry_msgs.msg import TransformStamped, Twist, WrenchStamped
+from geometry_msgs.msg import Quaternion, TransformStamped, Twist, WrenchStamped
 from nav_msgs.msg import Odometry
 from tf2_msgs.msg import TFMessage
 
@@ -18,10 +23,22 @@ RATE = 50.0  # [Hz]
 MOTOR_TIME_CONSTANT = 0.25  # Time constant of the motors. [s]
 COMMAND_TIMEOUT = 0.5  # A command expires after this time. [s]
 MASS = 60.0  # [kg]
+# Odometry over truth.
+WAY_ERROR, TURN_ERROR = 1.02, 1.03
 
 
-def turned(x, y, yaw):
-    return math.cos(yaw) * x - math.sin(yaw) * y, math.sin(yaw) * x + math.cos(yaw) * y
+class PlanarPose:
+    def __init__(self, x, y, yaw):
+        self.x, self.y, self.yaw = x, y, yaw
+
+    def move(self, way, turn):
+        middle = self.yaw + 0.5 * turn
+        self.x += way * math.cos(middle)
+        self.y += way * math.sin(middle)
+        self.yaw += turn
+
+    def rotation(self):
+        return Quaternion(0.0, 0.0, math.sin(0.5 * self.yaw), math.cos(0.5 * self.yaw))
 
 
 def joints_of(urdf):
@@ -36,13 +53,14 @@ def joints_of(urdf):
 class DiffDriveRobot:
     def __init__(self):
         self.joints = joints_of(rospy.get_param('robot_description'))
-        self.world = rospy.get_param('~frame_id', 'map')
-        self.x, self.y = rospy.get_param('~x', 0.0), rospy.get_param('~y', 0.0)
-        self.yaw = rospy.get_param('~yaw', 0.0)
+        start = [rospy.get_param('~' + name, 0.0) for name in ('x', 'y', 'yaw')]
+        # The estimate begins at the truth, so that all of its error is drift.
+        self.truth, self.estimate = PlanarPose(*start), PlanarPose(*start)
         self.speed, self.spin, self.rolled = 0.0, 0.0, {'left_wheel': 0.0, 'right_wheel': 0.0}
         self.command, self.commanded, self.drag = Twist(), None, {}
         self.last = None
         self.odom = rospy.Publisher('odom', Odometry, queue_size=10)
+        self.ground_truth = rospy.Publisher('base_pose_ground_truth', Odometry, queue_size=10)
         self.tf = rospy.Publisher('/tf', TFMessage, queue_size=100)
         rospy.Subscriber('cmd_vel', Twist, self.on_command)
         rospy.Subscriber('grass/wrenches', WrenchStamped, self.on_wrench)
@@ -63,24 +81,27 @@ class DiffDriveRobot:
         response = 1.0 - math.exp(-dt / MOTOR_TIME_CONSTANT)
         self.speed += response * (speed - self.speed) + dt * sum(self.drag.values()) / MASS
         self.spin += response * (spin - self.spin)
-        middle = self.yaw + 0.5 * dt * self.spin
-        self.x += dt * self.speed * math.cos(middle)
-        self.y += dt * self.speed * math.sin(middle)
-        self.yaw += dt * self.spin
+        self.truth.move(dt * self.speed, dt * self.spin)
+        self.estimate.move(WAY_ERROR * dt * self.speed, TURN_ERROR * dt * self.spin)
         for wheel, side in (('left_wheel', -1.0), ('right_wheel', 1.0)):
             self.rolled[wheel] += dt * (self.speed + side * 0.28 * self.spin) / 0.18
 
     def publish(self, now):
-        odom = Odometry(child_frame_id='base_link')
-        odom.header.stamp, odom.header.frame_id = now, self.world
-        pose = odom.pose.pose
-        pose.position.x, pose.position.y = self.x, self.y
-        pose.orientation.w, pose.orientation.z = math.cos(0.5 * self.yaw), math.sin(0.5 * self.yaw)
-        odom.twist.twist.linear.x, odom.twist.twist.angular.z = self.speed, self.spin
-        self.odom.publish(odom)
-        frames = [self.frame(now, self.world, 'base_link', (self.x, self.y, 0.0), pose.orientation)]
+        at = self.estimate
+        frames = [self.frame(now, 'odom', 'base_link', (at.x, at.y, 0.0), at.rotation())]
         frames += [self.joint(now, *joint) for joint in self.joints]
         self.tf.publish(TFMessage(frames))
+        self.odom.publish(self.odometry(now, 'odom', at, WAY_ERROR, TURN_ERROR))
+        self.ground_truth.publish(self.odometry(now, 'world', self.truth, 1.0, 1.0))
+
+    def odometry(self, now, frame, at, way_error, turn_error):
+        out = Odometry(child_frame_id='base_link')
+        out.header.stamp, out.header.frame_id = now, frame
+        out.pose.pose.position.x, out.pose.pose.position.y = at.x, at.y
+        out.pose.pose.orientation = at.rotation()
+        out.twist.twist.linear.x = way_error * self.speed
+        out.twist.twist.angular.z = turn_error * self.spin
+        return out
 
     def joint(self, now, parent, child, place):
         out = self.frame(now, parent, child, place)

@@ -55,7 +55,7 @@ class Frames {
     manager_->startUpdate();
   }
 
-  /// @param view is the file whose view is used.
+  /// @param view is the file whose view and fixed frame are used.
   bool load(const char* file, const char* view) {
     rviz::YamlConfigReader reader;
     rviz::Config config, looks;
@@ -64,8 +64,11 @@ class Frames {
     reader.readFile(looks, view);
     if (reader.error()) return false;
     manager_->load(config.mapGetChild("Visualization Manager"));
-    manager_->getViewManager()->load(
-        looks.mapGetChild("Visualization Manager").mapGetChild("Views"));
+    looks = looks.mapGetChild("Visualization Manager");
+    manager_->getViewManager()->load(looks.mapGetChild("Views"));
+    QString frame;
+    if (looks.mapGetChild("Global Options").mapGetString("Fixed Frame", &frame))
+      manager_->setFixedFrame(frame);
     manager_->getRootDisplayGroup()
         ->subProp("Global Options")
         ->subProp("Frame Rate")

@@ -21,7 +21,7 @@ RANGE = r'\.(?:number|integer|vector)\(\s*"(\w+)",[^{;]*(\{[-\d.e]+, [-\d.e]+\}|
 FIELD = r'(?<!checker)\.(?:number|integer|vector|choice|text|flag|seed|integers|section|sections)\(\s*"(\w+)"'
 TOPIC = r'(?:advertise|subscribe)(?:<[\w:]+>)?\(\s*"([\w/]+)"'
 SERVICE = r'advertiseService\(\s*"(\w+)"'
-KNOWN_TOOLS = {'catkin_make', 'catkin_tools', 'catkin_lint'}
+KNOWN_TOOLS = {'catkin_make', 'catkin_tools', 'catkin_lint', 'robot_state_publisher'}
 # The conventions of the package explain these fields once for all messages.
 KNOWN_FIELDS = {'header', 'success', 'message'}
 

@@ -44,10 +44,20 @@ def find_fault(element, programs):
     return None if program in programs else "no source or script of the program '%s'" % program
 
 
-def find_faults(name, programs):
+def find_elements(name):
+    """Yields the elements that start a program. launch/node.launch starts the one that an <include>
+    gives it as its argument `type`."""
     for element in ElementTree.parse(ROOT / name).iter():
-        if element.tag not in ('node', 'test'):
-            continue
+        if element.tag == 'include' and element.get('file').endswith('/node.launch'):
+            given = {arg.get('name'): arg.get('value') for arg in element.iter('arg')}
+            yield ElementTree.Element('node', pkg=OWN, type=given['type'],
+                                      args='load %s/%s' % (OWN, given['type']))
+        elif element.tag in ('node', 'test') and name != 'launch/node.launch':
+            yield element
+
+
+def find_faults(name, programs):
+    for element in find_elements(name):
         fault = find_fault(element, programs)
         if fault:
             yield fault

@@ -136,9 +136,7 @@ void AgentCrowd::sendFrames(const ros::TimerEvent&) {
 }
 
 void AgentCrowd::addDiagnostics(Status& status) {
-  if (!robots_.missing().empty())
-    status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN,
-                        "no recent transform of " + robots_.missing().front());
+  robots_.missing().warn(name_, status);
   std::size_t arrived = 0;
   for (const crowd::Walker& walker : crowd_.walkers()) arrived += walker.arrived;
   status.add("Walkers", crowd_.walkers().size());

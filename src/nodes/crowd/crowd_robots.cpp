@@ -70,7 +70,7 @@ std::vector<CrowdRobots::Change> CrowdRobots::update(Nanoseconds now) {
       continue;
     }
     followed.known = false;
-    missing_.push_back(followed.robot.id);
+    missing_.add(describeMissingTransform(followed.robot.id, frame_id_));
     if (was_known) out.push_back({true, followed.robot});
   }
   return out;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "crowd/body/walker.h"
+#include "ros/services/missing_inputs.h"
 
 namespace vegetation_sim {
 
@@ -30,8 +31,8 @@ class CrowdRobots {
   /// Returns robots that moved, came or went since the last call. One whose pose is not finite is
   /// gone.
   std::vector<Change> update(Nanoseconds now);
-  /// Frames without a recent transform at the last update.
-  const std::vector<std::string>& missing() const { return missing_; }
+  /// Transforms that the last update missed.
+  MissingInputs& missing() { return missing_; }
   /// Forgets all transforms, after a jump of time.
   void clear();
 
@@ -46,7 +47,7 @@ class CrowdRobots {
   std::string frame_id_;
   std::vector<Followed> followed_;
   const tf2_ros::Buffer& buffer_;
-  std::vector<std::string> missing_;
+  MissingInputs missing_;
 };
 
 }  // namespace vegetation_sim

@@ -57,6 +57,7 @@ void ForestAnimator::sendBranches(const ros::TimerEvent&) {
 }
 
 void ForestAnimator::addDiagnostics(Status& status) {
+  bodies_.missing().warn(name_, status);
   const auto& memory = forest_->snapshot();
   const std::size_t trees = forest_->layout().treeCount();
   const auto at = memory.world.levels.counts(trees);

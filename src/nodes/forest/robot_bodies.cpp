@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/forest/robot_bodies.h"
 
-#include <algorithm>
-
 #include "forest/contact/contact_body.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
@@ -70,9 +68,7 @@ std::vector<forest::Body> RobotBodies::update(Nanoseconds now) {
       continue;
     }
     followed.last.reset();
-    const std::string& frame = followed.part.frame;
-    if (std::find(missing_.begin(), missing_.end(), frame) == missing_.end())
-      missing_.push_back(frame);
+    missing_.add(describeMissingTransform(followed.part.frame, frame_id_));
   }
   return out;
 }

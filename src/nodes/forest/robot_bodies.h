@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "ros/params/parameters.h"
+#include "ros/services/missing_inputs.h"
 #include "tree/physical/interaction.h"
 
 namespace vegetation_sim {
@@ -29,9 +30,9 @@ constexpr double STALE_BODY = 0.5;
 /// same length or, if it is flat, a box of the same section. Frames get `prefix` in front.
 RobotParts partsOfUrdf(const std::string& urdf, const std::string& prefix, Faults& faults);
 
-/// Reads the parameters `bodies` (list of id, frame, shape, its sizes, position, rotation about
-/// x, y, z in the frame), `robot_description` (name of the parameter that holds a URDF) and
-/// `robot_frame_prefix`.
+/// Reads the parameter `bodies`, one list or a map of lists. An entry is a shape (id, frame, shape,
+/// its sizes, position, rotation about x, y, z in the frame) or a robot (`robot_description`, the
+/// name of the parameter that holds its URDF, and `prefix` of its frames).
 RobotParts readRobotParts(const ros::NodeHandle& private_handle, Parameters& parameters);
 
 /// Follows the frames of the parts in tf, once per tick.
@@ -41,8 +42,8 @@ class RobotBodies {
 
   /// Returns the bodies at their newest transforms, with the velocity between the last two.
   std::vector<forest::Body> update(Nanoseconds now);
-  /// Frames without a recent transform at the last update.
-  const std::vector<std::string>& missing() const { return missing_; }
+  /// Transforms that the last update missed.
+  MissingInputs& missing() { return missing_; }
   /// Forgets all transforms, after a jump of time.
   void clear();
 
@@ -57,7 +58,7 @@ class RobotBodies {
   std::vector<Followed> followed_;
   tf2_ros::Buffer buffer_;
   std::unique_ptr<tf2_ros::TransformListener> listener_;  // if there is anything to follow
-  std::vector<std::string> missing_;
+  MissingInputs missing_;
 };
 
 }  // namespace vegetation_sim

@@ -98,26 +98,31 @@ forest::Body readPart(YamlSection section) {
   return body;
 }
 
+// The parameter is looked for beside the node and above it, as usual for a robot's description.
+void readRobot(const ros::NodeHandle& handle, YamlSection& section, Faults& faults,
+               RobotParts& out) {
+  std::string name, prefix, found, urdf;
+  section.text("robot_description", name);
+  section.text("prefix", prefix);
+  section.finish();
+  const ros::NodeHandle beside(ros::names::parentNamespace(handle.getNamespace()));
+  if (!beside.searchParam(name, found) || !ros::param::get(found, urdf))
+    return section.fault("robot_description", "= '" + name + "' is no parameter of text");
+  const RobotParts robot = partsOfUrdf(urdf, prefix, faults);
+  out.parts.insert(out.parts.end(), robot.parts.begin(), robot.parts.end());
+  out.left_out.insert(out.left_out.end(), robot.left_out.begin(), robot.left_out.end());
+}
+
 void readList(const ros::NodeHandle& handle, Parameters& parameters, RobotParts& out) {
   YAML::Node top;
   if (!parameters.list("bodies", top)) return;
   YamlSection section(top, handle.getNamespace(), parameters.faults());
-  for (YamlSection& part : section.sections("bodies")) out.parts.push_back(readPart(part));
-}
-
-void readRobot(const ros::NodeHandle& handle, Parameters& parameters, RobotParts& out) {
-  std::string name, prefix, urdf;
-  parameters.text("robot_description", name);
-  parameters.text("robot_frame_prefix", prefix);
-  if (name.empty()) return;
-  // Looked for beside the node and above it, as usual for a robot's description.
-  const ros::NodeHandle beside(ros::names::parentNamespace(handle.getNamespace()));
-  std::string found;
-  if (!beside.searchParam(name, found) || !ros::param::get(found, urdf))
-    return parameters.fault("robot_description", "= '" + name + "' is no parameter of text");
-  RobotParts robot = partsOfUrdf(urdf, prefix, parameters.faults());
-  out.parts.insert(out.parts.end(), robot.parts.begin(), robot.parts.end());
-  out.left_out = std::move(robot.left_out);
+  for (YamlSection& entry : section.sections("bodies")) {
+    if (entry.has("robot_description"))
+      readRobot(handle, entry, parameters.faults(), out);
+    else
+      out.parts.push_back(readPart(entry));
+  }
 }
 
 }  // namespace
@@ -136,7 +141,6 @@ RobotParts partsOfUrdf(const std::string& urdf, const std::string& prefix, Fault
 RobotParts readRobotParts(const ros::NodeHandle& private_handle, Parameters& parameters) {
   RobotParts out;
   readList(private_handle, parameters, out);
-  readRobot(private_handle, parameters, out);
   std::set<std::string> ids;
   for (const forest::Body& part : out.parts) {
     forest::check(part, parameters.faults());

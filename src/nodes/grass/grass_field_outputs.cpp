@@ -88,6 +88,7 @@ void GrassField::sendCover(const ros::TimerEvent&) {
 }
 
 void GrassField::addDiagnostics(Status& status) {
+  sources_.missing().warn(name_, status);
   const grass::TreadState& tread = tread_->state();
   warnOfMore(status, tread.counts.no_memory, reported_no_memory_,
              "nodes left untrodden by the memory cap");

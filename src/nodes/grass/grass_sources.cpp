@@ -68,6 +68,17 @@ GrassSources::ObservedSource GrassSources::find(const Followed& followed, Nanose
           std::nullopt};
 }
 
+std::string GrassSources::describeMissing(const Followed& followed) const {
+  if (!followed.source.frame.empty())
+    return describeMissingTransform(followed.source.frame, frame_id_);
+  const std::string& topic = followed.source.odometry;
+  if (!followed.odometry) return "no odometry on '" + topic + "'";
+  const std::string& frame = followed.odometry->header.frame_id;
+  if (frame == frame_id_ || buffer_.canTransform(frame_id_, frame, ros::Time(0)))
+    return "no recent odometry on '" + topic + "'";
+  return describeMissingTransform(frame, frame_id_);
+}
+
 void GrassSources::say(const Followed& followed, grass::TreadAction action,
                        const ObservedSource& heard, std::vector<grass::TreadInput>& out) const {
   grass::TreadInput input;
@@ -102,8 +113,7 @@ std::vector<grass::TreadInput> GrassSources::update(Nanoseconds now, const grass
       report("source '" + followed.source.name + "'", error.what());
     }
     if (!known) {
-      missing_.push_back(followed.source.frame.empty() ? followed.source.odometry
-                                                       : followed.source.frame);
+      missing_.add(describeMissing(followed));
       if (followed.published) say(followed, grass::TreadAction::LIFT, heard, out);
       followed.published.reset();
       continue;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "nodes/grass/grass_options.h"
+#include "ros/services/missing_inputs.h"
 
 namespace vegetation_sim {
 
@@ -33,9 +34,9 @@ class GrassSources {
   /// their own. Calls `report` with the name and the fault of each source whose odometry is invalid.
   using Report = std::function<void(const std::string&, const std::string&)>;
   std::vector<grass::TreadInput> update(Nanoseconds now, const grass::TreadLaw& own,
-                                        double height_gate, const Report& report);
-  /// Frames and topics without recent data at the last update.
-  const std::vector<std::string>& missing() const { return missing_; }
+                                         double height_gate, const Report& report);
+  /// Transforms and odometry that the last update missed.
+  MissingInputs& missing() { return missing_; }
   /// Forgets all positions, after a jump of time.
   void clear();
 
@@ -53,6 +54,7 @@ class GrassSources {
   };
   ObservedSource find(const Followed& followed, Nanoseconds now) const;
   ObservedSource findOdometry(const Followed& followed, Nanoseconds now) const;
+  std::string describeMissing(const Followed& followed) const;
   void say(const Followed& followed, grass::TreadAction action, const ObservedSource& heard,
            std::vector<grass::TreadInput>& out) const;
 
@@ -60,7 +62,7 @@ class GrassSources {
   std::vector<Followed> followed_;
   const tf2_ros::Buffer& buffer_;
   std::vector<ros::Subscriber> subscribers_;
-  std::vector<std::string> missing_;
+  MissingInputs missing_;
   grass::TreadLaw own_;
   double height_gate_{0.3};
 };

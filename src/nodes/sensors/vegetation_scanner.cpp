@@ -61,6 +61,7 @@ void VegetationScanner::tick(std::int64_t tick) {
   const bool wanted = cloud_publisher_.getNumSubscribers() > 0 ||
                       scan_publisher_.getNumSubscribers() > 0 ||
                       report_publisher_.getNumSubscribers() > 0;
+  missing_.clear();
   try {
     const Pose sensor =
         poseInWorld(tf_buffer_, options_.frame_id, options_.lidar_frame, toStamp(clock_.stamp()));
@@ -70,10 +71,9 @@ void VegetationScanner::tick(std::int64_t tick) {
     sweep(sensor, tick);
     cost_ = (ros::WallTime::now() - start).toSec();
     ++counts_.sweeps;
-  } catch (const InvalidInput& error) {
-    ++counts_.unplaced;
-    missing_transform_ = error.what();
-    ROS_WARN_THROTTLE(5.0, "vegetation_scanner makes no sweep: %s", missing_transform_.c_str());
+  } catch (const InvalidInput&) {
+    counts_.unplaced += wanted;
+    missing_.add(describeMissingTransform(options_.lidar_frame, options_.frame_id));
   }
 }
 
@@ -140,7 +140,8 @@ void VegetationScanner::reportProblem(Status& status) {
   counts_.clock = clock_.counts();
   refusals_.warn(status);
   warnOfMore(status, counts_.unplaced, reported_.unplaced,
-             "sweeps without a transform of the sensor: " + missing_transform_);
+             "sweeps without a transform of the sensor");
+  missing_.warn("vegetation_scanner", status);
   counts_.lost = landscape_.lost();
   warnOfMore(status, counts_.lost, reported_.lost,
              "messages lost that are stamped ahead of the clock");

@@ -10,6 +10,7 @@
 #include "nodes/base/node_base.h"
 #include "nodes/sensors/scanner_options.h"
 #include "ros/replicas/landscape_replica.h"
+#include "ros/services/missing_inputs.h"
 #include "ros/time/tick_clock.h"
 
 namespace vegetation_sim {
@@ -42,7 +43,7 @@ class VegetationScanner final : public NodeBase {
     std::uint64_t sweeps{0}, unplaced{0}, lost{0};
     TickClock::Counts clock;
   } counts_, reported_;  // so far, and when diagnostics were last sent
-  std::string missing_transform_;
+  MissingInputs missing_;
   double cost_{0.0};         // wall time of the last sweep [s]
   std::uint32_t points_{0};  // of the last sweep
 

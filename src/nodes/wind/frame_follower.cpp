@@ -53,7 +53,8 @@ bool FrameFollower::update(wind::PrimitiveSchedule& schedule, Nanoseconds now) {
   missing_.clear();
   const Nanoseconds earliest = now + fromSeconds(lead_);
   for (auto& [name, attachment] : attachments_) {
-    if (!sample(attachment, now)) missing_.push_back(attachment.source().attached_frame);
+    if (!sample(attachment, now))
+      missing_.add(describeMissingTransform(attachment.source().attached_frame, frame_id_));
     const bool goes_on = attachment.started();
     const auto piece = attachment.piece(earliest);
     if (!piece) continue;

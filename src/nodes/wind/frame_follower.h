@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "nodes/wind/wind_settings.h"
+#include "ros/services/missing_inputs.h"
 #include "wind/schedule/attachment.h"
 #include "wind/schedule/primitive_schedule.h"
 
@@ -32,8 +33,8 @@ class FrameFollower {
   bool update(wind::PrimitiveSchedule& schedule, Nanoseconds now);
 
   std::vector<std::string> names() const;
-  /// Frames without a recent transform at the last update.
-  const std::vector<std::string>& missing() const { return missing_; }
+  /// Transforms that the last update missed.
+  MissingInputs& missing() { return missing_; }
 
  private:
   bool sample(wind::Attachment& attachment, Nanoseconds now);
@@ -42,7 +43,7 @@ class FrameFollower {
   std::string frame_id_;
   double period_, horizon_, lead_;                       // [s]
   std::map<std::string, wind::Attachment> attachments_;  // by name of the source
-  std::vector<std::string> missing_;
+  MissingInputs missing_;
 };
 
 }  // namespace vegetation_sim

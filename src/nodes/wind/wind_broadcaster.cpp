@@ -136,15 +136,12 @@ void WindBroadcaster::diagnose(Status& status) {
   using diagnostic_msgs::DiagnosticStatus;
   status.summary(DiagnosticStatus::OK, "blowing");
   if (!clock_.running()) status.summary(DiagnosticStatus::WARN, "waiting for time to begin");
-  std::string missing;
-  for (const auto* frames : {&follower_.missing(), &probes_.missing()})
-    for (const std::string& frame : *frames) missing += (missing.empty() ? "" : ", ") + frame;
-  if (!missing.empty())
-    status.mergeSummary(DiagnosticStatus::WARN, "no recent transform of " + missing);
+  for (MissingInputs* missing : {&follower_.missing(), &probes_.missing()})
+    missing->warn(name_, status);
   status.add("primitives", schedule_.field().primitives().size());
   status.add("sources", schedule_.names(clock_.now()).size());
   status.add("followed frames", follower_.names().size());
-  status.add("missing frames", missing);
+  status.add("missing frames", follower_.missing().size());
   status.add("hash", schedule_.field().hash());
   status.add("refused inputs", refusals_.count());
   status.add("last refusal", refusals_.last());

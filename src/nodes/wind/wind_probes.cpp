@@ -29,7 +29,7 @@ WindSamples WindProbes::sample(const wind::Field& field, Nanoseconds stamp) {
       sample.velocity = toVector(instant.velocity(position));
       out.samples.push_back(std::move(sample));
     } catch (const std::runtime_error&) {  // no transform, or a position that is not a number
-      missing_.push_back(frame);
+      missing_.add(describeMissingTransform(frame, frame_id_));
     }
   }
   return out;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "ros/services/missing_inputs.h"
 #include "vegetation_sim/wind/field.h"
 
 namespace vegetation_sim {
@@ -22,14 +23,15 @@ class WindProbes {
 
   /// Returns the wind at `stamp`, at the latest transform of each frame that has one.
   WindSamples sample(const wind::Field& field, Nanoseconds stamp);
-  /// Frames without a transform at the last sample.
-  const std::vector<std::string>& missing() const { return missing_; }
+  /// Transforms that the last sample missed.
+  MissingInputs& missing() { return missing_; }
   bool empty() const { return frames_.empty(); }
 
  private:
   const tf2_ros::Buffer& buffer_;
   std::string frame_id_;
-  std::vector<std::string> frames_, missing_;
+  std::vector<std::string> frames_;
+  MissingInputs missing_;
 };
 
 }  // namespace vegetation_sim

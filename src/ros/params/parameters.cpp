@@ -54,6 +54,20 @@ YAML::Node toYaml(XmlRpc::XmlRpcValue value) {
   }
 }
 
+// Adds the entries of a list, and text as the map {frame: text}. Anything else stays an entry,
+// which the reader rejects.
+void appendEntries(const YAML::Node& list, YAML::Node& out) {
+  if (!list.IsSequence()) return out.push_back(list);
+  for (const YAML::Node& entry : list) {
+    YAML::Node map = entry;
+    if (entry.IsScalar()) {
+      map = YAML::Node(YAML::NodeType::Map);
+      map["frame"] = entry;
+    }
+    out.push_back(map);
+  }
+}
+
 }  // namespace
 
 Parameters::Parameters(const ros::NodeHandle& private_handle) : handle_(private_handle) {
@@ -167,8 +181,13 @@ void Parameters::flag(const char* name, bool& value) {
 bool Parameters::list(const char* name, YAML::Node& map) {
   XmlRpc::XmlRpcValue found;
   if (!find(name, found)) return false;
+  const YAML::Node value = toYaml(found);
+  YAML::Node all(YAML::NodeType::Sequence);
+  if (value.IsSequence()) appendEntries(value, all);
+  if (value.IsMap())
+    for (const auto& robot : value) appendEntries(robot.second, all);
   map = YAML::Node(YAML::NodeType::Map);
-  map[name] = toYaml(found);
+  map[name] = value.IsScalar() ? value : all;
   return true;
 }
 

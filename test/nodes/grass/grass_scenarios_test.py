@@ -72,12 +72,12 @@ class GrassScenarios(unittest.TestCase):
         self.start('meadow_robot')
         odom, wrenches = Log('/odom', Odometry), Log('/grass/wrenches', WrenchStamped)
         wait_for(lambda: odom.connected() and wrenches.connected(), 'odometry and wrenches')
-        self.run_until(lambda: len(self.meadow.entered('left_wheel')) > 3, 'a robot that drives')
-        for side in ('left_wheel', 'right_wheel'):
+        self.run_until(lambda: len(self.meadow.entered('left_wheel_contact')) > 3, 'a robot that drives')
+        for side in ('left_wheel_contact', 'right_wheel_contact'):
             way = [e.tread.position for e in self.meadow.events.messages if e.tread.source == side][5:-2]
             samples = self.meadow.samples([(p.x, p.y) for p in way])
             self.assertGreater(min(s.tilt for s in samples), 1.0)
-        left, right = (self.meadow.entered(side)[0] for side in ('left_wheel', 'right_wheel'))
+        left, right = (self.meadow.entered(side)[0] for side in ('left_wheel_contact', 'right_wheel_contact'))
         self.assertLessEqual(abs(left[0] - right[0]) + abs(left[1] - right[1]), 2)
         pulls = wrenches.wait(lambda all: [w.wrench.force.x for w in all
                                            if w.header.frame_id == 'left_wheel_contact'], 'a pull')

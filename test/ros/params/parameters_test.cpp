@@ -109,6 +109,27 @@ TEST_F(ParametersTest, ErrorsNameBadValues) {
   EXPECT_EQ(faultOf("integers", 3), "integers = 3 is not a list of whole numbers");
 }
 
+// Several launch files can each add the list of their robot.
+TEST_F(ParametersTest, AListMayBeAMapOfListsAndAnEntryTheNameOfAFrame) {
+  XmlRpc::XmlRpcValue maps;
+  maps[0]["frame"] = "caster";
+  maps[0]["radius"] = 0.1;
+  handle_.setParam("sources/a", maps);
+  handle_.setParam("sources/b", std::vector<std::string>{"left", "right"});
+  Parameters parameters(handle_);
+  YAML::Node found;
+  ASSERT_TRUE(parameters.list("sources", found));
+  const YAML::Node all = found["sources"];
+  ASSERT_EQ(all.size(), 3u);
+  EXPECT_EQ(all[0]["frame"].as<std::string>(), "caster");
+  EXPECT_EQ(all[0]["radius"].as<double>(), 0.1);
+  EXPECT_EQ(all[1]["frame"].as<std::string>(), "left");
+  EXPECT_EQ(all[2]["frame"].as<std::string>(), "right");
+  handle_.setParam("sources", 7);
+  ASSERT_TRUE(parameters.list("sources", found));
+  EXPECT_TRUE(found["sources"].IsScalar());
+}
+
 TEST_F(ParametersTest, ErrorsNameUnknownAndKnownParameters) {
   EXPECT_EQ(faultOf("numbre", 1.0),
             "numbre is not a known parameter; known are choice, diagnostic_period, elsewhere, "

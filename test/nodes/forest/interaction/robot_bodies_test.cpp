@@ -87,9 +87,15 @@ TEST_F(RobotBodiesTest, FaultsOfTheListAreReported) {
     EXPECT_NE(faults.find(part), std::string::npos) << part << " in " << faults;
 }
 
+XmlRpc::XmlRpcValue robot(const std::string& description, const std::string& prefix) {
+  XmlRpc::XmlRpcValue out;
+  out["robot_description"] = description;
+  out["prefix"] = prefix;
+  return out;
+}
+
 TEST_F(RobotBodiesTest, CollisionGeometryOfAUrdfIsRead) {
-  handle_.setParam("robot_description", "robot_description");
-  handle_.setParam("robot_frame_prefix", "r1/");
+  setBody(robot("robot_description", "r1/"));
   const RobotParts found = read();
   ASSERT_EQ(found.parts.size(), 4u);
   const forest::Body* base = find(found, "r1/base");
@@ -109,8 +115,19 @@ TEST_F(RobotBodiesTest, CollisionGeometryOfAUrdfIsRead) {
   EXPECT_EQ(found.left_out, std::vector<std::string>{"camera"});
 }
 
+TEST_F(RobotBodiesTest, TwoRobotsHaveTheirOwnLists) {
+  for (const char* name : {"r1", "r2"}) {
+    XmlRpc::XmlRpcValue bodies;
+    bodies[0] = robot("robot_description", std::string(name) + "/");
+    handle_.setParam("bodies/" + std::string(name), bodies);
+  }
+  const RobotParts found = read();
+  EXPECT_EQ(found.parts.size(), 8u);
+  EXPECT_TRUE(find(found, "r1/arm") && find(found, "r2/arm"));
+}
+
 TEST_F(RobotBodiesTest, TextsThatAreNotUrdfAreRejected) {
-  handle_.setParam("robot_description", "no_such_parameter");
+  setBody(robot("no_such_parameter", ""));
   EXPECT_NE(errorOf([&] { read(); }).find("'no_such_parameter' is no parameter of text"),
             std::string::npos);
 }
@@ -166,13 +183,14 @@ TEST_F(Following, TwoSamplesGiveTheVelocity) {
   found = bodies_.update(START + 2 * TENTH);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_NEAR(found[0].velocity.x(), 2.0, 1e-9);
-  EXPECT_TRUE(bodies_.missing().empty());
+  EXPECT_TRUE(bodies_.missing().list().empty());
 }
 
 TEST_F(Following, SilentFrameRemovesTheBody) {
   ASSERT_EQ(follow(START, 1.0, START).size(), 1u);
   EXPECT_TRUE(bodies_.update(START + NANOSECONDS_PER_SECOND).empty());
-  EXPECT_EQ(bodies_.missing(), std::vector<std::string>{"hand"});
+  EXPECT_EQ(bodies_.missing().list(),
+            std::vector<std::string>{"no transform from 'hand' to 'map'"});
 }
 
 TEST_F(Following, JumpIsNotASpeed) {

@@ -33,9 +33,7 @@ WHOLE_NUMBERS = {
     'state_bytes': (' B/s', 0, 100000000), 'modal_trees': ('', 0, 1000),
 }
 OTHERS = {'scenario', 'frame_id', 'frame_prefix', 'viewer_frame', 'replay', 'branches_trees',
-          'tf_promoted', 'bodies',
-          # robot_bodies_test has more tests of the last three.
-          'robot_description', 'robot_frame_prefix'}
+          'tf_promoted', 'bodies'}  # robot_bodies_test has more tests of bodies
 
 # Text of a bad scenario and the expected part of the error.
 SCENARIOS = [
