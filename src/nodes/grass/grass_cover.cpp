@@ -19,10 +19,10 @@ int cellsAlong(const grass::MapLaw& law, int nodes, double resolution) {
 }
 
 // Only trodden blocks are visited.
-void addTreads(const grass::TreadSimulation& field, GrassCover& cover) {
+void addTreads(const grass::TreadSimulation& field, double resolution, GrassCover& cover) {
   const int rows = static_cast<int>(cover.info.height),
             columns = static_cast<int>(cover.info.width);
-  const double spacing = field.tread().spacing() / double{cover.info.resolution};
+  const double spacing = field.tread().spacing() / resolution;
   cover.crush.assign(cover.density.size(), 0.f);
   cover.age.assign(cover.density.size(), -1.f);
   for (const auto& [place, block] : field.tread().state().blocks)
@@ -65,10 +65,10 @@ GrassCover groundOf(const grass::FeatureMap& map, double resolution) {
   return out;
 }
 
-GrassCover coverOf(const grass::TreadSimulation& field, GrassCover ground) {
+GrassCover coverOf(const grass::TreadSimulation& field, GrassCover ground, double resolution) {
   GrassCover out = std::move(ground);
   out.header.stamp = toStamp(field.stamp());
-  addTreads(field, out);
+  addTreads(field, resolution, out);
   for (std::size_t i = 0; i < out.density.size(); ++i)
     out.resistance.push_back(static_cast<float>(field.drag()) * out.density[i] * out.height[i] *
                              std::max(0.f, 1.f - out.crush[i]));

@@ -27,8 +27,9 @@ struct CoverScale {
 /// Computes the grid, density and height, which do not change. @param resolution edge of a cell
 /// [m].
 GrassCover groundOf(const grass::FeatureMap& map, double resolution);
-/// Completes the ground by the layers that treading changes. Left to the caller: the frame.
-GrassCover coverOf(const grass::TreadSimulation& field, GrassCover ground);
+/// Completes the ground of this resolution by the layers that treading changes. Left to the caller:
+/// the frame.
+GrassCover coverOf(const grass::TreadSimulation& field, GrassCover ground, double resolution);
 
 /// Returns a layer in percent of its scale, at most 100; CRUSH of the largest tilt. -1: untrodden
 /// (AGE).
