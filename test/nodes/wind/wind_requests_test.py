@@ -252,7 +252,7 @@ class WindRequests(unittest.TestCase):
         self.assertEqual([s.velocity for s in message.samples], expected)
         status = Latest('/diagnostics', DiagnosticArray)
         wait_for(lambda: status.message and any(
-            'no recent transform of lost' in s.message for s in status.message.status), 'a warning')
+            "no transform from 'lost' to 'map'" in s.message for s in status.message.status), 'a warning')
 
     def test_counts_rejected_inputs(self):
         received = []
