@@ -67,7 +67,7 @@ class ForestAnimator final : public EventNode<ForestInputs, ForestAnimatorConfig
   void addDiagnostics(Status& status) override;
   void addGovernor(Status& status) override;
   void addWorldDetail(Status& status) const;
-  void addPhysics(Status& status) const;
+  void addPhysics(Status& status);
   void updateDeepestOverlap();
 
   // Services.

@@ -123,7 +123,7 @@ void ForestAnimator::addWorldDetail(Status& status) const {
   addModes(status, "World: ", forest_->world());
 }
 
-void ForestAnimator::addPhysics(Status& status) const {
+void ForestAnimator::addPhysics(Status& status) {
   const forest::PhysicsFigures figures = forest_->physicsFigures();
   status.add("Grabs", forest_->grabs().size());
   status.add("Grabs whose frame is silent", grab_manager_.silent());
