@@ -6,6 +6,7 @@
 
 #include "core/config/field_values.h"
 #include "ros/conversions/grab_conversions.h"
+#include "vegetation_sim/ros/conversions/forest_conversions.h"
 
 namespace vegetation_sim {
 namespace {

@@ -37,7 +37,8 @@ bool GrabHistory::update(const forest::HeldGrabs& held, Nanoseconds stamp) {
     }
     const auto reason = reasons_.find(id);
     GrabStatus status;
-    status.status = reason != reasons_.end() ? reason->second : GrabStatus::LEASE_EXPIRED;
+    status.status =
+        reason != reasons_.end() ? reason->second : std::uint8_t{GrabStatus::LEASE_EXPIRED};
     status.grab = toMsg(last.grab);
     status.since = toStamp(last.since);
     status.until = toStamp(stamp);
