@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/forest/forest_animator.h"
 
+#include <geometry_msgs/WrenchStamped.h>
+
 #include <algorithm>
 
 #include "vegetation_sim/ros/conversions/forest_conversions.h"
