@@ -15,7 +15,8 @@ fi
 # lies in the source tree.
 INSTALLED=$BUILD/install
 . "$ROOT/scripts/launching.sh"
-trap 'stop_process "$launch_pid"; stop_process "$display_pid"; rm -rf "$WORK" "$INSTALLED"' EXIT
+example_pid=
+trap 'stop_process "$example_pid"; stop_process "$launch_pid"; stop_process "$display_pid"; rm -rf "$WORK" "$INSTALLED"' EXIT
 rm -rf "$INSTALLED"
 cmake --install "$BUILD" >"$WORK/install.log"
 use_space "$INSTALLED"
@@ -52,6 +53,17 @@ mkdir -p "$WORK/taken/model.sdf"
 ! rosrun vegetation_sim export_forest package://vegetation_sim/config/scenarios/single_tree.yaml "$WORK/taken" 2>"$WORK/taken.log" ||
   fail 'a model was written over a folder'
 ! ls "$WORK"/taken/*.part 2>/dev/null || fail 'a rejected model leaves a partial file'
+
+# The example is built as another package would be.
+{ cmake -S "$ROOT/examples/follow_branch" -B "$WORK/follow_branch" -DCMAKE_PREFIX_PATH="$INSTALLED" \
+  -DPYTHON_EXECUTABLE=/usr/bin/python3 && cmake --build "$WORK/follow_branch"; } >"$WORK/example.log" 2>&1 ||
+  fail "the example: $(tail -n 20 "$WORK/example.log")"
+start_launch demo.launch scenario:=single_tree rviz:=false
+"$WORK/follow_branch/devel/lib/follow_branch/follow_branch" >"$WORK/tips" 2>&1 &
+example_pid=$!
+wait_until 60 'the tip of a branch' grep -q 'tip of branch 20' "$WORK/tips"
+stop_process "$example_pid"
+stop_process "$launch_pid"
 
 for nodelets in false true; do
   start_launch demo.launch scenario:=crowd lidar:=true rviz:=false nodelets:=$nodelets

@@ -58,6 +58,7 @@ void ForestAnimator::sendBranches(const ros::TimerEvent&) {
 
 void ForestAnimator::addDiagnostics(Status& status) {
   bodies_.missing().warn(name_, status);
+  status.add("Frames of bodies without a transform", bodies_.missing().size());
   const auto& memory = forest_->snapshot();
   const std::size_t trees = forest_->layout().treeCount();
   const auto at = memory.world.levels.counts(trees);
@@ -130,7 +131,6 @@ void ForestAnimator::addPhysics(Status& status) {
   status.add("Grabs ended by their lease", leases_ended_);
   status.add("Grabs ended by a new design", grabs_lost_);
   status.add("Bodies", forest_->bodies().size());
-  status.add("Frames of bodies without a transform", bodies_.missing().size());
   status.add("Physical trees", figures.trees);
   status.add("Physical branches", figures.branches);
   status.add("Physical branches that blend back", figures.blending);

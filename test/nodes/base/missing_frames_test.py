@@ -100,10 +100,10 @@ class MissingFrames(unittest.TestCase):
         self.expect_reports('vegetation_scanner', "no transform from 'lidar' to 'map'", 'lidar')
 
     def test_a_source_of_the_wind(self):
-        self.advance()
-        rospy.wait_for_service('/wind_broadcaster/set_primitive', DEADLINE)
         rotor = WindPrimitive(name='rotor', kind=WindPrimitive.BLAST, radius=6.0, core_radius=1.0,
                               speed=20.0, fade_in=0.5, fade_out=0.5, attached_frame='drone')
+        self.advance()  # Services are advertised once time has begun.
+        rospy.wait_for_service('/wind_broadcaster/set_primitive', DEADLINE)
         answer = rospy.ServiceProxy('/wind_broadcaster/set_primitive', SetWindPrimitive)(rotor)
         self.assertTrue(answer.success, answer.message)
         wait_for_readers('/tf', '/wind_broadcaster')

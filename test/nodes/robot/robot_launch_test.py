@@ -13,7 +13,7 @@ import rostest
 from geometry_msgs.msg import WrenchStamped
 from sensor_msgs.msg import PointCloud2
 from tf2_msgs.msg import TFMessage
-from vegetation_sim.msg import ScanReport
+from vegetation_sim.msg import ScanReport, WindSamples
 
 from crowd_rig import Crowd
 from forest_rig import RATE, Animator, TickClock, time_of
@@ -37,12 +37,13 @@ class RobotLaunch(unittest.TestCase):
         cls.wrenches = Log('/forest/wrenches', WrenchStamped)
         cls.clouds = {name: Log(topic, PointCloud2) for name, topic in
                       (('scout', '/lidar/points'), ('cart', '/cart/lidar/points'))}
+        cls.winds = Log('/wind/samples', WindSamples)
         cls.frames = Log('/tf', TFMessage)
         cls.tf = publisher('/tf', TFMessage)
         wait_for_readers('/tf', *NODES)
         cls.robot = SkidSteerRobot('scout/', rospy.get_param('scout/robot_description'), 0.0, -4.0,
                                    math.pi / 2, cls.tf)
-        for log in (cls.wrenches, cls.frames, *cls.clouds.values()):
+        for log in (cls.wrenches, cls.winds, cls.frames, *cls.clouds.values()):
             wait_for(log.connected, log.topic)
         wait_for_readers('/scout/truth', '/scout_ground_truth')
         cls.crowd.wait_until_up()
@@ -105,6 +106,11 @@ class RobotLaunch(unittest.TestCase):
         # The lidar is 0.3 m ahead of the robot's origin; the birch is within 0.5 m of its foot.
         self.assertAlmostEqual(numpy.median(wood['x']), -1.0 - robot - 0.3, delta=0.5)
         self.assertAlmostEqual(numpy.median(wood['y']), 0.5, delta=0.4)
+
+    def test_the_wind_is_sampled_at_the_robot(self):
+        sample = self.winds.messages[-1].samples[0]
+        self.assertEqual(sample.frame, 'scout/base_footprint')
+        self.assertLess(abs(sample.position.y - self.robot.y), 0.5)
 
     def test_a_second_robot_treads_and_scans(self):
         self.assertGreater(self.grass.at(4.0, -2.0).tilt, 1.2)
