@@ -8,6 +8,7 @@
 
 #include "ros/conversions/orientation.h"
 #include "vegetation_sim/core/math/math.h"
+#include "vegetation_sim/ros/conversions/geometry_conversions.h"
 
 namespace vegetation_sim {
 namespace {
