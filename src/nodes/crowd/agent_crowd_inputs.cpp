@@ -83,8 +83,7 @@ bool AgentCrowd::onSpawn(SpawnAgents::Request& request, SpawnAgents::Response& r
     const auto most = static_cast<std::size_t>(options_.most_walkers);
     const std::size_t room = most - std::min(crowd_.walkers().size() + waitingWalkers(), most);
     const ros::Time stamp = effectOf(request.header.stamp, clock_);
-    if (count == 0 || count > MOST_AT_ONCE || count > room ||
-        count > inputs_.room(fromMsg(stamp)))
+    if (count == 0 || count > MOST_AT_ONCE || count > room || count > inputs_.room(fromMsg(stamp)))
       throw InvalidInput("count = " + std::to_string(count) + " is outside 1 to " +
                          std::to_string(std::min<std::size_t>(MOST_AT_ONCE, room)) + ": " +
                          std::to_string(crowd_.walkers().size()) +

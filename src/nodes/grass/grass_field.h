@@ -84,8 +84,8 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   std::uint64_t state_bytes_{0}, largest_state_{0};
   std::uint64_t reported_no_memory_{0};  // of TreadCounts, when diagnostics were last sent
 
-  ros::Publisher layout_publisher_, state_publisher_, wrenches_publisher_,
-      forces_publisher_, cover_publisher_, values_publisher_;
+  ros::Publisher layout_publisher_, state_publisher_, wrenches_publisher_, forces_publisher_,
+      cover_publisher_, values_publisher_;
   std::array<ros::Publisher, COVER_LAYERS.size()> layer_publishers_;
 };
 

@@ -31,10 +31,11 @@ class GrassSources {
 
   /// Returns the treads of each source since the last call: it moved, left, or is repeated at rest.
   /// Positions are in the world frame; `own` and `height_gate` are for sources without values of
-  /// their own. Calls `report` with the name and the fault of each source whose odometry is invalid.
+  /// their own. Calls `report` with the name and the fault of each source whose odometry is
+  /// invalid.
   using Report = std::function<void(const std::string&, const std::string&)>;
   std::vector<grass::TreadInput> update(Nanoseconds now, const grass::TreadLaw& own,
-                                         double height_gate, const Report& report);
+                                        double height_gate, const Report& report);
   /// Transforms and odometry that the last update missed.
   MissingInputs& missing() { return missing_; }
   /// Forgets all positions, after a jump of time.

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "ros/conversions/orientation.h"
 #include "ros/conversions/optional_numbers.h"
+#include "ros/conversions/orientation.h"
 #include "vegetation_sim/core/config/fields.h"
 #include "vegetation_sim/core/math/hash.h"
 #include "vegetation_sim/core/math/math.h"
