@@ -34,8 +34,8 @@ VegetationScanner::VegetationScanner(const ros::NodeHandle& handle,
       tf_listener_(tf_buffer_),
       clock_(name_, options_.rate, options_.delay,
              {{},
-              [this](std::int64_t tick) { this->tick(tick); },
-              [this](Nanoseconds now) { restart(now); }},
+              [this](std::int64_t tick) { acceptInput("tick", [&] { this->tick(tick); }); },
+              [this](Nanoseconds now) { acceptInput("clock", [&] { restart(now); }); }},
              LateTicks::NEWEST) {
   restartScene();
   interest_publisher_ = handle_.advertise<SensorInterest>("forest/sensors", 10);

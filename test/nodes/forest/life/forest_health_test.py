@@ -10,7 +10,7 @@ import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from std_srvs.srv import Trigger
-from vegetation_sim.msg import ForestEvent
+from vegetation_sim.msg import ForestEvent, WindField
 
 from forest_rig import RATE, Animator, TickClock, ViewerClient, scene, start_animator, stop, time_of
 from waiting import wait_for
@@ -63,6 +63,19 @@ class ForestHealth(unittest.TestCase):
         self.forest.state.wait_for_stamp(time_of(self.clock.tick))
         count = 100 * RATE - 1
         self.expect_reported_once(self.forest, count, '%d ticks dropped' % count, 'Ticks dropped')
+
+    # Two nodes that both publish the wind would take turns.
+    def test_a_second_publisher_of_the_wind_is_reported_while_it_is_there(self):
+        def wait_for_status(level, words):
+            self.diagnostics.wait(lambda _: any(
+                s.level == level and words in s.message
+                for s in self.statuses(self.forest)[self.before:]), words)
+        self.mark(self.forest)
+        rival = rospy.Publisher('/wind', WindField, queue_size=1, latch=True)
+        wait_for_status(DiagnosticStatus.WARN, '2 publishers of /wind: the last message wins')
+        rival.unregister()
+        self.mark(self.forest)
+        wait_for_status(DiagnosticStatus.OK, 'running')
 
     # After a jump back and after ~reset no frames are sent.
     def test_a_fresh_start_stops_frames(self):
