@@ -16,10 +16,10 @@ namespace {
 using bench::Options;
 
 constexpr Nanoseconds START = 1700000000LL * NANOSECONDS_PER_SECOND;
-constexpr int RATE = 60;                  // [Hz]
-constexpr int PUSHED_AT_A_TIME = 200;     // trees
-constexpr int MOST_HELD = 256;            // trees: there is a limit of grabs
-constexpr int SETTLING_TICKS = RATE;      // longer than the fade after promotion
+constexpr int RATE = 60;               // [Hz]
+constexpr int PUSHED_AT_A_TIME = 200;  // trees
+constexpr int MOST_HELD = 256;         // trees: there is a limit of grabs
+constexpr int SETTLING_TICKS = RATE;
 constexpr double SAMPLED_BRANCHES = 4e5;  // branches and ticks of one round
 
 /// Oaks of so many branches or a few more, enough of them for `total` branches.
@@ -66,7 +66,7 @@ class PhysicalForest {
       forest_.push(push);
       if (tree % PUSHED_AT_A_TIME == PUSHED_AT_A_TIME - 1) advance();
     }
-    for (int i = 0; i < SETTLING_TICKS; ++i) advance();
+    settle();
   }
   std::uint32_t treeCount() const { return forest_.layout().treeCount(); }
   std::size_t branchCount() const { return forest_.physicsFigures().branches; }
@@ -80,7 +80,11 @@ class PhysicalForest {
       grab.target = tree.foot + forest_.pose(tree, id, forest_.snapshot().stamp)[twig].position;
       forest_.addGrab(grab);
     }
-    for (int i = 0; i < RATE / 10; ++i) advance();
+    settle();
+  }
+  /// Lets the fade after promotion end, in which steps cost several times as much.
+  void settle() {
+    for (int i = 0; i < SETTLING_TICKS; ++i) advance();
   }
   void advance() { forest_.advance(grid_.timeOf(++tick_)); }
   std::uint64_t hash() const { return forest_.hash(); }

@@ -21,7 +21,7 @@ constexpr double SLOW = 0.25;             // share of the wanted speed that coun
 constexpr double ASIDE = -1.9;            // direction of stepping aside, relative to the goal [rad]
 constexpr double GIVE_UP = 30.0;          // time without progress before another goal [s]
 constexpr int DRAWS = 8;                  // attempts to draw a free goal
-constexpr std::size_t FEW = 256;          // A thread takes at least this many walkers.
+constexpr std::size_t FEW = 256;          // One thread steps fewer walkers.
 constexpr std::size_t AHEAD = 4;          // walkers ahead for which memory is prefetched
 constexpr double JUST_SAFE = 1.0 - 1e-9;  // share of a safe distance, for rounding
 constexpr double GETTING_OUT = 0.1;       // step out of an overlap, as a share of the radius
@@ -45,10 +45,11 @@ struct Crowd::Tick {
 
 template <class Each>
 void Crowd::forAll(std::size_t count, Each each) const {
-  const std::size_t parts = std::min(threads_->size(), count / FEW + 1);
-  threads_->run(parts, [&](std::size_t part) {
-    for (std::size_t i = count * part / parts; i < count * (part + 1) / parts; ++i) each(i);
-  });
+  const auto range = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) each(i);
+  };
+  if (count < FEW) return range(0, count);
+  threads_->runRanges(count, range);
 }
 
 void Crowd::advance(Nanoseconds stamp) {

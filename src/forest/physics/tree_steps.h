@@ -16,7 +16,7 @@ struct StepTimes {
   }
 };
 
-/// What all trees of a tick share.
+/// The surroundings of a tick, which all trees share.
 struct TickContext {
   const StepContext& forest;
   const PhysicsSettings& settings;

@@ -57,6 +57,7 @@ void PhysicalSubtree::demote(const TreeWind& air, Nanoseconds stamp,
 void PhysicalSubtree::startBlends(const TreeWind& air, Nanoseconds stamp,
                                   const PhysicsSettings& settings, SubtreeScratch& scratch) {
   findCalm(air, stamp, settings, scratch);
+  if (std::find(scratch.calm.begin(), scratch.calm.end(), 1) == scratch.calm.end()) return;
   std::vector<char>& bears = scratch.bears;  // has physical children that do not blend
   bears.assign(joints_.size(), 0);
   for (std::size_t i = joints_.size(); i-- > 0;) {

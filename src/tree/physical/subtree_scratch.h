@@ -63,8 +63,8 @@ struct SubtreeScratch {
   physics::Kinematics start;        // of a step with contacts
   std::vector<Vec3> places;         // of points that springs hold
   std::vector<std::size_t> loaded;  // links
-  // Of demotion: links that wait for calm motion and their branches; flags of all links; positions
-  // at rest and the wind there.
+  // Demotion uses these: links that wait for calm motion and their branches; flags of all links;
+  // positions at rest and the wind there.
   std::vector<std::size_t> waiting;
   std::vector<int> branches;
   std::vector<char> calm, bears;

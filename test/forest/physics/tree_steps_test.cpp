@@ -5,7 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
+#include <utility>
+#include <vector>
 
 #include "scenes/forest/physics_scene.h"
 
@@ -33,9 +34,8 @@ class BusyForest {
     rig_.forest.setThreads(threads);
     rig_.forest.setWind(wind::Field({makeBreeze(1, Vec3(5.0, 2.0, 0.0))}));
     for (std::uint32_t tree = 0; tree < SIDE * SIDE; ++tree) {
-      const int branch = rig_.branchOfDepth(1 + static_cast<int>(tree % 2));
-      if (tree % 3 == 0) grab(tree, branch);
-      if (tree % 3 == 1) push(tree, branch);
+      if (tree % 3 == 0) grab(tree);
+      if (tree % 3 == 1) push(tree);
     }
   }
   /// Advances one tick and returns the hashes of the state and of the reactions.
@@ -66,8 +66,11 @@ class BusyForest {
   Vec3 footOf(std::uint32_t tree) const {
     return forest::footOf(rig_.forest.layout().trees[tree], rig_.forest.terrain());
   }
-  void grab(std::uint32_t tree, int branch) {
+  // Returns a branch in the middle of a tree.
+  static int middleOf(const Tree& tree) { return tree.skeleton.depth_end[1] - 1; }
+  void grab(std::uint32_t tree) {
     const Tree grown = growTree(rig_.forest.layout(), tree, rig_.forest.terrain());
+    const int branch = middleOf(grown);
     Grab out;
     out.point = {tree, branch, 0.0};
     out.target = grown.foot +
@@ -75,9 +78,9 @@ class BusyForest {
                  Vec3(0.3, 0.2, 0.0);
     rig_.forest.addGrab(out);
   }
-  void push(std::uint32_t tree, int branch) {
+  void push(std::uint32_t tree) {
     Push out;
-    out.point = {tree, branch, 0.0};
+    out.point = {tree, middleOf(growTree(rig_.forest.layout(), tree, rig_.forest.terrain())), 0.0};
     out.force = Vec3(20.0, 10.0, 0.0);
     out.until = rig_.now() + seconds(0.4);
     rig_.forest.push(out);
