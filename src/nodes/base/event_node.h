@@ -147,7 +147,7 @@ class EventNode : public NodeBase {
   /// Stamp of the last tick, 0 before the first.
   Nanoseconds lastStamp() const { return clock_.hasBegun() ? clock_.stamp() : 0; }
 
-  // Summary, warnings since the last report and the values that all such nodes have.
+  // Reports a summary, warnings since the last report and the values that all such nodes have.
   void diagnose(NodeBase::Status& status) {
     using diagnostic_msgs::DiagnosticStatus;
     status.summary(DiagnosticStatus::OK, "running");

@@ -123,7 +123,7 @@ void LandscapePanel::addBars(QGridLayout& grid) {
       {"Trees in modes", "forest_animator: forest", "Trees that move in modes", "Trees"},
       {"Trees physical", "forest_animator: forest", "Physical trees", "Trees"},
       {"Frames in tf", "forest_animator: forest", "tf frames", "tf budget [frames]"},
-      {"Points of markers", "forest_animator: forest", "Marker points", "Marker budget [points]"},
+      {"Points of markers", "forest_animator: governor", "Marker points", "Marker budget [points]"},
   };
   for (const auto& row : rows) {
     Bar bar{row.status, row.value, row.limit, new QLabel(row.title), new QProgressBar, {}};

@@ -100,7 +100,7 @@ class ForestState(unittest.TestCase):
     # The stock markers are two lists of constant size that are built only for a subscriber.
     def test_markers_are_few_constant_and_only_on_demand(self):
         self.run_sensed(2)
-        self.assertEqual(self.forest.diagnostics()['Marker points'], 0)
+        self.assertEqual(self.forest.diagnostics('governor')['Marker points'], 0)
         markers = Log('/forest/markers', MarkerArray)
         while len(markers.messages) < 10:
             self.run_sensed(1)
@@ -112,7 +112,7 @@ class ForestState(unittest.TestCase):
             self.assertLessEqual(sum(sizes), MARKER_POINTS)
             self.assertEqual(sizes, [len(m.points) for m in markers.messages[0].markers])
             self.assertEqual(sizes, [len(m.colors) for m in array.markers])
-        self.assertGreater(self.forest.diagnostics()['Marker points'], 0.5 * MARKER_POINTS)
+        self.assertGreater(self.forest.diagnostics('governor')['Marker points'], 0.5 * MARKER_POINTS)
         markers.close()
 
     # forest/branches has only the selected trees, with the same poses as get_tree.
