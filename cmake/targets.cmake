@@ -25,9 +25,18 @@ function(set_own_options target)
   endif()
 endfunction()
 
+# Headers of other libraries that most sources of a folder include. A compiler reads each list once per
+# target; headers of this package are not among them, because a change would compile everything again.
+set(core_headers <algorithm> <array> <cmath> <cstdint> <functional> <map> <memory> <mutex> <optional>
+  <set> <string> <utility> <vector> <Eigen/Geometry> <yaml-cpp/yaml.h>)
+set(ros_headers ${core_headers} <ros/ros.h> <tf2_ros/buffer.h>)
+set(rviz_headers ${ros_headers} <OgreSceneManager.h> <rviz/display.h> <rviz/display_context.h>
+  <rviz/properties/float_property.h>)
+
 # The core links no ROS library.
 add_library(${PROJECT_NAME}_core ${core_sources})
 set_own_options(${PROJECT_NAME}_core)
+target_precompile_headers(${PROJECT_NAME}_core PRIVATE ${core_headers})
 target_include_directories(${PROJECT_NAME}_core PUBLIC include)
 target_link_libraries(${PROJECT_NAME}_core
   PUBLIC Eigen3::Eigen ${YAML_CPP_LIBRARIES} PRIVATE PNG::PNG hwy::hwy)
@@ -35,8 +44,10 @@ target_link_libraries(${PROJECT_NAME}_core
 # Targets above the core use ROS.
 add_library(${PROJECT_NAME}_ros ${ros_sources})
 target_link_libraries(${PROJECT_NAME}_ros PUBLIC ${PROJECT_NAME}_core PRIVATE PkgConfig::assimp)
+target_precompile_headers(${PROJECT_NAME}_ros PRIVATE ${ros_headers})
 add_library(${PROJECT_NAME}_nodes ${node_sources})
 target_link_libraries(${PROJECT_NAME}_nodes PUBLIC ${PROJECT_NAME}_ros)
+target_precompile_headers(${PROJECT_NAME}_nodes PRIVATE ${ros_headers})
 add_library(${PROJECT_NAME}_nodelets ${nodelet_sources})
 target_link_libraries(${PROJECT_NAME}_nodelets PUBLIC ${PROJECT_NAME}_nodes)
 add_library(${PROJECT_NAME}_rviz ${rviz_sources})
@@ -44,6 +55,7 @@ target_compile_definitions(${PROJECT_NAME}_rviz PRIVATE QT_NO_KEYWORDS)
 target_link_libraries(${PROJECT_NAME}_rviz
   PUBLIC ${PROJECT_NAME}_ros Qt5::Widgets PRIVATE OpenGL::GL)
 set_target_properties(${PROJECT_NAME}_rviz PROPERTIES AUTOMOC ON)
+target_precompile_headers(${PROJECT_NAME}_rviz PRIVATE ${rviz_headers})
 # The library stays loaded after rviz unloads it: a pending service call may still return into it.
 target_link_options(${PROJECT_NAME}_rviz PRIVATE LINKER:-z,nodelete)
 
@@ -66,15 +78,27 @@ foreach(target ${ros_targets})
   add_dependencies(${target} ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})
 endforeach()
 
+# Adds a library without code whose precompiled headers programs with the same options share.
+# usage: add_shared_headers(NAME LIBRARY HEADER ...)
+set(generated_folder ${PROJECT_BINARY_DIR}/generated)
+file(GENERATE OUTPUT ${generated_folder}/empty.cpp CONTENT "")
+function(add_shared_headers name library)
+  add_library(${name} OBJECT EXCLUDE_FROM_ALL ${generated_folder}/empty.cpp)
+  set_own_options(${name})
+  target_link_libraries(${name} PRIVATE ${library})
+  target_precompile_headers(${name} PRIVATE ${ARGN})
+endfunction()
+
 # Benches share the folder scenes with the tests. Only the files that need the folder of the package
 # include its path, so that a compiler cache serves every clone.
-set(generated_folder ${PROJECT_BINARY_DIR}/generated)
 configure_file(cmake/package_folder.h.in ${generated_folder}/package_folder.h @ONLY)
+add_shared_headers(bench_headers ${PROJECT_NAME}_core ${core_headers})
 foreach(source ${bench_sources})
   get_filename_component(bench ${source} NAME_WE)
   add_executable(${bench} ${source})
   set_own_options(${bench})
   target_include_directories(${bench} PRIVATE bench ${PROJECT_SOURCE_DIR} ${generated_folder})
   target_link_libraries(${bench} PRIVATE ${PROJECT_NAME}_core)
+  target_precompile_headers(${bench} REUSE_FROM bench_headers)
   list(APPEND bench_targets ${bench})
 endforeach()

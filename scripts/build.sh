@@ -22,6 +22,9 @@ case ${1:-} in
     shift
     ;;
 esac
+# A cache of compilers accepts precompiled headers only with these settings.
+export CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
+
 targets=()
 for target in "$@"; do targets+=(--target "$target"); done
 
