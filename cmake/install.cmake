@@ -1,5 +1,7 @@
-set(own_targets ${PROJECT_NAME}_core ${ros_targets} ${bench_targets})
+# Benches are installed if they are built.
+set(own_targets ${PROJECT_NAME}_core ${ros_targets})
 list(SORT own_targets)
+install(TARGETS ${bench_targets} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION} OPTIONAL)
 install(TARGETS ${own_targets}
   ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
   LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}

@@ -50,17 +50,18 @@ target_link_libraries(${PROJECT_NAME}_nodes PUBLIC ${PROJECT_NAME}_ros)
 target_precompile_headers(${PROJECT_NAME}_nodes PRIVATE ${ros_headers})
 add_library(${PROJECT_NAME}_nodelets ${nodelet_sources})
 target_link_libraries(${PROJECT_NAME}_nodelets PUBLIC ${PROJECT_NAME}_nodes)
-add_library(${PROJECT_NAME}_rviz ${rviz_sources})
-target_compile_definitions(${PROJECT_NAME}_rviz PRIVATE QT_NO_KEYWORDS)
-target_link_libraries(${PROJECT_NAME}_rviz
-  PUBLIC ${PROJECT_NAME}_ros Qt5::Widgets PRIVATE OpenGL::GL)
-set_target_properties(${PROJECT_NAME}_rviz PROPERTIES AUTOMOC ON)
-target_precompile_headers(${PROJECT_NAME}_rviz PRIVATE ${rviz_headers})
-# The library stays loaded after rviz unloads it: a pending service call may still return into it.
-target_link_options(${PROJECT_NAME}_rviz PRIVATE LINKER:-z,nodelete)
-
-set(ros_targets
-  ${PROJECT_NAME}_ros ${PROJECT_NAME}_nodes ${PROJECT_NAME}_nodelets ${PROJECT_NAME}_rviz)
+set(ros_targets ${PROJECT_NAME}_ros ${PROJECT_NAME}_nodes ${PROJECT_NAME}_nodelets)
+if(with_rviz)
+  add_library(${PROJECT_NAME}_rviz ${rviz_sources})
+  target_compile_definitions(${PROJECT_NAME}_rviz PRIVATE QT_NO_KEYWORDS)
+  target_link_libraries(${PROJECT_NAME}_rviz
+    PUBLIC ${PROJECT_NAME}_ros Qt5::Widgets PRIVATE OpenGL::GL)
+  set_target_properties(${PROJECT_NAME}_rviz PROPERTIES AUTOMOC ON)
+  target_precompile_headers(${PROJECT_NAME}_rviz PRIVATE ${rviz_headers})
+  # The library stays loaded after rviz unloads it: a pending service call may still return into it.
+  target_link_options(${PROJECT_NAME}_rviz PRIVATE LINKER:-z,nodelete)
+  list(APPEND ros_targets ${PROJECT_NAME}_rviz)
+endif()
 foreach(source ${main_sources})
   get_filename_component(node ${source} NAME_WE)
   string(REGEX REPLACE "_node$" "" node ${node})
@@ -89,13 +90,13 @@ function(add_shared_headers name library)
   target_precompile_headers(${name} PRIVATE ${ARGN})
 endfunction()
 
-# Benches share the folder scenes with the tests. Only the files that need the folder of the package
-# include its path, so that a compiler cache serves every clone.
+# Benches share the folder scenes with the tests; the target benches builds them. Only the files that
+# need the folder of the package include its path, so that a compiler cache serves every clone.
 configure_file(cmake/package_folder.h.in ${generated_folder}/package_folder.h @ONLY)
 add_shared_headers(bench_headers ${PROJECT_NAME}_core ${core_headers})
 foreach(source ${bench_sources})
   get_filename_component(bench ${source} NAME_WE)
-  add_executable(${bench} ${source})
+  add_executable(${bench} EXCLUDE_FROM_ALL ${source})
   set_own_options(${bench})
   target_include_directories(${bench} PRIVATE bench ${PROJECT_SOURCE_DIR} ${generated_folder})
   target_link_libraries(${bench} PRIVATE ${PROJECT_NAME}_core)

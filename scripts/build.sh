@@ -3,12 +3,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Builds the package into build/ (or $BUILD). Repeated builds compile only what changed.
 # usage: scripts/build.sh [--developer | --sanitize] [TARGET ...]
-#   --developer  makes warnings in the package's own code errors
+#   --developer  makes warnings in the package's own code errors with any compiler
 #   --sanitize   builds into build/sanitize with the address and undefined behaviour sanitizers
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 
 options=()
+# Warnings are errors with the compiler of Debian 12 in any case: every change is tested with it, and
+# the demo and the tests share objects only if they have the same flags.
+[ "$(c++ -dumpversion)" != 12 ] || options=(-Dvegetation_sim_DEVELOPER=ON)
 case ${1:-} in
   --developer)
     options=(-Dvegetation_sim_DEVELOPER=ON)
@@ -28,6 +31,25 @@ export CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file
 targets=()
 for target in "$@"; do targets+=(--target "$target"); done
 
+# Rewrites ninja's lines "DONE TOTAL SECONDS STEP" with the percentage and the time that the rest
+# takes if its steps are as long as those before. A terminal shows the present line only.
+show_progress() {
+  local end='\n'
+  [ ! -t 1 ] || end='\033[K\r'
+  awk -v end="$end" '
+    /^@[0-9]+ [0-9]+ [0-9.]+ / {
+      done = substr($1, 2); minutes = $3 * ($2 - done) / done / 60; total = $2
+      sub(/^[^ ]* [^ ]* [^ ]* /, "")
+      printf "[%3d %% of %d steps, %.0f min left] %s" end, 100 * done / total, total, minutes, substr($0, 1, 80)
+      fflush()
+      next
+    }
+    { print; fflush() }'
+}
+
+# ccache accepts precompiled headers only with these settings.
+export CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
+
 say "Building in $BUILD"
 if [ ! -e "$BUILD/CMakeCache.txt" ]; then
   options+=(-G Ninja)
@@ -37,4 +59,4 @@ mkdir -p "$BUILD"
 cmake -S "$ROOT" -B "$BUILD" "${options[@]}" -DPYTHON_EXECUTABLE=/usr/bin/python3 \
   -DCMAKE_EXPORT_COMPILE_COMMANDS=ON -DCMAKE_INSTALL_PREFIX="$BUILD/install" \
   >"$BUILD/configure.log" 2>&1 || { tail -n 30 "$BUILD/configure.log" >&2; exit 1; }
-cmake --build "$BUILD" --parallel "$(nproc)" "${targets[@]}"
+NINJA_STATUS='@%f %t %e ' cmake --build "$BUILD" --parallel "$(nproc)" "${targets[@]}" | show_progress

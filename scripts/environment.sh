@@ -6,6 +6,12 @@ ROOT=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 BUILD=${BUILD:-$ROOT/build}
 export PATH=/usr/bin:/usr/sbin:/bin:$PATH
 
+# Nodes connect to each other by the name of the machine. In containers it often does not resolve;
+# then they use the loopback address.
+if [ -z "${ROS_HOSTNAME:-}${ROS_IP:-}" ] && ! getent hosts "$(uname -n)" >/dev/null; then
+  export ROS_IP=127.0.0.1
+fi
+
 say() { printf '== %s\n' "$*"; }
 
 fail() {

@@ -1,52 +1,98 @@
 #!/usr/bin/env bash
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs the missing packages that building, testing and the demo need on Debian 12. If all are
-# installed, it does not use the network. docs/dependencies.md gives the reason for each package.
+# Installs the missing packages on Debian 11, 12 and 13 and on Ubuntu 20.04 with ROS Noetic; fails on
+# other systems. If all are installed, it does not use the network. docs/dependencies.md gives the
+# reason for each package.
+# usage: scripts/install_dependencies.sh [--checks]
+#   --checks  also installs the programs of the static checks
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 
-PACKAGES=(
-  # These packages compile the code.
-  catkin cmake g++ ninja-build python3-catkin-pkg ros-core-dev
-  libroscpp-dev libtf2-ros-dev libsensor-msgs-dev liburdf-dev libvisualization-msgs-dev
-  libdiagnostic-updater-dev
-  libdynamic-reconfigure-config-init-mutex-dev python3-dynamic-reconfigure
-  libgl-dev libnodeletlib-dev pluginlib-dev librviz-dev qtbase5-dev
-  libassimp-dev libeigen3-dev libhwy-dev libpng-dev libyaml-cpp-dev
-  # These packages run the nodes.
-  libnodeletlib-tools python3-matplotlib python3-numpy python3-pil rviz
-  # These packages run the tests and inspect topics.
-  python3-rosbag python3-roslaunch python3-rosmsg python3-rosnode python3-rosparam
-  python3-rosservice python3-rostest python3-rostopic rosbash librostest-dev libgmock-dev
-  python3-diagnostic-msgs python3-geometry-msgs python3-nav-msgs python3-sensor-msgs python3-std-srvs python3-tf2-msgs
-  python3-visualization-msgs
-  catkin-lint clang-format clang-tidy
-  # These packages give the demo a virtual display and take screenshots.
-  imagemagick libgl1-mesa-dri procps xdotool xvfb
+COMMON=(
+  cmake g++ libassimp-dev libeigen3-dev libgl-dev libgmock-dev libpng-dev libyaml-cpp-dev ninja-build
+  pkg-config qtbase5-dev
+  # These packages run the charts, give the demo a virtual display and take screenshots.
+  imagemagick libgl1-mesa-dri procps python3-matplotlib python3-numpy python3-pil xdotool xvfb
 )
+DEBIAN=(
+  # These packages compile the code.
+  catkin python3-catkin-pkg ros-core-dev libroscpp-dev libtf2-ros-dev libsensor-msgs-dev liburdf-dev
+  libvisualization-msgs-dev libdiagnostic-updater-dev
+  libdynamic-reconfigure-config-init-mutex-dev python3-dynamic-reconfigure
+  libnodeletlib-dev pluginlib-dev librviz-dev
+  # These packages run the nodes and the tests and inspect topics.
+  libnodeletlib-tools rviz python3-rosbag python3-roslaunch python3-rosmsg python3-rosnode
+  python3-rosparam python3-rosservice python3-rostest python3-rostopic rosbash librostest-dev
+  python3-diagnostic-msgs python3-geometry-msgs python3-nav-msgs python3-sensor-msgs
+  python3-std-srvs python3-tf2-msgs python3-visualization-msgs
+)
+NOETIC=(
+  catkin diagnostic-msgs diagnostic-updater dynamic-reconfigure geometry-msgs message-generation
+  nav-msgs nodelet pluginlib rosbag rosbash roscpp rosgraph-msgs roslaunch roslib
+  rosmsg rosnode rosparam rospy rosservice rostest rostopic rviz sensor-msgs std-msgs std-srvs tf2
+  tf2-msgs tf2-ros urdf visualization-msgs
+)
+CHECKS=(catkin-lint clang-format clang-tidy)
 
-if ! command -v dpkg-query >/dev/null || ! grep -q '^VERSION_CODENAME=bookworm' /etc/os-release; then
-  say 'This system is not Debian 12: see docs/dependencies.md for its dependencies.'
-  exit 0
+system=unknown name='this system'
+if [ -e /etc/os-release ]; then
+  system=$(. /etc/os-release && echo "$ID ${VERSION_CODENAME:-}")
+  name=$(. /etc/os-release && echo "$PRETTY_NAME")
 fi
+case $system in
+  'debian bullseye') packages=("${COMMON[@]}" "${DEBIAN[@]}") ;;  # without Highway: CMake fetches it
+  'debian bookworm' | 'debian trixie') packages=("${COMMON[@]}" "${DEBIAN[@]}" libhwy-dev) ;;
+  'ubuntu focal') packages=("${COMMON[@]}" "${NOETIC[@]/#/ros-noetic-}") ;;
+  *) fail "$name is not supported: Debian 11, 12 and 13 and Ubuntu 20.04 are. Elsewhere install the packages in docs/dependencies.md and run scripts/build.sh." ;;
+esac
+[ "${1:-}" != --checks ] || packages+=("${CHECKS[@]}")
 
 missing=()
-for package in "${PACKAGES[@]}"; do
+for package in "${packages[@]}"; do
   dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed ||
     missing+=("$package")
 done
+
+as_root=()
+# usage: run_as_root COMMAND ...
+run_as_root() {
+  if [ "$(id -u)" -ne 0 ]; then
+    command -v sudo >/dev/null || fail "needs root or sudo for: $*"
+    as_root=(sudo)
+  fi
+  "${as_root[@]}" "$@"
+}
+
+# roslaunch looks up localhost, which bare roots and some containers do not know.
+getent hosts localhost >/dev/null ||
+  run_as_root sh -c 'echo 127.0.0.1 localhost >>/etc/hosts'
+
 if [ ${#missing[@]} -eq 0 ]; then
   say 'All dependencies are installed.'
   exit 0
 fi
 
-say "Installing ${missing[*]}"
-as_root=()
-if [ "$(id -u)" -ne 0 ]; then
-  command -v sudo >/dev/null || fail "needs root or sudo to install: ${missing[*]}"
-  as_root=(sudo)
-fi
-"${as_root[@]}" apt-get update -qq
-"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
-  apt-get install -y -qq --no-install-recommends "${missing[@]}"
+# Rewrites the status lines of apt, "dlstatus:NUMBER:PERCENT:TEXT" and "pmstatus:NAME:PERCENT:TEXT".
+# The text of a download ends with the remaining time. A terminal shows the present line only.
+show_progress() {
+  local end='\n'
+  [ ! -t 1 ] || end='\033[K\r'
+  awk -F: -v end="$end" '
+    $1 == "dlstatus" { phase = "Download" }
+    $1 == "pmstatus" { phase = "Installation" }
+    !/^(dl|pm)status:/ { next }
+    phase != shown || int($3) >= percent + 2 {
+      printf "[%s %.0f %%] %s" end, phase, $3, $4
+      shown = phase; percent = int($3)
+      fflush()
+    }'
+}
+
+say "Installing ${#missing[@]} packages and what they need: ${missing[*]}"
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+run_as_root apt-get update -qq
+run_as_root sh -c 'DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends \
+    -o APT::Status-Fd=3 "$@" 3>&1 >"$0" 2>&1' "$log" "${missing[@]}" | show_progress ||
+  { tail -n 30 "$log" >&2; fail 'apt-get cannot install the packages above'; }

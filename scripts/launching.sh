@@ -37,7 +37,8 @@ start_launch() { start_roslaunch vegetation_sim "$@"; }
 start_roslaunch() {
   local port
   port=$(python3 -c 'import socket; s = socket.socket(); s.bind(("", 0)); print(s.getsockname()[1])')
-  export ROS_MASTER_URI=http://localhost:$port ROS_HOSTNAME=localhost
+  export ROS_MASTER_URI=http://127.0.0.1:$port ROS_IP=127.0.0.1
+  unset ROS_HOSTNAME
   export ROS_HOME=$WORK/ros ROS_LOG_DIR=$WORK/ros/log
   roslaunch -p "$port" "$@" >"$LOG" 2>&1 &
   launch_pid=$!

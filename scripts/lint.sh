@@ -19,10 +19,15 @@ none_match() {
 
 format() { code | xargs clang-format --dry-run -Werror; }
 
-# Only the core is checked, because the headers of ROS would take many minutes.
+# Only the core is checked, because the headers of ROS would take many minutes. clang cannot read the
+# headers that g++ has precompiled.
 tidy() {
+  local commands
+  commands=$(mktemp -d)
+  sed 's/ -Winvalid-pch -include [^ ]*//' "$BUILD/compile_commands.json" >"$commands/compile_commands.json"
   git ls-files src/{canopy,core,crowd,dynamics,forest,grass,reference,sensors,terrain,tree,wind}'/*.cpp' |
-    xargs -P "$(nproc)" -n 1 clang-tidy --quiet --extra-arg=-std=c++17 -p "$BUILD" 2>/dev/null
+    xargs -P "$(nproc)" -n 1 clang-tidy --quiet --extra-arg=-std=c++17 -p "$commands" 2>/dev/null || { rm -r "$commands"; return 1; }
+  rm -r "$commands"
 }
 
 catkin() {

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs missing dependencies, builds with warnings as errors, and runs every test and check.
+# Installs missing dependencies, builds everything, and runs every test and check.
 # usage: scripts/test.sh [--lint | --sanitize]
 #   --lint      runs only the static checks
 #   --sanitize  runs only the core's tests under the address and undefined behaviour sanitizers
@@ -74,11 +74,12 @@ sanitize() {
   done
 }
 
-"$ROOT/scripts/install_dependencies.sh"
-[ $part = --sanitize ] || "$ROOT/scripts/build.sh" --developer all tests
+"$ROOT/scripts/install_dependencies.sh" --checks
+[ $part = --sanitize ] || "$ROOT/scripts/build.sh" all benches tests
 [ $part != all ] || run_tests
 [ $part = --sanitize ] || lint
 [ $part = --lint ] || sanitize
+[ $part != all ] || check 'a machine whose name does not resolve' "$ROOT/scripts/test_environment.sh"
 [ $part != all ] || check 'runs from the install space' "$ROOT/scripts/test_install.sh"
 [ $part != all ] || check 'a series of pictures of the demo' "$ROOT/scripts/test_demo.sh"
 
