@@ -25,9 +25,6 @@ case ${1:-} in
     shift
     ;;
 esac
-# A cache of compilers accepts precompiled headers only with these settings.
-export CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
-
 targets=()
 for target in "$@"; do targets+=(--target "$target"); done
 
@@ -38,7 +35,8 @@ show_progress() {
   [ ! -t 1 ] || end='\033[K\r'
   awk -v end="$end" '
     /^@[0-9]+ [0-9]+ [0-9.]+ / {
-      done = substr($1, 2); minutes = $3 * ($2 - done) / done / 60; total = $2
+      done = substr($1, 2); total = $2
+      minutes = done > 0 ? $3 * (total - done) / done / 60 : 0
       sub(/^[^ ]* [^ ]* [^ ]* /, "")
       printf "[%3d %% of %d steps, %.0f min left] %s" end, 100 * done / total, total, minutes, substr($0, 1, 80)
       fflush()
