@@ -23,6 +23,7 @@ while [[ ${1:-} == --* ]]; do
   esac
   shift 2
 done
+"$ROOT/scripts/build.sh" all benches
 use_space "$BUILD/devel"
 . "$ROOT/scripts/launching.sh"
 trap 'stop_process "$launch_pid"; stop_process "$display_pid"; rm -rf "$WORK"' EXIT

@@ -25,7 +25,9 @@ std::size_t roomFor(std::size_t wanted) {
 
 GrassBatch::GrassBatch(const std::string& name, const std::string& material, int rank)
     : Ogre::SimpleRenderable(name) {
-  setMaterial(Ogre::MaterialManager::getSingleton().getByName(material));
+  // OGRE 1.9 and 1.12 have no overload of setMaterial() in common.
+  mMaterial = Ogre::MaterialManager::getSingleton().getByName(material);
+  mMaterial->load();
   setCastShadows(false);
   setRenderQueueGroupAndPriority(Ogre::RENDER_QUEUE_3, static_cast<Ogre::ushort>(rank));
   mRenderOp.operationType = Ogre::RenderOperation::OT_TRIANGLE_LIST;

@@ -52,7 +52,9 @@ Batch::Batch(const std::string& name, const std::string& material) : Ogre::Simpl
 }
 
 void Batch::wear(const std::string& material) {
-  setMaterial(Ogre::MaterialManager::getSingleton().getByName(material));
+  // OGRE 1.9 and 1.12 have no overload of setMaterial() in common.
+  mMaterial = Ogre::MaterialManager::getSingleton().getByName(material);
+  mMaterial->load();
 }
 
 Batch::~Batch() {
@@ -101,7 +103,7 @@ void Batch::setBox(const std::vector<float>& positions, float margin) {
 }
 
 void Batch::move(const std::vector<float>& positions) {
-  if (positions_)
+  if (positions_.get() != nullptr)
     positions_->writeData(0, sizeof(float) * positions.size(), positions.data(), true);
 }
 
@@ -117,7 +119,8 @@ void Batch::reorder(const std::vector<std::uint32_t>& triangles) {
 }
 
 void Batch::paint(const std::vector<VertexPaint>& paint) {
-  if (paint_) paint_->writeData(0, sizeof(VertexPaint) * paint.size(), paint.data(), true);
+  if (paint_.get() != nullptr)
+    paint_->writeData(0, sizeof(VertexPaint) * paint.size(), paint.data(), true);
 }
 
 bool Batch::takeSeen() {

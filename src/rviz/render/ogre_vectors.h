@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <rviz/ogre_helpers/ogre_vector.h>
+#include <OgreAxisAlignedBox.h>  // it includes vectors, whose header differs between versions
 
 #include "vegetation_sim/core/math/vectors.h"
 
