@@ -75,7 +75,7 @@ void exhaustThreads() {
 }
 
 TEST(ThreadPoolDeathTest, WithoutThreadsTheCallerDoesAllParts) {
-  if (SANITIZED) return;  // a sanitizer needs the address space
+  if (SANITIZED) return;                                 // a sanitizer needs the address space
   testing::FLAGS_gtest_death_test_style = "threadsafe";  // no cached stacks
   EXPECT_EXIT(
       {
