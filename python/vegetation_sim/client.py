@@ -20,7 +20,7 @@ class Client:
         self.timeout = timeout
         self._proxies = {}
 
-    def call(self, name, service, **request):
+    def call(self, name, service, /, **request):
         """Returns the response to a request. Raises VegetationError if it is rejected."""
         if name not in self._proxies:
             self._proxies[name] = self._connect('%s/%s' % (self.node, name), service)

@@ -11,6 +11,8 @@ import unittest
 import roslib.packages
 import rospy
 import rostest
+from geometry_msgs.msg import TransformStamped
+from tf2_msgs.msg import TFMessage
 from vegetation_sim import Crowd, Forest, Grass, VegetationError, Wind
 from vegetation_sim.msg import GrabStatus
 
@@ -42,6 +44,12 @@ def wait_for(condition, what):
 class PythonClients(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
+        gripper = TransformStamped(child_frame_id='gripper')
+        gripper.header.frame_id = 'map'
+        at, gripper.transform.rotation.w = gripper.transform.translation, 1.0
+        at.x, at.y, at.z = -0.6, -0.8, 2.8
+        cls.frames = rospy.Publisher('/tf_static', TFMessage, queue_size=1, latch=True)
+        cls.frames.publish([gripper])
         cls.forest, cls.wind, cls.grass, cls.crowd = Forest(), Wind(), Grass(), Crowd()
 
     def held(self):
@@ -55,11 +63,11 @@ class PythonClients(unittest.TestCase):
                               force_limit=5000.0) as hold:
             start = hold.point
             self.assertEqual((hold.tree, hold.branch, hold.along), (TREE, LIMB, 0.3))
-            self.assertLess(math.dist(hold.force, (0, 0, 0)), 50.0)
+            calm = hold.force
             target = (start[0] + 0.2, start[1], start[2])
             hold.move(target)
             wait_for(lambda: math.dist(hold.point, target) < 0.1, 'the branch to follow')
-            self.assertLess(hold.force[0], -100.0)  # It pulls back.
+            self.assertLess(hold.force[0], calm[0] - 100.0)  # It pulls back.
             grab = hold.id
         wait_for(lambda: grab not in self.held(), 'the release')
         self.assertEqual(self.status_of(grab), [GrabStatus.RELEASED])
