@@ -37,11 +37,11 @@ class MissingFrames(unittest.TestCase):
         for topic in '/rosout', '/diagnostics':
             wait_for(lambda: listens(own, topic), topic)
 
-    def status_of(self, node):
-        """Returns the newest status of a node."""
-        own = [s for m in list(self.reports.messages) for s in m.status
-               if s.name.startswith(node + ':')]
-        return own[-1] if own else DiagnosticStatus()
+    def warnings_of(self, node):
+        """Returns the texts of the warnings among the newest statuses of a node."""
+        newest = {s.name: s for m in list(self.reports.messages) for s in m.status
+                  if s.name.startswith(node + ':')}
+        return [s.message for s in newest.values() if s.level == DiagnosticStatus.WARN]
 
     def lines(self, node, sentence):
         return [m for m in list(self.console.messages)
@@ -60,8 +60,7 @@ class MissingFrames(unittest.TestCase):
     def expect_reports(self, node, sentence, frame, again=lambda: None):
         def warned():
             self.advance()
-            status = self.status_of(node)
-            return status.level == DiagnosticStatus.WARN and sentence in status.message
+            return any(sentence in text for text in self.warnings_of(node))
         wait_for(warned, 'a warning of ' + node)
         wait_for(lambda: self.lines(node, sentence), 'a line of ' + node)
         count = len(self.reports.messages)
@@ -72,7 +71,7 @@ class MissingFrames(unittest.TestCase):
         def arrived():
             self.advance(frame)
             again()
-            return sentence not in self.status_of(node).message
+            return not any(sentence in text for text in self.warnings_of(node))
         wait_for(arrived, 'a report of %s without the warning' % node)
 
     def test_a_body_of_the_forest(self):
