@@ -240,6 +240,7 @@ TEST(GrabManager, AllGrabsAreReleasedOrNone) {
   Grab::Request request;
   request.tree = 0;
   request.branch = 46;
+  request.has_lease = true;
   request.lease = 60.0;
   for (int i = 0; i < 3; ++i) rig.grab(request);
   rig.tick();

@@ -66,7 +66,7 @@ class ForestTuning(unittest.TestCase):
     # Trees of another design have other branches, so nothing can stay held.
     def test_a_design_that_ends_grabs_says_so(self):
         grab = rospy.ServiceProxy('/forest_animator/grab', Grab)
-        answer = grab(tree=OAK, branch=1, along=0.1, lease=60.0)
+        answer = grab(tree=OAK, branch=1, along=0.1, has_lease=True, lease=60.0)
         self.assertTrue(answer.success, answer.message)
         self.clock.run(1, self.forest)
         before = self.forest.diagnostics()['Grabs ended by a new design']
