@@ -98,15 +98,14 @@ forest::Body readPart(YamlSection section) {
   return body;
 }
 
-// The parameter is looked for beside the node and above it, as usual for a robot's description.
+// The parameter is looked for in the namespace of the node and above it, as usual for a robot.
 void readRobot(const ros::NodeHandle& handle, YamlSection& section, Faults& faults,
                RobotParts& out) {
   std::string name, prefix, found, urdf;
   section.text("robot_description", name);
   section.text("prefix", prefix);
   section.finish();
-  const ros::NodeHandle beside(ros::names::parentNamespace(handle.getNamespace()));
-  if (!beside.searchParam(name, found) || !ros::param::get(found, urdf))
+  if (!handle.searchParam(name, found) || !ros::param::get(found, urdf))
     return section.fault("robot_description", "= '" + name + "' is no parameter of text");
   const RobotParts robot = partsOfUrdf(urdf, prefix, faults);
   out.parts.insert(out.parts.end(), robot.parts.begin(), robot.parts.end());
