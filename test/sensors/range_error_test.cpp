@@ -57,7 +57,7 @@ void makeWhole(forest::Forest& forest) {
 
 forest::Layout bareTrees() {
   forest::Layout out = forest::gridLayout(2, 8.0);
-  for (forest::Species& species : out.species) species.leaf_size = 0.0;
+  for (forest::Species& species : out.species) species.leaf_size = 0.001;
   return out;
 }
 
