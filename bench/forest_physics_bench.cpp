@@ -1,14 +1,16 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
 // Measures a tick of a forest whose branches are all physical, in a breeze of 24 modes at 60 Hz:
-// processor time per branch and tick, while nothing acts on the trees and while a hand holds each.
-// usage: forest_physics_bench [ROUNDS] [--quick | --full] [--part free,held] [--csv FILE]
+// processor time per branch and tick, while nothing acts on the trees and while a hand holds each;
+// wall time on several threads; and the search for trees near bodies.
+// usage: forest_physics_bench [ROUNDS] [--quick] [--part free,held,threads,bodies] [--csv FILE]
 #include <cstdio>
 
 #include "options.h"
 #include "processor_time.h"
 #include "scenes/forest/forest_fixture.h"
 #include "table.h"
+#include "tree/growth/tree_grid.h"
 
 namespace vegetation_sim::forest {
 namespace {
@@ -87,6 +89,7 @@ class PhysicalForest {
     for (int i = 0; i < SETTLING_TICKS; ++i) advance();
   }
   void advance() { forest_.advance(grid_.timeOf(++tick_)); }
+  void setThreads(int threads) { forest_.setThreads(threads); }
   std::uint64_t hash() const { return forest_.hash(); }
 
  private:
@@ -127,15 +130,56 @@ void benchForests(const Options& options, bench::Table& table) {
     }
 }
 
+// Wall time, because processor time is that of all threads together.
+void benchThreads(const Options& options) {
+  PhysicalForest forest(256, options.quick ? 5000 : 40000);
+  std::vector<bench::Candidate> candidates;
+  for (const int threads : {1, 2, 4})
+    candidates.push_back({std::to_string(threads), [&forest, threads] {
+                            forest.setThreads(threads);
+                            for (int i = 0; i < 5; ++i) forest.advance();
+                          }});
+  bench::timeInterleaved(candidates, options.rounds);
+  std::printf("\n%zu branches: threads, ms per tick, times faster\n", forest.branchCount());
+  for (const bench::Candidate& c : candidates)
+    std::printf("%-8s %8.2f %8.2f\n", c.name.c_str(), 1e3 * c.seconds / 5,
+                candidates[0].seconds / c.seconds);
+}
+
+// The bodies are between trees, so that only the search is measured.
+void benchBodies(const Options& options) {
+  std::printf("\nTrees near 15 bodies: trees, us with a comparison with all, us with the grid\n");
+  const terrain::HeightMap flat;
+  for (const int side : options.quick ? std::vector<int>{100} : std::vector<int>{316, 1000}) {
+    const Layout layout = gridLayout(side, 40.0);
+    const TreeGrid grid(layout);
+    std::size_t found = 0;
+    const auto search = [&](const TreeGrid* with) {
+      for (int body = 0; body < 15; ++body) {
+        const Vec3 centre(40.0 * body + 60.0, 40.0 * side / 2 + 20.0, 1.0);
+        found += findTreesNear(layout, with, flat, centre, 0.5).size();
+      }
+    };
+    std::vector<bench::Candidate> candidates{{"all", [&] { search(nullptr); }},
+                                             {"grid", [&] { search(&grid); }}};
+    bench::timeOnProcessor(candidates, options.rounds);
+    std::printf("%8d %12.1f %8.1f   %zu found\n", side * side, 1e6 * candidates[0].seconds,
+                1e6 * candidates[1].seconds, found);
+  }
+}
+
 }  // namespace
 }  // namespace vegetation_sim::forest
 
 int main(int argc, char** argv) {
   try {
     using namespace vegetation_sim;
-    const bench::Options options = bench::readOptions(argc, argv, {"free", "held"});
+    const bench::Options options =
+        bench::readOptions(argc, argv, {"free", "held", "threads", "bodies"});
     bench::Table table(options.csv, bench::SIZE_COLUMNS);
-    forest::benchForests(options, table);
+    if (options.wants("free") || options.wants("held")) forest::benchForests(options, table);
+    if (options.wants("threads")) forest::benchThreads(options);
+    if (options.wants("bodies")) forest::benchBodies(options);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "forest_physics_bench: %s\n", error.what());
     return 1;
