@@ -62,7 +62,7 @@ forest::Body bodyOf(const std::string& id, Shape shape, const Vec3& size) {
   forest::Body out;
   out.id = id;
   out.frame = id + "_link";
-  out.shape = static_cast<int>(shape);
+  out.shape = shape;
   out.size = size;
   return out;
 }

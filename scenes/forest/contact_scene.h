@@ -24,7 +24,7 @@ class Drive {
       : forest_(layout(species, tree), flatTerrain(), Settings()) {
     body_.id = "arm";
     body_.frame = "arm_link";
-    body_.shape = static_cast<int>(Shape::CAPSULE);
+    body_.shape = Shape::CAPSULE;
     body_.size = Vec3(0.025, 0.0, 0.6);
     body_.pose = {start, Quat{std::sqrt(0.5), std::sqrt(0.5), 0.0, 0.0}};
     body_.velocity = Vec3(speed, 0.0, 0.0);
@@ -155,7 +155,7 @@ class Ram {
       const Vec3 way(std::cos(angle), std::sin(angle), 0.0);
       Body body;
       body.id = "arm" + std::to_string(bodies_.size());
-      body.shape = static_cast<int>(Shape::SPHERE);
+      body.shape = Shape::SPHERE;
       body.size = Vec3(0.05, 0.0, 0.0);
       body.velocity = speed * way;
       body.pose.position = -(radius + 0.05) * way;

@@ -76,7 +76,7 @@ class CrownScene {
     for (std::size_t i = 0; i < links_.size(); ++i) branches_.push_back(static_cast<int>(i));
     physics::kinematicsOf(links_, {}, state_, kinematics_);
     body_.id = "arm";
-    body_.shape = static_cast<int>(Shape::CAPSULE);
+    body_.shape = Shape::CAPSULE;
   }
 
   const Skeleton& skeleton() const { return tree_.skeleton; }

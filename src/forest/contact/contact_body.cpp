@@ -39,7 +39,7 @@ void checkSize(const Body& body, const char* name, double value, double least, F
 }
 
 void checkShape(const Body& body, Faults& faults) {
-  switch (static_cast<Shape>(body.shape)) {
+  switch (body.shape) {
     case Shape::CAPSULE:
       checkSize(body, "length", body.size.z(), 0.0, faults);
       [[fallthrough]];
@@ -50,7 +50,7 @@ void checkShape(const Body& body, Faults& faults) {
       checkSize(body, "size_y", body.size.y(), SMALLEST_BODY, faults);
       return checkSize(body, "size_z", body.size.z(), SMALLEST_BODY, faults);
   }
-  faults.add("body '" + body.id + "'.shape = " + std::to_string(body.shape) +
+  faults.add("body '" + body.id + "'.shape = " + std::to_string(static_cast<int>(body.shape)) +
              " is none of 0 (sphere), 1 (capsule), 2 (box)");
 }
 
@@ -72,7 +72,7 @@ void check(const Body& body, Faults& faults) {
 }
 
 physics::RoundedBox shapeOf(const Body& body) {
-  switch (static_cast<Shape>(body.shape)) {
+  switch (body.shape) {
     case Shape::BOX:
       return {0.5 * body.size, 0.0};
     case Shape::CAPSULE:

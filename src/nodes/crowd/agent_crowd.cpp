@@ -142,8 +142,8 @@ void AgentCrowd::applyTrunks(std::uint64_t hash) {
                        " matches no forest layout received");
   std::vector<crowd::Obstacle> all = obstaclesOf(options_.scene.crowd.walls);
   const std::vector<crowd::Obstacle> trunks =
-      trunksOf(fromMsg(*found), static_cast<TrunkShape>(options_.trunks), options_.scene.crowd.area,
-               TRUNK_MARGIN, static_cast<std::size_t>(options_.most_trunks));
+      trunksOf(fromMsg(*found), options_.trunks, options_.scene.crowd.area, TRUNK_MARGIN,
+               static_cast<std::size_t>(options_.most_trunks));
   all.insert(all.end(), trunks.begin(), trunks.end());
   trunks_ = trunks.size();
   crowd_.setObstacles(std::move(all));

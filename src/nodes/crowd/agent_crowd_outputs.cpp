@@ -34,9 +34,9 @@ void AgentCrowd::publishAgents(Nanoseconds stamp) {
 }
 
 void AgentCrowd::publishTreads(Nanoseconds stamp) {
-  if (options_.tread == static_cast<int>(Treading::NONE)) return;
+  if (options_.tread == Treading::NONE) return;
   for (const crowd::Walker& walker : crowd_.walkers()) {
-    if (options_.tread == static_cast<int>(Treading::BODY))
+    if (options_.tread == Treading::BODY)
       treadOfBody(walker, stamp);
     else
       treadOfFeet(walker, stamp);

@@ -31,13 +31,13 @@ CrowdScene loadCrowdScene(const std::string& name);
 struct CrowdOptions : NodeOptions {
   CrowdOptions() { marker_points = 120000; }
 
-  double tolerance{1.0};             ///< error of drawn walkers [pixel]
-  double tf_rate{15.0};              ///< [Hz]
-  int tf_budget{20};                 ///< frames: nearest to robots, then lowest ids
-  std::string frame_prefix;          ///< precedes walker_<id>
-  int tread{1};                      ///< Treading
-  double tread_radius{0.0};          ///< 0: 0.16 of a body, 0.06 of a foot [m]
-  int trunks{0};                     ///< TrunkShape
+  double tolerance{1.0};     ///< error of drawn walkers [pixel]
+  double tf_rate{15.0};      ///< [Hz]
+  int tf_budget{20};         ///< frames: nearest to robots, then lowest ids
+  std::string frame_prefix;  ///< precedes walker_<id>
+  Treading tread{Treading::BODY};
+  double tread_radius{0.0};  ///< 0: 0.16 of a body, 0.06 of a foot [m]
+  TrunkShape trunks{TrunkShape::ROUND};
   int most_trunks{100000};           ///< near the area
   int most_walkers{5000};            ///< requests for more are rejected
   int threads{1};                    ///< of a tick

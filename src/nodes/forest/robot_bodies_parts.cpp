@@ -31,7 +31,7 @@ Pose fromUrdf(const urdf::Pose& pose) {
 void setCylinder(double radius, double length, forest::Body& body) {
   const bool flat = length < 2.0 * radius;
   const double edge = radius * std::sqrt(PI);
-  body.shape = static_cast<int>(flat ? Shape::BOX : Shape::CAPSULE);
+  body.shape = flat ? Shape::BOX : Shape::CAPSULE;
   body.size = flat ? Vec3(edge, edge, length) : Vec3(radius, 0.0, length - 2.0 * radius);
 }
 
@@ -39,12 +39,12 @@ void setCylinder(double radius, double length, forest::Body& body) {
 bool setShape(const urdf::Geometry& geometry, forest::Body& body) {
   switch (geometry.type) {
     case urdf::Geometry::SPHERE:
-      body.shape = static_cast<int>(Shape::SPHERE);
+      body.shape = Shape::SPHERE;
       body.size = Vec3(static_cast<const urdf::Sphere&>(geometry).radius, 0.0, 0.0);
       return true;
     case urdf::Geometry::BOX: {
       const urdf::Vector3& edges = static_cast<const urdf::Box&>(geometry).dim;
-      body.shape = static_cast<int>(Shape::BOX);
+      body.shape = Shape::BOX;
       body.size = Vec3(edges.x, edges.y, edges.z);
       return true;
     }
@@ -80,12 +80,12 @@ forest::Body readPart(YamlSection section) {
   body.id = body.frame;
   section.text("id", body.id);
   section.choice("shape", body.shape, {"sphere", "capsule", "box"});
-  if (static_cast<Shape>(body.shape) == Shape::BOX) {
+  if (body.shape == Shape::BOX) {
     body.size = Vec3(0.1, 0.1, 0.1);
     section.vector("size", body.size, "m", sizes);
   } else {
     section.number("radius", body.size.x(), "m", sizes);
-    if (static_cast<Shape>(body.shape) == Shape::CAPSULE)
+    if (body.shape == Shape::CAPSULE)
       section.number("length", body.size.z(), "m", {0.0, forest::LARGEST_BODY});
   }
   Vec3 angles = Vec3::Zero();

@@ -78,13 +78,13 @@ void GrassField::sendCover(const ros::TimerEvent&) {
   GrassCover cover = coverOf(*field_, ground_, options_.cover_resolution);
   cover.header.frame_id = options_.frame_id;
   if (values_publisher_.getNumSubscribers() > 0) values_publisher_.publish(cover);
-  const auto send = [&](const ros::Publisher& publisher, int layer) {
+  const auto send = [&](const ros::Publisher& publisher, CoverLayer layer) {
     if (publisher.getNumSubscribers() > 0)
-      publisher.publish(percentOf(cover, static_cast<CoverLayer>(layer), options_.cover_scale));
+      publisher.publish(percentOf(cover, layer, options_.cover_scale));
   };
   send(cover_publisher_, options_.cover_layer);
   for (std::size_t i = 0; i < layer_publishers_.size(); ++i)
-    send(layer_publishers_[i], static_cast<int>(i));
+    send(layer_publishers_[i], static_cast<CoverLayer>(i));
 }
 
 void GrassField::addDiagnostics(Status& status) {

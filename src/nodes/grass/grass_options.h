@@ -59,7 +59,7 @@ struct GrassOptions : NodeOptions {
   double cover_rate{2.0};         ///< [Hz]
   double cover_resolution{0.25};  ///< [m] side of a cell
   CoverScale cover_scale;         ///< values that count as 100
-  int cover_layer{0};             ///< of grass/cover: crush, density, resistance, age
+  CoverLayer cover_layer{CoverLayer::CRUSH};  ///< of grass/cover
   std::vector<FollowedSource> sources;
   GrassTuning tuning;  ///< initial values for dynamic_reconfigure
   GrassScene scene;

@@ -65,7 +65,7 @@ forest::Body fromMsg(const ForestBody& message) {
   forest::Body out;
   out.id = message.id;
   out.frame = message.frame;
-  out.shape = message.shape;
+  out.shape = static_cast<forest::Shape>(message.shape);
   out.size = fromMsg(message.size);
   out.pose = fromMsg(message.pose);
   out.velocity = fromMsg(message.twist.linear);

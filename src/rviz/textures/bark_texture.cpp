@@ -89,7 +89,7 @@ Image barkAtlas(int edge) {
   return out;
 }
 
-float barkAtlasU(int shape, float around) {
+float barkAtlasU(LeafShape shape, float around) {
   return 0.25f * (static_cast<float>(shape) + INSET + (1.f - 2.f * INSET) * around);
 }
 

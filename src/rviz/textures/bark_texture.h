@@ -19,6 +19,6 @@ Image barkPicture(forest::LeafShape shape, int columns);
 /// image of 2 BARK_PERIOD repeats without a seam. [2 edge x edge]
 Image barkAtlas(int edge);
 /// Returns the horizontal atlas coordinate of `around` (0 to 1) for a shape.
-float barkAtlasU(int shape, float around);
+float barkAtlasU(forest::LeafShape shape, float around);
 
 }  // namespace vegetation_sim::view

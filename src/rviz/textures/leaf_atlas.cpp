@@ -44,7 +44,7 @@ std::vector<Image> leafAtlas(int edge) {
   return out;
 }
 
-std::array<float, 2> leafAtlasPlace(int shape, bool bough, const std::array<float, 2>& at) {
+std::array<float, 2> leafAtlasPlace(LeafShape shape, bool bough, const std::array<float, 2>& at) {
   return {0.25f * (static_cast<float>(shape) + at[0]), 0.5f * ((bough ? 2.f : 1.f) - at[1])};
 }
 

@@ -14,7 +14,8 @@ namespace vegetation_sim::view {
 std::vector<Image> leafAtlas(int edge);
 /// Converts a place in one image, from the lower left corner (0, 0) to (1, 1), to atlas
 /// coordinates.
-std::array<float, 2> leafAtlasPlace(int shape, bool bough, const std::array<float, 2>& at);
+std::array<float, 2> leafAtlasPlace(forest::LeafShape shape, bool bough,
+                                    const std::array<float, 2>& at);
 
 /// Returns mipmaps of which the same fraction passes the alpha test as of the image.
 std::vector<Image> coveredMipmaps(const Image& picture, int smallest);

@@ -114,7 +114,7 @@ class Grower {
     const double along = f * rule(depth - 1).segments;
     out.segment = static_cast<int>(along);
     out.h = (along - out.segment) * bearer.length / rule(depth - 1).segments;
-    out.length = bearer.length * r.length * crownFactor(static_cast<Crown>(r.crown), place) *
+    out.length = bearer.length * r.length * crownFactor(r.crown, place) *
                  (1.0 + r.length_variation * vary(random, LENGTH));
     const double bearer_radius = radiusAt(bearer, f);
     out.base_radius = std::max(bearer_radius * r.radius, species_.twig_radius);

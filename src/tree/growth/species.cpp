@@ -10,9 +10,6 @@
 namespace vegetation_sim::forest {
 namespace {
 
-const std::vector<std::string> CROWNS{"even", "conical", "round", "flame"};
-const std::vector<std::string> LEAF_SHAPES{"broad", "needle", "small", "long"};
-
 /// Clamps each field into its range.
 class FieldClamper : public FieldVisitor {
  public:
@@ -25,25 +22,6 @@ class FieldClamper : public FieldVisitor {
 };
 
 }  // namespace
-
-void describe(FieldVisitor& v, LimbRule& r) {
-  v.number("children", r.children, "", {0.0, 200.0});
-  v.integer("whorl", r.whorl, "", {1, 12});
-  v.number("start", r.start, "", {0.0, 1.0});
-  v.number("end", r.end, "", {0.0, 1.0});
-  v.number("length", r.length, "", {0.01, 3.0});
-  v.number("length_variation", r.length_variation, "", {0.0, 0.9});
-  v.choice("crown", r.crown, CROWNS);
-  v.number("radius", r.radius, "", {0.01, 1.0});
-  v.number("taper", r.taper, "", {0.05, 1.0});
-  v.number("angle_low", r.angle_low, "rad", {0.0, 2.8});
-  v.number("angle_high", r.angle_high, "rad", {0.0, 2.8});
-  v.number("angle_variation", r.angle_variation, "rad", {0.0, 1.5});
-  v.number("rise", r.rise, "rad", {-3.1, 3.1});
-  v.number("wander", r.wander, "rad", {0.0, 3.0});
-  v.integer("segments", r.segments, "", {1, 16});
-  v.number("leaves", r.leaves, "", {0.0, 100.0});
-}
 
 void describe(FieldVisitor& v, Species& s) {
   v.number("height", s.height, "m", {0.1, 100.0});
@@ -64,7 +42,7 @@ void describe(FieldVisitor& v, Species& s) {
   v.number("leaf_area", s.leaf_area, "m^2", {0.0, 10.0});
   v.number("leaf_mass", s.leaf_mass, "kg", {0.0, 10.0});
   v.number("flutter", s.flutter, "rad", {0.0, 1.5});
-  v.choice("leaf_shape", s.leaf_shape, LEAF_SHAPES);
+  v.choice("leaf_shape", s.leaf_shape, {"broad", "needle", "small", "long"});
   v.vector("leaf_colour", s.leaf_colour, "", {0.0, 1.0});
   v.vector("leaf_colour_young", s.leaf_colour_young, "", {0.0, 1.0});
   v.vector("bark_colour", s.bark_colour, "", {0.0, 1.0});

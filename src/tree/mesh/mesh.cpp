@@ -119,8 +119,8 @@ class MeshBuilder {
 
 }  // namespace
 
-const LeafOutline& leafOutline(int leaf_shape, bool boughs) {
-  return OUTLINES[static_cast<std::size_t>(leaf_shape + (boughs ? 4 : 0))];
+const LeafOutline& leafOutline(LeafShape shape, bool boughs) {
+  return OUTLINES[static_cast<std::size_t>(shape) + (boughs ? 4 : 0)];
 }
 
 TreeMesh buildMesh(const Skeleton& skeleton, const Species& species, const MeshDetail& detail) {

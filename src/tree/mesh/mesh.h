@@ -25,7 +25,7 @@ constexpr int LEAF_CORNERS = 4;
 /// at (0.5, 0).
 using LeafOutline = std::array<std::array<float, 2>, LEAF_CORNERS>;
 /// Returns the part of the square that holds the image of a leaf shape's clusters or boughs.
-const LeafOutline& leafOutline(int leaf_shape, bool boughs);
+const LeafOutline& leafOutline(LeafShape shape, bool boughs);
 
 /// Fraction of a cluster's square that its leaves cover.
 constexpr double LEAF_COVERAGE = 0.4;

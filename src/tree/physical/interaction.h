@@ -48,7 +48,7 @@ enum class Shape : int { SPHERE = 0, CAPSULE = 1, BOX = 2 };
 struct Body {
   std::string id;     ///< names the body in reactions
   std::string frame;  ///< tf frame to which it is attached
-  int shape{0};       ///< Shape
+  Shape shape{Shape::SPHERE};
   /// Sphere: radius, -, -. Capsule along its z axis: radius, -, distance of the cap centres. Box:
   /// edges. [m]
   Vec3 size{Vec3(0.05, 0.0, 0.0)};

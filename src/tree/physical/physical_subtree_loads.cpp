@@ -98,15 +98,14 @@ void PhysicalSubtree::step(const TreeWind& air, const SubtreeLoads& loads,
                            SubtreeScratch& scratch) {
   const Step context{*this, air, loads, settings, scratch, from};
   const double h = secondsBetween(from, to);
-  const auto dynamics = static_cast<physics::Dynamics>(settings.dynamics);
-  const auto wanted = static_cast<physics::Integrator>(settings.integrator);
-  if (settings.precision == Precision::SINGLE && dynamics == physics::Dynamics::ARTICULATED &&
-      wanted == physics::Integrator::MIDPOINT)
+  if (settings.precision == Precision::SINGLE &&
+      settings.dynamics == physics::Dynamics::ARTICULATED &&
+      settings.integrator == physics::Integrator::MIDPOINT)
     return stepBatched(context, h);
   const physics::Surroundings outside = context.outside();
-  scratch.stepper.setDynamics(dynamics);
+  scratch.stepper.setDynamics(settings.dynamics);
   physics::ChainState& state = state_.change();
-  if (scratch.stepper.step(wanted, links_, outside, 0.0, h, state, theta_) == 0) {
+  if (scratch.stepper.step(settings.integrator, links_, outside, 0.0, h, state, theta_) == 0) {
     ++scratch.replaced;  // beyond the bound of the explicit method
     scratch.stepper.step(physics::Integrator::MIDPOINT, links_, outside, 0.0, h, state, theta_);
   }
@@ -168,7 +167,7 @@ void PhysicalSubtree::stepWithContacts(const TreeWind& air, const SubtreeLoads& 
   const double h = secondsBetween(from, to);
   physics::ChainState& state = state_.change();
   theta_ = physics::guardedTheta(state, h, theta_);
-  const bool euler = settings.integrator == static_cast<int>(physics::Integrator::IMPLICIT_EULER);
+  const bool euler = settings.integrator == physics::Integrator::IMPLICIT_EULER;
   scratch.contact_stepper.step(links_, context.outside(), settings.contact, 0.0, h,
                                euler ? 1.0 : theta_, state, contacts);
   limitJoints();

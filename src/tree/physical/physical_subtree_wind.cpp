@@ -15,8 +15,8 @@ constexpr double STRONGEST_DRAG = 0.5 * PHYSICS_RATE;  // [1/s]
 // Returns true if steps predict drag. Contacts always step implicitly, and so do explicit methods
 // beyond their bounds.
 bool predictsDrag(const PhysicsSettings& settings) {
-  return static_cast<physics::Dynamics>(settings.dynamics) == physics::Dynamics::ARTICULATED &&
-         physics::isImplicit(static_cast<physics::Integrator>(settings.integrator));
+  return settings.dynamics == physics::Dynamics::ARTICULATED &&
+         physics::isImplicit(settings.integrator);
 }
 
 }  // namespace
@@ -82,7 +82,8 @@ void PhysicalSubtree::addCompensation(const TreeWind& air, Nanoseconds stamp,
                                       const PhysicsSettings& settings, SubtreeScratch& s,
                                       physics::Loads& loads) const {
   // The dynamics of paper 1 have no inverse here: their branches meet the real load at once.
-  if (settings.dynamics != 0 || !compensates(stamp, settings.fade)) return;
+  if (settings.dynamics != physics::Dynamics::ARTICULATED || !compensates(stamp, settings.fade))
+    return;
   const std::size_t n = links_.size();
   s.procedural.q.resize(n);
   s.procedural.rate.resize(n);

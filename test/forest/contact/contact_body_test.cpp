@@ -14,7 +14,7 @@ namespace {
 Body capsule() {
   Body out;
   out.id = "arm";
-  out.shape = static_cast<int>(Shape::CAPSULE);
+  out.shape = Shape::CAPSULE;
   out.size = Vec3(0.05, 0.0, 0.6);
   out.stamp = 1000000000;
   return out;
@@ -30,9 +30,9 @@ TEST(ContactBody, ShapesAreRoundedBoxes) {
   Body body = capsule();
   EXPECT_EQ(shapeOf(body).half, Vec3(0, 0, 0.3));
   EXPECT_EQ(shapeOf(body).radius, 0.05);
-  body.shape = static_cast<int>(Shape::SPHERE);
+  body.shape = Shape::SPHERE;
   EXPECT_EQ(shapeOf(body).half, Vec3(0, 0, 0));
-  body.shape = static_cast<int>(Shape::BOX);
+  body.shape = Shape::BOX;
   body.size = Vec3(0.2, 0.4, 0.6);
   EXPECT_EQ(shapeOf(body).half, Vec3(0.1, 0.2, 0.3));
   EXPECT_EQ(shapeOf(body).radius, 0.0);
@@ -66,7 +66,7 @@ TEST(ContactBody, FaultsNameBodyValueAndRange) {
             "body 'arm'.length = -1 m is outside 0 to 50 m\n"
             "body 'arm'.radius = 0 m is outside 0.001 to 50 m");
   body = capsule();
-  body.shape = 7;
+  body.shape = static_cast<Shape>(7);
   EXPECT_EQ(faultsOf(body), "body 'arm'.shape = 7 is none of 0 (sphere), 1 (capsule), 2 (box)");
   body = capsule();
   body.pose.orientation = {2.0, 0.0, 0.0, 0.0};

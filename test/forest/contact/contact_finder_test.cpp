@@ -24,7 +24,7 @@ class ContactFinderTest : public testing::Test {
     kinematics_ = {{Pose()}, {Vec3(Vec3::Zero())}, {Vec3(Vec3::Zero())}};
     body_.id = "arm";
     body_.frame = "hand";
-    body_.shape = static_cast<int>(Shape::CAPSULE);
+    body_.shape = Shape::CAPSULE;
     body_.size = Vec3(0.02, 0.0, 0.5);
     body_.pose.orientation = Quat{std::sqrt(0.5), std::sqrt(0.5), 0.0, 0.0};
     place(-0.5);

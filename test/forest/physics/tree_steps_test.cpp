@@ -18,7 +18,7 @@ constexpr int SIDE = 4;  // trees
 Body bodyAt(std::uint32_t i, const Vec3& position, Nanoseconds stamp) {
   Body out;
   out.id = "arm_" + std::to_string(i);
-  out.shape = static_cast<int>(Shape::SPHERE);
+  out.shape = Shape::SPHERE;
   out.size = Vec3(0.4, 0.0, 0.0);
   out.pose.position = position;
   out.velocity = Vec3(1.5, 0.0, 0.0);

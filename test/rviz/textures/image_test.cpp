@@ -78,7 +78,8 @@ struct Cut {
 
 Cut cutOf(const Image& atlas, int cell) {
   constexpr int SAMPLES = 256;  // samples along the square
-  const forest::LeafOutline& outline = forest::leafOutline(cell % 4, cell >= 4);
+  const forest::LeafOutline& outline =
+      forest::leafOutline(static_cast<LeafShape>(cell % 4), cell >= 4);
   const auto holds = [&](float x, float y) {
     bool inside = true;
     for (std::size_t i = 0; i < forest::LEAF_CORNERS; ++i) {
@@ -123,10 +124,11 @@ TEST(LeafAtlas, OutlinesHoldThePictures) {
 TEST(LeafAtlas, EachShapeHasItsCell) {
   for (int shape = 0; shape < 4; ++shape) {
     for (const bool bough : {false, true}) {
-      const auto place = leafAtlasPlace(shape, bough, {0.5f, 0.5f});
+      const auto leaf = static_cast<LeafShape>(shape);
+      const auto place = leafAtlasPlace(leaf, bough, {0.5f, 0.5f});
       EXPECT_FLOAT_EQ(place[0], 0.125f + 0.25f * static_cast<float>(shape));
       EXPECT_FLOAT_EQ(place[1], bough ? 0.75f : 0.25f);
-      EXPECT_FLOAT_EQ(leafAtlasPlace(shape, bough, {0.5f, 0.f})[1], bough ? 1.f : 0.5f);
+      EXPECT_FLOAT_EQ(leafAtlasPlace(leaf, bough, {0.5f, 0.f})[1], bough ? 1.f : 0.5f);
     }
   }
 }

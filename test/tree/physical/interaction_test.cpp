@@ -400,7 +400,7 @@ TEST(Interaction, RefusedRequestsSayWhyAndChangeNothing) {
   has(errorOf([&] { rig.forest.removeBody("arm"); }), "body 'arm' is unknown");
   PhysicsSettings wrong;
   wrong.blend = -1.0;
-  wrong.integrator = 9;
+  wrong.integrator = static_cast<physics::Integrator>(9);
   has(errorOf([&] { rig.forest.setPhysics(wrong); }), "physics: blend = -1 s is outside");
   EXPECT_EQ(rig.forest.hash(), hash);
 }

@@ -286,8 +286,8 @@ TEST(PhysicalSubtree, EveryDynamicsAndIntegratorStaysBounded) {
   for (int dynamics = 0; dynamics < 3; ++dynamics) {
     for (int integrator = 0; integrator < 5; ++integrator) {
       PhysicsSettings settings;
-      settings.dynamics = dynamics;
-      settings.integrator = integrator;
+      settings.dynamics = static_cast<physics::Dynamics>(dynamics);
+      settings.integrator = static_cast<physics::Integrator>(integrator);
       PhysicsRig rig = windyRig(settings);
       double largest = 0.0;
       pull(rig, 1.5, [&] {
@@ -307,7 +307,7 @@ TEST(PhysicalSubtree, StiffWoodIsRunByTheMidpointAndCounted) {
   std::vector<Vec3> tips;
   for (int integrator = 0; integrator < 5; ++integrator) {
     PhysicsSettings settings;
-    settings.integrator = integrator;
+    settings.integrator = static_cast<physics::Integrator>(integrator);
     settings.precision = Precision::DOUBLE;
     settings.promotion = Promotion::DEPTH;
     PhysicsRig rig(settings);
@@ -322,7 +322,7 @@ TEST(PhysicalSubtree, StiffWoodIsRunByTheMidpointAndCounted) {
       steps += rig.forest.physicsFigures().steps;
       replaced += rig.forest.physicsFigures().replaced;
     });
-    const bool is_implicit = physics::isImplicit(static_cast<physics::Integrator>(integrator));
+    const bool is_implicit = physics::isImplicit(settings.integrator);
     EXPECT_EQ(replaced, is_implicit ? 0u : steps) << integrator;
     tips.push_back(rig.tip(rig.twig()));
   }
@@ -344,7 +344,7 @@ Vec3 pulledTip(const PhysicsSettings& settings) {
   rig.forest.addGrab(grab);
   for (int i = 0; i < RATE / 10; ++i) {
     rig.advance();
-    EXPECT_EQ(rig.forest.physicsFigures().replaced, 0u) << settings.integrator;
+    EXPECT_EQ(rig.forest.physicsFigures().replaced, 0u) << static_cast<int>(settings.integrator);
   }
   return rig.tip(limb);
 }
@@ -360,8 +360,8 @@ TEST(PhysicalSubtree, MovesByTheMethodThatIsChosen) {
         settings.promotion = Promotion::DEPTH;
         settings.precision = Precision::DOUBLE;
         settings.material = material;
-        settings.dynamics = dynamics;
-        settings.integrator = integrator;
+        settings.dynamics = static_cast<physics::Dynamics>(dynamics);
+        settings.integrator = static_cast<physics::Integrator>(integrator);
         tips.push_back(pulledTip(settings));
       }
   double same = 1.0, other = 1.0, apart = 0.0;

@@ -5,6 +5,7 @@
 #include "vegetation_sim/core/config/fields.h"
 #include "vegetation_sim/core/math/time.h"
 #include "vegetation_sim/dynamics/contact/contact_law.h"
+#include "vegetation_sim/dynamics/integration/method.h"
 
 namespace vegetation_sim::forest {
 
@@ -27,8 +28,8 @@ constexpr Nanoseconds LONGEST_GAP = NANOSECONDS_PER_SECOND;
 
 /// Which branches become physical, and how they are stepped.
 struct PhysicsSettings {
-  int dynamics{0};    ///< physics::Dynamics
-  int integrator{0};  ///< physics::Integrator
+  physics::Dynamics dynamics{physics::Dynamics::ARTICULATED};
+  physics::Integrator integrator{physics::Integrator::MIDPOINT};
   Precision precision{Precision::SINGLE};
   Material material{Material::BEAM};
   WindForcing wind_forcing{WindForcing::COMPENSATED};

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "vegetation_sim/core/config/fields.h"
 #include "vegetation_sim/core/config/yaml.h"
+#include "vegetation_sim/tree/growth/limb_rule.h"
 
 namespace vegetation_sim::forest {
 
@@ -15,29 +15,7 @@ constexpr int MAX_DEPTHS = 6;
 /// Maximum number of joints of a tree; growth stops there.
 constexpr int MAX_BRANCHES = 16384;
 
-/// How the length of limbs varies along their parent.
-enum class Crown : int { EVEN = 0, CONICAL = 1, ROUND = 2, FLAME = 3 };
 enum class LeafShape : int { BROAD = 0, NEEDLE = 1, SMALL = 2, LONG = 3 };
-
-/// Growth rules of the limbs of one recursion depth. The trunk (depth 0) ignores those that refer
-/// to a parent.
-struct LimbRule {
-  double children{1.0};          ///< limbs per bearing limb
-  int whorl{1};                  ///< limbs at the same height
-  double start{0.2}, end{1.0};   ///< part of the parent that has children, as fractions
-  double length{0.5};            ///< relative to the parent's length
-  double length_variation{0.1};  ///< +- fraction
-  int crown{0};                  ///< Crown
-  double radius{0.5};            ///< relative to the parent's radius at the joint
-  double taper{0.4};             ///< tip radius / base radius
-  double angle_low{1.0};         ///< to the parent, at the low end of its part with children [rad]
-  double angle_high{0.7};        ///< the same at its upper end [rad]
-  double angle_variation{0.1};   ///< +- [rad]
-  double rise{0.0};              ///< total turn upwards; negative: downwards [rad]
-  double wander{0.2};            ///< amplitude of the noise in direction, per limb [rad]
-  int segments{2};               ///< joints per limb
-  double leaves{0.0};            ///< leaf clusters per limb
-};
 
 /// Properties of all trees of a species: growth rules, wood, leaves. One file in config/species
 /// each.
@@ -61,7 +39,7 @@ struct Species {
   double leaf_area{0.02};        ///< drag area of a leaf cluster [m^2]
   double leaf_mass{0.004};       ///< of a leaf cluster [kg]
   double flutter{0.25};          ///< largest turn of a leaf cluster in strong wind [rad]
-  int leaf_shape{0};             ///< LeafShape
+  LeafShape leaf_shape{LeafShape::BROAD};
   Vec3 leaf_colour{Vec3(0.25, 0.45, 0.12)};      ///< sRGB, 0 to 1
   Vec3 leaf_colour_young{Vec3(0.45, 0.6, 0.2)};  ///< outer leaves
   Vec3 bark_colour{Vec3(0.32, 0.25, 0.18)};
@@ -77,7 +55,6 @@ struct Design {
   double size{1.0}, children{1.0}, leaves{1.0}, angle{1.0}, noise{1.0};
 };
 
-void describe(FieldVisitor& visitor, LimbRule& rule);
 void describe(FieldVisitor& visitor, Species& species);
 void describe(FieldVisitor& visitor, Design& design);
 

@@ -197,7 +197,7 @@ TEST(GrabManager, BodyGetsItsWrenchInItsFrameOfTheTick) {
   forest::Body body;
   body.id = "palm";
   body.frame = "hand";
-  body.shape = static_cast<int>(forest::Shape::SPHERE);
+  body.shape = forest::Shape::SPHERE;
   body.size = Vec3(0.1, 0.0, 0.0);
   body.velocity = Vec3(0.5, 0.0, 0.0);
   body.spin = Vec3(0.0, 0.0, 2.0);

@@ -70,7 +70,7 @@ TEST_F(RobotBodiesTest, ListIsRead) {
   const forest::Body& part = found.parts[0];
   EXPECT_EQ(part.id, "boom");
   EXPECT_EQ(part.frame, "boom_link");
-  EXPECT_EQ(part.shape, static_cast<int>(Shape::CAPSULE));
+  EXPECT_EQ(part.shape, Shape::CAPSULE);
   EXPECT_EQ(part.size, Vec3(0.05, 0.0, 2.0));
   EXPECT_EQ(part.in_frame.position, Vec3(0.0, 0.5, 1.0));
   EXPECT_NEAR(length(axisZ(part.in_frame.orientation) + Vec3::UnitY()), 0.0, 1e-12);
@@ -103,15 +103,15 @@ TEST_F(RobotBodiesTest, CollisionGeometryOfAUrdfIsRead) {
   const forest::Body* hand = find(found, "r1/arm_1");
   const forest::Body* wheel = find(found, "r1/wheel");
   ASSERT_TRUE(base && arm && hand && wheel);
-  EXPECT_EQ(base->shape, static_cast<int>(Shape::BOX));
+  EXPECT_EQ(base->shape, Shape::BOX);
   EXPECT_EQ(base->size, Vec3(0.8, 0.6, 0.4));
   EXPECT_EQ(base->in_frame.position, Vec3(0.0, 0.0, 0.2));
   EXPECT_EQ(arm->frame, "r1/arm");
-  EXPECT_EQ(arm->shape, static_cast<int>(Shape::CAPSULE));
+  EXPECT_EQ(arm->shape, Shape::CAPSULE);
   EXPECT_NEAR(length(arm->size - Vec3(0.05, 0.0, 0.9)), 0.0, 1e-12);
   EXPECT_NEAR(length(axisZ(arm->in_frame.orientation) - Vec3::UnitX()), 0.0, 1e-12);
-  EXPECT_EQ(hand->shape, static_cast<int>(Shape::SPHERE));
-  EXPECT_EQ(wheel->shape, static_cast<int>(Shape::BOX));
+  EXPECT_EQ(hand->shape, Shape::SPHERE);
+  EXPECT_EQ(wheel->shape, Shape::BOX);
   EXPECT_EQ(found.left_out, std::vector<std::string>{"camera"});
 }
 

@@ -21,8 +21,8 @@ constexpr char FILE_NAME[] = PACKAGE_FOLDER "/test/nodes/scenarios/methods.yaml"
 /// Returns the settings of the file, written by hand.
 PhysicsSettings wanted() {
   PhysicsSettings out;
-  out.dynamics = static_cast<int>(physics::Dynamics::PAPER);
-  out.integrator = static_cast<int>(physics::Integrator::EXPLICIT_EULER);
+  out.dynamics = physics::Dynamics::PAPER;
+  out.integrator = physics::Integrator::EXPLICIT_EULER;
   out.precision = forest::Precision::DOUBLE;
   out.material = forest::Material::PAPER;
   out.wind_forcing = forest::WindForcing::PAPER;
