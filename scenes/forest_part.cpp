@@ -16,9 +16,10 @@ constexpr Nanoseconds AFTER_TICK = 5000000;
 
 }  // namespace
 
-ForestPart::ForestPart(const Scenario& scenario)
+ForestPart::ForestPart(const Scenario& scenario, int threads)
     : forest_(*scenario.forest, scenario.terrain, scenario.levels) {
   forest_.setPhysics(scenario.physics);
+  forest_.setThreads(threads);
   for (forest::ForestReplica* replica : {&replica_, &shown_})
     replica->setLayout(*scenario.forest, scenario.terrain);
   for (std::uint32_t id = 0; id < forest_.layout().treeCount(); ++id) {

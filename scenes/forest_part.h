@@ -17,7 +17,7 @@ namespace vegetation_sim::scenes {
 /// as displays do.
 class ForestPart {
  public:
-  explicit ForestPart(const Scenario& scenario);
+  ForestPart(const Scenario& scenario, int threads);
 
   void setWind(const wind::Field& wind);
   void setEye(const Viewpoint& eye) { forest_.setViewers({eye}); }

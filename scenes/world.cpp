@@ -12,7 +12,7 @@ World::World(const std::string& scenario, int threads)
       threads_(threads),
       grid_(scenario_.rate),
       first_(grid_.tickAt(START)) {
-  if (scenario_.forest) forest = std::make_unique<ForestPart>(scenario_);
+  if (scenario_.forest) forest = std::make_unique<ForestPart>(scenario_, threads);
   if (scenario_.grass) grass = std::make_unique<GrassPart>(scenario_);
   if (scenario_.canopy) canopy = std::make_unique<CanopyPart>(scenario_);
   if (scenario_.crowd) crowd = std::make_unique<CrowdPart>(scenario_, threads);

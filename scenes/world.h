@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "core/threads/thread_pool.h"
 #include "scenes/canopy_part.h"
 #include "scenes/crowd_part.h"
 #include "scenes/forest_part.h"
@@ -16,7 +17,8 @@ namespace vegetation_sim::scenes {
 /// Simulates everything that a scenario describes, tick by tick. What a scenario lacks is null.
 class World {
  public:
-  /// @param threads that the crowd and the scanner may use; results do not depend on it.
+  /// @param threads that the forest, the crowd and the scanner may use; results do not depend on
+  /// it.
   explicit World(const std::string& scenario, int threads = 1);
 
   /// Advances everything to the next tick.
@@ -45,7 +47,7 @@ class World {
   void addScan(Hash& hash);
 
   Scenario scenario_;
-  int threads_;
+  ThreadPool threads_;
   TickGrid grid_;
   std::int64_t first_;
   int tick_{0};

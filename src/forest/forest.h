@@ -89,7 +89,7 @@ class Forest {
   PromotedTree promoted(std::uint32_t tree) const;
   /// Returns the ids of the trees with physical joints, sorted.
   std::vector<std::uint32_t> physicalTrees() const;
-  /// What the world has, and what displays draw.
+  /// The detail of the world, and that which displays draw.
   const TreeDetail& world() const { return snapshot_.world; }
   const TreeDetail& view() const { return snapshot_.view; }
   /// The choices of the last tick.

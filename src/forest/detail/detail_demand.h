@@ -41,8 +41,8 @@ struct DetailDemand {
   double pixelsPerMetre(const Vec3& centre, double reach, double tolerance) const;
 };
 
-/// The detail that the state of the world has: what settings, bodies and sensors require, whoever
-/// watches.
+/// Returns the detail that settings, bodies and sensors require of the world; viewers do not affect
+/// it.
 DetailDemand worldDemand(const Settings& settings, const Bodies& bodies,
                          const std::map<std::string, Sensor>& sensors);
 /// The detail that displays draw. Without viewers, trees have the level of the settings.

@@ -114,7 +114,7 @@ void ForestAnimator::addGovernor(Status& status) {
   addWorldDetail(status);
 }
 
-// What bodies and sensors require; viewers do not affect it.
+// Reports the detail that bodies and sensors require; viewers do not affect it.
 void ForestAnimator::addWorldDetail(Status& status) const {
   const forest::GovernorFigures& figures = forest_->worldChoice().figures();
   status.add("World: largest predicted error [tolerance]",

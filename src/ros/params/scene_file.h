@@ -10,7 +10,7 @@
 
 namespace vegetation_sim {
 
-/// What every node takes from a scenario file, beside its own section.
+/// The part of a scenario file that every node reads, beside its own section.
 struct SceneBase {
   std::string frame_id;  ///< world frame; empty: not given
   std::uint64_t seed{0};
