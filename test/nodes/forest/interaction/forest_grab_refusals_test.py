@@ -14,7 +14,8 @@ from vegetation_sim.srv import ApplyForce, GetTree, Grab, MoveGrab, Release
 from forest_rig import RATE, TickClock, time_of
 from given import given
 from grab_rig import LIMB, TREE, Hands, plus, stamped
-from waiting import DEADLINE, wait_for
+from waiting import wait_for
+from watched_node import serves
 
 NAN, INF = float('nan'), float('inf')
 TREES = 7
@@ -108,7 +109,8 @@ class ForestGrabRefusals(unittest.TestCase):
     def test_requests_that_every_tick_would_reject(self):
         def service(node, name, kind):
             topic = '/%s/%s/%s' % (node, node, name)
-            rospy.wait_for_service(topic, DEADLINE)
+            # A node serves once the clock has reached it.
+            wait_for(lambda: self.clock.run(1, self.hands) or serves(topic), topic)
             return rospy.ServiceProxy(topic, kind)
         get_trees = {n: service(n, 'get_tree', GetTree) for n in ('paper', 'far')}
 
