@@ -83,7 +83,7 @@ TreadSimulation::StrokeSteps TreadSimulation::stepsOf(const TreadInput& stroke) 
       if (below > 0.0 || above < 0.0) return out;
       continue;
     }
-    const auto [enters, leaves] = std::minmax(below / way[axis], above / way[axis]);
+    const auto [enters, leaves] = std::minmax({below / way[axis], above / way[axis]});
     begin = std::max(begin, enters), end = std::min(end, leaves);
   }
   if (begin > end) return out;
