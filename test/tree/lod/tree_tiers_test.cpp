@@ -131,7 +131,7 @@ TEST(Governor, ToleranceIsHeldWhereTheBudgetAllowsIt) {
   park.forest.setSettings(settings);
   for (int i = 0; i < 30; ++i) park.advance();
   EXPECT_LT(park.forest.viewChoice().figures().cost, 0.8 * fine);
-  park.eye.eye.position = Vec3(-20.0, 31.5, 6.0);
+  park.eye.position = Vec3(-20.0, 31.5, 6.0);
   settings.tolerance = 1.0;
   park.forest.setSettings(settings);
   for (int i = 0; i < 100; ++i) park.advance();
@@ -244,7 +244,7 @@ double measuredError(const Tree& tree, std::uint32_t id, const Forest& forest,
   const auto air = forest.snapshot().wind.at(stamp).relativeTo(tree.foot);
   const auto& branches = tree.skeleton.branches;
   const auto still = forwardKinematics(tree, proceduralAngles(tree, air, fullWeights()));
-  const auto modal_states = forest.pose(tree, id, stamp);
+  const auto modal_states = forest.poseInView(tree, id, stamp);
   double out = 0.0;
   for (std::size_t b = 0; b < modal_states.size(); ++b) {
     const Vec3 right = tipOf(branches[b], modal_states[b]);
@@ -262,7 +262,7 @@ TEST(Governor, PredictedLagIsTheMeasuredOne) {
   settings.budget.modal_trees = 16;
   settings.tolerance = 0.02;  // so that all have modes
   park.forest.setSettings(settings);
-  park.eye.eye.position = Vec3(-20.0, 13.5, 6.0);
+  park.eye.position = Vec3(-20.0, 13.5, 6.0);
   for (int i = 0; i < 60; ++i) park.advance();  // a tree a tick gets its modes
   std::map<std::uint32_t, double> measured, predicted;
   for (int i = 0; i < 300; ++i) {
@@ -273,7 +273,7 @@ TEST(Governor, PredictedLagIsTheMeasuredOne) {
       const Tree tree = growTree(park.forest.layout(), plant.id, park.forest.terrain());
       predicted[plant.id] = plant.error[static_cast<std::size_t>(plant.stepwise)];
       measured[plant.id] =
-          std::max(measured[plant.id], measuredError(tree, plant.id, park.forest, park.eye.eye));
+          std::max(measured[plant.id], measuredError(tree, plant.id, park.forest, park.eye));
     }
   }
   ASSERT_EQ(measured.size(), 16u);
