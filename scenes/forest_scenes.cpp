@@ -10,19 +10,21 @@ void standAside(World& world) {
   world.setCamera(Vec3(-15.0, 10.0, 3.0), 0.0);
 }
 
-/// The camera circles the trees, so that their levels of detail change.
+/// The camera and a sensor circle the trees, so that their levels of detail change.
 void walkRound(World& world) {
   const SinCos at = sinCosTurns(world.nextSeconds() / 10.0);
   const double radius = 14.0 + 60.0 * world.nextSeconds() / 10.0;
   world.setCamera(Vec3(10.0 - radius * at.cos, 10.0 - radius * at.sin, 3.0),
                   2.0 * PI * world.nextSeconds() / 10.0);
+  world.setSensor(Vec3(10.0 + radius * at.cos, 10.0 + radius * at.sin, 1.0), 40.0, 0.02);
   if (world.tick() == 300) world.changeWind();
 }
 
-/// The camera stays near, so that trees get modes; then it moves far away.
+/// The camera and a sensor stay near, so that trees get modes; then they move far away.
 void stayNear(World& world) {
   const double away = world.tick() < 450 ? 12.0 : 150.0;
   world.setCamera(Vec3(-away, 4.0, 3.0), 0.0);
+  world.setSensor(Vec3(-away, -4.0, 1.0), 40.0, 0.005);
   if (world.tick() == 240) world.changeWind();
 }
 
