@@ -57,7 +57,7 @@ TEST(GreyImage, OtherFilesAreRejectedWithTheirName) {
 TEST(GreyImage, MissingFilesAndFoldersAreRejectedWithTheirName) {
   EXPECT_EQ(errorOf([] { loadGreyImage("nowhere/hill.png"); }),
             "nowhere/hill.png: cannot be read: No such file or directory");
-  EXPECT_EQ(errorOf([] { loadGreyImage("/"); }), "/: cannot be read: Is a directory");
+  EXPECT_EQ(errorOf([] { loadGreyImage("/"); }), "/: cannot be read: it is no regular file");
 }
 
 TEST(GreyImage, PngCutShortIsRefusedAtEveryLength) {
