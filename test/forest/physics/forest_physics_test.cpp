@@ -63,7 +63,7 @@ TEST(Memory, OneGrabIn256TreesGivesAllBack) {
   ASSERT_EQ(rig.forest.layout().treeCount(), 256u);
   rig.forest.setWind(steadyWind(Vec3(2, 1, 0)));
   rig.run(1.0);
-  rig.forest.update(true);
+  rig.forest.update(true), rig.forest.updateView(true);
   const long before = liveBytes();
   EXPECT_EQ(rig.forest.physicsFigures().bytes, 0u);
   Grab grab = rig.grabOf(rig.branchOfDepth(1));
@@ -83,7 +83,7 @@ TEST(Memory, OneGrabIn256TreesGivesAllBack) {
   EXPECT_GT(rig.forest.physicsFigures().branches, 0u);  // recoils
   for (int i = 0; i < 20 && rig.forest.physicsFigures().trees > 0; ++i) rig.run(1.0);
   const PhysicsFigures after = rig.forest.physicsFigures();
-  rig.forest.update(true);
+  rig.forest.update(true), rig.forest.updateView(true);
   const long left = liveBytes() - before;
   EXPECT_EQ(after.trees + after.branches + after.bytes, 0u);
   EXPECT_LE(left, 0);

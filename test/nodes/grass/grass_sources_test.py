@@ -16,7 +16,7 @@ from vegetation_sim.srv import SetWindPrimitive
 
 from forest_rig import TickClock
 from grass_rig import FULL, RATE, Feet, Meadow, step, time_of
-from waiting import wait_for
+from waiting import DEADLINE, wait_for
 from watched_node import Log, publisher, wait_for_readers
 
 
@@ -153,6 +153,7 @@ class GrassSources(unittest.TestCase):
     def test_a_hovering_drone_bends_grass_outward_and_leaves_no_track(self):
         blast = WindPrimitive(name='rotor', kind=WindPrimitive.BLAST, radius=5.0, core_radius=0.8,
                               speed=15.0, fade_in=0.2, fade_out=0.2, attached_frame='drone')
+        rospy.wait_for_service('/wind_broadcaster/set_primitive', DEADLINE)
         answer = rospy.ServiceProxy('/wind_broadcaster/set_primitive', SetWindPrimitive)(blast)
         self.assertTrue(answer.success, answer.message)
         wait_for_readers('/tf', '/wind_broadcaster')

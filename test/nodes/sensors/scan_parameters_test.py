@@ -13,6 +13,7 @@ NUMBERS = {
     'elevation_high': (' rad', -1.5707, 1.5707), 'azimuth_low': (' rad', -6.2832, 6.2832),
     'azimuth_high': (' rad', -6.2832, 6.2832), 'range_min': (' m', 0, 100),
     'range_max': (' m', 0.1, 500), 'noise': (' m', 0, 1),
+    'tolerance': (' m', 0.0001, 10),
 }
 WHOLE_NUMBERS = {
     'rate': (' Hz', 1, 100), 'branch_budget': ('', 1000, 20000000), 'threads': ('', 1, 64),

@@ -52,6 +52,7 @@ class ScanWatched(unittest.TestCase):
         mast.transform.rotation.w = 1.0
         cls.frames = rospy.Publisher('/tf_static', TFMessage, queue_size=1, latch=True)
         cls.frames.publish([mast])
+        cls.clock = TickClock(1000 * RATE)  # Nodes wait for its topic.
         cls.all = cls.unwatched, cls.behind, cls.watched = [
             Clearing(name) for name in ('unwatched', 'behind', 'watched')]
 
@@ -69,7 +70,7 @@ class ScanWatched(unittest.TestCase):
             clearing.forest.settle()
 
     def test_viewers_do_not_change_what_a_lidar_measures(self):
-        clock = TickClock(1000 * RATE)
+        clock = self.clock
         clock.begin(*(c.forest for c in self.all))
         behind, watched = ViewerClient('eye', '/behind/viewer'), ViewerClient('eye', '/watched/viewer')
         behind.message.pose.orientation.w, behind.message.pose.orientation.z = 0.0, 1.0
