@@ -59,11 +59,12 @@ YAML::Node toYaml(XmlRpc::XmlRpcValue value) {
 void appendEntries(const YAML::Node& list, YAML::Node& out) {
   if (!list.IsSequence()) return out.push_back(list);
   for (const YAML::Node& entry : list) {
-    YAML::Node map = entry;
-    if (entry.IsScalar()) {
-      map = YAML::Node(YAML::NodeType::Map);
-      map["frame"] = entry;
+    if (!entry.IsScalar()) {
+      out.push_back(entry);
+      continue;
     }
+    YAML::Node map(YAML::NodeType::Map);
+    map["frame"] = entry.Scalar();
     out.push_back(map);
   }
 }

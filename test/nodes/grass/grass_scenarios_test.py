@@ -40,6 +40,10 @@ class GrassScenarios(unittest.TestCase):
         self.meadow.close()
         self.launch.send_signal(signal.SIGINT)
         self.launch.wait(DEADLINE)
+        # The parameters of a launch outlive it.
+        for node in ('grass_field', 'forest_animator', 'agent_crowd', 'wind_broadcaster'):
+            if rospy.has_param('/' + node):
+                rospy.delete_param('/' + node)
 
     def run_until(self, condition, what):
         pace = threading.Event()

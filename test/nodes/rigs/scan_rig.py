@@ -5,6 +5,7 @@ import math
 
 import numpy
 import yaml
+from numpy.lib.recfunctions import repack_fields
 from geometry_msgs.msg import TransformStamped
 from sensor_msgs.msg import LaserScan, PointCloud2, PointField
 from tf2_msgs.msg import TFMessage
@@ -31,6 +32,10 @@ class Scanner(WatchedNode):
         self.report = Log(namespace + 'lidar/report', ScanReport)
         super().__init__(name, 'scan', name + '/tf2_frames', FrameGraph)
 
+    def has_frame(self, frame):
+        """Returns whether the node's tf buffer has the frame."""
+        return frame in (yaml.safe_load(self._probe().frame_yaml) or {})
+
     def has_transform(self, frame, stamp):
         """Returns whether the newest transform of a frame in the node's tf buffer has this stamp,
         to 2 ms."""
@@ -45,7 +50,8 @@ def cloud_of(message):
                           'formats': [TYPES[f.datatype] for f in message.fields],
                           'offsets': [f.offset for f in message.fields],
                           'itemsize': message.point_step})
-    return numpy.frombuffer(message.data, layout)
+    # A copy without the unused bytes, so that equal points have equal bytes.
+    return repack_fields(numpy.frombuffer(message.data, layout))
 
 
 class Mast:

@@ -69,7 +69,7 @@ TEST(ForestInputs, AcceptTheNodesOwnEventsInAFlood) {
   EXPECT_EQ(kinds, (std::vector<int>{ForestInput::BODY, ForestInput::WIND, ForestInput::SETTINGS,
                                      ForestInput::RESET}));
   EXPECT_EQ(inputs.losses().lost, 0u);
-  EXPECT_EQ(inputs.take(100 * TICK).size(), ForestInputs::MOST_WAITING);
+  EXPECT_EQ(inputs.take(100 * TICK).size(), ForestInputs::MOST_AHEAD);
 }
 
 // N3: the last move of a grab at a tick counts. A renewal does not change it.

@@ -64,7 +64,7 @@ class ForestReplay(unittest.TestCase):
         def near(place, up):
             return PointStamped(point=Point(place.x + 0.1, place.y, place.z + up))
         if second == 5:
-            self.first = call('grab', Grab, tree=11, branch=9, lease=3.0,
+            self.first = call('grab', Grab, tree=11, branch=9, has_lease=True, lease=3.0,
                               target=near(self.forest.tree(11).transforms.poses[9].position, 0.1))
         if second == 7:
             call('move_grab', MoveGrab, id=self.first.id, target=near(self.first.point, 0.3))
@@ -84,7 +84,8 @@ class ForestReplay(unittest.TestCase):
             frame.transform.rotation.w = 1.0
             self.frames.publish([frame])
         if second == 45:
-            call('grab', Grab, tree=13, branch=8, frame='hand', keep_offset=True, lease=1.0)
+            call('grab', Grab, tree=13, branch=8, frame='hand', keep_offset=True,
+                 has_lease=True, lease=1.0)
 
     def live_run(self):
         """Records the forest while a sensor flies through it. Returns the hashes by stamp."""
