@@ -94,8 +94,7 @@ double timePoses(const Scene& scene, int pictures) {
   const wind::Instant wind = scene.forest.snapshot().wind.at(now);
   std::map<std::uint32_t, PosedTree> trees;
   for (const Plant& plant : scene.forest.viewChoice().plants())
-    if (plant.chosen > 0)
-      trees.emplace(plant.id, PosedTree(scene.forest, plant.id, scene.viewer.eye));
+    if (plant.chosen > 0) trees.emplace(plant.id, PosedTree(scene.forest, plant.id, scene.viewer));
   std::vector<double> times;
   for (int i = 0; i < pictures; ++i) {
     const double start = processorTime();

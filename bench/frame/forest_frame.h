@@ -16,8 +16,7 @@ class ForestFrame {
       : wind_(scene.wind),
         held_(*scene.forest, scene.terrain, Settings()),
         free_(*scene.forest, scene.terrain, Settings()) {
-    viewer_.id = "eye";
-    viewer_.eye = bench::frameViewpoint(scene);
+    viewer_ = bench::frameViewpoint(scene);
     for (Forest* forest : {&held_, &free_}) {
       forest->setPhysics(scene.physics);
       forest->setWind(scene.wind);
@@ -55,7 +54,7 @@ class ForestFrame {
   };
 
   void grow(std::uint32_t id) {
-    PosedTree posed(held_, id, viewer_.eye);
+    PosedTree posed(held_, id, viewer_);
     const Species& species = held_.layout().species[posed.tree.seed.species];
     TreeMesh mesh = buildMesh(posed.tree.skeleton, species, posed.detail);
     std::vector<float> bark(3 * mesh.bark.size()), leaves(3 * LEAF_CORNERS * mesh.leaves.size());
