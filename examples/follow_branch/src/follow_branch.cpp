@@ -4,6 +4,9 @@
 // as in forest_animator. usage: follow_branch _tree:=0 _branch:=20
 #include <ros/ros.h>
 
+#include <memory>
+#include <vector>
+
 #include "vegetation_sim/forest/forest_replica.h"
 #include "vegetation_sim/ros/conversions/forest_conversions.h"
 #include "vegetation_sim/ros/conversions/wind_conversions.h"
@@ -37,9 +40,15 @@ class BranchFollower {
   }
   void print(const ros::TimerEvent&) {
     if (!replica_.ready() || replica_.stamp() == 0) return;
-    if (tree_ >= replica_.layout().treeCount()) return ROS_ERROR_ONCE("there is no such tree");
+    if (tree_ >= replica_.layout().treeCount()) {
+      ROS_ERROR_ONCE("there is no such tree");
+      return;
+    }
     const vegetation_sim::forest::Tree tree = replica_.grow(tree_);
-    if (branch_ >= tree.skeleton.branches.size()) return ROS_ERROR_ONCE("there is no such branch");
+    if (branch_ >= tree.skeleton.branches.size()) {
+      ROS_ERROR_ONCE("there is no such branch");
+      return;
+    }
     const vegetation_sim::Pose pose = replica_.pose(tree, tree_, replica_.stamp())[branch_];
     const vegetation_sim::Vec3 tip =
         tree.foot + pose.position +
