@@ -20,6 +20,7 @@ std::vector<std::uint32_t> treesAround(const Layout& layout, const Vec3& centre,
       add(seedInTile(tile, i), tile.first_tree + i);
   std::sort(found.begin(), found.end());
   std::vector<std::uint32_t> out;
+  out.reserve(found.size());
   for (const auto& entry : found) out.push_back(entry.second);
   return out;
 }

@@ -73,18 +73,18 @@ void ForestPhysics::stepTrees(const TickContext& tick) {
   std::vector<TreeSteps> trees;
   for (auto& [tree, subtree] : subtrees_)
     if (!subtree.empty()) trees.emplace_back(tree, subtree);
-  const auto stepsOf = [&](std::uint32_t tree) {
+  const auto steps_of = [&](std::uint32_t tree) {
     const auto found = std::lower_bound(
         trees.begin(), trees.end(), tree,
         [](const TreeSteps& steps, std::uint32_t id) { return steps.tree() < id; });
     return found != trees.end() && found->tree() == tree ? &*found : nullptr;
   };
   for (auto& entry : grabs_)
-    if (TreeSteps* steps = stepsOf(entry.second.point.tree)) steps->add(entry.second);
+    if (TreeSteps* steps = steps_of(entry.second.point.tree)) steps->add(entry.second);
   for (const Push& push : pushes_)
-    if (TreeSteps* steps = stepsOf(push.point.tree)) steps->add(push);
+    if (TreeSteps* steps = steps_of(push.point.tree)) steps->add(push);
   for (const std::uint32_t tree : near_)
-    if (TreeSteps* steps = stepsOf(tree)) steps->setContacts(persistent_contacts_[tree]);
+    if (TreeSteps* steps = steps_of(tree)) steps->setContacts(persistent_contacts_[tree]);
   const std::vector<std::size_t> ends = splitByBranches(trees, tick.forest.threads.size());
   if (scratches_.size() < ends.size()) scratches_.resize(ends.size());
   tick.forest.threads.run(ends.size(), [&](std::size_t part) {
