@@ -5,8 +5,8 @@
 # usage: scripts/test.sh [--lint | --sanitize]
 #   --lint      runs only the static checks, clang-tidy included
 #   --sanitize  runs only the core's tests under the address and undefined behaviour sanitizers
-# The two options take more than half an hour. They belong to a release, so that without an option
-# clang-tidy and the sanitizers do not run.
+# clang-tidy and the sanitizers take more than half an hour together and run only with these options;
+# MAINTAINING.md asks for them before a release.
 # The last line counts test cases and checks; the exit code is 0 if none failed.
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
