@@ -170,7 +170,7 @@ GrassState toMsg(const grass::TreadUpdate& update) {
     TroddenBlock message;
     message.row = block.row;
     message.column = block.column;
-    std::copy(block.included.begin(), block.included.end(), message.told.begin());
+    std::copy(block.included.begin(), block.included.end(), message.included.begin());
     for (const grass::TreadNodeDelta& node : block.nodes) {
       message.tilt.push_back(node.tilt);
       message.x.push_back(node.x);
@@ -201,7 +201,7 @@ grass::TreadUpdate fromMsg(const GrassState& message) {
     out.treads.presses.push_back({fromMsg(message.press_stamps[i]), message.press_recoveries[i]});
   for (const TroddenBlock& block : message.blocks) {
     grass::TreadBlockDelta delta{block.row, block.column, {}, {}};
-    std::copy(block.told.begin(), block.told.end(), delta.included.begin());
+    std::copy(block.included.begin(), block.included.end(), delta.included.begin());
     const std::size_t count = block.tilt.size();
     if (block.x.size() != count || block.y.size() != count || block.press.size() != count)
       throw InvalidInput("state: block " + std::to_string(block.row) + ", " +

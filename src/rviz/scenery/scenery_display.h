@@ -64,7 +64,6 @@ class SceneryDisplay : public rviz::Display {
   bool givesGround(const terrain::HeightMap& terrain);
   /// Sets the rank from now on and drops a ground that is drawn.
   void setGroundRank(int rank);
-  bool isOpen() const { return open_; }
   /// Wall time [s]; it advances while simulation time stands.
   double wall() const { return wall_; }
 

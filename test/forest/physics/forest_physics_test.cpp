@@ -87,7 +87,7 @@ TEST(Memory, OneGrabIn256TreesGivesAllBack) {
   const long left = liveBytes() - before;
   EXPECT_EQ(after.trees + after.branches + after.bytes, 0u);
   EXPECT_LE(left, 0);
-  std::printf("256 trees, one grab: %zu branches, %zu bytes told, %ld held, %ld after\n",
+  std::printf("256 trees, one grab: %zu branches, %zu bytes published, %ld held, %ld after\n",
               during.branches, during.bytes, held, left);
 }
 

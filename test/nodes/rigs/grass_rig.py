@@ -103,7 +103,7 @@ def nodes_of(message):
     """Returns the values of the published nodes of a GrassState by row and column."""
     out = {}
     for block in message.blocks:
-        present = [i for i in range(SIDE * SIDE) if block.told[i // 8] >> i % 8 & 1]
+        present = [i for i in range(SIDE * SIDE) if block.included[i // 8] >> i % 8 & 1]
         for k, i in enumerate(present):
             press = block.press[k]
             out[SIDE * block.row + i // SIDE, SIDE * block.column + i % SIDE] = (
