@@ -83,29 +83,36 @@ void Forest::advance(Nanoseconds stamp) {
 
 // Runs before the choice of levels: the present levels hold since the last tick.
 void Forest::advancePhysics(Nanoseconds stamp) {
-  std::map<std::uint32_t, PromotedTree> world, view;
-  for (const std::uint32_t tree : physicalTrees()) {
-    world[tree] = promoted(tree);
-    view[tree] = promotedInView(tree);
-  }
+  const std::vector<std::uint32_t> physical = physicalTrees();
   for (TreeDetail* detail : {&snapshot_.world, &snapshot_.view}) {
-    for (const auto& entry : world) detail->changed.insert(entry.first);
+    detail->changed.insert(physical.begin(), physical.end());
     detail->modes.advance(snapshot_.wind, snapshot_.stamp, stamp);
   }
   snapshot_.physics.advance(stepContext(), stamp);
   snapshot_.stamp = stamp;
-  snapshot_.offsets.prune(stamp, layout_.motion.transition);
-  for (const auto& [id, subtree] : snapshot_.physics.subtrees()) {
-    const auto differences = [&, id = id, &tree = subtree.tree()] {
-      std::vector<JointAngles> out = anglesIn(snapshot_.view, tree, id, view[id]);
-      const auto base = anglesIn(snapshot_.world, tree, id, world[id]);
+  noteOffsets();
+}
+
+// Notes by how much drawn joints differ from those of the world where branches have become physical
+// in this tick.
+void Forest::noteOffsets() {
+  const double duration = layout_.motion.transition;
+  std::map<std::uint32_t, PromotedTree> views;
+  for (const auto& [id, world] : snapshot_.physics.beforePromotions())
+    snapshot_.offsets.addTo(id, duration, views[id] = world);
+  snapshot_.offsets.prune(snapshot_.stamp, duration);
+  for (const auto& [id, world] : snapshot_.physics.beforePromotions()) {
+    const auto differences = [&, id = id, &world = world] {
+      const Tree& tree = snapshot_.physics.subtrees().at(id).tree();
+      std::vector<JointAngles> out = anglesIn(snapshot_.view, tree, id, views[id]);
+      const auto base = anglesIn(snapshot_.world, tree, id, world);
       for (std::size_t i = 0; i < out.size(); ++i) {
         out[i].first -= base[i].first;
         out[i].second -= base[i].second;
       }
       return out;
     };
-    snapshot_.offsets.update(id, world[id], promoted(id), differences);
+    snapshot_.offsets.update(id, world, promoted(id), differences);
   }
 }
 
@@ -116,7 +123,7 @@ void Forest::chooseDetail(Nanoseconds before) {
   const Settings& settings = snapshot_.settings;
   const Bodies& bodies = snapshot_.physics.bodies();
   const double physical =
-      1e-6 * settings.budget.physical_cost * static_cast<double>(physicsFigures().branches);
+      1e-6 * settings.budget.physical_cost * static_cast<double>(snapshot_.physics.branchCount());
   const PredictionContext context{layout_, *terrain_, snapshot_.wind, settings, errors_, stamp};
   using Start = DetailChooser::Start;
   const Start due = ModalForest::fineDue(before, stamp) ? Start::ANY : Start::PLAIN;

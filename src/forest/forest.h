@@ -113,6 +113,7 @@ class Forest {
  private:
   StepContext stepContext() const;
   void advancePhysics(Nanoseconds stamp);
+  void noteOffsets();
   void chooseDetail(Nanoseconds before);
   std::vector<JointAngles> anglesIn(const TreeDetail& detail, const Tree& tree, std::uint32_t id,
                                     const PromotedTree& promoted) const;

@@ -42,13 +42,10 @@ BatchChain::BatchChain(const std::vector<std::vector<Link>>& trees)
       groups_.back().trees.push_back(t);
     }
   }
-  int widest = 0;
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     sortGroup(trees, g);
-    for (const Level& level : groups_[g].levels) widest = std::max(widest, level.count);
+    for (const Level& level : groups_[g].levels) widest_ = std::max(widest_, level.count);
   }
-  store_->first.fit(widest, P_ROWS);
-  store_->second.fit(widest, P_ROWS);
   fill(trees);
 }
 
@@ -101,10 +98,7 @@ void BatchChain::fill(const std::vector<std::vector<Link>>& trees) {
   store.constant_rows = bars ? C_BAR_ROWS : C_ROWS;
   store.constants.assign(blocks() * static_cast<std::size_t>(store.constant_rows));
   store.state.assign(blocks() * S_ROWS);
-  int largest = 0;
-  for (const ChainGroup& group : groups_) largest = std::max(largest, group.end - group.begin);
-  store.work.assign(static_cast<std::size_t>(largest / ROW) * W_ROWS);
-  store.kept.assign(static_cast<std::size_t>(largest / ROW) * K_ROWS);
+  for (const ChainGroup& group : groups_) largest_ = std::max(largest_, group.end - group.begin);
   for (int slot = 0; slot < slot_count_; ++slot) {
     fillEmptyLane(store.constant_rows, store.constants.of(slot, store.constant_rows));
     store.state.of(slot, S_ROWS)[S_THETA * ROW] = 0.5f;
@@ -131,6 +125,19 @@ void BatchChain::setState(int tree, const ChainState& state, double theta) {
   }
   setTheta(member, theta, member.products);
   groups_[member.group].calm = groups_[member.group].stepped = false;  // the guard checks itself
+}
+
+void BatchChain::setScratch(ChainScratch& scratch) {
+  store_->scratch = &scratch;
+  own_scratch_.reset();
+}
+
+void BatchChain::prepareScratch() {
+  if (!store_->scratch) {
+    own_scratch_ = std::make_unique<ChainScratch>();
+    store_->scratch = own_scratch_.get();
+  }
+  store_->scratch->fit(static_cast<std::size_t>(largest_ / ROW), widest_);
 }
 
 void BatchChain::setProducts(Products products) {
@@ -180,10 +187,9 @@ bool BatchChain::isWithin(double bend, double rate) const {
 
 std::size_t BatchChain::bytes() const {
   const ChainStore& s = *store_;
-  std::size_t out = s.constants.bytes() + s.state.bytes() + s.loads.bytes() + s.work.bytes() +
-                    s.kept.bytes() + s.grips.bytes() + s.air.bytes() + s.beside.bytes() +
-                    s.places.bytes() + s.motion.bytes() + s.first.rows.bytes() +
-                    s.second.rows.bytes() + slots_.capacity() * sizeof(int);
+  std::size_t out = s.constants.bytes() + s.state.bytes() + s.loads.bytes() + s.grips.bytes() +
+                    s.air.bytes() + s.beside.bytes() + slots_.capacity() * sizeof(int);
+  if (own_scratch_) out += own_scratch_->bytes();
   for (const ChainGroup& group : groups_)
     for (const Level& level : group.levels)
       for (const ChildRank& child_rank : level.child_ranks)
@@ -256,8 +262,7 @@ void BatchChain::stepWithin(const Surroundings* around, std::size_t count, doubl
                        std::to_string(trees_.size()) + " trees");
   store_->trace = std::any_of(around, around + count,
                               [](const Surroundings& s) { return static_cast<bool>(s.loads); });
-  if (store_->trace && store_->motion.empty())
-    store_->motion.assign(store_->work.count() / W_ROWS * M_ROWS);
+  prepareScratch();
   store_->asked = query_ && !store_->grips.empty();
   for (ChainGroup& group : groups_)
     if (!group.levels.empty()) stepGroup(group, around, time, h, number);
@@ -276,6 +281,7 @@ void BatchChain::step(const Surroundings& around, double time, double h, int num
 // All steps of one group run before those of the next, because the caches hold one group.
 void BatchChain::step(double h, int steps) {
   store_->trace = false;
+  prepareScratch();
   for (ChainGroup& group : groups_) {
     if (group.levels.empty()) continue;
     store_->asked = query_ && !store_->grips.empty();

@@ -11,6 +11,7 @@
 namespace vegetation_sim::physics {
 
 struct ChainGroup;
+struct ChainScratch;
 struct ChainStore;
 
 /// The drag of air on a link: with `w` the velocity of the air there relative to the link, the
@@ -55,6 +56,9 @@ class BatchChain {
   std::size_t bytes() const;
 
   void setProducts(Products products);
+  /// Sets the scratch memory of the steps from now on, which chains that step one after the other
+  /// may share; without it a chain has its own. It affects no result.
+  void setScratch(ChainScratch& scratch);
 
   /// Takes one step of `h` seconds from `time`, with `around` per tree. `number` is that of the
   /// step in its frame. The first, 0, averages velocity products as the plain stepper does. Later
@@ -101,6 +105,7 @@ class BatchChain {
   double fastestOf(const Member& member) const;
   void setTheta(Member& member, double theta, double products);
   void guard(ChainGroup& group, double h);
+  void prepareScratch();
   void stepGroup(ChainGroup& group, const Surroundings* around, double time, double h, int number);
   void stepWithin(const Surroundings* around, std::size_t count, double time, double h, int number);
   void queryWindOf(const ChainGroup& group);
@@ -108,6 +113,8 @@ class BatchChain {
   void updateLoads(const Surroundings& around, double time, double h, Member& member);
 
   std::unique_ptr<ChainStore> store_;
+  std::unique_ptr<ChainScratch> own_scratch_;
+  int largest_{0}, widest_{0};  ///< most slots of a group, most joints of a level
   std::vector<ChainGroup> groups_;
   std::vector<Member> trees_;
   std::vector<int> slots_;  ///< [links of all trees]

@@ -52,7 +52,7 @@ void BatchChain::evaluateLoads(const Surroundings& around, double time, Member& 
   resize(kinematics_, member.count);
   const int begin = groups_[member.group].begin;
   for (const std::size_t i : links)
-    readMotion(store_->motion.of(slots_[member.first + i] - begin, M_ROWS),
+    readMotion(store_->scratch->motion.of(slots_[member.first + i] - begin, M_ROWS),
                baseOf(member, i).pose.position, i, kinematics_);
   around.loads(kinematics_, time, loads_);
   fillLoads(links, member);
@@ -87,7 +87,6 @@ void BatchChain::setGrips(int tree, const std::vector<Grip>& grips) {
   if (store_->grips.empty()) {
     store_->grips.assign(blocks() * G_ROWS);
     store_->air.assign(blocks() * V_ROWS);
-    store_->places.assign(store_->work.count() / W_ROWS * V_ROWS);
   }
   member.on_axis = std::all_of(grips.begin(), grips.end(), [](const Grip& grip) {
     return grip.centre.x() == 0.0 && grip.centre.y() == 0.0;
@@ -108,12 +107,12 @@ void BatchChain::queryWindOf(const ChainGroup& group) {
   for (const std::size_t t : group.trees) {
     const Member& member = trees_[t];
     for (std::size_t i = 0; i < member.count && !member.bases.empty(); ++i) {
-      float* place = store_->places.of(slots_[member.first + i] - group.begin, V_ROWS);
+      float* place = store_->scratch->places.of(slots_[member.first + i] - group.begin, V_ROWS);
       for (int axis = 0; axis < 3; ++axis)
         place[axis * ROW] += static_cast<float>(baseOf(member, i).pose.position[axis]);
     }
   }
-  query_(store_->places.at(0), store_->air.of(group.begin, V_ROWS),
+  query_(store_->scratch->places.at(0), store_->air.of(group.begin, V_ROWS),
          static_cast<std::size_t>((group.end - group.begin) / ROW));
 }
 

@@ -16,6 +16,9 @@ constexpr int ROW = 16;
 class Rows {
  public:
   void assign(std::size_t count) { lines_.assign(count, Line()); }
+  void grow(std::size_t count) {
+    if (count > lines_.size()) lines_.resize(count);
+  }
   bool empty() const { return lines_.empty(); }
   std::size_t count() const { return lines_.size(); }
   std::size_t bytes() const { return lines_.capacity() * sizeof(Line); }

@@ -17,8 +17,8 @@ HWY_BEFORE_NAMESPACE();
 namespace vegetation_sim::physics::HWY_NAMESPACE {
 
 HWY_INLINE Joints jointsAt(const ChainGroup& group, ChainStore& store, int slot) {
-  float* work = store.work.of(slot - group.begin, group.workRows());
-  float* kept = store.kept.of(slot - group.begin, K_ROWS);
+  float* work = store.scratch->work.of(slot - group.begin, group.workRows());
+  float* kept = store.scratch->kept.of(slot - group.begin, K_ROWS);
   return {store.constants.of(slot, store.constant_rows),
           store.state.of(slot, S_ROWS),
           store.loads.empty() ? nullptr : store.loads.of(slot, L_ROWS),
@@ -57,9 +57,9 @@ enum class Passed { NOTHING, VELOCITY, ALL };
 
 template <Passed PASSED, bool PREDICTED>
 HWY_INLINE void outGroupAs(const ChainGroup& group, Lanes step, ChainStore& store) {
-  float *received = store.first.data(), *handed = store.second.data();
-  const int room = store.first.room;
-  loadBases(group, store.first);
+  float *received = store.scratch->first.data(), *handed = store.scratch->second.data();
+  const int room = store.scratch->first.room;
+  loadBases(group, store.scratch->first);
   for (const Level& level : group.levels) {
     for (int i = 0; i < level.count; i += width()) {
       const Joints at = jointsAt(group, store, level.begin + i);
@@ -75,9 +75,10 @@ HWY_INLINE void outGroupAs(const ChainGroup& group, Lanes step, ChainStore& stor
         if (at.grips) keepGrip(at, frame, trace);
         if (PASSED == Passed::ALL && store.asked)
           store3(trace.position + gripArm(at, frame),
-                 store.places.of(level.begin - group.begin + i, V_ROWS), 0);
+                 store.scratch->places.of(level.begin - group.begin + i, V_ROWS), 0);
         if (PASSED == Passed::ALL && store.trace)
-          storeMotion(frame, trace, store.motion.of(level.begin - group.begin + i, M_ROWS));
+          storeMotion(frame, trace,
+                      store.scratch->motion.of(level.begin - group.begin + i, M_ROWS));
         passOn(level, i, each, room, handed);
       } else {
         passOn(
@@ -105,9 +106,9 @@ void outGroup(const ChainGroup& group, float step, ChainStore& store) {
 
 void inwardGroup(const ChainGroup& group, float h, ChainStore& store) {
   const Lanes step = all(h);
-  const int room = store.first.room;
+  const int room = store.scratch->first.room;
   const AnchorRows *const begin = store.anchors.data(), *const end = begin + store.anchors.size();
-  float *own = store.first.data(), *received = store.second.data();
+  float *own = store.scratch->first.data(), *received = store.scratch->second.data();
   for (std::size_t l = group.levels.size(); l-- > 0;) {
     const Level& level = group.levels[l];
     const AnchorRows* next = std::lower_bound(
@@ -129,9 +130,9 @@ void inwardGroup(const ChainGroup& group, float h, ChainStore& store) {
 
 void predictBiasGroup(const ChainGroup& group, float h, ChainStore& store) {
   const Lanes step = all(h);
-  float *received = store.first.data(), *handed = store.second.data();
-  const int room = store.first.room;
-  loadBases(group, store.first);
+  float *received = store.scratch->first.data(), *handed = store.scratch->second.data();
+  const int room = store.scratch->first.room;
+  loadBases(group, store.scratch->first);
   bool root = true;
   for (const Level& level : group.levels) {
     for (int i = 0; i < level.count; i += width()) {
@@ -147,9 +148,9 @@ void predictBiasGroup(const ChainGroup& group, float h, ChainStore& store) {
 }
 
 void inwardWrenches(const ChainGroup& group, ChainStore& store) {
-  const int room = store.first.room;
+  const int room = store.scratch->first.room;
   const Lanes o = hn::Zero(Tag());
-  float *own = store.first.data(), *received = store.second.data();
+  float *own = store.scratch->first.data(), *received = store.scratch->second.data();
   for (std::size_t l = group.levels.size(); l-- > 0;) {
     const Level& level = group.levels[l];
     for (int i = 0; i < level.count; i += width()) {
@@ -164,8 +165,8 @@ void inwardWrenches(const ChainGroup& group, ChainStore& store) {
 
 float stepGroupJoints(const ChainGroup& group, float h, ChainStore& store) {
   const Lanes step = all(h);
-  const int room = store.first.room;
-  float *received = store.first.data(), *handed = store.second.data();
+  const int room = store.scratch->first.room;
+  float *received = store.scratch->first.data(), *handed = store.scratch->second.data();
   Lanes fastest = hn::Zero(Tag());
   for (int row = 0; row < A_ROWS; ++row)
     std::fill_n(received + row * room, group.levels[0].count, 0.f);

@@ -34,29 +34,49 @@ struct LevelRows {
   void fit(int joints, int quantities) {
     const int lines = ((joints + ROW - 1) / ROW + 1) | 1;
     room = lines * ROW;
-    rows.assign(static_cast<std::size_t>(lines) * static_cast<std::size_t>(quantities));
+    rows.grow(static_cast<std::size_t>(lines) * static_cast<std::size_t>(quantities));
   }
   float* data() { return rows.at(0); }
   const float* data() const { return rows.at(0); }
 };
 
-/// All rows of a chain, and scratch memory of one group, of one of its levels and of the next
-/// level.
+/// Scratch memory of steps: of one group, of one of its levels and of the next level. Chains that
+/// step one after the other may share it. What an earlier step left there affects no result as long
+/// as it is finite.
+struct ChainScratch {
+  Rows work, kept, motion, places;
+  LevelRows first, second;
+
+  /// Makes room for groups of up to `blocks` blocks of joints with up to `widest` joints a level.
+  void fit(std::size_t blocks, int widest) {
+    work.grow(blocks * W_ROWS);
+    kept.grow(blocks * K_ROWS);
+    motion.grow(blocks * M_ROWS);
+    places.grow(blocks * V_ROWS);
+    first.fit(widest, P_ROWS);
+    second.fit(widest, P_ROWS);
+  }
+  void clear() { *this = ChainScratch(); }
+  std::size_t bytes() const {
+    return work.bytes() + kept.bytes() + motion.bytes() + places.bytes() + first.rows.bytes() +
+           second.rows.bytes();
+  }
+};
+
+/// All rows of a chain.
 struct ChainStore {
   Rows constants, state;
   int constant_rows{C_ROWS};
-  Rows loads;             ///< empty: no loads
-  Rows grips, air;        ///< empty: no air
-  Rows beside;            ///< empty: air acts on axes only
-  Rows work, kept;        ///< scratch of a group
-  Rows motion, places;    ///< scratch of a group
-  bool trace{false};      ///< the motion is needed
-  bool asked{false};      ///< this step asks for the wind
-  bool averages{true};    ///< velocity products are those of a mean over the step
-  bool mean{true};        ///< velocity products are averaged in this step
+  Rows loads;                      ///< empty: no loads
+  Rows grips, air;                 ///< empty: no air
+  Rows beside;                     ///< empty: air acts on axes only
+  ChainScratch* scratch{nullptr};  ///< of this step
+  bool trace{false};               ///< the motion is needed
+  bool asked{false};               ///< this step asks for the wind
+  bool averages{true};             ///< velocity products are those of a mean over the step
+  bool mean{true};                 ///< velocity products are averaged in this step
   bool predicted{false};  ///< or taken at the rates that the step before predicts for its middle
   bool drag{false};       ///< some loads have drag
-  LevelRows first, second;
   std::vector<AnchorRows> anchors;  ///< sorted by slot
 };
 

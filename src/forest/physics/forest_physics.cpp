@@ -9,7 +9,7 @@
 namespace vegetation_sim::forest {
 namespace {
 
-/// Interval of the choice of physical branches.
+/// Interval of the choice of physical branches, and of the start of blends back.
 constexpr Nanoseconds REVIEW = NANOSECONDS_PER_SECOND / 10;
 /// Physical branches stay so down to this fraction of the tolerance (hysteresis).
 constexpr double KEEP = 0.5;
@@ -42,6 +42,7 @@ Vec3 pointOn(const Pose& pose, double along) {
 
 void ForestPhysics::advance(const StepContext& context, Nanoseconds to) {
   ended_.clear();
+  before_.clear();
   const std::vector<Reaction> published = std::move(reactions_);
   reactions_.clear();
   steps_ = 0;
@@ -62,9 +63,11 @@ void ForestPhysics::stepAll(const StepContext& context, Nanoseconds to) {
   const bool gap = to <= from || to - from > LONGEST_GAP;
   if (gap && !subtrees_.empty()) ++skipped_;
   const Nanoseconds start = gap ? to : from;
-  promoteLoaded(context, start, to);
+  const bool review = start >= next_review_;
+  if (review) next_review_ = start + REVIEW;
+  promoteLoaded(context, start, to, review);
   steps_ = subtrees_.empty() ? 0 : stepsBetween(start, to);
-  stepTrees({context, settings_, bodies_, {start, to, steps_}});
+  stepTrees({context, settings_, bodies_, {start, to, steps_}, review});
   finishTick(to);
 }
 
@@ -112,7 +115,8 @@ void ForestPhysics::endLeases(Nanoseconds stamp) {
   }
 }
 
-void ForestPhysics::promoteLoaded(const StepContext& context, Nanoseconds from, Nanoseconds to) {
+void ForestPhysics::promoteLoaded(const StepContext& context, Nanoseconds from, Nanoseconds to,
+                                  bool review) {
   BranchesOfTrees loaded;
   const auto pose_tree = [&](const Tree& tree, std::uint32_t id, Nanoseconds stamp) {
     return pose(context, tree, id, stamp);
@@ -130,8 +134,6 @@ void ForestPhysics::promoteLoaded(const StepContext& context, Nanoseconds from, 
   }
   for (const Push& push : pushes_)
     if (push.from < to && push.until > from) loaded[push.point.tree].push_back(push.point.branch);
-  const bool review = from >= next_review_;
-  if (review) next_review_ = from + REVIEW;
   for (auto& [tree, subtree] : subtrees_)
     if (!loaded.count(tree)) subtree.releaseJoints();
   for (auto it = refused_.begin(); it != refused_.end();)
@@ -174,8 +176,11 @@ void ForestPhysics::promoteInTree(const StepContext& context, std::uint32_t tree
       score[static_cast<std::size_t>(joint.branch)] = 0.0;
   const ProceduralMotion motion =
       scratches_[0].motionOf(subtree.tree(), context.windOf(tree), stamp);
+  const std::size_t held = subtree.holding();
+  PromotedTree before = promoted(tree, context.stamp);
   refused_[tree] = selection.refused +
                    subtree.promote(selection.branches, score, KEEP * threshold, motion, settings_);
+  if (subtree.holding() != held) before_[tree] = std::move(before);
 }
 
 // Returns the present loads of a tree, or those that springs will have when they have reached their

@@ -84,19 +84,23 @@ class ForestPhysics {
   const std::vector<Grab>& ended() const { return ended_; }
   const std::vector<Reaction>& reactions() const { return reactions_; }
   const std::map<std::uint32_t, PhysicalSubtree>& subtrees() const { return subtrees_; }
+  /// Returns the joints before the last tick of each tree in which branches have become physical, or
+  /// have stopped blending back, since.
+  const std::map<std::uint32_t, PromotedTree>& beforePromotions() const { return before_; }
   /// Physical joints of a tree at the last tick; `branches` is empty if there are none.
   PromotedTree promoted(std::uint32_t tree, Nanoseconds last_tick) const;
   /// Pose of every branch in the tree's frame, physical joints and modes included.
   std::vector<Pose> pose(const StepContext& context, const Tree& tree, std::uint32_t id,
                          Nanoseconds stamp) const;
   PhysicsFigures figures() const;
+  std::size_t branchCount() const;  ///< of physical branches
   void addTo(Hash& hash) const;
 
  private:
   PhysicalSubtree& findOrAddSubtree(const StepContext& context, std::uint32_t tree);
   void endLeases(Nanoseconds stamp);
   void stepAll(const StepContext& context, Nanoseconds to);
-  void promoteLoaded(const StepContext& context, Nanoseconds from, Nanoseconds to);
+  void promoteLoaded(const StepContext& context, Nanoseconds from, Nanoseconds to, bool review);
   void promoteInTree(const StepContext& context, std::uint32_t tree, PhysicalSubtree& subtree,
                      const std::vector<int>& loaded, Nanoseconds stamp);
   std::vector<BranchLoad> predictLoads(std::uint32_t tree, const PhysicalSubtree& subtree) const;
@@ -116,6 +120,7 @@ class ForestPhysics {
   std::map<std::uint32_t, std::vector<BranchLoad>> contact_loads_;  // of the last tick
   std::vector<Grab> ended_;
   std::vector<Reaction> reactions_;
+  std::map<std::uint32_t, PromotedTree> before_;
   std::uint32_t next_grab_{1};
   Nanoseconds next_review_{0};
   std::size_t steps_{0}, skipped_{0}, coarse_{0};

@@ -23,6 +23,12 @@ PhysicsFigures ForestPhysics::figures() const {
   return out;
 }
 
+std::size_t ForestPhysics::branchCount() const {
+  std::size_t out = 0;
+  for (const auto& entry : subtrees_) out += entry.second.joints().size();
+  return out;
+}
+
 void ForestPhysics::addTo(Hash& hash) const {
   PhysicsSettings settings = settings_;
   FieldHasher hasher(hash);

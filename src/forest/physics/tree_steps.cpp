@@ -26,7 +26,7 @@ void TreeSteps::run(const TickContext& tick, SubtreeScratch& scratch) {
   accumulateImpulses(run, times.from, times.from);
   for (std::size_t k = 0; k < times.count; ++k) step(run, k);
   recordGrabs(secondsBetween(times.from, times.to));
-  subtree_->demote(run.air, times.to, tick.settings, scratch);
+  subtree_->demote(run.air, times.to, tick.settings, tick.review, scratch);
 }
 
 // Targets move in a straight line between ticks.
@@ -132,7 +132,10 @@ void TreeSteps::stepNearBodies(const Run& run, std::size_t k) {
 // Takes a substep of step k, from the state in scratch.start.
 void TreeSteps::substep(const Run& run, const ContactTree& tree, std::size_t k, Nanoseconds from,
                         Nanoseconds to, SubstepBisection& bisection) {
-  const auto& [forest, settings, bodies, times] = run.tick;
+  const StepContext& forest = run.tick.forest;
+  const PhysicsSettings& settings = run.tick.settings;
+  const Bodies& bodies = run.tick.bodies;
+  const StepTimes& times = run.tick.times;
   SubtreeScratch& scratch = run.scratch;
   const PersistentContacts before = *contacts_;
   std::vector<physics::Contact> contacts =

@@ -22,6 +22,7 @@ struct TickContext {
   const PhysicsSettings& settings;
   const Bodies& bodies;
   StepTimes times;
+  bool review{false};  ///< calm branches may start to blend back
 };
 
 /// A reaction of a contact, and the step in which it began.

@@ -69,6 +69,8 @@ class PhysicalSubtree {
   int linkOf(int branch) const;                                        ///< -1 if not physical
   bool holds(int branch) const;  ///< physical and not blending back
   std::size_t blending() const;
+  /// Returns the number of physical branches that do not blend back.
+  std::size_t holding() const { return joints_.size() - blending(); }
   std::size_t bytes() const;
   void addTo(Hash& hash) const;
   PromotedTree promoted(Nanoseconds stamp, double duration) const;
@@ -79,9 +81,9 @@ class PhysicalSubtree {
                       double keep, const ProceduralMotion& motion, const PhysicsSettings& settings);
   /// Marks all joints as not needed.
   void releaseJoints();
-  /// Starts blends of branches that are not needed and calm, or have waited long enough; ends
-  /// completed blends.
-  void demote(const TreeWind& air, Nanoseconds stamp, const PhysicsSettings& settings,
+  /// In a review, starts blends of branches that are not needed and calm, or have waited long
+  /// enough. Always ends completed blends.
+  void demote(const TreeWind& air, Nanoseconds stamp, const PhysicsSettings& settings, bool review,
               SubtreeScratch& scratch);
   /// Changes the duration of blends; running ones continue from their progress.
   void stretchBlends(Nanoseconds stamp, double from, double to);

@@ -33,15 +33,16 @@ double sumOfSizes(const Vec3& v) {
 }  // namespace
 
 void PhysicalSubtree::demote(const TreeWind& air, Nanoseconds stamp,
-                             const PhysicsSettings& settings, SubtreeScratch& scratch) {
+                             const PhysicsSettings& settings, bool review,
+                             SubtreeScratch& scratch) {
   bool waiting = false, blending = false;
   for (SubtreeJoint& joint : joints_) {
     if (joint.wanted) joint.needed = stamp;
     waiting = waiting || isWaiting(joint);
     blending = blending || joint.blend != NEVER;
   }
-  if (!waiting && !blending) return;
-  if (waiting) startBlends(air, stamp, settings, scratch);
+  if (!(waiting && review) && !blending) return;
+  if (waiting && review) startBlends(air, stamp, settings, scratch);
   const auto over = [&](const SubtreeJoint& joint) {
     return joint.blend != NEVER && secondsBetween(joint.blend, stamp) >= settings.blend;
   };

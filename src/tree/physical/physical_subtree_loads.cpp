@@ -117,6 +117,7 @@ void PhysicalSubtree::step(const TreeWind& air, const SubtreeLoads& loads,
 void PhysicalSubtree::stepBatched(const Step& context, double h) {
   if (!state_.chain()) createChain();
   physics::BatchChain& chain = state_.loadChain(theta_);
+  chain.setScratch(context.scratch.chain);
   // Compensation needs the wind of each step.
   if (!context.loads.hold || compensates(context.from, context.settings.fade))
     chain.queryWind([&](const float* places, float* rows, std::size_t blocks) {
@@ -128,7 +129,9 @@ void PhysicalSubtree::stepBatched(const Step& context, double h) {
   chain.step(context.outsideWind(), 0.0, h, predicts ? 1 : 0);
   state_.followChain();
   theta_ = chain.theta(0);
-  if (!chain.isWithin(BEND_ROUNDING * LARGEST_BEND, FASTEST_BEND)) limitJoints();
+  if (chain.isWithin(BEND_ROUNDING * LARGEST_BEND, FASTEST_BEND)) return;
+  limitJoints();
+  context.scratch.chain.clear();  // values that are not finite would reach other trees
 }
 
 void PhysicalSubtree::createChain() {

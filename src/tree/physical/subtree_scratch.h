@@ -8,7 +8,7 @@
 
 #include "dynamics/contact/contact.h"
 #include "dynamics/integration/integrator.h"
-#include "dynamics/simd/chain_rows.h"
+#include "dynamics/simd/chain_sweep.h"
 #include "tree/physical/procedural_motion.h"
 
 namespace vegetation_sim::forest {
@@ -51,6 +51,7 @@ struct SubtreeScratch {
   ProceduralMotions motions;  // of links
   ProceduralMotions carrier_motions;
   physics::ChainStepper stepper;
+  physics::ChainScratch chain;
   physics::ArticulatedBody body;
   std::vector<Pose> carrier_poses;
   std::vector<CarrierMotion> carriers;
