@@ -1,17 +1,20 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// Measures the cost of a sensor: rays through a wood, a lawn and both, against a test of every
-// branch, and the update of the scene to a stamp. Processor time of one thread.
-// usage: scan_bench [ROUNDS] [--quick]
+// Measures the cost of a sensor: rays into bare wood, trees with leaves, a lawn, a hay meadow and
+// people, "before" through binary trees of boxes and every cell of grass, "after" through wide
+// trees and the likely cells; sweeps with several threads; instruction sets; and the update of the
+// scene to a stamp. Rays and updates in processor time of one thread, sweeps in wall time.
+// usage: scan_bench [ROUNDS] [--quick] [--part rays,sets,sweeps,update]
 
 #include <cstdio>
 
 #include "options.h"
 #include "package_folder.h"
 #include "processor_time.h"
-#include "reference/sensors/cast_plain.h"
+#include "reference/sensors/binary_scene.h"
 #include "scenes/sensors/lidar_scene.h"
 #include "sensors/sweep.h"
+#include "vegetation_sim/core/config/instruction_set.h"
 
 namespace vegetation_sim::scan {
 namespace {
@@ -19,36 +22,105 @@ namespace {
 const Vec3 SENSOR(10.3, 10.4, 1.2);
 constexpr double REACH = 60.0;
 
-Ray rayOf(const Vec3& sensor, std::uint64_t i) {
-  return {sensor, randomDirection(Random(1), i, -0.26, 0.26)};
+Beams beamsOf(int rings, int columns) {
+  Beams out;
+  out.rings = rings;
+  out.columns = columns;
+  out.noise = 0.0;
+  return out;
 }
 
-struct Rays {
+struct View {
   const char* name;
   const Scene* scene;
   Vec3 sensor{SENSOR};
 };
 
-// A few rays that test everything represent all.
-void benchRays(const std::vector<Rays>& scenes, int rounds, int rays) {
-  std::printf("%-24s %12s %12s %10s %10s\n", "rays", "per second", "plain", "ratio", "points");
-  for (const Rays& one : scenes) {
-    int points = 0;
-    const auto run = [&](auto&& castOne, int count) {
-      points = 0;
-      for (int i = 0; i < count; ++i)
-        points +=
-            castOne(*one.scene, rayOf(one.sensor, static_cast<std::uint64_t>(i)), REACH).label !=
-            Label::NONE;
-    };
-    const int few = rays / 100;
-    std::vector<bench::Candidate> candidates{{"plain", [&] { run(castPlain, few); }},
-                                             {"fast", [&] { run(cast, rays); }}};
+struct Lidar {
+  const char* name;
+  Beams beams;
+  int every;  ///< of how many columns one is cast
+};
+
+std::vector<Ray> raysOf(const Lidar& lidar, const Vec3& sensor) {
+  std::vector<Ray> out;
+  for (int column = 0; column < lidar.beams.columns; column += lidar.every)
+    for (int ring = 0; ring < lidar.beams.rings; ++ring)
+      out.emplace_back(sensor, directionOf(lidar.beams, ring, column));
+  return out;
+}
+
+void benchRays(const std::vector<View>& views, const std::vector<Lidar>& lidars, int rounds) {
+  std::printf("%-22s %-11s %10s %10s %8s %8s %10s\n", "rays", "lidar", "before", "after", "ratio",
+              "points", "different");
+  for (const View& view : views)
+    for (const Lidar& lidar : lidars) {
+      const BinaryScene binary(*view.scene);
+      const std::vector<Ray> rays = raysOf(lidar, view.sensor);
+      std::vector<Hit> before(rays.size()), after(rays.size());
+      std::vector<bench::Candidate> candidates{{"before",
+                                                [&] {
+                                                  for (std::size_t i = 0; i < rays.size(); ++i)
+                                                    before[i] = binary.cast(rays[i], REACH);
+                                                }},
+                                               {"after", [&] {
+                                                  for (std::size_t i = 0; i < rays.size(); ++i)
+                                                    after[i] = cast(*view.scene, rays[i], REACH);
+                                                }}};
+      bench::timeOnProcessor(candidates, rounds);
+      int points = 0, different = 0;
+      for (std::size_t i = 0; i < rays.size(); ++i) {
+        points += after[i].label != Label::NONE;
+        different += !same(before[i], after[i]);
+      }
+      const auto count = static_cast<double>(rays.size());
+      const double slow = 1e9 * candidates[0].seconds / count;
+      const double fast = 1e9 * candidates[1].seconds / count;
+      std::printf("%-22s %-11s %7.0f ns %7.0f ns %8.2f %7.0f%% %10d\n", view.name, lidar.name, slow,
+                  fast, slow / fast, 100.0 * points / count, different);
+    }
+}
+
+void benchSets(const std::vector<View>& views, const Lidar& lidar, int rounds) {
+  std::printf("\n%-22s %-11s %10s %10s\n", "instruction set", "scene", "a ray", "different");
+  for (const View& view : views) {
+    const std::vector<Ray> rays = raysOf(lidar, view.sensor);
+    const std::vector<std::string> sets = instructionSets();
+    std::vector<std::vector<Hit>> hits(sets.size(), std::vector<Hit>(rays.size()));
+    std::vector<bench::Candidate> candidates;
+    for (std::size_t s = 0; s < sets.size(); ++s)
+      candidates.push_back({sets[s], [&, s] {
+                              forceInstructionSet(sets[s]);
+                              for (std::size_t i = 0; i < rays.size(); ++i)
+                                hits[s][i] = cast(*view.scene, rays[i], REACH);
+                            }});
     bench::timeOnProcessor(candidates, rounds);
-    const double fast = rays / candidates[1].seconds, plain = few / candidates[0].seconds;
-    std::printf("%-24s %12.0f %12.0f %10.1f %9.0f%%\n", one.name, fast, plain, fast / plain,
-                100.0 * points / rays);
+    forceInstructionSet("");
+    for (std::size_t s = 0; s < sets.size(); ++s) {
+      int different = 0;
+      for (std::size_t i = 0; i < rays.size(); ++i) different += !same(hits[s][i], hits[0][i]);
+      std::printf("%-22s %-11s %7.0f ns %10d\n", sets[s].c_str(), view.name,
+                  1e9 * candidates[s].seconds / static_cast<double>(rays.size()), different);
+    }
   }
+}
+
+void benchSweeps(const std::vector<View>& views, const std::vector<Lidar>& lidars, int rounds) {
+  std::printf("\n%-22s %-11s %12s %12s %8s\n", "sweeps", "lidar", "1 thread", "2 threads", "ratio");
+  ThreadPool one(1), two(2);
+  for (const View& view : views)
+    for (const Lidar& lidar : lidars) {
+      Pose sensor;
+      sensor.position = view.sensor;
+      const auto run = [&](ThreadPool& threads) {
+        sweep(*view.scene, lidar.beams, sensor, {}, threads);
+      };
+      std::vector<bench::Candidate> candidates{{"1", [&] { run(one); }}, {"2", [&] { run(two); }}};
+      bench::timeInterleaved(candidates, rounds);
+      std::printf("%-22s %-11s %9.1f ms %9.1f ms %8.2f\n", view.name, lidar.name,
+                  1e3 * candidates[0].least, 1e3 * candidates[1].least,
+                  candidates[0].least / candidates[1].least);
+    }
 }
 
 void benchUpdate(const forest::ForestReplica& forest, const Lawn& lawn, int rounds) {
@@ -63,31 +135,69 @@ void benchUpdate(const forest::ForestReplica& forest, const Lawn& lawn, int roun
   std::printf("\n%zu trees with %zu branches, all of them moving\n", trees.all().size(),
               trees.branches());
   for (const bench::Candidate& c : candidates)
-    std::printf("%-24s %12.3f ms\n", c.name.c_str(), 1e3 * c.seconds);
+    std::printf("%-22s %10.3f ms\n", c.name.c_str(), 1e3 * c.seconds);
 }
 
+/// All scenes of the bench.
+class Scenes {
+ public:
+  explicit Scenes(int side)
+      : forest_(movingForest(forest::gridLayout(side, 5.0), wind_)),
+        bare_forest_(movingForest(bareLayout(side), wind_)) {
+    lawn_.treadLane();
+    bare_.trees.update(bare_forest_, SENSOR, REACH, START + fromSeconds(1.0));
+    leaves_.trees.update(forest_, SENSOR, REACH, START + fromSeconds(1.0));
+    both_.trees = leaves_.trees;
+    for (Scene* scene : {&meadow_, &both_}) lawn_.show(scene->grass, wind_, 1.0);
+    // A hay meadow of several species, seen by a low robot.
+    hay_.layout.map = std::make_shared<const grass::FeatureMap>(
+        grass::FeatureMap::load(std::string(PACKAGE_FOLDER) + "/config/meadow/meadow.yaml"));
+    hay_.show(field_.grass, wind_, 1.0);
+    addPeople();
+  }
+  std::vector<View> views() const {
+    return {{"wood", &bare_},
+            {"wood and leaves", &leaves_},
+            {"lawn", &meadow_},
+            {"wood, leaves, lawn", &both_},
+            {"hay, low sensor", &field_, Vec3(0.3, 0.4, 0.7)},
+            {"people", &square_}};
+  }
+  const forest::ForestReplica& forest() const { return forest_; }
+  const Lawn& lawn() const { return lawn_; }
+
+ private:
+  static forest::Layout bareLayout(int side) {
+    forest::Layout out = forest::gridLayout(side, 5.0);
+    for (forest::Species& species : out.species)
+      for (forest::LimbRule& limb : species.limbs) limb.leaves = 0.0;
+    return out;
+  }
+  void addPeople() {
+    std::vector<People::Person> people;
+    for (std::uint32_t i = 0; i < 100; ++i) {
+      crowd::Walker walker;
+      walker.id = i + 1;
+      walker.position = {3.0 * (i % 10) - 3.2, 3.0 * (i / 10) - 3.1};
+      people.push_back({walker.id, crowd::skeletonOf(walker, terrain::HeightMap())});
+    }
+    square_.people.set(people);
+  }
+
+  const wind::Field wind_{breezeOf(Vec3(4, 2, 0))};
+  const forest::ForestReplica forest_, bare_forest_;
+  Lawn lawn_, hay_;
+  Scene bare_, leaves_, meadow_, both_, field_, square_;
+};
+
 void run(const bench::Options& options) {
-  const int side = options.quick ? 4 : 12;
-  const wind::Field wind = breezeOf(Vec3(4, 2, 0));
-  const auto forest = movingForest(forest::gridLayout(side, 5.0), wind);
-  Lawn lawn;
-  lawn.treadLane();
-  Scene wood, meadow, both;
-  for (Scene* scene : {&wood, &both})
-    scene->trees.update(forest, SENSOR, REACH, START + fromSeconds(1.0));
-  for (Scene* scene : {&meadow, &both}) lawn.show(scene->grass, wind, 1.0);
-  // A hay meadow of several species, seen by a low robot.
-  Lawn hay;
-  hay.layout.map = std::make_shared<const grass::FeatureMap>(
-      grass::FeatureMap::load(std::string(PACKAGE_FOLDER) + "/config/meadow/meadow.yaml"));
-  Scene field;
-  hay.show(field.grass, wind, 1.0);
-  benchRays({{"wood", &wood},
-             {"lawn", &meadow},
-             {"wood and lawn", &both},
-             {"hay meadow, low sensor", &field, Vec3(0.3, 0.4, 0.7)}},
-            options.rounds, options.quick ? 5000 : 30000);
-  benchUpdate(forest, lawn, options.rounds);
+  const Scenes scenes(options.quick ? 4 : 12);
+  const std::vector<Lidar> lidars{{"16 x 900", beamsOf(16, 900), options.quick ? 10 : 1},
+                                  {"128 x 2048", beamsOf(128, 2048), options.quick ? 100 : 16}};
+  if (options.wants("rays")) benchRays(scenes.views(), lidars, options.rounds);
+  if (options.wants("sets")) benchSets(scenes.views(), lidars[0], options.rounds);
+  if (options.wants("sweeps")) benchSweeps(scenes.views(), lidars, std::min(options.rounds, 5));
+  if (options.wants("update")) benchUpdate(scenes.forest(), scenes.lawn(), options.rounds);
 }
 
 }  // namespace
@@ -95,7 +205,8 @@ void run(const bench::Options& options) {
 
 int main(int argc, char** argv) {
   try {
-    vegetation_sim::scan::run(vegetation_sim::bench::readOptions(argc, argv, {}));
+    vegetation_sim::scan::run(
+        vegetation_sim::bench::readOptions(argc, argv, {"rays", "sets", "sweeps", "update"}));
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "scan_bench: %s\n", error.what());

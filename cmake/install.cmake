@@ -14,5 +14,7 @@ catkin_install_python(PROGRAMS scripts/charts/charts scripts/diff_drive_robot.py
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY scripts/charts/charting DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION}
   PATTERN __pycache__ EXCLUDE)
-install(FILES nodelet_plugins.xml plugin_description.xml
-  DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
+install(FILES nodelet_plugins.xml DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
+if(with_rviz)
+  install(FILES plugin_description.xml DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
+endif()

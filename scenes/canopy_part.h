@@ -21,6 +21,7 @@ class CanopyPart {
   void advance(Nanoseconds stamp);
   void addTo(Hashes& hashes);
 
+  canopy::Canopy& canopy() { return canopy_; }
   /// Mean distance of the tips of all leaves from where they are at rest [m].
   double meanDisplacement();
 

@@ -34,6 +34,7 @@ class GrassPart {
   /// Area that is tilted by more than half a radian [m^2].
   double crushedArea() const;
 
+  grass::TreadSimulation& field() { return field_; }
   const grass::Layout& layout() const { return field_.layout(); }
   const grass::TreadMap& shownTread() const { return shown_tread_; }
   const wind::Field& wind() const { return wind_; }

@@ -24,6 +24,8 @@ class World {
   /// Advances everything to the next tick.
   void advance();
   int tick() const { return tick_; }
+  /// Sets the number of the present tick, for a world whose state is restored from a snapshot.
+  void setTick(int tick) { tick_ = tick; }
   Nanoseconds now() const { return grid_.timeOf(first_ + tick_); }
   /// Stamp of the coming tick, which events before it bear.
   Nanoseconds next() const { return grid_.timeOf(first_ + tick_ + 1); }

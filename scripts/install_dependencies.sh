@@ -4,49 +4,77 @@
 # Installs the missing packages on Debian 11, 12 and 13 and on Ubuntu 20.04 with ROS Noetic; fails on
 # other systems. If all are installed, it does not use the network. docs/dependencies.md gives the
 # reason for each package.
-# usage: scripts/install_dependencies.sh [--checks]
-#   --checks  also installs the programs of the static checks
+# usage: scripts/install_dependencies.sh [--checks] [--no-display] [--list]
+#   --checks      also installs the programs of the static checks
+#   --no-display  installs no rviz, Qt, OpenGL or virtual display; then the nodes are built alone
+#   --list        prints the packages of this system and installs none
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 
+with_checks=false with_display=true list=false
+for option in "$@"; do
+  case $option in
+    --checks) with_checks=true ;;
+    --no-display) with_display=false ;;
+    --list) list=true ;;
+    *) fail "unknown option $option; known are --checks, --no-display and --list" ;;
+  esac
+done
+
 COMMON=(
-  cmake g++ libassimp-dev libeigen3-dev libgl-dev libgmock-dev libpng-dev libyaml-cpp-dev ninja-build
-  pkg-config qtbase5-dev
-  # These packages run the charts, give the demo a virtual display and take screenshots.
-  imagemagick libgl1-mesa-dri procps python3-matplotlib python3-numpy python3-pil xdotool xvfb
+  cmake g++ libassimp-dev libeigen3-dev libgmock-dev libpng-dev libyaml-cpp-dev ninja-build pkg-config
+  # These packages run the charts and the scripts of the tests.
+  procps python3-matplotlib python3-numpy python3-pil
 )
+# These packages compile the displays, give the demo a virtual display and take screenshots.
+DISPLAY_COMMON=(imagemagick libgl-dev libgl1-mesa-dri qtbase5-dev xdotool xvfb)
 DEBIAN=(
   # These packages compile the code.
   catkin python3-catkin-pkg ros-core-dev libroscpp-dev libtf2-ros-dev libsensor-msgs-dev liburdf-dev
   libvisualization-msgs-dev libdiagnostic-updater-dev
   libdynamic-reconfigure-config-init-mutex-dev python3-dynamic-reconfigure
-  libnodeletlib-dev pluginlib-dev librviz-dev
+  libnodeletlib-dev pluginlib-dev
   # These packages run the nodes and the tests and inspect topics.
-  libnodeletlib-tools rviz python3-rosbag python3-roslaunch python3-rosmsg python3-rosnode
+  libnodeletlib-tools python3-rosbag python3-roslaunch python3-rosmsg python3-rosnode
   python3-rosparam python3-rosservice python3-rostest python3-rostopic rosbash librostest-dev
   python3-diagnostic-msgs python3-geometry-msgs python3-nav-msgs python3-sensor-msgs
   python3-std-srvs python3-tf2-msgs python3-visualization-msgs
 )
+DISPLAY_DEBIAN=(librviz-dev rviz)
 NOETIC=(
   catkin diagnostic-msgs diagnostic-updater dynamic-reconfigure geometry-msgs message-generation
   nav-msgs nodelet pluginlib rosbag rosbash roscpp rosgraph-msgs roslaunch roslib
-  rosmsg rosnode rosparam rospy rosservice rostest rostopic rviz sensor-msgs std-msgs std-srvs tf2
+  rosmsg rosnode rosparam rospy rosservice rostest rostopic sensor-msgs std-msgs std-srvs tf2
   tf2-msgs tf2-ros urdf visualization-msgs
 )
+DISPLAY_NOETIC=(ros-noetic-rviz)
 CHECKS=(catkin-lint clang-format clang-tidy)
 
+# Tests give the description of another system.
+OS_RELEASE=${OS_RELEASE:-/etc/os-release}
 system=unknown name='this system'
-if [ -e /etc/os-release ]; then
-  system=$(. /etc/os-release && echo "$ID ${VERSION_CODENAME:-}")
-  name=$(. /etc/os-release && echo "$PRETTY_NAME")
+if [ -e "$OS_RELEASE" ]; then
+  # shellcheck disable=SC1090
+  system=$(. "$OS_RELEASE" && echo "${ID:-} ${VERSION_CODENAME:-}")
+  # shellcheck disable=SC1090
+  name=$(. "$OS_RELEASE" && echo "${PRETTY_NAME:-$system}")
 fi
+packages=("${COMMON[@]}") display=("${DISPLAY_COMMON[@]}" "${DISPLAY_DEBIAN[@]}")
 case $system in
-  'debian bullseye') packages=("${COMMON[@]}" "${DEBIAN[@]}") ;;  # without Highway: CMake fetches it
-  'debian bookworm' | 'debian trixie') packages=("${COMMON[@]}" "${DEBIAN[@]}" libhwy-dev) ;;
-  'ubuntu focal') packages=("${COMMON[@]}" "${NOETIC[@]/#/ros-noetic-}") ;;
+  'debian bullseye') packages+=("${DEBIAN[@]}") ;;  # without Highway: CMake fetches it
+  'debian bookworm' | 'debian trixie') packages+=("${DEBIAN[@]}" libhwy-dev) ;;
+  'ubuntu focal')
+    packages+=("${NOETIC[@]/#/ros-noetic-}")
+    display=("${DISPLAY_COMMON[@]}" "${DISPLAY_NOETIC[@]}")
+    ;;
   *) fail "$name is not supported: Debian 11, 12 and 13 and Ubuntu 20.04 are. Elsewhere install the packages in docs/dependencies.md and run scripts/build.sh." ;;
 esac
-[ "${1:-}" != --checks ] || packages+=("${CHECKS[@]}")
+! $with_display || packages+=("${display[@]}")
+! $with_checks || packages+=("${CHECKS[@]}")
+if $list; then
+  printf '%s\n' "${packages[@]}" | sort
+  exit 0
+fi
 
 missing=()
 for package in "${packages[@]}"; do

@@ -2,19 +2,22 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
 # Installs missing dependencies, builds everything, and runs the tests and checks.
-# usage: scripts/test.sh [--lint | --sanitize]
-#   --lint      runs only the static checks, clang-tidy included
-#   --sanitize  runs only the core's tests under the address and undefined behaviour sanitizers
+# usage: scripts/test.sh [--lint | --sanitize | --no-display]
+#   --lint        runs only the static checks, clang-tidy included
+#   --sanitize    runs only the core's tests under the address and undefined behaviour sanitizers
+#   --no-display  tests the nodes alone, on a machine without rviz, Qt and OpenGL, and installs none
+#                 of them
 # clang-tidy and the sanitizers take more than half an hour together and run only with these options;
 # MAINTAINING.md asks for them before a release.
 # The last line counts test cases and checks; the exit code is 0 if none failed.
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 
-part=${1:-all}
+part=${1:-all} with_display=true
 case $part in
   all | --lint | --sanitize) ;;
-  *) fail "unknown option $part; known are --lint and --sanitize" ;;
+  --no-display) part=all with_display=false ;;
+  *) fail "unknown option $part; known are --lint, --sanitize and --no-display" ;;
 esac
 
 passed=0 failed=0 skipped=0
@@ -77,14 +80,17 @@ sanitize() {
   done
 }
 
-"$ROOT/scripts/install_dependencies.sh" --checks
+dependencies=(--checks)
+$with_display || dependencies+=(--no-display)
+"$ROOT/scripts/install_dependencies.sh" "${dependencies[@]}"
 [ $part = --sanitize ] || "$ROOT/scripts/build.sh" all benches tests
 [ $part != all ] || run_tests
 [ $part = --sanitize ] || lint
 [ $part != --sanitize ] || sanitize
 [ $part != all ] || check 'a machine whose name does not resolve' "$ROOT/scripts/test_environment.sh"
+[ $part != all ] || check 'packages of each system' "$ROOT/scripts/test_systems.sh"
 [ $part != all ] || check 'runs from the install space' "$ROOT/scripts/test_install.sh"
-[ $part != all ] || check 'a series of pictures of the demo' "$ROOT/scripts/test_demo.sh"
+[ $part != all ] || ! $with_display || check 'a series of pictures of the demo' "$ROOT/scripts/test_demo.sh"
 
 [ $failed -eq 0 ] || printf 'FAILED  %s\n' "${failures[@]}"
 printf '%d passed, %d failed, %d skipped\n' $passed $failed $skipped

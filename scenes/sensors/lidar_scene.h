@@ -6,6 +6,7 @@
 
 #include "crowd/body/gait.h"
 #include "reference/grass/blade_plain.h"
+#include "reference/sensors/box_tree.h"
 #include "scenes/forest/forest_fixture.h"
 #include "sensors/sensor_scene.h"
 #include "vegetation_sim/core/math/random.h"

@@ -203,17 +203,17 @@ PromotedTree Forest::promotedInView(std::uint32_t tree) const {
   return out;
 }
 
-std::uint64_t Forest::hash() const {
+std::uint64_t Forest::hashOf(const ForestSnapshot& snapshot) const {
   Hash out;
   out.add(layout_hash_);
-  out.add(snapshot_.wind.hash());
-  Settings settings = snapshot_.settings;
+  out.add(snapshot.wind.hash());
+  Settings settings = snapshot.settings;
   FieldHasher hasher(out);
   describe(hasher, settings);
-  for (const auto& entry : snapshot_.sensors) addTo(out, entry.second);
-  snapshot_.world.levels.addTo(out, snapshot_.stamp, layout_.motion.transition);
-  snapshot_.world.modes.addTo(out);
-  snapshot_.physics.addTo(out);
+  for (const auto& entry : snapshot.sensors) addTo(out, entry.second);
+  snapshot.world.levels.addTo(out, snapshot.stamp, layout_.motion.transition);
+  snapshot.world.modes.addTo(out);
+  snapshot.physics.addTo(out);
   return out.value();
 }
 

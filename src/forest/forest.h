@@ -49,6 +49,10 @@ class Forest {
   /// Replaces the layout. Levels restart if the number of trees changes.
   void setLayout(Layout layout, std::shared_ptr<const terrain::HeightMap> terrain);
   void restore(ForestSnapshot memory) { snapshot_ = std::move(memory); }
+  /// The snapshot as bytes, and back. Reading needs the same layout and terrain. @throws
+  /// InvalidInput for bytes that are no state of this layout.
+  std::string archived() const;
+  ForestSnapshot readArchived(std::string bytes) const;
   /// Computes now what the first tick with a listener nearby would otherwise compute.
   void precompute() { errors_.precompute(layout_); }
   /// Resets the state; keeps layout, wind and settings.
@@ -108,7 +112,8 @@ class Forest {
   StateUpdate updateView(bool key_frame);
   /// Returns a hash of all state that determines the future of the world, sensors included, but not
   /// the numbers of updates, so that late subscribers compute the same.
-  std::uint64_t hash() const;
+  std::uint64_t hash() const { return hashOf(snapshot_); }
+  std::uint64_t hashOf(const ForestSnapshot& snapshot) const;
 
  private:
   StepContext stepContext() const;

@@ -102,6 +102,10 @@ class TreadSimulation {
 
   TreadSnapshot snapshot() const;
   void restore(TreadSnapshot memory);
+  /// The snapshot as bytes, and back. Reading needs the same map. @throws InvalidInput for bytes
+  /// that are no state of this map.
+  std::string archived() const;
+  TreadSnapshot readArchived(std::string bytes) const;
   const std::map<std::string, TreadSourceState>& sources() const { return sources_; }
   Nanoseconds stamp() const { return stamp_; }
   const TreadMap& tread() const { return tread_; }

@@ -6,8 +6,9 @@
 #include <cmath>
 #include <utility>
 
+#include "sensors/blade_width.h"
 #include "sensors/geometry/beer_lambert.h"
-#include "sensors/geometry/box_tree.h"
+#include "sensors/geometry/box.h"
 #include "terrain/ground_ray.h"
 #include "vegetation_sim/core/math/math.h"
 
@@ -30,15 +31,6 @@ grass::TileWindow windowAround(const grass::FeatureMap& map, const Vec3& centre,
   };
   return {column(centre.x() - radius), column(centre.x() + radius), row(centre.y() - radius),
           row(centre.y() + radius)};
-}
-
-/// Returns the mean remaining width at `way` along blades whose lengths are evenly distributed over
-/// [least, most]. A blade has the width 1 - (way / length)^2 of its root's.
-double widthAt(double way, double least, double most) {
-  if (way >= most) return 0.0;
-  const double from = std::max(least, way);
-  if (most - least < 1e-6 * most) return 1.0 - way * way / (most * most);
-  return ((most - from) - way * way * (1.0 / from - 1.0 / most)) / (most - least);
 }
 
 /// Steps a ray through a grid of cells.
@@ -79,6 +71,7 @@ void GrassVolume::update(const grass::Layout& layout, const grass::TreadMap& tre
   layout_ = layout;
   tread_ = &tread;
   terrain_ = std::move(terrain);
+  flat_ = terrain_->isFlat();
   stamp_ = stamp;
   if (other_map) takeMap();
   window_ = windowAround(*layout_.map, centre, radius);
@@ -86,6 +79,8 @@ void GrassVolume::update(const grass::Layout& layout, const grass::TreadMap& tre
   const wind::Instant instant = wind.at(stamp);
   still_ = instant.breezes == 0 && instant.terms.empty();
   if (!still_) air_->update(instant, {}, window_);
+  bounds_.setWind(still_ ? nullptr : air_.get(), window_);
+  bounds_.setTread(tread);
 }
 
 void GrassVolume::takeMap() {
@@ -98,6 +93,7 @@ void GrassVolume::takeMap() {
     kinds_.push_back({s.height, s.height_spread, s.width, s.lean, s.compliance});
     factor = std::max(factor, s.height);
   }
+  bounds_.setMap(map);
   tops_.clear();
   for (int row = 0; row < map.tileRows(); ++row)
     for (int column = 0; column < map.tileColumns(); ++column) {
@@ -118,7 +114,7 @@ double GrassVolume::topAt(double x, double y) const {
 }
 
 double GrassVolume::above(const Vec3& place) const {
-  return place.z() - terrain_->height(place.x(), place.y());
+  return flat_ ? place.z() : place.z() - terrain_->height(place.x(), place.y());
 }
 
 // Interpolates between the corners of the tile, like poseBlades().
@@ -169,7 +165,7 @@ double GrassVolume::extinctionAt(const Vec3& place, double height, const Vec3& d
 }
 
 // Enters the layer of the grass, marches through it, and may enter it again.
-void GrassVolume::meet(const Ray& ray, Hit& nearest) const {
+void GrassVolume::meet(const Ray& ray, Hit& nearest, Cells cells) const {
   if (!tread_) return;
   double from = 0.0;
   while (from < nearest.distance) {
@@ -180,27 +176,32 @@ void GrassVolume::meet(const Ray& ray, Hit& nearest) const {
       if (!terrain::meetGround(*terrain_, top, ray.direction, left, entry)) return;
       from += length(entry - top);
     }
-    from = march(ray, from, nearest) + GRASS_CELL;
+    from = (cells == Cells::LIKELY ? march<true>(ray, from, nearest)
+                                   : march<false>(ray, from, nearest)) +
+           GRASS_CELL;
   }
 }
 
 // Returns the distance at which the ray leaves the layer or hits a blade.
+template <bool LIKELY>
 double GrassVolume::march(const Ray& ray, double from, Hit& nearest) const {
   Walk walk(ray, from, GRASS_CELL);
   const auto key = static_cast<std::uint32_t>(layout_.seed);
-  while (from < nearest.distance) {
-    const double to = std::min(walk.end(), nearest.distance);
-    const Vec3 middle = ray.at(0.5 * (from + to));
-    const double height = above(middle);
-    if (height > tallest_) return from;
-    const double here = extinctionAt(middle, height, ray.direction);
-    const double way = here > 0.0 ? depthOf(walk.cell(), key) / here : Box::ENDLESS;
-    if (from + way < to) {
-      nearest = {from + way, Label::GRASS, 0, -1, MEAN_COSINE};
-      return nearest.distance;
-    }
+  for (; from < nearest.distance; walk.advance()) {
+    const double start = from, to = std::min(walk.end(), nearest.distance);
     from = to;
-    walk.advance();
+    const Vec3 middle = ray.at(0.5 * (start + to));
+    const double height = above(middle);
+    if (height > tallest_) return start;
+    const double bound = LIKELY ? bounds_.at(middle.x(), middle.y(), height) : Box::ENDLESS;
+    if (bound <= 0.0) continue;
+    const double share = shareOf(walk.cell(), key);
+    if (LIKELY && !mayBeBelow(bound * (to - start), share)) continue;
+    const double here = extinctionAt(middle, height, ray.direction);
+    const double way = here > 0.0 ? depthAt(share) / here : Box::ENDLESS;
+    if (!(start + way < to)) continue;
+    nearest = {start + way, Label::GRASS, 0, -1, MEAN_COSINE};
+    return nearest.distance;
   }
   return from;
 }

@@ -7,6 +7,7 @@
 
 #include "grass/lod/node_wind.h"
 #include "sensors/geometry/ray.h"
+#include "sensors/grass_bounds.h"
 #include "vegetation_sim/grass/grass_layout.h"
 #include "vegetation_sim/wind/field.h"
 
@@ -23,8 +24,12 @@ class GrassVolume {
               const Vec3& centre, double radius, Nanoseconds stamp);
   void clear() { tread_ = nullptr; }
 
-  void meet(const Ray& ray, Hit& nearest) const;
+  /// Cells in which the grass is evaluated: those that may stop the ray, or, slowly and with the
+  /// same hits, all of them.
+  enum class Cells { LIKELY, ALL };
+  void meet(const Ray& ray, Hit& nearest, Cells cells = Cells::LIKELY) const;
 
+  const GrassBounds& bounds() const { return bounds_; }
   /// Returns the extinction of a ray of this direction at a world place [1/m].
   double extinction(const Vec3& place, const Vec3& direction) const;
 
@@ -37,6 +42,7 @@ class GrassVolume {
   double topAt(double x, double y) const;
   double extinctionAt(const Vec3& place, double height, const Vec3& direction) const;
   Vec3 airAt(double x, double y) const;
+  template <bool LIKELY>
   double march(const Ray& ray, double from, Hit& nearest) const;
 
   grass::Layout layout_;
@@ -45,8 +51,9 @@ class GrassVolume {
   std::shared_ptr<const terrain::HeightMap> terrain_;
   grass::TileWindow window_;
   std::unique_ptr<grass::NodeWind> air_;
-  bool still_{true};
-  double tallest_{0.0};      ///< height of the tallest blade of the map [m]
+  bool still_{true}, flat_{true};
+  double tallest_{0.0};  ///< height of the tallest blade of the map [m]
+  GrassBounds bounds_;
   std::vector<float> tops_;  ///< [rows x columns] of tiles: upper bound of the height of blades [m]
   Nanoseconds stamp_{0};
 };

@@ -6,26 +6,31 @@ namespace vegetation_sim::scan {
 
 void People::set(const std::vector<Person>& people) {
   limbs_.clear();
-  std::vector<Box> items;
+  rods_.clear();
   for (const Person& person : people)
     for (std::size_t part = 0; part < person.skeleton.size(); ++part) {
       const crowd::Limb& limb = person.skeleton[part];
-      limbs_.push_back({person.id, static_cast<int>(part),
-                        rodBetween(limb.from, limb.to, limb.radius, limb.radius)});
-      items.push_back(boxOf(limbs_.back().rod));
+      limbs_.push_back({person.id, static_cast<int>(part)});
+      rods_.push_back(rodBetween(limb.from, limb.to, limb.radius, limb.radius));
     }
-  boxes_.build(items);
+  const Vec3 origin = rods_.empty() ? Vec3(Vec3::Zero()) : rods_.front().base;
+  rod_tree_.build(rods_, std::vector<double>(rods_.size(), 0.0), origin);
 }
 
-void People::meet(const Ray& ray, Hit& nearest) const {
-  boxes_.visit(ray, nearest, [&](std::size_t limb) { meetLimb(limb, ray, nearest); });
+void People::meet(const Ray& ray, const FloatRay& narrow, Hit& nearest) const {
+  if (limbs_.empty()) return;
+  RankedHit ranked(nearest);
+  rod_tree_.visit(ray, narrow, nearest, [&](std::size_t limb) {
+    ranked.offer(limb + 1, [&](Hit& hit) { return meetLimb(limb, ray, hit); });
+  });
 }
 
-void People::meetLimb(std::size_t index, const Ray& ray, Hit& nearest) const {
+bool People::meetLimb(std::size_t index, const Ray& ray, Hit& nearest) const {
   const Limb& limb = limbs_[index];
   Meeting meeting;
-  if (scan::meet(ray, limb.rod, nearest.distance, meeting))
-    nearest = {meeting.distance, Label::PERSON, limb.person, limb.part, meeting.cosine};
+  if (!scan::meet(ray, rods_[index], nearest.distance, meeting)) return false;
+  nearest = {meeting.distance, Label::PERSON, limb.person, limb.part, meeting.cosine};
+  return true;
 }
 
 }  // namespace vegetation_sim::scan

@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "crowd/body/body_skeleton.h"
-#include "sensors/geometry/rod.h"
+#include "sensors/geometry/ranked_hit.h"
+#include "sensors/geometry/rod_tree.h"
 
 namespace vegetation_sim::scan {
 
@@ -19,18 +20,20 @@ class People {
   };
   void set(const std::vector<Person>& people);
 
-  void meet(const Ray& ray, Hit& nearest) const;
-  void meetLimb(std::size_t index, const Ray& ray, Hit& nearest) const;
+  /// Replaces `nearest` by a nearer hit; of hits at equal distances that on the first limb counts.
+  void meet(const Ray& ray, const FloatRay& narrow, Hit& nearest) const;
+  bool meetLimb(std::size_t index, const Ray& ray, Hit& nearest) const;
   std::size_t limbs() const { return limbs_.size(); }
+  const std::vector<Rod>& rods() const { return rods_; }
 
  private:
   struct Limb {
     std::uint32_t person{0};
     int part{0};  ///< index in the skeleton
-    Rod rod;
   };
   std::vector<Limb> limbs_;
-  BoxTree boxes_;
+  std::vector<Rod> rods_;  ///< of limbs_
+  RodTree rod_tree_;
 };
 
 }  // namespace vegetation_sim::scan

@@ -10,11 +10,6 @@
 #include "vegetation_sim/tree/motion/batch_poser.h"
 
 namespace vegetation_sim::scan {
-namespace {
-
-constexpr double MEAN_COSINE = 0.5;  // mean over leaves of random orientation
-
-}  // namespace
 
 PosedTree::PosedTree(const forest::ForestReplica& forest, std::uint32_t id)
     : id_(id), tree_(forest.grow(id)), poser_(tree_) {
@@ -27,14 +22,15 @@ PosedTree::PosedTree(const forest::ForestReplica& forest, std::uint32_t id)
   }
   addLeaves(forest.layout().species.at(tree_.seed.species));
   poser_.pose(wind::Instant(), forest::Weights{}, tree_.skeleton.depths(), poses_);
-  fitBoxes();
-  boxes_.build(items_);
+  placeRods();
+  rod_tree_.build(rods_, leaf_radii_, tree_.foot);
 }
 
 // The leaf clusters of a twig are spread evenly over their reach.
 void PosedTree::addLeaves(const forest::Species& species) {
   const std::vector<forest::Branch>& branches = tree_.skeleton.branches;
   leaves_.resize(branches.size());
+  leaf_radii_.assign(branches.size(), 0.0);
   if (branches.empty()) return;
   const double scale = std::sqrt(branches[0].base_radius / species.trunk_radius);
   const double edge = species.leaf_size * scale, radius = LEAF_REACH * edge;
@@ -42,21 +38,20 @@ void PosedTree::addLeaves(const forest::Species& species) {
     if (branches[i].leaves == 0 || radius <= 0.0) continue;
     const double volume = PI * radius * radius * (branches[i].length + 4.0 / 3.0 * radius);
     const double area = forest::LEAF_COVERAGE * edge * edge * branches[i].leaves;
-    leaves_[i] = {radius, LEAF_PROJECTION * area / volume,
+    leaf_radii_[i] = radius;
+    leaves_[i] = {LEAF_PROJECTION * area / volume,
                   static_cast<std::uint32_t>(branches[i].key >> 32)};
   }
 }
 
-void PosedTree::fitBoxes() {
-  items_.resize(rods_.size());
+void PosedTree::placeRods() {
+  turns_.resize(rods_.size());
   for (std::size_t i = 0; i < rods_.size(); ++i) {
     const Pose pose = poses_.at(static_cast<int>(i));
     Rod& rod = rods_[i];
     rod.base = tree_.foot + pose.position;
     rod.axis = axisZ(pose.orientation);
-    items_[i] = boxOf(rod);
-    items_[i].add(rod.base, leaves_[i].radius);
-    items_[i].add(rod.base + rod.length * rod.axis, leaves_[i].radius);
+    turns_[i] = pose.orientation;
   }
 }
 
@@ -67,8 +62,8 @@ void PosedTree::pose(const forest::ForestReplica& forest, Nanoseconds stamp,
   else
     poser_.pose(wind.relativeTo(tree_.foot), forest.weights(id_, stamp), tree_.skeleton.depths(),
                 poses_);
-  fitBoxes();
-  boxes_.refit(items_);
+  placeRods();
+  rod_tree_.fit(rods_, leaf_radii_, tree_.foot);
 }
 
 void PosedTree::follow(const forest::ForestReplica& forest, Nanoseconds stamp,
@@ -79,30 +74,38 @@ void PosedTree::follow(const forest::ForestReplica& forest, Nanoseconds stamp,
   moved_ = moves;
 }
 
-void PosedTree::meet(const Ray& ray, Hit& nearest) const {
-  boxes_.visit(ray, nearest, [&](std::size_t branch) { meetBranch(branch, ray, nearest); });
+void PosedTree::meet(const Ray& ray, const FloatRay& narrow, std::uint64_t first_rank,
+                     RankedHit& nearest) const {
+  rod_tree_.visit(ray, narrow, nearest.hit(), [&](std::size_t branch) {
+    nearest.offer(first_rank + branch, [&](Hit& hit) { return meetBranch(branch, ray, hit); });
+  });
 }
 
-void PosedTree::meetBranch(std::size_t branch, const Ray& ray, Hit& nearest) const {
+bool PosedTree::meetBranch(std::size_t branch, const Ray& ray, Hit& nearest) const {
   Meeting meeting;
-  if (scan::meet(ray, rods_[branch], nearest.distance, meeting)) {
-    const bool trunk = tree_.skeleton.branches[branch].depth == 0;
-    nearest = {meeting.distance, trunk ? Label::TRUNK : Label::BRANCH, id_,
+  const bool wood = scan::meet(ray, rods_[branch], nearest.distance, meeting);
+  if (wood) {
+    nearest = {meeting.distance, isTrunk(branch) ? Label::TRUNK : Label::BRANCH, id_,
                static_cast<int>(branch), meeting.cosine};
   }
-  if (leaves_[branch].radius > 0.0) meetLeaves(branch, ray, nearest);
+  const bool leaves = leaf_radii_[branch] > 0.0 && meetLeaves(branch, ray, nearest);
+  return wood || leaves;
 }
 
 // The cells are fixed to the branch, so that leaves move with it.
-void PosedTree::meetLeaves(std::size_t branch, const Ray& ray, Hit& nearest) const {
+bool PosedTree::meetLeaves(std::size_t branch, const Ray& ray, Hit& nearest) const {
   const Leaves& leaves = leaves_[branch];
-  const Stretch part = within(ray, rods_[branch], leaves.radius);
-  if (!(part.from < part.to && part.from < nearest.distance)) return;
-  const Quat turn = poses_.at(static_cast<int>(branch)).orientation;
-  const Vec3 place = rotate(conjugate(turn), Vec3(ray.at(part.from) - rods_[branch].base));
-  const double way = depthOf(cellAt(place, LEAF_CELL), leaves.key) / leaves.extinction;
-  if (!(part.from + way < std::min(part.to, nearest.distance))) return;
-  nearest = {part.from + way, Label::LEAF, id_, static_cast<int>(branch), MEAN_COSINE};
+  const Stretch part = within(ray, rods_[branch], leaf_radii_[branch]);
+  if (!(part.from < part.to && part.from < nearest.distance)) return false;
+  const Vec3 place =
+      rotate(conjugate(turns_[branch]), Vec3(ray.at(part.from) - rods_[branch].base));
+  const double to = std::min(part.to, nearest.distance);
+  const double share = shareOf(cellAt(place, LEAF_CELL), leaves.key);
+  if (!mayBeBelow(leaves.extinction * (to - part.from), share)) return false;
+  const double way = depthAt(share) / leaves.extinction;
+  if (!(part.from + way < to)) return false;
+  nearest = {part.from + way, Label::LEAF, id_, static_cast<int>(branch), LEAF_COSINE};
+  return true;
 }
 
 }  // namespace vegetation_sim::scan

@@ -5,7 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "sensors/geometry/rod.h"
+#include "sensors/geometry/ranked_hit.h"
+#include "sensors/geometry/rod_tree.h"
 #include "vegetation_sim/forest/forest_replica.h"
 #include "vegetation_sim/tree/motion/batch_poser.h"
 
@@ -15,6 +16,11 @@ namespace vegetation_sim::scan {
 /// with it.
 class PosedTree {
  public:
+  /// Leaves around the axis of a branch.
+  struct Leaves {
+    double extinction{0.0};  ///< [1/m]
+    std::uint32_t key{0};
+  };
   /// Grows the tree.
   PosedTree(const forest::ForestReplica& forest, std::uint32_t id);
 
@@ -26,31 +32,36 @@ class PosedTree {
   std::uint32_t id() const { return id_; }
   const Vec3& foot() const { return tree_.foot; }  ///< world [m]
   std::size_t branches() const { return rods_.size(); }
-  Box bounds() const { return boxes_.bounds(); }
+  Box bounds() const { return rod_tree_.bounds(); }
   const std::vector<Rod>& rods() const { return rods_; }
 
-  void meet(const Ray& ray, Hit& nearest) const;
-  void meetBranch(std::size_t branch, const Ray& ray, Hit& nearest) const;
+  const std::vector<Quat>& turns() const { return turns_; }
+  const std::vector<Leaves>& leaves() const { return leaves_; }
+  bool isTrunk(std::size_t branch) const { return tree_.skeleton.branches[branch].depth == 0; }
+  /// Returns the room that the leaves of each branch take around its axis [m]; 0 without leaves.
+  const std::vector<double>& leafRadii() const { return leaf_radii_; }
+
+  /// Replaces the hit by a nearer one on this tree. Branches have the ranks from `first_rank` on.
+  void meet(const Ray& ray, const FloatRay& narrow, std::uint64_t first_rank,
+            RankedHit& nearest) const;
+  /// Does the same without ranks for one branch and its leaves; returns whether there is a nearer
+  /// hit.
+  bool meetBranch(std::size_t branch, const Ray& ray, Hit& nearest) const;
 
  private:
-  /// Cloud around the axis of a leafy branch.
-  struct Leaves {
-    double radius{0.0};      ///< [m]; 0: none
-    double extinction{0.0};  ///< extinction [1/m]
-    std::uint32_t key{0};
-  };
   void addLeaves(const forest::Species& species);
-  void fitBoxes();
-  void meetLeaves(std::size_t branch, const Ray& ray, Hit& nearest) const;
+  void placeRods();
+  bool meetLeaves(std::size_t branch, const Ray& ray, Hit& nearest) const;
 
   std::uint32_t id_;
   forest::Tree tree_;
   forest::BatchPoser poser_;
   forest::BatchPoses poses_;
   std::vector<Rod> rods_;       ///< world
+  std::vector<Quat> turns_;     ///< of rods_
   std::vector<Leaves> leaves_;  ///< of each branch
-  std::vector<Box> items_;
-  BoxTree boxes_;
+  std::vector<double> leaf_radii_;
+  RodTree rod_tree_;
   bool moved_{true};
 };
 
@@ -58,6 +69,8 @@ class PosedTree {
 constexpr double LEAF_PROJECTION = 0.5;
 /// Reach of leaf clusters from their branch, relative to their edge.
 constexpr double LEAF_REACH = 0.6;
+/// Mean cosine between a ray and the normals of leaves of random orientation.
+constexpr double LEAF_COSINE = 0.5;
 /// Edge of the cells of a cloud of leaves [m].
 constexpr double LEAF_CELL = 0.03;
 

@@ -20,8 +20,9 @@ Hit castToGround(const Scene& scene, const Ray& ray, double reach) {
 // The grass comes last because it is marched through only up to the nearest hit.
 Hit cast(const Scene& scene, const Ray& ray, double reach) {
   Hit out = castToGround(scene, ray, reach);
-  scene.trees.meet(ray, out);
-  scene.people.meet(ray, out);
+  const FloatRay narrow(ray);
+  scene.trees.meet(ray, narrow, out);
+  scene.people.meet(ray, narrow, out);
   scene.grass.meet(ray, out);
   return out;
 }

@@ -56,17 +56,41 @@ void Trees::update(const forest::ForestReplica& forest, const Vec3& centre, doub
   }
   left_out_ = near.size() - trees_.size();
   const wind::Instant wind = forest.wind().at(stamp);
-  std::vector<Box> items;
-  items.reserve(trees_.size());
-  for (const auto& tree : trees_) {
-    tree->follow(forest, stamp, wind);
-    items.push_back(tree->bounds());
-  }
-  boxes_.build(items);
+  for (const auto& tree : trees_) tree->follow(forest, stamp, wind);
+  fitBoxes(centre);
 }
 
-void Trees::meet(const Ray& ray, Hit& nearest) const {
-  boxes_.visit(ray, nearest, [&](std::size_t tree) { trees_[tree]->meet(ray, nearest); });
+void Trees::fitBoxes(const Vec3& origin) {
+  origin_ = origin;
+  std::vector<Box> items;
+  items.reserve(trees_.size());
+  first_ranks_.clear();
+  std::uint64_t rank = 1;
+  Box all;
+  for (const auto& tree : trees_) {
+    const Box box = tree->bounds();
+    items.push_back({box.low - origin, box.high - origin});
+    all.add(items.back());
+    first_ranks_.push_back(rank);
+    rank += tree->branches();
+  }
+  extent_ = extentOf(all);
+  boxes_.build(items);
+  std::vector<FloatBox> groups;
+  for (int group = 0; group < boxes_.groups(); ++group)
+    groups.push_back(enclose(items[static_cast<std::size_t>(boxes_.item(group, 0))]));
+  boxes_.fit(groups);
+}
+
+void Trees::meet(const Ray& ray, const FloatRay& narrow, Hit& nearest) const {
+  if (trees_.empty()) return;
+  RankedHit ranked(nearest);
+  WideWalk walk(boxes_, ray, narrow, origin_, extent_, nearest.distance);
+  for (int group = nextGroup(walk); group >= 0; group = nextGroup(walk)) {
+    const auto tree = static_cast<std::size_t>(boxes_.item(group, 0));
+    trees_[tree]->meet(ray, narrow, first_ranks_[tree], ranked);
+    walk.limit = limitOf(nearest.distance);
+  }
 }
 
 }  // namespace vegetation_sim::scan

@@ -38,14 +38,20 @@ bool meetGround(const HeightMap& ground, const Vec3& origin, const Vec3& directi
   if (part.from > part.to) return false;
   const double step = ground.isFlat() ? part.to - part.from : 0.5 * ground.resolution();
   double from = part.from, to = from;
-  while (above(ground, origin + to * along) > 0.0) {
+  const auto isAbove = [&](double at) {
+    if (ground.isFlat()) return origin.z() + at * along.z() > 0.0;
+    return above(ground, origin + at * along) > 0.0;
+  };
+  while (isAbove(to)) {
     if (to >= part.to) return false;
     from = to;
     to = std::min(part.to, to + std::max(step, CLOSE));
   }
   while (to - from > CLOSE) {
     const double middle = 0.5 * (from + to);
-    (above(ground, origin + middle * along) > 0.0 ? from : to) = middle;
+    const bool over = isAbove(middle);
+    from = over ? middle : from;
+    to = over ? to : middle;
   }
   place = origin + to * along;
   return true;

@@ -113,6 +113,95 @@ TEST(GrassVolume, InStillAirLooksTheSameAtAnyTime) {
   }
 }
 
+/// A hilly meadow of three species whose height, density and mix vary with the place.
+Lawn hillyMeadow(terrain::HeightMap& hills) {
+  grass::MapInput input;
+  input.law.columns = input.law.rows = 11;
+  const auto varied = [](std::uint32_t seed) {
+    terrain::GreyImage image;
+    image.columns = image.rows = 11;
+    image.white = 255;
+    for (std::uint32_t i = 0; i < 121; ++i)
+      image.samples.push_back(static_cast<std::uint16_t>(mix32(i + 1000 * seed) % 256));
+    return image;
+  };
+  input.height = {0.0, varied(1), 0.0, 0.6};
+  input.density = {0.0, varied(2), 0.0, 300.0};
+  input.shape = {0.0, varied(3), 0.0, 1.0};
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    grass::SpeciesInput species;
+    species.species.name = std::to_string(k);
+    species.species.height = 0.5 + 0.5 * k;
+    species.species.height_spread = 0.4 * k;
+    species.species.width = 0.004 + 0.004 * k;
+    species.mix = {0.0, varied(4 + k), 0.0, 1.0};
+    input.species.push_back(species);
+  }
+  terrain::HeightMapLaw law;
+  law.resolution = 2.0;
+  law.height_max = 1.5;
+  hills = terrain::HeightMap(law, varied(9));
+  Lawn out;
+  out.layout.map = std::make_shared<const grass::FeatureMap>(input);
+  return out;
+}
+
+// N1
+TEST(GrassVolume, HasTheHitsOfAnEvaluationOfEveryCell) {
+  terrain::HeightMap hills;
+  Lawn meadow = hillyMeadow(hills);
+  const auto ground = std::make_shared<const terrain::HeightMap>(hills);
+  for (const bool trodden : {false, true}) {
+    if (trodden) meadow.treadLane();
+    for (const double wind : {0.0, 3.0, 14.0}) {
+      GrassVolume grass_volume;
+      grass_volume.update(meadow.layout, meadow.tread, ground,
+                          wind > 0.0 ? breezeOf(Vec3(wind, 1, 0)) : wind::Field(),
+                          Vec3(10.0, 10.0, 1.0), wind > 5.0 ? 30.0 : 6.0,
+                          START + fromSeconds(60.0));
+      int hits = 0;
+      const Random random(9);
+      for (std::uint64_t i = 0; i < 3000; ++i) {
+        const Ray ray(Vec3(random.uniform(3 * i, -1.0, 21.0), random.uniform(3 * i + 1, -1.0, 21.0),
+                           random.uniform(3 * i + 2, 0.5, 2.5)),
+                      randomDirection(random, i + 90000, -0.6, 0.1));
+        Hit likely, each;
+        likely.distance = each.distance = 40.0;
+        grass_volume.meet(ray, likely);
+        grass_volume.meet(ray, each, GrassVolume::Cells::ALL);
+        EXPECT_TRUE(same(likely, each)) << trodden << " " << wind << " " << i;
+        hits += each.label == Label::GRASS;
+      }
+      EXPECT_GT(hits, 500) << trodden << " " << wind;
+    }
+  }
+}
+
+// The bounds hold wherever the extinction is not 0.
+TEST(GrassVolume, IsNowhereDenserThanItsBounds) {
+  terrain::HeightMap hills;
+  const Lawn meadow = hillyMeadow(hills);
+  GrassVolume grass_volume;
+  grass_volume.update(meadow.layout, meadow.tread,
+                      std::make_shared<const terrain::HeightMap>(hills), breezeOf(Vec3(9, 1, 0)),
+                      Vec3(10.0, 10.0, 1.0), 30.0, START);
+  const Random random(4);
+  int dense = 0;
+  double nearest = 0.0;
+  for (std::uint64_t i = 0; i < 20000; ++i) {
+    const double x = random.uniform(3 * i, 0.0, 20.0), y = random.uniform(3 * i + 1, 0.0, 20.0);
+    const double height = random.uniform(3 * i + 2, 0.0, 0.6);
+    const double here = grass_volume.extinction(Vec3(x, y, hills.height(x, y) + height),
+                                                randomDirection(random, i + 90000, -1.5, 1.5));
+    const double bound = grass_volume.bounds().at(x, y, height);
+    EXPECT_LE(here, bound) << i;
+    dense += here > 0.0;
+    if (bound > 0.0) nearest = std::max(nearest, here / bound);
+  }
+  EXPECT_GT(dense, 2000);
+  EXPECT_GT(nearest, 0.7);  // they are not much too high
+}
+
 TEST(GrassVolume, EndsAtTheBorderOfItsMap) {
   const Lawn lawn;
   GrassVolume grass_volume;

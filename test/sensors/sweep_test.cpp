@@ -6,13 +6,15 @@
 
 #include <numeric>
 
+#include "reference/sensors/binary_scene.h"
 #include "reference/sensors/cast_plain.h"
 #include "scenes/sensors/lidar_scene.h"
+#include "vegetation_sim/core/config/instruction_set.h"
 
 namespace vegetation_sim::scan {
 namespace {
 
-ThreadPool alone, three_threads(3);
+ThreadPool alone;
 
 Pose sensorAt(const Vec3& place) {
   Pose out;
@@ -58,10 +60,17 @@ TEST(Sweep, FindsWhatLookingAtEverythingFinds) {
   Scene scene;
   const Lawn lawn;
   fill(scene, lawn);
+  const BinaryScene binary(scene);
   for (std::uint64_t i = 0; i < 2000; ++i) {
     const Ray ray(Vec3(10, 10, 1.2), randomDirection(Random(6), i, -0.5, 0.5));
-    EXPECT_TRUE(same(cast(scene, ray, 40.0), castPlain(scene, ray, 40.0))) << i;
+    const Hit plain = castPlain(scene, ray, 40.0);
+    EXPECT_TRUE(same(binary.cast(ray, 40.0), plain)) << i;
+    for (const std::string& set : instructionSets()) {
+      forceInstructionSet(set);
+      EXPECT_TRUE(same(cast(scene, ray, 40.0), plain)) << i << " " << set;
+    }
   }
+  forceInstructionSet("");
 }
 
 TEST(Sweep, IsTheSameForAnyNumberOfThreads) {
@@ -71,10 +80,13 @@ TEST(Sweep, IsTheSameForAnyNumberOfThreads) {
   Beams beams = coarse();
   beams.noise = 0.02;
   const auto one = sweep(scene, beams, sensorAt(Vec3(10, 10, 1.2)), {3, 9}, alone);
-  const auto three = sweep(scene, beams, sensorAt(Vec3(10, 10, 1.2)), {3, 9}, three_threads);
-  for (std::size_t i = 0; i < one.size(); ++i) {
-    EXPECT_EQ(one[i].range, three[i].range);
-    EXPECT_TRUE(same(one[i].hit, three[i].hit));
+  for (const int count : {2, 3, 8}) {
+    ThreadPool threads(count);
+    const auto other = sweep(scene, beams, sensorAt(Vec3(10, 10, 1.2)), {3, 9}, threads);
+    for (std::size_t i = 0; i < one.size(); ++i) {
+      EXPECT_EQ(one[i].range, other[i].range);
+      EXPECT_TRUE(same(one[i].hit, other[i].hit));
+    }
   }
 }
 

@@ -80,6 +80,16 @@ TEST(Trees, KeptFromScanToScanAreWhereNewOnesWouldBe) {
   Trees kept = seen(forest, 3.0);
   kept.update(forest, SENSOR, 60.0, START + fromSeconds(9.0));
   EXPECT_EQ(differences(kept, seen(forest, 9.0)), 0);
+  EXPECT_GT(differences(seen(forest, 3.0), seen(forest, 9.0)), RAYS / 10);
+}
+
+TEST(Trees, AreNotMetWhereThereAreNone) {
+  Trees none;
+  EXPECT_EQ(castAt(none, 1).label, Label::NONE);
+  none.update(movingForest(forest::gridLayout(1, 7.0), wind::Field()), Vec3(900, 0, 0), 10.0,
+              START);
+  EXPECT_EQ(none.all().size(), 0u);
+  EXPECT_EQ(castAt(none, 1).label, Label::NONE);
 }
 
 // A turbid body lets through what its depth says: leaves alone, over many trees and rays.

@@ -4,12 +4,17 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "vegetation_sim/canopy/flow/fluid.h"
 #include "vegetation_sim/canopy/flow/oscillator.h"
 #include "vegetation_sim/canopy/leaf_motion.h"
 #include "vegetation_sim/wind/field.h"
+
+namespace vegetation_sim {
+class Archive;
+}
 
 namespace vegetation_sim::canopy {
 
@@ -49,10 +54,12 @@ class Canopy {
   const Layout& layout() const { return layout_; }
   std::uint64_t layoutHash() const { return layout_hash_; }
   void setWind(const wind::Field& wind) { wind_ = wind; }
+  const wind::Field& windLaw() const { return wind_; }
   std::uint64_t windHash() const { return wind_.hash(); }  ///< hash of the wind field
   /// Sets the viewpoint that layers are cut for (S3-W8); without one it is that of the simulation
   /// plane.
   void setViewer(const std::optional<CutView>& viewer) { viewer_ = viewer; }
+  const std::optional<CutView>& viewer() const { return viewer_; }
   /// Sets crowns that hang in the layers beside the plants. The state does not depend on them.
   void setCrowns(std::vector<LeafBox> crowns);
 
@@ -70,6 +77,15 @@ class Canopy {
   const CanopySnapshot& snapshot() const { return memory_; }
   /// @throws InvalidInput for the state of another layout, or if a value is not finite.
   void restore(const CanopySnapshot& memory);
+  /// The snapshot as bytes, with wind and viewer, and back. Reading needs the same layout.
+  /// @throws InvalidInput for bytes that are no state of this layout.
+  struct Archived {
+    CanopySnapshot snapshot;
+    wind::Field wind;
+    std::optional<CutView> viewer;
+  };
+  std::string archived() const;
+  Archived readArchived(std::string bytes) const;
   /// @param hashed adds the hash of the state, which costs as much as a tick.
   StateUpdate update(bool hashed) const;
 
@@ -84,6 +100,7 @@ class Canopy {
   static constexpr double LONGEST_GAP = 10.0;  ///< [s]
 
  private:
+  void archive(Archive& a, Archived& state) const;
   void step(Nanoseconds stamp, double dt);
   void updateCuts(Nanoseconds stamp);
   CutView view() const;

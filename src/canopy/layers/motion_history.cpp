@@ -7,6 +7,7 @@
 #include <cstring>
 #include <string>
 
+#include "core/archive/archive.h"
 #include "vegetation_sim/core/config/faults.h"
 
 namespace vegetation_sim::canopy {
@@ -120,6 +121,23 @@ PlaneMotion History::newestAt(double x, double y) const {
            q * ((1.0 - p) * at(x0, y1) + p * at(x1, y1));
   };
   return {mix(now.u), mix(now.v), fromHalf(now.depth)};
+}
+
+void History::archive(Archive& a) {
+  const auto half = [&a](std::uint16_t& value) {
+    a.integer("motion", value);
+    if (!std::isfinite(fromHalf(value)))
+      Archive::reject("motion = " + std::to_string(value), "is not finite");
+  };
+  for (MotionFrame& frame : ring_) {
+    std::for_each(frame.u.begin(), frame.u.end(), half);
+    std::for_each(frame.v.begin(), frame.v.end(), half);
+    half(frame.depth);
+  }
+  std::uint64_t newest = newest_;
+  a.integer<std::uint64_t>("newest frame", newest, 0, ring_.size() - 1);
+  newest_ = static_cast<std::size_t>(newest);
+  a.key(chain_);
 }
 
 }  // namespace vegetation_sim::canopy

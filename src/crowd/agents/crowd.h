@@ -79,6 +79,9 @@ class Crowd {
 
   const CrowdSnapshot& snapshot() const { return memory_; }
   void restore(CrowdSnapshot memory);
+  /// The snapshot as bytes, and back. @throws InvalidInput for bytes that are no state of a crowd.
+  std::string archived() const;
+  static CrowdSnapshot readArchived(std::string bytes);
   const std::vector<Walker>& walkers() const { return memory_.walkers; }
   /// Returns null for an unknown id.
   const Walker* find(std::uint32_t id) const;

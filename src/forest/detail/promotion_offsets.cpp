@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/archive/archive.h"
 #include "vegetation_sim/core/math/math.h"
 
 namespace vegetation_sim::forest {
@@ -55,6 +56,25 @@ void PromotionOffsets::addTo(std::uint32_t tree, double duration, PromotedTree& 
     branch.rate.first += rate * offset->second.angles.first;
     branch.rate.second += rate * offset->second.angles.second;
   }
+}
+
+void PromotionOffsets::archive(Archive& a, std::size_t trees) {
+  constexpr std::size_t OFFSET_BYTES = 28;
+  a.map(
+      "offsets", offsets_, trees, sizeof(std::uint32_t) * 2,
+      [&](std::uint32_t& tree) {
+        a.integer<std::uint32_t>("tree", tree, 0, static_cast<std::uint32_t>(trees) - 1);
+      },
+      [&](std::uint32_t, std::map<int, Offset>& branches) {
+        a.map(
+            "offsets of a tree", branches, MAX_BRANCHES, OFFSET_BYTES,
+            [&a](int& branch) { a.integer("branch", branch, 0, MAX_BRANCHES - 1); },
+            [&a](int, Offset& offset) {
+              a.stamp("offset since", offset.since);
+              a.number("offset", offset.angles.first);
+              a.number("offset", offset.angles.second);
+            });
+      });
 }
 
 }  // namespace vegetation_sim::forest

@@ -9,6 +9,10 @@
 
 #include "vegetation_sim/tree/state/promoted_branches.h"
 
+namespace vegetation_sim {
+class Archive;
+}
+
 namespace vegetation_sim::forest {
 
 /// What displays add to the angles of joints that have become physical. A promotion starts from the
@@ -24,6 +28,8 @@ class PromotionOffsets {
   /// Removes what has decayed. @param duration of the decay [s].
   void prune(Nanoseconds stamp, double duration);
   void clear() { offsets_.clear(); }
+  /// Writes or reads the offsets. @param trees number of trees of the layout.
+  void archive(Archive& a, std::size_t trees);
   /// Adds the offsets of a tree to its physical joints.
   void addTo(std::uint32_t tree, double duration, PromotedTree& promoted) const;
 

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -95,8 +97,15 @@ class ForestPhysics {
   PhysicsFigures figures() const;
   std::size_t branchCount() const;  ///< of physical branches
   void addTo(Hash& hash) const;
+  /// Returns a grown tree of the layout.
+  using GrowTree = std::function<std::shared_ptr<const Tree>(std::uint32_t tree)>;
+  /// Writes or reads everything. @throws InvalidInput for a state that does not fit the layout.
+  void archive(Archive& a, const Layout& layout, const GrowTree& grow);
 
  private:
+  void archiveSubtrees(Archive& a, const Layout& layout, const GrowTree& grow);
+  void archiveContacts(Archive& a, const Layout& layout);
+  void checkRead(const Layout& layout, const GrowTree& grow) const;
   PhysicalSubtree& findOrAddSubtree(const StepContext& context, std::uint32_t tree);
   void endLeases(Nanoseconds stamp);
   void stepAll(const StepContext& context, Nanoseconds to);

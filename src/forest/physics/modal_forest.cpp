@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/archive/archive.h"
 #include "tree/physical/procedural_motion.h"
 #include "vegetation_sim/tree/growth/physics_settings.h"
 
@@ -179,6 +180,37 @@ void ModalForest::addTo(Hash& hash) const {
     for (const double a : modal_state.state().amplitude) hash.add(a);
     for (const double r : modal_state.state().rate) hash.add(r);
   }
+}
+
+ModalTreeState ModalForest::computeModes(const ModalContext& at, std::uint32_t tree,
+                                         std::size_t modes) {
+  ModalTreeState out = modalStateOf(at, tree, modes > ModalDepth{}.most());
+  if (out.modes().size() != modes)
+    throw InvalidInput("modes of tree " + std::to_string(tree) + " = " + std::to_string(modes) +
+                       ", allowed are " + std::to_string(out.modes().size()));
+  return out;
+}
+
+void ModalForest::archive(Archive& a, std::size_t trees, const ModesOf& modes_of) {
+  constexpr std::size_t TREE_BYTES = 40;
+  const std::size_t count = a.length("modal trees", modal_states_.size(), trees, TREE_BYTES);
+  const auto each = [&](std::uint32_t tree, std::uint32_t modes, ModalTreeState* state) {
+    a.integer<std::uint32_t>("modal tree", tree, 0, static_cast<std::uint32_t>(trees) - 1);
+    a.integer<std::uint32_t>("modes", modes, 1, static_cast<std::uint32_t>(FINE_MODES.most()));
+    if (state) return state->archive(a);
+    if (!modal_states_.empty() && tree <= modal_states_.rbegin()->first)
+      Archive::rejectOrder("modal trees", modal_states_.size());
+    ModalTreeState read = modes_of(tree, modes);
+    read.archive(a);
+    modal_states_.emplace_hint(modal_states_.end(), tree, std::move(read));
+  };
+  if (!a.reads()) {
+    for (auto& [tree, state] : modal_states_)
+      each(tree, static_cast<std::uint32_t>(state.modes().size()), &state);
+    return;
+  }
+  clear();
+  for (std::size_t i = 0; i < count; ++i) each(0, 0, nullptr);
 }
 
 }  // namespace vegetation_sim::forest

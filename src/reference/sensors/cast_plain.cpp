@@ -2,18 +2,39 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reference/sensors/cast_plain.h"
 
+#include <algorithm>
+
+#include "sensors/geometry/beer_lambert.h"
+
 namespace vegetation_sim::scan {
+
+void meetBranchPlainly(const PosedTree& tree, std::size_t i, const Ray& ray, Hit& nearest) {
+  const Rod& rod = tree.rods()[i];
+  const int branch = static_cast<int>(i);
+  Meeting meeting;
+  if (meet(ray, rod, nearest.distance, meeting))
+    nearest = {meeting.distance, tree.isTrunk(i) ? Label::TRUNK : Label::BRANCH, tree.id(), branch,
+               meeting.cosine};
+  if (!(tree.leafRadii()[i] > 0.0)) return;
+  const Stretch part = within(ray, rod, tree.leafRadii()[i]);
+  if (!(part.from < part.to && part.from < nearest.distance)) return;
+  const Vec3 place = rotate(conjugate(tree.turns()[i]), Vec3(ray.at(part.from) - rod.base));
+  const PosedTree::Leaves& leaves = tree.leaves()[i];
+  const double way = depthAt(shareOf(cellAt(place, LEAF_CELL), leaves.key)) / leaves.extinction;
+  if (part.from + way < std::min(part.to, nearest.distance))
+    nearest = {part.from + way, Label::LEAF, tree.id(), branch, LEAF_COSINE};
+}
 
 void meetEachBranch(const Trees& trees, const Ray& ray, Hit& nearest) {
   for (const auto& tree : trees.all())
-    for (std::size_t i = 0; i < tree->branches(); ++i) tree->meetBranch(i, ray, nearest);
+    for (std::size_t i = 0; i < tree->branches(); ++i) meetBranchPlainly(*tree, i, ray, nearest);
 }
 
 Hit castPlain(const Scene& scene, const Ray& ray, double reach) {
   Hit out = castToGround(scene, ray, reach);
   meetEachBranch(scene.trees, ray, out);
   for (std::size_t i = 0; i < scene.people.limbs(); ++i) scene.people.meetLimb(i, ray, out);
-  scene.grass.meet(ray, out);
+  scene.grass.meet(ray, out, GrassVolume::Cells::ALL);
   return out;
 }
 

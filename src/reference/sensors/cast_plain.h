@@ -8,6 +8,8 @@ namespace vegetation_sim::scan {
 
 /// Returns the same as cast(), but tests every branch and every limb.
 Hit castPlain(const Scene& scene, const Ray& ray, double reach);
+/// Does the same as PosedTree::meetBranch(), in full for each ray.
+void meetBranchPlainly(const PosedTree& tree, std::size_t branch, const Ray& ray, Hit& nearest);
 /// Does the same as Trees::meet(), but tests every branch.
 void meetEachBranch(const Trees& trees, const Ray& ray, Hit& nearest);
 

@@ -26,12 +26,24 @@ inline Cell cellAt(const Vec3& place, double size) {
   return {index(place.x()), index(place.y()), index(place.z())};
 }
 
-/// Returns the optical depth that a cell transmits: exponentially distributed, mean 1.
-inline double depthOf(const Cell& cell, std::uint32_t key) {
+/// Returns the share of rays that are stopped before the optical depth of a cell: uniform, between
+/// 0 and 1.
+inline double shareOf(const Cell& cell, std::uint32_t key) {
   const std::uint32_t bits = mix32(
       mix32(mix32(static_cast<std::uint32_t>(cell.x) ^ key) + static_cast<std::uint32_t>(cell.y)) +
       static_cast<std::uint32_t>(cell.z));
-  return -std::log1p(-(static_cast<double>(bits) + 0.5) / 4294967296.0);
+  return (static_cast<double>(bits) + 0.5) / 4294967296.0;
+}
+
+/// Returns the optical depth that a cell transmits: exponentially distributed, mean 1.
+inline double depthAt(double share) {
+  return -std::log1p(-share);
+}
+
+/// Returns whether the depth may be below `most`, without the logarithm: a depth is never less than
+/// its share.
+inline bool mayBeBelow(double most, double share) {
+  return share < most * (1.0 + 1e-9);
 }
 
 }  // namespace vegetation_sim::scan

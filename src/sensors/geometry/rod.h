@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "sensors/geometry/box_tree.h"
+#include "sensors/geometry/box.h"
+#include "sensors/geometry/ray.h"
 
 namespace vegetation_sim::scan {
 

@@ -12,6 +12,10 @@
 #include "tree/physical/subtree_state.h"
 #include "vegetation_sim/tree/state/promoted_branches.h"
 
+namespace vegetation_sim {
+class Archive;
+}
+
 namespace vegetation_sim::forest {
 
 /// A physical branch.
@@ -73,6 +77,9 @@ class PhysicalSubtree {
   std::size_t holding() const { return joints_.size() - blending(); }
   std::size_t bytes() const;
   void addTo(Hash& hash) const;
+  /// Writes or reads the joints; all else follows from them. @throws InvalidInput for joints that
+  /// the tree does not have.
+  void archive(Archive& a);
   PromotedTree promoted(Nanoseconds stamp, double duration) const;
 
   /// Makes `branches` (sorted) physical and cancels the blends of those whose score [branches of

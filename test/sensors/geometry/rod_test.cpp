@@ -93,51 +93,5 @@ TEST(Rod, StretchWithinARadiusHasItsEndsThere) {
   EXPECT_GT(crossed, 100);
 }
 
-TEST(BoxTree, LeadsToTheNearestOfAllItems) {
-  const Random random(5);
-  std::vector<Rod> rods;
-  std::vector<Box> items;
-  for (std::uint64_t i = 0; i < 500; ++i) {
-    rods.push_back(randomRod(random, i));
-    items.push_back(boxOf(rods.back()));
-  }
-  BoxTree boxes;
-  boxes.build(items);
-  for (std::size_t i = 0; i < rods.size(); ++i) {  // all go elsewhere
-    rods[i].base += Vec3(0.3 * random.uniform(i), 0.0, 0.1);
-    items[i] = boxOf(rods[i]);
-  }
-  boxes.refit(items);
-  int met = 0, looked = 0;
-  for (std::uint64_t i = 0; i < 500; ++i) {
-    const Vec3 from = 4.0 * randomDirection(random, i + 9000, -1.5, 1.5);
-    const Ray ray(from, (randomDirection(random, i, -1.5, 1.5) - from).normalized());
-    Hit fast, plain;
-    const auto look = [&](std::size_t k, Hit& nearest) {
-      Meeting meeting;
-      if (meet(ray, rods[k], nearest.distance, meeting)) {
-        nearest.distance = meeting.distance;
-        nearest.branch = static_cast<int>(k);
-      }
-    };
-    for (std::size_t k = 0; k < rods.size(); ++k) look(k, plain);
-    boxes.visit(ray, fast, [&](std::size_t k) {
-      ++looked;
-      look(k, fast);
-    });
-    EXPECT_TRUE(same(fast, plain)) << i;
-    met += fast.branch >= 0 ? 1 : 0;
-  }
-  EXPECT_GT(met, 100);
-  EXPECT_LT(looked, 500 * 100);  // of 500 each
-}
-
-TEST(BoxTree, OfNothingLeadsNowhere) {
-  BoxTree boxes;
-  boxes.build({});
-  Hit nearest;
-  boxes.visit(Ray(Vec3::Zero(), Vec3::UnitX()), nearest, [](std::size_t) { FAIL(); });
-}
-
 }  // namespace
 }  // namespace vegetation_sim::scan

@@ -8,6 +8,10 @@
 #include "vegetation_sim/canopy/plane/plane_field.h"
 #include "vegetation_sim/core/math/hash.h"
 
+namespace vegetation_sim {
+class Archive;
+}
+
 namespace vegetation_sim::canopy {
 
 /// Converts to IEEE half precision, rounded to nearest; larger values become 65504.
@@ -52,6 +56,8 @@ class History {
 
   /// Returns a hash of all frames since clear(), including those that are no longer kept.
   std::uint64_t hash() const { return chain_; }
+  /// Writes or reads all frames; their number and size stay as they are.
+  void archive(Archive& a);
 
  private:
   int size_;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <set>
 #include <vector>
@@ -12,6 +13,10 @@
 #include "vegetation_sim/tree/modal/modal_tree_state.h"
 #include "vegetation_sim/tree/state/level_map.h"
 #include "vegetation_sim/wind/field.h"
+
+namespace vegetation_sim {
+class Archive;
+}
 
 namespace vegetation_sim::forest {
 
@@ -57,6 +62,12 @@ class ModalForest {
   void removeFaded(const LevelMap& levels, Nanoseconds stamp, double transition);
   void retain(const std::set<std::uint32_t>& trees);
   void clear();
+  /// Returns a tree at rest with so many modes. @throws InvalidInput if it has another number.
+  using ModesOf = std::function<ModalTreeState(std::uint32_t tree, std::size_t modes)>;
+  /// A tree at rest whose modes are computed here.
+  static ModalTreeState computeModes(const ModalContext& at, std::uint32_t tree, std::size_t modes);
+  /// Writes or reads the states of all trees. @param trees number of trees of the layout.
+  void archive(Archive& a, std::size_t trees, const ModesOf& modes_of);
 
   /// Returns nullptr if the tree has no modal state.
   const ModalTreeState* find(std::uint32_t tree) const;

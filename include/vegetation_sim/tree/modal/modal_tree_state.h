@@ -10,6 +10,10 @@
 #include "vegetation_sim/tree/motion/batch_poser.h"
 #include "vegetation_sim/tree/motion/motion_level.h"
 
+namespace vegetation_sim {
+class Archive;
+}
+
 namespace vegetation_sim::forest {
 
 /// Wind load of a modal tree at one moment.
@@ -43,6 +47,9 @@ class ModalTreeState {
   void restore(const physics::ModalState& state, const ModalLoad& load, Nanoseconds stamp);
   /// Takes equal steps to `stamp` between the loads [steps + 1].
   void step(const std::vector<ModalLoad>& loads, Nanoseconds stamp);
+  /// Writes or reads all that the future depends on besides the modes. @throws InvalidInput for the
+  /// state of another number of modes.
+  void archive(Archive& a);
 
   /// Returns amplitudes at a stamp near the last tick, extrapolated by rates and accelerations over
   /// at most LONGEST_LOOK_AHEAD.

@@ -2,44 +2,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
-#include <limits>
+#include <utility>
 #include <vector>
 
+#include "sensors/geometry/box.h"
 #include "sensors/geometry/ray.h"
 
 namespace vegetation_sim::scan {
 
-/// Axis-aligned box [m]; empty at first.
-struct Box {
-  static constexpr double ENDLESS = std::numeric_limits<double>::infinity();
-  Vec3 low{Vec3::Constant(ENDLESS)}, high{Vec3::Constant(-ENDLESS)};
+/// Returns the distance at which a ray enters a box: 0 from inside, infinite if it misses the box.
+inline double entryOf(const Ray& ray, const Box& box) {
+  double from = 0.0, to = Box::ENDLESS;
+  for (int i = 0; i < 3; ++i) {
+    const double a = (box.low[i] - ray.origin[i]) * ray.inverse[i];
+    const double b = (box.high[i] - ray.origin[i]) * ray.inverse[i];
+    // A ray in the plane of a face gives NaN there, which both comparisons ignore.
+    from = std::max(from, std::min(a, b));
+    to = std::min(to, std::max(a, b));
+  }
+  return from <= to ? from : Box::ENDLESS;
+}
 
-  void add(const Box& other) {
-    low = low.cwiseMin(other.low);
-    high = high.cwiseMax(other.high);
-  }
-  /// Adds a ball.
-  void add(const Vec3& centre, double radius) {
-    low = low.cwiseMin(Vec3(centre.array() - radius));
-    high = high.cwiseMax(Vec3(centre.array() + radius));
-  }
-  /// Returns the distance at which a ray enters: 0 from inside, infinite if it misses the box.
-  double entry(const Ray& ray) const {
-    double from = 0.0, to = ENDLESS;
-    for (int i = 0; i < 3; ++i) {
-      const double a = (low[i] - ray.origin[i]) * ray.inverse[i];
-      const double b = (high[i] - ray.origin[i]) * ray.inverse[i];
-      // A ray in the plane of a face gives NaN there, which both comparisons ignore.
-      from = std::max(from, std::min(a, b));
-      to = std::min(to, std::max(a, b));
-    }
-    return from <= to ? from : ENDLESS;
-  }
-};
-
-/// Bounding volume hierarchy of items that move little. Its order is chosen once; its boxes are
-/// refitted in linear time.
+/// Binary hierarchy of boxes in double precision with a plain traversal: the slow counterpart of
+/// WideTree. Its order is chosen once; its boxes are refitted in linear time.
 class BoxTree {
  public:
   /// Chooses the order by halving along the longest side.
@@ -77,7 +64,7 @@ void BoxTree::visit(const Ray& ray, const Hit& nearest, Meet&& meet) const {
   if (nodes_.empty()) return;
   std::array<Waiting, DEEPEST> waiting;
   std::size_t count = 0;
-  waiting[count++] = {0, nodes_.front().box.entry(ray)};
+  waiting[count++] = {0, entryOf(ray, nodes_.front().box)};
   while (count > 0) {
     const Waiting next = waiting[--count];
     if (!(next.entry < nearest.distance)) continue;
@@ -85,8 +72,8 @@ void BoxTree::visit(const Ray& ray, const Hit& nearest, Meet&& meet) const {
     for (int i = 0; i < node.count; ++i)
       meet(static_cast<std::size_t>(order_[static_cast<std::size_t>(node.first + i)]));
     if (node.count > 0) continue;
-    Waiting near{next.node + 1, nodes_[static_cast<std::size_t>(next.node) + 1].box.entry(ray)};
-    Waiting far{node.right, nodes_[static_cast<std::size_t>(node.right)].box.entry(ray)};
+    Waiting near{next.node + 1, entryOf(ray, nodes_[static_cast<std::size_t>(next.node) + 1].box)};
+    Waiting far{node.right, entryOf(ray, nodes_[static_cast<std::size_t>(node.right)].box)};
     if (far.entry < near.entry) std::swap(near, far);
     waiting[count++] = far;
     waiting[count++] = near;

@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sensors/geometry/box_tree.h"
+#include "reference/sensors/box_tree.h"
 
 #include <algorithm>
 #include <numeric>

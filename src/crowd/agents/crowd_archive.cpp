@@ -1,0 +1,108 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+// The snapshot of a crowd as bytes.
+#include "core/archive/archive.h"
+#include "crowd/agents/crowd.h"
+
+namespace vegetation_sim::crowd {
+namespace {
+
+constexpr std::size_t WALKER_BYTES = 220, ROBOT_BYTES = 60, LONGEST_NAME = 4096;
+constexpr std::size_t MOST_CORNERS = 4096;
+
+void archive(Archive& a, const char* name, Point& point) {
+  a.number(name, point.x);
+  a.number(name, point.y);
+}
+
+void archive(Archive& a, Foot& foot) {
+  archive(a, "foot planted", foot.planted);
+  archive(a, "foot offset", foot.offset);
+  a.flag("foot stands", foot.stands);
+}
+
+void archive(Archive& a, Walker& w) {
+  a.integer("walker id", w.id);
+  a.key(w.key);
+  archive(a, "walker position", w.position);
+  archive(a, "walker velocity", w.velocity);
+  a.number("walker heading", w.heading);
+  a.number("walker turn_rate", w.turn_rate);
+  a.number("walker radius", w.radius, {0.01, 10.0});
+  a.number("walker height", w.height, {0.01, 10.0});
+  a.number("walker speed", w.speed, {0.0, 100.0});
+  a.flag("walker has_goal", w.has_goal);
+  a.flag("walker wanders", w.wanders);
+  a.flag("walker arrived", w.arrived);
+  archive(a, "walker goal", w.goal);
+  a.integer("walker goals", w.goals);
+  a.integer("walker side", w.side, -1, 1);
+  a.number("walker side_left", w.side_left);
+  a.number("walker nearest_goal", w.nearest_goal);
+  a.number("walker no_progress", w.no_progress);
+  a.number("walker held_up", w.held_up);
+  a.flag("walker detours", w.detours);
+  a.number("walker gait", w.gait);
+  for (Foot& foot : w.feet) archive(a, foot);
+}
+
+void archive(Archive& a, Robot& robot) {
+  a.text("robot id", robot.id, LONGEST_NAME);
+  a.list("robot outline", robot.outline, MOST_CORNERS, sizeof(Point),
+         [&a](Point& corner) { archive(a, "robot corner", corner); });
+  a.number("robot radius", robot.radius);
+  archive(a, "robot position", robot.position);
+  a.number("robot yaw", robot.yaw);
+  archive(a, "robot velocity", robot.velocity);
+}
+
+void checkRead(const CrowdSnapshot& snapshot) {
+  for (std::size_t i = 0; i < snapshot.walkers.size(); ++i) {
+    const std::uint32_t id = snapshot.walkers[i].id;
+    if (i > 0 && id <= snapshot.walkers[i - 1].id) Archive::rejectOrder("walkers", i);
+    if (id >= snapshot.next_id)
+      Archive::reject("walker id = " + std::to_string(id),
+                      "is not below the next id, " + std::to_string(snapshot.next_id));
+  }
+  Faults faults;
+  for (const auto& [id, robot] : snapshot.robots) {
+    if (robot.id != id) Archive::reject("robot id = '" + robot.id + "'", "is not its key");
+    check(robot, faults);
+  }
+  faults.throwIfAny();
+}
+
+void archive(Archive& a, CrowdSnapshot& snapshot) {
+  a.stamp("stamp", snapshot.stamp);
+  a.flag("begun", snapshot.begun);
+  a.key(snapshot.seed);
+  a.fields("settings", snapshot.settings);
+  a.fields("area", snapshot.area);
+  a.list("walkers", snapshot.walkers, MOST_WALKERS, WALKER_BYTES,
+         [&a](Walker& walker) { archive(a, walker); });
+  a.map(
+      "robots", snapshot.robots, MOST_ROBOTS, ROBOT_BYTES,
+      [&a](std::string& id) { a.text("robot", id, LONGEST_NAME); },
+      [&a](const std::string&, Robot& robot) { archive(a, robot); });
+  a.integer("next id", snapshot.next_id);
+  if (a.reads()) checkRead(snapshot);
+}
+
+}  // namespace
+
+std::string Crowd::archived() const {
+  Archive a;
+  CrowdSnapshot copy = memory_;
+  archive(a, copy);
+  return a.bytes();
+}
+
+CrowdSnapshot Crowd::readArchived(std::string bytes) {
+  Archive a = Archive::reading(std::move(bytes));
+  CrowdSnapshot out;
+  archive(a, out);
+  a.finish();
+  return out;
+}
+
+}  // namespace vegetation_sim::crowd

@@ -1,0 +1,69 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "sensors/geometry/ray.h"
+#include "sensors/geometry/wide_tree.h"
+
+namespace vegetation_sim::scan {
+
+// Rays are led through the boxes in single precision. The tests are conservative: they may let a
+// ray into a box that it misses, but never keep it from an item that the test in double precision
+// hits. The hits therefore do not depend on the boxes or on the instruction set.
+
+/// A ray in single precision.
+struct FloatRay {
+  explicit FloatRay(const Ray& ray);
+
+  float direction[3], inverse[3];   ///< inverse: finite also for a component of 0
+  float across[2][3];               ///< unit vectors perpendicular to the ray and to each other
+  int near_plane[3], far_plane[3];  ///< rows of WideNode::planes
+  /// Bound of all errors over the distance from the ray's origin: rounding, and the deviation of
+  /// the direction's length from 1.
+  double slack;
+  bool valid;  ///< all components are finite
+};
+
+/// Returns a bound for comparison with distances in single precision.
+float limitOf(double distance);
+
+/// Eight rods without their taper, relative to the origin of their tree [m].
+struct alignas(64) RodGroup {
+  float base[3][WideNode::WIDTH], way[3][WideNode::WIDTH];  ///< way: from base to tip
+  float radius[WideNode::WIDTH];
+  std::int32_t count{0};
+};
+
+/// A ray on its way through a tree; the nearest box is visited first.
+struct WideWalk {
+  /// @param extent largest sum of the coordinates' magnitudes of an item, relative to `origin`.
+  WideWalk(const WideTree& tree, const Ray& ray, const FloatRay& narrow, const Vec3& origin,
+           double extent, double distance, const RodGroup* groups = nullptr);
+
+  struct Waiting {
+    float entry;
+    std::int32_t child;
+  };
+  const WideNode* nodes;
+  const RodGroup* groups;  ///< null: the tree is of boxes alone
+  const FloatRay* ray;
+  float origin[3];                      ///< of the ray, relative to that of the tree [m]
+  float near_origin[3], far_origin[3];  ///< moved so that boxes grow by the margin
+  float margin;                         ///< bound of the error of places [m]
+  float limit;                          ///< limitOf() the nearest hit so far
+  int count{0};
+  Waiting waiting[WideTree::MOST_WAITING];  // not initialised
+};
+
+/// Returns the next group whose box the ray may hit, or -1.
+int nextGroup(WideWalk& walk);
+
+/// Rods of a group that a ray may hit.
+struct RodCandidates {
+  int group{-1};
+  unsigned lanes{0};  ///< bit i: item i of the group; 0 at the end
+};
+/// Returns the candidates of the next group that has any.
+RodCandidates nextRods(WideWalk& walk);
+
+}  // namespace vegetation_sim::scan
