@@ -8,17 +8,6 @@
 #include "vegetation_sim/core/math/math.h"
 
 namespace vegetation_sim::forest {
-namespace {
-
-void addTo(Hash& hash, const Sensor& sensor) {
-  hash.add(sensor.id);
-  hash.add(static_cast<std::uint64_t>(sensor.stamp));
-  hash.add(sensor.position);
-  hash.add(sensor.range);
-  hash.add(sensor.tolerance);
-}
-
-}  // namespace
 
 Forest::Forest(Layout layout, std::shared_ptr<const terrain::HeightMap> terrain,
                Settings settings) {
@@ -33,16 +22,16 @@ void Forest::setLayout(Layout layout, std::shared_ptr<const terrain::HeightMap> 
   faults.throwIfAny();
   const bool same_trees = layout.treeCount() == layout_.treeCount();
   // Transitions continue from their present blend with the duration of the new layout.
-  for (TreeDetail* detail : {&snapshot_.world, &snapshot_.view})
+  for (TreeDetail* detail : details())
     detail->levels.anchor(snapshot_.stamp, layout_.motion.transition);
   layout_ = std::move(layout);
   layout_hash_ = layout_.hash();
   grid_ = TreeGrid(layout_);
   terrain_ = std::move(terrain);
   errors_.measure(layout_, *terrain_);
-  for (TreeDetail* detail : {&snapshot_.world, &snapshot_.view})
-    detail->modes.clear();  // the wood may have changed
-  snapshot_.offsets.clear();
+  for (TreeDetail* detail : details()) detail->modes.clear();  // the wood may have changed
+  snapshot_.sensed.offsets.clear();
+  snapshot_.view.offsets.clear();
   if (!same_trees)
     reset();
   else
@@ -51,12 +40,17 @@ void Forest::setLayout(Layout layout, std::shared_ptr<const terrain::HeightMap> 
 
 void Forest::reset() {
   const int level = std::min(snapshot_.settings.fixed_level, snapshot_.settings.highest_level);
-  for (TreeDetail* detail : {&snapshot_.world, &snapshot_.view}) detail->reset(level);
+  snapshot_.world.reset(level);
+  snapshot_.sensed.reset(level);
+  snapshot_.view.reset(level);
   snapshot_.sensors.clear();
   snapshot_.viewers.clear();
   snapshot_.stamp = 0;
   snapshot_.physics.clear();
-  snapshot_.offsets.clear();
+}
+
+std::array<TreeDetail*, 3> Forest::details() {
+  return {&snapshot_.world, &snapshot_.sensed.trees, &snapshot_.view.trees};
 }
 
 StepContext Forest::stepContext() const {
@@ -75,42 +69,55 @@ StepContext Forest::stepContext() const {
 void Forest::advance(Nanoseconds stamp) {
   const Nanoseconds before = snapshot_.stamp;
   advancePhysics(stamp);
+  removeSilentSensors();
+  chooseDetail(before);
+}
+
+void Forest::removeSilentSensors() {
   auto& sensors = snapshot_.sensors;
   for (auto it = sensors.begin(); it != sensors.end();)
-    it = stamp - it->second.stamp > SENSOR_LIFE ? sensors.erase(it) : std::next(it);
-  chooseDetail(before);
+    it = snapshot_.stamp - it->second.stamp > SENSOR_LIFE ? sensors.erase(it) : std::next(it);
 }
 
 // Runs before the choice of levels: the present levels hold since the last tick.
 void Forest::advancePhysics(Nanoseconds stamp) {
-  std::map<std::uint32_t, PromotedTree> world, view;
-  for (const std::uint32_t tree : physicalTrees()) {
-    world[tree] = promoted(tree);
-    view[tree] = promotedInView(tree);
-  }
-  for (TreeDetail* detail : {&snapshot_.world, &snapshot_.view}) {
-    for (const auto& entry : world) detail->changed.insert(entry.first);
+  std::map<std::uint32_t, PromotedTree> before;
+  for (const std::uint32_t tree : physicalTrees()) before[tree] = promoted(tree);
+  for (TreeDetail* detail : details()) {
+    for (const auto& entry : before) detail->changed.insert(entry.first);
     detail->modes.advance(snapshot_.wind, snapshot_.stamp, stamp);
   }
   snapshot_.physics.advance(stepContext(), stamp);
   snapshot_.stamp = stamp;
-  snapshot_.offsets.prune(stamp, layout_.motion.transition);
+  updateOffsets(before, snapshot_.sensed);
+  updateOffsets(before, snapshot_.view);
+}
+
+// `before` has the physical joints of the last tick.
+void Forest::updateOffsets(const std::map<std::uint32_t, PromotedTree>& before,
+                           ListenerDetail& listener) {
+  const double transition = layout_.motion.transition;
   for (const auto& [id, subtree] : snapshot_.physics.subtrees()) {
+    const auto known = before.find(id);
+    const PromotedTree last = known == before.end() ? PromotedTree() : known->second;
     const auto differences = [&, id = id, &tree = subtree.tree()] {
-      std::vector<JointAngles> out = anglesIn(snapshot_.view, tree, id, view[id]);
-      const auto base = anglesIn(snapshot_.world, tree, id, world[id]);
+      PromotedTree heard = last;
+      listener.offsets.addTo(id, transition, heard);
+      std::vector<JointAngles> out = anglesIn(listener.trees, tree, id, heard);
+      const auto base = anglesIn(snapshot_.world, tree, id, last);
       for (std::size_t i = 0; i < out.size(); ++i) {
         out[i].first -= base[i].first;
         out[i].second -= base[i].second;
       }
       return out;
     };
-    snapshot_.offsets.update(id, world[id], promoted(id), differences);
+    listener.offsets.update(id, last, promoted(id), differences);
   }
+  listener.offsets.prune(snapshot_.stamp, transition);
 }
 
-// The displays' choice comes second and starts modes only if the world's has not, so that a tick
-// computes modes once.
+// Modes of one tree are computed per tick. Those of the world are shared with sensors, which thus
+// have the world's poses exactly where they require no other detail.
 void Forest::chooseDetail(Nanoseconds before) {
   const Nanoseconds stamp = snapshot_.stamp;
   const Settings& settings = snapshot_.settings;
@@ -118,12 +125,16 @@ void Forest::chooseDetail(Nanoseconds before) {
   const double physical =
       1e-6 * settings.budget.physical_cost * static_cast<double>(physicsFigures().branches);
   const PredictionContext context{layout_, *terrain_, snapshot_.wind, settings, errors_, stamp};
-  using Start = DetailChooser::Start;
-  const Start due = ModalForest::fineDue(before, stamp) ? Start::ANY : Start::PLAIN;
-  world_chooser_.choose(context, worldDemand(settings, bodies, snapshot_.sensors), physical, due,
-                        snapshot_.world);
-  view_chooser_.choose(context, viewDemand(settings, bodies, snapshot_.viewers), physical,
-                       world_chooser_.started() ? Start::NONE : due, snapshot_.view);
+  DetailChooser::Start start{ModalForest::fineDue(before, stamp), true, nullptr};
+  world_chooser_.choose(context, worldDemand(settings, bodies), physical, start, snapshot_.world);
+  start.compute = !world_chooser_.hasComputed();
+  start.known = &snapshot_.world.modes;
+  sensor_chooser_.choose(context, sensorDemand(settings, bodies, snapshot_.sensors), physical,
+                         start, snapshot_.sensed.trees);
+  start.compute = start.compute && !sensor_chooser_.hasComputed();
+  start.known = nullptr;
+  view_chooser_.choose(context, viewDemand(settings, bodies, snapshot_.viewers), physical, start,
+                       snapshot_.view.trees);
 }
 
 // Returns the angles of all joints at the last tick.
@@ -183,16 +194,17 @@ std::vector<Pose> Forest::pose(const Tree& tree, std::uint32_t id, Nanoseconds s
   return snapshot_.physics.pose(stepContext(), tree, id, stamp);
 }
 
-std::vector<Pose> Forest::poseInView(const Tree& tree, std::uint32_t id, Nanoseconds stamp) const {
-  const TreeDetail& view = snapshot_.view;
+std::vector<Pose> Forest::poseFor(const ListenerDetail& listener, const Tree& tree,
+                                  std::uint32_t id, Nanoseconds stamp) const {
+  const TreeDetail& detail = listener.trees;
   return poseBranches(tree, snapshot_.wind.at(stamp).relativeTo(tree.foot),
-                      weightsAt(view.levels.of(id), stamp, layout_.motion), view.modes.find(id),
-                      promotedInView(id), stamp);
+                      weightsAt(detail.levels.of(id), stamp, layout_.motion), detail.modes.find(id),
+                      promotedFor(listener, id), stamp);
 }
 
-PromotedTree Forest::promotedInView(std::uint32_t tree) const {
+PromotedTree Forest::promotedFor(const ListenerDetail& listener, std::uint32_t tree) const {
   PromotedTree out = promoted(tree);
-  snapshot_.offsets.addTo(tree, layout_.motion.transition, out);
+  listener.offsets.addTo(tree, layout_.motion.transition, out);
   return out;
 }
 
@@ -203,14 +215,13 @@ std::uint64_t Forest::hash() const {
   Settings settings = snapshot_.settings;
   FieldHasher hasher(out);
   describe(hasher, settings);
-  for (const auto& entry : snapshot_.sensors) addTo(out, entry.second);
   snapshot_.world.levels.addTo(out, snapshot_.stamp, layout_.motion.transition);
   snapshot_.world.modes.addTo(out);
   snapshot_.physics.addTo(out);
   return out.value();
 }
 
-StateUpdate Forest::updateHead(bool key_frame) const {
+StateUpdate Forest::updateFor(ListenerDetail& listener, bool key_frame) const {
   StateUpdate out;
   out.stamp = snapshot_.stamp;
   out.key_frame = key_frame;
@@ -218,20 +229,17 @@ StateUpdate Forest::updateHead(bool key_frame) const {
   out.wind_hash = snapshot_.wind.hash();
   out.hash = hash();
   out.blend = snapshot_.physics.settings().blend;
+  listener.trees.addTo(out, physicalTrees(),
+                       [&](std::uint32_t id) { return promotedFor(listener, id); });
   return out;
 }
 
 StateUpdate Forest::update(bool key_frame) {
-  StateUpdate out = updateHead(key_frame);
-  snapshot_.world.addTo(out, physicalTrees(), [this](std::uint32_t id) { return promoted(id); });
-  return out;
+  return updateFor(snapshot_.sensed, key_frame);
 }
 
 StateUpdate Forest::updateView(bool key_frame) {
-  StateUpdate out = updateHead(key_frame);
-  snapshot_.view.addTo(out, physicalTrees(),
-                       [this](std::uint32_t id) { return promotedInView(id); });
-  return out;
+  return updateFor(snapshot_.view, key_frame);
 }
 
 }  // namespace vegetation_sim::forest
