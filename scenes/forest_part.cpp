@@ -55,7 +55,8 @@ void ForestPart::addTo(Hashes& hashes) {
   const wind::Instant wind = shown_.wind().at(shown);
   forest::BatchPoses drawn;
   for (std::uint32_t id = 0; id < trees_.size(); ++id) {
-    for (const Pose& pose : forest_.pose(trees_[id], id, stamp_)) addPose(pose, hashes.reference);
+    for (const Pose& pose : forest_.poseForSensors(trees_[id], id, stamp_))
+      addPose(pose, hashes.reference);
     poseAsDrawn(id, wind, shown, drawn);
     const auto count = static_cast<std::size_t>(drawn.count);
     for (const auto* row :
@@ -106,7 +107,7 @@ Vec3 ForestPart::place(const forest::BranchPoint& point) const {
 
 double ForestPart::height(std::uint32_t tree) const {
   const auto& branches = trees_[tree].skeleton.branches;
-  const std::vector<Pose> poses = forest_.pose(trees_[tree], tree, stamp_);
+  const std::vector<Pose> poses = forest_.poseForSensors(trees_[tree], tree, stamp_);
   double out = 0.0;
   for (std::size_t i = 0; i < poses.size(); ++i)
     out = std::max(out, forest::tipOf(branches[i], poses[i]).z());

@@ -34,6 +34,17 @@ struct Clearing {
     sensor.range = 30.0;
     sensor.position = near ? Vec3(6.0, 6.0, 3.0) : Vec3(4000.0, 0.0, 3.0);
   }
+  /// Makes the world as fine as the sensor requires, by a body high above the trees.
+  void requireOfTheWorld() {
+    settings.robot_range = 60.0;
+    settings.robot_tolerance = sensor.tolerance;
+    use();
+    Body body;
+    body.id = "crane";
+    body.pose.position = Vec3(6.0, 6.0, 40.0);
+    body.stamp = now();
+    forest.setBody(body);
+  }
   /// Sends the inputs that are not part of updates.
   void introduce(ForestReplica& replica) const {
     replica.setLayout(forest.layout(), flatTerrain());
@@ -52,8 +63,8 @@ struct Clearing {
   std::vector<JointAngles> angles(const Tree& tree, std::uint32_t id, Nanoseconds stamp) const {
     std::vector<JointAngles> out =
         modalAngles(tree, forest.snapshot().wind.at(stamp).relativeTo(tree.foot),
-                    weightsAt(forest.world().levels.of(id), stamp, forest.layout().motion),
-                    forest.world().modes.find(id), stamp);
+                    weightsAt(forest.sensed().levels.of(id), stamp, forest.layout().motion),
+                    forest.sensed().modes.find(id), stamp);
     overlay(forest.promoted(id), stamp, out);
     return out;
   }

@@ -8,17 +8,6 @@
 #include "vegetation_sim/core/math/math.h"
 
 namespace vegetation_sim::forest {
-namespace {
-
-void addTo(Hash& hash, const Sensor& sensor) {
-  hash.add(sensor.id);
-  hash.add(static_cast<std::uint64_t>(sensor.stamp));
-  hash.add(sensor.position);
-  hash.add(sensor.range);
-  hash.add(sensor.tolerance);
-}
-
-}  // namespace
 
 Forest::Forest(Layout layout, std::shared_ptr<const terrain::HeightMap> terrain,
                Settings settings) {
@@ -33,16 +22,16 @@ void Forest::setLayout(Layout layout, std::shared_ptr<const terrain::HeightMap> 
   faults.throwIfAny();
   const bool same_trees = layout.treeCount() == layout_.treeCount();
   // Transitions continue from their present blend with the duration of the new layout.
-  for (TreeDetail* detail : {&snapshot_.world, &snapshot_.view})
+  for (TreeDetail* detail : details())
     detail->levels.anchor(snapshot_.stamp, layout_.motion.transition);
   layout_ = std::move(layout);
   layout_hash_ = layout_.hash();
   grid_ = TreeGrid(layout_);
   terrain_ = std::move(terrain);
   errors_.measure(layout_, *terrain_);
-  for (TreeDetail* detail : {&snapshot_.world, &snapshot_.view})
-    detail->modes.clear();  // the wood may have changed
-  snapshot_.offsets.clear();
+  for (TreeDetail* detail : details()) detail->modes.clear();  // the wood may have changed
+  snapshot_.sensed.offsets.clear();
+  snapshot_.view.offsets.clear();
   if (!same_trees)
     reset();
   else
@@ -51,12 +40,17 @@ void Forest::setLayout(Layout layout, std::shared_ptr<const terrain::HeightMap> 
 
 void Forest::reset() {
   const int level = std::min(snapshot_.settings.fixed_level, snapshot_.settings.highest_level);
-  for (TreeDetail* detail : {&snapshot_.world, &snapshot_.view}) detail->reset(level);
+  snapshot_.world.reset(level);
+  snapshot_.sensed.reset(level);
+  snapshot_.view.reset(level);
   snapshot_.sensors.clear();
   snapshot_.viewers.clear();
   snapshot_.stamp = 0;
   snapshot_.physics.clear();
-  snapshot_.offsets.clear();
+}
+
+std::array<TreeDetail*, 3> Forest::details() {
+  return {&snapshot_.world, &snapshot_.sensed.trees, &snapshot_.view.trees};
 }
 
 StepContext Forest::stepContext() const {
@@ -75,49 +69,53 @@ StepContext Forest::stepContext() const {
 void Forest::advance(Nanoseconds stamp) {
   const Nanoseconds before = snapshot_.stamp;
   advancePhysics(stamp);
+  removeSilentSensors();
+  chooseDetail(before);
+}
+
+void Forest::removeSilentSensors() {
   auto& sensors = snapshot_.sensors;
   for (auto it = sensors.begin(); it != sensors.end();)
-    it = stamp - it->second.stamp > SENSOR_LIFE ? sensors.erase(it) : std::next(it);
-  chooseDetail(before);
+    it = snapshot_.stamp - it->second.stamp > SENSOR_LIFE ? sensors.erase(it) : std::next(it);
 }
 
 // Runs before the choice of levels: the present levels hold since the last tick.
 void Forest::advancePhysics(Nanoseconds stamp) {
   const std::vector<std::uint32_t> physical = physicalTrees();
-  for (TreeDetail* detail : {&snapshot_.world, &snapshot_.view}) {
+  for (TreeDetail* detail : details()) {
     detail->changed.insert(physical.begin(), physical.end());
     detail->modes.advance(snapshot_.wind, snapshot_.stamp, stamp);
   }
   snapshot_.physics.advance(stepContext(), stamp);
   snapshot_.stamp = stamp;
-  noteOffsets();
+  updateOffsets(snapshot_.sensed);
+  updateOffsets(snapshot_.view);
 }
 
-// Notes by how much drawn joints differ from those of the world where branches have become physical
-// in this tick.
-void Forest::noteOffsets() {
-  const double duration = layout_.motion.transition;
-  std::map<std::uint32_t, PromotedTree> views;
-  for (const auto& [id, world] : snapshot_.physics.beforePromotions())
-    snapshot_.offsets.addTo(id, duration, views[id] = world);
-  snapshot_.offsets.prune(snapshot_.stamp, duration);
-  for (const auto& [id, world] : snapshot_.physics.beforePromotions()) {
-    const auto differences = [&, id = id, &world = world] {
+// Notes by how much the joints that a listener gets differ from those of the world where branches
+// have become physical in this tick.
+void Forest::updateOffsets(ListenerDetail& listener) {
+  const double transition = layout_.motion.transition;
+  for (const auto& [id, last] : snapshot_.physics.beforePromotions()) {
+    const auto differences = [&, id = id, &last = last] {
       const Tree& tree = snapshot_.physics.subtrees().at(id).tree();
-      std::vector<JointAngles> out = anglesIn(snapshot_.view, tree, id, views[id]);
-      const auto base = anglesIn(snapshot_.world, tree, id, world);
+      PromotedTree heard = last;
+      listener.offsets.addTo(id, transition, heard);
+      std::vector<JointAngles> out = anglesIn(listener.trees, tree, id, heard);
+      const auto base = anglesIn(snapshot_.world, tree, id, last);
       for (std::size_t i = 0; i < out.size(); ++i) {
         out[i].first -= base[i].first;
         out[i].second -= base[i].second;
       }
       return out;
     };
-    snapshot_.offsets.update(id, world, promoted(id), differences);
+    listener.offsets.update(id, last, promoted(id), differences);
   }
+  listener.offsets.prune(snapshot_.stamp, transition);
 }
 
-// The displays' choice comes second and starts modes only if the world's has not, so that a tick
-// computes modes once.
+// Modes of one tree are computed per tick. Those of the world are shared with sensors, which thus
+// have the world's poses exactly where they require no other detail.
 void Forest::chooseDetail(Nanoseconds before) {
   const Nanoseconds stamp = snapshot_.stamp;
   const Settings& settings = snapshot_.settings;
@@ -125,12 +123,16 @@ void Forest::chooseDetail(Nanoseconds before) {
   const double physical =
       1e-6 * settings.budget.physical_cost * static_cast<double>(snapshot_.physics.branchCount());
   const PredictionContext context{layout_, *terrain_, snapshot_.wind, settings, errors_, stamp};
-  using Start = DetailChooser::Start;
-  const Start due = ModalForest::fineDue(before, stamp) ? Start::ANY : Start::PLAIN;
-  world_chooser_.choose(context, worldDemand(settings, bodies, snapshot_.sensors), physical, due,
-                        snapshot_.world);
-  view_chooser_.choose(context, viewDemand(settings, bodies, snapshot_.viewers), physical,
-                       world_chooser_.started() ? Start::NONE : due, snapshot_.view);
+  DetailChooser::Start start{ModalForest::fineDue(before, stamp), true, nullptr};
+  world_chooser_.choose(context, worldDemand(settings, bodies), physical, start, snapshot_.world);
+  start.compute = !world_chooser_.hasComputed();
+  start.known = &snapshot_.world.modes;
+  sensor_chooser_.choose(context, sensorDemand(settings, bodies, snapshot_.sensors), physical,
+                         start, snapshot_.sensed.trees);
+  start.compute = start.compute && !sensor_chooser_.hasComputed();
+  start.known = nullptr;
+  view_chooser_.choose(context, viewDemand(settings, bodies, snapshot_.viewers), physical, start,
+                       snapshot_.view.trees);
 }
 
 // Returns the angles of all joints at the last tick.
@@ -190,16 +192,17 @@ std::vector<Pose> Forest::pose(const Tree& tree, std::uint32_t id, Nanoseconds s
   return snapshot_.physics.pose(stepContext(), tree, id, stamp);
 }
 
-std::vector<Pose> Forest::poseInView(const Tree& tree, std::uint32_t id, Nanoseconds stamp) const {
-  const TreeDetail& view = snapshot_.view;
+std::vector<Pose> Forest::poseFor(const ListenerDetail& listener, const Tree& tree,
+                                  std::uint32_t id, Nanoseconds stamp) const {
+  const TreeDetail& detail = listener.trees;
   return poseBranches(tree, snapshot_.wind.at(stamp).relativeTo(tree.foot),
-                      weightsAt(view.levels.of(id), stamp, layout_.motion), view.modes.find(id),
-                      promotedInView(id), stamp);
+                      weightsAt(detail.levels.of(id), stamp, layout_.motion), detail.modes.find(id),
+                      promotedFor(listener, id), stamp);
 }
 
-PromotedTree Forest::promotedInView(std::uint32_t tree) const {
+PromotedTree Forest::promotedFor(const ListenerDetail& listener, std::uint32_t tree) const {
   PromotedTree out = promoted(tree);
-  snapshot_.offsets.addTo(tree, layout_.motion.transition, out);
+  listener.offsets.addTo(tree, layout_.motion.transition, out);
   return out;
 }
 
@@ -210,14 +213,13 @@ std::uint64_t Forest::hashOf(const ForestSnapshot& snapshot) const {
   Settings settings = snapshot.settings;
   FieldHasher hasher(out);
   describe(hasher, settings);
-  for (const auto& entry : snapshot.sensors) addTo(out, entry.second);
   snapshot.world.levels.addTo(out, snapshot.stamp, layout_.motion.transition);
   snapshot.world.modes.addTo(out);
   snapshot.physics.addTo(out);
   return out.value();
 }
 
-StateUpdate Forest::updateHead(bool key_frame) const {
+StateUpdate Forest::updateFor(ListenerDetail& listener, bool key_frame) const {
   StateUpdate out;
   out.stamp = snapshot_.stamp;
   out.key_frame = key_frame;
@@ -225,20 +227,17 @@ StateUpdate Forest::updateHead(bool key_frame) const {
   out.wind_hash = snapshot_.wind.hash();
   out.hash = hash();
   out.blend = snapshot_.physics.settings().blend;
+  listener.trees.addTo(out, physicalTrees(),
+                       [&](std::uint32_t id) { return promotedFor(listener, id); });
   return out;
 }
 
 StateUpdate Forest::update(bool key_frame) {
-  StateUpdate out = updateHead(key_frame);
-  snapshot_.world.addTo(out, physicalTrees(), [this](std::uint32_t id) { return promoted(id); });
-  return out;
+  return updateFor(snapshot_.sensed, key_frame);
 }
 
 StateUpdate Forest::updateView(bool key_frame) {
-  StateUpdate out = updateHead(key_frame);
-  snapshot_.view.addTo(out, physicalTrees(),
-                       [this](std::uint32_t id) { return promotedInView(id); });
-  return out;
+  return updateFor(snapshot_.view, key_frame);
 }
 
 }  // namespace vegetation_sim::forest

@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "forest/detail/detail_chooser.h"
-#include "forest/detail/promotion_offsets.h"
+#include "forest/detail/listener_detail.h"
 #include "forest/physics/forest_physics.h"
 
 namespace vegetation_sim::forest {
@@ -19,19 +20,18 @@ struct ForestSnapshot {
   Nanoseconds stamp{0};
   Settings settings;
   wind::Field wind;
-  std::map<std::string, Sensor> sensors;
   TreeDetail world;
   ForestPhysics physics;
-  // For displays only, and in no hash:
+  // For listeners only, and in no hash:
+  std::map<std::string, Sensor> sensors;
   std::vector<Viewpoint> viewers;
-  TreeDetail view;
-  PromotionOffsets offsets;
+  ListenerDetail sensed, view;
 };
 
 /// The animated forest. Inputs take effect at the next tick; between ticks it does not change, and
-/// the poses of any stamp follow from layout, wind and levels. Trees have two details: that of the
-/// world, which physics, sensors and the hash know, and that of displays, which viewers require and
-/// which affects nothing else. Not thread-safe.
+/// the poses of any stamp follow from layout, wind and levels. Trees have three details: that of
+/// the world, which physics and the hash know, that which sensors perceive and that which displays
+/// draw. The last two affect nothing else. Not thread-safe.
 class Forest {
  public:
   /// @throws InvalidInput for a layout that check() refuses.
@@ -93,36 +93,48 @@ class Forest {
   PromotedTree promoted(std::uint32_t tree) const;
   /// Returns the ids of the trees with physical joints, sorted.
   std::vector<std::uint32_t> physicalTrees() const;
-  /// The detail of the world, and that which displays draw.
+  /// The detail of the world, that which sensors perceive, and that which displays draw.
   const TreeDetail& world() const { return snapshot_.world; }
-  const TreeDetail& view() const { return snapshot_.view; }
+  const TreeDetail& sensed() const { return snapshot_.sensed.trees; }
+  const TreeDetail& view() const { return snapshot_.view.trees; }
   /// The choices of the last tick.
   const DetailChooser& worldChoice() const { return world_chooser_; }
+  const DetailChooser& sensorChoice() const { return sensor_chooser_; }
   const DetailChooser& viewChoice() const { return view_chooser_; }
-  /// Returns the pose of every branch in the tree's frame, physical joints and modes included, in
-  /// double precision.
+  /// Returns the pose of every branch of the world's tree in its frame, physical joints and modes
+  /// included, in double precision.
   std::vector<Pose> pose(const Tree& tree, std::uint32_t id, Nanoseconds stamp) const;
-  /// Returns the pose and the physical joints as displays draw them.
-  std::vector<Pose> poseInView(const Tree& tree, std::uint32_t id, Nanoseconds stamp) const;
-  PromotedTree promotedInView(std::uint32_t tree) const;
+  /// Returns the pose as sensors perceive it.
+  std::vector<Pose> poseForSensors(const Tree& tree, std::uint32_t id, Nanoseconds stamp) const {
+    return poseFor(snapshot_.sensed, tree, id, stamp);
+  }
+  /// Returns the pose as displays draw it.
+  std::vector<Pose> poseInView(const Tree& tree, std::uint32_t id, Nanoseconds stamp) const {
+    return poseFor(snapshot_.view, tree, id, stamp);
+  }
 
-  /// Returns the complete state of the world, or the changes since the last update of either kind.
+  /// Returns the complete state for sensors, or the changes since the last update of either kind.
   StateUpdate update(bool key_frame);
   /// Returns the same for displays.
   StateUpdate updateView(bool key_frame);
-  /// Returns a hash of all state that determines the future of the world, sensors included, but not
-  /// the numbers of updates, so that late subscribers compute the same.
+  /// Returns a hash of all state that determines the future of the world. Listeners are not in it,
+  /// nor the numbers of updates.
   std::uint64_t hash() const { return hashOf(snapshot_); }
   std::uint64_t hashOf(const ForestSnapshot& snapshot) const;
 
  private:
+  std::array<TreeDetail*, 3> details();
   StepContext stepContext() const;
   void advancePhysics(Nanoseconds stamp);
-  void noteOffsets();
+  void updateOffsets(ListenerDetail& listener);
+  void removeSilentSensors();
   void chooseDetail(Nanoseconds before);
   std::vector<JointAngles> anglesIn(const TreeDetail& detail, const Tree& tree, std::uint32_t id,
                                     const PromotedTree& promoted) const;
-  StateUpdate updateHead(bool key_frame) const;
+  std::vector<Pose> poseFor(const ListenerDetail& listener, const Tree& tree, std::uint32_t id,
+                            Nanoseconds stamp) const;
+  PromotedTree promotedFor(const ListenerDetail& listener, std::uint32_t tree) const;
+  StateUpdate updateFor(ListenerDetail& listener, bool key_frame) const;
 
   Layout layout_;
   std::uint64_t layout_hash_{0};
@@ -132,7 +144,7 @@ class Forest {
   std::shared_ptr<const ContactFinder> contacts_{std::make_shared<ContactFinder>()};
   std::shared_ptr<ThreadPool> threads_{std::make_shared<ThreadPool>()};
   ForestSnapshot snapshot_;
-  DetailChooser world_chooser_, view_chooser_;
+  DetailChooser world_chooser_, sensor_chooser_, view_chooser_;
 };
 
 }  // namespace vegetation_sim::forest

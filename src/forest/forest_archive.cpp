@@ -57,13 +57,16 @@ void archive(Archive& a, Viewpoint& eye) {
   a.number("viewer cone_cosine", eye.cone_cosine);
 }
 
-/// Grown trees and computed modes for a snapshot that is read. World and view share the modes of a
-/// tree, and modes that the forest holds already are not computed again.
+/// Grown trees and computed modes for a snapshot that is read. World, sensors and displays share
+/// the modes of a tree, and modes that the forest holds already are not computed again.
 class Grower {
  public:
   Grower(const Layout& layout, const terrain::HeightMap& terrain, const ForestSnapshot& present,
          const ForestSnapshot& read)
-      : layout_(layout), terrain_(terrain), sources_{&present.world, &present.view, &read.world} {}
+      : layout_(layout),
+        terrain_(terrain),
+        sources_{&present.world, &present.sensed.trees, &present.view.trees, &read.world,
+                 &read.sensed.trees} {}
 
   std::shared_ptr<const Tree> tree(std::uint32_t id) const {
     return std::make_shared<const Tree>(growTree(layout_, id, terrain_));
@@ -80,7 +83,7 @@ class Grower {
  private:
   const Layout& layout_;
   const terrain::HeightMap& terrain_;
-  std::array<const TreeDetail*, 3> sources_;
+  std::array<const TreeDetail*, 5> sources_;
 };
 
 void archive(Archive& a, TreeDetail& detail, std::size_t trees,
@@ -108,8 +111,10 @@ void archive(Archive& a, const Layout& layout, const Grower& grower, ForestSnaps
   snapshot.physics.archive(a, layout, [&](std::uint32_t tree) { return grower.tree(tree); });
   a.list("viewers", snapshot.viewers, MOST_LISTENERS, EYE_BYTES,
          [&a](Viewpoint& eye) { archive(a, eye); });
-  archive(a, snapshot.view, trees, modes_of);
-  snapshot.offsets.archive(a, trees);
+  for (ListenerDetail* listener : {&snapshot.sensed, &snapshot.view}) {
+    archive(a, listener->trees, trees, modes_of);
+    listener->offsets.archive(a, trees);
+  }
 }
 
 }  // namespace

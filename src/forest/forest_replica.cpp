@@ -130,12 +130,13 @@ bool ForestReplica::updateModes(const StateUpdate& update) {
 
 void ForestReplica::restoreModes(const StateUpdate& update) {
   const ModalContext at{*layout_, *terrain_, wind_};
+  const bool all = fine_modes_ == FineModes::AT_ONCE;
   bool due = update.key_frame || ModalForest::fineDue(stamp_, update.stamp);
   for (const StateUpdate::Entry& entry : update.trees) {
     const std::size_t modes = entry.modal.amplitude.size();
     if (modes == 0) continue;
     const bool ready = modes_.isReady(entry.tree, modes);
-    if (ready || due)
+    if (ready || due || all)
       modes_.restore(at, entry.tree, entry.modal, update.stamp);
     else
       modes_.queueFineModes(entry.tree);

@@ -26,7 +26,7 @@ TEST(ModalTreeState, ReplicasSwayToTheBit) {
     ASSERT_EQ(joined && late.apply(update), joined) << late.why();
     if (i % 7 && i % TICK_RATE) continue;  // key frames too: extrapolation gives the same bits
     const Nanoseconds stamp = scene.now() + seconds(0.005);
-    const auto here = scene.forest.pose(tree, 2, stamp);
+    const auto here = scene.forest.poseForSensors(tree, 2, stamp);
     for (const ForestReplica* replica : {&steady, &late}) {
       if (replica == &late && !joined) continue;
       const auto there = replica->pose(tree, 2, stamp);
@@ -40,16 +40,33 @@ TEST(ModalTreeState, ReplicasSwayToTheBit) {
   EXPECT_LT(published, 4u * 15u);
 }
 
-// N13: late subscribers compute fine modes one by one, so that no ticks are dropped. Waiting trees
-// move procedurally, and all have the same bits in the end.
+// N1, N13: one key frame is enough for a sensor that joins late, although several trees have fine
+// modes: it has the bits of the forest at once.
+TEST(ModalTreeState, OneKeyFrameRestoresAllFineModes) {
+  Clearing scene(breeze(), 0.05);
+  scene.run(2.0);
+  ForestReplica late;
+  scene.introduce(late);
+  ASSERT_TRUE(late.apply(scene.forest.update(true))) << late.why();
+  for (std::uint32_t id = 0; id < 4; ++id) {
+    ASSERT_TRUE(late.modalState(id) && late.modalState(id)->fine()) << id;
+    const Tree tree = scene.tree(id);
+    const auto here = scene.forest.poseForSensors(tree, id, scene.now()),
+               there = late.pose(tree, id, scene.now());
+    for (std::size_t b = 0; b < here.size(); ++b) ASSERT_EQ(here[b].position, there[b].position);
+  }
+}
+
+// N13: displays that join late compute fine modes one by one, so that no frame is late. Waiting
+// trees move procedurally, and all have the same bits in the end.
 TEST(ModalTreeState, WhoJoinsLateFindsFineModesOneByOne) {
   Clearing scene(breeze(), 0.05);
   scene.run(2.0);
   for (std::uint32_t id = 0; id < 4; ++id) {
-    ASSERT_NE(scene.forest.world().modes.find(id), nullptr) << id;
-    ASSERT_TRUE(scene.forest.world().modes.find(id)->fine()) << id;
+    ASSERT_NE(scene.forest.sensed().modes.find(id), nullptr) << id;
+    ASSERT_TRUE(scene.forest.sensed().modes.find(id)->fine()) << id;
   }
-  ForestReplica late;
+  ForestReplica late(ForestReplica::FineModes::ONE_BY_ONE);
   scene.introduce(late);
   for (int i = 0; i <= TICK_RATE; ++i) {
     scene.advance();
@@ -60,7 +77,7 @@ TEST(ModalTreeState, WhoJoinsLateFindsFineModesOneByOne) {
   }
   for (std::uint32_t id = 0; id < 4; ++id) {
     const Tree tree = scene.tree(id);
-    const auto here = scene.forest.pose(tree, id, scene.now()),
+    const auto here = scene.forest.poseForSensors(tree, id, scene.now()),
                there = late.pose(tree, id, scene.now());
     for (std::size_t b = 0; b < here.size(); ++b) ASSERT_EQ(here[b].position, there[b].position);
   }
@@ -72,14 +89,14 @@ TEST(ModalTreeState, NothingStaleIsShownWhileFineModesAreAwaited) {
   Clearing scene(breeze(), 0.05);
   scene.publishAtMost(1600);  // plain modes
   scene.run(2.0);
-  ForestReplica replica;
+  ForestReplica replica(ForestReplica::FineModes::ONE_BY_ONE);
   scene.introduce(replica);
   ASSERT_TRUE(replica.apply(scene.forest.update(true)));
   for (std::uint32_t id = 0; id < 4; ++id) ASSERT_NE(replica.modalState(id), nullptr);
   scene.publishAtMost(1000000);
   scene.run(2.0);  // without messages
   for (std::uint32_t id = 0; id < 4; ++id)
-    ASSERT_TRUE(scene.forest.world().modes.find(id)->fine()) << id;
+    ASSERT_TRUE(scene.forest.sensed().modes.find(id)->fine()) << id;
   for (int i = 0; i < 5; ++i) {
     scene.advance();
     ASSERT_TRUE(replica.apply(scene.forest.update(i == 0))) << replica.why();
@@ -89,7 +106,7 @@ TEST(ModalTreeState, NothingStaleIsShownWhileFineModesAreAwaited) {
       ++shown;
       EXPECT_TRUE(replica.modalState(id)->fine()) << id;
       EXPECT_EQ(replica.modalState(id)->state().amplitude,
-                scene.forest.world().modes.find(id)->state().amplitude);
+                scene.forest.sensed().modes.find(id)->state().amplitude);
     }
     EXPECT_EQ(shown, 1);
   }
@@ -123,10 +140,10 @@ TEST(ModalTreeState, BatchedPoseIsThePlainOne) {
   scene.run(3.0);
   const Tree tree = scene.tree(0);
   const Nanoseconds stamp = scene.now() + seconds(0.01);
-  const auto plain = scene.forest.pose(tree, 0, stamp);
+  const auto plain = scene.forest.poseForSensors(tree, 0, stamp);
   BatchPoses fast;
-  ASSERT_NE(scene.forest.world().modes.find(0), nullptr);
-  scene.forest.world().modes.find(0)->pose(BatchPoser(tree), stamp, fast);
+  ASSERT_NE(scene.forest.sensed().modes.find(0), nullptr);
+  scene.forest.sensed().modes.find(0)->pose(BatchPoser(tree), stamp, fast);
   for (std::size_t b = 0; b < plain.size(); ++b)
     ASSERT_LT(length(plain[b].position - fast.at(static_cast<int>(b)).position),
               1e-5 * tree.skeleton.height);

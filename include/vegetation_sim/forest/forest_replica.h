@@ -16,6 +16,15 @@ namespace vegetation_sim::forest {
 /// every branch out, with equal values.
 class ForestReplica {
  public:
+  /// When the fine modes of trees are computed that are in a message for the first time; it takes
+  /// some tens of milliseconds a tree.
+  enum class FineModes {
+    AT_ONCE,    ///< in apply(): one key frame is enough, which sensors need
+    ONE_BY_ONE  ///< one tree per 0.1 s, so that no frame is late; others move procedurally until
+                ///< then
+  };
+  explicit ForestReplica(FineModes fine_modes = FineModes::AT_ONCE) : fine_modes_(fine_modes) {}
+
   /// @throws InvalidInput for a layout that check() refuses.
   void setLayout(Layout layout, std::shared_ptr<const terrain::HeightMap> terrain);
   void setWind(const wind::Field& wind) { wind_ = wind; }
@@ -47,8 +56,7 @@ class ForestReplica {
   PromotedTree promoted(std::uint32_t tree) const;
   /// Returns the ids of the trees that have physical joints, sorted.
   std::vector<std::uint32_t> physicalTrees() const;
-  /// Returns the modal state of a tree, or nullptr if it has none yet. Late subscribers compute the
-  /// fine modes of one tree per 0.1 s; the other trees move procedurally until then.
+  /// Returns the modal state of a tree, or nullptr if it has none yet; see FineModes.
   const ModalTreeState* modalState(std::uint32_t tree) const { return modes_.find(tree); }
   /// Returns the pose of every branch in the tree's frame, physical joints and modes included, in
   /// double precision.
@@ -59,6 +67,7 @@ class ForestReplica {
   bool updateModes(const StateUpdate& update);
   void restoreModes(const StateUpdate& update);
 
+  FineModes fine_modes_;
   std::shared_ptr<const Layout> layout_;
   std::shared_ptr<const terrain::HeightMap> terrain_;
   std::uint64_t layout_hash_{0};

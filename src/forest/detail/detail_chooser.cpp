@@ -14,7 +14,7 @@ constexpr std::size_t MANY_PLANTS = 20000;
 }  // namespace
 
 void DetailChooser::choose(const PredictionContext& context, const DetailDemand& demand,
-                           double physical_cost, Start allowed, TreeDetail& detail) {
+                           double physical_cost, const Start& start, TreeDetail& detail) {
   const double transition = context.layout.motion.transition;
   const int last_base = detail.levels.base().level;
   detail.levels.changeBase(demand.base, context.stamp, transition);
@@ -22,7 +22,7 @@ void DetailChooser::choose(const PredictionContext& context, const DetailDemand&
   if (!demand.empty()) findPlants(context, demand, last_base, detail);
   allocate(context.settings, demand, physical_cost);
   figures_.strained = detail.modes.countStrained();
-  startModes(context, allowed, detail);
+  startModes(context, start, detail);
   setLevels(context, detail);
   detail.prune(context.stamp, transition);
   if (plants_.size() > MANY_PLANTS) std::vector<Plant>().swap(plants_);
@@ -75,7 +75,7 @@ void DetailChooser::allocate(const Settings& settings, const DetailDemand& deman
 // fine modes at its turn. Other trees wait on their present tier. A tree with fine modes that is to
 // have plain ones returns to its levels until the modes have faded, because the change would be
 // visible.
-void DetailChooser::startModes(const PredictionContext& context, Start allowed,
+void DetailChooser::startModes(const PredictionContext& context, const Start& start,
                                TreeDetail& detail) {
   Plant *plain = nullptr, *finer = nullptr;
   const auto wait = [](Plant& plant, int tier, Plant*& first) {
@@ -92,13 +92,15 @@ void DetailChooser::startModes(const PredictionContext& context, Start allowed,
     else if (modal_state->fine() && plant.chosen == MODAL_LEVEL)
       plant.chosen = plant.stepwise;
   }
-  Plant* next = plain ? plain : allowed == Start::ANY ? finer : nullptr;
-  if (allowed == Start::NONE) next = nullptr;
-  started_ = next != nullptr;
+  Plant* next = plain ? plain : start.fine ? finer : nullptr;
+  has_computed_ = false;
   if (!next) return;
   const bool fine = next == finer;
+  const ModalTreeState* like = start.known ? start.known->find(next->id, fine) : nullptr;
+  if (!like && !start.compute) return;
+  has_computed_ = !like;
   detail.modes.addTree({context.layout, context.terrain, context.wind}, next->id, fine,
-                       context.stamp);
+                       context.stamp, like);
   detail.changed.insert(next->id);
   detail.begun.insert(next->id);
   next->chosen = fine ? FINE_MODAL_TIER : MODAL_LEVEL;

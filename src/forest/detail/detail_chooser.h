@@ -13,19 +13,23 @@ namespace vegetation_sim::forest {
 /// within the budget. Keeps the results of the last choice for reports and nothing else.
 class DetailChooser {
  public:
-  /// What modes may be started in a tick. Computing them takes milliseconds, fine ones some tens.
-  enum class Start { NONE, PLAIN, ANY };
+  /// Which modes may be started in a tick. Computing them takes milliseconds, fine ones some tens.
+  struct Start {
+    bool fine;                 ///< fine modes too, not only plain ones
+    bool compute;              ///< also modes that `known` does not have
+    const ModalForest* known;  ///< shares its computed modes; may be null
+  };
 
   /// Starts transitions and modes in `detail`.
   /// @param physical_cost of physical branches, for demands within the frame time [ms].
   void choose(const PredictionContext& context, const DetailDemand& demand, double physical_cost,
-              Start allowed, TreeDetail& detail);
+              const Start& start, TreeDetail& detail);
 
   const GovernorFigures& figures() const { return figures_; }
   /// The trees of the choice with their predicted errors; empty if there are very many.
   const std::vector<Plant>& plants() const { return plants_; }
-  /// Whether the last choice has started modes.
-  bool started() const { return started_; }
+  /// Returns whether the last choice has computed modes.
+  bool hasComputed() const { return has_computed_; }
 
  private:
   void findPlants(const PredictionContext& context, const DetailDemand& demand, int last_base,
@@ -34,12 +38,12 @@ class DetailChooser {
                 const DetailDemand& demand, int last_base, const TreeDetail& detail,
                 std::uint32_t tree);
   void allocate(const Settings& settings, const DetailDemand& demand, double physical_cost);
-  void startModes(const PredictionContext& context, Start allowed, TreeDetail& detail);
+  void startModes(const PredictionContext& context, const Start& start, TreeDetail& detail);
   void setLevels(const PredictionContext& context, TreeDetail& detail) const;
 
   std::vector<Plant> plants_;
   GovernorFigures figures_;
-  bool started_{false};
+  bool has_computed_{false};
 };
 
 }  // namespace vegetation_sim::forest

@@ -43,14 +43,19 @@ double DetailDemand::pixelsPerMetre(const Vec3& centre, double reach, double tol
   return out;
 }
 
-DetailDemand worldDemand(const Settings& settings, const Bodies& bodies,
-                         const std::map<std::string, Sensor>& sensors) {
+DetailDemand worldDemand(const Settings& settings, const Bodies& bodies) {
   DetailDemand out;
   out.places = placesOf(settings, bodies);
-  for (const auto& entry : sensors)
-    out.places.push_back({entry.second.position, entry.second.range, entry.second.tolerance});
   out.base = fixedLevel(settings);
   out.frame_time_binds = false;
+  return out;
+}
+
+DetailDemand sensorDemand(const Settings& settings, const Bodies& bodies,
+                          const std::map<std::string, Sensor>& sensors) {
+  DetailDemand out = worldDemand(settings, bodies);
+  for (const auto& entry : sensors)
+    out.places.push_back({entry.second.position, entry.second.range, entry.second.tolerance});
   return out;
 }
 

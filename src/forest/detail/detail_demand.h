@@ -15,7 +15,7 @@ namespace vegetation_sim::forest {
 /// Settings that can change at run time.
 struct Settings {
   double tolerance{1.0};  ///< error that a viewer may see [pixel]
-  int fixed_level{2};     ///< of the trees that no robot or sensor is near
+  int fixed_level{2};     ///< of trees where neither bodies nor listeners require another
   int highest_level{MAX_DEPTHS};
   double robot_tolerance{0.05};  ///< error near the bodies of robots [m]
   double robot_range{3.0};       ///< distance to a body within which robot_tolerance holds [m]
@@ -41,11 +41,12 @@ struct DetailDemand {
   double pixelsPerMetre(const Vec3& centre, double reach, double tolerance) const;
 };
 
-/// Returns the detail that settings, bodies and sensors require of the world; viewers do not affect
-/// it.
-DetailDemand worldDemand(const Settings& settings, const Bodies& bodies,
-                         const std::map<std::string, Sensor>& sensors);
-/// The detail that displays draw. Without viewers, trees have the level of the settings.
+/// Returns the detail that settings and bodies require of the world; listeners do not affect it.
+DetailDemand worldDemand(const Settings& settings, const Bodies& bodies);
+/// Returns the detail that sensors perceive: that of the world, or finer.
+DetailDemand sensorDemand(const Settings& settings, const Bodies& bodies,
+                          const std::map<std::string, Sensor>& sensors);
+/// Returns the detail that displays draw. Without viewers, trees have the level of the settings.
 DetailDemand viewDemand(const Settings& settings, const Bodies& bodies,
                         const std::vector<Viewpoint>& viewers);
 

@@ -15,14 +15,14 @@ class Archive;
 
 namespace vegetation_sim::forest {
 
-/// What displays add to the angles of joints that have become physical. A promotion starts from the
-/// world's pose, from which the drawn pose of finer or coarser detail differs; the difference at
-/// the promotion is kept and decays, so that no drawn branch jumps. A value.
+/// What listeners add to the angles of joints that have become physical. A promotion starts from
+/// the world's pose, from which their pose of finer or coarser detail differs; the difference at
+/// the promotion is kept and decays, so that no branch jumps. A value.
 class PromotionOffsets {
  public:
   /// Notes the joints of a tree that are held now and were not at the last tick.
-  /// @param differences computes, for each branch of the tree, the drawn angles less the world's at
-  /// the stamp of `now`, as if the tree had not been promoted since `before`.
+  /// @param differences computes, for each branch of the tree, the listeners' angles less the
+  /// world's at the stamp of `now`, as if the tree had not been promoted since `before`.
   void update(std::uint32_t tree, const PromotedTree& before, const PromotedTree& now,
               const std::function<std::vector<JointAngles>()>& differences);
   /// Removes what has decayed. @param duration of the decay [s].

@@ -60,24 +60,25 @@ void ModalForest::start(const wind::Field& wind, ModalTreeState& modal_state, Na
   modal_state.begin(loads, secondsBetween(0, WINDOW_STEP), stamp);
 }
 
-void ModalForest::addTree(const ModalContext& at, std::uint32_t tree, bool fine,
-                          Nanoseconds stamp) {
+void ModalForest::addTree(const ModalContext& at, std::uint32_t tree, bool fine, Nanoseconds stamp,
+                          const ModalTreeState* like) {
+  const auto fresh = [&] { return like ? *like : modalStateOf(at, tree, fine); };
   const auto found = modal_states_.find(tree);
   if (found == modal_states_.end())
-    start(at.wind, modal_states_.emplace(tree, modalStateOf(at, tree, fine)).first->second, stamp);
+    start(at.wind, modal_states_.emplace(tree, fresh()).first->second, stamp);
   else if (fine && !found->second.fine())
-    refine(at, tree, found->second);
+    refine(at.wind, fresh(), found->second);
 }
 
 // Bends and rates are continuous. Modes that are too fast for a tick start at the equilibrium of
 // the load, otherwise they would oscillate visibly.
-void ModalForest::refine(const ModalContext& at, std::uint32_t tree, ModalTreeState& modal_state) {
-  ModalTreeState fine = modalStateOf(at, tree, true);
+void ModalForest::refine(const wind::Field& wind, ModalTreeState fine,
+                         ModalTreeState& modal_state) {
   const auto published = [&](const std::vector<double>& amplitudes) {
     return fine.modes().amplitudesOf(modal_state.modes().bendsOf(amplitudes));
   };
   ModalLoad load;
-  fine.loadOf(at.wind.at(modal_state.stamp()), load);
+  fine.loadOf(wind.at(modal_state.stamp()), load);
   physics::ModalState state{published(modal_state.state().amplitude),
                             published(modal_state.state().rate)};
   std::vector<double> force;
@@ -159,6 +160,12 @@ void ModalForest::retainIf(const Wanted& wanted) {
 const ModalTreeState* ModalForest::find(std::uint32_t tree) const {
   const auto found = modal_states_.find(tree);
   return found == modal_states_.end() ? nullptr : &found->second;
+}
+
+const ModalTreeState* ModalForest::find(std::uint32_t tree, bool fine) const {
+  const ModalTreeState* out = find(tree);
+  const bool same = out && (fine ? out->fine() : out->modes().size() <= ModalDepth{}.most());
+  return same ? out : nullptr;
 }
 
 std::size_t ModalForest::bytes() const {

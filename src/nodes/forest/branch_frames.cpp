@@ -117,7 +117,7 @@ BranchFrames::Wanted BranchFrames::withPhysical(PosedTrees& trees,
 
 std::vector<Pose> posesOf(const forest::Forest& forest, const forest::Tree& tree, std::uint32_t id,
                           Nanoseconds stamp) {
-  return forest.pose(tree, id, stamp);
+  return forest.poseForSensors(tree, id, stamp);
 }
 
 std::vector<geometry_msgs::TransformStamped> branchTransforms(const BranchFrames::Wanted& wanted,

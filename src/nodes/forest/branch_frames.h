@@ -77,7 +77,7 @@ class BranchFrames {
   TierAllocation balance_;
 };
 
-/// Poses of a tree at a stamp, tree's frame, by the double path.
+/// Poses of a tree at a stamp as sensors perceive it, tree's frame, by the double path.
 std::vector<Pose> posesOf(const forest::Forest& forest, const forest::Tree& tree, std::uint32_t id,
                           Nanoseconds stamp);
 

@@ -61,13 +61,13 @@ void ForestAnimator::addDiagnostics(Status& status) {
   status.add("Frames of bodies without a transform", bodies_.missing().size());
   const auto& memory = forest_->snapshot();
   const std::size_t trees = forest_->layout().treeCount();
-  const auto at = memory.world.levels.counts(trees);
+  const auto at = forest_->sensed().levels.counts(trees);
   status.add("Trees", trees);
   status.add("Trees at rest", at.front());
   status.add("Trees that move by procedure", trees - at.front() - at.back());
   status.add("Trees that move in modes", at.back());
-  status.add("Trees not at the base level", memory.world.levels.held().size());
-  status.add("Base level", memory.world.levels.base().level);
+  status.add("Trees not at the base level", forest_->sensed().levels.held().size());
+  status.add("Base level", forest_->sensed().levels.base().level);
   status.add("Sensors", memory.sensors.size());
   status.add("Viewers", memory.viewers.size());
   status.add("State sent [B]", state_bytes_);
@@ -82,8 +82,8 @@ void ForestAnimator::addDiagnostics(Status& status) {
   status.add("tf budget [frames]", frames_.budget());
 }
 
-// Reports the choice of levels for displays at the last tick and its reason, then that of the
-// world.
+// Reports the choice of levels for displays at the last tick and its reason, then those of the
+// world and of sensors.
 void ForestAnimator::addGovernor(Status& status) {
   const forest::GovernorFigures& figures = forest_->viewChoice().figures();
   const auto& settings = forest_->snapshot().settings;
@@ -111,17 +111,20 @@ void ForestAnimator::addGovernor(Status& status) {
   status.add("Farthest of these from its rest [m]",
              std::isnan(farthest) ? "not computed: no room" : std::to_string(farthest));
   addModes(status, "", forest_->view());
-  addWorldDetail(status);
+  addDetail(status, "World: ", forest_->worldChoice(), forest_->world());
+  addDetail(status, "Sensors: ", forest_->sensorChoice(), forest_->sensed());
 }
 
-// Reports the detail that bodies and sensors require; viewers do not affect it.
-void ForestAnimator::addWorldDetail(Status& status) const {
-  const forest::GovernorFigures& figures = forest_->worldChoice().figures();
-  status.add("World: largest predicted error [tolerance]",
+// Reports the detail that bodies require of the world, or bodies and sensors of what is perceived.
+void ForestAnimator::addDetail(Status& status, const std::string& whose,
+                               const forest::DetailChooser& choice,
+                               const forest::TreeDetail& detail) const {
+  const forest::GovernorFigures& figures = choice.figures();
+  status.add(whose + "largest predicted error [tolerance]",
              figures.largest / forest_->snapshot().settings.tolerance);
-  status.add("World: trees above the tolerance", figures.over);
-  status.add("World: trees that bend too far for modes", figures.strained);
-  addModes(status, "World: ", forest_->world());
+  status.add(whose + "trees above the tolerance", figures.over);
+  status.add(whose + "trees that bend too far for modes", figures.strained);
+  addModes(status, whose, detail);
 }
 
 void ForestAnimator::addPhysics(Status& status) {

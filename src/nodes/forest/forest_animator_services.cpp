@@ -45,7 +45,7 @@ bool ForestAnimator::onGetTree(GetTree::Request& request, GetTree::Response& res
     const auto level_in = [&](const forest::TreeDetail& detail) {
       return static_cast<std::uint8_t>(detail.levels.of(request.tree).level);
     };
-    response.level = level_in(forest_->world());
+    response.level = level_in(forest_->sensed());
     response.view_level = level_in(forest_->view());
     response.skeleton_hash = skeleton.hash();
     response.height = skeleton.height;

@@ -36,7 +36,8 @@ void SubscribedCanopy::setLayout(const CanopyLayout& message) {
     if (layout.crowns.empty()) {
       forest_.reset();
     } else if (!forest_) {
-      forest_ = std::make_unique<SubscribedForest>(options_);
+      forest_ =
+          std::make_unique<SubscribedForest>(options_, SubscribedForest::FineModes::ONE_BY_ONE);
       forest_->subscribe(handle_, forest_topics_);
     }
     return {true, std::to_string(layout.plants.size()) + " plants, " +

@@ -7,8 +7,9 @@
 
 namespace vegetation_sim {
 
-SubscribedForest::SubscribedForest(const ReplicaOptions& options)
+SubscribedForest::SubscribedForest(const ReplicaOptions& options, FineModes fine_modes)
     : SubscribedReplica(options),
+      replica_(fine_modes),
       wind_(options, [this](const wind::Field& wind) { replica_.setWind(wind); }) {}
 
 void SubscribedForest::subscribe(ros::NodeHandle handle, const Topics& topics) {

@@ -19,7 +19,9 @@ class SubscribedForest : public SubscribedReplica<ForestState> {
     std::string state{"forest/state"};
   };
 
-  explicit SubscribedForest(const ReplicaOptions& options = {});
+  using FineModes = forest::ForestReplica::FineModes;
+  explicit SubscribedForest(const ReplicaOptions& options = {},
+                            FineModes fine_modes = FineModes::AT_ONCE);
   ~SubscribedForest() override { subscribers_.clear(); }
 
   /// @throws ros::InvalidNameException

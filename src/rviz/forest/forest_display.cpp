@@ -49,7 +49,8 @@ ForestDisplay::~ForestDisplay() {
 }
 
 void ForestDisplay::open() {
-  source_ = std::make_unique<SubscribedForest>();
+  source_ =
+      std::make_unique<SubscribedForest>(ReplicaOptions(), SubscribedForest::FineModes::ONE_BY_ONE);
   source_->subscribe(update_nh_, properties_->topics());
   forest_ = std::make_unique<view::ForestVisual>(*scene_node_);
   layouts_ = 0;

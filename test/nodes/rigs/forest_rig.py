@@ -2,12 +2,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Fixtures for the tests of forest_animator: a clock that advances tick by tick, logs of topics,
 nodes."""
+import copy
+import io
 import signal
 import subprocess
 
 import roslib.packages
 import rospy
 from rosgraph_msgs.msg import Clock
+from std_msgs.msg import Header
 from tf2_msgs.srv import FrameGraph
 from vegetation_sim.msg import ForestEvent, ForestLayout, ForestState, SensorInterest, Viewer, WindField
 from vegetation_sim.srv import GetTree, Pick, SetTf
@@ -21,6 +24,15 @@ RATE = 30  # rate of ticks [Hz]
 def time_of(tick, rate=RATE):
     """Returns the first nanosecond of a tick."""
     return rospy.Time(*divmod(-(-tick * 10 ** 9 // rate), 10 ** 9))
+
+
+def content_of(state):
+    """Returns the bytes of a state without the number of the message."""
+    content = copy.copy(state)
+    content.header, content.sequence = Header(stamp=state.header.stamp), 0
+    out = io.BytesIO()
+    content.serialize(out)
+    return out.getvalue()
 
 
 class Animator(WatchedNode):
@@ -62,6 +74,10 @@ class Animator(WatchedNode):
     def hashes(self):
         """Returns the hashes of the state by stamp."""
         return {m.header.stamp: m.hash for m in self.state.messages}
+
+    def states(self, first=0):
+        """Returns the hashes and what sensors perceive by stamp, from message `first` on."""
+        return {m.header.stamp: content_of(m) for m in self.state.messages[first:]}
 
 
 class TickClock:

@@ -15,7 +15,7 @@ namespace {
 TEST(ModalTreeState, GoesOnInFineModesWithoutAJump) {
   Clearing probe;
   probe.advance();
-  const Plant& near = probe.forest.worldChoice().plants().front();
+  const Plant& near = probe.forest.sensorChoice().plants().front();
   ASSERT_EQ(near.id, 0u);
   const float plain = near.error[MODAL_LEVEL], fine = near.error[FINE_MODAL_TIER];
   ASSERT_LT(fine, 0.8f * plain);
@@ -30,7 +30,7 @@ TEST(ModalTreeState, GoesOnInFineModesWithoutAJump) {
     scene.advance();
     ASSERT_TRUE(replica.apply(scene.forest.update(i % TICK_RATE == 0))) << replica.why();
     const auto after = scene.angles(tree, 0, scene.now());
-    const auto here = scene.forest.pose(tree, 0, scene.now()),
+    const auto here = scene.forest.poseForSensors(tree, 0, scene.now()),
                there = replica.pose(tree, 0, scene.now());
     for (std::size_t b = 0; b < after.size(); ++b) {
       jump = std::max(jump, difference(before[b], after[b]));
@@ -38,11 +38,11 @@ TEST(ModalTreeState, GoesOnInFineModesWithoutAJump) {
       ASSERT_EQ(here[b].position, there[b].position) << i << " " << b;
     }
     if (i == 2 * TICK_RATE - 1) {
-      ASSERT_NE(scene.forest.world().modes.find(0), nullptr);
-      EXPECT_FALSE(scene.forest.world().modes.find(0)->fine());
+      ASSERT_NE(scene.forest.sensed().modes.find(0), nullptr);
+      EXPECT_FALSE(scene.forest.sensed().modes.find(0)->fine());
     }
   }
-  EXPECT_TRUE(scene.forest.world().modes.find(0)->fine());
+  EXPECT_TRUE(scene.forest.sensed().modes.find(0)->fine());
   std::printf("largest jump %.1e rad of %.2f\n", jump, peak);
   EXPECT_LT(jump, 0.1 / 57.3);
 }
@@ -53,17 +53,17 @@ TEST(ModalTreeState, FineModesThatAreLostDoNotFlicker) {
   Clearing scene;
   scene.advance();
   scene.tolerate(
-      0.9 * static_cast<double>(scene.forest.worldChoice().plants().front().error[MODAL_LEVEL]));
+      0.9 * static_cast<double>(scene.forest.sensorChoice().plants().front().error[MODAL_LEVEL]));
   scene.run(2.0);
-  ASSERT_NE(scene.forest.world().modes.find(0), nullptr);
-  ASSERT_TRUE(scene.forest.world().modes.find(0)->fine());
+  ASSERT_NE(scene.forest.sensed().modes.find(0), nullptr);
+  ASSERT_TRUE(scene.forest.sensed().modes.find(0)->fine());
   scene.publishAtMost(500);
   std::map<std::uint32_t, int> changes, published;
   for (int i = 0; i < 5 * TICK_RATE; ++i) {
-    const LevelMap before = scene.forest.world().levels;
+    const LevelMap before = scene.forest.sensed().levels;
     scene.advance();
     for (std::uint32_t tree = 0; tree < 4; ++tree)
-      changes[tree] += scene.forest.world().levels.of(tree).level != before.of(tree).level;
+      changes[tree] += scene.forest.sensed().levels.of(tree).level != before.of(tree).level;
     for (const auto& entry : scene.forest.update(false).trees)
       published[entry.tree] += !entry.modal.amplitude.empty();
   }
@@ -71,8 +71,8 @@ TEST(ModalTreeState, FineModesThatAreLostDoNotFlicker) {
     EXPECT_LE(changes[tree], 2) << tree;  // to its levels, to plain modes
     EXPECT_LE(published[tree], 3) << tree;
   }
-  ASSERT_EQ(scene.forest.world().modes.modalStates().size(), 1u);  // the bytes suffice for one
-  EXPECT_FALSE(scene.forest.world().modes.modalStates().begin()->second.fine());
+  ASSERT_EQ(scene.forest.sensed().modes.modalStates().size(), 1u);  // the bytes suffice for one
+  EXPECT_FALSE(scene.forest.sensed().modes.modalStates().begin()->second.fine());
 }
 
 }  // namespace

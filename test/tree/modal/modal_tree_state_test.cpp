@@ -16,31 +16,31 @@ namespace {
 TEST(ModalTreeState, NearTreesHaveModesAndFarOnesHaveNone) {
   Clearing scene(breeze(), 0.1);
   scene.run(2.0);
-  EXPECT_EQ(scene.forest.world().modes.modalStates().size(), 4u);
+  EXPECT_EQ(scene.forest.sensed().modes.modalStates().size(), 4u);
   for (std::uint32_t id = 0; id < 4; ++id)
-    EXPECT_EQ(scene.forest.world().levels.of(id).level, MODAL_LEVEL) << id;
+    EXPECT_EQ(scene.forest.sensed().levels.of(id).level, MODAL_LEVEL) << id;
   scene.look(false);
   scene.run(0.5);
-  EXPECT_EQ(scene.forest.world().modes.modalStates().size(), 4u);  // they still fade
+  EXPECT_EQ(scene.forest.sensed().modes.modalStates().size(), 4u);  // they still fade
   scene.run(1.0);
-  EXPECT_TRUE(scene.forest.world().modes.modalStates().empty());
+  EXPECT_TRUE(scene.forest.sensed().modes.modalStates().empty());
 }
 
 // Steady wind needs no modes, and without a budget there are none.
 TEST(ModalTreeState, TreesWithoutNeedHaveNoModes) {
   Clearing steady(wind::Field({makeDisk(1, Vec3::Zero(), 2000.0, Vec3(5, 1, 0))}));
   steady.run(1.0);
-  EXPECT_TRUE(steady.forest.world().modes.modalStates().empty());
+  EXPECT_TRUE(steady.forest.sensed().modes.modalStates().empty());
   wind::Primitive trace = makeBreeze(2, Vec3(1e-6, 0.0, 0.0));
   Clearing besides(wind::Field({makeDisk(1, Vec3::Zero(), 2000.0, Vec3(5, 1, 0)), trace}));
   besides.run(1.0);
-  EXPECT_TRUE(besides.forest.world().modes.modalStates().empty());
+  EXPECT_TRUE(besides.forest.sensed().modes.modalStates().empty());
   Clearing poor;
   poor.settings.budget.modal_trees = 0;
   poor.use();
   poor.run(1.0);
-  EXPECT_TRUE(poor.forest.world().modes.modalStates().empty());
-  EXPECT_GT(poor.forest.world().levels.of(0).level, 0);
+  EXPECT_TRUE(poor.forest.sensed().modes.modalStates().empty());
+  EXPECT_GT(poor.forest.sensed().levels.of(0).level, 0);
 }
 
 // A disk requests no modes, and takes none from trees that it does not reach: the error of these in
@@ -56,11 +56,11 @@ TEST(ModalTreeState, ADiscFarAwayTakesNoModes) {
       scene->tolerate(tolerance);
       scene->advance();
     }
-    ASSERT_EQ(alone.forest.worldChoice().plants().size(),
-              beside.forest.worldChoice().plants().size());
-    for (std::size_t i = 0; i < alone.forest.worldChoice().plants().size(); ++i) {
-      const int wanted = alone.forest.worldChoice().plants()[i].wanted;
-      EXPECT_EQ(beside.forest.worldChoice().plants()[i].wanted, wanted) << i << " " << tolerance;
+    ASSERT_EQ(alone.forest.sensorChoice().plants().size(),
+              beside.forest.sensorChoice().plants().size());
+    for (std::size_t i = 0; i < alone.forest.sensorChoice().plants().size(); ++i) {
+      const int wanted = alone.forest.sensorChoice().plants()[i].wanted;
+      EXPECT_EQ(beside.forest.sensorChoice().plants()[i].wanted, wanted) << i << " " << tolerance;
       ++(wanted >= MODAL_LEVEL ? modal : plain);
     }
   }
@@ -73,8 +73,8 @@ TEST(ModalTreeState, CountsWhatItKeepsOfTheWaves) {
   const auto bytes = [](const wind::Field& field) {
     Clearing scene(field, 0.1);
     scene.run(1.0);
-    EXPECT_FALSE(scene.forest.world().modes.modalStates().empty());
-    return scene.forest.world().modes.bytes() / scene.forest.world().modes.modalStates().size();
+    EXPECT_FALSE(scene.forest.sensed().modes.modalStates().empty());
+    return scene.forest.sensed().modes.bytes() / scene.forest.sensed().modes.modalStates().size();
   };
   const wind::Primitive first = makeBreeze(1, Vec3(5.0, 1.0, 0.0));
   const wind::Primitive second = makeBreeze(2, Vec3(4.0, 1.0, 0.0));
@@ -90,19 +90,19 @@ TEST(ModalTreeState, SaturatesAndSaysSoBeyondTheLimit) {
   for (const bool storm : {false, true}) {
     Clearing scene(wind::Field({makeBreeze(1, Vec3(storm ? 90.0 : 5.0, 1.0, 0.0))}, 3), 0.1);
     scene.run(3.0);
-    ASSERT_EQ(scene.forest.world().modes.modalStates().size(), 4u);
+    ASSERT_EQ(scene.forest.sensed().modes.modalStates().size(), 4u);
     double bend = 0.0, turn = 0.0;
     for (int i = 0; i < TICK_RATE; ++i) {
       scene.advance();
-      const ModalTreeState& birch = *scene.forest.world().modes.find(2);
+      const ModalTreeState& birch = *scene.forest.sensed().modes.find(2);
       turn = std::max(turn, birch.modes().probe().largestTurn(birch.state().amplitude));
       for (const JointAngles& joint : scene.angles(scene.tree(2), 2, scene.now()))
         bend = std::max(bend, difference(joint, {}));
-      EXPECT_EQ(scene.forest.worldChoice().figures().strained > 0, storm);
+      EXPECT_EQ(scene.forest.sensorChoice().figures().strained > 0, storm);
     }
     EXPECT_EQ(turn > physics::MODAL_LIMIT, storm) << turn;
     EXPECT_LE(bend, BEND_LIMIT);
-    for (const Plant& plant : scene.forest.worldChoice().plants())
+    for (const Plant& plant : scene.forest.sensorChoice().plants())
       if (plant.id == 2) share[storm] = plant.error[MODAL_LEVEL] / plant.error[0];
   }
   EXPECT_GT(share[1], share[0] + 0.1);
@@ -137,6 +137,7 @@ TEST(ModalTreeState, NothingJumpsGoingUpOrDown) {
 // N6: a restored forest moves as the one that continued.
 TEST(ModalTreeState, IsSavedRestoredAndHashed) {
   Clearing scene;
+  scene.requireOfTheWorld();
   scene.run(1.0);
   const ForestSnapshot saved = scene.forest.snapshot();
   const std::int64_t tick = scene.tick;
@@ -153,6 +154,7 @@ TEST(ModalTreeState, IsSavedRestoredAndHashed) {
 // while motion is small.
 TEST(ModalTreeState, HandsOverToPhysicsWithoutCompensation) {
   Clearing scene;
+  scene.requireOfTheWorld();
   PhysicsSettings physics;
   physics.promotion = Promotion::DEPTH;
   scene.forest.setPhysics(physics);
@@ -174,8 +176,8 @@ TEST(ModalTreeState, HandsOverToPhysicsWithoutCompensation) {
       for (const PromotedBranch& b : promoted.branches)
         EXPECT_LT(difference(b.q, before[static_cast<std::size_t>(b.branch)]), 0.05);
     }
-    std::vector<JointAngles> modal = scene.forest.world().modes.find(0)->modes().bendsOf(
-        scene.forest.world().modes.find(0)->amplitudeAt(scene.now()));
+    std::vector<JointAngles> modal = scene.forest.sensed().modes.find(0)->modes().bendsOf(
+        scene.forest.sensed().modes.find(0)->amplitudeAt(scene.now()));
     std::vector<JointAngles> real = modal;
     overlay(promoted, scene.now(), real);
     const std::vector<Pose> a = forwardKinematics(tree, modal), b = forwardKinematics(tree, real);

@@ -40,7 +40,9 @@ class ModalForest {
   void advance(const wind::Field& wind, Nanoseconds from, Nanoseconds to);
   /// Starts a tree on its procedural motion. Computing its modes takes a few milliseconds, fine
   /// modes some tens. A tree in plain modes continues in fine ones.
-  void addTree(const ModalContext& at, std::uint32_t tree, bool fine, Nanoseconds stamp);
+  /// @param like has the same modes of the same tree, which are then shared; null: computes them.
+  void addTree(const ModalContext& at, std::uint32_t tree, bool fine, Nanoseconds stamp,
+               const ModalTreeState* like = nullptr);
   /// Returns true if one tree may get fine modes in this tick. Computing them takes longer than a
   /// tick, so one tree gets them every 0.1 s; replicas keep the same pace.
   static bool fineDue(Nanoseconds from, Nanoseconds to) {
@@ -71,6 +73,8 @@ class ModalForest {
 
   /// Returns nullptr if the tree has no modal state.
   const ModalTreeState* find(std::uint32_t tree) const;
+  /// Returns nullptr also if the tree has other modes than those that addTree() would give it.
+  const ModalTreeState* find(std::uint32_t tree, bool fine) const;
   const std::map<std::uint32_t, ModalTreeState>& modalStates() const { return modal_states_; }
   std::size_t bytes() const;  ///< of all computed modes
   /// Number of trees that bend farther than modes are valid (physics::MODAL_LIMIT). Their bends are
@@ -79,7 +83,7 @@ class ModalForest {
   void addTo(Hash& hash) const;
 
  private:
-  void refine(const ModalContext& at, std::uint32_t tree, ModalTreeState& modal_state);
+  void refine(const wind::Field& wind, ModalTreeState fine, ModalTreeState& modal_state);
   void start(const wind::Field& wind, ModalTreeState& modal_state, Nanoseconds stamp);
   template <class Wanted>
   void retainIf(const Wanted& wanted);

@@ -16,8 +16,8 @@ struct Viewer {
   Nanoseconds stamp{0};  ///< of its last message
 };
 
-/// A sensor that determines the levels of detail of the world: in its range, the error of trees may
-/// not exceed its tolerance.
+/// A sensor that determines the levels of detail of what sensors perceive: in its range, the error
+/// of trees may not exceed its tolerance.
 struct Sensor {
   std::string id;
   Vec3 position{Vec3::Zero()};

@@ -216,9 +216,12 @@ class ForestRequests(unittest.TestCase):
         self.sensor.send(message, self.forest)
         self.expect_refusal("frame_id = 'nowhere' is not known")
         self.expect_unchanged()
+        level = self.forest.level(0)
         self.sensor.move_to(-15, 0, 5, self.forest)
         self.clock.run(3, self.forest)
-        self.assertNotEqual(self.forest.state.messages[-1].hash, self.hash)
+        self.assertNotEqual(self.forest.level(0), level)
+        # The sensor changes what is perceived, not the world.
+        self.assertEqual(self.forest.state.messages[-1].hash, self.hash)
 
     def test_a_bad_wind_is_refused(self):
         log = Log('/wind', WindField)
@@ -259,6 +262,7 @@ class ForestRequests(unittest.TestCase):
             self.wind.publish(wind)
         flood = copy.deepcopy(self.sensor.message)
         flood.position.x = -15.0
+        level = self.forest.level(0)
         for i in range(1000):
             flood.id = 'flood' if i % 2 else 'flood %d' % i
             self.sensor.send(flood)
@@ -271,9 +275,10 @@ class ForestRequests(unittest.TestCase):
         self.assertLessEqual(len(sensors), MOST_SENSORS)
         if len(sensors) == MOST_SENSORS:
             self.expect_refusal('is one more than the %d allowed at once' % MOST_SENSORS)
+        self.assertEqual(self.forest.state.messages[-1].hash, self.hash)
         # Sensors from messages that were still in a socket may be active for a while.
-        self.clock.run_until(lambda: self.forest.state.messages[-1].hash == self.hash,
-                             'the forest as it was before', self.forest)
+        self.clock.run_until(lambda: self.forest.level(0) == level, 'the forest as it was before',
+                             self.forest)
 
 
 if __name__ == '__main__':
