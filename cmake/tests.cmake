@@ -40,6 +40,13 @@ if(TARGET golden_test)
   set_test_options(golden_test core)
   target_link_libraries(golden_test ${PROJECT_NAME}_core)
 endif()
+# All fuzz targets with their seeds and the kept inputs, and random scenarios.
+file(GLOB sources CONFIGURE_DEPENDS test/fuzz/*_test.cpp test/fuzz/scenario/*.cpp)
+catkin_add_gtest(fuzz_test test/main.cpp test/heap.cpp ${sources})
+if(TARGET fuzz_test)
+  set_test_options(fuzz_test core)
+  target_link_libraries(fuzz_test fuzz_targets)
+endif()
 if(TARGET dynamics_test)  # it shares the trees of the benches
   target_sources(dynamics_test PRIVATE bench/trees/test_trees.cpp)
   target_include_directories(dynamics_test PRIVATE bench)

@@ -10,7 +10,7 @@
 #include <new>
 
 namespace {
-std::atomic<long> live_bytes{0};
+std::atomic<long> live_bytes{0}, peak_bytes{0};
 std::atomic<std::size_t> allocations{0};
 }  // namespace
 
@@ -18,6 +18,12 @@ namespace vegetation_sim {
 
 long liveBytes() {
   return live_bytes;
+}
+long peakBytes() {
+  return peak_bytes;
+}
+void restartPeak() {
+  peak_bytes = live_bytes.load();
 }
 std::size_t allocationCount() {
   return allocations;
@@ -29,7 +35,8 @@ void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
   void* out = std::malloc(size > 0 ? size : 1);
   if (out == nullptr) return nullptr;
   ++allocations;
-  live_bytes += static_cast<long>(malloc_usable_size(out));
+  const long now = live_bytes += static_cast<long>(malloc_usable_size(out));
+  if (now > peak_bytes) peak_bytes = now;
   return out;
 }
 void* operator new(std::size_t size) {

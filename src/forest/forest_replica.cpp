@@ -5,8 +5,9 @@
 namespace vegetation_sim::forest {
 namespace {
 
-// Branches of trees that are grown to check one message; it bounds the time that a message takes.
-constexpr std::size_t MOST_GROWN = 2000000;
+// Branches of trees that are grown to check one message, about 20 ms; further trees wait for the
+// next key frame.
+constexpr std::size_t MOST_GROWN = 65536;
 constexpr std::size_t MOST_COUNTS = 65536;  // branch counts that are kept
 
 }  // namespace

@@ -3,41 +3,15 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <png.h>
-#include <zlib.h>
 
-#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
-#include <vector>
+
+#include "terrain/png_fixture.h"
 
 namespace vegetation_sim::terrain {
-
-/// PNG by libpng's own writer, which also names a gamma in it; `format` is one of its PNG_FORMATs.
-template <class Sample>
-std::string pngOf(const std::vector<Sample>& samples, int columns, png_uint_32 format) {
-  png_image image{};
-  image.version = PNG_IMAGE_VERSION;
-  image.width = static_cast<png_uint_32>(columns);
-  image.height = static_cast<png_uint_32>(samples.size() * sizeof(Sample) /
-                                          PNG_IMAGE_PIXEL_SIZE(format) / image.width);
-  image.format = format;
-  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
-  std::string out(size, '\0');
-  png_image_write_to_memory(&image, out.data(), &size, 0, samples.data(), 0, nullptr);
-  out.resize(size);
-  return out;
-}
-
-inline std::string grey8(const std::vector<std::uint8_t>& samples, int columns) {
-  return pngOf(samples, columns, PNG_FORMAT_GRAY);
-}
-
-inline std::string grey16(const std::vector<std::uint16_t>& samples, int columns) {
-  return pngOf(samples, columns, PNG_FORMAT_LINEAR_Y);
-}
 
 /// A folder of its own for a test, removed with it.
 class Folder {

@@ -149,33 +149,9 @@ void ForestAnimator::apply(ForestInput& event) {
 }
 
 void ForestAnimator::applyInteraction(const ForestInput& event) {
-  switch (event.kind) {
-    case ForestInput::GRAB:
-      forest_->addGrab(event.grab);
-      break;
-    case ForestInput::MOVE:
-      forest_->moveGrab(event.grab.id, event.grab.target, event.grab.holder);
-      break;
-    case ForestInput::RENEW:
-      forest_->renewGrab(event.grab.id);
-      break;
-    case ForestInput::RELEASE:
-      forest_->release(event.grab.id);
-      grab_manager_.explainEnd(event.grab.id, GrabStatus::RELEASED);
-      break;
-    case ForestInput::FORCE:
-      forest_->push(
-          {event.push.point, event.push.force, event.stamp + event.push.until, event.stamp});
-      break;
-    case ForestInput::BODY:
-      forest_->setBody(event.body);
-      break;
-    case ForestInput::REMOVE_BODY:
-      forest_->removeBody(event.body.id);
-      break;
-    default:
-      throw InvalidInput("kind = " + std::to_string(event.kind) + " is outside 0 to 10");
-  }
+  vegetation_sim::applyInteraction(event, *forest_);
+  if (event.kind == ForestInput::RELEASE)
+    grab_manager_.explainEnd(event.grab.id, GrabStatus::RELEASED);
 }
 
 // Bodies that have moved or appeared, and those without a recent transform.

@@ -84,6 +84,35 @@ ForestInput eventFromMsg(const ForestEvent& message) {
   return out;
 }
 
+void applyInteraction(const ForestInput& input, forest::Forest& forest) {
+  switch (input.kind) {
+    case ForestInput::GRAB:
+      forest.addGrab(input.grab);
+      break;
+    case ForestInput::MOVE:
+      forest.moveGrab(input.grab.id, input.grab.target, input.grab.holder);
+      break;
+    case ForestInput::RENEW:
+      forest.renewGrab(input.grab.id);
+      break;
+    case ForestInput::RELEASE:
+      forest.release(input.grab.id);
+      break;
+    case ForestInput::FORCE:
+      forest.push(
+          {input.push.point, input.push.force, input.stamp + input.push.until, input.stamp});
+      break;
+    case ForestInput::BODY:
+      forest.setBody(input.body);
+      break;
+    case ForestInput::REMOVE_BODY:
+      forest.removeBody(input.body.id);
+      break;
+    default:
+      throw InvalidInput("kind = " + std::to_string(input.kind) + " is outside 0 to 10");
+  }
+}
+
 ForestTuning tuningOf(const ForestInput& input) {
   return fromNamedValues<ForestTuning>({input.names, input.values});
 }

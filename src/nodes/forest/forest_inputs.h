@@ -57,6 +57,10 @@ ForestEvent eventToMsg(const ForestInput& input);
 /// @throws InvalidInput for a force whose duration is out of range.
 ForestInput eventFromMsg(const ForestEvent& message);
 
+/// Applies a grab, its move, renewal or release, a force or a body to the forest. @throws
+/// InvalidInput, and then nothing has changed, also for another kind.
+void applyInteraction(const ForestInput& input, forest::Forest& forest);
+
 /// Tuning from the names and values of an input. @throws InvalidInput for an unknown name or a
 /// value out of range.
 ForestTuning tuningOf(const ForestInput& input);

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/params/plant_files.h"
 
-#include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
 #include <assimp/Importer.hpp>
@@ -61,10 +60,17 @@ class Collector {
     }
     const bool rigid = canopy::isRigidName(mesh.mName.C_Str()) || canopy::isRigidName(node) ||
                        canopy::isRigidName(materialOf(mesh));
-    for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
-      if (mesh.mFaces[i].mNumIndices != 3) continue;  // points and lines
-      const unsigned* corner = mesh.mFaces[i].mIndices;
-      out_.faces.push_back({first + corner[0], first + corner[1], first + corner[2]});
+    for (unsigned i = 0; i < mesh.mNumFaces; ++i) add(mesh.mFaces[i], first, rigid);
+  }
+
+  // Splits a convex face into a fan of triangles; points and lines have none. The splitting by
+  // assimp ends the process for some broken files.
+  void add(const aiFace& face, std::uint32_t first, bool rigid) {
+    const unsigned* corner = face.mIndices;
+    for (unsigned i = 2; i < face.mNumIndices; ++i) {
+      if (out_.faces.size() >= MOST_CORNERS)
+        throw InvalidInput("more than " + std::to_string(MOST_CORNERS) + " triangles");
+      out_.faces.push_back({first + corner[0], first + corner[i - 1], first + corner[i]});
       out_.rigid.push_back(rigid);
     }
   }
@@ -126,10 +132,13 @@ void loadForm(const std::string& file, canopy::PlantKind& kind) {
 
 canopy::LeafMesh loadLeafMesh(const std::string& name) {
   const std::string bytes = read(name);
+  // assimp searches for the end of the header without end.
+  if (bytes.compare(0, 3, "ply") == 0 && bytes.find("end_header") == std::string::npos)
+    throw InvalidInput(name + ": no mesh: the header has no line end_header");
   Assimp::Importer importer;
   const std::string ending = std::filesystem::path(name).extension().string();
-  const aiScene* scene = importer.ReadFileFromMemory(
-      bytes.data(), bytes.size(), aiProcess_Triangulate, ending.empty() ? "" : ending.c_str() + 1);
+  const aiScene* scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0,
+                                                     ending.empty() ? "" : ending.c_str() + 1);
   if (!scene) throw InvalidInput(name + ": no mesh: " + importer.GetErrorString());
   try {
     return Collector(*scene).collect();

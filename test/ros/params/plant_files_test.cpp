@@ -54,6 +54,31 @@ TEST_F(PlantFiles, HaveLeavesAndRigidPartsOfAMesh) {
             form.hash);
 }
 
+TEST_F(PlantFiles, FacesOfMoreThanThreeCornersAreSplit) {
+  const canopy::LeafMesh mesh = loadLeafMesh(
+      write("square.obj", "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0.5 0 2\nv 0 0 1\nf 1 2 3 4 5\n"));
+  EXPECT_EQ(mesh.faces.size(), 3U);
+  EXPECT_EQ(mesh.rigid.size(), 3U);
+}
+
+// Found by fuzzing: assimp's own splitting of faces ended the process by an assertion.
+TEST_F(PlantFiles, DamagedFacesAreRejected) {
+  const std::string bytes(
+      "OFF\n7 1 0\0\0\0\0\0\0\0\x80"
+      "0 \xff\xff\xff\x7f"
+      "1 0 0\n0 1 1\n3 0 1 2\n",
+      43);
+  const std::string file = write("damaged.off", bytes);
+  EXPECT_NE(errorOf([&] { canopy::formOf(loadLeafMesh(file), false); }), "");
+}
+
+// Found by fuzzing: assimp did not return.
+TEST_F(PlantFiles, HeaderWithoutEndIsRejected) {
+  const std::string file = write("endless.ply", "ply\nformat ascii 1.0\nelement vertex 3\n");
+  EXPECT_EQ(errorOf([&] { loadLeafMesh(file); }),
+            file + ": no mesh: the header has no line end_header");
+}
+
 // The mesh of a package is named as in other nodes.
 TEST_F(PlantFiles, AreFoundInPackages) {
   const canopy::Form fern =

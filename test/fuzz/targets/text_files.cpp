@@ -1,0 +1,115 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fstream>
+#include <sstream>
+
+#include "core/config/scenario.h"
+#include "crowd/agents/crowd_scene.h"
+#include "forest/contact/contact_body.h"
+#include "forest/forest.h"
+#include "fuzz/targets/decoding.h"
+#include "fuzz/targets/target_lists.h"
+#include "fuzz/targets/usage.h"
+#include "nodes/forest/robot_bodies.h"
+#include "package_folder.h"
+#include "scenes/forest/forest_fixture.h"
+#include "vegetation_sim/canopy/canopy_layout.h"
+#include "vegetation_sim/grass/grass_layout.h"
+#include "vegetation_sim/tree/growth/forest_layout.h"
+#include "wind/wind_reader.h"
+
+namespace vegetation_sim::fuzz {
+namespace {
+
+const std::string SCENARIOS = PACKAGE_FOLDER "/config/scenarios";
+
+std::string textOf(const std::string& file) {
+  std::ostringstream out;
+  out << std::ifstream(file).rdbuf();
+  return out.str();
+}
+
+// Reads the sections of all nodes.
+void readSections(Scenario& scenario) {
+  std::uint64_t seed = 1;
+  std::string text;
+  scenario.top().text("frame_id", text);
+  scenario.top().text("terrain", text);
+  scenario.top().seed("seed", seed);
+  const terrain::HeightMap flat;
+  forest::readLayout(scenario.section("forest"), SCENARIOS, seed, scenario.faults());
+  YamlSection physics = scenario.section("physics");
+  forest::PhysicsSettings settings;
+  describe(physics, settings);
+  physics.finish();
+  YamlSection grass = scenario.section("grass");
+  grass::readScene(grass, SCENARIOS, seed, scenario.faults());
+  grass.finish();
+  canopy::readLayout(scenario.section("canopy"), flat, seed, scenario.faults());
+  YamlSection crowd = scenario.section("crowd");
+  crowd::obstaclesOf(crowd::readScene(crowd, seed, scenario.faults()).walls);
+  crowd.finish();
+  YamlSection wind = scenario.section("wind");
+  wind::readWind(wind, seed);
+  scenario.finish();
+}
+
+void runScenario(std::string_view input) {
+  try {
+    Scenario scenario = Scenario::parse(std::string(input), "scenario");
+    readSections(scenario);
+  } catch (const InvalidInput&) {
+  }
+}
+
+std::vector<std::string> scenarioSeeds() {
+  std::vector<std::string> out;
+  for (const char* name : {"forest", "meadow", "crowd", "grove", "demo"})
+    out.push_back(textOf(SCENARIOS + "/" + name + ".yaml"));
+  return out;
+}
+
+void runSpecies(std::string_view input) {
+  try {
+    const forest::Species species = forest::parseSpecies(std::string(input), "species");
+    forest::parseSpecies(forest::writeSpecies(species), "written species");
+    if (!(forest::expectedBranches(species) < 3000.0)) return;
+    const forest::Tree tree = forest::growTree(forest::TreeSeed(), species, {});
+    requireFinite(forest::poseBranches(tree, wind::Instant(), forest::fullWeights()),
+                  "pose of a branch");
+  } catch (const InvalidInput&) {
+  }
+}
+
+std::vector<std::string> speciesSeeds() {
+  std::vector<std::string> out;
+  for (const std::string& name : forest::speciesNames())
+    out.push_back(textOf(PACKAGE_FOLDER "/config/species/" + name + ".yaml"));
+  return out;
+}
+
+void runUrdf(std::string_view input) {
+  Faults faults;
+  for (const forest::Body& part : partsOfUrdf(std::string(input), "robot/", faults).parts)
+    forest::check(part, faults);
+}
+
+std::vector<std::string> urdfSeeds() {
+  const auto link = [](const std::string& shape) {
+    return "<robot name=\"r\"><link name=\"a\"><collision><origin xyz=\"0 0 1\" rpy=\"0 0.5 0\"/>"
+           "<geometry>" +
+           shape + "</geometry></collision></link></robot>";
+  };
+  return {link("<sphere radius=\"0.1\"/>"), link("<box size=\"1 2 3\"/>"),
+          link("<cylinder radius=\"0.1\" length=\"1\"/>"), link("<mesh filename=\"a.stl\"/>")};
+}
+
+}  // namespace
+
+std::vector<Target> textTargets() {
+  return {{"scenario", "all sections of a scenario file", runScenario, scenarioSeeds},
+          {"species", "a species file; a tree is grown", runSpecies, speciesSeeds},
+          {"urdf", "the bodies of a URDF", runUrdf, urdfSeeds}};
+}
+
+}  // namespace vegetation_sim::fuzz
