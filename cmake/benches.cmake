@@ -49,14 +49,16 @@ add_custom_target(charts
     ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/scripts/charts/charts --out ${PROJECT_BINARY_DIR}/charts
   DEPENDS ${bench_targets} USES_TERMINAL VERBATIM)
 
-# Frame rates of rviz with our displays or with stock ones.
+# Frame rates and pictures of rviz with our displays.
 if(with_rviz)
-  add_executable(rviz_frames EXCLUDE_FROM_ALL bench/rviz/rviz_frames.cpp)
-  set_own_options(rviz_frames)
-  target_compile_definitions(rviz_frames PRIVATE QT_NO_KEYWORDS)
-  target_include_directories(rviz_frames PRIVATE bench)
-  target_include_directories(rviz_frames SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
-  target_link_libraries(rviz_frames PRIVATE Qt5::Widgets OpenGL::GL ${catkin_LIBRARIES})
-  list(APPEND bench_targets rviz_frames)
+  foreach(program rviz_frames rviz_film)
+    add_executable(${program} EXCLUDE_FROM_ALL bench/rviz/${program}.cpp)
+    set_own_options(${program})
+    target_compile_definitions(${program} PRIVATE QT_NO_KEYWORDS)
+    target_include_directories(${program} PRIVATE bench)
+    target_include_directories(${program} SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
+    target_link_libraries(${program} PRIVATE Qt5::Widgets OpenGL::GL ${catkin_LIBRARIES})
+    list(APPEND bench_targets ${program})
+  endforeach()
 endif()
 add_custom_target(benches DEPENDS ${bench_targets})

@@ -73,9 +73,10 @@ give_up() {
 # Prints the id of rviz's window on the virtual display.
 rviz_window() { xdotool search --onlyvisible --name 'RViz$' | head -n 1 | grep .; }
 
+# SCREEN is the size of the virtual display, 1280x900 if it is not set.
 start_display() {
   # Xvfb writes the number of its display when it is ready.
-  Xvfb -displayfd 3 -screen 0 1280x900x24 +extension GLX -nolisten tcp \
+  Xvfb -displayfd 3 -screen 0 "${SCREEN:-1280x900}x24" +extension GLX -nolisten tcp \
     3>"$WORK/display" >"$WORK/xvfb.log" 2>&1 &
   display_pid=$!
   local deadline=$((SECONDS + 30))

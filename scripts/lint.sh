@@ -2,8 +2,9 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
 # Runs the static checks of the code.
-# usage: scripts/lint.sh [format | tidy | catkin | structure | words | docs] ... Runs all checks if
-# none is given.
+# usage: scripts/lint.sh [format | tidy | catkin | structure | words | docs | api] ... Runs all checks
+# but the last if none is given. api writes the pages of the installed headers to build/api/html and
+# fails if Doxygen, which must be installed, has a warning.
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 cd "$ROOT"
@@ -60,10 +61,12 @@ words() {
 
 docs() { python3 test/docs/check_docs.py; }
 
+api() { mkdir -p build/api && doxygen Doxyfile; }
+
 [ $# -gt 0 ] || set -- format tidy catkin structure words docs
 for check in "$@"; do
   case $check in
-    format | tidy | catkin | structure | words | docs) "$check" ;;
+    format | tidy | catkin | structure | words | docs | api) "$check" ;;
     *) fail "unknown check $check" ;;
   esac
 done

@@ -56,14 +56,38 @@ mkdir -p "$WORK/taken/model.sdf"
   fail 'a model was written over a folder'
 ! ls "$WORK"/taken/*.part 2>/dev/null || fail 'a rejected model leaves a partial file'
 
-# The example is built as another package would be.
-{ cmake -S "$ROOT/examples/follow_branch" -B "$WORK/follow_branch" -DCMAKE_PREFIX_PATH="$INSTALLED" \
-  -DPYTHON_EXECUTABLE=/usr/bin/python3 && cmake --build "$WORK/follow_branch"; } >"$WORK/example.log" 2>&1 ||
-  fail "the example: $(tail -n 20 "$WORK/example.log")"
+# The examples are built as other packages would be.
+for example in "$ROOT"/examples/*/; do
+  name=$(basename "$example")
+  { cmake -S "$example" -B "$WORK/$name" -DCMAKE_PREFIX_PATH="$INSTALLED" \
+    -DPYTHON_EXECUTABLE=/usr/bin/python3 && cmake --build "$WORK/$name"; } >"$WORK/example.log" 2>&1 ||
+    fail "the example $name: $(tail -n 20 "$WORK/example.log")"
+done
+
+# usage: run_example NAME TEXT. Runs an example until it prints the text.
+run_example() {
+  "$WORK/$1/devel/lib/$1/$1"* >"$WORK/$1.out" 2>&1 &
+  example_pid=$!
+  wait_until 60 "the output '$2' of $1" grep -q "$2" "$WORK/$1.out"
+  stop_process "$example_pid"
+}
+
+# Succeeds if the map of planner_map has people (100) and grass, which costs less.
+has_people_and_grass() {
+  timeout 10 rostopic echo -n 1 -p /planner_map/data >"$WORK/map.csv" &&
+    python3 -c 'import re, sys; c = set(map(int, re.findall(r"\d+", open(sys.argv[1]).read().split("\n")[1]))); sys.exit(not (100 in c and any(0 < v < 100 for v in c)))' "$WORK/map.csv"
+}
+
 start_launch demo.launch scenario:=single_tree rviz:=false
-"$WORK/follow_branch/devel/lib/follow_branch/follow_branch" >"$WORK/tips" 2>&1 &
+run_example follow_branch 'tip of branch 20'
+run_example arm_pulls 'released branch'
+stop_process "$launch_pid"
+
+start_launch demo.launch scenario:=crowd rviz:=false
+"$WORK/planner_map/devel/lib/planner_map/planner_map.py" >"$WORK/planner_map.out" 2>&1 &
 example_pid=$!
-wait_until 60 'the tip of a branch' grep -q 'tip of branch 20' "$WORK/tips"
+# The map has people (100) among grass, which costs less.
+wait_until 60 'a map with people and grass' has_people_and_grass
 stop_process "$example_pid"
 stop_process "$launch_pid"
 

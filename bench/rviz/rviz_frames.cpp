@@ -8,16 +8,12 @@
 #include <GL/gl.h>
 #include <GL/glext.h>
 #include <OgreCamera.h>
-#include <OgreRenderWindow.h>
 #include <ros/ros.h>
 #include <rviz/display_group.h>
 #include <rviz/frame_manager.h>
 #include <rviz/ogre_helpers/render_system.h>
-#include <rviz/render_panel.h>
 #include <rviz/view_controller.h>
 #include <rviz/view_manager.h>
-#include <rviz/visualization_manager.h>
-#include <rviz/yaml_config_reader.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include <QApplication>
@@ -32,8 +28,11 @@
 #include <vector>
 
 #include "processor_time.h"
+#include "rviz/view_panel.h"
 
 namespace {
+
+namespace bench = vegetation_sim::bench;
 
 constexpr int WIDTH = 1280, HEIGHT = 900;  // [pixel]
 constexpr double SETTLING = 20.0;          // [s] until everything is drawn
@@ -46,85 +45,48 @@ constexpr double STILL_TIME = 60.0;  // [s] that this may take
 
 class Frames {
  public:
-  Frames() {
-    panel_.resize(WIDTH, HEIGHT);
-    panel_.show();
-    manager_ = new rviz::VisualizationManager(&panel_);  // lives until the process ends
-    panel_.initialize(manager_->getSceneManager(), manager_);
-    manager_->initialize();
-    manager_->startUpdate();
-  }
-
-  /// @param view is the file whose view and fixed frame are used.
-  bool load(const char* file, const char* view) {
-    rviz::YamlConfigReader reader;
-    rviz::Config config, looks;
-    reader.readFile(config, file);
-    if (reader.error()) return false;
-    reader.readFile(looks, view);
-    if (reader.error()) return false;
-    manager_->load(config.mapGetChild("Visualization Manager"));
-    looks = looks.mapGetChild("Visualization Manager");
-    manager_->getViewManager()->load(looks.mapGetChild("Views"));
-    QString frame;
-    if (looks.mapGetChild("Global Options").mapGetString("Fixed Frame", &frame))
-      manager_->setFixedFrame(frame);
-    manager_->getRootDisplayGroup()
-        ->subProp("Global Options")
-        ->subProp("Frame Rate")
-        ->setValue(1000);
-    return true;
-  }
-
-  void run(double seconds) {
-    const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(seconds);
-    while (ros::WallTime::now() < end) QApplication::processEvents(QEventLoop::AllEvents, 5);
-  }
-  void frames(int count) {
-    const std::uint64_t last = manager_->getFrameCount() + static_cast<std::uint64_t>(count);
-    while (manager_->getFrameCount() < last) QApplication::processEvents(QEventLoop::AllEvents, 5);
-  }
+  bool load(const char* file, const char* view) { return view_.load(file, view); }
+  void run(double seconds) { view_.run(seconds); }
 
   void measure(double seconds) {
-    const std::uint64_t first = manager_->getFrameCount();
+    const std::uint64_t first = view_.manager().getFrameCount();
     const ros::WallTime start = ros::WallTime::now();
-    const double before = vegetation_sim::bench::processorTime();
+    const double before = bench::processorTime();
     run(seconds);
-    const double used = vegetation_sim::bench::processorTime() - before;
-    const auto count = static_cast<double>(manager_->getFrameCount() - first);
+    const double used = bench::processorTime() - before;
+    const auto count = static_cast<double>(view_.manager().getFrameCount() - first);
     const double rate = count / (ros::WallTime::now() - start).toSec();
     const double seen = trianglesInView();
-    const auto triangles =
-        static_cast<double>(panel_.getRenderWindow()->getStatistics().triangleCount);
+    const auto triangles = static_cast<double>(view_.window().getStatistics().triangleCount);
     std::printf(
         "%.1f frames a second of %.0f triangles, %.0f in the picture; %.0f ms of processor time a "
         "frame\n",
         rate, triangles, seen, 1e3 * used / std::max(count, 1.0));
   }
 
-  void write(const char* file) { panel_.getRenderWindow()->writeContentsToFile(file); }
+  void write(const char* file) { view_.window().writeContentsToFile(file); }
 
   /// Moves back until the distance is `factor` times as large, while time stands still. Prints how
   /// much pictures change after a step, when only levels of detail do: the largest change between
   /// two pictures, and the total. Returns false if pictures do not settle before.
   bool dolly(double factor) {
-    manager_->getFrameManager()->setPause(true);
+    view_.manager().getFrameManager()->setPause(true);
     if (!settle()) {
       std::printf("levels of detail: pictures did not rest within %.0f s, so no change of frames\n",
                   STILL_TIME);
       return false;
     }
-    rviz::Property* distance = manager_->getViewManager()->getCurrent()->subProp("Distance");
+    rviz::Property* distance = view_.manager().getViewManager()->getCurrent()->subProp("Distance");
     const double start = distance->getValue().toDouble();
     double step = 0.0, all = 0.0;
     for (int i = 1; i <= STEPS; ++i) {
       distance->setValue(start * std::pow(factor, static_cast<double>(i) / STEPS));
-      frames(2);  // displays receive the camera one picture later
-      const std::vector<unsigned char> first = picture();
+      view_.drawFrames(2);  // displays receive the camera one picture later
+      const std::vector<unsigned char> first = view_.picture();
       std::vector<unsigned char> last = first;
       for (int frame = 0; frame < FRAMES_A_STEP; ++frame) {
-        frames(1);
-        const std::vector<unsigned char> next = picture();
+        view_.drawFrames(1);
+        const std::vector<unsigned char> next = view_.picture();
         step = std::max(step, largestChange(last, next));
         last = next;
       }
@@ -143,19 +105,19 @@ class Frames {
   double trianglesInView() {
     GLuint query = 0, passed = 0;
     glGenQueries(1, &query);
-    const std::uint64_t first = manager_->getFrameCount();
+    const std::uint64_t first = view_.manager().getFrameCount();
     glBeginQuery(GL_CLIPPING_OUTPUT_PRIMITIVES_ARB, query);
-    frames(1);  // or more
+    view_.drawFrames(1);  // or more
     glEndQuery(GL_CLIPPING_OUTPUT_PRIMITIVES_ARB);
     glGetQueryObjectuiv(query, GL_QUERY_RESULT, &passed);
     glDeleteQueries(1, &query);
-    const auto count = static_cast<double>(manager_->getFrameCount() - first);
+    const auto count = static_cast<double>(view_.manager().getFrameCount() - first);
     return passed / count - emptyOnesInView();
   }
 
   /// Returns the triangles without area in the newest markers of each display.
   double emptyOnesInView() {
-    const rviz::DisplayGroup& displays = *manager_->getRootDisplayGroup();
+    const rviz::DisplayGroup& displays = *view_.manager().getRootDisplayGroup();
     std::map<std::string, visualization_msgs::MarkerArray::ConstPtr> heard;
     std::vector<ros::Subscriber> subscribers;
     for (int i = 0; i < displays.numDisplays(); ++i) {
@@ -169,7 +131,7 @@ class Frames {
           }));
     }
     if (!subscribers.empty()) run(LISTENING);
-    const Ogre::Camera& camera = *manager_->getViewManager()->getCurrent()->getCamera();
+    const Ogre::Camera& camera = *view_.manager().getViewManager()->getCurrent()->getCamera();
     double out = 0.0;
     for (const auto& [topic, message] : heard)
       for (const visualization_msgs::Marker& marker : message->markers)
@@ -189,23 +151,12 @@ class Frames {
     std::vector<unsigned char> before;
     for (int alike = 0; alike < STILL_FRAMES;) {
       if (ros::WallTime::now() > end) return false;
-      frames(1);
-      std::vector<unsigned char> now = picture();
+      view_.drawFrames(1);
+      std::vector<unsigned char> now = view_.picture();
       alike = now == before ? alike + 1 : 0;
       before = std::move(now);
     }
     return true;
-  }
-
-  std::vector<unsigned char> picture() {
-    std::vector<unsigned char> out(static_cast<std::size_t>(3 * WIDTH * HEIGHT));
-    const Ogre::PixelBox target(WIDTH, HEIGHT, 1, Ogre::PF_BYTE_RGB, out.data());
-#if OGRE_VERSION < ((1 << 16) | (12 << 8))
-    panel_.getRenderWindow()->copyContentsToMemory(target);
-#else
-    panel_.getRenderWindow()->copyContentsToMemory(target, target);
-#endif
-    return out;
   }
 
   static double largestChange(const std::vector<unsigned char>& a,
@@ -225,8 +176,7 @@ class Frames {
   }
 
   ros::NodeHandle nh_;
-  rviz::RenderPanel panel_;
-  rviz::VisualizationManager* manager_;
+  bench::ViewPanel view_{WIDTH, HEIGHT};
 };
 
 }  // namespace
