@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vegetation_sim/core/config/instruction_set.h"
 
+#include <cstdint>
+
 #include "vegetation_sim/core/config/faults.h"
 
 // This choice is the same as in the kernels: vectors without arithmetic operators are left out.
