@@ -1,6 +1,7 @@
 # Benches are installed if they are built.
 set(own_targets ${PROJECT_NAME}_core ${ros_targets})
 list(SORT own_targets)
+list(SORT bench_targets)
 install(TARGETS ${bench_targets} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION} OPTIONAL)
 install(TARGETS ${own_targets}
   ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}

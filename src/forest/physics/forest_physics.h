@@ -86,8 +86,8 @@ class ForestPhysics {
   const std::vector<Grab>& ended() const { return ended_; }
   const std::vector<Reaction>& reactions() const { return reactions_; }
   const std::map<std::uint32_t, PhysicalSubtree>& subtrees() const { return subtrees_; }
-  /// Returns the joints before the last tick of each tree in which branches have become physical, or
-  /// have stopped blending back, since.
+  /// Returns the joints before the last tick of each tree in which branches have become physical,
+  /// or have stopped blending back, since.
   const std::map<std::uint32_t, PromotedTree>& beforePromotions() const { return before_; }
   /// Physical joints of a tree at the last tick; `branches` is empty if there are none.
   PromotedTree promoted(std::uint32_t tree, Nanoseconds last_tick) const;
