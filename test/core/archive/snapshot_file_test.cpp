@@ -12,7 +12,12 @@
 namespace vegetation_sim {
 namespace {
 
-const SnapshotFile EXAMPLE{{"forest_animator", 7, 123456789, 0xabcdef}, "payload of some length"};
+SnapshotFile makeExample() {
+  SnapshotFile out;
+  out.header = {"forest_animator", 7, 123456789, 0xabcdef};
+  out.payload = "payload of some length";
+  return out;
+}
 
 std::string faultOf(const std::string& bytes, const std::string& node = "forest_animator") {
   try {
@@ -24,22 +29,23 @@ std::string faultOf(const std::string& bytes, const std::string& node = "forest_
 }
 
 TEST(SnapshotFile, DecodesWhatItEncodes) {
-  const SnapshotFile read = decodeSnapshot("file", encodeSnapshot(EXAMPLE), "forest_animator");
+  const SnapshotFile read =
+      decodeSnapshot("file", encodeSnapshot(makeExample()), "forest_animator");
   EXPECT_EQ(read.header.node, "forest_animator");
   EXPECT_EQ(read.header.layout_hash, 7u);
   EXPECT_EQ(read.header.stamp, 123456789);
   EXPECT_EQ(read.header.state_hash, 0xabcdefu);
-  EXPECT_EQ(read.payload, EXAMPLE.payload);
+  EXPECT_EQ(read.payload, makeExample().payload);
 }
 
 TEST(SnapshotFile, RejectsEveryTruncatedFile) {
-  const std::string bytes = encodeSnapshot(EXAMPLE);
+  const std::string bytes = encodeSnapshot(makeExample());
   for (std::size_t size = 0; size < bytes.size(); ++size)
     EXPECT_EQ(faultOf(bytes.substr(0, size)).compare(0, 6, "file: "), 0) << size << " bytes";
 }
 
 TEST(SnapshotFile, RejectsEveryFlippedBit) {
-  const std::string bytes = encodeSnapshot(EXAMPLE);
+  const std::string bytes = encodeSnapshot(makeExample());
   for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
     std::string altered = bytes;
     altered[bit / 8] = static_cast<char>(altered[bit / 8] ^ (1 << (bit % 8)));
@@ -48,13 +54,13 @@ TEST(SnapshotFile, RejectsEveryFlippedBit) {
 }
 
 TEST(SnapshotFile, RejectsAnotherVersionByItsNumber) {
-  std::string bytes = encodeSnapshot(EXAMPLE);
+  std::string bytes = encodeSnapshot(makeExample());
   bytes[std::string("vegetation_sim snapshot\n").size()] = 99;
   EXPECT_EQ(faultOf(bytes), "file: version = 99 of the format, allowed is 1");
 }
 
 TEST(SnapshotFile, RejectsTheSnapshotOfAnotherNode) {
-  EXPECT_EQ(faultOf(encodeSnapshot(EXAMPLE), "grass_field"),
+  EXPECT_EQ(faultOf(encodeSnapshot(makeExample()), "grass_field"),
             "file: node = 'forest_animator', allowed is 'grass_field'");
   EXPECT_EQ(faultOf("something else"), "file: it is no snapshot of vegetation_sim");
 }
