@@ -27,9 +27,11 @@ def time_of(tick, rate=RATE):
 
 
 def content_of(state):
-    """Returns the bytes of a state without the number of the message."""
+    """Returns the bytes of a state without what depends on who subscribed when: the number of the
+    message and whether it is a key frame."""
     content = copy.copy(state)
     content.header, content.sequence = Header(stamp=state.header.stamp), 0
+    content.key_frame = False
     out = io.BytesIO()
     content.serialize(out)
     return out.getvalue()

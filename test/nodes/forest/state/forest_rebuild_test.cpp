@@ -227,11 +227,11 @@ TEST_F(ForestRebuild, FloatPosesHaveTheSameBitsOnEveryInstructionSet) {
   }
 }
 
-// A reader continues with deltas only while sensors appear, move and leave.
+// A reader continues with deltas only while sensors appear, move to and fro and leave.
 TEST_F(ForestRebuild, DeltasAreFollowed) {
   forest::ForestReplica reader = listener();
   for (int second = 0; second < 12; ++second) {
-    if (second < 10) publishSensor("lidar", 40.0 * second);
+    if (second < 10) publishSensor("lidar", 40.0 * (second % 5));
     if (second == 2) publishSensor("other", 300.0);
     forest_->run(second == 11 ? 20 : 30);  // The run ends while levels change.
   }
