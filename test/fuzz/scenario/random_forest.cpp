@@ -143,9 +143,10 @@ class RandomForest final : public Simulation {
                     FASTEST_JOINT, "rate of a branch [rad/s]");
     }
     if (lost_ || !in_step_) return;
-    const std::vector<Pose> rebuilt = replica_.pose(tree, id, stamp_);
+    const std::vector<Pose> rebuilt = replica_.pose(tree, id, stamp_),
+                            sensed = forest_.poseForSensors(tree, id, stamp_);
     for (std::size_t i = 0; i < poses.size(); ++i)
-      if (rebuilt[i].position != poses[i].position)
+      if (rebuilt[i].position != sensed[i].position)
         throw Divergence("tree " + std::to_string(id) + ": the replica has branch " +
                          std::to_string(i) + " elsewhere");
   }
