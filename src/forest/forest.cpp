@@ -71,6 +71,7 @@ void Forest::advance(Nanoseconds stamp) {
   advancePhysics(stamp);
   removeSilentSensors();
   chooseDetail(before);
+  snapshot_.world.forgetChanges();  // no message contains the detail of the world
 }
 
 void Forest::removeSilentSensors() {

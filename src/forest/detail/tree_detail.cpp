@@ -7,9 +7,13 @@ namespace vegetation_sim::forest {
 void TreeDetail::reset(int level) {
   levels.reset(LevelState::settled(level));
   modes.clear();
+  forgetChanges();
+  sequence = 0;
+}
+
+void TreeDetail::forgetChanges() {
   changed.clear();
   begun.clear();
-  sequence = 0;
 }
 
 void TreeDetail::setLevel(std::uint32_t tree, int level, Nanoseconds stamp, double transition) {
@@ -41,8 +45,7 @@ void TreeDetail::addTo(StateUpdate& update, const std::vector<std::uint32_t>& ph
     update.trees.push_back({tree, levels.of(tree), promoted(tree).branches,
                             amplitudes ? state->state() : physics::ModalState()});
   }
-  changed.clear();
-  begun.clear();
+  forgetChanges();
 }
 
 }  // namespace vegetation_sim::forest

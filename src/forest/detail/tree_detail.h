@@ -23,6 +23,8 @@ struct TreeDetail {
   /// Settles all trees at a level without modes.
   void reset(int level);
   void setLevel(std::uint32_t tree, int level, Nanoseconds stamp, double transition);
+  /// Empties `changed` and `begun`.
+  void forgetChanges();
   /// Removes what has no more effect at `stamp`.
   void prune(Nanoseconds stamp, double transition);
   /// Completes an update, whose stamp is set, by the detail of the trees with physical joints and
