@@ -83,10 +83,10 @@ void Forest::removeSilentSensors() {
 // Runs before the choice of levels: the present levels hold since the last tick.
 void Forest::advancePhysics(Nanoseconds stamp) {
   const std::vector<std::uint32_t> physical = physicalTrees();
-  for (TreeDetail* detail : details()) {
-    detail->changed.insert(physical.begin(), physical.end());
+  for (ListenerDetail* listener : {&snapshot_.sensed, &snapshot_.view})
+    listener->trees.changed.insert(physical.begin(), physical.end());
+  for (TreeDetail* detail : details())
     detail->modes.advance(snapshot_.wind, snapshot_.stamp, stamp);
-  }
   snapshot_.physics.advance(stepContext(), stamp);
   snapshot_.stamp = stamp;
   updateOffsets(snapshot_.sensed);
@@ -100,9 +100,9 @@ void Forest::updateOffsets(ListenerDetail& listener) {
   for (const auto& [id, last] : snapshot_.physics.beforePromotions()) {
     const auto differences = [&, id = id, &last = last] {
       const Tree& tree = snapshot_.physics.subtrees().at(id).tree();
-      PromotedTree heard = last;
-      listener.offsets.addTo(id, transition, heard);
-      std::vector<JointAngles> out = anglesIn(listener.trees, tree, id, heard);
+      PromotedTree there = last;
+      listener.offsets.addTo(id, transition, there);
+      std::vector<JointAngles> out = anglesIn(listener.trees, tree, id, there);
       const auto base = anglesIn(snapshot_.world, tree, id, last);
       for (std::size_t i = 0; i < out.size(); ++i) {
         out[i].first -= base[i].first;

@@ -9,6 +9,7 @@ namespace {
 // next key frame.
 constexpr std::size_t MOST_GROWN = 65536;
 constexpr std::size_t MOST_COUNTS = 65536;  // branch counts that are kept
+constexpr std::size_t MOST_AT_ONCE = 64;    // trees whose fine modes one message computes
 
 }  // namespace
 
@@ -131,17 +132,21 @@ bool ForestReplica::updateModes(const StateUpdate& update) {
 
 void ForestReplica::restoreModes(const StateUpdate& update) {
   const ModalContext at{*layout_, *terrain_, wind_};
-  const bool all = fine_modes_ == FineModes::AT_ONCE;
+  std::size_t at_once = fine_modes_ == FineModes::AT_ONCE ? MOST_AT_ONCE : 0;
   bool due = update.key_frame || ModalForest::fineDue(stamp_, update.stamp);
   for (const StateUpdate::Entry& entry : update.trees) {
     const std::size_t modes = entry.modal.amplitude.size();
     if (modes == 0) continue;
     const bool ready = modes_.isReady(entry.tree, modes);
-    if (ready || due || all)
+    if (ready || at_once > 0 || due)
       modes_.restore(at, entry.tree, entry.modal, update.stamp);
     else
       modes_.queueFineModes(entry.tree);
-    due = due && ready;
+    if (ready) continue;
+    if (at_once > 0)
+      --at_once;
+    else
+      due = false;
   }
   if (due) modes_.prepareNext(at);  // used from the next key frame on
 }

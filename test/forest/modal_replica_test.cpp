@@ -57,6 +57,37 @@ TEST(ModalTreeState, OneKeyFrameRestoresAllFineModes) {
   }
 }
 
+// What a message costs is bounded: a sensor computes the fine modes of 64 trees at once, and those
+// of the others one by one.
+TEST(ModalTreeState, OneMessageComputesTheFineModesOf64Trees) {
+  constexpr std::uint32_t TREES = 66, AT_ONCE = 64;
+  Layout layout = gridLayout(9, 12.0);
+  Design design;
+  design.children = 0.5;
+  for (Species& species : layout.species) species = applyDesign(species, design);
+  ForestReplica late;
+  late.setLayout(layout, flatTerrain());
+  late.setWind(breeze());
+  const auto flat = flatTerrain();
+  const wind::Field calm;
+  StateUpdate update;
+  update.layout_hash = layout.hash();
+  for (std::uint32_t id = 0; id < TREES; ++id) {
+    ModalForest reference;
+    reference.addTree({layout, *flat, calm}, id, true, PHYSICS_START);
+    const std::vector<double> none(reference.find(id)->modes().size());
+    update.trees.push_back({id, LevelState::settled(MODAL_LEVEL), {}, {none, none}});
+  }
+  for (std::uint32_t round = 0; round < 3; ++round) {
+    update.key_frame = true;
+    update.stamp = PHYSICS_START + seconds(round);
+    ASSERT_TRUE(late.apply(update)) << late.why();
+    std::uint32_t computed = 0;
+    for (std::uint32_t id = 0; id < TREES; ++id) computed += late.modalState(id) != nullptr;
+    EXPECT_EQ(computed, round == 0 ? AT_ONCE + 1 : TREES) << round;
+  }
+}
+
 // N13: displays that join late compute fine modes one by one, so that no frame is late. Waiting
 // trees move procedurally, and all have the same bits in the end.
 TEST(ModalTreeState, WhoJoinsLateFindsFineModesOneByOne) {

@@ -19,7 +19,7 @@ class ForestReplica {
   /// When the fine modes of trees are computed that are in a message for the first time; it takes
   /// some tens of milliseconds a tree.
   enum class FineModes {
-    AT_ONCE,    ///< in apply(): one key frame is enough, which sensors need
+    AT_ONCE,    ///< in apply(), which sensors need; of up to 64 trees, the others ONE_BY_ONE
     ONE_BY_ONE  ///< one tree per 0.1 s, so that no frame is late; others move procedurally until
                 ///< then
   };

@@ -6,6 +6,7 @@
 #include <vegetation_sim/TreadEvent.h>
 
 #include "core/config/field_values.h"
+#include "nodes/crowd/crowd_events.h"
 #include "vegetation_sim/ros/conversions/forest_conversions.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
 
@@ -82,12 +83,6 @@ void AgentCrowd::publishBeginning(Nanoseconds stamp) {
 
 void AgentCrowd::apply(CrowdEvent& event) {
   switch (event.kind) {
-    case CrowdEvent::ROBOT:
-      crowd_.setRobot(fromMsg(event.robot));
-      break;
-    case CrowdEvent::REMOVE_ROBOT:
-      crowd_.removeRobot(event.robot.id);
-      break;
     case CrowdEvent::TRUNKS:
       applyTrunks(event.input_hash);
       break;
@@ -105,34 +100,8 @@ void AgentCrowd::apply(CrowdEvent& event) {
       resetCrowd();
       break;
     default:
-      applyToWalker(event);
+      applyToCrowd(event, crowd_);
   }
-}
-
-void AgentCrowd::applyToWalker(const CrowdEvent& event) {
-  switch (event.kind) {
-    case CrowdEvent::SPAWN:
-      spawn(event);
-      break;
-    case CrowdEvent::REMOVE:
-      crowd_.remove(event.id);
-      break;
-    case CrowdEvent::GOAL:
-      if (event.spawn.has_goal)
-        crowd_.setGoal(event.id, {event.spawn.goal.x, event.spawn.goal.y});
-      else
-        crowd_.setWandering(event.id);
-      break;
-    default:
-      throw InvalidInput("kind = " + std::to_string(event.kind) + " is outside 0 to 8");
-  }
-}
-
-void AgentCrowd::spawn(const CrowdEvent& event) {
-  Faults faults;
-  const crowd::Spawn spawn = fromMsg(event.spawn, "spawn: ", faults);
-  faults.throwIfAny();
-  crowd_.spawn(spawn, event.id);
 }
 
 void AgentCrowd::applyTrunks(std::uint64_t hash) {

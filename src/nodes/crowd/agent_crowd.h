@@ -49,8 +49,6 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   void tick(std::int64_t tick) override;
   void publishBeginning(Nanoseconds stamp);
   void apply(CrowdEvent& event) override;
-  void applyToWalker(const CrowdEvent& event);
-  void spawn(const CrowdEvent& event);
   void applyTrunks(std::uint64_t hash);
   void applyCover(std::uint64_t hash);
   void resetCrowd();

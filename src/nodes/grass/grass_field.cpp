@@ -3,6 +3,7 @@
 #include "nodes/grass/grass_field.h"
 
 #include "core/config/field_values.h"
+#include "nodes/grass/grass_events.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
 #include "vegetation_sim/ros/conversions/grass_conversions.h"
 
@@ -58,21 +59,7 @@ void GrassField::tick(std::int64_t tick) {
 }
 
 void GrassField::apply(GrassEvent& event) {
-  const Nanoseconds stamp = fromMsg(event.header.stamp);
   switch (event.kind) {
-    case GrassEvent::TREAD: {
-      const std::string problem =
-          field_->apply(fromMsg(event.tread, tuning_.tread, tuning_.height_gate), stamp);
-      if (!problem.empty()) refusals_.add("tread", problem);
-      break;
-    }
-    case GrassEvent::CLEAR:
-      if (event.all)
-        field_->raiseAll();
-      else
-        field_->raise({event.centre.x, event.centre.y}, event.radius);
-      key_frames_.demand();
-      break;
     case GrassEvent::SETTINGS:
       applyTuning(fromNamedValues<GrassTuning>({event.names, event.values}));
       break;
@@ -82,8 +69,14 @@ void GrassField::apply(GrassEvent& event) {
     case GrassEvent::ENTER:  // an output of the recorded node
       break;
     default:
-      throw InvalidInput("kind = " + std::to_string(event.kind) + " is outside 0 to 4");
+      applyToGround(event);
   }
+}
+
+void GrassField::applyToGround(const GrassEvent& event) {
+  const std::string problem = applyToGrass(event, tuning_, *field_);
+  if (!problem.empty()) refusals_.add("tread", problem);
+  if (event.kind == GrassEvent::CLEAR) key_frames_.demand();
 }
 
 void GrassField::applyTuning(GrassTuning tuning) {

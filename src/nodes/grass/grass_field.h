@@ -49,6 +49,7 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   // Time.
   void tick(std::int64_t tick) override;
   void apply(GrassEvent& event) override;
+  void applyToGround(const GrassEvent& event);
   void applyTuning(GrassTuning tuning);
   void resetGround();
   void restart() override;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vegetation_sim/ros/conversions/forest_conversions.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <tuple>
@@ -14,11 +15,12 @@ namespace vegetation_sim {
 namespace {
 
 constexpr std::size_t MOST_SPECIES = 256;
-constexpr double VIEW_ASPECT = 16.0 / 9.0;  // width of the picture over its height
-constexpr double VIEW_MARGIN = 0.15;        // [rad]
-constexpr double LARGEST_BEND = 100.0;      // [rad]
-constexpr double LARGEST_RATE = 1e5;        // [rad/s]
-constexpr std::size_t MOST_MODES = 256;     // of a tree
+constexpr double VIEW_ASPECT = 16.0 / 9.0;         // width of the picture over its height
+constexpr double VIEW_MARGIN = 0.15;               // [rad]
+constexpr double LARGEST_BEND = 100.0;             // [rad]
+constexpr double LARGEST_RATE = 1e5;               // [rad/s]
+constexpr std::size_t MOST_MODES = 256;            // of a tree
+constexpr std::ptrdiff_t MOST_MODAL_TREES = 1000;  // as modal_trees allows
 
 /// Names of the values of each choice of a structure, by field.
 class Choices : public FieldVisitor {
@@ -291,6 +293,11 @@ forest::StateUpdate fromMsg(const ForestState& message) {
   out.layout_hash = message.layout_hash;
   out.wind_hash = message.wind_hash;
   out.hash = message.hash;
+  const auto modal = std::count_if(message.trees.begin(), message.trees.end(),
+                                   [](const TreeState& tree) { return !tree.amplitude.empty(); });
+  if (modal > MOST_MODAL_TREES)
+    faults.add("state: " + std::to_string(modal) + " trees in modes, allowed are 0 to " +
+               std::to_string(MOST_MODAL_TREES));
   for (const TreeState& tree : message.trees) {
     const std::string name = "state: tree " + std::to_string(tree.tree) + ": ";
     out.trees.push_back({tree.tree, levelFromMsg(name, tree.level, tree.since, tree.blend, faults),

@@ -12,8 +12,9 @@
 #include "fuzz/targets/usage.h"
 #include "grass/tread_simulation.h"
 #include "nodes/canopy/canopy_options.h"
+#include "nodes/crowd/crowd_events.h"
 #include "nodes/forest/forest_inputs.h"
-#include "nodes/grass/grass_options.h"
+#include "nodes/grass/grass_events.h"
 #include "ros/conversions/crowd_conversions.h"
 #include "scenes/crowd/crowd_scenes.h"
 #include "scenes/forest/forest_fixture.h"
@@ -172,18 +173,8 @@ class GrassRig {
       throw BrokenPromise("the resistance of grass is below 0");
     grass_.update(true);
   }
-  // As in GrassField::apply().
-  void apply(const GrassEvent& event, Nanoseconds stamp) {
+  void apply(const GrassEvent& event, Nanoseconds) {
     switch (event.kind) {
-      case GrassEvent::TREAD:
-        grass_.apply(fromMsg(event.tread, tuning_.tread, tuning_.height_gate), stamp);
-        break;
-      case GrassEvent::CLEAR:
-        if (event.all)
-          grass_.raiseAll();
-        else
-          grass_.raise({event.centre.x, event.centre.y}, event.radius);
-        break;
       case GrassEvent::SETTINGS: {
         const auto tuning = fromNamedValues<GrassTuning>({event.names, event.values});
         check(tuning);
@@ -192,8 +183,11 @@ class GrassRig {
         grass_.setTreadLaw(tuning.tread);
         break;
       }
-      default:
+      case GrassEvent::RESET:
         grass_.reset();
+        break;
+      default:
+        applyToGrass(event, tuning_, grass_);
     }
   }
 
@@ -250,15 +244,8 @@ class CrowdRig {
     for (const crowd::Walker& walker : crowd_.walkers())
       requireFinite(Vec3(walker.position.x, walker.position.y, walker.heading), "walker");
   }
-  // As in AgentCrowd::apply().
   void apply(const CrowdEvent& event, Nanoseconds) {
     switch (event.kind) {
-      case CrowdEvent::ROBOT:
-        crowd_.setRobot(fromMsg(event.robot));
-        break;
-      case CrowdEvent::REMOVE_ROBOT:
-        crowd_.removeRobot(event.robot.id);
-        break;
       case CrowdEvent::SETTINGS:
         crowd_.setSettings(fromNamedValues<crowd::CrowdSettings>({event.names, event.values}));
         break;
@@ -266,29 +253,13 @@ class CrowdRig {
         crowd_.clear();
         break;
       default:
-        applyToWalker(event);
+        if (event.kind != CrowdEvent::SPAWN || crowd_.walkers().size() < MOST_WALKERS)
+          applyToCrowd(event, crowd_);
     }
   }
 
  private:
-  void applyToWalker(const CrowdEvent& event) {
-    Faults faults;
-    const crowd::Spawn spawn = fromMsg(event.spawn, "spawn: ", faults);
-    switch (event.kind) {
-      case CrowdEvent::SPAWN:
-        faults.throwIfAny();
-        if (crowd_.walkers().size() < 20) crowd_.spawn(spawn, event.id);
-        break;
-      case CrowdEvent::REMOVE:
-        crowd_.remove(event.id);
-        break;
-      default:
-        if (spawn.has_goal)
-          crowd_.setGoal(event.id, spawn.goal);
-        else
-          crowd_.setWandering(event.id);
-    }
-  }
+  static constexpr std::size_t MOST_WALKERS = 20;
   crowd::Crowd crowd_;
 };
 
@@ -325,7 +296,6 @@ class CanopyRig {
     const canopy::Foliage& foliage = canopy_.foliage();
     if (foliage.layers() > 0) requireFinite(foliage.sheet(0), "motion of a layer");
   }
-  // As in CanopyAnimator::apply().
   void apply(const CanopyEvent& event, Nanoseconds) {
     switch (event.kind) {
       case CanopyEvent::VIEWER:

@@ -148,6 +148,18 @@ TEST(ForestConversions, RejectInvalidPhysicalBranches) {
     EXPECT_NE(faults.find(part), std::string::npos) << part << " in " << faults;
 }
 
+TEST(ForestConversions, RejectMoreTreesInModesThanAnAnimatorCanHave) {
+  forest::StateUpdate update;
+  const physics::ModalState modes{{0.0}, {0.0}};
+  for (std::uint32_t id = 0; id < 1000; ++id)
+    update.trees.push_back({id, forest::LevelState::settled(2), {}, modes});
+  ForestState message = toMsg(update);
+  EXPECT_EQ(fromMsg(message).trees.size(), 1000u);
+  message.trees.push_back(message.trees.back());
+  EXPECT_EQ(errorOf([&] { fromMsg(message); }),
+            "state: 1001 trees in modes, allowed are 0 to 1000");
+}
+
 TEST(ForestConversions, SettledTreesAreSentWithoutBlends) {
   forest::StateUpdate update;
   update.base = forest::LevelState::settled(1);
