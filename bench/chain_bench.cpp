@@ -21,7 +21,6 @@ namespace {
 using bench::Candidate;
 using Trees = std::vector<std::vector<Link>>;
 
-constexpr double STEP = 1.0 / 240.0;
 constexpr int SUB_STEPS = 4;
 constexpr double STEPS_A_SECOND = 60.0 * SUB_STEPS;
 

@@ -25,6 +25,25 @@ function(set_own_options target)
   endif()
 endfunction()
 
+# The compiler reads the sources of a folder as one file, which takes a third of the time. Sources that
+# Highway compiles once per instruction set stay on their own.
+# usage: compile_by_folder(TARGET SOURCE ...)
+function(compile_by_folder target)
+  if(NOT ${PROJECT_NAME}_UNITY OR CMAKE_VERSION VERSION_LESS 3.18)
+    return()
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  foreach(source ${ARGN})
+    file(STRINGS ${source} repeated REGEX "hwy/foreach_target.h" LIMIT_COUNT 1)
+    if(NOT repeated)
+      get_filename_component(folder ${source} DIRECTORY)
+      file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${folder})
+      string(MAKE_C_IDENTIFIER ${folder} group)
+      set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group})
+    endif()
+  endforeach()
+endfunction()
+
 # Headers of other libraries that most sources of a folder include. A compiler reads each list once per
 # target; headers of this package are not among them, because a change would compile everything again.
 set(core_headers <algorithm> <array> <cmath> <cstdint> <functional> <map> <memory> <mutex> <optional>
@@ -35,6 +54,7 @@ set(rviz_headers ${ros_headers} <OgreSceneManager.h> <rviz/display.h> <rviz/disp
 
 # The core links no ROS library.
 add_library(${PROJECT_NAME}_core ${core_sources})
+compile_by_folder(${PROJECT_NAME}_core ${core_sources})
 set_own_options(${PROJECT_NAME}_core)
 target_precompile_headers(${PROJECT_NAME}_core PRIVATE ${core_headers})
 target_include_directories(${PROJECT_NAME}_core PUBLIC include)
@@ -43,9 +63,11 @@ target_link_libraries(${PROJECT_NAME}_core
 
 # Targets above the core use ROS.
 add_library(${PROJECT_NAME}_ros ${ros_sources})
+compile_by_folder(${PROJECT_NAME}_ros ${ros_sources})
 target_link_libraries(${PROJECT_NAME}_ros PUBLIC ${PROJECT_NAME}_core PRIVATE PkgConfig::assimp)
 target_precompile_headers(${PROJECT_NAME}_ros PRIVATE ${ros_headers})
 add_library(${PROJECT_NAME}_nodes ${node_sources})
+compile_by_folder(${PROJECT_NAME}_nodes ${node_sources})
 target_link_libraries(${PROJECT_NAME}_nodes PUBLIC ${PROJECT_NAME}_ros)
 target_precompile_headers(${PROJECT_NAME}_nodes PRIVATE ${ros_headers})
 add_library(${PROJECT_NAME}_nodelets ${nodelet_sources})
@@ -53,6 +75,8 @@ target_link_libraries(${PROJECT_NAME}_nodelets PUBLIC ${PROJECT_NAME}_nodes)
 set(ros_targets ${PROJECT_NAME}_ros ${PROJECT_NAME}_nodes ${PROJECT_NAME}_nodelets)
 if(with_rviz)
   add_library(${PROJECT_NAME}_rviz ${rviz_sources})
+  list(FILTER rviz_sources INCLUDE REGEX "[.]cpp$")
+  compile_by_folder(${PROJECT_NAME}_rviz ${rviz_sources})
   target_compile_definitions(${PROJECT_NAME}_rviz PRIVATE QT_NO_KEYWORDS)
   target_link_libraries(${PROJECT_NAME}_rviz
     PUBLIC ${PROJECT_NAME}_ros Qt5::Widgets PRIVATE OpenGL::GL)

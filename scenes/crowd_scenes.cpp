@@ -21,7 +21,7 @@ void moveRobot(World& world) {
   world.crowd->crowd().setRobot(robot);
 }
 
-void nothing(World& /*world*/) {}
+void nobody(World& /*world*/) {}
 
 void mingle(World& world) {
   crowd::Crowd& crowd = world.crowd->crowd();
@@ -66,7 +66,7 @@ void cross(World& world) {
 
 std::vector<SceneEntry> crowdScenes() {
   return {{"mingling_crowd", "walkers among walls with a robot, goals, a spawn and a removal",
-           "mean distance of walkers from the origin [m]", nothing, mingle, meanDistance},
+           "mean distance of walkers from the origin [m]", nobody, mingle, meanDistance},
           {"whole_landscape", "trees, grass, leaves and people together, seen by a lidar",
            "mean distance of walkers from the origin [m]", beginLandscape, cross, meanDistance}};
 }

@@ -31,18 +31,17 @@ for target in "$@"; do targets+=(--target "$target"); done
 # Rewrites ninja's lines "DONE TOTAL SECONDS STEP" with the percentage and the time that the rest
 # takes if its steps are as long as those before. A terminal shows the present line only.
 show_progress() {
-  local end='\n'
+  local line finished total minutes end='\n'
   [ ! -t 1 ] || end='\033[K\r'
-  awk -v end="$end" '
-    /^@[0-9]+ [0-9]+ [0-9.]+ / {
-      done = substr($1, 2); total = $2
-      minutes = done > 0 ? $3 * (total - done) / done / 60 : 0
-      sub(/^[^ ]* [^ ]* [^ ]* /, "")
-      printf "[%3d %% of %d steps, %.0f min left] %s" end, 100 * done / total, total, minutes, substr($0, 1, 80)
-      fflush()
-      next
-    }
-    { print; fflush() }'
+  while IFS= read -r line; do
+    if [[ $line =~ ^@([0-9]+)\ ([0-9]+)\ ([0-9]+)[.0-9]*\ (.*) ]]; then
+      finished=${BASH_REMATCH[1]} total=${BASH_REMATCH[2]} minutes=0
+      [ "$finished" = 0 ] || minutes=$((BASH_REMATCH[3] * (total - finished) / finished / 60))
+      printf "[%3d %% of %d steps, %d min left] %.80s$end" $((100 * finished / total)) "$total" $minutes "${BASH_REMATCH[4]}"
+    else
+      printf '%s\n' "$line"
+    fi
+  done
 }
 
 # ccache accepts precompiled headers only with these settings.

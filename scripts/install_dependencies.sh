@@ -104,17 +104,20 @@ fi
 # Rewrites the status lines of apt, "dlstatus:NUMBER:PERCENT:TEXT" and "pmstatus:NAME:PERCENT:TEXT".
 # The text of a download ends with the remaining time. A terminal shows the present line only.
 show_progress() {
-  local end='\n'
+  local kind percent text phase shown='' last=0 end='\n'
   [ ! -t 1 ] || end='\033[K\r'
-  awk -F: -v end="$end" '
-    $1 == "dlstatus" { phase = "Download" }
-    $1 == "pmstatus" { phase = "Installation" }
-    !/^(dl|pm)status:/ { next }
-    phase != shown || int($3) >= percent + 2 {
-      printf "[%s %.0f %%] %s" end, phase, $3, $4
-      shown = phase; percent = int($3)
-      fflush()
-    }'
+  while IFS=: read -r kind _ percent text; do
+    case $kind in
+      dlstatus) phase=Download ;;
+      pmstatus) phase=Installation ;;
+      *) continue ;;
+    esac
+    percent=${percent%%.*}
+    if [ $phase != "$shown" ] || [ "$percent" -ge $((last + 2)) ]; then
+      printf "[%s %d %%] %s$end" $phase "$percent" "$text"
+      shown=$phase last=$percent
+    fi
+  done
 }
 
 say "Installing ${#missing[@]} packages and what they need: ${missing[*]}"

@@ -10,6 +10,9 @@
 
 namespace vegetation_sim::physics {
 
+/// Step of a chain in tests and benches [s].
+constexpr double STEP = 1.0 / 240.0;
+
 /// Sets a tenth of the critical damping, on the inertia of all that a joint carries if it hung
 /// straight. This is rough, but scales correctly.
 inline void damp(std::vector<Link>& links) {

@@ -8,7 +8,6 @@
 namespace vegetation_sim::canopy {
 namespace {
 
-constexpr Range ANYWHERE{-1e6, 1e6};
 constexpr std::size_t MOST_KINDS = 256, MOST_HISTORY = 64U << 20;  // [B]
 
 std::string numbered(const char* name, std::size_t index) {
@@ -19,7 +18,7 @@ void checkPlants(const Layout& layout, Faults& faults) {
   for (std::size_t i = 0; i < layout.plants.size(); ++i) {
     Plant plant = layout.plants[i];
     FieldChecker checker(numbered("plants", i), faults);
-    checker.vector("position", plant.position, "m", ANYWHERE);
+    checker.vector("position", plant.position, "m", PLANT_COORDINATES);
     checker.number("yaw", plant.yaw, "rad", {-1000.0, 1000.0});
     checker.number("scale", plant.scale, "", {0.05, 20.0});
     if (plant.kind >= layout.kinds.size())

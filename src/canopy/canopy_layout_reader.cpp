@@ -9,7 +9,6 @@
 namespace vegetation_sim::canopy {
 namespace {
 
-constexpr Range ANYWHERE{-1e6, 1e6};
 constexpr Range SCALES{0.05, 20.0};
 
 void readMotion(YamlSection& section, Motion& motion) {
@@ -96,7 +95,7 @@ class LayoutReader {
     plant.seed = nextSeed();
     plant.kind = readKind(section, out_.kinds);
     section.seed("seed", plant.seed);
-    section.vector("position", plant.position, "m", ANYWHERE);
+    section.vector("position", plant.position, "m", PLANT_COORDINATES);
     section.number("yaw", plant.yaw, "rad", {-1000.0, 1000.0});
     section.number("scale", plant.scale, "", SCALES);
     section.finish();
@@ -111,7 +110,7 @@ class LayoutReader {
     double width = 10.0, depth = 10.0, smallest = 0.8, largest = 1.2;
     int count = 0;
     section.seed("seed", seed);
-    section.vector("corner", corner, "m", ANYWHERE);
+    section.vector("corner", corner, "m", PLANT_COORDINATES);
     section.number("width", width, "m", {0.0, 1e5});
     section.number("depth", depth, "m", {0.0, 1e5});
     section.number("smallest", smallest, "", SCALES);

@@ -55,7 +55,8 @@ void describe(FieldVisitor& v, HeightMapLaw& law) {
 /// The four samples around a point, and the position of the point among them.
 struct HeightMap::Cell {
   double h00, h10, h01, h11;  ///< [m], the first digit along x.
-  Place x, y;
+  double u, v;                ///< Fraction of the way along x and y, 0 to 1.
+  bool inside_x, inside_y;
 };
 
 HeightMap::HeightMap(const HeightMapLaw& law, GreyImage image)
@@ -114,27 +115,27 @@ HeightMap::Cell HeightMap::cellAt(double x, double y) const {
           sample(px.index + 1, py.index),
           sample(px.index, py.index + 1),
           sample(px.index + 1, py.index + 1),
-          px,
-          py};
+          px.fraction,
+          py.fraction,
+          px.inside,
+          py.inside};
 }
 
 double HeightMap::height(double x, double y) const {
   if (isFlat()) return 0.0;
   const Cell c = cellAt(x, y);
-  const double u = c.x.fraction, v = c.y.fraction;
-  const double south = c.h00 * (1.0 - u) + c.h10 * u;
-  const double north = c.h01 * (1.0 - u) + c.h11 * u;
-  return south * (1.0 - v) + north * v;
+  const double south = c.h00 * (1.0 - c.u) + c.h10 * c.u;
+  const double north = c.h01 * (1.0 - c.u) + c.h11 * c.u;
+  return south * (1.0 - c.v) + north * c.v;
 }
 
 Vec3 HeightMap::normal(double x, double y) const {
   if (isFlat()) return Vec3::UnitZ();
   const Cell c = cellAt(x, y);
-  const double u = c.x.fraction, v = c.y.fraction;
-  const double rise_x = (c.h10 - c.h00) * (1.0 - v) + (c.h11 - c.h01) * v;
-  const double rise_y = (c.h01 - c.h00) * (1.0 - u) + (c.h11 - c.h10) * u;
-  const double slope_x = c.x.inside ? rise_x / law_.resolution : 0.0;
-  const double slope_y = c.y.inside ? rise_y / law_.resolution : 0.0;
+  const double rise_x = (c.h10 - c.h00) * (1.0 - c.v) + (c.h11 - c.h01) * c.v;
+  const double rise_y = (c.h01 - c.h00) * (1.0 - c.u) + (c.h11 - c.h10) * c.u;
+  const double slope_x = c.inside_x ? rise_x / law_.resolution : 0.0;
+  const double slope_y = c.inside_y ? rise_y / law_.resolution : 0.0;
   const double scale = 1.0 / std::sqrt(slope_x * slope_x + slope_y * slope_y + 1.0);
   return {-slope_x * scale, -slope_y * scale, scale};
 }

@@ -10,13 +10,13 @@
 namespace vegetation_sim::forest {
 namespace {
 
-constexpr Nanoseconds START = 1700000000LL * NANOSECONDS_PER_SECOND;
+constexpr Nanoseconds REPLICA_START = 1700000000LL * NANOSECONDS_PER_SECOND;
 
 // Returns a key frame in which a branch of tree 0 is physical.
 StateUpdate withPhysicalBranch(const ForestReplica& replica, int branch) {
   StateUpdate update;
   update.layout_hash = replica.layoutHash();
-  update.stamp = START;
+  update.stamp = REPLICA_START;
   update.trees = {{0, LevelState(), {{branch, {0.1, 0.1}, {}, NEVER}}, {}}};
   return update;
 }
@@ -34,7 +34,7 @@ TEST(ForestReplica, DropsPhysicalBranchesWhenTheLayoutChanges) {
   EXPECT_TRUE(replica.promoted(0).branches.empty());
   const Tree tree = replica.grow(0);
   ASSERT_LT(tree.skeleton.branches.size(), static_cast<std::size_t>(last));
-  EXPECT_EQ(replica.pose(tree, 0, START).size(), tree.skeleton.branches.size());
+  EXPECT_EQ(replica.pose(tree, 0, REPLICA_START).size(), tree.skeleton.branches.size());
 }
 
 TEST(ForestReplica, RejectsAStateThatDoesNotFitItsLayout) {

@@ -12,7 +12,7 @@
 namespace vegetation_sim::forest {
 namespace {
 
-constexpr Nanoseconds START = 1700000000LL * NANOSECONDS_PER_SECOND;
+constexpr Nanoseconds FOREST_START = 1700000000LL * NANOSECONDS_PER_SECOND;
 
 Viewpoint lookFrom(const Vec3& position) {
   Viewpoint out;
@@ -49,7 +49,7 @@ void run(Forest& forest, Nanoseconds from, double for_seconds,
 // N8: without a viewer every tree has the fixed level, and takes no memory for it.
 TEST(Forest, FixedLevelWithoutViewer) {
   Forest forest = makeForest();
-  run(forest, START, 1.0);
+  run(forest, FOREST_START, 1.0);
   EXPECT_EQ(forest.view().levels.of(3).level, 2);
   EXPECT_TRUE(forest.view().levels.held().empty());
 }
@@ -63,9 +63,9 @@ TEST(Forest, LevelsFollowTheViewer) {
   Forest forest = makeForest(layout);
   forest.setWind(wind::Field({makeBreeze(1, Vec3(5, 0, 0))}));
   const Viewpoint here = lookFrom(Vec3(-10, 0, 2)), there = lookFrom(Vec3(410, 0, 2));
-  run(forest, START, 2.0, {here});
+  run(forest, FOREST_START, 2.0, {here});
   EXPECT_GT(forest.view().levels.of(0).level, forest.view().levels.of(1).level);
-  run(forest, START + seconds(2), 5.0, {there});
+  run(forest, FOREST_START + seconds(2), 5.0, {there});
   EXPECT_LT(forest.view().levels.of(0).level, forest.view().levels.of(1).level);
 }
 
@@ -76,12 +76,12 @@ TEST(Forest, TreesOutOfSightStandStill) {
   Viewpoint eye = lookFrom(Vec3(30, 0, 2));
   eye.cone_cosine = 0.88;
   forest.setViewers({eye});
-  forest.advance(START);
+  forest.advance(FOREST_START);
   EXPECT_EQ(forest.view().levels.of(0).level, 0);  // at x = 0, behind
   EXPECT_GT(forest.view().levels.of(1).level, 0);  // at x = 60, in front
   eye.forward = Vec3(-1, 0, 0);
   forest.setViewers({eye});
-  forest.advance(START + seconds(0.1));
+  forest.advance(FOREST_START + seconds(0.1));
   EXPECT_GT(forest.view().levels.of(0).level, 0);
   EXPECT_EQ(forest.view().levels.of(1).level, 0);
 }
@@ -91,11 +91,11 @@ TEST(Forest, FinestOfSeveralViewersWins) {
   Forest forest = makeForest();
   forest.setWind(wind::Field({makeBreeze(1, Vec3(5, 0, 0))}));
   const Viewpoint far = lookFrom(Vec3(5000, 0, 0));
-  run(forest, START, 0.1, {far});
+  run(forest, FOREST_START, 0.1, {far});
   const int far_level = forest.view().levels.of(0).level;
-  run(forest, START + seconds(0.1), 0.1, {far, lookFrom(Vec3(5, 5, 2))});
+  run(forest, FOREST_START + seconds(0.1), 0.1, {far, lookFrom(Vec3(5, 5, 2))});
   EXPECT_GT(forest.view().levels.of(0).level, far_level);
-  run(forest, START + seconds(0.2), 0.1);
+  run(forest, FOREST_START + seconds(0.2), 0.1);
   EXPECT_EQ(forest.view().levels.of(0).level, Settings().fixed_level);
 }
 
@@ -104,7 +104,7 @@ TEST(Forest, LevelsFollowTheWind) {
   Forest forest = makeForest(gridLayout(8, 20.0));
   forest.setWind(wind::Field({makeDisk(1, Vec3(0, 0, 0), 60.0, Vec3(11, 0, 0))}));
   forest.setViewers({lookFrom(Vec3(70, 70, 150))});
-  forest.advance(START);
+  forest.advance(FOREST_START);
   const auto level = [&](std::uint32_t x, std::uint32_t y) {
     return forest.view().levels.of(y * 8 + x).level;
   };
@@ -132,16 +132,16 @@ TEST(Forest, IsDeterministicAndRestores) {
   const wind::Field field({makeBreeze(1, Vec3(5, 0, 0))});
   for (Forest* forest : {&a, &b}) {
     forest->setWind(field);
-    forest->setSensor(sensorAt(Vec3(5, 5, 2), START));
-    forest->setBody(bodyAt(Vec3(1, 0, 1), START));
-    run(*forest, START, 3.0);
+    forest->setSensor(sensorAt(Vec3(5, 5, 2), FOREST_START));
+    forest->setBody(bodyAt(Vec3(1, 0, 1), FOREST_START));
+    run(*forest, FOREST_START, 3.0);
   }
   EXPECT_EQ(a.hash(), b.hash());
   const ForestSnapshot saved = a.snapshot();
   EXPECT_FALSE(a.sensed().levels.held().empty());
   const auto go_on = [&] {
     a.removeBody("arm");
-    run(a, START + seconds(3), 5.0);  // the sensor is removed meanwhile
+    run(a, FOREST_START + seconds(3), 5.0);  // the sensor is removed meanwhile
   };
   go_on();
   EXPECT_TRUE(a.sensed().levels.held().empty());
@@ -170,7 +170,7 @@ std::vector<StateUpdate> messages(Forest& forest, std::int64_t first, int count)
 TEST(Forest, RestoredMemorySendsTheSameMessages) {
   Forest forest = makeForest();
   forest.setWind(wind::Field({makeBreeze(1, Vec3(5, 0, 0))}));
-  const std::int64_t start = TickGrid(30).tickAt(START);
+  const std::int64_t start = TickGrid(30).tickAt(FOREST_START);
   messages(forest, start, 20);
   forest.setViewers({lookFrom(Vec3(60, 60, 5))});
   forest.advance(TickGrid(30).timeOf(start + 20));  // its changes are not sent yet
@@ -192,14 +192,14 @@ TEST(Forest, ResetEqualsAFreshStart) {
   Forest used = makeForest(), fresh = makeForest();
   used.setWind(wind::Field({makeBreeze(1, Vec3(5, 0, 0))}));
   fresh.setWind(wind::Field({makeBreeze(1, Vec3(5, 0, 0))}));
-  used.setSensor(sensorAt(Vec3(5, 5, 2), START + seconds(10)));
-  used.setBody(bodyAt(Vec3(1, 0, 1), START + seconds(10)));
-  run(used, START + seconds(10), 3.0);
+  used.setSensor(sensorAt(Vec3(5, 5, 2), FOREST_START + seconds(10)));
+  used.setBody(bodyAt(Vec3(1, 0, 1), FOREST_START + seconds(10)));
+  run(used, FOREST_START + seconds(10), 3.0);
   EXPECT_FALSE(used.sensed().levels.held().empty());
   EXPECT_FALSE(used.world().levels.held().empty());
   used.reset();
-  run(used, START, 1.0);
-  run(fresh, START, 1.0);
+  run(used, FOREST_START, 1.0);
+  run(fresh, FOREST_START, 1.0);
   EXPECT_EQ(used.hash(), fresh.hash());
   EXPECT_TRUE(same(used.update(true), fresh.update(true)));
 }
@@ -208,10 +208,10 @@ TEST(Forest, ResetEqualsAFreshStart) {
 TEST(Forest, NewTransitionTimeMovesNoTree) {
   Forest forest = makeForest();
   forest.setWind(wind::Field({makeBreeze(1, Vec3(5, 0, 0))}));
-  forest.advance(START);
+  forest.advance(FOREST_START);
   forest.setViewers({lookFrom(Vec3(-20, 10, 5))});
-  forest.advance(START);
-  const Nanoseconds midway = START + seconds(0.5 * forest.layout().motion.transition);
+  forest.advance(FOREST_START);
+  const Nanoseconds midway = FOREST_START + seconds(0.5 * forest.layout().motion.transition);
   forest.advance(midway);
   const auto before = weightsAt(forest.view().levels.of(0), midway, forest.layout().motion);
   Layout slow = forest.layout();
@@ -223,7 +223,7 @@ TEST(Forest, NewTransitionTimeMovesNoTree) {
 
 TEST(Forest, HashSeesEveryPartOfTheState) {
   Forest forest = makeForest();
-  forest.advance(START);
+  forest.advance(FOREST_START);
   const std::uint64_t before = forest.hash();
   Settings settings;
   settings.tolerance = 1.5;
@@ -248,7 +248,7 @@ TEST(Forest, ReplicaFollowsKeyFramesAndDeltas) {
   }
   const TickGrid grid(30);
   for (int k = 0; k < 150; ++k) {
-    const Nanoseconds now = START + grid.timeOf(k);
+    const Nanoseconds now = FOREST_START + grid.timeOf(k);
     if (k == 40 || k == 100) forest.setViewers({lookFrom(Vec3(-20, 0, 5))});
     if (k == 70) forest.setViewers({lookFrom(Vec3(60, 60, 5))});
     forest.advance(now);
@@ -261,14 +261,15 @@ TEST(Forest, ReplicaFollowsKeyFramesAndDeltas) {
           << k << " " << id;
     }
   }
-  EXPECT_EQ(late.weights(5, START + seconds(9)), steady.weights(5, START + seconds(9)));
+  EXPECT_EQ(late.weights(5, FOREST_START + seconds(9)),
+            steady.weights(5, FOREST_START + seconds(9)));
 }
 
 TEST(Forest, ReplicaIgnoresAGapUntilTheNextKeyFrame) {
   Forest forest = makeForest();
   ForestReplica replica;
   replica.setLayout(forest.layout(), flatTerrain());
-  forest.advance(START);
+  forest.advance(FOREST_START);
   EXPECT_TRUE(replica.apply(forest.update(true)));
   forest.update(false);
   EXPECT_FALSE(replica.apply(forest.update(false)));
@@ -296,7 +297,7 @@ TEST(Forest, PredictedErrorIsTheMeasuredOne) {
   const double spacing = 9.0, extent = 8 * spacing;
   const TreeBatch grove = growTrees(richLayout(8, spacing, 400));
   const TickGrid grid(30);
-  const std::int64_t start = grid.tickAt(START);
+  const std::int64_t start = grid.tickAt(FOREST_START);
   for (const double tolerance : {0.5, 1.0, 2.0, 4.0}) {
     Settings settings;
     settings.tolerance = tolerance;
@@ -323,7 +324,7 @@ TEST(Forest, LevelsSaveWorkAtAPixel) {
   forest.setWind(threeDiscs(extent));
   const Camera camera = edgeCamera(extent);
   const TickGrid grid(30);
-  const std::int64_t start = grid.tickAt(START), ticks = 90;
+  const std::int64_t start = grid.tickAt(FOREST_START), ticks = 90;
   settle(forest, camera, grid, start, ticks);
   const Nanoseconds now = grid.timeOf(start + ticks);
   BatchPoses scratch;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int RATE = 30, WARM_UP = 8 * RATE, MEASURED = 8 * RATE, EVERY = 12;
 constexpr double TOLERANCE = 0.05;
-const Vec3 SENSOR(4.0, 4.0, 1.5);
+const Vec3 RANGE_SENSOR(4.0, 4.0, 1.5);
 
 /// A forest and what a sensor rebuilds of it.
 struct Sensed {
@@ -32,7 +32,7 @@ struct Sensed {
   }
   Hit cast(const Vec3& direction) const {
     Hit out;
-    trees.meet(Ray(SENSOR, direction), out);
+    trees.meet(Ray(RANGE_SENSOR, direction), out);
     return out;
   }
   forest::Forest forest;
@@ -108,11 +108,11 @@ TEST(RangeError, ToleranceHoldsForNinetyNinePercentOfTheRaysToWood) {
   const std::int64_t first = grid.tickAt(START);
   for (int i = 0; i < WARM_UP + MEASURED; ++i) {
     const Nanoseconds stamp = grid.timeOf(first + i);
-    announced.forest.setSensor({"lidar", SENSOR, 30.0, TOLERANCE, stamp});
+    announced.forest.setSensor({"lidar", RANGE_SENSOR, 30.0, TOLERANCE, stamp});
     for (Sensed* each : {&full, &announced, &silent}) each->advance(stamp, i % RATE == 0);
     if (i < WARM_UP || i % EVERY != 0) continue;
     for (Sensed* each : {&full, &announced, &silent})
-      each->trees.update(each->replica, SENSOR, 30.0, stamp);
+      each->trees.update(each->replica, RANGE_SENSOR, 30.0, stamp);
     addErrors(full, announced, near);
     addErrors(full, silent, far);
   }

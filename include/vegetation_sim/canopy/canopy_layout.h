@@ -18,6 +18,9 @@
 
 namespace vegetation_sim::canopy {
 
+/// Allowed coordinates of a plant [m].
+constexpr Range PLANT_COORDINATES{-1e6, 1e6};
+
 /// Settings of the motion of all vegetation of a layout.
 struct Motion {
   PlaneSettings plane;

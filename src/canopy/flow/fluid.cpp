@@ -8,7 +8,7 @@
 namespace vegetation_sim::canopy {
 namespace {
 
-constexpr double MOST_ENERGY = 1e8;  // [m^2/s^2] limit against runaway, far above any wind
+constexpr double MOST_FLUID_ENERGY = 1e8;  // [m^2/s^2] limit against runaway, far above any wind
 
 const FluidSettings& checked(const FluidSettings& settings) {
   Faults faults;
@@ -65,7 +65,7 @@ void Fluid::restore(const FluidState& state) {
                        std::to_string(settings_.cells));
   double sum = energyOf(state.flow);
   for (const double value : state.turbulence) sum += value * value;
-  if (!(sum < MOST_ENERGY)) throw InvalidInput("state: its flow is not finite or too large");
+  if (!(sum < MOST_FLUID_ENERGY)) throw InvalidInput("state: its flow is not finite or too large");
   state_ = state;
 }
 
@@ -106,7 +106,7 @@ void Fluid::substep(const Interval& interval, const PlaneAir* air) {
   }
   limitEnergy(before + given_);
   ++state_.steps;
-  if (energyOf(state_.flow) < MOST_ENERGY) return;
+  if (energyOf(state_.flow) < MOST_FLUID_ENERGY) return;
   state_.flow = last_good_;
   state_.turbulence = turbulence;
   ++figures_.resets;

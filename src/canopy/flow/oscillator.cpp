@@ -11,7 +11,7 @@ namespace vegetation_sim::canopy {
 namespace {
 
 // Limit for spectra, which are size^2 times as large as cells.
-constexpr double MOST_ENERGY = 1e16;
+constexpr double MOST_MODE_ENERGY = 1e16;
 constexpr double MARGIN = 0.95;  // share of Verlet's longest step
 
 WaveLaw lawOf(OscillatorSettings settings, double width) {
@@ -64,7 +64,7 @@ void Oscillator::reset() {
 void Oscillator::restore(const OscillatorState& state) {
   for (const PlaneField* field : {&state.amplitude, &state.rate})
     if (field->size != size_ || field->u.size() != force_.area() ||
-        field->v.size() != force_.area() || !(energyOf(*field) < MOST_ENERGY))
+        field->v.size() != force_.area() || !(energyOf(*field) < MOST_MODE_ENERGY))
       throw InvalidInput("state: its motion is not finite, or of another size than " +
                          std::to_string(size_));
   if (!std::isfinite(state.depth) || !std::isfinite(state.depth_rate))

@@ -9,7 +9,7 @@
 namespace vegetation_sim::crowd {
 namespace {
 
-constexpr double MOST_CELLS = 1e6;
+constexpr double MOST_OBSTACLE_CELLS = 1e6;
 constexpr double MOST_SPOTS = 2e6;  // 80 MB; long diagonal walls cover very many cells
 constexpr double FEW_SPOTS = 9.0;   // limit per obstacle; small ones need fewer
 
@@ -33,7 +33,7 @@ double affordableCell(const Point& size, const std::vector<Extent>& extents, dou
     return out;
   };
   double cell = wanted;
-  while (cellsIn(size, cell) > MOST_CELLS || spots(cell) > most) cell *= 2.0;
+  while (cellsIn(size, cell) > MOST_OBSTACLE_CELLS || spots(cell) > most) cell *= 2.0;
   return cell;
 }
 

@@ -8,11 +8,11 @@
 namespace vegetation_sim::crowd {
 namespace {
 
-constexpr std::uint32_t STRAIGHT = 5, DIAGONAL = 7;       // cost in fifths of a cell
-constexpr int LOOK_AHEAD = 32;                            // limit in cells along the way
-constexpr std::size_t MOST_FIELDS = 32;                   // cached beyond those in use
-constexpr std::uint64_t IN_USE = 119;                     // ticks
-constexpr std::size_t MOST_CELLS = std::size_t{1} << 25;  // cells of all fields, 128 MB
+constexpr std::uint32_t STRAIGHT = 5, DIAGONAL = 7;           // cost in fifths of a cell
+constexpr int LOOK_AHEAD = 32;                                // limit in cells along the way
+constexpr std::size_t MOST_FIELDS = 32;                       // cached beyond those in use
+constexpr std::uint64_t IN_USE = 119;                         // ticks
+constexpr std::size_t MOST_WAY_CELLS = std::size_t{1} << 25;  // cells of all fields, 128 MB
 
 struct Step {
   int column, row;
@@ -210,7 +210,7 @@ void Ways::endTick() {
     for (auto i = fields_.begin(); i != fields_.end(); ++i)
       if (i->second.asked < oldest->second.asked) oldest = i;
     const std::size_t cells = static_cast<std::size_t>(raster_.columns()) * raster_.rows();
-    const std::uint64_t kept = fields_.size() * cells > MOST_CELLS ? 1 : IN_USE;
+    const std::uint64_t kept = fields_.size() * cells > MOST_WAY_CELLS ? 1 : IN_USE;
     if (oldest->second.asked + kept >= tick_) return;
     fields_.erase(oldest);
   }

@@ -11,7 +11,7 @@
 namespace vegetation_sim::physics {
 namespace {
 
-constexpr double DEPENDENT = 1e-9;  // remainder of a vector that adds nothing
+constexpr double DEPENDENT_LOAD = 1e-9;  // remainder of a vector that adds nothing
 
 /// Vectors of unit modal mass, orthogonal to each other and to the modes.
 class Basis {
@@ -38,7 +38,7 @@ class Basis {
       chain_.timesMass(x.data(), momentum.data());
     }
     const double left = dotOf(x.data(), momentum.data(), length_);
-    if (!(left > DEPENDENT * DEPENDENT * before)) return false;
+    if (!(left > DEPENDENT_LOAD * DEPENDENT_LOAD * before)) return false;
     const double scale = 1.0 / std::sqrt(left);
     for (std::size_t k = 0; k < length_; ++k) x[k] *= scale, momentum[k] *= scale;
     vectors_.insert(vectors_.end(), x.begin(), x.end());

@@ -14,7 +14,7 @@ constexpr Nanoseconds REVIEW = NANOSECONDS_PER_SECOND / 10;
 /// Physical branches stay so down to this fraction of the tolerance (hysteresis).
 constexpr double KEEP = 0.5;
 
-std::size_t stepsBetween(Nanoseconds from, Nanoseconds to) {
+std::size_t physicalSteps(Nanoseconds from, Nanoseconds to) {
   const Nanoseconds gap = to - from;
   return static_cast<std::size_t>((gap * PHYSICS_RATE + NANOSECONDS_PER_SECOND - 1) /
                                   NANOSECONDS_PER_SECOND);
@@ -66,7 +66,7 @@ void ForestPhysics::stepAll(const StepContext& context, Nanoseconds to) {
   const bool review = start >= next_review_;
   if (review) next_review_ = start + REVIEW;
   promoteLoaded(context, start, to, review);
-  steps_ = subtrees_.empty() ? 0 : stepsBetween(start, to);
+  steps_ = subtrees_.empty() ? 0 : physicalSteps(start, to);
   stepTrees({context, settings_, bodies_, {start, to, steps_}, review});
   finishTick(to);
 }

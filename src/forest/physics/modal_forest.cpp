@@ -13,7 +13,7 @@ namespace {
 
 constexpr double QUICK = 30.0;  // [rad/s]
 
-std::size_t stepsBetween(Nanoseconds from, Nanoseconds to) {
+std::size_t modalSteps(Nanoseconds from, Nanoseconds to) {
   const Nanoseconds steps =
       ((to - from) * ModalForest::RATE + NANOSECONDS_PER_SECOND / 2) / NANOSECONDS_PER_SECOND;
   return static_cast<std::size_t>(std::max<Nanoseconds>(1, steps));
@@ -35,7 +35,7 @@ void ModalForest::advance(const wind::Field& wind, Nanoseconds from, Nanoseconds
     for (auto& entry : modal_states_) start(wind, entry.second, to);
     return;
   }
-  const std::size_t steps = stepsBetween(from, to);
+  const std::size_t steps = modalSteps(from, to);
   instants_.resize(steps + 1);
   for (std::size_t i = 0; i <= steps; ++i)
     wind.at(from + (to - from) * static_cast<Nanoseconds>(i) / static_cast<Nanoseconds>(steps),

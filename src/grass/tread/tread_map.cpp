@@ -12,7 +12,6 @@
 namespace vegetation_sim::grass {
 namespace {
 
-constexpr int SIDE = TreadBlock::SIDE;
 constexpr int MAX_CELLS = 512;  // fine cells along a tile
 constexpr std::size_t BLOCK_BYTES = sizeof(TreadBlock) + 64;
 constexpr std::size_t SOURCE_BYTES = sizeof(TreadSource) + 64;
@@ -20,7 +19,7 @@ constexpr std::size_t SOURCE_BYTES = sizeof(TreadSource) + 64;
 int blockOf(int node) {
   return node >> 4;  // rounds down
 }
-static_assert(SIDE == 16, "blockOf");
+static_assert(TreadBlock::SIDE == 16, "blockOf");
 
 int wholeVectors(int nodes) {
   return (nodes + TreadBand::PITCH - 1) / TreadBand::PITCH * TreadBand::PITCH;

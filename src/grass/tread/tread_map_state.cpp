@@ -13,8 +13,6 @@
 namespace vegetation_sim::grass {
 namespace {
 
-constexpr int SIDE = TreadBlock::SIDE;
-
 Nanoseconds uprightAt(const TreadNode& node) {
   if (double{node.recovery} >= PERMANENT_RECOVERY) return std::numeric_limits<Nanoseconds>::max();
   return node.stamp + fromSeconds(double{node.recovery});

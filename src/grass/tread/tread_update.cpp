@@ -13,7 +13,6 @@
 namespace vegetation_sim::grass {
 namespace {
 
-constexpr int SIDE = TreadBlock::SIDE;
 constexpr int LAST_BLOCK = 1 << 24;  // its nodes have whole numbers
 
 // Numbers the presses of a delta. The last one is cached, since neighbours were mostly pressed
@@ -119,6 +118,7 @@ void check(const TreadDelta& treads, Faults& faults) {
 }
 
 int applyDelta(const TreadDelta& treads, TreadMap& map) {
+  constexpr int SIDE = TreadBlock::SIDE;
   int refused = 0;
   for (const TreadBlockDelta& block : treads.blocks) {
     std::size_t next = 0;

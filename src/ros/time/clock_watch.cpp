@@ -9,8 +9,9 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr unsigned CLOCK_QUEUE = 1000;  // a jump back must not be lost between two later messages
-constexpr double POLL_PERIOD = 0.05;    // [s] of wall time
+constexpr unsigned WATCHED_CLOCK_QUEUE =
+    1000;                             // a jump back must not be lost between two later messages
+constexpr double POLL_PERIOD = 0.05;  // [s] of wall time
 
 }  // namespace
 
@@ -19,7 +20,7 @@ ClockWatch::ClockWatch(ros::NodeHandle nh, std::function<void(Nanoseconds)> begi
   if (ros::Time::isSimTime()) {
     const boost::function<void(const rosgraph_msgs::Clock&)> heard =
         [this](const rosgraph_msgs::Clock& message) { see(fromMsg(message.clock)); };
-    clock_ = nh.subscribe<rosgraph_msgs::Clock>("/clock", CLOCK_QUEUE, heard);
+    clock_ = nh.subscribe<rosgraph_msgs::Clock>("/clock", WATCHED_CLOCK_QUEUE, heard);
     return;
   }
   poll_ = nh.createWallTimer(ros::WallDuration(POLL_PERIOD), [this](const ros::WallTimerEvent&) {

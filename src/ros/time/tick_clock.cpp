@@ -9,9 +9,9 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr int LOOKS_PER_TICK = 4;       // the timer is not aligned with the grid
-constexpr unsigned CLOCK_QUEUE = 1000;  // a fast clock is followed message by message
-constexpr double NEWEST = 1.0 / 30.0;   // share of the newest tick in the mean cost
+constexpr int LOOKS_PER_TICK = 4;            // the timer is not aligned with the grid
+constexpr unsigned TICK_CLOCK_QUEUE = 1000;  // a fast clock is followed message by message
+constexpr double NEWEST = 1.0 / 30.0;        // share of the newest tick in the mean cost
 
 }  // namespace
 
@@ -26,7 +26,7 @@ void TickClock::listen(ros::NodeHandle handle) {
   if (ros::Time::isSimTime()) {
     const boost::function<void(const rosgraph_msgs::Clock&)> heard =
         [this](const rosgraph_msgs::Clock& message) { see(fromMsg(message.clock)); };
-    const unsigned queue = late_ == LateTicks::EACH ? CLOCK_QUEUE : 1;
+    const unsigned queue = late_ == LateTicks::EACH ? TICK_CLOCK_QUEUE : 1;
     clock_ = handle.subscribe<rosgraph_msgs::Clock>("/clock", queue, heard);
   } else {
     timer_ = handle.createTimer(ros::Duration(1.0 / (LOOKS_PER_TICK * grid_.rate())),

@@ -11,11 +11,10 @@
 namespace vegetation_sim::view {
 namespace {
 
-constexpr std::uint64_t GROUND_SEED = 0x6a55;
-constexpr double ROOM = 14.0;        // [m] margin around the trees
-constexpr double BORDER = 0.12;      // share of the edge that fades to plain grass
-constexpr double LEAF_DEPTH = 0.55;  // optical depth of one leaf cluster, seen from the sun
-constexpr double THINNEST = 0.7;     // [pixel] radius of a shadow
+constexpr double ROOM = 14.0;         // [m] margin around the trees
+constexpr double LAND_BORDER = 0.12;  // share of the edge that fades to plain grass
+constexpr double LEAF_DEPTH = 0.55;   // optical depth of one leaf cluster, seen from the sun
+constexpr double THINNEST = 0.7;      // [pixel] radius of a shadow
 constexpr Rgba GRASS_DEEP{0.25f, 0.30f, 0.12f, 1.f}, GRASS_FRESH{0.37f, 0.41f, 0.17f, 1.f};
 constexpr Rgba GRASS_DRY{0.52f, 0.47f, 0.27f, 1.f};
 constexpr Rgba LITTER{0.30f, 0.25f, 0.16f, 1.f}, MOSS{0.20f, 0.26f, 0.09f, 1.f};
@@ -88,7 +87,7 @@ float repeatingNoise(const Noise& noise, float x, float y, float edge) {
 Plot plotAround(const Extent& extent) {
   const Vec3 size = extent.high - extent.low;
   Plot out;
-  out.edge = std::max(40.0, std::max(size.x(), size.y()) + 2.0 * ROOM) / (1.0 - 2.0 * BORDER);
+  out.edge = std::max(40.0, std::max(size.x(), size.y()) + 2.0 * ROOM) / (1.0 - 2.0 * LAND_BORDER);
   out.x = 0.5 * (extent.low.x() + extent.high.x() - out.edge);
   out.y = 0.5 * (extent.low.y() + extent.high.y() - out.edge);
   return out;
@@ -161,7 +160,7 @@ Image groundPicture(const Plot& plot, int edge, const Shade& shade,
       const double u = (c + 0.5) / edge, v = (r + 0.5) / edge;
       const double x = plot.x + plot.edge * u, y = plot.y + plot.edge * v;
       const double from_border = std::min(std::min(u, 1.0 - u), std::min(v, 1.0 - v));
-      const auto inside = static_cast<double>(ramp(0.2 * BORDER, BORDER, from_border));
+      const auto inside = static_cast<double>(ramp(0.2 * LAND_BORDER, LAND_BORDER, from_border));
       const Vec3 at(x, y, terrain.height(x, y) + 0.3);
       const double sky = shade.sky ? 1.0 - inside * (1.0 - shade.sky(at)) : 1.0;
       const double lit =

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -10,6 +11,9 @@
 #include "vegetation_sim/terrain/height_map.h"
 
 namespace vegetation_sim::view {
+
+/// Seed of the noise of the ground: meadows and the land around them agree.
+constexpr std::uint64_t GROUND_SEED = 0x6a55;
 
 /// Square of ground with a texture of its own, layout's frame [m].
 struct Plot {

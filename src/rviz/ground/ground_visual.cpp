@@ -13,9 +13,9 @@
 namespace vegetation_sim::view {
 namespace {
 
-constexpr int GRAIN_EDGE = 512;  // [pixel]
-constexpr int TILES = 4;         // batches along an edge, culled one by one
-constexpr int MOST_CELLS = 40;   // along the edge of a tile
+constexpr int GRAIN_EDGE = 512;      // [pixel]
+constexpr int TILES = 4;             // batches along an edge, culled one by one
+constexpr int MOST_TILE_CELLS = 40;  // along the edge of a tile
 // Radii of rings around the plot, in half edges.
 constexpr std::array<double, 6> RINGS{1.0, 1.25, 1.7, 2.8, 6.0, 24.0};
 constexpr int RING_SIDE = 32;  // quads along a side of a ring
@@ -105,7 +105,7 @@ void GroundVisual::addPlot(const Land& land) {
   const double tile = plot.edge / TILES;
   constexpr int STEP = RING_SIDE / TILES;
   const int times = std::max(1, static_cast<int>(std::lround(tile / land.cell / STEP)));
-  const int cells = terrain.isFlat() ? STEP : std::min(MOST_CELLS, STEP * times);
+  const int cells = terrain.isFlat() ? STEP : std::min(MOST_TILE_CELLS, STEP * times);
   for (int t = 0; t < TILES * TILES; ++t) {
     std::vector<float> positions;
     std::vector<VertexPaint> paint;

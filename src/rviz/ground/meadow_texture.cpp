@@ -10,11 +10,10 @@
 namespace vegetation_sim::view {
 namespace {
 
-constexpr std::uint64_t GROUND_SEED = 0x6a55;  // the same as of the surrounding land
 constexpr int MOST_PIXELS = 2048, MOST_PER_TILE = 32;
 constexpr Rgba SOIL{0.33f, 0.27f, 0.18f, 1.f};
-constexpr float UNDER = 0.48f;  // share of light that closed grass blocks
-constexpr double BORDER = 3.0;  // [m] over which the edge fades into the surroundings
+constexpr float UNDER = 0.48f;         // share of light that closed grass blocks
+constexpr double MEADOW_BORDER = 3.0;  // [m] over which the edge fades into the surroundings
 
 Vec3 widen(const Rgba& c) {
   return {static_cast<double>(c[0]), static_cast<double>(c[1]), static_cast<double>(c[2])};
@@ -115,7 +114,7 @@ Rgba MeadowPainter::colourAt(double x, double y, double crush, const Vec3& lying
     const float soil = SOIL[i] * open[i] * (1.f + 0.6f * fine);
     out[i] = soil + (grass - soil) * cover;
   }
-  out = mix(land, out, static_cast<float>(smoothStep(inside / BORDER)));
+  out = mix(land, out, static_cast<float>(smoothStep(inside / MEADOW_BORDER)));
   out[3] = 1.f - UNDER * cover * (1.f - 0.55f * down);
   return out;
 }

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int EDGE = 1024;                // [pixel]
 constexpr double LIFT = 0.2, CELL = 2.0;  // [m] height above the ground; cell of the mesh
-constexpr int MOST_CELLS = 120;           // along an edge
+constexpr int MOST_SHADOW_CELLS = 120;    // along an edge
 constexpr float DARKEST = 0.62f;          // alpha without sunlight
 
 Image veilPicture(const Plot& plot, const TreeSet& tree_set, const terrain::HeightMap& terrain,
@@ -39,7 +39,7 @@ ShadowVisual::ShadowVisual(Ogre::SceneNode& parent, const TreeSet& tree_set,
   const Vec3& origin = tree_set.origin();
   node_->setPosition(static_cast<float>(origin.x()), static_cast<float>(origin.y()),
                      static_cast<float>(origin.z()));
-  const int cells = std::clamp(static_cast<int>(plot.edge / CELL), 1, MOST_CELLS);
+  const int cells = std::clamp(static_cast<int>(plot.edge / CELL), 1, MOST_SHADOW_CELLS);
   std::vector<float> positions;
   std::vector<VertexPaint> paint;
   std::vector<std::uint32_t> triangles;

@@ -10,7 +10,8 @@ namespace {
 
 using forest::LeafShape;
 
-constexpr float INSET = 0.02f;  // share of a column that keeps its neighbours out of the filter
+constexpr float COLUMN_INSET =
+    0.02f;  // share of a column that keeps its neighbours out of the filter
 
 // Draws bright ridges along the wood between narrow dark fissures.
 float fissures(const Noise& noise, float around, float along) {
@@ -90,7 +91,7 @@ Image barkAtlas(int edge) {
 }
 
 float barkAtlasU(LeafShape shape, float around) {
-  return 0.25f * (static_cast<float>(shape) + INSET + (1.f - 2.f * INSET) * around);
+  return 0.25f * (static_cast<float>(shape) + COLUMN_INSET + (1.f - 2.f * COLUMN_INSET) * around);
 }
 
 }  // namespace vegetation_sim::view

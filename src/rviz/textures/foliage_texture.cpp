@@ -11,8 +11,9 @@
 namespace vegetation_sim::view {
 namespace {
 
-constexpr int CUTS = 4;         // images in the atlas
-constexpr float INSET = 0.02f;  // share of an image that keeps its neighbours out of the filter
+constexpr int CUTS = 4;  // images in the atlas
+constexpr float IMAGE_INSET =
+    0.02f;  // share of an image that keeps its neighbours out of the filter
 
 float triangleWave(float x) {
   return std::fabs(2.f * (x - std::floor(x)) - 1.f);
@@ -95,8 +96,8 @@ std::vector<Image> foliageAtlas(int edge) {
 }
 
 std::array<float, 2> foliagePlace(LeafCut cut, float u, float v) {
-  return {(static_cast<float>(cut) + INSET + (1.f - 2.f * INSET) * u) / CUTS,
-          INSET + (1.f - 2.f * INSET) * v};
+  return {(static_cast<float>(cut) + IMAGE_INSET + (1.f - 2.f * IMAGE_INSET) * u) / CUTS,
+          IMAGE_INSET + (1.f - 2.f * IMAGE_INSET) * v};
 }
 
 }  // namespace vegetation_sim::view

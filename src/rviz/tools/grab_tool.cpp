@@ -14,8 +14,8 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr double KEEP = 0.05;        // [s] between renewals of the lease
-constexpr float LINE_WIDTH = 0.02f;  // [m]
+constexpr double KEEP = 0.05;             // [s] between renewals of the lease
+constexpr float GRAB_LINE_WIDTH = 0.02f;  // [m]
 const Ogre::ColourValue SLACK(1.0f, 0.85f, 0.1f), TAUT(0.9f, 0.05f, 0.05f);
 
 QString describe(const view::Grip& grip) {
@@ -28,7 +28,7 @@ QString describe(const view::Grip& grip) {
 
 }  // namespace
 
-GrabTool::GrabTool() : line_(LINE_WIDTH) {
+GrabTool::GrabTool() : line_(GRAB_LINE_WIDTH) {
   shortcut_key_ = 'b';
   rviz::Property* to = getPropertyContainer();
   node_ = std::make_unique<rviz::StringProperty>(

@@ -16,8 +16,8 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr double FAR = 300.0;  // [m] the tool ignores ground beyond
-constexpr double STEP = 0.02;  // [m] between events
+constexpr double FARTHEST_GROUND = 300.0;  // [m] the tool ignores ground beyond
+constexpr double STEP = 0.02;              // [m] between events
 
 }  // namespace
 
@@ -69,7 +69,8 @@ void TreadTool::tread(const rviz::ViewportMouseEvent& event, bool first) {
   Vec3 place;
   try {
     const view::Ray ray = view::rayOf(event, *context_, world_->frame());
-    if (!terrain::meetGround(world_->ground(), ray.origin, ray.direction, FAR, place)) return;
+    if (!terrain::meetGround(world_->ground(), ray.origin, ray.direction, FARTHEST_GROUND, place))
+      return;
   } catch (const std::runtime_error& error) {
     setStatus(error.what());
     return;

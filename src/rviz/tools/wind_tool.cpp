@@ -16,9 +16,9 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr double FAR = 500.0;        // [m] the tool draws nothing beyond
-constexpr double LIFTED = 0.3;       // [m] height of the line above the ground
-constexpr float LINE_WIDTH = 0.15f;  // [m]
+constexpr double FARTHEST_WIND = 500.0;   // [m] the tool draws nothing beyond
+constexpr double LIFTED = 0.3;            // [m] height of the line above the ground
+constexpr float WIND_LINE_WIDTH = 0.15f;  // [m]
 
 std::unique_ptr<rviz::FloatProperty> metres(const char* name, float value, float low, float high,
                                             const char* help, rviz::Property* to) {
@@ -30,7 +30,7 @@ std::unique_ptr<rviz::FloatProperty> metres(const char* name, float value, float
 
 }  // namespace
 
-WindTool::WindTool() : line_(LINE_WIDTH) {
+WindTool::WindTool() : line_(WIND_LINE_WIDTH) {
   shortcut_key_ = 'w';
   rviz::Property* to = getPropertyContainer();
   node_ = std::make_unique<rviz::StringProperty>(
@@ -64,7 +64,7 @@ void WindTool::setKind(Kind kind) {
 bool WindTool::place(const rviz::ViewportMouseEvent& event, Vec3& out) {
   try {
     const view::Ray ray = view::rayOf(event, *context_, world_->frame());
-    return terrain::meetGround(world_->ground(), ray.origin, ray.direction, FAR, out);
+    return terrain::meetGround(world_->ground(), ray.origin, ray.direction, FARTHEST_WIND, out);
   } catch (const std::runtime_error& error) {
     setStatus(error.what());
     return false;

@@ -12,9 +12,9 @@
 namespace vegetation_sim::forest {
 namespace {
 
-constexpr double FARTHEST = 1e7;  // [m]
+constexpr double FARTHEST_TREE = 1e7;  // [m]
 
-enum Draw : std::uint64_t { SPECIES, X, Y, YAW, SCALE, GROWTH };
+enum SeedDraw : std::uint64_t { SPECIES, X, Y, YAW, SCALE, GROWTH };
 
 void checkNumber(const std::string& name, double value, const char* unit, Range range,
                  Faults& faults) {
@@ -27,8 +27,8 @@ void checkSeed(const TreeSeed& seed, const std::string& name, std::size_t specie
     faults.add(name + ": species = " + std::to_string(seed.species) + " is outside 0 to " +
                std::to_string(static_cast<long>(species) - 1));
   for (int i = 0; i < 3; ++i)
-    checkNumber(name + ": position." + "xyz"[i], seed.position[i], "m", {-FARTHEST, FARTHEST},
-                faults);
+    checkNumber(name + ": position." + "xyz"[i], seed.position[i], "m",
+                {-FARTHEST_TREE, FARTHEST_TREE}, faults);
   checkNumber(name + ": yaw", seed.yaw, "rad", {-1000.0, 1000.0}, faults);
   checkNumber(name + ": scale", seed.scale, "", {0.05, 20.0}, faults);
 }
@@ -38,8 +38,8 @@ std::uint32_t cellsASide(const Tile& tile) {
 }
 
 void checkTile(const Tile& tile, const std::string& name, std::size_t species, Faults& faults) {
-  checkNumber(name + ": x", tile.x, "m", {-FARTHEST, FARTHEST}, faults);
-  checkNumber(name + ": y", tile.y, "m", {-FARTHEST, FARTHEST}, faults);
+  checkNumber(name + ": x", tile.x, "m", {-FARTHEST_TREE, FARTHEST_TREE}, faults);
+  checkNumber(name + ": y", tile.y, "m", {-FARTHEST_TREE, FARTHEST_TREE}, faults);
   checkNumber(name + ": size", tile.size, "m", {0.1, 1e5}, faults);
   if (tile.mix.size() != species)
     faults.add(name + ": mix has " + std::to_string(tile.mix.size()) + " weights for " +

@@ -13,7 +13,7 @@
 namespace vegetation_sim::forest {
 namespace {
 
-enum Draw : std::uint64_t { LENGTH, PLACE, AZIMUTH, ANGLE, COUNT, LEAVES, LEAN, TREE };
+enum BranchDraw : std::uint64_t { LENGTH, PLACE, AZIMUTH, ANGLE, COUNT, LEAVES, LEAN, TREE };
 
 struct Limb {
   int bearer{-1};  // index among the limbs one depth below
@@ -66,7 +66,7 @@ class Grower {
   const LimbRule& rule(int depth) const { return species_.limbs[static_cast<std::size_t>(depth)]; }
 
   // Returns a value in [-1, 1] times the species' noise; 0 leaves the bare rules (S1-12).
-  double vary(const Random& random, Draw draw) const {
+  double vary(const Random& random, BranchDraw draw) const {
     return std::min(1.0, species_.noise) * random.uniform(draw, -1.0, 1.0);
   }
 

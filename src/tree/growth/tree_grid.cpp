@@ -9,19 +9,19 @@
 namespace vegetation_sim::forest {
 namespace {
 
-constexpr double CELL = 16.0;         // about the reach of a tree [m]
-constexpr double FARTHEST = 1 << 30;  // [cells]
-constexpr double MOST_ROWS = 1000;    // a search that is wider returns all trees
+constexpr double CELL = 16.0;           // about the reach of a tree [m]
+constexpr double MOST_CELLS = 1 << 30;  // [cells]
+constexpr double MOST_ROWS = 1000;      // a search that is wider returns all trees
 constexpr double ROUNDING = 1.0 + 1e-9;
 
 std::int64_t cellOf(double x) {
-  return static_cast<std::int64_t>(std::clamp(std::floor(x / CELL), -FARTHEST, FARTHEST));
+  return static_cast<std::int64_t>(std::clamp(std::floor(x / CELL), -MOST_CELLS, MOST_CELLS));
 }
 
 // Keys rise by row, then by column.
 std::uint64_t keyOf(std::int64_t row, std::int64_t column) {
   const auto positive = [](std::int64_t i) {
-    return static_cast<std::uint64_t>(i + static_cast<std::int64_t>(FARTHEST));
+    return static_cast<std::uint64_t>(i + static_cast<std::int64_t>(MOST_CELLS));
   };
   return positive(row) << 32 | positive(column);
 }

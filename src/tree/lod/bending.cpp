@@ -9,9 +9,9 @@
 namespace vegetation_sim::forest {
 namespace {
 
-constexpr double PROBE = 0.5;  // [m/s] weak enough that no joint nears its limit
-constexpr double BENT = 0.3;   // [rad] rotation at which bending is measured, well above rounding
-constexpr int ROUNDS = 20;     // [iterations] leave a millionth of the error
+constexpr double BENDING_WIND = 0.5;  // [m/s] weak enough that no joint nears its limit
+constexpr double BENT = 0.3;  // [rad] rotation at which bending is measured, well above rounding
+constexpr int ROUNDS = 20;    // [iterations] leave a millionth of the error
 
 wind::Instant steady(const Vec3& velocity) {
   wind::Instant out;
@@ -22,13 +22,13 @@ wind::Instant steady(const Vec3& velocity) {
 // Returns the largest accumulated rotation from the ground, per speed.
 double turn(const TreeModels& tiers, const Vec3& along) {
   std::vector<double> bends;
-  for (const JointAngles& bend : allDepths(tiers.tree, steady(PROBE * along)))
+  for (const JointAngles& bend : allDepths(tiers.tree, steady(BENDING_WIND * along)))
     bends.insert(bends.end(), {bend.first, bend.second});
   std::vector<physics::SmallMotion> motion;
   tiers.linear.motionOf(bends.data(), motion);
   double out = 0.0;
   for (const physics::SmallMotion& link : motion) out = std::max(out, length(link.turn));
-  return out / PROBE;
+  return out / BENDING_WIND;
 }
 
 // Returns the bends at which springs balance a steady wind, by damped iteration.

@@ -11,10 +11,10 @@
 namespace vegetation_sim::forest {
 namespace {
 
-constexpr int SAMPLES = 6;        // trees measured per species
-constexpr int DIRECTIONS = 4;     // wind directions per tree
-constexpr double PROBE = 0.5;     // [m/s] weak enough that no joint nears its limit
-constexpr double STRANGER = 1.1;  // margin for trees that were not measured
+constexpr int TREES_PER_SPECIES = 6;  // trees measured per species
+constexpr int DIRECTIONS = 4;         // wind directions per tree
+constexpr double WEAK_WIND = 0.5;     // [m/s] weak enough that no joint nears its limit
+constexpr double STRANGER = 1.1;      // margin for trees that were not measured
 
 // Scales of measured trees; tables at other scales are interpolated.
 constexpr std::array<double, 11> GRID{0.05, 0.1, 0.2, 0.35, 0.6, 1.0, 1.6, 2.5, 4.0, 8.0, 20.0};
@@ -32,7 +32,7 @@ void measureTree(const Tree& tree, LevelTable& table) {
   for (int direction = 0; direction < DIRECTIONS; ++direction) {
     const SinCos a = sinCosTurns(static_cast<double>(direction) / (2 * DIRECTIONS));
     wind::Instant wind;
-    wind.mean = Vec3(PROBE * a.cos, PROBE * a.sin, 0.0);
+    wind.mean = Vec3(WEAK_WIND * a.cos, WEAK_WIND * a.sin, 0.0);
     Weights weights;
     weights.fill(1.0);
     const std::vector<Pose> full = poseBranches(tree, wind, weights);
@@ -42,7 +42,7 @@ void measureTree(const Tree& tree, LevelTable& table) {
       for (std::size_t i = 0; i < full.size(); ++i) {
         const Branch& branch = tree.skeleton.branches[i];
         const double moved = length(tipOf(branch, full[i]) - tipOf(branch, cut[i]));
-        table.omitted[n] = std::max(table.omitted[n], STRANGER * moved / PROBE);
+        table.omitted[n] = std::max(table.omitted[n], STRANGER * moved / WEAK_WIND);
       }
     }
   }
@@ -58,14 +58,14 @@ double branchesBelow(const Skeleton& skeleton, std::size_t depth) {
 LevelTable measureLevels(const Species& species, const MotionLaw& law, double scale) {
   LevelTable out;
   out.height = out.reach = 0.0;
-  for (int sample = 0; sample < SAMPLES; ++sample) {
+  for (int sample = 0; sample < TREES_PER_SPECIES; ++sample) {
     TreeSeed seed;
     seed.seed = static_cast<std::uint64_t>(sample) + 1;
     seed.scale = scale;
     const Tree tree = growTree(seed, species, law);
     measureTree(tree, out);
     for (std::size_t n = 0; n < out.branches.size(); ++n)
-      out.branches[n] += branchesBelow(tree.skeleton, n) / SAMPLES;
+      out.branches[n] += branchesBelow(tree.skeleton, n) / TREES_PER_SPECIES;
     out.height = std::max(out.height, tree.skeleton.height);
     out.reach = std::max(out.reach, tree.skeleton.reach);
   }

@@ -18,8 +18,8 @@ namespace {
 
 using wind::GustSpectrum;
 
-constexpr int SAMPLES = 2;     // trees measured per species and scale
-constexpr double PROBE = 0.5;  // [m/s] weak enough that no joint nears its limit
+constexpr int TREES_PER_SCALE = 2;     // trees measured per species and scale
+constexpr double RESPONSE_WIND = 0.5;  // [m/s] weak enough that no joint nears its limit
 
 // A wave of the breezes at unit speed: its parts along and across, and its spread (wind/breeze.h).
 // For uniform wind, along only.
@@ -27,10 +27,10 @@ wind::Mode waveOf(double frequency, double slowness, const Vec3& along) {
   using wind::Breeze;
   const Vec3 across(-along.y(), along.x(), 0.0), up = Vec3::UnitZ();
   wind::Mode out;
-  out.amplitude = PROBE * along;
+  out.amplitude = RESPONSE_WIND * along;
   if (slowness == 0.0) return out;
-  out.amplitude += PROBE * (Breeze::LATERAL * across + Breeze::VERTICAL * up);
-  out.amplitude *= PROBE / length(out.amplitude);
+  out.amplitude += RESPONSE_WIND * (Breeze::LATERAL * across + Breeze::VERTICAL * up);
+  out.amplitude *= RESPONSE_WIND / length(out.amplitude);
   const double spread = Breeze::DECAY / (2.0 * PI);
   out.wave = frequency * slowness * (along + spread * (across + up));
   return out;
@@ -145,7 +145,7 @@ class Sample {
       for (std::size_t i = 0; i < out.size(); ++i) {
         const Vec3 along = links_[i].length * axisZ(linear_.rest()[i].orientation);
         const Vec3 tip = motion_[i].move + cross(motion_[i].turn, along);
-        out[i] += dot(tip, tip) / (PROBE * PROBE);
+        out[i] += dot(tip, tip) / (RESPONSE_WIND * RESPONSE_WIND);
       }
     }
     return out;
@@ -183,7 +183,8 @@ void addRow(const Row& row, bool breeze, std::array<ErrorSquares, N>& out) {
     const std::size_t tip = farthestIn(row, kind);
     for (std::size_t f = 0; f < N; ++f) {
       const std::vector<double>& tips = row[f].*kind;
-      out[f].*to += (breeze ? tips[tip] : *std::max_element(tips.begin(), tips.end())) / SAMPLES;
+      out[f].*to +=
+          (breeze ? tips[tip] : *std::max_element(tips.begin(), tips.end())) / TREES_PER_SCALE;
     }
   }
 }
@@ -204,7 +205,7 @@ PredictedError ResponseError::in(const GustSpectrum& spectrum) const {
 ResponseError measureResponseError(const Species& species, const MotionLaw& law, double scale) {
   ResponseError out;
   if (law.joint_model != JointModel::SWING) return out;
-  for (int i = 0; i < SAMPLES; ++i) {
+  for (int i = 0; i < TREES_PER_SCALE; ++i) {
     TreeSeed seed;
     seed.seed = static_cast<std::uint64_t>(i) + 1;
     seed.scale = scale;
@@ -222,8 +223,8 @@ ResponseError measureResponseError(const Species& species, const MotionLaw& law,
       addRow(rows[s], GustSpectrum::SLOWNESSES[s] > 0.0, out.squares[s]);
     if (law.gain == Gain::COMPLIANCE) {
       const Bending bending = sample.bending(along);
-      out.bend.procedural += bending.procedural / SAMPLES;
-      out.bend.modal += bending.modal / SAMPLES;
+      out.bend.procedural += bending.procedural / TREES_PER_SCALE;
+      out.bend.modal += bending.modal / TREES_PER_SCALE;
     }
   }
   return out;

@@ -30,10 +30,6 @@ constexpr std::array<LeafHabit, 4> HABITS{{{0.4, 1.3, 1.2, 0.4, false},     // b
                                            {0.6, 1.5, 1.4, 0.4, false},     // small
                                            {0.15, 0.55, 1.4, 0.4, true}}};  // long
 
-float narrow(double x) {
-  return static_cast<float>(x);
-}
-
 // Returns the rotation about an axis, from cosine and sine of half the angle.
 Quat aboutX(double angle) {
   const SinCos half = sinCos(0.5 * angle);

@@ -25,10 +25,6 @@ constexpr std::array<LeafOutline, 8> OUTLINES{
      {{{0.03f, 0.01f}, {1.00f, 0.00f}, {0.79f, 1.00f}, {0.00f, 0.96f}}},
      {{{0.09f, 0.05f}, {1.00f, 0.10f}, {0.82f, 0.98f}, {0.00f, 0.92f}}}}};
 
-float narrow(double x) {
-  return static_cast<float>(x);
-}
-
 class MeshBuilder {
  public:
   MeshBuilder(const Skeleton& skeleton, const Species& species, const MeshDetail& detail)

@@ -11,6 +11,11 @@
 
 namespace vegetation_sim::forest {
 
+/// A number of a mesh: meshes have single precision.
+inline float narrow(double number) {
+  return static_cast<float>(number);
+}
+
 /// Vertex of bark, fixed to its branch.
 struct BarkVertex {
   std::int32_t branch{0};

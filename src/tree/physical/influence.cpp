@@ -8,10 +8,6 @@
 namespace vegetation_sim::forest {
 namespace {
 
-std::size_t index(int branch) {
-  return static_cast<std::size_t>(branch);
-}
-
 // Returns the bend of a joint under a torque, world axes at rest [rad]: joints do not twist
 // (S1-A1).
 Vec3 bendOf(const Branch& b, double stiffness, const Vec3& torque) {

@@ -8,6 +8,11 @@
 
 namespace vegetation_sim::forest {
 
+/// A branch as an index of an array.
+inline std::size_t index(int branch) {
+  return static_cast<std::size_t>(branch);
+}
+
 /// A force at a point of a branch, world axes.
 struct BranchLoad {
   int branch{0};

@@ -11,10 +11,6 @@
 namespace vegetation_sim::forest {
 namespace {
 
-std::size_t index(int i) {
-  return static_cast<std::size_t>(i);
-}
-
 JointAngles anglesOf(const physics::Vec2& a) {
   return {a.x(), a.y()};
 }

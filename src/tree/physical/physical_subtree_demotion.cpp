@@ -14,16 +14,8 @@ constexpr double CALM_TIME = 0.1;
 /// ten times what was measured.
 constexpr double WIND_ROUNDING = 1e-4;
 
-std::size_t index(int i) {
-  return static_cast<std::size_t>(i);
-}
-
 double magnitude(const physics::Vec2& a) {
   return std::sqrt(a.x() * a.x() + a.y() * a.y());
-}
-
-physics::Vec2 vectorOf(const JointAngles& a) {
-  return {a.first, a.second};
 }
 
 double sumOfSizes(const Vec3& v) {

@@ -20,10 +20,6 @@ physics::Symmetric3 uniform(double value) {
   return {value, value, value, 0.0, 0.0, 0.0};
 }
 
-std::size_t index(int i) {
-  return static_cast<std::size_t>(i);
-}
-
 void addForce(const Vec3& force, const Vec3& arm, physics::Wrench& wrench) {
   wrench.force += force;
   wrench.torque += cross(arm, force);

@@ -6,14 +6,6 @@
 namespace vegetation_sim::forest {
 namespace {
 
-std::size_t index(int i) {
-  return static_cast<std::size_t>(i);
-}
-
-physics::Vec2 vectorOf(const JointAngles& a) {
-  return {a.first, a.second};
-}
-
 // Returns the rate of smoothStep's weight [1/s].
 double blendRate(const SubtreeJoint& joint, Nanoseconds stamp, double duration) {
   const double u = secondsBetween(joint.blend, stamp) / duration;

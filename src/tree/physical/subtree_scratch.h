@@ -13,6 +13,11 @@
 
 namespace vegetation_sim::forest {
 
+/// The angles of a joint as the coordinates of a link.
+inline physics::Vec2 vectorOf(const JointAngles& angles) {
+  return {angles.first, angles.second};
+}
+
 /// Wind on a tree, its level, and its modal state if it has one.
 struct TreeWind {
   const wind::Field& field;

@@ -19,7 +19,7 @@ SnapshotFile makeExample() {
   return out;
 }
 
-std::string faultOf(const std::string& bytes, const std::string& node = "forest_animator") {
+std::string faultOfFile(const std::string& bytes, const std::string& node = "forest_animator") {
   try {
     decodeSnapshot("file", bytes, node);
   } catch (const InvalidInput& error) {
@@ -41,7 +41,7 @@ TEST(SnapshotFile, DecodesWhatItEncodes) {
 TEST(SnapshotFile, RejectsEveryTruncatedFile) {
   const std::string bytes = encodeSnapshot(makeExample());
   for (std::size_t size = 0; size < bytes.size(); ++size)
-    EXPECT_EQ(faultOf(bytes.substr(0, size)).compare(0, 6, "file: "), 0) << size << " bytes";
+    EXPECT_EQ(faultOfFile(bytes.substr(0, size)).compare(0, 6, "file: "), 0) << size << " bytes";
 }
 
 TEST(SnapshotFile, RejectsEveryFlippedBit) {
@@ -49,20 +49,20 @@ TEST(SnapshotFile, RejectsEveryFlippedBit) {
   for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
     std::string altered = bytes;
     altered[bit / 8] = static_cast<char>(altered[bit / 8] ^ (1 << (bit % 8)));
-    EXPECT_NE(faultOf(altered), "") << "bit " << bit;
+    EXPECT_NE(faultOfFile(altered), "") << "bit " << bit;
   }
 }
 
 TEST(SnapshotFile, RejectsAnotherVersionByItsNumber) {
   std::string bytes = encodeSnapshot(makeExample());
   bytes[std::string("vegetation_sim snapshot\n").size()] = 99;
-  EXPECT_EQ(faultOf(bytes), "file: version = 99 of the format, allowed is 1");
+  EXPECT_EQ(faultOfFile(bytes), "file: version = 99 of the format, allowed is 1");
 }
 
 TEST(SnapshotFile, RejectsTheSnapshotOfAnotherNode) {
-  EXPECT_EQ(faultOf(encodeSnapshot(makeExample()), "grass_field"),
+  EXPECT_EQ(faultOfFile(encodeSnapshot(makeExample()), "grass_field"),
             "file: node = 'forest_animator', allowed is 'grass_field'");
-  EXPECT_EQ(faultOf("something else"), "file: it is no snapshot of vegetation_sim");
+  EXPECT_EQ(faultOfFile("something else"), "file: it is no snapshot of vegetation_sim");
 }
 
 TEST(SnapshotFile, IsReplacedAsAWholeOrNotAtAll) {

@@ -11,8 +11,6 @@
 namespace vegetation_sim::physics {
 namespace {
 
-constexpr double STEP = 1.0 / 240.0;
-
 // The grips of quadraticGust.
 std::vector<Grip> gripsOf(const std::vector<Link>& links) {
   std::vector<Grip> out;

@@ -10,9 +10,7 @@
 namespace vegetation_sim::physics {
 namespace {
 
-constexpr double STEP = 1.0 / 240.0;
-
-std::vector<Vec3> tipsOf(const std::vector<Link>& links, const ChainState& state) {
+std::vector<Vec3> tipsAt(const std::vector<Link>& links, const ChainState& state) {
   Simulation at{links};
   at.state = state;
   return at.tips();
@@ -29,7 +27,7 @@ double errorAfter(const std::vector<Link>& links, const std::vector<Vec3>& exact
   chain.setProducts(products);
   chain.setState(0, turning(links.size()));
   for (int i = 0; i < steps; ++i) chain.step(seconds / steps);
-  return rms(tipsOf(links, chain.state(0)), exact);
+  return rms(tipsAt(links, chain.state(0)), exact);
 }
 
 // Measured: 2.2e-4 and 5.3e-5 m; with products before the step, which are of first order, 4.6e-4.
@@ -70,7 +68,7 @@ class Errors {
       chain.step(std::vector<Surroundings>{around_}, (i - 1) * STEP, STEP);
       if (i % 8) continue;
       const std::vector<Vec3>& exact = exact_[static_cast<std::size_t>(i / 8 - 1)];
-      sum += std::pow(rms(tipsOf(links_, chain.state(0)), exact), 2);
+      sum += std::pow(rms(tipsAt(links_, chain.state(0)), exact), 2);
     }
     return std::sqrt(sum / way_);
   }

@@ -12,7 +12,6 @@ namespace vegetation_sim::physics {
 namespace {
 
 using Trees = std::vector<std::vector<Link>>;
-constexpr double STEP = 1.0 / 240.0;
 
 // Trees of odd sizes and shapes in a storm, held and shaken: every path of the kernels.
 template <class Batch>
@@ -90,8 +89,8 @@ TEST(BatchChain, TreesDoNotAffectEachOther) {
 
 template <class Batch>
 class BatchedStorm : public testing::Test {};
-using Steppers = testing::Types<BatchChain, FramedChain>;
-TYPED_TEST_SUITE(BatchedStorm, Steppers);
+using StormSteppers = testing::Types<BatchChain, FramedChain>;
+TYPED_TEST_SUITE(BatchedStorm, StormSteppers);
 
 // Largest |q| over a storm and its ring-down, and at the end.
 struct Bends {

@@ -14,10 +14,10 @@
 namespace vegetation_sim::grass {
 namespace {
 
-constexpr Nanoseconds START = 1700000000 * NANOSECONDS_PER_SECOND;
+constexpr Nanoseconds MEADOW_START = 1700000000 * NANOSECONDS_PER_SECOND;
 
 Nanoseconds after(double seconds) {
-  return START + fromSeconds(seconds);
+  return MEADOW_START + fromSeconds(seconds);
 }
 
 Viewpoint eyeAt(double x, double y, double z) {
@@ -52,8 +52,8 @@ class MeadowLodTest : public testing::Test {
 TEST_F(MeadowLodTest, ShowsBladesNearAndStripsFartherAway) {
   const Viewpoint eye = eyeAt(201.0, 201.0, 1.6);
   meadow_.setViewpoints({eye});
-  meadow_.advance(START);
-  EXPECT_TRUE(meadow_.viewOf(eye, START).empty());  // all begin as ground
+  meadow_.advance(MEADOW_START);
+  EXPECT_TRUE(meadow_.viewOf(eye, MEADOW_START).empty());  // all begin as ground
   const auto views = viewsOf(meadow_, eye, after(2.0));
   EXPECT_TRUE(views.at({100, 100}).morph.blades);
   EXPECT_EQ(views.at({100, 100}).morph.slide, 0.0);
@@ -69,7 +69,7 @@ TEST_F(MeadowLodTest, ShowsBladesNearAndStripsFartherAway) {
 TEST_F(MeadowLodTest, FindsAllTilesThatAreMoreThanATexture) {
   const Viewpoint eye = eyeAt(30.0, 201.0, 1.6);
   meadow_.setViewpoints({eye});
-  meadow_.advance(START);
+  meadow_.advance(MEADOW_START);
   std::map<std::pair<int, int>, TileModel> chosen;
   for (const TileLevel& level : meadow_.snapshot().levels)
     chosen[{level.row, level.column}] = level.tier.target;
@@ -88,7 +88,7 @@ TEST_F(MeadowLodTest, FindsAllTilesThatAreMoreThanATexture) {
 }
 
 TEST_F(MeadowLodTest, WithoutAnEyeIsAllGround) {
-  meadow_.advance(START);
+  meadow_.advance(MEADOW_START);
   meadow_.advance(after(5.0));
   EXPECT_TRUE(meadow_.snapshot().levels.empty());
 }
@@ -99,7 +99,7 @@ TEST_F(MeadowLodTest, WithoutGrassIsAllGround) {
   MeadowLod bare(std::make_shared<FeatureMap>(input), std::make_shared<terrain::HeightMap>(), 7,
                  MeadowSettings());
   bare.setViewpoints({eyeAt(50.0, 50.0, 1.6)});
-  bare.advance(START);
+  bare.advance(MEADOW_START);
   EXPECT_TRUE(bare.snapshot().levels.empty());
 }
 
@@ -118,7 +118,7 @@ TEST_F(MeadowLodTest, ShowsTheSameBladesAfterLeavingAndComingBack) {
     return posed(tile, motion, tile.blades);
   };
   meadow_.setViewpoints({near});
-  meadow_.advance(START);
+  meadow_.advance(MEADOW_START);
   const auto before = bladesNow(after(3.0));
   meadow_.setViewpoints({far});
   meadow_.advance(after(4.0));
@@ -172,7 +172,7 @@ TEST_F(MeadowLodTest, ReportsWhatItChoseAndWhy) {
 TEST_F(MeadowLodTest, StandsStillOnItsBudget) {
   MeadowLod meadow = makeMeadow(2e4);
   meadow.setViewpoints({eyeAt(201.0, 201.0, 15.0)});
-  meadow.advance(START);
+  meadow.advance(MEADOW_START);
   const auto before = meadow.snapshot();
   EXPECT_LE(meadow.balance().cost, 2e4);
   EXPECT_GE(meadow.balance().cost, 0.7 * 2e4);
@@ -227,7 +227,7 @@ TEST_F(MeadowLodTest, LeavesOutWhatTheEyeDoesNotSee) {
   Viewpoint eye = eyeAt(201.0, 201.0, 1.6);
   eye.cone_cosine = std::cos(0.5);
   meadow_.setViewpoints({eye});
-  meadow_.advance(START);
+  meadow_.advance(MEADOW_START);
   const auto views = viewsOf(meadow_, eye, after(2.0));
   EXPECT_EQ(views.count({100, 110}), 1u);
   EXPECT_EQ(views.count({100, 90}), 0u);  // behind
@@ -237,7 +237,7 @@ TEST_F(MeadowLodTest, LeavesOutWhatTheEyeDoesNotSee) {
 TEST_F(MeadowLodTest, KnowsFromHowSteepATileIsSeen) {
   const Viewpoint eye = eyeAt(201.0, 201.0, 30.0);
   meadow_.setViewpoints({eye});
-  meadow_.advance(START);
+  meadow_.advance(MEADOW_START);
   const auto views = viewsOf(meadow_, eye, after(2.0));
   EXPECT_EQ(layerWeight(views.at({100, 100}).elevation), 1.0);
   EXPECT_EQ(layerWeight(views.at({100, 160}).elevation), 0.0);

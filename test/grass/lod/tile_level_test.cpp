@@ -13,7 +13,7 @@ namespace vegetation_sim::grass {
 namespace {
 
 constexpr double TOLERANCE = 1.5;  // [pixel]
-constexpr Nanoseconds START = 1700000000 * NANOSECONDS_PER_SECOND;
+constexpr Nanoseconds TILE_START = 1700000000 * NANOSECONDS_PER_SECOND;
 
 double scaleAt(double distance) {
   return pixelsPerMetre(Viewpoint(), distance);
@@ -123,18 +123,18 @@ TEST(Morph, LeadsFromBladesOverStripsToTheGround) {
 // S2-12: it takes its time, and turns round wherever it stands.
 TEST(TileModelState, MovesAtConstantSpeedAndTurnsRoundAnywhere) {
   TileModelState state;
-  setTileModel(state, TileModel::BLADES, START, 0.5);
-  EXPECT_EQ(placeAt(state, START, 0.5), 0.0);
-  EXPECT_NEAR(placeAt(state, START + fromSeconds(0.25), 0.5), 0.5, 1e-9);
-  EXPECT_EQ(placeAt(state, START + fromSeconds(2.0), 0.5), 2.0);
-  setTileModel(state, TileModel::TEXTURE, START + fromSeconds(0.6), 0.5);
-  EXPECT_NEAR(placeAt(state, START + fromSeconds(0.6), 0.5), 1.2, 1e-6);
-  EXPECT_NEAR(placeAt(state, START + fromSeconds(0.7), 0.5), 1.0, 1e-6);
-  EXPECT_EQ(placeAt(state, START + fromSeconds(9.0), 0.5), 0.0);
-  EXPECT_NEAR(placeAt(state, START, 0.5), 1.2, 1e-6);  // before the change: where it began
+  setTileModel(state, TileModel::BLADES, TILE_START, 0.5);
+  EXPECT_EQ(placeAt(state, TILE_START, 0.5), 0.0);
+  EXPECT_NEAR(placeAt(state, TILE_START + fromSeconds(0.25), 0.5), 0.5, 1e-9);
+  EXPECT_EQ(placeAt(state, TILE_START + fromSeconds(2.0), 0.5), 2.0);
+  setTileModel(state, TileModel::TEXTURE, TILE_START + fromSeconds(0.6), 0.5);
+  EXPECT_NEAR(placeAt(state, TILE_START + fromSeconds(0.6), 0.5), 1.2, 1e-6);
+  EXPECT_NEAR(placeAt(state, TILE_START + fromSeconds(0.7), 0.5), 1.0, 1e-6);
+  EXPECT_EQ(placeAt(state, TILE_START + fromSeconds(9.0), 0.5), 0.0);
+  EXPECT_NEAR(placeAt(state, TILE_START, 0.5), 1.2, 1e-6);  // before the change: where it began
   TileModelState hard;
-  setTileModel(hard, TileModel::STRIPS, START, 0.0);
-  EXPECT_EQ(placeAt(hard, START + 1, 0.0), 1.0);
+  setTileModel(hard, TileModel::STRIPS, TILE_START, 0.0);
+  EXPECT_EQ(placeAt(hard, TILE_START + 1, 0.0), 1.0);
 }
 
 // S2-W3: from above layers replace strips, without a jump; fewer far away.

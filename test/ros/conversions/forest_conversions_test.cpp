@@ -14,10 +14,10 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
+constexpr double FOREST_NAN = std::numeric_limits<double>::quiet_NaN();
 
 /// Returns a layout with a different value in every field.
-forest::Layout exampleLayout() {
+forest::Layout exampleForest() {
   forest::Layout out = forest::gridLayout(2, 10.0);
   out.motion = {forest::JointModel::PAPER, forest::Gain::PAPER, forest::Drag::QUADRATIC, 3.25,
                 forest::TransitionShape::LINEAR};
@@ -31,7 +31,7 @@ forest::Layout exampleLayout() {
 }
 
 TEST(ForestConversions, ReturnEveryFieldOfALayout) {  // S1-04: the message has only seeds
-  const forest::Layout layout = exampleLayout();
+  const forest::Layout layout = exampleForest();
   const ForestLayout message = toMsg(layout);
   const forest::Layout back = fromMsg(message);
   EXPECT_EQ(message.hash, layout.hash());
@@ -45,11 +45,11 @@ TEST(ForestConversions, ReturnEveryFieldOfALayout) {  // S1-04: the message has 
 }
 
 TEST(ForestConversions, TreeSeedTakesLessThanAKilobyte) {  // S1-05
-  EXPECT_LT(ros::serialization::serializationLength(toMsg(exampleLayout().trees[1])), 1024u);
+  EXPECT_LT(ros::serialization::serializationLength(toMsg(exampleForest().trees[1])), 1024u);
 }
 
 TEST(ForestConversions, RefuseALayoutWithAllItsFaults) {
-  ForestLayout message = toMsg(exampleLayout());
+  ForestLayout message = toMsg(exampleForest());
   message.joint_model = "rubber";
   message.drag = "";
   message.species[2].rules = "{height: -3, hieght: 4}";
@@ -61,16 +61,16 @@ TEST(ForestConversions, RefuseALayoutWithAllItsFaults) {
 }
 
 TEST(ForestConversions, RejectAnInvalidLayout) {
-  ForestLayout message = toMsg(exampleLayout());
+  ForestLayout message = toMsg(exampleForest());
   message.trees[0].species = 9;
-  message.trees[1].yaw = NOT_A_NUMBER;
+  message.trees[1].yaw = FOREST_NAN;
   message.tiles[1].first_tree = 12;
   message.tiles[0].mix.pop_back();
   const std::string faults = errorOf([&] { fromMsg(message); });
   for (const char* part : {"trees[0]: species = 9 is outside 0 to 3", "trees[1]: yaw",
                            "tiles[1]: first_tree = 12 should be 11", "tiles[0]: mix has 3 weights"})
     EXPECT_NE(faults.find(part), std::string::npos) << part << " in " << faults;
-  message = toMsg(exampleLayout());
+  message = toMsg(exampleForest());
   message.species.resize(300);
   EXPECT_EQ(errorOf([&] { fromMsg(message); }), "layout: 300 species, more than the 256 allowed");
 }
@@ -139,7 +139,7 @@ TEST(ForestConversions, RejectInvalidPhysicalBranches) {
   update.trees = {{4, forest::LevelState::settled(2), {bent(3, 0), bent(3, 0), bent(20000, 0)}}};
   ForestState message = toMsg(update);
   message.blend_time = -1.0;
-  message.trees[0].promoted[0].first = NOT_A_NUMBER;
+  message.trees[0].promoted[0].first = FOREST_NAN;
   message.trees[0].promoted[1].second_rate = 1e9;
   const std::string faults = errorOf([&] { fromMsg(message); });
   for (const char* part :
@@ -222,7 +222,7 @@ TEST(ForestConversions, SensorSurvivesTheRoundTrip) {  // N1
 
 TEST(ForestConversions, RefuseASensorWithAllItsFaults) {
   SensorInterest message;
-  message.position.x = NOT_A_NUMBER;
+  message.position.x = FOREST_NAN;
   message.range = -1.0;
   message.tolerance = 0.0;
   message.id.assign(257, 'x');
@@ -235,7 +235,7 @@ TEST(ForestConversions, RefuseASensorWithAllItsFaults) {
 
 TEST(ForestConversions, RefuseAViewerWithAllItsFaults) {
   Viewer message = exampleViewer();
-  message.pose.position.y = NOT_A_NUMBER;
+  message.pose.position.y = FOREST_NAN;
   message.pose.position.z = 1e8;
   message.pose.orientation.w = 3.0;
   message.field_of_view = 3.2;

@@ -12,11 +12,11 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
+constexpr double GRASS_NAN = std::numeric_limits<double>::quiet_NaN();
 
 /// Returns a layout with a different value in every field and images of one and two bytes per
 /// sample.
-grass::Layout exampleLayout() {
+grass::Layout exampleMeadow() {
   grass::MapInput map;
   map.law = {1.5, -3.0, 4.0, 3, 2};
   map.density.image = {3, 2, 255, {0, 100, 200, 50, 150, 255}};
@@ -41,7 +41,7 @@ grass::Layout exampleLayout() {
 }
 
 TEST(GrassConversions, ReturnEveryFieldOfALayout) {  // S2-03, S2-W2
-  const grass::Layout layout = exampleLayout();
+  const grass::Layout layout = exampleMeadow();
   const grass::Layout back = fromMsg(toMsg(layout));
   EXPECT_EQ(back.hash(), layout.hash());  // the hash covers every number
   EXPECT_EQ(back.terrain, layout.terrain);
@@ -52,12 +52,12 @@ TEST(GrassConversions, ReturnEveryFieldOfALayout) {  // S2-03, S2-W2
 }
 
 TEST(GrassConversions, RefuseALayoutWithAllItsFaults) {
-  GrassLayout message = toMsg(exampleLayout());
+  GrassLayout message = toMsg(exampleMeadow());
   message.blade_model = "rubber";
   message.density.samples.pop_back();
   message.species[1].rules = "{width: -1, hieght: 4}";
   message.tread.load = -1.0;
-  message.tread_spacing = NOT_A_NUMBER;
+  message.tread_spacing = GRASS_NAN;
   const std::string faults = errorOf([&] { fromMsg(message); });
   for (const char* part :
        {"blade_model = 'rubber' is none of arc, paper", "density: 5 bytes for 3 x 2 samples of 1",
@@ -67,7 +67,7 @@ TEST(GrassConversions, RefuseALayoutWithAllItsFaults) {
 }
 
 TEST(GrassConversions, RefuseALayoutOfAnotherHash) {
-  GrassLayout message = toMsg(exampleLayout());
+  GrassLayout message = toMsg(exampleMeadow());
   message.colour.value = 0.26;
   EXPECT_NE(errorOf([&] { fromMsg(message); }).find("is not that of its content"),
             std::string::npos);
@@ -128,7 +128,7 @@ TEST(TreadConversions, NumbersThatAreNotGivenAreThoseOfTheNode) {
 TEST(TreadConversions, RejectEachInvalidField) {
   TreadEvent message;
   message.action = 9;
-  message.position.y = NOT_A_NUMBER;
+  message.position.y = GRASS_NAN;
   message.law.has_recovery = true;
   message.law.recovery = -1.0;
   message.law.softness = 0.5;

@@ -9,8 +9,6 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr Nanoseconds SECOND = NANOSECONDS_PER_SECOND;
-
 AgentStates onePerson(Nanoseconds stamp, const char* frame = "map") {
   AgentStates out;
   out.header.stamp = toStamp(stamp);
@@ -23,12 +21,12 @@ TEST(SubscribedCrowd, RejectsOtherFrames) {
   std::string reason;
   SubscribedCrowd crowd(
       {"map", false, [&](const std::string&, const std::string& why) { reason = why; }});
-  crowd.apply(onePerson(SECOND, "odom"));
+  crowd.apply(onePerson(NANOSECONDS_PER_SECOND, "odom"));
   EXPECT_TRUE(crowd.people().empty());
   EXPECT_EQ(crowd.changes(), 0);
   EXPECT_FALSE(crowd.status().good);
   EXPECT_NE(reason.find("odom"), std::string::npos);
-  crowd.apply(onePerson(SECOND));
+  crowd.apply(onePerson(NANOSECONDS_PER_SECOND));
   EXPECT_EQ(crowd.people().size(), 1u);
   EXPECT_EQ(crowd.frame(), "map");
   EXPECT_TRUE(crowd.status().good);
@@ -36,26 +34,27 @@ TEST(SubscribedCrowd, RejectsOtherFrames) {
 
 TEST(SubscribedCrowd, ForgetsPeopleOfTheFutureAndSilentPeople) {
   SubscribedCrowd crowd;
-  crowd.apply(onePerson(10 * SECOND));
-  crowd.forgetLater(10 * SECOND);
-  crowd.forgetSilent(10 * SECOND + SILENCE);
+  crowd.apply(onePerson(10 * NANOSECONDS_PER_SECOND));
+  crowd.forgetLater(10 * NANOSECONDS_PER_SECOND);
+  crowd.forgetSilent(10 * NANOSECONDS_PER_SECOND + SILENCE);
   EXPECT_EQ(crowd.people().size(), 1u);
-  crowd.forgetLater(9 * SECOND);
+  crowd.forgetLater(9 * NANOSECONDS_PER_SECOND);
   EXPECT_TRUE(crowd.people().empty());
   EXPECT_FALSE(crowd.status().good);
-  crowd.apply(onePerson(10 * SECOND));
-  crowd.forgetSilent(10 * SECOND + SILENCE + 1);
+  crowd.apply(onePerson(10 * NANOSECONDS_PER_SECOND));
+  crowd.forgetSilent(10 * NANOSECONDS_PER_SECOND + SILENCE + 1);
   EXPECT_TRUE(crowd.people().empty());
 }
 
 TEST(SubscribedCrowd, ForgetsUnchangedPeopleWhateverTheirStamps) {
   SubscribedCrowd crowd;
-  const Nanoseconds now = 1000 * SECOND;  // of a picture whose clock is far ahead of the stamps
-  crowd.apply(onePerson(10 * SECOND));
+  const Nanoseconds now =
+      1000 * NANOSECONDS_PER_SECOND;  // of a picture whose clock is far ahead of the stamps
+  crowd.apply(onePerson(10 * NANOSECONDS_PER_SECOND));
   crowd.forgetUnchanged(now);
   crowd.forgetUnchanged(now + SILENCE);
   EXPECT_EQ(crowd.people().size(), 1u);
-  crowd.apply(onePerson(11 * SECOND));
+  crowd.apply(onePerson(11 * NANOSECONDS_PER_SECOND));
   crowd.forgetUnchanged(now + SILENCE + 1);
   EXPECT_EQ(crowd.people().size(), 1u);
   crowd.forgetUnchanged(now + 2 * SILENCE + 2);

@@ -10,8 +10,6 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr Nanoseconds SECOND = NANOSECONDS_PER_SECOND;
-
 ForestLayout twoByTwo() {
   ForestLayout out = toMsg(forest::gridLayout(2, 10.0));
   out.header.frame_id = "map";
@@ -28,14 +26,16 @@ ForestState keyFrame(const SubscribedForest& forest, Nanoseconds stamp) {
 
 TEST(SubscribedForest, SaysWhyItIsNotInStep) {
   SubscribedForest forest;
-  forest.apply(keyFrame(forest, SECOND));
-  EXPECT_EQ(forest.stateStatus(SECOND).text, "Waiting for a key frame: no layout yet");
+  forest.apply(keyFrame(forest, NANOSECONDS_PER_SECOND));
+  EXPECT_EQ(forest.stateStatus(NANOSECONDS_PER_SECOND).text,
+            "Waiting for a key frame: no layout yet");
   forest.setLayout(twoByTwo());
   EXPECT_EQ(forest.layouts(), 1);
   EXPECT_TRUE(forest.layoutStatus().good);
-  forest.apply(keyFrame(forest, SECOND));
-  EXPECT_TRUE(forest.stateStatus(SECOND).good) << forest.stateStatus(SECOND).text;
-  EXPECT_FALSE(forest.stateStatus(SECOND + SILENCE + 1).good);
+  forest.apply(keyFrame(forest, NANOSECONDS_PER_SECOND));
+  EXPECT_TRUE(forest.stateStatus(NANOSECONDS_PER_SECOND).good)
+      << forest.stateStatus(NANOSECONDS_PER_SECOND).text;
+  EXPECT_FALSE(forest.stateStatus(NANOSECONDS_PER_SECOND + SILENCE + 1).good);
 }
 
 TEST(SubscribedForest, RejectedLayoutChangesNothing) {
@@ -54,14 +54,14 @@ TEST(SubscribedForest, RejectedLayoutChangesNothing) {
 TEST(SubscribedForest, ForgetsLaterStates) {
   SubscribedForest forest;
   forest.setLayout(twoByTwo());
-  forest.apply(keyFrame(forest, 5 * SECOND));
+  forest.apply(keyFrame(forest, 5 * NANOSECONDS_PER_SECOND));
   EXPECT_EQ(forest.replica().levels().of(0).level, 2);
-  forest.forgetLater(5 * SECOND);
+  forest.forgetLater(5 * NANOSECONDS_PER_SECOND);
   EXPECT_EQ(forest.replica().levels().of(0).level, 2);
-  forest.forgetLater(4 * SECOND);
+  forest.forgetLater(4 * NANOSECONDS_PER_SECOND);
   EXPECT_EQ(forest.replica().levels().of(0).level, 0);
-  EXPECT_FALSE(forest.stateStatus(4 * SECOND).good);
-  forest.apply(keyFrame(forest, 4 * SECOND));
+  EXPECT_FALSE(forest.stateStatus(4 * NANOSECONDS_PER_SECOND).good);
+  forest.apply(keyFrame(forest, 4 * NANOSECONDS_PER_SECOND));
   EXPECT_EQ(forest.replica().levels().of(0).level, 2);
 }
 

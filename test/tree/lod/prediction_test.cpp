@@ -9,7 +9,7 @@
 namespace vegetation_sim::forest {
 namespace {
 
-constexpr Nanoseconds START = 1700000000LL * NANOSECONDS_PER_SECOND;
+constexpr Nanoseconds PREDICTION_START = 1700000000LL * NANOSECONDS_PER_SECOND;
 
 /// Trees of all species in a row, with seeds and sizes that were not used for measurements.
 Layout strangers(std::uint64_t seed, int count, double spacing) {
@@ -53,15 +53,16 @@ TEST(Prediction, OfChosenRungsIsWhatTheFullChainShows) {
   wind::Primitive gust = makeBreeze(2, Vec3(1.0, 5.0, 0.0));
   gust.name = "gust";
   gust.kind = wind::Kind::GUST;
-  gust.trajectory = {{START, Vec3(0.0, -80.0, 0.0)}};
-  gust.epoch = START;
+  gust.trajectory = {{PREDICTION_START, Vec3(0.0, -80.0, 0.0)}};
+  gust.epoch = PREDICTION_START;
   gust.front_speed = 9.0;
   gust.rise_length = 12.0;
   gust.radius = 100.0;
   wind::Primitive disk = makeDisk(3, Vec3(10.0, 5.0, 0.0), 40.0, Vec3(-1.5, 2.0, 0.0));
   disk.omega = 1.7;
   const wind::Field field({makeBreeze(1, Vec3(3.5, -1.5, 0.0)), gust, disk}, 77);
-  Prediction scene(strangers(5000, 10, 5.0), flatTerrain(), field, eyeBefore(25.0), START);
+  Prediction scene(strangers(5000, 10, 5.0), flatTerrain(), field, eyeBefore(25.0),
+                   PREDICTION_START);
   const Prediction::Looks looks = scene.look(8);
   EXPECT_EQ(looks.size(), 10u);
   EXPECT_GE(shareWithinTwo(looks), 0.9);
@@ -73,7 +74,7 @@ TEST(Prediction, KnowsThatSteadyStormsBendLevers) {
   wind::Primitive storm = makeBreeze(1, Vec3(40.0, 0.0, 0.0));
   storm.turbulence = 0.0;
   Prediction scene(strangers(6000, 4, 8.0), flatTerrain(), wind::Field({storm}, 7), eyeBefore(20.0),
-                   START);
+                   PREDICTION_START);
   const Prediction::Looks looks = scene.look(1);
   ASSERT_EQ(looks.size(), 4u);
   for (const auto& entry : looks) EXPECT_GT(entry.second.back().predicted, 0.0);
@@ -94,15 +95,16 @@ TEST(Prediction, KnowsThatGustsBendWhatSwings) {
   wind::Primitive gust = makeBreeze(2, Vec3(0.5, 6.0, 0.0));
   gust.name = "gust";
   gust.kind = wind::Kind::GUST;
-  gust.trajectory = {{START, Vec3(-4.0, -32.0, 0.0)}};
-  gust.epoch = START;
+  gust.trajectory = {{PREDICTION_START, Vec3(-4.0, -32.0, 0.0)}};
+  gust.epoch = PREDICTION_START;
   gust.front_speed = 7.0;
   gust.rise_length = 4.0;
   gust.plateau_length = 6.0;
   gust.decay_length = 10.0;
   gust.repeat = 9.0;
   gust.radius = 40.0;
-  Prediction scene(layout, flatTerrain(), wind::Field({breeze, gust}, 5), eyeBefore(13.0), START);
+  Prediction scene(layout, flatTerrain(), wind::Field({breeze, gust}, 5), eyeBefore(13.0),
+                   PREDICTION_START);
   const Prediction::Looks looks = scene.look(10);
   ASSERT_EQ(looks.size(), 1u);
   EXPECT_EQ(looks.at(0).back().tier, FINE_MODAL_TIER);

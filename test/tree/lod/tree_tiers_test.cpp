@@ -14,7 +14,7 @@
 namespace vegetation_sim::forest {
 namespace {
 
-constexpr Nanoseconds START = 1700000000LL * NANOSECONDS_PER_SECOND;
+constexpr Nanoseconds TIERS_START = 1700000000LL * NANOSECONDS_PER_SECOND;
 
 // The errors of its tiers are 8, 4, 2 ... times `scale` pixels.
 Plant inModes(double scale, int held) {
@@ -80,7 +80,7 @@ struct Park {
   Forest forest;
   Viewpoint eye;
   TickGrid grid{10};
-  std::int64_t tick{TickGrid(10).tickAt(START)};
+  std::int64_t tick{TickGrid(10).tickAt(TIERS_START)};
 };
 
 // N7: more trees cost the same: the cost stays within a tenth of the budget, errors grow no more
@@ -203,7 +203,7 @@ TEST(Governor, PredictedErrorsAreTheMeasuredOnes) {
   const double spacing = 9.0, extent = 12 * spacing;
   const TreeBatch grove = growTrees(gridLayout(12, spacing));
   const TickGrid grid(30);
-  const std::int64_t start = grid.tickAt(START);
+  const std::int64_t start = grid.tickAt(TIERS_START);
   double within = 0.0, held = 0.0, all = 0.0;
   for (const double tolerance : {1.0, 2.0, 4.0}) {
     Settings settings;

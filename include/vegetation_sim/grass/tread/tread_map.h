@@ -163,6 +163,8 @@ class TreadMap {
   std::size_t bytes() const;
 
  private:
+  static constexpr int SIDE = TreadBlock::SIDE;
+
   /// Range of nodes, both ends included.
   struct Box {
     int first_column, last_column, first_row, last_row;
