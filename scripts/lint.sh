@@ -20,12 +20,14 @@ none_match() {
 
 format() { code | xargs clang-format --dry-run -Werror; }
 
-# Only the core is checked, because the headers of ROS would take many minutes. clang cannot read the
-# headers that g++ has precompiled.
+# Only the core is checked, because the headers of ROS would take many minutes. Each source is checked
+# on its own. clang cannot read the headers that g++ has precompiled.
 tidy() {
   local commands
   commands=$(mktemp -d)
-  sed 's/ -Winvalid-pch -include [^ ]*//' "$BUILD/compile_commands.json" >"$commands/compile_commands.json"
+  cmake -S . -B "$commands/build" -G Ninja -Dvegetation_sim_UNITY=OFF -DCMAKE_EXPORT_COMPILE_COMMANDS=ON \
+    -DPYTHON_EXECUTABLE=/usr/bin/python3 >"$commands/log" 2>&1 || { cat "$commands/log"; rm -r "$commands"; return 1; }
+  sed 's/ -Winvalid-pch -include [^ ]*//' "$commands/build/compile_commands.json" >"$commands/compile_commands.json"
   git ls-files src/{canopy,core,crowd,dynamics,forest,grass,reference,sensors,terrain,tree,wind}'/*.cpp' |
     xargs -P "$(nproc)" -n 1 clang-tidy --quiet --extra-arg=-std=c++17 -p "$commands" 2>/dev/null || { rm -r "$commands"; return 1; }
   rm -r "$commands"
