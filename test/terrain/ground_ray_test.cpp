@@ -11,7 +11,7 @@
 namespace vegetation_sim::terrain {
 namespace {
 
-constexpr double FAR = 1000.0;  // [m]
+constexpr double FARTHEST = 1000.0;  // [m]
 
 // Waves of 4 m from trough to crest along x, 1 m between samples.
 HeightMap waves() {
@@ -27,7 +27,7 @@ HeightMap waves() {
 
 TEST(GroundRay, MeetsFlatGroundWhereItMust) {
   Vec3 place;
-  ASSERT_TRUE(meetGround({}, {1.0, 2.0, 10.0}, {3.0, 0.0, -5.0}, FAR, place));
+  ASSERT_TRUE(meetGround({}, {1.0, 2.0, 10.0}, {3.0, 0.0, -5.0}, FARTHEST, place));
   EXPECT_LT((place - Vec3(7.0, 2.0, 0.0)).norm(), 2e-3);
 }
 
@@ -35,7 +35,7 @@ TEST(GroundRay, MeetsTheFirstCrestOnItsWay) {
   const HeightMap ground = waves();
   const Vec3 origin(0.5, 30.0, 5.0), along = Vec3(1.0, 0.1, -0.12).normalized();
   Vec3 place;
-  ASSERT_TRUE(meetGround(ground, origin, along, FAR, place));
+  ASSERT_TRUE(meetGround(ground, origin, along, FARTHEST, place));
   EXPECT_NEAR(place.z(), ground.height(place.x(), place.y()), 2e-3);
   const double distance = (place - origin).norm();
   for (double s = 0.0; s < distance - 0.01; s += 0.01) {
@@ -47,17 +47,17 @@ TEST(GroundRay, MeetsTheFirstCrestOnItsWay) {
 TEST(GroundRay, MissesFromBelowUpwardsAndBeyondItsReach) {
   const HeightMap ground = waves();
   Vec3 place;
-  EXPECT_FALSE(meetGround(ground, {5.0, 5.0, -1.0}, {0.0, 0.0, 1.0}, FAR, place));
-  EXPECT_FALSE(meetGround(ground, {5.0, 5.0, 9.0}, {1.0, 0.0, 0.1}, FAR, place));
+  EXPECT_FALSE(meetGround(ground, {5.0, 5.0, -1.0}, {0.0, 0.0, 1.0}, FARTHEST, place));
+  EXPECT_FALSE(meetGround(ground, {5.0, 5.0, 9.0}, {1.0, 0.0, 0.1}, FARTHEST, place));
   EXPECT_FALSE(meetGround(ground, {5.0, 5.0, 90.0}, {0.0, 0.0, -1.0}, 50.0, place));
   EXPECT_TRUE(meetGround(ground, {5.0, 5.0, 90.0}, {0.0, 0.0, -1.0}, 100.0, place));
 }
 
 TEST(GroundRay, MissesWithoutADirectionOrWithOneThatIsNoNumber) {
   Vec3 place;
-  EXPECT_FALSE(meetGround({}, {0.0, 0.0, 1.0}, Vec3::Zero(), FAR, place));
+  EXPECT_FALSE(meetGround({}, {0.0, 0.0, 1.0}, Vec3::Zero(), FARTHEST, place));
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(meetGround({}, {0.0, 0.0, nan}, {0.0, 0.0, -1.0}, FAR, place));
+  EXPECT_FALSE(meetGround({}, {0.0, 0.0, nan}, {0.0, 0.0, -1.0}, FARTHEST, place));
 }
 
 }  // namespace

@@ -43,9 +43,9 @@ struct Wall {
 };
 
 /// One twig and one wall that meets its tip.
-class Meeting {
+class BodyOnBranch {
  public:
-  explicit Meeting(const Link& link) : links_{link}, state_{{Vec2::Zero()}, {Vec2::Zero()}} {}
+  explicit BodyOnBranch(const Link& link) : links_{link}, state_{{Vec2::Zero()}, {Vec2::Zero()}} {}
 
   void step(double h, Wall& wall) {
     kinematicsOf(links_, {}, state_, kinematics_);
@@ -82,7 +82,7 @@ class Meeting {
 
 // The twig bends until its spring balances the wall, and overlaps it by force / stiffness.
 TEST(Contact, PressedTwigComesToRestWhereForcesBalance) {
-  Meeting meeting(twig());
+  BodyOnBranch meeting(twig());
   Wall wall{-0.02, 0.2};
   const double h = 1.0 / 240.0;
   for (int i = 0; i < 144; ++i) meeting.step(h, wall);
@@ -101,7 +101,7 @@ TEST(Contact, NeitherSinksInNorRingsAtAnySpeedStepAndStiffness) {
   for (const double speed : {0.1, 0.5, 1.0, 2.0, 3.0}) {
     for (const double h : {1e-3, 1.0 / 240.0, 1.0 / 60.0}) {
       for (const double stiffness : {1e5, 5e5, 1e8}) {
-        Meeting meeting(twig());
+        BodyOnBranch meeting(twig());
         meeting.law.stiffness = stiffness;
         Wall wall{-0.051, speed};
         double deepest = 0.0, hardest = 0.0;
@@ -130,7 +130,7 @@ TEST(Contact, ForceIsLimited) {
   for (const double h : {1.0 / 240.0, 1.0 / 960.0, 1.0 / 3840.0}) {
     Link trunk = trunkOf(500.0);
     trunk.stiffness = 1e6;
-    Meeting meeting(trunk);
+    BodyOnBranch meeting(trunk);
     Wall wall{-0.02, 1.0};
     double hardest = 0.0;
     while (wall.place < 0.05) {
@@ -147,7 +147,7 @@ TEST(Contact, ForceIsLimited) {
 // meets wood that hardly yields. What would enter by a millimetre is stopped at once instead.
 TEST(Contact, ForceRisesNoFasterThanTheLawWhereItMayTakeItsTime) {
   for (const double h : {1.0 / 240.0, 1.0 / 480.0, 1.0 / 960.0}) {
-    Meeting meeting(trunkOf(50000.0));
+    BodyOnBranch meeting(trunkOf(50000.0));
     Wall wall{-0.001, 0.02};
     double before = 0.0, rise = 0.0;
     while (wall.place < 0.005) {
@@ -168,7 +168,7 @@ TEST(Contact, ForceRisesByRateAndSpringHoweverDeep) {
       for (const double h : {1.0 / 240.0, 1.0 / 960.0, 1.0 / 3840.0}) {
         Link trunk = trunkOf(50000.0);
         trunk.stiffness = 1e6;
-        Meeting meeting(trunk);
+        BodyOnBranch meeting(trunk);
         Wall wall{start, speed};
         double before = 0.0, rise = 0.0, hardest = 0.0;
         for (double time = 0.0; time < 0.3 && (speed < 1.0 || wall.place < 0.05); time += h) {
@@ -190,7 +190,7 @@ TEST(Contact, ForceRisesByRateAndSpringHoweverDeep) {
 // S1-W6. Harder wood: as many times the spring and the limit.
 TEST(Contact, HarderWoodPressesHarder) {
   for (const double hardness : {1.0, 5.0}) {
-    Meeting meeting(trunkOf(50000.0));
+    BodyOnBranch meeting(trunkOf(50000.0));
     meeting.hardness = hardness;
     Wall wall{-0.001, 0.02};
     while (wall.place < 0.001) meeting.step(1.0 / 960.0, wall);
@@ -208,7 +208,7 @@ TEST(Contact, ReturnedForceIsTheOneOnTheTwig) {
   free.stiffness = 0.0;
   free.damping = 0.0;
   for (const double h : {1.0 / 240.0, 1.0 / 3840.0}) {
-    Meeting meeting(free);
+    BodyOnBranch meeting(free);
     Wall wall{-0.01, 3.0};
     double published = 0.0;
     while (wall.place < 0.05) {
@@ -223,7 +223,7 @@ TEST(Contact, ReturnedForceIsTheOneOnTheTwig) {
 
 // A contact whose force changes much in a step reports it; one that rests or is overrun does not.
 TEST(Contact, ForceChangeShowsWhatAStepDoesNotResolve) {
-  Meeting meeting(trunkOf(500.0));
+  BodyOnBranch meeting(trunkOf(500.0));
   Wall wall{-0.02, 1.0};
   double before = 0.0, largest = 0.0;
   while (wall.place < 0.05) {
@@ -236,7 +236,7 @@ TEST(Contact, ForceChangeShowsWhatAStepDoesNotResolve) {
   EXPECT_GT(largest, 500.0);
   EXPECT_TRUE(meeting.last().limited);
   EXPECT_EQ(meeting.stepper().forceChange(), 0.0);
-  Meeting resting(twig());
+  BodyOnBranch resting(twig());
   Wall still{0.0, 0.2};
   for (int i = 0; i < 480; ++i) {
     if (i == 20) still.speed = 0.0;
@@ -247,7 +247,7 @@ TEST(Contact, ForceChangeShowsWhatAStepDoesNotResolve) {
 }
 
 TEST(Contact, WhatWouldEnterDeeplyIsStoppedAtOnce) {
-  Meeting meeting(trunkOf(500.0));
+  BodyOnBranch meeting(trunkOf(500.0));
   Wall wall{-0.02, 3.0};
   while (meeting.last().force == 0.0) meeting.step(1.0 / 240.0, wall);
   EXPECT_EQ(meeting.last().force, meeting.law.force_limit);
@@ -257,7 +257,7 @@ TEST(Contact, WhatWouldEnterDeeplyIsStoppedAtOnce) {
 TEST(Contact, ForceFallsNoFasterThanTheLimitIn32Microseconds) {
   for (const double hardness : {1.0, 5.0}) {
     for (const double h : {2e-6, 8e-6, 32e-6, 1.0 / 240.0}) {
-      Meeting meeting(trunkOf(50000.0));
+      BodyOnBranch meeting(trunkOf(50000.0));
       meeting.hardness = hardness;
       Wall wall{-0.001, 0.5};
       while (meeting.last().force < hardness * 1500.0) meeting.step(1e-4, wall);
@@ -275,7 +275,7 @@ TEST(Contact, ForceFallsNoFasterThanTheLimitIn32Microseconds) {
 }
 
 TEST(Contact, NeverPulls) {
-  Meeting meeting(twig());
+  BodyOnBranch meeting(twig());
   Wall wall{0.0, 0.5};
   for (int i = 0; i < 60; ++i) meeting.step(1.0 / 240.0, wall);
   wall.speed = -5.0;
@@ -290,7 +290,7 @@ TEST(Contact, NeverPulls) {
 // An overlap that is there from the start is undone at the stated speed, not at once.
 TEST(Contact, OverlapIsUndoneSlowly) {
   for (const double h : {1.0 / 240.0, 1.0 / 960.0}) {
-    Meeting meeting(twig());
+    BodyOnBranch meeting(twig());
     Wall wall{0.1, 0.0};
     double before = 0.0, fastest = 0.0;
     for (double time = 0.0; time < 0.5; time += h) {
