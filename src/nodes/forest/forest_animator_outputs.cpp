@@ -59,6 +59,10 @@ void ForestAnimator::sendBranches(const ros::TimerEvent&) {
 void ForestAnimator::addDiagnostics(Status& status) {
   bodies_.missing().warn(name_, status);
   status.add("Frames of bodies without a transform", bodies_.missing().size());
+  for (const std::string& link : options_.robot.left_out)
+    status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, link);
+  status.add("Links of robots without a shape", options_.robot.left_out.size());
+  status.add("Error of shapes around meshes [mm]", 1e3 * options_.robot.mesh_error);
   const auto& memory = forest_->snapshot();
   const std::size_t trees = forest_->layout().treeCount();
   const auto at = forest_->sensed().levels.counts(trees);

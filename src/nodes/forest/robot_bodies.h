@@ -5,11 +5,13 @@
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "forest/contact/mesh_cover.h"
 #include "ros/params/parameters.h"
 #include "ros/services/missing_inputs.h"
 #include "tree/physical/interaction.h"
@@ -18,17 +20,25 @@ namespace vegetation_sim {
 
 /// Parts of a robot that touch branches, and links that cannot.
 struct RobotParts {
-  std::vector<forest::Body> parts;    ///< id, frame, shape, size and in_frame
-  std::vector<std::string> left_out;  ///< links whose collision geometry is a mesh
+  std::vector<forest::Body> parts;  ///< id, frame, shape, size and in_frame
+  /// Links whose collision geometry cannot be read, and why: they touch nothing.
+  std::vector<std::string> left_out;
+  double mesh_error{0.0};  ///< largest distance of a shape from the convex hull of its mesh [m]
 };
+/// Reads the file of a mesh. @throws InvalidInput naming it.
+using MeshReader = std::function<forest::Triangles(const std::string& name)>;
+/// Reads any file that assimp reads, in metres, with the axes of the file.
+forest::Triangles readRobotMesh(const std::string& name);
 /// Most parts in all.
 constexpr std::size_t MOST_PARTS = 200;
 /// A body whose newest transform is older than this is removed [s].
 constexpr double STALE_BODY = 0.5;
 
 /// Collision geometry of a URDF: spheres and boxes as they are; a cylinder becomes a capsule of the
-/// same length or, if it is flat, a box of the same section. Frames get `prefix` in front.
-RobotParts partsOfUrdf(const std::string& urdf, const std::string& prefix, Faults& faults);
+/// same length or, if it is flat, a box of the same section; a mesh becomes up to eight boxes and
+/// capsules (coverTriangles). Frames get `prefix` in front.
+RobotParts partsOfUrdf(const std::string& urdf, const std::string& prefix, Faults& faults,
+                       const MeshReader& read = readRobotMesh);
 
 /// Reads the parameter `bodies`, one list or a map of lists. An entry is a shape (id, frame, shape,
 /// its sizes, position, rotation about x, y, z in the frame) or a robot (`robot_description`, the

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <urdf/model.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "forest/contact/contact_body.h"
 #include "nodes/forest/robot_bodies.h"
+#include "ros/params/mesh_file.h"
 #include "vegetation_sim/core/config/yaml.h"
 #include "vegetation_sim/core/math/math.h"
 
@@ -35,41 +37,71 @@ void setCylinder(double radius, double length, forest::Body& body) {
   body.size = flat ? Vec3(edge, edge, length) : Vec3(radius, 0.0, length - 2.0 * radius);
 }
 
-// False for a mesh.
-bool setShape(const urdf::Geometry& geometry, forest::Body& body) {
+// Sets the shape of anything but a mesh.
+void setShape(const urdf::Geometry& geometry, forest::Body& body) {
   switch (geometry.type) {
     case urdf::Geometry::SPHERE:
       body.shape = Shape::SPHERE;
       body.size = Vec3(static_cast<const urdf::Sphere&>(geometry).radius, 0.0, 0.0);
-      return true;
+      break;
     case urdf::Geometry::BOX: {
       const urdf::Vector3& edges = static_cast<const urdf::Box&>(geometry).dim;
       body.shape = Shape::BOX;
       body.size = Vec3(edges.x, edges.y, edges.z);
-      return true;
+      break;
     }
     case urdf::Geometry::CYLINDER: {
       const auto& cylinder = static_cast<const urdf::Cylinder&>(geometry);
       setCylinder(cylinder.radius, cylinder.length, body);
-      return true;
+      break;
     }
     case urdf::Geometry::MESH:
       break;
   }
-  return false;
 }
 
-void addLink(const urdf::Link& link, const std::string& prefix, RobotParts& out) {
+// Adds the shapes that cover a mesh, whose URDF may stretch it.
+void addMesh(const urdf::Mesh& mesh, const forest::Body& whole, const MeshReader& read,
+             RobotParts& out) {
+  forest::Triangles surface = read(mesh.filename);
+  for (Vec3& corner : surface.corners)
+    corner = Vec3(corner.x() * mesh.scale.x, corner.y() * mesh.scale.y, corner.z() * mesh.scale.z);
+  const std::vector<forest::CoverPart> cover = coverTriangles(surface, {});
+  for (std::size_t i = 0; i < cover.size(); ++i) {
+    forest::Body part = whole;
+    if (i > 0) part.id += "_part" + std::to_string(i);
+    part.shape = cover[i].shape;
+    part.size = cover[i].size;
+    part.in_frame = compose(whole.in_frame, cover[i].pose);
+    out.parts.push_back(part);
+  }
+  out.mesh_error = std::max(out.mesh_error, largestError(cover));
+}
+
+void addCollision(const urdf::Geometry& geometry, forest::Body part, const MeshReader& read,
+                  RobotParts& out) {
+  if (geometry.type == urdf::Geometry::MESH)
+    addMesh(static_cast<const urdf::Mesh&>(geometry), part, read, out);
+  else {
+    setShape(geometry, part);
+    out.parts.push_back(part);
+  }
+}
+
+void addLink(const urdf::Link& link, const std::string& prefix, const MeshReader& read,
+             RobotParts& out) {
   for (std::size_t i = 0; i < link.collision_array.size(); ++i) {
     const urdf::Collision& collision = *link.collision_array[i];
     forest::Body part;
     part.id = prefix + link.name + (i ? "_" + std::to_string(i) : "");
     part.frame = prefix + link.name;
     part.in_frame = fromUrdf(collision.origin);
-    if (collision.geometry && setShape(*collision.geometry, part))
-      out.parts.push_back(part);
-    else
-      out.left_out.push_back(link.name);
+    try {
+      if (!collision.geometry) throw InvalidInput("has no geometry");
+      addCollision(*collision.geometry, part, read, out);
+    } catch (const InvalidInput& error) {
+      out.left_out.push_back("link '" + prefix + link.name + "' touches nothing: " + error.what());
+    }
   }
 }
 
@@ -110,6 +142,7 @@ void readRobot(const ros::NodeHandle& handle, YamlSection& section, Faults& faul
   const RobotParts robot = partsOfUrdf(urdf, prefix, faults);
   out.parts.insert(out.parts.end(), robot.parts.begin(), robot.parts.end());
   out.left_out.insert(out.left_out.end(), robot.left_out.begin(), robot.left_out.end());
+  out.mesh_error = std::max(out.mesh_error, robot.mesh_error);
 }
 
 void readList(const ros::NodeHandle& handle, Parameters& parameters, RobotParts& out) {
@@ -126,14 +159,20 @@ void readList(const ros::NodeHandle& handle, Parameters& parameters, RobotParts&
 
 }  // namespace
 
-RobotParts partsOfUrdf(const std::string& urdf, const std::string& prefix, Faults& faults) {
+forest::Triangles readRobotMesh(const std::string& name) {
+  canopy::LeafMesh mesh = loadMesh(name, MeshAxes::KEPT);
+  return {std::move(mesh.vertices), std::move(mesh.faces)};
+}
+
+RobotParts partsOfUrdf(const std::string& urdf, const std::string& prefix, Faults& faults,
+                       const MeshReader& read) {
   RobotParts out;
   urdf::Model model;
   if (!model.initString(urdf)) {
     faults.add("robot_description: is no URDF; see the log for what urdf says of it");
     return out;
   }
-  for (const auto& entry : model.links_) addLink(*entry.second, prefix, out);
+  for (const auto& entry : model.links_) addLink(*entry.second, prefix, read, out);
   return out;
 }
 

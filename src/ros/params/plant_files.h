@@ -5,15 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "canopy/plants/mesh_leaves.h"
 #include "canopy/plants/slice_leaves.h"
 #include "vegetation_sim/canopy/canopy_layout.h"
 
 namespace vegetation_sim {
-
-/// The faces of any file that assimp reads, named as resolveFile() takes it. @throws InvalidInput
-/// naming the file.
-canopy::LeafMesh loadLeafMesh(const std::string& name);
 
 /// Grey pictures, the first of which is named; the others have the numbers after its own.
 /// @throws InvalidInput naming the file.

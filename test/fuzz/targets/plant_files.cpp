@@ -1,6 +1,7 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/params/plant_files.h"
+#include "ros/params/mesh_file.h"
 
 #include "fuzz/targets/decoding.h"
 #include "fuzz/targets/scratch_folder.h"
@@ -26,7 +27,7 @@ void runMesh(std::string_view input) {
   const char* name = NAMES[static_cast<unsigned char>(input[0]) % 4];
   const ScratchFolder& folder = ScratchFolder::instance();
   try {
-    const canopy::LeafMesh mesh = loadLeafMesh(folder.write(name, input.substr(1)));
+    const canopy::LeafMesh mesh = loadMesh(folder.write(name, input.substr(1)), MeshAxes::TURNED);
     grow(std::make_shared<canopy::Form>(canopy::formOf(mesh, false)), canopy::PlantShape::MESH);
   } catch (const InvalidInput&) {
   }

@@ -90,7 +90,10 @@ std::vector<std::string> speciesSeeds() {
 
 void runUrdf(std::string_view input) {
   Faults faults;
-  for (const forest::Body& part : partsOfUrdf(std::string(input), "robot/", faults).parts)
+  const auto read = [](const std::string&) {
+    return forest::Triangles{{{0, 0, 0}, {1, 0, 0}, {0, 1, 2}}, {{0, 1, 2}}};
+  };
+  for (const forest::Body& part : partsOfUrdf(std::string(input), "robot/", faults, read).parts)
     forest::check(part, faults);
 }
 

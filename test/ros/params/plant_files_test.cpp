@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "core/error_text.h"
+#include "ros/params/mesh_file.h"
 #include "vegetation_sim/ros/conversions/canopy_conversions.h"
 
 namespace vegetation_sim {
@@ -45,18 +46,21 @@ std::string slice(int dark, int rows = 2) {
 
 // S3-02, S3-03, S3-29: the names in the file distinguish leaves and rigid parts of a mesh.
 TEST_F(PlantFiles, HaveLeavesAndRigidPartsOfAMesh) {
-  const canopy::LeafMesh mesh = loadLeafMesh(write("shrub.obj", SHRUB));
+  const canopy::LeafMesh mesh = loadMesh(write("shrub.obj", SHRUB), MeshAxes::TURNED);
   const canopy::Form form = canopy::formOf(mesh, false);
   ASSERT_EQ(form.leaves.size(), 2U);
   EXPECT_EQ(form.rigid.size(), 1U);
   EXPECT_EQ(form.leaves[0].anchor, form.leaves[1].anchor);
-  EXPECT_EQ(canopy::formOf(loadLeafMesh("file://" + (folder_ / "shrub.obj").string()), false).hash,
+  EXPECT_EQ(canopy::formOf(loadMesh("file://" + (folder_ / "shrub.obj").string(), MeshAxes::TURNED),
+                           false)
+                .hash,
             form.hash);
 }
 
 TEST_F(PlantFiles, FacesOfMoreThanThreeCornersAreSplit) {
-  const canopy::LeafMesh mesh = loadLeafMesh(
-      write("square.obj", "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0.5 0 2\nv 0 0 1\nf 1 2 3 4 5\n"));
+  const canopy::LeafMesh mesh =
+      loadMesh(write("square.obj", "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0.5 0 2\nv 0 0 1\nf 1 2 3 4 5\n"),
+               MeshAxes::TURNED);
   EXPECT_EQ(mesh.faces.size(), 3U);
   EXPECT_EQ(mesh.rigid.size(), 3U);
 }
@@ -69,20 +73,20 @@ TEST_F(PlantFiles, DamagedFacesAreRejected) {
       "1 0 0\n0 1 1\n3 0 1 2\n",
       43);
   const std::string file = write("damaged.off", bytes);
-  EXPECT_NE(errorOf([&] { canopy::formOf(loadLeafMesh(file), false); }), "");
+  EXPECT_NE(errorOf([&] { canopy::formOf(loadMesh(file, MeshAxes::TURNED), false); }), "");
 }
 
 // Found by fuzzing: assimp did not return.
 TEST_F(PlantFiles, HeaderWithoutEndIsRejected) {
   const std::string file = write("endless.ply", "ply\nformat ascii 1.0\nelement vertex 3\n");
-  EXPECT_EQ(errorOf([&] { loadLeafMesh(file); }),
+  EXPECT_EQ(errorOf([&] { loadMesh(file, MeshAxes::TURNED); }),
             file + ": no mesh: the header has no line end_header");
 }
 
 // The mesh of a package is named as in other nodes.
 TEST_F(PlantFiles, AreFoundInPackages) {
-  const canopy::Form fern =
-      canopy::formOf(loadLeafMesh("package://vegetation_sim/media/plants/fern.obj"), false);
+  const canopy::Form fern = canopy::formOf(
+      loadMesh("package://vegetation_sim/media/plants/fern.obj", MeshAxes::TURNED), false);
   EXPECT_GT(fern.leaves.size(), 500U);
   EXPECT_GT(fern.rigid.size(), 10U);
   const canopy::Form moss =
@@ -106,7 +110,7 @@ TEST_F(PlantFiles, AreReadAsSlices) {
 // Each error names the file and the fault.
 TEST_F(PlantFiles, AreRejectedWithTheNameOfTheFile) {
   const auto text = [&](const std::string& name) {
-    return errorOf([&] { canopy::formOf(loadLeafMesh(name), false); });
+    return errorOf([&] { canopy::formOf(loadMesh(name, MeshAxes::TURNED), false); });
   };
   EXPECT_NE(text((folder_ / "none.obj").string()).find("none.obj: cannot be read"),
             std::string::npos);
@@ -123,7 +127,7 @@ TEST_F(PlantFiles, AreRejectedWithTheNameOfTheFile) {
 TEST_F(PlantFiles, AreRefusedIfTheyAreTooLarge) {
   const std::string name = write("huge.obj", "");
   std::filesystem::resize_file(name, (std::uintmax_t{512} << 20) + 1);  // The file is sparse.
-  const std::string text = errorOf([&] { loadLeafMesh(name); });
+  const std::string text = errorOf([&] { loadMesh(name, MeshAxes::TURNED); });
   EXPECT_NE(text.find("huge.obj: 536870913 bytes, more than the 536870912"), std::string::npos)
       << text;
 }

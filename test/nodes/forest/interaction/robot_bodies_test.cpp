@@ -112,7 +112,36 @@ TEST_F(RobotBodiesTest, CollisionGeometryOfAUrdfIsRead) {
   EXPECT_NEAR(length(axisZ(arm->in_frame.orientation) - Vec3::UnitX()), 0.0, 1e-12);
   EXPECT_EQ(hand->shape, Shape::SPHERE);
   EXPECT_EQ(wheel->shape, Shape::BOX);
-  EXPECT_EQ(found.left_out, std::vector<std::string>{"camera"});
+  ASSERT_EQ(found.left_out.size(), 1u);
+  EXPECT_EQ(found.left_out[0].find("link 'r1/camera' touches nothing: "), 0u) << found.left_out[0];
+}
+
+// A bracket in millimetres, stretched to metres by the URDF, and turned by the link's origin.
+TEST_F(RobotBodiesTest, MeshOfAUrdfIsCovered) {
+  const auto read = [](const std::string& name) {
+    if (name != "package://robot/bracket.stl") throw InvalidInput(name + ": is not here");
+    return forest::Triangles{{{0, 0, 0}, {400, 0, 0}, {400, 200, 0}, {0, 200, 100}},
+                             {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}};
+  };
+  Faults faults;
+  const RobotParts found = partsOfUrdf(
+      "<robot name='r'><link name='bracket'><collision><origin xyz='1 0 0' rpy='0 0 1.5707963'/>"
+      "<geometry><mesh filename='package://robot/bracket.stl' scale='0.001 0.001 0.001'/>"
+      "</geometry></collision></link></robot>",
+      "r1/", faults, read);
+  ASSERT_FALSE(found.parts.empty());
+  EXPECT_LE(found.parts.size(), 8u);
+  EXPECT_TRUE(found.left_out.empty());
+  EXPECT_GT(found.mesh_error, 0.0);
+  EXPECT_LT(found.mesh_error, 0.1);
+  EXPECT_EQ(found.parts[0].id, "r1/bracket");
+  for (const Body& part : found.parts) {
+    EXPECT_EQ(part.frame, "r1/bracket");
+    EXPECT_LE(part.in_frame.position.x(), 1.0);  // y of the mesh points to -x
+    EXPECT_GE(part.in_frame.position.x(), 0.8);
+    EXPECT_GE(part.in_frame.position.y(), 0.0);
+    EXPECT_LE(part.in_frame.position.y(), 0.4);
+  }
 }
 
 TEST_F(RobotBodiesTest, TwoRobotsHaveTheirOwnLists) {

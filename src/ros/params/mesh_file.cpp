@@ -1,0 +1,104 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/params/mesh_file.h"
+
+#include <assimp/config.h>
+#include <assimp/scene.h>
+
+#include <assimp/Importer.hpp>
+#include <filesystem>
+
+#include "core/config/files.h"
+#include "ros/params/resources.h"
+
+namespace vegetation_sim {
+namespace {
+
+constexpr std::size_t LARGEST_MESH_FILE = 512U << 20;  // [B]
+constexpr std::size_t MOST_CORNERS = 16000000;         // and as many faces
+constexpr int MOST_DEPTH = 256;                        // of nodes in nodes
+
+/// Collects the triangles of a scene, each where its node puts it.
+class Collector {
+ public:
+  explicit Collector(const aiScene& scene) : scene_(scene) {}
+
+  canopy::LeafMesh collect() {
+    if (scene_.mRootNode) add(*scene_.mRootNode, aiMatrix4x4(), 0);
+    if (!textured_) out_.uv.clear();
+    return std::move(out_);
+  }
+
+ private:
+  void add(const aiNode& node, const aiMatrix4x4& above, int depth) {
+    if (depth > MOST_DEPTH)
+      throw InvalidInput("nodes in nodes, more than " + std::to_string(MOST_DEPTH) + " deep");
+    const aiMatrix4x4 here = above * node.mTransformation;
+    for (unsigned i = 0; i < node.mNumMeshes; ++i)
+      add(*scene_.mMeshes[node.mMeshes[i]], here, node.mName.C_Str());
+    for (unsigned i = 0; i < node.mNumChildren; ++i) add(*node.mChildren[i], here, depth + 1);
+  }
+
+  void add(const aiMesh& mesh, const aiMatrix4x4& here, const std::string& node) {
+    // Before they are made: many nodes may have one mesh.
+    if (out_.vertices.size() + mesh.mNumVertices > MOST_CORNERS ||
+        out_.faces.size() + mesh.mNumFaces > MOST_CORNERS)
+      throw InvalidInput("more than " + std::to_string(MOST_CORNERS) + " corners or faces");
+    const auto first = static_cast<std::uint32_t>(out_.vertices.size());
+    const aiVector3D* uv = mesh.mTextureCoords[0];
+    textured_ = textured_ && uv;
+    for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
+      const aiVector3D v = here * mesh.mVertices[i];
+      out_.vertices.emplace_back(v.x, v.y, v.z);
+      out_.uv.push_back(uv ? std::array<double, 2>{uv[i].x, uv[i].y} : std::array<double, 2>{});
+    }
+    const bool rigid = canopy::isRigidName(mesh.mName.C_Str()) || canopy::isRigidName(node) ||
+                       canopy::isRigidName(materialOf(mesh));
+    for (unsigned i = 0; i < mesh.mNumFaces; ++i) add(mesh.mFaces[i], first, rigid);
+  }
+
+  // Splits a convex face into a fan of triangles; points and lines have none. The splitting by
+  // assimp ends the process for some broken files.
+  void add(const aiFace& face, std::uint32_t first, bool rigid) {
+    const unsigned* corner = face.mIndices;
+    for (unsigned i = 2; i < face.mNumIndices; ++i) {
+      if (out_.faces.size() >= MOST_CORNERS)
+        throw InvalidInput("more than " + std::to_string(MOST_CORNERS) + " triangles");
+      out_.faces.push_back({first + corner[0], first + corner[i - 1], first + corner[i]});
+      out_.rigid.push_back(rigid);
+    }
+  }
+
+  std::string materialOf(const aiMesh& mesh) const {
+    if (mesh.mMaterialIndex >= scene_.mNumMaterials) return {};
+    aiString name;
+    scene_.mMaterials[mesh.mMaterialIndex]->Get(AI_MATKEY_NAME, name);
+    return name.C_Str();
+  }
+
+  const aiScene& scene_;
+  bool textured_{true};
+  canopy::LeafMesh out_;
+};
+
+}  // namespace
+
+canopy::LeafMesh loadMesh(const std::string& name, MeshAxes axes) {
+  const std::string bytes = readFile(resolveFile(name), LARGEST_MESH_FILE);
+  // assimp searches for the end of the header without end.
+  if (bytes.compare(0, 3, "ply") == 0 && bytes.find("end_header") == std::string::npos)
+    throw InvalidInput(name + ": no mesh: the header has no line end_header");
+  Assimp::Importer importer;
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, axes == MeshAxes::KEPT);
+  const std::string ending = std::filesystem::path(name).extension().string();
+  const aiScene* scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0,
+                                                     ending.empty() ? "" : ending.c_str() + 1);
+  if (!scene) throw InvalidInput(name + ": no mesh: " + importer.GetErrorString());
+  try {
+    return Collector(*scene).collect();
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(name + ": " + error.what());
+  }
+}
+
+}  // namespace vegetation_sim

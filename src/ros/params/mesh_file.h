@@ -1,0 +1,19 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "canopy/plants/mesh_leaves.h"
+
+namespace vegetation_sim {
+
+/// Whether a Collada file is turned as its up axis says, or its axes are kept, as rviz does with
+/// the meshes of robots.
+enum class MeshAxes { TURNED, KEPT };
+
+/// The faces of any file that assimp reads, named as resolveFile() takes it, in the unit of length
+/// that the file states. @throws InvalidInput naming the file.
+canopy::LeafMesh loadMesh(const std::string& name, MeshAxes axes);
+
+}  // namespace vegetation_sim
