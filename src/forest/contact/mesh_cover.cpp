@@ -14,8 +14,9 @@ namespace {
 
 using Points = std::vector<Vec3>;
 
-constexpr int DIRECTIONS = 600;  // in which shapes are compared first
-constexpr int REFINED = 4;       // best of these, around which directions are refined
+constexpr int DIRECTIONS = 600;             // in which shapes are compared first
+constexpr int REFINED = 4;                  // best of these, around which directions are refined
+constexpr std::size_t MOST_FACES = 200000;  // some seconds
 
 /// Directions that cover the sphere evenly: a spiral of equal areas.
 const Points& directions() {
@@ -173,6 +174,15 @@ void addWithin(const std::array<Vec3, 3>& triangle, int axis, double low, double
   }
 }
 
+// Faces share corners.
+void removeDuplicates(Points& points) {
+  const auto before = [](const Vec3& a, const Vec3& b) {
+    return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
+  };
+  std::sort(points.begin(), points.end(), before);
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+}
+
 std::vector<CoverPart> coverBySlabs(const Triangles& surface, const Bounds& bounds, int axis,
                                     int slabs) {
   std::vector<CoverPart> out;
@@ -184,13 +194,16 @@ std::vector<CoverPart> coverBySlabs(const Triangles& surface, const Bounds& boun
     for (const auto& [a, b, c] : surface.faces)
       addWithin({surface.corners[a], surface.corners[b], surface.corners[c]}, axis, low, high,
                 points);
+    removeDuplicates(points);
     if (!points.empty()) out.push_back(fit(points));
   }
   return out;
 }
 
 void check(const Triangles& surface) {
-  if (surface.faces.empty()) throw InvalidInput("has no faces");
+  if (surface.faces.empty() || surface.faces.size() > MOST_FACES)
+    throw InvalidInput("has " + std::to_string(surface.faces.size()) + " faces, allowed are 1 to " +
+                       std::to_string(MOST_FACES));
   for (const auto& face : surface.faces)
     for (const std::uint32_t corner : face) {
       if (corner >= surface.corners.size())

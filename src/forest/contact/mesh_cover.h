@@ -35,7 +35,8 @@ struct CoverSettings {
 /// the axis with the least error, and each slab gets a box or a capsule along one of its axes. The
 /// shapes contain all triangles, and the largest of their errors is the result's, which is the
 /// least that was found with at most `most_parts`. Edges and radii are at least SMALLEST_BODY.
-/// @throws InvalidInput for no faces, unknown corners and corners beyond LARGEST_BODY.
+/// @throws InvalidInput for no faces, more than 200 000, unknown corners and corners beyond
+/// LARGEST_BODY.
 std::vector<CoverPart> coverTriangles(const Triangles& surface, const CoverSettings& settings);
 
 /// Returns the largest error of the parts [m].

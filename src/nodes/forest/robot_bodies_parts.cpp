@@ -60,13 +60,30 @@ void setShape(const urdf::Geometry& geometry, forest::Body& body) {
   }
 }
 
+struct MeshCovering {
+  const MeshReader& read;
+  forest::CoverSettings settings;
+};
+
+// A robot of many links has fewer shapes in each.
+int partsPerMesh(const urdf::Model& model) {
+  std::size_t collisions = 1;
+  for (const auto& entry : model.links_) collisions += entry.second->collision_array.size();
+  return std::clamp(static_cast<int>(MOST_PARTS / 2 / collisions), 1, 8);
+}
+
 // Adds the shapes that cover a mesh, whose URDF may stretch it.
-void addMesh(const urdf::Mesh& mesh, const forest::Body& whole, const MeshReader& read,
+void addMesh(const urdf::Mesh& mesh, const forest::Body& whole, const MeshCovering& meshes,
              RobotParts& out) {
-  forest::Triangles surface = read(mesh.filename);
+  forest::Triangles surface = meshes.read(mesh.filename);
   for (Vec3& corner : surface.corners)
     corner = Vec3(corner.x() * mesh.scale.x, corner.y() * mesh.scale.y, corner.z() * mesh.scale.z);
-  const std::vector<forest::CoverPart> cover = coverTriangles(surface, {});
+  std::vector<forest::CoverPart> cover;
+  try {
+    cover = coverTriangles(surface, meshes.settings);
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(mesh.filename + ": " + error.what());
+  }
   for (std::size_t i = 0; i < cover.size(); ++i) {
     forest::Body part = whole;
     if (i > 0) part.id += "_part" + std::to_string(i);
@@ -78,17 +95,17 @@ void addMesh(const urdf::Mesh& mesh, const forest::Body& whole, const MeshReader
   out.mesh_error = std::max(out.mesh_error, largestError(cover));
 }
 
-void addCollision(const urdf::Geometry& geometry, forest::Body part, const MeshReader& read,
+void addCollision(const urdf::Geometry& geometry, forest::Body part, const MeshCovering& meshes,
                   RobotParts& out) {
   if (geometry.type == urdf::Geometry::MESH)
-    addMesh(static_cast<const urdf::Mesh&>(geometry), part, read, out);
+    addMesh(static_cast<const urdf::Mesh&>(geometry), part, meshes, out);
   else {
     setShape(geometry, part);
     out.parts.push_back(part);
   }
 }
 
-void addLink(const urdf::Link& link, const std::string& prefix, const MeshReader& read,
+void addLink(const urdf::Link& link, const std::string& prefix, const MeshCovering& meshes,
              RobotParts& out) {
   for (std::size_t i = 0; i < link.collision_array.size(); ++i) {
     const urdf::Collision& collision = *link.collision_array[i];
@@ -98,7 +115,7 @@ void addLink(const urdf::Link& link, const std::string& prefix, const MeshReader
     part.in_frame = fromUrdf(collision.origin);
     try {
       if (!collision.geometry) throw InvalidInput("has no geometry");
-      addCollision(*collision.geometry, part, read, out);
+      addCollision(*collision.geometry, part, meshes, out);
     } catch (const InvalidInput& error) {
       out.left_out.push_back("link '" + prefix + link.name + "' touches nothing: " + error.what());
     }
@@ -172,7 +189,8 @@ RobotParts partsOfUrdf(const std::string& urdf, const std::string& prefix, Fault
     faults.add("robot_description: is no URDF; see the log for what urdf says of it");
     return out;
   }
-  for (const auto& entry : model.links_) addLink(*entry.second, prefix, read, out);
+  const MeshCovering meshes{read, {forest::CoverSettings().tolerance, partsPerMesh(model)}};
+  for (const auto& entry : model.links_) addLink(*entry.second, prefix, meshes, out);
   return out;
 }
 

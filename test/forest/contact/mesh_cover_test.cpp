@@ -119,7 +119,9 @@ TEST(MeshCover, MorePartsFollowTheSurfaceMoreClosely) {
   EXPECT_EQ(coverTriangles(corner, {1.0, 8}).size(), 1u);
 }
 
-// Its faces are inside the ball by up to 1.3 mm, at their middles.
+// The middles of its faces are inside the ball by r (1 - cos 5.3 degrees) = 0.86 mm. The stated
+// error may be larger, since it uses the points that are farthest in one of 600 directions, which
+// are up to 0.15 rad apart: r (1 - cos 0.15) = 2.2 mm.
 TEST(MeshCover, BallIsACapsuleWithoutLength) {
   Triangles ball;
   const int rows = 24, columns = 48;
@@ -141,7 +143,8 @@ TEST(MeshCover, BallIsACapsuleWithoutLength) {
   EXPECT_EQ(parts[0].shape, Shape::CAPSULE);
   EXPECT_NEAR(parts[0].size.x(), 0.2, 1e-9);
   EXPECT_LT(parts[0].size.z(), 1e-6);
-  EXPECT_LT(parts[0].error, 1.5e-3);
+  EXPECT_GT(parts[0].error, 0.8e-3);
+  EXPECT_LT(parts[0].error, 2.2e-3);
 }
 
 TEST(MeshCover, FlatSurfaceHasTheLeastThickness) {
@@ -152,7 +155,7 @@ TEST(MeshCover, FlatSurfaceHasTheLeastThickness) {
 }
 
 TEST(MeshCover, BadSurfacesAreRejected) {
-  EXPECT_EQ(errorOf([] { coverTriangles({}, {}); }), "has no faces");
+  EXPECT_EQ(errorOf([] { coverTriangles({}, {}); }), "has 0 faces, allowed are 1 to 200000");
   EXPECT_EQ(errorOf([] {
               coverTriangles({{{0, 0, 0}}, {{0, 0, 1}}}, {});
             }),
