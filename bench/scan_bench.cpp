@@ -26,7 +26,6 @@ Beams beamsOf(int rings, int columns) {
   Beams out;
   out.rings = rings;
   out.columns = columns;
-  out.noise = 0.0;
   return out;
 }
 
@@ -36,13 +35,13 @@ struct View {
   Vec3 sensor{SENSOR};
 };
 
-struct Lidar {
+struct NamedLidar {
   const char* name;
   Beams beams;
   int every;  ///< of how many columns one is cast
 };
 
-std::vector<Ray> raysOf(const Lidar& lidar, const Vec3& sensor) {
+std::vector<Ray> raysOf(const NamedLidar& lidar, const Vec3& sensor) {
   std::vector<Ray> out;
   for (int column = 0; column < lidar.beams.columns; column += lidar.every)
     for (int ring = 0; ring < lidar.beams.rings; ++ring)
@@ -50,11 +49,11 @@ std::vector<Ray> raysOf(const Lidar& lidar, const Vec3& sensor) {
   return out;
 }
 
-void benchRays(const std::vector<View>& views, const std::vector<Lidar>& lidars, int rounds) {
+void benchRays(const std::vector<View>& views, const std::vector<NamedLidar>& lidars, int rounds) {
   std::printf("%-22s %-11s %10s %10s %8s %8s %10s\n", "rays", "lidar", "before", "after", "ratio",
               "points", "different");
   for (const View& view : views)
-    for (const Lidar& lidar : lidars) {
+    for (const NamedLidar& lidar : lidars) {
       const BinaryScene binary(*view.scene);
       const std::vector<Ray> rays = raysOf(lidar, view.sensor);
       std::vector<Hit> before(rays.size()), after(rays.size());
@@ -81,7 +80,7 @@ void benchRays(const std::vector<View>& views, const std::vector<Lidar>& lidars,
     }
 }
 
-void benchSets(const std::vector<View>& views, const Lidar& lidar, int rounds) {
+void benchSets(const std::vector<View>& views, const NamedLidar& lidar, int rounds) {
   std::printf("\n%-22s %-11s %10s %10s\n", "instruction set", "scene", "a ray", "different");
   for (const View& view : views) {
     const std::vector<Ray> rays = raysOf(lidar, view.sensor);
@@ -105,15 +104,17 @@ void benchSets(const std::vector<View>& views, const Lidar& lidar, int rounds) {
   }
 }
 
-void benchSweeps(const std::vector<View>& views, const std::vector<Lidar>& lidars, int rounds) {
+void benchSweeps(const std::vector<View>& views, const std::vector<NamedLidar>& lidars, int rounds) {
   std::printf("\n%-22s %-11s %12s %12s %8s\n", "sweeps", "lidar", "1 thread", "2 threads", "ratio");
   ThreadPool one(1), two(2);
   for (const View& view : views)
-    for (const Lidar& lidar : lidars) {
+    for (const NamedLidar& lidar : lidars) {
       Pose sensor;
       sensor.position = view.sensor;
       const auto run = [&](ThreadPool& threads) {
-        sweep(*view.scene, lidar.beams, sensor, {}, threads);
+        Lidar exact{lidar.beams, {}};
+        exact.model.noise = 0.0;
+        sweep(*view.scene, exact, sensor, {}, threads);
       };
       std::vector<bench::Candidate> candidates{{"1", [&] { run(one); }}, {"2", [&] { run(two); }}};
       bench::timeInterleaved(candidates, rounds);
@@ -192,7 +193,7 @@ class Scenes {
 
 void run(const bench::Options& options) {
   const Scenes scenes(options.quick ? 4 : 12);
-  const std::vector<Lidar> lidars{{"16 x 900", beamsOf(16, 900), options.quick ? 10 : 1},
+  const std::vector<NamedLidar> lidars{{"16 x 900", beamsOf(16, 900), options.quick ? 10 : 1},
                                   {"128 x 2048", beamsOf(128, 2048), options.quick ? 100 : 16}};
   if (options.wants("rays")) benchRays(scenes.views(), lidars, options.rounds);
   if (options.wants("sets")) benchSets(scenes.views(), lidars[0], options.rounds);

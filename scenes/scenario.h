@@ -35,7 +35,7 @@ struct Scenario {
   std::optional<canopy::Layout> canopy;
   std::uint64_t seed{0};
   std::optional<crowd::Scene> crowd;
-  std::optional<scan::Beams> scan;
+  std::optional<scan::Lidar> scan;
 };
 
 /// Reads scenes/NAME.yaml. @throws InvalidInput with all faults.

@@ -58,7 +58,7 @@ void World::addTo(Hashes& hashes) {
 
 void World::addScan(Hash& hash) {
   const Vec3 sensor(0.0, 0.0, scenario_.terrain->height(0.0, 0.0) + 1.2);
-  const double reach = scenario_.scan->range_max;
+  const double reach = scenario_.scan->beams.range_max;
   scan::Scene scene;
   scene.ground = scenario_.terrain;
   if (forest) scene.trees.update(forest->replica(), sensor, reach, now());

@@ -2,18 +2,58 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/sensors/scanner_options.h"
 
+#include <filesystem>
+#include <set>
+
 #include "ros/params/parameters.h"
+#include "ros/params/resources.h"
+#include "vegetation_sim/core/config/yaml.h"
 
 namespace vegetation_sim {
 
 void describe(FieldVisitor& v, ScanOptions& o) {
-  v.integer("rate", o.rate, "Hz", {1, 100});
   v.number("delay", o.delay, "s", {0.0, 5.0});
   v.number("tolerance", o.tolerance, "m", {1e-4, 10.0});
   v.integer("branch_budget", o.branch_budget, "", {1000, 20000000});
   v.integer("threads", o.threads, "", {1, 64});
-  describe(v, o.beams);
+  v.choice("motion", o.motion, {"none", "deskewed", "raw"});
+  describe(v, o.lidar);
 }
+
+namespace {
+
+// Returns the names of the presets, with commas.
+std::string namesOfPresets(const std::string& folder) {
+  std::set<std::string> names;
+  std::error_code error;
+  for (const auto& file : std::filesystem::directory_iterator(folder, error))
+    if (file.path().extension() == ".yaml") names.insert(file.path().stem().string());
+  std::string out;
+  for (const std::string& name : names) out += (out.empty() ? "" : ", ") + name;
+  return out;
+}
+
+// Reads the preset that a parameter names.
+void readPreset(Parameters& parameters, scan::Lidar& lidar) {
+  std::string preset;
+  parameters.text("preset", preset);
+  if (preset.empty()) return;
+  try {
+    const std::string folder = resolveFile("package://vegetation_sim/config/sensors");
+    const bool named = preset.find_first_of("/.") == std::string::npos;
+    const std::string file = named ? folder + "/" + preset + ".yaml" : resolveFile(preset);
+    if (named && !std::filesystem::exists(file))
+      return parameters.fault("preset", "= '" + preset + "' is none of " + namesOfPresets(folder) +
+                                            ", and no path of a file");
+    YamlSection section(loadYamlFile(file), file, parameters.faults());
+    describe(section, lidar);
+    section.finish();
+  } catch (const InvalidInput& error) {
+    parameters.fault("preset", "= '" + preset + "': " + error.what());
+  }
+}
+
+}  // namespace
 
 ScanOptions loadScanOptions(const ros::NodeHandle& private_handle) {
   ScanOptions out;
@@ -21,8 +61,9 @@ ScanOptions loadScanOptions(const ros::NodeHandle& private_handle) {
   parameters.frame("frame_id", out.frame_id);
   parameters.frame("lidar_frame", out.lidar_frame);
   parameters.seed("seed", out.seed);
+  readPreset(parameters, out.lidar);
   describe(parameters, out);
-  scan::check(out.beams, private_handle.getNamespace() + "/", parameters.faults());
+  scan::check(out.lidar, private_handle.getNamespace() + "/", parameters.faults());
   parameters.finish();
   return out;
 }

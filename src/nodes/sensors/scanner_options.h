@@ -6,21 +6,25 @@
 
 #include <string>
 
-#include "sensors/sweep.h"
+#include "sensors/lidar.h"
 
 namespace vegetation_sim {
+
+/// Whether the sensor moves within a sweep. NONE: all rays have the pose at the stamp. DESKEWED:
+/// points are in the frame of the sensor at the stamp. RAW: each is in the frame at its own instant.
+enum class SweepMotion { NONE, DESKEWED, RAW };
 
 /// Parameters of vegetation_scanner; see docs/reference.md.
 struct ScanOptions {
   std::string frame_id{"map"};       ///< world frame
   std::string lidar_frame{"lidar"};  ///< tf frame of the sensor: x forward, z up
   std::uint64_t seed{0};             ///< of the noise
-  int rate{10};                      ///< sweeps [Hz]
   double delay{0.1};                 ///< how far sweeps stay behind the clock [s]
   double tolerance{0.05};            ///< error that branches in range may have [m]
   int branch_budget{400000};         ///< most branches that rays can meet
   int threads{1};                    ///< of a sweep
-  scan::Beams beams;
+  SweepMotion motion{SweepMotion::NONE};
+  scan::Lidar lidar;
 };
 void describe(FieldVisitor& visitor, ScanOptions& options);
 

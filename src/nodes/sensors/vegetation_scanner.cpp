@@ -8,6 +8,7 @@
 #include "ros/conversions/scan_conversions.h"
 #include "ros/services/requests.h"
 #include "ros/services/service_replies.h"
+#include "sensors/sweep.h"
 #include "vegetation_sim/ros/conversions/forest_conversions.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
 
@@ -32,7 +33,7 @@ VegetationScanner::VegetationScanner(const ros::NodeHandle& handle,
       tf_buffer_(ros::Duration(tf2::BufferCore::DEFAULT_CACHE_TIME),
                  true),  // with the service that shows its frames
       tf_listener_(tf_buffer_),
-      clock_(name_, options_.rate, options_.delay,
+      clock_(name_, options_.lidar.rate, options_.delay,
              {{},
               [this](std::int64_t tick) { acceptInput("tick", [&] { this->tick(tick); }); },
               [this](Nanoseconds now) { acceptInput("clock", [&] { restart(now); }); }},
@@ -63,12 +64,11 @@ void VegetationScanner::tick(std::int64_t tick) {
                       report_publisher_.getNumSubscribers() > 0;
   missing_.clear();
   try {
-    const Pose sensor =
-        poseInWorld(tf_buffer_, options_.frame_id, options_.lidar_frame, toStamp(clock_.stamp()));
-    announce(sensor);
+    const scan::SensorPath path = findPath();
+    announce(path.at(turn()));
     if (!wanted) return;
     const ros::WallTime start = ros::WallTime::now();
-    sweep(sensor, tick);
+    sweep(path, tick);
     cost_ = (ros::WallTime::now() - start).toSec();
     ++counts_.sweeps;
   } catch (const InvalidInput&) {
@@ -77,41 +77,58 @@ void VegetationScanner::tick(std::int64_t tick) {
   }
 }
 
+double VegetationScanner::turn() const {
+  return options_.motion == SweepMotion::NONE ? 0.0 : 1.0 / options_.lidar.rate;
+}
+
+// A turn ends at the stamp of the tick, so that tf has both of its poses.
+scan::SensorPath VegetationScanner::findPath() const {
+  const auto poseAt = [&](Nanoseconds stamp) {
+    return poseInWorld(tf_buffer_, options_.frame_id, options_.lidar_frame, toStamp(stamp));
+  };
+  const Pose end = poseAt(clock_.stamp());
+  if (options_.motion == SweepMotion::NONE) return end;
+  return {poseAt(clock_.stamp() - fromSeconds(turn())), end, turn()};
+}
+
 // Announces the sensor whether or not anybody listens to it, so that listening changes nothing.
 void VegetationScanner::announce(const Pose& sensor) {
   SensorInterest message = toMsg(forest::Sensor{
-      private_handle_.getNamespace(), sensor.position, options_.beams.range_max, options_.tolerance,
+      private_handle_.getNamespace(), sensor.position, options_.lidar.beams.range_max, options_.tolerance,
       clock_.stamp() + fromSeconds(options_.delay + ANNOUNCED_AHEAD)});
   message.header.frame_id = options_.frame_id;
   interest_publisher_.publish(message);
 }
 
-void VegetationScanner::sweep(const Pose& sensor, std::int64_t tick) {
-  landscape_.update(sensor.position, options_.beams.range_max, clock_.stamp(), scene_);
+void VegetationScanner::sweep(const scan::SensorPath& path, std::int64_t tick) {
+  landscape_.update(path.at(turn()).position, options_.lidar.beams.range_max, clock_.stamp(), scene_);
   const auto noiseOf = [&](std::uint64_t sensor) {
     return scan::NoiseKeys{options_.seed, static_cast<std::uint64_t>(tick), sensor};
   };
   if (cloud_publisher_.getNumSubscribers() + report_publisher_.getNumSubscribers() > 0) {
-    const auto returns = scan::sweep(scene_, options_.beams, sensor, noiseOf(0), threads_);
-    sensor_msgs::PointCloud2 cloud = toCloud(returns, options_.beams);
-    ScanReport report = toReport(returns, scene_.trees);
+    const scan::Lidar& lidar = options_.lidar;
+    const auto returns = scan::sweep(scene_, lidar, path, noiseOf(0), threads_);
+    sensor_msgs::PointCloud2 cloud =
+        toCloud(returns, lidar, path,
+                options_.motion == SweepMotion::RAW ? PointFrame::RAY : PointFrame::BEGIN);
+    ScanReport report = toReport(returns, scan::returnsPerRay(lidar.model), scene_.trees);
     cloud.header = report.header = header();
     points_ = cloud.width;
     cloud_publisher_.publish(cloud);
     report_publisher_.publish(report);
   }
   if (scan_publisher_.getNumSubscribers() == 0) return;
-  const scan::Beams plane = scan::planeOf(options_.beams);
+  const scan::Lidar plane = scan::planeOf(options_.lidar);
   sensor_msgs::LaserScan scan =
-      toScan(scan::sweep(scene_, plane, sensor, noiseOf(1), threads_), plane);
+      toScan(scan::sweep(scene_, plane, path, noiseOf(1), threads_), plane.beams, turn());
   scan.header = header();
-  scan.scan_time = static_cast<float>(1.0 / options_.rate);
+  scan.scan_time = static_cast<float>(1.0 / options_.lidar.rate);
   scan_publisher_.publish(scan);
 }
 
 std_msgs::Header VegetationScanner::header() const {
   std_msgs::Header out;
-  out.stamp = toStamp(clock_.stamp());
+  out.stamp = toStamp(clock_.stamp() - fromSeconds(turn()));
   out.frame_id = options_.lidar_frame;
   return out;
 }

@@ -12,6 +12,7 @@
 #include "ros/replicas/landscape_replica.h"
 #include "ros/services/missing_inputs.h"
 #include "ros/time/tick_clock.h"
+#include "sensors/model/sensor_path.h"
 
 namespace vegetation_sim {
 
@@ -25,13 +26,17 @@ class VegetationScanner final : public NodeBase {
 
  private:
   void tick(std::int64_t tick);
+  scan::SensorPath findPath() const;
   void announce(const Pose& sensor);
-  void sweep(const Pose& sensor, std::int64_t tick);
+  void sweep(const scan::SensorPath& path, std::int64_t tick);
   void restartScene();
   void restart(Nanoseconds now);
   bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   void reportProblem(Status& status);
   void diagnose(Status& status);
+  /// Duration of a full turn of a sensor that moves within a sweep [s]; 0: all rays have the same
+  /// instant.
+  double turn() const;
   /// Header of the current sweep.
   std_msgs::Header header() const;
 

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstring>
+#include <numeric>
 
 namespace vegetation_sim {
 namespace {
@@ -26,24 +27,25 @@ bool isBigEndian() {
   return first == 0;
 }
 
-ScanPoint pointOf(const scan::Return& one, const scan::Beams& beams, int ring, int column) {
-  const Vec3 place = one.range * scan::directionOf(beams, ring, column);
+ScanPoint pointOf(const scan::Return& one, const Vec3& place, double time, int ring) {
   ScanPoint out;
   out.x = static_cast<float>(place.x());
   out.y = static_cast<float>(place.y());
   out.z = static_cast<float>(place.z());
-  out.intensity = static_cast<float>(scan::intensityOf(one.hit));
+  out.intensity = static_cast<float>(one.intensity);
   out.ring = static_cast<std::uint16_t>(ring);
   out.label = static_cast<std::uint32_t>(one.hit.label);
   out.plant = one.hit.plant;
   out.branch = one.hit.branch;
+  out.time = static_cast<float>(time);
+  out.return_type = static_cast<std::uint8_t>(one.type);
   return out;
 }
 
 }  // namespace
 
-sensor_msgs::PointCloud2 toCloud(const std::vector<scan::Return>& returns,
-                                 const scan::Beams& beams) {
+sensor_msgs::PointCloud2 toCloud(const std::vector<scan::Return>& returns, const scan::Lidar& lidar,
+                                 const scan::SensorPath& path, PointFrame frame) {
   sensor_msgs::PointCloud2 out;
   out.fields = {fieldOf("x", offsetof(ScanPoint, x), PointField::FLOAT32),
                 fieldOf("y", offsetof(ScanPoint, y), PointField::FLOAT32),
@@ -53,13 +55,19 @@ sensor_msgs::PointCloud2 toCloud(const std::vector<scan::Return>& returns,
                 fieldOf("plant", offsetof(ScanPoint, plant), PointField::UINT32),
                 fieldOf("branch", offsetof(ScanPoint, branch), PointField::INT32),
                 fieldOf("time", offsetof(ScanPoint, time), PointField::FLOAT32),
-                fieldOf("ring", offsetof(ScanPoint, ring), PointField::UINT16)};
+                fieldOf("ring", offsetof(ScanPoint, ring), PointField::UINT16),
+                fieldOf("return_type", offsetof(ScanPoint, return_type), PointField::UINT8)};
   std::vector<ScanPoint> points;
   points.reserve(returns.size());
-  for (std::size_t i = 0; i < returns.size(); ++i)
-    if (returns[i].isPoint())
-      points.push_back(pointOf(returns[i], beams, static_cast<int>(i) / beams.columns,
-                               static_cast<int>(i) % beams.columns));
+  const int per_ray = scan::returnsPerRay(lidar.model), columns = lidar.beams.columns;
+  for (std::size_t i = 0; i < returns.size(); ++i) {
+    if (!returns[i].isPoint()) continue;
+    const int ray = static_cast<int>(i) / per_ray, ring = ray / columns, column = ray % columns;
+    const double time = scan::timeOf(lidar.beams, column, path.seconds());
+    Vec3 place = returns[i].range * scan::directionOf(lidar.beams, ring, column);
+    if (path.moves() && frame == PointFrame::BEGIN) place = path.toBegin(time, place);
+    points.push_back(pointOf(returns[i], place, time, ring));
+  }
   out.height = 1;
   out.width = static_cast<std::uint32_t>(points.size());
   out.point_step = sizeof(ScanPoint);
@@ -71,27 +79,31 @@ sensor_msgs::PointCloud2 toCloud(const std::vector<scan::Return>& returns,
   return out;
 }
 
-sensor_msgs::LaserScan toScan(const std::vector<scan::Return>& returns, const scan::Beams& beams) {
+sensor_msgs::LaserScan toScan(const std::vector<scan::Return>& returns, const scan::Beams& beams,
+                              double turn) {
   sensor_msgs::LaserScan out;
   const double increment = (beams.azimuth_high - beams.azimuth_low) / beams.columns;
   out.angle_min = static_cast<float>(beams.azimuth_low);
   out.angle_max = static_cast<float>(beams.azimuth_low + increment * (beams.columns - 1));
   out.angle_increment = static_cast<float>(increment);
+  out.time_increment = static_cast<float>(scan::timeOf(beams, 1, turn));
   out.range_min = static_cast<float>(beams.range_min);
   out.range_max = static_cast<float>(beams.range_max);
   for (const scan::Return& one : returns) {
     out.ranges.push_back(static_cast<float>(one.range));
-    out.intensities.push_back(one.isPoint() ? static_cast<float>(scan::intensityOf(one.hit)) : 0.f);
+    out.intensities.push_back(one.isPoint() ? static_cast<float>(one.intensity) : 0.f);
   }
   return out;
 }
 
-ScanReport toReport(const std::vector<scan::Return>& returns, const scan::Trees& trees) {
+ScanReport toReport(const std::vector<scan::Return>& returns, int per_ray,
+                    const scan::Trees& trees) {
   ScanReport out;
-  const auto counts = scan::countLabels(returns);
+  const auto counts = scan::countLabels(returns, per_ray);
   static_assert(decltype(out.counts)::static_size == counts.size(), "ScanReport.msg");
   std::copy(counts.begin(), counts.end(), out.counts.begin());
-  out.rays = static_cast<std::uint32_t>(returns.size());
+  out.rays = static_cast<std::uint32_t>(returns.size()) / static_cast<std::uint32_t>(per_ray);
+  out.second_returns = std::accumulate(counts.begin(), counts.end(), 0U) - out.rays;
   out.trees = static_cast<std::uint32_t>(trees.all().size());
   out.branches = static_cast<std::uint32_t>(trees.branches());
   out.left_out = static_cast<std::uint32_t>(trees.leftOut());

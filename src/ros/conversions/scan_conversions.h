@@ -21,16 +21,25 @@ struct ScanPoint {
   std::int32_t branch{0};                        ///< of the tree; limb of the walker
   float time{0.f};                               ///< after the stamp of the cloud [s]
   std::uint16_t ring{0};                         ///< 0 is the lowest
-  std::uint16_t unused{0};
+  std::uint8_t return_type{0};                   ///< scan::ReturnType
+  std::uint8_t unused{0};
 };
 static_assert(sizeof(ScanPoint) == 36, "no gaps");
 
-/// The rays that have a point, ring by ring. Left to the caller: the header.
-sensor_msgs::PointCloud2 toCloud(const std::vector<scan::Return>& returns,
-                                 const scan::Beams& beams);
-/// Ranges as REP 117 has them. Requires the one ring of scan::planeOf(). Left to the caller: the
-/// header and times.
-sensor_msgs::LaserScan toScan(const std::vector<scan::Return>& returns, const scan::Beams& beams);
-ScanReport toReport(const std::vector<scan::Return>& returns, const scan::Trees& trees);
+/// Frames of the points of a sensor that moves: its frame at the beginning of the sweep, or that at
+/// the instant of each ray.
+enum class PointFrame { BEGIN, RAY };
+
+/// The returns that are points, ring by ring. Left to the caller: the header.
+sensor_msgs::PointCloud2 toCloud(const std::vector<scan::Return>& returns, const scan::Lidar& lidar,
+                                 const scan::SensorPath& path, PointFrame frame);
+/// Ranges as REP 117 has them, each as the sensor measures it. Requires the one ring of
+/// scan::planeOf(). @param turn duration of a full turn [s]; 0: one instant. Left to the caller:
+/// the header and scan_time.
+sensor_msgs::LaserScan toScan(const std::vector<scan::Return>& returns, const scan::Beams& beams,
+                              double turn);
+/// @param per_ray returns of each ray.
+ScanReport toReport(const std::vector<scan::Return>& returns, int per_ray,
+                    const scan::Trees& trees);
 
 }  // namespace vegetation_sim

@@ -10,7 +10,7 @@
 namespace vegetation_sim::scan {
 
 /// Class of the object that a ray hit, with the numbers of ScanReport.msg.
-enum class Label : std::uint16_t { NONE, GROUND, TRUNK, BRANCH, LEAF, GRASS, PERSON, COUNT };
+enum class Label : std::uint16_t { NONE, GROUND, TRUNK, BRANCH, LEAF, GRASS, PERSON, RAIN, COUNT };
 constexpr std::size_t LABELS = static_cast<std::size_t>(Label::COUNT);
 
 /// Ray from the sensor into the world.

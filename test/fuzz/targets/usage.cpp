@@ -7,14 +7,14 @@
 namespace vegetation_sim::fuzz {
 
 void sweepOnce(const scan::Scene& scene) {
-  scan::Beams beams;
-  beams.rings = 2;
-  beams.columns = 6;
-  beams.range_max = SENSOR_RANGE;
+  scan::Lidar lidar;
+  lidar.beams.rings = 2;
+  lidar.beams.columns = 6;
+  lidar.beams.range_max = SENSOR_RANGE;
   static ThreadPool threads(1);
   Pose sensor;
   sensor.position = SENSOR_PLACE;
-  for (const scan::Return& beam : scan::sweep(scene, beams, sensor, {1, 1, 1}, threads))
+  for (const scan::Return& beam : scan::sweep(scene, lidar, sensor, {1, 1, 1}, threads))
     if (std::isnan(beam.range) || (std::isfinite(beam.range) && beam.range < 0.0))
       throw BrokenPromise("a range is " + std::to_string(beam.range));
 }

@@ -16,7 +16,7 @@ from forest_rig import time_of
 from waiting import wait_for
 from watched_node import Log, WatchedNode, publisher, wait_for_readers
 
-TYPES = {PointField.FLOAT32: 'f4', PointField.UINT16: 'u2', PointField.UINT32: 'u4',
+TYPES = {PointField.FLOAT32: 'f4', PointField.UINT8: 'u1', PointField.UINT16: 'u2', PointField.UINT32: 'u4',
          PointField.INT32: 'i4'}
 INPUTS = ('/wind', '/forest/layout', '/forest/state', '/grass/layout', '/grass/state', '/agents')
 

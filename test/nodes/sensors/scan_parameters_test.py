@@ -2,6 +2,9 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
 """vegetation_scanner must reject bad parameters at startup and report all faults at once."""
+import os
+import tempfile
+
 import rospy
 import rostest
 
@@ -13,13 +16,16 @@ NUMBERS = {
     'elevation_high': (' rad', -1.5707, 1.5707), 'azimuth_low': (' rad', -6.2832, 6.2832),
     'azimuth_high': (' rad', -6.2832, 6.2832), 'range_min': (' m', 0, 100),
     'range_max': (' m', 0.1, 500), 'noise': (' m', 0, 1),
-    'tolerance': (' m', 0.0001, 10),
+    'tolerance': (' m', 0.0001, 10), 'noise_proportional': ('', 0, 0.1), 'dropout': ('', 0, 1),
+    'detection_range': (' m', 0, 1000), 'fog_visibility': (' m', 0, 100000),
+    'rain_rate': (' mm/h', 0, 200), 'rain_returns': ('', 0, 10), 'divergence': (' rad', 0, 0.1),
+    'return_separation': (' m', 0, 10),
 }
 WHOLE_NUMBERS = {
     'rate': (' Hz', 1, 100), 'branch_budget': ('', 1000, 20000000), 'threads': ('', 1, 64),
-    'rings': ('', 1, 512), 'columns': ('', 1, 14400),
+    'rings': ('', 1, 512), 'columns': ('', 1, 14400), 'samples': ('', 1, 37),
 }
-OTHERS = {'frame_id', 'lidar_frame', 'seed'}
+OTHERS = {'frame_id', 'lidar_frame', 'seed', 'preset', 'returns', 'motion'}
 
 
 class ScanParameters(Ranges, RefusingNode):
@@ -38,6 +44,31 @@ class ScanParameters(Ranges, RefusingNode):
         self.assertEqual(refusal.count('is not above'), 3)
         refusal = self.refusal({'azimuth_low': -4.0, 'azimuth_high': 4.0})
         self.assertIn('~azimuth_high is more than a turn', refusal)
+
+    def test_unknown_words_and_numbers_of_samples_are_rejected(self):
+        refusal = self.refusal({'returns': 'first', 'motion': 'smooth', 'samples': 5})
+        self.assertIn("~returns = 'first' is none of strongest, last, both", refusal)
+        self.assertIn("~motion = 'smooth' is none of none, deskewed, raw", refusal)
+        self.assertIn('~samples = 5 is none of 1, 7, 19, 37', refusal)
+
+    def test_bad_presets_are_rejected(self):
+        refusal = self.refusal({'preset': 'vlp17'})
+        self.assertIn("~preset = 'vlp17' is none of os1_128, os1_64, utm30lx, vlp16, and no path",
+                      refusal)
+        self.assertIn('~preset = 16 is not text', self.refusal({'preset': 16}))
+        self.assertIn('/none.yaml', self.refusal({'preset': '/none.yaml'}))
+        with tempfile.TemporaryDirectory() as folder:
+            own = os.path.join(folder, 'own.yaml')
+            with open(own, 'w') as file:
+                file.write('rings: 1000\nwavelength: 905\nreturns: best\n')
+            refusal = self.refusal({'preset': own})
+        for words in ('own.yaml: rings = 1000 is outside 1 to 512', 'wavelength',
+                      "own.yaml: returns = 'best' is none of strongest, last, both"):
+            self.assertIn(words, refusal)
+
+    def test_parameters_replace_those_of_a_preset(self):
+        refusal = self.refusal({'preset': 'vlp16', 'range_min': 100})
+        self.assertIn('~range_max = 100.000000 is not above range_min = 100.000000', refusal)
 
 
 if __name__ == '__main__':

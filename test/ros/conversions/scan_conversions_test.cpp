@@ -26,11 +26,16 @@ std::vector<scan::Return> twoReturns() {
   return out;
 }
 
-scan::Beams twoBeams() {
-  scan::Beams out;
-  out.rings = 2;
-  out.columns = 1;
-  return out;
+sensor_msgs::PointCloud2 cloudOf(const std::vector<scan::Return>& returns,
+                                 scan::ReturnMode mode = scan::ReturnMode::STRONGEST,
+                                 const scan::SensorPath& path = Pose(),
+                                 PointFrame frame = PointFrame::BEGIN) {
+  scan::Lidar lidar;
+  lidar.beams.rings = 2;
+  lidar.beams.columns = static_cast<int>(returns.size()) / 2;
+  lidar.model.returns = mode;
+  if (mode == scan::ReturnMode::BOTH) lidar.beams.rings = 1;
+  return toCloud(returns, lidar, path, frame);
 }
 
 const PointField* findField(const sensor_msgs::PointCloud2& cloud, const std::string& name) {
@@ -50,12 +55,12 @@ T valueOf(const sensor_msgs::PointCloud2& cloud, std::size_t point, const std::s
 // pcl::fromROSMsg takes a field only if its name, type and count are those of the point type. These
 // are registered in pcl/impl/point_types.hpp: PointXYZL and PointXYZI.
 TEST(ScanConversions, FieldsAreThoseOfPclPointTypes) {
-  const sensor_msgs::PointCloud2 cloud = toCloud(twoReturns(), twoBeams());
+  const sensor_msgs::PointCloud2 cloud = cloudOf(twoReturns());
   const std::pair<const char*, std::uint8_t> wanted[] = {
       {"x", PointField::FLOAT32},         {"y", PointField::FLOAT32},
       {"z", PointField::FLOAT32},         {"label", PointField::UINT32},
       {"intensity", PointField::FLOAT32}, {"time", PointField::FLOAT32},
-      {"ring", PointField::UINT16}};
+      {"ring", PointField::UINT16},       {"return_type", PointField::UINT8}};
   for (const auto& [name, type] : wanted) {
     const PointField* field = findField(cloud, name);
     ASSERT_TRUE(field) << name;
@@ -68,10 +73,12 @@ TEST(ScanConversions, FieldsAreThoseOfPclPointTypes) {
 }
 
 TEST(ScanConversions, FieldsNeitherOverlapNorLeaveThePoint) {
-  const sensor_msgs::PointCloud2 cloud = toCloud(twoReturns(), twoBeams());
+  const sensor_msgs::PointCloud2 cloud = cloudOf(twoReturns());
   std::vector<int> used(cloud.point_step);
   for (const PointField& field : cloud.fields) {
-    const std::uint32_t size = field.datatype == PointField::UINT16 ? 2 : 4;
+    const std::uint32_t size = field.datatype == PointField::UINT8    ? 1
+                               : field.datatype == PointField::UINT16 ? 2
+                                                                      : 4;
     ASSERT_LE(field.offset + size, cloud.point_step) << field.name;
     for (std::uint32_t i = 0; i < size; ++i) EXPECT_EQ(used[field.offset + i]++, 0) << field.name;
   }
@@ -80,7 +87,7 @@ TEST(ScanConversions, FieldsNeitherOverlapNorLeaveThePoint) {
 }
 
 TEST(ScanConversions, APointHasTheValuesOfItsReturn) {
-  const sensor_msgs::PointCloud2 cloud = toCloud(twoReturns(), twoBeams());
+  const sensor_msgs::PointCloud2 cloud = cloudOf(twoReturns());
   ASSERT_EQ(cloud.width, 2u);
   EXPECT_EQ(valueOf<std::uint32_t>(cloud, 0, "label"), std::uint32_t{ScanReport::BRANCH});
   EXPECT_EQ(valueOf<std::uint32_t>(cloud, 0, "plant"), 70000u);
@@ -90,6 +97,50 @@ TEST(ScanConversions, APointHasTheValuesOfItsReturn) {
   EXPECT_EQ(valueOf<std::int32_t>(cloud, 1, "branch"), -1);
   EXPECT_EQ(valueOf<std::uint16_t>(cloud, 1, "ring"), 1);
   EXPECT_EQ(valueOf<float>(cloud, 1, "time"), 0.f);  // all rays of a sweep share one instant
+}
+
+TEST(ScanConversions, BothReturnsOfARayAreInItsDirection) {
+  std::vector<scan::Return> returns = twoReturns();
+  returns[0].type = scan::ReturnType::DUAL_WEAK_LAST;
+  returns[1].type = scan::ReturnType::DUAL_STRONGEST_FIRST;
+  const auto cloud = cloudOf(returns, scan::ReturnMode::BOTH);
+  ASSERT_EQ(cloud.width, 2u);
+  EXPECT_EQ(valueOf<std::uint8_t>(cloud, 0, "return_type"), 6);
+  EXPECT_EQ(valueOf<std::uint8_t>(cloud, 1, "return_type"), 3);
+  for (const char* name : {"x", "y", "z"})
+    EXPECT_NEAR(valueOf<float>(cloud, 0, name), 2.0 * valueOf<float>(cloud, 1, name), 1e-5);
+  const ScanReport report = toReport(returns, 2, scan::Trees());
+  EXPECT_EQ(report.rays, 1u);
+  EXPECT_EQ(report.second_returns, 1u);
+  returns[1] = scan::Return();
+  EXPECT_EQ(toReport(returns, 2, scan::Trees()).second_returns, 0u);
+}
+
+// The sensor moves by 1 m along x in the 0.1 s of a turn; its second column is half a turn later.
+TEST(ScanConversions, PointsOfASensorThatMovesHaveTimesAndAFrame) {
+  std::vector<scan::Return> returns(4);
+  for (scan::Return& one : returns) one.range = 5.0;
+  Pose end;
+  end.position = Vec3(1.0, 0.0, 0.0);
+  const scan::SensorPath path(Pose(), end, 0.1);
+  const auto still = cloudOf(returns);
+  for (const PointFrame frame : {PointFrame::BEGIN, PointFrame::RAY}) {
+    const auto cloud = cloudOf(returns, scan::ReturnMode::STRONGEST, path, frame);
+    EXPECT_EQ(valueOf<float>(cloud, 0, "time"), 0.f);
+    EXPECT_NEAR(valueOf<float>(cloud, 1, "time"), 0.05, 1e-6);
+    EXPECT_EQ(valueOf<float>(cloud, 0, "x"), valueOf<float>(still, 0, "x"));
+    EXPECT_NEAR(valueOf<float>(cloud, 1, "x") - valueOf<float>(still, 1, "x"),
+                frame == PointFrame::BEGIN ? 0.5 : 0.0, 1e-5);
+  }
+}
+
+TEST(ScanConversions, APlanarScanOfASensorThatMovesHasTheTimeBetweenItsRays) {
+  std::vector<scan::Return> returns(4);
+  scan::Beams beams;
+  beams.rings = 1;
+  beams.columns = 4;
+  EXPECT_NEAR(toScan(returns, beams, 0.1).time_increment, 0.025, 1e-6);
+  EXPECT_EQ(toScan(returns, beams, 0.0).time_increment, 0.f);
 }
 
 }  // namespace
