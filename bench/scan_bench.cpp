@@ -104,7 +104,8 @@ void benchSets(const std::vector<View>& views, const NamedLidar& lidar, int roun
   }
 }
 
-void benchSweeps(const std::vector<View>& views, const std::vector<NamedLidar>& lidars, int rounds) {
+void benchSweeps(const std::vector<View>& views, const std::vector<NamedLidar>& lidars,
+                 int rounds) {
   std::printf("\n%-22s %-11s %12s %12s %8s\n", "sweeps", "lidar", "1 thread", "2 threads", "ratio");
   ThreadPool one(1), two(2);
   for (const View& view : views)
@@ -193,8 +194,9 @@ class Scenes {
 
 void run(const bench::Options& options) {
   const Scenes scenes(options.quick ? 4 : 12);
-  const std::vector<NamedLidar> lidars{{"16 x 900", beamsOf(16, 900), options.quick ? 10 : 1},
-                                  {"128 x 2048", beamsOf(128, 2048), options.quick ? 100 : 16}};
+  const std::vector<NamedLidar> lidars{
+      {"16 x 900", beamsOf(16, 900), options.quick ? 10 : 1},
+      {"128 x 2048", beamsOf(128, 2048), options.quick ? 100 : 16}};
   if (options.wants("rays")) benchRays(scenes.views(), lidars, options.rounds);
   if (options.wants("sets")) benchSets(scenes.views(), lidars[0], options.rounds);
   if (options.wants("sweeps")) benchSweeps(scenes.views(), lidars, std::min(options.rounds, 5));

@@ -14,6 +14,10 @@ const Layout& checked(const Layout& layout) {
   return layout;
 }
 
+CutView viewOfPlane(const Layout& layout) {
+  return {layout.motion.plane.camera, orientationOf(layout.motion.plane)};
+}
+
 PlaneMotion meanOf(const PlaneField& motion) {
   PlaneMotion out;
   for (std::size_t i = 0; i < motion.u.size(); ++i) {
@@ -103,8 +107,7 @@ void Canopy::setCrowns(std::vector<LeafBox> crowns) {
 }
 
 CutView Canopy::view() const {
-  if (viewer_) return *viewer_;
-  return {layout_.motion.plane.camera, orientationOf(layout_.motion.plane)};
+  return viewer_ ? *viewer_ : viewOfPlane(layout_);
 }
 
 PlaneAir Canopy::airAt(Nanoseconds stamp) const {
@@ -182,7 +185,8 @@ Replica::Replica(const Layout& layout)
     : layout_(checked(layout)),
       layout_hash_(layout.hash()),
       history_(layout.motion.fluid.cells, historyFrames(layout.motion)),
-      foliage_(layout_) {}
+      foliage_(layout_),
+      plane_foliage_(layout_) {}
 
 void Replica::apply(const StateUpdate& update) {
   if (update.layout_hash != layout_hash_)
@@ -200,7 +204,7 @@ void Replica::apply(const StateUpdate& update) {
     ++received_;
   }
   last_ = update;
-  stale_ = true;
+  stale_ = plane_stale_ = true;
 }
 
 void Replica::setCrowns(std::vector<LeafBox> crowns) {
@@ -212,6 +216,13 @@ const Foliage& Replica::foliage() {
   if (stale_) foliage_.update(history_, last_.front_share, last_.cuts, last_.stamp);
   stale_ = false;
   return foliage_;
+}
+
+const Foliage& Replica::foliageOfPlane() {
+  const CutView view = viewOfPlane(layout_);
+  if (plane_stale_) plane_foliage_.update(history_, 1.0, {view, view, 0}, last_.stamp);
+  plane_stale_ = false;
+  return plane_foliage_;
 }
 
 }  // namespace vegetation_sim::canopy

@@ -22,6 +22,7 @@ Hit cast(const Scene& scene, const Ray& ray, double reach) {
   Hit out = castToGround(scene, ray, reach);
   const FloatRay narrow(ray);
   scene.trees.meet(ray, narrow, out);
+  scene.plants.meet(ray, narrow, out);
   scene.people.meet(ray, narrow, out);
   scene.grass.meet(ray, out);
   return out;

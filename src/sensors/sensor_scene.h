@@ -6,6 +6,7 @@
 
 #include "sensors/grass_volume.h"
 #include "sensors/people.h"
+#include "sensors/plant_field.h"
 #include "sensors/tree_field.h"
 
 namespace vegetation_sim::scan {
@@ -13,6 +14,7 @@ namespace vegetation_sim::scan {
 /// All objects that a sensor perceives at one stamp. Rays may be cast from any thread.
 struct Scene {
   Trees trees;
+  Plants plants;
   GrassVolume grass;
   People people;
   std::shared_ptr<const terrain::HeightMap> ground{std::make_shared<const terrain::HeightMap>()};

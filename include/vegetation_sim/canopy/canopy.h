@@ -134,6 +134,10 @@ class Replica {
   /// Sets the crowns; the same crowns as the animator's give the same layers.
   void setCrowns(std::vector<LeafBox> crowns);
   const Foliage& foliage();
+  /// Returns the layers of the plants as the simulation plane's own view cuts them, driven by the
+  /// front. They do not depend on viewers: sensors perceive the same whoever watches.
+  const Foliage& foliageOfPlane();
+  std::uint64_t layoutHash() const { return layout_hash_; }
 
  private:
   Layout layout_;
@@ -141,8 +145,8 @@ class Replica {
   History history_;
   StateUpdate last_;
   int received_{0};
-  Foliage foliage_;
-  bool stale_{true};
+  Foliage foliage_, plane_foliage_;
+  bool stale_{true}, plane_stale_{true};
 };
 
 }  // namespace vegetation_sim::canopy

@@ -15,6 +15,7 @@ void describe(FieldVisitor& v, ScanOptions& o) {
   v.number("delay", o.delay, "s", {0.0, 5.0});
   v.number("tolerance", o.tolerance, "m", {1e-4, 10.0});
   v.integer("branch_budget", o.branch_budget, "", {1000, 20000000});
+  v.integer("leaf_budget", o.leaf_budget, "", {1000, 3000000});
   v.integer("threads", o.threads, "", {1, 64});
   v.choice("motion", o.motion, {"none", "deskewed", "raw"});
   describe(v, o.lidar);

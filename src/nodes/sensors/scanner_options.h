@@ -11,7 +11,8 @@
 namespace vegetation_sim {
 
 /// Whether the sensor moves within a sweep. NONE: all rays have the pose at the stamp. DESKEWED:
-/// points are in the frame of the sensor at the stamp. RAW: each is in the frame at its own instant.
+/// points are in the frame of the sensor at the stamp. RAW: each is in the frame at its own
+/// instant.
 enum class SweepMotion { NONE, DESKEWED, RAW };
 
 /// Parameters of vegetation_scanner; see docs/reference.md.
@@ -22,6 +23,7 @@ struct ScanOptions {
   double delay{0.1};                 ///< how far sweeps stay behind the clock [s]
   double tolerance{0.05};            ///< error that branches in range may have [m]
   int branch_budget{400000};         ///< most branches that rays can meet
+  int leaf_budget{200000};           ///< most leaves of plants that rays can meet
   int threads{1};                    ///< of a sweep
   SweepMotion motion{SweepMotion::NONE};
   scan::Lidar lidar;

@@ -94,14 +94,16 @@ scan::SensorPath VegetationScanner::findPath() const {
 // Announces the sensor whether or not anybody listens to it, so that listening changes nothing.
 void VegetationScanner::announce(const Pose& sensor) {
   SensorInterest message = toMsg(forest::Sensor{
-      private_handle_.getNamespace(), sensor.position, options_.lidar.beams.range_max, options_.tolerance,
-      clock_.stamp() + fromSeconds(options_.delay + ANNOUNCED_AHEAD)});
+      private_handle_.getNamespace(), sensor.position, options_.lidar.beams.range_max,
+      options_.tolerance, clock_.stamp() + fromSeconds(options_.delay + ANNOUNCED_AHEAD)});
   message.header.frame_id = options_.frame_id;
   interest_publisher_.publish(message);
 }
 
 void VegetationScanner::sweep(const scan::SensorPath& path, std::int64_t tick) {
-  landscape_.update(path.at(turn()).position, options_.lidar.beams.range_max, clock_.stamp(), scene_);
+  const double way = length(path.at(turn()).position - path.begin().position);
+  landscape_.update(path.at(turn()).position, options_.lidar.beams.range_max + way, clock_.stamp(),
+                    scene_, threads_);
   const auto noiseOf = [&](std::uint64_t sensor) {
     return scan::NoiseKeys{options_.seed, static_cast<std::uint64_t>(tick), sensor};
   };
@@ -111,7 +113,7 @@ void VegetationScanner::sweep(const scan::SensorPath& path, std::int64_t tick) {
     sensor_msgs::PointCloud2 cloud =
         toCloud(returns, lidar, path,
                 options_.motion == SweepMotion::RAW ? PointFrame::RAY : PointFrame::BEGIN);
-    ScanReport report = toReport(returns, scan::returnsPerRay(lidar.model), scene_.trees);
+    ScanReport report = toReport(returns, scan::returnsPerRay(lidar.model), scene_);
     cloud.header = report.header = header();
     points_ = cloud.width;
     cloud_publisher_.publish(cloud);
@@ -136,6 +138,7 @@ std_msgs::Header VegetationScanner::header() const {
 void VegetationScanner::restartScene() {
   scene_ = scan::Scene();
   scene_.trees = scan::Trees(static_cast<std::size_t>(options_.branch_budget));
+  scene_.plants = scan::Plants(static_cast<std::size_t>(options_.leaf_budget));
 }
 
 void VegetationScanner::restart(Nanoseconds now) {
@@ -164,6 +167,7 @@ void VegetationScanner::reportProblem(Status& status) {
              "messages lost that are stamped ahead of the clock");
   warnOfClock(status, counts_.clock, reported_.clock);
   warnOfMore(status, scene_.trees.leftOut(), 0, "trees in range left out because of branch_budget");
+  warnOfMore(status, scene_.plants.leftOut(), 0, "plants in range left out because of leaf_budget");
   if (const std::string why = landscape_.why(); !why.empty())
     status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, "waiting for a key frame: " + why);
   if (const std::string rivals = landscape_.rivals(); !rivals.empty())
@@ -184,6 +188,9 @@ void VegetationScanner::diagnose(Status& status) {
   status.add("Trees", scene_.trees.all().size());
   status.add("Branches", scene_.trees.branches());
   status.add("Trees left out", scene_.trees.leftOut());
+  status.add("Plants", scene_.plants.all().size());
+  status.add("Leaves of plants", scene_.plants.leaves());
+  status.add("Plants left out", scene_.plants.leftOut());
   status.add("People", landscape_.people());
   status.add("Messages ahead of the sweep", landscape_.waiting());
   clock_.report(status);

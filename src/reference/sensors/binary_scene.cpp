@@ -43,6 +43,7 @@ void BinaryScene::meetTrees(const Ray& ray, Hit& nearest) const {
 Hit BinaryScene::cast(const Ray& ray, double reach) const {
   Hit out = castToGround(scene_, ray, reach);
   meetTrees(ray, out);
+  meetEachPlant(scene_.plants, ray, out);
   limbs_.visit(ray, out, [&](std::size_t limb) { scene_.people.meetLimb(limb, ray, out); });
   scene_.grass.meet(ray, out, GrassVolume::Cells::ALL);
   return out;

@@ -30,9 +30,17 @@ void meetEachBranch(const Trees& trees, const Ray& ray, Hit& nearest) {
     for (std::size_t i = 0; i < tree->branches(); ++i) meetBranchPlainly(*tree, i, ray, nearest);
 }
 
+void meetEachPlant(const Plants& plants, const Ray& ray, Hit& nearest) {
+  for (const auto& plant : plants.all()) {
+    for (std::size_t i = 0; i < plant->strips().size(); ++i) plant->meetStrip(i, ray, nearest);
+    for (std::size_t i = 0; i < plant->stems().size(); ++i) plant->meetStem(i, ray, nearest);
+  }
+}
+
 Hit castPlain(const Scene& scene, const Ray& ray, double reach) {
   Hit out = castToGround(scene, ray, reach);
   meetEachBranch(scene.trees, ray, out);
+  meetEachPlant(scene.plants, ray, out);
   for (std::size_t i = 0; i < scene.people.limbs(); ++i) scene.people.meetLimb(i, ray, out);
   scene.grass.meet(ray, out, GrassVolume::Cells::ALL);
   return out;

@@ -97,16 +97,19 @@ sensor_msgs::LaserScan toScan(const std::vector<scan::Return>& returns, const sc
 }
 
 ScanReport toReport(const std::vector<scan::Return>& returns, int per_ray,
-                    const scan::Trees& trees) {
+                    const scan::Scene& scene) {
   ScanReport out;
   const auto counts = scan::countLabels(returns, per_ray);
   static_assert(decltype(out.counts)::static_size == counts.size(), "ScanReport.msg");
   std::copy(counts.begin(), counts.end(), out.counts.begin());
   out.rays = static_cast<std::uint32_t>(returns.size()) / static_cast<std::uint32_t>(per_ray);
   out.second_returns = std::accumulate(counts.begin(), counts.end(), 0U) - out.rays;
-  out.trees = static_cast<std::uint32_t>(trees.all().size());
-  out.branches = static_cast<std::uint32_t>(trees.branches());
-  out.left_out = static_cast<std::uint32_t>(trees.leftOut());
+  out.trees = static_cast<std::uint32_t>(scene.trees.all().size());
+  out.branches = static_cast<std::uint32_t>(scene.trees.branches());
+  out.left_out = static_cast<std::uint32_t>(scene.trees.leftOut());
+  out.plants = static_cast<std::uint32_t>(scene.plants.all().size());
+  out.leaves = static_cast<std::uint32_t>(scene.plants.leaves());
+  out.plants_left_out = static_cast<std::uint32_t>(scene.plants.leftOut());
   return out;
 }
 

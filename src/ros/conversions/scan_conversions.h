@@ -17,8 +17,8 @@ namespace vegetation_sim {
 struct ScanPoint {
   float x{0.f}, y{0.f}, z{0.f}, intensity{0.f};  ///< sensor's frame [m]; share of the light
   std::uint32_t label{0};                        ///< ScanReport
-  std::uint32_t plant{0};                        ///< id of the tree or walker
-  std::int32_t branch{0};                        ///< of the tree; limb of the walker
+  std::uint32_t plant{0};                        ///< id of the tree, walker or plant
+  std::int32_t branch{0};                        ///< of the tree; limb, leaf or stem
   float time{0.f};                               ///< after the stamp of the cloud [s]
   std::uint16_t ring{0};                         ///< 0 is the lowest
   std::uint8_t return_type{0};                   ///< scan::ReturnType
@@ -40,6 +40,6 @@ sensor_msgs::LaserScan toScan(const std::vector<scan::Return>& returns, const sc
                               double turn);
 /// @param per_ray returns of each ray.
 ScanReport toReport(const std::vector<scan::Return>& returns, int per_ray,
-                    const scan::Trees& trees);
+                    const scan::Scene& scene);
 
 }  // namespace vegetation_sim

@@ -18,17 +18,22 @@ ReplicaOptions delayed(ReplicaOptions options) {
 }  // namespace
 
 LandscapeReplica::LandscapeReplica(ReplicaOptions options)
-    : forest_(delayed(options)), meadow_(delayed(options)), crowd_(delayed(options)) {}
+    : forest_(delayed(options)),
+      meadow_(delayed(options)),
+      canopy_(delayed(options), SubscribedCanopy::Crowns::IGNORE),
+      crowd_(delayed(options)) {}
 
 void LandscapeReplica::subscribe(ros::NodeHandle handle) {
   forest_.subscribe(handle, {});
   meadow_.subscribe(handle, {"grass/layout", "", "grass/state"});  // in the wind of the forest
+  canopy_.subscribe(handle, {});
   crowd_.subscribe(handle, "agents");
 }
 
 void LandscapeReplica::advance(Nanoseconds stamp) {
   forest_.advance(stamp);
   meadow_.advance(stamp);
+  canopy_.advance(stamp);
   crowd_.advance(stamp);
   crowd_.forgetSilent(stamp);
 }
@@ -36,15 +41,16 @@ void LandscapeReplica::advance(Nanoseconds stamp) {
 void LandscapeReplica::forgetLater(Nanoseconds now) {
   forest_.forgetLater(now);
   meadow_.forgetLater(now);
+  canopy_.forgetLater(now);
   crowd_.forgetLater(now);
 }
 
 std::size_t LandscapeReplica::waiting() const {
-  return forest_.waiting() + meadow_.waiting() + crowd_.waiting();
+  return forest_.waiting() + meadow_.waiting() + canopy_.waiting() + crowd_.waiting();
 }
 
 std::uint64_t LandscapeReplica::lost() const {
-  return forest_.lost() + meadow_.lost() + crowd_.lost();
+  return forest_.lost() + meadow_.lost() + canopy_.lost() + crowd_.lost();
 }
 
 std::shared_ptr<const terrain::HeightMap> LandscapeReplica::ground() const {
@@ -54,7 +60,7 @@ std::shared_ptr<const terrain::HeightMap> LandscapeReplica::ground() const {
 }
 
 void LandscapeReplica::update(const Vec3& centre, double radius, Nanoseconds stamp,
-                              scan::Scene& scene) {
+                              scan::Scene& scene, ThreadPool& threads) {
   const forest::ForestReplica& forest = forest_.replica();
   scene.ground = ground();
   if (forest.ready()) scene.trees.update(forest, centre, radius, stamp);
@@ -63,6 +69,9 @@ void LandscapeReplica::update(const Vec3& centre, double radius, Nanoseconds sta
     scene.grass.update(meadow_.layout(), meadow_.tread(), meadow_.terrain(), forest.wind(), centre,
                        radius, stamp);
   }
+  if (canopy::Replica* plants = canopy_.replica())
+    scene.plants.update(plants->layout(), plants->layoutHash(), plants->foliageOfPlane(), centre,
+                        radius, threads);
   scene.people.set(peopleAt(stamp));
 }
 
@@ -92,7 +101,7 @@ std::string LandscapeReplica::why() const {
 }
 
 std::string LandscapeReplica::rivals() const {
-  return forest_.rivals() + meadow_.rivals() + crowd_.rivals();
+  return forest_.rivals() + meadow_.rivals() + canopy_.rivals() + crowd_.rivals();
 }
 
 }  // namespace vegetation_sim

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "ros/replicas/subscribed_canopy.h"
 #include "ros/replicas/subscribed_crowd.h"
 #include "ros/replicas/subscribed_forest.h"
 #include "ros/replicas/subscribed_meadow.h"
@@ -13,8 +14,8 @@
 
 namespace vegetation_sim {
 
-/// Forest, meadow, people and wind at one stamp, for a node that runs behind the clock: states with
-/// later stamps wait.
+/// Forest, meadow, leafy plants, people and wind at one stamp, for a node that runs behind the
+/// clock: states with later stamps wait.
 class LandscapeReplica {
  public:
   /// @param options are made delayed.
@@ -27,7 +28,8 @@ class LandscapeReplica {
   void advance(Nanoseconds stamp);
   /// Brings a scene within `radius` of a place to the stamp of the last advance(). The scene refers
   /// to the replicas until the next call of a function that is not const.
-  void update(const Vec3& centre, double radius, Nanoseconds stamp, scan::Scene& scene);
+  void update(const Vec3& centre, double radius, Nanoseconds stamp, scan::Scene& scene,
+              ThreadPool& threads);
 
   std::size_t people() const { return crowd_.people().size(); }
   /// Number of states that wait for their stamp, and of those that were dropped.
@@ -44,6 +46,7 @@ class LandscapeReplica {
 
   SubscribedForest forest_;
   SubscribedMeadow meadow_;
+  SubscribedCanopy canopy_;
   SubscribedCrowd crowd_;
 };
 

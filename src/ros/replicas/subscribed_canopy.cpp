@@ -33,7 +33,7 @@ void SubscribedCanopy::setLayout(const CanopyLayout& message) {
     ++layouts_;
     crowns_.clear();
     const canopy::Layout& layout = replica_->layout();
-    if (layout.crowns.empty()) {
+    if (layout.crowns.empty() || crowns_wanted_ == Crowns::IGNORE) {
       forest_.reset();
     } else if (!forest_) {
       forest_ =

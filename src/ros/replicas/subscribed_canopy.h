@@ -22,7 +22,10 @@ class SubscribedCanopy : public SubscribedReplica<CanopyState> {
     SubscribedForest::Topics forest;  ///< used only if the layout has crowns
   };
 
-  explicit SubscribedCanopy(const ReplicaOptions& options = {}) : SubscribedReplica(options) {}
+  /// Whether the forest is subscribed for the crowns of a layout.
+  enum class Crowns { FOLLOW, IGNORE };
+  explicit SubscribedCanopy(const ReplicaOptions& options = {}, Crowns crowns = Crowns::FOLLOW)
+      : SubscribedReplica(options), crowns_wanted_(crowns) {}
   ~SubscribedCanopy() override { subscribers_.clear(); }
 
   /// @throws ros::InvalidNameException also for the topics of the forest.
@@ -62,6 +65,7 @@ class SubscribedCanopy : public SubscribedReplica<CanopyState> {
  private:
   void restart(const canopy::Layout& layout);
 
+  Crowns crowns_wanted_;
   ros::NodeHandle handle_;
   SubscribedForest::Topics forest_topics_;
   std::unique_ptr<SubscribedForest> forest_;

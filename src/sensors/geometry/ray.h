@@ -10,7 +10,19 @@
 namespace vegetation_sim::scan {
 
 /// Class of the object that a ray hit, with the numbers of ScanReport.msg.
-enum class Label : std::uint16_t { NONE, GROUND, TRUNK, BRANCH, LEAF, GRASS, PERSON, RAIN, COUNT };
+enum class Label : std::uint16_t {
+  NONE,
+  GROUND,
+  TRUNK,
+  BRANCH,
+  LEAF,
+  GRASS,
+  PERSON,
+  RAIN,
+  FOLIAGE,
+  STEM,
+  COUNT
+};
 constexpr std::size_t LABELS = static_cast<std::size_t>(Label::COUNT);
 
 /// Ray from the sensor into the world.
@@ -29,8 +41,8 @@ struct Ray {
 struct Hit {
   double distance{std::numeric_limits<double>::infinity()};  ///< [m]
   Label label{Label::NONE};
-  std::uint32_t plant{0};  ///< id of the tree or walker
-  int branch{-1};          ///< branch of the tree, or limb of the walker
+  std::uint32_t plant{0};  ///< id of the tree, walker or plant
+  int branch{-1};          ///< branch of the tree, limb of the walker, leaf or stem of the plant
   double cosine{0.0};      ///< cosine of the angle between ray and normal
 };
 

@@ -8,8 +8,9 @@
 namespace vegetation_sim::scan {
 namespace {
 
-// Dry soil, bark, bark, leaves, grass, clothes; of a drop the Fresnel reflectance of water.
-constexpr std::array<double, LABELS> REFLECTANCE{0.0, 0.25, 0.35, 0.35, 0.5, 0.45, 0.4, 0.02};
+// Dry soil, bark, bark, leaves, grass, clothes, the Fresnel reflectance of water, leaves, bark.
+constexpr std::array<double, LABELS> REFLECTANCE{0.0,  0.25, 0.35, 0.35, 0.5,
+                                                 0.45, 0.4,  0.02, 0.5,  0.35};
 
 // Joins the hits of a range that is not empty.
 Echo join(const Hit* first, const Hit* end, double rays) {

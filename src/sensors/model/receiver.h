@@ -44,8 +44,8 @@ class Receiver {
   int returns() const { return model_.returns == ReturnMode::BOTH ? 2 : 1; }
   /// Returns whether receive() needs random numbers.
   bool isRandom() const;
-  /// Sets returns() returns. @param echoes nearest first; a raindrop may be added. @param random may
-  /// be null unless isRandom(). @param detected scratch.
+  /// Sets returns() returns. @param echoes nearest first; a raindrop may be added. @param random
+  /// may be null unless isRandom(). @param detected scratch.
   void receive(std::vector<Echo>& echoes, const RayRandom* random, std::vector<Return>& detected,
                Return* out) const;
 

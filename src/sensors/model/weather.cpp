@@ -8,8 +8,8 @@
 namespace vegetation_sim::scan {
 namespace {
 
-constexpr double LN_50 = 3.912;                      // of the contrast of 2 %, as Koschmieder's rule
-constexpr double PER_DB_KM = 2.302585092994046e-4;   // 1 dB/km in 1/m
+constexpr double LN_50 = 3.912;                     // of the contrast of 2 %, as Koschmieder's rule
+constexpr double PER_DB_KM = 2.302585092994046e-4;  // 1 dB/km in 1/m
 
 }  // namespace
 

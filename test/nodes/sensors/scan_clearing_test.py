@@ -68,7 +68,7 @@ class ScanClearing(unittest.TestCase):
         cloud = self.sweep()
         # The report is sent with the cloud.
         report = self.scanner.report.wait_for_stamp(time_of(self.clock.tick))
-        counts = numpy.bincount(cloud['label'], minlength=8)
+        counts = numpy.bincount(cloud['label'], minlength=10)
         self.assertEqual(list(counts[1:]), list(report.counts[1:]))
         self.assertEqual(sum(report.counts), report.rays)
         self.assertEqual(report.rays, 24 * 240)

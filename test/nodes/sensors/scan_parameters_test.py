@@ -22,7 +22,7 @@ NUMBERS = {
     'return_separation': (' m', 0, 10),
 }
 WHOLE_NUMBERS = {
-    'rate': (' Hz', 1, 100), 'branch_budget': ('', 1000, 20000000), 'threads': ('', 1, 64),
+    'rate': (' Hz', 1, 100), 'branch_budget': ('', 1000, 20000000), 'threads': ('', 1, 64), 'leaf_budget': ('', 1000, 3000000),
     'rings': ('', 1, 512), 'columns': ('', 1, 14400), 'samples': ('', 1, 37),
 }
 OTHERS = {'frame_id', 'lidar_frame', 'seed', 'preset', 'returns', 'motion'}

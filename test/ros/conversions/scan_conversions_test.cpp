@@ -109,11 +109,11 @@ TEST(ScanConversions, BothReturnsOfARayAreInItsDirection) {
   EXPECT_EQ(valueOf<std::uint8_t>(cloud, 1, "return_type"), 3);
   for (const char* name : {"x", "y", "z"})
     EXPECT_NEAR(valueOf<float>(cloud, 0, name), 2.0 * valueOf<float>(cloud, 1, name), 1e-5);
-  const ScanReport report = toReport(returns, 2, scan::Trees());
+  const ScanReport report = toReport(returns, 2, scan::Scene());
   EXPECT_EQ(report.rays, 1u);
   EXPECT_EQ(report.second_returns, 1u);
   returns[1] = scan::Return();
-  EXPECT_EQ(toReport(returns, 2, scan::Trees()).second_returns, 0u);
+  EXPECT_EQ(toReport(returns, 2, scan::Scene()).second_returns, 0u);
 }
 
 // The sensor moves by 1 m along x in the 0.1 s of a turn; its second column is half a turn later.

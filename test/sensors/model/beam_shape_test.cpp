@@ -38,14 +38,16 @@ TEST(BeamShape, AllAxesHaveRays) {
   const BeamPattern pattern({0.01, 7, 0.5});
   for (const Vec3& axis : {Vec3(0, 0, 1), Vec3(0, 0, -1), Vec3(1, 0, 0), Vec3(0, -1, 0)})
     for (int i = 1; i < 7; ++i)
-      EXPECT_NEAR(length(cross(axis, pattern.direction(axis, i))), std::sin(std::atan(0.005 * std::sqrt(4.0 / 7.0))), 1e-7);
+      EXPECT_NEAR(length(cross(axis, pattern.direction(axis, i))),
+                  std::sin(std::atan(0.005 * std::sqrt(4.0 / 7.0))), 1e-7);
 }
 
 TEST(BeamShape, OtherNumbersOfRaysAreRejected) {
   for (const int samples : {2, 6, 18, 36}) {
     Faults faults;
     check(BeamShape{0.01, samples, 0.5}, "lidar/", faults);
-    EXPECT_EQ(faults.text(), "lidar/samples = " + std::to_string(samples) + " is none of 1, 7, 19, 37");
+    EXPECT_EQ(faults.text(),
+              "lidar/samples = " + std::to_string(samples) + " is none of 1, 7, 19, 37");
   }
 }
 

@@ -34,8 +34,8 @@ TEST(RayRandom, NoiseIsNormallyDistributed) {
   double largest = 0.0;
   for (int i = 0; i < N; ++i) {
     const double normal = 0.5 * std::erfc(-all[static_cast<std::size_t>(i)] / std::sqrt(2.0));
-    largest = std::max({largest, std::fabs(normal - double(i) / N),
-                        std::fabs(normal - double(i + 1) / N)});
+    largest = std::max(
+        {largest, std::fabs(normal - double(i) / N), std::fabs(normal - double(i + 1) / N)});
   }
   EXPECT_LT(largest, 0.003 + 1.95 / std::sqrt(N));
 }

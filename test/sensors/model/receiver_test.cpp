@@ -99,7 +99,8 @@ TEST(Receiver, DetectionFollowsItsProbability) {
   }
 }
 
-// Koschmieder's extinction on both ways: echoes and light decrease by exp(-2 3.912 range/visibility).
+// Koschmieder's extinction on both ways: echoes and light decrease by exp(-2 3.912
+// range/visibility).
 TEST(Receiver, FogLosesEchoesAndLight) {
   SensorModel model = exact();
   model.weather.fog_visibility = 100.0;

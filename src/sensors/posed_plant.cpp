@@ -1,0 +1,77 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sensors/posed_plant.h"
+
+#include <utility>
+
+namespace vegetation_sim::scan {
+namespace {
+
+constexpr double STEM_TAPER = 0.5;  // radius of a stem's tip over that of its base, as displayed
+
+Strip stripOf(const canopy::Leaf& leaf, const canopy::MovedLeaf& moved) {
+  return {moved.root, moved.tip, double{leaf.root_width} * moved.side,
+          double{leaf.tip_width} * moved.side};
+}
+
+Strip stripAtRest(const canopy::Leaf& leaf) {
+  return stripOf(leaf, {leaf.root, leaf.tip, leaf.side});
+}
+
+}  // namespace
+
+PosedPlant::PosedPlant(const canopy::Layout& layout, std::uint32_t id)
+    : id_(id), foot_(layout.plants[id].position) {
+  const canopy::Plant& plant = layout.plants[id];
+  canopy::GrownPlant grown = canopy::grow(layout.kinds[plant.kind], plant);
+  leaves_ = std::move(grown.leaves);
+  strips_.reserve(leaves_.size() + grown.rigid.size());
+  for (const canopy::Leaf& leaf : leaves_) strips_.push_back(stripAtRest(leaf));
+  for (const canopy::Leaf& face : grown.rigid) strips_.push_back(stripAtRest(face));
+  for (const canopy::Stem& stem : grown.stems)
+    stems_.push_back(rodBetween(stem.from, stem.to, stem.radius, STEM_TAPER * stem.radius));
+  strip_tree_.build(strips_, foot_);
+  stem_tree_.build(stems_, std::vector<double>(stems_.size(), 0.0), foot_);
+}
+
+void PosedPlant::pose(const canopy::Foliage& foliage) {
+  for (std::size_t i = 0; i < leaves_.size(); ++i)
+    strips_[i] = stripOf(leaves_[i], foliage.move(leaves_[i], id_));
+  strip_tree_.fit(strips_, foot_);
+}
+
+Box PosedPlant::bounds() const {
+  Box out = strip_tree_.bounds();
+  out.add(stem_tree_.bounds());
+  return out;
+}
+
+void PosedPlant::meet(const Ray& ray, const FloatRay& narrow, std::uint64_t first_rank,
+                      RankedHit& nearest) const {
+  strip_tree_.visit(ray, narrow, nearest.hit(), [&](std::size_t strip) {
+    nearest.offer(first_rank + strip, [&](Hit& hit) { return meetStrip(strip, ray, hit); });
+  });
+  stem_tree_.visit(ray, narrow, nearest.hit(), [&](std::size_t stem) {
+    nearest.offer(first_rank + strips_.size() + stem,
+                  [&](Hit& hit) { return meetStem(stem, ray, hit); });
+  });
+}
+
+bool PosedPlant::meetStrip(std::size_t strip, const Ray& ray, Hit& nearest) const {
+  Meeting meeting;
+  if (!scan::meet(ray, strips_[strip], nearest.distance, meeting)) return false;
+  const bool leaf = strip < leaves_.size();
+  nearest = {meeting.distance, leaf ? Label::FOLIAGE : Label::STEM, id_,
+             static_cast<int>(leaf ? strip : stems_.size() + strip - leaves_.size()),
+             meeting.cosine};
+  return true;
+}
+
+bool PosedPlant::meetStem(std::size_t stem, const Ray& ray, Hit& nearest) const {
+  Meeting meeting;
+  if (!scan::meet(ray, stems_[stem], nearest.distance, meeting)) return false;
+  nearest = {meeting.distance, Label::STEM, id_, static_cast<int>(stem), meeting.cosine};
+  return true;
+}
+
+}  // namespace vegetation_sim::scan

@@ -1,0 +1,50 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sensors/geometry/ranked_hit.h"
+#include "sensors/geometry/rod_tree.h"
+#include "sensors/geometry/strip_tree.h"
+#include "vegetation_sim/canopy/leaf_motion.h"
+
+namespace vegetation_sim::scan {
+
+/// One leafy plant of a canopy for rays: a strip per leaf, piece of a ribbon or face, of which the
+/// leaves move, and a rod per stem.
+class PosedPlant {
+ public:
+  /// Grows the plant.
+  PosedPlant(const canopy::Layout& layout, std::uint32_t id);
+
+  /// Moves all leaves with their layers.
+  void pose(const canopy::Foliage& foliage);
+
+  std::uint32_t id() const { return id_; }
+  /// Number of strips and stems.
+  std::size_t parts() const { return strips_.size() + stems_.size(); }
+  Box bounds() const;
+  /// Leaves first, then rigid faces.
+  const std::vector<Strip>& strips() const { return strips_; }
+  const std::vector<Rod>& stems() const { return stems_; }
+
+  /// Replaces the hit by a nearer one on this plant. Parts have the ranks from `first_rank` on.
+  void meet(const Ray& ray, const FloatRay& narrow, std::uint64_t first_rank,
+            RankedHit& nearest) const;
+  /// Does the same without ranks for one strip or stem; returns whether there is a nearer hit.
+  bool meetStrip(std::size_t strip, const Ray& ray, Hit& nearest) const;
+  bool meetStem(std::size_t stem, const Ray& ray, Hit& nearest) const;
+
+ private:
+  std::uint32_t id_;
+  Vec3 foot_;                         ///< world [m]
+  std::vector<canopy::Leaf> leaves_;  ///< at rest
+  std::vector<Strip> strips_;         ///< of leaves_, then of rigid faces
+  std::vector<Rod> stems_;
+  StripTree strip_tree_;
+  RodTree stem_tree_;
+};
+
+}  // namespace vegetation_sim::scan
