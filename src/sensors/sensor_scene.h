@@ -6,7 +6,7 @@
 
 #include "sensors/grass_volume.h"
 #include "sensors/people.h"
-#include "sensors/plant_field.h"
+#include "sensors/plants/plant_field.h"
 #include "sensors/tree_field.h"
 
 namespace vegetation_sim::scan {

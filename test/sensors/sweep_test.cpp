@@ -8,6 +8,7 @@
 
 #include "reference/sensors/binary_scene.h"
 #include "reference/sensors/cast_plain.h"
+#include "scenes/sensors/grove_scene.h"
 #include "scenes/sensors/lidar_scene.h"
 #include "vegetation_sim/core/config/instruction_set.h"
 
@@ -29,11 +30,12 @@ Lidar coarse() {
   return out;
 }
 
-// Trees, a lawn and a person between them.
+// Trees, a lawn, leafy plants and a person between them.
 void fill(Scene& scene, const Lawn& lawn) {
   const auto forest = movingForest(forest::gridLayout(2, 9.0), breezeOf(Vec3(4, 0, 0)));
   scene.trees.update(forest, Vec3(10, 10, 1), 60.0, START);
   lawn.show(scene.grass);
+  Grove(true, {}, Vec3(7.0, 12.0, 0.0)).show(scene.plants, alone);
   crowd::Walker walker;
   walker.position = {12.0, 10.0};
   scene.people.set({{7, crowd::skeletonOf(walker, terrain::HeightMap())}});
@@ -44,7 +46,9 @@ TEST(Sweep, LabelsSumToTheNumberOfRays) {
   Scene scene;
   const Lawn lawn(0.15, 100.0);
   fill(scene, lawn);
-  const auto returns = sweep(scene, coarse(), sensorAt(Vec3(10, 10, 1.2)), {}, alone);
+  Lidar lidar = coarse();
+  lidar.model.weather = {0.0, 50.0, 10.0};
+  const auto returns = sweep(scene, lidar, sensorAt(Vec3(10, 10, 1.2)), {}, alone);
   ASSERT_EQ(returns.size(), 16u * 120u);
   const auto counts = countLabels(returns);
   EXPECT_EQ(std::accumulate(counts.begin(), counts.end(), 0u), 16u * 120u);
@@ -133,7 +137,7 @@ TEST(Sweep, AWideBeamAtAnEdgeHasTwoReturns) {
   lidar.beams.columns = 1;
   lidar.beams.elevation_low = lidar.beams.elevation_high = -0.06;
   lidar.beams.azimuth_low = 0.0;
-  lidar.model.shape = {0.02, 37, 0.5};
+  lidar.model.shape = {0.02, 37, 3.0};
   lidar.model.returns = ReturnMode::BOTH;
   const auto both = sweep(scene, lidar, sensorAt(Vec3(0, 0, 1.2)), {}, alone);
   ASSERT_EQ(both.size(), 2u);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/threads/thread_pool.h"
-#include "sensors/posed_plant.h"
+#include "sensors/plants/posed_plant.h"
 
 namespace vegetation_sim::scan {
 

@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sensors/plant_field.h"
+#include "sensors/plants/plant_field.h"
 
 #include <algorithm>
 #include <map>

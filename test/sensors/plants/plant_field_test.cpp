@@ -1,11 +1,11 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sensors/plant_field.h"
+#include "sensors/plants/plant_field.h"
 
 #include <gtest/gtest.h>
 
 #include "reference/sensors/cast_plain.h"
-#include "scenes/canopy/canopy_scene.h"
+#include "scenes/sensors/grove_scene.h"
 #include "scenes/sensors/lidar_scene.h"
 #include "vegetation_sim/core/config/instruction_set.h"
 
@@ -13,50 +13,6 @@ namespace vegetation_sim::scan {
 namespace {
 
 ThreadPool alone;
-
-/// Shrubs, reeds and a crown in a breeze, as a replica of a canopy.
-class Grove {
- public:
-  explicit Grove(bool windy = true, const std::optional<canopy::CutView>& viewer = {})
-      : animator_(layout()), replica_(animator_.layout()) {
-    if (windy) animator_.setWind(canopy::breezeFrom(Vec3(5.0, 1.0, 0.0)));
-    animator_.setViewer(viewer);
-    advance(0, 60);
-  }
-  static canopy::Layout layout() {
-    canopy::Layout out = canopy::shrubScene();
-    out.kinds.resize(3);
-    out.kinds[1] = {};
-    out.kinds[1].shape = canopy::PlantShape::REED;
-    out.kinds[1].leaves = 60;
-    out.kinds[2] = {};
-    out.kinds[2].shape = canopy::PlantShape::CROWN;
-    out.kinds[2].leaves = 400;
-    out.kinds[2].height = 3.0;
-    for (const std::uint16_t kind : {std::uint16_t{1}, std::uint16_t{2}}) {
-      out.plants.emplace_back();
-      out.plants.back().kind = kind;
-      out.plants.back().seed = 5U + kind;
-      out.plants.back().position = Vec3(kind, -2.5, 0.0);
-    }
-    return out;
-  }
-  void advance(int from, int to) {
-    for (int tick = from; tick < to; ++tick) {
-      animator_.advance(canopy::tickStamp(tick));
-      replica_.apply(animator_.update(false));
-    }
-  }
-  void show(Plants& plants, const Vec3& centre = Vec3::Zero(), double radius = 60.0,
-            ThreadPool& threads = alone) {
-    plants.update(replica_.layout(), replica_.layoutHash(), replica_.foliageOfPlane(), centre,
-                  radius, threads);
-  }
-
- private:
-  canopy::Canopy animator_;
-  canopy::Replica replica_;
-};
 
 /// Ray number i from around the plants into them.
 Ray rayInto(std::uint64_t i) {
@@ -76,7 +32,7 @@ Hit castInto(const Plants& plants, const Ray& ray) {
 TEST(PlantField, FindsWhatTestingEveryLeafFinds) {
   Grove grove;
   Plants plants;
-  grove.show(plants);
+  grove.show(plants, alone);
   EXPECT_EQ(plants.all().size(), 4u);
   EXPECT_EQ(plants.leaves(), 200u + 200u + 360u + 400u);
   std::array<int, LABELS> labels{};
@@ -94,7 +50,7 @@ TEST(PlantField, FindsWhatTestingEveryLeafFinds) {
       forceInstructionSet("");
     }
     grove.advance(60, 75);
-    grove.show(plants);
+    grove.show(plants, alone);
   }
   EXPECT_GT(labels[static_cast<std::size_t>(Label::FOLIAGE)], 300);
   EXPECT_GT(labels[static_cast<std::size_t>(Label::STEM)], 10);
@@ -104,8 +60,8 @@ TEST(PlantField, FindsWhatTestingEveryLeafFinds) {
 TEST(PlantField, LeavesMoveWithTheWind) {
   Grove windy, calm(false);
   Plants moved, still;
-  windy.show(moved);
-  calm.show(still);
+  windy.show(moved, alone);
+  calm.show(still, alone);
   double most = 0.0;
   for (std::size_t plant = 0; plant < moved.all().size(); ++plant) {
     const auto &there = moved.all()[plant]->strips(), &here = still.all()[plant]->strips();
@@ -121,8 +77,8 @@ TEST(PlantField, LeavesDependOnNoViewer) {
   canopy::CutView eye{Vec3(-3.0, 6.0, 1.0), {0.8, 0.0, 0.0, -0.6}};
   Grove watched(true, eye), unwatched;
   Plants one, other;
-  watched.show(one);
-  unwatched.show(other);
+  watched.show(one, alone);
+  unwatched.show(other, alone);
   for (std::size_t plant = 0; plant < one.all().size(); ++plant)
     for (std::size_t i = 0; i < one.all()[plant]->strips().size(); ++i)
       ASSERT_EQ(one.all()[plant]->strips()[i].tip, other.all()[plant]->strips()[i].tip);
@@ -132,8 +88,8 @@ TEST(PlantField, IsTheSameForAnyNumberOfThreads) {
   Grove grove;
   Plants one, three;
   ThreadPool threads(3);
-  grove.show(one);
-  grove.show(three, Vec3::Zero(), 60.0, threads);
+  grove.show(one, alone);
+  grove.show(three, threads);
   for (std::uint64_t i = 0; i < 500; ++i)
     EXPECT_TRUE(same(castInto(one, rayInto(i)), castInto(three, rayInto(i))));
 }
@@ -141,12 +97,12 @@ TEST(PlantField, IsTheSameForAnyNumberOfThreads) {
 TEST(PlantField, FarPlantsAreLeftOutAndThoseBeyondTheBudgetAreCounted) {
   Grove grove;
   Plants few(450);
-  grove.show(few, Vec3(2.0, 0.3, 0.0));
+  grove.show(few, alone, Vec3(2.0, 0.3, 0.0));
   EXPECT_EQ(few.all().size(), 2u);
   EXPECT_EQ(few.leftOut(), 2u);
   EXPECT_EQ(few.all()[0]->id(), 1u);  // the nearest
   Plants none;
-  grove.show(none, Vec3(80.0, 0.0, 0.0), 20.0);
+  grove.show(none, alone, Vec3(80.0, 0.0, 0.0), 20.0);
   EXPECT_TRUE(none.all().empty());
   EXPECT_EQ(none.leftOut(), 0u);
   const Hit hit = castInto(none, rayInto(1));
@@ -156,9 +112,9 @@ TEST(PlantField, FarPlantsAreLeftOutAndThoseBeyondTheBudgetAreCounted) {
 TEST(PlantField, PlantsOfAnotherLayoutAreGrownAgain) {
   Grove grove;
   Plants plants;
-  grove.show(plants);
+  grove.show(plants, alone);
   const auto first = plants.all()[0];
-  grove.show(plants);
+  grove.show(plants, alone);
   EXPECT_EQ(plants.all()[0], first);
   canopy::Layout other = Grove::layout();
   other.plants[0].scale = 2.0;
