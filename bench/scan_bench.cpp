@@ -1,10 +1,11 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
 // Measures the cost of a sensor: rays into bare wood, trees with leaves, a lawn, a hay meadow and
-// people, "before" through binary trees of boxes and every cell of grass, "after" through wide
-// trees and the likely cells; sweeps with several threads; instruction sets; and the update of the
-// scene to a stamp. Rays and updates in processor time of one thread, sweeps in wall time.
-// usage: scan_bench [ROUNDS] [--quick] [--part rays,sets,sweeps,update]
+// people, and the leaves of shrubs, "before" through binary trees of boxes and every cell of grass,
+// "after" through wide trees and the likely cells; sweeps with several threads; instruction sets;
+// and the update of the scene to a stamp. Rays and updates in processor time of one thread, sweeps
+// and the update of the trees with two threads in wall time. usage: scan_bench [ROUNDS] [--quick]
+// [--part rays,sets,sweeps,update]
 
 #include <cstdio>
 
@@ -12,6 +13,7 @@
 #include "package_folder.h"
 #include "processor_time.h"
 #include "reference/sensors/binary_scene.h"
+#include "scenes/sensors/grove_scene.h"
 #include "scenes/sensors/lidar_scene.h"
 #include "sensors/sweep.h"
 #include "vegetation_sim/core/config/instruction_set.h"
@@ -125,19 +127,31 @@ void benchSweeps(const std::vector<View>& views, const std::vector<NamedLidar>& 
     }
 }
 
-void benchUpdate(const forest::ForestReplica& forest, const Lawn& lawn, int rounds) {
+void benchUpdate(const forest::ForestReplica& forest, const Lawn& lawn, Grove& grove, int rounds) {
   Trees trees;
   GrassVolume grass;
+  Plants plants;
+  ThreadPool one(1), two(2);
   int stamp = 0;
   std::vector<bench::Candidate> candidates{
       {"trees to a stamp",
        [&] { trees.update(forest, SENSOR, REACH, START + fromSeconds(0.1 * ++stamp)); }},
-      {"grass to a stamp", [&] { lawn.show(grass, forest.wind(), 0.1 * stamp); }}};
+      {"grass to a stamp", [&] { lawn.show(grass, forest.wind(), 0.1 * stamp); }},
+      {"plants to a stamp", [&] { grove.show(plants, one, SENSOR, REACH); }}};
   bench::timeOnProcessor(candidates, rounds);
   std::printf("\n%zu trees with %zu branches, all of them moving\n", trees.all().size(),
               trees.branches());
   for (const bench::Candidate& c : candidates)
     std::printf("%-22s %10.3f ms\n", c.name.c_str(), 1e3 * c.seconds);
+  const auto timeWith = [&](ThreadPool& threads) {
+    return bench::Candidate{
+        std::to_string(threads.size()),
+        [&] { trees.update(forest, SENSOR, REACH, START + fromSeconds(0.1 * ++stamp), threads); }};
+  };
+  std::vector<bench::Candidate> parallel{timeWith(one), timeWith(two)};
+  bench::timeInterleaved(parallel, rounds);
+  std::printf("trees, wall time: 1 thread %.3f ms, 2 threads %.3f ms\n", 1e3 * parallel[0].least,
+              1e3 * parallel[1].least);
 }
 
 /// All scenes of the bench.
@@ -156,6 +170,8 @@ class Scenes {
         grass::FeatureMap::load(std::string(PACKAGE_FOLDER) + "/config/meadow/meadow.yaml"));
     hay_.show(field_.grass, wind_, 1.0);
     addPeople();
+    ThreadPool alone;
+    grove_.show(shrubs_.plants, alone, SENSOR, REACH);
   }
   std::vector<View> views() const {
     return {{"wood", &bare_},
@@ -163,12 +179,25 @@ class Scenes {
             {"lawn", &meadow_},
             {"wood, leaves, lawn", &both_},
             {"hay, low sensor", &field_, Vec3(0.3, 0.4, 0.7)},
-            {"people", &square_}};
+            {"people", &square_},
+            {"shrubs", &shrubs_}};
   }
   const forest::ForestReplica& forest() const { return forest_; }
   const Lawn& lawn() const { return lawn_; }
+  Grove& grove() { return grove_; }
 
  private:
+  // Shrubs in two rows on both sides of the sensor.
+  static canopy::Layout hedges() {
+    canopy::Layout out = canopy::shrubScene();
+    out.kinds[0].leaves = 2600;
+    out.plants.resize(12);
+    for (std::size_t i = 0; i < out.plants.size(); ++i) {
+      out.plants[i].seed = i + 1;
+      out.plants[i].position = Vec3(5.0 + 2.0 * double(i / 2), i % 2 == 0 ? 7.0 : 13.0, 0.0);
+    }
+    return out;
+  }
   static forest::Layout bareLayout(int side) {
     forest::Layout out = forest::gridLayout(side, 5.0);
     for (forest::Species& species : out.species)
@@ -189,18 +218,20 @@ class Scenes {
   const wind::Field wind_{breezeOf(Vec3(4, 2, 0))};
   const forest::ForestReplica forest_, bare_forest_;
   Lawn lawn_, hay_;
-  Scene bare_, leaves_, meadow_, both_, field_, square_;
+  Grove grove_{hedges()};
+  Scene bare_, leaves_, meadow_, both_, field_, square_, shrubs_;
 };
 
 void run(const bench::Options& options) {
-  const Scenes scenes(options.quick ? 4 : 12);
+  Scenes scenes(options.quick ? 4 : 12);
   const std::vector<NamedLidar> lidars{
       {"16 x 900", beamsOf(16, 900), options.quick ? 10 : 1},
       {"128 x 2048", beamsOf(128, 2048), options.quick ? 100 : 16}};
   if (options.wants("rays")) benchRays(scenes.views(), lidars, options.rounds);
   if (options.wants("sets")) benchSets(scenes.views(), lidars[0], options.rounds);
   if (options.wants("sweeps")) benchSweeps(scenes.views(), lidars, std::min(options.rounds, 5));
-  if (options.wants("update")) benchUpdate(scenes.forest(), scenes.lawn(), options.rounds);
+  if (options.wants("update"))
+    benchUpdate(scenes.forest(), scenes.lawn(), scenes.grove(), options.rounds);
 }
 
 }  // namespace

@@ -7,35 +7,34 @@
 
 namespace vegetation_sim::scan {
 
-/// Shrubs, reeds and a crown in a breeze, as a replica of a canopy.
+/// Makes two shrubs, reeds and a crown. @param place is added to the places of all plants.
+inline canopy::Layout groveLayout(const Vec3& place = Vec3::Zero()) {
+  canopy::Layout out = canopy::shrubScene();
+  out.kinds.resize(3);
+  out.kinds[1].shape = canopy::PlantShape::REED;
+  out.kinds[1].leaves = 60;
+  out.kinds[2].shape = canopy::PlantShape::CROWN;
+  out.kinds[2].leaves = 400;
+  out.kinds[2].height = 3.0;
+  for (const std::uint16_t kind : {std::uint16_t{1}, std::uint16_t{2}}) {
+    canopy::Plant& plant = out.plants.emplace_back();
+    plant.kind = kind;
+    plant.seed = 5U + kind;
+    plant.position = Vec3(kind, -2.5, 0.0);
+  }
+  for (canopy::Plant& plant : out.plants) plant.position += place;
+  return out;
+}
+
+/// A replica of a canopy in a breeze or in still air.
 class Grove {
  public:
-  /// @param place is added to the places of all plants.
-  explicit Grove(bool windy = true, const std::optional<canopy::CutView>& viewer = {},
-                 const Vec3& place = Vec3::Zero())
-      : animator_(layout(place)), replica_(animator_.layout()) {
+  explicit Grove(const canopy::Layout& layout, bool windy = true,
+                 const std::optional<canopy::CutView>& viewer = {})
+      : animator_(layout), replica_(layout) {
     if (windy) animator_.setWind(canopy::breezeFrom(Vec3(5.0, 1.0, 0.0)));
     animator_.setViewer(viewer);
     advance(0, 60);
-  }
-  static canopy::Layout layout(const Vec3& place = Vec3::Zero()) {
-    canopy::Layout out = canopy::shrubScene();
-    out.kinds.resize(3);
-    out.kinds[1] = {};
-    out.kinds[1].shape = canopy::PlantShape::REED;
-    out.kinds[1].leaves = 60;
-    out.kinds[2] = {};
-    out.kinds[2].shape = canopy::PlantShape::CROWN;
-    out.kinds[2].leaves = 400;
-    out.kinds[2].height = 3.0;
-    for (const std::uint16_t kind : {std::uint16_t{1}, std::uint16_t{2}}) {
-      out.plants.emplace_back();
-      out.plants.back().kind = kind;
-      out.plants.back().seed = 5U + kind;
-      out.plants.back().position = Vec3(kind, -2.5, 0.0);
-    }
-    for (canopy::Plant& plant : out.plants) plant.position += place;
-    return out;
   }
   void advance(int from, int to) {
     for (int tick = from; tick < to; ++tick) {

@@ -28,6 +28,12 @@ std::vector<std::uint32_t> nearestFirst(const forest::ForestReplica& forest, con
 
 void Trees::update(const forest::ForestReplica& forest, const Vec3& centre, double radius,
                    Nanoseconds stamp) {
+  ThreadPool alone;
+  update(forest, centre, radius, stamp, alone);
+}
+
+void Trees::update(const forest::ForestReplica& forest, const Vec3& centre, double radius,
+                   Nanoseconds stamp, ThreadPool& threads) {
   std::map<std::uint32_t, std::shared_ptr<PosedTree>> known;
   if (layout_hash_ == forest.layoutHash())
     for (auto& tree : trees_) known[tree->id()] = std::move(tree);
@@ -56,7 +62,11 @@ void Trees::update(const forest::ForestReplica& forest, const Vec3& centre, doub
   }
   left_out_ = near.size() - trees_.size();
   const wind::Instant wind = forest.wind().at(stamp);
-  for (const auto& tree : trees_) tree->follow(forest, stamp, wind);
+  const std::size_t parts = threads.size();
+  threads.run(parts, [&](std::size_t first) {
+    for (std::size_t i = first; i < trees_.size(); i += parts)
+      trees_[i]->follow(forest, stamp, wind);
+  });
   fitBoxes(centre);
 }
 

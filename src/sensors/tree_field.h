@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/threads/thread_pool.h"
 #include "sensors/posed_tree.h"
 
 namespace vegetation_sim::scan {
@@ -19,6 +20,9 @@ class Trees {
   explicit Trees(std::size_t most_branches = 400000) : most_branches_(most_branches) {}
 
   /// Poses the trees that reach into a ball at a stamp. Requires forest.ready().
+  void update(const forest::ForestReplica& forest, const Vec3& centre, double radius,
+              Nanoseconds stamp, ThreadPool& threads);
+  /// Does the same in the calling thread.
   void update(const forest::ForestReplica& forest, const Vec3& centre, double radius,
               Nanoseconds stamp);
   void clear() { *this = Trees(most_branches_); }

@@ -35,7 +35,7 @@ void fill(Scene& scene, const Lawn& lawn) {
   const auto forest = movingForest(forest::gridLayout(2, 9.0), breezeOf(Vec3(4, 0, 0)));
   scene.trees.update(forest, Vec3(10, 10, 1), 60.0, START);
   lawn.show(scene.grass);
-  Grove(true, {}, Vec3(7.0, 12.0, 0.0)).show(scene.plants, alone);
+  Grove(groveLayout(Vec3(7.0, 12.0, 0.0))).show(scene.plants, alone);
   crowd::Walker walker;
   walker.position = {12.0, 10.0};
   scene.people.set({{7, crowd::skeletonOf(walker, terrain::HeightMap())}});

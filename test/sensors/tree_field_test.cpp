@@ -83,6 +83,14 @@ TEST(Trees, KeptFromScanToScanAreWhereNewOnesWouldBe) {
   EXPECT_GT(differences(seen(forest, 3.0), seen(forest, 9.0)), RAYS / 10);
 }
 
+TEST(Trees, AreTheSameForAnyNumberOfThreads) {
+  const auto forest = movingForest(forest::gridLayout(3, 7.0), breezeOf(Vec3(6, 2, 0)));
+  ThreadPool threads(3);
+  Trees together;
+  together.update(forest, SENSOR, 60.0, START + fromSeconds(3.0), threads);
+  EXPECT_EQ(differences(together, seen(forest, 3.0)), 0);
+}
+
 TEST(Trees, AreNotMetWhereThereAreNone) {
   Trees none;
   EXPECT_EQ(castAt(none, 1).label, Label::NONE);

@@ -63,7 +63,7 @@ void LandscapeReplica::update(const Vec3& centre, double radius, Nanoseconds sta
                               scan::Scene& scene, ThreadPool& threads) {
   const forest::ForestReplica& forest = forest_.replica();
   scene.ground = ground();
-  if (forest.ready()) scene.trees.update(forest, centre, radius, stamp);
+  if (forest.ready()) scene.trees.update(forest, centre, radius, stamp, threads);
   if (meadow_.ready()) {
     meadow_.prune(stamp);
     scene.grass.update(meadow_.layout(), meadow_.tread(), meadow_.terrain(), forest.wind(), centre,

@@ -11,7 +11,7 @@ import numpy
 import rospy
 import rostest
 from geometry_msgs.msg import WrenchStamped
-from sensor_msgs.msg import PointCloud2
+from sensor_msgs.msg import LaserScan, PointCloud2
 from tf2_msgs.msg import TFMessage
 from vegetation_sim.msg import ScanReport, WindSamples
 
@@ -37,13 +37,14 @@ class RobotLaunch(unittest.TestCase):
         cls.wrenches = Log('/forest/wrenches', WrenchStamped)
         cls.clouds = {name: Log(topic, PointCloud2) for name, topic in
                       (('scout', '/lidar/points'), ('cart', '/cart/lidar/points'))}
+        cls.plane = Log('/cart/lidar/scan', LaserScan)
         cls.winds = Log('/wind/samples', WindSamples)
         cls.frames = Log('/tf', TFMessage)
         cls.tf = publisher('/tf', TFMessage)
         wait_for_readers('/tf', *NODES)
         cls.robot = SkidSteerRobot('scout/', rospy.get_param('scout/robot_description'), 0.0, -4.0,
                                    math.pi / 2, cls.tf)
-        for log in (cls.wrenches, cls.winds, cls.frames, *cls.clouds.values()):
+        for log in (cls.wrenches, cls.winds, cls.plane, cls.frames, *cls.clouds.values()):
             wait_for(log.connected, log.topic)
         wait_for_readers('/scout/truth', '/scout_ground_truth')
         cls.crowd.wait_until_up()
@@ -115,6 +116,7 @@ class RobotLaunch(unittest.TestCase):
     def test_a_second_robot_treads_and_scans(self):
         self.assertGreater(self.grass.at(4.0, -2.0).tilt, 1.2)
         self.assertEqual(self.clouds['cart'].messages[-1].header.frame_id, 'cart/laser')
+        self.assertEqual(self.plane.messages[-1].range_max, 100.0)  # of lidar_preset
         self.assertEqual(self.crowd.diagnostics()['Robots'], 2)
 
 

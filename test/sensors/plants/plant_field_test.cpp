@@ -30,7 +30,7 @@ Hit castInto(const Plants& plants, const Ray& ray) {
 }
 
 TEST(PlantField, FindsWhatTestingEveryLeafFinds) {
-  Grove grove;
+  Grove grove(groveLayout());
   Plants plants;
   grove.show(plants, alone);
   EXPECT_EQ(plants.all().size(), 4u);
@@ -58,7 +58,7 @@ TEST(PlantField, FindsWhatTestingEveryLeafFinds) {
 
 // The leaves at a tick are those that the animator's foliage moves, corner by corner.
 TEST(PlantField, LeavesMoveWithTheWind) {
-  Grove windy, calm(false);
+  Grove windy(groveLayout()), calm(groveLayout(), false);
   Plants moved, still;
   windy.show(moved, alone);
   calm.show(still, alone);
@@ -75,7 +75,7 @@ TEST(PlantField, LeavesMoveWithTheWind) {
 
 TEST(PlantField, LeavesDependOnNoViewer) {
   canopy::CutView eye{Vec3(-3.0, 6.0, 1.0), {0.8, 0.0, 0.0, -0.6}};
-  Grove watched(true, eye), unwatched;
+  Grove watched(groveLayout(), true, eye), unwatched(groveLayout());
   Plants one, other;
   watched.show(one, alone);
   unwatched.show(other, alone);
@@ -85,7 +85,7 @@ TEST(PlantField, LeavesDependOnNoViewer) {
 }
 
 TEST(PlantField, IsTheSameForAnyNumberOfThreads) {
-  Grove grove;
+  Grove grove(groveLayout());
   Plants one, three;
   ThreadPool threads(3);
   grove.show(one, alone);
@@ -95,7 +95,7 @@ TEST(PlantField, IsTheSameForAnyNumberOfThreads) {
 }
 
 TEST(PlantField, FarPlantsAreLeftOutAndThoseBeyondTheBudgetAreCounted) {
-  Grove grove;
+  Grove grove(groveLayout());
   Plants few(450);
   grove.show(few, alone, Vec3(2.0, 0.3, 0.0));
   EXPECT_EQ(few.all().size(), 2u);
@@ -110,13 +110,13 @@ TEST(PlantField, FarPlantsAreLeftOutAndThoseBeyondTheBudgetAreCounted) {
 }
 
 TEST(PlantField, PlantsOfAnotherLayoutAreGrownAgain) {
-  Grove grove;
+  Grove grove(groveLayout());
   Plants plants;
   grove.show(plants, alone);
   const auto first = plants.all()[0];
   grove.show(plants, alone);
   EXPECT_EQ(plants.all()[0], first);
-  canopy::Layout other = Grove::layout();
+  canopy::Layout other = groveLayout();
   other.plants[0].scale = 2.0;
   canopy::Replica replica(other);
   plants.update(replica.layout(), replica.layoutHash(), replica.foliageOfPlane(), Vec3::Zero(),
