@@ -3,7 +3,7 @@
 #pragma once
 
 #include "scenes/canopy/canopy_scene.h"
-#include "sensors/plant_field.h"
+#include "sensors/plants/plant_field.h"
 
 namespace vegetation_sim::scan {
 
