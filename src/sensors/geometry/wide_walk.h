@@ -27,11 +27,12 @@ struct FloatRay {
 /// Returns a bound for comparison with distances in single precision.
 float limitOf(double distance);
 
-/// Eight rods without their taper, relative to the origin of their tree [m].
+/// Eight rods without their taper, relative to the origin of their tree [m]. The radii of places
+/// without a rod are no numbers, with which all comparisons are false.
 struct alignas(64) RodGroup {
   float base[3][WideNode::WIDTH], way[3][WideNode::WIDTH];  ///< way: from base to tip
-  float radius[WideNode::WIDTH];
-  std::int32_t count{0};
+  float room[WideNode::WIDTH];    ///< radius of all that is around the axis
+  float radius[WideNode::WIDTH];  ///< of the rod itself
 };
 
 /// A ray on its way through a tree; the nearest box is visited first.
@@ -61,7 +62,8 @@ int nextGroup(WideWalk& walk);
 /// Rods of a group that a ray may hit.
 struct RodCandidates {
   int group{-1};
-  unsigned lanes{0};  ///< bit i: item i of the group; 0 at the end
+  unsigned lanes{0};  ///< bit i: the ray may pass the room of item i of the group; 0 at the end
+  unsigned rods{0};   ///< those of which it may hit the rod itself
 };
 /// Returns the candidates of the next group that has any.
 RodCandidates nextRods(WideWalk& walk);
