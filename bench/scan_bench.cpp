@@ -1,11 +1,11 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// Measures the cost of a sensor: rays into bare wood, trees with leaves, a lawn, a hay meadow,
-// people and shrubs, "before" through binary trees of boxes, every cell of grass and every leaf of
-// a shrub, "after" through wide trees and the likely cells; sweeps with several threads;
-// instruction sets; and the update of the scene to a stamp. Rays and updates in processor time of
-// one thread, sweeps and the update of the trees with two threads in wall time. usage: scan_bench
-// [ROUNDS] [--quick] [--part rays,sets,sweeps,update]
+// Measures the cost of a sensor: rays into bare wood, trees with leaves, a lawn, a hay meadow and
+// people, "before" through binary trees of boxes and every cell of grass, "after" through wide
+// trees and the likely cells; sweeps with several threads, and instruction sets, shrubs included;
+// and the update of the scene to a stamp. Rays and updates in processor time of one thread, sweeps
+// and the update of the trees with two threads in wall time.
+// usage: scan_bench [ROUNDS] [--quick] [--part rays,sets,sweeps,update]
 
 #include <cstdio>
 
