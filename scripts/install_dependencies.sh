@@ -27,7 +27,7 @@ COMMON=(
   procps python3-matplotlib python3-numpy python3-pil
 )
 # These packages compile the displays, give the demo a virtual display and take screenshots.
-DISPLAY_COMMON=(imagemagick libgl-dev libgl1-mesa-dri qtbase5-dev xdotool xvfb)
+DISPLAY_COMMON=(imagemagick libgl-dev libgl1-mesa-dri libopengl-dev qtbase5-dev xdotool xvfb)
 DEBIAN=(
   # These packages compile the code.
   catkin python3-catkin-pkg ros-core-dev libroscpp-dev libtf2-ros-dev libsensor-msgs-dev liburdf-dev

@@ -34,7 +34,7 @@ expect_error() {
   grep -qF -- "$1" <<<"$error" || fail "$3 ${*:4}: the error '$error' does not contain '$1'"
 }
 
-display='libgl-dev libgl1-mesa-dri qtbase5-dev xdotool xvfb'
+display='libgl-dev libgl1-mesa-dri libopengl-dev qtbase5-dev xdotool xvfb'
 expect_packages debian bullseye "g++ rviz librviz-dev $display" 'libhwy-dev catkin-lint'
 for release in bookworm trixie; do
   expect_packages debian $release "g++ libhwy-dev rviz librviz-dev $display" catkin-lint
