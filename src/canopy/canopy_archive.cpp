@@ -74,8 +74,8 @@ std::string Canopy::archived() const {
   return a.bytes();
 }
 
-Canopy::Archived Canopy::readArchived(std::string bytes) const {
-  Archive a = Archive::reading(std::move(bytes));
+Canopy::Archived Canopy::readArchived(std::string bytes, Nanoseconds shift) const {
+  Archive a = Archive::reading(std::move(bytes), shift);
   Archived out;
   archive(a, out);
   a.finish();

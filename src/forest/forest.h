@@ -49,10 +49,10 @@ class Forest {
   /// Replaces the layout. Levels restart if the number of trees changes.
   void setLayout(Layout layout, std::shared_ptr<const terrain::HeightMap> terrain);
   void restore(ForestSnapshot memory) { snapshot_ = std::move(memory); }
-  /// The snapshot as bytes, and back. Reading needs the same layout and terrain. @throws
-  /// InvalidInput for bytes that are no state of this layout.
+  /// The snapshot as bytes, and back with all stamps moved by `shift`. Reading needs the same
+  /// layout and terrain. @throws InvalidInput for bytes that are no state of this layout.
   std::string archived() const;
-  ForestSnapshot readArchived(std::string bytes) const;
+  ForestSnapshot readArchived(std::string bytes, Nanoseconds shift = 0) const;
   /// Computes now what the first tick with a listener nearby would otherwise compute.
   void precompute() { errors_.precompute(layout_); }
   /// Resets the state; keeps layout, wind and settings.

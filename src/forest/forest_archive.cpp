@@ -126,8 +126,8 @@ std::string Forest::archived() const {
   return a.bytes();
 }
 
-ForestSnapshot Forest::readArchived(std::string bytes) const {
-  Archive a = Archive::reading(std::move(bytes));
+ForestSnapshot Forest::readArchived(std::string bytes, Nanoseconds shift) const {
+  Archive a = Archive::reading(std::move(bytes), shift);
   ForestSnapshot out;
   archive(a, layout_, Grower(layout_, *terrain_, snapshot_, out), out);
   a.finish();

@@ -102,10 +102,10 @@ class TreadSimulation {
 
   TreadSnapshot snapshot() const;
   void restore(TreadSnapshot memory);
-  /// The snapshot as bytes, and back. Reading needs the same map. @throws InvalidInput for bytes
-  /// that are no state of this map.
+  /// The snapshot as bytes, and back with all stamps moved by `shift`. Reading needs the same map.
+  /// @throws InvalidInput for bytes that are no state of this map.
   std::string archived() const;
-  TreadSnapshot readArchived(std::string bytes) const;
+  TreadSnapshot readArchived(std::string bytes, Nanoseconds shift = 0) const;
   const std::map<std::string, TreadSourceState>& sources() const { return sources_; }
   Nanoseconds stamp() const { return stamp_; }
   const TreadMap& tread() const { return tread_; }

@@ -130,8 +130,8 @@ std::string TreadSimulation::archived() const {
   return a.bytes();
 }
 
-TreadSnapshot TreadSimulation::readArchived(std::string bytes) const {
-  Archive a = Archive::reading(std::move(bytes));
+TreadSnapshot TreadSimulation::readArchived(std::string bytes, Nanoseconds shift) const {
+  Archive a = Archive::reading(std::move(bytes), shift);
   TreadSnapshot out;
   archive(a, rangeOf(layout_.map->law(), tread_.spacing()), out);
   a.finish();

@@ -77,7 +77,8 @@ class Canopy {
   const CanopySnapshot& snapshot() const { return memory_; }
   /// @throws InvalidInput for the state of another layout, or if a value is not finite.
   void restore(const CanopySnapshot& memory);
-  /// The snapshot as bytes, with wind and viewer, and back. Reading needs the same layout.
+  /// The snapshot as bytes, with wind and viewer, and back with all stamps moved by `shift`.
+  /// Reading needs the same layout.
   /// @throws InvalidInput for bytes that are no state of this layout.
   struct Archived {
     CanopySnapshot snapshot;
@@ -85,7 +86,7 @@ class Canopy {
     std::optional<CutView> viewer;
   };
   std::string archived() const;
-  Archived readArchived(std::string bytes) const;
+  Archived readArchived(std::string bytes, Nanoseconds shift = 0) const;
   /// @param hashed adds the hash of the state, which costs as much as a tick.
   StateUpdate update(bool hashed) const;
 

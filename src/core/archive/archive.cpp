@@ -17,9 +17,10 @@ void checkRange(const std::string& name, double value, const char* unit, Range r
 
 }  // namespace
 
-Archive Archive::reading(std::string bytes) {
+Archive Archive::reading(std::string bytes, Nanoseconds shift) {
   Archive out;
   out.reads_ = true;
+  out.shift_ = shift;
   out.bytes_ = std::move(bytes);
   return out;
 }
@@ -104,6 +105,18 @@ void Archive::pose(const char* name, Pose& value) {
 
 void Archive::stamp(const char* name, Nanoseconds& value) {
   integer(name, value);
+  if (reads_) value = shifted(name, value);
+}
+
+Nanoseconds Archive::shifted(const char* name, Nanoseconds stamp) const {
+  constexpr Nanoseconds LAST = std::numeric_limits<Nanoseconds>::max();
+  if (shift_ == 0 || stamp <= 0 || stamp == LAST) return stamp;
+  const Nanoseconds earliest = shift_ < 0 ? -shift_ : 0;
+  if (stamp <= earliest || (shift_ > 0 && stamp >= LAST - shift_))
+    throw InvalidInput(std::string(name) + " = " + std::to_string(secondsBetween(0, stamp)) +
+                       " s moves by " + std::to_string(secondsBetween(0, shift_)) +
+                       " s, which is out of the range of stamps");
+  return stamp + shift_;
 }
 
 void Archive::key(std::uint64_t& value) {

@@ -26,10 +26,12 @@ class Archive {
  public:
   /// Writes.
   Archive() = default;
-  /// Reads.
-  static Archive reading(std::string bytes);
+  /// Reads. Every stamp that is later than zero, and not the last there is, moves by `shift`, so
+  /// that a state continues at another time. The others mean "none", "never" or "for ever".
+  static Archive reading(std::string bytes, Nanoseconds shift = 0);
 
   bool reads() const { return reads_; }
+  Nanoseconds shift() const { return shift_; }
   const std::string& bytes() const { return bytes_; }
   /// @throws InvalidInput if bytes are left.
   void finish() const;
@@ -41,6 +43,7 @@ class Archive {
   void number(const char* name, float& value, Range range);
   void vector(const char* name, Vec3& value);
   void pose(const char* name, Pose& value);
+  /// When it reads: moved by shift(), and still later than zero.
   void stamp(const char* name, Nanoseconds& value);
   /// @param most bytes.
   void text(const char* name, std::string& value, std::size_t most);
@@ -140,6 +143,7 @@ class Archive {
     static_assert(!std::is_enum_v<T>, "an enum needs its last value");
     return std::numeric_limits<T>::max();
   }
+  Nanoseconds shifted(const char* name, Nanoseconds stamp) const;
   void bits(std::int64_t& value, std::size_t width);
   void rawNumber(double& value);
   void need(const char* name, std::size_t size) const;
@@ -147,6 +151,7 @@ class Archive {
                                          std::int64_t high);
 
   bool reads_{false};
+  Nanoseconds shift_{0};
   std::string bytes_;
   std::size_t at_{0};  // next byte that is read
 };

@@ -79,9 +79,10 @@ class Crowd {
 
   const CrowdSnapshot& snapshot() const { return memory_; }
   void restore(CrowdSnapshot memory);
-  /// The snapshot as bytes, and back. @throws InvalidInput for bytes that are no state of a crowd.
+  /// The snapshot as bytes, and back with all stamps moved by `shift`. @throws InvalidInput for
+  /// bytes that are no state of a crowd.
   std::string archived() const;
-  static CrowdSnapshot readArchived(std::string bytes);
+  static CrowdSnapshot readArchived(std::string bytes, Nanoseconds shift = 0);
   const std::vector<Walker>& walkers() const { return memory_.walkers; }
   /// Returns null for an unknown id.
   const Walker* find(std::uint32_t id) const;

@@ -97,8 +97,8 @@ std::string Crowd::archived() const {
   return a.bytes();
 }
 
-CrowdSnapshot Crowd::readArchived(std::string bytes) {
-  Archive a = Archive::reading(std::move(bytes));
+CrowdSnapshot Crowd::readArchived(std::string bytes, Nanoseconds shift) {
+  Archive a = Archive::reading(std::move(bytes), shift);
   CrowdSnapshot out;
   archive(a, out);
   a.finish();

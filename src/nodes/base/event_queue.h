@@ -124,6 +124,11 @@ class EventQueue {
     ahead_ = static_cast<std::size_t>(std::count_if(
         waiting_.begin(), waiting_.end(), [](const Event& event) { return stampOf(event) != 0; }));
   }
+  /// Replaces all that waits.
+  void restore(const std::vector<Event>& waiting) {
+    waiting_.assign(waiting.begin(), waiting.end());
+    forget([](const Event&) { return false; });  // counts those ahead
+  }
   /// Calls `visit(event)` for each event that waits.
   template <class Visit>
   void each(Visit visit) const {

@@ -9,6 +9,7 @@ void readCommon(Parameters& parameters, NodeOptions& options) {
   parameters.flag("replay", options.replay);
   parameters.number("replay_delay", options.replay_delay, "s", {0.0, 10.0});
   parameters.number("markers_rate", options.markers_rate, "Hz", {0.1, 60.0});
+  readSnapshotOptions(parameters, options.snapshots);
 }
 
 void readFollowedViewer(Parameters& parameters, NodeOptions& options) {

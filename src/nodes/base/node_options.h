@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "nodes/base/snapshot_store.h"
 #include "ros/params/parameters.h"
 
 namespace vegetation_sim {
@@ -21,6 +22,7 @@ struct NodeOptions {
   std::string viewer_frame;          ///< tf frame (x forward) used as a viewer; empty: none
   double viewer_field_of_view{0.8};  ///< [rad]
   int viewer_height{900};            ///< [pixel]
+  SnapshotOptions snapshots;
 };
 
 /// Reads the parameters that have the same name and range in every node.

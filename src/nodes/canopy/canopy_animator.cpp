@@ -67,7 +67,7 @@ void CanopyAnimator::apply(CanopyEvent& event) {
       canopy_.reset();
       break;
     default:
-      throw InvalidInput("kind = " + std::to_string(event.kind) + " is outside 0 to 3");
+      throw InvalidInput("kind = " + std::to_string(event.kind) + " is outside 0 to 4");
   }
 }
 

@@ -6,6 +6,7 @@
 #include <vegetation_sim/SampleCanopy.h>
 #include <vegetation_sim/WindField.h>
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -48,6 +49,16 @@ class CanopyAnimator final
   wind::Field windOf(std::uint64_t hash) const;
   void restart() override;
 
+  // Snapshots.
+  std::uint64_t sceneHash() const override;
+  std::uint64_t stateHash() const override { return canopy_.snapshot().hash(); }
+  void writeState(Archive& a) const override;
+  CheckedState readState(Archive& a) override;
+  void queueNewerWind();
+  std::string inputOf(const CanopyEvent& event) const override;
+  std::function<void()> readInput(CanopyEvent& event, const std::string& bytes,
+                                  Nanoseconds shift) override;
+
   // Outputs.
   void publishLayout();
   void publishState(std::int64_t tick);
@@ -65,10 +76,12 @@ class CanopyAnimator final
   LeafedCrowns crowns_;
   CanopyMarkers markers_;
   HashedCache<wind::Field> winds_;
+  std::uint64_t heard_wind_{0};  // hash of the newest one; 0: none
   struct Seen {
     std::string id;
     Nanoseconds stamp{0};
   };
+  static void archive(Archive& a, std::optional<Seen>& viewer);
   std::optional<Seen> viewer_;  // for which layers are cut
   bool begun_{false};           // the beginning has been published
 

@@ -43,6 +43,7 @@ void CanopyAnimator::onWind(const WindField& message) {
     checkFrame(message.header.frame_id, options_.frame_id);
     const wind::Field wind = fromMsg(message);
     winds_.keep(wind.hash(), wind);
+    heard_wind_ = wind.hash();
     forest_.setWind(wind);
     inputs_.add(windEvent(wind.hash()));
   });

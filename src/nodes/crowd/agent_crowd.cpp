@@ -3,7 +3,6 @@
 #include "nodes/crowd/agent_crowd.h"
 
 #include <vegetation_sim/AgentStates.h>
-#include <vegetation_sim/TreadEvent.h>
 
 #include "core/config/field_values.h"
 #include "nodes/crowd/crowd_events.h"
@@ -109,13 +108,30 @@ void AgentCrowd::applyTrunks(std::uint64_t hash) {
   if (!found)
     throw InvalidInput("input_hash = " + std::to_string(hash) +
                        " matches no forest layout received");
-  std::vector<crowd::Obstacle> all = obstaclesOf(options_.scene.crowd.walls);
+  const Surroundings around = surroundingsOf(found, nullptr);
+  trunks_ = around.trunks;
+  trunks_hash_ = hash;
+  crowd_.setObstacles(around.obstacles);
+}
+
+AgentCrowd::Surroundings AgentCrowd::surroundingsOf(const ForestLayout* layout,
+                                                    const nav_msgs::OccupancyGrid* cover) const {
+  Surroundings out;
+  out.obstacles = obstaclesOf(options_.scene.crowd.walls);
+  if (cover) out.resistance = resistanceOf(*cover);
+  if (!layout) return out;
   const std::vector<crowd::Obstacle> trunks =
-      trunksOf(fromMsg(*found), options_.trunks, options_.scene.crowd.area, TRUNK_MARGIN,
+      trunksOf(fromMsg(*layout), options_.trunks, options_.scene.crowd.area, TRUNK_MARGIN,
                static_cast<std::size_t>(options_.most_trunks));
-  all.insert(all.end(), trunks.begin(), trunks.end());
-  trunks_ = trunks.size();
-  crowd_.setObstacles(std::move(all));
+  out.trunks = trunks.size();
+  out.obstacles.insert(out.obstacles.end(), trunks.begin(), trunks.end());
+  return out;
+}
+
+void AgentCrowd::surround(const Surroundings& around) {
+  trunks_ = around.trunks;
+  crowd_.setObstacles(around.obstacles);
+  crowd_.setResistance(around.resistance);
 }
 
 void AgentCrowd::applyCover(std::uint64_t hash) {
@@ -123,6 +139,7 @@ void AgentCrowd::applyCover(std::uint64_t hash) {
   if (!found)
     throw InvalidInput("input_hash = " + std::to_string(hash) + " matches no cover received");
   crowd_.setResistance(resistanceOf(*found));
+  cover_hash_ = hash;
 }
 
 // Trunks, grass and settings stay in force.

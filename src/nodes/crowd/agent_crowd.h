@@ -9,8 +9,11 @@
 #include <vegetation_sim/RemoveAgents.h>
 #include <vegetation_sim/SetAgentGoal.h>
 #include <vegetation_sim/SpawnAgents.h>
+#include <vegetation_sim/TreadEvent.h>
 
+#include <functional>
 #include <map>
+#include <string>
 #include <vector>
 
 #include "nodes/base/event_node.h"
@@ -49,14 +52,35 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   void tick(std::int64_t tick) override;
   void publishBeginning(Nanoseconds stamp);
   void apply(CrowdEvent& event) override;
+  /// Walls and trunks, and the resistance of grass.
+  struct Surroundings {
+    std::vector<crowd::Obstacle> obstacles;
+    std::size_t trunks{0};
+    crowd::Resistance resistance;
+  };
+  /// @param layout, cover: null for none. @throws InvalidInput for invalid ones.
+  Surroundings surroundingsOf(const ForestLayout* layout,
+                              const nav_msgs::OccupancyGrid* cover) const;
+  void surround(const Surroundings& around);
   void applyTrunks(std::uint64_t hash);
   void applyCover(std::uint64_t hash);
   void resetCrowd();
   void restart() override;
 
+  // Snapshots.
+  std::uint64_t sceneHash() const override;
+  std::uint64_t stateHash() const override { return crowd_.snapshot().hash(); }
+  void writeState(Archive& a) const override;
+  CheckedState readState(Archive& a) override;
+  void queueNewerInputs();
+  std::string inputOf(const CrowdEvent& event) const override;
+  std::function<void()> readInput(CrowdEvent& event, const std::string& bytes,
+                                  Nanoseconds shift) override;
+
   // Outputs.
   void publishAgents(Nanoseconds stamp);
   void publishTreads(Nanoseconds stamp);
+  void publishTread(const TreadEvent& event);
   void treadOfBody(const crowd::Walker& walker, Nanoseconds stamp);
   void treadOfFeet(const crowd::Walker& walker, Nanoseconds stamp);
   std::vector<TierChoice> chooseFrames(Nanoseconds stamp);
@@ -80,6 +104,8 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   std::uint32_t next_id_{0};  // of the next walker that a request adds
   HashedCache<ForestLayout> layouts_;
   HashedCache<nav_msgs::OccupancyGrid> covers_;
+  std::uint64_t trunks_hash_{0}, cover_hash_{0};    // of the messages in force; 0: none
+  std::uint64_t heard_layout_{0}, heard_cover_{0};  // of the newest ones
   bool begun_{false};  // a tick was done since the start or the last jump back
   std::size_t trunks_{0};
   Nanoseconds framed_{0};       // stamp of the last frames
@@ -90,7 +116,9 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
     bool stood[2]{true, true};
     bool seen{false};
   };
-  std::map<std::uint32_t, Trodden> trodden_;  // by walker
+  using Walked = std::map<std::uint32_t, Trodden>;  // by walker
+  static void archive(Archive& a, Walked& walked);
+  Walked trodden_;
   std::uint64_t treads_{0}, state_bytes_{0};
 
   tf2_ros::TransformBroadcaster tf_broadcaster_;

@@ -32,6 +32,7 @@ void AgentCrowd::onLayout(const ForestLayout& message) {
     checkFrame(message.header.frame_id, options_.frame_id);
     const std::uint64_t hash = fromMsg(message).hash();
     layouts_.keep(hash, message);
+    heard_layout_ = hash;
     enqueueHash(CrowdEvent::TRUNKS, hash);
   });
 }
@@ -41,8 +42,9 @@ void AgentCrowd::onCover(const nav_msgs::OccupancyGrid& message) {
     checkFrame(message.header.frame_id, options_.frame_id);
     resistanceOf(message);  // checks it
     const std::uint64_t hash = hashOf(message);
-    if (covers_.isNewest(hash)) return;
+    if (hash == heard_cover_) return;
     covers_.keep(hash, message);
+    heard_cover_ = hash;
     enqueueHash(CrowdEvent::COVER, hash);
   });
 }

@@ -1,7 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vegetation_sim/AgentStates.h>
-#include <vegetation_sim/TreadEvent.h>
 
 #include "crowd/body/gait.h"
 #include "nodes/crowd/agent_crowd.h"
@@ -45,6 +44,13 @@ void AgentCrowd::publishTreads(Nanoseconds stamp) {
     entry = crowd_.find(entry->first) ? std::next(entry) : trodden_.erase(entry);
 }
 
+// Treads of ticks that run again have been published.
+void AgentCrowd::publishTread(const TreadEvent& event) {
+  if (recovers()) return;
+  ++treads_;
+  tread_publisher_.publish(event);
+}
+
 // The meadow joins the places of a track, so a place per PUBLISH_EVERY is enough.
 void AgentCrowd::treadOfBody(const crowd::Walker& walker, Nanoseconds stamp) {
   Trodden& last = trodden_[walker.id];
@@ -61,8 +67,7 @@ void AgentCrowd::treadOfBody(const crowd::Walker& walker, Nanoseconds stamp) {
   event.law.radius = options_.tread_radius > 0.0 ? options_.tread_radius : BODY_RADIUS;
   last.place = p;
   last.seen = true;
-  ++treads_;
-  tread_publisher_.publish(event);
+  publishTread(event);
 }
 
 // Each foot that lands makes a stroke from heel to ball.
@@ -89,8 +94,7 @@ void AgentCrowd::treadOfFeet(const crowd::Walker& walker, Nanoseconds stamp) {
     event.position = onGround(foot.planted);
     event.law.has_radius = true;
     event.law.radius = options_.tread_radius > 0.0 ? options_.tread_radius : FOOT_RADIUS;
-    ++treads_;
-    tread_publisher_.publish(event);
+    publishTread(event);
   }
   last.seen = true;
 }

@@ -37,7 +37,7 @@ void applyToCrowd(const CrowdEvent& event, crowd::Crowd& crowd) {
         crowd.setWandering(event.id);
       break;
     default:
-      throw InvalidInput("kind = " + std::to_string(event.kind) + " is outside 0 to 8");
+      throw InvalidInput("kind = " + std::to_string(event.kind) + " is outside 0 to 9");
   }
 }
 

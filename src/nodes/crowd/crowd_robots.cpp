@@ -12,6 +12,7 @@ namespace vegetation_sim {
 namespace {
 
 constexpr double FASTEST = 50.0;  // beyond, it is a jump [m/s]
+constexpr std::size_t MOST_NAMES = 4096, LONGEST_NAME = 4096, SAMPLE_BYTES = 52;
 
 bool isSound(const crowd::Robot& robot) {
   Faults faults;
@@ -30,6 +31,42 @@ CrowdRobots::CrowdRobots(std::string frame_id, std::vector<crowd::Robot> robots,
 void CrowdRobots::clear() {
   for (Followed& followed : followed_) followed.known = false;
   missing_.clear();
+}
+
+CrowdRobots::Seen CrowdRobots::seen() const {
+  Seen out;
+  for (const Followed& followed : followed_) {
+    const crowd::Robot& robot = followed.robot;
+    if (followed.known) out[robot.id] = {followed.stamp, robot.position, robot.velocity, robot.yaw};
+  }
+  return out;
+}
+
+void CrowdRobots::restore(const Seen& seen) {
+  clear();
+  for (Followed& followed : followed_) {
+    const auto found = seen.find(followed.robot.id);
+    if (found == seen.end()) continue;
+    followed.known = true;
+    followed.stamp = found->second.stamp;
+    followed.robot.position = found->second.position;
+    followed.robot.velocity = found->second.velocity;
+    followed.robot.yaw = found->second.yaw;
+  }
+}
+
+void CrowdRobots::archive(Archive& a, Seen& seen) {
+  a.map(
+      "robots seen", seen, MOST_NAMES, SAMPLE_BYTES,
+      [&a](std::string& frame) { a.text("robot frame", frame, LONGEST_NAME); },
+      [&a](const std::string&, Sample& sample) {
+        a.stamp("robot stamp", sample.stamp);
+        for (crowd::Point* point : {&sample.position, &sample.velocity}) {
+          a.number("robot x", point->x);
+          a.number("robot y", point->y);
+        }
+        a.number("robot yaw", sample.yaw);
+      });
 }
 
 bool CrowdRobots::sample(Followed& followed, Nanoseconds now, bool& moved) const {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/archive/archive.h"
 #include "crowd/body/walker.h"
 #include "ros/services/missing_inputs.h"
 
@@ -31,6 +32,19 @@ class CrowdRobots {
   /// Returns robots that moved, came or went since the last call. One whose pose is not finite is
   /// gone.
   std::vector<Change> update(Nanoseconds now);
+  /// A robot at its newest transform.
+  struct Sample {
+    Nanoseconds stamp{0};
+    crowd::Point position{}, velocity{};
+    double yaw{0.0};
+  };
+  /// The robots that are known, by frame.
+  using Seen = std::map<std::string, Sample>;
+  Seen seen() const;
+  /// Continues from these; others are unknown, as are frames that it does not follow.
+  void restore(const Seen& seen);
+  static void archive(Archive& a, Seen& seen);
+
   /// Transforms that the last update missed.
   MissingInputs& missing() { return missing_; }
   /// Forgets all transforms, after a jump of time.

@@ -37,6 +37,7 @@ ForestAnimator::ForestAnimator(const ros::NodeHandle& handle, const ros::NodeHan
     : EventNode("forest_animator", "forest/events", handle, private_handle,
                 loadForestOptions(private_handle)),
       winds_(MOST_WINDS),
+      tuning_(options_.tuning),
       forest_(makeForest(options_)),
       cache_(static_cast<std::size_t>(options_.cache_budget)),
       grab_manager_({options_, *forest_, cache_, inputs_, tf_buffer_}),
@@ -150,6 +151,7 @@ void ForestAnimator::apply(ForestInput& event) {
 
 void ForestAnimator::applyInteraction(const ForestInput& event) {
   vegetation_sim::applyInteraction(event, *forest_);
+  if (event.kind == ForestInput::GRAB && recovers()) grab_manager_.addRequest(event.grab.id);
   if (event.kind == ForestInput::RELEASE)
     grab_manager_.explainEnd(event.grab.id, GrabStatus::RELEASED);
 }
@@ -200,6 +202,12 @@ void ForestAnimator::publishForces() {
   }
 }
 
+forest::Layout ForestAnimator::designedLayout(const ForestTuning& tuning) const {
+  forest::Layout out = designed(options_.scene.layout, tuning);
+  out.terrain_hash = options_.scene.terrain->hash();
+  return out;
+}
+
 // Trees of another design have other branches.
 void ForestAnimator::reportLostGrabs() {
   const std::size_t count = forest_->grabs().size();
@@ -209,8 +217,7 @@ void ForestAnimator::reportLostGrabs() {
 }
 
 void ForestAnimator::applyTuning(const ForestTuning& tuning) {
-  forest::Layout layout = designed(options_.scene.layout, tuning);
-  layout.terrain_hash = options_.scene.terrain->hash();
+  forest::Layout layout = designedLayout(tuning);
   const bool same = layout.hash() == forest_->layoutHash();
   if (!same) {
     reportLostGrabs();
@@ -219,6 +226,7 @@ void ForestAnimator::applyTuning(const ForestTuning& tuning) {
     forest_->precompute();
   }
   forest_->setSettings(tuning.settings);
+  tuning_ = tuning;
   if (same) return;
   cache_.clear();
   markers_.reset();

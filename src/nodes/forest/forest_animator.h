@@ -15,6 +15,7 @@
 #include <vegetation_sim/SetTf.h>
 #include <vegetation_sim/WindField.h>
 
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -58,6 +59,18 @@ class ForestAnimator final : public EventNode<ForestInputs, ForestAnimatorConfig
   void followBodies(Nanoseconds stamp);
   void reportLostGrabs();
   void applyTuning(const ForestTuning& tuning);
+  /// The scenario's layout with the design of a tuning.
+  forest::Layout designedLayout(const ForestTuning& tuning) const;
+
+  // Snapshots.
+  std::uint64_t sceneHash() const override;
+  std::uint64_t stateHash() const override { return forest_->hash(); }
+  void writeState(Archive& a) const override;
+  CheckedState readState(Archive& a) override;
+  void queueNewerWind();
+  std::string inputOf(const ForestInput& event) const override;
+  std::function<void()> readInput(ForestInput& event, const std::string& bytes,
+                                  Nanoseconds shift) override;
 
   // Outputs.
   void publishLayout();
@@ -85,6 +98,8 @@ class ForestAnimator final : public EventNode<ForestInputs, ForestAnimatorConfig
   Nanoseconds stampOf(const ros::Time& stamp) const;
 
   HashedCache<wind::Field> winds_;
+  std::uint64_t heard_wind_{0};  // hash of the newest one; 0: none
+  ForestTuning tuning_;
   std::unique_ptr<forest::Forest> forest_;
   forest::TreeCache cache_;
   GrabManager grab_manager_;

@@ -20,6 +20,30 @@ ForestTuning fromConfig(const ForestAnimatorConfig& config) {
   return out;
 }
 
+void toConfig(const ForestTuning& tuning, ForestAnimatorConfig& config) {
+  const forest::Settings& settings = tuning.settings;
+  config.tolerance = settings.tolerance;
+  config.fixed_level = settings.fixed_level;
+  config.highest_level = settings.highest_level;
+  config.robot_tolerance = settings.robot_tolerance;
+  config.robot_range = settings.robot_range;
+  const auto& budget = settings.budget;
+  config.frame_time = budget.frame_time;
+  config.state_bytes = budget.state_bytes;
+  config.modal_trees = budget.modal_trees;
+  config.tree_cost = budget.tree_cost;
+  config.procedural_cost = budget.procedural_cost;
+  config.modal_cost = budget.modal_cost;
+  config.fine_cost = budget.fine_cost;
+  config.physical_cost = budget.physical_cost;
+  config.size = tuning.design.size;
+  config.children = tuning.design.children;
+  config.leaves = tuning.design.leaves;
+  config.angle = tuning.design.angle;
+  config.noise = tuning.design.noise;
+  config.transition = tuning.transition;
+}
+
 // The server's own clamp lets NaN pass.
 void check(ForestTuning tuning) {
   Faults faults;
@@ -38,6 +62,7 @@ void ForestAnimator::onWind(const WindField& message) {
     event.kind = ForestInput::WIND;
     event.wind_hash = wind.hash();
     winds_.keep(event.wind_hash, wind);
+    heard_wind_ = event.wind_hash;
     enqueue(event);
   });
 }
@@ -56,7 +81,7 @@ void ForestAnimator::onSensor(const SensorInterest& message) {
 }
 
 void ForestAnimator::showTuning(ForestAnimatorConfig& config) const {
-  config.transition = options_.tuning.transition;  // the only one that a scenario sets
+  toConfig(tuning_, config);
 }
 
 ForestInput ForestAnimator::tuningEvent(const ForestAnimatorConfig& config) const {

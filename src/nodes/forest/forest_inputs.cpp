@@ -12,7 +12,7 @@ namespace vegetation_sim {
 namespace {
 
 bool isInteraction(const ForestInput& input) {
-  return input.kind >= ForestInput::GRAB;
+  return input.kind >= ForestInput::GRAB && input.kind <= ForestInput::RENEW;
 }
 
 // Whether `input` makes the waiting input void.
@@ -64,6 +64,9 @@ ForestEvent eventToMsg(const ForestInput& input) {
     case ForestInput::REMOVE_BODY:
       out.body.id = input.body.id;
       break;
+    case ForestInput::LOAD:
+      out.snapshot = input.snapshot;
+      break;
     default:
       break;
   }
@@ -81,6 +84,7 @@ ForestInput eventFromMsg(const ForestEvent& message) {
   if (message.kind == ForestEvent::SENSOR) out.sensor = fromMsg(message.sensor);
   if (message.kind == ForestEvent::FORCE) out.push = fromMsg(message.force);
   out.body = fromMsg(message.body);
+  out.snapshot = message.snapshot;
   return out;
 }
 
@@ -109,7 +113,7 @@ void applyInteraction(const ForestInput& input, forest::Forest& forest) {
       forest.removeBody(input.body.id);
       break;
     default:
-      throw InvalidInput("kind = " + std::to_string(input.kind) + " is outside 0 to 10");
+      throw InvalidInput("kind = " + std::to_string(input.kind) + " is outside 0 to 11");
   }
 }
 

@@ -35,7 +35,8 @@ struct ForestInput {
     FORCE,
     BODY,
     REMOVE_BODY,
-    RENEW
+    RENEW,
+    LOAD
   };
   std::uint8_t kind{SENSOR};
   Nanoseconds stamp{0};   ///< 0: the next tick
@@ -43,9 +44,10 @@ struct ForestInput {
   std::uint64_t wind_hash{0};
   std::vector<std::string> names;  ///< SETTINGS: all fields of ForestTuning
   std::vector<double> values;
-  forest::Grab grab;  ///< GRAB: all of it; MOVE: id, target and holder; RELEASE, RENEW: id
-  forest::Push push;  ///< FORCE: from 0 until its duration
-  forest::Body body;  ///< BODY: all of it; REMOVE_BODY: id
+  forest::Grab grab;        ///< GRAB: all of it; MOVE: id, target and holder; RELEASE, RENEW: id
+  forest::Push push;        ///< FORCE: from 0 until its duration
+  forest::Body body;        ///< BODY: all of it; REMOVE_BODY: id
+  LoadedSnapshot snapshot;  ///< LOAD
 };
 inline Nanoseconds stampOf(const ForestInput& input) {
   return input.stamp;

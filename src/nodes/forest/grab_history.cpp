@@ -54,6 +54,22 @@ bool GrabHistory::update(const forest::HeldGrabs& held, Nanoseconds stamp) {
   return std::exchange(changed_, false);
 }
 
+GrabHistory::State GrabHistory::state() const {
+  State out;
+  for (const auto& [id, held] : held_) out.since[id] = held.since;
+  out.ended.assign(ended_.begin(), ended_.end());
+  return out;
+}
+
+void GrabHistory::restore(const State& state, const forest::HeldGrabs& held) {
+  held_.clear();
+  reasons_.clear();
+  for (const auto& [id, since] : state.since)
+    if (held.count(id)) held_.insert({id, {held.at(id), since}});
+  ended_.assign(state.ended.begin(), state.ended.end());
+  changed_ = true;
+}
+
 GrabStatuses GrabHistory::message(Nanoseconds stamp) const {
   GrabStatuses out;
   out.header.stamp = toStamp(stamp);

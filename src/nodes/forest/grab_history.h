@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <vector>
 
 #include "forest/forest.h"
 
@@ -27,6 +28,13 @@ class GrabHistory {
   /// After a tick: compares the grabs in force with those of the last call. @return whether any
   /// grab has begun or ended.
   bool update(const forest::HeldGrabs& held, Nanoseconds stamp);
+  /// What a saved state holds besides the grabs in force.
+  struct State {
+    std::map<std::uint32_t, Nanoseconds> since;  ///< of the grabs in force
+    std::vector<GrabStatus> ended;
+  };
+  State state() const;
+  void restore(const State& state, const forest::HeldGrabs& held);
   /// The grabs in force and those that ended. Left to the caller: the frame of the header.
   GrabStatuses message(Nanoseconds stamp) const;
 

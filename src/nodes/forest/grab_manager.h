@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "core/archive/archive.h"
 #include "forest/tree_cache.h"
 #include "nodes/forest/forest_inputs.h"
 #include "nodes/forest/forest_options.h"
@@ -62,6 +63,27 @@ class GrabManager {
   /// Forgets all grabs, after a jump of the clock back.
   void clear();
 
+  /// Data of a requested grab besides the grab itself.
+  struct Request {
+    bool keep_offset{false};
+    Nanoseconds begins{0};  ///< 0: at the next tick
+    ros::Time published;    ///< newest transform of its frame that was used
+    bool begun{false};      ///< it was in force at an update
+  };
+  /// What a saved state of the node holds of it.
+  struct State {
+    std::map<std::uint32_t, Request> requests;
+    GrabHistory::State history;
+    std::uint32_t last_id{0};
+  };
+  State state() const { return {requests_, history_.state(), last_id_}; }
+  /// To be called after the forest is restored.
+  void restore(const State& state);
+  static void archive(Archive& a, State& state);
+  /// Knows a grab of a tick that runs again, so that its holder can move it and its id is not used
+  /// again.
+  void addRequest(std::uint32_t id);
+
   /// Forces at the last tick on everything that holds or touches a branch.
   ContactForces forces() const;
   /// Grabs at the last tick.
@@ -74,13 +96,6 @@ class GrabManager {
   std::size_t silent() const { return silent_; }
 
  private:
-  /// Data of a requested grab besides the grab itself.
-  struct Request {
-    bool keep_offset{false};
-    Nanoseconds begins{0};  ///< 0: at the next tick
-    ros::Time published;    ///< newest transform of its frame that was used
-    bool begun{false};      ///< it was in force at an update
-  };
   struct Place {
     forest::BranchPoint at;
     Vec3 point;  // world

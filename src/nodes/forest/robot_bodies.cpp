@@ -9,6 +9,8 @@
 namespace vegetation_sim {
 namespace {
 
+constexpr std::size_t LONGEST_NAME = 4096, SAMPLE_BYTES = 116;
+
 bool isSame(const Pose& a, const Pose& b) {
   const Quat &p = a.orientation, &q = b.orientation;
   return a.position == b.position && p.w == q.w && p.x == q.x && p.y == q.y && p.z == q.z;
@@ -33,6 +35,39 @@ void RobotBodies::clear() {
   for (Followed& followed : followed_) followed.last.reset();
   missing_.clear();
   buffer_.clear();
+}
+
+RobotBodies::Seen RobotBodies::seen() const {
+  Seen out;
+  for (const Followed& followed : followed_)
+    if (const auto& last = followed.last)
+      out[followed.part.id] = {last->stamp, last->pose, last->velocity, last->spin};
+  return out;
+}
+
+void RobotBodies::restore(const Seen& seen) {
+  for (Followed& followed : followed_) {
+    followed.last.reset();
+    const auto found = seen.find(followed.part.id);
+    if (found == seen.end()) continue;
+    followed.last = followed.part;
+    followed.last->stamp = found->second.stamp;
+    followed.last->pose = found->second.pose;
+    followed.last->velocity = found->second.velocity;
+    followed.last->spin = found->second.spin;
+  }
+}
+
+void RobotBodies::archive(Archive& a, Seen& seen) {
+  a.map(
+      "bodies seen", seen, MOST_PARTS, SAMPLE_BYTES,
+      [&a](std::string& id) { a.text("body seen", id, LONGEST_NAME); },
+      [&a](const std::string&, Sample& sample) {
+        a.stamp("stamp of a body", sample.stamp);
+        a.pose("pose of a body", sample.pose);
+        a.vector("velocity of a body", sample.velocity);
+        a.vector("spin of a body", sample.spin);
+      });
 }
 
 bool RobotBodies::sample(Followed& followed, Nanoseconds now) {

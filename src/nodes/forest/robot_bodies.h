@@ -6,11 +6,13 @@
 #include <tf2_ros/transform_listener.h>
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/archive/archive.h"
 #include "forest/contact/mesh_cover.h"
 #include "ros/params/parameters.h"
 #include "ros/services/missing_inputs.h"
@@ -52,6 +54,19 @@ class RobotBodies {
 
   /// Returns the bodies at their newest transforms, with the velocity between the last two.
   std::vector<forest::Body> update(Nanoseconds now);
+  /// A body at its newest transform.
+  struct Sample {
+    Nanoseconds stamp{0};
+    Pose pose;
+    Vec3 velocity{Vec3::Zero()}, spin{Vec3::Zero()};
+  };
+  /// The bodies that are known, by id.
+  using Seen = std::map<std::string, Sample>;
+  Seen seen() const;
+  /// Continues from these; others are unknown, as are bodies that it does not follow.
+  void restore(const Seen& seen);
+  static void archive(Archive& a, Seen& seen);
+
   /// Transforms that the last update missed.
   MissingInputs& missing() { return missing_; }
   /// Forgets all transforms, after a jump of time.

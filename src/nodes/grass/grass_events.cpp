@@ -20,7 +20,7 @@ std::string applyToGrass(const GrassEvent& event, const GrassTuning& tuning,
         simulation.raise({event.centre.x, event.centre.y}, event.radius);
       return "";
     default:
-      throw InvalidInput("kind = " + std::to_string(event.kind) + " is outside 0 to 4");
+      throw InvalidInput("kind = " + std::to_string(event.kind) + " is outside 0 to 5");
   }
 }
 

@@ -50,9 +50,16 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   void tick(std::int64_t tick) override;
   void apply(GrassEvent& event) override;
   void applyToGround(const GrassEvent& event);
+  void countPath(const GrassEvent& event);
   void applyTuning(GrassTuning tuning);
   void resetGround();
   void restart() override;
+
+  // Snapshots.
+  std::uint64_t sceneHash() const override;
+  std::uint64_t stateHash() const override { return field_->snapshot().hash(); }
+  void writeState(Archive& a) const override;
+  CheckedState readState(Archive& a) override;
 
   // Outputs.
   void publishLayout();
@@ -81,6 +88,7 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   GrassSources sources_;
   GrassCover ground_;  // of the cover map, once it is wanted
 
+  static constexpr const char* PATH = "path_";
   std::uint64_t paths_{0};  // trodden by service, for the names of their sources
   std::uint64_t state_bytes_{0}, largest_state_{0};
   std::uint64_t reported_no_memory_{0};  // of TreadCounts, when diagnostics were last sent

@@ -70,7 +70,7 @@ void GrassField::queuePath(const std::vector<Vec3>& path, const grass::TreadLaw&
       steps.push_back(path[i - 1] + (k / pieces) * (path[i] - path[i - 1]));
   }
   grass::TreadInput input;
-  input.source = "path_" + std::to_string(++paths_);
+  input.source = PATH + std::to_string(++paths_);
   input.law = law;
   input.height_gate = 1000.0;  // a path is on the ground
   const auto add = [&] {

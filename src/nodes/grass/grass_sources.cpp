@@ -14,6 +14,7 @@ namespace {
 
 constexpr unsigned ODOMETRY_QUEUE = 10;
 constexpr double MOVED = 1e-6;  // [m]
+constexpr std::size_t LONGEST_NAME = 4096, TREAD_BYTES = 36;
 
 }  // namespace
 
@@ -37,6 +38,34 @@ void GrassSources::clear() {
     followed.published_stamp = 0;
   }
   missing_.clear();
+}
+
+GrassSources::Published GrassSources::published() const {
+  Published out;
+  for (const Followed& followed : followed_)
+    if (followed.published)
+      out[followed.source.name] = {*followed.published, followed.published_stamp};
+  return out;
+}
+
+void GrassSources::restore(const Published& published) {
+  for (Followed& followed : followed_) {
+    followed.published.reset();
+    const auto found = published.find(followed.source.name);
+    if (found == published.end()) continue;
+    followed.published = found->second.position;
+    followed.published_stamp = found->second.stamp;
+  }
+}
+
+void GrassSources::archive(Archive& a, Published& published) {
+  a.map(
+      "followed sources", published, MOST_FOLLOWED_SOURCES, TREAD_BYTES,
+      [&a](std::string& name) { a.text("followed source", name, LONGEST_NAME); },
+      [&a](const std::string&, LastTread& last) {
+        a.vector("position of a source", last.position);
+        a.stamp("stamp of a source", last.stamp);
+      });
 }
 
 GrassSources::ObservedSource GrassSources::findOdometry(const Followed& followed,

@@ -7,10 +7,12 @@
 #include <tf2_ros/buffer.h>
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/archive/archive.h"
 #include "nodes/grass/grass_options.h"
 #include "ros/services/missing_inputs.h"
 
@@ -36,6 +38,18 @@ class GrassSources {
   using Report = std::function<void(const std::string&, const std::string&)>;
   std::vector<grass::TreadInput> update(Nanoseconds now, const grass::TreadLaw& own,
                                         double height_gate, const Report& report);
+  /// Where a source was when a tread was last made of it.
+  struct LastTread {
+    Vec3 position{Vec3::Zero()};
+    Nanoseconds stamp{0};
+  };
+  /// The sources on the ground, by name.
+  using Published = std::map<std::string, LastTread>;
+  Published published() const;
+  /// Continues from these; others are not on the ground.
+  void restore(const Published& published);
+  static void archive(Archive& a, Published& published);
+
   /// Transforms and odometry that the last update missed.
   MissingInputs& missing() { return missing_; }
   /// Forgets all positions, after a jump of time.

@@ -2,10 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/wind/frame_follower.h"
 
+#include "core/archive/archive.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
 #include "wind/limits.h"
 
 namespace vegetation_sim {
+namespace {
+
+constexpr std::size_t ATTACHMENT_BYTES = 100;
+
+}  // namespace
 
 FrameFollower::FrameFollower(const tf2_ros::Buffer& buffer, const WindSettings& settings)
     : buffer_(buffer),
@@ -62,6 +68,27 @@ bool FrameFollower::update(wind::PrimitiveSchedule& schedule, Nanoseconds now) {
     changed = true;
   }
   return changed;
+}
+
+void FrameFollower::restore(const Attachments& attachments) {
+  clear();
+  attachments_ = attachments;
+}
+
+void FrameFollower::archive(Archive& a, Attachments& attachments) const {
+  const std::size_t size =
+      a.length("followed frames", attachments.size(), WindSettings::MAX_FOLLOWED, ATTACHMENT_BYTES);
+  if (!a.reads()) {
+    for (auto& entry : attachments) entry.second.archive(a);
+    return;
+  }
+  for (std::size_t i = 0; i < size; ++i) {
+    wind::Attachment attachment({}, period_, horizon_);
+    attachment.archive(a);
+    const std::string name = attachment.source().primitive.name;
+    if (!attachments.emplace(name, std::move(attachment)).second)
+      Archive::reject("followed source = '" + name + "'", "is there twice");
+  }
 }
 
 std::vector<std::string> FrameFollower::names() const {

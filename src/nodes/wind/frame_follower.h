@@ -33,6 +33,12 @@ class FrameFollower {
   bool update(wind::PrimitiveSchedule& schedule, Nanoseconds now);
 
   std::vector<std::string> names() const;
+  /// By name of the source.
+  using Attachments = std::map<std::string, wind::Attachment>;
+  const Attachments& attachments() const { return attachments_; }
+  void restore(const Attachments& attachments);
+  /// Writes or reads attachments of this node. @throws InvalidInput when it reads.
+  void archive(Archive& a, Attachments& attachments) const;
   /// Transforms that the last update missed.
   MissingInputs& missing() { return missing_; }
 
@@ -41,8 +47,8 @@ class FrameFollower {
 
   const tf2_ros::Buffer& buffer_;
   std::string frame_id_;
-  double period_, horizon_, lead_;                       // [s]
-  std::map<std::string, wind::Attachment> attachments_;  // by name of the source
+  double period_, horizon_, lead_;  // [s]
+  Attachments attachments_;
   MissingInputs missing_;
 };
 

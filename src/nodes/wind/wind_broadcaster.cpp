@@ -29,6 +29,7 @@ WindBroadcaster::WindBroadcaster(const ros::NodeHandle& handle,
       marker_publisher_(handle_.advertise<visualization_msgs::MarkerArray>("wind/markers", 1)),
       samples_publisher_(handle_.advertise<WindSamples>("wind/samples", 10)),
       reconfigure_(mutex_, private_handle),
+      snapshots_(settings_.snapshots, name_, private_handle_.getNamespace(), snapshotCalls()),
       clock_(handle, [this](Nanoseconds now) { acceptInput("clock", [&] { begin(now); }); }) {
   const Lock lock(mutex_);
   serve("set_primitive", &WindBroadcaster::setPrimitive);
@@ -36,6 +37,8 @@ WindBroadcaster::WindBroadcaster(const ros::NodeHandle& handle,
   serve("get_field", &WindBroadcaster::getField);
   serve("sample", &WindBroadcaster::sample);
   serve("reset", &WindBroadcaster::reset);
+  serve("save_snapshot", &WindBroadcaster::saveSnapshot);
+  serve("load_snapshot", &WindBroadcaster::loadSnapshot);
   repeat(settings_.attach_rate, &WindBroadcaster::follow);
   repeat(PRUNE_RATE, &WindBroadcaster::prune);
   repeat(settings_.markers_rate, &WindBroadcaster::publishMarkers);
@@ -48,6 +51,12 @@ WindBroadcaster::WindBroadcaster(const ros::NodeHandle& handle,
 
 void WindBroadcaster::begin(Nanoseconds now) {
   const Lock lock(mutex_);
+  if (begun_ || !resume(now)) beginScenario(now);
+  begun_ = true;
+  openServices();
+}
+
+void WindBroadcaster::beginScenario(Nanoseconds now) {
   schedule_ = initialSchedule(settings_, now);
   tf_buffer_.clear();
   follower_.clear();
@@ -55,7 +64,6 @@ void WindBroadcaster::begin(Nanoseconds now) {
     if (!source.attached_frame.empty()) follower_.set(wind::startedAt(source, now));
   publishField();
   showBreeze(settings_.breeze);
-  openServices();
 }
 
 Nanoseconds WindBroadcaster::earliest() const {
@@ -103,6 +111,7 @@ void WindBroadcaster::prune(const ros::TimerEvent&) {
 
 void WindBroadcaster::publishField() {
   field_publisher_.publish(toMsg(schedule_.field(), settings_.frame_id, clock_.now()));
+  acceptInput("checkpoint", [this] { snapshots_.checkpoint(); });
 }
 
 void WindBroadcaster::publishMarkers(const ros::TimerEvent&) {

@@ -15,6 +15,7 @@
 #include <string>
 
 #include "nodes/base/node_base.h"
+#include "nodes/base/node_snapshots.h"
 #include "nodes/wind/frame_follower.h"
 #include "nodes/wind/wind_probes.h"
 #include "nodes/wind/wind_settings.h"
@@ -40,11 +41,14 @@ class WindBroadcaster final : public NodeBase {
                        RemoveWindPrimitive::Response& response);
   bool getField(GetWindField::Request& request, GetWindField::Response& response);
   bool sample(SampleWind::Request& request, SampleWind::Response& response);
+  bool saveSnapshot(SaveSnapshot::Request& request, SaveSnapshot::Response& response);
+  bool loadSnapshot(LoadSnapshot::Request& request, LoadSnapshot::Response& response);
   bool reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   void reconfigure(WindBroadcasterConfig& config, std::uint32_t level);
 
-  /// Restores the state of a start at `now`.
+  /// Restores the state of a start at `now`, or of the newest checkpoint at the start of the node.
   void begin(Nanoseconds now);
+  void beginScenario(Nanoseconds now);
   /// Applies a source. @return its primitive; none if it follows a frame.
   /// @throws InvalidInput with `faults` and its own; nothing has changed then.
   std::optional<wind::Primitive> apply(const wind::Source& source, Faults faults = {});
@@ -58,6 +62,12 @@ class WindBroadcaster final : public NodeBase {
   void showBreeze(const BreezeSettings& breeze);
   /// Shows the breeze of the schedule if an edit has changed it.
   void updateBreeze();
+  SnapshotCalls snapshotCalls();
+  std::uint64_t sceneHash() const;
+  SnapshotFile snapshot() const;
+  CheckedState readPayload(const std::string& payload, Nanoseconds shift);
+  /// Continues from the newest checkpoint. @return whether there is one, and it shall.
+  bool resume(Nanoseconds now);
   void diagnose(Status& status);
   Nanoseconds earliest() const;
 
@@ -71,6 +81,8 @@ class WindBroadcaster final : public NodeBase {
   BreezeSettings breeze_;  // as dynamic_reconfigure shows it
   ros::Publisher field_publisher_, marker_publisher_, samples_publisher_;
   dynamic_reconfigure::Server<WindBroadcasterConfig> reconfigure_;
+  NodeSnapshots snapshots_;
+  bool begun_{false};
   ClockWatch clock_;  // last: it may call begin()
 };
 

@@ -39,6 +39,7 @@ void readNumbers(Parameters& parameters, WindSettings& settings) {
   parameters.number("sample_rate", settings.sample_rate, "Hz", {0.1, 240.0});
   parameters.frames("sample_frames", settings.sample_frames, WindProbes::MOST_FRAMES);
   describe(parameters, settings.breeze);
+  readSnapshotOptions(parameters, settings.snapshots);
   const double least = 4.0 * std::max(settings.lead, 1.0 / settings.attach_rate);
   if (settings.attach_horizon < least)
     parameters.fault("attach_horizon", "= " + std::to_string(settings.attach_horizon) +

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "nodes/base/snapshot_store.h"
 #include "ros/params/parameters.h"
 #include "vegetation_sim/wind/source.h"
 #include "wind/schedule/primitive_schedule.h"
@@ -53,6 +54,7 @@ struct WindSettings {
   std::vector<std::string> sample_frames;  ///< tf frames at which the wind is published
   std::vector<wind::Source> sources;       ///< stamps from 0, the start of the node
   BreezeSettings breeze;                   ///< of the source named "breeze", if there is one
+  SnapshotOptions snapshots;
 };
 
 /// Reads the private parameters and the scenario that they name. Parameters override the scenario,

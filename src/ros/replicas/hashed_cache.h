@@ -23,7 +23,6 @@ class HashedCache {
     all_.emplace_back(hash, message);
     if (all_.size() > most_) all_.pop_front();
   }
-  bool isNewest(std::uint64_t hash) const { return !all_.empty() && all_.back().first == hash; }
   /// Returns null if there is no message with this hash.
   const Message* find(std::uint64_t hash) const {
     for (const auto& one : all_)

@@ -59,6 +59,11 @@ void TickClock::report(diagnostic_updater::DiagnosticStatusWrapper& status) cons
   status.add("Clock jumps back", counts_.jumps);
 }
 
+void TickClock::resume(std::int64_t tick) {
+  last_ = tick;
+  clock_times_.jumpsBackTo(grid_.timeOf(tick));
+}
+
 void TickClock::see(Nanoseconds clock) {
   const Nanoseconds now = clock - delay_;
   if (now <= 0) return;  // no clock yet

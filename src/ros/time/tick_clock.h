@@ -51,6 +51,8 @@ class TickClock {
   }
   /// Runs the ticks that are due at this time.
   void see(Nanoseconds clock);
+  /// Takes a tick as the last one, which another process has run. An earlier clock is a jump back.
+  void resume(std::int64_t tick);
 
   /// Whether a tick was begun since the last jump back.
   bool hasBegun() const { return last_ != NEVER; }

@@ -7,6 +7,10 @@
 
 #include "vegetation_sim/wind/source.h"
 
+namespace vegetation_sim {
+class Archive;
+}
+
 namespace vegetation_sim::wind {
 
 /// Turns samples of a moving frame into primitives that others can evaluate alone. Each piece runs
@@ -27,6 +31,9 @@ class Attachment {
   /// Returns the next piece, which takes effect at `earliest`. There is none before two samples,
   /// outside the time of the source, or if it would begin in the last half of the horizon.
   std::optional<Primitive> piece(Nanoseconds earliest);
+
+  /// Writes or reads source and samples. @throws InvalidInput when it reads.
+  void archive(Archive& a);
 
  private:
   Source source_;

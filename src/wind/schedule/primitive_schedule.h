@@ -8,6 +8,10 @@
 
 #include "vegetation_sim/wind/field.h"
 
+namespace vegetation_sim {
+class Archive;
+}
+
 namespace vegetation_sim::wind {
 
 /// The list of primitives behind a wind field, and the rules by which it is edited. Nothing changes
@@ -49,6 +53,9 @@ class PrimitiveSchedule {
   std::vector<std::string> names(Nanoseconds stamp) const;
   /// Returns the last primitive of a name that has not ended by `stamp`, if any.
   std::optional<Primitive> find(const std::string& name, Nanoseconds stamp) const;
+
+  /// Writes or reads all of it. @throws InvalidInput when it reads.
+  void archive(Archive& a);
 
  private:
   enum class Change { EDIT, PIECE };

@@ -84,6 +84,34 @@ TEST(Archive, ReadsWhatItWrites) {
   EXPECT_EQ(bytesOf(thing), bytesOf(example()));
 }
 
+Nanoseconds readStamp(Nanoseconds stamp, Nanoseconds shift) {
+  Archive a;
+  a.stamp("stamp", stamp);
+  Archive input = Archive::reading(a.bytes(), shift);
+  input.stamp("stamp", stamp);
+  return stamp;
+}
+
+TEST(Archive, MovesStampsButThoseThatMeanNoneNeverOrForEver) {
+  constexpr Nanoseconds LAST = std::numeric_limits<Nanoseconds>::max();
+  EXPECT_EQ(readStamp(5000, 70), 5070);
+  EXPECT_EQ(readStamp(5000, -4999), 1);
+  for (const Nanoseconds other : {Nanoseconds{0}, Nanoseconds{-1}, LAST})
+    EXPECT_EQ(readStamp(other, 70), other);
+}
+
+TEST(Archive, RejectsAShiftOutOfTheRangeOfStamps) {
+  const Nanoseconds second = NANOSECONDS_PER_SECOND;
+  try {
+    readStamp(5 * second, -5 * second);
+    FAIL();
+  } catch (const InvalidInput& error) {
+    EXPECT_STREQ(error.what(),
+                 "stamp = 5.000000 s moves by -5.000000 s, which is out of the range of stamps");
+  }
+  EXPECT_THROW(readStamp(std::numeric_limits<Nanoseconds>::max() - 1, 1), InvalidInput);
+}
+
 TEST(Archive, NumbersAreLittleEndian) {
   Archive a;
   std::uint32_t value = 0x01020304;

@@ -21,13 +21,13 @@ TEST(HashedCache, ForgetsTheOldest) {
 }
 
 TEST(HashedCache, ARepeatedEntryIsTheNewest) {
-  HashedCache<int> cache;
+  HashedCache<int> cache(2);
   cache.keep(1, 10);
   cache.keep(2, 20);
-  EXPECT_FALSE(cache.isNewest(1));
   cache.keep(1, 10);
-  EXPECT_TRUE(cache.isNewest(1));
-  EXPECT_EQ(*cache.find(2), 20);
+  cache.keep(3, 30);
+  EXPECT_EQ(cache.find(2), nullptr) << "it has become the oldest";
+  EXPECT_NE(cache.find(1), nullptr);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/archive/archive.h"
 #include "scenes/wind/wind_examples.h"
 #include "vegetation_sim/core/math/random.h"
 #include "wind/fade.h"
@@ -230,6 +231,41 @@ TEST(PrimitiveSchedule, NeverGivesAnIdTwice) {
   schedule.remove("a", at(60.0));
   schedule.prune(at(1000.0));
   EXPECT_GT(schedule.set(fading(Kind::DISK, "a"), at(1000.0)).id, first);
+}
+
+PrimitiveSchedule read(const std::string& bytes, Nanoseconds shift = 0) {
+  Archive input = Archive::reading(bytes, shift);
+  PrimitiveSchedule out;
+  out.archive(input);
+  input.finish();
+  return out;
+}
+
+TEST(PrimitiveSchedule, ContinuesFromItsBytesWithTheSameIds) {
+  PrimitiveSchedule schedule = blowing();
+  schedule.set(fading(Kind::GUST, "gust"), at(20.0));
+  Archive a;
+  schedule.archive(a);
+  PrimitiveSchedule other = read(a.bytes());
+  EXPECT_EQ(other.field().hash(), schedule.field().hash());
+  for (PrimitiveSchedule* each : {&schedule, &other}) {
+    each->remove("gust", at(30.0));
+    each->set(fading(Kind::DISK, "disk"), at(30.0));
+    EXPECT_EQ(each->field().primitives().back().id, 4u);
+    each->prune(at(65.0));
+  }
+  EXPECT_EQ(other.field().hash(), schedule.field().hash());
+  for (std::size_t size = 0; size < a.bytes().size(); ++size)
+    EXPECT_THROW(read(a.bytes().substr(0, size)), InvalidInput) << size;
+}
+
+TEST(PrimitiveSchedule, BlowsTheSameAtAnotherTime) {
+  const PrimitiveSchedule schedule = blowing();
+  PrimitiveSchedule copy = schedule;
+  Archive a;
+  copy.archive(a);
+  const PrimitiveSchedule later = read(a.bytes(), at(7.0) - at(0.0));
+  for (const double t : {1.0, 20.5}) EXPECT_EQ(airOf(later, t + 7.0), airOf(schedule, t)) << t;
 }
 
 }  // namespace

@@ -1,0 +1,45 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros/serialization.h>
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "core/archive/archive.h"
+#include "core/config/field_values.h"
+#include "ros/replicas/hashed_cache.h"
+#include "vegetation_sim/core/math/time.h"
+#include "vegetation_sim/wind/field.h"
+
+namespace vegetation_sim {
+
+/// A message as bytes, and back. @throws std::exception for bytes that are no such message.
+template <class Message>
+std::string bytesOf(const Message& message) {
+  std::string out(ros::serialization::serializationLength(message), '\0');
+  ros::serialization::OStream stream(reinterpret_cast<std::uint8_t*>(out.data()),
+                                     static_cast<std::uint32_t>(out.size()));
+  ros::serialization::serialize(stream, message);
+  return out;
+}
+template <class Message>
+Message messageOf(std::string bytes) {
+  ros::serialization::IStream stream(reinterpret_cast<std::uint8_t*>(bytes.data()),
+                                     static_cast<std::uint32_t>(bytes.size()));
+  Message out;
+  ros::serialization::deserialize(stream, out);
+  return out;
+}
+
+/// Writes or reads the named values of a tuning.
+void archiveNames(Archive& a, NamedValues& named);
+
+/// Winds to which events refer by their hashes, as bytes: empty for an unknown hash.
+std::string windBytes(const HashedCache<wind::Field>& winds, std::uint64_t hash);
+/// Reads a wind with all stamps moved. @throws InvalidInput for bytes that are no wind.
+wind::Field windOfBytes(const std::string& bytes, Nanoseconds shift);
+
+}  // namespace vegetation_sim

@@ -1,0 +1,96 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/base/node_snapshots.h"
+
+#include <ros/time.h>
+
+#include <cstdio>
+#include <utility>
+
+#include "vegetation_sim/ros/conversions/stamps.h"
+
+namespace vegetation_sim {
+
+NodeSnapshots::NodeSnapshots(const SnapshotOptions& options, const std::string& kind,
+                             const std::string& node, SnapshotCalls calls)
+    : begins_with_checkpoint_(options.checkpoint),
+      period_(options.checkpoint_period),
+      store_(options.folder, kind, node),
+      calls_(std::move(calls)),
+      journal_(hasCheckpoints() || options.checkpoint ? store_.fileOf(CHECKPOINT, ".journal")
+                                                      : "") {}
+
+std::string NodeSnapshots::save(const std::string& name, SaveSnapshot::Response& response) const {
+  const ros::WallTime begin = ros::WallTime::now();
+  const SnapshotFile snapshot = calls_.save();
+  response.file = store_.fileOf(name);
+  response.bytes = store_.write(name, snapshot, true);
+  response.stamp = toStamp(snapshot.header.stamp);
+  response.hash = snapshot.header.state_hash;
+  response.seconds = (ros::WallTime::now() - begin).toSec();
+  return std::to_string(response.bytes) + " bytes in " + response.file;
+}
+
+NodeSnapshots::Loadable NodeSnapshots::read(const std::string& name, const std::string& node,
+                                            Nanoseconds now) const {
+  const SnapshotFile file = store_.read(name, node);
+  const SnapshotHeader& header = file.header;
+  try {
+    if (header.layout_hash != calls_.scene_hash())
+      throw InvalidInput("scene hash = " + std::to_string(header.layout_hash) +
+                         ", allowed is that of this node's scenario, " +
+                         std::to_string(calls_.scene_hash()));
+    Loadable out{header, now == 0 ? 0 : now - header.stamp, calls_.read(file.payload, 0)};
+    if (out.state.hash != header.state_hash)
+      throw InvalidInput("the state has the hash " + std::to_string(out.state.hash) +
+                         ", allowed is that of the header, " + std::to_string(header.state_hash));
+    if (out.shift != 0) out.state = calls_.read(file.payload, out.shift);
+    return out;
+  } catch (const std::exception& error) {
+    throw InvalidInput("snapshot '" + name + "': " + error.what());
+  }
+}
+
+std::string NodeSnapshots::load(const LoadSnapshot::Request& request, Nanoseconds now,
+                                LoadSnapshot::Response& response,
+                                const std::function<void(const Loadable&)>& loaded) const {
+  const ros::WallTime begin = ros::WallTime::now();
+  const Loadable found = read(request.name, request.node, now);
+  if (!request.check_only) {
+    found.state.restore();
+    loaded(found);
+  }
+  response.stamp = toStamp(found.header.stamp + found.shift);
+  response.hash = found.state.hash;
+  response.shift = secondsBetween(0, found.shift);
+  response.seconds = (ros::WallTime::now() - begin).toSec();
+  return request.check_only ? "can be loaded" : "continues at the next tick";
+}
+
+void NodeSnapshots::checkpointIfDue(Nanoseconds stamp) {
+  if (!hasCheckpoints()) return;
+  if (!last_ || secondsBetween(*last_, stamp) >= period_) checkpoint();
+}
+
+void NodeSnapshots::checkpoint() {
+  if (!hasCheckpoints()) return;
+  const SnapshotFile snapshot = calls_.save();
+  last_ = snapshot.header.stamp;  // also if it fails, so that it is tried again after the period
+  store_.write(CHECKPOINT, snapshot, false);
+  journal_.restart();
+}
+
+// The snapshot goes first: without it the journal counts for nothing.
+void NodeSnapshots::dropCheckpoint() {
+  last_.reset();
+  if (!hasCheckpoints()) return;
+  std::remove(store_.fileOf(CHECKPOINT).c_str());
+  std::remove(store_.fileOf(CHECKPOINT, ".journal").c_str());
+}
+
+std::optional<NodeSnapshots::Loadable> NodeSnapshots::readCheckpoint() const {
+  if (!begins_with_checkpoint_ || !store_.has(CHECKPOINT)) return std::nullopt;
+  return read(CHECKPOINT, "", 0);
+}
+
+}  // namespace vegetation_sim

@@ -1,0 +1,55 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+// What a snapshot of the node holds besides events that wait.
+#include "core/archive/archive.h"
+#include "core/config/field_values.h"
+#include "nodes/grass/grass_field.h"
+#include "vegetation_sim/core/math/hash.h"
+
+namespace vegetation_sim {
+
+// The law of sources can change while the node runs.
+std::uint64_t GrassField::sceneHash() const {
+  grass::Layout layout = field_->layout();
+  layout.tread = grass::TreadLaw();
+  Hash hash;
+  hash.add(layout.hash());
+  FieldHasher fields(hash);
+  grass::TreadSettings treading = options_.scene.grass.treading;
+  describe(fields, treading);
+  return hash.value();
+}
+
+void GrassField::writeState(Archive& a) const {
+  NamedValues tuning = namedValues(tuning_);
+  archiveNames(a, tuning);
+  std::string state = field_->archived();
+  a.text("grass", state, LARGEST_SNAPSHOT);
+  std::uint64_t paths = paths_;
+  a.integer("paths", paths);
+  GrassSources::Published sources = sources_.published();
+  GrassSources::archive(a, sources);
+}
+
+CheckedState GrassField::readState(Archive& a) {
+  NamedValues named;
+  archiveNames(a, named);
+  const auto tuning = fromNamedValues<GrassTuning>(named);
+  check(tuning);
+  std::string state;
+  a.text("grass", state, LARGEST_SNAPSHOT);
+  std::uint64_t paths = 0;
+  a.integer("paths", paths);
+  GrassSources::Published sources;
+  GrassSources::archive(a, sources);
+  const grass::TreadSnapshot read = field_->readArchived(std::move(state), a.shift());
+  return {read.hash(), [=] {
+            applyTuning(tuning);
+            field_->restore(read);
+            paths_ = paths;
+            sources_.restore(sources);
+            key_frames_.demand();
+          }};
+}
+
+}  // namespace vegetation_sim

@@ -1,0 +1,60 @@
+#!/usr/bin/env python3
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Snapshots and checkpoints of grass_field: trodden ground, sources, paths to come."""
+import rospy
+import rostest
+from dynamic_reconfigure.client import Client
+from geometry_msgs.msg import Point, PointStamped
+from std_msgs.msg import Header
+
+from forest_rig import time_of
+from grass_rig import Feet, Meadow, step
+from snapshot_rig import START, SnapshotCase
+
+
+def points(*places):
+    return [Point(x, y, 0.0) for x, y in places]
+
+
+class GrassSnapshot(SnapshotCase):
+    PROGRAM = 'grass_field'
+    SCENE, OTHER_SCENE = 'garden', 'lawn'
+    TOPICS = 'tread',
+
+    def make_client(self, name, namespace):
+        return Meadow(name, namespace)
+
+    def prepare(self, node):
+        node.feet = Feet(node.client, node.namespace + 'tread')
+
+    def act(self, node, tick):
+        meadow = node.client
+        if 1 < tick < 90 and tick % 4 == 0:
+            node.feet.send(step('robot', -4.0 + 0.04 * tick, 1.0))
+        if tick == 30:
+            Client(node.name).update_configuration({'tread_radius': 0.2, 'tread_recovery': 30.0})
+        if tick == 50:  # waits while the state is saved
+            answer = meadow.tread(header=Header(stamp=time_of(START + 100)),
+                                  points=points((0, 0), (3, 2)))
+            self.assertTrue(answer.success)
+        if tick == 110:
+            self.assertTrue(meadow.tread(points=points((1, 0), (3, -2))).success)
+        if tick == 112:
+            centre = PointStamped(point=Point(1, 0, 0))
+            self.assertTrue(meadow.clear(centre=centre, radius=0.5).success)
+
+    def test_displays_get_a_complete_state_after_a_load(self):
+        node = self.start('shown', 0)
+        self.run_to(node, 0, 40)
+        node.save('early')
+        self.run_to(node, 40, 43)
+        self.assertFalse(node.client.state.messages[-1].key_frame)
+        node.load('early')
+        self.clock.run(1, node.client)
+        self.assertTrue(node.client.state.messages[-1].key_frame)
+
+
+if __name__ == '__main__':
+    rospy.init_node('grass_snapshot_test')
+    rostest.rosrun('vegetation_sim', 'grass_snapshot', GrassSnapshot)

@@ -1,0 +1,75 @@
+#!/usr/bin/env python3
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Snapshots and checkpoints of wind_broadcaster: sources with their ids and times."""
+import rospy
+import rostest
+from geometry_msgs.msg import Vector3
+from vegetation_sim.msg import WindPrimitive
+from vegetation_sim.srv import GetWindField, RemoveWindPrimitive, SetWindPrimitive
+
+from forest_rig import RATE, time_of
+from snapshot_rig import START, SnapshotCase
+from waiting import wait_for
+from watched_node import listens, serves
+
+
+class Air:
+    """Client of one wind_broadcaster, for which every time is a tick."""
+
+    def __init__(self, name):
+        self.name, self.state = name, self
+        self.get = rospy.ServiceProxy(name + '/get_field', GetWindField)
+        self.set = rospy.ServiceProxy(name + '/set_primitive', SetWindPrimitive)
+        self.remove = rospy.ServiceProxy(name + '/remove_primitive', RemoveWindPrimitive)
+
+    def wait_until_up(self):
+        wait_for(lambda: listens(self.name, '/clock'), self.name + ' to subscribe to /clock')
+
+    def wait_for_stamp(self, stamp, remind):
+        def has_come():
+            if serves(self.name + '/get_field') and self.get().field.header.stamp >= stamp:
+                return True
+            remind()
+            return False
+        wait_for(has_come, 'time %s' % stamp)
+
+    def reconnect(self):
+        pass
+
+    def close(self):
+        pass
+
+
+class WindSnapshot(SnapshotCase):
+    PROGRAM = 'wind_broadcaster'
+    SCENE, OTHER_SCENE = 'garden', 'clearing'
+    HASHES = 2
+
+    def make_client(self, name, _):
+        return Air(name)
+
+    def stamp_of(self, tick):
+        return time_of(START + tick) + rospy.Duration.from_sec(0.5 / RATE)
+
+    def act(self, node, tick):
+        if tick in (5, 45, 70):
+            gust = WindPrimitive(name='disk_%d' % (tick // 45), kind=WindPrimitive.DISK,
+                                 velocity=Vector3(0.1 * tick, 0.0, 0.0), radius=20.0, omega=3.0,
+                                 fade_in=0.5, fade_out=0.5)
+            answer = node.client.set(primitive=gust)
+            self.assertTrue(answer.success, answer.message)
+            node.ids = getattr(node, 'ids', []) + [answer.id]
+        if tick == 125:
+            self.assertTrue(node.client.remove(name='disk_1').success)
+
+    def test_ids_continue_after_a_kill(self):
+        self.run_with_kills((50,), 75)
+        plain, killed = self.nodes
+        self.assertEqual(killed.ids, plain.ids)
+        self.assertEqual(len(set(killed.ids)), 3)
+
+
+if __name__ == '__main__':
+    rospy.init_node('wind_snapshot_test')
+    rostest.rosrun('vegetation_sim', 'wind_snapshot', WindSnapshot)
