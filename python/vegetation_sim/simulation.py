@@ -38,9 +38,12 @@ class Simulation:
     def reset(self):
         """Restarts the nodes: each becomes what a fresh start at the start time would be. Returns
         what observe() does."""
-        if self.tick is not None:
-            self.step(max(0, self.start + self.rate * RESTART // NANOSECONDS + 2 - self.tick))
-        return self._run(self.start)
+        return self._restart(self.start)
+
+    def seek(self, stamp):
+        """Restarts the nodes at the tick of a stamp; then a snapshot of this stamp can be loaded.
+        Returns what observe() does."""
+        return self._restart(stamp.to_nsec() * self.rate // NANOSECONDS)
 
     def step(self, ticks=1):
         """Lets time go on. Returns what observe() does."""
@@ -63,6 +66,11 @@ class Simulation:
         for subscriber in self._subscribers.values():
             subscriber.unregister()
         self._clock.unregister()
+
+    def _restart(self, tick):
+        if self.tick is not None:
+            self.step(max(0, tick + self.rate * RESTART // NANOSECONDS + 2 - self.tick))
+        return self._run(tick)
 
     def _run(self, tick):
         with self._condition:

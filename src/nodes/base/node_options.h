@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "nodes/base/snapshot_store.h"
+#include "nodes/snapshots/snapshot_store.h"
 #include "ros/params/parameters.h"
 
 namespace vegetation_sim {

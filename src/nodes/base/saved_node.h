@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "nodes/base/event_inputs.h"
 #include "nodes/base/event_queue.h"
 #include "nodes/base/node_base.h"
 #include "nodes/base/node_options.h"
-#include "nodes/base/node_snapshots.h"
+#include "nodes/snapshots/event_inputs.h"
+#include "nodes/snapshots/node_snapshots.h"
 #include "ros/services/service_replies.h"
 #include "ros/time/tick_clock.h"
 

@@ -15,7 +15,7 @@
 #include <string>
 
 #include "nodes/base/node_base.h"
-#include "nodes/base/node_snapshots.h"
+#include "nodes/snapshots/node_snapshots.h"
 #include "nodes/wind/frame_follower.h"
 #include "nodes/wind/wind_probes.h"
 #include "nodes/wind/wind_settings.h"

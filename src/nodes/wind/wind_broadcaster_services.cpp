@@ -126,6 +126,18 @@ bool WindBroadcaster::sample(SampleWind::Request& request, SampleWind::Response&
   });
 }
 
+bool WindBroadcaster::saveSnapshot(SaveSnapshot::Request& request,
+                                   SaveSnapshot::Response& response) {
+  return reply("save_snapshot", response, [&] { return snapshots_.save(request.name, response); });
+}
+
+bool WindBroadcaster::loadSnapshot(LoadSnapshot::Request& request,
+                                   LoadSnapshot::Response& response) {
+  return reply("load_snapshot", response, [&] {
+    return snapshots_.load(request, clock_.now(), response, [](const NodeSnapshots::Loadable&) {});
+  });
+}
+
 bool WindBroadcaster::reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
   return reply("reset", response, [&] {
     begin(clock_.now());

@@ -5,7 +5,6 @@
 
 #include "core/archive/archive.h"
 #include "nodes/wind/wind_broadcaster.h"
-#include "ros/services/service_replies.h"
 #include "vegetation_sim/core/math/hash.h"
 
 namespace vegetation_sim {
@@ -61,18 +60,6 @@ CheckedState WindBroadcaster::readPayload(const std::string& payload, Nanosecond
             publishField();
             showBreeze(breeze);
           }};
-}
-
-bool WindBroadcaster::saveSnapshot(SaveSnapshot::Request& request,
-                                   SaveSnapshot::Response& response) {
-  return reply("save_snapshot", response, [&] { return snapshots_.save(request.name, response); });
-}
-
-bool WindBroadcaster::loadSnapshot(LoadSnapshot::Request& request,
-                                   LoadSnapshot::Response& response) {
-  return reply("load_snapshot", response, [&] {
-    return snapshots_.load(request, clock_.now(), response, [](const NodeSnapshots::Loadable&) {});
-  });
 }
 
 // A checkpoint of a later time is no past of this start.

@@ -8,6 +8,7 @@ import signal
 import struct
 import tempfile
 import unittest
+from random import Random
 
 import rospy
 from geometry_msgs.msg import Vector3
@@ -22,6 +23,8 @@ START = 1000 * 30
 SAVED = 60    # ticks before the state is saved
 LATER = 600   # ticks after it
 EVERY = 60    # ticks between two looks at the hash
+LAST = 120    # ticks of a run with kills
+KILLS = 5     # of one such run
 
 
 class RunningNode:
@@ -80,6 +83,7 @@ class SnapshotCase(unittest.TestCase):
     PROGRAM = ''
     SCENE, OTHER_SCENE = 'garden', 'no_trees'
     TOPICS = ()             # of the inputs that act() publishes
+    BUSY = ()               # ticks before which act() sends requests, which a kill loses
     HASHES = LATER // EVERY  # different ones of the later ticks
 
     def act(self, node, tick):
@@ -185,22 +189,41 @@ class SnapshotCase(unittest.TestCase):
             return False
 
     def test_a_killed_node_continues_from_its_checkpoint(self):
-        self.assertEqual(*self.run_with_kills((37, 80)))
-
-    def run_with_kills(self, kills, last=120):
-        """Returns the hashes of a run without and of one with kills after some ticks."""
+        """With the environment variable CHECKPOINT_KILLS, so many times at random ticks."""
+        count = int(os.environ.get('CHECKPOINT_KILLS', 0))
+        episodes = [self.random_kills(i) for i in range(-(-count // KILLS))] or [
+            [(37, False), (81, True)]]
         plain = self.start('plain', 0)
-        expected = self.run_to(plain, 0, last)
+        expected = self.run_to(plain, 0, LAST)
         plain.stop()
-        killed = self.start('killed', 0, checkpoint_period=0.7, checkpoint=True)
+        equal = 0
+        for number, kills in enumerate(episodes):
+            found = self.run_with_kills('killed_%d' % number, kills)
+            self.assertEqual(found, expected, kills)
+            equal += len(kills)
+        print('%s: equal hashes after %d kills' % (self.PROGRAM, equal))
+
+    def random_kills(self, episode):
+        """Returns ticks, and whether the node is killed within the next tick."""
+        random = Random(episode)
+        ticks = sorted(random.sample(range(2, LAST - 1), KILLS))
+        return [(tick, tick + 1 not in self.BUSY and random.random() < 0.5) for tick in ticks]
+
+    def run_with_kills(self, namespace, kills):
+        """Returns the hashes of a run whose node is killed after or within some ticks."""
+        node = self.start(namespace, 0, checkpoint_period=0.7, checkpoint=True)
         found, tick = {}, 0
-        for kill in list(kills) + [last]:
-            found.update(self.run_to(killed, tick, kill))
+        for kill, within in kills:
+            found.update(self.run_to(node, tick, kill))
             tick = kill
-            if kill != last:
-                killed.kill()
-                killed.client.wait_until_up(*(killed.namespace + topic for topic in self.TOPICS))
-        return found, expected
+            if within:
+                self.clock.show(START + tick + 1)
+            node.kill()
+            self.clock.tick = START + tick
+            node.client.wait_until_up(*(node.namespace + topic for topic in self.TOPICS))
+        found.update(self.run_to(node, tick, LAST))
+        node.stop()
+        return found
 
 
 class WindSender:

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "nodes/base/event_journal.h"
-#include "nodes/base/snapshot_store.h"
+#include "nodes/snapshots/event_journal.h"
+#include "nodes/snapshots/snapshot_store.h"
 
 namespace vegetation_sim {
 

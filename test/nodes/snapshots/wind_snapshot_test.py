@@ -45,6 +45,7 @@ class WindSnapshot(SnapshotCase):
     PROGRAM = 'wind_broadcaster'
     SCENE, OTHER_SCENE = 'garden', 'clearing'
     HASHES = 2
+    BUSY = 5, 45, 70
 
     def make_client(self, name, _):
         return Air(name)
@@ -64,10 +65,8 @@ class WindSnapshot(SnapshotCase):
             self.assertTrue(node.client.remove(name='disk_1').success)
 
     def test_ids_continue_after_a_kill(self):
-        self.run_with_kills((50,), 75)
-        plain, killed = self.nodes
-        self.assertEqual(killed.ids, plain.ids)
-        self.assertEqual(len(set(killed.ids)), 3)
+        self.run_with_kills('killed', [(50, False)])
+        self.assertEqual(self.nodes[-1].ids, [2, 3, 4])
 
 
 if __name__ == '__main__':

@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nodes/base/event_journal.h"
+#include "nodes/snapshots/event_journal.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nodes/base/event_inputs.h"
+#include "nodes/snapshots/event_inputs.h"
 
 #include "wind/field_archive.h"
 

@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nodes/base/event_journal.h"
+#include "nodes/snapshots/event_journal.h"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -9,7 +9,7 @@
 #include <cstring>
 #include <optional>
 
-#include "nodes/base/snapshot_store.h"
+#include "nodes/snapshots/snapshot_store.h"
 #include "vegetation_sim/core/math/hash.h"
 
 namespace vegetation_sim {

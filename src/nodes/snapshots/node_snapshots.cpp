@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nodes/base/node_snapshots.h"
+#include "nodes/snapshots/node_snapshots.h"
 
 #include <ros/time.h>
 

@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nodes/base/snapshot_store.h"
+#include "nodes/snapshots/snapshot_store.h"
 
 #include <algorithm>
 #include <cstdlib>
