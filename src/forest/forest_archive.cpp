@@ -11,7 +11,7 @@ namespace vegetation_sim::forest {
 namespace {
 
 constexpr std::size_t MOST_LISTENERS = 4096, LONGEST_NAME = 4096;
-constexpr std::size_t SENSOR_BYTES = 60, EYE_BYTES = 64, LEVEL_BYTES = 44;
+constexpr std::size_t SENSOR_BYTES = 56, EYE_BYTES = 64, LEVEL_BYTES = 44;
 
 void archive(Archive& a, LevelState& level) {
   a.integer("level", level.level, 0, MODAL_LEVEL);

@@ -10,7 +10,7 @@ namespace {
 constexpr std::size_t LONGEST_NAME = 4096;
 constexpr std::size_t NODE_BYTES = 24;
 constexpr std::size_t BLOCK_BYTES = 16 + NODE_BYTES * TreadBlock::SIDE * TreadBlock::SIDE;
-constexpr std::size_t SOURCE_BYTES = 200, WINDOW_BYTES = 60;
+constexpr std::size_t SOURCE_BYTES = 190, WINDOW_BYTES = 60;
 constexpr std::size_t MOST_BLOCKS = 1u << 24, MOST_DOSES = 1u << 24;
 constexpr int FARTHEST_NODE = 1 << 28;
 constexpr int PITCH = 8;  // columns of a window, as TreadBand::PITCH

@@ -7,7 +7,7 @@
 namespace vegetation_sim::crowd {
 namespace {
 
-constexpr std::size_t WALKER_BYTES = 220, ROBOT_BYTES = 60, LONGEST_NAME = 4096;
+constexpr std::size_t WALKER_BYTES = 218, ROBOT_BYTES = 60, LONGEST_NAME = 4096;
 constexpr std::size_t MOST_CORNERS = 4096;
 
 void archive(Archive& a, const char* name, Point& point) {

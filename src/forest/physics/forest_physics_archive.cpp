@@ -13,7 +13,7 @@ constexpr std::size_t LONGEST_NAME = 4096;  // of bodies and frames
 constexpr std::size_t MOST_ENTRIES = 1u << 16;
 constexpr std::size_t MOST_CONTACTS = 1u << 20;
 // Least bytes of entries.
-constexpr std::size_t GRAB_BYTES = 250, PUSH_BYTES = 56, BODY_BYTES = 250, REACTION_BYTES = 180,
+constexpr std::size_t GRAB_BYTES = 250, PUSH_BYTES = 56, BODY_BYTES = 200, REACTION_BYTES = 160,
                       CONTACT_BYTES = 61, LOAD_BYTES = 36;
 
 /// Writes or reads points of the branches of one layout.

@@ -7,6 +7,7 @@
 #include <tf2_ros/transform_listener.h>
 #include <vegetation_sim/Viewer.h>
 
+#include <boost/thread/recursive_mutex.hpp>
 #include <memory>
 #include <optional>
 #include <string>
@@ -102,7 +103,7 @@ class EventNode : public SavedNode<Queue, Options> {
     diagnostics_.add("governor", this, &EventNode::diagnoseGovernor);
     this->recover();
     // The server writes its values back to the parameters: they are the checked ones by then.
-    tuning_server_ = std::make_unique<dynamic_reconfigure::Server<Config>>(private_handle_);
+    tuning_server_ = std::make_unique<dynamic_reconfigure::Server<Config>>(mutex_, private_handle_);
     tuning_server_->setCallback([this](Config& config, std::uint32_t) { onTuning(config); });
     connect();
     this->subscribe("viewer", 10, &EventNode::onViewer);
@@ -228,6 +229,7 @@ class EventNode : public SavedNode<Queue, Options> {
 
   const char* events_topic_;
   std::optional<MarkerPublisher> markers_;
+  boost::recursive_mutex mutex_;  // of the server, whose values a load changes
   std::unique_ptr<dynamic_reconfigure::Server<Config>> tuning_server_;
   std::optional<Config> shown_;  // what the server shows or has accepted last
   TickClock::Counts reported_clock_;

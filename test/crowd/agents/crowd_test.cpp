@@ -165,6 +165,15 @@ TEST(Crowd, GoesOnFromASavedMemory) {
   EXPECT_NE(first.snapshot().hash(), saved.hash());
 }
 
+// The lengths of lists are checked before they are read; nothing follows the walkers here.
+TEST(Crowd, ReadsTheBytesOfAnyNumberOfWalkers) {
+  Crowd crowd(6, CrowdSettings(), {-8, 8, -8, 8}, flatGround());
+  for (int count = 0; count < 20; ++count) {
+    EXPECT_EQ(Crowd::readArchived(crowd.archived()).hash(), crowd.snapshot().hash()) << count;
+    crowd.spawn(Spawn());
+  }
+}
+
 TEST(Crowd, SeedsMakeCrowds) {
   Crowd first = crowdedRoom(6, CrowdSettings()), same = crowdedRoom(6, CrowdSettings());
   Crowd other = crowdedRoom(7, CrowdSettings());
