@@ -11,9 +11,10 @@ import unittest
 
 import rospy
 import rostest
+from geometry_msgs.msg import Point, PointStamped
 from vegetation_sim import Crowd, Grass, Scene, Simulation, VegetationError
 from vegetation_sim.msg import AgentStates, CanopyState, ForestState, GrassState
-from vegetation_sim.srv import LoadSnapshot, SaveSnapshot
+from vegetation_sim.srv import GetTree, Grab, LoadSnapshot, SaveSnapshot
 
 from forest_rig import scene, start_node, stop
 from waiting import wait_for
@@ -25,7 +26,7 @@ NODES = {
     'wind_broadcaster': {}, 'forest_animator': {}, 'canopy_animator': {}, 'grass_field': {},
     'agent_crowd': {'tread': 'none'},
 }
-REMAPPINGS = {'grass/cover/resistance': 'no_cover'}
+REMAPPINGS = {'agent_crowd': {'grass/cover/resistance': 'no_cover'}}
 SAVED, LATER = 90, 600
 
 
@@ -34,8 +35,8 @@ class SceneTest(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.mkdtemp()
         demo = os.path.join(os.path.dirname(scene('forest')), 'demo.yaml')
-        cls.processes = [start_node(node, '/scene/' + node, REMAPPINGS, scenario=demo,
-                                    snapshot_folder=cls.folder, **parameters)
+        cls.processes = [start_node(node, '/scene/' + node, REMAPPINGS.get(node, {}),
+                                    scenario=demo, snapshot_folder=cls.folder, **parameters)
                          for node, parameters in NODES.items()]
         cls.simulation = Simulation({
             '/scene/agents': AgentStates, '/scene/forest/state': ForestState,
@@ -60,9 +61,19 @@ class SceneTest(unittest.TestCase):
     def hashes(self, name):
         return {node: entry['hash'] for node, entry in self.scene.save(name)['nodes'].items()}
 
+    def hold_a_branch(self):
+        """A tree that nobody touches has no state but its level."""
+        pose = rospy.ServiceProxy('/scene/forest_animator/get_tree', GetTree)(
+            tree=0).transforms.poses[6].position
+        target = PointStamped(point=Point(pose.x + 0.2, pose.y, pose.z))
+        answer = rospy.ServiceProxy('/scene/forest_animator/grab', Grab)(
+            tree=0, branch=6, target=target, has_lease=True, lease=600.0)
+        self.assertTrue(answer.success, answer.message)
+
     def test_all_nodes_continue_with_the_same_hashes(self):
         Grass('/scene/grass_field').tread((-8, -3), (8, 2), radius=0.4, recovery=300)
         Crowd('/scene/agent_crowd').send([0, 1], (3, 3))
+        self.hold_a_branch()
         self.simulation.step(SAVED)
         manifest = self.scene.save('kept')
         self.assertEqual(sorted(manifest['nodes']), ['/scene/' + node for node in sorted(NODES)])

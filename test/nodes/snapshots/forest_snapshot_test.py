@@ -51,7 +51,7 @@ class ForestSnapshot(SnapshotCase):
         if tick == 25:
             self.assertEqual(self.grab(node, BRANCH, 0.3, lease=60.0), 1)
         if tick == 28:
-            self.assertEqual(self.grab(node, BRANCH + 1, 0.2, lease=5.0), 2)
+            self.assertEqual(self.grab(node, BRANCH + 1, 0.2, lease=8.0), 2)
         if tick == 40:
             self.assertTrue(node.move_grab(id=1, target=stamped(node.target)).success)
         if tick == 50:  # waits while the state is saved
@@ -60,7 +60,7 @@ class ForestSnapshot(SnapshotCase):
                                       stamp=time_of(START + 100))
             self.assertTrue(answer.success, answer.message)
         if tick == 112:
-            self.assertTrue(node.release(id=1).success)
+            self.assertTrue(node.release(id=2).success)
         if tick == 115:
             self.assertEqual(self.grab(node, BRANCH + 2, 0.1, lease=1.0), 3)
 
