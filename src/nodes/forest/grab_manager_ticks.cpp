@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t MOST_REQUESTS = 4096, REQUEST_BYTES = 22, LARGEST_STATUS = 1u << 16;
 
-void archive(Archive& a, GrabHistory::State& state) {
+void archiveHistory(Archive& a, GrabHistory::State& state) {
   a.map(
       "grabs held", state.since, MOST_REQUESTS, sizeof(std::uint32_t) + sizeof(Nanoseconds),
       [&a](std::uint32_t& id) { a.integer("grab held", id); },
@@ -148,7 +148,7 @@ void GrabManager::archive(Archive& a, State& state) {
         if (a.reads()) request.published = toStamp(published);
         a.flag("request has begun", request.begun);
       });
-  vegetation_sim::archive(a, state.history);
+  archiveHistory(a, state.history);
   a.integer("last grab", state.last_id);
 }
 
