@@ -113,6 +113,7 @@ class EventNode : public SavedNode<Queue, Options> {
     this->serve("reset", &EventNode::onReset);
     this->serveSnapshots();
     this->startDiagnostics();
+    if (clock_.hasBegun()) this->openServices();  // after a checkpoint
     clock_.listen(handle_);
   }
   void stop() {
