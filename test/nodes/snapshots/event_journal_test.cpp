@@ -70,3 +70,8 @@ TEST_F(EventJournalTest, EndsBeforeTheFirstTickThatIsNotComplete) {
 
 }  // namespace
 }  // namespace vegetation_sim
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
