@@ -11,6 +11,7 @@ from refusing_node import Ranges, RefusingNode
 # Each parameter with its unit, minimum and maximum.
 NUMBERS = {
     'markers_rate': (' Hz', 0.1, 60), 'tolerance': (' pixel', 0.01, 1000),
+    'checkpoint_period': (' s', 0, 86400),
     'replay_delay': (' s', 0, 10), 'turbulence': ('', 0, 1),
     'law_gain': ('', 0, 10), 'frequency': (' Hz', 0.05, 20), 'damping': ('', 0, 50),
     'speed': (' m/s', 0, 20), 'reference_time': (' s', 0, 1), 'rigidity': ('', 0, 10),
@@ -24,7 +25,8 @@ WHOLE_NUMBERS = {
     'marker_points': ('', 600, 3000000), 'near_layers': ('', 0, 16), 'mid_layers': ('', 0, 16),
     'far_layers': ('', 0, 16),
 }
-OTHERS = {'scenario', 'frame_id', 'viewer_id', 'viewer_frame', 'replay'}
+OTHERS = {'scenario', 'checkpoint', 'snapshot_folder',
+          'frame_id', 'viewer_id', 'viewer_frame', 'replay'}
 
 # Text of a bad scenario and the expected part of the error.
 SCENARIOS = [

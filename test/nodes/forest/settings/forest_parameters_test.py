@@ -13,7 +13,8 @@ from refusing_node import Ranges, RefusingNode
 NUMBERS = {
     'key_frame_period': (' s', 0.05, 60), 'markers_rate': (' Hz', 0.1, 60),
     'tf_rate': (' Hz', 0.1, 240), 'branches_rate': (' Hz', 0.1, 240),
-    'viewer_field_of_view': (' rad', 0.01, 3.1), 'replay_delay': (' s', 0, 10),
+    'viewer_field_of_view': (' rad', 0.01, 3.1), 'checkpoint_period': (' s', 0, 86400),
+    'replay_delay': (' s', 0, 10),
     'tolerance': (' pixel', 0.01, 1000), 'transition': (' s', 0.01, 60),
     'size': ('', 0.2, 3), 'children': ('', 0.2, 3), 'leaves': ('', 0, 3), 'angle': ('', 0.2, 2),
     'noise': ('', 0, 3),
@@ -32,7 +33,8 @@ WHOLE_NUMBERS = {
     'fixed_level': ('', 0, 6), 'highest_level': ('', 0, 6),
     'state_bytes': (' B/s', 0, 100000000), 'modal_trees': ('', 0, 1000),
 }
-OTHERS = {'scenario', 'frame_id', 'frame_prefix', 'viewer_frame', 'replay', 'branches_trees',
+OTHERS = {'scenario', 'checkpoint', 'snapshot_folder',
+          'frame_id', 'frame_prefix', 'viewer_frame', 'replay', 'branches_trees',
           'tf_promoted', 'bodies'}  # robot_bodies_test has more tests of bodies
 
 # Text of a bad scenario and the expected part of the error.
