@@ -85,7 +85,7 @@ inline Hit castInto(const RodTree& tree, const std::vector<Rod>& rods, const Ray
   Hit out;
   out.distance = reach;
   RankedHit ranked(out);
-  tree.visit(ray, FloatRay(ray), out, [&](std::size_t i, bool) {
+  tree.visit(ray, FloatRay(ray), out, [&](std::size_t i) {
     ++tested;
     ranked.offer(i + 1, [&](Hit& hit) { return meetRod(rods, i, ray, hit); });
   });

@@ -20,7 +20,7 @@ void People::set(const std::vector<Person>& people) {
 void People::meet(const Ray& ray, const FloatRay& narrow, Hit& nearest) const {
   if (limbs_.empty()) return;
   RankedHit ranked(nearest);
-  rod_tree_.visit(ray, narrow, nearest, [&](std::size_t limb, bool) {
+  rod_tree_.visit(ray, narrow, nearest, [&](std::size_t limb) {
     ranked.offer(limb + 1, [&](Hit& hit) { return meetLimb(limb, ray, hit); });
   });
 }

@@ -76,15 +76,14 @@ void PosedTree::follow(const forest::ForestReplica& forest, Nanoseconds stamp,
 
 void PosedTree::meet(const Ray& ray, const FloatRay& narrow, std::uint64_t first_rank,
                      RankedHit& nearest) const {
-  rod_tree_.visit(ray, narrow, nearest.hit(), [&](std::size_t branch, bool wood) {
-    nearest.offer(first_rank + branch,
-                  [&](Hit& hit) { return meetBranch(branch, ray, hit, wood); });
+  rod_tree_.visit(ray, narrow, nearest.hit(), [&](std::size_t branch) {
+    nearest.offer(first_rank + branch, [&](Hit& hit) { return meetBranch(branch, ray, hit); });
   });
 }
 
-bool PosedTree::meetBranch(std::size_t branch, const Ray& ray, Hit& nearest, bool wood) const {
+bool PosedTree::meetBranch(std::size_t branch, const Ray& ray, Hit& nearest) const {
   Meeting meeting;
-  wood = wood && scan::meet(ray, rods_[branch], nearest.distance, meeting);
+  const bool wood = scan::meet(ray, rods_[branch], nearest.distance, meeting);
   if (wood) {
     nearest = {meeting.distance, isTrunk(branch) ? Label::TRUNK : Label::BRANCH, id_,
                static_cast<int>(branch), meeting.cosine};

@@ -45,8 +45,8 @@ class PosedTree {
   void meet(const Ray& ray, const FloatRay& narrow, std::uint64_t first_rank,
             RankedHit& nearest) const;
   /// Does the same without ranks for one branch and its leaves; returns whether there is a nearer
-  /// hit. @param wood false: the ray misses the wood.
-  bool meetBranch(std::size_t branch, const Ray& ray, Hit& nearest, bool wood = true) const;
+  /// hit.
+  bool meetBranch(std::size_t branch, const Ray& ray, Hit& nearest) const;
 
  private:
   void addLeaves(const forest::Species& species);

@@ -95,18 +95,9 @@ bool meet(const Ray& ray, const Rod& rod, double reach, Meeting& out) {
   return out.distance < reach;
 }
 
-// A ray that enters and leaves the cylinder far enough from its ends passes the balls only within
-// it.
 Stretch within(const Ray& ray, const Rod& rod, double radius) {
-  const Stretch middle = throughCylinder(ray, rod, radius);
-  if (middle.from < middle.to) {
-    const double da = dot(ray.direction, rod.axis), oa = dot(ray.origin - rod.base, rod.axis);
-    const double first = oa + middle.from * da, last = oa + middle.to * da, edge = 0.1 * radius;
-    if (std::min(first, last) > edge && std::max(first, last) < rod.length - edge)
-      return {std::max(middle.from, 0.0), middle.to};
-  }
   Stretch all;
-  for (const Stretch& part : {middle, through(ray, rod.base, radius),
+  for (const Stretch& part : {throughCylinder(ray, rod, radius), through(ray, rod.base, radius),
                               through(ray, rod.base + rod.length * rod.axis, radius)}) {
     if (!(part.from < part.to)) continue;
     const bool first = !(all.from < all.to);

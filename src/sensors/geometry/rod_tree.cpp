@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace vegetation_sim::scan {
 namespace {
@@ -18,18 +17,6 @@ double reachOf(const Rod& rod, double radius) {
   const double widest = std::max({radius, rod.base_radius, rod.tip_radius});
   return std::sqrt(widest * widest +
                    2.0 * deviation * (1.0 + slope * slope) * rod.length * rod.length);
-}
-
-// Returns a radius with more room than its rounding takes.
-float rounded(double radius) {
-  return static_cast<float>(radius * (1.0 + 1e-6) + 1e-6);
-}
-
-RodGroup emptyGroup() {
-  RodGroup out{};
-  std::fill_n(out.room, WideNode::WIDTH, std::numeric_limits<float>::quiet_NaN());
-  std::fill_n(out.radius, WideNode::WIDTH, std::numeric_limits<float>::quiet_NaN());
-  return out;
 }
 
 }  // namespace
@@ -53,10 +40,9 @@ void RodTree::fit(const std::vector<Rod>& rods, const std::vector<double>& radii
   Box all;
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     RodGroup& group = groups_[g];
-    const int count = tree_.size(static_cast<int>(g));
-    group = emptyGroup();
+    group.count = tree_.size(static_cast<int>(g));
     Box box;
-    for (int i = 0; i < count; ++i) {
+    for (int i = 0; i < group.count; ++i) {
       const auto item = static_cast<std::size_t>(tree_.item(static_cast<int>(g), i));
       const Rod& rod = rods[item];
       const double reach = reachOf(rod, radii[item]);
@@ -65,8 +51,7 @@ void RodTree::fit(const std::vector<Rod>& rods, const std::vector<double>& radii
         group.base[k][i] = static_cast<float>(base[k]);
         group.way[k][i] = static_cast<float>(way[k]);
       }
-      group.room[i] = rounded(reach);
-      group.radius[i] = rounded(reachOf(rod, 0.0));
+      group.radius[i] = static_cast<float>(reach * (1.0 + 1e-6) + 1e-6);
       box.add(base, reach);
       box.add(base + way, reach);
     }

@@ -21,15 +21,13 @@ class RodTree {
   /// Returns the box of all rods with their radii.
   const Box& bounds() const { return bounds_; }
 
-  /// Calls meet(rod, hit), which may reduce `nearest`, for each rod whose room a ray may pass; near
-  /// ones first. `hit`: it may hit the rod itself.
+  /// Calls meet(rod), which may reduce `nearest`, for each rod that a ray may hit; near ones first.
   template <class Meet>
   void visit(const Ray& ray, const FloatRay& narrow, const Hit& nearest, Meet&& meet) const {
     WideWalk walk(tree_, ray, narrow, origin_, extent_, nearest.distance, groups_.data());
     for (RodCandidates next = nextRods(walk); next.lanes != 0; next = nextRods(walk)) {
       for (int i = 0; next.lanes >> i != 0; ++i)
-        if ((next.lanes >> i & 1U) != 0)
-          meet(static_cast<std::size_t>(tree_.item(next.group, i)), (next.rods >> i & 1U) != 0);
+        if ((next.lanes >> i & 1U) != 0) meet(static_cast<std::size_t>(tree_.item(next.group, i)));
       walk.limit = limitOf(nearest.distance);
     }
   }

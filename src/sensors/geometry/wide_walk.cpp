@@ -123,17 +123,17 @@ HWY_INLINE Lanes dot(const Components& a, const float* b) {
   return a.x * all(b[0]) + a.y * all(b[1]) + a.z * all(b[2]);
 }
 
-// Tests the axes, seen along the ray, against both radii: the nearest point of each to the ray is
-// nearer than that, and the room is neither behind the origin nor beyond the limit.
-HWY_INLINE RodCandidates testRods(const WideWalk& walk, const RodGroup& group) {
+// Tests the axes, seen along the ray, against the radius: the nearest point of each to the ray is
+// nearer than that, and the rod is neither behind the origin nor beyond the limit.
+HWY_INLINE unsigned testRods(const WideWalk& walk, const RodGroup& group) {
   const FloatRay& ray = *walk.ray;
   const auto rows = [&](const float(*from)[WideNode::WIDTH], int first) HWY_ATTR {
     return Components{hn::Load(Tag(), from[0] + first), hn::Load(Tag(), from[1] + first),
                       hn::Load(Tag(), from[2] + first)};
   };
   const Lanes zero = hn::Zero(Tag()), one = all(1.f);
-  RodCandidates out;
-  for (int first = 0; first < WideNode::WIDTH; first += static_cast<int>(hn::Lanes(Tag()))) {
+  unsigned bits = 0;
+  for (int first = 0; first < group.count; first += static_cast<int>(hn::Lanes(Tag()))) {
     const Components way = rows(group.way, first);
     Components base = rows(group.base, first);
     base = {base.x - all(walk.origin[0]), base.y - all(walk.origin[1]),
@@ -143,17 +143,14 @@ HWY_INLINE RodCandidates testRods(const WideWalk& walk, const RodGroup& group) {
     const Lanes square = hn::Max(way_u * way_u + way_v * way_v, all(1e-30f));
     const Lanes part = hn::Min(hn::Max((zero - (u * way_u + v * way_v)) / square, zero), one);
     const Lanes at_u = u + part * way_u, at_v = v + part * way_v;
-    const Lanes room = hn::Load(Tag(), group.room + first) + all(walk.margin);
     const Lanes radius = hn::Load(Tag(), group.radius + first) + all(walk.margin);
     const Lanes along = dot(base, ray.direction), more = dot(way, ray.direction);
-    const Lanes away = at_u * at_u + at_v * at_v;
-    const auto begins = along + hn::Min(more, zero) - room <= all(walk.limit);
-    const auto ends = along + hn::Max(more, zero) + room >= zero;
-    const auto close = hn::And(away <= room * room, hn::And(begins, ends));
-    out.lanes |= bitsOf(close, first);
-    out.rods |= bitsOf(hn::And(close, away <= radius * radius), first);
+    const auto close = at_u * at_u + at_v * at_v <= radius * radius;
+    const auto begins = along + hn::Min(more, zero) - radius <= all(walk.limit);
+    const auto ends = along + hn::Max(more, zero) + radius >= zero;
+    bits |= bitsOf(hn::And(close, hn::And(begins, ends)), first);
   }
-  return out;
+  return bits & ((1U << group.count) - 1U);
 }
 
 int nextBox(WideWalk& walk) {
@@ -162,8 +159,8 @@ int nextBox(WideWalk& walk) {
 
 RodCandidates nextFew(WideWalk& walk) {
   for (int group = advance(walk); group >= 0; group = advance(walk))
-    if (const RodCandidates found = testRods(walk, walk.groups[group]); found.lanes != 0)
-      return {group, found.lanes, found.rods};
+    if (const unsigned lanes = testRods(walk, walk.groups[group]); lanes != 0)
+      return {group, lanes};
   return {};
 }
 

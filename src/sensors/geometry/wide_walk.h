@@ -27,12 +27,11 @@ struct FloatRay {
 /// Returns a bound for comparison with distances in single precision.
 float limitOf(double distance);
 
-/// Eight rods without their taper, relative to the origin of their tree [m]. The radii of places
-/// without a rod are no numbers, with which all comparisons are false.
+/// Eight rods without their taper, relative to the origin of their tree [m].
 struct alignas(64) RodGroup {
   float base[3][WideNode::WIDTH], way[3][WideNode::WIDTH];  ///< way: from base to tip
-  float room[WideNode::WIDTH];    ///< radius of all that is around the axis
-  float radius[WideNode::WIDTH];  ///< of the rod itself
+  float radius[WideNode::WIDTH];
+  std::int32_t count{0};
 };
 
 /// A ray on its way through a tree; the nearest box is visited first.
@@ -62,8 +61,7 @@ int nextGroup(WideWalk& walk);
 /// Rods of a group that a ray may hit.
 struct RodCandidates {
   int group{-1};
-  unsigned lanes{0};  ///< bit i: the ray may pass the room of item i of the group; 0 at the end
-  unsigned rods{0};   ///< those of which it may hit the rod itself
+  unsigned lanes{0};  ///< bit i: item i of the group; 0 at the end
 };
 /// Returns the candidates of the next group that has any.
 RodCandidates nextRods(WideWalk& walk);

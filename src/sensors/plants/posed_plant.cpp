@@ -51,7 +51,7 @@ void PosedPlant::meet(const Ray& ray, const FloatRay& narrow, std::uint64_t firs
   strip_tree_.visit(ray, narrow, nearest.hit(), [&](std::size_t strip) {
     nearest.offer(first_rank + strip, [&](Hit& hit) { return meetStrip(strip, ray, hit); });
   });
-  stem_tree_.visit(ray, narrow, nearest.hit(), [&](std::size_t stem, bool) {
+  stem_tree_.visit(ray, narrow, nearest.hit(), [&](std::size_t stem) {
     nearest.offer(first_rank + strips_.size() + stem,
                   [&](Hit& hit) { return meetStem(stem, ray, hit); });
   });
