@@ -153,8 +153,7 @@ class EventNode : public SavedNode<Queue, Options> {
   tf2_ros::TransformListener tf_listener_;
 
   void onTick(std::int64_t tick) {
-    this->tick(tick);
-    this->endTick();
+    this->runTick(tick);
     this->openServices();
   }
 

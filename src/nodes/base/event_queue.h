@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -60,6 +61,9 @@ class EventQueue {
   static constexpr std::size_t MOST_AHEAD = MOST_WAITING / 2;
 
   explicit EventQueue(bool replay) : replay_(replay) {}
+
+  /// Calls `observe(event)` for each live input that add() accepts from now on.
+  void observe(std::function<void(const Event&)> observe) { observe_ = std::move(observe); }
 
   bool replay() const { return replay_; }
   /// Adds a live input that has been checked. Its stamp says when it takes effect; zero: at the
@@ -140,12 +144,19 @@ class EventQueue {
   void push(Event event) {
     ahead_ += stampOf(event) != 0;
     waiting_.push_back(std::move(event));
+    report(waiting_.back());
+  }
+  void report(const Event& event) const {
+    if (observe_) observe_(event);
   }
 
   bool replay_;
   QueueLosses losses_;
   std::deque<Event> waiting_;
   std::size_t ahead_{0};  ///< waiting for a stamp of their own
+
+ private:
+  std::function<void(const Event&)> observe_;
 };
 
 }  // namespace vegetation_sim

@@ -39,7 +39,9 @@ class SavedNode : public NodeBase {
                    {[this] { return snapshot(); }, [this] { return sceneHash(); },
                     [this](const std::string& payload, Nanoseconds shift) {
                       return readPayload(payload, shift);
-                    }}) {}
+                    }}) {
+    inputs_.observe([this](const Event& event) { keepArrival(event); });
+  }
 
   virtual void tick(std::int64_t tick) = 0;
   /// Applies an event to the simulation. @throws InvalidInput, and then nothing has changed.
@@ -60,6 +62,8 @@ class SavedNode : public NodeBase {
                                           Nanoseconds /*shift*/) {
     return [] {};
   }
+  /// Called for each input between ticks that recover() puts into the queue again.
+  virtual void onRecovered(const Event&) {}
   /// Called when the state has been loaded.
   virtual void onLoaded() {}
 
@@ -80,7 +84,7 @@ class SavedNode : public NodeBase {
   void applyInputs(Nanoseconds stamp) {
     std::vector<Event> events = inputs_.take(stamp);
     if (recovers_) events = std::exchange(recovered_, {});
-    JournalTick done{stamp, {}};
+    JournalRecord done{stamp, {}};
     for (Event& event : events) {
       acceptInput("event", [&] {
         if (event.kind == Event::LOAD)
@@ -102,10 +106,19 @@ class SavedNode : public NodeBase {
     message.header.frame_id = options_.frame_id;
     events_publisher_.publish(message);
   }
-  /// To be called after each tick.
-  void endTick() {
+  /// Runs a tick, and writes a checkpoint if it is time.
+  void runTick(std::int64_t number) {
+    {
+      const TickScope scope{in_tick_ = true};
+      tick(number);
+    }
     if (options_.replay) return;
     acceptInput("checkpoint", [this] { snapshots_.checkpointIfDue(clock_.stamp()); });
+  }
+  /// Writes a checkpoint now if the node has them: to be called after changes that no event shows.
+  void checkpointNow() {
+    if (options_.replay) return;
+    acceptInput("checkpoint", [this] { snapshots_.checkpoint(); });
   }
   /// To be called when the clock has jumped back.
   void forgetCheckpoint() {
@@ -114,19 +127,21 @@ class SavedNode : public NodeBase {
   /// Stamp of the last tick, 0 before the first.
   Nanoseconds lastStamp() const { return clock_.hasBegun() ? clock_.stamp() : 0; }
 
-  /// Begins with the newest checkpoint, if the node shall, and runs the ticks of its journal again.
-  /// Meanwhile the node is a replay. To be called before the clock runs.
+  /// Begins with the newest checkpoint, if the node shall, and repeats its journal. Meanwhile the
+  /// node is a replay. To be called before the clock runs.
   void recover() {
     if (options_.replay) return;
     acceptInput("checkpoint", [this] {
       const auto found = snapshots_.readCheckpoint();
       if (!found) return;
-      std::vector<JournalTick> ticks = snapshots_.readJournal(found->header.stamp);
+      const std::vector<JournalRecord> records = snapshots_.readJournal(*found);
       found->state.restore();
       clock_.resume(clock_.grid().tickAt(found->header.stamp));
       options_.replay = recovers_ = true;
-      for (const JournalTick& done : ticks) acceptInput("checkpoint", [&] { runAgain(done); });
+      for (const JournalRecord& record : records)
+        acceptInput("checkpoint", [&] { repeat(record); });
       options_.replay = recovers_ = false;
+      snapshots_.checkpoint();
       ROS_INFO("%s: continues from its checkpoint, after the tick at %.9f s", name_.c_str(),
                secondsBetween(0, clock_.stamp()));
     });
@@ -187,15 +202,33 @@ class SavedNode : public NodeBase {
     return {state.hash, restore};
   }
 
-  void runAgain(const JournalTick& done) {
+  struct TickScope {
+    bool& in_tick;
+    ~TickScope() { in_tick = false; }
+  };
+
+  // What a tick itself adds is in the record of the tick.
+  void keepArrival(const Event& event) {
+    if (!snapshots_.hasCheckpoints() || options_.replay || in_tick_) return;
+    acceptInput("checkpoint", [&] { snapshots_.addToJournal({0, {stored(event)}}); });
+  }
+
+  void repeat(const JournalRecord& record) {
     std::vector<Event> events;
-    for (const StoredEvent& event : done.events) {
+    for (const StoredEvent& event : record.events) {
       ReadEvent read = readEvent(event, 0);
       read.keep_input();
       events.push_back(std::move(read.event));
     }
+    if (record.stamp == 0) {
+      for (const Event& event : events) {
+        inputs_.add(event);
+        onRecovered(event);
+      }
+      return;
+    }
     recovered_ = std::move(events);
-    clock_.resume(clock_.grid().tickAt(done.stamp));
+    clock_.resume(clock_.grid().tickAt(record.stamp));
     tick(clock_.tick());
   }
 
@@ -244,6 +277,7 @@ class SavedNode : public NodeBase {
   ros::Publisher events_publisher_;
   NodeSnapshots snapshots_;
   bool recovers_{false};
+  bool in_tick_{false};
   std::vector<Event> recovered_;  // of the tick that runs again
   QueueLosses warned_;            // on the console
 };

@@ -66,6 +66,7 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   void applyCover(std::uint64_t hash);
   void resetCrowd();
   void restart() override;
+  void onRecovered(const CrowdEvent&) override { updateNextId(); }
 
   // Snapshots.
   std::uint64_t sceneHash() const override;

@@ -40,7 +40,7 @@ ForestAnimator::ForestAnimator(const ros::NodeHandle& handle, const ros::NodeHan
       tuning_(options_.tuning),
       forest_(makeForest(options_)),
       cache_(static_cast<std::size_t>(options_.cache_budget)),
-      grab_manager_({options_, *forest_, cache_, inputs_, tf_buffer_}),
+      grab_manager_({options_, *forest_, cache_, inputs_, tf_buffer_, [this] { checkpointNow(); }}),
       bodies_(handle, options_.frame_id, options_.robot.parts),
       frames_(options_.tf_budget),
       markers_(*forest_, cache_, options_.marker_points) {
@@ -151,9 +151,12 @@ void ForestAnimator::apply(ForestInput& event) {
 
 void ForestAnimator::applyInteraction(const ForestInput& event) {
   vegetation_sim::applyInteraction(event, *forest_);
-  if (event.kind == ForestInput::GRAB && recovers()) grab_manager_.addRequest(event.grab.id);
   if (event.kind == ForestInput::RELEASE)
     grab_manager_.explainEnd(event.grab.id, GrabStatus::RELEASED);
+}
+
+void ForestAnimator::onRecovered(const ForestInput& event) {
+  if (event.kind == ForestInput::GRAB) grab_manager_.addRequest(event);
 }
 
 // Bodies that have moved or appeared, and those without a recent transform.

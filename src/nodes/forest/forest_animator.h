@@ -50,6 +50,7 @@ class ForestAnimator final : public EventNode<ForestInputs, ForestAnimatorConfig
 
   // Time.
   void restart() override;
+  void onRecovered(const ForestInput& event) override;
   void resetForest();
   void tick(std::int64_t tick) override;
   void apply(ForestInput& event) override;

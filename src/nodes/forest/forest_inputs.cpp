@@ -126,6 +126,7 @@ bool ForestInputs::add(const ForestInput& input) {
   for (ForestInput& waiting : waiting_)
     if (replaces(input, waiting)) {
       waiting = input;
+      report(input);
       return true;
     }
   const bool bounded = isInteraction(input) || input.kind == ForestInput::SENSOR;

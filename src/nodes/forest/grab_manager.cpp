@@ -183,6 +183,7 @@ std::string GrabManager::grab(const Grab::Request& request, Grab::Response& resp
   checkRoom("grab", place, request.stamp);
   enqueue(event);
   requests_[++last_id_] = accepted;
+  if (!grab.frame.empty()) node_.on_change();
   response.id = last_id_;
   response.tree = place.at.tree;
   response.branch = static_cast<std::uint32_t>(place.at.branch);
@@ -254,6 +255,7 @@ std::string GrabManager::release(const Release::Request& request) {
     history_.addUnheld(id, GrabStatus::RELEASED, node_.forest.snapshot().stamp);
     requests_.erase(id);
   }
+  if (!waiting.empty()) node_.on_change();
   for (const std::uint32_t id : in_force) {
     event.grab.id = id;
     enqueue(event);

@@ -31,6 +31,8 @@ struct GrabDependencies {
   forest::TreeCache& cache;
   ForestInputs& inputs;
   const tf2_ros::Buffer& tf;
+  /// Called after changes that are in the state of GrabManager and in no event.
+  std::function<void()> on_change = [] {};
 };
 
 /// Checks requests to grab, move, release and push, and queues them as events; moves the grabs that
@@ -80,9 +82,9 @@ class GrabManager {
   /// To be called after the forest is restored.
   void restore(const State& state);
   static void archive(Archive& a, State& state);
-  /// Knows a grab of a tick that runs again, so that its holder can move it and its id is not used
-  /// again.
-  void addRequest(std::uint32_t id);
+  /// Knows a grab that waits after a restart of the node, so that its holder can move it and its id
+  /// is not used again.
+  void addRequest(const ForestInput& event);
 
   /// Forces at the last tick on everything that holds or touches a branch.
   ContactForces forces() const;

@@ -159,9 +159,9 @@ void GrabManager::restore(const State& state) {
   history_.restore(state.history, node_.forest.grabs());
 }
 
-void GrabManager::addRequest(std::uint32_t id) {
-  requests_.emplace(id, Request());
-  last_id_ = std::max(last_id_, id);
+void GrabManager::addRequest(const ForestInput& event) {
+  requests_.emplace(event.grab.id, Request{false, event.stamp, ros::Time(), false});
+  last_id_ = std::max(last_id_, event.grab.id);
 }
 
 }  // namespace vegetation_sim

@@ -74,14 +74,13 @@ void GrassField::apply(GrassEvent& event) {
 }
 
 void GrassField::applyToGround(const GrassEvent& event) {
-  if (recovers()) countPath(event);
   const std::string problem = applyToGrass(event, tuning_, *field_);
   if (!problem.empty()) refusals_.add("tread", problem);
   if (event.kind == GrassEvent::CLEAR) key_frames_.demand();
 }
 
 // A name of a path is not used again.
-void GrassField::countPath(const GrassEvent& event) {
+void GrassField::onRecovered(const GrassEvent& event) {
   if (event.kind == GrassEvent::TREAD && event.tread.source == PATH + std::to_string(paths_ + 1))
     ++paths_;
 }

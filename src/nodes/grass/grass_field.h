@@ -50,10 +50,10 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   void tick(std::int64_t tick) override;
   void apply(GrassEvent& event) override;
   void applyToGround(const GrassEvent& event);
-  void countPath(const GrassEvent& event);
   void applyTuning(GrassTuning tuning);
   void resetGround();
   void restart() override;
+  void onRecovered(const GrassEvent& event) override;
 
   // Snapshots.
   std::uint64_t sceneHash() const override;

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t LARGEST_INPUT = LARGEST_SNAPSHOT / 2;
 constexpr std::size_t MOST_EVENTS = 1u << 16;  // of a tick
-constexpr std::size_t LENGTH_BYTES = 4, SUM_BYTES = 8;
+constexpr std::size_t KEY_BYTES = 8, LENGTH_BYTES = 4, SUM_BYTES = 8;
 
 std::uint64_t checksumOf(const std::string& bytes) {
   Hash hash;
@@ -25,13 +25,13 @@ std::uint64_t checksumOf(const std::string& bytes) {
   return hash.value();
 }
 
-void archive(Archive& a, JournalTick& tick) {
-  a.stamp("tick", tick.stamp);
-  vegetation_sim::archive(a, tick.events);
+void archive(Archive& a, JournalRecord& record) {
+  a.stamp("tick", record.stamp);
+  vegetation_sim::archive(a, record.events);
 }
 
-// A record is the length of a tick, the tick and a checksum.
-std::optional<JournalTick> readRecord(const std::string& bytes, std::size_t& at) {
+// In the file, a record has its length before it and a checksum after it.
+std::optional<JournalRecord> readRecord(const std::string& bytes, std::size_t& at) {
   if (bytes.size() - at < LENGTH_BYTES) return std::nullopt;
   std::uint32_t length = 0;
   Archive head = Archive::reading(bytes.substr(at, LENGTH_BYTES));
@@ -44,7 +44,7 @@ std::optional<JournalTick> readRecord(const std::string& bytes, std::size_t& at)
   if (sum != checksumOf(body)) return std::nullopt;
   at += LENGTH_BYTES + length + SUM_BYTES;
   Archive a = Archive::reading(body);
-  JournalTick out;
+  JournalRecord out;
   archive(a, out);
   a.finish();
   return out;
@@ -66,44 +66,56 @@ EventJournal::~EventJournal() {
 void EventJournal::close() {
   if (number_ >= 0) ::close(number_);
   number_ = -1;
+  size_ = 0;
 }
 
-void EventJournal::restart() {
+void EventJournal::restart(std::uint64_t checkpoint) {
   close();
   number_ = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0644);
   if (number_ < 0) throw InvalidInput(file_ + ": cannot be written: " + std::strerror(errno));
+  Archive head;
+  head.key(checkpoint);
+  write(head.bytes());
 }
 
-void EventJournal::add(JournalTick tick) {
+void EventJournal::add(JournalRecord record) {
   if (number_ < 0) return;
   Archive body, head, end;
-  archive(body, tick);
+  archive(body, record);
   auto length = static_cast<std::uint32_t>(body.bytes().size());
   std::uint64_t sum = checksumOf(body.bytes());
   head.integer("length", length);
   end.key(sum);
-  const std::string record = head.bytes() + body.bytes() + end.bytes();
-  for (std::size_t at = 0; at < record.size();) {
-    const ssize_t written = ::write(number_, record.data() + at, record.size() - at);
+  write(head.bytes() + body.bytes() + end.bytes());
+}
+
+void EventJournal::write(const std::string& bytes) {
+  for (std::size_t at = 0; at < bytes.size();) {
+    const ssize_t written = ::write(number_, bytes.data() + at, bytes.size() - at);
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) {
       const std::string why = std::strerror(errno);
-      close();  // what follows would not continue the ticks
+      close();  // what follows would not continue the records
       throw InvalidInput(file_ + ": cannot be written: " + why);
     }
     at += static_cast<std::size_t>(written);
   }
+  size_ += bytes.size();
 }
 
-std::vector<JournalTick> EventJournal::read(Nanoseconds after) const {
-  std::vector<JournalTick> out;
+std::vector<JournalRecord> EventJournal::read(std::uint64_t checkpoint) const {
+  std::vector<JournalRecord> out;
   const std::optional<std::string> bytes = contentOf(file_, LARGEST_SNAPSHOT);
-  for (std::size_t at = 0; bytes;) {
-    std::optional<JournalTick> tick = readRecord(*bytes, at);
-    if (!tick) break;
-    if (tick->stamp > after) out.push_back(std::move(*tick));
+  if (!bytes || bytes->size() < KEY_BYTES) return out;
+  std::uint64_t found = 0;
+  Archive head = Archive::reading(bytes->substr(0, KEY_BYTES));
+  head.key(found);
+  if (found != checkpoint) return out;
+  for (std::size_t at = KEY_BYTES;;) {
+    std::optional<JournalRecord> record = readRecord(*bytes, at);
+    if (!record) return out;
+    out.push_back(std::move(*record));
   }
-  return out;
 }
 
 }  // namespace vegetation_sim

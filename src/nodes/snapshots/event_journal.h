@@ -16,15 +16,16 @@ struct StoredEvent {
 };
 void archive(Archive& a, std::vector<StoredEvent>& events);
 
-/// A tick that a node has begun, and the events that it has applied there.
-struct JournalTick {
-  Nanoseconds stamp{0};
+/// A tick that a node has begun and the events that it has applied there, or inputs that have
+/// arrived between ticks.
+struct JournalRecord {
+  Nanoseconds stamp{0};  ///< of the tick; 0: the events are inputs that wait
   std::vector<StoredEvent> events;
 };
 
-/// The ticks of a node since its last checkpoint, in a file. A tick is written when its inputs are
-/// applied, so that a node that is killed at any instant finds all complete ticks. The functions
-/// throw InvalidInput that names the file.
+/// The inputs and ticks of a node since its last checkpoint, in a file. An input is written when it
+/// arrives and a tick when its inputs are applied, so that a node that is killed at any instant
+/// finds all of them. The functions throw InvalidInput that names the file.
 class EventJournal {
  public:
   explicit EventJournal(std::string file) : file_(std::move(file)) {}
@@ -32,19 +33,23 @@ class EventJournal {
   EventJournal(const EventJournal&) = delete;
   EventJournal& operator=(const EventJournal&) = delete;
 
-  /// Forgets all ticks.
-  void restart();
-  /// Adds a tick; does nothing before the first restart().
-  void add(JournalTick tick);
-  /// Reads the ticks after a stamp, up to the first that is not complete. Without a file there are
-  /// none.
-  std::vector<JournalTick> read(Nanoseconds after) const;
+  /// Forgets all records; what follows continues the checkpoint of a key.
+  void restart(std::uint64_t checkpoint);
+  /// Adds a record; does nothing before the first restart().
+  void add(JournalRecord record);
+  /// Size of the file [bytes]; 0 before the first restart().
+  std::size_t size() const { return size_; }
+  /// Reads the records up to the first that is not complete. There are none without a file, or if
+  /// they continue another checkpoint.
+  std::vector<JournalRecord> read(std::uint64_t checkpoint) const;
 
  private:
   void close();
+  void write(const std::string& bytes);
 
   std::string file_;
   int number_{-1};  // descriptor of the open file
+  std::size_t size_{0};
 };
 
 }  // namespace vegetation_sim

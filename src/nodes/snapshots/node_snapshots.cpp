@@ -7,9 +7,22 @@
 #include <cstdio>
 #include <utility>
 
+#include "vegetation_sim/core/math/hash.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
 
 namespace vegetation_sim {
+namespace {
+
+constexpr std::size_t LARGEST_JOURNAL = 100'000'000;  // [bytes]
+
+std::uint64_t keyOf(const SnapshotFile& snapshot) {
+  Hash hash;
+  hash.add(snapshot.header.stamp);
+  hash.add(snapshot.payload);
+  return hash.value();
+}
+
+}  // namespace
 
 NodeSnapshots::NodeSnapshots(const SnapshotOptions& options, const std::string& kind,
                              const std::string& node, SnapshotCalls calls)
@@ -40,7 +53,8 @@ NodeSnapshots::Loadable NodeSnapshots::read(const std::string& name, const std::
       throw InvalidInput("scene hash = " + std::to_string(header.layout_hash) +
                          ", allowed is that of this node's scenario, " +
                          std::to_string(calls_.scene_hash()));
-    Loadable out{header, now == 0 ? 0 : now - header.stamp, calls_.read(file.payload, 0)};
+    Loadable out{header, now == 0 ? 0 : now - header.stamp, calls_.read(file.payload, 0),
+                 keyOf(file)};
     if (out.state.hash != header.state_hash)
       throw InvalidInput("the state has the hash " + std::to_string(out.state.hash) +
                          ", allowed is that of the header, " + std::to_string(header.state_hash));
@@ -77,7 +91,12 @@ void NodeSnapshots::checkpoint() {
   const SnapshotFile snapshot = calls_.save();
   last_ = snapshot.header.stamp;  // also if it fails, so that it is tried again after the period
   store_.write(CHECKPOINT, snapshot, false);
-  journal_.restart();
+  journal_.restart(keyOf(snapshot));
+}
+
+void NodeSnapshots::addToJournal(JournalRecord record) {
+  journal_.add(std::move(record));
+  if (journal_.size() > LARGEST_JOURNAL) checkpoint();
 }
 
 // The snapshot goes first: without it the journal counts for nothing.

@@ -32,7 +32,7 @@ struct SnapshotCalls {
 };
 
 /// Snapshots and checkpoints of a node. A checkpoint is the snapshot of the name CHECKPOINT, with a
-/// journal of the ticks after it.
+/// journal of the inputs and ticks after it.
 class NodeSnapshots {
  public:
   static constexpr const char* CHECKPOINT = "checkpoint";
@@ -49,6 +49,7 @@ class NodeSnapshots {
     SnapshotHeader header;
     Nanoseconds shift{0};
     CheckedState state;
+    std::uint64_t key{0};  ///< of this file, for its journal
   };
   /// Reads a file and checks all of it. @param node whose file it is; empty: this one. @param now
   /// stamp at which the state is to continue; 0: its own. @throws InvalidInput that names the file.
@@ -68,11 +69,15 @@ class NodeSnapshots {
   void checkpoint();
   /// Removes the checkpoint, whose ticks are no past of what follows.
   void dropCheckpoint();
-  /// Adds a tick to the journal of the checkpoint.
-  void addToJournal(JournalTick tick) { journal_.add(std::move(tick)); }
+  /// Adds a record to the journal of the checkpoint. A journal that grows large is replaced by a new
+  /// checkpoint.
+  void addToJournal(JournalRecord record);
   /// Returns the checkpoint with which the node begins, if it shall and there is one.
   std::optional<Loadable> readCheckpoint() const;
-  std::vector<JournalTick> readJournal(Nanoseconds after) const { return journal_.read(after); }
+  /// Returns what has happened after a checkpoint.
+  std::vector<JournalRecord> readJournal(const Loadable& checkpoint) const {
+    return journal_.read(checkpoint.key);
+  }
 
  private:
   bool begins_with_checkpoint_;

@@ -15,7 +15,6 @@ class CanopySnapshot(SnapshotCase):
     PROGRAM = 'canopy_animator'
     SCENE, OTHER_SCENE = 'garden', 'grove'
     TOPICS = 'wind', 'viewer'
-    BUSY = 3, 10, 30, 40, 70, 90
 
     def make_client(self, name, namespace):
         return Leaves(name, namespace)

@@ -31,7 +31,6 @@ class CrowdSnapshot(SnapshotCase):
     PROGRAM = 'agent_crowd'
     SCENE, OTHER_SCENE = 'crowd', 'garden'
     TOPICS = 'grass/cover/resistance',
-    BUSY = 5, 10, 20, 30, 50, 75, 101, 110
 
     def make_client(self, name, namespace):
         return Crowd(name, namespace)

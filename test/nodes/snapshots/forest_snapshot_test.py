@@ -20,7 +20,6 @@ class ForestSnapshot(SnapshotCase):
     PROGRAM = 'forest_animator'
     SCENE, OTHER_SCENE = 'garden', 'clearing'
     TOPICS = 'wind', 'forest/sensors'
-    BUSY = 3, 10, 15, 25, 28, 30, 40, 50, 70, 90, 110, 112, 115
 
     def make_client(self, name, namespace):
         return Animator(name, namespace)

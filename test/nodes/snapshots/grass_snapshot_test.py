@@ -21,7 +21,6 @@ class GrassSnapshot(SnapshotCase):
     PROGRAM = 'grass_field'
     SCENE, OTHER_SCENE = 'garden', 'lawn'
     TOPICS = 'tread',
-    BUSY = list(range(0, 90, 4)) + [30, 50, 110, 112]
 
     def make_client(self, name, namespace):
         return Meadow(name, namespace)

@@ -45,7 +45,6 @@ class WindSnapshot(SnapshotCase):
     PROGRAM = 'wind_broadcaster'
     SCENE, OTHER_SCENE = 'garden', 'clearing'
     HASHES = 2
-    BUSY = 5, 45, 70
 
     def make_client(self, name, _):
         return Air(name)
