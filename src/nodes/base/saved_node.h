@@ -139,7 +139,7 @@ class SavedNode : public NodeBase {
       clock_.resume(clock_.grid().tickAt(found->header.stamp));
       options_.replay = recovers_ = true;
       for (const JournalRecord& record : records)
-        acceptInput("checkpoint", [&] { repeat(record); });
+        acceptInput("checkpoint", [&] { repeatRecord(record); });
       options_.replay = recovers_ = false;
       snapshots_.checkpoint();
       ROS_INFO("%s: continues from its checkpoint, after the tick at %.9f s", name_.c_str(),
@@ -213,7 +213,7 @@ class SavedNode : public NodeBase {
     acceptInput("checkpoint", [&] { snapshots_.addToJournal({0, {stored(event)}}); });
   }
 
-  void repeat(const JournalRecord& record) {
+  void repeatRecord(const JournalRecord& record) {
     std::vector<Event> events;
     for (const StoredEvent& event : record.events) {
       ReadEvent read = readEvent(event, 0);

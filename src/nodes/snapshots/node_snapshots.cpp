@@ -17,7 +17,7 @@ constexpr std::size_t LARGEST_JOURNAL = 100'000'000;  // [bytes]
 
 std::uint64_t keyOf(const SnapshotFile& snapshot) {
   Hash hash;
-  hash.add(snapshot.header.stamp);
+  hash.add(static_cast<std::uint64_t>(snapshot.header.stamp));
   hash.add(snapshot.payload);
   return hash.value();
 }
