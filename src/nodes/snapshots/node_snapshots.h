@@ -69,8 +69,8 @@ class NodeSnapshots {
   void checkpoint();
   /// Removes the checkpoint, whose ticks are no past of what follows.
   void dropCheckpoint();
-  /// Adds a record to the journal of the checkpoint. A journal that grows large is replaced by a new
-  /// checkpoint.
+  /// Adds a record to the journal of the checkpoint. A journal that grows large is replaced by a
+  /// new checkpoint.
   void addToJournal(JournalRecord record);
   /// Returns the checkpoint with which the node begins, if it shall and there is one.
   std::optional<Loadable> readCheckpoint() const;
