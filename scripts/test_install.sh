@@ -59,7 +59,7 @@ mkdir -p "$WORK/taken/model.sdf"
 # The examples are built as other packages would be.
 for example in "$ROOT"/examples/*/; do
   name=$(basename "$example")
-  { cmake -S "$example" -B "$WORK/$name" -DCMAKE_PREFIX_PATH="$INSTALLED" \
+  { cmake -G Ninja -S "$example" -B "$WORK/$name" -DCMAKE_PREFIX_PATH="$INSTALLED" \
     -DPYTHON_EXECUTABLE=/usr/bin/python3 && cmake --build "$WORK/$name"; } >"$WORK/example.log" 2>&1 ||
     fail "the example $name: $(tail -n 20 "$WORK/example.log")"
 done
