@@ -126,7 +126,10 @@ class SnapshotCase(unittest.TestCase):
         was killed, and then it does not publish the state again."""
         def is_done():
             self.clock.show(START + tick)
-            return node.save('probe').stamp == self.stamp_of(tick)
+            try:
+                return node.save('probe').stamp == self.stamp_of(tick)
+            except rospy.ServiceException:  # the node starts
+                return False
         wait_for(is_done, 'tick %d' % tick)
         return {tick: node.state_hash()} if tick % EVERY == 0 else {}
 
