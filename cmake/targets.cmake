@@ -79,7 +79,7 @@ if(with_rviz)
   compile_by_folder(${PROJECT_NAME}_rviz ${rviz_sources})
   target_compile_definitions(${PROJECT_NAME}_rviz PRIVATE QT_NO_KEYWORDS)
   target_link_libraries(${PROJECT_NAME}_rviz
-    PUBLIC ${PROJECT_NAME}_ros Qt5::Widgets PRIVATE OpenGL::GL)
+    PUBLIC ${PROJECT_NAME}_ros ${qt_widgets} PRIVATE OpenGL::GL)
   set_target_properties(${PROJECT_NAME}_rviz PROPERTIES AUTOMOC ON)
   target_precompile_headers(${PROJECT_NAME}_rviz PRIVATE ${rviz_headers})
   # The library stays loaded after rviz unloads it: a pending service call may still return into it.

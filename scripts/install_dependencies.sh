@@ -27,7 +27,7 @@ COMMON=(
   procps python3-matplotlib python3-numpy python3-pil
 )
 # These packages compile the displays, give the demo a virtual display and take screenshots.
-DISPLAY_COMMON=(imagemagick libgl-dev libgl1-mesa-dri libopengl-dev qtbase5-dev xdotool xvfb)
+DISPLAY_COMMON=(imagemagick libgl-dev libgl1-mesa-dri libopengl-dev xdotool xvfb)
 DEBIAN=(
   # These packages compile the code.
   catkin python3-catkin-pkg ros-core-dev libroscpp-dev libtf2-ros-dev libsensor-msgs-dev liburdf-dev
@@ -41,6 +41,9 @@ DEBIAN=(
   python3-std-srvs python3-tf2-msgs python3-visualization-msgs
 )
 DISPLAY_DEBIAN=(librviz-dev rviz)
+# Debian 13 builds rviz with Qt 6 and does not install the plugin that draws its icons.
+QT5=(qtbase5-dev)
+QT6=(qt6-base-dev qt6-svg-plugins)
 NOETIC=(
   catkin diagnostic-msgs diagnostic-updater dynamic-reconfigure geometry-msgs message-generation
   nav-msgs nodelet pluginlib rosbag rosbash roscpp rosgraph-msgs roslaunch roslib
@@ -59,13 +62,17 @@ if [ -e "$OS_RELEASE" ]; then
   # shellcheck disable=SC1090
   name=$(. "$OS_RELEASE" && echo "${PRETTY_NAME:-$system}")
 fi
-packages=("${COMMON[@]}") display=("${DISPLAY_COMMON[@]}" "${DISPLAY_DEBIAN[@]}")
+packages=("${COMMON[@]}") display=("${DISPLAY_COMMON[@]}" "${DISPLAY_DEBIAN[@]}" "${QT5[@]}")
 case $system in
   'debian bullseye') packages+=("${DEBIAN[@]}") ;;  # without Highway: CMake fetches it
-  'debian bookworm' | 'debian trixie') packages+=("${DEBIAN[@]}" libhwy-dev) ;;
+  'debian bookworm') packages+=("${DEBIAN[@]}" libhwy-dev) ;;
+  'debian trixie')
+    packages+=("${DEBIAN[@]}" libhwy-dev)
+    display=("${DISPLAY_COMMON[@]}" "${DISPLAY_DEBIAN[@]}" "${QT6[@]}")
+    ;;
   'ubuntu focal')
     packages+=("${NOETIC[@]/#/ros-noetic-}")
-    display=("${DISPLAY_COMMON[@]}" "${DISPLAY_NOETIC[@]}")
+    display=("${DISPLAY_COMMON[@]}" "${DISPLAY_NOETIC[@]}" "${QT5[@]}")
     ;;
   *) fail "$name is not supported: Debian 11, 12 and 13 and Ubuntu 20.04 are. Elsewhere install the packages in docs/dependencies.md and run scripts/build.sh." ;;
 esac

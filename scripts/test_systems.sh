@@ -34,14 +34,16 @@ expect_error() {
   grep -qF -- "$1" <<<"$error" || fail "$3 ${*:4}: the error '$error' does not contain '$1'"
 }
 
-display='libgl-dev libgl1-mesa-dri libopengl-dev qtbase5-dev xdotool xvfb'
-expect_packages debian bullseye "g++ rviz librviz-dev $display" 'libhwy-dev catkin-lint'
+display='libgl-dev libgl1-mesa-dri libopengl-dev xdotool xvfb'
+expect_packages debian bullseye "g++ rviz librviz-dev qtbase5-dev $display" 'libhwy-dev catkin-lint'
 for release in bookworm trixie; do
   expect_packages debian $release "g++ libhwy-dev rviz librviz-dev $display" catkin-lint
   expect_packages debian $release 'g++ libhwy-dev libroscpp-dev' "rviz librviz-dev $display" --no-display
 done
-expect_packages debian bookworm 'rviz catkin-lint clang-tidy' '' --checks
-expect_packages ubuntu focal "ros-noetic-roscpp ros-noetic-rviz $display" 'rviz libroscpp-dev libhwy-dev'
+expect_packages debian bookworm 'rviz qtbase5-dev catkin-lint clang-tidy' '' --checks
+expect_packages debian trixie 'qt6-base-dev qt6-svg-plugins' qtbase5-dev
+expect_packages debian trixie '' qt6-base-dev --no-display
+expect_packages ubuntu focal "ros-noetic-roscpp ros-noetic-rviz qtbase5-dev $display" 'rviz libroscpp-dev libhwy-dev'
 expect_packages ubuntu focal ros-noetic-roscpp "ros-noetic-rviz $display" --no-display
 
 expect_error 'The system fedora 40 is not supported' fedora 40
