@@ -18,7 +18,7 @@ if(${PROJECT_NAME}_FUZZ)
   # Of the nodes only what the targets call, since sanitizers make compiling slow.
   target_sources(fuzz_targets PRIVATE src/nodes/base/event_queue.cpp src/nodes/base/node_options.cpp
     src/nodes/canopy/canopy_options.cpp src/nodes/forest/forest_inputs.cpp
-    src/nodes/forest/robot_bodies_parts.cpp src/nodes/grass/grass_options.cpp)
+    src/nodes/forest/frames/robot_bodies_parts.cpp src/nodes/grass/grass_options.cpp)
   target_link_libraries(fuzz_targets PUBLIC ${PROJECT_NAME}_ros PNG::PNG)
   # One instruction set suffices: all give the same bits.
   file(GLOB_RECURSE highway_sources src/*.cpp)

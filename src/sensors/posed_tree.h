@@ -31,7 +31,8 @@ class PosedTree {
 
   std::uint32_t id() const { return id_; }
   const Vec3& foot() const { return tree_.foot; }  ///< world [m]
-  std::size_t branches() const { return rods_.size(); }
+  /// Number of branches.
+  std::size_t parts() const { return rods_.size(); }
   Box bounds() const { return rod_tree_.bounds(); }
   const std::vector<Rod>& rods() const { return rods_; }
 

@@ -34,17 +34,17 @@ void Trees::update(const forest::ForestReplica& forest, const Vec3& centre, doub
 
 void Trees::update(const forest::ForestReplica& forest, const Vec3& centre, double radius,
                    Nanoseconds stamp, ThreadPool& threads) {
-  std::map<std::uint32_t, std::shared_ptr<PosedTree>> known;
-  if (layout_hash_ == forest.layoutHash())
-    for (auto& tree : trees_) known[tree->id()] = std::move(tree);
-  else
+  auto known = trees_.take();
+  if (layout_hash_ != forest.layoutHash()) {
+    known.clear();
     sizes_.clear();
+  }
   layout_hash_ = forest.layoutHash();
-  trees_.clear();
+  std::vector<std::shared_ptr<PosedTree>> trees;
   branches_ = 0;
   const std::vector<std::uint32_t> near = nearestFirst(forest, centre, radius);
-  const auto fits = [this](std::size_t more) {
-    return trees_.empty() || branches_ + more <= most_branches_;
+  const auto fits = [&](std::size_t more) {
+    return trees.empty() || branches_ + more <= most_branches_;
   };
   for (const std::uint32_t id : near) {
     std::shared_ptr<PosedTree>& tree = known[id];
@@ -53,54 +53,21 @@ void Trees::update(const forest::ForestReplica& forest, const Vec3& centre, doub
       tree = std::make_shared<PosedTree>(forest, id);
       ++grown_;
     }
-    if (!fits(tree->branches())) {
-      sizes_[id] = tree->branches();
+    if (!fits(tree->parts())) {
+      sizes_[id] = tree->parts();
       break;
     }
-    branches_ += tree->branches();
-    trees_.push_back(std::move(tree));
+    branches_ += tree->parts();
+    trees.push_back(std::move(tree));
   }
-  left_out_ = near.size() - trees_.size();
+  left_out_ = near.size() - trees.size();
   const wind::Instant wind = forest.wind().at(stamp);
   const std::size_t parts = threads.size();
   threads.run(parts, [&](std::size_t first) {
-    for (std::size_t i = first; i < trees_.size(); i += parts)
-      trees_[i]->follow(forest, stamp, wind);
+    for (std::size_t i = first; i < trees.size(); i += parts)
+      trees[i]->follow(forest, stamp, wind);
   });
-  fitBoxes(centre);
-}
-
-void Trees::fitBoxes(const Vec3& origin) {
-  origin_ = origin;
-  std::vector<Box> items;
-  items.reserve(trees_.size());
-  first_ranks_.clear();
-  std::uint64_t rank = 1;
-  Box all;
-  for (const auto& tree : trees_) {
-    const Box box = tree->bounds();
-    items.push_back({box.low - origin, box.high - origin});
-    all.add(items.back());
-    first_ranks_.push_back(rank);
-    rank += tree->branches();
-  }
-  extent_ = extentOf(all);
-  boxes_.build(items);
-  std::vector<FloatBox> groups;
-  for (int group = 0; group < boxes_.groups(); ++group)
-    groups.push_back(enclose(items[static_cast<std::size_t>(boxes_.item(group, 0))]));
-  boxes_.fit(groups);
-}
-
-void Trees::meet(const Ray& ray, const FloatRay& narrow, Hit& nearest) const {
-  if (trees_.empty()) return;
-  RankedHit ranked(nearest);
-  WideWalk walk(boxes_, ray, narrow, origin_, extent_, nearest.distance);
-  for (int group = nextGroup(walk); group >= 0; group = nextGroup(walk)) {
-    const auto tree = static_cast<std::size_t>(boxes_.item(group, 0));
-    trees_[tree]->meet(ray, narrow, first_ranks_[tree], ranked);
-    walk.limit = limitOf(nearest.distance);
-  }
+  trees_.set(std::move(trees), centre);
 }
 
 }  // namespace vegetation_sim::scan

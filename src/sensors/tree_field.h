@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/threads/thread_pool.h"
+#include "sensors/geometry/posed_set.h"
 #include "sensors/posed_tree.h"
 
 namespace vegetation_sim::scan {
@@ -29,10 +30,12 @@ class Trees {
 
   /// Replaces `nearest` by a nearer hit on wood or leaves. Of hits at equal distances that on the
   /// tree that comes first in all(), there on the branch of the lowest index, counts.
-  void meet(const Ray& ray, const FloatRay& narrow, Hit& nearest) const;
+  void meet(const Ray& ray, const FloatRay& narrow, Hit& nearest) const {
+    trees_.meet(ray, narrow, nearest);
+  }
   void meet(const Ray& ray, Hit& nearest) const { meet(ray, FloatRay(ray), nearest); }
 
-  const std::vector<std::shared_ptr<PosedTree>>& all() const { return trees_; }
+  const std::vector<std::shared_ptr<PosedTree>>& all() const { return trees_.all(); }
   std::size_t branches() const { return branches_; }
   /// Returns the number of trees that exceeded the limit in the last update().
   std::size_t leftOut() const { return left_out_; }
@@ -40,18 +43,12 @@ class Trees {
   std::uint64_t grown() const { return grown_; }
 
  private:
-  void fitBoxes(const Vec3& origin);
-
   std::size_t most_branches_;
   std::uint64_t layout_hash_{0};
-  std::vector<std::shared_ptr<PosedTree>> trees_;  ///< nearest first
-  std::map<std::uint32_t, std::size_t> sizes_;     ///< branches of trees that exceeded the limit
+  PosedSet<PosedTree> trees_;                   ///< nearest first
+  std::map<std::uint32_t, std::size_t> sizes_;  ///< branches of trees that exceeded the limit
   std::size_t branches_{0}, left_out_{0};
   std::uint64_t grown_{0};
-  std::vector<std::uint64_t> first_ranks_;  ///< of each tree's branches
-  WideTree boxes_{1};                       ///< of the trees
-  Vec3 origin_{Vec3::Zero()};               ///< of boxes_, world [m]
-  double extent_{0.0};                      ///< of boxes_ [m]
 };
 
 }  // namespace vegetation_sim::scan

@@ -53,6 +53,7 @@ void CanopyAnimator::apply(CanopyEvent& event) {
     case CanopyEvent::VIEWER:
       canopy_.setViewer(event.gone ? std::nullopt
                                    : std::optional<canopy::CutView>(eyeFromMsg(event.eye)));
+      if (event.gone && recovers()) viewer_.reset();
       break;
     case CanopyEvent::WIND:
       canopy_.setWind(windOf(event.wind_hash));

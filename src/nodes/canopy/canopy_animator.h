@@ -48,6 +48,7 @@ class CanopyAnimator final
   /// A wind received lately, or calm. @throws InvalidInput for any other hash.
   wind::Field windOf(std::uint64_t hash) const;
   void restart() override;
+  void onRecovered(const CanopyEvent& event) override;
 
   // Snapshots.
   std::uint64_t sceneHash() const override;

@@ -69,12 +69,17 @@ void CanopyAnimator::onViewer(const Viewer& message) {
     fromMsg(message);  // checks it
     CanopyEvent event;
     event.kind = CanopyEvent::VIEWER;
+    event.viewer = message.id;
     event.eye = toMsg(compose(poseOf(message.header.frame_id), fromMsg(message.pose)));
     event.eye = eyeToMsg(eyeFromMsg(event.eye));
     inputs_.forget([](const CanopyEvent& e) { return e.kind == CanopyEvent::VIEWER; });
     inputs_.add(event);
     viewer_ = Seen{message.id, lastStamp()};
   });
+}
+
+void CanopyAnimator::onRecovered(const CanopyEvent& event) {
+  if (event.kind == CanopyEvent::VIEWER) viewer_ = Seen{event.viewer, lastStamp()};
 }
 
 void CanopyAnimator::forgetViewer() {

@@ -9,7 +9,7 @@ namespace {
 
 std::vector<Box> boxesOf(const PosedTree& tree) {
   std::vector<Box> out;
-  for (std::size_t i = 0; i < tree.branches(); ++i) {
+  for (std::size_t i = 0; i < tree.parts(); ++i) {
     const Rod& rod = tree.rods()[i];
     out.push_back(boxOf(rod));
     out.back().add(rod.base, tree.leafRadii()[i]);

@@ -27,7 +27,7 @@ void meetBranchPlainly(const PosedTree& tree, std::size_t i, const Ray& ray, Hit
 
 void meetEachBranch(const Trees& trees, const Ray& ray, Hit& nearest) {
   for (const auto& tree : trees.all())
-    for (std::size_t i = 0; i < tree->branches(); ++i) meetBranchPlainly(*tree, i, ray, nearest);
+    for (std::size_t i = 0; i < tree->parts(); ++i) meetBranchPlainly(*tree, i, ray, nearest);
 }
 
 void meetEachPlant(const Plants& plants, const Ray& ray, Hit& nearest) {

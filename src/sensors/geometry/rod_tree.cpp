@@ -36,8 +36,6 @@ void RodTree::build(const std::vector<Rod>& rods, const std::vector<double>& rad
 
 void RodTree::fit(const std::vector<Rod>& rods, const std::vector<double>& radii,
                   const Vec3& origin) {
-  origin_ = origin;
-  Box all;
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     RodGroup& group = groups_[g];
     group.count = tree_.size(static_cast<int>(g));
@@ -55,13 +53,9 @@ void RodTree::fit(const std::vector<Rod>& rods, const std::vector<double>& radii
       box.add(base, reach);
       box.add(base + way, reach);
     }
-    boxes_[g] = enclose(box);
-    all.add(box);
+    boxes_[g] = box;
   }
-  tree_.fit(boxes_);
-  extent_ = extentOf(all);
-  bounds_ = Box();
-  if (!all.isEmpty()) bounds_ = {all.low + origin, all.high + origin};
+  tree_.fit(boxes_, origin);
 }
 
 }  // namespace vegetation_sim::scan

@@ -19,12 +19,12 @@ class RodTree {
   /// @param origin place near the rods; those that are nearer have smaller errors of rounding.
   void fit(const std::vector<Rod>& rods, const std::vector<double>& radii, const Vec3& origin);
   /// Returns the box of all rods with their radii.
-  const Box& bounds() const { return bounds_; }
+  const Box& bounds() const { return tree_.bounds(); }
 
   /// Calls meet(rod), which may reduce `nearest`, for each rod that a ray may hit; near ones first.
   template <class Meet>
   void visit(const Ray& ray, const FloatRay& narrow, const Hit& nearest, Meet&& meet) const {
-    WideWalk walk(tree_, ray, narrow, origin_, extent_, nearest.distance, groups_.data());
+    WideWalk walk(tree_, ray, narrow, nearest.distance, groups_.data());
     for (RodCandidates next = nextRods(walk); next.lanes != 0; next = nextRods(walk)) {
       for (int i = 0; next.lanes >> i != 0; ++i)
         if ((next.lanes >> i & 1U) != 0) meet(static_cast<std::size_t>(tree_.item(next.group, i)));
@@ -35,10 +35,7 @@ class RodTree {
  private:
   WideTree tree_{WideNode::WIDTH};
   std::vector<RodGroup> groups_;
-  std::vector<FloatBox> boxes_;  ///< scratch of fit()
-  Vec3 origin_{Vec3::Zero()};
-  double extent_{0.0};  ///< largest sum of the coordinates' magnitudes, relative to the origin [m]
-  Box bounds_;
+  std::vector<Box> boxes_;  ///< scratch of fit()
 };
 
 }  // namespace vegetation_sim::scan

@@ -14,21 +14,14 @@ void StripTree::build(const std::vector<Strip>& strips, const Vec3& origin) {
 }
 
 void StripTree::fit(const std::vector<Strip>& strips, const Vec3& origin) {
-  origin_ = origin;
-  Box all;
   for (int group = 0; group < tree_.groups(); ++group) {
-    Box box;
+    Box& box = boxes_[static_cast<std::size_t>(group)] = Box();
     for (int i = 0; i < tree_.size(group); ++i)
       box.add(boxOf(strips[static_cast<std::size_t>(tree_.item(group, i))]));
     box.low -= origin;
     box.high -= origin;
-    boxes_[static_cast<std::size_t>(group)] = enclose(box);
-    all.add(box);
   }
-  tree_.fit(boxes_);
-  extent_ = extentOf(all);
-  bounds_ = Box();
-  if (!all.isEmpty()) bounds_ = {all.low + origin, all.high + origin};
+  tree_.fit(boxes_, origin);
 }
 
 }  // namespace vegetation_sim::scan

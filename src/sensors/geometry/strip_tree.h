@@ -18,13 +18,13 @@ class StripTree {
   /// @param origin place near the strips; those that are nearer have smaller errors of rounding.
   void fit(const std::vector<Strip>& strips, const Vec3& origin);
   /// Returns the box of all strips.
-  const Box& bounds() const { return bounds_; }
+  const Box& bounds() const { return tree_.bounds(); }
 
   /// Calls meet(strip), which may reduce `nearest`, for each strip that a ray may hit; near ones
   /// first.
   template <class Meet>
   void visit(const Ray& ray, const FloatRay& narrow, const Hit& nearest, Meet&& meet) const {
-    WideWalk walk(tree_, ray, narrow, origin_, extent_, nearest.distance);
+    WideWalk walk(tree_, ray, narrow, nearest.distance);
     for (int group = nextGroup(walk); group >= 0; group = nextGroup(walk)) {
       for (int i = 0; i < tree_.size(group); ++i)
         meet(static_cast<std::size_t>(tree_.item(group, i)));
@@ -34,10 +34,7 @@ class StripTree {
 
  private:
   WideTree tree_{2};
-  std::vector<FloatBox> boxes_;  ///< of the groups
-  Vec3 origin_{Vec3::Zero()};
-  double extent_{0.0};  ///< largest sum of the coordinates' magnitudes, relative to the origin [m]
-  Box bounds_;
+  std::vector<Box> boxes_;  ///< of the groups
 };
 
 }  // namespace vegetation_sim::scan

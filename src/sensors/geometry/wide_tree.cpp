@@ -200,14 +200,20 @@ int WideTree::splitInMiddle(const Range& range, int axis) {
   return half;
 }
 
-void WideTree::fit(const std::vector<FloatBox>& groups) {
+void WideTree::fit(const std::vector<Box>& groups, const Vec3& origin) {
+  Box all;
+  for (const Box& group : groups) all.add(group);
+  origin_ = origin;
+  extent_ = extentOf(all);
+  bounds_ = Box();
+  if (!all.isEmpty()) bounds_ = {all.low + origin, all.high + origin};
   for (std::size_t i = nodes_.size(); i-- > 0;)
     for (int slot = 0; slot < WideNode::WIDTH; ++slot) {
       const std::int32_t child = nodes_[i].child[slot];
       if (child >= 0)
         nodes_[i].set(slot, nodes_[at(child)].box());
       else if (child != WideNode::EMPTY)
-        nodes_[i].set(slot, groups[at(~child)]);
+        nodes_[i].set(slot, enclose(groups[at(~child)]));
     }
 }
 

@@ -45,14 +45,20 @@ class WideTree {
   explicit WideTree(int group) : group_(group) {}
 
   void build(const std::vector<Box>& items);
-  /// Sets the boxes of all groups. [groups()]
-  void fit(const std::vector<FloatBox>& groups);
+  /// Sets the boxes of all groups, which are relative to `origin`. [groups()]
+  /// @param origin place near the items [m]; those that are nearer have smaller errors of rounding.
+  void fit(const std::vector<Box>& groups, const Vec3& origin);
 
   int groups() const { return static_cast<int>(starts_.size()) - 1; }
   /// Returns the number of items of a group, which are item(group, 0) and so on.
   int size(int group) const { return starts_[at(group) + 1] - starts_[at(group)]; }
   int item(int group, int i) const { return order_[at(starts_[at(group)] + i)]; }
   const std::vector<WideNode>& nodes() const { return nodes_; }
+  const Vec3& origin() const { return origin_; }
+  /// Returns the largest sum of the coordinates' magnitudes of an item, relative to origin() [m].
+  double extent() const { return extent_; }
+  /// Returns the box of all items.
+  const Box& bounds() const { return bounds_; }
 
   /// Largest number of children that wait while a ray is led through the tree.
   static constexpr int MOST_WAITING = 512;
@@ -73,6 +79,9 @@ class WideTree {
   std::vector<int> starts_{0};  ///< of the groups in order_, and its end
   std::vector<WideNode> nodes_;
   std::vector<Box> boxes_;  ///< scratch of build()
+  Vec3 origin_{Vec3::Zero()};
+  double extent_{0.0};
+  Box bounds_;
 };
 
 }  // namespace vegetation_sim::scan

@@ -208,11 +208,11 @@ float limitOf(double distance) {
   return static_cast<float>(distance * (1.0 + 0x1p-20) + 1e-6);
 }
 
-WideWalk::WideWalk(const WideTree& tree, const Ray& wide, const FloatRay& narrow,
-                   const Vec3& tree_origin, double extent, double distance, const RodGroup* rods)
+WideWalk::WideWalk(const WideTree& tree, const Ray& wide, const FloatRay& narrow, double distance,
+                   const RodGroup* rods)
     : nodes(tree.nodes().data()), groups(rods), ray(&narrow), limit(limitOf(distance)) {
-  const Vec3 from = wide.origin - tree_origin;
-  margin = static_cast<float>(narrow.slack * (from.cwiseAbs().sum() + extent));
+  const Vec3 from = wide.origin - tree.origin();
+  margin = static_cast<float>(narrow.slack * (from.cwiseAbs().sum() + tree.extent()));
   for (int i = 0; i < 3; ++i) {
     origin[i] = static_cast<float>(from[i]);
     const float towards = narrow.inverse[i] < 0.f ? -margin : margin;

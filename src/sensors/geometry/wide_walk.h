@@ -36,9 +36,8 @@ struct alignas(64) RodGroup {
 
 /// A ray on its way through a tree; the nearest box is visited first.
 struct WideWalk {
-  /// @param extent largest sum of the coordinates' magnitudes of an item, relative to `origin`.
-  WideWalk(const WideTree& tree, const Ray& ray, const FloatRay& narrow, const Vec3& origin,
-           double extent, double distance, const RodGroup* groups = nullptr);
+  WideWalk(const WideTree& tree, const Ray& ray, const FloatRay& narrow, double distance,
+           const RodGroup* groups = nullptr);
 
   struct Waiting {
     float entry;

@@ -3,7 +3,6 @@
 #include "sensors/plants/plant_field.h"
 
 #include <algorithm>
-#include <map>
 #include <utility>
 
 namespace vegetation_sim::scan {
@@ -43,58 +42,21 @@ void Plants::choose(const canopy::Layout& layout, const Vec3& centre, double rad
 void Plants::update(const canopy::Layout& layout, std::uint64_t layout_hash,
                     const canopy::Foliage& foliage, const Vec3& centre, double radius,
                     ThreadPool& threads) {
-  std::map<std::uint32_t, std::shared_ptr<PosedPlant>> known;
-  if (layout_hash_ == layout_hash)
-    for (auto& plant : plants_) known[plant->id()] = std::move(plant);
+  auto known = plants_.take();
+  if (layout_hash_ != layout_hash) known.clear();
   layout_hash_ = layout_hash;
   std::vector<std::uint32_t> chosen;
   choose(layout, centre, radius, chosen);
-  plants_.assign(chosen.size(), nullptr);
-  for (std::size_t i = 0; i < chosen.size(); ++i)
-    if (const auto found = known.find(chosen[i]); found != known.end()) plants_[i] = found->second;
+  std::vector<std::shared_ptr<PosedPlant>> plants;
+  for (const std::uint32_t id : chosen) plants.push_back(std::move(known[id]));
   const std::size_t parts = threads.size();
   threads.run(parts, [&](std::size_t first) {
     for (std::size_t i = first; i < chosen.size(); i += parts) {
-      if (!plants_[i]) plants_[i] = std::make_shared<PosedPlant>(layout, chosen[i]);
-      plants_[i]->pose(foliage);
+      if (!plants[i]) plants[i] = std::make_shared<PosedPlant>(layout, chosen[i]);
+      plants[i]->pose(foliage);
     }
   });
-  fitBoxes(centre);
-}
-
-void Plants::fitBoxes(const Vec3& origin) {
-  origin_ = origin;
-  std::vector<Box> items;
-  items.reserve(plants_.size());
-  first_ranks_.clear();
-  std::uint64_t rank = 1;
-  Box all;
-  for (const auto& plant : plants_) {
-    Box box = plant->bounds();
-    // A plant without leaves and stems is a point, which rays may enter and find empty.
-    if (box.isEmpty()) box.add(origin, 0.0);
-    items.push_back({box.low - origin, box.high - origin});
-    all.add(items.back());
-    first_ranks_.push_back(rank);
-    rank += plant->parts();
-  }
-  extent_ = extentOf(all);
-  boxes_.build(items);
-  std::vector<FloatBox> groups;
-  for (int group = 0; group < boxes_.groups(); ++group)
-    groups.push_back(enclose(items[static_cast<std::size_t>(boxes_.item(group, 0))]));
-  boxes_.fit(groups);
-}
-
-void Plants::meet(const Ray& ray, const FloatRay& narrow, Hit& nearest) const {
-  if (plants_.empty()) return;
-  RankedHit ranked(nearest);
-  WideWalk walk(boxes_, ray, narrow, origin_, extent_, nearest.distance);
-  for (int group = nextGroup(walk); group >= 0; group = nextGroup(walk)) {
-    const auto plant = static_cast<std::size_t>(boxes_.item(group, 0));
-    plants_[plant]->meet(ray, narrow, first_ranks_[plant], ranked);
-    walk.limit = limitOf(nearest.distance);
-  }
+  plants_.set(std::move(plants), centre);
 }
 
 }  // namespace vegetation_sim::scan

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/threads/thread_pool.h"
+#include "sensors/geometry/posed_set.h"
 #include "sensors/plants/posed_plant.h"
 
 namespace vegetation_sim::scan {
@@ -27,9 +28,11 @@ class Plants {
 
   /// Replaces `nearest` by a nearer hit on a leaf or stem. Of hits at equal distances that on the
   /// plant that comes first in all(), there that on the part that comes first, counts.
-  void meet(const Ray& ray, const FloatRay& narrow, Hit& nearest) const;
+  void meet(const Ray& ray, const FloatRay& narrow, Hit& nearest) const {
+    plants_.meet(ray, narrow, nearest);
+  }
 
-  const std::vector<std::shared_ptr<PosedPlant>>& all() const { return plants_; }
+  const std::vector<std::shared_ptr<PosedPlant>>& all() const { return plants_.all(); }
   /// Returns the number of leaves and faces.
   std::size_t leaves() const { return leaves_; }
   /// Returns the number of plants that exceeded the limit in the last update().
@@ -38,16 +41,11 @@ class Plants {
  private:
   void choose(const canopy::Layout& layout, const Vec3& centre, double radius,
               std::vector<std::uint32_t>& out);
-  void fitBoxes(const Vec3& origin);
 
   std::size_t most_leaves_;
   std::uint64_t layout_hash_{0};
-  std::vector<std::shared_ptr<PosedPlant>> plants_;  ///< nearest first
-  std::vector<std::uint64_t> first_ranks_;           ///< of plants_
+  PosedSet<PosedPlant> plants_;  ///< nearest first
   std::size_t leaves_{0}, left_out_{0};
-  WideTree boxes_{1};
-  Vec3 origin_{Vec3::Zero()};
-  double extent_{0.0};  ///< of the boxes, relative to the origin [m]
 };
 
 }  // namespace vegetation_sim::scan

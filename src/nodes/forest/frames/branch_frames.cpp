@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nodes/forest/branch_frames.h"
+#include "nodes/forest/frames/branch_frames.h"
 
 #include <algorithm>
 #include <iterator>

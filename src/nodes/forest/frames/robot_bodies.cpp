@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nodes/forest/robot_bodies.h"
+#include "nodes/forest/frames/robot_bodies.h"
 
 #include "forest/contact/contact_body.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"

@@ -1,0 +1,77 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+// What a snapshot of the node holds besides events that wait, and inputs to which events refer.
+#include "core/archive/archive.h"
+#include "core/config/field_values.h"
+#include "nodes/forest/forest_animator.h"
+
+namespace vegetation_sim {
+
+std::uint64_t ForestAnimator::sceneHash() const {
+  forest::Layout layout = options_.scene.layout;
+  layout.terrain_hash = options_.scene.terrain->hash();
+  return layout.hash();
+}
+
+void ForestAnimator::writeState(Archive& a) const {
+  NamedValues tuning = namedValues(tuning_);
+  archiveNames(a, tuning);
+  std::string state = forest_->archived();
+  a.text("forest", state, LARGEST_SNAPSHOT);
+  GrabManager::State grabs = grab_manager_.state();
+  GrabManager::archive(a, grabs);
+  RobotBodies::Seen bodies = bodies_.seen();
+  RobotBodies::archive(a, bodies);
+}
+
+CheckedState ForestAnimator::readState(Archive& a) {
+  NamedValues named;
+  archiveNames(a, named);
+  const auto tuning = fromNamedValues<ForestTuning>(named);
+  std::string state;
+  a.text("forest", state, LARGEST_SNAPSHOT);
+  GrabManager::State grabs;
+  GrabManager::archive(a, grabs);
+  RobotBodies::Seen bodies;
+  RobotBodies::archive(a, bodies);
+  const forest::Layout layout = designedLayout(tuning);
+  // A state can be read by a forest of its layout only.
+  std::optional<forest::Forest> other;
+  if (layout.hash() != forest_->layoutHash())
+    other.emplace(layout, options_.scene.terrain, tuning.settings);
+  const forest::Forest& reader = other ? *other : *forest_;
+  const auto read =
+      std::make_shared<forest::ForestSnapshot>(reader.readArchived(std::move(state), a.shift()));
+  return {reader.hashOf(*read), [=] {
+            applyTuning(tuning);
+            forest_->restore(*read);
+            grab_manager_.restore(grabs);
+            bodies_.restore(bodies);
+            deepest_ = {};
+            last_framed_.reset();
+            force_key_frame_ = true;
+            winds_.keep(read->wind.hash(), read->wind);
+            queueNewerWind();
+          }};
+}
+
+// The wind that is published now stays in force.
+void ForestAnimator::queueNewerWind() {
+  ForestInput event;
+  event.kind = ForestInput::WIND;
+  event.wind_hash = heard_wind_;
+  if (heard_wind_ != 0 && heard_wind_ != forest_->snapshot().wind.hash()) inputs_.add(event);
+}
+
+std::string ForestAnimator::inputOf(const ForestInput& event) const {
+  return event.kind == ForestInput::WIND ? windBytes(winds_, event.wind_hash) : std::string();
+}
+
+std::function<void()> ForestAnimator::readInput(ForestInput& event, const std::string& bytes,
+                                                Nanoseconds shift) {
+  const wind::Field wind = windOfBytes(bytes, shift);
+  event.wind_hash = wind.hash();
+  return [this, wind] { winds_.keep(wind.hash(), wind); };
+}
+
+}  // namespace vegetation_sim
