@@ -127,7 +127,7 @@ run_headless() {
 parse "$@"
 "$ROOT/scripts/install_dependencies.sh"
 "$ROOT/scripts/build.sh"
-use_space "$BUILD/devel"
+use_space "$DEVEL"
 if $headless; then
   run_headless
 else

@@ -4,6 +4,8 @@
 # first in PATH.
 ROOT=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 BUILD=${BUILD:-$ROOT/build}
+# rosrun ignores programs below build/, so the development space is beside it.
+DEVEL=${BUILD%/build}/devel
 export PATH=/usr/bin:/usr/sbin:/bin:$PATH
 
 # Nodes connect to each other by the name of the machine. In containers it often does not resolve;

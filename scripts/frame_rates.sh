@@ -24,7 +24,7 @@ while [[ ${1:-} == --* ]]; do
   shift 2
 done
 "$ROOT/scripts/build.sh" all benches
-use_space "$BUILD/devel"
+use_space "$DEVEL"
 . "$ROOT/scripts/launching.sh"
 trap 'stop_process "$launch_pid"; stop_process "$display_pid"; rm -rf "$WORK"' EXIT
 trap 'exit 130' INT TERM
@@ -51,7 +51,7 @@ start_scenario() {
 # usage: measure WHAT FILE.rviz [OPTION ...]
 measure() {
   say "$scenario, $1 (load $(cut -d ' ' -f 1 /proc/loadavg))"
-  "$BUILD/devel/lib/vegetation_sim/rviz_frames" "$2" --seconds "$seconds" "${@:3}" 2>/dev/null |
+  "$DEVEL/lib/vegetation_sim/rviz_frames" "$2" --seconds "$seconds" "${@:3}" 2>/dev/null |
     grep 'frames' | tee "$WORK/figures"
 }
 

@@ -13,7 +13,7 @@ set -euo pipefail
 
 run_scenarios() {
   "$ROOT/scripts/build.sh" fuzz_test
-  VEGETATION_SIM_FUZZ_CASES=${1:-20000} "$BUILD/devel/lib/vegetation_sim/fuzz_test" --gtest_filter='RandomCase.*'
+  VEGETATION_SIM_FUZZ_CASES=${1:-20000} "$DEVEL/lib/vegetation_sim/fuzz_test" --gtest_filter='RandomCase.*'
 }
 
 build_program() {

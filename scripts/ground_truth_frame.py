@@ -8,6 +8,9 @@ is a child of the robot, by the inverse of the pose. Every frame of the robot th
 in the world, while map and odom keep their estimates. The frame names of the messages are ignored,
 since simulators disagree on them.
 """
+import threading
+import time
+
 import rospy
 from geometry_msgs.msg import TransformStamped
 from nav_msgs.msg import Odometry
@@ -43,6 +46,15 @@ class GroundTruthFrame:
         self.stamp = None
         self.tf = rospy.Publisher('/tf', TFMessage, queue_size=100)
         rospy.Subscriber('ground_truth', Odometry, self.on_pose, queue_size=10, tcp_nodelay=True)
+        threading.Thread(target=self.warn_of_silence, daemon=True).start()
+
+    def warn_of_silence(self):
+        """Warns each 5 s of wall time until the first message has come."""
+        while self.stamp is None and not rospy.core.is_shutdown_requested():
+            time.sleep(5.0)
+            if self.stamp is None:
+                rospy.logwarn('no odometry on %s: there is no frame %s yet',
+                              rospy.resolve_name('ground_truth'), self.world)
 
     def on_pose(self, message):
         if message.header.stamp == self.stamp:

@@ -35,7 +35,7 @@ FILM_SIZE='640 400' FILM_START=12 FILM_FRAMES=60 FILM_RATE=12 FILM_BYTES=4000000
 PICTURE_SIZE='1280 900'
 
 "$ROOT/scripts/build.sh" all rviz_film
-use_space "$BUILD/devel"
+use_space "$DEVEL"
 . "$ROOT/scripts/launching.sh"
 trap 'stop_process "$launch_pid"; stop_process "$display_pid"; rm -rf "$WORK"' EXIT
 trap 'exit 130' INT TERM
@@ -75,7 +75,7 @@ film() {
   say "Picture $name of scenario $scenario"
   start_scenario "$scenario" $lidar
   # shellcheck disable=SC2046,SC2086
-  "$BUILD/devel/lib/vegetation_sim/rviz_film" "$WORK/$name.rviz" "$WORK/$name" $4 "${@:5}" \
+  "$DEVEL/lib/vegetation_sim/rviz_film" "$WORK/$name.rviz" "$WORK/$name" $4 "${@:5}" \
     -- $(topics_of "$scenario") >"$WORK/film.log" 2>&1 || give_up "$name: $(tail -n 5 "$WORK/film.log")"
   stop_process "$launch_pid"
 }

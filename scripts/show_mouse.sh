@@ -9,7 +9,7 @@ set -euo pipefail
 
 [ $# -eq 1 ] || { printf 'usage: scripts/show_mouse.sh FOLDER\n' >&2; exit 2; }
 mkdir -p "$1"
-use_space "$BUILD/devel"
+use_space "$DEVEL"
 . "$ROOT/scripts/launching.sh"
 trap 'stop_process "$launch_pid"; stop_process "$display_pid"; rm -rf "$WORK"' EXIT
 trap 'exit 130' INT TERM

@@ -41,10 +41,10 @@ if $sanitize; then
   [[ " ${displays[*]} " != *' landscape '* ]] ||
     targets+=(agent_crowd canopy_animator forest_animator grass_field wind_broadcaster)
   "$ROOT/scripts/build.sh" --sanitize "${targets[@]}"
-  BUILD=$BUILD/sanitize
+  DEVEL=$BUILD/sanitize/devel
   prefix=$ROOT/test/rviz/rigs/sanitized.sh
 fi
-use_space "$BUILD/devel"
+use_space "$DEVEL"
 $sanitize || export GTEST_FILTER='*LeavesNothingBehind:*Returns'
 if $sanitize; then : "${cycles:=40}" "${reloads:=20}"; else : "${cycles:=500}" "${reloads:=100}"; fi
 export VEGETATION_SIM_CYCLES=$cycles VEGETATION_SIM_RELOADS=$reloads

@@ -10,7 +10,7 @@ cd "$ROOT"
 export CHECKPOINT_KILLS=${1:-50}
 nodes=("${@:2}")
 [ ${#nodes[@]} -gt 0 ] || nodes=(wind grass canopy crowd forest)
-use_space "$BUILD/devel"
+use_space "$DEVEL"
 export PATH=/usr/bin:$PATH
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT

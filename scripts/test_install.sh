@@ -23,7 +23,7 @@ use_space "$INSTALLED"
 
 [ "$(rospack find vegetation_sim)" = "$INSTALLED/share/vegetation_sim" ] || fail 'rospack finds another copy of the package'
 hosts=(nodelet)
-[ ! -e "$BUILD/devel/lib/libvegetation_sim_rviz.so" ] || hosts+=(rviz)
+[ ! -e "$DEVEL/lib/libvegetation_sim_rviz.so" ] || hosts+=(rviz)
 for host in "${hosts[@]}"; do
   description=$(rospack plugins --attrib=plugin "$host" | sed -n 's/^vegetation_sim //p')
   [ -e "$description" ] || fail "no plugin description for $host"
@@ -33,7 +33,7 @@ for host in "${hosts[@]}"; do
   done
 done
 for file in "$INSTALLED"/lib/*.so "$INSTALLED"/lib/vegetation_sim/*; do
-  ! ldd "$file" | grep -E "not found|$BUILD/devel" || fail "$file lacks a library"
+  ! ldd "$file" | grep -E "not found|$DEVEL" || fail "$file lacks a library"
 done
 
 # Another package must be able to include every installed header and link the libraries.

@@ -154,21 +154,28 @@ void Parameters::frame(const char* name, std::string& value, bool may_be_empty) 
 void Parameters::frames(const char* name, std::vector<std::string>& values, std::size_t most) {
   XmlRpc::XmlRpcValue found;
   if (!find(name, found)) return;
-  if (found.getType() != XmlRpc::XmlRpcValue::TypeArray)
-    return wrongType(name, found, "a list of frames");
-  if (static_cast<std::size_t>(found.size()) > most)
-    fault(name,
-          "has " + std::to_string(found.size()) + " entries, allowed are " + std::to_string(most));
-  std::set<std::string> read;
-  for (int i = 0; i < found.size(); ++i) {
-    if (found[i].getType() != XmlRpc::XmlRpcValue::TypeString)
-      return wrongType(name, found, "a list of frames");
-    const std::string frame = static_cast<std::string>(found[i]);
-    if (frame.empty() || frame[0] == '/')
-      fault(name, "has '" + frame + "', which is empty or begins with '/'");
-    if (!read.insert(frame).second) fault(name, "has '" + frame + "' twice");
-    values.push_back(frame);
+  std::vector<XmlRpc::XmlRpcValue> lists{found};
+  if (found.getType() == XmlRpc::XmlRpcValue::TypeStruct) {
+    lists.clear();
+    for (const auto& robot : found) lists.push_back(robot.second);
   }
+  std::set<std::string> read;
+  for (XmlRpc::XmlRpcValue& list : lists) {
+    if (list.getType() != XmlRpc::XmlRpcValue::TypeArray)
+      return wrongType(name, found, "a list of frames");
+    for (int i = 0; i < list.size(); ++i) {
+      if (list[i].getType() != XmlRpc::XmlRpcValue::TypeString)
+        return wrongType(name, found, "a list of frames");
+      const std::string frame = static_cast<std::string>(list[i]);
+      if (frame.empty() || frame[0] == '/')
+        fault(name, "has '" + frame + "', which is empty or begins with '/'");
+      if (!read.insert(frame).second) fault(name, "has '" + frame + "' twice");
+      values.push_back(frame);
+    }
+  }
+  if (values.size() > most)
+    fault(name,
+          "has " + std::to_string(values.size()) + " entries, allowed are " + std::to_string(most));
 }
 
 void Parameters::flag(const char* name, bool& value) {

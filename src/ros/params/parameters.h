@@ -28,7 +28,7 @@ class Parameters : public FieldVisitor {
   void text(const char* name, std::string& value);
   /// The name of a tf frame; an empty one is a fault unless it may be.
   void frame(const char* name, std::string& value, bool may_be_empty = false);
-  /// A list of at most `most` names of tf frames, none of them twice.
+  /// A list of at most `most` names of tf frames, none of them twice, or a map of such lists.
   void frames(const char* name, std::vector<std::string>& values, std::size_t most);
   void flag(const char* name, bool& value);
   void integers(const char* name, std::vector<int>& values, Range range);

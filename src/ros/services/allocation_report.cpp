@@ -17,7 +17,7 @@ bool seesAny(const TierAllocation& balance) {
 std::string reasonOf(const TierAllocation& balance, const BalanceTerms& terms) {
   if (balance.held_back > 0 || balance.wanted > terms.budget) return terms.budget_name + " binds";
   if (balance.over > 0) return "there are no finer tiers";
-  return seesAny(balance) ? "the tolerance is held" : "nothing is seen";
+  return seesAny(balance) ? "the tolerance is held" : "no viewer needs detail";
 }
 
 }  // namespace

@@ -27,7 +27,9 @@ Pose poseInWorld(const tf2_ros::Buffer& buffer, const std::string& world, const 
 }
 
 void checkFrame(const std::string& frame, const std::string& world) {
-  if (frame != world) throw InvalidInput("frame_id = '" + frame + "' should be '" + world + "'");
+  if (frame != world)
+    throw InvalidInput("frame_id = '" + frame + "', allowed is the world frame of this node, '" +
+                       world + "'");
 }
 
 ros::Time effectOf(const ros::Time& stamp, const TickClock& clock) {

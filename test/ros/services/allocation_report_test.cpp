@@ -37,7 +37,7 @@ TEST(BalanceReport, GivesTheReason) {
   EXPECT_EQ(reasonFor(balanceOf(60, 60, 1, 0, 0, 2)), "the tolerance is held");
   EXPECT_EQ(reasonFor(balanceOf(60, 60, 3, 1, 0, 2)), "there are no finer tiers");
   EXPECT_EQ(reasonFor(balanceOf(90, 120, 3, 2, 2, 2)), "marker_points binds");
-  EXPECT_EQ(reasonFor(TierAllocation()), "nothing is seen");
+  EXPECT_EQ(reasonFor(TierAllocation()), "no viewer needs detail");
 }
 
 TEST(BalanceReport, ABudgetThatIsTooSmallForAnythingBinds) {

@@ -155,7 +155,10 @@ void readRobot(const ros::NodeHandle& handle, YamlSection& section, Faults& faul
   section.text("prefix", prefix);
   section.finish();
   if (!handle.searchParam(name, found) || !ros::param::get(found, urdf))
-    return section.fault("robot_description", "= '" + name + "' is no parameter of text");
+    return section.fault(
+        "robot_description",
+        "= '" + name +
+            "' is not a parameter whose value is a URDF; it must be set before this node starts");
   const RobotParts robot = partsOfUrdf(urdf, prefix, faults);
   out.parts.insert(out.parts.end(), robot.parts.begin(), robot.parts.end());
   out.left_out.insert(out.left_out.end(), robot.left_out.begin(), robot.left_out.end());

@@ -157,8 +157,9 @@ TEST_F(RobotBodiesTest, TwoRobotsHaveTheirOwnLists) {
 
 TEST_F(RobotBodiesTest, TextsThatAreNotUrdfAreRejected) {
   setBody(robot("no_such_parameter", ""));
-  EXPECT_NE(errorOf([&] { read(); }).find("'no_such_parameter' is no parameter of text"),
-            std::string::npos);
+  EXPECT_NE(
+      errorOf([&] { read(); }).find("'no_such_parameter' is not a parameter whose value is a URDF"),
+      std::string::npos);
 }
 
 geometry_msgs::TransformStamped frameAt(Nanoseconds stamp, double x) {

@@ -235,7 +235,7 @@ class ForestRequests(unittest.TestCase):
         other = copy.deepcopy(good)
         other.seed += 1
         for message, texts in [
-                (frame, ["wind: frame_id = 'odom' should be 'map'"]),
+                (frame, ["wind: frame_id = 'odom', allowed is the world frame of this node, 'map'"]),
                 (nan, ['velocity.x', 'not finite', 'radius = -3 m is outside 0.01 to 100000 m']),
                 (other, ['wind: hash = %d is not ' % good.hash])]:
             self.wind.publish(message)

@@ -53,7 +53,7 @@ SCENARIOS = [
      'forest: motion: transition = 0 s is outside 0.01 to 60 s'),
     ('{forest: {motion: {gain: strong}}}', "gain = 'strong' is none of compliance, paper"),
     ('{terrain: nowhere.yaml, forest: {species: [{file: SPECIES/oak.yaml}]}}',
-     '/nowhere.yaml: cannot be read'),
+     '/nowhere.yaml: cannot be read: No such file or directory; in its folder are scene.yaml'),
     ('{terrain: "package://no_such_package/a.yaml"}', "package 'no_such_package' is not known"),
     ('{forest: {species: [{file: SPECIES/oak.yaml}], tiles: [{count: 4}]}}',
      'forest: layout: tiles[0]: mix has no positive weight'),
