@@ -33,9 +33,11 @@ for target in "$@"; do targets+=(--target "$target"); done
 # Compiling a file takes as long as some forty other steps, such as generating a message.
 COMPILE_WORK=40
 
-# Prints the work in all steps that ninja will run.
+# usage: work_to_do TARGET ... Prints the work in all steps that ninja will run. A dry run would end
+# before the first one if its file were the one that CMake may have to make anew.
 work_to_do() {
-  cmake --build "$BUILD" "${targets[@]}" -- -n |
+  cp "$BUILD/build.ninja" "$BUILD/steps.ninja"
+  ninja -C "$BUILD" -f steps.ninja -n "$@" |
     awk -v work="$COMPILE_WORK" '/Building C/ { all += work; next } { ++all } END { print all + 1 }'
 }
 
@@ -72,6 +74,6 @@ cmake -S "$ROOT" -B "$BUILD" "${options[@]}" -DPYTHON_EXECUTABLE=/usr/bin/python
   -DCATKIN_DEVEL_PREFIX="$DEVEL" \
   -DCMAKE_EXPORT_COMPILE_COMMANDS=ON -DCMAKE_INSTALL_PREFIX="$BUILD/install" \
   >"$BUILD/configure.log" 2>&1 || { tail -n 30 "$BUILD/configure.log" >&2; exit 1; }
-work=$(work_to_do)
+work=$(work_to_do "$@")
 NINJA_STATUS='@%f %t %e ' cmake --build "$BUILD" --parallel "$(nproc)" "${targets[@]}" |
   show_progress "$work"
