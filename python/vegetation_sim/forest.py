@@ -1,6 +1,8 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
 """Client of forest_animator."""
+import threading
+
 import rospy
 from geometry_msgs.msg import Vector3Stamped
 from vegetation_sim.client import (Client, VegetationError, given, header, numbers, point, stamped,
@@ -107,6 +109,20 @@ class Hold:
     def point(self):
         """The held point at the last tick [m], in the world frame."""
         return numbers(self._ask(renew_only=True).point)
+
+    def result(self, timeout=5.0):
+        """Waits until the grab has ended, at most `timeout` [s] of wall time. Returns its
+        GrabStatus, whose `status` is the reason, or None if it is still in force."""
+        ended, found = threading.Event(), []
+
+        def find_status(message):
+            found.extend(status for status in message.ended if status.grab.id == self.id)
+            if found:
+                ended.set()
+        subscriber = rospy.Subscriber(self._forest.topic('forest/grabs'), GrabStatuses, find_status)
+        ended.wait(timeout)
+        subscriber.unregister()
+        return found[0] if found else None
 
     def release(self):
         """Releases the branch."""

@@ -91,6 +91,17 @@ class PythonClients(unittest.TestCase):
         with self.assertRaisesRegex(VegetationError, 'release: id = %d is unknown' % hold.id):
             hold.release()
 
+    def test_the_result_of_a_hold_is_the_reason_why_it_ended(self):
+        with self.forest.grab(tree=TREE, branch=LIMB) as hold:
+            wait_for(lambda: hold.id in self.held(), 'the grab')
+            self.assertIsNone(hold.result(timeout=0.1))
+        result = hold.result()
+        self.assertEqual((result.status, result.grab.id), (GrabStatus.RELEASED, hold.id))
+        self.assertLess(result.since, result.until)
+        lost = self.forest.grab(tree=TREE, branch=LIMB, lease=0.5)
+        lost._timer.shutdown()  # as if the program had died
+        self.assertEqual(lost.result(DEADLINE).status, GrabStatus.LEASE_EXPIRED)
+
     def test_errors_are_the_messages_of_the_services(self):
         cases = [
             (lambda: self.forest.grab(tree=99, branch=0), 'tree = 99 is unknown'),

@@ -5,10 +5,12 @@
 import hashlib
 import json
 import os
+import re
 import shutil
 import tempfile
 import unittest
 
+import roslib.packages
 import rospy
 import rostest
 from geometry_msgs.msg import Point, PointStamped
@@ -91,6 +93,14 @@ class SceneTest(unittest.TestCase):
         for node, entry in sorted(manifest['nodes'].items()):
             print('%s: %d bytes, saved in %.4f s, loaded in %.4f s' % (
                 node, entry['bytes'], entry['seconds'], replies[node].seconds))
+
+    def test_the_snippet_of_the_page_runs(self):
+        with open(roslib.packages.get_pkg_dir('vegetation_sim') + '/docs/snapshots.md') as page:
+            block, = re.findall('^```python\n(.*?)^```', page.read(), re.S | re.M)
+        block, alternatives = re.subn('^# (?=scene.load)', '', block, flags=re.M)
+        self.assertEqual(alternatives, 1)
+        exec(block, {'simulation': self.simulation})
+        self.assertEqual(set(self.scene.manifest('before')['nodes']), set(self.scene.nodes()))
 
     def test_one_bad_file_loads_nothing(self):
         manifest = self.scene.save('spoiled')
