@@ -64,8 +64,7 @@ void Trees::update(const forest::ForestReplica& forest, const Vec3& centre, doub
   const wind::Instant wind = forest.wind().at(stamp);
   const std::size_t parts = threads.size();
   threads.run(parts, [&](std::size_t first) {
-    for (std::size_t i = first; i < trees.size(); i += parts)
-      trees[i]->follow(forest, stamp, wind);
+    for (std::size_t i = first; i < trees.size(); i += parts) trees[i]->follow(forest, stamp, wind);
   });
   trees_.set(std::move(trees), centre);
 }
