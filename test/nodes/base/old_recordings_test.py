@@ -22,7 +22,7 @@ OLD_SUM = '0123456789abcdef0123456789abcdef'
 
 def old(event):
     """Returns the type of an event as an earlier version had it."""
-    return type('Old', (event,), {'_md5sum': OLD_SUM, '__slots__': ()})
+    return type('Old', (event,), {'_md5sum': OLD_SUM})
 
 
 class OldRecordings(unittest.TestCase):
