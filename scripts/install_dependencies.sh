@@ -31,6 +31,7 @@ DISPLAY_COMMON=(imagemagick libgl-dev libgl1-mesa-dri libopengl-dev xdotool xvfb
 DEBIAN=(
   # These packages compile the code.
   catkin python3-catkin-pkg ros-core-dev libroscpp-dev libtf2-ros-dev libsensor-msgs-dev liburdf-dev
+  libtopic-tools-dev
   libvisualization-msgs-dev libdiagnostic-updater-dev
   libdynamic-reconfigure-config-init-mutex-dev python3-dynamic-reconfigure
   libnodeletlib-dev pluginlib-dev
@@ -48,7 +49,7 @@ NOETIC=(
   catkin diagnostic-msgs diagnostic-updater dynamic-reconfigure geometry-msgs message-generation
   nav-msgs nodelet pluginlib rosbag rosbash roscpp rosgraph-msgs roslaunch roslib
   rosmsg rosnode rosparam rospy rosservice rostest rostopic sensor-msgs std-msgs std-srvs tf2
-  tf2-msgs tf2-ros urdf visualization-msgs
+  tf2-msgs tf2-ros topic-tools urdf visualization-msgs
 )
 DISPLAY_NOETIC=(ros-noetic-rviz)
 CHECKS=(catkin-lint clang-format clang-tidy)

@@ -38,13 +38,13 @@ display='libgl-dev libgl1-mesa-dri libopengl-dev xdotool xvfb'
 expect_packages debian bullseye "g++ rviz librviz-dev qtbase5-dev $display" 'libhwy-dev catkin-lint'
 for release in bookworm trixie; do
   expect_packages debian $release "g++ libhwy-dev rviz librviz-dev $display" catkin-lint
-  expect_packages debian $release 'g++ libhwy-dev libroscpp-dev' "rviz librviz-dev $display" --no-display
+  expect_packages debian $release 'g++ libhwy-dev libroscpp-dev libtopic-tools-dev' "rviz librviz-dev $display" --no-display
 done
 expect_packages debian bookworm 'rviz qtbase5-dev catkin-lint clang-tidy' '' --checks
 expect_packages debian trixie 'qt6-base-dev qt6-svg-plugins' qtbase5-dev
 expect_packages debian trixie '' qt6-base-dev --no-display
 expect_packages ubuntu focal "ros-noetic-roscpp ros-noetic-rviz qtbase5-dev $display" 'rviz libroscpp-dev libhwy-dev'
-expect_packages ubuntu focal ros-noetic-roscpp "ros-noetic-rviz $display" --no-display
+expect_packages ubuntu focal 'ros-noetic-roscpp ros-noetic-topic-tools' "ros-noetic-rviz $display" --no-display
 
 expect_error 'The system fedora 40 is not supported' fedora 40
 expect_error 'Debian 11, 12 and 13 and Ubuntu 20.04' debian buster

@@ -12,9 +12,10 @@ import roslib.packages
 import rospy
 import rostest
 from geometry_msgs.msg import TransformStamped
+from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
 from vegetation_sim import Crowd, Forest, Grass, VegetationError, Wind
-from vegetation_sim.msg import GrabStatus
+from vegetation_sim.msg import AgentStates, GrabStatus
 
 TREE, LIMB = 0, 46
 DEADLINE = 60.0  # [s]
@@ -155,6 +156,28 @@ class PythonClients(unittest.TestCase):
                 return False
         wait_for(known, 'the walkers')
         self.crowd.remove(ids)
+
+    def reset(self, node):
+        answer = rospy.ServiceProxy(node + '/reset', Trigger)()
+        self.assertTrue(answer.success, answer.message)
+
+    def test_clear_removes_all_sources_of_wind(self):
+        self.addCleanup(self.reset, '/wind_broadcaster')
+        for name in 'first', 'second':
+            self.wind.breeze((3, 0, 0), turbulence=0.0, name=name)
+        wait_for(lambda: self.wind.at((0, 0, 2))[0][0] > 6.0, 'the wind of both')
+        self.wind.clear()
+        wait_for(lambda: self.wind.at((0, 0, 2)) == [(0.0, 0.0, 0.0)], 'still air')
+
+    def test_clear_removes_all_people(self):
+        def people():
+            return rospy.wait_for_message('/agents', AgentStates, DEADLINE).agents
+        self.addCleanup(self.reset, '/agent_crowd')
+        wait_for(people, 'the people of the scenario')
+        ids = self.crowd.spawn((5, 6), count=2, spread=0.5)
+        wait_for(lambda: set(ids) <= {agent.id for agent in people()}, 'two more')
+        self.crowd.clear()
+        wait_for(lambda: not people(), 'an empty hall')
 
     def test_every_snippet_of_the_page_runs(self):
         blocks = snippets('python.md')

@@ -17,6 +17,7 @@
 #include "nodes/base/saved_node.h"
 #include "nodes/base/viewer_registry.h"
 #include "nodes/markers/marker_publisher.h"
+#include "ros/conversions/recorded_message.h"
 #include "ros/services/requests.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
 
@@ -157,9 +158,10 @@ class EventNode : public SavedNode<Queue, Options> {
     this->openServices();
   }
 
-  void onRecordedEvent(const Message& message) {
+  void onRecordedEvent(const topic_tools::ShapeShifter& recorded) {
+    const auto message = readRecorded<Message>(recorded);
     acceptInput("event", [&] {
-      const Event& event = eventFromMsg(message);
+      const Event& event = eventFromMsg(*message);
       if (isInput(event)) inputs_.addRecorded(event);
     });
   }

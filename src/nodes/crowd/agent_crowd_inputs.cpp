@@ -96,7 +96,7 @@ bool AgentCrowd::onSpawn(SpawnAgents::Request& request, SpawnAgents::Response& r
     Faults faults;
     crowd::Spawn like = fromMsg(request.like, "like: ", faults);
     like.position = placeInWorld(request.like.position, to_world);
-    like.goal = placeInWorld(request.like.goal, to_world);
+    if (like.has_goal) like.goal = placeInWorld(request.like.goal, to_world);
     like.heading += arcTangent(front.y(), front.x());
     FieldChecker checker("like: ", faults);
     describe(checker, like);

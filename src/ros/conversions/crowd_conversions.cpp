@@ -107,7 +107,7 @@ AgentSpawn toMsg(const crowd::Spawn& spawn) {
   out.radius = spawn.radius;
   out.height = spawn.height;
   out.has_goal = spawn.has_goal;
-  out.goal = pointOf(spawn.goal, 0.0);
+  if (spawn.has_goal) out.goal = pointOf(spawn.goal, 0.0);
   out.stands = !spawn.has_goal && !spawn.wanders;
   return out;
 }
@@ -121,7 +121,10 @@ crowd::Spawn fromMsg(const AgentSpawn& message, const std::string& context, Faul
   numbers.read("radius", message.has_radius, message.radius, out.radius);
   numbers.read("height", message.has_height, message.height, out.height);
   out.has_goal = message.has_goal;
-  out.goal = planOf(message.goal);
+  if (message.has_goal)
+    out.goal = planOf(message.goal);
+  else if (!(fromMsg(message.goal) == Vec3::Zero()))
+    faults.add(context + "goal needs has_goal = true");
   out.wanders = !message.has_goal && !message.stands;
   return out;
 }

@@ -86,6 +86,8 @@ class CrowdRequests(unittest.TestCase):
         for field in ('speed', 'radius', 'height'):
             self.assertIn('like: %s = 1 needs has_%s = true' % (field, field),
                           refusal(spawn(like=AgentSpawn(**{field: 1.0}), count=1)))
+        self.assertIn('like: goal needs has_goal = true',
+                      refusal(spawn(like=AgentSpawn(goal=at(2, 2)), count=1)))
         self.assertIn('count = 0 is outside 1 to ', refusal(spawn()))
         self.assertIn('count = 100000', refusal(spawn(count=100000)))
         self.assertIn('most_walkers = 50', refusal(spawn(count=60)))

@@ -3,7 +3,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """One include of robot.launch connects a robot whose simulator knows nothing of this package: it
 treads grass, pushes branches, is avoided by people, and its lidar sees them, all at its true pose
-while its localiser is wrong. A second include connects a second robot."""
+while its localiser is wrong. A second include connects a second robot, which
+has a mesh."""
 import math
 import unittest
 
@@ -89,6 +90,14 @@ class RobotLaunch(unittest.TestCase):
         # The robot drives along its x axis, which is y of the world, and the branches push back.
         self.assertLess(back, -0.5)
         self.assertLess(abs(aside), abs(back))
+
+    def test_the_mesh_of_a_second_robot_pushes_branches(self):
+        forces = [w.wrench.force for w in self.wrenches.messages
+                  if w.header.frame_id == 'cart/base']
+        self.assertGreater(len(forces), 10)
+        # The cart drives along y, and its frame has the axes of the world.
+        self.assertLess(sum(f.y for f in forces) / len(forces), -0.5)
+        self.assertEqual(self.forest.diagnostics()['Links of robots without a shape'], 0)
 
     def test_a_person_in_the_way_steps_aside(self):
         nearest = min(math.hypot(max(abs(x) - 0.4, 0.0), max(abs(y - robot) - 0.35, 0.0))

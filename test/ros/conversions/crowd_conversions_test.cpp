@@ -48,5 +48,30 @@ TEST(CrowdConversions, RejectInvalidWalkers) {
   }
 }
 
+TEST(CrowdConversions, AGoalWithoutItsFlagIsRejectedByName) {
+  AgentSpawn message;
+  message.has_goal = true;
+  message.goal.x = 2.0;
+  Faults none;
+  EXPECT_EQ(fromMsg(message, "like: ", none).goal.x, 2.0);
+  EXPECT_TRUE(none.empty());
+  message.has_goal = false;
+  for (const double z : {0.0, 1.0, std::numeric_limits<double>::quiet_NaN()}) {
+    message.goal.x = z == 0.0 ? 2.0 : 0.0;
+    message.goal.z = z;
+    Faults faults;
+    fromMsg(message, "like: ", faults);
+    EXPECT_EQ(errorOf([&] { faults.throwIfAny(); }), "like: goal needs has_goal = true");
+  }
+}
+
+TEST(CrowdConversions, AWalkerWithoutAGoalIsSentWithoutOne) {
+  crowd::Spawn spawn;
+  spawn.goal = {3.0, 4.0};
+  EXPECT_EQ(toMsg(spawn).goal.x, 0.0);
+  spawn.has_goal = true;
+  EXPECT_EQ(toMsg(spawn).goal.x, 3.0);
+}
+
 }  // namespace
 }  // namespace vegetation_sim

@@ -1,0 +1,97 @@
+#!/usr/bin/env python3
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""A node refuses a wrong argument of robot.launch with an error that names the parameter which
+follows from it, and the value."""
+import roslaunch.config
+import roslaunch.xmlloader
+import roslib.packages
+import rospy
+import rostest
+
+from refusing_node import RefusingNode
+
+LAUNCH_FILE = roslib.packages.get_pkg_dir('vegetation_sim') + '/launch/robot.launch'
+
+
+def parameters_of(node, arguments):
+    """Returns the parameters of a node that robot.launch sets, as a tree."""
+    config = roslaunch.config.ROSLaunchConfig()
+    roslaunch.xmlloader.XmlLoader().load(LAUNCH_FILE, config, verbose=False,
+                                         argv=['%s:=%s' % pair for pair in arguments.items()])
+    tree = {}
+    for name, parameter in config.params.items():
+        if name.startswith('/%s/' % node):
+            *folders, last = name.split('/')[2:]
+            branch = tree
+            for folder in folders:
+                branch = branch.setdefault(folder, {})
+            branch[last] = parameter.value
+    return tree
+
+
+def frames_of(**arguments):
+    """Returns the frames that tread the grass."""
+    return [source['frame'] for source in parameters_of('grass_field', arguments)['sources']['robot']]
+
+
+def corners_of(footprint):
+    robot, = parameters_of('agent_crowd', {'footprint': footprint})['robots']['robot']
+    return robot['outline']
+
+
+class RobotArguments(RefusingNode):
+    NODE = 'agent_crowd'
+
+    def expect_refused(self, node, *words, **arguments):
+        """Expects `words` in the error of a node that robot.launch starts with `arguments`."""
+        self.NODE, self.executable = node, roslib.packages.find_node('vegetation_sim', node)[0]
+        with self.subTest(node=node, **arguments):
+            refusal = self.refusal(parameters_of(node, arguments))
+            for word in words:
+                self.assertIn(word, refusal)
+
+    def test_frames_have_any_white_space_between_them(self):
+        self.assertEqual(frames_of(wheel_frames=' left   right ', prefix='a/'), ['a/left', 'a/right'])
+        self.assertEqual(frames_of(wheel_frames='  ', base_frame='base'), ['base'])
+
+    def test_a_footprint_becomes_corners(self):
+        self.assertEqual(corners_of('[[1, 2.5],[ -3, 4 ]]'), [{'x': 1, 'y': 2.5}, {'x': -3, 'y': 4}])
+        self.assertEqual(corners_of('[ ]'), [])
+
+    def test_a_footprint_that_is_no_list_of_corners(self):
+        self.expect_refused('agent_crowd', 'outline', 'x = foo is not a number', footprint='foo')
+        self.expect_refused('agent_crowd', 'outline', 'z', footprint='[[1, 2], [3, 4, 5], [6, 7]]')
+
+    def test_a_radius_out_of_range(self):
+        self.expect_refused('agent_crowd', 'robots', 'radius = -1 m is outside 0.01 to 20 m',
+                            robot_radius='-1')
+        self.expect_refused('grass_field', "source 'base_link': radius = -1 m is outside",
+                            robot_radius='-1')
+
+    def test_a_frame_that_begins_with_a_slash(self):
+        for arguments in {'wheel_frames': 'left /right'}, {'prefix': '/', 'base_frame': 'right'}:
+            self.expect_refused('grass_field', 'sources', "frame = '/right' begins with '/'",
+                                **arguments)
+        self.expect_refused('agent_crowd', 'robots', "frame = '/base' begins with '/'",
+                            base_frame='/base')
+        self.expect_refused('vegetation_scanner', "~lidar_frame = '/laser' begins with '/'",
+                            lidar_frame='/laser')
+
+    def test_an_unknown_lidar_preset(self):
+        self.expect_refused('vegetation_scanner', "~preset = 'vlp99' is none of", 'vlp16',
+                            lidar_frame='laser', lidar_preset='vlp99')
+
+    def test_an_unknown_scenario(self):
+        for node in ('wind_broadcaster', 'forest_animator', 'grass_field', 'canopy_animator',
+                     'agent_crowd'):
+            self.expect_refused(node, '~scenario', '/config/scenarios/desert.yaml', scenario='desert')
+
+    def test_a_description_that_is_no_parameter(self):
+        self.expect_refused('forest_animator', "robot_description = 'nothing' is not a parameter",
+                            robot_description='nothing')
+
+
+if __name__ == '__main__':
+    rospy.init_node('robot_arguments_test')
+    rostest.rosrun('vegetation_sim', 'robot_arguments', RobotArguments)
