@@ -60,13 +60,13 @@ class RobotArguments(RefusingNode):
         self.assertEqual(corners_of('[ ]'), [])
 
     def test_a_footprint_that_is_no_list_of_corners(self):
-        self.expect_refused('agent_crowd', 'outline', 'x = foo is not a number', footprint='foo')
+        self.expect_refused('agent_crowd', 'outline', "x = 'foo' is not a number", footprint='foo')
         self.expect_refused('agent_crowd', 'outline', 'z', footprint='[[1, 2], [3, 4, 5], [6, 7]]')
 
     def test_a_radius_out_of_range(self):
         self.expect_refused('agent_crowd', 'robots', 'radius = -1 m is outside 0.01 to 20 m',
                             robot_radius='-1')
-        self.expect_refused('grass_field', "source 'base_link': radius = -1 m is outside",
+        self.expect_refused('grass_field', 'sources', 'radius = -1 m is outside 0.005 to 5 m',
                             robot_radius='-1')
 
     def test_a_frame_that_begins_with_a_slash(self):
@@ -85,7 +85,7 @@ class RobotArguments(RefusingNode):
     def test_an_unknown_scenario(self):
         for node in ('wind_broadcaster', 'forest_animator', 'grass_field', 'canopy_animator',
                      'agent_crowd'):
-            self.expect_refused(node, '~scenario', '/config/scenarios/desert.yaml', scenario='desert')
+            self.expect_refused(node, '/config/scenarios/desert.yaml: cannot be read', scenario='desert')
 
     def test_a_description_that_is_no_parameter(self):
         self.expect_refused('forest_animator', "robot_description = 'nothing' is not a parameter",
