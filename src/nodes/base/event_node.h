@@ -109,8 +109,7 @@ class EventNode : public SavedNode<Queue, Options> {
     connect();
     this->subscribe("viewer", 10, &EventNode::onViewer);
     this->repeat(options_.markers_rate, &EventNode::sendMarkers);
-    if (options_.replay)
-      this->subscribe(events_topic_, 2 * Queue::MOST_WAITING, &EventNode::onRecordedEvent);
+    if (options_.replay) subscribeToRecorded();
     this->serve("reset", &EventNode::onReset);
     this->serveSnapshots();
     this->startDiagnostics();
@@ -119,6 +118,7 @@ class EventNode : public SavedNode<Queue, Options> {
   }
   void stop() {
     clock_.stop();
+    recorded_.shutdown();
     this->stopCallbacks();
     tuning_server_.reset();
   }
@@ -134,6 +134,7 @@ class EventNode : public SavedNode<Queue, Options> {
     status.summary(DiagnosticStatus::OK, "running");
     if (!clock_.hasBegun()) status.summary(DiagnosticStatus::WARN, "waiting for the clock");
     refusals_.warn(status);
+    if (is_other_version_ && recorded_.getNumPublishers() == 0) subscribeToRecorded();
     this->warnOfRivals(status);
     warnOfClock(status, clock_.counts(), reported_clock_);
     warnOfLosses(status, inputs_.losses(), reported_losses_);
@@ -158,8 +159,23 @@ class EventNode : public SavedNode<Queue, Options> {
     this->openServices();
   }
 
+  // A subscriber of any type takes the type of its first publisher for good. After the player of
+  // another version has ended it is made anew.
+  void subscribeToRecorded() {
+    const boost::function<void(const topic_tools::ShapeShifter&)> guarded =
+        [this](const topic_tools::ShapeShifter& recorded) {
+          acceptInput(events_topic_, [&] { onRecordedEvent(recorded); });
+        };
+    is_other_version_ = false;
+    recorded_.shutdown();
+    recorded_ = handle_.template subscribe<topic_tools::ShapeShifter>(
+        events_topic_, 2 * Queue::MOST_WAITING, guarded);
+  }
+
   void onRecordedEvent(const topic_tools::ShapeShifter& recorded) {
+    is_other_version_ = true;
     const auto message = readRecorded<Message>(recorded);
+    is_other_version_ = false;
     acceptInput("event", [&] {
       const Event& event = eventFromMsg(*message);
       if (isInput(event)) inputs_.addRecorded(event);
@@ -230,6 +246,8 @@ class EventNode : public SavedNode<Queue, Options> {
   }
 
   const char* events_topic_;
+  ros::Subscriber recorded_;      // to events of any version, in a replay
+  bool is_other_version_{false};  // of the last recorded event
   std::optional<MarkerPublisher> markers_;
   boost::recursive_mutex mutex_;  // of the server, whose values a load changes
   std::unique_ptr<dynamic_reconfigure::Server<Config>> tuning_server_;

@@ -34,7 +34,8 @@ class SavedNode : public NodeBase {
         inputs_(options_.replay),
         clock_(name_, options_.state_rate, options_.replay ? options_.replay_delay : 0.0,
                std::move(calls)),
-        events_publisher_(handle_.advertise<Message>(topic, Queue::MOST_WAITING)),
+        events_publisher_(options_.replay ? ros::Publisher()
+                                          : handle_.advertise<Message>(topic, Queue::MOST_WAITING)),
         snapshots_(options_.snapshots, name_, private_handle_.getNamespace(),
                    {[this] { return snapshot(); }, [this] { return sceneHash(); },
                     [this](const std::string& payload, Nanoseconds shift) {

@@ -64,8 +64,9 @@ class CanopyClockTest(unittest.TestCase):
                                scenario=scene('shrubs'), replay_delay=DELAY)
         try:
             again, viewer = Leaves('/replay/canopy_animator', '/replay/'), ViewerClient('eye')
-            again.wait_until_up('/wind', '/replay/canopy/events')
+            again.expect_replay()
             self.recorded = publisher('/replay/canopy/events', CanopyEvent)
+            again.wait_until_up('/wind', '/replay/canopy/events')
             wait_for(lambda: self.recorded.get_num_connections() >= 2, 'the replay, and its log')
             self.record(again, [self.earlier_eye()])
             sent = 0

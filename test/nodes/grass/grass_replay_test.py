@@ -90,6 +90,7 @@ class GrassReplay(unittest.TestCase):
                                replay_delay=DELAY, key_frame_period=0.2)
         try:
             grass = Meadow('/replay/grass_field', '/replay/')
+            grass.expect_replay()
             grass.wait_until_up()
             subprocess.run(['rosbag', 'play', '-q', '--clock', '-r', str(SPEED), '-d', '1', self.bag,
                             '--topics', '/grass/events', '/grass/events:=/replay/grass/events'],

@@ -145,6 +145,10 @@ class WatchedNode:
     def logs(self):
         return [getattr(self, name) for name in self.LOGS]
 
+    def expect_replay(self):
+        """Waits for no events from now on: a replay publishes none."""
+        self.LOGS = [name for name in self.LOGS if name != 'events']
+
     def wait_until_up(self, *topics):
         """Waits until the node subscribes to the clock and `topics`, and this test receives its
         first state."""

@@ -131,6 +131,7 @@ class ForestReplay(unittest.TestCase):
                                  replay=True, replay_delay=DELAY)
         try:
             forest = Animator('/replay/forest_animator', '/replay/')
+            forest.expect_replay()
             forest.wait_until_up()
             subprocess.run(['rosbag', 'play', '-q', '--clock', '-r', str(SPEED), '-d', '1', self.bag,
                             '--topics', '/wind', '/forest/events', '/wind:=/replay/wind',
