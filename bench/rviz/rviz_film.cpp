@@ -80,6 +80,7 @@ class StampedTopic {
   }
 
   double stamp() const { return stamp_; }
+  bool isConnected() const { return subscriber_.getNumPublishers() > 0; }
   const std::string& name() const { return name_; }
 
  private:
@@ -118,8 +119,23 @@ class Film {
     return true;
   }
 
+  /// Waits for the publishers of all topics, which publish a state at the first tick once.
+  bool connect() {
+    const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(PATIENCE);
+    for (const StampedTopic& topic : topics_)
+      while (!topic.isConnected()) {
+        view_.run(STEP_TIME);
+        if (ros::WallTime::now() < end) continue;
+        std::fprintf(stderr, "rviz_film: nobody publishes %s\n", topic.name().c_str());
+        return false;
+      }
+    view_.run(1.0);  // the other ends of the connections
+    return true;
+  }
+
   /// Advances from the start to shortly before the first picture, without many frames.
   bool approach(double time) {
+    if (!connect()) return false;
     view_.limitRate(1);
     for (double at = BEGIN; at < time - CLOSE; at += 0.1)
       if (!advanceTo(at)) return false;

@@ -6,7 +6,6 @@ import unittest
 
 import rospy
 import rostest
-from sensor_msgs.msg import PointCloud2
 from vegetation_sim.msg import (AgentStates, CanopyLayout, CanopyState, ForestLayout, ForestState,
                                 GrassLayout, GrassState, WindField)
 
@@ -14,7 +13,7 @@ from watched_node import Log
 
 TOPICS = {'agents': AgentStates, 'canopy/layout': CanopyLayout, 'canopy/state': CanopyState,
           'forest/layout': ForestLayout, 'forest/view': ForestState, 'grass/layout': GrassLayout,
-          'grass/state': GrassState, 'lidar/points': PointCloud2, 'wind': WindField}
+          'grass/state': GrassState, 'wind': WindField}
 
 
 class Bag(unittest.TestCase):
@@ -22,8 +21,7 @@ class Bag(unittest.TestCase):
         logs = {topic: Log('/' + topic, kind) for topic, kind in TOPICS.items()}
         for topic, log in logs.items():
             log.wait(len, topic)
-            self.assertEqual(log.messages[0].header.frame_id,
-                             'lidar' if topic == 'lidar/points' else 'world')
+            self.assertEqual(log.messages[0].header.frame_id, 'world')
         log = logs['forest/view']
         log.wait(lambda all: any(message.key_frame for message in all), 'a complete state')
         for state, layout in (('forest/view', 'forest/layout'), ('grass/state', 'grass/layout')):

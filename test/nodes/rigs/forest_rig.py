@@ -110,6 +110,8 @@ class TickClock:
             for animator in animators:
                 animator.state.wait_for_stamp(time_of(self.tick, self.rate),
                                               lambda: self.show(self.tick))
+        for animator in animators:
+            animator.wait_for_services()
 
     def run_until(self, condition, what, *animators):
         for _ in range(100 * self.rate):

@@ -161,6 +161,12 @@ class WatchedNode:
             wait_for(log.connected, log.topic)
         self.settle()  # The node has then received latched messages.
 
+    def wait_for_services(self):
+        """Waits until the node, whose first tick has come, offers its services."""
+        if not self._begun:
+            wait_for(lambda: serves(self._probe_name), self._probe_name)
+            self._begun = True
+
     def settle(self):
         """Returns when the node has received all messages that were published before. A node reads
         its sockets in turn, so a message that is in another socket at the first call is in the
