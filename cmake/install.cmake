@@ -9,7 +9,8 @@ install(TARGETS ${own_targets}
   RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY include/${PROJECT_NAME}/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION})
 install(DIRECTORY config icons launch media rviz DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
-catkin_install_python(PROGRAMS scripts/charts/charts scripts/diff_drive_robot.py
+# Without copies in the development space: rosrun would find each of them twice there.
+install(PROGRAMS scripts/charts/charts scripts/diff_drive_robot.py
   scripts/ground_truth_frame.py
   scripts/rolling_stone.py scripts/scene_snapshot.py scripts/scripted_drive.py scripts/scripted_gripper.py scripts/scripted_mower.py
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})

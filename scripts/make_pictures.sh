@@ -24,8 +24,8 @@ grab         | grab         | 9  | Forest/Leaves=true;Forest/Colour by Level=fal
 grab_levels  | grab         | 9  |
 push         | push         | 9  | Forest/Leaves=true;Forest/Colour by Level=false
 meadow       | meadow       | 12 |
-meadow_robot | meadow_robot | 20 | TF/Enabled=false
-crowd        | crowd        | 12 | TF/Enabled=false
+meadow_robot | meadow_robot | 20 |
+crowd        | crowd        | 12 |
 grove        | grove        | 8  |
 reef         | reef         | 8  |
 scan         | crowd        | 12 |

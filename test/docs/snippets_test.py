@@ -169,6 +169,7 @@ class Snippets(unittest.TestCase):
                 Forest().push((0, 0, -1), 0.1, tree=0, branch=0)
                 rospy.wait_for_message('/forest/state', rospy.AnyMsg, DEADLINE)
             self.shell.stop(recorder)
+            wait_for(lambda: os.path.exists(bag), bag)  # the program that writes it ends last
             with rosbag.Bag(bag) as file:
                 return set(file.get_type_and_topic_info().topics) == topics
         wait_for(records_all, 'a bag with ' + ', '.join(topics))
