@@ -97,8 +97,7 @@ class SavedNode : public NodeBase {
         if (snapshots_.hasCheckpoints() && !options_.replay) done.events.push_back(stored(event));
       });
     }
-    if (!options_.replay)
-      acceptInput("checkpoint", [&] { snapshots_.addToJournal(std::move(done)); });
+    if (!options_.replay) acceptInput("checkpoint", [&] { snapshots_.addTick(std::move(done)); });
     warnOfLosses(name_.c_str(), inputs_.losses(), warned_);
   }
   void publishEvent(const Event& event) {
@@ -211,7 +210,7 @@ class SavedNode : public NodeBase {
   // What a tick itself adds is in the record of the tick.
   void keepArrival(const Event& event) {
     if (!snapshots_.hasCheckpoints() || options_.replay || in_tick_) return;
-    acceptInput("checkpoint", [&] { snapshots_.addToJournal({0, {stored(event)}}); });
+    acceptInput("checkpoint", [&] { snapshots_.addInput(stored(event)); });
   }
 
   void repeatRecord(const JournalRecord& record) {

@@ -72,14 +72,12 @@ void CanopyAnimator::queueNewerWind() {
 }
 
 std::string CanopyAnimator::inputOf(const CanopyEvent& event) const {
-  return event.kind == CanopyEvent::WIND ? windBytes(winds_, event.wind_hash) : std::string();
+  return windInputOf(winds_, event);
 }
 
 std::function<void()> CanopyAnimator::readInput(CanopyEvent& event, const std::string& bytes,
                                                 Nanoseconds shift) {
-  const wind::Field wind = windOfBytes(bytes, shift);
-  event.wind_hash = wind.hash();
-  return [this, wind] { winds_.keep(wind.hash(), wind); };
+  return readWindInput(winds_, event, bytes, shift);
 }
 
 }  // namespace vegetation_sim

@@ -64,14 +64,12 @@ void ForestAnimator::queueNewerWind() {
 }
 
 std::string ForestAnimator::inputOf(const ForestInput& event) const {
-  return event.kind == ForestInput::WIND ? windBytes(winds_, event.wind_hash) : std::string();
+  return windInputOf(winds_, event);
 }
 
 std::function<void()> ForestAnimator::readInput(ForestInput& event, const std::string& bytes,
                                                 Nanoseconds shift) {
-  const wind::Field wind = windOfBytes(bytes, shift);
-  event.wind_hash = wind.hash();
-  return [this, wind] { winds_.keep(wind.hash(), wind); };
+  return readWindInput(winds_, event, bytes, shift);
 }
 
 }  // namespace vegetation_sim

@@ -42,4 +42,17 @@ std::string windBytes(const HashedCache<wind::Field>& winds, std::uint64_t hash)
 /// Reads a wind with all stamps moved. @throws InvalidInput for bytes that are no wind.
 wind::Field windOfBytes(const std::string& bytes, Nanoseconds shift);
 
+/// The bodies of SavedNode::inputOf() and readInput() of a node whose one input is the wind.
+template <class Event>
+std::string windInputOf(const HashedCache<wind::Field>& winds, const Event& event) {
+  return event.kind == Event::WIND ? windBytes(winds, event.wind_hash) : std::string();
+}
+template <class Event>
+std::function<void()> readWindInput(HashedCache<wind::Field>& winds, Event& event,
+                                    const std::string& bytes, Nanoseconds shift) {
+  const wind::Field wind = windOfBytes(bytes, shift);
+  event.wind_hash = wind.hash();
+  return [&winds, wind] { winds.keep(wind.hash(), wind); };
+}
+
 }  // namespace vegetation_sim

@@ -83,7 +83,8 @@ std::string NodeSnapshots::load(const LoadSnapshot::Request& request, Nanosecond
 
 void NodeSnapshots::checkpointIfDue(Nanoseconds stamp) {
   if (!hasCheckpoints()) return;
-  if (!last_ || secondsBetween(*last_, stamp) >= period_) checkpoint();
+  if (!last_ || secondsBetween(*last_, stamp) >= period_ || journal_.size() > LARGEST_JOURNAL)
+    checkpoint();
 }
 
 void NodeSnapshots::checkpoint() {
@@ -94,8 +95,8 @@ void NodeSnapshots::checkpoint() {
   journal_.restart(keyOf(snapshot));
 }
 
-void NodeSnapshots::addToJournal(JournalRecord record) {
-  journal_.add(std::move(record));
+void NodeSnapshots::addInput(StoredEvent input) {
+  journal_.add({0, {std::move(input)}});
   if (journal_.size() > LARGEST_JOURNAL) checkpoint();
 }
 

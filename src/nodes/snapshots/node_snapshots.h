@@ -63,15 +63,17 @@ class NodeSnapshots {
   /// Whether checkpoints are written.
   bool hasCheckpoints() const { return period_ > 0.0; }
   /// To be called after each tick: writes a checkpoint if the period has passed since the last one,
-  /// or there is none.
+  /// its journal is large, or there is none.
   void checkpointIfDue(Nanoseconds stamp);
   /// Writes a checkpoint now.
   void checkpoint();
   /// Removes the checkpoint, whose ticks are no past of what follows.
   void dropCheckpoint();
-  /// Adds a record to the journal of the checkpoint. A journal that grows large is replaced by a
-  /// new checkpoint.
-  void addToJournal(JournalRecord record);
+  /// Adds a tick to the journal of the checkpoint.
+  void addTick(JournalRecord tick) { journal_.add(std::move(tick)); }
+  /// Adds an input that arrives between ticks. A journal that is large is replaced by a new
+  /// checkpoint.
+  void addInput(StoredEvent input);
   /// Returns the checkpoint with which the node begins, if it shall and there is one.
   std::optional<Loadable> readCheckpoint() const;
   /// Returns what has happened after a checkpoint.
