@@ -141,12 +141,17 @@ TEST_F(CrowdDisplayTest, RejectsInvalidNumbersAndKeepsItsState) {
   EXPECT_EQ(display->drawn().drawn, 8u);
 }
 
+// SetUp() may leave messages under way. They would bring the people back after the jump, so one
+// that differs is awaited first.
 TEST_F(CrowdDisplayTest, SurvivesTimeGoingBack) {
+  rig.gather(7);
+  rig.report();
+  ASSERT_TRUE(rig.until([&] { return display->drawn().drawn == 7; }));
   rig.setTime(rig.now() - 50.0);
   EXPECT_TRUE(rig.until([&] { return display->drawn().people == 0; }));
   EXPECT_TRUE(rig.until([&] {
     rig.report();  // rviz has subscribed again.
-    return display->drawn().drawn == 8;
+    return display->drawn().drawn == 7;
   }));
 }
 
