@@ -59,7 +59,7 @@ set_own_options(${PROJECT_NAME}_core)
 target_precompile_headers(${PROJECT_NAME}_core PRIVATE ${core_headers})
 target_include_directories(${PROJECT_NAME}_core PUBLIC include)
 target_link_libraries(${PROJECT_NAME}_core
-  PUBLIC Eigen3::Eigen ${YAML_CPP_LIBRARIES} PRIVATE PNG::PNG hwy::hwy)
+  PUBLIC Eigen3::Eigen ${YAML_CPP_LIBRARIES} PRIVATE PNG::PNG Threads::Threads hwy::hwy)
 
 # Targets above the core use ROS.
 add_library(${PROJECT_NAME}_ros ${ros_sources})
