@@ -74,7 +74,7 @@ void AgentCrowd::checkKnown(const std::vector<std::uint32_t>& ids) const {
   if (ids.empty() || ids.size() > EventQueue<CrowdEvent>::MOST_WAITING)
     faults.add("ids has " + std::to_string(ids.size()) + " entries, allowed are 1 to 10000");
   for (const std::uint32_t id : ids)
-    if (!crowd_.find(id)) faults.add("walker " + std::to_string(id) + " is unknown");
+    if (!crowd_.find(id)) faults.add("ids: walker " + std::to_string(id) + " is unknown");
   faults.throwIfAny();
 }
 

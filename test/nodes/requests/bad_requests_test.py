@@ -52,8 +52,9 @@ def winds():
                *('primitive.' + name for name in ignored), 'primitive.trajectory.0.header')
 
 
-# Requests that succeed by service, with the fields that each of them ignores: points and stamps
-# that it does not need, and heights above the ground.
+# Requests that succeed by service, with the fields that each of them ignores or takes as they are:
+# places and stamps that it does not need, heights above the ground, and the page of a list, which
+# may lie beyond its end.
 REQUESTS = {
     '/forest_animator/apply_force': [
         (srv.ApplyForceRequest(branch=3, along=0.01, duration=0.5,
@@ -61,15 +62,16 @@ REQUESTS = {
          'point', 'force.header'),
         (srv.ApplyForceRequest(nearest=True, duration=0.5, point=STEM,
                                force=Vector3Stamped(vector=Vector3(5.0, 0.0, 0.0))),
-         'along', 'point.header', 'force.header')],
+         'tree', 'branch', 'along', 'point.header', 'force.header')],
     '/forest_animator/find_trees': [
-        (srv.FindTreesRequest(centre=PLACE, radius=20.0, limit=5), 'centre.header')],
+        (srv.FindTreesRequest(centre=PLACE, radius=20.0, limit=5),
+         'centre.header', 'offset')],
     '/forest_animator/get_tree': [(srv.GetTreeRequest(tree=1), 'stamp')],
     '/forest_animator/grab': [
         (srv.GrabRequest(branch=3, along=0.01, target=PLACE, **SPRING),
          'point', 'target.header', 'offset'),
         (srv.GrabRequest(nearest=True, point=STEM, frame='hand', offset=Point(0.1, 0.0, 0.0),
-                         **SPRING), 'along', 'point.header', 'target')],
+                         **SPRING), 'tree', 'branch', 'along', 'point.header', 'target')],
     '/forest_animator/move_grab': [(srv.MoveGrabRequest(id=1, target=PLACE), 'target.header')],
     '/forest_animator/pick': [
         (srv.PickRequest(origin=Point(-13.0, -4.0, 1.0), direction=Vector3(1.0, 0.0, 0.0),
@@ -80,14 +82,15 @@ REQUESTS = {
         (srv.ClearGrassRequest(centre=PLACE, radius=1.0), 'centre.header', 'centre.point.z')],
     '/grass_field/sample': [
         (srv.SampleGrassRequest(points=[PLACE.point]), 'header', 'points.0.z')],
-    '/grass_field/tread': [(srv.TreadRequest(points=[PLACE.point], law=LAW), 'points.0.z')],
+    '/grass_field/tread': [(srv.TreadRequest(points=[PLACE.point], law=LAW),
+         'header.seq', 'points.0.z')],
     '/canopy_animator/sample': [(srv.SampleCanopyRequest(points=[PLACE.point]), 'header')],
     '/agent_crowd/remove': [(srv.RemoveAgentsRequest(ids=[2]),)],
     '/agent_crowd/set_goal': [
         (srv.SetAgentGoalRequest(ids=[1], goal=PLACE), 'goal.header', 'goal.point.z')],
     '/agent_crowd/spawn': [
         (srv.SpawnAgentsRequest(like=WALKER, count=2, spread=1.0),
-         'like.position.z', 'like.goal.z')],
+         'header.seq', 'like.position.z', 'like.goal.z')],
     '/wind_broadcaster/remove_primitive': [(srv.RemoveWindPrimitiveRequest(name='breeze'),)],
     '/wind_broadcaster/sample': [
         (srv.SampleWindRequest(positions=[PLACE.point], stamps=[rospy.Time()]),
@@ -154,7 +157,10 @@ class BadRequests(unittest.TestCase):
             return file.read()
 
     BAD_VALUES = {'float64': [float('nan'), float('inf'), float('-inf'), 1e300, -1e300],
-                  'time': [rospy.Time(10 ** 9)]}
+                  'time': [rospy.Time(10 ** 9)],
+                  'uint8': [255], 'uint16': [2 ** 16 - 1], 'uint32': [2 ** 32 - 1],
+                  'int32': [-2 ** 31, 2 ** 31 - 1], 'uint64': [2 ** 64 - 1],
+                  'string': ['no such name', 'x' * 100000]}
 
     def test_every_service_of_a_request_is_here(self):
         services = {s for s in rosservice.get_service_list()
