@@ -47,12 +47,12 @@ QT5=(qtbase5-dev)
 QT6=(qt6-base-dev qt6-svg-plugins)
 NOETIC=(
   catkin diagnostic-msgs diagnostic-updater dynamic-reconfigure geometry-msgs message-generation
-  nav-msgs nodelet pluginlib rosbag rosbash roscpp rosgraph-msgs roslaunch roslib
+  message-runtime nav-msgs nodelet pluginlib rosbag rosbash roscpp rosgraph rosgraph-msgs roslaunch roslib
   rosmsg rosnode rosparam rospy rosservice rostest rostopic sensor-msgs std-msgs std-srvs tf2
   tf2-msgs tf2-ros topic-tools urdf visualization-msgs
 )
 DISPLAY_NOETIC=(ros-noetic-rviz)
-CHECKS=(catkin-lint clang-format clang-tidy)
+CHECKS=(catkin-lint clang-format clang-tidy doxygen)
 
 # Tests give the description of another system.
 OS_RELEASE=${OS_RELEASE:-/etc/os-release}

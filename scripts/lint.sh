@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Runs the static checks of the code.
 # usage: scripts/lint.sh [format | tidy | catkin | structure | words | docs | api] ... Runs all checks
-# but the last if none is given. api writes the pages of the installed headers to build/api/html and
-# fails if Doxygen, which must be installed, has a warning.
+# if none is given. api writes the pages of the installed headers to build/api/html and fails if
+# Doxygen has a warning.
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 cd "$ROOT"
@@ -45,9 +45,12 @@ catkin() {
   [ -z "$found" ] || { printf '%s\n' "$found"; return 1; }
 }
 
-# Checks folders, includes, public headers and file stems against docs/folders.yaml, and the programs
-# that launch files name.
-structure() { python3 test/structure/check_structure.py && python3 test/structure/check_launch_files.py; }
+# Checks folders, includes, public headers and file stems against docs/folders.yaml, the programs
+# that launch files name, and the keys of package.xml.
+structure() {
+  local check
+  for check in structure launch_files manifest; do python3 test/structure/check_$check.py || return 1; done
+}
 
 # Forbids debugging leftovers and, in the core, functions and containers whose results differ
 # between machines. Code that only selects the level of detail of a picture may use the mathematics
@@ -67,7 +70,7 @@ docs() { python3 test/docs/check_docs.py; }
 
 api() { mkdir -p build/api && doxygen Doxyfile; }
 
-[ $# -gt 0 ] || set -- format tidy catkin structure words docs
+[ $# -gt 0 ] || set -- format tidy catkin structure words docs api
 for check in "$@"; do
   case $check in
     format | tidy | catkin | structure | words | docs | api) "$check" ;;

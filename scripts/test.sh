@@ -53,7 +53,7 @@ run_tests() {
 
 lint() {
   say 'Checks of the code'
-  local name names=(format catkin structure words docs)
+  local name names=(format catkin structure words docs api)
   [ $part = all ] || names+=(tidy)
   for name in "${names[@]}"; do check "lint $name" "$ROOT/scripts/lint.sh" $name; done
 }
