@@ -29,6 +29,7 @@ crowd        | crowd        | 12 |
 grove        | grove        | 8  |
 reef         | reef         | 8  |
 scan         | crowd        | 12 |
+other_robot  | crowd        | 14 | Robot/Robot Description=scout/robot_description;Robot/TF Prefix=scout
 END
 }
 FILM_SIZE='640 400' FILM_START=12 FILM_FRAMES=60 FILM_RATE=12 FILM_BYTES=4000000
@@ -49,16 +50,18 @@ topics_of() {
     "$ROOT/config/scenarios/$1.yaml"
 }
 
-# usage: start_scenario SCENARIO [LIDAR]
+# usage: start_scenario NAME SCENARIO. Launches what the picture NAME shows.
 start_scenario() {
+  local file=launch/demo.launch arguments
+  arguments="<arg name='scenario' value='$2'/><arg name='rviz' value='false'/>"
+  case $1 in
+    scan) arguments+="<arg name='lidar' value='true'/>" ;;
+    other_robot) file=test/nodes/robot/skid_steer.launch arguments='' ;;
+  esac
   cat >"$WORK/picture.launch" <<END
 <launch>
   <param name="use_sim_time" value="true"/>
-  <include file="\$(find vegetation_sim)/launch/demo.launch">
-    <arg name="scenario" value="$1"/>
-    <arg name="rviz" value="false"/>
-    <arg name="lidar" value="${2:-false}"/>
-  </include>
+  <include file="\$(find vegetation_sim)/$file">$arguments</include>
 </launch>
 END
   start_roslaunch "$WORK/picture.launch"
@@ -68,12 +71,12 @@ END
 # usage: film NAME SCENARIO CHANGES SIZE START [FRAMES RATE]. Writes $WORK/NAME.png or
 # $WORK/NAME-001.png and so on.
 film() {
-  local name=$1 scenario=$2 config=$ROOT/rviz/$2.rviz changes lidar=false
+  local name=$1 scenario=$2 config=$ROOT/rviz/$2.rviz changes
   IFS=';' read -ra changes <<<"$3"
-  [ "$name" != scan ] || { config=$ROOT/rviz/scan.rviz lidar=true; }
+  [[ $name != @(scan|other_robot) ]] || config=$ROOT/rviz/scan.rviz
   python3 "$ROOT/scripts/picture_view.py" "$config" "${changes[@]}" >"$WORK/$name.rviz"
   say "Picture $name of scenario $scenario"
-  start_scenario "$scenario" $lidar
+  start_scenario "$name" "$scenario"
   # shellcheck disable=SC2046,SC2086
   "$DEVEL/lib/vegetation_sim/rviz_film" "$WORK/$name.rviz" "$WORK/$name" $4 "${@:5}" \
     -- $(topics_of "$scenario") >"$WORK/film.log" 2>&1 || give_up "$name: $(tail -n 5 "$WORK/film.log")"
