@@ -14,7 +14,8 @@ fi
 wanted=("$@")
 
 # usage: pictures. One line per picture: name, scenario, time [s], and changes of its rviz
-# configuration as scripts/picture_view.py reads them, separated by semicolons.
+# configuration as scripts/picture_view.py reads them, separated by semicolons. other_robot has a
+# scene of its own with the nodes of its scenario.
 pictures() {
   cat <<'END'
 demo         | demo         | 14 |
@@ -29,7 +30,7 @@ crowd        | crowd        | 12 |
 grove        | grove        | 8  |
 reef         | reef         | 8  |
 scan         | crowd        | 12 |
-other_robot  | crowd        | 14 | Robot/Robot Description=scout/robot_description;Robot/TF Prefix=scout
+other_robot  | crowd        | 14 | Robot/Robot Description=scout/robot_description;Robot/TF Prefix=scout;Forces/Enabled=true;View/Distance=7;View/Yaw=3.9;View/Pitch=0.22;View/Focal Point={X: 0, Y: 0.5, Z: 0.9}
 END
 }
 FILM_SIZE='640 400' FILM_START=12 FILM_FRAMES=60 FILM_RATE=12 FILM_BYTES=4000000
