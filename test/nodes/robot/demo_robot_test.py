@@ -39,6 +39,8 @@ class DemoRobot(unittest.TestCase):
         cls.frames = Log('/tf', TFMessage)
         cls.command, cls.wrench = (publisher(name, kind) for name, kind in
                                    (('/cmd_vel', Twist), ('/grass/wrenches', WrenchStamped)))
+        for log in cls.odom, cls.truth, cls.frames:
+            wait_for(lambda: log.messages, log.topic)
         command = Twist()
         command.linear.x, command.angular.z = 1.0, 0.4
 
