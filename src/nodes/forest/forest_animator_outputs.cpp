@@ -8,6 +8,8 @@
 namespace vegetation_sim {
 namespace {
 
+constexpr double OVERRUN = 0.01;  // overlap of which the diagnostics warn [m]
+
 void addModes(diagnostic_updater::DiagnosticStatusWrapper& status, const std::string& whose,
               const forest::TreeDetail& detail) {
   const auto& modal_states = detail.modes.modalStates();
@@ -149,10 +151,13 @@ void ForestAnimator::addPhysics(Status& status) {
   status.add("Steps whose contacts were too fast", figures.coarse);
   status.add("Forces at their limit", figures.capped_forces);
   status.add("Deepest overlap with a body [m]", deepest_.penetration);
-  if (deepest_.penetration > 0.0)
-    status.add("Deepest overlap, where", deepest_.body + " in tree_" +
-                                             std::to_string(deepest_.at.tree) + "/branch_" +
-                                             std::to_string(deepest_.at.branch));
+  if (deepest_.penetration <= 0.0) return;
+  const std::string where = deepest_.body + " in tree_" + std::to_string(deepest_.at.tree) +
+                            "/branch_" + std::to_string(deepest_.at.branch);
+  status.add("Deepest overlap, where", where);
+  if (deepest_.penetration > OVERRUN)
+    status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN,
+                        where + ": wood is overrun beyond contact_force_limit");
 }
 
 void ForestAnimator::updateDeepestOverlap() {

@@ -179,12 +179,15 @@ class WatchedNode:
 
     def diagnostics(self, part=None):
         """Returns the node's next diagnostics by key, of the node itself or of its part `part`."""
+        return {pair.key: number_or_text(pair.value) for pair in self.status(part).values}
+
+    def status(self, part=None):
+        """Returns the next DiagnosticStatus of the node itself or of its part `part`."""
         name = self.name.lstrip('/') + ': ' + part if part else self._status
         log = Log('/diagnostics', DiagnosticArray)
         log.wait(lambda all: any(s.name == name for m in all for s in m.status), name)
         log.close()
-        status = [s for m in log.messages for s in m.status if s.name == name][-1]
-        return {pair.key: number_or_text(pair.value) for pair in status.values}
+        return [s for m in log.messages for s in m.status if s.name == name][-1]
 
     def close(self):
         for log in self.logs():

@@ -108,9 +108,11 @@ class Bodies(unittest.TestCase):
         # At the height of the hand the trunk leans, tapers and yields by less than 1 cm each.
         self.assertAlmostEqual(figures[OVERLAP], inside, delta=0.01)
         self.assertEqual(figures[OVERLAP_AT], 'palm in tree_%d/branch_%d' % (TREE, TRUNK))
+        self.assertIn(figures[OVERLAP_AT] + ': wood is overrun', hands.status().message)
         self.clock.run_until(lambda: not hands.physical(), 'a calm tree', hands)
         wait_for(lambda: hands.diagnostics()[OVERLAP] == 0.0, 'a report without an overlap')
         self.assertNotIn(OVERLAP_AT, hands.diagnostics())
+        self.assertNotIn('overrun', hands.status().message)
 
     def test_requests_for_later_that_flood_stop_neither_body_nor_node(self):
         start = self.hands.point(LIMB, ALONG)
