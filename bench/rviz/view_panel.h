@@ -59,6 +59,9 @@ class ViewPanel {
         ->setValue(rate);
   }
 
+  Ogre::RenderWindow& window() { return *panel_.getRenderWindow(); }
+  rviz::VisualizationManager& manager() { return *manager_; }
+
   void run(double seconds) {
     const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(seconds);
     while (ros::WallTime::now() < end) QApplication::processEvents(QEventLoop::AllEvents, 5);
@@ -82,13 +85,6 @@ class ViewPanel {
     window().copyContentsToMemory(target, target);
 #endif
     return out;
-  }
-
-  Ogre::RenderWindow& window() {
-    return *panel_.getRenderWindow();
-  }
-  rviz::VisualizationManager& manager() {
-    return *manager_;
   }
 
  private:
