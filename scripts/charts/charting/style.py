@@ -108,6 +108,12 @@ def note(axes, x, y, text, offset=(6, 4), **options):
                   color='0.25', **options)
 
 
+def edges_of(centres):
+    """Returns the edges of the cells around rising centres, as old versions of pcolormesh need."""
+    middles = [0.5 * (a + b) for a, b in zip(centres, centres[1:])]
+    return [2 * centres[0] - middles[0], *middles, 2 * centres[-1] - middles[-1]]
+
+
 def legend_below(out, axes, columns=4):
     """Draws one legend below all axes, with each name once."""
     handles = {}
@@ -115,7 +121,11 @@ def legend_below(out, axes, columns=4):
         handles.update({name: line for line, name in zip(*each.get_legend_handles_labels())})
     lines = math.ceil(len(handles) / columns)
     height = (0.2 * lines + 0.1) / out.get_figheight()
-    out.get_layout_engine().set(rect=(0.0, height, 1.0, 1.0 - height))
+    if hasattr(out, 'get_layout_engine'):
+        out.get_layout_engine().set(rect=(0.0, height, 1.0, 1.0 - height))
+    else:  # Matplotlib before 3.6
+        out.set_constrained_layout(False)
+        out.tight_layout(rect=(0.0, height, 1.0, 0.95))
     out.legend(handles.values(), handles.keys(), loc='lower center', ncol=columns)
 
 
@@ -123,7 +133,7 @@ def save(out, path):
     """Saves as PNG and SVG, without a date, so that equal figures give equal files."""
     picture = io.BytesIO()
     out.savefig(picture, format='png', dpi=DOTS_PER_INCH)
-    few = Image.open(picture).convert('RGB').quantize(255, dither=Image.Dither.NONE)
+    few = Image.open(picture).convert('RGB').quantize(255, dither=0)
     few.save(path.with_suffix('.png'), optimize=True)
     out.savefig(path.with_suffix('.svg'), metadata={'Date': None})
     plt.close(out)

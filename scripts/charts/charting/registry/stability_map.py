@@ -17,8 +17,8 @@ def panel(axes, growth, edge):
     x, y = (np.array(sorted({row[key] for row in growth})) for key in 'xy')
     order = sorted(growth, key=lambda row: (row.x, row.y))
     values = np.array([row.value for row in order]).reshape(len(x), len(y)).T
-    shown = axes.pcolormesh(x, y, np.clip(values, 0.5, 1.5), cmap='RdBu_r', rasterized=True,
-                            shading='nearest', norm=TwoSlopeNorm(1.0, 0.5, 1.5))
+    shown = axes.pcolormesh(style.edges_of(x), style.edges_of(y), np.clip(values, 0.5, 1.5),
+                            cmap='RdBu_r', rasterized=True, norm=TwoSlopeNorm(1.0, 0.5, 1.5))
     for column, line in (('y', dict(color=style.BLACK, linewidth=3.0)),
                          ('theory', dict(color=style.YELLOW, linewidth=1.4, linestyle='--'))):
         axes.plot(*zip(*[(row.x, row[column]) for row in edge]), **line)

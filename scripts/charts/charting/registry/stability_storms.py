@@ -16,8 +16,9 @@ def draw(rows):
         apart, steps = (np.array(sorted({row[key] for row in each})) for key in 'xy')
         order = sorted(each, key=lambda row: (row.x, row.y))
         bends = np.array([row.theory for row in order]).reshape(len(apart), len(steps))
-        shown = axes.pcolormesh(np.log10(1e3 * steps), np.log10(apart), bends, cmap='viridis',
-                                shading='nearest', vmin=0.0, vmax=3.0, rasterized=True)
+        shown = axes.pcolormesh(style.edges_of(np.log10(1e3 * steps)),
+                                style.edges_of(np.log10(apart)), bends, cmap='viridis',
+                                vmin=0.0, vmax=3.0, rasterized=True)
         broken = [row for row in each if not np.isfinite(row.theory)]
         axes.plot([np.log10(1e3 * row.y) for row in broken],
                   [np.log10(row.x) for row in broken], 'rx')
