@@ -14,7 +14,7 @@ std::string Faults::text() const {
 }
 
 void Faults::throwIfAny() const {
-  if (!empty()) throw InvalidInput(text());
+  if (!empty()) throw InvalidInput(text(), code_);
 }
 
 std::string rangeFault(const std::string& name, double value, const char* unit, Range range) {

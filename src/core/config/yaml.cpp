@@ -3,7 +3,9 @@
 #include "vegetation_sim/core/config/yaml.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cstring>
+#include <type_traits>
 
 #include "core/config/files.h"
 
@@ -14,6 +16,8 @@ constexpr std::uintmax_t LARGEST_FILE = 4u << 20;
 // Limits of a text in a message [bytes] and of its separators , : [ { ? and line ends: a parsed
 // value takes some hundred bytes.
 constexpr std::size_t LARGEST_TEXT = 1u << 20, MOST_MARKS = 200000;
+// Limit of values within values; yaml-cpp 0.6 has none and its stack ends.
+constexpr std::size_t MOST_DEPTH = 100;
 constexpr std::size_t LONGEST_SHOWN = 60;  // letters of a value in a fault
 
 std::string shortened(const std::string& text) {
@@ -24,6 +28,21 @@ std::string shortened(const std::string& text) {
 std::size_t countMarks(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(
       text.begin(), text.end(), [](char c) { return std::strchr(",:[{?\n", c) != nullptr; }));
+}
+
+// Returns a bound of how deep values lie within values by brackets, or by dashes in one line. Those
+// that lie deep by indentation alone take the square of their depth in bytes.
+std::size_t boundDepth(const std::string& text) {
+  std::size_t open = 0, dashes = 0, out = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '[' || c == '{') ++open;
+    if ((c == ']' || c == '}') && open > 0) --open;
+    if (c == '\n') dashes = 0;
+    if ((c == '-' || c == '?') && i + 1 < text.size() && std::isspace(text[i + 1])) ++dashes;
+    out = std::max(out, open + dashes);
+  }
+  return out;
 }
 
 std::string shown(const YAML::Node& node) {
@@ -67,6 +86,9 @@ bool YamlSection::read(const char* name, const char* type, T& value) {
   if (!has(name)) return false;
   const YAML::Node node = node_[name];
   try {
+    // yaml-cpp 0.6 reads negative numbers as unsigned ones.
+    if (std::is_unsigned_v<T> && node.IsScalar() && node.Scalar().find('-') != std::string::npos)
+      throw YAML::BadConversion(node.Mark());
     value = node.as<T>();
     return true;
   } catch (const YAML::Exception&) {
@@ -177,6 +199,9 @@ YAML::Node parseYaml(const std::string& text, const std::string& name) {
     throw InvalidInput(name + ": " + std::to_string(marks) +
                        " signs that separate values, more than the " + std::to_string(MOST_MARKS) +
                        " allowed");
+  if (const std::size_t depth = boundDepth(text); depth > MOST_DEPTH)
+    throw InvalidInput(name + ": values lie " + std::to_string(depth) + " deep, more than the " +
+                       std::to_string(MOST_DEPTH) + " allowed");
   return parse(text, name);
 }
 

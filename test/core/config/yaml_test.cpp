@@ -114,6 +114,13 @@ TEST(LoadYaml, NamesTheFileThatIsMissingOrNoYaml) {
 TEST(ParseYaml, TextIsLimitedBeforeItIsParsed) {
   EXPECT_EQ(errorOf([] { parseYaml(std::string((1u << 20) + 1, ' '), "rules"); }),
             "rules: 1048577 bytes, more than the 1048576 allowed");
+  for (const char* nested : {"[", "{a: ", "- ", "? "}) {
+    std::string text;
+    for (int i = 0; i < 20000; ++i) text += nested;
+    EXPECT_EQ(errorOf([&] { parseYaml(text, "rules"); }),
+              "rules: values lie 20000 deep, more than the 100 allowed")
+        << nested;
+  }
   EXPECT_EQ(errorOf([&] { parseYaml(std::string(200001, '['), "rules"); }),
             "rules: 200001 signs that separate values, more than the 200000 allowed");
   EXPECT_EQ(errorOf([] { parseYaml("[1, 2]", "rules"); }), "");
