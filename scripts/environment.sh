@@ -8,6 +8,14 @@ BUILD=${BUILD:-$ROOT/build}
 DEVEL=${BUILD%/build}/devel
 export PATH=/usr/bin:/usr/sbin:/bin:$PATH
 
+# ROS Noetic is not in the folders where CMake and Python look.
+if [ -z "${CMAKE_PREFIX_PATH:-}" ] && [ -e /opt/ros/noetic/setup.bash ]; then
+  set +u
+  # shellcheck disable=SC1091
+  . /opt/ros/noetic/setup.bash
+  set -u
+fi
+
 # Nodes connect to each other by the name of the machine. In containers it often does not resolve;
 # then they use the loopback address.
 if [ -z "${ROS_HOSTNAME:-}${ROS_IP:-}" ] && ! getent hosts "$(uname -n)" >/dev/null; then

@@ -132,6 +132,8 @@ say "Installing ${#missing[@]} packages and what they need: ${missing[*]}"
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 run_as_root apt-get update -qq
+[ "$system" != 'ubuntu focal' ] || apt-cache show ros-noetic-catkin >/dev/null 2>&1 ||
+  fail 'apt knows no package of ROS Noetic: add its source first, see http://wiki.ros.org/noetic/Installation/Ubuntu'
 run_as_root sh -c 'DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends \
     -o APT::Status-Fd=3 "$@" 3>&1 >"$0" 2>&1' "$log" "${missing[@]}" | show_progress ||
   { tail -n 30 "$log" >&2; fail 'apt-get cannot install the packages above'; }
