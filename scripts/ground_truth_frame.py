@@ -8,13 +8,17 @@ is a child of the robot, by the inverse of the pose. Every frame of the robot th
 in the world, while map and odom keep their estimates. The frame names of the messages are ignored,
 since simulators disagree on them.
 """
+import itertools
 import threading
 import time
 
 import rospy
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import TransformStamped
 from nav_msgs.msg import Odometry
 from tf2_msgs.msg import TFMessage
+
+LONGEST_SILENCE = 2.0  # [s]
 
 
 def rotated(q, v):
@@ -45,16 +49,37 @@ class GroundTruthFrame:
         self.base = rospy.get_param('~base_frame')
         self.stamp = None
         self.tf = rospy.Publisher('/tf', TFMessage, queue_size=100)
+        self.diagnostics = rospy.Publisher('/diagnostics', DiagnosticArray, queue_size=10)
         rospy.Subscriber('ground_truth', Odometry, self.on_pose, queue_size=10, tcp_nodelay=True)
-        threading.Thread(target=self.warn_of_silence, daemon=True).start()
+        threading.Thread(target=self.report, daemon=True).start()
 
-    def warn_of_silence(self):
-        """Warns each 5 s of wall time until the first message has come."""
-        while self.stamp is None and not rospy.core.is_shutdown_requested():
-            time.sleep(5.0)
-            if self.stamp is None:
-                rospy.logwarn('no odometry on %s: there is no frame %s yet',
-                              rospy.resolve_name('ground_truth'), self.world)
+    def find_fault(self):
+        """Returns what is missing, or an empty text."""
+        topic = rospy.resolve_name('ground_truth')
+        stamp = self.stamp
+        if stamp is None:
+            return 'no odometry on %s: there is no frame %s yet' % (topic, self.world)
+        silence = (rospy.Time.now() - stamp).to_sec()
+        if silence > LONGEST_SILENCE:
+            return 'no odometry on %s for %.0f s' % (topic, silence)
+        return ''
+
+    def report(self):
+        """Reports each second of wall time on /diagnostics, and each 5 s in the log if the odometry
+        is missing."""
+        for second in itertools.count(1):
+            time.sleep(1.0)
+            if rospy.core.is_shutdown_requested():
+                return
+            fault = self.find_fault()
+            if fault and second % 5 == 0:
+                rospy.logwarn(fault)
+            status = DiagnosticStatus(name=rospy.get_name()[1:] + ': frame ' + self.world,
+                                      hardware_id='none', message=fault or 'running',
+                                      level=DiagnosticStatus.WARN if fault else DiagnosticStatus.OK)
+            out = DiagnosticArray(status=[status])
+            out.header.stamp = rospy.Time.now()
+            self.diagnostics.publish(out)
 
     def on_pose(self, message):
         if message.header.stamp == self.stamp:

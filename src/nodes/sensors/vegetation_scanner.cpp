@@ -3,6 +3,7 @@
 #include "nodes/sensors/vegetation_scanner.h"
 
 #include <algorithm>
+#include <optional>
 #include <thread>
 
 #include "ros/conversions/scan_conversions.h"
@@ -63,18 +64,20 @@ void VegetationScanner::tick(std::int64_t tick) {
                       scan_publisher_.getNumSubscribers() > 0 ||
                       report_publisher_.getNumSubscribers() > 0;
   missing_.clear();
+  std::optional<scan::SensorPath> path;
   try {
-    const scan::SensorPath path = findPath();
-    announce(path.at(turn()));
-    if (!wanted) return;
-    const ros::WallTime start = ros::WallTime::now();
-    sweep(path, tick);
-    cost_ = (ros::WallTime::now() - start).toSec();
-    ++counts_.sweeps;
+    path = findPath();
   } catch (const InvalidInput&) {
     counts_.unplaced += wanted;
     missing_.add(describeMissingTransform(options_.lidar_frame, options_.frame_id));
+    return;
   }
+  announce(path->at(turn()));
+  if (!wanted) return;
+  const ros::WallTime start = ros::WallTime::now();
+  sweep(*path, tick);
+  cost_ = (ros::WallTime::now() - start).toSec();
+  ++counts_.sweeps;
 }
 
 double VegetationScanner::turn() const {

@@ -8,6 +8,7 @@ import unittest
 
 import rospy
 import rostest
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import Twist, WrenchStamped
 from nav_msgs.msg import Odometry
 from tf2_msgs.msg import TFMessage
@@ -73,6 +74,17 @@ class DemoRobot(unittest.TestCase):
             self.assertAlmostEqual(wyaw, -yaw, delta=1e-9)
             self.assertAlmostEqual(x + wx * math.cos(yaw) - wy * math.sin(yaw), 0.0, delta=1e-9)
             self.assertAlmostEqual(y + wx * math.sin(yaw) + wy * math.cos(yaw), 0.0, delta=1e-9)
+
+    def test_the_ground_truth_that_is_missing_is_a_warning(self):
+        log = Log('/diagnostics', DiagnosticArray)
+
+        def reported(name):
+            return log.wait(lambda all: [s for m in all for s in m.status if s.name == name], name)[0]
+        missing = reported('no_ground_truth: frame nowhere')
+        self.assertEqual(missing.level, DiagnosticStatus.WARN)
+        self.assertIn('/nobody/publishes', missing.message)
+        found = reported('ground_truth: frame world')
+        self.assertEqual((found.level, found.message), (DiagnosticStatus.OK, 'running'))
 
     def test_the_drag_of_the_grass_slows_it(self):
         before = self.truth.messages[-1].twist.twist.linear.x
