@@ -8,7 +8,7 @@ install(TARGETS ${own_targets}
   LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
   RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY include/${PROJECT_NAME}/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION})
-install(DIRECTORY config icons launch media rviz DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
+install(DIRECTORY config examples icons launch media rviz DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
 # Without copies in the development space: rosrun would find each of them twice there.
 install(PROGRAMS scripts/charts/charts scripts/diff_drive_robot.py
   scripts/ground_truth_frame.py

@@ -7,7 +7,12 @@ from std_msgs.msg import Header
 
 
 class VegetationError(RuntimeError):
-    """A node rejected a request, with the node's message, or did not answer."""
+    """A node rejected a request, with the node's message, or did not answer. `code` is a constant
+    of vegetation_sim.msg.ErrorCode, or None if no node has answered."""
+
+    def __init__(self, text, code=None):
+        super().__init__(text)
+        self.code = code
 
 
 class Client:
@@ -29,7 +34,8 @@ class Client:
         except rospy.ServiceException as error:
             raise VegetationError('%s/%s: %s' % (self.node, name, error)) from error
         if not response.success:
-            raise VegetationError('%s/%s: %s' % (self.node, name, response.message))
+            raise VegetationError('%s/%s: %s' % (self.node, name, response.message),
+                                  response.error_code)
         return response
 
     def _connect(self, name, service):

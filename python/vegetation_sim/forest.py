@@ -22,6 +22,8 @@ class Forest(Client):
 
     def trees(self, centre=None, radius=None):
         """Yields the trees (FoundTree), all or those within a radius, the nearest first."""
+        if (centre is None) != (radius is None):
+            raise ValueError('centre and radius go together')
         place = dict(all=True) if centre is None else dict(centre=stamped(centre), radius=radius)
         offset, total = 0, 1
         while offset < total:
@@ -46,6 +48,8 @@ class Forest(Client):
         neither is given, that nearest to the origin of `frame`. The held point follows `target`, or
         the point `offset` of the tf frame `frame`; if none is given, it is held where it is.
         """
+        if frame and target is not None:
+            raise ValueError('needs either target or frame')
         place = self._place(tree, branch, along, near, frame)
         if frame:
             follow = dict(frame=frame, offset=point(offset or (0, 0, 0)), keep_offset=offset is None)
@@ -70,6 +74,8 @@ class Forest(Client):
     def _place(self, tree, branch, along, near, frame):
         if (tree is None) != (branch is None):
             raise ValueError('tree and branch go together')
+        if tree is not None and near is not None:
+            raise ValueError('needs either tree and branch, or near')
         if tree is not None:
             return dict(tree=tree, branch=branch, along=along)
         if near is None and not frame:

@@ -23,8 +23,10 @@ class Grass(Client):
         return self.call('sample', SampleGrass, header=header(frame),
                          points=[point(place) for place in places]).samples
 
-    def clear(self, centre=None, radius=0.0):
-        """Raises the grass of a disc, or everywhere without a centre."""
+    def clear(self, centre=None, radius=None):
+        """Raises the grass of a disc, or everywhere without centre and radius."""
+        if (centre is None) != (radius is None):
+            raise ValueError('centre and radius go together')
         if centre is None:
             self.call('clear', ClearGrass, all=True)
         else:

@@ -24,7 +24,7 @@ TOPIC = r'(?:advertise|subscribe)(?:<[\w:]+>)?\(\s*"([\w/]+)"'
 SERVICE = r'advertiseService\(\s*"(\w+)"'
 KNOWN_TOOLS = {'catkin_make', 'catkin_tools', 'catkin_lint', 'robot_state_publisher'}
 # The conventions of the package explain these fields once for all messages.
-KNOWN_FIELDS = {'header', 'success', 'message'}
+KNOWN_FIELDS = {'header', 'success', 'message', 'error_code'}
 
 
 def tracked():
@@ -166,8 +166,16 @@ def check_imports():
                 faults.append('%s: imports %s, which package.xml does not name' % (name, module))
 
 
+def check_sizes():
+    """A newcomer reads README in minutes, and a clone is small."""
+    for name in ['README.md', *files(r'media/[^/]*')]:
+        size, most = (ROOT / name).stat().st_size, 8000 if name == 'README.md' else 4000000
+        if size > most:
+            faults.append('%s: %d bytes, allowed are %d' % (name, size, most))
+
+
 for check in (check_declarations, check_messages, check_scenarios, check_links, check_words, check_ranges,
-              check_rows, check_imports):
+              check_rows, check_imports, check_sizes):
     check()
 print('\n'.join(sorted(set(faults))))
 sys.exit(1 if faults else 0)

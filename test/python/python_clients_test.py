@@ -15,7 +15,7 @@ from geometry_msgs.msg import TransformStamped
 from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
 from vegetation_sim import Crowd, Forest, Grass, VegetationError, Wind
-from vegetation_sim.msg import AgentStates, GrabStatus
+from vegetation_sim.msg import AgentStates, ErrorCode, GrabStatus
 
 TREE, LIMB = 0, 46
 DEADLINE = 60.0  # [s]
@@ -105,30 +105,41 @@ class PythonClients(unittest.TestCase):
 
     def test_errors_are_the_messages_of_the_services(self):
         cases = [
-            (lambda: self.forest.grab(tree=99, branch=0), 'tree = 99 is unknown'),
+            (lambda: self.forest.grab(tree=99, branch=0), 'tree = 99 is unknown', ErrorCode.UNKNOWN),
             (lambda: self.forest.grab(tree=TREE, branch=LIMB, stiffness=0.0),
              'stiffness = 0 N/m is outside'),
-            (lambda: self.forest.grab(frame='nowhere'), "'nowhere' is not known"),
+            (lambda: self.forest.grab(frame='nowhere'), "'nowhere' is not known",
+             ErrorCode.NO_TRANSFORM),
             (lambda: self.forest.push((1e9, 0, 0), 1.0, tree=TREE, branch=LIMB), 'force.x = 1e'),
             (lambda: list(self.forest.trees((0, 0), -1.0)), 'radius = -1 m is outside'),
             (lambda: self.wind.breeze((900, 0, 0)), 'velocity.x = 900 m/s is outside'),
-            (lambda: self.wind.remove('nothing'), "no source is named 'nothing'"),
+            (lambda: self.wind.remove('nothing'), "no source is named 'nothing'",
+             ErrorCode.UNKNOWN),
             (lambda: self.grass.tread((0, 0), radius=0.0), 'radius = 0 m is outside'),
             (lambda: self.grass.clear((0, 0), -1.0), 'radius = -1 m is outside'),
             (lambda: self.crowd.spawn((0, 0), count=0), 'count = 0 is outside'),
-            (lambda: self.crowd.send([9999], (0, 0)), 'walker 9999 is unknown'),
+            (lambda: self.crowd.send([9999], (0, 0)), 'walker 9999 is unknown',
+             ErrorCode.UNKNOWN),
         ]
-        for call, text in cases:
-            with self.subTest(text=text), self.assertRaisesRegex(VegetationError, re.escape(text)):
+        for call, text, *code in cases:
+            with self.subTest(text=text):
+                with self.assertRaisesRegex(VegetationError, re.escape(text)) as raised:
+                    call()
+                self.assertEqual([raised.exception.code], code or [ErrorCode.INVALID_VALUE])
+        for call in (lambda: self.forest.grab(), lambda: self.forest.grab(tree=3),
+                     lambda: self.forest.grab(tree=3, branch=0, near=(0, 0, 1)),
+                     lambda: self.forest.grab(frame='hand', target=(0, 0, 1)),
+                     lambda: list(self.forest.trees(radius=2.0)),
+                     lambda: list(self.forest.trees(centre=(0, 0))),
+                     lambda: self.grass.clear(radius=2.0), lambda: self.grass.clear((0, 0))):
+            with self.assertRaises(ValueError):
                 call()
-        with self.assertRaises(ValueError):
-            self.forest.grab()
-        with self.assertRaises(ValueError):
-            self.forest.grab(tree=3)
 
     def test_a_service_that_does_not_come_is_named(self):
-        with self.assertRaisesRegex(VegetationError, 'no service /nobody/get_tree within 0.1 s'):
+        with self.assertRaisesRegex(VegetationError,
+                                    'no service /nobody/get_tree within 0.1 s') as raised:
             Forest('/nobody', timeout=0.1).tree(0)
+        self.assertIsNone(raised.exception.code)
 
     def test_damping_of_zero_and_defaults_reach_the_node(self):
         with self.forest.grab(tree=TREE, branch=LIMB, damping=0.0) as hold:
@@ -189,8 +200,11 @@ class PythonClients(unittest.TestCase):
                 exec(compile(code, 'docs/python.md', 'exec'), names)
 
     def test_a_grab_takes_at_most_eight_lines(self):
-        block = next(b for b in snippets('python.md') if 'hold.force' in b)
-        self.assertLessEqual(len(block.strip().split('\n')), 8)
+        path = roslib.packages.get_pkg_dir('vegetation_sim') + '/docs/tutorials/4_arm.md'
+        with open(path) as page:
+            whole_program = re.search('```python\n(.*?)```', page.read(), re.S).group(1)
+        for block in next(b for b in snippets('python.md') if 'hold.force' in b), whole_program:
+            self.assertLessEqual(len(block.strip().split('\n')), 8, block)
 
 
 if __name__ == '__main__':
