@@ -76,7 +76,8 @@ struct OpenFile {
 };
 
 [[noreturn]] void failToWrite(const std::string& file) {
-  throw InvalidInput(file + ": cannot be written: " + std::strerror(errno));
+  throw InvalidInput(file + ": cannot be written: " + std::strerror(errno),
+                     FaultCode::FILE_REJECTED);
 }
 
 void writeAll(const std::string& file, const std::string& bytes, bool durable) {
@@ -111,7 +112,7 @@ SnapshotFile decodeSnapshot(const std::string& name, const std::string& bytes,
   try {
     return decode(bytes, node);
   } catch (const InvalidInput& error) {
-    throw InvalidInput(name + ": " + error.what());
+    throw InvalidInput(name + ": " + error.what(), FaultCode::FILE_REJECTED);
   }
 }
 

@@ -167,7 +167,8 @@ const Walker* Crowd::find(std::uint32_t id) const {
 }
 
 Walker& Crowd::at(std::uint32_t id) {
-  if (!find(id)) throw InvalidInput("walker " + std::to_string(id) + " is unknown");
+  if (!find(id))
+    throw InvalidInput("walker " + std::to_string(id) + " is unknown", FaultCode::UNKNOWN);
   return memory_.walkers[indexOf(id)];
 }
 
@@ -212,7 +213,8 @@ void Crowd::setRobot(const Robot& robot) {
 }
 
 void Crowd::removeRobot(const std::string& id) {
-  if (!memory_.robots.erase(id)) throw InvalidInput("robot '" + id + "' is unknown");
+  if (!memory_.robots.erase(id))
+    throw InvalidInput("robot '" + id + "' is unknown", FaultCode::UNKNOWN);
 }
 
 void Crowd::clear() {

@@ -20,7 +20,8 @@ void checkTree(const Layout& layout, const std::string& what, std::uint32_t tree
   if (layout.treeCount() == 0) throw InvalidInput(what + ": there are no trees");
   if (tree >= layout.treeCount())
     throw InvalidInput(what + ": tree = " + count(tree) + " is unknown, allowed are 0 to " +
-                       count(layout.treeCount() - 1));
+                           count(layout.treeCount() - 1),
+                       FaultCode::UNKNOWN);
   if (layout.motion.joint_model != JointModel::SWING)
     throw InvalidInput(what + ": joint_model = paper has no physical motion, allowed is swing");
 }
@@ -30,7 +31,8 @@ void checkPoint(const Tree& tree, const std::string& what, const BranchPoint& po
   const auto& branches = tree.skeleton.branches;
   if (point.branch < 0 || point.branch >= static_cast<int>(branches.size())) {
     faults.add(what + ": branch = " + std::to_string(point.branch) +
-               " is unknown, allowed are 0 to " + count(branches.size() - 1));
+                   " is unknown, allowed are 0 to " + count(branches.size() - 1),
+               FaultCode::UNKNOWN);
     return;
   }
   const double most = branches[static_cast<std::size_t>(point.branch)].length;
@@ -79,7 +81,7 @@ template <typename Map, typename Key>
 auto& findKnown(Map& map, const Key& key, const std::string& what) {
   const auto found = map.find(key);
   if (found != map.end()) return found->second;
-  throw InvalidInput(what + " is unknown");
+  throw InvalidInput(what + " is unknown", FaultCode::UNKNOWN);
 }
 
 }  // namespace

@@ -75,11 +75,13 @@ class SavedNode : public NodeBase {
   }
 
   void refuseInReplay() const {
-    if (options_.replay) throw InvalidInput("a replay follows its recorded events only");
+    if (options_.replay)
+      throw InvalidInput("a replay follows its recorded events only", FaultCode::NOT_AVAILABLE);
   }
   /// @throws InvalidInput if the queue is full.
   void enqueue(Event event) {
-    if (!inputs_.add(std::move(event))) throw InvalidInput(Queue::describeFull());
+    if (!inputs_.add(std::move(event)))
+      throw InvalidInput(Queue::describeFull(), FaultCode::NO_ROOM);
   }
   /// Applies the events of a tick in order, and publishes them unless this is a replay.
   void applyInputs(Nanoseconds stamp) {

@@ -54,7 +54,8 @@ CanopySample CanopyAnimator::sampleAt(const Vec3& place) {
 bool CanopyAnimator::onSample(SampleCanopy::Request& request, SampleCanopy::Response& response) {
   return answer(response, [&] {
     if (!request.header.stamp.isZero() && fromMsg(request.header.stamp) != clock_.stamp())
-      throw InvalidInput("stamp is not that of the last tick; others are not kept");
+      throw InvalidInput("stamp is not that of the last tick; others are not kept",
+                         FaultCode::NOT_AVAILABLE);
     for (const Vec3& place : placesOf(request, poseOf(request.header.frame_id)))
       response.samples.push_back(sampleAt(place));
     response.layers = static_cast<std::uint8_t>(canopy_.foliage().layers());

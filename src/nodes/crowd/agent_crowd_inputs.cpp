@@ -62,7 +62,8 @@ void AgentCrowd::followRobots(Nanoseconds stamp) {
 void AgentCrowd::enqueueEach(CrowdEvent event, const std::vector<std::uint32_t>& ids) {
   if (ids.size() > inputs_.room())
     throw InvalidInput("ids has " + std::to_string(ids.size()) + " entries, room is for " +
-                       std::to_string(inputs_.room()));
+                           std::to_string(inputs_.room()),
+                       FaultCode::NO_ROOM);
   for (const std::uint32_t id : ids) {
     event.id = id;
     enqueue(event);
@@ -74,7 +75,8 @@ void AgentCrowd::checkKnown(const std::vector<std::uint32_t>& ids) const {
   if (ids.empty() || ids.size() > EventQueue<CrowdEvent>::MOST_WAITING)
     faults.add("ids has " + std::to_string(ids.size()) + " entries, allowed are 1 to 10000");
   for (const std::uint32_t id : ids)
-    if (!crowd_.find(id)) faults.add("ids: walker " + std::to_string(id) + " is unknown");
+    if (!crowd_.find(id))
+      faults.add("ids: walker " + std::to_string(id) + " is unknown", FaultCode::UNKNOWN);
   faults.throwIfAny();
 }
 
@@ -86,11 +88,13 @@ bool AgentCrowd::onSpawn(SpawnAgents::Request& request, SpawnAgents::Response& r
     const std::size_t room = most - std::min(crowd_.walkers().size() + waitingWalkers(), most);
     const ros::Time stamp = effectOf(request.header.stamp, clock_);
     if (count == 0 || count > MOST_AT_ONCE || count > room || count > inputs_.room(fromMsg(stamp)))
-      throw InvalidInput("count = " + std::to_string(count) + " is outside 1 to " +
-                         std::to_string(std::min<std::size_t>(MOST_AT_ONCE, room)) + ": " +
-                         std::to_string(crowd_.walkers().size()) +
-                         " of most_walkers = " + std::to_string(most) + " are there, " +
-                         std::to_string(waitingWalkers()) + " are to come");
+      throw InvalidInput(
+          "count = " + std::to_string(count) + " is outside 1 to " +
+              std::to_string(std::min<std::size_t>(MOST_AT_ONCE, room)) + ": " +
+              std::to_string(crowd_.walkers().size()) +
+              " of most_walkers = " + std::to_string(most) + " are there, " +
+              std::to_string(waitingWalkers()) + " are to come",
+          count == 0 || count > MOST_AT_ONCE ? FaultCode::INVALID_VALUE : FaultCode::NO_ROOM);
     const Pose to_world = poseOf(request.header.frame_id);
     const Vec3 front = axisX(to_world.orientation);
     Faults faults;

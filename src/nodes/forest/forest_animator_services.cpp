@@ -124,7 +124,7 @@ bool ForestAnimator::onPick(Pick::Request& request, Pick::Response& response) {
           return {std::shared_ptr<const forest::Tree>(grown, &grown->tree),
                   forest_->poseInView(grown->tree, id, stamp)};
         });
-    if (!hit) throw InvalidInput("the ray meets no branch");
+    if (!hit) throw InvalidInput("the ray meets no branch", FaultCode::NOTHING_FOUND);
     response.tree = hit->tree;
     response.branch = static_cast<std::uint32_t>(hit->branch);
     response.along = hit->along;

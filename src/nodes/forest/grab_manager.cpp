@@ -41,14 +41,16 @@ geometry_msgs::TransformStamped lookUp(const GrabDependencies& node, const std::
     return node.tf.lookupTransform(node.options.frame_id, frame, stamp);
   } catch (const tf2::TransformException& error) {
     throw InvalidInput(std::string(name) + " = '" + frame + "' is not known in '" +
-                       node.options.frame_id + "': " + error.what());
+                           node.options.frame_id + "': " + error.what(),
+                       FaultCode::NO_TRANSFORM);
   }
 }
 
 }  // namespace
 
 void GrabManager::requireLive() const {
-  if (node_.options.replay) throw InvalidInput("a replay follows its recorded events only");
+  if (node_.options.replay)
+    throw InvalidInput("a replay follows its recorded events only", FaultCode::NOT_AVAILABLE);
 }
 
 ForestInput GrabManager::eventAt(ForestInput::Kind kind, const ros::Time& stamp) const {
@@ -65,7 +67,8 @@ ForestInput GrabManager::eventAt(ForestInput::Kind kind, const ros::Time& stamp)
 }
 
 void GrabManager::enqueue(const ForestInput& event) {
-  if (!node_.inputs.add(event)) throw InvalidInput(ForestInputs::describeFull());
+  if (!node_.inputs.add(event))
+    throw InvalidInput(ForestInputs::describeFull(), FaultCode::NO_ROOM);
 }
 
 std::shared_ptr<const forest::Tree> GrabManager::grown(std::uint32_t tree) const {
@@ -79,8 +82,9 @@ GrabManager::Place GrabManager::placeOf(std::uint32_t tree, std::uint32_t branch
   const std::vector<forest::Branch>& branches = found->skeleton.branches;
   if (branch >= branches.size())
     throw InvalidInput("branch = " + std::to_string(branch) + " is unknown; tree " +
-                       std::to_string(tree) + " has " + std::to_string(branches.size()) +
-                       ", from 0");
+                           std::to_string(tree) + " has " + std::to_string(branches.size()) +
+                           ", from 0",
+                       FaultCode::UNKNOWN);
   Faults faults;
   FieldChecker("", faults).number("along", along, "m", {0.0, branches[branch].length});
   faults.throwIfAny();
@@ -102,7 +106,7 @@ GrabManager::Place GrabManager::nearestTo(const geometry_msgs::PointStamped& sta
         const auto tree = grown(id);
         return {tree, node_.forest.pose(*tree, id, node_.forest.snapshot().stamp)};
       });
-  if (!found) throw InvalidInput("no branch within 2 m of point");
+  if (!found) throw InvalidInput("no branch within 2 m of point", FaultCode::NOTHING_FOUND);
   return {found->at, found->point};
 }
 
@@ -149,8 +153,9 @@ void GrabManager::setByFrame(const Vec3& point, forest::Grab& grab, Request& req
     const double age = secondsBetween(fromMsg(request.published), node_.forest.snapshot().stamp);
     if (age > grab.lease)
       throw InvalidInput("frame = '" + grab.frame + "' has a transform that is " +
-                         std::to_string(age) + " s old, longer than the lease of " +
-                         std::to_string(grab.lease) + " s");
+                             std::to_string(age) + " s old, longer than the lease of " +
+                             std::to_string(grab.lease) + " s",
+                         FaultCode::NO_TRANSFORM);
   }
   grab.holder = fromMsg(newest.transform);
   if (request.keep_offset) grab.offset = transformed(inverse(grab.holder), point);
@@ -163,7 +168,8 @@ std::string GrabManager::grab(const Grab::Request& request, Grab::Response& resp
   ForestInput event = eventAt(ForestInput::GRAB, request.stamp);
   if (requests_.size() >= MOST_GRABS)
     throw InvalidInput("grabs = " + std::to_string(requests_.size() + 1) + " is outside 0 to " +
-                       std::to_string(MOST_GRABS));
+                           std::to_string(MOST_GRABS),
+                       FaultCode::NO_ROOM);
   const Place place = choose(request);
   Request accepted{request.keep_offset != 0, event.stamp, ros::Time(), false};
   forest::Grab& grab = event.grab;
@@ -201,14 +207,15 @@ GrabManager::Request& GrabManager::find(std::uint32_t id) {
     known += (known.empty() ? "" : ", ") + std::to_string(entry.first);
   throw InvalidInput(
       "id = " + std::to_string(id) +
-      (known.empty() ? " is unknown; nothing is held" : " is unknown; held are " + known));
+          (known.empty() ? " is unknown; nothing is held" : " is unknown; held are " + known),
+      FaultCode::UNKNOWN);
 }
 
 const forest::Grab& GrabManager::grabOf(std::uint32_t id) const {
   const auto found = node_.forest.grabs().find(id);
   if (found != node_.forest.grabs().end()) return found->second;
   if (const forest::Grab* waiting = node_.inputs.waitingGrab(id)) return *waiting;
-  throw InvalidInput("id = " + std::to_string(id) + " is over");
+  throw InvalidInput("id = " + std::to_string(id) + " is over", FaultCode::UNKNOWN);
 }
 
 std::string GrabManager::move(const MoveGrab::Request& request, MoveGrab::Response& response) {
@@ -249,7 +256,9 @@ std::string GrabManager::release(const Release::Request& request) {
   }
   if (in_force.size() > node_.inputs.room(event.stamp))
     throw InvalidInput(std::to_string(in_force.size()) + " grabs to release, and " +
-                       std::to_string(node_.inputs.room(event.stamp)) + " inputs that still fit");
+                           std::to_string(node_.inputs.room(event.stamp)) +
+                           " inputs that still fit",
+                       FaultCode::NO_ROOM);
   for (const std::uint32_t id : waiting) {
     node_.inputs.forgetGrab(id);
     history_.addUnheld(id, GrabStatus::RELEASED, node_.forest.snapshot().stamp);

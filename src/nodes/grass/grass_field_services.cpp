@@ -65,7 +65,8 @@ void GrassField::queuePath(const std::vector<Vec3>& path, const grass::TreadLaw&
     const double pieces = 1.0 + std::floor(flatLength(path[i - 1], path[i]) / longest);
     if (pieces + static_cast<double>(steps.size() + 2) > static_cast<double>(room))
       throw InvalidInput("the path needs more steps of " + std::to_string(longest) +
-                         " m than the " + std::to_string(room) + " that have room");
+                             " m than the " + std::to_string(room) + " that have room",
+                         FaultCode::NO_ROOM);
     for (int k = 1; k <= static_cast<int>(pieces); ++k)
       steps.push_back(path[i - 1] + (k / pieces) * (path[i] - path[i - 1]));
   }
@@ -144,7 +145,8 @@ bool GrassField::onSample(SampleGrass::Request& request, SampleGrass::Response& 
     const Nanoseconds stamp = request.header.stamp.isZero() ? last : fromMsg(request.header.stamp);
     if (stamp < last)
       throw InvalidInput("stamp is " + std::to_string(secondsBetween(stamp, last)) +
-                         " s before the last tick: the past is not kept");
+                             " s before the last tick: the past is not kept",
+                         FaultCode::NOT_AVAILABLE);
     const Pose to_world = poseOf(request.header.frame_id);
     Faults faults;
     for (std::size_t i = 0; i < request.points.size(); ++i)

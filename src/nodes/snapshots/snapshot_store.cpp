@@ -57,7 +57,9 @@ std::size_t SnapshotStore::write(const std::string& name, const SnapshotFile& sn
   const std::string file = fileOf(name);
   std::error_code error;
   fs::create_directories(fs::path(file).parent_path(), error);
-  if (error) throw InvalidInput(file + ": its folder cannot be made: " + error.message());
+  if (error)
+    throw InvalidInput(file + ": its folder cannot be made: " + error.message(),
+                       FaultCode::FILE_REJECTED);
   const std::string bytes = encodeSnapshot(snapshot);
   replaceFile(file, bytes, durable);
   return bytes.size();
@@ -71,23 +73,26 @@ bool SnapshotStore::has(const std::string& name) const {
 SnapshotFile SnapshotStore::read(const std::string& name, const std::string& node) const {
   const std::string file = pathOf(name, node.empty() ? node_ : node, ".snapshot");
   const std::optional<std::string> bytes = contentOf(file, LARGEST_SNAPSHOT);
-  if (!bytes) throw InvalidInput(file + ": there is no such file");
+  if (!bytes) throw InvalidInput(file + ": there is no such file", FaultCode::UNKNOWN);
   return decodeSnapshot(file, *bytes, kind_);
 }
 
 std::optional<std::string> contentOf(const std::string& file, std::size_t most) {
   std::error_code error;
   if (!fs::exists(file, error)) return std::nullopt;
-  if (!fs::is_regular_file(file, error)) throw InvalidInput(file + ": it is no file");
+  if (!fs::is_regular_file(file, error))
+    throw InvalidInput(file + ": it is no file", FaultCode::FILE_REJECTED);
   const std::uintmax_t size = fs::file_size(file, error);
-  if (error) throw InvalidInput(file + ": cannot be read: " + error.message());
+  if (error)
+    throw InvalidInput(file + ": cannot be read: " + error.message(), FaultCode::FILE_REJECTED);
   if (size > most)
     throw InvalidInput(file + ": size = " + std::to_string(size) + " bytes is outside 0 to " +
-                       std::to_string(most));
+                           std::to_string(most),
+                       FaultCode::FILE_REJECTED);
   std::string out(static_cast<std::size_t>(size), '\0');
   std::ifstream in(file, std::ios::binary);
   in.read(out.data(), static_cast<std::streamsize>(out.size()));
-  if (!in) throw InvalidInput(file + ": cannot be read");
+  if (!in) throw InvalidInput(file + ": cannot be read", FaultCode::FILE_REJECTED);
   return out;
 }
 

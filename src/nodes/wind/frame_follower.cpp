@@ -24,8 +24,9 @@ void FrameFollower::set(const wind::Source& source) {
   const std::string& name = source.primitive.name;
   if (!follows(name) && attachments_.size() >= WindSettings::MAX_FOLLOWED)
     throw InvalidInput("primitive '" + name + "': " + std::to_string(attachments_.size()) +
-                       " frames are followed already, allowed are " +
-                       std::to_string(WindSettings::MAX_FOLLOWED));
+                           " frames are followed already, allowed are " +
+                           std::to_string(WindSettings::MAX_FOLLOWED),
+                       FaultCode::NO_ROOM);
   attachments_.erase(name);
   attachments_.emplace(name, wind::Attachment(source, period_, horizon_));
 }

@@ -75,7 +75,8 @@ void WindBroadcaster::reconfigure(WindBroadcasterConfig& config, std::uint32_t l
   if (level != ~0u) {
     std_srvs::Trigger::Response response;
     reply("reconfigure", response, [&] {
-      if (!clock_.running()) throw InvalidInput("time has not begun, is /clock published?");
+      if (!clock_.running())
+        throw InvalidInput("time has not begun, is /clock published?", FaultCode::NOT_AVAILABLE);
       BreezeSettings wanted = fromConfig(config);
       Faults faults;
       FieldChecker checker("", faults);  // a NaN passes the server's clamp

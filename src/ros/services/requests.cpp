@@ -21,8 +21,9 @@ Pose poseInWorld(const tf2_ros::Buffer& buffer, const std::string& world, const 
   try {
     return fromMsg(buffer.lookupTransform(world, frame, stamp).transform);
   } catch (const tf2::TransformException& error) {
-    throw InvalidInput("frame_id = '" + frame + "' is not known in '" + world +
-                       "': " + error.what());
+    throw InvalidInput(
+        "frame_id = '" + frame + "' is not known in '" + world + "': " + error.what(),
+        FaultCode::NO_TRANSFORM);
   }
 }
 

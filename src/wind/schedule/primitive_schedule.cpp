@@ -112,8 +112,9 @@ void PrimitiveSchedule::remove(const std::string& name, Nanoseconds earliest) {
   if (!find(name, earliest)) {
     std::string known;
     for (const std::string& other : names(earliest)) known += (known.empty() ? "" : ", ") + other;
-    throw InvalidInput("no source is named '" + name +
-                       "'; known sources: " + (known.empty() ? "none" : known));
+    throw InvalidInput(
+        "no source is named '" + name + "'; known sources: " + (known.empty() ? "none" : known),
+        FaultCode::UNKNOWN);
   }
   Entries entries = entries_;
   dropPending(entries, name, earliest);

@@ -4,6 +4,7 @@
 """Sets each number and time of each service request to bad values, one at a time. The node must
 answer with an error that names the field, and its snapshot must not change."""
 import copy
+import pathlib
 import unittest
 
 import genpy
@@ -15,7 +16,7 @@ from geometry_msgs.msg import (Point, PointStamped, Quaternion, Transform, Trans
 from std_msgs.msg import Header
 from tf2_msgs.msg import TFMessage
 from vegetation_sim import srv
-from vegetation_sim.msg import AgentSpawn, TreadLaw, WindPrimitive
+from vegetation_sim.msg import AgentSpawn, ErrorCode, TreadLaw, WindPrimitive
 
 from forest_rig import RATE, TickClock
 from given import given
@@ -162,6 +163,8 @@ class BadRequests(unittest.TestCase):
                   'int32': [-2 ** 31, 2 ** 31 - 1], 'uint64': [2 ** 64 - 1],
                   'string': ['no such name', 'x' * 100000]}
 
+    BAD_VALUE_CODES = ErrorCode.INVALID_VALUE, ErrorCode.UNKNOWN, ErrorCode.NO_TRANSFORM
+
     def test_every_service_of_a_request_is_here(self):
         services = {s for s in rosservice.get_service_list()
                     if s.split('/')[1] in self.NODES and
@@ -176,17 +179,48 @@ class BadRequests(unittest.TestCase):
             for request, *ignored in requests:
                 for path, kind in leaves(request):
                     name = '.'.join(map(str, path))
+                    field = [step for step in path if isinstance(step, str)][-1]
                     uses = not any((name + '.').startswith(one + '.') for one in ignored)
                     for value in self.BAD_VALUES.get(kind, []):
                         if uses:
                             answer = self.call(service, changed(request, path, value))
                             count += 1
-                            if answer.success or str(path[-1]) not in answer.message:
-                                problems.append((service, name, value, answer.message))
+                            if (answer.success or field not in answer.message or
+                                    answer.error_code not in self.BAD_VALUE_CODES):
+                                problems.append((service, name, value, answer.error_code,
+                                                 answer.message))
             if self.snapshot(service) != before:
                 problems.append((service, 'has changed the snapshot'))
         print('%d bad values' % count)
         self.assertEqual(problems, [], '\n'.join(map(str, problems)))
+
+    def test_each_reason_has_its_code(self):
+        file = pathlib.Path(self.call('/grass_field/save_snapshot',
+                                      srv.SaveSnapshotRequest(name='whole')).file)
+        torn = file.parent.parent / 'torn' / file.name
+        torn.parent.mkdir(exist_ok=True)
+        torn.write_bytes(file.read_bytes()[:-1])
+        away = Point(9e5, 0.0, 0.0)
+        cases = [
+            (ErrorCode.NONE, '/grass_field/load_snapshot', srv.LoadSnapshotRequest(name='whole')),
+            (ErrorCode.INVALID_VALUE, '/agent_crowd/spawn',
+             srv.SpawnAgentsRequest(like=WALKER, count=0)),
+            (ErrorCode.UNKNOWN, '/grass_field/load_snapshot', srv.LoadSnapshotRequest(name='none')),
+            (ErrorCode.UNKNOWN, '/forest_animator/get_tree', srv.GetTreeRequest(tree=99)),
+            (ErrorCode.NO_TRANSFORM, '/grass_field/sample', srv.SampleGrassRequest(
+                header=Header(frame_id='nowhere'), points=[PLACE.point])),
+            (ErrorCode.NO_ROOM, '/grass_field/tread',
+             srv.TreadRequest(points=[Point(-9.0, 0.0, 0.0), Point(9.0, 0.0, 0.0)] * 4000, law=LAW)),
+            (ErrorCode.NOT_AVAILABLE, '/grass_field/sample', srv.SampleGrassRequest(
+                header=Header(stamp=rospy.Time(1)), points=[PLACE.point])),
+            (ErrorCode.NOTHING_FOUND, '/forest_animator/pick', srv.PickRequest(
+                origin=away, direction=Vector3(0.0, 0.0, 1.0), tolerance=0.1)),
+            (ErrorCode.FILE_REJECTED, '/grass_field/load_snapshot',
+             srv.LoadSnapshotRequest(name='torn'))]
+        for code, service, request in cases:
+            answer = self.call(service, request)
+            self.assertEqual((answer.success, answer.error_code), (code == ErrorCode.NONE, code),
+                             (service, answer.message))
 
 
 if __name__ == '__main__':

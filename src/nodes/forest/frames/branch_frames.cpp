@@ -24,8 +24,9 @@ void BranchFrames::set(std::uint32_t tree, const std::vector<std::uint32_t>& bra
     throw InvalidInput("branches has 0 entries; all = true stands for every branch");
   for (const std::uint32_t branch : branches)
     if (branch >= count)
-      throw InvalidInput("branch = " + std::to_string(branch) + " is unknown; tree " +
-                         std::to_string(tree) + " has " + std::to_string(count) + ", from 0");
+      throw InvalidInput("branches: " + std::to_string(branch) + " is unknown; tree " +
+                             std::to_string(tree) + " has " + std::to_string(count) + ", from 0",
+                         FaultCode::UNKNOWN);
   const auto found = wanted_.find(tree);
   std::set<std::uint32_t> wanted;
   if (found != wanted_.end()) wanted.insert(found->second.begin(), found->second.end());
@@ -35,7 +36,8 @@ void BranchFrames::set(std::uint32_t tree, const std::vector<std::uint32_t>& bra
   const std::size_t after = this->count() - before + wanted.size();
   if (after > budget_)
     throw InvalidInput("frames = " + std::to_string(after) + " would pass the budget of " +
-                       std::to_string(budget_));
+                           std::to_string(budget_),
+                       FaultCode::NO_ROOM);
   if (wanted.empty())
     wanted_.erase(tree);
   else

@@ -153,8 +153,8 @@ class ForestRequests(unittest.TestCase):
         self.assertEqual(self.forest.set_tf(1, [4, 5], True).frames, 2)
         cases = [
             ((TREES, [0], True), 'tree = 17 is unknown; there are 17, from 0'),
-            ((1, [6, 99999], True), 'branch = 99999 is unknown; tree 1 has '),
-            ((1, [99999], False), 'branch = 99999 is unknown'),
+            ((1, [6, 99999], True), 'branches: 99999 is unknown; tree 1 has '),
+            ((1, [99999], False), 'branches: 99999 is unknown'),
             ((1, list(range(6, 15)), True), 'frames = 11 would pass the budget of 10'),
             ((2, 'all', True), 'would pass the budget of 10'),
             ((2, [], True), 'branches has 0 entries; all = true stands for every branch'),
