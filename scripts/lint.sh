@@ -59,14 +59,15 @@ structure() {
   for check in structure launch_files manifest; do python3 test/structure/check_$check.py || return 1; done
 }
 
-# Forbids debugging leftovers and, in the core, functions and containers whose results differ
-# between machines. Code that only selects the level of detail of a picture may use the mathematics
-# of the platform.
+# Forbids debugging leftovers, readers of numbers that follow the locale of the user and, in the
+# core, functions and containers whose results differ between machines. Code that only selects the
+# level of detail of a picture may use the mathematics of the platform.
 words() {
   local code_of_core=({include/vegetation_sim,src}/{canopy,core,crowd,dynamics,forest,grass,reference,terrain,tree,wind}
     ':!src/tree/mesh/geometry_level.cpp')
   none_match '\b(std::)?(rand|srand|random_device|[a-z]+_distribution)\b *[(<{]' src include &&
     none_match 'std::(sin|cos|tan|atan2?|exp|log|pow|cbrt|hypot)\(' "${code_of_core[@]}" &&
+    none_match '\b(strto[df]|atof|sto[df]|[sf]scanf)\(' src include &&
     none_match 'unordered_(map|set)' "${code_of_core[@]}" &&
     none_match '(Duration\([0-9.]+\)\.sleep|sleep_for|usleep|time\.sleep)' test &&
     none_match 'DISABLED_|GTEST_SKIP|#if 0' test &&

@@ -15,6 +15,8 @@ constexpr int BISECTIONS = 36;
 constexpr double SHALLOW = 0.5;
 constexpr double TOUCHING = 1e-5;  // [m]
 constexpr int MOST_ADVANCES = 48;
+// A shorter way to the surface has no direction, since its square is no normal number.
+constexpr double NO_DISTANCE = 1e-150;  // [m]
 
 Bar between(const Vec3& base, const Vec3& tip, const Bar& like) {
   const Vec3 span = tip - base;
@@ -32,24 +34,20 @@ double supportOf(const RoundedBox& box, const Vec3& side) {
 double signedDistance(const RoundedBox& box, const Vec3& point, Vec3& normal) {
   Vec3 beyond;
   int deepest = 0;
-  bool inside = true;
   for (int i = 0; i < 3; ++i) {
     beyond[i] = std::fabs(point[i]) - box.half[i];
     if (beyond[i] > beyond[deepest]) deepest = i;
-    inside = inside && beyond[i] <= 0.0;
-  }
-  if (inside) {
-    normal = Vec3::Zero();
-    normal[deepest] = point[deepest] < 0.0 ? -1.0 : 1.0;
-    return beyond[deepest] - box.radius;
-  }
-  for (int i = 0; i < 3; ++i) {
     const double out = std::max(beyond[i], 0.0);
     normal[i] = point[i] < 0.0 ? -out : out;
   }
   const double distance = length(normal);
-  normal /= distance;
-  return distance - box.radius;
+  if (distance > NO_DISTANCE) {
+    normal /= distance;
+    return distance - box.radius;
+  }
+  normal = Vec3::Zero();
+  normal[deepest] = point[deepest] < 0.0 ? -1.0 : 1.0;
+  return beyond[deepest] - box.radius;
 }
 
 // The distance along the bar is convex, so its slope has one zero.

@@ -15,6 +15,12 @@ Quat normalized(const Quat& q) {
   return {q.w * f, q.x * f, q.y * f, q.z * f};
 }
 
+void checkOrientation(const Quat& q, const std::string& name, Faults& faults) {
+  const double norm = std::sqrt(q.w * q.w + q.x * q.x + (q.y * q.y + q.z * q.z));
+  const std::string fault = rangeFault(name + "'s norm", norm, "", {0.999, 1.001});
+  if (!fault.empty()) faults.add(fault);
+}
+
 // Rotation by a vector of angles [rad].
 Quat turnBy(const Vec3& turn) {
   const double angle = length(turn);
@@ -60,15 +66,14 @@ void check(const Body& body, Faults& faults) {
   if (body.id.empty()) faults.add("body.id is empty");
   checkShape(body, faults);
   Body copy = body;
-  FieldChecker checker("body '" + body.id + "'.", faults);
+  const std::string name = "body '" + body.id + "'.";
+  FieldChecker checker(name, faults);
   checker.vector("position", copy.pose.position, "m", {-1e7, 1e7});
   checker.vector("velocity", copy.velocity, "m/s", {-FASTEST_BODY, FASTEST_BODY});
   checker.vector("spin", copy.spin, "rad/s", {-FASTEST_SPIN, FASTEST_SPIN});
-  const Quat& q = body.pose.orientation;
-  const double norm = std::sqrt(q.w * q.w + q.x * q.x + (q.y * q.y + q.z * q.z));
-  const std::string fault =
-      rangeFault("body '" + body.id + "'.orientation's norm", norm, "", {0.999, 1.001});
-  if (!fault.empty()) faults.add(fault);
+  checker.vector("offset", copy.in_frame.position, "m", {-1e7, 1e7});
+  checkOrientation(body.pose.orientation, name + "orientation", faults);
+  checkOrientation(body.in_frame.orientation, name + "offset.orientation", faults);
 }
 
 physics::RoundedBox shapeOf(const Body& body) {

@@ -28,8 +28,8 @@ WindBroadcaster::WindBroadcaster(const ros::NodeHandle& handle,
       field_publisher_(handle_.advertise<WindField>("wind", 1, true)),
       marker_publisher_(handle_.advertise<visualization_msgs::MarkerArray>("wind/markers", 1)),
       samples_publisher_(handle_.advertise<WindSamples>("wind/samples", 10)),
-      reconfigure_(mutex_, private_handle),
       snapshots_(settings_.snapshots, name_, private_handle_.getNamespace(), snapshotCalls()),
+      reconfigure_(mutex_, private_handle),
       clock_(handle, [this](Nanoseconds now) { acceptInput("clock", [&] { begin(now); }); }) {
   const Lock lock(mutex_);
   serve("set_primitive", &WindBroadcaster::setPrimitive);

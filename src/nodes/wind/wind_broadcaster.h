@@ -80,8 +80,8 @@ class WindBroadcaster final : public NodeBase {
   WindProbes probes_;
   BreezeSettings breeze_;  // as dynamic_reconfigure shows it
   ros::Publisher field_publisher_, marker_publisher_, samples_publisher_;
-  dynamic_reconfigure::Server<WindBroadcasterConfig> reconfigure_;
   NodeSnapshots snapshots_;
+  dynamic_reconfigure::Server<WindBroadcasterConfig> reconfigure_;  // its callback uses the above
   bool begun_{false};
   ClockWatch clock_;  // last: it may call begin()
 };

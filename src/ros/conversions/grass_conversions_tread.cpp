@@ -52,8 +52,10 @@ grass::TreadInput fromMsg(const TreadEvent& message, const grass::TreadLaw& own,
   grass::TreadInput out;
   out.source = message.source;
   out.action = static_cast<grass::TreadAction>(message.action);
-  out.start = fromMsg(message.start);
-  out.position = fromMsg(message.position);
+  if (out.action != grass::TreadAction::LIFT) {  // it has no place
+    out.start = fromMsg(message.start);
+    out.position = fromMsg(message.position);
+  }
   out.body_frame = message.body_frame;
   Faults faults;
   out.height_gate = height_gate;

@@ -42,6 +42,14 @@ double sampledGap(const RoundedBox& box, const Bar& bar) {
   return out;
 }
 
+TEST(RoundedBox, NormalHasUnitLengthHoweverNearTheCentreIs) {
+  for (const double way : {0.0, 5e-324, 1.8e-307, 1e-160, 1e-150, 1e-140, 1e-9}) {
+    Vec3 normal;
+    EXPECT_NEAR(signedDistance(SPHERE, Vec3(way, -way, 0.0), normal), -0.1, 1e-8) << way;
+    EXPECT_NEAR(length(normal), 1.0, 1e-15) << way;
+  }
+}
+
 TEST(RoundedBox, DistancesToSimpleShapes) {
   Vec3 normal;
   EXPECT_NEAR(signedDistance(SPHERE, Vec3(0, 0.3, 0), normal), 0.2, 1e-15);

@@ -72,6 +72,9 @@ TEST(ContactBody, FaultsNameBodyValueAndRange) {
   body.pose.orientation = {2.0, 0.0, 0.0, 0.0};
   EXPECT_EQ(faultsOf(body), "body 'arm'.orientation's norm = 2 is outside 0.999 to 1.001");
   body = capsule();
+  body.in_frame.orientation = {1e-300, 0.0, 0.0, 0.0};
+  EXPECT_EQ(faultsOf(body), "body 'arm'.offset.orientation's norm = 0 is outside 0.999 to 1.001");
+  body = capsule();
   body.velocity.y() = std::nan("");
   EXPECT_NE(faultsOf(body).find("velocity"), std::string::npos);
   body = capsule();

@@ -7,6 +7,7 @@ import unittest
 
 import rospy
 import rostest
+from std_srvs.srv import Trigger
 
 from forest_rig import TickClock, memory_of
 from grass_rig import FULL, RATE, Feet, Meadow, step
@@ -37,6 +38,9 @@ class GrassFlood(unittest.TestCase):
         self.flood(3 * MOST_WAITING)
         values = self.grass.diagnostics()
         self.assertEqual(values['Inputs lost'], 2 * MOST_WAITING)
+        answer = rospy.ServiceProxy('/grass_field/reset', Trigger)()
+        self.assertFalse(answer.success)
+        self.assertIn('too many inputs wait already', answer.message)
         before = values['Inputs taken']
         self.clock.run(1, self.grass)
         self.assertEqual(self.grass.diagnostics()['Inputs taken'], before + MOST_WAITING)

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <ctime>
 #include <functional>
 #include <limits>
 #include <string>
@@ -21,6 +22,49 @@ AgentState standing(std::uint32_t id) {
   out.height = 1.7;
   out.pose.orientation.w = 1.0;
   return out;
+}
+
+/// A layout whose trees all stand in tiles side by side: a few hundred bytes.
+forest::Layout tiledLayout(std::uint32_t tiles, std::uint32_t trees_per_tile) {
+  forest::Layout out;
+  out.species.resize(1);
+  forest::Tile tile;
+  tile.count = trees_per_tile;
+  tile.size = 1000.0;
+  tile.mix = {1.f};
+  for (std::uint32_t i = 0; i < tiles; ++i) {
+    tile.first_tree = i * trees_per_tile;
+    tile.x = i * tile.size;
+    tile.seed = i;
+    out.tiles.push_back(tile);
+  }
+  return out;
+}
+
+TEST(CrowdConversions, TrunksAreThoseOfAllTreesInTheAreaAndNoOthers) {
+  const forest::Layout layout = tiledLayout(2, 20000);
+  const crowd::Area area{900.0, 1100.0, 300.0, 400.0};
+  std::size_t expected = 0;
+  for (const forest::Tile& tile : layout.tiles)
+    for (std::uint32_t i = 0; i < tile.count; ++i) {
+      const Vec3 at = seedInTile(tile, i).position;
+      expected += at.x() >= area.min_x && at.x() <= area.max_x && at.y() >= area.min_y &&
+                  at.y() <= area.max_y;
+    }
+  EXPECT_GT(expected, 100u);
+  EXPECT_EQ(trunksOf(layout, TrunkShape::ROUND, area, 0.0, 100000).size(), expected);
+  EXPECT_EQ(trunksOf(layout, TrunkShape::ROUND, area, 0.0, 7).size(), 7u);
+}
+
+// To visit each of the 2^24 trees takes 2.5 s, in which a node does not run its ticks. The limit is
+// that of one input of a fuzz target.
+TEST(CrowdConversions, TrunksOfMillionsOfTreesTakeNoTime) {
+  const forest::Layout layout = tiledLayout(64, 1 << 18);
+  const crowd::Area area{500.0, 520.0, 500.0, 520.0};
+  const std::clock_t start = std::clock();
+  const std::size_t trunks = trunksOf(layout, TrunkShape::ROUND, area, 1.0, 100000).size();
+  EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 0.05);
+  EXPECT_GT(trunks, 50u);
 }
 
 // Invalid walkers in a message are rejected with an error that names walker, field, value and

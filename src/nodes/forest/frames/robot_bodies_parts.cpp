@@ -11,6 +11,7 @@
 #include "ros/params/mesh_file.h"
 #include "vegetation_sim/core/config/yaml.h"
 #include "vegetation_sim/core/math/math.h"
+#include "vegetation_sim/ros/conversions/geometry_conversions.h"
 
 namespace vegetation_sim {
 namespace {
