@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks that the displays compile with the headers of another OGRE, such as 1.9 of ROS Noetic.
+"""Checks that displays, their tests and benches compile with the headers of another OGRE, such as 1.9
+of ROS Noetic.
 
 usage: scripts/check_ogre.py FOLDER, which has Ogre.h, after scripts/build.sh in build/
 """
@@ -33,12 +34,12 @@ def main():
     folder = os.path.abspath(sys.argv[1])
     with open(os.path.join(ROOT, 'build', 'compile_commands.json')) as file:
         entries = [entry for entry in json.load(file)
-                   if 'vegetation_sim_rviz.dir' in entry['command'] and
+                   if re.search('[/_]rviz[/_]', entry['file']) and '/include/OGRE' in entry['command'] and
                    'cmake_pch' not in os.path.basename(entry['file'])]
     if not entries or not os.path.exists(os.path.join(folder, 'Ogre.h')):
         sys.exit('check_ogre.py: build/ has no displays, or %s has no Ogre.h' % folder)
     errors = [error for error in (check(entry, folder) for entry in entries) if error]
-    print('%d of %d files of the displays compile with the headers in %s' % (
+    print('%d of %d files that use OGRE compile with the headers in %s' % (
         len(entries) - len(errors), len(entries), folder))
     sys.exit('\n'.join(errors) if errors else 0)
 
