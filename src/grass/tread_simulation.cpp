@@ -167,8 +167,8 @@ std::string TreadSimulation::apply(const TreadInput& input, Nanoseconds stamp) {
   const StrokeSteps steps = action == TreadAction::STROKE ? stepsOf(input) : StrokeSteps();
   TreadSourceState& source = sourceOf(input);
   const Vec3& p = input.position;
-  const bool high = action != TreadAction::LIFT &&
-                    p.z() - terrain_->height(p.x(), p.y()) > input.height_gate;
+  const bool high =
+      action != TreadAction::LIFT && p.z() - terrain_->height(p.x(), p.y()) > input.height_gate;
   std::string problem;
   if (action != TreadAction::MOVE || high) lift(source);
   if (action == TreadAction::STROKE) {
