@@ -1,9 +1,5 @@
-# Libraries and programs. A library takes all sources below its folders; in src/nodes, *_node.cpp is
+# Libraries and programs that use ROS. A library takes all sources below its folders; in src/nodes, *_node.cpp is
 # the program of a node and nodelets.cpp holds the nodelet plugins.
-set(core_folders canopy core crowd dynamics forest grass reference sensors terrain tree wind)
-list(TRANSFORM core_folders APPEND /*.cpp OUTPUT_VARIABLE core_patterns)
-list(TRANSFORM core_patterns PREPEND src/)
-file(GLOB_RECURSE core_sources CONFIGURE_DEPENDS ${core_patterns})
 file(GLOB_RECURSE ros_sources CONFIGURE_DEPENDS src/ros/*.cpp)
 file(GLOB_RECURSE node_sources CONFIGURE_DEPENDS src/nodes/*.cpp)
 file(GLOB_RECURSE main_sources CONFIGURE_DEPENDS src/nodes/*_node.cpp)
@@ -12,56 +8,10 @@ file(GLOB_RECURSE rviz_sources CONFIGURE_DEPENDS src/rviz/*.cpp src/rviz/*.h)
 file(GLOB bench_sources CONFIGURE_DEPENDS bench/*.cpp)
 list(REMOVE_ITEM node_sources ${main_sources} ${nodelet_sources})
 
-# The state must have the same bits on every processor, so multiplications and additions are not
-# contracted into fused operations. Eigen must not vectorise unaligned vectors of three numbers: loads
-# of pairs would wait for stores of single numbers, which costs a quarter of a physical step.
-function(set_own_options target)
-  target_compile_features(${target} PRIVATE cxx_std_17)
-  target_compile_options(${target} PRIVATE -ffp-contract=off -Wall -Wextra -Wpedantic)
-  target_compile_definitions(${target} PRIVATE EIGEN_UNALIGNED_VECTORIZE=0)
-  target_include_directories(${target} PRIVATE src)
-  if(${PROJECT_NAME}_DEVELOPER)
-    target_compile_options(${target} PRIVATE -Werror)
-  endif()
-endfunction()
-
-# The compiler reads the sources of a folder as one file, which takes a third of the time. Sources that
-# Highway compiles once per instruction set stay on their own.
-# usage: compile_by_folder(TARGET SOURCE ...)
-function(compile_by_folder target)
-  if(NOT ${PROJECT_NAME}_UNITY OR CMAKE_VERSION VERSION_LESS 3.18)
-    return()
-  endif()
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-  foreach(source ${ARGN})
-    file(STRINGS ${source} repeated REGEX "hwy/foreach_target.h" LIMIT_COUNT 1)
-    if(NOT repeated)
-      get_filename_component(folder ${source} DIRECTORY)
-      file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${folder})
-      string(MAKE_C_IDENTIFIER ${folder} group)
-      set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group})
-    endif()
-  endforeach()
-endfunction()
-
-# Headers of other libraries that most sources of a folder include. A compiler reads each list once per
-# target; headers of this package are not among them, because a change would compile everything again.
-set(core_headers <algorithm> <array> <cmath> <cstdint> <functional> <map> <memory> <mutex> <optional>
-  <set> <string> <utility> <vector> <Eigen/Geometry> <yaml-cpp/yaml.h>)
 set(ros_headers ${core_headers} <ros/ros.h> <tf2_ros/buffer.h>)
 set(rviz_headers ${ros_headers} <OgreSceneManager.h> <rviz/display.h> <rviz/display_context.h>
   <rviz/properties/float_property.h>)
 
-# The core links no ROS library.
-add_library(${PROJECT_NAME}_core ${core_sources})
-compile_by_folder(${PROJECT_NAME}_core ${core_sources})
-set_own_options(${PROJECT_NAME}_core)
-target_precompile_headers(${PROJECT_NAME}_core PRIVATE ${core_headers})
-target_include_directories(${PROJECT_NAME}_core PUBLIC include)
-target_link_libraries(${PROJECT_NAME}_core
-  PUBLIC Eigen3::Eigen ${YAML_CPP_LIBRARIES} PRIVATE PNG::PNG Threads::Threads hwy::hwy)
-
-# Targets above the core use ROS.
 add_library(${PROJECT_NAME}_ros ${ros_sources})
 compile_by_folder(${PROJECT_NAME}_ros ${ros_sources})
 target_link_libraries(${PROJECT_NAME}_ros PUBLIC ${PROJECT_NAME}_core PRIVATE PkgConfig::assimp)

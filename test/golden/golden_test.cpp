@@ -2,11 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Every shared scene gives the hashes and the number of the golden file, on every instruction set.
 // usage: golden_test [GoogleTest options] | --record FILE
+// VEGETATION_SIM_GOLDEN_THREADS="1 2 4" runs each of them with each number of threads; without it,
+// 1 and 4 threads take turns.
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <ostream>
+#include <sstream>
 
 #include "golden/golden_file.h"
 #include "package_folder.h"
@@ -27,11 +31,23 @@ void PrintTo(const Case& scene, std::ostream* out) {
   *out << scene.scene.covers;
 }
 
+/// Returns the numbers of threads of the environment; none without it.
+std::vector<int> requestedThreads() {
+  const char* text = std::getenv("VEGETATION_SIM_GOLDEN_THREADS");
+  std::istringstream in(text ? text : "");
+  std::vector<int> out;
+  for (int threads = 0; in >> threads;) out.push_back(threads);
+  return out;
+}
+
 std::vector<Case> allCases() {
+  const std::vector<int> requested = requestedThreads();
   std::vector<Case> out;
   for (const scenes::SceneEntry& scene : scenes::allScenes())
-    for (const std::string& set : instructionSets())
-      out.push_back({scene, set, out.size() % 2 == 0 ? 1 : 4});
+    for (const std::string& set : instructionSets()) {
+      if (requested.empty()) out.push_back({scene, set, out.size() % 2 == 0 ? 1 : 4});
+      for (const int threads : requested) out.push_back({scene, set, threads});
+    }
   return out;
 }
 

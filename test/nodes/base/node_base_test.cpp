@@ -7,10 +7,17 @@
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <gtest/gtest.h>
 #include <ros/callback_queue.h>
+#include <vegetation_sim/Viewer.h>
 
 #include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <new>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "nodes/canopy/canopy_animator.h"
 #include "nodes/crowd/agent_crowd.h"
@@ -22,8 +29,9 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr int LIVES = 15, CALLS = 6;  // of a node that are answered before it ends
-constexpr double DEADLINE = 60.0;     // [s] of wall time; only a test that fails waits that long
+constexpr int LIVES = 10, CALLS = 4;  // of a node that are answered before it ends
+// Of wall time; only a test that fails waits that long.
+constexpr std::chrono::seconds DEADLINE{60};
 
 /// Repeats a task in a thread of its own until it is destroyed.
 class Repeating {
@@ -43,6 +51,27 @@ class Repeating {
   std::thread thread_;
 };
 
+/// Counts the requests that a node has answered.
+class Answers {
+ public:
+  void add(bool answered) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (answered) ++count_;
+    changed_.notify_all();
+  }
+  /// Waits for more answers. @return whether they came in time.
+  bool wait(int more) {
+    std::unique_lock<std::mutex> lock(mutex_);
+    const int wanted = count_ + more;
+    return changed_.wait_for(lock, DEADLINE, [&] { return count_ >= wanted; });
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  int count_{0};
+};
+
 /// Creates and destroys nodes while clients call their services and a thread runs their callbacks.
 class NodeEnd : public testing::Test {
  protected:
@@ -50,32 +79,64 @@ class NodeEnd : public testing::Test {
   void liveAndEnd(const std::string& name, const std::string& scenario) {
     if (!scenario.empty())
       ros::param::set("/" + name + "/scenario", "package://vegetation_sim/test/nodes/" + scenario);
-    ros::NodeHandle handle, private_handle("/" + name);
-    handle.setCallbackQueue(&queue_);
-    private_handle.setCallbackQueue(&queue_);
-    std::atomic<int> answered{0};
-    const Repeating spinner([this] { queue_.callAvailable(ros::WallDuration(0.001)); });
+    Answers answers;
+    // As a nodelet manager does, which calls nothing of a nodelet that ends, but does not wait for
+    // the callback that runs.
+    std::atomic<ros::CallbackQueue*> current{nullptr};
+    const Repeating spinner([&] {
+      if (ros::CallbackQueue* queue = current) queue->callOne(ros::WallDuration(0.001));
+    });
     const Repeating resets([&] {
       std_srvs::Trigger request;
-      answered += ros::service::call("/" + name + "/reset", request);
+      answers.add(ros::service::call("/" + name + "/reset", request));
     });
     const Repeating tuning([&] {
       dynamic_reconfigure::Reconfigure request;
       ros::service::call("/" + name + "/set_parameters", request);
     });
     for (int life = 0; life < LIVES; ++life) {
-      const int before = answered;
-      const Node node(handle, private_handle);
-      const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(DEADLINE);
-      while (answered < before + CALLS) {
-        ASSERT_LT(ros::WallTime::now().toSec(), end.toSec()) << name << " does not answer";
-        std::this_thread::yield();
-      }
+      ros::CallbackQueue& queue = *queues_.emplace_back(std::make_unique<ros::CallbackQueue>());
+      ros::NodeHandle handle, private_handle("/" + name);
+      handle.setCallbackQueue(&queue);
+      private_handle.setCallbackQueue(&queue);
+      current = &queue;
+      auto node = std::make_unique<Node>(handle, private_handle);
+      ASSERT_TRUE(answers.wait(CALLS)) << name << " does not answer";
+      current = nullptr;
+      node.reset();
+      queue.disable();
     }
   }
 
-  ros::CallbackQueue queue_;
+ private:
+  std::vector<std::unique_ptr<ros::CallbackQueue>> queues_;  // roscpp may still refer to them
 };
+
+/// A node whose callback runs out of memory.
+class ThrowingNode final : public NodeBase {
+ public:
+  ThrowingNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
+      : NodeBase("throwing_node", handle, private_handle) {
+    subscribe("throwing_node/viewer", 10, &ThrowingNode::receive);
+  }
+  ~ThrowingNode() override { stopCallbacks(); }
+  std::uint64_t refused() const { return refusals_.count(); }
+
+ private:
+  void receive(const Viewer&) { throw std::bad_alloc(); }
+};
+
+TEST_F(NodeEnd, ACallbackThatThrowsEndsAlone) {
+  ros::CallbackQueue queue;
+  ros::NodeHandle handle, private_handle("/throwing_node");
+  handle.setCallbackQueue(&queue);
+  const ThrowingNode node(handle, private_handle);
+  const ros::Publisher viewers = handle.advertise<Viewer>("throwing_node/viewer", 10, true);
+  viewers.publish(Viewer());
+  for (int calls = 0; node.refused() == 0 && calls < 100; ++calls)
+    ASSERT_NO_THROW(queue.callAvailable(ros::WallDuration(0.1)));
+  EXPECT_EQ(node.refused(), 1u);
+}
 
 TEST_F(NodeEnd, WindBroadcasterMayEndWithinACallback) {
   liveAndEnd<WindBroadcaster>("wind_broadcaster", "wind/wind_scene.yaml");
