@@ -22,7 +22,7 @@ AgentCrowd::AgentCrowd(const ros::NodeHandle& handle, const ros::NodeHandle& pri
       crowd_(options_.scene.seed, options_.tuning, options_.scene.crowd.area,
              options_.scene.terrain),
       markers_(crowd_, options_.marker_points, options_.tolerance),
-      robots_(options_.frame_id, options_.robots, tf_buffer_) {
+      robots_(options_.frame_id, options_.robots, tf_buffer_, options_.frame_wait) {
   crowd_.setThreads(options_.threads);
   crowd_.setObstacles(obstaclesOf(options_.scene.crowd.walls));
   populate();

@@ -149,6 +149,7 @@ void AgentCrowd::addDiagnostics(Status& status) {
   status.add("Trunks", trunks_);
   status.add("Robots", crowd_.snapshot().robots.size());
   status.add("Robots without a transform", robots_.missing().size());
+  status.add("Transforms too late for their tick", robots_.late());
   status.add("Deepest overlap [mm]", static_cast<int>(1e3 * crowd_.deepestOverlap()));
   status.add("Treads sent", treads_);
   status.add("State sent [B]", state_bytes_);

@@ -4,6 +4,8 @@
 
 #include <set>
 
+#include "ros/services/frame_lookup.h"
+
 namespace vegetation_sim {
 namespace {
 
@@ -50,6 +52,7 @@ void describe(FieldVisitor& v, CrowdOptions& o) {
   v.integer("state_rate", o.state_rate, "Hz", {1, 240});
   v.integer("marker_points", o.marker_points, "", {3000, 3000000});
   v.number("tolerance", o.tolerance, "pixel", {0.01, 1000.0});
+  v.number("frame_wait", o.frame_wait, "s", {0.0, FrameLookup::LONGEST_WAIT});
   v.number("tf_rate", o.tf_rate, "Hz", {0.1, 240.0});
   v.integer("tf_budget", o.tf_budget, "", {0, 10000});
   v.choice("tread", o.tread, {"none", "body", "feet"});

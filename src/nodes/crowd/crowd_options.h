@@ -32,6 +32,7 @@ struct CrowdOptions : NodeOptions {
   CrowdOptions() { marker_points = 120000; }
 
   double tolerance{1.0};     ///< error of drawn walkers [pixel]
+  double frame_wait{0.0};    ///< for the transforms of robots at a tick [s]
   double tf_rate{15.0};      ///< [Hz]
   int tf_budget{20};         ///< frames: nearest to robots, then lowest ids
   std::string frame_prefix;  ///< precedes walker_<id>

@@ -23,8 +23,8 @@ bool isSound(const crowd::Robot& robot) {
 }  // namespace
 
 CrowdRobots::CrowdRobots(std::string frame_id, std::vector<crowd::Robot> robots,
-                         const tf2_ros::Buffer& buffer)
-    : frame_id_(std::move(frame_id)), buffer_(buffer) {
+                         const tf2_ros::Buffer& buffer, double wait)
+    : frame_id_(std::move(frame_id)), lookup_(buffer, frame_id_, wait) {
   for (crowd::Robot& robot : robots) followed_.push_back({std::move(robot)});
 }
 
@@ -69,11 +69,11 @@ void CrowdRobots::archive(Archive& a, Seen& seen) {
       });
 }
 
-bool CrowdRobots::sample(Followed& followed, Nanoseconds now, bool& moved) const {
+bool CrowdRobots::sample(Followed& followed, Nanoseconds now, bool& moved) {
   crowd::Robot robot = followed.robot;
   Nanoseconds stamp = 0;
   try {
-    const auto found = buffer_.lookupTransform(frame_id_, robot.id, ros::Time(0));
+    const auto found = lookup_.find(robot.id);
     const Pose pose = fromMsg(found.transform);
     const Vec3 front = axisX(pose.orientation);
     robot.position = {pose.position.x(), pose.position.y()};
@@ -99,6 +99,7 @@ bool CrowdRobots::sample(Followed& followed, Nanoseconds now, bool& moved) const
 std::vector<CrowdRobots::Change> CrowdRobots::update(Nanoseconds now) {
   std::vector<Change> out;
   missing_.clear();
+  lookup_.begin(now);
   for (Followed& followed : followed_) {
     const bool was_known = followed.known;
     bool moved = false;

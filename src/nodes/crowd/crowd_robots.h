@@ -10,6 +10,7 @@
 
 #include "core/archive/archive.h"
 #include "crowd/body/walker.h"
+#include "ros/services/frame_lookup.h"
 #include "ros/services/missing_inputs.h"
 
 namespace vegetation_sim {
@@ -21,9 +22,9 @@ class CrowdRobots {
   /// A robot whose newest transform is older than this is removed [s].
   static constexpr double STALE = 0.5;
 
-  /// `buffer` must outlive it.
-  CrowdRobots(std::string frame_id, std::vector<crowd::Robot> robots,
-              const tf2_ros::Buffer& buffer);
+  /// `buffer` must outlive it. @param wait for the transforms of a tick [s], see FrameLookup.
+  CrowdRobots(std::string frame_id, std::vector<crowd::Robot> robots, const tf2_ros::Buffer& buffer,
+              double wait);
 
   struct Change {
     bool gone{false};
@@ -32,7 +33,7 @@ class CrowdRobots {
   /// Returns robots that moved, came or went since the last call. One whose pose is not finite is
   /// gone.
   std::vector<Change> update(Nanoseconds now);
-  /// A robot at its newest transform.
+  /// A robot at its last transform.
   struct Sample {
     Nanoseconds stamp{0};
     crowd::Point position{}, velocity{};
@@ -47,6 +48,8 @@ class CrowdRobots {
 
   /// Transforms that the last update missed.
   MissingInputs& missing() { return missing_; }
+  /// Number of transforms that have not come in time for their tick.
+  std::size_t late() const { return lookup_.late(); }
   /// Forgets all transforms, after a jump of time.
   void clear();
 
@@ -56,11 +59,11 @@ class CrowdRobots {
     Nanoseconds stamp{0};
     bool known{false};
   };
-  bool sample(Followed& followed, Nanoseconds now, bool& moved) const;
+  bool sample(Followed& followed, Nanoseconds now, bool& moved);
 
   std::string frame_id_;
   std::vector<Followed> followed_;
-  const tf2_ros::Buffer& buffer_;
+  FrameLookup lookup_;
   MissingInputs missing_;
 };
 

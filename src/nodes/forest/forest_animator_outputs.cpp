@@ -61,6 +61,7 @@ void ForestAnimator::sendBranches(const ros::TimerEvent&) {
 void ForestAnimator::addDiagnostics(Status& status) {
   bodies_.missing().warn(name_, status);
   status.add("Frames of bodies without a transform", bodies_.missing().size());
+  status.add("Transforms too late for their tick", bodies_.late());
   for (const std::string& link : options_.robot.left_out)
     status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, link);
   status.add("Links of robots without a shape", options_.robot.left_out.size());

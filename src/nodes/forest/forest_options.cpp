@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/forest/forest_options.h"
 
+#include "ros/services/frame_lookup.h"
+
 namespace vegetation_sim {
 namespace {
 
@@ -31,6 +33,7 @@ void describe(FieldVisitor& v, ForestOptions& o) {
   v.integer("branches_budget", o.branches_budget, "branches", {0, 1000000});
   v.integer("cache_budget", o.cache_budget, "branches", {1000, 20000000});
   v.integer("threads", o.threads, "", {1, 64});
+  v.number("frame_wait", o.frame_wait, "s", {0.0, FrameLookup::LONGEST_WAIT});
   v.number("grab_lease", o.grab_lease, "s", {0.1, 3600.0});
   v.number("grab_distance", o.grab_distance, "m", {0.1, 1000.0});
   describe(v, o.tuning);

@@ -39,6 +39,7 @@ struct ForestOptions : NodeOptions {
   int branches_budget{20000};       ///< branches per round of messages
   int cache_budget{400000};         ///< branches of grown trees held in memory
   int threads{1};                   ///< that step physical trees
+  double frame_wait{0.0};           ///< for the transforms of bodies at a tick [s]
   double grab_lease{5.0};           ///< of a grab without a lease of its own [s]
   double grab_distance{10.0};       ///< farthest target from the point held [m]
   bool tf_promoted{true};           ///< frames of physical branches, where tf_budget has room

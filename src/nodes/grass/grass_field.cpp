@@ -14,7 +14,7 @@ GrassField::GrassField(const ros::NodeHandle& handle, const ros::NodeHandle& pri
                 loadGrassOptions(private_handle)),
       tuning_(options_.tuning),
       key_frames_(options_.key_frame_period, options_.state_rate, options_.state_bytes),
-      sources_(handle_, options_.frame_id, options_.sources, tf_buffer_) {
+      sources_(handle_, options_.frame_id, options_.sources, tf_buffer_, options_.frame_wait) {
   const GrassScene& scene = options_.scene;
   grass::Layout layout = scene.grass.layout;
   tread_ = std::make_unique<grass::TreadMap>(layout.map->law(), scene.grass.treading);

@@ -95,6 +95,7 @@ void GrassField::addDiagnostics(Status& status) {
   reported_no_memory_ = tread.counts.no_memory;
   status.add("Sources", field_->sources().size());
   status.add("Sources without a position", sources_.missing().size());
+  status.add("Transforms too late for their tick", sources_.late());
   status.add("Strokes", tread.counts.strokes);
   status.add("Strokes off the map", tread.counts.outside);
   status.add("Jumps of sources", tread.counts.jumps);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "ros/services/frame_lookup.h"
 #include "vegetation_sim/ros/conversions/grass_conversions.h"
 
 namespace vegetation_sim {
@@ -132,6 +133,7 @@ void describe(FieldVisitor& v, GrassOptions& o) {
   v.number("key_frame_period", o.key_frame_period, "s", {0.05, 60.0});
   v.integer("state_bytes", o.state_bytes, "B/s", {1000, 1000000000});
   v.integer("marker_points", o.marker_points, "", {900, 3000000});
+  v.number("frame_wait", o.frame_wait, "s", {0.0, FrameLookup::LONGEST_WAIT});
   v.number("cover_rate", o.cover_rate, "Hz", {0.1, 60.0});
   v.number("cover_resolution", o.cover_resolution, "m", {0.02, 100.0});
   v.number("cover_density", o.cover_scale.density, "1/m^2", {1.0, 20000.0});

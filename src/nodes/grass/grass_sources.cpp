@@ -19,8 +19,9 @@ constexpr std::size_t LONGEST_NAME = 4096, TREAD_BYTES = 36;
 }  // namespace
 
 GrassSources::GrassSources(ros::NodeHandle handle, std::string frame_id,
-                           std::vector<FollowedSource> sources, const tf2_ros::Buffer& buffer)
-    : frame_id_(std::move(frame_id)), buffer_(buffer) {
+                           std::vector<FollowedSource> sources, const tf2_ros::Buffer& buffer,
+                           double wait)
+    : frame_id_(std::move(frame_id)), buffer_(buffer), lookup_(buffer, frame_id_, wait) {
   for (FollowedSource& source : sources) followed_.push_back({std::move(source), {}, {}, 0});
   for (Followed& followed : followed_) {
     if (followed.source.odometry.empty()) continue;
@@ -68,8 +69,7 @@ void GrassSources::archive(Archive& a, Published& published) {
       });
 }
 
-GrassSources::ObservedSource GrassSources::findOdometry(const Followed& followed,
-                                                        Nanoseconds now) const {
+GrassSources::ObservedSource GrassSources::findOdometry(const Followed& followed, Nanoseconds now) {
   if (!followed.odometry) throw tf2::LookupException("nothing heard");
   const nav_msgs::Odometry& message = *followed.odometry;
   Faults faults;
@@ -78,8 +78,7 @@ GrassSources::ObservedSource GrassSources::findOdometry(const Followed& followed
   faults.throwIfAny();
   const std::string& frame = message.header.frame_id;
   Pose to_world;
-  if (frame != frame_id_)
-    to_world = fromMsg(buffer_.lookupTransform(frame_id_, frame, ros::Time(0)).transform);
+  if (frame != frame_id_) to_world = fromMsg(lookup_.find(frame).transform);
   base = compose(to_world, base);
   // The twist is in the child frame; the velocity is that of the offset point.
   const Vec3 spin = fromMsg(message.twist.twist.angular), &arm = followed.source.offset;
@@ -88,9 +87,9 @@ GrassSources::ObservedSource GrassSources::findOdometry(const Followed& followed
   return {stamp == 0 ? now : stamp, transformed(base, arm), rotate(base.orientation, velocity)};
 }
 
-GrassSources::ObservedSource GrassSources::find(const Followed& followed, Nanoseconds now) const {
+GrassSources::ObservedSource GrassSources::find(const Followed& followed, Nanoseconds now) {
   if (!followed.source.odometry.empty()) return findOdometry(followed, now);
-  const auto found = buffer_.lookupTransform(frame_id_, followed.source.frame, ros::Time(0));
+  const auto found = lookup_.find(followed.source.frame);
   // A chain of static transforms has no stamp; the current time stands for it.
   const Nanoseconds stamp = fromMsg(found.header.stamp);
   return {stamp == 0 ? now : stamp, transformed(fromMsg(found.transform), followed.source.offset),
@@ -129,6 +128,7 @@ std::vector<grass::TreadInput> GrassSources::update(Nanoseconds now, const grass
   own_ = own;
   height_gate_ = height_gate;
   missing_.clear();
+  lookup_.begin(now);
   for (Followed& followed : followed_) {
     ObservedSource heard;
     bool known = true;

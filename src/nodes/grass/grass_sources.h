@@ -14,6 +14,7 @@
 
 #include "core/archive/archive.h"
 #include "nodes/grass/grass_options.h"
+#include "ros/services/frame_lookup.h"
 #include "ros/services/missing_inputs.h"
 
 namespace vegetation_sim {
@@ -27,9 +28,9 @@ class GrassSources {
   /// Period at which a source at rest is repeated [s].
   static constexpr double REMINDER = 1.0;
 
-  /// `buffer` must outlive it.
+  /// `buffer` must outlive it. @param wait for the transforms of a tick [s], see FrameLookup.
   GrassSources(ros::NodeHandle handle, std::string frame_id, std::vector<FollowedSource> sources,
-               const tf2_ros::Buffer& buffer);
+               const tf2_ros::Buffer& buffer, double wait);
 
   /// Returns the treads of each source since the last call: it moved, left, or is repeated at rest.
   /// Positions are in the world frame; `own` and `height_gate` are for sources without values of
@@ -52,6 +53,8 @@ class GrassSources {
 
   /// Transforms and odometry that the last update missed.
   MissingInputs& missing() { return missing_; }
+  /// Number of transforms that have not come in time for their tick.
+  std::size_t late() const { return lookup_.late(); }
   /// Forgets all positions, after a jump of time.
   void clear();
 
@@ -67,8 +70,8 @@ class GrassSources {
     std::optional<Vec3> published;  ///< position
     Nanoseconds published_stamp{0};
   };
-  ObservedSource find(const Followed& followed, Nanoseconds now) const;
-  ObservedSource findOdometry(const Followed& followed, Nanoseconds now) const;
+  ObservedSource find(const Followed& followed, Nanoseconds now);
+  ObservedSource findOdometry(const Followed& followed, Nanoseconds now);
   std::string describeMissing(const Followed& followed) const;
   void say(const Followed& followed, grass::TreadAction action, const ObservedSource& heard,
            std::vector<grass::TreadInput>& out) const;
@@ -76,6 +79,7 @@ class GrassSources {
   std::string frame_id_;
   std::vector<Followed> followed_;
   const tf2_ros::Buffer& buffer_;
+  FrameLookup lookup_;
   std::vector<ros::Subscriber> subscribers_;
   MissingInputs missing_;
   grass::TreadLaw own_;

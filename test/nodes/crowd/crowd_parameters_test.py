@@ -15,6 +15,7 @@ BAD = {
     'tolerance': (0.0, 'tolerance = 0 pixel is outside 0.01 to 1000'),
     'tf_rate': (1e6, 'tf_rate = 1e+06 Hz is outside 0.1 to 240'),
     'tf_budget': (-1, 'tf_budget = -1 is outside 0 to 10000'),
+    'frame_wait': (-1.0, 'frame_wait = -1 s is outside 0 to 60'),
     'tread': ('hands', 'tread'),
     'tread_radius': (-1.0, 'tread_radius = -1 m is outside 0 to 2'),
     'trunks': ('square', 'trunks'),

@@ -13,7 +13,7 @@ NUMBERS = {
     'cover_rate': (' Hz', 0.1, 60), 'cover_resolution': (' m', 0.02, 100),
     'cover_density': (' 1/m^2', 1, 20000), 'cover_resistance': (' N s/m', 0.001, 1e8),
     'cover_age': (' s', 1, 1e9), 'viewer_field_of_view': (' rad', 0.01, 3.1),
-    'checkpoint_period': (' s', 0, 86400),
+    'checkpoint_period': (' s', 0, 86400), 'frame_wait': (' s', 0, 60),
     'replay_delay': (' s', 0, 10), 'drag': (' N s/m', 0, 1000), 'height_gate': (' m', 0, 1000),
     'tread_radius': (' m', 0.005, 5), 'tread_reach': (' m', 0.01, 10),
     'tread_softness': (' m', 0.001, 5), 'tread_load': ('', 0, 10), 'tread_recovery': (' s', 0, 1e9),

@@ -25,8 +25,8 @@ bool isSound(const forest::Body& body) {
 }  // namespace
 
 RobotBodies::RobotBodies(const ros::NodeHandle& nh, std::string frame_id,
-                         std::vector<forest::Body> parts)
-    : frame_id_(std::move(frame_id)) {
+                         std::vector<forest::Body> parts, double wait)
+    : frame_id_(std::move(frame_id)), lookup_(buffer_, frame_id_, wait) {
   for (forest::Body& part : parts) followed_.push_back({std::move(part), {}});
   if (!followed_.empty()) listener_ = std::make_unique<tf2_ros::TransformListener>(buffer_, nh);
 }
@@ -73,7 +73,7 @@ void RobotBodies::archive(Archive& a, Seen& seen) {
 bool RobotBodies::sample(Followed& followed, Nanoseconds now) {
   forest::Body body = followed.part;
   try {
-    const auto found = buffer_.lookupTransform(frame_id_, body.frame, ros::Time(0));
+    const auto found = lookup_.find(body.frame);
     body.pose = compose(fromMsg(found.transform), body.in_frame);
     // A chain of static transforms has no stamp: the pose is reported once, for the current time.
     const Nanoseconds stamp = fromMsg(found.header.stamp);
@@ -97,6 +97,7 @@ bool RobotBodies::sample(Followed& followed, Nanoseconds now) {
 std::vector<forest::Body> RobotBodies::update(Nanoseconds now) {
   std::vector<forest::Body> out;
   missing_.clear();
+  lookup_.begin(now);
   for (Followed& followed : followed_) {
     if (sample(followed, now)) {
       out.push_back(*followed.last);

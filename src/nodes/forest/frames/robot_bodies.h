@@ -15,6 +15,7 @@
 #include "core/archive/archive.h"
 #include "forest/contact/mesh_cover.h"
 #include "ros/params/parameters.h"
+#include "ros/services/frame_lookup.h"
 #include "ros/services/missing_inputs.h"
 #include "tree/physical/interaction.h"
 
@@ -50,11 +51,13 @@ RobotParts readRobotParts(const ros::NodeHandle& private_handle, Parameters& par
 /// Follows the frames of the parts in tf, once per tick.
 class RobotBodies {
  public:
-  RobotBodies(const ros::NodeHandle& nh, std::string frame_id, std::vector<forest::Body> parts);
+  /// @param wait for the transforms of a tick [s], see FrameLookup.
+  RobotBodies(const ros::NodeHandle& nh, std::string frame_id, std::vector<forest::Body> parts,
+              double wait = 0.0);
 
-  /// Returns the bodies at their newest transforms, with the velocity between the last two.
+  /// Returns the bodies at their transforms, with the velocity between the last two.
   std::vector<forest::Body> update(Nanoseconds now);
-  /// A body at its newest transform.
+  /// A body at its last transform.
   struct Sample {
     Nanoseconds stamp{0};
     Pose pose;
@@ -69,6 +72,8 @@ class RobotBodies {
 
   /// Transforms that the last update missed.
   MissingInputs& missing() { return missing_; }
+  /// Number of transforms that have not come in time for their tick.
+  std::size_t late() const { return lookup_.late(); }
   /// Forgets all transforms, after a jump of time.
   void clear();
 
@@ -82,6 +87,7 @@ class RobotBodies {
   std::string frame_id_;
   std::vector<Followed> followed_;
   tf2_ros::Buffer buffer_;
+  FrameLookup lookup_;
   std::unique_ptr<tf2_ros::TransformListener> listener_;  // if there is anything to follow
   MissingInputs missing_;
 };

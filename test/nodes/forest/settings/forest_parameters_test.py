@@ -23,7 +23,7 @@ NUMBERS = {
     'procedural_cost': (' ns', 0.1, 10000),
     'modal_cost': (' ns', 0.1, 10000), 'fine_cost': (' ns', 0.1, 10000),
     'physical_cost': (' ns', 0.1, 1e6),
-    'grab_lease': (' s', 0.1, 3600), 'grab_distance': (' m', 0.1, 1000),
+    'frame_wait': (' s', 0, 60), 'grab_lease': (' s', 0.1, 3600), 'grab_distance': (' m', 0.1, 1000),
 }
 WHOLE_NUMBERS = {
     'state_rate': (' Hz', 1, 240), 'marker_points': ('', 600, 3000000),
