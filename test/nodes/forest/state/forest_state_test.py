@@ -50,7 +50,7 @@ class ForestState(unittest.TestCase):
             self.assertEqual(count, len(answer.parents))
             self.assertTrue(self.forest.set_tf(tree, [0, count - 1], True).success)
             self.assertTrue(self.forest.set_tf(tree, [0, count - 1], False).success)
-            self.assertIn('branch = %d is unknown' % count,
+            self.assertIn('branches: %d is unknown' % count,
                           self.forest.set_tf(tree, [count], True).message)
 
     # There are 30 messages per second of the clock, one per tick, and they are small.
