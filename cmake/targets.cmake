@@ -1,5 +1,5 @@
-# Libraries and programs that use ROS. A library takes all sources below its folders; in src/nodes, *_node.cpp is
-# the program of a node and nodelets.cpp holds the nodelet plugins.
+# Libraries and programs that use ROS. A library takes all sources below its folders; in src/nodes,
+# *_node.cpp is the program of a node and nodelets.cpp holds the nodelet plugins.
 file(GLOB_RECURSE ros_sources CONFIGURE_DEPENDS src/ros/*.cpp)
 file(GLOB_RECURSE node_sources CONFIGURE_DEPENDS src/nodes/*.cpp)
 file(GLOB_RECURSE main_sources CONFIGURE_DEPENDS src/nodes/*_node.cpp)
