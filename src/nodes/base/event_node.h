@@ -117,9 +117,9 @@ class EventNode : public SavedNode<Queue, Options> {
     clock_.listen(handle_);
   }
   void stop() {
+    this->stopCallbacks();
     clock_.stop();
     recorded_.shutdown();
-    this->stopCallbacks();
     tuning_server_.reset();
   }
 

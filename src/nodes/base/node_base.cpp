@@ -5,14 +5,23 @@
 #include "ros/services/rivals.h"
 
 namespace vegetation_sim {
+namespace {
+
+ros::NodeHandle handleOf(ros::NodeHandle handle, ClosableQueue& callbacks) {
+  handle.setCallbackQueue(&callbacks);
+  return handle;
+}
+
+}  // namespace
 
 NodeBase::NodeBase(const std::string& name, const ros::NodeHandle& handle,
                    const ros::NodeHandle& private_handle)
     : name_(name),
-      handle_(handle),
-      private_handle_(private_handle),
+      callbacks_(makeClosableQueue(*handle.getCallbackQueue())),
+      handle_(handleOf(handle, callbacks_)),
+      private_handle_(handleOf(private_handle, callbacks_)),
       refusals_(name),
-      diagnostics_(handle, private_handle, private_handle.getNamespace()) {
+      diagnostics_(handle_, private_handle_, private_handle.getNamespace()) {
   diagnostics_.setHardwareID("none");
 }
 
@@ -30,6 +39,7 @@ void NodeBase::openServices() {
 }
 
 void NodeBase::stopCallbacks() {
+  callbacks_.close();
   diagnostics_timer_.stop();
   timers_.clear();
   services_.clear();

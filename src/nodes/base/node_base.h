@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "nodes/base/closable_queue.h"
 #include "ros/services/diagnostics.h"
 #include "vegetation_sim/core/config/faults.h"
 
@@ -71,7 +72,8 @@ class NodeBase {
   }
   /// Publishes diagnostics once per second of wall time from now on.
   void startDiagnostics();
-  /// Ends all callbacks. To be called before anything that they use is destroyed.
+  /// Waits for the callback that runs, and lets none begin. To be called before anything that they
+  /// use is destroyed.
   void stopCallbacks();
   /// Warns of topics with one owner that have several publishers.
   void warnOfRivals(Status& status) const;
@@ -87,7 +89,12 @@ class NodeBase {
   }
 
   const std::string name_;
-  ros::NodeHandle handle_, private_handle_;
+
+ private:
+  ClosableQueue& callbacks_;
+
+ protected:
+  ros::NodeHandle handle_, private_handle_;  // of the callbacks that stopCallbacks() ends
   Refusals refusals_;
   diagnostic_updater::Updater diagnostics_;
 

@@ -41,7 +41,7 @@ ForestAnimator::ForestAnimator(const ros::NodeHandle& handle, const ros::NodeHan
       forest_(makeForest(options_)),
       cache_(static_cast<std::size_t>(options_.cache_budget)),
       grab_manager_({options_, *forest_, cache_, inputs_, tf_buffer_, [this] { checkpointNow(); }}),
-      bodies_(handle, options_.frame_id, options_.robot.parts, options_.frame_wait),
+      bodies_(handle_, options_.frame_id, options_.robot.parts, options_.frame_wait),
       frames_(options_.tf_budget),
       markers_(*forest_, cache_, options_.marker_points) {
   layout_publisher_ = handle_.advertise<ForestLayout>("forest/layout", 1, true);

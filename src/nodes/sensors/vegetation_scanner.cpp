@@ -53,8 +53,8 @@ VegetationScanner::VegetationScanner(const ros::NodeHandle& handle,
 }
 
 VegetationScanner::~VegetationScanner() {
-  clock_.stop();
   stopCallbacks();
+  clock_.stop();
 }
 
 void VegetationScanner::tick(std::int64_t tick) {

@@ -29,8 +29,8 @@ WindBroadcaster::WindBroadcaster(const ros::NodeHandle& handle,
       marker_publisher_(handle_.advertise<visualization_msgs::MarkerArray>("wind/markers", 1)),
       samples_publisher_(handle_.advertise<WindSamples>("wind/samples", 10)),
       snapshots_(settings_.snapshots, name_, private_handle_.getNamespace(), snapshotCalls()),
-      reconfigure_(mutex_, private_handle),
-      clock_(handle, [this](Nanoseconds now) { acceptInput("clock", [&] { begin(now); }); }) {
+      reconfigure_(mutex_, private_handle_),
+      clock_(handle_, [this](Nanoseconds now) { acceptInput("clock", [&] { begin(now); }); }) {
   const Lock lock(mutex_);
   serve("set_primitive", &WindBroadcaster::setPrimitive);
   serve("remove_primitive", &WindBroadcaster::removePrimitive);

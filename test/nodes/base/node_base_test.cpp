@@ -1,15 +1,116 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
+// A node may be destroyed at any time while another thread runs its callbacks, as a nodelet that is
+// unloaded. The launch file sets MALLOC_PERTURB_, so that memory that is freed does not look valid.
 #include "nodes/base/node_base.h"
 
+#include <dynamic_reconfigure/Reconfigure.h>
 #include <gtest/gtest.h>
 #include <ros/callback_queue.h>
 #include <vegetation_sim/Viewer.h>
 
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <memory>
+#include <mutex>
 #include <new>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "nodes/canopy/canopy_animator.h"
+#include "nodes/crowd/agent_crowd.h"
+#include "nodes/forest/forest_animator.h"
+#include "nodes/grass/grass_field.h"
+#include "nodes/sensors/vegetation_scanner.h"
+#include "nodes/wind/wind_broadcaster.h"
 
 namespace vegetation_sim {
 namespace {
+
+constexpr int LIVES = 10, CALLS = 4;  // of a node that are answered before it ends
+// Of wall time; only a test that fails waits that long.
+constexpr std::chrono::seconds DEADLINE{60};
+
+/// Repeats a task in a thread of its own until it is destroyed.
+class Repeating {
+ public:
+  template <class Task>
+  explicit Repeating(Task task)
+      : thread_([this, task] {
+          while (!stop_) task();
+        }) {}
+  ~Repeating() {
+    stop_ = true;
+    thread_.join();
+  }
+
+ private:
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
+};
+
+/// Counts the requests that a node has answered.
+class Answers {
+ public:
+  void add(bool answered) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (answered) ++count_;
+    changed_.notify_all();
+  }
+  /// Waits for more answers. @return whether they came in time.
+  bool wait(int more) {
+    std::unique_lock<std::mutex> lock(mutex_);
+    const int wanted = count_ + more;
+    return changed_.wait_for(lock, DEADLINE, [&] { return count_ >= wanted; });
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  int count_{0};
+};
+
+/// Creates and destroys nodes while clients call their services and a thread runs their callbacks.
+class NodeEnd : public testing::Test {
+ protected:
+  template <class Node>
+  void liveAndEnd(const std::string& name, const std::string& scenario) {
+    if (!scenario.empty())
+      ros::param::set("/" + name + "/scenario", "package://vegetation_sim/test/nodes/" + scenario);
+    Answers answers;
+    // As a nodelet manager does, which calls nothing of a nodelet that ends, but does not wait for
+    // the callback that runs.
+    std::atomic<ros::CallbackQueue*> current{nullptr};
+    const Repeating spinner([&] {
+      if (ros::CallbackQueue* queue = current) queue->callOne(ros::WallDuration(0.001));
+    });
+    const Repeating resets([&] {
+      std_srvs::Trigger request;
+      answers.add(ros::service::call("/" + name + "/reset", request));
+    });
+    const Repeating tuning([&] {
+      dynamic_reconfigure::Reconfigure request;
+      ros::service::call("/" + name + "/set_parameters", request);
+    });
+    for (int life = 0; life < LIVES; ++life) {
+      ros::CallbackQueue& queue = *queues_.emplace_back(std::make_unique<ros::CallbackQueue>());
+      ros::NodeHandle handle, private_handle("/" + name);
+      handle.setCallbackQueue(&queue);
+      private_handle.setCallbackQueue(&queue);
+      current = &queue;
+      auto node = std::make_unique<Node>(handle, private_handle);
+      ASSERT_TRUE(answers.wait(CALLS)) << name << " does not answer";
+      current = nullptr;
+      node.reset();
+      queue.disable();
+    }
+  }
+
+ private:
+  std::vector<std::unique_ptr<ros::CallbackQueue>> queues_;  // the spinner may be in one
+};
 
 /// A node whose callback runs out of memory.
 class ThrowingNode final : public NodeBase {
@@ -25,7 +126,7 @@ class ThrowingNode final : public NodeBase {
   void receive(const Viewer&) { throw std::bad_alloc(); }
 };
 
-TEST(NodeBase, ACallbackThatThrowsEndsAlone) {
+TEST_F(NodeEnd, ACallbackThatThrowsEndsAlone) {
   ros::CallbackQueue queue;
   ros::NodeHandle handle, private_handle("/throwing_node");
   handle.setCallbackQueue(&queue);
@@ -35,6 +136,30 @@ TEST(NodeBase, ACallbackThatThrowsEndsAlone) {
   for (int calls = 0; node.refused() == 0 && calls < 100; ++calls)
     ASSERT_NO_THROW(queue.callAvailable(ros::WallDuration(0.1)));
   EXPECT_EQ(node.refused(), 1u);
+}
+
+TEST_F(NodeEnd, WindBroadcasterMayEndWithinACallback) {
+  liveAndEnd<WindBroadcaster>("wind_broadcaster", "wind/wind_scene.yaml");
+}
+
+TEST_F(NodeEnd, VegetationScannerMayEndWithinACallback) {
+  liveAndEnd<VegetationScanner>("vegetation_scanner", "");
+}
+
+TEST_F(NodeEnd, ForestAnimatorMayEndWithinACallback) {
+  liveAndEnd<ForestAnimator>("forest_animator", "scenarios/one_branch.yaml");
+}
+
+TEST_F(NodeEnd, GrassFieldMayEndWithinACallback) {
+  liveAndEnd<GrassField>("grass_field", "scenarios/lawn.yaml");
+}
+
+TEST_F(NodeEnd, CanopyAnimatorMayEndWithinACallback) {
+  liveAndEnd<CanopyAnimator>("canopy_animator", "scenarios/shrubs.yaml");
+}
+
+TEST_F(NodeEnd, AgentCrowdMayEndWithinACallback) {
+  liveAndEnd<AgentCrowd>("agent_crowd", "scenarios/crowd.yaml");
 }
 
 }  // namespace
