@@ -8,7 +8,8 @@ set -euo pipefail
 usage() {
   cat <<END
 usage: scripts/demo.sh [SCENARIO] [--headless] [--seconds N] [--screenshot FILE] [--series N] [--view NAME]
-  SCENARIO           one of: $(scenarios) (forest if none is given)
+  SCENARIO           one of: $(scenarios) (forest if none is given),
+                     or the path of a scenario file, which ends in .yaml
   --headless         uses a virtual display and its own ROS master; succeeds only if rviz shows a
                      picture and no node dies
   --seconds N        ends after N seconds (20 if headless, else when rviz is closed)
@@ -46,7 +47,13 @@ parse() {
     shift
   done
   scenario=${scenario:-forest}
-  [ -e "$ROOT/config/scenarios/$scenario.yaml" ] || refuse "unknown scenario $scenario"
+  if [[ $scenario = *.yaml ]]; then
+    [ -f "$scenario" ] || refuse "no scenario file $scenario"
+    arguments=(scenario:=own "scenario_file:=$(realpath -- "$scenario")")
+  else
+    [ -e "$ROOT/config/scenarios/$scenario.yaml" ] || refuse "unknown scenario $scenario"
+    arguments=(scenario:="$scenario")
+  fi
   [[ $seconds =~ ^[0-9]*$ && ! $seconds =~ ^0+$ ]] || refuse "--seconds $seconds is not a whole number above 0"
   [[ $series =~ ^[0-9]{1,3}$ && ! $series =~ ^0+$ ]] || refuse "--series $series is not within 1 to 999"
   series=$((10#$series))
@@ -112,8 +119,7 @@ run_headless() {
   config=$(if [ -n "$view" ]; then seen_from "$view"; else rviz_config; fi)
   start_display
   say "Showing $scenario on display $DISPLAY"
-  start_launch demo.launch scenario:="$scenario" rviz_config:="$config" \
-    rviz_args:=--disable-anti-aliasing
+  start_launch demo.launch "${arguments[@]}" rviz_config:="$config" rviz_args:=--disable-anti-aliasing
   wait_until 120 'the rviz window' rviz_window
   wait_until 60 'a message on forest/state' topic_flows /forest/state
   say "Running for ${seconds:-20} s"
@@ -131,7 +137,7 @@ use_space "$DEVEL"
 if $headless; then
   run_headless
 else
-  launch=(roslaunch vegetation_sim demo.launch scenario:="$scenario" rviz_config:="$(rviz_config)")
+  launch=(roslaunch vegetation_sim demo.launch "${arguments[@]}" rviz_config:="$(rviz_config)")
   [ -z "$seconds" ] || launch=(timeout --foreground --preserve-status -s INT "$seconds" "${launch[@]}")
   exec "${launch[@]}"
 fi

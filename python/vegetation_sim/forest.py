@@ -78,6 +78,8 @@ class Forest(Client):
             raise ValueError('needs either tree and branch, or near')
         if tree is not None:
             return dict(tree=tree, branch=branch, along=along)
+        if near is not None and len(near) != 3:
+            raise ValueError('near needs x, y and z, not %s' % (near,))
         if near is None and not frame:
             raise ValueError('needs tree and branch, near, or frame')
         here = stamped((0, 0, 0), frame) if near is None else stamped(near)

@@ -128,6 +128,7 @@ class PythonClients(unittest.TestCase):
                 self.assertEqual([raised.exception.code], code or [ErrorCode.INVALID_VALUE])
         for call in (lambda: self.forest.grab(), lambda: self.forest.grab(tree=3),
                      lambda: self.forest.grab(tree=3, branch=0, near=(0, 0, 1)),
+                     lambda: self.forest.grab(near=(0, 0)),
                      lambda: self.forest.grab(frame='hand', target=(0, 0, 1)),
                      lambda: list(self.forest.trees(radius=2.0)),
                      lambda: list(self.forest.trees(centre=(0, 0))),
