@@ -8,7 +8,8 @@ is a child of the robot, by the inverse of the pose. Every frame of the robot th
 in the world, while map and odom keep their estimates. The frame names of the messages are ignored,
 since simulators disagree on them.
 """
-import itertools
+import math
+import re
 import threading
 import time
 
@@ -19,6 +20,7 @@ from nav_msgs.msg import Odometry
 from tf2_msgs.msg import TFMessage
 
 LONGEST_SILENCE = 2.0  # [s]
+LOGGED_AFTER = 5  # [s]
 
 
 def rotated(q, v):
@@ -37,9 +39,11 @@ def inverse_of(pose):
     q = pose.orientation
     square = q.x ** 2 + q.y ** 2 + q.z ** 2 + q.w ** 2
     if not 0.99 < square < 1.01:
-        raise ValueError('orientation has the squared norm %g, allowed is 0.99 to 1.01' % square)
+        raise ValueError('pose.orientation has the squared norm %g, allowed is 0.99 to 1.01' % square)
     q = type(q)(-q.x, -q.y, -q.z, q.w)
     at = pose.position
+    if not all(map(math.isfinite, (at.x, at.y, at.z))):
+        raise ValueError('pose.position = (%g, %g, %g) is not finite' % (at.x, at.y, at.z))
     return [-c for c in rotated(q, (at.x, at.y, at.z))], q
 
 
@@ -48,15 +52,18 @@ class GroundTruthFrame:
         self.world = rospy.get_param('~world_frame')
         self.base = rospy.get_param('~base_frame')
         self.stamp = None
+        self.rejected = ''  # what is wrong with the newest pose
         self.tf = rospy.Publisher('/tf', TFMessage, queue_size=100)
         self.diagnostics = rospy.Publisher('/diagnostics', DiagnosticArray, queue_size=10)
         rospy.Subscriber('ground_truth', Odometry, self.on_pose, queue_size=10, tcp_nodelay=True)
         threading.Thread(target=self.report, daemon=True).start()
 
     def find_fault(self):
-        """Returns what is missing, or an empty text."""
+        """Returns what is missing or wrong, or an empty text."""
         topic = rospy.resolve_name('ground_truth')
         stamp = self.stamp
+        if self.rejected:
+            return '%s: %s' % (topic, self.rejected)
         if stamp is None:
             return 'no odometry on %s: there is no frame %s yet' % (topic, self.world)
         silence = (rospy.Time.now() - stamp).to_sec()
@@ -65,14 +72,16 @@ class GroundTruthFrame:
         return ''
 
     def report(self):
-        """Reports each second of wall time on /diagnostics, and each 5 s in the log if the odometry
-        is missing."""
-        for second in itertools.count(1):
+        """Reports each second of wall time on /diagnostics, and once in the log what lasts."""
+        kind, seconds = '', 0
+        while True:
             time.sleep(1.0)
             if rospy.core.is_shutdown_requested():
                 return
             fault = self.find_fault()
-            if fault and second % 5 == 0:
+            before, kind = kind, re.sub(r'[-+.\d]+', '', fault)  # without its numbers
+            seconds = seconds + 1 if kind == before else 0
+            if fault and seconds == LOGGED_AFTER:
                 rospy.logwarn(fault)
             status = DiagnosticStatus(name=rospy.get_name()[1:] + ': frame ' + self.world,
                                       hardware_id='none', message=fault or 'running',
@@ -89,8 +98,9 @@ class GroundTruthFrame:
         try:
             place, frame.transform.rotation = inverse_of(message.pose.pose)
         except ValueError as error:
-            rospy.logwarn_throttle(5.0, 'ground truth of %s: %s' % (self.base, error))
+            self.rejected = str(error)
             return
+        self.rejected = ''
         at = frame.transform.translation
         at.x, at.y, at.z = place
         self.stamp = message.header.stamp

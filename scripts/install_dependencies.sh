@@ -23,11 +23,13 @@ done
 
 COMMON=(
   cmake g++ libassimp-dev libeigen3-dev libgmock-dev libpng-dev libyaml-cpp-dev ninja-build pkg-config
+  make  # catkin_make
   # These packages run the charts and the scripts of the tests.
   procps python3-matplotlib python3-numpy python3-pil
 )
-# These packages compile the displays, give the demo a virtual display and take screenshots.
-DISPLAY_COMMON=(imagemagick libgl-dev libgl1-mesa-dri libopengl-dev xdotool xvfb)
+# These packages compile the displays, give the demo a virtual display and take screenshots;
+# xvfb-run needs xauth.
+DISPLAY_COMMON=(imagemagick libgl-dev libgl1-mesa-dri libopengl-dev xauth xdotool xvfb)
 DEBIAN=(
   # These packages compile the code.
   catkin python3-catkin-pkg ros-core-dev libroscpp-dev libtf2-ros-dev libsensor-msgs-dev liburdf-dev

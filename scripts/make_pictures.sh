@@ -20,11 +20,8 @@ pictures() {
   cat <<'END'
 demo         | demo         | 14 |
 forest       | forest       | 8  | View=Among
-single_tree  | single_tree  | 8  |
-grab         | grab         | 9  | Forest/Leaves=true;Forest/Colour by Level=false
 grab_levels  | grab         | 9  |
 push         | push         | 9  | Forest/Leaves=true;Forest/Colour by Level=false
-meadow       | meadow       | 12 |
 meadow_robot | meadow_robot | 20 |
 crowd        | crowd        | 12 |
 grove        | grove        | 8  |

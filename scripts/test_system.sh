@@ -37,6 +37,13 @@ if [ -z "$option" ]; then
 fi
 timed 'scripts/test.sh' "scripts/test.sh $option"
 
+# The package in a catkin workspace, as the README has it for a robot.
+if [ -n "$option" ]; then
+  timed 'catkin_make' '
+    mkdir -p ../workspace/src && ln -sfn "$PWD" ../workspace/src/vegetation_sim && cd ../workspace &&
+    catkin_make -Dvegetation_sim_RVIZ=OFF && . devel/setup.bash && rospack find vegetation_sim'
+fi
+
 # Noetic's rviz has OGRE 1.9, which Debian 11 has beside that of its own rviz.
 if [ "$release" = bullseye ] && [ -z "$option" ]; then
   timed 'displays with the headers of OGRE 1.9' '

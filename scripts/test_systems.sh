@@ -34,8 +34,8 @@ expect_error() {
   grep -qF -- "$1" <<<"$error" || fail "$3 ${*:4}: the error '$error' does not contain '$1'"
 }
 
-display='libgl-dev libgl1-mesa-dri libopengl-dev xdotool xvfb'
-expect_packages debian bullseye "g++ rviz librviz-dev qtbase5-dev $display" 'libhwy-dev catkin-lint'
+display='libgl-dev libgl1-mesa-dri libopengl-dev xauth xdotool xvfb'
+expect_packages debian bullseye "g++ make rviz librviz-dev qtbase5-dev $display" 'libhwy-dev catkin-lint'
 for release in bookworm trixie; do
   expect_packages debian $release "g++ libhwy-dev rviz librviz-dev $display" catkin-lint
   expect_packages debian $release 'g++ libhwy-dev libroscpp-dev libtopic-tools-dev' "rviz librviz-dev $display" --no-display

@@ -17,7 +17,8 @@ FENCE = r'^```(\w*)\n(.*?)^```'
 PROGRAMS = {'.', 'apt', 'apt-get', 'catkin', 'catkin_make', 'cd', 'docker', 'export', 'git', 'pip',
             'pip3', 'rviz', 'source', 'sudo'}
 OWN_PROGRAM = re.compile(r'(\./|scripts/|devel/|build/|examples/)\S+|\w+_bench')
-INLINE = re.compile(r'(ros\w+|rviz|timeout|docker|sudo|(scripts|devel)/\S+)\s+\S.*', re.S)
+INLINE = re.compile(r'(ros\w+|rviz|timeout|docker|sudo|(\$\(rospack find \w+\)/)?(scripts|devel)/\S+)\s+\S.*'
+                    r'|catkin_make', re.S)
 SHELL = ('', 'sh', 'bash', 'console')  # languages of blocks of command lines
 STATEMENTS = (ast.Import, ast.ImportFrom, ast.With, ast.For)
 

@@ -83,7 +83,9 @@ void ClosableQueue::removeByID(std::uint64_t owner) {
   if (visit) target_.removeByID(owner);
 }
 
-void ClosableQueue::close() { gate_->close(); }
+void ClosableQueue::close() {
+  gate_->close();
+}
 
 ClosableQueue& makeClosableQueue(ros::CallbackQueueInterface& target) {
   static std::mutex mutex;

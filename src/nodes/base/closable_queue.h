@@ -32,8 +32,8 @@ class ClosableQueue final : public ros::CallbackQueueInterface {
   std::shared_ptr<Gate> gate_;
 };
 
-/// Returns a new queue that is never destroyed, as threads of roscpp may still refer to the queue of
-/// a node that has ended.
+/// Returns a new queue that is never destroyed, as threads of roscpp may still refer to the queue
+/// of a node that has ended.
 ClosableQueue& makeClosableQueue(ros::CallbackQueueInterface& target);
 
 }  // namespace vegetation_sim

@@ -37,12 +37,12 @@ SOURCE = dict(id=0, fade_in=1.0, fade_out=1.0, trajectory=[PLACE], orbit_period=
 CENTRE = 'trajectory', 'orbit_radius', 'orbit_period'
 GUST = 'front_speed', 'rise_length', 'plateau_length', 'decay_length', 'repeat'
 # Fields of each kind of wind besides those of all kinds.
-KINDS = {WindPrimitive.DISK: ('velocity', 'radius', 'omega', 'phase') + CENTRE,
+KINDS = {WindPrimitive.DISK: ('velocity', 'radius', 'omega', 'phase', 'envelope') + CENTRE,
          WindPrimitive.BREEZE: ('velocity', 'turbulence', 'length_scale'),
          WindPrimitive.GUST: ('velocity', 'radius') + GUST + CENTRE,
          WindPrimitive.TORNADO: ('radius', 'speed', 'core_radius', 'inflow', 'updraft') + CENTRE,
          WindPrimitive.BLAST: ('radius', 'speed', 'core_radius') + CENTRE}
-OF_ALL_KINDS = 'fade_in', 'fade_out'
+OF_ALL_KINDS = ('name', 'kind', 'epoch', 't_on', 't_off', 'attached_frame', 'fade_in', 'fade_out')
 
 
 def winds():

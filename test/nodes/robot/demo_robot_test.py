@@ -86,6 +86,22 @@ class DemoRobot(unittest.TestCase):
         found = reported('ground_truth: frame world')
         self.assertEqual((found.level, found.message), (DiagnosticStatus.OK, 'running'))
 
+    def test_a_pose_that_is_none_is_a_warning(self):
+        log = Log('/diagnostics', DiagnosticArray)
+        poses = publisher('/bad_truth', Odometry)
+
+        def expect(text, x, w):
+            message = Odometry()
+            message.header.stamp = rospy.Time.now()
+            message.pose.pose.position.x, message.pose.pose.orientation.w = x, w
+            poses.publish(message)
+            log.wait(lambda all: [s for m in all for s in m.status
+                                  if s.name == 'bad_ground_truth: frame elsewhere' and s.message == text],
+                     text)
+        expect('/bad_truth: pose.position = (nan, 0, 0) is not finite', math.nan, 1.0)
+        expect('/bad_truth: pose.orientation has the squared norm 0, allowed is 0.99 to 1.01', 1.0, 0.0)
+        expect('running', 1.0, 1.0)
+
     def test_the_drag_of_the_grass_slows_it(self):
         before = self.truth.messages[-1].twist.twist.linear.x
         drag, command = WrenchStamped(), Twist()

@@ -69,6 +69,10 @@ class RobotArguments(RefusingNode):
         self.expect_refused('grass_field', 'sources', 'radius = -1 m is outside 0.005 to 5 m',
                             robot_radius='-1')
 
+    def test_keys_and_heights_of_sources(self):
+        self.expect_refused('grass_field', 'sources', 'height_gate = -1 m is outside', height_gate='-1')
+        self.expect_refused('grass_field', 'sources', 'radios is unknown', tread='radios: 1')
+
     def test_a_frame_that_begins_with_a_slash(self):
         for arguments in {'wheel_frames': 'left /right'}, {'prefix': '/', 'base_frame': 'right'}:
             self.expect_refused('grass_field', 'sources', "frame = '/right' begins with '/'",
@@ -77,6 +81,8 @@ class RobotArguments(RefusingNode):
                             base_frame='/base')
         self.expect_refused('vegetation_scanner', "~lidar_frame = '/laser' begins with '/'",
                             lidar_frame='/laser')
+        for node in 'wind_broadcaster', 'agent_crowd':
+            self.expect_refused(node, "frame_id = '/map' begins with '/'", world_frame='/map')
 
     def test_an_unknown_lidar_preset(self):
         self.expect_refused('vegetation_scanner', "~preset = 'vlp99' is none of", 'vlp16',
@@ -86,6 +92,8 @@ class RobotArguments(RefusingNode):
         for node in ('wind_broadcaster', 'forest_animator', 'grass_field', 'canopy_animator',
                      'agent_crowd'):
             self.expect_refused(node, '/config/scenarios/desert.yaml: cannot be read', scenario='desert')
+            self.expect_refused(node, '/nowhere/my.yaml: cannot be read',
+                                scenario_file='/nowhere/my.yaml')
 
     def test_a_description_that_is_no_parameter(self):
         self.expect_refused('forest_animator', "robot_description = 'nothing' is not a parameter",

@@ -133,10 +133,12 @@ TEST(TreadConversions, RejectEachInvalidField) {
   message.law.recovery = -1.0;
   message.law.softness = 0.5;
   message.velocity.x = 1.0;
+  message.height_gate = 1.0;
   const std::string faults = errorOf([&] { fromMsg(message, grass::TreadLaw(), 0.3); });
   for (const char* part :
        {"source = '' has 0 letters", "action = 9", "position.y = nan", "recovery = -1 s",
-        "softness = 0.5 needs has_softness = true", "velocity needs has_velocity = true"})
+        "softness = 0.5 needs has_softness = true", "velocity needs has_velocity = true",
+        "height_gate = 1 needs has_height_gate = true"})
     EXPECT_NE(faults.find(part), std::string::npos) << part << " in " << faults;
 }
 

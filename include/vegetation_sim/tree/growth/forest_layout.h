@@ -19,7 +19,7 @@ struct TreeSeed {
   double yaw{0.0};              ///< [rad]
   double scale{1.0};            ///< over the species' size, 0.05 to 20
 };
-static_assert(sizeof(TreeSeed) < 1024, "S1-05: a unique tree takes less than 1 kB");
+static_assert(sizeof(TreeSeed) == 56, "S1-05: a unique tree takes less than 1 kB");
 
 /// A square of forest by rule: tree i is a pure function of this record and i.
 struct Tile {
