@@ -42,11 +42,12 @@ KINDS = {WindPrimitive.DISK: ('velocity', 'radius', 'omega', 'phase', 'envelope'
          WindPrimitive.GUST: ('velocity', 'radius') + GUST + CENTRE,
          WindPrimitive.TORNADO: ('radius', 'speed', 'core_radius', 'inflow', 'updraft') + CENTRE,
          WindPrimitive.BLAST: ('radius', 'speed', 'core_radius') + CENTRE}
-OF_ALL_KINDS = ('name', 'kind', 'epoch', 't_on', 't_off', 'attached_frame', 'fade_in', 'fade_out')
+OF_ALL_KINDS = 'kind', 'attached_frame', 'fade_in', 'fade_out'
 
 
 def winds():
-    """Yields a request for each kind of wind and the fields that this kind ignores."""
+    """Yields a request for each kind of wind and the fields that this kind ignores or that may have
+    any value: new names and late times."""
     for kind, used in KINDS.items():
         ignored = set(WindPrimitive.__slots__) - set(used) - set(OF_ALL_KINDS)
         yield (srv.SetWindPrimitiveRequest(primitive=WindPrimitive(name='new', kind=kind, **SOURCE)),

@@ -71,7 +71,7 @@ class RobotArguments(RefusingNode):
 
     def test_keys_and_heights_of_sources(self):
         self.expect_refused('grass_field', 'sources', 'height_gate = -1 m is outside', height_gate='-1')
-        self.expect_refused('grass_field', 'sources', 'radios is unknown', tread='radios: 1')
+        self.expect_refused('grass_field', 'sources', 'radios is not a known key', tread='radios: 1')
 
     def test_a_frame_that_begins_with_a_slash(self):
         for arguments in {'wheel_frames': 'left /right'}, {'prefix': '/', 'base_frame': 'right'}:

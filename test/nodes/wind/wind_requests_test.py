@@ -148,6 +148,7 @@ class WindRequests(unittest.TestCase):
                 (primitive(kind=9), 'kind = 9 is none of 0 (disk)'),
                 (primitive(envelope=9), 'envelope = 9 is none of'),
                 (primitive(name=''), 'name is empty'),
+                (primitive(name='x' * 300), 'name has 300 characters, allowed are'),
                 (primitive(t_on=rospy.Time(5)), 't_on = 5.000000 s is before'),
                 (primitive(t_off=rospy.Time(5)), 't_off = 5.000000 s is not after'),
                 (primitive(orbit_radius=2.0), 'orbit_period = 0 s is outside 0.1'),
