@@ -91,13 +91,14 @@ class DemoRobot(unittest.TestCase):
         poses = publisher('/bad_truth', Odometry)
 
         def expect(text, x, w):
-            message = Odometry()
-            message.header.stamp = rospy.Time.now()
-            message.pose.pose.position.x, message.pose.pose.orientation.w = x, w
-            poses.publish(message)
+            def publish():
+                message = Odometry()
+                message.header.stamp = rospy.Time.now()
+                message.pose.pose.position.x, message.pose.pose.orientation.w = x, w
+                poses.publish(message)
             log.wait(lambda all: [s for m in all for s in m.status
                                   if s.name == 'bad_ground_truth: frame elsewhere' and s.message == text],
-                     text)
+                     text, publish)
         expect('/bad_truth: pose.position = (nan, 0, 0) is not finite', math.nan, 1.0)
         expect('/bad_truth: pose.orientation has the squared norm 0, allowed is 0.99 to 1.01', 1.0, 0.0)
         expect('running', 1.0, 1.0)
