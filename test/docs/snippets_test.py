@@ -36,6 +36,7 @@ NOT_RUN = (
     (r'(\$\(rospack find \w+\)/)?scripts/demo\.sh .*',
      'It builds the package; scripts/test_demo.sh runs it with another scenario.'),
     (r'catkin_make', 'It builds the package; scripts/test_system.sh runs it.'),
+    (r'xvfb-run .*', 'It draws for 20 s; scripts/test_demo.sh takes a picture with the same tools.'),
     (r'(rosrun rviz )?rviz -d .*', 'It needs a screen; test/rviz has tests of the displays.'),
     (r'(rosrun vegetation_sim charts|physics_bench|devel/\S+_bench).*',
      'It measures for minutes; charts_test and scripts/test.sh run it with --quick.'),

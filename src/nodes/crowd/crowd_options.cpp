@@ -20,6 +20,8 @@ crowd::Robot readRobot(YamlSection& section) {
   section.number("radius", out.radius, "m", {0.01, 20.0});
   for (YamlSection& corner : section.sections("outline")) {
     crowd::Point p{};
+    for (const char* key : {"x", "y"})
+      if (!corner.has(key)) corner.fault(key, "is missing in a corner");
     corner.number("x", p.x, "m", CORNERS);
     corner.number("y", p.y, "m", CORNERS);
     corner.finish();

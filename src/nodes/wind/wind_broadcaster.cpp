@@ -143,7 +143,7 @@ void WindBroadcaster::updateBreeze() {
 void WindBroadcaster::diagnose(Status& status) {
   const Lock lock(mutex_);
   using diagnostic_msgs::DiagnosticStatus;
-  status.summary(DiagnosticStatus::OK, "blowing");
+  status.summary(DiagnosticStatus::OK, "running");
   if (!clock_.running()) status.summary(DiagnosticStatus::WARN, "waiting for time to begin");
   for (MissingInputs* missing : {&follower_.missing(), &probes_.missing()})
     missing->warn(name_, status);

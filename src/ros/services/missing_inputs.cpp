@@ -6,11 +6,14 @@
 #include <ros/console.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace vegetation_sim {
 namespace {
 
 constexpr std::size_t MOST_NAMED = 5;  // in a status that people read
+constexpr int UNLOGGED =
+    2;  // warnings before the line on the console: frames come one by one at a start
 
 }  // namespace
 
@@ -26,13 +29,16 @@ void MissingInputs::add(const std::string& sentence) {
 void MissingInputs::warn(const std::string& node,
                          diagnostic_updater::DiagnosticStatusWrapper& status) {
   std::string text;
+  std::map<std::string, int> warnings;
   for (std::size_t i = 0; i < missing_.size(); ++i) {
     if (i < MOST_NAMED) text += (i ? "; " : "") + missing_[i];
-    if (!logged_.count(missing_[i])) ROS_WARN("%s: %s", node.c_str(), missing_[i].c_str());
+    const int before = warnings_[missing_[i]];
+    if (before == UNLOGGED) ROS_WARN("%s: %s", node.c_str(), missing_[i].c_str());
+    warnings[missing_[i]] = before + 1;
   }
   if (missing_.size() > MOST_NAMED)
     text += "; and " + std::to_string(missing_.size() - MOST_NAMED) + " more";
-  logged_ = {missing_.begin(), missing_.end()};
+  warnings_ = std::move(warnings);
   if (!text.empty()) status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, text);
 }
 

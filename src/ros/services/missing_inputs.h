@@ -4,7 +4,7 @@
 
 #include <diagnostic_updater/DiagnosticStatusWrapper.h>
 
-#include <set>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -14,7 +14,7 @@ namespace vegetation_sim {
 std::string describeMissingTransform(const std::string& frame, const std::string& world);
 
 /// Inputs that a node is configured to follow and that do not arrive. Each one is a warning on
-/// /diagnostics while it is missing, and one line on the console when it begins to be missing.
+/// /diagnostics while it is missing, and one line on the console with the third warning.
 class MissingInputs {
  public:
   /// Begins a new list; the inputs that are not added again have arrived.
@@ -29,7 +29,7 @@ class MissingInputs {
 
  private:
   std::vector<std::string> missing_;
-  std::set<std::string> logged_;  // those of the last warning
+  std::map<std::string, int> warnings_;  // in a row, of each input of the last one
 };
 
 }  // namespace vegetation_sim

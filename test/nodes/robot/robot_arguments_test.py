@@ -62,6 +62,8 @@ class RobotArguments(RefusingNode):
     def test_a_footprint_that_is_no_list_of_corners(self):
         self.expect_refused('agent_crowd', 'outline', "x = 'foo' is not a number", footprint='foo')
         self.expect_refused('agent_crowd', 'outline', 'z', footprint='[[1, 2], [3, 4, 5], [6, 7]]')
+        self.expect_refused('agent_crowd', 'outline[2]: y is missing',
+                            footprint='[[1, 2], [3, 4], [6]]')
 
     def test_a_radius_out_of_range(self):
         self.expect_refused('agent_crowd', 'robots', 'radius = -1 m is outside 0.01 to 20 m',

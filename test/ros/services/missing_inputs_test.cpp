@@ -5,6 +5,9 @@
 #include <diagnostic_msgs/DiagnosticStatus.h>
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
 namespace vegetation_sim {
 namespace {
 
@@ -25,6 +28,18 @@ TEST(MissingInputs, AreAWarningThatNamesEachOnce) {
   EXPECT_EQ(warningOf(missing), "no transform from 'wheel' to 'map'; no odometry on 'odom'");
   missing.clear();
   EXPECT_EQ(warningOf(missing), "");
+}
+
+TEST(MissingInputs, AreOneLineOnTheConsoleOnceTheyLast) {
+  MissingInputs missing;
+  missing.add("no odometry on 'odom'");
+  std::vector<bool> logged;
+  for (int warning = 0; warning < 5; ++warning) {
+    testing::internal::CaptureStderr();
+    warningOf(missing);
+    logged.push_back(testing::internal::GetCapturedStderr().find("odom") != std::string::npos);
+  }
+  EXPECT_EQ(logged, (std::vector<bool>{false, false, true, false, false}));
 }
 
 TEST(MissingInputs, NameAtMostFive) {
