@@ -38,6 +38,7 @@ class DemoRobot(unittest.TestCase):
     def setUpClass(cls):
         cls.odom, cls.truth = (Log(name, Odometry) for name in ('/odom', '/base_pose_ground_truth'))
         cls.frames = Log('/tf', TFMessage)
+        cls.diagnostics = Log('/diagnostics', DiagnosticArray)
         cls.command, cls.wrench = (publisher(name, kind) for name, kind in
                                    (('/cmd_vel', Twist), ('/grass/wrenches', WrenchStamped)))
         for log in cls.odom, cls.truth, cls.frames:
@@ -76,10 +77,9 @@ class DemoRobot(unittest.TestCase):
             self.assertAlmostEqual(y + wx * math.sin(yaw) + wy * math.cos(yaw), 0.0, delta=1e-9)
 
     def test_the_ground_truth_that_is_missing_is_a_warning(self):
-        log = Log('/diagnostics', DiagnosticArray)
-
         def reported(name):
-            return log.wait(lambda all: [s for m in all for s in m.status if s.name == name], name)[0]
+            return self.diagnostics.wait(
+                lambda all: [s for m in all for s in m.status if s.name == name], name)[-1]
         missing = reported('no_ground_truth: frame nowhere')
         self.assertEqual(missing.level, DiagnosticStatus.WARN)
         self.assertIn('/nobody/publishes', missing.message)
@@ -87,7 +87,6 @@ class DemoRobot(unittest.TestCase):
         self.assertEqual((found.level, found.message), (DiagnosticStatus.OK, 'running'))
 
     def test_a_pose_that_is_none_is_a_warning(self):
-        log = Log('/diagnostics', DiagnosticArray)
         poses = publisher('/bad_truth', Odometry)
 
         def expect(text, x, w):
@@ -96,23 +95,31 @@ class DemoRobot(unittest.TestCase):
                 message.header.stamp = rospy.Time.now()
                 message.pose.pose.position.x, message.pose.pose.orientation.w = x, w
                 poses.publish(message)
-            log.wait(lambda all: [s for m in all for s in m.status
-                                  if s.name == 'bad_ground_truth: frame elsewhere' and s.message == text],
-                     text, publish)
+            self.diagnostics.wait(
+                lambda all: [s for m in all for s in m.status
+                             if s.name == 'bad_ground_truth: frame elsewhere' and s.message == text],
+                text, publish)
         expect('/bad_truth: pose.position = (nan, 0, 0) is not finite', math.nan, 1.0)
         expect('/bad_truth: pose.orientation has the squared norm 0, allowed is 0.99 to 1.01', 1.0, 0.0)
         expect('running', 1.0, 1.0)
 
     def test_the_drag_of_the_grass_slows_it(self):
-        before = self.truth.messages[-1].twist.twist.linear.x
+        def speed():
+            return self.truth.messages[-1].twist.twist.linear.x
         drag, command = WrenchStamped(), Twist()
         drag.header.frame_id, drag.wrench.force.x = 'left_wheel_contact', -60.0
         command.linear.x = 1.0
 
+        def fast():
+            self.command.publish(command)
+            return speed() > 0.9
+        wait_for(fast, 'a robot that drives')
+        before = speed()
+
         def slower():
             self.command.publish(command)
             self.wrench.publish(drag)
-            return self.truth.messages[-1].twist.twist.linear.x < before - 0.1
+            return speed() < before - 0.1
         wait_for(slower, 'a slower robot')
 
 
