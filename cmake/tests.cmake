@@ -114,7 +114,7 @@ endforeach()
 file(GLOB launch_files CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} launch/*.launch)
 list(REMOVE_ITEM launch_files launch/node.launch)
 if(NOT with_rviz)  # demo.launch starts rviz
-  list(REMOVE_ITEM launch_files launch/demo.launch)
+  list(REMOVE_ITEM launch_files launch/demo.launch launch/play.launch)
 endif()
 foreach(launch_file ${launch_files})
   roslaunch_add_file_check(${launch_file})
