@@ -138,27 +138,12 @@ TEST_F(NodeEnd, ACallbackThatThrowsEndsAlone) {
   EXPECT_EQ(node.refused(), 1u);
 }
 
-TEST_F(NodeEnd, WindBroadcasterMayEndWithinACallback) {
+TEST_F(NodeEnd, MayComeWithinACallback) {
   liveAndEnd<WindBroadcaster>("wind_broadcaster", "wind/wind_scene.yaml");
-}
-
-TEST_F(NodeEnd, VegetationScannerMayEndWithinACallback) {
   liveAndEnd<VegetationScanner>("vegetation_scanner", "");
-}
-
-TEST_F(NodeEnd, ForestAnimatorMayEndWithinACallback) {
   liveAndEnd<ForestAnimator>("forest_animator", "scenarios/one_branch.yaml");
-}
-
-TEST_F(NodeEnd, GrassFieldMayEndWithinACallback) {
   liveAndEnd<GrassField>("grass_field", "scenarios/lawn.yaml");
-}
-
-TEST_F(NodeEnd, CanopyAnimatorMayEndWithinACallback) {
   liveAndEnd<CanopyAnimator>("canopy_animator", "scenarios/shrubs.yaml");
-}
-
-TEST_F(NodeEnd, AgentCrowdMayEndWithinACallback) {
   liveAndEnd<AgentCrowd>("agent_crowd", "scenarios/crowd.yaml");
 }
 
