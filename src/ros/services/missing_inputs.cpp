@@ -12,8 +12,8 @@ namespace vegetation_sim {
 namespace {
 
 constexpr std::size_t MOST_NAMED = 5;  // in a status that people read
-constexpr int UNLOGGED =
-    2;  // warnings before the line on the console: frames come one by one at a start
+// Warnings before the line on the console, since frames come one by one at a start.
+constexpr int UNLOGGED = 2;
 
 }  // namespace
 
