@@ -3,7 +3,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Fuzzes the readers of messages and files with libFuzzer under the address and undefined behaviour
 # sanitizers, and runs random scenarios.
-# usage: scripts/fuzz.sh [SECONDS] [TARGET ...]   fuzzes each target, or all; 300 s each by default
+# usage: scripts/fuzz.sh [SECONDS] [TARGET ...]   fuzzes each target, or all, as many at once as there
+#                                                  are cores; 300 s each by default
 #        scripts/fuzz.sh --scenarios [CASES]      runs random scenarios; 20000 by default
 # Needs clang with libFuzzer (Debian: clang, libclang-rt-dev). New inputs are kept in
 # build/fuzz/corpus. An input that crashes or exceeds a limit is written to build/fuzz/found; once it
@@ -49,6 +50,23 @@ fuzz_target() {
   [ $status = ok ]
 }
 
+# usage: fuzz_all TARGET ...   as many at once as there are cores
+fuzz_all() {
+  local target running=0 failed=0 logs=("${@/#/$FUZZ/}")
+  for target in "$@"; do
+    if [ "$running" -ge "$(nproc)" ]; then
+      wait -n || failed=1
+      running=$((running - 1))
+    fi
+    fuzz_target "$seconds" "$target" &
+    running=$((running + 1))
+  done
+  for (( ; running > 0; --running)); do wait -n || failed=1; done
+  awk '/number_of_executed_units/ { all += $2 } END { printf "%d executions of all targets\n", all }' \
+    "${logs[@]/%/.log}"
+  return $failed
+}
+
 case ${1:-} in
   --scenarios)
     shift
@@ -68,6 +86,4 @@ build_program
 targets=("$@")
 [ ${#targets[@]} -gt 0 ] || mapfile -t targets < <("$PROGRAM" --list)
 "$PROGRAM" --seeds="$FUZZ/seeds"
-failed=0
-for target in "${targets[@]}"; do fuzz_target "$seconds" "$target" || failed=1; done
-exit $failed
+fuzz_all "${targets[@]}"

@@ -2,11 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/params/mesh_file.h"
 
+#include <assimp/BaseImporter.h>
 #include <assimp/config.h>
 #include <assimp/scene.h>
 
 #include <assimp/Importer.hpp>
+#include <algorithm>
+#include <array>
+#include <cctype>
 #include <filesystem>
+#include <memory>
 
 #include "core/config/files.h"
 #include "ros/params/resources.h"
@@ -17,6 +22,29 @@ namespace {
 constexpr std::size_t LARGEST_MESH_FILE = 512U << 20;  // [B]
 constexpr std::size_t MOST_CORNERS = 16000000;         // and as many faces
 constexpr int MOST_DEPTH = 256;                        // of nodes in nodes
+constexpr std::array<const char*, 4> ENDINGS{"dae", "obj", "ply", "stl"};
+
+/// @return the ending of a mesh file in small letters. @throws InvalidInput if it is another one.
+std::string endingOf(const std::string& name) {
+  const std::string own = std::filesystem::path(name).extension().string();
+  std::string ending = own.empty() ? own : own.substr(1);
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  if (std::find(ENDINGS.begin(), ENDINGS.end(), ending) == ENDINGS.end())
+    throw InvalidInput(name + ": no mesh: it ends in '" + own +
+                       "', allowed are .dae, .obj, .ply and .stl");
+  return ending;
+}
+
+/// Removes the readers of other files, which assimp would try on a file that its own reader rejects.
+void keepReaderOf(const std::string& ending, Assimp::Importer& importer) {
+  const Assimp::BaseImporter* own = importer.GetImporter(ending.c_str());
+  for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
+    std::unique_ptr<Assimp::BaseImporter> other(importer.GetImporter(i));
+    if (other.get() == own || importer.UnregisterLoader(other.get()) != aiReturn_SUCCESS)
+      (void)other.release();
+  }
+}
 
 /// Collects the triangles of a scene, each where its node puts it.
 class Collector {
@@ -84,15 +112,16 @@ class Collector {
 }  // namespace
 
 canopy::LeafMesh loadMesh(const std::string& name, MeshAxes axes) {
+  const std::string ending = endingOf(name);
   const std::string bytes = readFile(resolveFile(name), LARGEST_MESH_FILE);
   // assimp searches for the end of the header without end.
   if (bytes.compare(0, 3, "ply") == 0 && bytes.find("end_header") == std::string::npos)
     throw InvalidInput(name + ": no mesh: the header has no line end_header");
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, axes == MeshAxes::KEPT);
-  const std::string ending = std::filesystem::path(name).extension().string();
-  const aiScene* scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0,
-                                                     ending.empty() ? "" : ending.c_str() + 1);
+  keepReaderOf(ending, importer);
+  const aiScene* scene =
+      importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, ending.c_str());
   if (!scene) throw InvalidInput(name + ": no mesh: " + importer.GetErrorString());
   try {
     return Collector(*scene).collect();

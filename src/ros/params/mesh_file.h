@@ -12,8 +12,8 @@ namespace vegetation_sim {
 /// the meshes of robots.
 enum class MeshAxes { TURNED, KEPT };
 
-/// The faces of any file that assimp reads, named as resolveFile() takes it, in the unit of length
-/// that the file states. @throws InvalidInput naming the file.
+/// The faces of a Collada, OBJ, PLY or STL file, named as resolveFile() takes it, in the unit of
+/// length that the file states. @throws InvalidInput naming the file.
 canopy::LeafMesh loadMesh(const std::string& name, MeshAxes axes);
 
 }  // namespace vegetation_sim

@@ -22,7 +22,7 @@ void grow(const std::shared_ptr<canopy::Form>& form, canopy::PlantShape shape) {
 
 // The first byte chooses the format; assimp reads the rest.
 void runMesh(std::string_view input) {
-  static const char* const NAMES[] = {"plant.obj", "plant.stl", "plant.ply", "plant.off"};
+  static const char* const NAMES[] = {"plant.obj", "plant.stl", "plant.ply", "plant.dae"};
   if (input.empty()) return;
   const char* name = NAMES[static_cast<unsigned char>(input[0]) % 4];
   const ScratchFolder& folder = ScratchFolder::instance();
@@ -84,7 +84,17 @@ std::vector<std::string> meshSeeds() {
           "\x02ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
           "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
           "0 0 0\n1 0 0\n0 1 1\n3 0 1 2\n",
-          "\x03OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 1\n3 0 1 2\n"};
+          "\x03<COLLADA version='1.4.1'><asset><unit meter='0.01'/><up_axis>Z_UP</up_axis></asset>"
+          "<library_geometries><geometry id='g'><mesh><source id='p'>"
+          "<float_array id='a' count='9'>0 0 0 100 0 0 0 0 200</float_array><technique_common>"
+          "<accessor source='#a' count='3' stride='3'><param name='X' type='float'/>"
+          "<param name='Y' type='float'/><param name='Z' type='float'/></accessor>"
+          "</technique_common></source><vertices id='v'>"
+          "<input semantic='POSITION' source='#p'/></vertices><triangles count='1'>"
+          "<input semantic='VERTEX' source='#v' offset='0'/><p>0 1 2</p></triangles></mesh>"
+          "</geometry></library_geometries><library_visual_scenes><visual_scene id='s'>"
+          "<node id='n'><instance_geometry url='#g'/></node></visual_scene>"
+          "</library_visual_scenes><scene><instance_visual_scene url='#s'/></scene></COLLADA>"};
 }
 
 std::vector<std::string> faceSeeds() {
