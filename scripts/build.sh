@@ -3,9 +3,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Builds the package into build/ and devel/, or into $BUILD and $BUILD/devel. Repeated builds compile
 # only what changed.
-# usage: scripts/build.sh [--developer | --sanitize] [TARGET ...]
+# usage: scripts/build.sh [--developer | --sanitize | --races] [TARGET ...]
 #   --developer  makes warnings in the package's own code errors with any compiler
 #   --sanitize   builds into build/sanitize with the address and undefined behaviour sanitizers
+#   --races      builds into build/races with the thread sanitizer
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 
@@ -24,6 +25,12 @@ case ${1:-} in
     # A null or misaligned access stops the program in any case, and checking for both would double
     # the compile time.
     options=(-DCMAKE_BUILD_TYPE=None "-DCMAKE_CXX_FLAGS=-O1 -g1 -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize=null,alignment -fno-sanitize-recover=all")
+    shift
+    ;;
+  --races)
+    BUILD=$BUILD/races
+    DEVEL=$BUILD/devel
+    options=(-DCMAKE_BUILD_TYPE=None '-DCMAKE_CXX_FLAGS=-O1 -g1 -fno-omit-frame-pointer -fsanitize=thread')
     shift
     ;;
 esac

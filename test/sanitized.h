@@ -6,7 +6,7 @@ namespace vegetation_sim {
 
 /// True in builds with sanitizers, which are twenty times as slow. Tests that only repeat a step
 /// take fewer steps in such builds.
-#ifdef __SANITIZE_ADDRESS__
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool SANITIZED = true;
 #else
 constexpr bool SANITIZED = false;

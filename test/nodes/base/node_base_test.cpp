@@ -23,6 +23,7 @@
 #include "nodes/crowd/agent_crowd.h"
 #include "nodes/forest/forest_animator.h"
 #include "nodes/grass/grass_field.h"
+#include "nodes/rigs/repeating.h"
 #include "nodes/sensors/vegetation_scanner.h"
 #include "nodes/wind/wind_broadcaster.h"
 
@@ -32,24 +33,6 @@ namespace {
 constexpr int LIVES = 10, CALLS = 4;  // of a node that are answered before it ends
 // Of wall time; only a test that fails waits that long.
 constexpr std::chrono::seconds DEADLINE{60};
-
-/// Repeats a task in a thread of its own until it is destroyed.
-class Repeating {
- public:
-  template <class Task>
-  explicit Repeating(Task task)
-      : thread_([this, task] {
-          while (!stop_) task();
-        }) {}
-  ~Repeating() {
-    stop_ = true;
-    thread_.join();
-  }
-
- private:
-  std::atomic<bool> stop_{false};
-  std::thread thread_;
-};
 
 /// Counts the requests that a node has answered.
 class Answers {
