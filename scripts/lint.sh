@@ -76,7 +76,7 @@ words() {
 
 docs() { python3 test/docs/check_docs.py; }
 
-# Doxygen before 1.9.3 cannot tell faults from parameters without a sentence.
+# Doxygen before 1.9.3 does not distinguish faults from parameters without a sentence.
 api() {
   local version
   version=$(doxygen --version)

@@ -10,7 +10,7 @@ class Archive;
 
 namespace vegetation_sim::wind {
 
-/// Writes or reads a primitive; whoever reads it checks it.
+/// Writes or reads a primitive. The caller checks the primitive that it has read.
 void archive(Archive& a, Primitive& primitive);
 /// Writes or reads a field. @throws InvalidInput with the faults of all primitives.
 void archive(Archive& a, Field& field);

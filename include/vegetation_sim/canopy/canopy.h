@@ -136,7 +136,7 @@ class Replica {
   void setCrowns(std::vector<LeafBox> crowns);
   const Foliage& foliage();
   /// Returns the layers of the plants as the simulation plane's own view cuts them, driven by the
-  /// front. They do not depend on viewers: sensors perceive the same whoever watches.
+  /// front. They do not depend on viewers, so sensors perceive the same with and without them.
   const Foliage& foliageOfPlane();
   std::uint64_t layoutHash() const { return layout_hash_; }
 

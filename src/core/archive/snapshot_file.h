@@ -10,12 +10,12 @@
 namespace vegetation_sim {
 
 /// Version of the content of snapshot files. Raise it with every change of what is archived: other
-/// versions are rejected by name.
+/// versions are rejected with an error that names them.
 constexpr std::uint32_t SNAPSHOT_VERSION = 1;
 /// Largest file that is read [bytes].
 constexpr std::size_t LARGEST_SNAPSHOT = 2'000'000'000;
 
-/// What a snapshot file says about its content.
+/// Header of a snapshot file: describes its content.
 struct SnapshotHeader {
   std::string node;              ///< kind of node, such as forest_animator
   std::uint64_t layout_hash{0};  ///< of the layout that the state belongs to

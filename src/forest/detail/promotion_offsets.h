@@ -15,9 +15,9 @@ class Archive;
 
 namespace vegetation_sim::forest {
 
-/// What listeners add to the angles of joints that have become physical. A promotion starts from
-/// the world's pose, from which their pose of finer or coarser detail differs; the difference at
-/// the promotion is kept and decays, so that no branch jumps. A value.
+/// Offsets that listeners add to the angles of joints that have become physical. A promotion starts
+/// from the world's pose, from which their pose of finer or coarser detail differs; the difference
+/// at the promotion is kept and decays, so that no branch jumps. A value.
 class PromotionOffsets {
  public:
   /// Notes the joints of a tree that are held now and were not at the last tick.

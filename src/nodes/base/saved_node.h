@@ -209,7 +209,7 @@ class SavedNode : public NodeBase {
     ~TickScope() { in_tick = false; }
   };
 
-  // What a tick itself adds is in the record of the tick.
+  // Events that a tick itself adds are in the record of the tick.
   void keepArrival(const Event& event) {
     if (!snapshots_.hasCheckpoints() || options_.replay || in_tick_) return;
     acceptInput("checkpoint", [&] { snapshots_.addInput(stored(event)); });

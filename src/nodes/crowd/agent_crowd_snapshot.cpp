@@ -1,6 +1,7 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// What a snapshot of the node holds besides events that wait.
+// Writes and reads the parts of a snapshot that are specific to the node. SavedNode keeps the
+// events that wait.
 #include "core/archive/archive.h"
 #include "nodes/crowd/agent_crowd.h"
 #include "vegetation_sim/core/math/hash.h"
@@ -95,7 +96,7 @@ CheckedState AgentCrowd::readState(Archive& a) {
           }};
 }
 
-// What other nodes publish now stays in force.
+// Queues the layout and the cover that other nodes publish now, so that they stay in force.
 void AgentCrowd::queueNewerInputs() {
   CrowdEvent event;
   event.kind = CrowdEvent::TRUNKS;

@@ -28,7 +28,7 @@ class GrabHistory {
   /// After a tick: compares the grabs in force with those of the last call. @return whether any
   /// grab has begun or ended.
   bool update(const forest::HeldGrabs& held, Nanoseconds stamp);
-  /// What a saved state holds besides the grabs in force.
+  /// The part of a saved state that is kept besides the grabs in force.
   struct State {
     std::map<std::uint32_t, Nanoseconds> since;  ///< of the grabs in force
     std::vector<GrabStatus> ended;

@@ -72,7 +72,7 @@ class GrabManager {
     ros::Time published;    ///< newest transform of its frame that was used
     bool begun{false};      ///< it was in force at an update
   };
-  /// What a saved state of the node holds of it.
+  /// The part of the saved state of the node that this class keeps.
   struct State {
     std::map<std::uint32_t, Request> requests;
     GrabHistory::State history;

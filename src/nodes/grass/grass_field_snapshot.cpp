@@ -1,6 +1,7 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// What a snapshot of the node holds besides events that wait.
+// Writes and reads the parts of a snapshot that are specific to the node. SavedNode keeps the
+// events that wait.
 #include "core/archive/archive.h"
 #include "core/config/field_values.h"
 #include "nodes/grass/grass_field.h"

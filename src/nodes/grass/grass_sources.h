@@ -44,7 +44,7 @@ class GrassSources {
     Vec3 position{Vec3::Zero()};
     Nanoseconds stamp{0};
   };
-  /// The sources on the ground, by name.
+  /// Maps the names of the sources on the ground to their last treads.
   using Published = std::map<std::string, LastTread>;
   Published published() const;
   /// Continues from these; others are not on the ground.

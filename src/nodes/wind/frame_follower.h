@@ -33,7 +33,7 @@ class FrameFollower {
   bool update(wind::PrimitiveSchedule& schedule, Nanoseconds now);
 
   std::vector<std::string> names() const;
-  /// By name of the source.
+  /// Maps the names of the sources to their attachments.
   using Attachments = std::map<std::string, wind::Attachment>;
   const Attachments& attachments() const { return attachments_; }
   void restore(const Attachments& attachments);

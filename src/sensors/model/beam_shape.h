@@ -8,7 +8,7 @@
 
 namespace vegetation_sim::scan {
 
-/// Width of a beam, and what is told apart within it.
+/// Width of a beam, its rays, and the distance at which its hits are separate echoes.
 struct BeamShape {
   double divergence{0.0};  ///< full angle of the cone [rad]
   int samples{1};          ///< rays that sample the cone: 1, 7, 19 or 37

@@ -57,8 +57,8 @@ class BranchFrames {
   /// And the branches that are held, then the physical ones whose tips are farthest from where they
   /// rest, as far as the budget goes (N7): without a frame a listener has them there.
   Wanted withPhysical(PosedTrees& trees, const std::vector<forest::BranchPoint>& held);
-  /// What was chosen then: costs are frames, errors metres. The largest is not a number where
-  /// wanted and held branches leave no room: it is not computed then.
+  /// Returns the last choice of withPhysical(): costs are frames, errors metres. The largest error
+  /// is not a number where wanted and held branches leave no room, since it is not computed then.
   const TierAllocation& balance() const { return balance_; }
 
  private:
