@@ -5,8 +5,9 @@ from vegetation_sim.client import VegetationError
 from vegetation_sim.crowd import Crowd
 from vegetation_sim.forest import Forest, Hold
 from vegetation_sim.grass import Grass
+from vegetation_sim.recording import Recording
 from vegetation_sim.scene import Scene
 from vegetation_sim.simulation import Simulation
 from vegetation_sim.wind import Wind
 
-__all__ = ['Crowd', 'Forest', 'Grass', 'Hold', 'Scene', 'Simulation', 'VegetationError', 'Wind']
+__all__ = ['Crowd', 'Forest', 'Grass', 'Hold', 'Recording', 'Scene', 'Simulation', 'VegetationError', 'Wind']

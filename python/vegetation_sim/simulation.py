@@ -11,6 +11,7 @@ from vegetation_sim.client import VegetationError
 NANOSECONDS = 1000000000
 RESTART = NANOSECONDS // 5  # a jump back that is longer restarts the nodes for sure [ns]
 PAUSE = 0.01                # between two looks at connections [s]
+REMINDER = 0.5              # after which the time of a tick is published again [s of wall time]
 
 
 class Simulation:
@@ -18,11 +19,12 @@ class Simulation:
     a message with the stamp of the tick. Nothing else may publish /clock, and /use_sim_time has
     to be true. A request to a node between two steps takes effect at the next tick."""
 
-    def __init__(self, watch, rate=30, start=1000.0, timeout=30.0):
+    def __init__(self, watch, rate=30, start=1000.0, timeout=30.0, delay=0.0):
         """`watch` has the message type of each topic that nodes publish at every tick, such as
         {'agents': AgentStates}. `rate` is the nodes' state_rate [Hz], `start` the time of reset()
-        [s], `timeout` limits each wait [s of wall time]."""
+        [s], `timeout` limits each wait [s of wall time], `delay` is the nodes' replay_delay [s]."""
         self.rate, self.timeout = rate, timeout
+        self.delay = rospy.Duration.from_sec(delay)
         self.start = -(-round(start * NANOSECONDS) * rate // NANOSECONDS)  # tick of reset()
         self.tick = None
         self._condition = threading.Condition()
@@ -77,14 +79,17 @@ class Simulation:
             self._newest.clear()
         self.tick = tick
         stamp = self.stamp()
-        self._clock.publish(Clock(stamp))
+        for _ in range(max(1, round(self.timeout / REMINDER))):
+            # A node that has just started may have missed it before.
+            self._clock.publish(Clock(stamp + self.delay))
+            with self._condition:
+                if self._condition.wait_for(lambda: self._has_all(stamp),
+                                            min(REMINDER, self.timeout)):
+                    return dict(self._newest)
         with self._condition:
-            done = self._condition.wait_for(lambda: self._has_all(stamp), self.timeout)
             missing = sorted(set(self._subscribers) - set(self._newest))
-        if not done:
-            raise VegetationError('tick %d at %.9f s: no message within %g s on %s' % (
-                tick, stamp.to_sec(), self.timeout, ', '.join(missing)))
-        return self.observe()
+        raise VegetationError('tick %d at %.9f s: no message within %g s on %s' % (
+            tick, stamp.to_sec(), self.timeout, ', '.join(missing)))
 
     def _has_all(self, stamp):
         return len(self._newest) == len(self._subscribers) and all(
