@@ -15,7 +15,7 @@ PAGES = ['README.md'] + [os.path.relpath(path, PACKAGE) for path in sorted(
 FENCE = r'^```(\w*)\n(.*?)^```'
 # A command line begins with a program of the machine, of the package, or one of these.
 PROGRAMS = {'.', 'apt', 'apt-get', 'catkin', 'catkin_make', 'cd', 'docker', 'export', 'git', 'pip',
-            'pip3', 'rviz', 'source', 'sudo'}
+            'pip3', 'rviz', 'source', 'sudo', 'xvfb-run'}
 OWN_PROGRAM = re.compile(r'(\./|scripts/|devel/|build/|examples/)\S+|\w+_bench')
 INLINE = re.compile(r'(ros\w+|rviz|timeout|docker|sudo|(\$\(rospack find \w+\)/)?(scripts|devel)/\S+)\s+\S.*'
                     r'|catkin_make', re.S)

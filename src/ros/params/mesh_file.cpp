@@ -6,9 +6,9 @@
 #include <assimp/config.h>
 #include <assimp/scene.h>
 
-#include <assimp/Importer.hpp>
 #include <algorithm>
 #include <array>
+#include <assimp/Importer.hpp>
 #include <cctype>
 #include <filesystem>
 #include <memory>
@@ -36,7 +36,8 @@ std::string endingOf(const std::string& name) {
   return ending;
 }
 
-/// Removes the readers of other files, which assimp would try on a file that its own reader rejects.
+/// Removes the readers of other files, which assimp would try on a file that its own reader
+/// rejects.
 void keepReaderOf(const std::string& ending, Assimp::Importer& importer) {
   const Assimp::BaseImporter* own = importer.GetImporter(ending.c_str());
   for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
@@ -120,8 +121,7 @@ canopy::LeafMesh loadMesh(const std::string& name, MeshAxes axes) {
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, axes == MeshAxes::KEPT);
   keepReaderOf(ending, importer);
-  const aiScene* scene =
-      importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, ending.c_str());
+  const aiScene* scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, ending.c_str());
   if (!scene) throw InvalidInput(name + ": no mesh: " + importer.GetErrorString());
   try {
     return Collector(*scene).collect();
