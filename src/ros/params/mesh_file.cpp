@@ -36,8 +36,7 @@ std::string endingOf(const std::string& name) {
   return ending;
 }
 
-/// Removes the readers of other files, which assimp would try on a file that its own reader
-/// rejects.
+/// Removes the readers of other files: assimp tries them if the file's own reader rejects it.
 void keepReaderOf(const std::string& ending, Assimp::Importer& importer) {
   const Assimp::BaseImporter* own = importer.GetImporter(ending.c_str());
   for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
