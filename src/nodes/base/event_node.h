@@ -136,6 +136,7 @@ class EventNode : public SavedNode<Queue, Options> {
     refusals_.warn(status);
     if (is_other_version_ && recorded_.getNumPublishers() == 0) subscribeToRecorded();
     this->warnOfRivals(status);
+    this->warnOfInterruptions(status);
     warnOfClock(status, clock_.counts(), reported_clock_);
     warnOfLosses(status, inputs_.losses(), reported_losses_);
     reported_clock_ = clock_.counts();
