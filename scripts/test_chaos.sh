@@ -13,6 +13,7 @@ set -euo pipefail
 cd "$ROOT"
 use_space "$DEVEL"
 export PATH=/usr/bin:$PATH ROS_HOSTNAME=localhost PYTHONDONTWRITEBYTECODE=1
+export PYTHONPATH=$ROOT/test/nodes/rigs:$PYTHONPATH
 # In a network of its own, no node of another run answers.
 unshare --user --map-root-user --net bash -c "ip link set lo up
   exec python3 test/chaos/run_chaos.py '${1:-3600}' '${2:-1}' '${3:-2}'"

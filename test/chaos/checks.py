@@ -44,8 +44,9 @@ def add_memory(table, rig, seconds):
 
 def add_gaps(table, rig):
     for node in NODES:
-        gap = rig.ticks.largest_gap(node, rig.processes.is_disturbed)
-        table.add('largest gap of ' + node, '%.3f s in %d ticks' % (gap, rig.ticks.count[node]),
+        gap, begin = rig.ticks.largest_gap(node, rig.processes.is_disturbed)
+        table.add('largest gap of ' + node, '%.3f s at %.1f s, in %d ticks' % (
+            gap, begin, rig.ticks.count[node]),
                   '<= %g s' % MOST_GAP, gap <= MOST_GAP)
 
 

@@ -51,6 +51,7 @@ class Faults:
             kind, target = deck.pop()
             if kind == self.kill and clock.now >= kills_until:
                 continue
+            print('%.1f s: %s %s' % (clock.now, kind.__name__, target or ''), flush=True)
             kind(target)
             pause(self._random.uniform(*PAUSES))
         jitter.join()

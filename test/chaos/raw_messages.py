@@ -10,6 +10,11 @@ def header_of(raw):
     return number, seconds * 10 ** 9 + nanoseconds, 16 + length
 
 
+def publisher_of(message):
+    """Returns the node that has published a message."""
+    return message._connection_header['callerid'].lstrip('/')
+
+
 def stamp_of(raw):
     return header_of(raw)[1]
 

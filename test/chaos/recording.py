@@ -7,7 +7,8 @@ from collections import defaultdict
 
 import rospy
 
-from raw_messages import (STATE_HASHES, header_of, kind_of, layout_hash_of, stamp_of, wind_hash_of)
+from raw_messages import (STATE_HASHES, header_of, kind_of, layout_hash_of, publisher_of, stamp_of,
+                          wind_hash_of)
 from scene import SIMULATIONS
 
 
@@ -81,7 +82,8 @@ class Recording:
             raw = message._buff
             with self.lock:
                 self._count_lost(message, topic)
-                callback(raw, node or message._connection_header['callerid'])
+                if node in (None, publisher_of(message)):
+                    callback(raw, publisher_of(message))
         self._subscribers.append(rospy.Subscriber('/' + topic, rospy.AnyMsg, on_message,
                                                   tcp_nodelay=True))
 
@@ -101,7 +103,7 @@ class Recording:
 
     def _on_wind(self, raw, publisher):
         self.winds[wind_hash_of(raw)] = raw
-        if publisher == '/wind_broadcaster':
+        if publisher == 'wind_broadcaster':
             self.winds_of_owner.append(wind_hash_of(raw))
 
     def rival_messages(self, topic):

@@ -15,8 +15,9 @@ from nav_msgs.msg import OccupancyGrid
 from processes import wait_until
 from raw_messages import STATE_HASHES, class_of_bytes, kind_of, make_raw, stamp_of
 from scene import NANOSECONDS, SIMULATIONS
+from watched_node import all_delivered, publisher
 
-AHEAD, WINDOW = 20, 8  # ticks that events are ahead of the clock, and the clock of the states
+BATCH, WINDOW = 40, 8  # ticks that events are ahead of the clock, and the clock of the states
 COVER_AHEAD = NANOSECONDS  # [ns]
 DEADLINE = 60.0        # [s] of wall time for a tick
 # Kinds of events that refer to an input by the name of a field, and the input.
@@ -36,22 +37,22 @@ class Replay:
         self.hashes, self._stamp, self._news = {}, 0, threading.Condition()
         self._subscriber = rospy.Subscriber('/replay/' + state, rospy.AnyMsg, self._on_state,
                                             tcp_nodelay=True)
-        self._clock = rospy.Publisher('/replay/clock', Clock, queue_size=None, tcp_nodelay=True)
-        self._events = self._publisher('/replay/' + events, self._event_class)
-        self._inputs = {'wind_hash': (self._publisher('/replay/wind', WindField), recording.winds),
-                        'input_hash': (self._publisher('/replay/forest/layout', ForestLayout),
+        self._clock = publisher('/replay/clock', Clock)
+        self._events = self._target('/replay/' + events, self._event_class)
+        self._inputs = {'wind_hash': (self._target('/replay/wind', WindField), recording.winds),
+                        'input_hash': (self._target('/replay/forest/layout', ForestLayout),
                                        recording.layouts)}
-        self._cover = self._publisher('/replay/grass/cover/resistance', OccupancyGrid)
+        self._cover = self._target('/replay/grass/cover/resistance', OccupancyGrid)
         self._covers = list(recording.covers)
 
     @staticmethod
-    def _publisher(topic, message_class):
+    def _target(topic, message_class):
         raw_class = class_of_bytes(message_class)
-        return rospy.Publisher(topic, raw_class, queue_size=None, tcp_nodelay=True), raw_class
+        return publisher(topic, raw_class), raw_class
 
     @staticmethod
-    def _send(publisher, raw):
-        publisher[0].publish(make_raw(publisher[1], raw))
+    def _send(target, raw):
+        target[0].publish(make_raw(target[1], raw))
 
     def _on_state(self, message):
         raw = message._buff
@@ -78,19 +79,26 @@ class Replay:
             self._close()
 
     def _connected(self):
-        return all(publisher.get_num_connections() for publisher in (self._clock, self._events[0])) \
-            and self._subscriber.get_num_connections()
+        inputs = {field: row[0][0] for field, row in self._inputs.items()}
+        needed = [inputs[field] for field in set(REFERENCES[self.node].values())]
+        return all(one.get_num_connections()
+                   for one in [self._clock, self._events[0], self._subscriber] + needed)
 
     def _run_ticks(self, ticks):
-        sent = 0
+        """Events are sent while the node runs the ticks of the batch before."""
+        for begin in range(0, len(ticks) + BATCH, BATCH):
+            for stamp in ticks[begin:begin + BATCH]:
+                self._send_tick(stamp)
+            wait_until(all_delivered, 'the events to be in the socket of ' + self.node)
+            self._run_batch(ticks[max(0, begin - BATCH):begin])
+
+    def _run_batch(self, ticks):
         for number, stamp in enumerate(ticks):
-            while sent < min(len(ticks), number + AHEAD):
-                self._send_tick(ticks[sent])
-                sent += 1
             self._clock.publish(Clock(rospy.Time(0, stamp)))
             if number >= WINDOW:
                 self._wait(ticks[number - WINDOW])
-        self._wait(ticks[-1])
+        if ticks:
+            self._wait(ticks[-1])
 
     def _wait(self, stamp):
         with self._news:
@@ -109,13 +117,13 @@ class Replay:
     def _send_input(self, field, raw):
         event = self._event_class()
         event.deserialize(raw)
-        publisher, known = self._inputs[field]
+        target, known = self._inputs[field]
         wanted = getattr(event, field)
         if wanted in known:
-            self._send(publisher, known[wanted])
+            self._send(target, known[wanted])
 
     def _close(self):
         self._subscriber.unregister()
-        for publisher in (self._events, self._cover, *(row[0] for row in self._inputs.values())):
-            publisher[0].unregister()
+        for target in (self._events, self._cover, *(row[0] for row in self._inputs.values())):
+            target[0].unregister()
         self._clock.unregister()

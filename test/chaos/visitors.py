@@ -46,8 +46,8 @@ class Visitors(threading.Thread):
         self._ended.set()
         self.join()
 
-    def _call(self, name, kind, **request):
-        answer = rospy.ServiceProxy(name, kind)(**request)
+    def _call(self, service, kind, /, **request):
+        answer = rospy.ServiceProxy(service, kind)(**request)
         self.refused += not getattr(answer, 'success', True)
         return answer
 

@@ -6,7 +6,7 @@ import time
 
 import rospy
 
-from raw_messages import stamp_of
+from raw_messages import publisher_of, stamp_of
 from scene import NANOSECONDS, NODES, SIMULATIONS, TICKS
 
 PERIOD = 1.0     # [s] of wall time between two looks at the memory
@@ -53,7 +53,7 @@ class TickWatch:
     def __init__(self):
         self.newest = dict.fromkeys(NODES, 0.0)   # stamp [s]
         self.arrival = dict.fromkeys(NODES, 0.0)  # of the newest [s] of wall time
-        self.gaps = {node: [] for node in NODES}  # gap [s], wall times before and after it
+        self.gaps = {node: [] for node in NODES}  # gap [s], wall times of both ends, begin
         self.count = dict.fromkeys(NODES, 0)
         self._subscribers = [
             rospy.Subscriber('/' + topic, rospy.AnyMsg, self._on_tick, node, tcp_nodelay=True)
@@ -63,13 +63,15 @@ class TickWatch:
         return all(subscriber.get_num_connections() for subscriber in self._subscribers)
 
     def _on_tick(self, message, node):
+        if publisher_of(message) != node:  # a second publisher, or a flood
+            return
         stamp, now = stamp_of(message._buff) / NANOSECONDS, time.monotonic()
         before, arrival = self.newest[node], self.arrival[node]
         self.arrival[node] = now
         if stamp <= before:
             return
         if before and stamp - before > LONG_GAP:
-            self.gaps[node].append((stamp - before, arrival, now))
+            self.gaps[node].append((stamp - before, arrival, now, before))
         self.newest[node] = stamp
         self.count[node] += 1
 
@@ -79,6 +81,7 @@ class TickWatch:
                     if self.newest[node] and node not in excused], default=0.0)
 
     def largest_gap(self, node, is_disturbed):
-        """Returns the largest gap [s] at a time at which the node was not disturbed."""
-        return max([gap for gap, begin, end in self.gaps[node]
-                    if not is_disturbed(node, begin, end)], default=0.0)
+        """Returns the largest gap [s] at a time at which the node was not disturbed, and its
+        begin [s]."""
+        return max([(gap, stamp) for gap, begin, end, stamp in self.gaps[node]
+                    if not is_disturbed(node, begin, end)], default=(0.0, 0.0))
