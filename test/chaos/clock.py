@@ -8,6 +8,7 @@ import rospy
 from rosgraph_msgs.msg import Clock
 
 from scene import NANOSECONDS, START
+from watched_node import publisher
 
 PERIOD = 0.01       # [s] of wall time between two messages
 LONGEST_STEP = 0.1  # of simulated time [s], also after a pause of this process
@@ -27,7 +28,8 @@ class FastClock(threading.Thread):
         self.jitter = False
         self.waited = self.longest_wait = 0.0  # for nodes [s] of wall time
         self._factor, self._robot, self._lag, self._random = factor, robot, lag, random
-        self._publisher = rospy.Publisher('/clock', Clock, queue_size=1000, tcp_nodelay=True)
+        # Without a queue, frames are in the sockets of the nodes before the time that needs them.
+        self._publisher = publisher('/clock', Clock)
         self._ended = threading.Event()
 
     def readers(self):

@@ -112,8 +112,8 @@ class Faults:
         disturbance = self._rig.processes.begin(node)
         self._rig.processes.signal(node, signal.SIGSTOP)
         pause(self._random.uniform(*STOPS))
-        self._rig.processes.signal(node, signal.SIGCONT)
         disturbance[2] = time.monotonic()
+        self._rig.processes.signal(node, signal.SIGCONT)
         self.expect('SIGSTOP', node, 'no callback ran', disturbance[2])
 
     def lose_frames(self, _):
@@ -144,10 +144,10 @@ class Faults:
     def flood_topic(self, topic):
         since = time.monotonic()
         tests = {node: self._test_of_flood(topic, node) for node in self._topics[topic]}
-        publisher = flood_topic(topic, self._random)
+        flood = flood_topic(topic, self._random)
         for node in self._topics[topic]:
             self.expect('flood of a topic', node, 'refused input: %s' % topic, since, tests[node])
-        publisher.unregister()
+        flood.unregister()
 
     def _test_of_flood(self, topic, node):
         """canopy_animator counts the messages of all viewers but one, and reads no more of them."""

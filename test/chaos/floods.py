@@ -10,6 +10,7 @@ import rostopic
 from bad_messages import DEFECTS, make_bad
 from scene import NODES
 from visitors import SETTINGS
+from watched_node import publisher
 
 # /clock and the frames are published by the test. rosout and the loggers belong to roscpp.
 NOT_FLOODED = '/clock', '/tf', '/tf_static'
@@ -58,12 +59,12 @@ def _defects(random, count):
 def flood_topic(topic, random):
     """Publishes bad messages as fast as possible."""
     message_class = rostopic.get_topic_class(topic)[0]
-    publisher = rospy.Publisher(topic, message_class, queue_size=None)
+    flood = publisher(topic, message_class)
     threading.Event().wait(CONNECTION)
     made = {defect: make_bad(message_class, defect) for defect in DEFECTS}
     for defect in _defects(random, MESSAGES):
-        publisher.publish(made[defect])
-    return publisher
+        flood.publish(made[defect])
+    return flood
 
 
 def _bad_request(service, kind, defect):

@@ -7,10 +7,11 @@ import threading
 
 import roslib.packages
 import rospy
+from nav_msgs.msg import OccupancyGrid
 from rosgraph_msgs.msg import Clock
+from tf2_msgs.srv import FrameGraph
 from vegetation_sim.msg import ForestLayout, WindField
 from vegetation_sim.srv import SaveSnapshot
-from nav_msgs.msg import OccupancyGrid
 
 from processes import wait_until
 from raw_messages import STATE_HASHES, class_of_bytes, kind_of, make_raw, stamp_of
@@ -18,6 +19,7 @@ from scene import NANOSECONDS, SIMULATIONS
 from watched_node import all_delivered, publisher
 
 BATCH, WINDOW = 40, 8  # ticks that events are ahead of the clock, and the clock of the states
+MOST_INPUTS = 6        # to which the events of a batch refer
 COVER_AHEAD = NANOSECONDS  # [ns]
 DEADLINE = 60.0        # [s] of wall time for a tick
 # Kinds of events that refer to an input by the name of a field, and the input.
@@ -44,6 +46,7 @@ class Replay:
                                        recording.layouts)}
         self._cover = self._target('/replay/grass/cover/resistance', OccupancyGrid)
         self._covers = list(recording.covers)
+        self._frames = rospy.ServiceProxy(self._name + '/tf2_frames', FrameGraph)
 
     @staticmethod
     def _target(topic, message_class):
@@ -85,12 +88,27 @@ class Replay:
                    for one in [self._clock, self._events[0], self._subscriber] + needed)
 
     def _run_ticks(self, ticks):
-        """Events are sent while the node runs the ticks of the batch before."""
-        for begin in range(0, len(ticks) + BATCH, BATCH):
-            for stamp in ticks[begin:begin + BATCH]:
+        """The events of a batch are sent before the node runs the ticks of the batch before."""
+        before = []
+        for batch in self._batches(ticks):
+            for stamp in batch:
                 self._send_tick(stamp)
             wait_until(all_delivered, 'the events to be in the socket of ' + self.node)
-            self._run_batch(ticks[max(0, begin - BATCH):begin])
+            self._run_batch(before)
+            before = batch
+        self._run_batch(before)
+
+    def _batches(self, ticks):
+        """Yields lists of ticks with few inputs, of which a node keeps only the newest."""
+        batch, inputs = [], 0
+        for stamp in ticks:
+            batch.append(stamp)
+            inputs += sum(kind_of(raw) in REFERENCES[self.node]
+                          for raw in self._record.events.get(stamp, ()))
+            if len(batch) == BATCH or inputs >= MOST_INPUTS:
+                yield batch
+                batch, inputs = [], 0
+        yield batch
 
     def _run_batch(self, ticks):
         for number, stamp in enumerate(ticks):
@@ -121,6 +139,13 @@ class Replay:
         wanted = getattr(event, field)
         if wanted in known:
             self._send(target, known[wanted])
+            self._settle()
+
+    def _settle(self):
+        """Returns when the node has read its sockets: its queues of inputs are short."""
+        wait_until(all_delivered, 'the inputs to be in the socket of ' + self.node)
+        for _ in range(2):
+            self._frames()
 
     def _close(self):
         self._subscriber.unregister()

@@ -9,6 +9,7 @@ from nav_msgs.msg import Odometry
 from tf2_msgs.msg import TFMessage
 
 from scene import NANOSECONDS
+from watched_node import publisher
 
 RATE = 30.0                 # messages per second of simulated time [Hz]
 CENTRE, HALF = (-3.5, -0.5), (3.2, 3.8)  # of the ellipse on which it drives [m]
@@ -26,8 +27,8 @@ class Robot:
     def __init__(self):
         self.lost = False
         self._last = 0.0
-        self._tf = rospy.Publisher('/tf', TFMessage, queue_size=1000, tcp_nodelay=True)
-        self._odometry = rospy.Publisher('/odom', Odometry, queue_size=1000, tcp_nodelay=True)
+        self._tf = publisher('/tf', TFMessage)
+        self._odometry = publisher('/odom', Odometry)
 
     def publish(self, now):
         if self.lost or now - self._last < 1.0 / RATE:

@@ -8,6 +8,7 @@ from geometry_msgs.msg import Point
 from vegetation_sim.msg import TreadEvent
 
 from scene import NANOSECONDS
+from watched_node import publisher
 
 COUNT = 6000        # of which 5000 have room
 AHEAD = 5.0, 25.0   # stamps after the present [s]
@@ -16,7 +17,7 @@ CONNECTION = 0.5    # [s] of wall time
 
 def flood_queue(now):
     """Publishes more treads for later stamps than grass_field keeps."""
-    publisher = rospy.Publisher('/tread', TreadEvent, queue_size=None)
+    surge = publisher('/tread', TreadEvent)
     threading.Event().wait(CONNECTION)
     for number in range(COUNT):
         part = number / COUNT
@@ -24,5 +25,5 @@ def flood_queue(now):
                              position=Point(8.0 * part - 4.0, 4.0 - 8.0 * part, 0.0))
         ahead = AHEAD[0] + part * (AHEAD[1] - AHEAD[0])
         message.header.stamp = rospy.Time(0, int((now + ahead) * NANOSECONDS))
-        publisher.publish(message)
-    publisher.unregister()
+        surge.publish(message)
+    surge.unregister()
