@@ -28,7 +28,6 @@ class Diagnosis:
 
     def __init__(self):
         self.jumps_back = 0  # of the clock, as the nodes report them
-        self.texts = {}      # examples of warnings by node and first words
         self._reports = deque(maxlen=MOST_KEPT)
         self._news = threading.Condition()
         self._subscriber = rospy.Subscriber('/diagnostics', DiagnosticArray, self._on_message)

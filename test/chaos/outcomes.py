@@ -13,14 +13,12 @@ class Outcomes:
         self.injected = Counter()       # kinds of faults
         self.times = defaultdict(list)  # by kind [s]; None: never
         self.unnamed = Counter()        # kind, node and words
-        self.names = {}                 # the words by kind
         self.winds_kept = self.winds_changed = 0  # when wind_broadcaster was killed
         self.requests = self.refused = self.unanswered = 0
 
     def add(self, fault, node, words, took):
         self.injected[fault] += 1
         self.times[fault].append(took)
-        self.names.setdefault(fault, words)
         if took is None or took > LIMIT:
             self.unnamed[fault, node, words] += 1
             print('  not named in time: %s of %s by "%s"%s' % (

@@ -4,7 +4,6 @@
 
 #include <dynamic_reconfigure/server.h>
 #include <tf2_ros/buffer.h>
-#include <tf2_ros/transform_listener.h>
 #include <vegetation_sim/Viewer.h>
 
 #include <boost/thread/recursive_mutex.hpp>
@@ -18,6 +17,7 @@
 #include "nodes/base/viewer_registry.h"
 #include "nodes/markers/marker_publisher.h"
 #include "ros/conversions/recorded_message.h"
+#include "ros/services/frame_listener.h"
 #include "ros/services/requests.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
 
@@ -153,7 +153,7 @@ class EventNode : public SavedNode<Queue, Options> {
   ViewerRegistry viewers_;  // of the markers
 
  private:
-  tf2_ros::TransformListener tf_listener_;
+  FrameListener tf_listener_;
 
   void onTick(std::int64_t tick) {
     this->runTick(tick);

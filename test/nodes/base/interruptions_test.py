@@ -2,7 +2,7 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
 """Diagnostics name what has interrupted a node: a process that was stopped, a start from a
-checkpoint, and a request that was refused."""
+checkpoint, and a request that was refused. A small step of the clock back interrupts nothing."""
 import os
 import signal
 import tempfile
@@ -12,11 +12,15 @@ import unittest
 import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from geometry_msgs.msg import TransformStamped
+from tf2_msgs.msg import TFMessage
+from tf2_msgs.srv import FrameGraph
+from vegetation_sim.msg import ScanReport
 from vegetation_sim.srv import SaveSnapshot
 
-from forest_rig import RATE, TickClock, start_node, stop
+from forest_rig import RATE, TickClock, start_node, stop, time_of
 from waiting import wait_for
-from watched_node import Log, serves, slave, wait_for_readers
+from watched_node import Log, all_delivered, publisher, serves, slave, wait_for_readers
 
 NODES = '/wind_broadcaster', '/forest_animator', '/grass_field', '/canopy_animator', '/agent_crowd'
 SCANNER = '/vegetation_scanner'
@@ -74,6 +78,33 @@ class Interruptions(unittest.TestCase):
             for program in NODES:
                 self.expect_continuation(program.lstrip('/'), '/second' + program, folder)
 
+    # The time of a sweep is 0.1 s behind the clock, so that it needs frames from before the step.
+    def test_frames_outlive_a_small_step_of_the_clock_back(self):
+        tf, points = publisher('/tf', TFMessage), Log('/lidar/report', ScanReport)
+        wait_for_readers('/tf', SCANNER)
+        wait_for(points.connected, points.topic)
+
+        def advance(ticks):
+            for _ in range(ticks):
+                self.publish_frame(tf, time_of(self.clock.tick + 1))
+                wait_for(all_delivered, 'the frame')
+                rospy.ServiceProxy(SCANNER + '/tf2_frames', FrameGraph)()
+                self.clock.run(1)
+        wait_for(lambda: advance(1) or points.messages, 'a sweep')
+        for _ in range(3):
+            self.clock.show_time(time_of(self.clock.tick) - rospy.Duration.from_sec(0.05))
+            advance(3)
+        points.wait(lambda all: all[-1].header.stamp >= time_of(self.clock.tick - 6), 'the end')
+        stamps = [m.header.stamp.to_sec() for m in points.messages]
+        self.assertLess(max(b - a for a, b in zip(stamps, stamps[1:])), 0.11)
+
+    @staticmethod
+    def publish_frame(tf, stamp):
+        frame = TransformStamped(child_frame_id='lidar')
+        frame.header.frame_id, frame.header.stamp = 'map', stamp
+        frame.transform.rotation.w = 1.0
+        tf.publish(TFMessage([frame]))
+
     def expect_continuation(self, program, name, folder):
         parameters = dict(snapshot_folder=folder, checkpoint_period=0.1, checkpoint=True)
         process = start_node(program, name, {}, **parameters)
@@ -84,8 +115,7 @@ class Interruptions(unittest.TestCase):
             stop(process, signal.SIGKILL)
             first = len(self.reports.messages)
             process = start_node(program, name, {}, **parameters)
-            wait_for_readers('/clock', name)
-            self.clock.run(1)
+            self.wait_until_begun(name)
             self.wait_for_warning(name, 'continues from its checkpoint of 100', first)
         finally:
             stop(process)
