@@ -41,9 +41,11 @@ class Diagnosis:
                 self.jumps_back += 'jumps back of the clock' in report.text
             self._news.notify_all()
 
-    def newest(self, node):
+    def newest(self, node, key):
+        """Returns the newest report of a node that has a value of this name, or None."""
         with self._news:
-            found = [report for report in self._reports if report.node == node and report.values]
+            found = [report for report in self._reports
+                     if report.node == node and key in report.values]
         return found[-1] if found else None
 
     def wait(self, node, test, since):

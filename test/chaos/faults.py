@@ -22,6 +22,7 @@ STOPS = 1.0, 3.0      # [s] of wall time
 LOSS = 4.0            # duration without frames of the robot [s] of wall time
 STALE = 0.5           # [s] of simulated time after which nodes call a frame lost
 RIVALRY = 3.0         # duration with a second publisher [s] of wall time
+KILLS = 3             # of each node, as often as any other fault once
 JITTER = 3.0, 10.0    # duration of a jitter, and of the time between two [s] of wall time
 IN_TRANSIT = 0.4      # [s] of wall time after which all that a dead process sent has arrived
 SETTLED = 1.5         # [s] after a start; then the recorder has all connections
@@ -57,7 +58,8 @@ class Faults:
         jitter.join()
 
     def _shuffled(self):
-        deck = [(self.kill, node) for node in NODES] + [(self.stop, node) for node in NODES]
+        deck = [(self.kill, node) for node in NODES] * KILLS
+        deck += [(self.stop, node) for node in NODES]
         deck += [(self.lose_frames, None)] * 3 + [(self.double, topic) for topic in OWNED]
         deck += [(self.flood_topic, topic) for topic in self._topics]
         deck += [(self.flood_service, service) for service in self._services]
@@ -80,7 +82,7 @@ class Faults:
     def kill(self, node):
         rig, since = self._rig, time.monotonic()
         disturbance = rig.processes.begin(node)
-        before = rig.diagnosis.newest(node)
+        before = rig.diagnosis.newest(node, 'Sweeps')
         rig.processes.kill(node)
         pause(IN_TRANSIT)
         winds = len(rig.recording.winds_of_owner)
@@ -151,8 +153,8 @@ class Faults:
 
     def _test_of_flood(self, topic, node):
         """canopy_animator counts the messages of all viewers but one, and reads no more of them."""
-        before = self._rig.diagnosis.newest(node)
-        if topic != '/viewer' or not before or IGNORED not in before.values:
+        before = self._rig.diagnosis.newest(node, IGNORED)
+        if topic != '/viewer' or not before:
             return warns_of('refused input')
         return lambda report: warns_of('refused input')(report) or \
             int(report.values.get(IGNORED, 0)) > int(before.values[IGNORED])

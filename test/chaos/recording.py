@@ -71,8 +71,8 @@ class Recording:
             self._subscribe(state, self._on_state, node)
             self._subscribe(events, self._on_event, node)
         self._subscribe('wind', self._on_wind)
-        self._subscribe('forest/layout', lambda raw, _: self.layouts.update({layout_hash_of(raw): raw}))
-        self._subscribe('grass/cover/resistance', lambda raw, _: self.covers.append(raw))
+        self._subscribe('forest/layout', self._on_layout)
+        self._subscribe('grass/cover/resistance', self._on_cover)
 
     def connected(self):
         return all(subscriber.get_num_connections() for subscriber in self._subscribers[:-1])
@@ -105,6 +105,14 @@ class Recording:
         self.winds[wind_hash_of(raw)] = raw
         if publisher == 'wind_broadcaster':
             self.winds_of_owner.append(wind_hash_of(raw))
+
+    def _on_layout(self, raw, publisher):
+        if publisher == 'forest_animator':
+            self.layouts[layout_hash_of(raw)] = raw
+
+    def _on_cover(self, raw, publisher):
+        if publisher == 'grass_field':
+            self.covers.append(raw)
 
     def rival_messages(self, topic):
         """Returns what a second publisher of a topic sends: an older message and then the newest."""
