@@ -75,8 +75,12 @@ class Faults:
             pause(random.uniform(*JITTER))
         clock.jitter = False
 
-    def expect(self, fault, node, words, since, test=None):
+    def expect(self, fault, node, words, since, test=None, known=None):
+        """Waits for a report after the wall time `since` and notes how long after `known` it came:
+        the time at which the node could know of the fault."""
         took = self._rig.diagnosis.wait(node, test or warns_of(words), since)
+        if took is not None and known is not None:
+            took = max(0.0, took + since - known)
         self.outcomes.add(fault, node, words, took)
 
     def kill(self, node):
@@ -92,7 +96,7 @@ class Faults:
         wait_until(lambda: rig.processes.find(node), 'the start of ' + node)
         begun = time.monotonic()
         wait_until(lambda: rig.ticks.arrival[node] > max(since, begun), 'the ticks of ' + node)
-        self._expect_start(node, before, time.monotonic())
+        self._expect_start(node, before, begun)
         pause(SETTLED)
         if node in SIMULATIONS:
             with rig.recording.lock:
@@ -102,13 +106,15 @@ class Faults:
         disturbance[2] = time.monotonic()
 
     def _expect_start(self, node, before, since):
-        """The scanner has no checkpoint; its counts begin anew."""
+        """The scanner has no checkpoint; its counts begin anew. A fault is known with the first
+        tick."""
+        known = time.monotonic()
         if node != 'vegetation_scanner':
-            self.expect('kill -9', node, 'continues from its checkpoint', since)
+            self.expect('kill -9', node, 'continues from its checkpoint', since, known=known)
             return
         sweeps = int(before.values['Sweeps']) if before else 0
         self.expect('kill -9', node, 'Sweeps (begin anew)', since,
-                    lambda report: int(report.values.get('Sweeps', sweeps)) < sweeps)
+                    lambda report: int(report.values.get('Sweeps', sweeps)) < sweeps, known)
 
     def stop(self, node):
         disturbance = self._rig.processes.begin(node)
@@ -168,10 +174,11 @@ class Faults:
         self.outcomes.unanswered += failed
         self.outcomes.injected['flood of a service'] += 1
         if refused or service.endswith('/set_parameters'):
-            self.expect('flood of a service', node, 'refused input: ' + service, since,
-                        warns_of('refused input'))
+            self.expect('flood of a service', node, 'refused request: ' + service, since,
+                        warns_of('refused '))
 
     def surge(self, _):
         since = time.monotonic()
         flood_queue(self._rig.clock.now)
-        self.expect('flood of the queue', 'grass_field', 'inputs lost', since)
+        self.expect('flood of the queue', 'grass_field', 'inputs lost', since,
+                    known=time.monotonic())

@@ -58,6 +58,7 @@ class EventNode : public SavedNode<Queue, Options> {
   using Base::options_;
   using Base::private_handle_;
   using Base::refusals_;
+  using Base::refused_requests_;
   using Base::refuseInReplay;
   using typename Base::Event;
   using typename Base::Message;
@@ -134,6 +135,7 @@ class EventNode : public SavedNode<Queue, Options> {
     status.summary(DiagnosticStatus::OK, "running");
     if (!clock_.hasBegun()) status.summary(DiagnosticStatus::WARN, "waiting for the clock");
     refusals_.warn(status);
+    refused_requests_.warn(status);
     if (is_other_version_ && recorded_.getNumPublishers() == 0) subscribeToRecorded();
     this->warnOfRivals(status);
     this->warnOfInterruptions(status);
@@ -145,6 +147,7 @@ class EventNode : public SavedNode<Queue, Options> {
     clock_.report(status);
     status.add("Inputs taken", this->applied_);
     status.add("Inputs refused", refusals_.count());
+    status.add("Requests refused", refused_requests_.count());
     status.add("Inputs lost", inputs_.losses().lost);
     status.add("Recorded events late", inputs_.losses().late);
   }

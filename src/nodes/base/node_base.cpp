@@ -26,6 +26,7 @@ NodeBase::NodeBase(const std::string& name, const ros::NodeHandle& handle,
       handle_(handleOf(handle, callbacks_)),
       private_handle_(handleOf(private_handle, callbacks_)),
       refusals_(name),
+      refused_requests_(name, "request"),
       diagnostics_(handle_, private_handle_, private_handle.getNamespace()) {
   diagnostics_.setHardwareID("none");
 }

@@ -47,8 +47,8 @@ class NodeBase {
     subscribe(topic, queue, callback);
     owned_.push_back(subscribers_.back());
   }
-  /// Adds a service, whose response has `success` and `message`; a refused request counts as a
-  /// refused input. It is advertised by openServices(), or at once after that.
+  /// Adds a service, whose response has `success` and `message`; refused requests are counted. It
+  /// is advertised by openServices(), or at once after that.
   template <class Node, class Request, class Response>
   void serve(const char* name, bool (Node::*callback)(Request&, Response&)) {
     const boost::function<bool(Request&, Response&)> guarded =
@@ -56,7 +56,7 @@ class NodeBase {
           bool answered = false;
           acceptInput(name,
                       [&] { answered = (static_cast<Node*>(this)->*callback)(request, response); });
-          if (answered && !response.success) refusals_.add(name, response.message);
+          if (answered && !response.success) refused_requests_.add(name, response.message);
           return answered;
         };
     const std::string service = name;
@@ -105,7 +105,7 @@ class NodeBase {
 
  protected:
   ros::NodeHandle handle_, private_handle_;  // of the callbacks that stopCallbacks() ends
-  Refusals refusals_;
+  Refusals refusals_, refused_requests_;
   diagnostic_updater::Updater diagnostics_;
 
  private:

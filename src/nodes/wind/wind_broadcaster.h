@@ -33,9 +33,9 @@ class WindBroadcaster final : public NodeBase {
  private:
   using Lock = boost::recursive_mutex::scoped_lock;
 
-  /// Runs the body of a service under the lock.
+  /// Runs the body of a service; an error is counted as a rejected input.
   template <class Response, class Body>
-  bool reply(Response& response, Body body);
+  bool reply(const char* service, Response& response, Body body);
   bool setPrimitive(SetWindPrimitive::Request& request, SetWindPrimitive::Response& response);
   bool removePrimitive(RemoveWindPrimitive::Request& request,
                        RemoveWindPrimitive::Response& response);

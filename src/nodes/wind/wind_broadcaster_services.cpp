@@ -35,14 +35,16 @@ void checkSamples(const SampleWind::Request& request) {
 }  // namespace
 
 template <class Response, class Body>
-bool WindBroadcaster::reply(Response& response, Body body) {
+bool WindBroadcaster::reply(const char* service, Response& response, Body body) {
   const Lock lock(mutex_);
-  return answer(response, body);
+  answer(response, body);
+  if (!response.success) refusals_.add(service, response.message);
+  return true;
 }
 
 bool WindBroadcaster::setPrimitive(SetWindPrimitive::Request& request,
                                    SetWindPrimitive::Response& response) {
-  return reply(response, [&]() -> std::string {
+  return reply("set_primitive", response, [&]() -> std::string {
     Faults faults;
     const wind::Source source = sourceFromMsg(request.primitive, settings_.frame_id, faults);
     const auto published = apply(source, faults);
@@ -56,7 +58,7 @@ bool WindBroadcaster::setPrimitive(SetWindPrimitive::Request& request,
 
 bool WindBroadcaster::removePrimitive(RemoveWindPrimitive::Request& request,
                                       RemoveWindPrimitive::Response& response) {
-  return reply(response, [&] {
+  return reply("remove_primitive", response, [&] {
     if (!request.all) {
       remove(request.name);
     } else {
@@ -72,7 +74,7 @@ bool WindBroadcaster::removePrimitive(RemoveWindPrimitive::Request& request,
 void WindBroadcaster::reconfigure(WindBroadcasterConfig& config, std::uint32_t level) {
   if (level != ~0u) {
     std_srvs::Trigger::Response response;
-    reply(response, [&] {
+    reply("reconfigure", response, [&] {
       if (!clock_.running())
         throw InvalidInput("time has not begun, is /clock published?", FaultCode::NOT_AVAILABLE);
       BreezeSettings wanted = fromConfig(config);
@@ -88,20 +90,19 @@ void WindBroadcaster::reconfigure(WindBroadcasterConfig& config, std::uint32_t l
       breeze_ = wanted;
       return "";
     });
-    if (!response.success) refusals_.add("reconfigure", response.message);
   }
   config = toConfig(breeze_);
 }
 
 bool WindBroadcaster::getField(GetWindField::Request&, GetWindField::Response& response) {
-  return reply(response, [&] {
+  return reply("get_field", response, [&] {
     response.field = toMsg(schedule_.field(), settings_.frame_id, clock_.now());
     return "";
   });
 }
 
 bool WindBroadcaster::sample(SampleWind::Request& request, SampleWind::Response& response) {
-  return reply(response, [&] {
+  return reply("sample", response, [&] {
     checkSamples(request);
     const ros::Time& common = request.header.stamp;
     const Pose to_world =
@@ -128,18 +129,18 @@ bool WindBroadcaster::sample(SampleWind::Request& request, SampleWind::Response&
 
 bool WindBroadcaster::saveSnapshot(SaveSnapshot::Request& request,
                                    SaveSnapshot::Response& response) {
-  return reply(response, [&] { return snapshots_.save(request.name, response); });
+  return reply("save_snapshot", response, [&] { return snapshots_.save(request.name, response); });
 }
 
 bool WindBroadcaster::loadSnapshot(LoadSnapshot::Request& request,
                                    LoadSnapshot::Response& response) {
-  return reply(response, [&] {
+  return reply("load_snapshot", response, [&] {
     return snapshots_.load(request, clock_.now(), response, [](const NodeSnapshots::Loadable&) {});
   });
 }
 
 bool WindBroadcaster::reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-  return reply(response, [&] {
+  return reply("reset", response, [&] {
     begin(clock_.now());
     return "";
   });

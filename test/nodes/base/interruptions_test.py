@@ -71,7 +71,8 @@ class Interruptions(unittest.TestCase):
             first = len(self.reports.messages)
             answer = rospy.ServiceProxy(node + '/save_snapshot', SaveSnapshot)(name='../bad')
             self.assertFalse(answer.success)
-            self.wait_for_warning(node, 'refused input: save_snapshot', first)
+            kind = 'input' if node == '/wind_broadcaster' else 'request'
+            self.wait_for_warning(node, 'refused %s: save_snapshot' % kind, first)
 
     def test_a_start_from_a_checkpoint(self):
         with tempfile.TemporaryDirectory() as folder:
