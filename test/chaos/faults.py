@@ -98,12 +98,16 @@ class Faults:
         wait_until(lambda: rig.ticks.arrival[node] > max(since, begun), 'the ticks of ' + node)
         self._expect_start(node, before, begun)
         pause(SETTLED)
+        self._take_journal(node)
+        if node == 'wind_broadcaster':
+            self.outcomes.add_wind(rig.recording.winds_of_owner, winds)
+        disturbance[2] = time.monotonic()
+
+    def _take_journal(self, node):
+        rig = self._rig
         if node in SIMULATIONS:
             with rig.recording.lock:
                 rig.recording.nodes[node].take_journal(read_journal(rig.folder, node)[1])
-        elif node == 'wind_broadcaster':
-            self.outcomes.add_wind(rig.recording.winds_of_owner, winds)
-        disturbance[2] = time.monotonic()
 
     def _expect_start(self, node, before, since):
         """The scanner has no checkpoint; its counts begin anew. A fault is known with the first
@@ -123,6 +127,8 @@ class Faults:
         disturbance[2] = time.monotonic()
         self._rig.processes.signal(node, signal.SIGCONT)
         self.expect('SIGSTOP', node, 'no callback ran', disturbance[2])
+        pause(SETTLED)
+        self._take_journal(node)  # A node that catches up drops states that it cannot send.
 
     def lose_frames(self, _):
         rig = self._rig
