@@ -4,7 +4,6 @@
 
 #include <dynamic_reconfigure/server.h>
 #include <tf2_ros/buffer.h>
-#include <tf2_ros/transform_listener.h>
 #include <vegetation_sim/Viewer.h>
 
 #include <boost/thread/recursive_mutex.hpp>
@@ -18,6 +17,7 @@
 #include "nodes/base/viewer_registry.h"
 #include "nodes/markers/marker_publisher.h"
 #include "ros/conversions/recorded_message.h"
+#include "ros/services/frame_listener.h"
 #include "ros/services/requests.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
 
@@ -58,6 +58,7 @@ class EventNode : public SavedNode<Queue, Options> {
   using Base::options_;
   using Base::private_handle_;
   using Base::refusals_;
+  using Base::refused_requests_;
   using Base::refuseInReplay;
   using typename Base::Event;
   using typename Base::Message;
@@ -134,8 +135,10 @@ class EventNode : public SavedNode<Queue, Options> {
     status.summary(DiagnosticStatus::OK, "running");
     if (!clock_.hasBegun()) status.summary(DiagnosticStatus::WARN, "waiting for the clock");
     refusals_.warn(status);
+    refused_requests_.warn(status);
     if (is_other_version_ && recorded_.getNumPublishers() == 0) subscribeToRecorded();
     this->warnOfRivals(status);
+    this->warnOfInterruptions(status);
     warnOfClock(status, clock_.counts(), reported_clock_);
     warnOfLosses(status, inputs_.losses(), reported_losses_);
     reported_clock_ = clock_.counts();
@@ -144,6 +147,7 @@ class EventNode : public SavedNode<Queue, Options> {
     clock_.report(status);
     status.add("Inputs taken", this->applied_);
     status.add("Inputs refused", refusals_.count());
+    status.add("Requests refused", refused_requests_.count());
     status.add("Inputs lost", inputs_.losses().lost);
     status.add("Recorded events late", inputs_.losses().late);
   }
@@ -152,7 +156,7 @@ class EventNode : public SavedNode<Queue, Options> {
   ViewerRegistry viewers_;  // of the markers
 
  private:
-  tf2_ros::TransformListener tf_listener_;
+  FrameListener tf_listener_;
 
   void onTick(std::int64_t tick) {
     this->runTick(tick);

@@ -2,10 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/base/node_base.h"
 
+#include <algorithm>
+
 #include "ros/services/rivals.h"
 
 namespace vegetation_sim {
 namespace {
+
+constexpr double BEAT_PERIOD = 0.2;    // [s] of wall time
+constexpr double SHORTEST_WAIT = 0.7;  // that is reported [s]
 
 ros::NodeHandle handleOf(ros::NodeHandle handle, ClosableQueue& callbacks) {
   handle.setCallbackQueue(&callbacks);
@@ -21,6 +26,7 @@ NodeBase::NodeBase(const std::string& name, const ros::NodeHandle& handle,
       handle_(handleOf(handle, callbacks_)),
       private_handle_(handleOf(private_handle, callbacks_)),
       refusals_(name),
+      refused_requests_(name, "request"),
       diagnostics_(handle_, private_handle_, private_handle.getNamespace()) {
   diagnostics_.setHardwareID("none");
 }
@@ -30,6 +36,31 @@ void NodeBase::startDiagnostics() {
       handle_.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) {
         acceptInput("diagnostics", [this] { diagnostics_.force_update(); });
       });
+  beat_timer_ = handle_.createWallTimer(ros::WallDuration(BEAT_PERIOD),
+                                        [this](const ros::WallTimerEvent&) { beat(); });
+}
+
+// The timer shares the queue of all callbacks, so a beat that is late shows how long they waited.
+void NodeBase::beat() {
+  const SteadyTime now = std::chrono::steady_clock::now();
+  if (last_beat_) {
+    const double since = std::chrono::duration<double>(now - *last_beat_).count();
+    longest_wait_ = std::max(longest_wait_, since - BEAT_PERIOD);
+  }
+  last_beat_ = now;
+}
+
+void NodeBase::warnOfInterruptions(Status& status) {
+  using diagnostic_msgs::DiagnosticStatus;
+  if (continued_from_)
+    status.mergeSummaryf(DiagnosticStatus::WARN, "continues from its checkpoint of %.3f s",
+                         secondsBetween(0, *continued_from_));
+  continued_from_.reset();
+  if (longest_wait_ >= SHORTEST_WAIT)
+    status.mergeSummaryf(DiagnosticStatus::WARN,
+                         "no callback ran for %.1f s: the process was stopped, or one took so long",
+                         longest_wait_);
+  longest_wait_ = 0.0;
 }
 
 void NodeBase::openServices() {
@@ -41,6 +72,7 @@ void NodeBase::openServices() {
 void NodeBase::stopCallbacks() {
   callbacks_.close();
   diagnostics_timer_.stop();
+  beat_timer_.stop();
   timers_.clear();
   services_.clear();
   owned_.clear();

@@ -6,8 +6,10 @@
 #include <ros/ros.h>
 #include <std_srvs/Trigger.h>
 
+#include <chrono>
 #include <exception>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +17,7 @@
 #include "nodes/base/closable_queue.h"
 #include "ros/services/diagnostics.h"
 #include "vegetation_sim/core/config/faults.h"
+#include "vegetation_sim/core/math/time.h"
 
 namespace vegetation_sim {
 
@@ -44,7 +47,8 @@ class NodeBase {
     subscribe(topic, queue, callback);
     owned_.push_back(subscribers_.back());
   }
-  /// Adds a service. It is advertised by openServices(), or at once after that.
+  /// Adds a service, whose response has `success` and `message`; refused requests are counted. It
+  /// is advertised by openServices(), or at once after that.
   template <class Node, class Request, class Response>
   void serve(const char* name, bool (Node::*callback)(Request&, Response&)) {
     const boost::function<bool(Request&, Response&)> guarded =
@@ -52,6 +56,7 @@ class NodeBase {
           bool answered = false;
           acceptInput(name,
                       [&] { answered = (static_cast<Node*>(this)->*callback)(request, response); });
+          if (answered && !response.success) refused_requests_.add(name, response.message);
           return answered;
         };
     const std::string service = name;
@@ -77,6 +82,11 @@ class NodeBase {
   void stopCallbacks();
   /// Warns of topics with one owner that have several publishers.
   void warnOfRivals(Status& status) const;
+  /// Warns of what has interrupted the node since the last report: a time without callbacks, as
+  /// when its process is stopped, and a start that continues from a checkpoint.
+  void warnOfInterruptions(Status& status);
+  /// To be called when the node begins with a checkpoint of this stamp.
+  void reportCheckpoint(Nanoseconds stamp) { continued_from_ = stamp; }
 
   /// Runs `body`; what it throws is counted and reported as a rejected `what`.
   template <class Body>
@@ -95,16 +105,22 @@ class NodeBase {
 
  protected:
   ros::NodeHandle handle_, private_handle_;  // of the callbacks that stopCallbacks() ends
-  Refusals refusals_;
+  Refusals refusals_, refused_requests_;
   diagnostic_updater::Updater diagnostics_;
 
  private:
   std::vector<ros::Subscriber> subscribers_, owned_;
   std::vector<std::function<ros::ServiceServer()>> closed_;  // services that wait for time to begin
+  void beat();
+
   bool open_{false};
   std::vector<ros::ServiceServer> services_;
   std::vector<ros::Timer> timers_;
-  ros::WallTimer diagnostics_timer_;
+  ros::WallTimer diagnostics_timer_, beat_timer_;
+  using SteadyTime = std::chrono::steady_clock::time_point;
+  std::optional<SteadyTime> last_beat_;
+  double longest_wait_{0.0};  // of callbacks since the last report [s of wall time]
+  std::optional<Nanoseconds> continued_from_;  // not reported yet
 };
 
 }  // namespace vegetation_sim

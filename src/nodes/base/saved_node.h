@@ -144,6 +144,7 @@ class SavedNode : public NodeBase {
         acceptInput("checkpoint", [&] { repeatRecord(record); });
       options_.replay = recovers_ = false;
       snapshots_.checkpoint();
+      reportCheckpoint(clock_.stamp());
       ROS_INFO("%s: continues from its checkpoint, after the tick at %.9f s", name_.c_str(),
                secondsBetween(0, clock_.stamp()));
     });

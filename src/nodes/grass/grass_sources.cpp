@@ -16,6 +16,13 @@ constexpr unsigned ODOMETRY_QUEUE = 10;
 constexpr double MOVED = 1e-6;  // [m]
 constexpr std::size_t LONGEST_NAME = 4096, TREAD_BYTES = 36;
 
+// Returns what is wrong with the orientation, or an empty text.
+std::string faultOf(const nav_msgs::Odometry& message) {
+  Faults faults;
+  orientationOf(message.pose.pose.orientation, "pose.orientation", faults);
+  return faults.empty() ? std::string() : faults.list().front();
+}
+
 }  // namespace
 
 GrassSources::GrassSources(ros::NodeHandle handle, std::string frame_id,
@@ -26,7 +33,10 @@ GrassSources::GrassSources(ros::NodeHandle handle, std::string frame_id,
   for (Followed& followed : followed_) {
     if (followed.source.odometry.empty()) continue;
     const boost::function<void(const nav_msgs::Odometry&)> heard =
-        [&followed](const nav_msgs::Odometry& message) { followed.odometry = message; };
+        [&followed](const nav_msgs::Odometry& message) {
+          followed.odometry = message;
+          if (const std::string fault = faultOf(message); !fault.empty()) followed.fault = fault;
+        };
     subscribers_.push_back(
         handle.subscribe<nav_msgs::Odometry>(followed.source.odometry, ODOMETRY_QUEUE, heard));
   }
@@ -139,8 +149,10 @@ std::vector<grass::TreadInput> GrassSources::update(Nanoseconds now, const grass
       known = false;
     } catch (const InvalidInput& error) {
       known = false;
-      report("source '" + followed.source.name + "'", error.what());
+      followed.fault = error.what();
     }
+    if (!followed.fault.empty()) report("source '" + followed.source.name + "'", followed.fault);
+    followed.fault.clear();
     if (!known) {
       missing_.add(describeMissing(followed));
       if (followed.published) say(followed, grass::TreadAction::LIFT, heard, out);

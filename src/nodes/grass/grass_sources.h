@@ -69,6 +69,7 @@ class GrassSources {
     std::optional<nav_msgs::Odometry> odometry;
     std::optional<Vec3> published;  ///< position
     Nanoseconds published_stamp{0};
+    std::string fault{};  ///< of odometry since the last tick, also if other odometry followed it
   };
   ObservedSource find(const Followed& followed, Nanoseconds now);
   ObservedSource findOdometry(const Followed& followed, Nanoseconds now);

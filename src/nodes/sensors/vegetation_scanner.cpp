@@ -162,6 +162,7 @@ bool VegetationScanner::onReset(std_srvs::Trigger::Request&,
 void VegetationScanner::reportProblem(Status& status) {
   counts_.clock = clock_.counts();
   refusals_.warn(status);
+  warnOfInterruptions(status);
   warnOfMore(status, counts_.unplaced, reported_.unplaced,
              "sweeps without a transform of the sensor");
   missing_.warn("vegetation_scanner", status);

@@ -3,13 +3,13 @@
 #pragma once
 
 #include <tf2_ros/buffer.h>
-#include <tf2_ros/transform_listener.h>
 
 #include <string>
 
 #include "nodes/base/node_base.h"
 #include "nodes/sensors/scanner_options.h"
 #include "ros/replicas/landscape_replica.h"
+#include "ros/services/frame_listener.h"
 #include "ros/services/missing_inputs.h"
 #include "ros/time/tick_clock.h"
 #include "sensors/model/sensor_path.h"
@@ -53,7 +53,7 @@ class VegetationScanner final : public NodeBase {
   std::uint32_t points_{0};  // of the last sweep
 
   tf2_ros::Buffer tf_buffer_;
-  tf2_ros::TransformListener tf_listener_;
+  FrameListener tf_listener_;
   ros::Publisher interest_publisher_, cloud_publisher_, scan_publisher_, report_publisher_;
   TickClock clock_;
 };

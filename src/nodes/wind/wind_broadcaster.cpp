@@ -109,9 +109,10 @@ void WindBroadcaster::prune(const ros::TimerEvent&) {
   if (clock_.running() && schedule_.prune(clock_.now())) publishField();
 }
 
+// A wind that others know survives a kill, so the checkpoint comes first.
 void WindBroadcaster::publishField() {
-  field_publisher_.publish(toMsg(schedule_.field(), settings_.frame_id, clock_.now()));
   acceptInput("checkpoint", [this] { snapshots_.checkpoint(); });
+  field_publisher_.publish(toMsg(schedule_.field(), settings_.frame_id, clock_.now()));
 }
 
 void WindBroadcaster::publishMarkers(const ros::TimerEvent&) {
@@ -145,6 +146,8 @@ void WindBroadcaster::diagnose(Status& status) {
   using diagnostic_msgs::DiagnosticStatus;
   status.summary(DiagnosticStatus::OK, "running");
   if (!clock_.running()) status.summary(DiagnosticStatus::WARN, "waiting for time to begin");
+  refusals_.warn(status);
+  warnOfInterruptions(status);
   for (MissingInputs* missing : {&follower_.missing(), &probes_.missing()})
     missing->warn(name_, status);
   status.add("primitives", schedule_.field().primitives().size());

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <dynamic_reconfigure/server.h>
-#include <tf2_ros/transform_listener.h>
 #include <vegetation_sim/GetWindField.h>
 #include <vegetation_sim/RemoveWindPrimitive.h>
 #include <vegetation_sim/SampleWind.h>
@@ -19,6 +18,7 @@
 #include "nodes/wind/frame_follower.h"
 #include "nodes/wind/wind_probes.h"
 #include "nodes/wind/wind_settings.h"
+#include "ros/services/frame_listener.h"
 #include "ros/time/clock_watch.h"
 
 namespace vegetation_sim {
@@ -75,7 +75,7 @@ class WindBroadcaster final : public NodeBase {
   WindSettings settings_;
   wind::PrimitiveSchedule schedule_;
   tf2_ros::Buffer tf_buffer_;
-  tf2_ros::TransformListener tf_listener_;
+  FrameListener tf_listener_;
   FrameFollower follower_;
   WindProbes probes_;
   BreezeSettings breeze_;  // as dynamic_reconfigure shows it

@@ -70,6 +70,7 @@ bool WindBroadcaster::resume(Nanoseconds now) {
     if (!found || found->header.stamp > now + ClockJumps::LARGEST_STEP) return;
     found->state.restore();
     resumed = true;
+    reportCheckpoint(found->header.stamp);
     ROS_INFO("wind_broadcaster: continues from its checkpoint of %.9f s",
              secondsBetween(0, found->header.stamp));
   });

@@ -28,6 +28,9 @@ WindSamples WindProbes::sample(const wind::Field& field, Nanoseconds stamp) {
       sample.position = toPoint(position);
       sample.velocity = toVector(instant.velocity(position));
       out.samples.push_back(std::move(sample));
+      const Nanoseconds seen = fromMsg(found.header.stamp);  // 0 of static frames
+      if (seen != 0 && secondsBetween(seen, stamp) > STALE)
+        missing_.add(describeMissingTransform(frame, frame_id_));
     } catch (const std::runtime_error&) {  // no transform, or a position that is not a number
       missing_.add(describeMissingTransform(frame, frame_id_));
     }

@@ -17,13 +17,14 @@ namespace vegetation_sim {
 class WindProbes {
  public:
   static constexpr std::size_t MOST_FRAMES = 256;
+  static constexpr double STALE = 0.5;  ///< age from which a transform is reported as missing [s]
 
   WindProbes(const tf2_ros::Buffer& buffer, std::string frame_id, std::vector<std::string> frames)
       : buffer_(buffer), frame_id_(std::move(frame_id)), frames_(std::move(frames)) {}
 
   /// Returns the wind at `stamp`, at the latest transform of each frame that has one.
   WindSamples sample(const wind::Field& field, Nanoseconds stamp);
-  /// Transforms that the last sample missed.
+  /// Transforms that the last sample missed, or that were stale.
   MissingInputs& missing() { return missing_; }
   bool empty() const { return frames_.empty(); }
 

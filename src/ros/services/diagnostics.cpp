@@ -48,7 +48,7 @@ void Refusals::add(const std::string& what, const std::string& why) {
 }
 
 void Refusals::warn(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  warnOfMore(status, count_, reported_, "refused input: " + last_);
+  warnOfMore(status, count_, reported_, std::string("refused ") + kind_ + ": " + last_);
   reported_ = count_;
 }
 

@@ -20,10 +20,13 @@ void warnOfMore(diagnostic_updater::DiagnosticStatusWrapper& status, std::uint64
 void warnOfClock(diagnostic_updater::DiagnosticStatusWrapper& status, const TickClock::Counts& now,
                  const TickClock::Counts& reported);
 
-/// Rejected inputs of a node, reported on the console at most once a second and on /diagnostics.
+/// Rejected inputs or requests of a node, reported on the console at most once a second and on
+/// /diagnostics.
 class Refusals {
  public:
-  explicit Refusals(std::string node) : node_(std::move(node)) {}
+  /// @param kind what is refused, in the warning.
+  explicit Refusals(std::string node, const char* kind = "input")
+      : node_(std::move(node)), kind_(kind) {}
 
   void add(const std::string& what, const std::string& why);
   /// Warns of those since the last warning, with the reason for the last one.
@@ -32,7 +35,9 @@ class Refusals {
   const std::string& last() const { return last_; }
 
  private:
-  std::string node_, last_;
+  std::string node_;
+  const char* kind_;
+  std::string last_;
   std::uint64_t count_{0}, reported_{0};
   ros::WallTime quiet_until_;
 };

@@ -98,6 +98,12 @@ class MissingFrames(unittest.TestCase):
     def test_the_lidar_without_a_subscriber(self):
         self.expect_reports('vegetation_scanner', "no transform from 'lidar' to 'map'", 'lidar')
 
+    def test_a_sample_frame_of_the_wind(self):
+        self.expect_reports('wind_broadcaster', "no transform from 'mast' to 'map'", 'mast')
+        # It is reported again once its transform is stale.
+        wait_for(lambda: self.advance() or any("'mast'" in text for text in
+                                               self.warnings_of('wind_broadcaster')), 'a warning')
+
     def test_a_source_of_the_wind(self):
         rotor = WindPrimitive(name='rotor', kind=WindPrimitive.BLAST, radius=6.0, core_radius=1.0,
                               speed=20.0, fade_in=0.5, fade_out=0.5, attached_frame='drone')

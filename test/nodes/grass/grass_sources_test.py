@@ -135,6 +135,17 @@ class GrassSources(unittest.TestCase):
         wait_for(refused, 'a refusal')
         self.assertEqual(self.grass.at(10.0, -12.0).tilt, 0.0)
 
+    def test_bad_odometry_is_refused_although_good_one_follows_it(self):
+        message = Odometry(child_frame_id='base_link')
+        message.header.frame_id, message.header.stamp = 'map', time_of(self.clock.tick + 1)
+        before = self.grass.diagnostics()['Inputs refused']
+        for w in (8.0, 1.0):
+            message.pose.pose.orientation.w = w
+            self.odom.publish(message)
+        self.grass.settle()
+        self.clock.run(1, self.grass)
+        self.assertEqual(self.grass.diagnostics()['Inputs refused'], before + 1)
+
     # N4: a source whose frame is silent is removed. When the frame returns, the source starts
     # there.
     def test_a_silent_frame_has_left(self):

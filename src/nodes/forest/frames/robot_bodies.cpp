@@ -28,7 +28,7 @@ RobotBodies::RobotBodies(const ros::NodeHandle& nh, std::string frame_id,
                          std::vector<forest::Body> parts, double wait)
     : frame_id_(std::move(frame_id)), lookup_(buffer_, frame_id_, wait) {
   for (forest::Body& part : parts) followed_.push_back({std::move(part), {}});
-  if (!followed_.empty()) listener_ = std::make_unique<tf2_ros::TransformListener>(buffer_, nh);
+  if (!followed_.empty()) listener_ = std::make_unique<FrameListener>(buffer_, nh);
 }
 
 void RobotBodies::clear() {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <tf2_ros/buffer.h>
-#include <tf2_ros/transform_listener.h>
 
 #include <functional>
 #include <map>
@@ -15,6 +14,7 @@
 #include "core/archive/archive.h"
 #include "forest/contact/mesh_cover.h"
 #include "ros/params/parameters.h"
+#include "ros/services/frame_listener.h"
 #include "ros/services/frame_lookup.h"
 #include "ros/services/missing_inputs.h"
 #include "tree/physical/interaction.h"
@@ -88,7 +88,7 @@ class RobotBodies {
   std::vector<Followed> followed_;
   tf2_ros::Buffer buffer_;
   FrameLookup lookup_;
-  std::unique_ptr<tf2_ros::TransformListener> listener_;  // if there is anything to follow
+  std::unique_ptr<FrameListener> listener_;  // if there is anything to follow
   MissingInputs missing_;
 };
 

@@ -1,0 +1,125 @@
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Records the events that the nodes publish, the inputs to which events refer, and hashes."""
+import io
+import threading
+from collections import defaultdict
+
+import rospy
+
+from raw_messages import (STATE_HASHES, header_of, kind_of, layout_hash_of, publisher_of, stamp_of,
+                          wind_hash_of)
+from scene import SIMULATIONS
+
+
+class NodeRecord:
+    """Events, ticks and hashes of one node by stamps [ns]."""
+
+    def __init__(self, event_class, outputs):
+        self.events, self.hashes, self.ticks = defaultdict(list), {}, set()
+        self.doubled = self.missing = 0  # events, where the node was killed
+        self._class, self._outputs = event_class, outputs
+
+    def add_event(self, raw):
+        if kind_of(raw) not in self._outputs:
+            self.events[stamp_of(raw)].append(raw)
+
+    def add_state(self, raw, state_hash):
+        self.ticks.add(stamp_of(raw))
+        if state_hash:
+            self.hashes[stamp_of(raw)] = state_hash
+
+    def end_process(self, checkpoint, journal):
+        """Forgets what a process that was killed has published and not written to its journal: the
+        next one begins without it."""
+        last = max([checkpoint, *journal])
+        for stamp in [stamp for stamp in self.events if stamp > last]:
+            self.doubled += len(self.events.pop(stamp))
+        self.ticks = {stamp for stamp in self.ticks if stamp <= last}
+        self.hashes = {stamp: value for stamp, value in self.hashes.items() if stamp <= last}
+        self.take_journal(journal)
+
+    def take_journal(self, journal):
+        """Adds events and ticks that were lost on the way to the recorder."""
+        for stamp, events in journal.items():
+            self.ticks.add(stamp)
+            if len(events) != len(self.events[stamp]):
+                self.missing += len(events) - len(self.events[stamp])
+                self.events[stamp] = [self._published(event) for event in events]
+
+    def _published(self, event):
+        message = self._class()
+        message.deserialize(event)
+        message.header.frame_id = 'map'
+        out = io.BytesIO()
+        message.serialize(out)
+        return out.getvalue()
+
+
+class Recording:
+    """All that a replay needs."""
+
+    def __init__(self):
+        self.lock = threading.Lock()
+        self.nodes = {node: NodeRecord(row[2], row[3]) for node, row in SIMULATIONS.items()}
+        self.winds, self.layouts, self.covers = {}, {}, []
+        self.winds_of_owner = []  # hashes
+        self.lost = 0             # messages between a node and this recorder
+        self._numbers = {}
+        self._subscribers = []
+        for node, (state, events, _, _) in SIMULATIONS.items():
+            self._subscribe(state, self._on_state, node)
+            self._subscribe(events, self._on_event, node)
+        self._subscribe('wind', self._on_wind)
+        self._subscribe('forest/layout', self._on_layout)
+        self._subscribe('grass/cover/resistance', self._on_cover)
+
+    def connected(self):
+        return all(subscriber.get_num_connections() for subscriber in self._subscribers[:-1])
+
+    def _subscribe(self, topic, callback, node=None):
+        def on_message(message):
+            raw = message._buff
+            with self.lock:
+                self._count_lost(message, topic)
+                if node in (None, publisher_of(message)):
+                    callback(raw, publisher_of(message))
+        self._subscribers.append(rospy.Subscriber('/' + topic, rospy.AnyMsg, on_message,
+                                                  tcp_nodelay=True))
+
+    def _count_lost(self, message, topic):
+        """A publisher numbers its messages."""
+        number = header_of(message._buff)[0]
+        key = topic, id(message._connection_header)
+        if '/events' in topic:
+            self.lost += max(0, number - self._numbers.get(key, number - 1) - 1)
+        self._numbers[key] = number
+
+    def _on_state(self, raw, node):
+        self.nodes[node].add_state(raw, STATE_HASHES[node](raw))
+
+    def _on_event(self, raw, node):
+        self.nodes[node].add_event(raw)
+
+    def _on_wind(self, raw, publisher):
+        self.winds[wind_hash_of(raw)] = raw
+        if publisher == 'wind_broadcaster':
+            self.winds_of_owner.append(wind_hash_of(raw))
+
+    def _on_layout(self, raw, publisher):
+        if publisher == 'forest_animator':
+            self.layouts[layout_hash_of(raw)] = raw
+
+    def _on_cover(self, raw, publisher):
+        if publisher == 'grass_field':
+            self.covers.append(raw)
+
+    def rival_messages(self, topic):
+        """Returns what a second publisher of a topic sends: an older message and then the newest."""
+        with self.lock:
+            if topic == 'wind':
+                owners = self.winds_of_owner
+                return [self.winds[owners[len(owners) // 2]], self.winds[owners[-1]]]
+            if topic == 'forest/layout':
+                return list(self.layouts.values())[-1:]
+            return []

@@ -1,0 +1,87 @@
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Watches the memory and the ticks of the nodes."""
+import threading
+import time
+
+import rospy
+
+from raw_messages import publisher_of, stamp_of
+from scene import NANOSECONDS, NODES, SIMULATIONS, TICKS
+
+PERIOD = 1.0     # [s] of wall time between two looks at the memory
+LONG_GAP = 0.15  # [s] of simulated time; shorter gaps are not kept
+
+
+class MemoryWatch(threading.Thread):
+    """Notes the resident memory of each node."""
+
+    def __init__(self, processes, clock):
+        super().__init__(daemon=True)
+        self.samples = {node: [] for node in NODES}  # time [s], process, memory [bytes]
+        self._processes, self._clock, self._ended = processes, clock, threading.Event()
+
+    def run(self):
+        while not self._ended.wait(PERIOD):
+            for node in NODES:
+                found = self._processes.memory(node)
+                if found:
+                    self.samples[node].append((self._clock.now,) + found)
+
+    def stop(self):
+        self._ended.set()
+        self.join()
+
+    def slope(self, node, begin):
+        """Returns slope [bytes/h of simulated time] and duration [s] of the last process of a node
+        after the time `begin`, by linear regression."""
+        last = self.samples[node][-1][1]
+        points = [(at, size) for at, process, size in self.samples[node]
+                  if process == last and at >= begin]
+        if len(points) < 3:
+            return 0.0, 0.0
+        mean_at = sum(at for at, _ in points) / len(points)
+        mean_size = sum(size for _, size in points) / len(points)
+        spread = sum((at - mean_at) ** 2 for at, _ in points)
+        rise = sum((at - mean_at) * (size - mean_size) for at, size in points)
+        return 3600.0 * rise / spread, points[-1][0] - points[0][0]
+
+
+class TickWatch:
+    """Notes the gaps between the stamps of the ticks of each node."""
+
+    def __init__(self):
+        self.newest = dict.fromkeys(NODES, 0.0)   # stamp [s]
+        self.arrival = dict.fromkeys(NODES, 0.0)  # of the newest [s] of wall time
+        self.gaps = {node: [] for node in NODES}  # gap [s], wall times of both ends, begin
+        self.count = dict.fromkeys(NODES, 0)
+        self._subscribers = [
+            rospy.Subscriber('/' + topic, rospy.AnyMsg, self._on_tick, node, tcp_nodelay=True)
+            for node, topic in TICKS.items()]
+
+    def connected(self):
+        return all(subscriber.get_num_connections() for subscriber in self._subscribers)
+
+    def _on_tick(self, message, node):
+        if publisher_of(message) != node:  # a second publisher, or a flood
+            return
+        stamp, now = stamp_of(message._buff) / NANOSECONDS, time.monotonic()
+        before, arrival = self.newest[node], self.arrival[node]
+        self.arrival[node] = now
+        if stamp <= before:
+            return
+        if before and stamp - before > LONG_GAP:
+            self.gaps[node].append((stamp - before, arrival, now, before))
+        self.newest[node] = stamp
+        self.count[node] += 1
+
+    def lag(self, now, excused):
+        """Returns by how much the slowest simulation is behind a time [s], but for excused ones."""
+        return max([now - self.newest[node] for node in SIMULATIONS
+                    if self.newest[node] and node not in excused], default=0.0)
+
+    def largest_gap(self, node, is_disturbed):
+        """Returns the largest gap [s] at a time at which the node was not disturbed, and its
+        begin [s]."""
+        return max([(gap, stamp) for gap, begin, end, stamp in self.gaps[node]
+                    if not is_disturbed(node, begin, end)], default=(0.0, 0.0))
