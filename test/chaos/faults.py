@@ -27,6 +27,7 @@ JITTER = 3.0, 10.0    # duration of a jitter, and of the time between two [s] of
 IN_TRANSIT = 0.4      # [s] of wall time after which all that a dead process sent has arrived
 SETTLED = 1.5         # [s] after a start; then the recorder has all connections
 IGNORED = 'Messages of other viewers'
+WARM_ROUNDS = 1       # of all faults after the last kill, before memory is measured
 PAUSES = 0.2, 1.5     # [s] of wall time between two faults
 
 
@@ -43,12 +44,18 @@ class Faults:
         self._topics, self._services = find_topics(), find_services()
 
     def run(self, until, kills_until):
-        """Injects faults until a time of the clock, and kills nodes until an earlier one."""
-        clock, deck = self._rig.clock, []
+        """Injects faults until a time of the clock, and kills nodes until an earlier one. Once
+        every other fault has met the processes that began last, their memory is measured: each
+        kind of flood needs its memory once."""
+        clock, deck, rounds = self._rig.clock, [], 0
         jitter = threading.Thread(target=self._jitter, args=(until,), daemon=True)
         jitter.start()
         while clock.now < until:
-            deck = deck or self._shuffled()
+            if not deck:
+                deck = self._shuffled()
+                rounds += clock.now >= kills_until
+                if rounds == WARM_ROUNDS + 1 and self.outcomes.warm_since is None:
+                    self.outcomes.warm_since = clock.now
             kind, target = deck.pop()
             if kind == self.kill and clock.now >= kills_until:
                 continue
