@@ -36,6 +36,18 @@ std::string endingOf(const std::string& name) {
   return ending;
 }
 
+/// Rejects text at which assimp does not end.
+void checkText(const std::string& name, const std::string& ending, const std::string& bytes) {
+  const std::size_t header = bytes.find("end_header");
+  if (ending == "ply" && header == std::string::npos)
+    throw InvalidInput(name + ": no mesh: the header has no line end_header");
+  const bool is_text =
+      ending == "obj" || ending == "dae" ||
+      (ending == "ply" && bytes.rfind("format ascii", header) != std::string::npos);
+  if (is_text && bytes.find('\0') != std::string::npos)
+    throw InvalidInput(name + ": no mesh: a byte of a text file is zero");
+}
+
 /// Removes the readers of other files: assimp tries them if the file's own reader rejects it.
 void keepReaderOf(const std::string& ending, Assimp::Importer& importer) {
   const Assimp::BaseImporter* own = importer.GetImporter(ending.c_str());
@@ -114,9 +126,7 @@ class Collector {
 canopy::LeafMesh loadMesh(const std::string& name, MeshAxes axes) {
   const std::string ending = endingOf(name);
   const std::string bytes = readFile(resolveFile(name), LARGEST_MESH_FILE);
-  // assimp searches for the end of the header without end.
-  if (bytes.compare(0, 3, "ply") == 0 && bytes.find("end_header") == std::string::npos)
-    throw InvalidInput(name + ": no mesh: the header has no line end_header");
+  checkText(name, ending, bytes);
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, axes == MeshAxes::KEPT);
   keepReaderOf(ending, importer);
