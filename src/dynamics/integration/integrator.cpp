@@ -125,10 +125,12 @@ int ChainStepper::partsOf(Integrator integrator, const std::vector<Link>& links,
                           const ChainState& state) {
   updateKinematics(links, outside, time, state);
   ChainRates rates = guardRates(dynamics_, links, kinematics_, loads_.anchors);
-  const int parts = subSteps(guardLimit(integrator, rates), h);
+  // The limits are those of small motion.
+  const double turning = GUARD_TURN / std::max(fastestOf(state), 1e-9);
+  const int parts = subSteps(std::min(guardLimit(integrator, rates), turning), h);
   if (parts == 1 || dynamics_ != Dynamics::ARTICULATED) return parts;
   rates = tighter(rates, estimatedRates(links, bases_, state, loads_.anchors));
-  return subSteps(guardLimit(integrator, rates), h);
+  return subSteps(std::min(guardLimit(integrator, rates), turning), h);
 }
 
 int ChainStepper::step(Integrator integrator, const std::vector<Link>& links,

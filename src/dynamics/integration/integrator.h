@@ -28,8 +28,8 @@ class ChainStepper {
 
   /// Takes one step of `h` seconds from `time`. `theta` belongs to the chain's state: 1/2 is the
   /// midpoint and 1 backward Euler, with values in between on the way back; only MIDPOINT changes
-  /// it. An explicit method runs in as many equal parts as its limit requires (guardLimit), and not
-  /// at all beyond MOST_SUB_STEPS.
+  /// it. An explicit method runs in as many equal parts as its limit requires (guardLimit), and as
+  /// its joints need to turn by at most GUARD_TURN in each, but not at all beyond MOST_SUB_STEPS.
   /// @return the number of parts, or 0 if the step was rejected and nothing has changed: use an
   /// implicit method.
   int step(Integrator integrator, const std::vector<Link>& links, const Surroundings& outside,

@@ -93,7 +93,8 @@ TEST_F(PlantFiles, TextWithAZeroByteIsRejected) {
   const std::string header =
       "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
       "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header";
-  for (const std::string text : {header + std::string("\1\0 0 0\n", 7), std::string("v \0 0", 5)}) {
+  for (const std::string& text :
+       {header + std::string("\1\0 0 0\n", 7), std::string("v \0 0", 5)}) {
     const std::string file = write(text[0] == 'p' ? "zero.ply" : "zero.obj", text);
     EXPECT_EQ(errorOf([&] { loadMesh(file, MeshAxes::TURNED); }),
               file + ": no mesh: a byte of a text file is zero");
