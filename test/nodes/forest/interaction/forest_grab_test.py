@@ -16,7 +16,7 @@ from vegetation_sim.msg import ForestEvent
 
 from forest_rig import RATE, TickClock, time_of
 from grab_rig import (LIMB, OTHER_LIMB, STIFFNESS, TREE, Hands, minus, plus, size, stamped, vector)
-from waiting import DEADLINE
+from waiting import DEADLINE, wait_for
 from watched_node import Log
 
 TF_BUDGET = 12
@@ -172,13 +172,22 @@ class ForestGrab(unittest.TestCase):
         before = self.hands.diagnostics()['Grabs ended by their lease']
         program = roslib.packages.find_node('vegetation_sim', 'scripted_gripper.py')[0]
         holder = subprocess.Popen([program, '__name:=gripper'])
+        frames = Log('/tf', TFMessage)
+
+        def is_moved():
+            return any(frame.child_frame_id == 'gripper' and
+                       frame.header.stamp >= time_of(self.clock.tick)
+                       for message in frames.messages[-20:] for frame in message.transforms)
         try:
             self.clock.run_until(lambda: self.hands.tree(TREE).grabs, 'a grab', self.hands)
-            self.hands.run(RATE)
+            for _ in range(RATE):
+                self.hands.run(1)
+                wait_for(is_moved, 'the frame of the gripper')
             self.assertEqual(len(self.hands.tree(TREE).grabs), 1)
         finally:
             holder.send_signal(signal.SIGKILL)
             holder.wait(DEADLINE)
+            frames.close()
         self.hands.run(RATE // 2)
         self.assertEqual(len(self.hands.tree(TREE).grabs), 1)
         self.hands.run(RATE)
