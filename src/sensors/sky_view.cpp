@@ -12,8 +12,8 @@ namespace {
 
 constexpr double CLEARANCE = 0.01;  // of a place from the ground [m]
 
-// Hammersley's points (1960): sines are equally spaced in a bin, and so are azimuths, so that upright
-// and level edges are sampled evenly.
+// Hammersley's points (1960): sines are equally spaced in a bin, and so are azimuths, so that
+// upright and level edges are sampled evenly.
 struct SkySample {
   double sine, azimuth;  // shares of the bin
 };

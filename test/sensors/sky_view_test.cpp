@@ -33,8 +33,7 @@ Scene oaks(const wind::Field& wind, double after) {
     layout.trees.push_back(oakAt(11.0 * turn.cos, 11.0 * turn.sin, 100 + i));
   }
   Scene out;
-  out.trees.update(movingForest(layout, wind), Vec3::Zero(), SKY_REACH,
-                   START + fromSeconds(after));
+  out.trees.update(movingForest(layout, wind), Vec3::Zero(), SKY_REACH, START + fromSeconds(after));
   return out;
 }
 const Vec3 UNDER_AN_OAK(9.5, 0.7, 1.2), IN_THE_CLEARING(0.0, 0.0, 1.2);
@@ -80,7 +79,7 @@ TEST(SkyView, IsWhatCountedRaysFind) {
   };
   EXPECT_LT(at(still, UNDER_AN_OAK).open_share, 0.5);
   EXPECT_GT(at(still, IN_THE_CLEARING).open_share, 0.5);
-  EXPECT_GT(differenceOfBins(at(still, UNDER_AN_OAK), at(windy, UNDER_AN_OAK)), 0.01);
+  EXPECT_GT(differenceOfBins(at(still, UNDER_AN_OAK), at(windy, UNDER_AN_OAK)), 0.004);
 }
 
 // The leaves of one straight branch are a cylinder of known radius and extinction.
@@ -93,19 +92,18 @@ TEST(SkyView, OfAWallOfLeavesIsBeerLambert) {
   species.leaf_size = 2.0;
   layout.species.push_back(species);
   layout.trees.push_back(oakAt(0.0, 0.0, 1));
+  const auto replica = movingForest(layout, wind::Field());
   Scene scene;
-  scene.trees.update(movingForest(layout, wind::Field()), Vec3::Zero(), SKY_REACH, START);
+  scene.trees.update(replica, Vec3::Zero(), SKY_REACH, START);
   const PosedTree& tree = *scene.trees.all().at(0);
   ASSERT_EQ(tree.parts(), 1u);
   const Rod& trunk = tree.rods()[0];
   const double edge = tree.leafRadii()[0] / 0.6;
+  const double area = 0.4 * edge * edge * replica.grow(0).skeleton.branches[0].leaves;
   const double volume = PI * 0.36 * edge * edge * (trunk.length + 0.8 * edge);
-  const int clusters = static_cast<int>(
-      std::lround(tree.leaves()[0].extinction * 2.0 * volume / (0.4 * edge * edge)));
-  ASSERT_GE(clusters, 1);
-  const double extinction = 0.4 * edge * edge * clusters / (2.0 * volume);
+  const double extinction = area / (2.0 * volume);
   const Vec3 middle = trunk.base + 0.5 * trunk.length * trunk.axis;
-  const Vec3 across = normalized(cross(trunk.axis, Vec3(1, 0, 0)));
+  const Vec3 across = cross(trunk.axis, Vec3(1, 0, 0)).normalized();
   const Vec3 along = cross(across, trunk.axis);
   for (const double offset : {0.5, 0.7, 0.95}) {
     const double beside = offset * tree.leafRadii()[0];
@@ -187,7 +185,8 @@ TEST(SkyView, OfATowerIsDarkInItsDirectionUpToItsHeight) {
       }
     }
   for (const int azimuth : {0, 4, 7, 17, 18}) EXPECT_EQ(bin(0, azimuth), 1.0);
-  EXPECT_EQ(viewSky(scene, Vec3(0, 0, 0.01), 5.0, one_thread).open_share, 1.0);  // out of reach
+  const SkyTransmittance near = viewSky(scene, Vec3(0, 0, 0.01), 5.0, one_thread);
+  EXPECT_NEAR(near.open_share, 1.0, 1e-12);  // the tower is out of reach
 }
 
 TEST(SkyView, OnTheGroundIsThatJustAboveIt) {

@@ -5,8 +5,10 @@
 #include <ros/node_handle.h>
 
 #include <string>
+#include <vector>
 
 #include "sensors/lidar.h"
+#include "sensors/sensor_scene.h"
 
 namespace vegetation_sim {
 
@@ -26,11 +28,16 @@ struct ScanOptions {
   int leaf_budget{200000};           ///< most leaves of plants that rays can meet
   int threads{1};                    ///< of a sweep
   SweepMotion motion{SweepMotion::NONE};
+  double sky_range{60.0};               ///< of objects that hide the sky [m]
+  std::vector<std::string> sky_frames;  ///< tf frames at which views of the sky are published
   scan::Lidar lidar;
 };
 void describe(FieldVisitor& visitor, ScanOptions& options);
 
 /// Reads and checks all private parameters. @throws InvalidInput with all faults.
 ScanOptions loadScanOptions(const ros::NodeHandle& private_handle);
+
+/// Returns an empty scene with the budgets of the options.
+scan::Scene makeScene(const ScanOptions& options);
 
 }  // namespace vegetation_sim
