@@ -63,7 +63,7 @@ ScanOptions loadScanOptions(const ros::NodeHandle& private_handle) {
   ScanOptions out;
   Parameters parameters(private_handle);
   parameters.frame("frame_id", out.frame_id);
-  parameters.frame("lidar_frame", out.lidar_frame);
+  parameters.frame("lidar_frame", out.lidar_frame, true);
   parameters.seed("seed", out.seed);
   parameters.frames("sky_frames", out.sky_frames, MOST_SKY_FRAMES);
   readPreset(parameters, out.lidar);

@@ -20,7 +20,7 @@ enum class SweepMotion { NONE, DESKEWED, RAW };
 /// Parameters of vegetation_scanner; see docs/reference.md.
 struct ScanOptions {
   std::string frame_id{"map"};       ///< world frame
-  std::string lidar_frame{"lidar"};  ///< tf frame of the sensor: x forward, z up
+  std::string lidar_frame{"lidar"};  ///< tf frame of the sensor: x forward, z up; empty: none
   std::uint64_t seed{0};             ///< of the noise
   double delay{0.1};                 ///< how far sweeps stay behind the clock [s]
   double tolerance{0.05};            ///< error that branches in range may have [m]

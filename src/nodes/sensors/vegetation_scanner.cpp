@@ -71,6 +71,7 @@ void VegetationScanner::tick(std::int64_t tick) {
 }
 
 void VegetationScanner::measure(std::int64_t tick) {
+  if (options_.lidar_frame.empty()) return;
   const bool wanted = cloud_publisher_.getNumSubscribers() > 0 ||
                       scan_publisher_.getNumSubscribers() > 0 ||
                       report_publisher_.getNumSubscribers() > 0;
