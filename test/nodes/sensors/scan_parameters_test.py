@@ -58,7 +58,7 @@ class ScanParameters(Ranges, RefusingNode):
                 (['/antenna'], "sky_frames has '/antenna', which is empty or begins with '/'"),
                 (['antenna', 'antenna'], "sky_frames has 'antenna' twice"),
                 (['a%d' % i for i in range(17)], 'sky_frames has 17 entries, allowed are 16')):
-            self.assertIn('~' * words.startswith('sky') + words, self.refusal({'sky_frames': frames}))
+            self.assertIn(words, self.refusal({'sky_frames': frames}))
 
     def test_bad_presets_are_rejected(self):
         refusal = self.refusal({'preset': 'vlp17'})
