@@ -26,7 +26,7 @@ class LightPath {
   /// Returns the share of light that passes: exp(-depth) (Beer-Lambert law).
   double transmittance() const { return isBlocked() ? 0.0 : exponential(-depth_); }
 
-  static constexpr double DARK = 20.0;  ///< optical depth; 2e-9 of the light is left
+  static constexpr double DARK = 10.0;  ///< optical depth; 5e-5 of the light is left
 
  private:
   static constexpr double BLOCKED = -1.0;
