@@ -122,6 +122,12 @@ class SkyViewTest(unittest.TestCase):
             self.assertLess(numpy.abs(bins_of(answer.views[view]) - bins_of(views[same])).max(), 1e-5)
         self.assertAlmostEqual(answer.views[1].open_share, 1.0, places=6)
 
+    def test_places_far_apart_have_views_of_their_own(self):
+        (near, _), _ = self.views(UNDER_THE_OAK, CLEARING)
+        (oak, far), _ = self.views(UNDER_THE_OAK, (400.0, 0.0, 1.2))
+        self.assertLess(numpy.abs(bins_of(near) - bins_of(oak)).mean(), 0.02)  # a tick of wind
+        self.assertAlmostEqual(far.open_share, 1.0, places=6)
+
     def test_bad_requests_are_rejected_by_name(self):
         nan = float('nan')
         for words, code, request in (
