@@ -3,9 +3,9 @@
 // Measures the cost of a sensor: rays into bare wood, trees with leaves, a lawn, a hay meadow and
 // people, "before" through binary trees of boxes and every cell of grass, "after" through wide
 // trees and the likely cells; sweeps with several threads, and instruction sets, shrubs included;
-// and the update of the scene to a stamp. Rays and updates in processor time of one thread, sweeps
-// and the update of the trees with two threads in wall time.
-// usage: scan_bench [ROUNDS] [--quick] [--part rays,sets,sweeps,update]
+// the update of the scene to a stamp; and views of the sky. Rays, updates and views in processor
+// time of one thread, sweeps and the update of the trees with two threads in wall time.
+// usage: scan_bench [ROUNDS] [--quick] [--part rays,sets,sweeps,update,sky]
 
 #include <cstdio>
 
@@ -15,6 +15,7 @@
 #include "reference/sensors/binary_scene.h"
 #include "scenes/sensors/grove_scene.h"
 #include "scenes/sensors/lidar_scene.h"
+#include "sensors/sky_view.h"
 #include "sensors/sweep.h"
 #include "vegetation_sim/core/config/instruction_set.h"
 
@@ -154,6 +155,18 @@ void benchUpdate(const forest::ForestReplica& forest, const Lawn& lawn, Grove& g
               1e3 * parallel[1].least);
 }
 
+void benchSky(const std::vector<View>& views, int rounds) {
+  std::printf("\n%-22s %12s %12s\n", "view of the sky", "a place", "open share");
+  ThreadPool one(1);
+  for (const View& view : views) {
+    double open = 0.0;
+    std::vector<bench::Candidate> candidates{
+        {"sky", [&] { open = viewSky(*view.scene, view.sensor, REACH, one).open_share; }}};
+    bench::timeOnProcessor(candidates, rounds);
+    std::printf("%-22s %9.2f ms %12.3f\n", view.name, 1e3 * candidates[0].seconds, open);
+  }
+}
+
 /// All scenes of the bench.
 class Scenes {
  public:
@@ -232,6 +245,7 @@ void run(const bench::Options& options) {
   if (options.wants("sweeps")) benchSweeps(scenes.views(), lidars, std::min(options.rounds, 5));
   if (options.wants("update"))
     benchUpdate(scenes.forest(), scenes.lawn(), scenes.grove(), options.rounds);
+  if (options.wants("sky")) benchSky(scenes.views(), options.rounds);
 }
 
 }  // namespace
@@ -239,8 +253,8 @@ void run(const bench::Options& options) {
 
 int main(int argc, char** argv) {
   try {
-    vegetation_sim::scan::run(
-        vegetation_sim::bench::readOptions(argc, argv, {"rays", "sets", "sweeps", "update"}));
+    vegetation_sim::scan::run(vegetation_sim::bench::readOptions(
+        argc, argv, {"rays", "sets", "sweeps", "update", "sky"}));
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "scan_bench: %s\n", error.what());

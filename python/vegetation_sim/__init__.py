@@ -8,6 +8,8 @@ from vegetation_sim.grass import Grass
 from vegetation_sim.recording import Recording
 from vegetation_sim.scene import Scene
 from vegetation_sim.simulation import Simulation
+from vegetation_sim.sky import Sky
 from vegetation_sim.wind import Wind
 
-__all__ = ['Crowd', 'Forest', 'Grass', 'Hold', 'Recording', 'Scene', 'Simulation', 'VegetationError', 'Wind']
+__all__ = ['Crowd', 'Forest', 'Grass', 'Hold', 'Recording', 'Scene', 'Simulation', 'Sky', 'VegetationError',
+           'Wind']

@@ -164,22 +164,33 @@ double GrassVolume::extinctionAt(const Vec3& place, double height, const Vec3& d
   return shares > 0.0 ? here.density * sum / shares : 0.0;
 }
 
-// Enters the layer of the grass, marches through it, and may enter it again.
-void GrassVolume::meet(const Ray& ray, Hit& nearest, Cells cells) const {
+// Enters the layer of the grass, marches through it, and may enter it again. @param march returns
+// where the ray leaves the layer; it may reduce the distance of the end.
+template <class March>
+void GrassVolume::visitLayer(const Ray& ray, const Hit& end, March&& march) const {
   if (!tread_) return;
   double from = 0.0;
-  while (from < nearest.distance) {
+  while (from < end.distance) {
     const Vec3 top = ray.at(from) - Vec3(0.0, 0.0, tallest_);
     if (above(top) > 0.0) {
       Vec3 entry;
-      const double left = std::min(nearest.distance - from, 1e4);
+      const double left = std::min(end.distance - from, 1e4);
       if (!terrain::meetGround(*terrain_, top, ray.direction, left, entry)) return;
       from += length(entry - top);
     }
-    from = (cells == Cells::LIKELY ? march<true>(ray, from, nearest)
-                                   : march<false>(ray, from, nearest)) +
-           GRASS_CELL;
+    from = march(from) + GRASS_CELL;
   }
+}
+
+void GrassVolume::meet(const Ray& ray, Hit& nearest, Cells cells) const {
+  visitLayer(ray, nearest, [&](double from) {
+    return cells == Cells::LIKELY ? march<true>(ray, from, nearest)
+                                  : march<false>(ray, from, nearest);
+  });
+}
+
+void GrassVolume::addDepth(const Ray& ray, LightPath& path) const {
+  visitLayer(ray, path.end(), [&](double from) { return marchLight(ray, from, path); });
 }
 
 // Returns the distance at which the ray leaves the layer or hits a blade.
@@ -202,6 +213,20 @@ double GrassVolume::march(const Ray& ray, double from, Hit& nearest) const {
     if (!(start + way < to)) continue;
     nearest = {start + way, Label::GRASS, 0, -1, MEAN_COSINE};
     return nearest.distance;
+  }
+  return from;
+}
+
+// Returns the distance at which the light leaves the layer or ends.
+double GrassVolume::marchLight(const Ray& ray, double from, LightPath& path) const {
+  Walk walk(ray, from, GRASS_CELL);
+  for (; from < path.end().distance; walk.advance()) {
+    const double start = from, to = std::min(walk.end(), path.end().distance);
+    from = to;
+    const Vec3 middle = ray.at(0.5 * (start + to));
+    const double height = above(middle);
+    if (height > tallest_) return start;
+    path.add(extinctionAt(middle, height, ray.direction) * (to - start));
   }
   return from;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "grass/lod/node_wind.h"
+#include "sensors/geometry/light_path.h"
 #include "sensors/geometry/ray.h"
 #include "sensors/grass_bounds.h"
 #include "vegetation_sim/grass/grass_layout.h"
@@ -29,6 +30,9 @@ class GrassVolume {
   enum class Cells { LIKELY, ALL };
   void meet(const Ray& ray, Hit& nearest, Cells cells = Cells::LIKELY) const;
 
+  /// Adds the optical depth of the grass to a path of light.
+  void addDepth(const Ray& ray, LightPath& path) const;
+
   const GrassBounds& bounds() const { return bounds_; }
   /// Returns the extinction of a ray of this direction at a world place [1/m].
   double extinction(const Vec3& place, const Vec3& direction) const;
@@ -42,8 +46,11 @@ class GrassVolume {
   double topAt(double x, double y) const;
   double extinctionAt(const Vec3& place, double height, const Vec3& direction) const;
   Vec3 airAt(double x, double y) const;
+  template <class March>
+  void visitLayer(const Ray& ray, const Hit& end, March&& march) const;
   template <bool LIKELY>
   double march(const Ray& ray, double from, Hit& nearest) const;
+  double marchLight(const Ray& ray, double from, LightPath& path) const;
 
   grass::Layout layout_;
   std::vector<Kind> kinds_;

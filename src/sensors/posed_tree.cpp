@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sensors/posed_tree.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "sensors/geometry/beer_lambert.h"
@@ -106,6 +107,21 @@ bool PosedTree::meetLeaves(std::size_t branch, const Ray& ray, Hit& nearest) con
   if (!(part.from + way < to)) return false;
   nearest = {part.from + way, Label::LEAF, id_, static_cast<int>(branch), LEAF_COSINE};
   return true;
+}
+
+void PosedTree::addDepth(const Ray& ray, const FloatRay& narrow, LightPath& path) const {
+  rod_tree_.visit(ray, narrow, path.end(),
+                  [&](std::size_t branch) { addBranchDepth(branch, ray, path); });
+}
+
+void PosedTree::addBranchDepth(std::size_t branch, const Ray& ray, LightPath& path) const {
+  if (path.isBlocked()) return;
+  Meeting meeting;
+  if (scan::meet(ray, rods_[branch], path.end().distance, meeting)) return path.block();
+  if (!(leaf_radii_[branch] > 0.0)) return;
+  const Stretch part = within(ray, rods_[branch], leaf_radii_[branch]);
+  const double way = std::min(part.to, path.end().distance) - part.from;
+  if (way > 0.0) path.add(leaves_[branch].extinction * way);
 }
 
 }  // namespace vegetation_sim::scan

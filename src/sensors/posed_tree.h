@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "sensors/geometry/light_path.h"
 #include "sensors/geometry/ranked_hit.h"
 #include "sensors/geometry/rod_tree.h"
 #include "vegetation_sim/forest/forest_replica.h"
@@ -48,6 +49,11 @@ class PosedTree {
   /// Does the same without ranks for one branch and its leaves; returns whether there is a nearer
   /// hit.
   bool meetBranch(std::size_t branch, const Ray& ray, Hit& nearest) const;
+
+  /// Adds the optical depth of the leaves up to the end of the path, or blocks it if there is wood.
+  void addDepth(const Ray& ray, const FloatRay& narrow, LightPath& path) const;
+  /// Does the same for one branch and its leaves.
+  void addBranchDepth(std::size_t branch, const Ray& ray, LightPath& path) const;
 
  private:
   void addLeaves(const forest::Species& species);

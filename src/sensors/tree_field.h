@@ -35,6 +35,11 @@ class Trees {
   }
   void meet(const Ray& ray, Hit& nearest) const { meet(ray, FloatRay(ray), nearest); }
 
+  /// Adds the optical depth of leaves to a path of light, or blocks it if there is wood.
+  void addDepth(const Ray& ray, const FloatRay& narrow, LightPath& path) const {
+    trees_.addDepth(ray, narrow, path);
+  }
+
   const std::vector<std::shared_ptr<PosedTree>>& all() const { return trees_.all(); }
   std::size_t branches() const { return branches_; }
   /// Returns the number of trees that exceeded the limit in the last update().

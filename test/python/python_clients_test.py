@@ -14,8 +14,8 @@ import rostest
 from geometry_msgs.msg import TransformStamped
 from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
-from vegetation_sim import Crowd, Forest, Grass, VegetationError, Wind
-from vegetation_sim.msg import AgentStates, ErrorCode, GrabStatus
+from vegetation_sim import Crowd, Forest, Grass, Sky, VegetationError, Wind
+from vegetation_sim.msg import AgentStates, ErrorCode, GrabStatus, SkyView
 
 TREE, LIMB = 0, 46
 DEADLINE = 60.0  # [s]
@@ -52,6 +52,7 @@ class PythonClients(unittest.TestCase):
         cls.frames = rospy.Publisher('/tf_static', TFMessage, queue_size=1, latch=True)
         cls.frames.publish([gripper])
         cls.forest, cls.wind, cls.grass, cls.crowd = Forest(), Wind(), Grass(), Crowd()
+        cls.sky = Sky()
 
     def held(self):
         return {status.grab.id for status in self.forest.grabs().held}
@@ -120,6 +121,9 @@ class PythonClients(unittest.TestCase):
             (lambda: self.crowd.spawn((0, 0), count=0), 'count = 0 is outside'),
             (lambda: self.crowd.send([9999], (0, 0)), 'walker 9999 is unknown',
              ErrorCode.UNKNOWN),
+            (lambda: self.sky.at(), 'points and frames have 0 entries'),
+            (lambda: self.sky.of('nowhere'), "frames[0]: frame_id = 'nowhere'",
+             ErrorCode.NO_TRANSFORM),
         ]
         for call, text, *code in cases:
             with self.subTest(text=text):
@@ -168,6 +172,23 @@ class PythonClients(unittest.TestCase):
                 return False
         wait_for(known, 'the walkers')
         self.crowd.remove(ids)
+
+    def test_the_sky_is_open_above_a_tree_and_not_beside_its_trunk(self):
+        wait_for(lambda: self.sky.at((0.5, 0.2, 1))[0].sky_view_factor < 0.8, 'the tree')
+        under, above = self.sky.at((0.5, 0.2, 1), (0, 0, 40))
+        self.assertAlmostEqual(above.sky_view_factor, 1.0, places=5)
+        self.assertLess(under.open_share, 0.9)
+        at = self.sky.of('gripper')[0].position
+        self.assertEqual((at.x, at.y, at.z), (-0.6, -0.8, 2.8))
+
+    def test_a_direction_is_that_of_its_bin(self):
+        view = SkyView(transmittance=list(range(216)))
+        for elevation, azimuth, bin in ((0.0, 0.0, 0), (0.01, -0.01, 23), (0.2, 7.0, 26),
+                                        (math.pi / 2, math.pi, 204)):
+            self.assertEqual(Sky.transmittance(view, elevation, azimuth), bin)
+        for elevation, azimuth in ((-0.1, 0.0), (1.6, 0.0), (math.nan, 0.0), (0.5, math.inf)):
+            with self.assertRaises(ValueError):
+                Sky.transmittance(view, elevation, azimuth)
 
     def reset(self, node):
         answer = rospy.ServiceProxy(node + '/reset', Trigger)()

@@ -18,10 +18,13 @@ void describe(FieldVisitor& v, ScanOptions& o) {
   v.integer("leaf_budget", o.leaf_budget, "", {1000, 3000000});
   v.integer("threads", o.threads, "", {1, 64});
   v.choice("motion", o.motion, {"none", "deskewed", "raw"});
+  v.number("sky_range", o.sky_range, "m", {1.0, 500.0});
   describe(v, o.lidar);
 }
 
 namespace {
+
+constexpr std::size_t MOST_SKY_FRAMES = 16;
 
 // Returns the names of the presets, with commas.
 std::string namesOfPresets(const std::string& folder) {
@@ -60,12 +63,20 @@ ScanOptions loadScanOptions(const ros::NodeHandle& private_handle) {
   ScanOptions out;
   Parameters parameters(private_handle);
   parameters.frame("frame_id", out.frame_id);
-  parameters.frame("lidar_frame", out.lidar_frame);
+  parameters.frame("lidar_frame", out.lidar_frame, true);
   parameters.seed("seed", out.seed);
+  parameters.frames("sky_frames", out.sky_frames, MOST_SKY_FRAMES);
   readPreset(parameters, out.lidar);
   describe(parameters, out);
   scan::check(out.lidar, private_handle.getNamespace() + "/", parameters.faults());
   parameters.finish();
+  return out;
+}
+
+scan::Scene makeScene(const ScanOptions& options) {
+  scan::Scene out;
+  out.trees = scan::Trees(static_cast<std::size_t>(options.branch_budget));
+  out.plants = scan::Plants(static_cast<std::size_t>(options.leaf_budget));
   return out;
 }
 

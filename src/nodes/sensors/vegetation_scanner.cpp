@@ -31,6 +31,9 @@ VegetationScanner::VegetationScanner(const ros::NodeHandle& handle,
                   }}),
       threads_(
           std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, options_.threads)),
+      sky_of_frames_(options_, landscape_, threads_,
+                     std::max<std::size_t>(options_.sky_frames.size(), 1)),
+      sky_of_requests_(options_, landscape_, threads_, 1),
       tf_buffer_(ros::Duration(tf2::BufferCore::DEFAULT_CACHE_TIME),
                  true),  // with the service that shows its frames
       tf_listener_(tf_buffer_),
@@ -40,14 +43,16 @@ VegetationScanner::VegetationScanner(const ros::NodeHandle& handle,
               [this](Nanoseconds now) { acceptInput("clock", [&] { restart(now); }); }},
              LateTicks::NEWEST) {
   restartScene();
-  interest_publisher_ = handle_.advertise<SensorInterest>("forest/sensors", 10);
+  interest_publisher_ = handle_.advertise<SensorInterest>("forest/sensors", 40);
   cloud_publisher_ = handle_.advertise<sensor_msgs::PointCloud2>("lidar/points", 10);
   scan_publisher_ = handle_.advertise<sensor_msgs::LaserScan>("lidar/scan", 10);
   report_publisher_ = handle_.advertise<ScanReport>("lidar/report", 10);
+  sky_publisher_ = handle_.advertise<SkyViews>("sky_view", 10);
   diagnostics_.add("scan", this, &VegetationScanner::diagnose);
   // The callbacks of a nodelet may start from here on.
   landscape_.subscribe(handle_);
   serve("reset", &VegetationScanner::onReset);
+  serve("sky_view", &VegetationScanner::onSkyView);
   startDiagnostics();
   clock_.listen(handle_);
 }
@@ -60,10 +65,16 @@ VegetationScanner::~VegetationScanner() {
 void VegetationScanner::tick(std::int64_t tick) {
   openServices();
   landscape_.advance(clock_.stamp());
+  missing_.clear();
+  measure(tick);
+  viewSky();
+}
+
+void VegetationScanner::measure(std::int64_t tick) {
+  if (options_.lidar_frame.empty()) return;
   const bool wanted = cloud_publisher_.getNumSubscribers() > 0 ||
                       scan_publisher_.getNumSubscribers() > 0 ||
                       report_publisher_.getNumSubscribers() > 0;
-  missing_.clear();
   std::optional<scan::SensorPath> path;
   try {
     path = findPath();
@@ -72,7 +83,7 @@ void VegetationScanner::tick(std::int64_t tick) {
     missing_.add(describeMissingTransform(options_.lidar_frame, options_.frame_id));
     return;
   }
-  announce(path->at(turn()));
+  announce("", path->at(turn()).position, options_.lidar.beams.range_max);
   if (!wanted) return;
   const ros::WallTime start = ros::WallTime::now();
   sweep(*path, tick);
@@ -95,10 +106,10 @@ scan::SensorPath VegetationScanner::findPath() const {
 }
 
 // Announces the sensor whether or not anybody listens to it, so that listening changes nothing.
-void VegetationScanner::announce(const Pose& sensor) {
-  SensorInterest message = toMsg(forest::Sensor{
-      private_handle_.getNamespace(), sensor.position, options_.lidar.beams.range_max,
-      options_.tolerance, clock_.stamp() + fromSeconds(options_.delay + ANNOUNCED_AHEAD)});
+void VegetationScanner::announce(const std::string& id, const Vec3& place, double range) {
+  SensorInterest message =
+      toMsg(forest::Sensor{private_handle_.getNamespace() + id, place, range, options_.tolerance,
+                           clock_.stamp() + fromSeconds(options_.delay + ANNOUNCED_AHEAD)});
   message.header.frame_id = options_.frame_id;
   interest_publisher_.publish(message);
 }
@@ -139,9 +150,9 @@ std_msgs::Header VegetationScanner::header() const {
 }
 
 void VegetationScanner::restartScene() {
-  scene_ = scan::Scene();
-  scene_.trees = scan::Trees(static_cast<std::size_t>(options_.branch_budget));
-  scene_.plants = scan::Plants(static_cast<std::size_t>(options_.leaf_budget));
+  scene_ = makeScene(options_);
+  sky_of_frames_.clear();
+  sky_of_requests_.clear();
 }
 
 void VegetationScanner::restart(Nanoseconds now) {
@@ -172,6 +183,8 @@ void VegetationScanner::reportProblem(Status& status) {
   warnOfClock(status, counts_.clock, reported_.clock);
   warnOfMore(status, scene_.trees.leftOut(), 0, "trees in range left out because of branch_budget");
   warnOfMore(status, scene_.plants.leftOut(), 0, "plants in range left out because of leaf_budget");
+  warnOfMore(status, sky_of_frames_.leftOut(), 0,
+             "trees and plants left out of views of the sky because of a budget");
   if (const std::string why = landscape_.why(); !why.empty())
     status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, "waiting for a key frame: " + why);
   if (const std::string rivals = landscape_.rivals(); !rivals.empty())
@@ -189,6 +202,8 @@ void VegetationScanner::diagnose(Status& status) {
   status.add("Sweeps without a place", counts_.unplaced);
   status.add("Points", points_);
   status.add("Wall time of a sweep [ms]", 1e3 * cost_);
+  status.add("Views of the sky", counts_.views);
+  status.add("Wall time of the views of the sky [ms]", 1e3 * sky_cost_);
   status.add("Trees", scene_.trees.all().size());
   status.add("Branches", scene_.trees.branches());
   status.add("Trees left out", scene_.trees.leftOut());

@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/conversions/scan_conversions.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstring>
 #include <numeric>
+
+#include "vegetation_sim/ros/conversions/geometry_conversions.h"
 
 namespace vegetation_sim {
 namespace {
@@ -110,6 +113,21 @@ ScanReport toReport(const std::vector<scan::Return>& returns, int per_ray,
   out.plants = static_cast<std::uint32_t>(scene.plants.all().size());
   out.leaves = static_cast<std::uint32_t>(scene.plants.leaves());
   out.plants_left_out = static_cast<std::uint32_t>(scene.plants.leftOut());
+  return out;
+}
+
+SkyView toSkyView(const scan::SkyTransmittance& sky, const Vec3& place, const scan::Scene& scene) {
+  SkyView out;
+  static_assert(SkyView::ELEVATIONS == scan::SKY_ELEVATIONS &&
+                    SkyView::AZIMUTHS == scan::SKY_AZIMUTHS &&
+                    decltype(out.transmittance)::static_size == scan::SKY_BINS,
+                "SkyView.msg");
+  out.position = toPoint(place);
+  std::transform(sky.bins.begin(), sky.bins.end(), out.transmittance.begin(),
+                 [](double bin) { return static_cast<float>(bin); });
+  out.open_share = static_cast<float>(sky.open_share);
+  out.sky_view_factor = static_cast<float>(sky.sky_view_factor);
+  out.left_out = static_cast<std::uint32_t>(scene.trees.leftOut() + scene.plants.leftOut());
   return out;
 }
 

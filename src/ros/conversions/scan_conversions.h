@@ -5,9 +5,11 @@
 #include <sensor_msgs/LaserScan.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <vegetation_sim/ScanReport.h>
+#include <vegetation_sim/SkyView.h>
 
 #include <vector>
 
+#include "sensors/sky_view.h"
 #include "sensors/sweep.h"
 
 namespace vegetation_sim {
@@ -41,5 +43,8 @@ sensor_msgs::LaserScan toScan(const std::vector<scan::Return>& returns, const sc
 /// @param per_ray returns of each ray.
 ScanReport toReport(const std::vector<scan::Return>& returns, int per_ray,
                     const scan::Scene& scene);
+
+/// Left to the caller: the name of the frame.
+SkyView toSkyView(const scan::SkyTransmittance& sky, const Vec3& place, const scan::Scene& scene);
 
 }  // namespace vegetation_sim

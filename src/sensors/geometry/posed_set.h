@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "sensors/geometry/light_path.h"
 #include "sensors/geometry/ranked_hit.h"
 #include "sensors/geometry/wide_walk.h"
 
@@ -51,19 +52,31 @@ class PosedSet {
   /// Replaces `nearest` by a nearer hit. Of hits at equal distances that on the plant that comes
   /// first counts, there that on the part that comes first.
   void meet(const Ray& ray, const FloatRay& narrow, Hit& nearest) const {
-    if (plants_.empty()) return;
     RankedHit ranked(nearest);
-    WideWalk walk(boxes_, ray, narrow, nearest.distance);
-    for (int group = nextGroup(walk); group >= 0; group = nextGroup(walk)) {
-      const std::size_t plant = itemOf(group);
+    visit(ray, narrow, nearest, [&](std::size_t plant) {
       plants_[plant]->meet(ray, narrow, first_ranks_[plant], ranked);
-      walk.limit = limitOf(nearest.distance);
-    }
+    });
+  }
+  /// Adds the optical depth of all plants. Requires Plant::addDepth().
+  void addDepth(const Ray& ray, const FloatRay& narrow, LightPath& path) const {
+    visit(ray, narrow, path.end(),
+          [&](std::size_t plant) { plants_[plant]->addDepth(ray, narrow, path); });
   }
 
   const std::vector<Pointer>& all() const { return plants_; }
 
  private:
+  /// Calls visit(plant), which may reduce `nearest`, for each plant that a ray may hit; near ones
+  /// first.
+  template <class Visit>
+  void visit(const Ray& ray, const FloatRay& narrow, const Hit& nearest, Visit&& visit) const {
+    if (plants_.empty()) return;
+    WideWalk walk(boxes_, ray, narrow, nearest.distance);
+    for (int group = nextGroup(walk); group >= 0; group = nextGroup(walk)) {
+      visit(itemOf(group));
+      walk.limit = limitOf(nearest.distance);
+    }
+  }
   std::size_t itemOf(int group) const { return static_cast<std::size_t>(boxes_.item(group, 0)); }
 
   std::vector<Pointer> plants_;

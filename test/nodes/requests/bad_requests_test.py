@@ -93,6 +93,9 @@ REQUESTS = {
     '/agent_crowd/spawn': [
         (srv.SpawnAgentsRequest(like=WALKER, count=2, spread=1.0),
          'header.seq', 'like.position.z', 'like.goal.z')],
+    '/vegetation_scanner/sky_view': [
+        (srv.GetSkyViewRequest(points=[PLACE.point], frames=['hand']),
+         'header.seq', 'header.stamp')],
     '/wind_broadcaster/remove_primitive': [(srv.RemoveWindPrimitiveRequest(name='breeze'),)],
     '/wind_broadcaster/sample': [
         (srv.SampleWindRequest(positions=[PLACE.point], stamps=[rospy.Time()]),
@@ -130,7 +133,8 @@ def changed(message, path, value):
 
 
 class BadRequests(unittest.TestCase):
-    NODES = 'wind_broadcaster', 'forest_animator', 'grass_field', 'canopy_animator', 'agent_crowd'
+    NODES = ('wind_broadcaster', 'forest_animator', 'grass_field', 'canopy_animator', 'agent_crowd',
+             'vegetation_scanner')
 
     @classmethod
     def setUpClass(cls):
@@ -153,6 +157,8 @@ class BadRequests(unittest.TestCase):
 
     def snapshot(self, service):
         node = service.split('/')[1]
+        if node == 'vegetation_scanner':
+            return None  # It has no state of its own.
         answer = self.call('/%s/save_snapshot' % node, srv.SaveSnapshotRequest(name='probe'))
         self.assertTrue(answer.success, answer.message)
         with open(answer.file, 'rb') as file:
@@ -210,6 +216,13 @@ class BadRequests(unittest.TestCase):
             (ErrorCode.UNKNOWN, '/forest_animator/get_tree', srv.GetTreeRequest(tree=99)),
             (ErrorCode.NO_TRANSFORM, '/grass_field/sample', srv.SampleGrassRequest(
                 header=Header(frame_id='nowhere'), points=[PLACE.point])),
+            (ErrorCode.INVALID_VALUE, '/vegetation_scanner/sky_view', srv.GetSkyViewRequest()),
+            (ErrorCode.INVALID_VALUE, '/vegetation_scanner/sky_view',
+             srv.GetSkyViewRequest(points=[PLACE.point] * 64, frames=['hand'])),
+            (ErrorCode.NO_TRANSFORM, '/vegetation_scanner/sky_view',
+             srv.GetSkyViewRequest(frames=['hand', 'nowhere'])),
+            (ErrorCode.NOT_AVAILABLE, '/vegetation_scanner/sky_view', srv.GetSkyViewRequest(
+                header=Header(stamp=rospy.Time(1)), points=[PLACE.point])),
             (ErrorCode.NO_ROOM, '/grass_field/tread',
              srv.TreadRequest(points=[Point(-9.0, 0.0, 0.0), Point(9.0, 0.0, 0.0)] * 4000, law=LAW)),
             (ErrorCode.NOT_AVAILABLE, '/grass_field/sample', srv.SampleGrassRequest(

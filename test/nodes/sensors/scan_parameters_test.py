@@ -19,13 +19,13 @@ NUMBERS = {
     'tolerance': (' m', 0.0001, 10), 'noise_proportional': ('', 0, 0.1), 'dropout': ('', 0, 1),
     'detection_range': (' m', 0, 1000), 'fog_visibility': (' m', 0, 100000),
     'rain_rate': (' mm/h', 0, 200), 'rain_returns': ('', 0, 10), 'divergence': (' rad', 0, 0.1),
-    'return_separation': (' m', 0, 10),
+    'return_separation': (' m', 0, 10), 'sky_range': (' m', 1, 500),
 }
 WHOLE_NUMBERS = {
     'rate': (' Hz', 1, 100), 'branch_budget': ('', 1000, 20000000), 'threads': ('', 1, 64), 'leaf_budget': ('', 1000, 3000000),
     'rings': ('', 1, 512), 'columns': ('', 1, 14400), 'samples': ('', 1, 37),
 }
-OTHERS = {'frame_id', 'lidar_frame', 'seed', 'preset', 'returns', 'motion'}
+OTHERS = {'frame_id', 'lidar_frame', 'seed', 'preset', 'returns', 'motion', 'sky_frames'}
 
 
 class ScanParameters(Ranges, RefusingNode):
@@ -50,6 +50,15 @@ class ScanParameters(Ranges, RefusingNode):
         self.assertIn("~returns = 'first' is none of strongest, last, both", refusal)
         self.assertIn("~motion = 'smooth' is none of none, deskewed, raw", refusal)
         self.assertIn('~samples = 5 is none of 1, 7, 19, 37', refusal)
+
+    def test_bad_frames_of_the_sky_are_rejected(self):
+        for frames, words in (
+                ('antenna', 'sky_frames = antenna is not a list of frames'),
+                (['antenna', 3], 'is not a list of frames'),
+                (['/antenna'], "sky_frames has '/antenna', which is empty or begins with '/'"),
+                (['antenna', 'antenna'], "sky_frames has 'antenna' twice"),
+                (['a%d' % i for i in range(17)], 'sky_frames has 17 entries, allowed are 16')):
+            self.assertIn(words, self.refusal({'sky_frames': frames}))
 
     def test_bad_presets_are_rejected(self):
         refusal = self.refusal({'preset': 'vlp17'})

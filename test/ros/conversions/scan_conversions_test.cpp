@@ -143,5 +143,19 @@ TEST(ScanConversions, APlanarScanOfASensorThatMovesHasTheTimeBetweenItsRays) {
   EXPECT_EQ(toScan(returns, beams, 0.0).time_increment, 0.f);
 }
 
+TEST(ScanConversions, AViewOfTheSkyHasItsBinsInOrder) {
+  scan::SkyTransmittance sky;
+  for (std::size_t bin = 0; bin < scan::SKY_BINS; ++bin) sky.bins[bin] = 0.001 * double(bin);
+  sky.open_share = 0.25;
+  sky.sky_view_factor = 0.5;
+  const SkyView view = toSkyView(sky, Vec3(1.0, 2.0, 3.0), scan::Scene());
+  for (std::size_t bin = 0; bin < scan::SKY_BINS; ++bin)
+    EXPECT_EQ(view.transmittance[bin], static_cast<float>(sky.bins[bin]));
+  EXPECT_EQ(view.open_share, 0.25f);
+  EXPECT_EQ(view.sky_view_factor, 0.5f);
+  EXPECT_EQ(view.position.z, 3.0);
+  EXPECT_EQ(view.left_out, 0u);
+}
+
 }  // namespace
 }  // namespace vegetation_sim

@@ -1,0 +1,37 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "sensors/geometry/ray.h"
+#include "vegetation_sim/core/math/math.h"
+
+namespace vegetation_sim::scan {
+
+/// Light on its way along a ray through media, up to an end.
+class LightPath {
+ public:
+  /// @param reach distance of the end [m].
+  explicit LightPath(double reach) { end_.distance = reach; }
+
+  /// Adds the optical depth of a medium. Light that is left at DARK counts as blocked.
+  void add(double depth) {
+    depth_ += depth;
+    if (depth_ > DARK) block();
+  }
+  void block() { end_.distance = BLOCKED; }
+  bool isBlocked() const { return end_.distance < 0.0; }
+  /// Returns the end of the ray, which is behind its origin once the light is blocked, so that a
+  /// search for nearer objects ends.
+  const Hit& end() const { return end_; }
+  /// Returns the share of light that passes: exp(-depth) (Beer-Lambert law).
+  double transmittance() const { return isBlocked() ? 0.0 : exponential(-depth_); }
+
+  static constexpr double DARK = 10.0;  ///< optical depth; 5e-5 of the light is left
+
+ private:
+  static constexpr double BLOCKED = -1.0;
+  Hit end_;
+  double depth_{0.0};
+};
+
+}  // namespace vegetation_sim::scan
