@@ -13,10 +13,10 @@ from diagnosis import warns_of
 from floods import find_services, find_topics, flood_service, flood_topic
 from journal import read_journal
 from outcomes import Outcomes
-from processes import wait_until
 from raw_messages import class_of_bytes, make_raw
 from scene import FOLLOWERS, NODES, OWNED, SIMULATIONS
 from surges import flood_queue
+from waiting import wait_for
 
 STOPS = 1.0, 3.0      # [s] of wall time
 LOSS = 4.0            # duration without frames of the robot [s] of wall time
@@ -100,9 +100,9 @@ class Faults:
         if node in SIMULATIONS:
             with rig.recording.lock:
                 rig.recording.nodes[node].end_process(*read_journal(rig.folder, node))
-        wait_until(lambda: rig.processes.find(node), 'the start of ' + node)
+        wait_for(lambda: rig.processes.find(node), 'the start of ' + node)
         begun = time.monotonic()
-        wait_until(lambda: rig.ticks.arrival[node] > max(since, begun), 'the ticks of ' + node)
+        wait_for(lambda: rig.ticks.arrival[node] > max(since, begun), 'the ticks of ' + node)
         self._expect_start(node, before, begun)
         pause(SETTLED)
         self._take_journal(node)
@@ -142,7 +142,7 @@ class Faults:
         scanner = rig.processes.begin('vegetation_scanner')  # it publishes nothing without a pose
         rig.robot.lost = True
         begin = rig.clock.now
-        wait_until(lambda: rig.clock.now >= begin + STALE, 'the frames to become stale')
+        wait_for(lambda: rig.clock.now >= begin + STALE, 'the frames to become stale')
         since = time.monotonic()
         pause(LOSS)
         rig.robot.lost = False
@@ -153,7 +153,7 @@ class Faults:
     def double(self, topic):
         message_class = class_of_bytes(rostopic.get_topic_class('/' + topic)[0])
         rival = rospy.Publisher('/' + topic, message_class, queue_size=10)
-        wait_until(rival.get_num_connections, 'readers of ' + topic)
+        wait_for(rival.get_num_connections, 'readers of ' + topic)
         since = time.monotonic()
         for raw in self._rig.recording.rival_messages(topic):
             rival.publish(make_raw(message_class, raw))

@@ -3,11 +3,11 @@
 """The processes of the nodes, which one roslaunch has started, and when they were disturbed."""
 import os
 import signal
-import threading
 import time
 
+from waiting import wait_for
+
 PAGE = os.sysconf('SC_PAGE_SIZE')
-DEADLINE = 30.0  # [s] of wall time
 RECOVERY = 3.0   # [s] of wall time in which a node catches up after it was stopped or lost
 
 
@@ -22,17 +22,6 @@ def _read(path):
 def _parent_and_state(process):
     fields = _read('/proc/%s/stat' % process).rpartition(b')')[2].split()
     return (int(fields[1]), fields[0]) if fields else (0, b'')
-
-
-def wait_until(condition, what):
-    """Returns the first true value of `condition()`."""
-    pause, end = threading.Event(), time.monotonic() + DEADLINE
-    while time.monotonic() < end:
-        value = condition()
-        if value:
-            return value
-        pause.wait(0.02)
-    raise RuntimeError('timed out waiting for ' + what)
 
 
 class Processes:
@@ -59,14 +48,14 @@ class Processes:
         return (process, PAGE * int(pages[1])) if pages else None
 
     def signal(self, node, number):
-        process = wait_until(lambda: self.find(node), node)
+        process = wait_for(lambda: self.find(node), node)
         os.kill(process, number)
         return process
 
     def kill(self, node):
         """Ends the process of a node at once. Returns when it has ended."""
         process = self.signal(node, signal.SIGKILL)
-        wait_until(lambda: _parent_and_state(process)[1] in (b'', b'Z'), 'the end of ' + node)
+        wait_for(lambda: _parent_and_state(process)[1] in (b'', b'Z'), 'the end of ' + node)
 
     def begin(self, node):
         """Notes that a node is disturbed from now on."""

@@ -13,9 +13,9 @@ from tf2_msgs.srv import FrameGraph
 from vegetation_sim.msg import ForestLayout, WindField
 from vegetation_sim.srv import SaveSnapshot
 
-from processes import wait_until
 from raw_messages import STATE_HASHES, class_of_bytes, kind_of, make_raw, stamp_of
 from scene import NANOSECONDS, SIMULATIONS
+from waiting import wait_for
 from watched_node import all_delivered, publisher
 
 BATCH, WINDOW = 40, 8  # ticks that events are ahead of the clock, and the clock of the states
@@ -73,7 +73,7 @@ class Replay:
         process = subprocess.Popen([program, '__name:=' + self.node, '__ns:=/replay',
                                     '/clock:=/replay/clock'])
         try:
-            wait_until(self._connected, 'the replay of ' + self.node)
+            wait_for(self._connected, 'the replay of ' + self.node)
             self._run_ticks(sorted(self._record.ticks | set(self._record.events)))
             return rospy.ServiceProxy(self._name + '/save_snapshot', SaveSnapshot)(name='final').hash
         finally:
@@ -93,7 +93,7 @@ class Replay:
         for batch in self._batches(ticks):
             for stamp in batch:
                 self._send_tick(stamp)
-            wait_until(all_delivered, 'the events to be in the socket of ' + self.node)
+            wait_for(all_delivered, 'the events to be in the socket of ' + self.node)
             self._run_batch(before)
             before = batch
         self._run_batch(before)
@@ -143,7 +143,7 @@ class Replay:
 
     def _settle(self):
         """Returns when the node has read its sockets: its queues of inputs are short."""
-        wait_until(all_delivered, 'the inputs to be in the socket of ' + self.node)
+        wait_for(all_delivered, 'the inputs to be in the socket of ' + self.node)
         for _ in range(2):
             self._frames()
 

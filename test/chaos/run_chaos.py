@@ -22,12 +22,13 @@ from checks import check_all
 from clock import FastClock
 from diagnosis import Diagnosis
 from faults import Faults, pause
-from processes import Processes, wait_until
+from processes import Processes
 from recording import Recording
 from replay import Replay
 from robot import Robot
 from scene import NODES, SIMULATIONS, START
 from visitors import Visitors
+from waiting import wait_for
 from watches import MemoryWatch, TickWatch
 
 FOLDER = os.path.dirname(os.path.abspath(__file__))
@@ -53,14 +54,14 @@ def make_rig(nodes, folder, factor, seed):
     """Returns all parts of the test, connected to nodes whose clock has not begun."""
     rig = types.SimpleNamespace(folder=folder, processes=Processes(nodes.pid), robot=Robot())
     rig.recording, rig.ticks, rig.diagnosis = Recording(), TickWatch(), Diagnosis()
-    wait_until(lambda: rig.recording.connected() and rig.ticks.connected(), 'the nodes')
+    wait_for(lambda: rig.recording.connected() and rig.ticks.connected(), 'the nodes')
 
     def lag(now):
         return rig.ticks.lag(now, {node for node in NODES if rig.processes.is_disturbed_now(node)})
     rig.clock = FastClock(factor, rig.robot, lag, random.Random(seed + 1))
     rig.memory = MemoryWatch(rig.processes, rig.clock)
     rig.visitors = Visitors(rig.clock, random.Random(seed + 2))
-    wait_until(lambda: rig.clock.readers() >= len(NODES), 'the readers of the clock')
+    wait_for(lambda: rig.clock.readers() >= len(NODES), 'the readers of the clock')
     pause(1.0)  # A publisher knows its reader a little later than the reader.
     return rig
 
@@ -70,14 +71,14 @@ def run_live(rig, seconds, seed):
     rig.parameters = {node: rospy.get_param('/' + node) for node in SIMULATIONS}
     rig.clock.start()
     rig.memory.start()
-    wait_until(lambda: all(rig.ticks.newest.values()), 'the first tick of all nodes')
+    wait_for(lambda: all(rig.ticks.newest.values()), 'the first tick of all nodes')
     pause(CALM)
     rig.visitors.start()
     faults = Faults(rig, random.Random(seed))
     end = START + seconds
     faults.run(end - CALM, START + 0.5 * seconds)
     rig.visitors.stop()
-    wait_until(lambda: rig.clock.now >= end, 'the end of the clock')
+    wait_for(lambda: rig.clock.now >= end, 'the end of the clock')
     rig.clock.stop()
     rig.memory.stop()
     return faults.outcomes, {node: save(rig, node) for node in SIMULATIONS}
@@ -93,7 +94,7 @@ def save(rig, node):
         stamps.append(proxy(name='final').stamp)
         rig.clock.publish(rig.clock.now)
         return len(stamps) > 3 and len(set(stamps[-3:])) == 1
-    wait_until(has_settled, 'the last tick of ' + node)
+    wait_for(has_settled, 'the last tick of ' + node)
     return proxy(name='final').hash
 
 
@@ -101,7 +102,7 @@ def main(seconds, seed, factor):
     with tempfile.TemporaryDirectory() as folder:
         master, nodes = start_ros(folder)
         try:
-            wait_until(lambda: rosgraph.is_master_online(), 'the master')
+            wait_for(lambda: rosgraph.is_master_online(), 'the master')
             rospy.init_node('chaos', disable_rostime=True, disable_signals=True)
             rig = make_rig(nodes, folder, factor, seed)
             outcomes, final = run_live(rig, seconds, seed)

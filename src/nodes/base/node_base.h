@@ -109,15 +109,16 @@ class NodeBase {
   diagnostic_updater::Updater diagnostics_;
 
  private:
-  std::vector<ros::Subscriber> subscribers_, owned_;
-  std::vector<std::function<ros::ServiceServer()>> closed_;  // services that wait for time to begin
+  using SteadyTime = std::chrono::steady_clock::time_point;
+  /// Measures how long callbacks have waited.
   void beat();
 
+  std::vector<ros::Subscriber> subscribers_, owned_;
+  std::vector<std::function<ros::ServiceServer()>> closed_;  // services that wait for time to begin
   bool open_{false};
   std::vector<ros::ServiceServer> services_;
   std::vector<ros::Timer> timers_;
   ros::WallTimer diagnostics_timer_, beat_timer_;
-  using SteadyTime = std::chrono::steady_clock::time_point;
   std::optional<SteadyTime> last_beat_;
   double longest_wait_{0.0};  // of callbacks since the last report [s of wall time]
   std::optional<Nanoseconds> continued_from_;  // not reported yet
