@@ -291,13 +291,15 @@ class WindRequests(unittest.TestCase):
 
     def test_shows_the_breeze_of_other_edits(self):
         updates = Latest(NODE + 'parameter_updates', Config)
+        # Without this wait, the edit may come while the subscriber is still connecting.
+        wait_for(lambda: updates.message, 'the latched parameter_updates')
         breeze = primitive(WindPrimitive.BREEZE, 'breeze', turbulence=0.5)
         breeze.velocity.x, breeze.velocity.y = 0.0, 3.0
         self.assertTrue(self.set(breeze).success)
 
         def shown():
-            values = {d.name: d.value for d in updates.message.doubles} if updates.message else {}
-            return values.get('breeze_speed') == 3.0 and values['breeze_turbulence'] == 0.5
+            values = {d.name: d.value for d in updates.message.doubles}
+            return values['breeze_speed'] == 3.0 and values['breeze_turbulence'] == 0.5
 
         wait_for(shown, 'the breeze in parameter_updates')
 
