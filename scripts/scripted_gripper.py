@@ -51,6 +51,7 @@ class ScriptedGripper:
         self.motion = rospy.get_param('~pull', [-0.8, 0.2, -0.2])  # [m]
         # Its waiting position relative to the branch. [m]
         self.away = rospy.get_param('~away', [0.0, 2.0, -0.6])
+        self.jaw_length = rospy.get_param('~jaw_length', 0.12)  # [m]
         self.force_limit = rospy.get_param('~force_limit', 500.0)  # [N]
         name = rospy.get_param('~animator', '/forest_animator')
         self.get_tree = rospy.ServiceProxy(name + '/get_tree', GetTree)
@@ -96,6 +97,7 @@ class ScriptedGripper:
         elif name == 'pull':
             answer = self.grab(tree=self.tree, branch=self.branch, along=self.along,
                                frame=self.frame, keep_offset=True, has_stiffness=True,
+                               jaw_length=self.jaw_length,
                                stiffness=5000.0, has_damping=True, damping=100.0,
                                has_force_limit=True, force_limit=self.force_limit,
                                has_lease=True, lease=1.0)

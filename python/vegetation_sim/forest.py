@@ -41,12 +41,13 @@ class Forest(Client):
                          direction=vector(direction), tolerance=tolerance)
 
     def grab(self, tree=None, branch=None, along=0.0, near=None, target=None, frame='', offset=None,
-             lease=5.0, stiffness=None, damping=None, force_limit=None):
+             lease=5.0, stiffness=None, damping=None, force_limit=None, jaw_length=0.0):
         """Grabs a branch. Returns a Hold.
 
         The place is `tree`, `branch` and `along` [m], or the branch nearest to the point `near`; if
         neither is given, that nearest to the origin of `frame`. The held point follows `target`, or
-        the point `offset` of the tf frame `frame`; if none is given, it is held where it is.
+        the point `offset` of the tf frame `frame`; if none is given, it is held where it is. A jaw
+        of `jaw_length` [m] also keeps the branch's direction in the frame.
         """
         if frame and target is not None:
             raise ValueError('needs either target or frame')
@@ -56,7 +57,8 @@ class Forest(Client):
         else:
             follow = dict(target=stamped(self._here(place) if target is None else target))
         spring = given(stiffness=stiffness, damping=damping, force_limit=force_limit, lease=lease)
-        return Hold(self, self.call('grab', Grab, **place, **follow, **spring), lease)
+        answer = self.call('grab', Grab, jaw_length=jaw_length, **place, **follow, **spring)
+        return Hold(self, answer, lease)
 
     def push(self, force, duration, tree=None, branch=None, along=0.0, near=None):
         """Pushes a branch with a constant force [N] in the world frame for a duration [s]."""

@@ -212,7 +212,10 @@ std::vector<BranchLoad> ForestPhysics::predictLoads(std::uint32_t tree,
 }
 
 void ForestPhysics::finishTick(Nanoseconds to) {
-  for (auto& [id, grab] : grabs_) grab.last_target = grab.target;
+  for (auto& [id, grab] : grabs_) {
+    grab.last_target = grab.target;
+    grab.last_direction = jawDirection(grab);
+  }
   pushes_.erase(std::remove_if(pushes_.begin(), pushes_.end(),
                                [&](const Push& push) { return push.until <= to; }),
                 pushes_.end());

@@ -42,14 +42,18 @@ class TreeSteps;
 
 /// A grab in force and its state between ticks.
 struct HeldGrab : Grab {
-  Vec3 last_target{Vec3::Zero()};   ///< at the last tick, world [m]
-  bool renewed_since_tick{true};    ///< moved or renewed since the last tick
-  double max_target_distance{0.0};  ///< from the tree's foot [m]
-  Vec3 foot{Vec3::Zero()};          ///< of the tree, world [m]
-  Vec3 force{Vec3::Zero()};         ///< on the branch, mean over the last tick [N]
-  Vec3 grip{Vec3::Zero()};          ///< position of the held point, tree's frame [m]
-  Vec3 impulse{Vec3::Zero()};       ///< on the branch since the last tick [N s]
-  bool limited{false};              ///< the force was at its limit since the last tick
+  Vec3 last_target{Vec3::Zero()};      ///< at the last tick, world [m]
+  bool renewed_since_tick{true};       ///< moved or renewed since the last tick
+  double max_target_distance{0.0};     ///< from the tree's foot [m]
+  Vec3 foot{Vec3::Zero()};             ///< of the tree, world [m]
+  Vec3 force{Vec3::Zero()};            ///< on the branch, mean over the last tick [N]
+  Vec3 grip{Vec3::Zero()};             ///< position of the held point, tree's frame [m]
+  Vec3 impulse{Vec3::Zero()};          ///< on the branch since the last tick [N s]
+  Vec3 last_direction{Vec3::UnitZ()};  ///< jawDirection at the last tick
+  Vec3 axis{Vec3::UnitZ()};            ///< of the branch at the held point, if there is a jaw
+  Vec3 torque{Vec3::Zero()};           ///< on the branch about the held point, as `force` [N m]
+  Vec3 angular_impulse{Vec3::Zero()};  ///< as `impulse` [N m s]
+  bool limited{false};                 ///< the force was at its limit since the last tick
 };
 using HeldGrabs = std::map<std::uint32_t, HeldGrab>;
 

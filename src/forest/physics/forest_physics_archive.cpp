@@ -13,7 +13,7 @@ constexpr std::size_t LONGEST_NAME = 4096;  // of bodies and frames
 constexpr std::size_t MOST_ENTRIES = 1u << 16;
 constexpr std::size_t MOST_CONTACTS = 1u << 20;
 // Least bytes of entries.
-constexpr std::size_t GRAB_BYTES = 250, PUSH_BYTES = 56, BODY_BYTES = 200, REACTION_BYTES = 160,
+constexpr std::size_t GRAB_BYTES = 378, PUSH_BYTES = 56, BODY_BYTES = 200, REACTION_BYTES = 160,
                       CONTACT_BYTES = 61, LOAD_BYTES = 36;
 
 /// Writes or reads points of the branches of one layout.
@@ -46,6 +46,8 @@ void archive(Archive& a, const Points& points, Grab& grab) {
   a.stamp("grab renewed", grab.renewed);
   a.vector("grab offset", grab.offset);
   a.pose("grab holder", grab.holder);
+  a.number("grab jaw_length", grab.jaw_length);
+  a.vector("grab direction", grab.direction);
 }
 
 void archive(Archive& a, const Points& points, HeldGrab& grab) {
@@ -57,6 +59,10 @@ void archive(Archive& a, const Points& points, HeldGrab& grab) {
   a.vector("grab force", grab.force);
   a.vector("grab grip", grab.grip);
   a.vector("grab impulse", grab.impulse);
+  a.vector("grab last_direction", grab.last_direction);
+  a.vector("grab axis", grab.axis);
+  a.vector("grab torque", grab.torque);
+  a.vector("grab angular_impulse", grab.angular_impulse);
   a.flag("grab limited", grab.limited);
 }
 

@@ -45,6 +45,11 @@ void ForestPhysics::addTo(Hash& hash) const {
     hash.add(grab.target);
     hash.add(grab.last_target);
     for (const double v : {grab.stiffness, grab.damping, grab.force_limit, grab.lease}) hash.add(v);
+    if (grab.jaw_length > 0.0) {
+      hash.add(grab.jaw_length);
+      hash.add(jawDirection(grab));
+      hash.add(grab.last_direction);
+    }
     hash.add(grab.frame);
     hash.add(static_cast<std::uint64_t>(grab.renewed));
   }

@@ -147,6 +147,7 @@ std::uint32_t ForestPhysics::addGrab(const StepContext& context, const Grab& req
   subtree.accept();
   next_grab_ = std::max(next_grab_, grab.id + 1);
   grab.last_target = grab.target;
+  grab.last_direction = jawDirection(grab);
   grab.max_target_distance = reachOf(tree);
   grab.foot = tree.foot;
   grabs_[grab.id] = grab;

@@ -93,6 +93,15 @@ GrabManager::Place GrabManager::placeOf(std::uint32_t tree, std::uint32_t branch
           found->foot + pose.position + along * axisZ(pose.orientation)};
 }
 
+// A jaw keeps the direction that the branch has now.
+void GrabManager::setDirection(forest::Grab& grab) const {
+  if (grab.jaw_length == 0.0) return;
+  const auto tree = grown(grab.point.tree);
+  const auto poses = node_.forest.pose(*tree, grab.point.tree, node_.forest.snapshot().stamp);
+  const Vec3 axis = axisZ(poses[static_cast<std::size_t>(grab.point.branch)].orientation);
+  grab.direction = rotate(conjugate(grab.holder.orientation), axis);
+}
+
 Vec3 GrabManager::pointOf(const forest::Grab& grab) const {
   return placeOf(grab.point.tree, static_cast<std::uint32_t>(grab.point.branch), grab.point.along)
       .point;
@@ -177,6 +186,7 @@ std::string GrabManager::grab(const Grab::Request& request, Grab::Response& resp
   grab.point = place.at;
   grab.lease = node_.options.grab_lease;
   grab.frame = request.frame;
+  grab.jaw_length = request.jaw_length;
   readSpring(request, grab);
   if (grab.frame.empty()) {
     grab.target = inWorld(request.target, "target");
@@ -184,6 +194,7 @@ std::string GrabManager::grab(const Grab::Request& request, Grab::Response& resp
     grab.offset = fromMsg(request.offset);
     setByFrame(place.point, grab, accepted);
   }
+  setDirection(grab);
   checkTarget(grab, place.point);
   forest::checkGrab(node_.forest.layout(), *grown(grab.point.tree), grab);
   checkRoom("grab", place, request.stamp);

@@ -53,7 +53,8 @@ class GrabManager {
   /// Calls `report` with the name and the fault of each frame that cannot be followed.
   using Report = std::function<void(const std::string&, const std::string&)>;
   void follow(Nanoseconds stamp, const Report& report);
-  /// Before the forest applies an event: a grab with a frame begins where that is now.
+  /// Before the forest applies an event: a grab with a frame begins where that is now, and a jaw
+  /// keeps the direction that the branch has now.
   /// @throws InvalidInput if tf has no recent transform, or it is too far away.
   void followFrame(ForestInput& event);
   /// Says why a grab, or all grabs, will not be in force after this tick: GrabStatus::RELEASED and
@@ -110,6 +111,7 @@ class GrabManager {
   Place choose(const ServiceRequest& request) const;
   Vec3 inWorld(const geometry_msgs::PointStamped& point, const char* name) const;
   void setByFrame(const Vec3& point, forest::Grab& grab, Request& request) const;
+  void setDirection(forest::Grab& grab) const;
   double checkTarget(const forest::Grab& grab, const Vec3& point) const;
   void checkRoom(const char* what, const Place& place, const ros::Time& stamp) const;
   bool isInForce(std::uint32_t id) const { return node_.forest.grabs().count(id) > 0; }

@@ -68,11 +68,13 @@ void GrabManager::follow(Nanoseconds stamp, const Report& report) {
 }
 
 void GrabManager::followFrame(ForestInput& event) {
-  if (event.kind != ForestInput::GRAB || event.grab.frame.empty() || node_.options.replay) return;
+  if (event.kind != ForestInput::GRAB || node_.options.replay) return;
+  if (event.grab.frame.empty()) return setDirection(event.grab);
   const auto found = requests_.find(event.grab.id);
   if (found == requests_.end()) return;
   const Vec3 point = pointOf(event.grab);
   setByFrame(point, event.grab, found->second);
+  setDirection(event.grab);
   checkTarget(event.grab, point);
 }
 

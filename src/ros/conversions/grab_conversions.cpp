@@ -19,6 +19,8 @@ forest::Grab fromMsg(const BranchGrab& message) {
   out.frame = message.frame;
   out.offset = fromMsg(message.offset);
   out.holder = fromMsg(message.holder);
+  out.jaw_length = message.jaw_length;
+  out.direction = fromMsg(message.direction);
   return out;
 }
 
@@ -36,6 +38,8 @@ BranchGrab toMsg(const forest::Grab& grab) {
   out.frame = grab.frame;
   out.offset = toPoint(grab.offset);
   out.holder = toMsg(grab.holder);
+  out.jaw_length = grab.jaw_length;
+  out.direction = toVector(grab.direction);
   return out;
 }
 

@@ -19,7 +19,8 @@ struct BranchPoint {
 };
 
 /// Holds a point of a branch to a target by a damped spring with a force limit. Between ticks the
-/// target moves in a straight line, whose velocity the damper uses.
+/// target moves in a straight line, whose velocity the damper uses. A grab with a jaw has two
+/// springs instead, of half the stiffness, damping and force limit, at the ends of the jaw.
 struct Grab {
   BranchPoint point;
   Vec3 target{Vec3::Zero()};  ///< world [m]
@@ -32,7 +33,15 @@ struct Grab {
   Nanoseconds renewed{0};     ///< of the last renewal, set by the forest
   Vec3 offset{Vec3::Zero()};  ///< of the target in `frame` [m]
   Pose holder;                ///< world pose of `frame` when the target was last set
+  double jaw_length{0.0};     ///< 0: holds a point; else also the branch's direction [m]
+  /// Unit vector along the branch that a jaw keeps, in the axes of `frame`; without a frame, world.
+  Vec3 direction{Vec3::UnitZ()};
 };
+
+/// The direction in which a jaw keeps the branch, in world axes.
+inline Vec3 jawDirection(const Grab& grab) {
+  return rotate(grab.holder.orientation, grab.direction);
+}
 
 /// A force on a branch during an interval.
 struct Push {

@@ -76,6 +76,7 @@ class BusyForest {
     out.target = grown.foot +
                  grown.skeleton.branches[static_cast<std::size_t>(branch)].rest.position +
                  Vec3(0.3, 0.2, 0.0);
+    out.jaw_length = tree % 2 == 0 ? 0.1 : 0.0;
     rig_.forest.addGrab(out);
   }
   void push(std::uint32_t tree) {
@@ -109,16 +110,20 @@ TEST(TreeSteps, ARestoredForestContinuesWithTheSameBits) {
   rig.forest.setWind(wind::Field({makeBreeze(1, Vec3(5.0, 2.0, 0.0))}));
   Grab grab = rig.grabOf(rig.branchOfDepth(1));
   grab.target += Vec3(0.3, 0.0, 0.1);
+  grab.jaw_length = 0.2;
   rig.forest.addGrab(grab);
   rig.run(0.5);
   const ForestSnapshot saved = rig.forest.snapshot();
+  const std::string bytes = rig.forest.archived();
   const std::int64_t tick = rig.tick;
   std::vector<std::uint64_t> hashes;
   rig.run(0.5, [&] { hashes.push_back(rig.forest.hash()); });
-  rig.forest.restore(saved);
-  rig.tick = tick;
-  std::size_t i = 0;
-  rig.run(0.5, [&] { EXPECT_EQ(rig.forest.hash(), hashes[i++]); });
+  for (const ForestSnapshot& start : {saved, rig.forest.readArchived(bytes)}) {
+    rig.forest.restore(start);
+    rig.tick = tick;
+    std::size_t i = 0;
+    rig.run(0.5, [&] { EXPECT_EQ(rig.forest.hash(), hashes[i++]); });
+  }
 }
 
 }  // namespace

@@ -165,6 +165,7 @@ class RandomForest final : public Simulation {
     grab.damping = draw.logarithmic(0.1, 1e3);
     grab.force_limit = draw.logarithmic(0.1, 1e3);
     if (draw.chance(0.3)) grab.lease = draw.between(0.1, 1.0);
+    if (draw.chance(0.3)) grab.jaw_length = draw.between(0.01, 0.5);
     forest_.addGrab(grab);
   }
   std::uint32_t anyGrab(Draw& draw) const {

@@ -63,6 +63,58 @@ TEST(Interaction, WrenchIsTheJointsSpringOverItsLever) {
   EXPECT_NEAR(rig.angles(rig.now())[0].second, q.second, 0.01 * q.second);
 }
 
+// N3: a jaw that turns by 0.3 rad about the pole that it holds bends it to where the joint balances
+// the two springs: k q = K (l / 2)^2 sin(0.3 - q) - K r^2 sin q, for a jaw of length l that holds
+// the pole r from the joint. A point that turns bends nothing.
+TEST(Interaction, AJawThatTurnsBendsTheBranch) {
+  for (const double jaw : {0.0, 0.4}) {
+    PhysicsRig rig = poleRig();
+    const double k = jointStiffness(rig.branches()[0], rig.forest.layout().species[0]), turn = 0.3;
+    Grab grab = rig.grabOf(0);
+    const double from_joint = grab.point.along = 1.0, spring = 2000.0;
+    grab.target = rig.pointOn(grab.point);
+    grab.stiffness = spring;
+    grab.force_limit = 1e5;
+    grab.frame = "jaw";
+    grab.jaw_length = jaw;
+    const std::uint32_t id = rig.forest.addGrab(grab);
+    Pose holder;
+    const SinCos half = sinCos(0.5 * turn);
+    holder.orientation = Quat{half.cos, 0.0, half.sin, 0.0};
+    rig.forest.moveGrab(id, grab.target, holder);
+    rig.run(8.0);
+    const double turning = spring * 0.25 * jaw * jaw, holding = spring * from_joint * from_joint;
+    double q = 0.0;
+    for (int i = 0; i < 50; ++i)
+      q -= (k * q + holding * std::sin(q) - turning * std::sin(turn - q)) /
+           (k + holding * std::cos(q) + turning * std::cos(turn - q));
+    const Reaction& reaction = rig.forest.reactions().at(0);
+    const double torque = turning * std::sin(turn - q);
+    EXPECT_NEAR(rig.angles(rig.now())[0].second, q, 1e-4 * turn) << jaw;
+    EXPECT_NEAR(-reaction.torque.y(), torque, 1e-3 * turning + 1e-9) << jaw;
+    EXPECT_FALSE(reaction.limited);
+    EXPECT_EQ(q > 3e-3, jaw > 0.0);
+  }
+}
+
+// N3: beyond its limit each end of a jaw pulls with half of the force limit.
+TEST(Interaction, AJawKeepsToItsForceLimit) {
+  PhysicsRig rig = poleRig();
+  Grab grab = rig.grabOf(0);
+  grab.point.along = 1.0;
+  grab.target = rig.pointOn(grab.point);
+  grab.stiffness = 1e6;
+  grab.force_limit = 10.0;
+  grab.jaw_length = 0.4;
+  grab.direction = Vec3::UnitX();  // a quarter turn
+  rig.forest.addGrab(grab);
+  rig.run(8.0);
+  const Reaction& reaction = rig.forest.reactions().at(0);
+  EXPECT_TRUE(reaction.limited);
+  EXPECT_LE(length(reaction.torque), 10.0 * 0.2 * (1.0 + 1e-9));
+  EXPECT_GT(length(reaction.torque), 1.0);
+}
+
 // N3: a push gives force times duration, however short and wherever its ends lie between steps.
 TEST(Interaction, APushGivesItsImpulse) {
   const auto peak = [](double duration, Nanoseconds late) {
@@ -391,6 +443,10 @@ TEST(Interaction, RefusedRequestsSayWhyAndChangeNothing) {
   has(refused([](Grab& g) { g.target.y() = NAN; }), "grab: target.y = nan");
   has(refused([](Grab& g) { g.stiffness = -1.0; }), "grab: stiffness = -1 N/m is outside 1 to");
   has(refused([](Grab& g) { g.force_limit = INFINITY; }), "grab: force_limit = inf");
+  has(refused([](Grab& g) { g.jaw_length = -0.1; }), "grab: jaw_length = -0.1 m is outside 0 to 1");
+  has(refused([](Grab& g) { g.jaw_length = NAN; }), "grab: jaw_length = nan");
+  has(refused([](Grab& g) { g.direction.z() = NAN; }), "grab: direction.z = nan");
+  has(refused([](Grab& g) { g.direction *= 0.5; }), "grab: length of direction = 0.5");
   const std::string all = refused([](Grab& g) { g.damping = -1.0, g.lease = -2.0; });
   has(all, "damping = -1");
   has(all, "lease = -2");

@@ -57,6 +57,9 @@ class ForestGrabRefusals(unittest.TestCase):
         last = time_of(self.clock.tick)
         self.expect(self.hands.grab, [
             (self.good(tree=99), 'tree = 99 is unknown; there are %d, from 0' % TREES),
+            (self.good(jaw_length=-0.1), 'jaw_length = -0.1 m is outside 0 to 1'),
+            (self.good(jaw_length=1.5), 'jaw_length = 1.5 m is outside 0 to 1'),
+            (self.good(jaw_length=NAN), 'jaw_length = nan'),
             (self.good(branch=99999), 'branch = 99999 is unknown; tree 0 has 707, from 0'),
             (self.good(along=-0.1), 'along = -0.1 m is outside 0 to'),
             (self.good(along=9.0), 'along = 9 m is outside 0 to'),

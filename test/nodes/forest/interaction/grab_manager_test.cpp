@@ -170,6 +170,49 @@ TEST(GrabManager, HandGetsForceAndTorqueInItsOwnFrame) {
             0.01 * length(torque));
 }
 
+// A jaw keeps the direction that the limb has in the hand when the grab begins: a hand that turns
+// in place bends the limb, and its wrench is the moment of the two springs.
+TEST(GrabManager, JawTurnsTheLimbWithTheHand) {
+  GrabManagerRig rig;
+  const int limb = 46;
+  const double along = 0.5 * rig.branch(limb).length, jaw = 0.3, stiffness = 5000.0;
+  const Pose start{rig.pointOn(limb, along), turned()};
+  rig.show("hand", start);
+  Grab::Request request;
+  request.tree = 0;
+  request.branch = static_cast<std::uint32_t>(limb);
+  request.along = along;
+  request.frame = "hand";
+  request.jaw_length = jaw;
+  request.has_stiffness = request.has_damping = true;
+  request.has_force_limit = request.has_lease = true;
+  request.stiffness = stiffness;
+  request.damping = 200.0;
+  request.force_limit = 1e4;
+  request.lease = 60.0;
+  rig.grab(request);
+  const auto axis = [&] {
+    return Vec3((rig.pointOn(limb, along + 0.1) - rig.pointOn(limb, along - 0.1)) / 0.2);
+  };
+  const Vec3 in_hand = alongAxes(start.orientation, axis());
+  Pose hand = start;
+  for (int i = 0; i < 20 * RATE; ++i) {
+    const SinCos half = sinCos(0.15 * std::min(1.0, static_cast<double>(i) / RATE));
+    hand.orientation = Quat{half.cos, half.sin, 0.0, 0.0} * turned();
+    rig.show("hand", hand);
+    rig.tick();
+  }
+  const Vec3 held = rig.pointOn(limb, along), wanted = rotate(hand.orientation, in_hand);
+  const Vec3 force = stiffness * (held - hand.position);  // on the hand
+  const Vec3 couple = stiffness * 0.25 * jaw * jaw * cross(wanted, axis());
+  const Vec3 torque = couple + cross(held - hand.position, force);
+  ASSERT_GT(length(couple), 5.0);
+  ASSERT_EQ(rig.forces().size(), 1u);
+  EXPECT_LT(length(fromMsg(rig.forces()[0].wrench.torque) - alongAxes(hand.orientation, torque)),
+            0.01 * length(torque));
+  EXPECT_LT(length(fromMsg(rig.forces()[0].force) - force), 0.01 * length(couple) / jaw);
+}
+
 // A number that is given counts, even if it is 0; the others have their defaults.
 TEST(GrabManager, ZeroIsNotTheDefault) {
   GrabManagerRig rig;
