@@ -159,7 +159,7 @@ void TreeSteps::recordGrabs(double duration) {
     out.at = grab->point;
     out.point = subtree_->tree().foot + grab->grip;
     out.force = -grab->force;
-    out.torque = -grab->torque;
+    out.torque -= grab->torque;  // without a jaw +0, which -0 would not equal bit by bit
     out.limited = grab->limited;
     grab_reactions_.push_back(out);
   }
