@@ -8,6 +8,7 @@ Prints a table of checks, and exits with 1 if one fails.
 """
 import os
 import random
+import shutil
 import signal
 import subprocess
 import sys
@@ -98,6 +99,19 @@ def save(rig, node):
     return proxy(name='final').hash
 
 
+def keep_snapshots(folder, final, again):
+    """Copies the final snapshots of nodes whose replay ended differently to build/chaos."""
+    kept = os.path.join('build', 'chaos')
+    for node in SIMULATIONS:
+        if final[node] == again[node]:
+            continue
+        os.makedirs(kept, exist_ok=True)
+        for run, source in ('live', folder), ('replay', os.path.join(folder, 'replay')):
+            target = os.path.join(kept, '%s_%s.snapshot' % (node, run))
+            shutil.copy(os.path.join(source, 'final', node + '.snapshot'), target)
+            print('the final hashes differ: kept ' + target)
+
+
 def main(seconds, seed, factor):
     with tempfile.TemporaryDirectory() as folder:
         master, nodes = start_ros(folder)
@@ -110,6 +124,7 @@ def main(seconds, seed, factor):
             replays = {node: Replay(node, rig.recording, rig.parameters[node], folder)
                        for node in SIMULATIONS}
             again = {node: replay.run() for node, replay in replays.items()}
+            keep_snapshots(folder, final, again)
             table = check_all(rig, outcomes, seconds, final, again, replays)
         finally:
             for process in (nodes, master):

@@ -7,7 +7,7 @@ import time
 import rospy
 
 from raw_messages import publisher_of, stamp_of
-from scene import NANOSECONDS, NODES, SIMULATIONS, TICKS
+from scene import NANOSECONDS, NODES, TICKS
 
 PERIOD = 1.0     # [s] of wall time between two looks at the memory
 LONG_GAP = 0.15  # [s] of simulated time; shorter gaps are not kept
@@ -76,8 +76,8 @@ class TickWatch:
         self.count[node] += 1
 
     def lag(self, now, excused):
-        """Returns by how much the slowest simulation is behind a time [s], but for excused ones."""
-        return max([now - self.newest[node] for node in SIMULATIONS
+        """Returns by how much the slowest node is behind a time [s], but for excused ones."""
+        return max([now - self.newest[node] for node in NODES
                     if self.newest[node] and node not in excused], default=0.0)
 
     def largest_gap(self, node, is_disturbed):

@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/forest/grab_manager.h"
 
-#include <tf2/exceptions.h>
-
 #include <cmath>
 
 #include "forest/nearest.h"
 #include "ros/conversions/grab_conversions.h"
 #include "ros/conversions/optional_numbers.h"
+#include "ros/services/requests.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
 
 namespace vegetation_sim {
@@ -37,13 +36,7 @@ void checkFinite(const char* name, Vec3 value, Range range) {
 
 geometry_msgs::TransformStamped lookUp(const GrabDependencies& node, const std::string& frame,
                                        const ros::Time& stamp, const char* name) {
-  try {
-    return node.tf.lookupTransform(node.options.frame_id, frame, stamp);
-  } catch (const tf2::TransformException& error) {
-    throw InvalidInput(std::string(name) + " = '" + frame + "' is not known in '" +
-                           node.options.frame_id + "': " + error.what(),
-                       FaultCode::NO_TRANSFORM);
-  }
+  return transformToWorld(node.tf, node.options.frame_id, frame, stamp, name);
 }
 
 }  // namespace

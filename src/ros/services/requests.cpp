@@ -4,6 +4,9 @@
 
 #include <tf2/exceptions.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "vegetation_sim/core/config/faults.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
@@ -12,19 +15,39 @@ namespace vegetation_sim {
 namespace {
 
 constexpr double FARTHEST_AHEAD = 60.0;  // [s]
+constexpr std::size_t MOST_NAMES = 8;
+
+std::string describeFrames(const tf2_ros::Buffer& buffer) {
+  std::vector<std::string> frames;
+  buffer._getFrameStrings(frames);
+  if (frames.empty()) return "tf has no frames yet";
+  std::sort(frames.begin(), frames.end());
+  std::string out = "tf knows ";
+  for (std::size_t i = 0; i < std::min(frames.size(), MOST_NAMES); ++i)
+    out += (i == 0 ? "'" : ", '") + frames[i] + "'";
+  if (frames.size() > MOST_NAMES)
+    out += " and " + std::to_string(frames.size() - MOST_NAMES) + " others";
+  return out;
+}
 
 }  // namespace
+
+geometry_msgs::TransformStamped transformToWorld(const tf2_ros::Buffer& buffer,
+                                                 const std::string& world, const std::string& frame,
+                                                 const ros::Time& stamp, const char* name) {
+  try {
+    return buffer.lookupTransform(world, frame, stamp);
+  } catch (const tf2::TransformException& error) {
+    throw InvalidInput(std::string(name) + " = '" + frame + "' is not known in '" + world +
+                           "': " + error.what() + "; " + describeFrames(buffer),
+                       FaultCode::NO_TRANSFORM);
+  }
+}
 
 Pose poseInWorld(const tf2_ros::Buffer& buffer, const std::string& world, const std::string& frame,
                  const ros::Time& stamp) {
   if (frame.empty() || frame == world) return {};
-  try {
-    return fromMsg(buffer.lookupTransform(world, frame, stamp).transform);
-  } catch (const tf2::TransformException& error) {
-    throw InvalidInput(
-        "frame_id = '" + frame + "' is not known in '" + world + "': " + error.what(),
-        FaultCode::NO_TRANSFORM);
-  }
+  return fromMsg(transformToWorld(buffer, world, frame, stamp, "frame_id").transform);
 }
 
 void checkFrame(const std::string& frame, const std::string& world) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <geometry_msgs/TransformStamped.h>
 #include <tf2_ros/buffer.h>
 
 #include <string>
@@ -11,8 +12,14 @@
 
 namespace vegetation_sim {
 
+/// Returns the transform of a frame, which the field `name` of a request gives, to the world frame.
+/// @throws InvalidInput that names both frames, and those there are, if tf has no transform.
+geometry_msgs::TransformStamped transformToWorld(const tf2_ros::Buffer& buffer,
+                                                 const std::string& world, const std::string& frame,
+                                                 const ros::Time& stamp, const char* name);
+
 /// Returns the pose of a request's frame in the world frame; an empty name is the world frame.
-/// @throws InvalidInput that names both if tf has no transform.
+/// @throws InvalidInput as transformToWorld.
 Pose poseInWorld(const tf2_ros::Buffer& buffer, const std::string& world, const std::string& frame,
                  const ros::Time& stamp = ros::Time(0));
 
