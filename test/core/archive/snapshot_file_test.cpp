@@ -56,7 +56,8 @@ TEST(SnapshotFile, RejectsEveryFlippedBit) {
 TEST(SnapshotFile, RejectsAnotherVersionByItsNumber) {
   std::string bytes = encodeSnapshot(makeExample());
   bytes[std::string("vegetation_sim snapshot\n").size()] = 99;
-  EXPECT_EQ(faultOfFile(bytes), "file: version = 99 of the format, allowed is 1");
+  EXPECT_EQ(faultOfFile(bytes),
+            "file: version = 99 of the format, allowed is " + std::to_string(SNAPSHOT_VERSION));
 }
 
 TEST(SnapshotFile, RejectsTheSnapshotOfAnotherNode) {
