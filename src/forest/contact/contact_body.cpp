@@ -10,17 +10,6 @@
 namespace vegetation_sim::forest {
 namespace {
 
-Quat normalized(const Quat& q) {
-  const double f = 1.0 / std::sqrt(q.w * q.w + q.x * q.x + (q.y * q.y + q.z * q.z));
-  return {q.w * f, q.x * f, q.y * f, q.z * f};
-}
-
-void checkOrientation(const Quat& q, const std::string& name, Faults& faults) {
-  const double norm = std::sqrt(q.w * q.w + q.x * q.x + (q.y * q.y + q.z * q.z));
-  const std::string fault = rangeFault(name + "'s norm", norm, "", {0.999, 1.001});
-  if (!fault.empty()) faults.add(fault);
-}
-
 // Rotation by a vector of angles [rad].
 Quat turnBy(const Vec3& turn) {
   const double angle = length(turn);

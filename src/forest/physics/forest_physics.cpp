@@ -202,6 +202,11 @@ std::vector<BranchLoad> ForestPhysics::predictLoads(std::uint32_t tree,
       if (pull > length(force)) force = pull * direction;
     }
     out.push_back({grab.point.branch, grab.point.along, force});
+    if (grab.jaw_length <= 0.0) continue;
+    const Vec3 turning = cross(grab.torque, grab.axis) / grab.jaw_length;
+    for (const double side : {-1.0, 1.0})
+      out.push_back({grab.point.branch, grab.point.along + 0.5 * side * grab.jaw_length,
+                     Vec3(side * turning)});
   }
   for (const Push& push : pushes_)
     if (push.point.tree == tree) out.push_back({push.point.branch, push.point.along, push.force});

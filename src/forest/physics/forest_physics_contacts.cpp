@@ -4,6 +4,11 @@
 #include "forest/physics/tree_steps.h"
 
 namespace vegetation_sim::forest {
+namespace {
+
+constexpr double TORQUE_LEVER = 0.1;  // [m]
+
+}  // namespace
 
 bool ForestPhysics::isNear(std::uint32_t tree) const {
   return std::binary_search(near_.begin(), near_.end(), tree);
@@ -28,25 +33,28 @@ void ForestPhysics::publishContactReactions(const std::vector<TreeSteps>& trees)
 }
 
 // A published reaction decays no faster than the contact law allows, also after its contact or grab
-// has ended. Reactions of removed bodies become zero at once.
+// has ended; its torque counts as a force at a lever of TORQUE_LEVER. Reactions of removed bodies
+// become zero at once.
 void ForestPhysics::decayReactions(const std::vector<Reaction>& published, double duration) {
   const double most = settings_.contact.force_rate * std::max(0.0, duration);
   for (const Reaction& before : published) {
-    const double force = length(before.force), left = std::max(0.0, force - most);
+    const double force = length(before.force), torque = length(before.torque);
+    const double size = std::max(force, torque / TORQUE_LEVER);
+    const double share = size > 0.0 ? std::max(0.0, size - most) / size : 0.0;
     const auto same = std::find_if(reactions_.begin(), reactions_.end(), [&](const Reaction& r) {
       return r.kind == before.kind && r.grab == before.grab && r.body == before.body &&
              r.at.tree == before.at.tree && r.at.branch == before.at.branch;
     });
     if (same != reactions_.end()) {
-      const double now = length(same->force);
-      if (now < left) same->force = (left / force) * before.force;
+      if (length(same->force) < share * force) same->force = share * before.force;
+      if (length(same->torque) < share * torque) same->torque = share * before.torque;
       continue;
     }
-    if (force <= 0.0) continue;
+    if (size <= 0.0) continue;
     const bool gone = before.kind == Reaction::CONTACT && !bodies_.count(before.body);
     Reaction falling = before;
-    falling.force *= gone ? 0.0 : left / force;
-    falling.torque *= gone ? 0.0 : left / force;
+    falling.force *= gone ? 0.0 : share;
+    falling.torque *= gone ? 0.0 : share;
     falling.limited = false;
     falling.penetration = 0.0;
     reactions_.push_back(falling);

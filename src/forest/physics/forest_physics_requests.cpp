@@ -159,6 +159,7 @@ void ForestPhysics::moveGrab(std::uint32_t id, const Vec3& target, const Pose& h
   HeldGrab& grab = findKnown(grabs_, id, "grab: id = " + count(id));
   Faults faults;
   checkTarget(target, grab.foot, grab.max_target_distance, faults);
+  checkHolder(holder, faults);
   faults.throwIfAny();
   grab.target = target;
   grab.holder = holder;

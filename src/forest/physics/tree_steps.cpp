@@ -109,7 +109,7 @@ void TreeSteps::accumulateImpulses(const Run& run, Nanoseconds from, Nanoseconds
 void TreeSteps::accumulateImpulse(const SubtreeSpring* springs, const Vec3* places,
                                   Nanoseconds from, Nanoseconds to, HeldGrab& grab) const {
   const SpringOffsets offsets(grab.jaw_length);
-  const HeldGrab before = grab;
+  const Vec3 grip = grab.grip, axis = grab.axis;  // before
   grab.grip = places[0];
   if (offsets.size() == 2) {
     grab.grip = 0.5 * (places[0] + places[1]);
@@ -122,13 +122,13 @@ void TreeSteps::accumulateImpulse(const SubtreeSpring* springs, const Vec3* plac
   bool limited = false;
   for (std::size_t i = 0; i < offsets.size(); ++i) {
     const double offset = offsets[i];
-    const Vec3 was = before.grip + offset * before.axis;
+    const Vec3 was = grip + offset * axis;
     const SpringForce f = begins ? forceOf(springs[i], to, places[i], springs[i].velocity)
                                  : forceOf(springs[i], from + (to - from) / 2,
                                            0.5 * (was + places[i]), (places[i] - was) / h);
-    const Vec3 axis = begins ? grab.axis : Vec3(0.5 * (before.axis + grab.axis));
+    const Vec3 arm = offset * (begins ? grab.axis : Vec3(0.5 * (axis + grab.axis)));
     force += f.force;
-    torque += cross(offset * axis, f.force);
+    torque += cross(arm, f.force);
     limited = limited || f.scale < 1.0;
   }
   if (begins) {

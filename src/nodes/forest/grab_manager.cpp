@@ -41,6 +41,12 @@ geometry_msgs::TransformStamped lookUp(const GrabDependencies& node, const std::
 
 }  // namespace
 
+Pose holderPose(const geometry_msgs::TransformStamped& transform) {
+  Pose out = fromMsg(transform.transform);
+  out.orientation = normalized(out.orientation);
+  return out;
+}
+
 void GrabManager::requireLive() const {
   if (node_.options.replay)
     throw InvalidInput("a replay follows its recorded events only", FaultCode::NOT_AVAILABLE);
@@ -83,16 +89,16 @@ GrabManager::Place GrabManager::placeOf(std::uint32_t tree, std::uint32_t branch
   faults.throwIfAny();
   const Pose pose = node_.forest.pose(*found, tree, node_.forest.snapshot().stamp)[branch];
   return {{tree, static_cast<int>(branch), along},
-          found->foot + pose.position + along * axisZ(pose.orientation)};
+          found->foot + pose.position + along * axisZ(pose.orientation),
+          axisZ(pose.orientation)};
 }
 
 // A jaw keeps the direction that the branch has now.
 void GrabManager::setDirection(forest::Grab& grab) const {
   if (grab.jaw_length == 0.0) return;
-  const auto tree = grown(grab.point.tree);
-  const auto poses = node_.forest.pose(*tree, grab.point.tree, node_.forest.snapshot().stamp);
-  const Vec3 axis = axisZ(poses[static_cast<std::size_t>(grab.point.branch)].orientation);
-  grab.direction = rotate(conjugate(grab.holder.orientation), axis);
+  const Place place =
+      placeOf(grab.point.tree, static_cast<std::uint32_t>(grab.point.branch), grab.point.along);
+  grab.direction = rotate(conjugate(grab.holder.orientation), place.axis);
 }
 
 Vec3 GrabManager::pointOf(const forest::Grab& grab) const {
@@ -109,7 +115,7 @@ GrabManager::Place GrabManager::nearestTo(const geometry_msgs::PointStamped& sta
         return {tree, node_.forest.pose(*tree, id, node_.forest.snapshot().stamp)};
       });
   if (!found) throw InvalidInput("no branch within 2 m of point", FaultCode::NOTHING_FOUND);
-  return {found->at, found->point};
+  return {found->at, found->point, Vec3::UnitZ()};
 }
 
 template <class ServiceRequest>
@@ -159,7 +165,7 @@ void GrabManager::setByFrame(const Vec3& point, forest::Grab& grab, Request& req
                              std::to_string(grab.lease) + " s",
                          FaultCode::NO_TRANSFORM);
   }
-  grab.holder = fromMsg(newest.transform);
+  grab.holder = holderPose(newest);
   if (request.keep_offset) grab.offset = transformed(inverse(grab.holder), point);
   checkFinite("offset", grab.offset, {-1e3, 1e3});
   grab.target = transformed(grab.holder, grab.offset);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <geometry_msgs/PointStamped.h>
+#include <geometry_msgs/TransformStamped.h>
 #include <tf2_ros/buffer.h>
 #include <vegetation_sim/ApplyForce.h>
 #include <vegetation_sim/ContactForces.h>
@@ -34,6 +35,9 @@ struct GrabDependencies {
   /// Called after changes that are in the state of GrabManager and in no event.
   std::function<void()> on_change = [] {};
 };
+
+/// Returns the pose of a grab's holder; tf takes orientations whose norm is not quite 1.
+Pose holderPose(const geometry_msgs::TransformStamped& transform);
 
 /// Checks requests to grab, move, release and push, and queues them as events; moves the grabs that
 /// follow a tf frame; reports the wrenches on the bodies that hold or touch branches. A grab itself
@@ -102,6 +106,7 @@ class GrabManager {
   struct Place {
     forest::BranchPoint at;
     Vec3 point;  // world
+    Vec3 axis;   // along the branch, world
   };
   std::shared_ptr<const forest::Tree> grown(std::uint32_t tree) const;
   Place placeOf(std::uint32_t tree, std::uint32_t branch, double along) const;

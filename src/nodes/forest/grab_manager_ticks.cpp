@@ -43,7 +43,7 @@ bool GrabManager::followOne(const forest::Grab& grab, Request& request, Nanoseco
   ForestInput event;
   event.kind = ForestInput::MOVE;
   event.grab = grab;
-  event.grab.holder = fromMsg(newest.transform);
+  event.grab.holder = holderPose(newest);
   event.grab.target = transformed(event.grab.holder, grab.offset);
   checkTarget(event.grab, pointOf(grab));
   request.published = published;

@@ -20,7 +20,7 @@ forest::Grab fromMsg(const BranchGrab& message) {
   out.offset = fromMsg(message.offset);
   out.holder = fromMsg(message.holder);
   out.jaw_length = message.jaw_length;
-  out.direction = fromMsg(message.direction);
+  if (out.jaw_length != 0.0) out.direction = fromMsg(message.direction);
   return out;
 }
 

@@ -18,6 +18,17 @@ constexpr std::size_t LONGEST_NAME = 256;
 
 }  // namespace
 
+void checkOrientation(const Quat& q, const std::string& name, Faults& faults) {
+  const std::string fault = rangeFault(name + "'s norm", normOf(q), "", {0.999, 1.001});
+  if (!fault.empty()) faults.add(fault);
+}
+
+void checkHolder(const Pose& holder, Faults& faults) {
+  Vec3 position = holder.position;
+  FieldChecker("grab: ", faults).vector("holder.position", position, "m", ANYWHERE);
+  checkOrientation(holder.orientation, "grab: holder.orientation", faults);
+}
+
 void check(const Grab& grab, Faults& faults) {
   FieldChecker checker("grab: ", faults);
   Grab copy = grab;
@@ -32,6 +43,7 @@ void check(const Grab& grab, Faults& faults) {
   if (std::abs(length(grab.direction) - 1.0) > UNIT_ROUNDING)
     faults.add("grab: length of direction = " + std::to_string(length(grab.direction)) +
                " is not 1");
+  checkHolder(grab.holder, faults);
   if (grab.frame.size() > LONGEST_NAME)
     faults.add("grab: frame is longer than " + std::to_string(LONGEST_NAME) + " characters");
 }

@@ -88,6 +88,10 @@ struct Reaction {
 /// ForestPhysics.
 void check(const Grab& grab, Faults& faults);
 void check(const Push& push, Faults& faults);
+/// Adds a fault unless the norm of `q` is 1 up to 0.001.
+void checkOrientation(const Quat& q, const std::string& name, Faults& faults);
+/// Adds a fault for each invalid number of the pose of a grab's holder.
+void checkHolder(const Pose& holder, Faults& faults);
 
 /// Current cost of the physics.
 struct PhysicsFigures {

@@ -97,6 +97,38 @@ TEST(Interaction, AJawThatTurnsBendsTheBranch) {
   }
 }
 
+// N3: the torque of a jaw that opens falls at the rate of the force, at a lever of 0.1 m, to a
+// final zero, even if no force goes with it.
+TEST(Interaction, TorqueOfAJawFallsAfterARelease) {
+  PhysicsSettings settings;
+  settings.contact.force_rate = 600.0;
+  PhysicsRig rig = poleRig();
+  rig.forest.setPhysics(settings);
+  Grab grab = rig.grabOf(0);
+  grab.point.along = 1.0;
+  grab.target = rig.pointOn(grab.point);
+  grab.stiffness = 1e5;
+  grab.force_limit = 1e4;
+  grab.jaw_length = 0.4;
+  const SinCos half = sinCos(0.1);
+  grab.direction = axisZ(Quat{half.cos, 0.0, half.sin, 0.0});
+  const std::uint32_t id = rig.forest.addGrab(grab);
+  rig.run(4.0);
+  const Reaction held = rig.forest.reactions().at(0);
+  const double most = 600.0 / TICK_RATE * 0.1;
+  ASSERT_GT(length(held.torque), 10.0 * most);
+  rig.forest.release(id);
+  double last = length(held.torque);
+  int published = 0;
+  for (rig.advance(); !rig.forest.reactions().empty(); rig.advance(), ++published) {
+    const double now = length(rig.forest.reactions()[0].torque);
+    EXPECT_LE(last - now, most * (1.0 + 1e-6));
+    last = now;
+  }
+  EXPECT_GT(published, 10);
+  EXPECT_EQ(last, 0.0);
+}
+
 // N3: beyond its limit each end of a jaw pulls with half of the force limit.
 TEST(Interaction, AJawKeepsToItsForceLimit) {
   PhysicsRig rig = poleRig();
@@ -447,11 +479,23 @@ TEST(Interaction, RefusedRequestsSayWhyAndChangeNothing) {
   has(refused([](Grab& g) { g.jaw_length = NAN; }), "grab: jaw_length = nan");
   has(refused([](Grab& g) { g.direction.z() = NAN; }), "grab: direction.z = nan");
   has(refused([](Grab& g) { g.direction *= 0.5; }), "grab: length of direction = 0.5");
+  has(refused([](Grab& g) {
+        g.holder.orientation = {0.0, 0.0, 0.0, 0.0};
+      }),
+      "grab: holder.orientation's norm = 0 is outside 0.999 to 1.001");
   const std::string all = refused([](Grab& g) { g.damping = -1.0, g.lease = -2.0; });
   has(all, "damping = -1");
   has(all, "lease = -2");
   has(errorOf([&] { rig.forest.moveGrab(77, Vec3::Zero()); }), "grab: id = 77 is unknown");
   has(errorOf([&] { rig.forest.moveGrab(1, Vec3(0, NAN, 0)); }), "target.y = nan");
+  Pose nowhere;
+  nowhere.position.z() = NAN;
+  nowhere.orientation.w = NAN;
+  const std::string holder = errorOf([&] {
+    rig.forest.moveGrab(1, rig.pointOn({0, rig.twig(), 0.0}), nowhere);
+  });
+  has(holder, "grab: holder.position.z = nan");
+  has(holder, "grab: holder.orientation's norm = nan");
   has(errorOf([&] { rig.forest.release(77); }), "grab: id = 77 is unknown");
   has(errorOf([&] { rig.forest.removeBody("arm"); }), "body 'arm' is unknown");
   PhysicsSettings wrong;

@@ -33,6 +33,15 @@ inline Quat conjugate(const Quat& q) {
   return {q.w, -q.x, -q.y, -q.z};
 }
 
+inline double normOf(const Quat& q) {
+  return std::sqrt(q.w * q.w + q.x * q.x + (q.y * q.y + q.z * q.z));
+}
+
+inline Quat normalized(const Quat& q) {
+  const double f = 1.0 / normOf(q);
+  return {q.w * f, q.x * f, q.y * f, q.z * f};
+}
+
 inline Vec3 axisX(const Quat& q) {
   return {1.0 - 2.0 * (q.y * q.y + q.z * q.z), 2.0 * (q.x * q.y + q.w * q.z),
           2.0 * (q.x * q.z - q.w * q.y)};

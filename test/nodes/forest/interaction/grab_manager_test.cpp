@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "core/error_text.h"
 #include "ros/conversions/grab_conversions.h"
 #include "scenes/forest/forest_fixture.h"
 #include "vegetation_sim/core/math/math.h"
@@ -100,6 +101,9 @@ class GrabManagerRig {
     return grabs_manager_.release(request);
   }
   ForestInputs& inputs() { return inputs_; }
+  std::string errorAtTick(ForestInput event) {
+    return errorOf([&] { grabs_manager_.followFrame(event); });
+  }
 
  private:
   std::int64_t tick_{6000};
@@ -211,6 +215,16 @@ TEST(GrabManager, JawTurnsTheLimbWithTheHand) {
   EXPECT_LT(length(fromMsg(rig.forces()[0].wrench.torque) - alongAxes(hand.orientation, torque)),
             0.01 * length(torque));
   EXPECT_LT(length(fromMsg(rig.forces()[0].force) - force), 0.01 * length(couple) / jaw);
+}
+
+// A tree that has grown anew while a grab waited may have fewer branches.
+TEST(GrabManager, JawOnABranchThatIsGoneIsRefused) {
+  GrabManagerRig rig;
+  ForestInput event;
+  event.kind = ForestInput::GRAB;
+  event.grab.point = {0, 99999, 0.1};
+  event.grab.jaw_length = 0.1;
+  EXPECT_NE(rig.errorAtTick(event).find("branch = 99999 is unknown"), std::string::npos);
 }
 
 // A number that is given counts, even if it is 0; the others have their defaults.
