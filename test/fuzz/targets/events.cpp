@@ -133,7 +133,8 @@ std::vector<std::string> forestSeeds() {
   event.grab.stiffness = 500.0;
   event.grab.damping = 10.0;
   event.grab.force_limit = 50.0;
-  event.grab.holder.orientation.w = 1.0;
+  event.grab.holder.orientation.w = event.grab.direction.z = 1.0;
+  event.grab.jaw_length = 0.05;
   event.force.along = 0.1;
   event.force.force.x = 5.0;
   event.force.duration = 0.5;
