@@ -63,6 +63,17 @@ TEST(Interaction, WrenchIsTheJointsSpringOverItsLever) {
   EXPECT_NEAR(rig.angles(rig.now())[0].second, q.second, 0.01 * q.second);
 }
 
+// Returns a grab of the pole, 1 m from its joint, by a jaw.
+Grab grabByJaw(const PhysicsRig& rig, double stiffness, double force_limit, double jaw_length) {
+  Grab out = rig.grabOf(0);
+  out.point.along = 1.0;
+  out.target = rig.pointOn(out.point);
+  out.stiffness = stiffness;
+  out.force_limit = force_limit;
+  out.jaw_length = jaw_length;
+  return out;
+}
+
 // N3: a jaw that turns by 0.3 rad about the pole that it holds bends it to where the joint balances
 // the two springs: k q = K (l / 2)^2 sin(0.3 - q) - K r^2 sin q, for a jaw of length l that holds
 // the pole r from the joint. A point that turns bends nothing.
@@ -70,20 +81,17 @@ TEST(Interaction, AJawThatTurnsBendsTheBranch) {
   for (const double jaw : {0.0, 0.4}) {
     PhysicsRig rig = poleRig();
     const double k = jointStiffness(rig.branches()[0], rig.forest.layout().species[0]), turn = 0.3;
-    Grab grab = rig.grabOf(0);
-    const double from_joint = grab.point.along = 1.0, spring = 2000.0;
-    grab.target = rig.pointOn(grab.point);
-    grab.stiffness = spring;
-    grab.force_limit = 1e5;
+    const double spring = 2000.0;
+    Grab grab = grabByJaw(rig, spring, 1e5, jaw);
     grab.frame = "jaw";
-    grab.jaw_length = jaw;
     const std::uint32_t id = rig.forest.addGrab(grab);
     Pose holder;
     const SinCos half = sinCos(0.5 * turn);
     holder.orientation = Quat{half.cos, 0.0, half.sin, 0.0};
     rig.forest.moveGrab(id, grab.target, holder);
     rig.run(8.0);
-    const double turning = spring * 0.25 * jaw * jaw, holding = spring * from_joint * from_joint;
+    const double turning = spring * 0.25 * jaw * jaw,
+                 holding = spring * grab.point.along * grab.point.along;
     double q = 0.0;
     for (int i = 0; i < 50; ++i)
       q -= (k * q + holding * std::sin(q) - turning * std::sin(turn - q)) /
@@ -104,12 +112,7 @@ TEST(Interaction, TorqueOfAJawFallsAfterARelease) {
   settings.contact.force_rate = 600.0;
   PhysicsRig rig = poleRig();
   rig.forest.setPhysics(settings);
-  Grab grab = rig.grabOf(0);
-  grab.point.along = 1.0;
-  grab.target = rig.pointOn(grab.point);
-  grab.stiffness = 1e5;
-  grab.force_limit = 1e4;
-  grab.jaw_length = 0.4;
+  Grab grab = grabByJaw(rig, 1e5, 1e4, 0.4);
   const SinCos half = sinCos(0.1);
   grab.direction = axisZ(Quat{half.cos, 0.0, half.sin, 0.0});
   const std::uint32_t id = rig.forest.addGrab(grab);
@@ -132,12 +135,7 @@ TEST(Interaction, TorqueOfAJawFallsAfterARelease) {
 // N3: beyond its limit each end of a jaw pulls with half of the force limit.
 TEST(Interaction, AJawKeepsToItsForceLimit) {
   PhysicsRig rig = poleRig();
-  Grab grab = rig.grabOf(0);
-  grab.point.along = 1.0;
-  grab.target = rig.pointOn(grab.point);
-  grab.stiffness = 1e6;
-  grab.force_limit = 10.0;
-  grab.jaw_length = 0.4;
+  Grab grab = grabByJaw(rig, 1e6, 10.0, 0.4);
   grab.direction = Vec3::UnitX();  // a quarter turn
   rig.forest.addGrab(grab);
   rig.run(8.0);

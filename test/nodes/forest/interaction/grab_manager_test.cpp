@@ -121,6 +121,20 @@ Vec3 alongAxes(const Quat& frame, const Vec3& v) {
   return Vec3(dot(axisX(frame), v), dot(axisY(frame), v), dot(axisZ(frame), v));
 }
 
+// Returns a request by which the frame "hand" holds a branch for a minute.
+Grab::Request requestOfHand(int branch, double along, double stiffness) {
+  Grab::Request out;
+  out.branch = static_cast<std::uint32_t>(branch);
+  out.along = along;
+  out.frame = "hand";
+  out.has_stiffness = out.has_damping = out.has_force_limit = out.has_lease = true;
+  out.stiffness = stiffness;
+  out.damping = 200.0;
+  out.force_limit = 1e4;
+  out.lease = 60.0;
+  return out;
+}
+
 // N3: a hand holds a limb 30 cm from its own origin in a rotated frame, moves aside and rotates. At
 // rest its wrench balances the spring, both as a force and as a moment about the origin of the
 // hand.
@@ -130,18 +144,8 @@ TEST(GrabManager, HandGetsForceAndTorqueInItsOwnFrame) {
   const double along = 0.5 * rig.branch(limb).length, stiffness = 5000.0;
   const Pose start{rig.pointOn(limb, along) + Vec3(0.1, -0.2, 0.2), turned()};
   rig.show("hand", start);
-  Grab::Request request;
-  request.tree = 0;
-  request.branch = static_cast<std::uint32_t>(limb);
-  request.along = along;
-  request.frame = "hand";
+  Grab::Request request = requestOfHand(limb, along, stiffness);
   request.keep_offset = true;
-  request.has_stiffness = request.has_damping = true;
-  request.has_force_limit = request.has_lease = true;
-  request.stiffness = stiffness;
-  request.damping = 200.0;
-  request.force_limit = 1e4;
-  request.lease = 60.0;
   const std::uint32_t id = rig.grab(request);
   const Vec3 in_hand = transformed(inverse(start), rig.pointOn(limb, along));
   Pose hand = start;
@@ -182,18 +186,8 @@ TEST(GrabManager, JawTurnsTheLimbWithTheHand) {
   const double along = 0.5 * rig.branch(limb).length, jaw = 0.3, stiffness = 5000.0;
   const Pose start{rig.pointOn(limb, along), turned()};
   rig.show("hand", start);
-  Grab::Request request;
-  request.tree = 0;
-  request.branch = static_cast<std::uint32_t>(limb);
-  request.along = along;
-  request.frame = "hand";
+  Grab::Request request = requestOfHand(limb, along, stiffness);
   request.jaw_length = jaw;
-  request.has_stiffness = request.has_damping = true;
-  request.has_force_limit = request.has_lease = true;
-  request.stiffness = stiffness;
-  request.damping = 200.0;
-  request.force_limit = 1e4;
-  request.lease = 60.0;
   rig.grab(request);
   const auto axis = [&] {
     return Vec3((rig.pointOn(limb, along + 0.1) - rig.pointOn(limb, along - 0.1)) / 0.2);
