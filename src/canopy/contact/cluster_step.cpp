@@ -170,15 +170,18 @@ class Step {
     return matrix.solve(right);
   }
 
-  double depthAfter(const Overlap& overlap, const Flat& rate) const {
-    return overlap.depth - dt_ * overlap.height * overlap.pull.dot(rate);
+  // Pressure at the end of the step [Pa].
+  double pressureAfter(const Overlap& overlap, const Flat& rate) const {
+    const double motion = overlap.height * overlap.pull.dot(rate);
+    return law_.pressure * (overlap.depth - dt_ * motion) +
+           law_.drag * overlap.depth * (dot(overlap.velocity, overlap.normal) - motion);
   }
 
-  // Drops the overlaps that end within the step. Returns whether there were any.
+  // Drops the overlaps that would pull. Returns whether there were any.
   bool release(const Flat& rate) {
     bool any = false;
     for (Overlap& overlap : overlaps_)
-      if (overlap.pressed && depthAfter(overlap, rate) < 0.0) {
+      if (overlap.pressed && pressureAfter(overlap, rate) < 0.0) {
         overlap.pressed = false;
         any = true;
       }
@@ -188,10 +191,11 @@ class Step {
   void addLoad(const Overlap& overlap, const Flat& rate, double area, BodyLoad& load) const {
     if (!overlap.pressed) return;
     const double volume = area * overlap.width * overlap.depth;
-    const Vec3 motion = overlap.height * (rate.x * direction_.by_x + rate.y * direction_.by_y);
-    const double press = area * overlap.width * law_.pressure * depthAfter(overlap, rate);
-    const Vec3 impulse =
-        -dt_ * (press * overlap.normal + volume * law_.drag * (overlap.velocity - motion));
+    const Vec3 slip = overlap.velocity - overlap.height * (rate.x * direction_.by_x +
+                                                           rate.y * direction_.by_y);
+    const Vec3 along = slip - dot(slip, overlap.normal) * overlap.normal;
+    const Vec3 pressed = std::max(0.0, pressureAfter(overlap, rate)) * overlap.normal;
+    const Vec3 impulse = -dt_ * (area * overlap.width * pressed + volume * law_.drag * along);
     const double weight = length(impulse);
     load.impulse += impulse;
     load.moment += cross(Vec3(overlap.place - bodies_[overlap.body].pose.position), impulse);

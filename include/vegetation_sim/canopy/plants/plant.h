@@ -34,7 +34,7 @@ struct PushLaw {
   double set{0.0};          ///< share of the largest lean that remains
   double recovery{60.0};    ///< time constant in which it disappears [s]
   double pressure{10000.0};  ///< pressure per depth of the overlap [N/m^3]
-  double drag{500.0};  ///< force per volume of the overlap and relative speed [N s/m^4]
+  double drag{2000.0};  ///< force per volume of the overlap and relative speed [N s/m^4]
   double cell{0.25};   ///< wanted edge of cells that lean alike [m]
 };
 void describe(FieldVisitor& visitor, PushLaw& law);
