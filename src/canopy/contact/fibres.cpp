@@ -13,7 +13,7 @@ namespace vegetation_sim::canopy {
 namespace {
 
 constexpr int MOST_ON_A_SIDE = 16;
-constexpr int SUBDIVISIONS = 16;    // of a cell's edge, for the share within the circle
+constexpr int SUBDIVISIONS = 12;    // of a cell's edge, for the share within the circle
 constexpr double STILL = 2e-5;      // [rad], [rad/s]: less than half of LEAN_UNIT
 constexpr std::size_t CLUSTER_BYTES = 48, BODY_BYTES = 200, LONGEST_NAME = 4096;
 

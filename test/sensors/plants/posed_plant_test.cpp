@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "scenes/canopy/canopy_scene.h"
+#include "vegetation_sim/canopy/canopy.h"
 
 namespace vegetation_sim::scan {
 namespace {
@@ -26,6 +27,20 @@ canopy::Layout oneStalk() {
   return out;
 }
 
+/// A replica in calm air that receives cells that lean.
+struct Calm {
+  canopy::Canopy sender;
+  canopy::Replica replica;
+  explicit Calm(const canopy::Layout& layout) : sender(layout), replica(layout) { bend({}); }
+  const canopy::Foliage& bend(const std::vector<canopy::BentCell>& cells) {
+    sender.advance(sender.snapshot().stamp + NANOSECONDS_PER_SECOND / 30);
+    canopy::StateUpdate update = sender.update(false);
+    update.bent = cells;
+    replica.apply(update);
+    return replica.foliageOfPlane();
+  }
+};
+
 std::vector<canopy::BentCell> leaning(double x) {
   return {{0, 0, static_cast<std::int16_t>(std::lround(x / canopy::LEAN_UNIT)), 0}};
 }
@@ -43,13 +58,12 @@ double rangeAt(const PosedPlant& plant, double height) {
 // The law: a fibre that leans by an angle is at tan(angle) times the height, whatever its length.
 TEST(PosedPlant, RangesChangeAsTheLeanSays) {
   const canopy::Layout layout = oneStalk();
-  canopy::Foliage foliage(layout);
+  Calm calm(layout);
   PosedPlant plant(layout, 0);
-  plant.pose(foliage);
+  plant.pose(calm.bend({}));
   std::vector<double> upright;
   for (const double height : {0.1, 0.3, 0.5}) upright.push_back(rangeAt(plant, height));
-  foliage.setBent(leaning(LEAN));
-  plant.pose(foliage);
+  plant.pose(calm.bend(leaning(LEAN)));
   std::size_t i = 0;
   // Stalks lean up to 0.2 m outwards by themselves and have their feet within 1 cm.
   for (const double height : {0.1, 0.3, 0.5}) {
@@ -57,21 +71,19 @@ TEST(PosedPlant, RangesChangeAsTheLeanSays) {
     EXPECT_NEAR(rangeAt(plant, height) - upright[i++], std::tan(LEAN) * height,
                 0.25 * height + 0.02);
   }
-  foliage.setBent({});
-  plant.pose(foliage);
+  plant.pose(calm.bend({}));
   i = 0;
   for (const double height : {0.1, 0.3, 0.5}) EXPECT_EQ(rangeAt(plant, height), upright[i++]);
 }
 
 // Leaves turn with the fibre of their anchor, stems with those of their ends, corner by corner.
 TEST(PosedPlant, LeavesAndStemsTurnAboutTheFeetOfTheirFibres) {
-  canopy::Layout layout = canopy::shrubScene();
-  canopy::Foliage foliage(layout);
+  const canopy::Layout layout = canopy::shrubScene();
+  Calm calm(layout);
   PosedPlant plant(layout, 0), rest(layout, 0);
   std::vector<canopy::BentCell> cells;
   for (std::uint16_t cell = 0; cell < 64; ++cell) cells.push_back({0, cell, 8000, 0});
-  foliage.setBent(cells);
-  plant.pose(foliage);
+  plant.pose(calm.bend(cells));
   const double ground = layout.plants[0].position.z();
   const auto turned = [&](const Vec3& point, const Vec3& foot) {
     const Vec3 arm = point - foot;
