@@ -25,8 +25,8 @@ void checkPush(const PushState& push, const Layout& layout) {
   Faults faults;
   for (const auto& [id, clusters] : push.plants) {
     const bool known = id < layout.plants.size();
-    if (!known || clusters.size() != fibresOf(layout.kinds[layout.plants[id].kind],
-                                              layout.plants[id]).cells())
+    if (!known || clusters.size() !=
+                      fibresOf(layout.kinds[layout.plants[id].kind], layout.plants[id]).cells())
       faults.add("snapshot: plant " + std::to_string(id) + " with " +
                  std::to_string(clusters.size()) + " cells belongs to another layout");
   }
@@ -224,15 +224,9 @@ const Foliage& Canopy::foliage() {
 }
 
 StateUpdate Canopy::update(bool hashed) const {
-  return {memory_.stamp,
-          memory_.ticks,
-          memory_.history.frame(0),
-          memory_.driver.share(),
-          memory_.cuts,
-          bentCells(memory_.push),
-          layout_hash_,
-          wind_.hash(),
-          hashed ? memory_.hash() : 0};
+  return {memory_.stamp,          memory_.ticks, memory_.history.frame(0),
+          memory_.driver.share(), memory_.cuts,  bentCells(memory_.push),
+          layout_hash_,           wind_.hash(),  hashed ? memory_.hash() : 0};
 }
 
 Replica::Replica(const Layout& layout)

@@ -34,8 +34,8 @@ void Foliage::checkBent(const std::vector<BentCell>& cells) const {
     least = place + 1;
     for (const int lean : {bent.x, bent.y})
       if (std::abs(lean) > LARGEST_UNITS)
-        faults.add(rangeFault(name + ": lean", LEAN_UNIT * lean, "rad",
-                              {-LARGEST_LEAN, LARGEST_LEAN}));
+        faults.add(
+            rangeFault(name + ": lean", LEAN_UNIT * lean, "rad", {-LARGEST_LEAN, LARGEST_LEAN}));
   }
   if (cells.size() > MOST_CLUSTERS)
     faults.add("state: bent has " + std::to_string(cells.size()) + " cells, allowed are " +

@@ -57,7 +57,8 @@ TEST(BentLeaves, LeavesGoAsideAndAReplicaMovesThemToTheSameBits) {
         if (windy) continue;
         // Leaves keep their shape, and their distance from the foot of their fibre.
         EXPECT_NEAR(length(Vec3(here.tip - here.root)), length(Vec3(leaf.tip - leaf.root)), 1e-12);
-        const Vec3 foot(leaf.anchor.x(), leaf.anchor.y(), canopy.layout().plants[plant].position.z());
+        const Vec3 foot(leaf.anchor.x(), leaf.anchor.y(),
+                        canopy.layout().plants[plant].position.z());
         EXPECT_NEAR(length(Vec3(here.root - foot)), length(Vec3(leaf.root - foot)), 1e-12);
       }
     EXPECT_GT(most, 0.2);
@@ -121,7 +122,8 @@ TEST(BentLeaves, BadBodiesAreRejectedByFieldValueAndRange) {
   body.size.x() = 0.0;
   body.velocity.y() = 1e3;
   const std::string text = errorOf([&] { canopy.setBody(body); });
-  EXPECT_NE(text.find("body 'robot'.size_x = 0 m is outside 0.001 to 50"), std::string::npos) << text;
+  EXPECT_NE(text.find("body 'robot'.size_x = 0 m is outside 0.001 to 50"), std::string::npos)
+      << text;
   EXPECT_NE(text.find("velocity.y = 1000 m/s is outside -100 to 100"), std::string::npos) << text;
   EXPECT_NE(errorOf([&] { canopy.removeBody("robot"); }).find("body 'robot' is unknown"),
             std::string::npos);
@@ -130,8 +132,9 @@ TEST(BentLeaves, BadBodiesAreRejectedByFieldValueAndRange) {
     body.id = std::to_string(i);
     canopy.setBody(body);
   }
-  EXPECT_NE(errorOf([&] { canopy.setBody(robotAt(0.0, 0)); }).find("one more than the 1024 allowed"),
-            std::string::npos);
+  EXPECT_NE(
+      errorOf([&] { canopy.setBody(robotAt(0.0, 0)); }).find("one more than the 1024 allowed"),
+      std::string::npos);
   EXPECT_EQ(canopy.bodies().size(), MOST_PUSHING);
 }
 

@@ -69,8 +69,8 @@ class Canopy {
   /// Sets crowns that hang in the layers beside the plants. The state does not depend on them.
   void setCrowns(std::vector<LeafBox> crowns);
 
-  /// Adds or moves a body that pushes plants from the next tick on. @throws InvalidInput for invalid
-  /// numbers, and for one more than MOST_PUSHING.
+  /// Adds or moves a body that pushes plants from the next tick on. @throws InvalidInput for
+  /// invalid numbers, and for one more than MOST_PUSHING.
   void setBody(const forest::Body& body);
   /// @throws InvalidInput for an unknown id.
   void removeBody(const std::string& id);

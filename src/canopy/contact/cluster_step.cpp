@@ -11,7 +11,7 @@
 namespace vegetation_sim::canopy {
 namespace {
 
-constexpr int SAMPLES = 6;  // of the part of a fibre near a body
+constexpr int SAMPLES = 6;      // of the part of a fibre near a body
 constexpr double SMALL = 1e-2;  // [rad]; series below it are exact to 1e-15
 
 // Returns the ground of a cell within the plant [m^2].
@@ -30,8 +30,8 @@ struct Direction {
     const SinCos turn = sinCos(angle);
     const bool small = angle < SMALL;
     const double sinc = small ? 1.0 - square / 6.0 * (1.0 - square / 20.0) : turn.sin / angle;
-    const double slope = small ? -1.0 / 3.0 + square / 30.0 * (1.0 - square / 28.0)
-                               : (turn.cos - sinc) / square;
+    const double slope =
+        small ? -1.0 / 3.0 + square / 30.0 * (1.0 - square / 28.0) : (turn.cos - sinc) / square;
     along = Vec3(sinc * lean.x, sinc * lean.y, turn.cos);
     const double mixed = slope * lean.x * lean.y;
     by_x = Vec3(sinc + slope * lean.x * lean.x, mixed, -sinc * lean.x);
@@ -45,12 +45,12 @@ struct Direction {
 /// A piece of the fibres of a cell that overlaps a body.
 struct Overlap {
   std::size_t body;
-  double height;           // of its middle along the fibre [m]
-  Vec3 place, normal;      // world; the normal is from the body
-  double depth;            // [m]
-  double width;            // length of the piece over the edge of the cell
-  Vec3 velocity;           // of the body there [m/s]
-  Flat pull;               // components of the normal
+  double height;       // of its middle along the fibre [m]
+  Vec3 place, normal;  // world; the normal is from the body
+  double depth;        // [m]
+  double width;        // length of the piece over the edge of the cell
+  Vec3 velocity;       // of the body there [m/s]
+  Flat pull;           // components of the normal
   bool pressed{true};
 };
 
@@ -138,8 +138,7 @@ class Step {
       out.place = foot_ + out.height * direction_.along;
       out.normal = rotate(posed.pose.orientation, normal);
       out.width = piece / fibres_.edge();
-      out.velocity =
-          posed.velocity + cross(posed.spin, Vec3(out.place - posed.pose.position));
+      out.velocity = posed.velocity + cross(posed.spin, Vec3(out.place - posed.pose.position));
       out.pull = direction_.into(out.normal);
       overlaps_.push_back(out);
     }
@@ -152,8 +151,9 @@ class Step {
     const double self =
         inertia + dt_ * 2.0 * law_.damping * law_.stiffness / omega + dt_ * dt_ * law_.stiffness;
     Square matrix{self, 0.0, self};
-    Flat right{inertia * cluster_.rate.x - dt_ * law_.stiffness * (cluster_.lean.x - cluster_.set.x),
-               inertia * cluster_.rate.y - dt_ * law_.stiffness * (cluster_.lean.y - cluster_.set.y)};
+    Flat right{
+        inertia * cluster_.rate.x - dt_ * law_.stiffness * (cluster_.lean.x - cluster_.set.x),
+        inertia * cluster_.rate.y - dt_ * law_.stiffness * (cluster_.lean.y - cluster_.set.y)};
     for (const Overlap& overlap : overlaps_) {
       if (!overlap.pressed) continue;
       const double share = overlap.height / height;
@@ -191,8 +191,8 @@ class Step {
   void addLoad(const Overlap& overlap, const Flat& rate, double area, BodyLoad& load) const {
     if (!overlap.pressed) return;
     const double volume = area * overlap.width * overlap.depth;
-    const Vec3 slip = overlap.velocity - overlap.height * (rate.x * direction_.by_x +
-                                                           rate.y * direction_.by_y);
+    const Vec3 slip =
+        overlap.velocity - overlap.height * (rate.x * direction_.by_x + rate.y * direction_.by_y);
     const Vec3 along = slip - dot(slip, overlap.normal) * overlap.normal;
     const Vec3 pressed = std::max(0.0, pressureAfter(overlap, rate)) * overlap.normal;
     const Vec3 impulse = -dt_ * (area * overlap.width * pressed + volume * law_.drag * along);

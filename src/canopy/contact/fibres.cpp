@@ -13,8 +13,8 @@ namespace vegetation_sim::canopy {
 namespace {
 
 constexpr int MOST_ON_A_SIDE = 16;
-constexpr int SUBDIVISIONS = 12;    // of a cell's edge, for the share within the circle
-constexpr double STILL = 2e-5;      // [rad], [rad/s]: less than half of LEAN_UNIT
+constexpr int SUBDIVISIONS = 12;  // of a cell's edge, for the share within the circle
+constexpr double STILL = 2e-5;    // [rad], [rad/s]: less than half of LEAN_UNIT
 constexpr std::size_t CLUSTER_BYTES = 48, BODY_BYTES = 200, LONGEST_NAME = 4096;
 
 bool isStill(const Flat& v) {
@@ -45,8 +45,8 @@ Fibres fibresOf(const PlantKind& kind, const Plant& plant) {
   out.length = height - trunk;
   out.half = plant.scale * (kind.form ? kind.height * kind.form->radius : kind.radius);
   out.half = std::max(out.half, 1e-3);
-  out.side = std::clamp(static_cast<int>(std::ceil(2.0 * out.half / kind.push.cell)), 1,
-                        MOST_ON_A_SIDE);
+  out.side =
+      std::clamp(static_cast<int>(std::ceil(2.0 * out.half / kind.push.cell)), 1, MOST_ON_A_SIDE);
   return out;
 }
 

@@ -10,10 +10,10 @@
 namespace vegetation_sim::canopy {
 namespace {
 
-constexpr double SQUARE = 4.0;           // [m] edge
-constexpr double LONGEST_STEP = 0.01;    // [s]
-constexpr double LONGEST_WAY = 0.01;     // of a body in a step [m]
-constexpr int MOST_STEPS = 64;           // between two ticks
+constexpr double SQUARE = 4.0;         // [m] edge
+constexpr double LONGEST_STEP = 0.01;  // [s]
+constexpr double LONGEST_WAY = 0.01;   // of a body in a step [m]
+constexpr int MOST_STEPS = 64;         // between two ticks
 constexpr Nanoseconds AHEAD = NANOSECONDS_PER_SECOND / 2;
 
 // Radius around the foot in which bodies can touch the fibres.
@@ -72,9 +72,8 @@ bool PlantPusher::canReach(std::uint32_t plant, bool leans, const forest::Body& 
          offset.z() - reach < fibres.length + fibres.edge() && offset.z() + reach > -fibres.edge();
 }
 
-std::vector<std::uint32_t> PlantPusher::plantsNear(const PushState& state,
-                                                   const forest::Body& body, Nanoseconds from,
-                                                   Nanoseconds to) const {
+std::vector<std::uint32_t> PlantPusher::plantsNear(const PushState& state, const forest::Body& body,
+                                                   Nanoseconds from, Nanoseconds to) const {
   std::vector<std::uint32_t> out;
   const Vec3 at = poseAt(body, to).position;
   const double range = shapeOf(body).reach() + wayOf(body, secondsBetween(from, to)) + largest_;

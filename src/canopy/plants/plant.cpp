@@ -11,7 +11,7 @@
 namespace vegetation_sim::canopy {
 namespace {
 
-constexpr double SHORTEST = 1e-9;     // [m]
+constexpr double SHORTEST = 1e-9;  // [m]
 
 Vec3 unit(const Vec3& v, const Vec3& otherwise) {
   const double size = length(v);

@@ -95,7 +95,7 @@ class CanopyAnimator final
   bool begun_{false};           // the beginning has been published
 
   std::uint64_t state_bytes_{0}, other_viewers_{0};
-  std::uint64_t reported_resets_{0};  // of the fluid, when diagnostics were last sent
+  std::uint64_t reported_resets_{0};   // of the fluid, when diagnostics were last sent
   std::uint64_t reported_refused_{0};  // plants that did not lean, likewise
 
   ros::Publisher layout_publisher_, state_publisher_, contacts_publisher_;

@@ -77,7 +77,7 @@ class CanopyMarkers : public MarkerBuilder {
   std::vector<Ladder> ladders_;      // by kind
   std::vector<TierChoice> choices_;  // as the layout has its plants
   std::vector<DrawnPlant> plants_;
-  std::vector<Wood> wood_;           // of the plants
+  std::vector<Wood> wood_;  // of the plants
   std::vector<Drawn> crown_leaves_;
   bool bent_{false};  // bodies had pushed plants at the last build
   TierHysteresis held_;

@@ -238,7 +238,8 @@ void CanopyPatch::build(const canopy::Layout& layout, const Vec3& to_sun) {
     size += length(leaf.tip - leaf.root);
   }
   if (!leaves_.empty()) leaf_size_ = size / static_cast<double>(leaves_.size());
-  leaf_batch_.build(positions_, paint, triangles, static_cast<float>(MARGIN + leaf_size_ + tallest_));
+  leaf_batch_.build(positions_, paint, triangles,
+                    static_cast<float>(MARGIN + leaf_size_ + tallest_));
   stem_batch_.build(stem_positions_, stem_paint_, stem_triangles_, static_cast<float>(tallest_));
 }
 
@@ -249,8 +250,8 @@ void CanopyPatch::move(const canopy::Foliage& foliage, std::size_t count) {
 
 void CanopyPatch::bendStems(const canopy::Foliage& foliage) {
   const auto isBent = [&](std::size_t plant) { return foliage.isBent(plant); };
-  const bool bent = foliage.anyBent() &&
-                    std::any_of(stem_owners_.begin(), stem_owners_.end(), isBent);
+  const bool bent =
+      foliage.anyBent() && std::any_of(stem_owners_.begin(), stem_owners_.end(), isBent);
   if (bent || bent_) {
     std::vector<float> positions(stem_positions_);
     for (std::size_t i = 0; i < stem_owners_.size(); ++i) {

@@ -97,8 +97,8 @@ void CanopyVisual::light(const Daylight& daylight, const Haze& haze) {
   stem_material_.light(daylight, daylight.to_sun, haze);
 }
 
-// Returns the visible patches. Near ones come first because they hide others. Plants that bodies have
-// pushed to the ground reach farther.
+// Returns the visible patches. Near ones come first because they hide others. Plants that bodies
+// have pushed to the ground reach farther.
 std::vector<CanopyPatch*> CanopyVisual::inPicture(const View& view, bool bent) const {
   std::vector<CanopyPatch*> out;
   for (const auto& patch : patches_)

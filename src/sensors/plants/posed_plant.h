@@ -41,10 +41,10 @@ class PosedPlant {
   void bendWood(const canopy::Foliage& foliage);
 
   std::uint32_t id_;
-  Vec3 foot_;                         ///< world [m]
+  Vec3 foot_;                                 ///< world [m]
   std::vector<canopy::Leaf> leaves_, rigid_;  ///< at rest
   std::vector<canopy::Stem> grown_stems_;     ///< at rest
-  std::vector<Strip> strips_;         ///< of leaves_, then of rigid faces
+  std::vector<Strip> strips_;                 ///< of leaves_, then of rigid faces
   std::vector<Rod> stems_;
   StripTree strip_tree_;
   RodTree stem_tree_;

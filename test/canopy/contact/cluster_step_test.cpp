@@ -70,7 +70,8 @@ TEST(ClusterStep, SwingsAsTheDampedOscillatorDoes) {
       // Below 2e-5 rad the cell rests.
       EXPECT_NEAR(cluster.lean.x, 0.3 * expected, 1e-12 + (std::fabs(expected) < 1e-3 ? 2e-5 : 0.0))
           << damping << " " << dt;
-      EXPECT_NEAR(cluster.lean.y, -0.1 * expected, 1e-12 + (std::fabs(expected) < 1e-3 ? 2e-5 : 0.0));
+      EXPECT_NEAR(cluster.lean.y, -0.1 * expected,
+                  1e-12 + (std::fabs(expected) < 1e-3 ? 2e-5 : 0.0));
     }
 }
 

@@ -3,12 +3,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Bodies and walkers push the plants of canopy_animator: states, samples, canopy/contacts, and a
 replay with the same hashes."""
-import math
 import unittest
 
 import rospy
 import rostest
 from vegetation_sim.msg import AgentState, AgentStates, CanopyEvent, PlantContacts
+from vegetation_sim.srv import LoadSnapshot, SaveSnapshot
 
 from canopy_rig import Leaves
 from crowd_rig import Cart
@@ -122,9 +122,26 @@ class CanopyContacts(unittest.TestCase):
         self.assertGreater(len(self.bent()), 3)
         moved = [e.body.id for e in self.leaves.events.messages if e.kind == CanopyEvent.BODY]
         self.assertNotIn('walker_9', moved)  # It is far from all plants.
+        self.expect_snapshot_to_hold()
         self.run_ticks(RATE)
         self.assertEqual(self.leaves.diagnostics()['Bodies'], 0)
         agents.unregister()
+
+    def expect_snapshot_to_hold(self):
+        """A loaded state has the plants as bodies had pushed them."""
+        saved = rospy.ServiceProxy('/canopy_animator/save_snapshot', SaveSnapshot)(name='pushed')
+        self.assertTrue(saved.success, saved.message)
+        self.run_ticks(1)
+        after = self.bent()
+        self.run_ticks(4 * RATE)
+        self.assertEqual(self.bent(), [])
+        load = rospy.ServiceProxy('/canopy_animator/load_snapshot', LoadSnapshot)
+        loaded = load(name='pushed')
+        self.assertTrue(loaded.success, loaded.message)
+        self.again.settle()
+        self.run_ticks(1)
+        # The walker is gone, so that the plants have begun to swing back.
+        self.assertEqual([cell[:2] for cell in self.bent()], [cell[:2] for cell in after])
 
     def expect_equal_replay(self):
         end = time_of(self.clock.tick)

@@ -42,7 +42,9 @@ struct Fibres {
   int side{1};              ///< cells along the edge
 
   double edge() const { return 2.0 * half / side; }  ///< of a cell [m]
-  std::size_t cells() const { return static_cast<std::size_t>(side) * static_cast<std::size_t>(side); }
+  std::size_t cells() const {
+    return static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
+  }
   /// Returns the foot of the fibre in the middle of a cell.
   Vec3 footOf(std::size_t cell) const;
 };
