@@ -18,7 +18,7 @@ if(${PROJECT_NAME}_FUZZ)
   # Of the nodes only what the targets call, since sanitizers make compiling slow.
   target_sources(fuzz_targets PRIVATE src/nodes/base/event_queue.cpp src/nodes/base/node_options.cpp
     src/nodes/canopy/canopy_options.cpp src/nodes/crowd/crowd_events.cpp
-    src/nodes/forest/forest_inputs.cpp src/nodes/forest/frames/robot_bodies_parts.cpp
+    src/nodes/forest/forest_inputs.cpp src/nodes/bodies/robot_bodies_parts.cpp
     src/nodes/grass/grass_events.cpp src/nodes/grass/grass_options.cpp
     src/nodes/snapshots/snapshot_store.cpp)
   target_link_libraries(fuzz_targets PUBLIC ${PROJECT_NAME}_ros PNG::PNG)

@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Drives a mower without a robot to and fro through branches, which its hull and mast push aside.
+"""Drives a mower without a robot to and fro through branches and plants, which its hull and mast
+push aside.
 
-It is an example of what a robot has to do: broadcast its frame and subscribe to forest/wrenches.
-Its bodies are the parameter ~bodies of forest_animator (config/mower.yaml).
+It is an example of what a robot has to do: broadcast its frame and subscribe to forest/wrenches and
+canopy/contacts. Its bodies are the parameter ~bodies of forest_animator and canopy_animator
+(config/mower.yaml).
 """
 import math
 from collections import deque
@@ -13,6 +15,7 @@ import rospy
 from geometry_msgs.msg import Point, TransformStamped, WrenchStamped
 from std_msgs.msg import ColorRGBA
 from tf2_msgs.msg import TFMessage
+from vegetation_sim.msg import PlantContacts
 from visualization_msgs.msg import Marker, MarkerArray
 
 RATE = 50.0  # [Hz]
@@ -33,19 +36,24 @@ class ScriptedMower:
         self.tf = rospy.Publisher('/tf', TFMessage, queue_size=100)
         self.markers = rospy.Publisher('mower/markers', MarkerArray, queue_size=1)
         rospy.Subscriber('forest/wrenches', WrenchStamped, self.on_wrench, queue_size=1000)
+        rospy.Subscriber('canopy/contacts', PlantContacts, self.on_contacts, queue_size=1000)
 
     def on_wrench(self, message):
         if message.header.frame_id == self.frame:
-            self.wrenches.append(message)
+            self.wrenches.append((message.header.stamp, message.wrench.force))
+
+    def on_contacts(self, message):
+        self.wrenches.extend((message.header.stamp, contact.wrench.force)
+                             for contact in message.contacts if contact.frame == self.frame)
 
     def force(self, now):
-        """Returns the force of all branches on the mower, averaged over the last ticks [N]."""
-        while self.wrenches and (now - self.wrenches[0].header.stamp).to_sec() > SMOOTHING:
+        """Returns the force of all branches and plants on the mower, averaged over the last ticks
+        [N]."""
+        while self.wrenches and (now - self.wrenches[0][0]).to_sec() > SMOOTHING:
             self.wrenches.popleft()
-        ticks = len({m.header.stamp for m in self.wrenches})
+        ticks = len({stamp for stamp, _ in self.wrenches})
         total = [0.0, 0.0, 0.0]
-        for message in list(self.wrenches):
-            f = message.wrench.force
+        for _, f in list(self.wrenches):
             total = [a + b / ticks for a, b in zip(total, (f.x, f.y, f.z))]
         return total
 

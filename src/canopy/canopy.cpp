@@ -4,6 +4,9 @@
 
 #include <utility>
 
+#include "canopy/contact/plant_pusher.h"
+#include "forest/contact/contact_body.h"
+
 namespace vegetation_sim::canopy {
 namespace {
 
@@ -16,6 +19,19 @@ const Layout& checked(const Layout& layout) {
 
 CutView viewOfPlane(const Layout& layout) {
   return {layout.motion.plane.camera, orientationOf(layout.motion.plane)};
+}
+
+void checkPush(const PushState& push, const Layout& layout) {
+  Faults faults;
+  for (const auto& [id, clusters] : push.plants) {
+    const bool known = id < layout.plants.size();
+    if (!known || clusters.size() !=
+                      fibresOf(layout.kinds[layout.plants[id].kind], layout.plants[id]).cells())
+      faults.add("snapshot: plant " + std::to_string(id) + " with " +
+                 std::to_string(clusters.size()) + " cells belongs to another layout");
+  }
+  for (const auto& entry : push.bodies) forest::check(entry.second, faults);
+  faults.throwIfAny();
 }
 
 PlaneMotion meanOf(const PlaneField& motion) {
@@ -41,6 +57,7 @@ std::uint64_t CanopySnapshot::hash() const {
   hash.add(static_cast<std::uint64_t>(driver.front()));
   cuts.addTo(hash);
   hash.add(static_cast<std::uint64_t>(has_cuts));
+  push.addTo(hash);
   return hash.value();
 }
 
@@ -50,9 +67,12 @@ Canopy::Canopy(const Layout& layout)
       plane_(layout.motion.plane),
       fluid_(fluidOf(layout.motion), layout.motion.sources, layout.seed),
       oscillator_(layout.motion.oscillator, layout.motion.fluid.cells, plane_.width),
-      foliage_(layout_) {
+      foliage_(layout_),
+      pusher_(std::make_unique<PlantPusher>(layout_.kinds, layout_.plants)) {
   reset();
 }
+
+Canopy::~Canopy() = default;
 
 void Canopy::reset() {
   fluid_.reset();
@@ -61,6 +81,7 @@ void Canopy::reset() {
   memory_.history = History(layout_.motion.fluid.cells, historyFrames(layout_.motion));
   memory_.fluid = fluid_.state();
   memory_.oscillator = oscillator_.state();
+  push_forces_.clear();
   stale_ = true;
 }
 
@@ -68,11 +89,13 @@ void Canopy::restore(const CanopySnapshot& memory) {
   if (memory.history.size() != layout_.motion.fluid.cells ||
       memory.history.frames() != historyFrames(layout_.motion))
     throw InvalidInput("snapshot: the history belongs to another layout");
+  checkPush(memory.push, layout_);
   Fluid fluid = fluid_;
   fluid.restore(memory.fluid);
   oscillator_.restore(memory.oscillator);
   fluid_ = std::move(fluid);
   memory_ = memory;
+  push_forces_.clear();
   stale_ = true;
 }
 
@@ -99,6 +122,29 @@ void Canopy::setMotion(const Motion& motion) {
   oscillator_ = Oscillator(motion.oscillator, motion.fluid.cells, plane_.width);
   oscillator_.restore(memory_.oscillator);
   stale_ = true;
+}
+
+void Canopy::setBody(const forest::Body& body) {
+  Faults faults;
+  forest::check(body, faults);
+  if (!bodies().count(body.id) && bodies().size() >= MOST_PUSHING)
+    faults.add("body '" + body.id + "' is one more than the " + std::to_string(MOST_PUSHING) +
+               " allowed");
+  faults.throwIfAny();
+  memory_.push.bodies[body.id] = body;
+}
+
+void Canopy::removeBody(const std::string& id) {
+  if (memory_.push.bodies.erase(id) == 0)
+    throw InvalidInput("body '" + id + "' is unknown", FaultCode::UNKNOWN);
+}
+
+bool Canopy::isNear(const forest::Body& body) const {
+  return pusher_->isNear(memory_.push, body, memory_.stamp);
+}
+
+std::uint64_t Canopy::refusedPushes() const {
+  return pusher_->refused();
 }
 
 void Canopy::setCrowns(std::vector<LeafBox> crowns) {
@@ -128,7 +174,11 @@ PlaneAir Canopy::airAt(Nanoseconds stamp) const {
 void Canopy::advance(Nanoseconds stamp) {
   if (stamp <= memory_.stamp) return;
   const double dt = memory_.stamp == 0 ? 0.0 : secondsBetween(memory_.stamp, stamp);
-  if (dt > 0.0 && dt <= LONGEST_GAP) step(stamp, dt);
+  push_forces_.clear();
+  if (dt > 0.0 && dt <= LONGEST_GAP) {
+    step(stamp, dt);
+    push_forces_ = pusher_->advance(memory_.push, memory_.stamp, stamp);
+  }
   memory_.stamp = stamp;
   ++memory_.ticks;
   memory_.history.push(toFrame(oscillator_.motion(), oscillator_.depth()));
@@ -165,20 +215,18 @@ void Canopy::updateCuts(Nanoseconds stamp) {
 }
 
 const Foliage& Canopy::foliage() {
-  if (stale_) foliage_.update(memory_.history, memory_.driver.share(), memory_.cuts, memory_.stamp);
+  if (stale_) {
+    foliage_.update(memory_.history, memory_.driver.share(), memory_.cuts, memory_.stamp);
+    foliage_.setBent(bentCells(memory_.push));
+  }
   stale_ = false;
   return foliage_;
 }
 
 StateUpdate Canopy::update(bool hashed) const {
-  return {memory_.stamp,
-          memory_.ticks,
-          memory_.history.frame(0),
-          memory_.driver.share(),
-          memory_.cuts,
-          layout_hash_,
-          wind_.hash(),
-          hashed ? memory_.hash() : 0};
+  return {memory_.stamp,          memory_.ticks, memory_.history.frame(0),
+          memory_.driver.share(), memory_.cuts,  bentCells(memory_.push),
+          layout_hash_,           wind_.hash(),  hashed ? memory_.hash() : 0};
 }
 
 Replica::Replica(const Layout& layout)
@@ -192,6 +240,7 @@ void Replica::apply(const StateUpdate& update) {
   if (update.layout_hash != layout_hash_)
     throw InvalidInput("state: layout_hash = " + std::to_string(update.layout_hash) +
                        " is not that of the layout, " + std::to_string(layout_hash_));
+  foliage_.checkBent(update.bent);
   const bool next = received_ > 0 && update.sequence == last_.sequence + 1;
   const bool first = update.sequence <= 1;
   if (!next || first) {
@@ -213,14 +262,20 @@ void Replica::setCrowns(std::vector<LeafBox> crowns) {
 }
 
 const Foliage& Replica::foliage() {
-  if (stale_) foliage_.update(history_, last_.front_share, last_.cuts, last_.stamp);
+  if (stale_) {
+    foliage_.update(history_, last_.front_share, last_.cuts, last_.stamp);
+    foliage_.setBent(last_.bent);
+  }
   stale_ = false;
   return foliage_;
 }
 
 const Foliage& Replica::foliageOfPlane() {
   const CutView view = viewOfPlane(layout_);
-  if (plane_stale_) plane_foliage_.update(history_, 1.0, {view, view, 0}, last_.stamp);
+  if (plane_stale_) {
+    plane_foliage_.update(history_, 1.0, {view, view, 0}, last_.stamp);
+    plane_foliage_.setBent(last_.bent);
+  }
   plane_stale_ = false;
   return plane_foliage_;
 }

@@ -63,6 +63,7 @@ void Canopy::archive(Archive& a, Archived& state) const {
   canopy::archive(a, s.cuts.before);
   a.stamp("cuts since", s.cuts.since);
   a.flag("has cuts", s.has_cuts);
+  archivePush(a, s.push);
   wind::archive(a, state.wind);
   canopy::archive(a, state.viewer);
 }

@@ -14,6 +14,18 @@ std::string numbered(const char* name, std::size_t index) {
   return std::string(name) + "[" + std::to_string(index) + "]: ";
 }
 
+// Layouts without these keys keep the hashes that they had before there were any.
+void addPushLaw(PushLaw law, Hash& hash) {
+  const auto hashOf = [](PushLaw other) {
+    Hash out;
+    FieldHasher hasher(out);
+    describe(hasher, other);
+    return out.value();
+  };
+  const std::uint64_t own = hashOf(law);
+  if (own != hashOf(PushLaw())) hash.add(own);
+}
+
 void checkPlants(const Layout& layout, Faults& faults) {
   for (std::size_t i = 0; i < layout.plants.size(); ++i) {
     Plant plant = layout.plants[i];
@@ -108,6 +120,7 @@ std::uint64_t Layout::hash() const {
     hash.add(kind.name);
     describe(hasher, kind);
     if (kind.form) hash.add(kind.form->hash);
+    addPushLaw(kind.push, hash);
   }
   for (const Plant& plant : plants) {
     hash.add(plant.seed);
@@ -139,6 +152,7 @@ void check(const Layout& layout, Faults& faults) {
     PlantKind kind = layout.kinds[i];
     FieldChecker kind_checker(numbered("kinds", i), faults);
     describe(kind_checker, kind);
+    describe(kind_checker, kind.push);
     if (isRead(kind) == kind.file.empty())
       faults.add(numbered("kinds", i) + "file = '" + kind.file +
                  "'; shapes mesh and slices have one, others none");

@@ -33,6 +33,7 @@ void readKinds(YamlSection& section, std::vector<PlantKind>& kinds) {
     entry.text("name", kind.name);
     entry.text("file", kind.file);
     describe(entry, kind);
+    describe(entry, kind.push);
     entry.finish();
     for (const PlantKind& other : kinds)
       if (other.name == kind.name) entry.fault("name", "= '" + kind.name + "' is defined twice");
@@ -162,6 +163,7 @@ std::string writeLaw(const Layout& layout) {
     if (!kind.file.empty())
       out << YAML::Key << "file" << YAML::Value << YAML::DoubleQuoted << kind.file;
     describe(writer, kind);
+    describe(writer, kind.push);
     out << YAML::EndMap;
   }
   out << YAML::EndSeq << YAML::Key << "crowns" << YAML::Value << YAML::BeginSeq;

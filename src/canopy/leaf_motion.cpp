@@ -148,6 +148,13 @@ Vec3 Foliage::displacementIn(const Cut& cut, const Vec3& anchor, const Vec3& poi
 }
 
 Vec3 Foliage::displacement(const Vec3& anchor, const Vec3& point, std::size_t plant) const {
+  const Vec3 out = sway(anchor, point, plant);
+  const auto bent = bent_.find(plant);
+  if (bent == bent_.end()) return out;
+  return turnAt(bent->second, anchor).of(point + out) - point;
+}
+
+Vec3 Foliage::sway(const Vec3& anchor, const Vec3& point, std::size_t plant) const {
   const double top = tops_[plant], rigidity = layout_.motion.warp.rigidity;
   const double height = point.z() - layout_.plants[plant].position.z();
   const double freedom = mobility(height, top, rigidity);
@@ -164,16 +171,25 @@ Vec3 Foliage::freeDisplacement(const Vec3& anchor, const Vec3& point, double lim
   return share_ * out + (1.0 - share_) * displacementIn(cuts_[1], anchor, point, limit);
 }
 
+// A leaf turns with the fibre of its anchor, so that it keeps its shape.
 MovedLeaf Foliage::move(const Leaf& leaf, std::size_t plant) const {
+  const MovedLeaf out = swayed(leaf, plant);
+  const auto bent = bent_.find(plant);
+  if (bent == bent_.end()) return out;
+  const Turn turn = turnAt(bent->second, leaf.anchor);
+  return {turn.of(out.root), turn.of(out.tip), rotate(turn.turn, out.side)};
+}
+
+MovedLeaf Foliage::swayed(const Leaf& leaf, std::size_t plant) const {
   if (leaf.joined) {  // each corner by its own position, as in the faces that share it
     const Vec3 left = leaf.root - leaf.side, right = leaf.root + leaf.side;
-    const Vec3 to_left = left + displacement(leaf.anchor, left, plant);
-    const Vec3 to_right = right + displacement(leaf.anchor, right, plant);
-    return {0.5 * (to_left + to_right), leaf.tip + displacement(leaf.anchor, leaf.tip, plant),
+    const Vec3 to_left = left + sway(leaf.anchor, left, plant);
+    const Vec3 to_right = right + sway(leaf.anchor, right, plant);
+    return {0.5 * (to_left + to_right), leaf.tip + sway(leaf.anchor, leaf.tip, plant),
             0.5 * (to_right - to_left)};
   }
-  const Vec3 at_root = displacement(leaf.anchor, leaf.root, plant);
-  const Vec3 at_tip = displacement(leaf.anchor, leaf.tip, plant);
+  const Vec3 at_root = sway(leaf.anchor, leaf.root, plant);
+  const Vec3 at_tip = sway(leaf.anchor, leaf.tip, plant);
   return {leaf.root + at_root, leaf.tip + at_tip,
           twisted(layout_.motion.warp, Vec3(leaf.tip - leaf.root), leaf.side, at_tip)};
 }

@@ -65,6 +65,17 @@ TEST(Layout, IsRejectedAsAWhole) {
                   "beds: [{kind: a, count: 4}]}");
             }).find("4000000 leaves, more than"),
             std::string::npos);
+  const std::string pushed = errorOf([] {
+    read(
+        "canopy: {kinds: [{name: a, push_stiffness: -1, push_frequency: 0, push_damping: 51, "
+        "push_set: 1.1, push_recovery: 0, push_pressure: 2e7, push_drag: .nan, push_cell: 0.01}]}");
+  });
+  for (const char* fault :
+       {"push_stiffness = -1 N/m^3 is outside 0 to 1e+06", "push_frequency = 0 Hz is outside 0.05",
+        "push_damping = 51 is outside 0 to 50", "push_set = 1.1 is outside 0 to 1",
+        "push_recovery = 0 s is outside 0.01", "push_pressure = 2e+07 N/m^3 is outside 0 to 1e+07",
+        "push_drag = nan N s/m^4 is not finite", "push_cell = 0.01 m is outside 0.02 to 100"})
+    EXPECT_NE(pushed.find(fault), std::string::npos) << fault << "\n" << pushed;
   EXPECT_NE(errorOf([] {
               read("canopy: {fluid: {cells: 256}, layers: {memory: 10}, rate: 240}");
             }).find("bytes of history"),
@@ -96,6 +107,9 @@ TEST(Layout, SurvivesTheTextOfItsLaw) {
   layout.motion.sources.sides[2] = {1.5, 0.25};
   layout.motion.rate = 20;
   layout.kinds[0].name = "a \"b\": c";
+  const std::uint64_t without = layout.hash();
+  layout.kinds[0].push.set = 1.0 / 3.0;
+  EXPECT_NE(layout.hash(), without);
   Layout back = parseLaw(writeLaw(layout), "law");
   back.plants = layout.plants;
   back.seed = layout.seed;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +19,8 @@ class Archive;
 
 namespace vegetation_sim::canopy {
 
+class PlantPusher;
+
 /// The state of a canopy, to be saved, restored and hashed (N6).
 struct CanopySnapshot {
   Nanoseconds stamp{0};  ///< stamp of the last tick; 0: none
@@ -28,6 +31,7 @@ struct CanopySnapshot {
   Driver driver;
   CutState cuts;
   bool has_cuts{false};  ///< layers have been cut
+  PushState push;
   std::uint64_t hash() const;
 };
 
@@ -38,16 +42,18 @@ struct StateUpdate {
   MotionFrame frame;
   double front_share{1.0};
   CutState cuts;
+  std::vector<BentCell> bent;  ///< all cells that lean
   std::uint64_t layout_hash{0}, wind_hash{0};
   std::uint64_t hash{0};  ///< hash of the sender's state; 0: not computed
 };
 
-/// Wind and leaves in the plane, tick by tick, and the layers that move with them (paper 3). The
-/// core without ROS: time, wind and viewer are inputs.
+/// Wind and leaves in the plane, tick by tick, and the layers that move with them (paper 3); and
+/// plants that bodies push. The core without ROS: time, wind, viewer and bodies are inputs.
 class Canopy {
  public:
   /// @throws InvalidInput with all faults of the layout.
   explicit Canopy(const Layout& layout);
+  ~Canopy();
   Canopy(const Canopy&) = delete;  // Not copyable, since the foliage refers to the layout.
   Canopy& operator=(const Canopy&) = delete;
 
@@ -62,6 +68,19 @@ class Canopy {
   const std::optional<CutView>& viewer() const { return viewer_; }
   /// Sets crowns that hang in the layers beside the plants. The state does not depend on them.
   void setCrowns(std::vector<LeafBox> crowns);
+
+  /// Adds or moves a body that pushes plants from the next tick on. @throws InvalidInput for
+  /// invalid numbers, and for one more than MOST_PUSHING.
+  void setBody(const forest::Body& body);
+  /// @throws InvalidInput for an unknown id.
+  void removeBody(const std::string& id);
+  const forest::Bodies& bodies() const { return memory_.push.bodies; }
+  /// Returns whether a body may touch a plant soon.
+  bool isNear(const forest::Body& body) const;
+  /// Returns the forces of plants on bodies at the last tick.
+  const std::vector<PushForce>& pushForces() const { return push_forces_; }
+  /// Returns the number of times that a plant did not lean because too many cells do.
+  std::uint64_t refusedPushes() const;
 
   /// Replaces the settings of sources, leaves, layers and warp from the next tick on. @throws
   /// InvalidInput for faults, and for another plane, grid, rate, memory or integrator, which need a
@@ -115,6 +134,8 @@ class Canopy {
   wind::Field wind_;
   std::optional<CutView> viewer_;
   Foliage foliage_;
+  std::unique_ptr<PlantPusher> pusher_;
+  std::vector<PushForce> push_forces_;
   bool stale_{true};
 };
 

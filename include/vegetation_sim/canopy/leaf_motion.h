@@ -4,10 +4,12 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <utility>
 #include <vector>
 
 #include "vegetation_sim/canopy/canopy_layout.h"
+#include "vegetation_sim/canopy/contact/fibres.h"
 #include "vegetation_sim/canopy/layers/motion_history.h"
 #include "vegetation_sim/core/math/time.h"
 
@@ -44,12 +46,24 @@ class Foliage {
   /// @param history has the size of the layout. @param front_share see Driver::share().
   void update(const History& history, double front_share, const CutState& cuts, Nanoseconds stamp);
 
+  /// Sets the cells that bodies have pushed; all others stand upright.
+  void setBent(const std::vector<BentCell>& cells);
+  /// @throws InvalidInput for cells that the layout does not have, in another order or with larger
+  /// leans than fibres can have.
+  void checkBent(const std::vector<BentCell>& cells) const;
+
   /// Cuts all plants and crowns into layers for a view.
   LayerCut cutFor(const CutView& view) const { return cut(view, true); }
   /// Cuts the plants alone, which follow from the layout: the state must not depend on crowns.
   LayerCut cutOfPlants(const CutView& view) const { return cut(view, false); }
-  /// Returns the displacement [m], world, of a point at rest whose leaf hangs at `anchor`. @param
-  /// plant id, whose foot and height determine how freely it moves.
+  /// Returns whether bodies have pushed a plant.
+  bool isBent(std::size_t plant) const { return bent_.count(plant) > 0; }
+  bool anyBent() const { return !bent_.empty(); }
+  /// Returns where a rigid point of a plant is that wind does not move, such as the end of a stem.
+  Vec3 bend(const Vec3& point, std::size_t plant) const;
+  /// Returns the displacement [m], world, of a point at rest whose leaf hangs at `anchor`: with its
+  /// layer, and with the fibre on which the anchor is. @param plant id, whose foot and height
+  /// determine how freely it moves.
   Vec3 displacement(const Vec3& anchor, const Vec3& point, std::size_t plant) const;
   /// Returns the same for a leaf that is on no plant of the layout, limited to about `limit` [m].
   Vec3 freeDisplacement(const Vec3& anchor, const Vec3& point, double limit) const;
@@ -75,6 +89,19 @@ class Foliage {
     std::vector<LayerMotion> layers;
     std::vector<double> shares;  // depthShare() of each layer
   };
+  /// Rotation of a fibre about its foot.
+  struct Turn {
+    Vec3 foot;
+    Quat turn;
+    Vec3 of(const Vec3& point) const { return foot + rotate(turn, Vec3(point - foot)); }
+  };
+  struct BentPlant {
+    Fibres fibres;
+    std::vector<Flat> leans;  // of the cells
+  };
+  static Turn turnAt(const BentPlant& plant, const Vec3& anchor);
+  Vec3 sway(const Vec3& anchor, const Vec3& point, std::size_t plant) const;
+  MovedLeaf swayed(const Leaf& leaf, std::size_t plant) const;
   LayerCut cut(const CutView& view, bool crowns) const;
   void build(Cut& cut, const CutView& view, const History& history, double front_share);
   Vec3 motionIn(const Cut& cut, const Vec3& anchor, const Vec3& point) const;
@@ -86,6 +113,7 @@ class Foliage {
   std::vector<LeafBox> crowns_;
   std::array<Cut, 2> cuts_;  // cuts, the newer one first
   double share_{1.0};        // share of the newer one
+  std::map<std::size_t, BentPlant> bent_;
 };
 
 }  // namespace vegetation_sim::canopy

@@ -11,8 +11,7 @@
 namespace vegetation_sim::canopy {
 namespace {
 
-constexpr double TRUNK_SHARE = 0.35;  // share of a crown's height
-constexpr double SHORTEST = 1e-9;     // [m]
+constexpr double SHORTEST = 1e-9;  // [m]
 
 Vec3 unit(const Vec3& v, const Vec3& otherwise) {
   const double size = length(v);
@@ -218,6 +217,17 @@ class Grower {
 };
 
 }  // namespace
+
+void describe(FieldVisitor& v, PushLaw& l) {
+  v.number("push_stiffness", l.stiffness, "N/m^3", {0.0, 1e6});
+  v.number("push_frequency", l.frequency, "Hz", {0.05, 20.0});
+  v.number("push_damping", l.damping, "", {0.0, 50.0});
+  v.number("push_set", l.set, "", {0.0, 1.0});
+  v.number("push_recovery", l.recovery, "s", {0.01, 1e6});
+  v.number("push_pressure", l.pressure, "N/m^3", {0.0, 1e7});
+  v.number("push_drag", l.drag, "N s/m^4", {0.0, 1e6});
+  v.number("push_cell", l.cell, "m", {0.02, 100.0});
+}
 
 void describe(FieldVisitor& v, PlantKind& k) {
   v.choice("shape", k.shape, {"shrub", "crown", "reed", "kelp", "mesh", "slices"});

@@ -10,6 +10,8 @@
 namespace vegetation_sim::forest {
 namespace {
 
+constexpr std::size_t LONGEST_NAME = 4096;
+
 // Rotation by a vector of angles [rad].
 Quat turnBy(const Vec3& turn) {
   const double angle = length(turn);
@@ -63,6 +65,26 @@ void check(const Body& body, Faults& faults) {
   checker.vector("offset", copy.in_frame.position, "m", {-1e7, 1e7});
   checkOrientation(body.pose.orientation, name + "orientation", faults);
   checkOrientation(body.in_frame.orientation, name + "offset.orientation", faults);
+}
+
+void archiveBody(Archive& a, Body& body) {
+  a.text("body id", body.id, LONGEST_NAME);
+  a.text("body frame", body.frame, LONGEST_NAME);
+  a.integer("body shape", body.shape, Shape::SPHERE, Shape::BOX);
+  a.vector("body size", body.size);
+  a.pose("body pose", body.pose);
+  a.vector("body velocity", body.velocity);
+  a.vector("body spin", body.spin);
+  a.stamp("body stamp", body.stamp);
+  a.pose("body in_frame", body.in_frame);
+}
+
+void addTo(Hash& hash, const Body& body) {
+  hash.add(static_cast<std::uint64_t>(body.shape));
+  for (const Vec3& v : {body.size, body.pose.position, body.velocity, body.spin}) hash.add(v);
+  const Quat& q = body.pose.orientation;
+  for (const double v : {q.w, q.x, q.y, q.z}) hash.add(v);
+  hash.add(static_cast<std::uint64_t>(body.stamp));
 }
 
 physics::RoundedBox shapeOf(const Body& body) {

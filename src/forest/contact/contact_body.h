@@ -2,16 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <map>
 #include <string>
 
+#include "core/archive/archive.h"
 #include "dynamics/contact/rounded_box.h"
 #include "tree/physical/interaction.h"
 #include "vegetation_sim/core/config/faults.h"
+#include "vegetation_sim/core/math/hash.h"
 
 namespace vegetation_sim::forest {
-
-using Bodies = std::map<std::string, Body>;  // by id
 
 /// Limits of edges, radii and lengths of a body [m].
 constexpr double LARGEST_BODY = 50.0, SMALLEST_BODY = 1e-3;
@@ -20,6 +19,11 @@ constexpr double FASTEST_BODY = 100.0, FASTEST_SPIN = 100.0;
 
 /// Adds a fault for each invalid value of a body.
 void check(const Body& body, Faults& faults);
+
+/// Writes or reads a body, whose numbers check() has to check.
+void archiveBody(Archive& a, Body& body);
+/// Adds what the motion of a body and of what it touches depends on.
+void addTo(Hash& hash, const Body& body);
 
 /// Returns the shape of a body in its own axes.
 physics::RoundedBox shapeOf(const Body& body);

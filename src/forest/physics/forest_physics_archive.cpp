@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/archive/archive.h"
+#include "forest/contact/contact_body.h"
 #include "forest/physics/forest_physics.h"
 
 namespace vegetation_sim::forest {
@@ -73,18 +74,6 @@ void archive(Archive& a, const Points& points, Push& push) {
   a.stamp("push from", push.from);
 }
 
-void archive(Archive& a, Body& body) {
-  a.text("body id", body.id, LONGEST_NAME);
-  a.text("body frame", body.frame, LONGEST_NAME);
-  a.integer("body shape", body.shape, Shape::SPHERE, Shape::BOX);
-  a.vector("body size", body.size);
-  a.pose("body pose", body.pose);
-  a.vector("body velocity", body.velocity);
-  a.vector("body spin", body.spin);
-  a.stamp("body stamp", body.stamp);
-  a.pose("body in_frame", body.in_frame);
-}
-
 void archive(Archive& a, const Points& points, Reaction& reaction) {
   a.integer("reaction kind", reaction.kind, Reaction::GRAB, Reaction::CONTACT);
   a.integer("reaction grab", reaction.grab);
@@ -129,7 +118,7 @@ void ForestPhysics::archive(Archive& a, const Layout& layout, const GrowTree& gr
   a.map(
       "bodies", bodies_, MOST_ENTRIES, BODY_BYTES,
       [&a](std::string& id) { a.text("body", id, LONGEST_NAME); },
-      [&a](const std::string&, Body& body) { forest::archive(a, body); });
+      [&a](const std::string&, Body& body) { archiveBody(a, body); });
   archiveContacts(a, layout);
   a.list("ended grabs", ended_, MOST_ENTRIES, GRAB_BYTES / 2,
          [&](Grab& grab) { forest::archive(a, points, grab); });

@@ -61,11 +61,7 @@ void ForestPhysics::addTo(Hash& hash) const {
   }
   for (const auto& [id, body] : bodies_) {
     hash.add(id);
-    hash.add(static_cast<std::uint64_t>(body.shape));
-    for (const Vec3& v : {body.size, body.pose.position, body.velocity, body.spin}) hash.add(v);
-    const Quat& q = body.pose.orientation;
-    for (const double v : {q.w, q.x, q.y, q.z}) hash.add(v);
-    hash.add(static_cast<std::uint64_t>(body.stamp));
+    forest::addTo(hash, body);
   }
   for (const auto& [tree, subtree] : subtrees_) {
     if (subtree.empty()) continue;

@@ -3,6 +3,8 @@
 #include "nodes/canopy/canopy_animator.h"
 
 #include "core/config/field_values.h"
+#include "nodes/canopy/pushing_bodies.h"
+#include "ros/conversions/grab_conversions.h"
 #include "vegetation_sim/ros/conversions/canopy_conversions.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
 
@@ -23,9 +25,15 @@ CanopyAnimator::CanopyAnimator(const ros::NodeHandle& handle, const ros::NodeHan
                  refusals_.add(input, why);
                }}),
       markers_(canopy_, crowns_, forest_.replica(), options_.marker_points, options_.tolerance),
+      bodies_(handle_, options_.frame_id, options_.robot.parts, options_.frame_wait),
+      crowd_({options_.frame_id, false,
+              [this](const std::string& input, const std::string& why) {
+                refusals_.add(input, why);
+              }}),
       winds_(MOST_WINDS) {
   layout_publisher_ = handle_.advertise<CanopyLayout>("canopy/layout", 1, true);
   state_publisher_ = handle_.advertise<CanopyState>("canopy/state", 1000);
+  contacts_publisher_ = handle_.advertise<PlantContacts>("canopy/contacts", 1000);
   publishLayout();
   start("canopy", "canopy/markers", markers_);
 }
@@ -34,6 +42,8 @@ void CanopyAnimator::connect() {
   subscribeToOwner("wind", 10, &CanopyAnimator::onWind);
   if (!options_.scene.layout.crowns.empty())
     forest_.subscribe(handle_, {"forest/layout", "", "forest/view"});
+  if (options_.walkers && !options_.replay && !options_.scene.layout.plants.empty())
+    crowd_.subscribe(handle_, "agents");
   serve("sample", &CanopyAnimator::onSample);
 }
 
@@ -43,9 +53,11 @@ void CanopyAnimator::tick(std::int64_t tick) {
   begun_ = true;
   forgetViewer();
   updateCrowns();
+  if (!options_.replay) followBodies(stamp);
   applyInputs(stamp);
   canopy_.advance(stamp);
   publishState(tick);
+  publishContacts();
 }
 
 void CanopyAnimator::apply(CanopyEvent& event) {
@@ -67,8 +79,14 @@ void CanopyAnimator::apply(CanopyEvent& event) {
     case CanopyEvent::RESET:
       canopy_.reset();
       break;
+    case CanopyEvent::BODY:
+      canopy_.setBody(vegetation_sim::fromMsg(event.body));
+      break;
+    case CanopyEvent::REMOVE_BODY:
+      canopy_.removeBody(event.body.id);
+      break;
     default:
-      throw InvalidInput("kind = " + std::to_string(event.kind) + " is outside 0 to 4");
+      throw InvalidInput("kind = " + std::to_string(event.kind) + " is outside 0 to 6");
   }
 }
 
@@ -79,7 +97,8 @@ wind::Field CanopyAnimator::windOf(std::uint64_t hash) const {
 }
 
 bool CanopyAnimator::isOutdated(const CanopyEvent& event) const {
-  return event.kind == CanopyEvent::VIEWER;
+  return event.kind == CanopyEvent::VIEWER || event.kind == CanopyEvent::BODY ||
+         event.kind == CanopyEvent::REMOVE_BODY;
 }
 
 // Layout, wind and settings stay in force.
@@ -87,6 +106,8 @@ void CanopyAnimator::restart() {
   canopy_.reset();
   canopy_.setViewer(std::nullopt);
   viewer_.reset();
+  bodies_.clear();
+  crowd_.forgetLater(lastStamp());
   begun_ = false;
   publishLayout();
 }

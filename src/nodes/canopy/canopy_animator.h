@@ -13,10 +13,12 @@
 
 #include "canopy/plants/plant_index.h"
 #include "nodes/base/event_node.h"
+#include "nodes/bodies/robot_bodies.h"
 #include "nodes/canopy/canopy_options.h"
 #include "nodes/markers/canopy_markers.h"
 #include "ros/replicas/hashed_cache.h"
 #include "ros/replicas/leafed_crowns.h"
+#include "ros/replicas/subscribed_crowd.h"
 #include "vegetation_sim/canopy/canopy.h"
 
 namespace vegetation_sim {
@@ -41,6 +43,7 @@ class CanopyAnimator final
   void forgetViewer();
   void publishBeginning(Nanoseconds stamp);
   void updateCrowns();
+  void followBodies(Nanoseconds stamp);
 
   // Time.
   void tick(std::int64_t tick) override;
@@ -63,6 +66,7 @@ class CanopyAnimator final
   // Outputs.
   void publishLayout();
   void publishState(std::int64_t tick);
+  void publishContacts();
   std::vector<Viewpoint> markerViewers(Nanoseconds stamp) override;
   void addDiagnostics(Status& status) override;
   void addGovernor(Status& status) override { markers_.reportTiers(status); }
@@ -76,6 +80,10 @@ class CanopyAnimator final
   SubscribedForest forest_;  // whose crowns have leaves of the layout
   LeafedCrowns crowns_;
   CanopyMarkers markers_;
+  RobotBodies bodies_;
+  SubscribedCrowd crowd_;  // who push plants
+  std::size_t walkers_left_out_{0};
+  bool had_bodies_{false};  // at the last tick
   HashedCache<wind::Field> winds_;
   std::uint64_t heard_wind_{0};  // hash of the newest one; 0: none
   struct Seen {
@@ -87,9 +95,10 @@ class CanopyAnimator final
   bool begun_{false};           // the beginning has been published
 
   std::uint64_t state_bytes_{0}, other_viewers_{0};
-  std::uint64_t reported_resets_{0};  // of the fluid, when diagnostics were last sent
+  std::uint64_t reported_resets_{0};   // of the fluid, when diagnostics were last sent
+  std::uint64_t reported_refused_{0};  // plants that did not lean, likewise
 
-  ros::Publisher layout_publisher_, state_publisher_;
+  ros::Publisher layout_publisher_, state_publisher_, contacts_publisher_;
 };
 
 }  // namespace vegetation_sim

@@ -1,6 +1,8 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/canopy/canopy_animator.h"
+#include "nodes/canopy/pushing_bodies.h"
+#include "ros/conversions/grab_conversions.h"
 #include "vegetation_sim/ros/conversions/canopy_conversions.h"
 #include "vegetation_sim/ros/conversions/forest_conversions.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
@@ -54,6 +56,23 @@ void CanopyAnimator::updateCrowns() {
   if (!crowns_.update(canopy_.layout(), forest_)) return;
   canopy_.setCrowns(crowns_.boxes());
   markers_.updateCrowns();
+}
+
+// Bodies that have moved or appeared, and those without a recent transform or message.
+void CanopyAnimator::followBodies(Nanoseconds stamp) {
+  std::vector<BodyChange> changes = bodies_.changes(canopy_.bodies(), stamp);
+  if (options_.walkers)
+    for (BodyChange& change : changesOfWalkers(canopy_, crowd_, stamp, walkers_left_out_))
+      changes.push_back(std::move(change));
+  for (const BodyChange& change : changes) {
+    CanopyEvent event;
+    event.kind = change.gone ? CanopyEvent::REMOVE_BODY : CanopyEvent::BODY;
+    if (change.gone)
+      event.body.id = change.body.id;
+    else
+      event.body = vegetation_sim::toMsg(change.body);
+    inputs_.addFirst(event);
+  }
 }
 
 // Layers are cut for one viewer (S3-W8): the one that is named, or else the first that is present.

@@ -1,6 +1,7 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/canopy/canopy_animator.h"
+#include "nodes/canopy/pushing_bodies.h"
 #include "vegetation_sim/ros/conversions/canopy_conversions.h"
 
 namespace vegetation_sim {
@@ -13,6 +14,17 @@ void CanopyAnimator::publishState(std::int64_t tick) {
   state_publisher_.publish(message);
 }
 
+// The last message after the last body has no forces.
+void CanopyAnimator::publishContacts() {
+  const bool has_bodies = !canopy_.bodies().empty();
+  if (has_bodies || had_bodies_) {
+    PlantContacts message = contactsOf(canopy_);
+    message.header.frame_id = options_.frame_id;
+    contacts_publisher_.publish(message);
+  }
+  had_bodies_ = has_bodies;
+}
+
 // The markers are for the viewer that layers are cut for.
 std::vector<Viewpoint> CanopyAnimator::markerViewers(Nanoseconds) {
   Viewpoint out;
@@ -21,6 +33,17 @@ std::vector<Viewpoint> CanopyAnimator::markerViewers(Nanoseconds) {
 }
 
 void CanopyAnimator::addDiagnostics(Status& status) {
+  bodies_.missing().warn(name_, status);
+  status.add("Frames of bodies without a transform", bodies_.missing().size());
+  status.add("Transforms too late for their tick", bodies_.late());
+  for (const std::string& link : options_.robot.left_out)
+    status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, link);
+  status.add("Bodies", canopy_.bodies().size());
+  status.add("Walkers left out", walkers_left_out_);
+  status.add("Plants that bodies have pushed", canopy_.snapshot().push.plants.size());
+  warnOfMore(status, canopy_.refusedPushes(), reported_refused_,
+             "times a plant did not lean: too many cells do");
+  reported_refused_ = canopy_.refusedPushes();
   status.add("Plants", canopy_.layout().plants.size());
   status.add("Leaves", canopy_.layout().leafCount());
   std::size_t crown_leaves = 0;

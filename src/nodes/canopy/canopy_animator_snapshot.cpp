@@ -36,6 +36,8 @@ void CanopyAnimator::writeState(Archive& a) const {
   a.text("canopy", state, LARGEST_SNAPSHOT);
   std::optional<Seen> viewer = viewer_;
   archive(a, viewer);
+  RobotBodies::Seen bodies = bodies_.seen();
+  RobotBodies::archive(a, bodies);
 }
 
 CheckedState CanopyAnimator::readState(Archive& a) {
@@ -45,6 +47,8 @@ CheckedState CanopyAnimator::readState(Archive& a) {
   a.text("canopy", state, LARGEST_SNAPSHOT);
   std::optional<Seen> viewer;
   archive(a, viewer);
+  RobotBodies::Seen bodies;
+  RobotBodies::archive(a, bodies);
   const canopy::Motion motion =
       withTuning(canopy_.layout().motion, fromNamedValues<CanopyTuning>(named));
   const canopy::Canopy::Archived read = canopy_.readArchived(std::move(state), a.shift());
@@ -58,6 +62,7 @@ CheckedState CanopyAnimator::readState(Archive& a) {
             canopy_.setViewer(read.viewer);
             winds_.keep(read.wind.hash(), read.wind);
             viewer_ = viewer;
+            bodies_.restore(bodies);
             begun_ = true;
             publishLayout();
             queueNewerWind();

@@ -6,6 +6,7 @@
 
 #include "core/config/field_values.h"
 #include "ros/params/plant_files.h"
+#include "ros/services/frame_lookup.h"
 
 namespace vegetation_sim {
 void describe(FieldVisitor& v, CanopyTuning& t) {
@@ -97,6 +98,7 @@ void toConfig(const CanopyTuning& tuning, CanopyAnimatorConfig& config) {
 void describe(FieldVisitor& v, CanopyOptions& o) {
   v.integer("marker_points", o.marker_points, "", {600, 3000000});
   v.number("tolerance", o.tolerance, "pixel", {0.01, 1000.0});
+  v.number("frame_wait", o.frame_wait, "s", {0.0, FrameLookup::LONGEST_WAIT});
 }
 
 CanopyScene loadCanopyScene(const std::string& name) {
@@ -121,7 +123,9 @@ CanopyOptions loadCanopyOptions(const ros::NodeHandle& private_handle) {
   readScenario(parameters, out, loadCanopyScene);
   parameters.text("viewer_id", out.viewer_id);
   parameters.frame("viewer_frame", out.viewer_frame, true);
+  parameters.flag("walkers", out.walkers);
   describe(parameters, out);
+  out.robot = readRobotParts(private_handle, parameters);
   canopy::Layout& layout = out.scene.layout;
   CanopyTuning tuning = tuningOf(layout.motion);
   describe(parameters, tuning);

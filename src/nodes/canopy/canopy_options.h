@@ -8,6 +8,7 @@
 #include <string>
 
 #include "nodes/base/node_options.h"
+#include "nodes/bodies/robot_bodies.h"
 #include "ros/params/scene_file.h"
 #include "vegetation_sim/canopy/canopy_layout.h"
 
@@ -38,7 +39,10 @@ CanopyScene loadCanopyScene(const std::string& name);
 
 /// Parameters of canopy_animator; see docs/reference.md.
 struct CanopyOptions : NodeOptions {
-  double tolerance{1.0};  ///< error of what is drawn, at 1000 pixels a radian [pixel]
+  double tolerance{1.0};   ///< error of what is drawn, at 1000 pixels a radian [pixel]
+  double frame_wait{0.0};  ///< for the transforms of bodies at a tick [s]
+  bool walkers{true};      ///< whether the people on `agents` push plants
+  RobotParts robot;        ///< bodies that push plants
   CanopyScene scene;
 };
 void describe(FieldVisitor& visitor, CanopyOptions& options);

@@ -161,22 +161,11 @@ void ForestAnimator::onRecovered(const ForestInput& event) {
 
 // Bodies that have moved or appeared, and those without a recent transform.
 void ForestAnimator::followBodies(Nanoseconds stamp) {
-  const std::vector<forest::Body> now = bodies_.update(stamp);
-  const auto& known = forest_->bodies();
-  for (const forest::Body& part : options_.robot.parts) {
-    const auto body = std::find_if(now.begin(), now.end(),
-                                   [&](const forest::Body& b) { return b.id == part.id; });
-    const auto old = known.find(part.id);
+  for (const BodyChange& change : bodies_.changes(forest_->bodies(), stamp)) {
     ForestInput event;
-    if (body != now.end() && (old == known.end() || old->second.stamp != body->stamp)) {
-      event.kind = ForestInput::BODY;
-      event.body = *body;
-      inputs_.addFirst(event);
-    } else if (body == now.end() && old != known.end()) {
-      event.kind = ForestInput::REMOVE_BODY;
-      event.body.id = part.id;
-      inputs_.addFirst(event);
-    }
+    event.kind = change.gone ? ForestInput::REMOVE_BODY : ForestInput::BODY;
+    event.body = change.body;
+    inputs_.addFirst(event);
   }
 }
 

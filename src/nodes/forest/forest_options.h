@@ -9,8 +9,8 @@
 
 #include "forest/forest.h"
 #include "nodes/base/node_options.h"
+#include "nodes/bodies/robot_bodies.h"
 #include "nodes/forest/forest_inputs.h"
-#include "nodes/forest/frames/robot_bodies.h"
 #include "ros/params/scene_file.h"
 
 namespace vegetation_sim {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "ros/services/allocation_report.h"
 #include "vegetation_sim/core/math/math.h"
@@ -74,7 +75,13 @@ CanopyMarkers::CanopyMarkers(canopy::Canopy& canopy, const LeafedCrowns& crowns,
   lists_.addList("crowns", 0);
   shareLeaves();
   setLadders();
-  for (std::size_t id = 0; id < plants_.size(); ++id) addPlant(id);
+  for (std::size_t id = 0; id < plants_.size(); ++id) {
+    const canopy::Plant& plant = layout_.plants[id];
+    addShade(plant, 0.9 * plant.scale * layout_.kinds[plant.kind].radius);
+    canopy::GrownPlant grown = canopy::grow(layout_.kinds[plant.kind], plant);
+    wood_.push_back({std::move(grown.stems), std::move(grown.rigid)});
+    addWood(id);
+  }
 }
 
 // Divides the points of leaves between plants and crowns.
@@ -126,16 +133,32 @@ void CanopyMarkers::updateCrowns() {
   }
 }
 
-void CanopyMarkers::addPlant(std::size_t id) {
+// Adds the parts of a plant that wind does not move.
+void CanopyMarkers::addWood(std::size_t id) {
   const canopy::PlantKind& kind = layout_.kinds[layout_.plants[id].kind];
-  const canopy::GrownPlant grown = canopy::grow(kind, layout_.plants[id]);
-  addStems(grown.stems, kind.stem_colour);
-  addShade(layout_.plants[id], 0.9 * layout_.plants[id].scale * kind.radius);
-  for (const canopy::Leaf& face : grown.rigid) {
+  const canopy::Foliage& foliage = canopy_.foliage();
+  const auto bend = [&](const Vec3& point) { return foliage.bend(point, id); };
+  for (canopy::Stem stem : wood_[id].stems) {
+    stem.from = bend(stem.from);
+    stem.to = bend(stem.to);
+    addStem(stem, kind.stem_colour);
+  }
+  for (const canopy::Leaf& face : wood_[id].faces) {
     if (!lists_.hasRoom(STEMS, POINTS_PER_LEAF)) return;
     const std_msgs::ColorRGBA paint = darkened(opaque(kind.stem_colour), face.light);
-    addStrip(lists_, STEMS, cornersOf(face, {face.root, face.tip, face.side}), paint, paint);
+    const Vec3 root = bend(face.root), side = bend(face.root + face.side) - root;
+    addStrip(lists_, STEMS, cornersOf(face, {root, bend(face.tip), side}), paint, paint);
   }
+}
+
+// Wood is built anew only while bodies push plants.
+void CanopyMarkers::bendWood() {
+  const bool bent = canopy_.foliage().anyBent();
+  if (bent || bent_) {
+    lists_.clear(STEMS);
+    for (std::size_t id = 0; id < plants_.size(); ++id) addWood(id);
+  }
+  bent_ = bent;
 }
 
 void CanopyMarkers::reportTiers(diagnostic_updater::DiagnosticStatusWrapper& status) const {
@@ -205,15 +228,13 @@ void CanopyMarkers::addShade(const canopy::Plant& plant, double radius) {
   }
 }
 
-// Adds two crossed strips for each stem.
-void CanopyMarkers::addStems(const std::vector<canopy::Stem>& stems, const Vec3& colour) {
+// Adds two crossed strips.
+void CanopyMarkers::addStem(const canopy::Stem& stem, const Vec3& colour) {
+  if (!lists_.hasRoom(STEMS, POINTS_PER_STEM)) return;
   const std_msgs::ColorRGBA paint = opaque(colour), shaded = darkened(paint, 0.6);
-  for (const canopy::Stem& stem : stems) {
-    if (!lists_.hasRoom(STEMS, POINTS_PER_STEM)) return;
-    for (const Vec3& side : {Vec3(stem.radius, 0.0, 0.0), Vec3(0.0, stem.radius, 0.0)})
-      addStrip(lists_, STEMS, {stem.from - side, stem.from + side, stem.to - side, stem.to + side},
-               paint, shaded);
-  }
+  for (const Vec3& side : {Vec3(stem.radius, 0.0, 0.0), Vec3(0.0, stem.radius, 0.0)})
+    addStrip(lists_, STEMS, {stem.from - side, stem.from + side, stem.to - side, stem.to + side},
+             paint, shaded);
 }
 
 void CanopyMarkers::addLeaf(std::size_t list, const Drawn& drawn, const canopy::MovedLeaf& moved) {
@@ -244,6 +265,7 @@ void CanopyMarkers::build(const std::vector<Viewpoint>& viewers, Nanoseconds sta
     for (const Drawn& drawn : plants_[plant].leaves)
       addLeaf(LEAVES, drawn, foliage.move(drawn.leaf, plant));
   addCrowns(foliage, stamp);
+  bendWood();
 }
 
 }  // namespace vegetation_sim

@@ -43,13 +43,19 @@ class CanopyMarkers : public MarkerBuilder {
     int tier{0};
     std::vector<Drawn> leaves;
   };
+  /// Parts of a plant that wind does not move, at rest.
+  struct Wood {
+    std::vector<canopy::Stem> stems;
+    std::vector<canopy::Leaf> faces;
+  };
   /// Errors and costs of the tiers of a plant of scale 1.
   struct Ladder {
     std::array<float, MAX_TIERS> gaps{}, points{};  ///< [m], leaves only
   };
   void shareLeaves();
   void setLadders();
-  void addPlant(std::size_t id);
+  void addWood(std::size_t id);
+  void bendWood();
   /// Returns how many leaves of a crown are drawn. They are its first ones.
   std::size_t drawnOf(std::size_t leaves) const;
   void choose(const std::vector<Viewpoint>& viewers, Nanoseconds stamp);
@@ -57,7 +63,7 @@ class CanopyMarkers : public MarkerBuilder {
   void addLeaf(std::size_t list, const Drawn& drawn, const canopy::MovedLeaf& moved);
   void addCrowns(const canopy::Foliage& foliage, Nanoseconds stamp);
   void addShade(const canopy::Plant& plant, double radius);
-  void addStems(const std::vector<canopy::Stem>& stems, const Vec3& colour);
+  void addStem(const canopy::Stem& stem, const Vec3& colour);
 
   enum List : std::size_t { LEAVES, STEMS, SHADE, CROWNS };
   canopy::Canopy& canopy_;
@@ -71,7 +77,9 @@ class CanopyMarkers : public MarkerBuilder {
   std::vector<Ladder> ladders_;      // by kind
   std::vector<TierChoice> choices_;  // as the layout has its plants
   std::vector<DrawnPlant> plants_;
+  std::vector<Wood> wood_;  // of the plants
   std::vector<Drawn> crown_leaves_;
+  bool bent_{false};  // bodies had pushed plants at the last build
   TierHysteresis held_;
   TierAllocation balance_;
 };

@@ -3,6 +3,7 @@
 #include "vegetation_sim/ros/conversions/canopy_conversions.h"
 
 #include <cmath>
+#include <utility>
 
 #include "ros/conversions/orientation.h"
 #include "ros/params/plant_files.h"
@@ -84,6 +85,12 @@ CanopyState toMsg(const canopy::StateUpdate& update) {
   out.eye = eyeToMsg(update.cuts.now);
   out.eye_before = eyeToMsg(update.cuts.before);
   out.eye_since = toStamp(update.cuts.since);
+  for (const canopy::BentCell& bent : update.bent) {
+    out.bent_plants.push_back(bent.plant);
+    out.bent_cells.push_back(bent.cell);
+    out.lean_x.push_back(bent.x);
+    out.lean_y.push_back(bent.y);
+  }
   out.layout_hash = update.layout_hash;
   out.wind_hash = update.wind_hash;
   out.hash = update.hash;
@@ -102,11 +109,21 @@ canopy::StateUpdate fromMsg(const CanopyState& message) {
   Faults faults;
   if (!isFinite(out.frame.u) || !isFinite(out.frame.v) || !isFinite({out.frame.depth}))
     faults.add("state: a motion is not finite");
+  const std::size_t count = message.bent_plants.size();
+  for (const auto& [name, size] : {std::make_pair("bent_cells", message.bent_cells.size()),
+                                   std::make_pair("lean_x", message.lean_x.size()),
+                                   std::make_pair("lean_y", message.lean_y.size())})
+    if (size != count)
+      faults.add(std::string("state: ") + name + " has " + std::to_string(size) +
+                 " entries, bent_plants has " + std::to_string(count));
   const std::string fault = rangeFault("state: front_share", message.front_share, "", {0.0, 1.0});
   if (!fault.empty()) faults.add(fault);
   faults.throwIfAny();
   out.front_share = message.front_share;
   out.cuts = {eyeFromMsg(message.eye), eyeFromMsg(message.eye_before), fromMsg(message.eye_since)};
+  for (std::size_t i = 0; i < count; ++i)
+    out.bent.push_back(
+        {message.bent_plants[i], message.bent_cells[i], message.lean_x[i], message.lean_y[i]});
   out.layout_hash = message.layout_hash;
   out.wind_hash = message.wind_hash;
   out.hash = message.hash;

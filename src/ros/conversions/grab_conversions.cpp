@@ -118,4 +118,22 @@ ContactForce toMsg(const forest::Reaction& reaction, const Pose& frame) {
   return out;
 }
 
+PlantContact toMsg(const canopy::PushForce& force, const Pose& frame) {
+  forest::Reaction reaction;
+  reaction.point = force.point;
+  reaction.force = force.force;
+  reaction.torque = force.torque;
+  const FramedWrench wrench = wrenchIn(frame, reaction);
+  PlantContact out;
+  out.body = force.body;
+  out.plant = force.plant;
+  out.point = toPoint(force.point);
+  out.force = toVector(force.force);
+  out.frame = force.frame;
+  out.wrench.force = toVector(wrench.force);
+  out.wrench.torque = toVector(wrench.torque);
+  out.overlap = force.volume;
+  return out;
+}
+
 }  // namespace vegetation_sim

@@ -6,8 +6,10 @@
 #include <vegetation_sim/BranchGrab.h>
 #include <vegetation_sim/ContactForce.h>
 #include <vegetation_sim/ForestBody.h>
+#include <vegetation_sim/PlantContact.h>
 
 #include "tree/physical/interaction.h"
+#include "vegetation_sim/canopy/contact/fibres.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
 
 namespace vegetation_sim {
@@ -31,5 +33,6 @@ FramedWrench wrenchIn(const Pose& frame, const forest::Reaction& reaction);
 
 /// @param frame world pose of the frame of the holder or body.
 ContactForce toMsg(const forest::Reaction& reaction, const Pose& frame);
+PlantContact toMsg(const canopy::PushForce& force, const Pose& frame);
 
 }  // namespace vegetation_sim

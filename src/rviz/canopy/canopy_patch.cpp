@@ -132,6 +132,8 @@ void CanopyPatch::grow(const canopy::Layout& layout, std::size_t plant) {
   }
   addStems(grown, kind.stem_colour);
   addRigid(grown, kind.stem_colour);
+  stem_owners_.resize(stem_paint_.size(), plant);
+  tallest_ = std::max(tallest_, p.scale * kind.height);
   reach_ =
       std::max(reach_, length(p.position - middle_) + p.scale * std::max(kind.height, kind.radius));
 }
@@ -236,12 +238,30 @@ void CanopyPatch::build(const canopy::Layout& layout, const Vec3& to_sun) {
     size += length(leaf.tip - leaf.root);
   }
   if (!leaves_.empty()) leaf_size_ = size / static_cast<double>(leaves_.size());
-  leaf_batch_.build(positions_, paint, triangles, static_cast<float>(MARGIN + leaf_size_));
-  stem_batch_.build(stem_positions_, stem_paint_, stem_triangles_, 0.f);
+  leaf_batch_.build(positions_, paint, triangles,
+                    static_cast<float>(MARGIN + leaf_size_ + tallest_));
+  stem_batch_.build(stem_positions_, stem_paint_, stem_triangles_, static_cast<float>(tallest_));
 }
 
 void CanopyPatch::move(const canopy::Foliage& foliage, std::size_t count) {
   moveBy([&](const Drawn& drawn) { return foliage.move(drawn.leaf, drawn.owner); }, count);
+  bendStems(foliage);
+}
+
+void CanopyPatch::bendStems(const canopy::Foliage& foliage) {
+  const auto isBent = [&](std::size_t plant) { return foliage.isBent(plant); };
+  const bool bent =
+      foliage.anyBent() && std::any_of(stem_owners_.begin(), stem_owners_.end(), isBent);
+  if (bent || bent_) {
+    std::vector<float> positions(stem_positions_);
+    for (std::size_t i = 0; i < stem_owners_.size(); ++i) {
+      float* at = positions.data() + 3 * i;
+      const Vec3 moved = foliage.bend(origin_ + Vec3(at[0], at[1], at[2]), stem_owners_[i]);
+      for (int k = 0; k < 3; ++k) at[k] = static_cast<float>(moved[k] - origin_[k]);
+    }
+    stem_batch_.move(positions);
+  }
+  bent_ = bent;
 }
 
 void CanopyPatch::move(const canopy::Foliage& foliage, const LeafedCrowns::Crown& crown,

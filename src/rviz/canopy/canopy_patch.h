@@ -35,6 +35,7 @@ class CanopyPatch {
   std::size_t leafCount() const { return leaves_.size(); }
   const Vec3& middle() const { return middle_; }
   double reach() const { return reach_; }         ///< [m] radius around the middle
+  double tallest() const { return tallest_; }     ///< [m] height of the tallest plant
   double leafSize() const { return leaf_size_; }  ///< [m] mean length
   bool takeSeen() { return leaf_batch_.takeSeen(); }
   void setRank(int rank);
@@ -65,6 +66,7 @@ class CanopyPatch {
   void finish(const canopy::Layout& layout, Ogre::SceneNode& node, const Vec3& to_sun);
   template <class Mover>
   void moveBy(const Mover& mover, std::size_t count);
+  void bendStems(const canopy::Foliage& foliage);
   void addStems(const canopy::GrownPlant& grown, const Vec3& colour);
   void addRigid(const canopy::GrownPlant& grown, const Vec3& colour);
   VertexPaint paintOf(const canopy::Layout& layout, const Drawn& drawn, const Vec3& to_sun) const;
@@ -72,14 +74,16 @@ class CanopyPatch {
 
   std::optional<std::size_t> crown_;
   Vec3 origin_, middle_{Vec3::Zero()};
-  double reach_{0.0}, leaf_size_{0.1};
+  double reach_{0.0}, leaf_size_{0.1}, tallest_{0.0};
   std::vector<Drawn> leaves_;
   std::vector<float> positions_;
   std::vector<float> stem_positions_;
   std::vector<VertexPaint> stem_paint_;
+  std::vector<std::size_t> stem_owners_;  // plants of the vertices
   std::vector<std::uint32_t> stem_triangles_;
   Batch leaf_batch_, stem_batch_;
   std::size_t drawn_{0};
+  bool bent_{false};  // bodies had pushed stems when they were drawn last
 };
 
 }  // namespace vegetation_sim::view

@@ -97,11 +97,13 @@ void CanopyVisual::light(const Daylight& daylight, const Haze& haze) {
   stem_material_.light(daylight, daylight.to_sun, haze);
 }
 
-// Returns the visible patches. Near ones come first because they hide others.
-std::vector<CanopyPatch*> CanopyVisual::inPicture(const View& view) const {
+// Returns the visible patches. Near ones come first because they hide others. Plants that bodies
+// have pushed to the ground reach farther.
+std::vector<CanopyPatch*> CanopyVisual::inPicture(const View& view, bool bent) const {
   std::vector<CanopyPatch*> out;
   for (const auto& patch : patches_)
-    if (view.sees(patch->middle(), 1.3 * patch->reach())) out.push_back(patch.get());
+    if (view.sees(patch->middle(), 1.3 * patch->reach() + (bent ? patch->tallest() : 0.0)))
+      out.push_back(patch.get());
   std::sort(out.begin(), out.end(), [&](const CanopyPatch* a, const CanopyPatch* b) {
     return length(a->middle() - view.eye.position) < length(b->middle() - view.eye.position);
   });
@@ -118,12 +120,12 @@ void CanopyVisual::update(SubscribedCanopy& canopy, Nanoseconds stamp, const Vie
   stamp_ = stamp;
   eye_ = view.eye.position;
   forward_ = view.forward;
-  const std::vector<CanopyPatch*> seen = inPicture(view);
+  const canopy::Foliage& foliage = canopy.replica()->foliage();
+  const std::vector<CanopyPatch*> seen = inPicture(view, foliage.anyBent());
   double wanted = 0.0;
   for (const CanopyPatch* patch : seen) wanted += wantedOf(*patch, view, options.tolerance);
   const double share =
       std::min(1.0, static_cast<double>(options.most_leaves) / std::max(1.0, wanted));
-  const canopy::Foliage& foliage = canopy.replica()->foliage();
   report_.drawn = 0;
   int rank = 0;
   for (CanopyPatch* patch : seen) {

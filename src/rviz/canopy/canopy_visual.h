@@ -53,7 +53,7 @@ class CanopyVisual {
 
  private:
   void add(std::unique_ptr<CanopyPatch> patch);
-  std::vector<CanopyPatch*> inPicture(const View& view) const;
+  std::vector<CanopyPatch*> inPicture(const View& view, bool bent) const;
 
   Ogre::SceneNode* node_;  // Ogre's; destroyed by us
   Vec3 origin_{Vec3::Zero()};

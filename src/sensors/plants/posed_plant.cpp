@@ -14,8 +14,15 @@ Strip stripOf(const canopy::Leaf& leaf, const canopy::MovedLeaf& moved) {
           double{leaf.tip_width} * moved.side};
 }
 
-Strip stripAtRest(const canopy::Leaf& leaf) {
-  return stripOf(leaf, {leaf.root, leaf.tip, leaf.side});
+// Wind does not move faces of wood; their side turns with their ends.
+Strip rigidStrip(const canopy::Leaf& leaf, const canopy::Foliage& foliage, std::size_t plant) {
+  const auto bend = [&](const Vec3& point) { return foliage.bend(point, plant); };
+  const Vec3 root = bend(leaf.root), tip = bend(leaf.tip);
+  return stripOf(leaf, {root, tip, bend(leaf.root + leaf.side) - root});
+}
+
+Rod rodOf(const Vec3& from, const Vec3& to, double radius) {
+  return rodBetween(from, to, radius, STEM_TAPER * radius);
 }
 
 }  // namespace
@@ -25,11 +32,14 @@ PosedPlant::PosedPlant(const canopy::Layout& layout, std::uint32_t id)
   const canopy::Plant& plant = layout.plants[id];
   canopy::GrownPlant grown = canopy::grow(layout.kinds[plant.kind], plant);
   leaves_ = std::move(grown.leaves);
-  strips_.reserve(leaves_.size() + grown.rigid.size());
-  for (const canopy::Leaf& leaf : leaves_) strips_.push_back(stripAtRest(leaf));
-  for (const canopy::Leaf& face : grown.rigid) strips_.push_back(stripAtRest(face));
-  for (const canopy::Stem& stem : grown.stems)
-    stems_.push_back(rodBetween(stem.from, stem.to, stem.radius, STEM_TAPER * stem.radius));
+  rigid_ = std::move(grown.rigid);
+  grown_stems_ = std::move(grown.stems);
+  strips_.reserve(leaves_.size() + rigid_.size());
+  for (const std::vector<canopy::Leaf>* part : {&leaves_, &rigid_})
+    for (const canopy::Leaf& leaf : *part)
+      strips_.push_back(stripOf(leaf, {leaf.root, leaf.tip, leaf.side}));
+  for (const canopy::Stem& stem : grown_stems_)
+    stems_.push_back(rodOf(stem.from, stem.to, stem.radius));
   strip_tree_.build(strips_, foot_);
   stem_tree_.build(stems_, std::vector<double>(stems_.size(), 0.0), foot_);
 }
@@ -37,7 +47,19 @@ PosedPlant::PosedPlant(const canopy::Layout& layout, std::uint32_t id)
 void PosedPlant::pose(const canopy::Foliage& foliage) {
   for (std::size_t i = 0; i < leaves_.size(); ++i)
     strips_[i] = stripOf(leaves_[i], foliage.move(leaves_[i], id_));
+  if (bent_ || foliage.isBent(id_)) bendWood(foliage);
+  bent_ = foliage.isBent(id_);
   strip_tree_.fit(strips_, foot_);
+}
+
+void PosedPlant::bendWood(const canopy::Foliage& foliage) {
+  for (std::size_t i = 0; i < rigid_.size(); ++i)
+    strips_[leaves_.size() + i] = rigidStrip(rigid_[i], foliage, id_);
+  for (std::size_t i = 0; i < stems_.size(); ++i) {
+    const canopy::Stem& stem = grown_stems_[i];
+    stems_[i] = rodOf(foliage.bend(stem.from, id_), foliage.bend(stem.to, id_), stem.radius);
+  }
+  stem_tree_.fit(stems_, std::vector<double>(stems_.size(), 0.0), foot_);
 }
 
 Box PosedPlant::bounds() const {

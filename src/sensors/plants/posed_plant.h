@@ -13,13 +13,13 @@
 namespace vegetation_sim::scan {
 
 /// One leafy plant of a canopy for rays: a strip per leaf, piece of a ribbon or face, of which the
-/// leaves move, and a rod per stem.
+/// leaves move, and a rod per stem. Where bodies push the plant, all parts move.
 class PosedPlant {
  public:
   /// Grows the plant.
   PosedPlant(const canopy::Layout& layout, std::uint32_t id);
 
-  /// Moves all leaves with their layers.
+  /// Moves all leaves with their layers, and all parts with their fibres.
   void pose(const canopy::Foliage& foliage);
 
   std::uint32_t id() const { return id_; }
@@ -38,13 +38,17 @@ class PosedPlant {
   bool meetStem(std::size_t stem, const Ray& ray, Hit& nearest) const;
 
  private:
+  void bendWood(const canopy::Foliage& foliage);
+
   std::uint32_t id_;
-  Vec3 foot_;                         ///< world [m]
-  std::vector<canopy::Leaf> leaves_;  ///< at rest
-  std::vector<Strip> strips_;         ///< of leaves_, then of rigid faces
+  Vec3 foot_;                                 ///< world [m]
+  std::vector<canopy::Leaf> leaves_, rigid_;  ///< at rest
+  std::vector<canopy::Stem> grown_stems_;     ///< at rest
+  std::vector<Strip> strips_;                 ///< of leaves_, then of rigid faces
   std::vector<Rod> stems_;
   StripTree strip_tree_;
   RodTree stem_tree_;
+  bool bent_{false};  ///< bodies had pushed the plant when it was posed last
 };
 
 }  // namespace vegetation_sim::scan

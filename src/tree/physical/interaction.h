@@ -8,6 +8,7 @@
 #include "vegetation_sim/core/config/faults.h"
 #include "vegetation_sim/core/math/time.h"
 #include "vegetation_sim/core/math/vectors.h"
+#include "vegetation_sim/tree/physical/body.h"
 
 namespace vegetation_sim::forest {
 
@@ -49,23 +50,6 @@ struct Push {
   Vec3 force{Vec3::Zero()};  ///< world [N]
   Nanoseconds until{0};      ///< end of the interval
   Nanoseconds from{0};       ///< start; a stamp in the past means the last tick
-};
-
-enum class Shape : int { SPHERE = 0, CAPSULE = 1, BOX = 2 };
-
-/// A robot body that pushes branches.
-struct Body {
-  std::string id;     ///< names the body in reactions
-  std::string frame;  ///< tf frame to which it is attached
-  Shape shape{Shape::SPHERE};
-  /// Sphere: radius, -, -. Capsule along its z axis: radius, -, distance of the cap centres. Box:
-  /// edges. [m]
-  Vec3 size{Vec3(0.05, 0.0, 0.0)};
-  Pose pose;                    ///< world, at `stamp`
-  Vec3 velocity{Vec3::Zero()};  ///< of the pose's origin, world [m/s]
-  Vec3 spin{Vec3::Zero()};      ///< world [rad/s]
-  Nanoseconds stamp{0};
-  Pose in_frame;  ///< of the body in its frame
 };
 
 /// Reaction of a branch on the body that holds or touches it.

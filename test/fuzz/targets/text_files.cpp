@@ -10,7 +10,7 @@
 #include "fuzz/targets/decoding.h"
 #include "fuzz/targets/target_lists.h"
 #include "fuzz/targets/usage.h"
-#include "nodes/forest/frames/robot_bodies.h"
+#include "nodes/bodies/robot_bodies.h"
 #include "package_folder.h"
 #include "scenes/forest/forest_fixture.h"
 #include "vegetation_sim/canopy/canopy_layout.h"

@@ -11,6 +11,7 @@ from refusing_node import Ranges, RefusingNode
 # Each parameter with its unit, minimum and maximum.
 NUMBERS = {
     'markers_rate': (' Hz', 0.1, 60), 'tolerance': (' pixel', 0.01, 1000),
+    'frame_wait': (' s', 0, 60),
     'checkpoint_period': (' s', 0, 86400),
     'replay_delay': (' s', 0, 10), 'turbulence': ('', 0, 1),
     'law_gain': ('', 0, 10), 'frequency': (' Hz', 0.05, 20), 'damping': ('', 0, 50),
@@ -26,7 +27,8 @@ WHOLE_NUMBERS = {
     'far_layers': ('', 0, 16),
 }
 OTHERS = {'scenario', 'checkpoint', 'snapshot_folder',
-          'frame_id', 'viewer_id', 'viewer_frame', 'replay'}
+          'frame_id', 'viewer_id', 'viewer_frame', 'replay', 'walkers',
+          'bodies'}  # robot_bodies_test has more tests of bodies
 
 # Text of a bad scenario and the expected part of the error.
 SCENARIOS = [
@@ -46,6 +48,7 @@ SCENARIOS = [
     ('{canopy: {kinds: [{name: a, shape: mesh, file: nothing.obj}]}}',
      'nothing.obj: cannot be read'),
     ('{canopy: {kinds: [{name: a}], crowns: [{kind: a, trees: 0}]}}', 'trees = 0 is outside 1'),
+    ('{canopy: {kinds: [{name: a, push_stiffness: -1}]}}', 'push_stiffness = -1 N/m^3 is outside'),
     ('{canopy: {cuts: {near_layers: 0, mid_layers: 0, far_layers: 0}}}', '= 0 is outside 1 to 16'),
     ('{terrain: nowhere.yaml, canopy: {}}', '/nowhere.yaml: cannot be read'),
     ('{canopy', 'not YAML'),
@@ -61,6 +64,9 @@ class CanopyParameters(Ranges, RefusingNode):
         self.assertIn("~frame_id = '' is empty", refusal)
         self.assertIn("~viewer_frame = '/camera' begins with '/'", refusal)
         self.assertIn('~replay = yes is not true or false', refusal)
+        self.assertIn('~walkers = some is not true or false', self.refusal({'walkers': 'some'}))
+        bodies = self.refusal({'bodies': [{'frame': 'arm', 'shape': 'sphere', 'radius': 0}]})
+        self.assertIn('radius = 0 m is outside 0.001 to 50', bodies)
         none = {'near_layers': 0, 'mid_layers': 0, 'far_layers': 0}
         self.assertIn('= 0 is outside 1 to 16', self.refusal(none))
 

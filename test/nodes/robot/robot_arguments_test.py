@@ -98,8 +98,15 @@ class RobotArguments(RefusingNode):
                                 scenario_file='/nowhere/my.yaml')
 
     def test_a_description_that_is_no_parameter(self):
-        self.expect_refused('forest_animator', "robot_description = 'nothing' is not a parameter",
-                            robot_description='nothing')
+        for node in 'forest_animator', 'canopy_animator':
+            self.expect_refused(node, "robot_description = 'nothing' is not a parameter",
+                                robot_description='nothing')
+
+    def test_the_robot_touches_branches_and_plants(self):
+        for node in 'forest_animator', 'canopy_animator':
+            parameters = parameters_of(node, {'robot': 'a', 'prefix': 'a/', 'robot_description': 'urdf'})
+            self.assertEqual(parameters['bodies'], {'a': [{'robot_description': 'urdf', 'prefix': 'a/'}]})
+            self.assertNotIn('bodies', parameters_of(node, {}))
 
 
 if __name__ == '__main__':

@@ -33,10 +33,17 @@ TEST(CanopyConversions, StateRebuildsEveryLeafToTheBit) {
   sender.setWind(canopy::breezeFrom(Vec3(2.0, 4.0, 0.0)));
   sender.setViewer(canopy::CutView{Vec3(-6.0, 1.0, 1.7), {std::sqrt(0.84), 0.0, 0.0, 0.4}});
   canopy::Replica receiver(fromMsg(toMsg(sender.layout())));
+  forest::Body body;
+  body.id = "ball";
+  body.size.x() = 0.6;
+  body.pose.position = sender.layout().plants[1].position + Vec3(0.3, 0.2, 0.8);
+  body.stamp = canopy::tickStamp(0);
+  sender.setBody(body);
   for (int tick = 0; tick < 60; ++tick) {
     sender.advance(canopy::tickStamp(tick));
     receiver.apply(fromMsg(toMsg(sender.update(true))));
   }
+  EXPECT_TRUE(receiver.foliage().isBent(1));
   const canopy::Layout& layout = sender.layout();
   for (const canopy::Leaf& leaf : canopy::grow(layout.kinds[0], layout.plants[1]).leaves) {
     const canopy::MovedLeaf want = sender.foliage().move(leaf, 1);
@@ -59,6 +66,14 @@ TEST(CanopyConversions, InvalidStatesAreRejected) {
   bad = good;
   bad.eye.orientation.w = 0.0;
   EXPECT_NE(errorOf([&] { fromMsg(bad); }).find("norm"), std::string::npos);
+  bad = good;
+  bad.bent_plants = {0, 1};
+  bad.bent_cells = {3, 4};
+  bad.lean_x = {100, 200};
+  EXPECT_NE(errorOf([&] { fromMsg(bad); }).find("lean_y has 0 entries, bent_plants has 2"),
+            std::string::npos);
+  bad.lean_y = {0, -100};
+  EXPECT_EQ(fromMsg(bad).bent.at(1).y, -100);
   bad = good;
   bad.up.resize(7);
   canopy::Replica receiver(sender.layout());

@@ -22,6 +22,23 @@ enum class PlantShape : int { SHRUB = 0, CROWN = 1, REED = 2, KELP = 3, MESH = 4
 /// Axis of a mesh that points up.
 enum class UpAxis { Z, Y };
 
+/// Share of a crown's height that is trunk.
+constexpr double TRUNK_SHARE = 0.35;
+
+/// How a kind answers bodies. Forces are those per area of ground or per volume of overlap, so that
+/// neither cells nor leaves matter.
+struct PushLaw {
+  double stiffness{100.0};   ///< force on the tops over their displacement and ground area [N/m^3]
+  double frequency{1.5};     ///< of the free swing back [Hz]
+  double damping{0.4};       ///< share of the critical damping
+  double set{0.0};           ///< share of the largest lean that remains
+  double recovery{60.0};     ///< time constant in which it disappears [s]
+  double pressure{10000.0};  ///< pressure per depth of the overlap [N/m^3]
+  double drag{2000.0};       ///< force per volume of the overlap and relative speed [N s/m^4]
+  double cell{0.25};         ///< wanted edge of cells that lean alike [m]
+};
+void describe(FieldVisitor& visitor, PushLaw& law);
+
 /// Properties of one kind of plant (S3-30).
 struct PlantKind {
   std::string name{"shrub"};
@@ -41,6 +58,7 @@ struct PlantKind {
   double solid{0.5};                 ///< smallest density of a slice's cell that gets a leaf
   std::string file;                  ///< file of a mesh, or of the first slice; scaled to `height`
   std::shared_ptr<const Form> form;  ///< contents of the file, shared by plants and threads
+  PushLaw push;                      ///< described on its own
 };
 /// Returns whether plants of this kind are read from files.
 inline bool isRead(const PlantKind& kind) {

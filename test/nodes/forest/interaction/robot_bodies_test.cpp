@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nodes/forest/frames/robot_bodies.h"
+#include "nodes/bodies/robot_bodies.h"
 
 #include <gtest/gtest.h>
 #include <ros/callback_queue.h>

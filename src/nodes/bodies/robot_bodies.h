@@ -48,6 +48,12 @@ RobotParts partsOfUrdf(const std::string& urdf, const std::string& prefix, Fault
 /// name of the parameter that holds its URDF, and `prefix` of its frames).
 RobotParts readRobotParts(const ros::NodeHandle& private_handle, Parameters& parameters);
 
+/// A body that came or moved, or that is gone.
+struct BodyChange {
+  bool gone{false};
+  forest::Body body;
+};
+
 /// Follows the frames of the parts in tf, once per tick.
 class RobotBodies {
  public:
@@ -57,6 +63,8 @@ class RobotBodies {
 
   /// Returns the bodies at their transforms, with the velocity between the last two.
   std::vector<forest::Body> update(Nanoseconds now);
+  /// Updates, and returns how the bodies that it follows differ from those known.
+  std::vector<BodyChange> changes(const forest::Bodies& known, Nanoseconds now);
   /// A body at its last transform.
   struct Sample {
     Nanoseconds stamp{0};

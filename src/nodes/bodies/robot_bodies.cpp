@@ -1,6 +1,8 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nodes/forest/frames/robot_bodies.h"
+#include "nodes/bodies/robot_bodies.h"
+
+#include <algorithm>
 
 #include "forest/contact/contact_body.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
@@ -105,6 +107,23 @@ std::vector<forest::Body> RobotBodies::update(Nanoseconds now) {
     }
     followed.last.reset();
     missing_.add(describeMissingTransform(followed.part.frame, frame_id_));
+  }
+  return out;
+}
+
+std::vector<BodyChange> RobotBodies::changes(const forest::Bodies& known, Nanoseconds now) {
+  const std::vector<forest::Body> present = update(now);
+  std::vector<BodyChange> out;
+  for (const Followed& followed : followed_) {
+    const std::string& id = followed.part.id;
+    const auto body = std::find_if(present.begin(), present.end(),
+                                   [&](const forest::Body& b) { return b.id == id; });
+    const auto old = known.find(id);
+    if (body == present.end()) {
+      if (old != known.end()) out.push_back({true, old->second});
+    } else if (old == known.end() || old->second.stamp != body->stamp) {
+      out.push_back({false, *body});
+    }
   }
   return out;
 }

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "forest/contact/contact_body.h"
-#include "nodes/forest/frames/robot_bodies.h"
+#include "nodes/bodies/robot_bodies.h"
 #include "ros/params/mesh_file.h"
 #include "vegetation_sim/core/config/yaml.h"
 #include "vegetation_sim/core/math/math.h"

@@ -1,0 +1,160 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "canopy/contact/plant_pusher.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "forest/contact/contact_body.h"
+
+namespace vegetation_sim::canopy {
+namespace {
+
+constexpr double SQUARE = 4.0;         // [m] edge
+constexpr double LONGEST_STEP = 0.01;  // [s]
+constexpr double LONGEST_WAY = 0.01;   // of a body in a step [m]
+constexpr int MOST_STEPS = 64;         // between two ticks
+constexpr Nanoseconds AHEAD = NANOSECONDS_PER_SECOND / 2;
+
+// Radius around the foot in which bodies can touch the fibres.
+double reachOf(const Fibres& fibres, bool leans) {
+  return 1.5 * fibres.half + fibres.edge() + (leans ? fibres.length : 0.0);
+}
+
+double wayOf(const forest::Body& body, double seconds) {
+  const double reach = shapeOf(body).reach();
+  return seconds * (length(body.velocity) + reach * length(body.spin));
+}
+
+int stepsFor(const std::vector<const forest::Body*>& bodies, double seconds) {
+  double steps = seconds / LONGEST_STEP;
+  for (const forest::Body* body : bodies)
+    steps = std::max(steps, wayOf(*body, seconds) / LONGEST_WAY);
+  return static_cast<int>(std::clamp(std::ceil(steps), 1.0, static_cast<double>(MOST_STEPS)));
+}
+
+std::vector<PosedBody> poseAll(const std::vector<const forest::Body*>& bodies, Nanoseconds stamp) {
+  std::vector<PosedBody> out;
+  for (const forest::Body* body : bodies)
+    out.push_back({shapeOf(*body), poseAt(*body, stamp), body->velocity, body->spin});
+  return out;
+}
+
+int squareOf(double coordinate) {
+  return static_cast<int>(std::floor(coordinate / SQUARE));
+}
+
+bool allRest(const std::vector<Cluster>& clusters) {
+  return std::all_of(clusters.begin(), clusters.end(),
+                     [](const Cluster& cluster) { return cluster.rests(); });
+}
+
+}  // namespace
+
+void PlantPusher::sortPlants() {
+  if (sorted_) return;
+  sorted_ = true;
+  for (std::uint32_t id = 0; id < plants_.size(); ++id) {
+    if (!(lawOf(id).stiffness > 0.0)) continue;
+    const Vec3& foot = plants_[id].position;
+    squares_[{squareOf(foot.x()), squareOf(foot.y())}].push_back(id);
+    largest_ = std::max(largest_, reachOf(fibresOf(id), false));
+  }
+}
+
+bool PlantPusher::canReach(std::uint32_t plant, bool leans, const forest::Body& body,
+                           Nanoseconds from, Nanoseconds to) const {
+  const Fibres fibres = fibresOf(plant);
+  const Vec3 offset = poseAt(body, to).position - fibres.foot;
+  const double reach = shapeOf(body).reach() + wayOf(body, secondsBetween(from, to));
+  const double flat = reach + reachOf(fibres, leans);
+  return offset.x() * offset.x() + offset.y() * offset.y() < flat * flat &&
+         offset.z() - reach < fibres.length + fibres.edge() && offset.z() + reach > -fibres.edge();
+}
+
+std::vector<std::uint32_t> PlantPusher::plantsNear(const PushState& state, const forest::Body& body,
+                                                   Nanoseconds from, Nanoseconds to) const {
+  std::vector<std::uint32_t> out;
+  const Vec3 at = poseAt(body, to).position;
+  const double range = shapeOf(body).reach() + wayOf(body, secondsBetween(from, to)) + largest_;
+  for (int i = squareOf(at.x() - range); i <= squareOf(at.x() + range); ++i)
+    for (int j = squareOf(at.y() - range); j <= squareOf(at.y() + range); ++j) {
+      const auto square = squares_.find({i, j});
+      if (square == squares_.end()) continue;
+      for (const std::uint32_t id : square->second)
+        if (!state.plants.count(id) && canReach(id, false, body, from, to)) out.push_back(id);
+    }
+  for (const auto& plant : state.plants)
+    if (canReach(plant.first, true, body, from, to)) out.push_back(plant.first);
+  return out;
+}
+
+bool PlantPusher::isNear(const PushState& state, const forest::Body& body, Nanoseconds now) {
+  sortPlants();
+  return !plantsNear(state, body, now - AHEAD, now).empty();
+}
+
+std::map<std::uint32_t, PlantPusher::Near> PlantPusher::findTouched(const PushState& state,
+                                                                    Nanoseconds from,
+                                                                    Nanoseconds to) const {
+  std::map<std::uint32_t, Near> out;
+  for (const auto& entry : state.plants) out[entry.first] = {};
+  for (const auto& entry : state.bodies)
+    for (const std::uint32_t id : plantsNear(state, entry.second, from, to))
+      out[id].push_back(&entry.second);
+  return out;
+}
+
+bool PlantPusher::hasRoom(const PushState& state, std::uint32_t plant) const {
+  if (state.plants.count(plant)) return true;
+  std::size_t cells = fibresOf(plant).cells();
+  for (const auto& entry : state.plants) cells += entry.second.size();
+  return cells <= MOST_CLUSTERS;
+}
+
+void PlantPusher::step(std::uint32_t plant, const Near& near, Nanoseconds from, Nanoseconds to,
+                       std::vector<Cluster>& clusters, std::vector<PushForce>& out) const {
+  const PushLaw& law = lawOf(plant);
+  const Fibres fibres = fibresOf(plant);
+  const double seconds = secondsBetween(from, to);
+  const int steps = near.empty() ? 1 : stepsFor(near, seconds);
+  std::vector<BodyLoad> loads(near.size());
+  for (int i = 1; i <= steps; ++i) {
+    const std::vector<PosedBody> bodies = poseAll(near, from + (to - from) * i / steps);
+    for (std::size_t cell = 0; cell < clusters.size(); ++cell)
+      stepCluster(law, fibres, cell, seconds / steps, bodies, clusters[cell], loads);
+  }
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    const BodyLoad& load = loads[i];
+    if (!(load.weight > 0.0)) continue;
+    PushForce force;
+    force.body = near[i]->id;
+    force.frame = near[i]->frame;
+    force.plant = plant;
+    force.point = load.weighted / load.weight;
+    force.force = load.impulse / seconds;
+    const Vec3 lever = force.point - poseAt(*near[i], to).position;
+    force.torque = load.moment / seconds - cross(lever, force.force);
+    force.volume = load.volume / seconds;
+    out.push_back(force);
+  }
+}
+
+std::vector<PushForce> PlantPusher::advance(PushState& state, Nanoseconds from, Nanoseconds to) {
+  std::vector<PushForce> out;
+  if (state.bodies.empty() && state.plants.empty()) return out;
+  sortPlants();
+  for (const auto& [plant, near] : findTouched(state, from, to)) {
+    if (!hasRoom(state, plant)) {
+      ++refused_;
+      continue;
+    }
+    std::vector<Cluster>& clusters = state.plants[plant];
+    clusters.resize(fibresOf(plant).cells());
+    step(plant, near, from, to, clusters, out);
+    if (allRest(clusters)) state.plants.erase(plant);
+  }
+  return out;
+}
+
+}  // namespace vegetation_sim::canopy
