@@ -119,7 +119,7 @@ void addPost(const PlantKind& kind, const Vec3& foot, const Placing& placing, Gr
     Leaf leaf;
     leaf.root = foot + half * face;
     leaf.tip = leaf.root + kind.height * Vec3::UnitZ();
-    leaf.side = half * cross(Vec3::UnitZ(), face);
+    leaf.side = half * cross(face, Vec3::UnitZ());
     leaf.root_width = leaf.tip_width = 1.0F;
     leaf.light = static_cast<float>(0.75 + 0.15 * face.x() + 0.1 * face.y());
     out.rigid.push_back(placing.placed(leaf));

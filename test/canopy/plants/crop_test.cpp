@@ -121,7 +121,13 @@ TEST(Trellis, JoinsTheNextOneOnASlope) {
     EXPECT_LE(here.stems[i].from.z(), kind.height);
   }
   double top = 0.0;
-  for (const Leaf& face : here.rigid) top = std::max(top, face.tip.z());
+  for (std::size_t i = 0; i < 8; ++i) {
+    const Leaf& face = here.rigid[i];
+    const Vec3 axis = i < 4 ? plant.position : next.position;
+    // The displays light a face by this normal, which points out of the post.
+    EXPECT_GT(dot(cross(Vec3(face.tip - face.root), face.side), Vec3(face.root - axis)), 0.0);
+    top = std::max(top, face.tip.z());
+  }
   EXPECT_NEAR(top, 1.9 + 0.55, 1e-12);
 }
 
