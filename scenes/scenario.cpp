@@ -35,7 +35,8 @@ void readSettings(YamlSection& file, const char* name, Settings& settings) {
 
 void readPlants(YamlSection& file, Scenario& out, Faults& faults) {
   if (file.has("forest"))
-    out.forest = forest::readLayout(file.section("forest"), BASE_FOLDER, out.seed, faults);
+    out.forest =
+        forest::readLayout(file.section("forest"), BASE_FOLDER, *out.terrain, out.seed, faults);
   if (file.has("grass")) {
     YamlSection grass = file.section("grass");
     out.grass = grass::readScene(grass, BASE_FOLDER, out.seed, faults);

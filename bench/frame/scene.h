@@ -70,7 +70,8 @@ inline Scene loadScene(const std::string& name) {
     out.terrain = std::make_shared<const terrain::HeightMap>(
         terrain::HeightMap::load((std::filesystem::path(folder) / terrain).lexically_normal()));
   if (file.has("forest"))
-    out.forest = forest::readLayout(file.section("forest"), folder, seed, file.faults());
+    out.forest =
+        forest::readLayout(file.section("forest"), folder, *out.terrain, seed, file.faults());
   if (file.has("grass")) {
     YamlSection grass = file.section("grass");
     out.grass = grass::readScene(grass, folder, seed, file.faults());

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <map>
 
+#include "core/math/growth_stage.h"
+#include "terrain/plant_rows.h"
 #include "vegetation_sim/canopy/canopy_layout.h"
 #include "vegetation_sim/core/math/math.h"
 #include "vegetation_sim/core/math/random.h"
@@ -34,7 +36,10 @@ void readKinds(YamlSection& section, std::vector<PlantKind>& kinds) {
     entry.text("file", kind.file);
     describe(entry, kind);
     describe(entry, kind.push);
+    double stage = GROWN;
+    entry.number("stage", stage, "", {SEEDLING, GROWN});
     entry.finish();
+    kind = applyStage(kind, stage);
     for (const PlantKind& other : kinds)
       if (other.name == kind.name) entry.fault("name", "= '" + kind.name + "' is defined twice");
     kinds.push_back(kind);
@@ -76,6 +81,7 @@ class LayoutReader {
     readCrowns(section_, out_);
     for (YamlSection& plant : section_.sections("plants")) readPlant(plant);
     for (YamlSection& bed : section_.sections("beds")) readBed(bed);
+    for (YamlSection& rows : section_.sections("rows")) readRows(rows);
     section_.finish();
     Faults of_the_whole;
     if (faults_.empty()) check(out_, of_the_whole);
@@ -130,9 +136,25 @@ class LayoutReader {
     }
   }
 
+  void readRows(YamlSection& section) {
+    std::uint64_t seed = nextSeed();
+    const std::uint16_t kind = readKind(section, out_.kinds);
+    section.seed("seed", seed);
+    const terrain::RowLaw law = terrain::readRowLaw(section);
+    section.finish();
+    if (!faults_.empty()) return;
+    const int room = terrain::MOST_ROW_PLANTS - planted_;
+    for (const terrain::RowPlant& plant :
+         terrain::placeInRows(law, terrain_, seed, room, section)) {
+      add({plant.seed, kind, plant.position, plant.yaw, plant.scale});
+      ++planted_;
+    }
+  }
+
   YamlSection section_;
   const terrain::HeightMap& terrain_;
   std::uint64_t seed_, drawn_{0};
+  int planted_{0};  // in rows
   Faults& faults_;
   Layout out_;
 };

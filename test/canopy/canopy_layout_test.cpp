@@ -40,6 +40,24 @@ TEST(Layout, IsReadWithItsGroupsKindsPlantsAndBeds) {
   }
 }
 
+TEST(Layout, PlantsRowsOnTheTerrain) {
+  Scenario scenario = Scenario::parse(
+      "canopy: {kinds: [{name: maize, shape: stalk, stage: 0.5}], rows: [{kind: maize, rows: 2,"
+      " plants: 3, spacing: slope, plant_spacing: 0.17, origin: [0, 0, 0.2]}]}",
+      "scene.yaml");
+  terrain::HeightMapLaw law;
+  law.resolution = 10.0;
+  law.height_max = 4.0;
+  const terrain::HeightMap slope(law, {2, 2, 1, {0, 1, 0, 1}});
+  const Layout layout = readLayout(scenario.section("canopy"), slope, 9, scenario.faults());
+  scenario.finish();
+  ASSERT_EQ(layout.plants.size(), 6U);
+  for (const Plant& plant : layout.plants)
+    EXPECT_NEAR(plant.position.z(), 0.2 + 0.4 * plant.position.x(), 1e-12);
+  EXPECT_NEAR(length(Vec3(layout.plants[1].position - layout.plants[0].position)), 0.17, 1e-9);
+  EXPECT_NEAR(layout.kinds[0].height, (0.05 + 0.95 * 0.5) * PlantKind().height, 1e-12);
+}
+
 TEST(Layout, IsRejectedWithAllItsFaults) {
   const std::string text = errorOf([] {
     read(
@@ -48,11 +66,14 @@ TEST(Layout, IsRejectedWithAllItsFaults) {
         "  oscillator: {frequency: -1}\n"
         "  warp: {rigidity: 11, lamda: [1, 1, 1]}\n"
         "  kinds: [{name: shrub, leaves: -4}]\n"
-        "  plants: [{kind: tree}]\n");
+        "  plants: [{kind: tree}]\n"
+        "  rows: [{kind: bush, rows: 0, gap: 1}]\n");
   });
-  for (const char* part : {"scheme = 'quick' is none of reflection, fast, paper",
-                           "frequency = -1 Hz is outside", "rigidity = 11 is outside 0 to 10",
-                           "lamda", "leaves = -4", "kind = 'tree' is none of shrub"})
+  for (const char* part :
+       {"scheme = 'quick' is none of reflection, fast, paper", "frequency = -1 Hz is outside",
+        "rigidity = 11 is outside 0 to 10", "lamda", "leaves = -4",
+        "kind = 'tree' is none of shrub", "rows[0]: kind = 'bush' is none of shrub",
+        "rows = 0 is outside 1", "gap is not a known key"})
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
 }
 

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "canopy/plants/crop.h"
+#include "canopy/plants/placing.h"
+#include "core/math/growth_stage.h"
 #include "vegetation_sim/core/math/math.h"
 #include "vegetation_sim/core/math/random.h"
 
@@ -17,34 +20,6 @@ Vec3 unit(const Vec3& v, const Vec3& otherwise) {
   const double size = length(v);
   return size > SHORTEST ? Vec3(v / size) : otherwise;
 }
-
-bool isRibbon(const PlantKind& kind) {
-  return kind.shape == PlantShape::REED || kind.shape == PlantShape::KELP;
-}
-
-/// Transforms a plant at the origin into the world.
-class Placing {
- public:
-  Placing(const Plant& plant, double scale)
-      : foot_(plant.position), scale_(scale), turn_(sinCos(plant.yaw)) {}
-
-  Vec3 turned(const Vec3& v) const {
-    return {turn_.cos * v.x() - turn_.sin * v.y(), turn_.sin * v.x() + turn_.cos * v.y(), v.z()};
-  }
-  Vec3 placed(const Vec3& v) const { return foot_ + scale_ * turned(v); }
-  Leaf placed(Leaf leaf) const {
-    leaf.anchor = placed(leaf.anchor);
-    leaf.root = placed(leaf.root);
-    leaf.tip = placed(leaf.tip);
-    leaf.side = scale_ * turned(leaf.side);
-    return leaf;
-  }
-
- private:
-  Vec3 foot_;
-  double scale_;
-  SinCos turn_;
-};
 
 GrownPlant placeForm(const PlantKind& kind, const Plant& plant) {
   GrownPlant out;
@@ -230,7 +205,8 @@ void describe(FieldVisitor& v, PushLaw& l) {
 }
 
 void describe(FieldVisitor& v, PlantKind& k) {
-  v.choice("shape", k.shape, {"shrub", "crown", "reed", "kelp", "mesh", "slices"});
+  v.choice("shape", k.shape,
+           {"shrub", "crown", "reed", "kelp", "mesh", "slices", "stalk", "trellis"});
   v.number("height", k.height, "m", {0.01, 100.0});
   v.number("radius", k.radius, "m", {0.01, 100.0});
   v.integer("leaves", k.leaves, "", {0, 1000000});
@@ -244,14 +220,36 @@ void describe(FieldVisitor& v, PlantKind& k) {
   v.vector("stem_colour", k.stem_colour, "", {0.0, 1.0});
   v.choice("up", k.up, {"z", "y"});
   v.number("solid", k.solid, "", {0.01, 1.0});
+  if (k.shape == PlantShape::TRELLIS) v.number("slope", k.slope, "", {-2.0, 2.0});
+}
+
+PlantKind applyStage(const PlantKind& kind, double stage) {
+  if (!(stage < GROWN) || kind.shape == PlantShape::TRELLIS) return kind;
+  const GrowthFactors factors = growthFactors(stage);
+  const auto scaled = [](double value, double factor, double least) {
+    return std::max(least, value * factor);
+  };
+  PlantKind out = kind;
+  out.height = scaled(kind.height, factors.height, 0.01);
+  out.radius = scaled(kind.radius, factors.height, 0.01);
+  out.leaf_length = scaled(kind.leaf_length, factors.leaf, 0.001);
+  out.leaf_width = scaled(kind.leaf_width, factors.leaf, 0.001);
+  out.stem_radius = scaled(kind.stem_radius, factors.thickness, 0.0005);
+  out.leaves = static_cast<int>(kind.leaves * factors.count + 0.5);
+  if (kind.shape == PlantShape::STALK && stage < TASSEL_STAGE) out.stems = 0;
+  return out;
 }
 
 GrownPlant grow(const PlantKind& kind, const Plant& plant) {
+  if (kind.shape == PlantShape::STALK) return growStalk(kind, plant);
+  if (kind.shape == PlantShape::TRELLIS) return buildTrellis(kind, plant);
   return isRead(kind) ? placeForm(kind, plant) : Grower(kind, plant).grow();
 }
 
 std::size_t leafCount(const PlantKind& kind) {
   if (isRead(kind)) return kind.form ? kind.form->leaves.size() + kind.form->rigid.size() : 0;
+  if (kind.shape == PlantShape::STALK) return stalkLeafCount(kind);
+  if (kind.shape == PlantShape::TRELLIS) return TRELLIS_FACES;
   return static_cast<std::size_t>(kind.leaves) *
          static_cast<std::size_t>(isRibbon(kind) ? kind.pieces : 1);
 }

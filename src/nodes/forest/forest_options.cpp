@@ -44,14 +44,15 @@ ForestScene loadForestScene(const std::string& name) {
   out.layout.species = {defaultSpecies()};
   if (name.empty()) return out;
   SceneFile file(name, out);
+  file.loadTerrain();
   if (file.has("forest"))
-    out.layout = forest::readLayout(file.section("forest"), file.folder(), out.seed, file.faults());
+    out.layout = forest::readLayout(file.section("forest"), file.folder(), *out.terrain, out.seed,
+                                    file.faults());
   if (file.has("physics")) {
     YamlSection physics = file.section("physics");
     describe(physics, out.physics);
     physics.finish();
   }
-  file.loadTerrain();
   file.finish();
   out.layout.terrain = file.terrainName();
   return out;

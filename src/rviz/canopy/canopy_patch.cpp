@@ -17,10 +17,6 @@ constexpr double SUN_DEPTH = 2.2;  // optical depth of the radius of the ball
 constexpr double WIDEST = 4.0;     // largest factor of the width of leaves
 constexpr double MARGIN = 1.0;     // [m] around the bounding box
 
-bool isRibbon(const canopy::PlantKind& kind) {
-  return kind.shape == canopy::PlantShape::REED || kind.shape == canopy::PlantShape::KELP;
-}
-
 // Joined pieces have their own outline, others that of a texture.
 LeafCut cutOf(const canopy::PlantKind& kind, const canopy::Leaf& leaf) {
   if (leaf.joined) return LeafCut::PLAIN;

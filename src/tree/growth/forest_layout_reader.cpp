@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <map>
 
+#include "core/math/growth_stage.h"
+#include "terrain/plant_rows.h"
 #include "vegetation_sim/core/math/random.h"
 #include "vegetation_sim/tree/growth/forest_layout.h"
 
@@ -14,8 +16,13 @@ constexpr int MOST_TILES = 65536;
 
 class LayoutReader {
  public:
-  LayoutReader(YamlSection section, std::string folder, std::uint64_t seed, Faults& faults)
-      : section_(std::move(section)), folder_(std::move(folder)), seed_(seed), faults_(faults) {}
+  LayoutReader(YamlSection section, std::string folder, const terrain::HeightMap& ground,
+               std::uint64_t seed, Faults& faults)
+      : section_(std::move(section)),
+        folder_(std::move(folder)),
+        ground_(ground),
+        seed_(seed),
+        faults_(faults) {}
 
   Layout read() {
     readSpeciesList();
@@ -23,6 +30,7 @@ class LayoutReader {
     describe(motion, out_.motion);
     motion.finish();
     for (YamlSection& tree : section_.sections("trees")) out_.trees.push_back(readTree(tree));
+    for (YamlSection& rows : section_.sections("rows")) readRows(rows);
     for (YamlSection& tile : section_.sections("tiles")) readTile(tile);
     section_.finish();
     Faults of_the_whole;
@@ -37,11 +45,13 @@ class LayoutReader {
       std::string name, file;
       entry.text("name", name);
       entry.text("file", file);
+      double stage = GROWN;
+      entry.number("stage", stage, "", {SEEDLING, GROWN});
       entry.finish();
       if (file.empty()) file = "../species/" + name + ".yaml";
       const auto path = (std::filesystem::path(folder_) / file).lexically_normal();
       try {
-        Species species = loadSpecies(path.string());
+        Species species = applyStage(loadSpecies(path.string()), stage);
         if (!name.empty()) species.name = name;
         number_[species.name] = static_cast<std::uint16_t>(out_.species.size());
         out_.species.push_back(std::move(species));
@@ -74,6 +84,22 @@ class LayoutReader {
     section.number("scale", tree.scale, "", {0.05, 20.0});
     section.finish();
     return tree;
+  }
+
+  void readRows(YamlSection& section) {
+    std::uint64_t seed = nextSeed();
+    std::string name;
+    section.text("species", name);
+    const std::uint16_t species = speciesNumber(section, name);
+    section.seed("seed", seed);
+    const terrain::RowLaw law = terrain::readRowLaw(section);
+    section.finish();
+    if (!faults_.empty()) return;
+    const int room = terrain::MOST_ROW_PLANTS - planted_;
+    for (const terrain::RowPlant& plant : terrain::placeInRows(law, ground_, seed, room, section)) {
+      out_.trees.push_back({plant.seed, species, plant.position, plant.yaw, plant.scale});
+      ++planted_;
+    }
   }
 
   // A tile may be split into rows x columns of equal ones, so that a forest is one entry.
@@ -121,18 +147,20 @@ class LayoutReader {
 
   YamlSection section_;
   std::string folder_;
+  const terrain::HeightMap& ground_;
   std::uint64_t seed_;
   Faults& faults_;
   Layout out_;
   std::map<std::string, std::uint16_t> number_;  // species by name
   std::uint64_t drawn_{0};
+  int planted_{0};  // in rows
 };
 
 }  // namespace
 
-Layout readLayout(YamlSection section, const std::string& folder, std::uint64_t seed,
-                  Faults& faults) {
-  return LayoutReader(std::move(section), folder, seed, faults).read();
+Layout readLayout(YamlSection section, const std::string& folder, const terrain::HeightMap& ground,
+                  std::uint64_t seed, Faults& faults) {
+  return LayoutReader(std::move(section), folder, ground, seed, faults).read();
 }
 
 }  // namespace vegetation_sim::forest

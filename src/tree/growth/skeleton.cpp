@@ -77,7 +77,7 @@ class Grower {
     out.length = species_.height * size;
     out.base_radius = species_.trunk_radius * size;
     out.tip_radius = out.base_radius * rule(0).taper;
-    out.theta = seed_.yaw + PI * vary(random, AZIMUTH);
+    out.theta = seed_.yaw + species_.turn * vary(random, AZIMUTH);
     out.phi = std::min(largestAngle(species_, 1.0), species_.lean * std::fabs(vary(random, LEAN)));
     out.leaves = leavesOf(random, 0);
     out.key = random.key();

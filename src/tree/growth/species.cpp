@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "core/math/growth_stage.h"
 #include "vegetation_sim/core/math/math.h"
 
 namespace vegetation_sim::forest {
@@ -49,6 +50,10 @@ void describe(FieldVisitor& v, Species& s) {
   v.vector("twig_colour", s.twig_colour, "", {0.0, 1.0});
 }
 
+void describeHabit(FieldVisitor& v, Species& s) {
+  v.number("turn", s.turn, "rad", {0.0, PI});
+}
+
 void describe(FieldVisitor& v, Design& d) {
   v.number("size", d.size, "", {0.2, 3.0});
   v.number("children", d.children, "", {0.2, 3.0});
@@ -91,6 +96,7 @@ void check(Species species, Faults& faults) {
   }
   FieldChecker checker(context, faults);
   describe(checker, species);
+  describeHabit(checker, species);
   for (std::size_t i = 0; i < species.limbs.size(); ++i) {
     LimbRule& rule = species.limbs[i];
     const std::string where = context + "limbs[" + std::to_string(i) + "]: ";
@@ -129,10 +135,30 @@ Species applyDesign(const Species& species, const Design& design) {
   return out;
 }
 
+Species applyStage(const Species& species, double stage) {
+  if (!(stage < GROWN)) return species;
+  const GrowthFactors factors = growthFactors(stage);
+  Species out = species;
+  out.height *= factors.height;
+  out.trunk_radius *= factors.thickness;
+  out.twig_radius *= factors.thickness;
+  out.leaf_size *= factors.leaf;
+  out.leaf_area *= factors.leaf * factors.leaf;
+  out.leaf_mass *= factors.leaf * factors.leaf;
+  for (std::size_t depth = 0; depth < out.limbs.size(); ++depth) {
+    if (depth > 0) out.limbs[depth].children *= factors.count;
+    out.limbs[depth].leaves *= factors.count;
+  }
+  FieldClamper clamper;
+  describe(clamper, out);
+  return out;
+}
+
 Species readSpecies(YamlSection section) {
   Species species;
   section.text("name", species.name);
   describe(section, species);
+  describeHabit(section, species);
   std::vector<YamlSection> limbs = section.sections("limbs");
   if (!limbs.empty()) species.limbs.clear();
   for (YamlSection& limb : limbs) {
@@ -151,6 +177,7 @@ std::string writeSpecies(const Species& species) {
   out << YAML::BeginMap << YAML::Key << "name" << YAML::Value << copy.name;
   YamlFieldWriter writer(out);
   describe(writer, copy);
+  describeHabit(writer, copy);
   out << YAML::Key << "limbs" << YAML::Value << YAML::BeginSeq;
   for (LimbRule& rule : copy.limbs) {
     out << YAML::Flow << YAML::BeginMap;
@@ -185,6 +212,8 @@ std::uint64_t hash(const Species& species) {
   out.add(copy.name);
   describe(hasher, copy);
   for (LimbRule& rule : copy.limbs) describe(hasher, rule);
+  // A species of the usual habit keeps the hash that it had before there were others.
+  if (copy.turn != Species().turn) describeHabit(hasher, copy);
   return out.value();
 }
 

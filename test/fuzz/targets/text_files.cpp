@@ -37,7 +37,7 @@ void readSections(Scenario& scenario) {
   scenario.top().text("terrain", text);
   scenario.top().seed("seed", seed);
   const terrain::HeightMap flat;
-  forest::readLayout(scenario.section("forest"), SCENARIOS, seed, scenario.faults());
+  forest::readLayout(scenario.section("forest"), SCENARIOS, flat, seed, scenario.faults());
   YamlSection physics = scenario.section("physics");
   forest::PhysicsSettings settings;
   describe(physics, settings);

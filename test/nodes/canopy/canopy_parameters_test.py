@@ -50,6 +50,11 @@ SCENARIOS = [
     ('{canopy: {kinds: [{name: a}], crowns: [{kind: a, trees: 0}]}}', 'trees = 0 is outside 1'),
     ('{canopy: {kinds: [{name: a, push_stiffness: -1}]}}', 'push_stiffness = -1 N/m^3 is outside'),
     ('{canopy: {cuts: {near_layers: 0, mid_layers: 0, far_layers: 0}}}', '= 0 is outside 1 to 16'),
+    ('{canopy: {kinds: [{name: a, stage: 2}]}}', 'stage = 2 is outside 0 to 1'),
+    ('{canopy: {kinds: [{name: a, slope: 1}]}}', 'slope is not a known key'),
+    ('{canopy: {kinds: [{name: a, shape: trellis, slope: 3}]}}', 'slope = 3 is outside -2 to 2'),
+    ('{canopy: {kinds: [{name: a}], rows: [{kind: a, plant_spacing: 0}]}}',
+     'rows[0]: plant_spacing = 0 m is outside 0.01 to 1000 m'),
     ('{terrain: nowhere.yaml, canopy: {}}', '/nowhere.yaml: cannot be read'),
     ('{canopy', 'not YAML'),
 ]

@@ -128,12 +128,33 @@ TEST(Layout, HashSeesEveryField) {
   differs([](Layout& l) { l.terrain_hash = 7; });
 }
 
+// Trees of rows follow the single ones; a stage makes a young species of a grown one.
+TEST(Layout, ReadsRowsAndStages) {
+  Scenario scenario = Scenario::parse(
+      "forest: {species: [{name: apple}, {name: young, file: ../species/apple.yaml, stage: 0.3}],"
+      " trees: [{species: young}],"
+      " rows: [{species: apple, origin: [5, 1, 0], heading: 1.5708, rows: 3, plants: 4, seed: 8},"
+      " {species: young, rows: 1, plants: 2}]}",
+      "rows.yaml");
+  Faults faults;
+  const Layout layout =
+      readLayout(scenario.section("forest"), std::string(PACKAGE_FOLDER) + "/config/scenarios",
+                 terrain::HeightMap(), 1, faults);
+  EXPECT_EQ(faults.text() + scenario.faults().text(), "");
+  ASSERT_EQ(layout.trees.size(), 1U + 12U + 2U);
+  EXPECT_LT(layout.species[1].height, 0.5 * layout.species[0].height);
+  EXPECT_EQ(layout.trees[4].species, 0);
+  EXPECT_NEAR(layout.trees[4].position.x(), 5.0, 1e-4);
+  EXPECT_NEAR(layout.trees[4].position.y(), 4.0, 1e-4);
+  EXPECT_EQ(layout.trees[13].species, 1);
+}
+
 class ScenarioFault : public testing::TestWithParam<std::pair<const char*, const char*>> {};
 TEST_P(ScenarioFault, IsNamed) {
   Scenario scenario = Scenario::parse(GetParam().first, "bad.yaml");
   Faults faults;
-  readLayout(scenario.section("forest"), std::string(PACKAGE_FOLDER) + "/config/scenarios", 1,
-             faults);
+  readLayout(scenario.section("forest"), std::string(PACKAGE_FOLDER) + "/config/scenarios",
+             terrain::HeightMap(), 1, faults);
   const std::string text = faults.text() + scenario.faults().text();
   EXPECT_NE(text.find(GetParam().second), std::string::npos) << text;
 }
@@ -160,6 +181,14 @@ INSTANTIATE_TEST_SUITE_P(
         std::pair("forest: {species: [{name: oak}], trees: [{species: oak, yaw: 1, yaw: 2}]}",
                   "yaw is given twice"),
         std::pair("forest: {species: [{name: oak}, {name: oak}]}", "oak is given twice"),
+        std::pair("forest: {species: [{name: oak, stage: 1.1}]}", "stage = 1.1 is outside 0 to 1"),
+        std::pair("forest: {species: [{name: oak}], rows: [{species: ash}]}",
+                  "rows[0]: species = 'ash' is none of oak"),
+        std::pair("forest: {species: [{name: oak}], rows: [{species: oak, gaps: 2}]}",
+                  "rows[0]: gaps = 2 is outside 0 to 1"),
+        std::pair("forest: {species: [{name: oak}], rows: [{species: oak, rows: 65536},"
+                  " {species: oak, rows: 2}]}",
+                  "rows[1]: has 2 plants in its rows; allowed are 0 to 0"),
         std::pair("forest: {species: [{name: oak}], motion: {drag: cubic}}",
                   "drag = 'cubic' is none of linear, quadratic"),
         std::pair("forest: {species: oak}", "species = 'oak' is not a list")));

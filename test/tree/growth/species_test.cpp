@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "scenes/forest/forest_fixture.h"
 
 namespace vegetation_sim::forest {
@@ -25,6 +28,7 @@ TEST_P(ShippedSpecies, SurvivesWritingToTheBit) {
   EXPECT_EQ(hash(parseSpecies(writeSpecies(species), "copy")), hash(species));
 }
 INSTANTIATE_TEST_SUITE_P(Files, ShippedSpecies, testing::ValuesIn(speciesNames()));
+INSTANTIATE_TEST_SUITE_P(Crops, ShippedSpecies, testing::Values("vine", "apple"));
 
 std::size_t count(const Species& species, int (*measure)(const Branch&)) {
   std::size_t sum = 0;
@@ -61,6 +65,62 @@ TEST(Species, DesignersFactorsChangeTheTree) {
   EXPECT_LT(grow(seed, with(&Design::angle, 0.3)).reach, 0.9 * grow(seed, oak).reach);
   EXPECT_NE(grow(seed, with(&Design::noise, 0.0)).hash(), grow(seed, oak).hash());
 }
+
+// The arms of a vine follow its row; the limbs of other trees grow in any direction.
+TEST(Species, TurnHoldsTheTrunkNearTheYawOfTheTree) {
+  const auto largestTurn = [](double turn) {
+    Species species = shippedSpecies("vine");
+    species.noise = 1.0;
+    species.turn = turn;
+    double out = 0.0;
+    for (std::uint64_t i = 0; i < 200; ++i) {
+      TreeSeed seed;
+      seed.seed = i;
+      seed.yaw = 0.4;
+      out = std::max(out, std::fabs(grow(seed, species).branches[0].theta - 0.4));
+    }
+    return out;
+  };
+  EXPECT_EQ(largestTurn(0.0), 0.0);
+  EXPECT_NEAR(largestTurn(0.3), 0.3, 0.01);
+  EXPECT_NEAR(largestTurn(PI), PI, 0.1);
+  EXPECT_NE(faultOf("{name: a, turn: 4}").find("turn = 4 rad is outside 0 to 3.14159 rad"),
+            std::string::npos);
+}
+
+TEST(Species, HashSeesTheTurn) {
+  Species species = shippedSpecies("oak");
+  const std::uint64_t before = hash(species);
+  species.turn = 0.1;
+  EXPECT_NE(hash(species), before);
+}
+
+class Stage : public testing::TestWithParam<std::string> {};
+
+// Means of eight trees, because numbers of limbs are rounded at random.
+TEST_P(Stage, RaisesSizeThicknessLimbsAndLeaves) {
+  const Species grown = shippedSpecies(GetParam());
+  EXPECT_EQ(hash(applyStage(grown, 1.0)), hash(grown));
+  Species before = applyStage(grown, 0.0);
+  EXPECT_NEAR(before.height, std::max(0.1, 0.05 * grown.height), 1e-9);
+  EXPECT_LT(branches(before), branches(grown));
+  TreeSeed seed;
+  for (int i = 1; i <= 10; ++i) {
+    const Species now = applyStage(grown, 0.1 * i);
+    Faults faults;
+    check(now, faults);
+    EXPECT_EQ(faults.text(), "");
+    EXPECT_GE(grow(seed, now).height, grow(seed, before).height);
+    EXPECT_GE(now.trunk_radius, before.trunk_radius);
+    EXPECT_GE(now.twig_radius, before.twig_radius);
+    EXPECT_GE(now.leaf_size, before.leaf_size);
+    EXPECT_GE(now.leaf_area, before.leaf_area);
+    EXPECT_GE(branches(now), branches(before));
+    EXPECT_GE(leaves(now), leaves(before));
+    before = now;
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Species, Stage, testing::Values("vine", "apple", "oak"));
 
 TEST(Species, DesignNeverLeavesTheAllowedRanges) {
   for (const std::string& name : speciesNames()) {

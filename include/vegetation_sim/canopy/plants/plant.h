@@ -16,8 +16,18 @@ constexpr std::size_t MOST_LEAVES = 3000000;  ///< limit for all plants together
 constexpr std::size_t MOST_PLANTS = 65536;
 
 /// SHRUB: leaves on tufts from the ground up. CROWN: tufts on a bare trunk. REED: upright ribbons.
-/// KELP: wavy ribbons. Ribbons are chains of pieces. MESH and SLICES are read from a file.
-enum class PlantShape : int { SHRUB = 0, CROWN = 1, REED = 2, KELP = 3, MESH = 4, SLICES = 5 };
+/// KELP: wavy ribbons. Ribbons are chains of pieces. MESH and SLICES are read from a file. STALK: a
+/// stalk with arching ribbons on two sides, as maize. TRELLIS: two posts with wires between them.
+enum class PlantShape : int {
+  SHRUB = 0,
+  CROWN = 1,
+  REED = 2,
+  KELP = 3,
+  MESH = 4,
+  SLICES = 5,
+  STALK = 6,
+  TRELLIS = 7
+};
 
 /// Axis of a mesh that points up.
 enum class UpAxis { Z, Y };
@@ -43,18 +53,21 @@ void describe(FieldVisitor& visitor, PushLaw& law);
 struct PlantKind {
   std::string name{"shrub"};
   PlantShape shape{PlantShape::SHRUB};
-  double height{1.6};                         ///< [m]
-  double radius{1.0};                         ///< [m]
-  int leaves{1500};                           ///< number of leaves or ribbons
-  int pieces{6};                              ///< pieces of a ribbon
-  double leaf_length{0.12};                   ///< length of a leaf [m]
-  double leaf_width{0.05};                    ///< width of a leaf or a ribbon [m]
-  int stems{9};                               ///< rigid stems, which are never displaced (S3-02)
+  double height{1.6};        ///< [m]
+  double radius{1.0};        ///< [m], of a TRELLIS the distance of its posts
+  int leaves{1500};          ///< number of leaves or ribbons
+  int pieces{6};             ///< pieces of a ribbon
+  double leaf_length{0.12};  ///< length of a leaf [m]
+  double leaf_width{0.05};   ///< width of a leaf or a ribbon [m]
+  /// Number of rigid stems, which are never displaced (S3-02); of a STALK the branches of its
+  /// tassel, of a TRELLIS its wires.
+  int stems{9};
   double stem_radius{0.012};                  ///< [m]
   Vec3 colour{Vec3(0.16, 0.34, 0.09)};        ///< red, green, blue
   Vec3 colour_young{Vec3(0.42, 0.55, 0.18)};  ///< colour of the lightest leaves
   Vec3 stem_colour{Vec3(0.30, 0.23, 0.15)};
   UpAxis up{UpAxis::Z};              ///< vertical axis of a mesh
+  double slope{0.0};                 ///< rise of the wires of a TRELLIS per metre
   double solid{0.5};                 ///< smallest density of a slice's cell that gets a leaf
   std::string file;                  ///< file of a mesh, or of the first slice; scaled to `height`
   std::shared_ptr<const Form> form;  ///< contents of the file, shared by plants and threads
@@ -64,7 +77,18 @@ struct PlantKind {
 inline bool isRead(const PlantKind& kind) {
   return kind.shape == PlantShape::MESH || kind.shape == PlantShape::SLICES;
 }
+/// Returns whether the leaves of plants of this kind are ribbons.
+inline bool isRibbon(const PlantKind& kind) {
+  return kind.shape == PlantShape::REED || kind.shape == PlantShape::KELP ||
+         kind.shape == PlantShape::STALK;
+}
+/// Visits the fields; `slope` only of a TRELLIS.
 void describe(FieldVisitor& visitor, PlantKind& kind);
+
+/// Returns the kind at a stage of growth from 0 (seedling) to 1 (as it is): sizes and leaves times
+/// the factors of growthFactors(), clamped to the ranges. A STALK has a tassel from 0.8 on; a
+/// TRELLIS does not grow.
+PlantKind applyStage(const PlantKind& kind, double stage);
 
 /// One plant of a layout.
 struct Plant {

@@ -86,8 +86,9 @@ std::vector<std::uint32_t> findTreesNear(const Layout& layout, const terrain::He
 /// Returns the foot of a tree in the world [m]: the position of its seed on the terrain.
 Vec3 footOf(const TreeSeed& seed, const terrain::HeightMap& terrain);
 
-/// Reads the `forest` section of a scenario. File names are relative to `folder`.
-Layout readLayout(YamlSection section, const std::string& folder, std::uint64_t seed,
-                  Faults& faults);
+/// Reads the `forest` section of a scenario. File names are relative to `folder`; rows along a
+/// slope are spaced on `ground`.
+Layout readLayout(YamlSection section, const std::string& folder, const terrain::HeightMap& ground,
+                  std::uint64_t seed, Faults& faults);
 
 }  // namespace vegetation_sim::forest

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "vegetation_sim/core/config/yaml.h"
+#include "vegetation_sim/core/math/math.h"
 #include "vegetation_sim/tree/growth/limb_rule.h"
 
 namespace vegetation_sim::forest {
@@ -44,6 +45,7 @@ struct Species {
   Vec3 leaf_colour_young{Vec3(0.45, 0.6, 0.2)};  ///< outer leaves
   Vec3 bark_colour{Vec3(0.32, 0.25, 0.18)};
   Vec3 twig_colour{Vec3(0.3, 0.24, 0.15)};
+  double turn{PI};  ///< largest turn of the trunk off the yaw of the tree [rad]
   std::vector<LimbRule> limbs{LimbRule{}};  ///< by recursion depth, trunk first
 
   int depths() const { return static_cast<int>(limbs.size()); }
@@ -56,6 +58,8 @@ struct Design {
 };
 
 void describe(FieldVisitor& visitor, Species& species);
+/// Visits the fields that are not part of describe(), of which a usual species has the default.
+void describeHabit(FieldVisitor& visitor, Species& species);
 void describe(FieldVisitor& visitor, Design& design);
 
 /// Returns the largest angle [rad] between a limb and its parent for their ratio of diameters; it
@@ -74,6 +78,10 @@ void check(Species species, Faults& faults);
 
 /// Returns the species with the factors applied, clamped to the ranges.
 Species applyDesign(const Species& species, const Design& design);
+
+/// Returns the species at a stage of growth from 0 (seedling) to 1 (as it is): sizes, limbs and
+/// leaves times the factors of growthFactors(), clamped to the ranges.
+Species applyStage(const Species& species, double stage);
 
 /// Reads a species from YAML. Faults name path and key.
 Species readSpecies(YamlSection section);

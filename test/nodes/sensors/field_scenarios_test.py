@@ -1,0 +1,72 @@
+#!/usr/bin/env python3
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs the scenarios of fields of the demo without rviz: a lidar between the rows sees the parts of
+their plants, each with its label and the id of its plant."""
+import math
+import signal
+import subprocess
+import unittest
+
+import numpy
+import rospy
+import rostest
+from sensor_msgs.msg import PointCloud2
+from vegetation_sim.msg import ScanReport
+
+from scan_rig import cloud_of
+from waiting import DEADLINE
+from watched_node import Log
+
+GROUND, GRASS = ScanReport.GROUND, ScanReport.GRASS
+TREES = {ScanReport.TRUNK, ScanReport.BRANCH, ScanReport.LEAF}
+
+
+class FieldScenarios(unittest.TestCase):
+    def cloud_from(self, scenario, place, labels):
+        """Returns a cloud of a lidar that has points of all these labels."""
+        launch = subprocess.Popen(['roslaunch', 'vegetation_sim', 'field_scenario.launch',
+                                   'scenario:=' + scenario, 'place:=' + place])
+        points = Log('/lidar/points', PointCloud2)
+        try:
+            message = points.wait(lambda all: next((m for m in all if labels <= set(cloud_of(m)['label'])), None),
+                                  'a cloud of ' + scenario)
+        finally:
+            points.close()
+            launch.send_signal(signal.SIGINT)
+            launch.wait(DEADLINE)
+        return cloud_of(message)
+
+    def plants_of(self, cloud, labels):
+        return {int(p['plant']) for p in cloud if p['label'] in labels}
+
+    # Rows are 2.2 m apart, the slope rises by 8 %, and a post stands every 5.5 m.
+    def test_a_lidar_sees_the_rows_of_the_vineyard(self):
+        cloud = self.cloud_from('vineyard', '-10 1.1 0.4 0 0 0', TREES | {GROUND, GRASS, ScanReport.STEM})
+        self.assertGreater(len(self.plants_of(cloud, TREES)), 15)
+        self.assertGreater(len(self.plants_of(cloud, {ScanReport.STEM})), 2)
+        # The alley of 2.2 m is free at the height of the trunks, but for grass.
+        wood = cloud[numpy.isin(cloud['label'], list(TREES)) & (abs(cloud['x']) < 5.0)]
+        self.assertGreater(abs(wood['y']).min(), 0.2)
+        trunks = wood[(wood['label'] == ScanReport.TRUNK) & (abs(wood['y']) < 2.0)]
+        self.assertLess(max(abs(abs(trunks['y']) - 1.1)), 0.3)
+
+    def test_a_lidar_sees_the_rows_of_the_orchard(self):
+        cloud = self.cloud_from('orchard', '-6 1.75 0.8 0 0 0', TREES | {GROUND, GRASS, ScanReport.STEM})
+        self.assertGreater(len(self.plants_of(cloud, TREES)), 12)
+        trunks = cloud[(cloud['label'] == ScanReport.TRUNK) & (abs(cloud['y']) < 3.0)]
+        self.assertLess(max(abs(abs(trunks['y']) - 1.75)), 0.4)
+
+    # Below the leaves a robot sees stalks in rows 0.75 m apart.
+    def test_a_lidar_sees_the_rows_of_the_maize(self):
+        cloud = self.cloud_from('maize', '-6 -0.375 0.5 0 0 0',
+                                {GROUND, GRASS, ScanReport.FOLIAGE, ScanReport.STEM})
+        self.assertGreater(len(self.plants_of(cloud, {ScanReport.STEM})), 10)
+        stems = cloud[(cloud['label'] == ScanReport.STEM) & (abs(cloud['y']) < 0.7)]
+        off = [math.remainder(y - 0.375, 0.75) for y in stems['y']]
+        self.assertLess(max(map(abs, off)), 0.1)
+
+
+if __name__ == '__main__':
+    rospy.init_node('field_scenarios_test')
+    rostest.rosrun('vegetation_sim', 'field_scenarios', FieldScenarios)
