@@ -35,6 +35,7 @@ void readKinds(YamlSection& section, std::vector<PlantKind>& kinds) {
     entry.text("name", kind.name);
     entry.text("file", kind.file);
     describe(entry, kind);
+    if (kind.shape == PlantShape::TRELLIS) kind.push.stiffness = 0.0;
     describe(entry, kind.push);
     double stage = GROWN;
     entry.number("stage", stage, "", {SEEDLING, GROWN});
