@@ -113,6 +113,10 @@ double GrassVolume::topAt(double x, double y) const {
   return tops_[row * static_cast<std::size_t>(law.columns - 1) + column];
 }
 
+double GrassVolume::tiltAt(double x, double y) const {
+  return double{tread_->at({x, y}, stamp_).tilt};
+}
+
 double GrassVolume::above(const Vec3& place) const {
   return flat_ ? place.z() : place.z() - terrain_->height(place.x(), place.y());
 }
@@ -139,7 +143,7 @@ double GrassVolume::extinctionAt(const Vec3& place, double height, const Vec3& d
   if (!(height >= 0.0 && height <= topAt(place.x(), place.y()))) return 0.0;
   const grass::Features here = layout_.map->at(place.x(), place.y());
   if (!(here.density > 0.0)) return 0.0;
-  const double tilt = double{tread_->at({place.x(), place.y()}, stamp_).tilt};
+  const double tilt = tiltAt(place.x(), place.y());
   const Vec3 air = airAt(place.x(), place.y());
   double sum = 0.0, shares = 0.0;
   for (std::size_t k = 0; k < kinds_.size(); ++k) {

@@ -34,6 +34,13 @@ class GrassVolume {
   void addDepth(const Ray& ray, LightPath& path) const;
 
   const GrassBounds& bounds() const { return bounds_; }
+  /// Whether there is grass at all; the functions below require it.
+  bool isPresent() const { return tread_ != nullptr; }
+  const grass::Layout& layout() const { return layout_; }
+  /// Returns the height of a world place above the ground [m].
+  double heightOf(const Vec3& place) const { return above(place); }
+  /// Returns how far the grass is trodden down [rad].
+  double tiltAt(double x, double y) const;
   /// Returns the extinction of a ray of this direction at a world place [1/m].
   double extinction(const Vec3& place, const Vec3& direction) const;
 

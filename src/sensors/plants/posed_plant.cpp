@@ -23,7 +23,9 @@ Strip stripAtRest(const canopy::Leaf& leaf) {
 PosedPlant::PosedPlant(const canopy::Layout& layout, std::uint32_t id)
     : id_(id), foot_(layout.plants[id].position) {
   const canopy::Plant& plant = layout.plants[id];
-  canopy::GrownPlant grown = canopy::grow(layout.kinds[plant.kind], plant);
+  const canopy::PlantKind& kind = layout.kinds[plant.kind];
+  paint_ = {kind.colour, kind.colour_young, kind.stem_colour};
+  canopy::GrownPlant grown = canopy::grow(kind, plant);
   leaves_ = std::move(grown.leaves);
   strips_.reserve(leaves_.size() + grown.rigid.size());
   for (const canopy::Leaf& leaf : leaves_) strips_.push_back(stripAtRest(leaf));

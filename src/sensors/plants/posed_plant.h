@@ -23,6 +23,12 @@ class PosedPlant {
   void pose(const canopy::Foliage& foliage);
 
   std::uint32_t id() const { return id_; }
+  /// Colours of the kind of the plant in sRGB.
+  struct Paint {
+    Vec3 leaf, young, stem;
+  };
+  const Paint& paint() const { return paint_; }
+  const std::vector<canopy::Leaf>& leaves() const { return leaves_; }
   /// Number of strips and stems.
   std::size_t parts() const { return strips_.size() + stems_.size(); }
   Box bounds() const;
@@ -39,7 +45,8 @@ class PosedPlant {
 
  private:
   std::uint32_t id_;
-  Vec3 foot_;                         ///< world [m]
+  Vec3 foot_;  ///< world [m]
+  Paint paint_;
   std::vector<canopy::Leaf> leaves_;  ///< at rest
   std::vector<Strip> strips_;         ///< of leaves_, then of rigid faces
   std::vector<Rod> stems_;
