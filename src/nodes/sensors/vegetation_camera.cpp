@@ -28,7 +28,7 @@ VegetationCamera::VegetationCamera(const ros::NodeHandle& handle,
 VegetationCamera::VegetationCamera(const ros::NodeHandle& handle,
                                    const ros::NodeHandle& private_handle,
                                    const CameraOptions& options)
-    : SensorNode("vegetation_camera", handle, private_handle, options, "camera", "images"),
+    : SensorBase("vegetation_camera", handle, private_handle, options, "camera", "images"),
       options_(options),
       transport_(handle_),
       picture_(transport_.advertiseCamera("camera/image_raw", QUEUE)),

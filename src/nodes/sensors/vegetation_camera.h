@@ -6,12 +6,12 @@
 #include <image_transport/image_transport.h>
 
 #include "nodes/sensors/camera_options.h"
-#include "nodes/sensors/sensor_node.h"
+#include "nodes/sensors/sensor_base.h"
 
 namespace vegetation_sim {
 
 /// Simulates a camera at a tf frame: picture, depth, labels and instances of one instant.
-class VegetationCamera final : public SensorNode {
+class VegetationCamera final : public SensorBase {
  public:
   /// @throws InvalidInput for invalid parameters or an invalid calibration.
   VegetationCamera(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);

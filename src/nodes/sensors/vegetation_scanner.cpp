@@ -17,7 +17,7 @@ VegetationScanner::VegetationScanner(const ros::NodeHandle& handle,
 VegetationScanner::VegetationScanner(const ros::NodeHandle& handle,
                                      const ros::NodeHandle& private_handle,
                                      const ScanOptions& options)
-    : SensorNode("vegetation_scanner", handle, private_handle, options, "scan", "sweeps"),
+    : SensorBase("vegetation_scanner", handle, private_handle, options, "scan", "sweeps"),
       options_(options),
       sky_of_frames_(options_, landscape_, threads_,
                      std::max<std::size_t>(options_.sky_frames.size(), 1)),
@@ -105,7 +105,7 @@ std_msgs::Header VegetationScanner::header() const {
 }
 
 void VegetationScanner::restartScene() {
-  SensorNode::restartScene();
+  SensorBase::restartScene();
   sky_of_frames_.clear();
   sky_of_requests_.clear();
 }

@@ -9,14 +9,14 @@
 #include <vector>
 
 #include "nodes/sensors/scanner_options.h"
-#include "nodes/sensors/sensor_node.h"
+#include "nodes/sensors/sensor_base.h"
 #include "nodes/sensors/sky_viewer.h"
 #include "sensors/model/sensor_path.h"
 
 namespace vegetation_sim {
 
 /// Simulates a lidar at a tf frame, and views of the sky at others.
-class VegetationScanner final : public SensorNode {
+class VegetationScanner final : public SensorBase {
  public:
   /// @throws InvalidInput for invalid parameters.
   VegetationScanner(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);

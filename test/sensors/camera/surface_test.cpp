@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 
 #include "scenes/sensors/grove_scene.h"
 #include "scenes/sensors/lidar_scene.h"
@@ -43,7 +44,7 @@ class SurfacesTest : public testing::Test {
 // takes the cosine of incidence.
 TEST_F(SurfacesTest, NormalsAgreeWithTheCosineOfTheHit) {
   const Surfaces surfaces(scene_);
-  int tested = 0;
+  int tested = 0, exact = 0;
   visit(40000, [&](const Ray& ray, const Hit& hit) {
     const Surface surface = surfaces.at(ray, hit);
     EXPECT_NEAR(length(surface.normal), 1.0, 1e-9);
@@ -51,9 +52,13 @@ TEST_F(SurfacesTest, NormalsAgreeWithTheCosineOfTheHit) {
     for (int k = 0; k < 3; ++k) EXPECT_TRUE(surface.albedo[k] >= 0.0 && surface.albedo[k] < 1.5);
     if (hit.label == Label::LEAF || hit.label == Label::GRASS || hit.label == Label::GROUND) return;
     ++tested;
-    EXPECT_NEAR(-dot(surface.normal, ray.direction), hit.cosine, 1e-5);
+    // Near the ends of a tapered rod, whose balls protrude by the square of its slope, a hit may be
+    // on either surface.
+    EXPECT_NEAR(-dot(surface.normal, ray.direction), hit.cosine, 0.02);
+    exact += std::fabs(-dot(surface.normal, ray.direction) - hit.cosine) < 1e-9;
   });
   EXPECT_GT(tested, 500);
+  EXPECT_GT(exact, 0.9 * tested);
 }
 
 // The mean over many hits is near the colour of the species or of the clothes.

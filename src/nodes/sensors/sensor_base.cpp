@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nodes/sensors/sensor_node.h"
+#include "nodes/sensors/sensor_base.h"
 
 #include <algorithm>
 #include <thread>
@@ -19,7 +19,7 @@ constexpr double ANNOUNCED_AHEAD = 0.2;  // [s]
 
 }  // namespace
 
-SensorNode::SensorNode(const std::string& name, const ros::NodeHandle& handle,
+SensorBase::SensorBase(const std::string& name, const ros::NodeHandle& handle,
                        const ros::NodeHandle& private_handle, const SensorOptions& options,
                        const char* task, std::string measurements)
     : NodeBase(name, handle, private_handle),
@@ -41,30 +41,30 @@ SensorNode::SensorNode(const std::string& name, const ros::NodeHandle& handle,
       measurements_(std::move(measurements)),
       tf_listener_(tf_buffer_),
       interest_publisher_(handle_.advertise<SensorInterest>("forest/sensors", 40)) {
-  diagnostics_.add(task, this, &SensorNode::diagnose);
+  diagnostics_.add(task, this, &SensorBase::diagnose);
 }
 
-void SensorNode::start() {
+void SensorBase::start() {
   // The callbacks of a nodelet may start from here on.
   landscape_.subscribe(handle_);
-  serve("reset", &SensorNode::onReset);
+  serve("reset", &SensorBase::onReset);
   startDiagnostics();
   clock_.listen(handle_);
 }
 
-void SensorNode::stop() {
+void SensorBase::stop() {
   stopCallbacks();
   clock_.stop();
 }
 
-void SensorNode::tick(std::int64_t tick) {
+void SensorBase::tick(std::int64_t tick) {
   openServices();
   landscape_.advance(clock_.stamp());
   missing_.clear();
   measure(tick);
 }
 
-bool SensorNode::findPose(const std::string& frame, Nanoseconds stamp, bool wanted, Pose& pose) {
+bool SensorBase::findPose(const std::string& frame, Nanoseconds stamp, bool wanted, Pose& pose) {
   try {
     pose = poseInWorld(tf_buffer_, common_.frame_id, frame, toStamp(stamp));
     return true;
@@ -75,7 +75,7 @@ bool SensorNode::findPose(const std::string& frame, Nanoseconds stamp, bool want
   }
 }
 
-void SensorNode::announce(const std::string& id, const Vec3& place, double range) {
+void SensorBase::announce(const std::string& id, const Vec3& place, double range) {
   SensorInterest message =
       toMsg(forest::Sensor{private_handle_.getNamespace() + id, place, range, common_.tolerance,
                            clock_.stamp() + fromSeconds(common_.delay + ANNOUNCED_AHEAD)});
@@ -83,17 +83,17 @@ void SensorNode::announce(const std::string& id, const Vec3& place, double range
   interest_publisher_.publish(message);
 }
 
-void SensorNode::restartScene() {
+void SensorBase::restartScene() {
   scene_ = makeScene(common_);
 }
 
-void SensorNode::restart(Nanoseconds now) {
+void SensorBase::restart(Nanoseconds now) {
   landscape_.forgetLater(now);
   restartScene();
   tf_buffer_.clear();
 }
 
-bool SensorNode::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+bool SensorBase::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
   return answer(response, [&]() -> std::string {
     restartScene();
     return "trees are grown again for the next of the " + measurements_;
@@ -101,7 +101,7 @@ bool SensorNode::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Respons
 }
 
 // Reports only what has happened since the last report.
-void SensorNode::reportProblems(Status& status) {
+void SensorBase::reportProblems(Status& status) {
   const Counts counts{unplaced_, landscape_.lost(), clock_.counts()};
   refusals_.warn(status);
   warnOfInterruptions(status);
@@ -121,7 +121,7 @@ void SensorNode::reportProblems(Status& status) {
   reported_ = counts;
 }
 
-void SensorNode::diagnose(Status& status) {
+void SensorBase::diagnose(Status& status) {
   using diagnostic_msgs::DiagnosticStatus;
   status.summary(DiagnosticStatus::OK, "running");
   if (!clock_.hasBegun()) status.summary(DiagnosticStatus::WARN, "waiting for the clock");

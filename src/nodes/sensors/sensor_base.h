@@ -18,11 +18,11 @@ namespace vegetation_sim {
 /// The common part of nodes that cast rays into the landscape from a tf frame. At each tick it
 /// brings its replicas of the landscape to the stamp and lets the sensor measure. One thread calls
 /// everything.
-class SensorNode : public NodeBase {
+class SensorBase : public NodeBase {
  protected:
   /// @param task of the sensor, in its diagnostics. @param measurements what it takes, in
   /// warnings, such as "sweeps".
-  SensorNode(const std::string& name, const ros::NodeHandle& handle,
+  SensorBase(const std::string& name, const ros::NodeHandle& handle,
              const ros::NodeHandle& private_handle, const SensorOptions& options, const char* task,
              std::string measurements);
 
