@@ -99,6 +99,10 @@ std::int32_t instanceOf(const Hit& hit) {
 
 }  // namespace
 
+Hit castForCamera(const Scene& scene, const Camera& camera, const Ray& ray) {
+  return cast(scene, ray, camera.range_max, GrassGrain::BLADES);
+}
+
 void describe(FieldVisitor& v, Camera& c) {
   v.number("range_min", c.range_min, "m", {0.0, 100.0});
   v.number("range_max", c.range_max, "m", {0.1, 500.0});
@@ -137,7 +141,7 @@ Images takeImages(const Scene& scene, const Camera& camera, const Pose& optical,
     const auto i = static_cast<std::size_t>(row) * width + static_cast<std::size_t>(column);
     double cosine = 1.0;
     const Ray ray = rayAt(column, row, 0, cosine);
-    const Hit hit = cast(scene, ray, camera.range_max);
+    const Hit hit = castForCamera(scene, camera, ray);
     if (wanted.depth) out.depth[i] = depthOf(hit, cosine, camera);
     if (wanted.label) out.label[i] = static_cast<std::uint16_t>(hit.label);
     if (wanted.instance) out.instance[i] = instanceOf(hit);
@@ -145,7 +149,7 @@ Images takeImages(const Scene& scene, const Camera& camera, const Pose& optical,
     Vec3 sum = picture->radiance(ray, hit);
     for (int sample = 1; sample < camera.samples; ++sample) {
       const Ray other = rayAt(column, row, sample, cosine);
-      sum += picture->radiance(other, cast(scene, other, camera.range_max));
+      sum += picture->radiance(other, castForCamera(scene, camera, other));
     }
     const std::optional<RayRandom> random =
         noisy ? std::optional<RayRandom>(RayRandom(noise, i)) : std::nullopt;

@@ -38,6 +38,10 @@ struct Wanted {
   bool any() const { return colour || depth || label || instance; }
 };
 
+/// Returns what a ray of a camera meets within range_max: each pixel of an image is that of the ray
+/// through its middle.
+Hit castForCamera(const Scene& scene, const Camera& camera, const Ray& ray);
+
 /// Images of one instant, row by row from the top; those not wanted are empty.
 struct Images {
   std::vector<Rgb8> colour;

@@ -16,7 +16,7 @@ namespace {
 const Vec3 SOIL(0.36, 0.29, 0.20), LITTER(0.38, 0.30, 0.20), MOSS(0.26, 0.31, 0.13);
 const Vec3 TURF(0.34, 0.40, 0.17), DRY_TURF(0.53, 0.49, 0.28);
 constexpr double LEAF_TRANSMITS = 0.55, BLADE_TRANSMITS = 0.45;
-constexpr double LEAF_SPOT = 0.045, BLADE_SPOT = 0.009;  // size of what has one colour [m]
+constexpr double LEAF_SPOT = 0.045;  // size of what has one colour [m]
 constexpr std::uint32_t GROUND_KEY = 0x67726fU, BLADE_KEY = 0x626c61U, CLOTH_KEY = 0x636c6fU;
 
 Vec3 blend(const Vec3& a, const Vec3& b, double share) {
@@ -109,6 +109,10 @@ Surface Surfaces::woodAt(const Vec3& place, const Hit& hit) const {
   out.sky = skyIn(tree.bounds(), place, outwards);
   out.normal = normalOf(rod, place);
   out.albedo = linearOf(wide(tree.paint().bark(rod.base_radius))) * (0.45 + 1.1 * bark);
+  // Light bark, as that of birches, has dark bands around.
+  const double band =
+      fractalNoise({5.0 * own.x(), 5.0 * own.y(), 22.0 * own.z()}, 3, keyOf(hit) + 7);
+  if (out.albedo.y() > 0.2) out.albedo *= 0.8 - 0.65 * smoothStep((band - 0.52) / 0.12);
   return out;
 }
 
@@ -138,7 +142,7 @@ Surface Surfaces::grassAt(const Vec3& place) const {
   const double flat = grass.tiltAt(place.x(), place.y()) / grass::BEND_LIMIT;
   const double top = std::max(0.02, here.height * (1.0 - 0.8 * flat));
   const double way = saturate(grass.heightOf(place) / top);
-  const Cell column = cellAt({place.x(), place.y(), 0.0}, BLADE_SPOT);
+  const Cell column = cellAt({place.x(), place.y(), 0.0}, BLADE_CELL);
   Vec3 colour = grass::meanColour(map, here);
   const double patch = fractalNoise({0.9 * place.x(), 0.9 * place.y(), 0.0}, 3, BLADE_KEY);
   const double own = shareOf(column, BLADE_KEY + 9);
@@ -147,10 +151,10 @@ Surface Surfaces::grassAt(const Vec3& place) const {
   for (std::size_t k = 0; k < map.species().size(); ++k) {
     const grass::Species& species = map.species()[k].species;
     const double size = 2.0 * species.flower_radius;
-    if (!(size > 0.0) || way < 0.6) continue;
+    if (!(size > 0.0) || way < 0.5) continue;
+    const Cell spot = cellAt(place, size);
     const double share = here.density * here.mix[k] * size * size;
-    const Cell spot = cellAt({place.x(), place.y(), 0.0}, size);
-    if (shareOf(spot, BLADE_KEY + 20 + static_cast<std::uint32_t>(k)) < 0.6 * share)
+    if (shareOf(spot, BLADE_KEY + 20 + static_cast<std::uint32_t>(k)) < share * (way - 0.5))
       colour = species.flower_colour;
   }
   out.sky = flat * 0.8 + (1.0 - flat) * (0.22 + 0.78 * way);
@@ -199,7 +203,7 @@ Surface Surfaces::groundAt(const Vec3& place, double open) const {
   const Vec3 flat(place.x(), place.y(), 0.0);
   const double broad = fractalNoise(flat / 9.0, 3, GROUND_KEY);
   const double fine = fractalNoise(flat / 0.35, 4, GROUND_KEY + 10);
-  const double grain = smoothNoise(flat / 0.012, GROUND_KEY + 20);
+  const double grain = fractalNoise(flat / 0.04, 3, GROUND_KEY + 20);
   Vec3 colour = blend(TURF, DRY_TURF, 2.0 * broad - 0.6 + 0.5 * (fine - 0.5));
   const Vec3 floor = blend(LITTER, MOSS, 3.0 * (broad - 0.45) + fine - 0.4);
   colour = blend(floor, colour, 1.6 * open - 0.4 + 0.8 * (fine - 0.5));
@@ -209,8 +213,8 @@ Surface Surfaces::groundAt(const Vec3& place, double open) const {
   }
   Surface out;
   out.normal = unit(scene_.ground->normal(place.x(), place.y()) +
-                    0.35 * Vec3(fine - 0.5, smoothNoise(flat / 0.05, GROUND_KEY + 30) - 0.5, 0.0));
-  out.albedo = linearOf(colour) * (0.5 + 0.6 * fine + 0.4 * grain);
+                    1.2 * Vec3(grain - 0.5, smoothNoise(flat / 0.03, GROUND_KEY + 30) - 0.5, 0.0));
+  out.albedo = linearOf(colour) * (0.15 + 0.5 * fine + 1.2 * grain * grain / 0.5);
   return out;
 }
 

@@ -86,7 +86,7 @@ TEST(Camera, ImagesHoldWhatRaysIntoTheSceneMeet) {
     for (int column = 0; column < camera.lens.width; ++column) {
       const auto i = static_cast<std::size_t>(row * camera.lens.width + column);
       const Ray ray = rayOf(camera, place.pose, column, row);
-      const Hit hit = cast(place.scene, ray, camera.range_max);
+      const Hit hit = castForCamera(place.scene, camera, ray);
       ++counts[static_cast<std::size_t>(hit.label)];
       ASSERT_EQ(images.label[i], static_cast<std::uint16_t>(hit.label));
       const bool object =
