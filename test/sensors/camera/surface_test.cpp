@@ -51,14 +51,16 @@ TEST_F(SurfacesTest, NormalsAgreeWithTheCosineOfTheHit) {
     EXPECT_LE(dot(surface.normal, ray.direction), 1e-9);
     for (int k = 0; k < 3; ++k) EXPECT_TRUE(surface.albedo[k] >= 0.0 && surface.albedo[k] < 1.5);
     if (hit.label == Label::LEAF || hit.label == Label::GRASS || hit.label == Label::GROUND) return;
+    // The two triangles of a leaf share a normal. Near the ends of a tapered rod, whose balls
+    // protrude by the square of its slope, a hit may be on either surface.
+    const double error = std::fabs(-dot(surface.normal, ray.direction) - hit.cosine);
+    EXPECT_LT(error, 0.02);
+    if (hit.label == Label::FOLIAGE) return;
     ++tested;
-    // Near the ends of a tapered rod, whose balls protrude by the square of its slope, a hit may be
-    // on either surface.
-    EXPECT_NEAR(-dot(surface.normal, ray.direction), hit.cosine, 0.02);
-    exact += std::fabs(-dot(surface.normal, ray.direction) - hit.cosine) < 1e-6;
+    exact += error < 1e-6;
   });
-  EXPECT_GT(tested, 500);
-  EXPECT_GT(exact, 0.9 * tested);
+  EXPECT_GT(tested, 300);
+  EXPECT_GT(exact, 0.98 * tested);
 }
 
 // The mean over many hits is near the colour of the species or of the clothes.
