@@ -52,12 +52,13 @@ TEST_F(SurfacesTest, NormalsAgreeWithTheCosineOfTheHit) {
     for (int k = 0; k < 3; ++k) EXPECT_TRUE(surface.albedo[k] >= 0.0 && surface.albedo[k] < 1.5);
     if (hit.label == Label::LEAF || hit.label == Label::GRASS || hit.label == Label::GROUND) return;
     // The two triangles of a leaf share a normal. Near the ends of a tapered rod, whose balls
-    // protrude by the square of its slope, a hit may be on either surface.
+    // protrude by the square of its slope, a hit may be on either surface. Axes of branches have
+    // single precision, which moves a thin rod's surface by a thousandth of its radius.
     const double error = std::fabs(-dot(surface.normal, ray.direction) - hit.cosine);
     EXPECT_LT(error, 0.02);
     if (hit.label == Label::FOLIAGE) return;
     ++tested;
-    exact += error < 1e-6;
+    exact += error < 1e-3;
   });
   EXPECT_GT(tested, 300);
   EXPECT_GT(exact, 0.98 * tested);
