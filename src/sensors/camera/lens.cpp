@@ -8,7 +8,10 @@
 namespace vegetation_sim::scan {
 namespace {
 
-constexpr Range K{-10.0, 10.0}, P{-1.0, 1.0};
+constexpr Range K{-10.0, 10.0};
+constexpr Range P{-1.0, 1.0};
+constexpr Range SIDE{1, 4096};
+static_assert(SIDE.high == MOST_PIXELS_OF_SIDE);
 constexpr int MOST_STEPS = 30;           // of Newton's method
 constexpr double CONVERGED = 1e-12;      // residual, relative to the focal length
 constexpr int CHECKED = 24, PARTS = 12;  // places of a side, and parts of the way to each
@@ -82,8 +85,8 @@ void describe(FieldVisitor& v, Distortion& d) {
 }
 
 void describeSize(FieldVisitor& v, int& width, int& height) {
-  v.integer("width", width, "pixel", {1, MOST_PIXELS_OF_SIDE});
-  v.integer("height", height, "pixel", {1, MOST_PIXELS_OF_SIDE});
+  v.integer("width", width, "pixel", SIDE);
+  v.integer("height", height, "pixel", SIDE);
 }
 
 }  // namespace
