@@ -119,6 +119,14 @@ double GrassVolume::topAt(double x, double y) const {
   return tops_[row * static_cast<std::size_t>(law.columns - 1) + column];
 }
 
+double GrassVolume::depthAbove(const Vec3& place, const Vec3& direction) const {
+  constexpr double LEAST_RISE = 0.1;  // of the direction, so that the way ends near the place
+  const double rise = topAt(place.x(), place.y()) - above(place);
+  if (!(rise > 0.0)) return 0.0;
+  const double way = rise / std::max(direction.z(), LEAST_RISE);
+  return extinction(place + 0.5 * way * direction, direction) * way;
+}
+
 double GrassVolume::tiltAt(double x, double y) const {
   return double{tread_->at({x, y}, stamp_).tilt};
 }

@@ -46,6 +46,8 @@ class GrassVolume {
   const grass::Layout& layout() const { return layout_; }
   /// Returns the height of a world place above the ground [m].
   double heightOf(const Vec3& place) const { return above(place); }
+  /// Returns the optical depth of the grass above a place, by one evaluation half-way to its top.
+  double depthAbove(const Vec3& place, const Vec3& direction) const;
   /// Returns how far the grass is trodden down [rad].
   double tiltAt(double x, double y) const;
   /// Returns the extinction of a ray of this direction at a world place [1/m].

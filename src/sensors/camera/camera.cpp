@@ -62,12 +62,26 @@ class Picture {
     return transmittance(scene_, Ray(from, way / length(way)), camera_.range_max);
   }
 
+  // Returns the share of sunlight that reaches a place.
+  double sunAt(const Vec3& place) const {
+    const Ray ray(place, light_.toSun());
+    Hit solid = castToGround(scene_, ray, camera_.range_max);
+    const FloatRay narrow(ray);
+    scene_.people.meet(ray, narrow, solid);
+    scene_.plants.meet(ray, narrow, solid);
+    if (solid.label != Label::NONE) return 0.0;
+    LightPath path(camera_.range_max);
+    scene_.trees.addDepth(ray, narrow, path);
+    if (scene_.grass.isPresent()) path.add(scene_.grass.depthAbove(place, light_.toSun()));
+    return path.transmittance();
+  }
+
   Vec3 lit(const Vec3& place, const Surface& surface) const {
     const double facing = dot(surface.normal, light_.toSun());
     double direct = facing > 0.0 ? facing : -facing * surface.transmits;
     if (direct > 0.0 && camera_.shadows != Shadows::NONE) {
       const Vec3 from = place + (facing > 0.0 ? OFFSET : -OFFSET) * surface.normal;
-      direct *= transmittance(scene_, Ray(from, light_.toSun()), camera_.range_max);
+      direct *= sunAt(from);
     }
     return surface.albedo.cwiseProduct(direct * light_.sun() +
                                        light_.ambient(surface.normal.z(), surface.sky));
