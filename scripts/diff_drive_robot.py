@@ -42,12 +42,23 @@ class PlanarPose:
 
 
 def joints_of(urdf):
-    """Returns parent, child and position of every joint."""
+    """Returns parent, child, position and rotation of every joint."""
     out = []
     for joint in xml.etree.ElementTree.fromstring(urdf).iter('joint'):
-        place = [float(number) for number in joint.find('origin').get('xyz').split()]
-        out.append((joint.find('parent').get('link'), joint.find('child').get('link'), place))
+        origin = joint.find('origin')
+        place, angles = ([float(number) for number in origin.get(key, '0 0 0').split()]
+                         for key in ('xyz', 'rpy'))
+        out.append((joint.find('parent').get('link'), joint.find('child').get('link'), place,
+                    rotation_of(*angles)))
     return out
+
+
+def rotation_of(roll, pitch, yaw):
+    """Returns the rotation by roll, then pitch, then yaw about fixed axes."""
+    (a, b, c), (d, e, f) = ([g(0.5 * angle) for angle in (roll, pitch, yaw)]
+                            for g in (math.cos, math.sin))
+    return Quaternion(d * b * c - a * e * f, a * e * c + d * b * f, a * b * f - d * e * c,
+                      a * b * c + d * e * f)
 
 
 class DiffDriveRobot:
@@ -103,11 +114,10 @@ class DiffDriveRobot:
         out.twist.twist.angular.z = turn_error * self.spin
         return out
 
-    def joint(self, now, parent, child, place):
-        out = self.frame(now, parent, child, place)
-        angle = self.rolled.get(child, 0.0)
-        out.transform.rotation.w, out.transform.rotation.y = math.cos(0.5 * angle), math.sin(0.5 * angle)
-        return out
+    def joint(self, now, parent, child, place, rotation):
+        if child in self.rolled:
+            rotation = rotation_of(0.0, self.rolled[child], 0.0)
+        return self.frame(now, parent, child, place, rotation)
 
     @staticmethod
     def frame(now, parent, child, place, rotation=None):

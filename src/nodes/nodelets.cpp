@@ -9,6 +9,7 @@
 #include "nodes/crowd/agent_crowd.h"
 #include "nodes/forest/forest_animator.h"
 #include "nodes/grass/grass_field.h"
+#include "nodes/sensors/vegetation_camera.h"
 #include "nodes/sensors/vegetation_scanner.h"
 #include "nodes/wind/wind_broadcaster.h"
 
@@ -35,6 +36,7 @@ using AgentCrowdNodelet = NodeletOf<AgentCrowd>;
 using CanopyAnimatorNodelet = NodeletOf<CanopyAnimator>;
 using ForestAnimatorNodelet = NodeletOf<ForestAnimator>;
 using GrassFieldNodelet = NodeletOf<GrassField>;
+using VegetationCameraNodelet = NodeletOf<VegetationCamera>;
 using VegetationScannerNodelet = NodeletOf<VegetationScanner>;
 using WindBroadcasterNodelet = NodeletOf<WindBroadcaster>;
 
@@ -44,5 +46,6 @@ PLUGINLIB_EXPORT_CLASS(vegetation_sim::AgentCrowdNodelet, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(vegetation_sim::CanopyAnimatorNodelet, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(vegetation_sim::ForestAnimatorNodelet, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(vegetation_sim::GrassFieldNodelet, nodelet::Nodelet)
+PLUGINLIB_EXPORT_CLASS(vegetation_sim::VegetationCameraNodelet, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(vegetation_sim::VegetationScannerNodelet, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(vegetation_sim::WindBroadcasterNodelet, nodelet::Nodelet)

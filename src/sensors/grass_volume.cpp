@@ -16,6 +16,9 @@ namespace vegetation_sim::scan {
 namespace {
 
 constexpr double MEAN_COSINE = 0.5;  // mean over blades of random orientation
+constexpr double BLADE_RISE = 0.05;  // height of the steps along a column [m]
+constexpr double STEEP = 0.9;        // vertical component from which a ray stays in a column
+constexpr std::uint32_t BLADE_SEED = 0x626c6164U;
 
 int indexOf(double x, double origin, double resolution, int most) {
   return static_cast<int>(std::clamp(std::floor((x - origin) / resolution), 0.0, double(most)));
@@ -36,10 +39,13 @@ grass::TileWindow windowAround(const grass::FeatureMap& map, const Vec3& centre,
 /// Steps a ray through a grid of cells.
 class Walk {
  public:
-  Walk(const Ray& ray, double from, double size) : cell_(cellAt(ray.at(from), size)) {
+  /// @param size edge of the cells across, @param rise their height [m].
+  Walk(const Ray& ray, double from, double size, double rise) : cell_(cellAt(ray.at(from), size)) {
     const Vec3 place = ray.at(from);
+    cell_.z = cellAt(place, rise).z;
     const std::int32_t index[3] = {cell_.x, cell_.y, cell_.z};
     for (int i = 0; i < 3; ++i) {
+      if (i == 2) size = rise;
       step_[i] = std::fabs(size * ray.inverse[i]);
       const double edge = size * (index[i] + (ray.direction[i] > 0.0 ? 1 : 0));
       next_[i] = ray.direction[i] == 0.0 ? Box::ENDLESS : from + (edge - place[i]) * ray.inverse[i];
@@ -113,6 +119,18 @@ double GrassVolume::topAt(double x, double y) const {
   return tops_[row * static_cast<std::size_t>(law.columns - 1) + column];
 }
 
+double GrassVolume::depthAbove(const Vec3& place, const Vec3& direction) const {
+  constexpr double LEAST_RISE = 0.1;  // of the direction, so that the way ends near the place
+  const double rise = topAt(place.x(), place.y()) - above(place);
+  if (!(rise > 0.0)) return 0.0;
+  const double way = rise / std::max(direction.z(), LEAST_RISE);
+  return extinction(place + 0.5 * way * direction, direction) * way;
+}
+
+double GrassVolume::tiltAt(double x, double y) const {
+  return double{tread_->at({x, y}, stamp_).tilt};
+}
+
 double GrassVolume::above(const Vec3& place) const {
   return flat_ ? place.z() : place.z() - terrain_->height(place.x(), place.y());
 }
@@ -139,7 +157,7 @@ double GrassVolume::extinctionAt(const Vec3& place, double height, const Vec3& d
   if (!(height >= 0.0 && height <= topAt(place.x(), place.y()))) return 0.0;
   const grass::Features here = layout_.map->at(place.x(), place.y());
   if (!(here.density > 0.0)) return 0.0;
-  const double tilt = double{tread_->at({place.x(), place.y()}, stamp_).tilt};
+  const double tilt = tiltAt(place.x(), place.y());
   const Vec3 air = airAt(place.x(), place.y());
   double sum = 0.0, shares = 0.0;
   for (std::size_t k = 0; k < kinds_.size(); ++k) {
@@ -189,6 +207,13 @@ void GrassVolume::meet(const Ray& ray, Hit& nearest, Cells cells) const {
   });
 }
 
+void GrassVolume::meetBlades(const Ray& ray, Hit& nearest) const {
+  visitLayer(ray, nearest, [&](double from) {
+    if (from < BLADES_REACH) from = marchBlades(ray, from, nearest);
+    return from < BLADES_REACH ? from : march<true>(ray, from, nearest);
+  });
+}
+
 void GrassVolume::addDepth(const Ray& ray, LightPath& path) const {
   visitLayer(ray, path.end(), [&](double from) { return marchLight(ray, from, path); });
 }
@@ -196,7 +221,7 @@ void GrassVolume::addDepth(const Ray& ray, LightPath& path) const {
 // Returns the distance at which the ray leaves the layer or hits a blade.
 template <bool LIKELY>
 double GrassVolume::march(const Ray& ray, double from, Hit& nearest) const {
-  Walk walk(ray, from, GRASS_CELL);
+  Walk walk(ray, from, GRASS_CELL, GRASS_CELL);
   const auto key = static_cast<std::uint32_t>(layout_.seed);
   for (; from < nearest.distance; walk.advance()) {
     const double start = from, to = std::min(walk.end(), nearest.distance);
@@ -217,9 +242,39 @@ double GrassVolume::march(const Ray& ray, double from, Hit& nearest) const {
   return from;
 }
 
+// A column stops a ray at the optical depth of its random number, summed over the steps within it.
+// Extinction falls with the height, so that a column ends like a blade.
+double GrassVolume::marchBlades(const Ray& ray, double from, Hit& nearest) const {
+  Walk walk(ray, from, BLADE_CELL, BLADE_RISE);
+  const std::uint32_t key = static_cast<std::uint32_t>(layout_.seed) ^ BLADE_SEED;
+  const bool steep = std::fabs(ray.direction.z()) > STEEP;
+  Cell column = walk.cell();
+  double spent = 0.0;  // optical depth in this column so far
+  for (; from < std::min(nearest.distance, BLADES_REACH); walk.advance()) {
+    const double start = from, to = std::min(walk.end(), nearest.distance);
+    from = to;
+    const Vec3 middle = ray.at(0.5 * (start + to));
+    const double height = above(middle);
+    if (height > tallest_) return start;
+    if (walk.cell().x != column.x || walk.cell().y != column.y) spent = 0.0;
+    column = {walk.cell().x, walk.cell().y, 0};
+    const double bound = bounds_.at(middle.x(), middle.y(), height);
+    if (bound <= 0.0) continue;
+    const double share = shareOf(column, key);
+    if (!steep && !mayBeBelow(spent + bound * (to - start), share)) continue;
+    const double here = extinctionAt(middle, height, ray.direction);
+    const double left = depthAt(share) - spent;
+    spent += here * (to - start);
+    if (!(left < here * (to - start))) continue;
+    nearest = {start + std::max(left, 0.0) / here, Label::GRASS, 0, -1, MEAN_COSINE};
+    return nearest.distance;
+  }
+  return from;
+}
+
 // Returns the distance at which the light leaves the layer or ends.
 double GrassVolume::marchLight(const Ray& ray, double from, LightPath& path) const {
-  Walk walk(ray, from, GRASS_CELL);
+  Walk walk(ray, from, GRASS_CELL, GRASS_CELL);
   for (; from < path.end().distance; walk.advance()) {
     const double start = from, to = std::min(walk.end(), path.end().distance);
     from = to;

@@ -14,6 +14,10 @@
 
 namespace vegetation_sim::scan {
 
+/// What of the medium has one random number: cubes, or upright columns as wide as a blade, of which
+/// a picture shows single blades. Rays meet it equally often.
+enum class GrassGrain { CUBES, BLADES };
+
 /// Grass as a medium for rays: as dense as its blades, and as high as wind and treading leave them
 /// (docs/scan.md).
 class GrassVolume {
@@ -30,10 +34,22 @@ class GrassVolume {
   enum class Cells { LIKELY, ALL };
   void meet(const Ray& ray, Hit& nearest, Cells cells = Cells::LIKELY) const;
 
+  /// Does the same as meet() with columns within BLADES_REACH, and cubes beyond.
+  void meetBlades(const Ray& ray, Hit& nearest) const;
+
   /// Adds the optical depth of the grass to a path of light.
   void addDepth(const Ray& ray, LightPath& path) const;
 
   const GrassBounds& bounds() const { return bounds_; }
+  /// Whether there is grass at all; the functions below require it.
+  bool isPresent() const { return tread_ != nullptr; }
+  const grass::Layout& layout() const { return layout_; }
+  /// Returns the height of a world place above the ground [m].
+  double heightOf(const Vec3& place) const { return above(place); }
+  /// Returns the optical depth of the grass above a place, by one evaluation half-way to its top.
+  double depthAbove(const Vec3& place, const Vec3& direction) const;
+  /// Returns how far the grass is trodden down [rad].
+  double tiltAt(double x, double y) const;
   /// Returns the extinction of a ray of this direction at a world place [1/m].
   double extinction(const Vec3& place, const Vec3& direction) const;
 
@@ -50,6 +66,7 @@ class GrassVolume {
   void visitLayer(const Ray& ray, const Hit& end, March&& march) const;
   template <bool LIKELY>
   double march(const Ray& ray, double from, Hit& nearest) const;
+  double marchBlades(const Ray& ray, double from, Hit& nearest) const;
   double marchLight(const Ray& ray, double from, LightPath& path) const;
 
   grass::Layout layout_;
@@ -67,5 +84,7 @@ class GrassVolume {
 
 /// Edge of the cells of the grass [m].
 constexpr double GRASS_CELL = 0.05;
+/// Width of a column [m], and distance up to which there are columns [m].
+constexpr double BLADE_CELL = 0.006, BLADES_REACH = 12.0;
 
 }  // namespace vegetation_sim::scan

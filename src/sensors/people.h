@@ -24,6 +24,8 @@ class People {
   void meet(const Ray& ray, const FloatRay& narrow, Hit& nearest) const;
   bool meetLimb(std::size_t index, const Ray& ray, Hit& nearest) const;
   std::size_t limbs() const { return limbs_.size(); }
+  /// Returns the id of the person of a limb. Limbs of a person follow each other.
+  std::uint32_t personOf(std::size_t limb) const { return limbs_[limb].person; }
   const std::vector<Rod>& rods() const { return rods_; }
 
  private:

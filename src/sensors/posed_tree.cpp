@@ -13,7 +13,10 @@
 namespace vegetation_sim::scan {
 
 PosedTree::PosedTree(const forest::ForestReplica& forest, std::uint32_t id)
-    : id_(id), tree_(forest.grow(id)), poser_(tree_) {
+    : id_(id),
+      tree_(forest.grow(id)),
+      paint_(forest.layout().species.at(tree_.seed.species), tree_.seed.seed),
+      poser_(tree_) {
   const std::vector<forest::Branch>& branches = tree_.skeleton.branches;
   rods_.resize(branches.size());
   for (std::size_t i = 0; i < branches.size(); ++i) {

@@ -8,6 +8,7 @@
 #include "sensors/geometry/light_path.h"
 #include "sensors/geometry/ranked_hit.h"
 #include "sensors/geometry/rod_tree.h"
+#include "tree/mesh/paint.h"
 #include "vegetation_sim/forest/forest_replica.h"
 #include "vegetation_sim/tree/motion/batch_poser.h"
 
@@ -32,6 +33,8 @@ class PosedTree {
 
   std::uint32_t id() const { return id_; }
   const Vec3& foot() const { return tree_.foot; }  ///< world [m]
+  /// Unlit colours of bark and leaves.
+  const forest::TreePaint& paint() const { return paint_; }
   /// Number of branches.
   std::size_t parts() const { return rods_.size(); }
   Box bounds() const { return rod_tree_.bounds(); }
@@ -62,6 +65,7 @@ class PosedTree {
 
   std::uint32_t id_;
   forest::Tree tree_;
+  forest::TreePaint paint_;
   forest::BatchPoser poser_;
   forest::BatchPoses poses_;
   std::vector<Rod> rods_;       ///< world

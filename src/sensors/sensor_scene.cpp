@@ -18,13 +18,16 @@ Hit castToGround(const Scene& scene, const Ray& ray, double reach) {
 }
 
 // The grass comes last because it is marched through only up to the nearest hit.
-Hit cast(const Scene& scene, const Ray& ray, double reach) {
+Hit cast(const Scene& scene, const Ray& ray, double reach, GrassGrain grain) {
   Hit out = castToGround(scene, ray, reach);
   const FloatRay narrow(ray);
   scene.trees.meet(ray, narrow, out);
   scene.plants.meet(ray, narrow, out);
   scene.people.meet(ray, narrow, out);
-  scene.grass.meet(ray, out);
+  if (grain == GrassGrain::BLADES)
+    scene.grass.meetBlades(ray, out);
+  else
+    scene.grass.meet(ray, out);
   return out;
 }
 

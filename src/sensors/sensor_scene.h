@@ -21,7 +21,7 @@ struct Scene {
 };
 
 /// Returns the nearest hit within `reach` [m], or Label::NONE.
-Hit cast(const Scene& scene, const Ray& ray, double reach);
+Hit cast(const Scene& scene, const Ray& ray, double reach, GrassGrain grain = GrassGrain::CUBES);
 /// Returns the hit on the ground alone.
 Hit castToGround(const Scene& scene, const Ray& ray, double reach);
 

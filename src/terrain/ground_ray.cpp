@@ -8,6 +8,7 @@ namespace vegetation_sim::terrain {
 namespace {
 
 constexpr double CLOSE = 1e-3;  // [m]
+constexpr double SAFE = 0.999;  // more than the rounding of heights and slopes allows
 
 double above(const HeightMap& ground, const Vec3& place) {
   return place.z() - ground.height(place.x(), place.y());
@@ -37,19 +38,26 @@ bool meetGround(const HeightMap& ground, const Vec3& origin, const Vec3& directi
   const Stretch part = between(box.min_z - CLOSE, box.max_z + CLOSE, origin.z(), along.z(), reach);
   if (part.from > part.to) return false;
   const double step = ground.isFlat() ? part.to - part.from : 0.5 * ground.resolution();
+  // How fast the ray may approach the ground.
+  const double level = std::sqrt(along.x() * along.x() + along.y() * along.y());
+  const double approach = ground.steepest() * level - along.z();
   double from = part.from, to = from;
-  const auto isAbove = [&](double at) {
-    if (ground.isFlat()) return origin.z() + at * along.z() > 0.0;
-    return above(ground, origin + at * along) > 0.0;
+  const auto heightAt = [&](double at) {
+    if (ground.isFlat()) return origin.z() + at * along.z();
+    return above(ground, origin + at * along);
   };
-  while (isAbove(to)) {
-    if (to >= part.to) return false;
-    from = to;
-    to = std::min(part.to, to + std::max(step, CLOSE));
+  for (double height = heightAt(to); height > 0.0; height = heightAt(to)) {
+    // Steps that cannot reach the ground are taken without a look at it.
+    const double safe = approach > 0.0 ? to + SAFE * height / approach : part.to;
+    do {
+      if (to >= part.to) return false;
+      from = to;
+      to = std::min(part.to, to + std::max(step, CLOSE));
+    } while (to < safe);
   }
   while (to - from > CLOSE) {
     const double middle = 0.5 * (from + to);
-    const bool over = isAbove(middle);
+    const bool over = heightAt(middle) > 0.0;
     from = over ? middle : from;
     to = over ? to : middle;
   }

@@ -74,6 +74,7 @@ HeightMap::HeightMap(const HeightMapLaw& law, GreyImage image)
   bounds_ = {law_.origin.x(),       law_.origin.x() + law_.resolution * (image_.columns - 1),
              law_.origin.y(),       law_.origin.y() + law_.resolution * (image_.rows - 1),
              base_ + scale_ * *low, base_ + scale_ * *high};
+  steepest_ = findSteepest();
   Hash hash;
   FieldHasher hasher(hash);
   describe(hasher, law_);
@@ -81,6 +82,18 @@ HeightMap::HeightMap(const HeightMapLaw& law, GreyImage image)
   hash.add(static_cast<std::uint64_t>(image_.white));
   for (const auto s : image_.samples) hash.add(static_cast<std::uint64_t>(s));
   hash_ = hash.value();
+}
+
+// Between samples, the derivative along an axis is a mean of the slopes of two edges along it.
+double HeightMap::findSteepest() const {
+  double most_x = 0.0, most_y = 0.0;
+  for (int row = 0; row < image_.rows; ++row)
+    for (int column = 0; column < image_.columns; ++column) {
+      const double here = sample(column, row);
+      most_x = std::max(most_x, std::fabs(sample(column + 1, row) - here));
+      most_y = std::max(most_y, std::fabs(sample(column, row + 1) - here));
+    }
+  return std::sqrt(most_x * most_x + most_y * most_y) / law_.resolution;
 }
 
 HeightMap HeightMap::load(const std::string& file) {

@@ -66,6 +66,36 @@ TEST(GrassVolume, LetsThroughAsMuchAsItsBladesDo) {
   }
 }
 
+// The same rays meet columns as often as cubes, and as high; so do steep ones.
+TEST(GrassVolume, ColumnsLetThroughAsMuchAsCubesDo) {
+  struct Columns {
+    const GrassVolume& grass;
+    void meet(const Ray& ray, Hit& nearest) const { grass.meetBlades(ray, nearest); }
+  };
+  for (const double density : {60.0, 400.0}) {
+    const Lawn lawn(0.3, density);
+    GrassVolume cubes;
+    lawn.show(cubes, breezeOf(Vec3(3, 0, 0)));
+    const Met of_cubes = meetings(cubes, 0.02, 0.25);
+    const Met of_columns = meetings(Columns{cubes}, 0.02, 0.25);
+    EXPECT_NEAR(of_columns.share, of_cubes.share, 0.035) << density;
+    EXPECT_NEAR(of_columns.height, of_cubes.height, 0.006) << density;
+    int steep[2] = {0, 0};
+    for (std::uint64_t i = 0; i < 4000; ++i) {
+      const Vec3 from(6.0 + 0.05 * double(i % 100), 8.0 + 0.05 * double(i / 100), 1.0);
+      const Ray ray(from, randomDirection(Random(3), i, -1.5, -1.2));
+      for (const bool columns : {false, true}) {
+        Hit nearest;
+        nearest.distance = -from.z() / ray.direction.z();
+        columns ? cubes.meetBlades(ray, nearest) : cubes.meet(ray, nearest);
+        steep[columns] += nearest.label == Label::GRASS;
+      }
+    }
+    EXPECT_NEAR(steep[1], steep[0], 0.035 * 4000.0) << density;
+    EXPECT_GT(steep[1], 0.01 * 4000.0) << density;
+  }
+}
+
 // N1
 TEST(GrassVolume, ThatIsTroddenReturnsLower) {
   Lawn upright, trodden;

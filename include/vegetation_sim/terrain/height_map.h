@@ -55,6 +55,8 @@ class HeightMap {
   Bounds bounds() const { return bounds_; }
   /// Returns the distance between samples [m], or 0 if the ground is flat.
   double resolution() const { return isFlat() ? 0.0 : law_.resolution; }
+  /// Returns an upper bound of the slope of the ground in any direction.
+  double steepest() const { return steepest_; }
   /// Returns a hash of all samples and of the law.
   std::uint64_t hash() const { return hash_; }
 
@@ -62,6 +64,7 @@ class HeightMap {
   struct Cell;
   Cell cellAt(double x, double y) const;
   double sample(int column, int row_from_south) const;
+  double findSteepest() const;
 
   static constexpr double ENDLESS = std::numeric_limits<double>::infinity();
 
@@ -69,6 +72,7 @@ class HeightMap {
   GreyImage image_{};
   double base_{0.0};   ///< Height of black in the world [m].
   double scale_{0.0};  ///< Height of one grey level [m].
+  double steepest_{0.0};
   Bounds bounds_{-ENDLESS, ENDLESS, -ENDLESS, ENDLESS, 0.0, 0.0};
   std::uint64_t hash_{0};
 };

@@ -12,11 +12,7 @@
 namespace vegetation_sim {
 
 void describe(FieldVisitor& v, ScanOptions& o) {
-  v.number("delay", o.delay, "s", {0.0, 5.0});
-  v.number("tolerance", o.tolerance, "m", {1e-4, 10.0});
-  v.integer("branch_budget", o.branch_budget, "", {1000, 20000000});
-  v.integer("leaf_budget", o.leaf_budget, "", {1000, 3000000});
-  v.integer("threads", o.threads, "", {1, 64});
+  describe(v, static_cast<SensorOptions&>(o));
   v.choice("motion", o.motion, {"none", "deskewed", "raw"});
   v.number("sky_range", o.sky_range, "m", {1.0, 500.0});
   describe(v, o.lidar);
@@ -62,21 +58,14 @@ void readPreset(Parameters& parameters, scan::Lidar& lidar) {
 ScanOptions loadScanOptions(const ros::NodeHandle& private_handle) {
   ScanOptions out;
   Parameters parameters(private_handle);
-  parameters.frame("frame_id", out.frame_id);
+  readNames(parameters, out);
   parameters.frame("lidar_frame", out.lidar_frame, true);
-  parameters.seed("seed", out.seed);
   parameters.frames("sky_frames", out.sky_frames, MOST_SKY_FRAMES);
   readPreset(parameters, out.lidar);
   describe(parameters, out);
   scan::check(out.lidar, private_handle.getNamespace() + "/", parameters.faults());
   parameters.finish();
-  return out;
-}
-
-scan::Scene makeScene(const ScanOptions& options) {
-  scan::Scene out;
-  out.trees = scan::Trees(static_cast<std::size_t>(options.branch_budget));
-  out.plants = scan::Plants(static_cast<std::size_t>(options.leaf_budget));
+  out.rate = out.lidar.rate;
   return out;
 }
 

@@ -55,7 +55,7 @@ void VegetationScanner::viewSky() {
   message.views = sky_of_frames_.view(places, clock_.stamp());
   for (std::size_t i = 0; i < frames.size(); ++i) message.views[i].frame = frames[i];
   sky_publisher_.publish(message);
-  counts_.views += frames.size();
+  views_ += frames.size();
   sky_cost_ = (ros::WallTime::now() - start).toSec();
 }
 

@@ -30,7 +30,9 @@ Rod rodOf(const Vec3& from, const Vec3& to, double radius) {
 PosedPlant::PosedPlant(const canopy::Layout& layout, std::uint32_t id)
     : id_(id), foot_(layout.plants[id].position) {
   const canopy::Plant& plant = layout.plants[id];
-  canopy::GrownPlant grown = canopy::grow(layout.kinds[plant.kind], plant);
+  const canopy::PlantKind& kind = layout.kinds[plant.kind];
+  paint_ = {kind.colour, kind.colour_young, kind.stem_colour};
+  canopy::GrownPlant grown = canopy::grow(kind, plant);
   leaves_ = std::move(grown.leaves);
   rigid_ = std::move(grown.rigid);
   grown_stems_ = std::move(grown.stems);

@@ -23,6 +23,12 @@ class PosedPlant {
   void pose(const canopy::Foliage& foliage);
 
   std::uint32_t id() const { return id_; }
+  /// Colours of the kind of the plant in sRGB.
+  struct Paint {
+    Vec3 leaf, young, stem;
+  };
+  const Paint& paint() const { return paint_; }
+  const std::vector<canopy::Leaf>& leaves() const { return leaves_; }
   /// Number of strips and stems.
   std::size_t parts() const { return strips_.size() + stems_.size(); }
   Box bounds() const;
@@ -41,7 +47,8 @@ class PosedPlant {
   void bendWood(const canopy::Foliage& foliage);
 
   std::uint32_t id_;
-  Vec3 foot_;                                 ///< world [m]
+  Vec3 foot_;  ///< world [m]
+  Paint paint_;
   std::vector<canopy::Leaf> leaves_, rigid_;  ///< at rest
   std::vector<canopy::Stem> grown_stems_;     ///< at rest
   std::vector<Strip> strips_;                 ///< of leaves_, then of rigid faces

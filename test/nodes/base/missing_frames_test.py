@@ -19,7 +19,8 @@ from forest_rig import RATE, TickClock, time_of
 from waiting import DEADLINE, wait_for
 from watched_node import Log, listens, publisher, wait_for_readers
 
-NODES = '/wind_broadcaster', '/forest_animator', '/grass_field', '/agent_crowd', '/vegetation_scanner'
+NODES = ('/wind_broadcaster', '/forest_animator', '/grass_field', '/agent_crowd', '/vegetation_scanner',
+         '/vegetation_camera')
 
 
 class MissingFrames(unittest.TestCase):
@@ -97,6 +98,11 @@ class MissingFrames(unittest.TestCase):
 
     def test_the_lidar_without_a_subscriber(self):
         self.expect_reports('vegetation_scanner', "no transform from 'lidar' to 'map'", 'lidar')
+
+    def test_the_camera_without_a_subscriber(self):
+        self.expect_reports('vegetation_camera',
+                            "no transform from 'camera_optical_frame' to 'map'",
+                            'camera_optical_frame')
 
     def test_a_sample_frame_of_the_wind(self):
         self.expect_reports('wind_broadcaster', "no transform from 'mast' to 'map'", 'mast')

@@ -24,6 +24,7 @@
 #include "nodes/forest/forest_animator.h"
 #include "nodes/grass/grass_field.h"
 #include "nodes/rigs/repeating.h"
+#include "nodes/sensors/vegetation_camera.h"
 #include "nodes/sensors/vegetation_scanner.h"
 #include "nodes/wind/wind_broadcaster.h"
 
@@ -124,6 +125,7 @@ TEST_F(NodeEnd, ACallbackThatThrowsEndsAlone) {
 TEST_F(NodeEnd, MayComeWithinACallback) {
   liveAndEnd<WindBroadcaster>("wind_broadcaster", "wind/wind_scene.yaml");
   liveAndEnd<VegetationScanner>("vegetation_scanner", "");
+  liveAndEnd<VegetationCamera>("vegetation_camera", "");
   liveAndEnd<ForestAnimator>("forest_animator", "scenarios/one_branch.yaml");
   liveAndEnd<GrassField>("grass_field", "scenarios/lawn.yaml");
   liveAndEnd<CanopyAnimator>("canopy_animator", "scenarios/shrubs.yaml");

@@ -23,9 +23,9 @@ namespace vegetation_sim {
 namespace {
 
 constexpr double TICK = 1.0 / 30.0;  // [s]
-constexpr std::array<const char*, 6> NODES{"wind_broadcaster", "forest_animator",
-                                           "grass_field",      "canopy_animator",
-                                           "agent_crowd",      "vegetation_scanner"};
+constexpr std::array<const char*, 7> NODES{
+    "wind_broadcaster", "forest_animator",    "grass_field",      "canopy_animator",
+    "agent_crowd",      "vegetation_scanner", "vegetation_camera"};
 
 int roundsOf(const char* text) {
   return text ? std::max(1, std::atoi(text)) : 2;

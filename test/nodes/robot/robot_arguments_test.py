@@ -83,6 +83,8 @@ class RobotArguments(RefusingNode):
                             base_frame='/base')
         self.expect_refused('vegetation_scanner', "~lidar_frame = '/laser' begins with '/'",
                             lidar_frame='/laser')
+        self.expect_refused('vegetation_camera', "~camera_frame = '/eye' begins with '/'",
+                            camera_frame='/eye')
         for node in 'wind_broadcaster', 'agent_crowd':
             self.expect_refused(node, "frame_id = '/map' begins with '/'", world_frame='/map')
 

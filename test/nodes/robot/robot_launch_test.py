@@ -12,7 +12,7 @@ import numpy
 import rospy
 import rostest
 from geometry_msgs.msg import WrenchStamped
-from sensor_msgs.msg import LaserScan, PointCloud2
+from sensor_msgs.msg import CameraInfo, Image, LaserScan, PointCloud2
 from tf2_msgs.msg import TFMessage
 from vegetation_sim.msg import ScanReport, WindSamples
 
@@ -26,7 +26,8 @@ from watched_node import Log, publisher, wait_for_readers
 
 SPEED = 1.0  # [m/s]
 WOOD = ScanReport.TRUNK, ScanReport.BRANCH, ScanReport.LEAF
-NODES = '/forest_animator', '/grass_field', '/agent_crowd', '/vegetation_scanner', '/cart_scanner'
+NODES = ('/forest_animator', '/grass_field', '/agent_crowd', '/vegetation_scanner', '/cart_scanner',
+         '/vegetation_camera', '/cart_camera')
 
 
 class RobotLaunch(unittest.TestCase):
@@ -39,13 +40,16 @@ class RobotLaunch(unittest.TestCase):
         cls.clouds = {name: Log(topic, PointCloud2) for name, topic in
                       (('scout', '/lidar/points'), ('cart', '/cart/lidar/points'))}
         cls.plane = Log('/cart/lidar/scan', LaserScan)
+        cls.cameras = {name: (Log(topic + 'label', Image), Log(topic + 'depth/camera_info', CameraInfo))
+                       for name, topic in (('scout', '/camera/'), ('cart', '/cart/camera/'))}
         cls.winds = Log('/wind/samples', WindSamples)
         cls.frames = Log('/tf', TFMessage)
         cls.tf = publisher('/tf', TFMessage)
         wait_for_readers('/tf', *NODES)
         cls.robot = SkidSteerRobot('scout/', rospy.get_param('scout/robot_description'), 0.0, -4.0,
                                    math.pi / 2, cls.tf)
-        for log in (cls.wrenches, cls.winds, cls.plane, cls.frames, *cls.clouds.values()):
+        for log in (cls.wrenches, cls.winds, cls.plane, cls.frames, *cls.clouds.values(),
+                    *cls.cameras['scout'], *cls.cameras['cart']):
             wait_for(log.connected, log.topic)
         wait_for_readers('/scout/truth', '/scout_ground_truth')
         cls.crowd.wait_until_up()
@@ -62,7 +66,8 @@ class RobotLaunch(unittest.TestCase):
             cls.robot.drive(SPEED, 0.0, 1.0 / RATE)
             cls.tf.publish(TFMessage([
                 transform(stamp, 'world', 'cart/base', (4.0, cls.robot.y, 0.0)),
-                transform(stamp, 'cart/base', 'cart/laser', (0.0, 0.0, 1.0))]))
+                transform(stamp, 'cart/base', 'cart/laser', (0.0, 0.0, 1.0)),
+                transform(stamp, 'cart/base', 'cart/eye', (0.0, 0.0, 1.2))]))
             cls.robot.publish(stamp)
             cls.frames.wait(lambda all: any(t.child_frame_id == 'world' and t.header.stamp == stamp
                                             for m in all for t in m.transforms), 'the world')
@@ -122,6 +127,13 @@ class RobotLaunch(unittest.TestCase):
         self.assertEqual(set(samples), {'scout/base_footprint', 'cart/base'})
         for sample in samples.values():
             self.assertLess(abs(sample.position.y - self.robot.y), 0.5)
+
+    def test_each_robot_has_a_camera_of_its_own(self):
+        for robot, frame, width in ('scout', 'scout/velodyne', 32), ('cart', 'cart/eye', 48):
+            for log in self.cameras[robot]:
+                self.assertGreater(len(log.messages), 5, log.topic)
+                self.assertEqual({m.header.frame_id for m in log.messages}, {frame})
+                self.assertEqual({m.width for m in log.messages}, {width})
 
     def test_a_second_robot_treads_and_scans(self):
         self.assertGreater(self.grass.at(4.0, -2.0).tilt, 1.2)

@@ -1,0 +1,180 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sensors/camera/camera.h"
+
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "sensors/camera/surface.h"
+#include "sensors/camera/texture.h"
+#include "sensors/sky_view.h"
+#include "vegetation_sim/core/math/math.h"
+
+namespace vegetation_sim::scan {
+namespace {
+
+constexpr double FAR = std::numeric_limits<double>::infinity();
+constexpr double OFFSET = 1e-3;       // of rays of light from their surface [m]
+constexpr double FARTHEST = 20000.0;  // ground that is seen beyond the range [m]
+constexpr double OPEN_SPOT = 0.02;    // places that look at one part of the sky [m]
+constexpr std::uint32_t OPEN_KEY = 0x6f70656eU;
+
+/// Light that comes along rays.
+class Picture {
+ public:
+  Picture(const Scene& scene, const Camera& camera)
+      : scene_(scene), camera_(camera), light_(camera.light), surfaces_(scene) {}
+
+  Vec3 radiance(const Ray& ray, const Hit& hit) const {
+    if (hit.label == Label::NONE) return beyond(ray);
+    const Vec3 place = ray.at(hit.distance);
+    const bool sheltered = hit.label == Label::GROUND && camera_.shadows != Shadows::NONE;
+    const Surface surface = sheltered ? groundAt(place) : surfaces_.at(ray, hit);
+    return light_.through(lit(place, surface), hit.distance);
+  }
+
+ private:
+  Surface groundAt(const Vec3& place) const {
+    const double open = openness(place);
+    Surface out = surfaces_.groundAt(place, open);
+    out.sky = 0.25 + 0.75 * open;
+    return out;
+  }
+
+  // Ground beyond the range is a plane; the rest is sky.
+  Vec3 beyond(const Ray& ray) const {
+    const Vec3 end = ray.at(camera_.range_max);
+    const double above = end.z() - scene_.ground->height(end.x(), end.y());
+    if (!(ray.direction.z() < 0.0 && above > 0.0)) return light_.skyTowards(ray.direction);
+    const double distance = camera_.range_max - above / ray.direction.z();
+    if (distance > FARTHEST) return light_.through(light_.skyTowards(ray.direction), FARTHEST);
+    Surface ground = surfaces_.groundAt(ray.at(distance));
+    return light_.through(
+        ground.albedo.cwiseProduct(light_.sun() * light_.toSun().z() + light_.ambient(1.0, 1.0)),
+        distance);
+  }
+
+  // Returns the share of the sky at a place of the ground, from one direction per spot.
+  double openness(const Vec3& place) const {
+    const Vec3 way = randomVector(cellAt(place, OPEN_SPOT), OPEN_KEY) + Vec3(0.0, 0.0, 1.6);
+    const Vec3 from = place + Vec3(0.0, 0.0, OFFSET);
+    return transmittance(scene_, Ray(from, way / length(way)), camera_.range_max);
+  }
+
+  // Returns the share of sunlight that reaches a place.
+  double sunAt(const Vec3& place) const {
+    const Ray ray(place, light_.toSun());
+    Hit solid = castToGround(scene_, ray, camera_.range_max);
+    const FloatRay narrow(ray);
+    scene_.people.meet(ray, narrow, solid);
+    scene_.plants.meet(ray, narrow, solid);
+    if (solid.label != Label::NONE) return 0.0;
+    LightPath path(camera_.range_max);
+    scene_.trees.addDepth(ray, narrow, path);
+    if (scene_.grass.isPresent()) path.add(scene_.grass.depthAbove(place, light_.toSun()));
+    return path.transmittance();
+  }
+
+  Vec3 lit(const Vec3& place, const Surface& surface) const {
+    const double facing = dot(surface.normal, light_.toSun());
+    double direct = facing > 0.0 ? facing : -facing * surface.transmits;
+    if (direct > 0.0 && camera_.shadows != Shadows::NONE) {
+      const Vec3 from = place + (facing > 0.0 ? OFFSET : -OFFSET) * surface.normal;
+      direct *= sunAt(from);
+    }
+    return surface.albedo.cwiseProduct(direct * light_.sun() +
+                                       light_.ambient(surface.normal.z(), surface.sky));
+  }
+
+  const Scene& scene_;
+  const Camera& camera_;
+  Daylight light_;
+  Surfaces surfaces_;
+};
+
+// Samples of a pixel (Roberts 2018, a sequence of low discrepancy whose first one is the middle).
+Pixel sampleOf(int column, int row, int sample) {
+  const auto part = [](double x) { return x - std::floor(x) - 0.5; };
+  return {column + part(0.5 + 0.7548776662466927 * sample),
+          row + part(0.5 + 0.5698402909980532 * sample)};
+}
+
+float depthOf(const Hit& hit, double cosine, const Camera& camera) {
+  if (hit.label == Label::NONE) return static_cast<float>(FAR);
+  return static_cast<float>(hit.distance < camera.range_min ? -FAR : hit.distance * cosine);
+}
+
+std::int32_t instanceOf(const Hit& hit) {
+  const bool none =
+      hit.label == Label::NONE || hit.label == Label::GROUND || hit.label == Label::GRASS;
+  return none ? -1 : static_cast<std::int32_t>(hit.plant);
+}
+
+}  // namespace
+
+Hit castForCamera(const Scene& scene, const Camera& camera, const Ray& ray) {
+  return cast(scene, ray, camera.range_max, GrassGrain::BLADES);
+}
+
+void describe(FieldVisitor& v, Camera& c) {
+  v.number("range_min", c.range_min, "m", {0.0, 100.0});
+  v.number("range_max", c.range_max, "m", {0.1, 500.0});
+  v.integer("samples", c.samples, "", {1, 64});
+  v.choice("shadows", c.shadows, {"none", "sun"});
+  describe(v, c.light);
+  describe(v, c.photo);
+}
+
+void check(const Camera& camera, const std::string& context, Faults& faults) {
+  if (!(camera.range_min < camera.range_max))
+    faults.add(context + "range_max = " + std::to_string(camera.range_max) +
+               " is not above range_min = " + std::to_string(camera.range_min));
+  check(camera.lens, context, faults);
+}
+
+Images takeImages(const Scene& scene, const Camera& camera, const Pose& optical,
+                  const NoiseKeys& noise, const Wanted& wanted, ThreadPool& threads) {
+  const Lens& lens = camera.lens;
+  const auto width = static_cast<std::size_t>(lens.width);
+  const auto height = static_cast<std::size_t>(lens.height);
+  Images out;
+  out.colour.resize(wanted.colour ? width * height : 0);
+  out.depth.resize(wanted.depth ? width * height : 0);
+  out.label.resize(wanted.label ? width * height : 0);
+  out.instance.resize(wanted.instance ? width * height : 0);
+  const std::optional<Picture> picture =
+      wanted.colour ? std::optional<Picture>(std::in_place, scene, camera) : std::nullopt;
+  const bool noisy = camera.photo.read_noise > 0.0 || camera.photo.shot_noise > 0.0;
+  const auto rayAt = [&](int column, int row, int sample, double& cosine) {
+    const Vec3 direction = directionOf(lens, sampleOf(column, row, sample));
+    cosine = direction.z();
+    return Ray(optical.position, rotate(optical.orientation, direction));
+  };
+  const auto takePixel = [&](int column, int row) {
+    const auto i = static_cast<std::size_t>(row) * width + static_cast<std::size_t>(column);
+    double cosine = 1.0;
+    const Ray ray = rayAt(column, row, 0, cosine);
+    const Hit hit = castForCamera(scene, camera, ray);
+    if (wanted.depth) out.depth[i] = depthOf(hit, cosine, camera);
+    if (wanted.label) out.label[i] = static_cast<std::uint16_t>(hit.label);
+    if (wanted.instance) out.instance[i] = instanceOf(hit);
+    if (!picture) return;
+    Vec3 sum = picture->radiance(ray, hit);
+    for (int sample = 1; sample < camera.samples; ++sample) {
+      const Ray other = rayAt(column, row, sample, cosine);
+      sum += picture->radiance(other, castForCamera(scene, camera, other));
+    }
+    const std::optional<RayRandom> random =
+        noisy ? std::optional<RayRandom>(RayRandom(noise, i)) : std::nullopt;
+    out.colour[i] = develop(camera.photo, sum / camera.samples, random ? &*random : nullptr);
+  };
+  const auto stride = static_cast<int>(threads.size());
+  threads.run(threads.size(), [&](std::size_t first) {
+    for (int row = static_cast<int>(first); row < lens.height; row += stride)
+      for (int column = 0; column < lens.width; ++column) takePixel(column, row);
+  });
+  return out;
+}
+
+}  // namespace vegetation_sim::scan
