@@ -23,6 +23,13 @@ double fastestOf(const ChainState& state) {
   return out;
 }
 
+// Says whether all joints turn by at most `turn` in `h` seconds; not so if a rate is not a number.
+bool staysBelow(double turn, double h, const ChainState& state) {
+  return std::all_of(state.rate.begin(), state.rate.end(), [&](const Vec2& rate) {
+    return std::fabs(rate.x()) * h <= turn && std::fabs(rate.y()) * h <= turn;
+  });
+}
+
 }  // namespace
 
 double guardedTheta(const ChainState& state, double h, double theta) {
@@ -136,10 +143,18 @@ int ChainStepper::partsOf(Integrator integrator, const std::vector<Link>& links,
 int ChainStepper::step(Integrator integrator, const std::vector<Link>& links,
                        const Surroundings& outside, double time, double h, ChainState& state,
                        double& theta) {
-  const int parts =
-      isImplicit(integrator) ? 1 : partsOf(integrator, links, outside, time, h, state);
-  for (int i = 0; i < parts; ++i)
+  if (isImplicit(integrator)) {
+    stepAsIs(integrator, links, outside, time, h, state, theta);
+    return 1;
+  }
+  const int parts = partsOf(integrator, links, outside, time, h, state);
+  before_ = state;
+  for (int i = 0; i < parts; ++i) {
     stepAsIs(integrator, links, outside, time + i * (h / parts), h / parts, state, theta);
+    if (staysBelow(WILD_TURN, h / parts, state)) continue;
+    state = before_;
+    return 0;
+  }
   return parts;
 }
 

@@ -13,7 +13,7 @@ namespace vegetation_sim::physics {
 constexpr double GUARD_TURN = 0.2;
 
 /// A joint that turns farther than this in a step makes implicit methods omit velocity products,
-/// which are explicit and would add energy [rad].
+/// which are explicit and would add energy, and explicit methods reject the step [rad].
 constexpr double WILD_TURN = 0.5;
 /// Largest bend [rad] and largest turn per step [rad] that implicit methods allow a joint, whatever
 /// drives it.
@@ -29,7 +29,8 @@ class ChainStepper {
   /// Takes one step of `h` seconds from `time`. `theta` belongs to the chain's state: 1/2 is the
   /// midpoint and 1 backward Euler, with values in between on the way back; only MIDPOINT changes
   /// it. An explicit method runs in as many equal parts as its limit requires (guardLimit), and as
-  /// its joints need to turn by at most GUARD_TURN in each, but not at all beyond MOST_SUB_STEPS.
+  /// its joints need to turn by at most GUARD_TURN in each, but not at all beyond MOST_SUB_STEPS,
+  /// nor where a load makes a joint so fast that it would turn by more than WILD_TURN in a part.
   /// @return the number of parts, or 0 if the step was rejected and nothing has changed: use an
   /// implicit method.
   int step(Integrator integrator, const std::vector<Link>& links, const Surroundings& outside,
@@ -63,7 +64,7 @@ class ChainStepper {
   std::vector<BaseMotion> bases_;
   Kinematics kinematics_;
   Loads loads_;
-  ChainState between_;
+  ChainState between_, before_;
   Angles acceleration_;
   struct Slope {
     Angles rate, acceleration;

@@ -205,6 +205,36 @@ TEST(Stability, ExplicitMethodsRunFastTurnsInParts) {
   }
 }
 
+// A torque that the limit does not see, as of a twig that is let go: within one step its joint
+// would turn by radians. Below, the step is taken; beyond, it is rejected with nothing changed.
+TEST(Stability, ExplicitMethodsRefuseStepsThatALoadMakesTooFast) {
+  const std::vector<Link> links = crown(7, 0.1);
+  ChainStepper stepper;
+  for (const Integrator integrator : EXPLICIT) {
+    const double h = 0.5 * estimateOf(Dynamics::ARTICULATED, integrator, links);
+    const auto partsUnder = [&](double torque, ChainState& state) {
+      Surroundings outside;
+      outside.loads = [torque](const Kinematics&, double, Loads& loads) {
+        loads.joint_torque.back().x() += torque;
+      };
+      double theta = 0.5;
+      return stepper.step(integrator, links, outside, 0.0, h, state, theta);
+    };
+    ChainState state = atRest(7);
+    ASSERT_EQ(partsUnder(1e-3, state), 1);
+    const double turn = std::fabs(state.rate.back().x()) * h;
+    ASSERT_GT(turn, 0.0);
+    state = atRest(7);
+    EXPECT_EQ(partsUnder(1e-3 * 0.5 * WILD_TURN / turn, state), 1);
+    state = atRest(7);
+    EXPECT_EQ(partsUnder(1e-3 * 2.0 * WILD_TURN / turn, state), 0);
+    for (std::size_t i = 0; i < state.q.size(); ++i) {
+      EXPECT_EQ(state.q[i], Vec2(0.0, 0.0));
+      EXPECT_EQ(state.rate[i], Vec2(0.0, 0.0));
+    }
+  }
+}
+
 // Run in parts, explicit methods survive a gust at 60 Hz that would break them at once.
 TEST(Stability, RuleKeepsExplicitMethodsAlive) {
   const std::vector<Link> links = crown(31, 0.1);
