@@ -28,7 +28,7 @@ use_space "$DEVEL"
 . "$ROOT/scripts/launching.sh"
 trap 'stop_process "$launch_pid"; stop_process "$display_pid"; rm -rf "$WORK"' EXIT
 trap 'exit 130' INT TERM
-start_display
+LP_NUM_THREADS=$(nproc) start_display
 MOST=3000000   # limit of the points that a node may publish
 UPDATE_RATE=30 # [Hz] update rate of the displays
 

@@ -9,5 +9,5 @@ mkfifo "$folder/number"
 Xvfb -displayfd 3 -screen 0 800x600x24 +extension GLX 3>"$folder/number" 2>"$folder/log" &
 server=$!
 read -r number <"$folder/number"
-export DISPLAY=:$number LIBGL_ALWAYS_SOFTWARE=1 QT_X11_NO_MITSHM=1
+export DISPLAY=:$number LIBGL_ALWAYS_SOFTWARE=1 LP_NUM_THREADS=0 QT_X11_NO_MITSHM=1
 "$@"
