@@ -3,9 +3,10 @@
 // Measures the cost of a sensor: rays into bare wood, trees with leaves, a lawn, a hay meadow and
 // people, "before" through binary trees of boxes and every cell of grass, "after" through wide
 // trees and the likely cells; sweeps with several threads, and instruction sets, shrubs included;
-// the update of the scene to a stamp; and views of the sky. Rays, updates and views in processor
-// time of one thread, sweeps and the update of the trees with two threads in wall time.
-// usage: scan_bench [ROUNDS] [--quick] [--part rays,sets,sweeps,update,sky]
+// the update of the scene to a stamp; views of the sky; images of a camera. Rays, updates, views
+// and images in processor time of one thread, sweeps and the update of the trees with two threads
+// in wall time.
+// usage: scan_bench [ROUNDS] [--quick] [--part rays,sets,sweeps,update,sky,images]
 
 #include <cstdio>
 
@@ -15,6 +16,7 @@
 #include "reference/sensors/binary_scene.h"
 #include "scenes/sensors/grove_scene.h"
 #include "scenes/sensors/lidar_scene.h"
+#include "sensors/camera/camera.h"
 #include "sensors/sky_view.h"
 #include "sensors/sweep.h"
 #include "vegetation_sim/core/config/instruction_set.h"
@@ -167,6 +169,37 @@ void benchSky(const std::vector<View>& views, int rounds) {
   }
 }
 
+// The camera looks along x and a little down. A quick run takes fewer pixels.
+void benchImages(const std::vector<View>& views, const bench::Options& options) {
+  std::printf("\n%-22s %14s %14s %14s\n", "images, a pixel", "picture", "without shadow", "others");
+  ThreadPool one(1);
+  LensSettings lens;
+  lens.width = options.quick ? 64 : 320;
+  lens.height = 3 * lens.width / 4;
+  Camera shaded;
+  shaded.lens = lensOf(lens);
+  Camera open = shaded;
+  open.shadows = Shadows::NONE;
+  Pose pose;
+  pose.orientation = Quat{0.995, 0.0, 0.0998, 0.0} * Quat{0.5, -0.5, 0.5, -0.5};
+  for (const View& view : views) {
+    pose.position = view.sensor;
+    const auto take = [&](const char* name, const Camera& camera, const Wanted& wanted) {
+      return bench::Candidate{
+          name, [&, wanted] { takeImages(*view.scene, camera, pose, {}, wanted, one); }};
+    };
+    std::vector<bench::Candidate> candidates{
+        take("picture", shaded, {true, false, false, false}),
+        take("without shadow", open, {true, false, false, false}),
+        take("others", shaded, {false, true, true, true})};
+    bench::timeOnProcessor(candidates, std::min(options.rounds, 5));
+    std::printf("%-22s", view.name);
+    for (const bench::Candidate& c : candidates)
+      std::printf(" %11.0f ns", 1e9 * c.seconds / (lens.width * lens.height));
+    std::printf("\n");
+  }
+}
+
 /// All scenes of the bench.
 class Scenes {
  public:
@@ -246,6 +279,7 @@ void run(const bench::Options& options) {
   if (options.wants("update"))
     benchUpdate(scenes.forest(), scenes.lawn(), scenes.grove(), options.rounds);
   if (options.wants("sky")) benchSky(scenes.views(), options.rounds);
+  if (options.wants("images")) benchImages(scenes.views(), options);
 }
 
 }  // namespace
@@ -254,7 +288,7 @@ void run(const bench::Options& options) {
 int main(int argc, char** argv) {
   try {
     vegetation_sim::scan::run(vegetation_sim::bench::readOptions(
-        argc, argv, {"rays", "sets", "sweeps", "update", "sky"}));
+        argc, argv, {"rays", "sets", "sweeps", "update", "sky", "images"}));
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "scan_bench: %s\n", error.what());

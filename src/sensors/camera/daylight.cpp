@@ -49,7 +49,7 @@ Vec3 Daylight::ambient(double up, double sky) const {
 Vec3 Daylight::skyTowards(const Vec3& direction) const {
   const double up = std::max(direction.z(), 0.0);
   const Vec3 level(direction.x(), direction.y(), 0.0);
-  for (const std::uint32_t ridge : {0U, 1U})
+  for (std::uint32_t ridge = up < HILLS ? 0 : 2; ridge < 2; ++ridge)
     if (up <
         HILLS * (0.6 + 0.4 * ridge) * fractalNoise((3.0 + ridge) * level, 4, HILL_KEY + 8 * ridge))
       return ridge == 0 ? HILL : FAR_HILL;

@@ -202,8 +202,8 @@ Surface Surfaces::personAt(const Vec3& place, const Hit& hit) const {
 Surface Surfaces::groundAt(const Vec3& place, double open) const {
   const Vec3 flat(place.x(), place.y(), 0.0);
   const double broad = fractalNoise(flat / 9.0, 3, GROUND_KEY);
-  const double fine = fractalNoise(flat / 0.35, 4, GROUND_KEY + 10);
-  const double grain = fractalNoise(flat / 0.04, 3, GROUND_KEY + 20);
+  const double fine = fractalNoise(flat / 0.35, 3, GROUND_KEY + 10);
+  const double grain = fractalNoise(flat / 0.04, 2, GROUND_KEY + 20);
   Vec3 colour = blend(TURF, DRY_TURF, 2.0 * broad - 0.6 + 0.5 * (fine - 0.5));
   const Vec3 floor = blend(LITTER, MOSS, 3.0 * (broad - 0.45) + fine - 0.4);
   colour = blend(floor, colour, 1.6 * open - 0.4 + 0.8 * (fine - 0.5));

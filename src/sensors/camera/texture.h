@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cmath>
+#include <algorithm>
 #include <cstdint>
 
 #include "sensors/geometry/beer_lambert.h"
@@ -14,17 +14,29 @@ namespace vegetation_sim::scan {
 
 /// Returns a smooth random function of the place, 0 to 1, with features of one unit.
 inline double smoothNoise(const Vec3& place, std::uint32_t key) {
-  const Cell cell = cellAt(place, 1.0);
-  const auto weight = [](double x) { return x * x * (3.0 - 2.0 * x); };
-  const double u = weight(place.x() - cell.x), v = weight(place.y() - cell.y),
-               w = weight(place.z() - cell.z);
-  double out = 0.0;
-  for (int corner = 0; corner < 8; ++corner) {
-    const int x = corner & 1, y = corner >> 1 & 1, z = corner >> 2;
-    const double share = (x ? u : 1.0 - u) * (y ? v : 1.0 - v) * (z ? w : 1.0 - w);
-    if (share > 0.0) out += share * shareOf({cell.x + x, cell.y + y, cell.z + z}, key);
+  std::uint32_t low[3];
+  double weight[3];  // of the upper neighbour along each axis
+  for (int i = 0; i < 3; ++i) {
+    const double at = std::min(std::max(place[i], -1e9), 1e9);
+    const auto cell = static_cast<std::int32_t>(at);
+    const std::int32_t below = at < cell ? cell - 1 : cell;
+    const double part = at - below;
+    low[i] = static_cast<std::uint32_t>(below);
+    weight[i] = part * part * (3.0 - 2.0 * part);
   }
-  return out;
+  // The random number of a corner is that of shareOf().
+  double out = 0.0;
+  for (std::uint32_t x = 0; x < 2; ++x) {
+    const std::uint32_t of_x = mix32((low[0] + x) ^ key);
+    const double share_x = x ? weight[0] : 1.0 - weight[0];
+    for (std::uint32_t y = 0; y < 2; ++y) {
+      const std::uint32_t of_y = mix32(of_x + low[1] + y);
+      const double share = share_x * (y ? weight[1] : 1.0 - weight[1]);
+      out += share * (1.0 - weight[2]) * mix32(of_y + low[2]);
+      if (weight[2] > 0.0) out += share * weight[2] * mix32(of_y + low[2] + 1);
+    }
+  }
+  return out * (1.0 / 4294967296.0);
 }
 
 /// Returns the mean of octaves, each twice as fine and with half of the weight of the one before.
