@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <set>
 
+#include "core/math/growth_stage.h"
 #include "grass/map/map_layers.h"
 #include "vegetation_sim/core/math/hash.h"
 
@@ -78,6 +79,9 @@ void readSpecies(YamlSection& yaml, const std::string& folder, MapInput& input) 
     if (!entry.has("name")) entry.fault("name", "is missing");
     entry.text("name", species.species.name);
     describe(entry, species.species);
+    double stage = GROWN;
+    entry.number("stage", stage, "", {SEEDLING, GROWN});
+    species.species = applyStage(species.species, stage);
     readLayer(entry, MIX_RULE, folder, species.mix);
     entry.finish();
     input.species.push_back(std::move(species));

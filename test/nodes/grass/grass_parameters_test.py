@@ -35,6 +35,7 @@ SCENARIOS = [
     ('{grass: {density: {image: colour.png}}}', 'colour.png'),
     ('{grass: {density: {image: nowhere.png}}}', '/nowhere.png'),
     ('{grass: {resolution: 50, density: {value: 10000}}}', 'blades in a tile, allowed are fewer'),
+    ('{grass: {species: [{name: a, stage: 1.5}]}}', 'stage = 1.5 is outside 0 to 1'),
     ('{grass: {species: [{name: a}, {name: a}]}}', "species 'a' is defined twice"),
     ('{grass: {map: nowhere.yaml}}', '/nowhere.yaml: cannot be read'),
     ('{grass: {blade_model: rubber}}', "blade_model = 'rubber' is none of arc, paper"),

@@ -88,6 +88,22 @@ TEST(Species, TurnHoldsTheTrunkNearTheYawOfTheTree) {
             std::string::npos);
 }
 
+TEST(Species, ArmsOfTheVineFollowItsRow) {
+  const Species vine = shippedSpecies("vine");
+  for (std::uint64_t i = 0; i < 50; ++i) {
+    TreeSeed seed;
+    seed.seed = i;
+    seed.yaw = 0.9;
+    for (const Branch& b : grow(seed, vine).branches) {
+      if (b.depth != 1) continue;
+      const Vec3 along = axisZ(b.rest.orientation);
+      const double across = along.y() * std::cos(0.9) - along.x() * std::sin(0.9);
+      EXPECT_LT(std::fabs(across), 0.4);
+      EXPECT_LT(std::fabs(along.z()), 0.4);
+    }
+  }
+}
+
 TEST(Species, HashSeesTheTurn) {
   Species species = shippedSpecies("oak");
   const std::uint64_t before = hash(species);

@@ -25,6 +25,10 @@ struct Species {
 
 void describe(FieldVisitor& visitor, Species& species);
 
+/// Returns the species at a stage of growth from 0 (seedling) to 1 (as it is): height and width
+/// times the factors of growthFactors(), within the ranges. Flowers and ears come at 0.6.
+Species applyStage(const Species& species, double stage);
+
 constexpr int MAX_SPECIES = 8;  ///< largest number of species of a map
 
 }  // namespace vegetation_sim::grass
