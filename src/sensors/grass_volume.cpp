@@ -18,6 +18,7 @@ namespace {
 constexpr double MEAN_COSINE = 0.5;  // mean over blades of random orientation
 constexpr double BLADE_RISE = 0.05;  // height of the steps along a column [m]
 constexpr double STEEP = 0.9;        // vertical component from which a ray stays in a column
+constexpr int PATIENCE = 16;         // cells between two tests of a ray's height
 constexpr std::uint32_t BLADE_SEED = 0x626c6164U;
 
 int indexOf(double x, double origin, double resolution, int most) {
@@ -250,17 +251,22 @@ double GrassVolume::marchBlades(const Ray& ray, double from, Hit& nearest) const
   const bool steep = std::fabs(ray.direction.z()) > STEEP;
   Cell column = walk.cell();
   double spent = 0.0;  // optical depth in this column so far
+  int cells = 0;
   for (; from < std::min(nearest.distance, BLADES_REACH); walk.advance()) {
     const double start = from, to = std::min(walk.end(), nearest.distance);
     from = to;
     const Vec3 middle = ray.at(0.5 * (start + to));
-    const double height = above(middle);
-    if (height > tallest_) return start;
     if (walk.cell().x != column.x || walk.cell().y != column.y) spent = 0.0;
     column = {walk.cell().x, walk.cell().y, 0};
+    const double share = shareOf(column, key);
+    // Most cells need no look at the ground. Whether the ray has left the layer is tested at times.
+    if (!steep && ++cells % PATIENCE != 0 &&
+        !mayBeBelow(spent + bounds_.most(middle.x(), middle.y()) * (to - start), share))
+      continue;
+    const double height = above(middle);
+    if (height > tallest_) return start;
     const double bound = bounds_.at(middle.x(), middle.y(), height);
     if (bound <= 0.0) continue;
-    const double share = shareOf(column, key);
     if (!steep && !mayBeBelow(spent + bound * (to - start), share)) continue;
     const double here = extinctionAt(middle, height, ray.direction);
     const double left = depthAt(share) - spent;
