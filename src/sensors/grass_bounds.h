@@ -26,20 +26,23 @@ class GrassBounds {
   double at(double x, double y, double height) const {
     const std::size_t tile = tileAt(x, y);
     if (tile == NO_TILE) return 0.0;
-    const auto band = static_cast<int>(std::min(std::max(height * per_band_, 0.0), BANDS - 1.0));
-    const double still = double{still_[tile * BANDS + static_cast<std::size_t>(band)]};
-    return still * (trodden_[tile] != 0 && isTrodden(x, y) ? TRODDEN : double{bent_[tile]});
+    return stillAt(tile, height) *
+           (trodden_[tile] != 0 && isTrodden(x, y) ? TRODDEN : double{bent_[tile]});
   }
-  /// Returns a bound for all heights and the whole tile.
-  double most(double x, double y) const {
+  /// Returns a bound for the whole tile from a height on.
+  double from(double x, double y, double height) const {
     const std::size_t tile = tileAt(x, y);
     if (tile == NO_TILE) return 0.0;
-    return double{still_[tile * BANDS]} * (trodden_[tile] != 0 ? TRODDEN : double{bent_[tile]});
+    return stillAt(tile, height) * (trodden_[tile] != 0 ? TRODDEN : double{bent_[tile]});
   }
 
  private:
   static constexpr int BANDS = 16;
   static constexpr std::size_t NO_TILE = SIZE_MAX;
+  double stillAt(std::size_t tile, double height) const {
+    const auto band = static_cast<int>(std::min(std::max(height * per_band_, 0.0), BANDS - 1.0));
+    return double{still_[tile * BANDS + static_cast<std::size_t>(band)]};
+  }
   std::size_t tileAt(double x, double y) const {
     // The division is that of FeatureMap::at(), so that the tile is the same.
     const double u = (x - origin_x_) / tile_, v = (y - origin_y_) / tile_;
