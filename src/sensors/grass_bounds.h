@@ -29,12 +29,9 @@ class GrassBounds {
     return stillAt(tile, height) *
            (trodden_[tile] != 0 && isTrodden(x, y) ? TRODDEN : double{bent_[tile]});
   }
-  /// Returns a bound for the whole tile from a height on.
-  double from(double x, double y, double height) const {
-    const std::size_t tile = tileAt(x, y);
-    if (tile == NO_TILE) return 0.0;
-    return stillAt(tile, height) * (trodden_[tile] != 0 ? TRODDEN : double{bent_[tile]});
-  }
+  /// Returns the edge of squares within which at() varies with the height alone, or is that of a
+  /// corner: the largest one at the corners of a smaller box bounds all of it.
+  double edge() const { return std::min(tile_, grass::TreadBlock::SIDE * spacing_); }
 
  private:
   static constexpr int BANDS = 16;

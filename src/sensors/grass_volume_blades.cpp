@@ -17,22 +17,22 @@ constexpr std::uint32_t BLADE_SEED = 0x626c6164U;
 
 }  // namespace
 
-// Returns an upper bound of the extinction along a part of a ray that is shorter than a tile, or -1
-// if that part is above the layer.
+// Returns an upper bound of the extinction along a part of a ray that is shorter than the edge of
+// the bounds, or -1 if that part is above the layer.
 double GrassVolume::boundWithin(const Ray& ray, double from, double to) const {
   const Vec3 a = ray.at(from), b = ray.at(to);
   const double lowest = std::min(above(a), above(b)) - 0.5 * terrain_->steepest() * (to - from);
   if (lowest > tallest_) return -1.0;
   double out = 0.0;
   for (const double x : {a.x(), b.x()})
-    for (const double y : {a.y(), b.y()}) out = std::max(out, bounds_.from(x, y, lowest));
+    for (const double y : {a.y(), b.y()}) out = std::max(out, bounds_.at(x, y, lowest));
   return out;
 }
 
 // Steps without grass are left out. Returns the distance at which the ray leaves the layer, hits a
 // blade or has come as far as there are columns.
 double GrassVolume::marchBlades(const Ray& ray, double from, Hit& nearest) const {
-  const double size = std::min(BLADE_STRETCH, 0.9 * layout_.map->law().resolution);
+  const double size = std::min(BLADE_STRETCH, 0.9 * bounds_.edge());
   ColumnWalk columns(ray, BLADE_CELL, BLADE_RISE,
                      static_cast<std::uint32_t>(layout_.seed) ^ BLADE_SEED);
   while (from < std::min(nearest.distance, BLADES_REACH)) {
@@ -61,7 +61,10 @@ double GrassVolume::meetColumns(ColumnWalk& columns, double to, double bound, Hi
     if (!steep && !mayBeBelow(columns.spent() + bound * step.length(), share)) continue;
     const Vec3 middle = ray.at(0.5 * (step.from + step.to));
     const double height = above(middle);
-    if (height > tallest_) continue;
+    if (!steep &&
+        !mayBeBelow(columns.spent() + bounds_.at(middle.x(), middle.y(), height) * step.length(),
+                    share))
+      continue;
     const double here = extinctionAt(middle, height, ray.direction);
     const double left = depthAt(share) - columns.spent();
     columns.spend(here * step.length());
