@@ -24,18 +24,28 @@ class GrassBounds {
   /// Returns a bound for rays of any direction at a place of the world and a height above the
   /// ground [1/m]; 0 where there is no grass.
   double at(double x, double y, double height) const {
-    // The division is that of FeatureMap::at(), so that the tile is the same.
-    const double u = (x - origin_x_) / tile_, v = (y - origin_y_) / tile_;
-    if (!(u >= 0.0 && v >= 0.0 && u < columns_ && v < rows_)) return 0.0;
-    const auto tile =
-        static_cast<std::size_t>(static_cast<int>(v) * columns_ + static_cast<int>(u));
-    const auto band = static_cast<int>(std::min(std::max(height * per_band_, 0.0), BANDS - 1.0));
-    const double still = double{still_[tile * BANDS + static_cast<std::size_t>(band)]};
-    return still * (trodden_[tile] != 0 && isTrodden(x, y) ? TRODDEN : double{bent_[tile]});
+    const std::size_t tile = tileAt(x, y);
+    if (tile == NO_TILE) return 0.0;
+    return stillAt(tile, height) *
+           (trodden_[tile] != 0 && isTrodden(x, y) ? TRODDEN : double{bent_[tile]});
   }
+  /// Returns the edge of squares within which at() varies with the height alone, or is that of a
+  /// corner: the largest one at the corners of a smaller box bounds all of it.
+  double edge() const { return std::min(tile_, grass::TreadBlock::SIDE * spacing_); }
 
  private:
   static constexpr int BANDS = 16;
+  static constexpr std::size_t NO_TILE = SIZE_MAX;
+  double stillAt(std::size_t tile, double height) const {
+    const auto band = static_cast<int>(std::min(std::max(height * per_band_, 0.0), BANDS - 1.0));
+    return double{still_[tile * BANDS + static_cast<std::size_t>(band)]};
+  }
+  std::size_t tileAt(double x, double y) const {
+    // The division is that of FeatureMap::at(), so that the tile is the same.
+    const double u = (x - origin_x_) / tile_, v = (y - origin_y_) / tile_;
+    if (!(u >= 0.0 && v >= 0.0 && u < columns_ && v < rows_)) return NO_TILE;
+    return static_cast<std::size_t>(static_cast<int>(v) * columns_ + static_cast<int>(u));
+  }
   /// Factor for blades that lie as flat as they can: at grass::BEND_LIMIT their height is at least
   /// r = 0.0707 of their length, and the factor at most sqrt(1/r^2 - 1).
   static constexpr double TRODDEN = 14.2;

@@ -9,16 +9,12 @@
 #include "sensors/blade_width.h"
 #include "sensors/geometry/beer_lambert.h"
 #include "sensors/geometry/box.h"
+#include "sensors/geometry/cell_walk.h"
 #include "terrain/ground_ray.h"
 #include "vegetation_sim/core/math/math.h"
 
 namespace vegetation_sim::scan {
 namespace {
-
-constexpr double MEAN_COSINE = 0.5;  // mean over blades of random orientation
-constexpr double BLADE_RISE = 0.05;  // height of the steps along a column [m]
-constexpr double STEEP = 0.9;        // vertical component from which a ray stays in a column
-constexpr std::uint32_t BLADE_SEED = 0x626c6164U;
 
 int indexOf(double x, double origin, double resolution, int most) {
   return static_cast<int>(std::clamp(std::floor((x - origin) / resolution), 0.0, double(most)));
@@ -35,38 +31,6 @@ grass::TileWindow windowAround(const grass::FeatureMap& map, const Vec3& centre,
   return {column(centre.x() - radius), column(centre.x() + radius), row(centre.y() - radius),
           row(centre.y() + radius)};
 }
-
-/// Steps a ray through a grid of cells.
-class Walk {
- public:
-  /// @param size edge of the cells across, @param rise their height [m].
-  Walk(const Ray& ray, double from, double size, double rise) : cell_(cellAt(ray.at(from), size)) {
-    const Vec3 place = ray.at(from);
-    cell_.z = cellAt(place, rise).z;
-    const std::int32_t index[3] = {cell_.x, cell_.y, cell_.z};
-    for (int i = 0; i < 3; ++i) {
-      if (i == 2) size = rise;
-      step_[i] = std::fabs(size * ray.inverse[i]);
-      const double edge = size * (index[i] + (ray.direction[i] > 0.0 ? 1 : 0));
-      next_[i] = ray.direction[i] == 0.0 ? Box::ENDLESS : from + (edge - place[i]) * ray.inverse[i];
-      way_[i] = ray.direction[i] > 0.0 ? 1 : -1;
-    }
-  }
-  const Cell& cell() const { return cell_; }
-  /// Returns the distance at which the ray leaves the cell.
-  double end() const { return std::min({next_[0], next_[1], next_[2]}); }
-  void advance() {
-    const int axis =
-        next_[0] <= next_[1] ? (next_[0] <= next_[2] ? 0 : 2) : (next_[1] <= next_[2] ? 1 : 2);
-    next_[axis] += step_[axis];
-    (axis == 0 ? cell_.x : axis == 1 ? cell_.y : cell_.z) += way_[axis];
-  }
-
- private:
-  Cell cell_;
-  double next_[3], step_[3];
-  std::int32_t way_[3];
-};
 
 }  // namespace
 
@@ -221,7 +185,7 @@ void GrassVolume::addDepth(const Ray& ray, LightPath& path) const {
 // Returns the distance at which the ray leaves the layer or hits a blade.
 template <bool LIKELY>
 double GrassVolume::march(const Ray& ray, double from, Hit& nearest) const {
-  Walk walk(ray, from, GRASS_CELL, GRASS_CELL);
+  CellWalk walk(ray, from, GRASS_CELL, GRASS_CELL);
   const auto key = static_cast<std::uint32_t>(layout_.seed);
   for (; from < nearest.distance; walk.advance()) {
     const double start = from, to = std::min(walk.end(), nearest.distance);
@@ -236,37 +200,7 @@ double GrassVolume::march(const Ray& ray, double from, Hit& nearest) const {
     const double here = extinctionAt(middle, height, ray.direction);
     const double way = here > 0.0 ? depthAt(share) / here : Box::ENDLESS;
     if (!(start + way < to)) continue;
-    nearest = {start + way, Label::GRASS, 0, -1, MEAN_COSINE};
-    return nearest.distance;
-  }
-  return from;
-}
-
-// A column stops a ray at the optical depth of its random number, summed over the steps within it.
-// Extinction falls with the height, so that a column ends like a blade.
-double GrassVolume::marchBlades(const Ray& ray, double from, Hit& nearest) const {
-  Walk walk(ray, from, BLADE_CELL, BLADE_RISE);
-  const std::uint32_t key = static_cast<std::uint32_t>(layout_.seed) ^ BLADE_SEED;
-  const bool steep = std::fabs(ray.direction.z()) > STEEP;
-  Cell column = walk.cell();
-  double spent = 0.0;  // optical depth in this column so far
-  for (; from < std::min(nearest.distance, BLADES_REACH); walk.advance()) {
-    const double start = from, to = std::min(walk.end(), nearest.distance);
-    from = to;
-    const Vec3 middle = ray.at(0.5 * (start + to));
-    const double height = above(middle);
-    if (height > tallest_) return start;
-    if (walk.cell().x != column.x || walk.cell().y != column.y) spent = 0.0;
-    column = {walk.cell().x, walk.cell().y, 0};
-    const double bound = bounds_.at(middle.x(), middle.y(), height);
-    if (bound <= 0.0) continue;
-    const double share = shareOf(column, key);
-    if (!steep && !mayBeBelow(spent + bound * (to - start), share)) continue;
-    const double here = extinctionAt(middle, height, ray.direction);
-    const double left = depthAt(share) - spent;
-    spent += here * (to - start);
-    if (!(left < here * (to - start))) continue;
-    nearest = {start + std::max(left, 0.0) / here, Label::GRASS, 0, -1, MEAN_COSINE};
+    nearest = {start + way, Label::GRASS, 0, -1, BLADE_COSINE};
     return nearest.distance;
   }
   return from;
@@ -274,7 +208,7 @@ double GrassVolume::marchBlades(const Ray& ray, double from, Hit& nearest) const
 
 // Returns the distance at which the light leaves the layer or ends.
 double GrassVolume::marchLight(const Ray& ray, double from, LightPath& path) const {
-  Walk walk(ray, from, GRASS_CELL, GRASS_CELL);
+  CellWalk walk(ray, from, GRASS_CELL, GRASS_CELL);
   for (; from < path.end().distance; walk.advance()) {
     const double start = from, to = std::min(walk.end(), path.end().distance);
     from = to;

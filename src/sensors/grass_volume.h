@@ -14,6 +14,8 @@
 
 namespace vegetation_sim::scan {
 
+class ColumnWalk;
+
 /// What of the medium has one random number: cubes, or upright columns as wide as a blade, of which
 /// a picture shows single blades. Rays meet it equally often.
 enum class GrassGrain { CUBES, BLADES };
@@ -66,7 +68,9 @@ class GrassVolume {
   void visitLayer(const Ray& ray, const Hit& end, March&& march) const;
   template <bool LIKELY>
   double march(const Ray& ray, double from, Hit& nearest) const;
+  double boundWithin(const Ray& ray, double from, double to) const;
   double marchBlades(const Ray& ray, double from, Hit& nearest) const;
+  double meetColumns(ColumnWalk& columns, double to, double bound, Hit& nearest) const;
   double marchLight(const Ray& ray, double from, LightPath& path) const;
 
   grass::Layout layout_;
@@ -82,6 +86,8 @@ class GrassVolume {
   Nanoseconds stamp_{0};
 };
 
+/// Mean cosine between a ray and the normals of blades of random orientation.
+constexpr double BLADE_COSINE = 0.5;
 /// Edge of the cells of the grass [m].
 constexpr double GRASS_CELL = 0.05;
 /// Width of a column [m], and distance up to which there are columns [m].
