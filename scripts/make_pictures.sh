@@ -22,6 +22,7 @@ demo         | demo         | 14 |
 forest       | forest       | 8  | View=Among
 grab_levels  | grab         | 9  |
 push         | push         | 9  | Forest/Leaves=true;Forest/Colour by Level=false
+hedge        | hedge        | 9  |
 meadow_robot | meadow_robot | 20 |
 crowd        | crowd        | 12 |
 grove        | grove        | 8  |

@@ -122,7 +122,7 @@ class Step {
     const Quat back = conjugate(posed.pose.orientation);
     const Vec3 start = rotate(back, Vec3(foot_ - posed.pose.position));
     const Vec3 along = rotate(back, direction_.along);
-    const double room = posed.shape.radius + 0.5 * fibres_.edge();
+    const double half = 0.5 * fibres_.edge(), room = posed.shape.radius + half;
     double low = 0.0, high = fibres_.length;
     for (int i = 0; i < 3; ++i) clip(start[i], along[i], posed.shape.half[i] + room, low, high);
     if (!(high > low)) return;
@@ -133,10 +133,12 @@ class Step {
       out.height = low + (i + 0.5) * piece;
       Vec3 normal;
       const Vec3 place = start + out.height * along;
-      out.depth = 0.5 * fibres_.edge() - physics::signedDistance(posed.shape, place, normal);
+      const double distance = physics::signedDistance(posed.shape, place, normal);
+      out.normal = rotate(posed.pose.orientation, normal);
+      // Fibres fill the cell, but do not reach beyond it upwards or downwards.
+      out.depth = half * Flat{out.normal.x(), out.normal.y()}.size() - distance;
       if (!(out.depth > 0.0)) continue;
       out.place = foot_ + out.height * direction_.along;
-      out.normal = rotate(posed.pose.orientation, normal);
       out.width = piece / fibres_.edge();
       out.velocity = posed.velocity + cross(posed.spin, Vec3(out.place - posed.pose.position));
       out.pull = direction_.into(out.normal);

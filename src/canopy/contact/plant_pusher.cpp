@@ -40,8 +40,9 @@ std::vector<PosedBody> poseAll(const std::vector<const forest::Body*>& bodies, N
   return out;
 }
 
+// No plant is farther than 1000 km from the origin; a body may be anywhere.
 int squareOf(double coordinate) {
-  return static_cast<int>(std::floor(coordinate / SQUARE));
+  return static_cast<int>(std::floor(std::clamp(coordinate, -1e8, 1e8) / SQUARE));
 }
 
 bool allRest(const std::vector<Cluster>& clusters) {
@@ -77,13 +78,15 @@ std::vector<std::uint32_t> PlantPusher::plantsNear(const PushState& state, const
   std::vector<std::uint32_t> out;
   const Vec3 at = poseAt(body, to).position;
   const double range = shapeOf(body).reach() + wayOf(body, secondsBetween(from, to)) + largest_;
-  for (int i = squareOf(at.x() - range); i <= squareOf(at.x() + range); ++i)
-    for (int j = squareOf(at.y() - range); j <= squareOf(at.y() + range); ++j) {
-      const auto square = squares_.find({i, j});
-      if (square == squares_.end()) continue;
-      for (const std::uint32_t id : square->second)
-        if (!state.plants.count(id) && canReach(id, false, body, from, to)) out.push_back(id);
-    }
+  const Square low{squareOf(at.x() - range), squareOf(at.y() - range)};
+  const Square high{squareOf(at.x() + range), squareOf(at.y() + range)};
+  // The squares are ordered by x. A body of any speed costs no more than all squares with plants.
+  for (auto square = squares_.lower_bound(low); square != squares_.end(); ++square) {
+    if (square->first.first > high.first) break;
+    if (square->first.second < low.second || square->first.second > high.second) continue;
+    for (const std::uint32_t id : square->second)
+      if (!state.plants.count(id) && canReach(id, false, body, from, to)) out.push_back(id);
+  }
   for (const auto& plant : state.plants)
     if (canReach(plant.first, true, body, from, to)) out.push_back(plant.first);
   return out;

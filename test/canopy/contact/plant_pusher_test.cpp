@@ -154,6 +154,19 @@ TEST(PlantPusher, ForceAndTorqueBelongToOnePoint) {
   EXPECT_LT(length(forces[0].torque), 0.5 * length(forces[0].force));
 }
 
+// A stamp long ago, or a gap between ticks, makes the range of a body as large as the Earth.
+TEST(PlantPusher, ABodyOfAnySpeedAndStampCostsNoMoreThanAllPlants) {
+  Row row;
+  PlantPusher pusher(row.kinds, row.plants);
+  forest::Body body = boxAt(Vec3(-50.0, 0.0, 0.4), Vec3(100.0, 0.0, 0.0), 0);
+  body.size = Vec3(50.0, 50.0, 50.0);
+  body.spin = Vec3(0.0, 0.0, 100.0);
+  row.state.bodies["robot"] = body;
+  for (const PushForce& force :
+       pusher.advance(row.state, START, START + 10 * NANOSECONDS_PER_SECOND))
+    EXPECT_TRUE(std::isfinite(length(force.force)));
+}
+
 // More than MOST_CLUSTERS cells do not lean at once.
 TEST(PlantPusher, TheNumberOfCellsThatLeanIsBounded) {
   Row row;

@@ -25,6 +25,7 @@ canopy::Layout randomLayout(Draw& draw) {
   canopy::Layout out = plain;
   RandomFields fields(draw, 2.0, 0.2);
   describe(fields, out.motion);
+  describe(fields, out.kinds[0].push);
   out.motion.fluid.cells = draw.chance(0.2) ? 32 : 16;
   Faults faults;
   check(out, faults);
@@ -39,7 +40,8 @@ class RandomCanopy final : public Simulation {
   }
 
   void setWind(const wind::Field& wind) override { canopy_.setWind(wind); }
-  void act(Draw& draw, Nanoseconds) override {
+  void act(Draw& draw, Nanoseconds stamp) override {
+    if (draw.chance(0.5)) return push(draw, stamp);
     if (draw.chance(0.3)) return canopy_.setViewer(std::nullopt);
     canopy_.setViewer(canopy::CutView{draw.point(9.0), Quat{1.0, 0.0, 0.0, 0.0}});
   }
@@ -54,6 +56,11 @@ class RandomCanopy final : public Simulation {
     for (int layer = 0; layer < foliage.layers(); ++layer)
       for (const float speed : foliage.sheet(layer))
         requireWithin(double{speed}, FASTEST_LEAF, "motion of a layer [m/s]");
+    for (const canopy::PushForce& force : canopy_.pushForces())
+      requireWithin(length(force.force), 1e9, "force of a plant [N]");
+    for (const auto& entry : canopy_.snapshot().push.plants)
+      for (const canopy::Cluster& cluster : entry.second)
+        requireWithin(cluster.lean.size(), canopy::LARGEST_LEAN + 1e-9, "lean [rad]");
     const bool comparable = !lost_ && replica_.exact();
     for (const canopy::Leaf& leaf : leaves_) {
       const Vec3 tip = foliage.move(leaf, 0).tip;
@@ -65,6 +72,20 @@ class RandomCanopy final : public Simulation {
   std::uint64_t hash() const override { return canopy_.snapshot().hash(); }
 
  private:
+  void push(Draw& draw, Nanoseconds stamp) {
+    if (draw.chance(0.2) && canopy_.bodies().count("body") > 0) return canopy_.removeBody("body");
+    forest::Body body;
+    body.id = "body";
+    body.shape = static_cast<forest::Shape>(draw.below(3));
+    body.size = Vec3(draw.between(0.05, 1.0), draw.between(0.05, 1.0), draw.between(0.05, 1.0));
+    body.pose.position =
+        Vec3(draw.between(-1.0, 5.0), draw.between(-1.0, 1.0), draw.between(0.0, 2.0));
+    body.velocity = draw.point(5.0);
+    body.spin = draw.point(2.0);
+    body.stamp = stamp;
+    canopy_.setBody(body);
+  }
+
   canopy::Canopy canopy_;
   canopy::Replica replica_;
   std::vector<canopy::Leaf> leaves_;

@@ -16,6 +16,7 @@
 #include "nodes/forest/forest_inputs.h"
 #include "nodes/grass/grass_events.h"
 #include "ros/conversions/crowd_conversions.h"
+#include "ros/conversions/grab_conversions.h"
 #include "scenes/crowd/crowd_scenes.h"
 #include "scenes/forest/forest_fixture.h"
 #include "vegetation_sim/canopy/canopy.h"
@@ -296,6 +297,11 @@ class CanopyRig {
     canopy_.advance(stamp);
     const canopy::Foliage& foliage = canopy_.foliage();
     if (foliage.layers() > 0) requireFinite(foliage.sheet(0), "motion of a layer");
+    requireFinite(foliage.bend(Vec3(0.1, 0.2, 1.0), 0), "bent stem");
+    for (const canopy::PushForce& force : canopy_.pushForces()) {
+      requireFinite(force.force, "force on a body");
+      requireFinite(force.torque, "torque on a body");
+    }
   }
   void apply(const CanopyEvent& event, Nanoseconds) {
     switch (event.kind) {
@@ -306,6 +312,12 @@ class CanopyRig {
       case CanopyEvent::SETTINGS:
         canopy_.setMotion(withTuning(canopy_.layout().motion,
                                      fromNamedValues<CanopyTuning>({event.names, event.values})));
+        break;
+      case CanopyEvent::BODY:
+        canopy_.setBody(fromMsg(event.body));
+        break;
+      case CanopyEvent::REMOVE_BODY:
+        canopy_.removeBody(event.body.id);
         break;
       default:
         canopy_.reset();
@@ -334,12 +346,30 @@ void runCanopyEvents(std::string_view input) {
   play<CanopyEvent>(input, rig);
 }
 
+// A box drives through the shrub.
+std::string pushing() {
+  CanopyEvent event;
+  event.body.id = event.body.frame = "hull";
+  event.body.shape = ForestBody::BOX;
+  event.body.size.x = event.body.size.y = event.body.size.z = 0.5;
+  event.body.pose.orientation.w = event.body.offset.orientation.w = 1.0;
+  event.body.pose.position.z = 0.5;
+  event.body.twist.linear.x = 1.0;
+  std::string out;
+  for (int i = 0; i < 6; ++i) {
+    event.body.pose.position.x = 0.3 * i - 1.4;
+    event.body.stamp = toStamp(START + i * NANOSECONDS_PER_SECOND / 60);
+    out += eventPiece(event, CanopyEvent::BODY);
+  }
+  return out + eventPiece(event, CanopyEvent::REMOVE_BODY);
+}
+
 std::vector<std::string> canopySeeds() {
   CanopyEvent event;
   event.eye.orientation.w = 1.0;
   event.eye.position.x = -5.0;
   return {settingsPiece<CanopyEvent>(CanopyTuning()), eventPiece(event, CanopyEvent::VIEWER),
-          eventPiece(event, CanopyEvent::RESET)};
+          eventPiece(event, CanopyEvent::RESET), pushing()};
 }
 
 }  // namespace

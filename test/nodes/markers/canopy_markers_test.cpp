@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "vegetation_sim/canopy/canopy.h"
 
 namespace vegetation_sim {
@@ -67,6 +69,41 @@ TEST(CanopyMarkers, LimitOfPointsThinsPlantsBeforeAnyIsLeftOut) {
   EXPECT_GT(poor.wanted, 0.9 * free);  // The shares of leaves differ.
   EXPECT_GT(poor.held_back, 0u);
   EXPECT_EQ(poor.counts[0], 0u);
+}
+
+// Leaves and stems lean with what a body has pushed, and stand again without it.
+TEST(CanopyMarkers, PlantsLeanAwayFromABody) {
+  Row row(2);
+  canopy::Canopy canopy(row.layout);
+  CanopyMarkers markers(canopy, row.crowns, row.forest, 20000, 1.0);
+  Nanoseconds now = NANOSECONDS_PER_SECOND;
+  const auto advance = [&](int ticks) {
+    for (int i = 0; i < ticks; ++i) canopy.advance(now += NANOSECONDS_PER_SECOND / 10);
+    markers.build({row.viewer}, now);
+    return markers.lists().message("map").markers;
+  };
+  const auto upright = advance(1);
+  forest::Body ball;
+  ball.id = "ball";
+  ball.size.x() = 0.5;
+  ball.pose.position = Vec3(3.6, 0.1, 0.9);
+  ball.stamp = now;
+  canopy.setBody(ball);
+  const auto pushed = advance(20);
+  for (const std::size_t list : {0, 1}) {
+    ASSERT_EQ(pushed[list].points.size(), upright[list].points.size());
+    double most = 0.0, other = 0.0;
+    for (std::size_t i = 0; i < pushed[list].points.size(); ++i) {
+      const geometry_msgs::Point &here = upright[list].points[i], &there = pushed[list].points[i];
+      double& largest = here.x > 6.0 ? other : most;
+      largest = std::max(largest, there.x - here.x);
+    }
+    EXPECT_GT(most, 0.1) << list;
+    EXPECT_EQ(other, 0.0) << list;  // of the second shrub
+  }
+  canopy.removeBody("ball");
+  const auto again = advance(300);
+  for (const std::size_t list : {0, 1}) EXPECT_EQ(again[list].points, upright[list].points);
 }
 
 // Faces of a mesh that never move are stems and do not count as leaves.

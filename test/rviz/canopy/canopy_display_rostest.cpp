@@ -63,6 +63,22 @@ class CanopyRig : public DisplayRig {
     out.header.frame_id = "map";
     return out;
   }
+  /// Publishes a state in which bodies have pushed all plants to the left and to the right.
+  void pushApart() {
+    CanopyState state = message();
+    for (const canopy::Plant& plant : canopy_->layout().plants) {
+      const auto id = static_cast<std::uint32_t>(&plant - canopy_->layout().plants.data());
+      const auto lean = static_cast<std::int16_t>(id % 2 == 0 ? -20000 : 20000);
+      const canopy::Fibres fibres = canopy::fibresOf(canopy_->layout().kinds[plant.kind], plant);
+      for (std::size_t cell = 0; cell < fibres.cells(); ++cell) {
+        state.bent_plants.push_back(id);
+        state.bent_cells.push_back(static_cast<std::uint16_t>(cell));
+        state.lean_x.push_back(0);
+        state.lean_y.push_back(lean);
+      }
+    }
+    publish(state);
+  }
   void publish(const CanopyLayout& message) { layout_.publish(message); }
   void publish(const CanopyState& message) { state_.publish(message); }
 
@@ -115,6 +131,25 @@ TEST_F(CanopyDisplayTest, MovesWithTheStateAlone) {
   EXPECT_EQ(rig.picture(), before);
   rig.blow(60);
   EXPECT_TRUE(rig.until([&] { return difference(before, rig.picture()) > 0.3; }));
+}
+
+// Leaves and stems lean with what bodies have pushed, and stand again.
+TEST_F(CanopyDisplayTest, BendsWhatBodiesPush) {
+  canopy::Layout bare = CanopyRig::shrubs(4);
+  bare.kinds[0].leaves = bare.kinds[1].leaves = 1;
+  bare.kinds[0].stems = bare.kinds[1].stems = 40;
+  bare.kinds[0].stem_radius = 0.03;
+  for (const canopy::Layout& layout : {CanopyRig::shrubs(4), bare}) {
+    rig.plant(layout);
+    rig.blow(1);
+    ASSERT_TRUE(rig.until([&] { return display->drawn().leaves == layout.leafCount(); }));
+    rig.frames(10);
+    const std::vector<std::uint8_t> upright = rig.picture();
+    rig.pushApart();
+    EXPECT_TRUE(rig.until([&] { return difference(upright, rig.picture()) > 1.0; }));
+    rig.publish(rig.message());
+    EXPECT_TRUE(rig.until([&] { return rig.picture() == upright; }));
+  }
 }
 
 // S3-W2: leaves on trees of the forest, in layers where no plant stands, move with their wood at

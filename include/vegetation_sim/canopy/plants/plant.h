@@ -38,14 +38,14 @@ constexpr double TRUNK_SHARE = 0.35;
 /// How a kind answers bodies. Forces are those per area of ground or per volume of overlap, so that
 /// neither cells nor leaves matter.
 struct PushLaw {
-  double stiffness{100.0};   ///< force on the tops over their displacement and ground area [N/m^3]
-  double frequency{1.5};     ///< of the free swing back [Hz]
-  double damping{0.4};       ///< share of the critical damping
-  double set{0.0};           ///< share of the largest lean that remains
-  double recovery{60.0};     ///< time constant in which it disappears [s]
-  double pressure{10000.0};  ///< pressure per depth of the overlap [N/m^3]
-  double drag{2000.0};       ///< force per volume of the overlap and relative speed [N s/m^4]
-  double cell{0.25};         ///< wanted edge of cells that lean alike [m]
+  double stiffness{50.0};   ///< force on the tops over their displacement and ground area [N/m^3]
+  double frequency{1.5};    ///< of the free swing back [Hz]
+  double damping{0.4};      ///< share of the critical damping
+  double set{0.0};          ///< share of the largest lean that remains
+  double recovery{60.0};    ///< time constant in which it disappears [s]
+  double pressure{5000.0};  ///< pressure per depth of the overlap [N/m^3]
+  double drag{1000.0};      ///< force per volume of the overlap and relative speed [N s/m^4]
+  double cell{0.25};        ///< wanted edge of cells that lean alike [m]
 };
 void describe(FieldVisitor& visitor, PushLaw& law);
 
