@@ -27,9 +27,6 @@ meadow_robot | meadow_robot | 20 |
 crowd        | crowd        | 12 |
 grove        | grove        | 8  |
 reef         | reef         | 8  |
-vineyard     | vineyard     | 8  |
-orchard      | orchard      | 8  |
-maize        | maize        | 8  |
 scan         | crowd        | 12 |
 other_robot  | crowd        | 14 | Robot/Robot Description=scout/robot_description;Robot/TF Prefix=scout;Forces/Enabled=true;View/Distance=7;View/Yaw=3.9;View/Pitch=0.22;View/Focal Point={X: 0, Y: 0.5, Z: 0.9}
 END
