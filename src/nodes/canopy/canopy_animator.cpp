@@ -107,7 +107,6 @@ void CanopyAnimator::restart() {
   canopy_.setViewer(std::nullopt);
   viewer_.reset();
   bodies_.clear();
-  crowd_.forgetLater(lastStamp());
   begun_ = false;
   publishLayout();
 }

@@ -3,6 +3,7 @@
 #include "nodes/canopy/pushing_bodies.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "forest/contact/contact_body.h"
@@ -46,7 +47,7 @@ std::vector<BodyChange> changesOfWalkers(const canopy::Canopy& canopy, const Sub
   const forest::Bodies& known = canopy.bodies();
   std::size_t count = known.size();
   left_out = 0;
-  if (secondsBetween(crowd.stamp(), now) <= STALE_BODY)
+  if (std::fabs(secondsBetween(crowd.stamp(), now)) <= STALE_BODY)
     for (const SubscribedCrowd::Person& person : crowd.people()) {
       const forest::Body body = bodyOf(person, crowd.stamp());
       if (!canopy.isNear(body)) continue;

@@ -20,8 +20,8 @@ constexpr const char* WALKER_PREFIX = "walker_";
 forest::Body bodyOf(const SubscribedCrowd::Person& person, Nanoseconds stamp);
 
 /// Returns how the walkers near plants differ from those known. @param now time of the tick; a
-/// message that is older than STALE_BODY counts as none. @param left_out number of walkers beyond
-/// the limit of bodies.
+/// message whose stamp differs from it by more than STALE_BODY counts as none. @param left_out
+/// number of walkers beyond the limit of bodies.
 std::vector<BodyChange> changesOfWalkers(const canopy::Canopy& canopy, const SubscribedCrowd& crowd,
                                          Nanoseconds now, std::size_t& left_out);
 
