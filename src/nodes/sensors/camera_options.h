@@ -13,6 +13,8 @@ namespace vegetation_sim {
 
 /// Parameters of vegetation_camera; see docs/reference.md.
 struct CameraOptions : SensorOptions {
+  CameraOptions() { rate = 5; }
+
   /// tf frame of the camera (REP 103): x right, y down, z forward.
   std::string camera_frame{"camera_optical_frame"};
   std::string camera_info_url;  ///< calibration of the lens; empty: `lens`

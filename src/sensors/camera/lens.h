@@ -23,15 +23,15 @@ struct Distortion {
 /// A pinhole with distortion (Brown 1966), in the optical frame of REP 103: x right, y down, z
 /// forward.
 struct Lens {
-  int width{640}, height{480};  ///< of the image [pixel]
+  int width{320}, height{240};  ///< of the image [pixel]
   double fx{1.0}, fy{1.0};      ///< focal lengths [pixel]
-  double cx{319.5}, cy{239.5};  ///< principal point [pixel]
+  double cx{159.5}, cy{119.5};  ///< principal point [pixel]
   Distortion distortion;
 };
 
 /// A lens as parameters describe it: square pixels, and the principal point in the middle.
 struct LensSettings {
-  int width{640}, height{480};  ///< of the image [pixel]
+  int width{320}, height{240};  ///< of the image [pixel]
   double field_of_view{1.2};    ///< horizontal, from edge to edge without distortion [rad]
   Distortion distortion;
 };
