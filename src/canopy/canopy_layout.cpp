@@ -16,14 +16,12 @@ std::string numbered(const char* name, std::size_t index) {
 
 // Layouts without these keys keep the hashes that they had before there were any.
 void addPushLaw(PushLaw law, Hash& hash) {
-  const auto hashOf = [](PushLaw other) {
-    Hash out;
-    FieldHasher hasher(out);
-    describe(hasher, other);
-    return out.value();
-  };
-  const std::uint64_t own = hashOf(law);
-  if (own != hashOf(PushLaw())) hash.add(own);
+  PushLaw none;
+  Hash own, without;
+  FieldHasher hasher(own), other(without);
+  describe(hasher, law);
+  describe(other, none);
+  if (own.value() != without.value()) hash.add(own.value());
 }
 
 void checkPlants(const Layout& layout, Faults& faults) {

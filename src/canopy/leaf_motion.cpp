@@ -148,7 +148,7 @@ Vec3 Foliage::displacementIn(const Cut& cut, const Vec3& anchor, const Vec3& poi
 }
 
 Vec3 Foliage::displacement(const Vec3& anchor, const Vec3& point, std::size_t plant) const {
-  const Vec3 out = sway(anchor, point, plant);
+  Vec3 out = sway(anchor, point, plant);
   const auto bent = bent_.find(plant);
   if (bent == bent_.end()) return out;
   return turnAt(bent->second, anchor).of(point + out) - point;
@@ -173,7 +173,7 @@ Vec3 Foliage::freeDisplacement(const Vec3& anchor, const Vec3& point, double lim
 
 // A leaf turns with the fibre of its anchor, so that it keeps its shape.
 MovedLeaf Foliage::move(const Leaf& leaf, std::size_t plant) const {
-  const MovedLeaf out = swayed(leaf, plant);
+  MovedLeaf out = swayed(leaf, plant);
   const auto bent = bent_.find(plant);
   if (bent == bent_.end()) return out;
   const Turn turn = turnAt(bent->second, leaf.anchor);

@@ -235,13 +235,13 @@ void swing(const PushLaw& law, double dt, Cluster& cluster) {
   }
   const double omega = omegaOf(law);
   const ModeStep step = modeStep(law.damping * omega, omega * omega, dt);
-  const auto swingOne = [&](double& lean, double& rate, double set) {
+  const auto part = [&](double& lean, double& rate, double set) {
     const double offset = lean - set, speed = rate;
     lean = set + (step.keep * offset + step.from_rate * speed);
     rate = step.to_rate * offset + step.keep_rate * speed;
   };
-  swingOne(cluster.lean.x, cluster.rate.x, cluster.set.x);
-  swingOne(cluster.lean.y, cluster.rate.y, cluster.set.y);
+  part(cluster.lean.x, cluster.rate.x, cluster.set.x);
+  part(cluster.lean.y, cluster.rate.y, cluster.set.y);
   const double size = cluster.lean.size();
   if (size > LARGEST_LEAN) {
     const double kept = LARGEST_LEAN / size;

@@ -80,7 +80,7 @@ void PushState::addTo(Hash& hash) const {
 }
 
 void archivePush(Archive& a, PushState& state) {
-  const auto archiveCluster = [&a](Cluster& cluster) {
+  const auto one = [&a](Cluster& cluster) {
     archiveFlat(a, "lean", cluster.lean, LARGEST_LEAN);
     archiveFlat(a, "lean rate", cluster.rate, 1e9);
     archiveFlat(a, "lean set", cluster.set, LARGEST_LEAN);
@@ -89,7 +89,7 @@ void archivePush(Archive& a, PushState& state) {
       "plants that lean", state.plants, MOST_CLUSTERS, sizeof(std::uint32_t) + CLUSTER_BYTES,
       [&a](std::uint32_t& id) { a.integer("plant that leans", id); },
       [&](std::uint32_t, std::vector<Cluster>& clusters) {
-        a.list("cells", clusters, MOST_CLUSTERS, CLUSTER_BYTES, archiveCluster);
+        a.list("cells", clusters, MOST_CLUSTERS, CLUSTER_BYTES, one);
       });
   a.map(
       "pushing bodies", state.bodies, MOST_PUSHING, BODY_BYTES,

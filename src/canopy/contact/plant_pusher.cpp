@@ -35,6 +35,7 @@ int stepsFor(const std::vector<const forest::Body*>& bodies, double seconds) {
 
 std::vector<PosedBody> poseAll(const std::vector<const forest::Body*>& bodies, Nanoseconds stamp) {
   std::vector<PosedBody> out;
+  out.reserve(bodies.size());
   for (const forest::Body* body : bodies)
     out.push_back({shapeOf(*body), poseAt(*body, stamp), body->velocity, body->spin});
   return out;
