@@ -15,6 +15,10 @@ constexpr int LARGEST_UNITS = static_cast<int>(LARGEST_LEAN / LEAN_UNIT + 1.0);
 
 void Foliage::checkBent(const std::vector<BentCell>& cells) const {
   Faults faults;
+  if (cells.size() > MOST_CLUSTERS)
+    faults.add("state: bent has " + std::to_string(cells.size()) + " cells, allowed are " +
+               std::to_string(MOST_CLUSTERS));
+  faults.throwIfAny();
   std::uint64_t least = 0;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const BentCell& bent = cells[i];
@@ -37,9 +41,6 @@ void Foliage::checkBent(const std::vector<BentCell>& cells) const {
         faults.add(
             rangeFault(name + ": lean", LEAN_UNIT * lean, "rad", {-LARGEST_LEAN, LARGEST_LEAN}));
   }
-  if (cells.size() > MOST_CLUSTERS)
-    faults.add("state: bent has " + std::to_string(cells.size()) + " cells, allowed are " +
-               std::to_string(MOST_CLUSTERS));
   faults.throwIfAny();
 }
 

@@ -130,6 +130,10 @@ void check(const Camera& camera, const std::string& context, Faults& faults) {
   if (!(camera.range_min < camera.range_max))
     faults.add(context + "range_max = " + std::to_string(camera.range_max) +
                " is not above range_min = " + std::to_string(camera.range_min));
+  const std::int64_t rays = std::int64_t{camera.lens.width} * camera.lens.height * camera.samples;
+  if (rays > MOST_RAYS)
+    faults.add(context + "samples = " + std::to_string(camera.samples) + " makes " +
+               std::to_string(rays) + " rays an image, allowed are " + std::to_string(MOST_RAYS));
   check(camera.lens, context, faults);
 }
 

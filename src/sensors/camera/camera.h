@@ -29,7 +29,9 @@ struct Camera {
 };
 /// Visits all but the lens.
 void describe(FieldVisitor& visitor, Camera& camera);
-/// Adds the faults of lens and ranges.
+/// Largest number of rays of a picture: pixels times samples.
+constexpr std::int64_t MOST_RAYS = std::int64_t{1} << 24;
+/// Adds the faults of lens, ranges and number of rays.
 void check(const Camera& camera, const std::string& context, Faults& faults);
 
 /// Which images are taken.

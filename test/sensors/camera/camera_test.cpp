@@ -238,5 +238,21 @@ TEST(Camera, ThePersonsShadowIsDark) {
   EXPECT_LT(brightness(Shadows::SUN), 0.7 * brightness(Shadows::NONE));
 }
 
+// A picture is taken within one tick, so its rays are limited.
+TEST(Camera, RaysOfAPictureAreLimited) {
+  const auto faultsOf = [](int samples) {
+    Camera camera;
+    camera.lens.width = camera.lens.height = 1024;
+    camera.samples = samples;
+    Faults faults;
+    check(camera, "camera/", faults);
+    return faults.list();
+  };
+  EXPECT_TRUE(faultsOf(16).empty());
+  EXPECT_EQ(faultsOf(17),
+            std::vector<std::string>{"camera/samples = 17 makes 17825792 rays an image, allowed "
+                                     "are 16777216"});
+}
+
 }  // namespace
 }  // namespace vegetation_sim::scan
