@@ -88,6 +88,11 @@ class RobotArguments(RefusingNode):
         for node in 'wind_broadcaster', 'agent_crowd':
             self.expect_refused(node, "frame_id = '/map' begins with '/'", world_frame='/map')
 
+    def test_a_prefix_alone_names_no_frame(self):
+        arguments = {'prefix': 'a/', 'lidar': 'true', 'camera': 'true'}
+        self.assertEqual(parameters_of('vegetation_scanner', arguments)['lidar_frame'], '')
+        self.assertEqual(parameters_of('vegetation_camera', arguments)['camera_frame'], '')
+
     def test_an_unknown_lidar_preset(self):
         self.expect_refused('vegetation_scanner', "~preset = 'vlp99' is none of", 'vlp16',
                             lidar_frame='laser', lidar_preset='vlp99')
