@@ -4,7 +4,8 @@
 """Simulates a differential-drive robot on flat ground with a minimal model.
 
 Subscribes to cmd_vel; publishes odometry and the frames of the URDF in the parameter
-robot_description. The drag of the grass on the wheels (grass/wrenches) slows the robot.
+robot_description. The drag of the grass on the wheels (grass/wrenches) slows the robot, and so do
+trunks, branches and plants (forest/forces, canopy/contacts): against a trunk it stands still.
 
 The frames follow REP 105: odom -> base_link is where the robot believes that it is, from wheels
 that it takes for a little larger and closer together than they are, so it drifts. The true pose is
@@ -18,6 +19,7 @@ import rospy
 from geometry_msgs.msg import Quaternion, TransformStamped, Twist, WrenchStamped
 from nav_msgs.msg import Odometry
 from tf2_msgs.msg import TFMessage
+from vegetation_sim.msg import ContactForces, PlantContacts
 
 RATE = 50.0  # [Hz]
 MOTOR_TIME_CONSTANT = 0.25  # Time constant of the motors. [s]
@@ -61,6 +63,14 @@ def rotation_of(roll, pitch, yaw):
                       a * b * c + d * e * f)
 
 
+def slow_down(speed, change):
+    """Returns the speed after a change against it. The forces of contacts are as old as their tick,
+    so they stop the robot but never accelerate it."""
+    if speed * change >= 0.0:
+        return speed
+    return math.copysign(max(0.0, abs(speed) - abs(change)), speed)
+
+
 class DiffDriveRobot:
     def __init__(self):
         self.joints = joints_of(rospy.get_param('robot_description'))
@@ -68,19 +78,34 @@ class DiffDriveRobot:
         # The estimate begins at the truth, so that all of its error is drift.
         self.truth, self.estimate = PlanarPose(*start), PlanarPose(*start)
         self.speed, self.spin, self.rolled = 0.0, 0.0, {'left_wheel': 0.0, 'right_wheel': 0.0}
-        self.command, self.commanded, self.drag = Twist(), None, {}
+        self.links = {'base_link'} | {child for _, child, _, _ in self.joints}
+        self.command, self.commanded, self.drag, self.contacts = Twist(), None, {}, {}
         self.last = None
         self.odom = rospy.Publisher('odom', Odometry, queue_size=10)
         self.ground_truth = rospy.Publisher('base_pose_ground_truth', Odometry, queue_size=10)
         self.tf = rospy.Publisher('/tf', TFMessage, queue_size=100)
         rospy.Subscriber('cmd_vel', Twist, self.on_command)
         rospy.Subscriber('grass/wrenches', WrenchStamped, self.on_wrench)
+        rospy.Subscriber('forest/forces', ContactForces,
+                         lambda message: self.on_contacts('forest', message.forces))
+        rospy.Subscriber('canopy/contacts', PlantContacts,
+                         lambda message: self.on_contacts('canopy', message.contacts))
 
     def on_command(self, command):
         self.command, self.commanded = command, rospy.Time.now()
 
     def on_wrench(self, wrench):
         self.drag[wrench.header.frame_id] = wrench.wrench.force.x
+
+    def on_contacts(self, source, contacts):
+        self.contacts[source] = [contact.force for contact in contacts
+                                 if contact.frame in self.links]
+
+    def contact_force(self):
+        """Returns the force of all touched branches and plants along the robot's x axis [N]."""
+        forward = math.cos(self.truth.yaw), math.sin(self.truth.yaw)
+        return sum(forward[0] * force.x + forward[1] * force.y
+                   for forces in list(self.contacts.values()) for force in forces)
 
     def step(self, now):
         dt = (now - self.last).to_sec() if self.last else 0.0
@@ -91,6 +116,7 @@ class DiffDriveRobot:
         speed, spin = (self.command.linear.x, self.command.angular.z) if active else (0.0, 0.0)
         response = 1.0 - math.exp(-dt / MOTOR_TIME_CONSTANT)
         self.speed += response * (speed - self.speed) + dt * sum(self.drag.values()) / MASS
+        self.speed = slow_down(self.speed, dt * self.contact_force() / MASS)
         self.spin += response * (spin - self.spin)
         self.truth.move(dt * self.speed, dt * self.spin)
         self.estimate.move(WAY_ERROR * dt * self.speed, TURN_ERROR * dt * self.spin)

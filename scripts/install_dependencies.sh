@@ -5,7 +5,7 @@
 # other systems. If all are installed, it does not use the network. docs/dependencies.md gives the
 # reason for each package.
 # usage: scripts/install_dependencies.sh [--checks] [--no-display] [--list]
-#   --checks      also installs the programs of the static checks
+#   --checks      also installs what the tests, the charts and the static checks need
 #   --no-display  installs no rviz, Qt, OpenGL or virtual display; then the nodes are built alone
 #   --list        prints the packages of this system and installs none
 set -euo pipefail
@@ -24,8 +24,7 @@ done
 COMMON=(
   cmake g++ libassimp-dev libeigen3-dev libgmock-dev libpng-dev libyaml-cpp-dev ninja-build pkg-config
   make  # catkin_make
-  # These packages run the charts and the scripts of the tests.
-  procps python3-matplotlib python3-numpy python3-pil
+  procps
 )
 # These packages compile the displays, give the demo a virtual display and take screenshots;
 # xvfb-run needs xauth.
@@ -55,7 +54,8 @@ NOETIC=(
   tf2-msgs tf2-ros topic-tools urdf visualization-msgs
 )
 DISPLAY_NOETIC=(ros-noetic-rviz)
-CHECKS=(catkin-lint clang-format clang-tidy doxygen)
+# Charts and scripts of the tests, and static checks.
+CHECKS=(python3-matplotlib python3-numpy python3-pil catkin-lint clang-format clang-tidy doxygen)
 
 # Tests give the description of another system.
 OS_RELEASE=${OS_RELEASE:-/etc/os-release}

@@ -21,15 +21,25 @@ CutView viewOfPlane(const Layout& layout) {
   return {layout.motion.plane.camera, orientationOf(layout.motion.plane)};
 }
 
+bool fits(const Layout& layout, std::uint32_t plant, const std::vector<Cluster>& clusters) {
+  if (plant >= layout.plants.size()) return false;
+  const PlantKind& kind = layout.kinds[layout.plants[plant].kind];
+  return kind.push.stiffness > 0.0 &&
+         clusters.size() == fibresOf(kind, layout.plants[plant]).cells();
+}
+
 void checkPush(const PushState& push, const Layout& layout) {
   Faults faults;
+  std::size_t cells = 0;
   for (const auto& [id, clusters] : push.plants) {
-    const bool known = id < layout.plants.size();
-    if (!known || clusters.size() !=
-                      fibresOf(layout.kinds[layout.plants[id].kind], layout.plants[id]).cells())
+    if (!fits(layout, id, clusters))
       faults.add("snapshot: plant " + std::to_string(id) + " with " +
                  std::to_string(clusters.size()) + " cells belongs to another layout");
+    cells += clusters.size();
   }
+  if (cells > MOST_CLUSTERS)
+    faults.add("snapshot: " + std::to_string(cells) + " cells lean, allowed are " +
+               std::to_string(MOST_CLUSTERS));
   for (const auto& entry : push.bodies) forest::check(entry.second, faults);
   faults.throwIfAny();
 }

@@ -151,6 +151,9 @@ void check(const Layout& layout, Faults& faults) {
     FieldChecker kind_checker(numbered("kinds", i), faults);
     describe(kind_checker, kind);
     describe(kind_checker, kind.push);
+    if (kind.push.stiffness > 0.0 && kind.push.stiffness < LEAST_PUSH_STIFFNESS)
+      kind_checker.number("push_stiffness above 0", kind.push.stiffness, "N/m^3",
+                          {LEAST_PUSH_STIFFNESS, 1e6});
     if (isRead(kind) == kind.file.empty())
       faults.add(numbered("kinds", i) + "file = '" + kind.file +
                  "'; shapes mesh and slices have one, others none");

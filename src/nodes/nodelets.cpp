@@ -5,40 +5,34 @@
 
 #include <memory>
 
-#include "nodes/canopy/canopy_animator.h"
-#include "nodes/crowd/agent_crowd.h"
-#include "nodes/forest/forest_animator.h"
-#include "nodes/grass/grass_field.h"
-#include "nodes/sensors/vegetation_camera.h"
-#include "nodes/sensors/vegetation_scanner.h"
-#include "nodes/wind/wind_broadcaster.h"
+#include "nodes/base/node_factory.h"
 
 namespace vegetation_sim {
 namespace {
 
 /// A node inside a nodelet manager, which does not load it if its constructor throws.
-template <class Node>
+template <NodeFactory& create>
 class NodeletOf : public nodelet::Nodelet {
   void onInit() override {
     try {
-      node_ = std::make_unique<Node>(getNodeHandle(), getPrivateNodeHandle());
+      node_ = create(getNodeHandle(), getPrivateNodeHandle());
     } catch (const std::exception& error) {
       NODELET_FATAL("%s refuses to start:\n%s", getName().c_str(), error.what());
       throw;
     }
   }
-  std::unique_ptr<Node> node_;
+  std::shared_ptr<void> node_;
 };
 
 }  // namespace
 
-using AgentCrowdNodelet = NodeletOf<AgentCrowd>;
-using CanopyAnimatorNodelet = NodeletOf<CanopyAnimator>;
-using ForestAnimatorNodelet = NodeletOf<ForestAnimator>;
-using GrassFieldNodelet = NodeletOf<GrassField>;
-using VegetationCameraNodelet = NodeletOf<VegetationCamera>;
-using VegetationScannerNodelet = NodeletOf<VegetationScanner>;
-using WindBroadcasterNodelet = NodeletOf<WindBroadcaster>;
+using AgentCrowdNodelet = NodeletOf<createAgentCrowd>;
+using CanopyAnimatorNodelet = NodeletOf<createCanopyAnimator>;
+using ForestAnimatorNodelet = NodeletOf<createForestAnimator>;
+using GrassFieldNodelet = NodeletOf<createGrassField>;
+using VegetationCameraNodelet = NodeletOf<createVegetationCamera>;
+using VegetationScannerNodelet = NodeletOf<createVegetationScanner>;
+using WindBroadcasterNodelet = NodeletOf<createWindBroadcaster>;
 
 }  // namespace vegetation_sim
 

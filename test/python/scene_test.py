@@ -25,7 +25,8 @@ from watched_node import listens
 # Treads and covers go from node to node at any time, so that runs differ. Here people leave no
 # tracks and do not feel the grass.
 NODES = {
-    'wind_broadcaster': {}, 'forest_animator': {}, 'canopy_animator': {}, 'grass_field': {},
+    'wind_broadcaster': {}, 'forest_animator': {}, 'canopy_animator': {'frame_wait': 5.0},
+    'grass_field': {},
     'agent_crowd': {'tread': 'none'},
 }
 REMAPPINGS = {'agent_crowd': {'grass/cover/resistance': 'no_cover'}}

@@ -36,7 +36,7 @@ def installed_packages():
         release.write('ID=ubuntu\nVERSION_CODENAME=focal\n')
         release.flush()
         return set(subprocess.check_output(
-            [str(ROOT / 'scripts/install_dependencies.sh'), '--list'], text=True,
+            [str(ROOT / 'scripts/install_dependencies.sh'), '--list', '--checks'], text=True,
             env={**os.environ, 'OS_RELEASE': release.name}).split())
 
 

@@ -60,7 +60,7 @@ void PlantPusher::sortPlants() {
     if (!(lawOf(id).stiffness > 0.0)) continue;
     const Vec3& foot = plants_[id].position;
     squares_[{squareOf(foot.x()), squareOf(foot.y())}].push_back(id);
-    largest_ = std::max(largest_, reachOf(fibresOf(id), false));
+    largest_ = std::max(largest_, reachOf(fibresOf(id), true));
   }
 }
 
@@ -74,28 +74,31 @@ bool PlantPusher::canReach(std::uint32_t plant, bool leans, const forest::Body& 
          offset.z() - reach < fibres.length + fibres.edge() && offset.z() + reach > -fibres.edge();
 }
 
-std::vector<std::uint32_t> PlantPusher::plantsNear(const PushState& state, const forest::Body& body,
-                                                   Nanoseconds from, Nanoseconds to) const {
-  std::vector<std::uint32_t> out;
+// Calls `visit` for each plant that a body may touch until it returns false.
+template <class Visit>
+void PlantPusher::visitNear(const PushState& state, const forest::Body& body, Nanoseconds from,
+                            Nanoseconds to, Visit visit) const {
   const Vec3 at = poseAt(body, to).position;
   const double range = shapeOf(body).reach() + wayOf(body, secondsBetween(from, to)) + largest_;
   const Square low{squareOf(at.x() - range), squareOf(at.y() - range)};
   const Square high{squareOf(at.x() + range), squareOf(at.y() + range)};
   // The squares are ordered by x. A body of any speed costs no more than all squares with plants.
   for (auto square = squares_.lower_bound(low); square != squares_.end(); ++square) {
-    if (square->first.first > high.first) break;
+    if (square->first.first > high.first) return;
     if (square->first.second < low.second || square->first.second > high.second) continue;
     for (const std::uint32_t id : square->second)
-      if (!state.plants.count(id) && canReach(id, false, body, from, to)) out.push_back(id);
+      if (canReach(id, state.plants.count(id) > 0, body, from, to) && !visit(id)) return;
   }
-  for (const auto& plant : state.plants)
-    if (canReach(plant.first, true, body, from, to)) out.push_back(plant.first);
-  return out;
 }
 
 bool PlantPusher::isNear(const PushState& state, const forest::Body& body, Nanoseconds now) {
   sortPlants();
-  return !plantsNear(state, body, now - AHEAD, now).empty();
+  bool found = false;
+  visitNear(state, body, now - AHEAD, now, [&](std::uint32_t) {
+    found = true;
+    return false;
+  });
+  return found;
 }
 
 std::map<std::uint32_t, PlantPusher::Near> PlantPusher::findTouched(const PushState& state,
@@ -104,16 +107,11 @@ std::map<std::uint32_t, PlantPusher::Near> PlantPusher::findTouched(const PushSt
   std::map<std::uint32_t, Near> out;
   for (const auto& entry : state.plants) out[entry.first] = {};
   for (const auto& entry : state.bodies)
-    for (const std::uint32_t id : plantsNear(state, entry.second, from, to))
+    visitNear(state, entry.second, from, to, [&](std::uint32_t id) {
       out[id].push_back(&entry.second);
+      return true;
+    });
   return out;
-}
-
-bool PlantPusher::hasRoom(const PushState& state, std::uint32_t plant) const {
-  if (state.plants.count(plant)) return true;
-  std::size_t cells = fibresOf(plant).cells();
-  for (const auto& entry : state.plants) cells += entry.second.size();
-  return cells <= MOST_CLUSTERS;
 }
 
 void PlantPusher::step(std::uint32_t plant, const Near& near, Nanoseconds from, Nanoseconds to,
@@ -148,15 +146,23 @@ std::vector<PushForce> PlantPusher::advance(PushState& state, Nanoseconds from, 
   std::vector<PushForce> out;
   if (state.bodies.empty() && state.plants.empty()) return out;
   sortPlants();
+  std::size_t cells = 0;
+  for (const auto& entry : state.plants) cells += entry.second.size();
   for (const auto& [plant, near] : findTouched(state, from, to)) {
-    if (!hasRoom(state, plant)) {
-      ++refused_;
-      continue;
+    const std::size_t count = fibresOf(plant).cells();
+    if (!state.plants.count(plant)) {
+      if (cells + count > MOST_CLUSTERS) {
+        ++refused_;
+        continue;
+      }
+      cells += count;
     }
     std::vector<Cluster>& clusters = state.plants[plant];
-    clusters.resize(fibresOf(plant).cells());
+    clusters.resize(count);
     step(plant, near, from, to, clusters, out);
-    if (allRest(clusters)) state.plants.erase(plant);
+    if (!allRest(clusters)) continue;
+    cells -= count;
+    state.plants.erase(plant);
   }
   return out;
 }

@@ -35,20 +35,20 @@ class PlantPusher {
   using Square = std::pair<int, int>;
 
   void sortPlants();
-  std::vector<std::uint32_t> plantsNear(const PushState& state, const forest::Body& body,
-                                        Nanoseconds from, Nanoseconds to) const;
+  template <class Visit>
+  void visitNear(const PushState& state, const forest::Body& body, Nanoseconds from, Nanoseconds to,
+                 Visit visit) const;
   std::map<std::uint32_t, Near> findTouched(const PushState& state, Nanoseconds from,
                                             Nanoseconds to) const;
   bool canReach(std::uint32_t plant, bool leans, const forest::Body& body, Nanoseconds from,
                 Nanoseconds to) const;
-  bool hasRoom(const PushState& state, std::uint32_t plant) const;
   void step(std::uint32_t plant, const Near& near, Nanoseconds from, Nanoseconds to,
             std::vector<Cluster>& clusters, std::vector<PushForce>& out) const;
 
   const std::vector<PlantKind>& kinds_;
   const std::vector<Plant>& plants_;
   std::map<Square, std::vector<std::uint32_t>> squares_;  // of ground, with the plants on them
-  double largest_{0.0};                                   // reach of a plant [m]
+  double largest_{0.0};                                   // reach of a plant that leans [m]
   bool sorted_{false};
   std::uint64_t refused_{0};
 };

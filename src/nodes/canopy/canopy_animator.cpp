@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/canopy/canopy_animator.h"
 
+#include "nodes/base/node_factory.h"
+
 #include "core/config/field_values.h"
 #include "nodes/canopy/pushing_bodies.h"
 #include "ros/conversions/grab_conversions.h"
@@ -26,10 +28,10 @@ CanopyAnimator::CanopyAnimator(const ros::NodeHandle& handle, const ros::NodeHan
                }}),
       markers_(canopy_, crowns_, forest_.replica(), options_.marker_points, options_.tolerance),
       bodies_(handle_, options_.frame_id, options_.robot.parts, options_.frame_wait),
-      crowd_({options_.frame_id, false,
-              [this](const std::string& input, const std::string& why) {
-                refusals_.add(input, why);
-              }}),
+      people_(
+          {options_.frame_id, false,
+           [this](const std::string& input, const std::string& why) { refusals_.add(input, why); }},
+          options_.frame_wait),
       winds_(MOST_WINDS) {
   layout_publisher_ = handle_.advertise<CanopyLayout>("canopy/layout", 1, true);
   state_publisher_ = handle_.advertise<CanopyState>("canopy/state", 1000);
@@ -43,7 +45,7 @@ void CanopyAnimator::connect() {
   if (!options_.scene.layout.crowns.empty())
     forest_.subscribe(handle_, {"forest/layout", "", "forest/view"});
   if (options_.walkers && !options_.replay && !options_.scene.layout.plants.empty())
-    crowd_.subscribe(handle_, "agents");
+    people_.subscribe(handle_, "agents");
   serve("sample", &CanopyAnimator::onSample);
 }
 
@@ -53,7 +55,7 @@ void CanopyAnimator::tick(std::int64_t tick) {
   begun_ = true;
   forgetViewer();
   updateCrowns();
-  if (!options_.replay) followBodies(stamp);
+  if (!options_.replay) followBodies(tick);
   applyInputs(stamp);
   canopy_.advance(stamp);
   publishState(tick);
@@ -107,6 +109,7 @@ void CanopyAnimator::restart() {
   canopy_.setViewer(std::nullopt);
   viewer_.reset();
   bodies_.clear();
+  people_.forgetLater(fromMsg(ros::Time::now()));
   begun_ = false;
   publishLayout();
 }
@@ -116,6 +119,11 @@ void CanopyAnimator::publishLayout() {
   message.header.stamp = ros::Time::now();
   message.header.frame_id = options_.frame_id;
   layout_publisher_.publish(message);
+}
+
+std::shared_ptr<void> createCanopyAnimator(const ros::NodeHandle& handle,
+                                           const ros::NodeHandle& private_handle) {
+  return std::make_shared<CanopyAnimator>(handle, private_handle);
 }
 
 }  // namespace vegetation_sim

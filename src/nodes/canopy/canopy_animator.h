@@ -15,10 +15,10 @@
 #include "nodes/base/event_node.h"
 #include "nodes/bodies/robot_bodies.h"
 #include "nodes/canopy/canopy_options.h"
+#include "nodes/canopy/delayed_people.h"
 #include "nodes/markers/canopy_markers.h"
 #include "ros/replicas/hashed_cache.h"
 #include "ros/replicas/leafed_crowns.h"
-#include "ros/replicas/subscribed_crowd.h"
 #include "vegetation_sim/canopy/canopy.h"
 
 namespace vegetation_sim {
@@ -43,7 +43,7 @@ class CanopyAnimator final
   void forgetViewer();
   void publishBeginning(Nanoseconds stamp);
   void updateCrowns();
-  void followBodies(Nanoseconds stamp);
+  void followBodies(std::int64_t tick);
 
   // Time.
   void tick(std::int64_t tick) override;
@@ -81,8 +81,8 @@ class CanopyAnimator final
   LeafedCrowns crowns_;
   CanopyMarkers markers_;
   RobotBodies bodies_;
-  SubscribedCrowd crowd_;  // who push plants
-  std::size_t walkers_left_out_{0};
+  DelayedPeople people_;  // who push plants
+  std::size_t bodies_left_out_{0};
   bool had_bodies_{false};  // at the last tick
   HashedCache<wind::Field> winds_;
   std::uint64_t heard_wind_{0};  // hash of the newest one; 0: none

@@ -1,5 +1,9 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
 #include "nodes/canopy/canopy_animator.h"
 #include "nodes/canopy/pushing_bodies.h"
 #include "ros/conversions/grab_conversions.h"
@@ -58,12 +62,18 @@ void CanopyAnimator::updateCrowns() {
   markers_.updateCrowns();
 }
 
-// Bodies that have moved or appeared, and those without a recent transform or message.
-void CanopyAnimator::followBodies(Nanoseconds stamp) {
-  std::vector<BodyChange> changes = bodies_.changes(canopy_.bodies(), stamp);
-  if (options_.walkers)
-    for (BodyChange& change : changesOfWalkers(canopy_, crowd_, stamp, walkers_left_out_))
-      changes.push_back(std::move(change));
+// Takes robots at this tick and people at the one before.
+void CanopyAnimator::followBodies(std::int64_t tick) {
+  const Nanoseconds before = clock_.grid().timeOf(tick - 1);
+  std::vector<forest::Body> present = bodies_.update(clock_.stamp());
+  if (options_.walkers) {
+    people_.advance(before);
+    if (std::fabs(secondsBetween(people_.crowd().stamp(), before)) <= STALE_BODY)
+      for (forest::Body& body : bodiesOf(people_.crowd())) present.push_back(std::move(body));
+  }
+  std::vector<BodyChange> changes = changesNearPlants(canopy_, present, bodies_left_out_);
+  // The last one that is added is applied first.
+  std::reverse(changes.begin(), changes.end());
   for (const BodyChange& change : changes) {
     CanopyEvent event;
     event.kind = change.gone ? CanopyEvent::REMOVE_BODY : CanopyEvent::BODY;

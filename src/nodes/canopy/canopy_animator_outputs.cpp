@@ -39,7 +39,8 @@ void CanopyAnimator::addDiagnostics(Status& status) {
   for (const std::string& link : options_.robot.left_out)
     status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, link);
   status.add("Bodies", canopy_.bodies().size());
-  status.add("Walkers left out", walkers_left_out_);
+  status.add("People too late for their tick", people_.late());
+  status.add("Bodies left out", bodies_left_out_);
   status.add("Plants that bodies have pushed", canopy_.snapshot().push.plants.size());
   warnOfMore(status, canopy_.refusedPushes(), reported_refused_,
              "times a plant did not lean: too many cells do");

@@ -63,6 +63,7 @@ CheckedState CanopyAnimator::readState(Archive& a) {
             winds_.keep(read.wind.hash(), read.wind);
             viewer_ = viewer;
             bodies_.restore(bodies);
+            people_.forgetLater(read.snapshot.stamp);
             begun_ = true;
             publishLayout();
             queueNewerWind();

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "core/config/field_values.h"
+#include "nodes/canopy/pushing_bodies.h"
 #include "ros/params/plant_files.h"
 #include "ros/services/frame_lookup.h"
 
@@ -126,6 +127,10 @@ CanopyOptions loadCanopyOptions(const ros::NodeHandle& private_handle) {
   parameters.flag("walkers", out.walkers);
   describe(parameters, out);
   out.robot = readRobotParts(private_handle, parameters);
+  for (const forest::Body& part : out.robot.parts)
+    if (part.id.rfind(WALKER_PREFIX, 0) == 0)
+      parameters.faults().add("~bodies: id = " + part.id + " begins with " + WALKER_PREFIX +
+                              ", as the ids of people do");
   canopy::Layout& layout = out.scene.layout;
   CanopyTuning tuning = tuningOf(layout.motion);
   describe(parameters, tuning);

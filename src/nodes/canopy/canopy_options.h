@@ -41,7 +41,7 @@ CanopyScene loadCanopyScene(const std::string& name);
 struct CanopyOptions : NodeOptions {
   double tolerance{1.0};   ///< error of what is drawn, at 1000 pixels a radian [pixel]
   double frame_wait{0.0};  ///< for the transforms of bodies at a tick [s]
-  bool walkers{false};     ///< whether the people on `agents` push plants
+  bool walkers{true};      ///< whether the people on `agents` push plants
   RobotParts robot;        ///< bodies that push plants
   CanopyScene scene;
 };

@@ -3,8 +3,9 @@
 #include "nodes/canopy/pushing_bodies.h"
 
 #include <algorithm>
-#include <cmath>
+#include <iterator>
 #include <set>
+#include <utility>
 
 #include "forest/contact/contact_body.h"
 #include "ros/conversions/grab_conversions.h"
@@ -12,19 +13,6 @@
 
 namespace vegetation_sim {
 namespace {
-
-bool isWalker(const std::string& id) {
-  return id.rfind(WALKER_PREFIX, 0) == 0;
-}
-
-// Returns the pose of the frame of the body; a walker has none.
-Pose frameOf(const canopy::PushForce& force, const canopy::Canopy& canopy) {
-  const auto body = canopy.bodies().find(force.body);
-  if (force.frame.empty() || body == canopy.bodies().end()) return {force.point, {}};
-  return compose(poseAt(body->second, canopy.snapshot().stamp), inverse(body->second.in_frame));
-}
-
-}  // namespace
 
 forest::Body bodyOf(const SubscribedCrowd::Person& person, Nanoseconds stamp) {
   const crowd::Walker& walker = person.walker;
@@ -40,28 +28,45 @@ forest::Body bodyOf(const SubscribedCrowd::Person& person, Nanoseconds stamp) {
   return out;
 }
 
-std::vector<BodyChange> changesOfWalkers(const canopy::Canopy& canopy, const SubscribedCrowd& crowd,
-                                         Nanoseconds now, std::size_t& left_out) {
-  std::vector<BodyChange> out;
-  std::set<std::string> near;
+// Returns the pose of the frame of the body; a walker has none.
+Pose frameOf(const canopy::PushForce& force, const canopy::Canopy& canopy) {
+  const auto body = canopy.bodies().find(force.body);
+  if (force.frame.empty() || body == canopy.bodies().end()) return {force.point, {}};
+  return compose(poseAt(body->second, canopy.snapshot().stamp), inverse(body->second.in_frame));
+}
+
+}  // namespace
+
+std::vector<forest::Body> bodiesOf(const SubscribedCrowd& crowd) {
+  std::vector<forest::Body> out;
+  out.reserve(crowd.people().size());
+  for (const SubscribedCrowd::Person& person : crowd.people())
+    out.push_back(bodyOf(person, crowd.stamp()));
+  return out;
+}
+
+std::vector<BodyChange> changesNearPlants(const canopy::Canopy& canopy,
+                                          const std::vector<forest::Body>& present,
+                                          std::size_t& left_out) {
   const forest::Bodies& known = canopy.bodies();
-  std::size_t count = known.size();
+  std::set<std::string> near;
+  std::vector<BodyChange> moved;
   left_out = 0;
-  if (std::fabs(secondsBetween(crowd.stamp(), now)) <= STALE_BODY)
-    for (const SubscribedCrowd::Person& person : crowd.people()) {
-      const forest::Body body = bodyOf(person, crowd.stamp());
-      if (!canopy.isNear(body)) continue;
-      const auto old = known.find(body.id);
-      const bool comes = old == known.end();
-      if (comes && ++count > canopy::MOST_PUSHING) {
-        ++left_out;
-        continue;
-      }
-      near.insert(body.id);
-      if (comes || old->second.stamp != body.stamp) out.push_back({false, body});
+  for (const forest::Body& body : present) {
+    if (!canopy.isNear(body)) continue;
+    if (near.size() >= canopy::MOST_PUSHING) {
+      ++left_out;
+      continue;
     }
+    near.insert(body.id);
+    const auto old = known.find(body.id);
+    if (old == known.end() || old->second.stamp != body.stamp) moved.push_back({false, body});
+  }
+  std::vector<BodyChange> out;
   for (const auto& [id, body] : known)
-    if (isWalker(id) && !near.count(id)) out.push_back({true, body});
+    if (!near.count(id)) out.push_back({true, body});
+  out.insert(out.end(), std::make_move_iterator(moved.begin()),
+             std::make_move_iterator(moved.end()));
   return out;
 }
 

@@ -16,14 +16,15 @@ namespace vegetation_sim {
 /// Prefix of the ids of walkers among the bodies.
 constexpr const char* WALKER_PREFIX = "walker_";
 
-/// Returns the upright capsule of a walker.
-forest::Body bodyOf(const SubscribedCrowd::Person& person, Nanoseconds stamp);
+/// Returns the people of a crowd as upright capsules.
+std::vector<forest::Body> bodiesOf(const SubscribedCrowd& crowd);
 
-/// Returns how the walkers near plants differ from those known. @param now time of the tick; a
-/// message whose stamp differs from it by more than STALE_BODY counts as none. @param left_out
-/// number of walkers beyond the limit of bodies.
-std::vector<BodyChange> changesOfWalkers(const canopy::Canopy& canopy, const SubscribedCrowd& crowd,
-                                         Nanoseconds now, std::size_t& left_out);
+/// Returns how the bodies near plants differ from those that the canopy knows: first those that are
+/// gone, then the others in the order of `present`. @param left_out number of bodies beyond
+/// MOST_PUSHING.
+std::vector<BodyChange> changesNearPlants(const canopy::Canopy& canopy,
+                                          const std::vector<forest::Body>& present,
+                                          std::size_t& left_out);
 
 /// Returns the forces of plants on bodies at the last tick; the sender adds the header's frame.
 PlantContacts contactsOf(const canopy::Canopy& canopy);

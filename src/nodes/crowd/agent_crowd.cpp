@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/crowd/agent_crowd.h"
 
+#include "nodes/base/node_factory.h"
+
 #include <vegetation_sim/AgentStates.h>
 
 #include "core/config/field_values.h"
@@ -157,6 +159,11 @@ bool AgentCrowd::isOutdated(const CrowdEvent& event) const {
 void AgentCrowd::restart() {
   resetCrowd();
   begun_ = false;
+}
+
+std::shared_ptr<void> createAgentCrowd(const ros::NodeHandle& handle,
+                                       const ros::NodeHandle& private_handle) {
+  return std::make_shared<AgentCrowd>(handle, private_handle);
 }
 
 }  // namespace vegetation_sim

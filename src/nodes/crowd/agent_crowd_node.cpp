@@ -1,8 +1,7 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nodes/base/run_node.h"
-#include "nodes/crowd/agent_crowd.h"
+#include "nodes/base/node_factory.h"
 
 int main(int argc, char** argv) {
-  return vegetation_sim::runNode<vegetation_sim::AgentCrowd>(argc, argv, "agent_crowd");
+  return vegetation_sim::runNode(argc, argv, "agent_crowd", vegetation_sim::createAgentCrowd);
 }

@@ -93,6 +93,7 @@ CheckedState AgentCrowd::readState(Archive& a) {
             begun_ = true;
             updateNextId();
             queueNewerInputs();
+            publishAgents(read.stamp);  // whoever takes people of the tick before needs them
           }};
 }
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/forest/forest_animator.h"
 
+#include "nodes/base/node_factory.h"
+
 #include <geometry_msgs/WrenchStamped.h>
 
 #include <algorithm>
@@ -231,6 +233,11 @@ void ForestAnimator::publishLayout() {
   message.header.stamp = ros::Time::now();
   message.header.frame_id = options_.frame_id;
   layout_publisher_.publish(message);
+}
+
+std::shared_ptr<void> createForestAnimator(const ros::NodeHandle& handle,
+                                           const ros::NodeHandle& private_handle) {
+  return std::make_shared<ForestAnimator>(handle, private_handle);
 }
 
 }  // namespace vegetation_sim

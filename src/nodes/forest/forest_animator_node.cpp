@@ -1,8 +1,8 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nodes/base/run_node.h"
-#include "nodes/forest/forest_animator.h"
+#include "nodes/base/node_factory.h"
 
 int main(int argc, char** argv) {
-  return vegetation_sim::runNode<vegetation_sim::ForestAnimator>(argc, argv, "forest_animator");
+  return vegetation_sim::runNode(argc, argv, "forest_animator",
+                                 vegetation_sim::createForestAnimator);
 }

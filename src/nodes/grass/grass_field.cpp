@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/grass/grass_field.h"
 
+#include "nodes/base/node_factory.h"
+
 #include "core/config/field_values.h"
 #include "nodes/grass/grass_events.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
@@ -119,6 +121,11 @@ void GrassField::publishLayout() {
   message.header.stamp = ros::Time::now();
   message.header.frame_id = options_.frame_id;
   layout_publisher_.publish(message);
+}
+
+std::shared_ptr<void> createGrassField(const ros::NodeHandle& handle,
+                                       const ros::NodeHandle& private_handle) {
+  return std::make_shared<GrassField>(handle, private_handle);
 }
 
 }  // namespace vegetation_sim

@@ -1,8 +1,7 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nodes/base/run_node.h"
-#include "nodes/grass/grass_field.h"
+#include "nodes/base/node_factory.h"
 
 int main(int argc, char** argv) {
-  return vegetation_sim::runNode<vegetation_sim::GrassField>(argc, argv, "grass_field");
+  return vegetation_sim::runNode(argc, argv, "grass_field", vegetation_sim::createGrassField);
 }

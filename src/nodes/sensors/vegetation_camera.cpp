@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/sensors/vegetation_camera.h"
 
+#include "nodes/base/node_factory.h"
+
 #include "ros/images/image_conversions.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
 
@@ -97,6 +99,11 @@ void VegetationCamera::reportValues(Status& status) {
   status.add("Images", taken_);
   status.add("Images without a place", unplaced_);
   status.add("Wall time of the images [ms]", 1e3 * cost_);
+}
+
+std::shared_ptr<void> createVegetationCamera(const ros::NodeHandle& handle,
+                                             const ros::NodeHandle& private_handle) {
+  return std::make_shared<VegetationCamera>(handle, private_handle);
 }
 
 }  // namespace vegetation_sim

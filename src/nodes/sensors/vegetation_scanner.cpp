@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/sensors/vegetation_scanner.h"
 
+#include "nodes/base/node_factory.h"
+
 #include <algorithm>
 
 #include "ros/conversions/scan_conversions.h"
@@ -119,6 +121,11 @@ void VegetationScanner::reportValues(Status& status) {
   status.add("Wall time of a sweep [ms]", 1e3 * cost_);
   status.add("Views of the sky", views_);
   status.add("Wall time of the views of the sky [ms]", 1e3 * sky_cost_);
+}
+
+std::shared_ptr<void> createVegetationScanner(const ros::NodeHandle& handle,
+                                              const ros::NodeHandle& private_handle) {
+  return std::make_shared<VegetationScanner>(handle, private_handle);
 }
 
 }  // namespace vegetation_sim

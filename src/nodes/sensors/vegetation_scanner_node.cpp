@@ -1,9 +1,8 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nodes/base/run_node.h"
-#include "nodes/sensors/vegetation_scanner.h"
+#include "nodes/base/node_factory.h"
 
 int main(int argc, char** argv) {
-  return vegetation_sim::runNode<vegetation_sim::VegetationScanner>(argc, argv,
-                                                                    "vegetation_scanner");
+  return vegetation_sim::runNode(argc, argv, "vegetation_scanner",
+                                 vegetation_sim::createVegetationScanner);
 }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/wind/wind_broadcaster.h"
 
+#include "nodes/base/node_factory.h"
+
 #include "nodes/markers/wind_markers.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
 #include "vegetation_sim/ros/conversions/wind_conversions.h"
@@ -158,6 +160,11 @@ void WindBroadcaster::diagnose(Status& status) {
   status.add("refused inputs", refusals_.count());
   status.add("last refusal", refusals_.last());
   status.add("jumps back in time", clock_.jumps());
+}
+
+std::shared_ptr<void> createWindBroadcaster(const ros::NodeHandle& handle,
+                                            const ros::NodeHandle& private_handle) {
+  return std::make_shared<WindBroadcaster>(handle, private_handle);
 }
 
 }  // namespace vegetation_sim

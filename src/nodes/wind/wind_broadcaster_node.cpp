@@ -1,8 +1,8 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nodes/base/run_node.h"
-#include "nodes/wind/wind_broadcaster.h"
+#include "nodes/base/node_factory.h"
 
 int main(int argc, char** argv) {
-  return vegetation_sim::runNode<vegetation_sim::WindBroadcaster>(argc, argv, "wind_broadcaster");
+  return vegetation_sim::runNode(argc, argv, "wind_broadcaster",
+                                 vegetation_sim::createWindBroadcaster);
 }

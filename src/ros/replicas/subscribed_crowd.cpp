@@ -43,6 +43,11 @@ void SubscribedCrowd::forgetLater(Nanoseconds now) {
   if (changes_ > 0 && stamp_ > now) clear("Waiting for a message: time went back");
 }
 
+bool SubscribedCrowd::isPublished() const {
+  return std::any_of(subscribers_.begin(), subscribers_.end(),
+                     [](const ros::Subscriber& one) { return one.getNumPublishers() > 0; });
+}
+
 void SubscribedCrowd::forgetSilent(Nanoseconds now) {
   if (!people_.empty() && now - stamp_ > SILENCE) clear("Waiting: no message for 3 s");
 }
@@ -58,6 +63,7 @@ void SubscribedCrowd::forgetUnchanged(Nanoseconds now) {
 
 void SubscribedCrowd::clear(const char* why) {
   people_.clear();
+  stamp_ = 0;
   ++changes_;
   status_ = {false, why};
 }

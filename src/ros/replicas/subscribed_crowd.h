@@ -34,6 +34,8 @@ class SubscribedCrowd : public SubscribedReplica<AgentStates> {
   /// Stamps have no effect: the clock of the picture may differ from them.
   void forgetUnchanged(Nanoseconds now);
 
+  /// Whether a publisher of the topic is connected.
+  bool isPublished() const;
   const std::vector<Person>& people() const { return people_; }
   Nanoseconds stamp() const { return stamp_; }
   /// Number of changes; 0: no message has been accepted.

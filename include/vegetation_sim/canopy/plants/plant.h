@@ -35,6 +35,9 @@ enum class UpAxis { Z, Y };
 /// Share of a crown's height that is trunk.
 constexpr double TRUNK_SHARE = 0.35;
 
+/// Least stiffness of plants that answer bodies [N/m^3]: a smaller one gives no finite step.
+constexpr double LEAST_PUSH_STIFFNESS = 1e-3;
+
 /// How a kind answers bodies. Forces are those per area of ground or per volume of overlap, so that
 /// neither cells nor leaves matter.
 struct PushLaw {

@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#pragma once
+#include "nodes/base/node_factory.h"
 
 #include <ros/ros.h>
 
@@ -9,13 +9,11 @@
 
 namespace vegetation_sim {
 
-/// Runs a node until ROS shuts down. An exception of its constructor is logged as fatal.
-template <class Node>
-int runNode(int argc, char** argv, const char* name) {
+int runNode(int argc, char** argv, const char* name, NodeFactory& create) {
   ros::init(argc, argv, name);
   ros::NodeHandle handle, private_handle("~");  // must outlive the log message
   try {
-    Node node(handle, private_handle);
+    const std::shared_ptr<void> node = create(handle, private_handle);
     ros::spin();
     return EXIT_SUCCESS;
   } catch (const std::exception& error) {
