@@ -97,6 +97,11 @@ TEST(Layout, IsRejectedAsAWhole) {
         "push_recovery = 0 s is outside 0.01", "push_pressure = 2e+07 N/m^3 is outside 0 to 1e+07",
         "push_drag = nan N s/m^4 is not finite", "push_cell = 0.01 m is outside 0.02 to 100"})
     EXPECT_NE(pushed.find(fault), std::string::npos) << fault << "\n" << pushed;
+  EXPECT_NE(
+      errorOf([] {
+        read("canopy: {kinds: [{name: a, push_stiffness: 0}, {name: b, push_stiffness: 1e-12}]}");
+      }).find("kinds[1]: push_stiffness above 0 = 1e-12 N/m^3 is outside 0.001 to 1e+06"),
+      std::string::npos);
   EXPECT_NE(errorOf([] {
               read("canopy: {fluid: {cells: 256}, layers: {memory: 10}, rate: 240}");
             }).find("bytes of history"),

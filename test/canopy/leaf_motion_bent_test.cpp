@@ -97,6 +97,11 @@ TEST(BentLeaves, ASnapshotContinuesWithTheSameHashes) {
   Canopy wrong(smaller);
   EXPECT_NE(errorOf([&] { wrong.restore(read.snapshot); }).find("cells belongs to another layout"),
             std::string::npos);
+  smaller = canopy.layout();
+  smaller.kinds[0].push.stiffness = 0.0;
+  Canopy rigid(smaller);
+  EXPECT_NE(errorOf([&] { rigid.restore(read.snapshot); }).find("cells belongs to another layout"),
+            std::string::npos);
 }
 
 TEST(BentLeaves, WithoutATouchTheStateIsThatWithoutBodies) {

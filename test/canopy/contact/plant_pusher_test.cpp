@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace vegetation_sim::canopy {
 namespace {
@@ -139,32 +140,56 @@ TEST(PlantPusher, AParkedBodyHoldsPlantsAside) {
   for (const Cluster& cluster : row.state.plants.at(2)) EXPECT_LT(cluster.rate.size(), 1e-3);
 }
 
-// The moment of a force about its point is that which is left: a wall has it about its own axes.
-TEST(PlantPusher, ForceAndTorqueBelongToOnePoint) {
+PushForce forceBeside(double y) {
   Row row;
   PlantPusher pusher(row.kinds, row.plants);
-  row.state.bodies["robot"] = boxAt(Vec3(2.0, 0.3, 0.4), Vec3::Zero(), START);
-  const std::vector<PushForce> forces =
-      pusher.advance(row.state, START, START + NANOSECONDS_PER_SECOND / 30);
-  ASSERT_EQ(forces.size(), 1u);
-  const Vec3 point = forces[0].point;
-  EXPECT_LT(std::fabs(point.x() - 2.0), 0.4);
-  EXPECT_LT(std::fabs(point.y()), 0.4);
-  EXPECT_GT(point.z(), 0.0);
-  EXPECT_LT(length(forces[0].torque), 0.5 * length(forces[0].force));
+  row.state.bodies["robot"] = boxAt(Vec3(2.1, y, 0.4), Vec3(0.5, 0.0, 0.0), START);
+  const auto forces = pusher.advance(row.state, START, START + NANOSECONDS_PER_SECOND / 30);
+  EXPECT_EQ(forces.size(), 1u);
+  return forces.empty() ? PushForce() : forces[0];
 }
 
-// A stamp long ago, or a gap between ticks, makes the range of a body as large as the Earth.
-TEST(PlantPusher, ABodyOfAnySpeedAndStampCostsNoMoreThanAllPlants) {
+// Force, point and torque are mirrored with the body; a torque is an axial vector.
+TEST(PlantPusher, ForceAndTorqueAreMirroredWithTheBody) {
+  const PushForce left = forceBeside(0.3), right = forceBeside(-0.3);
+  EXPECT_GT(std::fabs(left.force.y()), 1.0);
+  EXPECT_GT(length(left.torque), 0.01);
+  EXPECT_LT(length(left.point - Vec3(2.1, 0.3, 0.4)), 0.5);  // within the box
+  const double force = 1e-9 * length(left.force);
+  for (const auto& [a, b] : {std::pair(left.force, right.force), {left.point, right.point}})
+    EXPECT_LT(length(Vec3(a.x() - b.x(), a.y() + b.y(), a.z() - b.z())), force);
+  const Vec3 &a = left.torque, &b = right.torque;
+  EXPECT_LT(length(Vec3(a.x() + b.x(), a.y() - b.y(), a.z() + b.z())), force);
+}
+
+// A gap between ticks makes the range of a fast body as large as the row.
+TEST(PlantPusher, ABodyOfAnySpeedTouchesEachPlantOnce) {
   Row row;
   PlantPusher pusher(row.kinds, row.plants);
-  forest::Body body = boxAt(Vec3(-50.0, 0.0, 0.4), Vec3(100.0, 0.0, 0.0), 0);
+  forest::Body body = boxAt(Vec3(-30.0, 0.0, 0.4), Vec3(100.0, 0.0, 0.0), START);
   body.size = Vec3(50.0, 50.0, 50.0);
   body.spin = Vec3(0.0, 0.0, 100.0);
   row.state.bodies["robot"] = body;
-  for (const PushForce& force :
-       pusher.advance(row.state, START, START + 10 * NANOSECONDS_PER_SECOND))
-    EXPECT_TRUE(std::isfinite(length(force.force)));
+  const auto forces = pusher.advance(row.state, START, START + 10 * NANOSECONDS_PER_SECOND);
+  ASSERT_EQ(forces.size(), row.plants.size());
+  for (std::uint32_t id = 0; id < forces.size(); ++id) {
+    EXPECT_EQ(forces[id].plant, id);
+    EXPECT_TRUE(std::isfinite(length(forces[id].force)));
+  }
+  for (const auto& entry : row.state.plants)
+    for (const Cluster& cluster : entry.second)
+      EXPECT_LE(cluster.lean.size(), LARGEST_LEAN + 1e-12);
+}
+
+// A plant that leans is met beyond the place where it stands.
+TEST(PlantPusher, ABodyIsNearWhatLeansTowardsIt) {
+  Row row;
+  PlantPusher pusher(row.kinds, row.plants);
+  const forest::Body body = boxAt(Vec3(6.3, 0.0, 0.4), Vec3::Zero(), START);
+  EXPECT_FALSE(pusher.isNear(row.state, body, START));
+  row.state.plants[4].assign(pusher.fibresOf(4).cells(), Cluster());
+  EXPECT_TRUE(pusher.isNear(row.state, body, START));
+  EXPECT_FALSE(pusher.isNear(row.state, boxAt(Vec3(9.0, 0.0, 0.4), Vec3::Zero(), START), START));
 }
 
 // More than MOST_CLUSTERS cells do not lean at once.

@@ -72,6 +72,8 @@ class CanopyParameters(Ranges, RefusingNode):
         self.assertIn('~walkers = some is not true or false', self.refusal({'walkers': 'some'}))
         bodies = self.refusal({'bodies': [{'frame': 'arm', 'shape': 'sphere', 'radius': 0}]})
         self.assertIn('radius = 0 m is outside 0.001 to 50', bodies)
+        person = {'id': 'walker_3', 'frame': 'arm', 'shape': 'sphere', 'radius': 1}
+        self.assertIn('~bodies: id = walker_3 begins with walker_', self.refusal({'bodies': [person]}))
         none = {'near_layers': 0, 'mid_layers': 0, 'far_layers': 0}
         self.assertIn('= 0 is outside 1 to 16', self.refusal(none))
 
