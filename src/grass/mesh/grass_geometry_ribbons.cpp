@@ -12,7 +12,8 @@
 namespace vegetation_sim::grass {
 namespace {
 
-constexpr int PETALS = 6;  ///< corners of a flower around its middle
+constexpr float STUBBLE_PALENESS = 0.25f;  ///< stems are drier than leaves
+constexpr int PETALS = 6;                  ///< corners of a flower around its middle
 
 struct Float3 {
   float x, y, z;
@@ -114,11 +115,14 @@ class Ribbons {
   void append(const BladeBlock* blocks, int count, GrassMesh& mesh) {
     const auto n = static_cast<std::size_t>(style_.segments);
     kinds_.resize(static_cast<std::size_t>(count));
+    flowers_.resize(static_cast<std::size_t>(count));
     std::size_t flowers = 0;
     for (int blade = 0; blade < count; ++blade) {
       const int kind = kindOf(blocks[blade / BLOCK], blade);
       kinds_[static_cast<std::size_t>(blade)] = kind;
-      flowers += looks_[static_cast<std::size_t>(kind)].flower > 0.f ? 1 : 0;
+      flowers_[static_cast<std::size_t>(blade)] =
+          isCut(blocks[blade / BLOCK], blade) ? 0.f : looks_[static_cast<std::size_t>(kind)].flower;
+      flowers += flowers_[static_cast<std::size_t>(blade)] > 0.f ? 1 : 0;
     }
     const auto blades = static_cast<std::size_t>(count);
     const std::size_t vertices = blades * (2 * n + 1) + flowers * (PETALS + 1);
@@ -151,6 +155,13 @@ class Ribbons {
     return kind;
   }
 
+  bool isCut(const BladeBlock& block, int blade) const {
+    if (!style_.crush || style_.crush->cut.empty()) return false;
+    const int lane = blade % BLOCK;
+    return style_.crush->cut[style_.crush->nearest(block.x[0][lane] / tile_.size,
+                                                   block.y[0][lane] / tile_.size)] < UNCUT;
+  }
+
   void write(const BladeBlock& block, int blade, float width, Writer& out) const {
     const int lane = blade % BLOCK;
     const float x = block.x[0][lane], y = block.y[0][lane];
@@ -169,9 +180,10 @@ class Ribbons {
         mix32(static_cast<std::uint32_t>(blade) ^ static_cast<std::uint32_t>(tile_.key >> 32));
     const float chance = static_cast<float>(dice & 0xffff) / 65535.f;
     const float facing = std::fabs(static_cast<float>(dice >> 16) / 32768.f - 1.f);
+    const float pale = isCut(block, blade) ? STUBBLE_PALENESS : 0.f;
     const float dry = colour_.at(x / tile_.size, y / tile_.size) +
                       style_.variety * (0.35f * chance * chance - 0.06f);
-    const Float3 own = (look.fresh + look.drying * std::min(1.f, std::max(0.f, dry))) *
+    const Float3 own = (look.fresh + look.drying * std::min(1.f, std::max(0.f, dry + pale))) *
                        (1.f + style_.variety * 0.34f * (chance - 0.5f));
     const std::uint32_t first = out.next;
     for (int k = 0; k <= style_.segments; ++k) {
@@ -189,7 +201,8 @@ class Ribbons {
     }
     for (std::uint32_t t = 0; t + 1 < 2 * static_cast<std::uint32_t>(style_.segments); ++t)
       out.triangle(first + t, first + t + 1, first + t + 2);
-    if (look.flower > 0.f) flower(tip, side, width * look.flower, look, out);
+    const float radius = flowers_[static_cast<std::size_t>(blade)];
+    if (radius > 0.f) flower(tip, side, width * radius, look, out);
   }
 
   // Without light a blade is dark at the root, where neighbours shade it.
@@ -237,7 +250,8 @@ class Ribbons {
   Bilinear<float> colour_;
   std::array<int, POINTS> kept_;
   std::vector<Look> looks_;
-  std::vector<int> kinds_;  ///< species of each blade
+  std::vector<int> kinds_;      ///< species of each blade
+  std::vector<float> flowers_;  ///< radius of the flower of each blade, 0: none [m]
 };
 
 }  // namespace

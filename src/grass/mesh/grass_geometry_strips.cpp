@@ -63,7 +63,11 @@ class Sheet {
     return {reach * x, reach * y, height * turn.cos};
   }
 
-  double heightAt(double u, double v) const { return height_.at(u, v); }
+  double heightAt(double u, double v) const {
+    const double height = height_.at(u, v);
+    if (!crush_ || crush_->cut.empty()) return height;
+    return std::min(height, double{crush_->cut[nodeOf(u, v)]});
+  }
   // Returns the colour of grass that leans by `offset` in this light.
   Vec3 litAt(double u, double v, const Vec3& offset, const GrassLight* light) const {
     Vec3 own = colourAt(u, v);
