@@ -12,12 +12,15 @@
 namespace vegetation_sim::grass {
 namespace {
 
-constexpr float STUBBLE_PALENESS = 0.25f;  ///< stems are drier than leaves
-constexpr int PETALS = 6;                  ///< corners of a flower around its middle
+constexpr float STUBBLE_PALENESS = 0.3f;  ///< stems are drier than leaves
+constexpr float STUBBLE_SHADE = 0.4f;     ///< part of the shade of neighbours that stubble has
+constexpr float HALF_HIDDEN = 0.12f;      ///< cut grass that hides half of what is below [kg/m^2]
+constexpr int PETALS = 6;                 ///< corners of a flower around its middle
 
 struct Float3 {
   float x, y, z;
 };
+constexpr Float3 HAY{0.66f, 0.60f, 0.33f};
 Float3 operator+(const Float3& a, const Float3& b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
@@ -143,6 +146,11 @@ class Ribbons {
     float half, flower;  ///< half the width at the root, radius of the flower [m]
   };
 
+  struct Cut {
+    bool is_cut;
+    float hidden;  ///< share that is below cut grass
+  };
+
   int kindOf(const BladeBlock& block, int blade) const {
     if (!plan_.mixed) return 0;
     const int lane = blade % BLOCK;
@@ -155,11 +163,14 @@ class Ribbons {
     return kind;
   }
 
-  bool isCut(const BladeBlock& block, int blade) const {
-    if (!style_.crush || style_.crush->cut.empty()) return false;
+  bool isCut(const BladeBlock& block, int blade) const { return cutAt(block, blade).is_cut; }
+  Cut cutAt(const BladeBlock& block, int blade) const {
+    if (!style_.crush || style_.crush->cut.empty()) return {false, 0.f};
     const int lane = blade % BLOCK;
-    return style_.crush->cut[style_.crush->nearest(block.x[0][lane] / tile_.size,
-                                                   block.y[0][lane] / tile_.size)] < UNCUT;
+    const std::size_t node =
+        style_.crush->nearest(block.x[0][lane] / tile_.size, block.y[0][lane] / tile_.size);
+    const float swath = style_.crush->swath[node];
+    return {style_.crush->cut[node] < UNCUT, swath / (swath + HALF_HIDDEN)};
   }
 
   void write(const BladeBlock& block, int blade, float width, Writer& out) const {
@@ -180,18 +191,21 @@ class Ribbons {
         mix32(static_cast<std::uint32_t>(blade) ^ static_cast<std::uint32_t>(tile_.key >> 32));
     const float chance = static_cast<float>(dice & 0xffff) / 65535.f;
     const float facing = std::fabs(static_cast<float>(dice >> 16) / 32768.f - 1.f);
-    const float pale = isCut(block, blade) ? STUBBLE_PALENESS : 0.f;
+    const Cut cut = cutAt(block, blade);
+    const float pale = cut.is_cut ? STUBBLE_PALENESS : 0.f;
     const float dry = colour_.at(x / tile_.size, y / tile_.size) +
                       style_.variety * (0.35f * chance * chance - 0.06f);
-    const Float3 own = (look.fresh + look.drying * std::min(1.f, std::max(0.f, dry + pale))) *
-                       (1.f + style_.variety * 0.34f * (chance - 0.5f));
+    Float3 own = (look.fresh + look.drying * std::min(1.f, std::max(0.f, dry + pale))) *
+                 (1.f + style_.variety * 0.34f * (chance - 0.5f));
+    own = own + (HAY - own) * cut.hidden;
     const std::uint32_t first = out.next;
     for (int k = 0; k <= style_.segments; ++k) {
       const int at = kept_[static_cast<std::size_t>(k)];
       const float way = static_cast<float>(at) / LINKS,
                   half = width * look.half * (1.f - way * way);
       const Float3 p = point(at);
-      const Float3 c = shaded(own, p, root, way, facing);
+      const Float3 c =
+          shaded(own, p, root, cut.is_cut ? 1.f - STUBBLE_SHADE * (1.f - way) : way, facing);
       if (k == style_.segments) {
         out.vertex(p, 0.5f, 1.f, c);
         break;

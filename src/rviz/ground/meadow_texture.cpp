@@ -12,7 +12,7 @@ namespace {
 
 constexpr int MOST_PIXELS = 2048, MOST_PER_TILE = 32;
 constexpr Rgba SOIL{0.33f, 0.27f, 0.18f, 1.f};
-constexpr Rgba STUBBLE{0.52f, 0.56f, 0.26f, 1.f}, HAY{0.72f, 0.64f, 0.36f, 1.f};
+constexpr Rgba STUBBLE{0.52f, 0.56f, 0.26f, 1.f}, HAY{0.62f, 0.56f, 0.31f, 1.f};
 constexpr double HALF_HIDDEN = 0.12;   // cut grass that hides half of what is below [kg/m^2]
 constexpr float UNDER = 0.48f;         // share of light that closed grass blocks
 constexpr double MEADOW_BORDER = 3.0;  // [m] over which the edge fades into the surroundings
