@@ -82,7 +82,11 @@ class Sheet {
     return out;
   }
 
-  double coverAt(double u, double v) const { return saturate(density_.at(u, v) / full_density_); }
+  // Strips of stubble would look like a net, so there are the fewer the lower it is.
+  double coverAt(double u, double v) const {
+    const double cover = saturate(density_.at(u, v) / full_density_), height = height_.at(u, v);
+    return heightAt(u, v) < height ? cover * heightAt(u, v) / height : cover;
+  }
 
   // Interpolates the colours of the corners.
   Vec3 colourAt(double u, double v) const {
