@@ -75,8 +75,8 @@ class ScriptedMower:
         return x, 0.0, 0.0
 
     def on_lanes(self, distance):
-        """Returns the pose on parallel lanes, which half circles connect. The mower stops at the end
-        of the last one."""
+        """Returns the pose on parallel lanes, which half circles connect. The mower stops at the
+        end of the last one."""
         length, radius = 2.0 * self.way, 0.5 * self.lane_width
         turn = math.pi * radius
         distance = min(distance, self.lanes * (length + turn) - turn)
@@ -87,8 +87,8 @@ class ScriptedMower:
         if along <= length:
             return sign * (along - self.way), south, 0.0 if sign > 0.0 else math.pi
         angle = (along - length) / radius
-        return (sign * (self.way + radius * math.sin(angle)), south + radius * (1.0 - math.cos(angle)),
-                angle if sign > 0.0 else math.pi - angle)
+        x, y = sign * (self.way + radius * math.sin(angle)), south + radius * (1.0 - math.cos(angle))
+        return x, y, angle if sign > 0.0 else math.pi - angle
 
     def send(self, now):
         transform = TransformStamped(child_frame_id=self.frame)
