@@ -13,7 +13,7 @@ namespace vegetation_sim {
 namespace {
 
 constexpr double TURNED_OR_MOVED = 1e-6;  // [m] or [rad]
-constexpr std::size_t LONGEST_CUTTER_NAME = 4096, CUT_BYTES = 60;
+constexpr std::size_t LONGEST_CUTTER_NAME = 4096, CUT_BYTES = 50;
 
 grass::CutterPose poseOf(const GrassCutters::LastCut& cut) {
   return {{cut.position.x(), cut.position.y()}, {cut.heading.x(), cut.heading.y()}};
@@ -48,7 +48,6 @@ void GrassCutters::archive(Archive& a, State& state) {
       [&a](const std::string&, LastCut& last) {
         a.vector("position of a cutter", last.position);
         a.vector("heading of a cutter", last.heading);
-        a.stamp("stamp of a cutter", last.stamp);
       });
 }
 
@@ -64,7 +63,7 @@ std::optional<GrassCutters::LastCut> GrassCutters::find(const FollowedCutter& cu
     heading.z() = 0.0;
     const double size = length(heading);
     if (!(size > TURNED_OR_MOVED)) return std::nullopt;
-    return LastCut{transformed(to_world, cutter.offset), heading / size, now};
+    return LastCut{transformed(to_world, cutter.offset), heading / size};
   } catch (const tf2::TransformException&) {
     return std::nullopt;
   }

@@ -22,7 +22,6 @@ class GrassCutters {
   /// Where a tool was at its last tick.
   struct LastCut {
     Vec3 position{Vec3::Zero()}, heading{Vec3::Zero()};
-    Nanoseconds stamp{0};
   };
   /// State to be saved: whether tools cut, and the last places of those on the ground by name.
   struct State {
